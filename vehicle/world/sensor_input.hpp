@@ -1,0 +1,65 @@
+// Samples of the sensors that do not speak CAN, as the receivers report them. Geodetic positions
+// are WGS 84; the frame of rates and accelerations is the car's (ISO 8855: x forward, y left, z up).
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "protocol/vocabulary/fixed_vector.hpp"
+#include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::world {
+
+inline constexpr std::size_t kGnssUnits = 2;
+
+// NovAtel OEM7 solution status 0 is "computed"; position types: 50 narrow-int (RTK fixed),
+// 34 narrow-float, 16 single, 0 none.
+inline constexpr std::uint32_t kSolutionComputed = 0;
+inline constexpr std::uint32_t kPositionNone = 0, kPositionSingle = 16, kPositionNarrowFloat = 34,
+                               kPositionNarrowInt = 50;
+
+struct GnssPosition {
+  std::uint8_t unit = 0;
+  Instant at{};  // when the solution was valid, on the car's clock
+  std::uint32_t solution_status = 1, position_type = kPositionNone;
+  double latitude_deg = kUnset, longitude_deg = kUnset, height_m = kUnset;
+  double latitude_sigma_m = kUnset, longitude_sigma_m = kUnset, height_sigma_m = kUnset;
+  std::uint8_t satellites = 0;
+};
+
+struct GnssVelocity {
+  std::uint8_t unit = 0;
+  Instant at{};
+  std::uint32_t solution_status = 1, velocity_type = kPositionNone;
+  double horizontal_mps = kUnset;
+  double track_over_ground_rad = kUnset;  // from true north, clockwise, as BESTVEL has it
+  double vertical_mps = kUnset;
+};
+
+struct GnssHeading {
+  std::uint8_t unit = 0;
+  Instant at{};
+  std::uint32_t solution_status = 1, position_type = kPositionNone;
+  double heading_rad = kUnset;  // of the antenna baseline, from true north, clockwise
+  double heading_sigma_rad = kUnset;
+};
+
+struct ImuSample {
+  std::uint8_t unit = 0;
+  Instant at{};
+  std::array<double, 3> rate_rad_per_s{kUnset, kUnset, kUnset};        // x roll, y pitch, z yaw
+  std::array<double, 3> specific_force_mps2{kUnset, kUnset, kUnset};   // x, y, z
+};
+
+// What arrived since the last step, in order of arrival.
+struct SensorInput {
+  FixedVector<GnssPosition, 8> positions;
+  FixedVector<GnssVelocity, 8> velocities;
+  FixedVector<GnssHeading, 8> headings;
+  FixedVector<ImuSample, 32> imu;
+  std::uint32_t overflows = 0;  // samples that found their list full
+};
+
+}  // namespace pitwall::world

@@ -1,0 +1,91 @@
+// What the car says of itself on the CAN bus, in SI units, each with the instant at which it was
+// heard. Filled by gateway/inbound only; a value that was never heard is NaN with heard == false.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::world {
+
+template <class T>
+struct Heard {
+  T value{};
+  Instant at{};
+  bool heard = false;
+
+  constexpr bool fresh(Instant now, Duration limit) const { return heard && now - at <= limit; }
+};
+
+enum class Corner : std::uint8_t { kFrontLeft, kFrontRight, kRearLeft, kRearRight };
+inline constexpr std::size_t kCorners = 4;
+
+// One number per wheel, indexed by Corner.
+struct PerWheel {
+  std::array<double, kCorners> at{kUnset, kUnset, kUnset, kUnset};
+
+  constexpr double& operator[](Corner c) { return at[static_cast<std::size_t>(c)]; }
+  constexpr double operator[](Corner c) const { return at[static_cast<std::size_t>(c)]; }
+};
+
+struct BrakePressure {
+  double front_kpa = kUnset, rear_kpa = kUnset;
+};
+
+// State of the drive-by-wire computer (Raptor), CAN misc_report.sys_state.
+enum class SysState : std::uint8_t {
+  kUnknown = 0, kPowerOn = 1, kSubsystemsConnected = 2, kActuatorTesting = 3, kActuatorTestDone = 4,
+  kCrankReady = 5, kPreCrankCheck = 6, kCranking = 7, kEngineRunning = 8, kDriving = 9,
+  kShutEngine = 10, kPowerOff = 11, kRaptorOff = 12, kCrankCheckInit = 13, kActuatorTestFailed = 14,
+  kCrankChecksFailed = 15, kEmergencyShutdown = 16, kEngineFailedToStart = 17,
+  kCriticalLimitsExceeded = 18, kStandby = 19, kDefault = 255
+};
+
+struct Powertrain {
+  double throttle_fraction = kUnset;  // 0..1
+  double engine_speed_rpm = kUnset;
+  double vehicle_speed_mps = kUnset;
+  std::uint8_t gear = 0;              // 0 neutral
+  bool engine_running = false;
+  bool engine_switch_on = false;
+  std::uint8_t gear_shift_status = 0; // 0 uninitialised, 1 ready, 2 locked out, 3 up, 4 down
+};
+
+struct EngineHealth {
+  double fuel_pressure_kpa = kUnset, oil_pressure_kpa = kUnset, coolant_c = kUnset;
+  double transmission_c = kUnset, transmission_pressure_kpa = kUnset;
+};
+
+// CAN diagnostic_report: true is a fault. A fault of the second kind stops the car.
+struct DriveByWireDiagnostics {
+  bool system_warning = false, system_failure = false;
+  std::array<bool, 3> brake_warning{}, steer_warning{};
+  std::uint8_t motec_warning = 0;
+  bool front_brake_out_of_spec = false, rear_brake_out_of_spec = false, low_engine_speed = false;
+  bool steer_comms_lost = false, motec_comms_lost = false, emergency_brake = false;
+  bool computer_heartbeat_lost = false, race_control_lost = false;
+};
+
+struct Misc {
+  double battery_v = kUnset;
+  SysState sys_state = SysState::kUnknown;
+  std::uint8_t mode_switch = 0, safety_switch = 0;
+};
+
+struct VehicleSignals {
+  Heard<PerWheel> wheel_speed_mps;      // circumferential speed of each wheel
+  Heard<BrakePressure> brake;
+  Heard<double> throttle_fraction;      // pedal feedback, 0..1
+  Heard<double> steering_motor_rad;     // average of the three sensors, at the motor, left positive
+  Heard<Misc> misc;
+  Heard<Powertrain> powertrain;
+  Heard<EngineHealth> engine;
+  Heard<DriveByWireDiagnostics> diagnostics;
+  Heard<PerWheel> tyre_temperature_c;   // mean of the 16 sensors of each tyre
+  Heard<PerWheel> tyre_pressure_kpa;    // gauge
+};
+
+}  // namespace pitwall::world

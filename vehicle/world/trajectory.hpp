@@ -1,0 +1,31 @@
+// A path with a speed at every point: what planning promises and control follows.
+//   frames Map; curvature positive to the left; banking positive where the left side is lower
+//          (towards the inside of a left-hand oval)
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "protocol/vocabulary/fixed_vector.hpp"
+#include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::world {
+
+struct TrajectoryPoint {
+  double s_m = kUnset;           // along the trajectory, from its first point
+  double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
+  double curvature_per_m = kUnset;
+  double bank_rad = kUnset;
+  double speed_mps = kUnset;
+  double accel_mps2 = kUnset;    // planned, along the path
+};
+
+inline constexpr std::size_t kTrajectoryPoints = 128;
+
+struct Trajectory {
+  Instant at{};  // when it was planned
+  FixedVector<TrajectoryPoint, kTrajectoryPoints> points;
+};
+
+}  // namespace pitwall::world
