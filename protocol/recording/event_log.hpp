@@ -1,0 +1,76 @@
+// The record of one run: an MCAP file whose channels are flat structs at any rate (CDR) and events
+// in words (JSON), and whose SHA-256 names the run: same build, scenario and seed, same digest.
+//   in     metadata of the run and a sink; channels, until start(); then samples and events
+//   out    bytes to the sink; a digest of all of them
+//   errors as McapWriter: refused and counted, never an exception
+//   cost   as McapWriter; no allocation between start() and close()
+//
+//   EventLog log{{{"scenario", name}}, sink};
+//   const auto ego = log.channel<EgoSample>("/vehicle/ego");
+//   log.start();
+//   log.sample(ego, now, EgoSample{...});          log.event(now, "flag", "green");
+//   log.close();                                   to_hex(log.digest())
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/recording/cdr_struct.hpp"
+#include "protocol/recording/mcap_writer.hpp"
+#include "protocol/recording/sha256.hpp"
+
+namespace pitwall::recording {
+
+inline constexpr std::string_view kEventTopic = "/events";
+// Longer names and texts are cut there; an event is a line for a person, not a container.
+inline constexpr std::size_t kEventNameMax = 64, kEventTextMax = 1024;
+
+template <class S>
+struct SampleChannel {
+  ChannelId id;
+};
+
+class EventLog {
+ public:
+  EventLog(Metadata run, Sink sink, McapLimits limits = {});
+
+  // Before start() only.
+  template <class S>
+  SampleChannel<S> channel(std::string topic) {
+    return {add(cdr_channel<S>(std::move(topic)))};
+  }
+  ChannelId add(Channel channel);
+  void start();
+
+  // After start(). False: refused and counted.
+  template <class S>
+  bool sample(SampleChannel<S> channel, Instant at, const S& value) {
+    std::array<std::uint8_t, cdr_bytes_max<S>()> buffer;
+    return write(channel.id, at, to_cdr(value, std::span{buffer}));
+  }
+  // {"name":...,"text":...} on /events. Bytes that are no printable ASCII become '?'.
+  bool event(Instant at, std::string_view name, std::string_view text);
+  // A message in the encoding that the channel has declared.
+  bool write(ChannelId channel, Instant at, std::span<const std::uint8_t> data);
+  bool flush();
+  bool close();
+
+  // Of all bytes that the sink has kept so far.
+  Sha256::Digest digest() const;
+  McapCounters counters() const;
+
+ private:
+  Metadata run_;
+  Sink sink_;
+  McapLimits limits_;
+  std::vector<Channel> channels_;
+  Sha256 hash_;
+  std::vector<std::uint8_t> event_;
+  std::unique_ptr<McapWriter> writer_;
+};
+
+}  // namespace pitwall::recording

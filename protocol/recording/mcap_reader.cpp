@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/recording/mcap_reader.hpp"
+
+#include <algorithm>
+
+#include "protocol/recording/crc32.hpp"
+
+namespace pitwall::recording {
+namespace {
+
+Metadata read_pairs(McapCursor& from) {
+  Metadata pairs;
+  McapCursor block{from.bytes(from.u32())};
+  while (from.ok() && !block.rest().empty()) {
+    std::string key{block.string()}, value{block.string()};
+    if (!block.ok()) {
+      from.bytes(from.rest().size() + 1);  // a pair runs out of its block: the record is no good
+      return {};
+    }
+    pairs.emplace_back(std::move(key), std::move(value));
+  }
+  return pairs;
+}
+
+}  // namespace
+
+McapReader::McapReader(std::span<const std::uint8_t> file) : file_(file), rest_(file) {
+  const auto magic = McapCursor{file}.bytes(kMcapMagic.size());
+  if (!std::ranges::equal(magic, kMcapMagic)) {
+    stop(McapEnd::kNoMagic, 0);
+  } else {
+    rest_ = file_.subspan(kMcapMagic.size());
+  }
+}
+
+std::optional<McapMessage> McapReader::next() {
+  while (end_ == McapEnd::kReading) {
+    if (in_chunk_) {
+      if (auto message = next_in_chunk()) return message;
+      continue;
+    }
+    const std::uint64_t begin = place_of(rest_);
+    const auto record = take_record(rest_);
+    if (!record || (record->cut && record->opcode != McapOpcode::kChunk)) {
+      return stop(McapEnd::kTruncated, begin);
+    }
+    if (record->opcode == McapOpcode::kMessage) {
+      if (auto message = read_message(*record, false)) return message;
+    } else if (!read(*record)) {
+      return stop(record->cut ? McapEnd::kTruncated : McapEnd::kMalformed, begin);
+    }
+  }
+  return std::nullopt;
+}
+
+std::uint64_t McapReader::place_of(std::span<const std::uint8_t> rest) const {
+  return static_cast<std::uint64_t>(rest.data() - file_.data());
+}
+
+std::optional<McapMessage> McapReader::stop(McapEnd end, std::uint64_t place) {
+  end_ = end;
+  place_ = place;
+  return std::nullopt;
+}
+
+std::optional<McapReader::Record> McapReader::take_record(std::span<const std::uint8_t>& from) {
+  if (from.empty()) return std::nullopt;
+  McapCursor cursor{from};
+  Record record;
+  const auto opcode = static_cast<McapOpcode>(cursor.u8());
+  const std::uint64_t length = cursor.u64();
+  if (!cursor.ok()) {
+    record.cut = true;
+  } else {
+    record.opcode = opcode;
+    record.cut = length > cursor.rest().size();
+    record.content = cursor.bytes(std::min<std::uint64_t>(length, cursor.rest().size()));
+  }
+  from = cursor.rest();
+  return record;
+}
+
+std::optional<McapMessage> McapReader::next_in_chunk() {
+  const std::uint64_t begin = place_of(chunk_);
+  const auto record = take_record(chunk_);
+  if (!record || record->cut) {
+    in_chunk_ = false;
+    if (chunk_cut_) return stop(McapEnd::kTruncated, begin);
+    if (record) return stop(McapEnd::kMalformed, begin);
+    return std::nullopt;
+  }
+  if (record->opcode == McapOpcode::kMessage) return read_message(*record, chunk_verified_);
+  const bool fits = record->opcode == McapOpcode::kSchema || record->opcode == McapOpcode::kChannel;
+  if (!fits || !read(*record)) return stop(McapEnd::kMalformed, begin);
+  return std::nullopt;
+}
+
+std::optional<McapMessage> McapReader::read_message(const Record& record, bool verified) {
+  McapCursor in{record.content};
+  McapMessage message;
+  message.channel = in.u16();
+  message.sequence = in.u32();
+  message.logged_ns = in.u64();
+  message.published_ns = in.u64();
+  message.data = in.rest();
+  if (!in.ok()) return stop(McapEnd::kMalformed, place_of(record.content));
+  if (!channels_.contains(message.channel)) {
+    ++counters_.unknown_channel;
+    return std::nullopt;
+  }
+  ++counters_.messages;
+  if (!verified) ++counters_.unverified;
+  return message;
+}
+
+// False: the inside of the record contradicts its length.
+bool McapReader::read(const Record& record) {
+  switch (record.opcode) {
+    case McapOpcode::kSchema:
+      return read_schema(record);
+    case McapOpcode::kChannel:
+      return read_channel(record);
+    case McapOpcode::kChunk:
+      return open_chunk(record);
+    case McapOpcode::kMetadata:
+      return read_metadata(record);
+    case McapOpcode::kDataEnd:
+      return read_data_end(record);
+    case McapOpcode::kFooter:
+      return read_footer(record);
+    default:
+      ++counters_.other_records;
+      return record.opcode != McapOpcode{};  // 0 is no opcode: a tail of zeros
+  }
+}
+
+bool McapReader::read_schema(const Record& record) {
+  McapCursor in{record.content};
+  const std::uint16_t id = in.u16();
+  Schema schema;
+  schema.name = in.string();
+  schema.encoding = in.string();
+  schema.text = in.string();
+  if (!in.ok() || id == 0) return false;
+  schemas_.try_emplace(id, std::move(schema));
+  return true;
+}
+
+bool McapReader::read_channel(const Record& record) {
+  McapCursor in{record.content};
+  const std::uint16_t id = in.u16();
+  const std::uint16_t schema = in.u16();
+  Channel channel;
+  channel.topic = in.string();
+  channel.message_encoding = in.string();
+  channel.metadata = read_pairs(in);
+  const auto known = schemas_.find(schema);
+  if (!in.ok() || (schema != 0 && known == schemas_.end())) return false;
+  if (schema != 0) channel.schema = known->second;
+  channels_.try_emplace(id, std::move(channel));
+  return true;
+}
+
+bool McapReader::read_metadata(const Record& record) {
+  McapCursor in{record.content};
+  const std::string_view name = in.string();
+  Metadata pairs = read_pairs(in);
+  if (in.ok() && name == "run") run_ = std::move(pairs);
+  return in.ok();
+}
+
+bool McapReader::read_data_end(const Record& record) {
+  McapCursor in{record.content};
+  const std::uint32_t crc = in.u32();
+  const auto begin = static_cast<std::size_t>(place_of(record.content) - kMcapRecordHeaderBytes);
+  if (crc != 0 && crc != crc32(file_.first(begin))) ++counters_.bad_data_crc;
+  return in.ok();
+}
+
+bool McapReader::read_footer(const Record& record) {
+  McapCursor in{record.content};
+  const std::uint64_t summary_start = in.u64();
+  in.u64();  // where the summary offsets start
+  const std::uint64_t crc_place = place_of(in.rest());
+  const std::uint32_t crc = in.u32();
+  if (!in.ok() || summary_start > crc_place) return false;
+  const auto begin = static_cast<std::size_t>(summary_start);
+  const auto covered = file_.subspan(begin, static_cast<std::size_t>(crc_place) - begin);
+  if (crc != 0 && summary_start != 0 && crc != crc32(covered)) ++counters_.bad_summary_crc;
+
+  const bool cut = rest_.size() < kMcapMagic.size();
+  const bool whole = std::ranges::equal(rest_, kMcapMagic);
+  stop(whole ? McapEnd::kComplete
+       : cut ? McapEnd::kTruncated
+             : McapEnd::kMalformed,
+       whole ? file_.size() : place_of(rest_));
+  return true;
+}
+
+bool McapReader::open_chunk(const Record& record) {
+  McapCursor in{record.content};
+  in.u64();  // times of its first and last message
+  in.u64();
+  const std::uint64_t plain_bytes = in.u64();
+  const std::uint32_t crc = in.u32();
+  const std::string_view compression = in.string();
+  const std::uint64_t bytes = in.u64();
+  if (!in.ok()) return false;
+  ++counters_.chunks;
+  if (!compression.empty()) {
+    ++counters_.compressed_chunks;
+    if (record.cut) stop(McapEnd::kTruncated, place_of(in.rest()));
+    return true;
+  }
+  chunk_ = in.rest();
+  chunk_cut_ = record.cut;
+  if (plain_bytes != bytes || (!record.cut && bytes != chunk_.size())) return false;
+  chunk_verified_ = !record.cut && crc != 0;
+  in_chunk_ = !chunk_verified_ || crc == crc32(chunk_);
+  if (!in_chunk_) ++counters_.bad_chunk_crc;
+  return true;
+}
+
+const char* to_string(McapEnd end) {
+  switch (end) {
+    case McapEnd::kReading:
+      return "reading";
+    case McapEnd::kComplete:
+      return "complete";
+    case McapEnd::kNoMagic:
+      return "not an MCAP file";
+    case McapEnd::kTruncated:
+      return "truncated";
+    case McapEnd::kMalformed:
+      return "malformed";
+  }
+  return "?";
+}
+
+}  // namespace pitwall::recording
