@@ -1,0 +1,107 @@
+// One CAN_RAW socket of the kernel: batched, non-blocking, stamped, with every loss counted.
+//   in     an interface name (can0, vcan0), frames to send
+//   out    frames with the kernel's receive time on the monotonic clock; counters; bus state
+//   units  Instant (CLOCK_MONOTONIC nanoseconds), bytes
+//   errors open(): Problem with the interface as place. Afterwards nothing throws or exits: each
+//          refusal is a return value and a counter
+//   source Linux Documentation/networking/can.rst
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/can/frame.hpp"
+#include "protocol/transport/can_wire.hpp"
+#include "protocol/transport/posix_call.hpp"
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::transport {
+
+// A frame passes if (its id & mask) == (id & mask) and it is a data frame of the same kind
+// (standard or extended): the kernel mask always includes CAN_EFF_FLAG and CAN_RTR_FLAG.
+struct CanFilter {
+  std::uint32_t id = 0;
+  std::uint32_t mask = can::kMaxExtendedId;
+  bool extended = false;
+};
+
+struct CanSocketOptions {
+  std::vector<CanFilter> filters{};    // none: every frame, remote frames too
+  bool receive_own = false;            // frames sent by this very socket
+  bool receive_errors = true;          // error frames: counted and decoded, never delivered as data
+  bool fd = true;                      // accept CAN FD frames
+  int receive_buffer_bytes = 8 << 20;  // 21,846 classic frames at 384 B (kernel doubles the value)
+};
+
+struct CanSocketCounters {
+  std::uint64_t received = 0;        // data frames handed to the caller
+  std::uint64_t sent = 0;            // frames that the kernel took
+  std::uint64_t tx_enobufs = 0;      // send() stopped because the interface queue was full
+  std::uint64_t tx_would_block = 0;  // send() stopped because the socket's send buffer was full
+  std::uint64_t tx_network_down = 0;
+  std::uint64_t tx_failed = 0;   // any other error
+  std::uint64_t tx_refused = 0;  // frames no bus can carry: dropped, not sent
+  std::uint64_t rx_dropped_queue =
+      0;                           // lost in this socket's receive queue, trailing loss included
+  std::uint64_t rx_malformed = 0;  // truncated, or no CAN frame
+  std::uint64_t rx_failed = 0;     // recvmmsg errors but "nothing there"
+  std::uint64_t error_frames = 0;
+  std::uint64_t clock_steps =
+      0;                    // the calendar clock jumped; stamps of that batch are arrival times
+  CanErrorCounters errors;  // error_frames by class
+};
+
+class CanSocket {
+ public:
+  // Frames taken from or given to the kernel in one system call.
+  static constexpr std::size_t kBatch = 64;
+
+  // True if this kernel knows CAN at all (no interface needed).
+  static bool supported();
+  static Result<CanSocket, Problem> open(std::string_view interface,
+                                         const CanSocketOptions& options = {});
+
+  // Takes what is there, up to frames.size(), oldest first. 0: nothing there. Never blocks.
+  std::size_t receive(std::span<can::ReceivedFrame> frames);
+
+  // Returns how many leading frames are done with (sent, or refused and counted); the rest were not
+  // taken (ENOBUFS or the like, counted) and are the caller's to retry or drop. Never blocks.
+  std::size_t send(std::span<const can::Frame> frames);
+  bool send(const can::Frame& frame) { return send(std::span(&frame, 1)) == 1; }
+
+  // Writes one error frame, as a controller driver would report it (for benches on vcan).
+  bool send_error(std::uint32_t classes, std::span<const std::uint8_t> detail = {});
+
+  // Asks the kernel for frames lost so far. receive() does so itself every 100 ms; call it once
+  // more at the end, because trailing loss shows nowhere else.
+  void poll_drops();
+
+  const CanSocketCounters& counters() const { return counters_; }
+  BusState bus_state() const { return bus_state_; }
+  int receive_buffer_bytes() const { return receive_buffer_bytes_; }  // as granted by the kernel
+  int fd() const { return fd_.get(); }
+
+ private:
+  explicit CanSocket(FileDescriptor fd) : fd_(std::move(fd)) {}
+  void follow_clock(Instant now);
+  PosixOutcome configure(const CanSocketOptions& options);
+  // Reads one batch: true if the kernel may have more.
+  bool receive_batch(std::span<can::ReceivedFrame> frames, std::size_t& taken, Instant now);
+  void count_send_error(const PosixOutcome& outcome);
+
+  FileDescriptor fd_;
+  CanSocketCounters counters_;
+  BusState bus_state_ = BusState::kUnknown;
+  int receive_buffer_bytes_ = 0;
+  Duration clock_offset_{};
+  Instant next_poll_{};
+  bool stamps_trusted_ = true;
+  bool offset_known_ = false;
+};
+
+}  // namespace pitwall::transport

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/transport/clock.hpp"
+
+#include <ctime>
+
+#include "protocol/transport/posix_call.hpp"
+#include "protocol/vocabulary/check.hpp"
+
+namespace pitwall::transport {
+namespace {
+
+std::int64_t read_clock(clockid_t which) {
+  timespec t{};
+  const auto outcome = posix_call([&] { return clock_gettime(which, &t); });
+  CHECK(outcome.ok());
+  return t.tv_sec * kNanosecondsPerSecond + t.tv_nsec;
+}
+
+}  // namespace
+
+Instant monotonic_now() { return {read_clock(CLOCK_MONOTONIC)}; }
+
+UtcTime utc_now() { return {read_clock(CLOCK_REALTIME)}; }
+
+void sleep_until(Instant deadline) {
+  if (deadline.ns <= 0) return;
+  const timespec t{.tv_sec = deadline.ns / kNanosecondsPerSecond,
+                   .tv_nsec = deadline.ns % kNanosecondsPerSecond};
+  const auto outcome =
+      posix_call([&] { return clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr); },
+                 Success::kZeroElseNumber);
+  CHECK(outcome.ok());
+}
+
+Duration realtime_minus_monotonic() {
+  constexpr int kAttempts = 3;  // one of them is hardly ever interrupted
+  Duration best{};
+  Duration tightest{INT64_MAX};
+  for (int i = 0; i < kAttempts; ++i) {
+    const Instant before = monotonic_now();
+    const UtcTime utc = utc_now();
+    const Duration width = monotonic_now() - before;
+    if (width >= tightest) continue;
+    tightest = width;
+    best = {utc.ns - (before.ns + width.ns / 2)};
+  }
+  return best;
+}
+
+Ticker::Ticker(Duration period, Instant start) : period_(period), last_(start) {
+  CHECK(period.ns > 0);
+}
+
+Tick Ticker::next() {
+  const Tick tick = next_tick(last_, period_, monotonic_now());
+  sleep_until(tick.deadline);
+  last_ = tick.deadline;
+  return tick;
+}
+
+}  // namespace pitwall::transport

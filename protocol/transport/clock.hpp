@@ -1,0 +1,51 @@
+// The only place that knows what time it is. Everybody else is told.
+//   out    Instant on CLOCK_MONOTONIC, UtcTime on CLOCK_REALTIME, sleeps to absolute deadlines
+//   units  int64 nanoseconds
+//   errors none: a clock that fails is our own mistake (CHECK)
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::transport {
+
+Instant monotonic_now();
+UtcTime utc_now();
+
+// Returns at or after the deadline; at once if it has passed. Never earlier, whatever signals come.
+void sleep_until(Instant deadline);
+
+// What to subtract from a kernel stamp (CLOCK_REALTIME) to get an Instant. Taken between two
+// monotonic readings; the tightest of a few attempts is kept.
+Duration realtime_minus_monotonic();
+constexpr Instant to_instant(UtcTime stamp, Duration offset) { return {stamp.ns - offset.ns}; }
+
+struct Tick {
+  Instant deadline;          // the one that is due now; always first + k * period, so no drift
+  std::uint64_t missed = 0;  // earlier deadlines that passed unserved
+};
+
+// The arithmetic of Ticker: the newest deadline after `last` that a caller at `now` should serve.
+// Before the next deadline that is the next one (to be slept for); after it, the newest one passed.
+constexpr Tick next_tick(Instant last, Duration period, Instant now) {
+  const Instant next = last + period;
+  if (now < next + period) return {.deadline = next, .missed = 0};
+  const std::int64_t late = (now - next) / period;
+  return {.deadline = next + late * period, .missed = static_cast<std::uint64_t>(late)};
+}
+
+// A fixed rate without drift: next() sleeps to the next multiple of the period.
+class Ticker {
+ public:
+  explicit Ticker(Duration period) : Ticker(period, monotonic_now()) {}
+  Ticker(Duration period, Instant start);  // the first deadline is start + period
+  Tick next();
+
+ private:
+  Duration period_;
+  Instant last_;
+};
+
+}  // namespace pitwall::transport

@@ -1,0 +1,83 @@
+// Child processes and our own stop signal.
+//   in     a ProcessPlan: argv, descriptors, environment
+//   out    Process: running child, its exit status
+//   errors spawn(): Problem that names the program; an exec that fails is found out at once
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <sys/types.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "protocol/transport/posix_call.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::transport {
+
+struct DescriptorMapping {
+  int ours = -1;
+  int theirs = -1;
+};
+
+struct ProcessPlan {
+  std::vector<std::string> argv{};               // argv[0] is looked up in PATH
+  std::vector<DescriptorMapping> descriptors{};  // others but 0, 1, 2 are closed
+  std::vector<std::string> environment{};        // "NAME=value", on top of ours
+  std::string folder{};                          // working folder; empty: ours
+  bool die_with_parent = true;  // SIGKILL when the thread that spawned it ends, however it ends
+  bool own_group = false;       // a process group of its own; kill() then reaches all of it
+};
+
+struct ExitStatus {
+  int code = 0;    // of exit()
+  int signal = 0;  // that ended it; 0: it exited
+
+  bool success() const { return code == 0 && signal == 0; }
+  int shell_code() const { return signal == 0 ? code : 128 + signal; }
+};
+
+// Ends with its owner: a child still running at destruction is killed and reaped.
+class Process {
+ public:
+  static Result<Process, Problem> spawn(const ProcessPlan& plan);
+  Process(Process&& other) noexcept;
+  Process& operator=(Process&& other) noexcept;
+  ~Process();
+
+  std::optional<ExitStatus> poll();                        // nothing while it runs
+  ExitStatus wait();                                       // as long as it takes
+  std::optional<ExitStatus> wait_until(Instant deadline);  // nothing if it outlives the deadline
+  void kill(int signal);
+  pid_t pid() const { return pid_; }
+  int fd() const { return pidfd_.get(); }  // readable once the child has ended
+
+ private:
+  Process(pid_t pid, FileDescriptor pidfd, bool own_group)
+      : pid_(pid), pidfd_(std::move(pidfd)), own_group_(own_group) {}
+  void end();
+
+  pid_t pid_ = -1;
+  FileDescriptor pidfd_;
+  bool own_group_ = false;
+  std::optional<ExitStatus> status_;
+};
+
+// SIGINT and SIGTERM as something to look at instead of something that interrupts. Make it first
+// thing in main, before any thread; children get their signals back (Process does that).
+class StopSignal {
+ public:
+  static Result<StopSignal, Problem> install();
+  bool raised();                        // stays true
+  int fd() const { return fd_.get(); }  // readable from the first signal until raised() is asked
+
+ private:
+  explicit StopSignal(FileDescriptor fd) : fd_(std::move(fd)) {}
+  FileDescriptor fd_;
+  bool raised_ = false;
+};
+
+}  // namespace pitwall::transport

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/transport/readiness.hpp"
+
+#include <poll.h>
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+
+#include "protocol/transport/clock.hpp"
+#include "protocol/transport/posix_call.hpp"
+#include "protocol/vocabulary/check.hpp"
+
+namespace pitwall::transport {
+
+std::uint32_t wait_readable(std::span<const int> descriptors, Instant deadline) {
+  CHECK(descriptors.size() <= kMaxWatched);
+  std::array<pollfd, kMaxWatched> watched{};
+  for (std::size_t i = 0; i < descriptors.size(); ++i)
+    watched[i] = {.fd = descriptors[i], .events = POLLIN, .revents = 0};
+  const auto outcome = posix_call([&] {  // the time left is computed again after a signal
+    const std::int64_t left_ns = std::max<std::int64_t>((deadline - monotonic_now()).ns, 0);
+    const timespec timeout{.tv_sec = left_ns / kNanosecondsPerSecond,
+                           .tv_nsec = left_ns % kNanosecondsPerSecond};
+    return ppoll(watched.data(), descriptors.size(), &timeout, nullptr);
+  });
+  std::uint32_t ready = 0;
+  if (!outcome.ok()) return ready;
+  for (std::size_t i = 0; i < descriptors.size(); ++i)
+    if (watched[i].revents != 0) ready |= 1U << i;
+  return ready;
+}
+
+}  // namespace pitwall::transport

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/transport/realtime.hpp"
+
+#include <sched.h>
+#include <sys/mman.h>
+
+#include "protocol/transport/posix_call.hpp"
+
+namespace pitwall::transport {
+
+bool lock_memory() {
+  return posix_call([] { return mlockall(MCL_CURRENT | MCL_FUTURE); }).ok();
+}
+
+RealtimeReport request_realtime(int priority) {
+  RealtimeReport report;
+  const auto locked = posix_call([] { return mlockall(MCL_CURRENT | MCL_FUTURE); });
+  report.memory_locked = locked.ok();
+  report.memory_error = locked.error;
+  sched_param parameters{};
+  parameters.sched_priority = priority;
+  const auto scheduled = posix_call([&] { return sched_setscheduler(0, SCHED_FIFO, &parameters); });
+  report.fifo = scheduled.ok();
+  report.fifo_error = scheduled.error;
+  return report;
+}
+
+std::string to_string(const RealtimeReport& report) {
+  const auto say = [](bool granted, int error) {
+    return granted ? std::string("granted")
+                   : "refused (" + PosixOutcome{.value = -1, .error = error}.reason() + ")";
+  };
+  return "memory lock " + say(report.memory_locked, report.memory_error) + ", SCHED_FIFO " +
+         say(report.fifo, report.fifo_error);
+}
+
+}  // namespace pitwall::transport

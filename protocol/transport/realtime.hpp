@@ -1,0 +1,23 @@
+// Asks the kernel for what a real-time loop wants, and says what it got.
+//   in     SCHED_FIFO priority 1..99 for the calling thread
+//   out    what was granted; the program runs on either way and the report is shown to people
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace pitwall::transport {
+
+struct RealtimeReport {
+  bool memory_locked = false;  // mlockall of present and future pages
+  bool fifo = false;           // SCHED_FIFO at the asked priority
+  int memory_error = 0;        // errno of the refusal
+  int fifo_error = 0;
+};
+
+RealtimeReport request_realtime(int priority);
+// Only the memory lock.
+bool lock_memory();
+std::string to_string(const RealtimeReport& report);
+
+}  // namespace pitwall::transport

@@ -1,0 +1,90 @@
+// One IPv4 UDP socket: non-blocking, batched receive with sender and kernel time, every drop
+// counted. Loopback unless the caller names another address.
+//   in     addresses, datagrams to send
+//   out    datagrams with sender and receive time on the monotonic clock; counters
+//   errors bind(), connect(): Problem with the address as place; afterwards counters only
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "protocol/transport/posix_call.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+struct sockaddr_in;
+
+namespace pitwall::transport {
+
+inline constexpr std::uint32_t kLoopbackIp = 0x7F000001;  // 127.0.0.1
+inline constexpr std::uint32_t kAnyIp = 0;                // every interface: only behind a flag
+
+struct UdpAddress {
+  std::uint32_t ip = kLoopbackIp;  // host byte order
+  std::uint16_t port = 0;          // 0 in bind(): the kernel chooses
+
+  bool operator==(const UdpAddress&) const = default;
+};
+
+// "127.0.0.1:5000" or "5000" (loopback). Numbers only: no name service in a race car.
+Result<UdpAddress, Problem> parse_udp_address(std::string_view text);
+std::string to_string(const UdpAddress& address);
+
+inline constexpr std::size_t kMaxDatagramBytes = 2'048;  // longer ones are counted and dropped
+
+struct UdpDatagram {
+  UdpAddress from;
+  Instant at;  // when the kernel received it
+  std::size_t length = 0;
+  std::array<std::uint8_t, kMaxDatagramBytes> data;
+
+  std::span<const std::uint8_t> payload() const { return {data.data(), length}; }
+};
+
+struct UdpSocketOptions {
+  int receive_buffer_bytes = 1 << 20;
+  bool reuse_address = false;
+};
+
+struct UdpCounters {
+  std::uint64_t received = 0, sent = 0;
+  std::uint64_t rx_truncated = 0;      // longer than kMaxDatagramBytes
+  std::uint64_t rx_dropped_queue = 0;  // lost in this socket's receive queue
+  std::uint64_t rx_failed = 0;
+  std::uint64_t rx_refused = 0;  // ICMP: nobody listened at the other end
+  std::uint64_t tx_would_block = 0, tx_failed = 0;
+};
+
+class UdpSocket {
+ public:
+  static constexpr std::size_t kBatch = 32;
+
+  static Result<UdpSocket, Problem> bind(UdpAddress local, const UdpSocketOptions& options = {});
+  // Afterwards send() goes there and only datagrams from there are received.
+  Result<bool, Problem> connect(UdpAddress remote);
+
+  bool send(std::span<const std::uint8_t> bytes);
+  bool send_to(UdpAddress to, std::span<const std::uint8_t> bytes);
+  // Takes what is there, oldest first, at most datagrams.size(). Never blocks.
+  std::size_t receive(std::span<UdpDatagram> datagrams);
+
+  UdpAddress local() const { return local_; }
+  const UdpCounters& counters() const { return counters_; }
+  int fd() const { return fd_.get(); }
+
+ private:
+  explicit UdpSocket(FileDescriptor fd) : fd_(std::move(fd)) {}
+  bool transmit(const sockaddr_in* to, std::span<const std::uint8_t> bytes);
+  bool receive_batch(std::span<UdpDatagram> datagrams, std::size_t& taken, Duration offset);
+
+  FileDescriptor fd_;
+  UdpAddress local_;
+  UdpCounters counters_;
+};
+
+}  // namespace pitwall::transport
