@@ -31,6 +31,9 @@ struct RaceControl {
   bool ever_heard = false;
   Instant last_heartbeat_change{};  // liveness is a change of the heartbeat, not mere reception
   std::uint8_t lap_count = 0;
+  // The same of the encoding that is not authoritative, which is acknowledged too.
+  std::uint8_t other_raw_track = 0, other_raw_vehicle = 0, other_raw_sector = 0;
+  bool conflict = false;  // both encodings are heard and mean different things
 };
 
 }  // namespace pitwall::world

@@ -1,0 +1,157 @@
+// The last word on what goes on the CAN bus. Judges the frames themselves, decoded again, with its
+// own limits and its own memory; knows nothing of control or planning. Default deny. Refuses, never
+// repairs: a refused frame is counted by reason and `refused_now` is a fault event for the supervisor
+// on the next tick; a silent bus is a state that the drive-by-wire survives.
+//   in     the frames proposed for this tick, the mode, whether the car is armed, its speed, the
+//          instant of the command behind the frames
+//   out    the frames that pass, in their order; one verdict per frame
+//   units  as in the CAN database: degrees at the motor, %, kPa, gears
+//   errors frames beyond kMaxFrames are refused as kTooMany
+//
+// Disarmed, only these pass: 1404 ct_report, 1405 ct_report_2, 1406 dash_switches_cmd, 1450
+// ct_vehicle_acc_feedback. Brake frames are judged before the others, wherever they stand: where
+// throttle and brake contradict each other it is the throttle that is refused.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include "protocol/can/av21.hpp"
+#include "protocol/can/frame.hpp"
+#include "protocol/vocabulary/fixed_vector.hpp"
+#include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/mode.hpp"
+
+namespace pitwall::safety {
+
+inline constexpr std::size_t kMaxFrames = 16;     // 8 messages per tick, twice
+inline constexpr std::size_t kGatedMessages = 8;  // kToCar messages of the database
+inline constexpr std::size_t kSteerRows = 10;
+inline constexpr Duration kRateWindow = milliseconds(250);
+inline constexpr std::size_t kMaxPerWindow = 31;  // 100 Hz x 0.25 s x 1.2 + 1
+
+enum class Verdict : std::uint8_t {
+  kPass,
+  kTooMany,         // more than kMaxFrames in one tick
+  kUnknownId,       // not in the database
+  kWrongDirection,  // an id that the car sends
+  kNotClassic,      // remote, FD or extended
+  kWrongLength,
+  kNotArmed,      // an actuator frame while disarmed
+  kStale,         // the command behind it is older than the limit, or from the future
+  kTooOften,      // more than period x 0.25 s x 1.2 + 1 in 250 ms
+  kStuckCounter,  // equals the last one that passed
+  kOutOfRange,
+  kTooFast,            // slew since the last frame that passed, in real time
+  kGearStep,           // more than one gear, or sooner than the least time between shifts
+  kThrottleForbidden,  // throttle in a mode that does not drive
+  kThrottleRises,      // in a stop
+  kThrottleWithBrake   // both above their thresholds
+};
+inline constexpr std::size_t kVerdicts = 16;
+
+constexpr const char* text_of(Verdict verdict) {
+  constexpr std::array<const char*, kVerdicts> kTexts{"pass",
+                                                      "too many",
+                                                      "unknown id",
+                                                      "wrong direction",
+                                                      "not a classic frame",
+                                                      "wrong length",
+                                                      "not armed",
+                                                      "stale",
+                                                      "too often",
+                                                      "stuck counter",
+                                                      "out of range",
+                                                      "too fast",
+                                                      "gear step",
+                                                      "throttle forbidden",
+                                                      "throttle rises",
+                                                      "throttle with brake"};
+  return kTexts[static_cast<std::size_t>(verdict)];
+}
+
+// Largest motor angle at a speed; linear between rows, constant outside.
+struct SteerRow {
+  double speed_mps, motor_deg;
+};
+
+struct GateParams {
+  // About 1.5 times the steady-state angle for 28 m/s^2 plus 10 degrees. Speeds rise, angles do not;
+  // angles within [5, 300].
+  std::array<SteerRow, kSteerRows> steer{{{0.0, 240.0},
+                                          {15.0, 240.0},
+                                          {20.0, 230.0},
+                                          {25.0, 200.0},
+                                          {30.0, 165.0},
+                                          {40.0, 97.0},
+                                          {50.0, 66.0},
+                                          {60.0, 50.0},
+                                          {70.0, 40.0},
+                                          {80.0, 33.0}}};
+  double steer_slew_deg_per_s = 720.0;          // the motor's own limit; [60, 1500]
+  double brake_max_kpa = 6000.0;                // [1000, 8191]
+  double brake_rise_kpa_per_s = 30000.0;        // [1000, 100000]
+  double brake_fall_kpa_per_s = 60000.0;        // [1000, 200000]
+  double throttle_max_percent = 100.0;          // [1, 100]
+  double throttle_rise_percent_per_s = 400.0;   // falling is free; [10, 2000]
+  double both_throttle_percent = 2.0;           // above this with ...; [0, 10]
+  double both_brake_kpa = 100.0;                // ... above this is a contradiction; [0, 500]
+  double standing_mps = 1.0;                    // gear 0 only below; [0.1, 5]
+  std::uint8_t gear_max = 6;                    // [1, 8]
+  Duration shift_least = milliseconds(100);     // between gears; [0, 1] s
+  Duration command_age_max = milliseconds(50);  // [10, 200] ms
+};
+
+struct GateContext {
+  world::Mode mode = world::Mode::kDisarmed;
+  bool armed = false;         // mode is not disarmed, and the operator's arm request stands
+  double speed_mps = kUnset;  // by the wheels; unset is judged as the highest speed
+  Instant command_at{};       // when the command behind the actuator frames was computed
+  Instant now{};
+};
+
+// Instants of the last frames of one id that passed.
+struct PassWindow {
+  std::array<Instant, kMaxPerWindow> at{};
+  std::uint64_t count = 0;
+};
+
+struct Passed {
+  bool known = false;
+  double value = 0.0;
+  Instant at{};
+};
+
+struct GateState {
+  std::array<PassWindow, kGatedMessages> windows{};
+  std::array<std::uint8_t, kGatedMessages> counters{};
+  std::array<bool, kGatedMessages> counter_known{};
+  Passed steer_deg, brake_kpa, throttle_percent, gear;  // forgotten while disarmed
+  std::array<std::uint64_t, kVerdicts> verdicts{};      // frames by verdict since the start
+};
+static_assert(std::is_trivially_copyable_v<GateState>);
+
+struct GateVerdict {
+  std::uint32_t id = 0;
+  Verdict verdict = Verdict::kPass;
+};
+
+struct GateOutput {
+  FixedVector<can::Frame, kMaxFrames> frames;     // what may be sent
+  FixedVector<GateVerdict, kMaxFrames> verdicts;  // in the order proposed
+  bool refused_now = false;
+  Verdict first_refusal = Verdict::kPass;
+  std::uint64_t refused_total = 0;  // since the start
+};
+
+GateOutput gate(const GateParams& params, GateState& state, const GateContext& context,
+                std::span<const can::Frame> proposed);
+
+// The limit of the table at a speed; of its last row where the speed is not a number.
+double steer_limit_deg(const GateParams& params, double speed_mps);
+
+}  // namespace pitwall::safety

@@ -1,0 +1,95 @@
+// The system executive: which mode the car is in, why, which trajectory to follow and whose command
+// goes to the actuators. Planning keeps a stop trajectory ready at every tick; in a stop the
+// supervisor makes control follow it, and takes safe_stop's command only when control failed (and
+// then until the car stands).
+//   in     what was heard, where the car is, the watchdog's rows, the verdicts of this tick's control
+//          and of the previous tick's gate, the operator's requests
+//   out    mode, cause (the first since the last reset, latched), command, what to follow next tick
+//   units  SI
+//   errors none: every fault is a Cause with a value and an entry in the fault log
+//   source mission, row 4 (system executive); mode_table.hpp for the transitions
+//
+//           fault              |v| < 0.3 m/s for 0.5 s         reset, then arm, then go
+//   Driving ------> ControlledStop ------------------> Halted ------> Disarmed -> Standby -> Driving
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
+#include "vehicle/safety/fault_detection.hpp"
+#include "vehicle/safety/fault_log.hpp"
+#include "vehicle/safety/mode_table.hpp"
+#include "vehicle/safety/safe_stop.hpp"
+#include "vehicle/world/actuator_command.hpp"
+#include "vehicle/world/mode.hpp"
+#include "vehicle/world/trajectory.hpp"
+
+namespace pitwall::safety {
+
+struct SupervisorParams {
+  FaultParams faults;
+  SafeStopParams safe_stop;
+  double steering_ratio = 19.5;                   // as in gateway::OutboundParams; [10, 25]
+  Duration standstill_dwell = milliseconds(500);  // [0.1, 5] s
+  double standstill_mps = 0.3;                    // [0.1, 1]
+  // Slew of the chosen command, so that a change of its source is no jump; below the gate's limits.
+  double steer_slew_rad_per_s = 0.5;      // at the road wheel; [0.1, 2]
+  double throttle_rise_per_s = 2.0;       // fraction per second; [0.1, 10]
+  double brake_rise_kpa_per_s = 15000.0;  // [1000, 30000]
+  bool go_needs_driving_state = true;     // drive-by-wire must say "driving" first
+};
+
+enum class Follow : std::uint8_t { kNone, kDrive, kStop };
+enum class CommandSource : std::uint8_t { kNone, kHold, kControl, kSafeStop };
+
+struct SupervisorInputs {
+  const world::VehicleSignals& signals;
+  const world::BusHealth& bus;
+  const world::RaceControl& race_control;
+  const world::EgoState& ego;
+  const WatchdogOutput& watchdog;
+  const world::Trajectory& stop;          // the newest stop trajectory, may be empty
+  const world::ActuatorCommand& control;  // of this tick; read only if control_ok
+  bool control_ok = false;
+  bool drive_available = false;  // planning has a drive trajectory
+  bool own_id_seen = false;      // gateway::InboundOutput
+  bool gate_refused = false;     // GateOutput::refused_now of the previous tick
+  OperatorRequests operator_requests;
+};
+
+struct SupervisorState {
+  world::Mode mode = world::Mode::kDisarmed;
+  Instant mode_since{};
+  FaultState faults;
+  FaultLog log;
+  CauseSet causes;  // of the previous tick: its rising edges are logged
+  SafeStopState safe_stop;
+  bool safe_stop_engaged = false;
+  bool reset_was = false;
+  bool standing = false;
+  Instant standing_since{};
+  world::ActuatorCommand last;  // the last command that was chosen
+  bool last_known = false;
+};
+static_assert(std::is_trivially_copyable_v<SupervisorState>);
+
+struct SupervisorOutput {
+  world::Mode mode = world::Mode::kDisarmed;
+  bool mode_changed = false;
+  Cause cause = Cause::kNone;      // first since the last reset; text_of(cause)
+  CauseSet causes;                 // all that hold now
+  Follow follow = Follow::kNone;   // what planning and control shall follow in the next tick
+  world::ActuatorCommand command;  // unset while disarmed
+  CommandSource source = CommandSource::kNone;
+  bool actuate = false;       // armed: outbound sends actuator frames and the gate lets them pass
+  double speed_mps = kUnset;  // by the wheels
+  bool standstill = false;
+};
+
+SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& state,
+                           const SupervisorInputs& inputs, Instant now);
+
+}  // namespace pitwall::safety
