@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/yaml/strict_map.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+
+namespace pitwall::yaml {
+namespace {
+
+constexpr const char* kPlainTag = "?";  // yaml-cpp's tag of an unquoted scalar without a tag
+
+std::string place_of(const std::string& name, const YAML::Mark& mark) {
+  if (mark.is_null()) return name;
+  return name + ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1);
+}
+
+std::string kind_of(const YAML::Node& node) {
+  switch (node.Type()) {
+    case YAML::NodeType::Null:
+      return "nothing";
+    case YAML::NodeType::Scalar:
+      return "\"" + node.Scalar() + "\"";
+    case YAML::NodeType::Sequence:
+      return "a list";
+    case YAML::NodeType::Map:
+      return "a mapping";
+    case YAML::NodeType::Undefined:
+      break;
+  }
+  return "nothing";
+}
+
+std::string shown(double v) {
+  std::ostringstream out;
+  out.precision(17);
+  std::ostringstream brief;
+  brief << v;  // six digits where they say it all
+  out << v;
+  double back = 0.0;
+  const std::string text = brief.str();
+  std::from_chars(text.data(), text.data() + text.size(), back);
+  return back == v ? text : out.str();
+}
+
+bool is_plain_scalar(const YAML::Node& node) { return node.IsScalar() && node.Tag() == kPlainTag; }
+
+template <class T>
+std::optional<T> parsed(std::string_view text, T& value, auto... format) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, error] =
+      std::from_chars(text.data(), text.data() + text.size(), value, format...);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::optional<std::int64_t> parsed_integer(std::string_view text) {
+  std::int64_t value = 0;
+  if (text.starts_with("0x") || text.starts_with("0X")) {
+    if (text.size() < 3 || text[2] == '-' || text[2] == '+') return std::nullopt;
+    return parsed(text.substr(2), value, 16);
+  }
+  return parsed(text, value, 10);
+}
+
+}  // namespace
+
+struct StrictMap::Value {
+  YAML::Node node;
+  std::string name;
+  std::string key;
+
+  std::string place() const { return place_of(name, node.Mark()); }
+  [[noreturn]] void refuse(const std::string& what) const { throw InputError({place(), what}); }
+
+  double number(double min, double max) const {
+    double v = 0.0;
+    if (!is_plain_scalar(node) || !parsed(node.Scalar(), v)) {
+      refuse(key + ": expected a number, found " + kind_of(node));
+    }
+    if (!std::isfinite(v)) refuse(key + ": expected a finite number, found " + kind_of(node));
+    if (!(v >= min && v <= max)) {
+      refuse(key + ": " + shown(v) + " is outside [" + shown(min) + ", " + shown(max) + "]");
+    }
+    return v;
+  }
+
+  std::int64_t integer(std::int64_t min, std::int64_t max) const {
+    const auto v = is_plain_scalar(node) ? parsed_integer(node.Scalar()) : std::nullopt;
+    if (!v) refuse(key + ": expected a whole number, found " + kind_of(node));
+    if (*v < min || *v > max) {
+      refuse(key + ": " + std::to_string(*v) + " is outside [" + std::to_string(min) + ", " +
+             std::to_string(max) + "]");
+    }
+    return *v;
+  }
+
+  std::string text() const {
+    if (!node.IsScalar()) refuse(key + ": expected a text, found " + kind_of(node));
+    return node.Scalar();
+  }
+
+  bool flag() const {
+    if (is_plain_scalar(node) && node.Scalar() == "true") return true;
+    if (is_plain_scalar(node) && node.Scalar() == "false") return false;
+    refuse(key + ": expected true or false, found " + kind_of(node));
+  }
+};
+
+struct StrictMap::State {
+  struct Entry {
+    std::string key;
+    YAML::Node key_node, value;
+    bool asked = false;
+  };
+  std::string name;
+  std::string place;
+  std::vector<Entry> entries;
+  std::vector<std::shared_ptr<State>> below;
+
+  const Entry* find(const std::string& key) const {
+    const auto same = [&](const Entry& e) { return e.key == key; };
+    const auto at = std::find_if(entries.begin(), entries.end(), same);
+    return at == entries.end() ? nullptr : &*at;
+  }
+  Entry* find(const std::string& key) {
+    return const_cast<Entry*>(static_cast<const State*>(this)->find(key));
+  }
+};
+
+StrictMap StrictMap::of_value(const Value& value, const std::string& key) {
+  if (!value.node.IsMap()) value.refuse(key + ": expected a mapping, found " + kind_of(value.node));
+  auto state = std::make_shared<State>();
+  state->name = value.name;
+  state->place = value.place();
+  std::set<std::string> seen;
+  for (const auto& pair : value.node) {
+    const std::string at = place_of(value.name, pair.first.Mark());
+    if (!pair.first.IsScalar()) throw InputError({at, "a key must be a plain text"});
+    const std::string& text = pair.first.Scalar();
+    if (!seen.insert(text).second) throw InputError({at, "duplicate key \"" + text + "\""});
+    state->entries.push_back({text, pair.first, pair.second});
+  }
+  return StrictMap{std::move(state)};
+}
+
+StrictMap StrictMap::below(const Value& value, const std::string& key) {
+  StrictMap child = of_value(value, key);
+  state_->below.push_back(child.state_);
+  return child;
+}
+
+StrictMap::Value StrictMap::ask(const std::string& key) {
+  State::Entry* entry = state_->find(key);
+  if (entry == nullptr) throw InputError({state_->place, "missing key \"" + key + "\""});
+  entry->asked = true;
+  return {entry->value, state_->name, key};
+}
+
+std::vector<StrictMap::Value> StrictMap::ask_list(const std::string& key, std::size_t count_min,
+                                                  std::size_t count_max) {
+  const Value list = ask(key);
+  if (!list.node.IsSequence()) {
+    list.refuse(key + ": expected a list, found " + kind_of(list.node));
+  }
+  const std::size_t count = list.node.size();
+  if (count < count_min || count > count_max) {
+    list.refuse(key + ": " + std::to_string(count) + " entries, expected " +
+                std::to_string(count_min) + " to " + std::to_string(count_max));
+  }
+  std::vector<Value> values;
+  values.reserve(count);
+  for (const auto& item : list.node) {
+    values.push_back({item, list.name, key + "[" + std::to_string(values.size()) + "]"});
+  }
+  return values;
+}
+
+double StrictMap::number(const std::string& key, double min, double max) {
+  return ask(key).number(min, max);
+}
+
+double StrictMap::number_or(const std::string& key, double fallback, double min, double max) {
+  return has(key) ? number(key, min, max) : fallback;
+}
+
+std::int64_t StrictMap::integer(const std::string& key, std::int64_t min, std::int64_t max) {
+  return ask(key).integer(min, max);
+}
+
+std::int64_t StrictMap::integer_or(const std::string& key, std::int64_t fallback, std::int64_t min,
+                                   std::int64_t max) {
+  return has(key) ? integer(key, min, max) : fallback;
+}
+
+std::string StrictMap::text(const std::string& key) { return ask(key).text(); }
+
+std::string StrictMap::text_or(const std::string& key, const std::string& fallback) {
+  return has(key) ? text(key) : fallback;
+}
+
+bool StrictMap::flag(const std::string& key) { return ask(key).flag(); }
+
+bool StrictMap::flag_or(const std::string& key, bool fallback) {
+  return has(key) ? flag(key) : fallback;
+}
+
+std::vector<double> StrictMap::numbers(const std::string& key, std::size_t count_min,
+                                       std::size_t count_max, double min, double max) {
+  std::vector<double> out;
+  for (const Value& v : ask_list(key, count_min, count_max)) out.push_back(v.number(min, max));
+  return out;
+}
+
+std::vector<std::string> StrictMap::texts(const std::string& key, std::size_t count_min,
+                                          std::size_t count_max) {
+  std::vector<std::string> out;
+  for (const Value& v : ask_list(key, count_min, count_max)) out.push_back(v.text());
+  return out;
+}
+
+StrictMap StrictMap::map(const std::string& key) { return below(ask(key), key); }
+
+std::optional<StrictMap> StrictMap::optional_map(const std::string& key) {
+  if (!has(key)) return std::nullopt;
+  return map(key);
+}
+
+std::vector<StrictMap> StrictMap::maps(const std::string& key) {
+  std::vector<StrictMap> out;
+  for (const Value& v : ask_list(key, 0, kMaxFileBytes)) out.push_back(below(v, v.key));
+  return out;
+}
+
+bool StrictMap::has(const std::string& key) const {
+  return static_cast<const State&>(*state_).find(key) != nullptr;
+}
+
+std::vector<std::string> StrictMap::keys() const {
+  std::vector<std::string> out;
+  for (const State::Entry& e : state_->entries) out.push_back(e.key);
+  return out;
+}
+
+std::string StrictMap::place(const std::string& key) const {
+  const State::Entry* entry = static_cast<const State&>(*state_).find(key);
+  return entry == nullptr ? state_->place : place_of(state_->name, entry->value.Mark());
+}
+
+std::string StrictMap::place() const { return state_->place; }
+
+void StrictMap::fail(const std::string& key, const std::string& what) const {
+  throw InputError({place(key), key + ": " + what});
+}
+
+void StrictMap::finish() const {
+  for (const State::Entry& e : state_->entries) {
+    if (!e.asked) {
+      throw InputError(
+          {place_of(state_->name, e.key_node.Mark()), "unknown key \"" + e.key + "\""});
+    }
+  }
+  for (const auto& child : state_->below) StrictMap{child}.finish();
+}
+
+struct Document::Content {
+  YAML::Node root;
+};
+
+StrictMap Document::root() const {
+  return StrictMap::of_value({content_->root, name_, "the document"}, "the document");
+}
+
+Result<Document, Problem> load_text(std::string_view text, const std::string& name) {
+  if (text.size() > kMaxFileBytes) return Unexpected{Problem{name, "file is too large"}};
+  try {
+    const std::vector<YAML::Node> roots = YAML::LoadAll(std::string{text});
+    if (roots.empty()) return Unexpected{Problem{name, "the document is empty"}};
+    if (roots.size() > 1) {
+      return Unexpected{
+          Problem{place_of(name, roots[1].Mark()), "a second document in the same file"}};
+    }
+    Document document;
+    document.name_ = name;
+    document.content_ = std::make_shared<const Document::Content>(Document::Content{roots[0]});
+    (void)document.root();  // the root must be a mapping without duplicates
+    return document;
+  } catch (const InputError& e) {
+    return Unexpected{e.problem};
+  } catch (const YAML::Exception& e) {
+    return Unexpected{Problem{place_of(name, e.mark), e.msg}};
+  }
+}
+
+Result<Document, Problem> load_file(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    return Unexpected{Problem{path.string(), "is a directory"}};
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return Unexpected{Problem{path.string(), "cannot open the file"}};
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (file.bad()) return Unexpected{Problem{path.string(), "cannot read the file"}};
+  return load_text(text, path.string());
+}
+
+}  // namespace pitwall::yaml
