@@ -1,0 +1,153 @@
+// What the modelled car is made of. Every default is a published figure of the AV-21, or says that
+// it is an estimate; where sources disagree the one that comes from a driven car is taken.
+//   sources [A] autonomalabs/autonoma-awsim vehicle and tyre assets (AV-21 simulator)
+//           [T] TUMFTM/mod_vehicle_dynamics_control, driven on the AV-21
+//           [D] linklab-uva/deep-dynamics, fitted to AV-21 laps
+//           [U] linklab-uva parameters, AV-21 and AV-24
+//           [O] TUMFTM/Open-Car-Dynamics defaults
+//           [I] Indy Lights tyre set, BenediktRuhland/SA-Tire-model
+//           [P] our fit to a recorded AV-21 drive (Putnam Park)
+//           [E] estimate
+//   units   SI, in the names
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace pitwall::plant {
+
+struct Chassis {
+  double mass_kg = 790.0;                  // [A] [D]; with fuel
+  double yaw_inertia_kgm2 = 800.0;         // [A]; [O] has 1000
+  double front_axle_m = 1.724;             // centre of gravity to front axle [O] [U]
+  double rear_axle_m = 1.247;              // so that the wheelbase is 2.971 m [U]
+  double height_m = 0.28;                  // of the centre of gravity [E]
+  double track_front_m = 1.638;            // [U]
+  double track_rear_m = 1.523;             // [U]
+  double roll_stiffness_front = 0.53;      // share of the lateral load transfer [E]
+  double length_m = 4.92, width_m = 1.93;  // over the wheels
+  double load_lag_s = 0.05;                // roll and pitch settle like this [E]
+};
+
+struct Aero {
+  double air_density_kgpm3 = 1.12;                             // 600 m above the sea at 25 C
+  double drag_area_m2 = 0.858;                                 // [A] Cd A
+  double front_lift_area_m2 = 0.65, rear_lift_area_m2 = 1.18;  // [A] downforce positive
+};
+
+// Normalised-slip magic formula: force = mu Fz sin(C atan(B rho)), B such that the peak lies at
+// rho = 1, rho the slip over the slip of the peak; its direction is that of the slip (similarity).
+struct Tyre {
+  double radius_m = 0.3;
+  double nominal_load_n = 2000.0;
+  double mu_long = 1.5, mu_lat = 1.5;
+  double shape = 1.6;             // C
+  double peak_slip_ratio = 0.09;  // [E]
+  double peak_slip_angle_rad = 0.08;
+  double load_sensitivity = 0.168;    // loss of mu per relative load above nominal [I] PDX2/PDX1
+  double mu_min_share = 0.4;          // floor of that loss
+  double relaxation_m = 0.1;          // [A]
+  double wheel_inertia_kgm2 = 1.0;    // [E]
+  double rolling_resistance = 0.012;  // [E] of the load
+};
+
+// Steering: a motor with ratio to the road wheels, left positive.
+struct Steering {
+  double ratio = 19.5;                         // motor : road wheel [T]; [U] AV-24 15
+  double delay_s = 0.040;                      // [A] [T]
+  double lag_s = 0.060;                        // PT1 [A] [O]
+  double rate_max_rad_per_s = 7.854;           // 450 deg/s at the motor; [A] 360 to 500
+  double angle_max_rad = 4.189;                // 240 deg at the motor [A]
+  double quantum_rad = 0.0087266462599716477;  // 0.5 deg, the resolution of the command
+};
+
+struct Brakes {
+  double lag_s = 0.100;              // [O] dummy AV-24 configuration
+  double pressure_max_kpa = 9000.0;  // [A]
+  double front_nm_per_kpa = 0.40;    // whole axle; both axles 0.65 [P], split [E]
+  double rear_nm_per_kpa = 0.25;
+};
+
+struct EnginePoint {
+  double rpm, torque_nm;
+};
+inline constexpr std::size_t kEnginePoints = 13;
+
+struct Engine {
+  // Full throttle. 3500 to 6500 rpm: dyno [U]; 2500 and 3000: [A] polynomial; the rest [E].
+  std::array<EnginePoint, kEnginePoints> full_throttle{{{0.0, 0.0},
+                                                        {1000.0, 0.0},
+                                                        {2000.0, 90.0},
+                                                        {2500.0, 184.0},
+                                                        {3000.0, 303.0},
+                                                        {3500.0, 400.0},
+                                                        {4000.0, 462.0},
+                                                        {4500.0, 478.0},
+                                                        {5000.0, 477.0},
+                                                        {5500.0, 467.0},
+                                                        {6000.0, 456.0},
+                                                        {6500.0, 422.0},
+                                                        {7200.0, 365.0}}};
+  double limiter_rpm = 7200.0;  // [A]; torque falls to zero over the next 100 rpm
+  double limiter_width_rpm = 100.0;
+  double friction_nm = 30.0;           // [A]
+  double friction_nm_per_rpm = 0.004;  // [E]
+  double inertia_kgm2 = 0.08;          // [E]
+  double idle_rpm = 1500.0;            // [E]
+  double launch_rpm = 2800.0;          // held by the slipping clutch below this speed [E]
+  double throttle_lag_s = 0.050;       // [O] dummy AV-24 configuration
+  double crank_s = 1.0;                // starter to running [E]
+};
+
+inline constexpr std::size_t kGears = 6;
+
+struct Drivetrain {
+  std::array<double, kGears> gear{2.9167, 1.875, 1.3809, 1.1154, 0.96, 0.8889};  // [U] 35/12..24/27
+  double final_drive = 3.0;                                                      // [U] [A]
+  double efficiency = 0.93;                                                      // [E]
+  double shift_s = 0.080;                  // torque is cut [E]
+  double lockout_s = 0.300;                // after a shift none is accepted [E]
+  double differential_nms_per_rad = 40.0;  // limited slip: torque per difference of speed [E]
+  double differential_max_nm = 400.0;      // [E]
+};
+
+// A lumped thermal state per tyre. Unvalidated: no published measurements exist. Grip depends on it
+// only where cold_grip_loss is given.
+struct TyreThermal {
+  double ambient_c = 25.0, working_c = 80.0;
+  double heat_capacity_jpk = 12'000.0;   // [E]
+  double cooling_w_per_k = 15.0;         // standing [E]
+  double cooling_w_per_k_per_mps = 2.0;  // [E]
+  double slip_heat_share = 0.5;          // of the friction power that stays in the tyre [E]
+  double cold_grip_loss =
+      0.0;  // share of grip lost at ambient; 0 leaves temperature without effect
+};
+
+struct Params {
+  Chassis chassis;
+  Aero aero;
+  Tyre front{.radius_m = 0.301,         // [T]
+             .nominal_load_n = 1700.0,  // [A], as all that follow
+             .mu_long = 1.2,
+             .mu_lat = 1.5,
+             .shape = 1.5,
+             .peak_slip_angle_rad = 0.08725};
+  Tyre rear{.radius_m = 0.3118,
+            .nominal_load_n = 2200.0,
+            .mu_long = 1.7,
+            .mu_lat = 1.55,
+            .shape = 1.6,
+            .peak_slip_angle_rad = 0.0785};
+  Steering steering;
+  Brakes brakes;
+  Engine engine;
+  Drivetrain drivetrain;
+  TyreThermal thermal;
+  // Below this speed the spring that a tyre is at standstill is damped: the car comes to rest.
+  double low_speed_mps = 3.0;
+  double low_speed_damping_nspm = 4'000.0;  // per tyre, at standstill [E]
+  double substep_s = 0.001;
+};
+
+}  // namespace pitwall::plant

@@ -1,0 +1,126 @@
+// The modelled car: a double-track AV-21 as a function from state to state.
+//   in     what the drive-by-wire tells its actuators, and the road under the car
+//   out    the next state; observe() says everything that a sensor or a judge may ask of a state
+//   frames Map: x east, y north, yaw from east, counter-clockwise. Body: ISO 8855 at the centre of
+//          gravity; velocities, yaw rate and forces lie in the plane of the road. Banking positive
+//          where the left side is lower: then gravity pulls to the left with g sin(bank), the
+//          heading turns with r / cos(bank), and the map sees lateral distances times cos(bank).
+//   method classical Runge-Kutta, one step of substep_s; the discrete parts (command delay, gear
+//          box, wheels that lock) change between two substeps
+//   low speed  the tyres carry their deflection as a state (relaxation length): a spring at
+//          standstill, so the car holds on a bank, does not creep and needs no division by speed.
+//          The clutch slips below engine.launch_rpm: the engine is held at that speed and its
+//          torque goes through. A gear change cuts torque for shift_s and engages with matched
+//          speed.
+//   errors none: a state that is finite stays finite for finite inputs; inputs are clamped
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "hil/plant/params.hpp"
+#include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/signals.hpp"
+#include "vehicle/world/track_map.hpp"
+
+namespace pitwall::plant {
+
+using Wheels = std::array<double, world::kCorners>;  // indexed by world::Corner
+
+struct Actuation {
+  double steering_motor_rad = 0.0;  // set point at the motor, left positive
+  double throttle_fraction = 0.0;   // 0..1
+  double brake_kpa = 0.0;           // set point of both axles
+  std::uint8_t gear = 0;            // wanted gear, 0 neutral; reached one step at a time
+  bool ignition = false;            // false stops the engine
+  bool starter = false;             // turns a standing engine
+};
+
+// The road under the car. Default: level, dry.
+struct Surface {
+  double bank_rad = 0.0;
+  double bank_rate_rad_per_s = 0.0;  // change of banking as the car moves, for the gyros only
+  double grip = 1.0;                 // scales every friction coefficient
+};
+
+inline constexpr std::size_t kDelaySlots = 256;
+
+enum class ShiftPhase : std::uint8_t { kReady, kShiftingUp, kShiftingDown, kLockedOut };
+
+// Trivially copyable; a copy is a snapshot.
+struct State {
+  double x_m = 0.0, y_m = 0.0, yaw_rad = 0.0;  // yaw is not wrapped
+  double vx_mps = 0.0, vy_mps = 0.0, yaw_rate_rad_per_s = 0.0;
+  Wheels wheel_rad_per_s{};
+  Wheels stretch_long_m{}, stretch_lat_m{};       // deflection of each contact patch
+  double load_ax_mps2 = 0.0, load_ay_mps2 = 0.0;  // specific force that the springs have settled to
+  double steering_motor_rad = 0.0, throttle_fraction = 0.0;
+  double brake_front_kpa = 0.0, brake_rear_kpa = 0.0;
+  // Discrete.
+  std::array<bool, world::kCorners> locked{true, true, true, true};  // held by friction
+  std::array<double, kDelaySlots> steering_delay_rad{};              // ring of commands under way
+  std::uint16_t delay_next = 0;
+  std::uint8_t gear = 0, target_gear = 0;
+  ShiftPhase shift = ShiftPhase::kReady;
+  double shift_left_s = 0.0;
+  bool engine_running = false;
+  double crank_left_s = 0.0;
+  double engine_rpm = 0.0;
+  double odometer_m = 0.0;
+  Wheels tyre_c{25.0, 25.0, 25.0, 25.0};
+};
+
+// Everything that is true of a state, for sensors, the drive-by-wire model and the judge.
+struct Truth {
+  double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;  // Map; yaw wrapped
+  double vx_mps = kUnset, vy_mps = kUnset, yaw_rate_rad_per_s = kUnset;
+  double map_vx_mps = kUnset, map_vy_mps = kUnset;  // velocity over ground, east and north
+  double heading_rate_rad_per_s = kUnset;           // of the map yaw
+  double bank_rad = kUnset;
+  double speed_mps = kUnset;
+  std::array<double, 3> rate_rad_per_s{kUnset, kUnset, kUnset};       // body x, y, z
+  std::array<double, 3> specific_force_mps2{kUnset, kUnset, kUnset};  // what an accelerometer feels
+  Wheels wheel_speed_mps{};                                           // circumferential
+  Wheels load_n{}, force_long_n{}, force_lat_n{};  // of the tyres, in the wheel's frame
+  Wheels slip_ratio{}, slip_angle_rad{};
+  Wheels tyre_c{};
+  double friction_use = kUnset;  // largest share of its friction that a tyre uses, 0..1
+  double steering_motor_rad = kUnset, road_wheel_rad = kUnset;
+  double throttle_fraction = kUnset;
+  double brake_front_kpa = kUnset, brake_rear_kpa = kUnset;
+  double engine_rpm = kUnset, engine_torque_nm = kUnset;
+  bool engine_running = false;
+  std::uint8_t gear = 0;
+  std::uint8_t gear_shift_status = 0;  // 0 uninitialised, 1 ready, 2 locked out, 3 up, 4 down
+  double odometer_m = 0.0;
+};
+
+// Where the car is on a track and how far its corners are from the walls.
+struct Road {
+  Surface surface;
+  double s_m = kUnset, n_m = kUnset;
+  double heading_error_rad = kUnset;  // yaw over the direction of the reference line
+  double wall_gap_left_m = kUnset, wall_gap_right_m = kUnset;  // of the nearest corner
+  bool contact = false;  // a corner is in a wall: what follows means nothing
+};
+
+// Standing with the engine off, brakes free, tyres at working temperature.
+State standing(const Params& params, double x_m, double y_m, double yaw_rad);
+// Rolling straight ahead at `speed_mps` with matched wheels, in `gear`, engine running.
+State rolling(const Params& params, const State& at, double speed_mps, std::uint8_t gear);
+
+// `dt_s` is a whole number of substeps.
+State step(const Params& params, const State& state, const Actuation& actuation,
+           const Surface& surface, double dt_s);
+
+Truth observe(const Params& params, const State& state, const Surface& surface);
+
+// `hint_s_m`: station a moment ago, to search near it. In the pit lane the wall on its side is the
+// far edge of the lane.
+Road road_at(const Params& params, const world::TrackMap& track, const State& state,
+             std::optional<double> hint_s_m = std::nullopt);
+
+}  // namespace pitwall::plant
