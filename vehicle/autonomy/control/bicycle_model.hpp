@@ -1,0 +1,31 @@
+// Linear single-track model in error coordinates of a path: what the lateral gain is designed on.
+//   state  e = (e1, e1', e2, e2'): lateral offset [m] of the centre of gravity from the path,
+//          positive left, its rate [m/s], heading error [rad] car minus path, its rate [rad/s]
+//   input  road-wheel angle [rad], left positive
+//   source Rajamani, Vehicle Dynamics and Control, 2nd ed., eq. 2.45 (cornering stiffness per axle)
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::control {
+
+struct BicycleParams {
+  double mass_kg = kUnset;                    // 300..2000, with fuel
+  double yaw_inertia_kg_m2 = kUnset;          // 200..5000
+  double cg_to_front_m = kUnset;              // 0.5..3
+  double cg_to_rear_m = kUnset;               // 0.5..3
+  double cornering_front_n_per_rad = kUnset;  // of the axle, both tyres: 2e4..1e6
+  double cornering_rear_n_per_rad = kUnset;   // of the axle, both tyres: 2e4..1e6
+};
+
+using ErrorMatrix = Eigen::Matrix4d;
+using ErrorVector = Eigen::Vector4d;
+
+// Needs speed > 0: the model is singular at standstill.
+ErrorMatrix error_dynamics(const BicycleParams& car, double speed_mps);
+ErrorVector steering_input(const BicycleParams& car);
+
+}  // namespace pitwall::control

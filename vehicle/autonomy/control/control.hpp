@@ -1,0 +1,50 @@
+// The controller of the car: trajectory in, actuator command out.
+//   in     EgoState and Trajectory (Map, Body)
+//   out    ActuatorCommand, diagnostics, next state
+//   rate   100 Hz
+//   errors LateralDiagnostics.verdict; a missing trajectory or ego holds the angle and lets go of
+//          throttle and brake at their rates: stopping is the decision of vehicle/safety
+//   cost   O(trajectory points), no allocation
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+#include "vehicle/autonomy/control/bicycle_model.hpp"
+#include "vehicle/autonomy/control/gear.hpp"
+#include "vehicle/autonomy/control/lateral.hpp"
+#include "vehicle/autonomy/control/longitudinal.hpp"
+#include "vehicle/world/actuator_command.hpp"
+#include "vehicle/world/ego_state.hpp"
+#include "vehicle/world/trajectory.hpp"
+
+namespace pitwall::control {
+
+struct Params {
+  BicycleParams bicycle;
+  LateralParams lateral;
+  LongitudinalParams longitudinal;
+  GearParams gear;
+};
+
+struct State {
+  double road_wheel_rad = 0.0;  // as last commanded
+  LongitudinalState longitudinal;
+  GearState gear;
+};
+
+struct Output {
+  world::ActuatorCommand command;
+  LateralDiagnostics lateral;
+  double target_speed_mps = kUnset;
+  State next;
+};
+
+// Start-up: checks every parameter against its legal range; the place is the parameter's name.
+Result<LateralGains, Problem> prepare(const Params& params);
+
+Output step(const Params& params, const LateralGains& gains, const State& state,
+            const world::EgoState& ego, const world::Trajectory& trajectory, Instant now,
+            Duration dt);
+
+}  // namespace pitwall::control

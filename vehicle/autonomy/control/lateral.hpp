@@ -1,0 +1,74 @@
+// Lateral controller: linear-quadratic regulator on the bicycle error model, one gain per speed
+// bracket, evaluated at a look-ahead point of the trajectory. The baseline as published, on purpose
+// without feed-forward and without a term for banking.
+//   in     EgoState (Map, Body), Trajectory (Map)     out  road-wheel angle [rad], left positive
+//   law    angle = clamp(-K e); e1 = -(x - x*) sin psi* + (y - y*) cos psi*,
+//          e1' = vy cos e2 + vx sin e2, e2 = wrap(psi - psi*), e2' = map heading rate - vx kappa*,
+//          where * is the trajectory d = lookahead_base + lookahead_per_speed * vx ahead of the
+//          car's projection, seen from the car moved d ahead along its heading
+//   limit  |angle| <= angle_max_rad. Below gain_speed_floor_mps the first bracket's gain holds
+//   errors verdict; without a usable trajectory or ego the last angle is held. Too far away from the
+//          trajectory the law still acts, and the verdict says so
+//   cost   O(trajectory points), no allocation
+//   source Saba et al., Fast and Modular Autonomy Software, sec. controls (signs as in Rajamani)
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/units.hpp"
+#include "vehicle/autonomy/control/bicycle_model.hpp"
+#include "vehicle/world/ego_state.hpp"
+#include "vehicle/world/trajectory.hpp"
+
+namespace pitwall::control {
+
+// Lower edges; the last bracket is open.
+inline constexpr std::size_t kSpeedBrackets = 11;
+inline constexpr std::array<double, kSpeedBrackets> kBracketFrom_mps{0,  10, 20, 25, 30, 35,
+                                                                     40, 45, 50, 55, 60};
+
+struct LateralWeights {
+  std::array<double, 4> state{kUnset, kUnset, kUnset, kUnset};  // of e1, e1', e2, e2': >= 0
+  double steering = kUnset;                                     // > 0
+};
+
+struct LateralParams {
+  std::array<LateralWeights, kSpeedBrackets> weights;
+  double lookahead_base_m = kUnset;       // 0..30
+  double lookahead_per_speed_s = kUnset;  // 0..1
+  double angle_max_rad = kUnset;          // 0.02..0.3
+  double gain_speed_floor_mps = kUnset;   // 1..10: the first bracket is designed at no less
+  double deviation_max_m = kUnset;        // 1..20: beyond it the verdict is kTooFar
+};
+
+using LateralGain = std::array<double, 4>;
+struct LateralGains {
+  std::array<LateralGain, kSpeedBrackets> k;
+};
+
+enum class LateralVerdict : std::uint8_t { kUnknown, kGood, kNoTrajectory, kNoEgo, kTooFar };
+
+struct LateralDiagnostics {
+  LateralVerdict verdict = LateralVerdict::kUnknown;
+  std::uint8_t bracket = 0;
+  double angle_rad = kUnset;              // after the clamp
+  double e1_m = kUnset, e2_rad = kUnset;  // as the law used them
+  double cross_track_m = kUnset;          // at the car's own projection: what the car is graded on
+  double heading_error_rad = kUnset;      // there too
+  bool saturated = false;
+};
+
+// Start-up: one Riccati equation per bracket. Refused: a parameter outside its range, or a bracket
+// without a stabilising gain; the place names the bracket.
+Result<LateralGains, Problem> design(const LateralParams& params, const BicycleParams& car);
+
+std::size_t bracket_of(double speed_mps);
+
+LateralDiagnostics steer(const LateralParams& params, const LateralGains& gains,
+                         double last_angle_rad, const world::EgoState& ego,
+                         const world::Trajectory& trajectory);
+
+}  // namespace pitwall::control

@@ -1,0 +1,88 @@
+// The extended Kalman filter of the car in the plane of the road: motion, measurement models and
+// their Jacobians. Pure arithmetic; what is measured when is the business of timeline.
+//   state  x, y [m], yaw [rad] in Map; vx, vy [m/s] of the centre of gravity in Body, in the plane
+//          of the road; bias of the yaw gyro [rad/s]
+//   law    with r = gyro - bias and the road banked by phi (left side lower):
+//          x' = vx cos yaw - vy cos phi sin yaw      yaw' = r / cos phi
+//          y' = vx sin yaw + vy cos phi cos yaw      vx'  = fx + r vy
+//          bias' = 0                                 vy'  = fy + g sin phi - r vx
+//          where f is the specific force that the IMU measures
+//   errors update() refuses an innovation outside its gate and leaves the state as it is
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+
+#include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::localization {
+
+inline constexpr int kStates = 6;
+enum StateIndex : int { kX, kY, kYaw, kVx, kVy, kBias };
+using Vector6 = Eigen::Matrix<double, kStates, 1>;
+using Matrix6 = Eigen::Matrix<double, kStates, kStates>;
+
+struct Motion {  // what the IMU says, held until it says something else
+  double yaw_rate_rad_per_s = 0.0;
+  double fx_mps2 = 0.0, fy_mps2 = 0.0;
+  double bank_rad = 0.0;
+};
+
+struct MotionNoise {  // spectral densities: sigma grows with the square root of time
+  double gyro_rad_per_sqrt_s = kUnset;         // 1e-5..0.1
+  double accel_mps_per_sqrt_s = kUnset;        // 1e-3..5: along the car
+  double lateral_mps_per_sqrt_s = kUnset;      // 1e-3..5: across, holds the error of the banking
+  double gyro_bias_rad_per_s_sqrt_s = kUnset;  // 1e-7..0.01
+  double position_m_per_sqrt_s = kUnset;       // 0..1
+};
+
+// A value: plain arrays, so that it is trivially copyable.
+struct Belief {
+  Instant at{};
+  std::array<double, kStates> mean{};
+  std::array<double, kStates * kStates> covariance{};
+  Motion motion;
+};
+
+enum class Kind : std::uint8_t { kNone, kImu, kPosition, kVelocity, kHeading, kWheelSpeed, kSlip };
+
+struct LeverArm {  // from the centre of gravity, Body
+  double x_m = 0.0, y_m = 0.0, z_m = 0.0;
+};
+
+// One measurement in Map or Body. kPosition: a, b = x, y [m] of the antenna. kVelocity: a, b = east,
+// north [m/s] of the antenna. kHeading: a = yaw [rad]. kWheelSpeed: a = vx [m/s]. kSlip: a = vy.
+struct Measurement {
+  Kind kind = Kind::kNone;
+  std::uint8_t unit = 0;
+  Instant at{};
+  double a = kUnset, b = kUnset;
+  double sigma_a = kUnset, sigma_b = kUnset;
+  LeverArm arm;
+  Motion motion;  // kImu only; its banking holds for the others as well
+};
+
+struct Predicted {
+  int size = 0;  // 1 or 2
+  Eigen::Vector2d value = Eigen::Vector2d::Zero();
+  Eigen::Matrix<double, 2, kStates> jacobian = Eigen::Matrix<double, 2, kStates>::Zero();
+};
+
+struct Innovation {
+  bool accepted = false;
+  double nis = kUnset;  // normalised innovation squared, chi-square with `size` degrees of freedom
+  int size = 0;
+};
+
+Vector6 motion_rate(const Vector6& x, const Motion& motion);
+Matrix6 motion_jacobian(const Vector6& x, const Motion& motion);  // of motion_rate
+Predicted predict_measurement(const Vector6& x, const Measurement& m, const Motion& motion);
+
+void advance(Belief& belief, const MotionNoise& noise, Instant to);
+// gate_nis[size - 1] is the limit for that size; the covariance update is Joseph's form.
+Innovation update(Belief& belief, const Measurement& m, const std::array<double, 2>& gate_nis);
+
+}  // namespace pitwall::localization

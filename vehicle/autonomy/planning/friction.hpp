@@ -1,0 +1,37 @@
+// What the tyres and the engine can do on a banked road: the gg diagram used for speed profiles.
+//   frames accelerations in the plane of the road; lateral positive left
+//   law    normal load per mass  n = g cos(bank) + v^2 kappa sin(bank) + downforce v^2
+//          lateral demand        a = v^2 kappa cos(bank) - g sin(bank)
+//          grip                  g_max = friction * n; longitudinal share by the friction ellipse
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::planning {
+
+struct FrictionParams {
+  double friction = kUnset;         // 0.3..2.5: tyre friction coefficient
+  double downforce_per_m = kUnset;  // 0..0.01: downforce / (mass v^2)
+  double drag_per_m = kUnset;       // 0..0.01: drag / (mass v^2)
+  double accel_max_mps2 = kUnset;   // 0.5..15: by traction and gearing
+  double power_w_per_kg = kUnset;   // 10..1000: at the wheels
+  double brake_max_mps2 = kUnset;   // 1..30: by the brakes
+};
+
+// A place on the road at a speed.
+struct RoadLoad {
+  double speed_mps = kUnset, curvature_per_m = kUnset, bank_rad = kUnset;
+};
+
+double grip_mps2(const FrictionParams& car, const RoadLoad& at);
+double lateral_demand_mps2(const RoadLoad& at);
+// What remains for braking (>= 0) when the share of the grip (0..1] may be used in all; aerodynamic
+// drag, which costs no grip, comes on top of it. Zero where the corner takes everything.
+double brake_available_mps2(const FrictionParams& car, const RoadLoad& at, double share);
+// Net forward acceleration, drag already subtracted; may be negative at high speed.
+double drive_available_mps2(const FrictionParams& car, const RoadLoad& at, double share);
+// Highest speed at which the corner needs no more than the share of the grip, up to a ceiling.
+double corner_speed_mps(const FrictionParams& car, const RoadLoad& at, double share);
+
+}  // namespace pitwall::planning

@@ -1,0 +1,52 @@
+// The racing line: a closed path at a constant offset from the track's reference line, with the
+// highest speed that the tyres carry at every point. Built at start-up, read-only afterwards.
+//   frames Map; offset positive left; curvature positive left
+//   errors build_line: the line leaves the road, a parameter outside its range
+//   cost   build O(points); at() and project() near a hint O(1), no allocation
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/units.hpp"
+#include "vehicle/autonomy/planning/friction.hpp"
+#include "vehicle/world/track_map.hpp"
+
+namespace pitwall::planning {
+
+struct LineParams {
+  double offset_m = kUnset;          // from the track's reference line, within the walls
+  double wall_clearance_m = kUnset;  // 0..10: least distance of the centre of gravity to a wall
+  double spacing_m = kUnset;         // 0.5..5
+  double speed_max_mps = kUnset;     // 5..110
+  double grip_share = kUnset;        // 0.1..1: share of the friction ellipse that may be planned
+  FrictionParams friction;
+};
+
+struct LinePoint {
+  double s_m = kUnset;        // along the line
+  double track_s_m = kUnset;  // station of the track's reference line beside it
+  double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
+  double curvature_per_m = kUnset, bank_rad = kUnset;
+  double speed_mps = kUnset;  // limit
+};
+
+struct LinePosition {
+  double s_m = kUnset, offset_m = kUnset;
+};
+
+struct Line {
+  std::vector<LinePoint> points;  // equal steps of s; the last one is a step before the first
+  double length_m = 0.0, spacing_m = 0.0;
+
+  double wrap(double s_m) const;
+  LinePoint at(double s_m) const;  // interpolated; s is wrapped
+  // Nearest point. With a hint the search stays within 50 m of it.
+  LinePosition project(double x_m, double y_m, std::optional<double> hint_s_m = std::nullopt) const;
+};
+
+Result<Line, Problem> build_line(const world::TrackMap& track, const LineParams& params);
+
+}  // namespace pitwall::planning

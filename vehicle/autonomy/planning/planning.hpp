@@ -1,0 +1,102 @@
+// The planner: holds the line at the speed that race control and the operator allow, and keeps a
+// stop trajectory ready at every tick.
+//   in     EgoState (Map), RaceControl, operator's limit; which of the two trajectories control
+//          has followed since the last step
+//   out    drive and stop trajectory (Map), both from the car's present place and from the same
+//          reference speed, so that a change from one to the other never steps
+//   rate   20 Hz (any rate up to 100 Hz works: the reference speed advances with time)
+//   law    speed follows a reference that starts at the present speed, moves with limited jerk and
+//          acceleration, and stays within speed_band_mps of the measured speed. The stop uses
+//          stop_grip_share of the friction ellipse left over by the corner. A car far off the line
+//          is led back by a minimum-jerk offset over merge_time_s
+//   errors without a usable ego both trajectories are empty and the reason says so
+//   cost   O(points + horizon steps), below 1 ms; no allocation
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+#include "vehicle/autonomy/planning/line.hpp"
+#include "vehicle/world/ego_state.hpp"
+#include "vehicle/world/race_control.hpp"
+#include "vehicle/world/track_map.hpp"
+#include "vehicle/world/trajectory.hpp"
+
+namespace pitwall::planning {
+
+struct Params {
+  LineParams line;
+  double green_speed_mps = kUnset;      // 0..110: when race control gives no round speed
+  double caution_speed_mps = kUnset;    // 0..60: under yellow
+  double accel_max_mps2 = kUnset;       // 0.2..10
+  double decel_max_mps2 = kUnset;       // 0.2..10: of the drive trajectory
+  double jerk_max_mps3 = kUnset;        // 0.5..30
+  double speed_band_mps = kUnset;       // 0.5..10: reference to measured speed
+  double stop_decel_max_mps2 = kUnset;  // 1..12
+  double stop_jerk_max_mps3 = kUnset;   // 1..30
+  double stop_grip_share = kUnset;      // 0.3..0.9: 0.7 is a margin of 30 %
+  double point_spacing_m = kUnset;      // 1..4: of the drive trajectory
+  double merge_from_m = kUnset;         // 0.5..5: deviation from the line that starts a merge
+  double merge_time_s = kUnset;         // 1..10
+  double merge_least_m = kUnset;        // 10..200: shortest merge
+};
+
+// Why the target speed is what it is.
+enum class Reason : std::uint8_t {
+  kUnknown,
+  kNoEgo,
+  kNoRaceControl,
+  kNoFlag,
+  kUnknownFlag,
+  kRed,
+  kOrange,
+  kBlack,
+  kStopFlag,
+  kChequered,
+  kCaution,
+  kGreen,
+  kRoundSpeed,
+  kOperatorLimit,
+  kLineLimit
+};
+
+enum class Followed : std::uint8_t { kNothing, kDrive, kStop };
+
+struct State {
+  bool started = false;
+  Instant at{};
+  double line_s_m = kUnset;                     // the car on the line
+  double speed_mps = kUnset, accel_mps2 = 0.0;  // the reference
+  double merge_from_s_m = kUnset, merge_length_m = 0.0, merge_offset_m = 0.0;
+};
+
+struct Output {
+  world::Trajectory drive, stop;
+  double target_speed_mps = kUnset;
+  Reason reason = Reason::kUnknown;
+  double line_s_m = kUnset, track_s_m = kUnset;  // where the car is
+  double line_offset_m = kUnset;                 // signed distance to the line, positive left
+  double stop_distance_m = kUnset;
+  State next;
+};
+
+// Start-up: every parameter against its legal range; the place is the parameter's name.
+Result<Line, Problem> prepare(const Params& params, const world::TrackMap& track);
+
+// operator_speed_limit_mps: NaN for none.
+Output step(const Params& params, const Line& line, const world::TrackMap& track,
+            const State& state, const world::EgoState& ego, const world::RaceControl& race_control,
+            double operator_speed_limit_mps, Followed followed, Instant now);
+
+struct SpeedDemand {
+  double speed_mps = kUnset;
+  Reason reason = Reason::kUnknown;
+};
+
+// The flag table alone; exposed for tests and displays.
+SpeedDemand demanded_speed(const Params& params, const world::RaceControl& race_control,
+                           double operator_speed_limit_mps);
+
+}  // namespace pitwall::planning
