@@ -37,6 +37,8 @@ struct SampleChannel {
 class EventLog {
  public:
   EventLog(Metadata run, Sink sink, McapLimits limits = {});
+  EventLog(const EventLog&) = delete;  // the writer's sink knows where the log's hash lies
+  EventLog& operator=(const EventLog&) = delete;
 
   // Before start() only.
   template <class S>

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "protocol/recording/crc32.hpp"
+#include "protocol/bits/crc.hpp"
 
 namespace pitwall::recording {
 namespace {
@@ -173,7 +173,7 @@ bool McapReader::read_data_end(const Record& record) {
   McapCursor in{record.content};
   const std::uint32_t crc = in.u32();
   const auto begin = static_cast<std::size_t>(place_of(record.content) - kMcapRecordHeaderBytes);
-  if (crc != 0 && crc != crc32(file_.first(begin))) ++counters_.bad_data_crc;
+  if (crc != 0 && crc != bits::crc32_ieee(file_.first(begin))) ++counters_.bad_data_crc;
   return in.ok();
 }
 
@@ -186,7 +186,8 @@ bool McapReader::read_footer(const Record& record) {
   if (!in.ok() || summary_start > crc_place) return false;
   const auto begin = static_cast<std::size_t>(summary_start);
   const auto covered = file_.subspan(begin, static_cast<std::size_t>(crc_place) - begin);
-  if (crc != 0 && summary_start != 0 && crc != crc32(covered)) ++counters_.bad_summary_crc;
+  if (crc != 0 && summary_start != 0 && crc != bits::crc32_ieee(covered))
+    ++counters_.bad_summary_crc;
 
   const bool cut = rest_.size() < kMcapMagic.size();
   const bool whole = std::ranges::equal(rest_, kMcapMagic);
@@ -216,7 +217,7 @@ bool McapReader::open_chunk(const Record& record) {
   chunk_cut_ = record.cut;
   if (plain_bytes != bytes || (!record.cut && bytes != chunk_.size())) return false;
   chunk_verified_ = !record.cut && crc != 0;
-  in_chunk_ = !chunk_verified_ || crc == crc32(chunk_);
+  in_chunk_ = !chunk_verified_ || crc == bits::crc32_ieee(chunk_);
   if (!in_chunk_) ++counters_.bad_chunk_crc;
   return true;
 }

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "protocol/recording/crc32.hpp"
+#include "protocol/bits/crc.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::recording {
@@ -120,7 +120,7 @@ bool McapWriter::admits(ChannelId channel, Instant logged, Instant published,
 
 bool McapWriter::emit(std::span<const std::uint8_t> bytes) {
   if (!sink_(bytes)) return false;
-  crc_ = crc32(bytes, crc_);
+  crc_ = bits::crc32_ieee(bytes, crc_);
   counters_.bytes += bytes.size();
   return true;
 }
@@ -197,7 +197,7 @@ bool McapWriter::end_chunk() {
   out.u64(chunk_start_ns_);
   out.u64(chunk_end_ns_);
   out.u64(chunk_.size());
-  out.u32(crc32(chunk_));
+  out.u32(bits::crc32_ieee(chunk_));
   out.string("");  // not compressed
   out.u64(chunk_.size());
   out.end_record_around(record, chunk_.size());
@@ -293,7 +293,7 @@ bool McapWriter::write_summary() {
   out.u64(summary_start);
   out.u64(offsets_start);
   out.end_record_around(footer, sizeof(std::uint32_t));
-  out.u32(crc32(summary));
+  out.u32(bits::crc32_ieee(summary));
   out.bytes(kMcapMagic);
   return emit(summary);
 }

@@ -1,0 +1,53 @@
+// Counts what a piece of code takes from the heap: operator new, malloc, Eigen's buffers.
+// Include it in one file of a test program. Under AddressSanitizer, which has a heap of its own,
+// nothing is counted: kAllocationsCounted is false there, and such a test skips.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+namespace pitwall::testing {
+
+inline thread_local std::size_t allocation_count = 0;
+
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr bool kAllocationsCounted = false;
+#else
+inline constexpr bool kAllocationsCounted = true;
+#endif
+
+template <class Work>
+std::size_t allocations_of(Work&& work) {
+  const std::size_t before = allocation_count;
+  work();
+  return allocation_count - before;
+}
+
+}  // namespace pitwall::testing
+
+#ifndef __SANITIZE_ADDRESS__
+// glibc lets a program put its own in front: https://www.gnu.org/software/libc/manual, 3.2.5.
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* old, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+
+void* malloc(std::size_t size) {
+  ++pitwall::testing::allocation_count;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  ++pitwall::testing::allocation_count;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* old, std::size_t size) {
+  ++pitwall::testing::allocation_count;
+  return __libc_realloc(old, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  ++pitwall::testing::allocation_count;
+  return __libc_memalign(alignment, size);
+}
+}
+#endif
