@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/scenario/scenario.hpp"
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "protocol/yaml/strict_map.hpp"
+
+namespace pitwall::scenario {
+namespace {
+
+using world::TrackFlag;
+using world::VehicleFlag;
+
+template <class T>
+struct Named {
+  std::string_view name;
+  T value;
+};
+
+constexpr std::array kTrackFlags = {
+    Named<TrackFlag>{"none", TrackFlag::kNone},
+    Named<TrackFlag>{"red", TrackFlag::kRed},
+    Named<TrackFlag>{"orange", TrackFlag::kOrange},
+    Named<TrackFlag>{"yellow", TrackFlag::kYellow},
+    Named<TrackFlag>{"green", TrackFlag::kGreen},
+    Named<TrackFlag>{"waving_green", TrackFlag::kWavingGreen},
+    Named<TrackFlag>{"chequered", TrackFlag::kChequered},
+    Named<TrackFlag>{"unknown", TrackFlag::kUnknown},
+};
+
+constexpr std::array kVehicleFlags = {
+    Named<VehicleFlag>{"none", VehicleFlag::kNone},
+    Named<VehicleFlag>{"black", VehicleFlag::kBlackPitIn},
+    Named<VehicleFlag>{"blue", VehicleFlag::kBlue},
+    Named<VehicleFlag>{"stop", VehicleFlag::kStop},
+    Named<VehicleFlag>{"purple", VehicleFlag::kPurpleEmergency},
+    Named<VehicleFlag>{"engine_kill", VehicleFlag::kEngineKill},
+    Named<VehicleFlag>{"orange", VehicleFlag::kOrangeStartEngine},
+    Named<VehicleFlag>{"yellow", VehicleFlag::kYellow},
+    Named<VehicleFlag>{"chequered", VehicleFlag::kChequered},
+    Named<VehicleFlag>{"defender", VehicleFlag::kDefender},
+    Named<VehicleFlag>{"attacker", VehicleFlag::kAttacker},
+    Named<VehicleFlag>{"unknown", VehicleFlag::kUnknown},
+};
+
+constexpr std::array kExpectKinds = {
+    Named<ExpectKind>{"always", ExpectKind::kAlways},
+    Named<ExpectKind>{"never", ExpectKind::kNever},
+    Named<ExpectKind>{"within", ExpectKind::kWithin},
+};
+
+constexpr double kLongest_s = 36'000.0;  // ten hours: the longest soak
+constexpr double kHottest_c = 150.0, kColdest_c = -20.0;
+
+template <class T, std::size_t N>
+T one_of(yaml::StrictMap& map, const char* key, const std::array<Named<T>, N>& table,
+         std::string_view fallback = {}) {
+  const std::string word =
+      fallback.empty() ? map.text(key) : map.text_or(key, std::string(fallback));
+  std::string legal;
+  for (const Named<T>& row : table) {
+    if (row.name == word) return row.value;
+    legal += (legal.empty() ? "" : ", ") + std::string(row.name);
+  }
+  map.fail(key, "\"" + word + "\" is not one of: " + legal);
+}
+
+template <class T, std::size_t N>
+const char* word_of(const std::array<Named<T>, N>& table, T value) {
+  for (const Named<T>& row : table)
+    if (row.value == value) return row.name.data();
+  return "?";
+}
+
+Duration time_at(yaml::StrictMap& map, const char* key, double fallback_s) {
+  return from_seconds(map.number_or(key, fallback_s, 0.0, kLongest_s));
+}
+
+Start read_start(yaml::StrictMap map) {
+  Start start;
+  start.s_m = map.number_or("s_m", 0.0, 0.0, 100'000.0);
+  start.n_m = map.number_or("n_m", 0.0, -50.0, 50.0);
+  start.speed_mps = map.number_or("speed_mps", 0.0, 0.0, 90.0);
+  map.finish();
+  return start;
+}
+
+Tyres read_tyres(yaml::StrictMap map) {
+  Tyres tyres;
+  tyres.temperature_c = map.number("temperature_c", kColdest_c, kHottest_c);
+  map.finish();
+  return tyres;
+}
+
+FlagChange read_flag_change(yaml::StrictMap& map) {
+  FlagChange change;
+  change.at = from_seconds(map.number("at_s", 0.0, kLongest_s));
+  change.track = one_of(map, "track", kTrackFlags);
+  change.vehicle = one_of(map, "vehicle", kVehicleFlags, "none");
+  change.round_target_speed_mph = map.number_or("round_target_speed_mph", 0.0, 0.0, 200.0);
+  map.finish();
+  return change;
+}
+
+Fault read_fault(yaml::StrictMap& map) {
+  Fault fault;
+  fault.place = map.place("kind");
+  fault.kind = map.text("kind");
+  fault.at = from_seconds(map.number("at_s", 0.0, kLongest_s));
+  fault.lasts = time_at(map, "for_s", kLongest_s);
+  fault.can_id = static_cast<std::uint32_t>(map.integer_or("can_id", 0, 0, 2047));
+  fault.unit = static_cast<std::uint32_t>(map.integer_or("unit", 0, 0, 7));
+  if (map.has("value")) fault.value = map.number("value", -1e9, 1e9);
+  map.finish();
+  return fault;
+}
+
+Expectation read_expectation(yaml::StrictMap& map) {
+  Expectation expectation;
+  expectation.place = map.place("kind");
+  expectation.kind = one_of(map, "kind", kExpectKinds);
+  expectation.signal = map.text("signal");
+  expectation.relation = map.text("is");
+  expectation.value = map.number("value", -1e12, 1e12);
+  expectation.from = time_at(map, "from_s", 0.0);
+  expectation.until = time_at(map, "until_s", 0.0);
+  if (expectation.until.ns != 0 && expectation.until <= expectation.from)
+    map.fail("until_s", "the window ends before it begins");
+  map.finish();
+  return expectation;
+}
+
+template <class T, class Read>
+void read_list(yaml::StrictMap& map, const char* key, std::vector<T>& out, Read read_one) {
+  if (!map.has(key)) return;
+  std::vector<yaml::StrictMap> entries = map.maps(key);
+  if (entries.size() > kMaxListed) map.fail(key, "more than 256 entries");
+  for (yaml::StrictMap& entry : entries) out.push_back(read_one(entry));
+}
+
+void check_order(yaml::StrictMap& map, const Scenario& scenario) {
+  for (std::size_t i = 1; i < scenario.race_control.size(); ++i)
+    if (scenario.race_control[i].at <= scenario.race_control[i - 1].at)
+      map.fail("race_control",
+               "entry " + std::to_string(i + 1) + " is not later than the one before");
+  if (scenario.race_control.empty())
+    map.fail("race_control", "no entry: race control would be silent");
+}
+
+Scenario read_root(yaml::StrictMap& map) {
+  Scenario scenario;
+  if (map.integer("schema", 0, 1000) != 1) map.fail("schema", "this bench reads schema 1");
+  scenario.name = map.text("name");
+  scenario.seed = static_cast<std::uint64_t>(map.integer("seed", 0, 1'000'000'000));
+  scenario.duration = from_seconds(map.number("duration_s", 0.1, kLongest_s));
+  scenario.track_file = map.text("track");
+  scenario.car_file = map.text("car");
+  if (auto start = map.optional_map("start")) scenario.start = read_start(*start);
+  if (auto tyres = map.optional_map("tyres")) scenario.tyres = read_tyres(*tyres);
+  read_list(map, "race_control", scenario.race_control, read_flag_change);
+  read_list(map, "faults", scenario.faults, read_fault);
+  read_list(map, "expect", scenario.expect, read_expectation);
+  check_order(map, scenario);
+  map.finish();
+  return scenario;
+}
+
+}  // namespace
+
+Result<Scenario, Problem> read_scenario(const std::string& text, const std::string& name) {
+  const auto document = yaml::load_text(text, name);
+  if (!document) return Unexpected{document.error()};
+  return yaml::read(*document, [](yaml::StrictMap& map) { return read_root(map); });
+}
+
+const char* name_of(world::TrackFlag flag) { return word_of(kTrackFlags, flag); }
+const char* name_of(world::VehicleFlag flag) { return word_of(kVehicleFlags, flag); }
+
+}  // namespace pitwall::scenario

@@ -1,0 +1,75 @@
+// One bench run as a person writes it: where, which car, what race control says, what breaks, what
+// is expected. Strict YAML: an unknown key, a wrong kind or a value out of range is an error with
+// its line, and nothing is started.
+//   in     text of a scenario file, its name for messages
+//   out    Scenario; times are seconds of scenario time
+//   errors Problem with file:line:column
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/race_control.hpp"
+
+namespace pitwall::scenario {
+
+struct Start {
+  double s_m = 0.0, n_m = 0.0, speed_mps = 0.0;
+};
+
+struct Tyres {
+  double temperature_c = 85.0;
+};
+
+struct FlagChange {
+  Duration at{};
+  world::TrackFlag track = world::TrackFlag::kNone;
+  world::VehicleFlag vehicle = world::VehicleFlag::kNone;
+  double round_target_speed_mph = 0.0;
+};
+
+// A fault by its catalogue name; the bench refuses a name or a parameter that it does not know.
+struct Fault {
+  std::string kind;
+  Duration at{}, lasts{};
+  std::uint32_t can_id = 0;  // for faults of frames; 0 means every id
+  std::uint32_t unit = 0;    // for faults of one of several sensors
+  double value = kUnset;     // magnitude, in the unit that the catalogue states
+  std::string place;         // for messages
+};
+
+enum class ExpectKind : std::uint8_t { kAlways, kNever, kWithin };
+
+struct Expectation {
+  ExpectKind kind = ExpectKind::kAlways;
+  std::string signal, relation;
+  double value = kUnset;
+  Duration from{}, until{};  // the window; until zero means the end
+  std::string place;
+};
+
+struct Scenario {
+  std::string name;
+  std::uint64_t seed = 0;
+  Duration duration{};
+  std::string track_file, car_file;  // as written: relative to the working folder
+  Start start;
+  Tyres tyres;
+  std::vector<FlagChange> race_control;
+  std::vector<Fault> faults;
+  std::vector<Expectation> expect;
+};
+
+inline constexpr std::size_t kMaxListed = 256;  // entries of one list of a scenario
+
+Result<Scenario, Problem> read_scenario(const std::string& text, const std::string& name);
+
+const char* name_of(world::TrackFlag flag);
+const char* name_of(world::VehicleFlag flag);
+
+}  // namespace pitwall::scenario

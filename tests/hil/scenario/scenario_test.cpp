@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/scenario/scenario.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace pitwall::scenario {
+namespace {
+
+const std::string kGood =
+    "schema: 1\n"
+    "name: short\n"
+    "seed: 3\n"
+    "duration_s: 20\n"
+    "track: t.yaml\n"
+    "car: c.yaml\n"
+    "start: {s_m: 10, n_m: -2}\n"
+    "race_control:\n"
+    "  - {at_s: 0.5, track: red}\n"
+    "  - {at_s: 4, track: green, round_target_speed_mph: 100}\n"
+    "faults:\n"
+    "  - {kind: gnss_outage, at_s: 5, for_s: 2, unit: 1}\n"
+    "expect:\n"
+    "  - {kind: always, signal: wall_gap_m, is: \">\", value: 0.5}\n"
+    "  - {kind: within, signal: speed_mps, is: \">\", value: 20, from_s: 1, until_s: 15}\n";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(Scenario, ReadsEveryPart) {
+  const auto read = read_scenario(kGood, "short.yaml");
+  ASSERT_TRUE(read) << to_string(read.error());
+  EXPECT_EQ(read->name, "short");
+  EXPECT_EQ(read->seed, 3u);
+  EXPECT_EQ(read->duration, seconds(20));
+  EXPECT_EQ(read->start.n_m, -2.0);
+  ASSERT_EQ(read->race_control.size(), 2u);
+  EXPECT_EQ(read->race_control[1].track, world::TrackFlag::kGreen);
+  EXPECT_EQ(read->race_control[1].round_target_speed_mph, 100.0);
+  ASSERT_EQ(read->faults.size(), 1u);
+  EXPECT_EQ(read->faults[0].unit, 1u);
+  EXPECT_EQ(read->faults[0].lasts, seconds(2));
+  ASSERT_EQ(read->expect.size(), 2u);
+  EXPECT_EQ(read->expect[1].kind, ExpectKind::kWithin);
+  EXPECT_EQ(read->expect[1].until, seconds(15));
+}
+
+struct Wrong {
+  const char* from;
+  const char* to;
+  const char* place;  // what the message must name
+};
+
+TEST(Scenario, EveryMistakeIsRefusedWithItsPlace) {
+  const Wrong cases[] = {
+      {"seed: 3", "sede: 3", "seed"},
+      {"seed: 3", "seed: 3\nextra: 1", "short.yaml:4"},
+      {"duration_s: 20", "duration_s: .nan", "short.yaml:4"},
+      {"duration_s: 20", "duration_s: soon", "short.yaml:4"},
+      {"duration_s: 20", "duration_s: -1", "short.yaml:4"},
+      {"track: red", "track: pink", "short.yaml:9"},
+      {"at_s: 4,", "at_s: 0.5,", "race_control"},
+      {"schema: 1", "schema: 2", "short.yaml:1"},
+      {"unit: 1", "unit: 99", "short.yaml:12"},
+      {"until_s: 15", "until_s: 0.5", "short.yaml:15"},
+      {"kind: always", "kind: sometimes", "short.yaml:14"},
+      {"seed: 3", "seed: 3\nseed: 4", "short.yaml:4"},
+  };
+  for (const Wrong& wrong : cases) {
+    const auto read = read_scenario(replaced(kGood, wrong.from, wrong.to), "short.yaml");
+    ASSERT_FALSE(read) << wrong.to;
+    EXPECT_NE(to_string(read.error()).find(wrong.place), std::string::npos)
+        << wrong.to << " -> " << to_string(read.error());
+  }
+}
+
+TEST(Scenario, TextCutAnywhereIsReadOrRefusedAndNeverCrashes) {
+  for (std::size_t cut = 0; cut < kGood.size(); ++cut) {
+    const auto read = read_scenario(kGood.substr(0, cut), "cut.yaml");
+    if (!read) {
+      EXPECT_FALSE(read.error().what.empty()) << cut;
+    }
+  }
+}
+
+TEST(Scenario, EveryScenarioOfTheTreeIsReadable) {
+  int count = 0;
+  const std::string folder = std::string(PITWALL_SOURCE_DIR) + "/hil/scenarios";
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    std::ifstream file(entry.path());
+    std::stringstream text;
+    text << file.rdbuf();
+    const auto read = read_scenario(text.str(), entry.path().string());
+    EXPECT_TRUE(read) << to_string(read.error());
+    ++count;
+  }
+  EXPECT_GE(count, 1);
+}
+
+TEST(Names, EveryFlagHasAName) {
+  for (int i = 0; i <= static_cast<int>(world::TrackFlag::kUnknown); ++i)
+    EXPECT_STRNE(name_of(static_cast<world::TrackFlag>(i)), "?");
+  for (int i = 0; i <= static_cast<int>(world::VehicleFlag::kUnknown); ++i)
+    EXPECT_STRNE(name_of(static_cast<world::VehicleFlag>(i)), "?");
+}
+
+}  // namespace
+}  // namespace pitwall::scenario
