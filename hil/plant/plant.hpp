@@ -50,16 +50,21 @@ inline constexpr std::size_t kDelaySlots = 256;
 
 enum class ShiftPhase : std::uint8_t { kReady, kShiftingUp, kShiftingDown, kLockedOut };
 
-// Trivially copyable; a copy is a snapshot.
-struct State {
+// The continuous part of the state; doubles only, so that the integrator sees a vector.
+struct Motion {
   double x_m = 0.0, y_m = 0.0, yaw_rad = 0.0;  // yaw is not wrapped
   double vx_mps = 0.0, vy_mps = 0.0, yaw_rate_rad_per_s = 0.0;
   Wheels wheel_rad_per_s{};
   Wheels stretch_long_m{}, stretch_lat_m{};       // deflection of each contact patch
-  double load_ax_mps2 = 0.0, load_ay_mps2 = 0.0;  // specific force that the springs have settled to
+  double load_ax_mps2 = 0.0, load_ay_mps2 = 0.0;  // specific force that the springs settled to
   double steering_motor_rad = 0.0, throttle_fraction = 0.0;
   double brake_front_kpa = 0.0, brake_rear_kpa = 0.0;
-  // Discrete.
+  double odometer_m = 0.0;
+};
+
+// Trivially copyable; a copy is a snapshot.
+struct State {
+  Motion motion;
   std::array<bool, world::kCorners> locked{true, true, true, true};  // held by friction
   std::array<double, kDelaySlots> steering_delay_rad{};              // ring of commands under way
   std::uint16_t delay_next = 0;
@@ -69,7 +74,6 @@ struct State {
   bool engine_running = false;
   double crank_left_s = 0.0;
   double engine_rpm = 0.0;
-  double odometer_m = 0.0;
   Wheels tyre_c{25.0, 25.0, 25.0, 25.0};
 };
 
