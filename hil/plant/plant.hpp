@@ -72,7 +72,7 @@ struct State {
   ShiftPhase shift = ShiftPhase::kReady;
   double shift_left_s = 0.0;
   bool engine_running = false;
-  double crank_left_s = 0.0;
+  double cranked_s = 0.0;
   double engine_rpm = 0.0;
   Wheels tyre_c{25.0, 25.0, 25.0, 25.0};
 };

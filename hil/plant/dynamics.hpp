@@ -1,0 +1,45 @@
+// Forces on the car in one state and what they do to it: the right-hand side of the plant.
+//   in     the continuous state, the discrete state that goes with it, the road, set points of the
+//          actuators (after delay and quantisation)
+//   out    every force and slip, and the derivative of the continuous state
+//   frames as plant.hpp
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hil/plant/plant.hpp"
+
+namespace pitwall::plant {
+
+struct SetPoints {
+  double steering_motor_rad = 0.0, throttle_fraction = 0.0;
+  double brake_front_kpa = 0.0, brake_rear_kpa = 0.0;
+};
+
+struct Forces {
+  Wheels load_n{}, long_n{}, lat_n{};  // of the tyres, in the wheel's frame
+  Wheels slip_ratio{}, slip_sine{}, use{};
+  Wheels slip_power_w{};                  // turned into heat in the contact patch
+  Wheels drive_nm{}, hold_nm{};           // at the wheel: engine; brake and rolling resistance
+  double body_x_n = 0.0, body_y_n = 0.0;  // all but gravity, in the plane of the road
+  double normal_n = 0.0;                  // tyres less downforce
+  double yaw_moment_nm = 0.0;
+  double heading_rate_rad_per_s = 0.0;  // of the map yaw
+};
+
+Forces forces_of(const Params& params, const State& discrete, const Motion& motion,
+                 const Surface& surface);
+
+Motion derivative_of(const Params& params, const State& discrete, const Motion& motion,
+                     const Surface& surface, const SetPoints& set);
+
+// What the engine, brakes and road do to a wheel that does not turn; it stays locked while this is
+// within hold_nm.
+inline double turning_moment_nm(const Forces& f, std::size_t wheel, double radius_m) {
+  return f.drive_nm[wheel] - radius_m * f.long_n[wheel];
+}
+
+inline const Tyre& tyre_of(const Params& p, std::size_t wheel) {
+  return wheel < 2 ? p.front : p.rear;
+}
+
+}  // namespace pitwall::plant

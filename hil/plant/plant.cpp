@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/plant/plant.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <type_traits>
+
+#include "hil/plant/dynamics.hpp"
+#include "hil/plant/powertrain.hpp"
+#include "protocol/vocabulary/check.hpp"
+
+namespace pitwall::plant {
+namespace {
+
+static_assert(std::is_trivially_copyable_v<State>);
+using Vector = std::array<double, sizeof(Motion) / sizeof(double)>;
+static_assert(sizeof(Vector) == sizeof(Motion));
+
+Motion ahead(const Motion& from, const Motion& rate, double dt_s) {
+  auto a = std::bit_cast<Vector>(from);
+  const auto b = std::bit_cast<Vector>(rate);
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] += dt_s * b[i];
+  return std::bit_cast<Motion>(a);
+}
+
+Motion weighted(const Motion& k1, const Motion& k2, const Motion& k3, const Motion& k4) {
+  auto a = std::bit_cast<Vector>(k1);
+  const auto b = std::bit_cast<Vector>(k2), c = std::bit_cast<Vector>(k3),
+             d = std::bit_cast<Vector>(k4);
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] = (a[i] + 2.0 * (b[i] + c[i]) + d[i]) / 6.0;
+  return std::bit_cast<Motion>(a);
+}
+
+// Classical Runge-Kutta of order 4.
+Motion integrate(const Params& p, const State& s, const Surface& road, const SetPoints& set,
+                 double dt_s) {
+  const Motion& m = s.motion;
+  const Motion k1 = derivative_of(p, s, m, road, set);
+  const Motion k2 = derivative_of(p, s, ahead(m, k1, 0.5 * dt_s), road, set);
+  const Motion k3 = derivative_of(p, s, ahead(m, k2, 0.5 * dt_s), road, set);
+  const Motion k4 = derivative_of(p, s, ahead(m, k3, dt_s), road, set);
+  return ahead(m, weighted(k1, k2, k3, k4), dt_s);
+}
+
+double bounded(double value, double low, double high) {
+  return std::isfinite(value) ? std::clamp(value, low, high) : std::clamp(0.0, low, high);
+}
+
+// Puts the command into the delay line and takes out the one that has arrived.
+double delayed_steering_rad(const Steering& p, double command_rad, double dt_s, State& s) {
+  const double limit_rad = p.angle_max_rad;
+  const double raw_rad = bounded(command_rad, -limit_rad, limit_rad);
+  const double quantised_rad =
+      p.quantum_rad > 0.0 ? p.quantum_rad * std::round(raw_rad / p.quantum_rad) : raw_rad;
+  const auto slots = static_cast<std::size_t>(std::lround(p.delay_s / dt_s));
+  CHECK(slots < kDelaySlots);
+  s.steering_delay_rad[s.delay_next] = quantised_rad;
+  const std::size_t arrived = (s.delay_next + kDelaySlots - slots) % kDelaySlots;
+  s.delay_next = static_cast<std::uint16_t>((s.delay_next + 1U) % kDelaySlots);
+  return s.steering_delay_rad[arrived];
+}
+
+// A wheel whose rotation has ended, or would before the next substep has, is held if friction can
+// hold it; a held one is let go when it cannot.
+void hold_or_release(const Params& p, const Motion& before, const Forces& f, double dt_s,
+                     State& s) {
+  for (std::size_t i = 0; i < world::kCorners; ++i) {
+    const Tyre& tyre = tyre_of(p, i);
+    double& speed = s.motion.wheel_rad_per_s[i];
+    const double spare_nm = f.hold_nm[i] - std::abs(turning_moment_nm(f, i, tyre.radius_m));
+    const bool ended = before.wheel_rad_per_s[i] * speed <= 0.0 ||
+                       std::abs(speed) <= spare_nm * dt_s / tyre.wheel_inertia_kgm2;
+    s.locked[i] = spare_nm >= 0.0 && (s.locked[i] || ended);
+    if (s.locked[i]) speed = 0.0;
+  }
+}
+
+void warm_tyres(const TyreThermal& t, const Forces& f, double dt_s, State& s) {
+  const double speed_mps = std::abs(s.motion.vx_mps);
+  const double cooling_w_per_k = t.cooling_w_per_k + t.cooling_w_per_k_per_mps * speed_mps;
+  for (std::size_t i = 0; i < world::kCorners; ++i)
+    s.tyre_c[i] +=
+        dt_s *
+        (t.slip_heat_share * f.slip_power_w[i] - cooling_w_per_k * (s.tyre_c[i] - t.ambient_c)) /
+        t.heat_capacity_jpk;
+}
+
+void substep(const Params& p, const Actuation& a, const Surface& road, double dt_s, State& s) {
+  const double brake_kpa = bounded(a.brake_kpa, 0.0, p.brakes.pressure_max_kpa);
+  const SetPoints set{
+      .steering_motor_rad = delayed_steering_rad(p.steering, a.steering_motor_rad, dt_s, s),
+      .throttle_fraction = bounded(a.throttle_fraction, 0.0, 1.0),
+      .brake_front_kpa = brake_kpa,
+      .brake_rear_kpa = brake_kpa};
+  advance_powertrain(p, a, dt_s, s);
+  const Motion before = s.motion;
+  s.motion = integrate(p, s, road, set, dt_s);
+  const Forces f = forces_of(p, s, s.motion, road);
+  hold_or_release(p, before, f, dt_s, s);
+  warm_tyres(p.thermal, f, dt_s, s);
+}
+
+std::uint8_t shift_status(const State& s) {
+  switch (s.shift) {
+    case ShiftPhase::kReady:
+      return 1;
+    case ShiftPhase::kLockedOut:
+      return 2;
+    case ShiftPhase::kShiftingUp:
+      return 3;
+    case ShiftPhase::kShiftingDown:
+      return 4;
+  }
+  return 0;
+}
+
+void observe_map(const Motion& m, const Forces& f, const Surface& road, Truth& t) {
+  const double level_vy_mps = m.vy_mps * std::cos(road.bank_rad);
+  t.x_m = m.x_m, t.y_m = m.y_m, t.yaw_rad = wrap_pi(m.yaw_rad);
+  t.vx_mps = m.vx_mps, t.vy_mps = m.vy_mps, t.yaw_rate_rad_per_s = m.yaw_rate_rad_per_s;
+  t.map_vx_mps = m.vx_mps * std::cos(m.yaw_rad) - level_vy_mps * std::sin(m.yaw_rad);
+  t.map_vy_mps = m.vx_mps * std::sin(m.yaw_rad) + level_vy_mps * std::cos(m.yaw_rad);
+  t.heading_rate_rad_per_s = f.heading_rate_rad_per_s;
+  t.bank_rad = road.bank_rad;
+  t.speed_mps = std::hypot(m.vx_mps, m.vy_mps);
+  t.odometer_m = m.odometer_m;
+}
+
+// Does the pit lane lie beside this station?
+bool beside_pit(const world::TrackMap& track, double s_m) {
+  const auto& pit = track.pit();
+  return pit && track.station_ahead(pit->entry_s_m, s_m) <=
+                    track.station_ahead(pit->entry_s_m, pit->exit_s_m);
+}
+
+double bank_slope_per_m(const world::TrackMap& track, double s_m) {
+  constexpr double kReach_m = 1.0;
+  return (track.at(s_m + kReach_m).bank_rad - track.at(s_m - kReach_m).bank_rad) / (2.0 * kReach_m);
+}
+
+}  // namespace
+
+State standing(const Params& params, double x_m, double y_m, double yaw_rad) {
+  State s;
+  s.motion.x_m = x_m, s.motion.y_m = y_m, s.motion.yaw_rad = yaw_rad;
+  s.tyre_c.fill(params.thermal.working_c);
+  return s;
+}
+
+State rolling(const Params& params, const State& at, double speed_mps, std::uint8_t gear) {
+  State s = at;
+  s.motion.vx_mps = speed_mps;
+  s.motion.vy_mps = s.motion.yaw_rate_rad_per_s = 0.0;
+  s.motion.stretch_long_m = s.motion.stretch_lat_m = {};
+  for (std::size_t i = 0; i < world::kCorners; ++i) {
+    s.motion.wheel_rad_per_s[i] = speed_mps / tyre_of(params, i).radius_m;
+    s.locked[i] = speed_mps == 0.0;
+  }
+  s.gear = s.target_gear = static_cast<std::uint8_t>(std::min<std::size_t>(gear, kGears));
+  s.shift = ShiftPhase::kReady;
+  s.engine_running = true;
+  s.engine_rpm = clutch_of(params, s, s.motion).rpm;
+  return s;
+}
+
+State step(const Params& params, const State& state, const Actuation& actuation,
+           const Surface& surface, double dt_s) {
+  const auto substeps = std::lround(dt_s / params.substep_s);
+  CHECK(substeps >= 1);
+  CHECK(std::abs(static_cast<double>(substeps) * params.substep_s - dt_s) < 1e-9);
+  State next = state;
+  for (long i = 0; i < substeps; ++i) substep(params, actuation, surface, params.substep_s, next);
+  return next;
+}
+
+Truth observe(const Params& params, const State& state, const Surface& surface) {
+  const Motion& m = state.motion;
+  const Forces f = forces_of(params, state, m, surface);
+  Truth t;
+  observe_map(m, f, surface, t);
+  t.rate_rad_per_s = {-surface.bank_rate_rad_per_s,
+                      -f.heading_rate_rad_per_s * std::sin(surface.bank_rad), m.yaw_rate_rad_per_s};
+  t.specific_force_mps2 = {f.body_x_n / params.chassis.mass_kg, f.body_y_n / params.chassis.mass_kg,
+                           f.normal_n / params.chassis.mass_kg};
+  t.load_n = f.load_n, t.force_long_n = f.long_n, t.force_lat_n = f.lat_n;
+  t.slip_ratio = f.slip_ratio;
+  for (std::size_t i = 0; i < world::kCorners; ++i) {
+    t.wheel_speed_mps[i] = m.wheel_rad_per_s[i] * tyre_of(params, i).radius_m;
+    t.slip_angle_rad[i] = std::asin(std::clamp(f.slip_sine[i], -1.0, 1.0));
+  }
+  t.tyre_c = state.tyre_c;
+  t.friction_use = *std::max_element(f.use.begin(), f.use.end());
+  t.steering_motor_rad = m.steering_motor_rad;
+  t.road_wheel_rad = m.steering_motor_rad / params.steering.ratio;
+  t.throttle_fraction = m.throttle_fraction;
+  t.brake_front_kpa = m.brake_front_kpa, t.brake_rear_kpa = m.brake_rear_kpa;
+  t.engine_rpm = state.engine_rpm;
+  t.engine_torque_nm = clutch_of(params, state, m).crank_torque_nm;
+  t.engine_running = state.engine_running;
+  t.gear = state.gear;
+  t.gear_shift_status = shift_status(state);
+  return t;
+}
+
+Road road_at(const Params& params, const world::TrackMap& track, const State& state,
+             std::optional<double> hint_s_m) {
+  const Motion& m = state.motion;
+  const world::Curvilinear here = track.project(m.x_m, m.y_m, hint_s_m);
+  const world::TrackPoint line = track.at(here.s_m);
+  Road road;
+  road.s_m = here.s_m, road.n_m = here.n_m;
+  road.heading_error_rad = wrap_pi(m.yaw_rad - line.yaw_rad);
+  const double forward_mps =
+      m.vx_mps * std::cos(road.heading_error_rad) - m.vy_mps * std::sin(road.heading_error_rad);
+  const double station_mps = forward_mps / std::max(0.1, 1.0 - line.curvature_per_m * here.n_m);
+  road.surface.bank_rad = line.bank_rad;
+  road.surface.bank_rate_rad_per_s = bank_slope_per_m(track, here.s_m) * station_mps;
+  // The rectangle round the wheels, turned by the heading error, reaches this far to either side.
+  const double reach_m = 0.5 * params.chassis.width_m * std::abs(std::cos(road.heading_error_rad)) +
+                         0.5 * params.chassis.length_m * std::abs(std::sin(road.heading_error_rad));
+  double left_m = line.width_left_m, right_m = line.width_right_m;
+  if (beside_pit(track, here.s_m)) {
+    const world::PitLane& pit = *track.pit();
+    left_m = std::max(left_m, pit.offset_m + 0.5 * pit.width_m);
+    right_m = std::max(right_m, 0.5 * pit.width_m - pit.offset_m);
+  }
+  road.wall_gap_left_m = left_m - here.n_m - reach_m;
+  road.wall_gap_right_m = right_m + here.n_m - reach_m;
+  road.contact = !(road.wall_gap_left_m > 0.0 && road.wall_gap_right_m > 0.0);
+  return road;
+}
+
+}  // namespace pitwall::plant
