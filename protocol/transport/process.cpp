@@ -162,27 +162,30 @@ Process& Process::operator=(Process&& other) noexcept {
 Process::~Process() { end(); }
 
 void Process::end() {
-  if (pid_ < 0) return;
+  if (pid_ < 0 || status_) return;
   kill(SIGKILL);
   static_cast<void>(wait());
 }
 
-std::optional<ExitStatus> Process::poll() {
+// First looks without reaping: as long as the child is not reaped, its number cannot belong to
+// somebody else, so what is left of its group can be ended safely.
+std::optional<ExitStatus> Process::reap(int options) {
   if (status_) return status_;
-  int status = 0;
-  const auto waited = posix_call([&] { return waitpid(pid_, &status, WNOHANG); });
-  if (waited.ok() && waited.value == pid_) status_ = decode_status(status);
-  if (!waited.ok()) status_ = ExitStatus{.code = kCannotExec, .signal = 0};  // reaped by others
-  return status_;
-}
-
-ExitStatus Process::wait() {
-  if (status_) return *status_;
+  siginfo_t ended{};
+  const auto looked = posix_call(
+      [&] { return waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOWAIT | options); });
+  if (looked.ok() && ended.si_pid != pid_) return std::nullopt;
+  if (own_group_ && looked.ok())
+    static_cast<void>(posix_call([&] { return killpg(pid_, SIGKILL); }));
   int status = 0;
   const auto waited = posix_call([&] { return waitpid(pid_, &status, 0); });
   status_ = waited.ok() ? decode_status(status) : ExitStatus{.code = kCannotExec, .signal = 0};
-  return *status_;
+  return status_;
 }
+
+std::optional<ExitStatus> Process::poll() { return reap(WNOHANG); }
+
+ExitStatus Process::wait() { return *reap(0); }
 
 std::optional<ExitStatus> Process::wait_until(Instant deadline) {
   constexpr Duration kLook = milliseconds(5);  // only where the kernel has no pidfd (before 5.3)
@@ -195,11 +198,10 @@ std::optional<ExitStatus> Process::wait_until(Instant deadline) {
   }
 }
 
-// The group is signalled even after its leader ended: its other members may still run.
 void Process::kill(int signal) {
-  if (pid_ < 0) return;
+  if (pid_ < 0 || status_) return;
   if (own_group_) static_cast<void>(posix_call([&] { return killpg(pid_, signal); }));
-  if (!status_) static_cast<void>(posix_call([&] { return ::kill(pid_, signal); }));
+  static_cast<void>(posix_call([&] { return ::kill(pid_, signal); }));
 }
 
 Result<StopSignal, Problem> StopSignal::install() {

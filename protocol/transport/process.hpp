@@ -29,7 +29,8 @@ struct ProcessPlan {
   std::vector<std::string> environment{};        // "NAME=value", on top of ours
   std::string folder{};                          // working folder; empty: ours
   bool die_with_parent = true;  // SIGKILL when the thread that spawned it ends, however it ends
-  bool own_group = false;       // a process group of its own; kill() then reaches all of it
+  bool own_group =
+      false;  // a process group of its own: it is killed whole, also when the child ends
 };
 
 struct ExitStatus {
@@ -59,6 +60,7 @@ class Process {
   Process(pid_t pid, FileDescriptor pidfd, bool own_group)
       : pid_(pid), pidfd_(std::move(pidfd)), own_group_(own_group) {}
   void end();
+  std::optional<ExitStatus> reap(int options);
 
   pid_t pid_ = -1;
   FileDescriptor pidfd_;

@@ -2,6 +2,7 @@
 #include "protocol/transport/readiness.hpp"
 
 #include <poll.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -29,6 +30,15 @@ std::uint32_t wait_readable(std::span<const int> descriptors, Instant deadline) 
   for (std::size_t i = 0; i < descriptors.size(); ++i)
     if (watched[i].revents != 0) ready |= 1U << i;
   return ready;
+}
+
+ReadOutcome read_available(int descriptor, std::span<std::uint8_t> into) {
+  const int watched[] = {descriptor};
+  if (into.empty() || wait_readable(watched, Instant{}) == 0) return {};
+  const auto got = posix_call([&] { return ::read(descriptor, into.data(), into.size()); });
+  if (got.would_block()) return {};
+  if (!got.ok() || got.value == 0) return {.bytes = 0, .ended = true};
+  return {.bytes = static_cast<std::size_t>(got.value), .ended = false};
 }
 
 }  // namespace pitwall::transport

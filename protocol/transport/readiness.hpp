@@ -1,6 +1,7 @@
-// Waits until one of a few descriptors has something to read, or a deadline passes.
+// Waits until one of a few descriptors has something to read, or a deadline passes; and reads it.
 //   in     at most kMaxWatched descriptors; negative ones are ignored
 //   out    bit i set: descriptor i is readable or at its end
+//   errors an unreadable descriptor counts as ended
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,5 +16,13 @@ namespace pitwall::transport {
 inline constexpr std::size_t kMaxWatched = 32;
 
 std::uint32_t wait_readable(std::span<const int> descriptors, Instant deadline);
+
+struct ReadOutcome {
+  std::size_t bytes = 0;
+  bool ended = false;  // the other end is closed and everything has been read
+};
+
+// What is there now, without waiting.
+ReadOutcome read_available(int descriptor, std::span<std::uint8_t> into);
 
 }  // namespace pitwall::transport

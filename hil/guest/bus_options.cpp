@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/guest/bus_options.hpp"
+
+#include <charconv>
+#include <cmath>
+
+namespace pitwall::guest {
+namespace {
+
+constexpr double kLongestTimeout_s = 86'400.0;
+constexpr int kLeastMemory_mib = 96, kMostMemory_mib = 16'384;
+
+template <class T>
+std::optional<T> parse_number(const std::string& text) {
+  T value{};
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (parsed.ec != std::errc{} || parsed.ptr != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+// Interface names go into a shell script and to `ip`: plain words only, as long as the kernel
+// allows.
+bool is_interface_name(const std::string& name) {
+  constexpr std::size_t kLongest = 15;
+  return !name.empty() && name.size() <= kLongest && name[0] != '-' &&
+         name.find_first_not_of(
+             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-"
+             ".") == std::string::npos;
+}
+
+std::optional<Problem> take_value(BusExecOptions& out, const std::string& option,
+                                  const std::string& value) {
+  if (option == "--interface") {
+    if (!is_interface_name(value)) return Problem{value, "not an interface name"};
+    out.interfaces.push_back(value);
+  } else if (option == "--timeout") {
+    const auto limit_s = parse_number<double>(value);
+    if (!limit_s || !(*limit_s > 0.0 && *limit_s <= kLongestTimeout_s))
+      return Problem{value, "not a time-out in seconds"};
+    out.timeout = from_seconds(*limit_s);
+  } else if (option == "--memory") {
+    const auto memory_mib = parse_number<int>(value);
+    if (!memory_mib || *memory_mib < kLeastMemory_mib || *memory_mib > kMostMemory_mib)
+      return Problem{value, "not a memory size in MiB from 96 to 16384"};
+    out.memory_mib = *memory_mib;
+  } else if (option == "--line-udp") {
+    const auto ports = parse_line_ports(value);
+    if (!ports) return ports.error();
+    out.line = *ports;
+  } else {
+    return Problem{option, "unknown option"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<BusExecOptions, Problem> parse_bus_exec(std::span<const std::string> args) {
+  BusExecOptions out;
+  std::size_t i = 0;
+  for (; i < args.size() && args[i] != "--"; ++i) {
+    if (args[i] == "--auto") {
+      out.place = BusPlace::kAuto;
+    } else if (args[i] == "--native") {
+      out.place = BusPlace::kNative;
+    } else if (args[i] == "--guest") {
+      out.place = BusPlace::kGuest;
+    } else if (i + 1 < args.size() && args[i + 1] != "--") {
+      if (auto problem = take_value(out, args[i], args[i + 1]))
+        return Unexpected{*std::move(problem)};
+      ++i;
+    } else {
+      return Unexpected{Problem{args[i], "unknown option, or its value is missing"}};
+    }
+  }
+  if (i + 1 >= args.size()) return Unexpected{Problem{"bus exec", "expected -- COMMAND ARG..."}};
+  out.command.assign(args.begin() + static_cast<std::ptrdiff_t>(i) + 1, args.end());
+  if (out.interfaces.empty()) out.interfaces = {"vcan0"};
+  return out;
+}
+
+}  // namespace pitwall::guest

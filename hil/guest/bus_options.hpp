@@ -1,0 +1,32 @@
+// The words after `bus exec`, understood.
+//   in     arguments without the verb itself
+//   out    BusExecOptions
+//   errors Problem with the word as place
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hil/guest/line_relay.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::guest {
+
+enum class BusPlace : std::uint8_t { kAuto, kNative, kGuest };
+
+struct BusExecOptions {
+  BusPlace place = BusPlace::kAuto;
+  std::vector<std::string> interfaces{};  // empty: vcan0
+  std::optional<Duration> timeout{};
+  std::optional<LinePorts> line{};
+  int memory_mib = 512;
+  std::vector<std::string> command{};
+};
+
+Result<BusExecOptions, Problem> parse_bus_exec(std::span<const std::string> args);
+
+}  // namespace pitwall::guest
