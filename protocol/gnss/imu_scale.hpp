@@ -1,0 +1,44 @@
+// Counts of RAWIMUSX to rates and specific forces, by type of IMU.
+//   in     counts over one sample, axes of the enclosure
+//   out    rad/s and m/s^2
+//   source OEM7 Commands and Logs Reference Manual, RAWIMUSX, table "Raw IMU Scale Factors"
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::gnss {
+
+// One count, already multiplied by the output rate of the IMU.
+struct ImuScale {
+  double rate_rad_per_s = 0.0, accel_mps2 = 0.0;
+};
+
+// Epson G320N: (0.008/65536)/125 deg and (0.200/65536)/125 mG s per count, at 125 samples a second;
+// the 200 Hz variant divides by its own rate, so that the rate cancels. G370N alike.
+constexpr std::optional<ImuScale> imu_scale(std::uint8_t imu_type) {
+  constexpr double kCounts = 65'536.0, kMilliG_mps2 = kGravity_mps2 / 1'000.0;
+  switch (imu_type) {
+    case 41:  // Epson G320N
+    case 62:  // Epson G320N, 200 Hz
+      return ImuScale{from_deg(0.008 / kCounts), 0.2 / kCounts * kMilliG_mps2};
+    case 61:  // Epson G370N
+      return ImuScale{from_deg(0.0151515 / kCounts), 0.4 / kCounts * kMilliG_mps2};
+    default:
+      return std::nullopt;
+  }
+}
+
+// Nearest count, saturated.
+inline std::int32_t to_counts(double value, double one_count) {
+  constexpr auto kMax = static_cast<double>(std::numeric_limits<std::int32_t>::max());
+  return static_cast<std::int32_t>(
+      std::fmax(-kMax, std::fmin(kMax, std::round(value / one_count))));
+}
+
+}  // namespace pitwall::gnss

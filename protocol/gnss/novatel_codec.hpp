@@ -1,0 +1,40 @@
+// NovAtel OEM7 binary: one whole message to values and back. Used by the car (decode) and by the
+// bench, which speaks as a receiver (encode).
+//   in     a frame cut out and checked by NovatelStream; a header and a message
+//   out    values; a complete frame with header and CRC
+//   errors DecodeError. A body may be longer than we know (newer firmware appends), never shorter.
+//   source OEM7 Commands and Logs Reference Manual
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "protocol/gnss/novatel_message.hpp"
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::gnss {
+
+struct NovatelFrame {
+  NovatelHeader header;
+  std::span<const std::uint8_t> body;  // valid until the stream is fed again
+};
+
+enum class DecodeError : std::uint8_t { kUnknownId, kResponse, kNotBinary, kTooShort, kNotFinite };
+
+Result<NovatelMessage, DecodeError> decode(const NovatelFrame& frame);
+
+// The longest frame that encode() writes.
+inline constexpr std::size_t kMaxEncodedBytes = kLongHeaderBytes + BestPos::kBytes + kCrcBytes;
+
+// Writes header, body and CRC; id and form of the header follow from the message. Returns the bytes
+// written; `out` must have room for kMaxEncodedBytes.
+std::size_t encode(NovatelHeader header, const NovatelMessage& message,
+                   std::span<std::uint8_t> out);
+
+// Header alone; the body has body_bytes. For messages that this codec does not know.
+std::size_t encode_header(const NovatelHeader& header, std::uint16_t body_bytes,
+                          std::span<std::uint8_t> out);
+
+}  // namespace pitwall::gnss
