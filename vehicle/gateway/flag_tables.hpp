@@ -54,8 +54,8 @@ inline constexpr std::array kMarelliVehicle{
     VehicleFlagRow{35, world::VehicleFlag::kDefender},
     VehicleFlagRow{36, world::VehicleFlag::kAttacker}};
 
-// Marelli's "GSpeed": green with a round speed, the value is the speed in mph. Known are 40, 60, 80,
-// 100 and from 120 to 190; within that span the rounds rise in steps of 5 mph.
+// Marelli's "GSpeed": green with a round speed; the value is the speed in mph. Known are 40, 60,
+// 80, 100 and from 120 to 190; within that span the rounds rise in steps of 5 mph.
 constexpr bool is_green_speed(std::uint8_t raw) {
   const bool low = raw == 40 || raw == 60 || raw == 80 || raw == 100;
   return low || (raw >= 120 && raw <= 190 && raw % 5 == 0);

@@ -1,29 +1,30 @@
 // CAN frames in, what the car and race control say out, in SI units. Nothing is applied that is not
 // whitelisted, complete, alive and plausible; every frame that is not applied is counted by kind.
 //   in     frames in the order of arrival, each with its instant
-//   out    the latest accepted value of every signal; the flags of race control; the health of every
-//          expected message
+//   out    the latest accepted value of every signal; the flags of race control; the health of
+//          every expected message
 //   units  SI (m/s, rad at the steering motor, kPa, degrees Celsius, fractions of 1)
 //   errors none: a bad frame is a count in BusHealth::refused
 //   cost   no allocation; O(frames)
 //
 // Rules, in this order, per frame
-//   1 remote, FD or extended                     -> remote_or_error
-//   2 an id that we alone may send               -> own_frames, and own_id_seen latches (our socket
-//                                                   does not deliver our own frames: another node
-//                                                   speaks with our voice)
-//   3 not in the database                        -> unknown_id
-//   4 length differs from the database           -> wrong_length
-//   5 counter equal to the last one received     -> stuck_counter (senders wrap at 7, 9 or 255, so
-//                                                   "changed" is the rule, not "plus one")
-//   6 counter neither last + 1 nor 0 (a wrap)    -> debt + 1; else debt - 1. The frame is refused as
-//                                                   jumped_counter while the debt is >= fault_debt
-//   7 a number that is not finite or outside the plausible range of Params -> not_finite, out_of_range
-//   8 a change faster than the database's side file allows since the last accepted value, in the time
-//     that passed (at least one period)          -> implausible_slew. The allowance grows with time,
-//                                                   so a wrong first value cannot lock out the truth
-// Race-control messages skip 5 and 6: to refuse a flag could hide a stop. Their heartbeat is watched
-// for change instead (RaceControl::last_heartbeat_change).
+//   1 remote, FD or extended                  -> remote_or_error
+//   2 not in the database                     -> unknown_id
+//   3 an id that we alone may send            -> own_frames, and own_id_seen latches (our socket
+//                                                does not deliver our own frames: another node
+//                                                speaks with our voice)
+//   4 length differs from the database        -> wrong_length
+//   5 counter equal to the last one received  -> stuck_counter (senders wrap at 7, 9 or 255, so
+//                                                "changed" is the rule, not "plus one")
+//   6 counter neither last + 1 nor 0 (wrap)   -> debt + 1; else debt - 1. While the debt is >=
+//                                                fault_debt: jumped_counter
+//   7 a number that is not finite, or outside the plausible range of the parameters
+//                                             -> not_finite, out_of_range
+//   8 a change faster than the database's side file allows since the last accepted value, in the
+//     time that passed (at least one period)  -> implausible_slew. The allowance grows with time:
+//                                                a wrong first value cannot lock out the truth
+// Race-control messages skip 5 and 6: to refuse a flag could hide a stop. Their heartbeat is
+// watched for change instead (RaceControl::last_heartbeat_change).
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -2,11 +2,11 @@
 // has the last word on the frames. Call once per 10 ms tick.
 //   in     the command chosen by the supervisor, the CT state, the flags the autonomy acted on,
 //          accelerations
-//   out    up to 8 frames: brake 1400 first, throttle 1401, steering 1402, gear 1403, ct_report 1404,
-//          ct_report_2 1405, dash switches 1406, accelerations 1450
+//   out    up to 8 frames: brake 1400 first, throttle 1401, steering 1402, gear 1403, then
+//          ct_report 1404, ct_report_2 1405, dash switches 1406, accelerations 1450
 //   units  road-wheel angle in rad -> motor degrees (x ratio); fractions -> %; m/s^2 -> g
-//   errors a command with a number that is not finite gives no frame: counted in not_finite; a number
-//          outside the field saturates: counted in saturated (and the gate then refuses it)
+//   errors a number that is not finite gives no frame and is counted in not_finite; a number that
+//          the field cannot hold saturates and is counted in saturated (the gate then refuses it)
 // Each message is sent at its period of the database's side file, rounded to ticks. Every counter
 // changes on every frame of its message; ct_state_rolling_counter runs 0..9.
 // The acknowledgements echo the raw flags of the RaceControl that this tick's plan was made with:

@@ -45,6 +45,7 @@ struct FaultInputs {
   bool own_id_seen = false;   // gateway::InboundOutput
   bool control_ok = false;    // control gave a command this tick
   bool gate_refused = false;  // the gate refused a frame of the previous tick
+  bool driving = false;       // control is expected to give commands
 };
 
 struct FaultState {

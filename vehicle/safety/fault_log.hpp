@@ -145,7 +145,7 @@ inline constexpr std::size_t kFaultEntries = 64;  // a run that has more has one
 struct FaultLog {
   std::array<FaultEntry, kFaultEntries> ring{};
   std::uint64_t total = 0;  // ever recorded; the newest is ring[(total - 1) % kFaultEntries]
-  FaultEntry first{};       // since the last reset; cause kNone if there is none
+  FaultEntry first{};  // that stopped the car since the last reset; cause kNone if there is none
 
   constexpr std::size_t size() const {
     return total < kFaultEntries ? static_cast<std::size_t>(total) : kFaultEntries;
@@ -154,10 +154,11 @@ struct FaultLog {
   constexpr const FaultEntry& entry(std::size_t i) const {
     return ring[static_cast<std::size_t>((total - size() + i) % kFaultEntries)];
   }
-  constexpr void record(const FaultEntry& fault) {
+  // `stops`: the car was to move, so the fault is a candidate for the first cause.
+  constexpr void record(const FaultEntry& fault, bool stops) {
     ring[static_cast<std::size_t>(total % kFaultEntries)] = fault;
     ++total;
-    if (first.cause == Cause::kNone) first = fault;
+    if (stops && first.cause == Cause::kNone) first = fault;
   }
   constexpr void forget_first() { first = FaultEntry{}; }
 };

@@ -1,6 +1,6 @@
 // The last word on what goes on the CAN bus. Judges the frames themselves, decoded again, with its
 // own limits and its own memory; knows nothing of control or planning. Default deny. Refuses, never
-// repairs: a refused frame is counted by reason and `refused_now` is a fault event for the supervisor
+// repairs: a refused frame is counted by reason and refused_now is a fault event for the supervisor
 // on the next tick; a silent bus is a state that the drive-by-wire survives.
 //   in     the frames proposed for this tick, the mode, whether the car is armed, its speed, the
 //          instant of the command behind the frames
@@ -80,8 +80,8 @@ struct SteerRow {
 };
 
 struct GateParams {
-  // About 1.5 times the steady-state angle for 28 m/s^2 plus 10 degrees. Speeds rise, angles do not;
-  // angles within [5, 300].
+  // About 1.5 times the steady-state angle for 28 m/s^2 plus 10 degrees. Speeds rise, angles do
+  // not; angles within [5, 300].
   std::array<SteerRow, kSteerRows> steer{{{0.0, 240.0},
                                           {15.0, 240.0},
                                           {20.0, 230.0},

@@ -3,13 +3,14 @@
 // of the trajectory changes along the distance travelled; the brake along the planned deceleration,
 // ramped, and kept below what the tyres have left beside the lateral force (a hard stop on a banked
 // turn spins the car). Throttle 0, the gear is held, at standstill the brake is held.
-//   in     the last stop trajectory, the last good command, the car's speed by its wheels (unset: dead
-//          reckoning with the planned deceleration)
+//   in     the last stop trajectory, the last good command, the car's speed by its wheels (unset:
+//          dead reckoning with the deceleration that the pressure gives)
 //   out    a command every tick
 //   frames road-wheel angle and curvature left positive; bank positive where the left side is lower
-//   errors a trajectory without points: the steering angle is held and `decel_without_plan` is used
+//   errors a trajectory without points: the steering angle is held and decel_without_plan is used
 //   source steady-state bicycle: delta = L k + K_us a_y, Rajamani, Vehicle Dynamics and Control,
-//          2nd ed., eq. 3.12; a_y = v^2 k - g sin(bank); friction circle a_x^2 + a_y^2 <= (mu g)^2
+//          2nd ed., eq. 3.12; a_y = v^2 k - g sin(bank); friction circle
+//          a_x^2 + a_y^2 <= (mu N / m)^2, N / m = g cos(bank) + v^2 k sin(bank) + downforce v^2
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -34,8 +35,10 @@ struct SafeStopParams {
   double decel_max_mps2 = 8.0;                // controlled stop; [decel_min, 15]
   double decel_without_plan_mps2 = 4.0;       // [decel_min, decel_max]
   double emergency_decel_mps2 = 14.0;         // [decel_max, 25]
-  double grip_mps2 = 13.0;                    // mu g on the flat without downforce; [5, 20]
+  double friction = 1.3;                      // of the tyres; [0.3, 2]
+  double downforce_per_m = 0.0013;            // lift / mass per v^2; [0, 0.01]
   double grip_share = 0.7;                    // of the grip left beside the lateral force; (0, 1]
+  double emergency_grip_share = 0.9;          // [grip_share, 1]
   double steer_settle_s = 0.8;                // the offset from the feed-forward decays; [0.1, 5]
   double standstill_mps = 0.3;                // [0.1, 1]
 };
@@ -64,10 +67,20 @@ struct SafeStopInputs {
 world::ActuatorCommand stop_along(const SafeStopParams& params, SafeStopState& state,
                                   const SafeStopInputs& inputs, Instant now);
 
-// The brake alone: next pressure towards a deceleration, within ramp, grip and maximum. Used to add
-// the emergency brake to a command whose steering is still good.
+// The grip of the tyres as an acceleration in the plane of the road, and the lateral part in use.
+struct Grip {
+  double total_mps2 = kUnset, lateral_mps2 = kUnset;
+};
+Grip grip_at(const SafeStopParams& params, double speed_mps, double curvature_per_m,
+             double bank_rad);
+
+// The brake alone: the next pressure towards a deceleration, within ramp, grip and maximum. Never
+// aims below decel_min: every stop ends. Used to add the emergency brake to a command whose
+// steering is still good.
 struct BrakeDemand {
-  double decel_mps2 = kUnset, lateral_mps2 = kUnset, last_kpa = kUnset, dt_s = kUnset;
+  double decel_mps2 = kUnset;
+  Grip grip;
+  double last_kpa = kUnset, dt_s = kUnset;
 };
 double brake_towards(const SafeStopParams& params, StopKind kind, const BrakeDemand& demand);
 

@@ -2,15 +2,19 @@
 // goes to the actuators. Planning keeps a stop trajectory ready at every tick; in a stop the
 // supervisor makes control follow it, and takes safe_stop's command only when control failed (and
 // then until the car stands).
-//   in     what was heard, where the car is, the watchdog's rows, the verdicts of this tick's control
-//          and of the previous tick's gate, the operator's requests
-//   out    mode, cause (the first since the last reset, latched), command, what to follow next tick
+//   in     what was heard, where the car is, the watchdog's rows, the verdicts of this tick's
+//          control and of the previous tick's gate, the operator's requests
+//   out    mode, cause (the first that stopped the car since the last reset), command, what to
+//          follow in the next tick
 //   units  SI
 //   errors none: every fault is a Cause with a value and an entry in the fault log
 //   source mission, row 4 (system executive); mode_table.hpp for the transitions
 //
-//           fault              |v| < 0.3 m/s for 0.5 s         reset, then arm, then go
-//   Driving ------> ControlledStop ------------------> Halted ------> Disarmed -> Standby -> Driving
+//           fault                   stands for 0.5 s           reset
+//   Driving -----> ControlledStop -------------------> Halted ------> Disarmed
+//      ^                  | emergency                     ^              | arm, released and given
+//      | go               v                               |              v anew after a stop
+//   Standby ------> EmergencyStop ------------------------+           Standby
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -36,10 +40,12 @@ struct SupervisorParams {
   Duration standstill_dwell = milliseconds(500);  // [0.1, 5] s
   double standstill_mps = 0.3;                    // [0.1, 1]
   // Slew of the chosen command, so that a change of its source is no jump; below the gate's limits.
-  double steer_slew_rad_per_s = 0.5;      // at the road wheel; [0.1, 2]
-  double throttle_rise_per_s = 2.0;       // fraction per second; [0.1, 10]
-  double brake_rise_kpa_per_s = 15000.0;  // [1000, 30000]
-  bool go_needs_driving_state = true;     // drive-by-wire must say "driving" first
+  double steer_slew_rad_per_s = 0.5;         // at the road wheel; [0.1, 2]
+  double throttle_rise_per_s = 2.0;          // fraction per second; [0.1, 10]
+  double brake_fall_kpa_per_s = 30000.0;     // [1000, 60000]
+  Duration shift_least = milliseconds(150);  // one gear at a time; [0.1, 2] s
+  double brake_rise_kpa_per_s = 15000.0;     // [1000, 30000]
+  bool go_needs_driving_state = true;        // drive-by-wire must say "driving" first
 };
 
 enum class Follow : std::uint8_t { kNone, kDrive, kStop };
@@ -71,8 +77,11 @@ struct SupervisorState {
   bool reset_was = false;
   bool standing = false;
   Instant standing_since{};
+  bool arm_used = false;        // an arm request arms once; cleared when it is withdrawn
   world::ActuatorCommand last;  // the last command that was chosen
   bool last_known = false;
+  Instant last_chosen{};
+  Instant last_shift{};
 };
 static_assert(std::is_trivially_copyable_v<SupervisorState>);
 
@@ -87,6 +96,7 @@ struct SupervisorOutput {
   bool actuate = false;       // armed: outbound sends actuator frames and the gate lets them pass
   double speed_mps = kUnset;  // by the wheels
   bool standstill = false;
+  bool limited = false;  // the slew limits changed the command
 };
 
 SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& state,

@@ -1,8 +1,8 @@
 // Is everything still alive? One row per stream: when it was last heard, how old that is, and what
-// the age means by the row's limits. Ages decide, not rates: a stream that misses its rate grows old.
-//   in     the samples of this tick, the signals and flags heard so far, the instants of the planner
-//          and of the radio
-//   out    one row per stream: good, warning, bad or never
+// the age means by the row's limits. Ages decide: a stream that misses its rate grows old.
+//   in     the samples of this tick, the signals and flags heard so far, the instants of the
+//          planner and of the radio
+//   out    one row per stream: good, warning, bad, never heard, or not watched
 //   errors none
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -25,7 +25,7 @@ enum class Stream : std::uint8_t {
   kGnss0Position,
   kGnss1Position,  // a position message, whatever it says
   kGnss0Solution,
-  kGnss1Solution,  // a position that is computed and RTK (fixed or float)
+  kGnss1Solution,  // a position with a computed solution of any quality
   kGnss0Velocity,
   kGnss1Velocity,
   kGnss0Heading,
@@ -45,12 +45,12 @@ enum class Stream : std::uint8_t {
 };
 inline constexpr std::size_t kStreams = 22;
 
-enum class Health : std::uint8_t { kNever, kGood, kWarning, kBad };
+enum class Health : std::uint8_t { kUnwatched, kNever, kGood, kWarning, kBad };
 
 struct StreamLimit {
   Stream stream;
   const char* name;
-  bool watched;      // false: the car has no such stream; the row stays kNever and never counts
+  bool watched;      // false: the car has no such stream
   Duration warning;  // older than this is a warning; (0, bad)
   Duration bad;      // older than this is bad; [20 ms, 60 s]
 };
@@ -100,7 +100,7 @@ struct WatchdogInputs {
 
 struct StreamRow {
   Stream stream = Stream::kGnss0Link;
-  Health health = Health::kNever;
+  Health health = Health::kUnwatched;
   Duration age{};  // since the last; zero where never
 };
 

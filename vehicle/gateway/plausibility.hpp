@@ -1,0 +1,96 @@
+// May a decoded value be believed? Ranges of the parameters, and slews of the database's side file
+// in the time that passed since the value accepted before.
+//   in     values in any unit for ranges, in units of the database for slews
+//   out    Reading; settle() remembers the values, all of one frame or none
+//   errors by value
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+
+#include "protocol/can/av21.hpp"
+#include "vehicle/gateway/inbound.hpp"
+#include "vehicle/gateway/readings.hpp"
+
+namespace pitwall::gateway {
+
+// Of the physical values of equal raw steps.
+inline constexpr double kRounding = 1e-9;
+
+struct Context {
+  const InboundParams& params;
+  InboundState& state;
+  Instant at;
+};
+
+// A value with the range it must lie in.
+struct Ranged {
+  double value;
+  Span span;
+};
+
+template <std::size_t N>
+Reading in_range(const std::array<Ranged, N>& values) {
+  for (const Ranged& r : values) {
+    if (!std::isfinite(r.value)) return Reading::kNotFinite;
+    if (r.value < r.span.min || r.value > r.span.max) return Reading::kOutOfRange;
+  }
+  return Reading::kApplied;
+}
+
+// A signal without a limit.
+inline constexpr std::size_t kNoLimit = can::av21::kSlews.size();
+
+constexpr std::size_t slew_row(std::uint32_t id, std::string_view signal) {
+  for (std::size_t i = 0; i < can::av21::kSlews.size(); ++i)
+    if (can::av21::kSlews[i].id == id && can::av21::kSlews[i].signal == signal) return i;
+  return kNoLimit;
+}
+
+constexpr Duration period_of(std::uint32_t id) {
+  for (const can::MessageRow& row : can::av21::kMessages)
+    if (row.id == id) return row.period;
+  return {};
+}
+
+// A new value of a row of kSlews, in units of the database.
+struct Change {
+  std::size_t row;
+  double value;
+};
+
+inline bool too_fast(const Context& c, const Change& change) {
+  if (change.row == kNoLimit) return false;
+  const SlewTrack& track = c.state.slews[change.row];
+  if (std::isnan(track.value)) return false;
+  const can::SlewRow& limit = can::av21::kSlews[change.row];
+  const Duration passed = std::max(c.at - track.at, period_of(limit.id));
+  return std::abs(change.value - track.value) > limit.max_per_s * passed.seconds() + kRounding;
+}
+
+// All or none.
+template <std::size_t N>
+Reading settle(Context& c, const std::array<Change, N>& changes) {
+  for (const Change& change : changes)
+    if (too_fast(c, change)) return Reading::kImplausibleSlew;
+  for (const Change& change : changes)
+    if (change.row != kNoLimit) c.state.slews[change.row] = {change.value, c.at};
+  return Reading::kApplied;
+}
+
+template <std::size_t R, std::size_t N>
+Reading accept(Context& c, const std::array<Ranged, R>& ranged,
+               const std::array<Change, N>& changes) {
+  const Reading range = in_range(ranged);
+  return range == Reading::kApplied ? settle(c, changes) : range;
+}
+template <std::size_t R>
+Reading accept(Context&, const std::array<Ranged, R>& ranged) {
+  return in_range(ranged);
+}
+
+}  // namespace pitwall::gateway
