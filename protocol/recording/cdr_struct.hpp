@@ -1,4 +1,4 @@
-// Flat structs as ROS 2 messages, so that MCAP tools (Foxglove, PlotJuggler, @mcap) read each value.
+// Flat structs as ROS 2 messages, so that MCAP tools (Foxglove, PlotJuggler) read every value.
 // A struct S describes itself once, in its own namespace:
 //
 //   struct EgoSample { double speed_mps; std::uint8_t validity; };

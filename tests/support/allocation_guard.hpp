@@ -6,11 +6,19 @@
 
 #include <cstddef>
 
+#if defined(__SANITIZE_ADDRESS__)
+#define PITWALL_ADDRESS_SANITIZER
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define PITWALL_ADDRESS_SANITIZER
+#endif
+#endif
+
 namespace pitwall::testing {
 
 inline thread_local std::size_t allocation_count = 0;
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef PITWALL_ADDRESS_SANITIZER
 inline constexpr bool kAllocationsCounted = false;
 #else
 inline constexpr bool kAllocationsCounted = true;
@@ -25,7 +33,7 @@ std::size_t allocations_of(Work&& work) {
 
 }  // namespace pitwall::testing
 
-#ifndef __SANITIZE_ADDRESS__
+#ifndef PITWALL_ADDRESS_SANITIZER
 // glibc lets a program put its own in front: https://www.gnu.org/software/libc/manual, 3.2.5.
 extern "C" {
 void* __libc_malloc(std::size_t size);

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/tidy/include_rules.hpp"
+
+#include <algorithm>
+#include <regex>
+#include <set>
+#include <string_view>
+
+namespace pitwall::tidy {
+namespace {
+
+using Names = std::vector<std::string_view>;
+
+// Headers outside the tree, by what they bring in. "std" is every other header without '/' or '.'.
+struct Library {
+  std::string_view name;
+  Names headers;  // a header's full name, or the beginning of it when it ends with '/' or '_'
+};
+
+const std::vector<Library> kLibraries{
+    {"threads",
+     {"thread", "mutex", "condition_variable", "future", "shared_mutex", "stop_token", "semaphore",
+      "latch", "barrier", "pthread.h"}},
+    {"clocks", {"chrono", "ctime", "time.h", "sys/time.h", "sys/timerfd.h"}},
+    {"files", {"fstream", "filesystem"}},
+    {"console", {"iostream"}},
+    {"random", {"random"}},
+    {"assert", {"cassert", "assert.h"}},
+    {"system",
+     {"unistd.h", "fcntl.h",   "poll.h",   "sched.h", "signal.h", "csignal", "termios.h", "spawn.h",
+      "dirent.h", "netdb.h",   "errno.h",  "pty.h",   "sys/",     "net/",    "netinet/",  "arpa/",
+      "linux/",   "ifaddrs.h", "syslog.h", "dlfcn.h", "grp.h",    "pwd.h"}},
+    {"eigen", {"Eigen/"}},
+    {"yaml", {"yaml-cpp/"}},
+    {"cli", {"CLI/"}},
+    {"lapack", {"lapacke.h"}},
+    {"geographic", {"GeographicLib/"}},
+    {"pcl", {"pcl/"}},
+    {"opencv", {"opencv2/"}},
+    {"sodium", {"sodium.h"}},
+    {"lcm", {"lcm/"}},
+    {"dds", {"fastdds/", "fastrtps/", "fastcdr/"}},
+    {"boost", {"boost/"}},
+    {"zlib", {"zlib.h"}},
+    {"embree", {"embree3/", "embree4/"}},
+    {"spiro", {"spiroentrypoints.h", "bezctx.h"}},
+    {"test", {"gtest/", "gmock/", "benchmark/"}},
+};
+
+struct Part {
+  std::string_view path;  // a folder or a file; the longest that fits decides
+  Names may_include;      // besides its own folder
+  Names libraries;        // besides std
+};
+
+const Names kRim{"threads", "clocks", "files", "console", "system"};
+
+Names rim_and(Names more) {
+  more.insert(more.end(), kRim.begin(), kRim.end());
+  return more;
+}
+
+const Names kShared{"protocol/vocabulary", "protocol/bits"};
+const Names kAutonomy{"vehicle/world", "protocol/vocabulary"};
+const Names kBench{"hil",      "vehicle/pipeline",   "vehicle/world",      "vehicle/parameters",
+                   "protocol", "basestation/intake", "basestation/picture"};
+
+const std::vector<Part> kParts{
+    {"protocol/vocabulary", {}, {}},
+    {"protocol/vocabulary/check.hpp", {}, {}},
+    {"protocol/bits", {"protocol/vocabulary"}, {}},
+    {"protocol/yaml", {"protocol/vocabulary"}, {"yaml", "files"}},
+    {"protocol/can", {"protocol/vocabulary", "protocol/bits", "protocol/yaml"}, {"yaml"}},
+    {"protocol/telemetry", kShared, {}},
+    {"protocol/telemetry/session.hpp", kShared, {"sodium"}},
+    {"protocol/telemetry/session.cpp", kShared, {"sodium"}},
+    {"protocol/recording", kShared, {}},
+    {"protocol/ros", kShared, {}},
+    {"protocol/gnss", kShared, {}},
+    {"protocol/transport", {"protocol/vocabulary", "protocol/can/frame.hpp"}, rim_and({})},
+    {"vehicle/world", {"protocol/vocabulary"}, {}},
+    {"vehicle/gateway", {"vehicle/world", "protocol/can", "protocol/vocabulary"}, {}},
+    {"vehicle/autonomy", kAutonomy, {"eigen"}},
+    {"vehicle/autonomy/perception", kAutonomy, {"eigen", "pcl", "opencv"}},
+    {"vehicle/autonomy/localization", kAutonomy, {"eigen", "geographic"}},
+    {"vehicle/autonomy/tracking", kAutonomy, {"eigen"}},
+    {"vehicle/autonomy/planning", kAutonomy, {"eigen"}},
+    {"vehicle/autonomy/control", kAutonomy, {"eigen", "lapack"}},
+    {"vehicle/safety", {"vehicle/world", "protocol/can", "protocol/vocabulary"}, {}},
+    {"vehicle/pipeline",
+     {"vehicle/world", "vehicle/gateway", "vehicle/autonomy", "vehicle/safety",
+      "protocol/telemetry", "protocol/can", "protocol/vocabulary"},
+     {"eigen"}},
+    {"vehicle/parameters",
+     {"vehicle/world", "vehicle/pipeline", "protocol/vocabulary", "protocol/yaml"},
+     {"yaml"}},
+    {"vehicle/raceline",
+     {"vehicle/world", "vehicle/autonomy/planning", "protocol/vocabulary", "protocol/yaml"},
+     {"eigen", "spiro"}},
+    {"vehicle/io", {"vehicle", "protocol"}, rim_and({"dds"})},
+    {"basestation/intake", {"basestation", "protocol"}, rim_and({})},
+    {"basestation/outlets", {"basestation", "protocol"}, rim_and({"dds", "lcm", "boost", "zlib"})},
+    {"basestation/picture", {"protocol/telemetry", "protocol/vocabulary"}, {}},
+    {"basestation/command", {"protocol/telemetry", "protocol/vocabulary"}, {}},
+    {"basestation/replay", {"basestation", "protocol"}, {}},
+    {"hil", kBench, {"eigen"}},
+    {"hil/scenario", kBench, {"yaml"}},
+    {"hil/replay", kBench, {"zlib"}},
+    {"hil/sensors", kBench, {"eigen", "embree", "geographic"}},
+    {"hil/bench", kBench, rim_and({"eigen"})},
+    {"hil/guest", kBench, rim_and({})},
+    {"hil/sweep", kBench, rim_and({})},
+    {"tests", {"protocol", "vehicle", "basestation", "hil"}, {"*"}},
+};
+
+// A main.cpp wires: its whole top-level folder and the protocol, and the system.
+Part part_of_main(const std::string& path) {
+  const std::string_view top = std::string_view{path}.substr(0, path.find('/'));
+  Names may{"protocol", top};
+  if (top == "hil") may.insert(may.end(), {"vehicle", "basestation"});
+  return {path, may, rim_and({"cli", "yaml"})};
+}
+
+Part part_of(const std::string& path) {
+  if (!lies_in(path, "tests") && path.ends_with("/main.cpp")) return part_of_main(path);
+  const Part* best = nullptr;
+  for (const Part& part : kParts) {
+    if (lies_in(path, part.path) && (!best || part.path.size() > best->path.size())) best = &part;
+  }
+  return best ? *best : Part{"", {}, {}};
+}
+
+bool is_header_of(std::string_view target, std::string_view header) {
+  return header.ends_with('/') ? target.starts_with(header) : target == header;
+}
+
+std::string_view library_of(std::string_view target) {
+  for (const Library& library : kLibraries) {
+    for (const std::string_view header : library.headers) {
+      if (is_header_of(target, header)) return library.name;
+    }
+  }
+  return target.find_first_of("./") == std::string_view::npos ? "std" : "unknown";
+}
+
+bool may_include(const Part& part, const std::string& folder, const std::string& target) {
+  if (folder_of(target) == folder || lies_in(folder, "tests")) return true;
+  // The folder of a part is one with its subfolders.
+  if (!part.path.ends_with(".cpp") && lies_in(target, part.path) && part.path != "hil" &&
+      part.path != "vehicle/autonomy") {
+    return true;
+  }
+  // The parameter file is read into the parameter structs of every module.
+  if (part.path == "vehicle/parameters" && lies_in(target, "vehicle") &&
+      target.find("param") != std::string::npos) {
+    return true;
+  }
+  return std::ranges::any_of(part.may_include, [&](auto may) { return lies_in(target, may); });
+}
+
+bool may_use(const Part& part, std::string_view library) {
+  return library == "std" || std::ranges::find(part.libraries, "*") != part.libraries.end() ||
+         std::ranges::find(part.libraries, library) != part.libraries.end();
+}
+
+}  // namespace
+
+std::vector<Include> includes_of(const SourceFile& file) {
+  static const std::regex kInclude{R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])"};
+  static const std::regex kDirective{R"(^\s*#\s*include\b)"};
+  const std::vector<std::string> lines = split_lines(file.text);
+  const std::vector<std::string> code = split_lines(file.code);
+  std::vector<Include> includes;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    std::smatch match;
+    if (!std::regex_search(code[i], kDirective)) continue;  // in a comment
+    if (!std::regex_search(lines[i], match, kInclude)) continue;
+    includes.push_back({match[2], match[1] == "\"", i + 1});
+  }
+  return includes;
+}
+
+std::vector<Finding> check_include_table(const SourceFile& file) {
+  std::vector<Finding> findings;
+  if (!is_cpp(file)) return findings;
+  const Part part = part_of(file.path);
+  const std::string folder = folder_of(file.path);
+  static const std::set<std::string, std::less<>> kTops{"protocol", "vehicle", "basestation", "hil",
+                                                        "tests"};
+  for (const Include& include : includes_of(file)) {
+    const std::string target = include.target;
+    const bool ours = kTops.contains(target.substr(0, target.find('/')));
+    if (ours && !include.quoted) {
+      findings.push_back({file.path, include.line, "write \"" + target + "\" with quotes"});
+    } else if (include.quoted && !ours) {
+      findings.push_back({file.path, include.line, target + " is no full path from the root"});
+    } else if (ours && !may_include(part, folder, target)) {
+      findings.push_back({file.path, include.line, folder + " may not include " + target});
+    } else if (!ours && !may_use(part, library_of(target))) {
+      findings.push_back(
+          {file.path, include.line,
+           folder + " may not use <" + target + "> (" + std::string{library_of(target)} + ")"});
+    }
+  }
+  if (part.path.empty()) findings.push_back({file.path, 0, "the include table has no such part"});
+  return findings;
+}
+
+std::vector<Finding> check_own_header_first(const SourceFile& file, bool has_header) {
+  if (!file.path.ends_with(".cpp") || !has_header) return {};
+  const std::string own = folder_of(file.path) + "/" + stem_of(file.path) + ".hpp";
+  const std::vector<Include> includes = includes_of(file);
+  if (!includes.empty() && includes.front().target == own) return {};
+  return {{file.path, includes.empty() ? 0 : includes.front().line, "include " + own + " first"}};
+}
+
+}  // namespace pitwall::tidy

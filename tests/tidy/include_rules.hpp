@@ -1,0 +1,25 @@
+// Who may include whom: the table of the design as data, and the rules about #include lines.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/tidy/source_tree.hpp"
+
+namespace pitwall::tidy {
+
+struct Include {
+  std::string target;
+  bool quoted = false;
+  std::size_t line = 0;
+};
+
+std::vector<Include> includes_of(const SourceFile& file);
+
+// Project headers and libraries that a part may not include.
+std::vector<Finding> check_include_table(const SourceFile& file);
+// x.cpp includes x.hpp first, where there is one (`has_header`).
+std::vector<Finding> check_own_header_first(const SourceFile& file, bool has_header);
+
+}  // namespace pitwall::tidy

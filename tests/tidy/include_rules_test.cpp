@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/tidy/include_rules.hpp"
+
+#include <gtest/gtest.h>
+
+namespace pitwall::tidy {
+namespace {
+
+bool passes(const std::string& path, const std::string& include) {
+  return check_include_table(make_source(path, "#include " + include + "\n")).empty();
+}
+
+struct Case {
+  std::string path, include;
+};
+
+TEST(IncludeTable, WhatTheDesignAllowsPasses) {
+  const std::vector<Case> cases{
+      {"protocol/vocabulary/time.hpp", "<compare>"},
+      {"protocol/can/decode.cpp", "\"protocol/bits/crc.hpp\""},
+      {"protocol/can/manifest.cpp", "\"protocol/yaml/document.hpp\""},
+      {"protocol/recording/x.cpp", "\"protocol/recording/y.hpp\""},
+      {"protocol/telemetry/export/lua.cpp", "\"protocol/telemetry/registry.hpp\""},
+      {"protocol/telemetry/session.cpp", "<sodium.h>"},
+      {"protocol/transport/udp_socket.cpp", "<sys/socket.h>"},
+      {"protocol/transport/can_socket.hpp", "\"protocol/can/frame.hpp\""},
+      {"vehicle/gateway/inbound.cpp", "\"protocol/can/av21.hpp\""},
+      {"vehicle/autonomy/control/lqr.cpp", "<lapacke.h>"},
+      {"vehicle/autonomy/localization/ltp.cpp", "<GeographicLib/LocalCartesian.hpp>"},
+      {"vehicle/autonomy/planning/plan.cpp", "<Eigen/Dense>"},
+      {"vehicle/autonomy/planning/plan.cpp", "\"vehicle/world/trajectory.hpp\""},
+      {"vehicle/pipeline/step.cpp", "\"vehicle/autonomy/control/lqr.hpp\""},
+      {"vehicle/pipeline/step.cpp", "\"vehicle/safety/supervisor.hpp\""},
+      {"vehicle/parameters/reader.cpp", "\"vehicle/safety/gate_params.hpp\""},
+      {"vehicle/main.cpp", "\"vehicle/pipeline/step.hpp\""},
+      {"vehicle/main.cpp", "<CLI/CLI.hpp>"},
+      {"hil/bench/lockstep.cpp", "\"vehicle/pipeline/step.hpp\""},
+      {"hil/bench/live.cpp", "<thread>"},
+      {"hil/plant/tyre.cpp", "<Eigen/Dense>"},
+      {"hil/race/judge.cpp", "\"basestation/picture/picture.hpp\""},
+      {"hil/main.cpp", "\"basestation/intake/intake.hpp\""},
+      {"tests/hil/x_test.cpp", "\"vehicle/safety/supervisor.hpp\""},
+      {"tests/hil/x_test.cpp", "<gtest/gtest.h>"},
+  };
+  for (const Case& c : cases) EXPECT_TRUE(passes(c.path, c.include)) << c.path << c.include;
+}
+
+TEST(IncludeTable, WhatTheDesignForbidsIsFound) {
+  const std::vector<Case> cases{
+      {"protocol/vocabulary/time.hpp", "\"protocol/can/frame.hpp\""},
+      {"protocol/can/decode.cpp", "\"protocol/telemetry/registry.hpp\""},
+      {"protocol/telemetry/packet.cpp", "<sodium.h>"},
+      {"protocol/telemetry/packet.cpp", "<sys/socket.h>"},
+      {"protocol/recording/x.cpp", "<fstream>"},
+      {"protocol/recording/x.cpp", "\"protocol/ros/cdr.hpp\""},
+      {"protocol/transport/clock.cpp", "\"protocol/can/decode.hpp\""},
+      {"vehicle/world/ego_state.hpp", "\"vehicle/gateway/inbound.hpp\""},
+      {"vehicle/gateway/inbound.cpp", "\"vehicle/autonomy/control/lqr.hpp\""},
+      {"vehicle/gateway/inbound.cpp", "\"protocol/transport/clock.hpp\""},
+      {"vehicle/autonomy/planning/plan.cpp", "\"vehicle/autonomy/control/lqr.hpp\""},
+      {"vehicle/autonomy/planning/plan.cpp", "\"protocol/can/frame.hpp\""},
+      {"vehicle/autonomy/planning/plan.cpp", "<chrono>"},
+      {"vehicle/autonomy/planning/plan.cpp", "<lapacke.h>"},
+      {"vehicle/autonomy/tracking/track.cpp", "<opencv2/core.hpp>"},
+      {"vehicle/safety/supervisor.cpp", "\"vehicle/autonomy/planning/plan.hpp\""},
+      {"vehicle/pipeline/step.cpp", "\"protocol/transport/clock.hpp\""},
+      {"vehicle/pipeline/step.cpp", "\"vehicle/io/radio.hpp\""},
+      {"vehicle/pipeline/step.cpp", "\"hil/bench/lockstep.hpp\""},
+      {"vehicle/parameters/reader.cpp", "\"vehicle/safety/supervisor.hpp\""},
+      {"basestation/picture/picture.cpp", "\"basestation/outlets/web.hpp\""},
+      {"basestation/picture/picture.cpp", "\"vehicle/world/mode.hpp\""},
+      {"hil/plant/tyre.cpp", "\"vehicle/safety/supervisor.hpp\""},
+      {"hil/plant/tyre.cpp", "<thread>"},
+      {"hil/race/judge.cpp", "\"basestation/command/desk.hpp\""},
+      {"vehicle/safety/supervisor.cpp", "<iostream>"},
+      {"hil/plant/tyre.cpp", "<unheard/of.h>"},
+      {"hil/plant/tyre.cpp", "<hil/plant/car.hpp>"},
+      {"hil/plant/tyre.cpp", "\"car.hpp\""},
+      {"nowhere/x.cpp", "<vector>"},
+  };
+  for (const Case& c : cases) EXPECT_FALSE(passes(c.path, c.include)) << c.path << c.include;
+}
+
+TEST(IncludeTable, AnIncludeInACommentIsNone) {
+  EXPECT_TRUE(
+      includes_of(make_source("a/b.hpp", "// #include <thread>\n/*\n#include <x>\n*/")).empty());
+  const auto found = includes_of(make_source("a/b.hpp", "\n#  include <thread>  // why\n"));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].target, "thread");
+  EXPECT_EQ(found[0].line, 2U);
+}
+
+TEST(OwnHeader, ComesFirstWhereThereIsOne) {
+  const std::string good = "// SPDX\n#include \"a/b.hpp\"\n\n#include <vector>\n";
+  const std::string bad = "#include <vector>\n\n#include \"a/b.hpp\"\n";
+  EXPECT_TRUE(check_own_header_first(make_source("a/b.cpp", good), true).empty());
+  EXPECT_FALSE(check_own_header_first(make_source("a/b.cpp", bad), true).empty());
+  EXPECT_FALSE(check_own_header_first(make_source("a/b.cpp", ""), true).empty());
+  EXPECT_TRUE(check_own_header_first(make_source("a/b.cpp", bad), false).empty());
+  EXPECT_TRUE(check_own_header_first(make_source("a/b.hpp", bad), true).empty());
+}
+
+}  // namespace
+}  // namespace pitwall::tidy

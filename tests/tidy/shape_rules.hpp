@@ -1,0 +1,29 @@
+// Rules about the size of files and functions, names of files, and tests that mirror the tree.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/tidy/source_tree.hpp"
+
+namespace pitwall::tidy {
+
+struct FunctionSpan {
+  std::size_t first_line = 0, last_line = 0;
+
+  std::size_t lines() const { return last_line - first_line + 1; }
+};
+
+// Functions defined at namespace or class level, found by matching braces; lambdas belong to the
+// function around them.
+std::vector<FunctionSpan> functions_of(const SourceFile& file);
+
+std::vector<Finding> check_file_size(const SourceFile& file);
+std::vector<Finding> check_function_size(const SourceFile& file);
+std::vector<Finding> check_file_name(const SourceFile& file);
+// Over the whole tree: every .cpp but main.cpp, and every header with logic and no .cpp, has its
+// test at the same place under tests/.
+std::vector<Finding> check_mirrored_tests(const std::vector<SourceFile>& tree);
+
+}  // namespace pitwall::tidy

@@ -1,0 +1,41 @@
+// The text of the tree as the rules read it.
+//   out    files sorted by path; `code` is `text` with comments and the inside of literals blanked,
+//          so that a rule about code does not trip over words
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pitwall::tidy {
+
+struct SourceFile {
+  std::string path;  // from the root, with '/'
+  std::string text;
+  std::string code;  // as long as text, line for line
+};
+
+struct Finding {
+  std::string path;
+  std::size_t line = 0;  // from 1; 0: the file as a whole
+  std::string what;
+};
+
+SourceFile make_source(std::string path, std::string text);
+std::string blank_comments_and_literals(std::string_view text);
+std::vector<std::string> split_lines(std::string_view text);
+
+// Sources, scripts and build files below `root`, without build folders and npm packages.
+std::vector<SourceFile> read_tree(const std::filesystem::path& root);
+
+bool is_cpp(const SourceFile& file);
+bool is_header(const SourceFile& file);
+bool is_test(const SourceFile& file);
+std::string folder_of(const std::string& path);
+std::string stem_of(const std::string& path);
+// True when `path` is `prefix` or lies below it.
+bool lies_in(std::string_view path, std::string_view prefix);
+
+}  // namespace pitwall::tidy
