@@ -5,7 +5,7 @@
 //   law    angle = clamp(-K e); e1 = -(x - x*) sin psi* + (y - y*) cos psi*,
 //          e1' = vy cos e2 + vx sin e2, e2 = wrap(psi - psi*), e2' = map heading rate - vx kappa*,
 //          where * is the trajectory d = lookahead_base + lookahead_per_speed * vx ahead of the
-//          car's projection, seen from the car moved d ahead along its heading
+//          car's projection on it, and the car is where it is (as published)
 //   limit  |angle| <= angle_max_rad. Below gain_speed_floor_mps the first bracket's gain holds
 //   errors verdict; without a usable trajectory or ego the last angle is held. Too far away from the
 //          trajectory the law still acts, and the verdict says so
