@@ -1,0 +1,49 @@
+// Names of the values of enumerated fields, in the order of the enumerations of vehicle/world and
+// vehicle/safety, which this folder must not include; vehicle/pipeline/telemetry_tap compares them.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+namespace pitwall::telemetry {
+
+inline constexpr std::string_view kModes =
+    "disarmed|standby|driving|controlled stop|emergency stop|halted";
+inline constexpr std::string_view kCtStates =
+    "-|power on|initialized|actuator test|crank ready|cranking|race ready|init driving|caution|"
+    "nominal race|coordinated stop|controlled shutdown|emergency shutdown";
+inline constexpr std::string_view kSysStates =
+    "unknown|power on|subsystems connected|actuator testing|actuator test done|crank ready|"
+    "pre-crank check|cranking|engine running|driving|shut engine|power off|raptor off|"
+    "crank check init|actuator test failed|crank checks failed|emergency shutdown|"
+    "engine failed to start|critical limits exceeded|standby";
+inline constexpr std::string_view kTrackFlags =
+    "none|RED|ORANGE|YELLOW|GREEN|WAVING GREEN|CHEQUERED|UNKNOWN";
+inline constexpr std::string_view kVehicleFlags =
+    "none|BLACK PIT IN|BLUE|STOP|PURPLE EMERGENCY|ENGINE KILL|ORANGE START ENGINE|YELLOW|CHEQUERED|"
+    "DEFENDER|ATTACKER|UNKNOWN";
+inline constexpr std::string_view kValidities = "never|good|dead reckoning|lost";
+inline constexpr std::string_view kStopCauses =
+    "none|operator: emergency stop|purple flag|drive-by-wire: system failure|"
+    "drive-by-wire: emergency brake|drive-by-wire: steering lost|"
+    "drive-by-wire: emergency shutdown|operator: stop|operator: disarm|engine-kill flag|"
+    "drive-by-wire: engine lost|drive-by-wire: brake out of spec|"
+    "drive-by-wire: critical limits|drive-by-wire: does not hear us|"
+    "another node sends our CAN ids|CAN message lost|frame gate refused commands|"
+    "control failed|planning failed or late|localization lost|dead reckoning too long|"
+    "position too uncertain|GNSS unit disconnected|GNSS: both units miss the rate|"
+    "GNSS: both units lost the solution|IMU: both units lost|race control lost|"
+    "race control lost, says the drive-by-wire|base station lost";
+
+// The name at this place of "a|b|c"; empty past the end.
+constexpr std::string_view label_at(std::string_view labels, std::size_t index) {
+  for (; index > 0; --index) {
+    const std::size_t bar = labels.find('|');
+    if (bar == std::string_view::npos) return {};
+    labels.remove_prefix(bar + 1);
+  }
+  return labels.substr(0, labels.find('|'));
+}
+
+}  // namespace pitwall::telemetry

@@ -1,0 +1,149 @@
+#include "protocol/telemetry/state_packet.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "protocol/bits/crc.hpp"
+#include "protocol/telemetry/bit_cursor.hpp"
+
+namespace pitwall::telemetry {
+namespace {
+
+constexpr std::uint8_t kMagic0 = 'P', kMagic1 = 'W';
+constexpr std::uint8_t kSimulationFlag = 0x01;
+constexpr std::uint64_t kNeverSampled = (std::uint64_t{1} << kAgeBits) - 1;
+constexpr std::size_t kVersionAt = 2, kFlagsAt = 3, kSchemaAt = 4, kRunAt = 8, kSequenceAt = 12,
+                      kSentAt = 16;
+
+template <class T>
+void store(std::span<std::uint8_t> bytes, std::size_t at, T value) {
+  for (std::size_t i = 0; i < sizeof(T); ++i) {
+    bytes[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
+  }
+}
+
+template <class T>
+T load(std::span<const std::uint8_t> bytes, std::size_t at) {
+  T value = 0;
+  for (std::size_t i = 0; i < sizeof(T); ++i) {
+    value = static_cast<T>(value | static_cast<T>(bytes[at + i]) << (8 * i));
+  }
+  return value;
+}
+
+std::uint64_t code_of(const FieldRow& row, double value, EncodeCounters& counters) {
+  if (!std::isfinite(value)) {
+    if (!std::isnan(value)) ++counters.not_finite;
+    return row.unset_code();
+  }
+  // Half a step beyond the range still rounds into it.
+  const double half = 0.5 * row.resolution;
+  if (value < row.min - half || value > row.max + half) ++counters.saturated;
+  const double steps = std::floor((value - row.min) / row.resolution + 0.5);
+  const double last = static_cast<double>(row.steps());
+  return static_cast<std::uint64_t>(std::fmax(0.0, std::fmin(last, steps)));
+}
+
+std::uint64_t code_of(Duration age) {
+  if (age.ns < 0) return kNeverSampled;
+  return static_cast<std::uint64_t>(std::min(age, kMaxSampleAge).ns / 1'000);
+}
+
+PacketError check_envelope(std::span<const std::uint8_t> bytes, bool& good) {
+  good = false;
+  if (bytes.size() < kHeaderBytes + kChecksumBytes) return PacketError::kTooShort;
+  if (bytes[0] != kMagic0 || bytes[1] != kMagic1) return PacketError::kBadMagic;
+  // First the checksum, so that damage is never taken for a sender of another version.
+  const std::size_t covered = bytes.size() - kChecksumBytes;
+  if (bits::crc32_ieee(bytes.first(covered)) != load<std::uint32_t>(bytes, covered)) {
+    return PacketError::kBadChecksum;
+  }
+  if (bytes[kVersionAt] != kWireVersion) return PacketError::kOtherVersion;
+  if (load<std::uint32_t>(bytes, kSchemaAt) != kSchemaHash) return PacketError::kOtherSchema;
+  if (bytes.size() != kStatePacketBytes) return PacketError::kWrongLength;
+  if ((bytes[kFlagsAt] & ~kSimulationFlag) != 0) return PacketError::kBadFlags;
+  good = true;
+  return {};
+}
+
+}  // namespace
+
+std::span<const std::uint8_t> encode(const StatePacket& packet, PacketBuffer& buffer,
+                                     EncodeCounters& counters) {
+  const std::span<std::uint8_t> bytes{buffer};
+  bytes[0] = kMagic0;
+  bytes[1] = kMagic1;
+  bytes[kVersionAt] = kWireVersion;
+  bytes[kFlagsAt] = packet.source == Source::kSimulation ? kSimulationFlag : 0;
+  store(bytes, kSchemaAt, kSchemaHash);
+  store(bytes, kRunAt, packet.run);
+  store(bytes, kSequenceAt, packet.sequence);
+  store(bytes, kSentAt, static_cast<std::uint64_t>(packet.sent.ns / 1'000));
+
+  BitWriter out{bytes.subspan(kHeaderBytes)};
+  for (const Duration age : packet.sample_age) out.put(code_of(age), kAgeBits);
+  for (FieldIndex i = 0; i < kFieldCount; ++i) {
+    out.put(code_of(kFields[i], packet.values[i], counters), kFields[i].bits());
+  }
+  out.align();
+  CHECK(kHeaderBytes + out.bytes() + kChecksumBytes == kStatePacketBytes);
+
+  const std::size_t covered = kStatePacketBytes - kChecksumBytes;
+  store(bytes, covered, bits::crc32_ieee(bytes.first(covered)));
+  ++counters.packets;
+  return bytes;
+}
+
+Result<StatePacket, PacketError> parse(std::span<const std::uint8_t> bytes) {
+  bool good = false;
+  const PacketError reason = check_envelope(bytes, good);
+  if (!good) return Unexpected{reason};
+
+  StatePacket packet;
+  packet.source = (bytes[kFlagsAt] & kSimulationFlag) != 0 ? Source::kSimulation : Source::kCar;
+  packet.run = load<std::uint32_t>(bytes, kRunAt);
+  packet.sequence = load<std::uint32_t>(bytes, kSequenceAt);
+  constexpr std::uint64_t kMaxSent_us = 0x7FFF'FFFF'FFFF'FFFF / 1'000;  // fits Instant
+  const std::uint64_t sent_us = load<std::uint64_t>(bytes, kSentAt);
+  if (sent_us > kMaxSent_us) return Unexpected{PacketError::kBadCode};
+  packet.sent = {static_cast<std::int64_t>(sent_us) * 1'000};
+
+  BitReader in{bytes.subspan(kHeaderBytes, kStatePacketBytes - kHeaderBytes - kChecksumBytes)};
+  for (Duration& age : packet.sample_age) {
+    const std::uint64_t code = in.get(kAgeBits);
+    if (code != kNeverSampled) age = microseconds(static_cast<std::int64_t>(code));
+  }
+  for (FieldIndex i = 0; i < kFieldCount; ++i) {
+    const FieldRow& row = kFields[i];
+    const std::uint64_t code = in.get(row.bits());
+    if (code == row.unset_code()) continue;
+    if (code > row.steps()) return Unexpected{PacketError::kBadCode};
+    packet.values[i] = row.min + static_cast<double>(code) * row.resolution;
+  }
+  if (in.rest_of_byte() != 0) return Unexpected{PacketError::kBadCode};
+  return packet;
+}
+
+const char* text_of(PacketError error) {
+  switch (error) {
+    case PacketError::kTooShort:
+      return "too short";
+    case PacketError::kBadMagic:
+      return "not a pitwall packet";
+    case PacketError::kBadChecksum:
+      return "damaged";
+    case PacketError::kOtherVersion:
+      return "other wire version";
+    case PacketError::kOtherSchema:
+      return "other registry";
+    case PacketError::kWrongLength:
+      return "wrong length";
+    case PacketError::kBadFlags:
+      return "unknown flags";
+    case PacketError::kBadCode:
+      return "impossible value";
+  }
+  return "?";
+}
+
+}  // namespace pitwall::telemetry
