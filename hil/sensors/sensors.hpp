@@ -7,6 +7,8 @@
 //   noise  own generators, one stream per sensor and unit: the same seed gives the same samples,
 //          and a fault of one sensor changes no other. Position noise is correlated in time
 //          (Gauss-Markov), as RTK is.
+//   not modelled  height of the banked surface (the road is a plane), lever arm of the IMU, biases
+//          that drift
 //   errors none; a full list in SensorInput counts in its `overflows`
 //   source rates: BESTPOS 20 Hz, BESTVEL 20 Hz, HEADING2 1 Hz, IMU 125 Hz
 // SPDX-License-Identifier: Apache-2.0
@@ -14,6 +16,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numbers>
 
 #include "hil/plant/plant.hpp"
 #include "hil/sensors/noise.hpp"
@@ -38,13 +41,18 @@ struct UnitParams {
 
 struct Params {
   double datum_latitude_deg = kUnset, datum_longitude_deg = kUnset, datum_height_m = kUnset;
-  // Front and rear antenna lines of the AV-21; offsets as published for the car, estimates for z.
-  std::array<UnitParams, world::kGnssUnits> unit{UnitParams{.antenna = {0.0, 0.0, 0.7},
-                                                            .position_phase = milliseconds(10),
-                                                            .imu_phase = milliseconds(1)},
-                                                 UnitParams{.antenna = {0.76, -0.50, 0.14},
-                                                            .position_phase = milliseconds(35),
-                                                            .imu_phase = milliseconds(5)}};
+  // Antennas of the AV-21 as published from the rear axle and the ground (top 1.242 / 0 / 0.956 m,
+  // front 3.175 / 0 / 0.408, right 2.005 / -0.497 / 0.389, left). Which unit has which is assumed:
+  // unit 0 top and front, unit 1 right and left, the first named being the primary.
+  std::array<UnitParams, world::kGnssUnits> unit{
+      UnitParams{.antenna = {-0.005, 0.0, 0.676},
+                 .baseline_yaw_rad = 0.0,
+                 .position_phase = milliseconds(10),
+                 .imu_phase = milliseconds(1)},
+      UnitParams{.antenna = {0.758, -0.497, 0.109},
+                 .baseline_yaw_rad = std::numbers::pi / 2.0,
+                 .position_phase = milliseconds(35),
+                 .imu_phase = milliseconds(5)}};
   Duration position_period = milliseconds(50), heading_period = seconds(1),
            imu_period = milliseconds(8);
   Duration position_latency = milliseconds(30), velocity_latency = milliseconds(35),
@@ -60,9 +68,11 @@ struct Params {
   std::uint8_t satellites = 18;
 };
 
+// kNone is sent as the receiver sends it: status "insufficient observations", all numbers zero.
 enum class Fix : std::uint8_t { kRtkFixed, kRtkFloat, kSingle, kNone };
 
-// What a scenario may do to a unit; set at any time.
+// What a scenario may do to a unit; set at any time. Noise is drawn all the same, so that the
+// samples after a fault are those of a run without it.
 struct UnitFault {
   bool outage = false;           // nothing is sent
   bool position_frozen = false;  // the last position is sent again and again with new times
