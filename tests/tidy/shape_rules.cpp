@@ -87,6 +87,7 @@ class BraceMatcher {
     } else {
       if (head_.find_first_not_of(" \n") == std::string::npos) first_line_ = line_;
       head_ += c == '\n' ? ' ' : c;
+      if (c == ':' && is_access(head_)) head_.clear();
     }
   }
   void open() {
@@ -95,7 +96,7 @@ class BraceMatcher {
       keep_head_ = true;
       return;
     }
-    const Block block = classify(access_removed(head_));
+    const Block block = classify(head_);
     if (block == Block::kScope) {
       head_.clear();
       return;
@@ -103,9 +104,9 @@ class BraceMatcher {
     depth_ = 1;
     in_function_ = block == Block::kFunction;
   }
-  static std::string access_removed(const std::string& head) {
-    static const std::regex kAccess{R"(^\s*(public|private|protected)\s*:)"};
-    return std::regex_replace(head, kAccess, "");
+  static bool is_access(const std::string& head) {
+    static const std::regex kAccess{R"(^\s*(public|private|protected)\s*:$)"};
+    return std::regex_match(head, kAccess);
   }
   bool is_line_start() const {
     const std::size_t begin = code_.rfind('\n', at_) + 1;

@@ -79,6 +79,8 @@ TEST(UsingNamespace, IsForSourcesOnly) {
   EXPECT_TRUE(check_using_namespace(make_source("a/b.cpp", "using namespace std;")).empty());
   EXPECT_TRUE(
       check_using_namespace(make_source("a/b.hpp", "namespace x { using std::a; }")).empty());
+  const std::string local = "inline int f() {\n  using namespace detail;\n  return g();\n}\n";
+  EXPECT_TRUE(check_using_namespace(make_source("a/b.hpp", local)).empty());
 }
 
 TEST(Leftovers, AreFoundInCommentsAndOnlyAsWords) {
