@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/plant/plant.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <vector>
+
+namespace pitwall::plant {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kStep_s = 0.001;
+
+Actuation drive(double motor_rad, double throttle, double brake_kpa, std::uint8_t gear) {
+  return {.steering_motor_rad = motor_rad,
+          .throttle_fraction = throttle,
+          .brake_kpa = brake_kpa,
+          .gear = gear,
+          .ignition = true};
+}
+
+State at(double speed_mps, std::uint8_t gear, const Params& p = {}) {
+  return rolling(p, standing(p, 0.0, 0.0, 0.0), speed_mps, gear);
+}
+
+State run(const Params& p, State s, const Actuation& a, const Surface& road, double duration_s) {
+  const auto steps = std::lround(duration_s / kStep_s);
+  for (long i = 0; i < steps; ++i) s = step(p, s, a, road, kStep_s);
+  return s;
+}
+
+// ---- Mirror: left becomes right.
+Wheels mirrored(const Wheels& w) { return {w[1], w[0], w[3], w[2]}; }
+Wheels negated(Wheels w) {
+  for (double& v : w) v = -v;
+  return w;
+}
+
+State mirrored(State s) {
+  Motion& m = s.motion;
+  m.y_m = -m.y_m, m.yaw_rad = -m.yaw_rad, m.vy_mps = -m.vy_mps;
+  m.yaw_rate_rad_per_s = -m.yaw_rate_rad_per_s;
+  m.wheel_rad_per_s = mirrored(m.wheel_rad_per_s);
+  m.stretch_long_m = mirrored(m.stretch_long_m);
+  m.stretch_lat_m = negated(mirrored(m.stretch_lat_m));
+  m.load_ay_mps2 = -m.load_ay_mps2;
+  m.steering_motor_rad = -m.steering_motor_rad;
+  s.locked = {s.locked[1], s.locked[0], s.locked[3], s.locked[2]};
+  for (double& v : s.steering_delay_rad) v = -v;
+  s.tyre_c = mirrored(s.tyre_c);
+  return s;
+}
+
+void expect_same(const State& a, const State& b, double time_s) {
+  std::array<double, sizeof(Motion) / sizeof(double)> x{}, y{};
+  std::memcpy(x.data(), &a.motion, sizeof(Motion));
+  std::memcpy(y.data(), &b.motion, sizeof(Motion));
+  for (std::size_t i = 0; i < x.size(); ++i)
+    ASSERT_NEAR(x[i], y[i], 1e-12 * (1.0 + std::abs(x[i]))) << "entry " << i << " at " << time_s;
+}
+
+TEST(Plant, LeftAndRightAreMirrored) {
+  const Params p;
+  State left = at(40.0, 4), right = left;
+  for (int i = 0; i < 4000; ++i) {
+    const double t_s = i * kStep_s;
+    const double motor_rad = 1.1 * std::sin(3.0 * t_s) + 0.3;  // to the limit of grip and beyond
+    const double throttle = t_s < 2.0 ? 0.5 : 0.0, brake_kpa = t_s < 2.0 ? 0.0 : 1500.0;
+    const double bank_rad = 0.3 * std::sin(t_s);
+    left = step(p, left, drive(motor_rad, throttle, brake_kpa, 4), {.bank_rad = bank_rad}, kStep_s);
+    right =
+        step(p, right, drive(-motor_rad, throttle, brake_kpa, 4), {.bank_rad = -bank_rad}, kStep_s);
+    ASSERT_NO_FATAL_FAILURE(expect_same(left, mirrored(right), t_s));
+  }
+  EXPECT_GT(std::abs(left.motion.y_m), 1.0);
+}
+
+// ---- Energy.
+double kinetic_j(const Params& p, const Motion& m) {
+  double energy_j = 0.5 * p.chassis.mass_kg * (m.vx_mps * m.vx_mps + m.vy_mps * m.vy_mps) +
+                    0.5 * p.chassis.yaw_inertia_kgm2 * m.yaw_rate_rad_per_s * m.yaw_rate_rad_per_s;
+  for (const double w : m.wheel_rad_per_s) energy_j += 0.5 * p.front.wheel_inertia_kgm2 * w * w;
+  return energy_j;
+}
+
+TEST(Plant, CoastingNeverGainsEnergy) {
+  const Params p;
+  for (const double motor_rad : {0.0, 0.5, -2.0, 4.0})
+    for (const double brake_kpa : {0.0, 700.0, 5000.0}) {
+      State s = at(60.0, 0);
+      double before_j = kinetic_j(p, s.motion);
+      // The deflected tyres and the springs give back what they hold: far below 50 J.
+      for (int i = 0; i < 3000 && s.motion.vx_mps > 1.0; ++i) {
+        for (int k = 0; k < 5; ++k)
+          s = step(p, s, drive(motor_rad, 0.0, brake_kpa, 0), {}, kStep_s);
+        const double now_j = kinetic_j(p, s.motion);
+        ASSERT_LT(now_j, before_j + 50.0) << motor_rad << " " << brake_kpa << " step " << i;
+        before_j = now_j;
+      }
+      EXPECT_LT(before_j, 0.9 * kinetic_j(p, at(60.0, 0).motion));
+    }
+}
+
+// ---- Loads.
+TEST(Plant, LoadsCarryWeightDownforceAndBanking) {
+  const Params p;
+  for (const double bank_deg : {-10.0, 0.0, 9.0, 20.0})
+    for (const double speed_mps : {5.0, 30.0, 75.0})
+      for (const double yaw_rate : {-0.1, 0.0, 0.3}) {
+        State s = at(speed_mps, 5);
+        s.motion.yaw_rate_rad_per_s = yaw_rate;
+        s.motion.load_ax_mps2 = -14.0, s.motion.load_ay_mps2 = 24.0;  // any transfer
+        const double bank_rad = from_deg(bank_deg);
+        const Truth t = observe(p, s, {.bank_rad = bank_rad});
+        const double sum_n = t.load_n[0] + t.load_n[1] + t.load_n[2] + t.load_n[3];
+        const double down_n = 0.5 * p.aero.air_density_kgpm3 * speed_mps * speed_mps *
+                              (p.aero.front_lift_area_m2 + p.aero.rear_lift_area_m2);
+        const double weight_n = p.chassis.mass_kg * kGravity_mps2 * std::cos(bank_rad);
+        const double banking_n =
+            p.chassis.mass_kg * speed_mps * yaw_rate / std::cos(bank_rad) * std::sin(bank_rad);
+        EXPECT_NEAR(sum_n, weight_n + down_n + banking_n, 1e-6);
+        for (const double load_n : t.load_n) EXPECT_GE(load_n, 0.0);
+      }
+}
+
+// ---- Integrator.
+double distance(const State& a, const State& b) {
+  const Motion &m = a.motion, &n = b.motion;
+  return std::sqrt(std::pow(m.x_m - n.x_m, 2) + std::pow(m.y_m - n.y_m, 2) +
+                   std::pow(m.vx_mps - n.vx_mps, 2) + std::pow(m.vy_mps - n.vy_mps, 2) +
+                   std::pow(10.0 * (m.yaw_rate_rad_per_s - n.yaw_rate_rad_per_s), 2));
+}
+
+TEST(Plant, RungeKuttaConvergesWithOrderFour) {
+  // A smooth manoeuvre: the set points stand, the car settles into a turn from rest of its lags.
+  Params p;
+  p.steering.rate_max_rad_per_s = 1e3;
+  p.steering.delay_s = 0.0;
+  p.thermal.heat_capacity_jpk = 1e30;
+  const auto after = [&](double substep_s) {
+    Params fine = p;
+    fine.substep_s = substep_s;
+    return step(fine, at(50.0, 5), drive(0.3, 0.3, 0.0, 5), {.bank_rad = 0.2}, 0.4);
+  };
+  const State exact = after(0.4 / 6400);
+  const double coarse = distance(after(0.4 / 400), exact), fine = distance(after(0.4 / 800), exact);
+  EXPECT_GE(std::log2(coarse / fine), 3.8) << coarse << " " << fine;
+  EXPECT_LT(coarse, 1e-5);
+}
+
+TEST(Plant, OneLongStepIsManyShortOnes) {
+  const Params p;
+  const State s = at(30.0, 3);
+  State many = s;
+  for (int i = 0; i < 10; ++i) many = step(p, many, drive(0.4, 0.2, 0.0, 3), {}, 0.001);
+  const State one = step(p, s, drive(0.4, 0.2, 0.0, 3), {}, 0.010);
+  EXPECT_EQ(std::memcmp(&many.motion, &one.motion, sizeof(Motion)), 0);
+}
+
+// ---- Standstill.
+TEST(Plant, HoldsOnABankWithoutCreeping) {
+  const Params p;
+  const Surface bank{.bank_rad = from_deg(20.0)};
+  const Actuation hold = drive(0.0, 0.0, 1000.0, 0);
+  const State settled = run(p, standing(p, 0.0, 0.0, 0.5), hold, bank, 10.0);
+  const State later = run(p, settled, hold, bank, 60.0);
+  EXPECT_LT(std::hypot(settled.motion.x_m, settled.motion.y_m), 0.05);  // settles into its tyres
+  EXPECT_NEAR(later.motion.x_m, settled.motion.x_m, 1e-6);
+  EXPECT_NEAR(later.motion.y_m, settled.motion.y_m, 1e-6);
+  EXPECT_NEAR(later.motion.yaw_rad, settled.motion.yaw_rad, 1e-8);
+  // What holds it is the side force of the tyres.
+  const Truth t = observe(p, later, bank);
+  EXPECT_NEAR(t.specific_force_mps2[1], -kGravity_mps2 * std::sin(bank.bank_rad), 1e-6);
+}
+
+TEST(Plant, SlidesDownABankThatIsSteeperThanItsGrip) {
+  const Params p;
+  const Surface ice{.bank_rad = from_deg(20.0), .grip = 0.15};
+  const State s = run(p, standing(p, 0.0, 0.0, 0.0), drive(0.0, 0.0, 1000.0, 0), ice, 3.0);
+  EXPECT_GT(s.motion.y_m, 1.0);  // to the lower, left side
+}
+
+TEST(Plant, StandsStillInGearWithTheThrottleClosed) {
+  const Params p;
+  const State s =
+      run(p, rolling(p, standing(p, 1.0, 2.0, 0.3), 0.0, 1), drive(0.0, 0.0, 0.0, 1), {}, 10.0);
+  EXPECT_DOUBLE_EQ(s.motion.x_m, 1.0);
+  EXPECT_DOUBLE_EQ(s.motion.vx_mps, 0.0);
+}
+
+TEST(Plant, BrakesToACompleteStopFromAnySpeed) {
+  const Params p;
+  for (const double speed_mps : {1.0, 10.0, 40.0, 80.0})
+    for (const double brake_kpa : {300.0, 1500.0, 6000.0})
+      for (const double motor_rad : {0.0, 0.8}) {
+        const Actuation stop = drive(speed_mps < 30.0 ? motor_rad : 0.0, 0.0, brake_kpa, 0);
+        State s = at(speed_mps, 0);
+        for (int i = 0; i < 90'000 && std::hypot(s.motion.vx_mps, s.motion.vy_mps) > 1e-9; ++i)
+          s = step(p, s, stop, {}, kStep_s);
+        EXPECT_LT(std::hypot(s.motion.vx_mps, s.motion.vy_mps), 1e-6)
+            << speed_mps << " " << brake_kpa;
+        const State later = run(p, s, stop, {}, 2.0);
+        EXPECT_NEAR(later.motion.x_m, s.motion.x_m, 1e-3);
+      }
+}
+
+TEST(Plant, RemainsFiniteWhateverIsAskedOfIt) {
+  const Params p;
+  State s = at(70.0, 6);
+  std::uint64_t mix = 12345;
+  for (int i = 0; i < 60'000; ++i) {
+    mix = mix * 6364136223846793005ULL + 1442695040888963407ULL;
+    const double u = static_cast<double>(mix >> 40) * 0x1.0p-24;
+    const double wild[] = {1e300, -1e300, std::nan(""), 8.0 * u - 4.0};
+    Actuation a = drive(wild[(mix >> 20) & 3U], wild[(mix >> 22) & 3U], 9e3 * u,
+                        static_cast<std::uint8_t>(mix >> 56));
+    if (i % 20 != 0) a = drive(8.0 * u - 4.0, u, i % 3000 < 1500 ? 0.0 : 6000.0 * u, 3);
+    s = step(p, s, a, {.bank_rad = 0.35 * std::sin(i * 1e-3), .grip = 0.2 + u}, kStep_s);
+    const Truth t = observe(p, s, {});
+    ASSERT_TRUE(std::isfinite(s.motion.x_m) && std::isfinite(s.motion.vx_mps) &&
+                std::isfinite(s.motion.yaw_rate_rad_per_s) && std::isfinite(t.engine_rpm) &&
+                std::isfinite(s.motion.wheel_rad_per_s[2]))
+        << i;
+    ASSERT_LT(std::abs(s.motion.vx_mps), 120.0) << i;
+  }
+}
+
+// ---- Steady turn.
+TEST(Plant, SteadyTurnBalancesLateralForces) {
+  const Params p;
+  for (const double bank_deg : {0.0, 20.0}) {
+    const Surface road{.bank_rad = from_deg(bank_deg)};
+    // Held near 45 m/s by a proportional throttle.
+    State s = at(45.0, 4);
+    for (int i = 0; i < 20'000; ++i)
+      s = step(p, s, drive(0.30, 0.25 + 0.3 * (45.0 - s.motion.vx_mps), 0.0, 4), road, kStep_s);
+    const Truth t = observe(p, s, road);
+    EXPECT_NEAR(t.specific_force_mps2[1] + kGravity_mps2 * std::sin(road.bank_rad),
+                s.motion.vx_mps * s.motion.yaw_rate_rad_per_s, 0.02);
+    EXPECT_GT(t.yaw_rate_rad_per_s, 0.05);  // left steering turns left
+    EXPECT_GT(t.load_n[1], t.load_n[0]);    // and loads the right
+    // Heading turns with the path: a closed circle in the map.
+    const double radius_m = t.speed_mps / t.heading_rate_rad_per_s;
+    const State lap = run(p, s, drive(0.30, 0.25 + 0.3 * (45.0 - s.motion.vx_mps), 0.0, 4), road,
+                          2.0 * kPi / t.heading_rate_rad_per_s);
+    EXPECT_LT(std::hypot(lap.motion.x_m - s.motion.x_m, lap.motion.y_m - s.motion.y_m),
+              0.02 * radius_m);
+    // Neither far under- nor oversteering: near the kinematic curvature of the map.
+    const double wheelbase_m = p.chassis.front_axle_m + p.chassis.rear_axle_m;
+    EXPECT_NEAR(t.yaw_rate_rad_per_s * wheelbase_m / t.vx_mps, std::tan(t.road_wheel_rad), 0.008);
+  }
+}
+
+// Hands off on a bank the car turns or slides to the low side only as physics says: gravity pulls
+// left when the left side is lower.
+TEST(Plant, GravityPullsToTheLowerSide) {
+  const Params p;
+  const State s = run(p, at(30.0, 3), drive(0.0, 0.1, 0.0, 3), {.bank_rad = from_deg(10.0)}, 1.0);
+  EXPECT_GT(s.motion.y_m, 0.05);
+}
+
+// ---- Truth.
+TEST(Plant, AccelerometerFeelsWhatChangesTheVelocity) {
+  const Params p;
+  const Surface road{.bank_rad = 0.3};
+  State s = run(p, at(40.0, 3), drive(0.5, 0.6, 0.0, 3), road, 0.3);
+  for (int i = 0; i < 200; ++i) {
+    const State before = s, mid = step(p, before, drive(0.5, 0.6, 0.0, 3), road, kStep_s);
+    s = step(p, mid, drive(0.5, 0.6, 0.0, 3), road, kStep_s);
+    const Truth t = observe(p, mid, road);
+    const double dvx = (s.motion.vx_mps - before.motion.vx_mps) / (2.0 * kStep_s);
+    const double dvy = (s.motion.vy_mps - before.motion.vy_mps) / (2.0 * kStep_s);
+    EXPECT_NEAR(t.specific_force_mps2[0], dvx - t.vy_mps * t.yaw_rate_rad_per_s, 0.01);
+    EXPECT_NEAR(t.specific_force_mps2[1],
+                dvy + t.vx_mps * t.yaw_rate_rad_per_s - kGravity_mps2 * std::sin(0.3), 0.01);
+    EXPECT_NEAR(t.specific_force_mps2[2],
+                kGravity_mps2 * std::cos(0.3) + t.vx_mps * t.yaw_rate_rad_per_s * std::tan(0.3),
+                1e-9);
+    EXPECT_NEAR(t.map_vx_mps, (s.motion.x_m - before.motion.x_m) / (2.0 * kStep_s), 1e-3);
+    EXPECT_NEAR(t.map_vy_mps, (s.motion.y_m - before.motion.y_m) / (2.0 * kStep_s), 1e-3);
+    EXPECT_NEAR(t.heading_rate_rad_per_s,
+                (s.motion.yaw_rad - before.motion.yaw_rad) / (2.0 * kStep_s), 1e-4);
+  }
+}
+
+TEST(Plant, StandingOnABankFeelsGravityOnly) {
+  const Params p;
+  const Surface road{.bank_rad = 0.25};
+  const Actuation hold = drive(0.0, 0.0, 1000.0, 0);
+  const Truth t = observe(p, run(p, standing(p, 0, 0, 0), hold, road, 10.0), road);
+  EXPECT_NEAR(std::hypot(t.specific_force_mps2[1], t.specific_force_mps2[2]), kGravity_mps2, 1e-6);
+  EXPECT_LT(t.specific_force_mps2[1], 0.0);
+}
+
+// ---- Actuators.
+TEST(Plant, SteeringHasDelayLagRateAndResolution) {
+  const Params p;
+  State s = at(20.0, 2);
+  const double command_rad = from_deg(20.2);  // shall be taken as 20.0
+  double before_rad = 0.0, fastest = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    s = step(p, s, drive(command_rad, 0.0, 0.0, 2), {}, kStep_s);
+    ASSERT_EQ(s.motion.steering_motor_rad > 0.0, i >= 40) << i;
+    fastest = std::max(fastest, (s.motion.steering_motor_rad - before_rad) / kStep_s);
+    before_rad = s.motion.steering_motor_rad;
+  }
+  EXPECT_NEAR(s.motion.steering_motor_rad, from_deg(20.0), 1e-6);
+  EXPECT_LE(fastest, p.steering.rate_max_rad_per_s + 1e-9);
+  s = run(p, s, drive(99.0, 0.0, 0.0, 2), {}, 3.0);
+  EXPECT_NEAR(s.motion.steering_motor_rad, p.steering.angle_max_rad, 0.01);
+}
+
+TEST(Plant, BrakesAndThrottleLag) {
+  const Params p;
+  const State s = run(p, at(60.0, 4), drive(0.0, 1.0, 2000.0, 4), {}, 0.1);
+  EXPECT_NEAR(s.motion.brake_front_kpa, 2000.0 * (1.0 - std::exp(-1.0)), 1.0);
+  EXPECT_NEAR(s.motion.throttle_fraction, 1.0 - std::exp(-2.0), 1e-3);
+}
+
+// ---- Performance: plausible, from published figures of the car.
+struct Sprint {
+  double top_mps = 0.0, to_60_s = 0.0;
+};
+
+Sprint full_throttle() {
+  const Params p;
+  State s = at(0.0, 1);
+  Sprint result;
+  std::uint8_t gear = 1;
+  for (int i = 0; i < 90'000; ++i) {
+    if (s.gear == gear && s.shift == ShiftPhase::kReady && s.engine_rpm > 6800.0 && gear < 6)
+      ++gear;
+    s = step(p, s, drive(0.0, 1.0, 0.0, gear), {}, kStep_s);
+    if (result.to_60_s == 0.0 && s.motion.vx_mps > 60.0) result.to_60_s = i * kStep_s;
+    result.top_mps = std::max(result.top_mps, s.motion.vx_mps);
+  }
+  return result;
+}
+
+TEST(Plant, TopSpeedAndAccelerationArePlausible) {
+  const Sprint r = full_throttle();
+  EXPECT_GT(r.top_mps, 70.0);
+  EXPECT_LT(r.top_mps, 85.0);
+  EXPECT_GT(r.to_60_s, 5.0);
+  EXPECT_LT(r.to_60_s, 15.0);
+}
+
+TEST(Plant, ColdTyresHaveLessGripWhereThatIsAsked) {
+  Params p;
+  p.thermal.cold_grip_loss = 0.3;
+  const auto grip = [&](double tyre_c) {
+    State s = at(30.0, 0);
+    s.tyre_c.fill(tyre_c);
+    double most = 0.0;
+    for (int i = 0; i < 1500; ++i) {
+      s = step(p, s, drive(4.0, 0.0, 0.0, 0), {}, kStep_s);
+      most = std::max(most, std::abs(observe(p, s, {}).specific_force_mps2[1]));
+    }
+    return most;
+  };
+  EXPECT_LT(grip(25.0), 0.8 * grip(80.0));
+}
+
+// ---- Road.
+world::TrackMap ring(bool with_pit) {
+  world::TrackDescription d;
+  d.name = "ring";
+  constexpr double kRadius_m = 200.0;
+  d.length_m = 2.0 * kPi * kRadius_m;
+  d.datum_latitude_deg = 36.0, d.datum_longitude_deg = -115.0, d.datum_height_m = 0.0;
+  for (int i = 0; i < 8; ++i)
+    d.knots.push_back(
+        {i * d.length_m / 8, 1.0 / kRadius_m, 0.1 + 0.01 * std::min(i, 8 - i), 6.0, 9.0});
+  if (with_pit)
+    d.pit = world::PitLane{.entry_s_m = 1200.0,
+                           .exit_s_m = 100.0,
+                           .offset_m = 20.0,
+                           .width_m = 10.0,
+                           .speed_limit_mps = 20.0};
+  auto map = world::TrackMap::build(d);
+  if (!map) throw std::runtime_error(to_string(map.error()));
+  return *std::move(map);
+}
+
+TEST(Road, GapsAreThoseOfTheNearestCorner) {
+  const Params p;
+  const auto map = ring(false);
+  for (const double n_m : {-7.0, 0.0, 4.5}) {
+    const auto point = map.offset(300.0, n_m);
+    const Road r = road_at(p, map, standing(p, point.x_m, point.y_m, point.yaw_rad));
+    EXPECT_NEAR(r.s_m, 300.0, 1e-6);
+    EXPECT_NEAR(r.n_m, n_m, 1e-6);
+    EXPECT_NEAR(r.wall_gap_left_m, 6.0 - n_m - 0.5 * p.chassis.width_m, 1e-6);
+    EXPECT_NEAR(r.wall_gap_right_m, 9.0 + n_m - 0.5 * p.chassis.width_m, 1e-6);
+    EXPECT_FALSE(r.contact);
+    const Road across = road_at(p, map, standing(p, point.x_m, point.y_m, point.yaw_rad + kPi / 2));
+    EXPECT_LT(across.wall_gap_left_m, r.wall_gap_left_m);
+  }
+  const auto outside = map.offset(300.0, -8.5);
+  EXPECT_TRUE(road_at(p, map, standing(p, outside.x_m, outside.y_m, outside.yaw_rad)).contact);
+}
+
+TEST(Road, ThePitLaneIsRoomToTheLeft) {
+  const Params p;
+  const auto map = ring(true);
+  for (const auto& [s_m, contact] :
+       {std::pair{50.0, false}, std::pair{1230.0, false}, std::pair{600.0, true}}) {
+    const auto point = map.offset(s_m, 20.0);
+    EXPECT_EQ(road_at(p, map, standing(p, point.x_m, point.y_m, point.yaw_rad)).contact, contact);
+  }
+}
+
+TEST(Road, BankRateIsTheDerivativeOfBankAlongThePath) {
+  const Params p;
+  const auto map = ring(false);
+  const auto here = map.offset(200.0, 2.0);
+  State s = rolling(p, standing(p, here.x_m, here.y_m, here.yaw_rad), 30.0, 3);
+  const Road r = road_at(p, map, s);
+  s.motion.x_m += 0.01 * 30.0 * std::cos(here.yaw_rad);
+  s.motion.y_m += 0.01 * 30.0 * std::sin(here.yaw_rad);
+  const Road later = road_at(p, map, s, r.s_m);
+  EXPECT_NEAR(r.surface.bank_rate_rad_per_s, (later.surface.bank_rad - r.surface.bank_rad) / 0.01,
+              1e-4);
+  EXPECT_NE(r.surface.bank_rate_rad_per_s, 0.0);
+}
+
+}  // namespace
+}  // namespace pitwall::plant
