@@ -1,0 +1,96 @@
+// Faults that the bench itself carries out in its models: data only, one row per kind. The scenario
+// file names them; what acts on each is the part in `acts_on`.
+//   units  of `value`: as the row says; 0 where the kind needs none
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::faults {
+
+enum class BenchFaultKind : std::uint8_t {
+  kGnssUnitOutage,
+  kGnssRtkLost,
+  kGnssVarianceSpike,
+  kGnssPositionJump,
+  kGnssHeadingFlip,
+  kGnssStampFrozen,
+  kImuBias,
+  kImuOutage,
+  kWheelSpeedLoss,
+  kLidarOutage,
+  kLidarLate,
+  kCameraOutage,
+  kRadarOutage,
+  kDust,
+  kRadioLoss,
+  kRadioDown,
+  kRadioDelay,
+  kBaseStationSilent,
+  kRaceControlSilent,
+  kRaceHeartbeatStop,
+  kWrongRoundSpeed,
+  kSteeringStuck,
+  kSteeringSlow,
+  kSteeringBias,
+  kBrakeLeak,
+  kThrottleStuck,
+  kEngineStall,
+  kColdTyres,
+  kLowGrip,
+  kFuelOut,
+  kBusSilent,
+  kBusBabble,
+  kComputerSilent,
+  kComputerPaused,
+  kComputerKilled,
+  kClockStep,
+  kClockSkew,
+  kLogDiskFull
+};
+
+enum class BenchPart : std::uint8_t {
+  kGnss,
+  kImu,
+  kWheels,
+  kPerception,
+  kRadio,
+  kRaceControl,
+  kActuators,
+  kPlant,
+  kBus,
+  kComputer,
+  kClock,
+  kRecorder
+};
+
+struct BenchFaultRow {
+  BenchFaultKind kind;
+  std::string_view name;  // in scenario files
+  BenchPart acts_on;
+  std::string_view value;  // meaning and unit of BenchFault::value; empty: unused
+};
+
+struct BenchFault {
+  BenchFaultKind kind = BenchFaultKind::kGnssUnitOutage;
+  Instant start{};
+  std::optional<Duration> duration;  // absent: until the end
+  std::uint8_t unit = 0;             // which of several equal parts, from 0
+  double value = 0.0;
+  std::uint64_t seed = 1;
+};
+
+inline constexpr std::size_t kBenchFaultKinds = 38;
+extern const std::array<BenchFaultRow, kBenchFaultKinds> kBenchFaults;
+
+const BenchFaultRow& row_of(BenchFaultKind kind);
+std::optional<BenchFaultKind> bench_fault_kind(std::string_view name);
+
+bool active(const BenchFault& fault, Instant now);
+
+}  // namespace pitwall::faults

@@ -1,0 +1,87 @@
+// Faults of single CAN frames on their way from the bench to the car (F01 to F11, F16 of the
+// catalogue).
+//   in     the list of faults of the scenario, their state, one frame, now
+//   out    what is put on the bus in its place, each with the instant from which it may be sent
+//          (later than `now` for a delay: keep it in a DelayQueue)
+//   order  faults act in the order of the list, each on what the ones before it left
+//   law    one seed, one sequence of outcomes; a fault outside its time changes nothing
+//   errors a copy beyond kMaxCopies is dropped and counted
+//   cost   no allocation
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "hil/faults/random.hpp"
+#include "protocol/can/frame.hpp"
+#include "protocol/vocabulary/fixed_vector.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::faults {
+
+enum class FrameFaultKind : std::uint8_t {
+  kDrop,          // F01 each frame with `probability`
+  kDropBurst,     // F02 with `probability` a burst of `count` frames is lost
+  kDropAll,       // F03 one id, F04 without an id
+  kDelay,         // F05 `delay` plus up to `jitter`
+  kDuplicate,     // F06 `count` copies more, with `probability`
+  kBitFlip,       // F07 `count` bits of the payload, with `probability`
+  kStuckCounter,  // F08 the counter stays at its value when the fault began
+  kCounterJump,   // F09 the counter is `count` ahead
+  kWrongLength,   // F11 one byte less (or one more when the message is empty)
+  kUnknownId,     // F11 an extra frame with identifier `other_id`, with `probability`
+  kFrozenValue    // F16 the payload of the beginning, with a live counter
+};
+inline constexpr std::size_t kFrameFaultKinds = 11;
+
+std::string_view name_of(FrameFaultKind kind);  // "drop", "drop_burst", ... as in scenario files
+std::optional<FrameFaultKind> frame_fault_kind(std::string_view name);
+
+struct FrameFault {
+  FrameFaultKind kind = FrameFaultKind::kDrop;
+  std::optional<std::uint32_t> id;  // absent: every frame
+  Instant start{};
+  std::optional<Duration> duration;  // absent: until the end
+  std::uint64_t seed = 1;
+  double probability = 1.0;
+  std::uint32_t count = 1;
+  Duration delay{}, jitter{};
+  std::uint32_t other_id = 0x7A0;
+};
+
+inline constexpr std::size_t kMaxFrameFaults = 32;
+inline constexpr std::size_t kMaxFrozen =
+    48;  // identifiers that one fault can hold: the database's
+inline constexpr std::size_t kMaxCopies = 8;
+
+struct TimedFrame {
+  can::Frame frame;
+  Instant at{};
+};
+using TimedFrames = FixedVector<TimedFrame, kMaxCopies>;
+
+struct FrameFaultState {
+  struct Frozen {
+    can::Frame frame;
+  };
+  struct One {
+    bool seeded = false;
+    Random random;
+    std::uint32_t burst_left = 0;
+    FixedVector<Frozen, kMaxFrozen> frozen;
+    std::uint64_t acted = 0;
+  };
+  std::array<One, kMaxFrameFaults> faults{};
+  std::uint64_t overflow = 0;
+};
+
+bool active(const FrameFault& fault, Instant now);
+
+TimedFrames apply(std::span<const FrameFault> faults, FrameFaultState& state,
+                  const can::Frame& frame, Instant now);
+
+}  // namespace pitwall::faults
