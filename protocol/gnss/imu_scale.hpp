@@ -1,15 +1,17 @@
-// Counts of RAWIMUSX to rates and specific forces, by type of IMU.
+// Counts of RAWIMUSX to rates and specific forces and back, by type of IMU.
 //   in     counts over one sample, axes of the enclosure
 //   out    rad/s and m/s^2
 //   source OEM7 Commands and Logs Reference Manual, RAWIMUSX, table "Raw IMU Scale Factors"
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
 
+#include "protocol/gnss/novatel_message.hpp"
 #include "protocol/vocabulary/units.hpp"
 
 namespace pitwall::gnss {
@@ -39,6 +41,21 @@ inline std::int32_t to_counts(double value, double one_count) {
   constexpr auto kMax = static_cast<double>(std::numeric_limits<std::int32_t>::max());
   return static_cast<std::int32_t>(
       std::fmax(-kMax, std::fmin(kMax, std::round(value / one_count))));
+}
+
+// What a receiver counts whose enclosure is NovAtel's vehicle frame (x right, y forward, z up) while
+// the car's body (x forward, y left, z up) turns and feels this. For the bench, which speaks as one.
+inline void count_body_motion(const std::array<double, 3>& rate_rad_per_s,
+                              const std::array<double, 3>& specific_force_mps2, RawImuSx& m) {
+  const ImuScale scale = imu_scale(m.imu_type).value_or(ImuScale{1.0, 1.0});
+  const auto& [roll, pitch, yaw] = rate_rad_per_s;
+  const auto& [forward, left, up] = specific_force_mps2;
+  m.x_gyro = to_counts(-pitch, scale.rate_rad_per_s);
+  m.minus_y_gyro = to_counts(-roll, scale.rate_rad_per_s);
+  m.z_gyro = to_counts(yaw, scale.rate_rad_per_s);
+  m.x_accel = to_counts(-left, scale.accel_mps2);
+  m.minus_y_accel = to_counts(-forward, scale.accel_mps2);
+  m.z_accel = to_counts(up, scale.accel_mps2);
 }
 
 }  // namespace pitwall::gnss

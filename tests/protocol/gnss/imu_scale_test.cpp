@@ -23,5 +23,18 @@ TEST(ImuScale, CountsRoundToNearestAndSaturate) {
   EXPECT_EQ(to_counts(-1e30, 1.0), -2'147'483'647);
 }
 
+// NovAtel's vehicle frame: x right, y forward, z up; the receiver writes its y negated.
+TEST(ImuScale, BodyMotionIsCountedOnTheAxesOfTheEnclosure) {
+  RawImuSx m;
+  count_body_motion({1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}, m);
+  const ImuScale one = imu_scale(m.imu_type).value();
+  EXPECT_NEAR(m.x_gyro * one.rate_rad_per_s, -2.0, 1e-8);
+  EXPECT_NEAR(m.minus_y_gyro * one.rate_rad_per_s, -1.0, 1e-8);
+  EXPECT_NEAR(m.z_gyro * one.rate_rad_per_s, 3.0, 1e-8);
+  EXPECT_NEAR(m.x_accel * one.accel_mps2, -5.0, 1e-7);
+  EXPECT_NEAR(m.minus_y_accel * one.accel_mps2, -4.0, 1e-7);
+  EXPECT_NEAR(m.z_accel * one.accel_mps2, 6.0, 1e-7);
+}
+
 }  // namespace
 }  // namespace pitwall::gnss
