@@ -15,11 +15,11 @@ inline constexpr std::uint32_t kMaxExtendedId = 0x1FFFFFFF;
 inline constexpr std::size_t kMaxDataBytes = 64;  // CAN FD; classic CAN carries 8
 
 struct Frame {
-  std::uint32_t id = 0;         // arbitration id without flag bits
-  bool extended = false;        // 29-bit identifier
-  bool remote = false;          // RTR: a request, no data
-  bool fd = false;              // CAN FD frame
-  std::uint8_t length = 0;      // bytes of data in use
+  std::uint32_t id = 0;     // arbitration id without flag bits
+  bool extended = false;    // 29-bit identifier
+  bool remote = false;      // RTR: a request, no data
+  bool fd = false;          // CAN FD frame
+  std::uint8_t length = 0;  // bytes of data in use
   std::array<std::uint8_t, kMaxDataBytes> data{};
 
   std::span<const std::uint8_t> payload() const { return {data.data(), length}; }

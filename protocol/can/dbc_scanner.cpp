@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/can/dbc_scanner.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace pitwall::can {
+namespace {
+
+constexpr std::string_view kSpace = " \t\r\n\f\v";
+
+bool is_word(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+         static_cast<unsigned char>(c) >= 0x80;
+}
+
+// Length of the UTF-8 sequence at the front; 0 where there is none (RFC 3629 but for surrogates,
+// which do no harm here).
+std::size_t utf8_length(std::string_view t) {
+  const auto lead = static_cast<unsigned char>(t[0]);
+  const std::size_t size = lead < 0x80   ? 1
+                           : lead < 0xC2 ? 0
+                           : lead < 0xE0 ? 2
+                           : lead < 0xF0 ? 3
+                                         : 4;
+  if (lead > 0xF4 || size > t.size()) return 0;
+  for (std::size_t i = 1; i < size; ++i) {
+    if ((static_cast<unsigned char>(t[i]) & 0xC0U) != 0x80U) return 0;
+  }
+  return size;
+}
+
+bool valid_utf8(std::string_view t) {
+  while (!t.empty()) {
+    const std::size_t size = utf8_length(t);
+    if (size == 0) return false;
+    t.remove_prefix(size);
+  }
+  return true;
+}
+
+// Code points of 0x80 to 0x9F; the five unused ones stay what they are.
+constexpr std::array<std::uint16_t, 32> kCp1252{
+    0x20AC, 0x0081, 0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021, 0x02C6, 0x2030, 0x0160,
+    0x2039, 0x0152, 0x008D, 0x017D, 0x008F, 0x0090, 0x2018, 0x2019, 0x201C, 0x201D, 0x2022,
+    0x2013, 0x2014, 0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0x009D, 0x017E, 0x0178};
+
+void append_cp1252(std::string& out, char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  const unsigned point = byte >= 0x80 && byte < 0xA0 ? kCp1252[byte - 0x80U] : byte;
+  if (point < 0x80) {
+    out += c;
+  } else if (point < 0x800) {
+    out += static_cast<char>(0xC0U | point >> 6U);
+    out += static_cast<char>(0x80U | (point & 0x3FU));
+  } else {
+    out += static_cast<char>(0xE0U | point >> 12U);
+    out += static_cast<char>(0x80U | (point >> 6U & 0x3FU));
+    out += static_cast<char>(0x80U | (point & 0x3FU));
+  }
+}
+
+}  // namespace
+
+DbcScanner::DbcScanner(std::string_view text, std::string name)
+    : text_(text), name_(std::move(name)), is_utf8_(valid_utf8(text)) {
+  if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // byte order mark
+}
+
+void DbcScanner::skip_space() {
+  const std::size_t next = text_.find_first_not_of(kSpace, at_);
+  at_ = next == std::string_view::npos ? text_.size() : next;
+}
+
+bool DbcScanner::at_end() {
+  skip_space();
+  return at_ >= text_.size();
+}
+
+char DbcScanner::peek() { return at_end() ? '\0' : text_[at_]; }
+
+bool DbcScanner::take(char c) {
+  if (at_end() || text_[at_] != c) return false;
+  ++at_;
+  return true;
+}
+
+void DbcScanner::expect(char c) {
+  if (!take(c)) stop(std::string("expected '") + c + "'");
+}
+
+std::string_view DbcScanner::word() {
+  skip_space();
+  std::size_t end = at_;
+  while (end < text_.size() && is_word(text_[end])) ++end;
+  if (end == at_) stop("expected a name");
+  const std::string_view found = text_.substr(at_, end - at_);
+  at_ = end;
+  return found;
+}
+
+double DbcScanner::real() {
+  skip_space();
+  if (at_ < text_.size() && text_[at_] == '+') ++at_;
+  double value = 0.0;
+  const char* const begin = text_.data() + at_;
+  const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), value);
+  if (error == std::errc::result_out_of_range) stop("this number is too large or too small");
+  if (error != std::errc{} || !std::isfinite(value)) stop("expected a number");
+  at_ += static_cast<std::size_t>(end - begin);
+  return value;
+}
+
+std::int64_t DbcScanner::integer(std::int64_t min, std::int64_t max) {
+  skip_space();
+  std::int64_t value = 0;
+  const char* const begin = text_.data() + at_;
+  const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), value);
+  if (error == std::errc::invalid_argument) stop("expected a whole number");
+  if (error != std::errc{} || value < min || value > max) {
+    stop("expected a whole number from " + std::to_string(min) + " to " + std::to_string(max));
+  }
+  at_ += static_cast<std::size_t>(end - begin);
+  return value;
+}
+
+std::string DbcScanner::string() {
+  skip_space();
+  const std::size_t begin = at_;
+  expect('"');
+  std::string out;
+  while (at_ < text_.size() && text_[at_] != '"') {
+    if (text_[at_] == '\\' && at_ + 1 < text_.size() && text_[at_ + 1] == '"') ++at_;
+    if (is_utf8_) {
+      out += text_[at_];
+    } else {
+      append_cp1252(out, text_[at_]);
+    }
+    ++at_;
+  }
+  if (at_ >= text_.size()) {
+    at_ = begin;
+    stop("this text has no closing quote");
+  }
+  ++at_;
+  return out;
+}
+
+std::string_view DbcScanner::bare() {
+  const std::size_t begin = at_;
+  while (at_ < text_.size() && text_[at_] != ';' && kSpace.find(text_[at_]) == kSpace.npos) ++at_;
+  return text_.substr(begin, at_ - begin);
+}
+
+std::string DbcScanner::string_or_word() { return peek() == '"' ? string() : std::string(bare()); }
+
+void DbcScanner::skip_statement() {
+  const std::size_t begin = at_;
+  while (at_ < text_.size() && text_[at_] != ';') {
+    if (text_[at_] == '"') {
+      (void)string();
+    } else {
+      ++at_;
+    }
+  }
+  if (at_ >= text_.size()) {
+    at_ = begin;
+    stop("this section has no closing ';'");
+  }
+  ++at_;
+}
+
+void DbcScanner::skip_line() {
+  const std::size_t next = text_.find('\n', at_);
+  at_ = next == std::string_view::npos ? text_.size() : next + 1;
+}
+
+std::string DbcScanner::place() {
+  skip_space();
+  if (at_ < counted_to_) counted_to_ = line_start_ = 0, line_ = 1;
+  for (; counted_to_ < at_; ++counted_to_) {
+    if (text_[counted_to_] == '\n') ++line_, line_start_ = counted_to_ + 1;
+  }
+  return name_ + ":" + std::to_string(line_) + ":" + std::to_string(at_ - line_start_ + 1);
+}
+
+void DbcScanner::stop(const std::string& what) { throw Stop{{place(), what}}; }
+
+}  // namespace pitwall::can

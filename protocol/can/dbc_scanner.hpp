@@ -1,0 +1,58 @@
+// The words, numbers and strings of a DBC text, each with its place. Used by the parser only.
+//   in      text and its name
+//   out     tokens on demand; a Stop (never leaves the parser) at the first thing that is not there
+//   errors  the place of a Stop is "file:line:column", counted from one in bytes
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::can {
+
+class DbcScanner {
+ public:
+  // Thrown inside the parser and caught there; files are read at start-up only.
+  struct Stop {
+    Problem problem;
+  };
+
+  DbcScanner(std::string_view text, std::string name);
+
+  bool at_end();
+  // The next character that is not a space; '\0' at the end.
+  char peek();
+  bool take(char c);
+  void expect(char c);
+  std::string_view word();
+  double real();
+  std::int64_t integer(std::int64_t min, std::int64_t max);
+  std::string string();
+  // A string, or the characters up to the next space or semicolon.
+  std::string string_or_word();
+  // Past the next semicolon outside strings.
+  void skip_statement();
+  void skip_line();
+
+  std::size_t offset() const { return at_; }
+  void rewind(std::size_t offset) { at_ = offset; }
+  // Place of the next token.
+  std::string place();
+  [[noreturn]] void stop(const std::string& what);
+
+ private:
+  void skip_space();
+  std::string_view bare();
+
+  std::string_view text_;
+  std::string name_;
+  bool is_utf8_;
+  std::size_t at_ = 0;
+  // Line of the last place asked for, so that places cost one pass over the text.
+  std::size_t counted_to_ = 0, line_ = 1, line_start_ = 0;
+};
+
+}  // namespace pitwall::can

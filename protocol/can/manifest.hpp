@@ -1,0 +1,85 @@
+// What a DBC file cannot say about a message: direction, period, timeout, counter, safety class and
+// plausible rates of change. One YAML file beside each DBC file.
+//   in      the YAML text and the database that it belongs to
+//   out     the manifest; and rows that join it with the database, one per message
+//   errors  a Problem at "file:line:column": unknown message or signal, a message of the database
+//           without an entry, a counter that is not a plain unsigned Intel field, a timeout shorter
+//           than the period, a rate that is not positive
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/can/database.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::can {
+
+// Seen from the computer: from drive-by-wire and race control to it, or from it to drive-by-wire.
+enum class Direction : std::uint8_t { kFromCar, kToCar };
+// kActuator moves the car: only while armed, and judged by the frame gate.
+enum class SafetyClass : std::uint8_t { kInformation, kStatus, kActuator, kRaceControl };
+
+// One line of the generated table.
+struct MessageRow {
+  std::uint32_t id;
+  std::uint8_t length;
+  const char* name;
+  Direction direction;
+  SafetyClass safety;
+  Duration period;
+  Duration timeout;
+  bool has_counter;
+  std::uint8_t counter_start;  // bit position, Intel
+  std::uint8_t counter_bits;
+};
+
+// The fastest change that the physics behind a signal can make, in its DBC unit per second.
+struct SlewRow {
+  std::uint32_t id;
+  const char* signal;
+  double max_per_s;
+};
+
+struct ManifestSlew {
+  std::string signal;
+  double max_per_s = 0.0;
+  std::string place;
+};
+
+struct ManifestMessage {
+  std::string name;
+  Direction direction = Direction::kFromCar;
+  SafetyClass safety = SafetyClass::kInformation;
+  Duration period{}, timeout{};
+  std::string counter;  // empty: none
+  std::vector<ManifestSlew> slews;
+  std::string place, counter_place;
+};
+
+struct Manifest {
+  std::string name;
+  std::string database;  // file name of the DBC
+  std::string revision;  // of the car's CAN bus, e.g. "CAN1-INDY-V14"
+  std::vector<ManifestMessage> messages;
+
+  const ManifestMessage* find(std::string_view message) const;
+};
+
+Result<Manifest, Problem> parse_manifest(std::string_view text, const std::string& name);
+Result<Manifest, Problem> load_manifest(const std::filesystem::path& path);
+
+// Nothing, or the first place where manifest and database contradict each other.
+std::optional<Problem> contradiction(const Manifest& manifest, const Database& database);
+
+// One row per message of the database, in its order. The two must not contradict each other, and
+// the database must outlive the rows, whose names are its own.
+std::vector<MessageRow> rows(const Manifest& manifest, const Database& database);
+
+}  // namespace pitwall::can

@@ -1,0 +1,116 @@
+// Where a signal lies in a frame and what its bits mean; from that a plan: one load of eight bytes,
+// one shift, one mask. The generated code and the run-time decoder use the same functions.
+//   in      the layout as a DBC file writes it (start bit, length, byte order, scale, offset, range)
+//   out     raw bits and physical values in DBC units
+//   errors  plan() trusts its layout; the parser refuses layouts that do not fit their message
+//   source  Vector, "DBC File Format Documentation" 1.0; Motorola start bit = most significant bit,
+//           bits numbered 8 * byte + 7..0
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+#include "protocol/can/frame.hpp"
+
+namespace pitwall::can {
+
+enum class ByteOrder : std::uint8_t { kIntel, kMotorola };
+enum class Number : std::uint8_t { kUnsigned, kSigned, kFloat32, kFloat64 };
+
+// As written in the file. min >= max means that no range is given.
+struct SignalLayout {
+  std::uint16_t start = 0;
+  std::uint8_t length = 0;
+  ByteOrder order = ByteOrder::kIntel;
+  Number number = Number::kUnsigned;
+  double scale = 1.0, offset = 0.0;
+  double min = 0.0, max = 0.0;
+  bool operator==(const SignalLayout&) const = default;
+};
+
+struct SignalPlan {
+  std::uint8_t first_byte = 0;  // of the eight that are loaded
+  std::int8_t shift = 0;        // right; negative: the signal also reaches into a ninth byte
+  std::uint8_t length = 0;
+  ByteOrder order = ByteOrder::kIntel;
+  Number number = Number::kUnsigned;
+  std::uint64_t mask = 0;
+  double scale = 1.0, offset = 0.0;
+  // The raw values that may be sent: the field and the file's range, whichever is narrower. For
+  // floating-point signals these are limits of the unscaled number.
+  double raw_min = 0.0, raw_max = 0.0;
+  std::uint64_t raw_min_bits = 0, raw_max_bits = 0;
+};
+
+SignalPlan plan(const SignalLayout& layout);
+
+// The bits that the signal occupies in its frame, bit k of byte b at 8 * b + k.
+using BitMap = std::array<std::uint8_t, kMaxDataBytes>;
+BitMap occupied_bits(const SignalLayout& layout);
+// False where any bit lies outside `bytes` bytes.
+bool fits(const SignalLayout& layout, std::size_t bytes);
+
+using FrameBytes = std::array<std::uint8_t, kMaxDataBytes>;
+
+constexpr std::uint64_t load_intel(const FrameBytes& data, std::size_t first = 0) {
+  std::uint64_t word = 0;
+  for (std::size_t i = 0; i < 8; ++i) word |= static_cast<std::uint64_t>(data[first + i]) << 8 * i;
+  return word;
+}
+
+constexpr std::uint64_t load_motorola(const FrameBytes& data, std::size_t first = 0) {
+  std::uint64_t word = 0;
+  for (std::size_t i = 0; i < 8; ++i) word = word << 8U | data[first + i];
+  return word;
+}
+
+constexpr void store_intel(FrameBytes& data, std::uint64_t word, std::size_t first = 0) {
+  for (std::size_t i = 0; i < 8; ++i) data[first + i] = static_cast<std::uint8_t>(word >> 8 * i);
+}
+
+constexpr void store_motorola(FrameBytes& data, std::uint64_t word, std::size_t first = 0) {
+  for (std::size_t i = 0; i < 8; ++i) {
+    data[first + i] = static_cast<std::uint8_t>(word >> 8 * (7 - i));
+  }
+}
+
+constexpr std::uint64_t mask_of(unsigned length) {
+  return length >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << length) - 1;
+}
+
+constexpr std::int64_t sign_extended(std::uint64_t raw, unsigned length) {
+  return static_cast<std::int64_t>(raw << (64 - length)) >> (64 - length);
+}
+
+// The number that the bits stand for, before scale and offset.
+constexpr double number_of(std::uint64_t raw, Number number, unsigned length) {
+  switch (number) {
+    case Number::kUnsigned:
+      return static_cast<double>(raw);
+    case Number::kSigned:
+      return static_cast<double>(sign_extended(raw, length));
+    case Number::kFloat32:
+      return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(raw)));
+    case Number::kFloat64:
+      return std::bit_cast<double>(raw);
+  }
+  return 0.0;
+}
+
+constexpr double physical_of(std::uint64_t raw, const SignalPlan& p) {
+  return number_of(raw, p.number, p.length) * p.scale + p.offset;
+}
+
+std::uint64_t extract(const SignalPlan& p, const FrameBytes& data);
+void insert(const SignalPlan& p, FrameBytes& data, std::uint64_t raw);
+
+// Bits for a finite physical value: rounded half away from zero, then held inside the raw limits;
+// never wraps. Sets `saturated` where it had to be held, leaves it alone otherwise.
+std::uint64_t raw_of(double physical, const SignalPlan& p, bool& saturated);
+
+}  // namespace pitwall::can
