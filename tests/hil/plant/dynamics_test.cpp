@@ -47,6 +47,31 @@ TEST(Dynamics, PatchForceActsOnCarAndWheel) {
   }
 }
 
+TEST(Dynamics, PullOnTheRightTurnsLeft) {
+  const Params p;
+  for (const std::size_t wheel : {std::size_t{1}, std::size_t{3}}) {
+    State s = rolling_at(30.0);
+    s.motion.stretch_long_m[wheel] = 0.002;
+    const Forces f = forces_of(p, s, s.motion, {});
+    const double half_m = 0.5 * (wheel == 1 ? p.chassis.track_front_m : p.chassis.track_rear_m);
+    EXPECT_GT(f.long_n[wheel], 0.0);
+    EXPECT_NEAR(f.yaw_moment_nm, f.long_n[wheel] * half_m, 1e-9);
+  }
+}
+
+TEST(Dynamics, SideForceInFrontTurnsTowardsIt) {
+  const Params p;
+  for (const bool front : {true, false}) {
+    State s = rolling_at(30.0);
+    const std::size_t first = front ? 0 : 2;
+    s.motion.stretch_lat_m[first] = s.motion.stretch_lat_m[first + 1] = 0.002;
+    const Forces f = forces_of(p, s, s.motion, {});
+    const double arm_m = front ? p.chassis.front_axle_m : -p.chassis.rear_axle_m;
+    EXPECT_GT(f.body_y_n, 0.0);
+    EXPECT_NEAR(f.yaw_moment_nm, f.body_y_n * arm_m, 1e-9);
+  }
+}
+
 TEST(Dynamics, DifferentialSlowsTheFasterWheel) {
   const Params p;
   State s = rolling_at(30.0);

@@ -150,7 +150,7 @@ TEST(LasVegas, BankingAgreesWithinOneDegreeEverywhere) {
 TEST(LasVegas, LiesWhereTheTrackLies) {
   NEED_REFERENCE(rows);
   const auto map = lvms();
-  constexpr double kMetresPerDegreeNorth = 110'961.0, kMetresPerDegreeEast = 89'882.0;
+  constexpr double kMetresPerDegreeNorth = 110'961.0, kMetresPerDegreeEast = 89'861.0;
   const double east_m = (-115.015914 - map.datum_longitude_deg()) * kMetresPerDegreeEast;
   const double north_m = (36.268252 - map.datum_latitude_deg()) * kMetresPerDegreeNorth;
   for (const Reference& r : rows) {
