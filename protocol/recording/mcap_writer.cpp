@@ -30,7 +30,8 @@ std::uint64_t as_ns(Instant at) { return static_cast<std::uint64_t>(at.ns); }
 
 }  // namespace
 
-McapWriter::McapWriter(std::vector<Channel> channels, Metadata run, Sink sink, McapLimits limits)
+McapWriter::McapWriter(std::vector<Channel> channels, const Metadata& run, Sink sink,
+                       McapLimits limits)
     : channels_(std::move(channels)),
       sink_(std::move(sink)),
       limits_(limits),

@@ -71,7 +71,7 @@ struct McapCounters {
 
 class McapWriter {
  public:
-  McapWriter(std::vector<Channel> channels, Metadata run, Sink sink, McapLimits limits = {});
+  McapWriter(std::vector<Channel> channels, const Metadata& run, Sink sink, McapLimits limits = {});
 
   // False: refused, and counted by its reason.
   bool write(ChannelId channel, Instant at, std::span<const std::uint8_t> data);

@@ -35,6 +35,7 @@ std::size_t allocations_of(Work&& work) {
 
 #ifndef PITWALL_ADDRESS_SANITIZER
 // glibc lets a program put its own in front: https://www.gnu.org/software/libc/manual, 3.2.5.
+// NOLINTBEGIN(bugprone-reserved-identifier): the names are glibc's.
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
@@ -58,4 +59,5 @@ void* aligned_alloc(std::size_t alignment, std::size_t size) {
   return __libc_memalign(alignment, size);
 }
 }
+// NOLINTEND(bugprone-reserved-identifier)
 #endif

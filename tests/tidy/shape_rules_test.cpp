@@ -83,7 +83,7 @@ TEST(FileName, ForbiddenWordsAndOtherCases) {
 TEST(MirroredTests, SourcesAndHeadersWithLogicNeedOne) {
   const std::string logic = "inline int f() {\n  a();\n  b();\n  c();\n  return 1;\n}\n";
   const std::string plain = "struct A {\n  int x = 0;\n  int y() const { return x; }\n};\n";
-  const auto missing = [](std::vector<SourceFile> tree) {
+  const auto missing = [](const std::vector<SourceFile>& tree) {
     return check_mirrored_tests(tree).size();
   };
   EXPECT_EQ(missing({make_source("a/b.cpp", "")}), 1U);
