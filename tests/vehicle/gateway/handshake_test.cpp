@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/gateway/handshake.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/vehicle/gateway/traffic.hpp"
+
+namespace pitwall::gateway {
+namespace {
+
+using namespace testing;
+using world::CtState;
+using world::Mode;
+using world::SysState;
+using world::TrackFlag;
+using world::VehicleFlag;
+
+constexpr std::array kStates{
+    CtState::kDefault,          CtState::kPowerOn,         CtState::kInitialized,
+    CtState::kActuatorTest,     CtState::kCrankReady,      CtState::kCranking,
+    CtState::kRaceReady,        CtState::kInitDriving,     CtState::kCaution,
+    CtState::kNominalRace,      CtState::kCoordinatedStop, CtState::kControlledShutdown,
+    CtState::kEmergencyShutdown};
+
+struct Desk {
+  HandshakeParams params;
+  HandshakeState state;
+  HandshakeInputs inputs{.speed_mps = 0.0};
+  Instant now{};
+
+  CtState wait(Duration span) {
+    CtState ct = state.ct;
+    for (const Instant end = now + span; now < end;) {
+      now += milliseconds(10);
+      ct = handshake(params, state, inputs, now);
+    }
+    return ct;
+  }
+};
+
+TEST(Handshake, AWholeDayFromPowerOnToShutdown) {
+  Desk desk;
+  EXPECT_EQ(desk.wait(seconds(5)), CtState::kDefault) << "waits for race control";
+  desk.inputs.track = TrackFlag::kRed;
+  desk.inputs.sys = SysState::kPowerOn;
+  EXPECT_EQ(desk.wait(seconds(5)), CtState::kActuatorTest) << "waits for the actuator test";
+  desk.inputs.sys = SysState::kActuatorTestDone;
+  EXPECT_EQ(desk.wait(seconds(5)), CtState::kCrankReady);
+  desk.inputs.track = TrackFlag::kOrange;
+  EXPECT_EQ(desk.wait(seconds(5)), CtState::kCrankReady) << "no cranking before the brake is held";
+  desk.inputs.mode = Mode::kStandby;
+  EXPECT_EQ(desk.wait(seconds(5)), CtState::kCranking);
+  desk.inputs.sys = SysState::kEngineRunning;
+  EXPECT_EQ(desk.wait(seconds(5)), CtState::kInitDriving);
+  desk.inputs.sys = SysState::kDriving;
+  desk.inputs.track = TrackFlag::kYellow;
+  EXPECT_EQ(desk.wait(seconds(5)), CtState::kInitDriving)
+      << "no rolling before the mode is driving";
+  desk.inputs.mode = Mode::kDriving;
+  EXPECT_EQ(desk.wait(seconds(5)), CtState::kCaution);
+  desk.inputs.track = TrackFlag::kGreen;
+  EXPECT_EQ(desk.wait(seconds(5)), CtState::kNominalRace);
+  desk.inputs.track = TrackFlag::kWavingGreen;
+  EXPECT_EQ(desk.wait(seconds(5)), CtState::kNominalRace);
+  desk.inputs.track = TrackFlag::kYellow;
+  EXPECT_EQ(desk.wait(seconds(5)), CtState::kCaution);
+  desk.inputs.track = TrackFlag::kRed;
+  EXPECT_EQ(desk.wait(milliseconds(10)), CtState::kCoordinatedStop) << "at once";
+  desk.inputs.track = TrackFlag::kGreen;
+  EXPECT_EQ(desk.wait(seconds(5)), CtState::kNominalRace);
+  desk.inputs.mode = Mode::kControlledStop;
+  EXPECT_EQ(desk.wait(milliseconds(10)), CtState::kCoordinatedStop);
+  desk.inputs.operator_shutdown = true;
+  desk.inputs.speed_mps = 20.0;
+  EXPECT_EQ(desk.wait(seconds(5)), CtState::kCoordinatedStop) << "not while it rolls";
+  desk.inputs.speed_mps = kUnset;
+  EXPECT_EQ(desk.wait(seconds(5)), CtState::kCoordinatedStop) << "nor when nobody knows";
+  desk.inputs.speed_mps = 0.2;
+  EXPECT_EQ(desk.wait(seconds(5)), CtState::kControlledShutdown);
+}
+
+TEST(Handshake, EveryEmergencyFromEveryStateAndThereItStays) {
+  for (const CtState from : kStates) {
+    for (int kind = 0; kind < 3; ++kind) {
+      Desk desk;
+      desk.state = {from, desk.now};
+      if (kind == 0) desk.inputs.mode = Mode::kEmergencyStop;
+      if (kind == 1) desk.inputs.operator_emergency = true;
+      if (kind == 2) desk.inputs.vehicle = VehicleFlag::kPurpleEmergency;
+      EXPECT_EQ(desk.wait(milliseconds(10)), CtState::kEmergencyShutdown);
+      desk.inputs = {.sys = SysState::kDriving,
+                     .track = TrackFlag::kGreen,
+                     .mode = Mode::kDriving,
+                     .speed_mps = 0.0};
+      EXPECT_EQ(desk.wait(seconds(10)), CtState::kEmergencyShutdown);
+    }
+  }
+}
+
+// The transitions as published, one line each; every other change must be an emergency or a stop.
+struct Edge {
+  CtState from, to;
+};
+const std::vector<Edge> kPublished{{CtState::kDefault, CtState::kPowerOn},
+                                   {CtState::kPowerOn, CtState::kInitialized},
+                                   {CtState::kInitialized, CtState::kActuatorTest},
+                                   {CtState::kActuatorTest, CtState::kCrankReady},
+                                   {CtState::kCrankReady, CtState::kCranking},
+                                   {CtState::kCranking, CtState::kRaceReady},
+                                   {CtState::kRaceReady, CtState::kInitDriving},
+                                   {CtState::kInitDriving, CtState::kCaution},
+                                   {CtState::kCaution, CtState::kNominalRace},
+                                   {CtState::kNominalRace, CtState::kCaution},
+                                   {CtState::kCoordinatedStop, CtState::kCaution},
+                                   {CtState::kControlledShutdown, CtState::kCranking}};
+
+bool is_published(CtState from, CtState to) {
+  for (const Edge& edge : kPublished)
+    if (edge.from == from && edge.to == to) return true;
+  return false;
+}
+
+HandshakeInputs any_inputs(Random& random) {
+  HandshakeInputs in;
+  in.sys = static_cast<SysState>(random.below(20));
+  in.track = static_cast<TrackFlag>(random.below(8));
+  in.vehicle = static_cast<VehicleFlag>(random.below(12));
+  if (random.below(4) != 0) in.vehicle = VehicleFlag::kNone;
+  in.mode = static_cast<Mode>(random.below(world::kModes));
+  // Emergencies end a run: rare, so that there is something to end.
+  const bool rare = random.below(40) != 0;
+  if (rare && in.mode == Mode::kEmergencyStop) in.mode = Mode::kDriving;
+  if (rare && in.vehicle == VehicleFlag::kPurpleEmergency) in.vehicle = VehicleFlag::kNone;
+  in.speed_mps = random.below(3) == 0 ? kUnset : random.between(0.0, 3.0);
+  in.operator_shutdown = random.below(20) == 0;
+  in.operator_emergency = random.below(500) == 0;
+  return in;
+}
+
+TEST(Handshake, RandomInputsNeverLeaveThePublishedEdges) {
+  Random random{11};
+  int changes = 0;
+  for (int run = 0; run < 400; ++run) {
+    Desk desk;
+    desk.state = {kStates[random.below(kStates.size())], desk.now};
+    for (int i = 0; i < 200; ++i) {
+      const CtState from = desk.state.ct;
+      const Instant since = desk.state.since;
+      desk.inputs = any_inputs(random);
+      desk.now += milliseconds(static_cast<std::int64_t>(10 + random.below(300)));
+      const CtState to = handshake(desk.params, desk.state, desk.inputs, desk.now);
+      const HandshakeInputs& in = desk.inputs;
+      const bool emergency = in.mode == Mode::kEmergencyStop || in.operator_emergency ||
+                             in.vehicle == VehicleFlag::kPurpleEmergency;
+      if (from == CtState::kEmergencyShutdown || emergency) {
+        ASSERT_EQ(to, CtState::kEmergencyShutdown);
+        continue;
+      }
+      const bool stopping = in.mode == Mode::kControlledStop || in.mode == Mode::kHalted ||
+                            in.track == TrackFlag::kRed || in.track == TrackFlag::kUnknown ||
+                            in.vehicle == VehicleFlag::kUnknown ||
+                            in.vehicle == VehicleFlag::kStop ||
+                            in.vehicle == VehicleFlag::kEngineKill;
+      if (drives(from) && stopping) {
+        ASSERT_EQ(to, CtState::kCoordinatedStop);
+        continue;
+      }
+      if (to == from) continue;
+      ++changes;
+      ASSERT_GE(desk.now - since, desk.params.dwell);
+      if (to == CtState::kControlledShutdown) {
+        ASSERT_LE(in.speed_mps, desk.params.standstill_mps);
+      } else {
+        ASSERT_TRUE(is_published(from, to))
+            << static_cast<int>(from) << ">" << static_cast<int>(to);
+      }
+      if (to == CtState::kCaution || to == CtState::kNominalRace) {
+        ASSERT_TRUE(in.mode == Mode::kDriving && in.sys == SysState::kDriving);
+      }
+      if (drives(to)) {
+        ASSERT_TRUE(in.mode == Mode::kStandby || in.mode == Mode::kDriving);
+      }
+    }
+  }
+  EXPECT_GT(changes, 1000);
+}
+
+TEST(Handshake, TheTableAloneKeepsTheStateWithoutEvents) {
+  for (const CtState ct : kStates) EXPECT_EQ(next(ct, CtEvents{}), ct);
+}
+
+}  // namespace
+}  // namespace pitwall::gateway

@@ -1,0 +1,85 @@
+// A healthy situation, piece by piece, and a seeded source of numbers to spoil it.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "protocol/vocabulary/time.hpp"
+#include "vehicle/safety/fault_detection.hpp"
+#include "vehicle/safety/watchdog.hpp"
+#include "vehicle/world/actuator_command.hpp"
+#include "vehicle/world/bus_health.hpp"
+#include "vehicle/world/ego_state.hpp"
+#include "vehicle/world/race_control.hpp"
+#include "vehicle/world/signals.hpp"
+#include "vehicle/world/trajectory.hpp"
+
+namespace pitwall::safety::testing {
+
+// splitmix64: small, seeded, the same everywhere.
+struct Random {
+  std::uint64_t state;
+  std::uint64_t next() {
+    std::uint64_t z = (state += 0x9E3779B97F4A7C15ull);
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
+    return z ^ (z >> 31);
+  }
+  std::uint64_t below(std::uint64_t n) { return next() % n; }
+  bool one_in(std::uint64_t n) { return below(n) == 0; }
+  double between(double low, double high) {
+    return low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53;
+  }
+};
+
+struct Situation {
+  world::VehicleSignals signals;
+  world::BusHealth bus;
+  world::RaceControl race_control;
+  world::EgoState ego;
+  WatchdogOutput watchdog;
+  world::Trajectory stop;
+  world::ActuatorCommand control;
+  OperatorRequests requests;
+  bool control_ok = true, drive_available = true, own_id_seen = false, gate_refused = false;
+
+  Situation() {
+    for (std::size_t i = 0; i < kStreams; ++i)
+      watchdog.rows[i] = {static_cast<Stream>(i), Health::kGood, milliseconds(5)};
+    race_control.ever_heard = true;
+    race_control.track = world::TrackFlag::kGreen;
+    race_control.vehicle = world::VehicleFlag::kNone;
+    ego.validity = world::Validity::kGood;
+    ego.position_sigma_m = 0.05;
+    ego.ax_mps2 = ego.ay_mps2 = 0.0;
+    signals.misc = {{.battery_v = 12.5, .sys_state = world::SysState::kDriving}, {}, true};
+    signals.diagnostics.heard = true;
+    signals.steering_motor_rad = {0.0, {}, true};
+    signals.powertrain.heard = true;
+    signals.powertrain.value.gear = 1;
+    control = {
+        .at = {}, .road_wheel_rad = 0.01, .throttle_fraction = 0.3, .brake_kpa = 0.0, .gear = 1};
+    for (int i = 0; i < 100; ++i) {
+      const bool pushed = stop.points.push({.s_m = 3.0 * i,
+                                            .x_m = 3.0 * i,
+                                            .y_m = 0.0,
+                                            .yaw_rad = 0.0,
+                                            .curvature_per_m = 0.002,
+                                            .bank_rad = 0.1,
+                                            .speed_mps = 60.0,
+                                            .accel_mps2 = -6.0});
+      static_cast<void>(pushed);
+    }
+    at(Instant{}, 0.0);
+  }
+
+  // Everything that has a time is of now.
+  void at(Instant now, double speed_mps) {
+    signals.wheel_speed_mps = {{{speed_mps, speed_mps, speed_mps, speed_mps}}, now, true};
+    ego.vx_mps = speed_mps;
+    ego.at = control.at = stop.at = now;
+  }
+  StreamRow& stream(Stream s) { return watchdog.rows[static_cast<std::size_t>(s)]; }
+};
+
+}  // namespace pitwall::safety::testing
