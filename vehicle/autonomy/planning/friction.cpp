@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/autonomy/planning/friction.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pitwall::planning {
+namespace {
+
+constexpr double kSpeedCeiling_mps = 150.0;  // of the search; no car here reaches it
+constexpr double kSpeedFloor_mps = 1.0;      // below it, power / speed means nothing
+constexpr int kBisections = 40;              // 150 m/s / 2^40 is far below a rounding of the result
+
+double left_over(double grip_mps2, double lateral_mps2) {
+  const double rest = grip_mps2 * grip_mps2 - lateral_mps2 * lateral_mps2;
+  return rest > 0.0 ? std::sqrt(rest) : 0.0;
+}
+
+}  // namespace
+
+double grip_mps2(const FrictionParams& car, const RoadLoad& at) {
+  const double v2 = at.speed_mps * at.speed_mps;
+  const double load = kGravity_mps2 * std::cos(at.bank_rad) +
+                      v2 * at.curvature_per_m * std::sin(at.bank_rad) + car.downforce_per_m * v2;
+  return car.friction * std::max(load, 0.0);
+}
+
+double lateral_demand_mps2(const RoadLoad& at) {
+  return at.speed_mps * at.speed_mps * at.curvature_per_m * std::cos(at.bank_rad) -
+         kGravity_mps2 * std::sin(at.bank_rad);
+}
+
+double brake_available_mps2(const FrictionParams& car, const RoadLoad& at, double share) {
+  const double rest = left_over(share * grip_mps2(car, at), lateral_demand_mps2(at));
+  return std::min(rest, car.brake_max_mps2);
+}
+
+double drive_available_mps2(const FrictionParams& car, const RoadLoad& at, double share) {
+  const double rest = left_over(share * grip_mps2(car, at), lateral_demand_mps2(at));
+  const double power = car.power_w_per_kg / std::max(at.speed_mps, kSpeedFloor_mps);
+  return std::min({rest, power, car.accel_max_mps2}) - car.drag_per_m * at.speed_mps * at.speed_mps;
+}
+
+double corner_speed_mps(const FrictionParams& car, const RoadLoad& at, double share) {
+  const auto carries = [&](double speed_mps) {
+    const RoadLoad load{speed_mps, at.curvature_per_m, at.bank_rad};
+    return std::abs(lateral_demand_mps2(load)) <= share * grip_mps2(car, load);
+  };
+  if (carries(kSpeedCeiling_mps)) return kSpeedCeiling_mps;
+  // On a bank the slowest speeds may need more than the fast ones; the neutral speed, where gravity
+  // turns the car, is carried if any is.
+  const double turn = at.curvature_per_m * std::cos(at.bank_rad);
+  const double fall = kGravity_mps2 * std::sin(at.bank_rad);
+  double good = turn * fall > 0.0 ? std::sqrt(fall / turn) : 0.0, bad = kSpeedCeiling_mps;
+  if (!carries(good)) return 0.0;
+  for (int i = 0; i < kBisections; ++i) {
+    const double middle = 0.5 * (good + bad);
+    (carries(middle) ? good : bad) = middle;
+  }
+  return good;
+}
+
+}  // namespace pitwall::planning

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/autonomy/planning/line.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "protocol/vocabulary/check.hpp"
+
+namespace pitwall::planning {
+namespace {
+
+constexpr double kHintReach_m = 50.0;
+constexpr int kProfileLaps = 2;  // the second lap starts from what the first one ended with
+
+double mix(double a, double b, double t) { return a + t * (b - a); }
+
+// Arc length along the offset line at each of the track's points, and its whole length.
+std::vector<double> arc_lengths(const world::TrackMap& track, double offset_m) {
+  std::vector<double> s_m{0.0};
+  world::TrackPoint last = track.offset(track.point(0).s_m, offset_m);
+  for (std::size_t i = 1; i <= track.size(); ++i) {
+    const world::TrackPoint next = track.offset(track.point(i % track.size()).s_m, offset_m);
+    // Chord to arc: half the turn over its sine, to second order.
+    const double chord_m = std::hypot(next.x_m - last.x_m, next.y_m - last.y_m);
+    const double bend = 0.5 * std::remainder(next.yaw_rad - last.yaw_rad, 2.0 * std::numbers::pi);
+    s_m.push_back(s_m.back() + chord_m * (1.0 + bend * bend / 6.0));
+    last = next;
+  }
+  return s_m;
+}
+
+LinePoint sample(const world::TrackMap& track, double offset_m, double s_m, double track_s_m) {
+  const world::TrackPoint p = track.offset(track_s_m, offset_m);
+  const double curvature_per_m = p.curvature_per_m / (1.0 - p.curvature_per_m * offset_m);
+  return {.s_m = s_m,
+          .track_s_m = track.wrap_station(track_s_m),
+          .x_m = p.x_m,
+          .y_m = p.y_m,
+          .yaw_rad = wrap_pi(p.yaw_rad),
+          .curvature_per_m = curvature_per_m,
+          .bank_rad = p.bank_rad};
+}
+
+void place_points(const world::TrackMap& track, const LineParams& params, Line& line) {
+  const std::vector<double> arc_m = arc_lengths(track, params.offset_m);
+  const double track_step_m = track.length_m() / static_cast<double>(track.size());
+  line.length_m = arc_m.back();
+  const auto count = static_cast<std::size_t>(std::ceil(line.length_m / params.spacing_m));
+  line.spacing_m = line.length_m / static_cast<double>(count);
+  std::size_t i = 0;
+  for (std::size_t n = 0; n < count; ++n) {
+    const double s_m = line.spacing_m * static_cast<double>(n);
+    while (arc_m[i + 1] <= s_m) ++i;
+    const double t = (s_m - arc_m[i]) / (arc_m[i + 1] - arc_m[i]);
+    line.points.push_back(
+        sample(track, params.offset_m, s_m, (static_cast<double>(i) + t) * track_step_m));
+  }
+}
+
+RoadLoad load(const LinePoint& p) { return {p.speed_mps, p.curvature_per_m, p.bank_rad}; }
+
+// Forward and backward over the closed line: no point is faster than its corner, than the engine
+// gets there from the point before, or than the brakes allow before the point after.
+void limit_speeds(const LineParams& params, Line& line) {
+  auto& p = line.points;
+  const std::size_t n = p.size();
+  for (LinePoint& point : p) {
+    const double corner = corner_speed_mps(params.friction, load(point), params.grip_share);
+    point.speed_mps = std::min(corner, params.speed_max_mps);
+  }
+  const double twice_m = 2.0 * line.spacing_m;
+  for (std::size_t k = 0; k < kProfileLaps * n; ++k) {
+    const LinePoint& a = p[k % n];
+    LinePoint& b = p[(k + 1) % n];
+    const double accel = drive_available_mps2(params.friction, load(a), params.grip_share);
+    const double most = a.speed_mps * a.speed_mps + twice_m * accel;
+    b.speed_mps = std::min(b.speed_mps, std::sqrt(std::max(most, 0.0)));
+  }
+  for (std::size_t k = kProfileLaps * n; k > 0; --k) {
+    const LinePoint& b = p[k % n];
+    LinePoint& a = p[(k - 1) % n];
+    const double brake = brake_available_mps2(params.friction, load(b), params.grip_share) +
+                         params.friction.drag_per_m * b.speed_mps * b.speed_mps;
+    a.speed_mps = std::min(a.speed_mps, std::sqrt(b.speed_mps * b.speed_mps + twice_m * brake));
+  }
+}
+
+// The first place where the line comes too close to a wall.
+std::optional<Problem> off_road(const world::TrackMap& track, const LineParams& params) {
+  for (std::size_t i = 0; i < track.size(); ++i) {
+    const world::TrackPoint& p = track.point(i);
+    if (params.offset_m + params.wall_clearance_m > p.width_left_m ||
+        -params.offset_m + params.wall_clearance_m > p.width_right_m) {
+      return Problem{"line.offset_m", "comes closer to a wall than line.wall_clearance_m at s = " +
+                                          std::to_string(p.s_m) + " m of " + track.name()};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+double Line::wrap(double s_m) const {
+  const double wrapped = s_m - length_m * std::floor(s_m / length_m);
+  return wrapped < length_m ? wrapped : 0.0;  // rounding of a tiny negative s
+}
+
+LinePoint Line::at(double s_m) const {
+  CHECK(!points.empty());
+  const double wrapped_m = wrap(s_m);
+  const double index = wrapped_m / spacing_m;
+  const std::size_t i = std::min(static_cast<std::size_t>(index), points.size() - 1);
+  const double t = index - static_cast<double>(i);
+  const LinePoint &a = points[i], &b = points[(i + 1) % points.size()];
+  // A cubic through both ends with their headings: the chord alone would cut the corner.
+  const double along = spacing_m * t, h = spacing_m;
+  const double c1 = std::cos(a.yaw_rad), s1 = std::sin(a.yaw_rad);
+  const double c2 = std::cos(b.yaw_rad), s2 = std::sin(b.yaw_rad);
+  const double u2 = t * t, u3 = u2 * t;
+  const auto hermite = [&](double p, double m, double q, double n) {
+    return (2 * u3 - 3 * u2 + 1) * p + (u3 - 2 * u2 + t) * h * m + (3 * u2 - 2 * u3) * q +
+           (u3 - u2) * h * n;
+  };
+  LinePoint p = a;
+  p.s_m = wrapped_m;
+  const bool across_start = b.track_s_m < a.track_s_m;
+  p.track_s_m = across_start ? a.track_s_m + along : mix(a.track_s_m, b.track_s_m, t);
+  p.x_m = hermite(a.x_m, c1, b.x_m, c2);
+  p.y_m = hermite(a.y_m, s1, b.y_m, s2);
+  p.yaw_rad = wrap_pi(a.yaw_rad + t * wrap_pi(b.yaw_rad - a.yaw_rad));
+  p.curvature_per_m = mix(a.curvature_per_m, b.curvature_per_m, t);
+  p.bank_rad = mix(a.bank_rad, b.bank_rad, t);
+  p.speed_mps = mix(a.speed_mps, b.speed_mps, t);
+  return p;
+}
+
+LinePosition Line::project(double x_m, double y_m, std::optional<double> hint_s_m) const {
+  CHECK(!points.empty());
+  if (!std::isfinite(x_m + y_m)) return {};
+  const std::size_t n = points.size();
+  std::size_t first = 0, count = n;
+  if (hint_s_m && std::isfinite(*hint_s_m)) {
+    const auto reach = std::min(static_cast<std::size_t>(kHintReach_m / spacing_m), n / 2);
+    const auto centre = std::min(static_cast<std::size_t>(wrap(*hint_s_m) / spacing_m), n - 1);
+    first = centre + n - reach;
+    count = 2 * reach + 1;
+  }
+  std::size_t best = first % n;
+  double best_m2 = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < count; ++k) {
+    const LinePoint& p = points[(first + k) % n];
+    const double m2 = (x_m - p.x_m) * (x_m - p.x_m) + (y_m - p.y_m) * (y_m - p.y_m);
+    if (m2 < best_m2) best_m2 = m2, best = (first + k) % n;
+  }
+  double s_m = points[best].s_m;
+  LinePoint p = points[best];
+  double dx = x_m - p.x_m, dy = y_m - p.y_m;
+  constexpr int kSteps = 2;  // of Newton along the line; the first is already within centimetres
+  for (int i = 0; i < kSteps; ++i) {
+    const double along_m = dx * std::cos(p.yaw_rad) + dy * std::sin(p.yaw_rad);
+    const double left_m = dy * std::cos(p.yaw_rad) - dx * std::sin(p.yaw_rad);
+    const double stretch = std::max(1.0 - p.curvature_per_m * left_m, 0.1);
+    s_m += std::clamp(along_m / stretch, -spacing_m, spacing_m);
+    p = at(s_m);
+    dx = x_m - p.x_m, dy = y_m - p.y_m;
+  }
+  return {wrap(s_m), dy * std::cos(p.yaw_rad) - dx * std::sin(p.yaw_rad)};
+}
+
+Result<Line, Problem> build_line(const world::TrackMap& track, const LineParams& params) {
+  if (auto problem = off_road(track, params)) return Unexpected{*problem};
+  Line line;
+  place_points(track, params, line);
+  limit_speeds(params, line);
+  return line;
+}
+
+}  // namespace pitwall::planning

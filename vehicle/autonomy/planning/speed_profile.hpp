@@ -1,0 +1,64 @@
+// Speeds that a car can follow: a reference that moves to its target with limited acceleration and
+// jerk, and that reference played forward over a path.
+//   law    acceleration wanted = +-sqrt(2 j |target - v|) within its limits, reached at rate j: it
+//          lands on the target with acceleration zero and does not overshoot
+//   cost   O(kProfileSteps), no allocation
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "protocol/vocabulary/units.hpp"
+#include "vehicle/autonomy/planning/friction.hpp"
+#include "vehicle/autonomy/planning/line.hpp"
+#include "vehicle/world/trajectory.hpp"
+
+namespace pitwall::planning {
+
+struct SpeedReference {
+  double speed_mps = 0.0, accel_mps2 = 0.0;
+};
+
+struct SpeedLimits {
+  double target_mps = 0.0;
+  double accel_max_mps2 = 0.0, decel_max_mps2 = 0.0;  // both >= 0
+  double jerk_max_mps3 = 1.0;
+};
+
+SpeedReference advance(const SpeedReference& reference, const SpeedLimits& limits, double dt_s);
+
+inline constexpr double kProfileStep_s = 0.02;
+inline constexpr std::size_t kProfileSteps = 2000;  // 40 s: a stop from top speed takes half of it
+
+// Speed and acceleration at equal distances from where the car is.
+struct SpeedProfile {
+  double spacing_m = kUnset;
+  std::array<SpeedReference, world::kTrajectoryPoints> at{};
+  double stop_distance_m = kUnset;  // where it first stands; unset if it does not
+};
+
+struct DriveLimits {
+  double target_mps = kUnset;
+  double accel_max_mps2 = kUnset, decel_max_mps2 = kUnset, jerk_max_mps3 = kUnset;
+};
+
+// Towards the target, below the line's own limits, which are seen coming.
+SpeedReference advance_drive(const Line& line, double s_m, const SpeedReference& from,
+                             const DriveLimits& limits, double dt_s);
+SpeedProfile drive_profile(const Line& line, double s_m, const SpeedReference& from,
+                           const DriveLimits& limits, double spacing_m);
+
+struct StopLimits {
+  FrictionParams friction;
+  double grip_share = kUnset, decel_max_mps2 = kUnset, jerk_max_mps3 = kUnset;
+};
+
+// To standstill with what the corner leaves of the friction ellipse.
+SpeedReference advance_stop(const Line& line, double s_m, const SpeedReference& from,
+                            const StopLimits& limits, double dt_s);
+// The spacing is chosen so that the points reach `beyond_m` past the place where it stands.
+SpeedProfile stop_profile(const Line& line, double s_m, const SpeedReference& from,
+                          const StopLimits& limits, double beyond_m);
+
+}  // namespace pitwall::planning
