@@ -23,11 +23,17 @@ const Names kClockFolders{"protocol/transport", "tests/benchmarks"};
 const Names kRim{"protocol/transport",  "vehicle/io", "basestation/intake",
                  "basestation/outlets", "hil/bench",  "hil/guest",
                  "hil/sweep",           "tests",      "main.cpp"};
-const Names kPrinting{"protocol/transport", "vehicle/io",
-                      "basestation/intake", "basestation/outlets",
-                      "hil/bench",          "hil/guest",
-                      "hil/sweep",          "tests",
-                      "main.cpp",           "protocol/vocabulary/check.hpp"};
+const Names kPrinting{"hil/verbs",
+                      "protocol/transport",
+                      "vehicle/io",
+                      "basestation/intake",
+                      "basestation/outlets",
+                      "hil/bench",
+                      "hil/guest",
+                      "hil/sweep",
+                      "tests",
+                      "main.cpp",
+                      "protocol/vocabulary/check.hpp"};
 const Names kNowhere{};
 
 const std::vector<Ban> kBans{
