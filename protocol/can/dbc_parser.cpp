@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -393,16 +391,6 @@ Result<Database, Problem> parse_dbc(std::string_view text, const std::string& na
   } catch (const DbcScanner::Stop& stop) {
     return Unexpected{stop.problem};
   }
-}
-
-Result<Database, Problem> load_dbc(const std::filesystem::path& path) {
-  std::error_code error;
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path, error)) {
-    return Unexpected{Problem{path.string(), "cannot open the file"}};
-  }
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  return parse_dbc(text, path.string());
 }
 
 }  // namespace pitwall::can

@@ -2,7 +2,6 @@
 #include "protocol/can/manifest.hpp"
 
 #include <array>
-#include <set>
 #include <utility>
 
 #include "protocol/vocabulary/check.hpp"
@@ -66,13 +65,6 @@ Manifest manifest_of(yaml::StrictMap& root) {
   return manifest;
 }
 
-Result<Manifest, Problem> checked(const Result<yaml::Document, Problem>& document) {
-  if (!document) return Unexpected{document.error()};
-  auto manifest = yaml::read(*document, manifest_of);
-  if (manifest) manifest->name = document->name();
-  return manifest;
-}
-
 std::optional<Problem> counter_problem(const ManifestMessage& entry, const Message& m) {
   if (entry.counter.empty()) return std::nullopt;
   const Signal* const s = m.find(entry.counter);
@@ -99,11 +91,11 @@ const ManifestMessage* Manifest::find(std::string_view message_name) const {
 }
 
 Result<Manifest, Problem> parse_manifest(std::string_view text, const std::string& name) {
-  return checked(yaml::load_text(text, name));
-}
-
-Result<Manifest, Problem> load_manifest(const std::filesystem::path& path) {
-  return checked(yaml::load_file(path));
+  const auto document = yaml::load_text(text, name);
+  if (!document) return Unexpected{document.error()};
+  auto manifest = yaml::read(*document, manifest_of);
+  if (manifest) manifest->name = name;
+  return manifest;
 }
 
 std::optional<Problem> contradiction(const Manifest& manifest, const Database& database) {

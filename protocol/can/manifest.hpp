@@ -9,7 +9,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -73,7 +72,6 @@ struct Manifest {
 };
 
 Result<Manifest, Problem> parse_manifest(std::string_view text, const std::string& name);
-Result<Manifest, Problem> load_manifest(const std::filesystem::path& path);
 
 // Nothing, or the first place where manifest and database contradict each other.
 std::optional<Problem> contradiction(const Manifest& manifest, const Database& database);

@@ -1,6 +1,6 @@
-// Where a signal lies in a frame and what its bits mean; from that a plan: one load of eight bytes,
-// one shift, one mask. The generated code and the run-time decoder use the same functions.
-//   in      the layout as a DBC file writes it (start bit, length, byte order, scale, offset, range)
+// Where a signal lies in a frame and what its bits mean; from that a plan: one load of eight
+// bytes, one shift, one mask. Generated code and run-time decoder use the same functions.
+//   in      the layout as a DBC file writes it (start bit, length, byte order, scale, range)
 //   out     raw bits and physical values in DBC units
 //   errors  plan() trusts its layout; the parser refuses layouts that do not fit their message
 //   source  Vector, "DBC File Format Documentation" 1.0; Motorola start bit = most significant bit,

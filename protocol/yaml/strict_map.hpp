@@ -1,12 +1,12 @@
 // Strict reading of YAML that a person wrote: parameters, scenarios, manifests. Start-up only.
 //   in      one YAML document (a file or a text with a name for messages)
-//   out     numbers, texts, flags, lists and nested mappings, asked for by key with their legal range
+//   out     numbers, texts, flags, lists and nested mappings, asked for by key and range
 //   errors  wrong kind, NaN or infinity, out of range, missing key, duplicate key, and a key that
 //           nobody asked for. Each is an InputError whose place is "file:line:column"; read() turns
 //           it into a Problem, so that no exception leaves the reader.
 //
 //   auto car = yaml::load_file(path);
-//   auto mass_kg = yaml::read(*car, [](yaml::StrictMap& m) { return m.number("mass_kg", 1, 5000); });
+//   auto mass_kg = yaml::read(*car, [](yaml::StrictMap& m) { return m.number("mass_kg", 1, 5e3); });
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -2,24 +2,24 @@
 #include "protocol/can/generator/header_text.hpp"
 
 #include <array>
-#include <cstdio>
+#include <charconv>
 #include <set>
 
 namespace pitwall::can {
 namespace {
 
 std::string real(double v) {
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%.17g", v);
-  std::string out = text.data();
+  std::array<char, 40> text{};  // the shortest digits that give back the same number
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), v).ptr;
+  std::string out{text.data(), end};
   if (out.find_first_of(".e") == std::string::npos) out += ".0";
   return out;
 }
 
 std::string hex(std::uint64_t v) {
   std::array<char, 24> text{};
-  std::snprintf(text.data(), text.size(), "0x%llX", static_cast<unsigned long long>(v));
-  return text.data();
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), v, 16).ptr;
+  return "0x" + std::string{text.data(), end};
 }
 
 std::string number(std::uint64_t v) { return std::to_string(v); }

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <string>
 
 #include "protocol/can/dbc_parser.hpp"
 #include "protocol/can/generator/header_text.hpp"
@@ -17,6 +19,12 @@ int refuse(const pitwall::Problem& problem) {
   return 1;
 }
 
+pitwall::Result<std::string, pitwall::Problem> text_of(const char* path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return pitwall::Unexpected{pitwall::Problem{path, "cannot open the file"}};
+  return std::string{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -24,9 +32,12 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: pitwall-dbc-generator DBC MANIFEST OUT.hpp\n");
     return 2;
   }
-  const auto database = pitwall::can::load_dbc(argv[1]);
+  const auto dbc = text_of(argv[1]), yaml = text_of(argv[2]);
+  if (!dbc) return refuse(dbc.error());
+  if (!yaml) return refuse(yaml.error());
+  const auto database = pitwall::can::parse_dbc(*dbc, argv[1]);
   if (!database) return refuse(database.error());
-  const auto manifest = pitwall::can::load_manifest(argv[2]);
+  const auto manifest = pitwall::can::parse_manifest(*yaml, argv[2]);
   if (!manifest) return refuse(manifest.error());
   const std::string name = std::filesystem::path(argv[3]).stem().string();
   const auto text = pitwall::can::header_text(*database, *manifest, name);

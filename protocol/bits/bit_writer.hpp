@@ -1,0 +1,52 @@
+// Unsigned fields of 0 to 64 bits one after the other, most significant bit first, no padding.
+//   in      a buffer and values that fit their field
+//   out     the buffer, its unused bits untouched until the byte they lie in is begun
+//   errors  a field that does not fit in the buffer is refused, and so is everything after it:
+//           ok() stays false; a value wider than its field is our own mistake
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "protocol/vocabulary/check.hpp"
+
+namespace pitwall::bits {
+
+inline constexpr unsigned kMaxFieldBits = 64;
+
+class BitWriter {
+ public:
+  constexpr explicit BitWriter(std::span<std::uint8_t> buffer) : buffer_(buffer) {}
+
+  constexpr bool write(std::uint64_t value, unsigned bits) {
+    CHECK(bits <= kMaxFieldBits && (bits == kMaxFieldBits || value >> bits == 0));
+    if (!ok_ || bits > 8 * buffer_.size() - at_) return ok_ = false;
+    while (bits > 0) {
+      const unsigned free = 8U - static_cast<unsigned>(at_ % 8);
+      const unsigned now = bits < free ? bits : free;
+      std::uint8_t& byte = buffer_[at_ / 8];
+      if (free == 8) byte = 0;
+      const auto part = static_cast<unsigned>(value >> (bits - now)) & ((1U << now) - 1U);
+      byte = static_cast<std::uint8_t>(byte | part << (free - now));
+      at_ += now;
+      bits -= now;
+    }
+    return true;
+  }
+  constexpr bool write_flag(bool value) { return write(value ? 1 : 0, 1); }
+  // Zeros up to the next whole byte.
+  constexpr bool align() { return write(0, static_cast<unsigned>((8 - at_ % 8) % 8)); }
+
+  constexpr bool ok() const { return ok_; }
+  constexpr std::size_t bits() const { return at_; }
+  constexpr std::size_t bytes() const { return (at_ + 7) / 8; }
+
+ private:
+  std::span<std::uint8_t> buffer_;
+  std::size_t at_ = 0;
+  bool ok_ = true;
+};
+
+}  // namespace pitwall::bits
