@@ -73,6 +73,10 @@ Result<bool, Problem> write_file(const std::string& path, std::string_view conte
   return refuse(path, outcome);
 }
 
+bool write_to(int descriptor, std::string_view text) {
+  return write_all(descriptor, as_bytes(text)).ok();
+}
+
 Result<AppendWriter, Problem> AppendWriter::open(const std::string& path, Start start) {
   const int truncate = start == Start::kTruncate ? O_TRUNC : 0;
   const auto opened = open_file(path, O_WRONLY | O_CREAT | O_APPEND | truncate);

@@ -25,6 +25,9 @@ Result<std::string, Problem> read_file(const std::string& path,
 Result<bool, Problem> write_file(const std::string& path, std::string_view contents,
                                  unsigned permissions = 0644);
 
+// The whole text to an open descriptor (1 and 2 are standard output and errors).
+bool write_to(int descriptor, std::string_view text);
+
 struct AppendCounters {
   std::uint64_t bytes = 0, writes = 0, syncs = 0;
   std::uint64_t failures = 0;  // write() or sync() that did not succeed completely

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/replay/player.hpp"
+
+#include <cmath>
+
+namespace pitwall::replay {
+
+void LatenessHistogram::add(Duration lateness, std::uint64_t frames) {
+  const std::int64_t cell_us = std::max<std::int64_t>(lateness.ns, 0) / 1'000;
+  cells_[std::min(static_cast<std::size_t>(cell_us), kCells)] += frames;
+  count_ += frames;
+  latest_ = std::max(latest_, lateness);
+  earliest_ = std::min(earliest_, lateness);
+}
+
+Duration LatenessHistogram::quantile(double share) const {
+  const auto wanted = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(count_)));
+  std::uint64_t seen = 0;
+  for (std::size_t cell = 0; cell < kCells; ++cell) {
+    seen += cells_[cell];
+    if (seen >= wanted && seen > 0) return microseconds(static_cast<std::int64_t>(cell) + 1);
+  }
+  return count_ == 0 ? Duration{} : latest_;
+}
+
+}  // namespace pitwall::replay

@@ -1,0 +1,43 @@
+// What to send when: a log turned into one sequence per bus, ready to hand to a socket.
+//   in     CandumpLog, which recorded channel goes to which bus, speed
+//   out    frames of each bus in the order of the log, with due times from the start
+//   units  nanoseconds since the start of a pass
+//   errors Problem: a channel without a bus, or nothing to send
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hil/replay/candump_log.hpp"
+#include "protocol/can/frame.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::replay {
+
+struct BusTrack {
+  std::string interface;
+  std::vector<can::Frame> frames;
+  std::vector<Duration> due;  // of frames[i]; never decreasing
+};
+
+struct Timeline {
+  std::vector<BusTrack> buses;
+  Duration pass{};  // from the first frame of one pass to the first of the next
+  std::uint64_t frames = 0;
+};
+
+struct TimelineOptions {
+  double speed = 1.0;
+  std::string interface {};  // for every channel that the map does not name; empty: its own name
+  std::vector<std::pair<std::string, std::string>> map{};  // recorded name, name to send on
+};
+
+// A stamp that goes back is due with the frame before it: the order of the log is kept. Due times
+// are computed from the start, not from frame to frame, so speed brings no drift. Passes follow
+// each other with the mean gap of the log.
+Result<Timeline, Problem> make_timeline(const CandumpLog& log, const TimelineOptions& options);
+
+}  // namespace pitwall::replay
