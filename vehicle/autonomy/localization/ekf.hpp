@@ -61,8 +61,8 @@ struct Measurement {
   Instant at{};
   double a = kUnset, b = kUnset;
   double sigma_a = kUnset, sigma_b = kUnset;
-  LeverArm arm;
-  Motion motion;  // kImu only; its banking holds for the others as well
+  LeverArm arm{};
+  Motion motion{};  // kImu only; its banking holds for the others as well
 };
 
 struct Predicted {

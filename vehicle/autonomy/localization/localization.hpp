@@ -14,44 +14,15 @@
 #include <cstdint>
 
 #include "protocol/vocabulary/fixed_vector.hpp"
-#include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/autonomy/localization/datum.hpp"
-#include "vehicle/autonomy/localization/ekf.hpp"
+#include "vehicle/autonomy/localization/params.hpp"
 #include "vehicle/autonomy/localization/timeline.hpp"
 #include "vehicle/world/ego_state.hpp"
 #include "vehicle/world/sensor_input.hpp"
 #include "vehicle/world/signals.hpp"
 
 namespace pitwall::localization {
-
-struct UnitParams {
-  LeverArm antenna;                  // of the primary antenna, from the centre of gravity: +-5 m
-  double baseline_yaw_rad = kUnset;  // -pi..pi: direction of the antenna baseline in Body, from x
-                                     // counter-clockwise
-};
-
-struct Params {
-  std::array<UnitParams, world::kGnssUnits> units;
-  TimelineParams timeline;
-  double position_sigma_floor_m = kUnset;   // 0.001..1: added to the receiver's own figure
-  double position_sigma_max_m = kUnset;     // 0.05..20: a worse solution is refused
-  double velocity_sigma_mps = kUnset;       // 0.01..2
-  double heading_sigma_floor_rad = kUnset;  // 0.0005..0.2
-  double heading_sigma_max_rad = kUnset;    // 0.005..0.5: a worse solution is refused
-  double wheel_sigma_mps = kUnset;          // 0.01..2
-  double wheel_sigma_per_speed = kUnset;    // 0..0.1: share of the speed (slip, tyre growth)
-  double slip_sigma_mps = kUnset;           // 0.05..5: of the lateral speed by the tyre model
-  double slip_after_s = kUnset;             // 0.05..5: without GNSS velocity the model is used
-  double cg_to_rear_m = kUnset;             // 0.5..3
-  double rear_slip_rad_per_mps2 = kUnset;   // 0..0.02: rear slip angle per lateral acceleration
-  double imu_timeout_s = kUnset;            // 0.02..0.5: then the other unit's IMU
-  double good_age_max_s = kUnset;           // 0.1..2: of the last position for kGood
-  double dead_reckoning_max_s = kUnset;     // 0.5..20: then kLost
-  double good_sigma_max_m = kUnset;         // 0.05..5
-  double lost_sigma_max_m = kUnset;         // 0.5..50
-  double reset_after_s = kUnset;            // 0.5..10: positions refused so long restart the filter
-};
 
 enum class Source : std::uint8_t { kPosition, kVelocity, kHeading, kImu, kWheelSpeed };
 inline constexpr std::size_t kSources = 5;
@@ -95,6 +66,8 @@ struct State {
   world::GnssVelocity seed_velocity;
   bool have_position = false, have_heading = false, have_velocity = false;
   Instant last_wheel{};
+  bool have_wheel = false;
+  double wheel_mps = 0.0;
   Instant refused_since{};  // positions refused without a break
   bool refusing = false;
   std::uint32_t restarts = 0;
@@ -108,11 +81,9 @@ struct Output {
   FixedVector<Verdict, kVerdictsMax> verdicts;
   double gyro_bias_rad_per_s = kUnset;
   double position_age_s = kUnset;  // since the last accepted position was true
+  double imu_age_s = kUnset;
   State next;
 };
-
-// Start-up: every parameter against its legal range; the place is the parameter's name.
-Result<Params, Problem> checked(const Params& params);
 
 Output step(const Params& params, const Datum& datum, const State& state,
             const world::SensorInput& sensors, const world::VehicleSignals& signals,
