@@ -1,0 +1,97 @@
+// The plant against a recorded drive of the real car: its steering angle and speed go in, its yaw
+// rate is compared. Nothing was fitted to this drive but the brakes, which take no part here.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <vector>
+
+#include "hil/plant/plant.hpp"
+
+namespace pitwall::plant {
+namespace {
+
+constexpr double kSlow_mps = 5.0;
+constexpr int kStepsPerRow = 40;  // 25 Hz
+
+struct Row {
+  double speed_mps, road_wheel_rad, yaw_rate_rad_per_s;
+};
+
+std::vector<Row> recorded_drive() {
+  const char* folder = std::getenv("PITWALL_SHARED_DATA");
+  const std::filesystem::path data =
+      folder ? folder : std::filesystem::path(PITWALL_SOURCE_DIR) / "../shared/data";
+  const auto path = data / "laps/Putnam_park2023_run4_2.csv.gz";
+  std::vector<Row> rows;
+  if (!std::filesystem::exists(path)) return rows;
+  FILE* pipe = popen(("zcat '" + path.string() + "'").c_str(), "r");
+  if (pipe == nullptr) return rows;
+  std::array<char, 1024> line{};
+  while (std::fgets(line.data(), line.size(), pipe) != nullptr) {
+    if (line[0] == '#') continue;
+    std::stringstream fields(line.data());
+    std::vector<double> v;
+    for (std::string field; std::getline(fields, field, ',');) v.push_back(std::stod(field));
+    if (v.size() >= 8) rows.push_back({v[3], v[6], v[7]});
+  }
+  pclose(pipe);
+  return rows;
+}
+
+// Speed and steering are those of the recording; sliding and yaw are the plant's own.
+void impose(const Params& p, const Row& row, State& s) {
+  s.motion.vx_mps = row.speed_mps;
+  s.motion.steering_motor_rad = row.road_wheel_rad * p.steering.ratio;
+  for (std::size_t i = 0; i < world::kCorners; ++i) {
+    s.motion.wheel_rad_per_s[i] = row.speed_mps / (i < 2 ? p.front : p.rear).radius_m;
+    s.locked[i] = row.speed_mps == 0.0;
+  }
+}
+
+struct Score {
+  double plant_error = 0.0, kinematic_error = 0.0, variance = 0.0;
+};
+
+Score replay(const std::vector<Row>& rows) {
+  Params p;
+  p.steering.delay_s = 0.0;
+  const double wheelbase_m = p.chassis.front_axle_m + p.chassis.rear_axle_m;
+  State s = rolling(p, standing(p, 0, 0, 0), rows.front().speed_mps, 0);
+  double mean = 0.0, count = 0.0;
+  for (const Row& row : rows)
+    if (row.speed_mps > kSlow_mps) mean += row.yaw_rate_rad_per_s, count += 1.0;
+  mean /= count;
+  Score score;
+  for (const Row& row : rows) {
+    for (int i = 0; i < kStepsPerRow; ++i) {
+      impose(p, row, s);
+      s = step(p, s, {.steering_motor_rad = s.motion.steering_motor_rad, .ignition = true}, {},
+               0.001);
+    }
+    if (row.speed_mps <= kSlow_mps) continue;
+    const double kinematic = row.speed_mps * std::tan(row.road_wheel_rad) / wheelbase_m;
+    score.plant_error += std::pow(s.motion.yaw_rate_rad_per_s - row.yaw_rate_rad_per_s, 2);
+    score.kinematic_error += std::pow(kinematic - row.yaw_rate_rad_per_s, 2);
+    score.variance += std::pow(row.yaw_rate_rad_per_s - mean, 2);
+  }
+  return score;
+}
+
+TEST(RecordedDrive, YawRateFollowsTheRealCar) {
+  const auto rows = recorded_drive();
+  if (rows.empty()) GTEST_SKIP() << "the recorded drive is not on this machine";
+  ASSERT_GT(rows.size(), 10'000U);
+  const Score score = replay(rows);
+  const double explained = 1.0 - score.plant_error / score.variance;
+  EXPECT_GE(explained, 0.94);
+  EXPECT_LT(score.plant_error, 0.7 * score.kinematic_error);  // a kinematic model is no match
+}
+
+}  // namespace
+}  // namespace pitwall::plant
