@@ -66,9 +66,11 @@ void drive_by_wire(Finder& f) {
   f.add(Cause::kRaceControlReportedLost, d.race_control_lost);
 }
 
-void bus(Finder& f) {
+void bus(Finder& f, Instant now) {
   f.add(Cause::kOwnIdOnBus, f.in.own_id_seen);
-  // Value: which stream.
+  // Value: which stream, or one more than the last for the whole bus.
+  f.add(Cause::kBusMessageLost, now - f.in.bus.last_frame > f.params.bus_silence_max,
+        static_cast<double>(kStreams));
   for (auto s = static_cast<std::size_t>(Stream::kWheelSpeed);
        s <= static_cast<std::size_t>(Stream::kDiagnostics); ++s)
     f.add(Cause::kBusMessageLost, is_down(f.in.watchdog.rows[s]), static_cast<double>(s));
@@ -128,7 +130,7 @@ FaultOutput detect(const FaultParams& params, FaultState& state, const FaultInpu
   Finder finder{params, inputs, {}};
   operators(finder);
   drive_by_wire(finder);
-  bus(finder);
+  bus(finder, now);
   counts(finder, state);
   localization(finder, state, now);
   streams(finder);

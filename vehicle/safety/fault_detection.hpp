@@ -22,6 +22,7 @@ namespace pitwall::safety {
 
 struct FaultParams {
   Duration dead_reckoning_max = milliseconds(1500);  // [0.1, 10] s
+  Duration bus_silence_max = milliseconds(100);      // no frame at all; [20 ms, 1 s]
   double position_sigma_max_m = 1.0;                 // [0.1, 10]
   std::uint8_t control_failures = 3;                 // ticks in a row; [1, 20]
   std::uint8_t refused_ticks = 3;                    // ticks in a row with a refused frame; [1, 20]

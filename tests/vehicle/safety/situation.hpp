@@ -77,6 +77,7 @@ struct Situation {
   void at(Instant now, double speed_mps) {
     signals.wheel_speed_mps = {{{speed_mps, speed_mps, speed_mps, speed_mps}}, now, true};
     ego.vx_mps = speed_mps;
+    bus.last_frame = now;
     ego.at = control.at = stop.at = now;
   }
   StreamRow& stream(Stream s) { return watchdog.rows[static_cast<std::size_t>(s)]; }
