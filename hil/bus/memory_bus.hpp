@@ -19,7 +19,6 @@
 #include <vector>
 
 #include "protocol/can/frame.hpp"
-#include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::bus {
@@ -70,7 +69,10 @@ class MemoryBus {
     std::uint64_t sequence = 0;
   };
   struct Port {
-    FixedVector<Pending, kMaxPending> queue;
+    std::array<Pending, kMaxPending> queue{};
+    std::size_t waiting = 0;  // entries of the queue in use
+
+    std::span<const Pending> waiting_frames() const { return {queue.data(), waiting}; }
     std::uint64_t sent = 0;
     bool connected = true;
   };
@@ -88,7 +90,7 @@ class MemoryBus {
   void account_busy(Instant from, Instant until);
   void roll_load_window(Instant now);
 
-  static constexpr std::size_t kLoadBuckets = 10;
+  static constexpr std::size_t kLoadBuckets = 11;  // the newest is not full yet
   static constexpr Duration kLoadBucket = milliseconds(100);
 
   BusConfig config_;

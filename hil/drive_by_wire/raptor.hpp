@@ -1,8 +1,7 @@
 // The drive-by-wire computer of the car (Raptor, with SpaceDrive and engine control behind it) as
 // the bench plays it: hears the computer's commands, moves the actuators, reports on the bus.
-//   in     frames that its port received since the last step (commands 1400-1404 of the computer
-//   and
-//          1200, 1250 of race control; others are ignored), Feedback from the plant, now
+//   in     frames that its port received since the last step (commands 1400-1404 of the
+//          computer and 1200, 1250 of race control; others are ignored), Feedback, now
 //   out    reports that are due (to be offered to the bus at `now`), Demand for the plant
 //   rate   call every 1 to 5 ms; a report whose period passed more than once between two calls is
 //          sent once and the others are counted as skipped; the grid of due times never shifts
@@ -89,12 +88,11 @@ struct State {
   Instant driving_since{};
   bool may_drive = false, watchdog = false;
   int race_heartbeat = -1;
-  Instant race_heard{};
-  bool race_ever = false, orange = false, engine_kill = false;
+  Instant race_heard{};  // last change of the heartbeat, or the start
+  bool orange = false, engine_kill = false;
   Demand demand;  // what the actuators were last asked for, before faults
   Demand acted;   // after faults: what the plant got
   ActuatorFaults faults;
-  bool was_steering_stuck = false, was_throttle_stuck = false;
   Instant front_in_tolerance{}, rear_in_tolerance{}, steering_in_tolerance{};
   Diagnostics diagnostics;
   ReportState reports;

@@ -1,7 +1,7 @@
 // The states of the drive-by-wire computer (misc_report.sys_state) as a table of transitions.
 //   in     the state, how long it has lasted, what the computer and race control say, the engine
-//   out    the next state: the first row of kTransitions whose state and event match, after its
-//   dwell
+//   out    the next state: the first row of kTransitions whose state and event match,
+//          after its dwell
 //   source RaptorSM of the public AV-21 simulator (1-2-3-4-5-6-19, 19-7-8-9, 9-16 on CT 12), with
 //          the shut-down state 10 of the signal's own value table between 9 and 19
 //

@@ -43,7 +43,7 @@ std::optional<FrameFaultKind> frame_fault_kind(std::string_view name);
 
 struct FrameFault {
   FrameFaultKind kind = FrameFaultKind::kDrop;
-  std::optional<std::uint32_t> id;  // absent: every frame
+  std::optional<std::uint32_t> id{};  // absent: every frame
   Instant start{};
   std::optional<Duration> duration;  // absent: until the end
   std::uint64_t seed = 1;

@@ -1,17 +1,15 @@
 // Judges a run tick by tick against a list of expectations.
-//   in     create(expectations, names of the signals); observe(now, one value per name) at each
-//   tick,
-//          in order of time
+//   in     create(expectations, names of the signals); observe(now, one value per name)
+//          at each tick, in order of time
 //   out    finish(): one verdict per expectation, in order
 //   rules  always, never: a window without a tick fails (nothing was shown)
-//          within: fails at the first tick after the limit, or at the end of the run if it never
-//          held after: the trigger must come at least once, else it fails; a trigger whose limit
-//          had not passed when the run ended does not count, unless it was the only one
+//          within: fails at the first tick after the limit, or at the end if it never held
+//          after: the trigger must come at least once, else it fails; a trigger whose limit had
+//          not passed when the run ended does not count, unless it was the only one
 //   margin the least over ticks (always, never) or over triggers (after), of the best in the time
 //          allowed (within, after); +-infinity where no tick was seen
 //   errors create(): unknown signal, number that is not finite, missing limit, window that ends
-//   before
-//          it begins: a Problem that names the expectation
+//          before it begins: a Problem that names the expectation
 //   cost   observe() does not allocate
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -63,7 +61,8 @@ class Grader {
   Grader() = default;
   void observe_one(const Expectation& e, Track& t, Instant now, std::span<const double> values);
   void observe_within(const Expectation& e, Track& t, Instant now, double value);
-  void observe_after(const Expectation& e, Track& t, Instant now, double value, double trigger);
+  void observe_after(const Expectation& e, Track& t, Instant now, double value, bool rises);
+  static Verdict verdict(const Expectation& e, const Track& t);
 
   std::vector<Expectation> expectations_;
   std::vector<Track> tracks_;
