@@ -51,8 +51,8 @@ struct Curvilinear {
 class TrackMap {
  public:
   // Integrates the curvature table to a closed line: the residual of position and heading is spread
-  // over the lap by the smallest change of curvature, refused if beyond 2 % of the largest curvature
-  // curvature (the table then does not describe a closed track). Refused with the place as well:
+  // over the lap by the smallest change of curvature, refused if beyond 2 % of the largest one
+  // (the table then does not describe a closed track). Refused with the place as well:
   // fewer than 4 knots, stations not increasing, a width that is not positive, crossing walls,
   // banking beyond 45 degrees, NaN.
   static Result<TrackMap, Problem> build(const TrackDescription& description);
