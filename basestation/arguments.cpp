@@ -1,6 +1,7 @@
 #include "basestation/arguments.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 
 namespace pitwall::basestation {
 namespace {
@@ -37,6 +38,8 @@ Result<Arguments, Refusal> parse_arguments(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& e) {
     return mistake(e.what());
   }
+  if (!std::isfinite(duration_s)) return mistake("--duration: not a number");
+  if (!std::isfinite(arguments.refresh_hz)) return mistake("--refresh: not a number");
   const auto address = transport::parse_udp_address(listen);
   if (!address) return mistake("--listen " + to_string(address.error()));
   if ((address->ip & kLoopbackMask) != kLoopbackNet && !network) {

@@ -69,6 +69,13 @@ std::vector<Line> field_lines(const picture::Picture& picture, Instant now) {
   return lines;
 }
 
+// About half of the lines; a group is not torn apart.
+std::size_t left_column_rows(const std::vector<Line>& lines) {
+  std::size_t rows = (lines.size() + 1) / 2;
+  while (rows < lines.size() && lines[rows].style != kBold) ++rows;
+  return rows;
+}
+
 Line source_line(const picture::Picture& picture) {
   if (!picture.ever()) return {"PITWALL   waiting for the first packet", kBold};
   if (picture.source() == telemetry::Source::kSimulation) {
@@ -117,7 +124,7 @@ std::string text_view(const picture::Picture& picture, const intake::IntakeCount
   screen += refused_text(counters) + end + end;
 
   const std::vector<Line> lines = field_lines(picture, now);
-  const std::size_t rows = (lines.size() + 1) / 2;
+  const std::size_t rows = left_column_rows(lines);
   for (std::size_t i = 0; i < rows; ++i) {
     screen += styled(lines[i], kColumnWidth, options.ansi);
     if (rows + i < lines.size()) screen += styled(lines[rows + i], 0, options.ansi);

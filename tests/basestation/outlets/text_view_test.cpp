@@ -1,0 +1,111 @@
+#include "basestation/outlets/text_view.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include "tests/basestation/sender.hpp"
+
+namespace pitwall::outlets {
+namespace {
+
+using telemetry::field;
+using telemetry::Group;
+
+struct Base {
+  intake::StateIntake intake;
+  std::unique_ptr<intake::LinkStats> link = std::make_unique<intake::LinkStats>();
+  picture::Picture picture;
+  Sender car;
+
+  void hear(std::uint32_t sequence, Instant at) {
+    const auto packet = intake.feed(car.bytes(sequence), at);
+    ASSERT_TRUE(packet.has_value());
+    link->note(*packet, at);
+    picture.update(*packet, at);
+  }
+  std::string screen(Instant now, bool ansi = false) {
+    link->advance(now);
+    return text_view(picture, intake.counters(), *link, now, {.ansi = ansi});
+  }
+};
+
+// A second of driving at 50 Hz with one packet lost; the tyres were sampled 0.7 s before.
+void drive(Base& base) {
+  auto& p = base.car.packet;
+  p.source = telemetry::Source::kSimulation;
+  p.age_of(Group::kMode) = p.age_of(Group::kEgo) = milliseconds(4);
+  p.age_of(Group::kTyres) = milliseconds(700);
+  p.values[field("mode.mode")] = 2;
+  p.values[field("ego.x")] = 123.45;
+  p.values[field("ego.vx")] = 70.5;
+  p.values[field("tyres.pressure_rear_left")] = 152.5;
+  for (std::uint32_t i = 0; i < 50; ++i) {
+    if (i != 20) base.hear(i, {milliseconds(20 * i).ns});
+  }
+}
+
+TEST(TextView, Golden) {
+  Base base;
+  drive(base);
+  const std::string now = base.screen({milliseconds(1'200).ns});
+  const std::string path = PITWALL_SOURCE_DIR "/tests/golden/basestation/text_view.txt";
+  if (std::getenv("PITWALL_WRITE_GOLDEN") != nullptr) std::ofstream{path} << now;
+  std::ifstream in{path};
+  const std::string golden{std::istreambuf_iterator<char>{in}, {}};
+  EXPECT_EQ(now, golden);
+}
+
+TEST(TextView, ASimulationIsNeverTakenForACar) {
+  Base base;
+  EXPECT_EQ(base.screen({}).find("REAL CAR"), std::string::npos);
+  drive(base);
+  EXPECT_NE(base.screen({}).find("*** SIMULATION ***"), std::string::npos);
+  EXPECT_EQ(base.screen({}).find("REAL CAR"), std::string::npos);
+  base.car.packet.source = telemetry::Source::kCar;
+  base.hear(60, {seconds(2).ns});
+  EXPECT_EQ(base.screen({seconds(2).ns}).find("SIMULATION"), std::string::npos);
+  EXPECT_NE(base.screen({seconds(2).ns}).find("REAL CAR"), std::string::npos);
+}
+
+TEST(TextView, EveryFieldIsOnTheScreenWithItsUnit) {
+  Base base;
+  const std::string screen = base.screen({});
+  for (const telemetry::FieldRow& row : telemetry::kFields) {
+    EXPECT_NE(screen.find(std::string{row.name}), std::string::npos) << row.name;
+    EXPECT_NE(screen.find(std::string{row.unit}), std::string::npos) << row.name;
+  }
+}
+
+TEST(TextView, StaleIsMarkedAndDimmed) {
+  Base base;
+  drive(base);
+  EXPECT_NE(base.screen({seconds(1).ns}).find("  mode                "), std::string::npos);
+  EXPECT_NE(base.screen({seconds(30).ns}).find("! mode                "), std::string::npos);
+  EXPECT_NE(base.screen({seconds(30).ns}, true).find("\x1b[2m! mode "), std::string::npos);
+}
+
+TEST(TextView, PlainHasNoEscapes) {
+  Base base;
+  drive(base);
+  EXPECT_EQ(base.screen({seconds(1).ns}).find('\x1b'), std::string::npos);
+  EXPECT_EQ(base.screen({seconds(1).ns}, true).substr(0, 3), "\x1b[H");
+}
+
+TEST(TextView, RefusalsAreShownByKind) {
+  Base base;
+  base.intake.feed({}, {});
+  auto damaged = base.car.bytes(1);
+  damaged[40] ^= 1U;
+  base.intake.feed(damaged, {});
+  const std::string screen = base.screen({});
+  EXPECT_NE(screen.find("refused   2"), std::string::npos);
+  EXPECT_NE(screen.find("too short 1"), std::string::npos);
+  EXPECT_NE(screen.find("damaged 1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pitwall::outlets
