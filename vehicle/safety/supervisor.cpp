@@ -132,7 +132,10 @@ void enter(const Tick& t, Mode to) {
     s.last_known = false;
     s.log.forget_first();
   }
-  if (to == Mode::kStandby) s.arm_used = true;
+  if (to == Mode::kStandby) {
+    s.arm_used = true;
+    s.last_shift = t.now;  // the gate counts the first gear that it sees as a shift
+  }
   if (to == Mode::kStandby || to == Mode::kDriving) {
     s.safe_stop = {};
     s.safe_stop_engaged = false;

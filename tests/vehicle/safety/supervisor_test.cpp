@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/safety/supervisor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <set>
+#include <vector>
+
+#include "protocol/can/av21.hpp"
+#include "protocol/can/encode.hpp"
+#include "tests/support/allocation_guard.hpp"
+#include "tests/vehicle/safety/situation.hpp"
+#include "vehicle/safety/frame_gate.hpp"
+
+namespace pitwall::safety {
+namespace {
+
+namespace av21 = can::av21;
+using testing::Random;
+using testing::Situation;
+using world::Mode;
+
+// A car that does what it is told: 250 kPa for 1 m/s^2, 6 m/s^2 with full throttle.
+struct Drive {
+  SupervisorParams params;
+  SupervisorState state;
+  Situation car;
+  double speed_mps = 0.0;
+  Instant now = Instant{} + seconds(5);
+  bool wheels_known = true;
+  SupervisorOutput out;
+
+  const SupervisorOutput& tick() {
+    now += milliseconds(10);
+    car.at(now, speed_mps);
+    if (!wheels_known) car.signals.wheel_speed_mps.heard = false;
+    out = supervise(params, state,
+                    {.signals = car.signals,
+                     .bus = car.bus,
+                     .race_control = car.race_control,
+                     .ego = car.ego,
+                     .watchdog = car.watchdog,
+                     .stop = car.stop,
+                     .control = car.control,
+                     .control_ok = car.control_ok,
+                     .drive_available = car.drive_available,
+                     .own_id_seen = car.own_id_seen,
+                     .gate_refused = car.gate_refused,
+                     .operator_requests = car.requests},
+                    now);
+    const double brake = std::isfinite(out.command.brake_kpa) ? out.command.brake_kpa : 0.0;
+    const double pedal =
+        std::isfinite(out.command.throttle_fraction) ? out.command.throttle_fraction : 0.0;
+    speed_mps = std::max(0.0, speed_mps + (6.0 * pedal - brake / 250.0) * 0.01);
+    return out;
+  }
+  void run(Duration span) {
+    for (const Instant end = now + span; now < end;) tick();
+  }
+  void race() {
+    car.requests.arm = true;
+    run(milliseconds(50));
+    ASSERT_EQ(out.mode, Mode::kDriving);
+    run(seconds(5));
+    ASSERT_GT(speed_mps, 5.0);
+  }
+};
+
+TEST(Supervisor, AWholeDay) {
+  Drive d;
+  EXPECT_EQ(d.tick().mode, Mode::kDisarmed);
+  EXPECT_FALSE(d.out.actuate);
+  EXPECT_TRUE(std::isnan(d.out.command.brake_kpa));
+  d.car.race_control.track = world::TrackFlag::kRed;
+  d.car.requests.arm = true;
+  d.run(seconds(1));
+  EXPECT_EQ(d.out.mode, Mode::kStandby);
+  EXPECT_EQ(d.out.source, CommandSource::kHold);
+  EXPECT_NEAR(d.out.command.brake_kpa, d.params.safe_stop.hold_kpa, 1e-9);
+  EXPECT_EQ(d.out.follow, Follow::kNone);
+  d.car.race_control.track = world::TrackFlag::kGreen;
+  d.run(seconds(6));
+  EXPECT_EQ(d.out.mode, Mode::kDriving);
+  EXPECT_EQ(d.out.follow, Follow::kDrive);
+  EXPECT_EQ(d.out.source, CommandSource::kControl);
+  EXPECT_GT(d.speed_mps, 8.0);
+  d.car.requests.stop = true;
+  d.tick();
+  d.car.requests.stop = false;
+  EXPECT_EQ(d.out.mode, Mode::kControlledStop);
+  EXPECT_EQ(d.out.cause, Cause::kOperatorStop);
+  EXPECT_EQ(d.out.follow, Follow::kStop);
+  d.car.control.brake_kpa = 1000.0;
+  d.car.control.throttle_fraction = 0.0;
+  d.run(seconds(20));
+  EXPECT_EQ(d.out.mode, Mode::kHalted);
+  EXPECT_TRUE(d.out.standstill);
+  EXPECT_EQ(d.out.cause, Cause::kOperatorStop) << "the first cause stays";
+  d.car.requests.reset = true;
+  EXPECT_EQ(d.tick().mode, Mode::kDisarmed);
+  EXPECT_EQ(d.out.cause, Cause::kNone);
+  d.run(seconds(2));
+  EXPECT_EQ(d.out.mode, Mode::kDisarmed) << "the old arm request does not arm again";
+  d.car.requests.arm = false;
+  d.tick();
+  d.car.requests.arm = true;
+  d.run(milliseconds(100));
+  EXPECT_EQ(d.out.mode, Mode::kDriving);
+}
+
+TEST(Supervisor, EveryCauseStopsWithItsReactionAndIsNamedFirst) {
+  const auto down = [](Drive& d, Stream s) { d.car.stream(s).health = Health::kBad; };
+  struct Case {
+    Cause cause;
+    std::function<void(Drive&)> spoil;
+  };
+  const std::vector<Case> cases{
+      {Cause::kPurpleFlag,
+       [](Drive& d) { d.car.race_control.vehicle = world::VehicleFlag::kPurpleEmergency; }},
+      {Cause::kSteeringCommsLost,
+       [](Drive& d) { d.car.signals.diagnostics.value.steer_comms_lost = true; }},
+      {Cause::kDisarmRequest, [](Drive& d) { d.car.requests.arm = false; }},
+      {Cause::kRaceControlLost, [&](Drive& d) { down(d, Stream::kRaceControl); }},
+      {Cause::kGnssUnitDisconnected, [&](Drive& d) { down(d, Stream::kGnss0Link); }},
+      {Cause::kRadioLost, [&](Drive& d) { down(d, Stream::kRadio); }},
+      {Cause::kPlanLost, [&](Drive& d) { down(d, Stream::kPlanner); }},
+      {Cause::kLocalizationLost, [](Drive& d) { d.car.ego.validity = world::Validity::kLost; }},
+      {Cause::kControlFailed, [](Drive& d) { d.car.control_ok = false; }},
+      {Cause::kControlFailed, [](Drive& d) { d.car.control.road_wheel_rad = kUnset; }},
+      {Cause::kControlFailed, [](Drive& d) { d.car.control.brake_kpa = -1.0; }},
+      {Cause::kCommandRefused, [](Drive& d) { d.car.gate_refused = true; }},
+      {Cause::kOwnIdOnBus, [](Drive& d) { d.car.own_id_seen = true; }}};
+  for (const Case& c : cases) {
+    Drive d;
+    d.race();
+    c.spoil(d);
+    d.run(milliseconds(40));
+    const bool emergency = row_of(c.cause).reaction == Reaction::kEmergencyStop;
+    EXPECT_EQ(d.out.mode, emergency ? Mode::kEmergencyStop : Mode::kControlledStop)
+        << text_of(c.cause);
+    EXPECT_EQ(d.out.cause, c.cause) << text_of(c.cause);
+    EXPECT_EQ(d.state.log.first.cause, c.cause);
+    d.car.control.throttle_fraction = 0.0;
+    d.car.control.brake_kpa = 800.0;
+    d.run(seconds(30));
+    EXPECT_EQ(d.out.mode, Mode::kHalted) << text_of(c.cause) << ": a fault that stays still halts";
+    EXPECT_EQ(d.out.cause, c.cause) << text_of(c.cause);
+  }
+}
+
+TEST(Supervisor, APurpleFlagThatStaysBarsTheReset) {
+  Drive d;
+  d.race();
+  d.car.race_control.vehicle = world::VehicleFlag::kPurpleEmergency;
+  d.run(seconds(30));
+  ASSERT_EQ(d.out.mode, Mode::kHalted);
+  d.car.requests.reset = true;
+  d.run(milliseconds(50));
+  EXPECT_EQ(d.out.mode, Mode::kHalted);
+  d.car.race_control.vehicle = world::VehicleFlag::kNone;
+  d.run(milliseconds(50));
+  EXPECT_EQ(d.out.mode, Mode::kHalted) << "the edge has passed";
+  d.car.requests.reset = false;
+  d.tick();
+  d.car.requests.reset = true;
+  EXPECT_EQ(d.tick().mode, Mode::kDisarmed);
+}
+
+TEST(Supervisor, FaultsBarArmingOrDrivingAndLatchNothingBefore) {
+  Drive d;
+  d.car.stream(Stream::kGnss0Link).health = Health::kNever;
+  d.car.requests.arm = true;
+  d.run(seconds(1));
+  EXPECT_EQ(d.out.mode, Mode::kStandby) << "in the garage without satellites";
+  EXPECT_EQ(d.out.cause, Cause::kNone);
+  EXPECT_TRUE(d.out.causes.has(Cause::kGnssUnitDisconnected));
+  d.car.stream(Stream::kGnss0Link).health = Health::kGood;
+  d.run(milliseconds(50));
+  EXPECT_EQ(d.out.mode, Mode::kDriving);
+  Drive without_bus;
+  without_bus.car.stream(Stream::kSteering).health = Health::kNever;
+  without_bus.car.requests.arm = true;
+  without_bus.run(seconds(1));
+  EXPECT_EQ(without_bus.out.mode, Mode::kDisarmed);
+  without_bus.car.stream(Stream::kSteering).health = Health::kGood;
+  without_bus.run(milliseconds(50));
+  EXPECT_EQ(without_bus.out.mode, Mode::kDriving) << "the request waited";
+}
+
+TEST(Supervisor, GoNeedsFlagsThatLetRollAndTheDriveByWireReady) {
+  using world::TrackFlag;
+  using world::VehicleFlag;
+  const std::set<TrackFlag> tracks{TrackFlag::kYellow, TrackFlag::kGreen, TrackFlag::kWavingGreen};
+  const std::set<VehicleFlag> vehicles{VehicleFlag::kNone, VehicleFlag::kBlue, VehicleFlag::kYellow,
+                                       VehicleFlag::kDefender, VehicleFlag::kAttacker};
+  for (int t = 0; t <= static_cast<int>(TrackFlag::kUnknown); ++t) {
+    for (int v = 0; v <= static_cast<int>(VehicleFlag::kUnknown); ++v) {
+      for (const int sys : {8, 9}) {
+        Drive d;
+        d.car.race_control.track = static_cast<TrackFlag>(t);
+        d.car.race_control.vehicle = static_cast<VehicleFlag>(v);
+        d.car.signals.misc.value.sys_state = static_cast<world::SysState>(sys);
+        d.car.requests.arm = true;
+        d.run(milliseconds(100));
+        const bool rolls = tracks.contains(static_cast<TrackFlag>(t)) &&
+                           vehicles.contains(static_cast<VehicleFlag>(v)) && sys == 9;
+        EXPECT_EQ(d.out.mode == Mode::kDriving, rolls) << t << ' ' << v << ' ' << sys;
+      }
+    }
+  }
+  Drive unplanned;
+  unplanned.car.drive_available = false;
+  unplanned.car.requests.arm = true;
+  unplanned.run(seconds(1));
+  EXPECT_EQ(unplanned.out.mode, Mode::kStandby);
+  Drive alone;  // a test day without race control
+  alone.params.faults.race_control_required = false;
+  alone.car.race_control = {};
+  alone.car.requests.arm = true;
+  alone.run(seconds(1));
+  EXPECT_EQ(alone.out.mode, Mode::kDriving);
+}
+
+TEST(Supervisor, LockedWheelsAreNoStandstill) {
+  Drive d;
+  d.race();
+  d.car.requests.stop = true;
+  for (int i = 0; i < 200; ++i) {
+    d.now += milliseconds(10);
+    d.car.at(d.now, 0.0);
+    d.car.ego.vx_mps = 30.0;
+    const SupervisorOutput out =
+        supervise(d.params, d.state,
+                  {d.car.signals, d.car.bus, d.car.race_control, d.car.ego, d.car.watchdog,
+                   d.car.stop, d.car.control, true, true, false, false, d.car.requests},
+                  d.now);
+    ASSERT_EQ(out.mode, Mode::kControlledStop);
+  }
+}
+
+TEST(Supervisor, ControlledStopByControlOnceLostStaysWithTheSafeStop) {
+  Drive d;
+  d.race();
+  d.car.requests.stop = true;
+  d.run(milliseconds(100));
+  EXPECT_EQ(d.out.source, CommandSource::kControl);
+  d.car.control_ok = false;
+  d.tick();
+  EXPECT_EQ(d.out.source, CommandSource::kSafeStop) << "at once";
+  d.car.control_ok = true;
+  d.tick();
+  EXPECT_EQ(d.out.source, CommandSource::kSafeStop) << "no flapping";
+  d.run(seconds(30));
+  EXPECT_EQ(d.out.mode, Mode::kHalted);
+}
+
+TEST(Supervisor, StopsEvenWhenNothingMeasuresTheSpeed) {
+  Drive d;
+  d.race();
+  d.wheels_known = false;
+  d.car.ego.validity = world::Validity::kLost;
+  d.car.control_ok = false;
+  d.run(seconds(60));
+  EXPECT_EQ(d.out.mode, Mode::kHalted);
+  EXPECT_LT(d.speed_mps, 1e-9);
+}
+
+TEST(Supervisor, AnEmergencyBrakesHarderThanControlWishesAndKeepsItsSteering) {
+  Drive d;
+  d.race();
+  d.car.race_control.vehicle = world::VehicleFlag::kPurpleEmergency;
+  d.car.control.road_wheel_rad = 0.012;
+  d.car.control.brake_kpa = 0.0;
+  double most_kpa = 0.0;
+  while (d.speed_mps > 2.0) {
+    d.tick();
+    ASSERT_EQ(d.out.mode, Mode::kEmergencyStop);
+    ASSERT_EQ(d.out.command.throttle_fraction, 0.0);
+    ASSERT_EQ(d.out.source, CommandSource::kControl);
+    most_kpa = std::max(most_kpa, d.out.command.brake_kpa);
+  }
+  EXPECT_GT(most_kpa, 2000.0);
+  EXPECT_NEAR(d.out.command.road_wheel_rad, 0.012, 1e-9);
+}
+
+// The command as outbound speaks it.
+std::vector<can::Frame> spoken(const world::ActuatorCommand& c, double ratio, int counter) {
+  can::EncodeCounters counters;
+  std::vector<can::Frame> frames(4);
+  av21::BrakePressureCmd b;
+  b.brake_pressure_cmd = c.brake_kpa;
+  b.brk_pressure_cmd_counter = counter & 0xFF;
+  av21::AcceleratorCmd t;
+  t.acc_pedal_cmd = 100.0 * c.throttle_fraction;
+  t.acc_pedal_cmd_counter = counter & 0xFF;
+  av21::SteeringCmd s;
+  s.steering_motor_ang_cmd = to_deg(c.road_wheel_rad) * ratio;
+  s.steering_motor_cmd_counter = counter & 0xFF;
+  av21::GearShiftCmd g;
+  g.desired_gear = c.gear;
+  EXPECT_TRUE(av21::encode(b, frames[0], counters));
+  EXPECT_TRUE(av21::encode(t, frames[1], counters));
+  EXPECT_TRUE(av21::encode(s, frames[2], counters));
+  EXPECT_TRUE(av21::encode(g, frames[3], counters));
+  EXPECT_EQ(counters.saturated, 0u);
+  return frames;
+}
+
+void spoil(Random& random, Situation& car) {
+  car.requests.emergency_stop = random.one_in(3000);
+  car.requests.stop = random.one_in(1500);
+  if (random.one_in(600)) car.requests.arm = !car.requests.arm;
+  if (random.one_in(100)) car.requests.reset = !car.requests.reset;
+  car.control_ok = !random.one_in(60);
+  car.own_id_seen = random.one_in(4000);
+  if (random.one_in(300)) car.race_control.track = static_cast<world::TrackFlag>(random.below(8));
+  if (random.one_in(3)) car.race_control.track = world::TrackFlag::kGreen;
+  const std::uint64_t sick = random.below(4000);
+  for (std::size_t i = 0; i < kStreams; ++i)
+    car.watchdog.rows[i].health = sick == i ? Health::kBad : Health::kGood;
+  car.ego.validity = random.one_in(3000) ? world::Validity::kLost : world::Validity::kGood;
+  car.control.road_wheel_rad = random.between(-0.012, 0.012);  // jumps, as no control would
+  car.control.throttle_fraction = random.one_in(2) ? random.between(0.0, 1.0) : 0.0;
+  car.control.brake_kpa = random.one_in(4) ? random.between(0.0, 4000.0) : 0.0;
+  car.control.gear = static_cast<std::uint8_t>(1 + random.below(6));
+  if (random.one_in(2000)) car.control.road_wheel_rad = kUnset;
+}
+
+TEST(Supervisor, RandomDaysNeverDriveAfterAFaultWithoutAResetAndAlwaysPassTheGate) {
+  Random random{20260704};
+  Drive d;
+  GateParams gate_params;
+  GateState gate_state;
+  d.car.requests.arm = true;
+  bool faulted = false;
+  std::set<Mode> seen;
+  world::ActuatorCommand last;
+  Mode before = Mode::kDisarmed;
+  int halts = 0, sent = 0;
+  for (int i = 0; i < 300'000; ++i) {
+    spoil(random, d.car);
+    const bool reset_was = d.state.reset_was;
+    const SupervisorOutput& out = d.tick();
+    seen.insert(out.mode);
+    if (before == Mode::kDriving && !out.causes.empty()) faulted = true;
+    if (before == Mode::kHalted && out.mode != Mode::kHalted) {
+      ASSERT_TRUE(d.car.requests.reset && !reset_was);
+      ASSERT_EQ(out.mode, Mode::kDisarmed);
+      faulted = false;
+    }
+    halts += before != Mode::kHalted && out.mode == Mode::kHalted;
+    ASSERT_FALSE(faulted && out.mode == Mode::kDriving) << i;
+    ASSERT_EQ(out.actuate, out.mode != Mode::kDisarmed);
+    ASSERT_EQ(out.follow == Follow::kDrive, out.mode == Mode::kDriving);
+    if (stops(out.mode)) {
+      ASSERT_NE(out.cause, Cause::kNone);
+    }
+    const world::ActuatorCommand& c = out.command;
+    if (out.actuate) {
+      ASSERT_TRUE(std::isfinite(c.road_wheel_rad));
+      ASSERT_TRUE(c.brake_kpa >= 0.0 && c.throttle_fraction >= 0.0);
+      ASSERT_FALSE(c.brake_kpa > 100.0 && c.throttle_fraction > 0.02);
+      if (out.mode != Mode::kDriving && before != Mode::kDisarmed) {
+        ASSERT_LE(c.throttle_fraction, last.throttle_fraction);
+      }
+      const GateContext context{out.mode, out.actuate, out.speed_mps, c.at, d.now};
+      const GateOutput passed =
+          gate(gate_params, gate_state, context, spoken(c, d.params.steering_ratio, sent++));
+      ASSERT_FALSE(passed.refused_now) << i << ": " << text_of(passed.first_refusal) << " in mode "
+                                       << static_cast<int>(out.mode);
+    } else {
+      gate(gate_params, gate_state, {.mode = out.mode, .now = d.now}, {});
+    }
+    last = c;
+    before = out.mode;
+  }
+  EXPECT_EQ(seen.size(), world::kModes);
+  EXPECT_GT(halts, 20);
+}
+
+TEST(Supervisor, TheStateIsAValueAndTakesNothingFromTheHeap) {
+  Drive d;
+  d.race();
+  Drive copy = d;
+  d.car.requests.stop = copy.car.requests.stop = true;
+  const auto frames = spoken(d.out.command, d.params.steering_ratio, 1);
+  const GateParams gate_params;
+  GateState gate_state;
+  const std::size_t taken = ::pitwall::testing::allocations_of([&] {
+    d.run(seconds(1));
+    gate(gate_params, gate_state, {Mode::kDriving, true, 20.0, d.now, d.now}, frames);
+  });
+  if (::pitwall::testing::kAllocationsCounted) {
+    EXPECT_EQ(taken, 0u);
+  }
+  copy.run(seconds(1));
+  EXPECT_EQ(d.out.mode, copy.out.mode);
+  EXPECT_EQ(d.speed_mps, copy.speed_mps);
+  EXPECT_EQ(d.out.command.brake_kpa, copy.out.command.brake_kpa);
+}
+
+}  // namespace
+}  // namespace pitwall::safety
