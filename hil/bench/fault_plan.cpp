@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/fault_plan.hpp"
+
+#include <cmath>
+#include <string>
+
+namespace pitwall::bench {
+namespace {
+
+using faults::BenchFaultKind;
+using faults::FrameFaultKind;
+
+// What rig.cpp carries out; a kind that is not here is refused rather than ignored.
+bool carried_out(BenchFaultKind kind) {
+  switch (kind) {
+    case BenchFaultKind::kGnssUnitOutage:
+    case BenchFaultKind::kGnssRtkLost:
+    case BenchFaultKind::kGnssVarianceSpike:
+    case BenchFaultKind::kGnssPositionJump:
+    case BenchFaultKind::kGnssHeadingFlip:
+    case BenchFaultKind::kGnssStampFrozen:
+    case BenchFaultKind::kImuOutage:
+    case BenchFaultKind::kRaceControlSilent:
+    case BenchFaultKind::kRaceHeartbeatStop:
+    case BenchFaultKind::kWrongRoundSpeed:
+    case BenchFaultKind::kSteeringStuck:
+    case BenchFaultKind::kSteeringSlow:
+    case BenchFaultKind::kSteeringBias:
+    case BenchFaultKind::kBrakeLeak:
+    case BenchFaultKind::kThrottleStuck:
+    case BenchFaultKind::kEngineStall:
+    case BenchFaultKind::kLowGrip:
+    case BenchFaultKind::kBusSilent:
+    case BenchFaultKind::kComputerSilent:
+      return true;
+    default:
+      return false;
+  }
+}
+
+Unexpected<Problem> refuse(const scenario::Fault& row, const std::string& what) {
+  return Unexpected{Problem{row.place, what}};
+}
+
+// The one number of a scenario row means a probability, a count or a time, by kind.
+Result<faults::FrameFault, Problem> frame_fault(const scenario::Fault& row, FrameFaultKind kind,
+                                                std::uint64_t seed) {
+  faults::FrameFault fault{
+      .kind = kind, .start = Instant{} + row.at, .duration = row.lasts, .seed = seed};
+  if (row.can_id != 0) fault.id = row.can_id;
+  if (std::isnan(row.value)) return fault;
+  switch (kind) {
+    case FrameFaultKind::kDrop:
+    case FrameFaultKind::kDropBurst:
+    case FrameFaultKind::kDuplicate:
+    case FrameFaultKind::kUnknownId:
+      if (row.value < 0.0 || row.value > 1.0) return refuse(row, "value is a probability, 0 to 1");
+      fault.probability = row.value;
+      return fault;
+    case FrameFaultKind::kDelay:
+      if (row.value < 0.0 || row.value > 1.0) return refuse(row, "value is a delay in s, 0 to 1");
+      fault.delay = from_seconds(row.value);
+      return fault;
+    case FrameFaultKind::kBitFlip:
+    case FrameFaultKind::kCounterJump:
+      if (row.value < 1.0 || row.value > 64.0) return refuse(row, "value is a count, 1 to 64");
+      fault.count = static_cast<std::uint32_t>(row.value);
+      return fault;
+    default:
+      return refuse(row, "this kind takes no value");
+  }
+}
+
+}  // namespace
+
+Result<FaultPlan, Problem> plan_faults(const std::vector<scenario::Fault>& rows,
+                                       std::uint64_t seed) {
+  FaultPlan plan;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const scenario::Fault& row = rows[i];
+    const std::uint64_t own_seed = seed * 1000 + i + 1;
+    if (const auto kind = faults::frame_fault_kind(row.kind)) {
+      auto fault = frame_fault(row, *kind, own_seed);
+      if (!fault) return Unexpected{fault.error()};
+      if (plan.frames.size() == faults::kMaxFrameFaults)
+        return refuse(row, "more faults of frames than the bench can hold");
+      plan.frames.push_back(*fault);
+      continue;
+    }
+    const auto kind = faults::bench_fault_kind(row.kind);
+    if (!kind) return refuse(row, "unknown fault \"" + row.kind + "\"");
+    if (!carried_out(*kind))
+      return refuse(row, "fault \"" + row.kind + "\" is in the catalogue but not in this bench");
+    if (!faults::row_of(*kind).value.empty() && std::isnan(row.value))
+      return refuse(row, "value is missing: " + std::string(faults::row_of(*kind).value));
+    plan.models.push_back({.kind = *kind,
+                           .start = Instant{} + row.at,
+                           .duration = row.lasts,
+                           .unit = static_cast<std::uint8_t>(row.unit),
+                           .value = std::isnan(row.value) ? 0.0 : row.value,
+                           .seed = own_seed});
+  }
+  return plan;
+}
+
+}  // namespace pitwall::bench

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/loading.hpp"
+
+#include <utility>
+
+#include "protocol/transport/file.hpp"
+#include "vehicle/parameters/car_file.hpp"
+#include "vehicle/parameters/track_file.hpp"
+
+namespace pitwall::bench {
+namespace {
+
+std::string below(const std::string& folder, const std::string& path) {
+  return path.starts_with('/') || folder.empty() ? path : folder + "/" + path;
+}
+
+}  // namespace
+
+Result<Loaded, Problem> load(const std::string& scenario_file, const std::string& folder) {
+  const auto text = transport::read_file(scenario_file);
+  if (!text) return Unexpected{text.error()};
+  auto scenario = scenario::read_scenario(*text, scenario_file);
+  if (!scenario) return Unexpected{scenario.error()};
+  const std::string track_file = below(folder, scenario->track_file);
+  const auto track_text = transport::read_file(track_file);
+  if (!track_text) return Unexpected{track_text.error()};
+  const auto track = parameters::read_track(*track_text, track_file);
+  if (!track) return Unexpected{track.error()};
+  const std::string car_file = below(folder, scenario->car_file);
+  const auto car_text = transport::read_file(car_file);
+  if (!car_text) return Unexpected{car_text.error()};
+  const auto car = parameters::read_car(*car_text, car_file);
+  if (!car) return Unexpected{car.error()};
+  auto setup = pipeline::prepare(car->params, *track);
+  if (!setup) return Unexpected{setup.error()};
+  return Loaded{*std::move(scenario), *std::move(setup)};
+}
+
+}  // namespace pitwall::bench

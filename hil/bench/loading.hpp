@@ -1,0 +1,23 @@
+// From file names to a scenario and a car that is ready to run: the one place where the bench opens
+// its input files.
+//   errors Problem with file:line:column; nothing is started
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "hil/scenario/scenario.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "vehicle/pipeline/setup.hpp"
+
+namespace pitwall::bench {
+
+struct Loaded {
+  scenario::Scenario scenario;
+  pipeline::Setup setup;
+};
+
+// Track and car files are named relative to `folder` unless they are absolute.
+Result<Loaded, Problem> load(const std::string& scenario_file, const std::string& folder);
+
+}  // namespace pitwall::bench

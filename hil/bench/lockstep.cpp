@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/lockstep.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hil/bench/run_record.hpp"
+#include "hil/bench/signals.hpp"
+#include "hil/bus/memory_bus.hpp"
+#include "hil/grading/grader.hpp"
+
+namespace pitwall::bench {
+namespace {
+
+constexpr std::size_t kInboxFrames = 4096;  // a second of a full bus, and one tick is 10 ms
+
+class Lockstep {
+ public:
+  Lockstep(const scenario::Scenario& scenario, const pipeline::Setup& setup, Rig rig,
+           grading::Grader grader, const LockstepOptions& options)
+      : scenario_(scenario),
+        setup_(setup),
+        rig_(std::move(rig)),
+        grader_(std::move(grader)),
+        options_(options),
+        bus_({.ports = kNodes, .bit_rate = 500'000}),
+        car_(std::make_unique<pipeline::Car>()) {
+    inbox_.reserve(kInboxFrames);
+    heard_.reserve(kInboxFrames);
+    if (options.log) record_.emplace(scenario, "lockstep", options.log);
+  }
+
+  RunResult run() {
+    const Duration tick = setup_.params.rates.tick;
+    for (Instant now{}; now - Instant{} <= scenario_.duration; now += tick) {
+      step_car(now);
+      for (Instant at = now + kRigStep; at <= now + tick; at += kRigStep) step_rig(at);
+    }
+    return finish();
+  }
+
+ private:
+  void step_car(Instant now) {
+    const world::SensorInput samples = rig_.take_samples();
+    const pipeline::Outputs out = options_.step(setup_, *car_,
+                                                {.now = now,
+                                                 .dt = setup_.params.rates.tick,
+                                                 .can = inbox_,
+                                                 .sensors = samples,
+                                                 .requests = {.arm = true}});
+    result_.traffic.car_received += inbox_.size();
+    inbox_.clear();
+    for (const can::Frame& frame : out.passed.frames)
+      if (bus_.offer(static_cast<std::uint8_t>(Node::kCar), frame, now)) ++result_.traffic.from_car;
+    judge(out, now);
+    note_changes(out, now);
+    if (options_.watch) options_.watch(out, rig_, now);
+  }
+
+  void step_rig(Instant at) {
+    rig_.step(heard_, at);
+    heard_.clear();
+    for (const Outgoing& outgoing : rig_.take_frames())
+      if (bus_.offer(static_cast<std::uint8_t>(outgoing.from), outgoing.frame, at))
+        ++result_.traffic.to_car;
+    for (const bus::Delivery& delivery : bus_.advance(at)) deliver(delivery);
+  }
+
+  // Every frame reaches both other ports; it is recorded once.
+  void deliver(const bus::Delivery& delivery) {
+    const auto from = static_cast<Node>(delivery.from);
+    const auto to = static_cast<Node>(delivery.to);
+    if (to == Node::kCar && inbox_.size() < kInboxFrames) inbox_.push_back(delivery.received);
+    if (to == Node::kDriveByWire && heard_.size() < kInboxFrames) {
+      heard_.push_back(delivery.received);
+      if (from == Node::kCar) ++result_.traffic.bench_received;
+    }
+    const bool once = from == Node::kCar ? to == Node::kDriveByWire : to == Node::kCar;
+    if (record_ && once) record_->can(from, delivery.received.frame, delivery.received.at);
+  }
+
+  void judge(const pipeline::Outputs& out, Instant now) {
+    const CarReport report{.mode = static_cast<double>(out.chosen.mode),
+                           .gate_refusals = static_cast<double>(out.passed.refused_total),
+                           .bus_refusals = static_cast<double>(out.heard.bus.refused.total()),
+                           .x_m = out.ego.x_m,
+                           .y_m = out.ego.y_m,
+                           .yaw_rad = out.ego.yaw_rad};
+    const double offset_m = setup_.params.planning.line.offset_m;
+    grader_.observe(
+        now,
+        observe(
+            {.rig = rig_, .car = report, .line_offset_m = offset_m, .frames_lost = frames_lost()}));
+    grading::add(result_.cross_track, rig_.truth().speed_mps, cross_track_m(rig_, offset_m));
+    result_.speed_max_mps = std::max(result_.speed_max_mps, rig_.truth().speed_mps);
+    result_.gate_refusals = out.passed.refused_total;
+    result_.bus_refusals = out.heard.bus.refused.total();
+    if (!record_) return;
+    record_->truth(rig_, now);
+    record_->car(out, now);
+  }
+
+  void note_changes(const pipeline::Outputs& out, Instant now) {
+    if (!record_) return;
+    if (rig_.flags().track != flag_) {
+      flag_ = rig_.flags().track;
+      record_->event(now, "flag", scenario::name_of(flag_));
+    }
+    if (out.chosen.mode_changed)
+      record_->event(now, "mode",
+                     std::to_string(static_cast<int>(out.chosen.mode)) + " " +
+                         safety::text_of(out.chosen.cause));
+    if (rig_.laps().finished != laps_) {
+      laps_ = rig_.laps().finished;
+      record_->event(now, "lap", std::to_string(laps_));
+    }
+  }
+
+  std::uint64_t frames_lost() const { return bus_.counters().lost + rig_.overflows(); }
+
+  RunResult finish() {
+    result_.scenario = scenario_.name;
+    result_.mode = "lockstep";
+    result_.simulated_s = scenario_.duration.seconds();
+    result_.verdicts = grader_.finish();
+    result_.laps = rig_.laps();
+    result_.traffic.lost = frames_lost();
+    result_.traffic.bus_load = bus_.load();
+    if (record_) {
+      for (const grading::Verdict& verdict : result_.verdicts)
+        record_->event(Instant{} + scenario_.duration, verdict.pass ? "pass" : "fail",
+                       verdict.text);
+      record_->close();
+      result_.digest = record_->digest();
+    }
+    return result_;
+  }
+
+  const scenario::Scenario& scenario_;
+  const pipeline::Setup& setup_;
+  Rig rig_;
+  grading::Grader grader_;
+  const LockstepOptions& options_;
+  bus::MemoryBus bus_;
+  std::unique_ptr<pipeline::Car> car_;
+  std::vector<can::ReceivedFrame> inbox_, heard_;
+  std::optional<RunRecord> record_;
+  RunResult result_;
+  world::TrackFlag flag_ = world::TrackFlag::kNone;
+  std::uint32_t laps_ = 0;
+};
+
+}  // namespace
+
+Result<RunResult, Problem> run_lockstep(const scenario::Scenario& scenario,
+                                        const pipeline::Setup& setup,
+                                        const LockstepOptions& options) {
+  auto rig = Rig::build(scenario, setup.track);
+  if (!rig) return Unexpected{rig.error()};
+  auto expectations = expectations_of(scenario);
+  if (!expectations) return Unexpected{expectations.error()};
+  const std::vector<std::string> names = signal_names();
+  auto grader = grading::Grader::create(*expectations, names);
+  if (!grader) return Unexpected{grader.error()};
+  return Lockstep{scenario, setup, *std::move(rig), *std::move(grader), options}.run();
+}
+
+}  // namespace pitwall::bench

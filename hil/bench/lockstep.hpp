@@ -1,0 +1,40 @@
+// The lockstep bench: car, bus and rig in one process and one thread, in virtual time. The same
+// scenario, build and seed give the same bytes of event log.
+//
+//   t      car: read what the bus delivered by t, step, offer frames
+//   t+1ms  rig: one plant step, offer frames; bus advances        (ten times per tick)
+//   t+10ms car: ...
+//
+//   in     scenario, Setup of the car, a sink for the event log (may drop everything)
+//   out    RunResult; wall time is for the caller to measure
+//   errors Problem of the scenario or of an unknown signal; nothing else stops a run
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "hil/bench/result.hpp"
+#include "hil/bench/rig.hpp"
+#include "hil/scenario/scenario.hpp"
+#include "protocol/recording/mcap_writer.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "vehicle/pipeline/step.hpp"
+
+namespace pitwall::bench {
+
+using StepFunction = std::function<pipeline::Outputs(const pipeline::Setup&, pipeline::Car&,
+                                                     const pipeline::Inputs&)>;
+
+struct LockstepOptions {
+  recording::Sink log;                 // empty: no event log, no digest
+  StepFunction step = pipeline::step;  // the car; a benchmark or a test may wrap it to measure it
+  // Called after every tick of the car, e.g. by a test that watches for something.
+  std::function<void(const pipeline::Outputs&, const Rig&, Instant)> watch = {};
+};
+
+Result<RunResult, Problem> run_lockstep(const scenario::Scenario& scenario,
+                                        const pipeline::Setup& setup,
+                                        const LockstepOptions& options);
+
+}  // namespace pitwall::bench

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/result.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+
+namespace pitwall::bench {
+namespace {
+
+template <class... Args>
+std::string format(const char* pattern, Args... args) {
+  std::string text(256, '\0');
+  const int length = std::snprintf(text.data(), text.size(), pattern, args...);
+  CHECK(length >= 0);
+  text.resize(std::min(static_cast<std::size_t>(length), text.size() - 1));
+  return text;
+}
+
+std::string quoted(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return out + "\"";
+}
+
+// JSON has no NaN and no infinity.
+std::string number(double value) {
+  return std::isfinite(value) ? format("%.9g", value) : std::string("null");
+}
+
+std::string brackets_json(const grading::CrossTrack& cross) {
+  std::string out = "[";
+  for (std::size_t i = 0; i < grading::kBrackets.size(); ++i) {
+    const grading::ErrorStatistics& row = cross.by_bracket[i];
+    out += (i == 0 ? "" : ",") + std::string("{\"from_mps\":") +
+           number(grading::kBrackets[i].from_mps) + ",\"samples\":" + std::to_string(row.samples) +
+           ",\"mean_m\":" + number(row.mean_m()) + ",\"max_m\":" + number(row.max_m) +
+           ",\"paper_best_m\":" + number(grading::kBrackets[i].paper_best_m) +
+           ",\"paper_mean_m\":" + number(grading::kBrackets[i].paper_mean_m) + "}";
+  }
+  return out + "]";
+}
+
+std::string verdicts_json(const std::vector<grading::Verdict>& verdicts) {
+  std::string out = "[";
+  for (std::size_t i = 0; i < verdicts.size(); ++i)
+    out += (i == 0 ? "" : ",") + std::string("{\"text\":") + quoted(verdicts[i].text) +
+           ",\"pass\":" + (verdicts[i].pass ? "true" : "false") +
+           ",\"margin\":" + number(verdicts[i].margin) + ",\"place\":" + quoted(verdicts[i].name) +
+           ",\"reason\":" + quoted(verdicts[i].reason) + "}";
+  return out + "]";
+}
+
+}  // namespace
+
+bool RunResult::passed() const {
+  for (const grading::Verdict& verdict : verdicts)
+    if (!verdict.pass) return false;
+  return true;
+}
+
+std::string to_text(const RunResult& r) {
+  std::string out = format("SIMULATION %s, %s: %.1f s simulated", r.scenario.c_str(),
+                           r.mode.c_str(), r.simulated_s);
+  if (std::isfinite(r.wall_s))
+    out += format(" in %.2f s (%.1f x real time)", r.wall_s, r.simulated_s / r.wall_s);
+  out += "\n\n" + grading::to_table(r.cross_track) + "\n";
+  out += format("laps %u, flying %u", r.laps.finished, r.laps.flying);
+  if (r.laps.flying > 0)
+    out += format(", best flying lap %.3f s, mean %.2f m/s (%.1f mph)", r.laps.best_flying_s,
+                  r.laps.best_flying_mean_mps, to_mph(r.laps.best_flying_mean_mps));
+  out += format("; top speed %.2f m/s\n", r.speed_max_mps);
+  out += format("CAN frames: %llu to the car, %llu from the car, %llu lost",
+                static_cast<unsigned long long>(r.traffic.to_car),
+                static_cast<unsigned long long>(r.traffic.from_car),
+                static_cast<unsigned long long>(r.traffic.lost));
+  if (std::isfinite(r.traffic.bus_load))
+    out += format(", bus load %.1f %%", 100.0 * r.traffic.bus_load);
+  out += format("\nrefused: %llu frames by the gateway, %llu commands by the frame gate\n",
+                static_cast<unsigned long long>(r.bus_refusals),
+                static_cast<unsigned long long>(r.gate_refusals));
+  for (const grading::Verdict& verdict : r.verdicts)
+    out += (verdict.pass ? "PASS  " : "FAIL  ") + verdict.text +
+           format("  (margin %.4g)", verdict.margin) + (verdict.pass ? "" : "  " + verdict.reason) +
+           "\n";
+  if (!r.digest.empty()) out += "event log SHA-256 " + r.digest + "\n";
+  return out + (r.passed() ? "verdict: PASS\n" : "verdict: FAIL\n");
+}
+
+std::string to_json(const RunResult& r) {
+  return "{\"scenario\":" + quoted(r.scenario) + ",\"mode\":" + quoted(r.mode) +
+         ",\"simulation\":true,\"passed\":" + (r.passed() ? "true" : "false") +
+         ",\"simulated_s\":" + number(r.simulated_s) + ",\"wall_s\":" + number(r.wall_s) +
+         ",\"laps\":{\"finished\":" + std::to_string(r.laps.finished) +
+         ",\"flying\":" + std::to_string(r.laps.flying) +
+         ",\"best_flying_s\":" + number(r.laps.best_flying_s) +
+         ",\"best_flying_mean_mps\":" + number(r.laps.best_flying_mean_mps) + "}" +
+         ",\"speed_max_mps\":" + number(r.speed_max_mps) +
+         ",\"cross_track_overall_m\":" + number(r.cross_track.overall.mean_m()) +
+         ",\"cross_track_max_m\":" + number(r.cross_track.overall.max_m) +
+         ",\"cross_track\":" + brackets_json(r.cross_track) +
+         ",\"can\":{\"to_car\":" + std::to_string(r.traffic.to_car) +
+         ",\"from_car\":" + std::to_string(r.traffic.from_car) +
+         ",\"car_received\":" + std::to_string(r.traffic.car_received) +
+         ",\"bench_received\":" + std::to_string(r.traffic.bench_received) +
+         ",\"lost\":" + std::to_string(r.traffic.lost) +
+         ",\"bus_load\":" + number(r.traffic.bus_load) + "}" +
+         ",\"gate_refusals\":" + std::to_string(r.gate_refusals) +
+         ",\"bus_refusals\":" + std::to_string(r.bus_refusals) + ",\"sha256\":" + quoted(r.digest) +
+         ",\"verdicts\":" + verdicts_json(r.verdicts) + "}";
+}
+
+}  // namespace pitwall::bench

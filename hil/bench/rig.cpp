@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/rig.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace pitwall::bench {
+namespace {
+
+using faults::BenchFaultKind;
+
+race::Script script_of(const scenario::Scenario& scenario) {
+  race::Script script;
+  for (const scenario::FlagChange& change : scenario.race_control)
+    script.calls.push_back({.at = Instant{} + change.at,
+                            .track = change.track,
+                            .vehicle = change.vehicle,
+                            .round_target_speed_mph = change.round_target_speed_mph,
+                            .lap = std::nullopt});
+  return script;
+}
+
+}  // namespace
+
+Result<Rig, Problem> Rig::build(const scenario::Scenario& scenario, const world::TrackMap& track) {
+  if (scenario.start.speed_mps != 0.0)
+    return Unexpected{Problem{scenario.name, "start.speed_mps: this bench starts at standstill"}};
+  if (scenario.start.s_m >= track.length_m())
+    return Unexpected{Problem{scenario.name, "start.s_m lies beyond the end of the track"}};
+  auto plan = plan_faults(scenario.faults, scenario.seed);
+  if (!plan) return Unexpected{plan.error()};
+
+  Rig rig{track, *std::move(plan)};
+  const world::TrackPoint at = track.offset(scenario.start.s_m, scenario.start.n_m);
+  rig.plant_ = plant::standing(rig.plant_params_, at.x_m, at.y_m, at.yaw_rad);
+  rig.plant_.tyre_c.fill(scenario.tyres.temperature_c);
+  rig.road_ = plant::road_at(rig.plant_params_, track, rig.plant_);
+  if (rig.road_.contact)
+    return Unexpected{Problem{scenario.name, "start.n_m puts the car into a wall"}};
+  rig.surface_ = rig.road_.surface;
+  rig.truth_ = plant::observe(rig.plant_params_, rig.plant_, rig.surface_);
+  rig.script_ = script_of(scenario);
+  rig.timer_params_ = {.track_length_m = track.length_m()};
+  rig.sensor_params_ = sensors::params_for(track);
+  rig.sensors_ = sensors::make_state(rig.sensor_params_, scenario.seed, Instant{});
+  return rig;
+}
+
+void Rig::step(std::span<const can::ReceivedFrame> from_car, Instant now) {
+  apply_model_faults(now);
+  const auto heard = computer_silent_ ? std::span<const can::ReceivedFrame>{} : from_car;
+  const auto raptor = drive_by_wire::step(raptor_params_, raptor_, heard, feedback(), now);
+  demand_ = raptor.demand;
+  step_plant();
+  time_laps(now);
+  for (const can::Frame& frame : raptor.frames) send(Node::kDriveByWire, frame, now);
+
+  const race::Timing timing{.laps = static_cast<std::uint8_t>(laps_.finished & 0xFF),
+                            .lap_distance_m = road_.s_m,
+                            .last_lap_s = std::isfinite(laps_.last_s) ? laps_.last_s : 0.0,
+                            .speed_mps = truth_.speed_mps};
+  for (const can::Frame& frame : race::step(script_, race_, timing, now))
+    send(Node::kRaceControl, frame, now);
+  while (const auto timed = delayed_.pop(now))
+    if (!outgoing_.push({Node::kDriveByWire, timed->frame})) ++overflows_;
+
+  sensors::step(sensor_params_, sensors_, truth_, now, samples_);
+}
+
+void Rig::step_plant() {
+  const plant::Actuation actuation{.steering_motor_rad = demand_.steering_motor_rad,
+                                   .throttle_fraction = demand_.throttle_fraction,
+                                   .brake_kpa = demand_.brake_front_kpa,
+                                   .gear = demand_.gear,
+                                   .ignition = demand_.engine_on && !engine_stalled_,
+                                   .starter = demand_.crank};
+  const double before_rad = surface_.bank_rad;
+  plant_ = plant::step(plant_params_, plant_, actuation, surface_, kRigStep.seconds());
+  road_ = plant::road_at(plant_params_, track_, plant_, road_.s_m);
+  surface_ = road_.surface;
+  surface_.bank_rate_rad_per_s = (surface_.bank_rad - before_rad) / kRigStep.seconds();
+  surface_.grip = grip_;
+  truth_ = plant::observe(plant_params_, plant_, surface_);
+}
+
+drive_by_wire::Feedback Rig::feedback() const {
+  drive_by_wire::Feedback f;
+  f.wheel_speed_mps = truth_.wheel_speed_mps;
+  f.vehicle_speed_mps = truth_.speed_mps;
+  f.brake_front_kpa = truth_.brake_front_kpa;
+  f.brake_rear_kpa = truth_.brake_rear_kpa;
+  f.throttle_fraction = truth_.throttle_fraction;
+  f.steering_motor_rad = truth_.steering_motor_rad;
+  f.engine_speed_rpm = truth_.engine_rpm;
+  f.engine_running = truth_.engine_running;
+  f.gear = truth_.gear;
+  f.gear_shift_status = truth_.gear_shift_status;
+  f.wheel_torque_nm = truth_.engine_torque_nm;
+  f.tyre_temperature_c = truth_.tyre_c;
+  f.wheel_load_n = truth_.load_n;
+  return f;
+}
+
+void Rig::send(Node from, const can::Frame& frame, Instant now) {
+  if (bus_silent_) return;
+  for (const faults::TimedFrame& timed : faults::apply(plan_.frames, frame_faults_, frame, now)) {
+    const bool kept = timed.at > now ? delayed_.push(timed) : outgoing_.push({from, timed.frame});
+    if (!kept) ++overflows_;
+  }
+}
+
+void Rig::time_laps(Instant now) {
+  const bool green = race_.flags.track == world::TrackFlag::kGreen ||
+                     race_.flags.track == world::TrackFlag::kWavingGreen;
+  const auto lap =
+      race::step(timer_params_, timer_,
+                 {.station_m = road_.s_m, .speed_mps = truth_.speed_mps, .green = green}, now);
+  if (!lap) return;
+  ++laps_.finished;
+  laps_.last_s = (lap->end - lap->begin).seconds();
+  if (!lap->flying) return;
+  ++laps_.flying;
+  if (lap->mean_speed_mps > laps_.best_flying_mean_mps) {
+    laps_.best_flying_mean_mps = lap->mean_speed_mps;
+    laps_.best_flying_s = laps_.last_s;
+  }
+}
+
+void Rig::apply_model_faults(Instant now) {
+  if (plan_.models.empty()) return;
+  sensors_.fault = {};
+  raptor_.faults = {};
+  race_.faults = {};
+  bus_silent_ = computer_silent_ = engine_stalled_ = false;
+  grip_ = 1.0;
+  for (const faults::BenchFault& fault : plan_.models)
+    apply_model_fault(fault, faults::active(fault, now));
+}
+
+void Rig::apply_model_fault(const faults::BenchFault& fault, bool active) {
+  if (!active) return;
+  switch (fault.kind) {
+    case BenchFaultKind::kRaceControlSilent:
+      race_.faults.silent = true;
+      return;
+    case BenchFaultKind::kRaceHeartbeatStop:
+      race_.faults.heartbeat_stopped = true;
+      return;
+    case BenchFaultKind::kWrongRoundSpeed:
+      race_.faults.wrong_speed_mph = fault.value;
+      return;
+    case BenchFaultKind::kSteeringStuck:
+      raptor_.faults.steering_stuck = true;
+      return;
+    case BenchFaultKind::kSteeringSlow:
+      raptor_.faults.steering_rate_rad_per_s = fault.value;
+      return;
+    case BenchFaultKind::kSteeringBias:
+      raptor_.faults.steering_bias_rad = fault.value;
+      return;
+    case BenchFaultKind::kBrakeLeak:
+      raptor_.faults.brake_leak = fault.value;
+      return;
+    case BenchFaultKind::kThrottleStuck:
+      raptor_.faults.throttle_stuck = true;
+      return;
+    case BenchFaultKind::kEngineStall:
+      engine_stalled_ = true;
+      return;
+    case BenchFaultKind::kLowGrip:
+      grip_ = fault.value;
+      return;
+    case BenchFaultKind::kBusSilent:
+      bus_silent_ = true;
+      return;
+    case BenchFaultKind::kComputerSilent:
+      computer_silent_ = true;
+      return;
+    default:
+      apply_gnss_fault(fault);
+      return;
+  }
+}
+
+void Rig::apply_gnss_fault(const faults::BenchFault& fault) {
+  if (fault.unit >= world::kGnssUnits) return;
+  sensors::UnitFault& unit = sensors_.fault[fault.unit];
+  switch (fault.kind) {
+    case BenchFaultKind::kGnssUnitOutage:
+      unit.outage = true;
+      return;
+    case BenchFaultKind::kGnssRtkLost:
+      unit.fix = sensors::Fix::kRtkFloat;
+      return;
+    case BenchFaultKind::kGnssVarianceSpike:
+      unit.sigma_scale = fault.value;
+      return;
+    case BenchFaultKind::kGnssPositionJump:
+      unit.offset_east_m = fault.value;
+      return;
+    case BenchFaultKind::kGnssHeadingFlip:
+      unit.heading_offset_rad = std::numbers::pi;
+      return;
+    case BenchFaultKind::kGnssStampFrozen:
+      unit.position_frozen = true;
+      return;
+    case BenchFaultKind::kImuOutage:
+      unit.imu_outage = true;
+      return;
+    default:
+      CHECK(false);  // plan_faults() refuses what is not carried out
+  }
+}
+
+FixedVector<Outgoing, kMaxOutgoing> Rig::take_frames() {
+  return std::exchange(outgoing_, FixedVector<Outgoing, kMaxOutgoing>{});
+}
+
+world::SensorInput Rig::take_samples() { return std::exchange(samples_, world::SensorInput{}); }
+
+}  // namespace pitwall::bench

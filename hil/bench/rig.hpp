@@ -1,0 +1,106 @@
+// Everything round the car's computer: plant, drive-by-wire, race control, sensors, timing, faults.
+// Advanced one plant step at a time by whoever owns the clock: the lockstep bench with virtual time,
+// the live bench with the machine's.
+//   in     frames that the car's computer sent, now (a whole number of kRigStep since the start)
+//   out    frames for the bus, sensor samples, truth
+//   errors build(): Problem with the place in the scenario; later only counters
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hil/bench/fault_plan.hpp"
+#include "hil/drive_by_wire/raptor.hpp"
+#include "hil/faults/delay_queue.hpp"
+#include "hil/plant/plant.hpp"
+#include "hil/race/lap_timer.hpp"
+#include "hil/race/race_control.hpp"
+#include "hil/scenario/scenario.hpp"
+#include "hil/sensors/sensors.hpp"
+#include "protocol/can/frame.hpp"
+#include "protocol/vocabulary/fixed_vector.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "vehicle/world/sensor_input.hpp"
+#include "vehicle/world/track_map.hpp"
+
+namespace pitwall::bench {
+
+inline constexpr Duration kRigStep = milliseconds(1);
+
+enum class Node : std::uint8_t { kCar, kDriveByWire, kRaceControl };
+inline constexpr std::uint8_t kNodes = 3;
+
+struct Outgoing {
+  Node from = Node::kDriveByWire;
+  can::Frame frame;
+};
+inline constexpr std::size_t kMaxOutgoing = 128;
+
+struct Laps {
+  std::uint32_t finished = 0, flying = 0;
+  double best_flying_mean_mps = 0.0;  // 0 until there is one
+  double best_flying_s = kUnset;
+  double last_s = kUnset;
+};
+
+class Rig {
+ public:
+  static Result<Rig, Problem> build(const scenario::Scenario& scenario,
+                                    const world::TrackMap& track);
+
+  void step(std::span<const can::ReceivedFrame> from_car, Instant now);
+
+  // What the nodes put on the bus since the last call.
+  FixedVector<Outgoing, kMaxOutgoing> take_frames();
+  // What the sensors delivered since the last call.
+  world::SensorInput take_samples();
+
+  const plant::Truth& truth() const { return truth_; }
+  const plant::Road& road() const { return road_; }
+  const Laps& laps() const { return laps_; }
+  const race::Flags& flags() const { return race_.flags; }
+  double round_target_speed_mph() const { return race_.round_target_speed_mph; }
+  world::SysState system_state() const { return raptor_.system; }
+  world::CtState ct_state() const { return raptor_.ct_state; }
+  std::uint64_t overflows() const { return overflows_; }  // frames that found take_frames() full
+
+ private:
+  Rig(const world::TrackMap& track, FaultPlan plan) : track_(track), plan_(std::move(plan)) {}
+  void apply_model_faults(Instant now);
+  void apply_model_fault(const faults::BenchFault& fault, bool active);
+  void apply_gnss_fault(const faults::BenchFault& fault);
+  void step_plant();
+  void send(Node from, const can::Frame& frame, Instant now);
+  void time_laps(Instant now);
+  drive_by_wire::Feedback feedback() const;
+
+  world::TrackMap track_;
+  FaultPlan plan_;
+  faults::FrameFaultState frame_faults_;
+  faults::DelayQueue delayed_;
+  plant::Params plant_params_;
+  plant::State plant_;
+  plant::Surface surface_;
+  plant::Truth truth_;
+  plant::Road road_;
+  drive_by_wire::Params raptor_params_;
+  drive_by_wire::State raptor_;
+  drive_by_wire::Demand demand_;
+  race::Script script_;
+  race::State race_;
+  race::LapTimerParams timer_params_;
+  race::LapTimerState timer_;
+  Laps laps_;
+  sensors::Params sensor_params_;
+  sensors::State sensors_;
+  world::SensorInput samples_;
+  FixedVector<Outgoing, kMaxOutgoing> outgoing_;
+  bool bus_silent_ = false, computer_silent_ = false, engine_stalled_ = false;
+  double grip_ = 1.0;
+  std::uint64_t overflows_ = 0;
+};
+
+}  // namespace pitwall::bench

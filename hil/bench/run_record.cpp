@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/run_record.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace pitwall::bench {
+
+RunRecord::RunRecord(const scenario::Scenario& scenario, std::string_view mode,
+                     recording::Sink sink)
+    : log_({{"scenario", scenario.name},
+            {"seed", std::to_string(scenario.seed)},
+            {"mode", std::string(mode)},
+            {"source", "simulation"}},
+           std::move(sink)),
+      can_(log_.channel<CanSample>("/can")),
+      truth_(log_.channel<TruthSample>("/truth")),
+      car_(log_.channel<CarSample>("/car")) {
+  log_.start();
+}
+
+void RunRecord::can(Node from, const can::Frame& frame, Instant at) {
+  CanSample sample{.from = static_cast<std::uint8_t>(from), .id = frame.id, .data = {}};
+  for (const std::uint8_t byte : frame.payload()) CHECK(sample.data.push(byte));
+  log_.sample(can_, at, sample);
+}
+
+void RunRecord::truth(const Rig& rig, Instant at) {
+  const plant::Truth& t = rig.truth();
+  const plant::Road& r = rig.road();
+  log_.sample(truth_, at,
+              TruthSample{.x_m = t.x_m,
+                          .y_m = t.y_m,
+                          .yaw_rad = t.yaw_rad,
+                          .vx_mps = t.vx_mps,
+                          .vy_mps = t.vy_mps,
+                          .yaw_rate_rad_per_s = t.yaw_rate_rad_per_s,
+                          .s_m = r.s_m,
+                          .n_m = r.n_m,
+                          .bank_rad = t.bank_rad,
+                          .steering_motor_rad = t.steering_motor_rad,
+                          .throttle = t.throttle_fraction,
+                          .brake_kpa = t.brake_front_kpa,
+                          .engine_rpm = t.engine_rpm,
+                          .friction_use = t.friction_use,
+                          .wall_gap_m = std::min(r.wall_gap_left_m, r.wall_gap_right_m),
+                          .gear = t.gear,
+                          .sys_state = static_cast<std::uint8_t>(rig.system_state()),
+                          .ct_state = static_cast<std::uint8_t>(rig.ct_state()),
+                          .track_flag = static_cast<std::uint8_t>(rig.flags().track)});
+}
+
+CarSample car_sample(const pipeline::Outputs& out) {
+  return {.x_m = out.ego.x_m,
+          .y_m = out.ego.y_m,
+          .yaw_rad = out.ego.yaw_rad,
+          .vx_mps = out.ego.vx_mps,
+          .vy_mps = out.ego.vy_mps,
+          .yaw_rate_rad_per_s = out.ego.yaw_rate_rad_per_s,
+          .position_sigma_m = out.ego.position_sigma_m,
+          .target_speed_mps = out.steered.target_speed_mps,
+          .cross_track_m = out.steered.lateral.cross_track_m,
+          .road_wheel_rad = out.chosen.command.road_wheel_rad,
+          .throttle = out.chosen.command.throttle_fraction,
+          .brake_kpa = out.chosen.command.brake_kpa,
+          .gear = out.chosen.command.gear,
+          .mode = static_cast<std::uint8_t>(out.chosen.mode),
+          .cause = static_cast<std::uint8_t>(out.chosen.cause),
+          .validity = static_cast<std::uint8_t>(out.ego.validity),
+          .ct_state = static_cast<std::uint8_t>(out.ct_state),
+          .frames_refused = out.heard.bus.refused.total(),
+          .gate_refusals = out.passed.refused_total};
+}
+
+void RunRecord::car(const pipeline::Outputs& out, Instant at) {
+  log_.sample(car_, at, car_sample(out));
+}
+
+void RunRecord::event(Instant at, std::string_view name, std::string_view text) {
+  log_.event(at, name, text);
+}
+
+bool RunRecord::close() { return log_.close(); }
+
+std::string RunRecord::digest() const { return recording::to_hex(log_.digest()); }
+
+}  // namespace pitwall::bench

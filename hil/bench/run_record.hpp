@@ -1,0 +1,118 @@
+// The event log of a bench run: one MCAP file with every CAN frame, the truth, the car's own view and
+// its decisions, and events in words. Its SHA-256 names the run.
+//   channels /can/<node>   every frame, who sent it
+//            /truth        the plant at 100 Hz
+//            /car          the car at 100 Hz: ego state, mode, command
+//            /events       flags, modes, laps, verdicts
+//   law      the same scenario, build and seed give the same bytes
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+
+#include "hil/bench/rig.hpp"
+#include "hil/scenario/scenario.hpp"
+#include "protocol/recording/event_log.hpp"
+#include "vehicle/pipeline/step.hpp"
+
+namespace pitwall::bench {
+
+struct CanSample {
+  std::uint8_t from = 0;  // Node
+  std::uint32_t id = 0;
+  FixedVector<std::uint8_t, 64> data;
+};
+constexpr recording::CdrName cdr_name(std::type_identity<CanSample>) { return "CanFrame"; }
+constexpr auto cdr_fields(std::type_identity<CanSample>) {
+  return std::tuple{recording::CdrField{"from_node", &CanSample::from},
+                    recording::CdrField{"id", &CanSample::id},
+                    recording::CdrField{"data", &CanSample::data}};
+}
+
+struct TruthSample {
+  double x_m, y_m, yaw_rad, vx_mps, vy_mps, yaw_rate_rad_per_s, s_m, n_m, bank_rad;
+  double steering_motor_rad, throttle, brake_kpa, engine_rpm, friction_use, wall_gap_m;
+  std::uint8_t gear, sys_state, ct_state, track_flag;
+};
+constexpr recording::CdrName cdr_name(std::type_identity<TruthSample>) { return "BenchTruth"; }
+constexpr auto cdr_fields(std::type_identity<TruthSample>) {
+  using recording::CdrField;
+  using T = TruthSample;
+  return std::tuple{CdrField{"x_m", &T::x_m},
+                    CdrField{"y_m", &T::y_m},
+                    CdrField{"yaw_rad", &T::yaw_rad},
+                    CdrField{"vx_mps", &T::vx_mps},
+                    CdrField{"vy_mps", &T::vy_mps},
+                    CdrField{"yaw_rate_rad_per_s", &T::yaw_rate_rad_per_s},
+                    CdrField{"s_m", &T::s_m},
+                    CdrField{"n_m", &T::n_m},
+                    CdrField{"bank_rad", &T::bank_rad},
+                    CdrField{"steering_motor_rad", &T::steering_motor_rad},
+                    CdrField{"throttle", &T::throttle},
+                    CdrField{"brake_kpa", &T::brake_kpa},
+                    CdrField{"engine_rpm", &T::engine_rpm},
+                    CdrField{"friction_use", &T::friction_use},
+                    CdrField{"wall_gap_m", &T::wall_gap_m},
+                    CdrField{"gear", &T::gear},
+                    CdrField{"sys_state", &T::sys_state},
+                    CdrField{"ct_state", &T::ct_state},
+                    CdrField{"track_flag", &T::track_flag}};
+}
+
+struct CarSample {
+  double x_m, y_m, yaw_rad, vx_mps, vy_mps, yaw_rate_rad_per_s, position_sigma_m;
+  double target_speed_mps, cross_track_m, road_wheel_rad, throttle, brake_kpa;
+  std::uint8_t gear, mode, cause, validity, ct_state;
+  std::uint64_t frames_refused, gate_refusals;
+};
+constexpr recording::CdrName cdr_name(std::type_identity<CarSample>) { return "CarState"; }
+constexpr auto cdr_fields(std::type_identity<CarSample>) {
+  using recording::CdrField;
+  using T = CarSample;
+  return std::tuple{CdrField{"x_m", &T::x_m},
+                    CdrField{"y_m", &T::y_m},
+                    CdrField{"yaw_rad", &T::yaw_rad},
+                    CdrField{"vx_mps", &T::vx_mps},
+                    CdrField{"vy_mps", &T::vy_mps},
+                    CdrField{"yaw_rate_rad_per_s", &T::yaw_rate_rad_per_s},
+                    CdrField{"position_sigma_m", &T::position_sigma_m},
+                    CdrField{"target_speed_mps", &T::target_speed_mps},
+                    CdrField{"cross_track_m", &T::cross_track_m},
+                    CdrField{"road_wheel_rad", &T::road_wheel_rad},
+                    CdrField{"throttle", &T::throttle},
+                    CdrField{"brake_kpa", &T::brake_kpa},
+                    CdrField{"gear", &T::gear},
+                    CdrField{"mode", &T::mode},
+                    CdrField{"cause", &T::cause},
+                    CdrField{"validity", &T::validity},
+                    CdrField{"ct_state", &T::ct_state},
+                    CdrField{"frames_refused", &T::frames_refused},
+                    CdrField{"gate_refusals", &T::gate_refusals}};
+}
+
+CarSample car_sample(const pipeline::Outputs& out);
+
+class RunRecord {
+ public:
+  // `mode`: "lockstep" or "live". The metadata says that this is a simulation.
+  RunRecord(const scenario::Scenario& scenario, std::string_view mode, recording::Sink sink);
+
+  void can(Node from, const can::Frame& frame, Instant at);
+  void truth(const Rig& rig, Instant at);
+  void car(const pipeline::Outputs& out, Instant at);
+  void event(Instant at, std::string_view name, std::string_view text);
+  // Writes the summary; afterwards the digest is that of the whole file.
+  bool close();
+  std::string digest() const;
+  recording::McapCounters counters() const { return log_.counters(); }
+
+ private:
+  recording::EventLog log_;
+  recording::SampleChannel<CanSample> can_;
+  recording::SampleChannel<TruthSample> truth_;
+  recording::SampleChannel<CarSample> car_;
+};
+
+}  // namespace pitwall::bench

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/signals.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::bench {
+namespace {
+
+void set(SignalValues& values, Signal signal, double value) {
+  values[static_cast<std::size_t>(signal)] = value;
+}
+
+// NaN meets no condition, and before the car has spoken there is nothing to judge: the numbers that
+// a condition would compare are then those of a car that did nothing wrong yet.
+double or_zero(double value) { return std::isnan(value) ? 0.0 : value; }
+
+grading::Kind kind_of(scenario::ExpectKind kind) {
+  switch (kind) {
+    case scenario::ExpectKind::kAlways:
+      return grading::Kind::kAlways;
+    case scenario::ExpectKind::kNever:
+      return grading::Kind::kNever;
+    case scenario::ExpectKind::kWithin:
+      return grading::Kind::kWithin;
+  }
+  CHECK(false);
+}
+
+}  // namespace
+
+double cross_track_m(const Rig& rig, double line_offset_m) {
+  return rig.road().n_m - line_offset_m;
+}
+
+SignalValues observe(const SignalSources& from) {
+  const plant::Truth& truth = from.rig.truth();
+  const plant::Road& road = from.rig.road();
+  SignalValues v{};
+  set(v, Signal::kSpeed, truth.speed_mps);
+  set(v, Signal::kStation, road.s_m);
+  set(v, Signal::kOffset, road.n_m);
+  set(v, Signal::kAbsCrossTrack, std::abs(cross_track_m(from.rig, from.line_offset_m)));
+  set(v, Signal::kWallGap, std::min(road.wall_gap_left_m, road.wall_gap_right_m));
+  set(v, Signal::kContact, road.contact ? 1.0 : 0.0);
+  set(v, Signal::kFrictionUse, truth.friction_use);
+  set(v, Signal::kLateralForce, truth.specific_force_mps2[1]);
+  set(v, Signal::kBrake, truth.brake_front_kpa);
+  set(v, Signal::kThrottle, truth.throttle_fraction);
+  set(v, Signal::kSteering, to_deg(truth.steering_motor_rad));
+  set(v, Signal::kGear, truth.gear);
+  set(v, Signal::kSysState, static_cast<double>(from.rig.system_state()));
+  set(v, Signal::kCtState, static_cast<double>(from.rig.ct_state()));
+  set(v, Signal::kTrackFlag, static_cast<double>(from.rig.flags().track));
+  set(v, Signal::kLaps, from.rig.laps().finished);
+  set(v, Signal::kFlyingLapMean, from.rig.laps().best_flying_mean_mps);
+  set(v, Signal::kFramesLost, static_cast<double>(from.frames_lost));
+  set(v, Signal::kMode, or_zero(from.car.mode));
+  set(v, Signal::kGateRefusals, or_zero(from.car.gate_refusals));
+  set(v, Signal::kBusRefusals, or_zero(from.car.bus_refusals));
+  set(v, Signal::kPositionError,
+      or_zero(std::hypot(from.car.x_m - truth.x_m, from.car.y_m - truth.y_m)));
+  set(v, Signal::kYawError, or_zero(std::abs(wrap_pi(from.car.yaw_rad - truth.yaw_rad))));
+  return v;
+}
+
+std::vector<std::string> signal_names() { return {kSignalNames.begin(), kSignalNames.end()}; }
+
+Result<std::vector<grading::Expectation>, Problem> expectations_of(
+    const scenario::Scenario& scenario) {
+  std::vector<grading::Expectation> out;
+  for (const scenario::Expectation& row : scenario.expect) {
+    const auto op = grading::op_of(row.relation);
+    if (!op)
+      return Unexpected{
+          Problem{row.place, "\"" + row.relation + "\" is not one of: < <= > >= == !="}};
+    if (std::find(kSignalNames.begin(), kSignalNames.end(), row.signal) == kSignalNames.end())
+      return Unexpected{Problem{row.place, "unknown signal \"" + row.signal + "\""}};
+    grading::Expectation e;
+    e.name = row.place;
+    e.kind = kind_of(row.kind);
+    e.condition = {.signal = row.signal, .op = *op, .number = row.value};
+    e.from = Instant{} + row.from;
+    const Duration end = row.until.ns != 0 ? row.until : scenario.duration;
+    e.to = Instant{} + end;
+    e.limit = end - row.from;
+    out.push_back(e);
+  }
+  return out;
+}
+
+}  // namespace pitwall::bench

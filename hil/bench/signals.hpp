@@ -1,0 +1,96 @@
+// The numbers that a scenario may put conditions on, by name, once per tick. What the car says of
+// itself comes in lockstep from its outputs and in the live bench from its telemetry; everything
+// else is the bench's own truth.
+//   units  in the names; enumerations by their number
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hil/bench/rig.hpp"
+#include "hil/grading/expectation.hpp"
+#include "hil/scenario/scenario.hpp"
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::bench {
+
+enum class Signal : std::uint8_t {
+  kSpeed,
+  kStation,
+  kOffset,
+  kAbsCrossTrack,  // truth against the line that the car was told to drive
+  kWallGap,
+  kContact,
+  kFrictionUse,
+  kLateralForce,
+  kBrake,
+  kThrottle,
+  kSteering,
+  kGear,
+  kSysState,
+  kCtState,
+  kTrackFlag,
+  kLaps,
+  kFlyingLapMean,  // best so far, 0 until there is one
+  kFramesLost,
+  kMode,           // of the car's supervisor
+  kGateRefusals,   // of the car's frame gate
+  kBusRefusals,    // frames that the car did not apply
+  kPositionError,  // of the car's localization against the truth
+  kYawError
+};
+inline constexpr std::size_t kSignals = 23;
+
+inline constexpr std::array<std::string_view, kSignals> kSignalNames{"speed_mps",
+                                                                     "station_m",
+                                                                     "offset_m",
+                                                                     "abs_cross_track_m",
+                                                                     "wall_gap_m",
+                                                                     "contact",
+                                                                     "friction_use",
+                                                                     "lateral_force_mps2",
+                                                                     "brake_kpa",
+                                                                     "throttle",
+                                                                     "steering_motor_deg",
+                                                                     "gear",
+                                                                     "sys_state",
+                                                                     "ct_state",
+                                                                     "track_flag",
+                                                                     "laps",
+                                                                     "flying_lap_mean_mps",
+                                                                     "frames_lost",
+                                                                     "mode",
+                                                                     "gate_refusals",
+                                                                     "bus_refusals",
+                                                                     "position_error_m",
+                                                                     "yaw_error_rad"};
+
+// What the car says of itself. Unset until it has said something.
+struct CarReport {
+  double mode = kUnset, gate_refusals = kUnset, bus_refusals = kUnset;
+  double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
+};
+
+using SignalValues = std::array<double, kSignals>;
+
+struct SignalSources {
+  const Rig& rig;
+  const CarReport& car;
+  double line_offset_m = 0.0;  // of the line from the track's reference line
+  std::uint64_t frames_lost = 0;
+};
+
+SignalValues observe(const SignalSources& from);
+double cross_track_m(const Rig& rig, double line_offset_m);
+
+std::vector<std::string> signal_names();
+
+// The expectations of a scenario as the grader takes them.
+Result<std::vector<grading::Expectation>, Problem> expectations_of(
+    const scenario::Scenario& scenario);
+
+}  // namespace pitwall::bench

@@ -1,0 +1,56 @@
+// pitwall-hil: the bench. One verb per job.
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cstdio>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hil/guest/bus_verb.hpp"
+#include "hil/replay/replay_verb.hpp"
+#include "hil/verbs/bench_verb.hpp"
+#include "hil/verbs/demo_verb.hpp"
+#include "hil/verbs/exit_code.hpp"
+#include "hil/verbs/run_verb.hpp"
+
+namespace pitwall {
+namespace {
+
+struct Verb {
+  std::string_view name, help;
+  int (*run)(std::span<const std::string> args);
+};
+
+constexpr std::array kVerbs{
+    Verb{"run", "run SCENARIO in lockstep or live (--live)", verbs::run_verb},
+    Verb{"demo", "the whole system: car, bench and base station on real SocketCAN",
+         verbs::demo_verb},
+    Verb{"replay", "replay a candump log onto a CAN interface", replay::replay_verb},
+    Verb{"bus", "CAN interfaces: from this kernel or from a guest", guest::bus_verb},
+    Verb{"bench", "benchmarks with gates: lockstep, step", verbs::bench_verb},
+};
+
+int usage(std::FILE* out, int code) {
+  std::fprintf(out, "pitwall-hil VERB [ARG...]   (VERB --help for its options)\n\n");
+  for (const Verb& verb : kVerbs)
+    std::fprintf(out, "  %-8s %s\n", verb.name.data(), verb.help.data());
+  std::fprintf(
+      out, "\nexit codes: 0 pass, 1 an expectation or gate failed, 2 bad input or bench failure\n");
+  return code;
+}
+
+}  // namespace
+}  // namespace pitwall
+
+int main(int argc, char** argv) {
+  using namespace pitwall;  // NOLINT: the whole program
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.empty()) return usage(stderr, verbs::kExitUnusable);
+  if (words[0] == "--help" || words[0] == "help") return usage(stdout, verbs::kExitPass);
+  for (const Verb& verb : kVerbs)
+    if (words[0] == verb.name) return verb.run(std::span(words).subspan(1));
+  std::fprintf(stderr, "pitwall-hil: error: unknown verb \"%s\"\n", words[0].c_str());
+  return usage(stderr, verbs::kExitUnusable);
+}

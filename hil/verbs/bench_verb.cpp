@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/verbs/bench_verb.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+#include "hil/bench/loading.hpp"
+#include "hil/bench/lockstep.hpp"
+#include "hil/verbs/exit_code.hpp"
+#include "protocol/transport/clock.hpp"
+#include "protocol/transport/file.hpp"
+
+namespace pitwall::verbs {
+namespace {
+
+constexpr double kLeastTimesRealTime = 20.0;
+constexpr int kRuns = 5;
+constexpr double kStepLimit_us = 100.0;
+constexpr const char* kScenario = "hil/scenarios/lvms_flying_lap.yaml";
+
+Result<double, Problem> times_real_time(const bench::Loaded& loaded, bool with_log) {
+  recording::Sink sink;
+  if (with_log) sink = [](std::span<const std::uint8_t>) { return true; };
+  const Instant begun = transport::monotonic_now();
+  const auto result = bench::run_lockstep(loaded.scenario, loaded.setup, {.log = sink});
+  if (!result) return Unexpected{result.error()};
+  return loaded.scenario.duration.seconds() / (transport::monotonic_now() - begun).seconds();
+}
+
+struct StepFigures {
+  double p50_us = 0.0, p99_us = 0.0, max_us = 0.0;
+  std::size_t steps = 0;
+};
+
+// The car's step inside the closed loop, fed with what a lap feeds it.
+Result<StepFigures, Problem> time_steps(const bench::Loaded& loaded) {
+  std::vector<double> took_us;
+  took_us.reserve(
+      static_cast<std::size_t>(loaded.scenario.duration / loaded.setup.params.rates.tick) + 1);
+  bench::LockstepOptions options;
+  options.step = [&took_us](const pipeline::Setup& setup, pipeline::Car& car,
+                            const pipeline::Inputs& in) {
+    const Instant begun = transport::monotonic_now();
+    const pipeline::Outputs out = pipeline::step(setup, car, in);
+    took_us.push_back(static_cast<double>((transport::monotonic_now() - begun).ns) * 1e-3);
+    return out;
+  };
+  const auto result = bench::run_lockstep(loaded.scenario, loaded.setup, options);
+  if (!result) return Unexpected{result.error()};
+  std::sort(took_us.begin(), took_us.end());
+  const auto quantile = [&took_us](double q) {
+    return took_us[static_cast<std::size_t>(q * static_cast<double>(took_us.size() - 1))];
+  };
+  return StepFigures{quantile(0.5), quantile(0.99), took_us.back(), took_us.size()};
+}
+
+int bench_step(const std::string& json_file) {
+  const auto loaded = bench::load(kScenario, "");
+  if (!loaded) return refuse(loaded.error());
+  const auto figures = time_steps(*loaded);
+  if (!figures) return refuse(figures.error());
+  const bool held = figures->p99_us < kStepLimit_us;
+  std::printf("pipeline step over %.0f s of LVMS, %zu steps, us\n%8s %8s %8s\n%8.1f %8.1f %8.1f\n",
+              loaded->scenario.duration.seconds(), figures->steps, "p50", "p99", "max",
+              figures->p50_us, figures->p99_us, figures->max_us);
+  std::printf("gate: p99 below %.0f us: %s\n", kStepLimit_us, held ? "held" : "MISSED");
+  if (!json_file.empty()) {
+    const auto written = transport::write_file(
+        json_file, "{\"bench\":\"step\",\"p50_us\":" + std::to_string(figures->p50_us) +
+                       ",\"p99_us\":" + std::to_string(figures->p99_us) +
+                       ",\"max_us\":" + std::to_string(figures->max_us) +
+                       ",\"held\":" + (held ? "true" : "false") + "}\n");
+    if (!written) return refuse(written.error());
+  }
+  return held ? kExitPass : kExitFailed;
+}
+
+int bench_lockstep(const std::string& json_file) {
+  const auto loaded = bench::load(kScenario, "");
+  if (!loaded) return refuse(loaded.error());
+  std::string json = "{\"bench\":\"lockstep\",\"gate_times_real_time\":20";
+  bool held = true;
+  std::printf("lockstep, %.0f s of LVMS, times real time over %d runs\n%-22s %8s %8s %8s\n",
+              loaded->scenario.duration.seconds(), kRuns, "", "least", "median", "most");
+  for (const bool with_log : {false, true}) {
+    std::vector<double> speeds;
+    for (int i = 0; i < kRuns; ++i) {
+      const auto speed = times_real_time(*loaded, with_log);
+      if (!speed) return refuse(speed.error());
+      speeds.push_back(*speed);
+    }
+    std::sort(speeds.begin(), speeds.end());
+    const double median = speeds[kRuns / 2];
+    std::printf("%-22s %8.1f %8.1f %8.1f\n", with_log ? "with event log" : "without event log",
+                speeds.front(), median, speeds.back());
+    json += std::string(",\"") + (with_log ? "with_log" : "without_log") +
+            "\":" + std::to_string(median);
+    held = held && median >= kLeastTimesRealTime;
+  }
+  std::printf("gate: median at least %.0f times real time: %s\n", kLeastTimesRealTime,
+              held ? "held" : "MISSED");
+  if (!json_file.empty()) {
+    const auto written =
+        transport::write_file(json_file, json + ",\"held\":" + (held ? "true" : "false") + "}\n");
+    if (!written) return refuse(written.error());
+  }
+  return held ? kExitPass : kExitFailed;
+}
+
+}  // namespace
+
+int bench_verb(std::span<const std::string> args) {
+  std::string name, json_file;
+  CLI::App app{"pitwall-hil bench: benchmarks with gates"};
+  app.add_option("name", name, "lockstep or step")->required();
+  app.add_option("--json", json_file, "write the figures here");
+  try {
+    std::vector<std::string> reversed(args.rbegin(), args.rend());
+    app.parse(reversed);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kExitPass : kExitUnusable;
+  }
+  if (name == "lockstep") return bench_lockstep(json_file);
+  if (name == "step") return bench_step(json_file);
+  return refuse({"bench", "unknown name \"" + name + "\"; known: lockstep, step"});
+}
+
+}  // namespace pitwall::verbs

@@ -1,0 +1,19 @@
+// `pitwall-hil demo`: the whole system at work. Base station on this machine; car and bench on real
+// SocketCAN, in a guest where this kernel has no CAN; the radio between them over the serial line.
+//
+//   --headless        the base station writes its screen to a file instead of this terminal
+//   --duration S      seconds of scenario time (default 180)
+//   --json FILE       everything that is printed, for programs
+//   --out FOLDER      event log, candump, summaries (default out/demo)
+//   out    exit code 0: every expectation held, no frame was lost; 1: not so; 2: it could not run
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace pitwall::verbs {
+
+int demo_verb(std::span<const std::string> args);
+
+}  // namespace pitwall::verbs

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/verbs/run_verb.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "hil/bench/live.hpp"
+#include "hil/bench/loading.hpp"
+#include "hil/bench/lockstep.hpp"
+#include "hil/guest/bus_verb.hpp"
+#include "hil/verbs/exit_code.hpp"
+#include "protocol/transport/clock.hpp"
+#include "protocol/transport/file.hpp"
+
+namespace pitwall::verbs {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A sink that appends to the file; an empty name gives an empty sink.
+Result<recording::Sink, Problem> sink_to(const std::string& path) {
+  if (path.empty()) return recording::Sink{};
+  auto file = transport::AppendWriter::open(path, transport::AppendWriter::Start::kTruncate);
+  if (!file) return Unexpected{file.error()};
+  const auto shared = std::make_shared<transport::AppendWriter>(*std::move(file));
+  return recording::Sink{
+      [shared](std::span<const std::uint8_t> bytes) { return shared->write(bytes); }};
+}
+
+std::string timing_text(const bench::LiveResult& live) {
+  char text[256];
+  std::snprintf(
+      text, sizeof text,
+      "bench wake-up late by p50 %.0f us, p99 %.0f us, max %.0f us; %llu steps caught up; "
+      "telemetry %llu packets, %llu refused\n",
+      live.timing.wake_late_p50_us, live.timing.wake_late_p99_us, live.timing.wake_late_max_us,
+      static_cast<unsigned long long>(live.timing.caught_up_steps),
+      static_cast<unsigned long long>(live.telemetry_packets),
+      static_cast<unsigned long long>(live.telemetry_refused));
+  return text;
+}
+
+Result<bench::RunResult, Problem> lockstep(const bench::Loaded& loaded,
+                                           const recording::Sink& log) {
+  const Instant begun = transport::monotonic_now();
+  // Without a file the log is still made: its digest names the run.
+  const recording::Sink sink =
+      log ? log : recording::Sink{[](std::span<const std::uint8_t>) { return true; }};
+  auto result = bench::run_lockstep(loaded.scenario, loaded.setup, {.log = sink});
+  if (result) result->wall_s = (transport::monotonic_now() - begun).seconds();
+  return result;
+}
+
+Result<bench::RunResult, Problem> live(const RunOptions& options, const bench::Loaded& loaded,
+                                       recording::Sink log) {
+  const std::string vehicle =
+      (fs::path(own_program()).parent_path().parent_path() / "vehicle/pitwall-vehicle").string();
+  const bench::LivePlan plan{.interface = options.interface,
+                             .vehicle = {vehicle, "--car", loaded.scenario.car_file, "--track",
+                                         loaded.scenario.track_file},
+                             .folder = options.folder,
+                             .radio_port = options.radio_port,
+                             .candump = options.candump,
+                             .log = std::move(log)};
+  auto result = bench::run_live(loaded.scenario, loaded.setup, plan);
+  if (!result) return Unexpected{result.error()};
+  if (!options.quiet) std::printf("%s", timing_text(*result).c_str());
+  return result->run;
+}
+
+}  // namespace
+
+std::string own_program() { return fs::read_symlink("/proc/self/exe").string(); }
+
+std::vector<std::string> live_command(const RunOptions& options) {
+  std::vector<std::string> command{own_program(),
+                                   "run",
+                                   options.scenario,
+                                   "--live",
+                                   "--here",
+                                   "--interface",
+                                   options.interface,
+                                   "--out",
+                                   options.folder,
+                                   "--radio-port",
+                                   std::to_string(options.radio_port)};
+  const auto add = [&command](const std::string& flag, const std::string& value) {
+    if (value.empty()) return;
+    command.push_back(flag);
+    command.push_back(value);
+  };
+  add("--log", options.log_file);
+  add("--json", options.json_file);
+  if (options.duration) add("--duration", std::to_string(options.duration->seconds()));
+  if (options.seed) add("--seed", std::to_string(*options.seed));
+  if (options.candump) command.emplace_back("--candump");
+  return command;
+}
+
+int run_scenario(const RunOptions& options) {
+  auto loaded = bench::load(options.scenario, "");
+  if (!loaded) return refuse(loaded.error());
+  if (options.duration) loaded->scenario.duration = *options.duration;
+  if (options.seed) loaded->scenario.seed = *options.seed;
+  auto log = sink_to(options.log_file);
+  if (!log) return refuse(log.error());
+  const auto result =
+      options.live ? live(options, *loaded, *std::move(log)) : lockstep(*loaded, *log);
+  if (!result) return refuse(result.error());
+  if (!options.quiet) std::printf("%s", bench::to_text(*result).c_str());
+  std::fflush(stdout);
+  if (!options.json_file.empty()) {
+    const auto written = transport::write_file(options.json_file, bench::to_json(*result) + "\n");
+    if (!written) return refuse(written.error());
+  }
+  return result->passed() ? kExitPass : kExitFailed;
+}
+
+int run_verb(std::span<const std::string> args) {
+  RunOptions options;
+  double duration_s = 0.0;
+  std::uint64_t seed = 0;
+  CLI::App app{"pitwall-hil run: one scenario in the bench"};
+  app.add_option("scenario", options.scenario, "scenario file")->required();
+  app.add_flag("--live", options.live, "real SocketCAN, real car process, real time");
+  app.add_flag("--here", options.here, "live: the interface exists here already");
+  app.add_option("--interface", options.interface, "live: CAN interface");
+  app.add_option("--log", options.log_file, "write the event log (MCAP)");
+  app.add_option("--json", options.json_file, "write the result as JSON");
+  app.add_option("--out", options.folder, "live: folder for the car's summary and the candump");
+  app.add_flag("--candump", options.candump, "live: record the bus with candump");
+  app.add_option("--radio-port", options.radio_port, "live: pass telemetry on to this port");
+  const auto* duration = app.add_option("--duration", duration_s, "seconds, instead of the file's")
+                             ->check(CLI::Range(0.1, 36'000.0));
+  const auto* with_seed = app.add_option("--seed", seed, "instead of the file's");
+  try {
+    std::vector<std::string> reversed(args.rbegin(), args.rend());
+    app.parse(reversed);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kExitPass : kExitUnusable;
+  }
+  if (duration->count() > 0) options.duration = from_seconds(duration_s);
+  if (with_seed->count() > 0) options.seed = seed;
+  if (!options.live || options.here) return run_scenario(options);
+
+  // Bad input is told before a machine is booted for it.
+  if (const auto loaded = bench::load(options.scenario, ""); !loaded) return refuse(loaded.error());
+  std::vector<std::string> exec{"exec", "--auto", "--interface", options.interface, "--"};
+  for (std::string& word : live_command(options)) exec.push_back(std::move(word));
+  return guest::bus_verb(exec);
+}
+
+}  // namespace pitwall::verbs

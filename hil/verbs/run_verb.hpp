@@ -1,0 +1,38 @@
+// `pitwall-hil run SCENARIO`: one scenario, in lockstep (default) or live.
+//
+//   --live            real SocketCAN and the real car process; where this kernel has no CAN, inside a
+//                     User-mode Linux guest that is booted for it
+//   --log FILE        event log (MCAP)       --json FILE   result for programs
+//   --out FOLDER      live: summary of the car, candump of the bus
+//   out    exit code 0 passed, 1 an expectation failed, 2 bad input or bench failure
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::verbs {
+
+struct RunOptions {
+  std::string scenario, log_file, json_file, folder = ".";
+  std::optional<Duration> duration;   // instead of the scenario's
+  std::optional<std::uint64_t> seed;  // likewise
+  bool live = false, here = false, candump = false, quiet = false;
+  std::string interface = "vcan0";
+  std::uint16_t radio_port = 0;  // live: where the bench passes the car's telemetry on
+};
+
+int run_scenario(const RunOptions& options);
+int run_verb(std::span<const std::string> args);
+
+// Path of this very program, to start it again inside a guest.
+std::string own_program();
+// The command that runs a scenario live where the interface already exists.
+std::vector<std::string> live_command(const RunOptions& options);
+
+}  // namespace pitwall::verbs

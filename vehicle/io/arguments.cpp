@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/io/arguments.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <vector>
+
+namespace pitwall::io {
+
+inline constexpr int kExitUsage = 2;
+
+std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) {
+  Arguments args;
+  CLI::App app{"pitwall-vehicle: the on-car autonomy process"};
+  app.add_option("--car", args.car_file, "car file (vehicle/config/cars/*.yaml)")->required();
+  app.add_option("--track", args.track_file, "track file (vehicle/config/tracks/*.yaml)")
+      ->required();
+  app.add_option("--can", args.can_interface, "CAN interface, e.g. can0")->required();
+  std::vector<std::uint16_t> ports;
+  app.add_option("--gnss", ports, "UDP ports of the two GNSS receivers, e.g. 23501,23502")
+      ->delimiter(',')
+      ->expected(static_cast<int>(world::kGnssUnits))
+      ->required();
+  app.add_option("--radio", args.radio, "where telemetry goes, ADDRESS:PORT");
+  app.add_option("--summary", args.summary_file, "write counters and timing here at the end");
+  app.add_flag("--simulation", args.simulation, "say in the telemetry that this is a simulation");
+  app.add_flag("--arm", args.arm, "armed from the start (bench)");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = app.exit(error);
+    return code == 0 ? 0 : kExitUsage;
+  }
+  std::copy(ports.begin(), ports.end(), args.gnss_ports.begin());
+  return args;
+}
+
+}  // namespace pitwall::io

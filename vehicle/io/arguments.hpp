@@ -1,0 +1,29 @@
+// The command line of pitwall-vehicle.
+//   errors wrong usage: text on stderr and exit code 2 (0 for --help)
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "vehicle/world/sensor_input.hpp"
+
+namespace pitwall::io {
+
+struct Arguments {
+  std::string car_file, track_file;
+  std::string can_interface;
+  std::array<std::uint16_t, world::kGnssUnits> gnss_ports{};
+  std::string radio = "127.0.0.1:23431";
+  std::string summary_file;  // empty: none
+  bool simulation = false;   // marks the telemetry; decides nothing
+  bool arm = false;  // armed from the start: for benches, until an operator can arm by radio
+};
+
+// Arguments, or the code to exit with.
+std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv);
+
+}  // namespace pitwall::io

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/io/rim.hpp"
+
+#include <utility>
+
+#include "protocol/transport/clock.hpp"
+
+namespace pitwall::io {
+namespace {
+
+constexpr std::size_t kFramesPerRead = 1'024;  // a quarter second of a full bus
+
+}  // namespace
+
+Rim::Rim(transport::CanSocket can, std::vector<transport::UdpSocket> gnss,
+         transport::UdpSocket radio, transport::UdpAddress base, bool simulation)
+    : can_(std::move(can)),
+      gnss_(std::move(gnss)),
+      receivers_{GnssInput{{.unit = 0}}, GnssInput{{.unit = 1}}},
+      radio_(std::move(radio)),
+      base_(base),
+      frames_(kFramesPerRead),
+      source_(simulation ? telemetry::Source::kSimulation : telemetry::Source::kCar),
+      run_(static_cast<std::uint32_t>(transport::utc_now().ns / kNanosecondsPerSecond)) {}
+
+Result<Rim, Problem> Rim::open(const Arguments& args) {
+  const auto base = transport::parse_udp_address(args.radio);
+  if (!base) return Unexpected{base.error()};
+  auto can = transport::CanSocket::open(args.can_interface);
+  if (!can) return Unexpected{can.error()};
+  std::vector<transport::UdpSocket> gnss;
+  for (const std::uint16_t port : args.gnss_ports) {
+    auto socket = transport::UdpSocket::bind({.ip = transport::kLoopbackIp, .port = port});
+    if (!socket) return Unexpected{socket.error()};
+    gnss.push_back(*std::move(socket));
+  }
+  auto radio = transport::UdpSocket::bind(
+      {.ip = base->ip == transport::kLoopbackIp ? transport::kLoopbackIp : transport::kAnyIp});
+  if (!radio) return Unexpected{radio.error()};
+  return Rim{*std::move(can), std::move(gnss), *std::move(radio), *base, args.simulation};
+}
+
+Rim::Heard Rim::read() {
+  Heard heard;
+  const std::size_t count = can_.receive(frames_);
+  heard.can = std::span<const can::ReceivedFrame>(frames_).first(count);
+  for (std::size_t unit = 0; unit < gnss_.size(); ++unit)
+    receive(gnss_[unit], receivers_[unit], heard.sensors);
+  return heard;
+}
+
+void Rim::write(std::span<const can::Frame> frames) {
+  const std::size_t taken = can_.send(frames);
+  tx_drops_ += frames.size() - taken;
+}
+
+void Rim::report(telemetry::StatePacket& packet, Instant now) {
+  packet.source = source_;
+  packet.run = run_;
+  packet.sequence = sequence_++;
+  packet.sent = now;
+  telemetry::PacketBuffer buffer;
+  radio_.send_to(base_, telemetry::encode(packet, buffer, encoded_));
+}
+
+}  // namespace pitwall::io

@@ -1,0 +1,40 @@
+// What the car process counts about itself, and the summary that it leaves behind.
+//   units  microseconds; quantiles from a histogram of 1 us up to 4 ms (longer ones count as 4 ms)
+//   cost   add(): O(1), no allocation
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "protocol/vocabulary/time.hpp"
+#include "vehicle/io/rim.hpp"
+
+namespace pitwall::io {
+
+class StepTally {
+ public:
+  void add(Duration step, std::uint64_t missed_deadlines);
+  // Of the steps since the last call; for telemetry.
+  double take_recent_max_us();
+
+  std::uint64_t steps() const { return steps_; }
+  std::uint64_t missed_deadlines() const { return missed_; }
+  double quantile_us(double q) const;
+  double max_us() const { return max_us_; }
+
+ private:
+  static constexpr std::size_t kBins = 4'000;
+  std::array<std::uint32_t, kBins> bins_{};
+  std::uint64_t steps_ = 0, missed_ = 0;
+  double max_us_ = 0.0, recent_max_us_ = 0.0;
+};
+
+struct GatewayTotals {
+  std::uint64_t frames_refused = 0, gate_refusals = 0;
+};
+
+std::string summary_json(const StepTally& tally, const Rim& rim, const GatewayTotals& totals);
+
+}  // namespace pitwall::io

@@ -1,0 +1,101 @@
+// pitwall-vehicle: the on-car process. Wires the pipeline to the outside and turns it at 100 Hz.
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <memory>
+
+#include "protocol/transport/clock.hpp"
+#include "protocol/transport/file.hpp"
+#include "protocol/transport/process.hpp"
+#include "protocol/transport/realtime.hpp"
+#include "vehicle/io/arguments.hpp"
+#include "vehicle/io/rim.hpp"
+#include "vehicle/io/tally.hpp"
+#include "vehicle/parameters/car_file.hpp"
+#include "vehicle/parameters/track_file.hpp"
+#include "vehicle/pipeline/step.hpp"
+#include "vehicle/pipeline/telemetry_tap.hpp"
+
+namespace pitwall {
+namespace {
+
+constexpr int kExitFailed = 1, kExitUsage = 2;
+constexpr int kPriority = 80;
+constexpr std::uint64_t kTelemetryEvery = 2;  // ticks: 50 Hz
+
+int refuse(const Problem& problem) {
+  std::fprintf(stderr, "%s\n", to_string(problem).c_str());
+  return kExitUsage;
+}
+
+Result<pipeline::Setup, Problem> set_up(const io::Arguments& args) {
+  const auto car_text = transport::read_file(args.car_file);
+  if (!car_text) return Unexpected{car_text.error()};
+  const auto car = parameters::read_car(*car_text, args.car_file);
+  if (!car) return Unexpected{car.error()};
+  const auto track_text = transport::read_file(args.track_file);
+  if (!track_text) return Unexpected{track_text.error()};
+  const auto track = parameters::read_track(*track_text, args.track_file);
+  if (!track) return Unexpected{track.error()};
+  return pipeline::prepare(car->params, *track);
+}
+
+int drive(const pipeline::Setup& setup, const io::Arguments& args, io::Rim& rim,
+          transport::StopSignal& stop) {
+  const auto car = std::make_unique<pipeline::Car>();
+  io::StepTally tally;
+  io::GatewayTotals totals;
+  transport::Ticker ticker{setup.params.rates.tick};
+  Instant last = transport::monotonic_now() - setup.params.rates.tick;
+  while (!stop.raised()) {
+    const transport::Tick tick = ticker.next();
+    const io::Rim::Heard heard = rim.read();
+    const Instant now = transport::monotonic_now();
+    const pipeline::Outputs out = pipeline::step(setup, *car,
+                                                 {.now = now,
+                                                  .dt = now - last,
+                                                  .can = heard.can,
+                                                  .sensors = heard.sensors,
+                                                  .requests = {.arm = args.arm}});
+    rim.write(out.passed.frames.span());
+    const Instant done = transport::monotonic_now();
+    tally.add(done - now, tick.missed);
+    last = now;
+    totals = {out.heard.bus.refused.total(), out.passed.refused_total};
+    if (car->ticks % kTelemetryEvery != 0) continue;
+    auto packet = pipeline::tap(setup, out,
+                                {.frames_sent = rim.can().sent,
+                                 .tx_drops = rim.tx_drops(),
+                                 .steps = tally.steps(),
+                                 .missed_deadlines = tally.missed_deadlines(),
+                                 .step_time_max_us = tally.take_recent_max_us()},
+                                now);
+    rim.report(packet, done);
+  }
+  rim.poll_drops();
+  if (args.summary_file.empty()) return 0;
+  const auto written =
+      transport::write_file(args.summary_file, io::summary_json(tally, rim, totals));
+  return written ? 0 : (refuse(written.error()), kExitFailed);
+}
+
+int run(int argc, const char* const* argv) {
+  const auto parsed = io::parse_arguments(argc, argv);
+  if (const int* code = std::get_if<int>(&parsed)) return *code;
+  const auto& args = std::get<io::Arguments>(parsed);
+  auto stop = transport::StopSignal::install();
+  if (!stop) return refuse(stop.error());
+  const auto setup = set_up(args);
+  if (!setup) return refuse(setup.error());
+  auto rim = io::Rim::open(args);
+  if (!rim) return refuse(rim.error());
+  const auto realtime = transport::request_realtime(kPriority);
+  std::fprintf(stderr, "pitwall-vehicle: %s on %s, %s%s\n", setup->track.name().c_str(),
+               args.can_interface.c_str(), transport::to_string(realtime).c_str(),
+               args.simulation ? ", SIMULATION" : "");
+  return drive(*setup, args, *rim, *stop);
+}
+
+}  // namespace
+}  // namespace pitwall
+
+int main(int argc, char** argv) { return pitwall::run(argc, argv); }

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/parameters/car_file.hpp"
+
+namespace pitwall::parameters {
+namespace {
+
+constexpr int kSchema = 1;
+
+pipeline::Rates read_rates(yaml::StrictMap map) {
+  pipeline::Rates rates;
+  rates.tick = from_seconds(map.number("tick_s", 0.005, 0.02));
+  rates.planning = from_seconds(map.number("planning_s", 0.01, 0.2));
+  return rates;
+}
+
+CarFile read_root(yaml::StrictMap& map) {
+  CarFile car;
+  if (map.integer("schema", 0, 1000) != kSchema) map.fail("schema", "this program reads schema 1");
+  car.name = map.text("name");
+  car.database = map.text("database");
+  if (car.database != "av21")
+    map.fail("database", "\"" + car.database + "\" is not built in; built in: av21");
+  car.params.rates = read_rates(map.map("rates"));
+  read_gateway(map.map("gateway"), car.params);
+  car.params.localization = read_localization(map.map("localization"));
+  car.params.planning = read_planning(map.map("planning"));
+  car.params.control = read_control(map.map("control"));
+  read_safety(map.map("safety"), car.params);
+  return car;
+}
+
+}  // namespace
+
+Result<CarFile, Problem> read_car(const std::string& text, const std::string& name) {
+  const auto document = yaml::load_text(text, name);
+  if (!document) return Unexpected{document.error()};
+  return yaml::read(*document, read_root);
+}
+
+}  // namespace pitwall::parameters

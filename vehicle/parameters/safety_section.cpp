@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+
+#include "vehicle/parameters/car_file.hpp"
+
+namespace pitwall::parameters {
+namespace {
+
+using pipeline::CarParams;
+
+gateway::Span read_span(yaml::StrictMap& map, const char* key, double min, double max) {
+  const auto pair = map.numbers(key, 2, 2, min, max);
+  if (pair[0] >= pair[1]) map.fail(key, "the first number must be smaller than the second");
+  return {pair[0], pair[1]};
+}
+
+Duration time_s(yaml::StrictMap& map, const char* key, double min, double max) {
+  return from_seconds(map.number(key, min, max));
+}
+
+void read_inbound(yaml::StrictMap map, gateway::InboundParams& in) {
+  const std::string encoding = map.text("flag_encoding");
+  if (encoding == "mylaps") {
+    in.flag_encoding = world::FlagEncoding::kMyLaps;
+  } else if (encoding == "marelli") {
+    in.flag_encoding = world::FlagEncoding::kMarelli;
+  } else {
+    map.fail("flag_encoding", "\"" + encoding + "\" is not one of: mylaps, marelli");
+  }
+  in.degraded_debt = static_cast<std::uint8_t>(map.integer("degraded_debt", 1, 100));
+  in.fault_debt = static_cast<std::uint8_t>(map.integer("fault_debt", 2, 100));
+  if (in.degraded_debt >= in.fault_debt) map.fail("fault_debt", "must be above degraded_debt");
+  in.wheel_speed_mps = read_span(map, "wheel_speed_mps", 0.0, 150.0);
+  in.brake_kpa = read_span(map, "brake_kpa", 0.0, 8191.0);
+  in.throttle_fraction = read_span(map, "throttle_fraction", 0.0, 2.0);
+  in.steering_motor_deg = read_span(map, "steering_motor_deg", -512.0, 511.5);
+  in.engine_speed_rpm = read_span(map, "engine_speed_rpm", 0.0, 16000.0);
+  in.battery_v = read_span(map, "battery_v", 0.0, 25.5);
+  in.tyre_temperature_c = read_span(map, "tyre_temperature_c", -100.0, 6453.0);
+  in.tyre_pressure_kpa = read_span(map, "tyre_pressure_kpa", -100.0, 6553.0);
+  in.gear_max = static_cast<std::uint8_t>(map.integer("gear_max", 1, 8));
+}
+
+void read_handshake(yaml::StrictMap map, gateway::HandshakeParams& handshake) {
+  handshake.dwell = time_s(map, "dwell_s", 0.0, 5.0);
+  handshake.standstill_mps = map.number("standstill_mps", 0.1, 2.0);
+}
+
+void read_outbound(yaml::StrictMap map, gateway::OutboundParams& out) {
+  out.steering_ratio = map.number("steering_ratio", 10.0, 25.0);
+  out.vehicle_number = static_cast<std::uint8_t>(map.integer("vehicle_number", 0, 255));
+  out.traction_aim = static_cast<std::uint8_t>(map.integer("traction_aim", 0, 4));
+  out.traction_range = static_cast<std::uint8_t>(map.integer("traction_range", 0, 4));
+}
+
+// Rows by the names of the table; a row that is not written keeps the module's limits.
+void read_watchdog(yaml::StrictMap map, safety::WatchdogParams& watchdog) {
+  for (safety::StreamLimit& limit : watchdog.limits) {
+    auto row = map.optional_map(limit.name);
+    if (!row) continue;
+    limit.watched = row->flag_or("watched", limit.watched);
+    limit.warning = from_seconds(row->number_or("warning_s", limit.warning.seconds(), 0.005, 60.0));
+    limit.bad = from_seconds(row->number_or("bad_s", limit.bad.seconds(), 0.02, 60.0));
+    if (limit.warning >= limit.bad) row->fail("bad_s", "must be above warning_s");
+  }
+}
+
+void read_faults(yaml::StrictMap map, safety::FaultParams& faults) {
+  faults.dead_reckoning_max = time_s(map, "dead_reckoning_max_s", 0.1, 10.0);
+  faults.position_sigma_max_m = map.number("position_sigma_max_m", 0.1, 10.0);
+  faults.control_failures = static_cast<std::uint8_t>(map.integer("control_failures", 1, 20));
+  faults.refused_ticks = static_cast<std::uint8_t>(map.integer("refused_ticks", 1, 20));
+  faults.radio_loss_stops = map.flag("radio_loss_stops");
+  faults.race_control_required = map.flag("race_control_required");
+}
+
+void read_safe_stop(yaml::StrictMap map, safety::SafeStopParams& stop) {
+  stop.wheelbase_m = map.number("wheelbase_m", 2.5, 3.5);
+  stop.understeer_rad_per_mps2 = map.number("understeer_rad_per_mps2", -0.002, 0.01);
+  stop.brake_kpa_per_mps2 = map.number("brake_kpa_per_mps2", 50.0, 1000.0);
+  stop.brake_ramp_kpa_per_s = map.number("brake_ramp_kpa_per_s", 500.0, 20000.0);
+  stop.emergency_ramp_kpa_per_s =
+      map.number("emergency_ramp_kpa_per_s", stop.brake_ramp_kpa_per_s, 30000.0);
+  stop.brake_max_kpa = map.number("brake_max_kpa", 1000.0, 8191.0);
+  stop.hold_kpa = map.number("hold_kpa", 300.0, 4000.0);
+  stop.decel_min_mps2 = map.number("decel_min_mps2", 0.5, 5.0);
+  stop.decel_max_mps2 = map.number("decel_max_mps2", stop.decel_min_mps2, 15.0);
+  stop.decel_without_plan_mps2 =
+      map.number("decel_without_plan_mps2", stop.decel_min_mps2, stop.decel_max_mps2);
+  stop.emergency_decel_mps2 = map.number("emergency_decel_mps2", stop.decel_max_mps2, 25.0);
+  stop.friction = map.number("friction", 0.3, 2.0);
+  stop.downforce_per_m = map.number("downforce_per_m", 0.0, 0.01);
+  stop.grip_share = map.number("grip_share", 0.05, 1.0);
+  stop.emergency_grip_share = map.number("emergency_grip_share", stop.grip_share, 1.0);
+  stop.steer_settle_s = map.number("steer_settle_s", 0.1, 5.0);
+  stop.standstill_mps = map.number("standstill_mps", 0.1, 1.0);
+}
+
+void read_supervisor(yaml::StrictMap map, safety::SupervisorParams& supervisor) {
+  read_faults(map.map("faults"), supervisor.faults);
+  read_safe_stop(map.map("safe_stop"), supervisor.safe_stop);
+  supervisor.standstill_dwell = time_s(map, "standstill_dwell_s", 0.1, 5.0);
+  supervisor.standstill_mps = map.number("standstill_mps", 0.1, 1.0);
+  supervisor.steer_slew_rad_per_s = map.number("steer_slew_rad_per_s", 0.1, 2.0);
+  supervisor.throttle_rise_per_s = map.number("throttle_rise_per_s", 0.1, 10.0);
+  supervisor.brake_rise_kpa_per_s = map.number("brake_rise_kpa_per_s", 1000.0, 30000.0);
+  supervisor.go_needs_driving_state = map.flag("go_needs_driving_state");
+}
+
+void read_steer_rows(yaml::StrictMap& map, safety::GateParams& gate) {
+  const auto speeds =
+      map.numbers("steer_speed_mps", safety::kSteerRows, safety::kSteerRows, 0.0, 110.0);
+  const auto angles =
+      map.numbers("steer_motor_deg", safety::kSteerRows, safety::kSteerRows, 5.0, 300.0);
+  for (std::size_t i = 0; i < safety::kSteerRows; ++i) {
+    if (i > 0 && speeds[i] <= speeds[i - 1]) map.fail("steer_speed_mps", "speeds must rise");
+    if (i > 0 && angles[i] > angles[i - 1]) map.fail("steer_motor_deg", "angles must not rise");
+    gate.steer[i] = {speeds[i], angles[i]};
+  }
+}
+
+void read_gate(yaml::StrictMap map, safety::GateParams& gate) {
+  read_steer_rows(map, gate);
+  gate.steer_slew_deg_per_s = map.number("steer_slew_deg_per_s", 60.0, 1500.0);
+  gate.brake_max_kpa = map.number("brake_max_kpa", 1000.0, 8191.0);
+  gate.brake_rise_kpa_per_s = map.number("brake_rise_kpa_per_s", 1000.0, 100000.0);
+  gate.brake_fall_kpa_per_s = map.number("brake_fall_kpa_per_s", 1000.0, 200000.0);
+  gate.throttle_max_percent = map.number("throttle_max_percent", 1.0, 100.0);
+  gate.throttle_rise_percent_per_s = map.number("throttle_rise_percent_per_s", 10.0, 2000.0);
+  gate.both_throttle_percent = map.number("both_throttle_percent", 0.0, 10.0);
+  gate.both_brake_kpa = map.number("both_brake_kpa", 0.0, 500.0);
+  gate.standing_mps = map.number("standing_mps", 0.1, 5.0);
+  gate.gear_max = static_cast<std::uint8_t>(map.integer("gear_max", 1, 8));
+  gate.shift_least = time_s(map, "shift_least_s", 0.0, 1.0);
+  gate.command_age_max = time_s(map, "command_age_max_s", 0.01, 0.2);
+}
+
+}  // namespace
+
+void read_gateway(yaml::StrictMap map, CarParams& params) {
+  read_inbound(map.map("inbound"), params.inbound);
+  read_handshake(map.map("handshake"), params.handshake);
+  read_outbound(map.map("outbound"), params.outbound);
+  params.outbound.tick = params.rates.tick;
+}
+
+void read_safety(yaml::StrictMap map, CarParams& params) {
+  read_watchdog(map.map("watchdog"), params.watchdog);
+  read_supervisor(map.map("supervisor"), params.supervisor);
+  params.supervisor.steering_ratio = params.outbound.steering_ratio;
+  read_gate(map.map("gate"), params.gate);
+}
+
+}  // namespace pitwall::parameters

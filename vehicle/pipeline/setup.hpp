@@ -1,0 +1,54 @@
+// Everything that is decided before the first tick: the parameters of every module, checked, and
+// what is derived from them once (track, line, gains, tangent plane). Read-only afterwards.
+//   in     CarParams and a TrackDescription, both from files
+//   out    Setup
+//   errors Problem whose place names the parameter or the row
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+#include "vehicle/autonomy/control/control.hpp"
+#include "vehicle/autonomy/localization/localization.hpp"
+#include "vehicle/autonomy/planning/planning.hpp"
+#include "vehicle/gateway/handshake.hpp"
+#include "vehicle/gateway/inbound.hpp"
+#include "vehicle/gateway/outbound.hpp"
+#include "vehicle/safety/frame_gate.hpp"
+#include "vehicle/safety/supervisor.hpp"
+#include "vehicle/safety/watchdog.hpp"
+#include "vehicle/world/track_map.hpp"
+
+namespace pitwall::pipeline {
+
+struct Rates {
+  Duration tick = milliseconds(10);      // of step(): 100 Hz
+  Duration planning = milliseconds(50);  // 20 Hz
+};
+
+struct CarParams {
+  Rates rates;
+  gateway::InboundParams inbound;
+  gateway::HandshakeParams handshake;
+  gateway::OutboundParams outbound;
+  localization::Params localization;
+  planning::Params planning;
+  control::Params control;
+  safety::WatchdogParams watchdog;
+  safety::SupervisorParams supervisor;
+  safety::GateParams gate;
+};
+
+struct Setup {
+  CarParams params;
+  world::TrackMap track;
+  localization::Datum datum;
+  planning::Line line;
+  control::LateralGains gains;
+};
+
+Result<Setup, Problem> prepare(const CarParams& params, const world::TrackDescription& track);
+
+}  // namespace pitwall::pipeline

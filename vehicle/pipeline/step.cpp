@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/pipeline/step.hpp"
+
+#include <cmath>
+
+namespace pitwall::pipeline {
+namespace {
+
+using safety::Follow;
+using world::Mode;
+
+// Curvilinear place of the car and the banking there, for the next tick's localization.
+world::Curvilinear place_of(const Setup& setup, Car& car, const world::EgoState& ego) {
+  if (!std::isfinite(ego.x_m) || !std::isfinite(ego.y_m)) return {};
+  const auto hint =
+      std::isfinite(car.station_m) ? std::optional<double>{car.station_m} : std::nullopt;
+  const world::Curvilinear place = setup.track.project(ego.x_m, ego.y_m, hint);
+  car.station_m = place.s_m;
+  car.bank_rad = setup.track.at(place.s_m).bank_rad;
+  return place;
+}
+
+void plan_when_due(const Setup& setup, Car& car, const Outputs& out, const Inputs& in) {
+  Plan& plan = car.plan;
+  if (plan.ever && in.now - plan.at < setup.params.rates.planning) return;
+  const auto followed = car.follow == Follow::kNone   ? planning::Followed::kNothing
+                        : car.follow == Follow::kStop ? planning::Followed::kStop
+                                                      : planning::Followed::kDrive;
+  plan.output =
+      planning::step(setup.params.planning, setup.line, setup.track, plan.output.next, out.ego,
+                     out.heard.race_control, in.operator_speed_limit_mps, followed, in.now);
+  plan.made_with = out.heard.race_control;
+  plan.at = in.now;
+  plan.ever = true;
+}
+
+safety::SupervisorOutput supervise(const Setup& setup, Car& car, const Outputs& out,
+                                   const Inputs& in) {
+  const bool usable = out.steered.lateral.verdict == control::LateralVerdict::kGood;
+  return safety::supervise(setup.params.supervisor, car.supervisor,
+                           {.signals = out.heard.signals,
+                            .bus = out.heard.bus,
+                            .race_control = out.heard.race_control,
+                            .ego = out.ego,
+                            .watchdog = out.watchdog,
+                            .stop = car.plan.output.stop,
+                            .control = out.steered.command,
+                            .control_ok = usable,
+                            .drive_available = !car.plan.output.drive.points.empty(),
+                            .own_id_seen = out.heard.own_id_seen,
+                            .gate_refused = car.gate_refused,
+                            .operator_requests = in.requests},
+                           in.now);
+}
+
+world::CtState handshake(const Setup& setup, Car& car, const Outputs& out, const Inputs& in) {
+  return gateway::handshake(setup.params.handshake, car.handshake,
+                            {.sys = out.heard.signals.misc.value.sys_state,
+                             .track = out.heard.race_control.track,
+                             .vehicle = out.heard.race_control.vehicle,
+                             .mode = out.chosen.mode,
+                             .speed_mps = out.chosen.speed_mps,
+                             .operator_shutdown = false,
+                             .operator_emergency = in.requests.emergency_stop},
+                            in.now);
+}
+
+}  // namespace
+
+Outputs step(const Setup& setup, Car& car, const Inputs& in) {
+  const CarParams& p = setup.params;
+  Outputs out;
+  out.heard = gateway::decode(p.inbound, car.inbound, in.can, in.now);
+
+  const auto located = localization::step(p.localization, setup.datum, car.localization, in.sensors,
+                                          out.heard.signals, car.bank_rad, in.now);
+  car.localization = located.next;
+  out.ego = located.ego;
+  out.located = located.verdicts;
+  out.place = place_of(setup, car, out.ego);
+
+  plan_when_due(setup, car, out, in);
+  const world::Trajectory& followed =
+      car.follow == Follow::kStop ? car.plan.output.stop : car.plan.output.drive;
+
+  out.steered =
+      control::step(p.control, setup.gains, car.control, out.ego, followed, in.now, in.dt);
+  car.control = out.steered.next;
+
+  out.watchdog = safety::watch(p.watchdog, car.watchdog,
+                               {.sensors = in.sensors,
+                                .signals = out.heard.signals,
+                                .race_control = out.heard.race_control,
+                                .planner_at = car.plan.at,
+                                .radio_at = in.radio_at},
+                               in.now);
+  out.chosen = supervise(setup, car, out, in);
+  car.follow = out.chosen.follow;
+  out.ct_state = handshake(setup, car, out, in);
+
+  const auto spoken = gateway::encode(p.outbound, car.outbound,
+                                      {.command = out.chosen.command,
+                                       .actuate = out.chosen.actuate,
+                                       .ct_state = out.ct_state,
+                                       .acted_on = car.plan.made_with,
+                                       .ego = out.ego},
+                                      in.now);
+  out.passed = safety::gate(p.gate, car.gate,
+                            {.mode = out.chosen.mode,
+                             .armed = out.chosen.actuate,
+                             .speed_mps = out.chosen.speed_mps,
+                             .command_at = out.chosen.command.at,
+                             .now = in.now},
+                            spoken.frames.span());
+  car.gate_refused = out.passed.refused_now;
+  ++car.ticks;
+  return out;
+}
+
+}  // namespace pitwall::pipeline

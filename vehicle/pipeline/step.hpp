@@ -1,0 +1,46 @@
+// The whole car on one screen: decode -> localize -> plan -> control -> supervise -> encode -> gate.
+// One function for the car, the live bench, lockstep and the tests.
+//   in     Setup (read-only), what arrived since the last tick, what the operator asks, now
+//   out    frames for the bus, and everything that telemetry and logs show; Car is updated in place
+//   rate   100 Hz (Setup::params.rates.tick); planning inside at its own rate
+//   errors none: bad input is counted by the module that refuses it
+//   cost   no allocation, no lock, no throw; below 100 us
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "protocol/can/frame.hpp"
+#include "protocol/vocabulary/time.hpp"
+#include "vehicle/pipeline/car.hpp"
+#include "vehicle/pipeline/setup.hpp"
+#include "vehicle/world/sensor_input.hpp"
+
+namespace pitwall::pipeline {
+
+struct Inputs {
+  Instant now{};
+  Duration dt{};  // since the last tick
+  std::span<const can::ReceivedFrame> can;
+  const world::SensorInput& sensors;
+  safety::OperatorRequests requests;
+  double operator_speed_limit_mps = kUnset;  // unset: none
+  std::optional<Instant> radio_at{};          // newest authentic packet of the base station
+};
+
+struct Outputs {
+  gateway::InboundOutput heard;
+  world::EgoState ego;
+  FixedVector<localization::Verdict, localization::kVerdictsMax> located;
+  world::Curvilinear place;  // on the track; unset before the first position
+  control::Output steered;
+  safety::WatchdogOutput watchdog;
+  safety::SupervisorOutput chosen;
+  world::CtState ct_state = world::CtState::kDefault;
+  safety::GateOutput passed;
+};
+
+Outputs step(const Setup& setup, Car& car, const Inputs& in);
+
+}  // namespace pitwall::pipeline
