@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "basestation/outlets/value_text.hpp"
 
 #include <cmath>

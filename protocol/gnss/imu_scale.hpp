@@ -43,8 +43,8 @@ inline std::int32_t to_counts(double value, double one_count) {
       std::fmax(-kMax, std::fmin(kMax, std::round(value / one_count))));
 }
 
-// What a receiver counts whose enclosure is NovAtel's vehicle frame (x right, y forward, z up) while
-// the car's body (x forward, y left, z up) turns and feels this. For the bench, which speaks as one.
+// What a receiver counts whose enclosure is NovAtel's vehicle frame (x right, y forward, z up)
+// while the car's body (x forward, y left, z up) turns and feels this. For the bench.
 inline void count_body_motion(const std::array<double, 3>& rate_rad_per_s,
                               const std::array<double, 3>& specific_force_mps2, RawImuSx& m) {
   const ImuScale scale = imu_scale(m.imu_type).value_or(ImuScale{1.0, 1.0});

@@ -1,5 +1,5 @@
-// Numbers to and from bytes, least significant first, whatever the machine. The cursor never leaves
-// its span: reading past the end gives zeros and clears ok, writing past the end is our own mistake.
+// Numbers to and from bytes, least significant first, whatever the machine. A cursor never leaves
+// its span: reading past the end gives zeros and clears ok, writing past it is our own mistake.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,6 +1,6 @@
-// Cuts NovAtel frames out of a byte stream that may start anywhere, carry other text and be damaged.
+// Cuts NovAtel frames out of a byte stream that may start anywhere, carry other text, be damaged.
 //   in     bytes in pieces of any size
-//   out    every frame with a correct CRC, once, in order; the same frames however the bytes are cut
+//   out    every frame with a correct CRC, once, in order, however the bytes are cut
 //   errors counters; a damaged frame costs nothing but itself: the search resumes at the byte
 //          after its sync
 //   bound  frames longer than kMaxFrameBytes are counted and skipped; no allocation

@@ -1,14 +1,13 @@
 // One row of the telemetry registry: what a number means and how it is written on the air.
 //   units  min, max and resolution in the unit of the field; angles in radians
-//   wire   round((value - min) / resolution) in the fewest bits that also leave room for the code
-//          "unset", which is all ones
+//   wire   as bits::Quantized has it; all ones is "unset"
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <string_view>
 
+#include "protocol/bits/quantized.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::telemetry {
@@ -45,12 +44,7 @@ struct FieldRow {
   Duration target_age;           // older than this at the base is late
   std::string_view labels = {};  // of the values 0, 1, 2 ...: "off|on"; empty: a number
 
-  constexpr std::uint64_t steps() const {
-    return static_cast<std::uint64_t>((max - min) / resolution + 0.5);
-  }
-  // steps() + 1 values and the unset code.
-  constexpr unsigned bits() const { return static_cast<unsigned>(std::bit_width(steps() + 1)); }
-  constexpr std::uint64_t unset_code() const { return (std::uint64_t{1} << bits()) - 1; }
+  constexpr bits::Quantized quantized() const { return {min, max, resolution}; }
 };
 
 }  // namespace pitwall::telemetry

@@ -22,7 +22,7 @@ namespace detail {
 
 inline constexpr Duration kFast = milliseconds(150), kMedium = milliseconds(500),
                           kSlow = seconds(2);
-inline constexpr double kCountMax = 4'294'967'294.0;  // 32 bits with the unset code
+inline constexpr double kCountMax = 4'294'967'293.0;  // 32 bits with the unset code
 constexpr FieldRow count(Group group, std::string_view name) {
   return {group, name, "", 0, kCountMax, 1, Class::kStatistics, kSlow};
 }
@@ -174,14 +174,15 @@ inline constexpr std::uint32_t kSchemaHash = [] {
 
 inline constexpr std::size_t kValueBits = [] {
   std::size_t bits = 0;
-  for (const FieldRow& row : kFields) bits += row.bits();
+  for (const FieldRow& row : kFields) bits += row.quantized().bits();
   return bits;
 }();
 
 static_assert(
     [] {
       for (const FieldRow& row : kFields) {
-        if (!(row.min < row.max) || !(row.resolution > 0) || row.bits() > 32) return false;
+        if (!(row.min < row.max) || !(row.resolution > 0) || row.quantized().bits() > 32)
+          return false;
       }
       return true;
     }(),

@@ -1,10 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "protocol/telemetry/state_packet.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "protocol/bits/bit_reader.hpp"
+#include "protocol/bits/bit_writer.hpp"
 #include "protocol/bits/crc.hpp"
-#include "protocol/telemetry/bit_cursor.hpp"
 
 namespace pitwall::telemetry {
 namespace {
@@ -31,17 +33,14 @@ T load(std::span<const std::uint8_t> bytes, std::size_t at) {
   return value;
 }
 
-std::uint64_t code_of(const FieldRow& row, double value, EncodeCounters& counters) {
-  if (!std::isfinite(value)) {
-    if (!std::isnan(value)) ++counters.not_finite;
-    return row.unset_code();
+std::uint64_t code_of(const bits::Quantized& field, double value, EncodeCounters& counters) {
+  if (std::isinf(value)) {
+    ++counters.not_finite;
+    return field.no_value();
   }
-  // Half a step beyond the range still rounds into it.
-  const double half = 0.5 * row.resolution;
-  if (value < row.min - half || value > row.max + half) ++counters.saturated;
-  const double steps = std::floor((value - row.min) / row.resolution + 0.5);
-  const double last = static_cast<double>(row.steps());
-  return static_cast<std::uint64_t>(std::fmax(0.0, std::fmin(last, steps)));
+  const bits::Encoded encoded = field.encode(value);
+  if (encoded.saturated) ++counters.saturated;
+  return encoded.step;
 }
 
 std::uint64_t code_of(Duration age) {
@@ -80,13 +79,14 @@ std::span<const std::uint8_t> encode(const StatePacket& packet, PacketBuffer& bu
   store(bytes, kSequenceAt, packet.sequence);
   store(bytes, kSentAt, static_cast<std::uint64_t>(packet.sent.ns / 1'000));
 
-  BitWriter out{bytes.subspan(kHeaderBytes)};
-  for (const Duration age : packet.sample_age) out.put(code_of(age), kAgeBits);
+  bits::BitWriter out{
+      bytes.subspan(kHeaderBytes, kStatePacketBytes - kHeaderBytes - kChecksumBytes)};
+  for (const Duration age : packet.sample_age) out.write(code_of(age), kAgeBits);
   for (FieldIndex i = 0; i < kFieldCount; ++i) {
-    out.put(code_of(kFields[i], packet.values[i], counters), kFields[i].bits());
+    const bits::Quantized field = kFields[i].quantized();
+    out.write(code_of(field, packet.values[i], counters), field.bits());
   }
-  out.align();
-  CHECK(kHeaderBytes + out.bytes() + kChecksumBytes == kStatePacketBytes);
+  CHECK(out.align());
 
   const std::size_t covered = kStatePacketBytes - kChecksumBytes;
   store(bytes, covered, bits::crc32_ieee(bytes.first(covered)));
@@ -108,19 +108,19 @@ Result<StatePacket, PacketError> parse(std::span<const std::uint8_t> bytes) {
   if (sent_us > kMaxSent_us) return Unexpected{PacketError::kBadCode};
   packet.sent = {static_cast<std::int64_t>(sent_us) * 1'000};
 
-  BitReader in{bytes.subspan(kHeaderBytes, kStatePacketBytes - kHeaderBytes - kChecksumBytes)};
+  bits::BitReader in{
+      bytes.subspan(kHeaderBytes, kStatePacketBytes - kHeaderBytes - kChecksumBytes)};
   for (Duration& age : packet.sample_age) {
-    const std::uint64_t code = in.get(kAgeBits);
+    const std::uint64_t code = in.read(kAgeBits);
     if (code != kNeverSampled) age = microseconds(static_cast<std::int64_t>(code));
   }
   for (FieldIndex i = 0; i < kFieldCount; ++i) {
-    const FieldRow& row = kFields[i];
-    const std::uint64_t code = in.get(row.bits());
-    if (code == row.unset_code()) continue;
-    if (code > row.steps()) return Unexpected{PacketError::kBadCode};
-    packet.values[i] = row.min + static_cast<double>(code) * row.resolution;
+    const bits::Quantized field = kFields[i].quantized();
+    const std::uint64_t step = in.read(field.bits());
+    if (step >= field.count() && step != field.no_value()) return Unexpected{PacketError::kBadCode};
+    packet.values[i] = field.decode(step);
   }
-  if (in.rest_of_byte() != 0) return Unexpected{PacketError::kBadCode};
+  if (!in.align()) return Unexpected{PacketError::kBadCode};
   return packet;
 }
 

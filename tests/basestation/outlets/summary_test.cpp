@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "basestation/outlets/summary.hpp"
 
 #include <gtest/gtest.h>

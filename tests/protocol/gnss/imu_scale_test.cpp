@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "protocol/gnss/imu_scale.hpp"
 
 #include <gtest/gtest.h>
@@ -5,7 +6,7 @@
 namespace pitwall::gnss {
 namespace {
 
-// The manual's own example of RAWIMUSX is a receiver at rest: one g upwards, no rotation to speak of.
+// The manual's own example of RAWIMUSX is a receiver at rest: one g upwards, hardly any rotation.
 TEST(ImuScale, TheManualsExampleAtRestReadsOneG) {
   const ImuScale scale = imu_scale(41).value();
   const double x = 4'508'389 * scale.accel_mps2, y = 2'706'935 * scale.accel_mps2,

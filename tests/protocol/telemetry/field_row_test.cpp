@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "protocol/telemetry/field_row.hpp"
 
 #include <gtest/gtest.h>
@@ -9,18 +10,15 @@ constexpr FieldRow row(double min, double max, double resolution) {
   return {Group::kEgo, "x", "", min, max, resolution, Class::kMotion, {}};
 }
 
-TEST(FieldRow, TakesTheFewestBitsThatLeaveRoomForUnset) {
-  EXPECT_EQ(row(0, 6, 1).bits(), 3U);  // 0..6 and unset is 7
-  EXPECT_EQ(row(0, 7, 1).bits(), 4U);  // 0..7 leaves no code free in three bits
-  EXPECT_EQ(row(0, 254, 1).bits(), 8U);
-  EXPECT_EQ(row(0, 255, 1).bits(), 9U);
-  EXPECT_EQ(row(-1, 1, 0.5).steps(), 4U);
+TEST(FieldRow, IsWrittenInTheFewestBitsThatLeaveRoomForUnset) {
+  EXPECT_EQ(row(0, 6, 1).quantized().bits(), 3U);  // 0..6 and unset is 7
+  EXPECT_EQ(row(0, 7, 1).quantized().bits(), 4U);  // 0..7 leaves no code free in three bits
+  EXPECT_EQ(row(-1, 1, 0.5).quantized().count(), 5U);
 }
 
-TEST(FieldRow, UnsetIsNeverAValue) {
-  for (double max = 1; max < 3'000; max += 1) {
-    EXPECT_GT(row(0, max, 1).unset_code(), row(0, max, 1).steps());
-  }
+TEST(FieldRow, EveryGroupHasAName) {
+  for (const std::string_view name : kGroupNames) EXPECT_FALSE(name.empty());
+  EXPECT_EQ(kGroupNames[static_cast<std::size_t>(Group::kComputer)], "computer");
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "protocol/telemetry/state_packet.hpp"
 
 #include <gtest/gtest.h>
@@ -58,7 +59,7 @@ StatePacket some_packet() {
   for (FieldIndex i = 0; i < kFieldCount; ++i) {
     if (i % 3 == 2) continue;
     const FieldRow& row = kFields[i];
-    const auto code = static_cast<double>((i * 2'654'435'761ULL) % (row.steps() + 1));
+    const auto code = static_cast<double>((i * 2'654'435'761ULL) % row.quantized().count());
     p.values[i] = row.min + code * row.resolution;
   }
   return p;
@@ -169,8 +170,8 @@ TEST(StatePacket, SealedNonsenseIsRefusedByKind) {
   }
   // ct_state has nine bits for 0..255 and unset: 256 is no state.
   Bytes bytes = good;
-  const std::size_t at_bit = 8 * kHeaderBytes + kGroups * kAgeBits + kFields[0].bits();
-  ASSERT_EQ(kFields[1].bits(), 9U);
+  const std::size_t at_bit = 8 * kHeaderBytes + kGroups * kAgeBits + kFields[0].quantized().bits();
+  ASSERT_EQ(kFields[1].quantized().bits(), 9U);
   for (std::size_t i = 0; i < 9; ++i) {
     const std::size_t bit = at_bit + i;
     const auto mask = static_cast<std::uint8_t>(0x80U >> (bit % 8));

@@ -31,7 +31,7 @@ def start(*flags):
 def hears_the_car_and_stops_on(stop_signal, folder):
     summary = folder / f"{stop_signal.name}.json"
     process, port = start("--text", "--plain", "--refresh", "20", "--json", str(summary))
-    subprocess.run([SENDER, port, str(COUNT)], check=True)
+    subprocess.run([SENDER, f"127.0.0.1:{port}", str(COUNT)], check=True)
     time.sleep(0.2)
     process.send_signal(stop_signal)
     screens, _ = process.communicate(timeout=30)

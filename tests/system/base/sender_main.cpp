@@ -1,8 +1,7 @@
-// A car on loopback for the system test: base_sender PORT COUNT. Sends COUNT packets with numbers
-// 1..COUNT, each tenth left out, each seventh twice, and three damaged ones at the end.
+// A car on loopback for the system test: base_sender ADDRESS COUNT. Sends COUNT packets with
+// numbers 1..COUNT, each tenth left out, each seventh twice, and three damaged ones at the end.
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
-#include <cstdlib>
+#include <string>
 
 #include "protocol/telemetry/state_packet.hpp"
 #include "protocol/transport/clock.hpp"
@@ -11,11 +10,10 @@
 int main(int argc, char** argv) {
   using namespace pitwall;
   if (argc != 3) return 2;
-  const auto port = static_cast<std::uint16_t>(std::atoi(argv[1]));
-  const auto count = static_cast<std::uint32_t>(std::atoi(argv[2]));
+  const auto base = transport::parse_udp_address(argv[1]);
+  const auto count = static_cast<std::uint32_t>(std::stoul(argv[2]));
   auto socket = transport::UdpSocket::bind({});
-  if (!socket) return 1;
-  const transport::UdpAddress base{.port = port};
+  if (!socket || !base) return 1;
 
   telemetry::StatePacket packet;
   packet.run = 1;
@@ -31,12 +29,12 @@ int main(int argc, char** argv) {
     packet.values[telemetry::field("ego.vx")] = 0.5 * packet.sequence;
     const auto bytes = telemetry::encode(packet, buffer, counters);
     for (int i = 0; i < (packet.sequence % 7 == 0 ? 2 : 1); ++i) {
-      if (!socket->send_to(base, bytes)) return 1;
+      if (!socket->send_to(*base, bytes)) return 1;
     }
   }
   buffer[50] ^= 1U;
   for (int i = 0; i < 3; ++i) {
-    if (!socket->send_to(base, buffer)) return 1;
+    if (!socket->send_to(*base, buffer)) return 1;
   }
   return 0;
 }
