@@ -158,11 +158,21 @@ int bus_line(std::span<const std::string> args) {
   return 0;
 }
 
+constexpr const char* kUsage =
+    "bus check                 is there CAN, native or in a guest?\n"
+    "bus up [IFACE]...         make virtual CAN interfaces (native, root; default vcan0)\n"
+    "bus down [IFACE]...       remove them\n"
+    "bus exec [--auto|--native|--guest] [--interface IFACE]... [--timeout S] [--memory MIB]\n"
+    "         [--line-udp HOST_LISTEN:HOST_DEST:GUEST_LISTEN:GUEST_DEST] -- COMMAND ARG...\n"
+    "                          run COMMAND where CAN is; its output and exit code are ours\n"
+    "exit codes of exec: COMMAND's; 2 usage or no CAN, 124 time-out, 125 the guest failed\n";
+
 }  // namespace
 
 int bus_verb(std::span<const std::string> args) {
   if (args.empty()) return refuse({"bus", "expected check, up, down or exec"}, kExitUsage);
   const auto rest = args.subspan(1);
+  if (args[0] == "--help") return std::fputs(kUsage, stdout) < 0 ? kExitUsage : 0;
   if (args[0] == "check") return bus_check();
   if (args[0] == "up") return bus_up_or_down(rest, true);
   if (args[0] == "down") return bus_up_or_down(rest, false);

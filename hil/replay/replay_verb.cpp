@@ -144,9 +144,17 @@ std::string summary(const PlayReport& report) {
   return out;
 }
 
+constexpr const char* kUsage =
+    "replay FILE.log [--interface IFACE] [--map RECORDED=IFACE]... [--speed X] [--loop N]\n"
+    "       [--late catch-up|abort]\n"
+    "plays a candump log in real time; without --interface and --map every channel goes to the\n"
+    "interface that it was recorded from\n"
+    "exit codes: 0 all sent, 1 frames dropped or replay ended early, 2 bad input\n";
+
 }  // namespace
 
 int replay_verb(std::span<const std::string> args) {
+  if (!args.empty() && args[0] == "--help") return transport::write_to(kOutput, kUsage) ? 0 : 2;
   const auto options = parse_options(args);
   if (!options) return refuse(options.error());
   const auto text = transport::read_file(options->file);
