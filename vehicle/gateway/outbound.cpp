@@ -17,7 +17,7 @@ constexpr std::uint8_t kReportCounterEnd = 10;  // ct_state_rolling_counter runs
 // In the order of sending: the brake first.
 enum Slot : std::size_t { kBrake, kThrottle, kSteering, kGear, kReport, kReport2, kDash, kAccel };
 
-constexpr Duration period_of(std::uint32_t id) {
+consteval Duration period_of(std::uint32_t id) {
   for (const can::MessageRow& row : av21::kMessages)
     if (row.id == id) return row.period;
   return {};
@@ -43,7 +43,9 @@ struct Writer {
   // True if the frame is on its way.
   template <class M>
   bool write(Slot slot, const M& message) {
-    if (!due(state, params, slot, period_of(M::kId), now)) return false;
+    constexpr Duration kPeriod = period_of(M::kId);
+    static_assert(kPeriod > Duration{});
+    if (!due(state, params, slot, kPeriod, now)) return false;
     can::Frame frame;
     if (!av21::encode(message, frame, state.refused)) return false;
     const bool room = frames.push(frame);

@@ -45,17 +45,20 @@ Reading in_range(const std::array<Ranged, N>& values) {
 // A signal without a limit.
 inline constexpr std::size_t kNoLimit = can::av21::kSlews.size();
 
-constexpr std::size_t slew_row(std::uint32_t id, std::string_view signal) {
+consteval std::size_t slew_row(std::uint32_t id, std::string_view signal) {
   for (std::size_t i = 0; i < can::av21::kSlews.size(); ++i)
     if (can::av21::kSlews[i].id == id && can::av21::kSlews[i].signal == signal) return i;
   return kNoLimit;
 }
 
-constexpr Duration period_of(std::uint32_t id) {
-  for (const can::MessageRow& row : can::av21::kMessages)
-    if (row.id == id) return row.period;
-  return {};
-}
+// The period of the message of each row.
+inline constexpr auto kSlewPeriods = [] {
+  std::array<Duration, kNoLimit> periods{};
+  for (std::size_t i = 0; i < kNoLimit; ++i)
+    for (const can::MessageRow& row : can::av21::kMessages)
+      if (row.id == can::av21::kSlews[i].id) periods[i] = row.period;
+  return periods;
+}();
 
 // A new value of a row of kSlews, in units of the database.
 struct Change {
@@ -68,7 +71,7 @@ inline bool too_fast(const Context& c, const Change& change) {
   const SlewTrack& track = c.state.slews[change.row];
   if (std::isnan(track.value)) return false;
   const can::SlewRow& limit = can::av21::kSlews[change.row];
-  const Duration passed = std::max(c.at - track.at, period_of(limit.id));
+  const Duration passed = std::max(c.at - track.at, kSlewPeriods[change.row]);
   return std::abs(change.value - track.value) > limit.max_per_s * passed.seconds() + kRounding;
 }
 

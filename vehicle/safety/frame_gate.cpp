@@ -84,6 +84,7 @@ bool too_fast(const Passed& last, double value, const Allowance& allowed, Instan
          -change > allowed.fall_per_s * elapsed_s + allowed.step;
 }
 
+// The judges below decode the frame: decode() refuses every length but the database's.
 struct Bench {
   const GateParams& params;
   const GateContext& context;
@@ -166,7 +167,7 @@ Verdict judge_report(const can::Frame& frame) {
   return listed ? Verdict::kPass : Verdict::kOutOfRange;
 }
 
-Verdict judge_value(Bench& b, const can::Frame& frame) {
+Verdict judge_value(Bench& b, const can::Frame& frame, std::uint8_t length) {
   switch (frame.id) {
     case av21::BrakePressureCmd::kId:
       return judge_brake(b, frame);
@@ -178,18 +179,17 @@ Verdict judge_value(Bench& b, const can::Frame& frame) {
       return judge_gear(b, frame);
     case av21::CtReport::kId:
       return judge_report(frame);
-    default:
-      return Verdict::kPass;  // acknowledgements, switches, accelerations
+    default:  // acknowledgements, switches, accelerations
+      return frame.length == length ? Verdict::kPass : Verdict::kWrongLength;
   }
 }
 
-Verdict whitelist(const can::Frame& frame) {
-  if (frame.extended || frame.remote || frame.fd) return Verdict::kNotClassic;
-  const std::size_t row = database_row(frame.id);
-  if (row == av21::kMessages.size()) return Verdict::kUnknownId;
-  if (av21::kMessages[row].direction != can::Direction::kToCar) return Verdict::kWrongDirection;
-  if (gated_index(frame.id) == kNotFound) return Verdict::kUnknownId;
-  return frame.length == av21::kMessages[row].length ? Verdict::kPass : Verdict::kWrongLength;
+// What an id that is not on the whitelist is: one that the car sends, or nobody's.
+Verdict stranger(std::uint32_t id) {
+  const std::size_t row = database_row(id);
+  return row < av21::kMessages.size() && av21::kMessages[row].direction == can::Direction::kFromCar
+             ? Verdict::kWrongDirection
+             : Verdict::kUnknownId;
 }
 
 bool too_often(const PassWindow& window, const can::MessageRow& row, Instant now) {
@@ -199,9 +199,9 @@ bool too_often(const PassWindow& window, const can::MessageRow& row, Instant now
 }
 
 Verdict judge(Bench& b, const can::Frame& frame) {
-  const Verdict listed = whitelist(frame);
-  if (listed != Verdict::kPass) return listed;
+  if (frame.extended || frame.remote || frame.fd) return Verdict::kNotClassic;
   const std::size_t i = gated_index(frame.id);
+  if (i == kNotFound) return stranger(frame.id);
   const can::MessageRow& row = kRows[i];
   if (kGated[i].actuator) {
     if (!b.context.armed) return Verdict::kNotArmed;
@@ -213,7 +213,7 @@ Verdict judge(Bench& b, const can::Frame& frame) {
   const std::uint8_t counter = row.has_counter ? counter_of(row, frame) : std::uint8_t{0};
   if (row.has_counter && b.state.counter_known[i] && b.state.counters[i] == counter)
     return Verdict::kStuckCounter;
-  const Verdict value = judge_value(b, frame);
+  const Verdict value = judge_value(b, frame, row.length);
   if (value != Verdict::kPass) return value;
   window.at[window.count++ % kMaxPerWindow] = b.context.now;
   b.state.counters[i] = counter;

@@ -176,8 +176,7 @@ Chosen hold(const Tick& t) {
 Chosen safe_stop(const Tick& t, StopKind kind) {
   SupervisorState& s = t.state;
   s.safe_stop_engaged = true;
-  const ActuatorCommand last = s.last_known ? s.last : hold(t).command;
-  const SafeStopInputs inputs{t.in.stop, last, t.speed_mps, kind};
+  const SafeStopInputs inputs{t.in.stop, s.last, t.speed_mps, kind};
   return {stop_along(t.params.safe_stop, s.safe_stop, inputs, t.now), CommandSource::kSafeStop};
 }
 
@@ -188,11 +187,10 @@ Chosen emergency(const Tick& t) {
   ActuatorCommand command = t.in.control;
   Grip grip = grip_at(p, std::isfinite(speed_mps) ? speed_mps : 0.0, 0.0, 0.0);
   if (std::isfinite(t.in.ego.ay_mps2)) grip.lateral_mps2 = t.in.ego.ay_mps2;
-  const double last_kpa = t.state.last_known ? t.state.last.brake_kpa : 0.0;
   const double emergency_kpa = brake_towards(p, StopKind::kEmergency,
                                              {.decel_mps2 = p.emergency_decel_mps2,
                                               .grip = grip,
-                                              .last_kpa = last_kpa,
+                                              .last_kpa = t.state.last.brake_kpa,
                                               .dt_s = ramp_dt_s(t)});
   command.throttle_fraction = 0.0;
   command.brake_kpa = std::max(command.brake_kpa, emergency_kpa);
@@ -215,7 +213,7 @@ Chosen choose(const Tick& t) {
       return {};
     case Mode::kDriving:
       if (usable) return {t.in.control, CommandSource::kControl};
-      return s.last_known ? Chosen{s.last, CommandSource::kHold} : hold(t);
+      return {s.last, CommandSource::kHold};  // known since standby
     case Mode::kControlledStop:
     case Mode::kEmergencyStop:
       return stopping(t, usable);

@@ -231,7 +231,7 @@ TEST(Inbound, RandomTrafficNeverAppliesAnImplausibleValue) {
     before = out;
   }
   EXPECT_GT(car.state.frames_applied, 1000u);
-  EXPECT_GT(car.state.refused.implausible_slew, 100u);
+  EXPECT_GT(car.state.refused.implausible_slew, 20u);
   EXPECT_GT(car.state.refused.out_of_range, 100u);
 }
 

@@ -148,6 +148,12 @@ TEST(FaultDetection, AnUnwatchedUnitHasNoSay) {
   EXPECT_TRUE(d.examine().causes.empty());
   down(d, Stream::kGnss0Position);
   EXPECT_TRUE(d.examine().causes.has(Cause::kGnssRateLost)) << "the only unit there is";
+  std::swap(d.car.stream(Stream::kGnss0Position).health,
+            d.car.stream(Stream::kGnss1Position).health);
+  EXPECT_TRUE(d.examine().causes.has(Cause::kGnssRateLost)) << "whichever it is";
+  d.car.stream(Stream::kGnss1Position).health = Health::kGood;
+  EXPECT_TRUE(d.examine().causes.empty());
+  d.car.stream(Stream::kGnss1Position).health = Health::kUnwatched;
   d.car.stream(Stream::kGnss0Position).health = Health::kUnwatched;
   EXPECT_TRUE(d.examine().causes.empty()) << "a car without satellites";
 }

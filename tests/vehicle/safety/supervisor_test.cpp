@@ -215,6 +215,14 @@ TEST(Supervisor, GoNeedsFlagsThatLetRollAndTheDriveByWireReady) {
   unplanned.car.requests.arm = true;
   unplanned.run(seconds(1));
   EXPECT_EQ(unplanned.out.mode, Mode::kStandby);
+  Drive unheard;
+  unheard.car.signals.misc.heard = false;
+  unheard.car.requests.arm = true;
+  unheard.run(seconds(1));
+  EXPECT_EQ(unheard.out.mode, Mode::kStandby);
+  unheard.params.go_needs_driving_state = false;
+  unheard.run(seconds(1));
+  EXPECT_EQ(unheard.out.mode, Mode::kDriving);
   Drive alone;  // a test day without race control
   alone.params.faults.race_control_required = false;
   alone.car.race_control = {};
@@ -283,6 +291,76 @@ TEST(Supervisor, AnEmergencyBrakesHarderThanControlWishesAndKeepsItsSteering) {
   }
   EXPECT_GT(most_kpa, 2000.0);
   EXPECT_NEAR(d.out.command.road_wheel_rad, 0.012, 1e-9);
+}
+
+TEST(Supervisor, AnEmergencyWithoutControlWheelsOrAccelerationsStillStops) {
+  for (const bool control : {true, false}) {
+    Drive d;
+    d.race();
+    d.car.requests.emergency_stop = true;
+    d.tick();
+    d.car.requests.emergency_stop = false;
+    d.wheels_known = false;
+    d.car.control_ok = control;
+    d.car.control.throttle_fraction = 0.0;
+    d.car.ego.validity = world::Validity::kDeadReckoning;
+    d.car.ego.ay_mps2 = kUnset;
+    d.run(milliseconds(300));
+    EXPECT_EQ(d.out.source, control ? CommandSource::kControl : CommandSource::kSafeStop);
+    d.run(seconds(20));
+    EXPECT_EQ(d.out.mode, Mode::kHalted) << "standing by the ego state alone";
+    EXPECT_EQ(d.speed_mps, 0.0);
+    EXPECT_EQ(d.out.cause, Cause::kOperatorEmergency);
+  }
+}
+
+TEST(Supervisor, ALaterEmergencyHardensTheStopAndTheFirstCauseStays) {
+  Drive d;
+  d.race();
+  d.car.requests.stop = true;
+  d.run(milliseconds(50));
+  ASSERT_EQ(d.out.mode, Mode::kControlledStop);
+  d.car.signals.diagnostics.value.system_failure = true;
+  d.tick();
+  EXPECT_EQ(d.out.mode, Mode::kEmergencyStop);
+  EXPECT_EQ(d.out.cause, Cause::kOperatorStop);
+  EXPECT_EQ(d.state.log.entry(d.state.log.size() - 1).cause, Cause::kSystemFailure);
+}
+
+TEST(Supervisor, AnEmergencyInStandbyHaltsAndIsNamed) {
+  Drive d;
+  d.car.race_control.track = world::TrackFlag::kRed;
+  d.car.signals.steering_motor_rad.heard = d.car.signals.powertrain.heard = false;
+  d.car.requests.arm = true;
+  d.run(milliseconds(50));
+  ASSERT_EQ(d.out.mode, Mode::kStandby);
+  EXPECT_EQ(d.out.command.road_wheel_rad, 0.0);
+  EXPECT_EQ(d.out.command.gear, 0);
+  d.car.requests.emergency_stop = true;
+  d.run(seconds(1));
+  EXPECT_EQ(d.out.mode, Mode::kHalted);
+  EXPECT_EQ(d.out.cause, Cause::kOperatorEmergency);
+}
+
+TEST(Supervisor, ACommandThatIsNoNumberOrOutsideItsRangeIsAFailureOfControl) {
+  const auto stopped_by = [](double steer, double pedal, double kpa) {
+    Drive d;
+    d.race();
+    d.car.control.road_wheel_rad = steer;
+    d.car.control.throttle_fraction = pedal;
+    d.car.control.brake_kpa = kpa;
+    d.run(milliseconds(40));
+    return d.out.cause;
+  };
+  EXPECT_EQ(stopped_by(0.0, 0.0, 0.0), Cause::kNone);
+  EXPECT_EQ(stopped_by(0.0, 1.0, 0.0), Cause::kNone);
+  for (const double bad : {kUnset, HUGE_VAL, -HUGE_VAL}) {
+    EXPECT_EQ(stopped_by(bad, 0.0, 0.0), Cause::kControlFailed);
+    EXPECT_EQ(stopped_by(0.0, bad, 0.0), Cause::kControlFailed);
+    EXPECT_EQ(stopped_by(0.0, 0.0, bad), Cause::kControlFailed);
+  }
+  EXPECT_EQ(stopped_by(0.0, 1.01, 0.0), Cause::kControlFailed);
+  EXPECT_EQ(stopped_by(0.0, -0.01, 0.0), Cause::kControlFailed);
 }
 
 // The command as outbound speaks it.

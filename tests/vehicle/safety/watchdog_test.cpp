@@ -166,9 +166,17 @@ TEST(Watchdog, AnOldSampleDoesNotTurnTheClockBackAndAStrangerIsIgnored) {
   push(k.sensors.positions, position(0, Instant{} + seconds(5)));
   push(k.sensors.positions, position(0, Instant{} + seconds(4)));
   push(k.sensors.positions, position(7, Instant{} + seconds(5)));
+  push(k.sensors.velocities, world::GnssVelocity{.unit = 2, .at = Instant{}});
+  push(k.sensors.headings, world::GnssHeading{.unit = 2, .at = Instant{}});
+  push(k.sensors.imu, world::ImuSample{.unit = 2, .at = Instant{}});
   const WatchdogOutput out = k.watch(Instant{} + seconds(5));
   EXPECT_EQ(out[Stream::kGnss0Position].age, Duration{});
-  EXPECT_EQ(out[Stream::kGnss1Position].health, Health::kNever);
+  for (std::size_t i = 0; i < kStreams; ++i) {
+    const bool of_unit_0 = i == 0 || i == 2 || i == 4;  // link, position, solution
+    EXPECT_EQ(out.rows[i].health == Health::kNever, !of_unit_0) << i;
+  }
+  push(k.sensors.positions, position(0, Instant{} + seconds(6)));
+  EXPECT_EQ(k.watch(Instant{} + seconds(7))[Stream::kGnss0Position].age, seconds(1));
 }
 
 }  // namespace
