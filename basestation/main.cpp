@@ -1,27 +1,54 @@
 // pitwall-base: receives the car's telemetry and shows it. Wiring only.
 // SPDX-License-Identifier: Apache-2.0
+#include <sys/signalfd.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <memory>
 #include <string>
-#include <vector>
 
-#include <sys/signalfd.h>
-
-#include "basestation/arguments.hpp"
-#include "basestation/station.hpp"
+#include "basestation/intake/station.hpp"
+#include "basestation/outlets/summary.hpp"
+#include "basestation/outlets/terminal.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/posix_call.hpp"
-#include "protocol/transport/readiness.hpp"
 #include "protocol/transport/udp_socket.hpp"
 
-namespace pitwall::basestation {
+namespace pitwall {
 namespace {
 
-constexpr Instant kForever{INT64_MAX};
-constexpr int kMaxRounds = 64;  // a flood must not keep screen and stop signal waiting
-constexpr std::uint32_t kStopBit = 1U << 1U;  // of the second watched descriptor
+constexpr int kDone = 0, kFailed = 1, kMistake = 2;  // exit codes
+constexpr std::uint16_t kDefaultPort = 23'431;
+constexpr std::uint32_t kLoopbackNet = 127U << 24U, kNetMask = 0xFF00'0000U;
+constexpr double kMaxDuration_s = 1e6, kMinRefresh_hz = 0.1, kMaxRefresh_hz = 100.0;
+
+struct Arguments {
+  std::string listen = to_string(transport::UdpAddress{.port = kDefaultPort});
+  bool text = false, plain = false, network = false;
+  double duration_s = 0.0, refresh_hz = 10.0;
+  std::string json_path;
+};
+
+void describe(CLI::App& app, Arguments& arguments) {
+  app.add_flag("--text", arguments.text, "Show the picture as text on the terminal");
+  app.add_flag("--plain", arguments.plain, "No colours, one screen after the other");
+  app.add_option("--listen", arguments.listen, "UDP address to listen at")->capture_default_str();
+  app.add_flag("--network", arguments.network, "Allow --listen to be reached by other machines");
+  app.add_option("--duration", arguments.duration_s, "Stop after this many seconds")
+      ->check(CLI::Range(0.0, kMaxDuration_s));
+  app.add_option("--refresh", arguments.refresh_hz, "Screens per second")
+      ->check(CLI::Range(kMinRefresh_hz, kMaxRefresh_hz))
+      ->capture_default_str();
+  app.add_option("--json", arguments.json_path, "Write a summary of the run to this file");
+}
+
+int complain(int code, const std::string& what) {
+  std::fprintf(stderr, "pitwall-base: %s\n", what.c_str());
+  return code;
+}
 
 // SIGINT and SIGTERM become readable instead of interrupting.
 transport::FileDescriptor stop_signals() {
@@ -34,68 +61,50 @@ transport::FileDescriptor stop_signals() {
       transport::posix_call([&] { return ::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK); })};
 }
 
-void drain(transport::UdpSocket& socket, std::vector<transport::UdpDatagram>& batch,
-           Station& station) {
-  for (int round = 0; round < kMaxRounds; ++round) {
-    const std::size_t n = socket.receive(batch);
-    for (std::size_t i = 0; i < n; ++i) station.take(batch[i].payload(), batch[i].at);
-    if (n < batch.size()) return;
-  }
-}
-
-void show(Station& station, const Arguments& arguments) {
-  const std::string screen = station.screen(transport::monotonic_now(), !arguments.plain);
-  std::fwrite(screen.data(), 1, screen.size(), stdout);
-  std::fflush(stdout);
-}
-
-void receive_until_stopped(transport::UdpSocket& socket, const Arguments& arguments,
-                           const transport::FileDescriptor& stop, Station& station) {
-  std::vector<transport::UdpDatagram> batch(transport::UdpSocket::kBatch);
-  const Instant start = transport::monotonic_now();
-  const Instant end = arguments.duration.ns > 0 ? start + arguments.duration : kForever;
-  const Duration refresh = from_seconds(1.0 / arguments.refresh_hz);
-  Instant next_screen = arguments.text ? start : kForever;
-  const int watched[] = {socket.fd(), stop.get()};
-  while (true) {
-    const auto ready = transport::wait_readable(watched, next_screen < end ? next_screen : end);
-    drain(socket, batch, station);
-    const Instant now = transport::monotonic_now();
-    if (now >= next_screen) {
-      show(station, arguments);
-      next_screen = transport::next_tick(next_screen, refresh, now).deadline;
-      if (next_screen <= now) next_screen += refresh;
-    }
-    if ((ready & kStopBit) != 0 || now >= end) return;
-  }
-}
-
-int run(const Arguments& arguments) {
+int run(const Arguments& arguments, transport::UdpAddress address) {
   const transport::FileDescriptor stop = stop_signals();
-  auto socket = transport::UdpSocket::bind(arguments.listen);
-  if (!socket) {
-    std::fprintf(stderr, "pitwall-base: %s\n", to_string(socket.error()).c_str());
-    return 1;
-  }
-  std::fprintf(stderr, "pitwall-base: listening at %s\n", to_string(socket->local()).c_str());
-  const auto station = std::make_unique<Station>();
-  receive_until_stopped(*socket, arguments, stop, *station);
-  if (arguments.text) show(*station, arguments);
-  if (arguments.json_path.empty()) return 0;
-  const auto written =
-      transport::write_file(arguments.json_path, station->summary(transport::monotonic_now()));
-  if (written) return 0;
-  std::fprintf(stderr, "pitwall-base: %s\n", to_string(written.error()).c_str());
-  return 1;
+  auto socket = transport::UdpSocket::bind(address);
+  if (!socket) return complain(kFailed, to_string(socket.error()));
+  complain(kDone, "listening at " + to_string(socket->local()));
+  const auto station = std::make_unique<intake::Station>();
+  outlets::run_terminal(*socket, stop.get(),
+                        {.text = arguments.text,
+                         .plain = arguments.plain,
+                         .duration = from_seconds(arguments.duration_s),
+                         .refresh = from_seconds(1.0 / arguments.refresh_hz)},
+                        *station, stdout);
+  if (arguments.json_path.empty()) return kDone;
+  const Instant now = transport::monotonic_now();
+  station->advance(now);
+  const auto written = transport::write_file(
+      arguments.json_path,
+      outlets::json_summary(station->picture(), station->counters(), station->link(), now));
+  return written ? kDone : complain(kFailed, to_string(written.error()));
 }
 
 }  // namespace
-}  // namespace pitwall::basestation
+}  // namespace pitwall
 
 int main(int argc, char** argv) {
-  const auto arguments = pitwall::basestation::parse_arguments(argc, argv);
-  if (arguments) return pitwall::basestation::run(*arguments);
-  const auto& refusal = arguments.error();
-  std::fputs(refusal.text.c_str(), refusal.exit_code == 0 ? stdout : stderr);
-  return refusal.exit_code;
+  using namespace pitwall;
+  CLI::App app{"Shows the car's telemetry", "pitwall-base"};
+  Arguments arguments;
+  describe(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& mistake) {
+    return complain(kMistake, mistake.what());
+  }
+  if (!std::isfinite(arguments.duration_s) || !std::isfinite(arguments.refresh_hz)) {
+    return complain(kMistake, "--duration and --refresh are numbers");
+  }
+  const auto address = transport::parse_udp_address(arguments.listen);
+  if (!address) return complain(kMistake, "--listen " + to_string(address.error()));
+  if ((address->ip & kNetMask) != kLoopbackNet && !arguments.network) {
+    return complain(kMistake, "--listen " + arguments.listen +
+                                  ": open to other machines; add --network if that is meant");
+  }
+  return run(arguments, *address);
 }

@@ -1,4 +1,4 @@
-// A car on loopback for the system test: base_sender ADDRESS COUNT. Sends COUNT packets with
+// A car on loopback for the system test: state_sender ADDRESS COUNT. Sends COUNT packets with
 // numbers 1..COUNT, each tenth left out, each seventh twice, and three damaged ones at the end.
 // SPDX-License-Identifier: Apache-2.0
 #include <string>

@@ -65,9 +65,17 @@ def ends_by_itself(folder):
 
 
 def refuses_mistakes(folder):
-    for flags in (["--nonsense"], ["--listen", "0.0.0.0:0"], ["--duration", "x"]):
+    for flags in (["--nonsense"], ["--listen", "here"], ["--listen", "127.0.0.1:70000"],
+                  ["--listen"], ["--listen", "0.0.0.0:0"], ["--duration", "x"],
+                  ["--duration", "-1"], ["--duration", "nan"], ["--refresh", "0"],
+                  ["--refresh", "nan"], ["--text", "something"]):
         done = subprocess.run([BASE, *flags], capture_output=True, text=True, timeout=30)
         expect(done.returncode == 2 and done.stderr, f"{flags}: exit code {done.returncode}")
+    done = subprocess.run([BASE, "--help"], capture_output=True, text=True, timeout=30)
+    expect(done.returncode == 0 and "--listen" in done.stdout, "help is no mistake")
+    done = subprocess.run([BASE, "--listen", "0.0.0.0:0", "--network", "--duration", "0.1"],
+                          capture_output=True, text=True, timeout=30)
+    expect(done.returncode == 0, "--network allows other machines")
     process, port = start()
     taken = subprocess.run([BASE, "--listen", f"127.0.0.1:{port}"], capture_output=True,
                            text=True, timeout=30)
