@@ -68,9 +68,15 @@ DbcScanner::DbcScanner(std::string_view text, std::string name)
   if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // byte order mark
 }
 
+bool DbcScanner::at_remark() const { return text_.substr(at_).starts_with("//"); }
+
 void DbcScanner::skip_space() {
-  const std::size_t next = text_.find_first_not_of(kSpace, at_);
-  at_ = next == std::string_view::npos ? text_.size() : next;
+  do {
+    const std::size_t next = text_.find_first_not_of(kSpace, at_);
+    at_ = next == std::string_view::npos ? text_.size() : next;
+    if (!at_remark()) return;
+    skip_line();
+  } while (true);
 }
 
 bool DbcScanner::at_end() {
@@ -160,6 +166,8 @@ void DbcScanner::skip_statement() {
   while (at_ < text_.size() && text_[at_] != ';') {
     if (text_[at_] == '"') {
       (void)string();
+    } else if (at_remark()) {
+      skip_line();
     } else {
       ++at_;
     }

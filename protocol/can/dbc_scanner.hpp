@@ -44,7 +44,9 @@ class DbcScanner {
   [[noreturn]] void stop(const std::string& what);
 
  private:
+  // Spaces, line ends and remarks ("// ..." to the end of the line).
   void skip_space();
+  bool at_remark() const;
   std::string_view bare();
 
   std::string_view text_;

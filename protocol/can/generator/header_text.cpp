@@ -74,7 +74,7 @@ bool is_identifier(std::string_view name) {
       "false",    "float",   "for",      "if",    "int",    "long",    "new",      "operator",
       "private",  "public",  "return",   "short", "signed", "sizeof",  "static",   "struct",
       "switch",   "this",    "throw",    "true",  "try",    "union",   "unsigned", "using",
-      "virtual",  "void",    "volatile", "while", "kId",    "kLength", "kName"};
+      "virtual",  "void",    "volatile", "while", "kId",    "kLength", "kName",    "kFields"};
   if (name.empty() || (name[0] >= '0' && name[0] <= '9') || kTaken.contains(name)) return false;
   return name.find_first_not_of(
              "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") ==
@@ -106,7 +106,10 @@ void add_struct(std::string& out, const Message& m) {
     if (!s.unit.empty()) out += "  // " + s.unit;
     out += "\n";
   }
-  out += "};\n\n";
+  out += "\n  // In the order of the database.\n  static constexpr std::array<double " +
+         struct_name(m.name) + "::*, " + number(m.signals.size()) + "> kFields{";
+  for (const Signal& s : m.signals) out += "\n      &" + struct_name(m.name) + "::" + s.name + ",";
+  out += "};\n};\n\n";
 }
 
 void add_plans(std::string& out, const Message& m) {
@@ -203,6 +206,11 @@ void add_tables(std::string& out, const Database& database, const Manifest& mani
   }
   out +=
       "inline constexpr std::array<SlewRow, " + number(count) + "> kSlews{{\n" + slews + "}};\n\n";
+  out += "using AllMessages = std::tuple<";
+  for (std::size_t i = 0; i < database.messages.size(); ++i) {
+    out += (i == 0 ? "\n    " : ",\n    ") + struct_name(database.messages[i].name);
+  }
+  out += ">;\n\n";
   out += "inline constexpr const char* kRevision = \"" + manifest.revision + "\";\n";
   out += "inline constexpr std::uint64_t kFingerprint = " + hex(fingerprint(database)) + ";\n\n";
 }
@@ -214,6 +222,7 @@ constexpr const char* kIncludes = R"(
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
+#include <tuple>
 
 #include "protocol/can/encode.hpp"
 #include "protocol/can/frame.hpp"

@@ -1,0 +1,99 @@
+// What the tests of CAN databases share: our own files, the recorded public ones, and noise.
+//   errors  our own files must load; the public ones may be missing (empty list)
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "protocol/can/dbc_parser.hpp"
+#include "protocol/can/manifest.hpp"
+
+namespace pitwall::can {
+
+inline const std::filesystem::path kSource{PITWALL_SOURCE_DIR};
+inline const std::filesystem::path kOwnDbc = kSource / "protocol/can/dbc/av21.dbc";
+inline const std::filesystem::path kOwnManifest = kSource / "protocol/can/dbc/av21.manifest.yaml";
+
+inline std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  EXPECT_TRUE(file) << path;
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+inline Database load(const std::filesystem::path& path) {
+  auto loaded = parse_dbc(text_of(path), path.string());
+  if (!loaded) ADD_FAILURE() << to_string(loaded.error());
+  return loaded ? *loaded : Database{};
+}
+
+inline std::filesystem::path shared_data() {
+  const char* const folder = std::getenv("PITWALL_SHARED_DATA");
+  return folder == nullptr ? kSource / "../shared/data" : std::filesystem::path{folder};
+}
+
+inline std::vector<std::filesystem::path> public_files() {
+  std::vector<std::filesystem::path> out;
+  std::error_code error;
+  for (const char* folder : {"dbc", "dbc/corner_cases"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(shared_data() / folder, error)) {
+      if (entry.path().extension() == ".dbc") out.push_back(entry.path());
+    }
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+// Public files that cannot be true: a signal outside its message; 29-bit ids without the mark.
+inline bool is_broken(const std::filesystem::path& path) {
+  return path.stem() == "bad_message_length" || path.stem() == "issue_199";
+}
+
+// splitmix64
+struct Noise {
+  std::uint64_t state;
+  std::uint64_t next() {
+    std::uint64_t z = (state += 0x9E3779B97F4A7C15);
+    z = (z ^ z >> 30U) * 0xBF58476D1CE4E5B9;
+    z = (z ^ z >> 27U) * 0x94D049BB133111EB;
+    return z ^ z >> 31U;
+  }
+  std::uint64_t below(std::uint64_t bound) { return next() % bound; }
+};
+
+inline Frame random_frame(const Message& m, Noise& noise) {
+  Frame f{.id = m.id,
+          .extended = m.extended,
+          .remote = false,
+          .fd = m.fd,
+          .length = m.length,
+          .data = {}};
+  for (std::size_t i = 0; i < m.length; ++i) f.data[i] = static_cast<std::uint8_t>(noise.next());
+  return f;
+}
+
+// A message of `length` bytes around these SG_ lines.
+inline std::string dbc_with(const std::string& signals, int length = 8) {
+  return "VERSION \"\"\nNS_ :\n  CM_\n  BA_\nBS_:\nBU_: A\nBO_ 100 M: " + std::to_string(length) +
+         " A\n" + signals + "\n";
+}
+
+inline std::string complaint(const std::string& text) {
+  const auto parsed = parse_dbc(text, "t.dbc");
+  return parsed ? "" : to_string(parsed.error());
+}
+
+inline Database parsed(const std::string& text) {
+  auto result = parse_dbc(text, "t.dbc");
+  if (!result) ADD_FAILURE() << to_string(result.error());
+  return result ? *result : Database{};
+}
+
+}  // namespace pitwall::can

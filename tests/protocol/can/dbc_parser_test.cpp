@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/can/dbc_parser.hpp"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "tests/protocol/can/dbc_files.hpp"
+
+namespace pitwall::can {
+namespace {
+
+const std::string kSignal = " SG_ a : 0|8@1+ (1,0) [0|0] \"\" A\n";
+
+TEST(DbcParser, ReadsWhatOurOwnFileSays) {
+  const Database d = load(kOwnDbc);
+  const Message* const m = d.find("misc_report");
+  ASSERT_NE(m, nullptr);
+  EXPECT_EQ(m->sender, "DriveByWire");
+  EXPECT_FALSE(m->comment.empty());
+  const Signal* const s = m->find("raptor_rolling_counter");
+  ASSERT_NE(s, nullptr);
+  EXPECT_EQ(s->layout, (SignalLayout{.start = 19, .length = 8}));
+  EXPECT_EQ(s->receivers, std::vector<std::string>{"Computer"});
+  const Signal* const state = m->find("sys_state");
+  ASSERT_FALSE(state->values.empty());
+  EXPECT_EQ(state->values.back().value, 255);
+  EXPECT_EQ(state->values.back().name, "default");
+  for (const Message& each : d.messages) {
+    EXPECT_FALSE(each.comment.empty() && each.name.find("Tire") != 0) << each.name;
+    for (const Signal& signal : each.signals) {
+      EXPECT_TRUE(signal.place.starts_with(kOwnDbc.string() + ":"));
+    }
+  }
+}
+
+// The layout is that of the car, whatever its file calls units and nodes.
+TEST(DbcParser, OurFileIsBitForBitRevisionFourteen) {
+  const auto path = shared_data() / "dbc/CAN1-INDY-V14.dbc";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+  const Database ours = load(kOwnDbc), theirs = load(path);
+  ASSERT_EQ(ours.messages.size(), theirs.messages.size());
+  std::size_t signals = 0;
+  for (std::size_t i = 0; i < ours.messages.size(); ++i) {
+    const Message &a = ours.messages[i], &b = theirs.messages[i];
+    EXPECT_EQ(a.id, b.id);
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.length, b.length);
+    EXPECT_EQ(a.signals.size(), b.signals.size()) << a.name;
+    for (const Signal& s : b.signals) {
+      const Signal* const own = a.find(s.name);
+      ASSERT_NE(own, nullptr) << s.name;
+      EXPECT_EQ(own->layout, s.layout) << s.name;
+      ++signals;
+    }
+  }
+  EXPECT_EQ(signals, 179U);  // 189 with the ten parked ones that belong to no message
+  EXPECT_EQ(fingerprint(ours), fingerprint(theirs));
+}
+
+TEST(DbcParser, ReadsThePublicFiles) {
+  const auto files = public_files();
+  if (files.empty())
+    GTEST_SKIP() << shared_data() / "dbc"
+                 << " is not here";
+  for (const auto& path : files) {
+    const auto parsed = parse_dbc(text_of(path), path.filename().string());
+    if (path.stem() == "bad_message_length") {
+      EXPECT_EQ(to_string(parsed.error()),
+                "bad_message_length.dbc:40:6: error: signal Signal1 lies outside the 1 bytes of "
+                "message Message1");
+    } else if (path.stem() == "issue_199") {
+      EXPECT_EQ(to_string(parsed.error()),
+                "issue_199.dbc:45:1: error: id 274923520 of message DriverDoorStatus is too large "
+                "for 11 bits");
+    } else {
+      EXPECT_TRUE(parsed) << to_string(parsed.error());
+    }
+  }
+}
+
+TEST(DbcParser, UnderstandsTheRarerSections) {
+  const Database d = parsed(dbc_with(
+      " SG_ short_name : 0|32@1- (1,0) [0|0] \"\" A,B , C\n\n"
+      "BO_ 2147483749 E: 8 Vector__XXX\n\nBO_ 101 F: 64 A\n" +
+      std::string("BO_ 3221225472 VECTOR__INDEPENDENT_SIG_MSG: 0 Vector__XXX\n") + kSignal +
+      kSignal +
+      "CM_ \"free; text\";\nCM_ BU_ A \"node\";\nCM_ BO_ 100 \"say \\\"hi\\\"; bye\";\n"
+      "CM_ SG_ 100 short_name \"two\nlines\";\nCM_ BO_ 555 \"unknown\";\n"
+      "BA_DEF_ BO_ \"GenMsgCycleTime\" INT 0 65535;\nBA_DEF_DEF_ \"GenMsgCycleTime\" 0;\n"
+      "BA_ \"GenMsgCycleTime\" BO_ 100 20;\nBA_ \"Any\" \"x\";\nBA_ \"Any\" BU_ A 3;\n"
+      "BA_ \"VFrameFormat\" BO_ 2147483749 15;\n"
+      "BA_ \"SystemSignalLongSymbol\" SG_ 100 short_name \"a_name_of_more_than_32_characters_\";\n"
+      "BA_ \"SystemMessageLongSymbol\" BO_ 100 \"Message_of_more_than_32_characters\";\n"
+      "VAL_TABLE_ T 1 \"x\" ;\nVAL_ 100 short_name -1 \"minus\" 2 \"two\" ;\n"
+      "VAL_ variable 1 \"x\" ;\nSIG_VALTYPE_ 100 short_name : 1;\nNEW_THING_ 1 \"a;b\" 2;\n"));
+  ASSERT_EQ(d.messages.size(), 3U);
+  const Message& m = d.messages[0];
+  EXPECT_EQ(m.name, "Message_of_more_than_32_characters");
+  EXPECT_EQ(m.comment, "say \"hi\"; bye");
+  EXPECT_EQ(m.period, milliseconds(20));
+  const Signal& s = m.signals.at(0);
+  EXPECT_EQ(s.name, "a_name_of_more_than_32_characters_");
+  EXPECT_EQ(s.comment, "two\nlines");
+  EXPECT_EQ(s.receivers, (std::vector<std::string>{"A", "B", "C"}));
+  EXPECT_EQ(s.layout.number, Number::kFloat32);
+  ASSERT_EQ(s.values.size(), 2U);
+  EXPECT_EQ(s.values[0].value, -1);
+  EXPECT_TRUE(d.messages[1].fd);
+  EXPECT_TRUE(d.messages[2].extended && d.messages[2].fd);
+  EXPECT_EQ(d.messages[2].id, 101U);
+}
+
+TEST(DbcParser, LineEndsDoNotMatter) {
+  const std::string text = text_of(kOwnDbc);
+  const std::string crlf = std::regex_replace(text, std::regex("\n"), "\r\n");
+  EXPECT_EQ(fingerprint(parsed(crlf)), fingerprint(parsed(text)));
+}
+
+TEST(DbcParser, RefusesWhatCannotBeTrue) {
+  EXPECT_EQ(complaint("BO_ 2048 M: 8 A\n"),
+            "t.dbc:1:1: error: id 2048 of message M is too large for 11 bits");
+  EXPECT_NE(complaint("BO_ 2684354560 M: 8 A\n"), "");
+  EXPECT_EQ(complaint("BO_ 1 M: 8 A\nBO_ 1 N: 8 A\n"),
+            "t.dbc:2:1: error: message N has the id of message M");
+  EXPECT_EQ(complaint("BO_ 1 M: 8 A\nBO_ 2 M: 8 A\n"),
+            "t.dbc:2:1: error: message M is already defined at t.dbc:1:1");
+  EXPECT_EQ(complaint("BO_ 1 M: 65 A\n"),
+            "t.dbc:1:10: error: expected a whole number from 0 to 64");
+  EXPECT_EQ(complaint(kSignal), "t.dbc:1:2: error: a signal outside a message");
+  EXPECT_NE(complaint(dbc_with(" SG_ a : 0|0@1+ (1,0) [0|0] \"\" A")), "");
+  EXPECT_NE(complaint(dbc_with(" SG_ a : 0|65@1+ (1,0) [0|0] \"\" A")), "");
+  EXPECT_NE(complaint(dbc_with(" SG_ a : 0|8@2+ (1,0) [0|0] \"\" A")), "");
+  EXPECT_NE(complaint(dbc_with(" SG_ a : 0|8@1* (1,0) [0|0] \"\" A")), "");
+  EXPECT_NE(complaint(dbc_with(" SG_ a : 0|8@1+ (0,0) [0|0] \"\" A")), "");
+  EXPECT_NE(complaint(dbc_with(" SG_ a : 0|8@1+ (nan,0) [0|0] \"\" A")), "");
+  EXPECT_NE(complaint(dbc_with(" SG_ a X3 : 0|8@1+ (1,0) [0|0] \"\" A")), "");
+  EXPECT_NE(complaint(dbc_with(" SG_ a m3 : 0|8@1+ (1,0) [0|0] \"\" A")), "");
+  EXPECT_NE(complaint(dbc_with(kSignal + "SIG_VALTYPE_ 100 a : 1;\n")), "");
+  EXPECT_NE(complaint(dbc_with(kSignal + "SG_MUL_VAL_ 100 a b 1-1;\n")), "");
+  EXPECT_NE(complaint(dbc_with(kSignal + "SG_MUL_VAL_ 100 a a 1-1;\n")), "");  // circle
+  EXPECT_NE(complaint(dbc_with(kSignal + "SG_MUL_VAL_ 100 a a 2-1;\n")), "");
+}
+
+bool names_a_line(const Problem& p) {
+  static const std::regex kPlace(".*:[0-9]+:[0-9]+");
+  return std::regex_match(p.place, kPlace) && !p.what.empty();
+}
+
+std::vector<std::filesystem::path> corpus() {
+  auto files = public_files();
+  files.push_back(kOwnDbc);
+  return files;
+}
+
+TEST(DbcParser, TruncatedFilesNeverCrash) {
+  for (const auto& path : corpus()) {
+    const std::string text = text_of(path);
+    for (std::size_t size = 0; size < text.size(); size += 97) {
+      const auto parsed = parse_dbc(std::string_view{text}.substr(0, size), path.string());
+      if (parsed) continue;
+      EXPECT_TRUE(names_a_line(parsed.error())) << to_string(parsed.error());
+    }
+  }
+}
+
+TEST(DbcParser, DamagedFilesNeverCrash) {
+  Noise noise{6};
+  int refused = 0;
+  for (const auto& path : corpus()) {
+    const std::string text = text_of(path);
+    for (int i = 0; i < 150; ++i) {
+      std::string damaged = text;
+      for (int k = 0; k < 3; ++k) {
+        char& c = damaged[noise.below(damaged.size())];
+        c = static_cast<char>(c ^ 1 << noise.below(8));
+      }
+      const auto parsed = parse_dbc(damaged, path.string());
+      if (parsed) continue;
+      ++refused;
+      EXPECT_TRUE(names_a_line(parsed.error())) << to_string(parsed.error());
+    }
+  }
+  EXPECT_GT(refused, 0);
+}
+
+}  // namespace
+}  // namespace pitwall::can
