@@ -155,6 +155,7 @@ Predicted predict_measurement(const Vector6& x, const Measurement& m, const Moti
     case Kind::kSlip:
       return component(x, kVy);
     case Kind::kNone:
+    case Kind::kWiden:
     case Kind::kImu:
       break;
   }
@@ -177,6 +178,11 @@ void advance(Belief& belief, const MotionNoise& noise, Instant to) {
 }
 
 Innovation update(Belief& belief, const Measurement& m, const std::array<double, 2>& gate_nis) {
+  if (m.kind == Kind::kWiden) {
+    belief.covariance[kX * kStates + kX] += m.sigma_a * m.sigma_a;
+    belief.covariance[kY * kStates + kY] += m.sigma_b * m.sigma_b;
+    return {.accepted = true, .nis = 0.0, .size = 0};
+  }
   const Vector6 x = Eigen::Map<const Vector6>(belief.mean.data());
   const Predicted predicted = predict_measurement(x, m, belief.motion);
   if (predicted.size == 1) return apply<1>(belief, m, predicted, gate_nis[0]);

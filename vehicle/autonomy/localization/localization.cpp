@@ -18,6 +18,7 @@ constexpr double kSeedAgeMax_s = 1.5;             // a heading once per second i
 constexpr double kCourseSpeedMin_mps = 5.0;       // from here the course is the heading of the car
 constexpr double kCourseSigma_rad = 0.05;
 constexpr double kTurnMax_rad_per_s = 0.3;  // fastest turn assumed while a seed heading ages
+constexpr double kReacquire_s = 0.1;  // refused positions in a row before reckoning is distrusted
 constexpr double kStartSpeedSigma_mps = 1.0, kStartBiasSigma_rad_per_s = 0.005;
 constexpr double kSlowSpeed_mps = 5.0, kSlowSlipSigma_mps = 0.1;  // no side slip to speak of
 
@@ -255,6 +256,36 @@ void try_start(const Context& c) {
   tally.ever_accepted = true;
 }
 
+double age_s(const State& state, Source source, Instant now) {
+  double youngest = kUnset;
+  for (const Tally& t : state.tally[static_cast<std::size_t>(source)]) {
+    if (!t.ever_accepted) continue;
+    youngest = std::fmin(youngest, std::max((now - t.last_accepted).seconds(), 0.0));
+  }
+  return youngest;
+}
+
+// Positions came back after dead reckoning and do not fit what was reckoned: the reckoning is wrong.
+void widen(const Context& c, Instant at) {
+  const double sigma_m = c.params.lost_sigma_max_m;
+  (void)insert(c.state().timeline, c.params.timeline,
+               {.kind = Kind::kWiden, .at = at, .sigma_a = sigma_m, .sigma_b = sigma_m});
+}
+
+void refused(const Context& c, Instant at) {
+  State& s = c.state();
+  if (!s.refusing) s.refusing = true, s.refused_since = at;
+  const double for_s = (at - s.refused_since).seconds();
+  if (for_s >= c.params.reset_after_s) {  // the filter is wrong, not the receivers
+    s.started = false;
+    s.refusing = false;
+    ++s.restarts;
+    return;
+  }
+  const bool reckoning = age_s(s, Source::kPosition, at) > c.params.good_age_max_s;
+  if (reckoning && for_s >= kReacquire_s) widen(c, at);
+}
+
 void take_position(const Context& c, const world::GnssPosition& p) {
   State& s = c.state();
   if (!take(c, Source::kPosition, p)) return;
@@ -263,11 +294,7 @@ void take_position(const Context& c, const world::GnssPosition& p) {
   if (!s.started) return;
   const Gate gate = c.out.verdicts.back().gate;
   if (gate == Gate::kAccepted) s.refusing = false;
-  if (gate != Gate::kOutlier) return;
-  if (!s.refusing) s.refusing = true, s.refused_since = p.at;
-  if (p.at - s.refused_since < from_seconds(c.params.reset_after_s)) return;
-  s.started = false;  // the filter is wrong, not the receivers
-  ++s.restarts;
+  if (gate == Gate::kOutlier) refused(c, p.at);
 }
 
 void take_all(const Context& c, const world::SensorInput& in, const world::VehicleSignals& car) {
@@ -282,15 +309,6 @@ void take_all(const Context& c, const world::SensorInput& in, const world::Vehic
   }
   for (const auto& p : in.positions) take_position(c, p);
   try_start(c);
-}
-
-double age_s(const State& state, Source source, Instant now) {
-  double youngest = kUnset;
-  for (const Tally& t : state.tally[static_cast<std::size_t>(source)]) {
-    if (!t.ever_accepted) continue;
-    youngest = std::fmin(youngest, std::max((now - t.last_accepted).seconds(), 0.0));
-  }
-  return youngest;
 }
 
 world::Validity validity(const Params& p, const Output& out) {
