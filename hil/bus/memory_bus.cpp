@@ -70,7 +70,8 @@ std::size_t MemoryBus::pending(std::uint8_t port) const {
   return ports_[port].waiting;
 }
 
-// Begins every frame whose arbitration lies strictly before `now`: others may still be offered at it.
+// Begins every frame whose arbitration lies strictly before `now`: others may still be offered at
+// it.
 void MemoryBus::simulate_until(Instant now) {
   if (now < now_) return;
   while (true) {

@@ -123,8 +123,8 @@ void Grader::observe_within(const Expectation& e, Track& t, Instant now, double 
   t.time_left = t.deadline - now;
 }
 
-// Only the oldest unanswered trigger is kept: an answer to it answers those that came later too, and
-// when it fails the expectation has failed.
+// Only the oldest unanswered trigger is kept: an answer to it answers those that came later too,
+// and when it fails the expectation has failed.
 void Grader::observe_after(const Expectation& e, Track& t, Instant now, double value, bool rises) {
   if (t.pending && now > t.deadline) {
     t.failed = true;

@@ -1,8 +1,8 @@
 // Typed flags to the raw values of both race-control encodings, as race control would send them.
 //   in     flags; out   raw track and vehicle values
 //   errors a flag that the encoding cannot carry becomes the most similar one that restricts
-//          at least as much (MyLaps: stop -> red, engine kill -> purple; Marelli: orange is a vehicle flag);
-//          kUnknown becomes a value that no public table lists
+//          at least as much (MyLaps: stop -> red, engine kill -> purple; Marelli: orange is a
+//          vehicle flag); kUnknown becomes a value that no public table lists
 //   source flags as spoken by public code of the racing teams; the car's own table is written apart
 //          (vehicle/gateway), so that each tests the other
 // SPDX-License-Identifier: Apache-2.0
