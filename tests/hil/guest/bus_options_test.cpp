@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/guest/bus_options.hpp"
+
+#include <gtest/gtest.h>
+
+namespace pitwall::guest {
+namespace {
+
+using Words = std::vector<std::string>;
+
+TEST(BusOptions, EveryOptionIsUnderstood) {
+  const Words words{"--guest",   "--interface", "vcan0",    "--interface", "can_b.1",
+                    "--timeout", "2.5",         "--memory", "256",         "--line-udp",
+                    "1:2:3:4",   "--",          "cmd",      "--guest",     "--"};
+  const auto options = parse_bus_exec(words);
+  ASSERT_TRUE(options.has_value()) << to_string(options.error());
+  EXPECT_EQ(options->place, BusPlace::kGuest);
+  EXPECT_EQ(options->interfaces, (Words{"vcan0", "can_b.1"}));
+  EXPECT_EQ(options->timeout, milliseconds(2'500));
+  EXPECT_EQ(options->memory_mib, 256);
+  ASSERT_TRUE(options->line.has_value());
+  EXPECT_EQ(options->line->guest_destination, 4);
+  EXPECT_EQ(options->command, (Words{"cmd", "--guest", "--"}));  // the rest is the command's own
+}
+
+TEST(BusOptions, DefaultsAreVcan0WithoutLimit) {
+  const auto options = parse_bus_exec(Words{"--", "true"});
+  ASSERT_TRUE(options.has_value());
+  EXPECT_EQ(options->place, BusPlace::kAuto);
+  EXPECT_EQ(options->interfaces, Words{"vcan0"});
+  EXPECT_FALSE(options->timeout.has_value());
+  EXPECT_FALSE(options->line.has_value());
+}
+
+TEST(BusOptions, WhatDoesNotFitIsNamed) {
+  const std::vector<std::pair<Words, std::string>> cases{
+      {{}, "bus exec"},
+      {{"--"}, "bus exec"},
+      {{"true"}, "true"},
+      {{"--what", "1", "--", "true"}, "--what"},
+      {{"--timeout", "--", "true"}, "--timeout"},
+      {{"--timeout", "0", "--", "true"}, "0"},
+      {{"--timeout", "-3", "--", "true"}, "-3"},
+      {{"--timeout", "nan", "--", "true"}, "nan"},
+      {{"--timeout", "5s", "--", "true"}, "5s"},
+      {{"--memory", "1", "--", "true"}, "1"},
+      {{"--interface", "a b", "--", "true"}, "a b"},
+      {{"--interface", "$(id)", "--", "true"}, "$(id)"},
+      {{"--interface", "-x", "--", "true"}, "-x"},
+      {{"--interface", "sixteen_letters_", "--", "true"}, "sixteen_letters_"},
+      {{"--line-udp", "1:2", "--", "true"}, "1:2"}};
+  for (const auto& [words, place] : cases) {
+    const auto options = parse_bus_exec(words);
+    ASSERT_FALSE(options.has_value()) << place;
+    EXPECT_EQ(options.error().place, place);
+  }
+}
+
+}  // namespace
+}  // namespace pitwall::guest
