@@ -79,8 +79,8 @@ struct BenchFaultRow {
 struct BenchFault {
   BenchFaultKind kind = BenchFaultKind::kGnssUnitOutage;
   Instant start{};
-  std::optional<Duration> duration;  // absent: until the end
-  std::uint8_t unit = 0;             // which of several equal parts, from 0
+  std::optional<Duration> duration{};  // absent: until the end
+  std::uint8_t unit = 0;               // which of several equal parts, from 0
   double value = 0.0;
   std::uint64_t seed = 1;
 };

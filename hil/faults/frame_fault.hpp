@@ -45,7 +45,7 @@ struct FrameFault {
   FrameFaultKind kind = FrameFaultKind::kDrop;
   std::optional<std::uint32_t> id{};  // absent: every frame
   Instant start{};
-  std::optional<Duration> duration;  // absent: until the end
+  std::optional<Duration> duration{};  // absent: until the end
   std::uint64_t seed = 1;
   double probability = 1.0;
   std::uint32_t count = 1;

@@ -42,12 +42,12 @@ std::string_view name_of(Kind kind);  // "always" "never" "within" "after"
 std::optional<Kind> kind_of(std::string_view text);
 
 struct Expectation {
-  std::string name;  // as in the report; may be empty
+  std::string name{};  // as in the report; may be empty
   Kind kind = Kind::kAlways;
-  Condition condition;
-  Condition trigger;                // kAfter only
-  Duration limit{};                 // kWithin and kAfter
-  std::optional<Instant> from, to;  // window; absent: the whole run
+  Condition condition{};
+  Condition trigger{};                  // kAfter only
+  Duration limit{};                     // kWithin and kAfter
+  std::optional<Instant> from{}, to{};  // window; absent: the whole run
 };
 
 // "after brake_kpa > 100: speed_mps < 1 within 5 s, from 10 s"

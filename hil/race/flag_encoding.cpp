@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/race/flag_encoding.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-
-#include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::race {
 namespace {
@@ -117,6 +113,12 @@ bool rolls(TrackFlag flag) {
   return flag == TrackFlag::kNone || flag == TrackFlag::kGreen || flag == TrackFlag::kWavingGreen;
 }
 
+// Says nothing that slows the car, so that another flag may take its field.
+bool yields(VehicleFlag flag) {
+  return flag == VehicleFlag::kNone || flag == VehicleFlag::kBlue ||
+         flag == VehicleFlag::kAttacker || flag == VehicleFlag::kDefender;
+}
+
 }  // namespace
 
 RawFlags to_mylaps(const Flags& flags) {
@@ -128,21 +130,17 @@ RawFlags to_mylaps(const Flags& flags) {
       sent.track = TrackFlag::kOrange;
     if (flags.vehicle == VehicleFlag::kStop) sent.track = TrackFlag::kRed;
   }
-  if (flags.track == TrackFlag::kChequered &&
-      (flags.vehicle == VehicleFlag::kNone || flags.vehicle == VehicleFlag::kAttacker ||
-       flags.vehicle == VehicleFlag::kDefender))
+  if (flags.track == TrackFlag::kChequered && yields(flags.vehicle))
     sent.vehicle = VehicleFlag::kChequered;
   return {mylaps_track(sent.track), mylaps_vehicle(sent.vehicle)};
 }
 
 RawFlags to_marelli(const Flags& flags, double round_target_speed_mph) {
   Flags sent = flags;
-  if (flags.track == TrackFlag::kOrange &&
-      (flags.vehicle == VehicleFlag::kNone || flags.vehicle == VehicleFlag::kAttacker ||
-       flags.vehicle == VehicleFlag::kDefender))
+  if (flags.track == TrackFlag::kOrange && yields(flags.vehicle))
     sent.vehicle = VehicleFlag::kOrangeStartEngine;
-  if (flags.vehicle == VehicleFlag::kChequered && rolls(flags.track))
-    sent.track = TrackFlag::kChequered;
+  const bool covers = rolls(flags.track) || flags.track == TrackFlag::kOrange;
+  if (flags.vehicle == VehicleFlag::kChequered && covers) sent.track = TrackFlag::kChequered;
   RawFlags raw{marelli_track(sent.track), marelli_vehicle(sent.vehicle)};
   if (sent.track == TrackFlag::kGreen)
     for (const int known_mph : kMarelliSpeeds_mph)

@@ -28,17 +28,17 @@ namespace pitwall::race {
 // What changes at a moment; what is absent stays.
 struct Call {
   Instant at{};
-  std::optional<world::TrackFlag> track;
-  std::optional<world::VehicleFlag> vehicle;
-  std::optional<double> round_target_speed_mph;
-  std::optional<std::uint8_t> lap;  // absent: as timing counts
+  std::optional<world::TrackFlag> track{};
+  std::optional<world::VehicleFlag> vehicle{};
+  std::optional<double> round_target_speed_mph{};
+  std::optional<std::uint8_t> lap{};  // absent: as timing counts
 };
 
 struct Script {
   world::FlagEncoding encoding = world::FlagEncoding::kMyLaps;
   bool both_encodings = false;  // both systems on the bus, in agreement
   bool positions = false;       // 226, 228 and the position of 1251
-  std::vector<Call> calls;      // sorted by `at`; step() CHECKs
+  std::vector<Call> calls{};    // sorted by `at`; step() CHECKs
 };
 
 // What timing and scoring measure.
@@ -55,9 +55,9 @@ struct Timing {
 
 // Set by the bench while a fault lasts.
 struct RaceFaults {
-  bool silent = false;                    // no frame at all
-  bool heartbeat_stopped = false;         // frames go on, the base behind them is gone
-  std::optional<double> wrong_speed_mph;  // the round speed that is sent instead
+  bool silent = false;                      // no frame at all
+  bool heartbeat_stopped = false;           // frames go on, the base behind them is gone
+  std::optional<double> wrong_speed_mph{};  // the round speed that is sent instead
 };
 
 struct RaceFrame {
@@ -77,7 +77,7 @@ inline constexpr std::array kRaceFrames{
 struct State {
   Flags flags;
   double round_target_speed_mph = 0.0;
-  std::optional<std::uint8_t> lap;
+  std::optional<std::uint8_t> lap{};
   std::size_t next_call = 0;
   bool changed = true;  // an extra 1200 / 1250 is owed
   RaceFaults faults;

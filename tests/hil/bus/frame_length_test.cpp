@@ -1,5 +1,5 @@
-// The oracle writes the frame as text, divides polynomials as on paper and inserts stuff bits one by
-// one; it shares no code with the subject.
+// The oracle writes the frame as text, divides polynomials as on paper and inserts stuff bits one
+// by one; it shares no code with the subject.
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/bus/frame_length.hpp"
 
