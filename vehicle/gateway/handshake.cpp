@@ -47,14 +47,14 @@ constexpr const Row& row_of(CtState ct) {
 }
 
 template <class Property>
-constexpr bool every_cell(Property holds) {
+consteval bool every_cell(Property holds) {
   for (const Row& row : table::kRows)
     for (std::size_t e = 0; e < kCtEvents; ++e)
       if (!holds(row.from, static_cast<CtEvent>(e), row.to[e])) return false;
   return true;
 }
 
-constexpr bool rows_are_in_order() {
+consteval bool rows_are_in_order() {
   for (const Row& row : table::kRows)
     if (row_of(row.from).from != row.from) return false;
   return true;

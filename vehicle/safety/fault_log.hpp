@@ -101,7 +101,7 @@ constexpr const CauseRow& row_of(Cause cause) {
 }
 constexpr const char* text_of(Cause cause) { return row_of(cause).text; }
 
-constexpr bool causes_are_in_order() {
+consteval bool causes_are_in_order() {
   for (std::size_t i = 0; i < kCauses; ++i)
     if (static_cast<std::size_t>(kCauseTable[i].cause) != i) return false;
   return true;

@@ -49,7 +49,7 @@ constexpr std::size_t database_row(std::uint32_t id) {
 }
 
 // What the database says of each gated message, looked up when compiled.
-constexpr std::array<can::MessageRow, kGatedMessages> gated_rows() {
+consteval std::array<can::MessageRow, kGatedMessages> gated_rows() {
   std::array<can::MessageRow, kGatedMessages> rows{};
   for (std::size_t i = 0; i < kGatedMessages; ++i)
     rows[i] = av21::kMessages[database_row(kGated[i].id)];
@@ -60,7 +60,7 @@ constexpr std::array<can::MessageRow, kGatedMessages> kRows = gated_rows();
 constexpr std::size_t per_window(const can::MessageRow& row) {
   return static_cast<std::size_t>(kRateWindow.seconds() / row.period.seconds() * kRateMargin + 1.0);
 }
-constexpr bool rows_are_sound() {
+consteval bool rows_are_sound() {
   for (const can::MessageRow& row : kRows)
     if (row.direction != can::Direction::kToCar || per_window(row) > kMaxPerWindow) return false;
   return true;
@@ -184,12 +184,9 @@ Verdict judge_value(Bench& b, const can::Frame& frame, std::uint8_t length) {
   }
 }
 
-// What an id that is not on the whitelist is: one that the car sends, or nobody's.
+// What an id that is not on the whitelist is: one that others send, or nobody's.
 Verdict stranger(std::uint32_t id) {
-  const std::size_t row = database_row(id);
-  return row < av21::kMessages.size() && av21::kMessages[row].direction == can::Direction::kFromCar
-             ? Verdict::kWrongDirection
-             : Verdict::kUnknownId;
+  return database_row(id) < av21::kMessages.size() ? Verdict::kWrongDirection : Verdict::kUnknownId;
 }
 
 bool too_often(const PassWindow& window, const can::MessageRow& row, Instant now) {

@@ -38,7 +38,7 @@ enum class Verdict : std::uint8_t {
   kPass,
   kTooMany,         // more than kMaxFrames in one tick
   kUnknownId,       // not in the database
-  kWrongDirection,  // an id that the car sends
+  kWrongDirection,  // in the database, but not ours to send
   kNotClassic,      // remote, FD or extended
   kWrongLength,
   kNotArmed,      // an actuator frame while disarmed

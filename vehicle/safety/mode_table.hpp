@@ -68,7 +68,7 @@ constexpr bool stops(world::Mode mode) {
 
 // Properties, over every cell.
 template <class Property>
-constexpr bool every_cell(Property holds) {
+consteval bool every_cell(Property holds) {
   for (std::size_t m = 0; m < world::kModes; ++m)
     for (std::size_t e = 0; e < kEvents; ++e) {
       const auto mode = static_cast<world::Mode>(m);

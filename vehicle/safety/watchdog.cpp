@@ -17,7 +17,7 @@ static_assert(of_unit(Stream::kGnss0Velocity, 1) == Stream::kGnss1Velocity);
 static_assert(of_unit(Stream::kGnss0Heading, 1) == Stream::kGnss1Heading);
 static_assert(of_unit(Stream::kImu0, 1) == Stream::kImu1);
 
-constexpr bool limits_are_in_order() {
+consteval bool limits_are_in_order() {
   const WatchdogParams params;
   for (std::size_t i = 0; i < kStreams; ++i)
     if (at(params.limits[i].stream) != i) return false;

@@ -314,6 +314,25 @@ TEST(Supervisor, AnEmergencyWithoutControlWheelsOrAccelerationsStillStops) {
   }
 }
 
+TEST(Supervisor, AnEgoStateWithoutSpeedGivesNoNonsenseInAnEmergency) {
+  Drive d;
+  d.race();
+  d.car.requests.emergency_stop = true;
+  d.wheels_known = false;
+  for (int i = 0; i < 100; ++i) {
+    d.now += milliseconds(10);
+    d.car.at(d.now, kUnset);
+    d.car.signals.wheel_speed_mps.heard = false;
+    const SupervisorOutput out =
+        supervise(d.params, d.state,
+                  {d.car.signals, d.car.bus, d.car.race_control, d.car.ego, d.car.watchdog,
+                   d.car.stop, d.car.control, true, true, false, false, d.car.requests},
+                  d.now);
+    ASSERT_EQ(out.mode, Mode::kEmergencyStop);
+    ASSERT_TRUE(out.command.brake_kpa >= 0.0 && std::isfinite(out.command.road_wheel_rad));
+  }
+}
+
 TEST(Supervisor, ALaterEmergencyHardensTheStopAndTheFirstCauseStays) {
   Drive d;
   d.race();
