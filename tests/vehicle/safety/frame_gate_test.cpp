@@ -401,6 +401,20 @@ TEST(FrameGate, DisarmingForgets) {
   EXPECT_EQ(g.one(steer(100.0, 2)), Verdict::kPass) << "the first after arming has no reference";
 }
 
+// Commands around the last that passed, and now and then noise.
+std::vector<can::Frame> proposal(Random& random, int i, double last_throttle, double last_steer) {
+  std::vector<can::Frame> frames;
+  frames.push_back(brake(random.between(0, 7000) * (random.one_in(2) ? 1 : 0), i));
+  frames.push_back(throttle(last_throttle + random.between(-20, 6), i));
+  frames.push_back(steer(last_steer + random.between(-9, 9), i));
+  if (random.one_in(3)) {
+    can::Frame noise = blank(1400u + static_cast<std::uint32_t>(random.below(8)), 8);
+    for (std::size_t b = 0; b < 8; ++b) noise.data[b] = static_cast<std::uint8_t>(random.next());
+    frames.push_back(noise);
+  }
+  return frames;
+}
+
 TEST(FrameGate, RandomFramesThatPassKeepEveryLimit) {
   Random random{77};
   Gate g;
@@ -414,15 +428,7 @@ TEST(FrameGate, RandomFramesThatPassKeepEveryLimit) {
     if (random.below(4) != 0) g.context.mode = Mode::kDriving;
     g.context.armed = random.below(200) != 0;
     g.context.speed_mps = random.one_in(20) ? kUnset : random.between(0, 85);
-    std::vector<can::Frame> frames;
-    frames.push_back(brake(random.between(0, 7000) * (random.one_in(2) ? 1 : 0), i));
-    frames.push_back(throttle(last_throttle + random.between(-20, 6), i));
-    frames.push_back(steer(last_steer + random.between(-9, 9), i));
-    if (random.one_in(3)) {
-      can::Frame noise = blank(1400u + static_cast<std::uint32_t>(random.below(8)), 8);
-      for (std::size_t b = 0; b < 8; ++b) noise.data[b] = static_cast<std::uint8_t>(random.next());
-      frames.push_back(noise);
-    }
+    const auto frames = proposal(random, i, last_throttle, last_steer);
     if (!g.context.armed || g.context.mode == Mode::kDisarmed) {
       steered = throttled = braked = false;
       last_throttle = 0.0;
