@@ -60,7 +60,7 @@ int drive(const pipeline::Setup& setup, const io::Arguments& args, io::Rim& rim,
     const Instant done = transport::monotonic_now();
     tally.add(done - now, tick.missed);
     last = now;
-    totals = {out.heard.bus.refused.total(), out.passed.refused_total};
+    totals = {out.heard.bus.refused, out.passed.refused_total, car->gate.verdicts};
     if (car->ticks % kTelemetryEvery != 0) continue;
     auto packet = pipeline::tap(setup, out,
                                 {.frames_sent = rim.can().sent,

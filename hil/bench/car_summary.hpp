@@ -5,6 +5,8 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/units.hpp"
@@ -12,9 +14,12 @@
 namespace pitwall::bench {
 
 struct CarSummary {
+  using Counts = std::vector<std::pair<std::string, std::uint64_t>>;
+
   std::uint64_t ticks = 0, missed_deadlines = 0;
   std::uint64_t frames_received = 0, frames_sent = 0, frames_refused = 0, tx_drops = 0;
   std::uint64_t rx_dropped = 0, gate_refusals = 0;
+  Counts refused_by_kind, gate_verdicts;
   double step_p50_us = kUnset, step_p99_us = kUnset, step_max_us = kUnset;
 };
 

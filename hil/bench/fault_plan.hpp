@@ -1,8 +1,8 @@
 // The faults of a scenario, sorted by what carries them out: frames on their way to the car, or the
 // bench's own models.
 //   in     scenario::Fault rows
-//   errors a kind that this bench does not know or does not carry out, a missing or senseless value:
-//          Problem with the place in the scenario file
+//   errors a kind that this bench does not know or does not carry out, a missing or senseless
+//          value: Problem with the place in the scenario file
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

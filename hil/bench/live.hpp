@@ -1,4 +1,5 @@
-// The live bench: the unmodified car process on real SocketCAN, the rig in real time on the same bus.
+// The live bench: the unmodified car process on real SocketCAN, the rig in real time on the same
+// bus.
 // Runs where the CAN interface exists (the kernel's, or the guest's; hil/guest decides that).
 //
 //   pitwall-vehicle <== CAN ==> live bench (plant, drive-by-wire, race control)
@@ -8,7 +9,8 @@
 //
 //   in     scenario, Setup of the car, LivePlan
 //   out    RunResult with the same verdicts as lockstep; times are real
-//   errors Problem: no interface, the car did not start or died. A late wake-up is caught up and counted
+//   errors Problem: no interface, the car did not start or died. A late wake-up is caught up and
+//          counted
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -37,7 +39,7 @@ struct LivePlan {
 
 struct LiveTiming {
   double wake_late_p50_us = kUnset, wake_late_p99_us = kUnset, wake_late_max_us = kUnset;
-  std::uint64_t caught_up_steps = 0;  // rig steps that began more than one step late
+  std::uint64_t caught_up_wakes = 0;  // began more than one wake-up late
 };
 
 struct LiveResult {

@@ -1,7 +1,8 @@
 // The bench speaking as the car's two NovAtel receivers: samples to OEM7 binary, one UDP port each.
 //   in     samples of hil/sensors, `at` in scenario time
 //   out    datagrams to 127.0.0.1:port and port + 1
-//   frames IMU: Body (x forward, y left, z up) to NovAtel's vehicle frame (x right, y forward, z up)
+//   frames IMU: Body (x forward, y left, z up) to NovAtel's vehicle frame (x right, y forward, z
+//          up)
 //   errors open(): Problem; a datagram that was not taken is counted by the socket
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -16,7 +17,8 @@
 
 namespace pitwall::bench {
 
-// GPS time of scenario time zero; any week will do, and this one is not zero, which means "unknown".
+// GPS time of scenario time zero; any week will do, and this one is not zero, which means
+// "unknown".
 inline constexpr std::uint16_t kScenarioGpsWeek = 2'190;
 
 struct NovatelDatagram {

@@ -49,6 +49,7 @@ Result<Rig, Problem> Rig::build(const scenario::Scenario& scenario, const world:
 }
 
 void Rig::step(std::span<const can::ReceivedFrame> from_car, Instant now) {
+  if (std::exchange(outgoing_taken_, false)) outgoing_.clear();
   apply_model_faults(now);
   const auto heard = computer_silent_ ? std::span<const can::ReceivedFrame>{} : from_car;
   const auto raptor = drive_by_wire::step(raptor_params_, raptor_, heard, feedback(), now);
@@ -214,8 +215,10 @@ void Rig::apply_gnss_fault(const faults::BenchFault& fault) {
   }
 }
 
-FixedVector<Outgoing, kMaxOutgoing> Rig::take_frames() {
-  return std::exchange(outgoing_, FixedVector<Outgoing, kMaxOutgoing>{});
+std::span<const Outgoing> Rig::take_frames() {
+  if (outgoing_taken_) return {};
+  outgoing_taken_ = true;
+  return outgoing_.span();
 }
 
 world::SensorInput Rig::take_samples() { return std::exchange(samples_, world::SensorInput{}); }

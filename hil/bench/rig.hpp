@@ -1,5 +1,6 @@
 // Everything round the car's computer: plant, drive-by-wire, race control, sensors, timing, faults.
-// Advanced one plant step at a time by whoever owns the clock: the lockstep bench with virtual time,
+// Advanced one plant step at a time by whoever owns the clock: the lockstep bench with virtual
+// time,
 // the live bench with the machine's.
 //   in     frames that the car's computer sent, now (a whole number of kRigStep since the start)
 //   out    frames for the bus, sensor samples, truth
@@ -53,8 +54,8 @@ class Rig {
 
   void step(std::span<const can::ReceivedFrame> from_car, Instant now);
 
-  // What the nodes put on the bus since the last call.
-  FixedVector<Outgoing, kMaxOutgoing> take_frames();
+  // What the nodes put on the bus since the last call; valid until the next step.
+  std::span<const Outgoing> take_frames();
   // What the sensors delivered since the last call.
   world::SensorInput take_samples();
 
@@ -98,6 +99,7 @@ class Rig {
   sensors::State sensors_;
   world::SensorInput samples_;
   FixedVector<Outgoing, kMaxOutgoing> outgoing_;
+  bool outgoing_taken_ = false;  // cleared by the next step
   bool bus_silent_ = false, computer_silent_ = false, engine_stalled_ = false;
   double grip_ = 1.0;
   std::uint64_t overflows_ = 0;

@@ -1,4 +1,5 @@
-// The event log of a bench run: one MCAP file with every CAN frame, the truth, the car's own view and
+// The event log of a bench run: one MCAP file with every CAN frame, the truth, the car's own view
+// and
 // its decisions, and events in words. Its SHA-256 names the run.
 //   channels /can/<node>   every frame, who sent it
 //            /truth        the plant at 100 Hz

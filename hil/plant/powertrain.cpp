@@ -68,8 +68,13 @@ void advance_engine(const Params& p, const Actuation& a, double dt_s, State& s) 
   if (cranking && s.cranked_s >= p.engine.crank_s) s.engine_running = true;
   const Clutch clutch = clutch_of(p, s, s.motion);
   const double towards_rpm = s.engine_running ? clutch.rpm : cranking ? kCranking_rpm : 0.0;
+  const bool shifting = s.shift == ShiftPhase::kShiftingUp || s.shift == ShiftPhase::kShiftingDown;
+  const double matched_rpm =
+      to_rpm(rear_rad_per_s(s.motion) * gear_ratio(p.drivetrain, s.target_gear));
   if (clutch.engaged)
     s.engine_rpm = towards_rpm;
+  else if (shifting && matched_rpm >= p.engine.launch_rpm)  // met when the next gear engages
+    s.engine_rpm += (matched_rpm - s.engine_rpm) * std::min(1.0, dt_s / (s.shift_left_s + dt_s));
   else
     s.engine_rpm += (towards_rpm - s.engine_rpm) * std::min(1.0, dt_s / kFreeRevving_s);
 }

@@ -34,10 +34,10 @@ std::string timing_text(const bench::LiveResult& live) {
   char text[256];
   std::snprintf(
       text, sizeof text,
-      "bench wake-up late by p50 %.0f us, p99 %.0f us, max %.0f us; %llu steps caught up; "
+      "bench wake-up late by p50 %.0f us, p99 %.0f us, max %.0f us; %llu wake-ups caught up; "
       "telemetry %llu packets, %llu refused\n",
       live.timing.wake_late_p50_us, live.timing.wake_late_p99_us, live.timing.wake_late_max_us,
-      static_cast<unsigned long long>(live.timing.caught_up_steps),
+      static_cast<unsigned long long>(live.timing.caught_up_wakes),
       static_cast<unsigned long long>(live.telemetry_packets),
       static_cast<unsigned long long>(live.telemetry_refused));
   return text;

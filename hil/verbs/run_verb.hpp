@@ -1,6 +1,7 @@
 // `pitwall-hil run SCENARIO`: one scenario, in lockstep (default) or live.
 //
-//   --live            real SocketCAN and the real car process; where this kernel has no CAN, inside a
+//   --live            real SocketCAN and the real car process; where this kernel has no CAN,
+//          inside a
 //                     User-mode Linux guest that is booted for it
 //   --log FILE        event log (MCAP)       --json FILE   result for programs
 //   --out FOLDER      live: summary of the car, candump of the bus

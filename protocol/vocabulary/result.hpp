@@ -21,8 +21,9 @@ Unexpected(E) -> Unexpected<E>;
 template <class T, class E>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : side_(std::in_place_index<0>, std::move(value)) {}  // NOLINT: implicit by design
-  Result(Unexpected<E> reason) : side_(std::in_place_index<1>, std::move(reason.error)) {}  // NOLINT
+  Result(T value) : side_(std::in_place_index<0>, std::move(value)) {}  // NOLINT
+  Result(Unexpected<E> reason)
+      : side_(std::in_place_index<1>, std::move(reason.error)) {}  // NOLINT
 
   bool has_value() const { return side_.index() == 0; }
   explicit operator bool() const { return has_value(); }

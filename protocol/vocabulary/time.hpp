@@ -52,7 +52,8 @@ constexpr Instant& operator+=(Instant& a, Duration d) {
   return a;
 }
 
-// Calendar time since 1970-01-01T00:00:00Z, without leap seconds. Labels recordings; decides nothing.
+// Calendar time since 1970-01-01T00:00:00Z, without leap seconds. Labels recordings, decides
+// nothing.
 struct UtcTime {
   std::int64_t ns = 0;
 

@@ -28,19 +28,54 @@ double StepTally::quantile_us(double q) const {
   return 0.0;
 }
 
+namespace {
+
+// "name": number pairs, one object.
+class JsonCounts {
+ public:
+  void add(const std::string& name, std::uint64_t value) {
+    text_ += (text_.empty() ? "" : ", ") + ("\"" + name + "\": ") + std::to_string(value);
+  }
+  std::string object() const { return "{" + text_ + "}"; }
+  const std::string& pairs() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+std::string refusals_json(const world::FrameRefusals& r) {
+  JsonCounts out;
+  out.add("unknown_id", r.unknown_id);
+  out.add("wrong_length", r.wrong_length);
+  out.add("remote_or_error", r.remote_or_error);
+  out.add("stuck_counter", r.stuck_counter);
+  out.add("jumped_counter", r.jumped_counter);
+  out.add("not_finite", r.not_finite);
+  out.add("out_of_range", r.out_of_range);
+  out.add("implausible_slew", r.implausible_slew);
+  return out.object();
+}
+
+}  // namespace
+
 std::string summary_json(const StepTally& tally, const Rim& rim, const GatewayTotals& totals) {
-  const auto count = [](const char* name, std::uint64_t value) {
-    return "  \"" + std::string(name) + "\": " + std::to_string(value) + ",\n";
-  };
-  return "{\n" + count("ticks", tally.steps()) +
-         count("missed_deadlines", tally.missed_deadlines()) +
-         count("frames_received", rim.can().received) + count("frames_sent", rim.can().sent) +
-         count("frames_refused", totals.frames_refused) + count("tx_drops", rim.tx_drops()) +
-         count("rx_dropped", rim.can().rx_dropped_queue) +
-         count("gate_refusals", totals.gate_refusals) +
-         "  \"step_p50_us\": " + std::to_string(tally.quantile_us(0.5)) +
-         ",\n  \"step_p99_us\": " + std::to_string(tally.quantile_us(0.99)) +
-         ",\n  \"step_max_us\": " + std::to_string(tally.max_us()) + "\n}\n";
+  JsonCounts out;
+  out.add("ticks", tally.steps());
+  out.add("missed_deadlines", tally.missed_deadlines());
+  out.add("frames_received", rim.can().received);
+  out.add("frames_sent", rim.can().sent);
+  out.add("frames_refused", totals.refused.total());
+  out.add("tx_drops", rim.tx_drops());
+  out.add("rx_dropped", rim.can().rx_dropped_queue);
+  out.add("gate_refusals", totals.gate_refusals);
+  JsonCounts verdicts;
+  for (std::size_t i = 0; i < safety::kVerdicts; ++i)
+    verdicts.add(safety::text_of(static_cast<safety::Verdict>(i)), totals.gate_verdicts[i]);
+  return "{" + out.pairs() + ",\n \"refused_by_kind\": " + refusals_json(totals.refused) +
+         ",\n \"gate_verdicts\": " + verdicts.object() +
+         ",\n \"step_p50_us\": " + std::to_string(tally.quantile_us(0.5)) +
+         ", \"step_p99_us\": " + std::to_string(tally.quantile_us(0.99)) +
+         ", \"step_max_us\": " + std::to_string(tally.max_us()) + "}\n";
 }
 
 }  // namespace pitwall::io

@@ -10,6 +10,8 @@
 
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/io/rim.hpp"
+#include "vehicle/safety/frame_gate.hpp"
+#include "vehicle/world/bus_health.hpp"
 
 namespace pitwall::io {
 
@@ -32,7 +34,9 @@ class StepTally {
 };
 
 struct GatewayTotals {
-  std::uint64_t frames_refused = 0, gate_refusals = 0;
+  world::FrameRefusals refused;  // of what was heard, by kind
+  std::uint64_t gate_refusals = 0;
+  std::array<std::uint64_t, safety::kVerdicts> gate_verdicts{};  // of what was to be said
 };
 
 std::string summary_json(const StepTally& tally, const Rim& rim, const GatewayTotals& totals);

@@ -1,4 +1,5 @@
-// A car as a person writes it (vehicle/config/cars/*.yaml) to pipeline::CarParams. Strict: every key
+// A car as a person writes it (vehicle/config/cars/*.yaml) to pipeline::CarParams. Strict: every
+// key
 // is known, every number in its legal range; what may be left out has the default of its module.
 //   in     text of the file, its name for messages
 //   errors Problem with file:line:column

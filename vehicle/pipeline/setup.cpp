@@ -1,11 +1,64 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vehicle/pipeline/setup.hpp"
 
+#include <array>
+#include <optional>
 #include <utility>
 
+#include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/legal_range.hpp"
+
 namespace pitwall::pipeline {
+namespace {
+
+using world::LegalRange;
+
+constexpr double kPercent = 100.0;
+
+std::optional<Problem> illegal_rates(const CarParams& p) {
+  const double tick_s = p.rates.tick.seconds();
+  return world::first_illegal(std::array{
+      LegalRange{"rates.tick_s", tick_s, 0.005, 0.02},
+      LegalRange{"rates.planning_s", p.rates.planning.seconds(), tick_s, 0.2},
+      LegalRange{"gateway.outbound.steering_ratio", p.outbound.steering_ratio, 10.0, 25.0}});
+}
+
+// What control and the supervisor may ask for must be what the frame gate lets pass: else the gate
+// stops a car that does what its parameters say.
+std::optional<Problem> refused_by_gate(const CarParams& p) {
+  const safety::GateParams& gate = p.gate;
+  const safety::SupervisorParams& s = p.supervisor;
+  const control::LongitudinalParams& l = p.control.longitudinal;
+  const double steer_slew_deg_per_s = to_deg(s.steer_slew_rad_per_s) * p.outbound.steering_ratio;
+  return world::first_illegal(std::array{
+      LegalRange{"control.longitudinal.brake_max_kpa", l.brake_max_kpa, 0.0, gate.brake_max_kpa},
+      LegalRange{"control.longitudinal.throttle_max (percent)", l.throttle_max * kPercent, 0.0,
+                 gate.throttle_max_percent},
+      LegalRange{"safety.supervisor.safe_stop.brake_max_kpa", s.safe_stop.brake_max_kpa, 0.0,
+                 gate.brake_max_kpa},
+      LegalRange{"safety.supervisor.safe_stop.hold_kpa", s.safe_stop.hold_kpa, 0.0,
+                 gate.brake_max_kpa},
+      LegalRange{"safety.supervisor.steer_slew_rad_per_s (degrees at the motor)",
+                 steer_slew_deg_per_s, 0.0, gate.steer_slew_deg_per_s},
+      LegalRange{"safety.supervisor.throttle_rise_per_s (percent)",
+                 s.throttle_rise_per_s * kPercent, 0.0, gate.throttle_rise_percent_per_s},
+      LegalRange{"safety.supervisor.brake_rise_kpa_per_s", s.brake_rise_kpa_per_s, 0.0,
+                 gate.brake_rise_kpa_per_s},
+      LegalRange{"safety.supervisor.brake_fall_kpa_per_s", s.brake_fall_kpa_per_s, 0.0,
+                 gate.brake_fall_kpa_per_s},
+      LegalRange{"safety.gate.shift_least_s", gate.shift_least.seconds(), 0.0,
+                 s.shift_least.seconds()},
+      LegalRange{"safety.gate.gear_max", static_cast<double>(gate.gear_max), control::kGears, 8.0},
+      LegalRange{"safety.gate.command_age_max_s", gate.command_age_max.seconds(),
+                 p.rates.tick.seconds(), 0.2},
+      LegalRange{"safety.supervisor.steering_ratio", s.steering_ratio, p.outbound.steering_ratio,
+                 p.outbound.steering_ratio}});
+}
+
+}  // namespace
 
 Result<Setup, Problem> prepare(const CarParams& params, const world::TrackDescription& track) {
+  if (auto problem = illegal_rates(params)) return Unexpected{*problem};
   auto map = world::TrackMap::build(track);
   if (!map) return Unexpected{map.error()};
   auto datum = localization::Datum::at(map->datum_latitude_deg(), map->datum_longitude_deg(),
@@ -17,6 +70,7 @@ Result<Setup, Problem> prepare(const CarParams& params, const world::TrackDescri
   if (!line) return Unexpected{line.error()};
   auto gains = control::prepare(params.control);
   if (!gains) return Unexpected{gains.error()};
+  if (auto problem = refused_by_gate(params)) return Unexpected{*problem};
   CarParams checked = params;
   checked.localization = *localization;
   return Setup{checked, *std::move(map), *datum, *std::move(line), *gains};

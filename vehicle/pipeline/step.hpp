@@ -1,4 +1,5 @@
-// The whole car on one screen: decode -> localize -> plan -> control -> supervise -> encode -> gate.
+// The whole car on one screen: decode -> localize -> plan -> control -> supervise -> encode ->
+// gate.
 // One function for the car, the live bench, lockstep and the tests.
 //   in     Setup (read-only), what arrived since the last tick, what the operator asks, now
 //   out    frames for the bus, and everything that telemetry and logs show; Car is updated in place
@@ -26,7 +27,7 @@ struct Inputs {
   const world::SensorInput& sensors;
   safety::OperatorRequests requests;
   double operator_speed_limit_mps = kUnset;  // unset: none
-  std::optional<Instant> radio_at{};          // newest authentic packet of the base station
+  std::optional<Instant> radio_at{};         // newest authentic packet of the base station
 };
 
 struct Outputs {

@@ -10,8 +10,8 @@
 namespace pitwall::world {
 
 struct ActuatorCommand {
-  Instant at{};                    // when it was computed
-  double road_wheel_rad = kUnset;  // left positive
+  Instant at{};                       // when it was computed
+  double road_wheel_rad = kUnset;     // left positive
   double throttle_fraction = kUnset;  // 0..1
   double brake_kpa = kUnset;          // >= 0
   std::uint8_t gear = 0;

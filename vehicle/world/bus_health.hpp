@@ -24,8 +24,8 @@ struct FrameRefusals {
                 jumped_counter = 0, not_finite = 0, out_of_range = 0, implausible_slew = 0;
 
   constexpr std::uint64_t total() const {
-    return unknown_id + wrong_length + remote_or_error + stuck_counter + jumped_counter + not_finite +
-           out_of_range + implausible_slew;
+    return unknown_id + wrong_length + remote_or_error + stuck_counter + jumped_counter +
+           not_finite + out_of_range + implausible_slew;
   }
 };
 

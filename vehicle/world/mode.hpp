@@ -19,9 +19,19 @@ inline constexpr std::size_t kModes = 6;
 
 // Computer (CT) state, CAN ct_report.ct_state.
 enum class CtState : std::uint8_t {
-  kPowerOn = 1, kInitialized = 2, kActuatorTest = 3, kCrankReady = 4, kCranking = 5, kRaceReady = 6,
-  kInitDriving = 7, kCaution = 8, kNominalRace = 9, kCoordinatedStop = 10, kControlledShutdown = 11,
-  kEmergencyShutdown = 12, kDefault = 255
+  kPowerOn = 1,
+  kInitialized = 2,
+  kActuatorTest = 3,
+  kCrankReady = 4,
+  kCranking = 5,
+  kRaceReady = 6,
+  kInitDriving = 7,
+  kCaution = 8,
+  kNominalRace = 9,
+  kCoordinatedStop = 10,
+  kControlledShutdown = 11,
+  kEmergencyShutdown = 12,
+  kDefault = 255
 };
 
 }  // namespace pitwall::world

@@ -12,12 +12,29 @@
 namespace pitwall::world {
 
 enum class TrackFlag : std::uint8_t {
-  kNone, kRed, kOrange, kYellow, kGreen, kWavingGreen, kChequered, kUnknown
+  kNone,
+  kRed,
+  kOrange,
+  kYellow,
+  kGreen,
+  kWavingGreen,
+  kChequered,
+  kUnknown
 };
 
 enum class VehicleFlag : std::uint8_t {
-  kNone, kBlackPitIn, kBlue, kStop, kPurpleEmergency, kEngineKill, kOrangeStartEngine, kYellow,
-  kChequered, kDefender, kAttacker, kUnknown
+  kNone,
+  kBlackPitIn,
+  kBlue,
+  kStop,
+  kPurpleEmergency,
+  kEngineKill,
+  kOrangeStartEngine,
+  kYellow,
+  kChequered,
+  kDefender,
+  kAttacker,
+  kUnknown
 };
 
 enum class FlagEncoding : std::uint8_t { kMyLaps, kMarelli };

@@ -1,5 +1,6 @@
 // Samples of the sensors that do not speak CAN, as the receivers report them. Geodetic positions
-// are WGS 84; the frame of rates and accelerations is the car's (ISO 8855: x forward, y left, z up).
+// are WGS 84; the frame of rates and accelerations is the car's (ISO 8855: x forward, y left, z
+// up).
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -49,8 +50,8 @@ struct GnssHeading {
 struct ImuSample {
   std::uint8_t unit = 0;
   Instant at{};
-  std::array<double, 3> rate_rad_per_s{kUnset, kUnset, kUnset};        // x roll, y pitch, z yaw
-  std::array<double, 3> specific_force_mps2{kUnset, kUnset, kUnset};   // x, y, z
+  std::array<double, 3> rate_rad_per_s{kUnset, kUnset, kUnset};       // x roll, y pitch, z yaw
+  std::array<double, 3> specific_force_mps2{kUnset, kUnset, kUnset};  // x, y, z
 };
 
 // What arrived since the last step, in order of arrival.

@@ -37,21 +37,37 @@ struct BrakePressure {
 
 // State of the drive-by-wire computer (Raptor), CAN misc_report.sys_state.
 enum class SysState : std::uint8_t {
-  kUnknown = 0, kPowerOn = 1, kSubsystemsConnected = 2, kActuatorTesting = 3, kActuatorTestDone = 4,
-  kCrankReady = 5, kPreCrankCheck = 6, kCranking = 7, kEngineRunning = 8, kDriving = 9,
-  kShutEngine = 10, kPowerOff = 11, kRaptorOff = 12, kCrankCheckInit = 13, kActuatorTestFailed = 14,
-  kCrankChecksFailed = 15, kEmergencyShutdown = 16, kEngineFailedToStart = 17,
-  kCriticalLimitsExceeded = 18, kStandby = 19, kDefault = 255
+  kUnknown = 0,
+  kPowerOn = 1,
+  kSubsystemsConnected = 2,
+  kActuatorTesting = 3,
+  kActuatorTestDone = 4,
+  kCrankReady = 5,
+  kPreCrankCheck = 6,
+  kCranking = 7,
+  kEngineRunning = 8,
+  kDriving = 9,
+  kShutEngine = 10,
+  kPowerOff = 11,
+  kRaptorOff = 12,
+  kCrankCheckInit = 13,
+  kActuatorTestFailed = 14,
+  kCrankChecksFailed = 15,
+  kEmergencyShutdown = 16,
+  kEngineFailedToStart = 17,
+  kCriticalLimitsExceeded = 18,
+  kStandby = 19,
+  kDefault = 255
 };
 
 struct Powertrain {
   double throttle_fraction = kUnset;  // 0..1
   double engine_speed_rpm = kUnset;
   double vehicle_speed_mps = kUnset;
-  std::uint8_t gear = 0;              // 0 neutral
+  std::uint8_t gear = 0;  // 0 neutral
   bool engine_running = false;
   bool engine_switch_on = false;
-  std::uint8_t gear_shift_status = 0; // 0 uninitialised, 1 ready, 2 locked out, 3 up, 4 down
+  std::uint8_t gear_shift_status = 0;  // 0 uninitialised, 1 ready, 2 locked out, 3 up, 4 down
 };
 
 struct EngineHealth {
@@ -76,16 +92,16 @@ struct Misc {
 };
 
 struct VehicleSignals {
-  Heard<PerWheel> wheel_speed_mps;      // circumferential speed of each wheel
+  Heard<PerWheel> wheel_speed_mps;  // circumferential speed of each wheel
   Heard<BrakePressure> brake;
-  Heard<double> throttle_fraction;      // pedal feedback, 0..1
-  Heard<double> steering_motor_rad;     // average of the three sensors, at the motor, left positive
+  Heard<double> throttle_fraction;   // pedal feedback, 0..1
+  Heard<double> steering_motor_rad;  // average of the three sensors, at the motor, left positive
   Heard<Misc> misc;
   Heard<Powertrain> powertrain;
   Heard<EngineHealth> engine;
   Heard<DriveByWireDiagnostics> diagnostics;
-  Heard<PerWheel> tyre_temperature_c;   // mean of the 16 sensors of each tyre
-  Heard<PerWheel> tyre_pressure_kpa;    // gauge
+  Heard<PerWheel> tyre_temperature_c;  // mean of the 16 sensors of each tyre
+  Heard<PerWheel> tyre_pressure_kpa;   // gauge
 };
 
 }  // namespace pitwall::world

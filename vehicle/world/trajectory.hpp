@@ -13,12 +13,12 @@
 namespace pitwall::world {
 
 struct TrajectoryPoint {
-  double s_m = kUnset;           // along the trajectory, from its first point
+  double s_m = kUnset;  // along the trajectory, from its first point
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
   double curvature_per_m = kUnset;
   double bank_rad = kUnset;
   double speed_mps = kUnset;
-  double accel_mps2 = kUnset;    // planned, along the path
+  double accel_mps2 = kUnset;  // planned, along the path
 };
 
 inline constexpr std::size_t kTrajectoryPoints = 128;
