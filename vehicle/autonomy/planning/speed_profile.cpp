@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kLandingShare = 0.8;  // of the jerk: the rest lets the landing law be followed
 constexpr double kCoast_mps2 = 0.3;    // rolling resistance: a car always slows by that much
-constexpr double kCapAhead_s = 0.35;   // a falling limit is read this far ahead: time for the jerk
+constexpr double kCapAhead_s = 0.45;   // a falling limit is read this far ahead: time for the jerk
 constexpr double kCapHorizon_m = 250.0;  // how far ahead the line's limits are looked at
 constexpr double kCapDecelShare = 0.9;
 constexpr double kSpacingMin_m = 2.0;

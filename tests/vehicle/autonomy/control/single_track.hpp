@@ -202,7 +202,11 @@ inline Params recommended() {
                .cornering_front_n_per_rad = 180e3,
                .cornering_rear_n_per_rad = 260e3};
   for (std::size_t i = 0; i < kSpeedBrackets; ++i) {
-    p.lateral.weights[i] = {.state = {1.0, 0.0, 4.0, 0.0}, .steering = 400.0};
+    const double from_mps = kBracketFrom_mps[i];
+    p.lateral.weights[i] = {.state = {1.0, 0.0, 1.0, 0.0},
+                            .steering = from_mps < 20.0   ? 400.0
+                                        : from_mps < 45.0 ? 1000.0
+                                                          : 2500.0};
   }
   p.lateral.lookahead_base_m = 4.0;
   p.lateral.lookahead_per_speed_s = 0.2;
@@ -211,7 +215,7 @@ inline Params recommended() {
   p.lateral.deviation_max_m = 5.0;
   p.longitudinal = {.kp_per_mps = 0.2,
                     .feedforward_per_mps = 0.008,
-                    .brake_kpa_per_command = 3300.0,
+                    .brake_kpa_per_command = 7000.0,
                     .speed_preview_s = 0.2,
                     .throttle_max = 1.0,
                     .throttle_rise_per_s = 2.0,

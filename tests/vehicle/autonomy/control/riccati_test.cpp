@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/autonomy/control/riccati.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cstdint>
+
+#include "tests/vehicle/autonomy/control/carex.hpp"
+
+namespace pitwall::control {
+namespace {
+
+using Eigen::MatrixXd;
+
+double uniform(std::uint64_t& state) {  // splitmix64, -1..1
+  std::uint64_t z = (state += 0x9E3779B97F4A7C15ULL);
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
+  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-52 - 1.0;
+}
+
+MatrixXd random_matrix(std::uint64_t& state, Eigen::Index rows, Eigen::Index columns) {
+  MatrixXd m(rows, columns);
+  for (Eigen::Index i = 0; i < m.size(); ++i) m(i) = uniform(state);
+  return m;
+}
+
+double largest_real_part(const MatrixXd& m) {
+  return Eigen::EigenSolver<MatrixXd>(m, false).eigenvalues().real().maxCoeff();
+}
+
+// The laws of a stabilising solution.
+void expect_stabilising(const RiccatiProblem& p, const MatrixXd& x, const std::string& what) {
+  EXPECT_LT(relative_residual(p, x), 1e-12) << what;
+  EXPECT_LE((x - x.transpose()).norm(), 1e-14 * x.norm()) << what;
+  EXPECT_LT(largest_real_part(p.a - p.g * x), 0.0) << what;
+}
+
+TEST(Riccati, ScalarHasItsClosedForm) {
+  // 0 = q + 2 a x - g x^2
+  for (const double a : {-3.0, -0.1, 0.0, 2.0}) {
+    for (const double q : {0.5, 1.0, 1e6}) {
+      const RiccatiProblem p{MatrixXd::Constant(1, 1, a), MatrixXd::Constant(1, 1, 2.0),
+                             MatrixXd::Constant(1, 1, q)};
+      const auto x = solve(p);
+      ASSERT_TRUE(x) << a << ' ' << q;
+      const double exact = (a + std::sqrt(a * a + 2.0 * q)) / 2.0;
+      EXPECT_NEAR((*x)(0, 0), exact, 1e-14 * exact);
+    }
+  }
+}
+
+TEST(Riccati, RandomSystemsObeyTheLaws) {
+  std::uint64_t seed = 1;
+  for (Eigen::Index n = 1; n <= 8; ++n) {
+    for (int i = 0; i < 20; ++i) {
+      const MatrixXd b = random_matrix(seed, n, 2), c = random_matrix(seed, n, n);
+      const RiccatiProblem p{3.0 * random_matrix(seed, n, n), b * b.transpose(), c.transpose() * c};
+      const auto x = solve(p);
+      ASSERT_TRUE(x) << n << ' ' << i;
+      expect_stabilising(p, *x, std::to_string(n));
+      EXPECT_GE(Eigen::SelfAdjointEigenSolver<MatrixXd>(*x).eigenvalues().minCoeff(),
+                -1e-9 * x->norm());
+    }
+  }
+}
+
+TEST(Riccati, ScalesAcrossManyOrdersOfMagnitude) {
+  // X of (A, G, Q) is X / s of (A, G s, Q / s).
+  std::uint64_t seed = 7;
+  const MatrixXd b = random_matrix(seed, 4, 1);
+  const RiccatiProblem p{random_matrix(seed, 4, 4), b * b.transpose(), MatrixXd::Identity(4, 4)};
+  const auto x = solve(p);
+  ASSERT_TRUE(x);
+  for (const double s : {1e-8, 1e-3, 1e4, 1e9}) {
+    const auto scaled = solve({p.a, p.g * s, p.q / s});
+    ASSERT_TRUE(scaled) << s;
+    EXPECT_LT((*scaled * s - *x).norm(), 1e-9 * x->norm()) << s;
+  }
+}
+
+TEST(Riccati, RefusesWithTheReason) {
+  const MatrixXd one = MatrixXd::Identity(2, 2), zero = MatrixXd::Zero(2, 2);
+  const auto reason = [](const RiccatiProblem& p) { return solve(p).error(); };
+  EXPECT_EQ(reason({MatrixXd::Zero(2, 3), one, one}), RiccatiFailure::kWrongShape);
+  EXPECT_EQ(reason({one, MatrixXd::Identity(3, 3), one}), RiccatiFailure::kWrongShape);
+  EXPECT_EQ(reason({MatrixXd(), MatrixXd(), MatrixXd()}), RiccatiFailure::kWrongShape);
+  EXPECT_EQ(reason({one / 0.0, one, one}), RiccatiFailure::kNotFinite);
+  MatrixXd lopsided = one;
+  lopsided(0, 1) = 0.5;
+  EXPECT_EQ(reason({one, lopsided, one}), RiccatiFailure::kNotSymmetric);
+  EXPECT_EQ(reason({one, one, lopsided}), RiccatiFailure::kNotSymmetric);
+  // Unstable without an input; an integrator that nobody pays for (undetectable).
+  EXPECT_EQ(reason({one, zero, one}), RiccatiFailure::kNoStabilisingSolution);
+  EXPECT_EQ(reason({zero, one, zero}), RiccatiFailure::kNoStabilisingSolution);
+}
+
+TEST(Riccati, SolvesTheBenchmarkCollection) {
+  const auto folder = testing::shared_data() / "carex";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no benchmark files at " << folder;
+  int solved = 0, exact = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    auto m = testing::read_matrices(entry.path());
+    const RiccatiProblem p{m.at("A"), m.at("G"), m.at("Q")};
+    const auto x = solve(p);
+    ASSERT_TRUE(x) << entry.path() << ": " << to_string(x.error());
+    EXPECT_LT(relative_residual(p, *x), 1e-13) << entry.path();
+    EXPECT_LT(largest_real_part(p.a - p.g * *x), 1e-7) << entry.path();
+    ++solved;
+    if (!m.contains("X")) continue;
+    EXPECT_LT((*x - m["X"]).norm(), 1e-6 * m["X"].norm()) << entry.path();
+    ++exact;
+  }
+  EXPECT_GE(solved, 8);
+  EXPECT_GE(exact, 3);
+}
+
+}  // namespace
+}  // namespace pitwall::control

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/autonomy/planning/planning.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/vehicle/autonomy/planning/stadium.hpp"
+
+namespace pitwall::planning {
+namespace {
+
+using testing::ego_on;
+using testing::green;
+using testing::recommended;
+using world::TrackFlag;
+using world::VehicleFlag;
+
+struct Rig {
+  Params params = recommended();
+  world::TrackMap track = testing::stadium();
+  Line line = prepare(params, track).value();
+  State state;
+  Instant now{};
+  double s_m = 0.0, offset_m = 0.0, speed_mps = 0.0;
+
+  // One tick of 50 ms with a car that does exactly what it is told.
+  Output tick(const world::RaceControl& rc, Followed followed = Followed::kDrive,
+              double limit_mps = kUnset) {
+    const Output out = step(params, line, track, state, ego_on(line, s_m, offset_m, speed_mps), rc,
+                            limit_mps, followed, now);
+    state = out.next;
+    now += milliseconds(50);
+    speed_mps = out.next.speed_mps;
+    s_m += speed_mps * 0.05;
+    return out;
+  }
+};
+
+void expect_drivable(const world::Trajectory& t) {
+  ASSERT_EQ(t.points.size(), world::kTrajectoryPoints);
+  for (std::size_t i = 1; i < t.points.size(); ++i) {
+    const auto &a = t.points[i - 1], &b = t.points[i];
+    const double d = std::hypot(b.x_m - a.x_m, b.y_m - a.y_m);
+    ASSERT_NEAR(b.s_m - a.s_m, d, 1e-9);
+    ASSERT_GT(d, 0.5);
+    const double chord_yaw = std::atan2(b.y_m - a.y_m, b.x_m - a.x_m);
+    EXPECT_NEAR(wrap_pi(chord_yaw - a.yaw_rad), 0.5 * d * a.curvature_per_m, 0.01) << i;
+    EXPECT_NEAR(wrap_pi(b.yaw_rad - a.yaw_rad), 0.5 * d * (a.curvature_per_m + b.curvature_per_m),
+                0.01)
+        << i;
+    EXPECT_GE(b.speed_mps, 0.0);
+  }
+}
+
+TEST(Planning, EveryFlagHasItsSpeed) {
+  const Params p = recommended();
+  const auto demand = [&](TrackFlag track, VehicleFlag vehicle) {
+    world::RaceControl rc = green(57.0);
+    rc.track = track, rc.vehicle = vehicle;
+    return demanded_speed(p, rc, kUnset);
+  };
+  for (const auto flag : {TrackFlag::kNone, TrackFlag::kRed, TrackFlag::kOrange,
+                          TrackFlag::kChequered, TrackFlag::kUnknown}) {
+    EXPECT_EQ(demand(flag, VehicleFlag::kNone).speed_mps, 0.0) << static_cast<int>(flag);
+  }
+  EXPECT_EQ(demand(TrackFlag::kYellow, VehicleFlag::kNone).speed_mps, p.caution_speed_mps);
+  EXPECT_EQ(demand(TrackFlag::kGreen, VehicleFlag::kNone).speed_mps, 57.0);
+  EXPECT_EQ(demand(TrackFlag::kWavingGreen, VehicleFlag::kAttacker).speed_mps, 57.0);
+  for (const auto flag : {VehicleFlag::kBlackPitIn, VehicleFlag::kStop, VehicleFlag::kUnknown,
+                          VehicleFlag::kPurpleEmergency, VehicleFlag::kEngineKill,
+                          VehicleFlag::kChequered, VehicleFlag::kOrangeStartEngine}) {
+    EXPECT_EQ(demand(TrackFlag::kGreen, flag).speed_mps, 0.0) << static_cast<int>(flag);
+  }
+  EXPECT_EQ(demand(TrackFlag::kGreen, VehicleFlag::kBlackPitIn).reason, Reason::kBlack);
+  EXPECT_EQ(demand(TrackFlag::kGreen, VehicleFlag::kYellow).speed_mps, p.caution_speed_mps);
+}
+
+TEST(Planning, MostRestrictiveWins) {
+  const Params p = recommended();
+  EXPECT_EQ(demanded_speed(p, green(), kUnset).speed_mps, p.green_speed_mps);
+  EXPECT_EQ(demanded_speed(p, green(0.0), kUnset).reason, Reason::kGreen);  // zero is "not given"
+  EXPECT_EQ(demanded_speed(p, green(57.0), 31.0).speed_mps, 31.0);
+  EXPECT_EQ(demanded_speed(p, green(57.0), 31.0).reason, Reason::kOperatorLimit);
+  EXPECT_EQ(demanded_speed(p, green(57.0), 90.0).reason, Reason::kRoundSpeed);
+  EXPECT_EQ(demanded_speed(p, green(57.0), -5.0).speed_mps, 0.0);
+  world::RaceControl silent = green(57.0);
+  silent.ever_heard = false;
+  EXPECT_EQ(demanded_speed(p, silent, kUnset).speed_mps, 0.0);
+  EXPECT_EQ(demanded_speed(p, silent, kUnset).reason, Reason::kNoRaceControl);
+}
+
+TEST(Planning, SpeedNeverStepsWhateverIsDemanded) {
+  Rig rig;
+  double last = 0.0, last_accel = 0.0;
+  for (int i = 0; i < 1200; ++i) {
+    world::RaceControl rc = green((i / 150) % 2 == 0 ? 60.0 : 30.0);
+    if ((i / 400) % 2 == 1) rc.track = TrackFlag::kRed;
+    const Output out = rig.tick(rc);
+    EXPECT_LE(std::abs(out.next.speed_mps - last), rig.params.decel_max_mps2 * 0.05 + 1e-9) << i;
+    if (out.next.speed_mps > 0.0) {
+      EXPECT_LE(std::abs(out.next.accel_mps2 - last_accel), rig.params.jerk_max_mps3 * 0.05 + 1e-9);
+    }
+    EXPECT_NEAR(out.drive.points[0].speed_mps, out.next.speed_mps, 1e-9);
+    EXPECT_NEAR(out.stop.points[0].speed_mps, out.next.speed_mps, 1e-9);
+    last = out.next.speed_mps, last_accel = out.next.accel_mps2;
+  }
+}
+
+TEST(Planning, TrajectoriesAreDrivableAllRound) {
+  Rig rig;
+  rig.speed_mps = 60.0;
+  for (int i = 0; i < 800; ++i) {
+    const Output out = rig.tick(green(60.0));
+    if (i % 10 != 0) continue;
+    expect_drivable(out.drive);
+    expect_drivable(out.stop);
+    EXPECT_GT(out.drive.points.back().s_m, 60.0 * 1.5 + 40.0);
+    EXPECT_EQ(out.stop.points.back().speed_mps, 0.0);
+    EXPECT_NEAR(out.line_offset_m, 0.0, 0.02);
+  }
+  EXPECT_GT(rig.s_m, rig.line.length_m);
+}
+
+TEST(Planning, FollowingTheStopBringsTheCarToRest) {
+  Rig rig;
+  rig.speed_mps = 65.0;
+  for (int i = 0; i < 40; ++i) (void)rig.tick(green(65.0));
+  const double promised_m = rig.s_m + rig.tick(green(65.0)).stop_distance_m;
+  // Race control stays green: the car stops because the supervisor follows the stop.
+  for (int i = 0; i < 600 && rig.speed_mps > 0.0; ++i) (void)rig.tick(green(65.0), Followed::kStop);
+  EXPECT_EQ(rig.speed_mps, 0.0);
+  EXPECT_NEAR(rig.s_m, promised_m, 10.0);
+  for (int i = 0; i < 20; ++i) (void)rig.tick(green(65.0), Followed::kStop);
+  EXPECT_EQ(rig.speed_mps, 0.0);
+  for (int i = 0; i < 600; ++i) (void)rig.tick(green(65.0), Followed::kDrive);
+  EXPECT_NEAR(rig.speed_mps, 65.0, 0.1);  // and starts again from standstill
+}
+
+TEST(Planning, ReferenceStaysNearACarThatDoesNotFollow) {
+  Rig rig;
+  for (int i = 0; i < 200; ++i) {
+    const Output out = rig.tick(green(60.0));
+    rig.speed_mps = 0.0, rig.s_m = 0.0;  // it does not start
+    EXPECT_LE(out.next.speed_mps, rig.params.speed_band_mps);
+  }
+  const Output out = rig.tick(green(60.0));
+  EXPECT_GT(out.drive.points[0].speed_mps, 1.0);  // but is told to
+}
+
+TEST(Planning, MergesFromBesideTheLineWithoutAStep) {
+  Rig rig;
+  rig.offset_m = -5.0, rig.speed_mps = 20.0;
+  double last_m = rig.offset_m;
+  for (int i = 0; i < 200; ++i) {
+    const Output out = rig.tick(green(20.0));
+    expect_drivable(out.drive);
+    const auto& p = out.drive.points[0];
+    const double offset_m = rig.line.project(p.x_m, p.y_m, out.line_s_m).offset_m;
+    EXPECT_LE(std::abs(offset_m - last_m), 0.2) << i;
+    EXPECT_GE(offset_m, last_m - 1e-6);
+    rig.offset_m = last_m = offset_m;  // the car follows
+  }
+  EXPECT_NEAR(rig.offset_m, 0.0, 1e-3);
+}
+
+TEST(Planning, WithoutEgoThereIsNoTrajectory) {
+  Rig rig;
+  rig.speed_mps = 30.0;
+  (void)rig.tick(green(30.0));
+  world::EgoState lost = ego_on(rig.line, rig.s_m, 0.0, 30.0), nan = lost;
+  lost.validity = world::Validity::kLost;
+  nan.vx_mps = kUnset;
+  for (const world::EgoState& ego : {lost, nan, world::EgoState{}}) {
+    const Output out = step(rig.params, rig.line, rig.track, rig.state, ego, green(30.0), kUnset,
+                            Followed::kDrive, rig.now);
+    EXPECT_EQ(out.reason, Reason::kNoEgo);
+    EXPECT_TRUE(out.drive.points.empty());
+    EXPECT_TRUE(out.stop.points.empty());
+    EXPECT_FALSE(out.next.started);
+  }
+}
+
+TEST(Planning, TheLineLimitsTheSpeed) {
+  Rig rig;
+  rig.params.line.speed_max_mps = 25.0;
+  rig.line = prepare(rig.params, rig.track).value();
+  Output out;
+  for (int i = 0; i < 600; ++i) out = rig.tick(green(60.0));
+  EXPECT_NEAR(rig.speed_mps, 25.0, 0.1);
+  EXPECT_EQ(out.reason, Reason::kLineLimit);
+  EXPECT_NEAR(out.target_speed_mps, 25.0, 1e-9);
+}
+
+TEST(Planning, PrepareNamesTheIllegalParameter) {
+  const world::TrackMap track = testing::stadium();
+  const auto place = [&](auto change) {
+    Params p = recommended();
+    change(p);
+    const auto line = prepare(p, track);
+    return line ? std::string("legal") : line.error().place;
+  };
+  EXPECT_EQ(place([](Params&) {}), "legal");
+  EXPECT_EQ(place([](Params& p) { p.jerk_max_mps3 = 0.0; }), "jerk_max_mps3");
+  EXPECT_EQ(place([](Params& p) { p.line.friction.friction = kUnset; }), "line.friction.friction");
+  EXPECT_EQ(place([](Params& p) { p.line.offset_m = 7.0; }), "line.offset_m");
+}
+
+}  // namespace
+}  // namespace pitwall::planning
