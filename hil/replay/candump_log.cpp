@@ -15,7 +15,8 @@ constexpr std::uint32_t kExtendedFlag = 0x80000000;
 constexpr std::size_t kStandardDigits = 3, kExtendedDigits = 8;
 constexpr std::size_t kMaxClassicBytes = 8;
 constexpr int kStampDigits = 9;
-constexpr std::size_t kMaxSecondDigits = 10;  // until the year 2286
+constexpr std::size_t kMaxSecondDigits = 10;
+constexpr std::int64_t kMaxSeconds = 9'000'000'000;  // the year 2255; int64 nanoseconds end later
 
 int hex_value(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -51,6 +52,7 @@ bool read_stamp(Line& line, UtcTime& out) {
   for (; is_digit(line.peek()) && digits < kMaxSecondDigits; ++line.at, ++digits)
     whole_s = whole_s * 10 + (line.peek() - '0');
   if (digits == 0) return line.refuse("expected the seconds of a stamp");
+  if (whole_s > kMaxSeconds) return line.refuse("stamp out of range");
   if (!line.take('.', "expected '.' after at most 10 digits of seconds")) return false;
   int places = 0;
   for (; is_digit(line.peek()) && places < kStampDigits; ++line.at, ++places)
