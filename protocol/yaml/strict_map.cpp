@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocol/yaml/strict_map.hpp"
 
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -67,6 +68,36 @@ std::optional<std::int64_t> parsed_integer(std::string_view text) {
     return parsed(text.substr(2), value, 16);
   }
   return parsed(text, value, 10);
+}
+
+// Notes where a document starts, and nothing else.
+class StartOfDocument : public YAML::EventHandler {
+ public:
+  YAML::Mark mark = YAML::Mark::null_mark();
+
+  void OnDocumentStart(const YAML::Mark& at) override { mark = at; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+// Where a second document, or text that belongs to none, starts. YAML::LoadAll would tell, but
+// it never returns for a text such as ",a" (yaml-cpp 0.7).
+std::optional<YAML::Mark> second_document(const std::string& text) {
+  std::istringstream in(text);
+  YAML::Parser parser(in);
+  StartOfDocument start;
+  if (!parser.HandleNextDocument(start)) return std::nullopt;
+  if (!parser.HandleNextDocument(start)) return std::nullopt;
+  return start.mark;
 }
 
 }  // namespace
@@ -280,15 +311,15 @@ StrictMap Document::root() const {
 Result<Document, Problem> load_text(std::string_view text, const std::string& name) {
   if (text.size() > kMaxFileBytes) return Unexpected{Problem{name, "file is too large"}};
   try {
-    const std::vector<YAML::Node> roots = YAML::LoadAll(std::string{text});
-    if (roots.empty()) return Unexpected{Problem{name, "the document is empty"}};
-    if (roots.size() > 1) {
-      return Unexpected{
-          Problem{place_of(name, roots[1].Mark()), "a second document in the same file"}};
+    const std::string copy{text};
+    if (const auto mark = second_document(copy)) {
+      return Unexpected{Problem{place_of(name, *mark), "text after the end of the document"}};
     }
+    const YAML::Node root = YAML::Load(copy);
+    if (root.IsNull()) return Unexpected{Problem{name + ":1:1", "the document is empty"}};
     Document document;
     document.name_ = name;
-    document.content_ = std::make_shared<const Document::Content>(Document::Content{roots[0]});
+    document.content_ = std::make_shared<const Document::Content>(Document::Content{root});
     (void)document.root();  // the root must be a mapping without duplicates
     return document;
   } catch (const InputError& e) {

@@ -6,7 +6,7 @@
 //           it into a Problem, so that no exception leaves the reader.
 //
 //   auto car = yaml::load_file(path);
-//   auto mass_kg = yaml::read(*car, [](yaml::StrictMap& m) { return m.number("mass_kg", 1, 5e3); });
+//   auto mass_kg = yaml::read(*car, [](auto& map) { return map.number("mass_kg", 1, 5000); });
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

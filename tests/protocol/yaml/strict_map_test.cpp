@@ -101,7 +101,13 @@ TEST(StrictMap, RefusesDocumentsThatAreNotOneMapping) {
   EXPECT_EQ(load_complaint("a: 1\nb: 2\na: 3\n"), "t.yaml:3:1: error: duplicate key \"a\"");
   EXPECT_NE(load_complaint(""), "");
   EXPECT_NE(load_complaint("[1, 2]"), "");
-  EXPECT_NE(load_complaint("a: 1\n---\nb: 2\n"), "");
+  EXPECT_EQ(load_complaint("a: 1\n---\nb: 2\n"),
+            "t.yaml:2:1: error: text after the end of the document");
+  EXPECT_EQ(load_complaint("---\na: 1\n...\n# remark\n"), "");
+  for (const char* text :
+       {",a\nb: 1\n", "a: 1\n,b\n", "]", "}", "a: 1\n]", ":", "-", "%", "# only"}) {
+    EXPECT_NE(load_complaint(text), "") << text;  // and it returns: LoadAll does not
+  }
   EXPECT_NE(load_complaint("? [1, 2]\n: 3\n"), "");
   EXPECT_EQ(load_complaint("a: [1, 2\nb: 3\n").substr(0, 7), "t.yaml:");
   EXPECT_NE(complaint("m: {a: 1, a: 2}", [](StrictMap& m) { m.map("m"); }), "");
