@@ -55,7 +55,8 @@ int drive(const pipeline::Setup& setup, const io::Arguments& args, io::Rim& rim,
                                                   .dt = now - last,
                                                   .can = heard.can,
                                                   .sensors = heard.sensors,
-                                                  .requests = {.arm = args.arm}});
+                                                  .requests = {.arm = args.arm},
+                                                  .gnss_byte_at = heard.gnss_byte_at});
     rim.write(out.passed.frames.span());
     const Instant done = transport::monotonic_now();
     tally.add(done - now, tick.missed);

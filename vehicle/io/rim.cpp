@@ -45,7 +45,9 @@ Rim::Heard Rim::read() {
   const std::size_t count = can_.receive(frames_);
   heard.can = std::span<const can::ReceivedFrame>(frames_).first(count);
   for (std::size_t unit = 0; unit < gnss_.size(); ++unit)
-    receive(gnss_[unit], receivers_[unit], heard.sensors);
+    if (receive(gnss_[unit], receivers_[unit], heard.sensors) > 0)
+      gnss_byte_at_[unit] = transport::monotonic_now();
+  heard.gnss_byte_at = gnss_byte_at_;
   return heard;
 }
 

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,7 @@ class Rim {
   struct Heard {
     std::span<const can::ReceivedFrame> can;  // valid until the next read()
     world::SensorInput sensors;
+    std::array<std::optional<Instant>, world::kGnssUnits> gnss_byte_at;  // newest, if any
   };
   Heard read();
   void write(std::span<const can::Frame> frames);
@@ -51,6 +53,7 @@ class Rim {
   transport::UdpSocket radio_;
   transport::UdpAddress base_;
   std::vector<can::ReceivedFrame> frames_;
+  std::array<std::optional<Instant>, world::kGnssUnits> gnss_byte_at_{};
   telemetry::Source source_;
   std::uint32_t run_ = 0, sequence_ = 0;
   telemetry::EncodeCounters encoded_;

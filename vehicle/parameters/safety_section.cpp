@@ -67,6 +67,7 @@ void read_watchdog(yaml::StrictMap map, safety::WatchdogParams& watchdog) {
 
 void read_faults(yaml::StrictMap map, safety::FaultParams& faults) {
   faults.dead_reckoning_max = time_s(map, "dead_reckoning_max_s", 0.1, 10.0);
+  faults.bus_silence_max = time_s(map, "bus_silence_max_s", 0.02, 1.0);
   faults.position_sigma_max_m = map.number("position_sigma_max_m", 0.1, 10.0);
   faults.control_failures = static_cast<std::uint8_t>(map.integer("control_failures", 1, 20));
   faults.refused_ticks = static_cast<std::uint8_t>(map.integer("refused_ticks", 1, 20));
@@ -104,6 +105,8 @@ void read_supervisor(yaml::StrictMap map, safety::SupervisorParams& supervisor) 
   supervisor.steer_slew_rad_per_s = map.number("steer_slew_rad_per_s", 0.1, 2.0);
   supervisor.throttle_rise_per_s = map.number("throttle_rise_per_s", 0.1, 10.0);
   supervisor.brake_rise_kpa_per_s = map.number("brake_rise_kpa_per_s", 1000.0, 30000.0);
+  supervisor.brake_fall_kpa_per_s = map.number("brake_fall_kpa_per_s", 1000.0, 60000.0);
+  supervisor.shift_least = time_s(map, "shift_least_s", 0.1, 2.0);
   supervisor.go_needs_driving_state = map.flag("go_needs_driving_state");
 }
 
@@ -135,6 +138,22 @@ void read_gate(yaml::StrictMap map, safety::GateParams& gate) {
   gate.command_age_max = time_s(map, "command_age_max_s", 0.01, 0.2);
 }
 
+// What the supervisor may ask for must be what the gate lets pass: a command at its own limit would
+// otherwise be refused.
+void check_slews(const yaml::StrictMap& map, const CarParams& params) {
+  const safety::SupervisorParams& s = params.supervisor;
+  const safety::GateParams& g = params.gate;
+  if (to_deg(s.steer_slew_rad_per_s) * s.steering_ratio >= g.steer_slew_deg_per_s)
+    map.fail("steer_slew_rad_per_s", "at the motor this is not below gate.steer_slew_deg_per_s");
+  if (100.0 * s.throttle_rise_per_s >= g.throttle_rise_percent_per_s)
+    map.fail("throttle_rise_per_s", "not below gate.throttle_rise_percent_per_s");
+  if (s.brake_rise_kpa_per_s >= g.brake_rise_kpa_per_s)
+    map.fail("brake_rise_kpa_per_s", "not below gate.brake_rise_kpa_per_s");
+  if (s.brake_fall_kpa_per_s >= g.brake_fall_kpa_per_s)
+    map.fail("brake_fall_kpa_per_s", "not below gate.brake_fall_kpa_per_s");
+  if (s.shift_least <= g.shift_least) map.fail("shift_least_s", "not above gate.shift_least_s");
+}
+
 }  // namespace
 
 void read_gateway(yaml::StrictMap map, CarParams& params) {
@@ -146,9 +165,11 @@ void read_gateway(yaml::StrictMap map, CarParams& params) {
 
 void read_safety(yaml::StrictMap map, CarParams& params) {
   read_watchdog(map.map("watchdog"), params.watchdog);
-  read_supervisor(map.map("supervisor"), params.supervisor);
+  yaml::StrictMap supervisor = map.map("supervisor");
+  read_supervisor(supervisor, params.supervisor);
   params.supervisor.steering_ratio = params.outbound.steering_ratio;
   read_gate(map.map("gate"), params.gate);
+  check_slews(supervisor, params);
 }
 
 }  // namespace pitwall::parameters

@@ -91,6 +91,7 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
                                {.sensors = in.sensors,
                                 .signals = out.heard.signals,
                                 .race_control = out.heard.race_control,
+                                .gnss_byte_at = in.gnss_byte_at,
                                 .planner_at = car.plan.at,
                                 .radio_at = in.radio_at},
                                in.now);

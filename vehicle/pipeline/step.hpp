@@ -9,6 +9,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 
@@ -27,7 +28,9 @@ struct Inputs {
   const world::SensorInput& sensors;
   safety::OperatorRequests requests;
   double operator_speed_limit_mps = kUnset;  // unset: none
-  std::optional<Instant> radio_at{};         // newest authentic packet of the base station
+  // Newest byte of each receiver, where the rim knows it; else any sample of the unit counts.
+  std::array<std::optional<Instant>, world::kGnssUnits> gnss_byte_at{};
+  std::optional<Instant> radio_at{};  // newest authentic packet of the base station
 };
 
 struct Outputs {
