@@ -1,5 +1,5 @@
-// Gear choice from a table over speed: up at one speed, down at a lower one, a minimum dwell between
-// shifts and never two gears at once.
+// Gear choice from a table over speed: up at one speed, down at a lower one, a minimum dwell
+// between shifts and never two gears at once.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

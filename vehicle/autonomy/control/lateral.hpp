@@ -7,8 +7,8 @@
 //          where * is the trajectory d = lookahead_base + lookahead_per_speed * vx ahead of the
 //          car's projection on it, and the car is where it is (as published)
 //   limit  |angle| <= angle_max_rad. Below gain_speed_floor_mps the first bracket's gain holds
-//   errors verdict; without a usable trajectory or ego the last angle is held. Too far away from the
-//          trajectory the law still acts, and the verdict says so
+//   errors verdict; without a usable trajectory or ego the last angle is held. Too far away from
+//          the trajectory the law still acts, and the verdict says so
 //   cost   O(trajectory points), no allocation
 //   source Saba et al., Fast and Modular Autonomy Software, sec. controls (signs as in Rajamani)
 // SPDX-License-Identifier: Apache-2.0

@@ -62,8 +62,9 @@ struct LeverArm {  // from the centre of gravity, Body
   double x_m = 0.0, y_m = 0.0, z_m = 0.0;
 };
 
-// One measurement in Map or Body. kPosition: a, b = x, y [m] of the antenna. kVelocity: a, b = east,
-// north [m/s] of the antenna. kHeading: a = yaw [rad]. kWheelSpeed: a = vx [m/s]. kSlip: a = vy.
+// One measurement in Map or Body. kPosition: a, b = x, y [m] of the antenna. kVelocity: a, b =
+// east, north [m/s] of the antenna. kHeading: a = yaw [rad]. kWheelSpeed: a = vx [m/s]. kSlip:
+// a = vy.
 // kWiden measures nothing: it takes confidence in the position away, sigma_a and sigma_b [m].
 struct Measurement {
   Kind kind = Kind::kNone;

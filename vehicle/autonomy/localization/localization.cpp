@@ -265,7 +265,7 @@ double age_s(const State& state, Source source, Instant now) {
   return youngest;
 }
 
-// Positions came back after dead reckoning and do not fit what was reckoned: the reckoning is wrong.
+// Positions came back after dead reckoning and do not fit: the reckoning is wrong.
 void widen(const Context& c, Instant at) {
   const double sigma_m = c.params.lost_sigma_max_m;
   (void)insert(c.state().timeline, c.params.timeline,

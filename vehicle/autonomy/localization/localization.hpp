@@ -1,5 +1,5 @@
-// Where the car is: an extended Kalman filter over two GNSS units with dual-antenna heading, the IMU
-// and the wheel speeds, with late measurements put back where they belong in time.
+// Where the car is: an extended Kalman filter over two GNSS units with dual-antenna heading, the
+// IMU and the wheel speeds, with late measurements put back where they belong in time.
 //   in     SensorInput (WGS 84, Body), VehicleSignals, banking of the road at the last estimate
 //   out    EgoState at `now`, always; a verdict per sample; next state
 //   rate   100 Hz

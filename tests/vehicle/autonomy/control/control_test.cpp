@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/allocation_guard.hpp"
 #include "tests/vehicle/autonomy/control/single_track.hpp"
 
 namespace pitwall::control {
@@ -100,6 +101,20 @@ TEST(Control, CommandIsFiniteWhateverTheEgo) {
       EXPECT_LE(out.command.brake_kpa, p.longitudinal.brake_max_kpa);
     }
   }
+}
+
+TEST(Control, TakesNothingFromTheHeap) {
+  if (!pitwall::testing::kAllocationsCounted) GTEST_SKIP() << "the sanitizer has its own heap";
+  const Params p = recommended();
+  const LateralGains gains = gains_of(p);
+  const auto path = oval();
+  const world::Trajectory t = path.window(0.0, 30.0);
+  testing::Car car;
+  car.vx_mps = 30.0;
+  EXPECT_EQ(pitwall::testing::allocations_of([&] {
+              (void)step(p, gains, {}, car.ego(Instant{}), t, Instant{}, milliseconds(10));
+            }),
+            0u);
 }
 
 TEST(Control, PrepareNamesTheIllegalParameter) {

@@ -1,6 +1,6 @@
-// A small plant for the tests of control: a single-track car with saturating tyres on a banked road,
-// steering delay and lag, first-order brake and throttle, driving a closed path of its own. Written
-// for the tests alone; shares nothing with the code under test or with the bench.
+// A small plant for the tests of control: a single-track car with saturating tyres on a banked
+// road, steering delay and lag, first-order brake and throttle, driving a closed path of its own.
+// Written for the tests alone; shares nothing with the code under test or with the bench.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "tests/support/allocation_guard.hpp"
 #include "tests/vehicle/autonomy/localization/drive.hpp"
 
 namespace pitwall::localization {
@@ -196,6 +197,13 @@ TEST(Localization, SecondImuStandsBy) {
   rig.run(3.0);
   EXPECT_GT(count(rig, Source::kImu, 1, Gate::kStandby), 300u);
   EXPECT_EQ(count(rig, Source::kImu, 0, Gate::kStandby), 0u);
+}
+
+TEST(Localization, TakesNothingFromTheHeap) {
+  if (!pitwall::testing::kAllocationsCounted) GTEST_SKIP() << "the sanitizer has its own heap";
+  Rig rig = rig_on(banked_turn());
+  EXPECT_EQ(pitwall::testing::allocations_of([&] { rig.run(3.0); }), 0u);
+  EXPECT_EQ(rig.out.ego.validity, Validity::kGood);
 }
 
 TEST(Localization, IsAFunctionOfItsArguments) {

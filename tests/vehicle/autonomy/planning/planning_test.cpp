@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "tests/support/allocation_guard.hpp"
 #include "tests/vehicle/autonomy/planning/stadium.hpp"
 
 namespace pitwall::planning {
@@ -190,6 +191,16 @@ TEST(Planning, TheLineLimitsTheSpeed) {
   EXPECT_NEAR(rig.speed_mps, 25.0, 0.1);
   EXPECT_EQ(out.reason, Reason::kLineLimit);
   EXPECT_NEAR(out.target_speed_mps, 25.0, 1e-9);
+}
+
+TEST(Planning, TakesNothingFromTheHeap) {
+  if (!pitwall::testing::kAllocationsCounted) GTEST_SKIP() << "the sanitizer has its own heap";
+  Rig rig;
+  rig.offset_m = -4.0, rig.speed_mps = 50.0;
+  EXPECT_EQ(pitwall::testing::allocations_of([&] {
+              for (int i = 0; i < 20; ++i) (void)rig.tick(green(60.0));
+            }),
+            0u);
 }
 
 TEST(Planning, PrepareNamesTheIllegalParameter) {
