@@ -17,6 +17,13 @@ void set(SignalValues& values, Signal signal, double value) {
 // a condition would compare are then those of a car that did nothing wrong yet.
 double or_zero(double value) { return std::isnan(value) ? 0.0 : value; }
 
+constexpr double kSlipSpeed_mps = 5.0;  // slower, the direction of motion says little
+
+double side_slip_deg(const plant::Truth& truth) {
+  if (truth.speed_mps < kSlipSpeed_mps) return 0.0;
+  return std::abs(to_deg(std::atan2(truth.vy_mps, truth.vx_mps)));
+}
+
 grading::Kind kind_of(scenario::ExpectKind kind) {
   switch (kind) {
     case scenario::ExpectKind::kAlways:
@@ -63,6 +70,7 @@ SignalValues observe(const SignalSources& from) {
   set(v, Signal::kPositionError,
       or_zero(std::hypot(from.car.x_m - truth.x_m, from.car.y_m - truth.y_m)));
   set(v, Signal::kYawError, or_zero(std::abs(wrap_pi(from.car.yaw_rad - truth.yaw_rad))));
+  set(v, Signal::kSideSlip, side_slip_deg(truth));
   return v;
 }
 

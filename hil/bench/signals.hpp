@@ -41,9 +41,10 @@ enum class Signal : std::uint8_t {
   kGateRefusals,   // of the car's frame gate
   kBusRefusals,    // frames that the car did not apply
   kPositionError,  // of the car's localization against the truth
-  kYawError
+  kYawError,
+  kSideSlip  // size of the angle between heading and motion; a spin is seen here. 0 below 5 m/s
 };
-inline constexpr std::size_t kSignals = 23;
+inline constexpr std::size_t kSignals = 24;
 
 inline constexpr std::array<std::string_view, kSignals> kSignalNames{"speed_mps",
                                                                      "station_m",
@@ -67,7 +68,8 @@ inline constexpr std::array<std::string_view, kSignals> kSignalNames{"speed_mps"
                                                                      "gate_refusals",
                                                                      "bus_refusals",
                                                                      "position_error_m",
-                                                                     "yaw_error_rad"};
+                                                                     "yaw_error_rad",
+                                                                     "side_slip_deg"};
 
 // What the car says of itself. Unset until it has said something.
 struct CarReport {
