@@ -43,7 +43,7 @@ int drive(const pipeline::Setup& setup, const io::Arguments& args, io::Rim& rim,
           transport::StopSignal& stop) {
   const auto car = std::make_unique<pipeline::Car>();
   io::StepTally tally;
-  io::GatewayTotals totals;
+  io::FrameTotals frames;
   transport::Ticker ticker{setup.params.rates.tick};
   Instant last = transport::monotonic_now() - setup.params.rates.tick;
   while (!stop.raised()) {
@@ -61,7 +61,9 @@ int drive(const pipeline::Setup& setup, const io::Arguments& args, io::Rim& rim,
     const Instant done = transport::monotonic_now();
     tally.add(done - now, tick.missed);
     last = now;
-    totals = {out.heard.bus.refused, out.passed.refused_total, car->gate.verdicts};
+    frames.refused = out.heard.bus.refused;
+    frames.gate_refusals = out.passed.refused_total;
+    frames.gate_verdicts = car->gate.verdicts;
     if (car->ticks % kTelemetryEvery != 0) continue;
     auto packet = pipeline::tap(setup, out,
                                 {.frames_sent = rim.can().sent,
@@ -74,8 +76,11 @@ int drive(const pipeline::Setup& setup, const io::Arguments& args, io::Rim& rim,
   }
   rim.poll_drops();
   if (args.summary_file.empty()) return 0;
-  const auto written =
-      transport::write_file(args.summary_file, io::summary_json(tally, rim, totals));
+  frames.received = rim.can().received;
+  frames.sent = rim.can().sent;
+  frames.rx_dropped = rim.can().rx_dropped_queue;
+  frames.tx_drops = rim.tx_drops();
+  const auto written = transport::write_file(args.summary_file, io::summary_json(tally, frames));
   return written ? 0 : (refuse(written.error()), kExitFailed);
 }
 

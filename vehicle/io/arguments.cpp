@@ -8,6 +8,7 @@
 namespace pitwall::io {
 
 inline constexpr int kExitUsage = 2;
+inline constexpr int kPortMax = 65'535;
 
 std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) {
   Arguments args;
@@ -19,6 +20,7 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   std::vector<std::uint16_t> ports;
   app.add_option("--gnss", ports, "UDP ports of the two GNSS receivers, e.g. 23501,23502")
       ->delimiter(',')
+      ->check(CLI::Range(1, kPortMax))
       ->expected(static_cast<int>(world::kGnssUnits))
       ->required();
   app.add_option("--radio", args.radio, "where telemetry goes, ADDRESS:PORT");
@@ -27,6 +29,8 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   app.add_flag("--arm", args.arm, "armed from the start (bench)");
   try {
     app.parse(argc, argv);
+    if (ports[0] == ports[1])
+      throw CLI::ValidationError("--gnss", "the receivers need two different ports");
   } catch (const CLI::ParseError& error) {
     const int code = app.exit(error);
     return code == 0 ? 0 : kExitUsage;

@@ -58,20 +58,20 @@ std::string refusals_json(const world::FrameRefusals& r) {
 
 }  // namespace
 
-std::string summary_json(const StepTally& tally, const Rim& rim, const GatewayTotals& totals) {
+std::string summary_json(const StepTally& tally, const FrameTotals& frames) {
   JsonCounts out;
   out.add("ticks", tally.steps());
   out.add("missed_deadlines", tally.missed_deadlines());
-  out.add("frames_received", rim.can().received);
-  out.add("frames_sent", rim.can().sent);
-  out.add("frames_refused", totals.refused.total());
-  out.add("tx_drops", rim.tx_drops());
-  out.add("rx_dropped", rim.can().rx_dropped_queue);
-  out.add("gate_refusals", totals.gate_refusals);
+  out.add("frames_received", frames.received);
+  out.add("frames_sent", frames.sent);
+  out.add("frames_refused", frames.refused.total());
+  out.add("tx_drops", frames.tx_drops);
+  out.add("rx_dropped", frames.rx_dropped);
+  out.add("gate_refusals", frames.gate_refusals);
   JsonCounts verdicts;
   for (std::size_t i = 0; i < safety::kVerdicts; ++i)
-    verdicts.add(safety::text_of(static_cast<safety::Verdict>(i)), totals.gate_verdicts[i]);
-  return "{" + out.pairs() + ",\n \"refused_by_kind\": " + refusals_json(totals.refused) +
+    verdicts.add(safety::text_of(static_cast<safety::Verdict>(i)), frames.gate_verdicts[i]);
+  return "{" + out.pairs() + ",\n \"refused_by_kind\": " + refusals_json(frames.refused) +
          ",\n \"gate_verdicts\": " + verdicts.object() +
          ",\n \"step_p50_us\": " + std::to_string(tally.quantile_us(0.5)) +
          ", \"step_p99_us\": " + std::to_string(tally.quantile_us(0.99)) +

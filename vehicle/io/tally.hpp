@@ -9,7 +9,6 @@
 #include <string>
 
 #include "protocol/vocabulary/time.hpp"
-#include "vehicle/io/rim.hpp"
 #include "vehicle/safety/frame_gate.hpp"
 #include "vehicle/world/bus_health.hpp"
 
@@ -33,12 +32,14 @@ class StepTally {
   double max_us_ = 0.0, recent_max_us_ = 0.0;
 };
 
-struct GatewayTotals {
+// Since the start.
+struct FrameTotals {
+  std::uint64_t received = 0, sent = 0, tx_drops = 0, rx_dropped = 0;
   world::FrameRefusals refused;  // of what was heard, by kind
   std::uint64_t gate_refusals = 0;
   std::array<std::uint64_t, safety::kVerdicts> gate_verdicts{};  // of what was to be said
 };
 
-std::string summary_json(const StepTally& tally, const Rim& rim, const GatewayTotals& totals);
+std::string summary_json(const StepTally& tally, const FrameTotals& frames);
 
 }  // namespace pitwall::io

@@ -5,7 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include "protocol/vocabulary/units.hpp"
 #include "vehicle/world/legal_range.hpp"
 
 namespace pitwall::pipeline {
@@ -24,12 +23,11 @@ std::optional<Problem> illegal_rates(const CarParams& p) {
 }
 
 // What control and the supervisor may ask for must be what the frame gate lets pass: else the gate
-// stops a car that does what its parameters say.
+// stops a car that does what its parameters say. Their slews are compared where the file is read.
 std::optional<Problem> refused_by_gate(const CarParams& p) {
   const safety::GateParams& gate = p.gate;
   const safety::SupervisorParams& s = p.supervisor;
   const control::LongitudinalParams& l = p.control.longitudinal;
-  const double steer_slew_deg_per_s = to_deg(s.steer_slew_rad_per_s) * p.outbound.steering_ratio;
   return world::first_illegal(std::array{
       LegalRange{"control.longitudinal.brake_max_kpa", l.brake_max_kpa, 0.0, gate.brake_max_kpa},
       LegalRange{"control.longitudinal.throttle_max (percent)", l.throttle_max * kPercent, 0.0,
@@ -38,16 +36,6 @@ std::optional<Problem> refused_by_gate(const CarParams& p) {
                  gate.brake_max_kpa},
       LegalRange{"safety.supervisor.safe_stop.hold_kpa", s.safe_stop.hold_kpa, 0.0,
                  gate.brake_max_kpa},
-      LegalRange{"safety.supervisor.steer_slew_rad_per_s (degrees at the motor)",
-                 steer_slew_deg_per_s, 0.0, gate.steer_slew_deg_per_s},
-      LegalRange{"safety.supervisor.throttle_rise_per_s (percent)",
-                 s.throttle_rise_per_s * kPercent, 0.0, gate.throttle_rise_percent_per_s},
-      LegalRange{"safety.supervisor.brake_rise_kpa_per_s", s.brake_rise_kpa_per_s, 0.0,
-                 gate.brake_rise_kpa_per_s},
-      LegalRange{"safety.supervisor.brake_fall_kpa_per_s", s.brake_fall_kpa_per_s, 0.0,
-                 gate.brake_fall_kpa_per_s},
-      LegalRange{"safety.gate.shift_least_s", gate.shift_least.seconds(), 0.0,
-                 s.shift_least.seconds()},
       LegalRange{"safety.gate.gear_max", static_cast<double>(gate.gear_max), control::kGears, 8.0},
       LegalRange{"safety.gate.command_age_max_s", gate.command_age_max.seconds(),
                  p.rates.tick.seconds(), 0.2},

@@ -65,13 +65,6 @@ TEST(Setup, RefusesWithTheNameOfTheParameter) {
       {"safe_stop.brake_max_kpa",
        [](CarParams& p, double v) { p.supervisor.safe_stop.brake_max_kpa = v; }},
       {"safe_stop.hold_kpa", [](CarParams& p, double v) { p.supervisor.safe_stop.hold_kpa = v; }},
-      {"steer_slew_rad_per_s",
-       [](CarParams& p, double v) { p.supervisor.steer_slew_rad_per_s = v; }},
-      {"throttle_rise_per_s", [](CarParams& p, double v) { p.supervisor.throttle_rise_per_s = v; }},
-      {"brake_rise_kpa_per_s",
-       [](CarParams& p, double v) { p.supervisor.brake_rise_kpa_per_s = v; }},
-      {"brake_fall_kpa_per_s",
-       [](CarParams& p, double v) { p.supervisor.brake_fall_kpa_per_s = v; }},
       {"supervisor.steering_ratio",
        [](CarParams& p, double v) { p.supervisor.steering_ratio = v; }},
   };
@@ -106,13 +99,8 @@ TEST(Setup, RefusesRatesThatNoLoopCanKeep) {
 TEST(Setup, RefusesAGateThatIsTighterThanTheCar) {
   const std::vector<std::function<void(safety::GateParams&)>> tighter{
       [](auto& g) { g.brake_max_kpa = 1200.0; },
-      [](auto& g) { g.brake_rise_kpa_per_s = 10'000.0; },
-      [](auto& g) { g.brake_fall_kpa_per_s = 10'000.0; },
-      [](auto& g) { g.steer_slew_deg_per_s = 300.0; },
       [](auto& g) { g.throttle_max_percent = 50.0; },
-      [](auto& g) { g.throttle_rise_percent_per_s = 100.0; },
       [](auto& g) { g.gear_max = 4; },
-      [](auto& g) { g.shift_least = milliseconds(900); },
       [](auto& g) { g.command_age_max = milliseconds(5); },
       [](auto& g) { g.brake_max_kpa = kUnset; },
   };

@@ -185,7 +185,7 @@ TEST(Step, NoiseNeverMovesADisarmedCar) {
   }
 }
 
-// Requests are noise too: actuator frames leave in armed modes only, and never with NaN behind them.
+// Requests are noise too: actuator frames leave in armed modes only, never with NaN behind them.
 TEST(Step, WithNoiseAndRandomRequestsOnlyAnArmedCarSpeaksToActuators) {
   const auto car = new_car();
   Random random{7};

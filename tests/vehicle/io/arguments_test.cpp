@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/io/arguments.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace pitwall::io {
+namespace {
+
+using Words = std::vector<std::string>;
+
+struct Parsed {
+  std::variant<Arguments, int> result;
+  std::string out, err;
+
+  bool refused() const { return std::holds_alternative<int>(result); }
+  int code() const { return std::get<int>(result); }
+  const Arguments& args() const { return std::get<Arguments>(result); }
+};
+
+Parsed parse(const Words& words) {
+  std::vector<const char*> argv{"pitwall-vehicle"};
+  for (const std::string& word : words) argv.push_back(word.c_str());
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
+  auto result = parse_arguments(static_cast<int>(argv.size()), argv.data());
+  std::string out = ::testing::internal::GetCapturedStdout();
+  return {std::move(result), std::move(out), ::testing::internal::GetCapturedStderr()};
+}
+
+const Words kLeast{"--car", "a.yaml", "--track", "b.yaml",
+                   "--can", "can0",   "--gnss",  "23501,23502"};
+
+Words with(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+TEST(Arguments, TheLeastHaveDefaults) {
+  const Parsed p = parse(kLeast);
+  ASSERT_FALSE(p.refused()) << p.err;
+  EXPECT_EQ(p.args().car_file, "a.yaml");
+  EXPECT_EQ(p.args().track_file, "b.yaml");
+  EXPECT_EQ(p.args().can_interface, "can0");
+  EXPECT_EQ(p.args().gnss_ports, (std::array<std::uint16_t, 2>{23501, 23502}));
+  EXPECT_EQ(p.args().radio, "127.0.0.1:23431");
+  EXPECT_EQ(p.args().summary_file, "");
+  EXPECT_FALSE(p.args().simulation);
+  EXPECT_FALSE(p.args().arm) << "a car is armed on request only";
+  EXPECT_EQ(p.out + p.err, "");
+}
+
+TEST(Arguments, EveryOptionArrives) {
+  const Parsed p = parse(
+      with(kLeast, {"--radio", "10.0.0.5:99", "--summary", "s.json", "--simulation", "--arm"}));
+  ASSERT_FALSE(p.refused()) << p.err;
+  EXPECT_EQ(p.args().radio, "10.0.0.5:99");
+  EXPECT_EQ(p.args().summary_file, "s.json");
+  EXPECT_TRUE(p.args().simulation);
+  EXPECT_TRUE(p.args().arm);
+}
+
+TEST(Arguments, HelpIsNoError) {
+  const Parsed p = parse({"--help"});
+  ASSERT_TRUE(p.refused());
+  EXPECT_EQ(p.code(), 0);
+  for (const char* option :
+       {"--car", "--track", "--can", "--gnss", "--radio", "--summary", "--simulation", "--arm"})
+    EXPECT_NE(p.out.find(option), std::string::npos) << option;
+}
+
+TEST(Arguments, EachOfTheLeastIsNeeded) {
+  for (std::size_t i = 0; i < kLeast.size(); i += 2) {
+    Words words = kLeast;
+    words.erase(words.begin() + static_cast<std::ptrdiff_t>(i),
+                words.begin() + static_cast<std::ptrdiff_t>(i) + 2);
+    const Parsed p = parse(words);
+    ASSERT_TRUE(p.refused()) << kLeast[i];
+    EXPECT_EQ(p.code(), 2);
+    EXPECT_NE(p.err.find(kLeast[i]), std::string::npos) << p.err;
+  }
+}
+
+TEST(Arguments, WrongUsageIsCodeTwoAndSaysWhy) {
+  const std::vector<Words> wrong{
+      {},
+      with(kLeast, {"--unknown"}),
+      with(kLeast, {"stray"}),
+      with(kLeast, {"--radio"}),
+      with(kLeast, {"--can", "can1"}),
+      with(kLeast, {"--arm=maybe"}),
+  };
+  for (const Words& words : wrong) {
+    const Parsed p = parse(words);
+    ASSERT_TRUE(p.refused()) << (words.empty() ? "nothing" : words.back());
+    EXPECT_EQ(p.code(), 2);
+    EXPECT_FALSE(p.err.empty());
+  }
+}
+
+TEST(Arguments, PortsAreTwoNumbersOfTheRightSize) {
+  for (const char* ports : {"23501", "23501,23502,23503", "a,b", "70000,23502", "-1,23502",
+                            "0,23502", "23501,0", "23501,23501", ",", "", "1.5,2"}) {
+    Words words = kLeast;
+    words.back() = ports;
+    const Parsed p = parse(words);
+    ASSERT_TRUE(p.refused()) << ports;
+    EXPECT_EQ(p.code(), 2) << ports;
+    EXPECT_FALSE(p.err.empty()) << ports;
+  }
+}
+
+}  // namespace
+}  // namespace pitwall::io

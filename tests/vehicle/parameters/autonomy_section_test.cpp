@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "protocol/vocabulary/units.hpp"
+#include "tests/vehicle/parameters/mutation.hpp"
+#include "vehicle/parameters/car_file.hpp"
+
+namespace pitwall::parameters {
+namespace {
+
+using pipeline::CarParams;
+using testing::av21;
+using testing::refusal;
+using testing::Told;
+using testing::with;
+
+Told localization(const CarParams& p) {
+  return {
+      {"localization.units[0].antenna_m[0]", p.localization.units[0].antenna.x_m},
+      {"localization.units[0].antenna_m[1]", p.localization.units[0].antenna.y_m},
+      {"localization.units[0].antenna_m[2]", p.localization.units[0].antenna.z_m},
+      {"localization.units[0].baseline_yaw_deg", to_deg(p.localization.units[0].baseline_yaw_rad)},
+      {"localization.units[1].antenna_m[0]", p.localization.units[1].antenna.x_m},
+      {"localization.units[1].antenna_m[1]", p.localization.units[1].antenna.y_m},
+      {"localization.units[1].antenna_m[2]", p.localization.units[1].antenna.z_m},
+      {"localization.units[1].baseline_yaw_deg", to_deg(p.localization.units[1].baseline_yaw_rad)},
+      {"localization.timeline.gyro_rad_per_sqrt_s",
+       p.localization.timeline.noise.gyro_rad_per_sqrt_s},
+      {"localization.timeline.accel_mps_per_sqrt_s",
+       p.localization.timeline.noise.accel_mps_per_sqrt_s},
+      {"localization.timeline.lateral_mps_per_sqrt_s",
+       p.localization.timeline.noise.lateral_mps_per_sqrt_s},
+      {"localization.timeline.gyro_bias_rad_per_s_sqrt_s",
+       p.localization.timeline.noise.gyro_bias_rad_per_s_sqrt_s},
+      {"localization.timeline.position_m_per_sqrt_s",
+       p.localization.timeline.noise.position_m_per_sqrt_s},
+      {"localization.timeline.gate_nis[0]", p.localization.timeline.gate_nis[0]},
+      {"localization.timeline.gate_nis[1]", p.localization.timeline.gate_nis[1]},
+      {"localization.timeline.window_s", p.localization.timeline.window_s},
+      {"localization.position_sigma_floor_m", p.localization.position_sigma_floor_m},
+      {"localization.position_sigma_max_m", p.localization.position_sigma_max_m},
+      {"localization.velocity_sigma_mps", p.localization.velocity_sigma_mps},
+      {"localization.heading_sigma_floor_rad", p.localization.heading_sigma_floor_rad},
+      {"localization.heading_sigma_max_rad", p.localization.heading_sigma_max_rad},
+      {"localization.wheel_sigma_mps", p.localization.wheel_sigma_mps},
+      {"localization.wheel_sigma_per_speed", p.localization.wheel_sigma_per_speed},
+      {"localization.slip_sigma_mps", p.localization.slip_sigma_mps},
+      {"localization.slip_after_s", p.localization.slip_after_s},
+      {"localization.cg_to_rear_m", p.localization.cg_to_rear_m},
+      {"localization.rear_slip_rad_per_mps2", p.localization.rear_slip_rad_per_mps2},
+      {"localization.imu_timeout_s", p.localization.imu_timeout_s},
+      {"localization.good_age_max_s", p.localization.good_age_max_s},
+      {"localization.dead_reckoning_max_s", p.localization.dead_reckoning_max_s},
+      {"localization.good_sigma_max_m", p.localization.good_sigma_max_m},
+      {"localization.lost_sigma_max_m", p.localization.lost_sigma_max_m},
+      {"localization.reset_after_s", p.localization.reset_after_s},
+  };
+}
+
+Told planning(const CarParams& p) {
+  return {
+      {"planning.line.offset_m", p.planning.line.offset_m},
+      {"planning.line.wall_clearance_m", p.planning.line.wall_clearance_m},
+      {"planning.line.spacing_m", p.planning.line.spacing_m},
+      {"planning.line.speed_max_mps", p.planning.line.speed_max_mps},
+      {"planning.line.grip_share", p.planning.line.grip_share},
+      {"planning.line.friction.friction", p.planning.line.friction.friction},
+      {"planning.line.friction.downforce_per_m", p.planning.line.friction.downforce_per_m},
+      {"planning.line.friction.drag_per_m", p.planning.line.friction.drag_per_m},
+      {"planning.line.friction.accel_max_mps2", p.planning.line.friction.accel_max_mps2},
+      {"planning.line.friction.power_w_per_kg", p.planning.line.friction.power_w_per_kg},
+      {"planning.line.friction.brake_max_mps2", p.planning.line.friction.brake_max_mps2},
+      {"planning.green_speed_mps", p.planning.green_speed_mps},
+      {"planning.caution_speed_mps", p.planning.caution_speed_mps},
+      {"planning.accel_max_mps2", p.planning.accel_max_mps2},
+      {"planning.decel_max_mps2", p.planning.decel_max_mps2},
+      {"planning.jerk_max_mps3", p.planning.jerk_max_mps3},
+      {"planning.speed_band_mps", p.planning.speed_band_mps},
+      {"planning.stop_decel_max_mps2", p.planning.stop_decel_max_mps2},
+      {"planning.stop_jerk_max_mps3", p.planning.stop_jerk_max_mps3},
+      {"planning.stop_grip_share", p.planning.stop_grip_share},
+      {"planning.point_spacing_m", p.planning.point_spacing_m},
+      {"planning.merge_from_m", p.planning.merge_from_m},
+      {"planning.merge_time_s", p.planning.merge_time_s},
+      {"planning.merge_least_m", p.planning.merge_least_m},
+  };
+}
+
+Told control(const CarParams& p) {
+  Told told{
+      {"control.bicycle.mass_kg", p.control.bicycle.mass_kg},
+      {"control.bicycle.yaw_inertia_kg_m2", p.control.bicycle.yaw_inertia_kg_m2},
+      {"control.bicycle.cg_to_front_m", p.control.bicycle.cg_to_front_m},
+      {"control.bicycle.cg_to_rear_m", p.control.bicycle.cg_to_rear_m},
+      {"control.bicycle.cornering_front_n_per_rad", p.control.bicycle.cornering_front_n_per_rad},
+      {"control.bicycle.cornering_rear_n_per_rad", p.control.bicycle.cornering_rear_n_per_rad},
+      {"control.lateral.lookahead_base_m", p.control.lateral.lookahead_base_m},
+      {"control.lateral.lookahead_per_speed_s", p.control.lateral.lookahead_per_speed_s},
+      {"control.lateral.angle_max_rad", p.control.lateral.angle_max_rad},
+      {"control.lateral.gain_speed_floor_mps", p.control.lateral.gain_speed_floor_mps},
+      {"control.lateral.deviation_max_m", p.control.lateral.deviation_max_m},
+      {"control.longitudinal.kp_per_mps", p.control.longitudinal.kp_per_mps},
+      {"control.longitudinal.feedforward_per_mps", p.control.longitudinal.feedforward_per_mps},
+      {"control.longitudinal.brake_kpa_per_command", p.control.longitudinal.brake_kpa_per_command},
+      {"control.longitudinal.speed_preview_s", p.control.longitudinal.speed_preview_s},
+      {"control.longitudinal.throttle_max", p.control.longitudinal.throttle_max},
+      {"control.longitudinal.throttle_rise_per_s", p.control.longitudinal.throttle_rise_per_s},
+      {"control.longitudinal.throttle_fall_per_s", p.control.longitudinal.throttle_fall_per_s},
+      {"control.longitudinal.brake_max_kpa", p.control.longitudinal.brake_max_kpa},
+      {"control.longitudinal.brake_rise_kpa_per_s", p.control.longitudinal.brake_rise_kpa_per_s},
+      {"control.longitudinal.brake_fall_kpa_per_s", p.control.longitudinal.brake_fall_kpa_per_s},
+      {"control.longitudinal.hold_speed_mps", p.control.longitudinal.hold_speed_mps},
+      {"control.longitudinal.hold_brake_kpa", p.control.longitudinal.hold_brake_kpa},
+      {"control.gear.up_above_mps[0]", p.control.gear.up_above_mps[0]},
+      {"control.gear.up_above_mps[1]", p.control.gear.up_above_mps[1]},
+      {"control.gear.up_above_mps[2]", p.control.gear.up_above_mps[2]},
+      {"control.gear.up_above_mps[3]", p.control.gear.up_above_mps[3]},
+      {"control.gear.up_above_mps[4]", p.control.gear.up_above_mps[4]},
+      {"control.gear.down_below_mps[0]", p.control.gear.down_below_mps[0]},
+      {"control.gear.down_below_mps[1]", p.control.gear.down_below_mps[1]},
+      {"control.gear.down_below_mps[2]", p.control.gear.down_below_mps[2]},
+      {"control.gear.down_below_mps[3]", p.control.gear.down_below_mps[3]},
+      {"control.gear.down_below_mps[4]", p.control.gear.down_below_mps[4]},
+      {"control.gear.dwell_s", p.control.gear.dwell_s},
+  };
+  for (std::size_t i = 0; i < control::kSpeedBrackets; ++i) {
+    const std::string bracket = "control.lateral.brackets[" + std::to_string(i) + "].";
+    for (std::size_t k = 0; k < 4; ++k)
+      told[bracket + "q[" + std::to_string(k) + "]"] = p.control.lateral.weights[i].state[k];
+    told[bracket + "r"] = p.control.lateral.weights[i].steering;
+  }
+  return told;
+}
+
+TEST(AutonomySection, EachNumberOfLocalizationMovesItsOwnParameter) {
+  testing::expect_each_number_to_move_its_own("localization", localization);
+}
+
+TEST(AutonomySection, EachNumberOfPlanningMovesItsOwnParameter) {
+  testing::expect_each_number_to_move_its_own("planning", planning);
+}
+
+TEST(AutonomySection, EachNumberOfControlMovesItsOwnParameter) {
+  testing::expect_each_number_to_move_its_own("control", control);
+}
+
+TEST(AutonomySection, BracketsBeginWhereTheControllerHasThem) {
+  const std::string why = refusal(with(av21(), "from_mps: 25", "from_mps: 24"));
+  EXPECT_NE(why.find("from_mps"), std::string::npos) << why;
+  EXPECT_NE(why.find("25"), std::string::npos) << why;
+}
+
+TEST(AutonomySection, EveryUnitAndEveryBracketIsNeededOnce) {
+  int rows = 0;
+  for (const testing::Piece& line : testing::lines(av21())) {
+    const bool unit = line.text.find("antenna_m") != std::string::npos;
+    if (!unit && line.text.find("from_mps") == std::string::npos) continue;
+    const std::string row = av21().substr(line.from, line.to - line.from);
+    for (const std::string& instead : {std::string{}, row + row})
+      EXPECT_NE(refusal(testing::replaced(av21(), line, instead)).find(unit ? "units" : "bracket"),
+                std::string::npos)
+          << line.text;
+    ++rows;
+  }
+  EXPECT_EQ(rows, 2 + static_cast<int>(control::kSpeedBrackets));
+}
+
+}  // namespace
+}  // namespace pitwall::parameters
