@@ -15,6 +15,13 @@ namespace {
 constexpr double kHintReach_m = 50.0;
 constexpr int kProfileLaps = 2;  // the second lap starts from what the first one ended with
 
+// wrap_pi for an angle that is at most one turn away: without the division, for at().
+double within_a_turn(double angle_rad) {
+  constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+  if (angle_rad > std::numbers::pi) return angle_rad - kTurn_rad;
+  return angle_rad < -std::numbers::pi ? angle_rad + kTurn_rad : angle_rad;
+}
+
 double mix(double a, double b, double t) { return a + t * (b - a); }
 
 // Arc length along the offset line at each of the track's points, and its whole length.
@@ -40,6 +47,8 @@ LinePoint sample(const world::TrackMap& track, double offset_m, double s_m, doub
           .x_m = p.x_m,
           .y_m = p.y_m,
           .yaw_rad = wrap_pi(p.yaw_rad),
+          .cos_yaw = std::cos(p.yaw_rad),
+          .sin_yaw = std::sin(p.yaw_rad),
           .curvature_per_m = curvature_per_m,
           .bank_rad = p.bank_rad};
 }
@@ -117,8 +126,6 @@ LinePoint Line::at(double s_m) const {
   const LinePoint &a = points[i], &b = points[(i + 1) % points.size()];
   // A cubic through both ends with their headings: the chord alone would cut the corner.
   const double along = spacing_m * t, h = spacing_m;
-  const double c1 = std::cos(a.yaw_rad), s1 = std::sin(a.yaw_rad);
-  const double c2 = std::cos(b.yaw_rad), s2 = std::sin(b.yaw_rad);
   const double u2 = t * t, u3 = u2 * t;
   const auto hermite = [&](double p, double m, double q, double n) {
     return (2 * u3 - 3 * u2 + 1) * p + (u3 - 2 * u2 + t) * h * m + (3 * u2 - 2 * u3) * q +
@@ -126,11 +133,12 @@ LinePoint Line::at(double s_m) const {
   };
   LinePoint p = a;
   p.s_m = wrapped_m;
+  p.cos_yaw = p.sin_yaw = kUnset;
   const bool across_start = b.track_s_m < a.track_s_m;
   p.track_s_m = across_start ? a.track_s_m + along : mix(a.track_s_m, b.track_s_m, t);
-  p.x_m = hermite(a.x_m, c1, b.x_m, c2);
-  p.y_m = hermite(a.y_m, s1, b.y_m, s2);
-  p.yaw_rad = wrap_pi(a.yaw_rad + t * wrap_pi(b.yaw_rad - a.yaw_rad));
+  p.x_m = hermite(a.x_m, a.cos_yaw, b.x_m, b.cos_yaw);
+  p.y_m = hermite(a.y_m, a.sin_yaw, b.y_m, b.sin_yaw);
+  p.yaw_rad = within_a_turn(a.yaw_rad + t * within_a_turn(b.yaw_rad - a.yaw_rad));
   p.curvature_per_m = mix(a.curvature_per_m, b.curvature_per_m, t);
   p.bank_rad = mix(a.bank_rad, b.bank_rad, t);
   p.speed_mps = mix(a.speed_mps, b.speed_mps, t);

@@ -29,6 +29,7 @@ struct LinePoint {
   double s_m = kUnset;        // along the line
   double track_s_m = kUnset;  // station of the track's reference line beside it
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
+  double cos_yaw = kUnset, sin_yaw = kUnset;  // of the points; unset in what at() returns
   double curvature_per_m = kUnset, bank_rad = kUnset;
   double speed_mps = kUnset;  // limit
 };

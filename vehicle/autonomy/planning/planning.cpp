@@ -93,19 +93,20 @@ world::Trajectory trajectory(const Line& line, const State& state, const SpeedPr
   for (std::size_t i = 0; i < profile.at.size(); ++i) {
     const LinePoint p = line.at(state.line_s_m + static_cast<double>(i) * profile.spacing_m);
     const Offset o = merge_offset(line, state, p.s_m);
+    const bool aside = o.n_m != 0.0 || o.slope != 0.0;
     const double stretch = 1.0 - p.curvature_per_m * o.n_m;
-    const double x_m = p.x_m - o.n_m * std::sin(p.yaw_rad);
-    const double y_m = p.y_m + o.n_m * std::cos(p.yaw_rad);
+    const double x_m = aside ? p.x_m - o.n_m * std::sin(p.yaw_rad) : p.x_m;
+    const double y_m = aside ? p.y_m + o.n_m * std::cos(p.yaw_rad) : p.y_m;
     if (i > 0) s_m += std::hypot(x_m - out.points.back().x_m, y_m - out.points.back().y_m);
-    const bool pushed =
-        out.points.push({.s_m = s_m,
-                         .x_m = x_m,
-                         .y_m = y_m,
-                         .yaw_rad = wrap_pi(p.yaw_rad + std::atan2(o.slope, stretch)),
-                         .curvature_per_m = p.curvature_per_m / stretch + o.bend_per_m,
-                         .bank_rad = p.bank_rad,
-                         .speed_mps = profile.at[i].speed_mps,
-                         .accel_mps2 = profile.at[i].accel_mps2});
+    const bool pushed = out.points.push(
+        {.s_m = s_m,
+         .x_m = x_m,
+         .y_m = y_m,
+         .yaw_rad = aside ? wrap_pi(p.yaw_rad + std::atan2(o.slope, stretch)) : p.yaw_rad,
+         .curvature_per_m = p.curvature_per_m / stretch + o.bend_per_m,
+         .bank_rad = p.bank_rad,
+         .speed_mps = profile.at[i].speed_mps,
+         .accel_mps2 = profile.at[i].accel_mps2});
     CHECK(pushed);
   }
   return out;

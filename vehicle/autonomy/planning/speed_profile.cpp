@@ -13,6 +13,8 @@ constexpr double kCapAhead_s = 0.45;   // a falling limit is read this far ahead
 constexpr double kCapHorizon_m = 250.0;  // how far ahead the line's limits are looked at
 constexpr double kCapDecelShare = 0.9;
 constexpr double kSpacingMin_m = 2.0;
+constexpr int kSubsteps = 3;  // the limits change slowly, the landing on the target does not
+constexpr double kSubstep_s = kProfileStep_s / kSubsteps;
 
 const LinePoint& nearest(const Line& line, double s_m) {
   const auto i = static_cast<std::size_t>(line.wrap(s_m) / line.spacing_m);
@@ -21,15 +23,21 @@ const LinePoint& nearest(const Line& line, double s_m) {
 
 // The speed now from which every limit of the line ahead can be met at a moderate deceleration.
 double cap(const Line& line, double s_m, double speed_mps, double decel_mps2) {
-  const double from_m = s_m + kCapAhead_s * speed_mps;
-  const double horizon_m = std::min(kCapHorizon_m, speed_mps * speed_mps / (2.0 * decel_mps2));
   constexpr double kCapStep_m = 10.0;
-  double lowest_mps = nearest(line, s_m).speed_mps;
-  for (double d = 0.0; d <= horizon_m; d += kCapStep_m) {
-    const double v = nearest(line, from_m + d).speed_mps;
-    lowest_mps = std::min(lowest_mps, std::sqrt(v * v + 2.0 * decel_mps2 * d));
+  const double horizon_m = std::min(kCapHorizon_m, speed_mps * speed_mps / (2.0 * decel_mps2));
+  const std::size_t count = line.points.size();
+  const auto stride =
+      std::max(static_cast<std::size_t>(kCapStep_m / line.spacing_m), static_cast<std::size_t>(1));
+  const double stride_m = static_cast<double>(stride) * line.spacing_m;
+  auto i = static_cast<std::size_t>(line.wrap(s_m + kCapAhead_s * speed_mps) / line.spacing_m);
+  const double here_mps = nearest(line, s_m).speed_mps;
+  double lowest = here_mps * here_mps;
+  for (double d = 0.0; d <= horizon_m; d += stride_m, i += stride) {
+    if (i >= count) i %= count;
+    const double v = line.points[i].speed_mps;
+    lowest = std::min(lowest, v * v + 2.0 * decel_mps2 * d);
   }
-  return lowest_mps;
+  return std::sqrt(lowest);
 }
 
 SpeedLimits drive_limits(const Line& line, double s_m, double speed_mps, const DriveLimits& l) {
@@ -46,31 +54,56 @@ SpeedLimits stop_limits(const Line& line, double s_m, double speed_mps, const St
   return {0.0, 0.0, decel, l.jerk_max_mps3};
 }
 
-// Plays the reference forward in time and notes it at equal distances.
+// The reference played forward in time, as far as `reach_m` or to standstill.
+struct History {
+  struct Moment {
+    double gone_m = 0.0;
+    SpeedReference reference;  // the acceleration is that of the step that led here
+  };
+  std::array<Moment, kProfileSteps + 1> at;
+  std::size_t size = 0;
+  bool stands = false;
+};
+
 template <class LimitsAt>
-SpeedProfile play(double s_m, SpeedReference now, double spacing_m, LimitsAt limits_at) {
+void play(double s_m, SpeedReference now, double reach_m, LimitsAt limits_at, History& out) {
+  out.at[0] = {0.0, now};
+  out.size = 1;
+  while (out.size <= kProfileSteps && out.at[out.size - 1].gone_m <= reach_m) {
+    const double gone_m = out.at[out.size - 1].gone_m;
+    const SpeedLimits limits = limits_at(s_m + gone_m, now.speed_mps);
+    double step_m = 0.0;
+    for (int i = 0; i < kSubsteps; ++i) {
+      const SpeedReference then = advance(now, limits, kSubstep_s);
+      step_m += 0.5 * (now.speed_mps + then.speed_mps) * kSubstep_s;
+      now = then;
+    }
+    out.at[out.size++] = {gone_m + step_m, now};
+    out.stands = !(now.speed_mps > 0.0) && !(limits.target_mps > 0.0);
+    if (out.stands) return;
+  }
+}
+
+// The history at equal distances; past its end it stands, or goes on as it ended.
+SpeedProfile sampled(const History& history, double spacing_m) {
   SpeedProfile out;
   out.spacing_m = spacing_m;
-  double gone_m = 0.0;
-  std::size_t next = 0;
-  for (std::size_t k = 0; k < kProfileSteps && next < out.at.size(); ++k) {
-    const SpeedLimits limits = limits_at(s_m + gone_m, now.speed_mps);
-    const SpeedReference then = advance(now, limits, kProfileStep_s);
-    const double step_m = 0.5 * (now.speed_mps + then.speed_mps) * kProfileStep_s;
-    for (; next < out.at.size() && static_cast<double>(next) * spacing_m <= gone_m + step_m;
-         ++next) {
-      const double t =
-          step_m > 0.0 ? (static_cast<double>(next) * spacing_m - gone_m) / step_m : 0.0;
-      out.at[next] = {now.speed_mps + t * (then.speed_mps - now.speed_mps), then.accel_mps2};
+  const History::Moment& last = history.at[history.size - 1];
+  std::size_t k = 1;
+  for (std::size_t i = 0; i < out.at.size(); ++i) {
+    const double d_m = static_cast<double>(i) * spacing_m;
+    while (k < history.size && history.at[k].gone_m < d_m) ++k;
+    if (k == history.size) {
+      out.at[i] = history.stands ? SpeedReference{} : last.reference;
+      continue;
     }
-    gone_m += step_m;
-    now = then;
-    if (now.speed_mps > 0.0 || limits.target_mps > 0.0) continue;
-    out.stop_distance_m = gone_m;
-    now = {};
-    break;
+    const History::Moment &a = history.at[k - 1], &b = history.at[k];
+    const double step_m = b.gone_m - a.gone_m;
+    const double t = step_m > 0.0 ? (d_m - a.gone_m) / step_m : 0.0;
+    out.at[i] = {a.reference.speed_mps + t * (b.reference.speed_mps - a.reference.speed_mps),
+                 b.reference.accel_mps2};
   }
-  for (; next < out.at.size(); ++next) out.at[next] = now;
+  if (history.stands) out.stop_distance_m = last.gone_m;
   return out;
 }
 
@@ -98,8 +131,12 @@ SpeedReference advance_drive(const Line& line, double s_m, const SpeedReference&
 
 SpeedProfile drive_profile(const Line& line, double s_m, const SpeedReference& from,
                            const DriveLimits& limits, double spacing_m) {
-  return play(s_m, from, spacing_m,
-              [&](double s, double v) { return drive_limits(line, s, v, limits); });
+  History history;
+  const double reach_m = spacing_m * static_cast<double>(world::kTrajectoryPoints);
+  play(
+      s_m, from, reach_m, [&](double s, double v) { return drive_limits(line, s, v, limits); },
+      history);
+  return sampled(history, spacing_m);
 }
 
 SpeedReference advance_stop(const Line& line, double s_m, const SpeedReference& from,
@@ -109,16 +146,17 @@ SpeedReference advance_stop(const Line& line, double s_m, const SpeedReference& 
 
 SpeedProfile stop_profile(const Line& line, double s_m, const SpeedReference& from,
                           const StopLimits& limits, double beyond_m) {
-  const auto limits_at = [&](double s, double v) { return stop_limits(line, s, v, limits); };
-  constexpr double kFar_m = 1e9;  // the first pass only measures how far it goes
-  const SpeedProfile measured = play(s_m, from, kFar_m, limits_at);
-  const double least_m = std::isfinite(measured.stop_distance_m) ? measured.stop_distance_m : 0.0;
+  constexpr double kAnywhere_m = 1e9;
+  History history;
+  play(
+      s_m, from, kAnywhere_m, [&](double s, double v) { return stop_limits(line, s, v, limits); },
+      history);
+  const double least_m = history.stands ? history.at[history.size - 1].gone_m : 0.0;
   constexpr double kSegments = world::kTrajectoryPoints - 1;
-  const double spacing_m = std::max((least_m + beyond_m) / kSegments, kSpacingMin_m);
-  SpeedProfile profile = play(s_m, from, spacing_m, limits_at);
+  SpeedProfile profile =
+      sampled(history, std::max((least_m + beyond_m) / kSegments, kSpacingMin_m));
   // Whatever the horizon of the simulation left over: the last point always stands.
   profile.at.back() = {};
-  profile.stop_distance_m = measured.stop_distance_m;
   return profile;
 }
 

@@ -28,8 +28,8 @@ struct SpeedLimits {
 
 SpeedReference advance(const SpeedReference& reference, const SpeedLimits& limits, double dt_s);
 
-inline constexpr double kProfileStep_s = 0.02;
-inline constexpr std::size_t kProfileSteps = 2000;  // 40 s: a stop from top speed takes half of it
+inline constexpr double kProfileStep_s = 0.05;
+inline constexpr std::size_t kProfileSteps = 800;  // 40 s: a stop from top speed takes half of it
 
 // Speed and acceleration at equal distances from where the car is.
 struct SpeedProfile {
