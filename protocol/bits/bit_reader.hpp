@@ -27,7 +27,8 @@ class BitReader {
     while (bits > 0) {
       const unsigned left = 8U - static_cast<unsigned>(at_ % 8);
       const unsigned now = bits < left ? bits : left;
-      const unsigned part = (bytes_[at_ / 8] >> (left - now)) & ((1U << now) - 1U);
+      const unsigned byte = bytes_[at_ / 8];
+      const unsigned part = byte >> (left - now) & ((1U << now) - 1U);
       value = value << now | part;
       at_ += now;
       bits -= now;

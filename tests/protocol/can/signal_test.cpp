@@ -13,7 +13,8 @@ std::uint64_t by_bit(const SignalLayout& s, const FrameBytes& data) {
   std::uint64_t raw = 0;
   unsigned bit = s.start;
   for (unsigned i = 0; i < s.length; ++i) {
-    const std::uint64_t value = data[bit / 8] >> bit % 8 & 1U;
+    const unsigned byte = data[bit / 8];
+    const std::uint64_t value = byte >> bit % 8 & 1U;
     if (s.order == ByteOrder::kIntel) {
       raw |= value << i;
       ++bit;
