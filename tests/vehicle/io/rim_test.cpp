@@ -1,5 +1,5 @@
-// A Rim needs a CAN interface, which a host may lack: what is tested here is that it refuses to open
-// and says why. Reading, writing and reporting run in tests/system/vcan, where CAN is.
+// A Rim needs a CAN interface, which a host may lack: what is tested here is that it refuses to
+// open and says why. Reading, writing and reporting run in tests/system/vcan, where CAN is.
 // SPDX-License-Identifier: Apache-2.0
 #include "vehicle/io/rim.hpp"
 

@@ -101,8 +101,8 @@ TEST(CarFile, EveryKeyIsRefusedWhenItIsRepeated) {
   }
 }
 
-// One line may be missing: a row of the watchdog has the limits of its module then. Without its only
-// row the section is no mapping any more, which is refused as well.
+// A row of the watchdog may be missing: it has the limits of its module then. Without its only row
+// the section is no mapping any more, which is refused as well.
 TEST(CarFile, EveryLineIsNeeded) {
   for (const Piece& line : testing::lines(av21())) {
     const std::string why = refusal(replaced(av21(), line, ""));

@@ -165,8 +165,8 @@ inline std::vector<std::string> neighbours(const std::string& number) {
   return {more.str(), less.str()};
 }
 
-// Every number of the section moves the parameter of its own name, to the value that is written, and
-// no other.
+// Every number of the section moves the parameter of its own name, to the value that is written,
+// and no other.
 template <class Read>
 void expect_each_number_to_move_its_own(const std::string& section, Read read) {
   const auto parsed = [](const std::string& text) {

@@ -107,72 +107,74 @@ std::string name_of(std::size_t i) {
          std::string(row.name);
 }
 
+struct Row {
+  telemetry::FieldIndex field;
+  double value;
+};
+
+const std::vector<Row> kExpected{
+    {field("mode.mode"), 3},
+    {field("mode.ct_state"), 10},
+    {field("mode.sys_state"), 9},
+    {field("mode.first_stop_cause"), 25},
+    {field("flags.track"), 3},
+    {field("flags.vehicle"), 2},
+    {field("flags.round_target_speed"), 53.6},
+    {field("flags.heartbeat_age"), 0.7},
+    {field("ego.x"), -310.5},
+    {field("ego.y"), 220.25},
+    {field("ego.yaw"), 1.5},
+    {field("ego.vx"), 60.5},
+    {field("ego.vy"), -0.75},
+    {field("ego.yaw_rate"), 0.375},
+    {field("ego.position_sigma"), 0.125},
+    {field("ego.validity"), 2},
+    {field("track.station"), 1500.5},
+    {field("track.offset"), -1.25},
+    {field("track.lap"), 9},
+    {field("track.target_speed"), 64.5},
+    {field("command.steering"), 0.0625},
+    {field("command.throttle"), 0.5},
+    {field("command.brake"), 1800},
+    {field("command.gear"), 5},
+    {field("feedback.steering"), 0.39 / 19.5},  // at the road wheel, as the command is
+    {field("feedback.throttle"), 0.25},
+    {field("feedback.brake_front"), 2100},
+    {field("feedback.brake_rear"), 2000},
+    {field("feedback.gear"), 4},
+    {field("wheels.front_left"), 61},
+    {field("wheels.front_right"), 62},
+    {field("wheels.rear_left"), 63},
+    {field("wheels.rear_right"), 64},
+    {field("tyres.temperature_front_left"), 71},
+    {field("tyres.temperature_front_right"), 72},
+    {field("tyres.temperature_rear_left"), 73},
+    {field("tyres.temperature_rear_right"), 74},
+    {field("tyres.pressure_front_left"), 151},
+    {field("tyres.pressure_front_right"), 152},
+    {field("tyres.pressure_rear_left"), 153},
+    {field("tyres.pressure_rear_right"), 154},
+    {field("engine.speed"), 6100},
+    {field("engine.running"), 1},
+    {field("engine.fuel_pressure"), 350},
+    {field("engine.oil_pressure"), 480},
+    {field("engine.coolant"), 91},
+    {field("electric.battery"), 13.6},
+    {field("electric.diagnostics"), 1 + 32768},  // first and last bit
+    {field("bus.frames_applied"), 1001},
+    {field("bus.frames_refused"), 37},
+    {field("bus.frames_sent"), 2002},
+    {field("bus.tx_drops"), 3},
+    {field("bus.gate_refusals"), 77},
+    {field("computer.step_time_max"), 66},
+    {field("computer.steps"), 4004},
+    {field("computer.missed_deadlines"), 5},
+};
+
 TEST(TelemetryTap, EachFieldSaysWhatTheTickSays) {
-  struct Row {
-    telemetry::FieldIndex field;
-    double value;
-  };
-  const std::vector<Row> expected{
-      {field("mode.mode"), 3},
-      {field("mode.ct_state"), 10},
-      {field("mode.sys_state"), 9},
-      {field("mode.first_stop_cause"), 25},
-      {field("flags.track"), 3},
-      {field("flags.vehicle"), 2},
-      {field("flags.round_target_speed"), 53.6},
-      {field("flags.heartbeat_age"), 0.7},
-      {field("ego.x"), -310.5},
-      {field("ego.y"), 220.25},
-      {field("ego.yaw"), 1.5},
-      {field("ego.vx"), 60.5},
-      {field("ego.vy"), -0.75},
-      {field("ego.yaw_rate"), 0.375},
-      {field("ego.position_sigma"), 0.125},
-      {field("ego.validity"), 2},
-      {field("track.station"), 1500.5},
-      {field("track.offset"), -1.25},
-      {field("track.lap"), 9},
-      {field("track.target_speed"), 64.5},
-      {field("command.steering"), 0.0625},
-      {field("command.throttle"), 0.5},
-      {field("command.brake"), 1800},
-      {field("command.gear"), 5},
-      {field("feedback.steering"), 0.39 / 19.5},  // at the road wheel, as the command is
-      {field("feedback.throttle"), 0.25},
-      {field("feedback.brake_front"), 2100},
-      {field("feedback.brake_rear"), 2000},
-      {field("feedback.gear"), 4},
-      {field("wheels.front_left"), 61},
-      {field("wheels.front_right"), 62},
-      {field("wheels.rear_left"), 63},
-      {field("wheels.rear_right"), 64},
-      {field("tyres.temperature_front_left"), 71},
-      {field("tyres.temperature_front_right"), 72},
-      {field("tyres.temperature_rear_left"), 73},
-      {field("tyres.temperature_rear_right"), 74},
-      {field("tyres.pressure_front_left"), 151},
-      {field("tyres.pressure_front_right"), 152},
-      {field("tyres.pressure_rear_left"), 153},
-      {field("tyres.pressure_rear_right"), 154},
-      {field("engine.speed"), 6100},
-      {field("engine.running"), 1},
-      {field("engine.fuel_pressure"), 350},
-      {field("engine.oil_pressure"), 480},
-      {field("engine.coolant"), 91},
-      {field("electric.battery"), 13.6},
-      {field("electric.diagnostics"), 1 + 32768},  // first and last bit
-      {field("bus.frames_applied"), 1001},
-      {field("bus.frames_refused"), 37},
-      {field("bus.frames_sent"), 2002},
-      {field("bus.tx_drops"), 3},
-      {field("bus.gate_refusals"), 77},
-      {field("computer.step_time_max"), 66},
-      {field("computer.steps"), 4004},
-      {field("computer.missed_deadlines"), 5},
-  };
   const auto packet = tap(setup(), full(), kRim, kNow);
   std::set<telemetry::FieldIndex> said;
-  for (const Row& row : expected) {
+  for (const Row& row : kExpected) {
     EXPECT_NEAR(packet.values[row.field], row.value, 1e-9) << name_of(row.field);
     said.insert(row.field);
   }
