@@ -147,7 +147,12 @@ bool names_a_line(const Problem& p) {
   if (last == std::string::npos || last == 0 || p.what.empty()) return false;
   const std::size_t first = p.place.rfind(':', last - 1);
   if (first == std::string::npos) return false;
-  return std::atoi(p.place.c_str() + first + 1) >= 1 && std::atoi(p.place.c_str() + last + 1) >= 1;
+  const auto is_number = [&](std::size_t from, std::size_t to) {
+    const std::string_view digits = std::string_view{p.place}.substr(from, to - from);
+    return !digits.empty() && digits[0] != '0' &&
+           digits.find_first_not_of("0123456789") == std::string_view::npos;
+  };
+  return is_number(first + 1, last) && is_number(last + 1, p.place.size());
 }
 
 std::vector<std::filesystem::path> corpus() {
