@@ -21,10 +21,9 @@ namespace {
 const std::filesystem::path kOracles =
     std::filesystem::path{PITWALL_SOURCE_DIR} / "tests/support/oracles";
 
-#define NEEDS_ORACLES()                                                       \
-  if (!std::filesystem::exists(kOracles / "node_modules/@mcap/core"))         \
-  GTEST_SKIP() << "the npm packages in " << kOracles << " are not installed " \
-               << "(./pitwall setup installs them)"
+#define NEEDS_ORACLES()                                                      \
+  ASSERT_TRUE(std::filesystem::exists(kOracles / "node_modules/@mcap/core")) \
+      << "the npm packages in " << kOracles << " are not installed (./pitwall setup)"
 
 // Standard output of a program; a failure of the program fails the test.
 std::string output_of(const std::string& command) {
