@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "vehicle/world/sensor_input.hpp"
+
 namespace pitwall::bench {
 namespace {
 
@@ -42,11 +44,56 @@ Unexpected<Problem> refuse(const scenario::Fault& row, const std::string& what) 
   return Unexpected{Problem{row.place, what}};
 }
 
+// A row says more than its kind can mean.
+const char* excess_of(const scenario::Fault& row, const faults::BenchFaultRow& kind) {
+  const bool has_units =
+      kind.acts_on == faults::BenchPart::kGnss || kind.acts_on == faults::BenchPart::kImu;
+  if (row.can_id != 0) return "this kind takes no can_id";
+  if (row.unit != 0 && !has_units) return "this kind has no units";
+  if (row.unit >= world::kGnssUnits) return "the car has no such unit";
+  if (kind.value.empty() && !std::isnan(row.value)) return "this kind takes no value";
+  return nullptr;
+}
+
+bool is_sensible(BenchFaultKind kind, double value) {
+  if (!std::isfinite(value)) return false;
+  switch (kind) {
+    case BenchFaultKind::kBrakeLeak:
+      return value >= 0.0 && value <= 1.0;
+    case BenchFaultKind::kLowGrip:
+      return value > 0.0 && value <= 2.0;
+    case BenchFaultKind::kSteeringSlow:
+    case BenchFaultKind::kGnssVarianceSpike:
+      return value > 0.0;
+    case BenchFaultKind::kWrongRoundSpeed:
+      return value >= 0.0;
+    default:
+      return true;
+  }
+}
+
+Result<faults::BenchFault, Problem> bench_fault(const scenario::Fault& row, BenchFaultKind kind,
+                                                std::uint64_t seed) {
+  const faults::BenchFaultRow& of_kind = faults::row_of(kind);
+  if (!carried_out(kind))
+    return refuse(row, "fault \"" + row.kind + "\" is in the catalogue but not in this bench");
+  if (const char* excess = excess_of(row, of_kind)) return refuse(row, excess);
+  if (!of_kind.value.empty() && !is_sensible(kind, row.value))
+    return refuse(row, "value is missing or makes no sense: " + std::string(of_kind.value));
+  return faults::BenchFault{.kind = kind,
+                            .start = Instant{} + row.at,
+                            .duration = row.lasts,
+                            .unit = static_cast<std::uint8_t>(row.unit),
+                            .value = std::isnan(row.value) ? 0.0 : row.value,
+                            .seed = seed};
+}
+
 // The one number of a scenario row means a probability, a count or a time, by kind.
 Result<faults::FrameFault, Problem> frame_fault(const scenario::Fault& row, FrameFaultKind kind,
                                                 std::uint64_t seed) {
   faults::FrameFault fault{
       .kind = kind, .start = Instant{} + row.at, .duration = row.lasts, .seed = seed};
+  if (row.unit != 0) return refuse(row, "this kind has no units");
   if (row.can_id != 0) fault.id = row.can_id;
   if (std::isnan(row.value)) return fault;
   switch (kind) {
@@ -63,7 +110,8 @@ Result<faults::FrameFault, Problem> frame_fault(const scenario::Fault& row, Fram
       return fault;
     case FrameFaultKind::kBitFlip:
     case FrameFaultKind::kCounterJump:
-      if (row.value < 1.0 || row.value > 64.0) return refuse(row, "value is a count, 1 to 64");
+      if (!(row.value >= 1.0 && row.value <= 64.0) || row.value != std::floor(row.value))
+        return refuse(row, "value is a count, 1 to 64");
       fault.count = static_cast<std::uint32_t>(row.value);
       return fault;
     default:
@@ -89,16 +137,9 @@ Result<FaultPlan, Problem> plan_faults(const std::vector<scenario::Fault>& rows,
     }
     const auto kind = faults::bench_fault_kind(row.kind);
     if (!kind) return refuse(row, "unknown fault \"" + row.kind + "\"");
-    if (!carried_out(*kind))
-      return refuse(row, "fault \"" + row.kind + "\" is in the catalogue but not in this bench");
-    if (!faults::row_of(*kind).value.empty() && std::isnan(row.value))
-      return refuse(row, "value is missing: " + std::string(faults::row_of(*kind).value));
-    plan.models.push_back({.kind = *kind,
-                           .start = Instant{} + row.at,
-                           .duration = row.lasts,
-                           .unit = static_cast<std::uint8_t>(row.unit),
-                           .value = std::isnan(row.value) ? 0.0 : row.value,
-                           .seed = own_seed});
+    auto fault = bench_fault(row, *kind, own_seed);
+    if (!fault) return Unexpected{fault.error()};
+    plan.models.push_back(*fault);
   }
   return plan;
 }

@@ -192,9 +192,12 @@ class Live {
     }
   }
 
+  // A socket does not hear what it sends, but race control and the drive-by-wire, which share this
+  // one, do hear each other on a bus.
   void collect_frames(Instant at) {
     for (const Outgoing& outgoing : rig_.take_frames()) {
       frames_.push_back(outgoing.frame);
+      if (outgoing.from == Node::kRaceControl) heard_.push_back({outgoing.frame, at});
       if (record_) record_->can(outgoing.from, outgoing.frame, at);
     }
   }

@@ -64,8 +64,7 @@ void Rig::step(std::span<const can::ReceivedFrame> from_car, Instant now) {
                             .speed_mps = truth_.speed_mps};
   for (const can::Frame& frame : race::step(script_, race_, timing, now))
     send(Node::kRaceControl, frame, now);
-  while (const auto timed = delayed_.pop(now))
-    if (!outgoing_.push({Node::kDriveByWire, timed->frame})) ++overflows_;
+  release_delayed(now);
 
   sensors::step(sensor_params_, sensors_, truth_, now, samples_);
 }
@@ -107,9 +106,18 @@ drive_by_wire::Feedback Rig::feedback() const {
 void Rig::send(Node from, const can::Frame& frame, Instant now) {
   if (bus_silent_) return;
   for (const faults::TimedFrame& timed : faults::apply(plan_.frames, frame_faults_, frame, now)) {
-    const bool kept = timed.at > now ? delayed_.push(timed) : outgoing_.push({from, timed.frame});
+    faults::DelayQueue& later = delayed_[static_cast<std::size_t>(from)];
+    const bool kept = timed.at > now ? later.push(timed) : outgoing_.push({from, timed.frame});
     if (!kept) ++overflows_;
   }
+}
+
+void Rig::release_delayed(Instant now) {
+  for (std::size_t from = 0; from < delayed_.size(); ++from)
+    while (const auto timed = delayed_[from].pop(now)) {
+      if (bus_silent_) continue;
+      if (!outgoing_.push({static_cast<Node>(from), timed->frame})) ++overflows_;
+    }
 }
 
 void Rig::time_laps(Instant now) {

@@ -8,6 +8,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -75,13 +76,14 @@ class Rig {
   void apply_gnss_fault(const faults::BenchFault& fault);
   void step_plant();
   void send(Node from, const can::Frame& frame, Instant now);
+  void release_delayed(Instant now);
   void time_laps(Instant now);
   drive_by_wire::Feedback feedback() const;
 
   world::TrackMap track_;
   FaultPlan plan_;
   faults::FrameFaultState frame_faults_;
-  faults::DelayQueue delayed_;
+  std::array<faults::DelayQueue, kNodes> delayed_;  // by sender
   plant::Params plant_params_;
   plant::State plant_;
   plant::Surface surface_;

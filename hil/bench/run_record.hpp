@@ -1,7 +1,7 @@
 // The event log of a bench run: one MCAP file with every CAN frame, the truth, the car's own view
 // and
 // its decisions, and events in words. Its SHA-256 names the run.
-//   channels /can/<node>   every frame, who sent it
+//   channels /can          every frame, who sent it
 //            /truth        the plant at 100 Hz
 //            /car          the car at 100 Hz: ego state, mode, command
 //            /events       flags, modes, laps, verdicts

@@ -92,6 +92,8 @@ Result<std::vector<grading::Expectation>, Problem> expectations_of(
     e.condition = {.signal = row.signal, .op = *op, .number = row.value};
     e.from = Instant{} + row.from;
     const Duration end = row.until.ns != 0 ? row.until : scenario.duration;
+    if (end <= row.from)
+      return Unexpected{Problem{row.place, "the run ends before this window begins"}};
     e.to = Instant{} + end;
     e.limit = end - row.from;
     out.push_back(e);
