@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <type_traits>
 
 #include "protocol/vocabulary/time.hpp"
@@ -23,8 +24,9 @@ namespace pitwall::pipeline {
 // What planning said last, kept between its ticks.
 struct Plan {
   planning::Output output;
-  world::RaceControl made_with;  // to be acknowledged: acted on, not merely received
-  Instant at{};
+  world::RaceControl made_with;    // to be acknowledged: acted on, not merely received
+  Instant at{};                    // of the last attempt
+  std::optional<Instant> good_at;  // of the last that gave a trajectory
   bool ever = false;
 };
 

@@ -31,6 +31,7 @@ void plan_when_due(const Setup& setup, Car& car, const Outputs& out, const Input
                      out.heard.race_control, in.operator_speed_limit_mps, followed, in.now);
   plan.made_with = out.heard.race_control;
   plan.at = in.now;
+  if (!plan.output.drive.points.empty() && !plan.output.stop.points.empty()) plan.good_at = in.now;
   plan.ever = true;
 }
 
@@ -92,7 +93,7 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
                                 .signals = out.heard.signals,
                                 .race_control = out.heard.race_control,
                                 .gnss_byte_at = in.gnss_byte_at,
-                                .planner_at = car.plan.at,
+                                .planner_at = car.plan.good_at,
                                 .radio_at = in.radio_at},
                                in.now);
   out.chosen = supervise(setup, car, out, in);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vehicle/safety/watchdog.hpp"
 
+#include <algorithm>
+
 namespace pitwall::safety {
 namespace {
 
@@ -89,8 +91,10 @@ WatchdogOutput watch(const WatchdogParams& params, WatchdogState& state,
   if (inputs.radio_at) seen(state, Stream::kRadio, *inputs.radio_at);
 
   WatchdogOutput out;
-  for (std::size_t i = 0; i < kStreams; ++i)
+  for (std::size_t i = 0; i < kStreams; ++i) {
+    state.last[i] = std::min(state.last[i], now);  // a stamp from the future keeps nothing alive
     out.rows[i] = judge(params.limits[i], state.ever[i], state.last[i], now);
+  }
   return out;
 }
 

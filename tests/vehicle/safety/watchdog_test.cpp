@@ -179,5 +179,14 @@ TEST(Watchdog, AnOldSampleDoesNotTurnTheClockBackAndAStrangerIsIgnored) {
   EXPECT_EQ(k.watch(Instant{} + seconds(7))[Stream::kGnss0Position].age, seconds(1));
 }
 
+TEST(Watchdog, AStampFromTheFutureKeepsNothingAlive) {
+  Kennel k;
+  const Instant now = Instant{} + seconds(100);
+  feed(k, Stream::kGnss0Position, now + seconds(3600));
+  EXPECT_EQ(k.watch(now)[Stream::kGnss0Position].health, Health::kGood);
+  const Instant later = now + k.params.limits[2].bad + nanoseconds(1);
+  EXPECT_EQ(k.watch(later)[Stream::kGnss0Position].health, Health::kBad);
+}
+
 }  // namespace
 }  // namespace pitwall::safety

@@ -38,9 +38,10 @@ enum class Gate : std::uint8_t {
   kFromTheFuture,
   kOutlier,
   kNotStarted,
-  kStandby  // kStandby: healthy, but another unit is in use (IMU)
+  kStandby,     // healthy, but another unit is in use (IMU)
+  kImplausible  // finite, but nothing that a car on a track can do or a receiver can mean
 };
-inline constexpr std::size_t kGates = 11;
+inline constexpr std::size_t kGates = 12;
 
 struct Verdict {
   Source source = Source::kPosition;

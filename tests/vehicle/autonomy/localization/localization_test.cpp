@@ -192,6 +192,34 @@ TEST(Localization, EveryRefusalHasItsReason) {
   EXPECT_EQ(position([](P& p) { p.latitude_deg += 1e-4; }), Gate::kOutlier);
 }
 
+TEST(Localization, RefusesWhatNoCarCanDo) {
+  Rig rig = rig_on(Course{});
+  rig.run(3.0);
+  const auto velocity = [&](double speed_mps, double track_rad) {
+    world::SensorInput in;
+    EXPECT_TRUE(in.velocities.push({.unit = 0,
+                                    .at = rig.out.ego.at,
+                                    .solution_status = world::kSolutionComputed,
+                                    .velocity_type = world::kPositionNarrowInt,
+                                    .horizontal_mps = speed_mps,
+                                    .track_over_ground_rad = track_rad}));
+    return gate_of(rig, in);
+  };
+  EXPECT_EQ(velocity(-1.0, 0.0), Gate::kImplausible);
+  EXPECT_EQ(velocity(1e300, 0.0), Gate::kImplausible);
+  EXPECT_EQ(velocity(10.0, 1e300), Gate::kImplausible);
+  const auto imu = [&](double rate_rad_per_s, double force_mps2) {
+    world::SensorInput in;
+    EXPECT_TRUE(in.imu.push({.unit = 0,
+                             .at = rig.out.ego.at,
+                             .rate_rad_per_s = {0.0, 0.0, rate_rad_per_s},
+                             .specific_force_mps2 = {force_mps2, 0.0, 9.8}}));
+    return gate_of(rig, in);
+  };
+  EXPECT_EQ(imu(1e300, 0.0), Gate::kImplausible);
+  EXPECT_EQ(imu(0.0, -1e300), Gate::kImplausible);
+}
+
 TEST(Localization, SecondImuStandsBy) {
   Rig rig = rig_on(Course{});
   rig.run(3.0);
