@@ -135,7 +135,8 @@ int run_verb(std::span<const std::string> args) {
   app.add_option("--radio-port", options.radio_port, "live: pass telemetry on to this port");
   const auto* duration = app.add_option("--duration", duration_s, "seconds, instead of the file's")
                              ->check(CLI::Range(0.1, 36'000.0));
-  const auto* with_seed = app.add_option("--seed", seed, "instead of the file's");
+  const auto* with_seed =
+      app.add_option("--seed", seed, "instead of the file's")->check(CLI::Range(0, 1'000'000'000));
   try {
     std::vector<std::string> reversed(args.rbegin(), args.rend());
     app.parse(reversed);

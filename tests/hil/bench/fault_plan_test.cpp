@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/fault_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+
+namespace pitwall::bench {
+namespace {
+
+using faults::BenchPart;
+using faults::FrameFaultKind;
+
+scenario::Fault row(std::string kind, double value = kUnset) {
+  return {.kind = std::move(kind),
+          .at = seconds(3),
+          .lasts = seconds(2),
+          .value = value,
+          .place = "file.yaml:9:5"};
+}
+
+std::string refusal(const scenario::Fault& fault) {
+  const auto plan = plan_faults({fault}, 1);
+  return plan ? "" : to_string(plan.error());
+}
+
+bool is_refused_there(const scenario::Fault& fault) {
+  return refusal(fault).starts_with("file.yaml:9:5: error: ");
+}
+
+// A value inside the range of every kind that takes one.
+double legal_value(const faults::BenchFaultRow& kind) { return kind.value.empty() ? kUnset : 0.5; }
+
+TEST(FaultPlan, EveryKindOfTheCatalogueIsPlannedOrRefusedByName) {
+  std::size_t planned = 0;
+  for (const auto& kind : faults::kBenchFaults) {
+    const scenario::Fault fault = row(std::string(kind.name), legal_value(kind));
+    const auto plan = plan_faults({fault}, 1);
+    if (!plan) {
+      EXPECT_TRUE(is_refused_there(fault)) << kind.name;
+      EXPECT_NE(refusal(fault).find(kind.name), std::string::npos);
+      continue;
+    }
+    ++planned;
+    ASSERT_EQ(plan->models.size(), 1u);
+    EXPECT_TRUE(plan->frames.empty());
+    EXPECT_EQ(plan->models[0].kind, kind.kind);
+    EXPECT_EQ(plan->models[0].start, Instant{} + seconds(3));
+    EXPECT_EQ(plan->models[0].duration, seconds(2));
+  }
+  EXPECT_EQ(planned, 19u);
+}
+
+TEST(FaultPlan, EveryKindOfFrameFaultIsPlanned) {
+  for (std::size_t i = 0; i < faults::kFrameFaultKinds; ++i) {
+    const auto kind = static_cast<FrameFaultKind>(i);
+    const auto plan = plan_faults({row(std::string(faults::name_of(kind)))}, 1);
+    ASSERT_TRUE(plan) << faults::name_of(kind);
+    ASSERT_EQ(plan->frames.size(), 1u);
+    EXPECT_EQ(plan->frames[0].kind, kind);
+    EXPECT_FALSE(plan->frames[0].id.has_value()) << "no id means every id";
+    EXPECT_EQ(plan->frames[0].start, Instant{} + seconds(3));
+    EXPECT_EQ(plan->frames[0].duration, seconds(2));
+  }
+}
+
+TEST(FaultPlan, TheOneNumberOfARowMeansWhatItsKindSays) {
+  const auto planned = [](const char* kind, double value) {
+    scenario::Fault fault = row(kind, value);
+    fault.can_id = 1303;
+    const auto plan = plan_faults({fault}, 1);
+    EXPECT_TRUE(plan) << kind;
+    return plan->frames.at(0);
+  };
+  EXPECT_EQ(planned("drop", 0.25).probability, 0.25);
+  EXPECT_EQ(planned("drop", 0.25).id, 1303u);
+  EXPECT_EQ(planned("duplicate", 0.25).probability, 0.25);
+  EXPECT_EQ(planned("delay", 0.25).delay, milliseconds(250));
+  EXPECT_EQ(planned("bit_flip", 3).count, 3u);
+  EXPECT_EQ(planned("counter_jump", 3).count, 3u);
+}
+
+TEST(FaultPlan, ANumberThatMakesNoSenseIsRefusedWithItsPlace) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  struct Case {
+    const char* kind;
+    std::vector<double> values;
+  };
+  const std::vector<Case> cases{{"drop", {-0.1, 1.1, kInfinity}},
+                                {"drop_burst", {-0.1, 2}},
+                                {"duplicate", {-1, 1.5}},
+                                {"delay", {-0.1, 1.1}},
+                                {"bit_flip", {0, -1, 2.5, 65, kInfinity}},
+                                {"counter_jump", {0, 0.5}},
+                                {"drop_all", {1}},
+                                {"stuck_counter", {1}},
+                                {"gnss_unit_outage", {1}},
+                                {"bus_silent", {1}},
+                                {"low_grip", {-1, 0, kUnset, 3}},
+                                {"brake_leak", {-0.5, 1.5, kUnset}},
+                                {"steering_slow", {-1, 0, kUnset}},
+                                {"gnss_variance_spike", {0, -5, kUnset}},
+                                {"gnss_position_jump", {kUnset, kInfinity}},
+                                {"wrong_round_speed", {-1, kUnset}}};
+  for (const Case& c : cases)
+    for (const double value : c.values)
+      EXPECT_TRUE(is_refused_there(row(c.kind, value))) << c.kind << " " << value;
+}
+
+TEST(FaultPlan, WhatAKindDoesNotHaveIsRefusedRatherThanIgnored) {
+  EXPECT_TRUE(is_refused_there(row("earthquake")));
+  EXPECT_TRUE(is_refused_there(row("")));
+
+  scenario::Fault fault = row("gnss_unit_outage");
+  fault.unit = 1;
+  EXPECT_EQ(refusal(fault), "");
+  fault.unit = 2;
+  EXPECT_TRUE(is_refused_there(fault)) << "the car has two units";
+
+  for (const char* kind : {"bus_silent", "drop"}) {
+    fault = row(kind);
+    fault.unit = 1;
+    EXPECT_TRUE(is_refused_there(fault)) << kind << " has no units";
+  }
+  fault = row("steering_stuck");
+  fault.can_id = 1303;
+  EXPECT_TRUE(is_refused_there(fault)) << "a model has no identifier";
+}
+
+TEST(FaultPlan, EachRowHasItsOwnRandomNumbers) {
+  std::vector<scenario::Fault> rows;
+  for (int i = 0; i < 5; ++i) {
+    rows.push_back(row("drop", 0.5));
+    rows.push_back(row("gnss_rtk_lost"));
+  }
+  std::set<std::uint64_t> seeds;
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    const auto plan = plan_faults(rows, seed);
+    ASSERT_TRUE(plan);
+    for (const auto& fault : plan->frames) seeds.insert(fault.seed);
+    for (const auto& fault : plan->models) seeds.insert(fault.seed);
+  }
+  EXPECT_EQ(seeds.size(), 30u);
+}
+
+TEST(FaultPlan, ThereIsALimit) {
+  std::vector<scenario::Fault> rows(faults::kMaxFrameFaults, row("drop_all"));
+  EXPECT_TRUE(plan_faults(rows, 1));
+  rows.push_back(row("drop_all"));
+  EXPECT_FALSE(plan_faults(rows, 1));
+}
+
+}  // namespace
+}  // namespace pitwall::bench

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/signals.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "tests/hil/bench/flying_lap.hpp"
+
+namespace pitwall::bench {
+namespace {
+
+double value(const SignalValues& values, Signal signal) {
+  return values[static_cast<std::size_t>(signal)];
+}
+
+Rig standing_rig() {
+  scenario::Scenario s = lap().scenario;
+  s.start = {.s_m = 600.0, .n_m = 1.5};
+  auto rig = Rig::build(s, lap().setup.track);
+  EXPECT_TRUE(rig);
+  return *std::move(rig);
+}
+
+TEST(Signals, EachHasItsOwnName) {
+  const std::set<std::string_view> names(kSignalNames.begin(), kSignalNames.end());
+  EXPECT_EQ(names.size(), kSignals);
+  EXPECT_EQ(names.count(""), 0u);
+  EXPECT_EQ(signal_names().size(), kSignals);
+  const auto name = [](Signal signal) { return kSignalNames[static_cast<std::size_t>(signal)]; };
+  EXPECT_EQ(name(Signal::kSpeed), "speed_mps");
+  EXPECT_EQ(name(Signal::kWallGap), "wall_gap_m");
+  EXPECT_EQ(name(Signal::kSteering), "steering_motor_deg");
+  EXPECT_EQ(name(Signal::kTrackFlag), "track_flag");
+  EXPECT_EQ(name(Signal::kFramesLost), "frames_lost");
+  EXPECT_EQ(name(Signal::kMode), "mode");
+  EXPECT_EQ(name(Signal::kYawError), "yaw_error_rad");
+  EXPECT_EQ(name(Signal::kSideSlip), "side_slip_deg");
+}
+
+TEST(Signals, AreTheTruthOfTheRig) {
+  const Rig rig = standing_rig();
+  const CarReport car{.mode = 3.0,
+                      .gate_refusals = 4.0,
+                      .bus_refusals = 5.0,
+                      .x_m = rig.truth().x_m + 3.0,
+                      .y_m = rig.truth().y_m - 4.0,
+                      .yaw_rad = rig.truth().yaw_rad - 6.0};
+  const SignalValues v = observe({.rig = rig, .car = car, .line_offset_m = 2.0, .frames_lost = 7});
+  EXPECT_NEAR(value(v, Signal::kStation), 600.0, 0.01);
+  EXPECT_NEAR(value(v, Signal::kOffset), 1.5, 0.01);
+  EXPECT_NEAR(value(v, Signal::kAbsCrossTrack), 0.5, 0.01) << "against the line, not the track";
+  EXPECT_EQ(value(v, Signal::kSpeed), 0.0);
+  EXPECT_EQ(value(v, Signal::kContact), 0.0);
+  EXPECT_EQ(value(v, Signal::kWallGap),
+            std::min(rig.road().wall_gap_left_m, rig.road().wall_gap_right_m));
+  EXPECT_EQ(value(v, Signal::kMode), 3.0);
+  EXPECT_EQ(value(v, Signal::kGateRefusals), 4.0);
+  EXPECT_EQ(value(v, Signal::kBusRefusals), 5.0);
+  EXPECT_EQ(value(v, Signal::kFramesLost), 7.0);
+  EXPECT_NEAR(value(v, Signal::kPositionError), 5.0, 1e-9);
+  EXPECT_NEAR(value(v, Signal::kYawError), 2.0 * M_PI - 6.0, 1e-9) << "the short way round";
+}
+
+TEST(Signals, AreNumbersBeforeTheCarHasSpoken) {
+  const Rig rig = standing_rig();
+  const SignalValues v = observe({.rig = rig, .car = {}});
+  for (std::size_t i = 0; i < kSignals; ++i) EXPECT_TRUE(std::isfinite(v[i])) << kSignalNames[i];
+  EXPECT_EQ(value(v, Signal::kMode), 0.0);
+  EXPECT_EQ(value(v, Signal::kPositionError), 0.0);
+  EXPECT_EQ(value(v, Signal::kSideSlip), 0.0) << "a car that stands does not slip";
+}
+
+TEST(Signals, AnExpectationOfAScenarioIsGradedInItsWindow) {
+  scenario::Scenario s = lap().scenario;
+  s.duration = seconds(50);
+  s.expect = {{.kind = scenario::ExpectKind::kWithin,
+               .signal = "speed_mps",
+               .relation = ">=",
+               .value = 12.5,
+               .from = seconds(10),
+               .until = seconds(30),
+               .place = "f.yaml:1:1"},
+              {.kind = scenario::ExpectKind::kNever,
+               .signal = "mode",
+               .relation = "==",
+               .value = 4.0,
+               .from = seconds(20),
+               .place = "f.yaml:2:1"}};
+  const auto rows = expectations_of(s);
+  ASSERT_TRUE(rows);
+  ASSERT_EQ(rows->size(), 2u);
+  const grading::Expectation& within = (*rows)[0];
+  EXPECT_EQ(within.name, "f.yaml:1:1");
+  EXPECT_EQ(within.kind, grading::Kind::kWithin);
+  EXPECT_EQ(within.condition.signal, "speed_mps");
+  EXPECT_EQ(within.condition.op, grading::Op::kGreaterEqual);
+  EXPECT_EQ(within.condition.number, 12.5);
+  EXPECT_EQ(within.from, Instant{} + seconds(10));
+  EXPECT_EQ(within.to, Instant{} + seconds(30));
+  EXPECT_EQ(within.limit, seconds(20));
+  EXPECT_EQ((*rows)[1].kind, grading::Kind::kNever);
+  EXPECT_EQ((*rows)[1].to, Instant{} + seconds(50)) << "no end means the end of the run";
+}
+
+TEST(Signals, AnUnknownSignalOrRelationIsRefusedWithItsPlace) {
+  scenario::Scenario s = lap().scenario;
+  s.expect = {{.signal = "speed_of_light", .relation = "<", .value = 1, .place = "f.yaml:7:3"}};
+  const auto signal = expectations_of(s);
+  ASSERT_FALSE(signal);
+  EXPECT_EQ(signal.error().place, "f.yaml:7:3");
+  EXPECT_NE(signal.error().what.find("speed_of_light"), std::string::npos);
+  s.expect = {{.signal = "mode", .relation = "=>", .value = 1, .place = "f.yaml:8:3"}};
+  const auto relation = expectations_of(s);
+  ASSERT_FALSE(relation);
+  EXPECT_EQ(relation.error().place, "f.yaml:8:3");
+}
+
+TEST(Signals, AWindowThatBeginsAfterTheRunIsRefused) {
+  scenario::Scenario s = lap().scenario;
+  s.duration = seconds(50);
+  s.expect = {
+      {.signal = "mode", .relation = "==", .value = 2, .from = seconds(60), .place = "f.yaml:9:3"}};
+  const auto rows = expectations_of(s);
+  ASSERT_FALSE(rows) << "it could never be judged";
+  EXPECT_EQ(rows.error().place, "f.yaml:9:3");
+}
+
+}  // namespace
+}  // namespace pitwall::bench

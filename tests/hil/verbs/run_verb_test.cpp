@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/verbs/run_verb.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "protocol/yaml/strict_map.hpp"
+#include "tests/hil/verbs/program_run.hpp"
+
+namespace pitwall::verbs {
+namespace {
+
+const std::string kShort = "hil/scenarios/launch_and_stop.yaml";
+
+class RunVerb : public ProgramRun {};
+
+TEST_F(RunVerb, WrongUsageIsTold) {
+  expect_refusal({}, "pitwall-hil VERB");
+  expect_refusal({"rum", kShort}, "unknown verb \"rum\"");
+  expect_refusal({"run"}, "scenario");
+  expect_refusal({"run", kShort, "--no-such-flag"}, "--no-such-flag");
+  expect_refusal({"run", kShort, "second.yaml"}, "second.yaml");
+  expect_refusal({"run", kShort, "--duration", "soon"}, "soon");
+  expect_refusal({"run", kShort, "--duration", "-1"}, "--duration");
+  expect_refusal({"run", kShort, "--duration"}, "--duration");
+  expect_refusal({"run", kShort, "--seed", "-1"}, "--seed");
+  expect_refusal({"run", kShort, "--radio-port", "70000"}, "--radio-port");
+  expect_refusal({"run", kShort, "--radio-port", "-1"}, "--radio-port");
+}
+
+TEST_F(RunVerb, HelpIsNoError) {
+  for (const auto& words : {std::vector<std::string>{"--help"}, {"help"}, {"run", "--help"}}) {
+    const Said said = run(words);
+    EXPECT_EQ(said.code, 0);
+    EXPECT_NE(said.out.find("run"), std::string::npos);
+    EXPECT_EQ(said.err, "");
+  }
+}
+
+TEST_F(RunVerb, ABadScenarioIsToldWithItsPlaceAndNothingIsStarted) {
+  const std::string bad = spoilt("launch_and_stop.yaml", "seed: 11", "seed: eleven");
+  for (const bool live : {false, true}) {
+    std::vector<std::string> words{"run", bad, "--json", path("r.json"), "--log", path("l.mcap")};
+    if (live) words.insert(words.end(), {"--live", "--out", path("live")});
+    expect_refusal(words, bad + ":4:7: error: ");
+    EXPECT_FALSE(exists("r.json"));
+    EXPECT_FALSE(exists("l.mcap"));
+    EXPECT_FALSE(exists("live"));
+  }
+  expect_refusal({"run", path("none.yaml")}, path("none.yaml"));
+  expect_refusal({"run", path("none.yaml"), "--live"}, path("none.yaml"));
+}
+
+TEST_F(RunVerb, WhatTheBenchDoesNotKnowIsToldWithItsPlace) {
+  const std::string signal = spoilt("red_flag_stop.yaml", "signal: wall_gap_m", "signal: wall_gap");
+  expect_refusal({"run", signal}, signal + ":");
+  const std::string fault = spoilt("bus_silent.yaml", "kind: bus_silent", "kind: bus_sulks");
+  expect_refusal({"run", fault}, "bus_sulks");
+}
+
+TEST_F(RunVerb, AFileThatCannotBeWrittenIsAFailureOfTheBench) {
+  expect_refusal({"run", kShort, "--log", path("no/such/folder/l.mcap")}, "no/such/folder");
+  const Said said = run({"run", kShort, "--json", path("no/such/folder/r.json")});
+  EXPECT_EQ(said.code, 2);
+  EXPECT_NE(said.err.find("no/such/folder"), std::string::npos);
+}
+
+TEST_F(RunVerb, APassIsZero) {
+  const Said said = run({"run", kShort, "--json", path("r.json"), "--log", path("l.mcap")});
+  EXPECT_EQ(said.code, 0) << said.out << said.err;
+  EXPECT_NE(said.out.find("verdict: PASS"), std::string::npos);
+  EXPECT_NE(said.out.find("SIMULATION"), std::string::npos);
+  EXPECT_GT(text_of("l.mcap").size(), 1'000'000u);
+  const auto json = yaml::load_file(path("r.json"));
+  ASSERT_TRUE(json) << to_string(json.error());
+  EXPECT_TRUE(json->root().flag("passed"));
+  EXPECT_NE(said.out.find(json->root().text("sha256")), std::string::npos);
+}
+
+// The test of the grader: an expectation that cannot hold is neither a pass nor a broken bench.
+TEST_F(RunVerb, AFailedExpectationIsOne) {
+  const std::string fails =
+      spoilt("launch_and_stop.yaml", "expect:\n",
+             "expect:\n  - {kind: always, signal: speed_mps, is: \"<\", value: 5}\n");
+  const Said said = run({"run", fails, "--json", path("r.json")});
+  EXPECT_EQ(said.code, 1) << said.out << said.err;
+  EXPECT_NE(said.out.find("FAIL  always speed_mps < 5"), std::string::npos) << said.out;
+  EXPECT_NE(said.out.find("verdict: FAIL"), std::string::npos);
+  const auto json = yaml::load_file(path("r.json"));
+  ASSERT_TRUE(json);
+  EXPECT_FALSE(json->root().flag("passed"));
+}
+
+TEST_F(RunVerb, ARunThatEndsTooEarlyToShowAnythingDoesNotPass) {
+  const Said said = run({"run", kShort, "--duration", "5"});
+  EXPECT_NE(said.code, 0);
+  EXPECT_EQ(said.out.find("verdict: PASS"), std::string::npos);
+}
+
+TEST_F(RunVerb, SeedAndDurationAreThoseOfTheLine) {
+  const auto digest = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"run", "hil/scenarios/lvms_flying_lap.yaml", "--json",
+                                   path("r.json")};
+    words.insert(words.end(), more.begin(), more.end());
+    (void)run(words);
+    const auto json = yaml::load_file(path("r.json"));
+    return json ? json->root().text("sha256") : "none";
+  };
+  const std::string plain = digest({"--duration", "61"});
+  EXPECT_EQ(digest({"--duration", "61"}), plain) << "the same run gives the same bytes";
+  EXPECT_EQ(digest({"--duration", "61", "--seed", "7"}), plain);
+  EXPECT_NE(digest({"--duration", "61", "--seed", "8"}), plain);
+  EXPECT_NE(digest({"--duration", "62"}), plain);
+}
+
+TEST(LiveCommand, SaysAllThatTheRunWasTold) {
+  RunOptions options;
+  options.scenario = "s.yaml";
+  options.interface = "vcan7";
+  options.folder = "out";
+  options.log_file = "l.mcap";
+  options.json_file = "r.json";
+  options.duration = milliseconds(1500);
+  options.seed = 42;
+  options.candump = true;
+  options.radio_port = 999;
+  const std::vector<std::string> command = live_command(options);
+  EXPECT_EQ(command[0], own_program());
+  EXPECT_EQ(command[1], "run");
+  EXPECT_EQ(command[2], "s.yaml");
+  const auto has = [&](const std::string& word) {
+    return std::find(command.begin(), command.end(), word) != command.end();
+  };
+  const auto value = [&](const std::string& flag) {
+    const auto at = std::find(command.begin(), command.end(), flag);
+    return at == command.end() || at + 1 == command.end() ? "" : *(at + 1);
+  };
+  EXPECT_TRUE(has("--live"));
+  EXPECT_TRUE(has("--here")) << "or the guest would boot a guest";
+  EXPECT_TRUE(has("--candump"));
+  EXPECT_EQ(value("--interface"), "vcan7");
+  EXPECT_EQ(value("--out"), "out");
+  EXPECT_EQ(value("--log"), "l.mcap");
+  EXPECT_EQ(value("--json"), "r.json");
+  EXPECT_EQ(std::stod(value("--duration")), 1.5);
+  EXPECT_EQ(value("--seed"), "42");
+  EXPECT_EQ(value("--radio-port"), "999");
+}
+
+}  // namespace
+}  // namespace pitwall::verbs
