@@ -1,5 +1,5 @@
-// What can be told of the live bench without a CAN interface: what is refused, and that then nothing
-// has been started. The rest runs where CAN is (tests/system/live).
+// What can be told of the live bench without a CAN interface: what is refused, and that then
+// nothing has been started. The rest runs where CAN is (tests/system/live).
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/bench/live.hpp"
 

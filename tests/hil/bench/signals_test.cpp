@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "tests/hil/bench/flying_lap.hpp"
@@ -60,7 +61,8 @@ TEST(Signals, AreTheTruthOfTheRig) {
   EXPECT_EQ(value(v, Signal::kBusRefusals), 5.0);
   EXPECT_EQ(value(v, Signal::kFramesLost), 7.0);
   EXPECT_NEAR(value(v, Signal::kPositionError), 5.0, 1e-9);
-  EXPECT_NEAR(value(v, Signal::kYawError), 2.0 * M_PI - 6.0, 1e-9) << "the short way round";
+  EXPECT_NEAR(value(v, Signal::kYawError), 2.0 * std::numbers::pi - 6.0, 1e-9)
+      << "the short way round";
 }
 
 TEST(Signals, AreNumbersBeforeTheCarHasSpoken) {
