@@ -14,6 +14,7 @@ namespace {
 // What a sample may say before it is believed at all; wide of anything on a track.
 constexpr double kSpeedMax_mps = 150.0, kAngleMax_rad = 4.0 * std::numbers::pi;
 constexpr double kRateMax_rad_per_s = 20.0, kForceMax_mps2 = 500.0;
+constexpr double kWheelAccelLag_s = 0.15, kWheelAccelMax_mps2 = 30.0;
 
 static_assert(std::is_trivially_copyable_v<State>);
 
@@ -194,15 +195,46 @@ void use_slip_model(const Context& c, Instant at) {
   (void)insert(c.state().timeline, c.params.timeline, m);  // a model, not a sample: no verdict
 }
 
-void take_wheels(const Context& c, const world::Heard<world::PerWheel>& wheels) {
+// Without any IMU the car turns as its steering says, in steady state:
+//   delta = L r / v + K (v r - g sin(bank))      Rajamani, Vehicle Dynamics and Control, eq. 3.12
+// The held rate of a dead gyro would be believed for ever.
+void use_steering_model(const Context& c, const world::VehicleSignals& car, Instant at) {
+  const State& s = c.state();
+  for (const Tally& imu : s.tally[static_cast<std::size_t>(Source::kImu)])
+    if (imu.ever_accepted && at - imu.last_accepted <= from_seconds(c.params.imu_timeout_s)) return;
+  if (!car.steering_motor_rad.fresh(at, from_seconds(c.params.imu_timeout_s))) return;
+  const Params& p = c.params;
+  const double speed = s.wheel_mps, fall = kGravity_mps2 * std::sin(c.bank_rad);
+  const double angle_rad = car.steering_motor_rad.value / p.steering_ratio;
+  const double rate = speed * (angle_rad + p.understeer_rad_per_mps2 * fall) /
+                      (p.wheelbase_m + p.understeer_rad_per_mps2 * speed * speed);
+  const double bias = s.timeline.newest().mean[kBias];
+  (void)insert(c.state().timeline, p.timeline,
+               {.kind = Kind::kImu,
+                .at = at,
+                .motion = {.yaw_rate_rad_per_s = rate + bias,
+                           .fx_mps2 = s.wheel_accel_mps2,
+                           .fy_mps2 = speed * rate - fall,
+                           .bank_rad = c.bank_rad}});
+}
+
+void take_wheels(const Context& c, const world::VehicleSignals& car) {
+  const world::Heard<world::PerWheel>& wheels = car.wheel_speed_mps;
   State& state = c.state();
   if (!wheels.heard || (state.have_wheel && wheels.at <= state.last_wheel)) return;
   const double speed =
       0.5 * (wheels.value[world::Corner::kRearLeft] + wheels.value[world::Corner::kRearRight]);
   Gate gate = timing(c, 0, wheels.at);
   if (gate == Gate::kAccepted && !std::isfinite(speed)) gate = Gate::kNotFinite;
+  const double since_s = (wheels.at - state.last_wheel).seconds();
   state.last_wheel = wheels.at;
   if (gate != Gate::kAccepted) return tell(c, Source::kWheelSpeed, 0, wheels.at, gate, kUnset);
+  if (state.have_wheel && since_s > 0.0) {
+    const double accel =
+        std::clamp((speed - state.wheel_mps) / since_s, -kWheelAccelMax_mps2, kWheelAccelMax_mps2);
+    const double share = std::min(since_s / kWheelAccelLag_s, 1.0);
+    state.wheel_accel_mps2 += share * (accel - state.wheel_accel_mps2);
+  }
   state.have_wheel = true;
   state.wheel_mps = speed;
   fuse(c, Source::kWheelSpeed,
@@ -210,7 +242,9 @@ void take_wheels(const Context& c, const world::Heard<world::PerWheel>& wheels) 
         .at = wheels.at,
         .a = speed,
         .sigma_a = combined(c.params.wheel_sigma_per_speed * speed, c.params.wheel_sigma_mps)});
-  if (state.started) use_slip_model(c, wheels.at);
+  if (!state.started) return;
+  use_steering_model(c, car, wheels.at);
+  use_slip_model(c, wheels.at);
 }
 
 struct SeedHeading {
@@ -313,7 +347,7 @@ void take_position(const Context& c, const world::GnssPosition& p) {
 void take_all(const Context& c, const world::SensorInput& in, const world::VehicleSignals& car) {
   State& s = c.state();
   for (const auto& sample : in.imu) (void)take(c, Source::kImu, sample);
-  take_wheels(c, car.wheel_speed_mps);
+  take_wheels(c, car);
   for (const auto& v : in.velocities) {
     if (take(c, Source::kVelocity, v)) s.seed_velocity = v, s.have_velocity = true;
   }

@@ -66,6 +66,7 @@ struct State {
   world::GnssHeading seed_heading;
   world::GnssVelocity seed_velocity;
   bool have_position = false, have_heading = false, have_velocity = false;
+  double wheel_accel_mps2 = 0.0;  // low-passed: the longitudinal force when no IMU says it
   Instant last_wheel{};
   bool have_wheel = false;
   double wheel_mps = 0.0;

@@ -33,6 +33,10 @@ struct Params {
   double slip_after_s = kUnset;             // 0.05..5: without GNSS velocity the model is used
   double cg_to_rear_m = kUnset;             // 0.5..3
   double rear_slip_rad_per_mps2 = kUnset;   // 0..0.02: rear slip angle per lateral acceleration
+  // Without any IMU the yaw rate comes from the steering: how the car turns at a steering angle.
+  double steering_ratio = kUnset;           // 5..40: motor angle : road-wheel angle
+  double wheelbase_m = kUnset;              // 1..5
+  double understeer_rad_per_mps2 = kUnset;  // -0.005..0.02: of the steady-state bicycle
   double imu_timeout_s = kUnset;            // 0.02..0.5: then the other unit's IMU
   double good_age_max_s = kUnset;           // 0.1..2: of the last position for kGood
   double dead_reckoning_max_s = kUnset;     // 0.5..20: then kLost

@@ -49,6 +49,7 @@ inline Params recommended() {
   p.wheel_sigma_mps = 0.2, p.wheel_sigma_per_speed = 0.08;
   p.slip_sigma_mps = 1.5, p.slip_after_s = 0.3;
   p.cg_to_rear_m = 1.247, p.rear_slip_rad_per_mps2 = 0.0014;
+  p.steering_ratio = 19.5, p.wheelbase_m = 2.971, p.understeer_rad_per_mps2 = 0.0006;
   p.imu_timeout_s = 0.05;
   p.good_age_max_s = 0.3, p.dead_reckoning_max_s = 15.0;
   p.good_sigma_max_m = 0.5, p.lost_sigma_max_m = 5.0;

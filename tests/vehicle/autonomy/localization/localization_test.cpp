@@ -168,6 +168,35 @@ Gate gate_of(const Rig& rig, const world::SensorInput& in) {
   return out.verdicts[0].gate;
 }
 
+// The steering angle that holds the turn in steady state, worked out on its own.
+TEST(Localization, WithoutAnyImuTheCarTurnsAsItsSteeringSays) {
+  Rig rig = rig_on(banked_turn());
+  rig.run(5.0);
+  const world::EgoState truth = rig.truth();
+  const double angle_rad = rig.params.wheelbase_m * truth.yaw_rate_rad_per_s / truth.vx_mps +
+                           rig.params.understeer_rad_per_mps2 * truth.ay_mps2;
+  for (int i = 0; i < 100; ++i) {
+    rig.ms += 10;
+    world::SensorInput in = rig.arrivals();
+    in.imu.clear();
+    const Instant now{rig.ms * 1'000'000};
+    rig.signals.wheel_speed_mps.at = now;
+    rig.signals.steering_motor_rad = {
+        .value = angle_rad * rig.params.steering_ratio, .at = now, .heard = true};
+    rig.out = step(rig.params, rig.datum, rig.state, in, rig.signals, rig.course.bank_rad, now);
+    rig.state = rig.out.next;
+    ASSERT_NEAR(rig.out.ego.yaw_rate_rad_per_s, truth.yaw_rate_rad_per_s, 0.01) << i;
+    ASSERT_LT(rig.position_error_m(), 0.15) << i;
+  }
+  // The wheel is straightened: the belief straightens too, instead of holding the last rate.
+  rig.signals.steering_motor_rad.value = 0.0;
+  rig.signals.steering_motor_rad.at = rig.signals.wheel_speed_mps.at =
+      Instant{(rig.ms += 10) * 1'000'000};
+  const Output straight = step(rig.params, rig.datum, rig.state, {}, rig.signals,
+                               rig.course.bank_rad, Instant{rig.ms * 1'000'000});
+  EXPECT_LT(straight.ego.yaw_rate_rad_per_s, 0.5 * truth.yaw_rate_rad_per_s);
+}
+
 TEST(Localization, EveryRefusalHasItsReason) {
   Rig rig = rig_on(Course{});
   rig.run(3.0);
