@@ -7,13 +7,11 @@
 #include <type_traits>
 
 #include "protocol/vocabulary/check.hpp"
+#include "vehicle/autonomy/localization/sample_gate.hpp"
 
 namespace pitwall::localization {
 namespace {
 
-// What a sample may say before it is believed at all; wide of anything on a track.
-constexpr double kSpeedMax_mps = 150.0, kAngleMax_rad = 4.0 * std::numbers::pi;
-constexpr double kRateMax_rad_per_s = 20.0, kForceMax_mps2 = 500.0;
 constexpr double kWheelAccelLag_s = 0.15, kWheelAccelMax_mps2 = 30.0;
 
 static_assert(std::is_trivially_copyable_v<State>);
@@ -68,55 +66,23 @@ double combined(double sigma, double floor) { return std::sqrt(sigma * sigma + f
 
 Gate judge(const Context& c, const world::GnssPosition& p) {
   const Gate gate = timing(c, p.unit, p.at);
-  if (gate != Gate::kAccepted) return gate;
-  if (p.solution_status != world::kSolutionComputed || p.position_type == world::kPositionNone) {
-    return Gate::kNotSolved;
-  }
-  if (!std::isfinite(p.latitude_sigma_m + p.longitude_sigma_m) ||
-      !c.datum.to_map(p.latitude_deg, p.longitude_deg, p.height_m)) {
-    return Gate::kNotFinite;
-  }
-  if (p.latitude_sigma_m < 0.0 || p.longitude_sigma_m < 0.0) return Gate::kImplausible;
-  const double worst_m = std::max(p.latitude_sigma_m, p.longitude_sigma_m);
-  return worst_m <= c.params.position_sigma_max_m ? Gate::kAccepted : Gate::kTooUncertain;
+  return gate == Gate::kAccepted ? contents(c.params, c.datum, p) : gate;
 }
 
 Gate judge(const Context& c, const world::GnssVelocity& v) {
   const Gate gate = timing(c, v.unit, v.at);
-  if (gate != Gate::kAccepted) return gate;
-  if (v.solution_status != world::kSolutionComputed || v.velocity_type == world::kPositionNone) {
-    return Gate::kNotSolved;
-  }
-  if (!std::isfinite(v.horizontal_mps + v.track_over_ground_rad)) return Gate::kNotFinite;
-  const bool plausible = v.horizontal_mps >= 0.0 && v.horizontal_mps <= kSpeedMax_mps &&
-                         std::abs(v.track_over_ground_rad) <= kAngleMax_rad;
-  return plausible ? Gate::kAccepted : Gate::kImplausible;
+  return gate == Gate::kAccepted ? contents(v) : gate;
 }
 
 Gate judge(const Context& c, const world::GnssHeading& h) {
   const Gate gate = timing(c, h.unit, h.at);
-  if (gate != Gate::kAccepted) return gate;
-  if (h.solution_status != world::kSolutionComputed || h.position_type == world::kPositionNone) {
-    return Gate::kNotSolved;
-  }
-  if (!std::isfinite(h.heading_rad + h.heading_sigma_rad)) return Gate::kNotFinite;
-  if (h.heading_sigma_rad < 0.0 || std::abs(h.heading_rad) > kAngleMax_rad)
-    return Gate::kImplausible;
-  return h.heading_sigma_rad <= c.params.heading_sigma_max_rad ? Gate::kAccepted
-                                                               : Gate::kTooUncertain;
+  return gate == Gate::kAccepted ? contents(c.params, h) : gate;
 }
 
 Gate judge(const Context& c, const world::ImuSample& s) {
-  const Gate gate = timing(c, s.unit, s.at);
-  if (gate != Gate::kAccepted) return gate;
-  if (!std::isfinite(s.rate_rad_per_s[2] + s.specific_force_mps2[0] + s.specific_force_mps2[1])) {
-    return Gate::kNotFinite;
-  }
-  if (std::abs(s.rate_rad_per_s[2]) > kRateMax_rad_per_s ||
-      std::max(std::abs(s.specific_force_mps2[0]), std::abs(s.specific_force_mps2[1])) >
-          kForceMax_mps2)
-    return Gate::kImplausible;
-  if (s.unit == 0) return Gate::kAccepted;
+  Gate gate = timing(c, s.unit, s.at);
+  if (gate == Gate::kAccepted) gate = contents(s);
+  if (gate != Gate::kAccepted || s.unit == 0) return gate;
   const Tally& first = c.state().tally[static_cast<std::size_t>(Source::kImu)][0];
   const bool first_lives =
       first.ever_accepted && s.at - first.last_accepted <= from_seconds(c.params.imu_timeout_s);
