@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "hil/plant/plant.hpp"
+#include "tests/support/public_data.hpp"
 
 namespace pitwall::plant {
 namespace {
@@ -24,23 +25,10 @@ struct Row {
 };
 
 std::vector<Row> recorded_drive() {
-  const char* folder = std::getenv("PITWALL_SHARED_DATA");
-  const std::filesystem::path data =
-      folder ? folder : std::filesystem::path(PITWALL_SOURCE_DIR) / "../shared/data";
-  const auto path = data / "laps/Putnam_park2023_run4_2.csv.gz";
+  const auto path = recordings::folder() / "laps/Putnam_park2023_run4_2.csv.gz";
   std::vector<Row> rows;
-  if (!std::filesystem::exists(path)) return rows;
-  FILE* pipe = popen(("zcat '" + path.string() + "'").c_str(), "r");
-  if (pipe == nullptr) return rows;
-  std::array<char, 1024> line{};
-  while (std::fgets(line.data(), line.size(), pipe) != nullptr) {
-    if (line[0] == '#') continue;
-    std::stringstream fields(line.data());
-    std::vector<double> v;
-    for (std::string field; std::getline(fields, field, ',');) v.push_back(std::stod(field));
+  for (const std::vector<double>& v : recordings::gzipped_table(path, ','))
     if (v.size() >= 8) rows.push_back({v[3], v[6], v[7]});
-  }
-  pclose(pipe);
   return rows;
 }
 

@@ -12,6 +12,8 @@
 #include <sstream>
 #include <vector>
 
+#include "tests/support/public_data.hpp"
+
 namespace pitwall::sensors {
 namespace {
 
@@ -123,10 +125,7 @@ TEST(Sensors, ASampleIsValidWhenItWasTaken) {
 
 // An independent oracle: GeographicLib's own program computed these points.
 TEST(Sensors, GeodesyAgreesWithCartConvert) {
-  const char* folder = std::getenv("PITWALL_SHARED_DATA");
-  const std::filesystem::path data =
-      folder ? folder : std::filesystem::path(PITWALL_SOURCE_DIR) / "../shared/data";
-  std::ifstream file(data / "ltp/ltp_LVMS.txt");
+  std::ifstream file(recordings::folder() / "ltp/ltp_LVMS.txt");
   if (!file) GTEST_SKIP() << "the table of local tangent plane points is not on this machine";
   int rows = 0;
   for (std::string line; std::getline(file, line);) {

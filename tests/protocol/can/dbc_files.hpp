@@ -15,6 +15,7 @@
 
 #include "protocol/can/dbc_parser.hpp"
 #include "protocol/can/manifest.hpp"
+#include "tests/support/public_data.hpp"
 
 namespace pitwall::can {
 
@@ -34,16 +35,12 @@ inline Database load(const std::filesystem::path& path) {
   return loaded ? *loaded : Database{};
 }
 
-inline std::filesystem::path shared_data() {
-  const char* const folder = std::getenv("PITWALL_SHARED_DATA");
-  return folder == nullptr ? kSource / "../shared/data" : std::filesystem::path{folder};
-}
-
 inline std::vector<std::filesystem::path> public_files() {
   std::vector<std::filesystem::path> out;
   std::error_code error;
   for (const char* folder : {"dbc", "dbc/corner_cases"}) {
-    for (const auto& entry : std::filesystem::directory_iterator(shared_data() / folder, error)) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator(recordings::folder() / folder, error)) {
       if (entry.path().extension() == ".dbc") out.push_back(entry.path());
     }
   }

@@ -34,7 +34,7 @@ TEST(DbcParser, ReadsWhatOurOwnFileSays) {
 
 // The layout is that of the car, whatever its file calls units and nodes.
 TEST(DbcParser, OurFileIsBitForBitRevisionFourteen) {
-  const auto path = shared_data() / "dbc/CAN1-INDY-V14.dbc";
+  const auto path = recordings::folder() / "dbc/CAN1-INDY-V14.dbc";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
   const Database ours = load(kOwnDbc), theirs = load(path);
   ASSERT_EQ(ours.messages.size(), theirs.messages.size());
@@ -59,7 +59,7 @@ TEST(DbcParser, OurFileIsBitForBitRevisionFourteen) {
 TEST(DbcParser, ReadsThePublicFiles) {
   const auto files = public_files();
   if (files.empty())
-    GTEST_SKIP() << shared_data() / "dbc"
+    GTEST_SKIP() << recordings::folder() / "dbc"
                  << " is not here";
   for (const auto& path : files) {
     const auto parsed = parse_dbc(text_of(path), path.filename().string());

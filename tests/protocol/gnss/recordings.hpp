@@ -10,14 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/public_data.hpp"
+
 namespace pitwall::gnss {
 
-inline std::string recordings_folder() {
-  const char* named = std::getenv("PITWALL_SHARED_DATA");
-  return (named != nullptr ? std::string{named}
-                           : std::string{PITWALL_SOURCE_DIR "/../shared/data"}) +
-         "/gnss/";
-}
+inline std::string recordings_folder() { return (recordings::folder() / "gnss" / "").string(); }
 
 inline std::optional<std::vector<std::uint8_t>> recording(const std::string& name) {
   std::ifstream in{recordings_folder() + name, std::ios::binary};

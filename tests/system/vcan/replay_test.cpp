@@ -13,6 +13,7 @@
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
+#include "tests/support/public_data.hpp"
 
 namespace pitwall::replay {
 namespace {
@@ -25,10 +26,7 @@ std::string replay_program() {
 }
 
 std::string shared_log(const std::string& name) {
-  const char* shared = std::getenv("PITWALL_SHARED_DATA");
-  const fs::path root = shared != nullptr ? fs::path(shared)
-                                          : fs::path(PITWALL_SOURCE_DIR) / ".." / "shared" / "data";
-  return (root / "can_logs" / name).lexically_normal().string();
+  return (recordings::folder() / "can_logs" / name).lexically_normal().string();
 }
 
 // candump, recording all of vcan0 to a file until it is told to stop.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "protocol/gnss/imu_scale.hpp"
+#include "tests/support/public_data.hpp"
 
 namespace pitwall::io {
 namespace {
@@ -155,14 +156,11 @@ TEST(GnssInput, AFullListIsCounted) {
 }
 
 TEST(GnssInput, ARecordingOfARealReceiverGivesItsPlaceAndHeading) {
-  const char* named = std::getenv("PITWALL_SHARED_DATA");
-  const std::string folder =
-      (named != nullptr ? std::string{named} : std::string{PITWALL_SOURCE_DIR "/../shared/data"}) +
-      "/gnss/";
+  const std::filesystem::path folder = recordings::folder() / "gnss";
   GnssInput input{{}};
   world::SensorInput out;
   for (const char* name : {"bestpos.gps", "align.gps"}) {
-    std::ifstream in{folder + name, std::ios::binary};
+    std::ifstream in{folder / name, std::ios::binary};
     if (!in) GTEST_SKIP() << "no recordings at " << folder;
     const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>{in}, {}};
     GnssInput of_file{{}};

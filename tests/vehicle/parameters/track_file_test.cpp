@@ -13,6 +13,8 @@
 #include <sstream>
 #include <vector>
 
+#include "tests/support/public_data.hpp"
+
 namespace pitwall::parameters {
 namespace {
 
@@ -91,23 +93,10 @@ struct Reference {
 };
 
 std::vector<Reference> reference() {
-  const char* folder = std::getenv("PITWALL_SHARED_DATA");
-  const std::filesystem::path data =
-      folder ? folder : std::filesystem::path(PITWALL_SOURCE_DIR) / "../shared/data";
-  const auto path = data / "tracks/traj_ltpl_cl_LVMS_GPS.csv.gz";
+  const auto path = recordings::folder() / "tracks/traj_ltpl_cl_LVMS_GPS.csv.gz";
   std::vector<Reference> rows;
-  if (!std::filesystem::exists(path)) return rows;
-  FILE* pipe = popen(("zcat '" + path.string() + "'").c_str(), "r");
-  if (pipe == nullptr) return rows;
-  std::array<char, 1024> line{};
-  while (std::fgets(line.data(), line.size(), pipe) != nullptr) {
-    if (line[0] == '#') continue;
-    std::stringstream fields(line.data());
-    std::vector<double> v;
-    for (std::string field; std::getline(fields, field, ';');) v.push_back(std::stod(field));
+  for (const std::vector<double>& v : recordings::gzipped_table(path, ';'))
     if (v.size() == 17) rows.push_back({v[13], v[0], v[1], v[14], v[15], v[12]});
-  }
-  pclose(pipe);
   return rows;
 }
 

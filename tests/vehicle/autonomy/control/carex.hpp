@@ -12,11 +12,6 @@
 
 namespace pitwall::control::testing {
 
-inline std::filesystem::path shared_data() {
-  if (const char* given = std::getenv("PITWALL_SHARED_DATA")) return given;
-  return std::filesystem::path(PITWALL_SOURCE_DIR) / ".." / "shared" / "data";
-}
-
 // "A 2 2" and then the rows; other lines are comments or sizes.
 inline std::map<std::string, Eigen::MatrixXd> read_matrices(const std::filesystem::path& file) {
   std::map<std::string, Eigen::MatrixXd> matrices;

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <cstdint>
 
+#include "tests/support/public_data.hpp"
 #include "tests/vehicle/autonomy/control/carex.hpp"
 
 namespace pitwall::control {
@@ -97,7 +98,7 @@ TEST(Riccati, RefusesWithTheReason) {
 }
 
 TEST(Riccati, SolvesTheBenchmarkCollection) {
-  const auto folder = testing::shared_data() / "carex";
+  const auto folder = recordings::folder() / "carex";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no benchmark files at " << folder;
   int solved = 0, exact = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
