@@ -39,6 +39,7 @@ ManifestMessage message(const std::string& name, yaml::StrictMap map) {
   m.place = map.place();
   m.direction = choice(map, "direction", kDirections);
   m.safety = choice(map, "safety", kClasses);
+  m.required = map.flag_or("required", true);
   m.period = from_seconds(map.number("period_ms", 0.1, kMaxPeriod_ms) * 1e-3);
   m.timeout = from_seconds(map.number("timeout_ms", 0.1, 10 * kMaxPeriod_ms) * 1e-3);
   if (m.timeout <= m.period) map.fail("timeout_ms", "must be longer than the period");
@@ -130,6 +131,7 @@ std::vector<MessageRow> rows(const Manifest& manifest, const Database& database)
          .name = m.name.c_str(),
          .direction = entry->direction,
          .safety = entry->safety,
+         .required = entry->required && entry->direction == Direction::kFromCar,
          .period = entry->period,
          .timeout = entry->timeout,
          .has_counter = counter != nullptr,

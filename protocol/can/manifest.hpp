@@ -32,6 +32,7 @@ struct MessageRow {
   const char* name;
   Direction direction;
   SafetyClass safety;
+  bool required;  // a bus without it is not the bus that the database describes
   Duration period;
   Duration timeout;
   bool has_counter;
@@ -56,6 +57,7 @@ struct ManifestMessage {
   std::string name;
   Direction direction = Direction::kFromCar;
   SafetyClass safety = SafetyClass::kInformation;
+  bool required = true;  // from_car only
   Duration period{}, timeout{};
   std::string counter;  // empty: none
   std::vector<ManifestSlew> slews;

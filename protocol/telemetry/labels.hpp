@@ -24,12 +24,15 @@ inline constexpr std::string_view kVehicleFlags =
     "none|BLACK PIT IN|BLUE|STOP|PURPLE EMERGENCY|ENGINE KILL|ORANGE START ENGINE|YELLOW|CHEQUERED|"
     "DEFENDER|ATTACKER|UNKNOWN";
 inline constexpr std::string_view kValidities = "never|good|dead reckoning|lost";
+inline constexpr std::string_view kIdentities = "listening|right|wrong";
+inline constexpr std::string_view kControllerStates = "unknown|active|warning|passive|BUS OFF|down";
 inline constexpr std::string_view kStopCauses =
     "none|operator: emergency stop|purple flag|drive-by-wire: system failure|"
     "drive-by-wire: emergency brake|drive-by-wire: steering lost|"
     "drive-by-wire: emergency shutdown|operator: stop|operator: disarm|engine-kill flag|"
     "drive-by-wire: engine lost|drive-by-wire: brake out of spec|"
     "drive-by-wire: critical limits|drive-by-wire: does not hear us|"
+    "CAN bus does not fit the database|CAN bus off|"
     "another node sends our CAN ids|CAN message lost|frame gate refused commands|"
     "control failed|planning failed or late|localization lost|dead reckoning too long|"
     "position too uncertain|GNSS unit disconnected|GNSS: both units miss the rate|"

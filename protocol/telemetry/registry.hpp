@@ -106,6 +106,12 @@ inline constexpr auto kFields = [] {
       count(kBus, "frames_sent"),
       count(kBus, "tx_drops"),
       count(kBus, "gate_refusals"),
+      count(kBus, "frames_lost"),
+      count(kBus, "queue_losses"),
+      {kBus, "controller", "", 0, 6, 1, kSafety, kMedium, kControllerStates},
+      {kBus, "identity", "", 0, 6, 1, kSafety, kMedium, kIdentities},
+      {kBus, "differing_id", "", 0, 536'870'911, 1, kSafety, kSlow},
+      count(kBus, "database"),
 
       {kComputer, "step_time_max", "us", 0, 1'000'000, 1, kStatistics, kSlow},
       count(kComputer, "steps"),

@@ -156,7 +156,7 @@ world::BusHealth health(const InboundState& state, Instant now) {
     const MessageTrack& track = state.messages[i];
     const bool listed = bus.messages.push({.id = kMessages[i].id,
                                            .liveness = liveness(kMessages[i], track, now),
-                                           .counter_debt = track.debt,
+                                           .debt = track.debt,
                                            .last = track.last});
     CHECK(listed);
   }

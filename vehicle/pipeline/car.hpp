@@ -11,9 +11,11 @@
 #include "vehicle/autonomy/control/control.hpp"
 #include "vehicle/autonomy/localization/localization.hpp"
 #include "vehicle/autonomy/planning/planning.hpp"
+#include "vehicle/gateway/bus_identity.hpp"
 #include "vehicle/gateway/handshake.hpp"
 #include "vehicle/gateway/inbound.hpp"
 #include "vehicle/gateway/outbound.hpp"
+#include "vehicle/safety/bus_guard.hpp"
 #include "vehicle/safety/frame_gate.hpp"
 #include "vehicle/safety/supervisor.hpp"
 #include "vehicle/safety/watchdog.hpp"
@@ -32,12 +34,14 @@ struct Plan {
 
 struct Car {
   gateway::InboundState inbound;
+  gateway::IdentityState identity;
   gateway::HandshakeState handshake;
   gateway::OutboundState outbound;
   localization::State localization;
   Plan plan;
   control::State control;
   safety::WatchdogState watchdog;
+  safety::BusGuardState bus_guard;
   safety::SupervisorState supervisor;
   safety::GateState gate;
   safety::Follow follow = safety::Follow::kNone;  // decided by the last tick

@@ -13,9 +13,11 @@
 #include "vehicle/autonomy/control/control.hpp"
 #include "vehicle/autonomy/localization/localization.hpp"
 #include "vehicle/autonomy/planning/planning.hpp"
+#include "vehicle/gateway/bus_identity.hpp"
 #include "vehicle/gateway/handshake.hpp"
 #include "vehicle/gateway/inbound.hpp"
 #include "vehicle/gateway/outbound.hpp"
+#include "vehicle/safety/bus_guard.hpp"
 #include "vehicle/safety/frame_gate.hpp"
 #include "vehicle/safety/supervisor.hpp"
 #include "vehicle/safety/watchdog.hpp"
@@ -31,12 +33,14 @@ struct Rates {
 struct CarParams {
   Rates rates;
   gateway::InboundParams inbound;
+  gateway::IdentityParams identity;
   gateway::HandshakeParams handshake;
   gateway::OutboundParams outbound;
   localization::Params localization;
   planning::Params planning;
   control::Params control;
   safety::WatchdogParams watchdog;
+  safety::BusGuardParams bus_guard;
   safety::SupervisorParams supervisor;
   safety::GateParams gate;
 };

@@ -49,6 +49,7 @@ safety::SupervisorOutput supervise(const Setup& setup, Car& car, const Outputs& 
                             .control_ok = usable,
                             .drive_available = !car.plan.output.drive.points.empty(),
                             .own_id_seen = out.heard.own_id_seen,
+                            .bus_failed = out.bus_guard.failed,
                             .gate_refused = car.gate_refused,
                             .operator_requests = in.requests},
                            in.now);
@@ -72,6 +73,9 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
   const CarParams& p = setup.params;
   Outputs out;
   out.heard = gateway::decode(p.inbound, car.inbound, in.can, in.now);
+  const bool armed = car.supervisor.mode != Mode::kDisarmed;
+  out.heard.bus.identity = gateway::identify(p.identity, car.identity, in.can, armed, in.now);
+  out.heard.bus.link = in.link;
 
   const auto located = localization::step(p.localization, setup.datum, car.localization, in.sensors,
                                           out.heard.signals, car.bank_rad, in.now);
@@ -96,6 +100,7 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
                                 .planner_at = car.plan.good_at,
                                 .radio_at = in.radio_at},
                                in.now);
+  out.bus_guard = safety::guard(p.bus_guard, car.bus_guard, in.link, in.requests.reset, in.now);
   out.chosen = supervise(setup, car, out, in);
   car.follow = out.chosen.follow;
   out.ct_state = handshake(setup, car, out, in);

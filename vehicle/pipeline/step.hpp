@@ -30,6 +30,7 @@ struct Inputs {
   double operator_speed_limit_mps = kUnset;  // unset: none
   // Newest byte of each receiver, where the rim knows it; else any sample of the unit counts.
   std::array<std::optional<Instant>, world::kGnssUnits> gnss_byte_at{};
+  world::LinkObservation link{};      // of the CAN interface, by the rim
   std::optional<Instant> radio_at{};  // newest authentic packet of the base station
 };
 
@@ -40,6 +41,7 @@ struct Outputs {
   world::Curvilinear place;  // on the track; unset before the first position
   control::Output steered;
   safety::WatchdogOutput watchdog;
+  safety::BusGuardOutput bus_guard;
   safety::SupervisorOutput chosen;
   world::CtState ct_state = world::CtState::kDefault;
   safety::GateOutput passed;

@@ -122,6 +122,15 @@ void put_counters(Values& v, const Outputs& out, const RimCounters& rim) {
   v[field("bus.frames_sent")] = static_cast<double>(rim.frames_sent);
   v[field("bus.tx_drops")] = static_cast<double>(rim.tx_drops);
   v[field("bus.gate_refusals")] = static_cast<double>(out.passed.refused_total);
+  const world::BusHealth& bus = out.heard.bus;
+  v[field("bus.frames_lost")] = static_cast<double>(bus.frames_lost);
+  v[field("bus.queue_losses")] =
+      static_cast<double>(bus.link.lost_in_socket + bus.link.lost_in_interface);
+  v[field("bus.controller")] = number_of(bus.link.controller);
+  v[field("bus.identity")] = number_of(bus.identity.verdict);
+  if (bus.identity.id != 0) v[field("bus.differing_id")] = bus.identity.id;
+  // The upper half: all that a number of the packet can hold; enough to tell revisions apart.
+  v[field("bus.database")] = static_cast<double>(bus.identity.database >> 32U);
   v[field("computer.step_time_max")] = rim.step_time_max_us;
   v[field("computer.steps")] = static_cast<double>(rim.steps);
   v[field("computer.missed_deadlines")] = static_cast<double>(rim.missed_deadlines);

@@ -67,6 +67,11 @@ void drive_by_wire(Finder& f) {
 }
 
 void bus(Finder& f, Instant now) {
+  // While listening the bus is not known, and not knowing bars arming as well. Value: the first id
+  // that differs.
+  f.add(Cause::kWrongBus, f.in.bus.identity.verdict != world::IdentityVerdict::kRight,
+        static_cast<double>(f.in.bus.identity.id));
+  f.add(Cause::kBusOff, f.in.bus_failed);
   f.add(Cause::kOwnIdOnBus, f.in.own_id_seen);
   // Value: which stream, or one more than the last for the whole bus.
   f.add(Cause::kBusMessageLost, now - f.in.bus.last_frame > f.params.bus_silence_max,

@@ -44,6 +44,7 @@ struct FaultInputs {
   const WatchdogOutput& watchdog;
   OperatorRequests operator_requests;
   bool own_id_seen = false;   // gateway::InboundOutput
+  bool bus_failed = false;    // BusGuardOutput
   bool control_ok = false;    // control gave a command this tick
   bool gate_refused = false;  // the gate refused a frame of the previous tick
   bool driving = false;       // control is expected to give commands

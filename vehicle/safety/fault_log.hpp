@@ -33,6 +33,8 @@ enum class Cause : std::uint8_t {
   kBrakeOutOfSpec,
   kCriticalLimits,
   kComputerHeartbeatLost,
+  kWrongBus,
+  kBusOff,
   kOwnIdOnBus,
   kBusMessageLost,
   kCommandRefused,
@@ -49,7 +51,7 @@ enum class Cause : std::uint8_t {
   kRaceControlReportedLost,
   kRadioLost
 };
-inline constexpr std::size_t kCauses = 29;
+inline constexpr std::size_t kCauses = 31;
 
 enum class Reaction : std::uint8_t { kNone, kControlledStop, kEmergencyStop };
 
@@ -77,6 +79,8 @@ inline constexpr std::array<CauseRow, kCauses> kCauseTable{{
     {Cause::kCriticalLimits, "drive-by-wire: critical limits", Reaction::kControlledStop, true},
     {Cause::kComputerHeartbeatLost, "drive-by-wire: does not hear us", Reaction::kControlledStop,
      false},
+    {Cause::kWrongBus, "CAN bus does not fit the database", Reaction::kControlledStop, true},
+    {Cause::kBusOff, "CAN bus off", Reaction::kControlledStop, true},
     {Cause::kOwnIdOnBus, "another node sends our CAN ids", Reaction::kControlledStop, true},
     {Cause::kBusMessageLost, "CAN message lost", Reaction::kControlledStop, true},
     {Cause::kCommandRefused, "frame gate refused commands", Reaction::kControlledStop, false},

@@ -274,6 +274,7 @@ SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& stat
                                     .watchdog = inputs.watchdog,
                                     .operator_requests = inputs.operator_requests,
                                     .own_id_seen = inputs.own_id_seen,
+                                    .bus_failed = inputs.bus_failed,
                                     .control_ok = inputs.control_ok && is_usable(inputs.control),
                                     .gate_refused = inputs.gate_refused,
                                     .driving = state.mode == Mode::kDriving},

@@ -62,6 +62,7 @@ struct SupervisorInputs {
   bool control_ok = false;
   bool drive_available = false;  // planning has a drive trajectory
   bool own_id_seen = false;      // gateway::InboundOutput
+  bool bus_failed = false;       // BusGuardOutput
   bool gate_refused = false;     // GateOutput::refused_now of the previous tick
   OperatorRequests operator_requests;
 };

@@ -190,8 +190,9 @@ void add_tables(std::string& out, const Database& database, const Manifest& mani
          "> kMessages{{\n";
   for (const MessageRow& r : table) {
     out += "    {" + number(r.id) + ", " + number(r.length) + ", \"" + r.name + "\", " +
-           direction_name(r.direction) + ",\n     " + class_name(r.safety) + ", Duration{" +
-           std::to_string(r.period.ns) + "}, Duration{" + std::to_string(r.timeout.ns) + "}, " +
+           direction_name(r.direction) + ",\n     " + class_name(r.safety) +
+           (r.required ? ", true" : ", false") + ", Duration{" + std::to_string(r.period.ns) +
+           "}, Duration{" + std::to_string(r.timeout.ns) + "}, " +
            (r.has_counter ? "true" : "false") + ", " + number(r.counter_start) + ", " +
            number(r.counter_bits) + "},\n";
   }

@@ -85,9 +85,17 @@ TEST(Integrity, ReadsTheCounterOfEveryGeneratedRow) {
 }
 
 TEST(Integrity, LivenessByAge) {
-  const MessageRow row{
-      1,     8, "m", Direction::kFromCar, SafetyClass::kStatus, milliseconds(10), milliseconds(50),
-      false, 0, 0};
+  const MessageRow row{1,
+                       8,
+                       "m",
+                       Direction::kFromCar,
+                       SafetyClass::kStatus,
+                       true,
+                       milliseconds(10),
+                       milliseconds(50),
+                       false,
+                       0,
+                       0};
   const Instant heard{1'000'000'000};
   EXPECT_EQ(liveness(row, std::nullopt, heard), Liveness::kNever);
   for (int age_ms = 0; age_ms < 100; ++age_ms) {

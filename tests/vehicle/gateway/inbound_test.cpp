@@ -111,7 +111,7 @@ TEST(Inbound, EveryConventionOfWrappingIsClean) {
     for (std::int64_t i = 0; i < 600; ++i)
       out = car.hear(steering(5.0, static_cast<std::uint8_t>(i % modulus)), at_ms(10 * i));
     EXPECT_EQ(out.bus.refused.total(), 0u) << modulus;
-    EXPECT_EQ(health_of(out.bus, av21::SteeringReport::kId).counter_debt, 0) << modulus;
+    EXPECT_EQ(health_of(out.bus, av21::SteeringReport::kId).debt, 0) << modulus;
   }
 }
 
@@ -139,11 +139,11 @@ TEST(Inbound, AJumpingCounterFillsTheBucketAndAGoodOneEmptiesIt) {
   };
   send(1);
   for (int bad = 1; bad <= 4; ++bad) EXPECT_EQ(send(3).bus.refused.jumped_counter, 0u) << bad;
-  EXPECT_EQ(health_of(car.listen(at_ms(10 * tick)).bus, 1303).counter_debt, 4);
+  EXPECT_EQ(health_of(car.listen(at_ms(10 * tick)).bus, 1303).debt, 4);
   EXPECT_EQ(send(3).bus.refused.jumped_counter, 1u);
   for (int i = 0; i < 100; ++i) send(3);
   EXPECT_EQ(car.state.refused.jumped_counter, 101u);
-  const int debt = health_of(car.listen(at_ms(10 * tick)).bus, 1303).counter_debt;
+  const int debt = health_of(car.listen(at_ms(10 * tick)).bus, 1303).debt;
   EXPECT_EQ(debt, 2 * car.params.fault_debt) << "bounded";
   for (int good = 0; good < debt - car.params.fault_debt + 1; ++good) send(1);
   const std::uint64_t applied = car.state.frames_applied;

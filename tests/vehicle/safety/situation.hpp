@@ -41,11 +41,13 @@ struct Situation {
   world::Trajectory stop;
   world::ActuatorCommand control;
   OperatorRequests requests;
-  bool control_ok = true, drive_available = true, own_id_seen = false, gate_refused = false;
+  bool control_ok = true, drive_available = true, own_id_seen = false, bus_failed = false,
+       gate_refused = false;
 
   Situation() {
     for (std::size_t i = 0; i < kStreams; ++i)
       watchdog.rows[i] = {static_cast<Stream>(i), Health::kGood, milliseconds(5)};
+    bus.identity.verdict = world::IdentityVerdict::kRight;
     race_control.ever_heard = true;
     race_control.track = world::TrackFlag::kGreen;
     race_control.vehicle = world::VehicleFlag::kNone;

@@ -47,6 +47,7 @@ struct Drive {
                      .control_ok = car.control_ok,
                      .drive_available = car.drive_available,
                      .own_id_seen = car.own_id_seen,
+                     .bus_failed = car.bus_failed,
                      .gate_refused = car.gate_refused,
                      .operator_requests = car.requests},
                     now);
@@ -131,6 +132,7 @@ TEST(Supervisor, EveryCauseStopsWithItsReactionAndIsNamedFirst) {
       {Cause::kControlFailed, [](Drive& d) { d.car.control.road_wheel_rad = kUnset; }},
       {Cause::kControlFailed, [](Drive& d) { d.car.control.brake_kpa = -1.0; }},
       {Cause::kCommandRefused, [](Drive& d) { d.car.gate_refused = true; }},
+      {Cause::kBusOff, [](Drive& d) { d.car.bus_failed = true; }},
       {Cause::kOwnIdOnBus, [](Drive& d) { d.car.own_id_seen = true; }}};
   for (const Case& c : cases) {
     Drive d;
@@ -242,7 +244,7 @@ TEST(Supervisor, LockedWheelsAreNoStandstill) {
     const SupervisorOutput out =
         supervise(d.params, d.state,
                   {d.car.signals, d.car.bus, d.car.race_control, d.car.ego, d.car.watchdog,
-                   d.car.stop, d.car.control, true, true, false, false, d.car.requests},
+                   d.car.stop, d.car.control, true, true, false, false, false, d.car.requests},
                   d.now);
     ASSERT_EQ(out.mode, Mode::kControlledStop);
   }
@@ -326,7 +328,7 @@ TEST(Supervisor, AnEgoStateWithoutSpeedGivesNoNonsenseInAnEmergency) {
     const SupervisorOutput out =
         supervise(d.params, d.state,
                   {d.car.signals, d.car.bus, d.car.race_control, d.car.ego, d.car.watchdog,
-                   d.car.stop, d.car.control, true, true, false, false, d.car.requests},
+                   d.car.stop, d.car.control, true, true, false, false, false, d.car.requests},
                   d.now);
     ASSERT_EQ(out.mode, Mode::kEmergencyStop);
     ASSERT_TRUE(out.command.brake_kpa >= 0.0 && std::isfinite(out.command.road_wheel_rad));

@@ -1,0 +1,50 @@
+// What to do about a CAN controller that goes bus-off or a queue that takes nothing: a bounded
+// number of restarts, then none, and a stop that stays until the operator resets it.
+//   in     what the rim sees of the interface; the operator's reset; now
+//   out    whether the rim shall restart the controller now; whether the bus has failed for good
+//   law    at most `restarts` in any `window`; the next bus-off latches `failed` (Cause kBusOff).
+//          A controller that is down or takes no frame for `stall_max` counts as bus-off.
+//          Reset (rising edge) clears the latch only while the controller is not bus-off.
+//   errors none
+//   source Linux can.rst (restart-ms); a controller that is bus-off speaks to nobody, so it is the
+//          drive-by-wire's own watchdog that stops the car
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <type_traits>
+
+#include "protocol/vocabulary/time.hpp"
+#include "vehicle/world/bus_health.hpp"
+
+namespace pitwall::safety {
+
+inline constexpr std::size_t kRestartsMax = 8;
+
+struct BusGuardParams {
+  std::uint8_t restarts = 3;           // within the window; [0, 8]
+  Duration window = seconds(10);       // [1, 60] s
+  Duration pause = milliseconds(100);  // from bus-off to a restart, and between two; [10 ms, 1 s]
+  Duration stall_max = milliseconds(50);  // the queue takes nothing; [20 ms, 1 s]
+};
+
+struct BusGuardState {
+  std::array<Instant, kRestartsMax> restarts{};  // newest last; zero: none
+  std::uint64_t restarts_total = 0;
+  Instant down_since{};
+  bool down = false;
+  bool failed = false;  // latched
+  bool reset_was = false;
+};
+static_assert(std::is_trivially_copyable_v<BusGuardState>);
+
+struct BusGuardOutput {
+  bool restart_now = false;
+  bool failed = false;
+};
+
+BusGuardOutput guard(const BusGuardParams& params, BusGuardState& state,
+                     const world::LinkObservation& link, bool reset, Instant now);
+
+}  // namespace pitwall::safety
