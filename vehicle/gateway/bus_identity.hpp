@@ -8,8 +8,8 @@
 //   law    while disarmed the verdict follows a sliding window of `listen`; a difference heals when
 //          a whole window has passed without it. While armed the verdict stands: a frame that goes
 //          astray at speed is a matter of integrity, not of identity
-//   order  of several differences the one with the smallest id is named; kUnknownId and kWrongLength
-//          before kNotHeard and kWrongPeriod, because they are proof and the others are absence
+//   order  of several differences the one with the smallest id is named; unknown ids and wrong
+//          lengths before silence and wrong periods, because they are proof and those are absence
 //   errors none
 //   cost   no allocation
 // SPDX-License-Identifier: Apache-2.0

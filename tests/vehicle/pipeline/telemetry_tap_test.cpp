@@ -71,6 +71,14 @@ Outputs full() {
   out.heard.bus.frames_applied = 1001;
   out.heard.bus.refused.stuck_counter = 30;
   out.heard.bus.refused.unknown_id = 7;
+  out.heard.bus.frames_lost = 12;
+  out.heard.bus.identity = {.verdict = world::IdentityVerdict::kWrong,
+                            .difference = world::IdentityDifference::kWrongLength,
+                            .id = 1312,
+                            .database = 0x12345678'9ABCDEF0};
+  out.heard.bus.link.controller = world::ControllerState::kPassive;
+  out.heard.bus.link.lost_in_socket = 4;
+  out.heard.bus.link.lost_in_interface = 5;
   out.ego = {.at = ago_ms(21),
              .validity = world::Validity::kDeadReckoning,
              .x_m = -310.5,
@@ -116,7 +124,7 @@ const std::vector<Row> kExpected{
     {field("mode.mode"), 3},
     {field("mode.ct_state"), 10},
     {field("mode.sys_state"), 9},
-    {field("mode.first_stop_cause"), 25},
+    {field("mode.first_stop_cause"), 27},
     {field("flags.track"), 3},
     {field("flags.vehicle"), 2},
     {field("flags.round_target_speed"), 53.6},
@@ -166,6 +174,12 @@ const std::vector<Row> kExpected{
     {field("bus.frames_sent"), 2002},
     {field("bus.tx_drops"), 3},
     {field("bus.gate_refusals"), 77},
+    {field("bus.frames_lost"), 12},
+    {field("bus.queue_losses"), 9},  // of socket and interface
+    {field("bus.controller"), 3},
+    {field("bus.identity"), 2},
+    {field("bus.differing_id"), 1312},
+    {field("bus.database"), 0x12345678},
     {field("computer.step_time_max"), 66},
     {field("computer.steps"), 4004},
     {field("computer.missed_deadlines"), 5},
@@ -229,6 +243,11 @@ TEST(TelemetryTap, WhatWasNeverHeardIsNotANumberAndHasNoAge) {
                                     "bus.frames_sent",
                                     "bus.tx_drops",
                                     "bus.gate_refusals",
+                                    "bus.frames_lost",
+                                    "bus.queue_losses",
+                                    "bus.controller",
+                                    "bus.identity",
+                                    "bus.database",
                                     "computer.steps",
                                     "computer.missed_deadlines"};
   for (std::size_t i = 0; i < telemetry::kFieldCount; ++i)
