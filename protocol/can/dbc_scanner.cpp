@@ -108,13 +108,13 @@ std::string_view DbcScanner::word() {
 
 double DbcScanner::real() {
   skip_space();
-  if (at_ < text_.size() && text_[at_] == '+') ++at_;
+  const bool has_plus = at_ + 1 < text_.size() && text_[at_] == '+' && text_[at_ + 1] != '-';
   double value = 0.0;
-  const char* const begin = text_.data() + at_;
+  const char* const begin = text_.data() + at_ + (has_plus ? 1 : 0);
   const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), value);
   if (error == std::errc::result_out_of_range) stop("this number is too large or too small");
   if (error != std::errc{} || !std::isfinite(value)) stop("expected a number");
-  at_ += static_cast<std::size_t>(end - begin);
+  at_ = static_cast<std::size_t>(end - text_.data());
   return value;
 }
 
@@ -131,66 +131,105 @@ std::int64_t DbcScanner::integer(std::int64_t min, std::int64_t max) {
   return value;
 }
 
-std::string DbcScanner::string() {
-  skip_space();
+std::string_view DbcScanner::quoted() {
   const std::size_t begin = at_;
   expect('"');
-  std::string out;
-  while (at_ < text_.size() && text_[at_] != '"') {
-    if (text_[at_] == '\\' && at_ + 1 < text_.size() && text_[at_ + 1] == '"') ++at_;
-    if (is_utf8_) {
-      out += text_[at_];
-    } else {
-      append_cp1252(out, text_[at_]);
+  const std::size_t first = at_;
+  for (;; ++at_) {
+    at_ = text_.find_first_of("\"\\", at_);
+    if (at_ == std::string_view::npos) {
+      at_ = begin;
+      stop("this text has no closing quote");
     }
-    ++at_;
+    if (text_[at_] == '"') break;
+    if (at_ + 1 < text_.size() && text_[at_ + 1] == '"') ++at_;
   }
-  if (at_ >= text_.size()) {
-    at_ = begin;
-    stop("this text has no closing quote");
+  return text_.substr(first, at_++ - first);
+}
+
+std::string DbcScanner::string() {
+  skip_space();
+  const std::string_view between = quoted();
+  std::string plain = utf8(between);
+  if (plain.find('\\') == std::string::npos) return plain;
+  std::string out;
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    if (plain[i] == '\\' && i + 1 < plain.size() && plain[i + 1] == '"') continue;
+    out += plain[i];
   }
-  ++at_;
   return out;
 }
 
-std::string_view DbcScanner::bare() {
-  const std::size_t begin = at_;
-  while (at_ < text_.size() && text_[at_] != ';' && kSpace.find(text_[at_]) == kSpace.npos) ++at_;
-  return text_.substr(begin, at_ - begin);
+std::string DbcScanner::utf8(std::string_view taken) const {
+  if (is_utf8_ && taken.find('\r') == std::string_view::npos) return std::string{taken};
+  std::string out;
+  out.reserve(taken.size());
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    if (taken[i] == '\r') {
+      if (!taken.substr(i + 1).starts_with('\n')) out += '\n';
+    } else if (is_utf8_) {
+      out += taken[i];
+    } else {
+      append_cp1252(out, taken[i]);
+    }
+  }
+  return out;
 }
 
-std::string DbcScanner::string_or_word() { return peek() == '"' ? string() : std::string(bare()); }
-
-void DbcScanner::skip_statement() {
+std::string DbcScanner::string_or_word() {
+  if (peek() == '"') return string();
   const std::size_t begin = at_;
-  while (at_ < text_.size() && text_[at_] != ';') {
+  while (at_ < text_.size() && text_[at_] != ';' && kSpace.find(text_[at_]) == kSpace.npos) ++at_;
+  return utf8(text_.substr(begin, at_ - begin));
+}
+
+std::string_view DbcScanner::statement() {
+  const std::size_t begin = at_;
+  while (true) {
+    at_ = text_.find_first_of(";\"/", at_);
+    if (at_ == std::string_view::npos) {
+      at_ = begin;
+      stop("this section has no closing ';'");
+    }
+    if (text_[at_] == ';') break;
     if (text_[at_] == '"') {
-      (void)string();
+      (void)quoted();
     } else if (at_remark()) {
       skip_line();
     } else {
       ++at_;
     }
   }
-  if (at_ >= text_.size()) {
-    at_ = begin;
-    stop("this section has no closing ';'");
-  }
   ++at_;
+  return text_.substr(begin, at_ - begin);
 }
 
 void DbcScanner::skip_line() {
-  const std::size_t next = text_.find('\n', at_);
+  const std::size_t next = text_.find_first_of("\r\n", at_);
   at_ = next == std::string_view::npos ? text_.size() : next + 1;
 }
 
-std::string DbcScanner::place() {
+std::size_t DbcScanner::here() {
   skip_space();
-  if (at_ < counted_to_) counted_to_ = line_start_ = 0, line_ = 1;
-  for (; counted_to_ < at_; ++counted_to_) {
-    if (text_[counted_to_] == '\n') ++line_, line_start_ = counted_to_ + 1;
-  }
-  return name_ + ":" + std::to_string(line_) + ":" + std::to_string(at_ - line_start_ + 1);
+  return at_;
+}
+
+bool DbcScanner::begins_line(std::size_t offset) const {
+  while (offset > 0 && (text_[offset - 1] == ' ' || text_[offset - 1] == '\t')) --offset;
+  return offset == 0 || text_[offset - 1] == '\n' || text_[offset - 1] == '\r';
+}
+
+// LF, CRLF, or CR alone.
+bool DbcScanner::ends_line(std::size_t at) const {
+  return text_[at] == '\n' || (text_[at] == '\r' && !text_.substr(at + 1).starts_with('\n'));
+}
+
+std::string DbcScanner::place_of(std::size_t offset) {
+  for (; counted_to_ < offset; ++counted_to_) line_ += ends_line(counted_to_) ? 1U : 0U;
+  for (; counted_to_ > offset; --counted_to_) line_ -= ends_line(counted_to_ - 1) ? 1U : 0U;
+  std::size_t line_start = offset;
+  while (line_start > 0 && !ends_line(line_start - 1)) --line_start;
+  return name_ + ":" + std::to_string(line_) + ":" + std::to_string(offset - line_start + 1);
 }
 
 void DbcScanner::stop(const std::string& what) { throw Stop{{place(), what}}; }

@@ -33,28 +33,36 @@ class DbcScanner {
   std::string string();
   // A string, or the characters up to the next space or semicolon.
   std::string string_or_word();
-  // Past the next semicolon outside strings.
-  void skip_statement();
+  // Up to and past the next semicolon outside strings, as it is written.
+  std::string_view statement();
   void skip_line();
+  // What was taken from the text as UTF-8 with LF.
+  std::string utf8(std::string_view taken) const;
 
   std::size_t offset() const { return at_; }
+  // Where the next token begins, for rewind() and place_of().
+  std::size_t here();
   void rewind(std::size_t offset) { at_ = offset; }
-  // Place of the next token.
-  std::string place();
+  // True where only spaces stand before `offset` in its line.
+  bool begins_line(std::size_t offset) const;
+  // Costs the lines since the place that was asked for last, forwards or backwards.
+  std::string place_of(std::size_t offset);
+  std::string place() { return place_of(here()); }
   [[noreturn]] void stop(const std::string& what);
 
  private:
   // Spaces, line ends and remarks ("// ..." to the end of the line).
   void skip_space();
   bool at_remark() const;
-  std::string_view bare();
+  // Past the string that begins here; returns what is between its quotes.
+  std::string_view quoted();
+  bool ends_line(std::size_t at) const;
 
   std::string_view text_;
   std::string name_;
   bool is_utf8_;
   std::size_t at_ = 0;
-  // Line of the last place asked for, so that places cost one pass over the text.
-  std::size_t counted_to_ = 0, line_ = 1, line_start_ = 0;
+  std::size_t counted_to_ = 0, line_ = 1;  // of the place that was asked for last
 };
 
 }  // namespace pitwall::can

@@ -55,10 +55,23 @@ ManifestMessage message(const std::string& name, yaml::StrictMap map) {
   return m;
 }
 
+IdRange id_range(yaml::StrictMap& map) {
+  IdRange range;
+  range.first = static_cast<std::uint32_t>(map.integer("first", 0, kMaxStandardId));
+  range.last = static_cast<std::uint32_t>(map.integer("last", range.first, kMaxStandardId));
+  return range;
+}
+
 Manifest manifest_of(yaml::StrictMap& root) {
   Manifest manifest;
   manifest.database = root.text("database");
   manifest.revision = root.text("revision");
+  manifest.ignored_place = root.place("ignore_ids");
+  if (root.has("ignore_ids")) {
+    for (yaml::StrictMap& range : root.maps("ignore_ids")) {
+      manifest.ignored.push_back(id_range(range));
+    }
+  }
   yaml::StrictMap messages = root.map("messages");
   for (const std::string& name : messages.keys()) {
     manifest.messages.push_back(message(name, messages.map(name)));
@@ -114,6 +127,10 @@ std::optional<Problem> contradiction(const Manifest& manifest, const Database& d
   for (const Message& m : database.messages) {
     if (manifest.find(m.name) == nullptr) {
       return Problem{m.place, "message " + m.name + " has no entry in " + manifest.name};
+    }
+    for (const IdRange& range : manifest.ignored) {
+      if (m.id < range.first || m.id > range.last) continue;
+      return Problem{manifest.ignored_place, "message " + m.name + " would be ignored"};
     }
   }
   return std::nullopt;

@@ -4,7 +4,7 @@
 //   out     the manifest; and rows that join it with the database, one per message
 //   errors  a Problem at "file:line:column": unknown message or signal, a message of the database
 //           without an entry, a counter that is not a plain unsigned Intel field, a timeout shorter
-//           than the period, a rate that is not positive
+//           than the period, a rate that is not positive, an ignored id that a message has
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -47,6 +47,11 @@ struct SlewRow {
   double max_per_s;
 };
 
+// Ids, both ends included, that other nodes may use on this bus: no business of the computer.
+struct IdRange {
+  std::uint32_t first = 0, last = 0;
+};
+
 struct ManifestSlew {
   std::string signal;
   double max_per_s = 0.0;
@@ -68,6 +73,8 @@ struct Manifest {
   std::string name;
   std::string database;  // file name of the DBC
   std::string revision;  // of the car's CAN bus, e.g. "CAN1-INDY-V14"
+  std::vector<IdRange> ignored;
+  std::string ignored_place;
   std::vector<ManifestMessage> messages;
 
   const ManifestMessage* find(std::string_view message) const;

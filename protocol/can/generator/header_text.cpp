@@ -207,11 +207,19 @@ void add_tables(std::string& out, const Database& database, const Manifest& mani
   }
   out +=
       "inline constexpr std::array<SlewRow, " + number(count) + "> kSlews{{\n" + slews + "}};\n\n";
+  out += "// Ids of other nodes that may be on this bus.\n";
+  out += "inline constexpr std::array<IdRange, " + number(manifest.ignored.size()) +
+         "> kIgnoredIds{{\n";
+  for (const IdRange& r : manifest.ignored) {
+    out += "    {" + number(r.first) + ", " + number(r.last) + "},\n";
+  }
+  out += "}};\n\n";
   out += "using AllMessages = std::tuple<";
   for (std::size_t i = 0; i < database.messages.size(); ++i) {
     out += (i == 0 ? "\n    " : ",\n    ") + struct_name(database.messages[i].name);
   }
   out += ">;\n\n";
+  out += "inline constexpr const char* kDatabase = \"" + manifest.database + "\";\n";
   out += "inline constexpr const char* kRevision = \"" + manifest.revision + "\";\n";
   out += "inline constexpr std::uint64_t kFingerprint = " + hex(fingerprint(database)) + ";\n\n";
 }

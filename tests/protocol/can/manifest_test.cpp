@@ -45,6 +45,32 @@ TEST(Manifest, OurOwnAgreesWithOurDatabase) {
   }
 }
 
+TEST(Manifest, IgnoredIdsAreThoseOfNoMessage) {
+  const auto m =
+      parse_manifest(manifest(kEntry) + "ignore_ids: [{first: 0x640, last: 0x6FF}]\n", "t.yaml");
+  ASSERT_TRUE(m) << to_string(m.error());
+  ASSERT_EQ(m->ignored.size(), 1u);
+  EXPECT_EQ(m->ignored[0].first, 0x640u);
+  EXPECT_EQ(m->ignored[0].last, 0x6FFu);
+  const std::uint32_t own = parsed(kDbc).messages.at(0).id;
+  const std::string around = "ignore_ids: [{first: " + std::to_string(own) + ", last: 2047}]\n";
+  EXPECT_NE(trouble(manifest(kEntry) + around).find("message M would be ignored"),
+            std::string::npos);
+  EXPECT_NE(trouble(manifest(kEntry) + "ignore_ids: [{first: 9, last: 8}]\n"), "");
+}
+
+TEST(Manifest, WhatIsNotSaidToBeOptionalIsRequiredOfTheCarOnly) {
+  const Database d = parsed(kDbc);
+  for (const bool from_car : {false, true}) {
+    std::string entry = kEntry;
+    if (from_car) entry.replace(entry.find("to_car"), 6, "from_car");
+    EXPECT_EQ(rows(*parse_manifest(manifest(entry), "t.yaml"), d).at(0).required, from_car);
+    EXPECT_FALSE(rows(*parse_manifest(manifest(entry + "    required: false\n"), "t.yaml"), d)
+                     .at(0)
+                     .required);
+  }
+}
+
 TEST(Manifest, ReadsAnEntry) {
   const auto m =
       parse_manifest(manifest(kEntry + "    counter: n\n    slew_per_s: {a: 2.5}\n"), "t.yaml");
