@@ -92,6 +92,7 @@ int run(int argc, const char* const* argv) {
   if (!stop) return refuse(stop.error());
   const auto setup = set_up(args);
   if (!setup) return refuse(setup.error());
+  if (args.check) return 0;
   auto rim = io::Rim::open(args);
   if (!rim) return refuse(rim.error());
   const auto realtime = transport::request_realtime(kPriority);

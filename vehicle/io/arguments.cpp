@@ -26,6 +26,7 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   app.add_option("--radio", args.radio, "where telemetry goes, ADDRESS:PORT");
   app.add_option("--summary", args.summary_file, "write counters and timing here at the end");
   app.add_flag("--simulation", args.simulation, "say in the telemetry that this is a simulation");
+  app.add_flag("--check", args.check, "only read the car and track files; touch no bus");
   app.add_flag("--arm", args.arm, "armed from the start (bench)");
   try {
     app.parse(argc, argv);

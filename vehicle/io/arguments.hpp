@@ -20,6 +20,7 @@ struct Arguments {
   std::string radio = "127.0.0.1:23431";
   std::string summary_file;  // empty: none
   bool simulation = false;   // marks the telemetry; decides nothing
+  bool check = false;        // read the files, say what is wrong with them, and stop
   bool arm = false;  // armed from the start: for benches, until an operator can arm by radio
 };
 
