@@ -73,7 +73,7 @@ struct LossLog {
 
 struct MonitorRules {
   std::uint8_t fault_debt = 5;  // from this debt on no frame is good; [1, 100]
-  bool use_counter = true;      // false: a counter that may rest, such as a heartbeat of race control
+  bool use_counter = true;  // false: a counter that may rest, such as a heartbeat of race control
 };
 
 enum class FrameVerdict : std::uint8_t {

@@ -1,0 +1,117 @@
+// A sender with a period, a delay and losses, written down: what was sent, when it arrived, what
+// was lost. The truth that a monitor is judged by; it shares no code with the monitor.
+//   in      period, largest delay, counter cycle, chance of loss, a seed
+//   out     sends in order; the run of a monitor over them with a tick of 10 ms
+//   units   Instant and Duration
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "protocol/can/message_monitor.hpp"
+#include "tests/protocol/can/dbc_files.hpp"
+
+namespace pitwall::can {
+
+inline constexpr Duration kTick = milliseconds(10);
+
+struct Send {
+  Instant due{}, arrival{};
+  std::uint32_t counter = 0;
+  bool is_lost = false;
+};
+
+struct SenderHabits {
+  Duration period = milliseconds(10);
+  Duration delay_max{};  // each send is delayed by 0 up to this
+  std::uint32_t bottom = 0, top = 255;
+  double loss = 0.0;
+  std::size_t sends = 500;
+};
+
+inline MessageRow row_of(const SenderHabits& habits, bool has_counter) {
+  MessageRow row{};
+  row.id = 0x123;
+  row.length = 8;
+  row.name = "m";
+  row.period = habits.period;
+  row.timeout = 5 * habits.period;
+  row.has_counter = has_counter;
+  row.counter_start = 8;
+  row.counter_bits = 8;
+  return row;
+}
+
+inline std::vector<Send> story(const SenderHabits& habits, Noise& noise) {
+  std::vector<Send> out;
+  const Instant start{1'000'000'000 + static_cast<std::int64_t>(noise.below(100'000'000))};
+  const std::uint32_t cycle = habits.top - habits.bottom + 1;
+  const std::uint64_t first = noise.below(cycle);
+  Instant newest{};
+  for (std::size_t i = 0; i < habits.sends; ++i) {
+    Send s;
+    s.due = start + habits.period * static_cast<std::int64_t>(i);
+    const auto span = static_cast<std::uint64_t>(habits.delay_max.ns);
+    s.arrival = s.due + nanoseconds(span == 0 ? 0 : static_cast<std::int64_t>(noise.below(span)));
+    if (s.arrival <= newest) s.arrival = newest + nanoseconds(1);  // one bus: no overtaking
+    newest = s.arrival;
+    s.counter = habits.bottom + static_cast<std::uint32_t>((first + i) % cycle);
+    s.is_lost = i > 0 && static_cast<double>(noise.below(1'000'000)) < habits.loss * 1e6;
+    out.push_back(s);
+  }
+  return out;
+}
+
+inline Frame frame_of(const MessageRow& row, std::uint32_t counter) {
+  Frame f{.id = row.id, .length = row.length, .data = {}};
+  f.data[1] = static_cast<std::uint8_t>(counter);
+  return f;
+}
+
+struct Heard {
+  MessageMonitor monitor;
+  std::vector<LossReport> reports;
+  std::map<FrameVerdict, int> verdicts;
+};
+
+// Judges what arrived, tick by tick, and watches on for `afterwards`.
+inline Heard run_monitor(const MessageRow& row, const std::vector<Send>& sends, Duration afterwards,
+                         const CounterCycle& known_cycle = {}) {
+  Heard heard;
+  heard.monitor.cycle = known_cycle;
+  LossLog log;
+  std::size_t next = 0;
+  const Instant end = sends.back().arrival + afterwards;
+  for (Instant now{900'000'000}; now < end; now += kTick) {
+    for (; next < sends.size() && sends[next].arrival <= now; ++next) {
+      if (sends[next].is_lost) continue;
+      const ReceivedFrame received{frame_of(row, sends[next].counter), sends[next].arrival};
+      ++heard.verdicts[judge(row, MonitorRules{}, heard.monitor, received, log)];
+    }
+    watch({&row, 1}, {&heard.monitor, 1}, now, log);
+    heard.reports.insert(heard.reports.end(), log.listed().begin(), log.listed().end());
+    EXPECT_EQ(log.unlisted, 0U);
+    log.clear();
+  }
+  return heard;
+}
+
+// Index of the send that lies nearest to `t`.
+inline std::int64_t nearest_send(const std::vector<Send>& sends, Duration period, Instant t) {
+  return ((t - sends.front().due) + period / 2).ns / period.ns;
+}
+
+// How often each send was reported as lost, by its due time alone.
+inline std::map<std::int64_t, int> blamed(const std::vector<Send>& sends, Duration period,
+                                          const std::vector<LossReport>& reports) {
+  std::map<std::int64_t, int> out;
+  for (const LossReport& r : reports) {
+    const std::int64_t first = nearest_send(sends, period, r.due);
+    for (std::int64_t k = 0; k < r.frames; ++k) ++out[first + k];
+  }
+  return out;
+}
+
+}  // namespace pitwall::can

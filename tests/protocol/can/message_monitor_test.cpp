@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/can/message_monitor.hpp"
+
+#include <gtest/gtest.h>
+
+#include "protocol/can/av21.hpp"
+#include "tests/protocol/can/bus_story.hpp"
+
+namespace pitwall::can {
+namespace {
+
+struct Cycle {
+  std::uint32_t bottom, top;
+};
+constexpr Cycle kCycles[] = {{0, 1},  {0, 7},  {0, 8},  {0, 9},   {0, 14},
+                             {0, 15}, {1, 15}, {1, 99}, {1, 255}, {0, 255}};
+constexpr int kPeriods_ms[] = {5, 10, 20, 50, 100, 160, 200, 500, 1000};
+
+std::int64_t losses_before(const std::vector<Send>& sends, std::int64_t index) {
+  std::int64_t run = 0;
+  while (sends[static_cast<std::size_t>(index - 1 - run)].is_lost) ++run;
+  return run;
+}
+
+// The law of the header: each lost send is blamed once, no other is, and in time.
+void expect_every_loss_once(const SenderHabits& habits, bool has_counter, Noise& noise) {
+  const std::vector<Send> sends = story(habits, noise);
+  const MessageRow row = row_of(habits, has_counter);
+  const Heard heard = run_monitor(row, sends, milliseconds(150));
+  std::int64_t last_heard = 0;
+  std::uint32_t lost = 0;
+  for (std::size_t i = 0; i < sends.size(); ++i) {
+    if (!sends[i].is_lost) last_heard = static_cast<std::int64_t>(i);
+  }
+  auto blame = blamed(sends, habits.period, heard.reports);
+  for (std::size_t i = 0; i < sends.size(); ++i) {
+    const auto index = static_cast<std::int64_t>(i);
+    const bool is_trailing = index > last_heard;
+    const bool is_owed = sends[i].is_lost && (!is_trailing || index <= last_heard + 5);
+    ASSERT_EQ(blame[index], is_owed ? 1 : 0)
+        << "send " << i << " of period " << habits.period.ns << " top " << habits.top;
+    lost += sends[i].is_lost ? 1U : 0U;
+  }
+  for (const LossReport& r : heard.reports) {
+    EXPECT_EQ(r.id, row.id);
+    const std::int64_t index = nearest_send(sends, habits.period, r.due);
+    if (index >= static_cast<std::int64_t>(sends.size())) continue;  // after the end of the story
+    const Instant due = sends[static_cast<std::size_t>(index)].due;
+    if (losses_before(sends, index) >= 5) continue;  // past the timeout: by the frame that ends it
+    EXPECT_LE(r.due - due, habits.delay_max);
+    EXPECT_LE(due - r.due, habits.delay_max);
+    EXPECT_LE(r.noticed - r.due, slack_of(row) + kTick + habits.delay_max);
+  }
+  EXPECT_EQ(heard.monitor.late, 0U);
+  EXPECT_GE(heard.monitor.lost, lost);  // and those that were due after the end
+}
+
+TEST(MessageMonitor, EveryLossIsReportedOnceAndNothingElse) {
+  Noise noise{11};
+  for (const int period_ms : kPeriods_ms) {
+    for (const Cycle& cycle : kCycles) {
+      for (const double loss : {0.0, 0.02, 0.3}) {
+        SenderHabits habits{.period = milliseconds(period_ms),
+                            .bottom = cycle.bottom,
+                            .top = cycle.top,
+                            .loss = loss,
+                            .sends = 300};
+        for (const int percent : {0, 50, 99}) {
+          habits.delay_max = slack_of(row_of(habits, true)) * percent / 100;
+          expect_every_loss_once(habits, true, noise);
+          if (cycle.top == 7) expect_every_loss_once(habits, false, noise);
+          if (HasFatalFailure()) return;
+        }
+      }
+    }
+  }
+}
+
+// Known from the start, as by a protection profile.
+TEST(MessageMonitor, TheCounterFindsTheTotalsUnderLargeDelays) {
+  Noise noise{12};
+  for (const Cycle& cycle : {Cycle{0, 14}, Cycle{0, 15}, Cycle{0, 255}}) {
+    for (const double loss : {0.0, 0.05, 0.2}) {
+      for (const int periods : {1, 2, 3}) {
+        const SenderHabits habits{.delay_max = milliseconds(10) * periods,
+                                  .bottom = cycle.bottom,
+                                  .top = cycle.top,
+                                  .loss = loss,
+                                  .sends = 2000};
+        std::vector<Send> sends = story(habits, noise);
+        sends.back().is_lost = false;
+        const Heard heard =
+            run_monitor(row_of(habits, true), sends, kTick,
+                        {.top = cycle.top, .bottom = 0, .seen = CounterCycle::kKnown});
+        const auto lost =
+            std::count_if(sends.begin(), sends.end(), [](const Send& s) { return s.is_lost; });
+        EXPECT_EQ(heard.monitor.lost, lost) << cycle.top << " " << loss << " " << periods;
+        std::uint32_t reported = 0;
+        for (const LossReport& r : heard.reports) reported += r.frames;
+        EXPECT_EQ(reported, heard.monitor.lost + heard.monitor.late);
+      }
+    }
+  }
+}
+
+class MonitorAlone : public testing::Test {
+ protected:
+  FrameVerdict hear(std::int64_t at_us, std::uint32_t counter) {
+    return judge(row, rules, monitor, {frame_of(row, counter), Instant{} + microseconds(at_us)},
+                 log);
+  }
+  void look(std::int64_t at_ms) {
+    watch({&row, 1}, {&monitor, 1}, Instant{} + milliseconds(at_ms), log);
+  }
+  std::uint32_t reported() const {
+    std::uint32_t frames = 0;
+    for (const LossReport& r : log.listed()) frames += r.frames;
+    return frames;
+  }
+  MessageRow row = row_of({}, true);
+  MonitorRules rules;
+  MessageMonitor monitor;
+  LossLog log;
+};
+
+TEST_F(MonitorAlone, NeverHeardIsNeverOverdue) {
+  for (std::int64_t t = 0; t < 1000; t += 10) look(t);
+  EXPECT_EQ(log.count, 0U);
+  EXPECT_EQ(monitor.lost, 0U);
+}
+
+TEST_F(MonitorAlone, ASilenceIsReportedAtOnceUpToTheTimeoutAndThenCounted) {
+  hear(0, 7);
+  look(10);
+  EXPECT_EQ(log.count, 0U);
+  look(20);
+  ASSERT_EQ(log.count, 1U);
+  EXPECT_EQ(log.reports[0].due, Instant{} + milliseconds(10));
+  EXPECT_EQ(log.reports[0].noticed, Instant{} + milliseconds(20));
+  EXPECT_EQ(log.reports[0].sign, LossSign::kPeriod);
+  for (std::int64_t t = 30; t <= 100'000; t += 10) look(t);
+  EXPECT_EQ(log.count, 5U) << "one each, until the timeout of 50 ms";
+  EXPECT_EQ(monitor.lost, 9999U);
+  hear(100'000'000, (7 + 10'000) % 256);
+  ASSERT_EQ(log.count, 6U);
+  EXPECT_EQ(log.reports[5].frames, 9999U - 5U);
+  EXPECT_EQ(log.reports[5].due, Instant{} + milliseconds(60));
+  EXPECT_EQ(monitor.lost, 9999U);
+  EXPECT_EQ(monitor.late, 0U);
+  EXPECT_EQ(monitor.mean_interval, Duration{}) << "a silence is no interval";
+}
+
+TEST_F(MonitorAlone, AFrameThatComesAfterAllTakesItsLossBack) {
+  hear(0, 1);
+  look(20);
+  EXPECT_EQ(monitor.lost, 1U);
+  EXPECT_EQ(hear(22'000, 2), FrameVerdict::kGood);
+  EXPECT_EQ(monitor.lost, 0U);
+  EXPECT_EQ(monitor.late, 1U);
+  hear(23'000, 3);  // catching up
+  look(30);
+  EXPECT_EQ(reported(), 1U);
+  EXPECT_EQ(monitor.debt, 0);
+}
+
+TEST_F(MonitorAlone, WithoutACounterABurstAfterAPauseIsLateToo) {
+  row.has_counter = false;
+  hear(0, 0);
+  for (std::int64_t t = 10; t <= 40; t += 10) look(t);
+  for (int i = 0; i < 4; ++i) hear(41'000 + 100 * i, 0);
+  EXPECT_EQ(monitor.lost, 0U);
+  EXPECT_EQ(monitor.late, 3U);
+  EXPECT_EQ(reported(), 3U);
+}
+
+TEST_F(MonitorAlone, ARestartIsNoLossWhereverItHappens) {
+  for (std::uint32_t before = 0; before < 256; ++before) {
+    for (const std::uint32_t first : {0U, 1U}) {
+      for (const bool is_known : {false, true}) {
+        monitor = {};
+        if (is_known) monitor.cycle = {.top = 255, .seen = CounterCycle::kKnown};
+        hear(0, before);
+        const FrameVerdict verdict = hear(10'000, first);
+        EXPECT_EQ(verdict == FrameVerdict::kStuckCounter, before == first);
+        const bool is_next_but_one = is_known && before + 2 == first + 256;
+        EXPECT_EQ(monitor.lost, is_next_but_one ? 1U : 0U) << before;
+        EXPECT_EQ(monitor.debt, before == first || is_next_but_one ? 1 : 0) << before;
+      }
+    }
+  }
+}
+
+TEST_F(MonitorAlone, AfterTwoWrapsAWrapWithLossesIsJudgedByTheCounter) {
+  std::int64_t t_us = 0;
+  const auto count_to = [&](std::uint32_t from, std::uint32_t to) {
+    for (std::uint32_t c = from; c <= to; ++c) hear(t_us += 10'000, c);
+  };
+  count_to(0, 7);
+  count_to(0, 7);
+  EXPECT_FALSE(monitor.cycle.is_known());
+  count_to(0, 5);
+  EXPECT_TRUE(monitor.cycle.is_known());
+  EXPECT_EQ(monitor.cycle.length(), 8U);
+  hear(t_us += 24'000, 0);  // 6 and 7 are gone; by time alone only one would be
+  EXPECT_EQ(monitor.lost, 2U);
+  hear(t_us += 10'000, 9);  // not that cycle after all
+  EXPECT_FALSE(monitor.cycle.is_known());
+}
+
+TEST_F(MonitorAlone, RepeatedAndDoubledFramesAreNoLosses) {
+  for (const int frozen : {1, 2, 3, 10, 100}) {
+    monitor = {};
+    std::int64_t t_us = 0;
+    hear(t_us, 20);
+    for (int i = 0; i < frozen; ++i) {
+      EXPECT_EQ(hear(t_us += 10'000, 20), FrameVerdict::kStuckCounter);
+      look(t_us / 1000);
+    }
+    MessageMonitor sender_rested = monitor;
+    hear(t_us += 10'000, 21 + static_cast<std::uint32_t>(frozen));  // it had counted on
+    EXPECT_EQ(monitor.lost, 0U) << frozen;
+    std::swap(monitor, sender_rested);
+    hear(t_us, 21);
+    EXPECT_EQ(monitor.lost, 0U) << frozen;
+    EXPECT_EQ(monitor.debt, std::min(frozen, 10) - 1);
+  }
+  monitor = {};
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    hear(10'000 * i, i);
+    EXPECT_EQ(hear(10'000 * i + 4900, i), FrameVerdict::kStuckCounter);
+    look(10 * i);
+  }
+  look(1006);
+  EXPECT_EQ(monitor.lost, 1U) << "a double does not move what is due";
+  EXPECT_EQ(log.count, 1U);
+}
+
+TEST_F(MonitorAlone, AJumpBeyondAllTimeIsBadButNoLoss) {
+  std::int64_t t_us = 0;
+  std::uint32_t counter = 2;
+  hear(t_us, counter);
+  for (int bad = 1; bad <= 20; ++bad) {
+    counter = 2 + (counter + 35) % 250;
+    const FrameVerdict verdict = hear(t_us += 10'000, counter);
+    EXPECT_EQ(verdict, bad < 5 ? FrameVerdict::kGood : FrameVerdict::kJumpedCounter) << bad;
+    EXPECT_EQ(monitor.debt, std::min(bad, 10));
+  }
+  EXPECT_EQ(monitor.lost, 0U);
+  EXPECT_EQ(monitor.bad, 16U);
+  for (int good = 1; good <= 6; ++good) {
+    const FrameVerdict verdict = hear(t_us += 10'000, ++counter);
+    EXPECT_EQ(verdict, good < 6 ? FrameVerdict::kJumpedCounter : FrameVerdict::kGood);
+  }
+}
+
+TEST_F(MonitorAlone, LossesThatTimeExplainsFillNoBucket) {
+  std::int64_t t_us = 0;
+  for (std::uint32_t i = 0; i < 200; i += 3) hear(t_us += 30'000, i);
+  EXPECT_EQ(monitor.debt, 0);
+  EXPECT_EQ(monitor.bad, 0U);
+  EXPECT_EQ(monitor.lost, 132U);
+}
+
+TEST_F(MonitorAlone, ACounterThatMayRestIsJudgedByTimeAlone) {
+  rules.use_counter = false;
+  for (std::int64_t t_us = 0; t_us < 1'000'000; t_us += 10'000) {
+    EXPECT_EQ(hear(t_us, 9), FrameVerdict::kGood);
+  }
+  EXPECT_EQ(monitor.bad, 0U);
+  hear(1'010'000, 9);
+  EXPECT_EQ(monitor.lost, 1U);
+}
+
+TEST_F(MonitorAlone, WithoutAPeriodOnlyTheCounterSpeaks) {
+  row.period = row.timeout = {};
+  hear(0, 4);
+  look(100'000);
+  EXPECT_EQ(monitor.lost, 0U);
+  hear(3'000'000, 7);
+  EXPECT_EQ(monitor.lost, 2U);
+  hear(9'000'000, 0);
+  EXPECT_EQ(monitor.lost, 2U);
+}
+
+TEST_F(MonitorAlone, StampsThatStepNeitherHangNorInvent) {
+  hear(5'000'000, 1);
+  hear(0, 2);  // five seconds back
+  EXPECT_EQ(monitor.lost, 0U);
+  look(10);
+  EXPECT_EQ(log.count, 0U);
+  look(20);
+  EXPECT_EQ(log.count, 1U);
+  hear(std::int64_t{3600} * 24 * 365 * 100 * 1'000'000, 3);  // a century on
+  EXPECT_LE(monitor.lost, 1'000'000'000U);
+}
+
+TEST_F(MonitorAlone, TheMeanIntervalIsWhatArrives) {
+  for (std::uint32_t i = 0; i < 100; ++i) hear(12'000 * i, i);
+  EXPECT_EQ(monitor.mean_interval, milliseconds(12));
+}
+
+TEST_F(MonitorAlone, AFullLogCountsWhatItCannotList) {
+  std::int64_t t_us = 0;
+  for (std::uint32_t i = 0; i < 200; i += 2) hear(t_us += 20'000, i);
+  EXPECT_EQ(log.count, LossLog::kMax);
+  EXPECT_EQ(log.unlisted, 99U - LossLog::kMax);
+}
+
+TEST(MessageMonitor, ReadsTheCounterOfEveryGeneratedRow) {
+  for (const MessageRow& row : av21::kMessages) {
+    if (!row.has_counter) continue;
+    Frame f{.id = row.id, .length = row.length, .data = {}};
+    f.data.fill(0xFF);
+    EXPECT_EQ(counter_of(row, f), (1U << row.counter_bits) - 1) << row.name;
+    f.data.fill(0);
+    EXPECT_EQ(counter_of(row, f), 0U);
+  }
+  av21::MiscReport report;
+  for (double av21::MiscReport::*field : av21::MiscReport::kFields) report.*field = 0;
+  report.raptor_rolling_counter = 201;
+  report.mode_switch_state = 1;
+  Frame f;
+  EncodeCounters counters;
+  ASSERT_TRUE(av21::encode(report, f, counters));
+  for (const MessageRow& row : av21::kMessages) {
+    if (row.id != av21::MiscReport::kId) continue;
+    EXPECT_EQ(counter_of(row, f), 201U);
+  }
+}
+
+}  // namespace
+}  // namespace pitwall::can
