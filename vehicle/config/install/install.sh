@@ -1,0 +1,365 @@
+#!/usr/bin/env bash
+# install.sh car [OPTION]...: puts Pitwall on a car's computer (Debian 12, systemd), or takes it off.
+#   in     templates beside this file, built programs, a car and a track file
+#   out    one line per change: ACTION PATH OWNER MODE; actions create replace keep remove enable
+#          user run note next. With --dry-run the same lines, and nothing is changed
+#   errors 1 the work failed, and what it had changed is put back; 2 the command line is wrong
+#   law    it never arms the car, never starts it, and never takes a running bus down
+# SPDX-License-Identifier: Apache-2.0
+set -euo pipefail
+
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+top=$(readlink -f "$here/../../..")
+manifest=/var/lib/pitwall/install.manifest
+readonly tx_queue_frames=32 receive_buffer_bytes=8388608
+
+usage() {
+  cat <<'TEXT'
+usage: ./pitwall install car [OPTION]...
+
+  --dry-run              say what would change, and change nothing
+  --can IFACE            CAN interface (default can0)
+  --bitrate N            bit/s, 10000..1000000 (default 500000)
+  --restart-ms N         so long after bus-off the kernel restarts the controller, 0..60000; 0: only
+                         the car process does (default 100)
+  --listen-only          the controller hears and sends nothing: for the first look at a car
+  --car FILE             car file (default vehicle/config/cars/av21.yaml)
+  --track FILE           track file (default vehicle/config/tracks/lvms.yaml)
+  --radio ADDRESS:PORT   where telemetry goes, an IPv4 address (default 127.0.0.1:23431)
+  --gnss P0,P1           UDP ports of the two GNSS receivers (default 23501,23502)
+  --uninstall            remove what was installed; edited configuration stays
+  --root DIR             work on the tree in DIR (an image) instead of this machine
+  --build DIR            the build with the programs (default build/release)
+TEXT
+}
+
+fail() { printf 'pitwall: error: install: %s\n' "$*" >&2; exit 1; }
+refuse() {
+  printf 'pitwall: error: install: %s\nTry: ./pitwall install car --help\n' "$*" >&2
+  exit 2
+}
+notes=()
+note() { notes+=("$*"); }
+
+# shellcheck source=vehicle/config/install/file_plan.sh
+source "$here/file_plan.sh"
+
+# --- the command line ------------------------------------------------------------------------
+
+target='' dry_run=0 uninstall=0 settings=()
+can=can0 bitrate=500000 restart_ms=100 listen_only=0
+car=$top/vehicle/config/cars/av21.yaml track=$top/vehicle/config/tracks/lvms.yaml
+radio=127.0.0.1:23431 gnss=23501,23502 build=$top/build/release
+
+# check_number OPTION VALUE LOW HIGH
+check_number() {
+  if [[ ! $2 =~ ^(0|[1-9][0-9]{0,8})$ ]] || (($2 < $3 || $2 > $4)); then
+    refuse "$1 needs a whole number, $3..$4, got '$2'"
+  fi
+}
+
+check_file() { # OPTION FILE
+  [[ -f $2 && -r $2 ]] || refuse "$1: no readable file '$2'"
+  [[ ${2##*/} =~ ^[A-Za-z0-9_][A-Za-z0-9_.-]*\.yaml$ ]] ||
+    refuse "$1: the file's name has to be letters, digits, '_', '.', '-' and end in .yaml, got '${2##*/}'"
+}
+
+check_can() {
+  [[ $1 =~ ^[A-Za-z][A-Za-z0-9_]{0,14}$ ]] ||
+    refuse "--can needs an interface name of letters, digits and '_', 15 at most, got '$1'"
+  [[ ! $1 =~ ^vx?can ]] ||
+    refuse "--can $1 is a virtual bus without bit rate; pitwall-hil bus up makes those"
+}
+
+check_radio() {
+  local byte='(25[0-5]|2[0-4][0-9]|1?[0-9]?[0-9])'
+  if [[ ! $1 =~ ^$byte\.$byte\.$byte\.$byte:([1-9][0-9]{0,4})$ ]] || ((BASH_REMATCH[5] > 65535)); then
+    refuse "--radio needs ADDRESS:PORT with an IPv4 address and a port 1..65535, got '$1'"
+  fi
+}
+
+check_gnss() {
+  if [[ ! $1 =~ ^([1-9][0-9]{0,4}),([1-9][0-9]{0,4})$ ]] ||
+    ((BASH_REMATCH[1] > 65535 || BASH_REMATCH[2] > 65535 || BASH_REMATCH[1] == BASH_REMATCH[2])); then
+    refuse "--gnss needs two different ports 1..65535 as P0,P1, got '$1'"
+  fi
+}
+
+check_root() {
+  [[ -n $1 && -d $1 ]] || refuse "--root: no such folder '$1'"
+  target=$(readlink -f -- "$1")
+  [[ $target != / ]] || refuse '--root / is this machine: leave --root out'
+}
+
+parse() {
+  while (($#)); do
+    case $1 in
+      --dry-run) dry_run=1 ;;
+      --uninstall) uninstall=1 ;;
+      --listen-only) listen_only=1 settings+=("$1") ;;
+      --help | -h) usage; exit 0 ;;
+      --can | --bitrate | --restart-ms | --car | --track | --radio | --gnss | --root | --build)
+        (($# >= 2)) || refuse "$1 needs a value"
+        [[ $1 == --root || $1 == --build ]] || settings+=("$1")
+        take "$1" "$2"
+        shift
+        ;;
+      *) refuse "unknown argument '$1'" ;;
+    esac
+    shift
+  done
+  ((!uninstall || !${#settings[@]})) || refuse "--uninstall takes no ${settings[0]}"
+}
+
+take() { # OPTION VALUE
+  case $1 in
+    --can) check_can "$2"; can=$2 ;;
+    --bitrate) check_number "$1" "$2" 10000 1000000; bitrate=$2 ;;
+    --restart-ms) check_number "$1" "$2" 0 60000; restart_ms=$2 ;;
+    --car) check_file "$1" "$2"; car=$2 ;;
+    --track) check_file "$1" "$2"; track=$2 ;;
+    --radio) check_radio "$2"; radio=$2 ;;
+    --gnss) check_gnss "$2"; gnss=$2 ;;
+    --root) check_root "$2" ;;
+    --build) [[ -d $2 ]] || refuse "--build: no such folder '$2'"; build=$(readlink -f -- "$2") ;;
+  esac
+}
+
+# --- what the car's computer gets ------------------------------------------------------------
+
+# render TEMPLATE [NAME]: the template with its @NAMES@ filled in, as a file of its own.
+render() {
+  local out=$scratch/${2:-$1}
+  sed -e "s|@IFACE@|$can|g" -e "s|@BITRATE@|$bitrate|g" -e "s|@RESTART_MS@|$restart_ms|g" \
+    -e "s|@LISTEN_ONLY_YES_NO@|$( ((listen_only)) && echo yes || echo no)|g" \
+    -e "s|@LISTEN_ONLY_ON_OFF@|$( ((listen_only)) && echo on || echo off)|g" \
+    -e "s|@TX_QUEUE@|$tx_queue_frames|g" -e "s|@CAR@|${car##*/}|g" -e "s|@TRACK@|${track##*/}|g" \
+    -e "s|@GNSS@|$gnss|g" -e "s|@RADIO@|$radio|g" "$here/$1" >"$out"
+  printf '%s' "$out"
+}
+
+# Programs in /opt: add-on software that no Debian package owns (FHS 3.13). Configuration and state
+# where an administrator looks first.
+plan_files() {
+  plan_folders "$manifest"
+  plan_file program 0755 /opt/pitwall/bin/pitwall-vehicle "$build/vehicle/pitwall-vehicle"
+  plan_file program 0755 /opt/pitwall/bin/pitwall-hil "$build/hil/pitwall-hil"
+  plan_file config 0644 "/etc/pitwall/cars/${car##*/}" "$car"
+  plan_file config 0644 "/etc/pitwall/tracks/${track##*/}" "$track"
+  plan_file config 0644 /etc/pitwall/vehicle.env "$(render vehicle.env)"
+  plan_file system 0644 /etc/sysusers.d/pitwall.conf "$(render sysusers.conf)"
+  plan_file system 0644 /etc/modules-load.d/pitwall.conf "$(render modules.conf)"
+  plan_file config 0644 /etc/sysctl.d/05-pitwall.conf "$(render sysctl.conf)"
+  plan_file config 0644 /etc/security/limits.d/70-pitwall.conf "$(render limits.conf)"
+  plan_bus
+  plan_file system 0644 /etc/systemd/system/pitwall-vehicle.service "$(render pitwall-vehicle.service)"
+  plan_wanted_by_device pitwall-vehicle.service
+  [[ $radio != 127.* ]] || note "telemetry stays on this machine ($radio) until --radio says where the pit wall is"
+}
+
+# The controller appears, the unit starts: also after an adapter was pulled and put back.
+plan_wanted_by_device() {
+  plan_link "/etc/systemd/system/sys-subsystem-net-devices-$can.device.wants/$1" \
+    "/etc/systemd/system/$1"
+}
+
+networkd_link=/etc/systemd/system/multi-user.target.wants/systemd-networkd.service
+
+# Says on one line who else manages the network; nothing if nobody does.
+other_manager() {
+  local file
+  if [[ -L $target/etc/systemd/system/multi-user.target.wants/NetworkManager.service ]]; then
+    echo NetworkManager
+    return
+  fi
+  for file in "$target"/etc/network/interfaces "$target"/etc/network/interfaces.d/*; do
+    if [[ -f $file ]] && grep -qE '^[[:space:]]*iface[[:space:]]+([^l]|l[^o]|lo[^[:space:]])' "$file"; then
+      echo "ifupdown (${file#"$target"})"
+      return
+    fi
+  done
+}
+
+# systemd-networkd, or a unit of our own where enabling networkd would put a second manager on the
+# machine. Neither touches any other interface.
+plan_bus() {
+  local other
+  other=$(other_manager)
+  if [[ -L $target$networkd_link && ${old_kind[$networkd_link]:-} != link || -z $other ]]; then
+    plan_file config 0644 "/etc/systemd/network/70-pitwall-$can.network" "$(render can.network)"
+    plan_file config 0644 "/etc/systemd/network/70-pitwall-$can.link" "$(render can.link)"
+    [[ -L $target$networkd_link && ${old_kind[$networkd_link]:-} != link ]] ||
+      plan_link "$networkd_link" /lib/systemd/system/systemd-networkd.service
+  else
+    note "$other manages this machine: systemd-networkd is not enabled, pitwall-can-$can.service sets $can up"
+    plan_file system 0644 "/etc/systemd/system/pitwall-can-$can.service" \
+      "$(render pitwall-can.service)"
+    plan_wanted_by_device "pitwall-can-$can.service"
+  fi
+  note_rivals
+}
+
+# Others that would set up the same interface: said, never changed.
+note_rivals() {
+  local file
+  for file in "$target"/etc/network/interfaces "$target"/etc/network/interfaces.d/*; do
+    [[ ! -f $file ]] || ! grep -qE "^[[:space:]]*iface[[:space:]]+$can([[:space:]]|$)" "$file" ||
+      note "${file#"$target"} sets up $can too: take it out there"
+  done
+  for file in "$target"/etc/systemd/network/*.network; do
+    [[ ! -f $file || ${file##*/} == 70-pitwall-* ]] || ! grep -q '^\[CAN\]' "$file" ||
+      note "${file#"$target"} sets up CAN too: of two files that match $can networkd takes the first by name"
+  done
+}
+
+owning_package() {
+  { dpkg-query -S "$1" "$(readlink -f "$1")" 2>/dev/null || true; } | sed 's/:.*//;q'
+}
+
+# Shared libraries that an image lacks, as Debian packages.
+note_missing_libraries() {
+  local program=$build/vehicle/pitwall-vehicle library packages=()
+  [[ -n $target && -x $program ]] && command -v dpkg-query >/dev/null || return 0
+  while read -r library; do
+    [[ -e $target$library || -e $target/usr$library ]] ||
+      packages+=("$(owning_package "$library")")
+  done < <(ldd "$program" 2>/dev/null | awk '$3 ~ /^\// {print $3}')
+  ((!${#packages[@]})) ||
+    note "the tree lacks Debian packages that the programs need: $(printf '%s\n' "${packages[@]}" | sort -u | xargs)"
+}
+
+# --- the living system -----------------------------------------------------------------------
+
+commands=()
+user_line=''
+
+plan_user() {
+  if [[ -n $target ]]; then
+    [[ -e $target/etc/sysusers.d/pitwall.conf ]] && user_line='keep     user pitwall' ||
+      user_line='user     pitwall, a system user; systemd-sysusers makes it at the next boot'
+  elif id -u pitwall &>/dev/null; then
+    user_line='keep     user pitwall'
+  else
+    user_line='user     pitwall, a system user'
+    commands+=('systemd-sysusers /etc/sysusers.d/pitwall.conf')
+  fi
+}
+
+networkd_runs() { systemctl is-active --quiet systemd-networkd 2>/dev/null; }
+
+# Nothing here stops a program or takes an interface down.
+plan_commands() {
+  [[ -z $target ]] && changes || return 0
+  commands+=('/lib/systemd/systemd-modules-load /etc/modules-load.d/pitwall.conf')
+  (($(cat /proc/sys/net/core/rmem_max) >= receive_buffer_bytes)) ||
+    commands+=('/lib/systemd/systemd-sysctl /etc/sysctl.d/05-pitwall.conf')
+  commands+=('systemctl daemon-reload')
+  ! networkd_runs || commands+=('networkctl reload')
+}
+
+run_commands() {
+  local command failed=0
+  for command in "${commands[@]}"; do
+    printf 'run      %s\n' "$command"
+    ((dry_run)) || $command || { failed=1; printf 'note     failed: %s\n' "$command"; }
+  done
+  return $failed
+}
+
+say_next() {
+  local n
+  for n in "${notes[@]}"; do printf 'note     %s\n' "$n"; done
+  ((!uninstall)) && [[ -z $target ]] && changes || return 0
+  printf 'next     it starts when %s appears, as at the next boot, disarmed; without a boot:\n' "$can"
+  if [[ -n ${planned["/etc/systemd/system/pitwall-can-$can.service"]:-} ]]; then
+    printf 'next       systemctl restart pitwall-can-%s\n' "$can"
+  else
+    printf 'next       systemctl start systemd-networkd && networkctl reconfigure %s\n' "$can"
+  fi
+  printf 'next       systemctl restart pitwall-vehicle\n'
+}
+
+# --- the two ways ----------------------------------------------------------------------------
+
+say_manifest() {
+  local action=create
+  [[ ! -f $target$manifest ]] || action=replace
+  changes || action=keep
+  printf '%-8s %s %s 0644 (what is installed, with checksums)' "$action" "$manifest" "$(owner)"
+}
+
+install_car() {
+  local program manifest_line
+  check_config
+  plan_files
+  plan_user
+  plan_leftovers 0
+  note_missing_libraries
+  plan_commands
+  for program in vehicle/pitwall-vehicle hil/pitwall-hil; do
+    [[ -x $build/$program ]] || ((dry_run)) || fail "$build/$program is not built: ./pitwall build"
+  done
+  manifest_line=$(say_manifest)
+  if ((dry_run)) || ! changes; then show_plan; else apply_plan; fi
+  printf '%s\n' "$manifest_line" "$user_line"
+  run_commands || fail 'the files are in place, but a command failed'
+}
+
+uninstall_car() {
+  [[ -f $target$manifest ]] || fail "nothing of ours is installed: no $target$manifest"
+  plan_leftovers 1
+  [[ -z $target ]] || note 'on a system that has run, the user pitwall stays'
+  if [[ -z $target ]]; then
+    printf 'run      systemctl stop pitwall-vehicle\n'
+    ((dry_run)) || systemctl stop pitwall-vehicle || fail 'pitwall-vehicle does not stop'
+    note 'the user pitwall and its data in /var/lib/pitwall/vehicle stay'
+    commands=('systemctl daemon-reload')
+    ! networkd_runs || commands+=('networkctl reload')
+  fi
+  if ((dry_run)); then show_plan; else apply_removal; fi
+  printf 'remove   %s\n' "$manifest"
+  run_commands || fail 'the files are gone, but a command failed'
+}
+
+# The car process refuses a wrong file too, but only when it starts. In a dry run the programs may
+# be of another day than the files, so there it is only said.
+check_config() {
+  local said
+  [[ -x $build/vehicle/pitwall-vehicle ]] || return 0
+  said=$("$build/vehicle/pitwall-vehicle" --check --car "$car" --track "$track" --can "$can" \
+    --gnss "$gnss" --radio "$radio" 2>&1) && return
+  ((dry_run)) || refuse "the car process refuses its files: ${said%%$'\n'*}"
+  note "the car process, as built now, refuses its files: ${said%%$'\n'*}"
+}
+
+scratch=''
+on_exit() {
+  local code=$?
+  set +e
+  trap - EXIT
+  if ((!dry_run && !committed)) && ((${#done_paths[@]} + ${#made_folders[@]} > 0)); then
+    put_back
+    printf 'pitwall: error: install: it failed on the way; everything is as it was\n' >&2
+    code=1
+  fi
+  [[ -z $scratch ]] || rm -rf -- "$scratch"
+  exit "$code"
+}
+
+[[ ${1:-} == --help || ${1:-} == -h ]] && { usage; exit 0; }
+[[ ${1:-} == car ]] || refuse "install needs what to install: car, got '${1:-}'"
+shift
+parse "$@"
+[[ -n $target ]] || ((dry_run || EUID == 0)) ||
+  fail 'this machine can be changed by root only: sudo, or --root DIR for a tree of your own'
+[[ -n $target || $dry_run == 1 || -d /run/systemd/system ]] ||
+  fail 'this machine was not started by systemd; --root DIR installs into a tree'
+check_file --car "$car"
+check_file --track "$track"
+trap on_exit EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM HUP
+scratch=$(mktemp -d)
+load_manifest
+if ((uninstall)); then uninstall_car; else install_car; fi
+say_next
