@@ -1,5 +1,6 @@
-// Cyclic redundancy checks: CRC-32 of IEEE 802.3 (zip, MCAP), CRC-32 of NovAtel, CRC-8 of SAE J1850
-// and CRC-16 CCITT-FALSE (AUTOSAR E2E profiles 1 and 5).
+// Cyclic redundancy checks: CRC-32 of IEEE 802.3 (zip, MCAP), CRC-32 of NovAtel, and those that
+// protect CAN messages: CRC-8 of SAE J1850, the same from zero (AUTOSAR E2E profile 1), CRC-8H2F
+// (profile 2), CRC-16 CCITT-FALSE (profile 5).
 //   in      bytes
 //   out     the checksum; check values over "123456789" are in the test
 //   source  Williams, "A painless guide to CRC error detection algorithms", 1993; NovAtel OEM7
@@ -69,22 +70,63 @@ constexpr std::uint32_t crc32_novatel(std::span<const std::uint8_t> data,
   return detail::crc32_raw(data, continued);
 }
 
-// Polynomial 0x1D, starting and ending with an inversion.
-constexpr std::uint8_t crc8_sae_j1850(std::span<const std::uint8_t> data) {
-  std::uint32_t crc = 0xFF;
-  for (const std::uint8_t byte : data) {
-    crc ^= byte;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc << 1U) ^ ((crc & 0x80U) != 0 ? 0x11DU : 0U);
+namespace detail {
+
+// The remainder of every first byte; Register is as wide as the checksum.
+template <class Register, Register kPolynomial>
+constexpr std::array<Register, 256> crc_table() {
+  constexpr unsigned kShift = 8 * (sizeof(Register) - 1);
+  constexpr std::uint32_t kTop = 0x80U << kShift;
+  std::array<Register, 256> table{};
+  for (std::uint32_t b = 0; b < 256; ++b) {
+    std::uint32_t crc = b << kShift;
+    for (int bit = 0; bit < 8; ++bit) {
+      crc = (crc << 1U) ^ ((crc & kTop) != 0 ? std::uint32_t{kPolynomial} : 0U);
+    }
+    table[b] = static_cast<Register>(crc);
   }
-  return static_cast<std::uint8_t>(crc ^ 0xFFU);
+  return table;
+}
+
+inline constexpr auto kCrc8J1850Table = crc_table<std::uint8_t, 0x1D>();
+inline constexpr auto kCrc8H2fTable = crc_table<std::uint8_t, 0x2F>();
+inline constexpr auto kCrc16Table = crc_table<std::uint16_t, 0x1021>();
+
+constexpr std::uint8_t crc8_raw(const std::array<std::uint8_t, 256>& table,
+                                std::span<const std::uint8_t> data, std::uint8_t crc) {
+  for (const std::uint8_t byte : data) crc = table[static_cast<std::uint8_t>(crc ^ byte)];
+  return crc;
+}
+
+constexpr std::uint8_t inverted(std::uint8_t crc) { return static_cast<std::uint8_t>(~crc); }
+
+}  // namespace detail
+
+// Polynomial 0x1D, starting and ending with an inversion.
+constexpr std::uint8_t crc8_sae_j1850(std::span<const std::uint8_t> data,
+                                      std::uint8_t continued = 0) {
+  return detail::inverted(
+      detail::crc8_raw(detail::kCrc8J1850Table, data, detail::inverted(continued)));
+}
+
+// The same polynomial from zero and without inversion (CRC-8/GSM-A of the catalogue).
+constexpr std::uint8_t crc8_j1850_from_zero(std::span<const std::uint8_t> data,
+                                            std::uint8_t continued = 0) {
+  return detail::crc8_raw(detail::kCrc8J1850Table, data, continued);
+}
+
+// Polynomial 0x2F, starting and ending with an inversion.
+constexpr std::uint8_t crc8_h2f(std::span<const std::uint8_t> data, std::uint8_t continued = 0) {
+  return detail::inverted(
+      detail::crc8_raw(detail::kCrc8H2fTable, data, detail::inverted(continued)));
 }
 
 // Polynomial 0x1021, most significant bit first, starting from all ones.
-constexpr std::uint16_t crc16_ccitt_false(std::span<const std::uint8_t> data) {
-  std::uint32_t crc = 0xFFFF;
+constexpr std::uint16_t crc16_ccitt_false(std::span<const std::uint8_t> data,
+                                          std::uint16_t continued = 0xFFFF) {
+  std::uint32_t crc = continued;
   for (const std::uint8_t byte : data) {
-    crc ^= static_cast<std::uint32_t>(byte) << 8U;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc << 1U) ^ ((crc & 0x8000U) != 0 ? 0x11021U : 0U);
+    crc = (crc << 8U & 0xFFFFU) ^ detail::kCrc16Table[crc >> 8U ^ byte];
   }
   return static_cast<std::uint16_t>(crc);
 }

@@ -11,9 +11,12 @@ namespace {
 
 constexpr std::array<std::uint8_t, 9> kCheck{'1', '2', '3', '4', '5', '6', '7', '8', '9'};
 
-// Check values of the CRC catalogue (reveng): CRC-32/ISO-HDLC, CRC-8/SAE-J1850, CRC-16/IBM-3740.
+// Check values of the CRC catalogue (reveng): CRC-32/ISO-HDLC, CRC-8/SAE-J1850, CRC-8/GSM-A,
+// CRC-8/AUTOSAR, CRC-16/IBM-3740.
 static_assert(crc32_ieee(kCheck) == 0xCBF43926);
 static_assert(crc8_sae_j1850(kCheck) == 0x4B);
+static_assert(crc8_j1850_from_zero(kCheck) == 0x37);
+static_assert(crc8_h2f(kCheck) == 0xDF);
 static_assert(crc16_ccitt_false(kCheck) == 0x29B1);
 
 std::vector<std::uint8_t> noise(std::size_t size, std::uint64_t seed) {
@@ -59,6 +62,34 @@ TEST(Crc, PiecesGiveTheWhole) {
   for (std::size_t cut = 0; cut <= data.size(); ++cut) {
     EXPECT_EQ(crc32_ieee(all.subspan(cut), crc32_ieee(all.first(cut))), crc32_ieee(all)) << cut;
     EXPECT_EQ(crc32_novatel(all.subspan(cut), crc32_novatel(all.first(cut))), crc32_novatel(all));
+    const auto head = all.first(cut), tail = all.subspan(cut);
+    EXPECT_EQ(crc8_sae_j1850(tail, crc8_sae_j1850(head)), crc8_sae_j1850(all));
+    EXPECT_EQ(crc8_j1850_from_zero(tail, crc8_j1850_from_zero(head)), crc8_j1850_from_zero(all));
+    EXPECT_EQ(crc8_h2f(tail, crc8_h2f(head)), crc8_h2f(all));
+    EXPECT_EQ(crc16_ccitt_false(tail, crc16_ccitt_false(head)), crc16_ccitt_false(all));
+  }
+}
+
+// Polynomial division, a bit at a time: a remainder of `width` bits.
+std::uint32_t divided(std::span<const std::uint8_t> data, unsigned width, std::uint32_t polynomial,
+                      std::uint32_t start) {
+  std::uint32_t crc = start;
+  for (const std::uint8_t byte : data) {
+    for (int bit = 7; bit >= 0; --bit) {
+      const bool carry = ((crc >> (width - 1) ^ static_cast<std::uint32_t>(byte) >> bit) & 1U) != 0;
+      crc = (crc << 1U & ((1U << width) - 1)) ^ (carry ? polynomial : 0U);
+    }
+  }
+  return crc;
+}
+
+TEST(Crc, TablesEqualTheDivision) {
+  for (std::size_t size = 0; size < 70; ++size) {
+    const auto data = noise(size, size + 1);
+    EXPECT_EQ(crc8_sae_j1850(data), divided(data, 8, 0x1D, 0xFF) ^ 0xFFU);
+    EXPECT_EQ(crc8_j1850_from_zero(data), divided(data, 8, 0x1D, 0));
+    EXPECT_EQ(crc8_h2f(data), divided(data, 8, 0x2F, 0xFF) ^ 0xFFU);
+    EXPECT_EQ(crc16_ccitt_false(data), divided(data, 16, 0x1021, 0xFFFF));
   }
 }
 
@@ -87,6 +118,8 @@ TEST(Crc, NothingHasAKnownValue) {
   EXPECT_EQ(crc32_ieee({}), 0U);
   EXPECT_EQ(crc32_novatel({}), 0U);
   EXPECT_EQ(crc8_sae_j1850({}), 0x00);
+  EXPECT_EQ(crc8_j1850_from_zero({}), 0x00);
+  EXPECT_EQ(crc8_h2f({}), 0x00);
   EXPECT_EQ(crc16_ccitt_false({}), 0xFFFF);
 }
 
