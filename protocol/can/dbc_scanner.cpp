@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocol/can/dbc_scanner.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -96,14 +97,26 @@ void DbcScanner::expect(char c) {
   if (!take(c)) stop(std::string("expected '") + c + "'");
 }
 
-std::string_view DbcScanner::word() {
+std::string_view DbcScanner::next_word() {
   skip_space();
   std::size_t end = at_;
   while (end < text_.size() && is_word(text_[end])) ++end;
-  if (end == at_) stop("expected a name");
-  const std::string_view found = text_.substr(at_, end - at_);
-  at_ = end;
+  return text_.substr(at_, end - at_);
+}
+
+std::string_view DbcScanner::word() {
+  const std::string_view found = next_word();
+  if (found.empty()) stop("expected a name");
+  at_ += found.size();
   return found;
+}
+
+void DbcScanner::skip_token() {
+  if (peek() == '"') {
+    (void)quoted();
+  } else if (!at_end()) {
+    at_ += std::max<std::size_t>(next_word().size(), 1);
+  }
 }
 
 double DbcScanner::real() {
@@ -225,11 +238,16 @@ bool DbcScanner::ends_line(std::size_t at) const {
 }
 
 std::string DbcScanner::place_of(std::size_t offset) {
-  for (; counted_to_ < offset; ++counted_to_) line_ += ends_line(counted_to_) ? 1U : 0U;
+  for (; counted_to_ < offset; ++counted_to_) {
+    if (ends_line(counted_to_)) ++line_, line_start_ = counted_to_ + 1;
+  }
+  const std::size_t line_before = line_;
   for (; counted_to_ > offset; --counted_to_) line_ -= ends_line(counted_to_ - 1) ? 1U : 0U;
-  std::size_t line_start = offset;
-  while (line_start > 0 && !ends_line(line_start - 1)) --line_start;
-  return name_ + ":" + std::to_string(line_) + ":" + std::to_string(offset - line_start + 1);
+  if (line_ != line_before) {
+    line_start_ = offset;
+    while (line_start_ > 0 && !ends_line(line_start_ - 1)) --line_start_;
+  }
+  return name_ + ":" + std::to_string(line_) + ":" + std::to_string(offset - line_start_ + 1);
 }
 
 void DbcScanner::stop(const std::string& what) { throw Stop{{place(), what}}; }

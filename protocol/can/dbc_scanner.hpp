@@ -28,6 +28,10 @@ class DbcScanner {
   bool take(char c);
   void expect(char c);
   std::string_view word();
+  // The word that word() would take; empty where none follows.
+  std::string_view next_word();
+  // Past a word, a string or one other character.
+  void skip_token();
   double real();
   std::int64_t integer(std::int64_t min, std::int64_t max);
   std::string string();
@@ -62,7 +66,8 @@ class DbcScanner {
   std::string name_;
   bool is_utf8_;
   std::size_t at_ = 0;
-  std::size_t counted_to_ = 0, line_ = 1;  // of the place that was asked for last
+  // Of the place that was asked for last.
+  std::size_t counted_to_ = 0, line_ = 1, line_start_ = 0;
 };
 
 }  // namespace pitwall::can

@@ -28,9 +28,10 @@ double decode(const Signal& signal, const Frame& frame) {
 bool decode(const Message& message, const Frame& frame, std::span<double> values) {
   CHECK(values.size() == message.signals.size());
   if (!is_frame_of(message, frame)) return false;
+  const bool is_plain = message.deepest == 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Signal& s = message.signals[i];
-    values[i] = is_present(message, s, frame) ? decode(s, frame) : kUnset;
+    values[i] = is_plain || is_present(message, s, frame) ? decode(s, frame) : kUnset;
   }
   return true;
 }

@@ -17,14 +17,12 @@ bool encode(const Message& message, std::span<const double> values, Frame& out,
               .fd = message.fd,
               .length = message.length,
               .data = {}};
-  std::uint8_t deepest = 0;
-  for (const Signal& s : message.signals) deepest = std::max(deepest, s.depth);
   std::uint64_t held = 0;
   // Selectors first: they decide which of the others are present.
-  for (unsigned depth = 0; depth <= deepest; ++depth) {
+  for (unsigned depth = 0; depth <= message.deepest; ++depth) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       const Signal& s = message.signals[i];
-      if (s.depth != depth || !is_present(message, s, frame)) continue;
+      if (s.depth != depth || (depth > 0 && !is_present(message, s, frame))) continue;
       if (!std::isfinite(values[i])) {
         ++counters.not_finite;
         return false;

@@ -31,7 +31,7 @@ TEST(DbcScanner, TokensAndPlaces) {
   EXPECT_EQ(scan.real(), -1.5e-7);
   EXPECT_EQ(scan.real(), 2.0);
   EXPECT_EQ(scan.string(), "a \"b\"");
-  scan.skip_statement();
+  (void)scan.statement();
   EXPECT_EQ(scan.string_or_word(), "x");
   EXPECT_TRUE(scan.at_end());
   EXPECT_EQ(scan.peek(), '\0');
@@ -44,7 +44,7 @@ TEST(DbcScanner, RemarksAreSpaces) {
   EXPECT_EQ(scan.word(), "a");
   EXPECT_EQ(scan.word(), "b");
   EXPECT_EQ(scan.string(), "// text");
-  scan.skip_statement();
+  (void)scan.statement();
   EXPECT_EQ(scan.word(), "d");
   EXPECT_TRUE(scan.at_end());
 }
@@ -61,7 +61,7 @@ TEST(DbcScanner, StopsSayWhereAndWhat) {
             "t:1:1: error: expected a whole number from 0 to 64");
   EXPECT_EQ(stop_of(" \"abc", [](auto& s) { (void)s.string(); }),
             "t:1:2: error: this text has no closing quote");
-  EXPECT_EQ(stop_of("a \";\" b", [](auto& s) { s.skip_statement(); }),
+  EXPECT_EQ(stop_of("a \";\" b", [](auto& s) { (void)s.statement(); }),
             "t:1:1: error: this section has no closing ';'");
 }
 

@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/can/dbc_details.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <limits>
+#include <utility>
+
+namespace pitwall::can {
+namespace {
+
+constexpr std::int64_t kAnyInteger = std::numeric_limits<std::int64_t>::max();
+
+class Details {
+ public:
+  Details(DbcScanner& scan, DbcDraft& draft) : scan_(scan), draft_(draft) {}
+
+  void read();
+  void value_table();
+  void comment();
+  void value_names();
+  void definition();
+  void definition_default();
+  void attribute();
+  void value_type();
+  void multiplexing();
+  void senders();
+
+ private:
+  // What a comment or an attribute belongs to.
+  struct Owner {
+    AttributeOwner kind = AttributeOwner::kNetwork;
+    std::uint32_t key = 0;
+    Node* node = nullptr;
+    Message* message = nullptr;
+    Signal* signal = nullptr;
+    bool is_known = true;
+    bool is_elsewhere = false;  // of something that is not read here: environment variables
+  };
+
+  std::uint32_t message_key() {
+    return static_cast<std::uint32_t>(scan_.integer(0, std::numeric_limits<std::uint32_t>::max()));
+  }
+  void warn(std::string what) { draft_.remark(true, scan_.place_of(begin_), std::move(what)); }
+  void keep();
+  Owner owner();
+  void stranger(std::uint32_t key, std::string_view signal);
+  // Reads "<message> <signal>".
+  Owner signal_owner();
+  std::vector<ValueName> names_of_values();
+  const AttributeDefinition* definition_of(AttributeOwner kind, std::string_view name) const;
+  std::string value_of(const AttributeDefinition* definition, std::string_view name);
+  void set(const Owner& owner, const std::string& name, std::string value);
+
+  DbcScanner& scan_;
+  DbcDraft& draft_;
+  std::size_t begin_ = 0;
+  std::string_view word_;
+};
+
+struct Kind {
+  std::string_view word;
+  int turn;
+  void (Details::*read)();
+};
+constexpr std::array<Kind, 9> kKinds{{{"VAL_TABLE_", 0, &Details::value_table},
+                                      {"BA_DEF_", 0, &Details::definition},
+                                      {"BA_DEF_DEF_", 1, &Details::definition_default},
+                                      {"CM_", 2, &Details::comment},
+                                      {"VAL_", 2, &Details::value_names},
+                                      {"BA_", 2, &Details::attribute},
+                                      {"SIG_VALTYPE_", 2, &Details::value_type},
+                                      {"SG_MUL_VAL_", 2, &Details::multiplexing},
+                                      {"BO_TX_BU_", 2, &Details::senders}}};
+
+std::optional<AttributeOwner> owner_of(std::string_view word) {
+  if (word == "BU_") return AttributeOwner::kNode;
+  if (word == "BO_") return AttributeOwner::kMessage;
+  if (word == "SG_") return AttributeOwner::kSignal;
+  if (word == "EV_") return AttributeOwner::kEnvironment;
+  return std::nullopt;
+}
+
+void Details::read() {
+  begin_ = scan_.here();
+  word_ = scan_.word();
+  for (const Kind& k : kKinds) {
+    if (k.word == word_) return (this->*k.read)();
+  }
+}
+
+// The whole section as it is, because what it speaks of is not read here.
+void Details::keep() {
+  scan_.rewind(begin_);
+  const std::string_view text = scan_.statement();
+  draft_.database.unused.push_back(
+      {std::string{word_}, scan_.utf8(text), scan_.place_of(begin_), true});
+}
+
+Details::Owner Details::owner() {
+  Owner o;
+  const char first = scan_.peek();
+  if (first == '"' || first == '-' || first == '+' || (first >= '0' && first <= '9')) return o;
+  const std::string_view what = scan_.word();
+  if (what == "BU_") {
+    o.kind = AttributeOwner::kNode;
+    const std::string_view name = scan_.word();
+    const auto at = draft_.node(name);
+    o.is_known = at.has_value();
+    if (at) o.node = &draft_.database.nodes[*at];
+    if (!at) warn(std::string{word_} + " of node " + std::string{name} + ", which is not in BU_");
+  } else if (what == "BO_") {
+    o.kind = AttributeOwner::kMessage;
+    o.key = message_key();
+    const auto at = draft_.message(o.key);
+    o.is_known = at.has_value();
+    if (at) o.message = &draft_.database.messages[*at];
+    if (!at) stranger(o.key, "");
+  } else if (what == "SG_") {
+    o = signal_owner();
+  } else {
+    o.is_elsewhere = true;
+  }
+  return o;
+}
+
+void Details::stranger(std::uint32_t key, std::string_view signal) {
+  if (key == kIndependentSignals) return;  // told once, where it is skipped
+  const auto at = draft_.message(key);
+  const std::string id = std::to_string(key & ~kExtendedBit);
+  if (!at) return warn(std::string{word_} + " of message " + id + ", which the file does not have");
+  warn(std::string{word_} + ": message " + draft_.database.messages[*at].name + " has no signal " +
+       std::string{signal});
+}
+
+Details::Owner Details::signal_owner() {
+  Owner o{.kind = AttributeOwner::kSignal, .key = message_key()};
+  const std::string_view name = scan_.word();
+  const auto at = draft_.signal(o.key, scan_.utf8(name));
+  o.is_known = at.has_value();
+  if (!at) {
+    stranger(o.key, name);
+  } else {
+    o.message = &draft_.database.messages[at->message];
+    o.signal = &o.message->signals[at->signal];
+  }
+  return o;
+}
+
+void Details::comment() {
+  const Owner o = owner();
+  if (o.is_elsewhere) return keep();
+  std::string text = scan_.string();
+  scan_.expect(';');
+  if (!o.is_known) return;
+  (o.signal    ? o.signal->comment
+   : o.message ? o.message->comment
+   : o.node    ? o.node->comment
+               : draft_.database.comment) = std::move(text);
+}
+
+std::vector<ValueName> Details::names_of_values() {
+  std::vector<ValueName> out;
+  while (!scan_.take(';')) {
+    const double value = scan_.real();  // some files write 1.0
+    std::string name = scan_.string();
+    const bool is_whole = value >= -0x1p63 && value < 0x1p63 &&
+                          value == static_cast<double>(static_cast<std::int64_t>(value));
+    if (is_whole) {
+      out.push_back({static_cast<std::int64_t>(value), std::move(name)});
+    } else {
+      warn("the name \"" + name + "\" is not given to a whole number");
+    }
+  }
+  return out;
+}
+
+void Details::value_table() {
+  std::string name{scan_.utf8(scan_.word())};
+  draft_.database.tables.push_back({std::move(name), names_of_values()});
+}
+
+void Details::value_names() {
+  const char first = scan_.peek();
+  if (first < '0' || first > '9') return keep();  // of an environment variable
+  const Owner o = signal_owner();
+  std::vector<ValueName> names;
+  const char next = scan_.peek();
+  if (next == ';' || next == '-' || next == '+' || (next >= '0' && next <= '9')) {
+    names = names_of_values();
+  } else {
+    const std::string table = scan_.utf8(scan_.word());
+    scan_.expect(';');
+    const auto& all = draft_.database.tables;
+    const auto at =
+        std::find_if(all.begin(), all.end(), [&](const ValueTable& t) { return t.name == table; });
+    if (at != all.end()) names = at->values;
+    if (at == all.end()) warn("VAL_ refers to table " + table + ", which the file does not have");
+  }
+  if (!o.is_known) return;
+  if (!o.signal->values.empty()) warn("signal " + o.signal->name + " has a second VAL_");
+  o.signal->values = std::move(names);
+}
+
+void Details::definition() {
+  AttributeDefinition d;
+  if (scan_.peek() != '"') {
+    const std::size_t at = scan_.here();
+    const auto owner = owner_of(scan_.word());
+    if (!owner) refuse_at(scan_.place_of(at), "expected a name in quotes, BU_, BO_, SG_ or EV_");
+    d.owner = *owner;
+  }
+  d.name = scan_.string();
+  const std::size_t at = scan_.here();
+  d.kind = scan_.word();
+  if (d.kind == "INT" || d.kind == "HEX" || d.kind == "FLOAT") {
+    if (scan_.peek() != ';') {
+      d.min = scan_.real();
+      d.max = scan_.real();
+    }
+  } else if (d.kind == "ENUM") {
+    while (scan_.peek() != ';') {
+      d.choices.push_back(scan_.string());
+      (void)scan_.take(',');
+    }
+  } else if (d.kind != "STRING") {
+    refuse_at(scan_.place_of(at), "an attribute is INT, HEX, FLOAT, STRING or ENUM");
+  }
+  scan_.expect(';');
+  if (definition_of(d.owner, d.name) != nullptr) warn("attribute " + d.name + " is defined twice");
+  draft_.database.definitions.push_back(std::move(d));
+}
+
+const AttributeDefinition* Details::definition_of(AttributeOwner kind,
+                                                  std::string_view name) const {
+  for (const AttributeDefinition& d : draft_.database.definitions) {
+    if (d.owner == kind && d.name == name) return &d;
+  }
+  return nullptr;
+}
+
+// An ENUM may give its word or the number of it.
+std::string Details::value_of(const AttributeDefinition* d, std::string_view name) {
+  const bool is_quoted = scan_.peek() == '"';
+  std::string value = scan_.string_or_word();
+  if (d == nullptr || d->kind != "ENUM") return value;
+  if (!is_quoted) {
+    std::size_t index = 0;
+    const char* const end = value.data() + value.size();
+    const bool is_number = std::from_chars(value.data(), end, index).ptr == end;
+    if (is_number && !value.empty() && index < d->choices.size()) return d->choices[index];
+  }
+  const auto choice = std::find(d->choices.begin(), d->choices.end(), value);
+  if (choice == d->choices.end() && !value.empty()) {  // "": no default
+    warn("attribute " + std::string{name} + " cannot be " + value);
+  }
+  return value;
+}
+
+void Details::definition_default() {
+  const std::string name = scan_.string();
+  const std::size_t value_begins = scan_.here();
+  bool is_known = false;
+  for (AttributeDefinition& d : draft_.database.definitions) {
+    if (d.name != name) continue;
+    is_known = true;
+    scan_.rewind(value_begins);
+    d.by_default = value_of(&d, name);
+  }
+  if (!is_known) {
+    (void)scan_.string_or_word();
+    warn("attribute " + name + " has a default but no BA_DEF_");
+  }
+  scan_.expect(';');
+}
+
+void Details::set(const Owner& o, const std::string& name, std::string value) {
+  if (o.signal != nullptr && name == "SystemSignalLongSymbol") {
+    return draft_.lengthen(*draft_.signal(o.key, o.signal->name), std::move(value));
+  }
+  if (o.kind == AttributeOwner::kMessage && name == "SystemMessageLongSymbol") {
+    return draft_.lengthen(o.key, std::move(value));
+  }
+  (o.signal    ? o.signal->attributes
+   : o.message ? o.message->attributes
+   : o.node    ? o.node->attributes
+               : draft_.database.attributes)
+      .push_back({name, std::move(value)});
+}
+
+void Details::attribute() {
+  const std::string name = scan_.string();
+  const Owner o = owner();
+  if (o.is_elsewhere) return keep();
+  const AttributeDefinition* const d = definition_of(o.kind, name);
+  std::string value = value_of(d, name);
+  scan_.expect(';');
+  if (d == nullptr) warn("attribute " + name + " has no BA_DEF_");
+  if (o.is_known) set(o, name, std::move(value));
+}
+
+void Details::value_type() {
+  const Owner o = signal_owner();
+  (void)scan_.take(':');
+  const std::int64_t type = scan_.integer(0, 3);
+  scan_.expect(';');
+  if (o.signal == nullptr || type == 0) return;
+  const unsigned length = type == 1 ? 32 : 64;
+  if (type == 3 || o.signal->layout.length != length) {
+    refuse_at(scan_.place_of(begin_), "signal " + o.signal->name + " of " +
+                                          std::to_string(o.signal->layout.length) +
+                                          " bits cannot be a floating-point number of this kind");
+  }
+  o.signal->layout.number = type == 1 ? Number::kFloat32 : Number::kFloat64;
+}
+
+void Details::multiplexing() {
+  const std::uint32_t key = message_key();
+  const std::string name = scan_.utf8(scan_.word()), selector = scan_.utf8(scan_.word());
+  std::vector<SelectorRange> ranges;
+  do {
+    const auto low = static_cast<std::uint64_t>(scan_.integer(0, kAnyInteger));
+    scan_.expect('-');
+    const auto high = static_cast<std::uint64_t>(scan_.integer(0, kAnyInteger));
+    if (low > high) refuse_at(scan_.place_of(begin_), "an empty range of selector values");
+    ranges.push_back({low, high});
+  } while (scan_.take(','));
+  scan_.expect(';');
+  const auto m = draft_.message(key);
+  if (!m) return stranger(key, name);
+  const auto s = draft_.signal(*m, name), above = draft_.signal(*m, selector);
+  if (!s || !above) {
+    refuse_at(scan_.place_of(begin_), "message " + draft_.database.messages[*m].name +
+                                          " has no signal " + (s ? selector : name));
+  }
+  draft_.marks[*m][*s].selector = above;
+  draft_.marks[*m][*s].ranges = std::move(ranges);
+}
+
+void Details::senders() {
+  const std::uint32_t key = message_key();
+  const auto at = draft_.message(key);
+  if (!at) stranger(key, "");
+  scan_.expect(':');
+  while (!scan_.take(';')) {
+    std::string name = scan_.utf8(scan_.word());
+    (void)scan_.take(',');
+    if (!at) continue;
+    Message& m = draft_.database.messages[*at];
+    if (name != m.sender) m.other_senders.push_back(std::move(name));
+  }
+}
+
+}  // namespace
+
+int turn_of(std::string_view word) {
+  for (const Kind& k : kKinds) {
+    if (k.word == word) return k.turn;
+  }
+  return -1;
+}
+
+void read_detail(DbcScanner& scan, DbcDraft& draft) { Details{scan, draft}.read(); }
+
+}  // namespace pitwall::can

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/can/dbc_draft.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+#include <utility>
+
+#include "protocol/can/dbc_remarks.hpp"
+
+namespace pitwall::can {
+namespace {
+
+constexpr double kMaxPeriod_ms = 24.0 * 3600.0 * 1000.0;
+
+// Those of Vector's own definition of VFrameFormat, for files that use it without defining it.
+bool is_fd_format(std::string_view format) {
+  return format == "14" || format == "15" || format.ends_with("_FD");
+}
+
+// Line and column of "file:line:column".
+std::pair<std::uint64_t, std::uint64_t> position(const std::string& place) {
+  const std::size_t last = place.rfind(':');
+  const std::size_t first = last == std::string::npos ? last : place.rfind(':', last - 1);
+  if (first == std::string::npos) return {};
+  std::uint64_t line = 0, column = 0;
+  std::from_chars(place.data() + first + 1, place.data() + last, line);
+  std::from_chars(place.data() + last + 1, place.data() + place.size(), column);
+  return {line, column};
+}
+
+}  // namespace
+
+void refuse_at(const std::string& place, const std::string& what) {
+  throw DbcScanner::Stop{{place, what}};
+}
+
+void DbcDraft::add(std::uint32_t key, Message m, std::vector<Mark> its_marks) {
+  const auto [at, is_new_id] = by_key_.insert({key, database.messages.size()});
+  if (!is_new_id) {
+    refuse_at(m.place,
+              "message " + m.name + " has the id of message " + database.messages[at->second].name);
+  }
+  const auto [named, is_new_name] = places_.insert({m.name, m.place});
+  if (!is_new_name) {
+    refuse_at(m.place, "message " + m.name + " is already defined at " + named->second);
+  }
+  database.messages.push_back(std::move(m));
+  marks.push_back(std::move(its_marks));
+}
+
+void DbcDraft::index() {
+  for (const Message& m : database.messages) {
+    std::vector<std::uint32_t>& sorted = by_name_.emplace_back(m.signals.size());
+    for (std::uint32_t i = 0; i < sorted.size(); ++i) sorted[i] = i;
+    std::stable_sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return m.signals[a].name < m.signals[b].name;
+    });
+  }
+  for (std::size_t i = 0; i < database.nodes.size(); ++i) {
+    nodes_.insert({database.nodes[i].name, i});
+  }
+}
+
+std::optional<std::size_t> DbcDraft::message(std::uint32_t key) const {
+  const auto at = by_key_.find(key);
+  return at == by_key_.end() ? std::nullopt : std::optional{at->second};
+}
+
+std::optional<std::size_t> DbcDraft::signal(std::size_t of, std::string_view name) const {
+  const auto& signals = database.messages[of].signals;
+  const auto& sorted = by_name_[of];
+  const auto at = std::lower_bound(
+      sorted.begin(), sorted.end(), name,
+      [&](std::uint32_t i, std::string_view wanted) { return signals[i].name < wanted; });
+  return at != sorted.end() && signals[*at].name == name ? std::optional<std::size_t>{*at}
+                                                         : std::nullopt;
+}
+
+std::optional<DbcDraft::Found> DbcDraft::signal(std::uint32_t key, std::string_view name) const {
+  const auto m = message(key);
+  const auto s = m ? signal(*m, name) : std::nullopt;
+  return s ? std::optional{Found{*m, *s}} : std::nullopt;
+}
+
+std::optional<std::size_t> DbcDraft::node(std::string_view name) const {
+  const auto at = nodes_.find(name);
+  return at == nodes_.end() ? std::nullopt : std::optional{at->second};
+}
+
+void DbcDraft::remark(bool is_warning, std::string place, std::string what) {
+  if (database.remarks.size() >= kMaxRemarks) {
+    ++database.remarks_left_off;
+  } else {
+    database.remarks.push_back({is_warning, std::move(place), std::move(what)});
+  }
+}
+
+void DbcDraft::lengthen(std::uint32_t key, std::string name) {
+  if (const auto m = message(key)) long_names_.push_back({*m, std::nullopt, std::move(name)});
+}
+
+void DbcDraft::lengthen(Found found, std::string name) {
+  long_names_.push_back({found.message, found.signal, std::move(name)});
+}
+
+// Names longer than 32 characters are given apart; everything else refers to the short ones.
+void DbcDraft::lengthen_names() {
+  for (LongName& l : long_names_) {
+    Message& m = database.messages[l.message];
+    (l.signal ? m.signals[*l.signal].name : m.name) = std::move(l.name);
+  }
+  if (long_names_.empty()) return;
+  std::map<std::string_view, std::string_view> seen;
+  for (const Message& m : database.messages) {
+    const auto [at, is_new] = seen.insert({m.name, m.place});
+    if (is_new) continue;
+    refuse_at(m.place, "message " + m.name + " is already defined at " + std::string{at->second});
+  }
+}
+
+void DbcDraft::apply_attributes(Message& m) {
+  using enum AttributeOwner;
+  if (const auto format = database.attribute("VFrameFormat", kMessage, m.attributes)) {
+    m.fd = m.fd || is_fd_format(*format);
+  }
+  const auto period = database.attribute("GenMsgCycleTime", kMessage, m.attributes);
+  if (!period) return;
+  double period_ms = 0.0;
+  const char* const end = period->data() + period->size();
+  const auto [stop, error] = std::from_chars(period->data(), end, period_ms);
+  if (error == std::errc{} && stop == end && period_ms >= 0.0 && period_ms <= kMaxPeriod_ms) {
+    m.period = from_seconds(period_ms * 1e-3);
+  } else {
+    remark(true, m.place,
+           "message " + m.name + ": the GenMsgCycleTime \"" + std::string{*period} +
+               "\" is no time in milliseconds");
+  }
+}
+
+// Finds the selectors of a message, checks it and makes the plans.
+void DbcDraft::resolve(std::size_t index) {
+  Message& m = database.messages[index];
+  std::vector<std::size_t> roots;
+  for (std::size_t i = 0; i < m.signals.size(); ++i) {
+    m.signals[i].is_selector = marks[index][i].is_selector;
+    if (m.signals[i].is_selector && !marks[index][i].value) roots.push_back(i);
+  }
+  for (std::size_t i = 0; i < m.signals.size(); ++i) {
+    Signal& s = m.signals[i];
+    Mark& mark = marks[index][i];
+    if (mark.selector) {
+      s.selector = mark.selector;
+      s.when = std::move(mark.ranges);
+      m.signals[*s.selector].is_selector = true;
+    } else if (mark.value) {
+      if (roots.size() != 1) {
+        refuse_at(s.place, "signal " + s.name + ": message " + m.name + " has " +
+                               std::to_string(roots.size()) + " multiplexers that could be meant");
+      }
+      s.selector = roots[0];
+      s.when = {{*mark.value, *mark.value}};
+    }
+  }
+  for (Signal& s : m.signals) {
+    const auto depth = selectors_above(m, s);
+    if (!depth) {
+      refuse_at(s.place, "the multiplexers of signal " + s.name + " form a circle, or are " +
+                             "more than " + std::to_string(kMaxSelectors));
+    }
+    s.depth = *depth;
+    m.deepest = std::max(m.deepest, s.depth);
+  }
+  if (const auto problem = contradiction(m)) throw DbcScanner::Stop{*problem};
+  for (Signal& s : m.signals) s.plan = plan(s.layout);
+}
+
+Database DbcDraft::finish() {
+  lengthen_names();
+  for (std::size_t i = 0; i < database.messages.size(); ++i) resolve(i);
+  for (Message& m : database.messages) {
+    apply_attributes(m);
+    for (std::string& what : remarks_on(m)) remark(true, m.place, std::move(what));
+    for (const Signal& s : m.signals) {
+      for (std::string& what : remarks_on(m, s)) remark(true, s.place, std::move(what));
+    }
+  }
+  for (auto& [place, what] : strangers(database)) remark(true, place, std::move(what));
+  std::stable_sort(
+      database.remarks.begin(), database.remarks.end(),
+      [](const Remark& a, const Remark& b) { return position(a.place) < position(b.place); });
+  auto& all = database.messages;
+  std::sort(all.begin(), all.end(), [](const Message& a, const Message& b) {
+    return std::pair{a.extended, a.id} < std::pair{b.extended, b.id};
+  });
+  return std::move(database);
+}
+
+}  // namespace pitwall::can

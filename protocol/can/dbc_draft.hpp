@@ -1,0 +1,77 @@
+// A database while its file is being read: what the sections say, not yet put together.
+//   in      messages in the order of the file, then what refers to them by number and name
+//   out     finish(): the Database; selectors resolved, long names in place, plans made
+//   errors  Stop (see dbc_scanner) at the first contradiction
+//   cost    n log n in the size of the file, whatever is in it
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/can/database.hpp"
+#include "protocol/can/dbc_scanner.hpp"
+
+namespace pitwall::can {
+
+inline constexpr std::uint32_t kExtendedBit = 0x80000000;
+// VECTOR__INDEPENDENT_SIG_MSG: where editors park signals that belong to no message.
+inline constexpr std::uint32_t kIndependentSignals = 0xC0000000;
+
+[[noreturn]] void refuse_at(const std::string& place, const std::string& what);
+
+class DbcDraft {
+ public:
+  // How a signal was marked: plain, M, m3 or m3M; and what SG_MUL_VAL_ says of it.
+  struct Mark {
+    bool is_selector = false;
+    std::optional<std::uint64_t> value;
+    std::optional<std::size_t> selector;
+    std::vector<SelectorRange> ranges;
+  };
+  struct Found {
+    std::size_t message = 0, signal = 0;
+  };
+
+  explicit DbcDraft(const std::string& name) { database.name = name; }
+
+  // Refuses ids and names that are taken.
+  void add(std::uint32_t key, Message message, std::vector<Mark> marks);
+  // After the last message; before anything is looked up.
+  void index();
+
+  std::optional<std::size_t> message(std::uint32_t key) const;
+  std::optional<Found> signal(std::uint32_t key, std::string_view name) const;
+  std::optional<std::size_t> signal(std::size_t message, std::string_view name) const;
+  std::optional<std::size_t> node(std::string_view name) const;
+
+  void remark(bool is_warning, std::string place, std::string what);
+  void lengthen(std::uint32_t key, std::string name);
+  void lengthen(Found found, std::string name);
+  Database finish();
+
+  Database database;
+  std::vector<std::vector<Mark>> marks;  // of each message, by signal
+
+ private:
+  void lengthen_names();
+  void apply_attributes(Message& m);
+  void resolve(std::size_t index);
+
+  std::map<std::uint32_t, std::size_t> by_key_;
+  std::map<std::string, std::string, std::less<>> places_;  // of messages, by name
+  std::vector<std::vector<std::uint32_t>> by_name_;         // signals of each message, sorted
+  std::map<std::string, std::size_t, std::less<>> nodes_;
+  struct LongName {
+    std::size_t message = 0;
+    std::optional<std::size_t> signal;  // none: the message itself
+    std::string name;
+  };
+  std::vector<LongName> long_names_;
+};
+
+}  // namespace pitwall::can
