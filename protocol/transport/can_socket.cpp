@@ -164,11 +164,13 @@ bool CanSocket::receive_batch(std::span<can::ReceivedFrame> frames, std::size_t&
   for (std::size_t i = 0; i < count; ++i) {
     msghdr& header = batch.messages[i].msg_hdr;
     const ControlData extra = read_control(header);
-    counters_.rx_dropped_queue = std::max<std::uint64_t>(counters_.rx_dropped_queue, extra.dropped);
+    count_dropped(counters_.rx_dropped_by_frames, extra.dropped);
+    // A frame that arrived after `now` was read belongs to this call all the same.
+    const bool stamped = stamps_trusted_ && extra.stamp.ns != 0;
+    const Instant at = stamped ? to_instant(extra.stamp, clock_offset_) : now;
     const bool whole = (header.msg_flags & MSG_TRUNC) == 0;
     if (whole && is_error_frame(batch.wire[i])) {
-      ++counters_.error_frames;
-      bus_state_ = decode_error(batch.wire[i], bus_state_, counters_.errors);
+      take_error(batch.wire[i], at);
       continue;
     }
     can::ReceivedFrame& out = frames[taken];
@@ -176,13 +178,23 @@ bool CanSocket::receive_batch(std::span<can::ReceivedFrame> frames, std::size_t&
       ++counters_.rx_malformed;
       continue;
     }
-    const bool stamped = stamps_trusted_ && extra.stamp.ns != 0;
-    // A frame that arrived after `now` was read belongs to this call all the same.
-    out.at = stamped ? to_instant(extra.stamp, clock_offset_) : now;
+    out.at = at;
     ++counters_.received;
     ++taken;
   }
   return count == room;
+}
+
+void CanSocket::count_dropped(std::uint64_t& detector, std::uint32_t so_far) {
+  detector = std::max<std::uint64_t>(detector, so_far);
+  counters_.rx_dropped_queue =
+      std::max(counters_.rx_dropped_by_frames, counters_.rx_dropped_when_asked);
+}
+
+void CanSocket::take_error(const CanWire& wire, Instant at) {
+  ++counters_.error_frames;
+  if (state_in(wire) != BusState::kUnknown) bus_state_at_ = at;
+  bus_state_ = decode_error(wire, bus_state_, counters_.errors);
 }
 
 // Kernel stamps are calendar time: after a step of that clock, those still in the queue cannot be
@@ -203,8 +215,8 @@ void CanSocket::poll_drops() {
   const auto got =
       posix_call([&] { return getsockopt(fd(), SOL_SOCKET, SO_MEMINFO, memory.data(), &length); });
   if (!got.ok() || length <= SK_MEMINFO_DROPS * sizeof(std::uint32_t)) return;
-  counters_.rx_dropped_queue =
-      std::max<std::uint64_t>(counters_.rx_dropped_queue, memory[SK_MEMINFO_DROPS]);
+  queued_bytes_ = memory[SK_MEMINFO_WMEM_ALLOC];
+  count_dropped(counters_.rx_dropped_when_asked, memory[SK_MEMINFO_DROPS]);
 }
 
 std::size_t CanSocket::send(std::span<const can::Frame> frames) {

@@ -46,8 +46,12 @@ struct CanSocketCounters {
   std::uint64_t tx_network_down = 0;
   std::uint64_t tx_failed = 0;   // any other error
   std::uint64_t tx_refused = 0;  // frames no bus can carry: dropped, not sent
-  std::uint64_t rx_dropped_queue =
-      0;                           // lost in this socket's receive queue, trailing loss included
+  // Lost in this socket's receive queue, by two detectors: with each frame the kernel says how many
+  // were lost before it (SO_RXQ_OVFL), and when asked how many so far, trailing loss included
+  // (SO_MEMINFO). The sum is the larger one.
+  std::uint64_t rx_dropped_by_frames = 0;
+  std::uint64_t rx_dropped_when_asked = 0;
+  std::uint64_t rx_dropped_queue = 0;
   std::uint64_t rx_malformed = 0;  // truncated, or no CAN frame
   std::uint64_t rx_failed = 0;     // recvmmsg errors but "nothing there"
   std::uint64_t error_frames = 0;
@@ -77,12 +81,16 @@ class CanSocket {
   // Writes one error frame, as a controller driver would report it (for benches on vcan).
   bool send_error(std::uint32_t classes, std::span<const std::uint8_t> detail = {});
 
-  // Asks the kernel for frames lost so far. receive() does so itself every 100 ms; call it once
-  // more at the end, because trailing loss shows nowhere else.
+  // Asks the kernel for frames lost so far, and what it still has to send. receive() does so itself
+  // every 100 ms; call it once more at the end, because trailing loss shows nowhere else.
   void poll_drops();
+  // Of our frames, waiting in the kernel when poll_drops() last asked; 768 bytes each or so.
+  std::uint32_t queued_bytes() const { return queued_bytes_; }
 
   const CanSocketCounters& counters() const { return counters_; }
+  // As the error frames tell, and when the newest of them that tells the state was made.
   BusState bus_state() const { return bus_state_; }
+  Instant bus_state_at() const { return bus_state_at_; }
   int receive_buffer_bytes() const { return receive_buffer_bytes_; }  // as granted by the kernel
   int fd() const { return fd_.get(); }
 
@@ -92,11 +100,15 @@ class CanSocket {
   PosixOutcome configure(const CanSocketOptions& options);
   // Reads one batch: true if the kernel may have more.
   bool receive_batch(std::span<can::ReceivedFrame> frames, std::size_t& taken, Instant now);
+  void count_dropped(std::uint64_t& detector, std::uint32_t so_far);
+  void take_error(const CanWire& wire, Instant at);
   void count_send_error(const PosixOutcome& outcome);
 
   FileDescriptor fd_;
   CanSocketCounters counters_;
   BusState bus_state_ = BusState::kUnknown;
+  Instant bus_state_at_{};
+  std::uint32_t queued_bytes_ = 0;
   int receive_buffer_bytes_ = 0;
   Duration clock_offset_{};
   Instant next_poll_{};

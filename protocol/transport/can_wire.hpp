@@ -76,6 +76,20 @@ struct CanErrorCounters {
   bool operator==(const CanErrorCounters&) const = default;
 };
 
+// The state that an error frame tells of; kUnknown where it tells of none.
+inline BusState state_in(const CanWire& wire) {
+  if ((wire.can_id & CAN_ERR_BUSOFF) != 0U) return BusState::kBusOff;
+  if ((wire.can_id & CAN_ERR_RESTARTED) != 0U) return BusState::kActive;
+  if ((wire.can_id & CAN_ERR_CRTL) == 0U) return BusState::kUnknown;
+  const unsigned detail = wire.data[1];
+  if ((detail & (CAN_ERR_CRTL_RX_PASSIVE | CAN_ERR_CRTL_TX_PASSIVE)) != 0U)
+    return BusState::kPassive;
+  if ((detail & (CAN_ERR_CRTL_RX_WARNING | CAN_ERR_CRTL_TX_WARNING)) != 0U)
+    return BusState::kWarning;
+  if ((detail & CAN_ERR_CRTL_ACTIVE) != 0U) return BusState::kActive;
+  return BusState::kUnknown;
+}
+
 // Adds one error frame to the counters (it may carry several classes) and returns the bus state
 // after it: `before` where the frame says nothing about the state.
 inline BusState decode_error(const CanWire& wire, BusState before, CanErrorCounters& counters) {
@@ -89,16 +103,8 @@ inline BusState decode_error(const CanWire& wire, BusState before, CanErrorCount
   counters.bus_off += (classes & CAN_ERR_BUSOFF) != 0U;
   counters.bus_error += (classes & CAN_ERR_BUSERROR) != 0U;
   counters.restarted += (classes & CAN_ERR_RESTARTED) != 0U;
-  if ((classes & CAN_ERR_BUSOFF) != 0U) return BusState::kBusOff;
-  if ((classes & CAN_ERR_RESTARTED) != 0U) return BusState::kActive;
-  if ((classes & CAN_ERR_CRTL) == 0U) return before;
-  const unsigned detail = wire.data[1];
-  if ((detail & (CAN_ERR_CRTL_RX_PASSIVE | CAN_ERR_CRTL_TX_PASSIVE)) != 0U)
-    return BusState::kPassive;
-  if ((detail & (CAN_ERR_CRTL_RX_WARNING | CAN_ERR_CRTL_TX_WARNING)) != 0U)
-    return BusState::kWarning;
-  if ((detail & CAN_ERR_CRTL_ACTIVE) != 0U) return BusState::kActive;
-  return before;
+  const BusState told = state_in(wire);
+  return told == BusState::kUnknown ? before : told;
 }
 
 }  // namespace pitwall::transport
