@@ -4,7 +4,10 @@
 //   out    whether the rim shall restart the controller now; whether the bus has failed for good
 //   law    at most `restarts` in any `window`; the next bus-off latches `failed` (Cause kBusOff).
 //          A controller that is down or takes no frame for `stall_max` counts as bus-off.
-//          Reset (rising edge) clears the latch only while the controller is not bus-off.
+//          One that stays down through `restarts` of them latches too, whatever the window; so it
+//          is at most (restarts + 1) x pause from going down to a restart that helps or the latch.
+//          Reset (rising edge) clears the latch only while the controller is not bus-off. It does
+//          not give the restarts back.
 //   errors none
 //   source Linux can.rst (restart-ms); a controller that is bus-off speaks to nobody, so it is the
 //          drive-by-wire's own watchdog that stops the car
@@ -33,6 +36,7 @@ struct BusGuardState {
   std::array<Instant, kRestartsMax> restarts{};  // newest last; zero: none
   std::uint64_t restarts_total = 0;
   Instant down_since{};
+  std::uint8_t tries = 0;  // restarts since then
   bool down = false;
   bool failed = false;  // latched
   bool reset_was = false;
