@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/io/link_observer.hpp"
+
+#include <algorithm>
+
+namespace pitwall::io {
+namespace {
+
+using transport::BusState;
+using world::ControllerState;
+
+ControllerState state_of(BusState state) {
+  switch (state) {
+    case BusState::kUnknown:
+      return ControllerState::kUnknown;
+    case BusState::kActive:
+      return ControllerState::kActive;
+    case BusState::kWarning:
+      return ControllerState::kWarning;
+    case BusState::kPassive:
+      return ControllerState::kPassive;
+    case BusState::kBusOff:
+      return ControllerState::kBusOff;
+  }
+  return ControllerState::kUnknown;
+}
+
+ControllerState judge(const LinkNews& news) {
+  const transport::CanInterfaceStatus& report = news.interface;
+  if (!report.exists || !report.up) return ControllerState::kDown;
+  const bool reported = report.has_controller && report.state != BusState::kUnknown;
+  if (!reported) return state_of(news.told_by_frames);
+  if (news.told_at > report.at) return state_of(news.told_by_frames);
+  if (news.told_at < report.at) return state_of(report.state);
+  return std::max(state_of(news.told_by_frames), state_of(report.state));
+}
+
+}  // namespace
+
+world::LinkObservation LinkObserver::observe(const LinkNews& news) {
+  const transport::CanInterfaceStatus& report = news.interface;
+  return {.controller = judge(news),
+          .lost_in_socket = news.lost_in_socket,
+          .lost_in_interface = lost_.follow(report.exists ? report.lost() : 0),
+          .error_frames = news.error_frames,
+          .tx_drops = news.tx_drops,
+          .restarts = restarts_.follow(report.exists ? report.restarts : 0) + news.down_and_up,
+          .tx_stalled = news.tx_stalled};
+}
+
+}  // namespace pitwall::io
