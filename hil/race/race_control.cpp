@@ -27,9 +27,8 @@ bool sends(const Script& script, std::uint32_t id) {
     case av21::BaseToCarSummary::kId:
       return uses(script, FlagEncoding::kMyLaps);
     case av21::MarelliReport1::kId:
-      return uses(script, FlagEncoding::kMarelli);
     case av21::MarelliReport2::kId:
-      return uses(script, FlagEncoding::kMarelli) && script.positions;
+      return uses(script, FlagEncoding::kMarelli);
     case av21::MylapsReport1::kId:
     case av21::MylapsReport2::kId:
       return script.positions;
@@ -98,8 +97,8 @@ bool encode_rival(State& state, const Timing& timing, can::Frame& out) {
   return encoded(m, state, out);
 }
 
-bool encode_frame(std::uint32_t id, State& state, const Timing& timing, can::Frame& out,
-                  Instant now) {
+bool encode_frame(const Script& script, std::uint32_t id, State& state, const Timing& timing,
+                  can::Frame& out, Instant now) {
   switch (id) {
     case av21::BaseToCarSummary::kId:
       return encode_summary(state, timing, out);
@@ -111,8 +110,8 @@ bool encode_frame(std::uint32_t id, State& state, const Timing& timing, can::Fra
       return encode_rival(state, timing, out);
     case av21::MarelliReport2::kId: {
       av21::MarelliReport2 m;
-      m.marelli_gps_lat = timing.latitude_deg;
-      m.marelli_gps_long = timing.longitude_deg;
+      m.marelli_gps_lat = script.positions ? timing.latitude_deg : 0.0;
+      m.marelli_gps_long = script.positions ? timing.longitude_deg : 0.0;
       return encoded(m, state, out);
     }
     case av21::MylapsReport2::kId: {
@@ -176,7 +175,7 @@ RaceFrames step(const Script& script, State& state, const Timing& timing, Instan
     if (state.faults.silent || !sends(script, row.id)) continue;
     if (!due && !(state.changed && carries_flags(row.id))) continue;
     can::Frame frame;
-    if (encode_frame(row.id, state, timing, frame, now)) CHECK(frames.push(frame));
+    if (encode_frame(script, row.id, state, timing, frame, now)) CHECK(frames.push(frame));
   }
   if (!state.faults.silent) state.changed = false;
   return frames;

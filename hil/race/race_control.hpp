@@ -36,9 +36,9 @@ struct Call {
 
 struct Script {
   world::FlagEncoding encoding = world::FlagEncoding::kMyLaps;
-  bool both_encodings = false;  // both systems on the bus, in agreement
-  bool positions = false;       // 226, 228 and the position of 1251
-  std::vector<Call> calls{};    // sorted by `at`; step() CHECKs
+  bool both_encodings = true;  // both systems on the bus, in agreement, as on the V14 car
+  bool positions = false;      // 226, 228 and a position in 1251, else a unit without a fix: 0, 0
+  std::vector<Call> calls{};   // sorted by `at`; step() CHECKs
 };
 
 // What timing and scoring measure.
@@ -55,8 +55,8 @@ struct Timing {
 
 // Set by the bench while a fault lasts.
 struct RaceFaults {
-  bool silent = false;                      // no frame at all
-  bool heartbeat_stopped = false;           // frames go on, the base behind them is gone
+  bool silent = false;                      // no frame at all, of either system
+  bool heartbeat_stopped = false;           // frames go on, the base behind both is gone
   std::optional<double> wrong_speed_mph{};  // the round speed that is sent instead
 };
 

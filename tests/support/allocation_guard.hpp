@@ -1,6 +1,7 @@
 // Counts what a piece of code takes from the heap: operator new, malloc, Eigen's buffers.
-// Include it in one file of a test program. Under AddressSanitizer, which has a heap of its own,
-// nothing is counted: kAllocationsCounted is false there, and such a test skips.
+// Any number of files of a test program may include it (its functions are weak, hence one each).
+// Under AddressSanitizer, which has a heap of its own, nothing is counted: kAllocationsCounted is
+// false there, and such a test skips.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -42,19 +43,19 @@ void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* old, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
 
-void* malloc(std::size_t size) {
+[[gnu::weak]] void* malloc(std::size_t size) {
   ++pitwall::testing::allocation_count;
   return __libc_malloc(size);
 }
-void* calloc(std::size_t count, std::size_t size) {
+[[gnu::weak]] void* calloc(std::size_t count, std::size_t size) {
   ++pitwall::testing::allocation_count;
   return __libc_calloc(count, size);
 }
-void* realloc(void* old, std::size_t size) {
+[[gnu::weak]] void* realloc(void* old, std::size_t size) {
   ++pitwall::testing::allocation_count;
   return __libc_realloc(old, size);
 }
-void* aligned_alloc(std::size_t alignment, std::size_t size) {
+[[gnu::weak]] void* aligned_alloc(std::size_t alignment, std::size_t size) {
   ++pitwall::testing::allocation_count;
   return __libc_memalign(alignment, size);
 }

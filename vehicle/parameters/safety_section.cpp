@@ -41,6 +41,10 @@ void read_inbound(yaml::StrictMap map, gateway::InboundParams& in) {
   in.gear_max = static_cast<std::uint8_t>(map.integer("gear_max", 1, 8));
 }
 
+void read_identity(yaml::StrictMap map, gateway::IdentityParams& identity) {
+  identity.listen = time_s(map, "listen_s", gateway::kListenLeast.seconds(), 10.0);
+}
+
 void read_handshake(yaml::StrictMap map, gateway::HandshakeParams& handshake) {
   handshake.dwell = time_s(map, "dwell_s", 0.0, 5.0);
   handshake.standstill_mps = map.number("standstill_mps", 0.1, 2.0);
@@ -138,6 +142,13 @@ void read_gate(yaml::StrictMap map, safety::GateParams& gate) {
   gate.command_age_max = time_s(map, "command_age_max_s", 0.01, 0.2);
 }
 
+void read_bus_guard(yaml::StrictMap map, safety::BusGuardParams& guard) {
+  guard.restarts = static_cast<std::uint8_t>(map.integer("restarts", 0, safety::kRestartsMax));
+  guard.window = time_s(map, "window_s", 1.0, 60.0);
+  guard.pause = time_s(map, "pause_s", 0.01, 1.0);
+  guard.stall_max = time_s(map, "stall_max_s", 0.02, 1.0);
+}
+
 // What the supervisor may ask for must be what the gate lets pass: a command at its own limit would
 // otherwise be refused.
 void check_slews(const yaml::StrictMap& map, const CarParams& params) {
@@ -158,6 +169,7 @@ void check_slews(const yaml::StrictMap& map, const CarParams& params) {
 
 void read_gateway(yaml::StrictMap map, CarParams& params) {
   read_inbound(map.map("inbound"), params.inbound);
+  read_identity(map.map("identity"), params.identity);
   read_handshake(map.map("handshake"), params.handshake);
   read_outbound(map.map("outbound"), params.outbound);
   params.outbound.tick = params.rates.tick;
@@ -169,6 +181,7 @@ void read_safety(yaml::StrictMap map, CarParams& params) {
   read_supervisor(supervisor, params.supervisor);
   params.supervisor.steering_ratio = params.outbound.steering_ratio;
   read_gate(map.map("gate"), params.gate);
+  read_bus_guard(map.map("bus_guard"), params.bus_guard);
   check_slews(supervisor, params);
 }
 

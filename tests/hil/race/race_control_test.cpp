@@ -189,10 +189,24 @@ TEST(RaceControl, AWrongRoundSpeedReplacesTheCalledOne) {
   EXPECT_EQ(summaries(play({}, state, seconds(1), later)).back().round_target_speed, 80.0);
 }
 
+TEST(RaceControl, BothSystemsSpeakUnlessTheScriptSaysOtherwiseAndFallSilentTogether) {
+  State state;
+  const Script script;
+  Log log = play(script, state, seconds(2));
+  for (const std::uint32_t id : {1200u, 1250u, 1251u}) EXPECT_GE(log.count(id), 1U) << id;
+  av21::MarelliReport2 position;  // a unit without a fix
+  ASSERT_TRUE(av21::decode(log.at(1251).back().frame, position));
+  EXPECT_EQ(position.marelli_gps_lat, 0.0);
+  state.faults.silent = true;
+  EXPECT_TRUE(play(script, state, seconds(2), Instant{} + seconds(2)).empty());
+}
+
 TEST(RaceControl, OneEncodingDoesNotSpeakTheOther) {
   State mylaps, marelli;
-  const Log a = play({.encoding = FlagEncoding::kMyLaps, .calls = {}}, mylaps, seconds(2));
-  const Log b = play({.encoding = FlagEncoding::kMarelli, .calls = {}}, marelli, seconds(2));
+  const Script by_mylaps{.encoding = FlagEncoding::kMyLaps, .both_encodings = false, .calls = {}};
+  const Script by_marelli{.encoding = FlagEncoding::kMarelli, .both_encodings = false, .calls = {}};
+  const Log a = play(by_mylaps, mylaps, seconds(2));
+  const Log b = play(by_marelli, marelli, seconds(2));
   EXPECT_EQ(a.count(1250) + a.count(1251), 0U);
   EXPECT_EQ(b.count(1200), 0U);
   EXPECT_GT(a.at(1200).size() * b.at(1250).size(), 0U);

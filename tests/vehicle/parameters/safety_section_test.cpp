@@ -39,6 +39,7 @@ Told gateway(const CarParams& p) {
       {"gateway.inbound.gear_max", p.inbound.gear_max},
       {"gateway.handshake.dwell_s", p.handshake.dwell.seconds()},
       {"gateway.handshake.standstill_mps", p.handshake.standstill_mps},
+      {"gateway.identity.listen_s", p.identity.listen.seconds()},
       {"gateway.outbound.steering_ratio", p.outbound.steering_ratio},
       {"gateway.outbound.vehicle_number", p.outbound.vehicle_number},
       {"gateway.outbound.traction_aim", p.outbound.traction_aim},
@@ -96,6 +97,10 @@ Told safety(const CarParams& p) {
       {"safety.gate.gear_max", p.gate.gear_max},
       {"safety.gate.shift_least_s", p.gate.shift_least.seconds()},
       {"safety.gate.command_age_max_s", p.gate.command_age_max.seconds()},
+      {"safety.bus_guard.restarts", p.bus_guard.restarts},
+      {"safety.bus_guard.window_s", p.bus_guard.window.seconds()},
+      {"safety.bus_guard.pause_s", p.bus_guard.pause.seconds()},
+      {"safety.bus_guard.stall_max_s", p.bus_guard.stall_max.seconds()},
   };
   for (std::size_t i = 0; i < safety::kSteerRows; ++i) {
     const std::string index = "[" + std::to_string(i) + "]";
