@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kLongestTimeout_s = 86'400.0;
 constexpr int kLeastMemory_mib = 96, kMostMemory_mib = 16'384;
+constexpr std::uint32_t kBitrateLeast = 5'000, kBitrateMost = 1'000'000;  // classic CAN, bit/s
+constexpr std::uint32_t kRestartMost_ms = 60'000, kQueueMost_frames = 10'000;
 
 template <class T>
 std::optional<T> parse_number(const std::string& text) {
@@ -53,6 +55,30 @@ std::optional<Problem> take_value(BusExecOptions& out, const std::string& option
   return std::nullopt;
 }
 
+// One number of a real interface.
+std::optional<Problem> take_setting(transport::CanInterfaceSettings& out, const std::string& option,
+                                    const std::string& value) {
+  const auto number = parse_number<std::uint32_t>(value);
+  const auto within = [&](std::uint32_t least, std::uint32_t most) {
+    return number && *number >= least && *number <= most;
+  };
+  if (option == "--bitrate") {
+    if (!within(kBitrateLeast, kBitrateMost))
+      return Problem{value, "not a bit rate from 5000 to 1000000 bit/s"};
+    out.bitrate = number;
+  } else if (option == "--restart-ms") {
+    if (!within(0, kRestartMost_ms)) return Problem{value, "not a time from 0 (never) to 60000 ms"};
+    out.restart_ms = number;
+  } else if (option == "--txqueuelen") {
+    if (!within(1, kQueueMost_frames))
+      return Problem{value, "not a queue length from 1 to 10000 frames"};
+    out.tx_queue_frames = number;
+  } else {
+    return Problem{option, "unknown option"};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<BusExecOptions, Problem> parse_bus_exec(std::span<const std::string> args) {
@@ -75,6 +101,35 @@ Result<BusExecOptions, Problem> parse_bus_exec(std::span<const std::string> args
   }
   if (i + 1 >= args.size()) return Unexpected{Problem{"bus exec", "expected -- COMMAND ARG..."}};
   out.command.assign(args.begin() + static_cast<std::ptrdiff_t>(i) + 1, args.end());
+  if (out.interfaces.empty()) out.interfaces = {"vcan0"};
+  return out;
+}
+
+Result<BusUpOptions, Problem> parse_bus_up(std::span<const std::string> args) {
+  BusUpOptions out;
+  // Without --listen-only an interface that was set up to listen speaks again.
+  transport::CanInterfaceSettings settings{.listen_only = false};
+  bool any = false;
+  for (std::size_t i = 0; i < args.size(); ++i) {
+    if (!args[i].starts_with("--")) {
+      if (!is_interface_name(args[i])) return Unexpected{Problem{args[i], "not an interface name"}};
+      out.interfaces.push_back(args[i]);
+      continue;
+    }
+    any = true;
+    if (args[i] == "--listen-only") {
+      settings.listen_only = true;
+    } else if (i + 1 < args.size()) {
+      if (auto problem = take_setting(settings, args[i], args[i + 1]))
+        return Unexpected{*std::move(problem)};
+      ++i;
+    } else {
+      return Unexpected{Problem{args[i], "unknown option, or its value is missing"}};
+    }
+  }
+  if (any && out.interfaces.empty())
+    return Unexpected{Problem{"bus up", "expected the interface that the options are for"}};
+  if (any) out.settings = settings;
   if (out.interfaces.empty()) out.interfaces = {"vcan0"};
   return out;
 }

@@ -1,6 +1,6 @@
-// The words after `bus exec`, understood.
+// The words after `bus exec` and `bus up`, understood.
 //   in     arguments without the verb itself
-//   out    BusExecOptions
+//   out    BusExecOptions, BusUpOptions
 //   errors Problem with the word as place
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "hil/guest/line_relay.hpp"
+#include "protocol/transport/can_interface.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 
@@ -28,5 +29,13 @@ struct BusExecOptions {
 };
 
 Result<BusExecOptions, Problem> parse_bus_exec(std::span<const std::string> args);
+
+struct BusUpOptions {
+  std::vector<std::string> interfaces{};  // empty: vcan0
+  // Of a real interface; nothing: a virtual one is made where it is missing.
+  std::optional<transport::CanInterfaceSettings> settings{};
+};
+
+Result<BusUpOptions, Problem> parse_bus_up(std::span<const std::string> args);
 
 }  // namespace pitwall::guest

@@ -126,12 +126,34 @@ int bus_check() {
   return 0;
 }
 
-int bus_up_or_down(std::span<const std::string> args, bool up) {
-  std::vector<std::string> interfaces(args.begin(), args.end());
-  if (interfaces.empty()) interfaces = {"vcan0"};
-  const auto problem = up ? bring_up(interfaces) : take_down(interfaces);
+int bus_up(std::span<const std::string> args) {
+  const auto options = parse_bus_up(args);
+  if (!options) return refuse(options.error(), kExitUsage);
+  if (options->settings) {
+    const auto problem = bring_up(options->interfaces, *options->settings);
+    return problem ? refuse(*problem, kExitUsage) : 0;
+  }
+  const auto problem = bring_up(options->interfaces);
   if (!problem) return 0;
   return refuse({problem->place, problem->what + " (`bus exec` works without)"}, kExitUsage);
+}
+
+int bus_down(std::span<const std::string> args) {
+  std::vector<std::string> interfaces(args.begin(), args.end());
+  if (interfaces.empty()) interfaces = {"vcan0"};
+  const auto problem = take_down(interfaces);
+  if (!problem) return 0;
+  return refuse({problem->place, problem->what + " (`bus exec` works without)"}, kExitUsage);
+}
+
+int bus_status(std::span<const std::string> args) {
+  if (args.empty()) return refuse({"bus status", "expected IFACE"}, kExitUsage);
+  for (const std::string& name : args) {
+    const auto interface = transport::CanInterface::open(name);
+    if (!interface) return refuse(interface.error(), kExitUsage);
+    std::printf("%s", status_text(name, interface->status()).c_str());
+  }
+  return 0;
 }
 
 // Runs until the guest goes down with it.
@@ -161,7 +183,10 @@ int bus_line(std::span<const std::string> args) {
 constexpr const char* kUsage =
     "bus check                 is there CAN, native or in a guest?\n"
     "bus up [IFACE]...         make virtual CAN interfaces (native, root; default vcan0)\n"
-    "bus down [IFACE]...       remove them\n"
+    "bus up IFACE [--bitrate BIT/S] [--restart-ms MS] [--listen-only] [--txqueuelen FRAMES]\n"
+    "                          set up a real CAN interface (root)\n"
+    "bus status IFACE...       state and counters of an interface\n"
+    "bus down [IFACE]...       remove virtual interfaces\n"
     "bus exec [--auto|--native|--guest] [--interface IFACE]... [--timeout S] [--memory MIB]\n"
     "         [--line-udp HOST_LISTEN:HOST_DEST:GUEST_LISTEN:GUEST_DEST] -- COMMAND ARG...\n"
     "                          run COMMAND where CAN is; its output and exit code are ours\n"
@@ -170,15 +195,16 @@ constexpr const char* kUsage =
 }  // namespace
 
 int bus_verb(std::span<const std::string> args) {
-  if (args.empty()) return refuse({"bus", "expected check, up, down or exec"}, kExitUsage);
+  if (args.empty()) return refuse({"bus", "expected check, up, status, down or exec"}, kExitUsage);
   const auto rest = args.subspan(1);
   if (args[0] == "--help") return std::fputs(kUsage, stdout) < 0 ? kExitUsage : 0;
   if (args[0] == "check") return bus_check();
-  if (args[0] == "up") return bus_up_or_down(rest, true);
-  if (args[0] == "down") return bus_up_or_down(rest, false);
+  if (args[0] == "up") return bus_up(rest);
+  if (args[0] == "down") return bus_down(rest);
+  if (args[0] == "status") return bus_status(rest);
   if (args[0] == "exec") return bus_exec(rest);
   if (args[0] == "line") return bus_line(rest);
-  return refuse({args[0], "unknown; expected check, up, down or exec"}, kExitUsage);
+  return refuse({args[0], "unknown; expected check, up, status, down or exec"}, kExitUsage);
 }
 
 }  // namespace pitwall::guest

@@ -2,7 +2,11 @@
 //
 //   bus check                 says whether CAN is native or comes from a guest; 0 if either works
 //   bus up [IFACE]...         native only: makes virtual CAN interfaces (default vcan0)
-//   bus down [IFACE]...       native only: removes them
+//   bus up IFACE [--bitrate BIT/S] [--restart-ms MS] [--listen-only] [--txqueuelen FRAMES]
+//                             sets up a real CAN interface; what is not given stays as it is, but
+//                             listening only
+//   bus status IFACE...       its state, settings and counters
+//   bus down [IFACE]...       native only: removes virtual ones
 //   bus exec [--guest|--native|--auto] [--interface IFACE]... [--timeout S] [--memory MIB]
 //            [--line-udp HOST_LISTEN:HOST_DEST:GUEST_LISTEN:GUEST_DEST] -- COMMAND ARG...
 //                             runs COMMAND where the interfaces exist; its output is forwarded

@@ -17,6 +17,22 @@ bool run_ip(std::vector<std::string> arguments) {
   return process && process->wait().success();
 }
 
+const char* state_word(transport::BusState state) {
+  switch (state) {
+    case transport::BusState::kUnknown:
+      return "stopped";
+    case transport::BusState::kActive:
+      return "error-active";
+    case transport::BusState::kWarning:
+      return "error-warning";
+    case transport::BusState::kPassive:
+      return "error-passive";
+    case transport::BusState::kBusOff:
+      return "bus-off";
+  }
+  return "unknown";
+}
+
 }  // namespace
 
 bool interface_exists(const std::string& name) {
@@ -42,6 +58,50 @@ std::optional<Problem> bring_up(std::span<const std::string> interfaces) {
       return Problem{name, "cannot be set up"};
   }
   return std::nullopt;
+}
+
+std::optional<Problem> bring_up(std::span<const std::string> interfaces,
+                                const transport::CanInterfaceSettings& settings) {
+  for (const std::string& name : interfaces) {
+    auto interface = transport::CanInterface::open(name);
+    if (!interface) return interface.error();
+    if (!interface->status().has_controller)
+      return Problem{name, "has no CAN controller: a virtual interface takes no options"};
+    if (auto problem = interface->configure(settings)) return problem;
+  }
+  return std::nullopt;
+}
+
+std::string status_text(std::string_view interface, const transport::CanInterfaceStatus& status) {
+  const auto row = [](const char* name, const std::string& value) {
+    std::string out = "  " + std::string(name);
+    out.resize(16, ' ');
+    return out + value + "\n";
+  };
+  const auto count = [](std::uint64_t n) { return std::to_string(n); };
+  std::string out(interface);
+  if (!status.exists) return out + ": is gone\n";
+  out += status.up ? (status.running ? ": up\n" : ": up, but not running\n") : ": down\n";
+  if (status.has_controller) {
+    out += row("controller", state_word(status.state));
+    out += row("bit rate", status.bitrate == 0 ? "not set" : count(status.bitrate) + " bit/s");
+    out += row("mode", status.listen_only ? "listen-only" : "normal");
+    out += row("restart", status.restart_ms == 0 ? "not by itself"
+                                                 : "after " + count(status.restart_ms) + " ms");
+    if (status.errors_known)
+      out +=
+          row("error count", "tx " + count(status.tx_errors) + ", rx " + count(status.rx_errors));
+    out += row("has been", "warning " + count(status.warnings) + ", passive " +
+                               count(status.passives) + ", bus-off " + count(status.bus_offs) +
+                               ", restarted " + count(status.restarts) + ", bus errors " +
+                               count(status.bus_errors));
+  } else {
+    out += row("controller", "none (a virtual interface)");
+  }
+  out += row("received", count(status.rx_packets) + ", dropped " + count(status.rx_dropped) +
+                             ", overrun " + count(status.rx_over_errors));
+  out += row("sent", count(status.tx_packets) + ", dropped " + count(status.tx_dropped));
+  return out + row("queue", count(status.tx_queue_frames) + " frames");
 }
 
 std::optional<Problem> take_down(std::span<const std::string> interfaces) {

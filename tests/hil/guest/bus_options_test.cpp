@@ -56,5 +56,31 @@ TEST(BusOptions, WhatDoesNotFitIsNamed) {
   }
 }
 
+TEST(BusUpOptions, AreReadEachOnItsOwn) {
+  const auto plain = parse_bus_up({});
+  ASSERT_TRUE(plain);
+  EXPECT_EQ(plain->interfaces, std::vector<std::string>{"vcan0"});
+  EXPECT_FALSE(plain->settings);
+  const std::vector<std::string> words{"can0", "--bitrate",    "500000", "--restart-ms", "0",
+                                       "can1", "--txqueuelen", "20",     "--listen-only"};
+  const auto all = parse_bus_up(words);
+  ASSERT_TRUE(all && all->settings);
+  EXPECT_EQ(all->interfaces, (std::vector<std::string>{"can0", "can1"}));
+  EXPECT_EQ(all->settings->bitrate, 500'000u);
+  EXPECT_EQ(all->settings->restart_ms, 0u);
+  EXPECT_EQ(all->settings->tx_queue_frames, 20u);
+  EXPECT_EQ(all->settings->listen_only, true);
+  EXPECT_TRUE(all->settings->up);
+}
+
+TEST(BusUpOptions, WhatIsWrongIsNamed) {
+  const std::vector<std::vector<std::string>> wrong{
+      {"can0", "--bitrate"},       {"can0", "--bitrate", "0"},       {"can0", "--bitrate", "1e6"},
+      {"can0", "--bitrate", "-1"}, {"can0", "--restart-ms", "x"},    {"can0", "--txqueuelen", "0"},
+      {"can0", "--fly", "1"},      {"--bitrate", "500000"},          {"can0/..", "--listen-only"},
+      {"can0", "--restart-ms"},    {"can0", "--restart-ms", "60001"}};
+  for (const auto& words : wrong) EXPECT_FALSE(parse_bus_up(words)) << words.back();
+}
+
 }  // namespace
 }  // namespace pitwall::guest

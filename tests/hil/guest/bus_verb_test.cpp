@@ -40,7 +40,8 @@ TEST(BusVerb, HelpNamesEveryVerb) {
   testing::internal::CaptureStdout();
   EXPECT_EQ(bus({"--help"}), 0);
   const std::string said = testing::internal::GetCapturedStdout();
-  for (const char* verb : {"check", "up", "down", "exec", "--line-udp", "--timeout"})
+  for (const char* verb : {"check", "up", "status", "down", "exec", "--line-udp", "--timeout",
+                           "--bitrate", "--restart-ms", "--listen-only", "--txqueuelen"})
     EXPECT_NE(said.find(verb), std::string::npos) << verb;
 }
 
