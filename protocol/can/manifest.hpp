@@ -1,13 +1,23 @@
-// What a DBC file cannot say about a message: direction, period, timeout, counter, safety class and
-// plausible rates of change. One YAML file beside each DBC file.
+// What a DBC file cannot say about a message: direction, period, timeout, counter, checksum, safety
+// class and plausible rates of change. One YAML file beside each DBC file.
 //   in      the YAML text and the database that it belongs to
 //   out     the manifest; and rows that join it with the database, one per message
 //   errors  a Problem at "file:line:column": unknown message or signal, a message of the database
-//           without an entry, a counter that is not a plain unsigned Intel field, a timeout shorter
-//           than the period, a rate that is not positive, an ignored id that a message has
+//           without an entry, a counter that is not a plain unsigned field, a timeout shorter than
+//           the period, a rate that is not positive, an ignored id that a message has, a checksum
+//           whose profile does not fit its signals, counter, data ids or length
+//
+//   checksum: {profile: sae_j1850, signal: crc}
+//   checksum: {profile: e2e_p01, signal: crc, data_id: 0x123, data_id_mode: both}  # or alternating,
+//             low; nibble: with data_id_nibble: the signal that sends it
+//   checksum: {profile: e2e_p02, signal: crc, data_ids: [16 numbers]}
+//   checksum: {profile: e2e_p05, signal: crc, data_id: 0x123}
+// The counter of profiles 1, 2 and 5 is the message's `counter`. Places are those of the profiles,
+// except that the header of profiles 2 and 5 may stand at any byte and the fields of 1 anywhere.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,6 +25,7 @@
 #include <vector>
 
 #include "protocol/can/database.hpp"
+#include "protocol/can/e2e.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 
@@ -38,6 +49,7 @@ struct MessageRow {
   bool has_counter;
   std::uint8_t counter_start;  // bit position, Intel
   std::uint8_t counter_bits;
+  ProtectionRule protection{};
 };
 
 // The fastest change that the physics behind a signal can make, in its DBC unit per second.
@@ -58,6 +70,15 @@ struct ManifestSlew {
   std::string place;
 };
 
+struct ManifestChecksum {
+  Protection profile = Protection::kNone;
+  DataIdMode data_id_mode = DataIdMode::kBoth;
+  std::string signal, nibble;  // nibble: empty but with DataIdMode::kNibble
+  std::uint16_t data_id = 0;
+  std::array<std::uint8_t, 16> data_ids{};
+  std::string place, signal_place, nibble_place, data_id_place;
+};
+
 struct ManifestMessage {
   std::string name;
   Direction direction = Direction::kFromCar;
@@ -65,6 +86,7 @@ struct ManifestMessage {
   bool required = true;  // from_car only
   Duration period{}, timeout{};
   std::string counter;  // empty: none
+  ManifestChecksum checksum;
   std::vector<ManifestSlew> slews;
   std::string place, counter_place;
 };

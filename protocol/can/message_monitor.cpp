@@ -86,6 +86,7 @@ Advance by_counter(const MessageMonitor& m, std::uint32_t value, std::uint32_t s
 // Time that is exactly one period is the only witness of a wrap that can be believed.
 void learn_cycle(MessageMonitor& m, std::uint32_t value, std::uint32_t slots, LossSign told_by) {
   CounterCycle& c = m.cycle;
+  if (c.seen == CounterCycle::kFixed) return;
   if (c.is_known() && told_by == LossSign::kCounter && value <= c.top) return;
   if (value > c.top || value < c.bottom) c.seen = 0;
   if (value >= m.counter || value > kLastRestart) return;
@@ -188,6 +189,12 @@ void report_overdue(const MessageRow& row, MessageMonitor& m, Instant now, LossL
   m.listed = listed;
 }
 
+// SAE J1850 says nothing about counters; the profiles of AUTOSAR do.
+CounterCycle cycle_of(const ProtectionRule& rule) {
+  if (rule.profile == Protection::kNone || rule.profile == Protection::kJ1850) return {};
+  return {.top = counter_top(rule), .bottom = 0, .seen = CounterCycle::kFixed};
+}
+
 }  // namespace
 
 std::uint32_t counter_of(const MessageRow& row, const Frame& frame) {
@@ -198,11 +205,12 @@ std::uint32_t counter_of(const MessageRow& row, const Frame& frame) {
 
 FrameVerdict judge(const MessageRow& row, const MonitorRules& rules, MessageMonitor& m,
                    const ReceivedFrame& received, LossLog& losses) {
-  const bool is_whole = true;
+  const bool is_whole = check(row.protection, received.frame) == FrameCheck::kOk;
   const bool is_read = is_whole && row.has_counter && rules.use_counter;
   const std::uint32_t value = is_read ? counter_of(row, received.frame) : 0;
   if (!m.ever) {
     m.ever = true;
+    m.cycle = cycle_of(row.protection);
     m.base = m.last = received.at;
     remember(m, is_read, value, 0, {});
     return verdict_of(rules, m, is_whole, {});

@@ -87,8 +87,8 @@ enum class FrameVerdict : std::uint8_t {
 struct CounterCycle {
   std::uint32_t top = 0;
   std::uint8_t bottom = 0;
-  std::uint8_t seen = 0;  // times in a row, up to kKnown
-  static constexpr std::uint8_t kKnown = 2;
+  std::uint8_t seen = 0;  // times in a row, up to kKnown; kFixed: by the protection profile
+  static constexpr std::uint8_t kKnown = 2, kFixed = 3;
 
   bool is_known() const { return seen >= kKnown; }
   std::uint32_t length() const { return top - bottom + 1; }

@@ -56,6 +56,48 @@ const char* number_kind(Number n) {
   return "";
 }
 
+const char* profile_name(Protection p) {
+  switch (p) {
+    case Protection::kNone:
+      return "Protection::kNone";
+    case Protection::kJ1850:
+      return "Protection::kJ1850";
+    case Protection::kP01:
+      return "Protection::kP01";
+    case Protection::kP02:
+      return "Protection::kP02";
+    case Protection::kP05:
+      return "Protection::kP05";
+  }
+  return "";
+}
+
+const char* mode_name(DataIdMode m) {
+  switch (m) {
+    case DataIdMode::kBoth:
+      return "DataIdMode::kBoth";
+    case DataIdMode::kAlternating:
+      return "DataIdMode::kAlternating";
+    case DataIdMode::kLow:
+      return "DataIdMode::kLow";
+    case DataIdMode::kNibble:
+      return "DataIdMode::kNibble";
+  }
+  return "";
+}
+
+std::string rule_text(const ProtectionRule& rule) {
+  std::string ids;
+  for (const std::uint8_t id : rule.data_ids) ids += (ids.empty() ? "" : ", ") + number(id);
+  return std::string{"{.profile = "} + profile_name(rule.profile) +
+         ", .data_id_mode = " + mode_name(rule.data_id_mode) +
+         ",\n      .length = " + number(rule.length) + ", .crc_byte = " + number(rule.crc_byte) +
+         ", .counter_start = " + number(rule.counter_start) +
+         ", .counter_bits = " + number(rule.counter_bits) +
+         ",\n      .nibble_start = " + number(rule.nibble_start) +
+         ", .data_id = " + number(rule.data_id) + ",\n      .data_ids = {" + ids + "}}";
+}
+
 const char* word_of(const SignalPlan& p) {
   return p.order == ByteOrder::kIntel ? "intel" : "motorola";
 }
@@ -194,7 +236,9 @@ void add_tables(std::string& out, const Database& database, const Manifest& mani
            (r.required ? ", true" : ", false") + ", Duration{" + std::to_string(r.period.ns) +
            "}, Duration{" + std::to_string(r.timeout.ns) + "}, " +
            (r.has_counter ? "true" : "false") + ", " + number(r.counter_start) + ", " +
-           number(r.counter_bits) + "},\n";
+           number(r.counter_bits);
+    if (r.protection.profile != Protection::kNone) out += ",\n     " + rule_text(r.protection);
+    out += "},\n";
   }
   out += "}};\n\n";
   std::string slews;

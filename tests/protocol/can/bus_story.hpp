@@ -78,9 +78,8 @@ struct Heard {
 
 // Judges what arrived, tick by tick, and watches on for `afterwards`.
 inline Heard run_monitor(const MessageRow& row, const std::vector<Send>& sends, Duration afterwards,
-                         const CounterCycle& known_cycle = {}) {
+                         const CounterCycle& cycle = {}) {
   Heard heard;
-  heard.monitor.cycle = known_cycle;
   LossLog log;
   std::size_t next = 0;
   const Instant end = sends.back().arrival + afterwards;
@@ -88,6 +87,7 @@ inline Heard run_monitor(const MessageRow& row, const std::vector<Send>& sends, 
     for (; next < sends.size() && sends[next].arrival <= now; ++next) {
       if (sends[next].is_lost) continue;
       const ReceivedFrame received{frame_of(row, sends[next].counter), sends[next].arrival};
+      if (cycle.is_known()) heard.monitor.cycle = cycle;
       ++heard.verdicts[judge(row, MonitorRules{}, heard.monitor, received, log)];
     }
     watch({&row, 1}, {&heard.monitor, 1}, now, log);

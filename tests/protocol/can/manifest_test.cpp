@@ -91,9 +91,10 @@ TEST(Manifest, ReadsAnEntry) {
 
 TEST(Manifest, ErrorsNameThePlace) {
   EXPECT_EQ(trouble(manifest(kEntry)), "");
-  EXPECT_EQ(trouble(manifest(kEntry + "    counter: w\n")),
-            "t.yaml:9:14: error: counter w must be an unsigned Intel field of at most 16 bits "
-            "without scale");
+  EXPECT_EQ(
+      trouble(manifest(kEntry + "    counter: w\n")),
+      "t.yaml:9:14: error: counter w must be an unsigned field of at most 16 bits without scale, "
+      "Intel or within one byte");
   EXPECT_EQ(trouble(manifest(kEntry + "    counter: x\n")),
             "t.yaml:9:14: error: counter x is no signal of message M");
   EXPECT_EQ(trouble(manifest(kEntry + "    slew_per_s: {x: 1}\n")),

@@ -178,8 +178,8 @@ TEST_F(MonitorAlone, ARestartIsNoLossWhereverItHappens) {
     for (const std::uint32_t first : {0U, 1U}) {
       for (const bool is_known : {false, true}) {
         monitor = {};
-        if (is_known) monitor.cycle = {.top = 255, .seen = CounterCycle::kKnown};
         hear(0, before);
+        if (is_known) monitor.cycle = {.top = 255, .seen = CounterCycle::kKnown};
         const FrameVerdict verdict = hear(10'000, first);
         EXPECT_EQ(verdict == FrameVerdict::kStuckCounter, before == first);
         const bool is_next_but_one = is_known && before + 2 == first + 256;
