@@ -22,7 +22,8 @@ may_be_ours() {
   [[ $1 != *..* ]] || return 1
   case $1 in
     /opt/pitwall/* | /etc/pitwall/* | /etc/systemd/system/pitwall-* | \
-      /etc/systemd/system/*.wants/* | /etc/systemd/network/70-pitwall-* | /etc/sysusers.d/pitwall.conf | /etc/sysctl.d/05-pitwall.conf | \
+      /etc/systemd/system/*.wants/* | /etc/systemd/network/70-pitwall-* | \
+      /etc/sysusers.d/pitwall.conf | /etc/sysctl.d/05-pitwall.conf | \
       /etc/security/limits.d/70-pitwall.conf | /etc/modules-load.d/pitwall.conf) return 0 ;;
     *) return 1 ;;
   esac
@@ -41,7 +42,11 @@ load_manifest() {
   done <"$target$manifest"
 }
 
-checksum() { sha256sum <"$1" | cut -d' ' -f1; }
+checksum() {
+  local sum
+  sum=$(sha256sum <"$1")
+  printf '%s' "${sum%% *}"
+}
 
 record() {
   [[ -n ${new_kind[$1]:-} ]] || new_order+=("$1")
@@ -54,9 +59,8 @@ append() { # KIND ACTION PATH MODE SOURCE
 
 # Every folder above PATH that is not there.
 plan_folders() {
-  local folder
-  folder=$(dirname "$1")
-  [[ $folder != / && -z ${planned[$folder]:-} ]] || return 0
+  local folder=${1%/*}
+  [[ -n $folder && -z ${planned[$folder]:-} ]] || return 0
   plan_folders "$folder"
   planned[$folder]=1
   if [[ ! -d $target$folder ]]; then
@@ -168,7 +172,8 @@ show_line() {
     *) printf '%-8s %s %s %s\n' "$action" "$path" "$(owner)" "${plan_mode[i]}" ;;
   esac
   [[ $action != replace || ${plan_kind[i]} == program ]] ||
-    diff -u --label "$path (as it is)" --label "$path (as it will be)" "$target$path" "${plan_source[i]}" || true
+    diff -u --label "$path (as it is)" --label "$path (as it will be)" \
+      "$target$path" "${plan_source[i]}" || true
 }
 
 show_plan() {
@@ -187,7 +192,7 @@ stage_plan() {
         made_folders+=("$there")
         ;;
       link:enable) ln -sfn -- "${plan_source[i]}" "$there.pitwall-new" ;;
-      program:create | program:replace | system:create | system:replace | config:create | config:replace)
+      *:create | *:replace)
         install -m "${plan_mode[i]}" -- "${plan_source[i]}" "$there.pitwall-new"
         ;;
     esac
@@ -213,7 +218,9 @@ swap() { # PATH ACTION
 
 write_manifest() {
   local path text=''
-  for path in "${new_order[@]}"; do text+="${new_kind[$path]}"$'\t'"${new_sum[$path]}"$'\t'"$path"$'\n'; done
+  for path in "${new_order[@]}"; do
+    text+="${new_kind[$path]}"$'\t'"${new_sum[$path]}"$'\t'"$path"$'\n'
+  done
   printf '%s' "$text" >"$1"
 }
 

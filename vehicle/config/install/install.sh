@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# install.sh car [OPTION]...: puts Pitwall on a car's computer (Debian 12, systemd), or takes it off.
+# install.sh car [OPTION]...: puts Pitwall on a car's computer (Debian 12, systemd) or takes it off
 #   in     templates beside this file, built programs, a car and a track file
 #   out    one line per change: ACTION PATH OWNER MODE; actions create replace keep remove enable
 #          user run note next. With --dry-run the same lines, and nothing is changed
@@ -61,7 +61,7 @@ check_number() {
 check_file() { # OPTION FILE
   [[ -f $2 && -r $2 ]] || refuse "$1: no readable file '$2'"
   [[ ${2##*/} =~ ^[A-Za-z0-9_][A-Za-z0-9_.-]*\.yaml$ ]] ||
-    refuse "$1: the file's name has to be letters, digits, '_', '.', '-' and end in .yaml, got '${2##*/}'"
+    refuse "$1: a file name is of letters, digits, '_', '.', '-' and ends in .yaml, got '${2##*/}'"
 }
 
 check_can() {
@@ -73,14 +73,14 @@ check_can() {
 
 check_radio() {
   local byte='(25[0-5]|2[0-4][0-9]|1?[0-9]?[0-9])'
-  if [[ ! $1 =~ ^$byte\.$byte\.$byte\.$byte:([1-9][0-9]{0,4})$ ]] || ((BASH_REMATCH[5] > 65535)); then
+  if [[ ! $1 =~ ^($byte\.){3}$byte:([1-9][0-9]{0,4})$ ]] || ((${1##*:} > 65535)); then
     refuse "--radio needs ADDRESS:PORT with an IPv4 address and a port 1..65535, got '$1'"
   fi
 }
 
 check_gnss() {
-  if [[ ! $1 =~ ^([1-9][0-9]{0,4}),([1-9][0-9]{0,4})$ ]] ||
-    ((BASH_REMATCH[1] > 65535 || BASH_REMATCH[2] > 65535 || BASH_REMATCH[1] == BASH_REMATCH[2])); then
+  if [[ ! $1 =~ ^[1-9][0-9]{0,4},[1-9][0-9]{0,4}$ ]] ||
+    ((${1%,*} > 65535 || ${1#*,} > 65535 || ${1%,*} == ${1#*,})); then
     refuse "--gnss needs two different ports 1..65535 as P0,P1, got '$1'"
   fi
 }
@@ -152,9 +152,11 @@ plan_files() {
   plan_file config 0644 /etc/sysctl.d/05-pitwall.conf "$(render sysctl.conf)"
   plan_file config 0644 /etc/security/limits.d/70-pitwall.conf "$(render limits.conf)"
   plan_bus
-  plan_file system 0644 /etc/systemd/system/pitwall-vehicle.service "$(render pitwall-vehicle.service)"
+  plan_file system 0644 /etc/systemd/system/pitwall-vehicle.service \
+    "$(render pitwall-vehicle.service)"
   plan_wanted_by_device pitwall-vehicle.service
-  [[ $radio != 127.* ]] || note "telemetry stays on this machine ($radio) until --radio says where the pit wall is"
+  [[ $radio != 127.* ]] ||
+    note "telemetry stays on this machine ($radio) until --radio says where the pit wall is"
 }
 
 # The controller appears, the unit starts: also after an adapter was pulled and put back.
@@ -165,6 +167,9 @@ plan_wanted_by_device() {
 
 networkd_link=/etc/systemd/system/multi-user.target.wants/systemd-networkd.service
 
+# The interfaces that a file of ifupdown sets up.
+stanzas() { awk '$1 == "iface" {print $2}' "$1"; }
+
 # Says on one line who else manages the network; nothing if nobody does.
 other_manager() {
   local file
@@ -173,7 +178,7 @@ other_manager() {
     return
   fi
   for file in "$target"/etc/network/interfaces "$target"/etc/network/interfaces.d/*; do
-    if [[ -f $file ]] && grep -qE '^[[:space:]]*iface[[:space:]]+([^l]|l[^o]|lo[^[:space:]])' "$file"; then
+    if [[ -f $file ]] && stanzas "$file" | grep -vx lo >/dev/null; then
       echo "ifupdown (${file#"$target"})"
       return
     fi
@@ -191,7 +196,8 @@ plan_bus() {
     [[ -L $target$networkd_link && ${old_kind[$networkd_link]:-} != link ]] ||
       plan_link "$networkd_link" /lib/systemd/system/systemd-networkd.service
   else
-    note "$other manages this machine: systemd-networkd is not enabled, pitwall-can-$can.service sets $can up"
+    note "$other manages this machine: systemd-networkd is not enabled," \
+      "pitwall-can-$can.service sets $can up"
     plan_file system 0644 "/etc/systemd/system/pitwall-can-$can.service" \
       "$(render pitwall-can.service)"
     plan_wanted_by_device "pitwall-can-$can.service"
@@ -203,29 +209,27 @@ plan_bus() {
 note_rivals() {
   local file
   for file in "$target"/etc/network/interfaces "$target"/etc/network/interfaces.d/*; do
-    [[ ! -f $file ]] || ! grep -qE "^[[:space:]]*iface[[:space:]]+$can([[:space:]]|$)" "$file" ||
+    [[ ! -f $file ]] || ! stanzas "$file" | grep -x "$can" >/dev/null ||
       note "${file#"$target"} sets up $can too: take it out there"
   done
   for file in "$target"/etc/systemd/network/*.network; do
     [[ ! -f $file || ${file##*/} == 70-pitwall-* ]] || ! grep -q '^\[CAN\]' "$file" ||
-      note "${file#"$target"} sets up CAN too: of two files that match $can networkd takes the first by name"
+      note "${file#"$target"} sets up CAN too: of two files that match $can" \
+        'networkd takes the first by name'
   done
-}
-
-owning_package() {
-  { dpkg-query -S "$1" "$(readlink -f "$1")" 2>/dev/null || true; } | sed 's/:.*//;q'
 }
 
 # Shared libraries that an image lacks, as Debian packages.
 note_missing_libraries() {
-  local program=$build/vehicle/pitwall-vehicle library packages=()
+  local program=$build/vehicle/pitwall-vehicle library missing=() packages
   [[ -n $target && -x $program ]] && command -v dpkg-query >/dev/null || return 0
   while read -r library; do
     [[ -e $target$library || -e $target/usr$library ]] ||
-      packages+=("$(owning_package "$library")")
+      missing+=("$library" "$(readlink -f "$library")")
   done < <(ldd "$program" 2>/dev/null | awk '$3 ~ /^\// {print $3}')
-  ((!${#packages[@]})) ||
-    note "the tree lacks Debian packages that the programs need: $(printf '%s\n' "${packages[@]}" | sort -u | xargs)"
+  ((${#missing[@]})) || return 0
+  packages=$({ dpkg-query -S "${missing[@]}" 2>/dev/null || true; } | cut -d: -f1 | sort -u | xargs)
+  note "the tree lacks Debian packages that the programs need: $packages"
 }
 
 # --- the living system -----------------------------------------------------------------------
@@ -270,7 +274,7 @@ say_next() {
   local n
   for n in "${notes[@]}"; do printf 'note     %s\n' "$n"; done
   ((!uninstall)) && [[ -z $target ]] && changes || return 0
-  printf 'next     it starts when %s appears, as at the next boot, disarmed; without a boot:\n' "$can"
+  printf 'next     it starts, disarmed, when %s appears, as at a boot; without one:\n' "$can"
   if [[ -n ${planned["/etc/systemd/system/pitwall-can-$can.service"]:-} ]]; then
     printf 'next       systemctl restart pitwall-can-%s\n' "$can"
   else

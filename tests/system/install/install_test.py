@@ -1,0 +1,416 @@
+#!/usr/bin/env python3
+"""`./pitwall install car` into a folder: install_test.py SOURCE BUILD [TEST]..."""
+# SPDX-License-Identifier: Apache-2.0
+import os
+import re
+import resource
+import shutil
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import unit_files
+
+SOURCE, BUILD = Path(sys.argv[1]), Path(sys.argv[2])
+INSTALLER = SOURCE / "vehicle/config/install/install.sh"
+UNIT = "etc/systemd/system/pitwall-vehicle.service"
+NETWORK = "etc/systemd/network/70-pitwall-can0.network"
+ENVIRONMENT = "etc/pitwall/vehicle.env"
+MANIFEST = "var/lib/pitwall/install.manifest"
+NETWORKD = "etc/systemd/system/multi-user.target.wants/systemd-networkd.service"
+MORE_THAN_A_TEXT_LESS_THAN_A_PROGRAM = 64 << 10  # bytes
+
+
+def snapshot(root):
+    """Every path with all that an installation could change, time of change included."""
+    found = {}
+    for path in sorted(root.rglob("*")):
+        about = path.lstat()
+        content = (os.readlink(path) if path.is_symlink()
+                   else path.read_bytes() if path.is_file() else None)
+        changed = None if path.is_dir() else about.st_mtime_ns
+        found[str(path.relative_to(root))] = (stat.filemode(about.st_mode), changed, content)
+    return found
+
+
+def lines_of(text, action):
+    return [line for line in text.splitlines() if re.match(rf"{action} +/", line)]
+
+
+class Installation(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="pitwall_install_")
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name) / "root of the car"
+        self.root.mkdir()
+
+    def run_installer(self, *arguments, expect=0, program=INSTALLER, **options):
+        done = subprocess.run([program, *arguments], text=True, capture_output=True, **options)
+        self.assertEqual(done.returncode, expect, done.stdout + done.stderr)
+        return done
+
+    def install(self, *arguments, **options):
+        return self.run_installer("car", "--root", self.root, "--build", BUILD, *arguments,
+                                  **options)
+
+    def write(self, path, text):
+        file = self.root / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text)
+        return file
+
+    def text(self, path):
+        return (self.root / path).read_text()
+
+    # --- the command line
+
+    def test_a_wrong_command_line_is_refused_by_name_and_changes_nothing(self):
+        car = Path(self.root).parent / "car with blank.yaml"
+        car.touch()
+        wrong = [("--bitrate", "0"), ("--bitrate", "9999"), ("--bitrate", "1000001"),
+                 ("--bitrate", "500k"), ("--bitrate", "-5"), ("--bitrate", "08000"), ("--bitrate",),
+                 ("--restart-ms", "-1"), ("--restart-ms", "60001"), ("--restart-ms", "1.5"),
+                 ("--can", ""), ("--can", "can/0"), ("--can", "can 0"), ("--can", "a" * 16),
+                 ("--can", "vcan0"), ("--can", "can0;reboot"), ("--can", "--arm"),
+                 ("--radio", "10.0.0.1"), ("--radio", "10.0.0.256:1"), ("--radio", "base:23431"),
+                 ("--radio", "10.0.0.1:0"), ("--radio", "10.0.0.1:65536"), ("--radio", ":1"),
+                 ("--gnss", "23501"), ("--gnss", "23501,23501"), ("--gnss", "1,65536"),
+                 ("--gnss", "0,1"), ("--gnss", "1,2,3"),
+                 ("--car", "/nonexistent.yaml"), ("--car", "/etc"), ("--car", str(car)),
+                 ("--track", "/etc/hostname"), ("--root", "/nonexistent"), ("--root", "/"),
+                 ("--build", "/nonexistent"), ("--arm",), ("--simulation",), ("extra",)]
+        for arguments in wrong:
+            with self.subTest(arguments=arguments):
+                said = self.install(*arguments, expect=2).stderr
+                self.assertIn(arguments[0], said)
+        self.assertEqual(snapshot(self.root), {})
+
+    def test_what_to_install_has_to_be_said(self):
+        for arguments in [(), ("base",), ("--dry-run",), ("",)]:
+            self.assertIn("car", self.run_installer(*arguments, expect=2).stderr)
+
+    def test_uninstall_takes_no_settings(self):
+        self.assertIn("--can", self.install("--uninstall", "--can", "can1", expect=2).stderr)
+
+    def test_a_car_file_that_the_car_process_refuses_is_never_installed(self):
+        broken = self.root.parent / "broken.yaml"
+        good = (SOURCE / "vehicle/config/cars/av21.yaml").read_text()
+        broken.write_text(good + "\nunheard_of: 1\n")
+        said = self.install("--car", broken, expect=2).stderr
+        self.assertRegex(said, r"broken\.yaml:\d+:\d+: .*unheard_of")
+        self.assertEqual(snapshot(self.root), {})
+
+    # --- the dry run
+
+    def test_a_dry_run_says_exactly_what_the_installation_does_and_changes_nothing(self):
+        self.write("etc/hostname", "car\n")
+        before = snapshot(self.root)
+        plan = self.install("--dry-run").stdout
+        self.assertEqual(snapshot(self.root), before)
+        self.assertEqual(self.install().stdout, plan)
+        listed = {line.split()[1].strip("/") for line in plan.splitlines()
+                  if line.split()[0] in ("create", "enable")}
+        self.assertEqual(listed, set(snapshot(self.root)) - set(before))
+
+    def test_a_dry_run_over_an_older_installation_shows_the_difference(self):
+        self.install()
+        before = snapshot(self.root)
+        change = ("--bitrate", "250000")
+        plan = self.install(*change, "--dry-run").stdout
+        self.assertEqual(snapshot(self.root), before)
+        self.assertEqual([line.split()[1] for line in lines_of(plan, "replace")],
+                         ["/" + NETWORK, "/" + MANIFEST])
+        self.assertIn("\n-BitRate=500000\n+BitRate=250000\n", plan)
+        self.assertEqual(self.install(*change).stdout, plan)
+        self.assertIn("BitRate=250000\n", self.text(NETWORK))
+
+    def test_the_launcher_passes_a_dry_run_on(self):
+        launcher = self.run_installer("install", "car", "--root", self.root, "--build", BUILD,
+                                      "--dry-run", program=SOURCE / "pitwall").stdout
+        self.assertEqual(launcher, self.install("--dry-run").stdout)
+        self.assertEqual(snapshot(self.root), {})
+
+    # --- what is put in place
+
+    def test_owner_modes_and_no_name_left_open(self):
+        out = self.install().stdout
+        for path, (mode, _, content) in snapshot(self.root).items():
+            wanted = ("lrwxrwxrwx" if mode[0] == "l" else "drwxr-xr-x" if mode[0] == "d" else
+                      "-rwxr-xr-x" if path.startswith("opt/") else "-rw-r--r--")
+            self.assertEqual(mode, wanted, path)
+            if isinstance(content, bytes) and not path.startswith("opt/"):
+                self.assertIsNone(re.search(rb"@[A-Z_]+@", content), path)
+        for line in lines_of(out, "create"):
+            self.assertRegex(line, r" \S+:\S+ 0(755|644)\b")
+
+    def test_programs_and_files_are_those_of_the_build_and_the_tree(self):
+        self.install()
+        for name, origin in [("opt/pitwall/bin/pitwall-vehicle", BUILD / "vehicle/pitwall-vehicle"),
+                             ("opt/pitwall/bin/pitwall-hil", BUILD / "hil/pitwall-hil"),
+                             ("etc/pitwall/cars/av21.yaml",
+                              SOURCE / "vehicle/config/cars/av21.yaml"),
+                             ("etc/pitwall/tracks/lvms.yaml",
+                              SOURCE / "vehicle/config/tracks/lvms.yaml")]:
+            self.assertEqual((self.root / name).read_bytes(), origin.read_bytes(), name)
+
+    def test_the_car_is_never_armed(self):
+        self.install()
+        for path, (_, _, content) in snapshot(self.root).items():
+            if isinstance(content, bytes) and not path.startswith("opt/"):
+                self.assertNotIn(b"--arm", content, path)
+
+    def test_the_unit_starts_a_process_that_the_car_process_accepts(self):
+        self.install("--track", SOURCE / "vehicle/config/tracks/ims.yaml")
+        environment = dict(line.split("=", 1) for line in self.text(ENVIRONMENT).splitlines()
+                           if line and not line.startswith("#"))
+        start = unit_files.read(self.text(UNIT))["Service", "ExecStart"][0]
+        command = re.sub(r"\$\{(\w+)\}", lambda name: environment[name[1]], start).split()
+        self.assertEqual(environment["PITWALL_TRACK"], "/etc/pitwall/tracks/ims.yaml")
+        inside = [f"{self.root}{part}" if part.startswith(("/etc", "/opt")) else part
+                  for part in command]
+        self.run_installer(*inside[1:], "--check", program=inside[0])
+
+    def test_a_crashing_process_stays_down(self):
+        self.install()
+        unit = unit_files.read(self.text(UNIT))
+        self.assertEqual(unit["Service", "Restart"], ["on-failure"])
+        burst = int(unit["Unit", "StartLimitBurst"][0])
+        interval_s = int(unit["Unit", "StartLimitIntervalSec"][0])
+        self.assertLess(burst * (int(unit["Service", "RestartSec"][0]) + 1), interval_s)
+        self.assertIn("2", unit["Service", "RestartPreventExitStatus"])
+
+    def test_the_unit_has_one_capability_and_the_limits_that_the_program_asks_for(self):
+        self.install()
+        unit = unit_files.read(self.text(UNIT))
+        for key in ("AmbientCapabilities", "CapabilityBoundingSet"):
+            self.assertEqual(unit["Service", key], ["CAP_NET_ADMIN"])
+        main = (SOURCE / "vehicle/main.cpp").read_text()
+        priority = int(re.search(r"kPriority = (\d+)", main)[1])
+        self.assertGreaterEqual(int(unit["Service", "LimitRTPRIO"][0]), priority)
+        self.assertEqual(unit["Service", "LimitMEMLOCK"], ["infinity"])
+        self.assertEqual(unit["Service", "User"], ["pitwall"])
+        self.assertRegex(self.text("etc/sysusers.d/pitwall.conf"), r"(?m)^u pitwall ")
+
+    def test_the_receive_buffer_is_the_one_that_the_socket_asks_for(self):
+        self.install()
+        socket = (SOURCE / "protocol/transport/can_socket.hpp").read_text()
+        factor, shift = re.search(r"receive_buffer_bytes = (\d+) << (\d+)", socket).groups()
+        self.assertIn(f"net.core.rmem_max = {int(factor) << int(shift)}\n",
+                      self.text("etc/sysctl.d/05-pitwall.conf"))
+
+    def test_the_bus_is_set_up_as_asked(self):
+        self.install("--can", "kvaser1", "--bitrate", "1000000", "--restart-ms", "0",
+                     "--listen-only")
+        network = unit_files.read(self.text(NETWORK.replace("can0", "kvaser1")))
+        self.assertEqual(network["Match", "Name"], ["kvaser1"])
+        self.assertEqual(network["CAN", "BitRate"], ["1000000"])
+        self.assertEqual(network["CAN", "RestartSec"], ["0ms"])
+        self.assertEqual(network["CAN", "ListenOnly"], ["yes"])
+        unit = unit_files.read(self.text(UNIT))
+        self.assertEqual(unit["Unit", "BindsTo"],
+                         ["sys-subsystem-net-devices-kvaser1.device"])
+        self.assertIn("--can kvaser1 ", unit["Service", "ExecStart"][0])
+
+    def test_systemd_252_knows_every_key(self):
+        self.install()
+        self.assertEqual(unit_files.unknown_keys(self.root), [])
+        self.with_network_manager()
+        self.install("--can", "can1")
+        self.assertTrue((self.root / "etc/systemd/system/pitwall-can-can1.service").exists())
+        self.assertEqual(unit_files.unknown_keys(self.root), [])
+        (self.root / UNIT).write_text(self.text(UNIT).replace("ProtectHome", "ProtectHorne"))
+        self.assertEqual(unit_files.unknown_keys(self.root), ["Service.ProtectHorne"])
+
+    def test_systemd_itself_has_nothing_to_say(self):
+        self.install()
+        self.ask_systemd(UNIT)
+
+    def test_systemd_itself_has_nothing_to_say_of_the_unit_for_the_bus(self):
+        self.with_network_manager()
+        self.install()
+        self.ask_systemd("etc/systemd/system/pitwall-can-can0.service")
+
+    def ask_systemd(self, path):
+        if not shutil.which("systemd-analyze"):
+            print(f"SKIPPED: no systemd-analyze here; the keys of {path} were checked by list")
+            return
+        copy = self.root.parent / Path(path).name
+        programs = self.root.parent / "programs"  # systemd wants no blanks in a program's path
+        programs.symlink_to(self.root / "opt/pitwall")
+        copy.write_text(self.text(path).replace("/opt/pitwall", str(programs)))
+        said = subprocess.run(["systemd-analyze", "verify", "--man=no", copy], text=True,
+                              capture_output=True)
+        about_us = [line for line in said.stderr.splitlines() if copy.name in line]
+        self.assertEqual((said.returncode, about_us), (0, []), said.stderr)
+
+    # --- who manages the network
+
+    def with_network_manager(self):
+        link = self.root / NETWORKD.replace("systemd-networkd", "NetworkManager")
+        link.parent.mkdir(parents=True, exist_ok=True)
+        link.symlink_to("/lib/systemd/system/NetworkManager.service")
+
+    def expect_own_unit(self, manager):
+        out = self.install("--listen-only").stdout
+        self.assertRegex(out, rf"note .*{manager}.*systemd-networkd is not enabled")
+        self.assertFalse(os.path.lexists(self.root / NETWORKD))
+        self.assertFalse((self.root / NETWORK).exists())
+        unit = unit_files.read(self.text("etc/systemd/system/pitwall-can-can0.service"))
+        self.assertIn("/sbin/ip link set can0 type can bitrate 500000 restart-ms 100 "
+                      "listen-only on", unit["Service", "ExecStart"])
+        wanted = self.root / "etc/systemd/system/sys-subsystem-net-devices-can0.device.wants"
+        self.assertEqual({link.name for link in wanted.iterdir()},
+                         {"pitwall-can-can0.service", "pitwall-vehicle.service"})
+
+    def test_under_network_manager_a_unit_of_our_own_sets_the_bus_up(self):
+        self.with_network_manager()
+        self.expect_own_unit("NetworkManager")
+
+    def test_under_ifupdown_a_unit_of_our_own_sets_the_bus_up(self):
+        self.write("etc/network/interfaces", "auto lo\niface lo inet loopback\n"
+                                             "allow-hotplug enp1s0\niface enp1s0 inet dhcp\n")
+        self.expect_own_unit("ifupdown")
+
+    def test_ifupdown_with_nothing_but_loopback_manages_nothing(self):
+        self.write("etc/network/interfaces", "auto lo\niface lo inet loopback\n")
+        self.install()
+        self.assertTrue(os.path.lexists(self.root / NETWORKD))
+
+    def test_an_enabled_networkd_is_used_and_is_not_ours_to_remove(self):
+        self.with_network_manager()
+        (self.root / NETWORKD).symlink_to("/lib/systemd/system/systemd-networkd.service")
+        self.install()
+        self.assertTrue((self.root / NETWORK).exists())
+        self.install("--uninstall")
+        self.assertTrue(os.path.lexists(self.root / NETWORKD))
+
+    def test_others_that_set_the_same_interface_up_are_named(self):
+        self.write("etc/network/interfaces", "iface can0 inet manual\n")
+        self.write("etc/systemd/network/20-team.network", "[Match]\nName=can*\n[CAN]\nBitRate=1M\n")
+        out = self.install("--dry-run").stdout
+        self.assertIn("/etc/network/interfaces sets up can0 too", out)
+        self.assertIn("/etc/systemd/network/20-team.network sets up CAN too", out)
+
+    # --- once more, edited, and gone again
+
+    def test_a_second_installation_keeps_everything(self):
+        self.install()
+        before = snapshot(self.root)
+        again = self.install().stdout
+        actions = {line.split()[0] for line in again.splitlines()}
+        self.assertEqual(actions - {"note"}, {"keep"})
+        self.assertEqual(snapshot(self.root), before)
+
+    def test_edited_configuration_stays_and_a_new_version_goes_beside_it(self):
+        self.install()
+        edited = self.write(ENVIRONMENT, self.text(ENVIRONMENT) + "# by hand\n").read_text()
+        self.assertEqual(lines_of(self.install().stdout, "create"), [])  # nothing new to say
+        out = self.install("--radio", "10.42.0.1:23431").stdout
+        self.assertIn("vehicle.env was edited here", out)
+        self.assertEqual(self.text(ENVIRONMENT), edited)
+        self.assertIn("PITWALL_RADIO=10.42.0.1:23431\n", self.text(ENVIRONMENT + ".new"))
+        self.install("--uninstall")
+        left = {path: about[2] for path, about in snapshot(self.root).items() if about[2]}
+        self.assertEqual(left, {ENVIRONMENT: edited.encode()})
+
+    def test_a_configuration_file_of_somebody_else_is_never_touched(self):
+        own = self.write("etc/pitwall/cars/av21.yaml", "mine\n")
+        self.install()
+        self.assertEqual(own.read_text(), "mine\n")
+        self.assertTrue(Path(f"{own}.new").exists())
+        self.install("--uninstall")
+        self.assertEqual(own.read_text(), "mine\n")
+
+    def test_another_interface_takes_the_place_of_the_first(self):
+        self.install()
+        self.install("--can", "can1")
+        left = [path for path in snapshot(self.root) if "can0" in path]
+        self.assertEqual(left, [])
+        self.assertNotIn("can0", self.text(UNIT))
+
+    def test_a_track_that_is_no_longer_chosen_stays(self):
+        self.install()
+        self.install("--track", SOURCE / "vehicle/config/tracks/ims.yaml")
+        self.assertTrue((self.root / "etc/pitwall/tracks/lvms.yaml").exists())
+        self.install("--uninstall")
+        self.assertEqual(snapshot(self.root), {})
+
+    def test_an_uninstall_leaves_what_was_there_before(self):
+        self.write("etc/sysctl.d/99-team.conf", "net.core.rmem_max = 1\n")
+        self.write("etc/systemd/network/20-eth.network", "[Match]\nName=e*\n")
+        self.write("var/lib/pitwall/vehicle/summary.json", "{}\n")
+        before = snapshot(self.root)
+        self.install("--bitrate", "250000")
+        self.install("--radio", "10.42.0.1:23431", "--listen-only")
+        self.install("--uninstall")
+        self.assertEqual(snapshot(self.root), before)
+
+    def test_an_uninstall_says_beforehand_what_it_removes(self):
+        self.install()
+        before = snapshot(self.root)
+        plan = self.install("--uninstall", "--dry-run").stdout
+        self.assertEqual(snapshot(self.root), before)
+        self.assertEqual(self.install("--uninstall").stdout, plan)
+        self.assertEqual(snapshot(self.root), {})
+        self.assertIn("nothing of ours", self.install("--uninstall", expect=1).stderr)
+
+    # --- when it goes wrong
+
+    def test_a_full_disk_leaves_no_trace(self):
+        self.write("etc/hostname", "car\n")
+        before = snapshot(self.root)
+
+        def small_disk():
+            size = MORE_THAN_A_TEXT_LESS_THAN_A_PROGRAM
+            resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+        self.assertIn("as it was", self.install(expect=1, preexec_fn=small_disk).stderr)
+        self.assertEqual(snapshot(self.root), before)
+
+    def test_a_failure_half_way_puts_every_file_back(self):
+        self.install()
+        # The old file has nowhere to wait: the swap of this one fails, after that of the network.
+        (self.root / (UNIT + ".pitwall-old")).mkdir()
+        before = snapshot(self.root)
+        change = ("--can", "can1", "--radio", "10.42.0.1:23431")
+        out = self.install(*change, expect=1)
+        self.assertIn("create   /etc/systemd/network/70-pitwall-can1.network", out.stdout)
+        self.assertIn("as it was", out.stderr)
+        self.assertEqual(snapshot(self.root), before)
+
+    def test_something_else_in_the_way_is_named_and_nothing_is_changed(self):
+        (self.root / UNIT).mkdir(parents=True)
+        self.write("opt", "a file\n")
+        before = snapshot(self.root)
+        self.assertIn("/opt is in the way", self.install(expect=1).stderr)
+        (self.root / "opt").unlink()
+        self.assertIn(f"{UNIT} is in the way", self.install(expect=1).stderr)
+        del before["opt"]
+        self.assertEqual(snapshot(self.root), before)
+
+    def test_a_damaged_manifest_removes_nothing(self):
+        self.install()
+        for path in ("/etc/passwd", "/opt/pitwall/../../etc/passwd", "/etc/systemd/system/x"):
+            victim = self.write(path.lstrip("/"), "root\n")
+            manifest = self.root / MANIFEST
+            good = manifest.read_text()
+            manifest.write_text(f"{good}system\t0\t{path}\n")
+            before = snapshot(self.root)
+            self.assertIn("install.manifest:", self.install("--uninstall", expect=1).stderr)
+            self.assertEqual(snapshot(self.root), before)
+            manifest.write_text(good)
+            self.assertTrue(victim.exists())
+
+    def test_programs_that_are_not_built_are_named(self):
+        empty = self.root.parent / "empty"
+        empty.mkdir()
+        self.assertIn("not built yet", self.install("--build", empty, "--dry-run").stdout)
+        self.assertIn("not built", self.install("--build", empty, expect=1).stderr)
+        self.assertEqual(snapshot(self.root), {})
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
