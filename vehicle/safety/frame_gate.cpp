@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "protocol/can/manifest.hpp"
-#include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::safety {
 namespace {
@@ -17,14 +15,14 @@ using world::Mode;
 
 // The smallest step of a field: what rounding alone may add to a slew.
 constexpr double kSteerStep_deg = 0.5, kBrakeStep_kpa = 1.0, kThrottleStep_percent = 0.01;
-constexpr double kRateMargin = 1.2;
 constexpr double kCtStateLast = 12.0, kCtStateDefault = 255.0;
+constexpr double kTractionSwitchLast = 4.0;  // the most aggressive of the database's 0..4
 
 struct Gated {
   std::uint32_t id;
   bool actuator;  // passes while armed only
 };
-// The whitelist, the gate's own. The brake stands first: see judged_order below.
+// The whitelist, the gate's own.
 constexpr std::array<Gated, kGatedMessages> kGated{{{av21::BrakePressureCmd::kId, true},
                                                     {av21::AcceleratorCmd::kId, true},
                                                     {av21::SteeringCmd::kId, true},
@@ -57,31 +55,32 @@ consteval std::array<can::MessageRow, kGatedMessages> gated_rows() {
 }
 constexpr std::array<can::MessageRow, kGatedMessages> kRows = gated_rows();
 
-constexpr std::size_t per_window(const can::MessageRow& row) {
-  return static_cast<std::size_t>(kRateWindow.seconds() / row.period.seconds() * kRateMargin + 1.0);
-}
-consteval bool rows_are_sound() {
-  for (const can::MessageRow& row : kRows)
-    if (row.direction != can::Direction::kToCar || per_window(row) > kMaxPerWindow) return false;
-  return true;
-}
-static_assert(rows_are_sound(), "every gated message is ours and fits the window");
+static_assert(std::ranges::all_of(kRows,
+                                  [](const can::MessageRow& row) {
+                                    return row.direction == can::Direction::kToCar &&
+                                           row.period == milliseconds(10) &&
+                                           (!row.has_counter || row.counter_bits == 8);
+                                  }),
+              "every gated message is ours, has the period behind kMaxPerWindow, counts in a byte");
 
+// The first byte, which is no counter, where the message has none.
 std::uint8_t counter_of(const can::MessageRow& row, const can::Frame& frame) {
-  std::uint64_t raw = 0;
+  std::uint64_t raw{};
   std::memcpy(&raw, frame.data.data(), sizeof raw);  // Intel order, as the host
-  return static_cast<std::uint8_t>((raw >> row.counter_start) & ((1ull << row.counter_bits) - 1));
+  return static_cast<std::uint8_t>(raw >> row.counter_start);
 }
 
-struct Allowance {
-  double rise_per_s, fall_per_s, step;
+struct Slew {
+  double per_s, step;
 };
-bool too_fast(const Passed& last, double value, const Allowance& allowed, Instant now) {
-  if (!last.known) return false;
-  const double elapsed_s = (now - last.at).seconds();
-  const double change = value - last.value;
-  return change > allowed.rise_per_s * elapsed_s + allowed.step ||
-         -change > allowed.fall_per_s * elapsed_s + allowed.step;
+double grown(const Ceiling& ceiling, double per_s, Instant now) {
+  return ceiling.value + per_s * (now - ceiling.at).seconds();
+}
+bool too_fast(const Ceiling& ceiling, double value, const Slew& slew, Instant now) {
+  return value > grown(ceiling, slew.per_s, now) + slew.step;
+}
+void lower(Ceiling& ceiling, double value, const Slew& slew, Instant now) {
+  ceiling = {std::min(value, grown(ceiling, slew.per_s, now)), now};
 }
 
 // The judges below decode the frame: decode() refuses every length but the database's.
@@ -96,20 +95,24 @@ Verdict judge_brake(Bench& b, const can::Frame& frame) {
   if (!av21::decode(frame, m)) return Verdict::kWrongLength;
   const double kpa = m.brake_pressure_cmd;
   if (kpa > b.params.brake_max_kpa) return Verdict::kOutOfRange;
-  const Allowance allowed{b.params.brake_rise_kpa_per_s, b.params.brake_fall_kpa_per_s,
-                          kBrakeStep_kpa};
-  if (too_fast(b.state.brake_kpa, kpa, allowed, b.context.now)) return Verdict::kTooFast;
-  b.state.brake_kpa = {true, kpa, b.context.now};
+  const Slew rise{b.params.brake_rise_kpa_per_s, kBrakeStep_kpa};
+  const Slew fall{b.params.brake_fall_kpa_per_s, kBrakeStep_kpa};
+  GateMemory& last = b.state.memory;
+  const Instant now = b.context.now;
+  if (too_fast(last.brake_kpa, kpa, rise, now) || too_fast(last.brake_negated_kpa, -kpa, fall, now))
+    return Verdict::kTooFast;
+  lower(last.brake_kpa, kpa, rise, now);
+  lower(last.brake_negated_kpa, -kpa, fall, now);
+  last.last_brake_kpa = kpa;
   return Verdict::kPass;
 }
 
 Verdict throttle_by_mode(const Bench& b, double percent) {
-  if (b.context.mode == Mode::kDriving || percent == 0.0) return Verdict::kPass;
-  const bool stopping =
-      b.context.mode == Mode::kControlledStop || b.context.mode == Mode::kEmergencyStop;
-  if (!stopping) return Verdict::kThrottleForbidden;
-  const Passed& last = b.state.throttle_percent;
-  return last.known && percent <= last.value ? Verdict::kPass : Verdict::kThrottleRises;
+  const Mode mode = b.context.mode;
+  if (mode == Mode::kDriving || percent == 0.0) return Verdict::kPass;
+  if (mode != Mode::kControlledStop && mode != Mode::kEmergencyStop)
+    return Verdict::kThrottleForbidden;
+  return percent <= b.state.memory.last_throttle_percent ? Verdict::kPass : Verdict::kThrottleRises;
 }
 
 Verdict judge_throttle(Bench& b, const can::Frame& frame) {
@@ -119,29 +122,28 @@ Verdict judge_throttle(Bench& b, const can::Frame& frame) {
   if (percent < 0.0 || percent > b.params.throttle_max_percent) return Verdict::kOutOfRange;
   const Verdict by_mode = throttle_by_mode(b, percent);
   if (by_mode != Verdict::kPass) return by_mode;
-  const Allowance allowed{b.params.throttle_rise_percent_per_s,
-                          std::numeric_limits<double>::infinity(), kThrottleStep_percent};
-  const Passed& last = b.state.throttle_percent;
-  if (percent > last.value && too_fast(last, percent, allowed, b.context.now))
-    return Verdict::kTooFast;
-  const Passed& brake = b.state.brake_kpa;
-  if (percent > b.params.both_throttle_percent && brake.known &&
-      brake.value > b.params.both_brake_kpa)
+  const Slew rise{b.params.throttle_rise_percent_per_s, kThrottleStep_percent};
+  GateMemory& last = b.state.memory;
+  if (too_fast(last.throttle_percent, percent, rise, b.context.now)) return Verdict::kTooFast;
+  if (percent > b.params.both_throttle_percent && last.last_brake_kpa > b.params.both_brake_kpa)
     return Verdict::kThrottleWithBrake;
-  b.state.throttle_percent = {true, percent, b.context.now};
+  lower(last.throttle_percent, percent, rise, b.context.now);
+  last.last_throttle_percent = percent;
   return Verdict::kPass;
 }
 
 Verdict judge_steering(Bench& b, const can::Frame& frame) {
   av21::SteeringCmd m;
   if (!av21::decode(frame, m)) return Verdict::kWrongLength;
-  const double angle_deg = m.steering_motor_ang_cmd;
-  if (std::abs(angle_deg) > steer_limit_deg(b.params, b.context.speed_mps))
-    return Verdict::kOutOfRange;
-  const Allowance allowed{b.params.steer_slew_deg_per_s, b.params.steer_slew_deg_per_s,
-                          kSteerStep_deg};
-  if (too_fast(b.state.steer_deg, angle_deg, allowed, b.context.now)) return Verdict::kTooFast;
-  b.state.steer_deg = {true, angle_deg, b.context.now};
+  const double deg = m.steering_motor_ang_cmd;
+  if (std::abs(deg) > steer_limit_deg(b.params, b.context.speed_mps)) return Verdict::kOutOfRange;
+  const Slew slew{b.params.steer_slew_deg_per_s, kSteerStep_deg};
+  GateMemory& last = b.state.memory;
+  const Instant now = b.context.now;
+  if (too_fast(last.steer_deg, deg, slew, now) || too_fast(last.steer_negated_deg, -deg, slew, now))
+    return Verdict::kTooFast;
+  lower(last.steer_deg, deg, slew, now);
+  lower(last.steer_negated_deg, -deg, slew, now);
   return Verdict::kPass;
 }
 
@@ -151,11 +153,11 @@ Verdict judge_gear(Bench& b, const can::Frame& frame) {
   const double gear = m.desired_gear;
   const bool standing = b.context.speed_mps < b.params.standing_mps;  // unset: false
   if (gear > b.params.gear_max || (gear < 1.0 && !standing)) return Verdict::kOutOfRange;
-  Passed& last = b.state.gear;  // `at` is the instant of the last change
-  const double step = last.known ? std::abs(gear - last.value) : 0.0;
+  GearChange& last = b.state.memory.gear;
+  const double step = std::abs(gear - last.gear);  // not a number before the first
   if (step > 1.0) return Verdict::kGearStep;
   if (step > 0.0 && b.context.now - last.at < b.params.shift_least) return Verdict::kGearStep;
-  if (!last.known || step > 0.0) last = {true, gear, b.context.now};
+  if (gear != last.gear) last = {gear, b.context.now};
   return Verdict::kPass;
 }
 
@@ -164,6 +166,14 @@ Verdict judge_report(const can::Frame& frame) {
   if (!av21::decode(frame, m)) return Verdict::kWrongLength;
   const bool listed =
       (m.ct_state >= 1.0 && m.ct_state <= kCtStateLast) || m.ct_state == kCtStateDefault;
+  return listed ? Verdict::kPass : Verdict::kOutOfRange;
+}
+
+Verdict judge_switches(const can::Frame& frame) {
+  av21::DashSwitchesCmd m;
+  if (!av21::decode(frame, m)) return Verdict::kWrongLength;
+  const bool listed = m.driver_traction_aim_switch <= kTractionSwitchLast &&
+                      m.driver_traction_range_switch <= kTractionSwitchLast;
   return listed ? Verdict::kPass : Verdict::kOutOfRange;
 }
 
@@ -179,7 +189,9 @@ Verdict judge_value(Bench& b, const can::Frame& frame, std::uint8_t length) {
       return judge_gear(b, frame);
     case av21::CtReport::kId:
       return judge_report(frame);
-    default:  // acknowledgements, switches, accelerations
+    case av21::DashSwitchesCmd::kId:
+      return judge_switches(frame);
+    default:  // acknowledgements, accelerations
       return frame.length == length ? Verdict::kPass : Verdict::kWrongLength;
   }
 }
@@ -189,10 +201,11 @@ Verdict stranger(std::uint32_t id) {
   return database_row(id) < av21::kMessages.size() ? Verdict::kWrongDirection : Verdict::kUnknownId;
 }
 
-bool too_often(const PassWindow& window, const can::MessageRow& row, Instant now) {
-  const std::size_t limit = per_window(row);
-  if (window.count < limit) return false;
-  return now - window.at[(window.count - limit) % kMaxPerWindow] < kRateWindow;
+// The ring is as long as the limit: what it is about to forget is the frame that counts.
+Instant& oldest(PassWindow& window) { return window.at[window.count % kMaxPerWindow]; }
+
+bool too_often(PassWindow& window, Instant now) {
+  return window.count >= kMaxPerWindow && now - oldest(window) < kRateWindow;
 }
 
 Verdict judge(Bench& b, const can::Frame& frame) {
@@ -206,60 +219,67 @@ Verdict judge(Bench& b, const can::Frame& frame) {
     if (age < Duration{} || age > b.params.command_age_max) return Verdict::kStale;
   }
   PassWindow& window = b.state.windows[i];
-  if (too_often(window, row, b.context.now)) return Verdict::kTooOften;
-  const std::uint8_t counter = row.has_counter ? counter_of(row, frame) : std::uint8_t{0};
-  if (row.has_counter && b.state.counter_known[i] && b.state.counters[i] == counter)
+  if (too_often(window, b.context.now)) return Verdict::kTooOften;
+  const std::uint8_t counter = counter_of(row, frame);
+  if (row.has_counter && window.count > 0 && b.state.counters[i] == counter)
     return Verdict::kStuckCounter;
   const Verdict value = judge_value(b, frame, row.length);
   if (value != Verdict::kPass) return value;
-  window.at[window.count++ % kMaxPerWindow] = b.context.now;
+  oldest(window) = b.context.now;
+  ++window.count;
   b.state.counters[i] = counter;
-  b.state.counter_known[i] = true;
   return Verdict::kPass;
+}
+
+// Brakes first, so that where throttle and brake contradict each other the throttle is refused.
+std::array<Verdict, kMaxFrames> judge_all(Bench& bench, std::span<const can::Frame> frames) {
+  std::array<Verdict, kMaxFrames> verdicts{};
+  for (const bool brakes : {true, false})
+    for (std::size_t i = 0; i < frames.size(); ++i)
+      if ((frames[i].id == av21::BrakePressureCmd::kId) == brakes)
+        verdicts[i] = judge(bench, frames[i]);
+  return verdicts;
 }
 
 }  // namespace
 
+// A sum over the segments, each taken as far as the speed goes. fmin() of a number and none is the
+// number: without a speed every segment counts fully.
 double steer_limit_deg(const GateParams& params, double speed_mps) {
   const auto& rows = params.steer;
-  if (speed_mps <= rows.front().speed_mps) return rows.front().motor_deg;
+  double limit_deg = rows.front().motor_deg;
   for (std::size_t i = 1; i < kSteerRows; ++i) {
     const SteerRow &below = rows[i - 1], &above = rows[i];
-    if (speed_mps > above.speed_mps) continue;
-    if (std::isnan(speed_mps)) break;
     const double share = (speed_mps - below.speed_mps) / (above.speed_mps - below.speed_mps);
-    return below.motor_deg + share * (above.motor_deg - below.motor_deg);
+    limit_deg += std::fmax(0.0, std::fmin(1.0, share)) * (above.motor_deg - below.motor_deg);
   }
-  return rows.back().motor_deg;
+  return limit_deg;
 }
 
 GateOutput gate(const GateParams& params, GateState& state, const GateContext& context,
                 std::span<const can::Frame> proposed) {
   GateContext own = context;
   own.armed = context.armed && context.mode != Mode::kDisarmed;
-  if (!own.armed) state.steer_deg = state.brake_kpa = state.throttle_percent = state.gear = {};
+  if (!own.armed) {
+    state.memory = {};
+    state.memory.throttle_percent = {0.0, context.now};
+  }
   Bench bench{params, own, state};
-  std::array<Verdict, kMaxFrames> verdicts{};
   const std::size_t judged = std::min(proposed.size(), kMaxFrames);
-  for (const bool brakes : {true, false})
-    for (std::size_t i = 0; i < judged; ++i)
-      if ((proposed[i].id == av21::BrakePressureCmd::kId) == brakes)
-        verdicts[i] = judge(bench, proposed[i]);
+  const auto verdicts = judge_all(bench, proposed.first(judged));
 
   GateOutput out;
-  const auto settle = [&](const can::Frame& frame, Verdict verdict) {
-    ++state.verdicts[static_cast<std::size_t>(verdict)];
-    if (verdict == Verdict::kPass) return out.frames.push(frame);
-    if (!out.refused_now) out.first_refusal = verdict;
-    return out.refused_now = true;
-  };
   for (std::size_t i = 0; i < proposed.size(); ++i) {
     const Verdict verdict = i < judged ? verdicts[i] : Verdict::kTooMany;
-    const bool settled = settle(proposed[i], verdict);
-    CHECK(settled);
-    if (i >= judged) continue;
-    const bool listed = out.verdicts.push({proposed[i].id, verdict});
-    CHECK(listed);
+    ++state.verdicts[static_cast<std::size_t>(verdict)];
+    // Both lists have room for as many frames as are judged; beyond that this one is full.
+    static_cast<void>(out.verdicts.push({proposed[i].id, verdict}));
+    if (verdict == Verdict::kPass) {
+      static_cast<void>(out.frames.push(proposed[i]));
+      continue;
+    }
+    if (!out.refused_now) out.first_refusal = verdict;
+    out.refused_now = true;
   }
   for (std::size_t v = 1; v < kVerdicts; ++v) out.refused_total += state.verdicts[v];
   return out;

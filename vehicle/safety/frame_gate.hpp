@@ -16,6 +16,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <type_traits>
 
@@ -32,7 +33,7 @@ inline constexpr std::size_t kMaxFrames = 16;     // 8 messages per tick, twice
 inline constexpr std::size_t kGatedMessages = 8;  // kToCar messages of the database
 inline constexpr std::size_t kSteerRows = 10;
 inline constexpr Duration kRateWindow = milliseconds(250);
-inline constexpr std::size_t kMaxPerWindow = 31;  // 100 Hz x 0.25 s x 1.2 + 1
+inline constexpr std::size_t kMaxPerWindow = 31;  // all have 100 Hz: x 0.25 s x 1.2 + 1
 
 enum class Verdict : std::uint8_t {
   kPass,
@@ -43,10 +44,10 @@ enum class Verdict : std::uint8_t {
   kWrongLength,
   kNotArmed,      // an actuator frame while disarmed
   kStale,         // the command behind it is older than the limit, or from the future
-  kTooOften,      // more than period x 0.25 s x 1.2 + 1 in 250 ms
+  kTooOften,      // more than kMaxPerWindow in any kRateWindow
   kStuckCounter,  // equals the last one that passed
   kOutOfRange,
-  kTooFast,            // slew since the last frame that passed, in real time
+  kTooFast,            // slew since any frame that passed, in real time
   kGearStep,           // more than one gear, or sooner than the least time between shifts
   kThrottleForbidden,  // throttle in a mode that does not drive
   kThrottleRises,      // in a stop
@@ -120,38 +121,51 @@ struct PassWindow {
   std::uint64_t count = 0;
 };
 
-struct Passed {
-  bool known = false;
-  double value = 0.0;
+// The most that the frames so far let a value be. It grows with time, and a frame that passes
+// lowers it to its own value at most: no two frames that passed differ by more than the slew times
+// the time between them and one rounding step, however many passed in between.
+struct Ceiling {
+  double value = std::numeric_limits<double>::infinity();
   Instant at{};
+};
+
+struct GearChange {
+  double gear = kUnset;
+  Instant at{};  // of the last change
+};
+
+// What the actuators were last told. Forgotten while disarmed, when the pedal counts as released.
+struct GateMemory {
+  Ceiling steer_deg, steer_negated_deg, brake_kpa, brake_negated_kpa, throttle_percent;
+  double last_brake_kpa{}, last_throttle_percent{};
+  GearChange gear;
 };
 
 struct GateState {
   std::array<PassWindow, kGatedMessages> windows{};
-  std::array<std::uint8_t, kGatedMessages> counters{};
-  std::array<bool, kGatedMessages> counter_known{};
-  Passed steer_deg, brake_kpa, throttle_percent, gear;  // forgotten while disarmed
-  std::array<std::uint64_t, kVerdicts> verdicts{};      // frames by verdict since the start
+  std::array<std::uint8_t, kGatedMessages> counters{};  // of the last frame that passed
+  GateMemory memory;
+  std::array<std::uint64_t, kVerdicts> verdicts{};  // frames by verdict since the start
 };
 static_assert(std::is_trivially_copyable_v<GateState>);
 
 struct GateVerdict {
-  std::uint32_t id = 0;
-  Verdict verdict = Verdict::kPass;
+  std::uint32_t id{};
+  Verdict verdict{};
 };
 
 struct GateOutput {
   FixedVector<can::Frame, kMaxFrames> frames;     // what may be sent
   FixedVector<GateVerdict, kMaxFrames> verdicts;  // in the order proposed
   bool refused_now = false;
-  Verdict first_refusal = Verdict::kPass;
-  std::uint64_t refused_total = 0;  // since the start
+  Verdict first_refusal{};
+  std::uint64_t refused_total{};  // since the start
 };
 
 GateOutput gate(const GateParams& params, GateState& state, const GateContext& context,
                 std::span<const can::Frame> proposed);
 
-// The limit of the table at a speed; of its last row where the speed is not a number.
+// The limit of the table at a speed; that of the last row where the speed is not a number.
 double steer_limit_deg(const GateParams& params, double speed_mps);
 
 }  // namespace pitwall::safety
