@@ -124,8 +124,8 @@ bool is_identifier(std::string_view name) {
 }
 
 std::optional<Problem> unsupported(const Message& m) {
-  if (m.extended || m.fd) {
-    return Problem{m.place, "message " + m.name + ": only classic frames with 11-bit ids"};
+  if (m.extended) {
+    return Problem{m.place, "message " + m.name + ": only frames with 11-bit ids"};
   }
   if (!is_identifier(m.name)) return Problem{m.place, m.name + " cannot be a name in C++"};
   for (const Signal& s : m.signals) {
@@ -159,8 +159,9 @@ void add_plans(std::string& out, const Message& m) {
   for (const Signal& s : m.signals) {
     const SignalPlan& p = s.plan;
     out += "inline constexpr SignalPlan " + s.name +
-           "{\n    .first_byte = 0, .shift = " + std::to_string(p.shift) +
-           ", .length = " + number(p.length) + ",\n    .order = " +
+           "{\n    .first_byte = " + number(p.first_byte) +
+           ", .shift = " + std::to_string(p.shift) + ", .length = " + number(p.length) +
+           ",\n    .order = " +
            (p.order == ByteOrder::kIntel ? "ByteOrder::kIntel" : "ByteOrder::kMotorola") +
            ", .number = " + number_kind(p.number) + ",\n    .mask = " + hex(p.mask) +
            ", .scale = " + real(p.scale) + ", .offset = " + real(p.offset) +
@@ -171,11 +172,27 @@ void add_plans(std::string& out, const Message& m) {
   out += "}  // namespace plan_of_" + m.name + "\n\n";
 }
 
+// More than eight bytes: every signal is loaded by itself.
+void add_fd_fields(std::string& out, const Message& m, bool is_decode) {
+  for (const Signal& s : m.signals) {
+    const std::string plan = "plan_of_" + m.name + "::" + s.name;
+    out += is_decode ? "  out." + s.name + " = physical_of(extract(" + plan + ", frame.data), " +
+                           plan + ");\n"
+                     : "  insert(" + plan + ", out.data, encode_signal(in." + s.name + ", " + plan +
+                           ", counters));\n";
+  }
+}
+
 void add_decode(std::string& out, const Message& m) {
   out += "// False, `out` untouched, unless the frame is exactly a " + m.name + ".\n";
   out += "[[nodiscard]] inline bool decode(const Frame& frame, " + struct_name(m.name) +
-         "& out) {\n  if (!is_classic(frame, " + number(m.id) + ", " + number(m.length) +
-         ")) return false;\n";
+         "& out) {\n  if (!" + (m.fd ? "is_fd" : "is_classic") + "(frame, " + number(m.id) + ", " +
+         number(m.length) + ")) return false;\n";
+  if (m.fd) {
+    add_fd_fields(out, m, true);
+    out += "  return true;\n}\n\n";
+    return;
+  }
   if (uses(m, ByteOrder::kIntel)) {
     out += "  const std::uint64_t intel = load_intel(frame.data);\n";
   }
@@ -201,6 +218,13 @@ void add_encode(std::string& out, const Message& m) {
     out += (i == 0 ? "in." : ",\n                   in.") + m.signals[i].name;
   }
   out += "})) {\n    ++counters.not_finite;\n    return false;\n  }\n";
+  if (m.fd) {
+    out += "  out = Frame{};\n  out.id = " + number(m.id) +
+           ";\n  out.fd = true;\n  out.length = " + number(m.length) + ";\n";
+    add_fd_fields(out, m, false);
+    out += "  return true;\n}\n\n";
+    return;
+  }
   for (const ByteOrder order : {ByteOrder::kIntel, ByteOrder::kMotorola}) {
     if (!uses(m, order)) continue;
     const std::string word = order == ByteOrder::kIntel ? "intel" : "motorola";
@@ -288,6 +312,10 @@ constexpr const char* kIncludes = R"(
 constexpr const char* kShared =
     R"(inline bool is_classic(const Frame& f, std::uint32_t id, std::uint8_t length) {
   return f.id == id && f.length == length && !f.extended && !f.remote && !f.fd;
+}
+
+inline bool is_fd(const Frame& f, std::uint32_t id, std::uint8_t length) {
+  return f.id == id && f.length == length && !f.extended && !f.remote && f.fd;
 }
 
 inline bool all_finite(std::initializer_list<double> values) {

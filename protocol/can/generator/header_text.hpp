@@ -3,7 +3,7 @@
 //   in      a database, its manifest, the name of the namespace below pitwall::can
 //   out     C++ text
 //   errors  a contradiction between the two; what the generated code does not do (multiplexing,
-//           more than eight bytes, 29-bit ids); names that C++ cannot take
+//           29-bit ids); names that C++ cannot take
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

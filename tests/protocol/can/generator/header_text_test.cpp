@@ -35,7 +35,7 @@ TEST(HeaderText, RefusesWhatItCannotSay) {
             "t.dbc:8:6: error: class cannot be a name in C++");
   EXPECT_NE(refusal(dbc_with(" SG_ 9a : 0|8@1+" + end)), "");
   EXPECT_NE(refusal(dbc_with(" SG_ s M : 0|8@1+" + end + " SG_ a m1 : 8|8@1+" + end)), "");
-  EXPECT_NE(refusal(dbc_with(" SG_ a : 0|8@1+" + end, 12)), "");
+  EXPECT_EQ(refusal(dbc_with(" SG_ a : 0|8@1+" + end, 12)), "");
   EXPECT_NE(refusal(dbc_with(" SG_ a : 0|8@1+ (1,0) [5|2] \"\" A\n")), "");
   EXPECT_NE(refusal(dbc_with(" SG_ a : 0|8@1+" + end) + "BO_ 101 N: 8 A\n"), "");
   std::string two = kManifest + kManifest.substr(kManifest.find("  M:"));
