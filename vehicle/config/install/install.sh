@@ -249,16 +249,13 @@ plan_user() {
   fi
 }
 
-networkd_runs() { systemctl is-active --quiet systemd-networkd 2>/dev/null; }
-
-# Nothing here stops a program or takes an interface down.
+# Nothing here stops a program or takes an interface down; `networkctl reload` would.
 plan_commands() {
   [[ -z $target ]] && changes || return 0
   commands+=('/lib/systemd/systemd-modules-load /etc/modules-load.d/pitwall.conf')
   (($(cat /proc/sys/net/core/rmem_max) >= receive_buffer_bytes)) ||
     commands+=('/lib/systemd/systemd-sysctl /etc/sysctl.d/05-pitwall.conf')
   commands+=('systemctl daemon-reload')
-  ! networkd_runs || commands+=('networkctl reload')
 }
 
 run_commands() {
@@ -278,7 +275,9 @@ say_next() {
   if [[ -n ${planned["/etc/systemd/system/pitwall-can-$can.service"]:-} ]]; then
     printf 'next       systemctl restart pitwall-can-%s\n' "$can"
   else
-    printf 'next       systemctl start systemd-networkd && networkctl reconfigure %s\n' "$can"
+    printf 'next       udevadm trigger --action=add /sys/class/net/%s\n' "$can"
+    printf 'next       systemctl start systemd-networkd\n'
+    printf 'next       networkctl reload && networkctl reconfigure %s\n' "$can"
   fi
   printf 'next       systemctl restart pitwall-vehicle\n'
 }
@@ -317,8 +316,8 @@ uninstall_car() {
     printf 'run      systemctl stop pitwall-vehicle\n'
     ((dry_run)) || systemctl stop pitwall-vehicle || fail 'pitwall-vehicle does not stop'
     note 'the user pitwall and its data in /var/lib/pitwall/vehicle stay'
+    note 'the CAN interface stays as it is until the next boot'
     commands=('systemctl daemon-reload')
-    ! networkd_runs || commands+=('networkctl reload')
   fi
   if ((dry_run)); then show_plan; else apply_removal; fi
   printf 'remove   %s\n' "$manifest"
