@@ -259,7 +259,7 @@ class Installation(unittest.TestCase):
         self.assertFalse(os.path.lexists(self.root / NETWORKD))
         self.assertFalse((self.root / NETWORK).exists())
         unit = unit_files.read(self.text("etc/systemd/system/pitwall-can-can0.service"))
-        self.assertIn("/sbin/ip link set can0 type can bitrate 500000 restart-ms 100 "
+        self.assertIn("/sbin/ip link set can0 type can bitrate 500000 restart-ms 0 "
                       "listen-only on", unit["Service", "ExecStart"])
         wanted = self.root / "etc/systemd/system/sys-subsystem-net-devices-can0.device.wants"
         self.assertEqual({link.name for link in wanted.iterdir()},

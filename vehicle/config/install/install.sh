@@ -21,7 +21,7 @@ usage: ./pitwall install car [OPTION]...
   --can IFACE            CAN interface (default can0)
   --bitrate N            bit/s, 10000..1000000 (default 500000)
   --restart-ms N         so long after bus-off the kernel restarts the controller, 0..60000; 0: only
-                         the car process does (default 100)
+                         the car process does, a few times and then never (default 0)
   --listen-only          the controller hears and sends nothing: for the first look at a car
   --car FILE             car file (default vehicle/config/cars/av21.yaml)
   --track FILE           track file (default vehicle/config/tracks/lvms.yaml)
@@ -47,7 +47,7 @@ source "$here/file_plan.sh"
 # --- the command line ------------------------------------------------------------------------
 
 target='' dry_run=0 uninstall=0 settings=()
-can=can0 bitrate=500000 restart_ms=100 listen_only=0
+can=can0 bitrate=500000 restart_ms=0 listen_only=0
 car=$top/vehicle/config/cars/av21.yaml track=$top/vehicle/config/tracks/lvms.yaml
 radio=127.0.0.1:23431 gnss=23501,23502 build=$top/build/release
 
