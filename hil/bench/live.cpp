@@ -76,7 +76,9 @@ class TelemetryLink {
                .bus_refusals = v[field("bus.frames_refused")],
                .x_m = v[field("ego.x")],
                .y_m = v[field("ego.y")],
-               .yaw_rad = v[field("ego.yaw")]};
+               .yaw_rad = v[field("ego.yaw")],
+               .identity = v[field("bus.identity")],
+               .differing_id = v[field("bus.differing_id")]};
   }
 
   UdpSocket socket_;
@@ -268,8 +270,14 @@ class Live {
                            car.tx_drops;
     result_.gate_refusals = car.gate_refusals;
     result_.bus_refusals = car.frames_refused;
+    result_.bus_losses = car.frames_lost;
     fill_timing();
     if (!record_) return;
+    for (world::LossReport loss : car.losses) {
+      loss.noticed = Instant{} + (loss.noticed - start_);
+      if (loss.due != Instant{}) loss.due = Instant{} + (loss.due - start_);
+      record_->loss(loss);
+    }
     for (const grading::Verdict& verdict : result_.verdicts)
       record_->event(Instant{} + scenario_.duration, verdict.pass ? "pass" : "fail", verdict.text);
     record_->close();

@@ -89,7 +89,9 @@ class Lockstep {
                            .bus_refusals = static_cast<double>(out.heard.bus.refused.total()),
                            .x_m = out.ego.x_m,
                            .y_m = out.ego.y_m,
-                           .yaw_rad = out.ego.yaw_rad};
+                           .yaw_rad = out.ego.yaw_rad,
+                           .identity = static_cast<double>(out.heard.bus.identity.verdict),
+                           .differing_id = static_cast<double>(out.heard.bus.identity.id)};
     const double offset_m = setup_.params.planning.line.offset_m;
     grader_.observe(
         now,
@@ -99,9 +101,21 @@ class Lockstep {
     result_.speed_max_mps = std::max(result_.speed_max_mps, rig_.truth().speed_mps);
     result_.gate_refusals = out.passed.refused_total;
     result_.bus_refusals = out.heard.bus.refused.total();
+    result_.bus_losses = out.heard.bus.frames_lost;
+    judge_identity(out);
     if (!record_) return;
     record_->truth(rig_, now);
     record_->car(out, now);
+  }
+
+  void judge_identity(const pipeline::Outputs& out) {
+    const world::BusIdentity& identity = out.heard.bus.identity;
+    const bool changed = identity.verdict != identity_.verdict || identity.id != identity_.id ||
+                         identity.difference != identity_.difference;
+    identity_ = identity;
+    const bool wrong = identity.verdict == world::IdentityVerdict::kWrong;
+    if (changed) result_.refused_to_arm = wrong ? gateway::sentence(identity) : std::string{};
+    identity_changed_ = changed;
   }
 
   void note_changes(const pipeline::Outputs& out, Instant now) {
@@ -110,6 +124,7 @@ class Lockstep {
       flag_ = rig_.flags().track;
       record_->event(now, "flag", scenario::name_of(flag_));
     }
+    if (identity_changed_) record_->event(now, "identity", gateway::sentence(identity_));
     if (out.chosen.mode_changed)
       record_->event(now, "mode",
                      std::to_string(static_cast<int>(out.chosen.mode)) + " " +
@@ -152,6 +167,8 @@ class Lockstep {
   RunResult result_;
   world::TrackFlag flag_ = world::TrackFlag::kNone;
   std::uint32_t laps_ = 0;
+  world::BusIdentity identity_;  // as the car saw it last
+  bool identity_changed_ = false;
 };
 
 }  // namespace

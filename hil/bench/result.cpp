@@ -79,9 +79,13 @@ std::string to_text(const RunResult& r) {
                 static_cast<unsigned long long>(r.traffic.lost));
   if (std::isfinite(r.traffic.bus_load))
     out += format(", bus load %.1f %%", 100.0 * r.traffic.bus_load);
-  out += format("\nrefused: %llu frames by the gateway, %llu commands by the frame gate\n",
-                static_cast<unsigned long long>(r.bus_refusals),
-                static_cast<unsigned long long>(r.gate_refusals));
+  out += format(
+      "\nrefused: %llu frames by the gateway, %llu commands by the frame gate; noticed by the "
+      "car to be missing: %llu frames\n",
+      static_cast<unsigned long long>(r.bus_refusals),
+      static_cast<unsigned long long>(r.gate_refusals),
+      static_cast<unsigned long long>(r.bus_losses));
+  if (!r.refused_to_arm.empty()) out += "car refused to arm: " + r.refused_to_arm + "\n";
   for (const grading::Verdict& verdict : r.verdicts)
     out += (verdict.pass ? "PASS  " : "FAIL  ") + verdict.text +
            format("  (margin %.4g)", verdict.margin) + (verdict.pass ? "" : "  " + verdict.reason) +
@@ -109,7 +113,9 @@ std::string to_json(const RunResult& r) {
          ",\"lost\":" + std::to_string(r.traffic.lost) +
          ",\"bus_load\":" + number(r.traffic.bus_load) + "}" +
          ",\"gate_refusals\":" + std::to_string(r.gate_refusals) +
-         ",\"bus_refusals\":" + std::to_string(r.bus_refusals) + ",\"sha256\":" + quoted(r.digest) +
+         ",\"bus_refusals\":" + std::to_string(r.bus_refusals) +
+         ",\"bus_losses\":" + std::to_string(r.bus_losses) +
+         ",\"refused_to_arm\":" + quoted(r.refused_to_arm) + ",\"sha256\":" + quoted(r.digest) +
          ",\"verdicts\":" + verdicts_json(r.verdicts) + "}";
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/bench/rig.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <utility>
+
+#include "protocol/can/av21.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -22,6 +25,13 @@ race::Script script_of(const scenario::Scenario& scenario) {
   return script;
 }
 
+// The same four in every revision.
+bool is_actuator(std::uint32_t id) {
+  return std::ranges::any_of(can::av21::kMessages, [id](const can::MessageRow& row) {
+    return row.id == id && row.safety == can::SafetyClass::kActuator;
+  });
+}
+
 }  // namespace
 
 Result<Rig, Problem> Rig::build(const scenario::Scenario& scenario, const world::TrackMap& track) {
@@ -32,7 +42,9 @@ Result<Rig, Problem> Rig::build(const scenario::Scenario& scenario, const world:
   auto plan = plan_faults(scenario.faults, scenario.seed);
   if (!plan) return Unexpected{plan.error()};
 
-  Rig rig{track, *std::move(plan)};
+  auto revision = revision::Revision::of(scenario.bus);
+  if (!revision) return Unexpected{revision.error()};
+  Rig rig{track, *std::move(plan), *std::move(revision)};
   const world::TrackPoint at = track.offset(scenario.start.s_m, scenario.start.n_m);
   rig.plant_ = plant::standing(rig.plant_params_, at.x_m, at.y_m, at.yaw_rad);
   rig.plant_.tyre_c.fill(scenario.tyres.temperature_c);
@@ -51,19 +63,23 @@ Result<Rig, Problem> Rig::build(const scenario::Scenario& scenario, const world:
 void Rig::step(std::span<const can::ReceivedFrame> from_car, Instant now) {
   if (std::exchange(outgoing_taken_, false)) outgoing_.clear();
   apply_model_faults(now);
+  for (const can::ReceivedFrame& received : from_car)
+    if (is_actuator(received.frame.id)) ++actuator_frames_;
   const auto heard = computer_silent_ ? std::span<const can::ReceivedFrame>{} : from_car;
-  const auto raptor = drive_by_wire::step(raptor_params_, raptor_, heard, feedback(), now);
+  const auto raptor =
+      drive_by_wire::step(raptor_params_, raptor_, understood(heard), feedback(), now);
   demand_ = raptor.demand;
   step_plant();
   time_laps(now);
-  for (const can::Frame& frame : raptor.frames) send(Node::kDriveByWire, frame, now);
+  for (const can::Frame& frame : raptor.frames) speak(Node::kDriveByWire, frame, now);
+  for (const can::Frame& frame : revision_.due(now)) send(Node::kDriveByWire, frame, now);
 
   const race::Timing timing{.laps = static_cast<std::uint8_t>(laps_.finished & 0xFF),
                             .lap_distance_m = road_.s_m,
                             .last_lap_s = std::isfinite(laps_.last_s) ? laps_.last_s : 0.0,
                             .speed_mps = truth_.speed_mps};
   for (const can::Frame& frame : race::step(script_, race_, timing, now))
-    send(Node::kRaceControl, frame, now);
+    speak(Node::kRaceControl, frame, now);
   release_delayed(now);
 
   sensors::step(sensor_params_, sensors_, truth_, now, samples_);
@@ -101,6 +117,19 @@ drive_by_wire::Feedback Rig::feedback() const {
   f.tyre_temperature_c = truth_.tyre_c;
   f.wheel_load_n = truth_.load_n;
   return f;
+}
+
+std::span<const can::ReceivedFrame> Rig::understood(std::span<const can::ReceivedFrame> heard) {
+  understood_.clear();
+  for (const can::ReceivedFrame& received : heard) {
+    if (const auto frame = revision_.heard(received.frame))
+      understood_.push_back({*frame, received.at});
+  }
+  return understood_;
+}
+
+void Rig::speak(Node from, const can::Frame& frame, Instant now) {
+  for (const can::Frame& said : revision_.spoken(frame)) send(from, said, now);
 }
 
 void Rig::send(Node from, const can::Frame& frame, Instant now) {

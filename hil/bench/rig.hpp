@@ -20,6 +20,7 @@
 #include "hil/plant/plant.hpp"
 #include "hil/race/lap_timer.hpp"
 #include "hil/race/race_control.hpp"
+#include "hil/revision/revision.hpp"
 #include "hil/scenario/scenario.hpp"
 #include "hil/sensors/sensors.hpp"
 #include "protocol/can/frame.hpp"
@@ -68,13 +69,18 @@ class Rig {
   world::SysState system_state() const { return raptor_.system; }
   world::CtState ct_state() const { return raptor_.ct_state; }
   std::uint64_t overflows() const { return overflows_; }  // frames that found take_frames() full
+  std::uint64_t actuator_frames() const { return actuator_frames_; }  // 1400-1403 on the bus
 
  private:
-  Rig(const world::TrackMap& track, FaultPlan plan) : track_(track), plan_(std::move(plan)) {}
+  Rig(const world::TrackMap& track, FaultPlan plan, revision::Revision revision)
+      : track_(track), plan_(std::move(plan)), revision_(std::move(revision)) {}
+  // What the drive-by-wire understands of the bus.
+  std::span<const can::ReceivedFrame> understood(std::span<const can::ReceivedFrame> heard);
   void apply_model_faults(Instant now);
   void apply_model_fault(const faults::BenchFault& fault, bool active);
   void apply_gnss_fault(const faults::BenchFault& fault);
   void step_plant();
+  void speak(Node from, const can::Frame& frame, Instant now);  // in the words of the revision
   void send(Node from, const can::Frame& frame, Instant now);
   void release_delayed(Instant now);
   void time_laps(Instant now);
@@ -82,6 +88,8 @@ class Rig {
 
   world::TrackMap track_;
   FaultPlan plan_;
+  revision::Revision revision_;
+  std::vector<can::ReceivedFrame> understood_;
   faults::FrameFaultState frame_faults_;
   std::array<faults::DelayQueue, kNodes> delayed_;  // by sender
   plant::Params plant_params_;
@@ -104,7 +112,7 @@ class Rig {
   bool outgoing_taken_ = false;  // cleared by the next step
   bool bus_silent_ = false, computer_silent_ = false, engine_stalled_ = false;
   double grip_ = 1.0;
-  std::uint64_t overflows_ = 0;
+  std::uint64_t overflows_ = 0, actuator_frames_ = 0;
 };
 
 }  // namespace pitwall::bench

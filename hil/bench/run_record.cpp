@@ -2,21 +2,39 @@
 #include "hil/bench/run_record.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <string>
 #include <utility>
 
+#include "protocol/can/av21.hpp"
+
 namespace pitwall::bench {
+namespace {
+
+std::string fingerprint_text() {
+  char text[20];
+  std::snprintf(text, sizeof text, "%016llx",
+                static_cast<unsigned long long>(can::av21::kFingerprint));
+  return text;
+}
+
+}  // namespace
 
 RunRecord::RunRecord(const scenario::Scenario& scenario, std::string_view mode,
                      recording::Sink sink)
     : log_({{"scenario", scenario.name},
             {"seed", std::to_string(scenario.seed)},
             {"mode", std::string(mode)},
-            {"source", "simulation"}},
+            {"source", "simulation"},
+            {"database", can::av21::kDatabase},
+            {"revision", can::av21::kRevision},
+            {"fingerprint", fingerprint_text()},
+            {"bus", scenario::name_of(scenario.bus)}},
            std::move(sink)),
       can_(log_.channel<CanSample>("/can")),
       truth_(log_.channel<TruthSample>("/truth")),
-      car_(log_.channel<CarSample>("/car")) {
+      car_(log_.channel<CarSample>("/car")),
+      losses_(log_.channel<LossSample>("/bus_losses")) {
   log_.start();
 }
 
@@ -75,6 +93,15 @@ CarSample car_sample(const pipeline::Outputs& out) {
 
 void RunRecord::car(const pipeline::Outputs& out, Instant at) {
   log_.sample(car_, at, car_sample(out));
+  for (const world::LossReport& noticed : out.heard.bus.losses) loss(noticed);
+}
+
+void RunRecord::loss(const world::LossReport& loss) {
+  log_.sample(losses_, loss.noticed,
+              LossSample{.id = loss.id,
+                         .detector = static_cast<std::uint8_t>(loss.detector),
+                         .frames = loss.frames,
+                         .due_s = (loss.due - Instant{}).seconds()});
 }
 
 void RunRecord::event(Instant at, std::string_view name, std::string_view text) {

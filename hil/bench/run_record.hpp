@@ -4,6 +4,7 @@
 //   channels /can          every frame, who sent it
 //            /truth        the plant at 100 Hz
 //            /car          the car at 100 Hz: ego state, mode, command
+//            /bus_losses   frames that never came, as the car noticed them
 //            /events       flags, modes, laps, verdicts
 //   law      the same scenario, build and seed give the same bytes
 // SPDX-License-Identifier: Apache-2.0
@@ -95,14 +96,31 @@ constexpr auto cdr_fields(std::type_identity<CarSample>) {
 
 CarSample car_sample(const pipeline::Outputs& out);
 
+struct LossSample {
+  std::uint32_t id;  // 0: the detector cannot tell
+  std::uint8_t detector;
+  std::uint32_t frames;
+  double due_s;  // since the start of the run; 0: unknown
+};
+constexpr recording::CdrName cdr_name(std::type_identity<LossSample>) { return "BusLoss"; }
+constexpr auto cdr_fields(std::type_identity<LossSample>) {
+  using recording::CdrField;
+  using T = LossSample;
+  return std::tuple{CdrField{"id", &T::id}, CdrField{"detector", &T::detector},
+                    CdrField{"frames", &T::frames}, CdrField{"due_s", &T::due_s}};
+}
+
 class RunRecord {
  public:
-  // `mode`: "lockstep" or "live". The metadata says that this is a simulation.
+  // `mode`: "lockstep" or "live". The metadata says that this is a simulation, which CAN database
+  // the car was built with (file, revision, fingerprint) and which revision its bus spoke.
   RunRecord(const scenario::Scenario& scenario, std::string_view mode, recording::Sink sink);
 
   void can(Node from, const can::Frame& frame, Instant at);
   void truth(const Rig& rig, Instant at);
+  // With the losses that it noticed in this tick.
   void car(const pipeline::Outputs& out, Instant at);
+  void loss(const world::LossReport& loss);
   void event(Instant at, std::string_view name, std::string_view text);
   // Writes the summary; afterwards the digest is that of the whole file.
   bool close();
@@ -114,6 +132,7 @@ class RunRecord {
   recording::SampleChannel<CanSample> can_;
   recording::SampleChannel<TruthSample> truth_;
   recording::SampleChannel<CarSample> car_;
+  recording::SampleChannel<LossSample> losses_;
 };
 
 }  // namespace pitwall::bench

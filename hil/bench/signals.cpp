@@ -71,6 +71,9 @@ SignalValues observe(const SignalSources& from) {
       or_zero(std::hypot(from.car.x_m - truth.x_m, from.car.y_m - truth.y_m)));
   set(v, Signal::kYawError, or_zero(std::abs(wrap_pi(from.car.yaw_rad - truth.yaw_rad))));
   set(v, Signal::kSideSlip, side_slip_deg(truth));
+  set(v, Signal::kIdentity, or_zero(from.car.identity));
+  set(v, Signal::kDifferingId, or_zero(from.car.differing_id));
+  set(v, Signal::kActuatorFrames, static_cast<double>(from.rig.actuator_frames()));
   return v;
 }
 

@@ -42,9 +42,12 @@ enum class Signal : std::uint8_t {
   kBusRefusals,    // frames that the car did not apply
   kPositionError,  // of the car's localization against the truth
   kYawError,
-  kSideSlip  // size of the angle between heading and motion; a spin is seen here. 0 below 5 m/s
+  kSideSlip,     // size of the angle between heading and motion; a spin is seen here. 0 below 5 m/s
+  kIdentity,     // of the bus, as the car sees it: 0 listening, 1 right, 2 wrong
+  kDifferingId,  // the first CAN id that is not as in the car's database; 0: none
+  kActuatorFrames  // commands to brake, accelerator, steering and gear that were on the bus
 };
-inline constexpr std::size_t kSignals = 24;
+inline constexpr std::size_t kSignals = 27;
 
 inline constexpr std::array<std::string_view, kSignals> kSignalNames{"speed_mps",
                                                                      "station_m",
@@ -69,12 +72,16 @@ inline constexpr std::array<std::string_view, kSignals> kSignalNames{"speed_mps"
                                                                      "bus_refusals",
                                                                      "position_error_m",
                                                                      "yaw_error_rad",
-                                                                     "side_slip_deg"};
+                                                                     "side_slip_deg",
+                                                                     "identity",
+                                                                     "differing_id",
+                                                                     "actuator_frames"};
 
 // What the car says of itself. Unset until it has said something.
 struct CarReport {
   double mode = kUnset, gate_refusals = kUnset, bus_refusals = kUnset;
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
+  double identity = kUnset, differing_id = kUnset;
 };
 
 using SignalValues = std::array<double, kSignals>;

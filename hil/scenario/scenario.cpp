@@ -45,6 +45,13 @@ constexpr std::array kVehicleFlags = {
     Named<VehicleFlag>{"unknown", VehicleFlag::kUnknown},
 };
 
+constexpr std::array kBusRevisions = {
+    Named<BusRevision>{"v14", BusRevision::kV14},
+    Named<BusRevision>{"v9", BusRevision::kV9},
+    Named<BusRevision>{"v12", BusRevision::kV12},
+    Named<BusRevision>{"av24", BusRevision::kAv24},
+};
+
 constexpr std::array kExpectKinds = {
     Named<ExpectKind>{"always", ExpectKind::kAlways},
     Named<ExpectKind>{"never", ExpectKind::kNever},
@@ -157,6 +164,7 @@ Scenario read_root(yaml::StrictMap& map) {
   scenario.duration = from_seconds(map.number("duration_s", 0.1, kLongest_s));
   scenario.track_file = map.text("track");
   scenario.car_file = map.text("car");
+  scenario.bus = one_of(map, "bus", kBusRevisions, "v14");
   if (auto start = map.optional_map("start")) scenario.start = read_start(*start);
   if (auto tyres = map.optional_map("tyres")) scenario.tyres = read_tyres(*tyres);
   read_list(map, "race_control", scenario.race_control, read_flag_change);
@@ -177,5 +185,6 @@ Result<Scenario, Problem> read_scenario(const std::string& text, const std::stri
 
 const char* name_of(world::TrackFlag flag) { return word_of(kTrackFlags, flag); }
 const char* name_of(world::VehicleFlag flag) { return word_of(kVehicleFlags, flag); }
+const char* name_of(BusRevision revision) { return word_of(kBusRevisions, revision); }
 
 }  // namespace pitwall::scenario

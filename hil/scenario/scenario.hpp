@@ -43,6 +43,9 @@ struct Fault {
   std::string place;         // for messages
 };
 
+// What the drive-by-wire and race control speak; V14 is what the bench models.
+enum class BusRevision : std::uint8_t { kV14, kV9, kV12, kAv24 };
+
 enum class ExpectKind : std::uint8_t { kAlways, kNever, kWithin };
 
 struct Expectation {
@@ -58,6 +61,7 @@ struct Scenario {
   std::uint64_t seed = 0;
   Duration duration{};
   std::string track_file, car_file;  // as written: relative to the working folder
+  BusRevision bus = BusRevision::kV14;
   Start start;
   Tyres tyres;
   std::vector<FlagChange> race_control;
@@ -71,5 +75,6 @@ Result<Scenario, Problem> read_scenario(const std::string& text, const std::stri
 
 const char* name_of(world::TrackFlag flag);
 const char* name_of(world::VehicleFlag flag);
+const char* name_of(BusRevision revision);
 
 }  // namespace pitwall::scenario

@@ -104,6 +104,22 @@ TEST(Scenario, EveryScenarioOfTheTreeIsReadable) {
   EXPECT_GE(count, 1);
 }
 
+TEST(Scenario, TheBusIsThatOfTheCarUnlessItIsNamed) {
+  EXPECT_EQ(read_scenario(kGood, "good.yaml")->bus, BusRevision::kV14);
+  for (const BusRevision bus :
+       {BusRevision::kV14, BusRevision::kV9, BusRevision::kV12, BusRevision::kAv24}) {
+    const auto read = read_scenario(kGood + "bus: " + name_of(bus) + "\n", "bus.yaml");
+    ASSERT_TRUE(read) << to_string(read.error());
+    EXPECT_EQ(read->bus, bus);
+  }
+  const auto wrong = read_scenario(kGood + "bus: v15\n", "bus.yaml");
+  ASSERT_FALSE(wrong);
+  EXPECT_NE(to_string(wrong.error()).find("\"v15\" is not one of: v14, v9, v12, av24"),
+            std::string::npos)
+      << to_string(wrong.error());
+  EXPECT_EQ(to_string(wrong.error()).rfind("bus.yaml:", 0), 0u);
+}
+
 TEST(Names, EveryFlagHasAName) {
   for (int i = 0; i <= static_cast<int>(world::TrackFlag::kUnknown); ++i)
     EXPECT_STRNE(name_of(static_cast<world::TrackFlag>(i)), "?");

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/revision/revision.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <string>
+
+#include "protocol/can/av21.hpp"
+#include "protocol/can/av24.hpp"
+#include "protocol/can/dbc_parser.hpp"
+#include "protocol/can/decode.hpp"
+#include "tests/support/public_data.hpp"
+
+namespace pitwall::revision {
+namespace {
+
+namespace av21 = can::av21;
+using scenario::BusRevision;
+
+Revision made(BusRevision which) {
+  auto revision = Revision::of(which);
+  EXPECT_TRUE(revision) << to_string(revision.error());
+  return *std::move(revision);
+}
+
+template <class Message>
+can::Frame frame_of(const Message& message) {
+  can::Frame frame;
+  can::EncodeCounters counters;
+  EXPECT_TRUE(av21::encode(message, frame, counters));
+  return frame;
+}
+
+// Every message that the car hears, its fields 1, 2, 3 ... where the field can say so.
+std::vector<can::Frame> model_frames() {
+  std::vector<can::Frame> frames;
+  const auto add = [&frames](auto message) {
+    using Message = decltype(message);
+    double value = 0.0;
+    for (const auto field : Message::kFields) message.*field = value += 1.0;
+    can::Frame frame;
+    can::EncodeCounters counters;
+    EXPECT_TRUE(av21::encode(message, frame, counters));
+    frames.push_back(frame);
+  };
+  std::apply([&](auto... message) { (add(message), ...); }, av21::AllMessages{});
+  return frames;
+}
+
+double value_in(const can::Database& database, const can::Frame& frame, const char* signal) {
+  const can::Message* const message = database.find(frame.id);
+  EXPECT_NE(message, nullptr) << frame.id;
+  EXPECT_TRUE(can::is_frame_of(*message, frame)) << frame.id;
+  const can::Signal* const found = message->find(signal);
+  EXPECT_NE(found, nullptr) << signal;
+  return found == nullptr ? kUnset : can::decode(*found, frame);
+}
+
+TEST(Revision, V14ChangesNothing) {
+  Revision v14 = made(BusRevision::kV14);
+  for (const can::Frame& frame : model_frames()) {
+    const Frames spoken = v14.spoken(frame);
+    ASSERT_EQ(spoken.size(), 1u);
+    EXPECT_EQ(spoken[0], frame);
+    EXPECT_EQ(v14.heard(frame), frame);
+  }
+  EXPECT_TRUE(v14.due(Instant{} + seconds(10)).empty());
+}
+
+// Law: what is said in any revision is a frame of its database, and every value that has the same
+// name in both is the same there, within the coarser resolution.
+TEST(Revision, WhatIsSaidMeansTheSame) {
+  Revision v14 = made(BusRevision::kV14);
+  for (const BusRevision which : {BusRevision::kV9, BusRevision::kV12, BusRevision::kAv24}) {
+    Revision other = made(which);
+    std::size_t compared = 0;
+    for (const can::Frame& frame : model_frames()) {
+      const can::Message* const model = v14.database().find(frame.id);
+      ASSERT_NE(model, nullptr);
+      for (const can::Frame& said : other.spoken(frame)) {
+        const can::Message* const message = other.database().find(said.id);
+        ASSERT_NE(message, nullptr) << said.id;
+        ASSERT_TRUE(can::is_frame_of(*message, said)) << message->name;
+        for (const can::Signal& signal : message->signals) {
+          const can::Signal* const same = model->find(signal.name);
+          if (same == nullptr || message->name != model->name) continue;
+          const double coarse = std::max(signal.layout.scale, same->layout.scale);
+          EXPECT_NEAR(can::decode(signal, said), can::decode(*same, frame), 0.51 * coarse)
+              << message->name << "." << signal.name;
+          ++compared;
+        }
+      }
+    }
+    EXPECT_GT(compared, 100u) << scenario::name_of(which);
+    EXPECT_EQ(other.unsent(), 0u);
+  }
+}
+
+TEST(Revision, V9HasNoMarelliAndTenBitsOfSteering) {
+  Revision v9 = made(BusRevision::kV9);
+  for (const std::uint32_t id : {1250u, 1251u, 1405u, 1406u, 1450u})
+    EXPECT_EQ(v9.database().find(id), nullptr) << id;
+  av21::SteeringReport report;
+  report.steering_motor_ang_avg_fdbk = -1.0;
+  report.steering_motor_fdbk_counter = 7;
+  const Frames said = v9.spoken(frame_of(report));
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(value_in(v9.database(), said[0], "steering_motor_ang_avg_fdbk"), -1.0);
+  // What a V14 car would read: the reason for all of this.
+  ASSERT_TRUE(av21::decode(said[0], report));
+  EXPECT_EQ(report.steering_motor_ang_avg_fdbk, 511.0);
+}
+
+TEST(Revision, V12SaysMarelliInThreeMessages) {
+  Revision v12 = made(BusRevision::kV12);
+  av21::MarelliReport1 flags{9, 25, 3, 1, -70};
+  const Frames said = v12.spoken(frame_of(flags));
+  ASSERT_EQ(said.size(), 2u);
+  EXPECT_EQ(said[0].id, 1000u);
+  EXPECT_EQ(value_in(v12.database(), said[0], "Marelli_Track_Flag"), 9.0);
+  EXPECT_EQ(value_in(v12.database(), said[0], "Marelli_Vehicle_Flag"), 25.0);
+  EXPECT_EQ(said[1].id, 1001u);
+  EXPECT_EQ(value_in(v12.database(), said[1], "lte_sync_ok"), 1.0);
+  EXPECT_EQ(value_in(v12.database(), said[1], "lte_modem_lte_rssi"), -70.0);
+  const Frames position = v12.spoken(frame_of(av21::MarelliReport2{36.25, -115.0}));
+  ASSERT_EQ(position.size(), 1u);
+  EXPECT_EQ(position[0].id, 1002u);
+  EXPECT_NEAR(value_in(v12.database(), position[0], "GPS_Lon"), -115.0, 1e-7);
+}
+
+// A command of a V14 car, read by another drive-by-wire as its own database says.
+TEST(Revision, CommandsAreReadByTheLayoutOfTheRevision) {
+  Revision v9 = made(BusRevision::kV9), v12 = made(BusRevision::kV12);
+  Revision av24 = made(BusRevision::kAv24);
+  const auto steering = v9.heard(frame_of(av21::SteeringCmd{300.0, 5}));
+  ASSERT_TRUE(steering);
+  av21::SteeringCmd read;
+  ASSERT_TRUE(av21::decode(*steering, read));
+  EXPECT_EQ(read.steering_motor_ang_cmd, 300.0 - 512.0) << "the eleventh bit is not read";
+  // 1405 says flags in V14 and switches in V12.
+  const auto acks = v12.heard(frame_of(av21::CtReport2{0x21, 0, 0}));
+  ASSERT_TRUE(acks);
+  av21::DashSwitchesCmd dash;
+  ASSERT_TRUE(av21::decode(*acks, dash));
+  EXPECT_EQ(dash.driver_traction_aim_switch, 1.0);
+  EXPECT_EQ(dash.driver_traction_range_switch, 2.0);
+  const auto brake = av24.heard(frame_of(av21::BrakePressureCmd{1234.0, 200}));
+  ASSERT_TRUE(brake);
+  av21::BrakePressureCmd pressed;
+  ASSERT_TRUE(av21::decode(*brake, pressed));
+  EXPECT_EQ(pressed.brake_pressure_cmd, 1234.0);
+  EXPECT_EQ(pressed.brk_pressure_cmd_counter, 0.0) << "it looks for the counter at bit 40";
+}
+
+TEST(Revision, TheAv24SendsItsOwnMessagesAtTheirPeriod) {
+  Revision av24 = made(BusRevision::kAv24);
+  std::map<std::uint32_t, int> heard;
+  for (Instant now{}; now - Instant{} < seconds(2); now += milliseconds(1))
+    for (const can::Frame& frame : av24.due(now)) {
+      ++heard[frame.id];
+      EXPECT_EQ(av21::kMessages.end(),
+                std::ranges::find(av21::kMessages, frame.id, &can::MessageRow::id));
+    }
+  const std::map<std::uint32_t, int> wanted{{1313, 20}, {1314, 20}, {1315, 20},
+                                            {1316, 20}, {1344, 20}, {1350, 200}};
+  EXPECT_EQ(heard, wanted);
+  EXPECT_TRUE(made(BusRevision::kV9).due(Instant{} + seconds(1)).empty());
+}
+
+std::string read(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+// Facts of a message as text, one line for each: what must be equal in two databases.
+std::set<std::string> facts(const can::Message& message) {
+  std::set<std::string> out{message.name + " " + std::to_string(message.length)};
+  for (const can::Signal& s : message.signals) {
+    const can::SignalLayout& l = s.layout;
+    out.insert(s.name + " " + std::to_string(l.start) + "|" + std::to_string(l.length) + "@" +
+               std::to_string(static_cast<int>(l.order)) +
+               std::to_string(static_cast<int>(l.number)) + " " + std::to_string(l.scale) + "," +
+               std::to_string(l.offset));
+  }
+  return out;
+}
+
+TEST(Revision, V9AndV12EqualThePublicFiles) {
+  const std::pair<BusRevision, const char*> files[] = {{BusRevision::kV9, "CAN1-INDY-V9.dbc"},
+                                                       {BusRevision::kV12, "CAN1-INDY-V12.dbc"},
+                                                       {BusRevision::kV14, "CAN1-INDY-V14.dbc"}};
+  for (const auto& [which, name] : files) {
+    const auto path = recordings::folder() / "dbc" / name;
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is missing";
+    const auto theirs = can::parse_dbc(read(path), name);
+    ASSERT_TRUE(theirs) << to_string(theirs.error());
+    const Revision revision = made(which);
+    const can::Database& ours = revision.database();
+    ASSERT_EQ(ours.messages.size(), theirs->messages.size()) << name;
+    for (const can::Message& message : theirs->messages) {
+      const can::Message* const own = ours.find(message.id);
+      ASSERT_NE(own, nullptr) << name << " " << message.id;
+      EXPECT_EQ(facts(*own), facts(message)) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pitwall::revision
