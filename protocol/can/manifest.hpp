@@ -8,8 +8,8 @@
 //           whose profile does not fit its signals, counter, data ids or length
 //
 //   checksum: {profile: sae_j1850, signal: crc}
-//   checksum: {profile: e2e_p01, signal: crc, data_id: 0x123, data_id_mode: both}  # or alternating,
-//             low; nibble: with data_id_nibble: the signal that sends it
+//   checksum: {profile: e2e_p01, signal: crc, data_id: 0x123, data_id_mode: both}
+//             data_id_mode: both, alternating, low, or nibble with data_id_nibble: its signal
 //   checksum: {profile: e2e_p02, signal: crc, data_ids: [16 numbers]}
 //   checksum: {profile: e2e_p05, signal: crc, data_id: 0x123}
 // The counter of profiles 1, 2 and 5 is the message's `counter`. Places are those of the profiles,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fast the small parts are: CAN decode (generated structs beside run-time plans), encode,
-// telemetry, plant, frame length. Figures, no gates.
+// How fast the small parts are: CAN decode (generated structs beside run-time plans), encode, the
+// judge of every frame, telemetry, plant, frame length. Figures, no gates.
 #include <benchmark/benchmark.h>
 
 #include <cstring>
@@ -14,6 +14,7 @@
 #include "protocol/can/av21.hpp"
 #include "protocol/can/dbc_parser.hpp"
 #include "protocol/can/decode.hpp"
+#include "protocol/can/message_monitor.hpp"
 #include "protocol/telemetry/state_packet.hpp"
 
 namespace pitwall {
@@ -82,6 +83,74 @@ void encode_generated(benchmark::State& state) {
   }
 }
 BENCHMARK(encode_generated);
+
+// A counter of four bits in the low nibble of byte 1, or of byte 2 for profile 5.
+can::MessageRow judged_row(can::Protection profile, std::uint8_t length, bool has_counter) {
+  const bool is_wide = profile == can::Protection::kP05;
+  can::MessageRow row{};
+  row.length = length;
+  row.period = milliseconds(10);
+  row.timeout = milliseconds(50);
+  row.has_counter = has_counter;
+  row.counter_start = is_wide ? 16 : 8;
+  row.counter_bits = is_wide ? 8 : 4;
+  row.protection = {.profile = profile,
+                    .length = length,
+                    .counter_start = row.counter_start,
+                    .counter_bits = row.counter_bits,
+                    .data_id = 0x123};
+  return row;
+}
+
+void judge_frames(benchmark::State& state, can::Protection profile, std::uint8_t length,
+                  bool has_counter) {
+  const can::MessageRow row = judged_row(profile, length, has_counter);
+  std::vector<can::ReceivedFrame> input;
+  can::ProtectState sender;
+  for (can::Frame frame : frames()) {
+    frame.length = length;
+    can::ProtectionRule rule = row.protection;
+    if (profile == can::Protection::kNone) {
+      frame.data[1] = static_cast<std::uint8_t>(input.size() % 16);
+    }
+    can::protect(rule, sender, frame);
+    input.push_back({frame, {}});
+  }
+  if (profile == can::Protection::kP01) input.resize(255);  // 15 does not divide 256
+  can::MessageMonitor monitor;
+  can::LossLog losses;
+  Instant now{};
+  std::size_t i = 0;
+  for (auto _ : state) {
+    can::ReceivedFrame& received = input[i];
+    i = i + 1 == input.size() ? 0 : i + 1;
+    received.at = now += row.period;
+    benchmark::DoNotOptimize(can::judge(row, {}, monitor, received, losses));
+  }
+  if (monitor.bad + monitor.lost > 0) state.SkipWithError("the monitor found fault");
+}
+BENCHMARK_CAPTURE(judge_frames, plain, can::Protection::kNone, 8, false);
+BENCHMARK_CAPTURE(judge_frames, counter, can::Protection::kNone, 8, true);
+BENCHMARK_CAPTURE(judge_frames, sae_j1850, can::Protection::kJ1850, 8, true);
+BENCHMARK_CAPTURE(judge_frames, e2e_p01, can::Protection::kP01, 8, true);
+BENCHMARK_CAPTURE(judge_frames, e2e_p02, can::Protection::kP02, 8, true);
+BENCHMARK_CAPTURE(judge_frames, e2e_p05, can::Protection::kP05, 8, true);
+BENCHMARK_CAPTURE(judge_frames, e2e_p05_fd, can::Protection::kP05, 64, true);
+
+void watch_270_messages(benchmark::State& state) {
+  const std::vector<can::MessageRow> rows(270, judged_row(can::Protection::kNone, 8, true));
+  std::vector<can::MessageMonitor> monitors(rows.size());
+  can::LossLog losses;
+  for (can::MessageMonitor& m : monitors) {
+    static_cast<void>(can::judge(rows[0], {}, m, {}, losses));
+  }
+  for (auto _ : state) {
+    can::watch(rows, monitors, Instant{} + milliseconds(12), losses);
+    benchmark::DoNotOptimize(monitors.data());
+  }
+  if (losses.count > 0) state.SkipWithError("the monitor found fault");
+}
+BENCHMARK(watch_270_messages);
 
 void telemetry_encode_and_parse(benchmark::State& state) {
   telemetry::StatePacket packet;
