@@ -102,6 +102,11 @@ class Workshop:
         self.prefix = ["-include", str(header)]
         return done.returncode == 0, done.stderr
 
+    # A tree that somebody edits meanwhile makes mutants that do not compile for no fault of theirs.
+    def still_compiles(self):
+        paths = self.options.source + self.options.test
+        return all(self.compile(path, self.folder / "again.o")[0] for path in paths)
+
     # Everything that no mutation of a source touches, once; and the tests must pass as they are.
     def prepare(self, pool):
         good, message = self.precompile()
@@ -269,6 +274,9 @@ def main(arguments):
                 print(f"mutate.py: {problem}", file=sys.stderr, end="")
                 return 2
             verdicts = judge_all(workshop, pool, mutants, equivalents)
+        if not workshop.still_compiles():
+            print("mutate.py: the tree has changed during the run", file=sys.stderr)
+            return 2
     result = report(mutants, verdicts, equivalents, check_list=not options.only)
     print(f"{len(mutants)} mutants in {time.monotonic() - began:.0f} s")
     return result
