@@ -50,14 +50,17 @@ int drive(const pipeline::Setup& setup, const io::Arguments& args, io::Rim& rim,
     const transport::Tick tick = ticker.next();
     const io::Rim::Heard heard = rim.read();
     const Instant now = transport::monotonic_now();
+    const bool may_arm = !rim.listen_only();
     const pipeline::Outputs out = pipeline::step(setup, *car,
                                                  {.now = now,
                                                   .dt = now - last,
                                                   .can = heard.can,
                                                   .sensors = heard.sensors,
-                                                  .requests = {.arm = args.arm},
-                                                  .gnss_byte_at = heard.gnss_byte_at});
-    rim.write(out.passed.frames.span());
+                                                  .requests = {.arm = may_arm && args.arm},
+                                                  .gnss_byte_at = heard.gnss_byte_at,
+                                                  .link = heard.link});
+    rim.write(out.passed.frames.span(), now);
+    if (out.bus_guard.restart_now) rim.restart_bus();
     const Instant done = transport::monotonic_now();
     tally.add(done - now, tick.missed);
     last = now;
@@ -99,7 +102,15 @@ int run(int argc, const char* const* argv) {
   std::fprintf(stderr, "pitwall-vehicle: %s on %s, %s%s\n", setup->track.name().c_str(),
                args.can_interface.c_str(), transport::to_string(realtime).c_str(),
                args.simulation ? ", SIMULATION" : "");
-  return drive(*setup, args, *rim, *stop);
+  if (rim->listen_only())
+    std::fprintf(stderr, "pitwall-vehicle: %s: LISTEN-ONLY: stays disarmed and sends nothing\n",
+                 args.can_interface.c_str());
+  const int code = drive(*setup, args, *rim, *stop);
+  if (const char* refusal = rim->bus().refusal.data(); *refusal != '\0')
+    std::fprintf(
+        stderr, "pitwall-vehicle: %s (refused %llu times)\n", refusal,
+        static_cast<unsigned long long>(rim->bus().restarts_refused + rim->bus().flushes_refused));
+  return code;
 }
 
 }  // namespace

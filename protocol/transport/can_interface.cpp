@@ -118,9 +118,11 @@ CanInterfaceStatus read_link(NetlinkBytes message) {
   const auto link = read_as<ifinfomsg>(message);
   out.exists = true;
   out.up = (link.ifi_flags & IFF_UP) != 0U;
-  out.running = (link.ifi_flags & IFF_RUNNING) != 0U;
   for_each_attribute(attributes_after<ifinfomsg>(message),
                      [&](unsigned attribute, NetlinkBytes value) {
+                       // At once, where the flag IFF_RUNNING comes up to a second late.
+                       if (attribute == IFLA_CARRIER)
+                         out.running = out.up && read_as<std::uint8_t>(value) != 0;
                        if (attribute == IFLA_LINKINFO) read_link_info(value, out);
                        if (attribute == IFLA_STATS64) read_statistics(value, out);
                        if (attribute == IFLA_TXQLEN)

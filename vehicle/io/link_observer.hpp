@@ -8,9 +8,9 @@
 //     error frame  ----- bus-off @120 -------------------------->  bus-off from 120 on
 //     interface    - active @100 ------- bus-off @200 --- active @300 (restarted) -> active
 //
-//   An interface that is not there or not up is down, whatever a frame said before. A report without
-//   a controller (vcan) says nothing of the state: then the error frames alone tell, and without any
-//   the state is unknown.
+//   An interface that is not there or not up is down, whatever a frame said before. A report
+//   without a controller (vcan) says nothing of the state: then the error frames alone tell, and
+//   without any the state is unknown.
 //   in     LinkNews
 //   out    world::LinkObservation; losses and restarts since the first observation
 //   units  frames, Instant

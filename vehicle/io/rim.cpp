@@ -12,9 +12,11 @@ constexpr std::size_t kFramesPerRead = 1'024;  // a quarter second of a full bus
 
 }  // namespace
 
-Rim::Rim(transport::CanSocket can, std::vector<transport::UdpSocket> gnss,
-         transport::UdpSocket radio, transport::UdpAddress base, bool simulation)
+Rim::Rim(transport::CanSocket can, std::unique_ptr<BusWatch> watch,
+         std::vector<transport::UdpSocket> gnss, transport::UdpSocket radio,
+         transport::UdpAddress base, bool simulation)
     : can_(std::move(can)),
+      watch_(std::move(watch)),
       gnss_(std::move(gnss)),
       receivers_{GnssInput{{.unit = 0}}, GnssInput{{.unit = 1}}},
       radio_(std::move(radio)),
@@ -28,6 +30,8 @@ Result<Rim, Problem> Rim::open(const Arguments& args) {
   if (!base) return Unexpected{base.error()};
   auto can = transport::CanSocket::open(args.can_interface);
   if (!can) return Unexpected{can.error()};
+  auto watch = BusWatch::start(args.can_interface);
+  if (!watch) return Unexpected{watch.error()};
   std::vector<transport::UdpSocket> gnss;
   for (const std::uint16_t port : args.gnss_ports) {
     auto socket = transport::UdpSocket::bind({.ip = transport::kLoopbackIp, .port = port});
@@ -37,12 +41,15 @@ Result<Rim, Problem> Rim::open(const Arguments& args) {
   auto radio = transport::UdpSocket::bind(
       {.ip = base->ip == transport::kLoopbackIp ? transport::kLoopbackIp : transport::kAnyIp});
   if (!radio) return Unexpected{radio.error()};
-  return Rim{*std::move(can), std::move(gnss), *std::move(radio), *base, args.simulation};
+  return Rim{*std::move(can), *std::move(watch), std::move(gnss), *std::move(radio),
+             *base,           args.simulation};
 }
 
 Rim::Heard Rim::read() {
   Heard heard;
   const std::size_t count = can_.receive(frames_);
+  look_at_bus(transport::monotonic_now());
+  heard.link = link_;
   heard.can = std::span<const can::ReceivedFrame>(frames_).first(count);
   for (std::size_t unit = 0; unit < gnss_.size(); ++unit)
     if (receive(gnss_[unit], receivers_[unit], heard.sensors) > 0)
@@ -51,9 +58,35 @@ Rim::Heard Rim::read() {
   return heard;
 }
 
-void Rim::write(std::span<const can::Frame> frames) {
-  const std::size_t taken = can_.send(frames);
-  tx_drops_ += frames.size() - taken;
+void Rim::look_at_bus(Instant now) {
+  can_.poll_drops();
+  const bool flushing = watch_->flushing();  // first: a flush that ends now shows in one of the two
+  const BusReport& report = watch_->newest();
+  const std::uint64_t emptied = report.flushes + report.restarts;
+  slots_.look({.bytes = can_.queued_bytes(), .flushed = flushing || emptied != emptied_}, now);
+  emptied_ = emptied;
+  if (slots_.should_flush(now) && report.flushes_refused == 0) watch_->flush();
+  link_ = observer_.observe({.interface = report.interface,
+                             .told_by_frames = can_.bus_state(),
+                             .told_at = can_.bus_state_at(),
+                             .lost_in_socket = can_.counters().rx_dropped_queue,
+                             .error_frames = can_.counters().error_frames,
+                             .tx_drops = tx_drops(),
+                             .tx_stalled = slots_.stalled(now),
+                             .down_and_up = report.down_and_up});
+}
+
+void Rim::write(std::span<const can::Frame> frames, Instant now) {
+  if (listen_only()) {
+    silenced_ += frames.size();
+    return;
+  }
+  slots_.offer(frames, now);
+  // A controller that is off would keep them for the time after.
+  const bool off = link_.controller == world::ControllerState::kBusOff ||
+                   link_.controller == world::ControllerState::kDown;
+  if (off) return;
+  slots_.taken(can_.send(slots_.due(now)), now);
 }
 
 void Rim::report(telemetry::StatePacket& packet, Instant now) {

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -19,7 +20,10 @@
 #include "protocol/transport/udp_socket.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "vehicle/io/arguments.hpp"
+#include "vehicle/io/bus_watch.hpp"
 #include "vehicle/io/gnss_input.hpp"
+#include "vehicle/io/link_observer.hpp"
+#include "vehicle/io/transmit_slots.hpp"
 #include "vehicle/world/sensor_input.hpp"
 
 namespace pitwall::io {
@@ -31,23 +35,39 @@ class Rim {
   struct Heard {
     std::span<const can::ReceivedFrame> can;  // valid until the next read()
     world::SensorInput sensors;
+    world::LinkObservation link;
     std::array<std::optional<Instant>, world::kGnssUnits> gnss_byte_at;  // newest, if any
   };
   Heard read();
-  void write(std::span<const can::Frame> frames);
+  // Frames of this tick, in order of urgency. What cannot go out in time is dropped and counted; on
+  // a listen-only interface that is all of it.
+  void write(std::span<const can::Frame> frames, Instant now);
+  // Asks for a restart of the controller; carried out beside the loop.
+  void restart_bus() { watch_->restart(); }
   // Completes the packet (sequence, run, source, time of sending) and sends it.
   void report(telemetry::StatePacket& packet, Instant now);
 
   const transport::CanSocketCounters& can() const { return can_.counters(); }
-  // Frames that the kernel did not take: a command is never sent late, so they are dropped.
-  std::uint64_t tx_drops() const { return tx_drops_; }
+  const TransmitCounters& transmit() const { return slots_.counters(); }
+  // Frames that did not go out in time: a command is never sent late.
+  std::uint64_t tx_drops() const { return slots_.counters().dropped() + silenced_; }
   void poll_drops() { can_.poll_drops(); }
+  const BusReport& bus() { return watch_->newest(); }
+  // The interface only listens: nothing is ever sent, and the car must not be armed.
+  bool listen_only() { return bus().interface.listen_only; }
 
  private:
-  Rim(transport::CanSocket can, std::vector<transport::UdpSocket> gnss, transport::UdpSocket radio,
+  Rim(transport::CanSocket can, std::unique_ptr<BusWatch> watch,
+      std::vector<transport::UdpSocket> gnss, transport::UdpSocket radio,
       transport::UdpAddress base, bool simulation);
+  void look_at_bus(Instant now);
 
   transport::CanSocket can_;
+  std::unique_ptr<BusWatch> watch_;
+  TransmitSlots slots_;
+  LinkObserver observer_;
+  world::LinkObservation link_;
+  std::uint64_t emptied_ = 0;  // how often the kernel's queue has been, as of the last look
   std::vector<transport::UdpSocket> gnss_;
   std::array<GnssInput, world::kGnssUnits> receivers_;
   transport::UdpSocket radio_;
@@ -57,7 +77,7 @@ class Rim {
   telemetry::Source source_;
   std::uint32_t run_ = 0, sequence_ = 0;
   telemetry::EncodeCounters encoded_;
-  std::uint64_t tx_drops_ = 0;
+  std::uint64_t silenced_ = 0;  // frames not sent because the interface only listens
 };
 
 }  // namespace pitwall::io

@@ -71,8 +71,9 @@ TEST(CanInterface, WhatIsNoInterfaceOrHasNoControllerIsRefusedByName) {
 // A controller as the kernel would describe it.
 TEST(CanInterface, EveryFieldOfAControllerIsRead) {
   ifinfomsg link{};
-  link.ifi_flags = IFF_UP | IFF_RUNNING;
+  link.ifi_flags = IFF_UP;
   NetlinkRequest message(RTM_NEWLINK, 0, link);
+  message.put(IFLA_CARRIER, std::uint8_t{1});
   message.put(IFLA_TXQLEN, std::uint32_t{10});
   message.put_text(IFLA_QDISC, "pfifo_fast");
   rtnl_link_stats64 counted{};

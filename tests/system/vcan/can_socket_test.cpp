@@ -165,8 +165,16 @@ TEST(CanSocket, LossIsCountedEvenWhenNothingFollowsIt) {
   ASSERT_EQ(sender.send(burst), burst.size());
   const auto received = collect(reader, burst.size());
   ASSERT_LT(received.size(), burst.size());
+  const std::size_t lost = burst.size() - received.size();
   reader.poll_drops();
-  EXPECT_EQ(reader.counters().rx_dropped_queue, burst.size() - received.size());
+  EXPECT_EQ(reader.counters().rx_dropped_queue, lost);
+  EXPECT_EQ(reader.counters().rx_dropped_when_asked, lost);
+  EXPECT_EQ(reader.counters().rx_dropped_by_frames, 0U);  // no frame came after the loss
+  // And the other detector by itself: the next frame tells, though nobody asked again.
+  ASSERT_TRUE(sender.send(frame(6, 6)));
+  ASSERT_EQ(collect(reader, 1).size(), 1U);
+  EXPECT_EQ(reader.counters().rx_dropped_by_frames, lost);
+  EXPECT_EQ(reader.counters().rx_dropped_queue, lost);
 }
 
 TEST(CanSocket, AnImpossibleFrameIsRefusedAndTheRestGoesOut) {
