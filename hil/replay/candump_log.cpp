@@ -205,6 +205,7 @@ Result<CandumpLog, Problem> parse_candump_log(std::string_view text, std::string
   while (!text.empty()) {
     ++number;
     const std::size_t end = text.find('\n');
+    const bool is_cut_off = end == std::string_view::npos;
     std::string_view raw = text.substr(0, end);
     text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
     if (raw.ends_with('\r')) raw.remove_suffix(1);
@@ -215,6 +216,10 @@ Result<CandumpLog, Problem> parse_candump_log(std::string_view text, std::string
     if (read_drop_line(raw, log.counters)) continue;
     Line line{.text = raw};
     if (read_frame_line(line, log)) continue;
+    if (is_cut_off && !log.frames.empty()) {
+      ++log.counters.cut_off_lines;
+      continue;
+    }
     return Unexpected{Problem{
         std::string(file_name) + ":" + std::to_string(number) + ":" + std::to_string(line.at + 1),
         line.what}};
@@ -224,10 +229,13 @@ Result<CandumpLog, Problem> parse_candump_log(std::string_view text, std::string
 
 std::string to_candump_line(const LoggedFrame& logged, std::string_view channel) {
   const can::Frame& f = logged.frame;
+  const auto whole_s = static_cast<long long>(logged.at.ns / kNanosecondsPerSecond);
+  const auto rest_ns = static_cast<long long>(logged.at.ns % kNanosecondsPerSecond);
   std::array<char, 64> start{};
-  std::snprintf(start.data(), start.size(), "(%010lld.%06lld) ",
-                static_cast<long long>(logged.at.ns / kNanosecondsPerSecond),
-                static_cast<long long>(logged.at.ns % kNanosecondsPerSecond / 1'000));
+  if (rest_ns % 1'000 == 0)
+    std::snprintf(start.data(), start.size(), "(%010lld.%06lld) ", whole_s, rest_ns / 1'000);
+  else
+    std::snprintf(start.data(), start.size(), "(%010lld.%09lld) ", whole_s, rest_ns);
   std::array<char, 16> id{};
   std::snprintf(id.data(), id.size(), f.extended ? "%08X#" : "%03X#", f.id);
   std::string out = start.data() + std::string(channel) + " " + id.data();
@@ -239,6 +247,8 @@ std::string to_candump_line(const LoggedFrame& logged, std::string_view channel)
   } else {
     for (const std::uint8_t byte : f.payload()) out += {kHex[byte >> 4U], kHex[byte & 0xFU]};
   }
+  if (logged.direction == LoggedDirection::kTransmitted) out += " T";
+  if (logged.direction == LoggedDirection::kReceived) out += " R";
   return out;
 }
 

@@ -7,7 +7,9 @@
 //   in     the whole text
 //   out    frames in the order of the file, whatever their stamps; counters of what is no frame
 //   units  stamps in nanoseconds on the calendar clock of the recording
-//   errors Problem with file:line:column; nothing is returned of a malformed log
+//   errors Problem with file:line:column; nothing is returned of a malformed log. Only a last line
+//          that was cut off (no line end, does not read) is skipped and counted: a recorder that
+//          was stopped hard leaves one
 //   source can-utils lib.c parse_canframe, candump.c
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -33,6 +35,8 @@ struct LoggedFrame {
   std::uint8_t channel = 0;   // index into CandumpLog::channels
   std::uint8_t fd_flags = 0;  // CANFD_BRS, CANFD_ESI as logged; 0 for classic frames
   LoggedDirection direction = LoggedDirection::kUnknown;
+
+  bool operator==(const LoggedFrame&) const = default;
 };
 
 struct CandumpCounters {
@@ -41,6 +45,7 @@ struct CandumpCounters {
   std::uint64_t blank_lines = 0;
   std::uint64_t error_frames = 0;     // reports of a controller, not traffic: skipped
   std::uint64_t backward_stamps = 0;  // frames stamped earlier than the one before
+  std::uint64_t cut_off_lines = 0;    // 0 or 1: the last one
 };
 
 struct CandumpLog {
@@ -51,7 +56,8 @@ struct CandumpLog {
 
 Result<CandumpLog, Problem> parse_candump_log(std::string_view text, std::string_view file_name);
 
-// One line without its end, with 6-digit stamp, as candump -l writes it.
+// One line without its end, as candump -l writes it: a stamp of whole microseconds has 6 digits,
+// any other 9; a direction that is known is said.
 std::string to_candump_line(const LoggedFrame& frame, std::string_view channel);
 
 }  // namespace pitwall::replay

@@ -1,78 +1,73 @@
 // Sends a timeline at its due times: sleep to an absolute deadline, then hand every frame that is
-// due within kGroup to the bus in one call.
+// due within kGroup to its bus in one call. Nothing lies between waking up and sending: no look at
+// a clock, no encoding, no memory that is new.
 //
 //   due      |a b|  c        |d e f|            a, b and d, e, f: one call each
-//   wake      ^     ^         ^  (+ wake-up latency: whatever became due meanwhile goes along)
+//   wake      ^     ^         ^  (what became due during the call goes along with the next one)
+//   calls    sleep, send per bus with frames, clock; without the sleep when the next one is due
 //
-//   in     Timeline; a rim that has now(), wait_until(), send(bus, frames), stopped()
-//   out    PlayReport: counts and lateness (sent minus due; negative up to kGroup)
+//   in     Timeline; a rim that has now(), wait_until(), send(bus, first, count), stopped()
+//   out    PlayReport: counts, lateness (sent minus due; negative up to kGroup), what was dropped
 //   units  nanoseconds
-//   errors a full queue is retried for kMaxRetry, then the frame is dropped and counted
+//   errors a full queue is retried for kMaxRetry, then the frame is dropped and counted; any other
+//          refusal of the kernel drops and counts it at once
+//   cost   O(1) per frame; allocates in its constructor only
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
+#include "hil/replay/lateness_histogram.hpp"
 #include "hil/replay/timeline.hpp"
+#include "protocol/vocabulary/fixed_vector.hpp"
 
 namespace pitwall::replay {
 
 inline constexpr Duration kGroup = microseconds(20);        // below what a wake-up costs
 inline constexpr Duration kRetryPause = microseconds(200);  // a frame at 1 Mbit/s takes about 110
 inline constexpr Duration kMaxRetry = milliseconds(50);
+inline constexpr std::size_t kListedDrops = 20;
 
 enum class LatePolicy : std::uint8_t {
   kCatchUp,  // late frames go out at once, in order; the schedule stays where it was
-  kAbort,    // a frame later than PlayOptions::abort_after ends the replay
+  kDrop,     // a frame later than PlayOptions::late_limit is not sent; the clock is read once more
+  kAbort,    // such a frame ends the replay; likewise
 };
 
 struct PlayOptions {
   unsigned passes = 1;
   LatePolicy late = LatePolicy::kCatchUp;
-  Duration abort_after = milliseconds(100);
+  Duration late_limit = milliseconds(100);  // of kDrop and kAbort
 };
 
-// Lateness by the microsecond; what is later than the last cell is kept as a maximum.
-class LatenessHistogram {
- public:
-  static constexpr std::size_t kCells = 20'000;
-  void add(Duration lateness, std::uint64_t frames);
-  // Upper edge of the cell that holds the given share of frames (0 < share <= 1).
-  Duration quantile(double share) const;
-  Duration latest() const { return latest_; }
-  Duration earliest() const { return earliest_; }
-  std::uint64_t count() const { return count_; }
+// What a rim's send() says: leading frames that were taken, and whether the rest may be later.
+struct BusOutcome {
+  std::size_t taken = 0;
+  bool full = false;
+};
 
- private:
-  std::vector<std::uint64_t> cells_ = std::vector<std::uint64_t>(kCells + 1);
-  std::uint64_t count_ = 0;
-  Duration latest_{INT64_MIN};
-  Duration earliest_{INT64_MAX};
+struct DroppedFrame {
+  unsigned pass = 0;
+  std::size_t bus = 0, frame = 0;  // Timeline::buses[bus].frames[frame]
+  Duration late{};
 };
 
 struct PlayReport {
-  std::uint64_t sent = 0, retries = 0, dropped = 0, calls = 0;
-  bool aborted = false;  // by LatePolicy::kAbort
-  bool stopped = false;  // by the rim
+  std::uint64_t sent = 0, calls = 0, waits = 0, retries = 0;
+  std::uint64_t dropped_late = 0;                        // by LatePolicy::kDrop
+  std::uint64_t dropped_full = 0;                        // queue full for kMaxRetry
+  std::uint64_t dropped_refused = 0;                     // any other error of the kernel
+  FixedVector<DroppedFrame, kListedDrops> dropped_list;  // the first of them
+  bool aborted = false;                                  // by LatePolicy::kAbort
+  bool stopped = false;                                  // by the rim
   Duration took{};
+  Duration seam_error{};  // the worst of: gap between two passes as sent minus as planned
   LatenessHistogram lateness;
-};
 
-// One pass of one bus: where it is, and what is due next.
-struct TrackCursor {
-  std::size_t next = 0;
-  bool done(const BusTrack& track) const { return next == track.frames.size(); }
+  std::uint64_t dropped() const { return dropped_late + dropped_full + dropped_refused; }
 };
-
-// Number of frames from `next` on that are due at or before `limit` (since the start of the pass).
-inline std::size_t due_count(const BusTrack& track, std::size_t next, Duration limit) {
-  const auto begin = track.due.begin() + static_cast<std::ptrdiff_t>(next);
-  return static_cast<std::size_t>(std::upper_bound(begin, track.due.end(), limit) - begin);
-}
 
 template <class Rim>
 class Player {
@@ -81,73 +76,127 @@ class Player {
       : timeline_(timeline), options_(options), rim_(rim), cursors_(timeline.buses.size()) {}
 
   PlayReport play(Instant start) {
-    for (unsigned pass = 0; pass < options_.passes && !ended(); ++pass)
-      play_pass(start + timeline_.pass * static_cast<std::int64_t>(pass));
-    report_.took = rim_.now() - start;
+    now_ = rim_.now();
+    for (pass_ = 0; pass_ < options_.passes && !ended(); ++pass_) {
+      start_ = start + timeline_.pass * static_cast<std::int64_t>(pass_);  // no drift over passes
+      play_pass();
+    }
+    report_.took = now_ - start;
     return std::move(report_);
   }
 
  private:
-  bool ended() const { return report_.aborted || report_.stopped; }
+  // Where a bus is in its pass: frames before `sent` are done with, those before `recorded` are in
+  // the histogram.
+  struct Cursor {
+    std::size_t next = 0, recorded = 0;
+  };
 
-  void play_pass(Instant start) {
-    std::fill(cursors_.begin(), cursors_.end(), TrackCursor{});
+  bool ended() const { return report_.aborted || report_.stopped; }
+  bool judges_lateness() const { return options_.late != LatePolicy::kCatchUp; }
+
+  void play_pass() {
+    std::fill(cursors_.begin(), cursors_.end(), Cursor{});
     while (!ended()) {
       const Duration due = next_due();
       if (due == kNothingLeft) return;
-      rim_.wait_until(start + due);
-      if (rim_.stopped()) {
-        report_.stopped = true;
-        return;
-      }
-      for (std::size_t bus = 0; bus < cursors_.size() && !ended(); ++bus) send_due(bus, start);
+      wait_until(start_ + due);
+      for (std::size_t bus = 0; bus < cursors_.size() && !ended(); ++bus) send_due(bus);
+      now_ = rim_.now();
+      for (std::size_t bus = 0; bus < cursors_.size(); ++bus) record(bus);
     }
   }
 
   Duration next_due() const {
     Duration first = kNothingLeft;
-    for (std::size_t bus = 0; bus < cursors_.size(); ++bus)
-      if (!cursors_[bus].done(timeline_.buses[bus]))
-        first = std::min(first, timeline_.buses[bus].due[cursors_[bus].next]);
+    for (std::size_t bus = 0; bus < cursors_.size(); ++bus) {
+      const BusTrack& track = timeline_.buses[bus];
+      if (cursors_[bus].next < track.due.size())
+        first = std::min(first, track.due[cursors_[bus].next]);
+    }
     return first;
   }
 
-  void send_due(std::size_t bus, Instant start) {
+  // Afterwards now_ is the deadline or later; the clock is read only where lateness is judged.
+  void wait_until(Instant deadline) {
+    if (now_ < deadline) {
+      rim_.wait_until(deadline);
+      ++report_.waits;
+      now_ = judges_lateness() ? rim_.now() : deadline;
+    }
+    report_.stopped = rim_.stopped();
+  }
+
+  void send_due(std::size_t bus) {
     const BusTrack& track = timeline_.buses[bus];
-    TrackCursor& cursor = cursors_[bus];
-    Instant now = rim_.now();
-    const std::size_t count = due_count(track, cursor.next, now - start + kGroup);
-    const std::size_t end = cursor.next + count;
-    const Instant give_up = now + kMaxRetry;
-    while (cursor.next < end) {
-      const Duration late = now - (start + track.due[cursor.next]);
-      if (options_.late == LatePolicy::kAbort && late > options_.abort_after) {
-        report_.aborted = true;
-        return;
-      }
-      const std::span<const can::Frame> rest(track.frames.data() + cursor.next, end - cursor.next);
-      const std::size_t taken = rim_.send(bus, rest);
-      now = rim_.now();
+    Cursor& cursor = cursors_[bus];
+    if (judges_lateness()) refuse_late(bus);
+    const Duration limit = now_ - start_ + kGroup;
+    std::size_t end = cursor.next;
+    while (end < track.due.size() && track.due[end] <= limit) ++end;
+    const Instant give_up = now_ + kMaxRetry;
+    while (cursor.next < end && !ended()) {
+      const BusOutcome outcome = rim_.send(bus, cursor.next, end - cursor.next);
       ++report_.calls;
-      record(track, cursor.next, taken, start, now);
-      cursor.next += taken;
-      if (taken == rest.size()) return;
-      if (now < give_up) {
-        ++report_.retries;
-        rim_.wait_until(now + kRetryPause);
-        now = rim_.now();
-      } else {
-        ++report_.dropped;
-        ++cursor.next;
-      }
+      report_.sent += outcome.taken;
+      cursor.next += outcome.taken;
+      if (cursor.next == end) return;
+      now_ = rim_.now();
+      record(bus);
+      retry_or_drop(bus, outcome.full, give_up);
     }
   }
 
-  void record(const BusTrack& track, std::size_t first, std::size_t count, Instant start,
-              Instant now) {
-    for (std::size_t i = first; i < first + count; ++i)
-      report_.lateness.add(now - (start + track.due[i]), 1);
-    report_.sent += count;
+  // The frame at the cursor was not taken.
+  void retry_or_drop(std::size_t bus, bool full, Instant give_up) {
+    if (full && now_ < give_up) {
+      ++report_.retries;
+      rim_.wait_until(now_ + kRetryPause);
+      now_ = rim_.now();
+      if (judges_lateness()) refuse_late(bus);
+    } else {
+      drop(bus, full ? report_.dropped_full : report_.dropped_refused);
+    }
+  }
+
+  // Due times never decrease: the frames that are too late are the first ones.
+  void refuse_late(std::size_t bus) {
+    const BusTrack& track = timeline_.buses[bus];
+    const Cursor& cursor = cursors_[bus];
+    while (cursor.next < track.due.size() && lateness(bus, cursor.next) > options_.late_limit) {
+      if (options_.late == LatePolicy::kAbort) {
+        report_.aborted = true;
+        return;
+      }
+      drop(bus, report_.dropped_late);
+    }
+  }
+
+  void drop(std::size_t bus, std::uint64_t& counter) {
+    Cursor& cursor = cursors_[bus];
+    ++counter;
+    static_cast<void>(  // those beyond are in the count
+        report_.dropped_list.push({pass_, bus, cursor.next, lateness(bus, cursor.next)}));
+    cursor.recorded = ++cursor.next;
+  }
+
+  void record(std::size_t bus) {
+    Cursor& cursor = cursors_[bus];
+    for (; cursor.recorded < cursor.next; ++cursor.recorded) {
+      const Duration late = lateness(bus, cursor.recorded);
+      report_.lateness.add(late);
+      if (pass_ != last_pass_) note_seam(late - last_late_);
+      last_pass_ = pass_;
+      last_late_ = late;
+    }
+  }
+
+  void note_seam(Duration error) {
+    report_.seam_error = std::max({report_.seam_error, error, -error});
+  }
+
+  Duration lateness(std::size_t bus, std::size_t frame) const {
+    return now_ - (start_ + timeline_.buses[bus].due[frame]);
   }
 
   static constexpr Duration kNothingLeft{INT64_MAX};
@@ -155,8 +204,11 @@ class Player {
   const Timeline& timeline_;
   PlayOptions options_;
   Rim& rim_;
-  std::vector<TrackCursor> cursors_;
+  std::vector<Cursor> cursors_;
   PlayReport report_;
+  unsigned pass_ = 0, last_pass_ = 0;  // being played; of the last frame that was sent
+  Instant start_{}, now_{};
+  Duration last_late_{};
 };
 
 }  // namespace pitwall::replay

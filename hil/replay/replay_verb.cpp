@@ -6,12 +6,11 @@
 
 #include "hil/replay/candump_log.hpp"
 #include "hil/replay/player.hpp"
+#include "hil/replay/replay_summary.hpp"
+#include "hil/replay/socket_rim.hpp"
 #include "hil/replay/timeline.hpp"
-#include "protocol/transport/can_socket.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
-#include "protocol/transport/process.hpp"
-#include "protocol/transport/readiness.hpp"
 #include "protocol/transport/realtime.hpp"
 
 namespace pitwall::replay {
@@ -21,14 +20,18 @@ constexpr int kExitIncomplete = 1;
 constexpr int kExitRefused = 2;
 constexpr int kPriority = 50;                  // SCHED_FIFO, above everything of a desktop
 constexpr Duration kRunUp = milliseconds(20);  // from the last preparation to the first frame
-constexpr Duration kExactWait = milliseconds(5);
-constexpr int kOutput = 1, kErrors = 2;  // descriptors
+constexpr std::int64_t kMaxLate_ms = 3'600'000;
+constexpr double kMaxSeconds = 1e7;
+constexpr Duration kLongestReplay = seconds(100LL * 366 * 24 * 3'600);  // what int64 holds, thrice
+constexpr int kOutput = 1, kErrors = 2;                                 // descriptors
 constexpr unsigned kMaxPasses = 1'000'000;
 
 struct ReplayOptions {
   std::string file;
   TimelineOptions timeline;
   PlayOptions play;
+  std::optional<Duration> lead{};  // nothing: as measured
+  std::string json_file;
 };
 
 int refuse(const Problem& problem) {
@@ -37,33 +40,103 @@ int refuse(const Problem& problem) {
 }
 
 template <class T>
-bool parse_number(const std::string& text, T& out) {
+bool parse_number(std::string_view text, T& out) {
   const auto parsed = std::from_chars(text.data(), text.data() + text.size(), out);
   return parsed.ec == std::errc{} && parsed.ptr == text.data() + text.size();
 }
 
+bool take_map(ReplayOptions& out, const std::string& value) {
+  const std::size_t equals = value.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == value.size()) return false;
+  out.timeline.map.emplace_back(value.substr(0, equals), value.substr(equals + 1));
+  return true;
+}
+
+bool take_passes(ReplayOptions& out, const std::string& value) {
+  return parse_number(value, out.play.passes) && out.play.passes >= 1 &&
+         out.play.passes <= kMaxPasses;
+}
+
+// catch-up, drop:MS or abort:MS
+bool take_late(ReplayOptions& out, const std::string& value) {
+  if (value == "catch-up") return out.play.late = LatePolicy::kCatchUp, true;
+  const std::size_t colon = value.find(':');
+  const std::string policy = value.substr(0, colon);
+  if (colon == std::string::npos || (policy != "drop" && policy != "abort")) return false;
+  std::int64_t limit_ms = 0;
+  if (!parse_number(std::string_view(value).substr(colon + 1), limit_ms)) return false;
+  out.play.late = policy == "drop" ? LatePolicy::kDrop : LatePolicy::kAbort;
+  out.play.late_limit = milliseconds(limit_ms);
+  return limit_ms >= 1 && limit_ms <= kMaxLate_ms;
+}
+
+bool take_seconds(Duration& out, const std::string& value) {
+  double s = 0.0;
+  if (!parse_number(value, s) || !(s >= 0.0 && s <= kMaxSeconds)) return false;
+  out = from_seconds(s);
+  return true;
+}
+
+bool take_spin(ReplayOptions& out, const std::string& value) {
+  std::int64_t us = 0;
+  if (!parse_number(value, us) || us < 0 || us > kMaxLead.ns / 1'000) return false;
+  out.lead = microseconds(us);
+  return true;
+}
+
+bool take_id(ReplayOptions& out, const std::string& value) {
+  std::uint32_t id = 0;
+  const auto end = value.data() + value.size();
+  const auto parsed = std::from_chars(value.data(), end, id, 16);
+  if (parsed.ec != std::errc{} || parsed.ptr != end || id > can::kMaxExtendedId) return false;
+  out.timeline.ids.push_back(id);
+  return true;
+}
+
+struct OptionRow {
+  std::string_view name;
+  const char* expected;  // said when take() refuses a value
+  bool (*take)(ReplayOptions& out, const std::string& value);
+};
+
+constexpr OptionRow kOptions[] = {
+    {"--interface", "not an interface name",
+     [](ReplayOptions& out, const std::string& value) {
+       out.timeline.interface = value;
+       return !value.empty();
+     }},
+    {"--map", "expected RECORDED=INTERFACE", take_map},
+    {"--speed", "not a speed",
+     [](ReplayOptions& out, const std::string& value) {
+       return parse_number(value, out.timeline.speed);
+     }},
+    {"--loop", "not a number of passes from 1 to 1000000", take_passes},
+    {"--start", "not a number of seconds from 0 to 1e7",
+     [](ReplayOptions& out, const std::string& value) {
+       return take_seconds(out.timeline.start, value);
+     }},
+    {"--skip", "not a number of seconds from 0 to 1e7",
+     [](ReplayOptions& out, const std::string& value) {
+       return take_seconds(out.timeline.longest_gap, value);
+     }},
+    {"--id", "not an identifier in hex digits", take_id},
+    {"--late", "not catch-up, drop:MS or abort:MS with 1 to 3600000 ms", take_late},
+    {"--spin", "not a number of microseconds from 0 to 200", take_spin},
+    {"--json", "not a file name",
+     [](ReplayOptions& out, const std::string& value) {
+       out.json_file = value;
+       return !value.empty();
+     }},
+};
+
 std::optional<Problem> take_option(ReplayOptions& out, const std::string& option,
                                    const std::string& value) {
-  if (option == "--interface") {
-    out.timeline.interface = value;
-  } else if (option == "--map") {
-    const std::size_t equals = value.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == value.size())
-      return Problem{value, "expected RECORDED=INTERFACE"};
-    out.timeline.map.emplace_back(value.substr(0, equals), value.substr(equals + 1));
-  } else if (option == "--speed") {
-    if (!parse_number(value, out.timeline.speed)) return Problem{value, "not a speed"};
-  } else if (option == "--loop") {
-    if (!parse_number(value, out.play.passes) || out.play.passes == 0 ||
-        out.play.passes > kMaxPasses)
-      return Problem{value, "not a number of passes from 1 to 1000000"};
-  } else if (option == "--late") {
-    if (value != "catch-up" && value != "abort") return Problem{value, "not catch-up or abort"};
-    out.play.late = value == "abort" ? LatePolicy::kAbort : LatePolicy::kCatchUp;
-  } else {
-    return Problem{option, "unknown option"};
+  for (const OptionRow& row : kOptions) {
+    if (row.name != option) continue;
+    if (row.take(out, value)) return std::nullopt;
+    return Problem{value, row.expected};
   }
-  return std::nullopt;
+  return Problem{option, "unknown option"};
 }
 
 Result<ReplayOptions, Problem> parse_options(std::span<const std::string> args) {
@@ -82,37 +155,6 @@ Result<ReplayOptions, Problem> parse_options(std::span<const std::string> args) 
   return out;
 }
 
-// The player's rim on this machine: real clock, real sockets.
-struct SocketRim {
-  std::vector<transport::CanSocket> sockets;
-  transport::StopSignal stop;
-
-  Instant now() { return transport::monotonic_now(); }
-  // A long gap ends with a stop signal; the last stretch is the clock's exact wait.
-  void wait_until(Instant deadline) {
-    const int watched[] = {stop.fd()};
-    if (deadline - now() > 2 * kExactWait) transport::wait_readable(watched, deadline - kExactWait);
-    if (!stop.raised()) transport::sleep_until(deadline);
-  }
-  std::size_t send(std::size_t bus, std::span<const can::Frame> frames) {
-    return sockets[bus].send(frames);
-  }
-  bool stopped() { return stop.raised(); }
-};
-
-Result<std::vector<transport::CanSocket>, Problem> open_buses(const Timeline& timeline) {
-  std::vector<transport::CanSocket> out;
-  const std::vector<transport::CanFilter> nothing{
-      {.id = 0, .mask = can::kMaxExtendedId, .extended = true}};
-  for (const BusTrack& bus : timeline.buses) {
-    auto socket =
-        transport::CanSocket::open(bus.interface, {.filters = nothing, .receive_errors = false});
-    if (!socket) return Unexpected{socket.error()};
-    out.push_back(*std::move(socket));
-  }
-  return out;
-}
-
 std::string warnings(const CandumpCounters& c, const std::string& file) {
   const std::string start = file + ": warning: ";
   std::string out;
@@ -123,32 +165,35 @@ std::string warnings(const CandumpCounters& c, const std::string& file) {
     out += start + "the recorder itself lost " + std::to_string(c.recorder_drops) + " frames\n";
   if (c.error_frames > 0)
     out += start + std::to_string(c.error_frames) + " error frames are not replayed\n";
+  if (c.cut_off_lines > 0) out += start + "the last line is cut off and not replayed\n";
   return out;
 }
 
-std::string microseconds_text(Duration d) { return std::to_string(d.ns / 1'000) + " us"; }
-
-std::string summary(const PlayReport& report) {
-  const auto& late = report.lateness;
-  std::string out = "sent " + std::to_string(report.sent) + " frames in " +
-                    std::to_string(report.took.seconds()) + " s (" + std::to_string(report.calls) +
-                    " calls, " + std::to_string(report.retries) + " retries, " +
-                    std::to_string(report.dropped) + " dropped)\n";
-  if (late.count() > 0)
-    out += "lateness p50 " + microseconds_text(late.quantile(0.5)) + ", p90 " +
-           microseconds_text(late.quantile(0.9)) + ", p99 " +
-           microseconds_text(late.quantile(0.99)) + ", max " + microseconds_text(late.latest()) +
-           "\n";
-  if (report.aborted) out += "aborted: a frame was later than allowed\n";
-  if (report.stopped) out += "stopped by a signal\n";
-  return out;
+// Text and log are gone again when it returns: only what is played is locked into memory.
+Result<Timeline, Problem> load(const ReplayOptions& options) {
+  const auto text = transport::read_file(options.file);
+  if (!text) return Unexpected{text.error()};
+  const auto log = parse_candump_log(*text, options.file);
+  if (!log) return Unexpected{log.error()};
+  auto timeline = make_timeline(*log, options.timeline);
+  if (!timeline) return timeline;
+  if (timeline->pass.ns > kLongestReplay.ns / options.play.passes)
+    return Unexpected{Problem{options.file, "all passes together take more than a century"}};
+  transport::write_to(kErrors, warnings(log->counters, options.file));
+  return timeline;
 }
 
 constexpr const char* kUsage =
     "replay FILE.log [--interface IFACE] [--map RECORDED=IFACE]... [--speed X] [--loop N]\n"
-    "       [--late catch-up|abort]\n"
+    "       [--start S] [--skip S] [--id HEX]...\n"
+    "       [--late catch-up|drop:MS|abort:MS] [--spin US] [--json FILE]\n"
     "plays a candump log in real time; without --interface and --map every channel goes to the\n"
     "interface that it was recorded from\n"
+    "  --start S   leave out the first S seconds    --skip S    do not wait through longer gaps\n"
+    "  --id HEX    only these identifiers           --loop N    so many passes without a seam\n"
+    "  --late      frames later than MS: sent at once (catch-up, the default), dropped, or the "
+    "end\n"
+    "  --spin US   wake up so early and wait busily, 0 to 200; default: what sleeps are late here\n"
     "exit codes: 0 all sent, 1 frames dropped or replay ended early, 2 bad input\n";
 
 }  // namespace
@@ -157,24 +202,26 @@ int replay_verb(std::span<const std::string> args) {
   if (!args.empty() && args[0] == "--help") return transport::write_to(kOutput, kUsage) ? 0 : 2;
   const auto options = parse_options(args);
   if (!options) return refuse(options.error());
-  const auto text = transport::read_file(options->file);
-  if (!text) return refuse(text.error());
-  const auto log = parse_candump_log(*text, options->file);
-  if (!log) return refuse(log.error());
-  const auto timeline = make_timeline(*log, options->timeline);
+  const auto timeline = load(*options);
   if (!timeline) return refuse(timeline.error());
-  transport::write_to(kErrors, warnings(log->counters, options->file));
-  auto sockets = open_buses(*timeline);
-  if (!sockets) return refuse(sockets.error());
-  auto stop = transport::StopSignal::install();
-  if (!stop) return refuse(stop.error());
-  SocketRim rim{*std::move(sockets), *std::move(stop)};
+  auto rim = SocketRim::open(*timeline);
+  if (!rim) return refuse(rim.error());
+  Player player(*timeline, options->play, *rim);
   const auto realtime = transport::request_realtime(kPriority);
-  transport::write_to(kOutput, to_string(realtime) + "\n");
-  Player player(*timeline, options->play, rim);
+  const Duration lead = options->lead ? *options->lead : SocketRim::measured_lead();
+  rim->set_lead(lead);
+  transport::write_to(kOutput, to_string(realtime) + "; wakes up " +
+                                   std::to_string(lead.ns / 1'000) + " us early\n");
   const PlayReport report = player.play(transport::monotonic_now() + kRunUp);
-  transport::write_to(kOutput, summary(report));
-  return report.dropped > 0 || report.aborted || report.stopped ? kExitIncomplete : 0;
+  transport::write_to(kOutput, to_text(report, *timeline));
+  if (!rim->last_error().empty())
+    transport::write_to(kErrors, "the kernel refused frames: " + rim->last_error() + "\n");
+  if (!options->json_file.empty()) {
+    const auto written =
+        transport::write_file(options->json_file, to_json(report, *timeline, realtime));
+    if (!written) return refuse(written.error());
+  }
+  return report.dropped() > 0 || report.aborted || report.stopped ? kExitIncomplete : 0;
 }
 
 }  // namespace pitwall::replay

@@ -1,6 +1,7 @@
 // Asks the kernel for what a real-time loop wants, and says what it got.
 //   in     SCHED_FIFO priority 1..99 for the calling thread
-//   out    what was granted; the program runs on either way and the report is shown to people
+//   out    what was granted; the program runs on either way and the report is shown to people.
+//          Timers of the calling thread become exact in any case (no timer slack)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -16,6 +17,8 @@ struct RealtimeReport {
 };
 
 RealtimeReport request_realtime(int priority);
+// Back to an ordinary thread: what it may take again lies unlocked and time-shared.
+void release_realtime();
 // Only the memory lock.
 bool lock_memory();
 std::string to_string(const RealtimeReport& report);

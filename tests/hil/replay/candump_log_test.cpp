@@ -76,7 +76,12 @@ TEST(CandumpLog, TheOrderOfTheFileIsKeptWhateverTheStampsSay) {
 TEST(CandumpLog, AProblemNamesFileLineAndColumn) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"x", "1:1"},
-      {"(1.0) can0 001#\n1.0) can0 001#", "2:1"},
+      {"(1.0) can0 001#\n1.0) can0 001#\n", "2:1"},
+      {std::string("(1.0) can0 001#\0", 16) + "\n", "1:16"},
+      {std::string("(1.0) can0 001#11\n(1.0) ca\0n0 001#1\n", 37), "2:18"},
+      {"(1.0) can0 001#11\r\n(1.0) can0 001#1\r\n", "2:17"},
+      {"(1.0) can0 " + std::string(100'000, '1') + "\n", "1:20"},
+      {std::string(100'000, ' ') + "x\n", "1:1"},
       {"(a.0) can0 001#", "1:2"},
       {"(1) can0 001#", "1:3"},
       {"(1.) can0 001#", "1:4"},
@@ -113,30 +118,74 @@ TEST(CandumpLog, MoreInterfacesThanAllowedIsAProblem) {
   EXPECT_FALSE(parse_candump_log(text, "f").has_value());
 }
 
+TEST(CandumpLog, ALastLineThatIsCutOffCostsOnlyItself) {
+  const std::string whole = "(1.000000) can0 001#11\n(1.000001) can0 002##1AABBCC T";
+  for (std::size_t length = whole.find('\n') + 1; length <= whole.size(); ++length) {
+    const auto log = parse_candump_log(whole.substr(0, length), "f.log");
+    ASSERT_TRUE(log.has_value()) << length;
+    ASSERT_EQ(log->frames[0].frame.id, 1U);
+    const bool is_last_there = log->frames.size() == 2;
+    const bool is_empty = length == whole.find('\n') + 1;
+    EXPECT_EQ(log->counters.cut_off_lines, is_last_there || is_empty ? 0U : 1U) << length;
+  }
+  EXPECT_EQ(parse(whole).frames.size(), 2U);  // a missing line end alone is no damage
+  // With a line end it was written like that; and what has no frame at all is no log.
+  EXPECT_FALSE(parse_candump_log("(1.0) can0 001#11\n(1.0) can\n", "f").has_value());
+  EXPECT_FALSE(parse_candump_log("(1.0) can", "f").has_value());
+}
+
+TEST(CandumpLog, ThousandsOfEqualStampsKeepTheirOrder) {
+  std::string text;
+  for (int i = 0; i < 5'000; ++i) {
+    char line[64];
+    std::snprintf(line, sizeof line, "(7.000000) can0 %08X#\n", static_cast<unsigned>(i));
+    text += line;
+  }
+  const auto log = parse(text);
+  ASSERT_EQ(log.frames.size(), 5'000U);
+  for (std::uint32_t i = 0; i < 5'000; ++i) ASSERT_EQ(log.frames[i].frame.id, i);
+  EXPECT_EQ(log.counters.backward_stamps, 0U);
+}
+
+LoggedFrame any_frame(std::mt19937_64& random) {
+  constexpr std::uint8_t kFdLengths[] = {0, 5, 8, 12, 16, 20, 24, 32, 48, 64};
+  LoggedFrame f;
+  f.at = {static_cast<std::int64_t>(random() % 9'000'000'000U) * kNanosecondsPerSecond +
+          static_cast<std::int64_t>(random() % 1'000'000'000U)};
+  if (random() % 2 == 0) f.at.ns -= f.at.ns % 1'000;
+  f.frame.extended = random() % 2 == 0;
+  f.frame.fd = random() % 3 == 0;
+  f.frame.remote = !f.frame.fd && random() % 4 == 0;
+  f.fd_flags = f.frame.fd ? static_cast<std::uint8_t>(random() % 16) : std::uint8_t{0};
+  f.frame.id = static_cast<std::uint32_t>(random()) &
+               (f.frame.extended ? can::kMaxExtendedId : can::kMaxStandardId);
+  f.frame.length = f.frame.fd ? kFdLengths[random() % 10] : static_cast<std::uint8_t>(random() % 9);
+  if (!f.frame.remote)
+    for (std::size_t k = 0; k < f.frame.length; ++k)
+      f.frame.data[k] = static_cast<std::uint8_t>(random());
+  f.channel = static_cast<std::uint8_t>(random() % 3);
+  f.direction = static_cast<LoggedDirection>(random() % 3);
+  return f;
+}
+
 TEST(CandumpLog, WrittenAndReadIsIdentity) {
   std::mt19937_64 random(21);
-  constexpr std::uint8_t kFdLengths[] = {0, 5, 8, 12, 16, 20, 24, 32, 48, 64};
-  for (int i = 0; i < 20'000; ++i) {
-    LoggedFrame f;
-    f.at = {static_cast<std::int64_t>(random() % 4'000'000'000U) * kNanosecondsPerSecond +
-            static_cast<std::int64_t>(random() % 1'000'000) * 1'000};
-    f.frame.extended = random() % 2 == 0;
-    f.frame.fd = random() % 3 == 0;
-    f.frame.remote = !f.frame.fd && random() % 4 == 0;
-    f.fd_flags = f.frame.fd ? static_cast<std::uint8_t>(random() % 16) : std::uint8_t{0};
-    f.frame.id = static_cast<std::uint32_t>(random()) &
-                 (f.frame.extended ? can::kMaxExtendedId : can::kMaxStandardId);
-    f.frame.length =
-        f.frame.fd ? kFdLengths[random() % 10] : static_cast<std::uint8_t>(random() % 9);
-    if (!f.frame.remote)
-      for (std::size_t k = 0; k < f.frame.length; ++k)
-        f.frame.data[k] = static_cast<std::uint8_t>(random());
-    const std::string line = to_candump_line(f, "can0");
-    const auto log = parse(line + "\n");
-    ASSERT_EQ(log.frames.size(), 1U) << line;
-    ASSERT_EQ(log.frames[0].frame, f.frame) << line;
-    ASSERT_EQ(log.frames[0].at, f.at) << line;
-    ASSERT_EQ(log.frames[0].fd_flags, f.fd_flags) << line;
+  for (const std::string line_end : {"\n", "\r\n"}) {
+    CandumpLog wanted;
+    wanted.channels = {"can0", "vcan_1", "x"};
+    std::string text;
+    for (std::size_t i = 0; i < 10'000; ++i) {
+      LoggedFrame f = any_frame(random);
+      if (i < 3) f.channel = static_cast<std::uint8_t>(i);
+      wanted.frames.push_back(f);
+      text += to_candump_line(f, wanted.channels[f.channel]) + line_end;
+    }
+    const auto log = parse(text);
+    EXPECT_EQ(log.channels, wanted.channels);
+    ASSERT_EQ(log.frames.size(), wanted.frames.size());
+    for (std::size_t i = 0; i < wanted.frames.size(); ++i)
+      ASSERT_EQ(log.frames[i], wanted.frames[i])
+          << to_candump_line(wanted.frames[i], wanted.channels[wanted.frames[i].channel]);
   }
 }
 

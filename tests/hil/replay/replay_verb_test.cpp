@@ -43,7 +43,14 @@ TEST_F(ReplayVerb, WrongUsageIsNamed) {
   EXPECT_TRUE(errors_of({good_, "--speed", "0"}).starts_with("speed: error: "));
   EXPECT_TRUE(errors_of({good_, "--speed"}).starts_with("--speed: error: "));
   EXPECT_TRUE(errors_of({good_, "--loop", "0"}).starts_with("0: error: "));
-  EXPECT_TRUE(errors_of({good_, "--late", "never"}).starts_with("never: error: "));
+  for (const char* late : {"never", "abort", "drop", "drop:", "drop:0", "drop:x", "catch-up:5"})
+    EXPECT_TRUE(errors_of({good_, "--late", late}).starts_with(std::string(late) + ": error: "));
+  EXPECT_TRUE(errors_of({good_, "--spin", "201"}).starts_with("201: error: "));
+  EXPECT_TRUE(errors_of({good_, "--spin", "-1"}).starts_with("-1: error: "));
+  EXPECT_TRUE(errors_of({good_, "--id", "20000000"}).starts_with("20000000: error: "));
+  EXPECT_TRUE(errors_of({good_, "--id", "xyz"}).starts_with("xyz: error: "));
+  EXPECT_TRUE(errors_of({good_, "--start", "-1"}).starts_with("-1: error: "));
+  EXPECT_TRUE(errors_of({good_, "--skip", "nan"}).starts_with("nan: error: "));
   EXPECT_TRUE(errors_of({good_, "--map", "can0"}).starts_with("can0: error: "));
   EXPECT_TRUE(errors_of({good_, "--map", "can7=vcan0"}).starts_with("can7: error: "));
   EXPECT_TRUE(errors_of({good_, "--what", "1"}).starts_with("--what: error: "));

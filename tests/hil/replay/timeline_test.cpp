@@ -67,6 +67,36 @@ TEST(Timeline, WhatCannotBePlayedIsAProblem) {
   EXPECT_EQ(unknown.error().place, "can9");
 }
 
+TEST(Timeline, WhatIsLeftOutTakesNoTime) {
+  // Frames at 0, 1, 2 s, then a gap of an hour, then 1 s more.
+  const auto log =
+      log_of({{0, 0}, {1'000'000, 0}, {2'000'000, 1}, {3'602'000'000, 0}, {3'603'000'000, 0}});
+  const auto late = make_timeline(log, {.interface = "v", .start = milliseconds(1'500)});
+  ASSERT_TRUE(late.has_value());
+  EXPECT_EQ(late->frames, 3U);
+  EXPECT_EQ(late->buses[0].due[0], Duration{});  // it begins with its first frame
+  EXPECT_EQ(late->buses[0].due[1], seconds(3'600));
+  const auto skipped = make_timeline(log, {.interface = "v", .longest_gap = seconds(10)});
+  ASSERT_TRUE(skipped.has_value());
+  EXPECT_EQ(skipped->buses[0].due,
+            (std::vector<Duration>{{}, seconds(1), seconds(2), seconds(2), seconds(3)}));
+  const auto chosen = make_timeline(log, {.interface = "v", .ids = {1, 3}});
+  ASSERT_TRUE(chosen.has_value());
+  ASSERT_EQ(chosen->frames, 2U);
+  EXPECT_EQ(chosen->buses[0].frames[1].id, 3U);
+  EXPECT_EQ(chosen->buses[0].due[1], seconds(3'601));
+  EXPECT_FALSE(make_timeline(log, {.ids = {77}}).has_value());
+  EXPECT_FALSE(make_timeline(log, {.start = seconds(4'000)}).has_value());
+}
+
+TEST(Timeline, APassLongerThanAYearIsAProblemUnlessItsGapIsSkipped) {
+  CandumpLog log = log_of({{0, 0}, {1, 0}});
+  log.frames[0].at = {};  // the recorder's clock was not set yet
+  EXPECT_FALSE(make_timeline(log, {}).has_value());
+  EXPECT_TRUE(make_timeline(log, {.longest_gap = seconds(60)}).has_value());
+  EXPECT_TRUE(make_timeline(log, {.speed = 1'000.0}).has_value());
+}
+
 TEST(Timeline, OneFrameIsATimeline) {
   const auto t = make_timeline(log_of({{7, 0}}), {});
   ASSERT_TRUE(t.has_value());

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/replay/player.hpp"
+#include "hil/replay/lateness_histogram.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pitwall::replay {
 
-void LatenessHistogram::add(Duration lateness, std::uint64_t frames) {
+void LatenessHistogram::add(Duration lateness) {
   const std::int64_t cell_us = std::max<std::int64_t>(lateness.ns, 0) / 1'000;
-  cells_[std::min(static_cast<std::size_t>(cell_us), kCells)] += frames;
-  count_ += frames;
+  ++cells_[std::min(static_cast<std::size_t>(cell_us), kCells)];
+  ++count_;
   latest_ = std::max(latest_, lateness);
   earliest_ = std::min(earliest_, lateness);
 }

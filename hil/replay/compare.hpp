@@ -1,0 +1,47 @@
+// What arrived on a bus against the log that was played: complete, in order, at which times.
+//   in     frames of the log; frames as a recorder saw them, with the kernel's stamps
+//   out    counts of lost and extra frames, whether the sequence is that of the log, and errors:
+//            lateness   arrival minus (zero + stamp of the log since its first one), where zero is
+//                       whatever makes the least lateness of the run 0: no player is charged for
+//                       its start-up, or for a delay that is always the same
+//            gap error  |gap between two arrivals - gap between their stamps|, in order of the log
+//   units  microseconds
+//   law    a stamp that goes back counts as the latest one before it, as for the player
+//   errors errors are absent where the sequence is not that of the log: nothing to compare
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hil/replay/candump_log.hpp"
+#include "protocol/can/frame.hpp"
+
+namespace pitwall::replay {
+
+struct Quantiles {
+  double p50_us = 0.0, p90_us = 0.0, p99_us = 0.0, max_us = 0.0;
+};
+
+// Of the sorted samples: the smallest one that the share is not above. Zeros for no samples.
+Quantiles quantiles_of(std::vector<Duration> samples);
+// Of each quantile on its own, the middle one; the mean of the two middle ones of an even number.
+Quantiles median_of(std::span<const Quantiles> runs);
+
+struct TimingErrors {
+  Quantiles lateness, gap;
+};
+
+struct Comparison {
+  std::uint64_t wanted = 0, arrived = 0, lost = 0, extra = 0;
+  bool in_order = false;  // the whole sequence, frame by frame
+  std::optional<TimingErrors> timing{};
+
+  bool complete() const { return lost == 0 && extra == 0; }
+};
+
+Comparison compare(std::span<const LoggedFrame> log, std::span<const can::ReceivedFrame> arrived);
+
+}  // namespace pitwall::replay

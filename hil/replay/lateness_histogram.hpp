@@ -1,0 +1,33 @@
+// How late frames were, by the microsecond, in a fixed amount of memory.
+//   in     lateness of one frame at a time; what is early counts as on time
+//   out    quantiles (upper edge of a cell), latest and earliest exactly
+//   units  Duration; cells of 1 us up to 20 ms, later ones are kept as a maximum only
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::replay {
+
+class LatenessHistogram {
+ public:
+  static constexpr std::size_t kCells = 20'000;
+  void add(Duration lateness);
+  // Upper edge of the cell that holds the given share of frames (0 < share <= 1).
+  Duration quantile(double share) const;
+  Duration latest() const { return latest_; }
+  Duration earliest() const { return earliest_; }
+  std::uint64_t count() const { return count_; }
+
+ private:
+  std::vector<std::uint64_t> cells_ = std::vector<std::uint64_t>(kCells + 1);
+  std::uint64_t count_ = 0;
+  Duration latest_{INT64_MIN};
+  Duration earliest_{INT64_MAX};
+};
+
+}  // namespace pitwall::replay

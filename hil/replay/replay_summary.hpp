@@ -1,0 +1,20 @@
+// What a replay says when it is over, for people and for programs.
+//   in     the report of the player, the timeline that was played, what the kernel granted
+//   out    a few lines of text, or one JSON object
+//   units  microseconds in both
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "hil/replay/player.hpp"
+#include "hil/replay/timeline.hpp"
+#include "protocol/transport/realtime.hpp"
+
+namespace pitwall::replay {
+
+std::string to_text(const PlayReport& report, const Timeline& timeline);
+std::string to_json(const PlayReport& report, const Timeline& timeline,
+                    const transport::RealtimeReport& realtime);
+
+}  // namespace pitwall::replay

@@ -1,0 +1,25 @@
+// A log to play that needs no car: what the race car's CAN bus carries, bit by bit on a wire of
+// 1 Mbit/s, as a recorder would have stamped it. The same on every machine.
+//
+//   drive-by-wire   reports at the cadence of the database, all of one tick back to back
+//   computer        its eight commands every 10 ms, in one burst
+//   calibration     a measurement tool's stream on 29-bit identifiers: 8 frames every 10 ms
+//   stamps          end of frame plus what an interrupt takes; whole microseconds
+//
+//   in     length of the log
+//   out    about 2,500 frames a second, 32 % load; payloads are counters and noise, no physics
+//   source protocol/can/dbc/av21.dbc for identifiers, lengths, periods; hil/bus for the wire
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "hil/replay/candump_log.hpp"
+
+namespace pitwall::replay {
+
+CandumpLog sample_log(Duration length);
+// As candump -l writes it.
+std::string to_candump(const CandumpLog& log);
+
+}  // namespace pitwall::replay

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/replay/socket_rim.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "protocol/transport/clock.hpp"
+#include "protocol/transport/readiness.hpp"
+
+namespace pitwall::replay {
+namespace {
+
+constexpr Duration kIdle = milliseconds(10);           // a longer wait ends with a signal
+constexpr Duration kExactWait = milliseconds(5);       // the last stretch of it, by the clock
+constexpr Duration kSignalPeriod = milliseconds(100);  // a busy replay looks that often
+constexpr std::size_t kSamples = 64;
+constexpr std::size_t kUsual = kSamples * 9 / 10;
+constexpr Duration kSampleSleep = microseconds(600);
+
+}  // namespace
+
+Result<SocketRim, Problem> SocketRim::open(const Timeline& timeline) {
+  std::vector<Bus> buses;
+  for (const BusTrack& bus : timeline.buses) {
+    auto sender = transport::CanSender::open(bus.interface);
+    if (!sender) return Unexpected{sender.error()};
+    auto frames = transport::PreparedFrames::make(bus.frames, bus.fd_flags);
+    if (!frames) return Unexpected{frames.error()};
+    buses.push_back({*std::move(sender), *std::move(frames)});
+  }
+  auto stop = transport::StopSignal::install();
+  if (!stop) return Unexpected{stop.error()};
+  return SocketRim{std::move(buses), *std::move(stop)};
+}
+
+Duration SocketRim::measured_lead() {
+  std::array<Duration, kSamples> late{};
+  for (Duration& sample : late) {
+    const Instant deadline = transport::monotonic_now() + kSampleSleep;
+    transport::sleep_until(deadline);
+    sample = transport::monotonic_now() - deadline;
+  }
+  std::nth_element(late.begin(), late.begin() + kUsual, late.end());
+  return std::min(late[kUsual], kMaxLead);
+}
+
+void SocketRim::set_lead(Duration lead) {
+  lead_ = lead;
+  const Instant begin = transport::monotonic_now();
+  for (std::size_t i = 0; i < kSamples; ++i) static_cast<void>(transport::monotonic_now());
+  half_look_ = (transport::monotonic_now() - begin) / (2 * static_cast<std::int64_t>(kSamples));
+  half_look_ = std::min(half_look_, kGroup / 2);
+}
+
+Instant SocketRim::now() { return read_ = transport::monotonic_now(); }
+
+void SocketRim::look_for_signals(Instant deadline) {
+  const bool idle = deadline - read_ > kIdle;
+  if (!idle && deadline - looked_ <= kSignalPeriod) return;
+  const int watched[] = {stop_.fd()};
+  if (idle) transport::wait_readable(watched, deadline - kExactWait);
+  stopped_ = stop_.raised();
+  looked_ = deadline;
+}
+
+void SocketRim::wait_until(Instant deadline) {
+  look_for_signals(deadline);
+  if (stopped_) return;
+  if (lead_.ns == 0) return transport::sleep_until(deadline);
+  if (deadline - read_ > lead_) transport::sleep_until(deadline - lead_);
+  // The look that comes nearest to the deadline is the last one.
+  while (now() < deadline - half_look_) {
+  }
+}
+
+BusOutcome SocketRim::send(std::size_t bus, std::size_t first, std::size_t count) {
+  const auto outcome = buses_[bus].sender.send(buses_[bus].frames, first, count);
+  if (outcome.error != 0 && !outcome.full()) last_error_ = outcome.error;
+  return {.taken = outcome.taken, .full = outcome.full()};
+}
+
+std::string SocketRim::last_error() const {
+  if (last_error_ == 0) return {};
+  return transport::PosixOutcome{.value = -1, .error = last_error_}.reason();
+}
+
+}  // namespace pitwall::replay

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Any text is a log or an error with a place; a log that is written again reads the same; what can
+// be played is played whole, in virtual time, without a step back.
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "hil/replay/candump_log.hpp"
+#include "hil/replay/player.hpp"
+#include "hil/replay/timeline.hpp"
+#include "protocol/vocabulary/check.hpp"
+
+namespace {
+
+using namespace pitwall;
+using namespace pitwall::replay;
+
+struct VirtualRim {
+  Instant time{};
+  std::uint64_t sent = 0;
+
+  Instant now() const { return time; }
+  void wait_until(Instant deadline) {
+    CHECK(deadline > time);
+    time = deadline;
+  }
+  BusOutcome send(std::size_t, std::size_t, std::size_t count) {
+    sent += count;
+    return {.taken = count};
+  }
+  static bool stopped() { return false; }
+};
+
+void check_round_trip(const CandumpLog& log) {
+  std::string text;
+  for (const LoggedFrame& logged : log.frames)
+    text += to_candump_line(logged, log.channels[logged.channel]) + "\n";
+  const auto again = parse_candump_log(text, "again");
+  CHECK(again.has_value() && again->frames.size() == log.frames.size());
+  for (std::size_t i = 0; i < log.frames.size(); ++i) {
+    LoggedFrame read = again->frames[i];
+    CHECK(again->channels[read.channel] == log.channels[log.frames[i].channel]);
+    read.channel = log.frames[i].channel;  // channels of skipped lines shift the numbers
+    CHECK(read == log.frames[i]);
+  }
+}
+
+void play(const CandumpLog& log, const TimelineOptions& options, LatePolicy late) {
+  const auto timeline = make_timeline(log, options);
+  if (!timeline) {
+    CHECK(!timeline.error().what.empty());
+    return;
+  }
+  std::uint64_t frames = 0;
+  for (const BusTrack& bus : timeline->buses) {
+    CHECK(!bus.frames.empty() && bus.due.size() == bus.frames.size());
+    for (std::size_t i = 1; i < bus.due.size(); ++i) CHECK(bus.due[i] >= bus.due[i - 1]);
+    CHECK(bus.due.front() >= Duration{} && bus.due.back() <= timeline->pass);
+    frames += bus.frames.size();
+  }
+  CHECK(frames == timeline->frames);
+  VirtualRim rim;
+  const PlayReport report = Player(*timeline, {.passes = 2, .late = late}, rim).play({});
+  CHECK(report.sent == 2 * frames && rim.sent == report.sent && report.dropped() == 0);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  const std::string_view text{reinterpret_cast<const char*>(bytes), size};
+  const auto log = parse_candump_log(text, "f.log");
+  if (!log) {
+    CHECK(log.error().place.starts_with("f.log:"));
+    return 0;
+  }
+  check_round_trip(*log);
+  play(*log, {}, LatePolicy::kCatchUp);
+  play(*log, {.speed = 1e-3, .interface = "v", .longest_gap = seconds(5)}, LatePolicy::kDrop);
+  play(*log, {.speed = 1e6, .interface = "v", .start = milliseconds(1)}, LatePolicy::kAbort);
+  return 0;
+}
