@@ -68,7 +68,7 @@ Advance by_counter(const MessageMonitor& m, std::uint32_t value, std::uint32_t s
   std::uint32_t steps = steps_by_counter(m, value, time);
   if (steps == 0) {
     Advance told = by_time(time);
-    told.is_jump = value > kLastRestart && m.unread + m.behind + time < value;
+    told.is_jump = m.unread + m.behind + time < value;
     return told;
   }
   // Frames that could not be read were sends, unless the sender stood still meanwhile.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "protocol/can/encode.hpp"
+#include "protocol/can/integrity_bench.hpp"
 #include "protocol/can/message_monitor.hpp"
 #include "tests/protocol/can/bus_story.hpp"
 #include "tests/support/integrity_bus.hpp"
@@ -108,6 +109,56 @@ void expect_the_truth(const Bus& bus, int sends) {
     }
     EXPECT_EQ(blame, tally.lost) << row.name;
   }
+}
+
+// The generated table is a constant of the program, rules included.
+constexpr const MessageRow& generated(std::uint32_t id) {
+  std::size_t i = 0;
+  while (integrity_bench::kMessages[i].id != id) ++i;
+  return integrity_bench::kMessages[i];
+}
+static_assert(generated(256).protection.profile == Protection::kNone);
+static_assert(generated(289).protection.data_id_mode == DataIdMode::kAlternating);
+static_assert(generated(291).protection.nibble_start == 12);
+static_assert(generated(304).protection.data_ids[1] == 82);
+static_assert(generated(321).protection.length == 64);
+
+TEST(IntegrityBench, TheGeneratedRowsAreThoseOfTheFiles) {
+  Bus bus{.database = load(kSource / "protocol/can/dbc/integrity_bench.dbc"),
+          .manifest = {},
+          .table = {}};
+  join(bus, text_of(kSource / "protocol/can/dbc/integrity_bench.manifest.yaml"), "bench.yaml");
+  ASSERT_EQ(integrity_bench::kMessages.size(), bus.table.size());
+  for (std::size_t i = 0; i < bus.table.size(); ++i) {
+    const MessageRow &a = integrity_bench::kMessages[i], &b = bus.table[i];
+    EXPECT_EQ(a.protection, b.protection) << b.name;
+    EXPECT_EQ(a.id, b.id);
+    EXPECT_EQ(a.counter_start, b.counter_start) << b.name;
+    EXPECT_EQ(a.counter_bits, b.counter_bits) << b.name;
+  }
+}
+
+TEST(IntegrityBench, GeneratedStructsSpeakCanFd) {
+  integrity_bench::WheelsP05Fd sent;
+  sent.p05_fd_crc = sent.p05_fd_counter = 0;
+  sent.p05_fd_left = 71.234;
+  sent.p05_fd_right = -3.001;
+  Frame frame;
+  EncodeCounters counters;
+  ASSERT_TRUE(integrity_bench::encode(sent, frame, counters));
+  EXPECT_TRUE(frame.fd);
+  ProtectState state{200};
+  protect(generated(321).protection, state, frame);
+  EXPECT_EQ(check(generated(321).protection, frame), FrameCheck::kOk);
+  integrity_bench::WheelsP05Fd heard;
+  ASSERT_TRUE(integrity_bench::decode(frame, heard));
+  EXPECT_EQ(heard.p05_fd_counter, 200.0);
+  EXPECT_NEAR(heard.p05_fd_left, 71.234, 1e-9);
+  EXPECT_NEAR(heard.p05_fd_right, -3.001, 1e-9);
+  frame.fd = false;
+  EXPECT_FALSE(integrity_bench::decode(frame, heard));
+  sent.p05_fd_left = kUnset;
+  EXPECT_FALSE(integrity_bench::encode(sent, frame, counters));
 }
 
 TEST(IntegrityBench, EveryLossAndEveryFlipIsFound) {

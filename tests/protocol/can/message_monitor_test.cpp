@@ -306,6 +306,139 @@ TEST_F(MonitorAlone, AFullLogCountsWhatItCannotList) {
   EXPECT_EQ(log.unlisted, 99U - LossLog::kMax);
 }
 
+TEST_F(MonitorAlone, OverdueIsLaterThanTheSlackNotAtIt) {
+  hear(0, 3);
+  watch({&row, 1}, {&monitor, 1}, Instant{} + microseconds(15'000), log);
+  EXPECT_EQ(log.count, 0U);
+  watch({&row, 1}, {&monitor, 1}, Instant{} + microseconds(15'000) + nanoseconds(1), log);
+  EXPECT_EQ(log.count, 1U);
+  watch({&row, 1}, {&monitor, 1}, Instant{} + microseconds(25'000), log);
+  EXPECT_EQ(log.count, 1U);
+  log.clear();
+  monitor = {};
+  row.timeout = {};
+  hear(0, 3);
+  look(200);
+  EXPECT_EQ(reported(), 1U) << "the first one is always named";
+}
+
+TEST_F(MonitorAlone, OfTheStepsOfACycleTheNearestToTheTimeIsTaken) {
+  const CounterCycle eight{.top = 7, .bottom = 0, .seen = CounterCycle::kKnown};
+  hear(0, 2);
+  monitor.cycle = eight;
+  EXPECT_EQ(hear(80'000, 2), FrameVerdict::kGood) << "all of a cycle is lost, none is repeated";
+  EXPECT_EQ(monitor.lost, 7U);
+  hear(200'000, 7);  // 5 or 13 steps in 12 periods
+  EXPECT_EQ(monitor.lost, 7U + 12U);
+  for (int i = 1; i <= 9; ++i) hear(200'000 + 10'000 * i, 7);
+  hear(300'000, 1);  // ten steps on, of which nine could not be read
+  EXPECT_EQ(monitor.lost, 7U + 12U);
+  EXPECT_TRUE(monitor.cycle.is_known());
+  monitor = {};
+  hear(0, 5);
+  hear(90'000, 6);  // unknown cycle, and nine periods: it went round
+  EXPECT_EQ(monitor.lost, 8U);
+}
+
+TEST_F(MonitorAlone, ASenderThatRestedAndLostFramesIsBelieved) {
+  hear(0, 30);
+  hear(10'000, 30);
+  hear(20'000, 30);
+  hear(60'000, 34);
+  EXPECT_EQ(monitor.lost, 3U);
+}
+
+TEST_F(MonitorAlone, LossesWithinABurstAreFound) {
+  hear(0, 40);
+  hear(200'000, 41);  // a pause, then all of it at once
+  hear(200'100, 52);  // ten of them did not come through
+  EXPECT_EQ(monitor.debt, 0);
+  hear(200'200, 53);
+  EXPECT_EQ(monitor.lost, 10U);
+  EXPECT_EQ(monitor.debt, 0);
+  hear(200'300, 3);  // an unknown cycle ends in the burst
+  EXPECT_EQ(monitor.debt, 0);
+  EXPECT_EQ(monitor.lost, 10U);
+}
+
+TEST_F(MonitorAlone, ALateFrameAfterZeroIsLateToo) {
+  hear(0, 0);
+  look(20);
+  hear(22'000, 1);
+  EXPECT_EQ(monitor.lost, 0U);
+  EXPECT_EQ(monitor.late, 1U);
+}
+
+TEST_F(MonitorAlone, OnlyWrapsWithoutLossOrRestTeachTheCycle) {
+  std::int64_t t_us = 0;
+  for (int round = 0; round < 4; ++round) {
+    for (std::uint32_t c = 0; c <= 6; ++c) hear(t_us += 10'000, c);
+    t_us += 10'000;  // 7 is lost
+  }
+  EXPECT_FALSE(monitor.cycle.is_known());
+  EXPECT_EQ(monitor.lost, 3U);
+  monitor = {};
+  for (int round = 0; round < 4; ++round) {
+    for (std::uint32_t c = 0; c <= 6; ++c) hear(t_us += 10'000, c);
+    hear(t_us += 10'000, 6);  // 7 has come as 6
+  }
+  EXPECT_FALSE(monitor.cycle.is_known());
+  monitor = {};
+  for (int round = 0; round < 3; ++round) {
+    for (std::uint32_t c = 0; c <= 7; ++c) hear(t_us += 10'000, c);
+  }
+  for (std::uint32_t c = 0; c <= 6; ++c) hear(t_us += 10'000, c);
+  hear(t_us += 14'000, 0);  // early, and 7 is lost
+  EXPECT_TRUE(monitor.cycle.is_known());
+  EXPECT_EQ(monitor.lost, 1U);
+}
+
+class MonitorProtected : public MonitorAlone {
+ protected:
+  MonitorProtected() {
+    row.protection = {.profile = Protection::kP01,
+                      .length = 8,
+                      .counter_start = 8,
+                      .counter_bits = 4,
+                      .data_id = 0x123};
+    row.counter_bits = 4;
+  }
+  FrameVerdict hear_protected(std::int64_t at_us, std::uint32_t counter, bool is_damaged = false) {
+    Frame frame = frame_of(row, 0);
+    ProtectState state{counter};
+    protect(row.protection, state, frame);
+    if (is_damaged) frame.data[5] ^= 0x10U;
+    return judge(row, rules, monitor, {frame, Instant{} + microseconds(at_us)}, log);
+  }
+};
+
+TEST_F(MonitorProtected, TheProfileFixesTheCycle) {
+  hear_protected(0, 13);
+  hear_protected(14'000, 0);  // 14 is lost; by time alone nothing is
+  EXPECT_EQ(monitor.lost, 1U);
+  for (const std::int64_t t_us : {20'000, 30'000}) {
+    hear_protected(t_us, 7);
+    hear_protected(t_us + 5'000, 0);  // restarts teach nothing
+  }
+  EXPECT_EQ(monitor.cycle.length(), 15U);
+  EXPECT_TRUE(monitor.cycle.is_known());
+}
+
+TEST_F(MonitorProtected, ADamagedFrameCameAndAForgedOneDidNot) {
+  hear_protected(0, 1);
+  EXPECT_EQ(hear_protected(4'000, 9, true), FrameVerdict::kWrongChecksum);
+  look(16);
+  EXPECT_EQ(monitor.lost, 1U) << "the forged one has not moved what is due at 10 ms";
+  monitor = {};
+  for (std::uint32_t i = 0; i < 10; ++i) {
+    const FrameVerdict verdict = hear_protected(10'000 * i, i, i > 0);
+    EXPECT_EQ(verdict, i > 0 ? FrameVerdict::kWrongChecksum : FrameVerdict::kGood);
+    EXPECT_EQ(monitor.debt, i);
+  }
+  EXPECT_EQ(hear_protected(100'000, 10), FrameVerdict::kJumpedCounter) << "not trusted at once";
+  EXPECT_EQ(monitor.lost, 0U);
+}
+
 TEST(MessageMonitor, ReadsTheCounterOfEveryGeneratedRow) {
   for (const MessageRow& row : av21::kMessages) {
     if (!row.has_counter) continue;
