@@ -2,7 +2,9 @@
 #include "basestation/outlets/text_view.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <optional>
 #include <vector>
 
 #include "basestation/outlets/value_text.hpp"
@@ -15,7 +17,7 @@ using picture::Quality;
 constexpr std::size_t kColumnWidth = 72, kValueWidth = 26;
 constexpr const char *kHome = "\x1b[H", *kClearLine = "\x1b[K", *kClearRest = "\x1b[J";
 constexpr const char *kDim = "\x1b[2m", *kBold = "\x1b[1m", *kYellow = "\x1b[33m",
-                     *kInverse = "\x1b[7m", *kPlain = "\x1b[0m";
+                     *kRed = "\x1b[1;31m", *kInverse = "\x1b[7m", *kPlain = "\x1b[0m";
 
 struct Line {
   std::string text;
@@ -85,6 +87,32 @@ Line source_line(const picture::Picture& picture) {
   return {"PITWALL   REAL CAR", kBold};
 }
 
+// Whether the car's CAN bus is that of its database; nothing until the car has said so.
+std::optional<Line> bus_line(const picture::Picture& picture, Instant now) {
+  const auto value = [&](telemetry::FieldIndex field) {
+    const double said = picture.view(field, now).value;
+    return std::isnan(said) ? 0.0 : said;
+  };
+  const picture::FieldView identity = picture.view(telemetry::field("bus.identity"), now);
+  if (identity.quality == Quality::kNever || std::isnan(identity.value)) return std::nullopt;
+  char text[160];
+  const auto database = static_cast<std::uint32_t>(value(telemetry::field("bus.database")));
+  const double id = value(telemetry::field("bus.differing_id"));
+  switch (static_cast<int>(identity.value)) {
+    case 1:
+      std::snprintf(text, sizeof text, "CAN bus   as in the car's database %08x", database);
+      return Line{text, ""};
+    case 2:
+      std::snprintf(text, sizeof text,
+                    "CAN bus   WRONG: id %.0f is not as in the car's database %08x; will not arm",
+                    id, database);
+      return Line{text, kRed};
+    default:
+      std::snprintf(text, sizeof text, "CAN bus   listening, the car's database is %08x", database);
+      return Line{text, kYellow};
+  }
+}
+
 std::string link_text(const intake::IntakeCounters& counters, const intake::LinkStats& link,
                       Instant now) {
   if (!link.ever()) return "link      nothing heard";
@@ -122,7 +150,10 @@ std::string text_view(const picture::Picture& picture, const intake::IntakeCount
   std::string screen = options.ansi ? kHome : "";
   screen += styled(source_line(picture), 2 * kColumnWidth, options.ansi) + end;
   screen += link_text(counters, link, now) + end;
-  screen += refused_text(counters) + end + end;
+  screen += refused_text(counters) + end;
+  if (const auto bus = bus_line(picture, now))
+    screen += styled(*bus, 2 * kColumnWidth, options.ansi) + end;
+  screen += end;
 
   const std::vector<Line> lines = field_lines(picture, now);
   const std::size_t rows = left_column_rows(lines);

@@ -49,6 +49,30 @@ void drive(Base& base) {
   }
 }
 
+TEST(TextView, SaysWhetherTheBusIsThatOfTheDatabase) {
+  Base base;
+  drive(base);
+  EXPECT_EQ(base.screen({milliseconds(1'000).ns}).find("CAN bus "), std::string::npos)
+      << "not said";
+  auto& p = base.car.packet;
+  p.age_of(Group::kBus) = milliseconds(4);
+  p.values[field("bus.database")] = 0x01234567;
+  const std::pair<int, const char*> lines[] = {
+      {0, "CAN bus   listening, the car's database is 01234567"},
+      {1, "CAN bus   as in the car's database 01234567"},
+      {2, "CAN bus   WRONG: id 1250 is not as in the car's database 01234567; will not arm"}};
+  std::uint32_t sequence = 50;
+  for (const auto& [identity, text] : lines) {
+    p.values[field("bus.identity")] = identity;
+    p.values[field("bus.differing_id")] = 1250;
+    const Instant now{milliseconds(20 * sequence).ns};
+    base.hear(sequence++, now);
+    EXPECT_NE(base.screen(now).find(text), std::string::npos) << base.screen(now);
+    const bool red = base.screen(now, true).find("\x1b[1;31mCAN bus") != std::string::npos;
+    EXPECT_EQ(red, identity == 2);
+  }
+}
+
 TEST(TextView, Golden) {
   Base base;
   drive(base);
