@@ -4,15 +4,21 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 
 #include "protocol/can/decode.hpp"
 #include "tests/protocol/can/dbc_files.hpp"
+#include "tests/protocol/can/oracle_payloads.hpp"
 
 namespace pitwall::can {
 namespace {
 
-constexpr int kPayloads = 100'000;
+constexpr std::uint64_t kPayloads = 100'000;
+// A long run takes so many for each payload that it asks of the slow canmatrix.
+constexpr std::uint64_t kFaster = 100;
+
+std::uint64_t payloads() { return std::max(kPayloads, kFaster * oracle_payloads(0)); }
 
 // Calls fn with a value of every generated struct.
 template <class Fn>
@@ -27,7 +33,7 @@ bool same_bits(double a, double b) {
 template <class X>
 void expect_equal_decoding(const Message& m, Noise& noise) {
   std::vector<double> values(m.signals.size());
-  for (int i = 0; i < kPayloads; ++i) {
+  for (std::uint64_t i = 0, count = payloads(); i < count; ++i) {
     const Frame f = random_frame(m, noise);
     X x;
     ASSERT_TRUE(av21::decode(f, x));
@@ -41,7 +47,7 @@ void expect_equal_decoding(const Message& m, Noise& noise) {
 template <class X>
 void expect_equal_encoding(const Message& m, Noise& noise) {
   std::vector<double> values(m.signals.size());
-  for (int i = 0; i < kPayloads / 10; ++i) {
+  for (std::uint64_t i = 0, count = payloads(); i < count; ++i) {
     X x;
     for (std::size_t k = 0; k < values.size(); ++k) {
       const SignalPlan& p = m.signals[k].plan;

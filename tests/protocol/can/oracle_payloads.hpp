@@ -1,0 +1,17 @@
+// How many random payloads of each message a comparison with another decoder takes.
+//   in     PITWALL_ORACLE_PAYLOADS, which a long run raises
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+
+namespace pitwall::can {
+
+inline std::uint64_t oracle_payloads(std::uint64_t quick) {
+  const char* const wanted = std::getenv("PITWALL_ORACLE_PAYLOADS");
+  const std::uint64_t count = wanted == nullptr ? 0 : std::strtoull(wanted, nullptr, 10);
+  return count > quick ? count : quick;
+}
+
+}  // namespace pitwall::can
