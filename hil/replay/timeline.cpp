@@ -85,7 +85,8 @@ Result<Timeline, Problem> make_timeline(const CandumpLog& log, const TimelineOpt
   if (out.frames == 0) return Unexpected{Problem{"log", "nothing is left of it to play"}};
   std::erase_if(out.buses, [](const BusTrack& bus) { return bus.frames.empty(); });
   const auto gaps = static_cast<std::int64_t>(std::max<std::uint64_t>(out.frames - 1, 1));
-  out.pass = scaled((latest - first) + (latest - first) / gaps, options.speed);
+  const Duration span = scaled(latest - first, options.speed);
+  out.pass = span + span / gaps;
   return out;
 }
 

@@ -97,6 +97,16 @@ TEST(Timeline, APassLongerThanAYearIsAProblemUnlessItsGapIsSkipped) {
   EXPECT_TRUE(make_timeline(log, {.speed = 1'000.0}).has_value());
 }
 
+TEST(Timeline, TheLongestLogAtTheHighestSpeedFits) {
+  CandumpLog log = log_of({{0, 0}, {1, 0}});
+  log.frames[0].at = {};
+  log.frames[1].at = {9'000'000'000 * kNanosecondsPerSecond};
+  const auto t = make_timeline(log, {.speed = 1e6});
+  ASSERT_TRUE(t.has_value());
+  EXPECT_EQ(t->buses[0].due[1], seconds(9'000));
+  EXPECT_EQ(t->pass, seconds(18'000));
+}
+
 TEST(Timeline, OneFrameIsATimeline) {
   const auto t = make_timeline(log_of({{7, 0}}), {});
   ASSERT_TRUE(t.has_value());
