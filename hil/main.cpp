@@ -11,6 +11,7 @@
 #include "hil/guest/bus_verb.hpp"
 #include "hil/replay/replay_verb.hpp"
 #include "hil/verbs/bench_verb.hpp"
+#include "hil/verbs/dbc_verb.hpp"
 #include "hil/verbs/demo_verb.hpp"
 #include "hil/verbs/exit_code.hpp"
 #include "hil/verbs/run_verb.hpp"
@@ -28,6 +29,7 @@ constexpr std::array kVerbs{
     Verb{"demo", "the whole system: car, bench and base station on real SocketCAN",
          verbs::demo_verb},
     Verb{"replay", "replay a candump log onto a CAN interface", replay::replay_verb},
+    Verb{"dbc", "CAN databases: check, show, diff", verbs::dbc_verb},
     Verb{"bus", "CAN interfaces: from this kernel or from a guest", guest::bus_verb},
     Verb{"bench", "benchmarks with gates: lockstep, step", verbs::bench_verb},
 };

@@ -14,7 +14,7 @@ class BenchVerb : public ProgramRun {};
 TEST_F(BenchVerb, WrongUsageIsTold) {
   expect_refusal({"bench"}, "name");
   expect_refusal({"bench", "lockstop"}, "unknown name \"lockstop\"");
-  expect_refusal({"bench", "lockstop"}, "known: lockstep, step");
+  expect_refusal({"bench", "lockstop"}, "known: dbc, ");
   expect_refusal({"bench", "step", "--no-such-flag"}, "--no-such-flag");
 }
 

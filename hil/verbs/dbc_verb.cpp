@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/verbs/dbc_verb.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "hil/verbs/dbc_table.hpp"
+#include "hil/verbs/exit_code.hpp"
+#include "protocol/can/dbc_parser.hpp"
+#include "protocol/can/difference.hpp"
+#include "protocol/transport/file.hpp"
+
+namespace pitwall::verbs {
+namespace {
+
+struct DbcOptions {
+  std::vector<std::string> files;
+  std::string one, other, message, json_file;
+  bool strict = false;
+};
+
+Result<can::Database, Problem> load(const std::string& path) {
+  const auto text = transport::read_file(path, can::kMaxDbcBytes);
+  if (!text) return Unexpected{text.error()};
+  return can::parse_dbc(*text, path);
+}
+
+std::string json_string(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < 0x20) {
+      constexpr std::string_view kDigits = "0123456789abcdef";
+      out += std::string{"\\u00"} + kDigits[static_cast<unsigned char>(c) >> 4U] +
+             kDigits[static_cast<unsigned char>(c) & 15U];
+      continue;
+    }
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "\"";
+}
+
+// The code of the verb, or that of a file that could not be written.
+int written(const std::string& json_file, const std::string& json, int code) {
+  if (json_file.empty()) return code;
+  const auto done = transport::write_file(json_file, json + "\n");
+  return done ? code : refuse(done.error());
+}
+
+struct Checked {
+  std::string json;
+  std::size_t warnings = 0;
+  bool is_refused = false;
+};
+
+std::string finding_json(const char* severity, const std::string& place, const std::string& what) {
+  return std::string("{\"severity\":\"") + severity + "\",\"place\":" + json_string(place) +
+         ",\"what\":" + json_string(what) + "}";
+}
+
+Checked check_file(const std::string& path) {
+  const std::string begin = "{\"file\":" + json_string(path) + ",\"findings\":[";
+  const auto database = load(path);
+  if (!database) {
+    const Problem& p = database.error();
+    std::printf("%s\n%s: refused\n", to_string(p).c_str(), path.c_str());
+    return {begin + finding_json("error", p.place, p.what) + "],\"readable\":false}", 0, true};
+  }
+  Checked out{begin};
+  std::size_t notes = 0;
+  for (const can::Remark& r : database->remarks) {
+    const char* const severity = r.is_warning ? "warning" : "note";
+    std::printf("%s: %s: %s\n", r.place.c_str(), severity, r.what.c_str());
+    out.json += (out.warnings + notes == 0 ? "" : ",") + finding_json(severity, r.place, r.what);
+    ++(r.is_warning ? out.warnings : notes);
+  }
+  if (database->remarks_left_off > 0) {
+    std::printf("%s: and %zu more that are not listed\n", path.c_str(), database->remarks_left_off);
+  }
+  out.warnings += database->remarks_left_off;
+  std::printf("%s: %s; %zu warnings, %zu notes\n", path.c_str(), summary_of(*database).c_str(),
+              out.warnings, notes);
+  out.json += "],\"readable\":true,\"messages\":" + std::to_string(database->messages.size()) +
+              ",\"warnings\":" + std::to_string(out.warnings) +
+              ",\"unused_sections\":" + std::to_string(database->unused.size()) +
+              ",\"fingerprint\":\"" + std::to_string(can::fingerprint(*database)) + "\"}";
+  return out;
+}
+
+int check(const DbcOptions& options) {
+  std::string json = "{\"files\":[";
+  std::size_t warnings = 0;
+  bool is_refused = false;
+  for (std::size_t i = 0; i < options.files.size(); ++i) {
+    const Checked checked = check_file(options.files[i]);
+    json += (i == 0 ? "" : ",") + checked.json;
+    warnings += checked.warnings;
+    is_refused = is_refused || checked.is_refused;
+  }
+  const int code = is_refused                       ? kExitUnusable
+                   : options.strict && warnings > 0 ? kExitFailed
+                                                    : kExitPass;
+  return written(options.json_file, json + "],\"exit_code\":" + std::to_string(code) + "}", code);
+}
+
+// By name, or by number: 1303, 0x517; both kinds of ids.
+std::vector<const can::Message*> chosen(const can::Database& d, const std::string& words) {
+  if (const can::Message* const named = d.find(words)) return {named};
+  const bool is_hex = words.starts_with("0x") || words.starts_with("0X");
+  const char* const end = words.data() + words.size();
+  std::uint32_t id = 0;
+  const auto [stop, error] =
+      std::from_chars(words.data() + (is_hex ? 2 : 0), end, id, is_hex ? 16 : 10);
+  std::vector<const can::Message*> out;
+  if (error != std::errc{} || stop != end) return out;
+  for (const bool extended : {false, true}) {
+    if (const can::Message* const m = d.find(id, extended)) out.push_back(m);
+  }
+  return out;
+}
+
+int show(const DbcOptions& options) {
+  const auto database = load(options.one);
+  if (!database) return refuse(database.error());
+  if (options.message.empty()) {
+    std::printf("%s", table_of(*database).c_str());
+    return kExitPass;
+  }
+  const auto messages = chosen(*database, options.message);
+  if (messages.empty()) {
+    return refuse({options.one, "there is no message \"" + options.message + "\""});
+  }
+  for (const can::Message* const m : messages) {
+    std::printf("%s", table_of(*m).c_str());
+    if (!m->comment.empty()) std::printf("  %s\n", m->comment.c_str());
+  }
+  return kExitPass;
+}
+
+int diff(const DbcOptions& options) {
+  const auto one = load(options.one), other = load(options.other);
+  if (!one) return refuse(one.error());
+  if (!other) return refuse(other.error());
+  const auto all = can::differences(*one, *other);
+  std::string json = "{\"differences\":[";
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const char* const severity = can::name_of(can::severity_of(all[i].change));
+    std::printf("%s: %s\n", severity, all[i].text.c_str());
+    json += std::string(i == 0 ? "" : ",") + "{\"severity\":\"" + severity +
+            "\",\"text\":" + json_string(all[i].text) + "}";
+  }
+  if (all.empty()) std::printf("no differences\n");
+  return written(options.json_file, json + "]}", all.empty() ? kExitPass : kExitFailed);
+}
+
+}  // namespace
+
+int dbc_verb(std::span<const std::string> args) {
+  DbcOptions options;
+  CLI::App app{"pitwall-hil dbc: CAN databases, checked, shown and compared"};
+  app.require_subcommand(1);
+  CLI::App* const checks = app.add_subcommand(
+      "check", "errors, warnings and notes; exit 0 readable, 1 warnings with --strict, 2 refused");
+  checks->add_option("FILE", options.files, "databases")->required();
+  checks->add_flag("--strict", options.strict, "a warning is a failure");
+  checks->add_option("--json", options.json_file, "write the findings here");
+  CLI::App* const shows = app.add_subcommand("show", "tables of messages and signals");
+  shows->add_option("FILE", options.one, "database")->required();
+  shows->add_option("MESSAGE", options.message, "name or id (1303, 0x517); default: all");
+  CLI::App* const diffs =
+      app.add_subcommand("diff", "what changed, worst first; exit 0 same, 1 different, 2 refused");
+  diffs->add_option("ONE", options.one, "database")->required();
+  diffs->add_option("OTHER", options.other, "another revision")->required();
+  diffs->add_option("--json", options.json_file, "write the differences here");
+  try {
+    std::vector<std::string> reversed(args.rbegin(), args.rend());
+    app.parse(reversed);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kExitPass : kExitUnusable;
+  }
+  if (*checks) return check(options);
+  return *shows ? show(options) : diff(options);
+}
+
+}  // namespace pitwall::verbs
