@@ -137,10 +137,48 @@ TEST(Step, AHealthyCarDrivesWhenRaceControlLetsItAndTheOperatorArmed) {
   EXPECT_TRUE(throttle);
 }
 
-TEST(Step, WithoutRaceControlAnArmedCarNeverDrives) {
+// A bus on which race control is silent is not that of the database.
+TEST(Step, WithoutRaceControlACarDoesNotArm) {
   const auto car = new_car();
   StandingCar source;
   source.race_control = false;
+  run(
+      *car, seconds(8),
+      [&](Instant now) {
+        Heard heard = source.hear(now);
+        heard.requests.arm = true;
+        return heard;
+      },
+      [&](const Outputs& out) {
+        ASSERT_EQ(out.chosen.mode, Mode::kDisarmed);
+        ASSERT_FALSE(speaks_to_actuators(out));
+      });
+}
+
+TEST(Step, OnABusOfAnotherRevisionACarDoesNotArm) {
+  const auto car = new_car();
+  StandingCar source;
+  run(
+      *car, seconds(8),
+      [&](Instant now) {
+        Heard heard = source.hear(now);
+        heard.requests.arm = true;
+        for (can::ReceivedFrame& received : heard.frames)
+          if (received.frame.id == 1312) received.frame.length = 8;
+        return heard;
+      },
+      [&](const Outputs& out) {
+        ASSERT_EQ(out.chosen.mode, Mode::kDisarmed);
+        ASSERT_FALSE(speaks_to_actuators(out));
+        ASSERT_EQ(out.heard.bus.identity.id, 1312u);
+        ASSERT_TRUE(out.chosen.causes.has(safety::Cause::kWrongBus));
+      });
+}
+
+TEST(Step, WithoutAFlagAnArmedCarNeverDrives) {
+  const auto car = new_car();
+  StandingCar source;
+  source.mylaps_track = 0;
   bool stood_by = false;
   run(
       *car, seconds(5),
@@ -307,7 +345,9 @@ std::vector<Heard> mixed_inputs(std::size_t ticks) {
     const Instant now = kStart + kTick * static_cast<std::int64_t>(i);
     inputs.push_back(healthy.hear(now));
     inputs.back().requests.arm = i > 200;
-    if (random.one_in(10)) inputs.back().frames.push_back(testing::random_frame(random, now));
+    // Before it is armed, a car on a bus with unknown frames would not arm.
+    const bool noisy = i > 250 && random.one_in(10);
+    if (noisy) inputs.back().frames.push_back(testing::random_frame(random, now));
     std::erase_if(inputs.back().frames, [](const can::ReceivedFrame& f) {
       return f.frame.id >= 1400 && f.frame.id < 1500;
     });
