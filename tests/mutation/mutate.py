@@ -69,11 +69,12 @@ class Workshop:
         self.folder = pathlib.Path(folder)
         self.limit_s = options.limit_s
         self.objects = {}
-        self.prefix = []  # the headers that no mutant changes, compiled once
+        self.prefixes = {}  # of each path: the headers that no mutant changes, compiled once
 
-    def compile(self, path, output, *first):
+    def compile(self, path, output, *first, like=None):
+        prefix = self.prefixes.get(like or path, [])
         command = [
-            *shlex.split(self.options.compile), *self.prefix, *first, "-c", str(path),
+            *shlex.split(self.options.compile), *prefix, *first, "-c", str(path),
             "-o", str(output)]  # fmt: skip
         done = subprocess.run(command, capture_output=True, text=True, cwd=self.options.root)
         return done.returncode == 0, done.stderr
@@ -94,13 +95,13 @@ class Workshop:
             return TIMED_OUT
         return SURVIVED if done.returncode == 0 else KILLED
 
-    def precompile(self):
-        header = self.folder / "prefix.hpp"
-        header.write_text("".join(f"#include <{name}>\n" for name in self.options.precompile))
+    def precompile(self, name, headers, paths):
+        header = self.folder / f"{name}.hpp"
+        header.write_text("".join(f"#include <{h}>\n" for h in headers))
         command = [*shlex.split(self.options.compile), "-x", "c++-header", str(header)]
         done = subprocess.run(command, capture_output=True, text=True, cwd=self.options.root)
-        self.prefix = ["-include", str(header)]
-        return done.returncode == 0, done.stderr
+        self.prefixes.update({path: ["-include", str(header)] for path in paths})
+        return done.stderr if done.returncode else ""
 
     # A tree that somebody edits meanwhile makes mutants that do not compile for no fault of theirs.
     def still_compiles(self):
@@ -109,8 +110,11 @@ class Workshop:
 
     # Everything that no mutation of a source touches, once; and the tests must pass as they are.
     def prepare(self, pool):
-        good, message = self.precompile()
-        if not good:
+        own = self.options
+        message = self.precompile("source", own.precompile, own.source) or self.precompile(
+            "test", own.precompile_test, own.test
+        )
+        if message:
             return message
         paths = self.options.source + self.options.test + self.options.support
         self.objects = {path: self.folder / f"{i}.o" for i, path in enumerate(paths)}
@@ -140,7 +144,7 @@ class Workshop:
             return self.judge_header(folder)
 
     def judge_source(self, mutant, changed, folder):
-        good, _ = self.compile(changed, folder / "mutant.o")
+        good, _ = self.compile(changed, folder / "mutant.o", like=mutant.path)
         if not good:
             return NOT_COMPILED
         others = [o for path, o in self.objects.items() if path != mutant.path]
@@ -217,7 +221,8 @@ def read_options(arguments):
     parser.add_argument("--support", action="append", default=[], help="compiled and linked")
     parser.add_argument("--enums", action="append", default=[], help="read for enumerators only")
     parser.add_argument("--precompile", action="append", default=[],
-                        help="header that no mutated file is part of")  # fmt: skip
+                        help="header of the sources that is not mutated")  # fmt: skip
+    parser.add_argument("--precompile-test", action="append", default=[])
     parser.add_argument("--compile", required=True, help="compiler and its flags")
     parser.add_argument("--link", default="", help="as --compile where it is not given")
     parser.add_argument("--libraries", default="")
