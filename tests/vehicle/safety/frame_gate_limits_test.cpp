@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/vehicle/safety/frame_gate_bench.hpp"
+#include "tests/vehicle/safety/situation.hpp"
 
 namespace pitwall::safety {
 namespace {
@@ -48,6 +49,28 @@ TEST(FrameGateLimits, WhatTheyAreUnlessACarFileSaysOtherwise) {
   EXPECT_EQ(p.gear_max, 6);
   EXPECT_EQ(p.shift_least, milliseconds(100));
   EXPECT_EQ(p.command_age_max, milliseconds(50));
+}
+
+// Any table that a car file may hold: every segment counts, the flat ones of the default too.
+TEST(FrameGateLimits, SteeringLimitOfAnyTable) {
+  Random random{5};
+  for (int table = 0; table < 200; ++table) {
+    GateParams p;
+    double speed_mps = 0.0, deg = 300.0;
+    for (SteerRow& row : p.steer) {
+      row = {speed_mps, deg};
+      speed_mps += random.between(0.5, 11.0);
+      deg -= random.between(0.0, 29.0);
+    }
+    for (std::size_t i = 0; i < kSteerRows; ++i)
+      ASSERT_NEAR(steer_limit_deg(p, p.steer[i].speed_mps), p.steer[i].motor_deg, 1e-9);
+    for (std::size_t i = 1; i < kSteerRows; ++i) {
+      const SteerRow &a = p.steer[i - 1], &b = p.steer[i];
+      const double share = random.between(0.0, 1.0);
+      ASSERT_NEAR(steer_limit_deg(p, std::lerp(a.speed_mps, b.speed_mps, share)),
+                  std::lerp(a.motor_deg, b.motor_deg, share), 1e-9);
+    }
+  }
 }
 
 TEST(FrameGateLimits, SteeringLimitOfTheTableAtEverySpeed) {
