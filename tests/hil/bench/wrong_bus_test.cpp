@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <string>
 #include <vector>
 
 #include "hil/bench/lockstep.hpp"
+#include "protocol/can/av21.hpp"
 #include "tests/hil/bench/flying_lap.hpp"
 
 namespace pitwall::bench {
@@ -55,7 +57,12 @@ TEST(WrongBus, TheCarSendsNoCommandAndSaysWhy) {
     EXPECT_NE(to_json(*run).find(std::string("\"refused_to_arm\":\"") + row.sentence),
               std::string::npos);
     EXPECT_NE(log.find(row.sentence), std::string::npos) << "not in the event log";
-    EXPECT_NE(log.find("CAN1-INDY-V14"), std::string::npos) << "no revision in the metadata";
+    for (const char* key : {"database", "revision", "fingerprint"})
+      EXPECT_NE(log.find(key), std::string::npos) << "the metadata lack the " << key;
+    char fingerprint[20];
+    std::snprintf(fingerprint, sizeof fingerprint, "%016llx",
+                  static_cast<unsigned long long>(can::av21::kFingerprint));
+    EXPECT_NE(log.find(fingerprint), std::string::npos);
   }
 }
 
@@ -69,6 +76,7 @@ TEST(WrongBus, OnItsOwnBusTheSameCarArms) {
     options.watch = [&](const pipeline::Outputs& out, const Rig& rig, Instant now) {
       const bool right = out.heard.bus.identity.verdict == world::IdentityVerdict::kRight;
       if (out.chosen.mode != world::Mode::kDisarmed && armed.ns == 0) armed = now;
+      EXPECT_FALSE(out.heard.race_control.conflict) << "both systems of race control agree";
       if (armed.ns != 0) {
         EXPECT_TRUE(right);
       }
