@@ -9,6 +9,7 @@
 #include "hil/bench/loading.hpp"
 #include "hil/bench/lockstep.hpp"
 #include "hil/verbs/bench_dbc.hpp"
+#include "hil/verbs/bench_replay.hpp"
 #include "hil/verbs/exit_code.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
@@ -113,10 +114,11 @@ int bench_lockstep(const std::string& json_file) {
 }  // namespace
 
 int bench_verb(std::span<const std::string> args) {
+  if (!args.empty() && args[0] == "replay") return bench_replay(args.subspan(1));
   if (!args.empty() && args.front() == "dbc") return bench_dbc(args.subspan(1));
   std::string name, json_file;
   CLI::App app{"pitwall-hil bench: benchmarks with gates"};
-  app.add_option("name", name, "dbc, lockstep or step")->required();
+  app.add_option("name", name, "dbc, lockstep, replay or step")->required();
   app.add_option("--json", json_file, "write the figures here");
   try {
     std::vector<std::string> reversed(args.rbegin(), args.rend());
@@ -126,7 +128,7 @@ int bench_verb(std::span<const std::string> args) {
   }
   if (name == "lockstep") return bench_lockstep(json_file);
   if (name == "step") return bench_step(json_file);
-  return refuse({"bench", "unknown name \"" + name + "\"; known: dbc, lockstep, step"});
+  return refuse({"bench", "unknown name \"" + name + "\"; known: dbc, lockstep, replay, step"});
 }
 
 }  // namespace pitwall::verbs

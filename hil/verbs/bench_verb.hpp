@@ -1,5 +1,6 @@
 // `pitwall-hil bench NAME [--json FILE]`: benchmarks that are runs of the bench itself.
 //   lockstep   how much faster than real time the closed loop runs; gate: at least 20 times
+//   replay     timing of replays beside canplayer and python-can; options in bench_replay.hpp
 //   step       how long one step of the car takes in that loop; gate: p99 below 100 us
 //   out    a table; exit code 1 when a gate is missed, 2 for an unknown name
 // SPDX-License-Identifier: Apache-2.0

@@ -152,6 +152,34 @@ TEST(Replay, PassesFollowEachOtherWithoutASeam) {
   EXPECT_GT(took_ns, 1'499 * 1'000'000LL - 50'000'000LL);
 }
 
+TEST(Replay, FlagsOfFdFramesChosenIdentifiersAndLatePoliciesReachTheBus) {
+  auto folder = transport::TemporaryFolder::create("pitwall-replay-");
+  ASSERT_TRUE(folder.has_value());
+  const std::string path = folder->path() + "/made.log", json = folder->path() + "/report.json";
+  std::string text;
+  for (int i = 0; i < 200; ++i)
+    text += "(1700000000." + std::to_string(100'000 + i * 1'000) + ") can0 " +
+            (i % 2 == 0 ? "123##1AABB" : "00000124#R5") + "\n";
+  ASSERT_TRUE(transport::write_file(path, text).has_value());
+  Recorder recorder(folder->path() + "/arrived.log");
+  // Nothing is an hour late: no frame is dropped by either policy.
+  ASSERT_EQ(play({path, "--interface", "vcan0", "--late", "drop:3600000", "--json", json}), 0);
+  ASSERT_EQ(play({path, "--interface", "vcan0", "--late", "abort:3600000", "--spin", "0", "--id",
+                  "123", "--start", "0.1"}),
+            0);
+  const CandumpLog arrived = recorder.stop();
+  const CandumpLog wanted = read_log(path);
+  ASSERT_EQ(arrived.frames.size(), 250U);  // all of the first replay, a quarter in the second
+  for (std::size_t i = 0; i < 250; ++i) {
+    const LoggedFrame& frame = wanted.frames[i < 200 ? i : 0];
+    ASSERT_EQ(arrived.frames[i].frame, frame.frame) << i;
+    ASSERT_EQ(arrived.frames[i].fd_flags & 1, frame.fd_flags & 1) << i;  // bit rate switch
+  }
+  const std::string report = transport::read_file(json).value_or("");
+  EXPECT_NE(report.find("\"sent\":200,"), std::string::npos) << report;
+  EXPECT_NE(report.find("\"dropped_late\":0,"), std::string::npos) << report;
+}
+
 TEST(Replay, OfAMalformedLogNothingIsSent) {
   auto folder = transport::TemporaryFolder::create("pitwall-replay-");
   ASSERT_TRUE(folder.has_value());
