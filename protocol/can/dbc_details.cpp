@@ -10,6 +10,7 @@
 namespace pitwall::can {
 namespace {
 
+constexpr std::size_t kMaxRanges = 1024;  // of one signal; real files have a few
 constexpr std::int64_t kAnyInteger = std::numeric_limits<std::int64_t>::max();
 
 class Details {
@@ -49,7 +50,6 @@ class Details {
   // Reads "<message> <signal>".
   Owner signal_owner();
   std::vector<ValueName> names_of_values();
-  const AttributeDefinition* definition_of(AttributeOwner kind, std::string_view name) const;
   std::string value_of(const AttributeDefinition* definition, std::string_view name);
   void set(const Owner& owner, const std::string& name, std::string value);
 
@@ -177,8 +177,10 @@ std::vector<ValueName> Details::names_of_values() {
 }
 
 void Details::value_table() {
-  std::string name{scan_.utf8(scan_.word())};
-  draft_.database.tables.push_back({std::move(name), names_of_values()});
+  ValueTable table{.name = scan_.utf8(scan_.word()), .values = {}};
+  table.values = names_of_values();
+  const std::string name = table.name;
+  if (!draft_.add(std::move(table))) warn("table " + name + " is defined twice");
 }
 
 void Details::value_names() {
@@ -192,11 +194,11 @@ void Details::value_names() {
   } else {
     const std::string table = scan_.utf8(scan_.word());
     scan_.expect(';');
-    const auto& all = draft_.database.tables;
-    const auto at =
-        std::find_if(all.begin(), all.end(), [&](const ValueTable& t) { return t.name == table; });
-    if (at != all.end()) names = at->values;
-    if (at == all.end()) warn("VAL_ refers to table " + table + ", which the file does not have");
+    if (const ValueTable* const known = draft_.table(table)) {
+      names = known->values;
+    } else {
+      warn("VAL_ refers to table " + table + ", which the file does not have");
+    }
   }
   if (!o.is_known) return;
   if (!o.signal->values.empty()) warn("signal " + o.signal->name + " has a second VAL_");
@@ -228,16 +230,8 @@ void Details::definition() {
     refuse_at(scan_.place_of(at), "an attribute is INT, HEX, FLOAT, STRING or ENUM");
   }
   scan_.expect(';');
-  if (definition_of(d.owner, d.name) != nullptr) warn("attribute " + d.name + " is defined twice");
-  draft_.database.definitions.push_back(std::move(d));
-}
-
-const AttributeDefinition* Details::definition_of(AttributeOwner kind,
-                                                  std::string_view name) const {
-  for (const AttributeDefinition& d : draft_.database.definitions) {
-    if (d.owner == kind && d.name == name) return &d;
-  }
-  return nullptr;
+  const std::string name = d.name;
+  if (!draft_.add(std::move(d))) warn("attribute " + name + " is defined twice");
 }
 
 // An ENUM may give its word or the number of it.
@@ -261,14 +255,12 @@ std::string Details::value_of(const AttributeDefinition* d, std::string_view nam
 void Details::definition_default() {
   const std::string name = scan_.string();
   const std::size_t value_begins = scan_.here();
-  bool is_known = false;
-  for (AttributeDefinition& d : draft_.database.definitions) {
-    if (d.name != name) continue;
-    is_known = true;
+  const auto definitions = draft_.definitions(name);
+  for (AttributeDefinition* const d : definitions) {
     scan_.rewind(value_begins);
-    d.by_default = value_of(&d, name);
+    d->by_default = value_of(d, name);
   }
-  if (!is_known) {
+  if (definitions.empty()) {
     (void)scan_.string_or_word();
     warn("attribute " + name + " has a default but no BA_DEF_");
   }
@@ -293,7 +285,7 @@ void Details::attribute() {
   const std::string name = scan_.string();
   const Owner o = owner();
   if (o.is_elsewhere) return keep();
-  const AttributeDefinition* const d = definition_of(o.kind, name);
+  const AttributeDefinition* const d = draft_.definition(o.kind, name);
   std::string value = value_of(d, name);
   scan_.expect(';');
   if (d == nullptr) warn("attribute " + name + " has no BA_DEF_");
@@ -325,6 +317,9 @@ void Details::multiplexing() {
     const auto high = static_cast<std::uint64_t>(scan_.integer(0, kAnyInteger));
     if (low > high) refuse_at(scan_.place_of(begin_), "an empty range of selector values");
     ranges.push_back({low, high});
+    if (ranges.size() > kMaxRanges) {
+      refuse_at(scan_.place_of(begin_), "more than " + std::to_string(kMaxRanges) + " ranges");
+    }
   } while (scan_.take(','));
   scan_.expect(';');
   const auto m = draft_.message(key);

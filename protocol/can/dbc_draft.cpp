@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <set>
 #include <utility>
 
 #include "protocol/can/dbc_remarks.hpp"
@@ -88,6 +87,47 @@ std::optional<std::size_t> DbcDraft::node(std::string_view name) const {
   return at == nodes_.end() ? std::nullopt : std::optional{at->second};
 }
 
+const ValueTable* DbcDraft::table(std::string_view name) const {
+  const auto at = tables_.find(name);
+  return at == tables_.end() ? nullptr : &database.tables[at->second];
+}
+
+std::vector<AttributeDefinition*> DbcDraft::definitions(std::string_view name) {
+  std::vector<AttributeDefinition*> out;
+  const auto at = definitions_.find(name);
+  if (at == definitions_.end()) return out;
+  for (const std::size_t i : at->second) out.push_back(&database.definitions[i]);
+  return out;
+}
+
+const AttributeDefinition* DbcDraft::definition(AttributeOwner owner, std::string_view name) {
+  for (const AttributeDefinition* const d : definitions(name)) {
+    if (d->owner == owner) return d;
+  }
+  return nullptr;
+}
+
+bool DbcDraft::add(ValueTable t) {
+  const auto [at, is_new] = tables_.insert({t.name, database.tables.size()});
+  if (is_new) {
+    database.tables.push_back(std::move(t));
+  } else {
+    database.tables[at->second] = std::move(t);
+  }
+  return is_new;
+}
+
+bool DbcDraft::add(AttributeDefinition d) {
+  for (AttributeDefinition* const known : definitions(d.name)) {
+    if (known->owner != d.owner) continue;
+    *known = std::move(d);
+    return false;
+  }
+  definitions_[d.name].push_back(database.definitions.size());
+  database.definitions.push_back(std::move(d));
+  return true;
+}
+
 void DbcDraft::remark(bool is_warning, std::string place, std::string what) {
   if (database.remarks.size() >= kMaxRemarks) {
     ++database.remarks_left_off;
@@ -119,12 +159,14 @@ void DbcDraft::lengthen_names() {
   }
 }
 
-void DbcDraft::apply_attributes(Message& m) {
-  using enum AttributeOwner;
-  if (const auto format = database.attribute("VFrameFormat", kMessage, m.attributes)) {
-    m.fd = m.fd || is_fd_format(*format);
+void DbcDraft::apply_attributes(Message& m, std::optional<std::string_view> usual_format,
+                                std::optional<std::string_view> usual_period) {
+  std::optional<std::string_view> format = usual_format, period = usual_period;
+  for (const Attribute& a : m.attributes) {
+    if (a.name == "VFrameFormat") format = a.value;
+    if (a.name == "GenMsgCycleTime") period = a.value;
   }
-  const auto period = database.attribute("GenMsgCycleTime", kMessage, m.attributes);
+  m.fd = m.fd || (format && is_fd_format(*format));
   if (!period) return;
   double period_ms = 0.0;
   const char* const end = period->data() + period->size();
@@ -178,8 +220,11 @@ void DbcDraft::resolve(std::size_t index) {
 Database DbcDraft::finish() {
   lengthen_names();
   for (std::size_t i = 0; i < database.messages.size(); ++i) resolve(i);
+  using enum AttributeOwner;
+  const auto usual_format = database.attribute("VFrameFormat", kMessage, {});
+  const auto usual_period = database.attribute("GenMsgCycleTime", kMessage, {});
   for (Message& m : database.messages) {
-    apply_attributes(m);
+    apply_attributes(m, usual_format, usual_period);
     for (std::string& what : remarks_on(m)) remark(true, m.place, std::move(what));
     for (const Signal& s : m.signals) {
       for (std::string& what : remarks_on(m, s)) remark(true, s.place, std::move(what));

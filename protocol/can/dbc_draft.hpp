@@ -48,6 +48,14 @@ class DbcDraft {
   std::optional<Found> signal(std::uint32_t key, std::string_view name) const;
   std::optional<std::size_t> signal(std::size_t message, std::string_view name) const;
   std::optional<std::size_t> node(std::string_view name) const;
+  const ValueTable* table(std::string_view name) const;
+  // Of that name, for every kind of owner that it is defined for.
+  std::vector<AttributeDefinition*> definitions(std::string_view name);
+  const AttributeDefinition* definition(AttributeOwner owner, std::string_view name);
+
+  // False where it replaces one of the same name.
+  bool add(ValueTable table);
+  bool add(AttributeDefinition definition);
 
   void remark(bool is_warning, std::string place, std::string what);
   void lengthen(std::uint32_t key, std::string name);
@@ -59,13 +67,15 @@ class DbcDraft {
 
  private:
   void lengthen_names();
-  void apply_attributes(Message& m);
+  void apply_attributes(Message& m, std::optional<std::string_view> usual_format,
+                        std::optional<std::string_view> usual_period);
   void resolve(std::size_t index);
 
   std::map<std::uint32_t, std::size_t> by_key_;
   std::map<std::string, std::string, std::less<>> places_;  // of messages, by name
   std::vector<std::vector<std::uint32_t>> by_name_;         // signals of each message, sorted
-  std::map<std::string, std::size_t, std::less<>> nodes_;
+  std::map<std::string, std::size_t, std::less<>> nodes_, tables_;
+  std::map<std::string, std::vector<std::size_t>, std::less<>> definitions_;  // by name
   struct LongName {
     std::size_t message = 0;
     std::optional<std::size_t> signal;  // none: the message itself

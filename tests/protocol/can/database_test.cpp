@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <set>
 
 #include "tests/protocol/can/dbc_files.hpp"
@@ -26,6 +28,28 @@ TEST(Database, FindsEveryMessageAndNothingElse) {
     EXPECT_EQ(d.find(id) != nullptr, ids.contains(id));
   }
   EXPECT_EQ(d.find("nothing"), nullptr);
+}
+
+TEST(Database, TheIndexFindsWhatTheDatabaseFinds) {
+  Noise noise{11};
+  std::string text = "BU_: A\n";
+  std::set<std::uint32_t> ids;
+  while (ids.size() < 3000) {
+    ids.insert(noise.below(3) == 0
+                   ? static_cast<std::uint32_t>(noise.below(kMaxStandardId + 1))
+                   : 0x80000000U + static_cast<std::uint32_t>(noise.below(1U << 16U)));
+  }
+  for (const std::uint32_t id : ids) {
+    text += "BO_ " + std::to_string(id) + " M" + std::to_string(id) + ": 8 A\n";
+  }
+  const Database d = parsed(text);
+  const MessageIndex index{d};
+  for (const Message& m : d.messages) EXPECT_EQ(index.find(m.id, m.extended), &m);
+  for (std::uint32_t id = 0; id < 1U << 17U; ++id) {
+    ASSERT_EQ(index.find(id, true), d.find(id, true));
+    ASSERT_EQ(index.find(id, false), d.find(id, false));
+  }
+  EXPECT_EQ(MessageIndex{Database{}}.find(5, true), nullptr);
 }
 
 // The fingerprint must see everything that moves a bit or a value, and nothing else.
@@ -83,6 +107,44 @@ TEST(Database, MultiplexedSignalsMayShareBitsOnlyIfNeverPresentTogether) {
   EXPECT_NE(with("m1", ""), "");
   EXPECT_NE(with("m1", "m2", "SG_MUL_VAL_ 100 b s 0-1;\n"), "");
   EXPECT_EQ(with("m1", "m2", "SG_MUL_VAL_ 100 b s 2-3, 7-9;\n"), "");
+}
+
+// Whether two signals can meet, asked of every value of two selectors instead of the ranges.
+TEST(Database, OverlapsAreFoundWhereSignalsCanMeet) {
+  Noise noise{3};
+  int refused = 0;
+  for (int round = 0; round < 400; ++round) {
+    std::array<std::array<std::pair<unsigned, unsigned>, 2>, 2> when{};
+    std::string links;
+    const bool is_below = noise.below(2) == 0;  // b hangs on t, a selector that hangs on s
+    for (std::size_t k = 0; k < 2; ++k) {
+      links += std::string("SG_MUL_VAL_ 100 ") + (k == 0 ? "a s " : is_below ? "t s " : "b s ");
+      for (std::size_t r = 0; r < 2; ++r) {
+        const auto low = static_cast<unsigned>(noise.below(12));
+        when[k][r] = {low, low + static_cast<unsigned>(noise.below(3))};
+        links +=
+            (r == 0 ? "" : ",") + std::to_string(low) + "-" + std::to_string(when[k][r].second);
+      }
+      links += ";\n";
+    }
+    if (is_below) links += "SG_MUL_VAL_ 100 b t 5-5;\n";
+    const std::string text = dbc_with(
+        " SG_ s M : 0|8@1+ (1,0) [0|0] \"\" A\n SG_ a m0 : 16|8@1+ (1,0) [0|0] \"\" A\n"
+        " SG_ b m0 : 16|8@1+ (1,0) [0|0] \"\" A\n" +
+        std::string(is_below ? " SG_ t m0M : 8|8@1+ (1,0) [0|0] \"\" A\n" : "") + links);
+    bool can_meet = false;
+    for (unsigned s = 0; s < 20; ++s) {
+      const auto is_in = [s](const auto& ranges) {
+        return std::any_of(ranges.begin(), ranges.end(),
+                           [s](const auto& r) { return r.first <= s && s <= r.second; });
+      };
+      can_meet = can_meet || (is_in(when[0]) && is_in(when[1]));
+    }
+    EXPECT_EQ(complaint(text) != "", can_meet) << text;
+    refused += can_meet ? 1 : 0;
+  }
+  EXPECT_GT(refused, 50);
+  EXPECT_LT(refused, 350);
 }
 
 }  // namespace

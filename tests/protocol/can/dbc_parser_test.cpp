@@ -109,11 +109,83 @@ TEST(DbcParser, UnderstandsTheRarerSections) {
   EXPECT_EQ(d.messages[2].id, 101U);
 }
 
+// A hundred thousand of each; anything quadratic would not end.
+TEST(DbcParser, LargeFilesOfEveryKindEnd) {
+  constexpr int kMany = 100'000;
+  std::string text = "BU_: A\nBO_ 1 M: 8 A\n SG_ s M : 0|32@1+ (1,0) [0|0] \"\" A\n";
+  std::string details;
+  for (int i = 0; i < kMany; ++i) {
+    const std::string n = std::to_string(i);
+    text += " SG_ x" + n + " m" + n + " : 32|32@1+ (1,0) [0|0] \"\" A\n";
+    details += "VAL_TABLE_ t" + n + " 1 \"x\" ;\nVAL_ 1 x" + n + " t" + n + " ;\nBA_DEF_ SG_ \"a" +
+               n + "\" INT 0 9;\nBA_DEF_DEF_ \"a" + n + "\" 1;\nBA_ \"a" + n + "\" SG_ 1 x" + n +
+               " 2;\nCM_ SG_ 1 x" + n + " \"c\";\nCM_ BO_ 9 \"nobody\";\nEV_ " + n + ";\n";
+  }
+  const Database d = parsed(text + details);
+  ASSERT_EQ(d.messages.size(), 1U);
+  EXPECT_EQ(d.messages[0].signals.size(), kMany + 1U);
+  EXPECT_EQ(d.messages[0].signals.back().values, (std::vector<ValueName>{{1, "x"}}));
+  EXPECT_EQ(d.definitions.size(), static_cast<std::size_t>(kMany));
+  EXPECT_EQ(d.unused.size(), static_cast<std::size_t>(kMany));
+  EXPECT_EQ(d.remarks.size() + d.remarks_left_off, static_cast<std::size_t>(kMany));
+}
+
+// What hides a section is refused, what is only strange is kept and told.
+TEST(DbcParser, SectionsThatNobodyReadsAreKeptAsTheyAre) {
+  const Database d =
+      parsed(dbc_with(kSignal + "EV_ v: 0 [0|1] \"\" 0 1 A A;\nNEW_ 1 \"a;b\"\n 2;\n"));
+  ASSERT_EQ(d.unused.size(), 2U);
+  EXPECT_TRUE(d.unused[0].is_known);
+  EXPECT_EQ(d.unused[1].word, "NEW_");
+  EXPECT_EQ(d.unused[1].text, "NEW_ 1 \"a;b\"\n 2;");
+  EXPECT_EQ(d.unused[1].place, "t.dbc:10:1");
+  ASSERT_EQ(d.remarks.size(), 1U);
+  EXPECT_EQ(d.remarks[0].what, "NEW_ is no section of a DBC file; skipped");
+  EXPECT_EQ(complaint(dbc_with(kSignal + " SG b : 8|8@1+ (1,0) [0|0] \"\" A\n" + kSignal +
+                               "CM_ \"\";\n")),
+            "t.dbc:9:2: error: SG has no closing ';' before the next section");
+  EXPECT_EQ(complaint(dbc_with(kSignal + "NEW_ 1\nBO_ 7 N: 8 A\nCM_ \"\";\n")),
+            "t.dbc:9:1: error: NEW_ has no closing ';' before the next section");
+  EXPECT_EQ(complaint("BO_ 1 M: 8\n SG_ a : 0|8@1+ (1,0) [0|0] \"\" A\n"),
+            "t.dbc:2:2: error: message M has no sender");
+}
+
+TEST(DbcParser, ParkedSignalsAreSkippedAndTold) {
+  const Database d =
+      parsed("BO_ 3221225472 VECTOR__INDEPENDENT_SIG_MSG: 0 Vector__XXX\n" + kSignal + kSignal);
+  EXPECT_TRUE(d.messages.empty());
+  ASSERT_EQ(d.remarks.size(), 1U);
+  EXPECT_FALSE(d.remarks[0].is_warning);
+  EXPECT_EQ(d.remarks[0].what,
+            "VECTOR__INDEPENDENT_SIG_MSG is no message; its 2 signals are skipped");
+}
+
+TEST(DbcParser, SixtyFourBitsAndSixtyFourBytes) {
+  const Database d =
+      parsed(dbc_with(" SG_ a : 448|64@1+ (1,0) [0|0] \"\" A\n SG_ b : 7|64@0- (1,0) "
+                      "[0|0] \"\" A\n SG_ c : 131|64@1- (1,0) [0|0] \"\" A\n",
+                      64));
+  const Message& m = d.messages.at(0);
+  EXPECT_TRUE(m.fd);
+  Frame f{.id = 100, .fd = true, .length = 64, .data = {}};
+  f.data[63] = 0x80;
+  f.data[0] = 0xFF;
+  EXPECT_EQ(extract(m.signals[0].plan, f.data), 0x8000000000000000U);
+  EXPECT_EQ(extract(m.signals[1].plan, f.data), 0xFF00000000000000U);
+  EXPECT_EQ(extract(m.signals[2].plan, f.data), 0U);
+}
+
 TEST(DbcParser, LineEndsDoNotMatter) {
   const std::string text = text_of(kOwnDbc);
   std::string crlf;
   for (const char c : text) crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);
   EXPECT_EQ(fingerprint(parsed(crlf)), fingerprint(parsed(text)));
+  std::string cr = text;
+  std::replace(cr.begin(), cr.end(), '\n', '\r');
+  const Database a = parsed(cr), b = parsed(text);
+  EXPECT_EQ(fingerprint(a), fingerprint(b));
+  EXPECT_EQ(a.messages.back().place, b.messages.back().place);
+  EXPECT_EQ(a.messages.back().comment, b.messages.back().comment);
 }
 
 TEST(DbcParser, RefusesWhatCannotBeTrue) {
