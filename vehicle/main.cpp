@@ -61,6 +61,8 @@ int drive(const pipeline::Setup& setup, const io::Arguments& args, io::Rim& rim,
                                                   .link = heard.link});
     rim.write(out.passed.frames.span(), now);
     if (out.bus_guard.restart_now) rim.restart_bus();
+    if (const char* refusal = rim.fresh_refusal())
+      std::fprintf(stderr, "pitwall-vehicle: %s\n", refusal);
     const Instant done = transport::monotonic_now();
     tally.add(done - now, tick.missed);
     last = now;
@@ -105,12 +107,7 @@ int run(int argc, const char* const* argv) {
   if (rim->listen_only())
     std::fprintf(stderr, "pitwall-vehicle: %s: LISTEN-ONLY: stays disarmed and sends nothing\n",
                  args.can_interface.c_str());
-  const int code = drive(*setup, args, *rim, *stop);
-  if (const char* refusal = rim->bus().refusal.data(); *refusal != '\0')
-    std::fprintf(
-        stderr, "pitwall-vehicle: %s (refused %llu times)\n", refusal,
-        static_cast<unsigned long long>(rim->bus().restarts_refused + rim->bus().flushes_refused));
-  return code;
+  return drive(*setup, args, *rim, *stop);
 }
 
 }  // namespace

@@ -89,6 +89,13 @@ void Rim::write(std::span<const can::Frame> frames, Instant now) {
   slots_.taken(can_.send(slots_.due(now)), now);
 }
 
+const char* Rim::fresh_refusal() {
+  const char* refusal = watch_->newest().refusal.data();
+  if (refusal_told_ || *refusal == '\0') return nullptr;
+  refusal_told_ = true;
+  return refusal;
+}
+
 void Rim::report(telemetry::StatePacket& packet, Instant now) {
   packet.source = source_;
   packet.run = run_;

@@ -53,6 +53,8 @@ class Rim {
   std::uint64_t tx_drops() const { return slots_.counters().dropped() + silenced_; }
   void poll_drops() { can_.poll_drops(); }
   const BusReport& bus() { return watch_->newest(); }
+  // Why the kernel refused what the car wanted of the bus; once, when it first did.
+  const char* fresh_refusal();
   // The interface only listens: nothing is ever sent, and the car must not be armed.
   bool listen_only() { return bus().interface.listen_only; }
 
@@ -67,6 +69,7 @@ class Rim {
   TransmitSlots slots_;
   LinkObserver observer_;
   world::LinkObservation link_;
+  bool refusal_told_ = false;
   std::uint64_t emptied_ = 0;  // how often the kernel's queue has been, as of the last look
   std::vector<transport::UdpSocket> gnss_;
   std::array<GnssInput, world::kGnssUnits> receivers_;

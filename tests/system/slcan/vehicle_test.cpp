@@ -59,12 +59,14 @@ class Vehicle : public ::testing::Test {
     if (!process) return std::nullopt;
     return *std::move(process);
   }
-  std::optional<Process> start_vehicle() {
-    return spawn({program("PITWALL_VEHICLE_PROGRAM", "/build/release/vehicle/pitwall-vehicle"),
-                  "--car", kRoot + "/vehicle/config/cars/av21.yaml", "--track",
-                  kRoot + "/vehicle/config/tracks/" + track_, "--can", controller_->interface(),
-                  "--gnss", "23501,23502", "--radio", transport::to_string(radio_->local()),
-                  "--summary", folder_->path() + "/summary.json", "--simulation", "--arm"});
+  std::optional<Process> start_vehicle(std::vector<std::string> argv = {}) {
+    argv.insert(argv.end(),
+                {program("PITWALL_VEHICLE_PROGRAM", "/build/release/vehicle/pitwall-vehicle"),
+                 "--car", kRoot + "/vehicle/config/cars/av21.yaml", "--track",
+                 kRoot + "/vehicle/config/tracks/" + track_, "--can", controller_->interface(),
+                 "--gnss", "23501,23502", "--radio", transport::to_string(radio_->local()),
+                 "--summary", folder_->path() + "/summary.json", "--simulation", "--arm"});
+    return spawn(std::move(argv));
   }
   int bus(std::vector<std::string> words) {
     words.insert(words.begin(),
@@ -119,6 +121,23 @@ TEST_F(Vehicle, ReportsBusOffRestartsThreeTimesAndStops) {
   EXPECT_NE(summary().find("\"controller\": \"bus_off\""), std::string::npos)
       << summary().substr(0, 1'500);
   EXPECT_NE(summary().find("\"restarts\": 3"), std::string::npos) << summary().substr(0, 1'500);
+}
+
+TEST_F(Vehicle, WithoutThePrivilegeToRestartSaysWhyAndLeavesTheBus) {
+  ASSERT_EQ(bus({"up", controller_->interface(), "--bitrate", "500000"}), 0) << said();
+  auto vehicle = start_vehicle({"setpriv", "--bounding-set", "-net_admin"});
+  ASSERT_TRUE(vehicle);
+  ASSERT_TRUE(telemetry_says([](const telemetry::Values& values) {
+    return values[field("bus.controller")] == kActive;
+  })) << said();
+  controller_->say("sb256000\r");
+  EXPECT_TRUE(telemetry_says([&](const telemetry::Values&) {
+    return said().find("CAP_NET_ADMIN") != std::string::npos;
+  })) << said();
+  transport::sleep_until(transport::monotonic_now() + seconds(1));
+  EXPECT_TRUE(telemetry_says(
+      [](const telemetry::Values& values) { return values[field("bus.controller")] == kBusOff; }));
+  EXPECT_EQ(controller_->opened(), 1u);
 }
 
 TEST_F(Vehicle, OnAnInterfaceThatOnlyListensSaysSoAndStaysSilent) {
