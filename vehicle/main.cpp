@@ -7,6 +7,7 @@
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
 #include "protocol/transport/realtime.hpp"
+#include "vehicle/gateway/bus_identity.hpp"
 #include "vehicle/io/arguments.hpp"
 #include "vehicle/io/rim.hpp"
 #include "vehicle/io/tally.hpp"
@@ -39,11 +40,21 @@ Result<pipeline::Setup, Problem> set_up(const io::Arguments& args) {
   return pipeline::prepare(car->params, *track);
 }
 
+void tell(const world::BusIdentity& identity) {
+  std::fprintf(stderr, "pitwall-vehicle: %s\n", gateway::sentence(identity).c_str());
+}
+
+bool same_identity(const world::BusIdentity& a, const world::BusIdentity& b) {
+  return a.verdict == b.verdict && a.difference == b.difference && a.id == b.id;
+}
+
 int drive(const pipeline::Setup& setup, const io::Arguments& args, io::Rim& rim,
           transport::StopSignal& stop) {
   const auto car = std::make_unique<pipeline::Car>();
   io::StepTally tally;
   io::FrameTotals frames;
+  io::LossTally losses;
+  world::BusHealth bus;
   transport::Ticker ticker{setup.params.rates.tick};
   Instant last = transport::monotonic_now() - setup.params.rates.tick;
   while (!stop.raised()) {
@@ -66,7 +77,9 @@ int drive(const pipeline::Setup& setup, const io::Arguments& args, io::Rim& rim,
     const Instant done = transport::monotonic_now();
     tally.add(done - now, tick.missed);
     last = now;
-    frames.refused = out.heard.bus.refused;
+    if (!same_identity(out.heard.bus.identity, bus.identity)) tell(out.heard.bus.identity);
+    bus = out.heard.bus;
+    losses.add(bus);
     frames.gate_refusals = out.passed.refused_total;
     frames.gate_verdicts = car->gate.verdicts;
     if (car->ticks % kTelemetryEvery != 0) continue;
@@ -85,7 +98,8 @@ int drive(const pipeline::Setup& setup, const io::Arguments& args, io::Rim& rim,
   frames.sent = rim.can().sent;
   frames.rx_dropped = rim.can().rx_dropped_queue;
   frames.tx_drops = rim.tx_drops();
-  const auto written = transport::write_file(args.summary_file, io::summary_json(tally, frames));
+  const auto written =
+      transport::write_file(args.summary_file, io::summary_json(tally, frames, bus, losses));
   return written ? 0 : (refuse(written.error()), kExitFailed);
 }
 
@@ -101,9 +115,9 @@ int run(int argc, const char* const* argv) {
   auto rim = io::Rim::open(args);
   if (!rim) return refuse(rim.error());
   const auto realtime = transport::request_realtime(kPriority);
-  std::fprintf(stderr, "pitwall-vehicle: %s on %s, %s%s\n", setup->track.name().c_str(),
-               args.can_interface.c_str(), transport::to_string(realtime).c_str(),
-               args.simulation ? ", SIMULATION" : "");
+  std::fprintf(stderr, "pitwall-vehicle: %s on %s, %s, %s%s\n", setup->track.name().c_str(),
+               args.can_interface.c_str(), gateway::database_text().c_str(),
+               transport::to_string(realtime).c_str(), args.simulation ? ", SIMULATION" : "");
   if (rim->listen_only())
     std::fprintf(stderr, "pitwall-vehicle: %s: LISTEN-ONLY: stays disarmed and sends nothing\n",
                  args.can_interface.c_str());

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "protocol/can/frame.hpp"
 #include "protocol/yaml/strict_map.hpp"
 
 namespace pitwall::bench {
@@ -15,16 +16,54 @@ CarSummary::Counts counts_of(yaml::StrictMap map) {
   return counts;
 }
 
+std::uint64_t count_of(yaml::StrictMap& map, const char* key) {
+  return static_cast<std::uint64_t>(map.integer(key, 0, std::numeric_limits<std::int64_t>::max()));
+}
+
+Instant instant_of(yaml::StrictMap& map, const char* key) {
+  return {map.integer(key, 0, std::numeric_limits<std::int64_t>::max())};
+}
+
+std::uint32_t id_of(yaml::StrictMap& map) {
+  return static_cast<std::uint32_t>(map.integer("id", 0, can::kMaxExtendedId));
+}
+
+CarMessage message_of(yaml::StrictMap map) {
+  return {.id = id_of(map),
+          .liveness = map.text("liveness"),
+          .debt = count_of(map, "debt"),
+          .lost = count_of(map, "lost"),
+          .bad = count_of(map, "bad"),
+          .mean_interval = microseconds(map.integer("mean_interval_us", 0, 1'000'000'000)),
+          .last = instant_of(map, "last_ns")};
+}
+
+world::LossDetector detector_of(yaml::StrictMap& map) {
+  using enum world::LossDetector;
+  const std::string by = map.text("by");
+  if (by == "counter") return kCounter;
+  if (by == "period") return kPeriod;
+  if (by == "socket_queue") return kSocketQueue;
+  if (by == "interface") return kInterface;
+  map.fail("by", "is no detector of losses");
+}
+
+world::LossReport loss_of(yaml::StrictMap map) {
+  return {.id = id_of(map),
+          .detector = detector_of(map),
+          .frames = static_cast<std::uint32_t>(
+              map.integer("frames", 0, std::numeric_limits<std::uint32_t>::max())),
+          .due = instant_of(map, "due_ns"),
+          .noticed = instant_of(map, "noticed_ns")};
+}
+
 }  // namespace
 
 Result<CarSummary, Problem> read_car_summary(const std::string& path) {
   const auto document = yaml::load_file(path);  // JSON is YAML
   if (!document) return Unexpected{document.error()};
   return yaml::read(*document, [](yaml::StrictMap& map) {
-    const auto count = [&map](const char* key) {
-      return static_cast<std::uint64_t>(
-          map.integer(key, 0, std::numeric_limits<std::int64_t>::max()));
-    };
+    const auto count = [&map](const char* key) { return count_of(map, key); };
     CarSummary car;
     car.ticks = count("ticks");
     car.missed_deadlines = count("missed_deadlines");
@@ -34,6 +73,19 @@ Result<CarSummary, Problem> read_car_summary(const std::string& path) {
     car.tx_drops = count("tx_drops");
     car.rx_dropped = count("rx_dropped");
     car.gate_refusals = count("gate_refusals");
+    car.frames_applied = count("frames_applied");
+    car.frames_lost = count("frames_lost");
+    car.loss_reports = count("loss_reports");
+    yaml::StrictMap identity = map.map("identity");
+    car.database = identity.text("database");
+    car.identity = identity.text("verdict");
+    car.identity_sentence = identity.text("sentence");
+    yaml::StrictMap link = map.map("link");
+    car.controller = link.text("controller");
+    for (const std::string& name : link.keys())
+      if (name != "controller") car.link.emplace_back(name, count_of(link, name.c_str()));
+    for (yaml::StrictMap& row : map.maps("messages")) car.messages.push_back(message_of(row));
+    for (yaml::StrictMap& row : map.maps("losses")) car.losses.push_back(loss_of(row));
     car.refused_by_kind = counts_of(map.map("refused_by_kind"));
     car.gate_verdicts = counts_of(map.map("gate_verdicts"));
     car.step_p50_us = map.number("step_p50_us", 0.0, 1e9);

@@ -9,9 +9,20 @@
 #include <vector>
 
 #include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/bus_health.hpp"
 
 namespace pitwall::bench {
+
+// How one message was in the end.
+struct CarMessage {
+  std::uint32_t id = 0;
+  std::string liveness;
+  std::uint64_t debt = 0, lost = 0, bad = 0;
+  Duration mean_interval{};
+  Instant last{};
+};
 
 struct CarSummary {
   using Counts = std::vector<std::pair<std::string, std::uint64_t>>;
@@ -19,7 +30,13 @@ struct CarSummary {
   std::uint64_t ticks = 0, missed_deadlines = 0;
   std::uint64_t frames_received = 0, frames_sent = 0, frames_refused = 0, tx_drops = 0;
   std::uint64_t rx_dropped = 0, gate_refusals = 0;
+  std::uint64_t frames_applied = 0, frames_lost = 0, loss_reports = 0;
   Counts refused_by_kind, gate_verdicts;
+  std::string controller;
+  std::string database, identity, identity_sentence;  // of the bus
+  Counts link;
+  std::vector<CarMessage> messages;
+  std::vector<world::LossReport> losses;  // the first of loss_reports
   double step_p50_us = kUnset, step_p99_us = kUnset, step_max_us = kUnset;
 };
 

@@ -271,8 +271,10 @@ class Live {
     result_.gate_refusals = car.gate_refusals;
     result_.bus_refusals = car.frames_refused;
     result_.bus_losses = car.frames_lost;
+    if (car.identity == "wrong") result_.refused_to_arm = car.identity_sentence;
     fill_timing();
     if (!record_) return;
+    record_->event(Instant{} + scenario_.duration, "identity", car.identity_sentence);
     for (world::LossReport loss : car.losses) {
       loss.noticed = Instant{} + (loss.noticed - start_);
       if (loss.due != Instant{}) loss.due = Instant{} + (loss.due - start_);

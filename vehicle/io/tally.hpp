@@ -6,8 +6,10 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 
+#include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/safety/frame_gate.hpp"
 #include "vehicle/world/bus_health.hpp"
@@ -32,14 +34,32 @@ class StepTally {
   double max_us_ = 0.0, recent_max_us_ = 0.0;
 };
 
+// Every loss that was noticed, as long as there is room; the rest is counted.
+class LossTally {
+ public:
+  static constexpr std::size_t kListed = 1'024;
+
+  // Of one tick.
+  void add(const world::BusHealth& bus);
+
+  std::span<const world::LossReport> listed() const { return listed_.span(); }
+  std::uint64_t reports() const { return reports_ + unlisted_; }
+
+ private:
+  FixedVector<world::LossReport, kListed> listed_;
+  std::uint64_t reports_ = 0;
+  std::uint64_t unlisted_ = 0;  // those that found the list of their tick full
+};
+
 // Since the start.
 struct FrameTotals {
   std::uint64_t received = 0, sent = 0, tx_drops = 0, rx_dropped = 0;
-  world::FrameRefusals refused;  // of what was heard, by kind
   std::uint64_t gate_refusals = 0;
   std::array<std::uint64_t, safety::kVerdicts> gate_verdicts{};  // of what was to be said
 };
 
-std::string summary_json(const StepTally& tally, const FrameTotals& frames);
+// One JSON object; `bus` as of the last tick.
+std::string summary_json(const StepTally& tally, const FrameTotals& frames,
+                         const world::BusHealth& bus, const LossTally& losses);
 
 }  // namespace pitwall::io

@@ -33,16 +33,50 @@ io::FrameTotals some_totals() {
   frames.tx_drops = 103;
   frames.rx_dropped = 104;
   frames.gate_refusals = 105;
-  frames.refused = {.unknown_id = 1,
-                    .wrong_length = 2,
-                    .remote_or_error = 3,
-                    .stuck_counter = 4,
-                    .jumped_counter = 5,
-                    .not_finite = 6,
-                    .out_of_range = 7,
-                    .implausible_slew = 8};
   for (std::size_t i = 0; i < frames.gate_verdicts.size(); ++i) frames.gate_verdicts[i] = 200 + i;
   return frames;
+}
+
+world::BusHealth some_health() {
+  world::BusHealth bus;
+  bus.frames_applied = 106;
+  bus.frames_lost = 107;
+  bus.refused = {.unknown_id = 1,
+                 .wrong_length = 2,
+                 .remote_or_error = 3,
+                 .stuck_counter = 4,
+                 .jumped_counter = 5,
+                 .wrong_checksum = 6,
+                 .not_finite = 7,
+                 .out_of_range = 8,
+                 .implausible_slew = 9};
+  bus.identity = {.verdict = world::IdentityVerdict::kWrong,
+                  .difference = world::IdentityDifference::kUnknownId,
+                  .id = 1000,
+                  .heard = 8};
+  bus.link = {.controller = world::ControllerState::kBusOff, .lost_in_socket = 108};
+  for (const std::uint32_t id : {1300U, 1303U})
+    EXPECT_TRUE(bus.messages.push({.id = id,
+                                   .liveness = world::Liveness::kAlive,
+                                   .debt = 3,
+                                   .lost = id + 1,
+                                   .bad = id + 2,
+                                   .mean_interval = milliseconds(5),
+                                   .last = {77}}));
+  for (const auto detector : {world::LossDetector::kCounter, world::LossDetector::kPeriod,
+                              world::LossDetector::kSocketQueue, world::LossDetector::kInterface})
+    EXPECT_TRUE(bus.losses.push({.id = static_cast<std::uint32_t>(detector),
+                                 .detector = detector,
+                                 .frames = 2,
+                                 .due = {1'000'000'007},
+                                 .noticed = {1'000'000'009}}));
+  return bus;
+}
+
+std::string some_summary(const io::StepTally& tally) {
+  io::LossTally losses;
+  losses.add(some_health());
+  return io::summary_json(tally, some_totals(), some_health(), losses);
 }
 
 TEST_F(CarSummaryFile, IsReadAsTheCarWroteIt) {
@@ -50,7 +84,7 @@ TEST_F(CarSummaryFile, IsReadAsTheCarWroteIt) {
   for (int i = 0; i < 98; ++i) tally.add(microseconds(20), 0);
   tally.add(microseconds(60), 2);
   tally.add(microseconds(90), 1);
-  const auto car = read_car_summary(write(io::summary_json(tally, some_totals())));
+  const auto car = read_car_summary(write(some_summary(tally)));
   ASSERT_TRUE(car) << to_string(car.error());
   EXPECT_EQ(car->ticks, 100u);
   EXPECT_EQ(car->missed_deadlines, 3u);
@@ -59,20 +93,53 @@ TEST_F(CarSummaryFile, IsReadAsTheCarWroteIt) {
   EXPECT_EQ(car->tx_drops, 103u);
   EXPECT_EQ(car->rx_dropped, 104u);
   EXPECT_EQ(car->gate_refusals, 105u);
-  EXPECT_EQ(car->frames_refused, 36u);
+  EXPECT_EQ(car->frames_refused, 45u);
   EXPECT_EQ(car->step_p50_us, tally.quantile_us(0.5));
   EXPECT_EQ(car->step_p99_us, tally.quantile_us(0.99));
   EXPECT_EQ(car->step_max_us, tally.max_us());
 
-  ASSERT_EQ(car->refused_by_kind.size(), 8u);
+  ASSERT_EQ(car->refused_by_kind.size(), 9u);
   EXPECT_EQ(car->refused_by_kind[0], (std::pair<std::string, std::uint64_t>{"unknown_id", 1}));
-  EXPECT_EQ(car->refused_by_kind[7],
-            (std::pair<std::string, std::uint64_t>{"implausible_slew", 8}));
+  EXPECT_EQ(car->refused_by_kind[8],
+            (std::pair<std::string, std::uint64_t>{"implausible_slew", 9}));
   EXPECT_EQ(car->gate_verdicts.size(), safety::kVerdicts);
 }
 
+TEST_F(CarSummaryFile, ItsBusIsReadAsTheCarSawIt) {
+  const auto car = read_car_summary(write(some_summary({})));
+  ASSERT_TRUE(car) << to_string(car.error());
+  EXPECT_EQ(car->frames_applied, 106u);
+  EXPECT_EQ(car->frames_lost, 107u);
+  EXPECT_EQ(car->loss_reports, 4u);
+  EXPECT_EQ(car->controller, "bus_off");
+  EXPECT_EQ(car->identity, "wrong");
+  EXPECT_EQ(car->identity_sentence,
+            "CAN id 1000: 8 bytes on the bus, no such message in database CAN1-INDY-V14");
+  EXPECT_EQ(car->database.rfind("av21.dbc, CAN1-INDY-V14, fingerprint ", 0), 0u);
+  EXPECT_EQ(car->link.front(), (std::pair<std::string, std::uint64_t>{"lost_in_socket", 108}));
+  const world::BusHealth bus = some_health();
+  ASSERT_EQ(car->messages.size(), bus.messages.size());
+  for (std::size_t i = 0; i < bus.messages.size(); ++i) {
+    EXPECT_EQ(car->messages[i].id, bus.messages[i].id);
+    EXPECT_EQ(car->messages[i].liveness, "alive");
+    EXPECT_EQ(car->messages[i].debt, bus.messages[i].debt);
+    EXPECT_EQ(car->messages[i].lost, bus.messages[i].lost);
+    EXPECT_EQ(car->messages[i].bad, bus.messages[i].bad);
+    EXPECT_EQ(car->messages[i].mean_interval, bus.messages[i].mean_interval);
+    EXPECT_EQ(car->messages[i].last, bus.messages[i].last);
+  }
+  ASSERT_EQ(car->losses.size(), bus.losses.size());
+  for (std::size_t i = 0; i < bus.losses.size(); ++i) {
+    EXPECT_EQ(car->losses[i].id, bus.losses[i].id);
+    EXPECT_EQ(car->losses[i].detector, bus.losses[i].detector);
+    EXPECT_EQ(car->losses[i].frames, bus.losses[i].frames);
+    EXPECT_EQ(car->losses[i].due, bus.losses[i].due);
+    EXPECT_EQ(car->losses[i].noticed, bus.losses[i].noticed);
+  }
+}
+
 TEST_F(CarSummaryFile, WhatIsCutOrStrangeIsRefusedWithItsPlace) {
-  const std::string good = io::summary_json({}, some_totals());
+  const std::string good = some_summary({});
   ASSERT_EQ(refusal(good), "");
   for (std::size_t length = 0; length + 2 < good.size(); length += 7)
     EXPECT_NE(refusal(good.substr(0, length)).find("vehicle.json"), std::string::npos) << length;

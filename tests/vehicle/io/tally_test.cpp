@@ -80,49 +80,113 @@ TEST(StepTally, TheRecentMaximumIsTakenOnce) {
   EXPECT_EQ(tally->missed_deadlines(), 3u);
 }
 
+// Every count has its own value, so that none can be taken for another.
+world::BusHealth some_health() {
+  world::BusHealth bus;
+  bus.frames_applied = 16, bus.frames_lost = 17;
+  bus.refused = {.unknown_id = 101,
+                 .wrong_length = 102,
+                 .remote_or_error = 103,
+                 .stuck_counter = 104,
+                 .jumped_counter = 105,
+                 .wrong_checksum = 106,
+                 .not_finite = 107,
+                 .out_of_range = 108,
+                 .implausible_slew = 109};
+  bus.link = {.controller = world::ControllerState::kPassive,
+              .lost_in_socket = 21,
+              .lost_in_interface = 22,
+              .error_frames = 23,
+              .tx_drops = 24,
+              .restarts = 25};
+  EXPECT_TRUE(bus.messages.push({.id = 1303,
+                                 .liveness = world::Liveness::kLate,
+                                 .debt = 31,
+                                 .lost = 32,
+                                 .bad = 33,
+                                 .mean_interval = microseconds(34),
+                                 .last = {35}}));
+  EXPECT_TRUE(bus.losses.push({.id = 1304,
+                               .detector = world::LossDetector::kPeriod,
+                               .frames = 41,
+                               .due = {42},
+                               .noticed = {43}}));
+  bus.losses_unlisted = 5;
+  return bus;
+}
+
+using Expected = std::vector<std::pair<const char*, std::int64_t>>;
+
+void expect_counts(yaml::StrictMap map, const Expected& counts) {
+  for (const auto& [key, value] : counts)
+    EXPECT_EQ(map.integer(key, 0, std::numeric_limits<std::int64_t>::max()), value) << key;
+}
+
+void expect_bus(yaml::StrictMap& map) {
+  expect_counts(map.map("refused_by_kind"), {{"unknown_id", 101},
+                                             {"wrong_length", 102},
+                                             {"remote_or_error", 103},
+                                             {"stuck_counter", 104},
+                                             {"jumped_counter", 105},
+                                             {"wrong_checksum", 106},
+                                             {"not_finite", 107},
+                                             {"out_of_range", 108},
+                                             {"implausible_slew", 109}});
+  yaml::StrictMap identity = map.map("identity");
+  EXPECT_EQ(identity.text("verdict"), "listening");
+  EXPECT_NE(identity.text("sentence"), "");
+  EXPECT_NE(identity.text("database").find("CAN1-INDY-V14"), std::string::npos);
+  yaml::StrictMap link = map.map("link");
+  EXPECT_EQ(link.text("controller"), "passive");
+  expect_counts(link, {{"lost_in_socket", 21},
+                       {"lost_in_interface", 22},
+                       {"error_frames", 23},
+                       {"tx_drops", 24},
+                       {"restarts", 25}});
+  std::vector<yaml::StrictMap> messages = map.maps("messages"), lost = map.maps("losses");
+  EXPECT_EQ(messages.size(), 1u);
+  EXPECT_EQ(messages.at(0).text("liveness"), "late");
+  expect_counts(messages.at(0), {{"id", 1303},
+                                 {"debt", 31},
+                                 {"lost", 32},
+                                 {"bad", 33},
+                                 {"mean_interval_us", 34},
+                                 {"last_ns", 35}});
+  EXPECT_EQ(lost.size(), 1u);
+  EXPECT_EQ(lost.at(0).text("by"), "period");
+  expect_counts(lost.at(0), {{"id", 1304}, {"frames", 41}, {"due_ns", 42}, {"noticed_ns", 43}});
+}
+
 TEST(Summary, IsReadBackWithEveryKey) {
   const auto tally = std::make_unique<StepTally>();
   for (int i = 1; i <= 100; ++i) tally->add(microseconds(i), i == 50 ? 6 : 0);
   FrameTotals frames;
   frames.received = 11, frames.sent = 12, frames.tx_drops = 13, frames.rx_dropped = 14;
-  frames.refused = {.unknown_id = 101,
-                    .wrong_length = 102,
-                    .remote_or_error = 103,
-                    .stuck_counter = 104,
-                    .jumped_counter = 105,
-                    .not_finite = 106,
-                    .out_of_range = 107,
-                    .implausible_slew = 108};
   frames.gate_refusals = 15;
   for (std::size_t i = 0; i < safety::kVerdicts; ++i) frames.gate_verdicts[i] = 1000 + i;
-  const std::string text = summary_json(*tally, frames);
+  const auto losses = std::make_unique<LossTally>();
+  losses->add(some_health());
+  const std::string text = summary_json(*tally, frames, some_health(), *losses);
   const auto document = yaml::load_text(text, "summary.json");  // JSON is YAML
   ASSERT_TRUE(document) << to_string(document.error()) << text;
   const auto all = yaml::read(*document, [](yaml::StrictMap& map) {
-    const auto is = [](yaml::StrictMap& in, const char* key, std::int64_t value) {
-      EXPECT_EQ(in.integer(key, 0, std::numeric_limits<std::int64_t>::max()), value) << key;
-    };
-    is(map, "ticks", 100);
-    is(map, "missed_deadlines", 6);
-    is(map, "frames_received", 11);
-    is(map, "frames_sent", 12);
-    is(map, "tx_drops", 13);
-    is(map, "rx_dropped", 14);
-    is(map, "frames_refused", 836);
-    is(map, "gate_refusals", 15);
-    yaml::StrictMap kinds = map.map("refused_by_kind");
-    is(kinds, "unknown_id", 101);
-    is(kinds, "wrong_length", 102);
-    is(kinds, "remote_or_error", 103);
-    is(kinds, "stuck_counter", 104);
-    is(kinds, "jumped_counter", 105);
-    is(kinds, "not_finite", 106);
-    is(kinds, "out_of_range", 107);
-    is(kinds, "implausible_slew", 108);
-    yaml::StrictMap verdicts = map.map("gate_verdicts");
+    expect_counts(map, {{"ticks", 100},
+                        {"missed_deadlines", 6},
+                        {"frames_received", 11},
+                        {"frames_sent", 12},
+                        {"tx_drops", 13},
+                        {"rx_dropped", 14},
+                        {"frames_applied", 16},
+                        {"frames_lost", 17},
+                        {"loss_reports", 6},
+                        {"frames_refused", 945},
+                        {"gate_refusals", 15}});
+    expect_bus(map);
+    Expected verdicts;
     for (std::size_t i = 0; i < safety::kVerdicts; ++i)
-      is(verdicts, safety::text_of(static_cast<safety::Verdict>(i)),
-         static_cast<std::int64_t>(1000 + i));
+      verdicts.emplace_back(safety::text_of(static_cast<safety::Verdict>(i)),
+                            static_cast<std::int64_t>(1000 + i));
+    expect_counts(map.map("gate_verdicts"), verdicts);
     EXPECT_NEAR(map.number("step_p50_us", 0, 1e9), 51.0, 1.0);
     EXPECT_NEAR(map.number("step_p99_us", 0, 1e9), 100.0, 1.0);
     EXPECT_EQ(map.number("step_max_us", 0, 1e9), 100.0);
@@ -131,9 +195,26 @@ TEST(Summary, IsReadBackWithEveryKey) {
   EXPECT_TRUE(all) << (all ? "" : to_string(all.error()));
 }
 
+TEST(LossTally, CountsAllAndListsTheFirst) {
+  const auto tally = std::make_unique<LossTally>();
+  std::uint64_t noticed = 0;
+  for (std::uint32_t tick = 0; tick < 100; ++tick) {
+    world::BusHealth bus;
+    for (std::uint32_t i = 0; i < tick % 64; ++i) {
+      ASSERT_TRUE(bus.losses.push({.id = static_cast<std::uint32_t>(noticed)}));
+      ++noticed;
+    }
+    bus.losses_unlisted = tick;  // since the start
+    tally->add(bus);
+    EXPECT_EQ(tally->reports(), noticed + tick);
+    EXPECT_EQ(tally->listed().size(), std::min<std::uint64_t>(noticed, LossTally::kListed));
+  }
+  for (std::size_t i = 0; i < tally->listed().size(); ++i) ASSERT_EQ(tally->listed()[i].id, i);
+}
+
 TEST(Summary, OfACarThatNeverStepsIsReadable) {
   const auto tally = std::make_unique<StepTally>();
-  EXPECT_TRUE(yaml::load_text(summary_json(*tally, {}), "summary.json"));
+  EXPECT_TRUE(yaml::load_text(summary_json(*tally, {}, {}, {}), "summary.json"));
 }
 
 }  // namespace
