@@ -2,7 +2,6 @@
 #include "vehicle/gateway/inbound.hpp"
 
 #include <cmath>
-#include <cstring>
 
 #include "protocol/can/manifest.hpp"
 #include "protocol/vocabulary/check.hpp"
@@ -27,36 +26,22 @@ std::size_t row_index(std::uint32_t id) {
   return low < kMessages.size() && kMessages[low].id == id ? low : kNotFound;
 }
 
-std::uint8_t counter_of(const can::MessageRow& row, const can::Frame& frame) {
-  constexpr unsigned kBitsPerByte = 8;
-  std::uint64_t raw = 0;
-  std::memcpy(&raw, frame.data.data(), sizeof raw);  // Intel order, as the host
-  const unsigned shift = row.counter_start;
-  const std::uint64_t mask = (1ull << row.counter_bits) - 1;
-  static_assert(sizeof(raw) == kBitsPerByte);
-  return static_cast<std::uint8_t>((raw >> shift) & mask);
-}
-
-enum class CounterVerdict : std::uint8_t { kGood, kStuck, kJumped };
-
-CounterVerdict count(const InboundParams& params, const can::MessageRow& row, MessageTrack& track,
-                     std::uint8_t counter) {
-  const std::uint8_t before = track.counter;
-  const bool known = track.counter_known;
-  track.counter = counter;
-  track.counter_known = true;
-  if (!known) return CounterVerdict::kGood;
-  const auto wrap = static_cast<std::uint8_t>((1u << row.counter_bits) - 1u);
-  const bool stuck = counter == before;
-  const bool next = counter == ((before + 1u) & wrap) || counter == 0;
-  const auto debt_max = static_cast<std::uint8_t>(2 * params.fault_debt);  // bounds the recovery
-  if (stuck || !next) {
-    if (track.debt < debt_max) ++track.debt;
-  } else if (track.debt > 0) {
-    --track.debt;
+// The verdict of the monitor; true if the frame may be read.
+bool admit(world::FrameRefusals& refused, can::FrameVerdict verdict) {
+  switch (verdict) {
+    case can::FrameVerdict::kGood:
+      return true;
+    case can::FrameVerdict::kStuckCounter:
+      ++refused.stuck_counter;
+      return false;
+    case can::FrameVerdict::kJumpedCounter:
+      ++refused.jumped_counter;
+      return false;
+    case can::FrameVerdict::kWrongChecksum:
+      ++refused.wrong_checksum;
+      return false;
   }
-  if (stuck) return CounterVerdict::kStuck;
-  return track.debt >= params.fault_debt ? CounterVerdict::kJumped : CounterVerdict::kGood;
+  return false;
 }
 
 void tally(InboundState& state, Reading reading) {
@@ -74,6 +59,23 @@ void tally(InboundState& state, Reading reading) {
       ++state.frames_applied;
       return;
   }
+}
+
+// A frame of a message of the car: rules 4 to 9.
+bool accept(const InboundParams& params, InboundState& state, std::size_t index,
+            const can::ReceivedFrame& received) {
+  const can::MessageRow& row = kMessages[index];
+  if (received.frame.length != row.length) {
+    ++state.refused.wrong_length;
+    return false;
+  }
+  const can::MonitorRules rules{.fault_debt = params.fault_debt,
+                                .use_counter = row.safety != can::SafetyClass::kRaceControl};
+  if (!admit(state.refused, can::judge(row, rules, state.monitors[index], received, state.losses)))
+    return false;
+  const Reading reading = apply(params, state, received);
+  tally(state, reading);
+  return reading == Reading::kApplied;
 }
 
 void receive(const InboundParams& params, InboundState& state, const can::ReceivedFrame& received) {
@@ -94,25 +96,11 @@ void receive(const InboundParams& params, InboundState& state, const can::Receiv
     state.own_id_seen = true;
     return;
   }
-  if (frame.length != row.length) {
-    ++state.refused.wrong_length;
+  MessageTrack& track = state.messages[index];
+  if (!accept(params, state, index, received)) {
+    ++track.refused;
     return;
   }
-  MessageTrack& track = state.messages[index];
-  if (row.has_counter && row.safety != can::SafetyClass::kRaceControl) {
-    const CounterVerdict verdict = count(params, row, track, counter_of(row, frame));
-    if (verdict == CounterVerdict::kStuck) {
-      ++state.refused.stuck_counter;
-      return;
-    }
-    if (verdict == CounterVerdict::kJumped) {
-      ++state.refused.jumped_counter;
-      return;
-    }
-  }
-  const Reading reading = apply(params, state, received);
-  tally(state, reading);
-  if (reading != Reading::kApplied) return;
   track.last = received.at;
   track.ever = true;
 }
@@ -146,6 +134,15 @@ world::RaceControl merge(const FlagSource& main, const FlagSource& other,
   return rc;
 }
 
+world::LossReport report_of(const can::LossReport& loss) {
+  return {.id = loss.id,
+          .detector = loss.sign == can::LossSign::kCounter ? world::LossDetector::kCounter
+                                                           : world::LossDetector::kPeriod,
+          .frames = loss.frames,
+          .due = loss.due,
+          .noticed = loss.noticed};
+}
+
 world::BusHealth health(const InboundState& state, Instant now) {
   world::BusHealth bus;
   bus.frames_applied = state.frames_applied;
@@ -154,12 +151,20 @@ world::BusHealth health(const InboundState& state, Instant now) {
   for (std::size_t i = 0; i < kMessages.size(); ++i) {
     if (kMessages[i].direction != can::Direction::kFromCar) continue;
     const MessageTrack& track = state.messages[i];
+    const can::MessageMonitor& monitor = state.monitors[i];
     const bool listed = bus.messages.push({.id = kMessages[i].id,
                                            .liveness = liveness(kMessages[i], track, now),
-                                           .debt = track.debt,
+                                           .debt = monitor.debt,
+                                           .lost = monitor.lost,
+                                           .bad = track.refused,
+                                           .mean_interval = monitor.mean_interval,
                                            .last = track.last});
     CHECK(listed);
+    bus.frames_lost += monitor.lost;
   }
+  static_assert(can::LossLog::kMax == decltype(bus.losses)::capacity());
+  for (const can::LossReport& loss : state.losses.listed()) CHECK(bus.losses.push(report_of(loss)));
+  bus.losses_unlisted = state.losses.unlisted;
   return bus;
 }
 
@@ -175,7 +180,9 @@ world::Liveness liveness(const can::MessageRow& row, const MessageTrack& track, 
 
 InboundOutput decode(const InboundParams& params, InboundState& state,
                      std::span<const can::ReceivedFrame> frames, Instant now) {
+  state.losses.clear();
   for (const can::ReceivedFrame& received : frames) receive(params, state, received);
+  can::watch(kMessages, state.monitors, now, state.losses);
   const bool mylaps = params.flag_encoding == world::FlagEncoding::kMyLaps;
   const FlagSource& main = mylaps ? state.mylaps : state.marelli;
   const FlagSource& other = mylaps ? state.marelli : state.mylaps;
@@ -184,6 +191,19 @@ InboundOutput decode(const InboundParams& params, InboundState& state,
           .bus = health(state, now),
           .own_frames = state.own_frames,
           .own_id_seen = state.own_id_seen};
+}
+
+void observe_link(InboundState& state, world::BusHealth& bus, const world::LinkObservation& link,
+                  Instant now) {
+  const auto report = [&](world::LossDetector detector, std::uint64_t before, std::uint64_t lost) {
+    if (lost <= before) return;
+    const world::LossReport loss{
+        .detector = detector, .frames = static_cast<std::uint32_t>(lost - before), .noticed = now};
+    if (!bus.losses.push(loss)) bus.losses_unlisted = ++state.losses.unlisted;
+  };
+  report(world::LossDetector::kSocketQueue, state.link.lost_in_socket, link.lost_in_socket);
+  report(world::LossDetector::kInterface, state.link.lost_in_interface, link.lost_in_interface);
+  state.link = bus.link = link;
 }
 
 }  // namespace pitwall::gateway

@@ -14,17 +14,23 @@
 //                                                does not deliver our own frames: another node
 //                                                speaks with our voice)
 //   4 length differs from the database        -> wrong_length
-//   5 counter equal to the last one received  -> stuck_counter (senders wrap at 7, 9 or 255, so
-//                                                "changed" is the rule, not "plus one")
-//   6 counter neither last + 1 nor 0 (wrap)   -> debt + 1; else debt - 1. While the debt is >=
-//                                                fault_debt: jumped_counter
-//   7 a number that is not finite, or outside the plausible range of the parameters
+//   5 checksum, where the message has one     -> wrong_checksum
+//   6 counter equal to the last one received  -> stuck_counter
+//   7 counter, while the leaky bucket over bad counters and checksums is at fault_debt
+//                                             -> jumped_counter. What is a jump and what a wrap, a
+//                                                restart or a loss: can::MessageMonitor
+//   8 a number that is not finite, or outside the plausible range of the parameters
 //                                             -> not_finite, out_of_range
-//   8 a change faster than the database's side file allows since the last accepted value, in the
+//   9 a change faster than the database's side file allows since the last accepted value, in the
 //     time that passed (at least one period)  -> implausible_slew. The allowance grows with time:
 //                                                a wrong first value cannot lock out the truth
-// Race-control messages skip 5 and 6: to refuse a flag could hide a stop. Their heartbeat is
-// watched for change instead (RaceControl::last_heartbeat_change).
+// The counters of race-control messages are not looked at (6, 7): to refuse a flag could hide a
+// stop. Their heartbeat is watched for change instead (RaceControl::last_heartbeat_change).
+//
+// Law: every frame is applied, refused by one kind, or an own frame; each is counted once.
+// Losses are those of can::MessageMonitor, for every message that was heard at least once; a frame
+// that is refused by rules 5 to 9 came and is not lost. A frame that comes after it was reported is
+// taken out of frames_lost again, its report stands.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -35,6 +41,7 @@
 
 #include "protocol/can/av21.hpp"
 #include "protocol/can/frame.hpp"
+#include "protocol/can/message_monitor.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/world/bus_health.hpp"
 #include "vehicle/world/race_control.hpp"
@@ -61,13 +68,11 @@ struct InboundParams {
   std::uint8_t gear_max = 6;               // [1, 8]
 };
 
-// What is remembered of one expected message.
+// What became of the frames of one expected message.
 struct MessageTrack {
   Instant last{};  // last applied
   bool ever = false;
-  bool counter_known = false;
-  std::uint8_t counter = 0;  // as received last, applied or not
-  std::uint8_t debt = 0;     // leaky bucket
+  std::uint32_t refused = 0;
 };
 
 // The last accepted value of a signal whose rate of change is limited.
@@ -92,6 +97,9 @@ inline constexpr std::size_t kTyreSensors = 16;
 
 struct InboundState {
   std::array<MessageTrack, can::av21::kMessages.size()> messages{};
+  std::array<can::MessageMonitor, can::av21::kMessages.size()> monitors{};
+  can::LossLog losses;          // of this tick
+  world::LinkObservation link;  // of the tick before
   std::array<SlewTrack, can::av21::kSlews.size()> slews{};
   std::array<std::array<double, kTyreSensors>, world::kCorners> tyre_sensor_c{};
   std::array<std::uint8_t, world::kCorners> tyre_messages_heard{};  // one bit for each of the 4
@@ -115,6 +123,11 @@ struct InboundOutput {
 
 InboundOutput decode(const InboundParams& params, InboundState& state,
                      std::span<const can::ReceivedFrame> frames, Instant now);
+
+// What the rim sees of the interface; frames that it lost since the tick before become reports
+// without an identifier. After decode() of the same tick.
+void observe_link(InboundState& state, world::BusHealth& bus, const world::LinkObservation& link,
+                  Instant now);
 
 // kLate after 2.5 periods, kLost after the timeout of the database's side file.
 world::Liveness liveness(const can::MessageRow& row, const MessageTrack& track, Instant now);

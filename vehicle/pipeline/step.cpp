@@ -75,7 +75,7 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
   out.heard = gateway::decode(p.inbound, car.inbound, in.can, in.now);
   const bool armed = car.supervisor.mode != Mode::kDisarmed;
   out.heard.bus.identity = gateway::identify(p.identity, car.identity, in.can, armed, in.now);
-  out.heard.bus.link = in.link;
+  gateway::observe_link(car.inbound, out.heard.bus, in.link, in.now);
 
   const auto located = localization::step(p.localization, setup.datum, car.localization, in.sensors,
                                           out.heard.signals, car.bank_rad, in.now);
