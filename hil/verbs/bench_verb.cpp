@@ -9,6 +9,7 @@
 #include "hil/bench/loading.hpp"
 #include "hil/bench/lockstep.hpp"
 #include "hil/verbs/bench_dbc.hpp"
+#include "hil/verbs/bench_gateway.hpp"
 #include "hil/verbs/bench_replay.hpp"
 #include "hil/verbs/exit_code.hpp"
 #include "protocol/transport/clock.hpp"
@@ -115,10 +116,11 @@ int bench_lockstep(const std::string& json_file) {
 
 int bench_verb(std::span<const std::string> args) {
   if (!args.empty() && args[0] == "replay") return bench_replay(args.subspan(1));
+  if (!args.empty() && args.front() == "gateway") return bench_gateway(args.subspan(1));
   if (!args.empty() && args.front() == "dbc") return bench_dbc(args.subspan(1));
   std::string name, json_file;
   CLI::App app{"pitwall-hil bench: benchmarks with gates"};
-  app.add_option("name", name, "dbc, lockstep, replay or step")->required();
+  app.add_option("name", name, "dbc, gateway, lockstep, replay or step")->required();
   app.add_option("--json", json_file, "write the figures here");
   try {
     std::vector<std::string> reversed(args.rbegin(), args.rend());
@@ -128,7 +130,8 @@ int bench_verb(std::span<const std::string> args) {
   }
   if (name == "lockstep") return bench_lockstep(json_file);
   if (name == "step") return bench_step(json_file);
-  return refuse({"bench", "unknown name \"" + name + "\"; known: dbc, lockstep, replay, step"});
+  return refuse(
+      {"bench", "unknown name \"" + name + "\"; known: dbc, gateway, lockstep, replay, step"});
 }
 
 }  // namespace pitwall::verbs

@@ -1,4 +1,5 @@
 // `pitwall-hil bench NAME [--json FILE]`: benchmarks that are runs of the bench itself.
+//   gateway    27,000 frames/s and every lost frame reported; options in bench_gateway.hpp
 //   lockstep   how much faster than real time the closed loop runs; gate: at least 20 times
 //   replay     timing of replays beside canplayer and python-can; options in bench_replay.hpp
 //   step       how long one step of the car takes in that loop; gate: p99 below 100 us

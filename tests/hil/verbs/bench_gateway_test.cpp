@@ -1,0 +1,26 @@
+// The benchmark itself runs on real vcan, in tests/system/gateway.
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/verbs/bench_gateway.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/hil/verbs/program_run.hpp"
+
+namespace pitwall::verbs {
+namespace {
+
+class BenchGateway : public ProgramRun {};
+
+TEST_F(BenchGateway, WrongUsageIsTold) {
+  expect_refusal({"bench", "gateway", "--seconds", "1"}, "--seconds");
+  expect_refusal({"bench", "gateway", "--omissions", "-1"}, "--omissions");
+  expect_refusal({"bench", "gateway", "--figures", path("figures")}, "--start");
+  expect_refusal({"bench", "gateway", "--no-such-flag"}, "--no-such-flag");
+}
+
+TEST_F(BenchGateway, AnInterfaceThatIsNotThereIsTold) {
+  expect_refusal({"bench", "gateway", "--here", "--interface", "nocan0"}, "nocan0");
+}
+
+}  // namespace
+}  // namespace pitwall::verbs
