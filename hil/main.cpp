@@ -31,7 +31,7 @@ constexpr std::array kVerbs{
     Verb{"replay", "replay a candump log onto a CAN interface", replay::replay_verb},
     Verb{"dbc", "CAN databases: check, show, diff", verbs::dbc_verb},
     Verb{"bus", "CAN interfaces: from this kernel or from a guest", guest::bus_verb},
-    Verb{"bench", "benchmarks with gates: lockstep, step", verbs::bench_verb},
+    Verb{"bench", "benchmarks with gates; --help names them", verbs::bench_verb},
 };
 
 int usage(std::FILE* out, int code) {
