@@ -28,10 +28,19 @@ double decode(const Signal& signal, const Frame& frame) {
 bool decode(const Message& message, const Frame& frame, std::span<double> values) {
   CHECK(values.size() == message.signals.size());
   if (!is_frame_of(message, frame)) return false;
-  const bool is_plain = message.deepest == 0;
+  if (message.deepest == 0 && message.length <= 8) {
+    // The usual case: every plan begins at byte 0, so two words hold all signals.
+    const std::uint64_t intel = load_intel(frame.data), motorola = load_motorola(frame.data);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const SignalPlan& p = message.signals[i].plan;
+      const std::uint64_t word = p.order == ByteOrder::kIntel ? intel : motorola;
+      values[i] = physical_of(word >> p.shift & p.mask, p);
+    }
+    return true;
+  }
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Signal& s = message.signals[i];
-    values[i] = is_plain || is_present(message, s, frame) ? decode(s, frame) : kUnset;
+    values[i] = is_present(message, s, frame) ? decode(s, frame) : kUnset;
   }
   return true;
 }
