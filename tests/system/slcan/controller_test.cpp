@@ -10,25 +10,16 @@
 
 #include "protocol/transport/can_interface.hpp"
 #include "protocol/transport/can_socket.hpp"
-#include "protocol/transport/clock.hpp"
+#include "tests/support/comes_true.hpp"
 #include "tests/system/slcan/scripted_controller.hpp"
 
 namespace pitwall::slcan {
 namespace {
 
+using testing::comes_true;
 using transport::BusState;
 using transport::CanInterface;
 using transport::CanSocket;
-
-template <class Condition>
-bool comes_true(Condition&& condition) {
-  const Instant limit = transport::monotonic_now() + seconds(10);
-  while (!condition()) {
-    if (transport::monotonic_now() > limit) return false;
-    transport::sleep_until(transport::monotonic_now() + milliseconds(1));
-  }
-  return true;
-}
 
 std::string output_of(const std::string& command) {
   std::string out;

@@ -7,20 +7,12 @@
 
 #include <string>
 
-#include "protocol/transport/clock.hpp"
+#include "tests/support/comes_true.hpp"
 
 namespace pitwall::io {
 namespace {
 
-template <class Condition>
-bool comes_true(Condition&& condition) {
-  const Instant limit = transport::monotonic_now() + seconds(20);
-  while (!condition()) {
-    if (transport::monotonic_now() > limit) return false;
-    transport::sleep_until(transport::monotonic_now() + milliseconds(1));
-  }
-  return true;
-}
+using testing::comes_true;
 
 TEST(BusWatch, KnowsTheInterfaceFromTheStartAndAsksAgain) {
   const auto watch = BusWatch::start("lo");
