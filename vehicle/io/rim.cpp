@@ -8,7 +8,9 @@
 namespace pitwall::io {
 namespace {
 
-constexpr std::size_t kFramesPerRead = 1'024;  // a quarter second of a full bus
+// More than the receive queue of the socket holds (21,846 frames): what waits after a stall is read
+// at once, else the newest frames would be taken for lost.
+constexpr std::size_t kFramesPerRead = 22'528;
 
 }  // namespace
 
