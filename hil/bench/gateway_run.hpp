@@ -37,7 +37,7 @@ struct GatewayRun {
   std::uint64_t listener_lost_in_queue = 0;
   load::LossJudgement by_car, by_listener;
   std::vector<load::QueueLoss> queue;  // of a third receiver, which pauses
-  load::Lateness wake;                 // of the receivers' process
+  load::Lateness wake;  // of the receivers' process, from the start of the traffic on
 };
 
 Result<GatewayRun, Problem> run_gateway(const GatewayPlan& plan);
