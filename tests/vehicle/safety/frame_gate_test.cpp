@@ -133,6 +133,16 @@ TEST(FrameGate, SixteenFramesMayBeProposedInOneTick) {
   }
 }
 
+TEST(FrameGate, TheSixteenThatAreJudgedAreTheFirst) {
+  Gate g;
+  std::vector<can::Frame> frames(20, blank(7, 8));
+  for (std::size_t i = 16; i < frames.size(); ++i) frames[i] = gear(3);
+  const GateOutput out = g.all(frames);
+  EXPECT_EQ(out.frames.size(), 0u);
+  EXPECT_EQ(g.count(Verdict::kUnknownId), 16u);
+  EXPECT_EQ(g.count(Verdict::kTooMany), 4u);
+}
+
 TEST(FrameGate, TheFirstRefusalIsTheFirstInTheOrderProposed) {
   Gate g;
   can::Frame remote = brake(0, 1);
