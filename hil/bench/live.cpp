@@ -270,7 +270,10 @@ class Live {
                            car.tx_drops;
     result_.gate_refusals = car.gate_refusals;
     result_.bus_refusals = car.frames_refused;
-    result_.bus_losses = car.frames_lost;
+    // Not those of the silence after the bench's last frame, which the car counts too.
+    for (const world::LossReport& loss : car.losses)
+      if (loss.id != 0 && loss.due <= start_ + scenario_.duration)
+        result_.bus_losses += loss.frames;
     if (car.identity == "wrong") result_.refused_to_arm = car.identity_sentence;
     fill_timing();
     if (!record_) return;
