@@ -234,22 +234,11 @@ TEST(TelemetryTap, AgesAreThoseOfTheSamples) {
 
 TEST(TelemetryTap, WhatWasNeverHeardIsNotANumberAndHasNoAge) {
   const auto packet = tap(setup(), Outputs{}, RimCounters{}, kNow);
-  const std::set<std::string> known{"mode.mode",
-                                    "mode.ct_state",
-                                    "ego.validity",
-                                    "mode.first_stop_cause",
-                                    "bus.frames_applied",
-                                    "bus.frames_refused",
-                                    "bus.frames_sent",
-                                    "bus.tx_drops",
-                                    "bus.gate_refusals",
-                                    "bus.frames_lost",
-                                    "bus.queue_losses",
-                                    "bus.controller",
-                                    "bus.identity",
-                                    "bus.database",
-                                    "computer.steps",
-                                    "computer.missed_deadlines"};
+  const std::set<std::string> known{
+      "mode.mode",          "mode.ct_state",      "ego.validity",     "mode.first_stop_cause",
+      "bus.frames_applied", "bus.frames_refused", "bus.frames_sent",  "bus.tx_drops",
+      "bus.gate_refusals",  "bus.frames_lost",    "bus.queue_losses", "bus.controller",
+      "bus.identity",       "bus.database",       "computer.steps",   "computer.missed_deadlines"};
   for (std::size_t i = 0; i < telemetry::kFieldCount; ++i)
     EXPECT_EQ(std::isnan(packet.values[i]), !known.contains(name_of(i))) << name_of(i);
   const std::set<Group> sampled{Group::kMode, Group::kCommand, Group::kBus, Group::kComputer};
