@@ -31,10 +31,9 @@ constexpr Duration kStartLimit = seconds(15);
 constexpr Duration kStopLimit = seconds(5);
 constexpr Duration kSettle = milliseconds(300);  // for frames and datagrams on their way
 constexpr std::size_t kReadBatch = 256;
-// A system call costs 16 us in the guest: one wake-up does several steps, and what is slow anyway
-// is
-// looked at once per tick of the car.
-constexpr Duration kWake = milliseconds(2);
+// One wake-up per step of the rig: frames sent later than half their period would seem lost to the
+// car. A system call costs 16 us in the guest, so what is slow anyway is looked at once per tick.
+constexpr Duration kWake = milliseconds(1);
 constexpr Duration kLook = milliseconds(10);
 
 // The car's telemetry on its way to the radio: read for grading, passed on byte for byte.

@@ -80,8 +80,8 @@ std::string to_text(const RunResult& r) {
   if (std::isfinite(r.traffic.bus_load))
     out += format(", bus load %.1f %%", 100.0 * r.traffic.bus_load);
   out += format(
-      "\nrefused: %llu frames by the gateway, %llu commands by the frame gate; noticed by the "
-      "car to be missing: %llu frames\n",
+      "\nrefused: %llu frames by the gateway, %llu commands by the frame gate; missed by the "
+      "car when they were due: %llu frames\n",
       static_cast<unsigned long long>(r.bus_refusals),
       static_cast<unsigned long long>(r.gate_refusals),
       static_cast<unsigned long long>(r.bus_losses));

@@ -28,7 +28,8 @@ struct RunResult {
   Laps laps;
   Traffic traffic;
   std::uint64_t gate_refusals = 0, bus_refusals = 0;
-  std::uint64_t bus_losses = 0;  // frames that the car noticed never came
+  std::uint64_t bus_losses =
+      0;  // frames that the car missed when they were due (live: late ones too)
   double speed_max_mps = 0.0;
   std::string refused_to_arm;  // why, if at the end the bus was not that of the car; else empty
   std::string digest;
