@@ -66,11 +66,15 @@ void SocketRim::look_for_signals(Instant deadline) {
 void SocketRim::wait_until(Instant deadline) {
   look_for_signals(deadline);
   if (stopped_) return;
-  if (lead_.ns == 0) return transport::sleep_until(deadline);
-  if (deadline - read_ > lead_) transport::sleep_until(deadline - lead_);
-  // The look that comes nearest to the deadline is the last one.
-  while (now() < deadline - half_look_) {
+  if (lead_.ns == 0 || !budget_.has_credit(read_)) return transport::sleep_until(deadline);
+  Instant busy_from = read_;
+  if (deadline - read_ > lead_) {
+    transport::sleep_until(deadline - lead_);
+    busy_from = now();
   }
+  // The look that comes nearest to the deadline is the last one.
+  while (read_ < deadline - half_look_) now();
+  budget_.spend(read_ - busy_from);
 }
 
 BusOutcome SocketRim::send(std::size_t bus, std::size_t first, std::size_t count) {

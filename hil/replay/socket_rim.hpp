@@ -13,13 +13,15 @@
 //   in     timeline, one sender per bus, the lead (measured, or given; 0: plain sleeps)
 //   out    now(), wait_until(), send(), stopped() as Player asks for them
 //   errors open(): Problem. While playing: SendOutcome only
-//   cost   the lead is time of the processor that nobody else gets, once per wake-up
+//   cost   the lead is time of the processor that nobody else gets, once per wake-up; where that
+//          would be more than a quarter of all time (BusyBudget), sleeps are plain for a while
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "hil/replay/busy_budget.hpp"
 #include "hil/replay/player.hpp"
 #include "hil/replay/timeline.hpp"
 #include "protocol/transport/can_sender.hpp"
@@ -61,6 +63,7 @@ class SocketRim {
   Duration half_look_{};  // of what one look at the clock takes
   Instant read_{};        // what the clock last said
   Instant looked_{};      // for signals
+  BusyBudget budget_;
   bool stopped_ = false;
   int last_error_ = 0;
 };

@@ -1,0 +1,37 @@
+// How much time may be spent waiting busily: a quarter of all time, and not much at once. The
+// kernel stops a real-time thread that is never idle (sched_rt_runtime_us: 50 ms of every second),
+// and on a machine with one processor somebody else wants to live.
+//   in     instants that do not run backwards, what was spent
+//   out    whether there is credit
+//   law    between any two instants no more than kMost and a quarter of the time between them is
+//          spent, but for the last wait that was begun with credit
+//   errors none
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::replay {
+
+class BusyBudget {
+ public:
+  static constexpr std::int64_t kShare = 4;
+  static constexpr Duration kMost = milliseconds(5);
+
+  bool has_credit(Instant now) {
+    if (begun_) credit_ = std::min(kMost, credit_ + (now - last_) / kShare);
+    begun_ = true;
+    last_ = now;
+    return credit_ > Duration{};
+  }
+  void spend(Duration busy) { credit_ = credit_ - busy; }
+
+ private:
+  Duration credit_ = kMost;
+  Instant last_{};
+  bool begun_ = false;
+};
+
+}  // namespace pitwall::replay
