@@ -20,11 +20,11 @@ namespace pitwall::can {
 // The worst first.
 enum class Change : std::uint8_t {
   kIdReused,      // the same id is another message
+  kSignalReread,  // other bits, scale, sign, order, multiplexing: other values from the same frame
   kMessageGone,   //
   kMessageMoved,  // to another id
   kMessageNew,    //
   kFrame,         // another length, or CAN FD
-  kSignalReread,  // other bits, scale, sign, order, multiplexing: other values from the same frame
   kSignalGone,    //
   kSignalNew,     //
   kRange,         // what an encoder saturates at
