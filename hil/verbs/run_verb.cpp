@@ -56,6 +56,9 @@ Result<bench::RunResult, Problem> lockstep(const bench::Loaded& loaded,
 
 Result<bench::RunResult, Problem> live(const RunOptions& options, const bench::Loaded& loaded,
                                        recording::Sink log) {
+  std::error_code error;
+  fs::create_directories(options.folder, error);
+  if (error) return Unexpected{Problem{options.folder, error.message()}};
   const std::string vehicle =
       (fs::path(own_program()).parent_path().parent_path() / "vehicle/pitwall-vehicle").string();
   const bench::LivePlan plan{.interface = options.interface,
@@ -130,7 +133,8 @@ int run_verb(std::span<const std::string> args) {
   app.add_option("--interface", options.interface, "live: CAN interface");
   app.add_option("--log", options.log_file, "write the event log (MCAP)");
   app.add_option("--json", options.json_file, "write the result as JSON");
-  app.add_option("--out", options.folder, "live: folder for the car's summary and the candump");
+  app.add_option("--out", options.folder,
+                 "live: folder for the car's summary and the candump; default " + options.folder);
   app.add_flag("--candump", options.candump, "live: record the bus with candump");
   app.add_option("--radio-port", options.radio_port, "live: pass telemetry on to this port");
   const auto* duration = app.add_option("--duration", duration_s, "seconds, instead of the file's")

@@ -20,7 +20,7 @@
 namespace pitwall::verbs {
 
 struct RunOptions {
-  std::string scenario, log_file, json_file, folder = ".";
+  std::string scenario, log_file, json_file, folder = "out/run";
   std::optional<Duration> duration;   // instead of the scenario's
   std::optional<std::uint64_t> seed;  // likewise
   bool live = false, here = false, candump = false, quiet = false;
