@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# seed_folders.sh FUZZER: folders of real inputs for it, read where they are; prints those that exist.
+# SPDX-License-Identifier: Apache-2.0
+set -euo pipefail
+
+root=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../..
+root=$(readlink -f "$root")
+shared=${PITWALL_SHARED_DATA:-$root/../shared/data}
+folders=("$root/tests/fuzz/seeds/$1")
+case $1 in
+  *dbc* | *manifest*) folders+=("$root/protocol/can/dbc" "$shared/dbc") ;;
+  *scenario*) folders+=("$root/hil/scenarios") ;;
+  *car* | *yaml* | *param* | *track*) folders+=("$root/vehicle/config") ;;
+  *log* | *replay* | *candump* | *asc | *blf | *trc) folders+=("$shared/can_logs") ;;
+  *gnss* | *novatel* | *vectornav*) folders+=("$shared/gnss") ;;
+esac
+for folder in "${folders[@]}"; do
+  if [[ -d $folder ]]; then printf '%s\n' "$folder"; fi
+done
