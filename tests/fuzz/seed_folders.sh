@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# seed_folders.sh FUZZER: folders of real inputs for it, read where they are; prints those that exist.
+# seed_folders.sh FUZZER: prints the folders of real inputs for it that exist; read where they are.
 # SPDX-License-Identifier: Apache-2.0
 set -euo pipefail
 
