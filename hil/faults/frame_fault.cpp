@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "protocol/can/av21.hpp"
+#include "protocol/can/message_monitor.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::faults {
@@ -30,15 +31,6 @@ const can::MessageRow* row_with_counter(std::uint32_t id) {
   for (const can::MessageRow& row : can::av21::kMessages)
     if (row.id == id && row.has_counter) return &row;
   return nullptr;
-}
-
-std::uint32_t counter_of(const can::Frame& frame, const can::MessageRow& row) {
-  std::uint32_t value = 0;
-  for (std::uint32_t i = 0; i < row.counter_bits; ++i) {
-    const std::uint32_t bit = row.counter_start + i;
-    value |= ((static_cast<std::uint32_t>(frame.data[bit / 8]) >> (bit % 8)) & 1U) << i;
-  }
-  return value;
 }
 
 void set_counter(can::Frame& frame, const can::MessageRow& row, std::uint32_t value) {
@@ -78,11 +70,11 @@ void rewrite_counter(const FrameFault& fault, FrameFaultState::One& one, can::Fr
   const can::MessageRow* row = row_with_counter(frame.id);
   if (row == nullptr || !reaches(frame, *row)) return;
   if (fault.kind == FrameFaultKind::kCounterJump) {
-    set_counter(frame, *row, counter_of(frame, *row) + fault.count);
+    set_counter(frame, *row, can::counter_of(*row, frame) + fault.count);
     return;
   }
   const can::Frame* held = frozen(one, frame);
-  if (held != nullptr) set_counter(frame, *row, counter_of(*held, *row));
+  if (held != nullptr) set_counter(frame, *row, can::counter_of(*row, *held));
 }
 
 void freeze_value(FrameFaultState::One& one, can::Frame& frame) {
@@ -91,7 +83,7 @@ void freeze_value(FrameFaultState::One& one, can::Frame& frame) {
   can::Frame old = *held;
   const can::MessageRow* row = row_with_counter(frame.id);
   if (row != nullptr && reaches(frame, *row) && reaches(old, *row))
-    set_counter(old, *row, counter_of(frame, *row));
+    set_counter(old, *row, can::counter_of(*row, frame));
   frame = old;
 }
 
