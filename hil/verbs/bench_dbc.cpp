@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "hil/faults/random.hpp"
+#include "hil/verbs/command_line.hpp"
 #include "hil/verbs/exit_code.hpp"
 #include "hil/verbs/synthetic_dbc.hpp"
 #include "protocol/can/av21.hpp"
@@ -264,12 +265,7 @@ int bench_dbc(std::span<const std::string> args) {
   std::string json_file;
   CLI::App app{"pitwall-hil bench dbc: reading CAN databases and decoding frames"};
   app.add_option("--json", json_file, "write the figures here");
-  try {
-    std::vector<std::string> reversed(args.rbegin(), args.rend());
-    app.parse(reversed);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitPass : kExitUnusable;
-  }
+  if (const auto code = ended_by(app, args)) return *code;
   const auto text = transport::read_file(kDatabase, can::kMaxDbcBytes);
   if (!text) return refuse(text.error());
   const auto database = can::parse_dbc(*text, kDatabase);

@@ -11,6 +11,7 @@
 
 #include "hil/bench/gateway_run.hpp"
 #include "hil/guest/bus_verb.hpp"
+#include "hil/verbs/command_line.hpp"
 #include "hil/verbs/exit_code.hpp"
 #include "hil/verbs/run_verb.hpp"
 #include "protocol/transport/file.hpp"
@@ -232,12 +233,7 @@ int bench_gateway(std::span<const std::string> args) {
   app.add_flag("--here", options.here, "the interface exists here already");
   auto* start = app.add_option("--start", options.start_ns, "send only, from this instant on");
   app.add_option("--figures", options.figures_file, "of the sender")->needs(start);
-  try {
-    std::vector<std::string> reversed(args.rbegin(), args.rend());
-    app.parse(reversed);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitPass : kExitUnusable;
-  }
+  if (const auto code = ended_by(app, args)) return *code;
   if (start->count() > 0) {
     const auto sent = bench::send_traffic(options.interface, traffic_of(options),
                                           {options.start_ns}, options.figures_file);

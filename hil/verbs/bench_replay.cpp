@@ -10,6 +10,7 @@
 #include "hil/replay/candump_log.hpp"
 #include "hil/replay/sample_log.hpp"
 #include "hil/replay/timeline.hpp"
+#include "hil/verbs/command_line.hpp"
 #include "hil/verbs/exit_code.hpp"
 #include "hil/verbs/match_report.hpp"
 #include "hil/verbs/player_match.hpp"
@@ -146,12 +147,7 @@ int bench_replay(std::span<const std::string> args) {
   app.add_flag("--here", options.here, "the interface exists here already")->group("");
   app.add_option("--folder", options.folder, "for what is written on the way")->group("");
   app.add_option("--host-load", options.host_load, "to be reported")->group("");
-  try {
-    std::vector<std::string> reversed(args.rbegin(), args.rend());
-    app.parse(reversed);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitPass : kExitUnusable;
-  }
+  if (const auto code = ended_by(app, args)) return *code;
   return options.here ? match_here(options) : match_where_can_is(options);
 }
 

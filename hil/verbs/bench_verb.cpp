@@ -11,6 +11,7 @@
 #include "hil/verbs/bench_dbc.hpp"
 #include "hil/verbs/bench_gateway.hpp"
 #include "hil/verbs/bench_replay.hpp"
+#include "hil/verbs/command_line.hpp"
 #include "hil/verbs/exit_code.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
@@ -122,12 +123,7 @@ int bench_verb(std::span<const std::string> args) {
   CLI::App app{"pitwall-hil bench: benchmarks with gates"};
   app.add_option("name", name, "dbc, gateway, lockstep, replay or step")->required();
   app.add_option("--json", json_file, "write the figures here");
-  try {
-    std::vector<std::string> reversed(args.rbegin(), args.rend());
-    app.parse(reversed);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitPass : kExitUnusable;
-  }
+  if (const auto code = ended_by(app, args)) return *code;
   if (name == "lockstep") return bench_lockstep(json_file);
   if (name == "step") return bench_step(json_file);
   return refuse(

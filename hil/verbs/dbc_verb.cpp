@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "hil/verbs/command_line.hpp"
 #include "hil/verbs/dbc_table.hpp"
 #include "hil/verbs/exit_code.hpp"
 #include "protocol/can/dbc_parser.hpp"
@@ -178,12 +179,7 @@ int dbc_verb(std::span<const std::string> args) {
   diffs->add_option("ONE", options.one, "database")->required();
   diffs->add_option("OTHER", options.other, "another revision")->required();
   diffs->add_option("--json", options.json_file, "write the differences here");
-  try {
-    std::vector<std::string> reversed(args.rbegin(), args.rend());
-    app.parse(reversed);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitPass : kExitUnusable;
-  }
+  if (const auto code = ended_by(app, args)) return *code;
   if (*checks) return check(options);
   return *shows ? show(options) : diff(options);
 }

@@ -12,6 +12,7 @@
 
 #include "hil/bench/loading.hpp"
 #include "hil/guest/bus_verb.hpp"
+#include "hil/verbs/command_line.hpp"
 #include "hil/verbs/exit_code.hpp"
 #include "hil/verbs/run_verb.hpp"
 #include "protocol/transport/clock.hpp"
@@ -156,12 +157,7 @@ int demo_verb(std::span<const std::string> args) {
   app.add_option("--json", options.json_file, "write the figures here");
   app.add_option("--out", options.folder, "folder for logs");
   app.add_option("--scenario", options.scenario, "scenario file");
-  try {
-    std::vector<std::string> reversed(args.rbegin(), args.rend());
-    app.parse(reversed);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitPass : kExitUnusable;
-  }
+  if (const auto code = ended_by(app, args)) return *code;
   return demo(options);
 }
 

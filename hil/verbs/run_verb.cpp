@@ -11,6 +11,7 @@
 #include "hil/bench/loading.hpp"
 #include "hil/bench/lockstep.hpp"
 #include "hil/guest/bus_verb.hpp"
+#include "hil/verbs/command_line.hpp"
 #include "hil/verbs/exit_code.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
@@ -141,12 +142,7 @@ int run_verb(std::span<const std::string> args) {
                              ->check(CLI::Range(0.1, 36'000.0));
   const auto* with_seed =
       app.add_option("--seed", seed, "instead of the file's")->check(CLI::Range(0, 1'000'000'000));
-  try {
-    std::vector<std::string> reversed(args.rbegin(), args.rend());
-    app.parse(reversed);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitPass : kExitUnusable;
-  }
+  if (const auto code = ended_by(app, args)) return *code;
   if (duration->count() > 0) options.duration = from_seconds(duration_s);
   if (with_seed->count() > 0) options.seed = seed;
   if (!options.live || options.here) return run_scenario(options);
