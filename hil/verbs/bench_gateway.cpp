@@ -77,12 +77,28 @@ void print_figures(const char* name, const bench::GatewayRun& run, const Options
               static_cast<unsigned long long>(run.car.missed_deadlines));
 }
 
+// What the car received beside the traffic, by the reason for which it did not count; frames on
+// its own identifiers are neither applied nor refused.
+void print_others(const bench::CarSummary& car) {
+  std::uint64_t known = car.frames_applied;
+  for (const auto& [kind, count] : car.refused_by_kind) {
+    known += count;
+    if (count > 0 && kind != "unknown_id")
+      std::printf("          the car refused %llu frames as %s\n",
+                  static_cast<unsigned long long>(count), kind.c_str());
+  }
+  if (car.frames_received > known)
+    std::printf("          the car received %llu frames on its own identifiers\n",
+                static_cast<unsigned long long>(car.frames_received - known));
+}
+
 void judge_traffic(Gates& gates, const bench::GatewayRun& run, const Options& options) {
   const bench::CarSummary& car = run.car;
   gates.ask("at least 27,000 frames/s",
             run.sent >= kLeastRate * static_cast<std::uint64_t>(options.seconds));
   gates.equal("frames sent", run.sender.sent, run.sent);
   gates.equal("frames received by the car", car.frames_received, run.sent);
+  print_others(car);
   gates.equal("reports of the car applied", car.frames_applied, run.sent_of_car);
   gates.equal("frames of unknown identifiers counted by the car",
               count_named(car.refused_by_kind, "unknown_id"), run.sent - run.sent_of_car);
