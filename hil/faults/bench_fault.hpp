@@ -1,6 +1,8 @@
 // Faults that the bench itself carries out in its models: data only, one row per kind. The scenario
 // file names them; what acts on each is the part in `acts_on`.
 //   units  of `value`: as the row says; 0 where the kind needs none
+//   law    a process that is killed for a duration is started again at its end (never armed); one
+//          killed without a duration stays dead; one that is paused goes on at the end
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -49,6 +51,10 @@ enum class BenchFaultKind : std::uint8_t {
   kComputerSilent,
   kComputerPaused,
   kComputerKilled,
+  kComputerSlow,
+  kGuardianKilled,
+  kBaseKilled,
+  kBasePaused,
   kClockStep,
   kClockSkew,
   kLogDiskFull
@@ -85,7 +91,7 @@ struct BenchFault {
   std::uint64_t seed = 1;
 };
 
-inline constexpr std::size_t kBenchFaultKinds = 38;
+inline constexpr std::size_t kBenchFaultKinds = 42;
 extern const std::array<BenchFaultRow, kBenchFaultKinds> kBenchFaults;
 
 const BenchFaultRow& row_of(BenchFaultKind kind);

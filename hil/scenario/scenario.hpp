@@ -26,6 +26,18 @@ struct Tyres {
   double temperature_c = 85.0;
 };
 
+// How the modelled car and world differ from what the car believes of them. Neutral by default.
+struct Perturbations {
+  double mass_kg = 0.0;         // added to the car's; [-300, 300]
+  double tyre_stiffness = 1.0;  // factor on the slip stiffness at the same friction; [0.5, 2]
+  double friction = 1.0;        // factor on every friction coefficient; [0.2, 1.5]
+  double bank_error_rad = 0.0;  // true banking less that of the track file; [-5, 5] deg
+  double wind_mps = 0.0;        // [0, 40]
+  double wind_to_rad = 0.0;     // where it blows to, in Map, from east counter-clockwise
+  // Added to what the actuators have; [0, 0.5] s.
+  double steering_delay_s = 0.0, throttle_delay_s = 0.0, brake_delay_s = 0.0, gear_delay_s = 0.0;
+};
+
 struct FlagChange {
   Duration at{};
   world::TrackFlag track = world::TrackFlag::kNone;
@@ -64,6 +76,8 @@ struct Scenario {
   BusRevision bus = BusRevision::kV14;
   Start start;
   Tyres tyres;
+  std::string plant_file;  // of the modelled car; empty: the AV-21 of hil/plant/params.hpp
+  Perturbations perturb;
   std::vector<FlagChange> race_control;
   std::vector<Fault> faults;
   std::vector<Expectation> expect;
