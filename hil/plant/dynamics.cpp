@@ -15,12 +15,25 @@ constexpr std::size_t kFl = 0, kFr = 1, kRl = 2, kRr = 3;
 // Sums in an order that a mirrored car shares, so that mirror symmetry is exact.
 double total(const Wheels& w) { return (w[kFl] + w[kFr]) + (w[kRl] + w[kRr]); }
 
+// The air's velocity relative to the car and the wind's across it, in the plane of the road.
+struct Air {
+  double along_mps, wind_across_mps;
+};
+
+Air air_of(const Motion& m, const Surface& road) {
+  if (road.wind_east_mps == 0.0 && road.wind_north_mps == 0.0) return {m.vx_mps, 0.0};
+  const double cos_yaw = std::cos(m.yaw_rad), sin_yaw = std::sin(m.yaw_rad);
+  const double along_mps = road.wind_east_mps * cos_yaw + road.wind_north_mps * sin_yaw;
+  const double across_mps = road.wind_north_mps * cos_yaw - road.wind_east_mps * sin_yaw;
+  return {m.vx_mps - along_mps, across_mps * std::cos(road.bank_rad)};
+}
+
 // Quasi-static loads; springs and anti-roll bars enter as the share of the front axle. A wheel that
 // would lift carries nothing and its neighbour the whole axle, so that the sum is always right.
-void add_loads(const Params& p, const Motion& m, const Surface& road, Forces& f) {
+void add_loads(const Params& p, const Motion& m, const Surface& road, const Air& air, Forces& f) {
   const Chassis& c = p.chassis;
   const double wheelbase_m = c.front_axle_m + c.rear_axle_m;
-  const double pressure = 0.5 * p.aero.air_density_kgpm3 * m.vx_mps * m.vx_mps;
+  const double pressure = 0.5 * p.aero.air_density_kgpm3 * air.along_mps * air.along_mps;
   const double cos_bank = std::cos(road.bank_rad), sin_bank = std::sin(road.bank_rad);
   f.heading_rate_rad_per_s = m.yaw_rate_rad_per_s / cos_bank;
   f.normal_n = std::max(
@@ -105,7 +118,12 @@ void add_tyre(const Params& p, const State& discrete, const Motion& m, const Sur
       std::max(0.0, force.long_n * (q.tread_mps - q.long_mps) - force.lat_n * q.lat_mps);
 }
 
-void add_body(const Params& p, const Motion& m, const Steered& steer, Forces& f) {
+double side_wind_n(const Aero& a, const Air& air) {
+  return 0.5 * a.air_density_kgpm3 * a.side_area_m2 *
+         std::hypot(air.along_mps, air.wind_across_mps) * air.wind_across_mps;
+}
+
+void add_body(const Params& p, const Air& air, const Steered& steer, Forces& f) {
   const Chassis& c = p.chassis;
   Wheels x_n{}, y_n{};
   for (std::size_t i = 0; i < world::kCorners; ++i) {
@@ -113,13 +131,14 @@ void add_body(const Params& p, const Motion& m, const Steered& steer, Forces& f)
     x_n[i] = front ? steer.cosine * f.long_n[i] - steer.sine * f.lat_n[i] : f.long_n[i];
     y_n[i] = front ? steer.cosine * f.lat_n[i] + steer.sine * f.long_n[i] : f.lat_n[i];
   }
-  const double drag_n =
-      0.5 * p.aero.air_density_kgpm3 * p.aero.drag_area_m2 * m.vx_mps * std::abs(m.vx_mps);
+  const double drag_n = 0.5 * p.aero.air_density_kgpm3 * p.aero.drag_area_m2 * air.along_mps *
+                        std::abs(air.along_mps);
+  const double side_n = side_wind_n(p.aero, air);
   f.body_x_n = total(x_n) - drag_n;
-  f.body_y_n = total(y_n);
+  f.body_y_n = total(y_n) + side_n;
   f.yaw_moment_nm = c.front_axle_m * (y_n[kFl] + y_n[kFr]) - c.rear_axle_m * (y_n[kRl] + y_n[kRr]) +
                     0.5 * c.track_front_m * (x_n[kFr] - x_n[kFl]) +
-                    0.5 * c.track_rear_m * (x_n[kRr] - x_n[kRl]);
+                    0.5 * c.track_rear_m * (x_n[kRr] - x_n[kRl]) + p.aero.side_arm_m * side_n;
 }
 
 void add_wheel_torques(const Params& p, const State& discrete, const Motion& m, Forces& f) {
@@ -184,11 +203,12 @@ void drive_actuators(const Params& p, const Motion& m, const SetPoints& set, Mot
 Forces forces_of(const Params& params, const State& discrete, const Motion& motion,
                  const Surface& surface) {
   Forces f;
-  add_loads(params, motion, surface, f);
+  const Air air = air_of(motion, surface);
+  add_loads(params, motion, surface, air, f);
   const Steered steer = steered(params, motion);
   for (std::size_t i = 0; i < world::kCorners; ++i)
     add_tyre(params, discrete, motion, surface, i, patch_of(params, motion, i, steer), f);
-  add_body(params, motion, steer, f);
+  add_body(params, air, steer, f);
   add_wheel_torques(params, discrete, motion, f);
   return f;
 }

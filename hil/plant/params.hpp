@@ -34,6 +34,10 @@ struct Aero {
   double air_density_kgpm3 = 1.12;                             // 600 m above the sea at 25 C
   double drag_area_m2 = 0.858;                                 // [A] Cd A
   double front_lift_area_m2 = 0.65, rear_lift_area_m2 = 1.18;  // [A] downforce positive
+  // Side force per dynamic pressure and angle of the wind; and where it acts, ahead of the centre
+  // of gravity. A passenger car has 4 to 5 m2; ours by the ratio of the silhouettes [E].
+  double side_area_m2 = 2.0;
+  double side_arm_m = 0.0;  // [E]
 };
 
 // Normalised-slip magic formula: force = mu Fz sin(C atan(B rho)), B such that the peak lies at
@@ -64,6 +68,7 @@ struct Steering {
 
 struct Brakes {
   double lag_s = 0.100;              // [O] dummy AV-24 configuration
+  double delay_s = 0.0;              // command to first movement; only the lag is published
   double pressure_max_kpa = 9000.0;  // [A]
   double front_nm_per_kpa = 0.40;    // whole axle; both axles 0.65 [P], split [E]
   double rear_nm_per_kpa = 0.25;
@@ -97,6 +102,7 @@ struct Engine {
   double idle_rpm = 1500.0;            // [E]
   double launch_rpm = 2800.0;          // held by the slipping clutch below this speed [E]
   double throttle_lag_s = 0.050;       // [O] dummy AV-24 configuration
+  double throttle_delay_s = 0.0;       // command to first movement, as of the brakes
   double crank_s = 1.0;                // starter to running [E]
 };
 
@@ -108,6 +114,7 @@ struct Drivetrain {
   double efficiency = 0.93;                                                      // [E]
   double shift_s = 0.080;                  // torque is cut [E]
   double lockout_s = 0.300;                // after a shift none is accepted [E]
+  double shift_delay_s = 0.0;              // from the wanted gear to the begin of its shift
   double differential_nms_per_rad = 40.0;  // limited slip: torque per difference of speed [E]
   double differential_max_nm = 400.0;      // [E]
 };

@@ -47,18 +47,43 @@ double bounded(double value, double low, double high) {
   return std::isfinite(value) ? std::clamp(value, low, high) : std::clamp(0.0, low, high);
 }
 
-// Puts the command into the delay line and takes out the one that has arrived.
-double delayed_steering_rad(const Steering& p, double command_rad, double dt_s, State& s) {
-  const double limit_rad = p.angle_max_rad;
-  const double raw_rad = bounded(command_rad, -limit_rad, limit_rad);
-  const double quantised_rad =
-      p.quantum_rad > 0.0 ? p.quantum_rad * std::round(raw_rad / p.quantum_rad) : raw_rad;
-  const auto slots = static_cast<std::size_t>(std::lround(p.delay_s / dt_s));
+double quantised_steering_rad(const Steering& p, double command_rad) {
+  const double raw_rad = bounded(command_rad, -p.angle_max_rad, p.angle_max_rad);
+  return p.quantum_rad > 0.0 ? p.quantum_rad * std::round(raw_rad / p.quantum_rad) : raw_rad;
+}
+
+// Puts a command into its delay line and takes out the one that has arrived.
+template <class Kept, class Value>
+Value delayed(std::array<Kept, kDelaySlots>& ring, std::size_t next, Value command, double delay_s,
+              double dt_s) {
+  const auto slots = static_cast<std::size_t>(std::lround(delay_s / dt_s));
   CHECK(slots < kDelaySlots);
-  s.steering_delay_rad[s.delay_next] = quantised_rad;
-  const std::size_t arrived = (s.delay_next + kDelaySlots - slots) % kDelaySlots;
-  s.delay_next = static_cast<std::uint16_t>((s.delay_next + 1U) % kDelaySlots);
-  return s.steering_delay_rad[arrived];
+  ring[next] = static_cast<Kept>(command);
+  if (slots == 0) return command;
+  return static_cast<Value>(ring[next >= slots ? next - slots : next + kDelaySlots - slots]);
+}
+
+// What has reached the actuators of what is asked now.
+struct Arrived {
+  SetPoints set;
+  std::uint8_t gear = 0;
+};
+
+Arrived pass_delays(const Params& p, const Actuation& a, double dt_s, State& s) {
+  const std::size_t next = s.delay_next;
+  const double steering_rad = quantised_steering_rad(p.steering, a.steering_motor_rad);
+  const double throttle = bounded(a.throttle_fraction, 0.0, 1.0);
+  const double brake_kpa = bounded(a.brake_kpa, 0.0, p.brakes.pressure_max_kpa);
+  Arrived out;
+  out.set.steering_motor_rad =
+      delayed(s.steering_delay_rad, next, steering_rad, p.steering.delay_s, dt_s);
+  out.set.throttle_fraction =
+      delayed(s.throttle_delay, next, throttle, p.engine.throttle_delay_s, dt_s);
+  out.set.brake_front_kpa = out.set.brake_rear_kpa =
+      delayed(s.brake_delay_kpa, next, brake_kpa, p.brakes.delay_s, dt_s);
+  out.gear = delayed(s.gear_delay, next, a.gear, p.drivetrain.shift_delay_s, dt_s);
+  s.delay_next = static_cast<std::uint16_t>((next + 1U) % kDelaySlots);
+  return out;
 }
 
 // A wheel whose rotation has ended, or would before the next substep has, is held if friction can
@@ -87,15 +112,12 @@ void warm_tyres(const TyreThermal& t, const Forces& f, double dt_s, State& s) {
 }
 
 void substep(const Params& p, const Actuation& a, const Surface& road, double dt_s, State& s) {
-  const double brake_kpa = bounded(a.brake_kpa, 0.0, p.brakes.pressure_max_kpa);
-  const SetPoints set{
-      .steering_motor_rad = delayed_steering_rad(p.steering, a.steering_motor_rad, dt_s, s),
-      .throttle_fraction = bounded(a.throttle_fraction, 0.0, 1.0),
-      .brake_front_kpa = brake_kpa,
-      .brake_rear_kpa = brake_kpa};
-  advance_powertrain(p, a, dt_s, s);
+  const Arrived arrived = pass_delays(p, a, dt_s, s);
+  Actuation now = a;
+  now.gear = arrived.gear;
+  advance_powertrain(p, now, dt_s, s);
   const Motion before = s.motion;
-  s.motion = integrate(p, s, road, set, dt_s);
+  s.motion = integrate(p, s, road, arrived.set, dt_s);
   const Forces f = forces_of(p, s, s.motion, road);
   hold_or_release(p, before, f, dt_s, s);
   warm_tyres(p.thermal, f, dt_s, s);
@@ -158,6 +180,7 @@ State rolling(const Params& params, const State& at, double speed_mps, std::uint
     s.locked[i] = speed_mps == 0.0;
   }
   s.gear = s.target_gear = static_cast<std::uint8_t>(std::min<std::size_t>(gear, kGears));
+  s.gear_delay.fill(s.gear);
   s.shift = ShiftPhase::kReady;
   s.engine_running = true;
   s.engine_rpm = clutch_of(params, s, s.motion).rpm;

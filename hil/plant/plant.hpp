@@ -7,6 +7,8 @@
 //          heading turns with r / cos(bank), and the map sees lateral distances times cos(bank).
 //   method classical Runge-Kutta, one step of substep_s; the discrete parts (command delay, gear
 //          box, wheels that lock) change between two substeps
+//   wind   drag and downforce follow the air's speed along the car; the side force is that of the
+//          wind across it (what the car's own slip angle adds in still air is left to the tyres)
 //   low speed  the tyres carry their deflection as a state (relaxation length): a spring at
 //          standstill, so the car holds on a bank, does not creep and needs no division by speed.
 //          The clutch slips below engine.launch_rpm: the engine is held at that speed and its
@@ -44,9 +46,11 @@ struct Surface {
   double bank_rad = 0.0;
   double bank_rate_rad_per_s = 0.0;  // change of banking as the car moves, for the gyros only
   double grip = 1.0;                 // scales every friction coefficient
+  double wind_east_mps = 0.0, wind_north_mps = 0.0;  // of the air over ground, where it blows to
 };
 
-inline constexpr std::size_t kDelaySlots = 256;
+// Room of the delay lines: no delay may reach this many substeps.
+inline constexpr std::size_t kDelaySlots = 640;
 
 enum class ShiftPhase : std::uint8_t { kReady, kShiftingUp, kShiftingDown, kLockedOut };
 
@@ -66,7 +70,10 @@ struct Motion {
 struct State {
   Motion motion;
   std::array<bool, world::kCorners> locked{true, true, true, true};  // held by friction
-  std::array<double, kDelaySlots> steering_delay_rad{};              // ring of commands under way
+  // Rings of commands under way, all written at the same place.
+  std::array<double, kDelaySlots> steering_delay_rad{};
+  std::array<float, kDelaySlots> throttle_delay{}, brake_delay_kpa{};  // finer than what is sent
+  std::array<std::uint8_t, kDelaySlots> gear_delay{};
   std::uint16_t delay_next = 0;
   std::uint8_t gear = 0, target_gear = 0;
   ShiftPhase shift = ShiftPhase::kReady;

@@ -97,6 +97,44 @@ TEST(Dynamics, LoadsShiftToTheRearAndToTheOutside) {
   EXPECT_NEAR(moment_nm, 790.0 * 8.0 * p.chassis.height_m, 1e-6);
 }
 
+// Drag and downforce know the air, not the road: the wind along the car adds to its speed.
+TEST(Dynamics, WindAlongTheCarIsSpeedThroughTheAir) {
+  const Params p;
+  for (const double yaw_rad : {0.0, 1.2, -2.5})
+    for (const double head_mps : {-20.0, 7.0, 20.0}) {
+      State s = rolling_at(50.0);
+      s.motion.yaw_rad = yaw_rad;
+      const Surface windy{.wind_east_mps = -head_mps * std::cos(yaw_rad),
+                          .wind_north_mps = -head_mps * std::sin(yaw_rad)};
+      const Forces f = forces_of(p, s, s.motion, windy);
+      const Forces still = forces_of(p, s, rolling_at(50.0 + head_mps).motion, {});
+      EXPECT_NEAR(
+          f.body_x_n,
+          -0.5 * p.aero.air_density_kgpm3 * p.aero.drag_area_m2 * std::pow(50.0 + head_mps, 2),
+          1e-9);
+      EXPECT_NEAR(f.body_y_n, 0.0, 1e-9);
+      for (std::size_t i = 0; i < world::kCorners; ++i)
+        EXPECT_NEAR(f.load_n[i], still.load_n[i], 1e-9);
+    }
+}
+
+TEST(Dynamics, WindFromTheRightPushesToTheLeftAndFallsWithTheBank) {
+  Params p;
+  p.aero.side_arm_m = -0.4;
+  const State s = rolling_at(60.0);
+  const Forces level = forces_of(p, s, s.motion, {.wind_north_mps = 8.0});
+  const double side_n =
+      0.5 * p.aero.air_density_kgpm3 * p.aero.side_area_m2 * std::hypot(60.0, 8.0) * 8.0;
+  EXPECT_NEAR(level.body_y_n, side_n, 1e-9);
+  EXPECT_NEAR(level.yaw_moment_nm, -0.4 * side_n, 1e-9);
+  const Forces banked = forces_of(p, s, s.motion, {.bank_rad = 0.3, .wind_north_mps = 8.0});
+  EXPECT_LT(banked.body_y_n, level.body_y_n);
+  EXPECT_GT(banked.body_y_n, 0.9 * level.body_y_n);
+  // Standing across the wind the car is pushed as well.
+  const State still = rolling_at(0.0);
+  EXPECT_GT(forces_of(p, still, still.motion, {.wind_north_mps = 8.0}).body_y_n, 0.0);
+}
+
 TEST(Dynamics, SlipStaysBoundedWhateverTurnsOrStands) {
   const Params p;
   for (const double speed_mps : {0.0, 1e-6, 0.5, 60.0})

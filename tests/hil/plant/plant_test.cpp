@@ -327,6 +327,62 @@ TEST(Plant, BrakesAndThrottleLag) {
   EXPECT_NEAR(s.motion.throttle_fraction, 1.0 - std::exp(-2.0), 1e-3);
 }
 
+// First substep at which each actuator has answered a step of its command.
+struct Answered {
+  int throttle = -1, brake = -1, gear = -1;
+};
+
+Answered answers_of(const Params& p) {
+  State s = at(40.0, 3, p);
+  Answered seen;
+  for (int i = 0; i < 900; ++i) {
+    s = step(p, s, drive(0.0, 0.5, 2000.0, 4), {}, kStep_s);
+    if (seen.throttle < 0 && s.motion.throttle_fraction > 0.0) seen.throttle = i;
+    if (seen.brake < 0 && s.motion.brake_front_kpa > 0.0) seen.brake = i;
+    if (seen.gear < 0 && s.shift != ShiftPhase::kReady) seen.gear = i;
+  }
+  return seen;
+}
+
+TEST(Plant, ActuatorsAnswerAfterTheirDelayAndNotBefore) {
+  for (const auto& [throttle_s, brake_s, shift_s] :
+       {std::array{0.0, 0.0, 0.0}, std::array{0.120, 0.050, 0.003},
+        std::array{0.500, 0.600, 0.639}}) {
+    Params p;
+    p.engine.throttle_delay_s = throttle_s;
+    p.brakes.delay_s = brake_s;
+    p.drivetrain.shift_delay_s = shift_s;
+    const Answered seen = answers_of(p);
+    EXPECT_EQ(seen.throttle, std::lround(1e3 * throttle_s));
+    EXPECT_EQ(seen.brake, std::lround(1e3 * brake_s));
+    EXPECT_EQ(seen.gear, std::lround(1e3 * shift_s));
+  }
+}
+
+TEST(Plant, ADelayedGearBoxKeepsTheGearThatItRollsIn) {
+  Params p;
+  p.drivetrain.shift_delay_s = 0.4;
+  State s = at(40.0, 3, p);
+  for (int i = 0; i < 1000; ++i) {
+    s = step(p, s, drive(0.0, 0.2, 0.0, 3), {}, kStep_s);
+    ASSERT_EQ(s.gear, 3);
+    ASSERT_EQ(s.shift, ShiftPhase::kReady);
+  }
+}
+
+TEST(Plant, WindPushesTheCarItsWay) {
+  const Params p;
+  const auto after = [&](double east_mps, double north_mps) {
+    return run(p, at(50.0, 0), drive(0.0, 0.0, 0.0, 0),
+               {.wind_east_mps = east_mps, .wind_north_mps = north_mps}, 2.0);
+  };
+  const State still = after(0.0, 0.0);
+  EXPECT_LT(after(-15.0, 0.0).motion.vx_mps, still.motion.vx_mps - 0.5);
+  EXPECT_GT(after(15.0, 0.0).motion.vx_mps, still.motion.vx_mps + 0.4);
+  EXPECT_GT(after(0.0, 10.0).motion.y_m, 0.1);
+  EXPECT_LT(after(0.0, -10.0).motion.y_m, -0.1);
+}
+
 // ---- Performance: plausible, from published figures of the car.
 struct Sprint {
   double top_mps = 0.0, to_60_s = 0.0;
