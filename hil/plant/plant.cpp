@@ -2,46 +2,18 @@
 #include "hil/plant/plant.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <type_traits>
 
 #include "hil/plant/dynamics.hpp"
 #include "hil/plant/powertrain.hpp"
+#include "hil/plant/runge_kutta.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::plant {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<State>);
-using Vector = std::array<double, sizeof(Motion) / sizeof(double)>;
-static_assert(sizeof(Vector) == sizeof(Motion));
-
-Motion ahead(const Motion& from, const Motion& rate, double dt_s) {
-  auto a = std::bit_cast<Vector>(from);
-  const auto b = std::bit_cast<Vector>(rate);
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] += dt_s * b[i];
-  return std::bit_cast<Motion>(a);
-}
-
-Motion weighted(const Motion& k1, const Motion& k2, const Motion& k3, const Motion& k4) {
-  auto a = std::bit_cast<Vector>(k1);
-  const auto b = std::bit_cast<Vector>(k2), c = std::bit_cast<Vector>(k3),
-             d = std::bit_cast<Vector>(k4);
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] = (a[i] + 2.0 * (b[i] + c[i]) + d[i]) / 6.0;
-  return std::bit_cast<Motion>(a);
-}
-
-// Classical Runge-Kutta of order 4.
-Motion integrate(const Params& p, const State& s, const Surface& road, const SetPoints& set,
-                 double dt_s) {
-  const Motion& m = s.motion;
-  const Motion k1 = derivative_of(p, s, m, road, set);
-  const Motion k2 = derivative_of(p, s, ahead(m, k1, 0.5 * dt_s), road, set);
-  const Motion k3 = derivative_of(p, s, ahead(m, k2, 0.5 * dt_s), road, set);
-  const Motion k4 = derivative_of(p, s, ahead(m, k3, dt_s), road, set);
-  return ahead(m, weighted(k1, k2, k3, k4), dt_s);
-}
 
 double bounded(double value, double low, double high) {
   return std::isfinite(value) ? std::clamp(value, low, high) : std::clamp(0.0, low, high);
@@ -117,7 +89,8 @@ void substep(const Params& p, const Actuation& a, const Surface& road, double dt
   now.gear = arrived.gear;
   advance_powertrain(p, now, dt_s, s);
   const Motion before = s.motion;
-  s.motion = integrate(p, s, road, arrived.set, dt_s);
+  s.motion = runge_kutta_step(
+      before, [&](const Motion& m) { return derivative_of(p, s, m, road, arrived.set); }, dt_s);
   const Forces f = forces_of(p, s, s.motion, road);
   hold_or_release(p, before, f, dt_s, s);
   warm_tyres(p.thermal, f, dt_s, s);
