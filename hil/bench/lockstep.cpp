@@ -104,7 +104,7 @@ class Lockstep {
     result_.bus_losses = out.heard.bus.frames_lost;
     judge_identity(out);
     if (!record_) return;
-    record_->truth(rig_, now);
+    record_->truth(rig_, now, cross_track_m(rig_, offset_m));
     record_->car(out, now);
   }
 
@@ -147,8 +147,7 @@ class Lockstep {
     result_.traffic.bus_load = bus_.load();
     if (record_) {
       for (const grading::Verdict& verdict : result_.verdicts)
-        record_->event(Instant{} + scenario_.duration, verdict.pass ? "pass" : "fail",
-                       verdict.text);
+        record_->verdict(Instant{} + scenario_.duration, verdict);
       record_->close();
       result_.digest = record_->digest();
     }

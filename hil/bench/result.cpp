@@ -47,11 +47,22 @@ std::string brackets_json(const grading::CrossTrack& cross) {
 std::string verdicts_json(const std::vector<grading::Verdict>& verdicts) {
   std::string out = "[";
   for (std::size_t i = 0; i < verdicts.size(); ++i)
-    out += (i == 0 ? "" : ",") + std::string("{\"text\":") + quoted(verdicts[i].text) +
-           ",\"pass\":" + (verdicts[i].pass ? "true" : "false") +
-           ",\"margin\":" + number(verdicts[i].margin) + ",\"place\":" + quoted(verdicts[i].name) +
-           ",\"reason\":" + quoted(verdicts[i].reason) + "}";
+    out += (i == 0 ? "" : ",") + to_json(verdicts[i]);
   return out + "]";
+}
+
+std::string real_time_json(const RealTime& t) {
+  std::string bins;
+  for (const std::uint64_t count : t.wake_late)
+    bins += (bins.empty() ? "" : ",") + std::to_string(count);
+  return "{\"wake_late_p50_us\":" + number(t.wake_late_p50_us) +
+         ",\"wake_late_p99_us\":" + number(t.wake_late_p99_us) +
+         ",\"wake_late_max_us\":" + number(t.wake_late_max_us) +
+         ",\"caught_up_wakes\":" + std::to_string(t.caught_up_wakes) +
+         ",\"wake_late_bin_us\":" + number(RealTime::kWakeBin_us) + ",\"wake_late\":[" + bins +
+         "],\"step_p50_us\":" + number(t.step_p50_us) +
+         ",\"step_p99_us\":" + number(t.step_p99_us) + ",\"step_max_us\":" + number(t.step_max_us) +
+         ",\"missed_deadlines\":" + std::to_string(t.missed_deadlines) + "}";
 }
 
 }  // namespace
@@ -94,6 +105,14 @@ std::string to_text(const RunResult& r) {
   return out + (r.passed() ? "verdict: PASS\n" : "verdict: FAIL\n");
 }
 
+std::string to_json(const grading::Verdict& v) {
+  const double first_s = v.first_violation ? (*v.first_violation - Instant{}).seconds() : kUnset;
+  return "{\"text\":" + quoted(v.text) + ",\"pass\":" + (v.pass ? "true" : "false") +
+         ",\"margin\":" + number(v.margin) + ",\"first_violation_s\":" + number(first_s) +
+         ",\"time_left_s\":" + number(v.time_left ? v.time_left->seconds() : kUnset) +
+         ",\"place\":" + quoted(v.name) + ",\"reason\":" + quoted(v.reason) + "}";
+}
+
 std::string to_json(const RunResult& r) {
   return "{\"scenario\":" + quoted(r.scenario) + ",\"mode\":" + quoted(r.mode) +
          ",\"simulation\":true,\"passed\":" + (r.passed() ? "true" : "false") +
@@ -115,6 +134,7 @@ std::string to_json(const RunResult& r) {
          ",\"gate_refusals\":" + std::to_string(r.gate_refusals) +
          ",\"bus_refusals\":" + std::to_string(r.bus_refusals) +
          ",\"bus_losses\":" + std::to_string(r.bus_losses) +
+         (r.real_time ? ",\"real_time\":" + real_time_json(*r.real_time) : std::string()) +
          ",\"refused_to_arm\":" + quoted(r.refused_to_arm) + ",\"sha256\":" + quoted(r.digest) +
          ",\"verdicts\":" + verdicts_json(r.verdicts) + "}";
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,18 @@ struct Traffic {
   double bus_load = kUnset;  // share of 500 kbit/s in the last second; unset where unknown
 };
 
+// Of a live run: how punctual the bench was, and how long the car took.
+struct RealTime {
+  static constexpr double kWakeBin_us = 10.0;  // width of one bin of wake_late
+  static constexpr std::size_t kWakeBins = 200;
+
+  double wake_late_p50_us = kUnset, wake_late_p99_us = kUnset, wake_late_max_us = kUnset;
+  std::uint64_t caught_up_wakes = 0;     // began more than one wake-up late
+  std::vector<std::uint64_t> wake_late;  // the last bin holds all later ones
+  double step_p50_us = kUnset, step_p99_us = kUnset, step_max_us = kUnset;  // of the car
+  std::uint64_t missed_deadlines = 0;                                       // of the car
+};
+
 struct RunResult {
   std::string scenario, mode;
   double simulated_s = 0.0, wall_s = kUnset;  // wall time only where somebody measured it
@@ -31,6 +44,7 @@ struct RunResult {
   std::uint64_t bus_losses =
       0;  // frames that the car missed when they were due (live: late ones too)
   double speed_max_mps = 0.0;
+  std::optional<RealTime> real_time;
   std::string refused_to_arm;  // why, if at the end the bus was not that of the car; else empty
   std::string digest;
 
@@ -39,6 +53,8 @@ struct RunResult {
 
 // For a person: a table of brackets, laps, traffic, one line per expectation.
 std::string to_text(const RunResult& result);
+// One verdict as a JSON object; null for a number that there is none of.
+std::string to_json(const grading::Verdict& verdict);
 // The same as one JSON object.
 std::string to_json(const RunResult& result);
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "hil/bench/result.hpp"
 #include "protocol/can/av21.hpp"
 
 namespace pitwall::bench {
@@ -16,6 +17,23 @@ std::string fingerprint_text() {
   std::snprintf(text, sizeof text, "%016llx",
                 static_cast<unsigned long long>(can::av21::kFingerprint));
   return text;
+}
+
+std::string seconds_text(Duration span) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6f", span.seconds());
+  return text;
+}
+
+// Times in seconds of the run; "lasts_s" 0: until the end. Kinds are words of the catalogue.
+std::string faults_text(const std::vector<scenario::Fault>& faults) {
+  std::string out = "[";
+  for (const scenario::Fault& fault : faults)
+    out += (out.size() == 1 ? "" : ",") + std::string("{\"kind\":\"") + fault.kind +
+           "\",\"at_s\":" + seconds_text(fault.at) + ",\"lasts_s\":" + seconds_text(fault.lasts) +
+           ",\"can_id\":" + std::to_string(fault.can_id) +
+           ",\"unit\":" + std::to_string(fault.unit) + "}";
+  return out + "]";
 }
 
 }  // namespace
@@ -29,7 +47,10 @@ RunRecord::RunRecord(const scenario::Scenario& scenario, std::string_view mode,
             {"database", can::av21::kDatabase},
             {"revision", can::av21::kRevision},
             {"fingerprint", fingerprint_text()},
-            {"bus", scenario::name_of(scenario.bus)}},
+            {"bus", scenario::name_of(scenario.bus)},
+            {"duration_s", seconds_text(scenario.duration)},
+            {"track_file", scenario.track_file},
+            {"faults", faults_text(scenario.faults)}},
            std::move(sink)),
       can_(log_.channel<CanSample>("/can")),
       truth_(log_.channel<TruthSample>("/truth")),
@@ -44,8 +65,10 @@ void RunRecord::can(Node from, const can::Frame& frame, Instant at) {
   log_.sample(can_, at, sample);
 }
 
-void RunRecord::truth(const Rig& rig, Instant at) {
+void RunRecord::truth(const Rig& rig, Instant at, double cross_track_m) {
+  using enum world::Corner;
   const plant::Truth& t = rig.truth();
+  const auto tyre_c = [&t](world::Corner c) { return t.tyre_c[static_cast<std::size_t>(c)]; };
   const plant::Road& r = rig.road();
   log_.sample(truth_, at,
               TruthSample{.x_m = t.x_m,
@@ -63,6 +86,13 @@ void RunRecord::truth(const Rig& rig, Instant at) {
                           .engine_rpm = t.engine_rpm,
                           .friction_use = t.friction_use,
                           .wall_gap_m = std::min(r.wall_gap_left_m, r.wall_gap_right_m),
+                          .cross_track_m = cross_track_m,
+                          .ax_mps2 = t.specific_force_mps2[0],
+                          .ay_mps2 = t.specific_force_mps2[1],
+                          .tyre_fl_c = tyre_c(kFrontLeft),
+                          .tyre_fr_c = tyre_c(kFrontRight),
+                          .tyre_rl_c = tyre_c(kRearLeft),
+                          .tyre_rr_c = tyre_c(kRearRight),
                           .gear = t.gear,
                           .sys_state = static_cast<std::uint8_t>(rig.system_state()),
                           .ct_state = static_cast<std::uint8_t>(rig.ct_state()),
@@ -106,6 +136,10 @@ void RunRecord::loss(const world::LossReport& loss) {
 
 void RunRecord::event(Instant at, std::string_view name, std::string_view text) {
   log_.event(at, name, text);
+}
+
+void RunRecord::verdict(Instant at, const grading::Verdict& verdict) {
+  event(at, verdict.pass ? "pass" : "fail", to_json(verdict));
 }
 
 bool RunRecord::close() { return log_.close(); }

@@ -1,11 +1,11 @@
 // The event log of a bench run: one MCAP file with every CAN frame, the truth, the car's own view
-// and
-// its decisions, and events in words. Its SHA-256 names the run.
+// and its decisions, and events in words. Its SHA-256 names the run.
 //   channels /can          every frame, who sent it
 //            /truth        the plant at 100 Hz
 //            /car          the car at 100 Hz: ego state, mode, command
 //            /bus_losses   frames that never came, as the car noticed them
-//            /events       flags, modes, laps, verdicts
+//            /events       flags, modes, laps, verdicts ("pass", "fail": to_json(Verdict))
+//   metadata run: scenario, seed, mode, duration, database, bus, track file, faults (JSON list)
 //   law      the same scenario, build and seed give the same bytes
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -15,6 +15,7 @@
 #include <type_traits>
 
 #include "hil/bench/rig.hpp"
+#include "hil/grading/grader.hpp"
 #include "hil/scenario/scenario.hpp"
 #include "protocol/recording/event_log.hpp"
 #include "vehicle/pipeline/step.hpp"
@@ -36,6 +37,9 @@ constexpr auto cdr_fields(std::type_identity<CanSample>) {
 struct TruthSample {
   double x_m, y_m, yaw_rad, vx_mps, vy_mps, yaw_rate_rad_per_s, s_m, n_m, bank_rad;
   double steering_motor_rad, throttle, brake_kpa, engine_rpm, friction_use, wall_gap_m;
+  double cross_track_m;     // from the line that the car was told to drive; NaN: not judged
+  double ax_mps2, ay_mps2;  // specific force in the plane of the road: forward, left
+  double tyre_fl_c, tyre_fr_c, tyre_rl_c, tyre_rr_c;
   std::uint8_t gear, sys_state, ct_state, track_flag;
 };
 constexpr recording::CdrName cdr_name(std::type_identity<TruthSample>) { return "BenchTruth"; }
@@ -57,6 +61,13 @@ constexpr auto cdr_fields(std::type_identity<TruthSample>) {
                     CdrField{"engine_rpm", &T::engine_rpm},
                     CdrField{"friction_use", &T::friction_use},
                     CdrField{"wall_gap_m", &T::wall_gap_m},
+                    CdrField{"cross_track_m", &T::cross_track_m},
+                    CdrField{"ax_mps2", &T::ax_mps2},
+                    CdrField{"ay_mps2", &T::ay_mps2},
+                    CdrField{"tyre_fl_c", &T::tyre_fl_c},
+                    CdrField{"tyre_fr_c", &T::tyre_fr_c},
+                    CdrField{"tyre_rl_c", &T::tyre_rl_c},
+                    CdrField{"tyre_rr_c", &T::tyre_rr_c},
                     CdrField{"gear", &T::gear},
                     CdrField{"sys_state", &T::sys_state},
                     CdrField{"ct_state", &T::ct_state},
@@ -117,11 +128,12 @@ class RunRecord {
   RunRecord(const scenario::Scenario& scenario, std::string_view mode, recording::Sink sink);
 
   void can(Node from, const can::Frame& frame, Instant at);
-  void truth(const Rig& rig, Instant at);
+  void truth(const Rig& rig, Instant at, double cross_track_m = kUnset);
   // With the losses that it noticed in this tick.
   void car(const pipeline::Outputs& out, Instant at);
   void loss(const world::LossReport& loss);
   void event(Instant at, std::string_view name, std::string_view text);
+  void verdict(Instant at, const grading::Verdict& verdict);
   // Writes the summary; afterwards the digest is that of the whole file.
   bool close();
   std::string digest() const;
