@@ -8,23 +8,21 @@
 #include <utility>
 
 #include "hil/bench/car_summary.hpp"
+#include "hil/bench/radio_path.hpp"
 #include "hil/bench/receiver_port.hpp"
 #include "hil/bench/run_record.hpp"
 #include "hil/bench/signals.hpp"
 #include "hil/grading/grader.hpp"
-#include "protocol/telemetry/state_packet.hpp"
 #include "protocol/transport/can_socket.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
 #include "protocol/transport/realtime.hpp"
-#include "protocol/transport/udp_socket.hpp"
 
 namespace pitwall::bench {
 namespace {
 
 using transport::CanSocket;
-using transport::UdpSocket;
 
 constexpr int kPriority = 60;  // below the car, which must never wait for its bench
 constexpr Duration kStartLimit = seconds(15);
@@ -36,68 +34,17 @@ constexpr std::size_t kReadBatch = 256;
 constexpr Duration kWake = milliseconds(1);
 constexpr Duration kLook = milliseconds(10);
 
-// The car's telemetry on its way to the radio: read for grading, passed on byte for byte.
-class TelemetryLink {
- public:
-  static Result<TelemetryLink, Problem> open(std::uint16_t listen, std::uint16_t onward) {
-    auto socket = UdpSocket::bind({.ip = transport::kLoopbackIp, .port = listen});
-    if (!socket) return Unexpected{socket.error()};
-    return TelemetryLink{*std::move(socket), onward};
-  }
-
-  void serve() {
-    const std::size_t count = socket_.receive(datagrams_);
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto bytes = datagrams_[i].payload();
-      if (onward_ != 0) socket_.send_to({.ip = transport::kLoopbackIp, .port = onward_}, bytes);
-      const auto packet = telemetry::parse(bytes);
-      if (!packet) {
-        ++refused_;
-        continue;
-      }
-      ++packets_;
-      take(packet->values);
-    }
-  }
-
-  const CarReport& report() const { return report_; }
-  std::uint64_t packets() const { return packets_; }
-  std::uint64_t refused() const { return refused_; }
-
- private:
-  TelemetryLink(UdpSocket socket, std::uint16_t onward)
-      : socket_(std::move(socket)), onward_(onward), datagrams_(UdpSocket::kBatch) {}
-
-  void take(const telemetry::Values& v) {
-    using telemetry::field;
-    report_ = {.mode = v[field("mode.mode")],
-               .gate_refusals = v[field("bus.gate_refusals")],
-               .bus_refusals = v[field("bus.frames_refused")],
-               .x_m = v[field("ego.x")],
-               .y_m = v[field("ego.y")],
-               .yaw_rad = v[field("ego.yaw")],
-               .identity = v[field("bus.identity")],
-               .differing_id = v[field("bus.differing_id")]};
-  }
-
-  UdpSocket socket_;
-  std::uint16_t onward_;
-  std::vector<transport::UdpDatagram> datagrams_;
-  CarReport report_;
-  std::uint64_t packets_ = 0, refused_ = 0;
-};
-
 class Live {
  public:
   Live(const scenario::Scenario& scenario, const pipeline::Setup& setup, const LivePlan& plan,
-       Rig rig, grading::Grader grader, CanSocket bus, TelemetryLink link, ReceiverPort receivers)
+       Rig rig, grading::Grader grader, CanSocket bus, RadioPath radio, ReceiverPort receivers)
       : scenario_(scenario),
         setup_(setup),
         plan_(plan),
         rig_(std::move(rig)),
         grader_(std::move(grader)),
         bus_(std::move(bus)),
-        link_(std::move(link)),
+        radio_(std::move(radio)),
         receivers_(std::move(receivers)),
         inbox_(kReadBatch) {
     late_us_.reserve(static_cast<std::size_t>(scenario.duration / kWake) + 1);
@@ -113,7 +60,7 @@ class Live {
       wake(now);
       step(now);
       if ((now - Instant{}).ns % kLook.ns != 0) continue;
-      link_.serve();
+      radio_.serve(transport::monotonic_now());
       if (const auto ended = vehicle_->poll())
         return Unexpected{Problem{plan_.vehicle.front(), "the car process ended with code " +
                                                              std::to_string(ended->shell_code())}};
@@ -134,7 +81,7 @@ class Live {
     for (const std::string& word :
          {std::string("--can"), plan_.interface, std::string("--gnss"),
           std::to_string(plan_.gnss_port) + "," + std::to_string(plan_.gnss_port + 1),
-          std::string("--radio"), "127.0.0.1:" + std::to_string(plan_.link_port),
+          std::string("--radio"), "127.0.0.1:" + std::to_string(plan_.radio.listen),
           std::string("--summary"), summary_path(), std::string("--simulation"),
           std::string("--arm")})
       argv.push_back(word);
@@ -213,7 +160,7 @@ class Live {
   void judge(Instant now) {
     const double offset_m = setup_.params.planning.line.offset_m;
     grader_.observe(now, observe({.rig = rig_,
-                                  .car = link_.report(),
+                                  .car = radio_.report(),
                                   .line_offset_m = offset_m,
                                   .frames_lost = not_taken_ + bus_.counters().rx_dropped_queue}));
     grading::add(result_.cross_track, rig_.truth().speed_mps, cross_track_m(rig_, offset_m));
@@ -226,7 +173,7 @@ class Live {
     while (transport::monotonic_now() < until) {
       read_bus();
       heard_.clear();
-      link_.serve();
+      radio_.serve(transport::monotonic_now());
       transport::sleep_until(transport::monotonic_now() + milliseconds(2));
     }
   }
@@ -244,7 +191,7 @@ class Live {
     const auto summary = read_car_summary(summary_path());
     if (!summary) return Unexpected{summary.error()};
     fill(*summary);
-    return LiveResult{result_, timing_, link_.packets(), link_.refused()};
+    return LiveResult{result_, timing_, radio_.counters()};
   }
 
   void stop_candump() {
@@ -308,7 +255,7 @@ class Live {
   Rig rig_;
   grading::Grader grader_;
   CanSocket bus_;
-  TelemetryLink link_;
+  RadioPath radio_;
   ReceiverPort receivers_;
   std::optional<transport::Process> vehicle_, candump_;
   std::optional<RunRecord> record_;
@@ -333,8 +280,8 @@ Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
   if (!grader) return Unexpected{grader.error()};
   auto bus = CanSocket::open(plan.interface);
   if (!bus) return Unexpected{bus.error()};
-  auto link = TelemetryLink::open(plan.link_port, plan.radio_port);
-  if (!link) return Unexpected{link.error()};
+  auto radio = RadioPath::open(plan.radio);
+  if (!radio) return Unexpected{radio.error()};
   auto receivers = ReceiverPort::open(plan.gnss_port);
   if (!receivers) return Unexpected{receivers.error()};
   transport::request_realtime(kPriority);
@@ -344,7 +291,7 @@ Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
               *std::move(rig),
               *std::move(grader),
               *std::move(bus),
-              *std::move(link),
+              *std::move(radio),
               *std::move(receivers)}
       .run();
 }

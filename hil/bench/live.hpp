@@ -4,7 +4,7 @@
 //
 //   pitwall-vehicle <== CAN ==> live bench (plant, drive-by-wire, race control)
 //        ^  |                       |   ^
-//        |  '-- UDP telemetry ------'   '--> UDP, towards the base station (the radio)
+//        |  '-- UDP, the radio -----'   '--> UDP, the radio's other end: the base station
 //        '----- UDP NovAtel bytes of two receivers
 //
 //   in     scenario, Setup of the car, LivePlan
@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "hil/bench/radio_path.hpp"
 #include "hil/bench/result.hpp"
 #include "hil/scenario/scenario.hpp"
 #include "protocol/recording/mcap_writer.hpp"
@@ -26,14 +27,15 @@
 
 namespace pitwall::bench {
 
+inline constexpr std::uint16_t kRadioListenPort = 23'430;
+
 struct LivePlan {
   std::string interface = "vcan0";
   std::vector<std::string> vehicle;  // program and arguments but those that the bench adds
   std::string folder;                // for the car's summary and the candump
   std::uint16_t gnss_port = 23'501;  // of unit 0; unit 1 is the next one
-  std::uint16_t link_port = 23'430;  // where the car sends its telemetry
-  std::uint16_t radio_port = 0;      // where the bench passes it on; 0: nowhere
-  bool candump = false;              // record the bus with can-utils' candump
+  RadioPorts radio{.listen = kRadioListenPort, .onward = 0, .uplink = 0};
+  bool candump = false;  // record the bus with can-utils' candump
   recording::Sink log;
 };
 
@@ -45,7 +47,7 @@ struct LiveTiming {
 struct LiveResult {
   RunResult run;
   LiveTiming timing;
-  std::uint64_t telemetry_packets = 0, telemetry_refused = 0;
+  RadioCounters radio;
 };
 
 Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,

@@ -17,6 +17,19 @@ void set(SignalValues& values, Signal signal, double value) {
 // a condition would compare are then those of a car that did nothing wrong yet.
 double or_zero(double value) { return std::isnan(value) ? 0.0 : value; }
 
+void add_car_report(SignalValues& v, const CarReport& car, const plant::Truth& truth) {
+  const auto said = [&](Signal signal, double value) {
+    set(v, signal, car.silent ? kUnset : or_zero(value));
+  };
+  said(Signal::kMode, car.mode);
+  said(Signal::kGateRefusals, car.gate_refusals);
+  said(Signal::kBusRefusals, car.bus_refusals);
+  said(Signal::kPositionError, std::hypot(car.x_m - truth.x_m, car.y_m - truth.y_m));
+  said(Signal::kYawError, std::abs(wrap_pi(car.yaw_rad - truth.yaw_rad)));
+  said(Signal::kIdentity, car.identity);
+  said(Signal::kDifferingId, car.differing_id);
+}
+
 constexpr double kSlipSpeed_mps = 5.0;  // slower, the direction of motion says little
 
 double side_slip_deg(const plant::Truth& truth) {
@@ -64,16 +77,10 @@ SignalValues observe(const SignalSources& from) {
   set(v, Signal::kLaps, from.rig.laps().finished);
   set(v, Signal::kFlyingLapMean, from.rig.laps().best_flying_mean_mps);
   set(v, Signal::kFramesLost, static_cast<double>(from.frames_lost));
-  set(v, Signal::kMode, or_zero(from.car.mode));
-  set(v, Signal::kGateRefusals, or_zero(from.car.gate_refusals));
-  set(v, Signal::kBusRefusals, or_zero(from.car.bus_refusals));
-  set(v, Signal::kPositionError,
-      or_zero(std::hypot(from.car.x_m - truth.x_m, from.car.y_m - truth.y_m)));
-  set(v, Signal::kYawError, or_zero(std::abs(wrap_pi(from.car.yaw_rad - truth.yaw_rad))));
   set(v, Signal::kSideSlip, side_slip_deg(truth));
-  set(v, Signal::kIdentity, or_zero(from.car.identity));
-  set(v, Signal::kDifferingId, or_zero(from.car.differing_id));
   set(v, Signal::kActuatorFrames, static_cast<double>(from.rig.actuator_frames()));
+  set(v, Signal::kDeceleration, -truth.specific_force_mps2[0]);
+  add_car_report(v, from.car, truth);
   return v;
 }
 

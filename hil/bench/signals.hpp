@@ -45,9 +45,10 @@ enum class Signal : std::uint8_t {
   kSideSlip,     // size of the angle between heading and motion; a spin is seen here. 0 below 5 m/s
   kIdentity,     // of the bus, as the car sees it: 0 listening, 1 right, 2 wrong
   kDifferingId,  // the first CAN id that is not as in the car's database; 0: none
-  kActuatorFrames  // commands to brake, accelerator, steering and gear that were on the bus
+  kActuatorFrames,  // commands to brake, accelerator, steering and gear that were on the bus
+  kDeceleration     // of the truth along the car; negative while it speeds up
 };
-inline constexpr std::size_t kSignals = 27;
+inline constexpr std::size_t kSignals = 28;
 
 inline constexpr std::array<std::string_view, kSignals> kSignalNames{"speed_mps",
                                                                      "station_m",
@@ -75,13 +76,16 @@ inline constexpr std::array<std::string_view, kSignals> kSignalNames{"speed_mps"
                                                                      "side_slip_deg",
                                                                      "identity",
                                                                      "differing_id",
-                                                                     "actuator_frames"};
+                                                                     "actuator_frames",
+                                                                     "deceleration_mps2"};
 
-// What the car says of itself. Unset until it has said something.
+// What the car says of itself. Unset until it has said something; silent: it has spoken before and
+// no longer does, so nothing is known, which meets no condition.
 struct CarReport {
   double mode = kUnset, gate_refusals = kUnset, bus_refusals = kUnset;
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
   double identity = kUnset, differing_id = kUnset;
+  bool silent = false;
 };
 
 using SignalValues = std::array<double, kSignals>;

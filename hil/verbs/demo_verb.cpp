@@ -63,6 +63,7 @@ int run_live(const DemoOptions& options) {
   run.json_file = options.folder + "/run.json";
   run.duration = from_seconds(options.duration_s);
   run.radio_port = kGuestRadioPort;
+  run.uplink_port = kGuestUplinkPort;
   run.candump = true;
   std::vector<std::string> exec{
       "exec",        "--auto",

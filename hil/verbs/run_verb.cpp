@@ -36,11 +36,12 @@ std::string timing_text(const bench::LiveResult& live) {
   std::snprintf(
       text, sizeof text,
       "bench wake-up late by p50 %.0f us, p99 %.0f us, max %.0f us; %llu wake-ups caught up; "
-      "telemetry %llu packets, %llu refused\n",
+      "telemetry %llu packets, %llu refused; %llu datagrams of the base to the car\n",
       live.timing.wake_late_p50_us, live.timing.wake_late_p99_us, live.timing.wake_late_max_us,
       static_cast<unsigned long long>(live.timing.caught_up_wakes),
-      static_cast<unsigned long long>(live.telemetry_packets),
-      static_cast<unsigned long long>(live.telemetry_refused));
+      static_cast<unsigned long long>(live.radio.packets),
+      static_cast<unsigned long long>(live.radio.refused),
+      static_cast<unsigned long long>(live.radio.to_car));
   return text;
 }
 
@@ -66,7 +67,9 @@ Result<bench::RunResult, Problem> live(const RunOptions& options, const bench::L
                              .vehicle = {vehicle, "--car", loaded.scenario.car_file, "--track",
                                          loaded.scenario.track_file},
                              .folder = options.folder,
-                             .radio_port = options.radio_port,
+                             .radio = {.listen = bench::kRadioListenPort,
+                                       .onward = options.radio_port,
+                                       .uplink = options.uplink_port},
                              .candump = options.candump,
                              .log = std::move(log)};
   auto result = bench::run_live(loaded.scenario, loaded.setup, plan);
@@ -90,7 +93,9 @@ std::vector<std::string> live_command(const RunOptions& options) {
                                    "--out",
                                    options.folder,
                                    "--radio-port",
-                                   std::to_string(options.radio_port)};
+                                   std::to_string(options.radio_port),
+                                   "--uplink-port",
+                                   std::to_string(options.uplink_port)};
   const auto add = [&command](const std::string& flag, const std::string& value) {
     if (value.empty()) return;
     command.push_back(flag);
@@ -138,6 +143,7 @@ int run_verb(std::span<const std::string> args) {
                  "live: folder for the car's summary and the candump; default " + options.folder);
   app.add_flag("--candump", options.candump, "live: record the bus with candump");
   app.add_option("--radio-port", options.radio_port, "live: pass telemetry on to this port");
+  app.add_option("--uplink-port", options.uplink_port, "live: answers of the base come here");
   const auto* duration = app.add_option("--duration", duration_s, "seconds, instead of the file's")
                              ->check(CLI::Range(0.1, 36'000.0));
   const auto* with_seed =

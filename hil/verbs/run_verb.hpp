@@ -25,7 +25,8 @@ struct RunOptions {
   std::optional<std::uint64_t> seed;  // likewise
   bool live = false, here = false, candump = false, quiet = false;
   std::string interface = "vcan0";
-  std::uint16_t radio_port = 0;  // live: where the bench passes the car's telemetry on
+  std::uint16_t radio_port = 0;   // live: where the bench passes the car's telemetry on
+  std::uint16_t uplink_port = 0;  // live: where answers of the base come; 0: any port
 };
 
 int run_scenario(const RunOptions& options);

@@ -74,6 +74,22 @@ TEST(Signals, AreNumbersBeforeTheCarHasSpoken) {
   EXPECT_EQ(value(v, Signal::kSideSlip), 0.0) << "a car that stands does not slip";
 }
 
+TEST(Signals, ASilentCarSaysNothingAndTheTruthGoesOn) {
+  const Rig rig = standing_rig();
+  const SignalValues spoken = observe({.rig = rig, .car = {}});
+  const SignalValues silent = observe({.rig = rig, .car = {.silent = true}});
+  std::set<std::string_view> unsaid;
+  for (std::size_t i = 0; i < kSignals; ++i) {
+    if (std::isnan(silent[i]))
+      unsaid.insert(kSignalNames[i]);
+    else
+      EXPECT_EQ(silent[i], spoken[i]) << kSignalNames[i];
+  }
+  EXPECT_EQ(unsaid,
+            (std::set<std::string_view>{"mode", "gate_refusals", "bus_refusals", "position_error_m",
+                                        "yaw_error_rad", "identity", "differing_id"}));
+}
+
 TEST(Signals, AnExpectationOfAScenarioIsGradedInItsWindow) {
   scenario::Scenario s = lap().scenario;
   s.duration = seconds(50);
