@@ -12,8 +12,8 @@ namespace {
 using faults::BenchFaultKind;
 using faults::FrameFaultKind;
 
-// What rig.cpp carries out; a kind that is not here is refused rather than ignored.
-bool carried_out(BenchFaultKind kind) {
+// What rig.cpp carries out; a kind that nobody carries out is refused rather than ignored.
+bool in_the_rig(BenchFaultKind kind) {
   switch (kind) {
     case BenchFaultKind::kGnssUnitOutage:
     case BenchFaultKind::kGnssRtkLost:
@@ -22,6 +22,8 @@ bool carried_out(BenchFaultKind kind) {
     case BenchFaultKind::kGnssHeadingFlip:
     case BenchFaultKind::kGnssStampFrozen:
     case BenchFaultKind::kImuOutage:
+    case BenchFaultKind::kImuBias:
+    case BenchFaultKind::kWheelSpeedLoss:
     case BenchFaultKind::kRaceControlSilent:
     case BenchFaultKind::kRaceHeartbeatStop:
     case BenchFaultKind::kWrongRoundSpeed:
@@ -32,6 +34,7 @@ bool carried_out(BenchFaultKind kind) {
     case BenchFaultKind::kThrottleStuck:
     case BenchFaultKind::kEngineStall:
     case BenchFaultKind::kLowGrip:
+    case BenchFaultKind::kColdTyres:
     case BenchFaultKind::kBusSilent:
     case BenchFaultKind::kComputerSilent:
       return true;
@@ -67,6 +70,10 @@ bool is_sensible(BenchFaultKind kind, double value) {
       return value > 0.0;
     case BenchFaultKind::kWrongRoundSpeed:
       return value >= 0.0;
+    case BenchFaultKind::kColdTyres:
+      return value >= scenario::kColdest_c && value <= scenario::kHottest_c;
+    case BenchFaultKind::kComputerSlow:
+      return value > 0.0 && value < 1.0;
     default:
       return true;
   }
@@ -75,7 +82,7 @@ bool is_sensible(BenchFaultKind kind, double value) {
 Result<faults::BenchFault, Problem> bench_fault(const scenario::Fault& row, BenchFaultKind kind,
                                                 std::uint64_t seed) {
   const faults::BenchFaultRow& of_kind = faults::row_of(kind);
-  if (!carried_out(kind))
+  if (!in_the_rig(kind) && !is_process_fault(kind))
     return refuse(row, "fault \"" + row.kind + "\" is in the catalogue but not in this bench");
   if (const char* excess = excess_of(row, of_kind)) return refuse(row, excess);
   if (!of_kind.value.empty() && !is_sensible(kind, row.value))
@@ -121,6 +128,38 @@ Result<faults::FrameFault, Problem> frame_fault(const scenario::Fault& row, Fram
 
 }  // namespace
 
+bool is_process_fault(BenchFaultKind kind) {
+  switch (kind) {
+    case BenchFaultKind::kComputerPaused:
+    case BenchFaultKind::kComputerKilled:
+    case BenchFaultKind::kComputerSlow:
+    case BenchFaultKind::kGuardianKilled:
+    case BenchFaultKind::kBaseKilled:
+    case BenchFaultKind::kBasePaused:
+    case BenchFaultKind::kClockStep:
+    case BenchFaultKind::kLogDiskFull:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool carried_out(BenchFaultKind kind, BenchMode mode) {
+  return in_the_rig(kind) || (mode == BenchMode::kLive && is_process_fault(kind));
+}
+
+std::optional<Problem> refused_by(BenchMode mode, const std::vector<scenario::Fault>& rows) {
+  for (const scenario::Fault& row : rows) {
+    const auto kind = faults::bench_fault_kind(row.kind);
+    if (!kind || carried_out(*kind, mode)) continue;
+    const bool elsewhere = mode == BenchMode::kLockstep && carried_out(*kind, BenchMode::kLive);
+    return Problem{row.place, "fault \"" + row.kind + "\" " +
+                                  (elsewhere ? "needs the live bench: add --live"
+                                             : "is in the catalogue but not in this bench")};
+  }
+  return std::nullopt;
+}
+
 Result<FaultPlan, Problem> plan_faults(const std::vector<scenario::Fault>& rows,
                                        std::uint64_t seed) {
   FaultPlan plan;
@@ -139,7 +178,7 @@ Result<FaultPlan, Problem> plan_faults(const std::vector<scenario::Fault>& rows,
     if (!kind) return refuse(row, "unknown fault \"" + row.kind + "\"");
     auto fault = bench_fault(row, *kind, own_seed);
     if (!fault) return Unexpected{fault.error()};
-    plan.models.push_back(*fault);
+    (is_process_fault(*kind) ? plan.processes : plan.models).push_back(*fault);
   }
   return plan;
 }

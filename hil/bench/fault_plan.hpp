@@ -1,5 +1,5 @@
-// The faults of a scenario, sorted by what carries them out: frames on their way to the car, or the
-// bench's own models.
+// The faults of a scenario, sorted by what carries them out: frames on their way to the car, the
+// bench's own models, or the processes of the run and the machine below them.
 //   in     scenario::Fault rows
 //   errors a kind that this bench does not know or does not carry out, a missing or senseless
 //          value: Problem with the place in the scenario file
@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "hil/faults/bench_fault.hpp"
@@ -19,9 +20,19 @@ namespace pitwall::bench {
 struct FaultPlan {
   std::vector<faults::FrameFault> frames;
   std::vector<faults::BenchFault> models;
+  std::vector<faults::BenchFault> processes;  // not the rig's: of whoever runs the car
 };
+
+enum class BenchMode : std::uint8_t { kLockstep, kLive };
+
+// Killed, stopped, slowed processes; a clock or a disk below them.
+bool is_process_fault(faults::BenchFaultKind kind);
+bool carried_out(faults::BenchFaultKind kind, BenchMode mode);
 
 Result<FaultPlan, Problem> plan_faults(const std::vector<scenario::Fault>& rows,
                                        std::uint64_t seed);
+
+// The first row that this kind of bench cannot carry out.
+std::optional<Problem> refused_by(BenchMode mode, const std::vector<scenario::Fault>& rows);
 
 }  // namespace pitwall::bench

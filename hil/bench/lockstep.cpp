@@ -175,6 +175,8 @@ class Lockstep {
 Result<RunResult, Problem> run_lockstep(const scenario::Scenario& scenario,
                                         const pipeline::Setup& setup,
                                         const LockstepOptions& options) {
+  if (auto problem = refused_by(BenchMode::kLockstep, scenario.faults))
+    return Unexpected{*std::move(problem)};
   auto rig = Rig::build(scenario, setup.track);
   if (!rig) return Unexpected{rig.error()};
   auto expectations = expectations_of(scenario);

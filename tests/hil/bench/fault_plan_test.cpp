@@ -43,13 +43,39 @@ TEST(FaultPlan, EveryKindOfTheCatalogueIsPlannedOrRefusedByName) {
       continue;
     }
     ++planned;
-    ASSERT_EQ(plan->models.size(), 1u);
+    const bool of_process = is_process_fault(kind.kind);
+    const auto& here = of_process ? plan->processes : plan->models;
+    ASSERT_EQ(here.size(), 1u);
     EXPECT_TRUE(plan->frames.empty());
-    EXPECT_EQ(plan->models[0].kind, kind.kind);
-    EXPECT_EQ(plan->models[0].start, Instant{} + seconds(3));
-    EXPECT_EQ(plan->models[0].duration, seconds(2));
+    EXPECT_TRUE((of_process ? plan->models : plan->processes).empty()) << kind.name;
+    EXPECT_EQ(here[0].kind, kind.kind);
+    EXPECT_EQ(here[0].start, Instant{} + seconds(3));
+    EXPECT_EQ(here[0].duration, seconds(2));
+    EXPECT_TRUE(carried_out(kind.kind, BenchMode::kLive)) << "planned means done somewhere";
   }
-  EXPECT_EQ(planned, 19u);
+  EXPECT_EQ(planned, 27u);
+}
+
+TEST(FaultPlan, WhatABenchCannotCarryOutItRefusesByPlaceAndName) {
+  for (const auto& kind : faults::kBenchFaults)
+    for (const BenchMode mode : {BenchMode::kLockstep, BenchMode::kLive}) {
+      const auto problem = refused_by(mode, {row("drop"), row(std::string(kind.name))});
+      EXPECT_EQ(problem.has_value(), !carried_out(kind.kind, mode)) << kind.name;
+      if (!problem) continue;
+      EXPECT_EQ(problem->place, "file.yaml:9:5");
+      EXPECT_NE(problem->what.find(kind.name), std::string::npos);
+      EXPECT_EQ(problem->what.find("--live") != std::string::npos,
+                carried_out(kind.kind, BenchMode::kLive));
+    }
+  EXPECT_FALSE(carried_out(faults::BenchFaultKind::kBaseKilled, BenchMode::kLockstep));
+  EXPECT_FALSE(carried_out(faults::BenchFaultKind::kClockStep, BenchMode::kLockstep));
+}
+
+TEST(FaultPlan, AShareOfTheTimeIsBetweenNothingAndAll) {
+  for (const double share : {0.01, 0.5, 0.99})
+    EXPECT_EQ(refusal(row("computer_slow", share)), "") << share;
+  for (const double share : {-0.5, 0.0, 1.0, 2.0, kUnset})
+    EXPECT_NE(refusal(row("computer_slow", share)), "") << share;
 }
 
 TEST(FaultPlan, EveryKindOfFrameFaultIsPlanned) {
@@ -98,6 +124,9 @@ TEST(FaultPlan, ANumberThatMakesNoSenseIsRefusedWithItsPlace) {
                                 {"gnss_unit_outage", {1}},
                                 {"bus_silent", {1}},
                                 {"low_grip", {-1, 0, kUnset, 3}},
+                                {"cold_tyres", {-21, 151, kUnset}},
+                                {"imu_bias", {kUnset, kInfinity}},
+                                {"wheel_speed_loss", {1}},
                                 {"brake_leak", {-0.5, 1.5, kUnset}},
                                 {"steering_slow", {-1, 0, kUnset}},
                                 {"gnss_variance_spike", {0, -5, kUnset}},
