@@ -7,9 +7,9 @@
 //          tyres, loads by longitudinal acceleration), with its constraints of steering and
 //          acceleration. ST divides by speed: it means nothing at standstill, is stiff below a few
 //          metres a second, and is no model of reversing
-//   low speed  blended_derivative() is ours: kinematic below kBlendFrom_mps and in reverse, ST above
-//          kBlendTo_mps, in between their mean by a cubic weight of speed, so that it has no step
-//          and no kink. The kinematic part carries slip angle and yaw rate along what the steering
+//   low speed  blended_derivative() is ours: kinematic below kBlendFrom_mps and in reverse, ST from
+//          kBlendTo_mps, in between their mean by a cubic weight of speed: neither a step nor
+//          a kink. The kinematic part carries slip angle and yaw rate along what the steering
 //          angle says and draws them there within kSettle_s
 //   errors none: blended_step() stays finite for finite inputs; its steps may be up to 10 ms with
 //          tyres up to twice as stiff as the AV-21's
