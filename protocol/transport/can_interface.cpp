@@ -137,6 +137,7 @@ CanInterface::CanInterface(std::string name, FileDescriptor socket)
     : name_(std::move(name)), socket_(std::move(socket)), buffer_(kAnswerBytes) {}
 
 Result<CanInterface, Problem> CanInterface::open(std::string_view interface) {
+  if (is_unix_bus(interface)) return open_unix(interface);
   const std::string name(interface);
   if (name.empty() || name.size() >= IFNAMSIZ)
     return Unexpected{Problem{name, "not an interface name"}};
@@ -153,6 +154,25 @@ Result<CanInterface, Problem> CanInterface::open(std::string_view interface) {
   if (!out.socket_.valid() || !out.refresh())
     return Unexpected{out.problem("the kernel does not tell about interfaces")};
   return out;
+}
+
+Result<CanInterface, Problem> CanInterface::open_unix(std::string_view interface) {
+  const auto address = unix_bus_address(interface);
+  if (!address) return Unexpected{address.error()};
+  CanInterface out{std::string(interface), FileDescriptor{}};
+  out.hub_ = *address;
+  const auto connected = connect_to_hub(*address, Hearing::kNothing, out.socket_);
+  if (!connected.ok()) return Unexpected{hub_problem(interface, connected)};
+  out.refresh();
+  return out;
+}
+
+void CanInterface::look_at_hub() {
+  if (!hub_is_there(socket_.get())) {
+    socket_.reset();
+    static_cast<void>(connect_to_hub(*hub_, Hearing::kNothing, socket_));
+  }
+  status_ = {.exists = true, .up = socket_.valid(), .running = socket_.valid()};
 }
 
 // The kernel answers while it takes the request, so the answer is there when send() returns.
@@ -179,6 +199,11 @@ PosixOutcome CanInterface::ask(NetlinkRequest& request, NetlinkBytes& answer) {
 
 bool CanInterface::refresh() {
   const Instant asked = monotonic_now();
+  if (hub_) {
+    look_at_hub();
+    status_.at = asked;
+    return true;
+  }
   NetlinkRequest request(RTM_GETLINK, 0, link_of(index_));
   NetlinkBytes answer;
   const auto outcome = ask(request, answer);

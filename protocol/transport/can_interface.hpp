@@ -1,5 +1,7 @@
 // One CAN interface as the kernel sees it: link, controller, counters; and the few things that are
-// done to it. Speaks rtnetlink itself, no other program is needed.
+// done to it. Speaks rtnetlink itself, no other program is needed. Of a bus `unix:PATH` (unix_bus)
+// it knows one thing: up while its hub is there, else down. It has no controller, counts nothing,
+// takes no settings, and cannot be restarted or emptied.
 //   in     an interface name; settings
 //   out    CanInterfaceStatus of the last refresh()
 //   units  bit/s, ms, frames, Instant (CLOCK_MONOTONIC)
@@ -23,6 +25,7 @@
 #include "protocol/transport/can_wire.hpp"
 #include "protocol/transport/netlink_message.hpp"
 #include "protocol/transport/posix_call.hpp"
+#include "protocol/transport/unix_bus.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 
@@ -85,6 +88,8 @@ class CanInterface {
 
  private:
   CanInterface(std::string name, FileDescriptor socket);
+  static Result<CanInterface, Problem> open_unix(std::string_view interface);
+  void look_at_hub();
   Problem problem(std::string what) const { return {name_, std::move(what)}; }
   PosixOutcome ask(NetlinkRequest& request, NetlinkBytes& answer);
   std::optional<Problem> change(NetlinkRequest request, std::string_view what,
@@ -92,7 +97,8 @@ class CanInterface {
   std::optional<Problem> set_up(bool up);
 
   std::string name_;
-  FileDescriptor socket_;
+  FileDescriptor socket_;  // netlink; of a unix bus: a connection that hears nothing
+  std::optional<sockaddr_un> hub_;
   std::vector<std::uint8_t> buffer_;
   std::uint32_t sequence_ = 0;
   int index_ = 0;

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "protocol/transport/can_wire.hpp"
+#include "protocol/transport/unix_bus.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::transport {
@@ -41,7 +42,17 @@ Result<PreparedFrames, Problem> PreparedFrames::make(std::span<const can::Frame>
   return out;
 }
 
+Result<CanSender, Problem> CanSender::open_unix(const std::string& interface) {
+  const auto address = unix_bus_address(interface);
+  if (!address) return Unexpected{address.error()};
+  CanSender out{FileDescriptor()};
+  const auto connected = connect_to_hub(*address, Hearing::kNothing, out.fd_);
+  if (!connected.ok()) return Unexpected{hub_problem(interface, connected)};
+  return out;
+}
+
 Result<CanSender, Problem> CanSender::open(const std::string& interface) {
+  if (is_unix_bus(interface)) return open_unix(interface);
   const auto refuse = [&](const std::string& what) { return Unexpected{Problem{interface, what}}; };
   const auto made =
       posix_call([] { return socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, CAN_RAW); });
@@ -72,7 +83,8 @@ SendOutcome CanSender::send(PreparedFrames& frames, std::size_t first, std::size
   while (out.taken < count) {
     const auto most = static_cast<unsigned>(std::min(count - out.taken, kMaxCall));
     const auto sent = posix_call([&] {
-      return sendmmsg(fd_.get(), frames.messages_.data() + first + out.taken, most, MSG_DONTWAIT);
+      return sendmmsg(fd_.get(), frames.messages_.data() + first + out.taken, most,
+                      MSG_DONTWAIT | MSG_NOSIGNAL);
     });
     // An error that strikes after the first frame shows only in the next call.
     if (!sent.ok()) {

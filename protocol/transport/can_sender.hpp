@@ -1,6 +1,7 @@
 // Frames laid out for the kernel ahead of time, and a socket that only sends them: the price of a
 // send is one system call, whatever the number of frames, and nothing is received, copied or
-// encoded on the way.
+// encoded on the way. On a CAN interface of the kernel, or on a bus `unix:PATH` (unix_bus), whose
+// hub it does not look for again once it has gone.
 //   in     frames of one bus; later a range of them
 //   out    how many leading ones of the range the kernel took
 //   errors make(), open(): Problem. send(): the error number, and whether a retry can help
@@ -61,6 +62,7 @@ class CanSender {
   SendOutcome send(PreparedFrames& frames, std::size_t first, std::size_t count);
 
  private:
+  static Result<CanSender, Problem> open_unix(const std::string& interface);
   explicit CanSender(FileDescriptor fd) : fd_(std::move(fd)) {}
   FileDescriptor fd_;
 };

@@ -46,6 +46,10 @@ int enlarge_receive_buffer(int fd, int bytes) {
   return got.ok() ? granted / 2 : 0;  // the kernel reports twice what it was asked for
 }
 
+bool is_hub_lost(const PosixOutcome& sent) {
+  return sent.error == EPIPE || sent.error == ECONNRESET || sent.error == ENOTCONN;
+}
+
 struct ReceiveBatch {
   std::array<CanWire, CanSocket::kBatch> wire;
   std::array<iovec, CanSocket::kBatch> slices;
@@ -93,6 +97,7 @@ bool CanSocket::supported() {
 
 Result<CanSocket, Problem> CanSocket::open(std::string_view interface,
                                            const CanSocketOptions& options) {
+  if (is_unix_bus(interface)) return open_unix(interface, options);
   const std::string name(interface);
   const auto refuse = [&](const std::string& what) { return Unexpected{Problem{name, what}}; };
   const auto made =
@@ -111,6 +116,16 @@ Result<CanSocket, Problem> CanSocket::open(std::string_view interface,
       [&] { return bind(can.fd(), reinterpret_cast<const sockaddr*>(&address), sizeof address); });
   if (!bound.ok()) return refuse("cannot bind: " + bound.reason());
   return can;
+}
+
+Result<CanSocket, Problem> CanSocket::open_unix(std::string_view interface,
+                                                const CanSocketOptions& options) {
+  auto end = UnixBusEnd::open(interface, {.filters = kernel_filters(options.filters),
+                                          .own = options.receive_own,
+                                          .errors = options.receive_errors,
+                                          .fd = options.fd});
+  if (!end) return Unexpected{end.error()};
+  return CanSocket{*std::move(end)};
 }
 
 PosixOutcome CanSocket::configure(const CanSocketOptions& options) {
@@ -142,7 +157,7 @@ std::size_t CanSocket::receive(std::span<can::ReceivedFrame> frames) {
     next_poll_ = now + kPollPeriod;
   }
   std::size_t taken = 0;
-  while (taken < frames.size() && receive_batch(frames, taken, now)) {
+  while (taken < frames.size() && !hung_up() && receive_batch(frames, taken, now)) {
   }
   return taken;
 }
@@ -157,18 +172,26 @@ bool CanSocket::receive_batch(std::span<can::ReceivedFrame> frames, std::size_t&
                     nullptr);
   });
   if (!got.ok()) {
-    if (!got.would_block()) ++counters_.rx_failed;
-    return false;
+    // A hub that died with unread frames of ours: the end of its own frames comes after this.
+    const bool reset = unix_ && got.error == ECONNRESET;
+    if (!got.would_block() && !reset) ++counters_.rx_failed;
+    return reset;
   }
   const auto count = static_cast<std::size_t>(got.value);
   for (std::size_t i = 0; i < count; ++i) {
     msghdr& header = batch.messages[i].msg_hdr;
     const ControlData extra = read_control(header);
+    // A packet of no bytes would have a stamp.
+    if (unix_ && batch.messages[i].msg_len == 0 && extra.stamp.ns == 0) {
+      hang_up();
+      return false;
+    }
     count_dropped(counters_.rx_dropped_by_frames, extra.dropped);
     // A frame that arrived after `now` was read belongs to this call all the same.
     const bool stamped = stamps_trusted_ && extra.stamp.ns != 0;
     const Instant at = stamped ? to_instant(extra.stamp, clock_offset_) : now;
     const bool whole = (header.msg_flags & MSG_TRUNC) == 0;
+    if (unix_ && whole && take_unix(batch.wire[i], batch.messages[i].msg_len)) continue;
     if (whole && is_error_frame(batch.wire[i])) {
       take_error(batch.wire[i], at);
       continue;
@@ -185,8 +208,29 @@ bool CanSocket::receive_batch(std::span<can::ReceivedFrame> frames, std::size_t&
   return count == room;
 }
 
-void CanSocket::count_dropped(std::uint64_t& detector, std::uint32_t so_far) {
-  detector = std::max<std::uint64_t>(detector, so_far);
+bool CanSocket::take_unix(const CanWire& wire, std::size_t bytes) {
+  if (const auto lost = read_loss_notice(wire, bytes)) {
+    count_dropped(counters_.rx_dropped_by_frames, dropped_before_ + *lost);
+    return true;
+  }
+  return is_carried(wire, bytes) && !unix_->passes(wire, bytes);
+}
+
+void CanSocket::hang_up() {
+  unix_->hang_up();
+  ++counters_.hub_losses;
+  queued_bytes_ = 0;
+}
+
+// The next hub counts from nothing.
+void CanSocket::look_for_hub() {
+  if (!unix_->reconnect()) return;
+  ++counters_.hub_returns;
+  dropped_before_ = counters_.rx_dropped_by_frames;
+}
+
+void CanSocket::count_dropped(std::uint64_t& detector, std::uint64_t so_far) {
+  detector = std::max(detector, so_far);
   counters_.rx_dropped_queue =
       std::max(counters_.rx_dropped_by_frames, counters_.rx_dropped_when_asked);
 }
@@ -210,16 +254,22 @@ void CanSocket::follow_clock(Instant now) {
 }
 
 void CanSocket::poll_drops() {
+  if (hung_up()) look_for_hub();
+  if (hung_up()) return;
   std::array<std::uint32_t, SK_MEMINFO_VARS> memory{};
   socklen_t length = sizeof memory;
-  const auto got =
-      posix_call([&] { return getsockopt(fd(), SOL_SOCKET, SO_MEMINFO, memory.data(), &length); });
+  const auto got = posix_call(
+      [&] { return getsockopt(send_fd(), SOL_SOCKET, SO_MEMINFO, memory.data(), &length); });
   if (!got.ok() || length <= SK_MEMINFO_DROPS * sizeof(std::uint32_t)) return;
   queued_bytes_ = memory[SK_MEMINFO_WMEM_ALLOC];
   count_dropped(counters_.rx_dropped_when_asked, memory[SK_MEMINFO_DROPS]);
 }
 
 std::size_t CanSocket::send(std::span<const can::Frame> frames) {
+  if (hung_up()) {
+    ++counters_.tx_network_down;
+    return 0;
+  }
   SendBatch batch;
   std::size_t done = 0;
   while (done < frames.size()) {
@@ -230,7 +280,8 @@ std::size_t CanSocket::send(std::span<const can::Frame> frames) {
       continue;
     }
     const auto sent = posix_call([&] {
-      return sendmmsg(fd(), batch.messages.data(), static_cast<unsigned>(count), MSG_DONTWAIT);
+      return sendmmsg(send_fd(), batch.messages.data(), static_cast<unsigned>(count),
+                      MSG_DONTWAIT | MSG_NOSIGNAL);
     });
     if (!sent.ok()) {
       count_send_error(sent);
@@ -247,18 +298,23 @@ void CanSocket::count_send_error(const PosixOutcome& outcome) {
     ++counters_.tx_enobufs;
   else if (outcome.would_block())
     ++counters_.tx_would_block;
-  else if (outcome.error == ENETDOWN)
+  else if (outcome.error == ENETDOWN || (unix_ && is_hub_lost(outcome)))
     ++counters_.tx_network_down;
   else
     ++counters_.tx_failed;
 }
 
 bool CanSocket::send_error(std::uint32_t classes, std::span<const std::uint8_t> detail) {
+  if (hung_up()) {
+    ++counters_.tx_network_down;
+    return false;
+  }
   can_frame wire{};
   wire.can_id = CAN_ERR_FLAG | (classes & CAN_ERR_MASK);
   wire.len = CAN_ERR_DLC;
   std::copy_n(detail.begin(), std::min<std::size_t>(detail.size(), CAN_ERR_DLC), wire.data);
-  const auto written = posix_call([&] { return ::write(fd(), &wire, sizeof wire); });
+  const auto written =
+      posix_call([&] { return ::send(send_fd(), &wire, sizeof wire, MSG_NOSIGNAL); });
   if (!written.ok()) count_send_error(written);
   return written.ok();
 }

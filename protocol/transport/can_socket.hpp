@@ -1,5 +1,13 @@
-// One CAN_RAW socket of the kernel: batched, non-blocking, stamped, with every loss counted.
-//   in     an interface name (can0, vcan0), frames to send
+// One CAN_RAW socket of the kernel: batched, non-blocking, stamped, with every loss counted. Or the
+// same over the bus `unix:PATH` (unix_bus, unix_can_hub), for kernels without CAN, where
+//   - a frame's time is when the hub put it into our queue
+//   - losses are those that the hub tells of, in their place; the queue is the hub's, its size too,
+//     and trailing losses are told once there is room
+//   - there is no controller: no error frames but those that another client writes, and no state
+//   - send() with a hub that does not read is "would block" after 277 frames or so
+//   - the hub may go: that is hung_up(), counted, and send() says "network down" until receive() or
+//     poll_drops(), which look every 100 ms, have found another one at PATH
+//   in     an interface name (can0, vcan0, unix:/run/bus), frames to send
 //   out    frames with the kernel's receive time on the monotonic clock; counters; bus state
 //   units  Instant (CLOCK_MONOTONIC nanoseconds), bytes
 //   errors open(): Problem with the interface as place. Afterwards nothing throws or exits: each
@@ -10,6 +18,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,6 +27,7 @@
 #include "protocol/can/frame.hpp"
 #include "protocol/transport/can_wire.hpp"
 #include "protocol/transport/posix_call.hpp"
+#include "protocol/transport/unix_bus.hpp"
 #include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::transport {
@@ -58,6 +68,8 @@ struct CanSocketCounters {
   std::uint64_t clock_steps =
       0;                    // the calendar clock jumped; stamps of that batch are arrival times
   CanErrorCounters errors;  // error_frames by class
+  // Of a unix bus: how often its hub went, and how often one came again.
+  std::uint64_t hub_losses = 0, hub_returns = 0;
 };
 
 class CanSocket {
@@ -91,20 +103,33 @@ class CanSocket {
   // As the error frames tell, and when the newest of them that tells the state was made.
   BusState bus_state() const { return bus_state_; }
   Instant bus_state_at() const { return bus_state_at_; }
-  int receive_buffer_bytes() const { return receive_buffer_bytes_; }  // as granted by the kernel
-  int fd() const { return fd_.get(); }
+  // As granted by the kernel; 0 on a unix bus.
+  int receive_buffer_bytes() const { return receive_buffer_bytes_; }
+  int fd() const { return unix_ ? unix_->receiver() : fd_.get(); }
+  // The bus is a unix bus without a hub: nothing arrives and nothing goes out.
+  bool hung_up() const { return unix_ && !unix_->connected(); }
 
  private:
   explicit CanSocket(FileDescriptor fd) : fd_(std::move(fd)) {}
+  explicit CanSocket(UnixBusEnd end) : unix_(std::move(end)) {}
+  static Result<CanSocket, Problem> open_unix(std::string_view interface,
+                                              const CanSocketOptions& options);
+  int send_fd() const { return unix_ ? unix_->sender() : fd_.get(); }
+  void hang_up();
+  void look_for_hub();
   void follow_clock(Instant now);
   PosixOutcome configure(const CanSocketOptions& options);
   // Reads one batch: true if the kernel may have more.
   bool receive_batch(std::span<can::ReceivedFrame> frames, std::size_t& taken, Instant now);
-  void count_dropped(std::uint64_t& detector, std::uint32_t so_far);
+  // What only a unix bus brings, or SocketCAN would not deliver: true if it is dealt with.
+  bool take_unix(const CanWire& wire, std::size_t bytes);
+  void count_dropped(std::uint64_t& detector, std::uint64_t so_far);
   void take_error(const CanWire& wire, Instant at);
   void count_send_error(const PosixOutcome& outcome);
 
   FileDescriptor fd_;
+  std::optional<UnixBusEnd> unix_;
+  std::uint64_t dropped_before_ = 0;  // by earlier hubs
   CanSocketCounters counters_;
   BusState bus_state_ = BusState::kUnknown;
   Instant bus_state_at_{};

@@ -65,6 +65,18 @@ inline bool from_wire(const CanWire& wire, std::size_t bytes, can::Frame& out) {
 
 constexpr bool is_error_frame(const CanWire& wire) { return (wire.can_id & CAN_ERR_FLAG) != 0U; }
 
+// True for bytes that are a frame which a wire could carry, or an error frame. Stricter than vcan,
+// which also passes on identifiers and lengths that no wire has.
+inline bool is_carried(const CanWire& wire, std::size_t bytes) {
+  if (is_error_frame(wire))
+    return bytes == kCanWireBytes && wire.len <= CAN_MAX_DLEN &&
+           (wire.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG)) == 0U;
+  if ((wire.can_id & CAN_EFF_FLAG) == 0U && (wire.can_id & CAN_EFF_MASK) > CAN_SFF_MASK)
+    return false;
+  if (bytes == kCanWireBytes) return wire.len <= CAN_MAX_DLEN;
+  return bytes == kCanFdWireBytes && (wire.can_id & CAN_RTR_FLAG) == 0U && is_fd_length(wire.len);
+}
+
 // Health of the controller as the kernel last reported it; kUnknown until it says something.
 enum class BusState : std::uint8_t { kUnknown, kActive, kWarning, kPassive, kBusOff };
 
