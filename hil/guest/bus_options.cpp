@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "protocol/transport/unix_bus.hpp"
+
 namespace pitwall::guest {
 namespace {
 
@@ -18,6 +20,12 @@ std::optional<T> parse_number(const std::string& text) {
   const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
   if (parsed.ec != std::errc{} || parsed.ptr != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+std::optional<Duration> parse_seconds(const std::string& text) {
+  const auto number = parse_number<double>(text);
+  if (!number || !(*number > 0.0 && *number <= kLongestTimeout_s)) return std::nullopt;
+  return from_seconds(*number);
 }
 
 // Interface names go into a shell script and to `ip`: plain words only, as long as the kernel
@@ -36,10 +44,8 @@ std::optional<Problem> take_value(BusExecOptions& out, const std::string& option
     if (!is_interface_name(value)) return Problem{value, "not an interface name"};
     out.interfaces.push_back(value);
   } else if (option == "--timeout") {
-    const auto limit_s = parse_number<double>(value);
-    if (!limit_s || !(*limit_s > 0.0 && *limit_s <= kLongestTimeout_s))
-      return Problem{value, "not a time-out in seconds"};
-    out.timeout = from_seconds(*limit_s);
+    out.timeout = parse_seconds(value);
+    if (!out.timeout) return Problem{value, "not a time-out in seconds"};
   } else if (option == "--memory") {
     const auto memory_mib = parse_number<int>(value);
     if (!memory_mib || *memory_mib < kLeastMemory_mib || *memory_mib > kMostMemory_mib)
@@ -131,6 +137,23 @@ Result<BusUpOptions, Problem> parse_bus_up(std::span<const std::string> args) {
     return Unexpected{Problem{"bus up", "expected the interface that the options are for"}};
   if (any) out.settings = settings;
   if (out.interfaces.empty()) out.interfaces = {"vcan0"};
+  return out;
+}
+
+Result<BusHubOptions, Problem> parse_bus_hub(std::span<const std::string> args) {
+  BusHubOptions out;
+  for (std::size_t i = 0; i < args.size(); ++i) {
+    if (args[i] == "--seconds" && i + 1 < args.size()) {
+      out.length = parse_seconds(args[++i]);
+      if (!out.length) return Unexpected{Problem{args[i], "not a time in seconds"}};
+    } else if (args[i].starts_with("--") || !out.bus.empty()) {
+      return Unexpected{Problem{args[i], "unknown option, or its value is missing"}};
+    } else {
+      out.bus = transport::is_unix_bus(args[i]) ? args[i]
+                                                : std::string(transport::kUnixBusPrefix) + args[i];
+    }
+  }
+  if (out.bus.empty()) return Unexpected{Problem{"bus hub", "expected PATH"}};
   return out;
 }
 

@@ -1,6 +1,6 @@
-// The words after `bus exec` and `bus up`, understood.
+// The words after `bus exec`, `bus up` and `bus hub`, understood.
 //   in     arguments without the verb itself
-//   out    BusExecOptions, BusUpOptions
+//   out    BusExecOptions, BusUpOptions, BusHubOptions
 //   errors Problem with the word as place
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -37,5 +37,12 @@ struct BusUpOptions {
 };
 
 Result<BusUpOptions, Problem> parse_bus_up(std::span<const std::string> args);
+
+struct BusHubOptions {
+  std::string bus{};  // unix:PATH, whether "unix:" was written or not
+  std::optional<Duration> length{};
+};
+
+Result<BusHubOptions, Problem> parse_bus_hub(std::span<const std::string> args);
 
 }  // namespace pitwall::guest

@@ -13,12 +13,15 @@
 #include "protocol/transport/can_socket.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/readiness.hpp"
+#include "protocol/transport/realtime.hpp"
+#include "protocol/transport/unix_can_hub.hpp"
 
 namespace pitwall::guest {
 namespace {
 
 constexpr Duration kLongestWait = seconds(1);
 constexpr Instant kNever{INT64_MAX};
+constexpr int kHubPriority = 85;
 constexpr const char* kGuestLine = "/dev/ttyS0";
 
 int refuse(const Problem& problem, int code) {
@@ -180,6 +183,25 @@ int bus_line(std::span<const std::string> args) {
   return 0;
 }
 
+// Above the car, which must not find its bus slower than a kernel's.
+int bus_hub(std::span<const std::string> args) {
+  const auto options = parse_bus_hub(args);
+  if (!options) return refuse(options.error(), kExitUsage);
+  auto stop = transport::StopSignal::install();
+  if (!stop) return refuse(stop.error(), kExitUsage);
+  auto hub = transport::UnixCanHub::open(options->bus);
+  if (!hub) return refuse(hub.error(), kExitUsage);
+  const auto realtime = transport::request_realtime(kHubPriority);
+  std::fprintf(stderr, "pitwall-hil bus hub: serves %s, %s\n", options->bus.c_str(),
+               transport::to_string(realtime).c_str());
+  const Instant end = options->length ? transport::monotonic_now() + *options->length : kNever;
+  while (!stop->raised() && transport::monotonic_now() < end)
+    (*hub)->serve(wake_before(end), stop->fd());
+  std::printf("pitwall-hil bus hub: %s: %s\n", options->bus.c_str(),
+              transport::to_text((*hub)->counters()).c_str());
+  return 0;
+}
+
 constexpr const char* kUsage =
     "bus check                 is there CAN, native or in a guest?\n"
     "bus up [IFACE]...         make virtual CAN interfaces (native, root; default vcan0)\n"
@@ -187,6 +209,7 @@ constexpr const char* kUsage =
     "                          set up a real CAN interface (root)\n"
     "bus status IFACE...       state and counters of an interface\n"
     "bus down [IFACE]...       remove virtual interfaces\n"
+    "bus hub PATH [--seconds S] serve the bus unix:PATH, for machines without CAN\n"
     "bus exec [--auto|--native|--guest] [--interface IFACE]... [--timeout S] [--memory MIB]\n"
     "         [--line-udp HOST_LISTEN:HOST_DEST:GUEST_LISTEN:GUEST_DEST] -- COMMAND ARG...\n"
     "                          run COMMAND where CAN is; its output and exit code are ours\n"
@@ -195,7 +218,8 @@ constexpr const char* kUsage =
 }  // namespace
 
 int bus_verb(std::span<const std::string> args) {
-  if (args.empty()) return refuse({"bus", "expected check, up, status, down or exec"}, kExitUsage);
+  if (args.empty())
+    return refuse({"bus", "expected check, up, status, down, hub or exec"}, kExitUsage);
   const auto rest = args.subspan(1);
   if (args[0] == "--help") return std::fputs(kUsage, stdout) < 0 ? kExitUsage : 0;
   if (args[0] == "check") return bus_check();
@@ -203,8 +227,9 @@ int bus_verb(std::span<const std::string> args) {
   if (args[0] == "down") return bus_down(rest);
   if (args[0] == "status") return bus_status(rest);
   if (args[0] == "exec") return bus_exec(rest);
+  if (args[0] == "hub") return bus_hub(rest);
   if (args[0] == "line") return bus_line(rest);
-  return refuse({args[0], "unknown; expected check, up, status, down or exec"}, kExitUsage);
+  return refuse({args[0], "unknown; expected check, up, status, down, hub or exec"}, kExitUsage);
 }
 
 }  // namespace pitwall::guest

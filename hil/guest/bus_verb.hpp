@@ -7,6 +7,9 @@
 //                             listening only
 //   bus status IFACE...       its state, settings and counters
 //   bus down [IFACE]...       native only: removes virtual ones
+//   bus hub PATH [--seconds S]
+//                             serves the bus unix:PATH until SIGTERM, or for S seconds, and prints
+//                             its counters at the end; needs no CAN and no root
 //   bus exec [--guest|--native|--auto] [--interface IFACE]... [--timeout S] [--memory MIB]
 //            [--line-udp HOST_LISTEN:HOST_DEST:GUEST_LISTEN:GUEST_DEST] -- COMMAND ARG...
 //                             runs COMMAND where the interfaces exist; its output is forwarded
