@@ -1,4 +1,5 @@
-// pitwall-base: receives the car's telemetry and shows it. Wiring only.
+// pitwall-base: receives the car's telemetry, shows it, and tells the car that its base lives.
+// Wiring only.
 // SPDX-License-Identifier: Apache-2.0
 #include <sys/signalfd.h>
 
@@ -12,6 +13,7 @@
 #include "basestation/intake/station.hpp"
 #include "basestation/outlets/summary.hpp"
 #include "basestation/outlets/terminal.hpp"
+#include "protocol/telemetry/run_filter.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/posix_call.hpp"
@@ -66,7 +68,8 @@ int run(const Arguments& arguments, transport::UdpAddress address) {
   auto socket = transport::UdpSocket::bind(address);
   if (!socket) return complain(kFailed, to_string(socket.error()));
   complain(kDone, "listening at " + to_string(socket->local()));
-  const auto station = std::make_unique<intake::Station>();
+  const auto station =
+      std::make_unique<intake::Station>(telemetry::run_number({transport::utc_now().ns}));
   outlets::run_terminal(*socket, stop.get(),
                         {.text = arguments.text,
                          .plain = arguments.plain,
@@ -76,9 +79,8 @@ int run(const Arguments& arguments, transport::UdpAddress address) {
   if (arguments.json_path.empty()) return kDone;
   const Instant now = transport::monotonic_now();
   station->advance(now);
-  const auto written = transport::write_file(
-      arguments.json_path,
-      outlets::json_summary(station->picture(), station->counters(), station->link(), now));
+  const auto written =
+      transport::write_file(arguments.json_path, outlets::json_summary(*station, now));
   return written ? kDone : complain(kFailed, to_string(written.error()));
 }
 

@@ -17,6 +17,8 @@ namespace pitwall::intake {
 
 class LinkStats {
  public:
+  static constexpr Duration kLostAfter = seconds(1);  // 50 packets
+
   // Packets in order of acceptance.
   void note(const telemetry::StatePacket& packet, Instant at);
   // Counts the time since the last packet; before ages are read.
@@ -26,6 +28,8 @@ class LinkStats {
   double mean_rate_hz() const;  // from the first packet to the last
   Duration since_last(Instant now) const { return now - last_; }
   bool ever() const { return packets_ > 0; }
+  // A car that was heard and is no longer.
+  bool lost(Instant now) const { return ever() && since_last(now) > kLostAfter; }
   const AgeHistogram& ages() const { return ages_; }
 
  private:

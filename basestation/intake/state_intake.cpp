@@ -16,17 +16,15 @@ std::optional<telemetry::StatePacket> StateIntake::feed(std::span<const std::uin
     return std::nullopt;
   }
   if (!advances(parsed->sequence)) return std::nullopt;
-  last_accepted_ = at;
+  runs_.accepted(at);
   ++counters_.accepted;
   return *parsed;
 }
 
 bool StateIntake::belongs_to_run(const telemetry::StatePacket& packet, Instant at) {
-  if (started_ && packet.run == run_) return true;
-  const bool newer = static_cast<std::int32_t>(packet.run - run_) > 0;
-  if (started_ && !newer && at - last_accepted_ < kSilence) return false;
-  started_ = true;
-  run_ = packet.run;
+  const auto verdict = runs_.judge(packet.run, at);
+  if (verdict != telemetry::RunFilter::Verdict::kBegun)
+    return verdict == telemetry::RunFilter::Verdict::kSame;
   newest_ = packet.sequence - 1;  // what was sent before the first that we hear is not lost
   seen_ = ~std::uint64_t{0};
   ++counters_.runs;

@@ -4,9 +4,7 @@
 //   out    packets with rising sequence numbers
 //   errors counters. A gap counts as lost at once; a packet that fills it later is dropped, because
 //          newer state is shown already, and taken off the loss.
-//   runs   a sender numbers its starts. A packet of a newer run begins afresh; of an older one only
-//          after kSilence without a packet of the present run, so that two senders on one port do
-//          not alternate in the view.
+//   runs   as telemetry::RunFilter has them: two senders on one port do not alternate in the view
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,6 +13,7 @@
 #include <optional>
 #include <span>
 
+#include "protocol/telemetry/run_filter.hpp"
 #include "protocol/telemetry/state_packet.hpp"
 #include "protocol/vocabulary/time.hpp"
 
@@ -43,7 +42,7 @@ struct IntakeCounters {
 
 class StateIntake {
  public:
-  static constexpr Duration kSilence = seconds(2);
+  static constexpr Duration kSilence = telemetry::RunFilter::kSilence;
   static constexpr std::uint32_t kWindow = 64;  // how far back duplicates are told from late ones
 
   std::optional<telemetry::StatePacket> feed(std::span<const std::uint8_t> datagram, Instant at);
@@ -54,10 +53,9 @@ class StateIntake {
   bool belongs_to_run(const telemetry::StatePacket& packet, Instant at);
   bool advances(std::uint32_t sequence);
 
-  bool started_ = false;
-  std::uint32_t run_ = 0, newest_ = 0;
+  telemetry::RunFilter runs_;
+  std::uint32_t newest_ = 0;
   std::uint64_t seen_ = 0;  // bit k: newest_ - k was received
-  Instant last_accepted_{};
   IntakeCounters counters_;
 };
 

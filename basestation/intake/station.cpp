@@ -3,11 +3,13 @@
 
 namespace pitwall::intake {
 
-void Station::take(std::span<const std::uint8_t> datagram, Instant received) {
+bool Station::take(std::span<const std::uint8_t> datagram, Instant received) {
   const auto packet = intake_.feed(datagram, received);
-  if (!packet) return;
+  if (!packet) return false;
   link_.note(*packet, received);
+  uplink_.heard(*packet, received);
   picture_.update(*packet, received);
+  return true;
 }
 
 }  // namespace pitwall::intake

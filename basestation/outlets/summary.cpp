@@ -43,16 +43,24 @@ const char* source_text(const picture::Picture& picture) {
   return picture.source() == telemetry::Source::kCar ? "car" : "simulation";
 }
 
+const char* car_text(const intake::LinkStats& link, Instant now) {
+  if (!link.ever()) return "never heard";
+  return link.lost(now) ? "lost" : "heard";
+}
+
 }  // namespace
 
-std::string json_summary(const picture::Picture& picture, const intake::IntakeCounters& counters,
-                         const intake::LinkStats& link, Instant now) {
+std::string json_summary(const intake::Station& station, Instant now) {
+  const picture::Picture& picture = station.picture();
+  const intake::IntakeCounters& counters = station.counters();
+  const intake::LinkStats& link = station.link();
   const intake::AgeHistogram& ages = link.ages();
   std::string text = "{\n";
   const auto line = [&](std::string_view key, const std::string& value) {
     text += "  " + quoted(key) + ": " + value + ",\n";
   };
   line("source", quoted(source_text(picture)));
+  line("car", quoted(car_text(link, now)));
   line("packets", std::to_string(counters.accepted));
   line("received", std::to_string(counters.received));
   line("lost", std::to_string(counters.lost));
@@ -67,6 +75,8 @@ std::string json_summary(const picture::Picture& picture, const intake::IntakeCo
                      ", \"p90\": " + milliseconds_text(ages.quantile(0.90)) +
                      ", \"p99\": " + milliseconds_text(ages.quantile(0.99)) +
                      ", \"max\": " + milliseconds_text(ages.largest()) + "}");
+  line("heartbeats_sent", std::to_string(station.uplink().counters().sent));
+  line("heartbeats_not_sent", std::to_string(station.uplink().counters().not_sent));
   text += "  \"fields\": {\n";
   for (telemetry::FieldIndex i = 0; i < telemetry::kFieldCount; ++i) {
     text += "    " + field_json(telemetry::kFields[i], picture.view(i, now)) +

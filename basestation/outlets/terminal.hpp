@@ -1,6 +1,9 @@
-// The loop of a base station at a terminal: receives at once, prints a screen now and then.
+// The loop of a base station at a terminal: receives at once, answers the car with heartbeats,
+// prints a screen now and then.
 //   in     a socket, a descriptor that becomes readable when it shall stop
-//   out    the station up to date; screens on the given stream
+//   out    the station up to date; screens on the given stream; heartbeats to the address of the
+//          last accepted packet, from the socket that received it: one that is bound to loopback
+//          hears and reaches nobody else
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

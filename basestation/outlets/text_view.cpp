@@ -79,8 +79,16 @@ std::size_t left_column_rows(const std::vector<Line>& lines) {
   return rows;
 }
 
-Line source_line(const picture::Picture& picture) {
+Line source_line(const intake::Station& station, Instant now) {
+  const picture::Picture& picture = station.picture();
   if (!picture.ever()) return {"PITWALL   waiting for the first packet", kBold};
+  if (station.link().lost(now)) {
+    char text[120];
+    std::snprintf(text, sizeof text,
+                  "PITWALL   CAR LOST: not heard for %.1f s; all below is as old as that",
+                  station.link().since_last(now).seconds());
+    return {text, kRed};
+  }
   if (picture.source() == telemetry::Source::kSimulation) {
     return {"PITWALL   *** SIMULATION ***   no real car", kInverse};
   }
@@ -126,6 +134,21 @@ std::string link_text(const intake::IntakeCounters& counters, const intake::Link
   return text;
 }
 
+// Up to the car: what was sent, and what the car says of it.
+std::string uplink_text(const intake::Station& station, Instant now) {
+  const intake::UplinkCounters& sent = station.uplink().counters();
+  char text[160];
+  std::snprintf(text, sizeof text, "uplink    heartbeats sent %llu   not sent %llu",
+                static_cast<unsigned long long>(sent.sent),
+                static_cast<unsigned long long>(sent.not_sent));
+  const picture::FieldView trip = station.picture().view(telemetry::field("radio.round_trip"), now);
+  if (trip.quality == Quality::kNever) return std::string{text} + "   round trip not known";
+  char tail[80];
+  std::snprintf(tail, sizeof tail, "   round trip %.1f ms, %s ago", trip.value,
+                age_text(trip).c_str());
+  return std::string{text} + tail;
+}
+
 std::string refused_text(const intake::IntakeCounters& counters) {
   std::string text = "refused   " + std::to_string(counters.refused_total());
   for (std::size_t i = 0; i < telemetry::kPacketErrors; ++i) {
@@ -144,13 +167,14 @@ std::string refused_text(const intake::IntakeCounters& counters) {
 
 }  // namespace
 
-std::string text_view(const picture::Picture& picture, const intake::IntakeCounters& counters,
-                      const intake::LinkStats& link, Instant now, const ViewOptions& options) {
+std::string text_view(const intake::Station& station, Instant now, const ViewOptions& options) {
+  const picture::Picture& picture = station.picture();
   const std::string end = options.ansi ? std::string{kClearLine} + "\n" : "\n";
   std::string screen = options.ansi ? kHome : "";
-  screen += styled(source_line(picture), 2 * kColumnWidth, options.ansi) + end;
-  screen += link_text(counters, link, now) + end;
-  screen += refused_text(counters) + end;
+  screen += styled(source_line(station, now), 2 * kColumnWidth, options.ansi) + end;
+  screen += link_text(station.counters(), station.link(), now) + end;
+  screen += uplink_text(station, now) + end;
+  screen += refused_text(station.counters()) + end;
   if (const auto bus = bus_line(picture, now))
     screen += styled(*bus, 2 * kColumnWidth, options.ansi) + end;
   screen += end;

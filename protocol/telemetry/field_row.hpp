@@ -25,12 +25,13 @@ enum class Group : std::uint8_t {
   kEngine,
   kElectric,
   kBus,
-  kComputer
+  kComputer,
+  kRadio
 };
-inline constexpr std::size_t kGroups = 12;
+inline constexpr std::size_t kGroups = 13;
 inline constexpr std::string_view kGroupNames[kGroups] = {
-    "mode",   "flags", "ego",    "track",    "command", "feedback",
-    "wheels", "tyres", "engine", "electric", "bus",     "computer"};
+    "mode",  "flags",  "ego",      "track", "command",  "feedback", "wheels",
+    "tyres", "engine", "electric", "bus",   "computer", "radio"};
 
 // The part of the link that a field may claim when not all fits; first is kept longest.
 enum class Class : std::uint8_t { kSafety, kMotion, kHealth, kStatistics };

@@ -26,6 +26,7 @@ inline constexpr std::string_view kVehicleFlags =
 inline constexpr std::string_view kValidities = "never|good|dead reckoning|lost";
 inline constexpr std::string_view kIdentities = "listening|right|wrong";
 inline constexpr std::string_view kControllerStates = "unknown|active|warning|passive|BUS OFF|down";
+inline constexpr std::string_view kBaseStates = "not watched|never heard|heard|late|LOST";
 inline constexpr std::string_view kStopCauses =
     "none|operator: emergency stop|purple flag|drive-by-wire: system failure|"
     "drive-by-wire: emergency brake|drive-by-wire: steering lost|"

@@ -116,6 +116,13 @@ inline constexpr auto kFields = [] {
       {kComputer, "step_time_max", "us", 0, 1'000'000, 1, kStatistics, kSlow},
       count(kComputer, "steps"),
       count(kComputer, "missed_deadlines"),
+
+      {kRadio, "base", "", 0, 6, 1, kSafety, kMedium, kBaseStates},
+      {kRadio, "silence", "s", 0, 60, 0.01, kSafety, kMedium},
+      {kRadio, "round_trip", "ms", 0, 10'000, 0.1, kStatistics, kSlow},
+      count(kRadio, "heartbeats"),
+      count(kRadio, "heartbeats_refused"),
+      count(kRadio, "base_runs"),
   });
 }();
 inline constexpr std::size_t kFieldCount = kFields.size();

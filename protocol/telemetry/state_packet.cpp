@@ -7,6 +7,7 @@
 #include "protocol/bits/bit_reader.hpp"
 #include "protocol/bits/bit_writer.hpp"
 #include "protocol/bits/crc.hpp"
+#include "protocol/telemetry/little_endian.hpp"
 
 namespace pitwall::telemetry {
 namespace {
@@ -16,22 +17,6 @@ constexpr std::uint8_t kSimulationFlag = 0x01;
 constexpr std::uint64_t kNeverSampled = (std::uint64_t{1} << kAgeBits) - 1;
 constexpr std::size_t kVersionAt = 2, kFlagsAt = 3, kSchemaAt = 4, kRunAt = 8, kSequenceAt = 12,
                       kSentAt = 16;
-
-template <class T>
-void store(std::span<std::uint8_t> bytes, std::size_t at, T value) {
-  for (std::size_t i = 0; i < sizeof(T); ++i) {
-    bytes[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
-  }
-}
-
-template <class T>
-T load(std::span<const std::uint8_t> bytes, std::size_t at) {
-  T value = 0;
-  for (std::size_t i = 0; i < sizeof(T); ++i) {
-    value = static_cast<T>(value | static_cast<T>(bytes[at + i]) << (8 * i));
-  }
-  return value;
-}
 
 std::uint64_t code_of(const bits::Quantized& field, double value, EncodeCounters& counters) {
   if (std::isinf(value)) {

@@ -11,6 +11,9 @@ namespace {
 // More than the receive queue of the socket holds (21,846 frames): what waits after a stall is read
 // at once, else the newest frames would be taken for lost.
 constexpr std::size_t kFramesPerRead = 22'528;
+// Ten a second come; what a flood brings more waits for the next tick.
+constexpr std::size_t kHeartbeatsPerRead = transport::UdpSocket::kBatch;
+constexpr Duration kRoundTripKept = seconds(1);
 
 }  // namespace
 
@@ -25,7 +28,9 @@ Rim::Rim(transport::CanSocket can, std::unique_ptr<BusWatch> watch,
       base_(base),
       frames_(kFramesPerRead),
       source_(simulation ? telemetry::Source::kSimulation : telemetry::Source::kCar),
-      run_(static_cast<std::uint32_t>(transport::utc_now().ns / kNanosecondsPerSecond)) {}
+      run_(telemetry::run_number({transport::utc_now().ns})),
+      base_heard_(run_),
+      from_base_(kHeartbeatsPerRead) {}
 
 Result<Rim, Problem> Rim::open(const Arguments& args) {
   const auto base = transport::parse_udp_address(args.radio);
@@ -57,7 +62,22 @@ Rim::Heard Rim::read() {
     if (receive(gnss_[unit], receivers_[unit], heard.sensors) > 0)
       gnss_byte_at_[unit] = transport::monotonic_now();
   heard.gnss_byte_at = gnss_byte_at_;
+  listen_to_base();
+  heard.radio_at = base_heard_.alive_at();
   return heard;
+}
+
+void Rim::listen_to_base() {
+  const std::size_t count = radio_.receive(from_base_);
+  for (std::size_t i = 0; i < count; ++i)
+    base_heard_.feed(from_base_[i].payload(), from_base_[i].at);
+}
+
+double Rim::round_trip_ms(Instant now) const {
+  const auto alive_at = base_heard_.alive_at();
+  const auto round_trip = base_heard_.round_trip();
+  if (!alive_at || !round_trip || now - *alive_at > kRoundTripKept) return kUnset;
+  return round_trip->milliseconds();
 }
 
 void Rim::look_at_bus(Instant now) {

@@ -21,6 +21,8 @@ constexpr bool causes_are_labelled_as_in_safety() {
   return telemetry::label_at(telemetry::kStopCauses, safety::kCauses).empty();
 }
 static_assert(causes_are_labelled_as_in_safety(), "telemetry labels of causes are out of date");
+static_assert(telemetry::label_at(telemetry::kBaseStates,
+                                  static_cast<std::size_t>(safety::Health::kBad)) == "LOST");
 
 template <class E>
 double number_of(E value) {
@@ -136,6 +138,15 @@ void put_counters(Values& v, const Outputs& out, const RimCounters& rim) {
   v[field("computer.missed_deadlines")] = static_cast<double>(rim.missed_deadlines);
 }
 
+void put_radio(Values& v, const safety::StreamRow& base, const RimCounters& rim) {
+  v[field("radio.base")] = number_of(base.health);
+  if (base.health > safety::Health::kNever) v[field("radio.silence")] = base.age.seconds();
+  v[field("radio.round_trip")] = rim.round_trip_ms;
+  v[field("radio.heartbeats")] = static_cast<double>(rim.heartbeats);
+  v[field("radio.heartbeats_refused")] = static_cast<double>(rim.heartbeats_refused);
+  v[field("radio.base_runs")] = static_cast<double>(rim.base_runs);
+}
+
 template <class T>
 void put_age(telemetry::StatePacket& packet, Group group, const world::Heard<T>& heard,
              Instant now) {
@@ -156,8 +167,10 @@ telemetry::StatePacket tap(const Setup& setup, const Outputs& out, const RimCoun
   put_wheels(v, s);
   put_health(v, s);
   put_counters(v, out, rim);
+  put_radio(v, out.watchdog[safety::Stream::kRadio], rim);
 
-  for (const Group made_now : {Group::kMode, Group::kCommand, Group::kBus, Group::kComputer})
+  for (const Group made_now :
+       {Group::kMode, Group::kCommand, Group::kBus, Group::kComputer, Group::kRadio})
     packet.age_of(made_now) = Duration{};
   if (out.heard.race_control.ever_heard) packet.age_of(Group::kFlags) = Duration{};
   if (out.ego.validity != world::Validity::kNever) {

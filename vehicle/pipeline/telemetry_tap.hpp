@@ -17,6 +17,8 @@ namespace pitwall::pipeline {
 struct RimCounters {
   std::uint64_t frames_sent = 0, tx_drops = 0, steps = 0, missed_deadlines = 0;
   double step_time_max_us = kUnset;  // since the last packet
+  std::uint64_t heartbeats = 0, heartbeats_refused = 0, base_runs = 0;
+  double round_trip_ms = kUnset;
 };
 
 telemetry::StatePacket tap(const Setup& setup, const Outputs& out, const RimCounters& rim,

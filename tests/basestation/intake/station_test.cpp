@@ -21,7 +21,7 @@ struct Car : Sender {
 };
 
 TEST(Station, KnowsWhatItTook) {
-  const auto station = std::make_unique<Station>();
+  const auto station = std::make_unique<Station>(1);
   Car car;
   station->take(car.at(321.0, 1), {});
   EXPECT_EQ(station->picture().view(kX, {}).value, 321.0);
@@ -31,7 +31,7 @@ TEST(Station, KnowsWhatItTook) {
 }
 
 TEST(Station, AnOlderPacketDoesNotReplaceTheNewer) {
-  const auto station = std::make_unique<Station>();
+  const auto station = std::make_unique<Station>(1);
   Car car;
   const auto older = car.at(1.0, 1);
   station->take(car.at(2.0, 2), {});
@@ -40,7 +40,7 @@ TEST(Station, AnOlderPacketDoesNotReplaceTheNewer) {
 }
 
 TEST(Station, GarbageIsCountedOnly) {
-  const auto station = std::make_unique<Station>();
+  const auto station = std::make_unique<Station>(1);
   station->take(std::vector<std::uint8_t>(100, 0x55), {});
   EXPECT_EQ(station->counters().refused_total(), 1U);
   EXPECT_FALSE(station->picture().ever());

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "tests/basestation/sender.hpp"
 
@@ -44,7 +45,7 @@ class Terminal : public testing::Test {
   std::FILE* file_ = std::tmpfile();
   int stop_[2] = {-1, -1};
   Sender car_;
-  std::unique_ptr<intake::Station> station_ = std::make_unique<intake::Station>();
+  std::unique_ptr<intake::Station> station_ = std::make_unique<intake::Station>(1);
 };
 
 TEST_F(Terminal, TakesWhatWaitsBeforeItStops) {
@@ -59,6 +60,32 @@ TEST_F(Terminal, TakesWhatWaitsBeforeItStops) {
 TEST_F(Terminal, StopsByItselfAndIsSilentUnlessAsked) {
   EXPECT_EQ(run({.duration = milliseconds(30)}), "");
   EXPECT_EQ(station_->counters().received, 0U);
+}
+
+// The peer is a socket of the test; what the bytes mean is the heartbeat's own test.
+TEST_F(Terminal, AnswersTheSenderOfTheLastAcceptedPacketAndNobodyElse) {
+  auto stranger = transport::UdpSocket::bind({});
+  ASSERT_TRUE(stranger);
+  send(3);
+  ASSERT_TRUE(stranger->send_to(socket_->local(), std::vector<std::uint8_t>(60, 0x50)));
+  run({.duration = milliseconds(350)});
+  std::vector<transport::UdpDatagram> heard(32);
+  const std::size_t count = sender_->receive(heard);
+  EXPECT_GE(count, 1U);
+  EXPECT_LE(count, 4U) << "one at once, then one each 100 ms";
+  EXPECT_EQ(count, station_->uplink().counters().sent);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto heartbeat = telemetry::parse_heartbeat(heard[i].payload());
+    ASSERT_TRUE(heartbeat);
+    EXPECT_EQ(heartbeat->heard_sequence, 2U);
+    EXPECT_EQ(heartbeat->sequence, i);
+  }
+  EXPECT_EQ(stranger->receive(heard), 0U);
+}
+
+TEST_F(Terminal, SaysNothingBeforeACarWasHeard) {
+  run({.duration = milliseconds(250)});
+  EXPECT_EQ(socket_->counters().sent, 0U);
 }
 
 TEST_F(Terminal, RefreshesTheScreen) {

@@ -17,20 +17,15 @@ using telemetry::field;
 using telemetry::Group;
 
 struct Base {
-  intake::StateIntake intake;
-  std::unique_ptr<intake::LinkStats> link = std::make_unique<intake::LinkStats>();
-  picture::Picture picture;
+  std::unique_ptr<intake::Station> station = std::make_unique<intake::Station>(1);
   Sender car;
 
   void hear(std::uint32_t sequence, Instant at) {
-    const auto packet = intake.feed(car.bytes(sequence), at);
-    ASSERT_TRUE(packet.has_value());
-    link->note(*packet, at);
-    picture.update(*packet, at);
+    ASSERT_TRUE(station->take(car.bytes(sequence), at));
   }
   std::string screen(Instant now, bool ansi = false) {
-    link->advance(now);
-    return text_view(picture, intake.counters(), *link, now, {.ansi = ansi});
+    station->advance(now);
+    return text_view(*station, now, {.ansi = ansi});
   }
 };
 
@@ -105,6 +100,34 @@ TEST(TextView, EveryFieldIsOnTheScreenWithItsUnit) {
   }
 }
 
+TEST(TextView, ALostCarIsNamedAndAHeardOneIsNot) {
+  Base base;
+  drive(base);
+  const Instant last{milliseconds(980).ns};
+  EXPECT_EQ(base.screen(last + seconds(1)).find("LOST"), std::string::npos);
+  const Instant later = last + milliseconds(1'100);
+  EXPECT_NE(base.screen(later).find("CAR LOST: not heard for 1.1 s"), std::string::npos);
+  EXPECT_NE(base.screen(later, true).find("\x1b[1;31mPITWALL   CAR LOST"), std::string::npos);
+  base.hear(51, later);
+  EXPECT_EQ(base.screen(later).find("LOST"), std::string::npos);
+}
+
+TEST(TextView, ShowsWhatGoesUpAndHowLongItTakes) {
+  Base base;
+  drive(base);
+  EXPECT_NE(base.screen({}).find("heartbeats sent 0   not sent 0   round trip not known"),
+            std::string::npos);
+  base.station->uplink().note(true);
+  base.station->uplink().note(true);
+  base.station->uplink().note(false);
+  base.car.packet.age_of(Group::kRadio) = milliseconds(1);
+  base.car.packet.values[field("radio.round_trip")] = 12.5;
+  base.hear(60, {seconds(2).ns});
+  EXPECT_NE(base.screen({milliseconds(2'003).ns})
+                .find("heartbeats sent 2   not sent 1   round trip 12.5 ms, 4 ms ago"),
+            std::string::npos);
+}
+
 TEST(TextView, StaleIsMarkedAndDimmed) {
   Base base;
   drive(base);
@@ -122,10 +145,10 @@ TEST(TextView, PlainHasNoEscapes) {
 
 TEST(TextView, RefusalsAreShownByKind) {
   Base base;
-  base.intake.feed({}, {});
+  base.station->take({}, {});
   auto damaged = base.car.bytes(1);
   damaged[40] ^= 1U;
-  base.intake.feed(damaged, {});
+  base.station->take(damaged, {});
   const std::string screen = base.screen({});
   EXPECT_NE(screen.find("refused   2"), std::string::npos);
   EXPECT_NE(screen.find("too short 1"), std::string::npos);

@@ -100,6 +100,8 @@ Outputs full() {
       .at = kNow, .road_wheel_rad = 0.0625, .throttle_fraction = 0.5, .brake_kpa = 1800, .gear = 5};
   out.ct_state = world::CtState::kCoordinatedStop;
   out.passed.refused_total = 77;
+  out.watchdog.rows[static_cast<std::size_t>(safety::Stream::kRadio)] = {
+      safety::Stream::kRadio, safety::Health::kWarning, milliseconds(1'250)};
   return out;
 }
 
@@ -107,7 +109,11 @@ constexpr RimCounters kRim{.frames_sent = 2002,
                            .tx_drops = 3,
                            .steps = 4004,
                            .missed_deadlines = 5,
-                           .step_time_max_us = 66};
+                           .step_time_max_us = 66,
+                           .heartbeats = 88,
+                           .heartbeats_refused = 9,
+                           .base_runs = 2,
+                           .round_trip_ms = 12.5};
 
 std::string name_of(std::size_t i) {
   const auto& row = telemetry::kFields[i];
@@ -183,6 +189,12 @@ const std::vector<Row> kExpected{
     {field("computer.step_time_max"), 66},
     {field("computer.steps"), 4004},
     {field("computer.missed_deadlines"), 5},
+    {field("radio.base"), 3},
+    {field("radio.silence"), 1.25},
+    {field("radio.round_trip"), 12.5},
+    {field("radio.heartbeats"), 88},
+    {field("radio.heartbeats_refused"), 9},
+    {field("radio.base_runs"), 2},
 };
 
 TEST(TelemetryTap, EachFieldSaysWhatTheTickSays) {
@@ -230,6 +242,7 @@ TEST(TelemetryTap, AgesAreThoseOfTheSamples) {
   EXPECT_EQ(age_ms(Group::kElectric), 15);
   EXPECT_EQ(age_ms(Group::kBus), 0);
   EXPECT_EQ(age_ms(Group::kComputer), 0);
+  EXPECT_EQ(age_ms(Group::kRadio), 0);
 }
 
 TEST(TelemetryTap, WhatWasNeverHeardIsNotANumberAndHasNoAge) {
@@ -238,10 +251,12 @@ TEST(TelemetryTap, WhatWasNeverHeardIsNotANumberAndHasNoAge) {
       "mode.mode",          "mode.ct_state",      "ego.validity",     "mode.first_stop_cause",
       "bus.frames_applied", "bus.frames_refused", "bus.frames_sent",  "bus.tx_drops",
       "bus.gate_refusals",  "bus.frames_lost",    "bus.queue_losses", "bus.controller",
-      "bus.identity",       "bus.database",       "computer.steps",   "computer.missed_deadlines"};
+      "bus.identity",       "bus.database",       "computer.steps",   "computer.missed_deadlines",
+      "radio.base",         "radio.heartbeats",   "radio.base_runs",  "radio.heartbeats_refused"};
   for (std::size_t i = 0; i < telemetry::kFieldCount; ++i)
     EXPECT_EQ(std::isnan(packet.values[i]), !known.contains(name_of(i))) << name_of(i);
-  const std::set<Group> sampled{Group::kMode, Group::kCommand, Group::kBus, Group::kComputer};
+  const std::set<Group> sampled{Group::kMode, Group::kCommand, Group::kBus, Group::kComputer,
+                                Group::kRadio};
   for (std::size_t g = 0; g < telemetry::kGroups; ++g) {
     const auto group = static_cast<Group>(g);
     EXPECT_EQ(packet.age_of(group) >= Duration{}, sampled.contains(group))
