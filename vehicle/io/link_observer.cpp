@@ -27,7 +27,7 @@ ControllerState state_of(BusState state) {
 
 ControllerState judge(const LinkNews& news) {
   const transport::CanInterfaceStatus& report = news.interface;
-  if (!report.exists || !report.up) return ControllerState::kDown;
+  if (news.hung_up || !report.exists || !report.up) return ControllerState::kDown;
   const bool reported = report.has_controller && report.state != BusState::kUnknown;
   if (!reported) return state_of(news.told_by_frames);
   if (news.told_at > report.at) return state_of(news.told_by_frames);

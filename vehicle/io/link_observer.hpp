@@ -8,8 +8,9 @@
 //     error frame  ----- bus-off @120 -------------------------->  bus-off from 120 on
 //     interface    - active @100 ------- bus-off @200 --- active @300 (restarted) -> active
 //
-//   An interface that is not there or not up is down, whatever a frame said before. A report
-//   without a controller (vcan) says nothing of the state: then the error frames alone tell, and
+//   An interface that is not there or not up is down, whatever a frame said before; so is a unix
+//   bus whose hub has hung up, which the socket knows before the next report. A report without a
+//   controller (vcan, unix bus) says nothing of the state: then the error frames alone tell, and
 //   without any the state is unknown.
 //   in     LinkNews
 //   out    world::LinkObservation; losses and restarts since the first observation
@@ -34,6 +35,7 @@ struct LinkNews {
   std::uint64_t tx_drops = 0;
   Duration tx_stalled{};
   std::uint64_t down_and_up = 0;  // restarts that the kernel does not count
+  bool hung_up = false;           // the socket has no bus any more
 };
 
 // Goes on where a counter starts again.

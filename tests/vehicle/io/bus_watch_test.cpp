@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/support/comes_true.hpp"
+#include "tests/support/unix_bus_bench.hpp"
 
 namespace pitwall::io {
 namespace {
@@ -34,6 +35,21 @@ TEST(BusWatch, ARefusalIsCountedAndSaysWhy) {
   EXPECT_TRUE(comes_true([&] { return (*watch)->newest().flushes_refused == 1; }));
   EXPECT_EQ((*watch)->newest().restarts, 0u);
   EXPECT_EQ((*watch)->newest().flushes, 0u);
+}
+
+class BusWatchOnUnixBus : public testing::UnixBusBench {};
+
+TEST_F(BusWatchOnUnixBus, SeesTheHubGoAndComeAndRefusesWhatABusWithoutControllerCannot) {
+  const auto watch = BusWatch::start(bus_);
+  ASSERT_TRUE(watch) << to_string(watch.error());
+  EXPECT_TRUE((*watch)->newest().interface.up);
+  hub_.reset();
+  EXPECT_TRUE(comes_true([&] { return !(*watch)->newest().interface.up; }));
+  (*watch)->restart();
+  EXPECT_TRUE(comes_true([&] { return (*watch)->newest().restarts_refused == 1; }));
+  start();
+  EXPECT_TRUE(comes_true([&] { return (*watch)->newest().interface.up; }));
+  EXPECT_EQ((*watch)->newest().restarts, 0u);
 }
 
 TEST(BusWatch, AMissingInterfaceIsNamed) {

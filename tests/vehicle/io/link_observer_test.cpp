@@ -52,6 +52,17 @@ TEST(LinkObserver, AnInterfaceThatIsNotUpIsDownWhateverWasSaid) {
   }
 }
 
+TEST(LinkObserver, ABusWhoseHubHasHungUpIsDownBeforeAnyReportSaysSo) {
+  for (const BusState state : kStates) {
+    const auto interface = report(state);
+    const auto link = LinkObserver{}.observe({.interface = interface,
+                                              .told_by_frames = BusState::kActive,
+                                              .told_at = kAsked + seconds(1),
+                                              .hung_up = true});
+    EXPECT_EQ(link.controller, ControllerState::kDown);
+  }
+}
+
 TEST(LinkObserver, WithoutAControllerOnlyErrorFramesTellAndElseNothingIsKnown) {
   auto vcan = report(BusState::kUnknown);
   vcan.has_controller = false;
