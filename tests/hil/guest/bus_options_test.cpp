@@ -82,5 +82,27 @@ TEST(BusUpOptions, WhatIsWrongIsNamed) {
   for (const auto& words : wrong) EXPECT_FALSE(parse_bus_up(words)) << words.back();
 }
 
+TEST(BusOptions, AHubTakesAPathWithOrWithoutThePrefix) {
+  for (const char* path : {"/tmp/bus", "unix:/tmp/bus"}) {
+    const auto options = parse_bus_hub(Words{path, "--seconds", "2.5"});
+    ASSERT_TRUE(options) << to_string(options.error());
+    EXPECT_EQ(options->bus, "unix:/tmp/bus");
+    EXPECT_EQ(options->length, milliseconds(2'500));
+  }
+  EXPECT_FALSE(parse_bus_hub(Words{"bus"})->length.has_value());
+  const std::vector<std::pair<Words, std::string>> cases{{{}, "bus hub"},
+                                                         {{"--seconds", "1"}, "bus hub"},
+                                                         {{"a", "b"}, "b"},
+                                                         {{"a", "--what"}, "--what"},
+                                                         {{"a", "--seconds"}, "--seconds"},
+                                                         {{"a", "--seconds", "0"}, "0"},
+                                                         {{"a", "--seconds", "x"}, "x"}};
+  for (const auto& [words, place] : cases) {
+    const auto options = parse_bus_hub(words);
+    ASSERT_FALSE(options);
+    EXPECT_EQ(options.error().place, place);
+  }
+}
+
 }  // namespace
 }  // namespace pitwall::guest

@@ -27,6 +27,8 @@ TEST(BusVerb, WrongUsageIsTwoAndSaysWhy) {
                                                 {"fly"},
                                                 {"exec"},
                                                 {"exec", "--"},
+                                                {"hub"},
+                                                {"hub", "/no/such/folder/bus"},
                                                 {"line"},
                                                 {"line", "1"},
                                                 {"line", "x", "1"}}) {
@@ -40,8 +42,9 @@ TEST(BusVerb, HelpNamesEveryVerb) {
   testing::internal::CaptureStdout();
   EXPECT_EQ(bus({"--help"}), 0);
   const std::string said = testing::internal::GetCapturedStdout();
-  for (const char* verb : {"check", "up", "status", "down", "exec", "--line-udp", "--timeout",
-                           "--bitrate", "--restart-ms", "--listen-only", "--txqueuelen"})
+  for (const char* verb :
+       {"check", "up", "status", "down", "hub", "exec", "--line-udp", "--timeout", "--bitrate",
+        "--restart-ms", "--listen-only", "--txqueuelen"})
     EXPECT_NE(said.find(verb), std::string::npos) << verb;
 }
 

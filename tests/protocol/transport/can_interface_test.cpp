@@ -14,6 +14,7 @@
 
 #include "protocol/transport/file.hpp"
 #include "tests/support/allocation_guard.hpp"
+#include "tests/support/unix_bus_bench.hpp"
 
 namespace pitwall::transport {
 namespace {
@@ -66,6 +67,39 @@ TEST(CanInterface, WhatIsNoInterfaceOrHasNoControllerIsRefusedByName) {
     ASSERT_TRUE(refused);
     EXPECT_EQ(refused->place, "lo");
   }
+}
+
+class CanInterfaceOnUnixBus : public testing::UnixBusBench {};
+
+TEST_F(CanInterfaceOnUnixBus, IsUpWhileItsHubIsThereAndDownWhileNot) {
+  auto bus = CanInterface::open(bus_);
+  ASSERT_TRUE(bus) << to_string(bus.error());
+  for (int round = 0; round < 3; ++round) {
+    for (int i = 0; i < 3; ++i) {
+      serve();
+      ASSERT_TRUE(bus->refresh());
+      EXPECT_TRUE(bus->status().exists && bus->status().up && bus->status().running);
+      EXPECT_FALSE(bus->status().has_controller);
+      EXPECT_EQ(bus->status().state, BusState::kUnknown);
+      EXPECT_FALSE(bus->status().listen_only);
+    }
+    EXPECT_EQ(hub_->counters().joined, 1u);  // it stays, and hears nothing
+    hub_.reset();
+    for (int i = 0; i < 3; ++i) {
+      ASSERT_TRUE(bus->refresh());
+      EXPECT_TRUE(bus->status().exists);
+      EXPECT_FALSE(bus->status().up || bus->status().running);
+    }
+    start();
+  }
+  for (const auto& refused : {bus->restart(), bus->configure({.bitrate = 500'000}), bus->flush()}) {
+    ASSERT_TRUE(refused);
+    EXPECT_EQ(refused->place, bus_);
+  }
+  hub_.reset();
+  const auto none = CanInterface::open(bus_);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().place, bus_);
 }
 
 // A controller as the kernel would describe it.

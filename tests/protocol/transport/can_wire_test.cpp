@@ -36,6 +36,27 @@ TEST(CanWire, ThereAndBackIsIdentity) {
   }
 }
 
+TEST(CanWire, WhatIsCarriedIsWhatBecomesASendableFrameUnchangedOrAnErrorFrame) {
+  std::mt19937_64 random(19);
+  std::size_t carried = 0, refused = 0;
+  for (int i = 0; i < 200'000; ++i) {
+    CanWire wire{};
+    wire.can_id = static_cast<std::uint32_t>(random()) >> (random() % 2 == 0 ? 21 : 0);
+    wire.len = static_cast<std::uint8_t>(random() % 70);
+    const std::size_t bytes = random() % 2 == 0 ? kCanWireBytes : kCanFdWireBytes;
+    can::Frame frame;
+    CanWire back{};
+    const bool same = from_wire(wire, bytes, frame) && to_wire(frame, back) == bytes &&
+                      back.can_id == wire.can_id && back.len == wire.len;
+    const bool error = bytes == kCanWireBytes && wire.len <= 8 && wire.can_id >> 29U == 1;
+    ASSERT_EQ(is_carried(wire, bytes), same || error) << std::hex << wire.can_id;
+    ++(same || error ? carried : refused);
+  }
+  EXPECT_GT(std::min(carried, refused), 10'000u);
+  for (std::size_t bytes = 0; bytes <= 100; ++bytes)
+    EXPECT_EQ(is_carried(CanWire{}, bytes), bytes == kCanWireBytes || bytes == kCanFdWireBytes);
+}
+
 TEST(CanWire, WhatNoBusCanCarryIsRefused) {
   CanWire wire{};
   can::Frame f;
