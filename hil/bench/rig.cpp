@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "hil/plant_file/perturbed.hpp"
 #include "protocol/can/av21.hpp"
 
 namespace pitwall::bench {
@@ -46,12 +47,14 @@ Result<Rig, Problem> Rig::build(const scenario::Scenario& scenario, const world:
   if (!revision) return Unexpected{revision.error()};
   Rig rig{track, *std::move(plan), *std::move(revision)};
   const world::TrackPoint at = track.offset(scenario.start.s_m, scenario.start.n_m);
+  rig.perturb_ = scenario.perturb;
+  rig.plant_params_ = plant_file::perturbed(scenario.plant, scenario.perturb);
   rig.plant_ = plant::standing(rig.plant_params_, at.x_m, at.y_m, at.yaw_rad);
   rig.plant_.tyre_c.fill(scenario.tyres.temperature_c);
   rig.road_ = plant::road_at(rig.plant_params_, track, rig.plant_);
   if (rig.road_.contact)
     return Unexpected{Problem{scenario.name, "start.n_m puts the car into a wall"}};
-  rig.surface_ = rig.road_.surface;
+  rig.surface_ = rig.true_road();
   rig.truth_ = plant::observe(rig.plant_params_, rig.plant_, rig.surface_);
   rig.script_ = script_of(scenario);
   rig.timer_params_ = {.track_length_m = track.length_m()};
@@ -95,15 +98,21 @@ void Rig::step_plant() {
   const double before_rad = surface_.bank_rad;
   plant_ = plant::step(plant_params_, plant_, actuation, surface_, kRigStep.seconds());
   road_ = plant::road_at(plant_params_, track_, plant_, road_.s_m);
-  surface_ = road_.surface;
+  if (held_tyre_c_) plant_.tyre_c.fill(*held_tyre_c_);
+  surface_ = true_road();
   surface_.bank_rate_rad_per_s = (surface_.bank_rad - before_rad) / kRigStep.seconds();
-  surface_.grip = grip_;
   truth_ = plant::observe(plant_params_, plant_, surface_);
+}
+
+plant::Surface Rig::true_road() const {
+  plant::Surface road = plant_file::perturbed(road_.surface, perturb_);
+  road.grip *= grip_;
+  return road;
 }
 
 drive_by_wire::Feedback Rig::feedback() const {
   drive_by_wire::Feedback f;
-  f.wheel_speed_mps = truth_.wheel_speed_mps;
+  if (!wheel_speeds_lost_) f.wheel_speed_mps = truth_.wheel_speed_mps;  // else it sends no report
   f.vehicle_speed_mps = truth_.speed_mps;
   f.brake_front_kpa = truth_.brake_front_kpa;
   f.brake_rear_kpa = truth_.brake_rear_kpa;
@@ -171,7 +180,8 @@ void Rig::apply_model_faults(Instant now) {
   sensors_.fault = {};
   raptor_.faults = {};
   race_.faults = {};
-  bus_silent_ = computer_silent_ = engine_stalled_ = false;
+  bus_silent_ = computer_silent_ = engine_stalled_ = wheel_speeds_lost_ = false;
+  held_tyre_c_.reset();
   grip_ = 1.0;
   for (const faults::BenchFault& fault : plan_.models)
     apply_model_fault(fault, faults::active(fault, now));
@@ -210,6 +220,12 @@ void Rig::apply_model_fault(const faults::BenchFault& fault, bool active) {
     case BenchFaultKind::kLowGrip:
       grip_ = fault.value;
       return;
+    case BenchFaultKind::kColdTyres:
+      held_tyre_c_ = fault.value;
+      return;
+    case BenchFaultKind::kWheelSpeedLoss:
+      wheel_speeds_lost_ = true;
+      return;
     case BenchFaultKind::kBusSilent:
       bus_silent_ = true;
       return;
@@ -246,6 +262,9 @@ void Rig::apply_gnss_fault(const faults::BenchFault& fault) {
       return;
     case BenchFaultKind::kImuOutage:
       unit.imu_outage = true;
+      return;
+    case BenchFaultKind::kImuBias:
+      unit.yaw_rate_bias_rad_per_s = fault.value;
       return;
     default:
       CHECK(false);  // plan_faults() refuses what is not carried out

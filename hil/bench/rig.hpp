@@ -1,7 +1,7 @@
 // Everything round the car's computer: plant, drive-by-wire, race control, sensors, timing, faults.
 // Advanced one plant step at a time by whoever owns the clock: the lockstep bench with virtual
-// time,
-// the live bench with the machine's.
+// time, the live bench with the machine's. The plant and its road are those of the scenario, as it
+// perturbs them; the map that the car drives by is not.
 //   in     frames that the car's computer sent, now (a whole number of kRigStep since the start)
 //   out    frames for the bus, sensor samples, truth
 //   errors build(): Problem with the place in the scenario; later only counters
@@ -33,8 +33,8 @@ namespace pitwall::bench {
 
 inline constexpr Duration kRigStep = milliseconds(1);
 
-enum class Node : std::uint8_t { kCar, kDriveByWire, kRaceControl };
-inline constexpr std::uint8_t kNodes = 3;
+enum class Node : std::uint8_t { kCar, kDriveByWire, kRaceControl, kGuardian };
+inline constexpr std::uint8_t kNodes = 4;
 
 struct Outgoing {
   Node from = Node::kDriveByWire;
@@ -80,6 +80,7 @@ class Rig {
   void apply_model_fault(const faults::BenchFault& fault, bool active);
   void apply_gnss_fault(const faults::BenchFault& fault);
   void step_plant();
+  plant::Surface true_road() const;  // under the car, with what the scenario does to it
   void speak(Node from, const can::Frame& frame, Instant now);  // in the words of the revision
   void send(Node from, const can::Frame& frame, Instant now);
   void release_delayed(Instant now);
@@ -92,6 +93,7 @@ class Rig {
   std::vector<can::ReceivedFrame> understood_;
   faults::FrameFaultState frame_faults_;
   std::array<faults::DelayQueue, kNodes> delayed_;  // by sender
+  scenario::Perturbations perturb_;
   plant::Params plant_params_;
   plant::State plant_;
   plant::Surface surface_;
@@ -111,7 +113,9 @@ class Rig {
   FixedVector<Outgoing, kMaxOutgoing> outgoing_;
   bool outgoing_taken_ = false;  // cleared by the next step
   bool bus_silent_ = false, computer_silent_ = false, engine_stalled_ = false;
+  bool wheel_speeds_lost_ = false;
   double grip_ = 1.0;
+  std::optional<double> held_tyre_c_;
   std::uint64_t overflows_ = 0, actuator_frames_ = 0;
 };
 

@@ -59,7 +59,6 @@ constexpr std::array kExpectKinds = {
 };
 
 constexpr double kLongest_s = 36'000.0;  // ten hours: the longest soak
-constexpr double kHottest_c = 150.0, kColdest_c = -20.0;
 
 template <class T, std::size_t N>
 T one_of(yaml::StrictMap& map, const char* key, const std::array<Named<T>, N>& table,
@@ -99,6 +98,28 @@ Tyres read_tyres(yaml::StrictMap map) {
   tyres.temperature_c = map.number("temperature_c", kColdest_c, kHottest_c);
   map.finish();
   return tyres;
+}
+
+Perturbations read_perturbations(yaml::StrictMap map) {
+  constexpr double kDelayMax_s = 0.5;
+  const auto delay_s = [&map](const char* key) {
+    return map.number_or(key, 0.0, 0.0, kDelayMax_s);
+  };
+  Perturbations p;
+  p.mass_kg = map.number_or("mass_kg", 0.0, -300.0, 300.0);
+  p.tyre_stiffness = map.number_or("tyre_stiffness", 1.0, 0.5, 2.0);
+  p.friction = map.number_or("friction", 1.0, 0.2, 1.5);
+  p.bank_error_rad = from_deg(map.number_or("bank_error_deg", 0.0, -5.0, 5.0));
+  p.wind_mps = map.number_or("wind_mps", 0.0, 0.0, 40.0);
+  p.wind_to_rad = from_deg(map.number_or("wind_to_deg", 0.0, -360.0, 360.0));
+  if (map.has("wind_to_deg") && !map.has("wind_mps"))
+    map.fail("wind_to_deg", "a direction without wind_mps");
+  p.steering_delay_s = delay_s("steering_delay_s");
+  p.throttle_delay_s = delay_s("throttle_delay_s");
+  p.brake_delay_s = delay_s("brake_delay_s");
+  p.gear_delay_s = delay_s("gear_delay_s");
+  map.finish();
+  return p;
 }
 
 FlagChange read_flag_change(yaml::StrictMap& map) {
@@ -167,6 +188,9 @@ Scenario read_root(yaml::StrictMap& map) {
   scenario.bus = one_of(map, "bus", kBusRevisions, "v14");
   if (auto start = map.optional_map("start")) scenario.start = read_start(*start);
   if (auto tyres = map.optional_map("tyres")) scenario.tyres = read_tyres(*tyres);
+  if (map.has("plant")) scenario.plant_file = map.text("plant");
+  if (map.has("plant") && scenario.plant_file.empty()) map.fail("plant", "names no file");
+  if (auto perturb = map.optional_map("perturb")) scenario.perturb = read_perturbations(*perturb);
   read_list(map, "race_control", scenario.race_control, read_flag_change);
   read_list(map, "faults", scenario.faults, read_fault);
   read_list(map, "expect", scenario.expect, read_expectation);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "hil/plant/params.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
@@ -22,11 +23,14 @@ struct Start {
   double s_m = 0.0, n_m = 0.0, speed_mps = 0.0;
 };
 
+inline constexpr double kColdest_c = -20.0, kHottest_c = 150.0;  // of a tyre
+
 struct Tyres {
   double temperature_c = 85.0;
 };
 
 // How the modelled car and world differ from what the car believes of them. Neutral by default.
+// What each does to the plant: hil/plant_file/perturbed.hpp.
 struct Perturbations {
   double mass_kg = 0.0;         // added to the car's; [-300, 300]
   double tyre_stiffness = 1.0;  // factor on the slip stiffness at the same friction; [0.5, 2]
@@ -77,6 +81,7 @@ struct Scenario {
   Start start;
   Tyres tyres;
   std::string plant_file;  // of the modelled car; empty: the AV-21 of hil/plant/params.hpp
+  plant::Params plant;     // what that file says; whoever opens the files fills it in
   Perturbations perturb;
   std::vector<FlagChange> race_control;
   std::vector<Fault> faults;

@@ -152,7 +152,8 @@ world::GnssHeading measure_heading(const Params& p, const UnitParams& up, const 
   return s;
 }
 
-world::ImuSample measure_imu(const Params& p, const plant::Truth& t, UnitState& u) {
+world::ImuSample measure_imu(const Params& p, const UnitFault& f, const plant::Truth& t,
+                             UnitState& u) {
   world::ImuSample s;
   for (std::size_t i = 0; i < 3; ++i) {
     s.rate_rad_per_s[i] = t.rate_rad_per_s[i] + u.gyro_bias_rad_per_s[i] +
@@ -160,6 +161,7 @@ world::ImuSample measure_imu(const Params& p, const plant::Truth& t, UnitState& 
     s.specific_force_mps2[i] =
         t.specific_force_mps2[i] + u.accel_bias_mps2[i] + p.accel_noise_mps2 * u.imu_noise.normal();
   }
+  s.rate_rad_per_s[2] += f.yaw_rate_bias_rad_per_s;
   return s;
 }
 
@@ -193,7 +195,7 @@ void measure(const Params& p, std::size_t unit, const plant::Truth& t, Instant n
       post(u.headings, heading, unit, now, p.heading_latency, out);
   }
   if (due(now, p.imu_period, u.next_imu)) {
-    const auto sample = measure_imu(p, t, u);
+    const auto sample = measure_imu(p, f, t, u);
     if (!f.outage && !f.imu_outage) post(u.imu, sample, unit, now, p.imu_latency, out);
   }
 }

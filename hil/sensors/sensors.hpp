@@ -81,6 +81,7 @@ struct UnitFault {
   double sigma_scale = 1.0;                          // of the reported sigmas and of the noise
   double heading_offset_rad = 0.0;
   bool imu_outage = false, heading_outage = false;
+  double yaw_rate_bias_rad_per_s = 0.0;  // added to the gyro's own
 };
 
 template <class Sample>

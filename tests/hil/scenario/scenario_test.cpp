@@ -81,6 +81,87 @@ TEST(Scenario, EveryMistakeIsRefusedWithItsPlace) {
   }
 }
 
+TEST(Perturbations, AreNeutralUnlessTheyAreWritten) {
+  const auto read = read_scenario(kGood, "short.yaml");
+  const auto empty = read_scenario(kGood + "perturb: {}\n", "short.yaml");
+  ASSERT_TRUE(read);
+  ASSERT_TRUE(empty) << to_string(empty.error());
+  for (const Perturbations& p : {read->perturb, empty->perturb}) {
+    EXPECT_EQ(p.mass_kg, 0.0);
+    EXPECT_EQ(p.tyre_stiffness, 1.0);
+    EXPECT_EQ(p.friction, 1.0);
+    for (const double zero : {p.bank_error_rad, p.wind_mps, p.wind_to_rad, p.steering_delay_s,
+                              p.throttle_delay_s, p.brake_delay_s, p.gear_delay_s})
+      EXPECT_EQ(zero, 0.0);
+  }
+  EXPECT_EQ(read->plant_file, "");
+}
+
+// One row per key: a value inside its range, one beyond each end, where it lands.
+struct PerturbationKey {
+  const char* key;
+  double inside, below, above;
+  double Perturbations::*field;
+  double unit;  // of the file in that of the field
+};
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr PerturbationKey kPerturbationKeys[] = {
+    {"mass_kg", -60, -301, 301, &Perturbations::mass_kg, 1},
+    {"tyre_stiffness", 0.85, 0.49, 2.01, &Perturbations::tyre_stiffness, 1},
+    {"friction", 0.8, 0.19, 1.51, &Perturbations::friction, 1},
+    {"bank_error_deg", -1.5, -5.1, 5.1, &Perturbations::bank_error_rad, kDegree},
+    {"wind_mps", 10, -0.1, 40.1, &Perturbations::wind_mps, 1},
+    {"wind_to_deg", 135, -361, 361, &Perturbations::wind_to_rad, kDegree},
+    {"steering_delay_s", 0.05, -0.01, 0.51, &Perturbations::steering_delay_s, 1},
+    {"throttle_delay_s", 0.05, -0.01, 0.51, &Perturbations::throttle_delay_s, 1},
+    {"brake_delay_s", 0.1, -0.01, 0.51, &Perturbations::brake_delay_s, 1},
+    {"gear_delay_s", 0.1, -0.01, 0.51, &Perturbations::gear_delay_s, 1},
+};
+
+std::string perturbed_by(const char* key, const std::string& value) {
+  const bool direction = std::string(key) == "wind_to_deg";
+  return kGood + "perturb:\n" + (direction ? "  wind_mps: 1\n" : "") + "  " + key + ": " + value +
+         "\n";
+}
+
+TEST(Perturbations, EachKeyMovesItsOwnField) {
+  for (const PerturbationKey& row : kPerturbationKeys) {
+    const auto read = read_scenario(perturbed_by(row.key, std::to_string(row.inside)), "p.yaml");
+    ASSERT_TRUE(read) << to_string(read.error());
+    for (const PerturbationKey& other : kPerturbationKeys) {
+      const double got = read->perturb.*other.field;
+      if (other.field == row.field) {
+        EXPECT_NEAR(got, row.inside * row.unit, 1e-12) << row.key;
+      } else if (other.field != &Perturbations::wind_mps) {
+        EXPECT_EQ(got, Perturbations{}.*other.field) << row.key << " moves " << other.key;
+      }
+    }
+  }
+}
+
+TEST(Perturbations, WhatIsOutOfRangeIsRefusedAtItsLine) {
+  for (const PerturbationKey& row : kPerturbationKeys)
+    for (const std::string& value : {std::to_string(row.below), std::to_string(row.above),
+                                     std::string(".nan"), std::string("much")}) {
+      const auto read = read_scenario(perturbed_by(row.key, value), "p.yaml");
+      ASSERT_FALSE(read) << row.key << " " << value;
+      const char* line = row.field == &Perturbations::wind_to_rad ? "p.yaml:18:" : "p.yaml:17:";
+      EXPECT_EQ(to_string(read.error()).rfind(line, 0), 0u) << to_string(read.error());
+    }
+  const auto unknown = read_scenario(kGood + "perturb: {masskg: 3}\n", "p.yaml");
+  ASSERT_FALSE(unknown);
+  EXPECT_EQ(to_string(unknown.error()).rfind("p.yaml:16:", 0), 0u) << to_string(unknown.error());
+  EXPECT_FALSE(read_scenario(kGood + "perturb: {wind_to_deg: 90}\n", "p.yaml"));
+}
+
+TEST(Scenario, APlantIsNamedOrTheBuiltInOneIsMeant) {
+  const auto read = read_scenario(kGood + "plant: plants/light.yaml\n", "p.yaml");
+  ASSERT_TRUE(read) << to_string(read.error());
+  EXPECT_EQ(read->plant_file, "plants/light.yaml");
+  EXPECT_FALSE(read_scenario(kGood + "plant: \"\"\n", "p.yaml"));
+}
+
 TEST(Scenario, TextCutAnywhereIsReadOrRefusedAndNeverCrashes) {
   for (std::size_t cut = 0; cut < kGood.size(); ++cut) {
     const auto read = read_scenario(kGood.substr(0, cut), "cut.yaml");
