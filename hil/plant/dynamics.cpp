@@ -6,6 +6,7 @@
 
 #include "hil/plant/powertrain.hpp"
 #include "hil/plant/tyre.hpp"
+#include "hil/plant/tyre_thermal.hpp"
 
 namespace pitwall::plant {
 namespace {
@@ -30,22 +31,23 @@ Air air_of(const Motion& m, const Surface& road) {
 
 // Quasi-static loads; springs and anti-roll bars enter as the share of the front axle. A wheel that
 // would lift carries nothing and its neighbour the whole axle, so that the sum is always right.
-void add_loads(const Params& p, const Motion& m, const Surface& road, const Air& air, Forces& f) {
+void add_loads(const Params& p, double mass_kg, const Motion& m, const Surface& road,
+               const Air& air, Forces& f) {
   const Chassis& c = p.chassis;
   const double wheelbase_m = c.front_axle_m + c.rear_axle_m;
   const double pressure = 0.5 * p.aero.air_density_kgpm3 * air.along_mps * air.along_mps;
   const double cos_bank = std::cos(road.bank_rad), sin_bank = std::sin(road.bank_rad);
   f.heading_rate_rad_per_s = m.yaw_rate_rad_per_s / cos_bank;
   f.normal_n = std::max(
-      0.0, c.mass_kg * (kGravity_mps2 * cos_bank + m.vx_mps * f.heading_rate_rad_per_s * sin_bank));
+      0.0, mass_kg * (kGravity_mps2 * cos_bank + m.vx_mps * f.heading_rate_rad_per_s * sin_bank));
   const double down_front_n = pressure * p.aero.front_lift_area_m2;
   const double down_rear_n = pressure * p.aero.rear_lift_area_m2;
   const double sum_n = f.normal_n + down_front_n + down_rear_n;
-  const double pitch_n = c.mass_kg * m.load_ax_mps2 * c.height_m / wheelbase_m;
+  const double pitch_n = mass_kg * m.load_ax_mps2 * c.height_m / wheelbase_m;
   const double front_n =
       std::clamp(f.normal_n * c.rear_axle_m / wheelbase_m + down_front_n - pitch_n, 0.0, sum_n);
   const double rear_n = sum_n - front_n;
-  const double roll_nm = c.mass_kg * m.load_ay_mps2 * c.height_m;
+  const double roll_nm = mass_kg * m.load_ay_mps2 * c.height_m;
   const double front_shift_n =
       std::clamp(c.roll_stiffness_front * roll_nm / c.track_front_m, -0.5 * front_n, 0.5 * front_n);
   const double rear_shift_n = std::clamp((1.0 - c.roll_stiffness_front) * roll_nm / c.track_rear_m,
@@ -88,16 +90,10 @@ Steered steered(const Params& p, const Motion& m) {
   return {std::cos(road_wheel_rad), std::sin(road_wheel_rad)};
 }
 
-double cold_grip(const TyreThermal& t, double tyre_c) {
-  if (t.cold_grip_loss <= 0.0) return 1.0;
-  const double cold = (t.working_c - tyre_c) / (t.working_c - t.ambient_c);
-  return 1.0 - t.cold_grip_loss * std::clamp(cold, 0.0, 1.0);
-}
-
 void add_tyre(const Params& p, const State& discrete, const Motion& m, const Surface& road,
               std::size_t i, const Patch& q, Forces& f) {
   const Tyre& tyre = tyre_of(p, i);
-  const double grip = road.grip * cold_grip(p.thermal, discrete.tyre_c[i]);
+  const double grip = road.grip * thermal_grip(p.thermal, discrete.tyre_c[i]);
   TyreSlip slip{m.stretch_long_m[i] / tyre.relaxation_m, m.stretch_lat_m[i] / tyre.relaxation_m};
   const double slow = q.reference_mps / p.low_speed_mps;
   if (slow < 1.0) {
@@ -145,8 +141,9 @@ void add_wheel_torques(const Params& p, const State& discrete, const Motion& m, 
   const Drivetrain& d = p.drivetrain;
   for (std::size_t i = 0; i < world::kCorners; ++i) {
     const Tyre& tyre = tyre_of(p, i);
-    const double brake_nm = i < 2 ? 0.5 * p.brakes.front_nm_per_kpa * m.brake_front_kpa
-                                  : 0.5 * p.brakes.rear_nm_per_kpa * m.brake_rear_kpa;
+    const double brake_nm =
+        i < 2 ? 0.5 * p.brakes.front_remaining * p.brakes.front_nm_per_kpa * m.brake_front_kpa
+              : 0.5 * p.brakes.rear_remaining * p.brakes.rear_nm_per_kpa * m.brake_rear_kpa;
     f.hold_nm[i] = brake_nm + tyre.rolling_resistance * f.load_n[i] * tyre.radius_m;
   }
   const double ratio = total_ratio(d, discrete);
@@ -204,7 +201,7 @@ Forces forces_of(const Params& params, const State& discrete, const Motion& moti
                  const Surface& surface) {
   Forces f;
   const Air air = air_of(motion, surface);
-  add_loads(params, motion, surface, air, f);
+  add_loads(params, mass_kg(params, discrete), motion, surface, air, f);
   const Steered steer = steered(params, motion);
   for (std::size_t i = 0; i < world::kCorners; ++i)
     add_tyre(params, discrete, motion, surface, i, patch_of(params, motion, i, steer), f);
@@ -219,7 +216,8 @@ Motion derivative_of(const Params& params, const State& discrete, const Motion& 
   const Chassis& c = params.chassis;
   const Forces f = forces_of(params, discrete, m, surface);
   const Steered steer = steered(params, m);
-  const double ax_mps2 = f.body_x_n / c.mass_kg, ay_mps2 = f.body_y_n / c.mass_kg;
+  const double carried_kg = mass_kg(params, discrete);
+  const double ax_mps2 = f.body_x_n / carried_kg, ay_mps2 = f.body_y_n / carried_kg;
   const double cos_yaw = std::cos(m.yaw_rad), sin_yaw = std::sin(m.yaw_rad);
   const double level_vy_mps = m.vy_mps * std::cos(surface.bank_rad);
   Motion d;

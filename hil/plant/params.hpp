@@ -68,32 +68,61 @@ struct Steering {
 
 struct Brakes {
   double lag_s = 0.100;              // [O] dummy AV-24 configuration
-  double delay_s = 0.0;              // command to first movement; only the lag is published
+  double delay_s = 0.0;              // command to first movement; [A] 0.040, not from a car
   double pressure_max_kpa = 9000.0;  // [A]
   double front_nm_per_kpa = 0.40;    // whole axle; both axles 0.65 [P], split [E]
   double rear_nm_per_kpa = 0.25;
+  // Share of each axle's torque that works: a fault lowers it.
+  double front_remaining = 1.0, rear_remaining = 1.0;
 };
 
 struct EnginePoint {
   double rpm, torque_nm;
 };
-inline constexpr std::size_t kEnginePoints = 13;
+inline constexpr std::size_t kEnginePoints = 18;
+
+// Throttles of the dyno sheet; at the last one the share is 1.
+inline constexpr std::array<double, 6> kDynoThrottles{0.30, 0.50, 0.65, 0.70, 0.80, 1.00};
+struct PartThrottle {
+  double rpm;
+  std::array<double, kDynoThrottles.size()> share;  // of the full torque
+};
+inline constexpr std::size_t kPartThrottleRows = 11;
 
 struct Engine {
-  // Full throttle. 3500 to 6500 rpm: dyno [U]; 2500 and 3000: [A] polynomial; the rest [E].
+  // Full throttle. 3500 to 6780 rpm: dyno [U]; 2500 and 3000: [A] polynomial; the rest [E].
   std::array<EnginePoint, kEnginePoints> full_throttle{{{0.0, 0.0},
                                                         {1000.0, 0.0},
                                                         {2000.0, 90.0},
                                                         {2500.0, 184.0},
                                                         {3000.0, 303.0},
                                                         {3500.0, 400.0},
+                                                        {3565.0, 425.6},
+                                                        {3717.0, 459.1},
                                                         {4000.0, 462.0},
+                                                        {4308.0, 478.6},
                                                         {4500.0, 478.0},
-                                                        {5000.0, 477.0},
+                                                        {4930.0, 479.7},
+                                                        {5080.0, 473.8},
                                                         {5500.0, 467.0},
-                                                        {6000.0, 456.0},
+                                                        {5900.0, 458.3},
                                                         {6500.0, 422.0},
+                                                        {6780.0, 395.1},
                                                         {7200.0, 365.0}}};
+  // Part throttle, dyno [U]: all of 3565 to 6780 rpm but for 30 % above 5080 rpm, and 30 % from
+  // 2550 rpm on; the rest [E].
+  std::array<PartThrottle, kPartThrottleRows> part_throttle{
+      {{2550.0, {0.5710, 0.80, 0.92, 0.96, 0.99, 1.0}},
+       {2800.0, {0.4315, 0.70, 0.90, 0.95, 0.987, 1.0}},
+       {3000.0, {0.3466, 0.62, 0.88, 0.94, 0.985, 1.0}},
+       {3565.0, {0.2087, 0.4752, 0.8321, 0.9217, 0.9850, 1.0}},
+       {3717.0, {0.1830, 0.4926, 0.8024, 0.9198, 0.9943, 1.0}},
+       {4308.0, {0.1304, 0.6422, 0.7809, 0.9092, 0.9874, 1.0}},
+       {4450.0, {0.1294, 0.6605, 0.7795, 0.9011, 0.9869, 1.0}},
+       {4930.0, {0.1025, 0.5749, 0.8007, 0.8909, 0.9858, 1.0}},
+       {5080.0, {0.0950, 0.5447, 0.8232, 0.9076, 0.9921, 1.0}},
+       {6000.0, {0.0500, 0.4975, 0.8451, 0.9252, 0.9811, 1.0}},
+       {6780.0, {0.0200, 0.2943, 0.8630, 0.9150, 0.9937, 1.0}}}};
   double limiter_rpm = 7200.0;  // [A]; torque falls to zero over the next 100 rpm
   double limiter_width_rpm = 100.0;
   double friction_nm = 30.0;           // [A]
@@ -104,6 +133,17 @@ struct Engine {
   double throttle_lag_s = 0.050;       // [O] dummy AV-24 configuration
   double throttle_delay_s = 0.0;       // command to first movement, as of the brakes
   double crank_s = 1.0;                // starter to running [E]
+  double power = 1.0;                  // share of what burns that is left: a fault lowers it
+};
+
+// Its mass is within Chassis::mass_kg as long as the tank is full, and leaves it as it burns; where
+// it lies in the car is not modelled. An empty tank stops the engine.
+struct Fuel {
+  double start_kg = 50.0;        // in the tank at the start [E]
+  double heating_jpkg = 42.7e6;  // petrol
+  // Of what the fuel gives, before friction: 0.31 kg/kWh at full power, as a turbo engine that runs
+  // rich [E].
+  double efficiency = 0.30;
 };
 
 inline constexpr std::size_t kGears = 6;
@@ -119,16 +159,18 @@ struct Drivetrain {
   double differential_max_nm = 400.0;      // [E]
 };
 
-// A lumped thermal state per tyre. Unvalidated: no published measurements exist. Grip depends on it
-// only where cold_grip_loss is given.
+// tyre_thermal.hpp has the law. Unvalidated: no published measurements exist. Grip depends on the
+// temperature only where a loss is given.
 struct TyreThermal {
-  double ambient_c = 25.0, working_c = 80.0;
-  double heat_capacity_jpk = 12'000.0;   // [E]
-  double cooling_w_per_k = 15.0;         // standing [E]
-  double cooling_w_per_k_per_mps = 2.0;  // [E]
-  double slip_heat_share = 0.5;          // of the friction power that stays in the tyre [E]
-  double cold_grip_loss =
-      0.0;  // share of grip lost at ambient; 0 leaves temperature without effect
+  double ambient_c = 25.0;
+  double working_c = 80.0, hot_c = 110.0;  // full grip between them [E]
+  double ruined_c = 150.0;                 // the loss by heat is whole [E]
+  double heat_capacity_jpk = 12'000.0;     // [E]
+  double cooling_w_per_k = 15.0;           // standing [E]
+  double cooling_w_per_k_per_mps = 2.0;    // [E]
+  double slip_heat_share = 0.5;            // of the friction power that stays in the tyre [E]
+  double cold_grip_loss = 0.0;             // share of grip lost at ambient
+  double hot_grip_loss = 0.0;              // share of grip lost at ruined_c
 };
 
 struct Params {
@@ -149,6 +191,7 @@ struct Params {
   Steering steering;
   Brakes brakes;
   Engine engine;
+  Fuel fuel;
   Drivetrain drivetrain;
   TyreThermal thermal;
   // Below this speed the spring that a tyre is at standstill is damped: the car comes to rest.

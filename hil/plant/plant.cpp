@@ -8,6 +8,7 @@
 #include "hil/plant/dynamics.hpp"
 #include "hil/plant/powertrain.hpp"
 #include "hil/plant/runge_kutta.hpp"
+#include "hil/plant/tyre_thermal.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::plant {
@@ -75,12 +76,8 @@ void hold_or_release(const Params& p, const Motion& before, const Forces& f, dou
 
 void warm_tyres(const TyreThermal& t, const Forces& f, double dt_s, State& s) {
   const double speed_mps = std::abs(s.motion.vx_mps);
-  const double cooling_w_per_k = t.cooling_w_per_k + t.cooling_w_per_k_per_mps * speed_mps;
   for (std::size_t i = 0; i < world::kCorners; ++i)
-    s.tyre_c[i] +=
-        dt_s *
-        (t.slip_heat_share * f.slip_power_w[i] - cooling_w_per_k * (s.tyre_c[i] - t.ambient_c)) /
-        t.heat_capacity_jpk;
+    s.tyre_c[i] += dt_s * warming_kps(t, s.tyre_c[i], f.slip_power_w[i], speed_mps);
 }
 
 void substep(const Params& p, const Actuation& a, const Surface& road, double dt_s, State& s) {
@@ -160,6 +157,8 @@ State rolling(const Params& params, const State& at, double speed_mps, std::uint
   return s;
 }
 
+void empty_tank(const Params& params, State& state) { state.fuel_used_kg = params.fuel.start_kg; }
+
 State step(const Params& params, const State& state, const Actuation& actuation,
            const Surface& surface, double dt_s) {
   const auto substeps = std::lround(dt_s / params.substep_s);
@@ -177,8 +176,9 @@ Truth observe(const Params& params, const State& state, const Surface& surface) 
   observe_map(m, f, surface, t);
   t.rate_rad_per_s = {-surface.bank_rate_rad_per_s,
                       -f.heading_rate_rad_per_s * std::sin(surface.bank_rad), m.yaw_rate_rad_per_s};
-  t.specific_force_mps2 = {f.body_x_n / params.chassis.mass_kg, f.body_y_n / params.chassis.mass_kg,
-                           f.normal_n / params.chassis.mass_kg};
+  const double carried_kg = mass_kg(params, state);
+  t.specific_force_mps2 = {f.body_x_n / carried_kg, f.body_y_n / carried_kg,
+                           f.normal_n / carried_kg};
   t.load_n = f.load_n, t.force_long_n = f.long_n, t.force_lat_n = f.lat_n;
   t.slip_ratio = f.slip_ratio;
   for (std::size_t i = 0; i < world::kCorners; ++i) {
@@ -194,6 +194,7 @@ Truth observe(const Params& params, const State& state, const Surface& surface) 
   t.engine_rpm = state.engine_rpm;
   t.engine_torque_nm = clutch_of(params, state, m).crank_torque_nm;
   t.engine_running = state.engine_running;
+  t.fuel_kg = fuel_left_kg(params.fuel, state);
   t.gear = state.gear;
   t.gear_shift_status = shift_status(state);
   return t;

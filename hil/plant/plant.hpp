@@ -81,8 +81,16 @@ struct State {
   bool engine_running = false;
   double cranked_s = 0.0;
   double engine_rpm = 0.0;
+  double fuel_used_kg = 0.0;  // since the start
   Wheels tyre_c{25.0, 25.0, 25.0, 25.0};
 };
+
+inline double fuel_left_kg(const Fuel& fuel, const State& state) {
+  return fuel.start_kg - state.fuel_used_kg;
+}
+inline double mass_kg(const Params& params, const State& state) {
+  return params.chassis.mass_kg - state.fuel_used_kg;
+}
 
 // Everything that is true of a state, for sensors, the drive-by-wire model and the judge.
 struct Truth {
@@ -103,6 +111,7 @@ struct Truth {
   double throttle_fraction = kUnset;
   double brake_front_kpa = kUnset, brake_rear_kpa = kUnset;
   double engine_rpm = kUnset, engine_torque_nm = kUnset;
+  double fuel_kg = kUnset;  // in the tank
   bool engine_running = false;
   std::uint8_t gear = 0;
   std::uint8_t gear_shift_status = 0;  // 0 uninitialised, 1 ready, 2 locked out, 3 up, 4 down
@@ -122,6 +131,9 @@ struct Road {
 State standing(const Params& params, double x_m, double y_m, double yaw_rad);
 // Rolling straight ahead at `speed_mps` with matched wheels, in `gear`, engine running.
 State rolling(const Params& params, const State& at, double speed_mps, std::uint8_t gear);
+
+// Runs the tank dry; the engine stops at the next substep.
+void empty_tank(const Params& params, State& state);
 
 // `dt_s` is a whole number of substeps.
 State step(const Params& params, const State& state, const Actuation& actuation,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "hil/plant/engine.hpp"
 #include "protocol/vocabulary/units.hpp"
 
 namespace pitwall::plant {
@@ -10,17 +11,6 @@ namespace {
 
 constexpr double kCranking_rpm = 250.0;
 constexpr double kFreeRevving_s = 0.15;  // how fast a disconnected engine finds its speed
-
-double full_throttle_nm(const Engine& e, double rpm) {
-  const auto& table = e.full_throttle;
-  if (rpm <= table.front().rpm) return table.front().torque_nm;
-  for (std::size_t i = 1; i < table.size(); ++i) {
-    if (rpm > table[i].rpm) continue;
-    const double t = (rpm - table[i - 1].rpm) / (table[i].rpm - table[i - 1].rpm);
-    return table[i - 1].torque_nm + t * (table[i].torque_nm - table[i - 1].torque_nm);
-  }
-  return table.back().torque_nm;
-}
 
 double rear_rad_per_s(const Motion& m) {
   return 0.5 * (m.wheel_rad_per_s[2] + m.wheel_rad_per_s[3]);
@@ -62,10 +52,11 @@ void advance_gears(const Params& p, const Actuation& a, double dt_s, State& s) {
 }
 
 void advance_engine(const Params& p, const Actuation& a, double dt_s, State& s) {
-  if (!a.ignition) s.engine_running = false;
+  const bool fuelled = fuel_left_kg(p.fuel, s) > 0.0;
+  if (!a.ignition || !fuelled) s.engine_running = false;
   const bool cranking = a.ignition && a.starter && !s.engine_running;
   s.cranked_s = cranking ? s.cranked_s + dt_s : 0.0;
-  if (cranking && s.cranked_s >= p.engine.crank_s) s.engine_running = true;
+  if (cranking && fuelled && s.cranked_s >= p.engine.crank_s) s.engine_running = true;
   const Clutch clutch = clutch_of(p, s, s.motion);
   const double towards_rpm = s.engine_running ? clutch.rpm : cranking ? kCranking_rpm : 0.0;
   const bool shifting = s.shift == ShiftPhase::kShiftingUp || s.shift == ShiftPhase::kShiftingDown;
@@ -79,17 +70,14 @@ void advance_engine(const Params& p, const Actuation& a, double dt_s, State& s) 
     s.engine_rpm += (towards_rpm - s.engine_rpm) * std::min(1.0, dt_s / kFreeRevving_s);
 }
 
-}  // namespace
-
-double engine_torque_nm(const Engine& engine, double rpm, double throttle_fraction) {
-  const double cut = std::clamp(
-      (engine.limiter_rpm + engine.limiter_width_rpm - rpm) / engine.limiter_width_rpm, 0.0, 1.0);
-  const double closed = 1.0 - throttle_fraction;
-  // The cube makes 30 % throttle give about 30 % of the dyno's torque, and 0 % plain friction.
-  const double friction_share = closed * closed * closed;
-  return throttle_fraction * cut * full_throttle_nm(engine, rpm) -
-         friction_share * (engine.friction_nm + engine.friction_nm_per_rpm * rpm);
+void burn_fuel(const Params& p, double dt_s, State& s) {
+  if (!s.engine_running) return;
+  const double torque_nm = clutch_of(p, s, s.motion).crank_torque_nm;
+  s.fuel_used_kg += dt_s * fuel_flow_kgps(p.engine, p.fuel, s.engine_rpm, torque_nm);
+  s.fuel_used_kg = std::min(s.fuel_used_kg, std::max(0.0, p.fuel.start_kg));
 }
+
+}  // namespace
 
 double total_ratio(const Drivetrain& drivetrain, const State& state) {
   const bool shifting =
@@ -120,6 +108,7 @@ void advance_powertrain(const Params& params, const Actuation& actuation, double
                         State& state) {
   advance_gears(params, actuation, dt_s, state);
   advance_engine(params, actuation, dt_s, state);
+  burn_fuel(params, dt_s, state);
 }
 
 }  // namespace pitwall::plant

@@ -1,5 +1,5 @@
-// Engine torque, clutch and gear box.
-//   in     engine speed and throttle; what the actuation asks for
+// Clutch, gear box and the running of the engine.
+//   in     the state; what the actuation asks for
 //   out    torque at the crankshaft; the discrete state one substep on
 //   simplifications  no stall: below launch_rpm the clutch slips, the engine is held at that speed
 //          and only a driving torque passes. Gears engage at matched speed. A standing engine is
@@ -11,9 +11,6 @@
 #include "hil/plant/plant.hpp"
 
 namespace pitwall::plant {
-
-// Net torque; negative (friction) with the throttle closed.
-double engine_torque_nm(const Engine& engine, double rpm, double throttle_fraction);
 
 // Crankshaft speed over mean rear wheel speed; 0 when nothing is engaged.
 double total_ratio(const Drivetrain& drivetrain, const State& state);

@@ -383,6 +383,47 @@ TEST(Plant, WindPushesTheCarItsWay) {
   EXPECT_LT(after(0.0, -10.0).motion.y_m, -0.1);
 }
 
+TEST(Plant, AnEmptyTankLeavesALighterCarThatCoasts) {
+  const Params p;
+  State s = at(50.0, 4);
+  empty_tank(p, s);
+  const Truth dry = observe(p, s, {}), full = observe(p, at(50.0, 4), {});
+  EXPECT_EQ(dry.fuel_kg, 0.0);
+  EXPECT_EQ(full.fuel_kg, p.fuel.start_kg);
+  const auto sum = [](const Wheels& w) { return w[0] + w[1] + w[2] + w[3]; };
+  EXPECT_NEAR(sum(full.load_n) - sum(dry.load_n), p.fuel.start_kg * kGravity_mps2, 1e-9);
+  s = run(p, s, drive(0.0, 1.0, 0.0, 4), {}, 3.0);
+  EXPECT_FALSE(s.engine_running);
+  EXPECT_LT(s.motion.vx_mps, 48.0);
+  // The lighter car feels the same drag more.
+  State empty = at(70.0, 0);
+  empty_tank(p, empty);
+  EXPECT_LT(observe(p, empty, {}).specific_force_mps2[0],
+            observe(p, at(70.0, 0), {}).specific_force_mps2[0]);
+}
+
+TEST(Plant, ALapBurnsLessThanAKilogram) {
+  const Params p;
+  State s = at(58.0, 6);
+  for (int i = 0; i < 40'000; ++i)
+    s = step(p, s, drive(0.0, 0.5 + 0.1 * (58.0 - s.motion.vx_mps), 0.0, 6), {}, kStep_s);
+  EXPECT_GT(s.fuel_used_kg, 0.25);
+  EXPECT_LT(s.fuel_used_kg, 1.0);
+}
+
+TEST(Plant, AFaultTakesPowerOrBrakesAway) {
+  const Params whole;
+  Params weak = whole;
+  weak.engine.power = 0.5;
+  weak.brakes.front_remaining = 0.0;
+  const auto speed = [](const Params& p, const Actuation& a) {
+    return run(p, at(40.0, 3, p), a, {}, 2.0).motion.vx_mps;
+  };
+  EXPECT_LT(speed(weak, drive(0.0, 1.0, 0.0, 3)), speed(whole, drive(0.0, 1.0, 0.0, 3)) - 3.0);
+  EXPECT_GT(speed(weak, drive(0.0, 0.0, 1500.0, 0)),
+            speed(whole, drive(0.0, 0.0, 1500.0, 0)) + 3.0);
+}
+
 // ---- Performance: plausible, from published figures of the car.
 struct Sprint {
   double top_mps = 0.0, to_60_s = 0.0;
@@ -409,22 +450,6 @@ TEST(Plant, TopSpeedAndAccelerationArePlausible) {
   EXPECT_LT(r.top_mps, 85.0);
   EXPECT_GT(r.to_60_s, 5.0);
   EXPECT_LT(r.to_60_s, 15.0);
-}
-
-TEST(Plant, ColdTyresHaveLessGripWhereThatIsAsked) {
-  Params p;
-  p.thermal.cold_grip_loss = 0.3;
-  const auto grip = [&](double tyre_c) {
-    State s = at(30.0, 0);
-    s.tyre_c.fill(tyre_c);
-    double most = 0.0;
-    for (int i = 0; i < 1500; ++i) {
-      s = step(p, s, drive(4.0, 0.0, 0.0, 0), {}, kStep_s);
-      most = std::max(most, std::abs(observe(p, s, {}).specific_force_mps2[1]));
-    }
-    return most;
-  };
-  EXPECT_LT(grip(25.0), 0.8 * grip(80.0));
 }
 
 // ---- Road.

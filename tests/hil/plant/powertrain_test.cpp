@@ -4,36 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
 
 #include "hil/plant/dynamics.hpp"
+#include "hil/plant/engine.hpp"
 
 namespace pitwall::plant {
 namespace {
 
 constexpr double kStep_s = 0.001;
-
-// The dyno sheet, 100 % throttle: an independent copy to compare with.
-TEST(Engine, FollowsTheDynoWithinTwoPercent) {
-  constexpr std::array<std::array<double, 2>, 7> kDyno{
-      {{3500, 400}, {4000, 462}, {4500, 478}, {5000, 477}, {5500, 467}, {6000, 456}, {6500, 422}}};
-  for (const auto& [rpm, torque_nm] : kDyno)
-    EXPECT_NEAR(engine_torque_nm(Engine{}, rpm, 1.0), torque_nm, 0.02 * torque_nm) << rpm;
-}
-
-TEST(Engine, FallsToNothingPastTheLimiter) {
-  const Engine e;
-  EXPECT_GT(engine_torque_nm(e, e.limiter_rpm - 1.0, 1.0), 300.0);
-  EXPECT_LE(engine_torque_nm(e, e.limiter_rpm + e.limiter_width_rpm, 1.0), 0.0);
-}
-
-TEST(Engine, TorqueGrowsWithThrottleAndBrakesWithoutIt) {
-  for (const double rpm : {3000.0, 4500.0, 6800.0}) {
-    EXPECT_LT(engine_torque_nm(Engine{}, rpm, 0.0), -20.0);
-    for (double u = 0.0; u < 1.0; u += 0.05)
-      EXPECT_LT(engine_torque_nm(Engine{}, rpm, u), engine_torque_nm(Engine{}, rpm, u + 0.05));
-  }
-}
 
 Actuation ask(std::uint8_t gear, double throttle = 0.0) {
   return {.throttle_fraction = throttle, .gear = gear, .ignition = true};
@@ -113,6 +91,37 @@ TEST(Engine, StartsWhenCrankedAndStopsWithTheIgnition) {
   a.starter = false, a.ignition = true;
   for (int i = 0; i < 2000; ++i) advance_powertrain(p, a, kStep_s, s);
   EXPECT_FALSE(s.engine_running);  // needs the starter again
+}
+
+TEST(Engine, BurnsItsFuelAndStopsWithAnEmptyTank) {
+  Params p;
+  p.fuel.start_kg = 0.02;
+  State s = rolling(p, standing(p, 0, 0, 0), 50.0, 4);
+  s.motion.throttle_fraction = 1.0;
+  double before_kg = fuel_left_kg(p.fuel, s), burnt_kg = 0.0;
+  int ran = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Clutch clutch = clutch_of(p, s, s.motion);
+    const bool was_running = s.engine_running;
+    advance_powertrain(p, ask(4, 1.0), kStep_s, s);
+    const double left_kg = fuel_left_kg(p.fuel, s);
+    if (was_running && left_kg > 0.0) {
+      EXPECT_NEAR(before_kg - left_kg,
+                  kStep_s * fuel_flow_kgps(p.engine, p.fuel, clutch.rpm, clutch.crank_torque_nm),
+                  1e-12);
+      ++ran;
+    }
+    burnt_kg += before_kg - left_kg;
+    before_kg = left_kg;
+  }
+  EXPECT_GT(ran, 500);
+  EXPECT_NEAR(burnt_kg, 0.02, 1e-12);
+  EXPECT_EQ(before_kg, 0.0);
+  EXPECT_FALSE(s.engine_running);
+  Actuation a = ask(0);
+  a.starter = true;
+  for (int i = 0; i < 3000; ++i) advance_powertrain(p, a, kStep_s, s);
+  EXPECT_FALSE(s.engine_running);  // the starter does not help
 }
 
 TEST(Clutch, SlipsBelowLaunchSpeedAndPullsOnlyForward) {

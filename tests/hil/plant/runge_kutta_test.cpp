@@ -38,7 +38,11 @@ TEST(RungeKutta, ErrorFallsWithTheFourthPowerOfTheStep) {
     Oscillator o;
     for (int i = 0; i < steps; ++i)
       o = runge_kutta_step(
-          o, [](const Oscillator& s) { return Oscillator{s.speed, -s.place}; }, 1.0 / steps);
+          o,
+          [](const Oscillator& s) {
+            return Oscillator{s.speed, -s.place};
+          },
+          1.0 / steps);
     return std::hypot(o.place - std::cos(1.0), o.speed + std::sin(1.0));
   };
   EXPECT_NEAR(std::log2(error(10) / error(20)), 4.0, 0.1);
