@@ -95,7 +95,8 @@ void Rim::look_at_bus(Instant now) {
                              .error_frames = can_.counters().error_frames,
                              .tx_drops = tx_drops(),
                              .tx_stalled = slots_.stalled(now),
-                             .down_and_up = report.down_and_up});
+                             .down_and_up = report.down_and_up,
+                             .hung_up = can_.hung_up()});
 }
 
 void Rim::write(std::span<const can::Frame> frames, Instant now) {
