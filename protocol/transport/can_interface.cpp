@@ -276,6 +276,7 @@ std::optional<Problem> CanInterface::configure(const CanInterfaceSettings& setti
 }
 
 std::optional<Problem> CanInterface::restart() {
+  if (hub_) return problem("has no controller to restart; it is up again when its hub is");
   if (!status_.has_controller) return problem(std::string(kNoController));
   NetlinkRequest request(RTM_NEWLINK, NLM_F_ACK, link_of(index_));
   put_controller(request, [&] { request.put(IFLA_CAN_RESTART, std::uint32_t{1}); });
