@@ -12,7 +12,7 @@
 namespace pitwall::bench {
 namespace {
 
-constexpr Duration kLongest = seconds(100);
+constexpr Duration kLongest = seconds(210);  // the flying laps
 
 Result<Loaded, Problem> load_scenario(const std::string& name) {
   return load(kRoot + "/hil/scenarios/" + name + ".yaml", kRoot);
