@@ -9,6 +9,7 @@
 #include "protocol/transport/realtime.hpp"
 #include "vehicle/gateway/bus_identity.hpp"
 #include "vehicle/io/arguments.hpp"
+#include "vehicle/io/guarded.hpp"
 #include "vehicle/io/rim.hpp"
 #include "vehicle/io/tally.hpp"
 #include "vehicle/parameters/car_file.hpp"
@@ -49,7 +50,7 @@ bool same_identity(const world::BusIdentity& a, const world::BusIdentity& b) {
 }
 
 int drive(const pipeline::Setup& setup, const io::Arguments& args, io::Rim& rim,
-          transport::StopSignal& stop) {
+          io::Guarded& guarded, transport::StopSignal& stop) {
   const auto car = std::make_unique<pipeline::Car>();
   io::StepTally tally;
   io::FrameTotals frames;
@@ -61,7 +62,7 @@ int drive(const pipeline::Setup& setup, const io::Arguments& args, io::Rim& rim,
     const transport::Tick tick = ticker.next();
     const io::Rim::Heard heard = rim.read();
     const Instant now = transport::monotonic_now();
-    const bool may_arm = !rim.listen_only();
+    const bool may_arm = !rim.listen_only() && !guarded.barred();
     const pipeline::Outputs out = pipeline::step(setup, *car,
                                                  {.now = now,
                                                   .dt = now - last,
@@ -69,7 +70,9 @@ int drive(const pipeline::Setup& setup, const io::Arguments& args, io::Rim& rim,
                                                   .sensors = heard.sensors,
                                                   .requests = {.arm = may_arm && args.arm},
                                                   .gnss_byte_at = heard.gnss_byte_at,
-                                                  .link = heard.link});
+                                                  .link = heard.link,
+                                                  .guardian = guarded.view(now)});
+    guarded.tell(setup, *car, out, false, now);
     rim.write(out.passed.frames.span(), now);
     if (out.bus_guard.restart_now) rim.restart_bus();
     if (const char* refusal = rim.fresh_refusal())
@@ -92,6 +95,7 @@ int drive(const pipeline::Setup& setup, const io::Arguments& args, io::Rim& rim,
                                 now);
     rim.report(packet, done);
   }
+  guarded.finish();
   rim.poll_drops();
   if (args.summary_file.empty()) return 0;
   frames.received = rim.can().received;
@@ -114,6 +118,8 @@ int run(int argc, const char* const* argv) {
   if (args.check) return 0;
   auto rim = io::Rim::open(args);
   if (!rim) return refuse(rim.error());
+  auto guarded = io::Guarded::open(args.guardian, args.arm);
+  if (!guarded) return refuse(guarded.error());
   const auto realtime = transport::request_realtime(kPriority);
   std::fprintf(stderr, "pitwall-vehicle: %s on %s, %s, %s%s\n", setup->track.name().c_str(),
                args.can_interface.c_str(), gateway::database_text().c_str(),
@@ -121,7 +127,10 @@ int run(int argc, const char* const* argv) {
   if (rim->listen_only())
     std::fprintf(stderr, "pitwall-vehicle: %s: LISTEN-ONLY: stays disarmed and sends nothing\n",
                  args.can_interface.c_str());
-  return drive(*setup, args, *rim, *stop);
+  if (guarded->barred())
+    std::fprintf(stderr, "pitwall-vehicle: %s: NOT ARMED: %s\n", args.guardian.c_str(),
+                 io::kBarredText);
+  return drive(*setup, args, *rim, *guarded, *stop);
 }
 
 }  // namespace

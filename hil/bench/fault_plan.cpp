@@ -126,6 +126,12 @@ Result<faults::FrameFault, Problem> frame_fault(const scenario::Fault& row, Fram
   }
 }
 
+// The rest needs a machine, or a base station.
+bool in_lockstep(BenchFaultKind kind) {
+  return kind == BenchFaultKind::kComputerPaused || kind == BenchFaultKind::kComputerKilled ||
+         kind == BenchFaultKind::kGuardianKilled;
+}
+
 }  // namespace
 
 bool is_process_fault(BenchFaultKind kind) {
@@ -145,7 +151,8 @@ bool is_process_fault(BenchFaultKind kind) {
 }
 
 bool carried_out(BenchFaultKind kind, BenchMode mode) {
-  return in_the_rig(kind) || (mode == BenchMode::kLive && is_process_fault(kind));
+  if (!is_process_fault(kind)) return in_the_rig(kind);
+  return mode == BenchMode::kLive || in_lockstep(kind);
 }
 
 std::optional<Problem> refused_by(BenchMode mode, const std::vector<scenario::Fault>& rows) {

@@ -21,14 +21,16 @@ constexpr std::size_t kInboxFrames = 4096;  // a second of a full bus, and one t
 class Lockstep {
  public:
   Lockstep(const scenario::Scenario& scenario, const pipeline::Setup& setup, Rig rig,
-           grading::Grader grader, const LockstepOptions& options)
+           grading::Grader grader, GuardianNode guardian, const LockstepOptions& options)
       : scenario_(scenario),
         setup_(setup),
         rig_(std::move(rig)),
         grader_(std::move(grader)),
+        guardian_(std::move(guardian)),
         options_(options),
         bus_({.ports = kNodes, .bit_rate = 500'000}),
-        car_(std::make_unique<pipeline::Car>()) {
+        car_(std::make_unique<pipeline::Car>()),
+        stepped_at_(Instant{} - setup.params.rates.tick) {
     inbox_.reserve(kInboxFrames);
     heard_.reserve(kInboxFrames);
     if (options.log) record_.emplace(scenario, "lockstep", options.log);
@@ -37,28 +39,70 @@ class Lockstep {
   RunResult run() {
     const Duration tick = setup_.params.rates.tick;
     for (Instant now{}; now - Instant{} <= scenario_.duration; now += tick) {
-      step_car(now);
+      step_computer(now);
       for (Instant at = now + kRigStep; at <= now + tick; at += kRigStep) step_rig(at);
     }
     return finish();
   }
 
  private:
+  // What waits for a process that is stopped waits on; one that was killed begins anew.
+  void step_computer(Instant now) {
+    if (guardian_.car_restarts(now)) {
+      *car_ = {};
+      inbox_.clear();
+      samples_ = {};
+      stepped_at_ = now - setup_.params.rates.tick;
+    }
+    if (guardian_.car_runs(now)) step_car(now);
+    judge(*out_, now);
+    note_changes(*out_, now);
+    out_->chosen.mode_changed = false;
+    if (options_.watch) options_.watch(*out_, rig_, now);
+  }
+
   void step_car(Instant now) {
-    const world::SensorInput samples = rig_.take_samples();
-    const pipeline::Outputs out = options_.step(setup_, *car_,
-                                                {.now = now,
-                                                 .dt = setup_.params.rates.tick,
-                                                 .can = inbox_,
-                                                 .sensors = samples,
-                                                 .requests = {.arm = true}});
+    collect(rig_.take_samples());
+    out_ = options_.step(setup_, *car_,
+                         {.now = now,
+                          .dt = now - stepped_at_,
+                          .can = inbox_,
+                          .sensors = samples_,
+                          .requests = {.arm = guardian_.armed_from_the_start()},
+                          .guardian = guardian_.view(now)});
+    stepped_at_ = now;
+    samples_ = {};
     result_.traffic.car_received += inbox_.size();
     inbox_.clear();
-    for (const can::Frame& frame : out.passed.frames)
+    guardian_.tell(setup_, *car_, *out_, now);
+    for (const can::Frame& frame : out_->passed.frames)
       if (bus_.offer(static_cast<std::uint8_t>(Node::kCar), frame, now)) ++result_.traffic.from_car;
-    judge(out, now);
-    note_changes(out, now);
-    if (options_.watch) options_.watch(out, rig_, now);
+  }
+
+  void step_guardian(Instant at) {
+    if (!guardian_.present() || (at - Instant{}).ns % guardian::kTick.ns != 0) return;
+    const world::SensorInput samples = rig_.take_samples();
+    collect(samples);
+    for (const can::Frame& frame : guardian_.step(samples, at))
+      bus_.offer(static_cast<std::uint8_t>(Node::kGuardian), frame, at);
+    if (guardian_.mode_changed() && record_)
+      record_->event(at, "guardian",
+                     std::string(guardian::text_of(guardian_.status().mode)) + " (" +
+                         guardian::text_of(guardian_.status().cause) + ")");
+    if (options_.watch_guardian) options_.watch_guardian(guardian_, at);
+  }
+
+  // What the receivers said since the car's last tick, in order of arrival.
+  void collect(const world::SensorInput& fresh) {
+    const auto append = [this](auto& to, const auto& from) {
+      for (const auto& sample : from)
+        if (!to.push(sample)) ++samples_.overflows;
+    };
+    append(samples_.positions, fresh.positions);
+    append(samples_.velocities, fresh.velocities);
+    append(samples_.headings, fresh.headings);
+    append(samples_.imu, fresh.imu);
+    samples_.overflows += fresh.overflows;
   }
 
   void step_rig(Instant at) {
@@ -68,6 +112,7 @@ class Lockstep {
       if (bus_.offer(static_cast<std::uint8_t>(outgoing.from), outgoing.frame, at))
         ++result_.traffic.to_car;
     for (const bus::Delivery& delivery : bus_.advance(at)) deliver(delivery);
+    step_guardian(at);
   }
 
   // Every frame reaches both other ports; it is recorded once.
@@ -75,11 +120,13 @@ class Lockstep {
     const auto from = static_cast<Node>(delivery.from);
     const auto to = static_cast<Node>(delivery.to);
     if (to == Node::kCar && inbox_.size() < kInboxFrames) inbox_.push_back(delivery.received);
+    if (to == Node::kGuardian) guardian_.hear(delivery.received);
     if (to == Node::kDriveByWire && heard_.size() < kInboxFrames) {
       heard_.push_back(delivery.received);
       if (from == Node::kCar) ++result_.traffic.bench_received;
     }
-    const bool once = from == Node::kCar ? to == Node::kDriveByWire : to == Node::kCar;
+    const bool computer = from == Node::kCar || from == Node::kGuardian;
+    const bool once = computer ? to == Node::kDriveByWire : to == Node::kCar;
     if (record_ && once) record_->can(from, delivery.received.frame, delivery.received.at);
   }
 
@@ -158,10 +205,14 @@ class Lockstep {
   const pipeline::Setup& setup_;
   Rig rig_;
   grading::Grader grader_;
+  GuardianNode guardian_;
   const LockstepOptions& options_;
   bus::MemoryBus bus_;
   std::unique_ptr<pipeline::Car> car_;
   std::vector<can::ReceivedFrame> inbox_, heard_;
+  world::SensorInput samples_;            // that the car has not taken yet
+  std::optional<pipeline::Outputs> out_;  // of the car's last tick
+  Instant stepped_at_;
   std::optional<RunRecord> record_;
   RunResult result_;
   world::TrackFlag flag_ = world::TrackFlag::kNone;
@@ -184,7 +235,12 @@ Result<RunResult, Problem> run_lockstep(const scenario::Scenario& scenario,
   const std::vector<std::string> names = signal_names();
   auto grader = grading::Grader::create(*expectations, names);
   if (!grader) return Unexpected{grader.error()};
-  return Lockstep{scenario, setup, *std::move(rig), *std::move(grader), options}.run();
+  auto faults = plan_faults(scenario.faults, scenario.seed);
+  if (!faults) return Unexpected{faults.error()};
+  GuardianNode guardian{setup.params, std::move(faults->processes), options.guardian};
+  return Lockstep{scenario, setup, *std::move(rig), *std::move(grader), std::move(guardian),
+                  options}
+      .run();
 }
 
 }  // namespace pitwall::bench

@@ -4,6 +4,7 @@
 //   t      car: read what the bus delivered by t, step, offer frames
 //   t+1ms  rig: one plant step, offer frames; bus advances        (ten times per tick)
 //   t+10ms car: ...
+// The guardian, where there is one, is stepped every 5 ms, before the car.
 //
 //   in     scenario, Setup of the car, a sink for the event log (may drop everything)
 //   out    RunResult; wall time is for the caller to measure
@@ -14,6 +15,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "hil/bench/guardian_node.hpp"
 #include "hil/bench/result.hpp"
 #include "hil/bench/rig.hpp"
 #include "hil/scenario/scenario.hpp"
@@ -30,7 +32,12 @@ struct LockstepOptions {
   recording::Sink log;                 // empty: no event log, no digest
   StepFunction step = pipeline::step;  // the car; a benchmark or a test may wrap it to measure it
   // Called after every tick of the car, e.g. by a test that watches for something.
+  // While its process is stopped or dead, with its last outputs.
   std::function<void(const pipeline::Outputs&, const Rig&, Instant)> watch = {};
+  // The guardian is there where the scenario stops or kills a process; here: in any case.
+  bool guardian = false;
+  // Called after every tick of the guardian.
+  std::function<void(const GuardianNode&, Instant)> watch_guardian = {};
 };
 
 Result<RunResult, Problem> run_lockstep(const scenario::Scenario& scenario,

@@ -93,7 +93,7 @@ void receive(const InboundParams& params, InboundState& state, const can::Receiv
   const can::MessageRow& row = kMessages[index];
   if (row.direction == can::Direction::kToCar) {
     ++state.own_frames;
-    state.own_id_seen = true;
+    if (!state.stand_in.covers(received.at)) state.own_id_seen = true;
     return;
   }
   MessageTrack& track = state.messages[index];

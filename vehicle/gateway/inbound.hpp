@@ -93,6 +93,13 @@ struct FlagSource {
   std::uint8_t lap_count = 0;  // MyLaps only
 };
 
+// When the guardian spoke for the car: commands heard then are not another node's.
+struct StandIn {
+  Instant from{}, until{};  // both included; equal: never
+
+  constexpr bool covers(Instant at) const { return from < until && from <= at && at <= until; }
+};
+
 inline constexpr std::size_t kTyreSensors = 16;
 
 struct InboundState {
@@ -109,6 +116,7 @@ struct InboundState {
   std::uint64_t frames_applied = 0;
   std::uint64_t own_frames = 0;
   bool own_id_seen = false;  // latched
+  StandIn stand_in;          // told by the pipeline
   Instant last_frame{};
 };
 static_assert(std::is_trivially_copyable_v<InboundState>);

@@ -12,7 +12,6 @@ namespace {
 namespace av21 = can::av21;
 
 constexpr double kPercentPerFraction = 100.0;
-constexpr std::uint8_t kReportCounterEnd = 10;  // ct_state_rolling_counter runs 0..9
 
 // In the order of sending: the brake first.
 enum Slot : std::size_t { kBrake, kThrottle, kSteering, kGear, kReport, kReport2, kDash, kAccel };

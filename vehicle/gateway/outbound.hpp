@@ -31,6 +31,7 @@
 namespace pitwall::gateway {
 
 inline constexpr std::size_t kOutboundFrames = 8;
+inline constexpr std::uint8_t kReportCounterEnd = 10;  // ct_state_rolling_counter runs 0..9
 
 struct OutboundParams {
   double steering_ratio = 19.5;       // motor angle : road-wheel angle; [10, 25]

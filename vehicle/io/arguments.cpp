@@ -25,6 +25,8 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
       ->required();
   app.add_option("--radio", args.radio, "where telemetry goes, ADDRESS:PORT");
   app.add_option("--summary", args.summary_file, "write counters and timing here at the end");
+  app.add_option("--guardian", args.guardian,
+                 "name of the record shared with pitwall-guardian (a file in /dev/shm, or a path)");
   app.add_flag("--simulation", args.simulation, "say in the telemetry that this is a simulation");
   app.add_flag("--check", args.check, "only read the car and track files; touch no bus");
   app.add_flag("--arm", args.arm, "armed from the start (bench)");

@@ -19,6 +19,7 @@ struct Arguments {
   std::array<std::uint16_t, world::kGnssUnits> gnss_ports{};
   std::string radio = "127.0.0.1:23431";
   std::string summary_file;  // empty: none
+  std::string guardian;      // name of the record shared with the guardian; empty: there is none
   bool simulation = false;   // marks the telemetry; decides nothing
   bool check = false;        // read the files, say what is wrong with them, and stop
   bool arm = false;  // armed from the start: for benches, until an operator can arm by radio

@@ -9,6 +9,8 @@ namespace {
 using safety::Follow;
 using world::Mode;
 
+constexpr Duration kGuardianEcho = milliseconds(50);  // its last frames are on their way
+
 // Curvilinear place of the car and the banking there, for the next tick's localization.
 world::Curvilinear place_of(const Setup& setup, Car& car, const world::EgoState& ego) {
   if (!std::isfinite(ego.x_m) || !std::isfinite(ego.y_m)) return {};
@@ -48,7 +50,7 @@ safety::SupervisorOutput supervise(const Setup& setup, Car& car, const Outputs& 
                             .control = out.steered.command,
                             .control_ok = usable,
                             .drive_available = !car.plan.output.drive.points.empty(),
-                            .own_id_seen = out.heard.own_id_seen,
+                            .own_id_seen = out.heard.own_id_seen || in.guardian.stopped,
                             .bus_failed = out.bus_guard.failed,
                             .gate_refused = car.gate_refused,
                             .operator_requests = in.requests},
@@ -67,11 +69,47 @@ world::CtState handshake(const Setup& setup, Car& car, const Outputs& out, const
                             in.now);
 }
 
+// The guardian's frames bear the car's ids; its last command is where the car goes on.
+void heed_guardian(Car& car, const GuardianView& guardian, Instant now) {
+  car.inbound.stand_in = {.from = guardian.drove_from,
+                          .until = guardian.drove_until + kGuardianEcho};
+  if (guardian.drove_from == guardian.drove_until) car.inbound.stand_in = {};
+  if (!guardian.drives || car.supervisor.mode == Mode::kDisarmed) return;
+  car.supervisor.last = guardian.command;
+  car.supervisor.last_known = true;
+  car.supervisor.last_chosen = now;
+  car.outbound.brake_counter = static_cast<std::uint8_t>(guardian.counters.brake + 1);
+  car.outbound.throttle_counter = static_cast<std::uint8_t>(guardian.counters.throttle + 1);
+  car.outbound.steering_counter = static_cast<std::uint8_t>(guardian.counters.steering + 1);
+  car.outbound.report_counter =
+      static_cast<std::uint8_t>((guardian.counters.report + 1) % gateway::kReportCounterEnd);
+}
+
+void say(const Setup& setup, Car& car, const Inputs& in, Outputs& out) {
+  const CarParams& p = setup.params;
+  const auto spoken = gateway::encode(p.outbound, car.outbound,
+                                      {.command = out.chosen.command,
+                                       .actuate = out.chosen.actuate,
+                                       .ct_state = out.ct_state,
+                                       .acted_on = car.plan.made_with,
+                                       .ego = out.ego},
+                                      in.now);
+  out.passed = safety::gate(p.gate, car.gate,
+                            {.mode = out.chosen.mode,
+                             .armed = out.chosen.actuate,
+                             .speed_mps = out.chosen.speed_mps,
+                             .command_at = out.chosen.command.at,
+                             .now = in.now},
+                            spoken.frames.span());
+  car.gate_refused = out.passed.refused_now;
+}
+
 }  // namespace
 
 Outputs step(const Setup& setup, Car& car, const Inputs& in) {
   const CarParams& p = setup.params;
   Outputs out;
+  heed_guardian(car, in.guardian, in.now);
   out.heard = gateway::decode(p.inbound, car.inbound, in.can, in.now);
   const bool armed = car.supervisor.mode != Mode::kDisarmed;
   out.heard.bus.identity = gateway::identify(p.identity, car.identity, in.can, armed, in.now);
@@ -105,21 +143,9 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
   car.follow = out.chosen.follow;
   out.ct_state = handshake(setup, car, out, in);
 
-  const auto spoken = gateway::encode(p.outbound, car.outbound,
-                                      {.command = out.chosen.command,
-                                       .actuate = out.chosen.actuate,
-                                       .ct_state = out.ct_state,
-                                       .acted_on = car.plan.made_with,
-                                       .ego = out.ego},
-                                      in.now);
-  out.passed = safety::gate(p.gate, car.gate,
-                            {.mode = out.chosen.mode,
-                             .armed = out.chosen.actuate,
-                             .speed_mps = out.chosen.speed_mps,
-                             .command_at = out.chosen.command.at,
-                             .now = in.now},
-                            spoken.frames.span());
-  car.gate_refused = out.passed.refused_now;
+  out.quiet = in.guardian.drives;
+  car.gate_refused = false;
+  if (!out.quiet) say(setup, car, in, out);
   ++car.ticks;
   return out;
 }

@@ -15,11 +15,22 @@
 
 #include "protocol/can/frame.hpp"
 #include "protocol/vocabulary/time.hpp"
+#include "vehicle/guardian/record.hpp"
 #include "vehicle/pipeline/car.hpp"
 #include "vehicle/pipeline/setup.hpp"
 #include "vehicle/world/sensor_input.hpp"
 
 namespace pitwall::pipeline {
+
+// What the car heeds of its guardian (guarding.hpp makes it of the guardian's Status). While the
+// guardian drives the car is quiet; what the guardian said last is what it goes on from.
+struct GuardianView {
+  bool drives = false;                  // now, and it lives
+  bool stopped = false;                 // it stopped this run: the car stands until a reset
+  Instant drove_from{}, drove_until{};  // the last time
+  guardian::CommandCounters counters;
+  world::ActuatorCommand command;
+};
 
 struct Inputs {
   Instant now{};
@@ -32,6 +43,7 @@ struct Inputs {
   std::array<std::optional<Instant>, world::kGnssUnits> gnss_byte_at{};
   world::LinkObservation link{};      // of the CAN interface, by the rim
   std::optional<Instant> radio_at{};  // newest authentic packet of the base station
+  GuardianView guardian{};
 };
 
 struct Outputs {
@@ -45,6 +57,7 @@ struct Outputs {
   safety::SupervisorOutput chosen;
   world::CtState ct_state = world::CtState::kDefault;
   safety::GateOutput passed;
+  bool quiet = false;  // the guardian drives: nothing was said
 };
 
 Outputs step(const Setup& setup, Car& car, const Inputs& in);

@@ -1,0 +1,131 @@
+// The guardian in the lockstep bench: the car's process is killed, or stopped for a while, at speed
+// on Las Vegas Motor Speedway.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "hil/bench/lockstep.hpp"
+#include "hil/bench/signals.hpp"
+#include "tests/hil/bench/flying_lap.hpp"
+
+namespace pitwall::bench {
+namespace {
+
+constexpr double kFlying_s = 62.0;  // the first flying lap has begun
+
+scenario::Scenario scenario_with(std::vector<scenario::Fault> faults, double duration_s) {
+  scenario::Scenario s = lap().scenario;
+  s.duration = from_seconds(duration_s);
+  s.faults = std::move(faults);
+  s.expect.clear();
+  return s;
+}
+
+scenario::Fault fault(const std::string& kind, double at_s, double lasts_s = 1e3) {
+  scenario::Fault f;
+  f.kind = kind;
+  f.at = from_seconds(at_s);
+  f.lasts = from_seconds(lasts_s);
+  return f;
+}
+
+// What became of the car from the first tick of the guardian on.
+struct Stop {
+  double from_s = kUnset, from_mps = kUnset, station_m = kUnset;
+  double stood_s = kUnset, distance_m = 0.0;
+  double off_line_m = 0.0, wall_gap_m = 1e9, decel_mps2 = 0.0, jerk_mps3 = 0.0, friction = 0.0;
+  guardian::Guidance guidance = guardian::Guidance::kNone;
+  guardian::Mode mode = guardian::Mode::kIdle;
+  std::uint64_t gate_refusals = 0;
+};
+
+class Observer {
+ public:
+  explicit Observer(double from_s) : from_(Instant{} + from_seconds(from_s)) {}
+
+  LockstepOptions options() {
+    LockstepOptions o;
+    o.watch = [this](const pipeline::Outputs&, const Rig& rig, Instant now) { see(rig, now); };
+    o.watch_guardian = [this](const GuardianNode& node, Instant) {
+      stop.mode = node.status().mode;
+      if (node.status().mode == guardian::Mode::kDriving) stop.guidance = node.status().guidance;
+      stop.gate_refusals = std::max(stop.gate_refusals, node.gate_refusals());
+    };
+    return o;
+  }
+  Stop stop;
+
+ private:
+  void see(const Rig& rig, Instant now) {
+    const plant::Truth& truth = rig.truth();
+    if (now < from_) return;
+    if (std::isnan(stop.from_s)) {
+      stop.from_s = (now - Instant{}).seconds();
+      stop.from_mps = truth.speed_mps;
+      stop.station_m = rig.road().s_m;
+    }
+    stop.distance_m += truth.speed_mps * 0.01;
+    const double off_m = cross_track_m(rig, lap().setup.params.planning.line.offset_m);
+    stop.off_line_m = std::max(stop.off_line_m, std::abs(off_m));
+    stop.wall_gap_m = std::min(stop.wall_gap_m,
+                               std::min(rig.road().wall_gap_left_m, rig.road().wall_gap_right_m));
+    stop.friction = std::max(stop.friction, truth.friction_use);
+    smooth_.push_back(truth.speed_mps);
+    const std::size_t n = smooth_.size();
+    if (n > 20) {  // over 0.1 s
+      const double a = (smooth_[n - 1] - smooth_[n - 11]) / 0.1;
+      const double before = (smooth_[n - 11] - smooth_[n - 21]) / 0.1;
+      stop.decel_mps2 = std::max(stop.decel_mps2, -a);
+      if (truth.speed_mps > 2.0)
+        stop.jerk_mps3 = std::max(stop.jerk_mps3, std::abs(a - before) / 0.1);
+    }
+    if (truth.speed_mps < 0.3 && std::isnan(stop.stood_s)) stop.stood_s = (now - from_).seconds();
+    if (truth.speed_mps > 0.5) stop.stood_s = kUnset;
+  }
+
+  Instant from_;
+  std::vector<double> smooth_;
+};
+
+RunResult run(const scenario::Scenario& s, const LockstepOptions& options) {
+  auto result = run_lockstep(s, lap().setup, options);
+  if (!result) ADD_FAILURE() << to_string(result.error());
+  return *std::move(result);
+}
+
+void print(const char* name, const Stop& s) {
+  std::printf(
+      "%s: at s = %4.0f m, %4.1f m/s: stands after %4.1f s, %3.0f m; off the line %.2f m, "
+      "wall gap %.2f m, decel %.1f m/s2, jerk %.0f m/s3, friction %.2f, %s\n",
+      name, s.station_m, s.from_mps, s.stood_s, s.distance_m, s.off_line_m, s.wall_gap_m,
+      s.decel_mps2, s.jerk_mps3, s.friction, guardian::text_of(s.guidance));
+}
+
+TEST(Guardian, StopsTheCarOnTheTrackWhereverItsProcessIsKilled) {
+  constexpr int kPlaces = 8;
+  constexpr double kLap_s = 37.0;
+  for (int i = 0; i < kPlaces; ++i) {
+    const double at_s = kFlying_s + kLap_s * i / kPlaces;
+    Observer observer{at_s};
+    run(scenario_with({fault("computer_killed", at_s)}, at_s + 30.0), observer.options());
+    const Stop& stop = observer.stop;
+    print("killed", stop);
+    EXPECT_GT(stop.from_mps, 60.0);
+    EXPECT_LT(stop.stood_s, 25.0);
+    EXPECT_GT(stop.wall_gap_m, 0.5);
+    EXPECT_LT(stop.off_line_m, 1.0);
+    EXPECT_LT(stop.decel_mps2, 8.0);
+    EXPECT_LT(stop.friction, 1.0);
+    EXPECT_EQ(stop.mode, guardian::Mode::kHalted);
+    EXPECT_EQ(stop.gate_refusals, 0u);
+  }
+}
+
+}  // namespace
+}  // namespace pitwall::bench

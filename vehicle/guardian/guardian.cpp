@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/guardian/guardian.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vehicle/safety/fault_detection.hpp"
+
+namespace pitwall::guardian {
+namespace {
+
+namespace av21 = can::av21;
+
+constexpr double kMpsPerKmh = 1.0 / 3.6;
+constexpr double kWheelMax_mps = 120.0;
+constexpr Duration kSignalAgeMax = milliseconds(100);
+constexpr Duration kFreshRecord = milliseconds(25);
+// A tick of the car that began before it could read that the guardian drives is over by then.
+constexpr Duration kCrossing = milliseconds(20);
+const world::SensorInput kNoSamples;
+
+struct Tick {
+  const Params& params;
+  State& state;
+  const Inputs& in;
+  bool new_record = false, command_heard = false;
+};
+
+void enter(const Tick& t, Mode mode, Cause cause) {
+  Status& status = t.state.status;
+  status.mode = mode;
+  status.cause = cause;
+  status.since = t.in.now;
+}
+
+bool moves(world::Mode mode) {
+  return mode == world::Mode::kDriving || mode == world::Mode::kControlledStop ||
+         mode == world::Mode::kEmergencyStop;
+}
+
+bool guarded(const CarRecord& record) { return record.armed && moves(record.mode); }
+
+void hear_wheels(State& s, const can::ReceivedFrame& received) {
+  av21::WheelSpeedReport m;
+  if (!av21::decode(received.frame, m)) return;
+  const world::PerWheel wheels{{m.wheel_speed_FL * kMpsPerKmh, m.wheel_speed_FR * kMpsPerKmh,
+                                m.wheel_speed_RL * kMpsPerKmh, m.wheel_speed_RR * kMpsPerKmh}};
+  for (const double v_mps : wheels.at)
+    if (!(v_mps >= 0.0 && v_mps <= kWheelMax_mps)) return;
+  s.signals.wheel_speed_mps = {wheels, received.at, true};
+}
+
+void hear_steering(State& s, const can::ReceivedFrame& received) {
+  av21::SteeringReport m;
+  if (!av21::decode(received.frame, m) || !std::isfinite(m.steering_motor_ang_avg_fdbk)) return;
+  s.signals.steering_motor_rad = {from_deg(m.steering_motor_ang_avg_fdbk), received.at, true};
+}
+
+void hear_bus(Tick& t) {
+  State& s = t.state;
+  for (const can::ReceivedFrame& received : t.in.can) {
+    const std::uint32_t id = received.frame.id;
+    if (id >= av21::BrakePressureCmd::kId && id <= av21::CtVehicleAccFeedback::kId) {
+      t.command_heard |= hear(s.heard, received);
+      continue;
+    }
+    if (received.at > s.others_at) s.others_at = received.at;
+    if (id == av21::WheelSpeedReport::kId) hear_wheels(s, received);
+    if (id == av21::SteeringReport::kId) hear_steering(s, received);
+  }
+}
+
+void take_record(Tick& t) {
+  State& s = t.state;
+  if (!t.in.record) return;
+  const CarRecord& record = *t.in.record;
+  if (record.run == s.record.run && record.sequence == s.record.sequence) return;
+  t.new_record = true;
+  // The stop that is being driven stays; whether the car process lives is read anew.
+  const CarRecord before = s.record;
+  s.record = record;
+  if (!drives(s.status.mode)) return;
+  s.record.stop = before.stop;
+  s.record.datum = before.datum;
+}
+
+void hear_forces(Tick& t) {
+  for (const world::ImuSample& sample : t.in.sensors.imu) {
+    t.state.ax_mps2 = sample.specific_force_mps2[0];
+    t.state.ay_mps2 = sample.specific_force_mps2[1];
+  }
+}
+
+double wheel_speed(const Tick& t) {
+  return safety::wheel_speed_mps(t.state.signals, t.in.now, kSignalAgeMax);
+}
+
+// Without wheels the speed is what the brake leaves of it.
+double speed(const Tick& t) {
+  const State& s = t.state;
+  const double by_wheels = wheel_speed(t);
+  if (std::isfinite(by_wheels)) return by_wheels;
+  const double decel_mps2 =
+      s.following.command.brake_kpa / t.params.following.stop.brake_kpa_per_mps2;
+  const double lost_mps = decel_mps2 * (t.in.now - s.reckoning.pose.at).seconds();
+  return std::isfinite(lost_mps) ? std::max(0.0, s.reckoning.pose.speed_mps - lost_mps) : kUnset;
+}
+
+Motion motion_of(const Tick& t) {
+  const auto& steering = t.state.signals.steering_motor_rad;
+  return {.speed_mps = speed(t),
+          .steering_motor_rad = steering.fresh(t.in.now, kSignalAgeMax) ? steering.value : kUnset};
+}
+
+void reckon(const Tick& t, const world::SensorInput& sensors) {
+  State& s = t.state;
+  reckon(t.params.reckoning, s.reckoning, motion_of(t), sensors, s.record.datum,
+         s.following.bank_rad, t.in.now);
+}
+
+// Why it must not or cannot act; kNone: it can.
+Cause hindrance(Tick& t) {
+  State& s = t.state;
+  if (t.in.now - s.others_at > t.params.bus_silence_max) return Cause::kBusSilent;
+  if (s.heard.commanded_at - s.record.at > kRecordLag) return Cause::kStale;
+  if (s.record.stop.points.size() < 2 || !s.heard.complete()) return Cause::kNoPath;
+  if (!s.reckoning.begun) return Cause::kOffPath;
+  s.following = {};
+  locate(s.following, s.record.stop, s.reckoning.pose);
+  reckon(t, kNoSamples);  // taken once, by drive()
+  locate(s.following, s.record.stop, s.reckoning.pose);
+  return std::abs(s.following.lateral_m) <= t.params.off_path_max_m ? Cause::kNone
+                                                                    : Cause::kOffPath;
+}
+
+safety::GateContext gate_context(const Tick& t, world::Mode mode, Instant command_at, Instant now) {
+  return {.mode = mode,
+          .armed = true,
+          .speed_mps = wheel_speed(t),
+          .command_at = command_at,
+          .now = now};
+}
+
+// The gate has to have seen what the car was told last: it then judges our first frames by it.
+void seed_gate(const Tick& t) {
+  State& s = t.state;
+  s.gate = {};
+  const VoiceFrames last = repeat(s.heard);
+  const Instant at = s.heard.commanded_at;
+  (void)safety::gate(t.params.gate, s.gate, gate_context(t, world::Mode::kDriving, at, at),
+                     last.span());
+  s.gate.verdicts = {};
+}
+
+void take_over(const Tick& t) {
+  State& s = t.state;
+  enter(t, Mode::kDriving, Cause::kCarSilent);
+  s.following.command = command_of(s.heard, t.params.reckoning.steering_ratio);
+  s.open_loop = {};
+  s.standing = false;
+  s.fresh_records = 0;
+  s.next_speech = t.in.now;
+  s.status.run = s.record.run;
+  s.status.drove_from = s.status.drove_until = t.in.now;
+  s.status.counters = counters_of(s.heard);
+  s.status.latched = s.handed_back && t.in.now - s.handed_back_at < t.params.hand_back_again;
+  ++s.status.takeovers;
+  seed_gate(t);
+}
+
+void watch(Tick& t) {
+  State& s = t.state;
+  if (t.new_record) follow_car(t.params.reckoning, s.reckoning, s.record.ego);
+  if (!guarded(s.record)) {
+    if (s.status.mode != Mode::kIdle) enter(t, Mode::kIdle, Cause::kNone);
+    return;
+  }
+  const bool heard = s.status.mode == Mode::kHandedBack ? t.command_heard : s.heard.commanded;
+  if (t.in.now - s.heard.commanded_at < kSilence) {
+    if (s.status.mode != Mode::kWatching && heard) enter(t, Mode::kWatching, Cause::kNone);
+    return;
+  }
+  if (!s.heard.commanded) return;
+  const Cause cause = hindrance(t);
+  if (cause == Cause::kNone) return take_over(t);
+  if (s.status.mode != Mode::kNothingToDrive || s.status.cause != cause)
+    enter(t, Mode::kNothingToDrive, cause);
+}
+
+void hand_back(const Tick& t, Cause cause) {
+  State& s = t.state;
+  s.handed_back = true;
+  s.handed_back_at = t.in.now;
+  ++s.status.hand_backs;
+  s.heard.commanded_at = t.in.now;  // it has as long as ever to be heard
+  s.status.guidance = Guidance::kNone;
+  enter(t, Mode::kHandedBack, cause);
+}
+
+void count_records(const Tick& t) {
+  State& s = t.state;
+  const bool fresh = t.in.now - s.record.at <= kFreshRecord;
+  if (!fresh) s.fresh_records = 0;
+  if (fresh && t.new_record) ++s.fresh_records;
+}
+
+// The hold at standstill ends: reset by the operator of this run, or a new one that is not armed.
+bool is_released(const Tick& t, bool alive) {
+  const State& s = t.state;
+  const bool other_run = s.record.run != s.status.run;
+  return s.status.mode == Mode::kHalted && alive && s.record.reset &&
+         (!other_run || !s.record.armed);
+}
+
+// Whether the car process gets the car again; true if it did.
+bool gave_back(const Tick& t) {
+  State& s = t.state;
+  const CarRecord& record = s.record;
+  count_records(t);
+  const bool alive = s.fresh_records >= kRecordsToBelieve;
+  if (record.speaks && s.fresh_records > 0 && record.at - s.status.drove_from > kCrossing) {
+    hand_back(t, Cause::kCarSpeaks);
+    return true;
+  }
+  if (is_released(t, alive)) {
+    s.status.latched = false;
+    hand_back(t, Cause::kReset);
+    return true;
+  }
+  if (t.in.now - s.status.drove_from > kHandBackLimit) s.status.latched = true;
+  if (s.status.latched || !alive || record.run != s.status.run || !guarded(record)) return false;
+  hand_back(t, Cause::kCarBack);
+  return true;
+}
+
+Guidance guidance_of(const Tick& t) {
+  const State& s = t.state;
+  const bool placed =
+      s.reckoning.positioned && t.in.now - s.reckoning.position_at <= t.params.position_age_max;
+  if (placed) return Guidance::kPosition;
+  return s.reckoning.gyro_used ? Guidance::kInertial : Guidance::kOpenLoop;
+}
+
+// Open loop from where feedback ended, and again if it comes back and ends anew.
+world::ActuatorCommand open_loop(const Tick& t) {
+  State& s = t.state;
+  const safety::SafeStopInputs in{
+      .stop = s.record.stop, .last_good = s.following.command, .speed_mps = wheel_speed(t)};
+  const bool begins = !s.open_loop.active;
+  if (begins) s.following.last = t.in.now;
+  return safety::stop_along(t.params.following.stop, s.open_loop, in, t.in.now);
+}
+
+world::ActuatorCommand next_command(const Tick& t) {
+  State& s = t.state;
+  s.status.guidance = guidance_of(t);
+  if (s.status.guidance != Guidance::kOpenLoop) {
+    s.open_loop = {};
+    return follow_stop(t.params.following, s.following, s.record.stop, s.reckoning.pose, t.in.now);
+  }
+  s.following.command = open_loop(t);
+  return s.following.command;
+}
+
+void stand(const Tick& t) {
+  State& s = t.state;
+  const bool still = s.reckoning.pose.speed_mps < t.params.following.stop.standstill_mps;
+  if (still && !s.standing) s.standing_since = t.in.now;
+  s.standing = still;
+  const bool dwelt = still && t.in.now - s.standing_since >= t.params.standstill_dwell;
+  if (s.status.mode != Mode::kDriving || !dwelt) return;
+  s.status.latched = true;
+  enter(t, Mode::kHalted, Cause::kStands);
+}
+
+void drive(const Tick& t, Output& out) {
+  State& s = t.state;
+  if (gave_back(t)) return;
+  s.status.drove_until = t.in.now;
+  reckon(t, t.in.sensors);
+  stand(t);
+  if (t.in.now < s.next_speech) return;
+  s.next_speech = t.in.now + kSpeakEvery;
+  s.status.command = next_command(t);
+  const VoiceFrames said = speak(s.heard, s.status.counters,
+                                 {.command = s.status.command,
+                                  .steering_ratio = t.params.reckoning.steering_ratio,
+                                  .ax_mps2 = s.ax_mps2,
+                                  .ay_mps2 = s.ay_mps2});
+  const auto passed = safety::gate(
+      t.params.gate, s.gate,
+      gate_context(t, world::Mode::kControlledStop, s.status.command.at, t.in.now), said.span());
+  out.frames = passed.frames;
+  out.gate_refusals = passed.refused_total;
+}
+
+}  // namespace
+
+Output step(const Params& params, State& state, const Inputs& inputs) {
+  Tick tick{params, state, inputs};
+  Output out;
+  const Mode before = state.status.mode;
+  hear_bus(tick);
+  hear_forces(tick);
+  listen(state.reckoning, inputs.sensors);
+  take_record(tick);
+  if (!drives(before)) watch(tick);
+  if (drives(state.status.mode)) drive(tick, out);
+  state.status.at = inputs.now;
+  out.mode_changed = state.status.mode != before;
+  return out;
+}
+
+}  // namespace pitwall::guardian

@@ -1,0 +1,83 @@
+// The guardian of the car process: watches that it speaks on the bus and, when it falls silent at
+// speed, drives the last checked stop trajectory until the car stands. A second process with its
+// own bus socket, its own receivers' ports, its own frame gate; the car process is known by its
+// record and by its frames only.
+//   in     the newest CarRecord (or none), frames off the bus, samples of the receivers, now
+//   out    frames that passed the guardian's own gate, Status
+//   rate   every 5 ms (any rate from 1 to 10 ms); frames leave every kSpeakEvery while it drives
+//   law    it acts only if all of this holds:
+//            no command (1400..1402) of the car was heard for kSilence, but others are on the bus;
+//            the last record says armed and driving or stopping, and is no more than kRecordLag
+//            older than the last command; it holds a checked stop trajectory, and the car is on it
+//          It gives the car back, or keeps it, as record.hpp says.
+//   errors none: what keeps it from acting is the cause of kNothingToDrive
+//   cost   no allocation; below 20 us
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include "protocol/can/frame.hpp"
+#include "protocol/vocabulary/time.hpp"
+#include "vehicle/guardian/reckoning.hpp"
+#include "vehicle/guardian/record.hpp"
+#include "vehicle/guardian/stop_following.hpp"
+#include "vehicle/guardian/voice.hpp"
+#include "vehicle/safety/frame_gate.hpp"
+#include "vehicle/safety/safe_stop.hpp"
+#include "vehicle/world/sensor_input.hpp"
+#include "vehicle/world/signals.hpp"
+
+namespace pitwall::guardian {
+
+inline constexpr Duration kSilence = milliseconds(30);
+inline constexpr Duration kRecordLag = milliseconds(100);
+inline constexpr Duration kSpeakEvery = milliseconds(10);
+inline constexpr Duration kTick = milliseconds(5);
+
+struct Params {
+  ReckoningParams reckoning;
+  FollowingParams following;
+  safety::GateParams gate;
+  double off_path_max_m = 5.0;  // the car beside the trajectory when it takes over
+  Duration standstill_dwell = milliseconds(500);
+  Duration bus_silence_max = milliseconds(50);  // of everybody else
+  Duration position_age_max = milliseconds(500);
+  Duration hand_back_again = seconds(5);  // sooner than this after a hand-back it keeps the car
+};
+
+struct State {
+  Status status;
+  CarRecord record;  // the newest
+  HeardCar heard;
+  Instant others_at{};            // newest frame of anybody else
+  world::VehicleSignals signals;  // wheel speeds and steering only
+  ReckoningState reckoning;
+  FollowingState following;
+  safety::SafeStopState open_loop;
+  safety::GateState gate;
+  Instant next_speech{}, standing_since{}, handed_back_at{};
+  bool standing = false, handed_back = false;
+  int fresh_records = 0;
+  double ax_mps2 = kUnset, ay_mps2 = kUnset;  // specific force, for the report
+};
+static_assert(std::is_trivially_copyable_v<State>);
+
+struct Inputs {
+  const CarRecord* record = nullptr;  // the newest that is whole; none yet: null
+  std::span<const can::ReceivedFrame> can;
+  const world::SensorInput& sensors;
+  Instant now{};
+};
+
+struct Output {
+  FixedVector<can::Frame, safety::kMaxFrames> frames;
+  bool mode_changed = false;
+  std::uint64_t gate_refusals = 0;  // since it took over last
+};
+
+Output step(const Params& params, State& state, const Inputs& inputs);
+
+}  // namespace pitwall::guardian

@@ -1,0 +1,163 @@
+// pitwall-guardian: stops the car when its process falls silent. Wires the guardian to its own bus
+// socket, its own receivers' ports and the record that it shares with the car's process.
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "protocol/transport/can_socket.hpp"
+#include "protocol/transport/clock.hpp"
+#include "protocol/transport/file.hpp"
+#include "protocol/transport/process.hpp"
+#include "protocol/transport/realtime.hpp"
+#include "protocol/transport/udp_socket.hpp"
+#include "vehicle/guardian/guardian.hpp"
+#include "vehicle/io/gnss_input.hpp"
+#include "vehicle/io/guardian_arguments.hpp"
+#include "vehicle/io/shared_stop.hpp"
+#include "vehicle/parameters/car_file.hpp"
+#include "vehicle/pipeline/guarding.hpp"
+
+namespace pitwall {
+namespace {
+
+constexpr int kExitFailed = 1, kExitUsage = 2;
+constexpr int kPriority = 85;  // above the car's process, which it must outlast
+constexpr std::size_t kFramesPerRead = 4096;
+
+int refuse(const Problem& problem) {
+  std::fprintf(stderr, "pitwall-guardian: %s\n", to_string(problem).c_str());
+  return kExitUsage;
+}
+
+struct Counts {
+  std::uint64_t ticks = 0, missed = 0, received = 0, sent = 0, not_sent = 0, refused = 0;
+  std::int64_t longest_ns = 0;
+};
+
+// What the guardian hears and says.
+class Rim {
+ public:
+  static Result<Rim, Problem> open(const io::GuardianArguments& args) {
+    auto can = transport::CanSocket::open(args.can_interface);
+    if (!can) return Unexpected{can.error()};
+    std::vector<transport::UdpSocket> gnss;
+    for (const std::uint16_t port : args.gnss_ports) {
+      auto socket = transport::UdpSocket::bind({.ip = transport::kLoopbackIp, .port = port});
+      if (!socket) return Unexpected{socket.error()};
+      gnss.push_back(*std::move(socket));
+    }
+    auto shared = io::SharedStop::open(args.guardian);
+    if (!shared) return Unexpected{shared.error()};
+    return Rim{*std::move(can), std::move(gnss), *std::move(shared)};
+  }
+
+  // Valid until the next one.
+  guardian::Inputs read(Instant now) {
+    samples_ = {};
+    for (std::size_t unit = 0; unit < gnss_.size(); ++unit)
+      io::receive(gnss_[unit], receivers_[unit], samples_);
+    const std::size_t count = can_.receive(frames_);
+    known_ = shared_.read(*record_) || known_;
+    return {.record = known_ ? record_.get() : nullptr,
+            .can = std::span<const can::ReceivedFrame>(frames_).first(count),
+            .sensors = samples_,
+            .now = now};
+  }
+
+  // The status first: nothing is said on the bus before the car's process can know of it.
+  void write(const guardian::Status& status, std::span<const can::Frame> frames) {
+    shared_.write(status);
+    can_.send(frames);
+  }
+
+  const transport::CanSocketCounters& can() const { return can_.counters(); }
+
+ private:
+  Rim(transport::CanSocket can, std::vector<transport::UdpSocket> gnss, io::SharedStop shared)
+      : can_(std::move(can)),
+        gnss_(std::move(gnss)),
+        receivers_{io::GnssInput{{.unit = 0}}, io::GnssInput{{.unit = 1}}},
+        shared_(std::move(shared)),
+        record_(std::make_unique<guardian::CarRecord>()),
+        frames_(kFramesPerRead) {}
+
+  transport::CanSocket can_;
+  std::vector<transport::UdpSocket> gnss_;
+  std::array<io::GnssInput, world::kGnssUnits> receivers_;
+  io::SharedStop shared_;
+  std::unique_ptr<guardian::CarRecord> record_;
+  bool known_ = false;
+  world::SensorInput samples_;
+  std::vector<can::ReceivedFrame> frames_;
+};
+
+void tell(const guardian::Status& s) {
+  const char* by = guardian::text_of(s.guidance);
+  std::fprintf(stderr, "pitwall-guardian: %s (%s)%s%s\n", guardian::text_of(s.mode),
+               guardian::text_of(s.cause), *by != '\0' ? " " : "", by);
+}
+
+std::string summary_json(const Counts& c, const guardian::Status& s) {
+  const auto number = [](auto value) { return std::to_string(value); };
+  return std::string("{\"mode\": \"") + guardian::text_of(s.mode) + "\", \"cause\": \"" +
+         guardian::text_of(s.cause) + "\", \"takeovers\": " + number(s.takeovers) +
+         ", \"hand_backs\": " + number(s.hand_backs) + ", \"ticks\": " + number(c.ticks) +
+         ", \"missed_ticks\": " + number(c.missed) +
+         ", \"tick_max_us\": " + number(c.longest_ns / 1000) +
+         ", \"frames_received\": " + number(c.received) + ", \"frames_sent\": " + number(c.sent) +
+         ", \"gate_refusals\": " + number(c.refused) + "}\n";
+}
+
+Counts watch_over(const guardian::Params& params, guardian::State& state, Rim& rim,
+                  transport::StopSignal& stop) {
+  Counts counts;
+  transport::Ticker ticker{guardian::kTick};
+  guardian::Guidance guidance = guardian::Guidance::kNone;
+  while (!stop.raised()) {
+    const transport::Tick tick = ticker.next();
+    const Instant now = transport::monotonic_now();
+    const guardian::Output out = guardian::step(params, state, rim.read(now));
+    rim.write(state.status, out.frames.span());
+    ++counts.ticks;
+    counts.missed += tick.missed;
+    counts.refused = std::max(counts.refused, out.gate_refusals);
+    counts.longest_ns = std::max(counts.longest_ns, (transport::monotonic_now() - now).ns);
+    if (out.mode_changed || state.status.guidance != guidance) tell(state.status);
+    guidance = state.status.guidance;
+  }
+  counts.received = rim.can().received;
+  counts.sent = rim.can().sent;
+  return counts;
+}
+
+int run(int argc, const char* const* argv) {
+  const auto parsed = io::parse_guardian_arguments(argc, argv);
+  if (const int* code = std::get_if<int>(&parsed)) return *code;
+  const auto& args = std::get<io::GuardianArguments>(parsed);
+  auto stop = transport::StopSignal::install();
+  if (!stop) return refuse(stop.error());
+  const auto text = transport::read_file(args.car_file);
+  if (!text) return refuse(text.error());
+  const auto car = parameters::read_car(*text, args.car_file);
+  if (!car) return refuse(car.error());
+  auto rim = Rim::open(args);
+  if (!rim) return refuse(rim.error());
+  const auto realtime = transport::request_realtime(kPriority);
+  std::fprintf(stderr, "pitwall-guardian: on %s, %s, %s%s\n", args.can_interface.c_str(),
+               io::shared_stop_path(args.guardian).c_str(), transport::to_string(realtime).c_str(),
+               args.simulation ? ", SIMULATION" : "");
+  const auto state = std::make_unique<guardian::State>();
+  const Counts counts = watch_over(pipeline::guardian_params(car->params), *state, *rim, *stop);
+  if (args.summary_file.empty()) return 0;
+  const auto written =
+      transport::write_file(args.summary_file, summary_json(counts, state->status));
+  return written ? 0 : (refuse(written.error()), kExitFailed);
+}
+
+}  // namespace
+}  // namespace pitwall
+
+int main(int argc, char** argv) { return pitwall::run(argc, argv); }

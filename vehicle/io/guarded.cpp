@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/io/guarded.hpp"
+
+#include "protocol/transport/clock.hpp"
+
+namespace pitwall::io {
+
+Result<Guarded, Problem> Guarded::open(const std::string& name, bool arm) {
+  Guarded guarded;
+  if (name.empty()) return guarded;
+  auto shared = SharedStop::open(name);
+  if (!shared) return Unexpected{shared.error()};
+  guarded.shared_.emplace(*std::move(shared));
+  guarded.told_ = std::make_unique<pipeline::Told>();
+  guarded.arm_ = arm;
+  guarded.run_ = static_cast<std::uint64_t>(transport::utc_now().ns);  // no two starts share it
+  const auto found = std::make_unique<guardian::CarRecord>();
+  if (guarded.shared_->read(*found)) guarded.barred_ = arm && pipeline::ended_armed(*found);
+  return guarded;
+}
+
+pipeline::GuardianView Guarded::view(Instant now) {
+  if (!shared_) return {};
+  heard_ = shared_->read(status_) || heard_;
+  return heard_ ? pipeline::view_of(status_, run_, now) : pipeline::GuardianView{};
+}
+
+void Guarded::tell(const pipeline::Setup& setup, const pipeline::Car& car,
+                   const pipeline::Outputs& out, bool reset, Instant now) {
+  if (!shared_) return;
+  ever_armed_ |= out.chosen.actuate;
+  const bool unarmed_start = !arm_ && !ever_armed_;
+  pipeline::tell(setup, car, out, {.id = run_, .reset = reset || unarmed_start, .barred = barred_},
+                 now, *told_);
+  shared_->write(told_->record);
+}
+
+void Guarded::finish() {
+  if (!shared_) return;
+  pipeline::finish(*told_);
+  shared_->write(told_->record);
+}
+
+}  // namespace pitwall::io

@@ -1,0 +1,24 @@
+// The command line of pitwall-guardian.
+//   errors wrong usage: text on stderr and exit code 2 (0 for --help)
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include "vehicle/world/sensor_input.hpp"
+
+namespace pitwall::io {
+
+struct GuardianArguments {
+  std::string car_file, can_interface, guardian, summary_file;  // no summary if empty
+  std::array<std::uint16_t, world::kGnssUnits> gnss_ports{};    // its own, not the car's
+  bool simulation = false;                                      // said on stderr; decides nothing
+};
+
+// Arguments, or the code to exit with.
+std::variant<GuardianArguments, int> parse_guardian_arguments(int argc, const char* const* argv);
+
+}  // namespace pitwall::io

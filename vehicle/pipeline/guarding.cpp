@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/pipeline/guarding.hpp"
+
+namespace pitwall::pipeline {
+
+guardian::Params guardian_params(const CarParams& params) {
+  const localization::Params& located = params.localization;
+  guardian::Params out;
+  for (std::size_t i = 0; i < world::kGnssUnits; ++i) {
+    const localization::UnitParams& unit = located.units[i];
+    out.reckoning.units[i] = {.x_m = unit.antenna.x_m,
+                              .y_m = unit.antenna.y_m,
+                              .z_m = unit.antenna.z_m,
+                              .baseline_yaw_rad = unit.baseline_yaw_rad};
+  }
+  out.reckoning.cg_to_rear_m = located.cg_to_rear_m;
+  out.reckoning.rear_slip_rad_per_mps2 = located.rear_slip_rad_per_mps2;
+  out.reckoning.wheelbase_m = located.wheelbase_m;
+  out.reckoning.understeer_rad_per_mps2 = located.understeer_rad_per_mps2;
+  out.reckoning.steering_ratio = params.outbound.steering_ratio;
+  out.following.stop = params.supervisor.safe_stop;
+  out.following.slew_rad_per_s = params.supervisor.steer_slew_rad_per_s;
+  out.gate = params.gate;
+  return out;
+}
+
+void tell(const Setup& setup, const Car& car, const Outputs& out, const Run& run, Instant now,
+          Told& told) {
+  guardian::CarRecord& record = told.record;
+  record.run = run.id;
+  ++record.sequence;
+  record.at = now;
+  record.mode = out.chosen.mode;
+  record.armed = out.chosen.actuate;
+  record.speaks = !out.quiet;
+  record.reset = run.reset;
+  record.barred = run.barred;
+  record.finished = false;
+  record.ego = out.ego;
+  record.datum = {setup.track.datum_latitude_deg(), setup.track.datum_longitude_deg(),
+                  setup.track.datum_height_m()};
+  if (!car.plan.ever || car.plan.at == told.judged) return;
+  told.judged = car.plan.at;
+  const world::Trajectory& stop = car.plan.output.stop;
+  told.verdict = guardian::check_stop({}, stop, out.ego, setup.track);
+  if (told.verdict == guardian::StopVerdict::kGood)
+    record.stop = stop;
+  else
+    ++told.refused;
+}
+
+GuardianView view_of(const guardian::Status& status, std::uint64_t run, Instant now) {
+  GuardianView view;
+  const bool lives = now - status.at <= guardian::kStatusAgeMax;
+  view.drives = lives && guardian::drives(status.mode);
+  view.stopped = status.latched && status.run == run;
+  view.drove_from = status.drove_from;
+  view.drove_until = status.drove_until;
+  view.counters = status.counters;
+  view.command = status.command;
+  return view;
+}
+
+bool ended_armed(const guardian::CarRecord& record) {
+  return record.run != 0 && ((record.armed && !record.finished) || record.barred);
+}
+
+void finish(Told& told) {
+  const world::Mode mode = told.record.mode;
+  ++told.record.sequence;
+  told.record.finished = mode == world::Mode::kDisarmed || mode == world::Mode::kStandby ||
+                         mode == world::Mode::kHalted;
+}
+
+}  // namespace pitwall::pipeline
