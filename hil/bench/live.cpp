@@ -4,18 +4,21 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "hil/bench/car_summary.hpp"
-#include "hil/bench/radio_path.hpp"
+#include "hil/bench/machine.hpp"
 #include "hil/bench/receiver_port.hpp"
 #include "hil/bench/run_record.hpp"
 #include "hil/bench/signals.hpp"
+#include "hil/bench/wake_clock.hpp"
 #include "hil/grading/grader.hpp"
 #include "protocol/transport/can_socket.hpp"
 #include "protocol/transport/clock.hpp"
-#include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
 #include "protocol/transport/realtime.hpp"
 
@@ -34,42 +37,49 @@ constexpr std::size_t kReadBatch = 256;
 constexpr Duration kWake = milliseconds(1);
 constexpr Duration kLook = milliseconds(10);
 
+// Everything that a run is made of, opened before anything is started.
+struct Parts {
+  Rig rig;
+  grading::Grader grader;
+  CanSocket bus;
+  RadioPath radio;
+  ReceiverPort receivers;
+  Machine machine;
+  Cast cast;
+};
+
 class Live {
  public:
   Live(const scenario::Scenario& scenario, const pipeline::Setup& setup, const LivePlan& plan,
-       Rig rig, grading::Grader grader, CanSocket bus, RadioPath radio, ReceiverPort receivers)
+       Parts parts)
       : scenario_(scenario),
         setup_(setup),
         plan_(plan),
-        rig_(std::move(rig)),
-        grader_(std::move(grader)),
-        bus_(std::move(bus)),
-        radio_(std::move(radio)),
-        receivers_(std::move(receivers)),
-        inbox_(kReadBatch) {
-    late_us_.reserve(static_cast<std::size_t>(scenario.duration / kWake) + 1);
+        parts_(std::move(parts)),
+        inbox_(kReadBatch),
+        clock_(kWake, scenario.duration) {
     heard_.reserve(kReadBatch);
     if (plan.log) record_.emplace(scenario, "live", plan.log);
   }
 
   Result<LiveResult, Problem> run() {
-    if (auto problem = start_processes()) return Unexpected{*problem};
-    if (auto problem = wait_for_car()) return Unexpected{*problem};
-    start_ = transport::monotonic_now();
+    if (auto problem = start()) return Unexpected{*problem};
+    clock_.start();
     for (Instant now = Instant{} + kWake; now - Instant{} <= scenario_.duration; now += kWake) {
-      wake(now);
+      clock_.sleep_until(now);
       step(now);
+      if (auto problem = parts_.cast.advance(now)) return Unexpected{*problem};
       if ((now - Instant{}).ns % kLook.ns != 0) continue;
-      radio_.serve(transport::monotonic_now());
-      if (const auto ended = vehicle_->poll())
-        return Unexpected{Problem{plan_.vehicle.front(), "the car process ended with code " +
-                                                             std::to_string(ended->shell_code())}};
+      if (auto problem = look(now)) return Unexpected{*problem};
     }
     return finish();
   }
 
  private:
-  std::optional<Problem> start_processes() {
+  std::optional<Problem> start() {
+    std::error_code none;  // nothing there is as it should be
+    for (const char* who : {"vehicle", "guardian"})
+      std::filesystem::remove(plan_.summary_of(who), none);
     if (plan_.candump) {
       auto candump = transport::Process::spawn(
           {.argv = {"sh", "-c", "exec candump -L -r 8388608 " + plan_.interface + " > \"$0\"",
@@ -77,64 +87,60 @@ class Live {
       if (!candump) return candump.error();
       candump_.emplace(*std::move(candump));
     }
-    std::vector<std::string> argv = plan_.vehicle;
-    for (const std::string& word :
-         {std::string("--can"), plan_.interface, std::string("--gnss"),
-          std::to_string(plan_.gnss_port) + "," + std::to_string(plan_.gnss_port + 1),
-          std::string("--radio"), "127.0.0.1:" + std::to_string(plan_.radio.listen),
-          std::string("--summary"), summary_path(), std::string("--simulation"),
-          std::string("--arm")})
-      argv.push_back(word);
-    auto vehicle = transport::Process::spawn({.argv = argv});
-    if (!vehicle) return vehicle.error();
-    vehicle_.emplace(*std::move(vehicle));
-    return std::nullopt;
+    if (auto problem = parts_.cast.start()) return problem;
+    return wait_for_car();
   }
 
   // The car reports its state on the bus from its first tick on.
   std::optional<Problem> wait_for_car() {
     const Instant limit = transport::monotonic_now() + kStartLimit;
     while (transport::monotonic_now() < limit) {
-      if (const std::size_t count = bus_.receive(inbox_)) {
+      if (const std::size_t count = parts_.bus.receive(inbox_)) {
         result_.traffic.bench_received += count;
         return std::nullopt;
       }
-      if (vehicle_->poll()) return Problem{plan_.vehicle.front(), "the car process did not start"};
+      if (auto problem = parts_.cast.missing()) return problem;
       transport::sleep_until(transport::monotonic_now() + milliseconds(2));
     }
-    return Problem{plan_.vehicle.front(), "no frame of the car on " + plan_.interface};
+    return Problem{plan_.interface, "no frame of the car"};
   }
 
-  void wake(Instant now) {
-    const Instant deadline = start_ + (now - Instant{});
-    Instant at = transport::monotonic_now();
-    if (at < deadline) {
-      transport::sleep_until(deadline);
-      at = transport::monotonic_now();
-      late_us_.push_back(static_cast<float>((at - deadline).ns) * 1e-3F);
-    } else if (at - deadline >= kWake) {
-      ++timing_.caught_up_wakes;
+  // What is looked at once per tick.
+  std::optional<Problem> look(Instant now) {
+    parts_.radio.serve(transport::monotonic_now());
+    if (auto problem = parts_.machine.advance(now)) return problem;
+    tell_done();
+    return parts_.cast.missing();
+  }
+
+  void tell_done() {
+    for (const std::vector<Done>* list : {&parts_.cast.done(), &parts_.machine.done()}) {
+      std::size_t& told = list == &parts_.cast.done() ? deeds_told_ : steps_told_;
+      for (; told < list->size(); ++told) {
+        result_.done.push_back((*list)[told]);
+        if (record_) record_->event(result_.done.back().at, "fault", result_.done.back().what);
+      }
     }
   }
 
   void step(Instant now) {
     read_bus();
     for (Instant at = now - kWake + kRigStep; at <= now; at += kRigStep) {
-      rig_.step(heard_, at);
+      parts_.rig.step(heard_, at);
       heard_.clear();
       collect_frames(at);
     }
     write_bus();
-    receivers_.send(rig_.take_samples());
+    parts_.receivers.send(parts_.rig.take_samples());
     if ((now - Instant{}).ns % setup_.params.rates.tick.ns == 0) judge(now);
   }
 
   void read_bus() {
-    const std::size_t count = bus_.receive(inbox_);
+    const std::size_t count = parts_.bus.receive(inbox_);
     result_.traffic.bench_received += count;
     for (std::size_t i = 0; i < count; ++i) {
       can::ReceivedFrame received = inbox_[i];
-      received.at = Instant{} + (received.at - start_);
+      received.at = Instant{} + (received.at - clock_.started());
       heard_.push_back(received);
       if (record_) record_->can(Node::kCar, received.frame, std::max(received.at, Instant{}));
     }
@@ -143,7 +149,7 @@ class Live {
   // A socket does not hear what it sends, but race control and the drive-by-wire, which share this
   // one, do hear each other on a bus.
   void collect_frames(Instant at) {
-    for (const Outgoing& outgoing : rig_.take_frames()) {
+    for (const Outgoing& outgoing : parts_.rig.take_frames()) {
       frames_.push_back(outgoing.frame);
       if (outgoing.from == Node::kRaceControl) heard_.push_back({outgoing.frame, at});
       if (record_) record_->can(outgoing.from, outgoing.frame, at);
@@ -151,7 +157,7 @@ class Live {
   }
 
   void write_bus() {
-    const std::size_t taken = bus_.send(frames_);
+    const std::size_t taken = parts_.bus.send(frames_);
     result_.traffic.to_car += taken;
     not_taken_ += frames_.size() - taken;
     frames_.clear();
@@ -159,13 +165,15 @@ class Live {
 
   void judge(Instant now) {
     const double offset_m = setup_.params.planning.line.offset_m;
-    grader_.observe(now, observe({.rig = rig_,
-                                  .car = radio_.report(),
-                                  .line_offset_m = offset_m,
-                                  .frames_lost = not_taken_ + bus_.counters().rx_dropped_queue}));
-    grading::add(result_.cross_track, rig_.truth().speed_mps, cross_track_m(rig_, offset_m));
-    result_.speed_max_mps = std::max(result_.speed_max_mps, rig_.truth().speed_mps);
-    if (record_) record_->truth(rig_, now);
+    parts_.grader.observe(
+        now, observe({.rig = parts_.rig,
+                      .car = parts_.radio.report(),
+                      .line_offset_m = offset_m,
+                      .frames_lost = not_taken_ + parts_.bus.counters().rx_dropped_queue}));
+    grading::add(result_.cross_track, parts_.rig.truth().speed_mps,
+                 cross_track_m(parts_.rig, offset_m));
+    result_.speed_max_mps = std::max(result_.speed_max_mps, parts_.rig.truth().speed_mps);
+    if (record_) record_->truth(parts_.rig, now);
   }
 
   void settle(Duration span) {
@@ -173,25 +181,35 @@ class Live {
     while (transport::monotonic_now() < until) {
       read_bus();
       heard_.clear();
-      radio_.serve(transport::monotonic_now());
+      parts_.radio.serve(transport::monotonic_now());
       transport::sleep_until(transport::monotonic_now() + milliseconds(2));
     }
   }
 
   Result<LiveResult, Problem> finish() {
     settle(kSettle);
-    vehicle_->kill(SIGTERM);
-    const Instant limit = transport::monotonic_now() + kStopLimit;
-    while (transport::monotonic_now() < limit && !vehicle_->poll()) settle(milliseconds(10));
-    if (!vehicle_->poll())
-      return Unexpected{Problem{plan_.vehicle.front(), "the car process did not stop"}};
+    if (auto problem = parts_.cast.finish(kStopLimit, [this] { settle(milliseconds(10)); }))
+      return Unexpected{*problem};
     settle(kSettle);
-    bus_.poll_drops();
+    parts_.bus.poll_drops();
     stop_candump();
-    const auto summary = read_car_summary(summary_path());
-    if (!summary) return Unexpected{summary.error()};
-    fill(*summary);
-    return LiveResult{result_, timing_, radio_.counters()};
+    tell_done();
+    fill();
+    if (const auto car = summary()) add_car(*car);
+    close_record();
+    return LiveResult{result_, parts_.radio.counters()};
+  }
+
+  // Of a car that ended as told. Of one that was killed there is none, of one that we did not start
+  // we do not know where it is; one that cannot be read is told.
+  std::optional<CarSummary> summary() {
+    if (plan_.attached()) return std::nullopt;
+    auto read = read_car_summary(plan_.summary_of("vehicle"));
+    if (read && parts_.cast.ended_well(Role::kCar)) return *std::move(read);
+    if (!parts_.cast.was_killed(Role::kCar) || parts_.cast.ended_well(Role::kCar))
+      result_.remarks.push_back("the car left no summary" +
+                                (read ? std::string() : ": " + to_string(read.error())));
+    return std::nullopt;
   }
 
   void stop_candump() {
@@ -200,99 +218,125 @@ class Live {
     candump_->wait();
   }
 
-  void fill(const CarSummary& car) {
+  void fill() {
     result_.scenario = scenario_.name;
     result_.mode = "live";
     result_.simulated_s = result_.wall_s = scenario_.duration.seconds();
-    result_.verdicts = grader_.finish();
-    result_.laps = rig_.laps();
-    result_.traffic.from_car = car.frames_sent;
-    result_.traffic.car_received = car.frames_received;
+    result_.verdicts = parts_.grader.finish();
+    result_.laps = parts_.rig.laps();
+    result_.real_time = clock_.report();
+    result_.traffic.from_car = result_.traffic.bench_received;
+    result_.traffic.lost = lost_here();
+    const CarReport& last = parts_.radio.report();
+    if (std::isfinite(last.gate_refusals))
+      result_.gate_refusals = static_cast<std::uint64_t>(last.gate_refusals);
+    if (std::isfinite(last.bus_refusals))
+      result_.bus_refusals = static_cast<std::uint64_t>(last.bus_refusals);
+  }
+
+  std::uint64_t lost_here() const { return not_taken_ + parts_.bus.counters().rx_dropped_queue; }
+
+  void add_car(const CarSummary& car) {
+    RealTime& time = *result_.real_time;
+    time.step_p50_us = car.step_p50_us;
+    time.step_p99_us = car.step_p99_us;
+    time.step_max_us = car.step_max_us;
+    time.missed_deadlines = car.missed_deadlines;
+    result_.gate_refusals = car.gate_refusals;
+    result_.bus_refusals = car.frames_refused;
+    if (car.identity == "wrong") result_.refused_to_arm = car.identity_sentence;
+    // Not those of the silence after the bench's last frame, which the car counts too.
+    for (const world::LossReport& loss : car.losses)
+      if (loss.id != 0 && loss.due <= clock_.started() + scenario_.duration)
+        result_.bus_losses += loss.frames;
+    // One that was started again knows nothing of its first life.
+    if (!parts_.cast.was_killed(Role::kCar)) compare_counts(car);
+    record_car(car);
+  }
+
+  void compare_counts(const CarSummary& car) {
     const auto missing = [](std::uint64_t sent, std::uint64_t received) {
       return sent > received ? sent - received : 0;
     };
+    result_.traffic.from_car = car.frames_sent;
+    result_.traffic.car_received = car.frames_received;
     result_.traffic.lost = missing(result_.traffic.to_car, car.frames_received) +
                            missing(car.frames_sent, result_.traffic.bench_received) + not_taken_ +
                            car.tx_drops;
-    result_.gate_refusals = car.gate_refusals;
-    result_.bus_refusals = car.frames_refused;
-    // Not those of the silence after the bench's last frame, which the car counts too.
-    for (const world::LossReport& loss : car.losses)
-      if (loss.id != 0 && loss.due <= start_ + scenario_.duration)
-        result_.bus_losses += loss.frames;
-    if (car.identity == "wrong") result_.refused_to_arm = car.identity_sentence;
-    fill_timing();
+  }
+
+  void record_car(const CarSummary& car) {
     if (!record_) return;
     record_->event(Instant{} + scenario_.duration, "identity", car.identity_sentence);
     for (world::LossReport loss : car.losses) {
-      loss.noticed = Instant{} + (loss.noticed - start_);
-      if (loss.due != Instant{}) loss.due = Instant{} + (loss.due - start_);
+      loss.noticed = Instant{} + (loss.noticed - clock_.started());
+      if (loss.due != Instant{}) loss.due = Instant{} + (loss.due - clock_.started());
       record_->loss(loss);
     }
+  }
+
+  void close_record() {
+    if (!record_) return;
     for (const grading::Verdict& verdict : result_.verdicts)
       record_->event(Instant{} + scenario_.duration, verdict.pass ? "pass" : "fail", verdict.text);
-    record_->close();
+    if (!record_->close())
+      result_.remarks.push_back("the event log has no end: its disk took no more, and at least " +
+                                std::to_string(record_->counters().refused_sink) +
+                                " messages were lost");
     result_.digest = record_->digest();
   }
-
-  void fill_timing() {
-    if (late_us_.empty()) return;
-    std::sort(late_us_.begin(), late_us_.end());
-    const auto quantile = [this](double q) {
-      return static_cast<double>(
-          late_us_[static_cast<std::size_t>(q * static_cast<double>(late_us_.size() - 1))]);
-    };
-    timing_.wake_late_p50_us = quantile(0.5);
-    timing_.wake_late_p99_us = quantile(0.99);
-    timing_.wake_late_max_us = quantile(1.0);
-  }
-
-  std::string summary_path() const { return plan_.folder + "/vehicle.json"; }
 
   const scenario::Scenario& scenario_;
   const pipeline::Setup& setup_;
   const LivePlan& plan_;
-  Rig rig_;
-  grading::Grader grader_;
-  CanSocket bus_;
-  RadioPath radio_;
-  ReceiverPort receivers_;
-  std::optional<transport::Process> vehicle_, candump_;
+  Parts parts_;
+  std::optional<transport::Process> candump_;
   std::optional<RunRecord> record_;
-  Instant start_{};
   std::vector<can::ReceivedFrame> inbox_, heard_;
   std::vector<can::Frame> frames_;
-  std::vector<float> late_us_;
+  WakeClock clock_;
   std::uint64_t not_taken_ = 0;
+  std::size_t deeds_told_ = 0, steps_told_ = 0;  // of the cast, of the machine
   RunResult result_;
-  LiveTiming timing_;
 };
+
+std::vector<std::uint16_t> receiver_ports(const LivePlan& plan) {
+  std::vector<std::uint16_t> ports{plan.gnss_port};
+  if (!plan.guardian.empty()) ports.push_back(plan.guardian_gnss_port);
+  return ports;
+}
 
 }  // namespace
 
 Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
                                      const pipeline::Setup& setup, const LivePlan& plan) {
+  if (auto problem = refused_by(BenchMode::kLive, scenario.faults))
+    return Unexpected{*std::move(problem)};
+  auto faults = plan_faults(scenario.faults, scenario.seed);
+  if (!faults) return Unexpected{faults.error()};
   auto rig = Rig::build(scenario, setup.track);
   if (!rig) return Unexpected{rig.error()};
   auto expectations = expectations_of(scenario);
   if (!expectations) return Unexpected{expectations.error()};
   auto grader = grading::Grader::create(*expectations, signal_names());
   if (!grader) return Unexpected{grader.error()};
+  auto machine = Machine::take(faults->processes, plan.disk);
+  if (!machine) return Unexpected{machine.error()};
   auto bus = CanSocket::open(plan.interface);
   if (!bus) return Unexpected{bus.error()};
-  auto radio = RadioPath::open(plan.radio);
+  RadioPorts ports = plan.radio;
+  if (!plan.base.empty()) ports.onward = plan.base_port;
+  auto radio = RadioPath::open(ports);
   if (!radio) return Unexpected{radio.error()};
-  auto receivers = ReceiverPort::open(plan.gnss_port);
+  auto receivers = ReceiverPort::open(receiver_ports(plan));
   if (!receivers) return Unexpected{receivers.error()};
   transport::request_realtime(kPriority);
   return Live{scenario,
               setup,
               plan,
-              *std::move(rig),
-              *std::move(grader),
-              *std::move(bus),
-              *std::move(radio),
-              *std::move(receivers)}
+              {*std::move(rig), *std::move(grader), *std::move(bus), *std::move(radio),
+               *std::move(receivers), *std::move(machine),
+               Cast{members_of(plan), script_of(faults->processes, Instant{} + scenario.duration)}}}
       .run();
 }
 

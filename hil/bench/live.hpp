@@ -8,45 +8,24 @@
 //        '----- UDP NovAtel bytes of two receivers
 //
 //   in     scenario, Setup of the car, LivePlan
-//   out    RunResult with the same verdicts as lockstep; times are real
-//   errors Problem: no interface, the car did not start or died. A late wake-up is caught up and
-//          counted
+//   out    RunResult with the same verdicts as lockstep; times are real. What the scenario did to
+//          processes, clock and disk is in it and in the event log
+//   errors Problem: no interface; a process did not start, or ended although nobody killed it. A
+//          late wake-up is caught up and counted; a log or a summary that could not be written is
+//          told, and the run goes on
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <vector>
-
-#include "hil/bench/radio_path.hpp"
+#include "hil/bench/live_plan.hpp"
 #include "hil/bench/result.hpp"
 #include "hil/scenario/scenario.hpp"
-#include "protocol/recording/mcap_writer.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "vehicle/pipeline/setup.hpp"
 
 namespace pitwall::bench {
 
-inline constexpr std::uint16_t kRadioListenPort = 23'430;
-
-struct LivePlan {
-  std::string interface = "vcan0";
-  std::vector<std::string> vehicle;  // program and arguments but those that the bench adds
-  std::string folder;                // for the car's summary and the candump
-  std::uint16_t gnss_port = 23'501;  // of unit 0; unit 1 is the next one
-  RadioPorts radio{.listen = kRadioListenPort, .onward = 0, .uplink = 0};
-  bool candump = false;  // record the bus with can-utils' candump
-  recording::Sink log;
-};
-
-struct LiveTiming {
-  double wake_late_p50_us = kUnset, wake_late_p99_us = kUnset, wake_late_max_us = kUnset;
-  std::uint64_t caught_up_wakes = 0;  // began more than one wake-up late
-};
-
 struct LiveResult {
   RunResult run;
-  LiveTiming timing;
   RadioCounters radio;
 };
 

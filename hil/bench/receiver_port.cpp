@@ -81,10 +81,10 @@ NovatelDatagram to_novatel(const world::ImuSample& s) {
   return datagram_of(s.at, m);
 }
 
-Result<ReceiverPort, Problem> ReceiverPort::open(std::uint16_t first_port) {
+Result<ReceiverPort, Problem> ReceiverPort::open(std::vector<std::uint16_t> first_ports) {
   auto socket = transport::UdpSocket::bind({});
   if (!socket) return Unexpected{socket.error()};
-  return ReceiverPort{*std::move(socket), first_port};
+  return ReceiverPort{*std::move(socket), std::move(first_ports)};
 }
 
 void ReceiverPort::send(const world::SensorInput& samples) {
@@ -95,9 +95,10 @@ void ReceiverPort::send(const world::SensorInput& samples) {
 }
 
 void ReceiverPort::send_to_unit(std::uint8_t unit, const NovatelDatagram& datagram) {
-  const auto port = static_cast<std::uint16_t>(first_port_ + unit);
-  socket_.send_to({.ip = transport::kLoopbackIp, .port = port},
-                  std::span(datagram.data).first(datagram.length));
+  for (const std::uint16_t first : first_ports_)
+    socket_.send_to(
+        {.ip = transport::kLoopbackIp, .port = static_cast<std::uint16_t>(first + unit)},
+        std::span(datagram.data).first(datagram.length));
 }
 
 }  // namespace pitwall::bench

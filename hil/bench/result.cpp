@@ -65,6 +65,20 @@ std::string real_time_json(const RealTime& t) {
          ",\"missed_deadlines\":" + std::to_string(t.missed_deadlines) + "}";
 }
 
+std::string done_json(const std::vector<Done>& done) {
+  std::string out = "[";
+  for (std::size_t i = 0; i < done.size(); ++i)
+    out += (i == 0 ? "" : ",") + std::string("{\"at_s\":") +
+           number((done[i].at - Instant{}).seconds()) + ",\"what\":" + quoted(done[i].what) + "}";
+  return out + "]";
+}
+
+std::string remarks_json(const std::vector<std::string>& remarks) {
+  std::string out = "[";
+  for (std::size_t i = 0; i < remarks.size(); ++i) out += (i == 0 ? "" : ",") + quoted(remarks[i]);
+  return out + "]";
+}
+
 }  // namespace
 
 bool RunResult::passed() const {
@@ -97,6 +111,9 @@ std::string to_text(const RunResult& r) {
       static_cast<unsigned long long>(r.gate_refusals),
       static_cast<unsigned long long>(r.bus_losses));
   if (!r.refused_to_arm.empty()) out += "car refused to arm: " + r.refused_to_arm + "\n";
+  for (const Done& done : r.done)
+    out += format("at %.3f s: ", (done.at - Instant{}).seconds()) + done.what + "\n";
+  for (const std::string& remark : r.remarks) out += "note: " + remark + "\n";
   for (const grading::Verdict& verdict : r.verdicts)
     out += (verdict.pass ? "PASS  " : "FAIL  ") + verdict.text +
            format("  (margin %.4g)", verdict.margin) + (verdict.pass ? "" : "  " + verdict.reason) +
@@ -135,6 +152,7 @@ std::string to_json(const RunResult& r) {
          ",\"bus_refusals\":" + std::to_string(r.bus_refusals) +
          ",\"bus_losses\":" + std::to_string(r.bus_losses) +
          (r.real_time ? ",\"real_time\":" + real_time_json(*r.real_time) : std::string()) +
+         ",\"done\":" + done_json(r.done) + ",\"remarks\":" + remarks_json(r.remarks) +
          ",\"refused_to_arm\":" + quoted(r.refused_to_arm) + ",\"sha256\":" + quoted(r.digest) +
          ",\"verdicts\":" + verdicts_json(r.verdicts) + "}";
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "hil/bench/process_script.hpp"
 #include "hil/bench/rig.hpp"
 #include "hil/grading/cross_track.hpp"
 #include "hil/grading/grader.hpp"
@@ -46,6 +47,8 @@ struct RunResult {
   double speed_max_mps = 0.0;
   std::optional<RealTime> real_time;
   std::string refused_to_arm;  // why, if at the end the bus was not that of the car; else empty
+  std::vector<Done> done;      // to processes, clock and disk: faults that were carried out
+  std::vector<std::string> remarks;  // what else a reader must know, e.g. that the log has a gap
   std::string digest;
 
   bool passed() const;

@@ -2,14 +2,19 @@
 #include "hil/verbs/run_verb.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <initializer_list>
+#include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "hil/bench/live.hpp"
 #include "hil/bench/loading.hpp"
 #include "hil/bench/lockstep.hpp"
+#include "hil/bench/machine.hpp"
 #include "hil/guest/bus_verb.hpp"
 #include "hil/verbs/command_line.hpp"
 #include "hil/verbs/exit_code.hpp"
@@ -33,47 +38,90 @@ Result<recording::Sink, Problem> sink_to(const std::string& path) {
 
 std::string timing_text(const bench::LiveResult& live) {
   char text[256];
+  const bench::RealTime& time = *live.run.real_time;
   std::snprintf(
       text, sizeof text,
       "bench wake-up late by p50 %.0f us, p99 %.0f us, max %.0f us; %llu wake-ups caught up; "
       "telemetry %llu packets, %llu refused; %llu datagrams of the base to the car\n",
-      live.timing.wake_late_p50_us, live.timing.wake_late_p99_us, live.timing.wake_late_max_us,
-      static_cast<unsigned long long>(live.timing.caught_up_wakes),
+      time.wake_late_p50_us, time.wake_late_p99_us, time.wake_late_max_us,
+      static_cast<unsigned long long>(time.caught_up_wakes),
       static_cast<unsigned long long>(live.radio.packets),
       static_cast<unsigned long long>(live.radio.refused),
       static_cast<unsigned long long>(live.radio.to_car));
   return text;
 }
 
-Result<bench::RunResult, Problem> lockstep(const bench::Loaded& loaded,
-                                           const recording::Sink& log) {
+Result<bench::RunResult, Problem> lockstep(const RunOptions& options, const bench::Loaded& loaded) {
+  const auto log = sink_to(options.log_file);
+  if (!log) return Unexpected{log.error()};
   const Instant begun = transport::monotonic_now();
   // Without a file the log is still made: its digest names the run.
   const recording::Sink sink =
-      log ? log : recording::Sink{[](std::span<const std::uint8_t>) { return true; }};
+      *log ? *log : recording::Sink{[](std::span<const std::uint8_t>) { return true; }};
   auto result = bench::run_lockstep(loaded.scenario, loaded.setup, {.log = sink});
   if (result) result->wall_s = (transport::monotonic_now() - begun).seconds();
   return result;
 }
 
-Result<bench::RunResult, Problem> live(const RunOptions& options, const bench::Loaded& loaded,
-                                       recording::Sink log) {
+std::string beside(const std::string& program) {
+  return (fs::path(own_program()).parent_path().parent_path() / program).string();
+}
+
+bool names(const scenario::Scenario& scenario, std::initializer_list<const char*> kinds) {
+  return std::ranges::any_of(scenario.faults, [&](const scenario::Fault& fault) {
+    return std::ranges::find(kinds, fault.kind) != kinds.end();
+  });
+}
+
+// A base station of our own where the scenario is about one, or about a clock that it has too.
+bench::LivePlan plan_of(const RunOptions& options, const scenario::Scenario& scenario) {
+  bench::LivePlan plan{.interface = options.interface,
+                       .folder = options.folder,
+                       .guardian_name = "pitwall-live",
+                       .radio = {.listen = bench::kRadioListenPort,
+                                 .onward = options.radio_port,
+                                 .uplink = options.uplink_port},
+                       .candump = options.candump};
+  if (names(scenario, {"base_killed", "base_paused", "clock_step"}))
+    plan.base = {beside("basestation/pitwall-base")};
+  if (options.attach) return plan;
+  const std::vector<std::string> files{"--car", scenario.car_file, "--track", scenario.track_file};
+  plan.vehicle = {beside("vehicle/pitwall-vehicle")};
+  plan.vehicle.insert(plan.vehicle.end(), files.begin(), files.end());
+  if (const std::string guardian = beside("vehicle/guardian/pitwall-guardian");
+      fs::exists(guardian) && !options.no_guardian) {
+    plan.guardian = {guardian};
+    plan.guardian.insert(plan.guardian.end(), files.begin(), files.end());
+  }
+  if (names(scenario, {"log_disk_full"})) plan.disk = options.folder + "/disk";
+  return plan;
+}
+
+// What is left on the disk that was full goes where it would have been.
+std::optional<Problem> copy_out(const std::string& from, const std::string& to) {
+  std::error_code error;
+  fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
+  return error ? std::optional{Problem{from, error.message()}} : std::nullopt;
+}
+
+Result<bench::RunResult, Problem> live(const RunOptions& options, const bench::Loaded& loaded) {
   std::error_code error;
   fs::create_directories(options.folder, error);
   if (error) return Unexpected{Problem{options.folder, error.message()}};
-  const std::string vehicle =
-      (fs::path(own_program()).parent_path().parent_path() / "vehicle/pitwall-vehicle").string();
-  const bench::LivePlan plan{.interface = options.interface,
-                             .vehicle = {vehicle, "--car", loaded.scenario.car_file, "--track",
-                                         loaded.scenario.track_file},
-                             .folder = options.folder,
-                             .radio = {.listen = bench::kRadioListenPort,
-                                       .onward = options.radio_port,
-                                       .uplink = options.uplink_port},
-                             .candump = options.candump,
-                             .log = std::move(log)};
+  bench::LivePlan plan = plan_of(options, loaded.scenario);
+  std::string log_file = options.log_file;
+  if (!plan.disk.empty()) {
+    if (const auto mounted = bench::mount_disk(plan.disk); !mounted)
+      return Unexpected{mounted.error()};
+    log_file = plan.disk + "/events.mcap";
+  }
+  auto log = sink_to(log_file);
+  if (!log) return Unexpected{log.error()};
+  plan.log = *std::move(log);
   auto result = bench::run_live(loaded.scenario, loaded.setup, plan);
   if (!result) return Unexpected{result.error()};
+  if (!plan.disk.empty() && !options.log_file.empty())
+    if (auto problem = copy_out(log_file, options.log_file)) return Unexpected{*problem};
   if (!options.quiet) std::printf("%s", timing_text(*result).c_str());
   return result->run;
 }
@@ -106,6 +154,7 @@ std::vector<std::string> live_command(const RunOptions& options) {
   if (options.duration) add("--duration", std::to_string(options.duration->seconds()));
   if (options.seed) add("--seed", std::to_string(*options.seed));
   if (options.candump) command.emplace_back("--candump");
+  if (options.no_guardian) command.emplace_back("--no-guardian");
   return command;
 }
 
@@ -114,10 +163,7 @@ int run_scenario(const RunOptions& options) {
   if (!loaded) return refuse(loaded.error());
   if (options.duration) loaded->scenario.duration = *options.duration;
   if (options.seed) loaded->scenario.seed = *options.seed;
-  auto log = sink_to(options.log_file);
-  if (!log) return refuse(log.error());
-  const auto result =
-      options.live ? live(options, *loaded, *std::move(log)) : lockstep(*loaded, *log);
+  const auto result = options.live ? live(options, *loaded) : lockstep(options, *loaded);
   if (!result) return refuse(result.error());
   if (!options.quiet) std::printf("%s", bench::to_text(*result).c_str());
   std::fflush(stdout);
@@ -136,6 +182,9 @@ int run_verb(std::span<const std::string> args) {
   app.add_option("scenario", options.scenario, "scenario file")->required();
   app.add_flag("--live", options.live, "real SocketCAN, real car process, real time");
   app.add_flag("--here", options.here, "live: the interface exists here already");
+  app.add_flag("--attach", options.attach, "live: the car runs already; only with --here")
+      ->needs("--here");
+  app.add_flag("--no-guardian", options.no_guardian, "live: the car alone");
   app.add_option("--interface", options.interface, "live: CAN interface");
   app.add_option("--log", options.log_file, "write the event log (MCAP)");
   app.add_option("--json", options.json_file, "write the result as JSON");

@@ -1,8 +1,7 @@
 // `pitwall-hil run SCENARIO`: one scenario, in lockstep (default) or live.
 //
 //   --live            real SocketCAN and the real car process; where this kernel has no CAN,
-//          inside a
-//                     User-mode Linux guest that is booted for it
+//                     inside a User-mode Linux guest that is booted for it
 //   --log FILE        event log (MCAP)       --json FILE   result for programs
 //   --out FOLDER      live: summary of the car, candump of the bus
 //   out    exit code 0 passed, 1 an expectation failed, 2 bad input or bench failure
@@ -24,6 +23,8 @@ struct RunOptions {
   std::optional<Duration> duration;   // instead of the scenario's
   std::optional<std::uint64_t> seed;  // likewise
   bool live = false, here = false, candump = false, quiet = false;
+  bool attach = false;       // live: the car is not ours, it runs already
+  bool no_guardian = false;  // live: the car alone, although the guardian's program is there
   std::string interface = "vcan0";
   std::uint16_t radio_port = 0;   // live: where the bench passes the car's telemetry on
   std::uint16_t uplink_port = 0;  // live: where answers of the base come; 0: any port

@@ -154,7 +154,7 @@ TEST(ReceiverPort, SendsEachUnitToItsOwnPort) {
   }
   ASSERT_TRUE(first && second);
   // WHEN samples of both units are sent
-  auto receivers = ReceiverPort::open(port);
+  auto receivers = ReceiverPort::open({port});
   ASSERT_TRUE(receivers);
   world::SensorInput samples;
   world::GnssPosition p = position();

@@ -18,16 +18,18 @@ Result<Loaded, Problem> load_scenario(const std::string& name) {
   return load(kRoot + "/hil/scenarios/" + name + ".yaml", kRoot);
 }
 
-// A longer one has a test of its own; one that does not load has to fail in the test.
-bool is_short(const std::string& name) {
+// A longer one has a test of its own, and so has one that only the live bench can carry out
+// (tests/system/live); one that does not load has to fail in the test.
+bool is_for_here(const std::string& name) {
   const auto loaded = load_scenario(name);
-  return !loaded || loaded->scenario.duration <= kLongest;
+  return !loaded || (loaded->scenario.duration <= kLongest &&
+                     !refused_by(BenchMode::kLockstep, loaded->scenario.faults));
 }
 
 std::vector<std::string> scenario_files() {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(kRoot + "/hil/scenarios"))
-    if (entry.path().extension() == ".yaml" && is_short(entry.path().stem().string()))
+    if (entry.path().extension() == ".yaml" && is_for_here(entry.path().stem().string()))
       files.push_back(entry.path().stem().string());
   std::sort(files.begin(), files.end());
   return files;

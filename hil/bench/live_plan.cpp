@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/live_plan.hpp"
+
+namespace pitwall::bench {
+namespace {
+
+using Words = std::vector<std::string>;
+
+Words operator+(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+Words receivers(std::uint16_t first_port) {
+  return {"--gnss", std::to_string(first_port) + "," + std::to_string(first_port + 1)};
+}
+
+Words shared_memory(const LivePlan& plan) {
+  return plan.guardian.empty() ? Words{} : Words{"--guardian", plan.guardian_name};
+}
+
+Words car_command(const LivePlan& plan) {
+  return plan.vehicle + Words{"--can", plan.interface} + receivers(plan.gnss_port) +
+         Words{"--radio", "127.0.0.1:" + std::to_string(plan.radio.listen)} + shared_memory(plan) +
+         Words{"--summary", plan.summary_of("vehicle"), "--simulation"};
+}
+
+Words guardian_command(const LivePlan& plan) {
+  return plan.guardian + Words{"--can", plan.interface} + shared_memory(plan) +
+         receivers(plan.guardian_gnss_port) +
+         Words{"--summary", plan.summary_of("guardian"), "--simulation"};
+}
+
+Words base_command(const LivePlan& plan) {
+  return plan.base + Words{"--listen", "127.0.0.1:" + std::to_string(plan.base_port), "--json",
+                           plan.folder + "/base.json"};
+}
+
+}  // namespace
+
+std::array<Member, kRoles> members_of(const LivePlan& plan) {
+  std::array<Member, kRoles> members;
+  const auto play = [&](Role role, const Words& first, const Words& again) {
+    members[static_cast<std::size_t>(role)] = {.command = first, .restart = again};
+  };
+  if (!plan.attached()) {
+    const Words car = car_command(plan);
+    play(Role::kCar, car + Words{"--arm"}, car);
+  }
+  if (!plan.guardian.empty()) {
+    const Words guardian = guardian_command(plan);
+    play(Role::kGuardian, guardian, guardian);
+  }
+  if (!plan.base.empty()) {
+    const Words base = base_command(plan);
+    play(Role::kBase, base, base);
+  }
+  return members;
+}
+
+}  // namespace pitwall::bench

@@ -1,0 +1,45 @@
+// What a live run is made of: programs, ports, files; and the command of each process.
+//   in     LivePlan
+//   out    argv per role, for the start and for a start after a kill. Only the first start of the
+//          car is armed
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hil/bench/cast.hpp"
+#include "hil/bench/radio_path.hpp"
+#include "protocol/recording/mcap_writer.hpp"
+
+namespace pitwall::bench {
+
+inline constexpr std::uint16_t kRadioListenPort = 23'430;
+
+struct LivePlan {
+  std::string interface = "vcan0";
+  // Program and arguments but those that the bench adds. No car: it runs already, and the bench
+  // attaches itself to its bus, its receivers' ports and its radio.
+  std::vector<std::string> vehicle{}, guardian{}, base{};
+  std::string folder{};                       // for the summaries and the candump
+  std::string disk{};                         // a full disk of the scenario; empty: none
+  std::string guardian_name{};                // of the memory that car and guardian share
+  std::uint16_t gnss_port = 23'501;           // of unit 0; unit 1 is the next one
+  std::uint16_t guardian_gnss_port = 23'503;  // likewise, of the guardian
+  std::uint16_t base_port = 23'433;           // where a base station of our own listens
+  RadioPorts radio{.listen = kRadioListenPort, .onward = 0, .uplink = 0};
+  bool candump = false;  // record the bus with can-utils' candump
+  recording::Sink log{};
+
+  bool attached() const { return vehicle.empty(); }
+  // Where the car and the guardian leave their summaries: on the disk that fills up, if any.
+  std::string summary_of(const std::string& who) const {
+    return (disk.empty() ? folder : disk) + "/" + who + ".json";
+  }
+};
+
+std::array<Member, kRoles> members_of(const LivePlan& plan);
+
+}  // namespace pitwall::bench

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/wake_clock.hpp"
+
+#include <algorithm>
+
+#include "protocol/transport/clock.hpp"
+
+namespace pitwall::bench {
+
+WakeClock::WakeClock(Duration period, Duration longest) : period_(period) {
+  late_us_.reserve(static_cast<std::size_t>(longest / period) + 1);
+  report_.wake_late.assign(RealTime::kWakeBins, 0);
+}
+
+void WakeClock::start() { start_ = transport::monotonic_now(); }
+
+void WakeClock::sleep_until(Instant now) {
+  const Instant deadline = start_ + (now - Instant{});
+  Instant at = transport::monotonic_now();
+  if (at >= deadline) {
+    if (at - deadline >= period_) ++report_.caught_up_wakes;
+    return;
+  }
+  transport::sleep_until(deadline);
+  at = transport::monotonic_now();
+  const auto late_us = static_cast<float>((at - deadline).ns) * 1e-3F;
+  late_us_.push_back(late_us);
+  const auto bin = static_cast<std::size_t>(late_us / static_cast<float>(RealTime::kWakeBin_us));
+  ++report_.wake_late[std::min(bin, RealTime::kWakeBins - 1)];
+}
+
+RealTime WakeClock::report() {
+  if (late_us_.empty()) return report_;
+  std::sort(late_us_.begin(), late_us_.end());
+  const auto quantile = [this](double q) {
+    return static_cast<double>(
+        late_us_[static_cast<std::size_t>(q * static_cast<double>(late_us_.size() - 1))]);
+  };
+  report_.wake_late_p50_us = quantile(0.5);
+  report_.wake_late_p99_us = quantile(0.99);
+  report_.wake_late_max_us = quantile(1.0);
+  return report_;
+}
+
+}  // namespace pitwall::bench

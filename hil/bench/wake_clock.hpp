@@ -1,0 +1,32 @@
+// Wakes the live bench at whole multiples of a period since the start, and says how punctual that
+// was. A late wake-up is caught up at once and counted; no multiple is left out.
+//   out    RealTime: lateness of the wake-ups that were slept for
+//   cost   one sleep per period; memory for every lateness is reserved at construction
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "hil/bench/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::bench {
+
+class WakeClock {
+ public:
+  WakeClock(Duration period, Duration longest);
+
+  void start();
+  Instant started() const { return start_; }
+  // Sleeps until `now` of the scenario, a multiple of the period.
+  void sleep_until(Instant now);
+  RealTime report();
+
+ private:
+  Duration period_;
+  Instant start_{};
+  std::vector<float> late_us_;
+  RealTime report_;
+};
+
+}  // namespace pitwall::bench

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/wake_clock.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "protocol/transport/clock.hpp"
+
+namespace pitwall::bench {
+namespace {
+
+constexpr Duration kPeriod = milliseconds(2);
+
+TEST(WakeClock, NeverWakesEarlyAndCountsEveryWakeUpOnce) {
+  constexpr int kWakes = 50;
+  WakeClock clock(kPeriod, kWakes * kPeriod);
+  clock.start();
+  for (int i = 1; i <= kWakes; ++i) {
+    clock.sleep_until(Instant{} + i * kPeriod);
+    EXPECT_GE(transport::monotonic_now(), clock.started() + i * kPeriod);
+  }
+  const RealTime report = clock.report();
+  ASSERT_EQ(report.wake_late.size(), RealTime::kWakeBins);
+  const auto slept = std::accumulate(report.wake_late.begin(), report.wake_late.end(), 0ULL);
+  EXPECT_LE(slept + report.caught_up_wakes, static_cast<unsigned>(kWakes));
+  if (slept > 0) {
+    EXPECT_LE(0.0, report.wake_late_p50_us);
+    EXPECT_LE(report.wake_late_p50_us, report.wake_late_p99_us);
+    EXPECT_LE(report.wake_late_p99_us, report.wake_late_max_us);
+  }
+}
+
+TEST(WakeClock, ALateOneIsCaughtUpAtOnceAndCounted) {
+  WakeClock clock(kPeriod, 10 * kPeriod);
+  clock.start();
+  transport::sleep_until(clock.started() + 5 * kPeriod);
+  for (int i = 1; i <= 4; ++i) clock.sleep_until(Instant{} + i * kPeriod);
+  const RealTime report = clock.report();
+  EXPECT_EQ(report.caught_up_wakes, 4u) << "each of them began at least a period late";
+  EXPECT_EQ(std::accumulate(report.wake_late.begin(), report.wake_late.end(), 0ULL), 0u);
+}
+
+}  // namespace
+}  // namespace pitwall::bench
