@@ -27,8 +27,12 @@ inline constexpr std::string_view kValidities = "never|good|dead reckoning|lost"
 inline constexpr std::string_view kIdentities = "listening|right|wrong";
 inline constexpr std::string_view kControllerStates = "unknown|active|warning|passive|BUS OFF|down";
 inline constexpr std::string_view kBaseStates = "not watched|never heard|heard|late|LOST";
+inline constexpr std::string_view kArmings =
+    "not asked|armed|waits for a fault to pass|REFUSED: the car moves|"
+    "REFUSED: the last run ended while armed|SPENT: release and arm anew";
 inline constexpr std::string_view kStopCauses =
-    "none|operator: emergency stop|purple flag|drive-by-wire: system failure|"
+    "none|operator: emergency stop|purple flag|CAN bus dead: the drive-by-wire is silent|"
+    "drive-by-wire: system failure|"
     "drive-by-wire: emergency brake|drive-by-wire: steering lost|"
     "drive-by-wire: emergency shutdown|operator: stop|operator: disarm|engine-kill flag|"
     "drive-by-wire: engine lost|drive-by-wire: brake out of spec|"

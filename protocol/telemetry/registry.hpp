@@ -46,6 +46,7 @@ inline constexpr auto kFields = [] {
       {kMode, "ct_state", "", 0, 255, 1, kSafety, kFast, kCtStates},
       {kMode, "sys_state", "", 0, 255, 1, kSafety, kFast, kSysStates},
       {kMode, "first_stop_cause", "", 0, 126, 1, kSafety, kFast, kStopCauses},
+      {kMode, "arming", "", 0, 14, 1, kSafety, kMedium, kArmings},
 
       {kFlags, "track", "", 0, 14, 1, kSafety, kMedium, kTrackFlags},
       {kFlags, "vehicle", "", 0, 14, 1, kSafety, kMedium, kVehicleFlags},

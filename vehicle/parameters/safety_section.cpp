@@ -71,7 +71,8 @@ void read_watchdog(yaml::StrictMap map, safety::WatchdogParams& watchdog) {
 
 void read_faults(yaml::StrictMap map, safety::FaultParams& faults) {
   faults.dead_reckoning_max = time_s(map, "dead_reckoning_max_s", 0.1, 10.0);
-  faults.bus_silence_max = time_s(map, "bus_silence_max_s", 0.02, 1.0);
+  faults.bus_dead = time_s(map, "bus_dead_s", 0.03, 0.1);
+  faults.bus_dead_disarm = time_s(map, "bus_dead_disarm_s", 5.0, 60.0);
   faults.position_sigma_max_m = map.number("position_sigma_max_m", 0.1, 10.0);
   faults.control_failures = static_cast<std::uint8_t>(map.integer("control_failures", 1, 20));
   faults.refused_ticks = static_cast<std::uint8_t>(map.integer("refused_ticks", 1, 20));

@@ -39,6 +39,9 @@ std::optional<Problem> refused_by_gate(const CarParams& p) {
       LegalRange{"safety.gate.gear_max", static_cast<double>(gate.gear_max), control::kGears, 8.0},
       LegalRange{"safety.gate.command_age_max_s", gate.command_age_max.seconds(),
                  p.rates.tick.seconds(), 0.2},
+      // Shorter than a stop from top speed, and the car would let go of the brake while it moves.
+      LegalRange{"safety.supervisor.faults.bus_dead_disarm_s", s.faults.bus_dead_disarm.seconds(),
+                 p.planning.line.speed_max_mps / s.safe_stop.decel_without_plan_mps2, 60.0},
       LegalRange{"safety.supervisor.steering_ratio", s.steering_ratio, p.outbound.steering_ratio,
                  p.outbound.steering_ratio}});
 }

@@ -21,6 +21,9 @@ constexpr bool causes_are_labelled_as_in_safety() {
   return telemetry::label_at(telemetry::kStopCauses, safety::kCauses).empty();
 }
 static_assert(causes_are_labelled_as_in_safety(), "telemetry labels of causes are out of date");
+static_assert(telemetry::label_at(telemetry::kArmings,
+                                  static_cast<std::size_t>(safety::Arming::kSpent)) ==
+              "SPENT: release and arm anew");
 static_assert(telemetry::label_at(telemetry::kBaseStates,
                                   static_cast<std::size_t>(safety::Health::kBad)) == "LOST");
 
@@ -32,6 +35,7 @@ double number_of(E value) {
 void put_decisions(Values& v, const Outputs& out) {
   v[field("mode.mode")] = number_of(out.chosen.mode);
   v[field("mode.ct_state")] = number_of(out.ct_state);
+  v[field("mode.arming")] = number_of(out.chosen.arming);
   v[field("mode.first_stop_cause")] = number_of(out.chosen.cause);
   v[field("command.steering")] = out.chosen.command.road_wheel_rad;
   v[field("command.throttle")] = out.chosen.command.throttle_fraction;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace pitwall::safety {
 namespace {
@@ -10,6 +11,9 @@ namespace {
 using world::SysState;
 using world::Validity;
 using world::VehicleFlag;
+
+constexpr auto kFirstOfDriveByWire = static_cast<std::size_t>(Stream::kWheelSpeed);
+constexpr auto kLastOfDriveByWire = static_cast<std::size_t>(Stream::kDiagnostics);
 
 struct Finder {
   const FaultParams& params;
@@ -66,19 +70,36 @@ void drive_by_wire(Finder& f) {
   f.add(Cause::kRaceControlReportedLost, d.race_control_lost);
 }
 
-void bus(Finder& f, Instant now) {
+void bus(Finder& f) {
   // While listening the bus is not known, and not knowing bars arming as well. Value: the first id
   // that differs.
   f.add(Cause::kWrongBus, f.in.bus.identity.verdict != world::IdentityVerdict::kRight,
         static_cast<double>(f.in.bus.identity.id));
   f.add(Cause::kBusOff, f.in.bus_failed);
   f.add(Cause::kOwnIdOnBus, f.in.own_id_seen);
-  // Value: which stream, or one more than the last for the whole bus.
-  f.add(Cause::kBusMessageLost, now - f.in.bus.last_frame > f.params.bus_silence_max,
-        static_cast<double>(kStreams));
-  for (auto s = static_cast<std::size_t>(Stream::kWheelSpeed);
-       s <= static_cast<std::size_t>(Stream::kDiagnostics); ++s)
+  // Value: which stream.
+  for (std::size_t s = kFirstOfDriveByWire; s <= kLastOfDriveByWire; ++s)
     f.add(Cause::kBusMessageLost, is_down(f.in.watchdog.rows[s]), static_cast<double>(s));
+}
+
+// Since the newest message of the drive-by-wire; none before the first.
+std::optional<Duration> drive_by_wire_silence(const WatchdogOutput& dog) {
+  std::optional<Duration> least;
+  for (std::size_t s = kFirstOfDriveByWire; s <= kLastOfDriveByWire; ++s) {
+    const StreamRow& row = dog.rows[s];
+    if (row.health == Health::kUnwatched || row.health == Health::kNever) continue;
+    least = std::min(least.value_or(row.age), row.age);
+  }
+  return least;
+}
+
+void dead_bus(Finder& f, FaultState& state, Instant now) {
+  const auto silence = drive_by_wire_silence(f.in.watchdog);
+  const bool dead = silence && *silence > f.params.bus_dead;
+  if (dead && !state.bus_dead) state.bus_dead_since = now;
+  state.bus_dead = dead;
+  f.add(Cause::kBusDead, dead, silence ? silence->seconds() : kUnset);
+  f.out.nobody_obeys = dead && now - state.bus_dead_since >= f.params.bus_dead_disarm;
 }
 
 void counts(Finder& f, FaultState& state) {
@@ -135,7 +156,8 @@ FaultOutput detect(const FaultParams& params, FaultState& state, const FaultInpu
   Finder finder{params, inputs, {}};
   operators(finder);
   drive_by_wire(finder);
-  bus(finder, now);
+  bus(finder);
+  dead_bus(finder, state, now);
   counts(finder, state);
   localization(finder, state, now);
   streams(finder);

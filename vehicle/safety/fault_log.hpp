@@ -21,6 +21,7 @@ enum class Cause : std::uint8_t {
   // emergency: brake as hard as grip allows
   kOperatorEmergency,
   kPurpleFlag,
+  kBusDead,
   kSystemFailure,
   kEmergencyBrake,
   kSteeringCommsLost,
@@ -51,7 +52,7 @@ enum class Cause : std::uint8_t {
   kRaceControlReportedLost,
   kRadioLost
 };
-inline constexpr std::size_t kCauses = 31;
+inline constexpr std::size_t kCauses = 32;
 
 enum class Reaction : std::uint8_t { kNone, kControlledStop, kEmergencyStop };
 
@@ -60,12 +61,15 @@ struct CauseRow {
   const char* text;
   Reaction reaction;
   bool bars_arming;  // the rest may be absent in the garage and bars driving only
+  // An armed car that has not moved yet is disarmed: when the cause is gone it must not set off.
+  bool voids_arming = false;
 };
 
 inline constexpr std::array<CauseRow, kCauses> kCauseTable{{
     {Cause::kNone, "none", Reaction::kNone, false},
     {Cause::kOperatorEmergency, "operator: emergency stop", Reaction::kEmergencyStop, true},
     {Cause::kPurpleFlag, "purple flag", Reaction::kEmergencyStop, true},
+    {Cause::kBusDead, "CAN bus dead: the drive-by-wire is silent", Reaction::kEmergencyStop, true},
     {Cause::kSystemFailure, "drive-by-wire: system failure", Reaction::kEmergencyStop, true},
     {Cause::kEmergencyBrake, "drive-by-wire: emergency brake", Reaction::kEmergencyStop, true},
     {Cause::kSteeringCommsLost, "drive-by-wire: steering lost", Reaction::kEmergencyStop, true},
@@ -97,7 +101,7 @@ inline constexpr std::array<CauseRow, kCauses> kCauseTable{{
     {Cause::kRaceControlLost, "race control lost", Reaction::kControlledStop, false},
     {Cause::kRaceControlReportedLost, "race control lost, says the drive-by-wire",
      Reaction::kControlledStop, false},
-    {Cause::kRadioLost, "base station lost", Reaction::kControlledStop, false},
+    {Cause::kRadioLost, "base station lost", Reaction::kControlledStop, true, true},
 }};
 
 constexpr const CauseRow& row_of(Cause cause) {

@@ -15,15 +15,16 @@ namespace pitwall::safety {
 
 // In the order of priority.
 enum class Event : std::uint8_t {
-  kEmergency,   // a cause of Reaction::kEmergencyStop holds
-  kStop,        // a cause of Reaction::kControlledStop holds
-  kStandstill,  // the car has stood for the dwell
-  kDisarm,      // the arm request is withdrawn
-  kReset,       // rising edge of the operator's reset, and no emergency cause holds
-  kArm,         // arm requested, and no cause holds that bars arming
-  kGo           // everything that driving needs is there, and no cause holds
+  kNobodyObeys,  // the drive-by-wire has been silent for longer than any stop takes
+  kEmergency,    // a cause of Reaction::kEmergencyStop holds
+  kStop,         // a cause of Reaction::kControlledStop holds
+  kStandstill,   // the car has stood for the dwell
+  kDisarm,       // the arm request is withdrawn
+  kReset,        // rising edge of the operator's reset, and no emergency cause holds
+  kArm,          // arm requested, and no cause holds that bars arming
+  kGo            // everything that driving needs is there, and no cause holds
 };
-inline constexpr std::size_t kEvents = 7;
+inline constexpr std::size_t kEvents = 8;
 using Events = std::array<bool, kEvents>;
 
 namespace table {
@@ -31,20 +32,20 @@ using enum world::Mode;
 using Row = std::array<world::Mode, kEvents>;
 // clang-format off
 inline constexpr std::array<Row, world::kModes> kNext{{
-  //                     Emergency       Stop             Standstill       Disarm
-  //                     Reset           Arm              Go
-  /* Disarmed       */ {{kDisarmed,      kDisarmed,       kDisarmed,       kDisarmed,
-                         kDisarmed,      kStandby,        kDisarmed}},
-  /* Standby        */ {{kEmergencyStop, kStandby,        kStandby,        kDisarmed,
-                         kStandby,       kStandby,        kDriving}},
-  /* Driving        */ {{kEmergencyStop, kControlledStop, kDriving,        kControlledStop,
-                         kDriving,       kDriving,        kDriving}},
-  /* ControlledStop */ {{kEmergencyStop, kControlledStop, kHalted,         kControlledStop,
-                         kControlledStop, kControlledStop, kControlledStop}},
-  /* EmergencyStop  */ {{kEmergencyStop, kEmergencyStop,  kHalted,         kEmergencyStop,
-                         kEmergencyStop, kEmergencyStop,  kEmergencyStop}},
-  /* Halted         */ {{kHalted,        kHalted,         kHalted,         kHalted,
-                         kDisarmed,      kHalted,         kHalted}},
+  //                     NobodyObeys     Emergency       Stop             Standstill
+  //                     Disarm          Reset           Arm              Go
+  /* Disarmed       */ {{kDisarmed,      kDisarmed,      kDisarmed,       kDisarmed,
+                         kDisarmed,      kDisarmed,      kStandby,        kDisarmed}},
+  /* Standby        */ {{kDisarmed,      kEmergencyStop, kStandby,        kStandby,
+                         kDisarmed,      kStandby,       kStandby,        kDriving}},
+  /* Driving        */ {{kDisarmed,      kEmergencyStop, kControlledStop, kDriving,
+                         kControlledStop, kDriving,      kDriving,        kDriving}},
+  /* ControlledStop */ {{kDisarmed,      kEmergencyStop, kControlledStop, kHalted,
+                         kControlledStop, kControlledStop, kControlledStop, kControlledStop}},
+  /* EmergencyStop  */ {{kDisarmed,      kEmergencyStop, kEmergencyStop,  kHalted,
+                         kEmergencyStop, kEmergencyStop, kEmergencyStop,  kEmergencyStop}},
+  /* Halted         */ {{kDisarmed,      kHalted,        kHalted,         kHalted,
+                         kHalted,        kDisarmed,      kHalted,         kHalted}},
 }};
 // clang-format on
 }  // namespace table
@@ -84,19 +85,25 @@ static_assert(every_cell([](world::Mode, Event event, world::Mode to) {
               }),
               "a fault never leads to driving, nor leaves it as it is");
 static_assert(every_cell([](world::Mode from, Event event, world::Mode to) {
+                const bool leaves = event == Event::kReset || event == Event::kNobodyObeys;
                 return from != world::Mode::kHalted || to == world::Mode::kHalted ||
-                       (event == Event::kReset && to == world::Mode::kDisarmed);
+                       (leaves && to == world::Mode::kDisarmed);
               }),
-              "halted is left by a reset only, and to disarmed");
+              "halted is left by a reset, or where nobody obeys, and to disarmed");
+static_assert(every_cell([](world::Mode, Event event, world::Mode to) {
+                return event != Event::kNobodyObeys || to == world::Mode::kDisarmed;
+              }),
+              "where nobody obeys nothing is commanded, whatever the mode");
 static_assert(every_cell([](world::Mode from, Event event, world::Mode to) {
                 return to != world::Mode::kDriving || from == world::Mode::kDriving ||
                        (from == world::Mode::kStandby && event == Event::kGo);
               }),
               "driving is entered from standby on go only");
-static_assert(every_cell([](world::Mode from, Event, world::Mode to) {
-                return !stops(from) || stops(to) || to == world::Mode::kHalted;
+static_assert(every_cell([](world::Mode from, Event event, world::Mode to) {
+                return !stops(from) || stops(to) || to == world::Mode::kHalted ||
+                       event == Event::kNobodyObeys;
               }),
-              "a stop ends in halted");
+              "a stop ends in halted while somebody obeys");
 static_assert(every_cell([](world::Mode from, Event, world::Mode to) {
                 return from != world::Mode::kEmergencyStop || to != world::Mode::kControlledStop;
               }),

@@ -84,23 +84,60 @@ bool may_go(const Tick& t, const CauseSet& causes) {
          (driving_state || !t.params.go_needs_driving_state) && flags_let_roll(t);
 }
 
-Events events_of(const Tick& t, const CauseSet& causes, bool standstill) {
+bool voids_arming(const CauseSet& causes) {
+  for (const CauseRow& row : kCauseTable)
+    if (row.voids_arming && causes.has(row.cause)) return true;
+  return false;
+}
+
+// Of a request that is held while the car is disarmed and has not been spent.
+Arming judge_request(const Tick& t, const CauseSet& causes) {
+  if (t.in.last_run_armed && !t.state.arm_released) return Arming::kLastRunArmed;
+  if (t.speed_mps >= t.params.standstill_mps) return Arming::kMoves;
+  return bars_arming(causes) ? Arming::kBarred : Arming::kArmed;
+}
+
+bool is_refused(Arming arming) {
+  return arming == Arming::kMoves || arming == Arming::kLastRunArmed;
+}
+
+// Whether the request arms in this tick. A refused one says why until it is withdrawn.
+bool judge_arming(const Tick& t, const CauseSet& causes) {
+  SupervisorState& s = t.state;
+  const bool asked = t.in.operator_requests.arm;
+  if (!asked) {
+    s.arm_used = false;
+    s.arm_released = true;
+    s.arming = Arming::kNotAsked;
+  } else if (s.mode != Mode::kDisarmed) {
+    s.arming = Arming::kArmed;
+  } else if (!s.arm_used) {
+    s.arming = judge_request(t, causes);
+    s.arm_used = is_refused(s.arming);
+  } else if (!is_refused(s.arming)) {
+    s.arming = Arming::kSpent;
+  }
+  return asked && !s.arm_used && s.arming == Arming::kArmed;
+}
+
+Events events_of(const Tick& t, const FaultOutput& found, bool standstill) {
+  const CauseSet& causes = found.causes;
   SupervisorState& s = t.state;
   const OperatorRequests& op = t.in.operator_requests;
   const bool emergency = has(causes, Reaction::kEmergencyStop);
   const bool reset_edge = op.reset && !s.reset_was;
   s.reset_was = op.reset;
-  if (!op.arm) s.arm_used = false;
   Events events{};
   const auto set = [&](Event event, bool holds) {
     events[static_cast<std::size_t>(event)] = holds;
   };
+  set(Event::kNobodyObeys, found.nobody_obeys);
   set(Event::kEmergency, emergency);
   set(Event::kStop, has(causes, Reaction::kControlledStop));
   set(Event::kStandstill, standstill);
-  set(Event::kDisarm, !op.arm);
+  set(Event::kDisarm, !op.arm || voids_arming(causes));
   set(Event::kReset, reset_edge && !emergency);
-  set(Event::kArm, op.arm && !s.arm_used && !bars_arming(causes));
+  set(Event::kArm, judge_arming(t, causes));
   set(Event::kGo, may_go(t, causes));
   return events;
 }
@@ -126,13 +163,15 @@ void log_rising(const Tick& t, const FaultOutput& found) {
   }
 }
 
-void enter(const Tick& t, Mode to) {
+void enter(const Tick& t, Mode to, bool nobody_obeys) {
   SupervisorState& s = t.state;
   if (to == Mode::kDisarmed) {
     s.last_known = false;
-    s.log.forget_first();
+    // A car that disarmed by itself still says why.
+    if (!nobody_obeys) s.log.forget_first();
   }
   if (to == Mode::kStandby) {
+    s.log.forget_first();
     s.arm_used = true;
     s.last_shift = t.now;  // the gate counts the first gear that it sees as a shift
   }
@@ -282,8 +321,8 @@ SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& stat
   const bool standstill = stands(tick);
   log_rising(tick, found);
   const Mode before = state.mode;
-  const Mode to = next(before, events_of(tick, found.causes, standstill));
-  if (to != before) enter(tick, to);
+  const Mode to = next(before, events_of(tick, found, standstill));
+  if (to != before) enter(tick, to, found.nobody_obeys);
 
   SupervisorOutput out;
   const Chosen chosen = choose(tick);
@@ -297,6 +336,7 @@ SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& stat
     state.last_chosen = now;
   }
   out.source = chosen.source;
+  out.arming = state.mode == Mode::kDisarmed ? state.arming : Arming::kArmed;
   out.mode = state.mode;
   out.mode_changed = to != before;
   out.cause = state.log.first.cause;

@@ -8,6 +8,11 @@
 //          follow in the next tick
 //   units  SI
 //   errors none: every fault is a Cause with a value and an entry in the fault log
+//   arming a request arms once. While a fault bars it, it waits; it is refused, and spent, when the
+//          wheels turn (a process that begins while the car moves must not take it over) or when it
+//          has been held since the start of a process whose predecessor ended while armed. A spent
+//          request counts for nothing: it must be withdrawn and given anew, as after every stop,
+//          after a base station lost at standstill and after a dead bus
 //   source mission, row 4 (system executive); mode_table.hpp for the transitions
 //
 //           fault                   stands for 0.5 s           reset
@@ -49,6 +54,15 @@ struct SupervisorParams {
 };
 
 enum class Follow : std::uint8_t { kNone, kDrive, kStop };
+// What becomes of the operator's wish to be armed.
+enum class Arming : std::uint8_t {
+  kNotAsked,
+  kArmed,
+  kBarred,        // waits for a fault to pass
+  kMoves,         // refused
+  kLastRunArmed,  // refused
+  kSpent          // has armed once
+};
 enum class CommandSource : std::uint8_t { kNone, kHold, kControl, kSafeStop };
 
 struct SupervisorInputs {
@@ -65,6 +79,7 @@ struct SupervisorInputs {
   bool bus_failed = false;       // BusGuardOutput
   bool gate_refused = false;     // GateOutput::refused_now of the previous tick
   OperatorRequests operator_requests;
+  bool last_run_armed = false;  // the run of this process before ended while armed
 };
 
 struct SupervisorState {
@@ -78,7 +93,9 @@ struct SupervisorState {
   bool reset_was = false;
   bool standing = false;
   Instant standing_since{};
-  bool arm_used = false;        // an arm request arms once; cleared when it is withdrawn
+  bool arm_used = false;      // an arm request arms once; cleared when it is withdrawn
+  bool arm_released = false;  // no request was held at least once since the start
+  Arming arming = Arming::kNotAsked;
   world::ActuatorCommand last;  // the last command that was chosen
   bool last_known = false;
   Instant last_chosen{};
@@ -89,11 +106,12 @@ static_assert(std::is_trivially_copyable_v<SupervisorState>);
 struct SupervisorOutput {
   world::Mode mode = world::Mode::kDisarmed;
   bool mode_changed = false;
-  Cause cause = Cause::kNone;      // first since the last reset; text_of(cause)
+  Cause cause = Cause::kNone;      // first since the last reset or arming; text_of(cause)
   CauseSet causes;                 // all that hold now
   Follow follow = Follow::kNone;   // what planning and control shall follow in the next tick
   world::ActuatorCommand command;  // unset while disarmed
   CommandSource source = CommandSource::kNone;
+  Arming arming = Arming::kNotAsked;
   bool actuate = false;       // armed: outbound sends actuator frames and the gate lets them pass
   double speed_mps = kUnset;  // by the wheels
   bool standstill = false;

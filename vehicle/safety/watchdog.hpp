@@ -78,7 +78,7 @@ struct WatchdogParams {
       {Stream::kDiagnostics, "diagnostics", true, milliseconds(250), milliseconds(1000)},
       {Stream::kRaceControl, "race control", true, milliseconds(1250), seconds(10)},
       {Stream::kPlanner, "planner", true, milliseconds(125), milliseconds(500)},
-      {Stream::kRadio, "radio", true, milliseconds(500), seconds(5)},
+      {Stream::kRadio, "radio", true, seconds(1), seconds(3)},
   }};
 };
 
@@ -95,7 +95,7 @@ struct WatchdogInputs {
   // From the receivers' ports where the rim knows them; else any sample of the unit counts.
   std::array<std::optional<Instant>, world::kGnssUnits> gnss_byte_at{};
   std::optional<Instant> planner_at;  // when the newest trajectory was planned
-  std::optional<Instant> radio_at;    // newest authentic packet of the base station
+  std::optional<Instant> radio_at;    // the base station was alive then (HeartbeatIntake)
 };
 
 struct StreamRow {

@@ -51,7 +51,8 @@ Told safety(const CarParams& p) {
   Told told{
       {"safety.supervisor.faults.dead_reckoning_max_s",
        p.supervisor.faults.dead_reckoning_max.seconds()},
-      {"safety.supervisor.faults.bus_silence_max_s", p.supervisor.faults.bus_silence_max.seconds()},
+      {"safety.supervisor.faults.bus_dead_s", p.supervisor.faults.bus_dead.seconds()},
+      {"safety.supervisor.faults.bus_dead_disarm_s", p.supervisor.faults.bus_dead_disarm.seconds()},
       {"safety.supervisor.faults.position_sigma_max_m", p.supervisor.faults.position_sigma_max_m},
       {"safety.supervisor.faults.control_failures", p.supervisor.faults.control_failures},
       {"safety.supervisor.faults.refused_ticks", p.supervisor.faults.refused_ticks},

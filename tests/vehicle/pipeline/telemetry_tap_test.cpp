@@ -96,6 +96,7 @@ Outputs full() {
   out.chosen.mode = world::Mode::kControlledStop;
   out.chosen.cause = safety::Cause::kImuLost;
   out.chosen.actuate = true;
+  out.chosen.arming = safety::Arming::kSpent;
   out.chosen.command = {
       .at = kNow, .road_wheel_rad = 0.0625, .throttle_fraction = 0.5, .brake_kpa = 1800, .gear = 5};
   out.ct_state = world::CtState::kCoordinatedStop;
@@ -130,7 +131,7 @@ const std::vector<Row> kExpected{
     {field("mode.mode"), 3},
     {field("mode.ct_state"), 10},
     {field("mode.sys_state"), 9},
-    {field("mode.first_stop_cause"), 27},
+    {field("mode.first_stop_cause"), 28},
     {field("flags.track"), 3},
     {field("flags.vehicle"), 2},
     {field("flags.round_target_speed"), 53.6},
@@ -189,6 +190,7 @@ const std::vector<Row> kExpected{
     {field("computer.step_time_max"), 66},
     {field("computer.steps"), 4004},
     {field("computer.missed_deadlines"), 5},
+    {field("mode.arming"), 5},
     {field("radio.base"), 3},
     {field("radio.silence"), 1.25},
     {field("radio.round_trip"), 12.5},
@@ -252,7 +254,8 @@ TEST(TelemetryTap, WhatWasNeverHeardIsNotANumberAndHasNoAge) {
       "bus.frames_applied", "bus.frames_refused", "bus.frames_sent",  "bus.tx_drops",
       "bus.gate_refusals",  "bus.frames_lost",    "bus.queue_losses", "bus.controller",
       "bus.identity",       "bus.database",       "computer.steps",   "computer.missed_deadlines",
-      "radio.base",         "radio.heartbeats",   "radio.base_runs",  "radio.heartbeats_refused"};
+      "radio.base",         "radio.heartbeats",   "radio.base_runs",  "radio.heartbeats_refused",
+      "mode.arming"};
   for (std::size_t i = 0; i < telemetry::kFieldCount; ++i)
     EXPECT_EQ(std::isnan(packet.values[i]), !known.contains(name_of(i))) << name_of(i);
   const std::set<Group> sampled{Group::kMode, Group::kCommand, Group::kBus, Group::kComputer,
@@ -376,6 +379,27 @@ TEST(TelemetryLabels, NameTheValidities) {
                                        {kDeadReckoning, "dead reckoning"},
                                        {kLost, "lost"}}),
             names_in(telemetry::kValidities));
+}
+
+TEST(TelemetryLabels, NameWhatBecameOfTheArmRequest) {
+  using enum safety::Arming;
+  EXPECT_EQ(in_order<safety::Arming>({{kNotAsked, "not asked"},
+                                      {kArmed, "armed"},
+                                      {kBarred, "waits for a fault to pass"},
+                                      {kMoves, "REFUSED: the car moves"},
+                                      {kLastRunArmed, "REFUSED: the last run ended while armed"},
+                                      {kSpent, "SPENT: release and arm anew"}}),
+            names_in(telemetry::kArmings));
+}
+
+TEST(TelemetryLabels, NameHowTheBaseIsHeard) {
+  using enum safety::Health;
+  EXPECT_EQ(in_order<safety::Health>({{kUnwatched, "not watched"},
+                                      {kNever, "never heard"},
+                                      {kGood, "heard"},
+                                      {kWarning, "late"},
+                                      {kBad, "LOST"}}),
+            names_in(telemetry::kBaseStates));
 }
 
 TEST(TelemetryLabels, NameTheCausesOfAStop) {

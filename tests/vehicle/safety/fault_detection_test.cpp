@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -27,7 +28,6 @@ struct Doctor {
 
   Doctor() { car.requests.arm = true; }
   FaultOutput examine(bool driving = true) {
-    car.bus.last_frame = std::max(car.bus.last_frame, now - bus_quiet);
     return detect(params, state,
                   {.signals = car.signals,
                    .bus = car.bus,
@@ -42,7 +42,13 @@ struct Doctor {
                    .driving = driving},
                   now);
   }
-  Duration bus_quiet{};
+  // Every message of the drive-by-wire is so old, and by its own limits only late.
+  void silence(Duration age) {
+    for (std::size_t s = kWheels; s <= kDiagnostics; ++s)
+      car.watchdog.rows[s] = {static_cast<Stream>(s), Health::kWarning, age};
+  }
+  static constexpr auto kWheels = static_cast<std::size_t>(Stream::kWheelSpeed);
+  static constexpr auto kDiagnostics = static_cast<std::size_t>(Stream::kDiagnostics);
 };
 
 void down(Doctor& d, Stream a) { d.car.stream(a).health = Health::kBad; }
@@ -57,6 +63,7 @@ const std::vector<Case> kCases{
     {Cause::kOperatorEmergency, [](Doctor& d) { d.car.requests.emergency_stop = true; }},
     {Cause::kPurpleFlag,
      [](Doctor& d) { d.car.race_control.vehicle = VehicleFlag::kPurpleEmergency; }},
+    {Cause::kBusDead, [](Doctor& d) { d.silence(milliseconds(71)); }},
     {Cause::kSystemFailure,
      [](Doctor& d) { d.car.signals.diagnostics.value.system_failure = true; }},
     {Cause::kEmergencyBrake,
@@ -89,7 +96,6 @@ const std::vector<Case> kCases{
     {Cause::kBusMessageLost, [](Doctor& d) { down(d, Stream::kDiagnostics); }},
     {Cause::kBusMessageLost,
      [](Doctor& d) { d.car.stream(Stream::kSteering).health = Health::kNever; }},
-    {Cause::kBusMessageLost, [](Doctor& d) { d.bus_quiet = milliseconds(101); }},
     {Cause::kCommandRefused, [](Doctor& d) { d.car.gate_refused = true; }, 3},
     {Cause::kControlFailed, [](Doctor& d) { d.car.control_ok = false; }, 3},
     {Cause::kPlanLost, [](Doctor& d) { down(d, Stream::kPlanner); }},
@@ -127,7 +133,6 @@ TEST(FaultDetection, EachFaultIsItsOwnCauseAndNoOtherAndGoesWithIt) {
       EXPECT_EQ(found.causes.bits(), expected.bits()) << text_of(c.cause) << " tick " << tick;
     }
     d.car = healthy;
-    d.bus_quiet = {};
     EXPECT_TRUE(d.examine().causes.empty()) << text_of(c.cause);
     covered[static_cast<std::size_t>(c.cause)] = true;
   }
@@ -209,6 +214,73 @@ TEST(FaultDetection, LossesThatAreAllowedByTheParametersAreNoCause) {
   down(d, Stream::kRadio);
   down(d, Stream::kRaceControl);
   EXPECT_TRUE(d.examine().causes.empty());
+}
+
+TEST(FaultDetection, OneMessageOfTheDriveByWireKeepsTheBusAlive) {
+  for (std::size_t one = Doctor::kWheels; one <= Doctor::kDiagnostics; ++one) {
+    Doctor d;
+    d.silence(seconds(5));
+    EXPECT_TRUE(d.examine().causes.has(Cause::kBusDead));
+    d.car.watchdog.rows[one].age = milliseconds(70);
+    EXPECT_FALSE(d.examine().causes.has(Cause::kBusDead)) << one;
+  }
+}
+
+TEST(FaultDetection, WhatIsNotWatchedOrWasNeverHeardKeepsNoBusAlive) {
+  for (const Health silent : {Health::kUnwatched, Health::kNever}) {
+    Doctor d;
+    d.silence(milliseconds(71));
+    d.car.stream(Stream::kMisc) = {Stream::kMisc, silent, {}};
+    EXPECT_TRUE(d.examine().causes.has(Cause::kBusDead));
+  }
+}
+
+TEST(FaultDetection, NobodyObeysAfterTheTimeOfAStopAndOnlyWhileTheBusIsDead) {
+  Doctor d;
+  const Instant died = d.now;
+  for (std::int64_t ms = 10; ms <= 25'000; ms += 10) {
+    d.now = died + milliseconds(ms);
+    d.silence(milliseconds(ms));
+    const FaultOutput found = d.examine();
+    EXPECT_EQ(found.causes.has(Cause::kBusDead), ms > 70) << ms;
+    EXPECT_EQ(found.nobody_obeys, ms >= 80 + 20'000) << ms;
+  }
+  d.silence({});
+  EXPECT_FALSE(d.examine().nobody_obeys);
+  d.silence(milliseconds(71));
+  EXPECT_FALSE(d.examine().nobody_obeys) << "it begins anew";
+}
+
+// Frames as the drive-by-wire sends them, each up to 5 ms late and up to 5 in a row lost: the
+// watchdog and the limit together never call the bus dead, and always when it is.
+TEST(FaultDetection, NominalJitterAndShortLossesAreNoDeadBus) {
+  Random random{11};
+  Doctor d;
+  const WatchdogParams params;
+  WatchdogState state;
+  world::SensorInput sensors;
+  std::array<int, 4> lost{};
+  const auto look = [&] {
+    d.car.watchdog =
+        watch(params, state, {sensors, d.car.signals, d.car.race_control, {}, {}, {}}, d.now);
+    return d.examine().causes.has(Cause::kBusDead);
+  };
+  for (int tick = 0; tick < 200'000; ++tick) {
+    d.now += milliseconds(10);
+    const Instant sent = d.now - microseconds(static_cast<std::int64_t>(random.below(5'000)));
+    const auto came = [&](std::size_t i) {
+      if (lost[i] == 0 && random.one_in(50)) lost[i] = 1 + static_cast<int>(random.below(5));
+      return lost[i] == 0 || --lost[i] < 0;
+    };
+    if (came(0)) d.car.signals.wheel_speed_mps = {{}, sent, true};
+    if (came(1)) d.car.signals.brake = {{}, sent, true};
+    if (came(2)) d.car.signals.throttle_fraction = {{}, sent, true};
+    if (came(3)) d.car.signals.steering_motor_rad = {{}, sent, true};
+    ASSERT_FALSE(look()) << tick;
+  }
+  const Instant last = d.now;
+  while (!look()) d.now += milliseconds(10);
+  EXPECT_LE(d.now - last, milliseconds(80)) << "so that telemetry at 50 Hz says it within 100 ms";
 }
 
 TEST(FaultDetection, DriveByWireThatWasNeverHeardSaysNothing) {

@@ -42,7 +42,7 @@ struct Situation {
   world::ActuatorCommand control;
   OperatorRequests requests;
   bool control_ok = true, drive_available = true, own_id_seen = false, bus_failed = false,
-       gate_refused = false;
+       gate_refused = false, last_run_armed = false;
 
   Situation() {
     for (std::size_t i = 0; i < kStreams; ++i)
