@@ -80,6 +80,8 @@ class Live {
     std::error_code none;  // nothing there is as it should be
     for (const char* who : {"vehicle", "guardian"})
       std::filesystem::remove(plan_.summary_of(who), none);
+    // What an earlier run left there would bar this one from arming.
+    if (!plan_.guardian.empty()) std::filesystem::remove("/dev/shm/" + plan_.guardian_name, none);
     if (plan_.candump) {
       auto candump = transport::Process::spawn(
           {.argv = {"sh", "-c", "exec candump -L -r 8388608 " + plan_.interface + " > \"$0\"",
