@@ -43,6 +43,7 @@ struct Stop {
   guardian::Guidance guidance = guardian::Guidance::kNone;
   guardian::Mode mode = guardian::Mode::kIdle;
   std::uint64_t gate_refusals = 0;
+  double slowest_mps = 1e9, contact_mps = 0.0;  // speed at the first contact with a wall
 };
 
 class Observer {
@@ -70,6 +71,11 @@ class Observer {
       stop.from_mps = truth.speed_mps;
       stop.station_m = rig.road().s_m;
     }
+    if (rig.road().contact || stop.contact_mps > 0.0) {  // what follows means nothing
+      stop.contact_mps = std::max(stop.contact_mps, truth.speed_mps);
+      return;
+    }
+    stop.slowest_mps = std::min(stop.slowest_mps, truth.speed_mps);
     stop.distance_m += truth.speed_mps * 0.01;
     const double off_m = cross_track_m(rig, lap().setup.params.planning.line.offset_m);
     stop.off_line_m = std::max(stop.off_line_m, std::abs(off_m));
@@ -124,6 +130,55 @@ TEST(Guardian, StopsTheCarOnTheTrackWhereverItsProcessIsKilled) {
     EXPECT_LT(stop.friction, 1.0);
     EXPECT_EQ(stop.mode, guardian::Mode::kHalted);
     EXPECT_EQ(stop.gate_refusals, 0u);
+  }
+}
+
+TEST(Guardian, ACarThatWasStoppedForAMomentDrivesOnAlongItsLine) {
+  for (const double at_s : {62.0, 67.0, 71.5, 76.0}) {
+    Observer observer{at_s};
+    LockstepOptions options = observer.options();
+    std::uint32_t hand_backs = 0;
+    options.watch_guardian = [&, see = options.watch_guardian](const GuardianNode& n, Instant now) {
+      see(n, now);
+      hand_backs = n.status().hand_backs;
+    };
+    const RunResult result =
+        run(scenario_with({fault("computer_paused", at_s, 0.2)}, at_s + 45.0), options);
+    print("paused", observer.stop);
+    std::printf("  slowest %.1f m/s, laps %u\n", observer.stop.slowest_mps, result.laps.finished);
+    EXPECT_EQ(hand_backs, 1u);
+    EXPECT_EQ(observer.stop.mode, guardian::Mode::kWatching);
+    EXPECT_LT(observer.stop.off_line_m, 1.0);
+    EXPECT_GT(observer.stop.slowest_mps, 60.0);
+    EXPECT_GE(result.laps.finished, 2u);
+    EXPECT_EQ(result.gate_refusals, 0u);
+    EXPECT_EQ(observer.stop.gate_refusals, 0u);
+  }
+}
+
+TEST(Guardian, WithBothKilledTheDriveByWireActsByItsOwnRule) {
+  for (const double at_s : {62.0, 71.5}) {
+    Observer observer{at_s};
+    bool rule = true;
+    double held_rad = kUnset;
+    LockstepOptions options = observer.options();
+    options.watch = [&, see = options.watch](const pipeline::Outputs& o, const Rig& rig,
+                                             Instant now) {
+      see(o, rig, now);
+      const double since_s = (now - Instant{}).seconds() - at_s;
+      const plant::Truth& truth = rig.truth();
+      if (since_s > 0.5 && std::isnan(held_rad)) held_rad = truth.steering_motor_rad;
+      if (since_s < 1.5 || truth.speed_mps < 1.0 || rig.road().contact) return;
+      rule = rule && truth.throttle_fraction < 0.01 && truth.brake_front_kpa > 1700.0 &&
+             std::abs(truth.steering_motor_rad - held_rad) < 0.01;
+    };
+    run(scenario_with({fault("computer_killed", at_s), fault("guardian_killed", at_s)},
+                      at_s + 30.0),
+        options);
+    print("both killed", observer.stop);
+    std::printf("  %s\n",
+                observer.stop.contact_mps > 0.0 ? "hits the wall" : "does not hit a wall");
+    EXPECT_TRUE(rule);
   }
 }
 
