@@ -35,6 +35,7 @@ bool in_the_rig(BenchFaultKind kind) {
     case BenchFaultKind::kEngineStall:
     case BenchFaultKind::kLowGrip:
     case BenchFaultKind::kColdTyres:
+    case BenchFaultKind::kFuelOut:
     case BenchFaultKind::kBusSilent:
     case BenchFaultKind::kComputerSilent:
       return true;

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "hil/plant_file/plant_file.hpp"
 #include "protocol/transport/file.hpp"
 #include "vehicle/parameters/car_file.hpp"
 #include "vehicle/parameters/track_file.hpp"
@@ -31,6 +32,14 @@ Result<Loaded, Problem> load(const std::string& scenario_file, const std::string
   if (!car_text) return Unexpected{car_text.error()};
   const auto car = parameters::read_car(*car_text, car_file);
   if (!car) return Unexpected{car.error()};
+  if (!scenario->plant_file.empty()) {
+    const std::string plant_file = below(folder, scenario->plant_file);
+    const auto plant_text = transport::read_file(plant_file);
+    if (!plant_text) return Unexpected{plant_text.error()};
+    const auto plant = plant_file::read_plant(*plant_text, plant_file);
+    if (!plant) return Unexpected{plant.error()};
+    scenario->plant = plant->params;
+  }
   auto setup = pipeline::prepare(car->params, *track);
   if (!setup) return Unexpected{setup.error()};
   return Loaded{*std::move(scenario), *std::move(setup)};

@@ -17,7 +17,7 @@ struct Loaded {
   pipeline::Setup setup;
 };
 
-// Track and car files are named relative to `folder` unless they are absolute.
+// Track, car and plant files are named relative to `folder` unless they are absolute.
 Result<Loaded, Problem> load(const std::string& scenario_file, const std::string& folder);
 
 }  // namespace pitwall::bench

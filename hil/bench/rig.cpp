@@ -118,6 +118,7 @@ drive_by_wire::Feedback Rig::feedback() const {
   f.brake_rear_kpa = truth_.brake_rear_kpa;
   f.throttle_fraction = truth_.throttle_fraction;
   f.steering_motor_rad = truth_.steering_motor_rad;
+  if (truth_.fuel_kg <= 0.0) f.fuel_pressure_kpa = 0.0;
   f.engine_speed_rpm = truth_.engine_rpm;
   f.engine_running = truth_.engine_running;
   f.gear = truth_.gear;
@@ -219,6 +220,9 @@ void Rig::apply_model_fault(const faults::BenchFault& fault, bool active) {
       return;
     case BenchFaultKind::kLowGrip:
       grip_ = fault.value;
+      return;
+    case BenchFaultKind::kFuelOut:
+      plant::empty_tank(plant_params_, plant_);  // nobody fills it afterwards
       return;
     case BenchFaultKind::kColdTyres:
       held_tyre_c_ = fault.value;

@@ -53,7 +53,7 @@ TEST(FaultPlan, EveryKindOfTheCatalogueIsPlannedOrRefusedByName) {
     EXPECT_EQ(here[0].duration, seconds(2));
     EXPECT_TRUE(carried_out(kind.kind, BenchMode::kLive)) << "planned means done somewhere";
   }
-  EXPECT_EQ(planned, 27u);
+  EXPECT_EQ(planned, 31u);
 }
 
 TEST(FaultPlan, WhatABenchCannotCarryOutItRefusesByPlaceAndName) {
@@ -127,6 +127,7 @@ TEST(FaultPlan, ANumberThatMakesNoSenseIsRefusedWithItsPlace) {
                                 {"cold_tyres", {-21, 151, kUnset}},
                                 {"imu_bias", {kUnset, kInfinity}},
                                 {"wheel_speed_loss", {1}},
+                                {"fuel_out", {1}},
                                 {"brake_leak", {-0.5, 1.5, kUnset}},
                                 {"steering_slow", {-1, 0, kUnset}},
                                 {"gnss_variance_spike", {0, -5, kUnset}},

@@ -119,5 +119,18 @@ TEST_F(Loading, ABadCarIsToldWithItsLine) {
   expect_refusal("car.yaml:", "steering_ratio");
 }
 
+TEST_F(Loading, ThePlantIsTheBuiltInOneOrThatOfItsFile) {
+  EXPECT_EQ(load_all()->scenario.plant.chassis.mass_kg, plant::Params{}.chassis.mass_kg);
+  scenario_ += "plant: plant.yaml\n";
+  expect_refusal(path("plant.yaml"), "error");
+  const std::string head = "schema: 1\nname: light\nbase: av21\nchassis:\n  mass_kg: {value: ";
+  ASSERT_TRUE(transport::write_file(path("plant.yaml"), head + "700, source: a scale}\n"));
+  const auto loaded = load_all();
+  ASSERT_TRUE(loaded) << to_string(loaded.error());
+  EXPECT_EQ(loaded->scenario.plant.chassis.mass_kg, 700.0);
+  ASSERT_TRUE(transport::write_file(path("plant.yaml"), head + "-700, source: a scale}\n"));
+  expect_refusal("plant.yaml:5:", "chassis.mass_kg");
+}
+
 }  // namespace
 }  // namespace pitwall::bench

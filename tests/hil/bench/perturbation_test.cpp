@@ -126,6 +126,24 @@ TEST(RigFaults, ColdTyresAreHeldAtTheirTemperatureAndThenWarmUp) {
   EXPECT_GT(rig.truth().tyre_c[0], 15.0) << "the air is warmer";
 }
 
+TEST(RigFaults, AnEmptyTankStopsTheEngineForGood) {
+  scenario::Scenario s = lap().scenario;
+  s.duration = seconds(24);
+  s.faults = {fault("fuel_out")};
+  s.faults[0].at = seconds(20);
+  LockstepOptions options;
+  int ran = 0, stood = 0;
+  options.watch = [&](const pipeline::Outputs&, const Rig& rig, Instant at) {
+    const Duration t = at - Instant{};
+    if (t > seconds(12) && t < seconds(20)) ran += rig.truth().engine_running ? 1 : 0;
+    if (t > seconds(20)) stood += rig.truth().engine_running ? 0 : 1;
+    EXPECT_EQ(rig.truth().fuel_kg > 0.0, t < seconds(20)) << t.seconds();
+  };
+  ASSERT_TRUE(run_lockstep(s, lap().setup, options));
+  EXPECT_EQ(ran, 799);
+  EXPECT_EQ(stood, 400);
+}
+
 TEST(RigFaults, ABiasedGyroIsWrongByTheBiasInItsUnitOnly) {
   const auto rates = [](double bias, int unit) {
     scenario::Scenario s = standing();
