@@ -1,0 +1,28 @@
+// Where it happened, and how hard: map of the track, cross-track error over the lap and by speed,
+// g-g diagram.
+//   in     RunData; the track, where it is known: without it the map has no walls
+//   out    HTML: one plot each, or the sentence why there is none
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "hil/grading/cross_track.hpp"
+#include "hil/report/run_data.hpp"
+#include "vehicle/world/track_map.hpp"
+
+namespace pitwall::report {
+
+// `no_walls`: why there is no track, where there is none.
+std::string map_chart(const RunData& run, const world::TrackMap* track,
+                      const std::string& no_walls);
+std::string station_chart(const RunData& run);
+std::string acceleration_chart(const RunData& run);
+
+// As the bench grades: of every row of the truth.
+grading::CrossTrack cross_track_of(const RunData& run);
+// Bars and table, with the figures of the paper's real car beside them.
+std::string bracket_chart(const grading::CrossTrack& statistics);
+std::string bracket_table(const grading::CrossTrack& statistics);
+
+}  // namespace pitwall::report

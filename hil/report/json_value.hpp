@@ -1,0 +1,48 @@
+// A small reader of JSON that programs wrote: the result of a run, the text of an event.
+//   in     one JSON document; its name, for messages
+//   out    a value; asked for by key it gives what is there, or the neutral answer: no text, NaN,
+//          false, no items. So a reader of today reads what a writer of tomorrow adds
+//   errors Problem with the byte where the text stops being JSON; deeper than 32 levels is refused
+//   cost   O(bytes)
+//   source RFC 8259
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::report {
+
+class JsonValue {
+ public:
+  using Items = std::vector<JsonValue>;
+  using Members = std::vector<std::pair<std::string, JsonValue>>;  // as in the text
+
+  static Result<JsonValue, Problem> parse(std::string_view text, const std::string& name);
+
+  // Of an object; the first one of that name. Anything else has no members.
+  const JsonValue* find(std::string_view key) const;
+  bool is_object() const { return std::holds_alternative<Members>(value_); }
+
+  std::string text(std::string_view key) const;
+  double number(std::string_view key) const;  // NaN where there is none, or null
+  bool flag(std::string_view key) const;
+  const Items& items(std::string_view key) const;
+
+  // Of the value itself.
+  const Items& items() const;
+  double number() const;
+  std::string text() const;
+
+ private:
+  friend class JsonParser;
+  std::variant<std::monostate, bool, double, std::string, Items, Members> value_;
+};
+
+}  // namespace pitwall::report

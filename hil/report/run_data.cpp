@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/report/run_data.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+#include "hil/bus/frame_length.hpp"
+#include "hil/report/json_value.hpp"
+#include "hil/report/text.hpp"
+#include "protocol/recording/sha256.hpp"
+
+namespace pitwall::report {
+namespace {
+
+using recording::McapEnd;
+
+class LogReading {
+ public:
+  explicit LogReading(std::span<const std::uint8_t> log) : reader_(log) {}
+
+  RunData read() {
+    while (const auto message = reader_.next()) take(*message);
+    take_facts();
+    data_.health.end = reader_.end();
+    data_.health.read_bytes = reader_.place();
+    data_.health.counters = reader_.counters();
+    return std::move(data_);
+  }
+
+ private:
+  void take(const recording::McapMessage& message) {
+    count_missing(message);
+    const recording::Channel& channel = reader_.channels().at(message.channel);
+    const double t_s = static_cast<double>(message.logged_ns) * 1e-9;
+    const bool taken = channel.topic == "/truth"        ? keep(channel, message, t_s, data_.truth)
+                       : channel.topic == "/car"        ? keep(channel, message, t_s, data_.car)
+                       : channel.topic == "/bus_losses" ? keep(channel, message, t_s, data_.losses)
+                       : channel.topic == "/can"        ? keep_frame(channel, message, t_s)
+                       : channel.topic == "/events"     ? keep_event(message, t_s)
+                                                        : true;
+    if (!taken) ++data_.health.undecodable;
+  }
+
+  // The writer numbers the messages of a channel from 0 on.
+  void count_missing(const recording::McapMessage& message) {
+    std::uint32_t& due = due_[message.channel];
+    if (message.sequence > due) data_.health.missing += message.sequence - due;
+    due = message.sequence + 1;
+  }
+
+  template <class S>
+  static bool read_sample(const recording::Channel& channel, const recording::McapMessage& message,
+                          S& sample) {
+    static const recording::Schema kSchema = recording::cdr_schema<S>();
+    return channel.schema == kSchema && recording::from_cdr(message.data, sample);
+  }
+
+  template <class S>
+  static bool keep(const recording::Channel& channel, const recording::McapMessage& message,
+                   double t_s, std::vector<At<S>>& rows) {
+    S sample{};
+    if (!read_sample(channel, message, sample)) return false;
+    rows.push_back({t_s, sample});
+    return true;
+  }
+
+  bool keep_frame(const recording::Channel& channel, const recording::McapMessage& message,
+                  double t_s) {
+    bench::CanSample sample;
+    if (!read_sample(channel, message, sample)) return false;
+    can::Frame frame;
+    frame.id = sample.id;
+    frame.extended = sample.id > can::kMaxStandardId;
+    if (sample.id > can::kMaxExtendedId || sample.data.size() > 8) return false;
+    frame.length = static_cast<std::uint8_t>(sample.data.size());
+    std::copy(sample.data.begin(), sample.data.end(), frame.data.begin());
+    const auto bits = static_cast<std::uint16_t>(bus::frame_length(frame).bits);
+    data_.can.push_back({t_s, {sample.from, sample.id, bits}});
+    return true;
+  }
+
+  bool keep_event(const recording::McapMessage& message, double t_s) {
+    const std::string_view text{reinterpret_cast<const char*>(message.data.data()),
+                                message.data.size()};
+    const auto json = JsonValue::parse(text, "event");
+    if (!json || !json->is_object()) return false;
+    Event event{json->text("name"), json->text("text")};
+    if (event.name == "pass" || event.name == "fail") {
+      data_.verdicts.push_back(verdict_of(event));
+    } else {
+      data_.events.push_back({t_s, std::move(event)});
+    }
+    return true;
+  }
+
+  static VerdictRow verdict_of(const Event& event) {
+    VerdictRow row{.text = event.text, .place = {}, .reason = {}, .pass = event.name == "pass"};
+    const auto json = JsonValue::parse(event.text, "verdict");
+    if (!json || !json->is_object()) return row;
+    row.text = json->text("text");
+    row.place = json->text("place");
+    row.reason = json->text("reason");
+    row.margin = json->number("margin");
+    row.first_violation_s = json->number("first_violation_s");
+    return row;
+  }
+
+  void take_facts() {
+    std::map<std::string, std::string> run;
+    for (const auto& [key, value] : reader_.run()) run.try_emplace(key, value);
+    data_.facts = {.scenario = run["scenario"],
+                   .seed = run["seed"],
+                   .mode = run["mode"],
+                   .source = run["source"],
+                   .database = run["database"],
+                   .revision = run["revision"],
+                   .fingerprint = run["fingerprint"],
+                   .bus = run["bus"],
+                   .track_file = run["track_file"]};
+    if (run.contains("duration_s"))
+      data_.facts.duration_s = std::strtod(run["duration_s"].c_str(), nullptr);
+    if (const auto faults = JsonValue::parse(run["faults"], "faults"))
+      for (const JsonValue& fault : faults->items())
+        if (std::isfinite(fault.number("at_s"))) data_.faults.push_back(fault_of(fault));
+  }
+
+  static FaultSpan fault_of(const JsonValue& fault) {
+    FaultSpan span{.kind = fault.text("kind"), .from_s = fault.number("at_s")};
+    if (const double lasts_s = fault.number("lasts_s"); lasts_s > 0.0)
+      span.to_s = span.from_s + lasts_s;
+    if (const double id = fault.number("can_id"); id > 0.0 && id <= can::kMaxExtendedId)
+      span.can_id = static_cast<std::uint32_t>(id);
+    return span;
+  }
+
+  recording::McapReader reader_;
+  RunData data_;
+  std::map<std::uint16_t, std::uint32_t> due_;
+};
+
+unsigned long long wide(std::uint64_t value) { return value; }
+
+void judge_log(RunData& run, const std::string& name) {
+  const LogHealth& log = run.health;
+  const auto complain = [&](const std::string& what) {
+    run.infrastructure.push_back(name + ": " + what);
+  };
+  if (log.end != McapEnd::kComplete)
+    complain(printed("%s at byte %llu of %llu; %llu messages were read before that",
+                     recording::to_string(log.end), wide(log.read_bytes), wide(log.bytes),
+                     wide(log.counters.messages)));
+  if (const std::uint64_t bad = log.counters.bad_chunk_crc + log.counters.compressed_chunks)
+    complain(
+        printed("%llu of %llu chunks could not be read", wide(bad), wide(log.counters.chunks)));
+  if (log.counters.bad_data_crc + log.counters.bad_summary_crc > 0)
+    complain("a checksum of the file is wrong: something was changed after it was written");
+  if (log.missing > 0) complain(printed("%llu messages are missing", wide(log.missing)));
+  if (log.undecodable + log.counters.unknown_channel > 0)
+    complain(printed("%llu messages are not what their channel says, or of another version",
+                     wide(log.undecodable + log.counters.unknown_channel)));
+  if (log.end == McapEnd::kComplete && run.truth.empty())
+    complain("holds no truth of a plant: not the log of a run, or nothing was simulated");
+}
+
+std::optional<bench::RealTime> real_time_of(const JsonValue* json) {
+  if (json == nullptr) return std::nullopt;
+  bench::RealTime t{.wake_late_p50_us = json->number("wake_late_p50_us"),
+                    .wake_late_p99_us = json->number("wake_late_p99_us"),
+                    .wake_late_max_us = json->number("wake_late_max_us"),
+                    .wake_late = {},
+                    .step_p50_us = json->number("step_p50_us"),
+                    .step_p99_us = json->number("step_p99_us"),
+                    .step_max_us = json->number("step_max_us")};
+  const auto count = [](double value) {
+    return value > 0.0 && value < 1e15 ? static_cast<std::uint64_t>(value) : 0;
+  };
+  t.caught_up_wakes = count(json->number("caught_up_wakes"));
+  t.missed_deadlines = count(json->number("missed_deadlines"));
+  for (const JsonValue& bin : json->items("wake_late"))
+    if (t.wake_late.size() < bench::RealTime::kWakeBins) t.wake_late.push_back(count(bin.number()));
+  return t;
+}
+
+ResultFigures figures_of(const JsonValue& json) {
+  static const JsonValue kNone;
+  const auto inner = [&json](const char* key) -> const JsonValue& {
+    const JsonValue* found = json.find(key);
+    return found != nullptr ? *found : kNone;
+  };
+  ResultFigures figures{.refused_to_arm = json.text("refused_to_arm"),
+                        .laps = inner("laps").number("finished"),
+                        .flying = inner("laps").number("flying"),
+                        .best_flying_s = inner("laps").number("best_flying_s"),
+                        .best_flying_mean_mps = inner("laps").number("best_flying_mean_mps"),
+                        .speed_max_mps = json.number("speed_max_mps"),
+                        .to_car = inner("can").number("to_car"),
+                        .from_car = inner("can").number("from_car"),
+                        .lost = inner("can").number("lost"),
+                        .bus_losses = json.number("bus_losses"),
+                        .gate_refusals = json.number("gate_refusals"),
+                        .bus_refusals = json.number("bus_refusals"),
+                        .real_time = real_time_of(json.find("real_time")),
+                        .done = {},
+                        .remarks = {}};
+  for (const JsonValue& done : json.items("done"))
+    if (const double at_s = done.number("at_s"); std::isfinite(at_s))
+      figures.done.push_back({at_s, {"done by the bench", done.text("what")}});
+  for (const JsonValue& remark : json.items("remarks")) figures.remarks.push_back(remark.text());
+  return figures;
+}
+
+template <class S>
+void sort_by_time(std::vector<At<S>>& rows) {
+  std::ranges::stable_sort(rows, {}, &At<S>::t_s);
+}
+
+template <class S>
+double last_of(const std::vector<At<S>>& rows) {
+  return rows.empty() ? 0.0 : rows.back().t_s;
+}
+
+}  // namespace
+
+Outcome RunData::outcome() const {
+  if (!infrastructure.empty()) return Outcome::kInfrastructure;
+  return std::ranges::all_of(verdicts, &VerdictRow::pass) ? Outcome::kPass : Outcome::kFail;
+}
+
+double RunData::end_s() const {
+  const double planned_s = std::isfinite(facts.duration_s) ? facts.duration_s : 0.0;
+  return std::max({planned_s, last_of(truth), last_of(car), last_of(can), 1e-3});
+}
+
+RunData read_run(std::span<const std::uint8_t> log, const std::string& log_name) {
+  RunData run = LogReading{log}.read();
+  sort_by_time(run.truth);
+  sort_by_time(run.car);
+  sort_by_time(run.can);
+  sort_by_time(run.losses);
+  sort_by_time(run.events);
+  run.health.bytes = log.size();
+  recording::Sha256 hash;
+  hash.update(log);
+  run.digest = recording::to_hex(hash.digest());
+  judge_log(run, log_name);
+  return run;
+}
+
+void add_result(RunData& run, std::string_view text, const std::string& result_name) {
+  const auto json = JsonValue::parse(text, result_name);
+  if (!json) return run.infrastructure.push_back(to_string(json.error()));
+  if (json->text("sha256") != run.digest)
+    return run.infrastructure.push_back(result_name + ": is the result of another event log");
+  run.result = figures_of(*json);
+  const bool all_passed = std::ranges::all_of(run.verdicts, &VerdictRow::pass);
+  if (json->items("verdicts").size() != run.verdicts.size() || json->flag("passed") != all_passed)
+    run.infrastructure.push_back(result_name + ": its verdicts are not those of the event log");
+}
+
+const char* name_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kPass:
+      return "PASS";
+    case Outcome::kFail:
+      return "FAIL";
+    case Outcome::kInfrastructure:
+      return "INFRASTRUCTURE";
+  }
+  return "?";
+}
+
+}  // namespace pitwall::report

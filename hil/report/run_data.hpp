@@ -1,0 +1,106 @@
+// What a report is made of: the event log of a run, read back, and the figures of its result file.
+//   in     bytes of an event log (hil/bench/run_record.hpp); text of a result file
+//          (bench::to_json(RunResult)), or none
+//   out    RunData; times are seconds since the start of the run
+//   errors nothing here fails: what is wrong with the log or the result is a sentence in
+//          `infrastructure`, and everything that could be read is there
+//   cost   O(bytes)
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hil/bench/result.hpp"
+#include "hil/bench/run_record.hpp"
+#include "protocol/recording/mcap_reader.hpp"
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::report {
+
+struct Facts {
+  std::string scenario, seed, mode, source, database, revision, fingerprint, bus, track_file;
+  double duration_s = kUnset;  // as the scenario wanted it
+};
+
+template <class S>
+struct At {
+  double t_s = 0.0;
+  S v{};
+};
+
+struct BusFrame {
+  std::uint8_t from = 0;  // bench::Node
+  std::uint32_t id = 0;
+  std::uint16_t bits = 0;  // on the wire, with stuff bits
+};
+
+struct Event {
+  std::string name, text;
+};
+
+struct FaultSpan {
+  std::string kind;
+  double from_s = 0.0, to_s = kUnset;  // to the end where nothing is said
+  std::uint32_t can_id = 0;
+};
+
+struct VerdictRow {
+  std::string text, place, reason;
+  bool pass = false;
+  double margin = kUnset, first_violation_s = kUnset;  // margin: NaN where no number is known
+};
+
+// From the result file; NaN where it says nothing.
+struct ResultFigures {
+  std::string refused_to_arm;
+  double laps = kUnset, flying = kUnset, best_flying_s = kUnset, best_flying_mean_mps = kUnset;
+  double speed_max_mps = kUnset;
+  double to_car = kUnset, from_car = kUnset, lost = kUnset, bus_losses = kUnset;
+  double gate_refusals = kUnset, bus_refusals = kUnset;
+  std::optional<bench::RealTime> real_time;
+  std::vector<At<Event>> done;       // to processes, clock and disk
+  std::vector<std::string> remarks;  // what else a reader must know
+};
+
+struct LogHealth {
+  std::uint64_t bytes = 0, read_bytes = 0;
+  recording::McapEnd end = recording::McapEnd::kReading;
+  recording::McapReaderCounters counters;
+  std::uint64_t missing = 0;      // messages that their channel's own numbers say were there
+  std::uint64_t undecodable = 0;  // messages that are not what their channel says
+};
+
+enum class Outcome : std::uint8_t { kPass, kFail, kInfrastructure };
+
+struct RunData {
+  Facts facts;
+  std::vector<At<bench::TruthSample>> truth;
+  std::vector<At<bench::CarSample>> car;  // empty: not recorded
+  std::vector<At<BusFrame>> can;
+  std::vector<At<bench::LossSample>> losses;
+  std::vector<At<Event>> events;  // but verdicts
+  std::vector<FaultSpan> faults;
+  std::vector<VerdictRow> verdicts;
+  std::optional<ResultFigures> result;
+  std::string digest;  // SHA-256 of the log
+  LogHealth health;
+  std::vector<std::string> infrastructure;  // why the verdicts cannot be relied on
+
+  Outcome outcome() const;
+  double end_s() const;  // of everything recorded and planned
+};
+
+// `log_name` and `result_name` are for messages.
+RunData read_run(std::span<const std::uint8_t> log, const std::string& log_name);
+// Refuses the result of another run.
+void add_result(RunData& run, std::string_view json, const std::string& result_name);
+
+const char* name_of(Outcome outcome);  // "PASS" ...
+
+}  // namespace pitwall::report

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/report/tables.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/hil/report/some_run.hpp"
+
+namespace pitwall::report {
+namespace {
+
+TEST(Header, SaysThatItIsASimulation) {
+  const std::string html = header(run_of({}));
+  EXPECT_EQ(count(html, "SIMULATION"), 1u);
+  for (const char* fact : {"some_run", "lockstep", ">7<", "10.0 s", "av21.dbc V14"})
+    EXPECT_GE(count(html, fact), 1u) << fact;
+  EXPECT_EQ(count(html, run_of({}).digest), 1u);
+}
+
+TEST(Banner, IsOneOfThree) {
+  EXPECT_EQ(count(banner(run_of({})), "banner pass"), 1u);
+  const std::string failed = banner(run_of({.with_failure = true}));
+  EXPECT_EQ(count(failed, "banner fail"), 1u);
+  EXPECT_EQ(count(failed, "1 of 2 expectations held"), 1u);
+  const std::string cut = banner(run_of({.close = false}));
+  EXPECT_EQ(count(cut, "banner infrastructure"), 1u);
+  EXPECT_EQ(count(cut, "truncated"), 1u);
+}
+
+TEST(Banner, ShowsWhatTheResultRemarks) {
+  RunData run = run_of({});
+  run.result = ResultFigures{};
+  run.result->refused_to_arm = "another bus";
+  run.result->remarks = {"the log has a gap"};
+  EXPECT_EQ(count(banner(run), "another bus"), 1u);
+  EXPECT_EQ(count(banner(run), "the log has a gap"), 1u);
+}
+
+TEST(Verdicts, EachHasItsRow) {
+  const std::string html = verdict_table(run_of({.with_failure = true}));
+  EXPECT_EQ(count(html, "class=\"held\""), 1u);
+  EXPECT_EQ(count(html, "class=\"broken\""), 1u);
+  EXPECT_EQ(count(html, "<td>-0.75</td><td>6.50 s</td>"), 1u);
+  EXPECT_EQ(count(verdict_table(RunData{}), "data-absent=\"verdicts\""), 1u);
+}
+
+TEST(Figures, WithoutAResultItSaysSo) {
+  RunData run = run_of({});
+  EXPECT_EQ(count(figures_table(run), "data-absent=\"result\""), 1u);
+  add_result(run, result_of(run), "run.json");
+  EXPECT_EQ(count(figures_table(run), "data-absent"), 0u);
+  EXPECT_EQ(count(figures_table(run), "<dd>1001</dd>"), 1u);
+}
+
+TEST(Messages, HaveTheirTimingAndAHistogram) {
+  const std::string html = message_table(run_of({}));
+  EXPECT_EQ(count(html, "<svg class=\"small\""), 1u);
+  EXPECT_EQ(count(html, "wheel_speed_report"), 1u);
+  EXPECT_EQ(count(html, "not that of the run"), 1u) << "the log is of another database";
+  EXPECT_EQ(count(message_table(run_of({.with_frames = false})), "data-absent"), 1u);
+}
+
+TEST(RealTime, IsForALiveRunThatMeasuredIt) {
+  EXPECT_EQ(count(real_time_charts(run_of({})), "virtual"), 1u);
+  RunData live = run_of({.mode = "live"});
+  EXPECT_EQ(count(real_time_charts(live), "data-absent=\"wake\""), 1u);
+  live.result = ResultFigures{};
+  bench::RealTime& times = live.result->real_time.emplace();
+  times.wake_late_p50_us = 61.0;
+  times.wake_late = {5, 0, 900};
+  const std::string html = real_time_charts(live);
+  EXPECT_EQ(count(html, "data-plot=\"wake\""), 1u);
+  EXPECT_EQ(count(html, "class=\"mark\""), 2u) << "two bins hold something";
+  EXPECT_EQ(count(html, "61 us (p50)"), 1u);
+}
+
+TEST(Events, AreInOrderWithWhatTheBenchDid) {
+  RunData run = run_of({});
+  run.result = ResultFigures{};
+  run.result->done = {{0.1, {"done by the bench", "car paused"}}};
+  const std::string html = event_table(run);
+  EXPECT_LT(html.find("car paused"), html.find("green"));
+  EXPECT_EQ(count(event_table(RunData{}), "data-absent=\"events\""), 1u);
+}
+
+TEST(Losses, AreListed) {
+  EXPECT_EQ(count(loss_table(run_of({})), "<td>5.000</td><td>1300</td><td>2</td><td>4.900</td>"),
+            1u);
+  EXPECT_EQ(count(loss_table(RunData{}), "data-absent=\"losses\""), 1u);
+}
+
+}  // namespace
+}  // namespace pitwall::report
