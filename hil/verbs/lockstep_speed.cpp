@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/verbs/lockstep_speed.hpp"
+
+#include "hil/bench/lockstep.hpp"
+#include "protocol/transport/clock.hpp"
+
+namespace pitwall::verbs {
+
+Result<double, Problem> times_real_time(const bench::Loaded& loaded, bool with_log) {
+  recording::Sink sink;
+  if (with_log) sink = [](std::span<const std::uint8_t>) { return true; };
+  const Instant begun = transport::monotonic_now();
+  const auto result = bench::run_lockstep(loaded.scenario, loaded.setup, {.log = sink});
+  if (!result) return Unexpected{result.error()};
+  return loaded.scenario.duration.seconds() / (transport::monotonic_now() - begun).seconds();
+}
+
+}  // namespace pitwall::verbs
