@@ -16,10 +16,13 @@
 #include "hil/bench/lockstep.hpp"
 #include "hil/bench/machine.hpp"
 #include "hil/guest/bus_verb.hpp"
+#include "hil/guest/own_hub.hpp"
 #include "hil/verbs/command_line.hpp"
 #include "hil/verbs/exit_code.hpp"
+#include "hil/verbs/report_verb.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
+#include "protocol/transport/unix_bus.hpp"
 
 namespace pitwall::verbs {
 namespace {
@@ -85,14 +88,11 @@ bench::LivePlan plan_of(const RunOptions& options, const scenario::Scenario& sce
   if (names(scenario, {"base_killed", "base_paused", "clock_step"}))
     plan.base = {beside("basestation/pitwall-base")};
   if (options.attach) return plan;
-  const std::vector<std::string> files{"--car", scenario.car_file, "--track", scenario.track_file};
-  plan.vehicle = {beside("vehicle/pitwall-vehicle")};
-  plan.vehicle.insert(plan.vehicle.end(), files.begin(), files.end());
+  plan.vehicle = {beside("vehicle/pitwall-vehicle"), "--car", scenario.car_file, "--track",
+                  scenario.track_file};
   if (const std::string guardian = beside("vehicle/guardian/pitwall-guardian");
-      fs::exists(guardian) && !options.no_guardian) {
-    plan.guardian = {guardian};
-    plan.guardian.insert(plan.guardian.end(), files.begin(), files.end());
-  }
+      fs::exists(guardian) && !options.no_guardian)
+    plan.guardian = {guardian, "--car", scenario.car_file};
   if (names(scenario, {"log_disk_full"})) plan.disk = options.folder + "/disk";
   return plan;
 }
@@ -149,8 +149,11 @@ std::vector<std::string> live_command(const RunOptions& options) {
     command.push_back(flag);
     command.push_back(value);
   };
-  add("--log", options.log_file);
-  add("--json", options.json_file);
+  add("--report", options.report_folder);
+  if (options.report_folder.empty()) {
+    add("--log", options.log_file);
+    add("--json", options.json_file);
+  }
   if (options.duration) add("--duration", std::to_string(options.duration->seconds()));
   if (options.seed) add("--seed", std::to_string(*options.seed));
   if (options.candump) command.emplace_back("--candump");
@@ -158,20 +161,38 @@ std::vector<std::string> live_command(const RunOptions& options) {
   return command;
 }
 
-int run_scenario(const RunOptions& options) {
+namespace {
+
+// Whether it passed; the files that were asked for are written.
+Result<bool, Problem> run_once(const RunOptions& options) {
   auto loaded = bench::load(options.scenario, "");
-  if (!loaded) return refuse(loaded.error());
+  if (!loaded) return Unexpected{loaded.error()};
   if (options.duration) loaded->scenario.duration = *options.duration;
   if (options.seed) loaded->scenario.seed = *options.seed;
   const auto result = options.live ? live(options, *loaded) : lockstep(options, *loaded);
-  if (!result) return refuse(result.error());
+  if (!result) return Unexpected{result.error()};
   if (!options.quiet) std::printf("%s", bench::to_text(*result).c_str());
   std::fflush(stdout);
   if (!options.json_file.empty()) {
     const auto written = transport::write_file(options.json_file, bench::to_json(*result) + "\n");
-    if (!written) return refuse(written.error());
+    if (!written) return Unexpected{written.error()};
   }
-  return result->passed() ? kExitPass : kExitFailed;
+  return result->passed();
+}
+
+int report_failure(const RunOptions& options, const Problem& problem) {
+  if (!options.report_folder.empty()) write_report(report_files(options.report_folder), problem);
+  return refuse(problem);
+}
+
+}  // namespace
+
+int run_scenario(const RunOptions& options) {
+  const auto passed = run_once(options);
+  if (!passed) return report_failure(options, passed.error());
+  if (!options.report_folder.empty())
+    return write_report(report_files(options.report_folder), std::nullopt);
+  return *passed ? kExitPass : kExitFailed;
 }
 
 int run_verb(std::span<const std::string> args) {
@@ -186,8 +207,12 @@ int run_verb(std::span<const std::string> args) {
       ->needs("--here");
   app.add_flag("--no-guardian", options.no_guardian, "live: the car alone");
   app.add_option("--interface", options.interface, "live: CAN interface");
-  app.add_option("--log", options.log_file, "write the event log (MCAP)");
-  app.add_option("--json", options.json_file, "write the result as JSON");
+  auto* log = app.add_option("--log", options.log_file, "write the event log (MCAP)");
+  auto* json = app.add_option("--json", options.json_file, "write the result as JSON");
+  app.add_option("--report", options.report_folder,
+                 "write event log, result, page and JUnit file into this folder")
+      ->excludes(log)
+      ->excludes(json);
   app.add_option("--out", options.folder,
                  "live: folder for the car's summary and the candump; default " + options.folder);
   app.add_flag("--candump", options.candump, "live: record the bus with candump");
@@ -200,13 +225,26 @@ int run_verb(std::span<const std::string> args) {
   if (const auto code = ended_by(app, args)) return *code;
   if (duration->count() > 0) options.duration = from_seconds(duration_s);
   if (with_seed->count() > 0) options.seed = seed;
+  if (!options.report_folder.empty()) {
+    if (const auto problem = prepare_report(options.report_folder)) return refuse(*problem);
+    options.log_file = report_files(options.report_folder).log;
+    options.json_file = report_files(options.report_folder).result;
+  }
   if (!options.live || options.here) return run_scenario(options);
 
   // Bad input is told before a machine is booted for it.
-  if (const auto loaded = bench::load(options.scenario, ""); !loaded) return refuse(loaded.error());
+  if (const auto loaded = bench::load(options.scenario, ""); !loaded)
+    return report_failure(options, loaded.error());
+  if (transport::is_unix_bus(options.interface)) {  // needs no guest, only a hub
+    const auto hub = guest::OwnHub::start(own_program(), options.interface);
+    return hub ? run_scenario(options) : refuse(hub.error());
+  }
   std::vector<std::string> exec{"exec", "--auto", "--interface", options.interface, "--"};
   for (std::string& word : live_command(options)) exec.push_back(std::move(word));
-  return guest::bus_verb(exec);
+  const int code = guest::bus_verb(exec);
+  if (!options.report_folder.empty() && !fs::exists(report_files(options.report_folder).html))
+    return report_failure(options, {options.scenario, "the guest ended without a report"});
+  return code;
 }
 
 }  // namespace pitwall::verbs

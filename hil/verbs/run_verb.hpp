@@ -2,7 +2,10 @@
 //
 //   --live            real SocketCAN and the real car process; where this kernel has no CAN,
 //                     inside a User-mode Linux guest that is booted for it
+//   --interface unix:PATH  live without either: a bus over a Unix socket, its hub started if needed
+//   --attach          live: the car runs already; what the bench adds is the rest of its world
 //   --log FILE        event log (MCAP)       --json FILE   result for programs
+//   --report FOLDER   both of these and their page and JUnit file: report.html, junit.xml
 //   --out FOLDER      live: summary of the car, candump of the bus
 //   out    exit code 0 passed, 1 an expectation failed, 2 bad input or bench failure
 // SPDX-License-Identifier: Apache-2.0
@@ -20,6 +23,7 @@ namespace pitwall::verbs {
 
 struct RunOptions {
   std::string scenario, log_file, json_file, folder = "out/run";
+  std::string report_folder;          // empty: no report
   std::optional<Duration> duration;   // instead of the scenario's
   std::optional<std::uint64_t> seed;  // likewise
   bool live = false, here = false, candump = false, quiet = false;

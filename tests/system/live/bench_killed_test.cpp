@@ -1,0 +1,250 @@
+// The bench dies while the car drives. Car, base station and bench are processes of this test, on a
+// real bus (CMakeLists.txt runs it where vcan0 is); the test is the radio between car and base, so
+// it hears what the car says whoever else lives. The car must say that the bus is dead within
+// 100 ms of the last frame, disarm when nobody obeys, and not move under a bench that is started
+// again. Times are judged only in a run in which the machine woke the car in time; three are tried.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "protocol/can/av21.hpp"
+#include "protocol/telemetry/state_packet.hpp"
+#include "protocol/transport/can_socket.hpp"
+#include "protocol/transport/clock.hpp"
+#include "protocol/transport/file.hpp"
+#include "protocol/transport/process.hpp"
+#include "protocol/transport/udp_socket.hpp"
+#include "protocol/yaml/strict_map.hpp"
+#include "vehicle/world/mode.hpp"
+
+namespace pitwall {
+namespace {
+
+using telemetry::field;
+using transport::Process;
+using transport::UdpSocket;
+using Words = std::vector<std::string>;
+
+constexpr Duration kReportLimit = milliseconds(100);
+constexpr Duration kPunctual = milliseconds(35);  // between two packets of the car, 20 ms apart
+constexpr Duration kDisarmLimit = seconds(35);
+constexpr double kFast_mps = 15.0;
+constexpr int kAttempts = 3;
+constexpr const char* kScenario = "hil/scenarios/launch.yaml";
+
+std::string program(const char* variable) {
+  const char* path = std::getenv(variable);
+  EXPECT_NE(path, nullptr) << variable << " is not set";
+  return path == nullptr ? "" : path;
+}
+
+std::optional<Process> spawn(Words words) {
+  auto process = Process::spawn({.argv = std::move(words), .folder = PITWALL_SOURCE_DIR});
+  EXPECT_TRUE(process) << (process ? "" : to_string(process.error()));
+  if (!process) return std::nullopt;
+  return *std::move(process);
+}
+
+// What the car said, and when it said it, by the clock that this machine has for everybody.
+struct Said {
+  Instant sent{};
+  double mode = kUnset, cause = kUnset, speed_mps = kUnset;
+};
+
+// The radio between car and base station, listened to.
+class Radio {
+ public:
+  Radio() {
+    auto car = UdpSocket::bind({}), base = UdpSocket::bind({});
+    EXPECT_TRUE(car && base);
+    car_ = std::make_unique<UdpSocket>(*std::move(car));
+    base_ = std::make_unique<UdpSocket>(*std::move(base));
+  }
+  std::uint16_t port() const { return car_->local().port; }
+
+  void serve(std::uint16_t base_port) {
+    std::vector<transport::UdpDatagram> datagrams(UdpSocket::kBatch);
+    std::size_t count = car_->receive(datagrams);
+    for (const auto& d : std::span(datagrams).first(count)) {
+      base_->send_to({.port = base_port}, d.payload());
+      from_ = d.from;
+      if (const auto packet = telemetry::parse(d.payload())) take(*packet);
+    }
+    count = base_->receive(datagrams);
+    for (const auto& d : std::span(datagrams).first(count)) car_->send_to(from_, d.payload());
+  }
+
+  const std::vector<Said>& said() const { return said_; }
+  Said last() const { return said_.empty() ? Said{} : said_.back(); }
+
+ private:
+  void take(const telemetry::StatePacket& p) {
+    said_.push_back({.sent = p.sent,
+                     .mode = p.values[field("mode.mode")],
+                     .cause = p.values[field("mode.first_stop_cause")],
+                     .speed_mps = p.values[field("ego.vx")]});
+  }
+
+  std::unique_ptr<UdpSocket> car_, base_;
+  transport::UdpAddress from_{};
+  std::vector<Said> said_;
+};
+
+bool is_of_the_car(std::uint32_t id) {
+  return std::ranges::any_of(can::av21::kMessages, [id](const can::MessageRow& row) {
+    return row.id == id && row.direction == can::Direction::kFromCar;
+  });
+}
+
+struct Attempt {
+  bool drove = false;  // before the bench died
+  std::optional<Instant> last_frame, report;
+  Said first_report;       // what it said then
+  Duration longest_gap{};  // between packets, from the kill to the report
+  bool disarmed = false;
+  double top_speed_after_mps = kUnset;  // of the truth, under the bench that was started again
+  bool disarmed_to_the_end = true;
+};
+
+class Experiment {
+ public:
+  Attempt run() {
+    start();
+    result_.drove = wait([this] { return radio_.last().speed_mps > kFast_mps; }, seconds(40));
+    if (!result_.drove) return result_;
+    transport::sleep_until(transport::monotonic_now() + milliseconds(1));
+    kill_bench();
+    result_.disarmed =
+        wait([this] { return is(radio_.last().mode, world::Mode::kDisarmed); }, kDisarmLimit);
+    if (result_.disarmed) start_bench_again();
+    return result_;
+  }
+
+ private:
+  static bool is(double mode, world::Mode wanted) { return mode == static_cast<double>(wanted); }
+
+  void start() {
+    base_ = spawn(
+        {program("PITWALL_BASE_PROGRAM"), "--listen", "127.0.0.1:" + std::to_string(kBasePort)});
+    car_ = spawn({program("PITWALL_VEHICLE_PROGRAM"), "--car", "vehicle/config/cars/av21.yaml",
+                  "--track", "vehicle/config/tracks/lvms.yaml", "--can", "vcan0", "--gnss",
+                  "23501,23502", "--radio", "127.0.0.1:" + std::to_string(radio_.port()),
+                  "--simulation", "--arm"});
+    bench_ = spawn(bench_words("60"));
+  }
+
+  Words bench_words(const std::string& seconds) const {
+    return {program("PITWALL_BENCH_PROGRAM"),
+            "run",
+            kScenario,
+            "--live",
+            "--here",
+            "--attach",
+            "--duration",
+            seconds,
+            "--out",
+            folder_->path(),
+            "--json",
+            json()};
+  }
+  std::string json() const { return folder_->path() + "/run.json"; }
+
+  void look() {
+    radio_.serve(kBasePort);
+    for (std::size_t count = bus_->receive(inbox_); count > 0; count = bus_->receive(inbox_))
+      for (const auto& received : std::span(inbox_).first(count))
+        if (!is_of_the_car(received.frame.id)) last_frame_ = received.at;
+    transport::sleep_until(transport::monotonic_now() + milliseconds(2));
+  }
+
+  bool wait(const std::function<bool()>& until, Duration limit) {
+    const Instant deadline = transport::monotonic_now() + limit;
+    while (!until() && transport::monotonic_now() < deadline) look();
+    return until();
+  }
+
+  void kill_bench() {
+    bench_->kill(SIGKILL);
+    bench_->wait();
+    const Instant killed = transport::monotonic_now();
+    const auto tells = [this] {
+      return radio_.last().mode == static_cast<double>(world::Mode::kEmergencyStop) ||
+             radio_.last().cause != 0.0;
+    };
+    const bool told = wait(tells, seconds(5));
+    result_.last_frame = last_frame_;
+    if (!told) return;
+    Instant before = killed - milliseconds(20);
+    for (const Said& said : radio_.said()) {
+      if (said.sent < before) continue;
+      result_.longest_gap = std::max(result_.longest_gap, said.sent - before);
+      before = said.sent;
+      if (said.cause == 0.0) continue;
+      result_.report = said.sent;
+      result_.first_report = said;
+      return;
+    }
+  }
+
+  void start_bench_again() {
+    bench_ = spawn(bench_words("20"));
+    const bool ended = wait(
+        [this] {
+          result_.disarmed_to_the_end &= is(radio_.last().mode, world::Mode::kDisarmed) ||
+                                         is(radio_.last().mode, world::Mode::kHalted);
+          return bench_->poll().has_value();
+        },
+        seconds(40));
+    if (!ended) return;
+    if (const auto document = yaml::load_file(json()))
+      result_.top_speed_after_mps = document->root().number("speed_max_mps", 0.0, 1e3);
+  }
+
+  static constexpr std::uint16_t kBasePort = 23'433;
+  Result<transport::TemporaryFolder, Problem> folder_ =
+      transport::TemporaryFolder::create("pitwall-bench-killed-");
+  Result<transport::CanSocket, Problem> bus_ = transport::CanSocket::open("vcan0");
+  std::vector<can::ReceivedFrame> inbox_ = std::vector<can::ReceivedFrame>(256);
+  Radio radio_;
+  Instant last_frame_{};
+  std::optional<Process> base_, car_, bench_;
+  Attempt result_;
+};
+
+TEST(BenchKilled, TheCarReportsADeadBusDisarmsAndStaysWhereItIs) {
+  for (int attempt = 1; attempt <= kAttempts; ++attempt) {
+    const Attempt a = Experiment{}.run();
+    ASSERT_TRUE(a.drove) << "a car that stands shows nothing";
+    ASSERT_TRUE(a.last_frame && a.report) << "it never said a cause";
+    EXPECT_EQ(
+        telemetry::label_at(telemetry::kStopCauses, static_cast<std::size_t>(a.first_report.cause)),
+        "CAN bus dead: the drive-by-wire is silent");
+    EXPECT_EQ(a.first_report.mode, static_cast<double>(world::Mode::kEmergencyStop));
+    EXPECT_TRUE(a.disarmed) << "nobody obeys";
+    EXPECT_LT(a.top_speed_after_mps, 0.5) << "it moved and nobody armed it";
+    EXPECT_TRUE(a.disarmed_to_the_end);
+    const double report_ms = 1e3 * (*a.report - *a.last_frame).seconds();
+    std::printf(
+        "dead bus reported %.1f ms after the last frame (longest gap between packets %.1f "
+        "ms)\n",
+        report_ms, 1e3 * a.longest_gap.seconds());
+    if (a.longest_gap <= kPunctual) {
+      EXPECT_LE(report_ms, 1e3 * kReportLimit.seconds());
+      return;
+    }
+    std::printf("the machine woke the car late in attempt %d of %d\n", attempt, kAttempts);
+  }
+  std::printf("no attempt was punctual: the time was not judged, all else was\n");
+}
+
+}  // namespace
+}  // namespace pitwall
