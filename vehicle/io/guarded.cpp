@@ -29,6 +29,7 @@ void Guarded::tell(const pipeline::Setup& setup, const pipeline::Car& car,
                    const pipeline::Outputs& out, bool reset, Instant now) {
   if (!shared_) return;
   ever_armed_ |= out.chosen.actuate;
+  barred_ = barred_ && !ever_armed_;  // somebody has looked, and armed it anew
   const bool unarmed_start = !arm_ && !ever_armed_;
   pipeline::tell(setup, car, out, {.id = run_, .reset = reset || unarmed_start, .barred = barred_},
                  now, *told_);

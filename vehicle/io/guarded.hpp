@@ -26,6 +26,7 @@ class Guarded {
  public:
   static Result<Guarded, Problem> open(const std::string& name, bool arm);
 
+  // An arming request that is held since the start is refused.
   bool barred() const { return barred_; }
   // Of the guardian, as of now: read after the bus, so that no frame is newer than its word.
   pipeline::GuardianView view(Instant now);

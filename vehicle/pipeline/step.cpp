@@ -53,7 +53,8 @@ safety::SupervisorOutput supervise(const Setup& setup, Car& car, const Outputs& 
                             .own_id_seen = out.heard.own_id_seen || in.guardian.stopped,
                             .bus_failed = out.bus_guard.failed,
                             .gate_refused = car.gate_refused,
-                            .operator_requests = in.requests},
+                            .operator_requests = in.requests,
+                            .last_run_armed = in.last_run_armed},
                            in.now);
 }
 

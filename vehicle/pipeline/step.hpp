@@ -44,6 +44,7 @@ struct Inputs {
   world::LinkObservation link{};      // of the CAN interface, by the rim
   std::optional<Instant> radio_at{};  // newest authentic packet of the base station
   GuardianView guardian{};
+  bool last_run_armed = false;  // the process before this one ended while it was armed
 };
 
 struct Outputs {
