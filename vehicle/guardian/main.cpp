@@ -143,6 +143,7 @@ int run(int argc, const char* const* argv) {
   if (!text) return refuse(text.error());
   const auto car = parameters::read_car(*text, args.car_file);
   if (!car) return refuse(car.error());
+  if (args.check) return 0;
   auto rim = Rim::open(args);
   if (!rim) return refuse(rim.error());
   const auto realtime = transport::request_realtime(kPriority);

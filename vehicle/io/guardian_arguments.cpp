@@ -29,6 +29,7 @@ std::variant<GuardianArguments, int> parse_guardian_arguments(int argc, const ch
       ->expected(static_cast<int>(world::kGnssUnits))
       ->required();
   app.add_option("--summary", args.summary_file, "write counters and timing here at the end");
+  app.add_flag("--check", args.check, "only read the car file; touch no bus");
   app.add_flag("--simulation", args.simulation, "say that this is a simulation");
   try {
     app.parse(argc, argv);

@@ -15,7 +15,8 @@ namespace pitwall::io {
 struct GuardianArguments {
   std::string car_file, can_interface, guardian, summary_file;  // no summary if empty
   std::array<std::uint16_t, world::kGnssUnits> gnss_ports{};    // its own, not the car's
-  bool simulation = false;                                      // said on stderr; decides nothing
+  bool check = false;       // read the car file, say what is wrong with it, and stop
+  bool simulation = false;  // said on stderr; decides nothing
 };
 
 // Arguments, or the code to exit with.

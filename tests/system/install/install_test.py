@@ -17,6 +17,7 @@ import unit_files
 SOURCE, BUILD = Path(sys.argv[1]), Path(sys.argv[2])
 INSTALLER = SOURCE / "vehicle/config/install/install.sh"
 UNIT = "etc/systemd/system/pitwall-vehicle.service"
+GUARDIAN_UNIT = "etc/systemd/system/pitwall-guardian.service"
 NETWORK = "etc/systemd/network/70-pitwall-can0.network"
 ENVIRONMENT = "etc/pitwall/vehicle.env"
 MANIFEST = "var/lib/pitwall/install.manifest"
@@ -78,7 +79,7 @@ class Installation(unittest.TestCase):
                  ("--radio", "10.0.0.1"), ("--radio", "10.0.0.256:1"), ("--radio", "base:23431"),
                  ("--radio", "10.0.0.1:0"), ("--radio", "10.0.0.1:65536"), ("--radio", ":1"),
                  ("--gnss", "23501"), ("--gnss", "23501,23501"), ("--gnss", "1,65536"),
-                 ("--gnss", "0,1"), ("--gnss", "1,2,3"),
+                 ("--gnss", "0,1"), ("--gnss", "1,2,3"), ("--guardian-gnss", "5,5"),
                  ("--car", "/nonexistent.yaml"), ("--car", "/etc"), ("--car", str(car)),
                  ("--track", "/etc/hostname"), ("--root", "/nonexistent"), ("--root", "/"),
                  ("--build", "/nonexistent"), ("--arm",), ("--simulation",), ("extra",)]
@@ -149,6 +150,8 @@ class Installation(unittest.TestCase):
     def test_programs_and_files_are_those_of_the_build_and_the_tree(self):
         self.install()
         for name, origin in [("opt/pitwall/bin/pitwall-vehicle", BUILD / "vehicle/pitwall-vehicle"),
+                             ("opt/pitwall/bin/pitwall-guardian",
+                              BUILD / "vehicle/guardian/pitwall-guardian"),
                              ("opt/pitwall/bin/pitwall-hil", BUILD / "hil/pitwall-hil"),
                              ("etc/pitwall/cars/av21.yaml",
                               SOURCE / "vehicle/config/cars/av21.yaml"),
@@ -162,16 +165,36 @@ class Installation(unittest.TestCase):
             if isinstance(content, bytes) and not path.startswith("opt/"):
                 self.assertNotIn(b"--arm", content, path)
 
-    def test_the_unit_starts_a_process_that_the_car_process_accepts(self):
-        self.install("--track", SOURCE / "vehicle/config/tracks/ims.yaml")
+    def command_of(self, unit):
+        """What the unit starts, in the image."""
         environment = dict(line.split("=", 1) for line in self.text(ENVIRONMENT).splitlines()
                            if line and not line.startswith("#"))
-        start = unit_files.read(self.text(UNIT))["Service", "ExecStart"][0]
+        start = unit_files.read(self.text(unit))["Service", "ExecStart"][0]
         command = re.sub(r"\$\{(\w+)\}", lambda name: environment[name[1]], start).split()
-        self.assertEqual(environment["PITWALL_TRACK"], "/etc/pitwall/tracks/ims.yaml")
-        inside = [f"{self.root}{part}" if part.startswith(("/etc", "/opt")) else part
-                  for part in command]
-        self.run_installer(*inside[1:], "--check", program=inside[0])
+        return [f"{self.root}{part}" if part.startswith(("/etc", "/opt")) else part
+                for part in command]
+
+    def test_the_unit_starts_a_process_that_the_car_process_accepts(self):
+        self.install("--track", SOURCE / "vehicle/config/tracks/ims.yaml")
+        self.assertIn("PITWALL_TRACK=/etc/pitwall/tracks/ims.yaml\n", self.text(ENVIRONMENT))
+        program, *arguments = self.command_of(UNIT)
+        self.run_installer(*arguments, "--check", program=program)
+
+    def test_the_guardian_accepts_its_unit_and_shares_the_record_of_the_car_process(self):
+        self.install()
+        program, *arguments = self.command_of(GUARDIAN_UNIT)
+        self.run_installer(*arguments, "--check", program=program)
+        car = self.command_of(UNIT)
+        for option in ("--guardian", "--can", "--car"):
+            self.assertEqual(arguments[arguments.index(option) + 1], car[car.index(option) + 1])
+        own, of_car = (set(words[words.index("--gnss") + 1].split(","))
+                       for words in (arguments, car))
+        self.assertFalse(own & of_car, "two processes cannot have one port")
+
+    def test_the_guardian_never_has_a_port_of_the_car_process(self):
+        said = self.install("--gnss", "4000,4001", "--guardian-gnss", "4001,4002", expect=2).stderr
+        self.assertIn("--guardian-gnss", said)
+        self.assertEqual(snapshot(self.root), {})
 
     def test_a_crashing_process_stays_down(self):
         self.install()
@@ -187,9 +210,11 @@ class Installation(unittest.TestCase):
         unit = unit_files.read(self.text(UNIT))
         for key in ("AmbientCapabilities", "CapabilityBoundingSet"):
             self.assertEqual(unit["Service", key], ["CAP_NET_ADMIN"])
-        main = (SOURCE / "vehicle/main.cpp").read_text()
-        priority = int(re.search(r"kPriority = (\d+)", main)[1])
-        self.assertGreaterEqual(int(unit["Service", "LimitRTPRIO"][0]), priority)
+        for path, main in ((UNIT, "vehicle/main.cpp"),
+                           (GUARDIAN_UNIT, "vehicle/guardian/main.cpp")):
+            priority = int(re.search(r"kPriority = (\d+)", (SOURCE / main).read_text())[1])
+            limit = unit_files.read(self.text(path))["Service", "LimitRTPRIO"][0]
+            self.assertGreaterEqual(int(limit), priority)
         self.assertEqual(unit["Service", "LimitMEMLOCK"], ["infinity"])
         self.assertEqual(unit["Service", "User"], ["pitwall"])
         self.assertRegex(self.text("etc/sysusers.d/pitwall.conf"), r"(?m)^u pitwall ")
@@ -227,6 +252,7 @@ class Installation(unittest.TestCase):
     def test_systemd_itself_has_nothing_to_say(self):
         self.install()
         self.ask_systemd(UNIT)
+        self.ask_systemd(GUARDIAN_UNIT)
 
     def test_systemd_itself_has_nothing_to_say_of_the_unit_for_the_bus(self):
         self.with_network_manager()
@@ -239,7 +265,8 @@ class Installation(unittest.TestCase):
             return
         copy = self.root.parent / Path(path).name
         programs = self.root.parent / "programs"  # systemd wants no blanks in a program's path
-        programs.symlink_to(self.root / "opt/pitwall")
+        if not programs.is_symlink():
+            programs.symlink_to(self.root / "opt/pitwall")
         copy.write_text(self.text(path).replace("/opt/pitwall", str(programs)))
         said = subprocess.run(["systemd-analyze", "verify", "--man=no", copy], text=True,
                               capture_output=True)
@@ -263,7 +290,8 @@ class Installation(unittest.TestCase):
                       "listen-only on", unit["Service", "ExecStart"])
         wanted = self.root / "etc/systemd/system/sys-subsystem-net-devices-can0.device.wants"
         self.assertEqual({link.name for link in wanted.iterdir()},
-                         {"pitwall-can-can0.service", "pitwall-vehicle.service"})
+                         {"pitwall-can-can0.service", "pitwall-guardian.service",
+                          "pitwall-vehicle.service"})
 
     def test_under_network_manager_a_unit_of_our_own_sets_the_bus_up(self):
         self.with_network_manager()

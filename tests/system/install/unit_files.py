@@ -8,7 +8,7 @@ from pathlib import Path
 # the keys that we write. A key that is not here is a mistake or has to be looked up and added.
 KNOWN = {
     ".service": {
-        "Unit": "Description BindsTo After Before StartLimitIntervalSec StartLimitBurst",
+        "Unit": "Description BindsTo After Before Wants StartLimitIntervalSec StartLimitBurst",
         "Service":
             "Type User EnvironmentFile StateDirectory ExecStart ExecStop RemainAfterExit Restart "
             "RestartSec RestartPreventExitStatus TimeoutStopSec LimitRTPRIO LimitMEMLOCK "

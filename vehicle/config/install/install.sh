@@ -27,6 +27,8 @@ usage: ./pitwall install car [OPTION]...
   --track FILE           track file (default vehicle/config/tracks/lvms.yaml)
   --radio ADDRESS:PORT   where telemetry goes, an IPv4 address (default 127.0.0.1:23431)
   --gnss P0,P1           UDP ports of the two GNSS receivers (default 23501,23502)
+  --guardian-gnss P0,P1  UDP ports to which they send a second time, for the guardian (default
+                         23511,23512)
   --uninstall            remove what was installed; edited configuration stays
   --root DIR             work on the tree in DIR (an image) instead of this machine
   --build DIR            the build with the programs (default build/release)
@@ -49,7 +51,8 @@ source "$here/file_plan.sh"
 target='' dry_run=0 uninstall=0 settings=()
 can=can0 bitrate=500000 restart_ms=0 listen_only=0
 car=$top/vehicle/config/cars/av21.yaml track=$top/vehicle/config/tracks/lvms.yaml
-radio=127.0.0.1:23431 gnss=23501,23502 build=$top/build/release
+radio=127.0.0.1:23431 gnss=23501,23502 guardian_gnss=23511,23512
+build=$top/build/release
 
 # check_number OPTION VALUE LOW HIGH
 check_number() {
@@ -78,10 +81,10 @@ check_radio() {
   fi
 }
 
-check_gnss() {
-  if [[ ! $1 =~ ^[1-9][0-9]{0,4},[1-9][0-9]{0,4}$ ]] ||
-    ((${1%,*} > 65535 || ${1#*,} > 65535 || ${1%,*} == ${1#*,})); then
-    refuse "--gnss needs two different ports 1..65535 as P0,P1, got '$1'"
+check_gnss() { # OPTION VALUE
+  if [[ ! $2 =~ ^[1-9][0-9]{0,4},[1-9][0-9]{0,4}$ ]] ||
+    ((${2%,*} > 65535 || ${2#*,} > 65535 || ${2%,*} == ${2#*,})); then
+    refuse "$1 needs two different ports 1..65535 as P0,P1, got '$2'"
   fi
 }
 
@@ -98,7 +101,8 @@ parse() {
       --uninstall) uninstall=1 ;;
       --listen-only) listen_only=1 settings+=("$1") ;;
       --help | -h) usage; exit 0 ;;
-      --can | --bitrate | --restart-ms | --car | --track | --radio | --gnss | --root | --build)
+      --can | --bitrate | --restart-ms | --car | --track | --radio | --gnss | --guardian-gnss | \
+        --root | --build)
         (($# >= 2)) || refuse "$1 needs a value"
         [[ $1 == --root || $1 == --build ]] || settings+=("$1")
         take "$1" "$2"
@@ -119,7 +123,8 @@ take() { # OPTION VALUE
     --car) check_file "$1" "$2"; car=$2 ;;
     --track) check_file "$1" "$2"; track=$2 ;;
     --radio) check_radio "$2"; radio=$2 ;;
-    --gnss) check_gnss "$2"; gnss=$2 ;;
+    --gnss) check_gnss "$1" "$2"; gnss=$2 ;;
+    --guardian-gnss) check_gnss "$1" "$2"; guardian_gnss=$2 ;;
     --root) check_root "$2" ;;
     --build) [[ -d $2 ]] || refuse "--build: no such folder '$2'"; build=$(readlink -f -- "$2") ;;
   esac
@@ -134,7 +139,8 @@ render() {
     -e "s|@LISTEN_ONLY_YES_NO@|$( ((listen_only)) && echo yes || echo no)|g" \
     -e "s|@LISTEN_ONLY_ON_OFF@|$( ((listen_only)) && echo on || echo off)|g" \
     -e "s|@TX_QUEUE@|$tx_queue_frames|g" -e "s|@CAR@|${car##*/}|g" -e "s|@TRACK@|${track##*/}|g" \
-    -e "s|@GNSS@|$gnss|g" -e "s|@RADIO@|$radio|g" "$here/$1" >"$out"
+    -e "s|@GNSS@|$gnss|g" -e "s|@GUARDIAN_GNSS@|$guardian_gnss|g" \
+    -e "s|@RADIO@|$radio|g" "$here/$1" >"$out"
   printf '%s' "$out"
 }
 
@@ -143,6 +149,7 @@ render() {
 plan_files() {
   plan_folders "$manifest"
   plan_file program 0755 /opt/pitwall/bin/pitwall-vehicle "$build/vehicle/pitwall-vehicle"
+  plan_file program 0755 /opt/pitwall/bin/pitwall-guardian "$build/vehicle/guardian/pitwall-guardian"
   plan_file program 0755 /opt/pitwall/bin/pitwall-hil "$build/hil/pitwall-hil"
   plan_file config 0644 "/etc/pitwall/cars/${car##*/}" "$car"
   plan_file config 0644 "/etc/pitwall/tracks/${track##*/}" "$track"
@@ -155,6 +162,12 @@ plan_files() {
   plan_file system 0644 /etc/systemd/system/pitwall-vehicle.service \
     "$(render pitwall-vehicle.service)"
   plan_wanted_by_device pitwall-vehicle.service
+  plan_file system 0644 /etc/systemd/system/pitwall-guardian.service \
+    "$(render pitwall-guardian.service)"
+  plan_wanted_by_device pitwall-guardian.service
+  [[ ${gnss%,*} != "${guardian_gnss%,*}" && ${gnss#*,} != "${guardian_gnss#*,}" &&
+    ${gnss%,*} != "${guardian_gnss#*,}" && ${gnss#*,} != "${guardian_gnss%,*}" ]] ||
+    refuse "--guardian-gnss: the car's process has one of these ports"
   [[ $radio != 127.* ]] ||
     note "telemetry stays on this machine ($radio) until --radio says where the pit wall is"
 }
@@ -279,7 +292,7 @@ say_next() {
     printf 'next       systemctl start systemd-networkd\n'
     printf 'next       networkctl reload && networkctl reconfigure %s\n' "$can"
   fi
-  printf 'next       systemctl restart pitwall-vehicle\n'
+  printf 'next       systemctl restart pitwall-guardian pitwall-vehicle\n'
 }
 
 # --- the two ways ----------------------------------------------------------------------------
@@ -299,7 +312,7 @@ install_car() {
   plan_leftovers 0
   note_missing_libraries
   plan_commands
-  for program in vehicle/pitwall-vehicle hil/pitwall-hil; do
+  for program in vehicle/pitwall-vehicle vehicle/guardian/pitwall-guardian hil/pitwall-hil; do
     [[ -x $build/$program ]] || ((dry_run)) || fail "$build/$program is not built: ./pitwall build"
   done
   manifest_line=$(say_manifest)
@@ -313,8 +326,10 @@ uninstall_car() {
   plan_leftovers 1
   [[ -z $target ]] || note 'on a system that has run, the user pitwall stays'
   if [[ -z $target ]]; then
-    printf 'run      systemctl stop pitwall-vehicle\n'
-    ((dry_run)) || systemctl stop pitwall-vehicle || fail 'pitwall-vehicle does not stop'
+    # The car's process first: the guardian takes its end for what it is, a process that disarmed.
+    printf 'run      systemctl stop pitwall-vehicle pitwall-guardian\n'
+    ((dry_run)) || { systemctl stop pitwall-vehicle && systemctl stop pitwall-guardian; } ||
+      fail 'pitwall-vehicle or pitwall-guardian does not stop'
     note 'the user pitwall and its data in /var/lib/pitwall/vehicle stay'
     note 'the CAN interface stays as it is until the next boot'
     commands=('systemctl daemon-reload')
