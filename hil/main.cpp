@@ -14,7 +14,9 @@
 #include "hil/verbs/dbc_verb.hpp"
 #include "hil/verbs/demo_verb.hpp"
 #include "hil/verbs/exit_code.hpp"
+#include "hil/verbs/report_verb.hpp"
 #include "hil/verbs/run_verb.hpp"
+#include "hil/verbs/track_verb.hpp"
 
 namespace pitwall {
 namespace {
@@ -28,9 +30,11 @@ constexpr std::array kVerbs{
     Verb{"run", "run SCENARIO in lockstep or live (--live)", verbs::run_verb},
     Verb{"demo", "the whole system: car, bench and base station on real SocketCAN",
          verbs::demo_verb},
+    Verb{"report", "the page of a run (HTML, JUnit) from its event log", verbs::report_verb},
     Verb{"replay", "replay a candump log onto a CAN interface", replay::replay_verb},
     Verb{"dbc", "CAN databases: check, show, diff", verbs::dbc_verb},
     Verb{"bus", "CAN interfaces: from this kernel or from a guest", guest::bus_verb},
+    Verb{"track", "tracks: check, import from a CSV, picture", verbs::track_verb},
     Verb{"bench", "benchmarks with gates; --help names them", verbs::bench_verb},
 };
 

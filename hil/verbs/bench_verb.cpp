@@ -10,9 +10,12 @@
 #include "hil/bench/lockstep.hpp"
 #include "hil/verbs/bench_dbc.hpp"
 #include "hil/verbs/bench_gateway.hpp"
+#include "hil/verbs/bench_laps.hpp"
+#include "hil/verbs/bench_plant.hpp"
 #include "hil/verbs/bench_replay.hpp"
 #include "hil/verbs/command_line.hpp"
 #include "hil/verbs/exit_code.hpp"
+#include "hil/verbs/lockstep_speed.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 
@@ -22,16 +25,6 @@ namespace {
 constexpr double kLeastTimesRealTime = 20.0;
 constexpr int kRuns = 5;
 constexpr double kStepLimit_us = 100.0;
-constexpr const char* kScenario = "hil/scenarios/lvms_flying_lap.yaml";
-
-Result<double, Problem> times_real_time(const bench::Loaded& loaded, bool with_log) {
-  recording::Sink sink;
-  if (with_log) sink = [](std::span<const std::uint8_t>) { return true; };
-  const Instant begun = transport::monotonic_now();
-  const auto result = bench::run_lockstep(loaded.scenario, loaded.setup, {.log = sink});
-  if (!result) return Unexpected{result.error()};
-  return loaded.scenario.duration.seconds() / (transport::monotonic_now() - begun).seconds();
-}
 
 struct StepFigures {
   double p50_us = 0.0, p99_us = 0.0, max_us = 0.0;
@@ -61,7 +54,7 @@ Result<StepFigures, Problem> time_steps(const bench::Loaded& loaded) {
 }
 
 int bench_step(const std::string& json_file) {
-  const auto loaded = bench::load(kScenario, "");
+  const auto loaded = bench::load(kBenchScenario, "");
   if (!loaded) return refuse(loaded.error());
   const auto figures = time_steps(*loaded);
   if (!figures) return refuse(figures.error());
@@ -82,7 +75,7 @@ int bench_step(const std::string& json_file) {
 }
 
 int bench_lockstep(const std::string& json_file) {
-  const auto loaded = bench::load(kScenario, "");
+  const auto loaded = bench::load(kBenchScenario, "");
   if (!loaded) return refuse(loaded.error());
   std::string json = "{\"bench\":\"lockstep\",\"gate_times_real_time\":20";
   bool held = true;
@@ -118,16 +111,18 @@ int bench_lockstep(const std::string& json_file) {
 int bench_verb(std::span<const std::string> args) {
   if (!args.empty() && args[0] == "replay") return bench_replay(args.subspan(1));
   if (!args.empty() && args.front() == "gateway") return bench_gateway(args.subspan(1));
+  if (!args.empty() && args.front() == "plant") return bench_plant(args.subspan(1));
   if (!args.empty() && args.front() == "dbc") return bench_dbc(args.subspan(1));
+  if (!args.empty() && args.front() == "laps") return bench_laps(args.subspan(1));
   std::string name, json_file;
   CLI::App app{"pitwall-hil bench: benchmarks with gates"};
-  app.add_option("name", name, "dbc, gateway, lockstep, replay or step")->required();
+  app.add_option("name", name, "dbc, gateway, laps, lockstep, plant, replay or step")->required();
   app.add_option("--json", json_file, "write the figures here");
   if (const auto code = ended_by(app, args)) return *code;
   if (name == "lockstep") return bench_lockstep(json_file);
   if (name == "step") return bench_step(json_file);
-  return refuse(
-      {"bench", "unknown name \"" + name + "\"; known: dbc, gateway, lockstep, replay, step"});
+  return refuse({"bench", "unknown name \"" + name +
+                              "\"; known: dbc, gateway, laps, lockstep, plant, replay, step"});
 }
 
 }  // namespace pitwall::verbs

@@ -1,0 +1,44 @@
+// What a track is, in figures, and what about it is odd: before a car is let onto it.
+//   in     a TrackDescription that world::TrackMap::build() takes (it has refused what is no track:
+//          crossing walls, an inner wall beyond the centre of its turn, an open line)
+//   out    TrackReport; warnings are sentences with their station
+//   law    closure: the built line's end against its start; correction: the largest change of
+//          curvature by which the table had to be bent to close, as a share of the largest curvature
+//   units  m, rad, 1/m; stations in m
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/track_map.hpp"
+
+namespace pitwall::track_file {
+
+struct AtStation {
+  double value = kUnset, s_m = kUnset;
+};
+
+struct TrackReport {
+  std::string name;
+  std::size_t knots = 0;
+  double length_m = kUnset;
+  double turned_rad = kUnset;  // over the lap; positive to the left
+  double closure_m = kUnset, correction_share = kUnset;
+  AtStation curvature_max, curvature_min;  // 1/m, with sign
+  AtStation inner_room;                    // m: least of radius less the way to the inner wall
+  AtStation width_max, width_min;          // m, wall to wall
+  AtStation wall_nearest;                  // m, reference line to a wall
+  AtStation bank_max, bank_min;            // rad
+  AtStation bank_change, width_change;     // rad/m and m/m, the steepest, without sign
+  AtStation curvature_change;              // 1/m^2, the steepest, without sign
+  std::vector<std::string> warnings;
+};
+
+TrackReport check_track(const world::TrackDescription& description, const world::TrackMap& map);
+
+std::string to_text(const TrackReport& report);
+std::string to_json(const TrackReport& report);
+
+}  // namespace pitwall::track_file
