@@ -230,6 +230,11 @@ int run_verb(std::span<const std::string> args) {
     options.log_file = report_files(options.report_folder).log;
     options.json_file = report_files(options.report_folder).result;
   }
+  if (options.candump && transport::is_unix_bus(options.interface)) {
+    std::fprintf(stderr, "%s: candump hears SocketCAN only: not recorded (--log has the frames)\n",
+                 options.interface.c_str());
+    options.candump = false;
+  }
   if (!options.live || options.here) return run_scenario(options);
 
   // Bad input is told before a machine is booted for it.
