@@ -30,7 +30,7 @@ SteeringFit fit_of(const Vector& v) {
   return {.offset_rad = v[0], .ratio = v[1], .delay_s = v[2], .understeer_rad_per_mps2 = v[3]};
 }
 
-// understeer = (1 / front - 1 / rear) / g, stiffness per friction and load: the front axle takes it.
+// understeer = (1 / front - 1 / rear) / g with stiffness per load: the front axle takes it.
 SingleTrackParams with_understeer(SingleTrackParams car, double understeer_rad_per_mps2) {
   const double rear = 1.0 / (car.friction * car.rear_stiffness_per_rad);
   constexpr double kStiffest = 1e-3;  // rad per load: beyond any tyre
