@@ -38,11 +38,18 @@ Result<pipeline::Setup, Problem> set_up(const io::Arguments& args) {
   if (!track_text) return Unexpected{track_text.error()};
   const auto track = parameters::read_track(*track_text, args.track_file);
   if (!track) return Unexpected{track.error()};
-  return pipeline::prepare(car->params, *track);
+  pipeline::CarParams params = car->params;
+  if (args.no_base) params.watchdog[safety::Stream::kRadio].watched = false;
+  return pipeline::prepare(params, *track);
 }
 
 void tell(const world::BusIdentity& identity) {
   std::fprintf(stderr, "pitwall-vehicle: %s\n", gateway::sentence(identity).c_str());
+}
+
+void tell(safety::Arming arming) {
+  if (safety::is_refused(arming))
+    std::fprintf(stderr, "pitwall-vehicle: not armed: %s\n", safety::text_of(arming));
 }
 
 bool same_identity(const world::BusIdentity& a, const world::BusIdentity& b) {
@@ -56,6 +63,7 @@ int drive(const pipeline::Setup& setup, const io::Arguments& args, io::Rim& rim,
   io::FrameTotals frames;
   io::LossTally losses;
   world::BusHealth bus;
+  safety::Arming arming = safety::Arming::kNotAsked;
   transport::Ticker ticker{setup.params.rates.tick};
   Instant last = transport::monotonic_now() - setup.params.rates.tick;
   while (!stop.raised()) {
@@ -84,6 +92,7 @@ int drive(const pipeline::Setup& setup, const io::Arguments& args, io::Rim& rim,
     last = now;
     if (!same_identity(out.heard.bus.identity, bus.identity)) tell(out.heard.bus.identity);
     bus = out.heard.bus;
+    if (out.chosen.arming != arming) tell(arming = out.chosen.arming);
     losses.add(bus);
     frames.gate_refusals = out.passed.refused_total;
     frames.gate_verdicts = car->gate.verdicts;
@@ -127,9 +136,10 @@ int run(int argc, const char* const* argv) {
   auto guarded = io::Guarded::open(args.guardian, args.arm);
   if (!guarded) return refuse(guarded.error());
   const auto realtime = transport::request_realtime(kPriority);
-  std::fprintf(stderr, "pitwall-vehicle: %s on %s, %s, %s%s\n", setup->track.name().c_str(),
+  std::fprintf(stderr, "pitwall-vehicle: %s on %s, %s, %s%s%s\n", setup->track.name().c_str(),
                args.can_interface.c_str(), gateway::database_text().c_str(),
-               transport::to_string(realtime).c_str(), args.simulation ? ", SIMULATION" : "");
+               transport::to_string(realtime).c_str(), args.simulation ? ", SIMULATION" : "",
+               args.no_base ? ", NO BASE STATION WATCHED" : "");
   if (rim->listen_only())
     std::fprintf(stderr, "pitwall-vehicle: %s: LISTEN-ONLY: stays disarmed and sends nothing\n",
                  args.can_interface.c_str());

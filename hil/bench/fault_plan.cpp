@@ -127,10 +127,11 @@ Result<faults::FrameFault, Problem> frame_fault(const scenario::Fault& row, Fram
   }
 }
 
-// The rest needs a machine, or a base station.
+// The rest needs a machine.
 bool in_lockstep(BenchFaultKind kind) {
   return kind == BenchFaultKind::kComputerPaused || kind == BenchFaultKind::kComputerKilled ||
-         kind == BenchFaultKind::kGuardianKilled;
+         kind == BenchFaultKind::kGuardianKilled || kind == BenchFaultKind::kBaseKilled ||
+         kind == BenchFaultKind::kBasePaused;
 }
 
 }  // namespace

@@ -19,10 +19,15 @@ Words shared_memory(const LivePlan& plan) {
   return plan.guardian.empty() ? Words{} : Words{"--guardian", plan.guardian_name};
 }
 
+// The car is told when nobody will answer it: else it would wait for its base before it arms.
+Words base_of_car(const LivePlan& plan) {
+  return plan.base.empty() && plan.radio.onward == 0 ? Words{"--no-base"} : Words{};
+}
+
 Words car_command(const LivePlan& plan) {
   return plan.vehicle + Words{"--can", plan.interface} + receivers(plan.gnss_port) +
          Words{"--radio", "127.0.0.1:" + std::to_string(plan.radio.listen)} + shared_memory(plan) +
-         Words{"--summary", plan.summary_of("vehicle"), "--simulation"};
+         base_of_car(plan) + Words{"--summary", plan.summary_of("vehicle"), "--simulation"};
 }
 
 Words guardian_command(const LivePlan& plan) {

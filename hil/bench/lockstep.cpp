@@ -10,6 +10,7 @@
 
 #include "hil/bench/run_record.hpp"
 #include "hil/bench/signals.hpp"
+#include "hil/bench/virtual_base.hpp"
 #include "hil/bus/memory_bus.hpp"
 #include "hil/grading/grader.hpp"
 
@@ -21,12 +22,14 @@ constexpr std::size_t kInboxFrames = 4096;  // a second of a full bus, and one t
 class Lockstep {
  public:
   Lockstep(const scenario::Scenario& scenario, const pipeline::Setup& setup, Rig rig,
-           grading::Grader grader, GuardianNode guardian, const LockstepOptions& options)
+           grading::Grader grader, GuardianNode guardian, VirtualBase base,
+           const LockstepOptions& options)
       : scenario_(scenario),
         setup_(setup),
         rig_(std::move(rig)),
         grader_(std::move(grader)),
         guardian_(std::move(guardian)),
+        base_(std::move(base)),
         options_(options),
         bus_({.ports = kNodes, .bit_rate = 500'000}),
         car_(std::make_unique<pipeline::Car>()),
@@ -52,9 +55,12 @@ class Lockstep {
       *car_ = {};
       inbox_.clear();
       samples_ = {};
+      base_.restart_car();
       stepped_at_ = now - setup_.params.rates.tick;
     }
-    if (guardian_.car_runs(now)) step_car(now);
+    const bool runs = guardian_.car_runs(now);
+    base_.step(now, runs);
+    if (runs) step_car(now);
     judge(*out_, now);
     note_changes(*out_, now);
     out_->chosen.mode_changed = false;
@@ -69,6 +75,7 @@ class Lockstep {
                           .can = inbox_,
                           .sensors = samples_,
                           .requests = {.arm = guardian_.armed_from_the_start()},
+                          .radio_at = base_.alive_at(),
                           .guardian = guardian_.view(now)});
     stepped_at_ = now;
     samples_ = {};
@@ -206,6 +213,7 @@ class Lockstep {
   Rig rig_;
   grading::Grader grader_;
   GuardianNode guardian_;
+  VirtualBase base_;
   const LockstepOptions& options_;
   bus::MemoryBus bus_;
   std::unique_ptr<pipeline::Car> car_;
@@ -237,9 +245,10 @@ Result<RunResult, Problem> run_lockstep(const scenario::Scenario& scenario,
   if (!grader) return Unexpected{grader.error()};
   auto faults = plan_faults(scenario.faults, scenario.seed);
   if (!faults) return Unexpected{faults.error()};
+  VirtualBase base{base_faults(*faults)};
   GuardianNode guardian{setup.params, std::move(faults->processes), options.guardian};
-  return Lockstep{scenario, setup, *std::move(rig), *std::move(grader), std::move(guardian),
-                  options}
+  return Lockstep{scenario,        setup,  *std::move(rig), *std::move(grader), std::move(guardian),
+                  std::move(base), options}
       .run();
 }
 

@@ -28,6 +28,8 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   app.add_option("--guardian", args.guardian,
                  "name of the record shared with pitwall-guardian (a file in /dev/shm, or a path)");
   app.add_flag("--simulation", args.simulation, "say in the telemetry that this is a simulation");
+  app.add_flag("--no-base", args.no_base,
+               "no base station is watched: none is needed to arm, none is missed (bench)");
   app.add_flag("--check", args.check, "only read the car and track files; touch no bus");
   app.add_flag("--arm", args.arm, "armed from the start (bench)");
   try {

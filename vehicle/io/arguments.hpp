@@ -21,6 +21,7 @@ struct Arguments {
   std::string summary_file;  // empty: none
   std::string guardian;      // name of the record shared with the guardian; empty: there is none
   bool simulation = false;   // marks the telemetry; decides nothing
+  bool no_base = false;      // no base station: none is needed to arm, none is missed (benches)
   bool check = false;        // read the files, say what is wrong with them, and stop
   bool arm = false;  // armed from the start: for benches, until an operator can arm by radio
 };

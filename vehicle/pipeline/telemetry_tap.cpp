@@ -22,8 +22,8 @@ constexpr bool causes_are_labelled_as_in_safety() {
 }
 static_assert(causes_are_labelled_as_in_safety(), "telemetry labels of causes are out of date");
 static_assert(telemetry::label_at(telemetry::kArmings,
-                                  static_cast<std::size_t>(safety::Arming::kSpent)) ==
-              "SPENT: release and arm anew");
+                                  static_cast<std::size_t>(safety::Arming::kSpent))
+                  .starts_with("SPENT"));
 static_assert(telemetry::label_at(telemetry::kBaseStates,
                                   static_cast<std::size_t>(safety::Health::kBad)) == "LOST");
 

@@ -97,10 +97,6 @@ Arming judge_request(const Tick& t, const CauseSet& causes) {
   return bars_arming(causes) ? Arming::kBarred : Arming::kArmed;
 }
 
-bool is_refused(Arming arming) {
-  return arming == Arming::kMoves || arming == Arming::kLastRunArmed;
-}
-
 // Whether the request arms in this tick. A refused one says why until it is withdrawn.
 bool judge_arming(const Tick& t, const CauseSet& causes) {
   SupervisorState& s = t.state;
@@ -300,6 +296,24 @@ Follow follow_of(Mode mode) {
 }
 
 }  // namespace
+
+const char* text_of(Arming arming) {
+  switch (arming) {
+    case Arming::kNotAsked:
+      return "not asked";
+    case Arming::kArmed:
+      return "armed";
+    case Arming::kBarred:
+      return "waits for a fault to pass";
+    case Arming::kMoves:
+      return "REFUSED: the car moves";
+    case Arming::kLastRunArmed:
+      return "REFUSED: the last run ended while armed";
+    case Arming::kSpent:
+      return "SPENT: release and arm anew";
+  }
+  return "?";
+}
 
 SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& state,
                            const SupervisorInputs& inputs, Instant now) {

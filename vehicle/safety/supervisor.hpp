@@ -63,6 +63,10 @@ enum class Arming : std::uint8_t {
   kLastRunArmed,  // refused
   kSpent          // has armed once
 };
+constexpr bool is_refused(Arming arming) {
+  return arming == Arming::kMoves || arming == Arming::kLastRunArmed;
+}
+const char* text_of(Arming arming);
 enum class CommandSource : std::uint8_t { kNone, kHold, kControl, kSafeStop };
 
 struct SupervisorInputs {

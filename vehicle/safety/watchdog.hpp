@@ -80,6 +80,8 @@ struct WatchdogParams {
       {Stream::kPlanner, "planner", true, milliseconds(125), milliseconds(500)},
       {Stream::kRadio, "radio", true, seconds(1), seconds(3)},
   }};
+
+  constexpr StreamLimit& operator[](Stream s) { return limits[static_cast<std::size_t>(s)]; }
 };
 
 struct WatchdogState {

@@ -69,7 +69,7 @@ TEST(ScenarioFiles, AFaultThatDoesNotComeIsNoticed) {
   }
   EXPECT_GE(with_faults, 10u);
   // What the car must shrug off looks the same without the fault.
-  EXPECT_EQ(blind, (std::set<std::string>{"gnss_one_unit_bad", "grip_low"}));
+  EXPECT_EQ(blind, (std::set<std::string>{"base_blink", "gnss_one_unit_bad", "grip_low"}));
 }
 
 }  // namespace

@@ -60,12 +60,13 @@ class Vehicle : public ::testing::Test {
     return *std::move(process);
   }
   std::optional<Process> start_vehicle(std::vector<std::string> argv = {}) {
-    argv.insert(argv.end(),
-                {program("PITWALL_VEHICLE_PROGRAM", "/build/release/vehicle/pitwall-vehicle"),
-                 "--car", kRoot + "/vehicle/config/cars/av21.yaml", "--track",
-                 kRoot + "/vehicle/config/tracks/" + track_, "--can", controller_->interface(),
-                 "--gnss", "23501,23502", "--radio", transport::to_string(radio_->local()),
-                 "--summary", folder_->path() + "/summary.json", "--simulation", "--arm"});
+    argv.insert(
+        argv.end(),
+        {program("PITWALL_VEHICLE_PROGRAM", "/build/release/vehicle/pitwall-vehicle"), "--car",
+         kRoot + "/vehicle/config/cars/av21.yaml", "--track",
+         kRoot + "/vehicle/config/tracks/" + track_, "--can", controller_->interface(), "--gnss",
+         "23501,23502", "--radio", transport::to_string(radio_->local()), "--summary",
+         folder_->path() + "/summary.json", "--simulation", "--arm", "--no-base"});
     return spawn(std::move(argv));
   }
   int bus(std::vector<std::string> words) {

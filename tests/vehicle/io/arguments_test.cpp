@@ -48,18 +48,20 @@ TEST(Arguments, TheLeastHaveDefaults) {
   EXPECT_EQ(p.args().radio, "127.0.0.1:23431");
   EXPECT_EQ(p.args().summary_file, "");
   EXPECT_FALSE(p.args().simulation);
+  EXPECT_FALSE(p.args().no_base) << "a car is not driven without its base by default";
   EXPECT_FALSE(p.args().arm) << "a car is armed on request only";
   EXPECT_EQ(p.out + p.err, "");
 }
 
 TEST(Arguments, EveryOptionArrives) {
-  const Parsed p = parse(
-      with(kLeast, {"--radio", "10.0.0.5:99", "--summary", "s.json", "--simulation", "--arm"}));
+  const Parsed p = parse(with(kLeast, {"--radio", "10.0.0.5:99", "--summary", "s.json",
+                                       "--simulation", "--arm", "--no-base"}));
   ASSERT_FALSE(p.refused()) << p.err;
   EXPECT_EQ(p.args().radio, "10.0.0.5:99");
   EXPECT_EQ(p.args().summary_file, "s.json");
   EXPECT_TRUE(p.args().simulation);
   EXPECT_TRUE(p.args().arm);
+  EXPECT_TRUE(p.args().no_base);
 }
 
 TEST(Arguments, HelpIsNoError) {
@@ -67,7 +69,8 @@ TEST(Arguments, HelpIsNoError) {
   ASSERT_TRUE(p.refused());
   EXPECT_EQ(p.code(), 0);
   for (const char* option :
-       {"--car", "--track", "--can", "--gnss", "--radio", "--summary", "--simulation", "--arm"})
+       {"--car", "--track", "--can", "--gnss", "--radio", "--summary", "--simulation", "--arm",
+        "--no-base"})
     EXPECT_NE(p.out.find(option), std::string::npos) << option;
 }
 

@@ -125,9 +125,9 @@ TEST(SafetySection, ReadsTheFlags) {
     return car ? car->params : throw std::runtime_error(to_string(car.error()));
   };
   const auto faults = [&](const std::string& text) { return params(text).supervisor.faults; };
-  EXPECT_FALSE(faults(av21()).radio_loss_stops);
-  EXPECT_TRUE(
-      faults(with(av21(), "radio_loss_stops: false", "radio_loss_stops: true")).radio_loss_stops);
+  EXPECT_TRUE(faults(av21()).radio_loss_stops);
+  EXPECT_FALSE(
+      faults(with(av21(), "radio_loss_stops: true", "radio_loss_stops: false")).radio_loss_stops);
   EXPECT_TRUE(faults(av21()).race_control_required);
   EXPECT_FALSE(faults(with(av21(), "race_control_required: true", "race_control_required: false"))
                    .race_control_required);
@@ -148,7 +148,7 @@ TEST(SafetySection, ReadsEveryRowOfTheWatchdog) {
   for (std::size_t i = 0; i < safety::kStreams; ++i) {
     const std::string name = defaults.limits[i].name;
     const std::string row = name + ": {watched: false, warning_s: 0.5, bad_s: 1.5}";
-    const auto car = read_car(with(av21(), "radio: {watched: false}", row), "car.yaml");
+    const auto car = read_car(with(av21(), "radio: {watched: true, warning_s: 1.0, bad_s: 3.0}", row), "car.yaml");
     ASSERT_TRUE(car) << name << ": " << to_string(car.error());
     for (std::size_t k = 0; k < safety::kStreams; ++k) {
       const safety::StreamLimit& limit = car->params.watchdog.limits[k];
@@ -165,9 +165,9 @@ TEST(SafetySection, RefusesWhatContradictsItself) {
     const std::string why = refusal(with(av21(), what, by));
     EXPECT_NE(why.find(key), std::string::npos) << by << ": " << why;
   };
-  refused("radio: {watched: false}", "radio: {warning_s: 2, bad_s: 1}", "bad_s");
-  refused("radio: {watched: false}", "radio: {warning_s: 2, bad_s: 2}", "bad_s");
-  refused("radio: {watched: false}", "gnss9 link: {watched: false}", "gnss9 link");
+  refused("radio: {watched: true, warning_s: 1.0, bad_s: 3.0}", "radio: {warning_s: 2, bad_s: 1}", "bad_s");
+  refused("radio: {watched: true, warning_s: 1.0, bad_s: 3.0}", "radio: {warning_s: 2, bad_s: 2}", "bad_s");
+  refused("radio: {watched: true, warning_s: 1.0, bad_s: 3.0}", "gnss9 link: {watched: false}", "gnss9 link");
   refused("fault_debt: 5", "fault_debt: 3", "fault_debt");
   refused("brake_kpa: [0, 8000]", "brake_kpa: [8000, 0]", "brake_kpa");
   refused("battery_v: [0, 20]", "battery_v: [20, 20]", "battery_v");

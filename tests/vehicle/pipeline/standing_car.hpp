@@ -84,7 +84,12 @@ struct Heard {
   safety::OperatorRequests requests;
 
   Inputs inputs(Instant now, Duration dt = kTick) const {
-    return {.now = now, .dt = dt, .can = frames, .sensors = sensors, .requests = requests};
+    return {.now = now,
+            .dt = dt,
+            .can = frames,
+            .sensors = sensors,
+            .requests = requests,
+            .radio_at = now};
   }
 };
 

@@ -390,6 +390,9 @@ TEST(TelemetryLabels, NameWhatBecameOfTheArmRequest) {
                                       {kLastRunArmed, "REFUSED: the last run ended while armed"},
                                       {kSpent, "SPENT: release and arm anew"}}),
             names_in(telemetry::kArmings));
+  const auto names = names_in(telemetry::kArmings);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    EXPECT_EQ(names[i], safety::text_of(static_cast<safety::Arming>(i)));
 }
 
 TEST(TelemetryLabels, NameHowTheBaseIsHeard) {
