@@ -20,6 +20,12 @@ std::string text_at(double x, double y, std::string_view anchor, std::string_vie
          " class=\"" + std::string(style) + "\">" + escaped(text) + "</text>";
 }
 
+// The number below a tick; at the right end it stays inside.
+std::string x_number(double x, double y, double width, const std::string& text) {
+  const double half = 0.5 * kLetter * static_cast<double>(text.size());
+  return text_at(std::min(x, width - half - 2.0), y, "middle", "tick", text);
+}
+
 std::string css_of(Colour colour) { return std::string(colour.css); }
 
 // As many decimals as a step needs.
@@ -101,12 +107,21 @@ double Plot::py(double y) const {
 
 std::string Plot::path_of(std::span<const Point> points) const {
   std::string path;
-  bool drawing = false;
+  std::size_t in_piece = 0;
+  const auto end_piece = [&](double x, double y) {
+    if (in_piece == 1) path += printed("L%.1f %.1f", x + 0.5, y);  // alone, it would be nothing
+    in_piece = 0;
+  };
+  Point last;
   for (const Point& point : points) {
-    if (std::isfinite(point.y))
-      path += printed("%c%.1f %.1f", drawing ? 'L' : 'M', px(point.x), py(point.y));
-    drawing = std::isfinite(point.y);
+    if (!std::isfinite(point.y)) {
+      end_piece(last.x, last.y);
+      continue;
+    }
+    last = {px(point.x), py(point.y)};
+    path += printed("%c%.1f %.1f", in_piece++ == 0 ? 'M' : 'L', last.x, last.y);
   }
+  end_piece(last.x, last.y);
   return path;
 }
 
@@ -194,7 +209,7 @@ std::string Plot::x_axis() const {
     const int decimals = decimals_of(step_of(x_.from, x_.to, count));
     for (const double tick : ticks_of(x_.from, x_.to, count))
       out += printed("<path class=\"grid\" d=\"M%.1f %.1fV%.1f\"/>", px(tick), kTop, foot) +
-             text_at(px(tick), foot + 16.0, "middle", "tick", number(tick, decimals));
+             x_number(px(tick), foot + 16.0, size_.width, number(tick, decimals));
   }
   return out +
          text_at(0.5 * (left_ + size_.width - kRight), foot + 33.0, "middle", "label", x_.label);
@@ -272,7 +287,7 @@ std::string lanes_svg(const std::string& name, const std::string& title,
     }
   }
   for (const double tick : ticks_of(0.0, end_s, 12))
-    out += text_at(px(tick), size.height - kBottom + 16.0, "middle", "tick", significant(tick, 6));
+    out += x_number(px(tick), size.height - kBottom + 16.0, width, significant(tick, 6));
   out += text_at(0.5 * (left + right), size.height - kBottom + 33.0, "middle", "label", "time, s");
   return out + "</svg>\n";
 }
