@@ -4,6 +4,8 @@
 //   out    the station up to date; screens on the given stream; heartbeats to the address of the
 //          last accepted packet, from the socket that received it: one that is bound to loopback
 //          hears and reaches nobody else
+//   law    a terminal that takes no text (Ctrl-S, a full pipe) stops the loop and the heartbeats
+//          with it: a base whose screen stands still is no base that somebody watches
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
