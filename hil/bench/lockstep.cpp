@@ -92,7 +92,9 @@ class Lockstep {
     collect(samples);
     for (const can::Frame& frame : guardian_.step(samples, at))
       bus_.offer(static_cast<std::uint8_t>(Node::kGuardian), frame, at);
-    if (guardian_.mode_changed() && record_)
+    const guardian::Mode mode = guardian_.status().mode;
+    const bool acts = mode != guardian::Mode::kIdle && mode != guardian::Mode::kWatching;
+    if (guardian_.mode_changed() && acts && record_)
       record_->event(at, "guardian",
                      std::string(guardian::text_of(guardian_.status().mode)) + " (" +
                          guardian::text_of(guardian_.status().cause) + ")");

@@ -134,7 +134,7 @@ TEST(Guardian, StopsTheCarOnTheTrackWhereverItsProcessIsKilled) {
 }
 
 TEST(Guardian, ACarThatWasStoppedForAMomentDrivesOnAlongItsLine) {
-  for (const double at_s : {62.0, 67.0, 71.5, 76.0}) {
+  for (const double at_s : {62.0, 71.5}) {
     Observer observer{at_s};
     LockstepOptions options = observer.options();
     std::uint32_t hand_backs = 0;
@@ -180,6 +180,90 @@ TEST(Guardian, WithBothKilledTheDriveByWireActsByItsOwnRule) {
                 observer.stop.contact_mps > 0.0 ? "hits the wall" : "does not hit a wall");
     EXPECT_TRUE(rule);
   }
+}
+
+// How far it gets with less: nothing is promised without any receiver but that it brakes.
+TEST(Guardian, WithFewerReceiversItStillStops) {
+  struct Less {
+    const char* what;
+    std::vector<scenario::Fault> faults;
+    double off_line_max_m;
+  };
+  const auto unit = [](scenario::Fault f, std::uint32_t n, double value = kUnset) {
+    f.unit = n;
+    f.value = value;
+    return f;
+  };
+  for (const double at_s : {62.0}) {
+    const auto both = [&](const char* kind, double value = kUnset) {
+      return std::vector{unit(fault(kind, at_s), 0, value), unit(fault(kind, at_s), 1, value)};
+    };
+    const Less cases[]{
+        {"no positions", both("gnss_variance_spike", 1000.0), 2.5},
+        {"no gyroscopes", both("imu_outage"), 2.5},
+        {"no receivers", both("gnss_unit_outage"), 1e3},
+        {"one unit jumps", {unit(fault("gnss_position_jump", at_s), 0, 20.0)}, 1.0},
+    };
+    for (const Less& less : cases) {
+      std::vector<scenario::Fault> faults = less.faults;
+      faults.push_back(fault("computer_killed", at_s));
+      Observer observer{at_s};
+      run(scenario_with(faults, at_s + 30.0), observer.options());
+      print(less.what, observer.stop);
+      EXPECT_LT(observer.stop.off_line_m, less.off_line_max_m) << less.what;
+      EXPECT_EQ(observer.stop.gate_refusals, 0u) << less.what;
+      if (less.off_line_max_m > 100.0) continue;
+      EXPECT_EQ(observer.stop.contact_mps, 0.0) << less.what;
+      EXPECT_EQ(observer.stop.mode, guardian::Mode::kHalted) << less.what;
+    }
+  }
+}
+
+// A guardian that is not needed changes no byte of a run, whatever else goes wrong.
+TEST(Guardian, IsSilentWhereTheCarsProcessLives) {
+  for (const char* name : {"bus_silent", "launch_and_stop"}) {
+    auto loaded = load(kRoot + "/hil/scenarios/" + name + ".yaml", kRoot);
+    ASSERT_TRUE(loaded) << name;
+    std::string digests[2];
+    std::uint32_t takeovers = 0;
+    for (const bool guarded : {false, true}) {
+      LockstepOptions options;
+      options.log = [](std::span<const std::uint8_t>) { return true; };
+      options.guardian = guarded;
+      options.watch_guardian = [&](const GuardianNode& n, Instant) {
+        takeovers = std::max(takeovers, n.status().takeovers);
+      };
+      auto result = run_lockstep(loaded->scenario, loaded->setup, options);
+      ASSERT_TRUE(result) << name;
+      digests[guarded ? 1 : 0] = result->digest;
+    }
+    EXPECT_FALSE(digests[0].empty());
+    EXPECT_EQ(digests[0], digests[1]) << name;
+    EXPECT_EQ(takeovers, 0u) << name;
+  }
+}
+
+// Killed for three seconds: the new process is not armed, and leaves the bus to the guardian until
+// the car stands.
+TEST(Guardian, AProcessThatIsStartedAnewMeanwhileStaysQuietAndDisarmed) {
+  constexpr double kAt_s = 62.0;
+  Observer observer{kAt_s};
+  LockstepOptions options = observer.options();
+  bool spoke = false, armed = false;
+  options.watch = [&, see = options.watch](const pipeline::Outputs& out, const Rig& rig,
+                                           Instant now) {
+    see(out, rig, now);
+    if (now < Instant{} + from_seconds(kAt_s + 3.0)) return;
+    armed |= out.chosen.actuate;
+    spoke |= rig.truth().speed_mps > 0.5 && !out.passed.frames.empty();
+  };
+  run(scenario_with({fault("computer_killed", kAt_s, 3.0)}, kAt_s + 30.0), options);
+  print("killed and started anew", observer.stop);
+  EXPECT_FALSE(spoke);
+  EXPECT_FALSE(armed);
+  EXPECT_LT(observer.stop.off_line_m, 1.0);
+  EXPECT_LT(observer.stop.stood_s, 25.0);
+  EXPECT_FALSE(guardian::drives(observer.stop.mode)) << "a start that is not armed ends the hold";
 }
 
 }  // namespace

@@ -12,12 +12,13 @@ namespace {
 
 TEST(TangentPlane, IsThatOfGeographicLibWithinAMicrometre) {
   std::mt19937_64 random{1};
-  std::uniform_real_distribution<double> latitude{-85.0, 85.0}, longitude{-180.0, 180.0},
-      off{-0.09, 0.09}, height{-100.0, 3000.0};
+  const auto within = [&random](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+  };
   for (int i = 0; i < 2000; ++i) {
-    const Geodetic datum{latitude(random), longitude(random), height(random)};
-    const Geodetic place{datum.latitude_deg + off(random), datum.longitude_deg + off(random),
-                         height(random)};
+    const Geodetic datum{within(-85.0, 85.0), within(-180.0, 180.0), within(-100.0, 3000.0)};
+    const Geodetic place{datum.latitude_deg + within(-0.09, 0.09),
+                         datum.longitude_deg + within(-0.09, 0.09), within(-100.0, 3000.0)};
     const GeographicLib::LocalCartesian plane{datum.latitude_deg, datum.longitude_deg,
                                               datum.height_m};
     double x_m = 0.0, y_m = 0.0, z_m = 0.0;
