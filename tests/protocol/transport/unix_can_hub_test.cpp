@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocol/transport/unix_can_hub.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 
 #include <csignal>
@@ -252,6 +254,20 @@ TEST_F(UnixCanHubOnBench, ClientsBeyondTheLimitAreTurnedAwayAndCounted) {
   EXPECT_EQ(hub_->counters().left, 1u);
 }
 
+TEST_F(UnixCanHubOnBench, WhatAClientSentBeforeItDiedWithUnreadFramesIsRelayed) {
+  RawClient reader(bus_);
+  for (std::uint32_t round = 1; round <= 20; ++round) {
+    RawClient victim(bus_);
+    ASSERT_TRUE(reader.send(numbered(1, round)));
+    serve();  // now it has a frame to read, and never will
+    for (std::uint32_t i = 0; i < 10; ++i) ASSERT_TRUE(victim.send(numbered(2, i)));
+    victim.leave();
+    serve();
+    ASSERT_EQ(reader.read().size(), 10u);
+    ASSERT_EQ(hub_->counters().left, round);
+  }
+}
+
 TEST(UnixCanHubPath, BelongsToItsOwnerAloneAndGoesWithTheHub) {
   auto folder = TemporaryFolder::create("pitwall-unix-bus-");
   ASSERT_TRUE(folder);
@@ -322,6 +338,21 @@ TEST(UnixCanHubPath, OfManyThatStartAtOnceOnAStalePathExactlyOneServes) {
     RawClient client("unix:" + path);
     ASSERT_TRUE(client.connected());
   }
+}
+
+TEST(UnixCanHubPath, NobodyDecidesAboutItWhileAnotherHolds) {
+  auto folder = TemporaryFolder::create("pitwall-unix-bus-");
+  ASSERT_TRUE(folder);
+  const std::string path = folder->path() + "/bus";
+  FileDescriptor held(posix_call([&] { return ::open(folder->path().c_str(), O_RDONLY); }));
+  ASSERT_EQ(flock(held.get(), LOCK_EX), 0);
+  bool opened = false;
+  std::thread starter([&] { opened = UnixCanHub::open("unix:" + path).has_value(); });
+  sleep_until(monotonic_now() + milliseconds(50));
+  EXPECT_FALSE(std::filesystem::exists(path));
+  held.reset();
+  starter.join();
+  EXPECT_TRUE(opened);
 }
 
 // Another program, in another language, that knows nothing of ours but the kernel's layout.
