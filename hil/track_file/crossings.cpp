@@ -28,8 +28,8 @@ bool apart(double a0, double a1, double b0, double b1) {
 bool cross(const Piece& p, const Piece& q) {
   if (apart(p.a.x_m, p.b.x_m, q.a.x_m, q.b.x_m) || apart(p.a.y_m, p.b.y_m, q.a.y_m, q.b.y_m))
     return false;
-  return side_of(p.a, p.b, q.a) * side_of(p.a, p.b, q.b) < 0.0 &&
-         side_of(q.a, q.b, p.a) * side_of(q.a, q.b, p.b) < 0.0;
+  return side_of(p.a, p.b, q.a) * side_of(p.a, p.b, q.b) <= 0.0 &&
+         side_of(q.a, q.b, p.a) * side_of(q.a, q.b, p.b) <= 0.0;
 }
 
 std::vector<std::size_t> thinned(const TrackCsv& csv, const std::vector<std::size_t>& kept) {
@@ -63,7 +63,8 @@ std::optional<Crossing> first_crossing(const TrackCsv& csv, const std::vector<Pi
   for (const Piece& p : one)
     for (const Piece& q : other) {
       const bool same_line = &one == &other;
-      if (same_line && q.order <= p.order + 1) continue;
+      const bool joined = q.order <= p.order + 1 || q.order + 1 == p.order + one.size();
+      if (same_line && joined) continue;
       if (!cross(p, q)) continue;
       const auto [earlier, later] = std::minmax(p.row, q.row);
       return Crossing{later, report::printed("%s at line %zu", what, csv.rows[earlier].line)};

@@ -122,17 +122,20 @@ Result<Line, Problem> line_of_places(const TrackCsv& csv, const FitOptions& opti
   for (std::size_t i = 0; i + 1 < curve.points.size(); ++i)
     line.add_heading(curve.points[i].s_m, curve.points[i].yaw_rad);
   const double step_m = along_m.back() / static_cast<double>(curve.points.size() - 1);
+  std::size_t farthest = 0;
   for (std::size_t j = 0; j < line.rows.size(); ++j) {
     const CsvRow& row = csv.rows[line.rows[j]];
     const Beside at = beside(curve, static_cast<std::size_t>(along_m[j] / step_m), row);
     line.add_row(row, at.s_m, at.n_m);
-    if (std::abs(at.n_m) > fit.moved_m) fit.moved_m = std::abs(at.n_m), fit.moved_s_m = at.s_m;
-    if (std::abs(at.n_m) > kMovedMax_m)
-      return refuse(csv, line.rows[j],
-                    printed("%.2f m beside the smoothed line: an outlier, or smoothing over %.0f m "
-                            "is too much for this turn",
-                            std::abs(at.n_m), options.smoothing_m));
+    if (std::abs(at.n_m) <= fit.moved_m) continue;
+    fit.moved_m = std::abs(at.n_m), fit.moved_s_m = at.s_m;
+    farthest = line.rows[j];
   }
+  if (fit.moved_m > kMovedMax_m)
+    return refuse(csv, farthest,
+                  printed("%.2f m beside the smoothed line: an outlier, or smoothing over %.0f m "
+                          "is too much for this turn",
+                          fit.moved_m, options.smoothing_m));
   return line;
 }
 

@@ -74,7 +74,9 @@ TEST(TrackFit, ANarrowPlaceBetweenTwoKnotsIsKept) {
   const auto places = stadium(2.0);
   for (std::size_t i = 0; i < places.size(); ++i)
     text += row_text(places[i].x_m, places[i].y_m, i == 33 ? 3.0 : 9.0, 9.0);
-  const auto fit = fitted(text, {.knot_spacing_m = 10.0});
+  FitOptions options;
+  options.knot_spacing_m = 10.0;
+  const auto fit = fitted(text, options);
   ASSERT_TRUE(fit) << to_string(fit.error());
   const auto map = built(*fit);
   const auto at = map.project(places[33].x_m, places[33].y_m);
