@@ -3,7 +3,7 @@
 //          crossing walls, an inner wall beyond the centre of its turn, an open line)
 //   out    TrackReport; warnings are sentences with their station
 //   law    closure: the built line's end against its start; correction: the largest change of
-//          curvature by which the table had to be bent to close, as a share of the largest curvature
+//          curvature by which the table had to be bent to close, as a share of the largest one
 //   units  m, rad, 1/m; stations in m
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
