@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""process_faults.py PITWALL_HIL [--interface unix:PATH] [--only NAME]... [--points N] [--out FOLDER]
+"""process_faults.py PITWALL_HIL [--interface unix:PATH] [--only NAME]... [--points N] [--out DIR]
 
 Every live scenario in which a process, a clock or a disk fails, and the car's process killed at
 eight points of a lap of LVMS at speed (--points; 0: none). Prints one line per run with the
-tightest margin of what is expected; writes FOLDER/process_faults.json. Exit code 0 if all hold.
+tightest margin of what is expected; writes DIR/process_faults.json. Exit code 0 if all hold.
 Takes about a quarter of an hour: the runs are real time.
 """
 import argparse
