@@ -175,7 +175,7 @@ class Live {
     grading::add(result_.cross_track, parts_.rig.truth().speed_mps,
                  cross_track_m(parts_.rig, offset_m));
     result_.speed_max_mps = std::max(result_.speed_max_mps, parts_.rig.truth().speed_mps);
-    if (record_) record_->truth(parts_.rig, now);
+    if (record_) record_->truth(parts_.rig, now, cross_track_m(parts_.rig, offset_m));
   }
 
   void settle(Duration span) {
@@ -280,7 +280,7 @@ class Live {
   void close_record() {
     if (!record_) return;
     for (const grading::Verdict& verdict : result_.verdicts)
-      record_->event(Instant{} + scenario_.duration, verdict.pass ? "pass" : "fail", verdict.text);
+      record_->verdict(Instant{} + scenario_.duration, verdict);
     if (!record_->close())
       result_.remarks.push_back("the event log has no end: its disk took no more, and at least " +
                                 std::to_string(record_->counters().refused_sink) +
