@@ -225,9 +225,9 @@ std::string Plot::axes() const {
            text_at(left_ - 7.0, py(tick) + 4.0, "end", "tick", number(tick, decimals));
   const double middle = 0.5 * (kTop + size_.height - kBottom);
   out += printed(
-             "<text class=\"label\" text-anchor=\"middle\" transform=\"translate(14 %.1f) "
+             "<text class=\"label\" text-anchor=\"middle\" transform=\"translate(%.0f %.1f) "
              "rotate(-90)\">",
-             middle) +
+             left_ - 54.0, middle) +
          escaped(y_.label) + "</text>";
   return out +
          printed("<rect class=\"frame\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>",
@@ -268,7 +268,7 @@ std::string lanes_svg(const std::string& name, const std::string& title,
       printed(" data-x0=\"0\" data-x1=\"%.9g\" data-left=\"%.0f\" data-right=\"%.0f\"", end_s, left,
               right) +
       printed(" data-top=\"%.0f\" data-bottom=\"%.0f\">", kTop, size.height - kBottom) +
-      text_at(10.0, 19.0, "start", "title", title);
+      text_at(left, 19.0, "start", "title", title);
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const double top = kTop + kRow * static_cast<double>(i);
     out += text_at(left - 8.0, top + 16.0, "end", "tick", lanes[i].name);
@@ -281,8 +281,14 @@ std::string lanes_svg(const std::string& name, const std::string& title,
              printed("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.0f\" stroke=\"#fff\"",
                      px(piece.from_s), top + 2.0, wide, kRow - 4.0) +
              " fill=\"" + css_of(piece.fill) + "\"/>";
-      if (wide > static_cast<double>(piece.label.size()) * kLetter + 8.0)
+      const double word = static_cast<double>(piece.label.size()) * kLetter + 8.0;
+      if (wide > word) {
         out += text_at(px(piece.from_s) + 5.0, top + 16.0, "start", "piece", piece.label);
+      } else if (lanes[i].pieces.size() == 1) {  // room beside it
+        const bool before = px(piece.to_s) + word > right;
+        out += text_at(before ? px(piece.from_s) - 5.0 : px(piece.from_s) + wide + 5.0, top + 16.0,
+                       before ? "end" : "start", "piece", piece.label);
+      }
       out += "</g>";
     }
   }

@@ -202,11 +202,7 @@ ResultFigures figures_of(const JsonValue& json) {
                         .gate_refusals = json.number("gate_refusals"),
                         .bus_refusals = json.number("bus_refusals"),
                         .real_time = real_time_of(json.find("real_time")),
-                        .done = {},
                         .remarks = {}};
-  for (const JsonValue& done : json.items("done"))
-    if (const double at_s = done.number("at_s"); std::isfinite(at_s))
-      figures.done.push_back({at_s, {"done by the bench", done.text("what")}});
   for (const JsonValue& remark : json.items("remarks")) figures.remarks.push_back(remark.text());
   return figures;
 }

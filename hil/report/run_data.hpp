@@ -64,7 +64,6 @@ struct ResultFigures {
   double to_car = kUnset, from_car = kUnset, lost = kUnset, bus_losses = kUnset;
   double gate_refusals = kUnset, bus_refusals = kUnset;
   std::optional<bench::RealTime> real_time;
-  std::vector<At<Event>> done;       // to processes, clock and disk
   std::vector<std::string> remarks;  // what else a reader must know
 };
 

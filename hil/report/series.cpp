@@ -66,20 +66,17 @@ Line thinned(std::span<const Point> points, double from, double to, std::size_t 
 
 Line bus_load(std::span<const At<BusFrame>> frames, double end_s, double least_window_s) {
   constexpr double kWindowsMax = 1200.0;
-  const double window_s = std::max(least_window_s, end_s / kWindowsMax);
-  const auto windows = static_cast<std::size_t>(std::ceil(end_s / window_s - 1e-9));
-  if (frames.empty() || windows == 0) return {};
-  std::vector<double> bits(windows);
+  if (frames.empty()) return {};
+  const double windows = std::clamp(std::floor(end_s / least_window_s), 1.0, kWindowsMax);
+  const double window_s = end_s / windows;
+  std::vector<double> bits(static_cast<std::size_t>(windows));
   for (const At<BusFrame>& frame : frames) {
-    const double place = std::clamp(frame.t_s / window_s, 0.0, static_cast<double>(windows - 1));
+    const double place = std::clamp(std::floor(frame.t_s / window_s), 0.0, windows - 1.0);
     bits[static_cast<std::size_t>(place)] += frame.v.bits;
   }
   Line line;
-  for (std::size_t i = 0; i < windows; ++i) {
-    const double begin_s = static_cast<double>(i) * window_s;
-    const double width_s = std::min(window_s, end_s - begin_s);
-    line.push_back({begin_s + 0.5 * width_s, bits[i] / (kBitRate * width_s)});
-  }
+  for (std::size_t i = 0; i < bits.size(); ++i)
+    line.push_back({(static_cast<double>(i) + 0.5) * window_s, bits[i] / (kBitRate * window_s)});
   return line;
 }
 

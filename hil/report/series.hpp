@@ -57,8 +57,8 @@ std::vector<Span> spans_of(const std::vector<At<S>>& rows, Value value) {
 
 inline constexpr double kBitRate = 500'000.0;
 
-// Share of the bus's time that frames took, per window, at its middle. Windows are as wide as
-// `least_window_s`, wider where there would be more than 1200.
+// Share of the bus's time that frames took, per window, at its middle. Windows are of one width,
+// at least `least_window_s`, and at most 1200.
 Line bus_load(std::span<const At<BusFrame>> frames, double end_s, double least_window_s);
 
 // Of all frames with one identifier from one node.

@@ -198,9 +198,7 @@ std::string real_time_charts(const RunData& run) {
 }
 
 std::string event_table(const RunData& run) {
-  std::vector<At<Event>> events = run.events;
-  if (run.result) events.insert(events.end(), run.result->done.begin(), run.result->done.end());
-  std::ranges::stable_sort(events, {}, &At<Event>::t_s);
+  const std::vector<At<Event>>& events = run.events;
   if (events.empty()) return absent("events", "Events", "none in the log");
   std::string out =
       "<table><thead><tr><th>time, s</th><th>event</th><th>what</th></tr></thead><tbody>";

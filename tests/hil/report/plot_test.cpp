@@ -13,9 +13,11 @@ namespace {
 
 TEST(Ticks, AreRoundAndInside) {
   std::mt19937 random(3);
-  std::uniform_real_distribution<double> exponent(-6.0, 6.0), place(-1.0, 1.0);
+  const auto between = [&random](double low, double high) {
+    return low + (high - low) * static_cast<double>(random()) / 4294967295.0;
+  };
   for (int i = 0; i < 1000; ++i) {
-    const double span = std::pow(10.0, exponent(random)), from = 10.0 * span * place(random);
+    const double span = std::pow(10.0, between(-6.0, 6.0)), from = 10.0 * span * between(-1.0, 1.0);
     const auto ticks = ticks_of(from, from + span, 6);
     ASSERT_GE(ticks.size(), 2u);
     EXPECT_LE(ticks.size(), 8u);
@@ -94,6 +96,10 @@ TEST(Lanes, APieceHasItsWordWhereItFits) {
   EXPECT_EQ(count(svg, ">driving</text>"), 1u);
   EXPECT_EQ(count(svg, ">stop</text>"), 0u) << "too narrow for its word";
   EXPECT_EQ(count(svg, ">none</text>"), 1u);
+
+  const std::vector<Lane> one{{"fault", {{9.9, 10.0, "stuck", kBlue}}, ""}};
+  const std::string beside = lanes_svg("states", "States", one, 1200.0, 10.0);
+  EXPECT_NE(beside.find("text-anchor=\"end\" class=\"piece\">stuck"), std::string::npos);
 }
 
 TEST(SmallHistogram, OneBarForEachBinThatHoldsSomething) {
