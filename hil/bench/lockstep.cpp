@@ -10,7 +10,7 @@
 
 #include "hil/bench/run_record.hpp"
 #include "hil/bench/signals.hpp"
-#include "hil/bench/virtual_base.hpp"
+#include "hil/bench/virtual_station.hpp"
 #include "hil/bus/memory_bus.hpp"
 #include "hil/grading/grader.hpp"
 
@@ -22,7 +22,7 @@ constexpr std::size_t kInboxFrames = 4096;  // a second of a full bus, and one t
 class Lockstep {
  public:
   Lockstep(const scenario::Scenario& scenario, const pipeline::Setup& setup, Rig rig,
-           grading::Grader grader, GuardianNode guardian, VirtualBase base,
+           grading::Grader grader, GuardianNode guardian, VirtualStation base,
            const LockstepOptions& options)
       : scenario_(scenario),
         setup_(setup),
@@ -215,7 +215,7 @@ class Lockstep {
   Rig rig_;
   grading::Grader grader_;
   GuardianNode guardian_;
-  VirtualBase base_;
+  VirtualStation base_;
   const LockstepOptions& options_;
   bus::MemoryBus bus_;
   std::unique_ptr<pipeline::Car> car_;
@@ -247,7 +247,7 @@ Result<RunResult, Problem> run_lockstep(const scenario::Scenario& scenario,
   if (!grader) return Unexpected{grader.error()};
   auto faults = plan_faults(scenario.faults, scenario.seed);
   if (!faults) return Unexpected{faults.error()};
-  VirtualBase base{base_faults(*faults)};
+  VirtualStation base{base_faults(*faults)};
   GuardianNode guardian{setup.params, std::move(faults->processes), options.guardian};
   return Lockstep{scenario,        setup,  *std::move(rig), *std::move(grader), std::move(guardian),
                   std::move(base), options}

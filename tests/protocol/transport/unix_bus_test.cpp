@@ -25,7 +25,7 @@ TEST(UnixBusAddress, APathIsTakenUpToTheKernelsOwnLimitAndRefusedBeyond) {
       EXPECT_EQ(address.error().place, name);
   }
   for (const std::string& name : {std::string("vcan0"), std::string(), std::string("UNIX:/tmp/a"),
-                                 std::string("unix:a\0b", 8)})
+                                  std::string("unix:a\0b", 8)})
     EXPECT_FALSE(unix_bus_address(name)) << name;
 }
 

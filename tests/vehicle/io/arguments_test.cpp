@@ -68,9 +68,8 @@ TEST(Arguments, HelpIsNoError) {
   const Parsed p = parse({"--help"});
   ASSERT_TRUE(p.refused());
   EXPECT_EQ(p.code(), 0);
-  for (const char* option :
-       {"--car", "--track", "--can", "--gnss", "--radio", "--summary", "--simulation", "--arm",
-        "--no-base"})
+  for (const char* option : {"--car", "--track", "--can", "--gnss", "--radio", "--summary",
+                             "--simulation", "--arm", "--no-base"})
     EXPECT_NE(p.out.find(option), std::string::npos) << option;
 }
 

@@ -108,7 +108,9 @@ TEST(CarFile, EveryLineIsNeeded) {
     const std::string why = refusal(replaced(av21(), line, ""));
     ASSERT_EQ(why.rfind("car.yaml:", 0), 0u) << "line " << line.line << ": " << line.text;
   }
-  EXPECT_EQ(refusal(testing::with(av21(), "radio: {watched: true, warning_s: 1.0, bad_s: 3.0}", "{}")), "");
+  EXPECT_EQ(
+      refusal(testing::with(av21(), "radio: {watched: true, warning_s: 1.0, bad_s: 3.0}", "{}")),
+      "");
 }
 
 TEST(CarFile, ATornFileIsRefusedOrReadNeverMore) {

@@ -48,7 +48,10 @@ Told gateway(const CarParams& p) {
 }
 
 Told safety(const CarParams& p) {
+  const auto& radio = p.watchdog.limits[static_cast<std::size_t>(safety::Stream::kRadio)];
   Told told{
+      {"safety.watchdog.radio.warning_s", radio.warning.seconds()},
+      {"safety.watchdog.radio.bad_s", radio.bad.seconds()},
       {"safety.supervisor.faults.dead_reckoning_max_s",
        p.supervisor.faults.dead_reckoning_max.seconds()},
       {"safety.supervisor.faults.bus_dead_s", p.supervisor.faults.bus_dead.seconds()},
@@ -148,7 +151,8 @@ TEST(SafetySection, ReadsEveryRowOfTheWatchdog) {
   for (std::size_t i = 0; i < safety::kStreams; ++i) {
     const std::string name = defaults.limits[i].name;
     const std::string row = name + ": {watched: false, warning_s: 0.5, bad_s: 1.5}";
-    const auto car = read_car(with(av21(), "radio: {watched: true, warning_s: 1.0, bad_s: 3.0}", row), "car.yaml");
+    const auto car = read_car(
+        with(av21(), "radio: {watched: true, warning_s: 1.0, bad_s: 3.0}", row), "car.yaml");
     ASSERT_TRUE(car) << name << ": " << to_string(car.error());
     for (std::size_t k = 0; k < safety::kStreams; ++k) {
       const safety::StreamLimit& limit = car->params.watchdog.limits[k];
@@ -165,9 +169,12 @@ TEST(SafetySection, RefusesWhatContradictsItself) {
     const std::string why = refusal(with(av21(), what, by));
     EXPECT_NE(why.find(key), std::string::npos) << by << ": " << why;
   };
-  refused("radio: {watched: true, warning_s: 1.0, bad_s: 3.0}", "radio: {warning_s: 2, bad_s: 1}", "bad_s");
-  refused("radio: {watched: true, warning_s: 1.0, bad_s: 3.0}", "radio: {warning_s: 2, bad_s: 2}", "bad_s");
-  refused("radio: {watched: true, warning_s: 1.0, bad_s: 3.0}", "gnss9 link: {watched: false}", "gnss9 link");
+  refused("radio: {watched: true, warning_s: 1.0, bad_s: 3.0}", "radio: {warning_s: 2, bad_s: 1}",
+          "bad_s");
+  refused("radio: {watched: true, warning_s: 1.0, bad_s: 3.0}", "radio: {warning_s: 2, bad_s: 2}",
+          "bad_s");
+  refused("radio: {watched: true, warning_s: 1.0, bad_s: 3.0}", "gnss9 link: {watched: false}",
+          "gnss9 link");
   refused("fault_debt: 5", "fault_debt: 3", "fault_debt");
   refused("brake_kpa: [0, 8000]", "brake_kpa: [8000, 0]", "brake_kpa");
   refused("battery_v: [0, 20]", "battery_v: [20, 20]", "battery_v");

@@ -11,6 +11,7 @@
 #include "protocol/can/av21.hpp"
 #include "protocol/can/encode.hpp"
 #include "tests/support/allocation_guard.hpp"
+#include "tests/vehicle/safety/drive.hpp"
 #include "tests/vehicle/safety/situation.hpp"
 #include "vehicle/safety/frame_gate.hpp"
 
@@ -18,72 +19,10 @@ namespace pitwall::safety {
 namespace {
 
 namespace av21 = can::av21;
+using testing::Drive;
 using testing::Random;
 using testing::Situation;
 using world::Mode;
-
-// A car that does what it is told: 250 kPa for 1 m/s^2, 6 m/s^2 with full throttle.
-struct Drive {
-  SupervisorParams params;
-  SupervisorState state;
-  Situation car;
-  double speed_mps = 0.0;
-  Instant now = Instant{} + seconds(5);
-  bool wheels_known = true;
-  SupervisorOutput out;
-
-  const SupervisorOutput& tick() {
-    now += milliseconds(10);
-    car.at(now, speed_mps);
-    if (!wheels_known) car.signals.wheel_speed_mps.heard = false;
-    out = supervise(params, state,
-                    {.signals = car.signals,
-                     .bus = car.bus,
-                     .race_control = car.race_control,
-                     .ego = car.ego,
-                     .watchdog = car.watchdog,
-                     .stop = car.stop,
-                     .control = car.control,
-                     .control_ok = car.control_ok,
-                     .drive_available = car.drive_available,
-                     .own_id_seen = car.own_id_seen,
-                     .bus_failed = car.bus_failed,
-                     .gate_refused = car.gate_refused,
-                     .operator_requests = car.requests,
-                     .last_run_armed = car.last_run_armed},
-                    now);
-    const double brake = std::isfinite(out.command.brake_kpa) ? out.command.brake_kpa : 0.0;
-    const double pedal =
-        std::isfinite(out.command.throttle_fraction) ? out.command.throttle_fraction : 0.0;
-    speed_mps = std::max(0.0, speed_mps + (6.0 * pedal - brake / 250.0) * 0.01);
-    return out;
-  }
-  void run(Duration span) {
-    for (const Instant end = now + span; now < end;) tick();
-  }
-  // The drive-by-wire has not been heard for this long; zero: it is heard.
-  void silence(Duration age) {
-    for (auto s = static_cast<std::size_t>(Stream::kWheelSpeed);
-         s <= static_cast<std::size_t>(Stream::kDiagnostics); ++s)
-      car.watchdog.rows[s].age = age;
-  }
-  // Nothing of it is heard any more, the wheels among it; it still obeys.
-  void kill_bus() {
-    silence(milliseconds(71));
-    wheels_known = false;
-  }
-  void revive_bus() {
-    silence({});
-    wheels_known = true;
-  }
-  void race() {
-    car.requests.arm = true;
-    run(milliseconds(50));
-    ASSERT_EQ(out.mode, Mode::kDriving);
-    run(seconds(5));
-    ASSERT_GT(speed_mps, 5.0);
-  }
-};
 
 TEST(Supervisor, AWholeDay) {
   Drive d;
@@ -399,151 +338,6 @@ TEST(Supervisor, ACommandThatIsNoNumberOrOutsideItsRangeIsAFailureOfControl) {
   }
   EXPECT_EQ(stopped_by(0.0, 1.01, 0.0), Cause::kControlFailed);
   EXPECT_EQ(stopped_by(0.0, -0.01, 0.0), Cause::kControlFailed);
-}
-
-TEST(Supervisor, ADeadBusStopsTheCarThenDisarmsItAndTheBusThatComesBackDoesNotMoveIt) {
-  for (const bool located : {true, false}) {
-    Drive d;
-    d.race();
-    d.kill_bus();
-    if (!located) d.car.ego.validity = world::Validity::kLost;
-    const Instant died = d.now;
-    d.tick();
-    EXPECT_EQ(d.out.mode, Mode::kEmergencyStop);
-    EXPECT_EQ(d.out.cause, Cause::kBusDead);
-    d.car.control.throttle_fraction = 0.0;
-    while (d.out.mode != Mode::kDisarmed && d.now - died < seconds(60)) {
-      ASSERT_TRUE(d.out.actuate) << "it commands as long as somebody may obey";
-      d.tick();
-    }
-    EXPECT_EQ(d.speed_mps, 0.0);
-    EXPECT_NEAR((d.now - died).seconds(), d.params.faults.bus_dead_disarm.seconds(), 0.03);
-    EXPECT_FALSE(d.out.actuate);
-    EXPECT_EQ(d.out.cause, Cause::kBusDead) << "it still says why";
-    d.revive_bus();
-    d.car.ego.validity = world::Validity::kGood;
-    d.run(seconds(5));
-    EXPECT_EQ(d.out.mode, Mode::kDisarmed);
-    EXPECT_EQ(d.out.arming, Arming::kSpent);
-    d.car.requests.arm = false;
-    d.tick();
-    d.car.requests.arm = true;
-    d.run(milliseconds(100));
-    EXPECT_EQ(d.out.mode, Mode::kDriving);
-    EXPECT_EQ(d.out.cause, Cause::kNone);
-  }
-}
-
-TEST(Supervisor, ABusThatComesBackDuringTheStopChangesNothing) {
-  Drive d;
-  d.race();
-  d.kill_bus();
-  d.run(milliseconds(200));
-  d.revive_bus();
-  d.car.control.throttle_fraction = 0.0;
-  d.run(seconds(60));
-  EXPECT_EQ(d.out.mode, Mode::kHalted);
-  EXPECT_EQ(d.out.cause, Cause::kBusDead);
-}
-
-TEST(Supervisor, WithoutItsBaseACarDoesNotArmAndTheRequestWaits) {
-  for (const Health lost : {Health::kNever, Health::kBad}) {
-    Drive d;
-    d.car.stream(Stream::kRadio).health = lost;
-    d.car.requests.arm = true;
-    d.run(seconds(2));
-    EXPECT_EQ(d.out.mode, Mode::kDisarmed);
-    EXPECT_EQ(d.out.arming, Arming::kBarred);
-    d.car.stream(Stream::kRadio).health = Health::kGood;
-    d.run(milliseconds(50));
-    EXPECT_EQ(d.out.mode, Mode::kDriving);
-  }
-  Drive alone;
-  alone.car.stream(Stream::kRadio).health = Health::kUnwatched;
-  alone.race();
-}
-
-// Armed, and waiting for green: the base goes and comes back, and so does the flag.
-TEST(Supervisor, ABaseThatComesBackDoesNotSetACarInMotion) {
-  Drive d;
-  d.car.race_control.track = world::TrackFlag::kRed;
-  d.car.requests.arm = true;
-  d.run(seconds(1));
-  ASSERT_EQ(d.out.mode, Mode::kStandby);
-  d.car.stream(Stream::kRadio).health = Health::kBad;
-  d.tick();
-  EXPECT_EQ(d.out.mode, Mode::kDisarmed);
-  d.car.stream(Stream::kRadio).health = Health::kGood;
-  d.car.race_control.track = world::TrackFlag::kGreen;
-  d.run(seconds(5));
-  EXPECT_EQ(d.out.mode, Mode::kDisarmed);
-  EXPECT_EQ(d.out.arming, Arming::kSpent);
-}
-
-TEST(Supervisor, AStopForALostBaseStaysAfterItsReturn) {
-  Drive d;
-  d.race();
-  d.car.stream(Stream::kRadio).health = Health::kBad;
-  d.tick();
-  EXPECT_EQ(d.out.mode, Mode::kControlledStop);
-  d.car.stream(Stream::kRadio).health = Health::kGood;
-  d.car.control.throttle_fraction = 0.0;
-  d.car.control.brake_kpa = 800.0;
-  d.run(seconds(60));
-  EXPECT_EQ(d.out.mode, Mode::kHalted);
-  EXPECT_EQ(d.out.cause, Cause::kRadioLost);
-}
-
-TEST(Supervisor, AProcessThatBeginsWhileTheCarMovesDoesNotTakeItOver) {
-  Drive d;
-  d.speed_mps = 20.0;
-  d.car.requests.arm = true;
-  d.tick();
-  EXPECT_EQ(d.out.mode, Mode::kDisarmed);
-  EXPECT_EQ(d.out.arming, Arming::kMoves);
-  d.speed_mps = 0.0;
-  d.run(seconds(5));
-  EXPECT_EQ(d.out.mode, Mode::kDisarmed) << "the refused request is spent";
-  EXPECT_EQ(d.out.arming, Arming::kMoves) << "and says why";
-  d.car.requests.arm = false;
-  d.tick();
-  EXPECT_EQ(d.out.arming, Arming::kNotAsked);
-  d.car.requests.arm = true;
-  d.run(milliseconds(100));
-  EXPECT_EQ(d.out.mode, Mode::kDriving);
-}
-
-// The wheels are heard only after the request: what bars arming until then must not hide them.
-TEST(Supervisor, MotionThatIsSeenLateRefusesAsWell) {
-  Drive d;
-  d.speed_mps = 20.0;
-  d.wheels_known = false;
-  d.car.bus.identity.verdict = world::IdentityVerdict::kListening;
-  d.car.requests.arm = true;
-  d.run(seconds(1));
-  EXPECT_EQ(d.out.arming, Arming::kBarred);
-  d.wheels_known = true;
-  d.run(milliseconds(30));
-  d.speed_mps = 0.0;
-  d.car.bus.identity.verdict = world::IdentityVerdict::kRight;
-  d.run(seconds(1));
-  EXPECT_EQ(d.out.mode, Mode::kDisarmed);
-  EXPECT_EQ(d.out.arming, Arming::kMoves);
-}
-
-TEST(Supervisor, AfterARunThatEndedArmedOnlyANewRequestArms) {
-  Drive d;
-  d.car.last_run_armed = true;
-  d.car.requests.arm = true;
-  d.run(seconds(2));
-  EXPECT_EQ(d.out.mode, Mode::kDisarmed);
-  EXPECT_EQ(d.out.arming, Arming::kLastRunArmed);
-  d.car.requests.arm = false;
-  d.tick();
-  d.car.requests.arm = true;
-  d.run(milliseconds(100));
-  EXPECT_EQ(d.out.mode, Mode::kDriving);
-  EXPECT_EQ(d.out.arming, Arming::kArmed);
 }
 
 // The command as outbound speaks it.

@@ -149,7 +149,8 @@ render() {
 plan_files() {
   plan_folders "$manifest"
   plan_file program 0755 /opt/pitwall/bin/pitwall-vehicle "$build/vehicle/pitwall-vehicle"
-  plan_file program 0755 /opt/pitwall/bin/pitwall-guardian "$build/vehicle/guardian/pitwall-guardian"
+  plan_file program 0755 /opt/pitwall/bin/pitwall-guardian \
+    "$build/vehicle/guardian/pitwall-guardian"
   plan_file program 0755 /opt/pitwall/bin/pitwall-hil "$build/hil/pitwall-hil"
   plan_file config 0644 "/etc/pitwall/cars/${car##*/}" "$car"
   plan_file config 0644 "/etc/pitwall/tracks/${track##*/}" "$track"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/bench/virtual_base.hpp"
+#include "hil/bench/virtual_station.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -33,13 +33,13 @@ std::vector<BenchFault> base_faults(const FaultPlan& plan) {
   return found;
 }
 
-bool VirtualBase::active(BenchFaultKind kind, Instant now) const {
+bool VirtualStation::active(BenchFaultKind kind, Instant now) const {
   return std::any_of(faults_.begin(), faults_.end(), [&](const BenchFault& fault) {
     return fault.kind == kind && faults::active(fault, now);
   });
 }
 
-void VirtualBase::hear_car(Instant now) {
+void VirtualStation::hear_car(Instant now) {
   if (now < next_packet_) return;
   next_packet_ = now + kPacketPeriod;
   said_.sent = now;
@@ -47,7 +47,7 @@ void VirtualBase::hear_car(Instant now) {
   uplink_.heard(said_, now);
 }
 
-void VirtualBase::step(Instant now, bool car_runs) {
+void VirtualStation::step(Instant now, bool car_runs) {
   const bool killed = active(BenchFaultKind::kBaseKilled, now);
   if (was_killed_ && !killed) uplink_ = intake::Uplink{++run_};
   was_killed_ = killed;
@@ -59,7 +59,7 @@ void VirtualBase::step(Instant now, bool car_runs) {
   if (heard && !heartbeat.empty()) ear_.feed(heartbeat, now);
 }
 
-void VirtualBase::restart_car() {
+void VirtualStation::restart_car() {
   ++said_.run;
   said_.sequence = 0;
   ear_ = telemetry::HeartbeatIntake{said_.run};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/bench/virtual_base.hpp"
+#include "hil/bench/virtual_station.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ constexpr Instant at_ms(std::int64_t ms) { return {milliseconds(ms).ns}; }
 
 // Runs to the instant in ticks of the car; true while the car heard within a second.
 struct Air {
-  VirtualBase base;
+  VirtualStation base;
   std::int64_t ms = 0;
 
   bool run_to(std::int64_t end_ms, bool car_runs = true) {
@@ -23,11 +23,12 @@ struct Air {
 };
 
 Air with(BenchFaultKind kind) {
-  return {VirtualBase{{BenchFault{.kind = kind, .start = at_ms(5'000), .duration = seconds(5)}}}};
+  return {
+      VirtualStation{{BenchFault{.kind = kind, .start = at_ms(5'000), .duration = seconds(5)}}}};
 }
 
-TEST(VirtualBase, IsHeardAtOnceAndTenTimesASecond) {
-  Air air{VirtualBase{{}}};
+TEST(VirtualStation, IsHeardAtOnceAndTenTimesASecond) {
+  Air air{VirtualStation{{}}};
   EXPECT_FALSE(air.base.alive_at());
   EXPECT_TRUE(air.run_to(0));
   air.run_to(10'000);
@@ -35,7 +36,7 @@ TEST(VirtualBase, IsHeardAtOnceAndTenTimesASecond) {
   EXPECT_EQ(air.base.heartbeats().refused_total(), 0U);
 }
 
-TEST(VirtualBase, EveryFaultSilencesItForItsTimeAndNoLonger) {
+TEST(VirtualStation, EveryFaultSilencesItForItsTimeAndNoLonger) {
   for (const auto kind : {BenchFaultKind::kBaseKilled, BenchFaultKind::kBasePaused,
                           BenchFaultKind::kBaseStationSilent, BenchFaultKind::kRadioDown}) {
     Air air = with(kind);
@@ -49,8 +50,8 @@ TEST(VirtualBase, EveryFaultSilencesItForItsTimeAndNoLonger) {
   }
 }
 
-TEST(VirtualBase, ACarThatBeginsAnewHasHeardNothing) {
-  Air air{VirtualBase{{}}};
+TEST(VirtualStation, ACarThatBeginsAnewHasHeardNothing) {
+  Air air{VirtualStation{{}}};
   air.run_to(1'000);
   air.run_to(2'000, false);
   air.base.restart_car();
@@ -58,7 +59,7 @@ TEST(VirtualBase, ACarThatBeginsAnewHasHeardNothing) {
   EXPECT_TRUE(air.run_to(2'200));
 }
 
-TEST(VirtualBase, TakesItsFaultsFromBothListsOfAPlan) {
+TEST(VirtualStation, TakesItsFaultsFromBothListsOfAPlan) {
   FaultPlan plan;
   plan.models = {{.kind = BenchFaultKind::kRadioDown}, {.kind = BenchFaultKind::kLowGrip}};
   plan.processes = {{.kind = BenchFaultKind::kBaseKilled},

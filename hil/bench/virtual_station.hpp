@@ -23,9 +23,9 @@ namespace pitwall::bench {
 // Those of a plan that a virtual base carries out.
 std::vector<faults::BenchFault> base_faults(const FaultPlan& plan);
 
-class VirtualBase {
+class VirtualStation {
  public:
-  explicit VirtualBase(std::vector<faults::BenchFault> faults) : faults_(std::move(faults)) {
+  explicit VirtualStation(std::vector<faults::BenchFault> faults) : faults_(std::move(faults)) {
     restart_car();
   }
 

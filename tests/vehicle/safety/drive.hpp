@@ -1,0 +1,78 @@
+// A car under the supervisor's command, in virtual time.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/vehicle/safety/situation.hpp"
+#include "vehicle/safety/supervisor.hpp"
+
+namespace pitwall::safety::testing {
+
+// A car that does what it is told: 250 kPa for 1 m/s^2, 6 m/s^2 with full throttle.
+struct Drive {
+  SupervisorParams params;
+  SupervisorState state;
+  Situation car;
+  double speed_mps = 0.0;
+  Instant now = Instant{} + seconds(5);
+  bool wheels_known = true;
+  SupervisorOutput out;
+
+  const SupervisorOutput& tick() {
+    now += milliseconds(10);
+    car.at(now, speed_mps);
+    if (!wheels_known) car.signals.wheel_speed_mps.heard = false;
+    out = supervise(params, state,
+                    {.signals = car.signals,
+                     .bus = car.bus,
+                     .race_control = car.race_control,
+                     .ego = car.ego,
+                     .watchdog = car.watchdog,
+                     .stop = car.stop,
+                     .control = car.control,
+                     .control_ok = car.control_ok,
+                     .drive_available = car.drive_available,
+                     .own_id_seen = car.own_id_seen,
+                     .bus_failed = car.bus_failed,
+                     .gate_refused = car.gate_refused,
+                     .operator_requests = car.requests,
+                     .last_run_armed = car.last_run_armed},
+                    now);
+    const double brake = std::isfinite(out.command.brake_kpa) ? out.command.brake_kpa : 0.0;
+    const double pedal =
+        std::isfinite(out.command.throttle_fraction) ? out.command.throttle_fraction : 0.0;
+    speed_mps = std::max(0.0, speed_mps + (6.0 * pedal - brake / 250.0) * 0.01);
+    return out;
+  }
+  void run(Duration span) {
+    for (const Instant end = now + span; now < end;) tick();
+  }
+  // The drive-by-wire has not been heard for this long; zero: it is heard.
+  void silence(Duration age) {
+    for (auto s = static_cast<std::size_t>(Stream::kWheelSpeed);
+         s <= static_cast<std::size_t>(Stream::kDiagnostics); ++s)
+      car.watchdog.rows[s].age = age;
+  }
+  // Nothing of it is heard any more, the wheels among it; it still obeys.
+  void kill_bus() {
+    silence(milliseconds(71));
+    wheels_known = false;
+  }
+  void revive_bus() {
+    silence({});
+    wheels_known = true;
+  }
+  void race() {
+    car.requests.arm = true;
+    run(milliseconds(50));
+    ASSERT_EQ(out.mode, world::Mode::kDriving);
+    run(seconds(5));
+    ASSERT_GT(speed_mps, 5.0);
+  }
+};
+
+}  // namespace pitwall::safety::testing
