@@ -8,7 +8,9 @@ namespace pitwall::guest {
 namespace {
 
 // `fail` leaves the reason for the host. Without an exit code file the host knows that the command
-// never ended by itself.
+// never ended by itself. Without the limit of real-time tasks: on one processor whose clock is the
+// host's they were held up for 50 ms in a second in which the car, its guardian and the bench
+// together needed half of it.
 constexpr std::string_view kMachine = R"sh(
 off() {
   sync
@@ -28,6 +30,7 @@ mkdir -p /dev/pts /dev/shm
 mount -t devpts devpts /dev/pts
 mount -t tmpfs tmpfs /dev/shm
 mount -t tmpfs tmpfs /run
+echo -1 > /proc/sys/kernel/sched_rt_runtime_us
 modules=/usr/lib/uml/modules/$(uname -r)/kernel
 [ -d "$modules" ] || fail "no kernel modules in $modules"
 load() { insmod "$modules/$1.ko" || fail "cannot load kernel module $1"; }

@@ -15,6 +15,8 @@ constexpr double kMpsPerKmh = 1.0 / 3.6;
 constexpr double kWheelMax_mps = 120.0;
 constexpr Duration kSignalAgeMax = milliseconds(100);
 constexpr Duration kFreshRecord = milliseconds(25);
+// Later than this after its last tick, the guardian itself did not run.
+constexpr Duration kOverslept = milliseconds(10);
 // A tick of the car that began before it could read that the guardian drives is over by then.
 constexpr Duration kCrossing = milliseconds(20);
 const world::SensorInput kNoSamples;
@@ -68,6 +70,17 @@ void hear_bus(Tick& t) {
     if (id == av21::WheelSpeedReport::kId) hear_wheels(s, received);
     if (id == av21::SteeringReport::kId) hear_steering(s, received);
   }
+}
+
+// While the guardian itself did not run it cannot know who else did not: what stops a whole machine
+// for a moment is no silence of the car's process.
+void count_silence(const Tick& t) {
+  State& s = t.state;
+  if (t.command_heard) s.silent_from = s.heard.commanded_at;
+  const Duration slept = t.in.now - s.stepped_at;
+  if (s.stepped_at != Instant{} && slept > kOverslept)
+    s.silent_from = std::min(t.in.now - kTick, s.silent_from + (slept - kTick));
+  s.stepped_at = t.in.now;
 }
 
 void take_record(Tick& t) {
@@ -176,7 +189,7 @@ void watch(Tick& t) {
     return;
   }
   const bool heard = s.status.mode == Mode::kHandedBack ? t.command_heard : s.heard.commanded;
-  if (t.in.now - s.heard.commanded_at < kSilence) {
+  if (t.in.now - s.silent_from < kSilence) {
     if (s.status.mode != Mode::kWatching && heard) enter(t, Mode::kWatching, Cause::kNone);
     return;
   }
@@ -192,7 +205,7 @@ void hand_back(const Tick& t, Cause cause) {
   s.handed_back = true;
   s.handed_back_at = t.in.now;
   ++s.status.hand_backs;
-  s.heard.commanded_at = t.in.now;  // it has as long as ever to be heard
+  s.heard.commanded_at = s.silent_from = t.in.now;  // it has as long as ever to be heard
   s.status.guidance = Guidance::kNone;
   enter(t, Mode::kHandedBack, cause);
 }
@@ -301,6 +314,7 @@ Output step(const Params& params, State& state, const Inputs& inputs) {
   Output out;
   const Mode before = state.status.mode;
   hear_bus(tick);
+  count_silence(tick);
   hear_forces(tick);
   listen(state.reckoning, inputs.sensors);
   take_record(tick);

@@ -7,6 +7,7 @@
 //   rate   every 5 ms (any rate from 1 to 10 ms); frames leave every kSpeakEvery while it drives
 //   law    it acts only if all of this holds:
 //            no command (1400..1402) of the car was heard for kSilence, but others are on the bus;
+//            time in which the guardian itself did not run is not counted;
 //            the last record says armed and driving or stopping, and is no more than kRecordLag
 //            older than the last command; it holds a checked stop trajectory, and the car is on it
 //          It gives the car back, or keeps it, as record.hpp says.
@@ -52,6 +53,8 @@ struct State {
   Status status;
   CarRecord record;  // the newest
   HeardCar heard;
+  Instant stepped_at{};           // the last tick
+  Instant silent_from{};          // last command, later by the time in which no tick was run
   Instant others_at{};            // newest frame of anybody else
   world::VehicleSignals signals;  // wheel speeds and steering only
   ReckoningState reckoning;

@@ -6,6 +6,8 @@
 namespace pitwall::safety {
 namespace {
 
+constexpr Duration kTick = milliseconds(10);
+
 constexpr std::size_t at(Stream stream) { return static_cast<std::size_t>(stream); }
 
 // The streams of one kind are neighbours: unit 0, then unit 1.
@@ -29,8 +31,23 @@ static_assert(limits_are_in_order(), "WatchdogParams::limits is indexed by Strea
 
 void seen(WatchdogState& state, Stream stream, Instant when) {
   const std::size_t i = at(stream);
-  if (!state.ever[i] || when > state.last[i]) state.last[i] = when;
+  if (!state.ever[i] || when > state.last[i]) {
+    state.last[i] = when;
+    state.pardoned[i] = {};
+  }
   state.ever[i] = true;
+}
+
+// Of a sleep that is over, what lies after a stream's newest.
+void pardon(WatchdogState& state, Instant now) {
+  const Duration slept = now - state.watched_at;
+  const bool overslept = state.watched_at != Instant{} && slept > kOverslept;
+  state.watched_at = now;
+  if (!overslept) return;
+  for (std::size_t i = 0; i < kStreams; ++i) {
+    const Duration of_this = std::min(slept, now - state.last[i]) - kTick;
+    state.pardoned[i] = std::clamp(state.pardoned[i] + of_this, state.pardoned[i], kPardonMax);
+  }
 }
 
 bool is_solved(const world::GnssPosition& p) {
@@ -64,10 +81,11 @@ void heard(WatchdogState& state, Stream stream, const world::Heard<T>& signal) {
   if (signal.heard) seen(state, stream, signal.at);
 }
 
-StreamRow judge(const StreamLimit& limit, bool ever, Instant last, Instant now) {
+StreamRow judge(const StreamLimit& limit, const WatchdogState& state, Instant now) {
   if (!limit.watched) return {limit.stream, Health::kUnwatched, Duration{}};
-  if (!ever) return {limit.stream, Health::kNever, Duration{}};
-  const Duration age = now - last;
+  const std::size_t i = at(limit.stream);
+  if (!state.ever[i]) return {limit.stream, Health::kNever, Duration{}};
+  const Duration age = std::max(Duration{}, now - state.last[i] - state.pardoned[i]);
   if (age > limit.bad) return {limit.stream, Health::kBad, age};
   return {limit.stream, age > limit.warning ? Health::kWarning : Health::kGood, age};
 }
@@ -90,11 +108,11 @@ WatchdogOutput watch(const WatchdogParams& params, WatchdogState& state,
   if (inputs.planner_at) seen(state, Stream::kPlanner, *inputs.planner_at);
   if (inputs.radio_at) seen(state, Stream::kRadio, *inputs.radio_at);
 
+  // A stamp from the future keeps nothing alive.
+  for (Instant& last : state.last) last = std::min(last, now);
+  pardon(state, now);
   WatchdogOutput out;
-  for (std::size_t i = 0; i < kStreams; ++i) {
-    state.last[i] = std::min(state.last[i], now);  // a stamp from the future keeps nothing alive
-    out.rows[i] = judge(params.limits[i], state.ever[i], state.last[i], now);
-  }
+  for (std::size_t i = 0; i < kStreams; ++i) out.rows[i] = judge(params.limits[i], state, now);
   return out;
 }
 

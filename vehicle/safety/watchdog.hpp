@@ -1,5 +1,7 @@
 // Is everything still alive? One row per stream: when it was last heard, how old that is, and what
-// the age means by the row's limits. Ages decide: a stream that misses its rate grows old.
+// the age means by the row's limits. Ages decide: a stream that misses its rate grows old. Time in
+// which the car's process itself did not run is taken off the age, up to kPardonMax: whoever slept
+// cannot say who else was silent, and hears in its next ticks who lives.
 //   in     the samples of this tick, the signals and flags heard so far, the instants of the
 //          planner and of the radio
 //   out    one row per stream: good, warning, bad, never heard, or not watched
@@ -84,9 +86,14 @@ struct WatchdogParams {
   constexpr StreamLimit& operator[](Stream s) { return limits[static_cast<std::size_t>(s)]; }
 };
 
+inline constexpr Duration kOverslept = milliseconds(25);  // two ticks missed
+inline constexpr Duration kPardonMax = milliseconds(250);
+
 struct WatchdogState {
   std::array<Instant, kStreams> last{};
   std::array<bool, kStreams> ever{};
+  std::array<Duration, kStreams> pardoned{};  // since it was last heard; [0, kPardonMax]
+  Instant watched_at{};                       // the last tick
 };
 static_assert(std::is_trivially_copyable_v<WatchdogState>);
 

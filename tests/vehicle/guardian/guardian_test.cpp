@@ -53,6 +53,29 @@ TEST_F(Guardian, ActsAfterThirtyMillisecondsAndNotBefore) {
   EXPECT_EQ(car->said.size(), 6u) << "four commands, the report, the accelerations";
 }
 
+TEST_F(Guardian, AMachineThatStoodStillIsNoSilentCar) {
+  for (const int stood_ms : {11, 31, 113, 2000}) {
+    silence();
+    car->now += milliseconds(stood_ms);
+    car->run(milliseconds(14));
+    EXPECT_EQ(car->mode(), Mode::kWatching) << stood_ms;
+    car->car_speaks = car->car_publishes = true;
+    car->run(milliseconds(100));
+    EXPECT_EQ(car->mode(), Mode::kWatching) << stood_ms;
+    EXPECT_TRUE(car->so_far.empty()) << stood_ms;
+  }
+}
+
+TEST_F(Guardian, ACarThatIsSilentAfterThatIsOneAfterThirtyMilliseconds) {
+  for (const int stood_ms : {11, 31, 113, 2000}) {
+    car = std::make_unique<Straight>();
+    silence();
+    car->now += milliseconds(stood_ms);
+    car->run(milliseconds(31));
+    EXPECT_EQ(car->mode(), Mode::kDriving) << stood_ms;
+  }
+}
+
 TEST_F(Guardian, EveryCounterGoesOnWithoutAGapOrARepetition) {
   for (const int start : {0, 200, 254, 255}) {
     car = std::make_unique<Straight>();

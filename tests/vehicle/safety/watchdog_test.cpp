@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -18,7 +19,14 @@ struct Kennel {
   std::array<std::optional<Instant>, world::kGnssUnits> bytes{};
   std::optional<Instant> planner, radio;
 
+  // A car that ran all the time.
   WatchdogOutput watch(Instant now) {
+    state.watched_at = now - milliseconds(10);
+    return wake(now);
+  }
+
+  // One that slept since its last tick, where that is long ago.
+  WatchdogOutput wake(Instant now) {
     const WatchdogInputs inputs{sensors, signals, race_control, bytes, planner, radio};
     const WatchdogOutput out = safety::watch(params, state, inputs, now);
     sensors = {};
@@ -186,6 +194,41 @@ TEST(Watchdog, AStampFromTheFutureKeepsNothingAlive) {
   EXPECT_EQ(k.watch(now)[Stream::kGnss0Position].health, Health::kGood);
   const Instant later = now + k.params.limits[2].bad + nanoseconds(1);
   EXPECT_EQ(k.watch(later)[Stream::kGnss0Position].health, Health::kBad);
+}
+
+TEST(Watchdog, TimeInWhichTheCarSleptIsNoAge) {
+  for (const std::int64_t slept_ms : {26, 100, 200, 260}) {
+    Kennel k;
+    Instant now = Instant{} + seconds(10);
+    feed(k, Stream::kWheelSpeed, now);
+    k.watch(now);
+    now += milliseconds(slept_ms);
+    EXPECT_EQ(k.wake(now)[Stream::kWheelSpeed].age, milliseconds(10)) << slept_ms;
+    for (int tick = 1; tick <= 3; ++tick) {
+      now += milliseconds(10);
+      EXPECT_EQ(k.wake(now)[Stream::kWheelSpeed].age, milliseconds(10 * (tick + 1))) << slept_ms;
+    }
+    feed(k, Stream::kWheelSpeed, now);
+    EXPECT_EQ(k.wake(now)[Stream::kWheelSpeed].age, Duration{});
+    now += milliseconds(20);
+    EXPECT_EQ(k.wake(now)[Stream::kWheelSpeed].age, milliseconds(20)) << "the pardon is over";
+  }
+}
+
+TEST(Watchdog, OnlyTheSleepThatLiesAfterTheNewestIsPardonedAndNoMoreThanALimit) {
+  Kennel k;
+  Instant now = Instant{} + seconds(10);
+  feed(k, Stream::kBrake, now);
+  k.watch(now);
+  now += milliseconds(100);
+  feed(k, Stream::kBrake, now - milliseconds(40));
+  EXPECT_EQ(k.wake(now)[Stream::kBrake].age, milliseconds(10));
+  for (int nap = 1; nap <= 20; ++nap) {
+    now += milliseconds(100);
+    const Duration real = milliseconds(40 + 100 * nap);
+    const Duration pardoned = std::min(kPardonMax, milliseconds(30 + 90 * nap));
+    EXPECT_EQ(k.wake(now)[Stream::kBrake].age, real - pardoned) << nap;
+  }
 }
 
 }  // namespace
