@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/bench/cast.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <csignal>
 
 #include "protocol/transport/clock.hpp"
+#include "protocol/transport/posix_call.hpp"
+#include "protocol/transport/serial_line.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::bench {
@@ -22,18 +26,44 @@ std::optional<Problem> Cast::start() {
   for (const Deed& deed : script_)
     if (!plays(deed.role))
       return Problem{name_of(deed.role), "a fault is about it, but this run has none"};
-  for (const Role role : kEveryRole) {
-    if (!plays(role)) continue;
-    if (auto problem = spawn(role, member(role).command)) return problem;
-  }
+  for (const Deed& deed : script_)
+    if (deed.act == Act::kStart)
+      if (auto problem = prepare(deed.role)) return problem;
+  for (const Role role : kEveryRole)
+    if (plays(role))
+      if (auto problem = spawn(role)) return problem;
   return std::nullopt;
 }
 
-std::optional<Problem> Cast::spawn(Role role, const std::vector<std::string>& command) {
-  auto process = Process::spawn({.argv = command});
+std::optional<Problem> Cast::spawn(Role role) {
+  auto process = Process::spawn({.argv = member(role).command});
   if (!process) return process.error();
   state(role).process.emplace(*std::move(process));
-  state(role).absent = false;
+  return std::nullopt;
+}
+
+std::optional<Problem> Cast::prepare(Role role) {
+  auto line = transport::stream_pair();
+  if (!line) return line.error();
+  std::vector<std::string> argv{"/bin/sh", "-c", "read -r _ && exec \"$@\" < /dev/null", "sh"};
+  const std::vector<std::string>& command = member(role).restart;
+  argv.insert(argv.end(), command.begin(), command.end());
+  auto process = Process::spawn({.argv = argv, .descriptors = {{line->second.get(), 0}}});
+  if (!process) return process.error();
+  state(role).understudies.push_back({*std::move(process), std::move(line->first)});
+  return std::nullopt;
+}
+
+std::optional<Problem> Cast::enter(Role role) {
+  State& whom = state(role);
+  CHECK(!whom.understudies.empty());
+  Understudy next = std::move(whom.understudies.back());
+  whom.understudies.pop_back();
+  if (!whom.absent) return std::nullopt;
+  const auto told = transport::posix_call([&] { return ::write(next.cue.get(), "\n", 1); });
+  if (!told.ok()) return Problem{name_of(role), told.reason()};
+  whom.process.emplace(std::move(next.process));
+  whom.absent = false;
   return std::nullopt;
 }
 
@@ -51,11 +81,9 @@ std::optional<Problem> Cast::carry_out(const Deed& deed) {
     case Act::kKill:
       whom.killed = whom.absent = true;
       whom.process->kill(SIGKILL);
-      whom.process->wait();  // SIGKILL waits for nobody, not even for a stopped process
       return std::nullopt;
     case Act::kStart:
-      if (!whom.absent) return std::nullopt;
-      return spawn(deed.role, member(deed.role).restart);
+      return enter(deed.role);
     case Act::kPause:
       whom.process->kill(SIGSTOP);
       return std::nullopt;

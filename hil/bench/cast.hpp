@@ -4,7 +4,8 @@
 //   out    running processes; a list of what was done to whom, in words
 //   law    started again = the command for a restart, which is never armed; a process that ends
 //          although nobody killed it is an error of the run. At the end whoever is stopped goes on,
-//          so that it can be told to end
+//          so that it can be told to end. Who will be started again waits from the beginning on, as
+//          a shell that becomes the program at a word: a fork would hold the run up for long
 //   errors Problem: a program that cannot be started, one that ended by itself, a script about
 //          somebody who is not there
 // SPDX-License-Identifier: Apache-2.0
@@ -47,8 +48,13 @@ class Cast {
   const std::vector<Done>& done() const { return done_; }
 
  private:
+  struct Understudy {
+    transport::Process process;
+    transport::FileDescriptor cue;
+  };
   struct State {
     std::optional<transport::Process> process;
+    std::vector<Understudy> understudies;
     bool killed = false;  // at least once
     bool absent = false;  // killed and not started again
     bool ended_well = false;
@@ -57,7 +63,9 @@ class Cast {
   const Member& member(Role role) const { return members_[static_cast<std::size_t>(role)]; }
   const State& state(Role role) const { return states_[static_cast<std::size_t>(role)]; }
   State& state(Role role) { return states_[static_cast<std::size_t>(role)]; }
-  std::optional<Problem> spawn(Role role, const std::vector<std::string>& command);
+  std::optional<Problem> spawn(Role role);
+  std::optional<Problem> prepare(Role role);
+  std::optional<Problem> enter(Role role);
   std::optional<Problem> carry_out(const Deed& deed);
   void note(const Deed& deed, Instant now);
   void ask_to_end();

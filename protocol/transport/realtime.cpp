@@ -22,7 +22,8 @@ RealtimeReport request_realtime(int priority) {
   report.memory_error = locked.error;
   sched_param parameters{};
   parameters.sched_priority = priority;
-  const auto scheduled = posix_call([&] { return sched_setscheduler(0, SCHED_FIFO, &parameters); });
+  const auto scheduled = posix_call(
+      [&] { return sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters); });
   report.fifo = scheduled.ok();
   report.fifo_error = scheduled.error;
   return report;
@@ -30,7 +31,8 @@ RealtimeReport request_realtime(int priority) {
 
 void release_realtime() {
   const sched_param ordinary{};
-  static_cast<void>(posix_call([&] { return sched_setscheduler(0, SCHED_OTHER, &ordinary); }));
+  constexpr int kOrdinary = SCHED_OTHER | SCHED_RESET_ON_FORK;  // only root may take the flag back
+  static_cast<void>(posix_call([&] { return sched_setscheduler(0, kOrdinary, &ordinary); }));
   static_cast<void>(posix_call([] { return munlockall(); }));
 }
 

@@ -1,7 +1,8 @@
 // Asks the kernel for what a real-time loop wants, and says what it got.
 //   in     SCHED_FIFO priority 1..99 for the calling thread
 //   out    what was granted; the program runs on either way and the report is shown to people.
-//          Timers of the calling thread become exact in any case (no timer slack)
+//          Timers of the calling thread become exact in any case (no timer slack). Threads and
+//          processes that it starts are ordinary ones: they ask for themselves
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

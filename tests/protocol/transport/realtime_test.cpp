@@ -4,17 +4,33 @@
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace pitwall::transport {
 namespace {
 
+int policy() { return sched_getscheduler(0) & ~SCHED_RESET_ON_FORK; }
+
 TEST(Realtime, TheReportIsTheTruth) {
   const auto report = request_realtime(10);
-  EXPECT_EQ(report.fifo, sched_getscheduler(0) == SCHED_FIFO);
+  EXPECT_EQ(report.fifo, policy() == SCHED_FIFO);
   EXPECT_EQ(report.fifo, report.fifo_error == 0);
   EXPECT_EQ(report.memory_locked, report.memory_error == 0);
   release_realtime();
-  EXPECT_EQ(sched_getscheduler(0), SCHED_OTHER);
+  EXPECT_EQ(policy(), SCHED_OTHER);
+}
+
+TEST(Realtime, AChildIsAnOrdinaryProcess) {
+  request_realtime(10);
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) _exit(sched_getscheduler(0));
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), SCHED_OTHER);
+  release_realtime();
 }
 
 TEST(Realtime, AnImpossiblePriorityIsRefusedWithItsReason) {
