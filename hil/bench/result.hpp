@@ -29,6 +29,8 @@ struct RealTime {
 
   double wake_late_p50_us = kUnset, wake_late_p99_us = kUnset, wake_late_max_us = kUnset;
   std::uint64_t caught_up_wakes = 0;     // began more than one wake-up late
+  Duration behind_max{};                 // farthest behind its clock, whoever was to blame
+  Instant behind_at{};                   // when that was, on the scenario's clock
   std::vector<std::uint64_t> wake_late;  // the last bin holds all later ones
   double step_p50_us = kUnset, step_p99_us = kUnset, step_max_us = kUnset;  // of the car
   std::uint64_t missed_deadlines = 0;                                       // of the car
@@ -52,6 +54,10 @@ struct RunResult {
   std::string digest;
 
   bool passed() const;
+  // The bench kept up with its clock. One that stood still for longer than this was a bus without
+  // frames for the car, which may then fail for no fault of its own.
+  static constexpr Duration kBehindMax = milliseconds(40);
+  bool timely() const { return !real_time || real_time->behind_max <= kBehindMax; }
 };
 
 // For a person: a table of brackets, laps, traffic, one line per expectation.

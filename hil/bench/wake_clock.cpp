@@ -17,16 +17,24 @@ void WakeClock::start() { start_ = transport::monotonic_now(); }
 void WakeClock::sleep_until(Instant now) {
   const Instant deadline = start_ + (now - Instant{});
   Instant at = transport::monotonic_now();
+  note(at - deadline, now);
   if (at >= deadline) {
     if (at - deadline >= period_) ++report_.caught_up_wakes;
     return;
   }
   transport::sleep_until(deadline);
   at = transport::monotonic_now();
+  note(at - deadline, now);
   const auto late_us = static_cast<float>((at - deadline).ns) * 1e-3F;
   late_us_.push_back(late_us);
   const auto bin = static_cast<std::size_t>(late_us / static_cast<float>(RealTime::kWakeBin_us));
   ++report_.wake_late[std::min(bin, RealTime::kWakeBins - 1)];
+}
+
+void WakeClock::note(Duration behind, Instant now) {
+  if (behind <= report_.behind_max) return;
+  report_.behind_max = behind;
+  report_.behind_at = now;
 }
 
 RealTime WakeClock::report() {

@@ -23,6 +23,8 @@ class WakeClock {
   RealTime report();
 
  private:
+  void note(Duration behind, Instant now);
+
   Duration period_;
   Instant start_{};
   std::vector<float> late_us_;

@@ -40,17 +40,28 @@ Result<recording::Sink, Problem> sink_to(const std::string& path) {
 }
 
 std::string timing_text(const bench::LiveResult& live) {
-  char text[256];
+  char text[320];
   const bench::RealTime& time = *live.run.real_time;
   std::snprintf(
       text, sizeof text,
-      "bench wake-up late by p50 %.0f us, p99 %.0f us, max %.0f us; %llu wake-ups caught up; "
-      "telemetry %llu packets, %llu refused; %llu datagrams of the base to the car\n",
+      "bench wake-up late by p50 %.0f us, p99 %.0f us, max %.0f us; %llu wake-ups caught up, at "
+      "most %.0f ms behind; telemetry %llu packets, %llu refused; %llu datagrams of the base to "
+      "the car\n",
       time.wake_late_p50_us, time.wake_late_p99_us, time.wake_late_max_us,
-      static_cast<unsigned long long>(time.caught_up_wakes),
+      static_cast<unsigned long long>(time.caught_up_wakes), time.behind_max.milliseconds(),
       static_cast<unsigned long long>(live.radio.packets),
       static_cast<unsigned long long>(live.radio.refused),
       static_cast<unsigned long long>(live.radio.to_car));
+  return text;
+}
+
+std::string late_text(const bench::RealTime& time) {
+  char text[160];
+  std::snprintf(
+      text, sizeof text,
+      "the machine did not keep up: at %.2f s the bench was %.0f ms behind its clock, and "
+      "the car had no bus for as long",
+      (time.behind_at - Instant{}).seconds(), time.behind_max.milliseconds());
   return text;
 }
 
@@ -123,6 +134,7 @@ Result<bench::RunResult, Problem> live(const RunOptions& options, const bench::L
   if (!plan.disk.empty() && !options.log_file.empty())
     if (auto problem = copy_out(log_file, options.log_file)) return Unexpected{*problem};
   if (!options.quiet) std::printf("%s", timing_text(*result).c_str());
+  if (!result->run.timely()) result->run.remarks.push_back(late_text(*result->run.real_time));
   return result->run;
 }
 
@@ -163,8 +175,9 @@ std::vector<std::string> live_command(const RunOptions& options) {
 
 namespace {
 
-// Whether it passed; the files that were asked for are written.
-Result<bool, Problem> run_once(const RunOptions& options) {
+// The exit code; the files that were asked for are written. What failed on a machine that did not
+// keep up has not been judged.
+Result<int, Problem> run_once(const RunOptions& options) {
   auto loaded = bench::load(options.scenario, "");
   if (!loaded) return Unexpected{loaded.error()};
   if (options.duration) loaded->scenario.duration = *options.duration;
@@ -177,7 +190,8 @@ Result<bool, Problem> run_once(const RunOptions& options) {
     const auto written = transport::write_file(options.json_file, bench::to_json(*result) + "\n");
     if (!written) return Unexpected{written.error()};
   }
-  return result->passed();
+  if (result->passed()) return kExitPass;
+  return result->timely() ? kExitFailed : kExitUnusable;
 }
 
 int report_failure(const RunOptions& options, const Problem& problem) {
@@ -188,11 +202,11 @@ int report_failure(const RunOptions& options, const Problem& problem) {
 }  // namespace
 
 int run_scenario(const RunOptions& options) {
-  const auto passed = run_once(options);
-  if (!passed) return report_failure(options, passed.error());
-  if (!options.report_folder.empty())
-    return write_report(report_files(options.report_folder), std::nullopt);
-  return *passed ? kExitPass : kExitFailed;
+  const auto code = run_once(options);
+  if (!code) return report_failure(options, code.error());
+  if (options.report_folder.empty()) return *code;
+  const int written = write_report(report_files(options.report_folder), std::nullopt);
+  return written == kExitFailed ? *code : written;
 }
 
 int run_verb(std::span<const std::string> args) {

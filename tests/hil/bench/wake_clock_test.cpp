@@ -39,6 +39,18 @@ TEST(WakeClock, ALateOneIsCaughtUpAtOnceAndCounted) {
   const RealTime report = clock.report();
   EXPECT_EQ(report.caught_up_wakes, 4u) << "each of them began at least a period late";
   EXPECT_EQ(std::accumulate(report.wake_late.begin(), report.wake_late.end(), 0ULL), 0u);
+  EXPECT_GE(report.behind_max, 4 * kPeriod) << "the first of them was due so long ago";
+  EXPECT_GE(report.behind_at, Instant{} + kPeriod);
+}
+
+TEST(RealTime, ARunThatFellFarBehindItsClockIsNotTimely) {
+  RunResult run;
+  EXPECT_TRUE(run.timely()) << "lockstep has no clock to keep up with";
+  run.real_time.emplace();
+  run.real_time->behind_max = milliseconds(40);
+  EXPECT_TRUE(run.timely());
+  run.real_time->behind_max = milliseconds(41);
+  EXPECT_FALSE(run.timely());
 }
 
 }  // namespace
