@@ -31,7 +31,7 @@ std::string left_out(std::size_t rows) {
 }
 
 std::string node_name(std::uint8_t node) {
-  constexpr const char* kNames[]{"car", "drive-by-wire", "race control"};
+  constexpr const char* kNames[]{"car", "drive-by-wire", "race control", "guardian"};
   return node < std::size(kNames) ? kNames[node] : "node " + std::to_string(node);
 }
 
