@@ -157,9 +157,19 @@ std::size_t CanSocket::receive(std::span<can::ReceivedFrame> frames) {
     next_poll_ = now + kPollPeriod;
   }
   std::size_t taken = 0;
-  while (taken < frames.size() && !hung_up() && receive_batch(frames, taken, now)) {
-  }
+  bool more = true;
+  while (taken < frames.size() && !hung_up() && more) more = receive_batch(frames, taken, now);
+  if (!more) empty_at_ = now;
   return taken;
+}
+
+// Where the calendar has been stepped since the last look at it, the frame came now.
+Instant CanSocket::arrival(UtcTime stamp, Instant now) {
+  if (!stamps_trusted_ || stamp.ns == 0) return now;
+  const Instant at = to_instant(stamp, clock_offset_);
+  if (ArrivalWindow{.empty_at = empty_at_, .now = now}.holds(at)) return at;
+  next_poll_ = now;  // look again with the next read
+  return now;
 }
 
 bool CanSocket::receive_batch(std::span<can::ReceivedFrame> frames, std::size_t& taken,
@@ -188,8 +198,7 @@ bool CanSocket::receive_batch(std::span<can::ReceivedFrame> frames, std::size_t&
     }
     count_dropped(counters_.rx_dropped_by_frames, extra.dropped);
     // A frame that arrived after `now` was read belongs to this call all the same.
-    const bool stamped = stamps_trusted_ && extra.stamp.ns != 0;
-    const Instant at = stamped ? to_instant(extra.stamp, clock_offset_) : now;
+    const Instant at = arrival(extra.stamp, now);
     const bool whole = (header.msg_flags & MSG_TRUNC) == 0;
     if (unix_ && whole && take_unix(batch.wire[i], batch.messages[i].msg_len)) continue;
     if (whole && is_error_frame(batch.wire[i])) {

@@ -121,6 +121,7 @@ class CanSocket {
   PosixOutcome configure(const CanSocketOptions& options);
   // Reads one batch: true if the kernel may have more.
   bool receive_batch(std::span<can::ReceivedFrame> frames, std::size_t& taken, Instant now);
+  Instant arrival(UtcTime stamp, Instant now);
   // What only a unix bus brings, or SocketCAN would not deliver: true if it is dealt with.
   bool take_unix(const CanWire& wire, std::size_t bytes);
   void count_dropped(std::uint64_t& detector, std::uint64_t so_far);
@@ -137,6 +138,7 @@ class CanSocket {
   int receive_buffer_bytes_ = 0;
   Duration clock_offset_{};
   Instant next_poll_{};
+  Instant empty_at_{};  // a read that began then left nothing
   bool stamps_trusted_ = true;
   bool offset_known_ = false;
 };

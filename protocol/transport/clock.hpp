@@ -22,6 +22,16 @@ void sleep_until(Instant deadline);
 Duration realtime_minus_monotonic();
 constexpr Instant to_instant(UtcTime stamp, Duration offset) { return {stamp.ns - offset.ns}; }
 
+// When something that was read can have arrived: after the socket was last found empty, and before
+// it was read. A kernel stamp outside of that belongs to a calendar that has been stepped since.
+struct ArrivalWindow {
+  static constexpr Duration kSlack = milliseconds(20);  // from stamp to queue, from clock to read
+  Instant empty_at{};                                   // unset: never found empty
+  Instant now{};                                        // when the reading began
+
+  constexpr bool holds(Instant at) const { return at >= empty_at - kSlack && at <= now + kSlack; }
+};
+
 struct Tick {
   Instant deadline;          // the one that is due now; always first + k * period, so no drift
   std::uint64_t missed = 0;  // earlier deadlines that passed unserved

@@ -145,15 +145,17 @@ bool UdpSocket::transmit(const sockaddr_in* to, std::span<const std::uint8_t> by
 }
 
 std::size_t UdpSocket::receive(std::span<UdpDatagram> datagrams) {
+  const ArrivalWindow window{.empty_at = empty_at_, .now = monotonic_now()};
   const Duration offset = realtime_minus_monotonic();
   std::size_t taken = 0;
-  while (taken < datagrams.size() && receive_batch(datagrams, taken, offset)) {
-  }
+  bool more = true;
+  while (taken < datagrams.size() && more) more = receive_batch(datagrams, taken, offset, window);
+  if (!more) empty_at_ = window.now;
   return taken;
 }
 
-bool UdpSocket::receive_batch(std::span<UdpDatagram> datagrams, std::size_t& taken,
-                              Duration offset) {
+bool UdpSocket::receive_batch(std::span<UdpDatagram> datagrams, std::size_t& taken, Duration offset,
+                              const ArrivalWindow& window) {
   Batch batch;
   const auto into = datagrams.subspan(taken, std::min(datagrams.size() - taken, kBatch));
   batch.prepare(into);
@@ -182,7 +184,8 @@ bool UdpSocket::receive_batch(std::span<UdpDatagram> datagrams, std::size_t& tak
     if (&out != &into[i]) out.data = into[i].data;  // closes the gap that a dropped one left
     out.length = batch.messages[i].msg_len;
     out.from = from_kernel(batch.senders[i]);
-    out.at = extra.stamp.ns != 0 ? to_instant(extra.stamp, offset) : monotonic_now();
+    const Instant at = to_instant(extra.stamp, offset);
+    out.at = extra.stamp.ns != 0 && window.holds(at) ? at : window.now;
     ++counters_.received;
     ++taken;
   }

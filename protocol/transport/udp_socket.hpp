@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 
+#include "protocol/transport/clock.hpp"
 #include "protocol/transport/posix_call.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
@@ -80,11 +81,13 @@ class UdpSocket {
  private:
   explicit UdpSocket(FileDescriptor fd) : fd_(std::move(fd)) {}
   bool transmit(const sockaddr_in* to, std::span<const std::uint8_t> bytes);
-  bool receive_batch(std::span<UdpDatagram> datagrams, std::size_t& taken, Duration offset);
+  bool receive_batch(std::span<UdpDatagram> datagrams, std::size_t& taken, Duration offset,
+                     const ArrivalWindow& window);
 
   FileDescriptor fd_;
   UdpAddress local_;
   UdpCounters counters_;
+  Instant empty_at_{};  // a read that began then left nothing
 };
 
 }  // namespace pitwall::transport

@@ -59,6 +59,18 @@ TEST(Ticker, DeadlinesAreMultiplesAndAllAreAccountedFor) {
   EXPECT_GT(missed, 0U);
 }
 
+TEST(ArrivalWindow, HoldsWhatCameSinceTheSocketWasEmptyAndNothingOfAnotherCalendar) {
+  const ArrivalWindow window{.empty_at = {seconds(100).ns}, .now = {seconds(101).ns}};
+  for (const std::int64_t step_ms : {-3'600'000, -1'021, -121, 121, 1'021, 3'600'000}) {
+    const Instant beyond = (step_ms < 0 ? window.empty_at : window.now) + milliseconds(step_ms);
+    EXPECT_FALSE(window.holds(beyond)) << step_ms;
+  }
+  for (std::int64_t ms = -20; ms <= 1'020; ++ms)
+    EXPECT_TRUE(window.holds(window.empty_at + milliseconds(ms))) << ms;
+  EXPECT_FALSE(window.holds(window.empty_at - milliseconds(21)));
+  EXPECT_FALSE(window.holds(window.now + milliseconds(21)));
+}
+
 TEST(Ticker, AnOnTimeCallerMissesNothing) {
   Instant last{};
   for (int i = 0; i < 100; ++i) {

@@ -5,11 +5,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <ctime>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "protocol/transport/clock.hpp"
+#include "protocol/transport/file.hpp"
 #include "protocol/transport/readiness.hpp"
+#include "protocol/transport/udp_socket.hpp"
 
 namespace pitwall::transport {
 namespace {
@@ -140,6 +145,48 @@ TEST(CanSocket, StampsAreTheKernelsAndMonotonic) {
   const Duration tolerance = milliseconds(20);
   EXPECT_GE(received[0].at, before - tolerance);
   EXPECT_LE(received[0].at, after + tolerance);
+}
+
+// The guest's own calendar, which nobody else looks at.
+void step_calendar(Duration by) {
+  const std::int64_t to = utc_now().ns + by.ns;
+  const timespec t{.tv_sec = to / kNanosecondsPerSecond, .tv_nsec = to % kNanosecondsPerSecond};
+  ASSERT_EQ(clock_settime(CLOCK_REALTIME, &t), 0);
+}
+
+bool is_guest() {
+  const auto processor = read_file("/proc/cpuinfo");
+  return processor && processor->find("User Mode Linux") != std::string::npos;
+}
+
+TEST(CanSocket, ASteppedCalendarMovesNoStamp) {
+  if (!is_guest()) GTEST_SKIP() << "would step the clock of this machine: only in the guest";
+  CanSocket sender = open_vcan();
+  CanSocket reader = open_vcan();
+  auto hearer = UdpSocket::bind({.ip = kLoopbackIp, .port = 0});
+  auto speaker = UdpSocket::bind({.ip = kLoopbackIp, .port = 0});
+  ASSERT_TRUE(hearer && speaker);
+  std::array<UdpDatagram, 4> datagrams;
+  EXPECT_TRUE(collect(reader, 1).empty());
+  EXPECT_EQ(hearer->receive(datagrams), 0U);
+  for (const int step_s : {3600, -3600, 3600, -3600}) {
+    for (const bool queued : {false, true}) {
+      const Instant before = monotonic_now();
+      if (!queued) step_calendar(seconds(step_s));
+      ASSERT_TRUE(sender.send(frame(1, 1)));
+      ASSERT_TRUE(speaker->send_to(hearer->local(), std::array<std::uint8_t, 1>{7}));
+      if (queued) step_calendar(seconds(-step_s));
+      const auto received = collect(reader, 1);
+      const std::size_t count = hearer->receive(datagrams);
+      const Instant after = monotonic_now();
+      ASSERT_EQ(received.size(), 1U);
+      ASSERT_EQ(count, 1U);
+      for (const Instant at : {received[0].at, datagrams[0].at}) {
+        EXPECT_GE(at, before - milliseconds(50)) << step_s << queued;
+        EXPECT_LE(at, after + milliseconds(50)) << step_s << queued;
+      }
+    }
+  }
 }
 
 TEST(CanSocket, ABurstOfTwentyThousandWaitsInTheBuffer) {
