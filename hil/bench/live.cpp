@@ -175,6 +175,7 @@ class Live {
     grading::add(result_.cross_track, parts_.rig.truth().speed_mps,
                  cross_track_m(parts_.rig, offset_m));
     result_.speed_max_mps = std::max(result_.speed_max_mps, parts_.rig.truth().speed_mps);
+    follow(result_.outcome, whereabouts(parts_.rig, offset_m, now));
     if (record_) record_->truth(parts_.rig, now, cross_track_m(parts_.rig, offset_m));
   }
 

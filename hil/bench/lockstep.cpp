@@ -155,6 +155,7 @@ class Lockstep {
             {.rig = rig_, .car = report, .line_offset_m = offset_m, .frames_lost = frames_lost()}));
     grading::add(result_.cross_track, rig_.truth().speed_mps, cross_track_m(rig_, offset_m));
     result_.speed_max_mps = std::max(result_.speed_max_mps, rig_.truth().speed_mps);
+    follow(result_.outcome, whereabouts(rig_, offset_m, now));
     result_.gate_refusals = out.passed.refused_total;
     result_.bus_refusals = out.heard.bus.refused.total();
     result_.bus_losses = out.heard.bus.frames_lost;

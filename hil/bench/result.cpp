@@ -99,6 +99,7 @@ std::string to_text(const RunResult& r) {
     out += format(", best flying lap %.3f s, mean %.2f m/s (%.1f mph)", r.laps.best_flying_s,
                   r.laps.best_flying_mean_mps, to_mph(r.laps.best_flying_mean_mps));
   out += format("; top speed %.2f m/s\n", r.speed_max_mps);
+  if (const std::string end = to_text(r.outcome); !end.empty()) out += end + "\n";
   out += format("CAN frames: %llu to the car, %llu from the car, %llu lost",
                 static_cast<unsigned long long>(r.traffic.to_car),
                 static_cast<unsigned long long>(r.traffic.from_car),
@@ -123,6 +124,19 @@ std::string to_text(const RunResult& r) {
   return out + (r.passed() ? "verdict: PASS\n" : "verdict: FAIL\n");
 }
 
+std::string to_json(const Outcome& outcome) {
+  const auto place = [](const Whereabouts& w) {
+    return "{\"at_s\":" + number((w.at - Instant{}).seconds()) +
+           ",\"speed_mps\":" + number(w.speed_mps) +
+           ",\"cross_track_m\":" + number(w.cross_track_m) +
+           ",\"wall_gap_m\":" + number(w.wall_gap_m) + "}";
+  };
+  if (!outcome.last) return "null";
+  return "{\"text\":" + quoted(to_text(outcome)) +
+         ",\"contact\":" + std::string(outcome.last->contact ? "true" : "false") +
+         ",\"end\":" + place(*outcome.last) + ",\"nearest_wall\":" + place(*outcome.nearest) + "}";
+}
+
 std::string to_json(const grading::Verdict& v) {
   const double first_s = v.first_violation ? (*v.first_violation - Instant{}).seconds() : kUnset;
   return "{\"text\":" + quoted(v.text) + ",\"pass\":" + (v.pass ? "true" : "false") +
@@ -134,12 +148,13 @@ std::string to_json(const grading::Verdict& v) {
 std::string to_json(const RunResult& r) {
   return "{\"scenario\":" + quoted(r.scenario) + ",\"mode\":" + quoted(r.mode) +
          ",\"simulation\":true,\"passed\":" + (r.passed() ? "true" : "false") +
+         ",\"timely\":" + (r.timely() ? "true" : "false") +
          ",\"simulated_s\":" + number(r.simulated_s) + ",\"wall_s\":" + number(r.wall_s) +
          ",\"laps\":{\"finished\":" + std::to_string(r.laps.finished) +
          ",\"flying\":" + std::to_string(r.laps.flying) +
          ",\"best_flying_s\":" + number(r.laps.best_flying_s) +
          ",\"best_flying_mean_mps\":" + number(r.laps.best_flying_mean_mps) + "}" +
-         ",\"speed_max_mps\":" + number(r.speed_max_mps) +
+         ",\"speed_max_mps\":" + number(r.speed_max_mps) + ",\"outcome\":" + to_json(r.outcome) +
          ",\"cross_track_overall_m\":" + number(r.cross_track.overall.mean_m()) +
          ",\"cross_track_max_m\":" + number(r.cross_track.overall.max_m) +
          ",\"cross_track\":" + brackets_json(r.cross_track) +

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "hil/bench/outcome.hpp"
 #include "hil/bench/process_script.hpp"
 #include "hil/bench/rig.hpp"
 #include "hil/grading/cross_track.hpp"
@@ -47,6 +48,7 @@ struct RunResult {
   std::uint64_t bus_losses =
       0;  // frames that the car missed when they were due (live: late ones too)
   double speed_max_mps = 0.0;
+  Outcome outcome;
   std::optional<RealTime> real_time;
   std::string refused_to_arm;  // why, if at the end the bus was not that of the car; else empty
   std::vector<Done> done;      // to processes, clock and disk: faults that were carried out
@@ -62,6 +64,7 @@ struct RunResult {
 
 // For a person: a table of brackets, laps, traffic, one line per expectation.
 std::string to_text(const RunResult& result);
+std::string to_json(const Outcome& outcome);
 // One verdict as a JSON object; null for a number that there is none of.
 std::string to_json(const grading::Verdict& verdict);
 // The same as one JSON object.

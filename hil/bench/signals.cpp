@@ -55,6 +55,15 @@ double cross_track_m(const Rig& rig, double line_offset_m) {
   return rig.road().n_m - line_offset_m;
 }
 
+Whereabouts whereabouts(const Rig& rig, double line_offset_m, Instant now) {
+  const plant::Road& road = rig.road();
+  return {.at = now,
+          .speed_mps = rig.truth().speed_mps,
+          .cross_track_m = cross_track_m(rig, line_offset_m),
+          .wall_gap_m = std::min(road.wall_gap_left_m, road.wall_gap_right_m),
+          .contact = road.contact};
+}
+
 SignalValues observe(const SignalSources& from) {
   const plant::Truth& truth = from.rig.truth();
   const plant::Road& road = from.rig.road();

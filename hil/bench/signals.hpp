@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hil/bench/outcome.hpp"
 #include "hil/bench/rig.hpp"
 #include "hil/grading/expectation.hpp"
 #include "hil/scenario/scenario.hpp"
@@ -99,6 +100,8 @@ struct SignalSources {
 
 SignalValues observe(const SignalSources& from);
 double cross_track_m(const Rig& rig, double line_offset_m);
+// What an Outcome is made of.
+Whereabouts whereabouts(const Rig& rig, double line_offset_m, Instant now);
 
 std::vector<std::string> signal_names();
 

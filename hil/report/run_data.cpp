@@ -190,6 +190,7 @@ ResultFigures figures_of(const JsonValue& json) {
     return found != nullptr ? *found : kNone;
   };
   ResultFigures figures{.refused_to_arm = json.text("refused_to_arm"),
+                        .ending = inner("outcome").text("text"),
                         .laps = inner("laps").number("finished"),
                         .flying = inner("laps").number("flying"),
                         .best_flying_s = inner("laps").number("best_flying_s"),
@@ -253,6 +254,9 @@ void add_result(RunData& run, std::string_view text, const std::string& result_n
   const bool all_passed = std::ranges::all_of(run.verdicts, &VerdictRow::pass);
   if (json->items("verdicts").size() != run.verdicts.size() || json->flag("passed") != all_passed)
     run.infrastructure.push_back(result_name + ": its verdicts are not those of the event log");
+  if (!all_passed && json->find("timely") != nullptr && !json->flag("timely"))
+    run.infrastructure.push_back(result_name +
+                                 ": what failed was not judged, the machine did not keep up");
 }
 
 const char* name_of(Outcome outcome) {

@@ -59,6 +59,7 @@ struct VerdictRow {
 // From the result file; NaN where it says nothing.
 struct ResultFigures {
   std::string refused_to_arm;
+  std::string ending;  // where the car was at the end
   double laps = kUnset, flying = kUnset, best_flying_s = kUnset, best_flying_mean_mps = kUnset;
   double speed_max_mps = kUnset;
   double to_car = kUnset, from_car = kUnset, lost = kUnset, bus_losses = kUnset;

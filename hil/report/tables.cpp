@@ -89,6 +89,8 @@ std::string banner(const RunData& run) {
   std::string out = printed("<section class=\"banner %s\" id=\"verdict\"><strong>",
                             kStyles[static_cast<std::size_t>(outcome)]) +
                     name_of(outcome) + "</strong> " + words;
+  if (run.result && !run.result->ending.empty())
+    out += "<p>" + escaped(run.result->ending) + "</p>";
   for (const std::string& reason : run.infrastructure) out += "<p>" + escaped(reason) + "</p>";
   if (run.result && !run.result->refused_to_arm.empty())
     out += "<p>The car refused to arm: " + escaped(run.result->refused_to_arm) + "</p>";

@@ -205,8 +205,7 @@ int run_scenario(const RunOptions& options) {
   const auto code = run_once(options);
   if (!code) return report_failure(options, code.error());
   if (options.report_folder.empty()) return *code;
-  const int written = write_report(report_files(options.report_folder), std::nullopt);
-  return written == kExitFailed ? *code : written;
+  return write_report(report_files(options.report_folder), std::nullopt);
 }
 
 int run_verb(std::span<const std::string> args) {

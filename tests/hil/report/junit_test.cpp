@@ -2,6 +2,7 @@
 #include "hil/report/junit.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdio>
@@ -16,7 +17,9 @@ namespace {
 
 // What Python's own XML reader says: attributes of the suite, then one line per case.
 std::string read_by_python(const std::string& xml) {
-  const std::string path = testing::TempDir() + "/junit_test.xml";
+  // Tests of this file run beside each other, each in a process of its own.
+  const std::string mine = testing::TempDir() + "/junit_" + std::to_string(::getpid());
+  const std::string path = mine + ".xml";
   std::ofstream(path) << xml;
   const std::string program =
       "import sys, xml.etree.ElementTree as E\n"
@@ -24,14 +27,16 @@ std::string read_by_python(const std::string& xml) {
       "print(s.tag, s.get('name'), s.get('tests'), s.get('failures'), s.get('errors'))\n"
       "for c in s.findall('testcase'):\n"
       "  print(c.get('name'), [(i.tag, i.get('message')) for i in c])\n";
-  const std::string script = testing::TempDir() + "/read_junit.py";
+  const std::string script = mine + ".py";
   std::ofstream(script) << program;
-  std::FILE* pipe = popen(("python3 '" + script + "' '" + path + "' 2>&1").c_str(), "r");
+  std::FILE* pipe = popen(("/usr/bin/python3 '" + script + "' '" + path + "' 2>&1").c_str(), "r");
   CHECK(pipe != nullptr);
   std::string out;
   std::array<char, 256> part{};
   while (std::fgets(part.data(), part.size(), pipe) != nullptr) out += part.data();
   EXPECT_EQ(pclose(pipe), 0) << out;
+  std::filesystem::remove(path);
+  std::filesystem::remove(script);
   return out;
 }
 

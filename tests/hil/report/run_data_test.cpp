@@ -109,6 +109,27 @@ TEST(RunData, TheResultMustSayTheSameAsTheLog) {
   EXPECT_EQ(run.outcome(), Outcome::kInfrastructure);
 }
 
+TEST(RunData, WhatFailedOnAMachineThatDidNotKeepUpWasNotJudged) {
+  for (const bool fails : {false, true}) {
+    for (const bool late : {false, true}) {
+      RunData run = run_of({.with_failure = fails});
+      add_result(run, result_of(run, milliseconds(late ? 60 : 10)), "run.json");
+      const Outcome expected = !fails ? Outcome::kPass
+                               : late ? Outcome::kInfrastructure
+                                      : Outcome::kFail;
+      EXPECT_EQ(run.outcome(), expected) << fails << late;
+    }
+  }
+}
+
+TEST(RunData, SaysWhereTheCarEnded) {
+  RunData run = run_of({});
+  add_result(run, result_of(run), "run.json");
+  ASSERT_TRUE(run.result);
+  EXPECT_NE(run.result->ending.find("stands, 0.50 m from its line"), std::string::npos)
+      << run.result->ending;
+}
+
 TEST(RunData, BytesThatAreNoLogAreInfrastructure) {
   for (const std::string text : {"", "no log", "\x89MCAP0\r\n"}) {
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());

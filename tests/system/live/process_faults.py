@@ -64,14 +64,13 @@ def run(arguments, name, scenario):
             "margins": {v["text"]: v["margin"] for v in told["verdicts"]},
             "stop_time_left_s": {v["text"]: v["time_left_s"] for v in told["verdicts"]
                                  if v.get("time_left_s") is not None},
-            "done": told["done"], "remarks": told["remarks"], "top_mps": told["speed_max_mps"]}
+            "done": told["done"], "remarks": told["remarks"], "top_mps": told["speed_max_mps"],
+            "end": told["outcome"]["text"]}
 
 
 def tell(outcome):
-    gap = [m for text, m in outcome.get("margins", {}).items() if "wall_gap_m > 0.5" in text]
-    print(f"{'PASS' if outcome['passed'] else 'FAIL'}  {outcome['name']:<30} "
-          f"top {outcome.get('top_mps', 0):5.1f} m/s  "
-          f"nearest wall {gap[0] + 0.5 if gap and gap[0] is not None else float('nan'):5.2f} m",
+    print(f"{'PASS' if outcome['passed'] else 'FAIL'}  {outcome['name']:<29} "
+          f"top {outcome.get('top_mps', 0):4.1f} m/s; {outcome.get('end', 'no result')}",
           flush=True)
     for line in outcome["why"] + outcome.get("remarks", []):
         print(f"      {line}", flush=True)

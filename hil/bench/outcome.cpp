@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/outcome.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace pitwall::bench {
+namespace {
+
+constexpr double kStands_mps = 0.3;
+
+double seconds_of(Instant at) { return (at - Instant{}).seconds(); }
+
+}  // namespace
+
+void follow(Outcome& outcome, const Whereabouts& now) {
+  if (outcome.last && outcome.last->contact) return;
+  outcome.last = now;
+  if (!outcome.nearest || now.wall_gap_m < outcome.nearest->wall_gap_m) outcome.nearest = now;
+}
+
+std::string to_text(const Outcome& outcome) {
+  if (!outcome.last) return {};
+  const Whereabouts& last = *outcome.last;
+  char text[200];
+  if (last.contact) {
+    std::snprintf(text, sizeof text, "the car hit a wall at %.2f s, at %.1f m/s",
+                  seconds_of(last.at), last.speed_mps);
+    return text;
+  }
+  const Whereabouts& nearest = *outcome.nearest;
+  char speed[40] = "stands";
+  if (!(last.speed_mps < kStands_mps))
+    std::snprintf(speed, sizeof speed, "drives %.1f m/s", last.speed_mps);
+  std::snprintf(text, sizeof text,
+                "at the end the car %s, %.2f m from its line; nearest to a wall %.2f m, at %.2f s",
+                speed, std::abs(last.cross_track_m), nearest.wall_gap_m, seconds_of(nearest.at));
+  return text;
+}
+
+}  // namespace pitwall::bench
