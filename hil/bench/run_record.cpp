@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hil/bench/result.hpp"
+#include "hil/bench/signals.hpp"
 #include "protocol/can/av21.hpp"
 
 namespace pitwall::bench {
@@ -85,7 +86,7 @@ void RunRecord::truth(const Rig& rig, Instant at, double cross_track_m) {
                           .brake_kpa = t.brake_front_kpa,
                           .engine_rpm = t.engine_rpm,
                           .friction_use = t.friction_use,
-                          .wall_gap_m = std::min(r.wall_gap_left_m, r.wall_gap_right_m),
+                          .wall_gap_m = wall_gap_m(rig),
                           .cross_track_m = cross_track_m,
                           .ax_mps2 = t.specific_force_mps2[0],
                           .ay_mps2 = t.specific_force_mps2[1],

@@ -55,13 +55,16 @@ double cross_track_m(const Rig& rig, double line_offset_m) {
   return rig.road().n_m - line_offset_m;
 }
 
+double wall_gap_m(const Rig& rig) {
+  return std::min(rig.road().wall_gap_left_m, rig.road().wall_gap_right_m);
+}
+
 Whereabouts whereabouts(const Rig& rig, double line_offset_m, Instant now) {
-  const plant::Road& road = rig.road();
   return {.at = now,
           .speed_mps = rig.truth().speed_mps,
           .cross_track_m = cross_track_m(rig, line_offset_m),
-          .wall_gap_m = std::min(road.wall_gap_left_m, road.wall_gap_right_m),
-          .contact = road.contact};
+          .wall_gap_m = wall_gap_m(rig),
+          .contact = rig.road().contact};
 }
 
 SignalValues observe(const SignalSources& from) {
@@ -72,7 +75,7 @@ SignalValues observe(const SignalSources& from) {
   set(v, Signal::kStation, road.s_m);
   set(v, Signal::kOffset, road.n_m);
   set(v, Signal::kAbsCrossTrack, std::abs(cross_track_m(from.rig, from.line_offset_m)));
-  set(v, Signal::kWallGap, std::min(road.wall_gap_left_m, road.wall_gap_right_m));
+  set(v, Signal::kWallGap, wall_gap_m(from.rig));
   set(v, Signal::kContact, road.contact ? 1.0 : 0.0);
   set(v, Signal::kFrictionUse, truth.friction_use);
   set(v, Signal::kLateralForce, truth.specific_force_mps2[1]);

@@ -100,6 +100,7 @@ struct SignalSources {
 
 SignalValues observe(const SignalSources& from);
 double cross_track_m(const Rig& rig, double line_offset_m);
+double wall_gap_m(const Rig& rig);  // of the nearest corner, on either side
 // What an Outcome is made of.
 Whereabouts whereabouts(const Rig& rig, double line_offset_m, Instant now);
 
