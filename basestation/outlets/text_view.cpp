@@ -65,7 +65,7 @@ std::vector<Line> field_lines(const picture::Picture& picture, Instant now) {
     const telemetry::FieldRow& row = telemetry::kFields[i];
     if (i == 0 || row.group != telemetry::kFields[i - 1].group) {
       lines.push_back(
-          {std::string{telemetry::kGroupNames[static_cast<std::size_t>(row.group)]}, kBold});
+          {std::string{telemetry::row_of(row.group).name}, kBold});
     }
     lines.push_back(field_line(row, picture.view(i, now)));
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "protocol/telemetry/labels.hpp"
+#include "protocol/telemetry/registry/labels.hpp"
 
 namespace pitwall::outlets {
 namespace {
@@ -29,7 +29,7 @@ std::string value_text(const telemetry::FieldRow& row, double value) {
 }
 
 std::string path_of(const telemetry::FieldRow& row) {
-  return std::string{telemetry::kGroupNames[static_cast<std::size_t>(row.group)]} + "." +
+  return std::string{telemetry::row_of(row.group).name} + "." +
          std::string{row.name};
 }
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "protocol/telemetry/field_row.hpp"
+#include "protocol/telemetry/registry/field_row.hpp"
 
 namespace pitwall::outlets {
 

@@ -10,7 +10,7 @@
 #include <array>
 #include <cstdint>
 
-#include "protocol/telemetry/registry.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/telemetry/state_packet.hpp"
 #include "protocol/vocabulary/time.hpp"
 

@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <span>
 
-#include "protocol/telemetry/registry.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 

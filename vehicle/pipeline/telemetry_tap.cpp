@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "protocol/telemetry/labels.hpp"
+#include "protocol/telemetry/registry/labels.hpp"
 #include "vehicle/safety/fault_log.hpp"
 
 namespace pitwall::pipeline {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "protocol/telemetry/registry.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 
 namespace pitwall::outlets {
 namespace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "hil/scenario/scenario.hpp"
-#include "protocol/telemetry/labels.hpp"
+#include "protocol/telemetry/registry/labels.hpp"
 #include "tests/vehicle/pipeline/standing_car.hpp"
 #include "vehicle/safety/fault_log.hpp"
 
@@ -118,7 +118,7 @@ constexpr RimCounters kRim{.frames_sent = 2002,
 
 std::string name_of(std::size_t i) {
   const auto& row = telemetry::kFields[i];
-  return std::string(telemetry::kGroupNames[static_cast<std::size_t>(row.group)]) + "." +
+  return std::string(telemetry::row_of(row.group).name) + "." +
          std::string(row.name);
 }
 
@@ -263,7 +263,7 @@ TEST(TelemetryTap, WhatWasNeverHeardIsNotANumberAndHasNoAge) {
   for (std::size_t g = 0; g < telemetry::kGroups; ++g) {
     const auto group = static_cast<Group>(g);
     EXPECT_EQ(packet.age_of(group) >= Duration{}, sampled.contains(group))
-        << telemetry::kGroupNames[g];
+        << telemetry::kGroupTable[g].name;
   }
 }
 

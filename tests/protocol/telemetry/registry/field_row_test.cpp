@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocol/telemetry/field_row.hpp"
+#include "protocol/telemetry/registry/field_row.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@ TEST(FieldRow, IsWrittenInTheFewestBitsThatLeaveRoomForUnset) {
 }
 
 TEST(FieldRow, EveryGroupHasAName) {
-  for (const std::string_view name : kGroupNames) EXPECT_FALSE(name.empty());
-  EXPECT_EQ(kGroupNames[static_cast<std::size_t>(Group::kComputer)], "computer");
+  for (const GroupRow& row : kGroupTable) EXPECT_FALSE(row.name.empty());
+  EXPECT_EQ(row_of(Group::kComputer).name, "computer");
 }
 
 }  // namespace

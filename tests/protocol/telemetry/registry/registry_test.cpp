@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocol/telemetry/registry.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ TEST(Registry, EveryPathIsUnique) {
   std::set<std::string> paths;
   for (const FieldRow& row : kFields) {
     const std::string path =
-        std::string{kGroupNames[static_cast<std::size_t>(row.group)]} + "." + std::string{row.name};
+        std::string{row_of(row.group).name} + "." + std::string{row.name};
     EXPECT_TRUE(paths.insert(path).second) << path;
   }
 }

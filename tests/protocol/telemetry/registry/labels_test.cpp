@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocol/telemetry/labels.hpp"
+#include "protocol/telemetry/registry/labels.hpp"
 
 #include <gtest/gtest.h>
 

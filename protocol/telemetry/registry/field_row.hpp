@@ -8,33 +8,10 @@
 #include <string_view>
 
 #include "protocol/bits/quantized.hpp"
+#include "protocol/telemetry/registry/group_row.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::telemetry {
-
-// Fields of one group are sampled together and share one sample age.
-enum class Group : std::uint8_t {
-  kMode,
-  kFlags,
-  kEgo,
-  kTrack,
-  kCommand,
-  kFeedback,
-  kWheels,
-  kTyres,
-  kEngine,
-  kElectric,
-  kBus,
-  kComputer,
-  kRadio
-};
-inline constexpr std::size_t kGroups = 13;
-inline constexpr std::string_view kGroupNames[kGroups] = {
-    "mode",  "flags",  "ego",      "track", "command",  "feedback", "wheels",
-    "tyres", "engine", "electric", "bus",   "computer", "radio"};
-
-// The part of the link that a field may claim when not all fits; first is kept longest.
-enum class Class : std::uint8_t { kSafety, kMotion, kHealth, kStatistics };
 
 struct FieldRow {
   Group group;

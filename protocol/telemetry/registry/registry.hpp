@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "protocol/telemetry/field_row.hpp"
-#include "protocol/telemetry/labels.hpp"
+#include "protocol/telemetry/registry/field_row.hpp"
+#include "protocol/telemetry/registry/labels.hpp"
 #include "protocol/vocabulary/units.hpp"
 
 namespace pitwall::telemetry {
@@ -94,7 +94,7 @@ inline constexpr auto kFields = [] {
       tyre("pressure_rear_right", "kPa", 0, 500, 0.5),
 
       {kEngine, "speed", "rpm", 0, 12'000, 5, kHealth, kFast},
-      {kEngine, "running", "", 0, 2, 1, kHealth, kMedium, "no|yes"},
+      {kEngine, "running", "", 0, 2, 1, kHealth, kMedium, kNoYes},
       {kEngine, "fuel_pressure", "kPa", 0, 1'000, 1, kHealth, kSlow},
       {kEngine, "oil_pressure", "kPa", 0, 1'500, 1, kHealth, kSlow},
       {kEngine, "coolant", "degC", -40, 200, 0.5, kHealth, kSlow},
@@ -124,6 +124,20 @@ inline constexpr auto kFields = [] {
       count(kRadio, "heartbeats"),
       count(kRadio, "heartbeats_refused"),
       count(kRadio, "base_runs"),
+
+      {kStop, "level", "", 0, 2, 1, kSafety, kFast, kStopLevels},
+      {kStop, "epoch", "", 0, 253, 1, kSafety, kFast},
+      {kStop, "reason", "", 0, 14, 1, kSafety, kFast, kStopReasons},
+
+      {kJoystick, "active", "", 0, 2, 1, kSafety, kFast, kNoYes},
+      {kJoystick, "sample", "", 0, 65'533, 1, kSafety, kFast},
+      {kJoystick, "sample_age", "ms", 0, 1'000, 1, kSafety, kFast},
+      {kJoystick, "throttle_cap", "", 0, 1, 0.005, kSafety, kFast},
+      {kJoystick, "brake", "", 0, 1, 0.005, kSafety, kFast},
+
+      {kAuthority, "holder", "", 0, 254, 1, kSafety, kFast},
+      {kAuthority, "epoch", "", 0, 65'533, 1, kSafety, kFast},
+      {kAuthority, "renewal", "", 0, 65'533, 1, kSafety, kFast},
   });
 }();
 inline constexpr std::size_t kFieldCount = kFields.size();
@@ -133,7 +147,7 @@ using FieldIndex = std::size_t;
 // "ego.x" to its place in the table; anything else does not compile.
 consteval FieldIndex field(std::string_view path) {
   for (FieldIndex i = 0; i < kFieldCount; ++i) {
-    const std::string_view group = kGroupNames[static_cast<std::size_t>(kFields[i].group)];
+    const std::string_view group = row_of(kFields[i].group).name;
     if (path.size() != group.size() + 1 + kFields[i].name.size()) continue;
     if (path.starts_with(group) && path[group.size()] == '.' && path.ends_with(kFields[i].name)) {
       return i;
@@ -175,7 +189,7 @@ constexpr std::uint32_t fnv1a(std::uint32_t hash, std::string_view text) {
 inline constexpr std::uint32_t kSchemaHash = [] {
   std::uint32_t hash = 2'166'136'261U;
   for (const FieldRow& row : kFields) {
-    hash = detail::fnv1a(hash, kGroupNames[static_cast<std::size_t>(row.group)]);
+    hash = detail::fnv1a(hash, row_of(row.group).name);
     hash = detail::fnv1a(hash, row.name);
     hash = detail::fnv1a(hash, row.unit);
     hash = detail::fnv1a(hash, row.labels);

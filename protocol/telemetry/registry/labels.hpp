@@ -30,6 +30,10 @@ inline constexpr std::string_view kBaseStates = "not watched|never heard|heard|l
 inline constexpr std::string_view kArmings =
     "not asked|armed|waits for a fault to pass|REFUSED: the car moves|"
     "REFUSED: the last run ended while armed|SPENT: release and arm anew";
+inline constexpr std::string_view kNoYes = "no|yes";
+inline constexpr std::string_view kStopLevels = "none|controlled stop|EMERGENCY STOP";
+inline constexpr std::string_view kStopReasons =
+    "none|operator|race control|pit crew|console lost its operator|test";
 inline constexpr std::string_view kStopCauses =
     "none|operator: emergency stop|purple flag|CAN bus dead: the drive-by-wire is silent|"
     "drive-by-wire: system failure|"

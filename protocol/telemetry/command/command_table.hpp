@@ -1,0 +1,88 @@
+// Every command that a base may give. Commands are absolute: "120 km/h", never "10 faster" nor
+// "toggle", so that one which comes twice, late or out of order does no harm.
+//   wire   see command_record.hpp; arguments quantised as their row says
+//   law    commands of one slot replace each other: a newer one supersedes what was not applied
+//   units  as each row has it
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "protocol/bits/quantized.hpp"
+#include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::telemetry {
+
+enum class CommandType : std::uint8_t {
+  kArm,            // 0 disarm, 1 arm
+  kReset,          // 1: a stop that has ended is acknowledged by the operator
+  kSpeedLimit,     // m/s; the car never drives faster
+  kRaceLine,       // number of the line
+  kRole,           // 0 none, 1 defender, 2 attacker
+  kTrackFlag,      // as telemetry labels kTrackFlags; the most restrictive of all sources holds
+  kReceiverUse,    // 0: both, 1: unit 0 excluded, 2: unit 1 excluded
+  kReleaseStop,    // argument: the car's challenge; see stop_latch.hpp
+  kEndRun,         // 1: the car ends its run where it stands
+  kSendParameters  // 1: as bulk
+};
+inline constexpr std::size_t kCommandTypes = 10;
+
+struct CommandRow {
+  CommandType type;
+  std::string_view name;
+  std::string_view unit;
+  double min, max, resolution;
+  Duration time_to_live;  // not applied later than this after it was given
+  bool needs_authority;
+  std::string_view labels = {};
+
+  constexpr bits::Quantized quantized() const { return {min, max, resolution}; }
+};
+
+inline constexpr auto kCommandTable = [] {
+  using enum CommandType;
+  return std::to_array<CommandRow>({
+      {kArm, "arm", "", 0, 2, 1, seconds(2), true, "disarm|arm"},
+      {kReset, "reset", "", 0, 2, 1, seconds(2), true, "-|reset"},
+      {kSpeedLimit, "speed limit", "m/s", 0, 120, 0.1, seconds(2), true},
+      {kRaceLine, "race line", "", 0, 30, 1, seconds(2), true},
+      {kRole, "role", "", 0, 6, 1, seconds(2), true, "none|defender|attacker"},
+      {kTrackFlag, "track flag", "", 0, 14, 1, seconds(2), true},
+      {kReceiverUse, "receiver use", "", 0, 6, 1, seconds(2), true,
+       "both|without unit 0|without unit 1"},
+      {kReleaseStop, "release stop", "", 0, 65'534, 1, seconds(2), true},
+      {kEndRun, "end run", "", 0, 2, 1, seconds(2), true, "-|end"},
+      {kSendParameters, "send parameters", "", 0, 2, 1, seconds(5), false, "-|send"},
+  });
+}();
+static_assert(kCommandTable.size() == kCommandTypes);
+
+constexpr const CommandRow& row_of(CommandType type) {
+  return kCommandTable[static_cast<std::size_t>(type)];
+}
+
+using CommandId = std::uint32_t;  // rises within one run of the base, from 1
+
+struct Command {
+  CommandType type = CommandType::kArm;
+  double argument = kUnset;
+};
+
+// What became of it, as the car says. All but kReceived are final.
+enum class Outcome : std::uint8_t {
+  kReceived,  // known to the car, its consumer has not answered
+  kApplied,
+  kRefused,      // the consumer did not accept it in its present state
+  kUnsupported,  // this car has no such thing
+  kExpired,      // came, or was to be applied, after its time
+  kSuperseded,   // a newer one of its type came first
+  kNoAuthority,  // the console that gave it did not hold the authority
+  kOtherRun      // meant for the run of the car before this one
+};
+inline constexpr std::size_t kOutcomes = 8;
+std::string_view text_of(Outcome outcome);
+
+}  // namespace pitwall::telemetry

@@ -1,0 +1,59 @@
+// Acknowledgements: what arrived (ReceiptBook, written into each packet) and what is known to have
+// arrived (SentBook).
+//   law    a packet is acknowledged at most once; what an Ack does not name is unknown, not lost
+//   units  64-bit sequence numbers of one session
+//   errors an Ack that names what was never sent is counted and ignored
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "protocol/telemetry/packet/body.hpp"
+#include "protocol/vocabulary/fixed_vector.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::telemetry {
+
+class ReceiptBook {
+ public:
+  void received(std::uint64_t sequence, Instant at);
+  // None until something was received.
+  std::optional<Ack> ack(Instant now) const;
+  bool due(Instant now) const;  // something new since the last written one, or 50 ms have passed
+  void written(Instant now);
+  void forget() { *this = {}; }
+
+ private:
+  std::uint64_t newest_ = 0, acked_ = 0;
+  std::uint32_t mask_ = 0;
+  Instant newest_at_{}, written_at_{};
+};
+
+struct Delivery {
+  std::uint64_t sequence = 0;
+  Instant sent{};
+  std::size_t bytes = 0;
+};
+
+class SentBook {
+ public:
+  static constexpr std::size_t kKept = 256;
+
+  void sent(std::uint64_t sequence, Instant at, std::size_t bytes);
+  struct News {
+    FixedVector<Delivery, 33> delivered;  // newly known to have arrived
+    std::optional<Delivery> newest;       // that the Ack names, for the clock, if its hold is known
+  };
+  News take(const Ack& ack);
+  std::uint64_t nonsense() const { return nonsense_; }
+  void forget() { *this = {}; }
+
+ private:
+  std::array<Delivery, kKept> kept_{};
+  std::array<bool, kKept> acked_{};
+  std::uint64_t newest_ = 0, nonsense_ = 0;
+};
+
+}  // namespace pitwall::telemetry

@@ -1,0 +1,62 @@
+// What one end may put on one path: bytes and packets per second, IP and UDP overhead counted, with
+// a share that only safety may use. Nothing bypasses it: acknowledgements, key exchange and
+// repetitions are spent from it like all else.
+//   law    in every window of 100 ms (at any start) bytes <= rate / 10 + one largest packet and
+//          packets <= packet rate / 10 + 1; in every window of 1 s bytes <= rate
+//          what safety may use is never less than its share; others never touch the share
+//   units  bytes and packets per second; sizes are UDP payload, the overhead is added here
+//   errors make(): Problem where the share, the largest packet or the rate contradict each other
+//   source dual token bucket; depth is latency, so it is one packet
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::telemetry {
+
+struct BudgetParams {
+  double bytes_per_s = 32'000.0;  // 256 kbit/s
+  double packets_per_s = 100.0;
+  double safety_bytes_per_s = 4'400.0;  // reserved
+  std::size_t largest_payload = 0;      // 0: as large as the rate allows, at most kMaxDatagram
+};
+
+struct BudgetCounters {
+  std::uint64_t bytes = 0, packets = 0;  // spent, with overhead
+  std::uint64_t safety_bytes = 0;
+  std::uint64_t refused = 0;  // times that something wanted to go and could not
+};
+
+class PathBudget {
+ public:
+  static Result<PathBudget, Problem> make(const BudgetParams& params);
+
+  // UDP payload that may go now in one packet: for safety, and for all else. Zero: no packet.
+  std::size_t room_for_safety(Instant now) const;
+  std::size_t room_for_all(Instant now) const;
+  // A packet went. CHECKs that there was room for it. `safety_payload`: how much of it was
+  // safety's.
+  void spend(std::size_t payload, std::size_t safety_payload, Instant now);
+  void note_refused() { ++counters_.refused; }
+  // Of the rate: what rate control leaves of it, (0, 1]; safety's share is never scaled.
+  void scale(double factor, Instant now);
+  // The earliest time at which a packet of this payload may go as all else.
+  Instant due(std::size_t payload, Instant now) const;
+
+  std::size_t largest_payload() const { return largest_payload_; }
+  const BudgetParams& params() const { return params_; }
+  const BudgetCounters& counters() const { return counters_; }
+
+ private:
+  explicit PathBudget(const BudgetParams& params) : params_(params) {}
+
+  BudgetParams params_;
+  BudgetCounters counters_;
+  std::size_t largest_payload_ = 0;
+};
+
+}  // namespace pitwall::telemetry

@@ -1,0 +1,50 @@
+// Which groups go into the next packet: safety always, then by age of what the other end is known
+// to have.
+//   law    index_g = w_g * (max(0, age_g - T_g / 2) / T_g)^2 / sqrt(bits_g); age_g since the sample
+//          that was acknowledged, or sent less than a round trip ago. Ages grow without bound, so
+//          no group starves
+//   in     snapshots, what was written into which packet, which packets were acknowledged
+//   out    groups in falling order; counters that explain each choice
+//   cost   O(G log G), no allocation
+//   source Kadota et al., "Scheduling Policies for Minimizing Age of Information in Broadcast
+//          Wireless Networks", 2018, max-weight policy
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/vocabulary/fixed_vector.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::telemetry {
+
+struct GroupFigures {
+  std::uint64_t chosen = 0,
+                skipped = 0;  // packets that had it; had no room for it though it was due
+  Instant acked_sample = kNeverSampled;  // newest that the other end is known to have
+};
+
+class Scheduler {
+ public:
+  explicit Scheduler(Direction direction);
+
+  using Order = FixedVector<Group, kGroups>;
+  // Sampled groups: those of class kSafety first, then by falling index; index zero not at all
+  // unless `fill` (room to spare costs nothing).
+  Order order(const Snapshot& snapshot, Duration round_trip, Instant now) const;
+
+  void sent(std::uint64_t sequence, GroupSet written, GroupSet wanted, const Snapshot& snapshot,
+            Instant now);
+  void acked(std::uint64_t sequence);
+  void forget();  // a new session: the other end is known to have nothing
+
+  const GroupFigures& figures(Group group) const { return figures_[index_of(group)]; }
+
+ private:
+  Direction direction_;
+  std::array<GroupFigures, kGroups> figures_{};
+};
+
+}  // namespace pitwall::telemetry

@@ -1,0 +1,109 @@
+// What is inside a data packet, once it is opened: time of sending, acknowledgement, groups of
+// state, records.
+//   wire   tx_time u24 (100 us units of the sender's clock, wraps), flags u8
+//            flags: has_ack 1, has_groups 2, paths sent on 4 (0x04 << path), 6 bits used
+//          [ack: newest u16, mask u32, hold u16 (100 us units, saturates)]
+//          [groups: the set, one bit for each group of the direction, whole bytes; one age code for
+//           each group of the set; the groups' bits back to back; zeros to a whole byte]
+//          records to the end: type u8, length u8 or (length >= 0xF0) two bytes, payload
+//   law    parse accepts exactly what BodyWriter makes: one form for each meaning
+//   errors BodyError for any other bytes; nothing is read past the end
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "protocol/telemetry/packet/group_codec.hpp"
+#include "protocol/telemetry/registry/group_row.hpp"
+#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/vocabulary/fixed_vector.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::telemetry {
+
+inline constexpr std::size_t kPaths = 2;
+using PathId = std::uint8_t;  // 0 .. kPaths - 1
+inline constexpr std::size_t kMaxRecords = 48;
+inline constexpr std::size_t kBodyFixed = 4, kAckSize = 8;
+
+// Which of the last 33 packets arrived: newest, and bit k for newest - 1 - k.
+struct Ack {
+  std::uint16_t newest_low = 0;  // low 16 bits of the sequence
+  std::uint32_t mask = 0;
+  Duration hold{};  // between its arrival and the sending of this packet
+};
+
+enum class RecordType : std::uint8_t {
+  kCommand = 1,
+  kCommandResult,
+  kCommandResultAck,
+  kEvent,
+  kEventAck,
+  kBulk,
+  kBulkAck,
+  kSchema,       // hashes of the sender's groups
+  kSchemaGroup,  // one group's definition as text
+  kPathProbe,
+  kPathProof
+};
+inline constexpr std::uint8_t kRecordTypeMax = 11;
+
+struct Record {
+  RecordType type;
+  std::span<const std::uint8_t> payload;
+};
+
+class BodyWriter {
+ public:
+  // `room`: at most so many bytes, <= kMaxBody.
+  BodyWriter(std::span<std::uint8_t> buffer, std::size_t room, Direction direction);
+
+  // In this order, each at most once; groups before records.
+  void begin(Instant now, std::uint8_t paths_mask);
+  bool add_ack(const Ack& ack);
+  // Those of `wanted` that fit, in the order given; returns the set that was written.
+  GroupSet add_groups(const Snapshot& snapshot, std::span<const Group> wanted, Instant now,
+                      CodecCounters& counters);
+  bool add_record(RecordType type, std::span<const std::uint8_t> payload);
+
+  std::size_t room_left() const;
+  std::span<const std::uint8_t> bytes() const;
+  // Bytes that a record of this payload takes.
+  static std::size_t record_size(std::size_t payload) { return payload + (payload < 0xF0 ? 2 : 3); }
+
+ private:
+  std::span<std::uint8_t> buffer_;
+  std::size_t room_ = 0, at_ = 0;
+  Direction direction_;
+};
+
+enum class BodyError : std::uint8_t {
+  kTooShort,
+  kBadFlags,
+  kBadGroups,  // a set or age code that the direction does not have, or an empty set
+  kBadValue,   // a bit pattern that no value makes
+  kBadPadding,
+  kBadRecord,  // unknown type, length past the end, or not in its shortest form
+  kTooManyRecords
+};
+inline constexpr std::size_t kBodyErrors = 7;
+const char* text_of(BodyError error);
+
+struct Body {
+  std::uint32_t tx_time_100us = 0;  // 24 bits
+  std::uint8_t paths_mask = 0;
+  std::optional<Ack> ack;
+  GroupSet groups;
+  std::array<std::uint8_t, kGroups> age_codes{};
+  Values values;                             // of the groups of the set; others unset
+  FixedVector<Record, kMaxRecords> records;  // point into the bytes parsed
+};
+
+Result<Body, BodyError> parse_body(std::span<const std::uint8_t> bytes, Direction direction);
+
+}  // namespace pitwall::telemetry

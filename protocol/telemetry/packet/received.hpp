@@ -1,0 +1,25 @@
+// Where and when the packet that a record came in was sent and received, for the modules that take
+// records.
+//   units  own clock; `sent_earliest` is the sender's time of sending on the own clock, minus the
+//          bound of the clock comparison: never later than the truth. Unset while the clocks have
+//          not been compared
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "protocol/telemetry/packet/body.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::telemetry {
+
+struct Received {
+  Instant at{};
+  std::optional<Instant> sent_earliest;
+  std::uint32_t tx_time_100us = 0;  // of the packet; times inside its records are told against it
+  std::uint64_t sequence = 0;
+  PathId path = 0;
+};
+
+}  // namespace pitwall::telemetry

@@ -1,0 +1,98 @@
+// Groups of the telemetry registry: fields that are sampled together, travel together and share one
+// sample age. A group is written whole or not at all, so that any packet that holds it replaces
+// what was known of it.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::telemetry {
+
+// Car to base, or base to car.
+enum class Direction : std::uint8_t { kDown, kUp };
+
+enum class Group : std::uint8_t {
+  kMode,
+  kFlags,
+  kEgo,
+  kTrack,
+  kCommand,
+  kFeedback,
+  kWheels,
+  kTyres,
+  kEngine,
+  kElectric,
+  kBus,
+  kComputer,
+  kRadio,
+  kStop,      // up: the latched stop of the operator
+  kJoystick,  // up: the dead-man's samples
+  kAuthority  // up: whose console may command
+};
+inline constexpr std::size_t kGroups = 16;
+
+constexpr std::size_t index_of(Group group) { return static_cast<std::size_t>(group); }
+
+// The part of the link that a group may claim when not all fits; first is kept longest.
+enum class Class : std::uint8_t { kSafety, kMotion, kHealth, kStatistics };
+inline constexpr std::size_t kClasses = 4;
+
+struct GroupRow {
+  Group group;
+  std::string_view name;
+  Direction direction;
+  Class priority;       // kSafety: in every packet, out of the reserved share
+  Duration target_age;  // T_g of the scheduler
+  double weight;        // w_g of the scheduler, > 0
+};
+
+inline constexpr auto kGroupTable = [] {
+  using enum Group;
+  using enum Class;
+  constexpr auto kDown = Direction::kDown, kUp = Direction::kUp;
+  return std::to_array<GroupRow>({
+      {kMode, "mode", kDown, kSafety, milliseconds(100), 8.0},
+      {kFlags, "flags", kDown, kSafety, milliseconds(100), 8.0},
+      {kEgo, "ego", kDown, kMotion, milliseconds(100), 4.0},
+      {kTrack, "track", kDown, kMotion, milliseconds(150), 3.0},
+      {kCommand, "command", kDown, kMotion, milliseconds(150), 3.0},
+      {kFeedback, "feedback", kDown, kMotion, milliseconds(150), 3.0},
+      {kWheels, "wheels", kDown, kMotion, milliseconds(150), 2.0},
+      {kTyres, "tyres", kDown, kHealth, seconds(1), 1.0},
+      {kEngine, "engine", kDown, kHealth, milliseconds(500), 1.0},
+      {kElectric, "electric", kDown, kHealth, milliseconds(500), 1.0},
+      {kBus, "bus", kDown, kStatistics, seconds(1), 1.0},
+      {kComputer, "computer", kDown, kStatistics, seconds(1), 1.0},
+      {kRadio, "radio", kDown, kHealth, milliseconds(500), 1.0},
+      {kStop, "stop", kUp, kSafety, milliseconds(100), 8.0},
+      {kJoystick, "joystick", kUp, kSafety, milliseconds(100), 8.0},
+      {kAuthority, "authority", kUp, kSafety, milliseconds(100), 8.0},
+  });
+}();
+static_assert(kGroupTable.size() == kGroups);
+static_assert([] {
+  for (std::size_t i = 0; i < kGroups; ++i)
+    if (index_of(kGroupTable[i].group) != i || !(kGroupTable[i].weight > 0)) return false;
+  return true;
+}());
+
+constexpr const GroupRow& row_of(Group group) { return kGroupTable[index_of(group)]; }
+
+// A set of groups, one bit each in the order of Group.
+struct GroupSet {
+  std::uint64_t bits = 0;
+
+  constexpr bool has(Group g) const { return (bits >> index_of(g) & 1U) != 0; }
+  constexpr void add(Group g) { bits |= std::uint64_t{1} << index_of(g); }
+  constexpr void remove(Group g) { bits &= ~(std::uint64_t{1} << index_of(g)); }
+  constexpr bool empty() const { return bits == 0; }
+  constexpr bool operator==(const GroupSet&) const = default;
+};
+static_assert(kGroups <= 64);
+
+}  // namespace pitwall::telemetry

@@ -1,0 +1,30 @@
+// What one end knows of its own state at one moment: a value for each field and, for each group,
+// when it was sampled. A packet is made of the newest snapshot at the moment it is sent.
+//   units  Instant on the clock of the end that made it
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "protocol/telemetry/registry/registry.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::telemetry {
+
+inline constexpr Instant kNeverSampled{std::numeric_limits<std::int64_t>::min()};
+
+struct Snapshot {
+  Values values;
+  std::array<Instant, kGroups> sampled_at = [] {
+    std::array<Instant, kGroups> never{};
+    never.fill(kNeverSampled);
+    return never;
+  }();
+
+  constexpr Instant& at(Group g) { return sampled_at[index_of(g)]; }
+  constexpr Instant at(Group g) const { return sampled_at[index_of(g)]; }
+  constexpr bool ever(Group g) const { return at(g) != kNeverSampled; }
+};
+
+}  // namespace pitwall::telemetry

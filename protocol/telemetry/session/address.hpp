@@ -1,0 +1,17 @@
+// Where a datagram comes from or goes to. Opaque to the protocol: it is compared, never read.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace pitwall::telemetry {
+
+struct Address {
+  std::uint32_t ip = 0;  // host byte order
+  std::uint16_t port = 0;
+
+  constexpr bool operator==(const Address&) const = default;
+  constexpr bool known() const { return port != 0; }
+};
+
+}  // namespace pitwall::telemetry

@@ -1,0 +1,41 @@
+// Provisioned keys: one X25519 pair for each car and each base, and who may speak with whom. A key
+// is bound to its role: what a base's key opens, a car's key does not.
+//   text   64 hexadecimal digits; files as `pitwall-base keygen` writes them
+//   errors Problem with the place; a secret is never part of a message or a log
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "protocol/telemetry/session/randomness.hpp"
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::telemetry {
+
+inline constexpr std::size_t kKeySize = 32;
+using PublicKey = std::array<std::uint8_t, kKeySize>;
+
+enum class Role : std::uint8_t { kCar, kBase };
+
+struct Identity {
+  PublicKey public_key{};
+  std::array<std::uint8_t, kKeySize> secret_key{};
+};
+
+Identity make_identity(Randomness& randomness);
+std::string text_of(const PublicKey& key);
+Result<PublicKey, Problem> parse_public_key(std::string_view text, const std::string& place);
+
+// One file for each end: its role, its own pair, the other end's public key.
+struct KeyFile {
+  Role role = Role::kCar;
+  Identity own;
+  PublicKey peer{};
+};
+std::string text_of(const KeyFile& keys);
+Result<KeyFile, Problem> parse_key_file(std::string_view text, const std::string& place);
+
+}  // namespace pitwall::telemetry
