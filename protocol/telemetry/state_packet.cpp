@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint8_t kMagic0 = 'P', kMagic1 = 'W';
 constexpr std::uint8_t kSimulationFlag = 0x01;
-constexpr std::uint64_t kNeverSampled = (std::uint64_t{1} << kAgeBits) - 1;
+constexpr std::uint64_t kNoAge = (std::uint64_t{1} << kAgeBits) - 1;
 constexpr std::size_t kVersionAt = 2, kFlagsAt = 3, kSchemaAt = 4, kRunAt = 8, kSequenceAt = 12,
                       kSentAt = 16;
 
@@ -29,9 +29,11 @@ std::uint64_t code_of(const bits::Quantized& field, double value, EncodeCounters
 }
 
 std::uint64_t code_of(Duration age) {
-  if (age.ns < 0) return kNeverSampled;
+  if (age.ns < 0) return kNoAge;
   return static_cast<std::uint64_t>(std::min(age, kMaxSampleAge).ns / 1'000);
 }
+
+constexpr bool told(Group group) { return row_of(group).direction == Direction::kDown; }
 
 PacketError check_envelope(std::span<const std::uint8_t> bytes, bool& good) {
   good = false;
@@ -52,6 +54,16 @@ PacketError check_envelope(std::span<const std::uint8_t> bytes, bool& good) {
 
 }  // namespace
 
+StatePacket packet_of(const Snapshot& snapshot, Instant now) {
+  StatePacket packet;
+  packet.values = snapshot.values;
+  for (const GroupRow& row : kGroupTable) {
+    if (told(row.group) && snapshot.ever(row.group))
+      packet.age_of(row.group) = std::max(now - snapshot.at(row.group), Duration{});
+  }
+  return packet;
+}
+
 std::span<const std::uint8_t> encode(const StatePacket& packet, PacketBuffer& buffer,
                                      EncodeCounters& counters) {
   const std::span<std::uint8_t> bytes{buffer};
@@ -66,8 +78,11 @@ std::span<const std::uint8_t> encode(const StatePacket& packet, PacketBuffer& bu
 
   bits::BitWriter out{
       bytes.subspan(kHeaderBytes, kStatePacketBytes - kHeaderBytes - kChecksumBytes)};
-  for (const Duration age : packet.sample_age) out.write(code_of(age), kAgeBits);
+  for (const GroupRow& row : kGroupTable) {
+    if (told(row.group)) out.write(code_of(packet.age_of(row.group)), kAgeBits);
+  }
   for (FieldIndex i = 0; i < kFieldCount; ++i) {
+    if (!told(kFields[i].group)) continue;
     const bits::Quantized field = kFields[i].quantized();
     out.write(code_of(field, packet.values[i], counters), field.bits());
   }
@@ -95,11 +110,13 @@ Result<StatePacket, PacketError> parse(std::span<const std::uint8_t> bytes) {
 
   bits::BitReader in{
       bytes.subspan(kHeaderBytes, kStatePacketBytes - kHeaderBytes - kChecksumBytes)};
-  for (Duration& age : packet.sample_age) {
+  for (const GroupRow& row : kGroupTable) {
+    if (!told(row.group)) continue;
     const std::uint64_t code = in.read(kAgeBits);
-    if (code != kNeverSampled) age = microseconds(static_cast<std::int64_t>(code));
+    if (code != kNoAge) packet.age_of(row.group) = microseconds(static_cast<std::int64_t>(code));
   }
   for (FieldIndex i = 0; i < kFieldCount; ++i) {
+    if (!told(kFields[i].group)) continue;
     const bits::Quantized field = kFields[i].quantized();
     const std::uint64_t step = in.read(field.bits());
     if (step >= field.count() && step != field.no_value()) return Unexpected{PacketError::kBadCode};

@@ -2,8 +2,10 @@
 //   law    |decoded - value| <= resolution / 2 inside a field's range; a value out of range is
 //          written as its end and counted; NaN is "unset"; an infinite value is written as unset
 //          and counted
-//          an age is rounded up: the receiver never takes a sample for younger than it is
-//   errors decode: false where a bit pattern is none that encode makes; the values are untouched
+//          an age is rounded up: the receiver never takes a sample for younger than it is. One of
+//          more than an hour is written as "never sampled"
+//   errors encode: false where the group did not fit; the writer takes no more then
+//          decode: false where a bit pattern is none that encode makes; the values are untouched
 //   cost   no allocation; encode 300 ns, decode 400 ns for a hundred fields
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

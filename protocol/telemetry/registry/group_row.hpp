@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -91,8 +92,22 @@ struct GroupSet {
   constexpr void add(Group g) { bits |= std::uint64_t{1} << index_of(g); }
   constexpr void remove(Group g) { bits &= ~(std::uint64_t{1} << index_of(g)); }
   constexpr bool empty() const { return bits == 0; }
+  constexpr std::size_t count() const { return static_cast<std::size_t>(std::popcount(bits)); }
   constexpr bool operator==(const GroupSet&) const = default;
 };
 static_assert(kGroups <= 64);
+
+constexpr GroupSet groups_of(Direction direction) {
+  GroupSet set;
+  for (const GroupRow& row : kGroupTable)
+    if (row.direction == direction) set.add(row.group);
+  return set;
+}
+constexpr GroupSet groups_of(Direction direction, Class priority) {
+  GroupSet set;
+  for (const GroupRow& row : kGroupTable)
+    if (row.direction == direction && row.priority == priority) set.add(row.group);
+  return set;
+}
 
 }  // namespace pitwall::telemetry

@@ -168,6 +168,28 @@ struct Values {
   constexpr double operator[](FieldIndex i) const { return at[i]; }
 };
 
+// Where the fields of a group stand in the table.
+struct FieldSpan {
+  FieldIndex first = 0, count = 0;
+};
+inline constexpr auto kGroupFields = [] {
+  std::array<FieldSpan, kGroups> spans{};
+  for (FieldIndex i = 0; i < kFieldCount; ++i) {
+    FieldSpan& span = spans[index_of(kFields[i].group)];
+    if (span.count++ == 0) span.first = i;
+  }
+  return spans;
+}();
+constexpr FieldSpan fields_of(Group group) { return kGroupFields[index_of(group)]; }
+
+// Bits of a group's values on the air; the same for every value.
+inline constexpr auto kGroupBits = [] {
+  std::array<std::size_t, kGroups> bits{};
+  for (const FieldRow& row : kFields) bits[index_of(row.group)] += row.quantized().bits();
+  return bits;
+}();
+constexpr std::size_t group_bits(Group group) { return kGroupBits[index_of(group)]; }
+
 namespace detail {
 
 constexpr std::uint32_t fnv1a(std::uint32_t hash, std::uint64_t word, int bytes) {
@@ -200,9 +222,11 @@ inline constexpr std::uint32_t kSchemaHash = [] {
   return hash;
 }();
 
+// Of all groups that the car tells.
 inline constexpr std::size_t kValueBits = [] {
   std::size_t bits = 0;
-  for (const FieldRow& row : kFields) bits += row.quantized().bits();
+  for (const GroupRow& row : kGroupTable)
+    if (row.direction == Direction::kDown) bits += group_bits(row.group);
   return bits;
 }();
 

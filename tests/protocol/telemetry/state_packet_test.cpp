@@ -17,6 +17,9 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
+constexpr std::size_t kDownGroups = groups_of(Direction::kDown).count();
+constexpr bool told(FieldIndex i) { return row_of(kFields[i].group).direction == Direction::kDown; }
+
 struct Random {
   std::uint64_t state = 0x9E3779B97F4A7C15ULL;
   std::uint64_t next() {
@@ -83,7 +86,7 @@ TEST(StatePacket, EveryValueArrivesWithinHalfItsResolution) {
     EXPECT_EQ(got->sent, sent.sent);
     for (FieldIndex i = 0; i < kFieldCount; ++i) {
       const FieldRow& row = kFields[i];
-      if (std::isnan(sent.values[i])) {
+      if (std::isnan(sent.values[i]) || !told(i)) {
         EXPECT_TRUE(std::isnan(got->values[i])) << row.name;
       } else {
         EXPECT_NEAR(got->values[i], sent.values[i], 0.5 * row.resolution * (1.0 + 1e-6))
@@ -109,6 +112,31 @@ TEST(StatePacket, SampleAgesArriveAndNeverStaysNever) {
   EXPECT_EQ(got->age_of(Group::kEgo), microseconds(1'234));
   EXPECT_EQ(got->age_of(Group::kTyres), kMaxSampleAge);
   EXPECT_LT(got->age_of(Group::kMode).ns, 0);
+}
+
+// What the base says to the car is not the car's to tell.
+TEST(StatePacket, HoldsTheGroupsOfTheCarAndNoOthers) {
+  Snapshot snapshot;
+  const Instant now = Instant{} + seconds(5);
+  snapshot.values.at.fill(1.0);
+  snapshot.sampled_at.fill(now - milliseconds(30));
+  const auto got = parse(bytes_of(packet_of(snapshot, now)));
+  ASSERT_TRUE(got.has_value());
+  for (const GroupRow& row : kGroupTable) {
+    const bool down = row.direction == Direction::kDown;
+    EXPECT_EQ(got->age_of(row.group), down ? milliseconds(30) : microseconds(-1)) << row.name;
+  }
+  for (FieldIndex i = 0; i < kFieldCount; ++i)
+    EXPECT_EQ(std::isnan(got->values[i]), !told(i)) << kFields[i].name;
+}
+
+TEST(StatePacket, OfASnapshotHasNoAgeWhereNothingWasSampledAndNoneBelowZero) {
+  Snapshot snapshot;
+  const Instant now = Instant{} + seconds(5);
+  snapshot.at(Group::kEgo) = now + milliseconds(3);
+  const StatePacket packet = packet_of(snapshot, now);
+  EXPECT_EQ(packet.age_of(Group::kEgo), Duration{});
+  EXPECT_LT(packet.age_of(Group::kMode).ns, 0);
 }
 
 TEST(StatePacket, ValuesOutOfRangeAreWrittenAsTheEndAndCounted) {
@@ -164,13 +192,14 @@ TEST(StatePacket, SealedNonsenseIsRefusedByKind) {
   EXPECT_EQ(with(3, 0x83), PacketError::kBadFlags);
   EXPECT_EQ(with(4, static_cast<std::uint8_t>(good[4] ^ 1U)), PacketError::kOtherSchema);
   EXPECT_EQ(with(23, 0xFF), PacketError::kBadCode);  // sent in the year 292 000
-  if ((kGroups * kAgeBits + kValueBits) % 8 != 0) {
+  if ((kDownGroups * kAgeBits + kValueBits) % 8 != 0) {
     const std::size_t last = good.size() - kChecksumBytes - 1;
     EXPECT_EQ(with(last, static_cast<std::uint8_t>(good[last] | 1U)), PacketError::kBadCode);
   }
   // ct_state has nine bits for 0..255 and unset: 256 is no state.
   Bytes bytes = good;
-  const std::size_t at_bit = 8 * kHeaderBytes + kGroups * kAgeBits + kFields[0].quantized().bits();
+  const std::size_t at_bit =
+      8 * kHeaderBytes + kDownGroups * kAgeBits + kFields[0].quantized().bits();
   ASSERT_EQ(kFields[1].quantized().bits(), 9U);
   for (std::size_t i = 0; i < 9; ++i) {
     const std::size_t bit = at_bit + i;
