@@ -1,9 +1,10 @@
 // What a radio link does to datagrams: see link_emulator.hpp.
-//   units  bytes per second, Duration, probabilities 0 .. 1
+//   units  bytes per second, Duration, metres, probabilities 0 .. 1; times count from the start of
+//          the run
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <vector>
 
 #include "protocol/vocabulary/time.hpp"
@@ -14,12 +15,40 @@ namespace pitwall::link {
 struct Fades {
   Duration mean_good{}, mean_bad{};  // mean_bad zero: no fades
   double loss_good = 0.0, loss_bad = 1.0;
+
+  constexpr double share_bad() const {
+    const double cycle_s = mean_good.seconds() + mean_bad.seconds();
+    return cycle_s > 0.0 ? mean_bad.seconds() / cycle_s : 0.0;
+  }
+  constexpr double mean_loss() const {
+    return share_bad() * loss_bad + (1.0 - share_bad()) * loss_good;
+  }
 };
 
 // Nothing passes from `from` for `length`, again each `every` (zero: once).
 struct Blackout {
   Instant from{};
   Duration length{}, every{};
+};
+
+// From a recording: of what is on the air in [from, to) this share is lost.
+struct Outage {
+  Instant from{}, to{};
+  double loss = 1.0;
+};
+
+// From a recording: around this place of the track, half way to the next ones.
+struct StationLoss {
+  double station_m = 0.0;
+  double loss = 0.0;
+};
+
+// A recorded link: outages over time, in order, and loss by place, by ascending station.
+struct LinkTrace {
+  std::vector<Outage> outages;
+  Duration repeat{};  // the outages come again each `repeat`; zero: once
+  std::vector<StationLoss> by_station;
+  double lap_length_m = 0.0;
 };
 
 // One direction of one link.
@@ -32,6 +61,7 @@ struct LinkParams {
   double reorder = 0.0;                               // of each datagram: held back by
   Duration reorder_by{};                              // so long
   std::vector<Blackout> blackouts;
+  LinkTrace trace;
 };
 
 // Presets: mean loss and mean fade.

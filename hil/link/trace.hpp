@@ -1,0 +1,31 @@
+// Recorded links: what a team measured on its track, as a file.
+//   in     CSV with a header line, one of
+//            from_s,to_s[,loss]   outages in order, loss 1 where it is not given
+//            station_m,loss       loss around a place of the track, by ascending station
+//          '#' begins a comment line
+//   out    a LinkTrace; and the loss that it holds at a time or place, 0 where it says nothing
+//   errors Problem "file:line" for a line that is no such row, is out of order or out of range
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "hil/link/link_params.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::link {
+
+Result<LinkTrace, Problem> read_trace(std::string_view text, const std::string& name);
+// The outages as such a file.
+std::string write_trace(const LinkTrace& trace);
+
+// The fades that every sender under this seed meets, from the start to `length`: an outage for
+// each, so that a trace may be published and replayed.
+LinkTrace trace_of(const Fades& fades, std::uint64_t seed, Duration length);
+
+double loss_over_time(const LinkTrace& trace, Instant at);
+double loss_at_station(const LinkTrace& trace, double station_m);
+
+}  // namespace pitwall::link
