@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/bench/car_summary.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <map>
 
 #include "protocol/can/frame.hpp"
 #include "protocol/yaml/strict_map.hpp"
@@ -34,6 +36,7 @@ CarMessage message_of(yaml::StrictMap map) {
           .debt = count_of(map, "debt"),
           .lost = count_of(map, "lost"),
           .bad = count_of(map, "bad"),
+          .late = count_of(map, "late"),
           .mean_interval = microseconds(map.integer("mean_interval_us", 0, 1'000'000'000)),
           .last = instant_of(map, "last_ns")};
 }
@@ -93,6 +96,18 @@ Result<CarSummary, Problem> read_car_summary(const std::string& path) {
     car.step_max_us = map.number("step_max_us", 0.0, 1e9);
     return car;
   });
+}
+
+std::uint64_t frames_that_never_came(const CarSummary& car, Instant until) {
+  std::map<std::uint32_t, std::uint64_t> missing;
+  for (const world::LossReport& loss : car.losses)
+    if (loss.id != 0 && loss.due <= until) missing[loss.id] += loss.frames;
+  for (const CarMessage& message : car.messages)
+    if (const auto found = missing.find(message.id); found != missing.end())
+      found->second -= std::min(found->second, message.late);
+  std::uint64_t sum = 0;
+  for (const auto& [id, frames] : missing) sum += frames;
+  return sum;
 }
 
 }  // namespace pitwall::bench

@@ -18,8 +18,9 @@ namespace pitwall::bench {
 // How one message was in the end.
 struct CarMessage {
   std::uint32_t id = 0;
-  std::string liveness;
+  std::string liveness{};
   std::uint64_t debt = 0, lost = 0, bad = 0;
+  std::uint64_t late = 0;  // reported missing, and came after all
   Duration mean_interval{};
   Instant last{};
 };
@@ -41,5 +42,8 @@ struct CarSummary {
 };
 
 Result<CarSummary, Problem> read_car_summary(const std::string& path);
+
+// Frames due by then that never came: what was reported missing, less what came after all.
+std::uint64_t frames_that_never_came(const CarSummary& car, Instant until);
 
 }  // namespace pitwall::bench

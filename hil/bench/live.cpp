@@ -249,9 +249,7 @@ class Live {
     result_.bus_refusals = car.frames_refused;
     if (car.identity == "wrong") result_.refused_to_arm = car.identity_sentence;
     // Not those of the silence after the bench's last frame, which the car counts too.
-    for (const world::LossReport& loss : car.losses)
-      if (loss.id != 0 && loss.due <= clock_.started() + scenario_.duration)
-        result_.bus_losses += loss.frames;
+    result_.bus_losses = frames_that_never_came(car, clock_.started() + scenario_.duration);
     // One that was started again knows nothing of its first life.
     if (!parts_.cast.was_killed(Role::kCar)) compare_counts(car);
     record_car(car);

@@ -39,12 +39,9 @@ std::span<const std::uint8_t> as_bytes(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
-}  // namespace
-
-Result<std::string, Problem> read_file(const std::string& path, std::size_t max_bytes) {
-  const auto opened = open_file(path, O_RDONLY);
-  const FileDescriptor fd(opened);
-  if (!fd.valid()) return refuse(path, opened);
+// To the end of an open file.
+Result<std::string, Problem> read_all(const FileDescriptor& fd, const std::string& path,
+                                      std::size_t max_bytes) {
   std::string contents;
   while (true) {  // a size asked beforehand would be 0 for /proc and old for a growing file
     const std::size_t before = contents.size();
@@ -57,6 +54,40 @@ Result<std::string, Problem> read_file(const std::string& path, std::size_t max_
     if (contents.size() > max_bytes)
       return Unexpected{Problem{path, "longer than " + std::to_string(max_bytes) + " bytes"}};
   }
+}
+
+}  // namespace
+
+Result<std::string, Problem> read_file(const std::string& path, std::size_t max_bytes) {
+  const auto opened = open_file(path, O_RDONLY);
+  const FileDescriptor fd(opened);
+  if (!fd.valid()) return refuse(path, opened);
+  return read_all(fd, path, max_bytes);
+}
+
+Result<std::string, Problem> read_private_file(const std::string& path, std::size_t max_bytes) {
+  const auto opened = open_file(path, O_RDONLY | O_NONBLOCK);  // a pipe must not hold the start up
+  const FileDescriptor fd(opened);
+  if (!fd.valid()) return refuse(path, opened);
+  struct stat about {};
+  const auto asked = posix_call([&] { return fstat(fd.get(), &about); });
+  if (!asked.ok()) return refuse(path, asked);
+  if (!S_ISREG(about.st_mode)) return Unexpected{Problem{path, "is no file"}};
+  if ((about.st_mode & S_IRWXO) != 0)
+    return Unexpected{Problem{path, "others may open it: chmod o-rwx, and make new keys"}};
+  return read_all(fd, path, max_bytes);
+}
+
+Result<bool, Problem> write_private_file(const std::string& path, std::string_view contents) {
+  constexpr unsigned kOwnerOnly = 0600;
+  const auto opened = open_file(path, O_WRONLY | O_CREAT | O_EXCL, kOwnerOnly);
+  const FileDescriptor fd(opened);
+  if (!fd.valid()) return refuse(path, opened);
+  auto outcome = write_all(fd.get(), as_bytes(contents));
+  if (outcome.ok()) outcome = posix_call([&] { return fsync(fd.get()); });
+  if (outcome.ok()) return true;
+  static_cast<void>(posix_call([&] { return unlink(path.c_str()); }));
+  return refuse(path, outcome);
 }
 
 Result<bool, Problem> write_file(const std::string& path, std::string_view contents,

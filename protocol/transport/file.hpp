@@ -25,6 +25,12 @@ Result<std::string, Problem> read_file(const std::string& path,
 Result<bool, Problem> write_file(const std::string& path, std::string_view contents,
                                  unsigned permissions = 0644);
 
+// A file that holds a secret: refused if others than its owner and group may read or change it.
+Result<std::string, Problem> read_private_file(const std::string& path,
+                                               std::size_t max_bytes = kMaxFileBytes);
+// A new one, for its owner only; what exists already is refused, never replaced.
+Result<bool, Problem> write_private_file(const std::string& path, std::string_view contents);
+
 // The whole text to an open descriptor (1 and 2 are standard output and errors).
 bool write_to(int descriptor, std::string_view text);
 

@@ -156,6 +156,7 @@ world::BusHealth health(const InboundState& state, Instant now) {
                                            .liveness = liveness(kMessages[i], track, now),
                                            .debt = monitor.debt,
                                            .lost = monitor.lost,
+                                           .late = monitor.late,
                                            .bad = track.refused,
                                            .mean_interval = monitor.mean_interval,
                                            .last = track.last});

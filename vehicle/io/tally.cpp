@@ -128,6 +128,7 @@ std::string messages_json(const world::BusHealth& bus) {
     row.add_text("liveness", text_of(message.liveness));
     row.add("debt", message.debt);
     row.add("lost", message.lost);
+    row.add("late", message.late);
     row.add("bad", message.bad);
     row.add("mean_interval_us", static_cast<std::uint64_t>(message.mean_interval.ns) / 1'000);
     row.add("last_ns", static_cast<std::uint64_t>(message.last.ns));

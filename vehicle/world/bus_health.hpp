@@ -21,6 +21,7 @@ struct MessageHealth {
   Liveness liveness = Liveness::kNever;
   std::uint8_t debt = 0;     // leaky bucket over counters and checksums: +1 bad, -1 good
   std::uint32_t lost = 0;    // frames missing since the start, by counter or by period
+  std::uint32_t late = 0;    // frames that were reported missing and came after all
   std::uint32_t bad = 0;     // frames refused since the start, whatever for
   Duration mean_interval{};  // smoothed time between frames; zero until the second frame
   Instant last{};            // newest frame that was applied

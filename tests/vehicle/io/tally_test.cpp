@@ -103,6 +103,7 @@ world::BusHealth some_health() {
                                  .liveness = world::Liveness::kLate,
                                  .debt = 31,
                                  .lost = 32,
+                                 .late = 39,
                                  .bad = 33,
                                  .mean_interval = microseconds(34),
                                  .last = {35}}));
@@ -149,6 +150,7 @@ void expect_bus(yaml::StrictMap& map) {
   expect_counts(messages.at(0), {{"id", 1303},
                                  {"debt", 31},
                                  {"lost", 32},
+                                 {"late", 39},
                                  {"bad", 33},
                                  {"mean_interval_us", 34},
                                  {"last_ns", 35}});
