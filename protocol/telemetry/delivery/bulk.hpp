@@ -1,10 +1,14 @@
 // Large things in pieces: paths, point sets, parameter dumps. First to starve: they get what room
 // the packets have left.
-//   wire   kBulk: object u16, kind u8, total bytes u24, offset u24, bytes; kBulkAck: object u16,
-//          bits of the pieces that came (see .cpp)
+//   wire   kBulk: object u16, kind u8, total bytes u24, first piece u16, one piece or more. The
+//          pieces are those of the object and its CRC-32 (IEEE 802.3, u32) one after the other; all
+//          are kBulkPiece bytes but the last
+//          kBulkAck: object u16, kind u8, the first piece that is missing u16, then for each piece
+//          after that one a bit, whether it came; no byte of zeros at the end
 //   law    an object is handed out whole and once, after its CRC-32 was checked, or not at all. Of
 //          one slot (kind) the newest object wins: an older one that is not complete is dropped and
-//          counted. Pieces may come in any order, twice, or not at all; lost ones are sent again
+//          counted. Pieces may come in any order, twice, or not at all; lost ones are sent again.
+//          The kinds take turns
 //   bound  kBulkObject bytes, kBulkSlots at once; a larger one is refused by offer()
 //   cost   no allocation after construction
 // SPDX-License-Identifier: Apache-2.0
@@ -22,11 +26,19 @@
 
 namespace pitwall::telemetry {
 
-inline constexpr std::size_t kBulkObject = 64 * 1'024, kBulkPiece = 200;
+inline constexpr std::size_t kBulkObject = 64 * 1'024, kBulkPiece = 64;
+inline constexpr std::size_t kBulkStream = kBulkObject + sizeof(std::uint32_t);
+inline constexpr std::size_t kBulkPieces = (kBulkStream + kBulkPiece - 1) / kBulkPiece;
+// Pieces after the first missing one that an acknowledgement can name; none beyond is sent.
+inline constexpr std::size_t kBulkWindow = 256;
 
 enum class BulkKind : std::uint8_t { kPath, kOpponentPaths, kPoints, kParameters, kSchema, kLog };
 inline constexpr std::size_t kBulkKinds = 6;
 
+// Sender: offered, acknowledged whole, replaced before that, pieces sent, of these again, refused
+// by offer(), bad or impossible acknowledgements. Receiver: begun, handed out, replaced before
+// that, pieces had, of these known, records of older objects, bad records, objects that did not fit
+// their checksum.
 struct BulkCounters {
   std::uint64_t objects = 0, delivered = 0, superseded = 0, pieces = 0, repeated = 0;
   std::uint64_t refused = 0, malformed = 0, bad_checksum = 0;
@@ -40,11 +52,32 @@ class BulkSender {
   bool idle() const;
   void fill(BodyWriter& body, Duration round_trip, Instant now);
   bool take(const Record& record, const Received& received);  // kBulkAck
-  void peer_restarted();
+  void peer_restarted();  // begins again with what is not delivered
   const BulkCounters& counters() const { return counters_; }
 
  private:
+  struct Piece {
+    Instant sent_at{};
+    bool sent = false, acknowledged = false;
+  };
+  struct Slot {
+    std::uint16_t object = 0;
+    std::size_t bytes = 0;    // 0: nothing to send
+    std::size_t missing = 0;  // the first piece that is not acknowledged
+
+    std::size_t stream() const { return bytes + sizeof(std::uint32_t); }
+    std::size_t pieces() const { return (stream() + kBulkPiece - 1) / kBulkPiece; }
+  };
+
+  std::span<std::uint8_t> stream(std::size_t kind);
+  std::span<Piece> pieces(std::size_t kind);
+  bool send(BodyWriter& body, std::size_t kind, Duration patience, Instant now);
+
   std::vector<std::uint8_t> store_;
+  std::vector<Piece> pieces_;
+  std::array<Slot, kBulkKinds> slots_{};
+  std::uint16_t last_object_ = 0;
+  std::size_t turn_ = 0;  // the kind that goes first in the next packet
   BulkCounters counters_;
 };
 
@@ -62,7 +95,28 @@ class BulkReceiver {
   const BulkCounters& counters() const { return counters_; }
 
  private:
+  enum class Stage : std::uint8_t { kNone, kComing, kWhole, kDone };
+  struct Slot {
+    Stage stage = Stage::kNone;
+    std::uint16_t object = 0;
+    std::size_t bytes = 0;
+    std::size_t missing = 0;  // the first piece that did not come
+    std::size_t end = 0;      // one past the last that came
+    bool ack_due = false;
+
+    std::size_t stream() const { return bytes + sizeof(std::uint32_t); }
+    std::size_t pieces() const { return (stream() + kBulkPiece - 1) / kBulkPiece; }
+  };
+
+  std::span<std::uint8_t> stream(std::size_t kind);
+  std::span<std::uint8_t> came(std::size_t kind);
+  bool begin(Slot& slot, std::size_t kind, std::uint16_t object, std::size_t bytes);
+  void finish(Slot& slot, std::size_t kind);
+
   std::vector<std::uint8_t> store_;
+  std::vector<std::uint8_t> came_;  // by kind and piece: 0 or 1
+  std::array<Slot, kBulkKinds> slots_{};
+  std::size_t turn_ = 0;
   BulkCounters counters_;
 };
 

@@ -6,6 +6,8 @@
 //   law    handed out exactly once, in order, within one session; a new session goes on where the
 //          peer's acknowledgement says. A full queue drops the newest, counts it, and says so in an
 //          event of its own when there is room again
+//          the oldest that waits goes into every packet; the others when new, and again after
+//          kEventRepeat
 //   cost   no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -22,6 +24,7 @@
 namespace pitwall::telemetry {
 
 inline constexpr std::size_t kEventPayload = 48, kEventsKept = 128;
+inline constexpr Duration kEventRepeat = milliseconds(100);
 
 enum class EventKind : std::uint8_t {
   kLost,        // payload: how many events were dropped u32
@@ -41,6 +44,9 @@ struct Event {
   FixedVector<std::uint8_t, kEventPayload> payload;
 };
 
+// Sender: offered, records written first and again, dropped for want of room, bad or impossible
+// acknowledgements. Receiver: handed out, acknowledgements written, records had before, records
+// too far ahead to be kept, bad records.
 struct EventCounters {
   std::uint64_t events = 0, sent = 0, repeated = 0, dropped = 0, malformed = 0;
 };
@@ -56,8 +62,21 @@ class EventSender {
   const EventCounters& counters() const { return counters_; }
 
  private:
-  std::array<Event, kEventsKept> kept_{};
-  std::uint16_t first_ = 1, next_ = 1;
+  struct Kept {
+    Event event;
+    std::optional<Instant> sent_at;
+  };
+
+  Kept& at(std::uint16_t number) { return kept_[number % kEventsKept]; }
+  const Kept& at(std::uint16_t number) const { return kept_[number % kEventsKept]; }
+  void keep(const Event& event);
+  void confess();
+  bool write(BodyWriter& body, std::uint16_t number, Instant now);
+
+  std::array<Kept, kEventsKept> kept_{};
+  std::uint16_t first_ = 1, next_ = 1;  // not acknowledged: first_ to next_ - 1
+  std::uint32_t lost_ = 0;              // not yet told to the peer
+  Instant lost_at_{};
   EventCounters counters_;
 };
 
@@ -71,8 +90,14 @@ class EventReceiver {
   const EventCounters& counters() const { return counters_; }
 
  private:
-  std::array<Event, kEventsKept> held_{};
-  std::uint16_t expected_ = 1;
+  std::size_t slot_of(std::uint16_t number) const;
+
+  std::array<Event, kEventsKept> held_{};  // a ring that begins at head_ with the event out_
+  std::array<bool, kEventsKept> filled_{};
+  std::size_t head_ = 0;
+  std::uint16_t out_ = 1;       // the next to hand out
+  std::uint16_t expected_ = 1;  // the first that did not come; out_ to expected_ - 1 are ready
+  bool ack_due_ = false;
   EventCounters counters_;
 };
 

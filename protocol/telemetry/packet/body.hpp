@@ -18,6 +18,7 @@
 #include <span>
 
 #include "protocol/telemetry/packet/group_codec.hpp"
+#include "protocol/telemetry/packet/header.hpp"
 #include "protocol/telemetry/registry/group_row.hpp"
 #include "protocol/telemetry/registry/snapshot.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
@@ -77,21 +78,25 @@ class BodyWriter {
   static std::size_t record_size(std::size_t payload) { return payload + (payload < 0xF0 ? 2 : 3); }
 
  private:
+  void write_set(GroupSet set);
+  void write_values(GroupSet set, const Snapshot& snapshot, Instant now, CodecCounters& counters);
+
   std::span<std::uint8_t> buffer_;
-  std::size_t room_ = 0, at_ = 0;
+  std::size_t room_ = 0, at_ = 0, records_ = 0;
   Direction direction_;
 };
 
 enum class BodyError : std::uint8_t {
   kTooShort,
+  kTooLong,  // more than kMaxBody
   kBadFlags,
-  kBadGroups,  // a set or age code that the direction does not have, or an empty set
+  kBadGroups,  // a set that the direction does not have, or an empty one
   kBadValue,   // a bit pattern that no value makes
   kBadPadding,
   kBadRecord,  // unknown type, length past the end, or not in its shortest form
   kTooManyRecords
 };
-inline constexpr std::size_t kBodyErrors = 7;
+inline constexpr std::size_t kBodyErrors = 8;
 const char* text_of(BodyError error);
 
 struct Body {

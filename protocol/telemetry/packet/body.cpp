@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/telemetry/packet/body.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "protocol/telemetry/little_endian.hpp"
+#include "protocol/vocabulary/check.hpp"
+
+namespace pitwall::telemetry {
+
+namespace {
+
+constexpr std::uint8_t kHasAck = 1, kHasGroups = 2;
+constexpr unsigned kPathsShift = 2;
+constexpr std::uint8_t kAllPaths = (1U << kPaths) - 1U;
+constexpr std::uint8_t kFlagsUsed = kHasAck | kHasGroups | kAllPaths << kPathsShift;
+constexpr std::size_t kTimeSize = 3, kFlagsAt = kTimeSize;
+static_assert(kBodyFixed == kFlagsAt + 1);
+static_assert(kPaths <= 4);
+
+constexpr std::uint8_t kLongLength = 0xF0;  // and above: four more significant bits of two bytes
+constexpr std::size_t kLengthMax = 0xFFF;
+static_assert(kMaxBody <= kLengthMax);
+
+constexpr Duration kTick = microseconds(100);
+constexpr std::uint16_t kHoldMax = 0xFFFF;
+
+// The groups of one direction in the order of their bits on the wire.
+struct Layout {
+  FixedVector<Group, kGroups> groups;
+  std::size_t set_size = 0;  // bytes
+};
+constexpr Layout layout_of(Direction direction) {
+  Layout layout;
+  for (const GroupRow& row : kGroupTable) {
+    if (row.direction == direction) CHECK(layout.groups.push(row.group));
+  }
+  layout.set_size = (layout.groups.size() + 7) / 8;
+  return layout;
+}
+constexpr std::array kLayouts{layout_of(Direction::kDown), layout_of(Direction::kUp)};
+constexpr const Layout& layout(Direction direction) {
+  return kLayouts[static_cast<std::size_t>(direction)];
+}
+
+// Bytes that a set takes with its ages and values.
+std::size_t groups_size(Direction direction, std::size_t bits) {
+  return layout(direction).set_size + (bits + 7) / 8;
+}
+constexpr std::size_t bits_with_age(Group group) { return kAgeCodeBits + group_bits(group); }
+
+std::uint16_t hold_code(Duration hold) {
+  const std::int64_t ticks = (hold + kTick / 2) / kTick;
+  return static_cast<std::uint16_t>(std::clamp<std::int64_t>(ticks, 0, kHoldMax));
+}
+
+}  // namespace
+
+BodyWriter::BodyWriter(std::span<std::uint8_t> buffer, std::size_t room, Direction direction)
+    : buffer_(buffer), room_(room), direction_(direction) {
+  CHECK(room <= buffer.size() && room <= kMaxBody);
+}
+
+void BodyWriter::begin(Instant now, std::uint8_t paths_mask) {
+  CHECK(at_ == 0 && room_ >= kBodyFixed && paths_mask <= kAllPaths);
+  const auto ticks = static_cast<std::uint64_t>(now.ns / kTick.ns);
+  for (std::size_t i = 0; i < kTimeSize; ++i) {
+    buffer_[i] = static_cast<std::uint8_t>(ticks >> (8 * i));
+  }
+  buffer_[kFlagsAt] = static_cast<std::uint8_t>(paths_mask << kPathsShift);
+  at_ = kBodyFixed;
+}
+
+bool BodyWriter::add_ack(const Ack& ack) {
+  CHECK(at_ == kBodyFixed);
+  if (room_left() < kAckSize) return false;
+  buffer_[kFlagsAt] |= kHasAck;
+  store<std::uint16_t>(buffer_, at_, ack.newest_low);
+  store<std::uint32_t>(buffer_, at_ + 2, ack.mask);
+  store<std::uint16_t>(buffer_, at_ + 6, hold_code(ack.hold));
+  at_ += kAckSize;
+  return true;
+}
+
+GroupSet BodyWriter::add_groups(const Snapshot& snapshot, std::span<const Group> wanted,
+                                Instant now, CodecCounters& counters) {
+  CHECK(at_ >= kBodyFixed && records_ == 0 && (buffer_[kFlagsAt] & kHasGroups) == 0);
+  GroupSet set;
+  std::size_t bits = 0;
+  for (const Group group : wanted) {
+    CHECK(row_of(group).direction == direction_);
+    const std::size_t more = bits + bits_with_age(group);
+    if (set.has(group) || groups_size(direction_, more) > room_left()) continue;
+    set.add(group);
+    bits = more;
+  }
+  if (set.empty()) return set;
+  buffer_[kFlagsAt] |= kHasGroups;
+  write_set(set);
+  write_values(set, snapshot, now, counters);
+  return set;
+}
+
+void BodyWriter::write_set(GroupSet set) {
+  const Layout& all = layout(direction_);
+  std::uint64_t present = 0;
+  for (std::size_t k = 0; k < all.groups.size(); ++k) {
+    if (set.has(all.groups[k])) present |= std::uint64_t{1} << k;
+  }
+  for (std::size_t i = 0; i < all.set_size; ++i) {
+    buffer_[at_++] = static_cast<std::uint8_t>(present >> (8 * i));
+  }
+}
+
+void BodyWriter::write_values(GroupSet set, const Snapshot& snapshot, Instant now,
+                              CodecCounters& counters) {
+  bits::BitWriter out(buffer_.subspan(at_, room_left()));
+  const Layout& all = layout(direction_);
+  for (const Group group : all.groups) {
+    if (!set.has(group)) continue;
+    const bool ever = snapshot.ever(group);
+    out.write(ever ? age_code(now - snapshot.at(group)) : kNeverCode, kAgeCodeBits);
+  }
+  for (const Group group : all.groups) {
+    if (set.has(group)) encode_group(group, snapshot.values, out, counters);
+  }
+  out.align();
+  CHECK(out.ok());
+  at_ += out.bytes();
+}
+
+bool BodyWriter::add_record(RecordType type, std::span<const std::uint8_t> payload) {
+  CHECK(at_ >= kBodyFixed && payload.size() <= kLengthMax);
+  if (records_ == kMaxRecords || record_size(payload.size()) > room_left()) return false;
+  buffer_[at_++] = static_cast<std::uint8_t>(type);
+  const auto length = static_cast<unsigned>(payload.size());
+  if (length >= kLongLength) {
+    buffer_[at_++] = static_cast<std::uint8_t>(kLongLength | length >> 8U);
+  }
+  buffer_[at_++] = static_cast<std::uint8_t>(length);
+  std::copy(payload.begin(), payload.end(), buffer_.begin() + static_cast<std::ptrdiff_t>(at_));
+  at_ += payload.size();
+  ++records_;
+  return true;
+}
+
+std::size_t BodyWriter::room_left() const { return room_ - at_; }
+
+std::span<const std::uint8_t> BodyWriter::bytes() const { return buffer_.first(at_); }
+
+const char* text_of(BodyError error) {
+  constexpr std::array<const char*, kBodyErrors> kTexts{
+      "ends before its time",
+      "longer than any packet of this protocol",
+      "flags that no sender sets",
+      "groups that this direction does not have",
+      "a bit pattern that no value makes",
+      "bits after the last value are not zero",
+      "a record of no type, or longer than the packet, or its length not in the shortest form",
+      "more records than any sender writes"};
+  return kTexts[static_cast<std::size_t>(error)];
+}
+
+namespace {
+
+// What has not been read yet of a packet. Every take asks first whether there is so much.
+class Rest {
+ public:
+  explicit Rest(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+  bool has(std::size_t count) const { return bytes_.size() >= count; }
+  bool empty() const { return bytes_.empty(); }
+  std::span<const std::uint8_t> take(std::size_t count) {
+    const auto taken = bytes_.first(count);
+    bytes_ = bytes_.subspan(count);
+    return taken;
+  }
+  std::uint8_t take_byte() { return take(1)[0]; }
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+};
+
+using Verdict = std::optional<BodyError>;  // none: well so far
+
+std::uint32_t little_endian(std::span<const std::uint8_t> bytes) {
+  std::uint32_t value = 0;
+  for (std::size_t i = bytes.size(); i > 0; --i) value = value << 8U | bytes[i - 1];
+  return value;
+}
+
+Verdict read_ack(Rest& rest, Body& body) {
+  if (!rest.has(kAckSize)) return BodyError::kTooShort;
+  const auto bytes = rest.take(kAckSize);
+  body.ack = Ack{.newest_low = load<std::uint16_t>(bytes, 0),
+                 .mask = load<std::uint32_t>(bytes, 2),
+                 .hold = kTick * load<std::uint16_t>(bytes, 6)};
+  return {};
+}
+
+Verdict read_set(Rest& rest, const Layout& all, Body& body) {
+  if (!rest.has(all.set_size)) return BodyError::kTooShort;
+  const std::uint32_t present = little_endian(rest.take(all.set_size));
+  if (present == 0 || present >> all.groups.size() != 0) return BodyError::kBadGroups;
+  for (std::size_t k = 0; k < all.groups.size(); ++k) {
+    if ((present >> k & 1U) != 0) body.groups.add(all.groups[k]);
+  }
+  return {};
+}
+
+Verdict read_values(Rest& rest, const Layout& all, Body& body) {
+  std::size_t bits = 0;
+  for (const Group group : all.groups) {
+    if (body.groups.has(group)) bits += bits_with_age(group);
+  }
+  const std::size_t size = (bits + 7) / 8;
+  if (!rest.has(size)) return BodyError::kTooShort;
+  bits::BitReader in(rest.take(size));
+  for (const Group group : all.groups) {
+    if (!body.groups.has(group)) continue;
+    body.age_codes[index_of(group)] = static_cast<std::uint8_t>(in.read(kAgeCodeBits));
+  }
+  for (const Group group : all.groups) {
+    if (!body.groups.has(group)) continue;
+    if (!decode_group(group, in, body.values)) return BodyError::kBadValue;
+  }
+  if (!in.align()) return BodyError::kBadPadding;
+  return {};
+}
+
+Verdict read_record(Rest& rest, Body& body) {
+  if (body.records.full()) return BodyError::kTooManyRecords;
+  const std::uint8_t type = rest.take_byte();
+  if (type == 0 || type > kRecordTypeMax || rest.empty()) return BodyError::kBadRecord;
+  std::size_t length = rest.take_byte();
+  if (length >= kLongLength) {
+    if (rest.empty()) return BodyError::kBadRecord;
+    length = (length - kLongLength) << 8U | rest.take_byte();
+    if (length < kLongLength) return BodyError::kBadRecord;
+  }
+  if (!rest.has(length)) return BodyError::kBadRecord;
+  CHECK(body.records.push({static_cast<RecordType>(type), rest.take(length)}));
+  return {};
+}
+
+Verdict read_body(Rest rest, const Layout& all, Body& body) {
+  if (!rest.has(kBodyFixed)) return BodyError::kTooShort;
+  body.tx_time_100us = little_endian(rest.take(kTimeSize));
+  const std::uint8_t flags = rest.take_byte();
+  if ((flags & ~kFlagsUsed) != 0) return BodyError::kBadFlags;
+  body.paths_mask = static_cast<std::uint8_t>(flags >> kPathsShift);
+  Verdict bad;
+  if ((flags & kHasAck) != 0 && (bad = read_ack(rest, body))) return bad;
+  if ((flags & kHasGroups) != 0) {
+    if ((bad = read_set(rest, all, body))) return bad;
+    if ((bad = read_values(rest, all, body))) return bad;
+  }
+  while (!rest.empty()) {
+    if ((bad = read_record(rest, body))) return bad;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Body, BodyError> parse_body(std::span<const std::uint8_t> bytes, Direction direction) {
+  if (bytes.size() > kMaxBody) return Unexpected{BodyError::kTooLong};
+  Result<Body, BodyError> result{Body{}};
+  if (const Verdict bad = read_body(Rest{bytes}, layout(direction), *result)) {
+    return Unexpected{*bad};
+  }
+  return result;
+}
+
+}  // namespace pitwall::telemetry
