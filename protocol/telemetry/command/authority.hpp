@@ -3,8 +3,12 @@
 //   in     base: consoles take, renew and hand over. Car: the fields of Group::kAuthority
 //   out    holder and epoch; whether a command of it may be applied
 //   law    at most one holder. The epoch rises with every change; a packet of an older epoch
-//          changes nothing. Expiry is by the own clock, from a renewal whose number was new: a
-//          repeated packet renews nothing
+//          changes nothing. Expiry is by the own clock, from the moment of a renewal whose number
+//          was new: a repeated packet renews nothing, and one that was long on its way renews from
+//          when it was said. While the clocks have not been compared nobody holds it
+//          a renewal is an act of the console: nothing here renews by itself
+//          an epoch that is heard no more for kAuthorityExpiry bars no other: a wrong one from the
+//          future, or from a run before, locks nobody out for longer
 //   units  Instant
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -12,6 +16,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "protocol/telemetry/command/command_table.hpp"
 #include "protocol/telemetry/packet/received.hpp"
 #include "protocol/telemetry/registry/snapshot.hpp"
 #include "protocol/vocabulary/time.hpp"
@@ -19,7 +24,6 @@
 namespace pitwall::telemetry {
 
 inline constexpr Duration kAuthorityRenewal = seconds(1), kAuthorityExpiry = seconds(3);
-using HolderId = std::uint8_t;  // 1 .. 254; 0: nobody
 
 class AuthorityDesk {
  public:
@@ -31,6 +35,10 @@ class AuthorityDesk {
   void put(Values& values, Instant now) const;
 
  private:
+  friend struct Fingerprint;  // of the exhaustive explorer, which compares states
+
+  void begin(HolderId who, Instant now);
+
   HolderId holder_ = 0;
   std::uint16_t epoch_ = 0, renewal_ = 0;
   Instant renewed_{};
@@ -41,11 +49,17 @@ class AuthorityView {
   void heard(const Values& values, const Received& received);
   HolderId holder(Instant now) const;
   bool held(Instant now) const { return holder(now) != 0; }
-  void base_restarted();
+  // Without another renewal nobody holds it after; in the past where nobody does now.
+  Instant until() const;
+  bool allows(const Command& command, Instant now) const;
+  void base_restarted() { *this = {}; }
 
  private:
-  HolderId holder_ = 0;
+  friend struct Fingerprint;  // of the exhaustive explorer, which compares states
+
+  HolderId holder_ = 0;  // 0 also after the base said that the epoch is over
   std::uint16_t epoch_ = 0, renewal_ = 0;
+  std::optional<Instant> heard_at_;  // a packet of this epoch
   std::optional<Instant> renewed_;
 };
 

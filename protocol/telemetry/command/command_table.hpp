@@ -59,16 +59,25 @@ inline constexpr auto kCommandTable = [] {
   });
 }();
 static_assert(kCommandTable.size() == kCommandTypes);
+static_assert([] {
+  for (std::size_t i = 0; i < kCommandTypes; ++i) {
+    if (static_cast<std::size_t>(kCommandTable[i].type) != i) return false;
+    if (kCommandTable[i].quantized().bits() > 16) return false;  // as command_record.hpp has it
+  }
+  return true;
+}());
 
 constexpr const CommandRow& row_of(CommandType type) {
   return kCommandTable[static_cast<std::size_t>(type)];
 }
 
 using CommandId = std::uint32_t;  // rises within one run of the base, from 1
+using HolderId = std::uint8_t;    // a console that may hold the authority: 1 .. 254; 0: nobody
 
 struct Command {
   CommandType type = CommandType::kArm;
   double argument = kUnset;
+  HolderId issuer = 0;  // the console that gave it
 };
 
 // What became of it, as the car says. All but kReceived are final.
@@ -83,6 +92,7 @@ enum class Outcome : std::uint8_t {
   kOtherRun      // meant for the run of the car before this one
 };
 inline constexpr std::size_t kOutcomes = 8;
+constexpr bool is_final(Outcome outcome) { return outcome != Outcome::kReceived; }
 std::string_view text_of(Outcome outcome);
 
 }  // namespace pitwall::telemetry

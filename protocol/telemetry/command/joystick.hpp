@@ -7,7 +7,9 @@
 //          repeated last value is no sample. A sample older than 100 ms when it is sent, or 200 ms
 //          when it is used (way and queue included), is none. Nothing here can raise the throttle
 //          there is no way to make a sample but from a device
+//          a number from far ahead locks nobody out: once its sample is dead, any number is new
 //   units  throttle cap and brake 0 .. 1
+//   errors a sample that is no number is no sample; one out of range counts as its end
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -40,7 +42,7 @@ class JoystickSender {
 };
 
 struct JoystickCounters {
-  std::uint64_t samples = 0, repeated = 0, too_old = 0;
+  std::uint64_t samples = 0, repeated = 0, too_old = 0, unknown_age = 0;
 };
 
 class JoystickReceiver {
@@ -48,10 +50,14 @@ class JoystickReceiver {
   // `received.sent_earliest` unset: the clocks are not compared, the sample is not used.
   void heard(const Values& values, const Received& received);
   std::optional<JoystickSample> sample(Instant now) const;
+  // The time of the sample that sample() gives, on the car's clock, never later than the truth.
+  std::optional<Instant> sampled_at() const { return taken_at_; }
   void base_restarted();
   const JoystickCounters& counters() const { return counters_; }
 
  private:
+  bool alive(Instant now) const { return taken_at_ && now - *taken_at_ <= kJoystickDead; }
+
   JoystickSample newest_;
   std::uint16_t number_ = 0;
   std::optional<Instant> taken_at_;  // the sample's own time, on the car's clock

@@ -1,0 +1,60 @@
+// A command, what became of it, and the receipt for that, as payloads of records.
+//   wire   little endian
+//          kCommand           number u32, run of the base u32, boot of the car that it is meant for
+//                             u32, type u8, argument u16 (step of its row), age u16 (ms, at the
+//                             packet's time of sending), console u8
+//          kCommandResult     number u32, run of the base u32, outcome u8
+//          kCommandResultAck  number u32, run of the base u32
+//   law    the age is rounded up and saturates: nobody takes a command for younger than it is
+//   errors none for any bytes that the writer does not make; a type that this build does not know is
+//          no error, so that it can be answered
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "protocol/telemetry/command/command_table.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::telemetry {
+
+inline constexpr std::size_t kCommandSize = 18, kResultSize = 9, kResultAckSize = 8;
+
+// Greeting::boot as it stands in records: 32 of its bits, mixed of all.
+constexpr std::uint32_t short_boot(std::uint64_t boot) {
+  return static_cast<std::uint32_t>(boot ^ boot >> 32U);
+}
+
+struct CommandRecord {
+  CommandId number = 0;
+  std::uint32_t base_run = 0, car_boot = 0;
+  std::uint8_t type = 0;  // CommandType, or one of a later build
+  std::uint16_t step = 0;
+  Duration age{};
+  HolderId issuer = 0;
+
+  bool known() const { return type < kCommandTypes; }
+  Command command() const;  // known() only
+};
+std::array<std::uint8_t, kCommandSize> to_bytes(const CommandRecord& record);
+std::optional<CommandRecord> parse_command(std::span<const std::uint8_t> payload);
+
+struct ResultRecord {
+  CommandId number = 0;
+  std::uint32_t base_run = 0;
+  Outcome outcome = Outcome::kReceived;
+};
+std::array<std::uint8_t, kResultSize> to_bytes(const ResultRecord& record);
+std::optional<ResultRecord> parse_result(std::span<const std::uint8_t> payload);
+
+struct ResultAckRecord {
+  CommandId number = 0;
+  std::uint32_t base_run = 0;
+};
+std::array<std::uint8_t, kResultAckSize> to_bytes(const ResultAckRecord& record);
+std::optional<ResultAckRecord> parse_result_ack(std::span<const std::uint8_t> payload);
+
+}  // namespace pitwall::telemetry
