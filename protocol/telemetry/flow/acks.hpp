@@ -1,8 +1,9 @@
 // Acknowledgements: what arrived (ReceiptBook, written into each packet) and what is known to have
 // arrived (SentBook).
 //   law    a packet is acknowledged at most once; what an Ack does not name is unknown, not lost
-//   units  64-bit sequence numbers of one session
-//   errors an Ack that names what was never sent is counted and ignored
+//   units  64-bit sequence numbers of one session, from 1
+//   errors an Ack that names what was never sent is counted and ignored as a whole; one that is
+//          older than what is kept is ignored
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -16,6 +17,8 @@
 
 namespace pitwall::telemetry {
 
+inline constexpr std::size_t kAckNames = 33;  // the newest and its mask
+
 class ReceiptBook {
  public:
   void received(std::uint64_t sequence, Instant at);
@@ -26,8 +29,9 @@ class ReceiptBook {
   void forget() { *this = {}; }
 
  private:
-  std::uint64_t newest_ = 0, acked_ = 0;
+  std::uint64_t newest_ = 0;
   std::uint32_t mask_ = 0;
+  bool news_ = false;
   Instant newest_at_{}, written_at_{};
 };
 
@@ -41,19 +45,28 @@ class SentBook {
  public:
   static constexpr std::size_t kKept = 256;
 
+  // Sequence numbers rise.
   void sent(std::uint64_t sequence, Instant at, std::size_t bytes);
   struct News {
-    FixedVector<Delivery, 33> delivered;  // newly known to have arrived
-    std::optional<Delivery> newest;       // that the Ack names, for the clock, if its hold is known
+    FixedVector<Delivery, kAckNames> delivered;  // newly known to have arrived
+    std::optional<Delivery> newest;  // that the Ack names, for the clock, if its hold is known
   };
   News take(const Ack& ack);
   std::uint64_t nonsense() const { return nonsense_; }
-  void forget() { *this = {}; }
+  void forget();  // a new session; the counter stays
 
  private:
-  std::array<Delivery, kKept> kept_{};
-  std::array<bool, kKept> acked_{};
-  std::uint64_t newest_ = 0, nonsense_ = 0;
+  struct Entry {
+    Delivery delivery;
+    bool acked = false;
+  };
+  // None: older than what is kept, or never sent.
+  const Entry* find(std::uint64_t sequence) const;
+  bool makes_sense(std::uint64_t newest, std::uint32_t mask) const;
+  void note(std::uint64_t sequence, News& news);
+
+  std::array<Entry, kKept> kept_{};
+  std::uint64_t oldest_ = 0, newest_ = 0, nonsense_ = 0;
 };
 
 }  // namespace pitwall::telemetry

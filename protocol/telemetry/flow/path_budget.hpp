@@ -6,7 +6,14 @@
 //          what safety may use is never less than its share; others never touch the share
 //   units  bytes and packets per second; sizes are UDP payload, the overhead is added here
 //   errors make(): Problem where the share, the largest packet or the rate contradict each other
-//   source dual token bucket; depth is latency, so it is one packet
+//   source token bucket, split in two; depth is latency, so both together hold one largest packet.
+//          They fill with the rate less that packet per second, so any window w sees at most
+//          rate w + packet (1 - w / 1 s). Packets keep a distance of 1 / packet rate
+//
+//        rate - packet -+-> share (safety's rate) --- full: spills over --> rest
+//                       +-> rest (what is left)
+//        safety takes from the share, then from the rest; all else from the rest alone
+//
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,7 +29,7 @@ struct BudgetParams {
   double bytes_per_s = 32'000.0;  // 256 kbit/s
   double packets_per_s = 100.0;
   double safety_bytes_per_s = 4'400.0;  // reserved
-  std::size_t largest_payload = 0;      // 0: as large as the rate allows, at most kMaxDatagram
+  std::size_t largest_payload = 0;      // 0: one slot of the rate, at most kMaxDatagram
 };
 
 struct BudgetCounters {
@@ -33,30 +40,50 @@ struct BudgetCounters {
 
 class PathBudget {
  public:
+  // A message of the key exchange must always fit beside the share.
+  static constexpr std::size_t kLeastLargest = 192;
+  // What never comes by waiting: later than any clock.
+  static constexpr Instant kNever{INT64_MAX};
+
   static Result<PathBudget, Problem> make(const BudgetParams& params);
 
-  // UDP payload that may go now in one packet: for safety, and for all else. Zero: no packet.
+  // UDP payload that may go now in one packet that is all safety's, and in one that has none of
+  // it. Zero: no packet.
   std::size_t room_for_safety(Instant now) const;
   std::size_t room_for_all(Instant now) const;
+  // Payload of a whole packet of which `safety_payload` is safety's; the overhead then is, too.
+  // Zero: not even the safety part may go.
+  std::size_t room_beside(std::size_t safety_payload, Instant now) const;
   // A packet went. CHECKs that there was room for it. `safety_payload`: how much of it was
   // safety's.
   void spend(std::size_t payload, std::size_t safety_payload, Instant now);
   void note_refused() { ++counters_.refused; }
   // Of the rate: what rate control leaves of it, (0, 1]; safety's share is never scaled.
   void scale(double factor, Instant now);
-  // The earliest time at which a packet of this payload may go as all else.
+  // The earliest time at which a packet of this payload may go as all else; kNever: too large.
   Instant due(std::size_t payload, Instant now) const;
 
-  std::size_t largest_payload() const { return largest_payload_; }
+  std::size_t largest_payload() const { return static_cast<std::size_t>(largest_payload_); }
   const BudgetParams& params() const { return params_; }
   const BudgetCounters& counters() const { return counters_; }
 
  private:
+  // Tokens in billionths of a byte, so that bytes per second times nanoseconds is exact.
+  struct Levels {
+    std::int64_t share = 0, rest = 0;
+  };
+
   explicit PathBudget(const BudgetParams& params) : params_(params) {}
+  Levels levels(Instant now) const;
+  bool spaced(Instant now) const { return now >= next_packet_; }
 
   BudgetParams params_;
   BudgetCounters counters_;
-  std::size_t largest_payload_ = 0;
+  std::int64_t largest_payload_ = 0;
+  std::int64_t share_rate_ = 0, whole_rate_ = 0, scaled_rate_ = 0;  // bytes per second
+  Levels full_, at_;
+  Instant at_time_{}, next_packet_{INT64_MIN};
+  Duration spacing_{};
 };
 
 }  // namespace pitwall::telemetry

@@ -1,14 +1,19 @@
 // How much of the budget the path carries at present, by the gradient of its one-way delay: a queue
 // that grows is congestion, loss alone is a fade and changes nothing.
-//   in     deliveries: when a packet was sent (our clock) and received (theirs; any offset)
+//   in     deliveries: when a packet was sent (our clock) and received (theirs; any offset), and
+//          the bytes that arrived since the delivery before, its own included
 //   out    factor of the budget, (0, 1]
-//   law    overuse: 0.85 of the rate that arrived; else + 5 % of the budget per second; never below
-//          the floor that safety needs
+//   law    overuse: a queue of more than kLeastQueue whose delay, by a straight line through the
+//          last half second, grows faster than kOveruse and than its noise explains. Then 0.85 of
+//          the rate that arrived; else, unless a queue stands, + 5 % of the budget per second; never
+//          below the floor that safety needs. Without deliveries nothing changes
 //   source trendline filter of Google congestion control (draft-ietf-rmcat-gcc-02, 5.3 to 5.5), its
 //          delay part only
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "protocol/vocabulary/time.hpp"
@@ -17,16 +22,45 @@ namespace pitwall::telemetry {
 
 class RateControl {
  public:
+  static constexpr Duration kLeastQueue = milliseconds(40);  // two slots
+  static constexpr double kOveruse = 0.05;                   // seconds of queue per second
+
   RateControl(double budget_bytes_per_s, double floor_bytes_per_s);
 
   void delivered(Instant sent, Instant received_by_peer, std::size_t bytes, Instant now);
   double factor(Instant now);
-  Duration queue_delay() const;  // above the least of the last 10 s
-  bool congested() const;
-  std::uint64_t backoffs() const;
+  Duration queue_delay() const;  // above the least of the last 5 to 10 s
+  bool congested() const;        // grows, or still stands
+  std::uint64_t backoffs() const { return backoffs_; }
 
  private:
+  static constexpr std::size_t kWindow = 64;
+
+  struct Point {
+    double at_s = 0.0, delay_s = 0.0;
+    double bytes = 0.0;
+  };
+  struct Line {
+    double slope = 0.0, standard_error = 0.0;
+  };
+
+  void forget_old(double at_s);
+  Line line() const;
+  double arrived_rate() const;
+  void note_least(double at_s, double delay_s);
+
   double budget_, floor_;
+  double factor_ = 1.0;
+  std::array<Point, kWindow> points_{};  // ring
+  std::size_t first_ = 0, count_ = 0;
+  bool started_ = false;
+  Instant origin_sent_{}, origin_received_{};
+  Instant changed_{};  // last change of the factor
+  double hold_until_s_ = 0.0;
+  std::array<double, 2> least_s_{};  // of the interval under way and the one before
+  double interval_start_s_ = 0.0;
+  double smoothed_s_ = 0.0;
+  std::uint64_t backoffs_ = 0;
 };
 
 }  // namespace pitwall::telemetry

@@ -1,11 +1,13 @@
 // Which groups go into the next packet: safety always, then by age of what the other end is known
 // to have.
 //   law    index_g = w_g * (max(0, age_g - T_g / 2) / T_g)^2 / sqrt(bits_g); age_g since the sample
-//          that was acknowledged, or sent less than a round trip ago. Ages grow without bound, so
-//          no group starves
+//          that was acknowledged, or is under way for less than a round trip. Ages grow without
+//          bound, so no group starves. A sample that the other end has is not offered again
+//          while nothing comes back that was sent since, what is under way counts as lost: after a
+//          fade the first packet that arrives has what is oldest
 //   in     snapshots, what was written into which packet, which packets were acknowledged
 //   out    groups in falling order; counters that explain each choice
-//   cost   O(G log G), no allocation
+//   cost   O(G^2) of at most 16 groups, no allocation
 //   source Kadota et al., "Scheduling Policies for Minimizing Age of Information in Broadcast
 //          Wireless Networks", 2018, max-weight policy
 // SPDX-License-Identifier: Apache-2.0
@@ -33,7 +35,7 @@ class Scheduler {
   using Order = FixedVector<Group, kGroups>;
   // Sampled groups: those of class kSafety first, then by falling index; index zero not at all
   // unless `fill` (room to spare costs nothing).
-  Order order(const Snapshot& snapshot, Duration round_trip, Instant now) const;
+  Order order(const Snapshot& snapshot, Duration round_trip, Instant now, bool fill = false) const;
 
   void sent(std::uint64_t sequence, GroupSet written, GroupSet wanted, const Snapshot& snapshot,
             Instant now);
@@ -43,8 +45,25 @@ class Scheduler {
   const GroupFigures& figures(Group group) const { return figures_[index_of(group)]; }
 
  private:
+  static constexpr std::size_t kKept = 256;
+
+  struct Packet {
+    std::uint64_t sequence = 0;  // 0: none
+    GroupSet written;
+    Instant sent{};
+    std::array<Instant, kGroups> sampled_at{};
+  };
+
+  bool silent(Duration round_trip, Instant now) const;
+  Instant known_sample(Group group, Duration round_trip, Instant now) const;
+  double index(Group group, const Snapshot& snapshot, Duration round_trip, Instant now) const;
+
   Direction direction_;
   std::array<GroupFigures, kGroups> figures_{};
+  std::array<Packet, kKept> packets_{};
+  std::array<Instant, kGroups> last_sample_{}, last_sent_{};  // newest under way, by group
+  Instant oldest_doubtful_ = kNeverSampled;  // sending of the first packet after the acked ones
+  std::uint64_t newest_acked_ = 0, newest_ = 0;
 };
 
 }  // namespace pitwall::telemetry
