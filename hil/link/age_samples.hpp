@@ -1,0 +1,43 @@
+// How old the newest value is that a receiver has, as one who looks at it each millisecond sees it.
+//   in     arrivals in order of time: when the value was made, when it came; the time to look at
+//   out    quantiles of the age over all looks; looks before the first arrival count as `unknown`
+//   law    an older value that comes late makes nothing younger
+//   units  ms, nearest-rank quantiles
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::link {
+
+inline constexpr Duration kLook = milliseconds(1);
+
+class AgeSamples {
+ public:
+  AgeSamples(Instant from, Instant to) : next_(from), to_(to) {}
+
+  // In order of arrival.
+  void arrived(Instant made, Instant at);
+  // The looks from the last arrival to the end.
+  void finish() { look_until(to_); }
+
+  double quantile_ms(double q) const;
+  double max_ms() const { return quantile_ms(1.0); }
+  std::size_t looks() const { return ages_us_.size(); }
+  std::size_t unknown() const { return unknown_; }
+
+ private:
+  void look_until(Instant until);
+
+  Instant next_, to_;
+  std::optional<Instant> newest_;  // when the newest value was made
+  std::vector<std::int32_t> ages_us_;
+  std::size_t unknown_ = 0;
+};
+
+}  // namespace pitwall::link
