@@ -12,6 +12,8 @@ namespace {
 using faults::BenchFaultKind;
 using faults::FrameFaultKind;
 
+constexpr double kMaxRadioDelay_s = 10.0;
+
 // What rig.cpp carries out; a kind that nobody carries out is refused rather than ignored.
 bool in_the_rig(BenchFaultKind kind) {
   switch (kind) {
@@ -75,6 +77,10 @@ bool is_sensible(BenchFaultKind kind, double value) {
       return value >= scenario::kColdest_c && value <= scenario::kHottest_c;
     case BenchFaultKind::kComputerSlow:
       return value > 0.0 && value < 1.0;
+    case BenchFaultKind::kRadioLoss:
+      return value >= 0.0 && value <= 1.0;
+    case BenchFaultKind::kRadioDelay:
+      return value >= 0.0 && value <= kMaxRadioDelay_s;
     default:
       return true;
   }
@@ -83,7 +89,7 @@ bool is_sensible(BenchFaultKind kind, double value) {
 Result<faults::BenchFault, Problem> bench_fault(const scenario::Fault& row, BenchFaultKind kind,
                                                 std::uint64_t seed) {
   const faults::BenchFaultRow& of_kind = faults::row_of(kind);
-  if (!in_the_rig(kind) && !is_process_fault(kind))
+  if (!in_the_rig(kind) && !is_process_fault(kind) && !is_radio_fault(kind))
     return refuse(row, "fault \"" + row.kind + "\" is in the catalogue but not in this bench");
   if (const char* excess = excess_of(row, of_kind)) return refuse(row, excess);
   if (!of_kind.value.empty() && !is_sensible(kind, row.value))
@@ -152,8 +158,13 @@ bool is_process_fault(BenchFaultKind kind) {
   }
 }
 
+bool is_radio_fault(BenchFaultKind kind) {
+  return kind == BenchFaultKind::kRadioDown || kind == BenchFaultKind::kRadioLoss ||
+         kind == BenchFaultKind::kRadioDelay || kind == BenchFaultKind::kBaseStationSilent;
+}
+
 bool carried_out(BenchFaultKind kind, BenchMode mode) {
-  if (!is_process_fault(kind)) return in_the_rig(kind);
+  if (!is_process_fault(kind)) return in_the_rig(kind) || is_radio_fault(kind);
   return mode == BenchMode::kLive || in_lockstep(kind);
 }
 
@@ -187,7 +198,10 @@ Result<FaultPlan, Problem> plan_faults(const std::vector<scenario::Fault>& rows,
     if (!kind) return refuse(row, "unknown fault \"" + row.kind + "\"");
     auto fault = bench_fault(row, *kind, own_seed);
     if (!fault) return Unexpected{fault.error()};
-    (is_process_fault(*kind) ? plan.processes : plan.models).push_back(*fault);
+    (is_process_fault(*kind) ? plan.processes
+     : is_radio_fault(*kind) ? plan.radio
+                             : plan.models)
+        .push_back(*fault);
   }
   return plan;
 }

@@ -1,5 +1,5 @@
 // The faults of a scenario, sorted by what carries them out: frames on their way to the car, the
-// bench's own models, or the processes of the run and the machine below them.
+// bench's own models, the radio, or the processes of the run and the machine below them.
 //   in     scenario::Fault rows
 //   errors a kind that this bench does not know or does not carry out, a missing or senseless
 //          value: Problem with the place in the scenario file
@@ -20,6 +20,7 @@ namespace pitwall::bench {
 struct FaultPlan {
   std::vector<faults::FrameFault> frames;
   std::vector<faults::BenchFault> models;
+  std::vector<faults::BenchFault> radio;      // of the air between car and base
   std::vector<faults::BenchFault> processes;  // not the rig's: of whoever runs the car
 };
 
@@ -27,6 +28,7 @@ enum class BenchMode : std::uint8_t { kLockstep, kLive };
 
 // Killed, stopped, slowed processes; a clock or a disk below them.
 bool is_process_fault(faults::BenchFaultKind kind);
+bool is_radio_fault(faults::BenchFaultKind kind);
 bool carried_out(faults::BenchFaultKind kind, BenchMode mode);
 
 Result<FaultPlan, Problem> plan_faults(const std::vector<scenario::Fault>& rows,

@@ -192,6 +192,8 @@ Scenario read_root(yaml::StrictMap& map) {
   if (map.has("plant") && scenario.plant_file.empty()) map.fail("plant", "names no file");
   if (auto perturb = map.optional_map("perturb")) scenario.perturb = read_perturbations(*perturb);
   read_list(map, "race_control", scenario.race_control, read_flag_change);
+  scenario.radio = read_radio(map);
+  scenario.operator_words = read_operator(map);
   read_list(map, "faults", scenario.faults, read_fault);
   read_list(map, "expect", scenario.expect, read_expectation);
   check_order(map, scenario);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "hil/plant/params.hpp"
+#include "hil/scenario/radio_section.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
@@ -84,6 +85,8 @@ struct Scenario {
   plant::Params plant;     // what that file says; whoever opens the files fills it in
   Perturbations perturb;
   std::vector<FlagChange> race_control;
+  std::vector<RadioPath> radio;  // empty: takes no time, loses nothing
+  std::vector<OperatorWord> operator_words;
   std::vector<Fault> faults;
   std::vector<Expectation> expect;
 };

@@ -1,0 +1,63 @@
+// What an event says: one struct for each kind, to payload bytes and back. Both ends use this, so
+// that neither counts bytes.
+//   wire   the fields in the order written here, little endian; f32 as IEEE 754
+//   errors content_of(): none where the length is not the kind's, or a flag is neither 0 nor 1
+//   cost   no allocation
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <variant>
+
+#include "protocol/telemetry/delivery/events.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::telemetry {
+
+struct LostEvents {
+  std::uint32_t count = 0;
+  bool operator==(const LostEvents&) const = default;
+};
+struct FaultEvent {
+  std::uint8_t cause = 0;  // as in the registry's labels of first_stop_cause
+  bool begins = true;
+  float value = 0.0F;  // age in s, sigma in m, count: what crossed its limit
+  bool operator==(const FaultEvent&) const = default;
+};
+struct ModeEvent {
+  std::uint8_t from = 0, to = 0, cause = 0;
+  bool operator==(const ModeEvent&) const = default;
+};
+enum class FlagKind : std::uint8_t { kTrack, kVehicle };
+struct FlagEvent {
+  FlagKind which = FlagKind::kTrack;
+  std::uint8_t from = 0, to = 0;
+  bool operator==(const FlagEvent&) const = default;
+};
+struct ArmingEvent {
+  std::uint8_t arming = 0;
+  bool operator==(const ArmingEvent&) const = default;
+};
+struct LapEvent {
+  std::uint16_t number = 0;
+  float time_s = 0.0F;
+  bool operator==(const LapEvent&) const = default;
+};
+struct RestartEvent {
+  std::uint8_t part = 0;
+  bool operator==(const RestartEvent&) const = default;
+};
+struct TextEvent {
+  std::string_view text;  // content_of(): lives as long as the event; longer ones are cut
+  bool operator==(const TextEvent&) const = default;
+};
+
+using EventContent = std::variant<LostEvents, FaultEvent, ModeEvent, FlagEvent, ArmingEvent,
+                                  LapEvent, RestartEvent, TextEvent>;
+
+Event make_event(const EventContent& content, Instant at);
+std::optional<EventContent> content_of(const Event& event);
+
+}  // namespace pitwall::telemetry
