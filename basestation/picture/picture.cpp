@@ -34,7 +34,7 @@ FieldView Picture::view(telemetry::FieldIndex field, Instant now) const {
   const Latest& latest = latest_[field];
   if (!latest.ever) return {};
   const Duration age = latest.age_when_sent + (now - latest.received);
-  const Duration target = telemetry::kFields[field].target_age;
+  const Duration target = telemetry::kFields[field].target_age();
   const Quality quality = age <= target                 ? Quality::kFresh
                           : age <= kLateFactor * target ? Quality::kLate
                                                         : Quality::kStale;

@@ -8,12 +8,14 @@
 #include "protocol/bits/bit_writer.hpp"
 #include "protocol/bits/crc.hpp"
 #include "protocol/telemetry/little_endian.hpp"
+#include "protocol/telemetry/registry/schema.hpp"
 
 namespace pitwall::telemetry {
 namespace {
 
 constexpr std::uint8_t kMagic0 = 'P', kMagic1 = 'W';
 constexpr std::uint8_t kSimulationFlag = 0x01;
+constexpr auto kLocalSchema = static_cast<std::uint32_t>(kSchemaHash ^ kSchemaHash >> 32U);
 constexpr std::uint64_t kNoAge = (std::uint64_t{1} << kAgeBits) - 1;
 constexpr std::size_t kVersionAt = 2, kFlagsAt = 3, kSchemaAt = 4, kRunAt = 8, kSequenceAt = 12,
                       kSentAt = 16;
@@ -45,7 +47,7 @@ PacketError check_envelope(std::span<const std::uint8_t> bytes, bool& good) {
     return PacketError::kBadChecksum;
   }
   if (bytes[kVersionAt] != kWireVersion) return PacketError::kOtherVersion;
-  if (load<std::uint32_t>(bytes, kSchemaAt) != kSchemaHash) return PacketError::kOtherSchema;
+  if (load<std::uint32_t>(bytes, kSchemaAt) != kLocalSchema) return PacketError::kOtherSchema;
   if (bytes.size() != kStatePacketBytes) return PacketError::kWrongLength;
   if ((bytes[kFlagsAt] & ~kSimulationFlag) != 0) return PacketError::kBadFlags;
   good = true;
@@ -71,7 +73,7 @@ std::span<const std::uint8_t> encode(const StatePacket& packet, PacketBuffer& bu
   bytes[1] = kMagic1;
   bytes[kVersionAt] = kWireVersion;
   bytes[kFlagsAt] = packet.source == Source::kSimulation ? kSimulationFlag : 0;
-  store(bytes, kSchemaAt, kSchemaHash);
+  store(bytes, kSchemaAt, kLocalSchema);
   store(bytes, kRunAt, packet.run);
   store(bytes, kSequenceAt, packet.sequence);
   store(bytes, kSentAt, static_cast<std::uint64_t>(packet.sent.ns / 1'000));

@@ -1,12 +1,13 @@
 // Everything that the car tells, in one datagram for this machine only: the bench, tools and tests
 // read it over the loopback. It never goes on the air: it is neither authentic nor within a budget;
 // the radio is endpoint/car_endpoint.hpp. It holds the groups of Direction::kDown, no others.
-//   in     encode: values, sample ages, sequence, time of sending; packet_of() makes the first two
-//          of a Snapshot. parse: any bytes at all
+//   in     encode: values, sample ages (packet_of() makes both of a Snapshot), sequence, time of
+//          sending. parse: any bytes at all
 //   out    bytes in a buffer of the caller; a StatePacket
 //   wire   "PW", version u8, flags u8, schema hash u32, run u32, sequence u32, sent u64 (little
 //          endian), then bits, most significant first: sample age of each group of the car,
-//          value of each of their fields; zeros to a whole byte; CRC-32 of all before it, little endian
+//          value of each of their fields; zeros to a whole byte; CRC-32 of all before it, little
+//          endian
 //   units  microseconds on the car's monotonic clock; values as in the registry
 //   errors PacketError; EncodeCounters. The CRC finds damage, it proves no origin.
 // SPDX-License-Identifier: Apache-2.0

@@ -20,22 +20,41 @@ enum class Direction : std::uint8_t { kDown, kUp };
 enum class Group : std::uint8_t {
   kMode,
   kFlags,
+  kUplink,
   kEgo,
   kTrack,
   kCommand,
   kFeedback,
   kWheels,
+  kDynamics,
+  kSuspension,
   kTyres,
+  kTread,
   kEngine,
+  kPowertrain,
+  kFuel,
   kElectric,
-  kBus,
+  kSteeringUnit,
+  kBrakes,
+  kLocalization,
+  kOpponent1,
+  kOpponent2,
+  kOpponent3,
+  kOpponent4,
+  kPlanner,
+  kStreams,
+  kSensors,
+  kGnss0,
+  kGnss1,
   kComputer,
+  kFaults,
+  kBus,
   kRadio,
   kStop,      // up: the latched stop of the operator
   kJoystick,  // up: the dead-man's samples
   kAuthority  // up: whose console may command
 };
-inline constexpr std::size_t kGroups = 16;
+inline constexpr std::size_t kGroups = 35;
 
 constexpr std::size_t index_of(Group group) { return static_cast<std::size_t>(group); }
 
@@ -52,6 +71,9 @@ struct GroupRow {
   double weight;        // w_g of the scheduler, > 0
 };
 
+// Ages: a fast group is in nearly every packet of 50 Hz; one of health follows its sensor (AV-21
+// sends engine and tyres at 10 Hz and slower); of statistics nobody needs more than one a second.
+
 inline constexpr auto kGroupTable = [] {
   using enum Group;
   using enum Class;
@@ -59,16 +81,35 @@ inline constexpr auto kGroupTable = [] {
   return std::to_array<GroupRow>({
       {kMode, "mode", kDown, kSafety, milliseconds(100), 8.0},
       {kFlags, "flags", kDown, kSafety, milliseconds(100), 8.0},
+      {kUplink, "uplink", kDown, kSafety, milliseconds(100), 8.0},
       {kEgo, "ego", kDown, kMotion, milliseconds(100), 4.0},
       {kTrack, "track", kDown, kMotion, milliseconds(150), 3.0},
       {kCommand, "command", kDown, kMotion, milliseconds(150), 3.0},
       {kFeedback, "feedback", kDown, kMotion, milliseconds(150), 3.0},
       {kWheels, "wheels", kDown, kMotion, milliseconds(150), 2.0},
+      {kDynamics, "dynamics", kDown, kMotion, milliseconds(150), 2.0},
+      {kSuspension, "suspension", kDown, kHealth, milliseconds(250), 1.0},
       {kTyres, "tyres", kDown, kHealth, seconds(1), 1.0},
+      {kTread, "tread", kDown, kHealth, seconds(2), 0.5},
       {kEngine, "engine", kDown, kHealth, milliseconds(500), 1.0},
+      {kPowertrain, "powertrain", kDown, kHealth, milliseconds(500), 1.0},
+      {kFuel, "fuel", kDown, kHealth, seconds(2), 0.5},
       {kElectric, "electric", kDown, kHealth, milliseconds(500), 1.0},
-      {kBus, "bus", kDown, kStatistics, seconds(1), 1.0},
+      {kSteeringUnit, "steering_unit", kDown, kHealth, milliseconds(500), 1.0},
+      {kBrakes, "brakes", kDown, kHealth, milliseconds(500), 1.0},
+      {kLocalization, "localization", kDown, kHealth, milliseconds(250), 1.5},
+      {kOpponent1, "opponent_1", kDown, kMotion, milliseconds(150), 3.0},
+      {kOpponent2, "opponent_2", kDown, kMotion, milliseconds(150), 2.0},
+      {kOpponent3, "opponent_3", kDown, kMotion, milliseconds(250), 1.0},
+      {kOpponent4, "opponent_4", kDown, kMotion, milliseconds(250), 1.0},
+      {kPlanner, "planner", kDown, kMotion, milliseconds(150), 2.0},
+      {kStreams, "streams", kDown, kHealth, milliseconds(250), 1.5},
+      {kSensors, "sensors", kDown, kStatistics, seconds(1), 0.5},
+      {kGnss0, "gnss0", kDown, kHealth, milliseconds(500), 1.0},
+      {kGnss1, "gnss1", kDown, kHealth, milliseconds(500), 1.0},
       {kComputer, "computer", kDown, kStatistics, seconds(1), 1.0},
+      {kFaults, "faults", kDown, kHealth, milliseconds(250), 1.5},
+      {kBus, "bus", kDown, kStatistics, seconds(1), 1.0},
       {kRadio, "radio", kDown, kHealth, milliseconds(500), 1.0},
       {kStop, "stop", kUp, kSafety, milliseconds(100), 8.0},
       {kJoystick, "joystick", kUp, kSafety, milliseconds(100), 8.0},

@@ -31,6 +31,16 @@ inline constexpr std::string_view kArmings =
     "not asked|armed|waits for a fault to pass|REFUSED: the car moves|"
     "REFUSED: the last run ended while armed|SPENT: release and arm anew";
 inline constexpr std::string_view kNoYes = "no|yes";
+inline constexpr std::string_view kLadderRungs =
+    "full|joystick dropped|override gone|no-comm|controlled stop";
+inline constexpr std::string_view kShiftStates =
+    "not initialised|ready|locked out|shifts up|shifts down";
+inline constexpr std::string_view kUnitSets = "none|unit 0|unit 1|both";
+inline constexpr std::string_view kRoles = "none|defender|attacker";
+inline constexpr std::string_view kPrimitives = "-|holds the line|stops|merges";
+inline constexpr std::string_view kSpeedReasons =
+    "-|no position|no race control|no flag|unknown flag|red|orange|black|stop|chequered|caution|"
+    "green|round speed|operator|line";
 inline constexpr std::string_view kStopLevels = "none|controlled stop|EMERGENCY STOP";
 inline constexpr std::string_view kStopReasons =
     "none|operator|race control|pit crew|console lost its operator|test";

@@ -35,7 +35,7 @@ TEST(Picture, AgeIsTheSamplesAgePlusTheTimeSinceReception) {
 TEST(Picture, QualityFollowsTheTargetAgeOfTheField) {
   Picture picture;
   picture.update(with_x(1.0, {}), {});
-  const Duration target = telemetry::kFields[field("ego.x")].target_age;
+  const Duration target = telemetry::kFields[field("ego.x")].target_age();
   const auto quality = [&](Duration t) { return picture.view(field("ego.x"), {t.ns}).quality; };
   EXPECT_EQ(quality(target), Quality::kFresh);
   EXPECT_EQ(quality(target + nanoseconds(1)), Quality::kLate);

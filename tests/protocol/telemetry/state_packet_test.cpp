@@ -196,16 +196,15 @@ TEST(StatePacket, SealedNonsenseIsRefusedByKind) {
     const std::size_t last = good.size() - kChecksumBytes - 1;
     EXPECT_EQ(with(last, static_cast<std::uint8_t>(good[last] | 1U)), PacketError::kBadCode);
   }
-  // ct_state has nine bits for 0..255 and unset: 256 is no state.
+  // track.lap has ten for 0 to 1000: 1001 to 1022 are no laps.
   Bytes bytes = good;
-  const std::size_t at_bit =
-      8 * kHeaderBytes + kDownGroups * kAgeBits + kFields[0].quantized().bits();
-  ASSERT_EQ(kFields[1].quantized().bits(), 9U);
-  for (std::size_t i = 0; i < 9; ++i) {
-    const std::size_t bit = at_bit + i;
-    const auto mask = static_cast<std::uint8_t>(0x80U >> (bit % 8));
-    bytes[bit / 8] =
-        static_cast<std::uint8_t>(i == 0 ? bytes[bit / 8] | mask : bytes[bit / 8] & ~mask);
+  std::size_t at_bit = 8 * kHeaderBytes + kDownGroups * kAgeBits;
+  for (FieldIndex i = 0; i < field("track.lap"); ++i) at_bit += kFields[i].quantized().bits();
+  ASSERT_EQ(kFields[field("track.lap")].quantized().bits(), 10U);
+  for (std::size_t bit = at_bit, mask = 1'022 << 6U; bit < at_bit + 10; ++bit, mask <<= 1U) {
+    const auto one = static_cast<std::uint8_t>(0x80U >> (bit % 8));
+    const std::uint8_t was = bytes[bit / 8];
+    bytes[bit / 8] = static_cast<std::uint8_t>((mask & 0x8000U) != 0 ? was | one : was & ~one);
   }
   seal(bytes);
   EXPECT_EQ(refusal(bytes), PacketError::kBadCode);

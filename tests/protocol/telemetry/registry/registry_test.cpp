@@ -14,8 +14,7 @@ namespace {
 TEST(Registry, EveryPathIsUnique) {
   std::set<std::string> paths;
   for (const FieldRow& row : kFields) {
-    const std::string path =
-        std::string{row_of(row.group).name} + "." + std::string{row.name};
+    const std::string path = std::string{row_of(row.group).name} + "." + std::string{row.name};
     EXPECT_TRUE(paths.insert(path).second) << path;
   }
 }

@@ -1,0 +1,65 @@
+// What the car believes and intends: localization, opponents, plan.
+//   units  stations and offsets as in rows_motion.hpp; an opponent's age is that of the detection
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "protocol/telemetry/registry/field_row.hpp"
+
+namespace pitwall::telemetry::rows {
+
+constexpr std::size_t kOpponentFields = 6;
+constexpr std::array<FieldRow, kOpponentFields> opponent(Group group) {
+  return {{{group, "identity", "", 0, 254, 1},  // number of the car; 0: unknown
+           {group, "station", "m", 0, 13'000, 0.1},
+           {group, "offset", "m", -40, 40, 0.05},
+           {group, "speed", "m/s", 0, 102, 0.1},
+           {group, "age", "s", 0, 5, 0.02},
+           {group, "position_sigma", "m", 0, 12.5, 0.05}}};
+}
+inline constexpr auto kOpponent1 = opponent(Group::kOpponent1);
+inline constexpr auto kOpponent2 = opponent(Group::kOpponent2);
+inline constexpr auto kOpponent3 = opponent(Group::kOpponent3);
+inline constexpr auto kOpponent4 = opponent(Group::kOpponent4);
+
+inline constexpr auto kLocalizationRows = [] {
+  constexpr Group kGroup = Group::kLocalization;
+  return std::to_array<FieldRow>({
+      {kGroup, "sigma_x", "m", 0, 20, 0.01},
+      {kGroup, "sigma_y", "m", 0, 20, 0.01},
+      {kGroup, "sigma_yaw", "rad", 0, 1, 0.002},
+      {kGroup, "sigma_vx", "m/s", 0, 5, 0.01},
+      {kGroup, "sigma_vy", "m/s", 0, 5, 0.01},
+      {kGroup, "gyro_bias", "rad/s", -0.05, 0.05, 0.0002},
+      {kGroup, "position_age", "s", 0, 10, 0.02},
+      choice(kGroup, "position_units", kUnitSets, 6),
+      choice(kGroup, "heading_units", kUnitSets, 6),
+      choice(kGroup, "imu_units", kUnitSets, 6),
+      count(kGroup, "accepted"),
+      count(kGroup, "outliers"),
+      count(kGroup, "unsolved"),
+      count(kGroup, "uncertain"),
+      count(kGroup, "late"),
+      count(kGroup, "implausible"),
+      {kGroup, "restarts", "", 0, 254, 1},
+  });
+}();
+
+inline constexpr auto kPlannerRows = [] {
+  constexpr Group kGroup = Group::kPlanner;
+  return std::to_array<FieldRow>({
+      choice(kGroup, "role", kRoles, 6),
+      choice(kGroup, "primitive", kPrimitives, 14),
+      choice(kGroup, "reason", kSpeedReasons, 30),
+      {kGroup, "line", "", 0, 30, 1},
+      {kGroup, "line_offset", "m", -40, 40, 0.02},
+      {kGroup, "target_gap", "m", 0, 500, 0.5},
+      {kGroup, "stop_distance", "m", 0, 2'000, 1},
+      {kGroup, "operator_limit", "m/s", 0, 120, 0.1},
+      {kGroup, "cost", "", 0, 1'000, 0.5},
+      {kGroup, "age", "s", 0, 5, 0.01},
+  });
+}();
+
+}  // namespace pitwall::telemetry::rows

@@ -1,0 +1,107 @@
+// Is everything alive and on time: watchdogs, sensors, receivers, computer, faults, bus, radio.
+//   source NovAtel OEM7: solution status below 23, position types below 81; the watchdogs of
+//          vehicle/safety/watchdog.hpp in its order, of which the tap makes sure
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "protocol/telemetry/registry/field_row.hpp"
+
+namespace pitwall::telemetry::rows {
+
+constexpr FieldRow stream(std::string_view name) {
+  return choice(Group::kStreams, name, kBaseStates, 6);
+}
+constexpr FieldRow rate(std::string_view name) { return {Group::kSensors, name, "Hz", 0, 250, 1}; }
+constexpr FieldRow gap(std::string_view name) {  // the largest of the last second
+  return {Group::kSensors, name, "ms", 0, 1'016, 4};
+}
+constexpr FieldRow latency(std::string_view name) {  // from true to heard, likewise
+  return {Group::kSensors, name, "ms", 0, 508, 2};
+}
+
+constexpr std::size_t kReceiverFields = 11;
+constexpr std::array<FieldRow, kReceiverFields> receiver(Group group) {
+  return {{{group, "status", "", 0, 62, 1},
+           {group, "type", "", 0, 126, 1},
+           {group, "satellites", "", 0, 62, 1},
+           {group, "sigma", "m", 0, 20, 0.01},  // horizontal, the larger
+           {group, "height_sigma", "m", 0, 20, 0.02},
+           {group, "differential_age", "s", 0, 100, 0.5},
+           {group, "heading_status", "", 0, 62, 1},
+           {group, "heading_type", "", 0, 126, 1},
+           {group, "heading_sigma", "rad", 0, 0.5, 0.001},
+           {group, "speed", "m/s", 0, 102, 0.1},
+           {group, "position_age", "s", 0, 10, 0.02}}};
+}
+inline constexpr auto kGnss0 = receiver(Group::kGnss0);
+inline constexpr auto kGnss1 = receiver(Group::kGnss1);
+
+inline constexpr auto kStreamRows = std::to_array<FieldRow>({
+    stream("gnss0_link"),     stream("gnss1_link"),     stream("gnss0_position"),
+    stream("gnss1_position"), stream("gnss0_solution"), stream("gnss1_solution"),
+    stream("gnss0_velocity"), stream("gnss1_velocity"), stream("gnss0_heading"),
+    stream("gnss1_heading"),  stream("imu0"),           stream("imu1"),
+    stream("wheel_speed"),    stream("brake"),          stream("throttle"),
+    stream("steering"),       stream("misc"),           stream("powertrain"),
+    stream("diagnostics"),    stream("race_control"),   stream("planner"),
+    stream("radio"),
+});
+
+inline constexpr auto kSensorRows = std::to_array<FieldRow>({
+    rate("gnss0_rate"),  gap("gnss0_gap"),  latency("gnss0_latency"),
+    rate("gnss1_rate"),  gap("gnss1_gap"),  latency("gnss1_latency"),
+    rate("imu0_rate"),   gap("imu0_gap"),   latency("imu0_latency"),
+    rate("imu1_rate"),   gap("imu1_gap"),   latency("imu1_latency"),
+    rate("lidar_rate"),  gap("lidar_gap"),  latency("lidar_latency"),
+    rate("camera_rate"), gap("camera_gap"), latency("camera_latency"),
+    rate("radar_rate"),  gap("radar_gap"),  latency("radar_latency"),
+});
+
+inline constexpr auto kHealthRows = [] {
+  using enum Group;
+  return std::to_array<FieldRow>({
+      {kComputer, "step_time_max", "us", 0, 131'000, 2},
+      {kComputer, "step_time_p50", "us", 0, 10'200, 10},
+      count(kComputer, "steps"),
+      count(kComputer, "missed_deadlines"),
+      share(kComputer, "processor"),
+      {kComputer, "memory", "MiB", 0, 32'000, 32},
+      {kComputer, "temperature", "degC", 0, 127, 0.5},
+
+      {kFaults, "now", FieldRow::kBitSet, 0, 2'147'483'646, 1},  // bit k - 1: cause k of the labels
+      count(kFaults, "recorded"),
+      choice(kFaults, "last_cause", kStopCauses, 126),
+      {kFaults, "last_age", "s", 0, 1'000, 1},
+
+      large_count(kBus, "frames_applied"),
+      count(kBus, "frames_refused"),
+      large_count(kBus, "frames_sent"),
+      count(kBus, "tx_drops"),
+      count(kBus, "gate_refusals"),
+      count(kBus, "frames_lost"),
+      count(kBus, "queue_losses"),
+      choice(kBus, "controller", kControllerStates, 6),
+      choice(kBus, "identity", kIdentities, 6),
+      {kBus, "differing_id", "", 0, 536'870'911, 1},
+      large_count(kBus, "database"),  // upper half of its fingerprint
+
+      choice(kRadio, "base", kBaseStates, 6),
+      choice(kRadio, "rung", kLadderRungs, 6),
+      {kRadio, "silence", "s", 0, 50, 0.05},
+      {kRadio, "round_trip", "ms", 0, 2'000, 0.5},
+      count(kRadio, "heartbeats"),          // packets of the base that were accepted
+      count(kRadio, "heartbeats_refused"),  // that were not, whatever for
+      count(kRadio, "base_runs"),           // sessions
+      share(kRadio, "loss_0"),              // of what comes by path 0
+      share(kRadio, "loss_1"),
+      {kRadio, "delay_0", "ms", 0, 2'000, 2},  // one way, 99th percentile
+      {kRadio, "delay_1", "ms", 0, 2'000, 2},
+      share(kRadio, "budget_use_0"),  // of what leaves by path 0
+      share(kRadio, "budget_use_1"),
+      count(kRadio, "slots_skipped"),
+  });
+}();
+
+}  // namespace pitwall::telemetry::rows
