@@ -145,7 +145,10 @@ bool BodyWriter::add_record(RecordType type, std::span<const std::uint8_t> paylo
   return true;
 }
 
-std::size_t BodyWriter::room_left() const { return room_ - at_; }
+std::size_t BodyWriter::room_left() const {
+  const std::size_t taken = at_ + held_back_;
+  return room_ > taken ? room_ - taken : 0;
+}
 
 std::span<const std::uint8_t> BodyWriter::bytes() const { return buffer_.first(at_); }
 

@@ -50,9 +50,10 @@ enum class RecordType : std::uint8_t {
   kSchema,       // hashes of the sender's groups
   kSchemaGroup,  // one group's definition as text
   kPathProbe,
-  kPathProof
+  kPathProof,
+  kPathReceipt  // the newest arrival by one path
 };
-inline constexpr std::uint8_t kRecordTypeMax = 11;
+inline constexpr std::uint8_t kRecordTypeMax = 12;
 
 struct Record {
   RecordType type;
@@ -72,6 +73,9 @@ class BodyWriter {
                       CodecCounters& counters);
   bool add_record(RecordType type, std::span<const std::uint8_t> payload);
 
+  // The last so many bytes of the room stay free, until another call; what is written stays.
+  void hold_back(std::size_t bytes) { held_back_ = bytes; }
+
   std::size_t room_left() const;
   std::span<const std::uint8_t> bytes() const;
   // Bytes that a record of this payload takes.
@@ -82,7 +86,7 @@ class BodyWriter {
   void write_values(GroupSet set, const Snapshot& snapshot, Instant now, CodecCounters& counters);
 
   std::span<std::uint8_t> buffer_;
-  std::size_t room_ = 0, at_ = 0, records_ = 0;
+  std::size_t room_ = 0, held_back_ = 0, at_ = 0, records_ = 0;
   Direction direction_;
 };
 
