@@ -17,7 +17,7 @@ std::string format(const char* pattern, Args... args) {
   return text;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
@@ -70,13 +70,15 @@ std::string done_json(const std::vector<Done>& done) {
   std::string out = "[";
   for (std::size_t i = 0; i < done.size(); ++i)
     out += (i == 0 ? "" : ",") + std::string("{\"at_s\":") +
-           number((done[i].at - Instant{}).seconds()) + ",\"what\":" + quoted(done[i].what) + "}";
+           number((done[i].at - Instant{}).seconds()) + ",\"what\":" + in_quotes(done[i].what) +
+           "}";
   return out + "]";
 }
 
 std::string remarks_json(const std::vector<std::string>& remarks) {
   std::string out = "[";
-  for (std::size_t i = 0; i < remarks.size(); ++i) out += (i == 0 ? "" : ",") + quoted(remarks[i]);
+  for (std::size_t i = 0; i < remarks.size(); ++i)
+    out += (i == 0 ? "" : ",") + in_quotes(remarks[i]);
   return out + "]";
 }
 
@@ -132,21 +134,21 @@ std::string to_json(const Outcome& outcome) {
            ",\"wall_gap_m\":" + number(w.wall_gap_m) + "}";
   };
   if (!outcome.last) return "null";
-  return "{\"text\":" + quoted(to_text(outcome)) +
+  return "{\"text\":" + in_quotes(to_text(outcome)) +
          ",\"contact\":" + std::string(outcome.last->contact ? "true" : "false") +
          ",\"end\":" + place(*outcome.last) + ",\"nearest_wall\":" + place(*outcome.nearest) + "}";
 }
 
 std::string to_json(const grading::Verdict& v) {
   const double first_s = v.first_violation ? (*v.first_violation - Instant{}).seconds() : kUnset;
-  return "{\"text\":" + quoted(v.text) + ",\"pass\":" + (v.pass ? "true" : "false") +
+  return "{\"text\":" + in_quotes(v.text) + ",\"pass\":" + (v.pass ? "true" : "false") +
          ",\"margin\":" + number(v.margin) + ",\"first_violation_s\":" + number(first_s) +
          ",\"time_left_s\":" + number(v.time_left ? v.time_left->seconds() : kUnset) +
-         ",\"place\":" + quoted(v.name) + ",\"reason\":" + quoted(v.reason) + "}";
+         ",\"place\":" + in_quotes(v.name) + ",\"reason\":" + in_quotes(v.reason) + "}";
 }
 
 std::string to_json(const RunResult& r) {
-  return "{\"scenario\":" + quoted(r.scenario) + ",\"mode\":" + quoted(r.mode) +
+  return "{\"scenario\":" + in_quotes(r.scenario) + ",\"mode\":" + in_quotes(r.mode) +
          ",\"simulation\":true,\"passed\":" + (r.passed() ? "true" : "false") +
          ",\"timely\":" + (r.timely() ? "true" : "false") +
          ",\"simulated_s\":" + number(r.simulated_s) + ",\"wall_s\":" + number(r.wall_s) +
@@ -169,8 +171,8 @@ std::string to_json(const RunResult& r) {
          ",\"bus_losses\":" + std::to_string(r.bus_losses) +
          (r.real_time ? ",\"real_time\":" + real_time_json(*r.real_time) : std::string()) +
          ",\"done\":" + done_json(r.done) + ",\"remarks\":" + remarks_json(r.remarks) +
-         ",\"refused_to_arm\":" + quoted(r.refused_to_arm) + ",\"sha256\":" + quoted(r.digest) +
-         ",\"verdicts\":" + verdicts_json(r.verdicts) + "}";
+         ",\"refused_to_arm\":" + in_quotes(r.refused_to_arm) +
+         ",\"sha256\":" + in_quotes(r.digest) + ",\"verdicts\":" + verdicts_json(r.verdicts) + "}";
 }
 
 }  // namespace pitwall::bench
