@@ -1,6 +1,11 @@
 // Provisioned keys: one X25519 pair for each car and each base, and who may speak with whom. A key
 // is bound to its role: what a base's key opens, a car's key does not.
-//   text   64 hexadecimal digits; files as `pitwall-base keygen` writes them
+//   text   64 hexadecimal digits; files as `pitwall-base keygen` writes them:
+//            # a comment
+//            role: car            (or base)
+//            public: HEX          own
+//            secret: HEX          own
+//            peer: HEX            the other end's public key
 //   errors Problem with the place; a secret is never part of a message or a log
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -11,6 +16,7 @@
 #include <string_view>
 
 #include "protocol/telemetry/session/randomness.hpp"
+#include "protocol/telemetry/session/secret.hpp"
 #include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::telemetry {
@@ -22,7 +28,7 @@ enum class Role : std::uint8_t { kCar, kBase };
 
 struct Identity {
   PublicKey public_key{};
-  std::array<std::uint8_t, kKeySize> secret_key{};
+  Secret<kKeySize> secret_key;
 };
 
 Identity make_identity(Randomness& randomness);

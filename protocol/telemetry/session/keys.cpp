@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/telemetry/session/keys.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+
+#include "protocol/telemetry/session/cipher.hpp"
+
+namespace pitwall::telemetry {
+
+namespace {
+
+constexpr std::string_view kDigits = "0123456789abcdef";
+constexpr std::string_view kBlank = " \t\r";
+constexpr unsigned kNibble = 4, kNibbleMask = 15;
+
+void append_hex(std::string& text, std::span<const std::uint8_t> bytes) {
+  for (const std::uint8_t byte : bytes) {
+    text += kDigits[byte >> kNibble];
+    text += kDigits[byte & kNibbleMask];
+  }
+}
+
+std::optional<unsigned> digit_of(char c) {
+  const char lower = c >= 'A' && c <= 'F' ? static_cast<char>(c - 'A' + 'a') : c;
+  const std::size_t at = kDigits.find(lower);
+  if (at == std::string_view::npos) return std::nullopt;
+  return static_cast<unsigned>(at);
+}
+
+bool parse_hex(std::string_view text, std::span<std::uint8_t> bytes) {
+  if (text.size() != 2 * bytes.size()) return false;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const auto high = digit_of(text[2 * i]), low = digit_of(text[2 * i + 1]);
+    if (!high || !low) return false;
+    bytes[i] = static_cast<std::uint8_t>(*high << kNibble | *low);
+  }
+  return true;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+enum class Line : std::uint8_t { kRole, kPublic, kSecret, kPeer };
+constexpr std::array<std::string_view, 4> kLineNames{"role", "public", "secret", "peer"};
+
+// The four lines of a file, each once; values are checked by the caller.
+struct Lines {
+  std::array<std::string_view, kLineNames.size()> value{};
+  std::array<int, kLineNames.size()> number{};
+
+  std::string_view operator[](Line line) const { return value[static_cast<std::size_t>(line)]; }
+  std::string place(const std::string& file, Line line) const {
+    return file + ":" + std::to_string(number[static_cast<std::size_t>(line)]);
+  }
+};
+
+Result<Lines, Problem> split(std::string_view text, const std::string& place) {
+  Lines lines;
+  int number = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = trimmed(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    ++number;
+    if (line.empty() || line.front() == '#') continue;
+    const std::string here = place + ":" + std::to_string(number);
+    const std::size_t colon = line.find(':');
+    const std::string_view name = line.substr(0, colon);
+    std::size_t which = 0;
+    while (which < kLineNames.size() && kLineNames[which] != name) ++which;
+    if (colon == std::string_view::npos || which == kLineNames.size()) {
+      return Unexpected{Problem{here, "not one of role:, public:, secret:, peer:"}};
+    }
+    if (lines.number[which] != 0) {
+      return Unexpected{Problem{here, "a second " + std::string(name) + ":"}};
+    }
+    lines.value[which] = trimmed(line.substr(colon + 1));
+    lines.number[which] = number;
+  }
+  for (std::size_t i = 0; i < kLineNames.size(); ++i) {
+    if (lines.number[i] == 0) {
+      return Unexpected{Problem{place, "has no line " + std::string(kLineNames[i]) + ":"}};
+    }
+  }
+  return lines;
+}
+
+}  // namespace
+
+Identity make_identity(Randomness& randomness) {
+  prepare_sodium();
+  Identity identity;
+  randomness.fill(identity.secret_key.bytes);
+  identity.public_key = public_of(identity.secret_key);
+  return identity;
+}
+
+std::string text_of(const PublicKey& key) {
+  std::string text;
+  append_hex(text, key);
+  return text;
+}
+
+Result<PublicKey, Problem> parse_public_key(std::string_view text, const std::string& place) {
+  PublicKey key{};
+  if (parse_hex(trimmed(text), key)) return key;
+  return Unexpected{Problem{place, "a key is 64 hexadecimal digits"}};
+}
+
+std::string text_of(const KeyFile& keys) {
+  const bool car = keys.role == Role::kCar;
+  std::string text = "# Keys of the ";
+  text += car ? "car" : "base station";
+  text += " for the radio. Whoever has this file can speak in its name: keep it secret.\nrole: ";
+  text += car ? "car" : "base";
+  text += "\npublic: " + text_of(keys.own.public_key) + "\nsecret: ";
+  append_hex(text, keys.own.secret_key.bytes);
+  return text + "\npeer: " + text_of(keys.peer) + "\n";
+}
+
+Result<KeyFile, Problem> parse_key_file(std::string_view text, const std::string& place) {
+  prepare_sodium();
+  const auto lines = split(text, place);
+  if (!lines) return Unexpected{lines.error()};
+  const std::string_view role = (*lines)[Line::kRole];
+  if (role != "car" && role != "base") {
+    return Unexpected{Problem{lines->place(place, Line::kRole), "role: car or base"}};
+  }
+  const auto own = parse_public_key((*lines)[Line::kPublic], lines->place(place, Line::kPublic));
+  if (!own) return Unexpected{own.error()};
+  const auto peer = parse_public_key((*lines)[Line::kPeer], lines->place(place, Line::kPeer));
+  if (!peer) return Unexpected{peer.error()};
+  KeyFile keys{.role = role == "car" ? Role::kCar : Role::kBase, .own = {}, .peer = *peer};
+  keys.own.public_key = *own;
+  if (!parse_hex((*lines)[Line::kSecret], keys.own.secret_key.bytes)) {
+    return Unexpected{
+        Problem{lines->place(place, Line::kSecret), "a key is 64 hexadecimal digits"}};
+  }
+  if (public_of(keys.own.secret_key) != keys.own.public_key) {
+    return Unexpected{Problem{lines->place(place, Line::kPublic), "does not belong to secret:"}};
+  }
+  if (keys.peer == keys.own.public_key) {
+    return Unexpected{Problem{lines->place(place, Line::kPeer), "is the own key"}};
+  }
+  return keys;
+}
+
+}  // namespace pitwall::telemetry
