@@ -28,8 +28,10 @@ class LossyChannel {
     const int copies = chance(params_.twice) ? 2 : 1;
     for (int i = 0; i < copies; ++i) {
       if (chance(params_.loss)) continue;
-      std::uniform_int_distribution<std::int64_t> delay(params_.delay_min.ns, params_.delay_max.ns);
-      flying_.push_back({now + Duration{delay(random_)}, now, {bytes.begin(), bytes.end()}});
+      const Duration delay = params_.delay_min + (params_.delay_max - params_.delay_min) *
+                                                     static_cast<std::int64_t>(random_() % 1'001) /
+                                                     1'000;
+      flying_.push_back({now + delay, now, {bytes.begin(), bytes.end()}});
     }
   }
   // take(bytes, sent, arrived) for each that has arrived, in the order of arrival.
@@ -50,7 +52,7 @@ class LossyChannel {
     Instant arrives, sent;
     std::vector<std::uint8_t> bytes;
   };
-  bool chance(double p) { return std::uniform_real_distribution<double>(0, 1)(random_) < p; }
+  bool chance(double p) { return static_cast<double>(random_() % 1'000'000) < p * 1e6; }
 
   LossyChannelParams params_;
   std::mt19937 random_;

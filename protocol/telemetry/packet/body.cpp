@@ -26,29 +26,10 @@ static_assert(kMaxBody <= kLengthMax);
 constexpr Duration kTick = microseconds(100);
 constexpr std::uint16_t kHoldMax = 0xFFFF;
 
-// The groups of one direction in the order of their bits on the wire.
-struct Layout {
-  FixedVector<Group, kGroups> groups;
-  std::size_t set_size = 0;  // bytes
-};
-constexpr Layout layout_of(Direction direction) {
-  Layout layout;
-  for (const GroupRow& row : kGroupTable) {
-    if (row.direction == direction) CHECK(layout.groups.push(row.group));
-  }
-  layout.set_size = (layout.groups.size() + 7) / 8;
-  return layout;
-}
-constexpr std::array kLayouts{layout_of(Direction::kDown), layout_of(Direction::kUp)};
-constexpr const Layout& layout(Direction direction) {
-  return kLayouts[static_cast<std::size_t>(direction)];
-}
-
 // Bytes that a set takes with its ages and values.
-std::size_t groups_size(Direction direction, std::size_t bits) {
-  return layout(direction).set_size + (bits + 7) / 8;
+std::size_t groups_size(const Layout& layout, std::size_t bits) {
+  return set_size(layout) + (bits + 7) / 8;
 }
-constexpr std::size_t bits_with_age(Group group) { return kAgeCodeBits + group_bits(group); }
 
 std::uint16_t hold_code(Duration hold) {
   const std::int64_t ticks = (hold + kTick / 2) / kTick;
@@ -57,8 +38,8 @@ std::uint16_t hold_code(Duration hold) {
 
 }  // namespace
 
-BodyWriter::BodyWriter(std::span<std::uint8_t> buffer, std::size_t room, Direction direction)
-    : buffer_(buffer), room_(room), direction_(direction) {
+BodyWriter::BodyWriter(std::span<std::uint8_t> buffer, std::size_t room, const Layout& layout)
+    : buffer_(buffer), room_(room), layout_(&layout) {
   CHECK(room <= buffer.size() && room <= kMaxBody);
 }
 
@@ -86,12 +67,15 @@ bool BodyWriter::add_ack(const Ack& ack) {
 GroupSet BodyWriter::add_groups(const Snapshot& snapshot, std::span<const Group> wanted,
                                 Instant now, CodecCounters& counters) {
   CHECK(at_ >= kBodyFixed && records_ == 0 && (buffer_[kFlagsAt] & kHasGroups) == 0);
-  GroupSet set;
+  GroupSet known, set;
+  for (const GroupPlace& place : *layout_) {
+    if (place.own) known.add(*place.own);
+  }
   std::size_t bits = 0;
   for (const Group group : wanted) {
-    CHECK(row_of(group).direction == direction_);
-    const std::size_t more = bits + bits_with_age(group);
-    if (set.has(group) || groups_size(direction_, more) > room_left()) continue;
+    const std::size_t more = bits + kAgeCodeBits + group_bits(group);
+    if (!known.has(group) || set.has(group)) continue;
+    if (groups_size(*layout_, more) > room_left()) continue;
     set.add(group);
     bits = more;
   }
@@ -103,12 +87,12 @@ GroupSet BodyWriter::add_groups(const Snapshot& snapshot, std::span<const Group>
 }
 
 void BodyWriter::write_set(GroupSet set) {
-  const Layout& all = layout(direction_);
   std::uint64_t present = 0;
-  for (std::size_t k = 0; k < all.groups.size(); ++k) {
-    if (set.has(all.groups[k])) present |= std::uint64_t{1} << k;
+  for (std::size_t k = 0; k < layout_->size(); ++k) {
+    const auto& own = (*layout_)[k].own;
+    if (own && set.has(*own)) present |= std::uint64_t{1} << k;
   }
-  for (std::size_t i = 0; i < all.set_size; ++i) {
+  for (std::size_t i = 0; i < set_size(*layout_); ++i) {
     buffer_[at_++] = static_cast<std::uint8_t>(present >> (8 * i));
   }
 }
@@ -116,14 +100,14 @@ void BodyWriter::write_set(GroupSet set) {
 void BodyWriter::write_values(GroupSet set, const Snapshot& snapshot, Instant now,
                               CodecCounters& counters) {
   bits::BitWriter out(buffer_.subspan(at_, room_left()));
-  const Layout& all = layout(direction_);
-  for (const Group group : all.groups) {
-    if (!set.has(group)) continue;
-    const bool ever = snapshot.ever(group);
-    out.write(ever ? age_code(now - snapshot.at(group)) : kNeverCode, kAgeCodeBits);
+  for (const GroupPlace& place : *layout_) {
+    if (!place.own || !set.has(*place.own)) continue;
+    const bool ever = snapshot.ever(*place.own);
+    out.write(ever ? age_code(now - snapshot.at(*place.own)) : kNeverCode, kAgeCodeBits);
   }
-  for (const Group group : all.groups) {
-    if (set.has(group)) encode_group(group, snapshot.values, out, counters);
+  for (const GroupPlace& place : *layout_) {
+    if (!place.own || !set.has(*place.own)) continue;
+    encode_group(*place.own, snapshot.values, out, counters);
   }
   out.align();
   CHECK(out.ok());
@@ -187,8 +171,8 @@ class Rest {
 
 using Verdict = std::optional<BodyError>;  // none: well so far
 
-std::uint32_t little_endian(std::span<const std::uint8_t> bytes) {
-  std::uint32_t value = 0;
+std::uint64_t little_endian(std::span<const std::uint8_t> bytes) {
+  std::uint64_t value = 0;
   for (std::size_t i = bytes.size(); i > 0; --i) value = value << 8U | bytes[i - 1];
   return value;
 }
@@ -202,32 +186,46 @@ Verdict read_ack(Rest& rest, Body& body) {
   return {};
 }
 
-Verdict read_set(Rest& rest, const Layout& all, Body& body) {
-  if (!rest.has(all.set_size)) return BodyError::kTooShort;
-  const std::uint32_t present = little_endian(rest.take(all.set_size));
-  if (present == 0 || present >> all.groups.size() != 0) return BodyError::kBadGroups;
-  for (std::size_t k = 0; k < all.groups.size(); ++k) {
-    if ((present >> k & 1U) != 0) body.groups.add(all.groups[k]);
+using Places = FixedVector<GroupPlace, kMaxPlaces>;  // those of the set
+
+Verdict read_set(Rest& rest, const Layout& sender, Places& set) {
+  const std::size_t size = set_size(sender);
+  if (!rest.has(size)) return BodyError::kTooShort;
+  std::uint64_t present = little_endian(rest.take(size));
+  if (present == 0) return BodyError::kBadGroups;
+  for (const GroupPlace& place : sender) {
+    if ((present & 1U) != 0) CHECK(set.push(place));
+    present >>= 1U;
   }
+  if (present != 0) return BodyError::kBadGroups;
   return {};
 }
 
-Verdict read_values(Rest& rest, const Layout& all, Body& body) {
+void skip(bits::BitReader& in, std::size_t bits) {
+  for (; bits > bits::kMaxFieldBits; bits -= bits::kMaxFieldBits) in.read(bits::kMaxFieldBits);
+  in.read(static_cast<unsigned>(bits));
+}
+
+Verdict read_values(Rest& rest, const Places& set, Body& body) {
   std::size_t bits = 0;
-  for (const Group group : all.groups) {
-    if (body.groups.has(group)) bits += bits_with_age(group);
-  }
+  for (const GroupPlace& place : set) bits += kAgeCodeBits + place.bits;
   const std::size_t size = (bits + 7) / 8;
   if (!rest.has(size)) return BodyError::kTooShort;
   bits::BitReader in(rest.take(size));
-  for (const Group group : all.groups) {
-    if (!body.groups.has(group)) continue;
-    body.age_codes[index_of(group)] = static_cast<std::uint8_t>(in.read(kAgeCodeBits));
+  for (const GroupPlace& place : set) {
+    const auto age = static_cast<std::uint8_t>(in.read(kAgeCodeBits));
+    if (!place.own) continue;
+    body.groups.add(*place.own);
+    body.age_codes[index_of(*place.own)] = age;
   }
-  for (const Group group : all.groups) {
-    if (!body.groups.has(group)) continue;
-    if (!decode_group(group, in, body.values)) return BodyError::kBadValue;
+  for (const GroupPlace& place : set) {
+    if (!place.own) {
+      skip(in, place.bits);
+    } else if (!decode_group(*place.own, in, body.values)) {
+      return BodyError::kBadValue;
+    }
   }
+  CHECK(in.ok());
   if (!in.align()) return BodyError::kBadPadding;
   return {};
 }
@@ -247,17 +245,18 @@ Verdict read_record(Rest& rest, Body& body) {
   return {};
 }
 
-Verdict read_body(Rest rest, const Layout& all, Body& body) {
+Verdict read_body(Rest rest, const Layout& sender, Body& body) {
   if (!rest.has(kBodyFixed)) return BodyError::kTooShort;
-  body.tx_time_100us = little_endian(rest.take(kTimeSize));
+  body.tx_time_100us = static_cast<std::uint32_t>(little_endian(rest.take(kTimeSize)));
   const std::uint8_t flags = rest.take_byte();
   if ((flags & ~kFlagsUsed) != 0) return BodyError::kBadFlags;
   body.paths_mask = static_cast<std::uint8_t>(flags >> kPathsShift);
   Verdict bad;
   if ((flags & kHasAck) != 0 && (bad = read_ack(rest, body))) return bad;
   if ((flags & kHasGroups) != 0) {
-    if ((bad = read_set(rest, all, body))) return bad;
-    if ((bad = read_values(rest, all, body))) return bad;
+    Places set;
+    if ((bad = read_set(rest, sender, set))) return bad;
+    if ((bad = read_values(rest, set, body))) return bad;
   }
   while (!rest.empty()) {
     if ((bad = read_record(rest, body))) return bad;
@@ -267,12 +266,10 @@ Verdict read_body(Rest rest, const Layout& all, Body& body) {
 
 }  // namespace
 
-Result<Body, BodyError> parse_body(std::span<const std::uint8_t> bytes, Direction direction) {
+Result<Body, BodyError> parse_body(std::span<const std::uint8_t> bytes, const Layout& sender) {
   if (bytes.size() > kMaxBody) return Unexpected{BodyError::kTooLong};
   Result<Body, BodyError> result{Body{}};
-  if (const Verdict bad = read_body(Rest{bytes}, layout(direction), *result)) {
-    return Unexpected{*bad};
-  }
+  if (const Verdict bad = read_body(Rest{bytes}, sender, *result)) return Unexpected{*bad};
   return result;
 }
 

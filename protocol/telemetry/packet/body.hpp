@@ -19,6 +19,7 @@
 
 #include "protocol/telemetry/packet/group_codec.hpp"
 #include "protocol/telemetry/packet/header.hpp"
+#include "protocol/telemetry/packet/layout.hpp"
 #include "protocol/telemetry/registry/group_row.hpp"
 #include "protocol/telemetry/registry/snapshot.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
@@ -63,12 +64,16 @@ struct Record {
 class BodyWriter {
  public:
   // `room`: at most so many bytes, <= kMaxBody.
-  BodyWriter(std::span<std::uint8_t> buffer, std::size_t room, Direction direction);
+  BodyWriter(std::span<std::uint8_t> buffer, std::size_t room, Direction direction)
+      : BodyWriter(buffer, room, own_layout(direction)) {}
+  // As a sender of another registry would; the layout outlives the writer.
+  BodyWriter(std::span<std::uint8_t> buffer, std::size_t room, const Layout& layout);
 
   // In this order, each at most once; groups before records.
   void begin(Instant now, std::uint8_t paths_mask);
   bool add_ack(const Ack& ack);
-  // Those of `wanted` that fit, in the order given; returns the set that was written.
+  // Those of `wanted` that the layout has and that fit, in the order given; returns the set that
+  // was written.
   GroupSet add_groups(const Snapshot& snapshot, std::span<const Group> wanted, Instant now,
                       CodecCounters& counters);
   bool add_record(RecordType type, std::span<const std::uint8_t> payload);
@@ -87,7 +92,7 @@ class BodyWriter {
 
   std::span<std::uint8_t> buffer_;
   std::size_t room_ = 0, held_back_ = 0, at_ = 0, records_ = 0;
-  Direction direction_;
+  const Layout* layout_;
 };
 
 enum class BodyError : std::uint8_t {
@@ -107,12 +112,16 @@ struct Body {
   std::uint32_t tx_time_100us = 0;  // 24 bits
   std::uint8_t paths_mask = 0;
   std::optional<Ack> ack;
-  GroupSet groups;
+  GroupSet groups;  // without those that are unknown here
   std::array<std::uint8_t, kGroups> age_codes{};
   Values values;                             // of the groups of the set; others unset
   FixedVector<Record, kMaxRecords> records;  // point into the bytes parsed
 };
 
-Result<Body, BodyError> parse_body(std::span<const std::uint8_t> bytes, Direction direction);
+Result<Body, BodyError> parse_body(std::span<const std::uint8_t> bytes, const Layout& sender);
+inline Result<Body, BodyError> parse_body(std::span<const std::uint8_t> bytes,
+                                          Direction direction) {
+  return parse_body(bytes, own_layout(direction));
+}
 
 }  // namespace pitwall::telemetry

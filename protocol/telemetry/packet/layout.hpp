@@ -1,0 +1,31 @@
+// Which groups a sender's packets may hold, in the order of the bits of their set: the groups of
+// its direction, as its registry has them. Two ends whose registries differ read each other's
+// packets by the sender's layout and skip what they do not know.
+//   law    place k is bit k of the set; a place with a group of ours has that group's bits
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "protocol/telemetry/registry/registry.hpp"
+#include "protocol/vocabulary/fixed_vector.hpp"
+
+namespace pitwall::telemetry {
+
+struct GroupPlace {
+  std::optional<Group> own;  // none: a group that we do not know, or know otherwise
+  std::uint16_t bits = 0;    // of its values
+};
+
+inline constexpr std::size_t kMaxPlaces = 64;
+using Layout = FixedVector<GroupPlace, kMaxPlaces>;
+
+// Bytes of the set.
+constexpr std::size_t set_size(const Layout& layout) { return (layout.size() + 7) / 8; }
+
+// Of our own registry.
+const Layout& own_layout(Direction direction);
+
+}  // namespace pitwall::telemetry

@@ -1,0 +1,107 @@
+// The body of a packet read a second time, from the words of body.hpp alone: a string of bits, no
+// shared code, no care for speed. For tests and fuzzers, which compare.
+//   in     any bytes
+//   out    none: not a body. Else what it says; the values in steps of their fields
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "protocol/telemetry/registry/registry.hpp"
+
+namespace pitwall::testing {
+
+struct ReferenceBody {
+  std::uint64_t time = 0, paths = 0;
+  bool has_ack = false;
+  std::uint64_t newest = 0, mask = 0, hold = 0;
+  std::map<telemetry::Group, std::uint64_t> ages;
+  std::map<std::size_t, double> values;  // by field; NaN: unset
+  std::vector<std::pair<std::uint64_t, std::string>> records;
+};
+
+// Bits of the rest of a packet; below(n) reads bytes as little endian, top(n) bits as they stand.
+struct ReferenceBits {
+  std::string bits;
+  bool ok = true;
+
+  std::uint64_t top(std::size_t count) {
+    if (count > bits.size()) return ok = false, 0;
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < count; ++i) value = 2 * value + (bits[i] == '1' ? 1 : 0);
+    bits.erase(0, count);
+    return value;
+  }
+  std::uint64_t below(std::size_t bytes) {
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < bytes; ++i) value += top(8) * (std::uint64_t{1} << (8 * i));
+    return value;
+  }
+};
+
+inline bool read_reference_groups(ReferenceBits& rest, telemetry::Direction direction,
+                                  ReferenceBody& body) {
+  std::vector<telemetry::Group> all;
+  for (const auto& row : telemetry::kGroupTable)
+    if (row.direction == direction) all.push_back(row.group);
+  const std::uint64_t set = rest.below((all.size() + 7) / 8);
+  if (set == 0 || set >= std::uint64_t{1} << all.size()) return false;
+  std::size_t used = 0;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if ((set >> k) % 2 == 1) body.ages[all[k]] = rest.top(4), used += 4;
+  for (std::size_t i = 0; i < telemetry::kFieldCount; ++i) {
+    const telemetry::FieldRow& row = telemetry::kFields[i];
+    if (!body.ages.contains(row.group)) continue;
+    const double last = std::floor((row.max - row.min) / row.resolution + 0.5);
+    std::size_t width = 1;
+    while (std::exp2(static_cast<double>(width)) - 1 < last + 1) ++width;
+    const auto step = static_cast<double>(rest.top(width));
+    used += width;
+    const bool unset = step == std::exp2(static_cast<double>(width)) - 1;
+    if (step > last && !unset) return false;
+    body.values[i] = unset ? std::nan("") : row.min + step * row.resolution;
+  }
+  return rest.top((8 - used % 8) % 8) == 0 && rest.ok;
+}
+
+inline std::optional<ReferenceBody> read_reference(const std::vector<std::uint8_t>& bytes,
+                                                   telemetry::Direction direction) {
+  if (bytes.size() < 4 || bytes.size() > 1'177) return std::nullopt;
+  ReferenceBits rest;
+  for (const std::uint8_t byte : bytes)
+    for (int bit = 7; bit >= 0; --bit) rest.bits += (byte >> bit) % 2 == 1 ? '1' : '0';
+  ReferenceBody body;
+  body.time = rest.below(3);
+  const std::uint64_t flags = rest.below(1);
+  if (flags > 0x0F) return std::nullopt;
+  body.paths = flags / 4;
+  body.has_ack = flags % 2 == 1;
+  if (body.has_ack) {
+    body.newest = rest.below(2);
+    body.mask = rest.below(4);
+    body.hold = rest.below(2);
+  }
+  if (flags / 2 % 2 == 1 && !read_reference_groups(rest, direction, body)) return std::nullopt;
+  while (rest.ok && !rest.bits.empty()) {
+    const std::uint64_t type = rest.below(1);
+    std::uint64_t length = rest.below(1);
+    if (length >= 0xF0) {
+      length = (length - 0xF0) * 256 + rest.below(1);
+      if (length < 0xF0) return std::nullopt;
+    }
+    if (type < 1 || type > 12 || body.records.size() == 48) return std::nullopt;
+    std::string payload;
+    for (std::uint64_t i = 0; i < length && rest.ok; ++i)
+      payload += static_cast<char>(rest.below(1));
+    body.records.emplace_back(type, payload);
+  }
+  if (!rest.ok) return std::nullopt;
+  return body;
+}
+
+}  // namespace pitwall::testing
