@@ -23,8 +23,56 @@ constexpr Duration patience_of(Duration round_trip) {
   return std::min(round_trip + round_trip / 2 + kSlots, kPatienceMax);
 }
 
-std::uint32_t checksum_at(std::span<const std::uint8_t> stream, std::size_t bytes) {
-  return load<std::uint32_t>(stream, bytes);
+// A kBulk record; exists only if some sender could have written it.
+struct Run {
+  std::uint16_t object = 0;
+  std::size_t kind = 0, total = 0;
+  std::size_t first = 0, count = 0;  // pieces
+  std::span<const std::uint8_t> bytes;
+};
+
+std::optional<Run> read_run(std::span<const std::uint8_t> record) {
+  if (record.size() <= kBulkFixed || record[kKindAt] >= kBulkKinds) return std::nullopt;
+  Run run;
+  run.object = load<std::uint16_t>(record, 0);
+  run.kind = record[kKindAt];
+  run.total = load<std::uint16_t>(record, kTotalAt) | std::size_t{record[kTotalAt + 2]} << 16U;
+  run.first = load<std::uint16_t>(record, kFirstAt);
+  run.bytes = record.subspan(kBulkFixed);
+  run.count = (run.bytes.size() + kBulkPiece - 1) / kBulkPiece;
+  if (run.total == 0 || run.total > kBulkObject) return std::nullopt;
+  const std::size_t begin = run.first * kBulkPiece, end = run.total + sizeof(std::uint32_t);
+  if (begin >= end || run.bytes.size() > end - begin) return std::nullopt;
+  const bool to_the_end = run.bytes.size() == end - begin;
+  if (run.bytes.size() % kBulkPiece != 0 && !to_the_end) return std::nullopt;
+  return run;
+}
+
+// A kBulkAck record in its one form.
+struct Arrivals {
+  std::uint16_t object = 0;
+  std::size_t kind = 0, missing = 0;
+  std::span<const std::uint8_t> bitmap;  // bit k: piece missing + 1 + k
+
+  bool came(std::size_t k) const { return (bitmap[k / 8] >> (k % 8) & 1U) != 0; }
+  std::size_t bits() const { return 8 * bitmap.size(); }
+  // One past the last piece that it names.
+  std::size_t end() const {
+    if (bitmap.empty()) return missing;
+    std::size_t k = bits();
+    while (!came(k - 1)) --k;
+    return missing + 1 + k;
+  }
+};
+
+std::optional<Arrivals> read_arrivals(std::span<const std::uint8_t> record) {
+  if (record.size() < kAckFixed || record.size() > kAckFixed + kBulkWindow / 8) return std::nullopt;
+  if (record[kKindAt] >= kBulkKinds) return std::nullopt;
+  if (record.size() > kAckFixed && record.back() == 0) return std::nullopt;
+  return Arrivals{.object = load<std::uint16_t>(record, 0),
+                  .kind = record[kKindAt],
+                  .missing = load<std::uint16_t>(record, kMissingAt),
+                  .bitmap = record.subspan(kAckFixed)};
 }
 
 }  // namespace
@@ -75,76 +123,69 @@ bool BulkSender::send(BodyWriter& body, std::size_t kind, Duration patience, Ins
   const Slot& slot = slots_[kind];
   const auto all = pieces(kind);
   const std::size_t end = std::min(all.size(), slot.missing + 1 + kBulkWindow);
-  const auto due = [&](const Piece& piece) {
+  const auto due = [&](std::size_t i) {
+    const Piece& piece = all[i];
     return !piece.acknowledged && (!piece.sent || now - piece.sent_at >= patience);
   };
-  std::size_t first = slot.missing;
-  while (first < end && !due(all[first])) ++first;
-  if (first == end) return false;
-
   const auto bytes = stream(kind);
-  const auto bytes_until = [&](std::size_t piece) {
-    return std::min(piece * kBulkPiece, bytes.size()) - first * kBulkPiece;
-  };
-  const auto fits = [&](std::size_t until) {
-    return BodyWriter::record_size(kBulkFixed + bytes_until(until)) <= body.room_left();
+  std::size_t first = slot.missing;
+  while (first < end && !due(first)) ++first;
+  const auto run_until = [&](std::size_t piece) {
+    return bytes.first(std::min(piece * kBulkPiece, bytes.size())).subspan(first * kBulkPiece);
   };
   std::size_t last = first;
-  while (last < end && due(all[last]) && fits(last + 1)) ++last;
-  if (last == first) return false;
+  while (last < end && due(last) &&
+         BodyWriter::record_size(kBulkFixed + run_until(last + 1).size()) <= body.room_left()) {
+    ++last;
+  }
+  if (last == first || !write(body, kind, first, run_until(last))) return false;
+  for (Piece& piece : all.subspan(first, last - first)) {
+    ++counters_.pieces;
+    if (piece.sent) ++counters_.repeated;
+    piece.sent = true;
+    piece.sent_at = now;
+  }
+  return true;
+}
 
+bool BulkSender::write(BodyWriter& body, std::size_t kind, std::size_t first,
+                       std::span<const std::uint8_t> run) const {
+  const Slot& slot = slots_[kind];
   std::array<std::uint8_t, kMaxBody> record;
   store<std::uint16_t>(record, 0, slot.object);
   record[kKindAt] = static_cast<std::uint8_t>(kind);
   store<std::uint16_t>(record, kTotalAt, static_cast<std::uint16_t>(slot.bytes));
   record[kTotalAt + 2] = static_cast<std::uint8_t>(slot.bytes >> 16U);
   store<std::uint16_t>(record, kFirstAt, static_cast<std::uint16_t>(first));
-  const auto payload = bytes.subspan(first * kBulkPiece, bytes_until(last));
-  std::copy(payload.begin(), payload.end(), record.begin() + kBulkFixed);
-  const auto written = std::span<const std::uint8_t>(record).first(kBulkFixed + payload.size());
-  if (!body.add_record(RecordType::kBulk, written)) return false;
-  for (std::size_t i = first; i < last; ++i) {
-    ++counters_.pieces;
-    if (all[i].sent) ++counters_.repeated;
-    all[i].sent = true;
-    all[i].sent_at = now;
-  }
-  return true;
+  std::copy(run.begin(), run.end(), record.begin() + kBulkFixed);
+  return body.add_record(RecordType::kBulk,
+                         std::span<const std::uint8_t>(record).first(kBulkFixed + run.size()));
 }
 
 bool BulkSender::take(const Record& record, const Received& /*received*/) {
   CHECK(record.type == RecordType::kBulkAck);
-  const auto bytes = record.payload;
-  const auto refuse = [&] {
-    ++counters_.malformed;
-    return false;
-  };
-  if (bytes.size() < kAckFixed || bytes.size() > kAckFixed + kBulkWindow / 8) return refuse();
-  if (bytes[kKindAt] >= kBulkKinds) return refuse();
-  if (bytes.size() > kAckFixed && bytes.back() == 0) return refuse();
-  const std::size_t kind = bytes[kKindAt];
-  Slot& slot = slots_[kind];
+  const auto arrivals = read_arrivals(record.payload);
+  if (!arrivals) return refuse();
+  Slot& slot = slots_[arrivals->kind];
   // One of an object that was replaced or is delivered already: late, not wrong.
-  if (slot.bytes == 0 || load<std::uint16_t>(bytes, 0) != slot.object) return true;
-  const std::size_t missing = load<std::uint16_t>(bytes, kMissingAt);
-  const std::size_t count = slot.pieces();
-  const auto bitmap = bytes.subspan(kAckFixed);
-  const auto came = [&](std::size_t i) { return (bitmap[i / 8] >> (i % 8) & 1U) != 0; };
-  for (std::size_t i = 0; i < 8 * bitmap.size(); ++i) {
-    if (came(i) && missing + 1 + i >= count) return refuse();
+  if (slot.bytes == 0 || arrivals->object != slot.object) return true;
+  const auto all = pieces(arrivals->kind);
+  if (arrivals->end() > all.size()) return refuse();
+  for (std::size_t i = slot.missing; i < arrivals->missing; ++i) all[i].acknowledged = true;
+  for (std::size_t k = 0; k < arrivals->bits(); ++k) {
+    if (arrivals->came(k)) all[arrivals->missing + 1 + k].acknowledged = true;
   }
-  if (missing > count) return refuse();
-  const auto all = pieces(kind);
-  for (std::size_t i = slot.missing; i < missing; ++i) all[i].acknowledged = true;
-  for (std::size_t i = 0; i < 8 * bitmap.size(); ++i) {
-    if (came(i)) all[missing + 1 + i].acknowledged = true;
-  }
-  while (slot.missing < count && all[slot.missing].acknowledged) ++slot.missing;
-  if (slot.missing == count) {
+  while (slot.missing < all.size() && all[slot.missing].acknowledged) ++slot.missing;
+  if (slot.missing == all.size()) {
     slot.bytes = 0;
     ++counters_.delivered;
   }
   return true;
+}
+
+bool BulkSender::refuse() {
+  ++counters_.malformed;
+  return false;
 }
 
 void BulkSender::peer_restarted() {
@@ -167,52 +208,46 @@ std::span<std::uint8_t> BulkReceiver::came(std::size_t kind) {
 
 bool BulkReceiver::take(const Record& record, const Received& /*received*/) {
   CHECK(record.type == RecordType::kBulk);
-  const auto bytes = record.payload;
-  const auto refuse = [&] {
-    ++counters_.malformed;
-    return false;
-  };
-  if (bytes.size() <= kBulkFixed || bytes[kKindAt] >= kBulkKinds) return refuse();
-  const std::size_t kind = bytes[kKindAt];
-  const std::size_t total = load<std::uint16_t>(bytes, kTotalAt) | std::size_t{bytes[kTotalAt + 2]}
-                                                                       << 16U;
-  const std::size_t first = load<std::uint16_t>(bytes, kFirstAt);
-  const auto payload = bytes.subspan(kBulkFixed);
-  if (total == 0 || total > kBulkObject) return refuse();
-  const std::size_t at = first * kBulkPiece, stream_size = total + sizeof(std::uint32_t);
-  if (at >= stream_size || payload.size() > stream_size - at) return refuse();
-  const bool to_the_end = payload.size() == stream_size - at;
-  if (payload.size() % kBulkPiece != 0 && !to_the_end) return refuse();
-
-  Slot& slot = slots_[kind];
-  const auto object = load<std::uint16_t>(bytes, 0);
-  if (slot.stage == Stage::kNone || object != slot.object) {
-    if (!begin(slot, kind, object, total)) return true;
-  } else if (slot.bytes != total) {
+  const auto run = read_run(record.payload);
+  if (!run) return refuse();
+  Slot& slot = slots_[run->kind];
+  if (slot.stage == Stage::kNone || run->object != slot.object) {
+    if (!begin(slot, run->kind, run->object, run->total)) return true;
+  } else if (slot.bytes != run->total) {
     return refuse();
   }
   slot.ack_due = true;
-  const std::size_t count = (payload.size() + kBulkPiece - 1) / kBulkPiece;
-  counters_.pieces += count;
+  counters_.pieces += run->count;
   if (slot.stage != Stage::kComing) {
-    counters_.repeated += count;
+    counters_.repeated += run->count;
     return true;
   }
+  keep(slot, run->kind, run->first, run->bytes);
+  if (slot.missing == slot.pieces()) finish(slot, run->kind);
+  return true;
+}
+
+bool BulkReceiver::refuse() {
+  ++counters_.malformed;
+  return false;
+}
+
+void BulkReceiver::keep(Slot& slot, std::size_t kind, std::size_t first,
+                        std::span<const std::uint8_t> bytes) {
   const auto have = came(kind);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (have[first + i] != 0) {
+  std::size_t piece = first;
+  for (; !bytes.empty(); ++piece) {
+    const auto part = bytes.first(std::min(kBulkPiece, bytes.size()));
+    bytes = bytes.subspan(part.size());
+    if (have[piece] != 0) {
       ++counters_.repeated;
       continue;
     }
-    const auto piece = payload.subspan(i * kBulkPiece);
-    std::copy_n(piece.begin(), std::min(kBulkPiece, piece.size()),
-                stream(kind).begin() + static_cast<std::ptrdiff_t>(at + i * kBulkPiece));
-    have[first + i] = 1;
+    std::ranges::copy(part, stream(kind).subspan(piece * kBulkPiece).begin());
+    have[piece] = 1;
   }
-  slot.end = std::max(slot.end, first + count);
+  slot.end = std::max(slot.end, piece);
   while (slot.missing < have.size() && have[slot.missing] != 0) ++slot.missing;
-  if (slot.missing == have.size()) finish(slot, kind);
-  return true;
 }
 
 // False: the object is older than the one that is known.
@@ -238,7 +273,7 @@ bool BulkReceiver::begin(Slot& slot, std::size_t kind, std::uint16_t object, std
 
 void BulkReceiver::finish(Slot& slot, std::size_t kind) {
   const auto all = stream(kind);
-  if (bits::crc32_ieee(all.first(slot.bytes)) == checksum_at(all, slot.bytes)) {
+  if (bits::crc32_ieee(all.first(slot.bytes)) == load<std::uint32_t>(all, slot.bytes)) {
     slot.stage = Stage::kWhole;
     return;
   }
@@ -261,27 +296,29 @@ void BulkReceiver::fill(BodyWriter& body, Instant /*now*/) {
   const std::size_t first = turn_;
   for (std::size_t i = 0; i < kBulkKinds; ++i) {
     const std::size_t kind = (first + i) % kBulkKinds;
-    Slot& slot = slots_[kind];
-    if (!slot.ack_due) continue;
-    std::array<std::uint8_t, kAckFixed + kBulkWindow / 8> record{};
-    store<std::uint16_t>(record, 0, slot.object);
-    record[kKindAt] = static_cast<std::uint8_t>(kind);
-    store<std::uint16_t>(record, kMissingAt, static_cast<std::uint16_t>(slot.missing));
-    std::size_t size = kAckFixed;
-    const auto have = came(kind);
-    const std::size_t end = std::min(slot.end, slot.missing + 1 + kBulkWindow);
-    for (std::size_t piece = slot.missing + 1; piece < end; ++piece) {
-      if (have[piece] == 0) continue;
-      const std::size_t bit = piece - slot.missing - 1;
-      size = kAckFixed + bit / 8 + 1;
-      record[size - 1] = static_cast<std::uint8_t>(record[size - 1] | 1U << (bit % 8));
-    }
-    if (!body.add_record(RecordType::kBulkAck, std::span<const std::uint8_t>(record).first(size))) {
-      return;
-    }
-    slot.ack_due = false;
+    if (!slots_[kind].ack_due) continue;
+    if (!acknowledge(body, kind)) return;
+    slots_[kind].ack_due = false;
     turn_ = (kind + 1) % kBulkKinds;
   }
+}
+
+bool BulkReceiver::acknowledge(BodyWriter& body, std::size_t kind) {
+  const Slot& slot = slots_[kind];
+  std::array<std::uint8_t, kAckFixed + kBulkWindow / 8> record{};
+  store<std::uint16_t>(record, 0, slot.object);
+  record[kKindAt] = static_cast<std::uint8_t>(kind);
+  store<std::uint16_t>(record, kMissingAt, static_cast<std::uint16_t>(slot.missing));
+  std::size_t size = kAckFixed;
+  const auto have = came(kind);
+  const std::size_t end = std::min(slot.end, slot.missing + 1 + kBulkWindow);
+  for (std::size_t piece = slot.missing + 1; piece < end; ++piece) {
+    if (have[piece] == 0) continue;
+    const std::size_t bit = piece - slot.missing - 1;
+    size = kAckFixed + bit / 8 + 1;
+    record[size - 1] = static_cast<std::uint8_t>(record[size - 1] | 1U << (bit % 8));
+  }
+  return body.add_record(RecordType::kBulkAck, std::span<const std::uint8_t>(record).first(size));
 }
 
 void BulkReceiver::peer_restarted() {

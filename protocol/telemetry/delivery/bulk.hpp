@@ -72,6 +72,9 @@ class BulkSender {
   std::span<std::uint8_t> stream(std::size_t kind);
   std::span<Piece> pieces(std::size_t kind);
   bool send(BodyWriter& body, std::size_t kind, Duration patience, Instant now);
+  bool write(BodyWriter& body, std::size_t kind, std::size_t first,
+             std::span<const std::uint8_t> run) const;
+  bool refuse();
 
   std::vector<std::uint8_t> store_;
   std::vector<Piece> pieces_;
@@ -111,7 +114,10 @@ class BulkReceiver {
   std::span<std::uint8_t> stream(std::size_t kind);
   std::span<std::uint8_t> came(std::size_t kind);
   bool begin(Slot& slot, std::size_t kind, std::uint16_t object, std::size_t bytes);
+  void keep(Slot& slot, std::size_t kind, std::size_t first, std::span<const std::uint8_t> bytes);
   void finish(Slot& slot, std::size_t kind);
+  bool acknowledge(BodyWriter& body, std::size_t kind);
+  bool refuse();
 
   std::vector<std::uint8_t> store_;
   std::vector<std::uint8_t> came_;  // by kind and piece: 0 or 1
