@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "protocol/telemetry/command/authority.hpp"
 #include "protocol/telemetry/command/command_ledger.hpp"
@@ -58,8 +59,11 @@ class CarEndpoint {
   // Where the car is, for loss by track position.
   void place(double station_m, double lap_length_m, Instant now);
 
-  // Safety groups of both ends are the same; else the car must not be armed.
+  // Safety groups of both ends are the same; else the car must not be armed. False before the
+  // first session.
   bool schema_agrees() const;
+  // One line for each difference of the safety groups, as far as the base has told.
+  std::string schema_difference() const;
   LinkReport report(Instant now) const;
 
  private:

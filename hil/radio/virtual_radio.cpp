@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/radio/virtual_radio.hpp"
+
+#include <cmath>
+
+#include "protocol/telemetry/packet/header.hpp"
+#include "protocol/vocabulary/check.hpp"
+
+namespace pitwall::radio {
+
+using namespace telemetry;  // NOLINT: the bench of this one module
+
+namespace {
+
+// Both clocks began long before the run.
+constexpr Duration kUptime = seconds(1'000);
+constexpr std::size_t kRemembered = 65'536;  // packets, by their low bits
+
+constexpr Address kCarAddress{0x0A000001, 4'000}, kBaseAddress{0x0A000002, 5'000};
+
+Address on_path(Address address, PathId path) {
+  return {address.ip, static_cast<std::uint16_t>(address.port + path)};
+}
+
+// A datagram under way: from where, and the port that it goes to.
+std::uint64_t tag_of(Address from, Address to) {
+  return std::uint64_t{from.ip} << 32 | std::uint64_t{from.port} << 16 | to.port;
+}
+Address source_of(std::uint64_t tag) {
+  return {static_cast<std::uint32_t>(tag >> 32), static_cast<std::uint16_t>(tag >> 16)};
+}
+
+struct Steps {
+  double min, resolution;
+  std::uint64_t count;
+};
+const auto kSteps = [] {
+  std::array<Steps, kFieldCount> steps{};
+  for (std::size_t i = 0; i < kFieldCount; ++i) {
+    const auto quantized = kFields[i].quantized();
+    steps[i] = {quantized.min(), quantized.resolution(), quantized.count()};
+  }
+  return steps;
+}();
+
+}  // namespace
+
+double VirtualRadio::value_of(FieldIndex field, std::int64_t tick) {
+  const Steps& steps = kSteps[field];
+  std::uint64_t mixed = (static_cast<std::uint64_t>(tick) + 1) * 0x9E3779B97F4A7C15U;
+  mixed = (mixed ^ (field + 1) * 0xBF58476D1CE4E5B9U) * 0x94D049BB133111EBU;
+  return steps.min + static_cast<double>((mixed >> 24) % steps.count) * steps.resolution;
+}
+
+VirtualRadio::VirtualRadio(const RadioSetup& setup)
+    : setup_(setup), randomness_(setup.seed), sent_(kRemembered) {
+  car_keys_ = {.role = Role::kCar, .own = make_identity(randomness_), .peer = {}};
+  base_keys_ = {.role = Role::kBase, .own = make_identity(randomness_), .peer = {}};
+  car_keys_.peer = base_keys_.own.public_key;
+  base_keys_.peer = car_keys_.own.public_key;
+  for (PathId path = 0; path < kPaths; ++path) {
+    car_side_.address[path] = on_path(kCarAddress, path);
+    base_side_.address[path] = on_path(kBaseAddress, path);
+    down_[path] =
+        std::make_unique<link::LinkEmulator>(setup.down[path], link_seed(setup.seed, path, true));
+    up_[path] =
+        std::make_unique<link::LinkEmulator>(setup.up[path], link_seed(setup.seed, path, false));
+  }
+  restart_car();
+  restart_base();
+}
+
+ConduitConfig VirtualRadio::config(bool car) const {
+  ConduitConfig config;
+  config.association.keys = car ? car_keys_ : base_keys_;
+  config.association.greeting.signed_only = setup_.signed_only;
+  config.association.greeting.safety_schema = car ? setup_.schema_of_car : setup_.schema_of_base;
+  if (car) config.association.peer = base_side_.address;
+  config.association.paths = setup_.paths;
+  config.association.first_sequence = setup_.first_sequence;
+  config.budget = car ? setup_.budget_down : setup_.budget_up;
+  config.policy = setup_.policy;
+  return config;
+}
+
+void VirtualRadio::restart_car() {
+  car_ = std::make_unique<CarEndpoint>(config(true), randomness_);
+  tick_at_base_.fill(-1);
+}
+
+void VirtualRadio::restart_base() {
+  station_ = std::make_unique<StationEndpoint>(config(false), randomness_);
+  tick_at_base_.fill(-1);
+}
+
+Instant VirtualRadio::car_time(Instant air) const { return air + kUptime; }
+
+Instant VirtualRadio::base_time(Instant air) const {
+  const double drift_ns = static_cast<double>(air.ns) * setup_.clock_drift_ppm * 1e-6;
+  return air + kUptime + setup_.clock_offset + nanoseconds(std::llround(drift_ns));
+}
+
+void VirtualRadio::run(Duration length) {
+  for (const Instant end = now_ + length; now_ < end;) step();
+}
+
+void VirtualRadio::step() {
+  deliver();
+  if ((now_ - Instant{}).ns % kTick.ns == 0) tick_car();
+  poll_base();
+  look();
+  now_ += kStep;
+}
+
+void VirtualRadio::deliver() {
+  for (PathId path = 0; path < setup_.paths; ++path) {
+    while (const auto datagram = down_[path]->take(now_)) take_at_base(*datagram, path);
+    while (const auto datagram = up_[path]->take(now_)) take_at_car(*datagram, path);
+  }
+}
+
+void VirtualRadio::take_at_car(const link::Datagram& datagram, PathId path) {
+  if ((datagram.tag & 0xFFFF) != car_side_.address[path].port) return;
+  car_->feed(datagram.bytes, path, source_of(datagram.tag), car_now());
+}
+
+void VirtualRadio::take_at_base(const link::Datagram& datagram, PathId path) {
+  if ((datagram.tag & 0xFFFF) != base_side_.address[path].port) return;
+  const auto arrival = station_->feed(datagram.bytes, path, source_of(datagram.tag), base_now());
+  if (arrival) judge(*arrival);
+}
+
+void VirtualRadio::inject(bool at_base, PathId path, Address from,
+                          std::span<const std::uint8_t> bytes) {
+  if (!at_base) return car_->feed(bytes, path, from, car_now());
+  const auto arrival = station_->feed(bytes, path, from, base_now());
+  if (arrival) judge(*arrival);
+}
+
+void VirtualRadio::judge(const Arrival& arrival) {
+  ++arrivals_;
+  const Sent& sent = sent_[arrival.sequence % kRemembered];
+  if (sent.tick < 0 || sent.sequence_low != static_cast<std::uint32_t>(arrival.sequence)) {
+    ++falsehoods_.never_sampled;
+    return;
+  }
+  for (const GroupRow& row : kGroupTable) {
+    if (!arrival.groups.has(row.group)) continue;
+    std::int64_t& tick = tick_at_base_[index_of(row.group)];
+    if (sent.tick < tick) ++falsehoods_.went_back;
+    tick = sent.tick;
+    const Instant told = station_->state().at(row.group);
+    const Instant truth = base_time(Instant{} + kTick * sent.tick);
+    if (station_->clock_known() && told > truth) ++falsehoods_.too_young;
+    judge_values(row.group, sent.tick);
+  }
+}
+
+void VirtualRadio::judge_values(Group group, std::int64_t tick) {
+  const auto [first, count] = fields_of(group);
+  for (FieldIndex i = first; i < first + count; ++i) {
+    if (station_->state().values[i] != value_of(i, tick)) ++falsehoods_.never_sampled;
+  }
+}
+
+void VirtualRadio::tick_car() {
+  tick_ = (now_ - Instant{}) / kTick;
+  for (FieldIndex i = 0; i < kFieldCount; ++i) snapshot_.values[i] = value_of(i, tick_);
+  for (const GroupRow& row : kGroupTable) {
+    if (sampled_.has(row.group)) snapshot_.at(row.group) = car_now();
+  }
+  while (const auto out = car_->poll(snapshot_, car_now())) send(true, *out);
+}
+
+void VirtualRadio::poll_base() {
+  if (station_->due() > base_now()) return;
+  while (const auto out = station_->poll(base_now())) send(false, *out);
+}
+
+void VirtualRadio::send(bool down, const Outgoing& out) {
+  note_departure(down, out.path, out.bytes.size());
+  const auto header = parse_header(out.bytes);
+  CHECK(header.has_value());
+  const bool data = header->kind == Kind::kSealed || header->kind == Kind::kSigned;
+  if (down && data) {
+    sent_[header->sequence_low % kRemembered] = {header->sequence_low, tick_};
+  }
+  if (tap_ && !tap_(down, out.path, out.bytes)) return;
+  Side& side = down ? car_side_ : base_side_;
+  if (side.cut[out.path]) return;
+  link::LinkEmulator& link = down ? *down_[out.path] : *up_[out.path];
+  link.offer(out.bytes, now_, tag_of(side.address[out.path], out.to));
+}
+
+void VirtualRadio::note_departure(bool down, PathId path, std::size_t bytes) {
+  if (recording_) departures_[down ? 0 : 1][path].push_back({now_, bytes + kIpUdpOverhead});
+}
+
+void VirtualRadio::cut(PathId path, bool down, bool up) {
+  car_side_.cut[path] = down;
+  base_side_.cut[path] = up;
+}
+
+void VirtualRadio::move_car(PathId path, Address source) { car_side_.address[path] = source; }
+void VirtualRadio::move_base(PathId path, Address source) { base_side_.address[path] = source; }
+
+std::optional<Instant> VirtualRadio::sample_at_base(Group group) const {
+  const std::int64_t tick = tick_at_base_[index_of(group)];
+  if (tick < 0) return {};
+  return Instant{} + kTick * tick;
+}
+
+void VirtualRadio::look() {
+  for (const GroupRow& row : kGroupTable) {
+    const std::int64_t tick = tick_at_base_[index_of(row.group)];
+    if (tick >= 0) ages_.look(row.group, now_ - (Instant{} + kTick * tick));
+  }
+}
+
+}  // namespace pitwall::radio

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/telemetry/endpoint/car_endpoint.hpp"
+
+#include <algorithm>
+
+#include "protocol/telemetry/endpoint/state_lane.hpp"
+
+namespace pitwall::telemetry {
+
+struct CarEndpoint::Parts {
+  Parts(const ConduitConfig& config, Randomness& source)
+      : randomness(&source), conduit(config, Direction::kDown, source), ledger(conduit.own().boot) {
+    draw();
+  }
+
+  void draw() {
+    std::array<std::uint8_t, 2> drawn{};
+    randomness->fill(drawn);
+    latch.draw(static_cast<std::uint16_t>(drawn[0] | drawn[1] << 8));
+    drawn_for = latch.challenge();
+  }
+
+  void begin_session(bool peer_restarted);
+  void hear(const Heard& heard);
+  void hear_groups(const Body& body, const Received& received);
+  void take(const Record& record, const Received& received);
+  void make_packet(const PacketPlan& plan, Instant now);
+  void add_what_waits(BodyWriter& body, Instant now);
+  bool something_waits() const { return events.waiting() > 0 || !bulk.idle(); }
+
+  Randomness* randomness;
+  Conduit conduit;
+  StateLane lane{Direction::kDown};
+  Snapshot snapshot;
+  StopLatch latch;
+  std::uint16_t drawn_for = 0;
+  JoystickReceiver joystick;
+  AuthorityView authority;
+  CommandLedger ledger;
+  EventSender events;
+  BulkSender bulk;
+  std::optional<Instant> alive_at;
+  bool standstill = false;
+  std::uint64_t bad_records = 0;
+};
+
+void CarEndpoint::Parts::begin_session(bool peer_restarted) {
+  if (peer_restarted) {
+    latch.base_restarted();
+    joystick.base_restarted();
+    authority.base_restarted();
+    events.peer_restarted();
+    bulk.peer_restarted();
+  }
+  if (conduit.peer()) ledger.meets(conduit.peer()->boot);
+  lane.forget(conduit.peer_knows());
+}
+
+void CarEndpoint::Parts::hear(const Heard& heard) {
+  const Received& received = heard.received;
+  if (received.sent_earliest) {
+    alive_at = alive_at ? std::max(*alive_at, *received.sent_earliest) : *received.sent_earliest;
+  }
+  for (const Delivery& delivery : heard.delivered) lane.acked(delivery.sequence);
+  hear_groups(heard.body, received);
+  for (const Record& record : heard.body.records) take(record, received);
+}
+
+// Also those of a packet that was overtaken: each knows by its own numbers what is newer.
+void CarEndpoint::Parts::hear_groups(const Body& body, const Received& received) {
+  if (body.groups.has(Group::kAuthority)) authority.heard(body.values, received);
+  if (body.groups.has(Group::kJoystick)) joystick.heard(body.values, received);
+  if (!body.groups.has(Group::kStop)) return;
+  if (const auto stop = stop_state_of(body.values)) latch.heard(*stop, received.at);
+  if (latch.challenge() != drawn_for) draw();
+}
+
+void CarEndpoint::Parts::take(const Record& record, const Received& received) {
+  bool good = true;
+  switch (record.type) {
+    case RecordType::kCommand:
+    case RecordType::kCommandResultAck:
+      good = ledger.take(record, received, authority);
+      break;
+    case RecordType::kEventAck:
+      good = events.take(record, received);
+      break;
+    case RecordType::kBulkAck:
+      good = bulk.take(record, received);
+      break;
+    default:
+      good = conduit.takes(record.type);
+  }
+  if (!good) ++bad_records;
+}
+
+CarEndpoint::CarEndpoint(const ConduitConfig& config, Randomness& randomness)
+    : parts_(std::make_unique<Parts>(config, randomness)) {}
+CarEndpoint::~CarEndpoint() = default;
+CarEndpoint::CarEndpoint(CarEndpoint&&) noexcept = default;
+CarEndpoint& CarEndpoint::operator=(CarEndpoint&&) noexcept = default;
+
+void CarEndpoint::feed(std::span<const std::uint8_t> datagram, PathId path, Address from,
+                       Instant at) {
+  const Conduit::Fed fed = parts_->conduit.feed(datagram, path, from, at);
+  if (fed.new_session) parts_->begin_session(fed.peer_restarted);
+  if (fed.heard) parts_->hear(*fed.heard);
+}
+
+std::optional<Outgoing> CarEndpoint::poll(const Snapshot& snapshot, Instant now) {
+  for (;;) {
+    if (const auto out = parts_->conduit.take(now)) return out;
+    const auto plan = parts_->conduit.plan(now, parts_->something_waits());
+    if (!plan) return {};
+    parts_->snapshot = snapshot;
+    parts_->make_packet(*plan, now);
+  }
+}
+
+void CarEndpoint::Parts::make_packet(const PacketPlan& plan, Instant now) {
+  const PacketRoom room = conduit.room_for(plan, lane.safety_size(snapshot), ledger.wanted(), now);
+  BodyWriter body = conduit.begin(plan, room.whole, now);
+  const std::size_t fixed = body.bytes().size();
+  body.hold_back(room.records);
+  const bool fill = !something_waits();
+  const std::size_t of_state = lane.write(
+      body, snapshot,
+      {.only_safety = room.only_safety, .fill = fill, .round_trip = conduit.round_trip()}, now);
+  body.hold_back(0);
+  const std::size_t written = body.bytes().size();
+  conduit.add_path_records(body, plan, now);
+  ledger.fill(body, now);
+  const std::size_t safety = fixed + of_state + body.bytes().size() - written;
+  if (!room.only_safety) {
+    body.hold_back(conduit.kept_from_others(plan, room, safety, now));
+    events.fill(body, now);
+    bulk.fill(body, conduit.round_trip(), now);
+  }
+  lane.sent(conduit.send(body, plan, safety, now), snapshot, now);
+}
+
+Instant CarEndpoint::due() const { return parts_->conduit.due(); }
+
+OperatorView CarEndpoint::view(Instant now) const {
+  return {.stop = parts_->latch.level(),
+          .stop_reason = parts_->latch.reason(),
+          .stop_challenge = parts_->latch.challenge(),
+          .joystick = parts_->joystick.sample(now),
+          .authority = parts_->authority.holder(now),
+          .alive_at = parts_->alive_at};
+}
+
+std::optional<DueCommand> CarEndpoint::next_command(Instant now) {
+  Parts& p = *parts_;
+  while (const auto due = p.ledger.take_due(now, p.authority)) {
+    if (due->command.type != CommandType::kReleaseStop) return due;
+    const bool opened =
+        p.latch.release(static_cast<std::uint16_t>(due->command.argument), p.standstill);
+    p.ledger.decide(due->id, opened ? Outcome::kApplied : Outcome::kRefused, now);
+    if (p.latch.challenge() != p.drawn_for) p.draw();
+  }
+  return {};
+}
+
+void CarEndpoint::decide(CommandId id, Outcome outcome, Instant now) {
+  parts_->ledger.decide(id, outcome, now);
+}
+
+void CarEndpoint::standstill(bool stands) { parts_->standstill = stands; }
+bool CarEndpoint::log(const Event& event) { return parts_->events.offer(event); }
+bool CarEndpoint::offer(BulkKind kind, std::span<const std::uint8_t> bytes) {
+  return parts_->bulk.offer(kind, bytes);
+}
+void CarEndpoint::place(double station_m, double lap_length_m, Instant now) {
+  parts_->conduit.place(station_m, lap_length_m, now);
+}
+
+bool CarEndpoint::schema_agrees() const { return parts_->conduit.schema_agrees(); }
+std::string CarEndpoint::schema_difference() const { return {}; }
+
+LinkReport CarEndpoint::report(Instant now) const {
+  const Parts& p = *parts_;
+  LinkReport report;
+  p.conduit.report(report, now);
+  report.bad_records = p.bad_records;
+  report.codec = p.lane.codec();
+  for (const GroupRow& row : kGroupTable) {
+    report.groups[index_of(row.group)] = p.lane.figures(row.group);
+  }
+  report.ledger = p.ledger.counters();
+  report.events = p.events.counters();
+  report.bulk = p.bulk.counters();
+  return report;
+}
+
+}  // namespace pitwall::telemetry

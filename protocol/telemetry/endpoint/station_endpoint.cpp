@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/telemetry/endpoint/station_endpoint.hpp"
+
+#include <algorithm>
+
+#include "protocol/telemetry/endpoint/state_lane.hpp"
+
+namespace pitwall::telemetry {
+
+struct StationEndpoint::Parts {
+  Parts(const ConduitConfig& config, Randomness& source)
+      : conduit(config, Direction::kUp, source), desk(conduit.own().boot) {}
+
+  void begin_session(bool peer_restarted, Instant now);
+  Arrival hear(const Heard& heard);
+  void take_groups(const Heard& heard, Arrival& arrival);
+  void take(const Record& record, const Received& received);
+  void note_release();
+  Snapshot sample(Instant now) const;
+  void make_packet(const PacketPlan& plan, Instant now);
+
+  Conduit conduit;
+  StateLane lane{Direction::kUp};
+  Snapshot state;
+  std::array<std::uint64_t, kGroups> sequence_of{};  // of the packet that brought the group
+  GroupSet mapped;  // groups whose time was told by compared clocks
+  StopDesk stop;
+  AuthorityDesk authority;
+  JoystickSender joystick;
+  CommandDesk desk;
+  std::optional<CommandId> release;  // under way
+  EventReceiver events;
+  BulkReceiver bulk;
+  std::uint64_t bad_records = 0;
+};
+
+void StationEndpoint::Parts::begin_session(bool peer_restarted, Instant now) {
+  sequence_of.fill(0);
+  if (peer_restarted) {
+    // What the car was is no more; nor are its times comparable.
+    state = {};
+    mapped = {};
+    events.peer_restarted();
+    bulk.peer_restarted();
+  }
+  if (conduit.peer()) desk.meets(conduit.peer()->boot, now);
+  lane.forget(conduit.peer_knows());
+}
+
+Arrival StationEndpoint::Parts::hear(const Heard& heard) {
+  const Received& received = heard.received;
+  Arrival arrival{
+      .groups = {}, .sequence = received.sequence, .path = received.path, .received = received.at};
+  for (const Delivery& delivery : heard.delivered) lane.acked(delivery.sequence);
+  take_groups(heard, arrival);
+  for (const Record& record : heard.body.records) take(record, received);
+  note_release();
+  return arrival;
+}
+
+// Of two packets the one with the higher number was made later, of samples that are not older.
+void StationEndpoint::Parts::take_groups(const Heard& heard, Arrival& arrival) {
+  const Received& received = heard.received;
+  for (const FieldRow& row : kFields) {
+    const std::size_t g = index_of(row.group);
+    if (!heard.body.groups.has(row.group) || received.sequence < sequence_of[g]) continue;
+    const auto at = static_cast<FieldIndex>(&row - kFields.data());
+    state.values[at] = heard.body.values[at];
+    arrival.groups.add(row.group);
+  }
+  const Instant sent = received.sent_earliest.value_or(received.at);
+  for (const GroupRow& row : kGroupTable) {
+    if (!arrival.groups.has(row.group)) continue;
+    const std::size_t g = index_of(row.group);
+    sequence_of[g] = received.sequence;
+    const std::uint8_t code = heard.body.age_codes[g];
+    if (code == kNeverCode) continue;
+    // Both this time and the one before are not later than their samples: so is the later of them.
+    const Instant sampled = sent - age_of_code(code);
+    const bool comparable = mapped.has(row.group) && received.sent_earliest;
+    state.at(row.group) = comparable ? std::max(state.at(row.group), sampled) : sampled;
+    if (received.sent_earliest) mapped.add(row.group);
+  }
+}
+
+void StationEndpoint::Parts::take(const Record& record, const Received& received) {
+  bool good = true;
+  switch (record.type) {
+    case RecordType::kCommandResult:
+      good = desk.take(record, received);
+      break;
+    case RecordType::kEvent:
+      good = events.take(record, received);
+      break;
+    case RecordType::kBulk:
+      good = bulk.take(record, received);
+      break;
+    default:
+      good = conduit.takes(record.type);
+  }
+  if (!good) ++bad_records;
+}
+
+// The latch that the release opened is asserted no longer.
+void StationEndpoint::Parts::note_release() {
+  if (!release) return;
+  const CommandProgress* progress = desk.progress(*release);
+  if (progress && !progress->fate) return;
+  if (progress && progress->fate == Outcome::kApplied) stop.released(*release);
+  release.reset();
+}
+
+StationEndpoint::StationEndpoint(const ConduitConfig& config, Randomness& randomness)
+    : parts_(std::make_unique<Parts>(config, randomness)) {}
+StationEndpoint::~StationEndpoint() = default;
+StationEndpoint::StationEndpoint(StationEndpoint&&) noexcept = default;
+StationEndpoint& StationEndpoint::operator=(StationEndpoint&&) noexcept = default;
+
+std::optional<Arrival> StationEndpoint::feed(std::span<const std::uint8_t> datagram, PathId path,
+                                             Address from, Instant at) {
+  const Conduit::Fed fed = parts_->conduit.feed(datagram, path, from, at);
+  if (fed.new_session) parts_->begin_session(fed.peer_restarted, at);
+  if (!fed.heard) return {};
+  return parts_->hear(*fed.heard);
+}
+
+std::optional<Outgoing> StationEndpoint::poll(Instant now) {
+  for (;;) {
+    if (const auto out = parts_->conduit.take(now)) return out;
+    const auto plan = parts_->conduit.plan(now, false);
+    if (!plan) return {};
+    parts_->make_packet(*plan, now);
+  }
+}
+
+// What the operator wants is sampled when the packet is made.
+Snapshot StationEndpoint::Parts::sample(Instant now) const {
+  Snapshot snapshot;
+  put(stop.state(), snapshot.values);
+  joystick.put(snapshot.values, now);
+  authority.put(snapshot.values, now);
+  for (const Group group : {Group::kStop, Group::kJoystick, Group::kAuthority}) {
+    snapshot.at(group) = now;
+  }
+  return snapshot;
+}
+
+void StationEndpoint::Parts::make_packet(const PacketPlan& plan, Instant now) {
+  const Snapshot snapshot = sample(now);
+  const std::size_t wants = desk.wanted() + events.wanted();
+  const PacketRoom room = conduit.room_for(plan, lane.safety_size(snapshot), wants, now);
+  BodyWriter body = conduit.begin(plan, room.whole, now);
+  const std::size_t fixed = body.bytes().size();
+  body.hold_back(room.records);
+  const std::size_t of_state = lane.write(
+      body, snapshot,
+      {.only_safety = room.only_safety, .fill = true, .round_trip = conduit.round_trip()}, now);
+  body.hold_back(0);
+  const std::size_t written = body.bytes().size();
+  conduit.add_path_records(body, plan, now);
+  desk.fill(body, now);
+  events.fill(body, now);
+  const std::size_t safety = fixed + of_state + body.bytes().size() - written;
+  if (!room.only_safety) {
+    body.hold_back(conduit.kept_from_others(plan, room, safety, now));
+    bulk.fill(body, now);
+  }
+  lane.sent(conduit.send(body, plan, safety, now), snapshot, now);
+}
+
+Instant StationEndpoint::due() const { return parts_->conduit.due(); }
+
+const Snapshot& StationEndpoint::state() const { return parts_->state; }
+bool StationEndpoint::clock_known() const { return parts_->conduit.clock().known(); }
+
+std::optional<CommandId> StationEndpoint::issue(const Command& command, Instant now) {
+  const auto id = parts_->desk.issue(command, now);
+  if (id && command.type == CommandType::kReleaseStop) {
+    parts_->release = id;
+    parts_->stop.release_asked(*id);
+  }
+  return id;
+}
+
+const CommandProgress* StationEndpoint::progress(CommandId id) const {
+  return parts_->desk.progress(id);
+}
+StopDesk& StationEndpoint::stop() { return parts_->stop; }
+AuthorityDesk& StationEndpoint::authority() { return parts_->authority; }
+JoystickSender& StationEndpoint::joystick() { return parts_->joystick; }
+std::optional<Event> StationEndpoint::next_event() { return parts_->events.next(); }
+std::optional<BulkReceiver::Object> StationEndpoint::next_bulk() { return parts_->bulk.next(); }
+
+bool StationEndpoint::schema_agrees() const { return parts_->conduit.schema_agrees(); }
+std::string StationEndpoint::schema_difference() const { return {}; }
+
+LinkReport StationEndpoint::report(Instant now) const {
+  const Parts& p = *parts_;
+  LinkReport report;
+  p.conduit.report(report, now);
+  report.bad_records = p.bad_records;
+  report.codec = p.lane.codec();
+  for (const GroupRow& row : kGroupTable) {
+    report.groups[index_of(row.group)] = p.lane.figures(row.group);
+  }
+  report.events = p.events.counters();
+  report.bulk = p.bulk.counters();
+  return report;
+}
+
+}  // namespace pitwall::telemetry
