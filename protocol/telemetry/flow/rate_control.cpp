@@ -29,7 +29,7 @@ RateControl::RateControl(double budget_bytes_per_s, double floor_bytes_per_s)
 }
 
 void RateControl::forget_old(double at_s) {
-  while (count_ > 0 && (count_ == kWindow || points_[first_].at_s < at_s - kSpan_s)) {
+  while (count_ == kWindow || (count_ > kLeastPoints && points_[first_].at_s < at_s - kSpan_s)) {
     first_ = (first_ + 1) % kWindow;
     --count_;
   }

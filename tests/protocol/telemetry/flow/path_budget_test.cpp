@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/telemetry/flow/path_budget.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <type_traits>
+#include <vector>
+
+#include "protocol/telemetry/packet/header.hpp"
+#include "protocol/telemetry/session/association.hpp"
+#include "tests/support/draw.hpp"
+
+namespace pitwall::telemetry {
+namespace {
+
+static_assert(std::is_trivially_copyable_v<PathBudget>);
+static_assert(PathBudget::kLeastLargest >= kMaxExchangeSize);
+
+struct Departure {
+  Instant at{};
+  std::size_t bytes = 0;  // on the wire
+};
+
+// Most bytes and packets of any closed window of this length, begun at each millisecond and at
+// each departure. Counted from the departures alone.
+struct Worst {
+  std::size_t bytes = 0, packets = 0;
+};
+
+Worst worst_of_starts(const std::vector<Departure>& departures, const std::vector<Instant>& starts,
+                      Duration length) {
+  Worst worst;
+  std::size_t first = 0, end = 0, bytes = 0;
+  for (const Instant start : starts) {
+    while (end < departures.size() && departures[end].at <= start + length) {
+      bytes += departures[end++].bytes;
+    }
+    while (first < end && departures[first].at < start) bytes -= departures[first++].bytes;
+    worst.bytes = std::max(worst.bytes, bytes);
+    worst.packets = std::max(worst.packets, end - first);
+  }
+  return worst;
+}
+
+Worst worst_window(const std::vector<Departure>& departures, Duration length) {
+  std::vector<Instant> starts;
+  const Instant last = departures.back().at;
+  for (Instant t = departures.front().at - length; t <= last; t += milliseconds(1)) {
+    starts.push_back(t);
+  }
+  for (const Departure& d : departures) starts.push_back(d.at);
+  std::sort(starts.begin(), starts.end());
+  return worst_of_starts(departures, starts, length);
+}
+
+PathBudget made(const BudgetParams& params) {
+  auto budget = PathBudget::make(params);
+  EXPECT_TRUE(budget) << to_string(budget.error());
+  return *budget;
+}
+
+// Somebody who sends what he likes whenever there is room, now and then after a pause.
+class RandomSender {
+ public:
+  explicit RandomSender(std::uint64_t seed) : random_(seed) {}
+
+  std::vector<Departure> run(PathBudget& budget, Duration length) {
+    std::vector<Departure> departures;
+    const int greed = static_cast<int>(random_() % 4);
+    Instant now{static_cast<std::int64_t>(random_() % 1'000'000'000'000)};
+    for (const Instant end = now + length; now < end; now += pause()) {
+      if (random_() % 200 == 0) {
+        budget.scale(testing::draw_uniform(random_, 0.05, 1.0), now);
+      }
+      const std::size_t safety = greed == 1 ? 0 : random_() % 120;
+      const std::size_t room =
+          safety == 0 ? budget.room_for_all(now) : budget.room_beside(safety, now);
+      if (room == 0 || room < safety) continue;
+      const std::size_t payload =
+          greed < 2 ? room : std::max<std::size_t>({safety, 1, random_() % (room + 1)});
+      EXPECT_LE(payload, budget.largest_payload());
+      budget.spend(payload, safety, now);
+      departures.push_back({now, payload + kIpUdpOverhead});
+    }
+    return departures;
+  }
+
+ private:
+  Duration pause() {
+    if (random_() % 500 == 0) return milliseconds(static_cast<std::int64_t>(random_() % 2'000));
+    return microseconds(static_cast<std::int64_t>(random_() % 3'000));
+  }
+
+  std::mt19937_64 random_;
+};
+
+TEST(PathBudget, HoldsInEveryWindowWhoeverSends) {
+  for (const double kbit_per_s : {64.0, 128.0, 256.0, 1'024.0}) {
+    for (const double packets_per_s : {37.0, 100.0, 1'000.0}) {
+      for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        BudgetParams params{.bytes_per_s = kbit_per_s * 125, .packets_per_s = packets_per_s};
+        if (seed % 3 == 0) params.largest_payload = 700;
+        PathBudget budget = made(params);
+        const auto departures = RandomSender(seed).run(budget, seconds(40));
+        ASSERT_GT(departures.size(), 100U);
+        const auto largest = static_cast<double>(budget.largest_payload() + kIpUdpOverhead);
+
+        const Worst tenth = worst_window(departures, milliseconds(100));
+        EXPECT_LE(static_cast<double>(tenth.bytes), params.bytes_per_s * 0.1 + largest);
+        EXPECT_LE(static_cast<double>(tenth.packets), packets_per_s * 0.1 + 1);
+        const Worst second = worst_window(departures, seconds(1));
+        EXPECT_LE(static_cast<double>(second.bytes), params.bytes_per_s)
+            << kbit_per_s << " kbit/s, seed " << seed;
+      }
+    }
+  }
+}
+
+TEST(PathBudget, UsesNearlyAllOfTheRate) {
+  for (const double kbit_per_s : {64.0, 256.0, 1'024.0}) {
+    PathBudget budget = made({.bytes_per_s = kbit_per_s * 125, .packets_per_s = 200});
+    for (Instant now{}; now < Instant{} + seconds(20); now += milliseconds(1)) {
+      const std::size_t room = budget.room_for_all(now);
+      if (room >= budget.largest_payload() / 2) budget.spend(room, 0, now);
+    }
+    EXPECT_GT(static_cast<double>(budget.counters().bytes), 0.93 * 20 * kbit_per_s * 125)
+        << kbit_per_s;
+  }
+}
+
+// Others take all that they are given at every millisecond; safety still finds its share in each
+// slot, whatever rate control has left of the rest.
+TEST(PathBudget, OthersNeverTouchTheShareOfSafety) {
+  for (const double factor : {1.0, 0.5, 0.001}) {
+    for (const double kbit_per_s : {64.0, 256.0}) {
+      const BudgetParams params{.bytes_per_s = kbit_per_s * 125, .packets_per_s = 10'000};
+      PathBudget budget = made(params);
+      budget.scale(factor, Instant{});
+      const std::size_t slot = static_cast<std::size_t>(params.safety_bytes_per_s * 0.02);
+      for (int ms = 0; ms < 20'000; ++ms) {
+        const Instant now = Instant{} + milliseconds(ms);
+        if (ms % 20 == 0) {
+          ASSERT_GE(budget.room_for_safety(now), slot - kIpUdpOverhead) << ms;
+          budget.spend(slot - kIpUdpOverhead, slot - kIpUdpOverhead, now);
+        } else if (const std::size_t room = budget.room_for_all(now); room > 0) {
+          budget.spend(room, 0, now);
+        }
+      }
+      EXPECT_EQ(budget.counters().safety_bytes, slot * 1'000);
+    }
+  }
+}
+
+TEST(PathBudget, SafetyBorrowsFromTheRest) {
+  PathBudget budget = made({});
+  EXPECT_EQ(budget.room_for_safety(Instant{}), budget.largest_payload());
+  EXPECT_LT(budget.room_for_all(Instant{}), budget.largest_payload());
+  EXPECT_GT(budget.room_beside(60, Instant{}), budget.room_for_all(Instant{}));
+  EXPECT_EQ(budget.room_beside(0, Instant{}), budget.room_for_all(Instant{}));
+}
+
+TEST(PathBudget, IsDueWhenItSays) {
+  std::mt19937_64 random(7);
+  PathBudget budget = made({});
+  const std::size_t most = budget.room_for_all(Instant{});
+  Instant now{};
+  for (int i = 0; i < 5'000; ++i) {
+    now += microseconds(static_cast<std::int64_t>(random() % 20'000));
+    if (random() % 10 == 0) budget.scale(0.2 + 0.1 * static_cast<double>(random() % 9), now);
+    const std::size_t payload = 1 + random() % most;
+    const Instant due = budget.due(payload, now);
+    ASSERT_GE(budget.room_for_all(due), payload);
+    if (due > now) {
+      ASSERT_LT(budget.room_for_all(due - microseconds(1)), payload);
+    }
+    const std::size_t room = budget.room_beside(40, now);
+    if (room >= 40) budget.spend(40 + random() % (room - 39), 40, now);
+  }
+  EXPECT_EQ(budget.due(most + 1, now), PathBudget::kNever);
+}
+
+TEST(PathBudget, KeyExchangeAlwaysFitsBesideTheShare) {
+  for (const double kbit_per_s : {64.0, 128.0, 256.0, 1'024.0}) {
+    PathBudget budget = made({.bytes_per_s = kbit_per_s * 125});
+    EXPECT_GE(budget.room_for_all(Instant{}), kMaxExchangeSize) << kbit_per_s;
+  }
+}
+
+TEST(PathBudget, RefusesWhatContradictsItself) {
+  EXPECT_FALSE(PathBudget::make({.bytes_per_s = 0}));
+  EXPECT_FALSE(PathBudget::make({.bytes_per_s = kUnset}));
+  EXPECT_FALSE(PathBudget::make({.packets_per_s = 0.5}));
+  EXPECT_FALSE(PathBudget::make({.packets_per_s = kUnset}));
+  EXPECT_FALSE(PathBudget::make({.safety_bytes_per_s = 0}));
+  EXPECT_FALSE(PathBudget::make({.bytes_per_s = 4'000}));
+  EXPECT_FALSE(PathBudget::make({.bytes_per_s = 4'500}));  // the share and a packet do not fit
+  EXPECT_FALSE(PathBudget::make({.largest_payload = 100}));
+  EXPECT_FALSE(PathBudget::make({.largest_payload = kMaxDatagram + 1}));
+  EXPECT_EQ(made({.largest_payload = kMaxDatagram}).largest_payload(), kMaxDatagram);
+}
+
+TEST(PathBudgetDeathTest, NothingGoesBeyondTheRoom) {
+  PathBudget budget = made({});
+  const std::size_t room = budget.room_for_all(Instant{});
+  EXPECT_DEATH(budget.spend(room + 1, 0, Instant{}), "CHECK");
+  budget.spend(room, 0, Instant{});
+  EXPECT_DEATH(budget.spend(1, 0, Instant{} + milliseconds(1)), "CHECK");
+}
+
+}  // namespace
+}  // namespace pitwall::telemetry

@@ -1,0 +1,24 @@
+// Numbers of a distribution from an engine of random bits, the same with every standard library.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+namespace pitwall::testing {
+
+// [0, 1)
+inline double draw_uniform(std::mt19937_64& random) {
+  return static_cast<double>(random() >> 11) * 0x1p-53;
+}
+
+inline double draw_uniform(std::mt19937_64& random, double from, double to) {
+  return from + (to - from) * draw_uniform(random);
+}
+
+inline double draw_exponential(std::mt19937_64& random, double mean) {
+  return -mean * std::log1p(-draw_uniform(random));
+}
+
+}  // namespace pitwall::testing
