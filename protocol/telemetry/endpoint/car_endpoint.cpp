@@ -146,6 +146,7 @@ OperatorView CarEndpoint::view(Instant now) const {
           .stop_reason = parts_->latch.reason(),
           .stop_challenge = parts_->latch.challenge(),
           .joystick = parts_->joystick.sample(now),
+          .joystick_at = parts_->joystick.sampled_at(),
           .authority = parts_->authority.holder(now),
           .alive_at = parts_->alive_at};
 }

@@ -32,6 +32,7 @@ struct OperatorView {
   StopReason stop_reason = StopReason::kNone;
   std::uint16_t stop_challenge = 0;  // 0: nothing is latched
   std::optional<JoystickSample> joystick;
+  std::optional<Instant> joystick_at;  // of that sample, never later than the truth
   HolderId authority = 0;
   // The base was alive then (time of sending of its newest packet, mapped to the car's clock).
   std::optional<Instant> alive_at;
