@@ -1,7 +1,7 @@
 // How many openings an end works on, and when it asks for a proof of the sender's address first.
-//   law    at most kKnocksPerSecond cost an agreement of keys; from the first kFreeKnocks of a burst
-//          on only those that carry the cookie of their address do. At most kCookiesPerSecond are
-//          told a cookie; what is beyond is not even answered
+//   law    at most kKnocksPerSecond cost an agreement of keys; after the first kFreeKnocks of a
+//          burst only those that carry the cookie of their address do. At most kCookiesPerSecond
+//          are told a cookie; what is beyond is not even answered
 //   source WireGuard, a whitepaper, 5.3 and 5.4.7
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,4 +1,5 @@
-// The key exchange of two ends that know each other's public key: Noise_KK_25519_ChaChaPoly_BLAKE2b.
+// The key exchange of two ends that know each other's public key:
+// Noise_KK_25519_ChaChaPoly_BLAKE2b.
 //
 //   initiator -- e, es, ss --> responder        write() then read()
 //             <-- e, ee, se --                  read() then write()

@@ -5,10 +5,10 @@
 //   key       k0 --hash--> k1 --hash--> k2        there is no way back: a key that is found later
 //   opens      |.....2 s....|                     opens nothing that was sent in an earlier phase
 //
-//   law    Sealer never uses a number twice. Opener: what is older than the window is refused before
-//          the tag is computed, the window is set after it, and a duplicate is called one only if it
-//          is authentic; a forged packet costs one tag; the older key opens only numbers before the
-//          first of the newer one
+//   law    Sealer never uses a number twice. Opener: what is older than the window is refused
+//          before the tag is computed, the window is set after it, and a duplicate is called one
+//          only if it is authentic; a forged packet costs one tag; the older key opens only numbers
+//          before the first of the newer one
 //          a peer that was not heard for longer than a phase may be more than one phase further:
 //          all that the time allows are tried
 //   cost   no allocation; 128 bytes 0.5 us

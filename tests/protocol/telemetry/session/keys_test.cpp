@@ -56,29 +56,5 @@ TEST(KeyFile, EveryMistakeIsNamedWithItsPlaceAndShowsNoSecret) {
   }
 }
 
-TEST(Randomness, ASeedGivesOneStreamAndTheSystemNone) {
-  SeededRandomness a(1), b(1), c(2);
-  SystemRandomness system;
-  std::array<std::uint8_t, 32> from_a{}, from_b{}, from_c{}, from_system{}, again{};
-  a.fill(from_a);
-  b.fill(from_b);
-  c.fill(from_c);
-  system.fill(from_system);
-  EXPECT_EQ(from_a, from_b);
-  EXPECT_NE(from_a, from_c);
-  a.fill(again);
-  EXPECT_NE(from_a, again);
-  system.fill(again);
-  EXPECT_NE(from_system, again);
-}
-
-TEST(Secret, IsOverwrittenWhenItEnds) {
-  alignas(Secret<32>) std::array<std::byte, sizeof(Secret<32>)> place{};
-  auto* const secret = new (place.data()) Secret<32>();
-  secret->bytes.fill(0xAA);
-  secret->~Secret();
-  EXPECT_EQ(std::count(place.begin(), place.end(), std::byte{0xAA}), 0);
-}
-
 }  // namespace
 }  // namespace pitwall::telemetry::testing

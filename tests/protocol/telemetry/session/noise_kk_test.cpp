@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Against the vectors of the cacophony library, which every implementation of Noise is checked with.
+// Against the vectors of the cacophony library, with which implementations of Noise are checked.
 #include "protocol/telemetry/session/noise_kk.hpp"
 
 #include <gtest/gtest.h>

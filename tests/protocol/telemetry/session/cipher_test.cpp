@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Against the vectors of the standards.
+#include "protocol/telemetry/session/cipher.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <new>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pitwall::telemetry {
+namespace {
+
+Bytes bytes(std::string_view text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+std::string hex_of(Bytes of) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string hex;
+  for (const std::uint8_t byte : of) {
+    hex += kDigits[byte / 16];
+    hex += kDigits[byte % 16];
+  }
+  return hex;
+}
+
+// RFC 7693, appendix A.
+TEST(Cipher, HashesAsInTheStandard) {
+  constexpr std::string_view kAbc =
+      "ba80a53f981c4d0d6a2797b69f12f6e94c212f14685ac4b74b12bb6fdbffa2d1"
+      "7d87c5392aab792dc252d5de4533cc9518d38aa8dbf1925ab92386edd4009923";
+  EXPECT_EQ(hex_of(hash_of({bytes("abc")}).span()), kAbc);
+  EXPECT_EQ(hex_of(hash_of({bytes("a"), bytes(""), bytes("bc")}).span()), kAbc);
+}
+
+// RFC 7748, 6.1.
+TEST(Cipher, AgreesAsInTheStandard) {
+  const auto key = [](std::string_view hex) { return *parse_public_key(hex, "RFC 7748"); };
+  const Key bob(key("5dab087e624a8a4b79e17f8b83800ee66f3bb1292618b6fd1c2f8b27ff88e0eb"));
+  const PublicKey alice = key("8520f0098930a754748b7ddcb43ef75a0dbf3a0d26381af4eba4a98eaa9b4e6a");
+  EXPECT_EQ(text_of(public_of(bob)),
+            "de9edb7d7b7dc1b4d35b61c2ece435373f8343c85b78674dadfc7e146f882b4f");
+  Key shared;
+  ASSERT_TRUE(agree(bob, alice, shared));
+  EXPECT_EQ(hex_of(shared.span()),
+            "4a5d9d5ba4ce2de1728e3bf480350f25e07e21c947d19e3376f09b3c1e161742");
+}
+
+TEST(Cipher, APointOfSmallOrderIsRefused) {
+  Key shared;
+  EXPECT_FALSE(agree(Key(PublicKey{1, 2, 3}), PublicKey{}, shared));
+  EXPECT_FALSE(agree(Key(PublicKey{1, 2, 3}), PublicKey{1}, shared));
+}
+
+TEST(Cipher, OpensWhatItSealedAndNothingElse) {
+  const Key key(PublicKey{1}), other(PublicKey{2});
+  const std::vector<std::uint8_t> plain(50, 7);
+  std::vector<std::uint8_t> sealed(plain.size() + kTagSize), opened(plain.size());
+  aead_seal(key, 9, bytes("clear"), plain, sealed);
+  EXPECT_TRUE(aead_open(key, 9, bytes("clear"), sealed, opened));
+  EXPECT_EQ(opened, plain);
+  EXPECT_FALSE(aead_open(key, 10, bytes("clear"), sealed, opened));
+  EXPECT_FALSE(aead_open(key, 9, bytes("other"), sealed, opened));
+  EXPECT_FALSE(aead_open(other, 9, bytes("clear"), sealed, opened));
+}
+
+TEST(Cipher, DerivedKeysDifferByPurpose) {
+  const Key key(PublicKey{1});
+  EXPECT_EQ(derive(key, bytes("a")).bytes, derive(key, bytes("a")).bytes);
+  EXPECT_NE(derive(key, bytes("a")).bytes, derive(key, bytes("b")).bytes);
+  EXPECT_NE(derive(key, bytes("a")).bytes, key.bytes);
+  EXPECT_NE(keyed_tag(key, {bytes("a")}), keyed_tag(key, {bytes("b")}));
+}
+
+TEST(Secret, IsOverwrittenWhenItEnds) {
+  alignas(Secret<32>) std::array<std::byte, sizeof(Secret<32>)> place{};
+  auto* const secret = new (place.data()) Secret<32>();
+  secret->bytes.fill(0xAA);
+  secret->~Secret();
+  EXPECT_EQ(std::count(place.begin(), place.end(), std::byte{0xAA}), 0);
+}
+
+}  // namespace
+}  // namespace pitwall::telemetry
