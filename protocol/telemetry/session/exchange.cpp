@@ -14,6 +14,7 @@ namespace pitwall::telemetry {
 namespace {
 
 constexpr std::size_t kBootAt = 2, kSafetyAt = 10, kWholeAt = 18, kFlagsAt = 26;
+constexpr unsigned kSignedFlag = 1, kRealCarFlag = 2;
 static_assert(kFlagsAt + 1 == kPayloadSize);
 static_assert(kCookieNonceSize == crypto_aead_xchacha20poly1305_ietf_NPUBBYTES);
 constexpr std::size_t kTagAt = kHeaderSize + kNoiseMessage;
@@ -33,7 +34,8 @@ std::array<std::uint8_t, kPayloadSize> bytes_of(const ExchangePayload& payload) 
   store<std::uint64_t>(bytes, kBootAt, payload.greeting.boot);
   store<std::uint64_t>(bytes, kSafetyAt, payload.greeting.safety_schema);
   store<std::uint64_t>(bytes, kWholeAt, payload.greeting.whole_schema);
-  bytes[kFlagsAt] = payload.greeting.signed_only ? 1 : 0;
+  bytes[kFlagsAt] = static_cast<std::uint8_t>((payload.greeting.signed_only ? kSignedFlag : 0) |
+                                              (payload.greeting.real_car ? kRealCarFlag : 0));
   return bytes;
 }
 
@@ -42,7 +44,8 @@ ExchangePayload payload_of(std::span<const std::uint8_t, kPayloadSize> bytes) {
           .greeting = {.boot = load<std::uint64_t>(bytes, kBootAt),
                        .safety_schema = load<std::uint64_t>(bytes, kSafetyAt),
                        .whole_schema = load<std::uint64_t>(bytes, kWholeAt),
-                       .signed_only = (bytes[kFlagsAt] & 1U) != 0}};
+                       .signed_only = (bytes[kFlagsAt] & kSignedFlag) != 0,
+                       .real_car = (bytes[kFlagsAt] & kRealCarFlag) != 0}};
 }
 
 StandingKeys::StandingKeys(const Identity& own, const PublicKey& peer) {

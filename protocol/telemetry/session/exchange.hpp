@@ -5,7 +5,7 @@
 //          cookie   header, nonce 24, sealed cookie 16 + 16
 //          unknown  header (receiver and number of the packet that had no session), tag 16
 //          payload  sender's number of the session u16, boot u64, safety schema u64, whole schema
-//                   u64, flags u8 (1: signed only)
+//                   u64, flags u8 (1: signed only, 2: a real car)
 //   law    no reply is longer than what it replies to
 //          an answer's tag holds the opening's e, so that an answer of another exchange is refused
 //          before any agreement; a cookie opens only with the e of the opening that asked for it
@@ -30,6 +30,7 @@ struct Greeting {
   std::uint64_t safety_schema = 0;  // hash of the groups of class kSafety and of the commands
   std::uint64_t whole_schema = 0;
   bool signed_only = false;  // must agree
+  bool real_car = false;     // car: not a simulation
 
   constexpr bool operator==(const Greeting&) const = default;
 };

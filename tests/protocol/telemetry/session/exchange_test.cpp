@@ -25,7 +25,8 @@ TEST(Exchange, APayloadReadsAsItWasWritten) {
                                   .greeting = {.boot = 0x0123456789ABCDEF,
                                                .safety_schema = 42,
                                                .whole_schema = ~0ULL,
-                                               .signed_only = signed_only}};
+                                               .signed_only = signed_only,
+                                               .real_car = !signed_only}};
     const ExchangePayload read = payload_of(bytes_of(payload));
     EXPECT_EQ(read.number, payload.number);
     EXPECT_EQ(read.greeting, payload.greeting);
