@@ -25,24 +25,46 @@ struct ReferenceBody {
   std::vector<std::pair<std::uint64_t, std::string>> records;
 };
 
-// Bits of the rest of a packet; below(n) reads bytes as little endian, top(n) bits as they stand.
+// The bits of a packet one by one; below(n) takes bytes as little endian, top(n) bits as they are.
 struct ReferenceBits {
-  std::string bits;
+  const std::vector<std::uint8_t>& bytes;
+  std::size_t at = 0;
   bool ok = true;
 
+  bool more() const { return ok && at < 8 * bytes.size(); }
   std::uint64_t top(std::size_t count) {
-    if (count > bits.size()) return ok = false, 0;
+    if (count > 8 * bytes.size() - at) return ok = false, 0;
     std::uint64_t value = 0;
-    for (std::size_t i = 0; i < count; ++i) value = 2 * value + (bits[i] == '1' ? 1 : 0);
-    bits.erase(0, count);
+    for (; count > 0; --count, ++at) value = 2 * value + (bytes[at / 8] >> (7 - at % 8)) % 2U;
     return value;
   }
-  std::uint64_t below(std::size_t bytes) {
+  std::uint64_t below(std::size_t size) {
     std::uint64_t value = 0;
-    for (std::size_t i = 0; i < bytes; ++i) value += top(8) * (std::uint64_t{1} << (8 * i));
+    for (std::size_t i = 0; i < size; ++i) value += top(8) * (std::uint64_t{1} << (8 * i));
     return value;
   }
 };
+
+struct ReferenceField {
+  double last = 0;          // step
+  std::uint64_t unset = 1;  // its pattern: all ones
+  std::size_t width = 1;
+};
+inline const std::vector<ReferenceField>& reference_fields() {
+  static const auto fields = [] {
+    std::vector<ReferenceField> all;
+    for (const telemetry::FieldRow& row : telemetry::kFields) {
+      ReferenceField field{std::floor((row.max - row.min) / row.resolution + 0.5)};
+      while (static_cast<double>(field.unset) < field.last + 1) {
+        field.unset = 2 * field.unset + 1;
+        ++field.width;
+      }
+      all.push_back(field);
+    }
+    return all;
+  }();
+  return fields;
+}
 
 inline bool read_reference_groups(ReferenceBits& rest, telemetry::Direction direction,
                                   ReferenceBody& body) {
@@ -57,14 +79,12 @@ inline bool read_reference_groups(ReferenceBits& rest, telemetry::Direction dire
   for (std::size_t i = 0; i < telemetry::kFieldCount; ++i) {
     const telemetry::FieldRow& row = telemetry::kFields[i];
     if (!body.ages.contains(row.group)) continue;
-    const double last = std::floor((row.max - row.min) / row.resolution + 0.5);
-    std::size_t width = 1;
-    while (std::exp2(static_cast<double>(width)) - 1 < last + 1) ++width;
-    const auto step = static_cast<double>(rest.top(width));
-    used += width;
-    const bool unset = step == std::exp2(static_cast<double>(width)) - 1;
-    if (step > last && !unset) return false;
-    body.values[i] = unset ? std::nan("") : row.min + step * row.resolution;
+    const ReferenceField& field = reference_fields()[i];
+    const std::uint64_t step = rest.top(field.width);
+    used += field.width;
+    const auto steps = static_cast<double>(step);
+    if (steps > field.last && step != field.unset) return false;
+    body.values[i] = step == field.unset ? std::nan("") : row.min + steps * row.resolution;
   }
   return rest.top((8 - used % 8) % 8) == 0 && rest.ok;
 }
@@ -72,9 +92,7 @@ inline bool read_reference_groups(ReferenceBits& rest, telemetry::Direction dire
 inline std::optional<ReferenceBody> read_reference(const std::vector<std::uint8_t>& bytes,
                                                    telemetry::Direction direction) {
   if (bytes.size() < 4 || bytes.size() > 1'177) return std::nullopt;
-  ReferenceBits rest;
-  for (const std::uint8_t byte : bytes)
-    for (int bit = 7; bit >= 0; --bit) rest.bits += (byte >> bit) % 2 == 1 ? '1' : '0';
+  ReferenceBits rest{bytes};
   ReferenceBody body;
   body.time = rest.below(3);
   const std::uint64_t flags = rest.below(1);
@@ -87,7 +105,7 @@ inline std::optional<ReferenceBody> read_reference(const std::vector<std::uint8_
     body.hold = rest.below(2);
   }
   if (flags / 2 % 2 == 1 && !read_reference_groups(rest, direction, body)) return std::nullopt;
-  while (rest.ok && !rest.bits.empty()) {
+  while (rest.more()) {
     const std::uint64_t type = rest.below(1);
     std::uint64_t length = rest.below(1);
     if (length >= 0xF0) {

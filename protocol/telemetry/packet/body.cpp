@@ -169,7 +169,7 @@ class Rest {
   std::span<const std::uint8_t> bytes_;
 };
 
-using Verdict = std::optional<BodyError>;  // none: well so far
+using Verdict = std::optional<BodyError>;  // none: good so far
 
 std::uint64_t little_endian(std::span<const std::uint8_t> bytes) {
   std::uint64_t value = 0;
@@ -186,52 +186,54 @@ Verdict read_ack(Rest& rest, Body& body) {
   return {};
 }
 
-using Places = FixedVector<GroupPlace, kMaxPlaces>;  // those of the set
-
-Verdict read_set(Rest& rest, const Layout& sender, Places& set) {
+Verdict read_set(Rest& rest, const Layout& sender, std::uint64_t& set) {
   const std::size_t size = set_size(sender);
   if (!rest.has(size)) return BodyError::kTooShort;
-  std::uint64_t present = little_endian(rest.take(size));
-  if (present == 0) return BodyError::kBadGroups;
-  for (const GroupPlace& place : sender) {
-    if ((present & 1U) != 0) CHECK(set.push(place));
-    present >>= 1U;
-  }
-  if (present != 0) return BodyError::kBadGroups;
+  set = little_endian(rest.take(size));
+  const auto used = static_cast<std::size_t>(std::bit_width(set));
+  if (used == 0 || used > sender.size()) return BodyError::kBadGroups;
   return {};
 }
+
+// The places of a set in order: the first of those that are left, and the others.
+const GroupPlace& first_place(const Layout& sender, std::uint64_t left) {
+  return sender[static_cast<std::size_t>(std::countr_zero(left))];
+}
+constexpr std::uint64_t without_first(std::uint64_t left) { return left & (left - 1); }
 
 void skip(bits::BitReader& in, std::size_t bits) {
   for (; bits > bits::kMaxFieldBits; bits -= bits::kMaxFieldBits) in.read(bits::kMaxFieldBits);
   in.read(static_cast<unsigned>(bits));
 }
 
-Verdict read_values(Rest& rest, const Places& set, Body& body) {
+Verdict read_values(Rest& rest, const Layout& sender, std::uint64_t set, Body& body) {
   std::size_t bits = 0;
-  for (const GroupPlace& place : set) bits += kAgeCodeBits + place.bits;
+  for (auto left = set; left != 0; left = without_first(left)) {
+    bits += kAgeCodeBits + first_place(sender, left).bits;
+  }
   const std::size_t size = (bits + 7) / 8;
   if (!rest.has(size)) return BodyError::kTooShort;
   bits::BitReader in(rest.take(size));
-  for (const GroupPlace& place : set) {
+  for (auto left = set; left != 0; left = without_first(left)) {
     const auto age = static_cast<std::uint8_t>(in.read(kAgeCodeBits));
-    if (!place.own) continue;
-    body.groups.add(*place.own);
-    body.age_codes[index_of(*place.own)] = age;
+    const auto& own = first_place(sender, left).own;
+    if (!own) continue;
+    body.groups.add(*own);
+    body.age_codes[index_of(*own)] = age;
   }
-  for (const GroupPlace& place : set) {
+  for (auto left = set; left != 0; left = without_first(left)) {
+    const GroupPlace& place = first_place(sender, left);
     if (!place.own) {
       skip(in, place.bits);
     } else if (!decode_group(*place.own, in, body.values)) {
       return BodyError::kBadValue;
     }
   }
-  CHECK(in.ok());
   if (!in.align()) return BodyError::kBadPadding;
   return {};
 }
 
 Verdict read_record(Rest& rest, Body& body) {
-  if (body.records.full()) return BodyError::kTooManyRecords;
   const std::uint8_t type = rest.take_byte();
   if (type == 0 || type > kRecordTypeMax || rest.empty()) return BodyError::kBadRecord;
   std::size_t length = rest.take_byte();
@@ -241,7 +243,8 @@ Verdict read_record(Rest& rest, Body& body) {
     if (length < kLongLength) return BodyError::kBadRecord;
   }
   if (!rest.has(length)) return BodyError::kBadRecord;
-  CHECK(body.records.push({static_cast<RecordType>(type), rest.take(length)}));
+  const Record record{static_cast<RecordType>(type), rest.take(length)};
+  if (!body.records.push(record)) return BodyError::kTooManyRecords;
   return {};
 }
 
@@ -254,9 +257,9 @@ Verdict read_body(Rest rest, const Layout& sender, Body& body) {
   Verdict bad;
   if ((flags & kHasAck) != 0 && (bad = read_ack(rest, body))) return bad;
   if ((flags & kHasGroups) != 0) {
-    Places set;
+    std::uint64_t set = 0;
     if ((bad = read_set(rest, sender, set))) return bad;
-    if ((bad = read_values(rest, set, body))) return bad;
+    if ((bad = read_values(rest, sender, set, body))) return bad;
   }
   while (!rest.empty()) {
     if ((bad = read_record(rest, body))) return bad;

@@ -10,7 +10,7 @@ namespace pitwall::telemetry {
 namespace {
 
 constexpr auto kCodes = []<std::size_t... I>(std::index_sequence<I...>) {
-  return std::array{kFields[I].quantized()...};
+  return std::array<bits::Quantized, sizeof...(I)>{kFields[I].quantized()...};
 }
 (std::make_index_sequence<kFieldCount>{});
 
