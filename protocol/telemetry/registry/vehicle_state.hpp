@@ -33,7 +33,7 @@ inline constexpr auto kVehicleState = [] {
 
 constexpr std::size_t vehicle_state_count(FieldKind kind) {
   std::size_t count = 0;
-  for (const FieldIndex i : kVehicleState) count += kFields[i].kind() == kind ? 1 : 0;
+  for (const FieldIndex i : kVehicleState) count += kFields[i].kind() == kind ? 1U : 0U;
   return count;
 }
 static_assert(kVehicleState.back() != 0, "the vehicle state has fewer than a hundred fields");
