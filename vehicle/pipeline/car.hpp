@@ -15,8 +15,10 @@
 #include "vehicle/gateway/handshake.hpp"
 #include "vehicle/gateway/inbound.hpp"
 #include "vehicle/gateway/outbound.hpp"
+#include "vehicle/pipeline/operator_orders.hpp"
 #include "vehicle/safety/bus_guard.hpp"
 #include "vehicle/safety/frame_gate.hpp"
+#include "vehicle/safety/radio_ladder.hpp"
 #include "vehicle/safety/supervisor.hpp"
 #include "vehicle/safety/watchdog.hpp"
 #include "vehicle/world/race_control.hpp"
@@ -42,6 +44,8 @@ struct Car {
   control::State control;
   safety::WatchdogState watchdog;
   safety::BusGuardState bus_guard;
+  OperatorOrders orders;
+  safety::RadioLadderState radio_ladder;
   safety::SupervisorState supervisor;
   safety::GateState gate;
   safety::Follow follow = safety::Follow::kNone;  // decided by the last tick

@@ -6,8 +6,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
+#include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/autonomy/control/control.hpp"
@@ -19,6 +21,7 @@
 #include "vehicle/gateway/outbound.hpp"
 #include "vehicle/safety/bus_guard.hpp"
 #include "vehicle/safety/frame_gate.hpp"
+#include "vehicle/safety/radio_ladder.hpp"
 #include "vehicle/safety/supervisor.hpp"
 #include "vehicle/safety/watchdog.hpp"
 #include "vehicle/world/track_map.hpp"
@@ -28,6 +31,20 @@ namespace pitwall::pipeline {
 struct Rates {
   Duration tick = milliseconds(10);      // of step(): 100 Hz
   Duration planning = milliseconds(50);  // 20 Hz
+};
+
+// What this end may put on one path of the radio, IP and UDP overhead counted.
+struct RadioPathParams {
+  double bytes_per_s = 32'000.0;        // 256 kbit/s; [8000, 1250000]
+  double packets_per_s = 100.0;         // [10, 1000]
+  double safety_bytes_per_s = 4'400.0;  // of bytes_per_s, for safety alone; [1000, bytes_per_s)
+};
+inline constexpr std::size_t kRadioPathsMax = 2;
+
+struct RadioParams {
+  FixedVector<RadioPathParams, kRadioPathsMax> paths;  // empty: as RadioPathParams, for each
+  bool signed_only = false;  // where a venue forbids encryption; both ends must agree
+  safety::RadioLadderParams ladder;
 };
 
 struct CarParams {
@@ -43,6 +60,7 @@ struct CarParams {
   safety::BusGuardParams bus_guard;
   safety::SupervisorParams supervisor;
   safety::GateParams gate;
+  RadioParams radio;
 };
 
 struct Setup {

@@ -28,10 +28,9 @@ void plan_when_due(const Setup& setup, Car& car, const Outputs& out, const Input
   const auto followed = car.follow == Follow::kNone   ? planning::Followed::kNothing
                         : car.follow == Follow::kStop ? planning::Followed::kStop
                                                       : planning::Followed::kDrive;
-  plan.output =
-      planning::step(setup.params.planning, setup.line, setup.track, plan.output.next, out.ego,
-                     out.heard.race_control, in.operator_speed_limit_mps, followed, in.now);
-  plan.made_with = out.heard.race_control;
+  plan.output = planning::step(setup.params.planning, setup.line, setup.track, plan.output.next,
+                               out.ego, out.race_control, out.speed_limit_mps, followed, in.now);
+  plan.made_with = out.race_control;
   plan.at = in.now;
   if (!plan.output.drive.points.empty() && !plan.output.stop.points.empty()) plan.good_at = in.now;
   plan.ever = true;
@@ -43,7 +42,7 @@ safety::SupervisorOutput supervise(const Setup& setup, Car& car, const Outputs& 
   return safety::supervise(setup.params.supervisor, car.supervisor,
                            {.signals = out.heard.signals,
                             .bus = out.heard.bus,
-                            .race_control = out.heard.race_control,
+                            .race_control = out.race_control,
                             .ego = out.ego,
                             .watchdog = out.watchdog,
                             .stop = car.plan.output.stop,
@@ -53,20 +52,21 @@ safety::SupervisorOutput supervise(const Setup& setup, Car& car, const Outputs& 
                             .own_id_seen = out.heard.own_id_seen || in.guardian.stopped,
                             .bus_failed = out.bus_guard.failed,
                             .gate_refused = car.gate_refused,
-                            .operator_requests = in.requests,
-                            .last_run_armed = in.last_run_armed},
+                            .operator_requests = out.requests,
+                            .last_run_armed = in.last_run_armed,
+                            .radio = out.radio},
                            in.now);
 }
 
 world::CtState handshake(const Setup& setup, Car& car, const Outputs& out, const Inputs& in) {
   return gateway::handshake(setup.params.handshake, car.handshake,
                             {.sys = out.heard.signals.misc.value.sys_state,
-                             .track = out.heard.race_control.track,
-                             .vehicle = out.heard.race_control.vehicle,
+                             .track = out.race_control.track,
+                             .vehicle = out.race_control.vehicle,
                              .mode = out.chosen.mode,
                              .speed_mps = out.chosen.speed_mps,
                              .operator_shutdown = false,
-                             .operator_emergency = in.requests.emergency_stop},
+                             .operator_emergency = out.requests.emergency_stop},
                             in.now);
 }
 
@@ -84,6 +84,23 @@ void heed_guardian(Car& car, const GuardianView& guardian, Instant now) {
   car.outbound.steering_counter = static_cast<std::uint8_t>(guardian.counters.steering + 1);
   car.outbound.report_counter =
       static_cast<std::uint8_t>((guardian.counters.report + 1) % gateway::kReportCounterEnd);
+}
+
+// What the operator wants, before anything is decided; the ladder's limit is that of the tick
+// before: the watchdog judges after planning.
+void heed_operator(Car& car, const Inputs& in, Outputs& out) {
+  out.requests = obey(car.orders,
+                      {.switches = in.requests,
+                       .wishes = in.wishes,
+                       .commands = in.commands,
+                       .may_arm = in.may_arm,
+                       .mode = car.supervisor.mode,
+                       .now = in.now},
+                      out.answers);
+  out.race_control = stricter(out.heard.race_control, car.orders.flag);
+  out.speed_limit_mps =
+      lower_limit_mps(lower_limit_mps(in.operator_speed_limit_mps, car.orders.speed_limit_mps),
+                      car.radio_ladder.speed_limit_mps);
 }
 
 void say(const Setup& setup, Car& car, const Inputs& in, Outputs& out) {
@@ -123,6 +140,7 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
   out.located = located.verdicts;
   out.place = place_of(setup, car, out.ego);
 
+  heed_operator(car, in, out);
   plan_when_due(setup, car, out, in);
   const world::Trajectory& followed =
       car.follow == Follow::kStop ? car.plan.output.stop : car.plan.output.drive;
@@ -139,8 +157,13 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
                                 .planner_at = car.plan.good_at,
                                 .radio_at = in.radio_at},
                                in.now);
-  out.bus_guard = safety::guard(p.bus_guard, car.bus_guard, in.link, in.requests.reset, in.now);
+  out.radio = safety::descend(p.radio.ladder, car.radio_ladder,
+                              out.watchdog[safety::Stream::kRadio], in.wishes.joystick, in.now);
+  const bool resettable = car.bus_guard.failed || in.guardian.stopped;
+  out.bus_guard = safety::guard(p.bus_guard, car.bus_guard, in.link, out.requests.reset, in.now);
+  const Mode before = car.supervisor.mode;
   out.chosen = supervise(setup, car, out, in);
+  conclude(car.orders, before, out.chosen, resettable, in.now, out.answers);
   car.follow = out.chosen.follow;
   out.ct_state = handshake(setup, car, out, in);
 

@@ -17,7 +17,10 @@
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/guardian/record.hpp"
 #include "vehicle/pipeline/car.hpp"
+#include "vehicle/pipeline/operator_orders.hpp"
 #include "vehicle/pipeline/setup.hpp"
+#include "vehicle/safety/radio_ladder.hpp"
+#include "vehicle/world/operator_wishes.hpp"
 #include "vehicle/world/sensor_input.hpp"
 
 namespace pitwall::pipeline {
@@ -37,8 +40,11 @@ struct Inputs {
   Duration dt{};  // since the last tick
   std::span<const can::ReceivedFrame> can;
   const world::SensorInput& sensors;
-  safety::OperatorRequests requests;
-  double operator_speed_limit_mps = kUnset;  // unset: none
+  safety::OperatorRequests requests;                   // switches at the car
+  double operator_speed_limit_mps = kUnset;            // unset: none
+  world::OperatorWishes wishes{};                      // by radio
+  std::span<const world::OperatorCommand> commands{};  // at most kOperatorCommandsMax
+  bool may_arm = true;                                 // false: listens only
   // Newest byte of each receiver, where the rim knows it; else any sample of the unit counts.
   std::array<std::optional<Instant>, world::kGnssUnits> gnss_byte_at{};
   world::LinkObservation link{};      // of the CAN interface, by the rim
@@ -58,7 +64,12 @@ struct Outputs {
   safety::SupervisorOutput chosen;
   world::CtState ct_state = world::CtState::kDefault;
   safety::GateOutput passed;
-  bool quiet = false;  // the guardian drives: nothing was said
+  bool quiet = false;                 // the guardian drives: nothing was said
+  safety::OperatorRequests requests;  // switches and radio together, as they were heeded
+  safety::RadioLadderOutput radio;
+  world::RaceControl race_control;  // acted on: what was heard, or stricter by the base's flag
+  double speed_limit_mps = kUnset;  // of operator and radio ladder; unset: none
+  Answers answers;                  // to commands of this tick and of the one before
 };
 
 Outputs step(const Setup& setup, Car& car, const Inputs& in);

@@ -146,7 +146,9 @@ void streams(Finder& f) {
   pair(Cause::kGnssSolutionLost, Stream::kGnss0Solution, Stream::kGnss1Solution);
   pair(Cause::kImuLost, Stream::kImu0, Stream::kImu1);
   if (f.params.race_control_required) down(Cause::kRaceControlLost, Stream::kRaceControl);
-  if (f.params.radio_loss_stops) down(Cause::kRadioLost, Stream::kRadio);
+  if (f.params.radio_loss_stops)
+    f.add(Cause::kRadioLost, f.in.radio_stop || is_down(dog[Stream::kRadio]),
+          dog[Stream::kRadio].age.seconds());
 }
 
 }  // namespace

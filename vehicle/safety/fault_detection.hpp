@@ -53,6 +53,7 @@ struct FaultInputs {
   const world::EgoState& ego;
   const WatchdogOutput& watchdog;
   OperatorRequests operator_requests;
+  bool radio_stop = false;    // RadioLadderOutput
   bool own_id_seen = false;   // gateway::InboundOutput
   bool bus_failed = false;    // BusGuardOutput
   bool control_ok = false;    // control gave a command this tick

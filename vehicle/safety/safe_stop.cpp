@@ -82,6 +82,13 @@ double ramped(double last_kpa, double target_kpa, double ramp_kpa_per_s, double 
                     last_kpa + ramp_kpa_per_s * dt_s);
 }
 
+double grip_left_mps2(const SafeStopParams& params, StopKind kind, const Grip& grip) {
+  const bool emergency = kind == StopKind::kEmergency;
+  const double share = emergency ? params.emergency_grip_share : params.grip_share;
+  const double total = grip.total_mps2, lateral = grip.lateral_mps2;
+  return share * std::sqrt(std::max(0.0, total * total - lateral * lateral));
+}
+
 }  // namespace
 
 Grip grip_at(const SafeStopParams& params, double speed_mps, double curvature_per_m,
@@ -94,11 +101,14 @@ Grip grip_at(const SafeStopParams& params, double speed_mps, double curvature_pe
           centripetal_mps2 - kGravity_mps2 * std::sin(bank_rad)};
 }
 
+double brake_for(const SafeStopParams& params, StopKind kind, double decel_mps2, const Grip& grip) {
+  const double left_mps2 = grip_left_mps2(params, kind, grip);
+  return std::min(std::min(decel_mps2, left_mps2) * params.brake_kpa_per_mps2,
+                  params.brake_max_kpa);
+}
+
 double brake_towards(const SafeStopParams& params, StopKind kind, const BrakeDemand& demand) {
-  const bool emergency = kind == StopKind::kEmergency;
-  const double share = emergency ? params.emergency_grip_share : params.grip_share;
-  const double total = demand.grip.total_mps2, lateral = demand.grip.lateral_mps2;
-  const double left_mps2 = share * std::sqrt(std::max(0.0, total * total - lateral * lateral));
+  const double left_mps2 = grip_left_mps2(params, kind, demand.grip);
   const double decel_mps2 = std::max(params.decel_min_mps2, std::min(demand.decel_mps2, left_mps2));
   const double target_kpa = std::min(decel_mps2 * params.brake_kpa_per_mps2, params.brake_max_kpa);
   return ramped(demand.last_kpa, target_kpa, ramp_of(params, kind), demand.dt_s);

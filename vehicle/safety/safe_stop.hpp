@@ -74,6 +74,9 @@ struct Grip {
 Grip grip_at(const SafeStopParams& params, double speed_mps, double curvature_per_m,
              double bank_rad);
 
+// The pressure for a deceleration, within grip and maximum.
+double brake_for(const SafeStopParams& params, StopKind kind, double decel_mps2, const Grip& grip);
+
 // The brake alone: the next pressure towards a deceleration, within ramp, grip and maximum. Never
 // aims below decel_min: every stop ends. Used to add the emergency brake to a command whose
 // steering is still good.

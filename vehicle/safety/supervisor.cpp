@@ -215,16 +215,21 @@ Chosen safe_stop(const Tick& t, StopKind kind) {
   return {stop_along(t.params.safe_stop, s.safe_stop, inputs, t.now), CommandSource::kSafeStop};
 }
 
+// On a flat road, beside the lateral acceleration that is measured.
+Grip grip_now(const Tick& t) {
+  const double speed_mps = std::isfinite(t.speed_mps) ? t.speed_mps : std::abs(t.in.ego.vx_mps);
+  Grip grip = grip_at(t.params.safe_stop, std::isfinite(speed_mps) ? speed_mps : 0.0, 0.0, 0.0);
+  if (std::isfinite(t.in.ego.ay_mps2)) grip.lateral_mps2 = t.in.ego.ay_mps2;
+  return grip;
+}
+
 // Steering of control, brake as hard as the grip allows.
 Chosen emergency(const Tick& t) {
   const SafeStopParams& p = t.params.safe_stop;
-  const double speed_mps = std::isfinite(t.speed_mps) ? t.speed_mps : std::abs(t.in.ego.vx_mps);
   ActuatorCommand command = t.in.control;
-  Grip grip = grip_at(p, std::isfinite(speed_mps) ? speed_mps : 0.0, 0.0, 0.0);
-  if (std::isfinite(t.in.ego.ay_mps2)) grip.lateral_mps2 = t.in.ego.ay_mps2;
   const double emergency_kpa = brake_towards(p, StopKind::kEmergency,
                                              {.decel_mps2 = p.emergency_decel_mps2,
-                                              .grip = grip,
+                                              .grip = grip_now(t),
                                               .last_kpa = t.state.last.brake_kpa,
                                               .dt_s = ramp_dt_s(t)});
   command.throttle_fraction = 0.0;
@@ -257,6 +262,20 @@ Chosen choose(const Tick& t) {
       break;
   }
   return hold(t);
+}
+
+// By the joystick: less throttle and more brake than was chosen, never the other way.
+ActuatorCommand slowed(const Tick& t, const ActuatorCommand& chosen) {
+  const RadioLadderOutput& radio = t.in.radio;
+  ActuatorCommand out = chosen;
+  out.throttle_fraction = std::min(chosen.throttle_fraction, radio.throttle_cap);
+  if (radio.brake > 0.0) {
+    const SafeStopParams& p = t.params.safe_stop;
+    const double wanted_mps2 = radio.brake * p.decel_max_mps2;
+    const double demand_kpa = brake_for(p, StopKind::kControlled, wanted_mps2, grip_now(t));
+    out.brake_kpa = std::max(chosen.brake_kpa, demand_kpa);
+  }
+  return out;
 }
 
 // One gear at a time, and not sooner than the least time between two shifts.
@@ -326,6 +345,7 @@ SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& stat
                                     .ego = inputs.ego,
                                     .watchdog = inputs.watchdog,
                                     .operator_requests = inputs.operator_requests,
+                                    .radio_stop = inputs.radio.stop,
                                     .own_id_seen = inputs.own_id_seen,
                                     .bus_failed = inputs.bus_failed,
                                     .control_ok = inputs.control_ok && is_usable(inputs.control),
@@ -341,7 +361,7 @@ SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& stat
   SupervisorOutput out;
   const Chosen chosen = choose(tick);
   if (chosen.source != CommandSource::kNone) {
-    out.command = limit(tick, chosen.command);
+    out.command = limit(tick, slowed(tick, chosen.command));
     out.limited = out.command.road_wheel_rad != chosen.command.road_wheel_rad ||
                   out.command.brake_kpa != chosen.command.brake_kpa ||
                   out.command.throttle_fraction != chosen.command.throttle_fraction;

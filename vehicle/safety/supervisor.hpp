@@ -7,6 +7,8 @@
 //   out    mode, cause (the first that stopped the car since the last reset), command, what to
 //          follow in the next tick
 //   units  SI
+//   joystick it can lower the throttle and raise the brake of whatever was chosen, within the grip
+//          of the tyres and before the slew limits; it never steers
 //   errors none: every fault is a Cause with a value and an entry in the fault log
 //   arming a request arms once. While a fault bars it, it waits; it is refused, and spent, when the
 //          wheels turn (a process that begins while the car moves must not take it over) or when it
@@ -31,6 +33,7 @@
 #include "vehicle/safety/fault_detection.hpp"
 #include "vehicle/safety/fault_log.hpp"
 #include "vehicle/safety/mode_table.hpp"
+#include "vehicle/safety/radio_ladder.hpp"
 #include "vehicle/safety/safe_stop.hpp"
 #include "vehicle/world/actuator_command.hpp"
 #include "vehicle/world/mode.hpp"
@@ -84,6 +87,7 @@ struct SupervisorInputs {
   bool gate_refused = false;     // GateOutput::refused_now of the previous tick
   OperatorRequests operator_requests;
   bool last_run_armed = false;  // the run of this process before ended while armed
+  RadioLadderOutput radio{};    // what is left of the joystick; whether the link's age stops
 };
 
 struct SupervisorState {

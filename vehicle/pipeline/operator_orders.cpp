@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/pipeline/operator_orders.hpp"
+
+#include <cmath>
+
+namespace pitwall::pipeline {
+namespace {
+
+using world::CommandAnswer;
+using world::Mode;
+using world::OperatorCommand;
+using world::OperatorCommandKind;
+using world::StopWish;
+using world::TrackFlag;
+
+constexpr double kYes = 1.0;
+
+struct Desk {
+  OperatorOrders& orders;
+  const OrderInputs& in;
+  Answers& answers;
+
+  void answer(const OperatorCommand& command, CommandAnswer answer) {
+    // There are as many places as commands can come in a tick, and two that waited.
+    (void)answers.push({command.id, answer, in.now});
+  }
+  void give_what_was_let_go();
+  void arm(const OperatorCommand& command);
+  void reset(const OperatorCommand& command);
+  void take(const OperatorCommand& command);
+};
+
+void Desk::give_what_was_let_go() {
+  if (!orders.arming) return;
+  orders.close_next = false;
+  if (in.now <= orders.arming->expires) {
+    orders.arm = true;
+    return;
+  }
+  answer(*orders.arming, CommandAnswer::kExpired);
+  orders.arm = orders.arm_before;
+  orders.arming.reset();
+}
+
+void Desk::arm(const OperatorCommand& command) {
+  if (command.argument != kYes) {
+    orders.arm = false;
+    if (orders.arming) answer(*orders.arming, CommandAnswer::kRefused);
+    orders.arming.reset();
+    return answer(command, CommandAnswer::kApplied);
+  }
+  if (!in.may_arm || orders.arming) return answer(command, CommandAnswer::kRefused);
+  if (in.mode != Mode::kDisarmed) {
+    const bool is_armed = in.mode == Mode::kStandby || in.mode == Mode::kDriving;
+    return answer(command, is_armed ? CommandAnswer::kApplied : CommandAnswer::kRefused);
+  }
+  orders.arm_before = orders.arm;
+  orders.arm = false;
+  orders.arming = command;
+  orders.close_next = true;
+}
+
+void Desk::reset(const OperatorCommand& command) {
+  if (command.argument != kYes || orders.reset) return answer(command, CommandAnswer::kRefused);
+  orders.reset = command;
+}
+
+void Desk::take(const OperatorCommand& command) {
+  if (in.now > command.expires) return answer(command, CommandAnswer::kExpired);
+  switch (command.kind) {
+    case OperatorCommandKind::kArm:
+      return arm(command);
+    case OperatorCommandKind::kReset:
+      return reset(command);
+    case OperatorCommandKind::kSpeedLimit:
+      if (!(command.argument >= 0.0)) return answer(command, CommandAnswer::kRefused);
+      orders.speed_limit_mps = command.argument;
+      return answer(command, CommandAnswer::kApplied);
+    case OperatorCommandKind::kTrackFlag: {
+      const bool known =
+          command.argument >= 0.0 && command.argument <= static_cast<double>(TrackFlag::kUnknown);
+      if (!known) return answer(command, CommandAnswer::kRefused);
+      orders.flag = static_cast<TrackFlag>(command.argument);
+      return answer(command, CommandAnswer::kApplied);
+    }
+    case OperatorCommandKind::kRaceLine:
+    case OperatorCommandKind::kRole:
+    case OperatorCommandKind::kReceiverUse:
+    case OperatorCommandKind::kEndRun:
+    case OperatorCommandKind::kSendParameters:
+      break;  // this car drives one line, alone, with all receivers; the rest is the rim's
+  }
+  answer(command, CommandAnswer::kUnsupported);
+}
+
+// By how little a flag allows; what nobody has said or nobody knows allows nothing.
+int severity(TrackFlag flag) {
+  switch (flag) {
+    case TrackFlag::kGreen:
+      return 0;
+    case TrackFlag::kWavingGreen:
+      return 1;
+    case TrackFlag::kYellow:
+      return 2;
+    case TrackFlag::kChequered:
+      return 3;
+    case TrackFlag::kOrange:
+      return 4;
+    case TrackFlag::kNone:
+      return 5;
+    case TrackFlag::kUnknown:
+      return 6;
+    case TrackFlag::kRed:
+      break;
+  }
+  return 7;
+}
+
+}  // namespace
+
+safety::OperatorRequests obey(OperatorOrders& orders, const OrderInputs& inputs, Answers& answers) {
+  Desk desk{orders, inputs, answers};
+  desk.give_what_was_let_go();
+  if (inputs.switches.arm && !orders.switch_was) orders.arm.reset();
+  orders.switch_was = inputs.switches.arm;
+  for (const OperatorCommand& command : inputs.commands) desk.take(command);
+
+  safety::OperatorRequests requests = inputs.switches;
+  requests.arm = inputs.may_arm && orders.arm.value_or(inputs.switches.arm);
+  requests.reset = inputs.switches.reset || orders.reset;
+  requests.stop = inputs.switches.stop || inputs.wishes.stop == StopWish::kControlled;
+  requests.emergency_stop =
+      inputs.switches.emergency_stop || inputs.wishes.stop == StopWish::kEmergency;
+  return requests;
+}
+
+void conclude(OperatorOrders& orders, Mode before, const safety::SupervisorOutput& chosen,
+              bool resettable, Instant now, Answers& answers) {
+  if (orders.reset) {
+    const bool left = before == Mode::kHalted && chosen.mode == Mode::kDisarmed;
+    const bool done = left || resettable;
+    (void)answers.push(
+        {orders.reset->id, done ? CommandAnswer::kApplied : CommandAnswer::kRefused, now});
+    orders.reset.reset();
+  }
+  if (!orders.arming || orders.close_next) return;
+  const bool armed = chosen.mode != Mode::kDisarmed;
+  (void)answers.push(
+      {orders.arming->id, armed ? CommandAnswer::kApplied : CommandAnswer::kRefused, now});
+  if (!armed) orders.arm = orders.arm_before;
+  orders.arming.reset();
+}
+
+double lower_limit_mps(double a_mps, double b_mps) { return std::fmin(a_mps, b_mps); }
+
+world::RaceControl stricter(const world::RaceControl& heard, TrackFlag of_base) {
+  world::RaceControl out = heard;
+  if (of_base != TrackFlag::kNone && severity(of_base) > severity(heard.track)) out.track = of_base;
+  return out;
+}
+
+}  // namespace pitwall::pipeline
