@@ -4,6 +4,7 @@
 #include <array>
 
 #include "protocol/telemetry/registry/labels.hpp"
+#include "vehicle/pipeline/health_tap.hpp"
 #include "vehicle/safety/fault_log.hpp"
 
 namespace pitwall::pipeline {
@@ -27,6 +28,13 @@ static_assert(telemetry::label_at(telemetry::kArmings,
 static_assert(telemetry::label_at(telemetry::kBaseStates,
                                   static_cast<std::size_t>(safety::Health::kBad)) == "LOST");
 
+static_assert(telemetry::label_at(telemetry::kLadderRungs,
+                                  static_cast<std::size_t>(safety::RadioRung::kStop)) ==
+              "controlled stop");
+static_assert(telemetry::label_at(telemetry::kSpeedReasons,
+                                  static_cast<std::size_t>(planning::Reason::kLineLimit)) ==
+              "line");
+
 template <class E>
 double number_of(E value) {
   return static_cast<double>(static_cast<std::uint8_t>(value));
@@ -41,6 +49,9 @@ void put_decisions(Values& v, const Outputs& out) {
   v[field("command.throttle")] = out.chosen.command.throttle_fraction;
   v[field("command.brake")] = out.chosen.command.brake_kpa;
   if (out.chosen.actuate) v[field("command.gear")] = out.chosen.command.gear;
+  v[field("command.actuate")] = out.chosen.actuate ? 1.0 : 0.0;
+  v[field("command.limited")] = out.chosen.limited ? 1.0 : 0.0;
+  v[field("mode.quiet")] = out.quiet ? 1.0 : 0.0;
 }
 
 void put_race_control(Values& v, const world::RaceControl& race, Instant now) {
@@ -49,6 +60,7 @@ void put_race_control(Values& v, const world::RaceControl& race, Instant now) {
   v[field("flags.vehicle")] = number_of(race.vehicle);
   v[field("flags.round_target_speed")] = race.round_target_speed_mps;
   v[field("flags.heartbeat_age")] = (now - race.last_heartbeat_change).seconds();
+  v[field("flags.conflict")] = race.conflict ? 1.0 : 0.0;
   v[field("track.lap")] = race.lap_count;
 }
 
@@ -79,6 +91,18 @@ void put_actuators(Values& v, const world::VehicleSignals& s, double steering_ra
     v[field("engine.speed")] = s.powertrain.value.engine_speed_rpm;
     v[field("engine.running")] = s.powertrain.value.engine_running ? 1.0 : 0.0;
   }
+}
+
+void put_powertrain(Values& v, const world::VehicleSignals& s) {
+  if (s.powertrain.heard) {
+    const world::Powertrain& p = s.powertrain.value;
+    v[field("powertrain.throttle_position")] = p.throttle_fraction;
+    v[field("powertrain.vehicle_speed")] = p.vehicle_speed_mps;
+    v[field("powertrain.shift_status")] = p.gear_shift_status;
+    v[field("powertrain.switch_on")] = p.engine_switch_on ? 1.0 : 0.0;
+  }
+  v[field("powertrain.transmission")] = s.engine.value.transmission_c;
+  v[field("powertrain.transmission_pressure")] = s.engine.value.transmission_pressure_kpa;
 }
 
 void put_wheels(Values& v, const world::VehicleSignals& s) {
@@ -115,6 +139,8 @@ void put_health(Values& v, const world::VehicleSignals& s) {
   if (s.misc.heard) {
     v[field("mode.sys_state")] = number_of(s.misc.value.sys_state);
     v[field("electric.battery")] = s.misc.value.battery_v;
+    v[field("electric.mode_switch")] = s.misc.value.mode_switch != 0 ? 1.0 : 0.0;
+    v[field("electric.safety_switch")] = s.misc.value.safety_switch;
   }
   if (s.diagnostics.heard) v[field("electric.diagnostics")] = diagnostic_bits(s.diagnostics.value);
   v[field("engine.fuel_pressure")] = s.engine.value.fuel_pressure_kpa;
@@ -122,71 +148,111 @@ void put_health(Values& v, const world::VehicleSignals& s) {
   v[field("engine.coolant")] = s.engine.value.coolant_c;
 }
 
-void put_counters(Values& v, const Outputs& out, const RimCounters& rim) {
-  v[field("bus.frames_applied")] = static_cast<double>(out.heard.bus.frames_applied);
-  v[field("bus.frames_refused")] = static_cast<double>(out.heard.bus.refused.total());
-  v[field("bus.frames_sent")] = static_cast<double>(rim.frames_sent);
-  v[field("bus.tx_drops")] = static_cast<double>(rim.tx_drops);
-  v[field("bus.gate_refusals")] = static_cast<double>(out.passed.refused_total);
-  const world::BusHealth& bus = out.heard.bus;
-  v[field("bus.frames_lost")] = static_cast<double>(bus.frames_lost);
-  v[field("bus.queue_losses")] =
-      static_cast<double>(bus.link.lost_in_socket + bus.link.lost_in_interface);
-  v[field("bus.controller")] = number_of(bus.link.controller);
-  v[field("bus.identity")] = number_of(bus.identity.verdict);
-  if (bus.identity.id != 0) v[field("bus.differing_id")] = bus.identity.id;
-  // The upper half: all that a number of the packet can hold; enough to tell revisions apart.
-  v[field("bus.database")] = static_cast<double>(bus.identity.database >> 32U);
-  v[field("computer.step_time_max")] = rim.step_time_max_us;
-  v[field("computer.steps")] = static_cast<double>(rim.steps);
-  v[field("computer.missed_deadlines")] = static_cast<double>(rim.missed_deadlines);
+void put_dynamics(Values& v, const TapInputs& in) {
+  const world::EgoState& ego = in.out.ego;
+  v[field("dynamics.forward")] = ego.ax_mps2;
+  v[field("dynamics.left")] = ego.ay_mps2;
+  if (const auto& imu = in.log.imu()) {
+    v[field("dynamics.up")] = imu->specific_force_mps2[2];
+    v[field("dynamics.roll_rate")] = imu->rate_rad_per_s[0];
+    v[field("dynamics.pitch_rate")] = imu->rate_rad_per_s[1];
+  }
+  v[field("dynamics.bank")] = in.car.bank_rad;
+  v[field("dynamics.lateral_error")] = in.out.steered.lateral.cross_track_m;
+  v[field("dynamics.heading_error")] = in.out.steered.lateral.heading_error_rad;
+  v[field("dynamics.speed_error")] = in.out.steered.target_speed_mps - ego.vx_mps;
 }
 
-void put_radio(Values& v, const safety::StreamRow& base, const RimCounters& rim) {
-  v[field("radio.base")] = number_of(base.health);
-  if (base.health > safety::Health::kNever) v[field("radio.silence")] = base.age.seconds();
-  v[field("radio.round_trip")] = rim.round_trip_ms;
-  v[field("radio.heartbeats")] = static_cast<double>(rim.heartbeats);
-  v[field("radio.heartbeats_refused")] = static_cast<double>(rim.heartbeats_refused);
-  v[field("radio.base_runs")] = static_cast<double>(rim.base_runs);
+enum Primitive : std::uint8_t { kNoPrimitive, kHoldsLine, kStops, kMerges };
+static_assert(telemetry::label_at(telemetry::kPrimitives, kMerges) == "merges");
+
+Primitive primitive_of(const Car& car) {
+  if (car.follow == safety::Follow::kNone) return kNoPrimitive;
+  if (car.follow == safety::Follow::kStop) return kStops;
+  return car.plan.output.next.merge_length_m > 0.0 ? kMerges : kHoldsLine;
+}
+
+double role_of(const world::RaceControl& race) {
+  if (race.vehicle == world::VehicleFlag::kDefender) return 1.0;
+  return race.vehicle == world::VehicleFlag::kAttacker ? 2.0 : 0.0;
+}
+
+void put_plan(Values& v, const TapInputs& in) {
+  const Plan& plan = in.car.plan;
+  if (!plan.ever) return;
+  v[field("planner.primitive")] = number_of(primitive_of(in.car));
+  v[field("planner.reason")] = number_of(plan.output.reason);
+  v[field("planner.line_offset")] = plan.output.line_offset_m;
+  v[field("planner.stop_distance")] = plan.output.stop_distance_m;
+  v[field("planner.operator_limit")] = in.out.speed_limit_mps;
+  if (plan.good_at) v[field("planner.age")] = (in.now - *plan.good_at).seconds();
+  if (in.out.heard.race_control.ever_heard)
+    v[field("planner.role")] = role_of(in.out.heard.race_control);
+  if (!plan.made_with.ever_heard) return;
+  v[field("flags.track_acted_on")] = number_of(plan.made_with.track);
+  v[field("flags.vehicle_acted_on")] = number_of(plan.made_with.vehicle);
+}
+
+void put_uplink(telemetry::Snapshot& snapshot, const TapInputs& in) {
+  const RimCounters::Uplink& up = in.rim.uplink;
+  if (!up.known) return;
+  Values& v = snapshot.values;
+  v[field("mode.stop_latch")] = up.stop_latch;
+  v[field("mode.stop_challenge")] = up.stop_challenge;
+  v[field("uplink.stop_epoch")] = up.stop_epoch;
+  v[field("uplink.stop_reason")] = up.stop_reason;
+  v[field("uplink.authority")] = up.authority;
+  v[field("uplink.joystick")] = up.joystick ? 1.0 : 0.0;
+  v[field("uplink.schema_agrees")] = up.schema_agrees ? 1.0 : 0.0;
+  v[field("uplink.throttle_cap")] = in.out.radio.throttle_cap;
+  const safety::StreamRow& base = in.out.watchdog[safety::Stream::kRadio];
+  if (base.health > safety::Health::kNever) v[field("uplink.link_age")] = base.age.seconds();
+  snapshot.at(Group::kUplink) = in.now;
 }
 
 template <class T>
-void put_age(telemetry::StatePacket& packet, Group group, const world::Heard<T>& heard,
-             Instant now) {
-  if (heard.heard) packet.age_of(group) = now - heard.at;
+void put_time(telemetry::Snapshot& snapshot, Group group, const world::Heard<T>& heard) {
+  if (heard.heard) snapshot.at(group) = heard.at;
+}
+
+void put_times(telemetry::Snapshot& snapshot, const TapInputs& in) {
+  const world::VehicleSignals& s = in.out.heard.signals;
+  snapshot.at(Group::kMode) = snapshot.at(Group::kCommand) = in.now;
+  if (in.out.heard.race_control.ever_heard) snapshot.at(Group::kFlags) = in.now;
+  if (in.out.ego.validity != world::Validity::kNever) {
+    for (const Group group : {Group::kEgo, Group::kTrack, Group::kDynamics})
+      snapshot.at(group) = in.out.ego.at;
+  }
+  if (in.car.plan.ever) snapshot.at(Group::kPlanner) = in.car.plan.at;
+  put_time(snapshot, Group::kFeedback, s.steering_motor_rad);
+  put_time(snapshot, Group::kWheels, s.wheel_speed_mps);
+  put_time(snapshot, Group::kTyres, s.tyre_temperature_c);
+  put_time(snapshot, Group::kEngine, s.powertrain);
+  put_time(snapshot, Group::kPowertrain, s.powertrain);
+  put_time(snapshot, Group::kElectric, s.misc);
 }
 
 }  // namespace
 
-telemetry::StatePacket tap(const Setup& setup, const Outputs& out, const RimCounters& rim,
-                           Instant now) {
-  telemetry::StatePacket packet;
-  Values& v = packet.values;
-  const world::VehicleSignals& s = out.heard.signals;
-  put_decisions(v, out);
-  put_race_control(v, out.heard.race_control, now);
-  put_ego(v, out);
-  put_actuators(v, s, setup.params.outbound.steering_ratio);
+telemetry::Snapshot tap(const TapInputs& in) {
+  telemetry::Snapshot snapshot;
+  Values& v = snapshot.values;
+  const world::VehicleSignals& s = in.out.heard.signals;
+  put_decisions(v, in.out);
+  put_race_control(v, in.out.heard.race_control, in.now);
+  put_ego(v, in.out);
+  put_actuators(v, s, in.setup.params.outbound.steering_ratio);
+  put_powertrain(v, s);
   put_wheels(v, s);
   put_health(v, s);
-  put_counters(v, out, rim);
-  put_radio(v, out.watchdog[safety::Stream::kRadio], rim);
-
-  for (const Group made_now :
-       {Group::kMode, Group::kCommand, Group::kBus, Group::kComputer, Group::kRadio})
-    packet.age_of(made_now) = Duration{};
-  if (out.heard.race_control.ever_heard) packet.age_of(Group::kFlags) = Duration{};
-  if (out.ego.validity != world::Validity::kNever) {
-    packet.age_of(Group::kEgo) = now - out.ego.at;
-    packet.age_of(Group::kTrack) = now - out.ego.at;
-  }
-  put_age(packet, Group::kFeedback, s.steering_motor_rad, now);
-  put_age(packet, Group::kWheels, s.wheel_speed_mps, now);
-  put_age(packet, Group::kTyres, s.tyre_temperature_c, now);
-  put_age(packet, Group::kEngine, s.powertrain, now);
-  put_age(packet, Group::kElectric, s.misc, now);
-  return packet;
+  put_dynamics(v, in);
+  put_plan(v, in);
+  put_uplink(snapshot, in);
+  v[field("track.last_lap_time")] = in.log.last_lap_s();
+  if (s.wheel_speed_mps.heard) v[field("wheels.standstill")] = in.out.chosen.standstill ? 1.0 : 0.0;
+  put_times(snapshot, in);
+  tap_health(in, snapshot);
+  return snapshot;
 }
 
 }  // namespace pitwall::pipeline

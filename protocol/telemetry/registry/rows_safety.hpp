@@ -16,8 +16,8 @@ inline constexpr auto kSafetyDown = [] {
   using enum Group;
   return std::to_array<FieldRow>({
       choice(kMode, "mode", kModes, 6),
-      choice(kMode, "ct_state", kCtStates, 254),
-      choice(kMode, "sys_state", kSysStates, 254),
+      choice(kMode, "ct_state", kCtStates, 255),
+      choice(kMode, "sys_state", kSysStates, 255),
       choice(kMode, "first_stop_cause", kStopCauses, 126),
       choice(kMode, "arming", kArmings, 14),
       choice(kMode, "stop_latch", kStopLevels, 2),

@@ -322,7 +322,10 @@ TEST(Step, ReportsThePlaceOnTheTrack) {
 // Everything that a tick shows, as bits.
 std::vector<std::uint64_t> bits_of(const Outputs& out, Instant now) {
   std::vector<std::uint64_t> bits;
-  for (const double v : tap(setup(), out, {}, now).values.at)
+  static const auto kNoCar = std::make_unique<Car>();
+  const telemetry::Snapshot shown =
+      tap({.setup = setup(), .car = *kNoCar, .out = out, .log = {}, .rim = {}, .now = now});
+  for (const double v : shown.values.at)
     bits.push_back(std::isnan(v) ? 0 : std::bit_cast<std::uint64_t>(v));
   for (const can::Frame& f : out.passed.frames) {
     bits.push_back(f.id);

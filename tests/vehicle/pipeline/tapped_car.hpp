@@ -1,0 +1,259 @@
+// A tick of which every number is another one, so that two fields that were exchanged show, and the
+// telemetry tap of it.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "protocol/telemetry/registry/registry.hpp"
+#include "tests/vehicle/pipeline/standing_car.hpp"
+#include "vehicle/pipeline/telemetry_tap.hpp"
+#include "vehicle/safety/fault_log.hpp"
+
+namespace pitwall::pipeline::testing {
+
+using telemetry::field;
+
+inline constexpr Instant kNow{100'000'000'000};
+
+inline Instant ago_ms(std::int64_t ms) { return kNow - milliseconds(ms); }
+
+template <class T>
+void hear(world::Heard<T>& heard, const T& value, std::int64_t age_ms) {
+  heard = {.value = value, .at = ago_ms(age_ms), .heard = true};
+}
+
+inline void hear_car(world::VehicleSignals& s) {
+  hear(s.wheel_speed_mps, world::PerWheel{{61, 62, 63, 64}}, 11);
+  hear(s.brake, world::BrakePressure{.front_kpa = 2100, .rear_kpa = 2000}, 12);
+  hear(s.throttle_fraction, 0.25, 13);
+  hear(s.steering_motor_rad, 0.39, 14);
+  hear(s.misc,
+       world::Misc{.battery_v = 13.6,
+                   .sys_state = world::SysState::kDriving,
+                   .mode_switch = 1,
+                   .safety_switch = 6},
+       15);
+  world::Powertrain p;
+  p.gear = 4;
+  p.engine_speed_rpm = 6100;
+  p.engine_running = true;
+  p.throttle_fraction = 0.3;
+  p.vehicle_speed_mps = 60.25;
+  p.gear_shift_status = 3;
+  hear(s.powertrain, p, 16);
+  hear(s.engine,
+       world::EngineHealth{.fuel_pressure_kpa = 350,
+                           .oil_pressure_kpa = 480,
+                           .coolant_c = 91,
+                           .transmission_c = 85,
+                           .transmission_pressure_kpa = 240},
+       17);
+  world::DriveByWireDiagnostics d;
+  d.system_warning = true;
+  d.race_control_lost = true;
+  hear(s.diagnostics, d, 18);
+  hear(s.tyre_temperature_c, world::PerWheel{{71, 72, 73, 74}}, 19);
+  hear(s.tyre_pressure_kpa, world::PerWheel{{151, 152, 153, 154}}, 20);
+}
+
+inline Outputs full() {
+  Outputs out;
+  hear_car(out.heard.signals);
+  out.heard.race_control.ever_heard = true;
+  out.heard.race_control.track = world::TrackFlag::kYellow;
+  out.heard.race_control.vehicle = world::VehicleFlag::kBlue;
+  out.heard.race_control.round_target_speed_mps = 53.6;
+  out.heard.race_control.last_heartbeat_change = ago_ms(700);
+  out.heard.race_control.lap_count = 9;
+  out.heard.bus.frames_applied = 1001;
+  out.heard.bus.refused.stuck_counter = 30;
+  out.heard.bus.refused.unknown_id = 7;
+  out.heard.bus.frames_lost = 12;
+  out.heard.bus.identity = {.verdict = world::IdentityVerdict::kWrong,
+                            .difference = world::IdentityDifference::kWrongLength,
+                            .id = 1312,
+                            .database = 0x12345678'9ABCDEF0};
+  out.heard.bus.link.controller = world::ControllerState::kPassive;
+  out.heard.bus.link.lost_in_socket = 4;
+  out.heard.bus.link.lost_in_interface = 5;
+  out.ego = {.at = ago_ms(21),
+             .validity = world::Validity::kDeadReckoning,
+             .x_m = -310.5,
+             .y_m = 220.25,
+             .yaw_rad = 1.5,
+             .vx_mps = 60.5,
+             .vy_mps = -0.75,
+             .yaw_rate_rad_per_s = 0.375,
+             .ax_mps2 = 1,
+             .ay_mps2 = 2,
+             .position_sigma_m = 0.125,
+             .yaw_sigma_rad = 3};
+  out.place = {.s_m = 1500.5, .n_m = -1.25};
+  out.steered.target_speed_mps = 64.5;
+  out.chosen.mode = world::Mode::kControlledStop;
+  out.chosen.cause = safety::Cause::kImuLost;
+  out.chosen.actuate = true;
+  out.chosen.arming = safety::Arming::kSpent;
+  out.chosen.command = {
+      .at = kNow, .road_wheel_rad = 0.0625, .throttle_fraction = 0.5, .brake_kpa = 1800, .gear = 5};
+  out.ct_state = world::CtState::kCoordinatedStop;
+  out.passed.refused_total = 77;
+  for (std::size_t i = 0; i < safety::kStreams; ++i) {
+    auto& row = out.watchdog.rows[i];
+    row = {static_cast<safety::Stream>(i), static_cast<safety::Health>(i % 5), milliseconds(5)};
+  }
+  out.heard.race_control.conflict = true;
+  out.chosen.causes.add(safety::Cause::kOperatorEmergency);
+  out.chosen.causes.add(safety::Cause::kRadioLost);
+  out.chosen.limited = true;
+  out.chosen.standstill = true;
+  out.quiet = true;
+  out.radio = {.rung = safety::RadioRung::kNoComm, .throttle_cap = 0.6};
+  out.speed_limit_mps = 55.5;
+  out.steered.lateral.cross_track_m = 0.375;
+  out.steered.lateral.heading_error_rad = 0.03125;
+  out.watchdog.rows[static_cast<std::size_t>(safety::Stream::kRadio)] = {
+      safety::Stream::kRadio, safety::Health::kWarning, milliseconds(1'250)};
+  return out;
+}
+
+// What the car kept: faults, a plan, a filter that runs.
+inline std::unique_ptr<Car> full_car() {
+  auto car = std::make_unique<Car>();
+  car->supervisor.log.record({ago_ms(9'000), safety::Cause::kGnssRateLost, 1.0}, false);
+  car->supervisor.log.record({ago_ms(4'000), safety::Cause::kImuLost, 1.0}, true);
+  car->follow = safety::Follow::kStop;
+  car->bank_rad = 0.25;
+  car->plan.ever = true;
+  car->plan.at = ago_ms(22);
+  car->plan.good_at = ago_ms(72);
+  car->plan.made_with = {.track = world::TrackFlag::kOrange,
+                         .vehicle = world::VehicleFlag::kDefender,
+                         .ever_heard = true};
+  car->plan.output.reason = planning::Reason::kCaution;
+  car->plan.output.line_offset_m = -0.5;
+  car->plan.output.stop_distance_m = 210;
+  localization::State& state = car->localization;
+  state.started = true;
+  state.restarts = 3;
+  state.timeline.size = 1;
+  localization::Belief& belief = state.timeline.entries[0].after;
+  belief.mean[localization::kBias] = 0.01;
+  for (std::size_t i = 0; i < localization::kStates; ++i) {
+    const double sigma = 0.01 * static_cast<double>(i + 1);
+    belief.covariance[i * localization::kStates + i] = sigma * sigma;
+  }
+  using enum localization::Gate;
+  const auto tally = [&](localization::Source source, std::size_t unit) -> localization::Tally& {
+    return state.tally[static_cast<std::size_t>(source)][unit];
+  };
+  localization::Tally& position = tally(localization::Source::kPosition, 1);
+  position.ever_accepted = true;
+  position.last_accepted = ago_ms(60);
+  position.by_gate[static_cast<std::size_t>(kAccepted)] = 500;
+  position.by_gate[static_cast<std::size_t>(kOutlier)] = 41;
+  position.by_gate[static_cast<std::size_t>(kNotSolved)] = 42;
+  position.by_gate[static_cast<std::size_t>(kTooUncertain)] = 43;
+  position.by_gate[static_cast<std::size_t>(kTooOld)] = 44;
+  position.by_gate[static_cast<std::size_t>(kImplausible)] = 45;
+  for (const std::size_t unit : {0U, 1U}) {
+    tally(localization::Source::kHeading, unit).ever_accepted = true;
+    tally(localization::Source::kHeading, unit).last_accepted = ago_ms(900);
+  }
+  tally(localization::Source::kImu, 0).ever_accepted = true;
+  tally(localization::Source::kImu, 0).last_accepted = ago_ms(8);
+  return car;
+}
+
+// A second and a little of ticks: 20 Hz of one receiver, 100 Hz of one IMU, once round the track.
+inline TickLog full_log() {
+  TickLog log;
+  constexpr int kTicks = 130;
+  for (int tick = 0; tick <= kTicks; ++tick) {
+    const Instant now = kNow - milliseconds(10 * (kTicks - tick));
+    world::SensorInput sensors;
+    if (tick % 5 == 0) {
+      (void)sensors.positions.push({.unit = 1,
+                                    .at = now - milliseconds(30),
+                                    .solution_status = 0,
+                                    .position_type = 50,
+                                    .latitude_sigma_m = 0.02,
+                                    .longitude_sigma_m = 0.03,
+                                    .height_sigma_m = 0.04,
+                                    .satellites = 17});
+      (void)sensors.velocities.push({.unit = 1, .at = now, .horizontal_mps = 61.5});
+      (void)sensors.headings.push({.unit = 1,
+                                   .at = now,
+                                   .solution_status = 6,
+                                   .position_type = 34,
+                                   .heading_sigma_rad = 0.004});
+    }
+    (void)sensors.imu.push({.unit = 0,
+                            .at = now - milliseconds(4),
+                            .rate_rad_per_s = {0.125, -0.25, 9.0},
+                            .specific_force_mps2 = {9, 9, 9.75}});
+    Outputs out;
+    out.place.s_m = std::fmod(1000.0 + 20.0 * tick, 1200.0);
+    log.note({.now = now, .can = {}, .sensors = sensors, .requests = {}}, out, 1200.0);
+  }
+  return log;
+}
+
+inline constexpr RimCounters kRim{.frames_sent = 2002,
+                                  .tx_drops = 3,
+                                  .steps = 4004,
+                                  .missed_deadlines = 5,
+                                  .step_time_max_us = 66,
+                                  .step_time_p50_us = 40,
+                                  .processor_share = 0.4,
+                                  .memory_mib = 512,
+                                  .temperature_c = 61.5,
+                                  .heartbeats = 88,
+                                  .heartbeats_refused = 9,
+                                  .base_runs = 2,
+                                  .slots_skipped = 6,
+                                  .round_trip_ms = 12.5,
+                                  .paths = {{{0.25, 40, 0.5}, {0.125, 44, 0.75}}},
+                                  .uplink = {.known = true,
+                                             .stop_latch = 1,
+                                             .stop_challenge = 4711,
+                                             .stop_reason = 3,
+                                             .stop_epoch = 12,
+                                             .authority = 5,
+                                             .joystick = true,
+                                             .schema_agrees = true}};
+
+inline std::string name_of(std::size_t i) {
+  const auto& row = telemetry::kFields[i];
+  return std::string(telemetry::row_of(row.group).name) + "." + std::string(row.name);
+}
+
+struct Row {
+  telemetry::FieldIndex field;
+  double value;
+};
+
+inline telemetry::Snapshot tapped(const Outputs& out, const RimCounters& rim = kRim) {
+  static const auto kCar = full_car();
+  static const TickLog kLog = full_log();
+  return tap({.setup = setup(), .car = *kCar, .out = out, .log = kLog, .rim = rim, .now = kNow});
+}
+
+inline telemetry::Snapshot tapped_of_nothing() {
+  const auto car = std::make_unique<Car>();
+  return tap({.setup = setup(), .car = *car, .out = {}, .log = {}, .rim = {}, .now = kNow});
+}
+
+inline void expect(const std::vector<Row>& rows) {
+  const auto snapshot = tapped(full());
+  for (const Row& row : rows)
+    EXPECT_NEAR(snapshot.values[row.field], row.value, 1e-9) << name_of(row.field);
+}
+
+}  // namespace pitwall::pipeline::testing

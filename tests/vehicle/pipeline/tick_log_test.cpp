@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/pipeline/tick_log.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace pitwall::pipeline {
+namespace {
+
+constexpr Instant kStart{1'000'000'000};
+constexpr double kLength_m = 2'000.0;
+
+TEST(SensorClock, SaysNothingBeforeTheFirstWholeSecond) {
+  SensorClock clock;
+  for (int ms = 0; ms < 1'000; ms += 10) {
+    const Instant now = kStart + milliseconds(ms);
+    clock.heard(now, now);
+    clock.advance(now);
+    EXPECT_TRUE(std::isnan(clock.figures().rate_hz));
+  }
+}
+
+TEST(SensorClock, TellsRateLargestGapAndLargestDelay) {
+  SensorClock clock;
+  for (int ms = 0; ms <= 1'000; ms += 10) {
+    const Instant now = kStart + milliseconds(ms);
+    const bool in_gap = ms > 300 && ms < 380;
+    if (ms % 20 == 0 && !in_gap) clock.heard(now - milliseconds(ms == 500 ? 33 : 5), now);
+    clock.advance(now);
+  }
+  EXPECT_NEAR(clock.figures().rate_hz, 47.0, 1e-9);  // 50 intervals less the three of the gap
+  EXPECT_NEAR(clock.figures().gap_ms, 80.0, 1e-9);
+  EXPECT_NEAR(clock.figures().latency_ms, 33.0, 1e-9);
+}
+
+TEST(SensorClock, WhoFellSilentIsUnsetAfterASecondOfSilence) {
+  SensorClock clock;
+  Instant now = kStart;
+  clock.heard(now, now);
+  for (int ms = 10; ms <= 2'100; ms += 10) clock.advance(now = kStart + milliseconds(ms));
+  EXPECT_TRUE(std::isnan(clock.figures().rate_hz));
+}
+
+// The gap that is still open counts: a sensor that died is not shown with the gaps of its life.
+TEST(SensorClock, TheGapAtTheEndCounts) {
+  SensorClock clock;
+  for (int ms = 0; ms <= 1'000; ms += 10) {
+    const Instant now = kStart + milliseconds(ms);
+    if (ms <= 400) clock.heard(now, now);
+    clock.advance(now);
+  }
+  EXPECT_NEAR(clock.figures().gap_ms, 600.0, 1e-9);
+}
+
+struct Driver {
+  LapClock clock;
+  Instant now = kStart;
+  double driven_m = 0.0;
+
+  void drive(double metres, double speed_mps) {
+    const double end_m = driven_m + metres;
+    while (driven_m < end_m) {
+      now += milliseconds(10);
+      driven_m += 0.01 * speed_mps;
+      clock.advance(std::fmod(driven_m, kLength_m), kLength_m, now);
+    }
+  }
+};
+
+TEST(LapClock, TimesWholeLapsFromLineToLineBetweenTheTicks) {
+  Driver car;
+  car.driven_m = 1'234.0;
+  car.drive(kLength_m, 73.0);  // crosses the line once
+  EXPECT_TRUE(std::isnan(car.clock.last_lap_s()));
+  car.drive(kLength_m, 73.0);
+  EXPECT_NEAR(car.clock.last_lap_s(), kLength_m / 73.0, 1e-6);
+  car.drive(kLength_m - 766.0, 73.0);
+  car.drive(2.0 * kLength_m, 50.0);
+  EXPECT_NEAR(car.clock.last_lap_s(), kLength_m / 50.0, 1e-6);
+}
+
+TEST(LapClock, ACarThatGoesBackAcrossTheLineOrJumpsTimesNoLap) {
+  LapClock clock;
+  Instant now = kStart;
+  const auto at = [&](double station_m) {
+    clock.advance(station_m, kLength_m, now += milliseconds(10));
+  };
+  for (int round = 0; round < 3; ++round) {
+    at(1'999.5);
+    at(0.5);  // forward
+    at(1'999.5);
+    at(1'900.0);  // a jump
+    at(1'960.0);
+  }
+  EXPECT_TRUE(std::isnan(clock.last_lap_s()));
+  at(kUnset);  // lost
+  at(1'999.0);
+  at(1.0);
+  EXPECT_TRUE(std::isnan(clock.last_lap_s()));
+}
+
+TEST(TickLog, KeepsTheNewestOfEachUnitAndIgnoresUnitsThatThereAreNot) {
+  TickLog log;
+  world::SensorInput sensors;
+  (void)sensors.positions.push({.unit = 1, .at = kStart, .satellites = 9});
+  (void)sensors.positions.push({.unit = 1, .at = kStart, .satellites = 11});
+  (void)sensors.positions.push({.unit = 2, .at = kStart, .satellites = 99});
+  (void)sensors.imu.push({.unit = 200, .at = kStart});
+  log.note({.now = kStart, .can = {}, .sensors = sensors, .requests = {}}, {}, kLength_m);
+  EXPECT_FALSE(log.position(0).has_value());
+  ASSERT_TRUE(log.position(1).has_value());
+  EXPECT_EQ(log.position(1)->satellites, 11);
+  EXPECT_FALSE(log.imu().has_value());
+  EXPECT_EQ(log.at(), kStart);
+}
+
+}  // namespace
+}  // namespace pitwall::pipeline

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/pipeline/health_tap.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "protocol/telemetry/registry/labels.hpp"
+#include "vehicle/safety/fault_log.hpp"
+
+namespace pitwall::pipeline {
+namespace {
+
+using localization::Gate;
+using localization::Source;
+using telemetry::field;
+using telemetry::FieldIndex;
+using telemetry::Group;
+using telemetry::Snapshot;
+using telemetry::Values;
+
+// The rows of the streams are the watchdog's, in its order.
+constexpr FieldIndex kFirstStream = telemetry::fields_of(Group::kStreams).first;
+static_assert(telemetry::fields_of(Group::kStreams).count == safety::kStreams);
+static_assert(field("streams.gnss0_link") - kFirstStream ==
+              static_cast<std::size_t>(safety::Stream::kGnss0Link));
+static_assert(field("streams.misc") - kFirstStream ==
+              static_cast<std::size_t>(safety::Stream::kMisc));
+static_assert(field("streams.radio") - kFirstStream ==
+              static_cast<std::size_t>(safety::Stream::kRadio));
+
+template <class T>
+double number(T value) {
+  return static_cast<double>(value);
+}
+
+void put_sigmas(Values& v, const localization::State& state) {
+  if (!state.started) return;
+  const localization::Belief& belief = state.timeline.newest();
+  const auto sigma = [&](localization::StateIndex i) {
+    return std::sqrt(belief.covariance[static_cast<std::size_t>(i * localization::kStates + i)]);
+  };
+  v[field("localization.sigma_x")] = sigma(localization::kX);
+  v[field("localization.sigma_y")] = sigma(localization::kY);
+  v[field("localization.sigma_yaw")] = sigma(localization::kYaw);
+  v[field("localization.sigma_vx")] = sigma(localization::kVx);
+  v[field("localization.sigma_vy")] = sigma(localization::kVy);
+  v[field("localization.gyro_bias")] = belief.mean[localization::kBias];
+}
+
+// Which units were accepted lately: 0 none, 1 unit 0, 2 unit 1, 3 both.
+double units_of(const localization::State& state, Source source, Duration lately, Instant now) {
+  std::uint32_t set = 0;
+  const auto& tally = state.tally[static_cast<std::size_t>(source)];
+  for (std::size_t unit = 0; unit < tally.size(); ++unit) {
+    const bool used = tally[unit].ever_accepted && now - tally[unit].last_accepted <= lately;
+    set |= (used ? 1U : 0U) << unit;
+  }
+  return set;
+}
+
+double gate_total(const localization::State& state, Gate gate) {
+  std::uint64_t total = 0;
+  for (const auto& units : state.tally)
+    for (const localization::Tally& tally : units)
+      total += tally.by_gate[static_cast<std::size_t>(gate)];
+  return number(total);
+}
+
+void put_localization(const TapInputs& in, Snapshot& snapshot) {
+  Values& v = snapshot.values;
+  const localization::State& state = in.car.localization;
+  put_sigmas(v, state);
+  const auto& positions = state.tally[static_cast<std::size_t>(Source::kPosition)];
+  for (const localization::Tally& unit : positions) {
+    if (!unit.ever_accepted) continue;
+    const double age_s = (in.now - unit.last_accepted).seconds();
+    double& shown = v[field("localization.position_age")];
+    shown = std::isnan(shown) ? age_s : std::min(shown, age_s);
+  }
+  constexpr Duration kPositionLately = milliseconds(250), kHeadingLately = milliseconds(2'500),
+                     kImuLately = milliseconds(50);
+  v[field("localization.position_units")] =
+      units_of(state, Source::kPosition, kPositionLately, in.now);
+  v[field("localization.heading_units")] =
+      units_of(state, Source::kHeading, kHeadingLately, in.now);
+  v[field("localization.imu_units")] = units_of(state, Source::kImu, kImuLately, in.now);
+  v[field("localization.accepted")] = gate_total(state, Gate::kAccepted);
+  v[field("localization.outliers")] = gate_total(state, Gate::kOutlier);
+  v[field("localization.unsolved")] = gate_total(state, Gate::kNotSolved);
+  v[field("localization.uncertain")] = gate_total(state, Gate::kTooUncertain);
+  v[field("localization.late")] = gate_total(state, Gate::kTooOld);
+  v[field("localization.implausible")] = gate_total(state, Gate::kImplausible);
+  v[field("localization.restarts")] = state.restarts;
+  snapshot.at(Group::kLocalization) = in.now;
+}
+
+void put_streams(const TapInputs& in, Snapshot& snapshot) {
+  for (std::size_t i = 0; i < safety::kStreams; ++i)
+    snapshot.values[kFirstStream + i] =
+        number(static_cast<std::uint8_t>(in.out.watchdog.rows[i].health));
+  snapshot.at(Group::kStreams) = in.now;
+}
+
+void put_sensors(const TapInputs& in, Snapshot& snapshot) {
+  using Sensor = TickLog::Sensor;
+  struct Row {
+    Sensor sensor;
+    FieldIndex rate;  // gap and latency follow it
+  };
+  constexpr std::array kRows{Row{Sensor::kGnss0, field("sensors.gnss0_rate")},
+                             Row{Sensor::kGnss1, field("sensors.gnss1_rate")},
+                             Row{Sensor::kImu0, field("sensors.imu0_rate")},
+                             Row{Sensor::kImu1, field("sensors.imu1_rate")}};
+  static_assert(field("sensors.gnss0_gap") == field("sensors.gnss0_rate") + 1 &&
+                field("sensors.gnss0_latency") == field("sensors.gnss0_rate") + 2);
+  for (const Row& row : kRows) {
+    const SensorFigures& figures = in.log.figures(row.sensor);
+    snapshot.values[row.rate] = figures.rate_hz;
+    snapshot.values[row.rate + 1] = figures.gap_ms;
+    snapshot.values[row.rate + 2] = figures.latency_ms;
+    if (!std::isnan(figures.rate_hz)) snapshot.at(Group::kSensors) = in.now;
+  }
+}
+
+void put_receiver(const TapInputs& in, std::size_t unit, Snapshot& snapshot) {
+  const auto& position = in.log.position(unit);
+  if (!position) return;
+  const Group group = unit == 0 ? Group::kGnss0 : Group::kGnss1;
+  const auto at = [&](FieldIndex of_unit_0) -> double& {
+    return snapshot.values[of_unit_0 - telemetry::fields_of(Group::kGnss0).first +
+                           telemetry::fields_of(group).first];
+  };
+  at(field("gnss0.status")) = position->solution_status;
+  at(field("gnss0.type")) = position->position_type;
+  at(field("gnss0.satellites")) = position->satellites;
+  at(field("gnss0.sigma")) = std::max(position->latitude_sigma_m, position->longitude_sigma_m);
+  at(field("gnss0.height_sigma")) = position->height_sigma_m;
+  at(field("gnss0.position_age")) = std::max(0.0, (in.now - position->at).seconds());
+  if (const auto& velocity = in.log.velocity(unit))
+    at(field("gnss0.speed")) = velocity->horizontal_mps;
+  if (const auto& heading = in.log.heading(unit)) {
+    at(field("gnss0.heading_status")) = heading->solution_status;
+    at(field("gnss0.heading_type")) = heading->position_type;
+    at(field("gnss0.heading_sigma")) = heading->heading_sigma_rad;
+  }
+  snapshot.at(group) = std::min(position->at, in.now);
+}
+
+void put_computer(const TapInputs& in, Snapshot& snapshot) {
+  Values& v = snapshot.values;
+  v[field("computer.step_time_max")] = in.rim.step_time_max_us;
+  v[field("computer.step_time_p50")] = in.rim.step_time_p50_us;
+  v[field("computer.steps")] = number(in.rim.steps);
+  v[field("computer.missed_deadlines")] = number(in.rim.missed_deadlines);
+  v[field("computer.processor")] = in.rim.processor_share;
+  v[field("computer.memory")] = in.rim.memory_mib;
+  v[field("computer.temperature")] = in.rim.temperature_c;
+  snapshot.at(Group::kComputer) = in.now;
+}
+
+void put_faults(const TapInputs& in, Snapshot& snapshot) {
+  Values& v = snapshot.values;
+  const safety::FaultLog& log = in.car.supervisor.log;
+  v[field("faults.now")] = in.out.chosen.causes.bits() >> 1U;  // bit 0 is kNone, never set
+  v[field("faults.recorded")] = number(log.total);
+  if (log.size() > 0) {
+    const safety::FaultEntry& last = log.entry(log.size() - 1);
+    v[field("faults.last_cause")] = number(static_cast<std::uint8_t>(last.cause));
+    v[field("faults.last_age")] = (in.now - last.at).seconds();
+  }
+  snapshot.at(Group::kFaults) = in.now;
+}
+
+void put_bus(const TapInputs& in, Snapshot& snapshot) {
+  Values& v = snapshot.values;
+  const world::BusHealth& bus = in.out.heard.bus;
+  v[field("bus.frames_applied")] = number(bus.frames_applied);
+  v[field("bus.frames_refused")] = number(bus.refused.total());
+  v[field("bus.frames_sent")] = number(in.rim.frames_sent);
+  v[field("bus.tx_drops")] = number(in.rim.tx_drops);
+  v[field("bus.gate_refusals")] = number(in.out.passed.refused_total);
+  v[field("bus.frames_lost")] = number(bus.frames_lost);
+  v[field("bus.queue_losses")] = number(bus.link.lost_in_socket + bus.link.lost_in_interface);
+  v[field("bus.controller")] = number(static_cast<std::uint8_t>(bus.link.controller));
+  v[field("bus.identity")] = number(static_cast<std::uint8_t>(bus.identity.verdict));
+  if (bus.identity.id != 0) v[field("bus.differing_id")] = bus.identity.id;
+  // The upper half: all that a number of the packet can hold; enough to tell revisions apart.
+  v[field("bus.database")] = number(bus.identity.database >> 32U);
+  snapshot.at(Group::kBus) = in.now;
+}
+
+void put_radio(const TapInputs& in, Snapshot& snapshot) {
+  Values& v = snapshot.values;
+  const safety::StreamRow& base = in.out.watchdog[safety::Stream::kRadio];
+  v[field("radio.base")] = number(static_cast<std::uint8_t>(base.health));
+  if (base.health > safety::Health::kNever) v[field("radio.silence")] = base.age.seconds();
+  v[field("radio.rung")] = number(static_cast<std::uint8_t>(in.out.radio.rung));
+  v[field("radio.round_trip")] = in.rim.round_trip_ms;
+  v[field("radio.heartbeats")] = number(in.rim.heartbeats);
+  v[field("radio.heartbeats_refused")] = number(in.rim.heartbeats_refused);
+  v[field("radio.base_runs")] = number(in.rim.base_runs);
+  v[field("radio.slots_skipped")] = number(in.rim.slots_skipped);
+  v[field("radio.loss_0")] = in.rim.paths[0].loss;
+  v[field("radio.loss_1")] = in.rim.paths[1].loss;
+  v[field("radio.delay_0")] = in.rim.paths[0].delay_p99_ms;
+  v[field("radio.delay_1")] = in.rim.paths[1].delay_p99_ms;
+  v[field("radio.budget_use_0")] = in.rim.paths[0].budget_use;
+  v[field("radio.budget_use_1")] = in.rim.paths[1].budget_use;
+  snapshot.at(Group::kRadio) = in.now;
+}
+
+}  // namespace
+
+void tap_health(const TapInputs& in, Snapshot& snapshot) {
+  put_localization(in, snapshot);
+  put_streams(in, snapshot);
+  put_sensors(in, snapshot);
+  put_receiver(in, 0, snapshot);
+  put_receiver(in, 1, snapshot);
+  put_computer(in, snapshot);
+  put_faults(in, snapshot);
+  put_bus(in, snapshot);
+  put_radio(in, snapshot);
+}
+
+}  // namespace pitwall::pipeline

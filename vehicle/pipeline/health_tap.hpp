@@ -1,0 +1,15 @@
+// Of the telemetry tap, what tells whether the car is well: localization, watchdogs, sensors,
+// receivers, computer, faults, bus, radio.
+//   in     as telemetry_tap.hpp
+//   out    values and times of sampling of the groups kLocalization, kStreams, kSensors, kGnss0,
+//          kGnss1, kComputer, kFaults, kBus and kRadio
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vehicle/pipeline/telemetry_tap.hpp"
+
+namespace pitwall::pipeline {
+
+void tap_health(const TapInputs& in, telemetry::Snapshot& snapshot);
+
+}  // namespace pitwall::pipeline
