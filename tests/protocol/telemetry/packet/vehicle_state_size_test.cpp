@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "protocol/telemetry/packet/body.hpp"
+#include "protocol/telemetry/registry/vehicle_state.hpp"
+
+namespace pitwall::telemetry {
+namespace {
+
+// The figure that is proved at compile time is that of a body which was really written.
+TEST(VehicleState, TakesAsMuchOfADatagramAsTheRegistrySays) {
+  Snapshot snapshot;
+  const Instant now{seconds(100).ns};
+  snapshot.values.at.fill(1.0);
+  snapshot.sampled_at.fill(now - milliseconds(3));
+  std::array<std::uint8_t, kMaxBody> buffer{};
+  BodyWriter body{buffer, buffer.size(), Direction::kDown};
+  body.begin(now, 1);
+  CodecCounters counters;
+  const GroupSet written = body.add_groups(snapshot, kVehicleStateGroups, now, counters);
+  EXPECT_EQ(written, kVehicleStateSet);
+  EXPECT_EQ(kHeaderSize + body.bytes().size() + kTagSize, kVehicleStateDatagram);
+  EXPECT_LE(bytes_of(kVehicleStateSet), 121U);
+  EXPECT_LE(kVehicleStateDatagram, 154U);
+}
+
+}  // namespace
+}  // namespace pitwall::telemetry
