@@ -139,11 +139,13 @@ void VirtualRadio::inject(bool at_base, PathId path, Address from,
 
 void VirtualRadio::judge(const Arrival& arrival) {
   ++arrivals_;
-  const Sent& sent = sent_[arrival.sequence % kRemembered];
+  Sent& sent = sent_[arrival.sequence % kRemembered];
   if (sent.tick < 0 || sent.sequence_low != static_cast<std::uint32_t>(arrival.sequence)) {
     ++falsehoods_.never_sampled;
     return;
   }
+  if (sent.arrived) ++falsehoods_.repeated;
+  sent.arrived = true;
   for (const GroupRow& row : kGroupTable) {
     if (!arrival.groups.has(row.group)) continue;
     std::int64_t& tick = tick_at_base_[index_of(row.group)];
@@ -183,7 +185,10 @@ void VirtualRadio::send(bool down, const Outgoing& out) {
   CHECK(header.has_value());
   const bool data = header->kind == Kind::kSealed || header->kind == Kind::kSigned;
   if (down && data) {
-    sent_[header->sequence_low % kRemembered] = {header->sequence_low, tick_};
+    Sent& sent = sent_[header->sequence_low % kRemembered];
+    // A copy for the other path is the same packet.
+    const bool copy = sent.sequence_low == header->sequence_low && sent.tick == tick_;
+    if (!copy) sent = {header->sequence_low, tick_, false};
   }
   if (tap_ && !tap_(down, out.path, out.bytes)) return;
   Side& side = down ? car_side_ : base_side_;

@@ -55,6 +55,9 @@ struct Falsehoods {
   std::uint64_t too_young = 0;      // says of a sample that it was taken later than it was
   std::uint64_t never_sampled = 0;  // a value that the car did not have at that tick
   std::uint64_t went_back = 0;      // an older sample after a newer one
+  std::uint64_t repeated = 0;       // the same packet a second time
+
+  std::uint64_t all() const { return too_young + never_sampled + went_back + repeated; }
 };
 
 class VirtualRadio {
@@ -112,6 +115,7 @@ class VirtualRadio {
   struct Sent {
     std::uint32_t sequence_low = 0;
     std::int64_t tick = -1;
+    bool arrived = false;
   };
   struct Side {
     std::array<telemetry::Address, telemetry::kPaths> address{};

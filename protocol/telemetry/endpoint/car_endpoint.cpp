@@ -118,14 +118,16 @@ std::optional<Outgoing> CarEndpoint::poll(const Snapshot& snapshot, Instant now)
 }
 
 void CarEndpoint::Parts::make_packet(const PacketPlan& plan, Instant now) {
-  const PacketRoom room = conduit.room_for(plan, lane.safety_size(snapshot), ledger.wanted(), now);
+  const std::size_t safe = lane.choose(snapshot, conduit.round_trip(), now);
+  const PacketRoom room = conduit.room_for(plan, safe, ledger.wanted(), now);
   BodyWriter body = conduit.begin(plan, room.whole, now);
   const std::size_t fixed = body.bytes().size();
   body.hold_back(room.records);
-  const bool fill = !something_waits();
-  const std::size_t of_state = lane.write(
-      body, snapshot,
-      {.only_safety = room.only_safety, .fill = fill, .round_trip = conduit.round_trip()}, now);
+  const std::size_t of_state = lane.write(body, snapshot,
+                                          {.only_safety = room.only_safety,
+                                           .between = plan.between,
+                                           .something_waits = something_waits()},
+                                          now);
   body.hold_back(0);
   const std::size_t written = body.bytes().size();
   conduit.add_path_records(body, plan, now);

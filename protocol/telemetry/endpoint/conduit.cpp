@@ -10,27 +10,11 @@
 namespace pitwall::telemetry {
 namespace {
 
-constexpr std::size_t kAround = kHeaderSize + kTagSize;
-// Less body than this is no packet: fixed part, acknowledgement, two groups of safety.
-constexpr std::size_t kLeastBody = kBodyFixed + kAckSize + 12;
-// Between slots a packet is made only if it carries more than itself.
-constexpr std::size_t kLeastBetween = 160;
-// A path with so much less room than the best one gets packets of its own.
-constexpr std::size_t kMuchLess = 2;
-// A path that is silent for so long is not the better one.
-constexpr Duration kSilent = milliseconds(60);
 constexpr Duration kUnknownRoundTrip = milliseconds(60);
-// A budget that had no room is asked again this much later.
-constexpr Duration kAskAgain = milliseconds(1);
-constexpr std::size_t kTokenSize = 8, kReceiptSize = 5;
+// Acknowledgements come each slot; without any for so long, what leaves may be lost.
+constexpr Duration kDoubt = milliseconds(60);
 constexpr std::uint64_t kReceiptEvery = 4, kLossEvery = 25;  // slots
-constexpr Duration kTenth = milliseconds(100);
 
-constexpr std::uint8_t bit_of(PathId path) { return static_cast<std::uint8_t>(1U << path); }
-constexpr bool has(std::uint8_t paths, PathId path) { return (paths & bit_of(path)) != 0; }
-constexpr std::uint8_t all_of(std::uint8_t paths) {
-  return static_cast<std::uint8_t>((1U << paths) - 1);
-}
 constexpr Direction other(Direction direction) {
   return direction == Direction::kDown ? Direction::kUp : Direction::kDown;
 }
@@ -49,43 +33,13 @@ AssociationConfig complete(AssociationConfig config, Randomness& randomness, Gre
 
 }  // namespace
 
-void Conduit::Usage::add(std::size_t count, Instant now) {
-  const std::int64_t at = now.ns / kTenth.ns;
-  if (at - tenth >= 10) bytes.fill(0);
-  for (std::int64_t t = std::max(tenth + 1, at - 9); t <= at; ++t) {
-    bytes[static_cast<std::size_t>(t % 10)] = 0;
-  }
-  tenth = std::max(tenth, at);
-  bytes[static_cast<std::size_t>(tenth % 10)] += count;
-}
-
-std::uint64_t Conduit::Usage::sum(Instant now) const {
-  Usage copy = *this;
-  copy.add(0, now);
-  std::uint64_t total = 0;
-  for (const std::uint64_t b : copy.bytes) total += b;
-  return total;
-}
-
-Conduit::Way Conduit::make_way(const BudgetParams& params) {
-  auto budget = PathBudget::make(params);
-  return {std::move(budget).value(),
-          RateControl(params.bytes_per_s, params.safety_bytes_per_s),
-          1.0,
-          {},
-          {},
-          0,
-          0,
-          {}};
-}
-
 Conduit::Conduit(const ConduitConfig& config, Direction sends, Randomness& randomness)
     : own_(),
       association_(complete(config.association, randomness, own_), randomness),
       sends_(sends),
       policy_(config.policy),
       paths_(config.association.paths),
-      ways_{make_way(config.budget[0]), make_way(config.budget[1])} {
+      ways_{PathLane(config.budget[0]), PathLane(config.budget[1])} {
   CHECK(paths_ >= 1 && paths_ <= kPaths);
 }
 
@@ -98,7 +52,7 @@ Conduit::Fed Conduit::feed(std::span<const std::uint8_t> datagram, PathId path, 
   CHECK(path < paths_);
   const auto opened = association_.feed(datagram, path, from, at, plain_);
   Fed fed;
-  fed.new_session = note_session(fed.peer_restarted);
+  fed.new_session = note_session(fed.peer_restarted, at);
   if (opened && opened->session == session_) fed.heard = open(*opened, datagram.size(), path, at);
   if (fed.heard) take_path_records(path, from, at);
   if (const auto again = association_.last_duplicate()) {
@@ -112,18 +66,18 @@ Conduit::Fed Conduit::feed(std::span<const std::uint8_t> datagram, PathId path, 
 
 // True where the session in use is another one than before: all that was counted by sequence
 // numbers begins anew. The other end's clock is another one only if it restarted.
-bool Conduit::note_session(bool& peer_restarted) {
+bool Conduit::note_session(bool& peer_restarted, Instant at) {
   if (association_.session() == session_) return false;
   session_ = association_.session();
+  acked_at_ = at;
   receipts_.forget();
   sent_.forget();
   stats_.new_session();
   lately_.fill({});
-  left_.fill({});
+  path_receipts_.forget();
   plans_.clear();
   next_plan_ = 0;
-  copy_.reset();
-  for (Way& way : ways_) way.newest = way.told = 0, way.proof.reset();
+  for (PathLane& way : ways_) way.newest = way.told = 0, way.proof.reset();
   const auto& peer = association_.peer();
   peer_restarted = peer && peer_boot_ && peer->boot != *peer_boot_;
   if (peer_restarted) clock_.forget();
@@ -160,6 +114,7 @@ const Heard* Conduit::open(const Opened& opened, std::size_t size, PathId path, 
 void Conduit::take_ack(const Ack& ack, Instant peer_sent, Instant at) {
   const SentBook::News news = sent_.take(ack);
   heard_.delivered = news.delivered;
+  if (!news.delivered.empty()) acked_at_ = at;
   if (!news.newest) return;
   const Instant peer_received = peer_sent - ack.hold;
   clock_.note({news.newest->sent, peer_received, peer_sent, at});
@@ -178,27 +133,16 @@ void Conduit::take_path_records(PathId path, Address from, Instant at) {
       ways_[path].proof = load<std::uint64_t>(record.payload, 0);
     } else if (record.type == RecordType::kPathProof && token) {
       association_.take_proof(path, from, load<std::uint64_t>(record.payload, 0), at);
-    } else if (record.type == RecordType::kPathReceipt && record.payload.size() == kReceiptSize) {
-      take_receipt(record.payload, peer_sent, at);
+    } else if (record.type == RecordType::kPathReceipt) {
+      path_receipts_.take(record.payload, lanes(), peer_sent, at);
     }
   }
-}
-
-// What the peer had last by one path, and for how long.
-void Conduit::take_receipt(std::span<const std::uint8_t> payload, Instant peer_sent, Instant at) {
-  const std::uint8_t path = payload[0];
-  const auto low = load<std::uint16_t>(payload, 1);
-  const Duration hold = microseconds(100) * load<std::uint16_t>(payload, 3);
-  const Left& left = left_[low % left_.size()];
-  if (path >= paths_ || !has(left.paths, path)) return;
-  if (static_cast<std::uint16_t>(left.sequence) != low) return;
-  ways_[path].rate.delivered(left.at, peer_sent - hold, left.bytes, at);
 }
 
 // The copy by the other path, or the same datagram again: no news, but no loss either.
 void Conduit::note_duplicate(std::uint64_t sequence, std::size_t size, PathId path, Instant at) {
   stats_.received(sequence, 0, path, size, at);
-  Way& way = ways_[path];
+  PathLane& way = ways_[path];
   const bool newest = sequence > way.newest;
   if (newest) way.newest = sequence, way.heard_at = at;
   const Lately& first = lately_[sequence % lately_.size()];
@@ -212,10 +156,6 @@ std::optional<Outgoing> Conduit::take(Instant now) {
     out_.clear();
     next_out_ = 0;
     exchange(now);
-    if (copy_ && fits(ways_[copy_->path], copy_->bytes.size(), 0, now)) {
-      go(*copy_, 0, now);
-      copy_.reset();
-    }
   }
   if (next_out_ == out_.size()) return {};
   return out_[next_out_++];
@@ -226,15 +166,14 @@ void Conduit::exchange(Instant now) {
   for (PathId path = 0; path < paths_; ++path) {
     const std::size_t size = association_.poll_size(path, now);
     if (size == 0) continue;
-    Way& way = ways_[path];
-    if (way.budget.room_for_safety(now) < size) {
+    PathLane& way = ways_[path];
+    if (!way.fits(size, size, now)) {
       way.budget.note_refused();
       continue;
     }
     const auto sent = association_.poll(path, now, exchange_bytes_[path]);
     if (!sent || sent->bytes.empty()) continue;
-    way.budget.spend(sent->bytes.size(), sent->bytes.size(), now);
-    way.usage.add(sent->bytes.size() + kIpUdpOverhead, now);
+    way.spend(sent->bytes.size(), sent->bytes.size(), now);
     CHECK(out_.push({path, sent->to, sent->bytes}));
   }
 }
@@ -242,106 +181,43 @@ void Conduit::exchange(Instant now) {
 std::optional<PacketPlan> Conduit::plan(Instant now, bool something_waits) {
   if (next_plan_ < plans_.size()) return plans_[next_plan_++];
   stats_.advance(now);
-  if (advance_slot(now)) stage_ = Stage::kDue;
-  const Instant half = *slot_ + kSlot / 2;
-  bool laid_out = false;
-  if (stage_ == Stage::kDue) {
-    laid_out = association_.ready() && lay_out(false, now);
-    if (!laid_out && now + kAskAgain >= half) ++slots_skipped_;
-    if (laid_out || now + kAskAgain >= half) stage_ = Stage::kBetween;
-  } else if (stage_ == Stage::kBetween && now + kSlotEarly >= half) {
-    laid_out = something_waits && association_.ready() && lay_out(true, now);
-    if (laid_out) stage_ = Stage::kDone;
-  }
-  due_ = stage_ == Stage::kDue || (stage_ == Stage::kBetween && now >= half) ? now + kAskAgain
-         : stage_ == Stage::kBetween                                         ? half
-                                                                             : *slot_ + kSlot;
-  if (!laid_out) return {};
+  const Slots::Turn turn = slots_.turn(now);
+  const bool between = turn == Slots::Turn::kBetween;
+  const bool waits = something_waits || on_trial() || in_doubt(now);
+  const bool wanted = turn == Slots::Turn::kOnSlot || (between && waits);
+  const bool made = wanted && association_.ready() && lay_out(between, now);
+  slots_.done(turn, made, now);
+  due_ = slots_.due(now);
+  if (!made) return {};
   return plans_[next_plan_++];
 }
 
-// Slots are on a grid, so that a poll that comes late moves none of those after it.
-bool Conduit::advance_slot(Instant now) {
-  if (!slot_) return slot_ = now, ++slots_, true;
-  const std::int64_t steps = (now + kSlotEarly - *slot_) / kSlot;
-  if (steps <= 0) return false;
-  if (stage_ == Stage::kDue) ++slots_skipped_;
-  slot_ = *slot_ + kSlot * steps;
-  slots_ += static_cast<std::uint64_t>(steps);
-  slots_skipped_ += static_cast<std::uint64_t>(steps - 1);
-  return true;
+bool Conduit::on_trial() const {
+  for (PathId path = 0; path < paths_; ++path) {
+    if (association_.on_trial(path)) return true;
+  }
+  return false;
 }
+
+// Nothing that was sent is known to arrive: the first packet after a fade shall not wait a slot.
+bool Conduit::in_doubt(Instant now) const { return now - acked_at_ > kDoubt; }
 
 // Which packets go now, and on which paths. False: no path has room.
 bool Conduit::lay_out(bool between, Instant now) {
   plans_.clear();
   next_plan_ = 0;
-  copy_.reset();
   for (PathId path = 0; path < paths_; ++path) {
-    Way& way = ways_[path];
-    way.factor = way.rate.factor(now);
-    way.budget.scale(way.factor, now);
-    if (slots_ % kLossEvery == 0) loss_[path] = stats_.figures(path, now).loss;
+    PathLane& way = ways_[path];
+    way.adapt(now);
+    if (slots_.count() % kLossEvery == 0) way.loss = stats_.figures(path, now).loss;
   }
-  const std::uint8_t paths = paths_with_room(between, now);
-  if (paths == 0) return false;
-  if (policy_ == PathPolicy::kBest && paths != bit_of(better_path(paths))) {
-    const std::uint8_t best = bit_of(better_path(paths));
-    plan_for(best, false, now);
-    if (!between) plan_for(static_cast<std::uint8_t>(paths & ~best), true, now);
-    return true;
-  }
-  const std::uint8_t alone = apart(paths, now);
-  if (alone != 0 && alone != paths) plan_for(alone, false, now);
-  plan_for(alone == paths ? paths : static_cast<std::uint8_t>(paths & ~alone), false, now);
-  return true;
-}
-
-void Conduit::plan_for(std::uint8_t paths, bool only_safety, Instant now) {
-  std::size_t room = kMaxBody;
-  for (PathId path = 0; path < paths_; ++path) {
-    if (!has(paths, path)) continue;
-    room = std::min(room, ways_[path].budget.room_for_safety(now) - kAround);
-  }
-  CHECK(plans_.push({.paths = paths, .safety_room = room, .only_safety = only_safety}));
-}
-
-std::uint8_t Conduit::paths_with_room(bool between, Instant now) const {
-  std::uint8_t paths = 0;
-  for (PathId path = 0; path < paths_; ++path) {
-    const PathBudget& budget = ways_[path].budget;
-    const bool room = between ? budget.room_beside(kAround + kLeastBody, now) >=
-                                    kAround + kLeastBody + kLeastBetween
-                              : budget.room_for_safety(now) >= kAround + kLeastBody;
-    if (room && !association_.targets(path, 0).empty()) paths |= bit_of(path);
-  }
-  return paths;
-}
-
-// A path that must prove itself, or that has much less room than the other, has its own packet.
-std::uint8_t Conduit::apart(std::uint8_t paths, Instant now) const {
-  if (paths != all_of(kPaths)) return 0;
-  static_assert(kPaths == 2);
-  if (ways_[0].proof || association_.probe(0)) return bit_of(0);
-  if (ways_[1].proof || association_.probe(1)) return bit_of(1);
-  const std::size_t room[] = {ways_[0].budget.room_beside(kAround + kLeastBody, now),
-                              ways_[1].budget.room_beside(kAround + kLeastBody, now)};
-  if (room[0] * kMuchLess < room[1]) return bit_of(0);
-  if (room[1] * kMuchLess < room[0]) return bit_of(1);
-  return 0;
-}
-
-PathId Conduit::better_path(std::uint8_t paths) const {
-  if (!has(paths, 1)) return 0;
-  if (!has(paths, 0)) return 1;
-  const Duration ahead = ways_[0].heard_at - ways_[1].heard_at;
-  if (ahead > kSilent) return 0;
-  if (-ahead > kSilent) return 1;
-  return loss_[1] < loss_[0] ? 1 : 0;
+  const PathChoice choice{association_, lanes(), policy_, in_doubt(now)};
+  plans_ = choice.plans(between, now);
+  return !plans_.empty();
 }
 
 std::size_t Conduit::room(const PacketPlan& plan, std::size_t safety, Instant now) const {
-  std::size_t room = kMaxDatagram;
+  std::size_t room = plan.most + kAround;
   for (PathId path = 0; path < paths_; ++path) {
     if (!has(plan.paths, path)) continue;
     room = std::min(room, ways_[path].budget.room_beside(kAround + safety, now));
@@ -351,8 +227,8 @@ std::size_t Conduit::room(const PacketPlan& plan, std::size_t safety, Instant no
 
 PacketRoom Conduit::room_for(const PacketPlan& plan, std::size_t state, std::size_t records,
                              Instant now) const {
-  const std::size_t groups = kBodyFixed + kAckSize + state;
-  const std::size_t wanted = groups + records + path_records_size(plan.paths);
+  const std::size_t groups = kBodyFixed + (receipts_.ack(now) ? kAckSize : 0) + state;
+  const std::size_t wanted = groups + records + path_records_size(plan);
   const std::size_t safety = std::min(wanted, plan.safety_room);
   const std::size_t whole = plan.only_safety ? 0 : room(plan, safety, now);
   const std::size_t for_records = safety > groups ? safety - groups : 0;
@@ -366,13 +242,13 @@ std::size_t Conduit::kept_from_others(const PacketPlan& plan, const PacketRoom& 
   return all.whole > whole ? all.whole - whole : 0;
 }
 
-std::size_t Conduit::path_records_size(std::uint8_t paths) const {
+std::size_t Conduit::path_records_size(const PacketPlan& plan) const {
   std::size_t size = 0;
   for (PathId path = 0; path < paths_; ++path) {
-    if (!has(paths, path)) continue;
-    if (association_.probe(path)) size += BodyWriter::record_size(kTokenSize);
+    if (!has(plan.paths, path)) continue;
+    if (plan.trial) size += BodyWriter::record_size(kTokenSize);
     if (ways_[path].proof) size += BodyWriter::record_size(kTokenSize);
-    if (paths_ > 1) size += BodyWriter::record_size(kReceiptSize);
+    if (paths_ > 1) size += BodyWriter::record_size(PathReceipts::kSize);
   }
   return size;
 }
@@ -387,9 +263,9 @@ BodyWriter Conduit::begin(const PacketPlan& plan, std::size_t room, Instant now)
 void Conduit::add_path_records(BodyWriter& body, const PacketPlan& plan, Instant now) {
   std::array<std::uint8_t, kTokenSize> bytes{};
   for (PathId path = 0; path < paths_; ++path) {
-    Way& way = ways_[path];
+    PathLane& way = ways_[path];
     if (!has(plan.paths, path)) continue;
-    if (const auto token = association_.probe(path)) {
+    if (const auto token = association_.probe(path); plan.trial && token) {
       store<std::uint64_t>(bytes, 0, *token);
       body.add_record(RecordType::kPathProbe, bytes);
     }
@@ -398,20 +274,7 @@ void Conduit::add_path_records(BodyWriter& body, const PacketPlan& plan, Instant
       if (body.add_record(RecordType::kPathProof, bytes)) way.proof.reset();
     }
   }
-  if (paths_ > 1 && slots_ % kReceiptEvery == 0) add_receipts(body, now);
-}
-
-void Conduit::add_receipts(BodyWriter& body, Instant now) {
-  for (PathId path = 0; path < paths_; ++path) {
-    Way& way = ways_[path];
-    if (way.newest == way.told) continue;
-    const std::int64_t hold = (now - way.heard_at) / microseconds(100);
-    if (hold < 0 || hold > UINT16_MAX) continue;
-    std::array<std::uint8_t, kReceiptSize> bytes{path};
-    store<std::uint16_t>(bytes, 1, static_cast<std::uint16_t>(way.newest));
-    store<std::uint16_t>(bytes, 3, static_cast<std::uint16_t>(hold));
-    if (body.add_record(RecordType::kPathReceipt, bytes)) way.told = way.newest;
-  }
+  if (paths_ > 1 && slots_.count() % kReceiptEvery == 0) PathReceipts::write(body, lanes(), now);
 }
 
 std::uint64_t Conduit::send(const BodyWriter& body, const PacketPlan& plan, std::size_t safety,
@@ -421,41 +284,20 @@ std::uint64_t Conduit::send(const BodyWriter& body, const PacketPlan& plan, std:
   next_datagram_ = (next_datagram_ + 1) % datagrams_.size();
   const std::size_t size = sealed->datagram.size();
   sent_.sent(sealed->sequence, now, size + kIpUdpOverhead);
-  left_[sealed->sequence % left_.size()] = {sealed->sequence, now, size + kIpUdpOverhead,
-                                            plan.paths};
+  path_receipts_.sent(sealed->sequence, plan.paths, size + kIpUdpOverhead, now);
   for (PathId path = 0; path < paths_; ++path) {
-    if (has(plan.paths, path)) put_out(path, sealed->datagram, kAround + safety, now);
+    if (has(plan.paths, path)) put_out(path, sealed->datagram, plan, kAround + safety, now);
   }
   return sealed->sequence;
 }
 
-// To the peer's address, and to one that it has yet to prove. The newest address goes first: where
-// the peer moved, nothing reaches it under the other.
-void Conduit::put_out(PathId path, std::span<const std::uint8_t> datagram, std::size_t safety,
-                      Instant now) {
-  const auto targets = association_.targets(path, datagram.size());
-  for (std::size_t i = targets.size(); i-- > 0;) {
-    const Outgoing out{path, targets[i], datagram};
-    if (fits(ways_[path], datagram.size(), safety, now)) {
-      go(out, safety, now);
-    } else {
-      copy_ = out;
-    }
-    safety = 0;  // the copy is paid for by the rest
-  }
-}
-
-bool Conduit::fits(const Way& way, std::size_t size, std::size_t safety, Instant now) const {
-  return way.budget.room_beside(std::min(safety, size), now) >= size;
-}
-
-void Conduit::go(const Outgoing& out, std::size_t safety, Instant now) {
-  Way& way = ways_[out.path];
-  const std::size_t size = out.bytes.size();
-  way.budget.spend(size, std::min(safety, size), now);
-  way.usage.add(size + kIpUdpOverhead, now);
-  association_.note_sent(out.path, out.to, size);
-  CHECK(out_.push(out));
+void Conduit::put_out(PathId path, std::span<const std::uint8_t> datagram, const PacketPlan& plan,
+                      std::size_t safety, Instant now) {
+  const Address to =
+      plan.trial ? association_.targets(path, datagram.size()).back() : association_.proved(path);
+  ways_[path].spend(datagram.size(), safety, now);
+  association_.note_sent(path, to, datagram.size());
+  CHECK(out_.push({path, to, datagram}));
 }
 
 bool Conduit::schema_agrees() const {
@@ -481,8 +323,8 @@ void Conduit::report(LinkReport& out, Instant now) const {
   out.sessions = association_.session();
   out.association = association_.counters();
   out.bad_bodies = bad_bodies_;
-  out.slots = slots_;
-  out.slots_skipped = slots_skipped_;
+  out.slots = slots_.count();
+  out.slots_skipped = slots_.skipped();
   if (clock_.known()) {
     out.round_trip = clock_.round_trip();
     out.clock_offset = clock_.offset();
@@ -491,11 +333,11 @@ void Conduit::report(LinkReport& out, Instant now) const {
   out.both_lost = stats_.both_lost();
   out.ack_nonsense = sent_.nonsense();
   for (PathId path = 0; path < paths_; ++path) {
-    const Way& way = ways_[path];
+    const PathLane& way = ways_[path];
     PathReport& to = out.paths[path];
     to.heard = stats_.figures(path, now);
     to.spent = way.budget.counters();
-    to.budget_use = static_cast<double>(way.usage.sum(now)) / way.budget.params().bytes_per_s;
+    to.budget_use = way.use(now);
     to.rate_factor = way.factor;
     to.queue_delay = way.rate.queue_delay();
     to.peer = association_.proved(path);

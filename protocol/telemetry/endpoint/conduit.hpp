@@ -17,11 +17,13 @@
 #include <span>
 
 #include "protocol/telemetry/endpoint/link_report.hpp"
+#include "protocol/telemetry/endpoint/path_choice.hpp"
+#include "protocol/telemetry/endpoint/path_lane.hpp"
+#include "protocol/telemetry/endpoint/path_receipts.hpp"
+#include "protocol/telemetry/endpoint/slots.hpp"
 #include "protocol/telemetry/flow/acks.hpp"
 #include "protocol/telemetry/flow/clock_sync.hpp"
 #include "protocol/telemetry/flow/link_stats.hpp"
-#include "protocol/telemetry/flow/path_budget.hpp"
-#include "protocol/telemetry/flow/rate_control.hpp"
 #include "protocol/telemetry/packet/body.hpp"
 #include "protocol/telemetry/packet/received.hpp"
 #include "protocol/telemetry/session/association.hpp"
@@ -29,16 +31,6 @@
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::telemetry {
-
-inline constexpr Duration kSlot = milliseconds(20);
-// A poll so little before its slot is the slot's: loops that tick at 10 ms do so with jitter.
-inline constexpr Duration kSlotEarly = milliseconds(2);
-
-// Which class of content goes on which of two paths.
-enum class PathPolicy : std::uint8_t {
-  kDuplicate,  // everything on all paths that have room
-  kBest        // safety on all, the rest on the better one
-};
 
 struct ConduitConfig {
   AssociationConfig association;  // greeting: boot 0 is drawn, schema hashes 0 are the registry's
@@ -50,13 +42,6 @@ struct Outgoing {
   PathId path = 0;
   Address to;
   std::span<const std::uint8_t> bytes;  // until the next call
-};
-
-// A packet that may be made now.
-struct PacketPlan {
-  std::uint8_t paths = 0;       // it goes on these
-  std::size_t safety_room = 0;  // bytes of body, if only safety is in it
-  bool only_safety = false;     // all else goes another way
 };
 
 struct PacketRoom {
@@ -104,6 +89,7 @@ class Conduit {
   const std::optional<Greeting>& peer() const { return association_.peer(); }
   const Greeting& own() const { return own_; }
   const ClockSync& clock() const { return clock_; }
+  const LinkStats& stats() const { return stats_; }
   bool ready() const { return association_.ready(); }
   Duration round_trip() const;  // a guess of kSlot * 3 until it is known
   bool schema_agrees() const;
@@ -123,79 +109,44 @@ class Conduit {
     std::uint32_t tx_time_100us = 0;
     std::uint8_t paths_mask = 0;
   };
-  // Bytes of the last second, in tenths.
-  struct Usage {
-    std::array<std::uint64_t, 10> bytes{};
-    std::int64_t tenth = 0;
-    void add(std::size_t count, Instant now);
-    std::uint64_t sum(Instant now) const;
-  };
-  // What left lately, for receipts of one path.
-  struct Left {
-    std::uint64_t sequence = 0;
-    Instant at{};
-    std::size_t bytes = 0;
-    std::uint8_t paths = 0;
-  };
-  struct Way {
-    PathBudget budget;
-    RateControl rate;
-    double factor = 1.0;
-    Usage usage;
-    Instant heard_at{};
-    std::uint64_t newest = 0, told = 0;  // sequence that came by this path; of it told the peer
-    std::optional<std::uint64_t> proof;  // asked for by the peer
-  };
-
+  std::span<PathLane> lanes() { return std::span(ways_).first(paths_); }
   const Heard* open(const Opened& opened, std::size_t size, PathId path, Instant at);
   void take_ack(const Ack& ack, Instant peer_sent, Instant at);
   void take_path_records(PathId path, Address from, Instant at);
-  void take_receipt(std::span<const std::uint8_t> payload, Instant peer_sent, Instant at);
-  static Way make_way(const BudgetParams& params);
   void note_duplicate(std::uint64_t sequence, std::size_t size, PathId path, Instant at);
-  bool note_session(bool& peer_restarted);
+  bool note_session(bool& peer_restarted, Instant at);
   void exchange(Instant now);
   bool lay_out(bool between, Instant now);
-  void plan_for(std::uint8_t paths, bool only_safety, Instant now);
-  std::uint8_t paths_with_room(bool between, Instant now) const;
-  std::uint8_t apart(std::uint8_t paths, Instant now) const;
-  std::size_t path_records_size(std::uint8_t paths) const;
+  bool on_trial() const;
+  bool in_doubt(Instant now) const;
+  std::size_t path_records_size(const PacketPlan& plan) const;
   PathId better_path(std::uint8_t paths) const;
-  bool advance_slot(Instant now);
-  void add_receipts(BodyWriter& body, Instant now);
-  bool fits(const Way& way, std::size_t size, std::size_t safety, Instant now) const;
   std::size_t room(const PacketPlan& plan, std::size_t safety, Instant now) const;
-  void go(const Outgoing& out, std::size_t safety, Instant now);
-  void put_out(PathId path, std::span<const std::uint8_t> datagram, std::size_t safety,
-               Instant now);
+  void put_out(PathId path, std::span<const std::uint8_t> datagram, const PacketPlan& plan,
+               std::size_t safety, Instant now);
 
   Greeting own_;
   Association association_;
   Direction sends_;
   PathPolicy policy_;
   std::uint8_t paths_;
-  std::array<Way, kPaths> ways_;
+  std::array<PathLane, kPaths> ways_;
   ReceiptBook receipts_;
   SentBook sent_;
   ClockSync clock_;
+  Instant acked_at_{};  // when it was last heard that something arrived
   LinkStats stats_;
   std::uint64_t session_ = 0;
   std::optional<std::uint64_t> peer_boot_;
   std::array<std::uint64_t, kBodyErrors> bad_bodies_{};
-  std::uint64_t slots_ = 0, slots_skipped_ = 0;
   std::array<Lately, 64> lately_{};
-  std::array<Left, 256> left_{};
-  std::array<double, kPaths> loss_{};
-  // Copy for a second address of the peer, when the budget has room for it.
-  std::optional<Outgoing> copy_;
+  PathReceipts path_receipts_;
 
-  std::optional<Instant> slot_;  // the last one, on a grid
-  enum class Stage : std::uint8_t { kDue, kBetween, kDone };
-  Stage stage_ = Stage::kDue;
+  Slots slots_;
   Instant due_{};
   FixedVector<PacketPlan, kPaths> plans_;
   std::size_t next_plan_ = 0;
-  FixedVector<Outgoing, 2 * kPaths + kPaths> out_;
+  FixedVector<Outgoing, 2 * kPaths> out_;  // exchange and packet of each
   std::size_t next_out_ = 0;
   std::array<std::array<std::uint8_t, kMaxExchangeSize>, kPaths> exchange_bytes_{};
   // Of this slot and the one before.

@@ -12,35 +12,58 @@ std::size_t size_of(GroupSet groups, Direction direction) {
   return groups.empty() ? 0 : state_bytes(groups, direction);
 }
 
+std::size_t fast_size(Direction direction) {
+  GroupSet fast;
+  for (const GroupRow& row : kGroupTable) {
+    if (row.direction == direction && row.priority <= Class::kMotion) fast.add(row.group);
+  }
+  return size_of(fast, direction);
+}
+
 }  // namespace
 
 StateLane::StateLane(Direction direction)
-    : direction_(direction), scheduler_(direction), known_(groups_of(direction)) {}
+    : direction_(direction),
+      fast_size_(fast_size(direction)),
+      scheduler_(direction),
+      known_(groups_of(direction)) {}
 
-std::size_t StateLane::safety_size(const Snapshot& snapshot) const {
+// Motion goes before its time once in a slot, where that leaves a third of the packet to what waits;
+// between slots only where nothing waits. There a packet has safety and motion alone, so that the
+// next one of a slot has room for all groups.
+bool StateLane::takes(Group group, Writing how, std::size_t room) const {
+  const Class priority = row_of(group).priority;
+  if (priority == Class::kSafety) return true;
+  if (how.only_safety) return false;
+  const bool motion = priority == Class::kMotion;
+  const bool spare = !how.something_waits || (!how.between && 3 * fast_size_ <= 2 * room);
+  if (!late_.has(group)) return motion && spare;
+  return motion || !how.between || how.something_waits;
+}
+
+std::size_t StateLane::choose(const Snapshot& snapshot, Duration round_trip, Instant now) {
+  late_ = {};
+  for (const Group group : scheduler_.order(snapshot, round_trip, now)) late_.add(group);
+  order_.clear();
   GroupSet safety;
-  for (const GroupRow& row : kGroupTable) {
-    const bool ours = row.direction == direction_ && row.priority == Class::kSafety;
-    if (ours && snapshot.ever(row.group) && known_.has(row.group)) safety.add(row.group);
+  for (const Group group : scheduler_.order(snapshot, round_trip, now, true)) {
+    if (!known_.has(group)) continue;
+    CHECK(order_.push(group));
+    if (row_of(group).priority == Class::kSafety) safety.add(group);
   }
   return size_of(safety, direction_);
 }
 
-std::size_t StateLane::write(BodyWriter& body, const Snapshot& snapshot, const Writing& how,
-                             Instant now) {
+std::size_t StateLane::write(BodyWriter& body, const Snapshot& snapshot, Writing how, Instant now) {
   wanted_ = {};
-  GroupSet late;
-  for (const Group group : scheduler_.order(snapshot, how.round_trip, now)) late.add(group);
-  Scheduler::Order order;
-  for (const Group group : scheduler_.order(snapshot, how.round_trip, now, how.fill)) {
-    const Class priority = row_of(group).priority;
-    if (!known_.has(group) || (how.only_safety && priority != Class::kSafety)) continue;
-    if (priority > Class::kMotion && !late.has(group)) continue;
+  Scheduler::Order wanted;
+  for (const Group group : order_) {
+    if (!takes(group, how, body.room_left())) continue;
     wanted_.add(group);
-    CHECK(order.push(group));
+    CHECK(wanted.push(group));
   }
   const std::size_t before = body.bytes().size();
-  written_ = body.add_groups(snapshot, order.span(), now, codec_);
+  written_ = body.add_groups(snapshot, wanted.span(), now, codec_);
   GroupSet safety;
   for (const GroupRow& row : kGroupTable) {
     if (written_.has(row.group) && row.priority == Class::kSafety) safety.add(row.group);

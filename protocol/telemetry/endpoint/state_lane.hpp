@@ -19,16 +19,16 @@ class StateLane {
  public:
   explicit StateLane(Direction direction);
 
-  // Bytes that the sampled safety groups take in a packet.
-  std::size_t safety_size(const Snapshot& snapshot) const;
-
+  // What the next packet shall have. Returns the bytes of it that are safety's: the share of the
+  // budget that is asked for must be the one that is used.
+  std::size_t choose(const Snapshot& snapshot, Duration round_trip, Instant now);
   struct Writing {
     bool only_safety = false;
-    bool fill = false;  // nothing else waits for the room: motion goes before its time
-    Duration round_trip{};
+    bool between = false;  // half a slot later
+    bool something_waits = false;
   };
-  // Returns the bytes of it that are safety's.
-  std::size_t write(BodyWriter& body, const Snapshot& snapshot, const Writing& how, Instant now);
+  // Returns the bytes of what was written that are safety's.
+  std::size_t write(BodyWriter& body, const Snapshot& snapshot, Writing how, Instant now);
   // The packet that write() was for has this number.
   void sent(std::uint64_t sequence, const Snapshot& snapshot, Instant now);
   void acked(std::uint64_t sequence) { scheduler_.acked(sequence); }
@@ -40,10 +40,14 @@ class StateLane {
   const CodecCounters& codec() const { return codec_; }
 
  private:
+  bool takes(Group group, Writing how, std::size_t room) const;
+
   Direction direction_;
+  std::size_t fast_size_;  // of safety and motion
   Scheduler scheduler_;
   CodecCounters codec_;
-  GroupSet known_, wanted_, written_;
+  GroupSet known_, late_, wanted_, written_;
+  Scheduler::Order order_;
 };
 
 }  // namespace pitwall::telemetry

@@ -148,13 +148,13 @@ Snapshot StationEndpoint::Parts::sample(Instant now) const {
 void StationEndpoint::Parts::make_packet(const PacketPlan& plan, Instant now) {
   const Snapshot snapshot = sample(now);
   const std::size_t wants = desk.wanted() + events.wanted();
-  const PacketRoom room = conduit.room_for(plan, lane.safety_size(snapshot), wants, now);
+  const std::size_t safe = lane.choose(snapshot, conduit.round_trip(), now);
+  const PacketRoom room = conduit.room_for(plan, safe, wants, now);
   BodyWriter body = conduit.begin(plan, room.whole, now);
   const std::size_t fixed = body.bytes().size();
   body.hold_back(room.records);
-  const std::size_t of_state = lane.write(
-      body, snapshot,
-      {.only_safety = room.only_safety, .fill = true, .round_trip = conduit.round_trip()}, now);
+  const std::size_t of_state =
+      lane.write(body, snapshot, {.only_safety = room.only_safety, .between = plan.between}, now);
   body.hold_back(0);
   const std::size_t written = body.bytes().size();
   conduit.add_path_records(body, plan, now);
@@ -186,10 +186,20 @@ const CommandProgress* StationEndpoint::progress(CommandId id) const {
   return parts_->desk.progress(id);
 }
 StopDesk& StationEndpoint::stop() { return parts_->stop; }
+const StopDesk& StationEndpoint::stop() const { return parts_->stop; }
 AuthorityDesk& StationEndpoint::authority() { return parts_->authority; }
+const AuthorityDesk& StationEndpoint::authority() const { return parts_->authority; }
 JoystickSender& StationEndpoint::joystick() { return parts_->joystick; }
 std::optional<Event> StationEndpoint::next_event() { return parts_->events.next(); }
 std::optional<BulkReceiver::Object> StationEndpoint::next_bulk() { return parts_->bulk.next(); }
+
+const std::optional<Greeting>& StationEndpoint::peer() const { return parts_->conduit.peer(); }
+void StationEndpoint::place(double station_m, double lap_length_m, Instant now) {
+  parts_->conduit.place(station_m, lap_length_m, now);
+}
+double StationEndpoint::loss_at(std::size_t bin) const {
+  return parts_->conduit.stats().loss_at(bin);
+}
 
 bool StationEndpoint::schema_agrees() const { return parts_->conduit.schema_agrees(); }
 std::string StationEndpoint::schema_difference() const { return {}; }

@@ -55,10 +55,18 @@ class StationEndpoint {
   std::optional<CommandId> issue(const Command& command, Instant now);
   const CommandProgress* progress(CommandId id) const;
   StopDesk& stop();
+  const StopDesk& stop() const;
   AuthorityDesk& authority();
+  const AuthorityDesk& authority() const;
   JoystickSender& joystick();
   std::optional<Event> next_event();
   std::optional<BulkReceiver::Object> next_bulk();
+
+  // What the car told of itself when the session began; none before.
+  const std::optional<Greeting>& peer() const;
+  // Where the car is, for loss by track position: see LinkStats.
+  void place(double station_m, double lap_length_m, Instant now);
+  double loss_at(std::size_t bin) const;
 
   bool schema_agrees() const;
   // One line for each difference of the safety groups; empty where there is none.
