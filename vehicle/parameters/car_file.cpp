@@ -26,6 +26,7 @@ CarFile read_root(yaml::StrictMap& map) {
   car.params.planning = read_planning(map.map("planning"));
   car.params.control = read_control(map.map("control"));
   read_safety(map.map("safety"), car.params);
+  read_radio(map.map("radio"), car.params);
   // Written once in the file, known to two modules that must not include each other.
   car.params.localization.steering_ratio = car.params.outbound.steering_ratio;
   car.params.localization.wheelbase_m = car.params.supervisor.safe_stop.wheelbase_m;

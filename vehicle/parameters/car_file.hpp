@@ -29,5 +29,6 @@ planning::Params read_planning(yaml::StrictMap map);
 control::Params read_control(yaml::StrictMap map);
 void read_gateway(yaml::StrictMap map, pipeline::CarParams& params);
 void read_safety(yaml::StrictMap map, pipeline::CarParams& params);
+void read_radio(yaml::StrictMap map, pipeline::CarParams& params);  // after safety
 
 }  // namespace pitwall::parameters

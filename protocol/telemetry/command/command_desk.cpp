@@ -50,6 +50,12 @@ std::size_t CommandDeskOf<Kept>::wanted() const {
 
 template <std::size_t Kept>
 void CommandDeskOf<Kept>::fill(BodyWriter& body, Instant now) {
+  // First, and once each: while the car repeats what we know, it has no room for what we ask.
+  for (const CommandId id : acks_due_) {
+    // One that finds no room is not lost: its result comes again.
+    if (!body.add_record(RecordType::kCommandResultAck, to_bytes(ResultAckRecord{id, run_}))) break;
+  }
+  acks_due_.clear();
   // From the oldest on, so that the car learns of them in the order in which they were given.
   for (std::size_t i = 1; open_ > 0 && i <= Kept; ++i) {
     Entry& entry = kept_[(newest_ + i) % Kept];
@@ -67,11 +73,6 @@ void CommandDeskOf<Kept>::fill(BodyWriter& body, Instant now) {
     if (!body.add_record(RecordType::kCommand, to_bytes(record))) break;
     if (!one.sent) one.sent = now;
   }
-  for (const CommandId id : acks_due_) {
-    // One that finds no room is not lost: its result comes again.
-    if (!body.add_record(RecordType::kCommandResultAck, to_bytes(ResultAckRecord{id, run_}))) break;
-  }
-  acks_due_.clear();
 }
 
 template <std::size_t Kept>

@@ -65,7 +65,7 @@ TEST(CarFile, EveryFlagIsRefusedWithItsLineWhenItIsNeitherTrueNorFalse) {
             << line.text << " -> " << bad;
       ++seen;
     }
-  EXPECT_EQ(seen, 4);
+  EXPECT_EQ(seen, 6);
 }
 
 TEST(CarFile, EveryListMayBeNeitherShorterNorLonger) {

@@ -1,0 +1,255 @@
+// Both ends of commands, stops and authority with nothing but bad air between them: real bodies of
+// packets, fifty a second each way, over one or two radios that lose, delay, double and reorder.
+//   units  virtual time of the base's clock; the car's stands kCarAhead from it
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <queue>
+#include <random>
+#include <set>
+#include <vector>
+
+#include "protocol/telemetry/command/authority.hpp"
+#include "protocol/telemetry/command/command_desk.hpp"
+#include "protocol/telemetry/command/command_ledger.hpp"
+#include "protocol/telemetry/command/joystick.hpp"
+#include "protocol/telemetry/command/stop_latch.hpp"
+#include "protocol/telemetry/packet/body.hpp"
+
+namespace pitwall::telemetry::testing {
+
+inline constexpr Duration kSlotTime = milliseconds(20), kTickTime = milliseconds(1);
+inline constexpr Duration kCarAhead = seconds(777'777);
+inline constexpr HolderId kOperator = 7;
+
+// Loss of one radio one way: each for itself, or fades of a mean length.
+struct Fading {
+  double loss = 0.0;          // the long-run share
+  Duration mean_fade{};       // zero: each packet for itself
+  double loss_between = 0.0;  // outside fades
+};
+
+struct AirParams {
+  Fading fading;
+  int radios = 1;
+  Duration delay_min = milliseconds(20), delay_max = milliseconds(20);
+  double twice = 0.0;
+  Duration clock_bound{};  // the receiver takes a packet for up to so much older than it is
+  std::uint32_t seed = 1;
+};
+
+// Between nothing and all of it.
+inline Duration some_of(Duration most, std::mt19937& random) {
+  return nanoseconds(std::uniform_int_distribution<std::int64_t>(0, most.ns)(random));
+}
+
+class Radio {
+ public:
+  Radio(const Fading& fading, std::uint32_t seed) : fading_(fading), random_(seed) {}
+
+  bool loses(Instant now) {
+    if (fading_.mean_fade.ns == 0) return chance(fading_.loss);
+    const double share = (fading_.loss - fading_.loss_between) / (1.0 - fading_.loss_between);
+    while (until_ <= now) {
+      fades_ = !fades_;
+      const double mean_s = fades_ ? fading_.mean_fade.seconds()
+                                   : fading_.mean_fade.seconds() * (1.0 - share) / share;
+      until_ += from_seconds(std::exponential_distribution<double>(1.0 / mean_s)(random_));
+    }
+    return fades_ || chance(fading_.loss_between);
+  }
+
+ private:
+  bool chance(double p) { return std::uniform_real_distribution<double>(0.0, 1.0)(random_) < p; }
+
+  Fading fading_;
+  std::mt19937 random_;
+  bool fades_ = false;
+  Instant until_{};
+};
+
+struct Flight {
+  Instant arrives, sent;
+  std::uint64_t sequence = 0;
+  std::vector<std::uint8_t> bytes;
+};
+
+// One way, all radios of it. A packet counts once, by whichever radio it comes first.
+class Way {
+ public:
+  Way(const AirParams& params, std::uint32_t salt) : params_(params), random_(params.seed + salt) {
+    for (int i = 0; i < params.radios; ++i) {
+      radios_.emplace_back(params.fading, params.seed + salt + 101U * static_cast<unsigned>(i + 1));
+    }
+  }
+
+  void send(std::span<const std::uint8_t> bytes, Instant now) {
+    ++sequence_;
+    for (Radio& radio : radios_) {
+      const bool lost = radio.loses(now);
+      const int copies = std::bernoulli_distribution(params_.twice)(random_) ? 2 : 1;
+      for (int i = 0; i < copies && !lost && !cut; ++i) {
+        const Duration delay =
+            params_.delay_min + some_of(params_.delay_max - params_.delay_min, random_);
+        flying_.push({now + delay, now, sequence_, {bytes.begin(), bytes.end()}});
+      }
+    }
+  }
+  // `once`: as the session's replay window has it; else doubles are delivered too.
+  template <class Take>
+  void arrive(Instant now, bool once, Take&& take) {
+    while (!flying_.empty() && flying_.top().arrives <= now) {
+      const Flight flight = flying_.top();
+      flying_.pop();
+      if (seen_.insert(flight.sequence).second || !once) take(flight);
+      if (seen_.size() > 4'096) seen_.erase(seen_.begin());
+    }
+  }
+
+  bool cut = false;  // nothing gets through
+
+ private:
+  struct Later {
+    bool operator()(const Flight& a, const Flight& b) const { return a.arrives > b.arrives; }
+  };
+  AirParams params_;
+  std::mt19937 random_;
+  std::vector<Radio> radios_;
+  std::priority_queue<Flight, std::vector<Flight>, Later> flying_;
+  std::set<std::uint64_t> seen_;
+  std::uint64_t sequence_ = 0;
+};
+
+// What happened to one command, seen from outside.
+struct Story {
+  Command command;
+  Instant issued{};
+  std::optional<Instant> known;  // to the car
+  int applied = 0;
+  std::optional<Instant> applied_at;
+};
+
+class TwoEnds {
+ public:
+  explicit TwoEnds(const AirParams& params)
+      : air(params), up(params, 17), down(params, 29), random_(params.seed) {
+    authority.take(kOperator, now);
+    desk.meets(kCarBoot, now);
+    ledger.meets(kBaseBoot);
+  }
+
+  std::optional<CommandId> issue(CommandType type, double argument) {
+    const Command command{type, argument, kOperator};
+    const auto id = desk.issue(command, now);
+    if (id) stories[*id] = {command, now, {}, 0, {}};
+    return id;
+  }
+
+  void run(Duration span) {
+    for (const Instant end = now + span; now < end; now += kTickTime) tick();
+  }
+  void tick() {
+    if (now.ns % kAuthorityRenewal.ns == 0 && renews) authority.renew(kOperator, now);
+    if (now.ns % kSlotTime.ns == 0) base_sends();
+    if (now.ns % kSlotTime.ns == kSlotTime.ns / 2) car_sends();
+    up.arrive(now, once, [&](const Flight& flight) { car_hears(flight); });
+    down.arrive(now, once, [&](const Flight& flight) { base_hears(flight); });
+    consume();
+  }
+
+  Instant car_now() const { return now + kCarAhead; }
+
+  static constexpr std::uint64_t kBaseBoot = 0xB05E, kCarBoot = 0xCA5;
+  AirParams air;
+  Way up, down;
+  Instant now{};
+  bool renews = true, once = true, clock_known = true, consumer_asks = true;
+  std::size_t room = kMaxBody;  // of a packet
+
+  CommandDesk desk{kBaseBoot};
+  AuthorityDesk authority;
+  StopDesk stop;
+  JoystickSender stick;
+  CommandLedger ledger{kCarBoot};
+  AuthorityView view;
+  StopLatch latch;
+  JoystickReceiver joystick;
+  std::map<CommandId, Story> stories;
+  std::array<CommandId, kCommandTypes> newest_applied{};
+  int out_of_order = 0;
+
+ private:
+  static constexpr std::array<Group, 3> kUpGroups{Group::kStop, Group::kJoystick,
+                                                  Group::kAuthority};
+
+  void base_sends() {
+    Snapshot snapshot;
+    put(stop.state(), snapshot.values);
+    stick.put(snapshot.values, now);
+    authority.put(snapshot.values, now);
+    for (const Group group : kUpGroups) snapshot.at(group) = now;
+    std::array<std::uint8_t, kMaxBody> buffer{};
+    BodyWriter body(buffer, room, Direction::kUp);
+    body.begin(now, 1);
+    CodecCounters codec;
+    body.add_groups(snapshot, kUpGroups, now, codec);
+    desk.fill(body, now);
+    up.send(body.bytes(), now);
+  }
+  void car_sends() {
+    std::array<std::uint8_t, kMaxBody> buffer{};
+    BodyWriter body(buffer, room, Direction::kDown);
+    body.begin(car_now(), 1);
+    ledger.fill(body, car_now());
+    down.send(body.bytes(), now);
+  }
+  void car_hears(const Flight& flight) {
+    const auto body = parse_body(flight.bytes, Direction::kUp);
+    if (!body) return;
+    Received received;
+    received.at = car_now();
+    received.sequence = flight.sequence;
+    if (clock_known) {
+      received.sent_earliest = flight.sent + kCarAhead - some_of(air.clock_bound, random_);
+    }
+    view.heard(body->values, received);
+    joystick.heard(body->values, received);
+    if (const auto said = stop_state_of(body->values)) latch.heard(*said, car_now());
+    for (const Record& record : body->records) {
+      note_known(record);
+      ledger.take(record, received, view);
+    }
+  }
+  void base_hears(const Flight& flight) {
+    const auto body = parse_body(flight.bytes, Direction::kDown);
+    if (!body) return;
+    Received received;
+    received.at = now;
+    for (const Record& record : body->records) desk.take(record, received);
+  }
+  void note_known(const Record& record) {
+    const auto said = parse_command(record.payload);
+    if (record.type != RecordType::kCommand || !said) return;
+    const auto story = stories.find(said->number);
+    if (story != stories.end() && !story->second.known) story->second.known = now;
+  }
+  void consume() {
+    while (const auto due = consumer_asks ? ledger.take_due(car_now(), view) : std::nullopt) {
+      Story& story = stories[due->number];
+      ++story.applied;
+      story.applied_at = now;
+      CommandId& newest = newest_applied[static_cast<std::size_t>(due->command.type)];
+      if (due->number < newest) ++out_of_order;
+      newest = std::max(newest, due->number);
+      ledger.decide(due->id, Outcome::kApplied, car_now());
+    }
+  }
+
+  std::mt19937 random_;
+};
+
+}  // namespace pitwall::telemetry::testing
