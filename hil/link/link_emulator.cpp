@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "hil/link/trace.hpp"
-#include "protocol/telemetry/packet/header.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::link {
@@ -41,7 +40,7 @@ void LinkEmulator::offer(std::span<const std::uint8_t> bytes, Instant now, std::
   CHECK(now >= last_offer_);
   last_offer_ = now;
   ++counters_.offered;
-  const auto on_air = through_the_queue(bytes.size() + telemetry::kIpUdpOverhead, now);
+  const auto on_air = through_the_queue(bytes.size() + params_.overhead_bytes, now);
   if (!on_air) return;
   const bool survived = survives(*on_air);
   const Instant arrives = arrival_of(*on_air);

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "protocol/telemetry/packet/header.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::link {
@@ -53,7 +54,8 @@ struct LinkTrace {
 
 // One direction of one link.
 struct LinkParams {
-  double rate_bytes_per_s = 0.0;     // of the air, IP and UDP overhead counted; 0: without limit
+  double rate_bytes_per_s = 0.0;  // of the air, IP and UDP overhead counted; 0: without limit
+  std::size_t overhead_bytes = telemetry::kIpUdpOverhead;  // 0 where whole IP packets are offered
   std::size_t queue_bytes = 16'384;  // before it; what does not fit is dropped
   Duration delay{}, jitter{};        // jitter: uniform, 0 .. jitter; keeps the order
   Fades fades;

@@ -12,6 +12,7 @@
 #include "hil/verbs/bench_gateway.hpp"
 #include "hil/verbs/bench_laps.hpp"
 #include "hil/verbs/bench_plant.hpp"
+#include "hil/verbs/bench_radio.hpp"
 #include "hil/verbs/bench_replay.hpp"
 #include "hil/verbs/command_line.hpp"
 #include "hil/verbs/exit_code.hpp"
@@ -114,15 +115,18 @@ int bench_verb(std::span<const std::string> args) {
   if (!args.empty() && args.front() == "plant") return bench_plant(args.subspan(1));
   if (!args.empty() && args.front() == "dbc") return bench_dbc(args.subspan(1));
   if (!args.empty() && args.front() == "laps") return bench_laps(args.subspan(1));
+  if (!args.empty() && args.front() == "radio") return bench_radio(args.subspan(1));
   std::string name, json_file;
   CLI::App app{"pitwall-hil bench: benchmarks with gates"};
-  app.add_option("name", name, "dbc, gateway, laps, lockstep, plant, replay or step")->required();
+  app.add_option("name", name, "dbc, gateway, laps, lockstep, plant, radio, replay or step")
+      ->required();
   app.add_option("--json", json_file, "write the figures here");
   if (const auto code = ended_by(app, args)) return *code;
   if (name == "lockstep") return bench_lockstep(json_file);
   if (name == "step") return bench_step(json_file);
-  return refuse({"bench", "unknown name \"" + name +
-                              "\"; known: dbc, gateway, laps, lockstep, plant, replay, step"});
+  return refuse(
+      {"bench", "unknown name \"" + name +
+                    "\"; known: dbc, gateway, laps, lockstep, plant, radio, replay, step"});
 }
 
 }  // namespace pitwall::verbs

@@ -3,6 +3,7 @@
 //   laps       three ovals, nominal and perturbed; gates in hil/laps/lap_table.hpp
 //   lockstep   how much faster than real time the closed loop runs; gate: at least 20 times
 //   plant      what a step of the modelled car costs; gates in bench_plant.hpp
+//   radio      our radio protocol beside others over one emulated link; bench_radio.hpp
 //   replay     timing of replays beside canplayer and python-can; options in bench_replay.hpp
 //   step       how long one step of the car takes in that loop; gate: p99 below 100 us
 //   out    a table; exit code 1 when a gate is missed, 2 for an unknown name

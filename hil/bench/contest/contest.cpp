@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/contest/contest.hpp"
+
+#include <fcntl.h>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "hil/link/age_samples.hpp"
+#include "hil/link/rate_window.hpp"
+#include "protocol/transport/clock.hpp"
+#include "protocol/transport/file.hpp"
+#include "protocol/transport/process.hpp"
+
+namespace pitwall::bench {
+namespace {
+
+constexpr std::uint32_t kCarIp = 0x0A4D0001, kBaseIp = 0x0A4D0002;  // 10.77.0.1, 10.77.0.2
+constexpr Duration kPatience = seconds(5);                          // beyond the end
+constexpr const char *kCar = "car", *kBase = "base";
+constexpr double kBitsPerByte = 8.0;
+
+double kbps(double bytes, Duration over) { return bytes * kBitsPerByte / over.seconds() * 1e-3; }
+
+link::LinkTrace shifted(link::LinkTrace trace, Duration by) {
+  for (link::Outage& outage : trace.outages) {
+    outage.from += by;
+    outage.to += by;
+  }
+  return trace;
+}
+
+std::vector<std::string> words_of(const Contestant& contestant, const char* role, Instant end,
+                                  bool bulk) {
+  std::vector<std::string> words{contestant.program, role, std::to_string(end.ns),
+                                 bulk ? "1" : "0"};
+  if (!contestant.mode.empty()) words.push_back(contestant.mode);
+  return words;
+}
+
+// A process inside a network, its standard output into a file.
+Result<transport::Process, Problem> start(const transport::TunNetwork& network,
+                                          std::vector<std::string> words,
+                                          const std::string& output) {
+  const auto opened = transport::posix_call(
+      [&] { return ::open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644); });
+  const transport::FileDescriptor file(opened);
+  if (!file.valid()) return Unexpected{Problem{output, opened.reason()}};
+  std::optional<Result<transport::Process, Problem>> started;
+  const auto done = network.inside([&] {
+    started.emplace(transport::Process::spawn(
+        {.argv = std::move(words), .descriptors = {{file.get(), 1}}, .own_group = true}));
+  });
+  if (!done) return Unexpected{done.error()};
+  return *std::move(started);
+}
+
+Result<bool, Problem> await(transport::Process& process, const std::string& name, Instant until) {
+  const auto ended = process.wait_until(until);
+  if (!ended) return Unexpected{Problem{name, "did not end in time"}};
+  if (!ended->success())
+    return Unexpected{Problem{name, "ended with " + std::to_string(ended->shell_code())}};
+  return true;
+}
+
+// Times since the start of the link.
+Result<std::vector<StateArrival>, Problem> arrivals_in(const std::string& file,
+                                                       const std::string& name, Instant begin) {
+  const auto text = transport::read_file(file);
+  if (!text) return Unexpected{text.error()};
+  auto arrivals = read_arrivals(*text, name);
+  if (!arrivals) return arrivals;
+  for (StateArrival& arrival : *arrivals) {
+    arrival.made = Instant{} + (arrival.made - begin);
+    arrival.at = Instant{} + (arrival.at - begin);
+  }
+  return arrivals;
+}
+
+struct Networks {
+  transport::TunNetwork car, base;
+};
+
+Result<Networks, Problem> make_networks() {
+  auto car = transport::TunNetwork::create({.address = kCarIp});
+  if (!car) return Unexpected{car.error()};
+  auto base = transport::TunNetwork::create({.address = kBaseIp});
+  if (!base) return Unexpected{base.error()};
+  return Networks{*std::move(car), *std::move(base)};
+}
+
+// A line; none: it is no such line.
+std::optional<StateArrival> arrival_of(std::string_view line) {
+  StateArrival arrival;
+  const char* const end = line.data() + line.size();
+  const auto [made_end, made_error] = std::from_chars(line.data(), end, arrival.made.ns);
+  if (made_error != std::errc{} || made_end == end || *made_end != ' ') return std::nullopt;
+  const auto [at_end, at_error] = std::from_chars(made_end + 1, end, arrival.at.ns);
+  if (at_error != std::errc{}) return std::nullopt;
+  if (at_end == end) return arrival;
+  arrival.stream.assign(at_end + 1, end);
+  if (*at_end != ' ' || arrival.stream.empty()) return std::nullopt;
+  return arrival;
+}
+
+std::vector<std::vector<StateArrival>> by_stream(std::vector<StateArrival> arrivals) {
+  std::vector<std::vector<StateArrival>> streams;
+  for (StateArrival& arrival : arrivals) {
+    const auto same = [&](const auto& s) { return s.front().stream == arrival.stream; };
+    const auto known = std::ranges::find_if(streams, same);
+    (known == streams.end() ? streams.emplace_back() : *known).push_back(std::move(arrival));
+  }
+  if (streams.empty()) streams.emplace_back();
+  return streams;
+}
+
+double late_p99_ms(std::vector<Duration> late) {
+  if (late.empty()) return 0.0;
+  const auto rank = static_cast<std::ptrdiff_t>(late.size() * 99 / 100);
+  std::nth_element(late.begin(), late.begin() + rank, late.end());
+  return late[static_cast<std::size_t>(rank)].milliseconds();
+}
+
+}  // namespace
+
+Result<std::vector<StateArrival>, Problem> read_arrivals(std::string_view text,
+                                                         const std::string& name) {
+  std::vector<StateArrival> arrivals;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    auto arrival = arrival_of(text.substr(0, end));
+    if (end == std::string_view::npos || !arrival)
+      return Unexpected{Problem{name + ":" + std::to_string(arrivals.size() + 1),
+                                "expected MADE_NS ARRIVED_NS [STREAM]"}};
+    arrivals.push_back(*std::move(arrival));
+    text.remove_prefix(end + 1);
+  }
+  std::ranges::stable_sort(arrivals, {}, &StateArrival::at);
+  return arrivals;
+}
+
+ContestRow judge(const std::vector<StateArrival>& arrivals, const LinkTally& tally,
+                 const ContestPlan& plan) {
+  const Instant from = Instant{} + plan.warm_up, to = from + plan.length;
+  link::AgeSamples ages(from, to);
+  for (const StateArrival& arrival : arrivals) ages.arrived(arrival.made, arrival.at);
+  ages.finish();
+  link::RateWindow down(kRateWindow), up(kRateWindow);
+  const auto add = [&](link::RateWindow& window, const DirectionTally& direction) {
+    for (const OfferedPacket& packet : direction.offered)
+      if (packet.at >= from && packet.at < to) window.sent(packet.bytes, packet.at);
+  };
+  add(down, tally.down);
+  add(up, tally.up);
+  return {.contestant = {},
+          .stream = arrivals.empty() ? "" : arrivals.front().stream,
+          .of_case = {},
+          .age_p50_ms = ages.quantile_ms(0.5),
+          .age_p99_ms = ages.quantile_ms(0.99),
+          .age_max_ms = ages.max_ms(),
+          .offered_kbps = kbps(static_cast<double>(down.bytes()), plan.length),
+          .worst_window_kbps = kbps(static_cast<double>(down.worst_bytes()), kRateWindow),
+          .up_kbps = kbps(static_cast<double>(up.bytes()), plan.length),
+          .states = arrivals.size(),
+          .looks_without = ages.unknown(),
+          .link_late_p99_ms = late_p99_ms(tally.down.late)};
+}
+
+Result<std::vector<ContestRow>, Problem> run_contest(const Contestant& contestant,
+                                                     const ContestCase& of_case,
+                                                     const ContestPlan& plan) {
+  auto networks = make_networks();
+  if (!networks) return Unexpected{networks.error()};
+  const auto folder = transport::TemporaryFolder::create("pitwall-contest");
+  if (!folder) return Unexpected{folder.error()};
+  link::LinkParams params = plan.link;
+  if (of_case.fades) params.trace = shifted(plan.fades, plan.warm_up);
+
+  const Instant begin = transport::monotonic_now(), end = begin + plan.warm_up + plan.length;
+  TunLink radio(networks->car, networks->base, params, params, plan.seed, begin);
+  const auto run = [&](const transport::TunNetwork& network, const char* role) {
+    return start(network, words_of(contestant, role, end, of_case.bulk),
+                 folder->path() + "/" + role);
+  };
+  auto base = run(networks->base, kBase);
+  if (!base) return Unexpected{base.error()};
+  auto car = run(networks->car, kCar);
+  if (!car) return Unexpected{car.error()};
+  for (transport::Process* process : {&*car, &*base})
+    if (const auto ended = await(*process, contestant.name, end + kPatience); !ended)
+      return Unexpected{ended.error()};
+  const LinkTally& tally = radio.stop();
+  auto arrivals = arrivals_in(folder->path() + "/" + kBase, contestant.name, begin);
+  if (!arrivals) return Unexpected{arrivals.error()};
+
+  std::vector<ContestRow> rows;
+  for (const auto& stream : by_stream(*std::move(arrivals))) {
+    ContestRow row = judge(stream, tally, plan);
+    row.contestant = contestant.name;
+    row.of_case = of_case.name;
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace pitwall::bench

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/verbs/bench_radio.hpp"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "hil/bench/contest/contest.hpp"
+#include "hil/link/trace.hpp"
+#include "hil/verbs/command_line.hpp"
+#include "hil/verbs/exit_code.hpp"
+#include "hil/verbs/run_verb.hpp"
+#include "protocol/transport/file.hpp"
+
+namespace pitwall::verbs {
+namespace {
+
+namespace fs = std::filesystem;
+using bench::ContestRow;
+
+constexpr double kRate_bytes_per_s = 32'000.0;  // 256 kbit/s
+constexpr double kLoss = 0.3;
+constexpr Duration kFade = milliseconds(120), kDelay = milliseconds(15);
+constexpr double kLimitP50_ms = 40.0, kLimitP99_ms = 60.0;  // ours under overload
+constexpr double kLinkKbps = kRate_bytes_per_s * 8e-3;
+constexpr std::string_view kOurs = "pitwall", kJudged = "safety";
+
+constexpr std::array kCases{
+    bench::ContestCase{"light", false, false}, bench::ContestCase{"overload", true, false},
+    bench::ContestCase{"fades", false, true}, bench::ContestCase{"overload and fades", true, true}};
+
+struct Options {
+  std::int64_t seconds = 20;
+  std::uint64_t seed = 1;
+  std::string json_file, trace_file, write_trace_file, only, only_case, peers;
+};
+
+std::vector<bench::Contestant> contestants(const fs::path& folder) {
+  const auto program = [&](const char* name) { return (folder / name).string(); };
+  return {{std::string(kOurs), program("peer_pitwall"), ""},
+          {"protobuf over UDP, 20 Hz", program("peer_protobuf_udp"), ""},
+          {"LCM", program("peer_lcm_udpm"), ""},
+          {"Cyclone DDS, best effort", program("peer_cyclone_dds"), ""},
+          {"Cyclone DDS, reliable", program("peer_cyclone_dds"), "reliable"},
+          {"Fast DDS, best effort", program("peer_fast_dds"), ""},
+          {"Fast DDS, reliable", program("peer_fast_dds"), "reliable"}};
+}
+
+Result<link::LinkTrace, Problem> fades_of(const Options& options) {
+  if (options.trace_file.empty())
+    return link::trace_of(link::bursty(kLoss, kFade, 0.0, {}).fades, options.seed,
+                          seconds(options.seconds));
+  const auto text = transport::read_file(options.trace_file);
+  if (!text) return Unexpected{text.error()};
+  return link::read_trace(*text, options.trace_file);
+}
+
+void print_heading(const bench::ContestCase& of_case) {
+  std::printf("\n%s\n%-26s %9s %9s %9s %9s %12s %8s %8s %9s\n", std::string(of_case.name).c_str(),
+              "", "age p50", "age p99", "age max", "offered", "worst 100 ms", "uplink", "states",
+              "link late");
+}
+
+std::string title_of(const ContestRow& row) {
+  return row.stream.empty() ? row.contestant : row.contestant + ": " + row.stream;
+}
+
+void print_row(const ContestRow& row) {
+  std::printf("%-26s %9.1f %9.1f %9.1f %9.0f %12.0f %8.0f %8zu %9.2f", title_of(row).c_str(),
+              row.age_p50_ms, row.age_p99_ms, row.age_max_ms, row.offered_kbps,
+              row.worst_window_kbps, row.up_kbps, row.states, row.link_late_p99_ms);
+  if (row.looks_without > 0) std::printf("  nothing for %zu ms", row.looks_without);
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+std::string number(double value) { return value == value ? std::to_string(value) : "null"; }
+
+std::string json_of(const ContestRow& row) {
+  return "{\"contestant\":\"" + row.contestant + "\",\"stream\":\"" + row.stream +
+         "\",\"case\":\"" + row.of_case + "\",\"age_p50_ms\":" + number(row.age_p50_ms) +
+         ",\"age_p99_ms\":" + number(row.age_p99_ms) + ",\"age_max_ms\":" + number(row.age_max_ms) +
+         ",\"offered_kbps\":" + number(row.offered_kbps) +
+         ",\"worst_100ms_kbps\":" + number(row.worst_window_kbps) +
+         ",\"uplink_kbps\":" + number(row.up_kbps) + ",\"states\":" + std::to_string(row.states) +
+         ",\"ms_without\":" + std::to_string(row.looks_without) +
+         ",\"link_late_p99_ms\":" + number(row.link_late_p99_ms) + "}";
+}
+
+bool gate(const std::string& what, double is, double limit) {
+  const bool held = is <= limit;  // false for no number
+  std::printf("  %-7s %s: %.1f, at most %.0f\n", held ? "held" : "MISSED", what.c_str(), is, limit);
+  return held;
+}
+
+// Only ours is judged, and only where the link can carry it.
+bool judge(const std::vector<ContestRow>& rows) {
+  bool held = true;
+  std::printf("\ngates\n");
+  for (const ContestRow& row : rows) {
+    if (row.contestant != kOurs || row.stream != kJudged) continue;
+    held &= gate(row.of_case + ": offered kbit/s", row.offered_kbps, kLinkKbps);
+    if (row.of_case != kCases[1].name) continue;
+    held &= gate(row.of_case + ": age p50 ms", row.age_p50_ms, kLimitP50_ms);
+    held &= gate(row.of_case + ": age p99 ms", row.age_p99_ms, kLimitP99_ms);
+  }
+  return held;
+}
+
+bool chosen(std::string_view name, const std::string& only) {
+  return only.empty() || name.find(only) != std::string_view::npos;
+}
+
+Result<std::vector<ContestRow>, Problem> hold(const Options& options,
+                                              const bench::ContestPlan& plan) {
+  std::vector<ContestRow> rows;
+  for (const bench::ContestCase& of_case : kCases) {
+    if (!options.only_case.empty() && of_case.name != options.only_case) continue;
+    print_heading(of_case);
+    for (const bench::Contestant& contestant : contestants(options.peers)) {
+      if (!chosen(contestant.name, options.only)) continue;
+      if (!fs::exists(contestant.program)) {
+        if (contestant.name == kOurs)
+          return Unexpected{Problem{contestant.program, "is not built: target radio_peers"}};
+        std::printf("%-26s is not built\n", contestant.name.c_str());
+        continue;
+      }
+      const auto streams = bench::run_contest(contestant, of_case, plan);
+      if (!streams) return Unexpected{streams.error()};
+      for (const ContestRow& row : *streams) {
+        print_row(row);
+        rows.push_back(row);
+      }
+    }
+  }
+  return rows;
+}
+
+Result<bool, Problem> write_json(const Options& options, const std::vector<ContestRow>& rows,
+                                 bool held) {
+  std::string text = "{\"bench\":\"radio\",\"seconds\":" + std::to_string(options.seconds) +
+                     ",\"seed\":" + std::to_string(options.seed) + ",\"rows\":[";
+  for (const ContestRow& row : rows) text += (&row == rows.data() ? "\n" : ",\n") + json_of(row);
+  return transport::write_file(options.json_file,
+                               text + "],\n\"held\":" + (held ? "true" : "false") + "}\n");
+}
+
+}  // namespace
+
+int bench_radio(std::span<const std::string> args) {
+  Options options;
+  options.peers = fs::path(own_program()).parent_path().parent_path() / "tests/benchmarks/peers";
+  CLI::App app{"pitwall-hil bench radio: protocols side by side over one emulated radio"};
+  app.add_option("--seconds", options.seconds, "of each case and contestant, after 4 s")
+      ->check(CLI::Range(1, 3'600));
+  app.add_option("--seed", options.seed, "of the fades");
+  app.add_option("--trace", options.trace_file, "recorded fades instead (CSV from_s,to_s[,loss])");
+  app.add_option("--write-trace", options.write_trace_file, "write the fades here");
+  app.add_option("--only", options.only, "contestants whose name contains this");
+  app.add_option("--case", options.only_case, "light, overload, fades, \"overload and fades\"");
+  app.add_option("--peers", options.peers, "folder of the contestants' programs");
+  app.add_option("--json", options.json_file, "write the figures here");
+  if (const auto code = ended_by(app, args)) return *code;
+  const auto fades = fades_of(options);
+  if (!fades) return refuse(fades.error());
+  if (!options.write_trace_file.empty()) {
+    const auto written = transport::write_file(options.write_trace_file, link::write_trace(*fades));
+    if (!written) return refuse(written.error());
+  }
+  bench::ContestPlan plan;
+  plan.link.rate_bytes_per_s = kRate_bytes_per_s;
+  plan.link.delay = kDelay;
+  plan.fades = *fades;
+  plan.length = seconds(options.seconds);
+  plan.seed = options.seed;
+  std::printf(
+      "%.0f kbit/s, queue 16 kB, %.0f ms; fades: seed %llu, %zu of them in %lld s; ms and "
+      "kbit/s\n",
+      kLinkKbps, kDelay.milliseconds(), static_cast<unsigned long long>(options.seed),
+      fades->outages.size(), static_cast<long long>(options.seconds));
+  const auto rows = hold(options, plan);
+  if (!rows) return refuse(rows.error());
+  if (rows->empty()) return refuse({"bench radio", "no such contestant or case"});
+  const bool held = judge(*rows);
+  if (!options.json_file.empty()) {
+    if (const auto written = write_json(options, *rows, held); !written)
+      return refuse(written.error());
+  }
+  return held ? kExitPass : kExitFailed;
+}
+
+}  // namespace pitwall::verbs
