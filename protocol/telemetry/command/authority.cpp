@@ -104,8 +104,11 @@ void AuthorityView::heard(const Values& values, const Received& received) {
   if (now_said->holder == 0) holder_ = 0;  // this epoch is over, whatever comes late
   if (holder_ == 0 || holder_ != now_said->holder) return;
   if (renewed_ && !is_newer(now_said->renewal, renewal_, kNumbers)) return;
-  renewed_ = renewal_time(values, received);
-  renewal_ = now_said->renewal;
+  // One whose time cannot be told yet counts when a copy of it can be.
+  if (const auto renewed = renewal_time(values, received)) {
+    renewed_ = *renewed;
+    renewal_ = now_said->renewal;
+  }
 }
 
 HolderId AuthorityView::holder(Instant now) const {

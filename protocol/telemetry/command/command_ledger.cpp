@@ -78,7 +78,8 @@ Outcome CommandLedgerOf<Remembered>::judge(const CommandRecord& record,
   if (!record.known()) return Outcome::kUnsupported;
   if (record.number < newest_out_[record.type]) return Outcome::kSuperseded;
   const auto& expires = entries_[record.number % Remembered].expires;
-  if (expires && at > *expires) return Outcome::kExpired;
+  if (!expires) return Outcome::kReceived;  // neither its age nor the authority can be judged
+  if (at > *expires) return Outcome::kExpired;
   if (!authority.allows(record.command(), at)) return Outcome::kNoAuthority;
   return Outcome::kReceived;
 }

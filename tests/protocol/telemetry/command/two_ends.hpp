@@ -34,7 +34,7 @@ struct Fading {
 };
 
 struct AirParams {
-  Fading fading;
+  Fading fading{};
   int radios = 1;
   Duration delay_min = milliseconds(20), delay_max = milliseconds(20);
   double twice = 0.0;
@@ -168,6 +168,8 @@ class TwoEnds {
   Way up, down;
   Instant now{};
   bool renews = true, once = true, clock_known = true, consumer_asks = true;
+  bool stands = false;          // the car
+  bool releases = false;        // kReleaseStop goes to the latch
   std::size_t room = kMaxBody;  // of a packet
 
   CommandDesk desk{kBaseBoot};
@@ -245,8 +247,14 @@ class TwoEnds {
       CommandId& newest = newest_applied[static_cast<std::size_t>(due->command.type)];
       if (due->number < newest) ++out_of_order;
       newest = std::max(newest, due->number);
-      ledger.decide(due->id, Outcome::kApplied, car_now());
+      ledger.decide(due->id, answer(due->command), car_now());
     }
+  }
+
+  Outcome answer(const Command& command) {
+    if (command.type != CommandType::kReleaseStop || !releases) return Outcome::kApplied;
+    const auto challenge = static_cast<std::uint16_t>(command.argument);
+    return latch.release(challenge, stands) ? Outcome::kApplied : Outcome::kRefused;
   }
 
   std::mt19937 random_;

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/telemetry/command/stop_latch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/protocol/telemetry/command/two_ends.hpp"
+
+namespace pitwall::telemetry {
+namespace {
+
+using testing::TwoEnds;
+
+constexpr Instant kNow{};
+constexpr StopState kPressed{StopLevel::kEmergency, 1, StopReason::kOperator};
+
+// Gate: a hundred thousand presses, each at its own moment of a bad link: the first packet of the
+// base that gets through after it closes the latch, whatever was lost before.
+TEST(StopLatch, ClosesOnTheFirstPacketThatSurvivesInHundredThousandTrials) {
+  std::mt19937 random(5);
+  std::geometric_distribution<int> lost(0.3);
+  for (int trial = 0; trial < 100'000; ++trial) {
+    StopDesk desk;
+    StopLatch latch;
+    for (int before = lost(random); before > 0; --before) latch.heard(desk.state(), kNow);
+    const auto level = random() % 2 == 0 ? StopLevel::kControlled : StopLevel::kEmergency;
+    desk.demand(level, StopReason::kOperator);
+    const int gone = lost(random);  // never heard
+    ASSERT_EQ(latch.level(), StopLevel::kNone);
+    Values packet;
+    put(desk.state(), packet);
+    latch.heard(*stop_state_of(packet), kNow + milliseconds(20 * gone));
+    ASSERT_EQ(latch.level(), level);
+    ASSERT_EQ(latch.reason(), StopReason::kOperator);
+    ASSERT_NE(latch.challenge(), 0);
+  }
+}
+
+// Anything that a network or a restart of the base can do, in any order, but for the release.
+TEST(StopLatch, NothingButItsChallengeOpensIt) {
+  std::mt19937 random(6);
+  for (int trial = 0; trial < 20'000; ++trial) {
+    StopLatch latch;
+    latch.draw(static_cast<std::uint16_t>(random()));
+    latch.heard(kPressed, kNow);
+    for (int i = 0; i < 20; ++i) {
+      const StopState any{static_cast<StopLevel>(random() % 3),
+                          static_cast<std::uint8_t>(random() % kStopEpochs), StopReason::kTest};
+      const std::uint16_t challenge = latch.challenge();
+      switch (random() % 4) {
+        case 0:
+          latch.heard(any, kNow + milliseconds(i));
+          break;
+        case 1:
+          latch.base_restarted();
+          break;
+        case 2:
+          EXPECT_FALSE(latch.release(challenge, false)) << "the car moves";
+          break;
+        default:
+          EXPECT_FALSE(
+              latch.release(static_cast<std::uint16_t>(challenge + 1 + random() % 9), true));
+      }
+      ASSERT_EQ(latch.level(), StopLevel::kEmergency);
+    }
+    EXPECT_TRUE(latch.release(latch.challenge(), true));
+    EXPECT_EQ(latch.level(), StopLevel::kNone);
+    EXPECT_EQ(latch.challenge(), 0);
+  }
+}
+
+TEST(StopLatch, StaysOpenWhileTheBaseHasNotHeardOfTheRelease) {
+  StopDesk desk;
+  StopLatch latch;
+  desk.demand(StopLevel::kControlled, StopReason::kOperator);
+  latch.heard(desk.state(), kNow);
+  desk.release_asked(1);
+  ASSERT_TRUE(latch.release(latch.challenge(), true));
+  for (int i = 0; i < 100; ++i) latch.heard(desk.state(), kNow);
+  EXPECT_EQ(latch.level(), StopLevel::kNone);
+  desk.released(1);
+  EXPECT_EQ(desk.state().level, StopLevel::kNone);
+  desk.demand(StopLevel::kControlled, StopReason::kOperator);
+  latch.heard(desk.state(), kNow);
+  EXPECT_EQ(latch.level(), StopLevel::kControlled) << "the next press counts";
+}
+
+// The operator presses again while the release is on its way, before it arrives or after.
+TEST(StopLatch, APressWinsOverAReleaseThatIsOnItsWay) {
+  for (const bool press_arrives_first : {true, false}) {
+    StopDesk desk;
+    StopLatch latch;
+    desk.demand(StopLevel::kEmergency, StopReason::kOperator);
+    latch.heard(desk.state(), kNow);
+    const std::uint16_t challenge = latch.challenge();
+    desk.release_asked(1);
+    desk.demand(StopLevel::kEmergency, StopReason::kOperator);
+    if (press_arrives_first) latch.heard(desk.state(), kNow);
+    EXPECT_EQ(latch.release(challenge, true), !press_arrives_first);
+    latch.heard(desk.state(), kNow);
+    desk.released(1);
+    latch.heard(desk.state(), kNow);
+    EXPECT_EQ(latch.level(), StopLevel::kEmergency);
+    EXPECT_EQ(desk.state().level, StopLevel::kEmergency);
+  }
+}
+
+TEST(StopLatch, AnOldPacketAfterTheReleaseClosesNothing) {
+  StopDesk desk;
+  StopLatch latch;
+  desk.demand(StopLevel::kControlled, StopReason::kOperator);
+  const StopState old = desk.state();
+  desk.demand(StopLevel::kEmergency, StopReason::kOperator);
+  latch.heard(desk.state(), kNow);
+  ASSERT_TRUE(latch.release(latch.challenge(), true));
+  latch.heard(old, kNow);
+  EXPECT_EQ(latch.level(), StopLevel::kNone);
+}
+
+TEST(StopLatch, ARestartOfTheBaseRaisesNothingReleasesNothingAndIsHeardAgain) {
+  StopLatch latch;
+  latch.heard(kPressed, kNow);
+  latch.base_restarted();
+  StopDesk reborn;
+  latch.heard(reborn.state(), kNow);
+  EXPECT_EQ(latch.level(), StopLevel::kEmergency);
+  ASSERT_TRUE(latch.release(latch.challenge(), true));
+  latch.base_restarted();
+  latch.heard(StopDesk{}.state(), kNow);
+  EXPECT_EQ(latch.level(), StopLevel::kNone);
+  // Its first press has the epoch of the one that was released.
+  reborn.demand(StopLevel::kEmergency, StopReason::kOperator);
+  ASSERT_EQ(reborn.state().epoch, kPressed.epoch);
+  latch.heard(reborn.state(), kNow);
+  EXPECT_EQ(latch.level(), StopLevel::kEmergency);
+}
+
+TEST(StopLatch, ChallengesDifferFromLatchToLatchAndHaveNoUnsetValue) {
+  StopLatch latch;
+  StopDesk desk;
+  std::uint16_t last = 0;
+  for (unsigned i = 0; i < 70'000; ++i) {
+    if (i % 3 == 0) latch.draw(static_cast<std::uint16_t>(i));
+    desk.demand(StopLevel::kControlled, StopReason::kOperator);
+    latch.heard(desk.state(), kNow);
+    ASSERT_NE(latch.challenge(), last);
+    ASSERT_GE(latch.challenge(), 1);
+    ASSERT_LE(latch.challenge(), 65'534);
+    last = latch.challenge();
+    ASSERT_TRUE(latch.release(last, true));
+    desk.release_asked(i + 1);
+    desk.released(i + 1);
+  }
+}
+
+TEST(StopLatch, AHigherLevelRaisesALowerOneDoesNotLower) {
+  StopLatch latch;
+  latch.heard({StopLevel::kControlled, 1, StopReason::kOperator}, kNow);
+  latch.heard({StopLevel::kEmergency, 2, StopReason::kPitCrew}, kNow + seconds(1));
+  EXPECT_EQ(latch.level(), StopLevel::kEmergency);
+  EXPECT_EQ(latch.reason(), StopReason::kPitCrew);
+  EXPECT_EQ(latch.since(), kNow);
+  latch.heard({StopLevel::kControlled, 3, StopReason::kOperator}, kNow + seconds(2));
+  EXPECT_EQ(latch.level(), StopLevel::kEmergency);
+  EXPECT_EQ(latch.reason(), StopReason::kPitCrew);
+}
+
+TEST(StopLatch, AButtonThatIsHeldDownIsOnePress) {
+  StopDesk desk;
+  desk.demand(StopLevel::kControlled, StopReason::kOperator);
+  const StopState once = desk.state();
+  for (int i = 0; i < 1'000; ++i) desk.demand(StopLevel::kControlled, StopReason::kOperator);
+  EXPECT_EQ(desk.state(), once);
+  desk.demand(StopLevel::kNone, StopReason::kNone);
+  EXPECT_EQ(desk.state(), once) << "nothing lowers it";
+}
+
+TEST(StopLatch, UnsetFieldsAreNoState) {
+  Values values;
+  EXPECT_FALSE(stop_state_of(values));
+  put(kPressed, values);
+  ASSERT_TRUE(stop_state_of(values));
+  EXPECT_EQ(*stop_state_of(values), kPressed);
+  values[field("stop.reason")] = 12;  // of a later build
+  ASSERT_TRUE(stop_state_of(values));
+  EXPECT_EQ(stop_state_of(values)->level, StopLevel::kEmergency);
+  values[field("stop.epoch")] = kUnset;
+  EXPECT_FALSE(stop_state_of(values));
+}
+
+// Over the air of half of all packets lost: latched until the release, then open at both ends.
+TEST(StopLatch, TwoStepsOverABadLinkReleaseIt) {
+  TwoEnds rig({.fading = {.loss = 0.5}, .seed = 31});
+  rig.releases = true;
+  for (int round = 0; round < 50; ++round) {
+    rig.stop.demand(StopLevel::kControlled, StopReason::kOperator);
+    rig.run(seconds(1));
+    ASSERT_EQ(rig.latch.level(), StopLevel::kControlled);
+    const auto id = rig.issue(CommandType::kReleaseStop, rig.latch.challenge());
+    ASSERT_TRUE(id);
+    rig.stop.release_asked(*id);
+    rig.stands = true;
+    rig.run(seconds(2));
+    rig.stands = false;
+    ASSERT_EQ(rig.desk.progress(*id)->fate, Outcome::kApplied);
+    rig.stop.released(*id);
+    rig.run(seconds(1));
+    ASSERT_EQ(rig.latch.level(), StopLevel::kNone);
+  }
+}
+
+}  // namespace
+}  // namespace pitwall::telemetry
