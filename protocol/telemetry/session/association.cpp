@@ -95,7 +95,10 @@ std::optional<Opened> Association::open_data(const Header& header, Bytes datagra
   if (opening.verdict == Opener::Verdict::kDuplicate) {
     refuse(Refusal::kReplayed);
     ++counters_.duplicates;
+    if (!in_use) return std::nullopt;
     last_duplicate_ = opening.number;
+    const bool copy = opening.number > paths_[path].newest;
+    if (copy) heard(opening.number, datagram.size(), path, from);
     return std::nullopt;
   }
   if (pending != nullptr) confirm(*pending, path, from);
@@ -108,7 +111,7 @@ std::optional<Opened> Association::accept(const Opener::Opening& opening, Bytes 
   attempt_.reset();  // the other end lives and has our keys
   hinted_ = false;
   attempt_life_ = kFirstAttempt;
-  paths_[path].addresses.heard(from, datagram.size(), opening.newest, *randomness_);
+  heard(opening.number, datagram.size(), path, from);
   ++counters_.opened;
   const bool first = unheard_;
   unheard_ = false;
@@ -117,6 +120,12 @@ std::optional<Opened> Association::accept(const Opener::Opening& opening, Bytes 
                 .newest = opening.newest,
                 .new_session = first,
                 .session = sessions_};
+}
+
+void Association::heard(std::uint64_t number, std::size_t size, PathId path, Address from) {
+  Path& state = paths_[path];
+  state.addresses.heard(from, size, number > state.newest, *randomness_);
+  state.newest = std::max(state.newest, number);
 }
 
 Association::Pending* Association::pending_of(std::uint16_t number) {
@@ -139,6 +148,7 @@ void Association::begin_session(const Session& session) {
   ++sessions_;
   ++counters_.exchanges;
   unheard_ = true;
+  for (Path& path : paths_) path.newest = 0;
 }
 
 // A base that lost its keys tells the car so; never more bytes than it was sent.

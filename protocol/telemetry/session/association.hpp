@@ -14,6 +14,8 @@
 //          that works. An end that restarted is back after one exchange
 //          keys change by phase after kPhasePackets or kPhaseTime; the old one opens for
 //          kOldPhaseKept more
+//          an address is the peer's of a path if a packet came from it that is newer than all that
+//          came by this path, the copy of one that was faster by the other included
 //          a new address of the peer gets at most three times the bytes that it sent, beside the
 //          old one, until it has proved itself; before an exchange nobody gets more than he sent
 //   use    after each feed() ask poll() of every path: a reply is kept until the next one only
@@ -168,6 +170,7 @@ class Association {
     PathAddresses addresses;
     std::optional<Reply> answer, note;  // note: cookie or hint
     Instant next_opening{};
+    std::uint64_t newest = 0;  // number of the newest packet that came by this path
   };
   static constexpr std::size_t kPendings = 4, kRecentOpenings = 64;
 
@@ -175,6 +178,7 @@ class Association {
                                   Instant now, std::span<std::uint8_t> plain);
   std::optional<Opened> accept(const Opener::Opening& opening, Bytes datagram, PathId path,
                                Address from, std::span<std::uint8_t> plain);
+  void heard(std::uint64_t number, std::size_t size, PathId path, Address from);
   Pending* pending_of(std::uint16_t number);
   void confirm(Pending& pending, PathId path, Address from);
   void begin_session(const Session& session);

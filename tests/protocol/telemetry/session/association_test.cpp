@@ -171,6 +171,27 @@ TEST(Association, TwoPathsShareOneWindowAndOneSession) {
   EXPECT_FALSE((*rig.base)->last_duplicate()) << "a forged one says nothing about a path";
 }
 
+// The copy by the slower path is a duplicate each time, and still says where the car is on it.
+TEST(Association, TheSlowerPathLearnsItsAddressFromCopies) {
+  Rig rig({.paths = 2});
+  rig.establish();
+  const Datagram datagram = rig.car->seal(9, rig.now);
+  ASSERT_TRUE(rig.base->feed(datagram, kCarAddress, rig.now, 0));
+  ASSERT_FALSE(rig.base->feed(datagram, kElsewhere, rig.now, 1));
+  ASSERT_EQ((*rig.base)->targets(1, 50).size(), 1U);
+  EXPECT_EQ((*rig.base)->targets(1, 50)[0], kElsewhere);
+  const auto token = (*rig.base)->probe(1);
+  ASSERT_TRUE(token);
+  (*rig.base)->take_proof(1, kElsewhere, *token, rig.now);
+  EXPECT_EQ((*rig.base)->proved(1), kElsewhere);
+  // The same again from a third place, on either path, moves nothing.
+  const Address third{.ip = 3, .port = 3};
+  for (const PathId path : {PathId{0}, PathId{1}}) {
+    EXPECT_FALSE(rig.base->feed(datagram, third, rig.now, path));
+    EXPECT_FALSE((*rig.base)->probe(path));
+  }
+}
+
 TEST(Association, SignedModeIsAgreedOnOrThereIsNoSession) {
   Rig rig({.signed_only = true});
   rig.establish();
