@@ -1,4 +1,5 @@
-// The canonical text of a registry (schema_text.hpp), read back: what the other end sent of its own.
+// The canonical text of a registry (schema_text.hpp), read back: what the other end has sent of its
+// own.
 //   in     any text at all, at most kListingMax bytes of it
 //   out    groups with their fields, and commands as the group named "commands"
 //   errors a line that is no such text is counted, with the number of the first; the rest is kept

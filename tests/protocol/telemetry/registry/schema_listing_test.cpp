@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
+#include <string>
 
 #include "protocol/telemetry/registry/schema.hpp"
 
@@ -23,9 +23,9 @@ TEST(SchemaListing, ReadsBackWhatTheRegistrySays) {
     for (const ListedField& field : group.fields) {
       EXPECT_EQ(field.name, kFields[i].name);
       EXPECT_EQ(field.unit, kFields[i].unit.empty() ? "-" : kFields[i].unit);
-      EXPECT_EQ(std::atof(field.min.c_str()), kFields[i].min) << field.name;
-      EXPECT_EQ(std::atof(field.max.c_str()), kFields[i].max) << field.name;
-      EXPECT_EQ(std::atof(field.resolution.c_str()), kFields[i].resolution) << field.name;
+      EXPECT_EQ(std::stod(field.min), kFields[i].min) << field.name;
+      EXPECT_EQ(std::stod(field.max), kFields[i].max) << field.name;
+      EXPECT_EQ(std::stod(field.resolution), kFields[i].resolution) << field.name;
       for (std::size_t k = 0; k < field.labels.size(); ++k)
         EXPECT_EQ(field.labels[k], label_at(kFields[i].labels, k));
       EXPECT_TRUE(label_at(kFields[i].labels, field.labels.size()).empty());

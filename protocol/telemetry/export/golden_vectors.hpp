@@ -1,0 +1,16 @@
+// Test vectors of the group codec, for whoever writes another one: for each group the code of every
+// field and the bits that they become.
+//   form   GROUP CASE NAME=CODE ... HEX; a code k stands for min + k * resolution of the registry,
+//          "-" for unset. Bits most significant first, zeros to a whole byte
+//   cases  first, last, unset: every field at its first or last code, or unset
+//          mixed: all different
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace pitwall::telemetry {
+
+std::string golden_vectors();
+
+}  // namespace pitwall::telemetry

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/telemetry/registry/rows_health.hpp"
+
+#include <gtest/gtest.h>
+
+#include "protocol/telemetry/registry/registry.hpp"
+
+namespace pitwall::telemetry {
+namespace {
+
+TEST(ReceiverRows, AreTheSameForBothUnits) {
+  const auto first = fields_of(Group::kGnss0), second = fields_of(Group::kGnss1);
+  ASSERT_EQ(first.count, second.count);
+  EXPECT_EQ(group_bits(Group::kGnss0), group_bits(Group::kGnss1));
+  for (std::size_t i = 0; i < first.count; ++i)
+    EXPECT_EQ(kFields[first.first + i].name, kFields[second.first + i].name);
+}
+
+// The tap writes rate, gap and delay of a sensor one after the other.
+TEST(SensorRows, ComeInThreesOfOneSensor) {
+  const auto [first, count] = fields_of(Group::kSensors);
+  ASSERT_EQ(count % 3, 0U);
+  for (std::size_t i = first; i < first + count; i += 3) {
+    const std::string_view name = kFields[i].name;
+    ASSERT_TRUE(name.ends_with("_rate")) << name;
+    const std::string_view sensor = name.substr(0, name.find('_') + 1);
+    EXPECT_TRUE(kFields[i + 1].name.starts_with(sensor) && kFields[i + 1].name.ends_with("_gap"));
+    EXPECT_TRUE(kFields[i + 2].name.starts_with(sensor) &&
+                kFields[i + 2].name.ends_with("_latency"));
+  }
+}
+
+// One bit for every cause but the first, "none".
+TEST(FaultRows, HaveABitForEachCauseOfAStop) {
+  std::size_t causes = 0;
+  while (!label_at(kStopCauses, causes).empty()) ++causes;
+  EXPECT_LE(causes - 1, 31U);
+  EXPECT_GE(kFields[field("faults.now")].max + 1.0,
+            static_cast<double>(1ULL << (causes - 1)) - 1.0);
+}
+
+}  // namespace
+}  // namespace pitwall::telemetry
