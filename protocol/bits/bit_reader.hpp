@@ -5,9 +5,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
+#include <type_traits>
 
 #include "protocol/vocabulary/check.hpp"
 
@@ -22,6 +25,10 @@ class BitReader {
     if (!ok_ || bits > bits_left()) {
       ok_ = false;
       return 0;
+    }
+    if (!std::is_constant_evaluated() && bits > 0 && bits <= kWordBits &&
+        bytes_.size() - at_ / 8 >= sizeof(std::uint64_t)) {
+      return read_word(bits);
     }
     std::uint64_t value = 0;
     while (bits > 0) {
@@ -43,6 +50,19 @@ class BitReader {
   constexpr std::size_t bits_left() const { return 8 * bytes_.size() - at_; }
 
  private:
+  // So many bits lie in eight bytes wherever they begin in the first.
+  static constexpr unsigned kWordBits = 57;
+
+  // The same for most fields at once.
+  std::uint64_t read_word(unsigned bits) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes_.data() + at_ / 8, sizeof word);
+    if constexpr (std::endian::native == std::endian::little) word = __builtin_bswap64(word);
+    const auto begun = static_cast<unsigned>(at_ % 8);
+    at_ += bits;
+    return word << begun >> (64U - bits);
+  }
+
   std::span<const std::uint8_t> bytes_;
   std::size_t at_ = 0;
   bool ok_ = true;
