@@ -35,7 +35,7 @@ struct Network {
   std::uint32_t lost_again = 0;
   std::map<BulkKind, std::vector<Bytes>> objects;
   std::map<BulkKind, std::size_t> objects_over;  // handed out, or older than one that was
-  std::map<BulkKind, bool> newest_again;
+  std::map<BulkKind, bool> last_again;
 };
 
 // An object that tells its number and kind in every byte, so that no two are mixed unseen.
@@ -129,8 +129,8 @@ void look_at_objects(Network& network) {
   while (const auto object = network.bulk_receiver.next()) {
     const auto& all = network.objects[object->kind];
     std::size_t& over = network.objects_over[object->kind];
-    if (network.newest_again[object->kind] && over == all.size()) over = all.size() - 1;
-    network.newest_again[object->kind] = false;
+    if (network.last_again[object->kind] && over > 0) --over;
+    network.last_again[object->kind] = false;
     while (over < all.size() && !std::ranges::equal(object->bytes, all[over])) ++over;
     CHECK(over < all.size());
     ++over;
@@ -152,7 +152,7 @@ void restart_receiver(Network& network) {
   network.bulk_sender.peer_restarted();
   network.told_again = true;
   network.lost_again = 0;
-  for (const auto& [kind, all] : network.objects) network.newest_again[kind] = true;
+  for (const auto& [kind, all] : network.objects) network.last_again[kind] = true;
 }
 
 // What it had not delivered is gone.
@@ -165,7 +165,7 @@ void restart_sender(Network& network) {
   network.event_expected = network.events_offered;
   network.told_again = false;
   for (const auto& [kind, all] : network.objects) network.objects_over[kind] = all.size();
-  network.newest_again.clear();
+  network.last_again.clear();
 }
 
 // The rest after the last choice: a good network for as long as it takes.
