@@ -3,7 +3,8 @@
 //          (1 mbar), Tire_Temp (16 sensors across each tyre), pt_report_1 to 3 (temperatures in
 //          whole degrees, one byte), misc_report (0.1 V), diagnostic_report, dash_switches; AV-24
 //          DBC: steering_report_extd_2, brake_report_extd and _2. A step is what a pit wall acts
-//          on: 1 degree, 1 kPa, 8 kPa of a hydraulic pressure
+//          on: 1 degree, 1 kPa, 8 kPa of a hydraulic pressure, 0.4 mm of travel, 1 % of the load on
+//          a wheel
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,10 +15,10 @@
 namespace pitwall::telemetry::rows {
 
 constexpr FieldRow travel(std::string_view name) {
-  return {Group::kSuspension, name, "mm", 0, 204, 0.2};
+  return {Group::kSuspension, name, "mm", 0, 204, 0.4};
 }
 constexpr FieldRow load(std::string_view name) {
-  return {Group::kSuspension, name, "N", 0, 8'160, 16};
+  return {Group::kSuspension, name, "N", 0, 8'128, 32};
 }
 constexpr FieldRow temperature(Group group, std::string_view name) {
   return {group, name, "degC", -40, 214, 1};  // 8 bits
@@ -25,8 +26,8 @@ constexpr FieldRow temperature(Group group, std::string_view name) {
 constexpr FieldRow tyre_pressure(std::string_view name) {
   return {Group::kTyres, name, "kPa", 0, 408, 0.8};
 }
-constexpr FieldRow motor_angle(std::string_view name) {  // seen from the road wheel
-  return {Group::kSteeringUnit, name, "rad", -0.46, 0.46, 0.0004};
+constexpr FieldRow motor_angle(std::string_view name) {  // at the road wheel; two steps of a sensor
+  return {Group::kSteeringUnit, name, "rad", -0.46, 0.46, 0.0009};
 }
 constexpr FieldRow position(std::string_view name) {
   return {Group::kBrakes, name, "", 0, 15'000, 60};

@@ -4,7 +4,8 @@
 //   source AV-21: top speed below 100 m/s; wheel speed in steps of 0.1 km/h; steering motor of
 //          +-512 deg in steps of 0.5 deg behind a ratio of 19.5, so +-0.458 rad in steps of
 //          0.00045; brake pressure of 13 bits in kPa; six gears. A step is half of what the sensor
-//          or the estimate is good for: GNSS with RTK 0.02 m, dual-antenna heading 0.002 rad
+//          or the estimate is good for: GNSS with RTK 0.02 m, dual-antenna heading 0.002 rad,
+//          acceleration 0.01 g
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -20,7 +21,7 @@ constexpr FieldRow pressure(Group group, std::string_view name) {
   return {group, name, "kPa", 0, 8'176, 8};
 }
 constexpr FieldRow acceleration(std::string_view name) {
-  return {Group::kDynamics, name, "m/s^2", -51, 51, 0.05};
+  return {Group::kDynamics, name, "m/s^2", -51, 51, 0.1};
 }
 
 inline constexpr auto kMotionRows = [] {
@@ -70,8 +71,8 @@ inline constexpr auto kMotionRows = [] {
       {kDynamics, "pitch", "rad", -0.25, 0.25, 0.001},
       {kDynamics, "bank", "rad", -0.6, 0.6, 0.0012},  // of the road there; Talladega has 0.58
       {kDynamics, "lateral_error", "m", -10, 10, 0.02},
-      {kDynamics, "heading_error", "rad", -0.5, 0.5, 0.001},
-      {kDynamics, "speed_error", "m/s", -50, 50, 0.1},
+      {kDynamics, "heading_error", "rad", -0.5, 0.5, 0.002},
+      {kDynamics, "speed_error", "m/s", -102, 102, 0.4},
   });
 }();
 
