@@ -41,6 +41,8 @@ class Scheduler {
             Instant now);
   void acked(std::uint64_t sequence);
   void forget();  // a new session: the other end is known to have nothing
+  // Of what was sent, all that should have been acknowledged by now was not.
+  bool silent(Duration round_trip, Instant now) const;
 
   const GroupFigures& figures(Group group) const { return figures_[index_of(group)]; }
 
@@ -54,7 +56,6 @@ class Scheduler {
     std::array<Instant, kGroups> sampled_at{};
   };
 
-  bool silent(Duration round_trip, Instant now) const;
   Instant known_sample(Group group, Duration round_trip, Instant now) const;
   double index(Group group, const Snapshot& snapshot, Duration round_trip, Instant now) const;
 
