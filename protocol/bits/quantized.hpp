@@ -27,6 +27,8 @@ class Quantized {
     const double steps = (max - min) / resolution;
     CHECK(steps >= 0.5 && steps < 4294967294.0);
     last_ = rounded(steps);
+    past_last_ = static_cast<double>(last_) + 0.5;
+    bits_ = static_cast<unsigned>(std::bit_width(last_ + 1));
   }
 
   constexpr double min() const { return min_; }
@@ -34,28 +36,33 @@ class Quantized {
   constexpr double resolution() const { return resolution_; }
   constexpr std::uint64_t count() const { return last_ + 1; }
   // One pattern more than there are steps: all ones is "no value".
-  constexpr unsigned bits() const { return static_cast<unsigned>(std::bit_width(last_ + 1)); }
-  constexpr std::uint64_t no_value() const { return (std::uint64_t{1} << bits()) - 1; }
+  constexpr unsigned bits() const { return bits_; }
+  constexpr std::uint64_t no_value() const { return (std::uint64_t{1} << bits_) - 1; }
 
   constexpr Encoded encode(double value) const {
     if (value != value) return {no_value(), false};
     const double steps = (value - min_) / resolution_;
     if (!(steps > -0.5)) return {0, value < min_};
-    if (steps >= static_cast<double>(last_) + 0.5) return {last_, true};
+    if (steps >= past_last_) return {last_, true};
     const std::uint64_t step = steps < 0.0 ? 0 : rounded(steps);
     return {step > last_ ? last_ : step, false};
   }
   constexpr double decode(std::uint64_t step) const {
     if (step > last_) return kUnset;
-    return min_ + static_cast<double>(step) * resolution_;
+    return min_ + static_cast<double>(static_cast<std::int64_t>(step)) * resolution_;
   }
 
  private:
   static constexpr double kLargest = 1e300;
-  static constexpr std::uint64_t rounded(double v) { return static_cast<std::uint64_t>(v + 0.5); }
+  // By way of signed numbers, which processors convert in one instruction; there are at most 2^32.
+  static constexpr std::uint64_t rounded(double v) {
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(v + 0.5));
+  }
 
   double min_, max_, resolution_;
+  double past_last_ = 0.0;  // in steps
   std::uint64_t last_ = 0;
+  unsigned bits_ = 0;
 };
 
 }  // namespace pitwall::bits
