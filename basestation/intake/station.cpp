@@ -1,15 +1,93 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "basestation/intake/station.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace pitwall::intake {
 
-bool Station::take(std::span<const std::uint8_t> datagram, Instant received) {
-  const auto packet = intake_.feed(datagram, received);
-  if (!packet) return false;
-  link_.note(*packet, received);
-  uplink_.heard(*packet, received);
-  picture_.update(*packet, received);
+namespace {
+
+template <class Item>
+void push_bounded(std::deque<Item>& log, const Item& item) {
+  log.push_back(item);
+  if (log.size() > Station::kLogged) log.pop_front();
+}
+
+}  // namespace
+
+bool Station::take(std::span<const std::uint8_t> datagram, telemetry::PathId path,
+                   telemetry::Address from, Instant received) {
+  const auto arrival = endpoint_.feed(datagram, path, from, received);
+  if (!arrival) return false;
+  rate_.note(received);
+  count(*arrival);
+  const telemetry::Snapshot& state = endpoint_.state();
+  picture_.update(state, arrival->groups);
+  ages_.show(state, received);
+  const double station_m = state.values[telemetry::field("track.station")];
+  if (!std::isnan(station_m)) {
+    endpoint_.place(station_m, kSection_m * static_cast<double>(telemetry::kTrackBins), received);
+  }
+  collect();
   return true;
+}
+
+void Station::count(const telemetry::Arrival& arrival) {
+  const std::uint64_t session = endpoint_.report(arrival.received).sessions;
+  if (session != session_) {
+    numbers_before_ += newest_;
+    newest_ = 0;
+    session_ = session;
+  }
+  newest_ = std::max(newest_, arrival.sequence);
+}
+
+void Station::collect() {
+  while (const auto event = endpoint_.next_event()) {
+    push_bounded(events_, *event);
+    ++events_heard_;
+  }
+  while (const auto object = endpoint_.next_bulk()) {
+    BulkTally& tally = bulk_[static_cast<std::size_t>(object->kind)];
+    ++tally.objects;
+    tally.bytes += object->bytes.size();
+  }
+  for (telemetry::CommandProgress& command : commands_) {
+    if (const auto* const progress = endpoint_.progress(command.id)) command = *progress;
+  }
+}
+
+Result<Obeyed, Problem> Station::obey(std::string_view words, Instant now) {
+  auto obeyed = intake::obey(endpoint_, words, now);
+  if (!obeyed) {
+    ++words_refused_;
+    last_refused_ = obeyed.error();
+    return obeyed;
+  }
+  if (obeyed->command) {
+    ++commands_given_;
+    if (const auto* const progress = endpoint_.progress(*obeyed->command)) {
+      push_bounded(commands_, *progress);
+    }
+  }
+  return obeyed;
+}
+
+Station::Source Station::source() const {
+  const auto& peer = endpoint_.peer();
+  if (!peer) return Source::kNone;
+  return peer->real_car ? Source::kCar : Source::kSimulation;
+}
+
+std::uint64_t Station::lost_packets() const {
+  const std::uint64_t sent = numbers_before_ + newest_;
+  return sent > rate_.packets() ? sent - rate_.packets() : 0;
+}
+
+double Station::loss() const {
+  const std::uint64_t sent = numbers_before_ + newest_;
+  return sent == 0 ? 0.0 : static_cast<double>(lost_packets()) / static_cast<double>(sent);
 }
 
 }  // namespace pitwall::intake

@@ -1,88 +1,281 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "basestation/outlets/summary.hpp"
 
+#include <array>
+#include <cmath>
 #include <cstdio>
+#include <string_view>
+#include <utility>
 
+#include "basestation/outlets/log_text.hpp"
 #include "basestation/outlets/value_text.hpp"
 
 namespace pitwall::outlets {
 namespace {
 
-// Names, units and labels of the registry and of this file need no escapes.
-std::string quoted(std::string_view text) { return "\"" + std::string{text} + "\""; }
+std::string quoted(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "\"";
+}
 
 std::string number(double value) {
+  if (!std::isfinite(value)) return "null";
   char text[40];
   std::snprintf(text, sizeof text, "%.10g", value);
   return text;
 }
 
-std::string milliseconds_text(Duration d) { return number(d.milliseconds()); }
+std::string ms(Duration d) { return number(d.milliseconds()); }
+std::string ms(const std::optional<Duration>& d) { return d ? ms(*d) : "null"; }
+std::string text_of(std::uint64_t n) { return std::to_string(n); }
+const char* text_of(bool yes) { return yes ? "true" : "false"; }
 
-std::string refusals(const intake::IntakeCounters& counters) {
-  std::string text = "{";
-  for (std::size_t i = 0; i < telemetry::kPacketErrors; ++i) {
-    text += (i == 0 ? "" : ", ") +
-            quoted(telemetry::text_of(static_cast<telemetry::PacketError>(i))) + ": " +
-            std::to_string(counters.refused[i]);
+// {"a": 1, "b": 2}; values are JSON already.
+class Object {
+ public:
+  Object& add(std::string_view key, const std::string& value) {
+    text_ += (text_.empty() ? "" : ", ") + quoted(key) + ": " + value;
+    return *this;
   }
-  return text + "}";
+  std::string text() const { return "{" + text_ + "}"; }
+
+ private:
+  std::string text_;
+};
+
+std::string ages_json(const intake::AgeHistogram& ages) {
+  return Object{}
+      .add("p50", ms(ages.quantile(0.50)))
+      .add("p90", ms(ages.quantile(0.90)))
+      .add("p99", ms(ages.quantile(0.99)))
+      .add("max", ms(ages.largest()))
+      .text();
+}
+
+std::string ages_by_class(const intake::AgeBook& ages) {
+  constexpr std::array<std::pair<telemetry::Class, const char*>, telemetry::kClasses> kNames{
+      {{telemetry::Class::kSafety, "safety"},
+       {telemetry::Class::kMotion, "motion"},
+       {telemetry::Class::kHealth, "health"},
+       {telemetry::Class::kStatistics, "statistics"}}};
+  Object object;
+  for (const auto& [priority, name] : kNames) object.add(name, ages_json(ages.of(priority)));
+  return object.text();
+}
+
+std::string ages_by_group(const intake::AgeBook& ages) {
+  Object object;
+  for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
+    if (row.direction != telemetry::Direction::kDown) continue;
+    object.add(row.name, ages_json(ages.of(row.group)));
+  }
+  return object.text();
+}
+
+struct Refused {
+  std::uint64_t total = 0;
+  std::string by_kind;
+};
+
+// A copy by another path is no refusal: it is what a second path is for.
+Refused refused_of(const telemetry::LinkReport& report) {
+  Refused refused;
+  Object kinds;
+  const auto add = [&](std::string_view name, std::uint64_t n) {
+    refused.total += n;
+    kinds.add(name, text_of(n));
+  };
+  for (std::size_t i = 0; i < telemetry::kRefusals; ++i) {
+    const auto kind = static_cast<telemetry::Refusal>(i);
+    const bool replayed = kind == telemetry::Refusal::kReplayed;
+    add(telemetry::text_of(kind),
+        report.association.refused[i] - (replayed ? report.association.duplicates : 0));
+  }
+  for (std::size_t i = 0; i < telemetry::kBodyErrors; ++i) {
+    add(telemetry::text_of(static_cast<telemetry::BodyError>(i)), report.bad_bodies[i]);
+  }
+  add("bad records", report.bad_records);
+  refused.by_kind = kinds.text();
+  return refused;
+}
+
+std::string path_json(const telemetry::PathReport& path) {
+  const telemetry::PathFigures& h = path.heard;
+  return Object{}
+      .add("received", text_of(h.received))
+      .add("lost", text_of(h.lost))
+      .add("duplicates", text_of(h.duplicates))
+      .add("late", text_of(h.late))
+      .add("loss_last_5_s", number(h.loss))
+      .add("burst_ms", ms(h.mean_bad))
+      .add("between_bursts_ms", ms(h.mean_good))
+      .add("delay_p50_ms", ms(h.delay_p50))
+      .add("delay_p95_ms", ms(h.delay_p95))
+      .add("delay_p99_ms", ms(h.delay_p99))
+      .add("jitter_ms", ms(h.jitter))
+      .add("down_bytes_per_s", number(h.rate_bytes_per_s))
+      .add("up_bytes", text_of(path.spent.bytes))
+      .add("up_packets", text_of(path.spent.packets))
+      .add("up_refused_room", text_of(path.spent.refused))
+      .add("up_budget_use", number(path.budget_use))
+      .add("up_rate_factor", number(path.rate_factor))
+      .add("address_proved", text_of(path.validated))
+      .text();
+}
+
+template <class Items, class Make>
+std::string array_of(const Items& items, const Make& make) {
+  std::string text;
+  for (const auto& item : items) text += (text.empty() ? "" : ",\n    ") + make(item);
+  return text.empty() ? "[]" : "[\n    " + text + "]";
+}
+
+std::string since_ms(std::optional<Instant> then, Instant start) {
+  return then ? ms(*then - start) : "null";
+}
+
+std::string command_json(const telemetry::CommandProgress& c, Instant start) {
+  return Object{}
+      .add("id", text_of(std::uint64_t{c.id}))
+      .add("command", quoted(command_text(c.command)))
+      .add("given_s", number((c.issued - start).seconds()))
+      .add("sent_ms", since_ms(c.sent, c.issued))
+      .add("received_ms", since_ms(c.received, c.issued))
+      .add("decided_ms", since_ms(c.decided, c.issued))
+      .add("fate", c.fate ? quoted(telemetry::text_of(*c.fate)) : "null")
+      .text();
+}
+
+std::string losses_by_place(const telemetry::StationEndpoint& endpoint) {
+  Object object;
+  for (std::size_t bin = 0; bin < telemetry::kTrackBins; ++bin) {
+    const double loss = endpoint.loss_at(bin);
+    if (std::isnan(loss)) continue;
+    object.add(number(intake::Station::kSection_m * static_cast<double>(bin)), number(loss));
+  }
+  return object.text();
 }
 
 std::string field_json(const telemetry::FieldRow& row, const picture::FieldView& view) {
-  std::string text = quoted(path_of(row)) + ": {\"unit\": " + quoted(row.unit) +
-                     ", \"quality\": " + quoted(picture::text_of(view.quality));
-  if (view.quality == picture::Quality::kNever) return text + ", \"value\": null}";
-  text += ", \"value\": " + number(view.value) + ", \"age_ms\": " + milliseconds_text(view.age);
-  if (!row.labels.empty()) text += ", \"text\": " + quoted(value_text(row, view.value));
-  return text + "}";
+  Object object;
+  object.add("unit", quoted(row.unit)).add("quality", quoted(picture::text_of(view.quality)));
+  if (view.quality == picture::Quality::kNever) return object.add("value", "null").text();
+  object.add("value", number(view.value)).add("age_ms", ms(view.age));
+  if (!row.labels.empty()) object.add("text", quoted(value_text(row, view.value)));
+  return object.text();
 }
 
-const char* source_text(const picture::Picture& picture) {
-  if (!picture.ever()) return "none";
-  return picture.source() == telemetry::Source::kCar ? "car" : "simulation";
+const char* source_text(intake::Station::Source source) {
+  switch (source) {
+    case intake::Station::Source::kNone:
+      return "none";
+    case intake::Station::Source::kSimulation:
+      return "simulation";
+    case intake::Station::Source::kCar:
+      return "car";
+  }
+  return "none";
 }
 
-const char* car_text(const intake::LinkStats& link, Instant now) {
-  if (!link.ever()) return "never heard";
-  return link.lost(now) ? "lost" : "heard";
+const char* car_text(const intake::PacketRate& rate, Instant now) {
+  if (!rate.ever()) return "never heard";
+  return rate.lost(now) ? "lost" : "heard";
+}
+
+class Document {
+ public:
+  void line(std::string_view key, const std::string& value) {
+    text_ += "  " + quoted(key) + ": " + value + ",\n";
+  }
+  void add_fields(const picture::Picture& picture, Instant now) {
+    text_ += "  \"fields\": {\n";
+    for (telemetry::FieldIndex i = 0; i < telemetry::kFieldCount; ++i) {
+      const telemetry::FieldRow& row = telemetry::kFields[i];
+      if (telemetry::row_of(row.group).direction != telemetry::Direction::kDown) continue;
+      text_ += (first_ ? "    " : ",\n    ") + quoted(path_of(row)) + ": " +
+               field_json(row, picture.view(i, now));
+      first_ = false;
+    }
+    text_ += "\n  }\n";
+  }
+  std::string text() const { return "{\n" + text_ + "}\n"; }
+
+ private:
+  std::string text_;
+  bool first_ = true;
+};
+
+void add_link(const intake::Station& station, Instant now, Document& document) {
+  const telemetry::LinkReport report = station.report(now);
+  const Refused refused = refused_of(report);
+  document.line("refused", text_of(refused.total));
+  document.line("refused_by_kind", refused.by_kind);
+  document.line("duplicates", text_of(report.association.duplicates));
+  document.line("sessions", text_of(report.sessions));
+  document.line("exchanges", text_of(report.association.exchanges));
+  document.line("roams", text_of(report.association.roams));
+  document.line("key_phases", text_of(report.association.phases));
+  document.line("slots", text_of(report.slots));
+  document.line("slots_skipped", text_of(report.slots_skipped));
+  document.line("both_lost", number(report.both_lost));
+  document.line("clock", Object{}
+                             .add("known", text_of(station.endpoint().clock_known()))
+                             .add("round_trip_ms", ms(report.round_trip))
+                             .add("bound_ms", ms(report.clock_bound))
+                             .text());
+  std::string paths;
+  for (telemetry::PathId path = 0; path < station.paths(); ++path) {
+    paths += (path == 0 ? "" : ",\n    ") + path_json(report.paths[path]);
+  }
+  document.line("paths", "[" + paths + "]");
+  document.line("loss_by_place_m", losses_by_place(station.endpoint()));
+}
+
+void add_logs(const intake::Station& station, Document& document) {
+  const Instant start = station.rate().first();
+  document.line("commands_given", text_of(station.commands_given()));
+  document.line("words_refused", text_of(station.words_refused()));
+  document.line("commands", array_of(station.commands(), [&](const auto& command) {
+                  return command_json(command, start);
+                }));
+  document.line("events_heard", text_of(station.events_heard()));
+  document.line("events", array_of(station.events(), [&](const telemetry::Event& event) {
+                  return Object{}
+                      .add("at_s", number((event.at - start).seconds()))
+                      .add("event", quoted(event_text(event)))
+                      .text();
+                }));
+  std::uint64_t objects = 0, bytes = 0;
+  for (const intake::BulkTally& tally : station.bulk()) {
+    objects += tally.objects;
+    bytes += tally.bytes;
+  }
+  document.line("bulk",
+                Object{}.add("objects", text_of(objects)).add("bytes", text_of(bytes)).text());
 }
 
 }  // namespace
 
 std::string json_summary(const intake::Station& station, Instant now) {
-  const picture::Picture& picture = station.picture();
-  const intake::IntakeCounters& counters = station.counters();
-  const intake::LinkStats& link = station.link();
-  const intake::AgeHistogram& ages = link.ages();
-  std::string text = "{\n";
-  const auto line = [&](std::string_view key, const std::string& value) {
-    text += "  " + quoted(key) + ": " + value + ",\n";
-  };
-  line("source", quoted(source_text(picture)));
-  line("car", quoted(car_text(link, now)));
-  line("packets", std::to_string(counters.accepted));
-  line("received", std::to_string(counters.received));
-  line("lost", std::to_string(counters.lost));
-  line("duplicates", std::to_string(counters.duplicates));
-  line("late", std::to_string(counters.late));
-  line("other_run", std::to_string(counters.other_run));
-  line("runs", std::to_string(counters.runs));
-  line("refused", std::to_string(counters.refused_total()));
-  line("refused_by_kind", refusals(counters));
-  line("rate_hz", number(link.mean_rate_hz()));
-  line("age_ms", "{\"p50\": " + milliseconds_text(ages.quantile(0.50)) +
-                     ", \"p90\": " + milliseconds_text(ages.quantile(0.90)) +
-                     ", \"p99\": " + milliseconds_text(ages.quantile(0.99)) +
-                     ", \"max\": " + milliseconds_text(ages.largest()) + "}");
-  line("heartbeats_sent", std::to_string(station.uplink().counters().sent));
-  line("heartbeats_not_sent", std::to_string(station.uplink().counters().not_sent));
-  text += "  \"fields\": {\n";
-  for (telemetry::FieldIndex i = 0; i < telemetry::kFieldCount; ++i) {
-    text += "    " + field_json(telemetry::kFields[i], picture.view(i, now)) +
-            (i + 1 < telemetry::kFieldCount ? ",\n" : "\n");
-  }
-  return text + "  }\n}\n";
+  const intake::PacketRate& rate = station.rate();
+  Document document;
+  document.line("source", quoted(source_text(station.source())));
+  document.line("car", quoted(car_text(rate, now)));
+  document.line("packets", text_of(rate.packets()));
+  document.line("lost", text_of(station.lost_packets()));
+  document.line("loss", number(station.loss()));
+  document.line("rate_hz", number(rate.mean_rate_hz()));
+  document.line("age_ms", ages_json(station.ages().of(telemetry::Group::kEgo)));
+  document.line("ages_ms", ages_by_class(station.ages()));
+  document.line("ages_ms_by_group", ages_by_group(station.ages()));
+  add_link(station, now, document);
+  add_logs(station, document);
+  document.add_fields(station.picture(), now);
+  return document.text();
 }
 
 }  // namespace pitwall::outlets

@@ -1,6 +1,8 @@
-// What a run of the base station heard, as one JSON document.
-//   out    car ("never heard", "heard", "lost"), packets, lost, refused (total and by kind),
-//          rate_hz, age_ms {p50 p90 p99 max}, heartbeats_sent and _not_sent, source,
+// What a run of the base station heard and said, as one JSON document.
+//   out    car ("never heard", "heard", "lost"), source, packets, lost, loss, refused (total and by
+//          kind), rate_hz; age_ms of ego and ages_ms by class and by group {p50 p90 p99 max};
+//          paths (loss, bursts, one-way delay, jitter, budget); clock; commands and events with
+//          their times; loss by place;
 //          fields: "group.name" -> value (null if never heard), unit, age_ms, quality
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -3,70 +3,130 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "basestation/outlets/text_view.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/readiness.hpp"
+#include "protocol/vocabulary/fixed_vector.hpp"
 
 namespace pitwall::outlets {
 namespace {
 
 constexpr Instant kForever{INT64_MAX};
-constexpr std::uint32_t kStopBit = 1U << 1U;  // of the second watched descriptor
 constexpr int kMaxRounds = 64;  // a flood must not keep screen and stop signal waiting
+constexpr std::size_t kMaxLines = telemetry::kPaths + 2;
 
-using Car = std::optional<transport::UdpAddress>;  // who sent the last packet that was accepted
-
-void drain(transport::UdpSocket& socket, std::vector<transport::UdpDatagram>& batch,
-           intake::Station& station, Car& car) {
-  for (int round = 0; round < kMaxRounds; ++round) {
-    const std::size_t n = socket.receive(batch);
-    for (std::size_t i = 0; i < n; ++i)
-      if (station.take(batch[i].payload(), batch[i].at)) car = batch[i].from;
-    if (n < batch.size()) return;
+class Loop {
+ public:
+  Loop(const Lines& lines, const TerminalOptions& options, intake::Station& station,
+       std::FILE* terminal)
+      : lines_(lines), options_(options), station_(station), terminal_(terminal) {
+    CHECK(watched_.push(lines.stop));
+    for (const transport::UdpSocket& socket : lines.radio) CHECK(watched_.push(socket.fd()));
+    if (lines.words != nullptr) CHECK(watched_.push(lines.words->fd()));
   }
-}
 
-void answer(transport::UdpSocket& socket, intake::Station& station, const Car& car) {
-  const auto heartbeat = station.uplink().poll(transport::monotonic_now());
-  if (!heartbeat.empty() && car) station.uplink().note(socket.send_to(*car, heartbeat));
-}
+  void run() {
+    const Instant start = transport::monotonic_now();
+    const Instant end = options_.duration.ns > 0 ? start + options_.duration : kForever;
+    next_screen_ = options_.text ? start : kForever;
+    bool stopped = false;
+    while (!stopped) {
+      const Instant due = std::min({next_screen_, station_.due(), script_due(), end});
+      const std::uint32_t ready = transport::wait_readable(watched_.span(), due);
+      drain();
+      hear_words();
+      const Instant now = transport::monotonic_now();
+      say_script(now);
+      send(now);
+      show_if_due(now);
+      stopped = (ready & 1U) != 0 || now >= end;
+    }
+    if (options_.text) show(transport::monotonic_now());
+  }
 
-void show(intake::Station& station, const TerminalOptions& options, std::FILE* terminal) {
-  const Instant now = transport::monotonic_now();
-  station.advance(now);
-  const std::string screen = text_view(station, now, {.ansi = !options.plain});
-  std::fwrite(screen.data(), 1, screen.size(), terminal);
-  std::fflush(terminal);
-}
+ private:
+  // Each datagram is taken and answered before the next: a reply is kept until then only.
+  void drain() {
+    for (std::size_t path = 0; path < lines_.radio.size(); ++path) {
+      for (int round = 0; round < kMaxRounds; ++round) {
+        const std::size_t n = lines_.radio[path].receive(batch_);
+        for (std::size_t i = 0; i < n; ++i) take(batch_[i], static_cast<telemetry::PathId>(path));
+        if (n < batch_.size()) break;
+      }
+    }
+  }
+
+  void take(const transport::UdpDatagram& datagram, telemetry::PathId path) {
+    const telemetry::Address from{.ip = datagram.from.ip, .port = datagram.from.port};
+    station_.take(datagram.payload(), path, from, datagram.at);
+    if (station_.due() <= datagram.at) send(transport::monotonic_now());
+  }
+
+  void send(Instant now) {
+    while (const auto out = station_.poll(now)) {
+      const transport::UdpAddress to{.ip = out->to.ip, .port = out->to.port};
+      lines_.radio[out->path].send_to(to, out->bytes);
+    }
+  }
+
+  void hear_words() {
+    if (lines_.words == nullptr) return;
+    const std::size_t n = lines_.words->receive(batch_);
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto bytes = batch_[i].payload();
+      say({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, batch_[i].at);
+    }
+  }
+
+  Instant script_due() const {
+    if (lines_.script == nullptr || !station_.rate().ever()) return kForever;
+    const auto due = lines_.script->due();
+    return due ? station_.rate().first() + *due : kForever;
+  }
+
+  void say_script(Instant now) {
+    if (lines_.script == nullptr || !station_.rate().ever()) return;
+    while (const auto words = lines_.script->next(now - station_.rate().first())) say(*words, now);
+  }
+
+  void say(std::string_view words, Instant now) {
+    const auto obeyed = station_.obey(words, now);
+    if (!obeyed) std::fprintf(stderr, "pitwall-base: %s\n", to_string(obeyed.error()).c_str());
+  }
+
+  void show_if_due(Instant now) {
+    if (now < next_screen_) return;
+    show(now);
+    next_screen_ = now + options_.refresh;
+  }
+
+  void show(Instant now) {
+    station_.advance(now);
+    const std::string screen =
+        text_view(station_, now, {.ansi = !options_.plain, .all = options_.all});
+    std::fwrite(screen.data(), 1, screen.size(), terminal_);
+    std::fflush(terminal_);
+  }
+
+  Lines lines_;
+  TerminalOptions options_;
+  intake::Station& station_;
+  std::FILE* terminal_;
+  FixedVector<int, kMaxLines> watched_;
+  std::vector<transport::UdpDatagram> batch_ =
+      std::vector<transport::UdpDatagram>(transport::UdpSocket::kBatch);
+  Instant next_screen_ = kForever;
+};
 
 }  // namespace
 
-void run_terminal(transport::UdpSocket& socket, int stop, const TerminalOptions& options,
-                  intake::Station& station, std::FILE* terminal) {
-  std::vector<transport::UdpDatagram> batch(transport::UdpSocket::kBatch);
-  const Instant start = transport::monotonic_now();
-  const Instant end = options.duration.ns > 0 ? start + options.duration : kForever;
-  Instant next_screen = options.text ? start : kForever;
-  Car car;
-  const int watched[] = {socket.fd(), stop};
-  bool stopped = false;
-  while (!stopped) {
-    const Instant next_answer = station.uplink().due().value_or(kForever);
-    const auto ready = transport::wait_readable(watched, std::min({next_screen, next_answer, end}));
-    drain(socket, batch, station, car);
-    answer(socket, station, car);
-    const Instant now = transport::monotonic_now();
-    if (now >= next_screen) {
-      show(station, options, terminal);
-      next_screen = now + options.refresh;
-    }
-    stopped = (ready & kStopBit) != 0 || now >= end;
-  }
-  if (options.text) show(station, options, terminal);
+void run_terminal(const Lines& lines, const TerminalOptions& options, intake::Station& station,
+                  std::FILE* terminal) {
+  Loop(lines, options, station, terminal).run();
 }
 
 }  // namespace pitwall::outlets

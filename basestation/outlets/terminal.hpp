@@ -1,16 +1,20 @@
-// The loop of a base station at a terminal: receives at once, answers the car with heartbeats,
-// prints a screen now and then.
-//   in     a socket, a descriptor that becomes readable when it shall stop
-//   out    the station up to date; screens on the given stream; heartbeats to the address of the
-//          last accepted packet, from the socket that received it: one that is bound to loopback
-//          hears and reaches nobody else
-//   law    a terminal that takes no text (Ctrl-S, a full pipe) stops the loop and the heartbeats
-//          with it: a base whose screen stands still is no base that somebody watches
+// The loop of a base station at a terminal: takes every datagram that is there at each wake-up,
+// sends what is due, says the operator's words, prints a screen now and then.
+//   in     a socket for each path, one for words (loopback), a script, a descriptor that becomes
+//          readable when it shall stop
+//   out    the station up to date; datagrams to where it says, from the socket of their path;
+//          screens on the given stream
+//   law    a terminal that takes no text (Ctrl-S, a full pipe) stops the loop and with it what the
+//          car hears: a base whose screen stands still is no base that somebody watches
+//          seconds of a script count from the car's first packet
+//   errors words that are not understood: on the screen, in the summary, and on standard error
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdio>
+#include <span>
 
+#include "basestation/intake/operator_script.hpp"
 #include "basestation/intake/station.hpp"
 #include "protocol/transport/udp_socket.hpp"
 #include "protocol/vocabulary/time.hpp"
@@ -20,11 +24,19 @@ namespace pitwall::outlets {
 struct TerminalOptions {
   bool text = false;    // print screens at all
   bool plain = false;   // no escapes, one screen after the other
+  bool all = false;     // every group
   Duration duration{};  // zero: until stopped
   Duration refresh = milliseconds(100);
 };
 
-void run_terminal(transport::UdpSocket& socket, int stop, const TerminalOptions& options,
-                  intake::Station& station, std::FILE* terminal);
+struct Lines {
+  std::span<transport::UdpSocket> radio;  // by path
+  transport::UdpSocket* words = nullptr;  // one line of words for each datagram
+  intake::OperatorScript* script = nullptr;
+  int stop = -1;
+};
+
+void run_terminal(const Lines& lines, const TerminalOptions& options, intake::Station& station,
+                  std::FILE* terminal);
 
 }  // namespace pitwall::outlets

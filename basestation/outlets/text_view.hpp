@@ -1,7 +1,9 @@
-// The picture as one screen of text: who is heard (a real car or a simulation) or lost, the link
-// both ways, and every field with value, unit and age. A function of its arguments: the caller
-// prints.
-//   marks  ' ' fresh, '~' late, '!' stale (dimmed with ANSI), '-' never heard
+// The picture as one screen of text: who is heard (a real car or a simulation) or lost, the radio's
+// figures, and the fields by group. A function of its arguments: the caller prints.
+//   out    one line or more for each group: its name, the age of its sample, its fields with value
+//          and unit. A field that is older than its group says its own age
+//   marks  ' ' fresh, '~' late, '!' stale (dimmed with ANSI), groups that were never heard are
+//          named in one line
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,6 +16,7 @@ namespace pitwall::outlets {
 
 struct ViewOptions {
   bool ansi = false;  // colours, and the cursor home at the start
+  bool all = false;   // also the groups of health and statistics
 };
 
 std::string text_view(const intake::Station& station, Instant now, const ViewOptions& options);

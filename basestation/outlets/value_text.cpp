@@ -29,8 +29,7 @@ std::string value_text(const telemetry::FieldRow& row, double value) {
 }
 
 std::string path_of(const telemetry::FieldRow& row) {
-  return std::string{telemetry::row_of(row.group).name} + "." +
-         std::string{row.name};
+  return std::string{telemetry::row_of(row.group).name} + "." + std::string{row.name};
 }
 
 }  // namespace pitwall::outlets

@@ -1,9 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "basestation/picture/picture.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pitwall::picture {
+
+namespace {
+
+FieldView view_of(double value, Instant sampled, Duration target_age, Instant now) {
+  if (sampled == telemetry::kNeverSampled) return {};
+  const Duration age = std::max(now - sampled, Duration{});
+  return {.value = value, .age = age, .quality = quality_of(age, target_age)};
+}
+
+}  // namespace
 
 const char* text_of(Quality quality) {
   switch (quality) {
@@ -19,26 +30,34 @@ const char* text_of(Quality quality) {
   return "?";
 }
 
-void Picture::update(const telemetry::StatePacket& packet, Instant received) {
+Quality quality_of(Duration age, Duration target_age) {
+  if (age <= target_age) return Quality::kFresh;
+  return age <= kLateFactor * target_age ? Quality::kLate : Quality::kStale;
+}
+
+void Picture::update(const telemetry::Snapshot& state, telemetry::GroupSet groups) {
   ever_ = true;
-  source_ = packet.source;
+  for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
+    if (groups.has(row.group) && state.ever(row.group)) {
+      sampled_[telemetry::index_of(row.group)] = state.at(row.group);
+    }
+  }
   for (telemetry::FieldIndex i = 0; i < telemetry::kFieldCount; ++i) {
-    const double value = packet.values[i];
-    const Duration age = packet.age_of(telemetry::kFields[i].group);
-    if (std::isnan(value) || age.ns < 0) continue;
-    latest_[i] = {.value = value, .received = received, .age_when_sent = age, .ever = true};
+    const telemetry::Group group = telemetry::kFields[i].group;
+    const double value = state.values[i];
+    if (!groups.has(group) || !state.ever(group) || std::isnan(value)) continue;
+    latest_[i] = {.value = value, .sampled = state.at(group)};
   }
 }
 
 FieldView Picture::view(telemetry::FieldIndex field, Instant now) const {
   const Latest& latest = latest_[field];
-  if (!latest.ever) return {};
-  const Duration age = latest.age_when_sent + (now - latest.received);
-  const Duration target = telemetry::kFields[field].target_age();
-  const Quality quality = age <= target                 ? Quality::kFresh
-                          : age <= kLateFactor * target ? Quality::kLate
-                                                        : Quality::kStale;
-  return {.value = latest.value, .age = age, .quality = quality};
+  return view_of(latest.value, latest.sampled, telemetry::kFields[field].target_age(), now);
+}
+
+FieldView Picture::group(telemetry::Group group, Instant now) const {
+  return view_of(kUnset, sampled_[telemetry::index_of(group)], telemetry::row_of(group).target_age,
+                 now);
 }
 
 }  // namespace pitwall::picture

@@ -1,8 +1,8 @@
 // The latest value of every field and how old it is: what all outlets show.
-//   in     accepted packets and when they were received
+//   in     the state as the radio has it, and which groups of it are new
 //   out    value, age and quality of each field at any later time
-//   age    time since reception plus the age of the sample when it was sent; the time on the way is
-//          not in it (the clocks are not compared in this version)
+//   age    since the sample was taken in the car, the way to the base included: never younger than
+//          the truth while the clocks of car and base are compared
 //   unset  a field that the car no longer knows keeps its last value and grows old
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -11,7 +11,7 @@
 #include <cstdint>
 
 #include "protocol/telemetry/registry/registry.hpp"
-#include "protocol/telemetry/state_packet.hpp"
+#include "protocol/telemetry/registry/snapshot.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::picture {
@@ -24,6 +24,7 @@ enum class Quality : std::uint8_t {
 };
 inline constexpr int kLateFactor = 3;
 const char* text_of(Quality quality);
+Quality quality_of(Duration age, Duration target_age);
 
 struct FieldView {
   double value = kUnset;
@@ -33,22 +34,21 @@ struct FieldView {
 
 class Picture {
  public:
-  void update(const telemetry::StatePacket& packet, Instant received);
+  void update(const telemetry::Snapshot& state, telemetry::GroupSet groups);
 
   FieldView view(telemetry::FieldIndex field, Instant now) const;
+  // Of the group's newest sample; kNever: it was never sampled.
+  FieldView group(telemetry::Group group, Instant now) const;
   bool ever() const { return ever_; }
-  telemetry::Source source() const { return source_; }  // of the last packet
 
  private:
   struct Latest {
     double value = kUnset;
-    Instant received{};
-    Duration age_when_sent{};
-    bool ever = false;
+    Instant sampled = telemetry::kNeverSampled;
   };
 
   std::array<Latest, telemetry::kFieldCount> latest_{};
-  telemetry::Source source_ = telemetry::Source::kSimulation;
+  std::array<Instant, telemetry::kGroups> sampled_ = telemetry::Snapshot{}.sampled_at;
   bool ever_ = false;
 };
 

@@ -3,48 +3,108 @@
 
 #include <gtest/gtest.h>
 
-#include <memory>
+#include <string>
 
-#include "tests/basestation/sender.hpp"
+#include "protocol/telemetry/delivery/event_content.hpp"
+#include "tests/basestation/radio_rig.hpp"
 
 namespace pitwall::intake {
 namespace {
 
-constexpr auto kX = telemetry::field("ego.x");
+using telemetry::field;
+using telemetry::Group;
 
-struct Car : Sender {
-  Car() { packet.age_of(telemetry::Group::kEgo) = {}; }
-  std::vector<std::uint8_t> at(double x_m, std::uint32_t sequence) {
-    packet.values[kX] = x_m;
-    return bytes(sequence);
+constexpr auto kX = field("ego.x");
+
+TEST(Station, ShowsWhatTheCarSaysWithItsTrueAge) {
+  RadioRig rig;
+  rig.set(kX, 321.0);
+  rig.run(seconds(3));
+  ASSERT_TRUE(rig.station->endpoint().clock_known());
+  const picture::FieldView view = rig.station->picture().view(kX, rig.now);
+  EXPECT_EQ(view.value, 321.0);
+  EXPECT_GE(view.age, RadioRig::kDelay) << "the time on the way is in it";
+  EXPECT_LE(view.age, RadioRig::kDelay + telemetry::kSlot + milliseconds(25));
+  rig.station->advance(rig.now);
+  const AgeHistogram& ages = rig.station->ages().of(Group::kEgo);
+  EXPECT_GE(ages.quantile(0.5), RadioRig::kDelay);
+  EXPECT_LE(ages.quantile(0.99), milliseconds(60));
+}
+
+TEST(Station, TellsASimulationFromACar) {
+  for (const bool real : {true, false}) {
+    RadioRig rig({.real_car = real});
+    EXPECT_EQ(rig.station->source(), Station::Source::kNone);
+    rig.set(kX, 1.0);
+    rig.run(seconds(1));
+    EXPECT_EQ(rig.station->source(), real ? Station::Source::kCar : Station::Source::kSimulation);
   }
-};
-
-TEST(Station, KnowsWhatItTook) {
-  const auto station = std::make_unique<Station>(1);
-  Car car;
-  station->take(car.at(321.0, 1), {});
-  EXPECT_EQ(station->picture().view(kX, {}).value, 321.0);
-  EXPECT_TRUE(station->link().ever());
-  station->advance({milliseconds(70).ns});
-  EXPECT_EQ(station->link().ages().largest(), milliseconds(70));
 }
 
-TEST(Station, AnOlderPacketDoesNotReplaceTheNewer) {
-  const auto station = std::make_unique<Station>(1);
-  Car car;
-  const auto older = car.at(1.0, 1);
-  station->take(car.at(2.0, 2), {});
-  station->take(older, {milliseconds(1).ns});
-  EXPECT_EQ(station->picture().view(kX, {}).value, 2.0);
+TEST(Station, CountsWhatWasLostAndWhere) {
+  RadioRig rig;
+  rig.set(kX, 1.0);
+  rig.set(field("track.station"), 0.0);
+  int sent = 0;
+  // Each fourth packet between 1000 and 1400 m is lost.
+  rig.loses = [&](bool to_base, telemetry::PathId) {
+    const double at_m = rig.snapshot.values[field("track.station")];
+    return to_base && at_m >= 1'000.0 && at_m < 1'400.0 && ++sent % 4 == 0;
+  };
+  for (int i = 0; i < 4'000; ++i) {
+    rig.set(field("track.station"), 0.5 * i);
+    rig.run(milliseconds(5));
+  }
+  EXPECT_GT(rig.station->lost_packets(), 40U);
+  EXPECT_LT(rig.station->loss(), 0.10);
+  const auto bin = [](double at_m) { return static_cast<std::size_t>(at_m / Station::kSection_m); };
+  EXPECT_NEAR(rig.station->endpoint().loss_at(bin(1'200.0)), 0.25, 0.10);
+  EXPECT_LT(rig.station->endpoint().loss_at(bin(400.0)), 0.01);
 }
 
-TEST(Station, GarbageIsCountedOnly) {
-  const auto station = std::make_unique<Station>(1);
-  station->take(std::vector<std::uint8_t>(100, 0x55), {});
-  EXPECT_EQ(station->counters().refused_total(), 1U);
-  EXPECT_FALSE(station->picture().ever());
-  EXPECT_FALSE(station->link().ever());
+TEST(Station, ARestartOfTheCarIsASessionMoreAndNoLoss) {
+  RadioRig rig;
+  rig.set(kX, 1.0);
+  rig.run(seconds(2));
+  rig.restart_car();
+  rig.run(seconds(2));
+  EXPECT_EQ(rig.station->report(rig.now).sessions, 2U);
+  EXPECT_LE(rig.station->lost_packets(), 2U);
+  EXPECT_EQ(rig.station->picture().view(kX, rig.now).quality, picture::Quality::kFresh);
+}
+
+TEST(Station, KeepsEventsInOrderAndTheirOwnTime) {
+  RadioRig rig;
+  rig.set(kX, 1.0);
+  rig.run(seconds(2));
+  const Instant first = rig.now;
+  for (const char* text : {"one", "two", "three"}) {
+    ASSERT_TRUE(rig.car->log(telemetry::make_event(telemetry::TextEvent{text}, rig.now)));
+    rig.run(milliseconds(100));
+  }
+  ASSERT_EQ(rig.station->events_heard(), 3U);
+  EXPECT_LE(rig.station->events()[0].at, first + milliseconds(1));
+  EXPECT_GE(rig.station->events()[0].at, first - milliseconds(30));
+  const auto last = telemetry::content_of(rig.station->events()[2]);
+  ASSERT_TRUE(last);
+  EXPECT_EQ(std::get<telemetry::TextEvent>(*last).text, "three");
+}
+
+// A 1-byte packet that makes a peer's base publish its last values again.
+TEST(Station, ADatagramIsNoNewValue) {
+  RadioRig rig;
+  rig.set(kX, 1.0);
+  rig.run(seconds(1));
+  const Instant silent = rig.now;
+  for (int i = 0; i < 1'000; ++i) {
+    rig.now += milliseconds(1);
+    EXPECT_FALSE(rig.station->take(std::array<std::uint8_t, 1>{0}, 0, RadioRig::kCarAt, rig.now));
+    EXPECT_FALSE(rig.station->take({}, 0, RadioRig::kCarAt, rig.now));
+  }
+  EXPECT_GE(rig.station->picture().view(kX, rig.now).age, rig.now - silent);
+  EXPECT_EQ(rig.station->report(rig.now)
+                .association.refused[static_cast<std::size_t>(telemetry::Refusal::kHeader)],
+            2'000U);
 }
 
 }  // namespace

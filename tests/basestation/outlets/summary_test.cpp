@@ -4,45 +4,55 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
+#include <string>
 
-#include "tests/basestation/sender.hpp"
+#include "protocol/telemetry/delivery/event_content.hpp"
+#include "tests/basestation/radio_rig.hpp"
 
 namespace pitwall::outlets {
 namespace {
 
 using telemetry::field;
 
-TEST(Summary, SaysWhatWasHeard) {
-  const auto station = std::make_unique<intake::Station>(1);
-  Sender car;
-  car.packet.age_of(telemetry::Group::kEgo) = milliseconds(5);
-  car.packet.values[field("ego.x")] = 10.0;
-  for (std::uint32_t i = 0; i < 11; ++i) {
-    if (i == 5) continue;
-    ASSERT_TRUE(station->take(car.bytes(i), {milliseconds(100 * i).ns}));
-  }
-  for (const bool sent : {true, true, false}) station->uplink().note(sent);
-  const std::string json = json_summary(*station, {milliseconds(1'000).ns});
+std::string summary(RadioRig& rig) {
+  rig.station->advance(rig.now);
+  return json_summary(*rig.station, rig.now);
+}
+
+TEST(Summary, SaysWhatWasHeardAndSaid) {
+  RadioRig rig;
+  rig.set(field("ego.x"), 10.0);
+  rig.set(field("track.station"), 450.0);
+  rig.run(seconds(3));
+  ASSERT_TRUE(rig.station->obey("take 1", rig.now));
+  rig.run(milliseconds(100));
+  ASSERT_TRUE(rig.station->obey("command arm arm", rig.now));
+  rig.car->log(telemetry::make_event(telemetry::TextEvent{"a \"quote\""}, rig.now));
+  rig.run(milliseconds(100));
+  const std::string json = summary(rig);
   for (const char* part :
-       {"\"source\": \"car\"", "\"car\": \"heard\"", "\"heartbeats_sent\": 2,",
-        "\"heartbeats_not_sent\": 1,", "\"packets\": 10,", "\"lost\": 1,", "\"refused\": 0,",
-        "\"rate_hz\": 9,", "\"max\": 205}",
-        "\"ego.x\": {\"unit\": \"m\", \"quality\": \"fresh\", \"value\": 10, \"age_ms\": 5}",
+       {"\"source\": \"car\"", "\"car\": \"heard\"", "\"lost\": 0,", "\"refused\": 0,",
+        "\"forged\": 0", "\"sessions\": 1,", "\"clock\": {\"known\": true, \"round_trip_ms\": ",
+        "\"ages_ms\": {\"safety\": {\"p50\": 0,",
+        "\"motion\": {\"p50\": ", "\"command\": \"arm \\\"arm\\\"\"", "\"fate\": null",
+        "\"event\": \"a \\\"quote\\\"\"", "\"loss_by_place_m\": {\"400\": 0}",
+        "\"ego.x\": {\"unit\": \"m\", \"quality\": \"fresh\", \"value\": 10, \"age_ms\": ",
         "\"ego.y\": {\"unit\": \"m\", \"quality\": \"never\", \"value\": null}"}) {
-    EXPECT_NE(json.find(part), std::string::npos) << part << "\n" << json;
+    EXPECT_NE(json.find(part), std::string::npos) << part << "\n" << json.substr(0, 6'000);
   }
-  EXPECT_NE(json_summary(*station, {milliseconds(2'001).ns}).find("\"car\": \"lost\""),
-            std::string::npos);
+  EXPECT_EQ(json.find("stop.level"), std::string::npos) << "what goes up is no field of the car";
+  rig.now += seconds(2);
+  EXPECT_NE(summary(rig).find("\"car\": \"lost\""), std::string::npos);
   EXPECT_EQ(std::count(json.begin(), json.end(), '{'), std::count(json.begin(), json.end(), '}'));
 }
 
 TEST(Summary, OfNothingIsStillADocument) {
-  const auto station = std::make_unique<intake::Station>(1);
-  const std::string json = json_summary(*station, {});
+  RadioRig rig;
+  const std::string json = summary(rig);
   EXPECT_NE(json.find("\"car\": \"never heard\""), std::string::npos);
   EXPECT_NE(json.find("\"source\": \"none\""), std::string::npos);
   EXPECT_NE(json.find("\"packets\": 0,"), std::string::npos);
+  EXPECT_NE(json.find("\"round_trip_ms\": null"), std::string::npos);
   EXPECT_EQ(json.find("nan"), std::string::npos);
 }
 

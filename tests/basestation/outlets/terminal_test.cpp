@@ -4,11 +4,15 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
-#include "tests/basestation/sender.hpp"
+#include "basestation/intake/key_pair.hpp"
+#include "protocol/telemetry/endpoint/car_endpoint.hpp"
+#include "protocol/transport/clock.hpp"
 
 namespace pitwall::outlets {
 namespace {
@@ -23,69 +27,107 @@ std::string contents(std::FILE* file) {
 class Terminal : public testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_TRUE(socket_ && sender_ && file_ != nullptr);
+    ASSERT_TRUE(radio_.front() && car_socket_ && words_ && file_ != nullptr);
     ASSERT_EQ(::pipe(stop_), 0);
+    telemetry::ConduitConfig config;
+    config.association.keys = keys_.base;
+    station_ = std::make_unique<intake::Station>(config, randomness_);
   }
   void TearDown() override {
     if (file_ != nullptr) std::fclose(file_);
     for (const int fd : stop_) ::close(fd);
   }
-  void send(std::uint32_t count) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-      ASSERT_TRUE(sender_->send_to(socket_->local(), car_.bytes(i)));
-    }
-  }
   std::string run(const TerminalOptions& options) {
-    run_terminal(*socket_, stop_[0], options, *station_, file_);
+    run_terminal(
+        {.radio = {&*radio_.front(), 1}, .words = &*words_, .script = &script_, .stop = stop_[0]},
+        options, *station_, file_);
     return contents(file_);
   }
+  // A car that speaks from another thread until the loop has ended.
+  std::string run_with_car(const TerminalOptions& options) {
+    std::atomic<bool> over = false;
+    std::thread car([&] { drive(over); });
+    const std::string text = run(options);
+    over = true;
+    car.join();
+    return text;
+  }
+  void drive(const std::atomic<bool>& over) {
+    telemetry::SeededRandomness randomness(3);
+    telemetry::ConduitConfig config;
+    config.association.keys = keys_.car;
+    config.association.greeting.real_car = true;
+    const transport::UdpAddress base = radio_.front()->local();
+    config.association.peer[0] = {.ip = base.ip, .port = base.port};
+    telemetry::CarEndpoint car(config, randomness);
+    telemetry::Snapshot snapshot;
+    snapshot.values[telemetry::field("ego.x")] = 12.0;
+    std::vector<transport::UdpDatagram> batch(8);
+    while (!over) {
+      const Instant now = transport::monotonic_now();
+      const std::size_t n = car_socket_->receive(batch);
+      for (std::size_t i = 0; i < n; ++i) {
+        car.feed(batch[i].payload(), 0, {.ip = batch[i].from.ip, .port = batch[i].from.port},
+                 batch[i].at);
+      }
+      snapshot.at(telemetry::Group::kEgo) = now;
+      while (const auto out = car.poll(snapshot, now)) {
+        car_socket_->send_to({.ip = out->to.ip, .port = out->to.port}, out->bytes);
+      }
+      ::usleep(2'000);
+    }
+  }
 
-  Result<transport::UdpSocket, Problem> socket_ = transport::UdpSocket::bind({});
-  Result<transport::UdpSocket, Problem> sender_ = transport::UdpSocket::bind({});
+  telemetry::SeededRandomness randomness_{1};
+  intake::KeyPair keys_ = intake::make_key_pair(randomness_);
+  std::vector<Result<transport::UdpSocket, Problem>> radio_ = [] {
+    std::vector<Result<transport::UdpSocket, Problem>> sockets;
+    sockets.push_back(transport::UdpSocket::bind({}));
+    return sockets;
+  }();
+  Result<transport::UdpSocket, Problem> car_socket_ = transport::UdpSocket::bind({});
+  Result<transport::UdpSocket, Problem> words_ = transport::UdpSocket::bind({});
+  intake::OperatorScript script_;
   std::FILE* file_ = std::tmpfile();
   int stop_[2] = {-1, -1};
-  Sender car_;
-  std::unique_ptr<intake::Station> station_ = std::make_unique<intake::Station>(1);
+  std::unique_ptr<intake::Station> station_;
 };
 
-TEST_F(Terminal, TakesWhatWaitsBeforeItStops) {
-  send(100);
-  ASSERT_EQ(::write(stop_[1], "x", 1), 1);
-  const std::string screens = run({.text = true, .plain = true});
-  EXPECT_EQ(station_->counters().accepted, 100U);
+TEST_F(Terminal, MeetsTheCarAndShowsWhatItSays) {
+  const std::string screens =
+      run_with_car({.text = true, .plain = true, .duration = milliseconds(600)});
   EXPECT_NE(screens.find("REAL CAR"), std::string::npos);
+  EXPECT_NE(screens.find("x 12.0"), std::string::npos);
   EXPECT_EQ(screens.find('\x1b'), std::string::npos);
+  EXPECT_GT(station_->rate().packets(), 3U);
+}
+
+TEST_F(Terminal, SaysTheScriptAndWhatComesByTheWordsSocket) {
+  script_ = *intake::OperatorScript::parse("0.1 stop controlled\n", "f");
+  const std::string word = "take 9\n";
+  auto operator_socket = transport::UdpSocket::bind({});
+  ASSERT_TRUE(operator_socket);
+  operator_socket->send_to(words_->local(),
+                           {reinterpret_cast<const std::uint8_t*>(word.data()), word.size()});
+  run_with_car({.duration = milliseconds(600)});
+  EXPECT_EQ(station_->endpoint().authority().holder(transport::monotonic_now()), 9);
+  EXPECT_EQ(station_->endpoint().stop().state().level, telemetry::StopLevel::kControlled);
 }
 
 TEST_F(Terminal, StopsByItselfAndIsSilentUnlessAsked) {
   EXPECT_EQ(run({.duration = milliseconds(30)}), "");
-  EXPECT_EQ(station_->counters().received, 0U);
+  EXPECT_EQ(station_->rate().packets(), 0U);
 }
 
-// The peer is a socket of the test; what the bytes mean is the heartbeat's own test.
-TEST_F(Terminal, AnswersTheSenderOfTheLastAcceptedPacketAndNobodyElse) {
-  auto stranger = transport::UdpSocket::bind({});
-  ASSERT_TRUE(stranger);
-  send(3);
-  ASSERT_TRUE(stranger->send_to(socket_->local(), std::vector<std::uint8_t>(60, 0x50)));
-  run({.duration = milliseconds(350)});
-  std::vector<transport::UdpDatagram> heard(32);
-  const std::size_t count = sender_->receive(heard);
-  EXPECT_GE(count, 1U);
-  EXPECT_LE(count, 4U) << "one at once, then one each 100 ms";
-  EXPECT_EQ(count, station_->uplink().counters().sent);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto heartbeat = telemetry::parse_heartbeat(heard[i].payload());
-    ASSERT_TRUE(heartbeat);
-    EXPECT_EQ(heartbeat->heard_sequence, 2U);
-    EXPECT_EQ(heartbeat->sequence, i);
-  }
-  EXPECT_EQ(stranger->receive(heard), 0U);
+TEST_F(Terminal, StopsWhenItIsTold) {
+  ASSERT_EQ(::write(stop_[1], "x", 1), 1);
+  EXPECT_NE(run({.text = true, .plain = true}).find("waiting for the first packet"),
+            std::string::npos);
 }
 
 TEST_F(Terminal, SaysNothingBeforeACarWasHeard) {
   run({.duration = milliseconds(250)});
-  EXPECT_EQ(socket_->counters().sent, 0U);
+  EXPECT_EQ(radio_.front()->counters().sent, 0U);
 }
 
 TEST_F(Terminal, RefreshesTheScreen) {

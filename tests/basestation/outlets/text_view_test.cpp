@@ -6,9 +6,12 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
-#include <memory>
+#include <sstream>
+#include <string>
 
-#include "tests/basestation/sender.hpp"
+#include "basestation/outlets/link_text.hpp"
+#include "protocol/telemetry/delivery/event_content.hpp"
+#include "tests/basestation/radio_rig.hpp"
 
 namespace pitwall::outlets {
 namespace {
@@ -16,62 +19,36 @@ namespace {
 using telemetry::field;
 using telemetry::Group;
 
-struct Base {
-  std::unique_ptr<intake::Station> station = std::make_unique<intake::Station>(1);
-  Sender car;
+struct Base : RadioRig {
+  explicit Base(const RigOptions& wanted = {}) : RadioRig(wanted) {}
 
-  void hear(std::uint32_t sequence, Instant at) {
-    ASSERT_TRUE(station->take(car.bytes(sequence), at));
-  }
-  std::string screen(Instant now, bool ansi = false) {
+  std::string screen(const ViewOptions& how = {}) {
     station->advance(now);
-    return text_view(*station, now, {.ansi = ansi});
+    return text_view(*station, now, how);
+  }
+  bool shows(const std::string& text, const ViewOptions& how = {}) {
+    return screen(how).find(text) != std::string::npos;
+  }
+  // Three seconds of driving; the tyres were sampled once.
+  void drive() {
+    set(field("mode.mode"), 2);
+    set(field("ego.x"), 123.45);
+    set(field("ego.vx"), 70.5);
+    snapshot.values[field("tyres.pressure_rear_left")] = 152.5;
+    snapshot.at(Group::kTyres) = now;
+    run(seconds(3));
   }
 };
 
-// A second of driving at 50 Hz with one packet lost; the tyres were sampled 0.7 s before.
-void drive(Base& base) {
-  auto& p = base.car.packet;
-  p.source = telemetry::Source::kSimulation;
-  p.age_of(Group::kMode) = p.age_of(Group::kEgo) = milliseconds(4);
-  p.age_of(Group::kTyres) = milliseconds(700);
-  p.values[field("mode.mode")] = 2;
-  p.values[field("ego.x")] = 123.45;
-  p.values[field("ego.vx")] = 70.5;
-  p.values[field("tyres.pressure_rear_left")] = 152.5;
-  for (std::uint32_t i = 0; i < 50; ++i) {
-    if (i != 20) base.hear(i, {milliseconds(20 * i).ns});
-  }
-}
-
-TEST(TextView, SaysWhetherTheBusIsThatOfTheDatabase) {
-  Base base;
-  drive(base);
-  EXPECT_EQ(base.screen({milliseconds(1'000).ns}).find("CAN bus "), std::string::npos)
-      << "not said";
-  auto& p = base.car.packet;
-  p.age_of(Group::kBus) = milliseconds(4);
-  p.values[field("bus.database")] = 0x01234567;
-  const std::pair<int, const char*> lines[] = {
-      {0, "CAN bus   listening, the car's database is 01234567"},
-      {1, "CAN bus   as in the car's database 01234567"},
-      {2, "CAN bus   WRONG: id 1250 is not as in the car's database 01234567; will not arm"}};
-  std::uint32_t sequence = 50;
-  for (const auto& [identity, text] : lines) {
-    p.values[field("bus.identity")] = identity;
-    p.values[field("bus.differing_id")] = 1250;
-    const Instant now{milliseconds(20 * sequence).ns};
-    base.hear(sequence++, now);
-    EXPECT_NE(base.screen(now).find(text), std::string::npos) << base.screen(now);
-    const bool red = base.screen(now, true).find("\x1b[1;31mCAN bus") != std::string::npos;
-    EXPECT_EQ(red, identity == 2);
-  }
-}
-
 TEST(TextView, Golden) {
-  Base base;
-  drive(base);
-  const std::string now = base.screen({milliseconds(1'200).ns});
+  Base base({.paths = 2, .real_car = false});
+  base.drive();
+  ASSERT_TRUE(base.station->obey("take 1", base.now));
+  ASSERT_TRUE(base.station->obey("command speed_limit 30", base.now));
+  ASSERT_FALSE(base.station->obey("command fly 1", base.now));
+  base.car->log(telemetry::make_event(telemetry::ModeEvent{.from = 1, .to = 2}, base.now));
+  base.run(milliseconds(60));
+  const std::string now = base.screen({.all = true});
   const std::string path = PITWALL_SOURCE_DIR "/tests/golden/basestation/text_view.txt";
   if (std::getenv("PITWALL_WRITE_GOLDEN") != nullptr) std::ofstream{path} << now;
   std::ifstream in{path};
@@ -79,80 +56,128 @@ TEST(TextView, Golden) {
   EXPECT_EQ(now, golden);
 }
 
-TEST(TextView, ASimulationIsNeverTakenForACar) {
-  Base base;
-  EXPECT_EQ(base.screen({}).find("REAL CAR"), std::string::npos);
-  drive(base);
-  EXPECT_NE(base.screen({}).find("*** SIMULATION ***"), std::string::npos);
-  EXPECT_EQ(base.screen({}).find("REAL CAR"), std::string::npos);
-  base.car.packet.source = telemetry::Source::kCar;
-  base.hear(60, {seconds(2).ns});
-  EXPECT_EQ(base.screen({seconds(2).ns}).find("SIMULATION"), std::string::npos);
-  EXPECT_NE(base.screen({seconds(2).ns}).find("REAL CAR"), std::string::npos);
+TEST(TextView, NoLineIsWiderThanTheScreen) {
+  Base base({.paths = 2});
+  for (telemetry::FieldIndex i = 0; i < telemetry::kFieldCount; ++i) {
+    const telemetry::FieldRow& row = telemetry::kFields[i];
+    if (telemetry::row_of(row.group).direction == telemetry::Direction::kDown) {
+      base.set(i, row.max);
+    }
+  }
+  base.run(seconds(3));
+  std::istringstream lines(base.screen({.all = true}));
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(line.size(), kScreenColumns) << line;
+  }
 }
 
-TEST(TextView, EveryFieldIsOnTheScreenWithItsUnit) {
+TEST(TextView, ASimulationIsNeverTakenForACar) {
+  Base simulation({.real_car = false}), car({.real_car = true});
+  EXPECT_FALSE(simulation.shows("REAL CAR"));
+  simulation.drive();
+  EXPECT_TRUE(simulation.shows("*** SIMULATION ***"));
+  EXPECT_FALSE(simulation.shows("REAL CAR"));
+  car.drive();
+  EXPECT_TRUE(car.shows("REAL CAR"));
+  EXPECT_FALSE(car.shows("SIMULATION"));
+}
+
+TEST(TextView, EveryFieldOfAHeardGroupIsThereWithItsUnitAndItsGroupsAge) {
   Base base;
-  const std::string screen = base.screen({});
+  for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
+    if (row.direction == telemetry::Direction::kDown) base.sampled.add(row.group);
+  }
+  for (telemetry::FieldIndex i = 0; i < telemetry::kFieldCount; ++i) {
+    base.snapshot.values[i] = telemetry::kFields[i].min;
+  }
+  base.run(seconds(3));
+  const std::string screen = base.screen({.all = true});
   for (const telemetry::FieldRow& row : telemetry::kFields) {
-    EXPECT_NE(screen.find(std::string{row.name}), std::string::npos) << row.name;
+    if (telemetry::row_of(row.group).direction != telemetry::Direction::kDown) continue;
+    EXPECT_NE(screen.find(std::string{row.name} + " "), std::string::npos) << row.name;
     EXPECT_NE(screen.find(std::string{row.unit}), std::string::npos) << row.name;
   }
+  EXPECT_EQ(screen.find("never heard"), std::string::npos);
 }
 
 TEST(TextView, ALostCarIsNamedAndAHeardOneIsNot) {
   Base base;
-  drive(base);
-  const Instant last{milliseconds(980).ns};
-  EXPECT_EQ(base.screen(last + seconds(1)).find("LOST"), std::string::npos);
-  const Instant later = last + milliseconds(1'100);
-  EXPECT_NE(base.screen(later).find("CAR LOST: not heard for 1.1 s"), std::string::npos);
-  EXPECT_NE(base.screen(later, true).find("\x1b[1;31mPITWALL   CAR LOST"), std::string::npos);
-  base.hear(51, later);
-  EXPECT_EQ(base.screen(later).find("LOST"), std::string::npos);
-}
-
-TEST(TextView, ShowsWhatGoesUpAndHowLongItTakes) {
-  Base base;
-  drive(base);
-  EXPECT_NE(base.screen({}).find("heartbeats sent 0   not sent 0   round trip not known"),
-            std::string::npos);
-  base.station->uplink().note(true);
-  base.station->uplink().note(true);
-  base.station->uplink().note(false);
-  base.car.packet.age_of(Group::kRadio) = milliseconds(1);
-  base.car.packet.values[field("radio.round_trip")] = 12.5;
-  base.hear(60, {seconds(2).ns});
-  EXPECT_NE(base.screen({milliseconds(2'003).ns})
-                .find("heartbeats sent 2   not sent 1   round trip 12.5 ms, 4 ms ago"),
-            std::string::npos);
+  base.drive();
+  EXPECT_FALSE(base.shows("LOST"));
+  base.now += milliseconds(1'300);
+  EXPECT_TRUE(base.shows("CAR LOST: not heard for 1.3 s"));
+  EXPECT_TRUE(base.shows("\x1b[1;31mPITWALL   CAR LOST", {.ansi = true}));
+  base.run(milliseconds(100));
+  EXPECT_FALSE(base.shows("LOST"));
 }
 
 TEST(TextView, StaleIsMarkedAndDimmed) {
   Base base;
-  drive(base);
-  EXPECT_NE(base.screen({seconds(1).ns}).find("  mode                "), std::string::npos);
-  EXPECT_NE(base.screen({seconds(30).ns}).find("! mode                "), std::string::npos);
-  EXPECT_NE(base.screen({seconds(30).ns}, true).find("\x1b[2m! mode "), std::string::npos);
+  base.drive();
+  EXPECT_TRUE(base.shows("\n  mode "));
+  base.now += seconds(30);
+  EXPECT_TRUE(base.shows("\n! mode               30 s"));
+  EXPECT_TRUE(base.shows("\x1b[2m! mode ", {.ansi = true}));
+}
+
+TEST(TextView, AValueOlderThanItsGroupSaysItsOwnAge) {
+  Base base;
+  base.drive();
+  base.snapshot.values[field("ego.x")] = kUnset;
+  base.run(seconds(2));
+  EXPECT_TRUE(base.shows("x 123.4")) << base.screen();
+  EXPECT_TRUE(base.shows("(20")) << base.screen();
+}
+
+TEST(TextView, GroupsThatWereNeverHeardAreNamedAndShowNoValue) {
+  Base base;
+  base.drive();
+  const std::string screen = base.screen({.all = true});
+  const std::size_t never = screen.find("never heard:");
+  ASSERT_NE(never, std::string::npos);
+  EXPECT_NE(screen.find(" gnss0", never), std::string::npos);
+  EXPECT_EQ(screen.find(" tyres", never), std::string::npos);
+}
+
+TEST(TextView, SaysWhetherTheBusIsThatOfTheDatabase) {
+  Base base;
+  base.drive();
+  EXPECT_FALSE(base.shows("CAN bus "));
+  base.set(field("bus.database"), 0x01234567);
+  base.set(field("bus.differing_id"), 1250);
+  const std::pair<int, const char*> lines[] = {
+      {0, "CAN bus   listening, the car's database is 01234567"},
+      {1, "CAN bus   as in the car's database 01234567"},
+      {2, "CAN bus   WRONG: id 1250 is not as in the car's database 01234567; will not arm"}};
+  for (const auto& [identity, text] : lines) {
+    base.set(field("bus.identity"), identity);
+    base.run(seconds(1));
+    EXPECT_TRUE(base.shows(text)) << base.screen();
+    EXPECT_EQ(base.shows("\x1b[1;31mCAN bus", {.ansi = true}), identity == 2);
+  }
+}
+
+TEST(TextView, AStopIsSeenUntilTheCarHasLetItGo) {
+  Base base;
+  base.drive();
+  EXPECT_FALSE(base.shows("\x1b[1;31moperator", {.ansi = true}));
+  ASSERT_TRUE(base.station->obey("stop controlled", base.now));
+  EXPECT_TRUE(base.shows("stop asked: controlled stop   latched by the car: "));
+  EXPECT_TRUE(base.shows("\x1b[1;31moperator", {.ansi = true}));
 }
 
 TEST(TextView, PlainHasNoEscapes) {
   Base base;
-  drive(base);
-  EXPECT_EQ(base.screen({seconds(1).ns}).find('\x1b'), std::string::npos);
-  EXPECT_EQ(base.screen({seconds(1).ns}, true).substr(0, 3), "\x1b[H");
+  base.drive();
+  EXPECT_FALSE(base.shows("\x1b"));
+  EXPECT_EQ(base.screen({.ansi = true}).substr(0, 3), "\x1b[H");
 }
 
 TEST(TextView, RefusalsAreShownByKind) {
   Base base;
-  base.station->take({}, {});
-  auto damaged = base.car.bytes(1);
-  damaged[40] ^= 1U;
-  base.station->take(damaged, {});
-  const std::string screen = base.screen({});
-  EXPECT_NE(screen.find("refused   2"), std::string::npos);
-  EXPECT_NE(screen.find("too short 1"), std::string::npos);
-  EXPECT_NE(screen.find("damaged 1"), std::string::npos);
+  base.station->take({}, 0, RadioRig::kCarAt, base.now);
+  base.station->take(std::array<std::uint8_t, 4>{}, 0, RadioRig::kCarAt, base.now);
+  EXPECT_TRUE(base.shows("refused   2   not a datagram of this protocol 2")) << base.screen();
 }
 
 }  // namespace

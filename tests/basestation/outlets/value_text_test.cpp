@@ -14,7 +14,7 @@ using telemetry::kFields;
 TEST(ValueText, NumbersHaveTheDecimalsOfTheirResolution) {
   EXPECT_EQ(value_text(kFields[field("ego.x")], -12.345), "-12.35");
   EXPECT_EQ(value_text(kFields[field("engine.speed")], 6'005.0), "6005");
-  EXPECT_EQ(value_text(kFields[field("electric.battery")], 13.8), "13.80");
+  EXPECT_EQ(value_text(kFields[field("electric.battery")], 13.8), "13.8");
   EXPECT_EQ(value_text(kFields[field("ego.yaw")], 1.5), "1.5000");
 }
 

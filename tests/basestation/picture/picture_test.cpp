@@ -3,78 +3,85 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace pitwall::picture {
 namespace {
 
 using telemetry::field;
 using telemetry::Group;
+using telemetry::GroupSet;
 
-telemetry::StatePacket with_x(double x_m, Duration age) {
-  telemetry::StatePacket packet;
-  packet.values[field("ego.x")] = x_m;
-  packet.age_of(Group::kEgo) = age;
-  return packet;
+constexpr Instant kAt{seconds(100).ns};
+
+GroupSet only(Group group) {
+  GroupSet set;
+  set.add(group);
+  return set;
 }
 
-TEST(Picture, NothingWasEverHeard) {
-  const Picture picture;
-  EXPECT_FALSE(picture.ever());
-  for (telemetry::FieldIndex i = 0; i < telemetry::kFieldCount; ++i) {
-    EXPECT_EQ(picture.view(i, {seconds(5).ns}).quality, Quality::kNever);
-  }
+telemetry::Snapshot state(double x, Instant sampled) {
+  telemetry::Snapshot snapshot;
+  snapshot.values[field("ego.x")] = x;
+  snapshot.at(Group::kEgo) = sampled;
+  return snapshot;
 }
 
-TEST(Picture, AgeIsTheSamplesAgePlusTheTimeSinceReception) {
+TEST(Picture, AgeCountsFromTheSampleInTheCar) {
   Picture picture;
-  picture.update(with_x(12.0, milliseconds(30)), {seconds(1).ns});
-  const FieldView view = picture.view(field("ego.x"), Instant{seconds(1).ns} + milliseconds(50));
-  EXPECT_EQ(view.value, 12.0);
-  EXPECT_EQ(view.age, milliseconds(80));
+  picture.update(state(5.0, kAt), only(Group::kEgo));
+  const FieldView view = picture.view(field("ego.x"), kAt + milliseconds(40));
+  EXPECT_EQ(view.value, 5.0);
+  EXPECT_EQ(view.age, milliseconds(40));
+  EXPECT_EQ(picture.group(Group::kEgo, kAt + milliseconds(40)).age, milliseconds(40));
 }
 
-TEST(Picture, QualityFollowsTheTargetAgeOfTheField) {
+TEST(Picture, QualityFollowsTheTargetAge) {
   Picture picture;
-  picture.update(with_x(1.0, {}), {});
-  const Duration target = telemetry::kFields[field("ego.x")].target_age();
-  const auto quality = [&](Duration t) { return picture.view(field("ego.x"), {t.ns}).quality; };
+  picture.update(state(5.0, kAt), only(Group::kEgo));
+  const Duration target = telemetry::row_of(Group::kEgo).target_age;
+  const auto quality = [&](Duration age) {
+    return picture.view(field("ego.x"), kAt + age).quality;
+  };
   EXPECT_EQ(quality(target), Quality::kFresh);
   EXPECT_EQ(quality(target + nanoseconds(1)), Quality::kLate);
-  EXPECT_EQ(quality(target * kLateFactor), Quality::kLate);
-  EXPECT_EQ(quality(target * kLateFactor + nanoseconds(1)), Quality::kStale);
+  EXPECT_EQ(quality(kLateFactor * target), Quality::kLate);
+  EXPECT_EQ(quality(kLateFactor * target + nanoseconds(1)), Quality::kStale);
+  EXPECT_EQ(picture.view(field("ego.y"), kAt).quality, Quality::kNever);
 }
 
-TEST(Picture, AFieldThatTheCarNoLongerKnowsGrowsOldInsteadOfVanishingOrLookingFresh) {
+TEST(Picture, WhatIsNotNewIsNotTouched) {
   Picture picture;
-  picture.update(with_x(3.0, {}), {});
-  picture.update(with_x(kUnset, {}), {seconds(1).ns});
-  const FieldView view = picture.view(field("ego.x"), {seconds(1).ns});
-  EXPECT_EQ(view.value, 3.0);
+  picture.update(state(5.0, kAt), only(Group::kEgo));
+  picture.update(state(6.0, kAt + seconds(1)), only(Group::kMode));
+  EXPECT_EQ(picture.view(field("ego.x"), kAt).value, 5.0);
+}
+
+TEST(Picture, AFieldThatTheCarNoLongerKnowsKeepsItsValueAndGrowsOldWhileItsGroupIsFresh) {
+  Picture picture;
+  picture.update(state(5.0, kAt), only(Group::kEgo));
+  picture.update(state(kUnset, kAt + seconds(1)), only(Group::kEgo));
+  const FieldView view = picture.view(field("ego.x"), kAt + seconds(1));
+  EXPECT_EQ(view.value, 5.0);
   EXPECT_EQ(view.age, seconds(1));
-  EXPECT_EQ(view.quality, Quality::kStale);
+  EXPECT_EQ(picture.group(Group::kEgo, kAt + seconds(1)).quality, Quality::kFresh);
 }
 
-TEST(Picture, AGroupThatWasNeverSampledIsNotBelieved) {
+TEST(Picture, AValueOfAGroupThatWasNeverSampledIsNone) {
   Picture picture;
-  picture.update(with_x(3.0, microseconds(-1)), {});
-  EXPECT_EQ(picture.view(field("ego.x"), {}).quality, Quality::kNever);
+  EXPECT_FALSE(picture.ever());
+  telemetry::Snapshot never;
+  never.values[field("ego.x")] = 5.0;
+  picture.update(never, only(Group::kEgo));
+  EXPECT_TRUE(picture.ever());
+  EXPECT_EQ(picture.view(field("ego.x"), kAt).quality, Quality::kNever);
+  EXPECT_TRUE(std::isnan(picture.view(field("ego.x"), kAt).value));
 }
 
-TEST(Picture, KnowsWhoSent) {
+TEST(Picture, NoAgeIsNegative) {
   Picture picture;
-  telemetry::StatePacket packet;
-  packet.source = telemetry::Source::kCar;
-  picture.update(packet, {});
-  EXPECT_EQ(picture.source(), telemetry::Source::kCar);
-  packet.source = telemetry::Source::kSimulation;
-  picture.update(packet, {});
-  EXPECT_EQ(picture.source(), telemetry::Source::kSimulation);
-}
-
-TEST(Picture, QualitiesHaveNames) {
-  EXPECT_STREQ(text_of(Quality::kFresh), "fresh");
-  EXPECT_STREQ(text_of(Quality::kLate), "late");
-  EXPECT_STREQ(text_of(Quality::kStale), "stale");
-  EXPECT_STREQ(text_of(Quality::kNever), "never");
+  picture.update(state(5.0, kAt + milliseconds(3)), only(Group::kEgo));
+  EXPECT_EQ(picture.view(field("ego.x"), kAt).age, Duration{});
 }
 
 }  // namespace

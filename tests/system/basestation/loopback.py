@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
-"""The real pitwall-base process, fed over loopback: loopback.py BASE SENDER"""
+"""The real pitwall-base process and a car's end of the radio: loopback.py BASE CAR"""
 # SPDX-License-Identifier: Apache-2.0
 import json
+import os
 import re
 import signal
+import socket
+import stat
 import subprocess
 import sys
 import tempfile
 import time
 from pathlib import Path
 
-BASE, SENDER = sys.argv[1:3]
-COUNT = 101  # the last is no multiple of ten, so that every gap shows
+BASE, CAR = sys.argv[1:3]
 
 
 def expect(condition, what):
@@ -19,78 +21,158 @@ def expect(condition, what):
         sys.exit(f"FAILED: {what}")
 
 
-def start(*flags):
-    process = subprocess.Popen([BASE, "--listen", "127.0.0.1:0", *flags],
+def start(folder, *flags, radios=1):
+    listen = ["--listen", "127.0.0.1:0"] * radios
+    process = subprocess.Popen([BASE, "--keys", str(folder / "keys/base.keys"), *listen, *flags],
                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     said = process.stderr.readline()
-    match = re.search(r"127\.0\.0\.1:(\d+)", said)
-    expect(match, f"the address is said, not: {said}")
-    return process, match.group(1)
+    ports = re.findall(r"127\.0\.0\.1:(\d+)", said)
+    expect(len(ports) == radios, f"the addresses are said, not: {said}")
+    return process, [f"127.0.0.1:{port}" for port in ports]
+
+
+def drive(folder, addresses, length_s):
+    words = [CAR, str(folder / "keys/car.keys"), addresses[0], str(length_s), *addresses[1:]]
+    return subprocess.run(words, check=True, capture_output=True, text=True, timeout=60).stdout
+
+
+def finish(process, stop_signal=signal.SIGTERM):
+    process.send_signal(stop_signal)
+    screens, errors = process.communicate(timeout=30)
+    expect(process.returncode == 0, f"{stop_signal.name}: exit code {process.returncode} {errors}")
+    return screens, errors
+
+
+def keys_are_made_once_and_for_their_owner_only(folder):
+    keygen = [BASE, "keygen", "--out", str(folder / "keys")]
+    made = subprocess.run(keygen, check=True, capture_output=True, text=True)
+    for name in ("car.keys", "base.keys"):
+        path = folder / "keys" / name
+        expect(stat.S_IMODE(path.stat().st_mode) == 0o600, f"{name} is for its owner only")
+        secret = re.search(r"^secret: (\w+)$", path.read_text(), re.M).group(1)
+        expect(secret not in made.stdout + made.stderr, "no secret is printed")
+    again = subprocess.run(keygen, capture_output=True, text=True)
+    expect(again.returncode == 1 and "exists already" in again.stderr, "keys are not replaced")
 
 
 def hears_the_car_and_stops_on(stop_signal, folder):
     summary = folder / f"{stop_signal.name}.json"
-    process, port = start("--text", "--plain", "--refresh", "20", "--json", str(summary))
-    subprocess.run([SENDER, f"127.0.0.1:{port}", str(COUNT)], check=True)
-    time.sleep(0.2)
-    process.send_signal(stop_signal)
-    screens, _ = process.communicate(timeout=30)
-    expect(process.returncode == 0, f"{stop_signal.name}: exit code {process.returncode}")
-
+    process, addresses = start(folder, "--text", "--all", "--plain", "--refresh", "20", "--json",
+                               str(summary))
+    drive(folder, addresses, 2.0)
+    screens, _ = finish(process, stop_signal)
     heard = json.loads(summary.read_text())
-    gaps, twice = COUNT // 10, sum(1 for i in range(1, COUNT + 1) if i % 7 == 0 and i % 10)
-    for key, value in {"source": "simulation", "packets": COUNT - gaps, "lost": gaps,
-                       "duplicates": twice, "refused": 3, "late": 0, "other_run": 0}.items():
+    for key, value in {"source": "simulation", "refused": 0, "sessions": 1,
+                       "words_refused": 0}.items():
         expect(heard[key] == value, f"{key} is {heard[key]}, not {value}")
-    expect(heard["refused_by_kind"]["damaged"] == 3, "damaged ones are counted as such")
+    expect(heard["packets"] >= 40, f"about 100 packets, not {heard['packets']}")
     expect(heard["fields"]["ego.vx"]["value"] == 50.5, "the last value is shown")
-    expect(heard["fields"]["ego.vx"]["age_ms"] >= 3, "with the age that it was sent with")
-    expect(heard["fields"]["ego.x"]["value"] is None, "what was never sent is null")
-    ages = heard["age_ms"]
-    expect(3 <= ages["p50"] <= ages["p90"] <= ages["p99"] <= ages["max"], f"ages {ages}")
-    expect(heard["rate_hz"] > 0, "a rate")
+    expect(heard["fields"]["ego.vx"]["age_ms"] > 0, "with its age")
+    expect(heard["fields"]["ego.y"]["value"] is None, "what was never known is null")
+    expect(heard["clock"]["known"], "the clocks are compared")
+    ages = heard["ages_ms"]["safety"]
+    expect(0 < ages["p50"] <= ages["p90"] <= ages["p99"] <= ages["max"], f"ages {ages}")
+    expect([e["event"] for e in heard["events"]] == ["the car is here"], "events come once")
     expect("waiting for the first packet" in screens, "the first screen waits")
     expect("*** SIMULATION ***" in screens, "a simulation is shown as one")
-    expect("50.50 m/s" in screens, "the last screen shows the last value")
+    expect("vx 50.50 m/s" in screens, "the last screen shows the last value")
     expect("\x1b" not in screens, "plain is plain")
+
+
+def what_the_operator_says_is_done(folder):
+    script = folder / "words.txt"
+    script.write_text("# what an operator does\n0.3 take 1\n0.5 command speed_limit 30\n"
+                      "0.8 stop emergency\n1.2 take 1\n1.3 release\n")
+    summary = folder / "operator.json"
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    process, addresses = start(folder, "--command", str(script), "--operator-port", str(port),
+                               "--json", str(summary))
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as words:
+        words.sendto(b"fly away\n", ("127.0.0.1", port))
+    said = drive(folder, addresses, 2.5)
+    _, errors = finish(process)
+    expect(said.splitlines() == ["command speed limit 30", "stop 2", "stop 0", "sessions 1"],
+           f"the car was told otherwise: {said}")
+    heard = json.loads(summary.read_text())
+    fates = [(c["command"], c["fate"]) for c in heard["commands"]]
+    expect(fates[0] == ("speed limit 30 m/s", "applied"), f"commands {fates}")
+    expect(len(fates) == 2 and fates[1][1] == "applied", f"the release {fates}")
+    expect(heard["words_refused"] == 1 and "fly away" in errors, "and what it did not understand")
+
+
+def restarts_are_over_after_one_exchange(folder):
+    process, addresses = start(folder)
+    port = addresses[0]
+    car = subprocess.Popen([CAR, str(folder / "keys/car.keys"), port, "3"],
+                           stdout=subprocess.PIPE, text=True)
+    time.sleep(1.0)
+    process.kill()
+    process.communicate()
+    summary = folder / "restarted.json"
+    again = subprocess.Popen([BASE, "--keys", str(folder / "keys/base.keys"), "--listen", port,
+                              "--json", str(summary)], stderr=subprocess.PIPE, text=True)
+    again.stderr.readline()
+    said, _ = car.communicate(timeout=30)
+    finish(again)
+    expect("sessions 2" in said, f"the car met the new base: {said}")
+    heard = json.loads(summary.read_text())
+    expect(heard["packets"] >= 40, f"and it heard the car: {heard['packets']} packets")
+
+
+def two_radios_are_one_link(folder):
+    summary = folder / "two.json"
+    process, addresses = start(folder, "--json", str(summary), radios=2)
+    drive(folder, addresses, 1.5)
+    finish(process)
+    heard = json.loads(summary.read_text())
+    expect(len(heard["paths"]) == 2, "two paths")
+    for path in heard["paths"]:
+        expect(path["received"] > 20 and path["up_packets"] > 20, f"both ways: {path}")
+        expect(path["address_proved"], f"where the car is, is proved: {path}")
+    expect(heard["refused"] == 0 and heard["duplicates"] > 20, "copies are no refusals")
+
+
+def mistakes_are_named_before_anything_begins(folder):
+    bad = folder / "bad.txt"
+    bad.write_text("1 fly\n")
+    keys = ["--keys", str(folder / "keys/base.keys")]
+    for flags, what in (([], "keygen --out"),
+                        (["--keys", str(folder / "keys/car.keys")], "the car's keys"),
+                        ([*keys, "--listen", "0.0.0.0:0"], "--network"),
+                        ([*keys, *["--listen", "127.0.0.1:0"] * 3], "at most two"),
+                        ([*keys, "--listen", "nowhere"], "--listen"),
+                        ([*keys, "--command", str(bad)], "bad.txt:1"),
+                        ([*keys, "--command", str(folder / "none")], "none"),
+                        ([*keys, "--budget", "1"], "--budget"),
+                        ([*keys, "--duration", "nan"], "--duration")):
+        done = subprocess.run([BASE, "--duration", "5", *flags], capture_output=True, text=True,
+                              timeout=20)
+        expect(done.returncode == 2 and what in done.stderr, f"{flags}: {done.stderr}")
+    os.chmod(folder / "keys/base.keys", 0o644)
+    done = subprocess.run([BASE, *keys], capture_output=True, text=True, timeout=20)
+    expect(done.returncode == 2, "keys that others can read are refused")
+    os.chmod(folder / "keys/base.keys", 0o600)
 
 
 def ends_by_itself(folder):
     summary = folder / "silent.json"
-    process, _ = start("--duration", "0.3", "--json", str(summary))
-    out, _ = process.communicate(timeout=30)
-    expect(process.returncode == 0 and out == "", "no text unless asked for")
+    process, _ = start(folder, "--duration", "0.3", "--json", str(summary))
+    process.communicate(timeout=20)
+    expect(process.returncode == 0, "a silent run ends well")
     heard = json.loads(summary.read_text())
-    expect(heard["packets"] == 0 and heard["source"] == "none", "silence is reported as silence")
+    expect(heard["car"] == "never heard" and heard["packets"] == 0, "and says so")
 
 
-def refuses_mistakes(folder):
-    for flags in (["--nonsense"], ["--listen", "here"], ["--listen", "127.0.0.1:70000"],
-                  ["--listen"], ["--listen", "0.0.0.0:0"], ["--duration", "x"],
-                  ["--duration", "-1"], ["--duration", "nan"], ["--refresh", "0"],
-                  ["--refresh", "nan"], ["--text", "something"]):
-        done = subprocess.run([BASE, *flags], capture_output=True, text=True, timeout=30)
-        expect(done.returncode == 2 and done.stderr, f"{flags}: exit code {done.returncode}")
-    done = subprocess.run([BASE, "--help"], capture_output=True, text=True, timeout=30)
-    expect(done.returncode == 0 and "--listen" in done.stdout, "help is no mistake")
-    done = subprocess.run([BASE, "--listen", "0.0.0.0:0", "--network", "--duration", "0.1"],
-                          capture_output=True, text=True, timeout=30)
-    expect(done.returncode == 0, "--network allows other machines")
-    process, port = start()
-    taken = subprocess.run([BASE, "--listen", f"127.0.0.1:{port}"], capture_output=True,
-                           text=True, timeout=30)
-    expect(taken.returncode == 1 and port in taken.stderr, "a taken port is named")
-    process.terminate()
-    process.communicate(timeout=30)
-    nowhere = str(folder / "no" / "folder.json")
-    done = subprocess.run([BASE, "--listen", "127.0.0.1:0", "--duration", "0.1", "--json", nowhere],
-                          capture_output=True, text=True, timeout=30)
-    expect(done.returncode == 1 and nowhere in done.stderr, "a summary that cannot be written")
-
-
-with tempfile.TemporaryDirectory(prefix="pitwall_base_") as name:
-    hears_the_car_and_stops_on(signal.SIGINT, Path(name))
-    hears_the_car_and_stops_on(signal.SIGTERM, Path(name))
-    ends_by_itself(Path(name))
-    refuses_mistakes(Path(name))
-print("ok")
+with tempfile.TemporaryDirectory() as temporary:
+    FOLDER = Path(temporary)
+    keys_are_made_once_and_for_their_owner_only(FOLDER)
+    hears_the_car_and_stops_on(signal.SIGINT, FOLDER)
+    hears_the_car_and_stops_on(signal.SIGTERM, FOLDER)
+    what_the_operator_says_is_done(FOLDER)
+    restarts_are_over_after_one_exchange(FOLDER)
+    two_radios_are_one_link(FOLDER)
+    mistakes_are_named_before_anything_begins(FOLDER)
+    ends_by_itself(FOLDER)
+print("pitwall-base: all held")

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/outlets/link_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <utility>
+
+#include "basestation/outlets/log_text.hpp"
+
+namespace pitwall::outlets {
+namespace {
+
+using telemetry::field;
+using telemetry::LinkReport;
+
+constexpr double kBitsPerByte = 8.0, kPerKilo = 1e-3, kPercent = 100.0;
+constexpr std::size_t kLogLines = 4, kPlaces = 3;
+
+[[gnu::format(printf, 1, 2)]] std::string say(const char* format, ...) {
+  char text[400];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return text;
+}
+
+unsigned long long count(std::uint64_t n) { return n; }
+
+std::string known_ms(const std::optional<Duration>& duration) {
+  return duration ? say("%.1f ms", duration->milliseconds()) : "not known";
+}
+
+TextLine head_line(const intake::Station& station, Instant now) {
+  const intake::PacketRate& rate = station.rate();
+  if (!rate.ever()) return {"PITWALL   waiting for the first packet", Tone::kBold};
+  if (rate.lost(now)) {
+    return {say("PITWALL   CAR LOST: not heard for %.1f s; all below is as old as it says",
+                rate.since_last(now).seconds()),
+            Tone::kAlarm};
+  }
+  if (station.source() != intake::Station::Source::kCar) {
+    return {"PITWALL   *** SIMULATION ***   no real car", Tone::kInverse};
+  }
+  return {"PITWALL   REAL CAR", Tone::kBold};
+}
+
+std::string link_line(const intake::Station& station, const LinkReport& report, Instant now) {
+  const intake::PacketRate& rate = station.rate();
+  if (!rate.ever()) return "link      nothing heard";
+  std::string text =
+      say("link      session %llu   %.1f Hz   %llu packets, %llu lost (%.1f %%)   "
+          "last %s ago   round trip %s   ",
+          count(report.sessions), rate.rate_hz(now), count(rate.packets()),
+          count(station.lost_packets()), kPercent * station.loss(),
+          age_text(rate.since_last(now)).c_str(), known_ms(report.round_trip).c_str());
+  text += station.endpoint().clock_known()
+              ? say("clocks known to +-%s", known_ms(report.clock_bound).c_str())
+              : std::string{"clocks NOT compared: ages lack the time on the way"};
+  return text;
+}
+
+std::string address_text(telemetry::Address address) {
+  if (!address.known()) return "no address";
+  constexpr unsigned kByte = 0xFF;
+  return say("%u.%u.%u.%u:%u", address.ip >> 24 & kByte, address.ip >> 16 & kByte,
+             address.ip >> 8 & kByte, address.ip & kByte, unsigned{address.port});
+}
+
+// A field of the car about this path; "?" until it has told.
+std::string told(const intake::Station& station, telemetry::FieldIndex which, double factor,
+                 const char* unit, Instant now) {
+  const picture::FieldView view = station.picture().view(which, now);
+  if (view.quality == picture::Quality::kNever) return "?";
+  return say("%.0f%s", factor * view.value, unit);
+}
+
+std::vector<TextLine> path_lines(const intake::Station& station, const LinkReport& report,
+                                 telemetry::PathId path, Instant now) {
+  const telemetry::PathReport& p = report.paths[path];
+  const telemetry::PathFigures& h = p.heard;
+  const bool second = path == 1;
+  const auto loss = second ? field("radio.loss_1") : field("radio.loss_0");
+  const auto delay = second ? field("radio.delay_1") : field("radio.delay_0");
+  const auto use = second ? field("radio.budget_use_1") : field("radio.budget_use_0");
+  std::vector<TextLine> lines;
+  const std::string bursts =
+      h.mean_bad.ns > 0
+          ? say("bursts %.0f ms each %.1f s", h.mean_bad.milliseconds(), h.mean_good.seconds())
+          : "no bursts yet";
+  lines.push_back(
+      {say("path %d    down %6.1f kbit/s   budget used %s   loss %.1f %% (%llu in all)   %s   "
+           "one way %.0f/%.0f/%.0f ms p50/95/99   jitter %.1f ms",
+           int{path}, h.rate_bytes_per_s * kBitsPerByte * kPerKilo,
+           told(station, use, kPercent, " %", now).c_str(), kPercent * h.loss, count(h.lost),
+           bursts.c_str(), h.delay_p50.milliseconds(), h.delay_p95.milliseconds(),
+           h.delay_p99.milliseconds(), h.jitter.milliseconds())});
+  lines.push_back(
+      {say("          up   %6llu packets   budget used %.1f %% (x%.2f)   no room %llu times   "
+           "loss %s   one way p99 %s   %s %s",
+           count(p.spent.packets), kPercent * p.budget_use, p.rate_factor, count(p.spent.refused),
+           told(station, loss, kPercent, " %", now).c_str(),
+           told(station, delay, 1.0, " ms", now).c_str(), address_text(p.peer).c_str(),
+           p.validated      ? "proved"
+           : p.peer.known() ? "not proved"
+                            : "")});
+  return lines;
+}
+
+std::string ages_line(const intake::Station& station) {
+  constexpr std::array<std::pair<telemetry::Class, const char*>, telemetry::kClasses> kNames{
+      {{telemetry::Class::kSafety, "safety"},
+       {telemetry::Class::kMotion, "motion"},
+       {telemetry::Class::kHealth, "health"},
+       {telemetry::Class::kStatistics, "statistics"}}};
+  std::string text = "ages      p50/p99/max ms";
+  for (const auto& [priority, name] : kNames) {
+    const intake::AgeHistogram& ages = station.ages().of(priority);
+    text += say("   %s %.0f/%.0f/%.0f", name, ages.quantile(0.50).milliseconds(),
+                ages.quantile(0.99).milliseconds(), ages.largest().milliseconds());
+  }
+  return text;
+}
+
+std::string refused_line(const LinkReport& report) {
+  std::uint64_t total = report.bad_records;
+  std::string kinds;
+  const auto add = [&](const char* name, std::uint64_t n) {
+    total += n;
+    if (n > 0) kinds += say("   %s %llu", name, count(n));
+  };
+  for (std::size_t i = 0; i < telemetry::kRefusals; ++i) {
+    const auto kind = static_cast<telemetry::Refusal>(i);
+    std::uint64_t n = report.association.refused[i];
+    if (kind == telemetry::Refusal::kReplayed) n -= report.association.duplicates;
+    add(telemetry::text_of(kind), n);
+  }
+  for (std::size_t i = 0; i < telemetry::kBodyErrors; ++i) {
+    add(telemetry::text_of(static_cast<telemetry::BodyError>(i)), report.bad_bodies[i]);
+  }
+  if (report.bad_records > 0) kinds += say("   bad records %llu", count(report.bad_records));
+  if (report.association.duplicates > 0) {
+    kinds += say("   (copies by the other path %llu)", count(report.association.duplicates));
+  }
+  return say("refused   %llu", count(total)) + kinds;
+}
+
+std::string label_of(const intake::Station& station, telemetry::FieldIndex which, Instant now) {
+  const picture::FieldView view = station.picture().view(which, now);
+  if (view.quality == picture::Quality::kNever) return "not told";
+  const auto label = telemetry::label_at(telemetry::kFields[which].labels,
+                                         static_cast<std::size_t>(view.value + 0.5));
+  return std::string{label} + " (" + age_text(view.age) + " ago)";
+}
+
+TextLine stop_line(const intake::Station& station, Instant now) {
+  const telemetry::StopState& asked = station.endpoint().stop().state();
+  const picture::FieldView latched = station.picture().view(field("mode.stop_latch"), now);
+  const telemetry::HolderId holder = station.endpoint().authority().holder(now);
+  const std::string console = holder == 0 ? "nobody" : say("console %u", unsigned{holder});
+  const auto level =
+      telemetry::label_at(telemetry::kStopLevels, static_cast<std::size_t>(asked.level));
+  const bool stopped = asked.level != telemetry::StopLevel::kNone ||
+                       (latched.quality != picture::Quality::kNever && latched.value > 0.0);
+  return {say("operator  stop asked: %s   latched by the car: %s   authority: %s",
+              std::string{level}.c_str(), label_of(station, field("mode.stop_latch"), now).c_str(),
+              console.c_str()),
+          stopped ? Tone::kAlarm : Tone::kPlain};
+}
+
+void add_commands(const intake::Station& station, Instant now, std::vector<TextLine>& lines) {
+  const auto& commands = station.commands();
+  const std::size_t first = commands.size() - std::min(commands.size(), kLogLines);
+  for (std::size_t i = first; i < commands.size(); ++i) {
+    const telemetry::CommandProgress& c = commands[i];
+    const bool refused = c.fate && *c.fate != telemetry::Outcome::kApplied;
+    lines.push_back(
+        {say("command   %s ago   #%u %s: %s", age_text(now - c.issued).c_str(), unsigned{c.id},
+             command_text(c.command).c_str(), progress_text(c, now).c_str()),
+         refused ? Tone::kWarning : Tone::kPlain});
+  }
+  if (station.last_refused()) {
+    lines.push_back({"operator  " + station.last_refused()->place.substr(10) + ": " +
+                         station.last_refused()->what,
+                     Tone::kWarning});
+  }
+}
+
+void add_events(const intake::Station& station, Instant now, std::vector<TextLine>& lines) {
+  const auto& events = station.events();
+  const std::size_t first = events.size() - std::min(events.size(), kLogLines);
+  for (std::size_t i = first; i < events.size(); ++i) {
+    lines.push_back({say("event     %s ago   %s", age_text(now - events[i].at).c_str(),
+                         event_text(events[i]).c_str())});
+  }
+}
+
+// The sections of the track where most was lost.
+std::string place_line(const intake::Station& station) {
+  std::vector<std::pair<double, std::size_t>> places;
+  for (std::size_t bin = 0; bin < telemetry::kTrackBins; ++bin) {
+    const double loss = station.endpoint().loss_at(bin);
+    if (loss > 0.0) places.emplace_back(loss, bin);
+  }
+  if (places.empty()) return {};
+  std::sort(places.rbegin(), places.rend());
+  std::string text = "places    most lost";
+  for (std::size_t i = 0; i < std::min(places.size(), kPlaces); ++i) {
+    const double from_m = intake::Station::kSection_m * static_cast<double>(places[i].second);
+    text += say("   at %.0f m %.1f %%", from_m, kPercent * places[i].first);
+  }
+  return text;
+}
+
+// Whether both ends mean the same by the same bits.
+void add_schema(const intake::Station& station, std::vector<TextLine>& lines) {
+  if (!station.endpoint().peer() || station.endpoint().schema_agrees()) return;
+  lines.push_back({"schema    THE CAR'S SAFETY FIELDS DIFFER: it will not arm", Tone::kAlarm});
+  std::string rest = station.endpoint().schema_difference();
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    lines.push_back({"schema    " + rest.substr(0, end), Tone::kAlarm});
+    rest.erase(0, std::min(end + 1, rest.size()));
+  }
+}
+
+}  // namespace
+
+std::string age_text(Duration age) {
+  if (age < seconds(10)) return say("%.0f ms", age.milliseconds());
+  return say("%.0f s", age.seconds());
+}
+
+std::vector<TextLine> link_lines(const intake::Station& station, Instant now) {
+  const LinkReport report = station.report(now);
+  std::vector<TextLine> lines{head_line(station, now), {link_line(station, report, now)}};
+  for (telemetry::PathId path = 0; path < station.paths(); ++path) {
+    for (TextLine& line : path_lines(station, report, path, now)) lines.push_back(std::move(line));
+  }
+  lines.push_back({ages_line(station)});
+  lines.push_back({refused_line(report)});
+  if (std::string places = place_line(station); !places.empty()) {
+    lines.push_back({std::move(places)});
+  }
+  add_schema(station, lines);
+  lines.push_back(stop_line(station, now));
+  add_commands(station, now, lines);
+  add_events(station, now, lines);
+  return lines;
+}
+
+}  // namespace pitwall::outlets

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/outlets/link_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/basestation/radio_rig.hpp"
+
+namespace pitwall::outlets {
+namespace {
+
+using telemetry::field;
+
+std::string text_of(RadioRig& rig) {
+  rig.station->advance(rig.now);
+  std::string text;
+  for (const TextLine& line : link_lines(*rig.station, rig.now)) text += line.text + "\n";
+  return text;
+}
+
+bool says(RadioRig& rig, const std::string& what) {
+  return text_of(rig).find(what) != std::string::npos;
+}
+
+TEST(LinkText, AgesAreShortOrLong) {
+  EXPECT_EQ(age_text(milliseconds(12)), "12 ms");
+  EXPECT_EQ(age_text(seconds(31)), "31 s");
+}
+
+TEST(LinkText, SaysWhatIsNotKnownYet) {
+  RadioRig rig;
+  EXPECT_TRUE(says(rig, "link      nothing heard")) << text_of(rig);
+  EXPECT_TRUE(says(rig, "budget used ?"));
+  EXPECT_TRUE(says(rig, "latched by the car: not told   authority: nobody"));
+}
+
+TEST(LinkText, HasOnePathOrTwo) {
+  for (const std::uint8_t paths : {std::uint8_t{1}, std::uint8_t{2}}) {
+    RadioRig rig({.paths = paths});
+    rig.set(field("ego.x"), 1.0);
+    rig.run(seconds(3));
+    EXPECT_TRUE(says(rig, "path 0"));
+    EXPECT_EQ(says(rig, "path 1"), paths == 2);
+    EXPECT_EQ(says(rig, "copies by the other path"), paths == 2);
+    EXPECT_TRUE(says(rig, "clocks known to +-")) << text_of(rig);
+    EXPECT_TRUE(says(rig, "127.0.0.1:40001 proved")) << text_of(rig);
+    EXPECT_TRUE(says(rig, "refused   0")) << text_of(rig);
+  }
+}
+
+TEST(LinkText, FollowsACommandToItsFate) {
+  RadioRig rig;
+  rig.set(field("ego.x"), 1.0);
+  rig.run(seconds(2));
+  ASSERT_TRUE(rig.station->obey("take 4", rig.now));
+  rig.run(milliseconds(100));
+  ASSERT_TRUE(rig.station->obey("command speed_limit 30", rig.now));
+  EXPECT_TRUE(says(rig, "#1 speed limit 30 m/s: not sent for 0 ms")) << text_of(rig);
+  rig.run(milliseconds(100));
+  EXPECT_TRUE(says(rig, "speed limit 30 m/s: received by the car after ")) << text_of(rig);
+  ASSERT_EQ(rig.told.size(), 1U);
+  rig.car->decide(rig.told.front().id, telemetry::Outcome::kApplied, rig.now);
+  rig.run(milliseconds(100));
+  EXPECT_TRUE(says(rig, "speed limit 30 m/s: applied after ")) << text_of(rig);
+  EXPECT_TRUE(says(rig, "authority: console 4"));
+}
+
+TEST(LinkText, SaysWhatTheOperatorWasRefused) {
+  RadioRig rig;
+  ASSERT_FALSE(rig.station->obey("fly away", rig.now));
+  EXPECT_TRUE(says(rig, "operator  fly away: not one of stop,")) << text_of(rig);
+}
+
+}  // namespace
+}  // namespace pitwall::outlets

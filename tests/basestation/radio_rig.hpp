@@ -1,0 +1,109 @@
+// A car's end of the radio and a base station, with a link of a fixed delay between them, in
+// virtual time.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "basestation/intake/key_pair.hpp"
+#include "basestation/intake/station.hpp"
+#include "protocol/telemetry/endpoint/car_endpoint.hpp"
+
+namespace pitwall {
+
+struct RigOptions {
+  std::uint8_t paths = 1;
+  bool real_car = true;
+};
+
+struct RadioRig {
+  static constexpr Duration kDelay = milliseconds(10), kTick = milliseconds(1);
+  static constexpr telemetry::Address kCarAt{.ip = 0x7F000001, .port = 40'001},
+      kBaseAt{.ip = 0x7F000001, .port = 40'002};
+
+  struct Travelling {
+    Instant arrives;
+    bool to_base;
+    telemetry::PathId path;
+    std::vector<std::uint8_t> bytes;
+  };
+
+  telemetry::SeededRandomness randomness{7};
+  intake::KeyPair keys = intake::make_key_pair(randomness);
+  RigOptions options;
+  Instant now{seconds(50).ns};
+  std::unique_ptr<telemetry::CarEndpoint> car;
+  std::unique_ptr<intake::Station> station;
+  telemetry::Snapshot snapshot;
+  telemetry::GroupSet sampled;  // anew at each tick
+  std::deque<Travelling> air;
+  std::vector<telemetry::DueCommand> told;  // commands that came to the car
+  // True: this datagram is lost.
+  std::function<bool(bool to_base, telemetry::PathId)> loses = [](bool, telemetry::PathId) {
+    return false;
+  };
+
+  explicit RadioRig(const RigOptions& wanted = {}) : options(wanted) {
+    restart_car();
+    restart_base();
+  }
+
+  telemetry::ConduitConfig config(const telemetry::KeyFile& of) {
+    telemetry::ConduitConfig config;
+    config.association.keys = of;
+    config.association.paths = options.paths;
+    if (of.role == telemetry::Role::kCar) {
+      config.association.greeting.real_car = options.real_car;
+      config.association.peer = {kBaseAt, kBaseAt};
+    }
+    return config;
+  }
+  void restart_car() {
+    car = std::make_unique<telemetry::CarEndpoint>(config(keys.car), randomness);
+  }
+  void restart_base() {
+    station = std::make_unique<intake::Station>(config(keys.base), randomness);
+  }
+
+  // From now on the car samples the field's group at each tick, with this value.
+  void set(telemetry::FieldIndex field, double value) {
+    snapshot.values[field] = value;
+    sampled.add(telemetry::kFields[field].group);
+  }
+
+  void run(Duration length) {
+    for (const Instant end = now + length; now < end; now += kTick) step();
+  }
+  void step() {
+    for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
+      if (sampled.has(row.group)) snapshot.at(row.group) = now;
+    }
+    deliver();
+    while (const auto due = car->next_command(now)) told.push_back(*due);
+    while (const auto out = car->poll(snapshot, now)) send(true, *out);
+    while (const auto out = station->poll(now)) send(false, *out);
+  }
+  void send(bool to_base, const telemetry::Outgoing& out) {
+    if (loses(to_base, out.path)) return;
+    air.push_back({now + kDelay, to_base, out.path, {out.bytes.begin(), out.bytes.end()}});
+  }
+  void deliver() {
+    while (!air.empty() && air.front().arrives <= now) {
+      const Travelling t = air.front();
+      air.pop_front();
+      if (t.to_base) {
+        station->take(t.bytes, t.path, kCarAt, now);
+      } else {
+        car->feed(t.bytes, t.path, kBaseAt, now);
+      }
+    }
+  }
+};
+
+}  // namespace pitwall
