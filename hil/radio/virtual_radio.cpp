@@ -74,7 +74,7 @@ ConduitConfig VirtualRadio::config(bool car) const {
   ConduitConfig config;
   config.association.keys = car ? car_keys_ : base_keys_;
   config.association.greeting.signed_only = setup_.signed_only;
-  config.association.greeting.safety_schema = car ? setup_.schema_of_car : setup_.schema_of_base;
+  config.schema = car ? setup_.schema_of_car : setup_.schema_of_base;
   if (car) config.association.peer = base_side_.address;
   config.association.paths = setup_.paths;
   config.association.first_sequence = setup_.first_sequence;
@@ -127,20 +127,30 @@ void VirtualRadio::take_at_car(const link::Datagram& datagram, PathId path) {
 void VirtualRadio::take_at_base(const link::Datagram& datagram, PathId path) {
   if ((datagram.tag & 0xFFFF) != base_side_.address[path].port) return;
   const auto arrival = station_->feed(datagram.bytes, path, source_of(datagram.tag), base_now());
-  if (arrival) judge(*arrival);
+  if (arrival) judge(datagram.bytes, *arrival);
 }
 
 void VirtualRadio::inject(bool at_base, PathId path, Address from,
                           std::span<const std::uint8_t> bytes) {
+  if (path >= setup_.paths) return;
   if (!at_base) return car_->feed(bytes, path, from, car_now());
   const auto arrival = station_->feed(bytes, path, from, base_now());
-  if (arrival) judge(*arrival);
+  if (arrival) judge(bytes, *arrival);
 }
 
-void VirtualRadio::judge(const Arrival& arrival) {
+VirtualRadio::Sent& VirtualRadio::sent_as(const Header& header) {
+  return sent_[(header.sequence_low + header.receiver * 40'503U) % kRemembered];
+}
+
+void VirtualRadio::judge(std::span<const std::uint8_t> datagram, const Arrival& arrival) {
   ++arrivals_;
-  Sent& sent = sent_[arrival.sequence % kRemembered];
-  if (sent.tick < 0 || sent.sequence_low != static_cast<std::uint32_t>(arrival.sequence)) {
+  const auto header = parse_header(datagram);
+  CHECK(header.has_value());
+  Sent& sent = sent_as(*header);
+  const bool known = sent.tick >= 0 && sent.receiver == header->receiver &&
+                     sent.sequence_low == header->sequence_low &&
+                     sent.sequence_low == static_cast<std::uint32_t>(arrival.sequence);
+  if (!known) {
     ++falsehoods_.never_sampled;
     return;
   }
@@ -185,10 +195,11 @@ void VirtualRadio::send(bool down, const Outgoing& out) {
   CHECK(header.has_value());
   const bool data = header->kind == Kind::kSealed || header->kind == Kind::kSigned;
   if (down && data) {
-    Sent& sent = sent_[header->sequence_low % kRemembered];
+    Sent& sent = sent_as(*header);
     // A copy for the other path is the same packet.
-    const bool copy = sent.sequence_low == header->sequence_low && sent.tick == tick_;
-    if (!copy) sent = {header->sequence_low, tick_, false};
+    const bool copy = sent.receiver == header->receiver && sent.tick == tick_ &&
+                      sent.sequence_low == header->sequence_low;
+    if (!copy) sent = {header->receiver, header->sequence_low, tick_, false};
   }
   if (tap_ && !tap_(down, out.path, out.bytes)) return;
   Side& side = down ? car_side_ : base_side_;

@@ -41,7 +41,9 @@ struct RadioSetup {
   std::uint64_t seed = 1;
   bool signed_only = false;
   std::uint64_t first_sequence = 1;
-  std::uint64_t schema_of_car = 0, schema_of_base = 0;  // safety hash that it claims; 0: the true
+  // What they say that their registries are; none: what it is. Outlive the radio.
+  const telemetry::SchemaClaim* schema_of_car = nullptr;
+  const telemetry::SchemaClaim* schema_of_base = nullptr;
 };
 
 // What left an end, with IP and UDP.
@@ -93,6 +95,10 @@ class VirtualRadio {
   // Somebody else's datagram at an end.
   void inject(bool at_base, telemetry::PathId path, telemetry::Address from,
               std::span<const std::uint8_t> bytes);
+  // Nobody polls and nothing arrives for so long: a process that was stopped.
+  void sleep(Duration length) { now_ += kTick * (length / kTick); }
+  telemetry::Address car_address(telemetry::PathId path) const { return car_side_.address[path]; }
+  telemetry::Address base_address(telemetry::PathId path) const { return base_side_.address[path]; }
   // Which groups the car samples (all); a group that it does not is never sent.
   void sample_only(telemetry::GroupSet groups) { sampled_ = groups; }
 
@@ -112,7 +118,9 @@ class VirtualRadio {
   static double value_of(telemetry::FieldIndex field, std::int64_t tick);
 
  private:
+  // By the number of the session and that of the packet, as its header has them.
   struct Sent {
+    std::uint16_t receiver = 0;
     std::uint32_t sequence_low = 0;
     std::int64_t tick = -1;
     bool arrived = false;
@@ -130,7 +138,8 @@ class VirtualRadio {
   void poll_base();
   void note_departure(bool down, telemetry::PathId path, std::size_t bytes);
   void send(bool down, const telemetry::Outgoing& out);
-  void judge(const telemetry::Arrival& arrival);
+  Sent& sent_as(const telemetry::Header& header);
+  void judge(std::span<const std::uint8_t> datagram, const telemetry::Arrival& arrival);
   void judge_values(telemetry::Group group, std::int64_t tick);
   void look();
 
@@ -145,7 +154,7 @@ class VirtualRadio {
   telemetry::GroupSet sampled_ = telemetry::groups_of(telemetry::Direction::kDown);
   Instant now_{};
   std::int64_t tick_ = 0;
-  std::vector<Sent> sent_;  // by the low bits of the sequence
+  std::vector<Sent> sent_;
   std::array<std::int64_t, telemetry::kGroups> tick_at_base_{};
   Tap tap_;
   AgeMeter ages_;

@@ -4,12 +4,24 @@
 #include <algorithm>
 
 #include "protocol/telemetry/endpoint/state_lane.hpp"
+#include "protocol/telemetry/registry/schema_listing.hpp"
 
 namespace pitwall::telemetry {
+namespace {
+
+std::span<const std::uint8_t> as_bytes(std::string_view text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+}  // namespace
 
 struct CarEndpoint::Parts {
   Parts(const ConduitConfig& config, Randomness& source)
-      : randomness(&source), conduit(config, Direction::kDown, source), ledger(conduit.own().boot) {
+      : randomness(&source),
+        conduit(config, Direction::kDown, source),
+        schema_text(conduit.claim().safety_text.empty() ? safety_text()
+                                                        : std::string(conduit.claim().safety_text)),
+        ledger(conduit.own().boot) {
     draw();
   }
 
@@ -30,6 +42,7 @@ struct CarEndpoint::Parts {
 
   Randomness* randomness;
   Conduit conduit;
+  std::string schema_text;  // of the safety groups, made once
   StateLane lane{Direction::kDown};
   Snapshot snapshot;
   StopLatch latch;
@@ -53,7 +66,9 @@ void CarEndpoint::Parts::begin_session(bool peer_restarted) {
     bulk.peer_restarted();
   }
   if (conduit.peer()) ledger.meets(conduit.peer()->boot);
-  lane.forget(conduit.peer_knows());
+  // The base says what differs; it needs our side of it.
+  if (!conduit.schema_agrees()) bulk.offer(BulkKind::kSchema, as_bytes(schema_text));
+  lane.forget();
 }
 
 void CarEndpoint::Parts::hear(const Heard& heard) {
@@ -118,7 +133,7 @@ std::optional<Outgoing> CarEndpoint::poll(const Snapshot& snapshot, Instant now)
 }
 
 void CarEndpoint::Parts::make_packet(const PacketPlan& plan, Instant now) {
-  const std::size_t safe = lane.choose(snapshot, conduit.round_trip(), now);
+  const std::size_t safe = lane.choose(snapshot, conduit.peer_knows(), conduit.round_trip(), now);
   const PacketRoom room = conduit.room_for(plan, safe, ledger.wanted(), now);
   BodyWriter body = conduit.begin(plan, room.whole, now);
   const std::size_t fixed = body.bytes().size();
@@ -179,7 +194,10 @@ void CarEndpoint::place(double station_m, double lap_length_m, Instant now) {
 }
 
 bool CarEndpoint::schema_agrees() const { return parts_->conduit.schema_agrees(); }
-std::string CarEndpoint::schema_difference() const { return {}; }
+std::string CarEndpoint::schema_difference() const {
+  if (schema_agrees() || !parts_->conduit.peer()) return {};
+  return "safety schema of the base is not ours; the base station lists what differs\n";
+}
 
 LinkReport CarEndpoint::report(Instant now) const {
   const Parts& p = *parts_;

@@ -63,7 +63,7 @@ class CarEndpoint {
   // Safety groups of both ends are the same; else the car must not be armed. False before the
   // first session.
   bool schema_agrees() const;
-  // One line for each difference of the safety groups, as far as the base has told.
+  // That there is a difference; the base says which (StationEndpoint). Empty where there is none.
   std::string schema_difference() const;
   LinkReport report(Instant now) const;
 

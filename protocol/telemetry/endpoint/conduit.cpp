@@ -19,14 +19,19 @@ constexpr Direction other(Direction direction) {
   return direction == Direction::kDown ? Direction::kUp : Direction::kDown;
 }
 
-AssociationConfig complete(AssociationConfig config, Randomness& randomness, Greeting& own) {
+const SchemaClaim& claim_of(const ConduitConfig& config) {
+  return config.schema ? *config.schema : own_claim();
+}
+
+AssociationConfig complete(AssociationConfig config, const SchemaClaim& claim,
+                           Randomness& randomness, Greeting& own) {
   std::array<std::uint8_t, 8> drawn{};
   while (config.greeting.boot == 0) {
     randomness.fill(drawn);
     for (const std::uint8_t byte : drawn) config.greeting.boot = config.greeting.boot << 8 | byte;
   }
-  if (config.greeting.safety_schema == 0) config.greeting.safety_schema = kSafetyHash;
-  if (config.greeting.whole_schema == 0) config.greeting.whole_schema = kSchemaHash;
+  if (config.greeting.safety_schema == 0) config.greeting.safety_schema = claim.safety_hash;
+  if (config.greeting.whole_schema == 0) config.greeting.whole_schema = claim.whole_hash;
   own = config.greeting;
   return config;
 }
@@ -35,7 +40,9 @@ AssociationConfig complete(AssociationConfig config, Randomness& randomness, Gre
 
 Conduit::Conduit(const ConduitConfig& config, Direction sends, Randomness& randomness)
     : own_(),
-      association_(complete(config.association, randomness, own_), randomness),
+      association_(complete(config.association, claim_of(config), randomness, own_), randomness),
+      claim_(&claim_of(config)),
+      schema_(*claim_, sends),
       sends_(sends),
       policy_(config.policy),
       paths_(config.association.paths),
@@ -82,11 +89,12 @@ bool Conduit::note_session(bool& peer_restarted, Instant at) {
   peer_restarted = peer && peer_boot_ && peer->boot != *peer_boot_;
   if (peer_restarted) clock_.forget();
   if (peer) peer_boot_ = peer->boot;
+  if (peer) schema_.begin(peer->whole_schema);
   return true;
 }
 
 const Heard* Conduit::open(const Opened& opened, std::size_t size, PathId path, Instant at) {
-  auto body = parse_body(opened.body, other(sends_));
+  auto body = parse_body(opened.body, schema_.reading());
   if (!body) return ++bad_bodies_[static_cast<std::size_t>(body.error())], nullptr;
   heard_.body = *body;
   heard_.delivered.clear();
@@ -133,6 +141,8 @@ void Conduit::take_path_records(PathId path, Address from, Instant at) {
       ways_[path].proof = load<std::uint64_t>(record.payload, 0);
     } else if (record.type == RecordType::kPathProof && token) {
       association_.take_proof(path, from, load<std::uint64_t>(record.payload, 0), at);
+    } else if (record.type == RecordType::kSchema) {
+      schema_.take(record.payload);
     } else if (record.type == RecordType::kPathReceipt) {
       path_receipts_.take(record.payload, lanes(), peer_sent, at);
     }
@@ -243,7 +253,7 @@ std::size_t Conduit::kept_from_others(const PacketPlan& plan, const PacketRoom& 
 }
 
 std::size_t Conduit::path_records_size(const PacketPlan& plan) const {
-  std::size_t size = 0;
+  std::size_t size = schema_.size();
   for (PathId path = 0; path < paths_; ++path) {
     if (!has(plan.paths, path)) continue;
     if (plan.trial) size += BodyWriter::record_size(kTokenSize);
@@ -254,13 +264,14 @@ std::size_t Conduit::path_records_size(const PacketPlan& plan) const {
 }
 
 BodyWriter Conduit::begin(const PacketPlan& plan, std::size_t room, Instant now) {
-  BodyWriter body(body_, std::min(room, kMaxBody), sends_);
+  BodyWriter body(body_, std::min(room, kMaxBody), schema_.sending());
   body.begin(now, plan.paths);
   if (const auto ack = receipts_.ack(now); ack && body.add_ack(*ack)) receipts_.written(now);
   return body;
 }
 
 void Conduit::add_path_records(BodyWriter& body, const PacketPlan& plan, Instant now) {
+  schema_.write(body);
   std::array<std::uint8_t, kTokenSize> bytes{};
   for (PathId path = 0; path < paths_; ++path) {
     PathLane& way = ways_[path];
@@ -306,16 +317,17 @@ bool Conduit::schema_agrees() const {
 }
 
 GroupSet Conduit::peer_knows() const {
-  GroupSet all;
-  for (const GroupRow& row : kGroupTable) {
-    if (row.direction == sends_) all.add(row.group);
+  GroupSet known;
+  if (!schema_.may_send()) return known;
+  for (const GroupPlace& place : schema_.sending()) {
+    if (place.own) known.add(*place.own);
   }
-  return all;
+  return known;
 }
 
 bool Conduit::takes(RecordType type) const {
-  return type == RecordType::kPathProbe || type == RecordType::kPathProof ||
-         type == RecordType::kPathReceipt;
+  return type == RecordType::kSchema || type == RecordType::kPathProbe ||
+         type == RecordType::kPathProof || type == RecordType::kPathReceipt;
 }
 
 void Conduit::report(LinkReport& out, Instant now) const {

@@ -20,6 +20,7 @@
 #include "protocol/telemetry/endpoint/path_choice.hpp"
 #include "protocol/telemetry/endpoint/path_lane.hpp"
 #include "protocol/telemetry/endpoint/path_receipts.hpp"
+#include "protocol/telemetry/endpoint/schema_talk.hpp"
 #include "protocol/telemetry/endpoint/slots.hpp"
 #include "protocol/telemetry/flow/acks.hpp"
 #include "protocol/telemetry/flow/clock_sync.hpp"
@@ -36,6 +37,7 @@ struct ConduitConfig {
   AssociationConfig association;  // greeting: boot 0 is drawn, schema hashes 0 are the registry's
   std::array<BudgetParams, kPaths> budget{};
   PathPolicy policy = PathPolicy::kDuplicate;
+  const SchemaClaim* schema = nullptr;  // none: of the registry. Outlives the end
 };
 
 struct Outgoing {
@@ -93,7 +95,8 @@ class Conduit {
   bool ready() const { return association_.ready(); }
   Duration round_trip() const;  // a guess of kSlot * 3 until it is known
   bool schema_agrees() const;
-  // Groups that the peer knows as we do; others are not sent.
+  const SchemaClaim& claim() const { return *claim_; }
+  // Groups that may be sent now.
   GroupSet peer_knows() const;
   // Records that are no business of the ends.
   bool takes(RecordType type) const;
@@ -127,6 +130,8 @@ class Conduit {
 
   Greeting own_;
   Association association_;
+  const SchemaClaim* claim_;
+  SchemaTalk schema_;
   Direction sends_;
   PathPolicy policy_;
   std::uint8_t paths_;

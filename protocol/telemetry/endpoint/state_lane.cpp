@@ -23,10 +23,7 @@ std::size_t fast_size(Direction direction) {
 }  // namespace
 
 StateLane::StateLane(Direction direction)
-    : direction_(direction),
-      fast_size_(fast_size(direction)),
-      scheduler_(direction),
-      known_(groups_of(direction)) {}
+    : direction_(direction), fast_size_(fast_size(direction)), scheduler_(direction) {}
 
 // Motion goes before its time once in a slot, where that leaves a third of the packet to what waits;
 // between slots only where nothing waits. There a packet has safety and motion alone, so that the
@@ -41,13 +38,14 @@ bool StateLane::takes(Group group, Writing how, std::size_t room) const {
   return motion || !how.between || how.something_waits;
 }
 
-std::size_t StateLane::choose(const Snapshot& snapshot, Duration round_trip, Instant now) {
+std::size_t StateLane::choose(const Snapshot& snapshot, GroupSet known, Duration round_trip,
+                              Instant now) {
   late_ = {};
   for (const Group group : scheduler_.order(snapshot, round_trip, now)) late_.add(group);
   order_.clear();
   GroupSet safety;
   for (const Group group : scheduler_.order(snapshot, round_trip, now, true)) {
-    if (!known_.has(group)) continue;
+    if (!known.has(group)) continue;
     CHECK(order_.push(group));
     if (row_of(group).priority == Class::kSafety) safety.add(group);
   }
@@ -73,11 +71,6 @@ std::size_t StateLane::write(BodyWriter& body, const Snapshot& snapshot, Writing
 
 void StateLane::sent(std::uint64_t sequence, const Snapshot& snapshot, Instant now) {
   scheduler_.sent(sequence, written_, wanted_, snapshot, now);
-}
-
-void StateLane::forget(GroupSet known) {
-  scheduler_.forget();
-  known_ = known;
 }
 
 }  // namespace pitwall::telemetry

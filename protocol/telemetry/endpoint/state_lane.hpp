@@ -21,7 +21,8 @@ class StateLane {
 
   // What the next packet shall have. Returns the bytes of it that are safety's: the share of the
   // budget that is asked for must be the one that is used.
-  std::size_t choose(const Snapshot& snapshot, Duration round_trip, Instant now);
+  // `known`: groups that may be sent.
+  std::size_t choose(const Snapshot& snapshot, GroupSet known, Duration round_trip, Instant now);
   struct Writing {
     bool only_safety = false;
     bool between = false;  // half a slot later
@@ -32,9 +33,8 @@ class StateLane {
   // The packet that write() was for has this number.
   void sent(std::uint64_t sequence, const Snapshot& snapshot, Instant now);
   void acked(std::uint64_t sequence) { scheduler_.acked(sequence); }
-  // A new session: the other end is known to have nothing. Groups that it does not know alike are
-  // not sent.
-  void forget(GroupSet known);
+  // A new session: the other end is known to have nothing.
+  void forget() { scheduler_.forget(); }
 
   const GroupFigures& figures(Group group) const { return scheduler_.figures(group); }
   const CodecCounters& codec() const { return codec_; }
@@ -46,7 +46,7 @@ class StateLane {
   std::size_t fast_size_;  // of safety and motion
   Scheduler scheduler_;
   CodecCounters codec_;
-  GroupSet known_, late_, wanted_, written_;
+  GroupSet late_, wanted_, written_;
   Scheduler::Order order_;
 };
 

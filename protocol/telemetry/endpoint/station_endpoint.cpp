@@ -2,8 +2,11 @@
 #include "protocol/telemetry/endpoint/station_endpoint.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include "protocol/telemetry/endpoint/state_lane.hpp"
+#include "protocol/telemetry/registry/schema_difference.hpp"
+#include "protocol/telemetry/registry/schema_listing.hpp"
 
 namespace pitwall::telemetry {
 
@@ -31,6 +34,8 @@ struct StationEndpoint::Parts {
   std::optional<CommandId> release;  // under way
   EventReceiver events;
   BulkReceiver bulk;
+  std::vector<std::uint8_t> schema_of_car = std::vector<std::uint8_t>(kBulkObject);
+  std::size_t schema_size = 0;
   std::uint64_t bad_records = 0;
 };
 
@@ -42,9 +47,10 @@ void StationEndpoint::Parts::begin_session(bool peer_restarted, Instant now) {
     mapped = {};
     events.peer_restarted();
     bulk.peer_restarted();
+    schema_size = 0;
   }
   if (conduit.peer()) desk.meets(conduit.peer()->boot, now);
-  lane.forget(conduit.peer_knows());
+  lane.forget();
 }
 
 Arrival StationEndpoint::Parts::hear(const Heard& heard) {
@@ -148,7 +154,7 @@ Snapshot StationEndpoint::Parts::sample(Instant now) const {
 void StationEndpoint::Parts::make_packet(const PacketPlan& plan, Instant now) {
   const Snapshot snapshot = sample(now);
   const std::size_t wants = desk.wanted() + events.wanted();
-  const std::size_t safe = lane.choose(snapshot, conduit.round_trip(), now);
+  const std::size_t safe = lane.choose(snapshot, conduit.peer_knows(), conduit.round_trip(), now);
   const PacketRoom room = conduit.room_for(plan, safe, wants, now);
   BodyWriter body = conduit.begin(plan, room.whole, now);
   const std::size_t fixed = body.bytes().size();
@@ -191,7 +197,16 @@ AuthorityDesk& StationEndpoint::authority() { return parts_->authority; }
 const AuthorityDesk& StationEndpoint::authority() const { return parts_->authority; }
 JoystickSender& StationEndpoint::joystick() { return parts_->joystick; }
 std::optional<Event> StationEndpoint::next_event() { return parts_->events.next(); }
-std::optional<BulkReceiver::Object> StationEndpoint::next_bulk() { return parts_->bulk.next(); }
+
+// The car's registry is for schema_difference(), not for the caller.
+std::optional<BulkReceiver::Object> StationEndpoint::next_bulk() {
+  while (const auto object = parts_->bulk.next()) {
+    if (object->kind != BulkKind::kSchema) return object;
+    parts_->schema_size = std::min(object->bytes.size(), parts_->schema_of_car.size());
+    std::copy_n(object->bytes.begin(), parts_->schema_size, parts_->schema_of_car.begin());
+  }
+  return {};
+}
 
 const std::optional<Greeting>& StationEndpoint::peer() const { return parts_->conduit.peer(); }
 void StationEndpoint::place(double station_m, double lap_length_m, Instant now) {
@@ -202,7 +217,14 @@ double StationEndpoint::loss_at(std::size_t bin) const {
 }
 
 bool StationEndpoint::schema_agrees() const { return parts_->conduit.schema_agrees(); }
-std::string StationEndpoint::schema_difference() const { return {}; }
+std::string StationEndpoint::schema_difference() const {
+  const Parts& p = *parts_;
+  if (schema_agrees() || p.schema_size == 0) return {};
+  const std::string theirs(p.schema_of_car.begin(),
+                           p.schema_of_car.begin() + static_cast<std::ptrdiff_t>(p.schema_size));
+  const std::string_view own = p.conduit.claim().safety_text;
+  return difference(own.empty() ? safety_text() : own, theirs);
+}
 
 LinkReport StationEndpoint::report(Instant now) const {
   const Parts& p = *parts_;

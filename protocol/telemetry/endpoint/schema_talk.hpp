@@ -1,0 +1,65 @@
+// Two ends whose registries differ: each tells the other which groups its packets may hold, so that
+// the other reads those that both know alike and skips the rest.
+//   wire   kSchema: have u8 (1: the peer's list is complete here), total u8, first u8, then for each
+//          place from the first on: hash u32 (low half of the group's), bits u16
+//   law    nothing is said while both registries are the same. Else no group goes before the peer
+//          has the whole list; a group with another hash is another group, whatever its name
+//   out    the layout to read the peer's packets by; which of our groups may go
+//   cost   no allocation
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "protocol/telemetry/packet/body.hpp"
+#include "protocol/telemetry/packet/layout.hpp"
+
+namespace pitwall::telemetry {
+
+// What one end says that its registry is. Tests make up those of other versions.
+struct SchemaClaim {
+  struct Place {
+    std::uint32_t hash = 0;
+    GroupPlace group;
+  };
+  using Places = FixedVector<Place, kMaxPlaces>;
+
+  Places down, up;  // in the order of the bits of the set
+  std::uint64_t safety_hash = 0, whole_hash = 0;
+  std::string_view safety_text;  // empty: the registry's
+
+  const Places& of(Direction direction) const { return direction == Direction::kDown ? down : up; }
+};
+const SchemaClaim& own_claim();
+
+class SchemaTalk {
+ public:
+  SchemaTalk(const SchemaClaim& own, Direction sends);
+
+  // A new session with a peer of this registry.
+  void begin(std::uint64_t peer_whole_hash);
+  bool take(std::span<const std::uint8_t> payload);
+  std::size_t size() const;  // of the record in the next packet
+  void write(BodyWriter& body);
+
+  const Layout& sending() const { return sending_; }
+  const Layout& reading() const { return reading_; }
+  bool may_send() const { return !differs_ || peer_has_ours_; }
+
+ private:
+  static constexpr std::size_t kHead = 3, kEntry = 6, kPerRecord = 12;
+
+  const SchemaClaim* own_;
+  Direction sends_;
+  Layout sending_, own_reading_, reading_;
+  bool differs_ = false, peer_has_ours_ = false;
+  std::size_t next_ = 0;     // place that the next record begins with
+  std::uint8_t total_ = 0;   // places of the peer; 0: not heard
+  std::uint64_t heard_ = 0;  // bit k: place k
+  std::array<GroupPlace, kMaxPlaces> places_{};
+
+  bool complete() const;
+};
+
+}  // namespace pitwall::telemetry
