@@ -26,6 +26,12 @@ Unexpected<Problem> problem(std::string what) {
   return Unexpected{Problem{"radio budget", std::move(what)}};
 }
 
+// Of the distance of two packets: 1 + floor(a tenth of the rate + this) must stay the law's number.
+double early_share(double packets_per_s) {
+  const double in_tenth = packets_per_s / 10.0;
+  return (std::floor(in_tenth) + 1.0 - in_tenth) / 2.0;
+}
+
 // How long until `tokens` more have come; rounded up, so that they are there then.
 Duration time_for(std::int64_t tokens, std::int64_t rate) { return {(tokens + rate - 1) / rate}; }
 
@@ -66,8 +72,9 @@ Result<PathBudget, Problem> PathBudget::make(const BudgetParams& params) {
   budget.scaled_rate_ = budget.whole_rate_;
   budget.full_ = {share * kByte, (packet - share) * kByte};
   budget.at_ = budget.full_;
-  budget.spacing_ = {static_cast<std::int64_t>(
-      std::ceil(static_cast<double>(kNanosecondsPerSecond) / params.packets_per_s))};
+  const double spacing_ns = static_cast<double>(kNanosecondsPerSecond) / params.packets_per_s;
+  budget.spacing_ = {whole(std::ceil(spacing_ns))};
+  budget.early_ = {whole(spacing_ns * early_share(params.packets_per_s))};
   return budget;
 }
 
@@ -109,7 +116,7 @@ void PathBudget::spend(std::size_t payload, std::size_t safety_payload, Instant 
   const std::int64_t of_share = std::min(safety * kByte, l.share);
   at_ = {l.share - of_share, l.rest - (bytes * kByte - of_share)};
   at_time_ = std::max(at_time_, now);
-  next_packet_ = now + spacing_;
+  next_packet_ = std::max(next_packet_, now) + spacing_;
   counters_.bytes += static_cast<std::uint64_t>(bytes);
   counters_.safety_bytes += static_cast<std::uint64_t>(safety);
   ++counters_.packets;
@@ -125,7 +132,7 @@ void PathBudget::scale(double factor, Instant now) {
 Instant PathBudget::due(std::size_t payload, Instant now) const {
   const std::int64_t wanted = (static_cast<std::int64_t>(payload) + kOverhead) * kByte;
   if (wanted > full_.rest) return kNever;
-  const Instant spaced_at = std::max(now, next_packet_);
+  const Instant spaced_at = std::max(now, next_packet_ - early_);
   const Levels l = levels(now);
   std::int64_t missing = wanted - l.rest;
   if (missing <= 0) return spaced_at;

@@ -8,7 +8,9 @@
 //   errors make(): Problem where the share, the largest packet or the rate contradict each other
 //   source token bucket, split in two; depth is latency, so both together hold one largest packet.
 //          They fill with the rate less that packet per second, so any window w sees at most
-//          rate w + packet (1 - w / 1 s). Packets keep a distance of 1 / packet rate
+//          rate w + packet (1 - w / 1 s). Packets keep a schedule of 1 / packet rate, and may be
+//          early by half of what rounding their number in 100 ms down leaves: a loop that ticks
+//          with jitter loses none
 //
 //        rate - packet -+-> share (safety's rate) --- full: spills over --> rest
 //                       +-> rest (what is left)
@@ -75,15 +77,15 @@ class PathBudget {
 
   explicit PathBudget(const BudgetParams& params) : params_(params) {}
   Levels levels(Instant now) const;
-  bool spaced(Instant now) const { return now >= next_packet_; }
+  bool spaced(Instant now) const { return now >= next_packet_ - early_; }
 
   BudgetParams params_;
   BudgetCounters counters_;
   std::int64_t largest_payload_ = 0;
   std::int64_t share_rate_ = 0, whole_rate_ = 0, scaled_rate_ = 0;  // bytes per second
   Levels full_, at_;
-  Instant at_time_{}, next_packet_{INT64_MIN};
-  Duration spacing_{};
+  Instant at_time_{}, next_packet_{INT64_MIN / 2};
+  Duration spacing_{}, early_{};
 };
 
 }  // namespace pitwall::telemetry

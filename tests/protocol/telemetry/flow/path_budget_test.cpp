@@ -98,7 +98,7 @@ class RandomSender {
 
 TEST(PathBudget, HoldsInEveryWindowWhoeverSends) {
   for (const double kbit_per_s : {64.0, 128.0, 256.0, 1'024.0}) {
-    for (const double packets_per_s : {37.0, 100.0, 1'000.0}) {
+    for (const double packets_per_s : {37.0, 99.9, 100.0, 1'000.0}) {
       for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         BudgetParams params{.bytes_per_s = kbit_per_s * 125, .packets_per_s = packets_per_s};
         if (seed % 3 == 0) params.largest_payload = 700;
@@ -116,6 +116,22 @@ TEST(PathBudget, HoldsInEveryWindowWhoeverSends) {
       }
     }
   }
+}
+
+// A loop of 10 ms that wakes up to 4 ms late, of a budget of 100 packets per second: each poll may
+// send, and the law still holds.
+TEST(PathBudget, AJitteringLoopLosesNoPacket) {
+  std::mt19937_64 random(3);
+  PathBudget budget = made({});
+  std::vector<Departure> departures;
+  for (int i = 0; i < 2'000; ++i) {
+    const Instant now = Instant{} + milliseconds(10 * i) +
+                        microseconds(static_cast<std::int64_t>(random() % 4'000));
+    ASSERT_GE(budget.room_for_all(now), 100U) << i;
+    budget.spend(100, 0, now);
+    departures.push_back({now, 100 + kIpUdpOverhead});
+  }
+  EXPECT_LE(worst_window(departures, milliseconds(100)).packets, 11U);
 }
 
 TEST(PathBudget, UsesNearlyAllOfTheRate) {
