@@ -2,6 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
 
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
@@ -10,29 +15,33 @@
 #include "vehicle/gateway/bus_identity.hpp"
 #include "vehicle/io/arguments.hpp"
 #include "vehicle/io/guarded.hpp"
+#include "vehicle/io/local_report.hpp"
+#include "vehicle/io/radio.hpp"
+#include "vehicle/io/radio_summary.hpp"
 #include "vehicle/io/rim.hpp"
 #include "vehicle/io/tally.hpp"
 #include "vehicle/parameters/car_file.hpp"
 #include "vehicle/parameters/track_file.hpp"
+#include "vehicle/pipeline/radio_desk.hpp"
 #include "vehicle/pipeline/step.hpp"
 #include "vehicle/pipeline/telemetry_tap.hpp"
+#include "vehicle/pipeline/tick_log.hpp"
 
 namespace pitwall {
 namespace {
 
 constexpr int kExitFailed = 1, kExitUsage = 2;
 constexpr int kPriority = 80;
-constexpr std::uint64_t kTelemetryEvery = 2;  // ticks: 50 Hz
+constexpr std::uint64_t kReportEvery = 2;  // ticks: 50 Hz
+constexpr Duration kSchemaPeriod = seconds(1);
 
 int refuse(const Problem& problem) {
   std::fprintf(stderr, "%s\n", to_string(problem).c_str());
   return kExitUsage;
 }
 
-Result<pipeline::Setup, Problem> set_up(const io::Arguments& args) {
-  const auto car_text = transport::read_file(args.car_file);
-  if (!car_text) return Unexpected{car_text.error()};
-  const auto car = parameters::read_car(*car_text, args.car_file);
+Result<pipeline::Setup, Problem> set_up(const io::Arguments& args, const std::string& car_text) {
+  const auto car = parameters::read_car(car_text, args.car_file);
   if (!car) return Unexpected{car.error()};
   const auto track_text = transport::read_file(args.track_file);
   if (!track_text) return Unexpected{track_text.error()};
@@ -43,83 +52,170 @@ Result<pipeline::Setup, Problem> set_up(const io::Arguments& args) {
   return pipeline::prepare(params, *track);
 }
 
-void tell(const world::BusIdentity& identity) {
-  std::fprintf(stderr, "pitwall-vehicle: %s\n", gateway::sentence(identity).c_str());
-}
-
-void tell(safety::Arming arming) {
-  if (safety::is_refused(arming))
-    std::fprintf(stderr, "pitwall-vehicle: not armed: %s\n", safety::text_of(arming));
-}
+void say(const std::string& what) { std::fprintf(stderr, "pitwall-vehicle: %s\n", what.c_str()); }
 
 bool same_identity(const world::BusIdentity& a, const world::BusIdentity& b) {
   return a.verdict == b.verdict && a.difference == b.difference && a.id == b.id;
 }
 
-int drive(const pipeline::Setup& setup, const io::Arguments& args, io::Rim& rim,
-          io::Guarded& guarded, transport::StopSignal& stop) {
-  const auto car = std::make_unique<pipeline::Car>();
-  io::StepTally tally;
-  io::FrameTotals frames;
-  io::LossTally losses;
-  world::BusHealth bus;
-  safety::Arming arming = safety::Arming::kNotAsked;
-  transport::Ticker ticker{setup.params.rates.tick};
-  Instant last = transport::monotonic_now() - setup.params.rates.tick;
-  while (!stop.raised()) {
-    const transport::Tick tick = ticker.next();
-    const io::Rim::Heard heard = rim.read();
-    const Instant now = transport::monotonic_now();
-    const bool may_arm = !rim.listen_only();
-    const pipeline::Outputs out = pipeline::step(setup, *car,
-                                                 {.now = now,
-                                                  .dt = now - last,
-                                                  .can = heard.can,
-                                                  .sensors = heard.sensors,
-                                                  .requests = {.arm = may_arm && args.arm},
-                                                  .gnss_byte_at = heard.gnss_byte_at,
-                                                  .link = heard.link,
-                                                  .radio_at = heard.radio_at,
-                                                  .guardian = guarded.view(now),
-                                                  .last_run_armed = guarded.barred()});
-    guarded.tell(setup, *car, out, false, now);
-    rim.write(out.passed.frames.span(), now);
-    if (out.bus_guard.restart_now) rim.restart_bus();
-    if (const char* refusal = rim.fresh_refusal())
-      std::fprintf(stderr, "pitwall-vehicle: %s\n", refusal);
-    const Instant done = transport::monotonic_now();
-    tally.add(done - now, tick.missed);
-    last = now;
-    if (!same_identity(out.heard.bus.identity, bus.identity)) tell(out.heard.bus.identity);
-    bus = out.heard.bus;
-    if (out.chosen.arming != arming) tell(arming = out.chosen.arming);
-    losses.add(bus);
-    frames.gate_refusals = out.passed.refused_total;
-    frames.gate_verdicts = car->gate.verdicts;
-    if (car->ticks % kTelemetryEvery != 0) continue;
-    auto packet = pipeline::tap(setup, out,
-                                {.frames_sent = rim.can().sent,
-                                 .tx_drops = rim.tx_drops(),
-                                 .steps = tally.steps(),
-                                 .missed_deadlines = tally.missed_deadlines(),
-                                 .step_time_max_us = tally.take_recent_max_us(),
-                                 .heartbeats = rim.heartbeats().accepted,
-                                 .heartbeats_refused = rim.heartbeats().refused_total(),
-                                 .base_runs = rim.heartbeats().runs,
-                                 .round_trip_ms = rim.round_trip_ms(now)},
-                                now);
-    rim.report(packet, done);
+// Everything that the loop touches, opened before its first tick.
+struct Parts {
+  io::Rim rim;
+  io::Guarded guarded;
+  std::optional<io::Radio> radio;  // none: no base station is watched
+  io::LocalReport report;
+};
+
+class Drive {
+ public:
+  Drive(const pipeline::Setup& setup, const io::Arguments& args, std::string_view car_text,
+        Parts parts)
+      : setup_(setup),
+        args_(args),
+        parts_(std::move(parts)),
+        desk_(car_text),
+        car_(std::make_unique<pipeline::Car>()),
+        log_(std::make_unique<pipeline::TickLog>()) {}
+
+  int run(transport::StopSignal& stop) {
+    transport::Ticker ticker{setup_.params.rates.tick};
+    last_ = transport::monotonic_now() - setup_.params.rates.tick;
+    while (!stop.raised() && !desk_.end_asked()) tick(ticker.next());
+    parts_.guarded.finish();
+    return leave_summary();
   }
-  guarded.finish();
-  rim.poll_drops();
-  if (args.summary_file.empty()) return 0;
-  frames.received = rim.can().received;
-  frames.sent = rim.can().sent;
-  frames.rx_dropped = rim.can().rx_dropped_queue;
-  frames.tx_drops = rim.tx_drops();
-  const auto written =
-      transport::write_file(args.summary_file, io::summary_json(tally, frames, bus, losses));
-  return written ? 0 : (refuse(written.error()), kExitFailed);
+
+ private:
+  void tick(const transport::Tick& tick) {
+    const io::Rim::Heard heard = parts_.rim.read();
+    if (parts_.radio) parts_.radio->listen();
+    const Instant now = transport::monotonic_now();
+    pipeline::Inputs in{.now = now,
+                        .dt = now - last_,
+                        .can = heard.can,
+                        .sensors = heard.sensors,
+                        .requests = {.arm = args_.arm},
+                        .may_arm = !parts_.rim.listen_only(),
+                        .gnss_byte_at = heard.gnss_byte_at,
+                        .link = heard.link,
+                        .guardian = parts_.guarded.view(now),
+                        .last_run_armed = parts_.guarded.barred()};
+    if (parts_.radio) desk_.fill(parts_.radio->endpoint(), in);
+    const pipeline::Outputs out = pipeline::step(setup_, *car_, in);
+    parts_.guarded.tell(setup_, *car_, out, out.requests.reset, now);
+    parts_.rim.write(out.passed.frames.span(), now);
+    if (out.bus_guard.restart_now) parts_.rim.restart_bus();
+    tally_.add(transport::monotonic_now() - now, tick.missed);
+    last_ = now;
+    log_->note(in, out, setup_.track.length_m());
+    note(out);
+    if (parts_.radio) desk_.take(parts_.radio->endpoint(), setup_, *car_, out, now);
+    speak(out, transport::monotonic_now());
+  }
+
+  // What the operator at the car's own terminal is told, and what the summary counts.
+  void note(const pipeline::Outputs& out) {
+    if (const char* refusal = parts_.rim.fresh_refusal()) say(refusal);
+    if (!same_identity(out.heard.bus.identity, bus_.identity))
+      say(gateway::sentence(out.heard.bus.identity));
+    bus_ = out.heard.bus;
+    if (out.chosen.arming != arming_ && safety::is_refused(out.chosen.arming))
+      say(std::string("not armed: ") + safety::text_of(out.chosen.arming));
+    arming_ = out.chosen.arming;
+    losses_.add(bus_);
+    frames_.gate_refusals = out.passed.refused_total;
+    frames_.gate_verdicts = car_->gate.verdicts;
+  }
+
+  // A snapshot is made when somebody shall have it now.
+  void speak(const pipeline::Outputs& out, Instant now) {
+    const bool radio_due = parts_.radio && parts_.radio->due(now);
+    const bool report_due = parts_.report.on() && car_->ticks % kReportEvery == 0;
+    if (!radio_due && !report_due) return;
+    pipeline::RimCounters counters;
+    counters.frames_sent = parts_.rim.can().sent;
+    counters.tx_drops = parts_.rim.tx_drops();
+    counters.steps = tally_.steps();
+    counters.missed_deadlines = tally_.missed_deadlines();
+    counters.step_time_max_us = tally_.take_recent_max_us();
+    if (parts_.radio) desk_.show(parts_.radio->endpoint(), counters, now);
+    const telemetry::Snapshot snapshot = pipeline::tap(
+        {.setup = setup_, .car = *car_, .out = out, .log = *log_, .rim = counters, .now = now});
+    if (report_due) parts_.report.send(snapshot, now);
+    if (!radio_due) return;
+    parts_.radio->speak(snapshot, now);
+    tell_schema(now);
+  }
+
+  void tell_schema(Instant now) {
+    const telemetry::CarEndpoint& radio = parts_.radio->endpoint();
+    if (now - schema_looked_at_ < kSchemaPeriod) return;
+    schema_looked_at_ = now;
+    if (radio.schema_agrees() || !radio.view(now).alive_at) return;
+    const std::string difference = radio.schema_difference();
+    if (difference == schema_told_) return;
+    schema_told_ = difference;
+    say("not armed: the base station understands the radio otherwise:\n" + difference);
+  }
+
+  int leave_summary() {
+    parts_.rim.poll_drops();
+    if (args_.summary_file.empty()) return 0;
+    frames_.received = parts_.rim.can().received;
+    frames_.sent = parts_.rim.can().sent;
+    frames_.rx_dropped = parts_.rim.can().rx_dropped_queue;
+    frames_.tx_drops = parts_.rim.tx_drops();
+    const std::string radio =
+        parts_.radio ? io::radio_json(parts_.radio->endpoint().report(transport::monotonic_now()),
+                                      parts_.radio->paths())
+                     : "{}";
+    const auto written = transport::write_file(
+        args_.summary_file, io::summary_json(tally_, frames_, bus_, losses_, radio));
+    return written ? 0 : (refuse(written.error()), kExitFailed);
+  }
+
+  const pipeline::Setup& setup_;
+  const io::Arguments& args_;
+  Parts parts_;
+  pipeline::RadioDesk desk_;
+  std::unique_ptr<pipeline::Car> car_;
+  std::unique_ptr<pipeline::TickLog> log_;
+  io::StepTally tally_;
+  io::FrameTotals frames_;
+  io::LossTally losses_;
+  world::BusHealth bus_;
+  safety::Arming arming_ = safety::Arming::kNotAsked;
+  std::string schema_told_;
+  Instant schema_looked_at_;
+  Instant last_;
+};
+
+Result<Parts, Problem> open_parts(const io::Arguments& args, const pipeline::Setup& setup) {
+  auto rim = io::Rim::open(args);
+  if (!rim) return Unexpected{rim.error()};
+  auto guarded = io::Guarded::open(args.guardian, args.arm);
+  if (!guarded) return Unexpected{guarded.error()};
+  std::optional<io::Radio> radio;
+  if (!args.keys.empty()) {
+    auto opened = io::Radio::open({args.radio, args.keys}, setup.params.radio, !args.simulation);
+    if (!opened) return Unexpected{opened.error()};
+    radio = *std::move(opened);
+  }
+  auto report =
+      io::LocalReport::open(args.local_report, args.simulation ? telemetry::Source::kSimulation
+                                                               : telemetry::Source::kCar);
+  if (!report) return Unexpected{report.error()};
+  return Parts{*std::move(rim), *std::move(guarded), std::move(radio), *std::move(report)};
+}
+
+void introduce(const io::Arguments& args, const pipeline::Setup& setup, Parts& parts) {
+  const auto realtime = transport::request_realtime(kPriority);
+  say(setup.track.name() + " on " + args.can_interface + ", " + gateway::database_text() + ", " +
+      transport::to_string(realtime) + (args.simulation ? ", SIMULATION" : "") +
+      (args.no_base ? ", NO BASE STATION WATCHED" : ""));
+  if (parts.rim.listen_only())
+    say(args.can_interface + ": LISTEN-ONLY: stays disarmed and sends nothing");
+  if (parts.guarded.barred()) say(args.guardian + ": NOT ARMED: " + io::kBarredText);
 }
 
 int run(int argc, const char* const* argv) {
@@ -128,25 +224,16 @@ int run(int argc, const char* const* argv) {
   const auto& args = std::get<io::Arguments>(parsed);
   auto stop = transport::StopSignal::install();
   if (!stop) return refuse(stop.error());
-  const auto setup = set_up(args);
+  const auto car_text = transport::read_file(args.car_file);
+  if (!car_text) return refuse(car_text.error());
+  const auto setup = set_up(args, *car_text);
   if (!setup) return refuse(setup.error());
   if (args.check) return 0;
-  auto rim = io::Rim::open(args);
-  if (!rim) return refuse(rim.error());
-  auto guarded = io::Guarded::open(args.guardian, args.arm);
-  if (!guarded) return refuse(guarded.error());
-  const auto realtime = transport::request_realtime(kPriority);
-  std::fprintf(stderr, "pitwall-vehicle: %s on %s, %s, %s%s%s\n", setup->track.name().c_str(),
-               args.can_interface.c_str(), gateway::database_text().c_str(),
-               transport::to_string(realtime).c_str(), args.simulation ? ", SIMULATION" : "",
-               args.no_base ? ", NO BASE STATION WATCHED" : "");
-  if (rim->listen_only())
-    std::fprintf(stderr, "pitwall-vehicle: %s: LISTEN-ONLY: stays disarmed and sends nothing\n",
-                 args.can_interface.c_str());
-  if (guarded->barred())
-    std::fprintf(stderr, "pitwall-vehicle: %s: NOT ARMED: %s\n", args.guardian.c_str(),
-                 io::kBarredText);
-  return drive(*setup, args, *rim, *guarded, *stop);
+  auto parts = open_parts(args, *setup);
+  if (!parts) return refuse(parts.error());
+  introduce(args, *setup, *parts);
+  const auto drive = std::make_unique<Drive>(*setup, args, *car_text, *std::move(parts));
+  return drive->run(*stop);
 }
 
 }  // namespace

@@ -75,10 +75,15 @@ std::optional<link::Datagram> Air::take(Way way, PathId path, Instant now) {
       continue;
     }
     ++counters_.delivered[static_cast<std::size_t>(way)];
-    if (way == Way::kUp) newest_up_ = std::max(newest_up_.value_or(Instant{}), datagram.offered);
+    if (way == Way::kUp) note_heard(datagram.offered, now);
     return datagram;
   }
   return std::nullopt;
+}
+
+void Air::note_heard(Instant sent, Instant now) {
+  longest_ = longest_silence(now);
+  newest_up_ = newest_up_ ? std::max(*newest_up_, sent) : sent;
 }
 
 void Air::place(double station_m) {
@@ -89,6 +94,10 @@ void Air::place(double station_m) {
 std::optional<Duration> Air::silence(Instant now) const {
   if (!newest_up_) return std::nullopt;
   return now - *newest_up_;
+}
+
+Duration Air::longest_silence(Instant now) const {
+  return newest_up_ ? std::max(longest_, now - *newest_up_) : Duration{};
 }
 
 const link::LinkCounters& Air::counters(Way way, PathId path) const {

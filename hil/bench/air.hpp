@@ -47,6 +47,8 @@ class Air {
 
   // Since the newest datagram of the base that reached the car was sent; none: none has yet.
   std::optional<Duration> silence(Instant now) const;
+  // The longest of the run so far; zero before the car has heard anything.
+  Duration longest_silence(Instant now) const;
   const AirCounters& counters() const { return counters_; }
   const link::LinkCounters& counters(Way way, telemetry::PathId path) const;
 
@@ -65,10 +67,12 @@ class Air {
   std::optional<double> active(faults::BenchFaultKind kind, Instant at) const;
   bool is_off(Way way, Instant at) const;
   void hold_back(Lane& lane, Instant now);
+  void note_heard(Instant sent, Instant now);
 
   std::vector<faults::BenchFault> faults_;
   std::vector<std::array<Lane, kWays>> lanes_;
   std::optional<Instant> newest_up_;
+  Duration longest_{};  // until newest_up_ came
   AirCounters counters_;
 };
 

@@ -60,6 +60,20 @@ world::LossReport loss_of(yaml::StrictMap map) {
           .noticed = instant_of(map, "noticed_ns")};
 }
 
+void read_radio(yaml::StrictMap map, CarSummary& car) {
+  for (const std::string& name : map.keys()) {
+    if (name == "refused") {
+      car.radio_refused = counts_of(map.map(name));
+    } else if (name == "commands") {
+      car.radio_commands = counts_of(map.map(name));
+    } else if (name == "paths") {
+      for (yaml::StrictMap& path : map.maps(name)) car.radio_paths.push_back(counts_of(path));
+    } else {
+      car.radio.emplace_back(name, count_of(map, name.c_str()));
+    }
+  }
+}
+
 }  // namespace
 
 Result<CarSummary, Problem> read_car_summary(const std::string& path) {
@@ -89,6 +103,7 @@ Result<CarSummary, Problem> read_car_summary(const std::string& path) {
       if (name != "controller") car.link.emplace_back(name, count_of(link, name.c_str()));
     for (yaml::StrictMap& row : map.maps("messages")) car.messages.push_back(message_of(row));
     for (yaml::StrictMap& row : map.maps("losses")) car.losses.push_back(loss_of(row));
+    read_radio(map.map("radio"), car);
     car.refused_by_kind = counts_of(map.map("refused_by_kind"));
     car.gate_verdicts = counts_of(map.map("gate_verdicts"));
     car.step_p50_us = map.number("step_p50_us", 0.0, 1e9);

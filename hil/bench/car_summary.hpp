@@ -36,6 +36,9 @@ struct CarSummary {
   std::string controller;
   std::string database, identity, identity_sentence;  // of the bus
   Counts link;
+  // Of its radio, as vehicle/io/radio_summary.hpp writes them; empty where it had none.
+  Counts radio, radio_refused, radio_commands;
+  std::vector<Counts> radio_paths;
   std::vector<CarMessage> messages;
   std::vector<world::LossReport> losses;  // the first of loss_reports
   double step_p50_us = kUnset, step_p99_us = kUnset, step_max_us = kUnset;

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "basestation/intake/operator_words.hpp"
+#include "hil/bench/car_monitor.hpp"
 #include "hil/bench/car_summary.hpp"
 #include "hil/bench/machine.hpp"
 #include "hil/bench/receiver_port.hpp"
@@ -36,6 +38,7 @@ constexpr std::size_t kReadBatch = 256;
 // car. A system call costs 16 us in the guest, so what is slow anyway is looked at once per tick.
 constexpr Duration kWake = milliseconds(1);
 constexpr Duration kLook = milliseconds(10);
+constexpr Duration kCarry = milliseconds(2);  // how often the radio is served
 
 // Everything that a run is made of, opened before anything is started.
 struct Parts {
@@ -43,6 +46,8 @@ struct Parts {
   grading::Grader grader;
   CanSocket bus;
   RadioPath radio;
+  CarMonitor monitor;
+  transport::UdpSocket desk;  // where the operator's words leave from
   ReceiverPort receivers;
   Machine machine;
   Cast cast;
@@ -69,6 +74,7 @@ class Live {
       clock_.sleep_until(now);
       step(now);
       if (auto problem = parts_.cast.advance(now)) return Unexpected{*problem};
+      if ((now - Instant{}).ns % kCarry.ns == 0) parts_.radio.serve(now);
       if ((now - Instant{}).ns % kLook.ns != 0) continue;
       if (auto problem = look(now)) return Unexpected{*problem};
     }
@@ -109,10 +115,21 @@ class Live {
 
   // What is looked at once per tick.
   std::optional<Problem> look(Instant now) {
-    parts_.radio.serve(transport::monotonic_now());
+    parts_.monitor.read(transport::monotonic_now());
+    parts_.radio.air().place(parts_.rig.road().s_m);
+    say_words(now);
     if (auto problem = parts_.machine.advance(now)) return problem;
     tell_done();
     return parts_.cast.missing();
+  }
+
+  void say_words(Instant now) {
+    const auto& words = scenario_.operator_words;
+    for (; said_ < words.size() && Instant{} + words[said_].at <= now; ++said_) {
+      const std::string& text = words[said_].text;
+      parts_.desk.send_to({.port = plan_.operator_port},
+                          {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    }
   }
 
   void tell_done() {
@@ -167,11 +184,15 @@ class Live {
 
   void judge(Instant now) {
     const double offset_m = setup_.params.planning.line.offset_m;
+    const Air& air = parts_.radio.air();
     parts_.grader.observe(
         now, observe({.rig = parts_.rig,
-                      .car = parts_.radio.report(),
+                      .car = parts_.monitor.report(),
                       .line_offset_m = offset_m,
-                      .frames_lost = not_taken_ + parts_.bus.counters().rx_dropped_queue}));
+                      .frames_lost = not_taken_ + parts_.bus.counters().rx_dropped_queue,
+                      .radio_gap = air.silence(now).value_or(Duration{}),
+                      .radio_gap_max = air.longest_silence(now),
+                      .radio_limit = radio_limit_of(setup_.params)}));
     grading::add(result_.cross_track, parts_.rig.truth().speed_mps,
                  cross_track_m(parts_.rig, offset_m));
     result_.speed_max_mps = std::max(result_.speed_max_mps, parts_.rig.truth().speed_mps);
@@ -184,7 +205,10 @@ class Live {
     while (transport::monotonic_now() < until) {
       read_bus();
       heard_.clear();
-      parts_.radio.serve(transport::monotonic_now());
+      const Instant now = transport::monotonic_now();
+      parts_.radio.serve(
+          std::max(Instant{} + scenario_.duration, Instant{} + (now - clock_.started())));
+      parts_.monitor.read(now);
       transport::sleep_until(transport::monotonic_now() + milliseconds(2));
     }
   }
@@ -200,7 +224,7 @@ class Live {
     fill();
     if (const auto car = summary()) add_car(*car);
     close_record();
-    return LiveResult{result_, parts_.radio.counters()};
+    return LiveResult{result_, parts_.radio.counters(), parts_.monitor.packets()};
   }
 
   // Of a car that ended as told. Of one that was killed there is none, of one that we did not start
@@ -230,7 +254,7 @@ class Live {
     result_.real_time = clock_.report();
     result_.traffic.from_car = result_.traffic.bench_received;
     result_.traffic.lost = lost_here();
-    const CarReport& last = parts_.radio.report();
+    const CarReport& last = parts_.monitor.report();
     if (std::isfinite(last.gate_refusals))
       result_.gate_refusals = static_cast<std::uint64_t>(last.gate_refusals);
     if (std::isfinite(last.bus_refusals))
@@ -297,6 +321,7 @@ class Live {
   std::vector<can::Frame> frames_;
   WakeClock clock_;
   std::uint64_t not_taken_ = 0;
+  std::size_t said_ = 0;                         // of the operator's words
   std::size_t deeds_told_ = 0, steps_told_ = 0;  // of the cast, of the machine
   RunResult result_;
 };
@@ -313,6 +338,8 @@ Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
                                      const pipeline::Setup& setup, const LivePlan& plan) {
   if (auto problem = refused_by(BenchMode::kLive, scenario.faults))
     return Unexpected{*std::move(problem)};
+  for (const scenario::OperatorWord& word : scenario.operator_words)
+    if (const auto fit = intake::check_words(word.text); !fit) return Unexpected{fit.error()};
   auto faults = plan_faults(scenario.faults, scenario.seed);
   if (!faults) return Unexpected{faults.error()};
   auto rig = Rig::build(scenario, setup.track);
@@ -325,10 +352,18 @@ Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
   if (!machine) return Unexpected{machine.error()};
   auto bus = CanSocket::open(plan.interface);
   if (!bus) return Unexpected{bus.error()};
-  RadioPorts ports = plan.radio;
-  if (!plan.base.empty()) ports.onward = plan.base_port;
-  auto radio = RadioPath::open(ports);
+  std::vector<RadioPorts> ports(plan.radio.begin(),
+                                plan.radio.begin() + static_cast<std::ptrdiff_t>(plan.paths));
+  if (!plan.base.empty()) {
+    ports[0].onward = plan.base_port;
+    if (ports.size() > 1) ports[1].onward = plan.second_base_port;
+  }
+  auto radio = RadioPath::open(ports, Air{scenario.radio, faults->radio, scenario.seed});
   if (!radio) return Unexpected{radio.error()};
+  auto monitor = CarMonitor::open(plan.report_port);
+  if (!monitor) return Unexpected{monitor.error()};
+  auto desk = transport::UdpSocket::bind({});
+  if (!desk) return Unexpected{desk.error()};
   auto receivers = ReceiverPort::open(receiver_ports(plan));
   if (!receivers) return Unexpected{receivers.error()};
   transport::request_realtime(kPriority);
@@ -336,7 +371,7 @@ Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
               setup,
               plan,
               {*std::move(rig), *std::move(grader), *std::move(bus), *std::move(radio),
-               *std::move(receivers), *std::move(machine),
+               *std::move(monitor), *std::move(desk), *std::move(receivers), *std::move(machine),
                Cast{members_of(plan), script_of(faults->processes, Instant{} + scenario.duration)}}}
       .run();
 }

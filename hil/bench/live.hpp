@@ -3,9 +3,10 @@
 // Runs where the CAN interface exists (the kernel's, or the guest's; hil/guest decides that).
 //
 //   pitwall-vehicle <== CAN ==> live bench (plant, drive-by-wire, race control)
-//        ^  |                       |   ^
-//        |  '-- UDP, the radio -----'   '--> UDP, the radio's other end: the base station
-//        '----- UDP NovAtel bytes of two receivers
+//    ^   |   ^                   |    |   ^
+//    |   |   '-- UDP, radio -----'    |   '--> UDP, the radio's other end: the base station
+//    |   '------ local report --------'
+//    '---------- UDP NovAtel bytes of two receivers
 //
 //   in     scenario, Setup of the car, LivePlan
 //   out    RunResult with the same verdicts as lockstep; times are real. What the scenario did to
@@ -15,6 +16,8 @@
 //          told, and the run goes on
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+
+#include <cstdint>
 
 #include "hil/bench/live_plan.hpp"
 #include "hil/bench/result.hpp"
@@ -27,6 +30,7 @@ namespace pitwall::bench {
 struct LiveResult {
   RunResult run;
   RadioCounters radio;
+  std::uint64_t reports = 0;  // of the car, heard on this machine
 };
 
 Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,

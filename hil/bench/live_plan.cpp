@@ -19,15 +19,22 @@ Words shared_memory(const LivePlan& plan) {
   return plan.guardian.empty() ? Words{} : Words{"--guardian", plan.guardian_name};
 }
 
+std::string here(std::uint16_t port) { return "127.0.0.1:" + std::to_string(port); }
+
 // The car is told when nobody will answer it: else it would wait for its base before it arms.
-Words base_of_car(const LivePlan& plan) {
-  return plan.base.empty() && plan.radio.onward == 0 ? Words{"--no-base"} : Words{};
+Words radio_of_car(const LivePlan& plan) {
+  if (!plan.has_base()) return {"--no-base"};
+  Words words{"--keys", plan.keys + "/car.keys"};
+  for (std::size_t i = 0; i < plan.paths; ++i)
+    words = words + Words{"--radio", here(plan.radio[i].listen)};
+  return words;
 }
 
 Words car_command(const LivePlan& plan) {
   return plan.vehicle + Words{"--can", plan.interface} + receivers(plan.gnss_port) +
-         Words{"--radio", "127.0.0.1:" + std::to_string(plan.radio.listen)} + shared_memory(plan) +
-         base_of_car(plan) + Words{"--summary", plan.summary_of("vehicle"), "--simulation"};
+         radio_of_car(plan) + shared_memory(plan) +
+         Words{"--local-report", std::to_string(plan.report_port), "--summary",
+               plan.summary_of("vehicle"), "--simulation"};
 }
 
 Words guardian_command(const LivePlan& plan) {
@@ -37,8 +44,11 @@ Words guardian_command(const LivePlan& plan) {
 }
 
 Words base_command(const LivePlan& plan) {
-  return plan.base + Words{"--listen", "127.0.0.1:" + std::to_string(plan.base_port), "--json",
-                           plan.folder + "/base.json"};
+  Words words = plan.base + Words{"--listen", here(plan.base_port)};
+  if (plan.paths > 1) words = words + Words{"--listen", here(plan.second_base_port)};
+  if (plan.has_operator)
+    words = words + Words{"--operator-port", std::to_string(plan.operator_port)};
+  return words + Words{"--keys", plan.keys + "/base.keys", "--json", plan.folder + "/base.json"};
 }
 
 }  // namespace

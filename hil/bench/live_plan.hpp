@@ -12,11 +12,14 @@
 
 #include "hil/bench/cast.hpp"
 #include "hil/bench/radio_path.hpp"
+#include "hil/scenario/radio_section.hpp"
 #include "protocol/recording/mcap_writer.hpp"
 
 namespace pitwall::bench {
 
-inline constexpr std::uint16_t kRadioListenPort = 23'430;
+// Where the car's radio, its second path and its local report end on the bench's machine.
+inline constexpr std::uint16_t kRadioListenPort = 23'430, kSecondListenPort = 23'435,
+                               kReportPort = 23'436;
 
 struct LivePlan {
   std::string interface = "vcan0";
@@ -29,11 +32,21 @@ struct LivePlan {
   std::uint16_t gnss_port = 23'501;           // of unit 0; unit 1 is the next one
   std::uint16_t guardian_gnss_port = 23'503;  // likewise, of the guardian
   std::uint16_t base_port = 23'433;           // where a base station of our own listens
-  RadioPorts radio{.listen = kRadioListenPort, .onward = 0, .uplink = 0};
-  bool candump = false;  // record the bus with can-utils' candump
+  std::uint16_t second_base_port = 23'434;    // likewise, for the second path
+  std::uint16_t operator_port = 23'437;       // likewise, for what its operator says
+  std::uint16_t report_port = kReportPort;    // where the car tells us its state
+  std::array<RadioPorts, scenario::kMaxPaths> radio{
+      {{.listen = kRadioListenPort, .onward = 0, .uplink = 0},
+       {.listen = kSecondListenPort, .onward = 0, .uplink = 0}}};
+  std::size_t paths = 1;      // of the radio
+  bool has_operator = false;  // the base station of our own is told what to say
+  std::string keys{};         // folder of car.keys and base.keys
+  bool candump = false;       // record the bus with can-utils' candump
   recording::Sink log{};
 
   bool attached() const { return vehicle.empty(); }
+  // There is a base station for the car to hear: ours, or somebody's beyond `onward`.
+  bool has_base() const { return !base.empty() || radio[0].onward != 0; }
   // Where the car and the guardian leave their summaries: on the disk that fills up, if any.
   std::string summary_of(const std::string& who) const {
     return (disk.empty() ? folder : disk) + "/" + who + ".json";

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "basestation/intake/operator_words.hpp"
 #include "hil/bench/run_record.hpp"
 #include "hil/bench/signals.hpp"
 #include "hil/bench/virtual_station.hpp"
@@ -22,14 +23,14 @@ constexpr std::size_t kInboxFrames = 4096;  // a second of a full bus, and one t
 class Lockstep {
  public:
   Lockstep(const scenario::Scenario& scenario, const pipeline::Setup& setup, Rig rig,
-           grading::Grader grader, GuardianNode guardian, VirtualStation base,
+           grading::Grader grader, GuardianNode guardian, const FaultPlan& faults,
            const LockstepOptions& options)
       : scenario_(scenario),
         setup_(setup),
         rig_(std::move(rig)),
         grader_(std::move(grader)),
         guardian_(std::move(guardian)),
-        base_(std::move(base)),
+        base_(scenario, setup, faults),
         options_(options),
         bus_({.ports = kNodes, .bit_rate = 500'000}),
         car_(std::make_unique<pipeline::Car>()),
@@ -58,9 +59,7 @@ class Lockstep {
       base_.restart_car();
       stepped_at_ = now - setup_.params.rates.tick;
     }
-    const bool runs = guardian_.car_runs(now);
-    base_.step(now, runs);
-    if (runs) step_car(now);
+    if (guardian_.car_runs(now)) step_car(now);
     judge(*out_, now);
     note_changes(*out_, now);
     out_->chosen.mode_changed = false;
@@ -69,14 +68,15 @@ class Lockstep {
 
   void step_car(Instant now) {
     collect(rig_.take_samples());
-    out_ = options_.step(setup_, *car_,
-                         {.now = now,
-                          .dt = now - stepped_at_,
-                          .can = inbox_,
-                          .sensors = samples_,
-                          .requests = {.arm = guardian_.armed_from_the_start()},
-                          .radio_at = base_.alive_at(),
-                          .guardian = guardian_.view(now)});
+    pipeline::Inputs in{.now = now,
+                        .dt = now - stepped_at_,
+                        .can = inbox_,
+                        .sensors = samples_,
+                        .requests = {.arm = guardian_.armed_from_the_start()},
+                        .guardian = guardian_.view(now)};
+    base_.hear(in);
+    out_ = options_.step(setup_, *car_, in);
+    base_.tell(*car_, in, *out_);
     stepped_at_ = now;
     samples_ = {};
     result_.traffic.car_received += inbox_.size();
@@ -121,6 +121,7 @@ class Lockstep {
       if (bus_.offer(static_cast<std::uint8_t>(outgoing.from), outgoing.frame, at))
         ++result_.traffic.to_car;
     for (const bus::Delivery& delivery : bus_.advance(at)) deliver(delivery);
+    base_.advance(at);
     step_guardian(at);
   }
 
@@ -147,12 +148,17 @@ class Lockstep {
                            .y_m = out.ego.y_m,
                            .yaw_rad = out.ego.yaw_rad,
                            .identity = static_cast<double>(out.heard.bus.identity.verdict),
-                           .differing_id = static_cast<double>(out.heard.bus.identity.id)};
+                           .differing_id = static_cast<double>(out.heard.bus.identity.id),
+                           .cause = static_cast<double>(out.chosen.cause),
+                           .operator_limit_mps = out.speed_limit_mps};
     const double offset_m = setup_.params.planning.line.offset_m;
-    grader_.observe(
-        now,
-        observe(
-            {.rig = rig_, .car = report, .line_offset_m = offset_m, .frames_lost = frames_lost()}));
+    grader_.observe(now, observe({.rig = rig_,
+                                  .car = report,
+                                  .line_offset_m = offset_m,
+                                  .frames_lost = frames_lost(),
+                                  .radio_gap = base_.air().silence(now).value_or(Duration{}),
+                                  .radio_gap_max = base_.air().longest_silence(now),
+                                  .radio_limit = radio_limit_of(setup_.params)}));
     grading::add(result_.cross_track, rig_.truth().speed_mps, cross_track_m(rig_, offset_m));
     result_.speed_max_mps = std::max(result_.speed_max_mps, rig_.truth().speed_mps);
     follow(result_.outcome, whereabouts(rig_, offset_m, now));
@@ -200,6 +206,8 @@ class Lockstep {
     result_.simulated_s = scenario_.duration.seconds();
     result_.verdicts = grader_.finish();
     result_.laps = rig_.laps();
+    for (const std::string& refusal : base_.refusals())
+      result_.remarks.push_back("the operator was refused: " + refusal);
     result_.traffic.lost = frames_lost();
     result_.traffic.bus_load = bus_.load();
     if (record_) {
@@ -248,11 +256,12 @@ Result<RunResult, Problem> run_lockstep(const scenario::Scenario& scenario,
   if (!grader) return Unexpected{grader.error()};
   auto faults = plan_faults(scenario.faults, scenario.seed);
   if (!faults) return Unexpected{faults.error()};
-  VirtualStation base{base_faults(*faults)};
-  GuardianNode guardian{setup.params, std::move(faults->processes), options.guardian};
-  return Lockstep{scenario,        setup,  *std::move(rig), *std::move(grader), std::move(guardian),
-                  std::move(base), options}
-      .run();
+  for (const scenario::OperatorWord& word : scenario.operator_words)
+    if (const auto fit = intake::check_words(word.text); !fit) return Unexpected{fit.error()};
+  GuardianNode guardian{setup.params, faults->processes, options.guardian};
+  const auto bench = std::make_unique<Lockstep>(
+      scenario, setup, *std::move(rig), *std::move(grader), std::move(guardian), *faults, options);
+  return bench->run();
 }
 
 }  // namespace pitwall::bench

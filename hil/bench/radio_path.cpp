@@ -1,71 +1,65 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/bench/radio_path.hpp"
 
-#include <span>
+#include <algorithm>
+
+#include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::bench {
 
+using telemetry::PathId;
 using transport::kLoopbackIp;
 using transport::UdpSocket;
 
-Result<RadioPath, Problem> RadioPath::open(const RadioPorts& ports) {
-  auto to_car = UdpSocket::bind({.ip = kLoopbackIp, .port = ports.listen});
-  if (!to_car) return Unexpected{to_car.error()};
-  auto to_base = UdpSocket::bind({.ip = kLoopbackIp, .port = ports.uplink});
-  if (!to_base) return Unexpected{to_base.error()};
-  return RadioPath{*std::move(to_car), *std::move(to_base), ports.onward};
+Result<RadioPath, Problem> RadioPath::open(std::span<const RadioPorts> ports, Air air) {
+  CHECK(ports.size() == air.paths());
+  std::vector<Lane> lanes;
+  for (const RadioPorts& path : ports) {
+    auto to_car = UdpSocket::bind({.ip = kLoopbackIp, .port = path.listen});
+    if (!to_car) return Unexpected{to_car.error()};
+    auto to_base = UdpSocket::bind({.ip = kLoopbackIp, .port = path.uplink});
+    if (!to_base) return Unexpected{to_base.error()};
+    lanes.push_back({*std::move(to_car), *std::move(to_base), path.onward, std::nullopt});
+  }
+  return RadioPath{std::move(lanes), std::move(air)};
 }
 
-RadioPath::RadioPath(UdpSocket to_car, UdpSocket to_base, std::uint16_t onward)
-    : to_car_(std::move(to_car)),
-      to_base_(std::move(to_base)),
-      onward_(onward),
-      datagrams_(UdpSocket::kBatch) {}
+RadioPath::RadioPath(std::vector<Lane> lanes, Air air)
+    : lanes_(std::move(lanes)), air_(std::move(air)), datagrams_(UdpSocket::kBatch) {}
 
 void RadioPath::serve(Instant now) {
-  carry_down(now);
-  carry_up();
-  if (car_ && now - heard_at_ > kSilence) report_ = {.silent = true};
-}
-
-void RadioPath::carry_down(Instant now) {
-  const std::size_t count = to_car_.receive(datagrams_);
-  for (const auto& datagram : std::span(datagrams_).first(count)) {
-    if (onward_ != 0) to_base_.send_to({.ip = kLoopbackIp, .port = onward_}, datagram.payload());
-    const auto packet = telemetry::parse(datagram.payload());
-    if (!packet) {
-      ++counters_.refused;
-      continue;
-    }
-    ++counters_.packets;
-    car_ = datagram.from;
-    heard_at_ = now;
-    take(packet->values);
+  for (std::size_t i = 0; i < lanes_.size(); ++i) {
+    pick_up(lanes_[i], static_cast<PathId>(i), now);
+    deliver(lanes_[i], static_cast<PathId>(i), now);
   }
 }
 
-void RadioPath::carry_up() {
-  const std::size_t count = to_base_.receive(datagrams_);
-  for (const auto& datagram : std::span(datagrams_).first(count)) {
-    if (!car_) {
+void RadioPath::pick_up(Lane& lane, PathId path, Instant now) {
+  for (const auto& datagram : std::span(datagrams_).first(lane.to_car.receive(datagrams_))) {
+    ++counters_.from_car;
+    lane.car = datagram.from;
+    air_.offer(Way::kDown, path, datagram.payload(), now);
+  }
+  for (const auto& datagram : std::span(datagrams_).first(lane.to_base.receive(datagrams_))) {
+    ++counters_.from_base;
+    air_.offer(Way::kUp, path, datagram.payload(), now);
+  }
+}
+
+void RadioPath::deliver(Lane& lane, PathId path, Instant now) {
+  while (const auto datagram = air_.take(Way::kDown, path, now)) {
+    if (lane.onward == 0) continue;
+    lane.to_base.send_to({.ip = kLoopbackIp, .port = lane.onward}, datagram->bytes);
+    ++counters_.to_base;
+  }
+  while (const auto datagram = air_.take(Way::kUp, path, now)) {
+    if (!lane.car) {
       ++counters_.no_car;
       continue;
     }
-    to_car_.send_to(*car_, datagram.payload());
+    lane.to_car.send_to(*lane.car, datagram->bytes);
     ++counters_.to_car;
   }
-}
-
-void RadioPath::take(const telemetry::Values& v) {
-  using telemetry::field;
-  report_ = {.mode = v[field("mode.mode")],
-             .gate_refusals = v[field("bus.gate_refusals")],
-             .bus_refusals = v[field("bus.frames_refused")],
-             .x_m = v[field("ego.x")],
-             .y_m = v[field("ego.y")],
-             .yaw_rad = v[field("ego.yaw")],
-             .identity = v[field("bus.identity")],
-             .differing_id = v[field("bus.differing_id")]};
 }
 
 }  // namespace pitwall::bench

@@ -13,6 +13,8 @@ void set(SignalValues& values, Signal signal, double value) {
   values[static_cast<std::size_t>(signal)] = value;
 }
 
+constexpr double kNoLimit_mps = 1'000.0;
+
 // NaN meets no condition, and before the car has spoken there is nothing to judge: the numbers that
 // a condition would compare are then those of a car that did nothing wrong yet.
 double or_zero(double value) { return std::isnan(value) ? 0.0 : value; }
@@ -28,6 +30,21 @@ void add_car_report(SignalValues& v, const CarReport& car, const plant::Truth& t
   said(Signal::kYawError, std::abs(wrap_pi(car.yaw_rad - truth.yaw_rad)));
   said(Signal::kIdentity, car.identity);
   said(Signal::kDifferingId, car.differing_id);
+  said(Signal::kStopCause, car.cause);
+  said(Signal::kOperatorLimit,
+       std::isnan(car.operator_limit_mps) ? kNoLimit_mps : car.operator_limit_mps);
+}
+
+// The car counts from when it is sure that the base lived, so its gap is longer by what it does not
+// know of the base's clock: up to half of a round trip.
+constexpr Duration kGapTolerance = milliseconds(150);
+
+void add_radio(SignalValues& v, const SignalSources& from) {
+  set(v, Signal::kRadioGap, from.radio_gap.seconds());
+  set(v, Signal::kRadioGapMax, from.radio_gap_max.seconds());
+  const bool stopped = from.car.cause == static_cast<double>(safety::Cause::kRadioLost);
+  const bool explained = from.radio_gap_max + kGapTolerance >= from.radio_limit;
+  set(v, Signal::kRadioStopUnexplained, stopped && !explained ? 1.0 : 0.0);
 }
 
 constexpr double kSlipSpeed_mps = 5.0;  // slower, the direction of motion says little
@@ -50,6 +67,12 @@ grading::Kind kind_of(scenario::ExpectKind kind) {
 }
 
 }  // namespace
+
+Duration radio_limit_of(const pipeline::CarParams& params) {
+  safety::WatchdogParams watchdog = params.watchdog;
+  const Duration stop = watchdog[safety::Stream::kRadio].bad;
+  return params.radio.ladder.no_comm_drives ? stop : std::min(stop, params.radio.ladder.no_comm);
+}
 
 double cross_track_m(const Rig& rig, double line_offset_m) {
   return rig.road().n_m - line_offset_m;
@@ -93,6 +116,7 @@ SignalValues observe(const SignalSources& from) {
   set(v, Signal::kActuatorFrames, static_cast<double>(from.rig.actuator_frames()));
   set(v, Signal::kDeceleration, -truth.specific_force_mps2[0]);
   add_car_report(v, from.car, truth);
+  add_radio(v, from);
   return v;
 }
 

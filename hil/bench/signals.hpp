@@ -16,6 +16,7 @@
 #include "hil/grading/expectation.hpp"
 #include "hil/scenario/scenario.hpp"
 #include "protocol/vocabulary/result.hpp"
+#include "vehicle/pipeline/setup.hpp"
 
 namespace pitwall::bench {
 
@@ -47,9 +48,15 @@ enum class Signal : std::uint8_t {
   kIdentity,     // of the bus, as the car sees it: 0 listening, 1 right, 2 wrong
   kDifferingId,  // the first CAN id that is not as in the car's database; 0: none
   kActuatorFrames,  // commands to brake, accelerator, steering and gear that were on the bus
-  kDeceleration     // of the truth along the car; negative while it speeds up
+  kDeceleration,    // of the truth along the car; negative while it speeds up
+  kStopCause,       // of the car: what stopped it first, by its number; 0: nothing
+  kOperatorLimit,   // that the car heeds of its operator; 1000 where there is none
+  kRadioGap,        // since the newest datagram of the base that reached the car was sent
+  kRadioGapMax,     // the longest of the run
+  // 1: the car stopped for its base station, but the air has no gap as long as the car's limit
+  kRadioStopUnexplained
 };
-inline constexpr std::size_t kSignals = 28;
+inline constexpr std::size_t kSignals = 33;
 
 inline constexpr std::array<std::string_view, kSignals> kSignalNames{"speed_mps",
                                                                      "station_m",
@@ -78,7 +85,12 @@ inline constexpr std::array<std::string_view, kSignals> kSignalNames{"speed_mps"
                                                                      "identity",
                                                                      "differing_id",
                                                                      "actuator_frames",
-                                                                     "deceleration_mps2"};
+                                                                     "deceleration_mps2",
+                                                                     "stop_cause",
+                                                                     "operator_limit_mps",
+                                                                     "radio_gap_s",
+                                                                     "radio_gap_max_s",
+                                                                     "radio_stop_unexplained"};
 
 // What the car says of itself. Unset until it has said something; silent: it has spoken before and
 // no longer does, so nothing is known, which meets no condition.
@@ -86,6 +98,7 @@ struct CarReport {
   double mode = kUnset, gate_refusals = kUnset, bus_refusals = kUnset;
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
   double identity = kUnset, differing_id = kUnset;
+  double cause = kUnset, operator_limit_mps = kUnset;
   bool silent = false;
 };
 
@@ -96,7 +109,12 @@ struct SignalSources {
   const CarReport& car;
   double line_offset_m = 0.0;  // of the line from the track's reference line
   std::uint64_t frames_lost = 0;
+  Duration radio_gap{}, radio_gap_max{};  // by the air's own record
+  Duration radio_limit{};                 // of the car: it stops after a longer gap
 };
+
+// The gap after which the car stops, as its file has it.
+Duration radio_limit_of(const pipeline::CarParams& params);
 
 SignalValues observe(const SignalSources& from);
 double cross_track_m(const Rig& rig, double line_offset_m);

@@ -2,67 +2,150 @@
 #include "hil/bench/virtual_station.hpp"
 
 #include <algorithm>
-#include <iterator>
+#include <utility>
+
+#include "basestation/intake/operator_words.hpp"
+#include "protocol/telemetry/delivery/path_object.hpp"
 
 namespace pitwall::bench {
 namespace {
 
-using faults::BenchFault;
 using faults::BenchFaultKind;
+using telemetry::Address;
+using telemetry::PathId;
 
-constexpr Duration kPacketPeriod = seconds(1) / telemetry::kStateRate_hz;
+constexpr std::uint32_t kHere = 0x7F000001;
+constexpr std::uint16_t kBasePort = 23'431;
+constexpr Duration kEarly = milliseconds(2);  // as vehicle/io/radio.hpp
 
-bool concerns_base(const BenchFault& fault) {
-  switch (fault.kind) {
-    case BenchFaultKind::kBaseKilled:
-    case BenchFaultKind::kBasePaused:
-    case BenchFaultKind::kBaseStationSilent:
-    case BenchFaultKind::kRadioDown:
-      return true;
-    default:
-      return false;
-  }
+std::uint8_t paths_of(const scenario::Scenario& scenario) {
+  return static_cast<std::uint8_t>(std::max<std::size_t>(1, scenario.radio.size()));
 }
 
 }  // namespace
 
-std::vector<BenchFault> base_faults(const FaultPlan& plan) {
-  std::vector<BenchFault> found;
-  for (const auto* part : {&plan.models, &plan.processes})
-    std::copy_if(part->begin(), part->end(), std::back_inserter(found), concerns_base);
-  return found;
+telemetry::ConduitConfig conduit_of(const pipeline::RadioParams& params,
+                                    const telemetry::KeyFile& keys, std::uint8_t paths) {
+  telemetry::ConduitConfig config;
+  config.association.keys = keys;
+  config.association.greeting.signed_only = params.signed_only;
+  config.association.paths = paths;
+  for (std::size_t i = 0; i < paths; ++i) {
+    const pipeline::RadioPathParams path =
+        i < params.paths.size() ? params.paths[i] : pipeline::RadioPathParams{};
+    config.budget[i] = {.bytes_per_s = path.bytes_per_s,
+                        .packets_per_s = path.packets_per_s,
+                        .safety_bytes_per_s = path.safety_bytes_per_s};
+    if (keys.role == telemetry::Role::kCar)
+      config.association.peer[i] = {kHere, static_cast<std::uint16_t>(kBasePort + i)};
+  }
+  return config;
 }
 
-bool VirtualStation::active(BenchFaultKind kind, Instant now) const {
-  return std::any_of(faults_.begin(), faults_.end(), [&](const BenchFault& fault) {
-    return fault.kind == kind && faults::active(fault, now);
+VirtualStation::VirtualStation(const scenario::Scenario& scenario, const pipeline::Setup& setup,
+                               const FaultPlan& faults)
+    : scenario_(scenario),
+      setup_(setup),
+      processes_(faults.processes),
+      randomness_(scenario.seed),
+      air_(scenario.radio, faults.radio, scenario.seed) {
+  car_keys_.role = telemetry::Role::kCar;
+  base_keys_.role = telemetry::Role::kBase;
+  car_keys_.own = telemetry::make_identity(randomness_);
+  base_keys_.own = telemetry::make_identity(randomness_);
+  car_keys_.peer = base_keys_.own.public_key;
+  base_keys_.peer = car_keys_.own.public_key;
+  restart_car();
+  start_base();
+}
+
+bool VirtualStation::active(BenchFaultKind kind, Instant at) const {
+  return std::any_of(processes_.begin(), processes_.end(), [&](const faults::BenchFault& fault) {
+    return fault.kind == kind && faults::active(fault, at);
   });
 }
 
-void VirtualStation::hear_car(Instant now) {
-  if (now < next_packet_) return;
-  next_packet_ = now + kPacketPeriod;
-  said_.sent = now;
-  ++said_.sequence;
-  uplink_.heard(said_, now);
-}
-
-void VirtualStation::step(Instant now, bool car_runs) {
-  const bool killed = active(BenchFaultKind::kBaseKilled, now);
-  if (was_killed_ && !killed) uplink_ = intake::Uplink{++run_};
-  was_killed_ = killed;
-  if (killed || active(BenchFaultKind::kBasePaused, now)) return;
-  const bool radio = !active(BenchFaultKind::kRadioDown, now);
-  if (radio && car_runs) hear_car(now);
-  const auto heartbeat = uplink_.poll(now);
-  const bool heard = radio && !active(BenchFaultKind::kBaseStationSilent, now);
-  if (heard && !heartbeat.empty()) ear_.feed(heartbeat, now);
-}
-
 void VirtualStation::restart_car() {
-  ++said_.run;
-  said_.sequence = 0;
-  ear_ = telemetry::HeartbeatIntake{said_.run};
+  car_.emplace(conduit_of(setup_.params.radio, car_keys_, paths_of(scenario_)), randomness_);
+  desk_.emplace();
+  log_ = {};
+  to_car_.clear();
+  car_port_ = static_cast<std::uint16_t>(car_port_ + telemetry::kPaths);
+}
+
+void VirtualStation::start_base() {
+  base_.emplace(conduit_of(setup_.params.radio, base_keys_, paths_of(scenario_)), randomness_);
+}
+
+void VirtualStation::advance(Instant at) {
+  if (active(BenchFaultKind::kBaseKilled, at)) {
+    base_.reset();
+    to_base_.clear();
+  } else if (!base_) {
+    start_base();
+  }
+  collect(Way::kDown, to_base_, at);
+  if (base_ && !active(BenchFaultKind::kBasePaused, at)) serve_base(at);
+  collect(Way::kUp, to_car_, at);
+}
+
+// What nobody waits for is lost, as it is with a port that nobody has opened.
+void VirtualStation::collect(Way way, std::deque<Waiting>& queue, Instant at) {
+  for (PathId path = 0; path < air_.paths(); ++path)
+    while (auto datagram = air_.take(way, path, at))
+      if (way == Way::kUp || base_) queue.push_back({path, *std::move(datagram)});
+}
+
+void VirtualStation::serve_base(Instant at) {
+  const auto answer = [&] {
+    while (const auto out = base_->poll(base_time(at)))
+      air_.offer(Way::kUp, out->path, out->bytes, at);
+  };
+  for (const Waiting& came : std::exchange(to_base_, {})) {
+    base_->feed(came.datagram.bytes, came.path,
+                {kHere, static_cast<std::uint16_t>(car_port_ + came.path)},
+                base_time(came.datagram.arrives));
+    answer();
+  }
+  say_words(at);
+  answer();
+  while (const auto event = base_->next_event()) events_.push_back(*event);
+  while (const auto object = base_->next_bulk())
+    if (object->kind == telemetry::BulkKind::kPath && telemetry::decode_path(object->bytes))
+      ++paths_heard_;
+}
+
+void VirtualStation::say_words(Instant at) {
+  const auto& words = scenario_.operator_words;
+  for (; said_ < words.size() && Instant{} + words[said_].at <= at; ++said_) {
+    const auto obeyed = intake::obey(*base_, words[said_].text, base_time(at));
+    if (!obeyed) {
+      refusals_.push_back(to_string(obeyed.error()));
+    } else if (obeyed->command) {
+      commands_.push_back(*obeyed->command);
+    }
+  }
+}
+
+void VirtualStation::hear(pipeline::Inputs& in) {
+  for (const Waiting& came : std::exchange(to_car_, {}))
+    car_->feed(came.datagram.bytes, came.path,
+               {kHere, static_cast<std::uint16_t>(kBasePort + came.path)}, came.datagram.arrives);
+  desk_->fill(*car_, in);
+}
+
+void VirtualStation::tell(const pipeline::Car& car, const pipeline::Inputs& in,
+                          const pipeline::Outputs& out) {
+  log_.note(in, out, setup_.track.length_m());
+  desk_->take(*car_, setup_, car, out, in.now);
+  if (car_->due() > in.now + kEarly) return;
+  pipeline::RimCounters figures;
+  figures.steps = car.ticks;
+  desk_->show(*car_, figures, in.now);
+  const telemetry::Snapshot snapshot = pipeline::tap(
+      {.setup = setup_, .car = car, .out = out, .log = log_, .rim = figures, .now = in.now});
+  while (const auto datagram = car_->poll(snapshot, in.now))
+    air_.offer(Way::kDown, datagram->path, datagram->bytes, in.now);
 }
 
 }  // namespace pitwall::bench

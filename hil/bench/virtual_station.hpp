@@ -1,52 +1,98 @@
-// A base station for lockstep: the base's own uplink and the car's own ear, with nothing between
-// them but the faults of the scenario. The radio takes no time.
-//   in     the faults that concern base or radio; each tick of the bench, and whether the car runs
-//   out    alive_at(), as pipeline::Inputs has it
-//   law    base_killed: silent; started again at its end, as another run. base_paused: silent, and
-//          goes on. base_station_silent: hears, but is not heard. radio_down: neither way
+// Radio and base station of lockstep: the car's own end of the radio and its desk, the base's end,
+// and the air of the scenario between them, in virtual time. What the operator says is in the
+// scenario.
+//   in     scenario, Setup, faults; time; Inputs before and Outputs after each tick of the car
+//   out    Inputs as the rim of the real car fills them; the base's picture
+//   law    one seed, one run. base_killed: the base is gone, and begins as another run at the
+//          fault's end. base_paused: it hears nothing and says nothing; what came meanwhile waits
+//          for it. A car that is stopped likewise. The base's clock is not the car's
+//   errors what the operator said in vain is in refusals()
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
-#include <utility>
+#include <string>
 #include <vector>
 
-#include "basestation/intake/uplink.hpp"
+#include "hil/bench/air.hpp"
 #include "hil/bench/fault_plan.hpp"
-#include "hil/faults/bench_fault.hpp"
-#include "protocol/telemetry/heartbeat_intake.hpp"
+#include "hil/scenario/scenario.hpp"
+#include "protocol/telemetry/endpoint/car_endpoint.hpp"
+#include "protocol/telemetry/endpoint/station_endpoint.hpp"
+#include "protocol/telemetry/session/keys.hpp"
+#include "protocol/telemetry/session/randomness.hpp"
 #include "protocol/vocabulary/time.hpp"
+#include "vehicle/pipeline/radio_desk.hpp"
+#include "vehicle/pipeline/tick_log.hpp"
 
 namespace pitwall::bench {
 
-// Those of a plan that a virtual base carries out.
-std::vector<faults::BenchFault> base_faults(const FaultPlan& plan);
+// What a base is told with fixed parameters: the budgets of the car file hold at both ends.
+telemetry::ConduitConfig conduit_of(const pipeline::RadioParams& params,
+                                    const telemetry::KeyFile& keys, std::uint8_t paths);
 
 class VirtualStation {
  public:
-  explicit VirtualStation(std::vector<faults::BenchFault> faults) : faults_(std::move(faults)) {
-    restart_car();
-  }
+  VirtualStation(const scenario::Scenario& scenario, const pipeline::Setup& setup,
+                 const FaultPlan& faults);
+  // Its parts know each other's places.
+  VirtualStation(const VirtualStation&) = delete;
+  VirtualStation& operator=(const VirtualStation&) = delete;
 
-  void step(Instant now, bool car_runs);
+  // The base and the air, once per step of the rig.
+  void advance(Instant at);
+  // The car's rim: before its step, and after it.
+  void hear(pipeline::Inputs& in);
+  void tell(const pipeline::Car& car, const pipeline::Inputs& in, const pipeline::Outputs& out);
   // The car's process begins anew: it has heard nothing yet.
   void restart_car();
 
-  std::optional<Instant> alive_at() const { return ear_.alive_at(); }
-  const telemetry::HeartbeatCounters& heartbeats() const { return ear_.counters(); }
+  Air& air() { return air_; }
+  const Air& air() const { return air_; }
+  telemetry::CarEndpoint& car() { return *car_; }
+  const telemetry::CarEndpoint& car() const { return *car_; }
+  // None while it is dead.
+  telemetry::StationEndpoint* base() { return base_ ? &*base_ : nullptr; }
+  Instant base_time(Instant at) const { return at + kBaseAhead; }
+
+  const std::vector<std::string>& refusals() const { return refusals_; }
+  const std::vector<telemetry::CommandId>& commands() const { return commands_; }
+  const std::vector<telemetry::Event>& events() const { return events_; }  // that the base heard
+  std::uint64_t paths_heard() const { return paths_heard_; }  // that the car means to drive
 
  private:
-  bool active(faults::BenchFaultKind kind, Instant now) const;
-  void hear_car(Instant now);
+  static constexpr Duration kBaseAhead = seconds(12'345);
 
-  std::vector<faults::BenchFault> faults_;
-  telemetry::StatePacket said_;  // what the car would send; its values do not matter
-  Instant next_packet_{};
-  bool was_killed_ = false;
-  std::uint32_t run_ = 1;
-  intake::Uplink uplink_{run_};
-  telemetry::HeartbeatIntake ear_{0};
+  struct Waiting {
+    telemetry::PathId path = 0;
+    link::Datagram datagram;
+  };
+
+  bool active(faults::BenchFaultKind kind, Instant at) const;
+  void start_base();
+  void collect(Way way, std::deque<Waiting>& queue, Instant at);
+  void serve_base(Instant at);
+  void say_words(Instant at);
+
+  const scenario::Scenario& scenario_;
+  const pipeline::Setup& setup_;
+  std::vector<faults::BenchFault> processes_;
+  telemetry::SeededRandomness randomness_;
+  Air air_;
+  telemetry::KeyFile car_keys_, base_keys_;
+  std::optional<telemetry::CarEndpoint> car_;
+  std::optional<telemetry::StationEndpoint> base_;
+  std::optional<pipeline::RadioDesk> desk_;
+  pipeline::TickLog log_;
+  std::deque<Waiting> to_car_, to_base_;
+  std::uint16_t car_port_ = 40'000;
+  std::size_t said_ = 0;
+  std::vector<std::string> refusals_;
+  std::vector<telemetry::CommandId> commands_;
+  std::vector<telemetry::Event> events_;
+  std::uint64_t paths_heard_ = 0;
 };
 
 }  // namespace pitwall::bench

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "hil/bench/loading.hpp"
+#include "hil/bench/run_keys.hpp"
 #include "hil/guest/bus_verb.hpp"
 #include "hil/verbs/command_line.hpp"
 #include "hil/verbs/exit_code.hpp"
@@ -47,6 +48,7 @@ Result<transport::Process, Problem> start_base(const DemoOptions& options) {
       (fs::path(own_program()).parent_path().parent_path() / "basestation/pitwall-base").string();
   std::vector<std::string> words{program,    "--text",
                                  "--listen", "127.0.0.1:" + std::to_string(kBasePort),
+                                 "--keys",   options.folder + "/keys/base.keys",
                                  "--json",   options.folder + "/base.json"};
   if (!options.headless) return transport::Process::spawn({.argv = words});
   words.emplace_back("--plain");
@@ -64,6 +66,7 @@ int run_live(const DemoOptions& options) {
   run.duration = from_seconds(options.duration_s);
   run.radio_port = kGuestRadioPort;
   run.uplink_port = kGuestUplinkPort;
+  run.keys = options.folder + "/keys";
   run.candump = true;
   std::vector<std::string> exec{
       "exec",        "--auto",
@@ -133,6 +136,8 @@ int demo(const DemoOptions& options) {
   std::error_code error;
   fs::create_directories(options.folder, error);
   if (error) return refuse({options.folder, error.message()});
+  if (const auto made = bench::make_run_keys(options.folder + "/keys"); !made)
+    return refuse(made.error());
   std::printf(
       "SIMULATION: %s for %.0f s in real time. The car, the bench and the base station are\n"
       "separate processes; the tyres start at working temperature.\n",

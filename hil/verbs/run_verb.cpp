@@ -15,6 +15,7 @@
 #include "hil/bench/loading.hpp"
 #include "hil/bench/lockstep.hpp"
 #include "hil/bench/machine.hpp"
+#include "hil/bench/run_keys.hpp"
 #include "hil/guest/bus_verb.hpp"
 #include "hil/guest/own_hub.hpp"
 #include "hil/verbs/command_line.hpp"
@@ -45,12 +46,14 @@ std::string timing_text(const bench::LiveResult& live) {
   std::snprintf(
       text, sizeof text,
       "bench wake-up late by p50 %.0f us, p99 %.0f us, max %.0f us; %llu wake-ups caught up, at "
-      "most %.0f ms behind; telemetry %llu packets, %llu refused; %llu datagrams of the base to "
-      "the car\n",
+      "most %.0f ms behind; %llu reports of the car; radio: %llu datagrams of the car, %llu "
+      "arrived, %llu of the base, %llu arrived\n",
       time.wake_late_p50_us, time.wake_late_p99_us, time.wake_late_max_us,
       static_cast<unsigned long long>(time.caught_up_wakes), time.behind_max.milliseconds(),
-      static_cast<unsigned long long>(live.radio.packets),
-      static_cast<unsigned long long>(live.radio.refused),
+      static_cast<unsigned long long>(live.reports),
+      static_cast<unsigned long long>(live.radio.from_car),
+      static_cast<unsigned long long>(live.radio.to_base),
+      static_cast<unsigned long long>(live.radio.from_base),
       static_cast<unsigned long long>(live.radio.to_car));
   return text;
 }
@@ -87,16 +90,25 @@ bool names(const scenario::Scenario& scenario, std::initializer_list<const char*
   });
 }
 
-// A base station of our own where the scenario is about one, or about a clock that it has too.
+// A base station of our own where the scenario is about one, about the radio, or about a clock that
+// it has too.
+bool needs_base(const scenario::Scenario& scenario) {
+  return !scenario.radio.empty() || !scenario.operator_words.empty() ||
+         names(scenario, {"base_killed", "base_paused", "clock_step", "radio_down", "radio_loss",
+                          "radio_delay", "base_station_silent"});
+}
+
 bench::LivePlan plan_of(const RunOptions& options, const scenario::Scenario& scenario) {
   bench::LivePlan plan{.interface = options.interface,
                        .folder = options.folder,
                        .guardian_name = "pitwall-live",
-                       .radio = {.listen = bench::kRadioListenPort,
-                                 .onward = options.radio_port,
-                                 .uplink = options.uplink_port},
+                       .paths = std::max<std::size_t>(1, scenario.radio.size()),
+                       .has_operator = !scenario.operator_words.empty(),
+                       .keys = options.keys.empty() ? options.folder + "/keys" : options.keys,
                        .candump = options.candump};
-  if (names(scenario, {"base_killed", "base_paused", "clock_step"}))
+  plan.radio[0].onward = options.radio_port;
+  plan.radio[0].uplink = options.uplink_port;
+  if (options.radio_port == 0 && needs_base(scenario))
     plan.base = {beside("basestation/pitwall-base")};
   if (options.attach) return plan;
   plan.vehicle = {beside("vehicle/pitwall-vehicle"), "--car", scenario.car_file, "--track",
@@ -120,6 +132,8 @@ Result<bench::RunResult, Problem> live(const RunOptions& options, const bench::L
   fs::create_directories(options.folder, error);
   if (error) return Unexpected{Problem{options.folder, error.message()}};
   bench::LivePlan plan = plan_of(options, loaded.scenario);
+  if (options.keys.empty() && plan.has_base() && !plan.attached())
+    if (const auto made = bench::make_run_keys(plan.keys); !made) return Unexpected{made.error()};
   std::string log_file = options.log_file;
   if (!plan.disk.empty()) {
     if (const auto mounted = bench::mount_disk(plan.disk); !mounted)
@@ -161,6 +175,7 @@ std::vector<std::string> live_command(const RunOptions& options) {
     command.push_back(flag);
     command.push_back(value);
   };
+  add("--keys", options.keys);
   add("--report", options.report_folder);
   if (options.report_folder.empty()) {
     add("--log", options.log_file);
@@ -229,8 +244,11 @@ int run_verb(std::span<const std::string> args) {
   app.add_option("--out", options.folder,
                  "live: folder for the car's summary and the candump; default " + options.folder);
   app.add_flag("--candump", options.candump, "live: record the bus with candump");
-  app.add_option("--radio-port", options.radio_port, "live: pass telemetry on to this port");
+  app.add_option("--radio-port", options.radio_port,
+                 "live: pass the car's datagrams on to this port");
   app.add_option("--uplink-port", options.uplink_port, "live: answers of the base come here");
+  app.add_option("--keys", options.keys,
+                 "live: folder of car.keys and base.keys; default: new ones for this run");
   const auto* duration = app.add_option("--duration", duration_s, "seconds, instead of the file's")
                              ->check(CLI::Range(0.1, 36'000.0));
   const auto* with_seed =

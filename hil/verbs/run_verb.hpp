@@ -32,6 +32,7 @@ struct RunOptions {
   std::string interface = "vcan0";
   std::uint16_t radio_port = 0;   // live: where the bench passes the car's telemetry on
   std::uint16_t uplink_port = 0;  // live: where answers of the base come; 0: any port
+  std::string keys;               // live: folder of the run's keys; empty: new ones
 };
 
 int run_scenario(const RunOptions& options);

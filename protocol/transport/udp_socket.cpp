@@ -92,6 +92,13 @@ Result<UdpSocket, Problem> UdpSocket::bind(UdpAddress local, const UdpSocketOpti
   UdpSocket udp{FileDescriptor(made)};
   const int on = 1;
   if (options.reuse_address) static_cast<void>(set_option(udp.fd(), SO_REUSEADDR, on));
+  constexpr int kDscpShift = 2;  // the lower two bits are congestion notification
+  const int service = options.dscp << kDscpShift;
+  if (service != 0) {
+    const auto marked = posix_call(
+        [&] { return setsockopt(udp.fd(), IPPROTO_IP, IP_TOS, &service, sizeof service); });
+    if (!marked.ok()) return refuse(marked);
+  }
   for (const auto& outcome :
        {set_option(udp.fd(), SO_TIMESTAMPNS, on), set_option(udp.fd(), SO_RXQ_OVFL, on),
         set_option(udp.fd(), SO_RCVBUF, options.receive_buffer_bytes)})

@@ -50,6 +50,7 @@ struct UdpDatagram {
 struct UdpSocketOptions {
   int receive_buffer_bytes = 1 << 20;
   bool reuse_address = false;
+  std::uint8_t dscp = 0;  // differentiated services code point of what is sent; [0, 63]
 };
 
 struct UdpCounters {

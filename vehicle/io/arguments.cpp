@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "protocol/telemetry/packet/body.hpp"
+
 namespace pitwall::io {
 
 inline constexpr int kExitUsage = 2;
@@ -23,7 +25,14 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
       ->check(CLI::Range(1, kPortMax))
       ->expected(static_cast<int>(world::kGnssUnits))
       ->required();
-  app.add_option("--radio", args.radio, "where telemetry goes, ADDRESS:PORT");
+  app.add_option("--radio", args.radio,
+                 "where the base station is reached, ADDRESS:PORT; once more for a second path")
+      ->expected(1, static_cast<int>(telemetry::kPaths))
+      ->capture_default_str();
+  app.add_option("--keys", args.keys, "key file of this car (pitwall-base keygen FOLDER makes it)");
+  app.add_option("--local-report", args.local_report,
+                 "tell programs on this machine the car's state, unsealed: a port on 127.0.0.1")
+      ->check(CLI::Range(1, kPortMax));
   app.add_option("--summary", args.summary_file, "write counters and timing here at the end");
   app.add_option("--guardian", args.guardian,
                  "name of the record shared with pitwall-guardian (a file in /dev/shm, or a path)");
@@ -34,6 +43,11 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   app.add_flag("--arm", args.arm, "armed from the start (bench)");
   try {
     app.parse(argc, argv);
+    if (args.keys.empty() && !args.no_base && !args.check)
+      throw CLI::ValidationError(
+          "--keys",
+          "the radio needs keys: make them once with `pitwall-base keygen FOLDER` and give the "
+          "car FOLDER/car.keys (or --no-base, for a bench)");
     if (ports[0] == ports[1])
       throw CLI::ValidationError("--gnss", "the receivers need two different ports");
   } catch (const CLI::ParseError& error) {

@@ -1,4 +1,5 @@
 // The command line of pitwall-vehicle.
+//   law    a car whose base station is watched has keys: without them nothing starts
 //   errors wrong usage: text on stderr and exit code 2 (0 for --help)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -8,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "vehicle/world/sensor_input.hpp"
 
@@ -17,13 +19,15 @@ struct Arguments {
   std::string car_file, track_file;
   std::string can_interface;
   std::array<std::uint16_t, world::kGnssUnits> gnss_ports{};
-  std::string radio = "127.0.0.1:23431";
-  std::string summary_file;  // empty: none
-  std::string guardian;      // name of the record shared with the guardian; empty: there is none
-  bool simulation = false;   // marks the telemetry; decides nothing
-  bool no_base = false;      // no base station: none is needed to arm, none is missed (benches)
-  bool check = false;        // read the files, say what is wrong with them, and stop
-  bool arm = false;  // armed from the start: for benches, until an operator can arm by radio
+  std::vector<std::string> radio{"127.0.0.1:23431"};  // where the base is reached, by path
+  std::string keys;                                   // file of the car's keys
+  std::uint16_t local_report = 0;                     // port on loopback; 0: nobody is told
+  std::string summary_file;                           // empty: none
+  std::string guardian;     // name of the record shared with the guardian; empty: there is none
+  bool simulation = false;  // marks the telemetry; decides nothing
+  bool no_base = false;     // no base station: none is needed to arm, none is missed (benches)
+  bool check = false;       // read the files, say what is wrong with them, and stop
+  bool arm = false;         // armed from the start, as by a switch at the car (bench)
 };
 
 // Arguments, or the code to exit with.

@@ -11,30 +11,18 @@ namespace {
 // More than the receive queue of the socket holds (21,846 frames): what waits after a stall is read
 // at once, else the newest frames would be taken for lost.
 constexpr std::size_t kFramesPerRead = 22'528;
-// Ten a second come; what a flood brings more waits for the next tick.
-constexpr std::size_t kHeartbeatsPerRead = transport::UdpSocket::kBatch;
-constexpr Duration kRoundTripKept = seconds(1);
 
 }  // namespace
 
 Rim::Rim(transport::CanSocket can, std::unique_ptr<BusWatch> watch,
-         std::vector<transport::UdpSocket> gnss, transport::UdpSocket radio,
-         transport::UdpAddress base, bool simulation)
+         std::vector<transport::UdpSocket> gnss)
     : can_(std::move(can)),
       watch_(std::move(watch)),
       gnss_(std::move(gnss)),
       receivers_{GnssInput{{.unit = 0}}, GnssInput{{.unit = 1}}},
-      radio_(std::move(radio)),
-      base_(base),
-      frames_(kFramesPerRead),
-      source_(simulation ? telemetry::Source::kSimulation : telemetry::Source::kCar),
-      run_(telemetry::run_number({transport::utc_now().ns})),
-      base_heard_(run_),
-      from_base_(kHeartbeatsPerRead) {}
+      frames_(kFramesPerRead) {}
 
 Result<Rim, Problem> Rim::open(const Arguments& args) {
-  const auto base = transport::parse_udp_address(args.radio);
-  if (!base) return Unexpected{base.error()};
   auto can = transport::CanSocket::open(args.can_interface);
   if (!can) return Unexpected{can.error()};
   auto watch = BusWatch::start(args.can_interface);
@@ -45,11 +33,7 @@ Result<Rim, Problem> Rim::open(const Arguments& args) {
     if (!socket) return Unexpected{socket.error()};
     gnss.push_back(*std::move(socket));
   }
-  auto radio = transport::UdpSocket::bind(
-      {.ip = base->ip == transport::kLoopbackIp ? transport::kLoopbackIp : transport::kAnyIp});
-  if (!radio) return Unexpected{radio.error()};
-  return Rim{*std::move(can), *std::move(watch), std::move(gnss), *std::move(radio),
-             *base,           args.simulation};
+  return Rim{*std::move(can), *std::move(watch), std::move(gnss)};
 }
 
 Rim::Heard Rim::read() {
@@ -62,22 +46,7 @@ Rim::Heard Rim::read() {
     if (receive(gnss_[unit], receivers_[unit], heard.sensors) > 0)
       gnss_byte_at_[unit] = transport::monotonic_now();
   heard.gnss_byte_at = gnss_byte_at_;
-  listen_to_base();
-  heard.radio_at = base_heard_.alive_at();
   return heard;
-}
-
-void Rim::listen_to_base() {
-  const std::size_t count = radio_.receive(from_base_);
-  for (std::size_t i = 0; i < count; ++i)
-    base_heard_.feed(from_base_[i].payload(), from_base_[i].at);
-}
-
-double Rim::round_trip_ms(Instant now) const {
-  const auto alive_at = base_heard_.alive_at();
-  const auto round_trip = base_heard_.round_trip();
-  if (!alive_at || !round_trip || now - *alive_at > kRoundTripKept) return kUnset;
-  return round_trip->milliseconds();
 }
 
 void Rim::look_at_bus(Instant now) {
@@ -117,15 +86,6 @@ const char* Rim::fresh_refusal() {
   if (refusal_told_ || *refusal == '\0') return nullptr;
   refusal_told_ = true;
   return refusal;
-}
-
-void Rim::report(telemetry::StatePacket& packet, Instant now) {
-  packet.source = source_;
-  packet.run = run_;
-  packet.sequence = sequence_++;
-  packet.sent = now;
-  telemetry::PacketBuffer buffer;
-  radio_.send_to(base_, telemetry::encode(packet, buffer, encoded_));
 }
 
 }  // namespace pitwall::io

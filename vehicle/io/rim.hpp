@@ -1,8 +1,7 @@
-// Everything of the car process that touches the outside: CAN socket, receivers' UDP ports, radio.
-// read() before the step, write() after it.
+// What of the car process touches bus and receivers: CAN socket, UDP ports of the receivers. read()
+// before the step, write() after it. The radio is radio.hpp's.
 //   in     Arguments
-//   out    what arrived since the last read, the base station's heartbeats among it: they come to
-//          the socket that sends the telemetry; counters
+//   out    what arrived since the last read; counters
 //   errors open(): Problem that names the interface or the port; afterwards counters only
 //   cost   no allocation after open()
 // SPDX-License-Identifier: Apache-2.0
@@ -16,8 +15,6 @@
 #include <vector>
 
 #include "protocol/can/frame.hpp"
-#include "protocol/telemetry/heartbeat_intake.hpp"
-#include "protocol/telemetry/state_packet.hpp"
 #include "protocol/transport/can_socket.hpp"
 #include "protocol/transport/udp_socket.hpp"
 #include "protocol/vocabulary/result.hpp"
@@ -39,7 +36,6 @@ class Rim {
     world::SensorInput sensors;
     world::LinkObservation link;
     std::array<std::optional<Instant>, world::kGnssUnits> gnss_byte_at;  // newest, if any
-    std::optional<Instant> radio_at;  // the base station was alive then
   };
   Heard read();
   // Frames of this tick, in order of urgency. What cannot go out in time is dropped and counted; on
@@ -47,12 +43,6 @@ class Rim {
   void write(std::span<const can::Frame> frames, Instant now);
   // Asks for a restart of the controller; carried out beside the loop.
   void restart_bus() { watch_->restart(); }
-  // Completes the packet (sequence, run, source, time of sending) and sends it.
-  void report(telemetry::StatePacket& packet, Instant now);
-
-  const telemetry::HeartbeatCounters& heartbeats() const { return base_heard_.counters(); }
-  // In ms; unset when no heartbeat told one lately.
-  double round_trip_ms(Instant now) const;
 
   const transport::CanSocketCounters& can() const { return can_.counters(); }
   const TransmitCounters& transmit() const { return slots_.counters(); }
@@ -67,10 +57,8 @@ class Rim {
 
  private:
   Rim(transport::CanSocket can, std::unique_ptr<BusWatch> watch,
-      std::vector<transport::UdpSocket> gnss, transport::UdpSocket radio,
-      transport::UdpAddress base, bool simulation);
+      std::vector<transport::UdpSocket> gnss);
   void look_at_bus(Instant now);
-  void listen_to_base();
 
   transport::CanSocket can_;
   std::unique_ptr<BusWatch> watch_;
@@ -81,15 +69,8 @@ class Rim {
   std::uint64_t emptied_ = 0;  // how often the kernel's queue has been, as of the last look
   std::vector<transport::UdpSocket> gnss_;
   std::array<GnssInput, world::kGnssUnits> receivers_;
-  transport::UdpSocket radio_;
-  transport::UdpAddress base_;
   std::vector<can::ReceivedFrame> frames_;
   std::array<std::optional<Instant>, world::kGnssUnits> gnss_byte_at_{};
-  telemetry::Source source_;
-  std::uint32_t run_ = 0, sequence_ = 0;
-  telemetry::HeartbeatIntake base_heard_;
-  std::vector<transport::UdpDatagram> from_base_;
-  telemetry::EncodeCounters encoded_;
   std::uint64_t silenced_ = 0;  // frames not sent because the interface only listens
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vehicle/gateway/bus_identity.hpp"
+#include "vehicle/io/json_counts.hpp"
 
 namespace pitwall::io {
 
@@ -40,22 +41,6 @@ void LossTally::add(const world::BusHealth& bus) {
 }
 
 namespace {
-
-// "name": number pairs, one object.
-class JsonCounts {
- public:
-  void add(const std::string& name, std::uint64_t value) {
-    text_ += (text_.empty() ? "" : ", ") + ("\"" + name + "\": ") + std::to_string(value);
-  }
-  std::string object() const { return "{" + text_ + "}"; }
-  const std::string& pairs() const { return text_; }
-  void add_text(const std::string& name, const std::string& value) {
-    text_ += (text_.empty() ? "" : ", ") + ("\"" + name + "\": \"") + value + "\"";
-  }
-
- private:
-  std::string text_;
-};
 
 std::string refusals_json(const world::FrameRefusals& r) {
   JsonCounts out;
@@ -189,7 +174,8 @@ std::string link_json(const world::LinkObservation& link) {
 }  // namespace
 
 std::string summary_json(const StepTally& tally, const FrameTotals& frames,
-                         const world::BusHealth& bus, const LossTally& losses) {
+                         const world::BusHealth& bus, const LossTally& losses,
+                         const std::string& radio) {
   JsonCounts out;
   out.add("ticks", tally.steps());
   out.add("missed_deadlines", tally.missed_deadlines());
@@ -209,7 +195,7 @@ std::string summary_json(const StepTally& tally, const FrameTotals& frames,
          ",\n \"gate_verdicts\": " + verdicts.object() + ",\n \"link\": " + link_json(bus.link) +
          ",\n \"identity\": " + identity_json(bus.identity) +
          ",\n \"messages\": " + messages_json(bus) +
-         ",\n \"losses\": " + losses_json(losses.listed()) +
+         ",\n \"losses\": " + losses_json(losses.listed()) + ",\n \"radio\": " + radio +
          ",\n \"step_p50_us\": " + std::to_string(tally.quantile_us(0.5)) +
          ", \"step_p99_us\": " + std::to_string(tally.quantile_us(0.99)) +
          ", \"step_max_us\": " + std::to_string(tally.max_us()) + "}\n";

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <variant>
@@ -41,8 +42,8 @@ struct ArmingEvent {
   bool operator==(const ArmingEvent&) const = default;
 };
 struct LapEvent {
-  std::uint16_t number = 0;
-  float time_s = 0.0F;
+  std::uint16_t number = 0;                                // laps finished
+  float time_s = std::numeric_limits<float>::quiet_NaN();  // of the last one; NaN: not known
   bool operator==(const LapEvent&) const = default;
 };
 struct RestartEvent {

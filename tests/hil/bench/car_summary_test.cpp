@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "protocol/transport/file.hpp"
+#include "vehicle/io/radio_summary.hpp"
 #include "vehicle/io/tally.hpp"
 
 namespace pitwall::bench {
@@ -74,10 +77,26 @@ world::BusHealth some_health() {
   return bus;
 }
 
+telemetry::LinkReport some_report() {
+  telemetry::LinkReport report;
+  report.sessions = 3;
+  report.association.opened = 4;
+  report.association.refused[0] = 5;
+  report.bad_bodies[1] = 6;
+  report.bad_records = 7;
+  report.round_trip = milliseconds(31);
+  report.ledger.received = 8;
+  report.ledger.decided[1] = 9;
+  report.paths[1].heard.received = 10;
+  report.paths[1].spent.bytes = 11;
+  return report;
+}
+
 std::string some_summary(const io::StepTally& tally) {
   io::LossTally losses;
   losses.add(some_health());
-  return io::summary_json(tally, some_totals(), some_health(), losses);
+  return io::summary_json(tally, some_totals(), some_health(), losses,
+                          io::radio_json(some_report(), 2));
 }
 
 TEST_F(CarSummaryFile, IsReadAsTheCarWroteIt) {
@@ -104,6 +123,31 @@ TEST_F(CarSummaryFile, IsReadAsTheCarWroteIt) {
   EXPECT_EQ(car->refused_by_kind[8],
             (std::pair<std::string, std::uint64_t>{"implausible_slew", 9}));
   EXPECT_EQ(car->gate_verdicts.size(), safety::kVerdicts);
+}
+
+TEST_F(CarSummaryFile, ItsRadioIsReadAsTheCarHadIt) {
+  const auto car = read_car_summary(write(some_summary({})));
+  ASSERT_TRUE(car) << to_string(car.error());
+  const auto has = [](const CarSummary::Counts& counts, const char* name, std::uint64_t value) {
+    return std::ranges::find(counts, std::pair<std::string, std::uint64_t>{name, value}) !=
+           counts.end();
+  };
+  EXPECT_TRUE(has(car->radio, "sessions", 3));
+  EXPECT_TRUE(has(car->radio, "opened", 4));
+  EXPECT_TRUE(has(car->radio, "bad_bodies", 13));
+  EXPECT_TRUE(has(car->radio, "round_trip_us", 31'000));
+  EXPECT_EQ(car->radio_refused.size(), telemetry::kRefusals);
+  EXPECT_EQ(car->radio_refused[0].second, 5u);
+  EXPECT_TRUE(has(car->radio_commands, "received", 8));
+  EXPECT_TRUE(has(car->radio_commands, "applied", 9));
+  ASSERT_EQ(car->radio_paths.size(), 2u);
+  EXPECT_TRUE(has(car->radio_paths[1], "received", 10));
+  EXPECT_TRUE(has(car->radio_paths[1], "sent_bytes", 11));
+  io::LossTally none;
+  const auto without =
+      read_car_summary(write(io::summary_json({}, some_totals(), some_health(), none)));
+  ASSERT_TRUE(without) << to_string(without.error());
+  EXPECT_TRUE(without->radio.empty());
 }
 
 TEST_F(CarSummaryFile, ItsBusIsReadAsTheCarSawIt) {

@@ -71,6 +71,29 @@ TEST(LivePlan, WhoIsNotPlannedIsNotPlayed) {
   EXPECT_TRUE(member(members_of(attached), Role::kCar).command.empty());
 }
 
+TEST(LivePlan, WithABaseTheCarHasKeysAndAPathForEachRadio) {
+  LivePlan p = plan();
+  EXPECT_TRUE(says(member(members_of(p), Role::kCar).command, "--no-base"));
+  EXPECT_FALSE(says(member(members_of(p), Role::kCar).command, "--keys"));
+  p.base = {"base"};
+  p.keys = "out/x/keys";
+  p.paths = 2;
+  p.has_operator = true;
+  const auto members = members_of(p);
+  const auto& car = member(members, Role::kCar).command;
+  const auto& base = member(members, Role::kBase).command;
+  EXPECT_FALSE(says(car, "--no-base"));
+  EXPECT_EQ(after(car, "--keys"), "out/x/keys/car.keys");
+  EXPECT_EQ(after(base, "--keys"), "out/x/keys/base.keys");
+  EXPECT_EQ(std::ranges::count(car, "--radio"), 2);
+  EXPECT_EQ(std::ranges::count(base, "--listen"), 2);
+  EXPECT_EQ(after(base, "--operator-port"), std::to_string(p.operator_port));
+  EXPECT_EQ(after(car, "--local-report"), std::to_string(p.report_port));
+  p.base.clear();
+  p.radio[0].onward = 23'429;  // somebody else's base
+  EXPECT_FALSE(says(member(members_of(p), Role::kCar).command, "--no-base"));
+}
+
 TEST(LivePlan, SummariesGoToTheDiskThatFillsUp) {
   LivePlan p = plan();
   EXPECT_EQ(after(member(members_of(p), Role::kCar).command, "--summary"), "out/x/vehicle.json");

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "protocol/transport/clock.hpp"
@@ -35,92 +37,110 @@ Bytes take(UdpSocket& from) {
   return {got[0].payload().begin(), got[0].payload().end()};
 }
 
-Bytes telemetry_of(double mode) {
-  telemetry::StatePacket packet;
-  packet.values[telemetry::field("mode.mode")] = mode;
-  telemetry::PacketBuffer buffer;
-  telemetry::EncodeCounters counters;
-  const auto bytes = telemetry::encode(packet, buffer, counters);
-  return {bytes.begin(), bytes.end()};
-}
+constexpr Instant at_ms(std::int64_t ms) { return Instant{} + milliseconds(ms); }
 
-struct RadioPathTest : ::testing::Test {
-  UdpSocket base = socket(), car = socket();
-  std::uint16_t listen = free_port(), uplink = free_port();
-  Result<RadioPath, Problem> opened =
-      RadioPath::open({.listen = listen, .onward = base.local().port, .uplink = uplink});
-  RadioPath& path = *opened;
-  Instant now{};
+// A path, or two; the base and the car of each are sockets of the test.
+struct Ends {
+  explicit Ends(const std::vector<scenario::RadioPath>& radio = {},
+                std::vector<faults::BenchFault> faults = {})
+      : air(radio, std::move(faults), 3) {
+    for (std::size_t i = 0; i < air.paths(); ++i) {
+      bases.push_back(socket());
+      cars.push_back(socket());
+      ports.push_back({free_port(), bases.back().local().port, free_port()});
+    }
+    auto opened = RadioPath::open(ports, std::move(air));
+    EXPECT_TRUE(opened);
+    path.emplace(*std::move(opened));
+  }
 
   // Until the path has counted one more of something.
   template <class Count>
   void carry(const Count& count) {
     const auto before = count();
     const Instant limit = transport::monotonic_now() + kPatience;
-    while (count() == before && transport::monotonic_now() < limit) path.serve(now);
+    while (count() == before && transport::monotonic_now() < limit) path->serve(now);
     EXPECT_EQ(count(), before + 1);
   }
-  void say(UdpSocket& from, const Bytes& bytes) {
-    ASSERT_TRUE(from.send_to({.port = listen}, bytes));
-    carry([&] { return path.counters().packets + path.counters().refused; });
+  void say(UdpSocket& from, const Bytes& bytes, std::size_t lane = 0) {
+    ASSERT_TRUE(from.send_to({.port = ports[lane].listen}, bytes));
+    carry([&] { return path->counters().from_car; });
   }
-  void answer(const Bytes& bytes) {
-    ASSERT_TRUE(base.send_to({.port = uplink}, bytes));
-    carry([&] { return path.counters().to_car + path.counters().no_car; });
+  void answer(const Bytes& bytes, std::size_t lane = 0) {
+    ASSERT_TRUE(bases[lane].send_to({.port = ports[lane].uplink}, bytes));
+    carry([&] { return path->counters().from_base; });
   }
+
+  Air air;
+  std::vector<UdpSocket> bases, cars;
+  std::vector<RadioPorts> ports;
+  std::optional<RadioPath> path;
+  Instant now = at_ms(0);
 };
 
-TEST_F(RadioPathTest, EveryDatagramReachesTheBaseByteForByte) {
-  const Bytes packet = telemetry_of(2.0), noise{1, 2, 3};
-  say(car, packet);
-  EXPECT_EQ(take(base), packet);
-  say(car, noise);
-  EXPECT_EQ(take(base), noise) << "the bench is no filter";
-  EXPECT_EQ(path.counters().packets, 1u);
-  EXPECT_EQ(path.counters().refused, 1u);
-  EXPECT_EQ(path.report().mode, 2.0);
+TEST(RadioPath, CarriesEveryDatagramByteForByteAndUnread) {
+  Ends ends;
+  const Bytes sealed(700, 0xA5), noise{1, 2, 3};
+  ends.say(ends.cars[0], sealed);
+  EXPECT_EQ(take(ends.bases[0]), sealed);
+  ends.say(ends.cars[0], noise);
+  EXPECT_EQ(take(ends.bases[0]), noise) << "the bench is no filter";
+  ends.answer({9, 8});
+  EXPECT_EQ(take(ends.cars[0]), (Bytes{9, 8}));
+  EXPECT_EQ(ends.path->counters().to_base, 2u);
+  EXPECT_EQ(ends.path->counters().to_car, 1u);
 }
 
-TEST_F(RadioPathTest, AnAnswerGoesToTheCarThatSpokeLast) {
-  say(car, telemetry_of(0.0));
-  const Bytes first{7}, second{8, 9};
-  answer(first);
-  EXPECT_EQ(take(car), first);
+TEST(RadioPath, AnAnswerGoesToTheCarThatSpokeLast) {
+  Ends ends;
+  ends.answer({1});
+  EXPECT_EQ(ends.path->counters().no_car, 1u) << "nobody has spoken yet";
+  ends.say(ends.cars[0], {1});
+  ends.answer({7});
+  EXPECT_EQ(take(ends.cars[0]), Bytes{7});
   UdpSocket restarted = socket();
-  say(restarted, telemetry_of(0.0));
-  answer(second);
-  EXPECT_EQ(take(restarted), second);
-  EXPECT_EQ(path.counters().to_car, 2u);
+  ends.say(restarted, {1});
+  ends.answer({8, 9});
+  EXPECT_EQ(take(restarted), (Bytes{8, 9}));
 }
 
-TEST_F(RadioPathTest, NoiseMakesNobodyTheCar) {
-  answer({1});
-  EXPECT_EQ(path.counters().no_car, 1u) << "nobody has spoken yet";
-  say(car, telemetry_of(0.0));
-  UdpSocket stranger = socket();
-  say(stranger, {1, 2, 3});
-  answer({5});
-  EXPECT_EQ(take(car), Bytes{5});
+TEST(RadioPath, PathsAreApart) {
+  Ends ends(std::vector<scenario::RadioPath>(2));
+  ends.say(ends.cars[0], {1}, 0);
+  ends.say(ends.cars[1], {2}, 1);
+  EXPECT_EQ(take(ends.bases[0]), Bytes{1});
+  EXPECT_EQ(take(ends.bases[1]), Bytes{2});
+  ends.answer({3}, 1);
+  EXPECT_EQ(take(ends.cars[1]), Bytes{3});
 }
 
-TEST_F(RadioPathTest, ACarThatHasStoppedSpeakingIsSilentAndOneThatNeverSpokeIsNot) {
-  path.serve(now + seconds(100));
-  EXPECT_FALSE(path.report().silent);
-  say(car, telemetry_of(3.0));
-  path.serve(now + RadioPath::kSilence);
-  EXPECT_FALSE(path.report().silent);
-  path.serve(now + RadioPath::kSilence + milliseconds(1));
-  EXPECT_TRUE(path.report().silent);
-  EXPECT_NE(path.report().mode, 3.0) << "old news are no news";
-  now = now + seconds(1);
-  say(car, telemetry_of(1.0));
-  EXPECT_FALSE(path.report().silent);
-  EXPECT_EQ(path.report().mode, 1.0);
+TEST(RadioPath, WhatTheAirHoldsBackComesWhenItIsTime) {
+  Ends ends({{link::bursty(0.0, {}, 0.0, milliseconds(15)), {}}});
+  ends.say(ends.cars[0], {1});
+  EXPECT_EQ(ends.path->counters().to_base, 0u);
+  ends.path->serve(at_ms(14));
+  EXPECT_EQ(ends.path->counters().to_base, 0u);
+  ends.path->serve(at_ms(15));
+  EXPECT_EQ(take(ends.bases[0]), Bytes{1});
+}
+
+TEST(RadioPath, AFaultOfTheRadioIsCarriedOut) {
+  Ends ends({}, {{.kind = faults::BenchFaultKind::kBaseStationSilent,
+                  .start = at_ms(100),
+                  .duration = milliseconds(100)}});
+  ends.say(ends.cars[0], {1});
+  ends.now = at_ms(150);
+  ends.answer({2});
+  EXPECT_EQ(ends.path->counters().to_car, 0u);
+  ends.now = at_ms(250);
+  ends.answer({3});
+  EXPECT_EQ(take(ends.cars[0]), Bytes{3});
 }
 
 TEST(RadioPath, APortThatIsTakenIsAProblem) {
   const UdpSocket holder = socket();
-  const auto opened = RadioPath::open({.listen = holder.local().port, .onward = 0, .uplink = 0});
+  const std::vector<RadioPorts> ports{{.listen = holder.local().port, .onward = 0, .uplink = 0}};
+  const auto opened = RadioPath::open(ports, Air{{}, {}, 1});
   ASSERT_FALSE(opened);
   EXPECT_NE(to_string(opened.error()).find(std::to_string(holder.local().port)), std::string::npos);
 }

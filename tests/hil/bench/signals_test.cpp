@@ -87,7 +87,35 @@ TEST(Signals, ASilentCarSaysNothingAndTheTruthGoesOn) {
   }
   EXPECT_EQ(unsaid,
             (std::set<std::string_view>{"mode", "gate_refusals", "bus_refusals", "position_error_m",
-                                        "yaw_error_rad", "identity", "differing_id"}));
+                                        "yaw_error_rad", "identity", "differing_id", "stop_cause",
+                                        "operator_limit_mps"}));
+}
+
+// The car's reason is compared with the air's own record.
+TEST(Signals, AStopForTheBaseStationNeedsAGapThatExplainsIt) {
+  const Rig rig = standing_rig();
+  const auto unexplained = [&](safety::Cause cause, Duration gap) {
+    const CarReport car{.cause = static_cast<double>(cause)};
+    const SignalValues v = observe({.rig = rig,
+                                    .car = car,
+                                    .radio_gap = milliseconds(20),
+                                    .radio_gap_max = gap,
+                                    .radio_limit = seconds(3)});
+    EXPECT_EQ(value(v, Signal::kRadioGap), 0.02);
+    EXPECT_EQ(value(v, Signal::kRadioGapMax), gap.seconds());
+    return value(v, Signal::kRadioStopUnexplained);
+  };
+  EXPECT_EQ(unexplained(safety::Cause::kRadioLost, seconds(2)), 1.0);
+  EXPECT_EQ(unexplained(safety::Cause::kRadioLost, milliseconds(3'001)), 0.0);
+  EXPECT_EQ(unexplained(safety::Cause::kOperatorStop, seconds(2)), 0.0);
+  EXPECT_EQ(unexplained(safety::Cause::kNone, seconds(2)), 0.0);
+}
+
+TEST(Signals, TheLimitOfTheGapIsThatOfTheCarFile) {
+  pipeline::CarParams params;
+  EXPECT_EQ(radio_limit_of(params), seconds(3));
+  params.radio.ladder.no_comm_drives = false;
+  EXPECT_EQ(radio_limit_of(params), params.radio.ladder.no_comm);
 }
 
 TEST(Signals, AnExpectationOfAScenarioIsGradedInItsWindow) {

@@ -3,68 +3,207 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "protocol/telemetry/delivery/event_content.hpp"
+#include "tests/hil/bench/flying_lap.hpp"
+
 namespace pitwall::bench {
 namespace {
 
 using faults::BenchFault;
 using faults::BenchFaultKind;
+using telemetry::Outcome;
 
-constexpr Instant at_ms(std::int64_t ms) { return {milliseconds(ms).ns}; }
+constexpr Instant at_ms(std::int64_t ms) { return Instant{} + milliseconds(ms); }
 
-// Runs to the instant in ticks of the car; true while the car heard within a second.
-struct Air {
-  VirtualStation base;
-  std::int64_t ms = 0;
-
-  bool run_to(std::int64_t end_ms, bool car_runs = true) {
-    for (; ms <= end_ms; ms += 10) base.step(at_ms(ms), car_runs);
-    return base.alive_at() && at_ms(end_ms) - *base.alive_at() < seconds(1);
+// A car that stands, with nothing but its radio.
+class Radio {
+ public:
+  explicit Radio(std::vector<BenchFault> faults = {},
+                 std::vector<scenario::OperatorWord> words = {},
+                 std::vector<scenario::RadioPath> paths = {}) {
+    scenario_.operator_words = std::move(words);
+    scenario_.radio = std::move(paths);
+    FaultPlan plan;
+    for (const BenchFault& fault : faults)
+      (is_radio_fault(fault.kind) ? plan.radio : plan.processes).push_back(fault);
+    station_ = std::make_unique<VirtualStation>(scenario_, lap().setup, plan);
+    out_->chosen.standstill = true;
   }
+
+  // True while the car heard its base within a second.
+  bool run_to(std::int64_t end_ms, bool car_runs = true) {
+    for (; ms_ <= end_ms; ++ms_) {
+      if (ms_ % 10 == 0 && car_runs) tick(at_ms(ms_));
+      station_->advance(at_ms(ms_));
+    }
+    return alive_at_ && at_ms(end_ms) - *alive_at_ < seconds(1);
+  }
+
+  VirtualStation& station() { return *station_; }
+  const std::optional<Instant>& alive_at() const { return alive_at_; }
+  const pipeline::Inputs& inputs() const { return *in_; }
+  pipeline::Outputs& outputs() { return *out_; }
+  std::vector<world::OperatorCommand> heard;  // of the operator, by the pipeline
+
+ private:
+  void tick(Instant now) {
+    in_.emplace(pipeline::Inputs{
+        .now = now, .dt = milliseconds(10), .can = {}, .sensors = none_, .requests = {}});
+    station_->hear(*in_);
+    alive_at_ = in_->radio_at;
+    out_->answers = {};
+    for (const world::OperatorCommand& command : in_->commands) {
+      heard.push_back(command);
+      EXPECT_TRUE(out_->answers.push(
+          {.id = command.id, .answer = world::CommandAnswer::kApplied, .at = now}));
+    }
+    ++car_->ticks;
+    station_->tell(*car_, *in_, *out_);
+  }
+
+  scenario::Scenario scenario_ = lap().scenario;
+  std::unique_ptr<VirtualStation> station_;
+  std::unique_ptr<pipeline::Car> car_ = std::make_unique<pipeline::Car>();
+  std::unique_ptr<pipeline::Outputs> out_ = std::make_unique<pipeline::Outputs>();
+  world::SensorInput none_;
+  std::optional<pipeline::Inputs> in_;
+  std::optional<Instant> alive_at_;
+  std::int64_t ms_ = 0;
 };
 
-Air with(BenchFaultKind kind) {
-  return {
-      VirtualStation{{BenchFault{.kind = kind, .start = at_ms(5'000), .duration = seconds(5)}}}};
+scenario::OperatorWord say(std::int64_t ms, const std::string& text) {
+  return {milliseconds(ms), text};
 }
 
-TEST(VirtualStation, IsHeardAtOnceAndTenTimesASecond) {
-  Air air{VirtualStation{{}}};
-  EXPECT_FALSE(air.base.alive_at());
-  EXPECT_TRUE(air.run_to(0));
-  air.run_to(10'000);
-  EXPECT_EQ(air.base.heartbeats().accepted, 101U);
-  EXPECT_EQ(air.base.heartbeats().refused_total(), 0U);
+TEST(VirtualStation, IsHeardWithinAHandshakeAndFiftyTimesASecond) {
+  Radio radio;
+  EXPECT_TRUE(radio.run_to(500));
+  EXPECT_TRUE(radio.station().car().schema_agrees());
+  radio.run_to(10'000);
+  const auto report = radio.station().car().report(at_ms(10'000));
+  EXPECT_GT(report.association.opened, 450u);
+  EXPECT_EQ(report.sessions, 1u);
+  EXPECT_LT(at_ms(10'000) - *radio.alive_at(), milliseconds(50));
 }
 
 TEST(VirtualStation, EveryFaultSilencesItForItsTimeAndNoLonger) {
   for (const auto kind : {BenchFaultKind::kBaseKilled, BenchFaultKind::kBasePaused,
                           BenchFaultKind::kBaseStationSilent, BenchFaultKind::kRadioDown}) {
-    Air air = with(kind);
-    EXPECT_TRUE(air.run_to(4'990));
-    EXPECT_FALSE(air.run_to(9'900)) << faults::row_of(kind).name;
-    EXPECT_GE(*air.base.alive_at(), at_ms(4'850));
-    EXPECT_LT(*air.base.alive_at(), at_ms(5'000)) << faults::row_of(kind).name;
-    EXPECT_TRUE(air.run_to(10'110)) << "back within a heartbeat";
+    Radio radio({{.kind = kind, .start = at_ms(5'000), .duration = seconds(5)}});
+    EXPECT_TRUE(radio.run_to(4'990));
+    EXPECT_FALSE(radio.run_to(9'900)) << faults::row_of(kind).name;
+    EXPECT_GE(*radio.alive_at(), at_ms(4'850)) << faults::row_of(kind).name;
+    EXPECT_LT(*radio.alive_at(), at_ms(5'010)) << faults::row_of(kind).name;
+    EXPECT_TRUE(radio.run_to(10'400)) << "back within a handshake " << faults::row_of(kind).name;
+    EXPECT_GT(*radio.alive_at(), at_ms(10'300)) << "of itself, not of before";
     const bool restarted = kind == BenchFaultKind::kBaseKilled;
-    EXPECT_EQ(air.base.heartbeats().runs, restarted ? 2U : 1U) << faults::row_of(kind).name;
+    EXPECT_GE(radio.station().car().report(at_ms(10'400)).sessions, restarted ? 2u : 1u)
+        << faults::row_of(kind).name;
   }
 }
 
-TEST(VirtualStation, ACarThatBeginsAnewHasHeardNothing) {
-  Air air{VirtualStation{{}}};
-  air.run_to(1'000);
-  air.run_to(2'000, false);
-  air.base.restart_car();
-  EXPECT_FALSE(air.base.alive_at());
-  EXPECT_TRUE(air.run_to(2'200));
+// A queue of 400 ms is alive at 50 Hz, and yet what comes out of it is old.
+TEST(VirtualStation, WhatComesOutOfALongQueueIsAsOldAsItIs) {
+  Radio radio({{.kind = BenchFaultKind::kRadioDelay,
+                .start = at_ms(5'000),
+                .duration = seconds(10),
+                .value = 0.4}});
+  radio.run_to(4'990);
+  EXPECT_LT(at_ms(4'990) - *radio.alive_at(), milliseconds(100));
+  radio.run_to(8'000);
+  EXPECT_GE(at_ms(8'000) - *radio.alive_at(), milliseconds(400));
 }
 
-TEST(VirtualStation, TakesItsFaultsFromBothListsOfAPlan) {
-  FaultPlan plan;
-  plan.models = {{.kind = BenchFaultKind::kRadioDown}, {.kind = BenchFaultKind::kLowGrip}};
-  plan.processes = {{.kind = BenchFaultKind::kBaseKilled},
-                    {.kind = BenchFaultKind::kComputerKilled}};
-  EXPECT_EQ(base_faults(plan).size(), 2U);
+TEST(VirtualStation, ACarThatBeginsAnewHasHeardNothing) {
+  Radio radio;
+  radio.run_to(1'000);
+  radio.run_to(2'000, false);
+  radio.station().restart_car();
+  EXPECT_FALSE(radio.station().car().view(at_ms(2'000)).alive_at);
+  EXPECT_TRUE(radio.run_to(2'500));
+}
+
+TEST(VirtualStation, ACommandIsAppliedOnceAndItsFateIsKnown) {
+  Radio radio({}, {say(1'000, "take 1"), say(1'500, "command speed_limit 30"),
+                   say(1'600, "command track_flag 3"), say(1'700, "command end_run 1")});
+  radio.run_to(3'000);
+  ASSERT_EQ(radio.heard.size(), 2u) << "the end of the run is the desk's own business";
+  EXPECT_EQ(radio.heard[0].kind, world::OperatorCommandKind::kSpeedLimit);
+  EXPECT_NEAR(radio.heard[0].argument, 30.0, 0.05);
+  EXPECT_TRUE(radio.station().refusals().empty());
+  ASSERT_EQ(radio.station().commands().size(), 3u);
+  for (const telemetry::CommandId id : radio.station().commands()) {
+    const auto* progress = radio.station().base()->progress(id);
+    ASSERT_NE(progress, nullptr);
+    EXPECT_EQ(progress->fate, Outcome::kApplied);
+  }
+}
+
+TEST(VirtualStation, WhatTheOperatorSaysInVainIsTold) {
+  Radio radio({}, {say(1'000, "take 1"), say(1'100, "take 2")});
+  radio.run_to(2'000);
+  ASSERT_EQ(radio.station().refusals().size(), 1u);
+  EXPECT_NE(radio.station().refusals()[0].find("take 2"), std::string::npos);
+}
+
+TEST(VirtualStation, AStopReachesThePipelineAndHoldsOverARestartOfTheBase) {
+  Radio radio(
+      {{.kind = BenchFaultKind::kBaseKilled, .start = at_ms(2'000), .duration = seconds(1)}},
+      {say(1'000, "stop emergency")});
+  radio.run_to(990);
+  EXPECT_EQ(radio.inputs().wishes.stop, world::StopWish::kNone);
+  radio.run_to(1'100);
+  EXPECT_EQ(radio.inputs().wishes.stop, world::StopWish::kEmergency);
+  radio.run_to(5'000);
+  EXPECT_EQ(radio.inputs().wishes.stop, world::StopWish::kEmergency);
+}
+
+TEST(VirtualStation, AJoystickLivesOnlyWhileItSpeaks) {
+  std::vector<scenario::OperatorWord> words;
+  for (int ms = 1'000; ms < 2'000; ms += 50) words.push_back(say(ms, "joystick 0.4 0.1"));
+  Radio radio({}, words);
+  radio.run_to(1'500);
+  ASSERT_TRUE(radio.inputs().wishes.joystick);
+  EXPECT_NEAR(radio.inputs().wishes.joystick->throttle_cap, 0.4, 0.01);
+  EXPECT_LE(radio.inputs().wishes.joystick->at, at_ms(1'500));
+  radio.run_to(2'300);
+  EXPECT_FALSE(radio.inputs().wishes.joystick);
+}
+
+TEST(VirtualStation, EventsArriveEachOnceThroughFades) {
+  Radio radio({}, {}, {{link::bursty(0.3, milliseconds(120), 32'000.0, milliseconds(15)), {}}});
+  radio.run_to(1'000);
+  for (int lap = 1; lap <= 20; ++lap) {
+    radio.outputs().heard.race_control.ever_heard = true;
+    radio.outputs().heard.race_control.lap_count = static_cast<std::uint8_t>(lap);
+    radio.run_to(1'000 + lap * 100);
+  }
+  radio.run_to(6'000);
+  int next = 1;
+  for (const telemetry::Event& event : radio.station().events())
+    if (event.kind == telemetry::EventKind::kLap) {
+      const auto content = telemetry::content_of(event);
+      ASSERT_TRUE(content);
+      EXPECT_EQ(std::get<telemetry::LapEvent>(*content).number, next++);
+    }
+  EXPECT_EQ(next, 21);
+}
+
+TEST(VirtualStation, OneSeedIsOneRun) {
+  const auto figures = [](std::uint64_t) {
+    Radio radio({}, {}, {{link::bursty(0.3, milliseconds(120), 32'000.0, milliseconds(15)), {}}});
+    radio.run_to(5'000);
+    const auto report = radio.station().car().report(at_ms(5'000));
+    return std::tuple{report.association.opened, report.paths[0].spent.bytes, radio.alive_at()->ns,
+                      radio.station().air().longest_silence(at_ms(5'000)).ns};
+  };
+  EXPECT_EQ(figures(1), figures(1));
 }
 
 }  // namespace

@@ -30,8 +30,8 @@ Parsed parse(const Words& words) {
   return {std::move(result), std::move(out), ::testing::internal::GetCapturedStderr()};
 }
 
-const Words kLeast{"--car", "a.yaml", "--track", "b.yaml",
-                   "--can", "can0",   "--gnss",  "23501,23502"};
+const Words kLeast{"--car", "a.yaml", "--track", "b.yaml", "--can",
+                   "can0",  "--keys", "c.keys",  "--gnss", "23501,23502"};
 
 Words with(Words words, const Words& more) {
   words.insert(words.end(), more.begin(), more.end());
@@ -45,7 +45,9 @@ TEST(Arguments, TheLeastHaveDefaults) {
   EXPECT_EQ(p.args().track_file, "b.yaml");
   EXPECT_EQ(p.args().can_interface, "can0");
   EXPECT_EQ(p.args().gnss_ports, (std::array<std::uint16_t, 2>{23501, 23502}));
-  EXPECT_EQ(p.args().radio, "127.0.0.1:23431");
+  EXPECT_EQ(p.args().radio, Words{"127.0.0.1:23431"});
+  EXPECT_EQ(p.args().keys, "c.keys");
+  EXPECT_EQ(p.args().local_report, 0) << "nobody is told without being asked for";
   EXPECT_EQ(p.args().summary_file, "");
   EXPECT_FALSE(p.args().simulation);
   EXPECT_FALSE(p.args().no_base) << "a car is not driven without its base by default";
@@ -54,10 +56,12 @@ TEST(Arguments, TheLeastHaveDefaults) {
 }
 
 TEST(Arguments, EveryOptionArrives) {
-  const Parsed p = parse(with(kLeast, {"--radio", "10.0.0.5:99", "--summary", "s.json",
-                                       "--simulation", "--arm", "--no-base"}));
+  const Parsed p =
+      parse(with(kLeast, {"--radio", "10.0.0.5:99", "--radio", "10.0.1.5:98", "--local-report",
+                          "23436", "--summary", "s.json", "--simulation", "--arm", "--no-base"}));
   ASSERT_FALSE(p.refused()) << p.err;
-  EXPECT_EQ(p.args().radio, "10.0.0.5:99");
+  EXPECT_EQ(p.args().radio, (Words{"10.0.0.5:99", "10.0.1.5:98"}));
+  EXPECT_EQ(p.args().local_report, 23436);
   EXPECT_EQ(p.args().summary_file, "s.json");
   EXPECT_TRUE(p.args().simulation);
   EXPECT_TRUE(p.args().arm);
@@ -68,8 +72,8 @@ TEST(Arguments, HelpIsNoError) {
   const Parsed p = parse({"--help"});
   ASSERT_TRUE(p.refused());
   EXPECT_EQ(p.code(), 0);
-  for (const char* option : {"--car", "--track", "--can", "--gnss", "--radio", "--summary",
-                             "--simulation", "--arm", "--no-base"})
+  for (const char* option : {"--car", "--track", "--can", "--gnss", "--radio", "--keys",
+                             "--local-report", "--summary", "--simulation", "--arm", "--no-base"})
     EXPECT_NE(p.out.find(option), std::string::npos) << option;
 }
 
@@ -85,12 +89,28 @@ TEST(Arguments, EachOfTheLeastIsNeeded) {
   }
 }
 
+// Whoever has no keys is told how to make them; a bench without a base needs none.
+TEST(Arguments, WithoutKeysOnlyABenchStarts) {
+  Words words = kLeast;
+  words.erase(words.begin() + 6, words.begin() + 8);
+  const Parsed p = parse(words);
+  ASSERT_TRUE(p.refused());
+  EXPECT_EQ(p.code(), 2);
+  EXPECT_NE(p.err.find("--keys"), std::string::npos) << p.err;
+  EXPECT_NE(p.err.find("pitwall-base keygen"), std::string::npos) << p.err;
+  EXPECT_FALSE(parse(with(words, {"--no-base"})).refused());
+  EXPECT_FALSE(parse(with(words, {"--check"})).refused());
+}
+
 TEST(Arguments, WrongUsageIsCodeTwoAndSaysWhy) {
   const std::vector<Words> wrong{
       {},
       with(kLeast, {"--unknown"}),
       with(kLeast, {"stray"}),
       with(kLeast, {"--radio"}),
+      with(kLeast, {"--radio", "1.2.3.4:1", "--radio", "1.2.3.4:2", "--radio", "1.2.3.4:3"}),
+      with(kLeast, {"--local-report", "0"}),
+      with(kLeast, {"--local-report", "65536"}),
       with(kLeast, {"--can", "can1"}),
       with(kLeast, {"--arm=maybe"}),
   };

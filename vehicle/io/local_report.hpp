@@ -1,0 +1,42 @@
+// The car's state for programs on the same machine, bench and tools: the plain snapshot, unsealed,
+// to a port of the loopback interface. It never leaves the machine; the radio is elsewhere.
+//   in     the newest snapshot
+//   out    a StatePacket for each call; without a port nothing
+//   errors open(): Problem with the port; afterwards the socket's counters
+//   cost   no allocation after open()
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/telemetry/state_packet.hpp"
+#include "protocol/transport/udp_socket.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::io {
+
+class LocalReport {
+ public:
+  // `port` 0: nobody is told.
+  static Result<LocalReport, Problem> open(std::uint16_t port, telemetry::Source source);
+
+  void send(const telemetry::Snapshot& snapshot, Instant now);
+  bool on() const { return socket_.has_value(); }
+
+ private:
+  LocalReport(std::optional<transport::UdpSocket> socket, std::uint16_t port,
+              telemetry::Source source, std::uint32_t run)
+      : socket_(std::move(socket)), port_(port), source_(source), run_(run) {}
+
+  std::optional<transport::UdpSocket> socket_;
+  std::uint16_t port_;
+  telemetry::Source source_;
+  std::uint32_t run_, sequence_ = 0;
+  telemetry::EncodeCounters encoded_;
+};
+
+}  // namespace pitwall::io

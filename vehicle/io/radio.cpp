@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/io/radio.hpp"
+
+#include <span>
+#include <utility>
+
+#include "protocol/telemetry/session/keys.hpp"
+#include "protocol/transport/file.hpp"
+
+namespace pitwall::io {
+namespace {
+
+using transport::UdpAddress;
+using transport::UdpSocket;
+
+constexpr std::uint8_t kExpedited = 46;  // RFC 3246: every packet holds safety's part
+constexpr std::size_t kMaxKeyFile = 4'096;
+
+telemetry::Address address_of(UdpAddress a) { return {.ip = a.ip, .port = a.port}; }
+UdpAddress address_of(telemetry::Address a) { return {.ip = a.ip, .port = a.port}; }
+
+Result<telemetry::KeyFile, Problem> read_keys(const std::string& path) {
+  const auto text = transport::read_private_file(path, kMaxKeyFile);
+  if (!text) return Unexpected{text.error()};
+  auto keys = telemetry::parse_key_file(*text, path);
+  if (!keys) return keys;
+  if (keys->role != telemetry::Role::kCar)
+    return Unexpected{Problem{path, "these are the keys of a base station, not of a car"}};
+  return keys;
+}
+
+Result<UdpSocket, Problem> open_socket(UdpAddress base) {
+  return UdpSocket::bind(
+      {.ip = base.ip == transport::kLoopbackIp ? transport::kLoopbackIp : transport::kAnyIp},
+      {.dscp = kExpedited});
+}
+
+}  // namespace
+
+Result<Radio, Problem> Radio::open(const RadioArguments& args, const pipeline::RadioParams& params,
+                                   bool real_car) {
+  auto keys = read_keys(args.key_file);
+  if (!keys) return Unexpected{keys.error()};
+  if (args.bases.empty() || args.bases.size() > telemetry::kPaths)
+    return Unexpected{Problem{"--radio", "one path or two"}};
+  telemetry::ConduitConfig config;
+  config.association.keys = *std::move(keys);
+  config.association.greeting.signed_only = params.signed_only;
+  config.association.greeting.real_car = real_car;
+  config.association.paths = static_cast<std::uint8_t>(args.bases.size());
+  std::vector<UdpSocket> paths;
+  for (std::size_t i = 0; i < args.bases.size(); ++i) {
+    const auto base = transport::parse_udp_address(args.bases[i]);
+    if (!base) return Unexpected{base.error()};
+    if (base->port == 0) return Unexpected{Problem{args.bases[i], "the base has no port"}};
+    auto socket = open_socket(*base);
+    if (!socket) return Unexpected{socket.error()};
+    paths.push_back(*std::move(socket));
+    config.association.peer[i] = address_of(*base);
+    const pipeline::RadioPathParams path =
+        i < params.paths.size() ? params.paths[i] : pipeline::RadioPathParams{};
+    config.budget[i] = {.bytes_per_s = path.bytes_per_s,
+                        .packets_per_s = path.packets_per_s,
+                        .safety_bytes_per_s = path.safety_bytes_per_s};
+    const auto budget = telemetry::PathBudget::make(config.budget[i]);
+    if (!budget) return Unexpected{budget.error()};
+  }
+  return Radio{config, std::move(paths)};
+}
+
+Radio::Radio(const telemetry::ConduitConfig& config, std::vector<UdpSocket> paths)
+    : randomness_(std::make_unique<telemetry::SystemRandomness>()),
+      endpoint_(config, *randomness_),
+      paths_(std::move(paths)),
+      inbox_(UdpSocket::kBatch) {}
+
+void Radio::listen() {
+  for (std::size_t path = 0; path < paths_.size(); ++path)
+    for (std::size_t taken = 0, count = inbox_.size();
+         count == inbox_.size() && taken < kReadsPerTick; taken += count) {
+      count = paths_[path].receive(inbox_);
+      for (const transport::UdpDatagram& datagram : std::span(inbox_).first(count))
+        endpoint_.feed(datagram.payload(), static_cast<telemetry::PathId>(path),
+                       address_of(datagram.from), datagram.at);
+    }
+}
+
+void Radio::speak(const telemetry::Snapshot& snapshot, Instant now) {
+  while (const auto out = endpoint_.poll(snapshot, now))
+    paths_[out->path].send_to(address_of(out->to), out->bytes);
+}
+
+}  // namespace pitwall::io

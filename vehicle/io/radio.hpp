@@ -1,0 +1,61 @@
+// The car's radio as the process has it: one UDP socket for each path, and the protocol's endpoint
+// behind them. listen() before the step, speak() after it.
+//   in     arguments (addresses of the base by path, key file), budgets of the car file; the newest
+//          snapshot
+//   out    datagrams, marked as expedited forwarding; the endpoint, for the pipeline's RadioDesk
+//   errors open(): Problem with the address, the key file or the budget as place; afterwards
+//          counters only
+//   cost   no allocation after open(); at most kReadsPerTick datagrams are taken per tick and path,
+//          the rest waits for the next one
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "protocol/telemetry/endpoint/car_endpoint.hpp"
+#include "protocol/telemetry/session/randomness.hpp"
+#include "protocol/transport/udp_socket.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+#include "vehicle/pipeline/setup.hpp"
+
+namespace pitwall::io {
+
+struct RadioArguments {
+  std::vector<std::string> bases;  // ADDRESS:PORT by path
+  std::string key_file;
+};
+
+class Radio {
+ public:
+  static constexpr std::size_t kReadsPerTick = 512;
+
+  // `real_car`: false is shown as a simulation.
+  static Result<Radio, Problem> open(const RadioArguments& args,
+                                     const pipeline::RadioParams& params, bool real_car);
+
+  void listen();
+  bool due(Instant now) const { return endpoint_.due() <= now + kEarly; }
+  void speak(const telemetry::Snapshot& snapshot, Instant now);
+
+  telemetry::CarEndpoint& endpoint() { return endpoint_; }
+  const telemetry::CarEndpoint& endpoint() const { return endpoint_; }
+  const transport::UdpCounters& counters(std::size_t path) const { return paths_[path].counters(); }
+  std::size_t paths() const { return paths_.size(); }
+
+ private:
+  // A tick that comes so much before its slot serves it: the next tick would be late.
+  static constexpr Duration kEarly = milliseconds(2);
+
+  Radio(const telemetry::ConduitConfig& config, std::vector<transport::UdpSocket> paths);
+
+  std::unique_ptr<telemetry::SystemRandomness> randomness_;
+  telemetry::CarEndpoint endpoint_;
+  std::vector<transport::UdpSocket> paths_;
+  std::vector<transport::UdpDatagram> inbox_;
+};
+
+}  // namespace pitwall::io

@@ -1,0 +1,46 @@
+// What changed in a tick, as events for the pit wall: mode, arming, flags, laps, and every fault
+// when it begins and when it ends. Values may be overwritten on the radio; an event arrives.
+//   in     Outputs of this tick, the car's fault log; one call per tick
+//   out    events in the order: faults, mode, arming, flags, lap (laps as race control counts them)
+//   law    each change once; of a first tick only what differs from a car that was switched on
+//   errors faults that the log has dropped, and events without room, are counted in `missed`
+//   cost   no allocation
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "protocol/telemetry/delivery/events.hpp"
+#include "protocol/vocabulary/fixed_vector.hpp"
+#include "protocol/vocabulary/time.hpp"
+#include "vehicle/pipeline/car.hpp"
+#include "vehicle/pipeline/step.hpp"
+
+namespace pitwall::pipeline {
+
+using TickEvents = FixedVector<telemetry::Event, 32>;
+
+class EventTap {
+ public:
+  const TickEvents& look(const Car& car, const Outputs& out, Instant now);
+  std::uint64_t missed() const { return missed_; }
+
+ private:
+  void add(const telemetry::Event& event);
+  void look_at_faults(const safety::FaultLog& log, safety::CauseSet causes, Instant now);
+  void look_at_flags(const world::RaceControl& race, Instant now);
+
+  TickEvents events_;
+  std::uint64_t faults_ = 0;  // of the log, told
+  safety::CauseSet causes_;
+  world::Mode mode_ = world::Mode::kDisarmed;
+  safety::Arming arming_ = safety::Arming::kNotAsked;
+  world::TrackFlag track_ = world::TrackFlag::kNone;
+  world::VehicleFlag vehicle_ = world::VehicleFlag::kNone;
+  std::uint8_t laps_ = 0;
+  std::optional<Instant> lap_at_;  // when that many were told
+  std::uint64_t missed_ = 0;
+};
+
+}  // namespace pitwall::pipeline
