@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <chrono>
-#include <numeric>
+#include <memory>
 
 #include "protocol/telemetry/packet/body.hpp"
 #include "protocol/telemetry/session/traffic.hpp"
@@ -45,40 +44,34 @@ Contestant ours() {
 }
 
 // The whole datagram: header, encrypted body, tag. The acknowledgement is not in every packet.
-std::optional<Measured> ours_sealed(const std::vector<Values>& trace) {
+Contestant ours_sealed() {
   prepare_sodium();
-  Key key;
-  std::array<std::uint8_t, kMaxBody> body{}, plain{};
-  std::array<std::uint8_t, kMaxDatagram> datagram{};
-  Sealer sealer(key, 1, kNow);
-  Opener opener(key, kNow);
-  double bytes = 0.0, seal_ns = 0.0, open_ns = 0.0;
-  for (const Values& values : trace) {
-    using Clock = std::chrono::steady_clock;
-    const auto begun = Clock::now();
-    const auto content = body_of(values, body);
-    sealer.seal(Kind::kSealed, 1, content, kNow,
-                {datagram.data(), content.size() + kHeaderSize + kTagSize});
-    const auto sealed = Clock::now();
-    const std::size_t size = content.size() + kHeaderSize + kTagSize;
-    const auto header = parse_header({datagram.data(), size});
-    if (!header) return std::nullopt;
-    const auto opening = opener.open(*header, {datagram.data(), size}, kNow, plain);
-    const auto read = parse_body({plain.data(), content.size()}, Direction::kDown);
-    const auto opened = Clock::now();
-    if (opening.verdict != Opener::Verdict::kNew || !read) return std::nullopt;
-    bytes += static_cast<double>(size);
-    seal_ns += std::chrono::duration<double, std::nano>(sealed - begun).count();
-    open_ns += std::chrono::duration<double, std::nano>(opened - sealed).count();
-  }
-  const auto count = static_cast<double>(trace.size());
-  return Measured{.name = "ours, sealed",
-                  .bytes_by = "protocol/telemetry/packet and session",
-                  .payload = static_cast<double>(bytes_of(kVehicleStateSet)),
-                  .datagram = bytes / count,
-                  .authenticated = true,
-                  .encode_ns = seal_ns / count,
-                  .decode_ns = open_ns / count};
+  struct Session {
+    Key key;
+    Sealer sealer{key, 1, kNow};
+    std::array<std::uint8_t, kMaxBody> body{}, plain{};
+  };
+  const auto session = std::make_shared<Session>();
+  const auto encode = [session](const Values& values, std::span<std::uint8_t> out) {
+    const auto body = body_of(values, session->body);
+    const std::size_t size = kHeaderSize + body.size() + kTagSize;
+    session->sealer.seal(Kind::kSealed, 1, body, kNow, out.first(size));
+    return size;
+  };
+  // A receiver of its own for each, because it opens each packet once only.
+  const auto decode = [session](Bytes datagram, Values& values) {
+    Opener opener(session->key, kNow);
+    const auto header = parse_header(datagram);
+    if (!header) return false;
+    const auto opening = opener.open(*header, datagram, kNow, session->plain);
+    if (opening.verdict != Opener::Verdict::kNew) return false;
+    const std::size_t size = datagram.size() - kHeaderSize - kTagSize;
+    const auto body = parse_body(std::span(session->plain).first(size), Direction::kDown);
+    if (!body) return false;
+    values = body->values;
+    return true;
+  };
+  return {"ours, sealed", "protocol/telemetry/packet and session", Keeps::kSteps, encode, decode};
 }
 
 }  // namespace pitwall::codec
