@@ -23,16 +23,13 @@ class BitWriter {
   constexpr bool write(std::uint64_t value, unsigned bits) {
     CHECK(bits <= kMaxFieldBits && (bits == kMaxFieldBits || value >> bits == 0));
     if (!ok_ || bits > 8 * buffer_.size() - at_) return ok_ = false;
-    while (bits > 0) {
-      const unsigned free = 8U - static_cast<unsigned>(at_ % 8);
-      const unsigned now = bits < free ? bits : free;
-      std::uint8_t& byte = buffer_[at_ / 8];
-      if (free == 8) byte = 0;
-      const auto part = static_cast<unsigned>(value >> (bits - now)) & ((1U << now) - 1U);
-      byte = static_cast<std::uint8_t>(byte | part << (free - now));
-      at_ += now;
-      bits -= now;
+    constexpr unsigned kWhole = 56;  // with the bits of a begun byte they fill a register
+    if (bits > kWhole) {
+      put(value >> kWhole, bits - kWhole);
+      value &= (std::uint64_t{1} << kWhole) - 1;
+      bits = kWhole;
     }
+    put(value, bits);
     return true;
   }
   constexpr bool write_flag(bool value) { return write(value ? 1 : 0, 1); }
@@ -44,6 +41,18 @@ class BitWriter {
   constexpr std::size_t bytes() const { return (at_ + 7) / 8; }
 
  private:
+  constexpr void put(std::uint64_t value, unsigned bits) {
+    const auto begun = static_cast<unsigned>(at_ % 8);
+    const std::size_t first = at_ / 8, bytes = (begun + bits + 7) / 8;
+    if (bits == 0) return;
+    if (begun != 0) value |= std::uint64_t{buffer_[first]} >> (8 - begun) << bits;
+    value <<= 8 * bytes - begun - bits;
+    for (std::size_t i = bytes; i > 0; --i, value >>= 8U) {
+      buffer_[first + i - 1] = static_cast<std::uint8_t>(value);
+    }
+    at_ += bits;
+  }
+
   std::span<std::uint8_t> buffer_;
   std::size_t at_ = 0;
   bool ok_ = true;
