@@ -8,20 +8,23 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/draw.hpp"
+
 namespace pitwall::telemetry {
 namespace {
 
 // A path that wanders at random from any place of the map.
-std::vector<PathPoint> some_path(std::mt19937& random, std::size_t points) {
-  std::uniform_real_distribution<double> place(-9e5, 9e5), step(-290.0, 290.0), speed(0.0, 90.0);
-  std::vector<PathPoint> path{{place(random), place(random), speed(random)}};
+std::vector<PathPoint> some_path(std::mt19937_64& random, std::size_t points) {
+  const auto within = [&](double bound) { return testing::draw_uniform(random, -bound, bound); };
+  const auto speed = [&] { return testing::draw_uniform(random, 0.0, 90.0); };
+  std::vector<PathPoint> path{{within(9e5), within(9e5), speed()}};
   while (path.size() < points)
-    path.push_back({path.back().x_m + step(random), path.back().y_m + step(random), speed(random)});
+    path.push_back({path.back().x_m + within(290.0), path.back().y_m + within(290.0), speed()});
   return path;
 }
 
 TEST(PathObject, ComesBackToHalfACentimetreHoweverLong) {
-  std::mt19937 random(11);
+  std::mt19937_64 random(11);
   for (std::size_t points = 1; points <= kPathPoints; ++points) {
     const auto path = some_path(random, points);
     PathBuffer buffer;
@@ -53,7 +56,7 @@ TEST(PathObject, WhatIsNoPathIsRefused) {
 
 // Of every length but its own, and with any byte changed: no more than other numbers.
 TEST(PathObject, ForeignBytesDoNoHarm) {
-  std::mt19937 random(12);
+  std::mt19937_64 random(12);
   PathBuffer buffer;
   const auto bytes = *encode_path(some_path(random, 20), buffer);
   std::vector<std::uint8_t> copy(bytes.begin(), bytes.end());
