@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "basestation/intake/key_pair.hpp"
@@ -16,6 +17,7 @@
 #include "basestation/intake/station.hpp"
 #include "basestation/outlets/summary.hpp"
 #include "basestation/outlets/terminal.hpp"
+#include "protocol/telemetry/export/export.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/posix_call.hpp"
@@ -36,8 +38,16 @@ struct Arguments {
   int operator_port = 0;
   bool text = false, plain = false, all = false, network = false, signed_only = false;
   double duration_s = 0.0, refresh_hz = 10.0, budget_kbit = 256.0;
-  std::string keygen_folder;
+  std::string keygen_folder, export_kind;
 };
+
+std::string kinds() {
+  std::string text;
+  for (const std::string_view kind : telemetry::kExportKinds) {
+    text += (text.empty() ? "" : ", ") + std::string{kind};
+  }
+  return text;
+}
 
 void describe(CLI::App& app, Arguments& a) {
   app.add_option("--keys", a.keys, "The base's keys, as keygen makes them");
@@ -64,6 +74,9 @@ void describe(CLI::App& app, Arguments& a) {
   app.add_option("--json", a.json_path, "Write a summary of the run to this file");
   CLI::App* const keygen = app.add_subcommand("keygen", "Make the keys of a car and its base");
   keygen->add_option("--out", a.keygen_folder, "Folder for car.keys and base.keys")->required();
+  CLI::App* const exporting =
+      app.add_subcommand("export", "Print what the radio says, as " + kinds());
+  exporting->add_option("KIND", a.export_kind, kinds())->required();
 }
 
 int complain(int code, const std::string& what) {
@@ -90,6 +103,12 @@ int make_keys(const std::string& folder) {
   std::printf("%s/%s and %s/%s: secret, one for each end\n", folder.c_str(), intake::kCarKeys,
               folder.c_str(), intake::kBaseKeys);
   return kDone;
+}
+
+int print_export(const std::string& kind) {
+  const auto text = telemetry::export_text(kind);
+  if (!text) return complain(kMistake, "export " + kind + ": one of " + kinds());
+  return std::fwrite(text->data(), 1, text->size(), stdout) == text->size() ? kDone : kFailed;
 }
 
 // Everything that a run needs, found wrong before it begins.
@@ -202,6 +221,7 @@ int main(int argc, char** argv) {
     return complain(kMistake, mistake.what());
   }
   if (!arguments.keygen_folder.empty()) return make_keys(arguments.keygen_folder);
+  if (!arguments.export_kind.empty()) return print_export(arguments.export_kind);
   if (!std::isfinite(arguments.duration_s) || !std::isfinite(arguments.refresh_hz)) {
     return complain(kMistake, "--duration and --refresh are numbers");
   }

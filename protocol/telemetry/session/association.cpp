@@ -22,21 +22,6 @@ constexpr std::array<std::uint8_t, 15> kPrologue = [] {
 
 }  // namespace
 
-const char* text_of(Refusal refusal) {
-  constexpr std::array<const char*, kRefusals> kTexts{
-      "not a datagram of this protocol",
-      "of a session that is not ours",
-      "had before or too old",
-      "forged",
-      "key exchange with another key",
-      "repeats a key exchange",
-      "key exchange without the cookie asked for",
-      "more key exchanges than are answered",
-      "sealed where signed was agreed, or the other way",
-      "about a session that is not in use"};
-  return kTexts[static_cast<std::size_t>(refusal)];
-}
-
 Association::Association(const AssociationConfig& config, Randomness& randomness)
     : config_(config), randomness_(&randomness), standing_(config.keys.own, config.keys.peer) {
   CHECK(config.paths >= 1 && config.paths <= kPaths);

@@ -37,6 +37,7 @@
 #include "protocol/telemetry/session/knock_guard.hpp"
 #include "protocol/telemetry/session/noise_kk.hpp"
 #include "protocol/telemetry/session/path_addresses.hpp"
+#include "protocol/telemetry/session/refusal.hpp"
 #include "protocol/telemetry/session/traffic.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/time.hpp"
@@ -62,21 +63,6 @@ struct AssociationConfig {
   std::uint8_t paths = 1;
   std::uint64_t first_sequence = 1;  // tests begin close to where 32 bits wrap
 };
-
-enum class Refusal : std::uint8_t {
-  kHeader,         // HeaderError, or too short for its kind
-  kNoSession,      // number of a session that is not ours
-  kReplayed,       // had before, or older than the window
-  kForged,         // the tag does not fit
-  kBadExchange,    // an opening or answer that is not of the provisioned key
-  kOldExchange,    // answers an opening that is not under way, or repeats one
-  kCookieWanted,   // an opening without the cookie while too many knock
-  kTooManyKnocks,  // beyond what is even answered
-  kWrongMode,      // sealed where signed was agreed, or the other way
-  kForeignBoot     // hints and the like that do not concern us
-};
-inline constexpr std::size_t kRefusals = 10;
-const char* text_of(Refusal refusal);
 
 struct AssociationCounters {
   std::uint64_t received = 0, opened = 0, sealed = 0;

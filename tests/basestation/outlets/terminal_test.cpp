@@ -13,6 +13,7 @@
 #include "basestation/intake/key_pair.hpp"
 #include "protocol/telemetry/endpoint/car_endpoint.hpp"
 #include "protocol/transport/clock.hpp"
+#include "protocol/transport/readiness.hpp"
 
 namespace pitwall::outlets {
 namespace {
@@ -74,7 +75,8 @@ class Terminal : public testing::Test {
       while (const auto out = car.poll(snapshot, now)) {
         car_socket_->send_to({.ip = out->to.ip, .port = out->to.port}, out->bytes);
       }
-      ::usleep(2'000);
+      const int watched[] = {car_socket_->fd()};
+      transport::wait_readable(watched, now + milliseconds(2));
     }
   }
 
