@@ -23,7 +23,7 @@ TEST(VehicleState, TakesAsMuchOfADatagramAsTheRegistrySays) {
   EXPECT_EQ(written, kVehicleStateSet);
   EXPECT_EQ(kHeaderSize + body.bytes().size() + kTagSize, kVehicleStateDatagram);
   EXPECT_LE(bytes_of(kVehicleStateSet), 121U);
-  EXPECT_LE(kVehicleStateDatagram, 154U);
+  EXPECT_LE(kVehicleStateDatagram + kIpUdpOverhead, 179U);
 }
 
 }  // namespace
