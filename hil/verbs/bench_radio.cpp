@@ -68,6 +68,12 @@ std::string title_of(const ContestRow& row) {
   return row.stream.empty() ? row.contestant : row.contestant + ": " + row.stream;
 }
 
+// Rates are of no sender.
+void print_floor(const ContestRow& row) {
+  std::printf("%-26s %9.1f %9.1f %9.1f\n", row.contestant.c_str(), row.age_p50_ms, row.age_p99_ms,
+              row.age_max_ms);
+}
+
 void print_row(const ContestRow& row) {
   std::printf("%-26s %9.1f %9.1f %9.1f %9.0f %12.0f %8.0f %8zu %9.2f", title_of(row).c_str(),
               row.age_p50_ms, row.age_p99_ms, row.age_max_ms, row.offered_kbps,
@@ -120,6 +126,7 @@ Result<std::vector<ContestRow>, Problem> hold(const Options& options,
   for (const bench::ContestCase& of_case : kCases) {
     if (!options.only_case.empty() && of_case.name != options.only_case) continue;
     print_heading(of_case);
+    print_floor(bench::best_possible(of_case, plan));
     for (const bench::Contestant& contestant : contestants(options.peers)) {
       if (!chosen(contestant.name, options.only)) continue;
       if (!fs::exists(contestant.program)) {

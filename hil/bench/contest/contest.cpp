@@ -10,6 +10,7 @@
 
 #include "hil/link/age_samples.hpp"
 #include "hil/link/rate_window.hpp"
+#include "hil/link/trace.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
@@ -166,6 +167,19 @@ ContestRow judge(const std::vector<StateArrival>& arrivals, const LinkTally& tal
           .states = arrivals.size(),
           .looks_without = ages.unknown(),
           .link_late_p99_ms = late_p99_ms(tally.down.late)};
+}
+
+ContestRow best_possible(const ContestCase& of_case, const ContestPlan& plan) {
+  const link::LinkTrace fades =
+      of_case.fades ? shifted(plan.fades, plan.warm_up) : link::LinkTrace{};
+  std::vector<StateArrival> arrivals;
+  const Instant end = Instant{} + plan.warm_up + plan.length;
+  for (Instant at{}; at < end; at += link::kLook)
+    if (link::loss_over_time(fades, at) == 0.0) arrivals.push_back({at, at + plan.link.delay});
+  ContestRow row = judge(arrivals, {}, plan);
+  row.contestant = "the channel's floor";
+  row.of_case = of_case.name;
+  return row;
 }
 
 Result<std::vector<ContestRow>, Problem> run_contest(const Contestant& contestant,

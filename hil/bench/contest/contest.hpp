@@ -60,6 +60,10 @@ Result<std::vector<ContestRow>, Problem> run_contest(const Contestant& contestan
                                                      const ContestCase& of_case,
                                                      const ContestPlan& plan);
 
+// The floor that the channel sets: a value each millisecond, each as small as nothing, lost only in
+// fades. No sender can be younger.
+ContestRow best_possible(const ContestCase& of_case, const ContestPlan& plan);
+
 // What a base printed, in order of arrival.
 struct StateArrival {
   Instant made{}, at{};

@@ -58,6 +58,15 @@ TEST(Contest, OnlyWhatComesAfterTheWarmUpIsJudged) {
   EXPECT_EQ(row.looks_without, 0U);
 }
 
+TEST(Contest, NobodyIsYoungerThanTheChannelAllows) {
+  ContestPlan plan = short_plan();
+  EXPECT_EQ(best_possible({"light"}, plan).age_max_ms, 15.0);
+  plan.fades.outages = {{at_ms(100), at_ms(300), 1.0}};
+  const ContestRow faded = best_possible({"fades", false, true}, plan);
+  EXPECT_EQ(faded.age_p50_ms, 15.0);
+  EXPECT_NEAR(faded.age_max_ms, 15.0 + 200.0, 1.0);
+}
+
 // A contestant of a shell script: its ages are what it printed, its words what it was given.
 class ContestRun : public ::testing::Test {
  protected:
