@@ -45,9 +45,9 @@ const auto kSteps = [] {
 
 }  // namespace
 
-double VirtualRadio::value_of(FieldIndex field, std::int64_t tick) {
+double VirtualRadio::value_of(FieldIndex field, std::int64_t sample) {
   const Steps& steps = kSteps[field];
-  std::uint64_t mixed = (static_cast<std::uint64_t>(tick) + 1) * 0x9E3779B97F4A7C15U;
+  std::uint64_t mixed = (static_cast<std::uint64_t>(sample) + 1) * 0x9E3779B97F4A7C15U;
   mixed = (mixed ^ (field + 1) * 0xBF58476D1CE4E5B9U) * 0x94D049BB133111EBU;
   return steps.min + static_cast<double>((mixed >> 24) % steps.count) * steps.resolution;
 }
@@ -85,12 +85,12 @@ ConduitConfig VirtualRadio::config(bool car) const {
 
 void VirtualRadio::restart_car() {
   car_ = std::make_unique<CarEndpoint>(config(true), randomness_);
-  tick_at_base_.fill(-1);
+  sample_at_base_.fill(-1);
 }
 
 void VirtualRadio::restart_base() {
   station_ = std::make_unique<StationEndpoint>(config(false), randomness_);
-  tick_at_base_.fill(-1);
+  sample_at_base_.fill(-1);
 }
 
 Instant VirtualRadio::car_time(Instant air) const { return air + kUptime; }
@@ -106,7 +106,7 @@ void VirtualRadio::run(Duration length) {
 
 void VirtualRadio::step() {
   deliver();
-  if ((now_ - Instant{}).ns % kTick.ns == 0) tick_car();
+  if (now_ >= next_tick_) tick_car();
   poll_base();
   look();
   now_ += kStep;
@@ -147,7 +147,7 @@ void VirtualRadio::judge(std::span<const std::uint8_t> datagram, const Arrival& 
   const auto header = parse_header(datagram);
   CHECK(header.has_value());
   Sent& sent = sent_as(*header);
-  const bool known = sent.tick >= 0 && sent.receiver == header->receiver &&
+  const bool known = sent.sample >= 0 && sent.receiver == header->receiver &&
                      sent.sequence_low == header->sequence_low &&
                      sent.sequence_low == static_cast<std::uint32_t>(arrival.sequence);
   if (!known) {
@@ -158,26 +158,34 @@ void VirtualRadio::judge(std::span<const std::uint8_t> datagram, const Arrival& 
   sent.arrived = true;
   for (const GroupRow& row : kGroupTable) {
     if (!arrival.groups.has(row.group)) continue;
-    std::int64_t& tick = tick_at_base_[index_of(row.group)];
-    if (sent.tick < tick) ++falsehoods_.went_back;
-    tick = sent.tick;
+    std::int64_t& sample = sample_at_base_[index_of(row.group)];
+    if (sent.sample < sample) ++falsehoods_.went_back;
+    sample = sent.sample;
     const Instant told = station_->state().at(row.group);
-    const Instant truth = base_time(Instant{} + kTick * sent.tick);
+    const Instant truth = base_time(Instant{} + kStep * sent.sample);
     if (station_->clock_known() && told > truth) ++falsehoods_.too_young;
-    judge_values(row.group, sent.tick);
+    judge_values(row.group, sent.sample);
   }
 }
 
-void VirtualRadio::judge_values(Group group, std::int64_t tick) {
+void VirtualRadio::judge_values(Group group, std::int64_t sample) {
   const auto [first, count] = fields_of(group);
   for (FieldIndex i = first; i < first + count; ++i) {
-    if (station_->state().values[i] != value_of(i, tick)) ++falsehoods_.never_sampled;
+    if (station_->state().values[i] != value_of(i, sample)) ++falsehoods_.never_sampled;
   }
+}
+
+Duration VirtualRadio::draw_jitter() {
+  jitter_ = jitter_ * 6'364'136'223'846'793'005U + 1;  // Knuth, MMIX
+  return kStep * static_cast<std::int64_t>(
+                     (jitter_ >> 33) % static_cast<std::uint64_t>(setup_.tick_jitter / kStep + 1));
 }
 
 void VirtualRadio::tick_car() {
-  tick_ = (now_ - Instant{}) / kTick;
-  for (FieldIndex i = 0; i < kFieldCount; ++i) snapshot_.values[i] = value_of(i, tick_);
+  const std::int64_t ticks = (now_ - Instant{}) / kTick;
+  next_tick_ = Instant{} + kTick * (ticks + 1) + draw_jitter();
+  sample_ = (now_ - Instant{}) / kStep;
+  for (FieldIndex i = 0; i < kFieldCount; ++i) snapshot_.values[i] = value_of(i, sample_);
   for (const GroupRow& row : kGroupTable) {
     if (sampled_.has(row.group)) snapshot_.at(row.group) = car_now();
   }
@@ -197,9 +205,9 @@ void VirtualRadio::send(bool down, const Outgoing& out) {
   if (down && data) {
     Sent& sent = sent_as(*header);
     // A copy for the other path is the same packet.
-    const bool copy = sent.receiver == header->receiver && sent.tick == tick_ &&
+    const bool copy = sent.receiver == header->receiver && sent.sample == sample_ &&
                       sent.sequence_low == header->sequence_low;
-    if (!copy) sent = {header->receiver, header->sequence_low, tick_, false};
+    if (!copy) sent = {header->receiver, header->sequence_low, sample_, false};
   }
   if (tap_ && !tap_(down, out.path, out.bytes)) return;
   Side& side = down ? car_side_ : base_side_;
@@ -221,15 +229,15 @@ void VirtualRadio::move_car(PathId path, Address source) { car_side_.address[pat
 void VirtualRadio::move_base(PathId path, Address source) { base_side_.address[path] = source; }
 
 std::optional<Instant> VirtualRadio::sample_at_base(Group group) const {
-  const std::int64_t tick = tick_at_base_[index_of(group)];
-  if (tick < 0) return {};
-  return Instant{} + kTick * tick;
+  const std::int64_t sample = sample_at_base_[index_of(group)];
+  if (sample < 0) return {};
+  return Instant{} + kStep * sample;
 }
 
 void VirtualRadio::look() {
   for (const GroupRow& row : kGroupTable) {
-    const std::int64_t tick = tick_at_base_[index_of(row.group)];
-    if (tick >= 0) ages_.look(row.group, now_ - (Instant{} + kTick * tick));
+    const std::int64_t sample = sample_at_base_[index_of(row.group)];
+    if (sample >= 0) ages_.look(row.group, now_ - (Instant{} + kStep * sample));
   }
 }
 

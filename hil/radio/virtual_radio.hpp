@@ -5,7 +5,7 @@
 //          them, every departure
 //   law    one seed, one run; time moves in steps of 1 ms. The car samples its state and polls each
 //          kTick, as the vehicle's loop does; the base each step. A value tells its field and the
-//          tick of its sample (value_of()), so that what arrives can be compared with what was
+//          millisecond of its sample (value_of()), so that what arrives can be compared with what was
 //   time   now() is the air's; the ends have clocks of their own
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -39,6 +39,7 @@ struct RadioSetup {
   Duration clock_offset{};       // the base's clock minus the car's
   double clock_drift_ppm = 0.0;  // of the base's clock
   std::uint64_t seed = 1;
+  Duration tick_jitter{};  // each tick of the car comes late by 0 .. this, drawn
   bool signed_only = false;
   std::uint64_t first_sequence = 1;
   // What they say that their registries are; none: what it is. Outlive the radio.
@@ -55,7 +56,7 @@ struct Departure {
 // What the base had that it must not: counted by the onlooker.
 struct Falsehoods {
   std::uint64_t too_young = 0;      // says of a sample that it was taken later than it was
-  std::uint64_t never_sampled = 0;  // a value that the car did not have at that tick
+  std::uint64_t never_sampled = 0;  // a value that the car did not have then
   std::uint64_t went_back = 0;      // an older sample after a newer one
   std::uint64_t repeated = 0;       // the same packet a second time
 
@@ -114,15 +115,15 @@ class VirtualRadio {
     return departures_[down ? 0 : 1][path];
   }
 
-  // What the car has in this field at this tick.
-  static double value_of(telemetry::FieldIndex field, std::int64_t tick);
+  // What the car has in this field in the sample of this millisecond.
+  static double value_of(telemetry::FieldIndex field, std::int64_t sample);
 
  private:
   // By the number of the session and that of the packet, as its header has them.
   struct Sent {
     std::uint16_t receiver = 0;
     std::uint32_t sequence_low = 0;
-    std::int64_t tick = -1;
+    std::int64_t sample = -1;
     bool arrived = false;
   };
   struct Side {
@@ -135,12 +136,13 @@ class VirtualRadio {
   void take_at_base(const link::Datagram& datagram, telemetry::PathId path);
   void take_at_car(const link::Datagram& datagram, telemetry::PathId path);
   void tick_car();
+  Duration draw_jitter();
   void poll_base();
   void note_departure(bool down, telemetry::PathId path, std::size_t bytes);
   void send(bool down, const telemetry::Outgoing& out);
   Sent& sent_as(const telemetry::Header& header);
   void judge(std::span<const std::uint8_t> datagram, const telemetry::Arrival& arrival);
-  void judge_values(telemetry::Group group, std::int64_t tick);
+  void judge_values(telemetry::Group group, std::int64_t sample);
   void look();
 
   RadioSetup setup_;
@@ -153,9 +155,11 @@ class VirtualRadio {
   telemetry::Snapshot snapshot_;
   telemetry::GroupSet sampled_ = telemetry::groups_of(telemetry::Direction::kDown);
   Instant now_{};
-  std::int64_t tick_ = 0;
+  std::int64_t sample_ = 0;  // number of the sample that the car has: its millisecond
+  Instant next_tick_{};
+  std::uint64_t jitter_ = 1;
   std::vector<Sent> sent_;
-  std::array<std::int64_t, telemetry::kGroups> tick_at_base_{};
+  std::array<std::int64_t, telemetry::kGroups> sample_at_base_{};
   Tap tap_;
   AgeMeter ages_;
   Falsehoods falsehoods_;
