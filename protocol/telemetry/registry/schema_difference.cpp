@@ -126,6 +126,7 @@ void compare_group(const ListedGroup& here, const ListedGroup& there, Report& re
 }  // namespace
 
 std::string difference(std::string_view here_text, std::string_view there_text) {
+  if (here_text == there_text) return {};
   const Listing here = read_listing(here_text), there = read_listing(there_text);
   Report report;
   for (const ListedGroup& group : here.groups) {
@@ -144,8 +145,7 @@ std::string difference(std::string_view here_text, std::string_view there_text) 
     report.add("text of the other end", std::to_string(there.bad_lines) +
                                             " lines are not understood, the first is line " +
                                             std::to_string(there.first_bad_line));
-  if (report.lines() == 0 && here_text != there_text)
-    report.add("text", "differs in a way that has no name");
+  if (report.lines() == 0) report.add("text", "differs in a way that has no name");
   return report.take();
 }
 

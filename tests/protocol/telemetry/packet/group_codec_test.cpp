@@ -122,6 +122,21 @@ TEST(GroupCodec, ATruncatedGroupLeavesTheValuesUntouched) {
   }
 }
 
+// A peer parses its receive buffer whole, however short the datagram is: what lies there from the one
+// before is taken for new. Here the buffer still holds a whole legal group behind the datagram.
+TEST(GroupCodec, ReadsADatagramOnlyAsFarAsItGoesWhateverStillLiesBehindIt) {
+  Values before;
+  for (FieldIndex i = 0; i < kFieldCount; ++i) before[i] = kFields[i].max;
+  for (const GroupRow& row : kGroupTable) {
+    const Written buffer = written(row.group, before);
+    const std::size_t whole = (group_bits(row.group) + 7) / 8;
+    bits::BitReader in{std::span{buffer.bytes}.first(whole - 1)};
+    Values values;
+    EXPECT_FALSE(decode_group(row.group, in, values)) << row.name;
+    for (const double value : values.at) EXPECT_TRUE(std::isnan(value)) << row.name;
+  }
+}
+
 // Of every field all patterns past its last step but the one that means unset.
 TEST(GroupCodec, APatternThatNoValueMakesIsRefused) {
   for (FieldIndex i = 0; i < kFieldCount; ++i) {
