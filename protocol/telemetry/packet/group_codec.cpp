@@ -103,27 +103,6 @@ constexpr std::array kAges{milliseconds(0),  milliseconds(2),  milliseconds(4), 
 static_assert(kAges.size() == kNeverCode);
 static_assert(std::is_sorted(kAges.begin(), kAges.end()));
 
-// Fields put together in a register, so that the writer is called once for several of them.
-class Gatherer {
- public:
-  explicit Gatherer(bits::BitWriter& out) : out_(&out) {}
-
-  void put(std::uint64_t step, unsigned bits) {
-    if (bits > bits::kMaxFieldBits - bits_) flush();
-    gathered_ = gathered_ << bits | step;
-    bits_ += bits;
-  }
-  void flush() {
-    out_->write(gathered_, bits_);
-    gathered_ = bits_ = 0;
-  }
-
- private:
-  bits::BitWriter* out_;
-  std::uint64_t gathered_ = 0;
-  unsigned bits_ = 0;
-};
-
 }  // namespace
 
 bool encode_group(Group group, const Values& values, bits::BitWriter& out,
