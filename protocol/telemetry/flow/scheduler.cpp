@@ -10,9 +10,9 @@ namespace pitwall::telemetry {
 
 namespace {
 
-// Both ends send once in 20 ms: a packet waits so long for its acknowledgement to be written, and
-// that for the next look at it.
-constexpr Duration kAckWait = milliseconds(45);
+// Both ends send once in 20 ms. So long a packet waits for its acknowledgement to be written; and
+// with what the sender waits for its own next slot, after so long it should have been.
+constexpr Duration kAckWait = milliseconds(25), kSilence = milliseconds(45);
 constexpr Duration kUnknownAge = seconds(3'600);  // of what the other end never had
 
 }  // namespace
@@ -28,14 +28,14 @@ void Scheduler::forget() {
 }
 
 bool Scheduler::silent(Duration round_trip, Instant now) const {
-  return newest_ > newest_acked_ && now > oldest_doubtful_ + round_trip + kAckWait;
+  return newest_ > newest_acked_ && now > oldest_doubtful_ + round_trip + kSilence;
 }
 
 Instant Scheduler::known_sample(Group group, Duration round_trip, Instant now) const {
   const std::size_t g = index_of(group);
   const Instant acked = figures_[g].acked_sample;
-  const bool under_way = last_sent_[g] != kNeverSampled && now < last_sent_[g] + round_trip &&
-                         !silent(round_trip, now);
+  const bool under_way = last_sent_[g] != kNeverSampled &&
+                         now < last_sent_[g] + round_trip + kAckWait && !silent(round_trip, now);
   return under_way ? std::max(acked, last_sample_[g]) : acked;
 }
 

@@ -1,8 +1,8 @@
 // Which groups go into the next packet: safety always, then by age of what the other end is known
 // to have.
 //   law    index_g = w_g * (max(0, age_g - T_g / 2) / T_g)^2 / sqrt(bits_g); age_g since the sample
-//          that was acknowledged, or is under way for less than a round trip. Ages grow without
-//          bound, so no group starves. A sample that the other end has is not offered again
+//          that was acknowledged, or is under way for less than a round trip and the wait of an
+//          acknowledgement to be written. Ages grow without bound, so no group starves. A sample that the other end has is not offered again
 //          while nothing comes back that was sent since, what is under way counts as lost: after a
 //          fade the first packet that arrives has what is oldest
 //   in     snapshots, what was written into which packet, which packets were acknowledged

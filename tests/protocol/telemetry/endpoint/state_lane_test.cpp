@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/telemetry/endpoint/state_lane.hpp"
+
+#include <gtest/gtest.h>
+
+#include "protocol/telemetry/registry/schema.hpp"
+
+namespace pitwall::telemetry {
+namespace {
+
+constexpr Duration kRoundTrip = milliseconds(50);
+
+Instant at_ms(std::int64_t ms) { return Instant{} + milliseconds(ms); }
+
+Snapshot all_sampled(Instant at) {
+  Snapshot snapshot;
+  snapshot.sampled_at.fill(at);
+  return snapshot;
+}
+
+// A car's lane that makes packets one after the other, each acknowledged a round trip later.
+class Car {
+ public:
+  struct Packet {
+    GroupSet groups;
+    std::size_t bytes = 0, asked_of_share = 0, safety_bytes = 0;
+  };
+
+  Packet packet(std::int64_t ms, std::size_t room, StateLane::Writing how,
+                GroupSet known = groups_of(Direction::kDown)) {
+    const Instant now = at_ms(ms);
+    const Snapshot snapshot = all_sampled(now);
+    BodyWriter body(buffer_, room, Direction::kDown);
+    body.begin(now, 1);
+    Packet packet;
+    packet.asked_of_share = lane.choose(snapshot, known, kRoundTrip, now);
+    packet.safety_bytes = lane.write(body, snapshot, how, now);
+    lane.sent(++sequence_, snapshot, now);
+    if (sequence_ > 3) lane.acked(sequence_ - 3);
+    const auto parsed = parse_body(body.bytes(), Direction::kDown);
+    EXPECT_TRUE(parsed);
+    packet.groups = parsed->groups;
+    packet.bytes = body.bytes().size();
+    return packet;
+  }
+
+  StateLane lane{Direction::kDown};
+
+ private:
+  std::array<std::uint8_t, kMaxBody> buffer_{};
+  std::uint64_t sequence_ = 0;
+};
+
+bool all_of_class(GroupSet groups, Class priority) {
+  for (const GroupRow& row : kGroupTable) {
+    if (row.direction != Direction::kDown || row.priority != priority) continue;
+    if (!groups.has(row.group)) return false;
+  }
+  return true;
+}
+
+bool none_above(GroupSet groups, Class priority) {
+  for (const GroupRow& row : kGroupTable) {
+    if (row.priority > priority && groups.has(row.group)) return false;
+  }
+  return true;
+}
+
+TEST(StateLane, ASlotWithoutOthersHasSafetyAndMotion) {
+  Car car;
+  for (std::int64_t i = 0; i < 100; ++i) {
+    const auto packet = car.packet(20 * i, 550, {});
+    ASSERT_TRUE(all_of_class(packet.groups, Class::kSafety)) << i;
+    ASSERT_TRUE(all_of_class(packet.groups, Class::kMotion)) << i;
+    ASSERT_EQ(packet.safety_bytes, packet.asked_of_share);
+  }
+  // What is slow went when it was due, not each time.
+  const std::uint64_t engine = car.lane.figures(Group::kEngine).chosen;
+  EXPECT_GE(engine, 4U);
+  EXPECT_LE(engine, 12U);
+}
+
+TEST(StateLane, OnlySafetyIsOnlySafety) {
+  Car car;
+  for (std::int64_t i = 0; i < 20; ++i) {
+    const auto packet = car.packet(20 * i, 550, {.only_safety = true});
+    ASSERT_TRUE(none_above(packet.groups, Class::kSafety));
+    ASSERT_TRUE(all_of_class(packet.groups, Class::kSafety));
+  }
+}
+
+TEST(StateLane, BetweenSlotsNothingSlow) {
+  Car car;
+  for (std::int64_t i = 0; i < 50; ++i) {
+    const auto packet = car.packet(2'000 + 20 * i, 250, {.between = true});
+    ASSERT_TRUE(none_above(packet.groups, Class::kMotion));
+    ASSERT_TRUE(all_of_class(packet.groups, Class::kSafety));
+  }
+}
+
+// Bulk waits: motion still rides on the slot, and two thirds of the packet is the most it takes.
+TEST(StateLane, LeavesAThirdToWhatWaits) {
+  GroupSet fast;
+  for (const GroupRow& row : kGroupTable) {
+    if (row.direction == Direction::kDown && row.priority <= Class::kMotion) fast.add(row.group);
+  }
+  const std::size_t size = state_bytes(fast, Direction::kDown);
+  Car roomy, narrow;
+  for (std::int64_t i = 0; i < 50; ++i) {
+    const auto wide = roomy.packet(20 * i, 3 * size, {.something_waits = true});
+    ASSERT_TRUE(all_of_class(wide.groups, Class::kMotion));
+    (void)narrow.packet(20 * i, size + 30, {.something_waits = true});
+  }
+  // Where it would not, motion goes when it is due: less often than each slot.
+  EXPECT_LT(narrow.lane.figures(Group::kEgo).chosen, 45U);
+  EXPECT_GT(narrow.lane.figures(Group::kEgo).chosen, 5U);
+}
+
+TEST(StateLane, WhatTheOtherEndDoesNotKnowIsNotSent) {
+  Car car;
+  GroupSet known = groups_of(Direction::kDown);
+  known.remove(Group::kEgo);
+  known.remove(Group::kFlags);
+  for (std::int64_t i = 0; i < 50; ++i) {
+    const auto packet = car.packet(20 * i, 550, {}, known);
+    ASSERT_FALSE(packet.groups.has(Group::kEgo));
+    ASSERT_FALSE(packet.groups.has(Group::kFlags));
+    ASSERT_EQ(packet.safety_bytes, packet.asked_of_share);
+  }
+}
+
+TEST(StateLane, ANewSessionBeginsWithAll) {
+  Car car;
+  for (std::int64_t i = 0; i < 50; ++i) (void)car.packet(20 * i, 800, {});
+  car.lane.forget();
+  const auto packet = car.packet(1'001, 800, {});
+  for (const GroupRow& row : kGroupTable) {
+    EXPECT_EQ(packet.groups.has(row.group), row.direction == Direction::kDown) << row.name;
+  }
+}
+
+}  // namespace
+}  // namespace pitwall::telemetry
