@@ -19,6 +19,7 @@ class AgeHistogram {
   static constexpr Duration kBucket = milliseconds(1);
 
   void add(Duration from, Duration length);
+  bool empty() const { return total_ns_ == 0; }  // nothing was there to look at
 
   // The age that was not exceeded for this fraction of the time; zero if there was none.
   Duration quantile(double fraction) const;

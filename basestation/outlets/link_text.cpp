@@ -118,8 +118,9 @@ std::string ages_line(const intake::Station& station) {
   std::string text = "ages      p50/p99/max ms";
   for (const auto& [priority, name] : kNames) {
     const intake::AgeHistogram& ages = station.ages().of(priority);
-    text += say("   %s %.0f/%.0f/%.0f", name, ages.quantile(0.50).milliseconds(),
-                ages.quantile(0.99).milliseconds(), ages.largest().milliseconds());
+    text += ages.empty() ? say("   %s -", name)
+                         : say("   %s %.0f/%.0f/%.0f", name, ages.quantile(0.50).milliseconds(),
+                               ages.quantile(0.99).milliseconds(), ages.largest().milliseconds());
   }
   return text;
 }

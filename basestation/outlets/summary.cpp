@@ -48,6 +48,7 @@ class Object {
 };
 
 std::string ages_json(const intake::AgeHistogram& ages) {
+  if (ages.empty()) return R"({"p50": null, "p90": null, "p99": null, "max": null})";
   return Object{}
       .add("p50", ms(ages.quantile(0.50)))
       .add("p90", ms(ages.quantile(0.90)))

@@ -33,7 +33,7 @@ TEST(Summary, SaysWhatWasHeardAndSaid) {
   for (const char* part :
        {"\"source\": \"car\"", "\"car\": \"heard\"", "\"lost\": 0,", "\"refused\": 0,",
         "\"forged\": 0", "\"sessions\": 1,", "\"clock\": {\"known\": true, \"round_trip_ms\": ",
-        "\"ages_ms\": {\"safety\": {\"p50\": 0,",
+        "\"ages_ms\": {\"safety\": {\"p50\": null,",
         "\"motion\": {\"p50\": ", "\"command\": \"arm \\\"arm\\\"\"", "\"fate\": null",
         "\"event\": \"a \\\"quote\\\"\"", "\"loss_by_place_m\": {\"400\": 0}",
         "\"ego.x\": {\"unit\": \"m\", \"quality\": \"fresh\", \"value\": 10, \"age_ms\": ",
