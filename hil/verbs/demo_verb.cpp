@@ -93,6 +93,7 @@ Result<BaseFigures, Problem> read_base(const std::string& path) {
     base.lost = map.integer("lost", 0, 1'000'000'000);
     base.refused = map.integer("refused", 0, 1'000'000'000);
     base.rate_hz = map.number("rate_hz", 0.0, 1e6);
+    if (base.packets == 0) return base;  // then no age is known
     yaml::StrictMap age = map.map("age_ms");
     base.age_p50_ms = age.number("p50", 0.0, 1e9);
     base.age_p99_ms = age.number("p99", 0.0, 1e9);
