@@ -65,27 +65,21 @@ struct Said {
   double mode = kUnset, cause = kUnset, speed_mps = kUnset;
 };
 
-// The radio between car and base station, listened to.
-class Radio {
+// The car's local report, listened to.
+class Reports {
  public:
-  Radio() {
-    auto car = UdpSocket::bind({}), base = UdpSocket::bind({});
-    EXPECT_TRUE(car && base);
-    car_ = std::make_unique<UdpSocket>(*std::move(car));
-    base_ = std::make_unique<UdpSocket>(*std::move(base));
+  Reports() {
+    auto socket = UdpSocket::bind({});
+    EXPECT_TRUE(socket);
+    socket_ = std::make_unique<UdpSocket>(*std::move(socket));
   }
-  std::uint16_t port() const { return car_->local().port; }
+  std::uint16_t port() const { return socket_->local().port; }
 
-  void serve(std::uint16_t base_port) {
+  void read() {
     std::vector<transport::UdpDatagram> datagrams(UdpSocket::kBatch);
-    std::size_t count = car_->receive(datagrams);
-    for (const auto& d : std::span(datagrams).first(count)) {
-      base_->send_to({.port = base_port}, d.payload());
-      from_ = d.from;
+    const std::size_t count = socket_->receive(datagrams);
+    for (const auto& d : std::span(datagrams).first(count))
       if (const auto packet = telemetry::parse(d.payload())) take(*packet);
-    }
-    count = base_->receive(datagrams);
-    for (const auto& d : std::span(datagrams).first(count)) car_->send_to(from_, d.payload());
   }
 
   const std::vector<Said>& said() const { return said_; }
@@ -99,8 +93,7 @@ class Radio {
                      .speed_mps = p.values[field("ego.vx")]});
   }
 
-  std::unique_ptr<UdpSocket> car_, base_;
-  transport::UdpAddress from_{};
+  std::unique_ptr<UdpSocket> socket_;
   std::vector<Said> said_;
 };
 
@@ -124,12 +117,12 @@ class Experiment {
  public:
   Attempt run() {
     start();
-    result_.drove = wait([this] { return radio_.last().speed_mps > kFast_mps; }, seconds(40));
+    result_.drove = wait([this] { return reports_.last().speed_mps > kFast_mps; }, seconds(40));
     if (!result_.drove) return result_;
     transport::sleep_until(transport::monotonic_now() + milliseconds(1));
     kill_bench();
     result_.disarmed =
-        wait([this] { return is(radio_.last().mode, world::Mode::kDisarmed); }, kDisarmLimit);
+        wait([this] { return is(reports_.last().mode, world::Mode::kDisarmed); }, kDisarmLimit);
     if (result_.disarmed) start_bench_again();
     return result_;
   }
@@ -138,12 +131,16 @@ class Experiment {
   static bool is(double mode, world::Mode wanted) { return mode == static_cast<double>(wanted); }
 
   void start() {
+    const std::string keys = folder_->path() + "/keys";
+    auto keygen = spawn({program("PITWALL_BASE_PROGRAM"), "keygen", "--out", keys});
+    if (!keygen || keygen->wait().code != 0) ADD_FAILURE() << "no keys";
+    const std::string base_at = "127.0.0.1:" + std::to_string(kBasePort);
     base_ = spawn(
-        {program("PITWALL_BASE_PROGRAM"), "--listen", "127.0.0.1:" + std::to_string(kBasePort)});
+        {program("PITWALL_BASE_PROGRAM"), "--listen", base_at, "--keys", keys + "/base.keys"});
     car_ = spawn({program("PITWALL_VEHICLE_PROGRAM"), "--car", "vehicle/config/cars/av21.yaml",
                   "--track", "vehicle/config/tracks/lvms.yaml", "--can", bus_name(), "--gnss",
-                  "23501,23502", "--radio", "127.0.0.1:" + std::to_string(radio_.port()),
-                  "--simulation", "--arm"});
+                  "23501,23502", "--radio", base_at, "--keys", keys + "/car.keys", "--local-report",
+                  std::to_string(reports_.port()), "--simulation", "--arm"});
     bench_ = spawn(bench_words("60"));
   }
 
@@ -166,7 +163,7 @@ class Experiment {
   std::string json() const { return folder_->path() + "/run.json"; }
 
   void look() {
-    radio_.serve(kBasePort);
+    reports_.read();
     for (std::size_t count = bus_->receive(inbox_); count > 0; count = bus_->receive(inbox_))
       for (const auto& received : std::span(inbox_).first(count))
         if (!is_of_the_car(received.frame.id)) last_frame_ = received.at;
@@ -184,14 +181,14 @@ class Experiment {
     bench_->wait();
     const Instant killed = transport::monotonic_now();
     const auto tells = [this] {
-      return radio_.last().mode == static_cast<double>(world::Mode::kEmergencyStop) ||
-             radio_.last().cause != 0.0;
+      return reports_.last().mode == static_cast<double>(world::Mode::kEmergencyStop) ||
+             reports_.last().cause != 0.0;
     };
     const bool told = wait(tells, seconds(5));
     result_.last_frame = last_frame_;
     if (!told) return;
     Instant before = killed - milliseconds(20);
-    for (const Said& said : radio_.said()) {
+    for (const Said& said : reports_.said()) {
       if (said.sent < before) continue;
       result_.longest_gap = std::max(result_.longest_gap, said.sent - before);
       before = said.sent;
@@ -206,8 +203,8 @@ class Experiment {
     bench_ = spawn(bench_words("20"));
     const bool ended = wait(
         [this] {
-          result_.disarmed_to_the_end &= is(radio_.last().mode, world::Mode::kDisarmed) ||
-                                         is(radio_.last().mode, world::Mode::kHalted);
+          result_.disarmed_to_the_end &= is(reports_.last().mode, world::Mode::kDisarmed) ||
+                                         is(reports_.last().mode, world::Mode::kHalted);
           return bench_->poll().has_value();
         },
         seconds(40));
@@ -221,7 +218,7 @@ class Experiment {
       transport::TemporaryFolder::create("pitwall-bench-killed-");
   Result<transport::CanSocket, Problem> bus_ = transport::CanSocket::open(bus_name());
   std::vector<can::ReceivedFrame> inbox_ = std::vector<can::ReceivedFrame>(256);
-  Radio radio_;
+  Reports reports_;
   Instant last_frame_{};
   std::optional<Process> base_, car_, bench_;
   Attempt result_;

@@ -40,9 +40,9 @@ class Vehicle : public ::testing::Test {
     auto folder = transport::TemporaryFolder::create("pitwall-slcan-");
     ASSERT_TRUE(folder) << to_string(folder.error());
     folder_.emplace(*std::move(folder));
-    auto radio = transport::UdpSocket::bind({.ip = transport::kLoopbackIp, .port = 0});
-    ASSERT_TRUE(radio) << to_string(radio.error());
-    radio_.emplace(*std::move(radio));
+    auto report = transport::UdpSocket::bind({.ip = transport::kLoopbackIp, .port = 0});
+    ASSERT_TRUE(report) << to_string(report.error());
+    report_.emplace(*std::move(report));
   }
 
   std::string said() const { return transport::read_file(folder_->path() + "/said").value_or(""); }
@@ -65,7 +65,7 @@ class Vehicle : public ::testing::Test {
         {program("PITWALL_VEHICLE_PROGRAM", "/build/release/vehicle/pitwall-vehicle"), "--car",
          kRoot + "/vehicle/config/cars/av21.yaml", "--track",
          kRoot + "/vehicle/config/tracks/" + track_, "--can", controller_->interface(), "--gnss",
-         "23501,23502", "--radio", transport::to_string(radio_->local()), "--summary",
+         "23501,23502", "--local-report", std::to_string(report_->local().port), "--summary",
          folder_->path() + "/summary.json", "--simulation", "--arm", "--no-base"});
     return spawn(std::move(argv));
   }
@@ -78,11 +78,11 @@ class Vehicle : public ::testing::Test {
 
   // Reads telemetry until the condition holds.
   template <class Condition>
-  bool telemetry_says(Condition&& condition) {
+  bool report_says(Condition&& condition) {
     const Instant limit = transport::monotonic_now() + seconds(30);
     while (transport::monotonic_now() < limit) {
       std::vector<transport::UdpDatagram> datagrams(8);
-      const std::size_t count = radio_->receive(datagrams);
+      const std::size_t count = report_->receive(datagrams);
       for (std::size_t i = 0; i < count; ++i) {
         const auto packet = telemetry::parse(datagrams[i].payload());
         if (packet && condition(packet->values)) return true;
@@ -94,7 +94,7 @@ class Vehicle : public ::testing::Test {
 
   std::unique_ptr<ScriptedController> controller_;
   std::optional<transport::TemporaryFolder> folder_;
-  std::optional<transport::UdpSocket> radio_;
+  std::optional<transport::UdpSocket> report_;
   std::string track_ = "ims.yaml";
 };
 
@@ -102,12 +102,12 @@ TEST_F(Vehicle, ReportsBusOffRestartsThreeTimesAndStops) {
   ASSERT_EQ(bus({"up", controller_->interface(), "--bitrate", "500000"}), 0) << said();
   auto vehicle = start_vehicle();
   ASSERT_TRUE(vehicle);
-  ASSERT_TRUE(telemetry_says([](const telemetry::Values& values) {
+  ASSERT_TRUE(report_says([](const telemetry::Values& values) {
     return values[field("bus.controller")] == kActive;
   })) << said();
   controller_->answer_open("sb256000\r");
   controller_->say("sb256000\r");
-  EXPECT_TRUE(telemetry_says(
+  EXPECT_TRUE(report_says(
       [](const telemetry::Values& values) { return values[field("bus.controller")] == kBusOff; }));
   const std::size_t opened = controller_->opened();
   const Instant limit = transport::monotonic_now() + seconds(20);
@@ -115,7 +115,7 @@ TEST_F(Vehicle, ReportsBusOffRestartsThreeTimesAndStops) {
     transport::sleep_until(transport::monotonic_now() + milliseconds(5));
   transport::sleep_until(transport::monotonic_now() + seconds(1));
   EXPECT_EQ(controller_->opened(), opened + 3);  // and none in the second after
-  EXPECT_TRUE(telemetry_says(
+  EXPECT_TRUE(report_says(
       [](const telemetry::Values& values) { return values[field("bus.controller")] == kBusOff; }));
   vehicle->kill(SIGTERM);
   EXPECT_EQ(vehicle->wait().code, 0) << said();
@@ -128,15 +128,15 @@ TEST_F(Vehicle, WithoutThePrivilegeToRestartSaysWhyAndLeavesTheBus) {
   ASSERT_EQ(bus({"up", controller_->interface(), "--bitrate", "500000"}), 0) << said();
   auto vehicle = start_vehicle({"setpriv", "--bounding-set", "-net_admin"});
   ASSERT_TRUE(vehicle);
-  ASSERT_TRUE(telemetry_says([](const telemetry::Values& values) {
+  ASSERT_TRUE(report_says([](const telemetry::Values& values) {
     return values[field("bus.controller")] == kActive;
   })) << said();
   controller_->say("sb256000\r");
-  EXPECT_TRUE(telemetry_says([&](const telemetry::Values&) {
+  EXPECT_TRUE(report_says([&](const telemetry::Values&) {
     return said().find("CAP_NET_ADMIN") != std::string::npos;
   })) << said();
   transport::sleep_until(transport::monotonic_now() + seconds(1));
-  EXPECT_TRUE(telemetry_says(
+  EXPECT_TRUE(report_says(
       [](const telemetry::Values& values) { return values[field("bus.controller")] == kBusOff; }));
   EXPECT_EQ(controller_->opened(), 1u);
 }
@@ -147,7 +147,7 @@ TEST_F(Vehicle, OnAnInterfaceThatOnlyListensSaysSoAndStaysSilent) {
   auto vehicle = start_vehicle();
   ASSERT_TRUE(vehicle);
   double sent = -1, drops = 0, mode = -1;
-  ASSERT_TRUE(telemetry_says([&](const telemetry::Values& values) {
+  ASSERT_TRUE(report_says([&](const telemetry::Values& values) {
     sent = values[field("bus.frames_sent")];
     drops = values[field("bus.tx_drops")];
     mode = values[field("mode.mode")];

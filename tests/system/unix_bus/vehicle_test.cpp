@@ -38,9 +38,9 @@ class VehicleOnUnixBus : public ::testing::Test {
     auto folder = transport::TemporaryFolder::create("pitwall-unix-vehicle-");
     ASSERT_TRUE(folder) << to_string(folder.error());
     folder_.emplace(*std::move(folder));
-    auto radio = transport::UdpSocket::bind({.ip = transport::kLoopbackIp, .port = 0});
-    ASSERT_TRUE(radio) << to_string(radio.error());
-    radio_.emplace(*std::move(radio));
+    auto report = transport::UdpSocket::bind({.ip = transport::kLoopbackIp, .port = 0});
+    ASSERT_TRUE(report) << to_string(report.error());
+    report_.emplace(*std::move(report));
   }
 
   std::string bus() const { return "unix:" + folder_->path() + "/bus"; }
@@ -68,16 +68,16 @@ class VehicleOnUnixBus : public ::testing::Test {
     return spawn({program("PITWALL_VEHICLE_PROGRAM", "/build/release/vehicle/pitwall-vehicle"),
                   "--car", kRoot + "/vehicle/config/cars/av21.yaml", "--track",
                   kRoot + "/vehicle/config/tracks/lvms.yaml", "--can", bus(), "--gnss",
-                  "23511,23512", "--radio", transport::to_string(radio_->local()), "--summary",
-                  folder_->path() + "/summary.json", "--simulation"});
+                  "23511,23512", "--local-report", std::to_string(report_->local().port),
+                  "--summary", folder_->path() + "/summary.json", "--simulation", "--no-base"});
   }
 
   // The next packet of the car for which the condition holds.
   template <class Condition>
-  bool telemetry_says(Condition&& condition) {
+  bool report_says(Condition&& condition) {
     return comes_true([&] {
       std::vector<transport::UdpDatagram> datagrams(8);
-      const std::size_t count = radio_->receive(datagrams);
+      const std::size_t count = report_->receive(datagrams);
       for (std::size_t i = 0; i < count; ++i) {
         const auto packet = telemetry::parse(datagrams[i].payload());
         if (packet && condition(packet->values)) return true;
@@ -86,12 +86,12 @@ class VehicleOnUnixBus : public ::testing::Test {
     });
   }
   bool controller_is(double state) {
-    return telemetry_says(
+    return report_says(
         [state](const telemetry::Values& v) { return v[field("bus.controller")] == state; });
   }
 
   std::optional<transport::TemporaryFolder> folder_;
-  std::optional<transport::UdpSocket> radio_;
+  std::optional<transport::UdpSocket> report_;
 };
 
 // Frames of the car on the bus as somebody hears it who joins now.
