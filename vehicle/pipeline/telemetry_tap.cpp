@@ -199,7 +199,6 @@ void put_uplink(telemetry::Snapshot& snapshot, const TapInputs& in) {
   Values& v = snapshot.values;
   v[field("mode.stop_latch")] = up.stop_latch;
   v[field("mode.stop_challenge")] = up.stop_challenge;
-  v[field("uplink.stop_epoch")] = up.stop_epoch;
   v[field("uplink.stop_reason")] = up.stop_reason;
   v[field("uplink.authority")] = up.authority;
   v[field("uplink.joystick")] = up.joystick ? 1.0 : 0.0;

@@ -40,7 +40,6 @@ struct RimCounters {
     bool known = false;                                   // there is a radio
     double stop_latch = kUnset, stop_challenge = kUnset;  // of the latch
     double stop_reason = kUnset;                          // likewise
-    double stop_epoch = kUnset;                           // newest that was heard
     double authority = kUnset;                            // who holds it; 0: nobody
     bool joystick = false;                                // its samples are live
     bool schema_agrees = false;

@@ -32,7 +32,6 @@ inline constexpr auto kSafetyDown = [] {
       choice(kFlags, "vehicle_acted_on", kVehicleFlags, 14),
       yes_no(kFlags, "conflict"),  // the two encodings of race control disagree
 
-      {kUplink, "stop_epoch", "", 0, 253, 1},  // newest that the car heard
       choice(kUplink, "stop_reason", kStopReasons, 14),
       {kUplink, "authority", "", 0, 254, 1},  // who holds it, as the car knows
       yes_no(kUplink, "joystick"),            // its samples are live

@@ -224,7 +224,6 @@ inline constexpr RimCounters kRim{.frames_sent = 2002,
                                              .stop_latch = 1,
                                              .stop_challenge = 4711,
                                              .stop_reason = 3,
-                                             .stop_epoch = 12,
                                              .authority = 5,
                                              .joystick = true,
                                              .schema_agrees = true}};

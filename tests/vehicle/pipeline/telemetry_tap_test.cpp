@@ -96,7 +96,6 @@ const std::vector<Row> kExpected{
     {field("flags.conflict"), 1},
     {field("flags.track_acted_on"), 2},
     {field("flags.vehicle_acted_on"), 9},
-    {field("uplink.stop_epoch"), 12},
     {field("uplink.stop_reason"), 3},
     {field("uplink.authority"), 5},
     {field("uplink.joystick"), 1},
