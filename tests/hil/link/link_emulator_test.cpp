@@ -63,13 +63,13 @@ TEST(LinkEmulator, LosesTheShareInBurstsOfTheLengthThatWereAskedFor) {
     double loss;
     Duration fade;
   };
-  constexpr Duration kPeriod = milliseconds(2), kLength = seconds(3'600);
   for (const Case c : {Case{0.3, milliseconds(50)}, Case{0.3, milliseconds(120)},
                        Case{0.5, milliseconds(120)}, Case{0.1, milliseconds(120)}}) {
     LinkEmulator link(bursty(c.loss, c.fade, 0.0, milliseconds(15)), 7);
-    const auto sent = send_evenly(link, kPeriod, kLength, 32);
+    const Duration period = c.fade / 40;
+    const auto sent = send_evenly(link, period, c.fade * 20'000, 32);
     EXPECT_NEAR(share_lost(sent), c.loss, 0.01);
-    EXPECT_NEAR(mean_burst_ms(sent, kPeriod), c.fade.milliseconds(), 0.05 * c.fade.milliseconds());
+    EXPECT_NEAR(mean_burst_ms(sent, period), c.fade.milliseconds(), 0.05 * c.fade.milliseconds());
   }
 }
 
