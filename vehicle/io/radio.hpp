@@ -45,6 +45,7 @@ class Radio {
   const telemetry::CarEndpoint& endpoint() const { return endpoint_; }
   const transport::UdpCounters& counters(std::size_t path) const { return paths_[path].counters(); }
   std::size_t paths() const { return paths_.size(); }
+  transport::UdpAddress local(std::size_t path) const { return paths_[path].local(); }
 
  private:
   // A tick that comes so much before its slot serves it: the next tick would be late.

@@ -104,7 +104,7 @@ struct WatchdogInputs {
   // From the receivers' ports where the rim knows them; else any sample of the unit counts.
   std::array<std::optional<Instant>, world::kGnssUnits> gnss_byte_at{};
   std::optional<Instant> planner_at;  // when the newest trajectory was planned
-  std::optional<Instant> radio_at;    // the base station was alive then (HeartbeatIntake)
+  std::optional<Instant> radio_at;    // the base station was alive then
 };
 
 struct StreamRow {

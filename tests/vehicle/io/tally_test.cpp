@@ -168,7 +168,8 @@ TEST(Summary, IsReadBackWithEveryKey) {
   for (std::size_t i = 0; i < safety::kVerdicts; ++i) frames.gate_verdicts[i] = 1000 + i;
   const auto losses = std::make_unique<LossTally>();
   losses->add(some_health());
-  const std::string text = summary_json(*tally, frames, some_health(), *losses);
+  const std::string text =
+      summary_json(*tally, frames, some_health(), *losses, R"({"sessions": 51})");
   const auto document = yaml::load_text(text, "summary.json");  // JSON is YAML
   ASSERT_TRUE(document) << to_string(document.error()) << text;
   const auto all = yaml::read(*document, [](yaml::StrictMap& map) {
@@ -189,6 +190,7 @@ TEST(Summary, IsReadBackWithEveryKey) {
       verdicts.emplace_back(safety::text_of(static_cast<safety::Verdict>(i)),
                             static_cast<std::int64_t>(1000 + i));
     expect_counts(map.map("gate_verdicts"), verdicts);
+    expect_counts(map.map("radio"), {{"sessions", 51}});
     EXPECT_NEAR(map.number("step_p50_us", 0, 1e9), 51.0, 1.0);
     EXPECT_NEAR(map.number("step_p99_us", 0, 1e9), 100.0, 1.0);
     EXPECT_EQ(map.number("step_max_us", 0, 1e9), 100.0);
