@@ -69,7 +69,8 @@ Scheduler::Order Scheduler::order(const Snapshot& snapshot, Duration round_trip,
     if (value <= 0.0) {
       if (!fill || snapshot.at(row.group) <= acked) continue;
       // Below all that are due: the nearer to being due, the sooner.
-      value = -1.0 / (1.0 + (now - acked).seconds() / row.target_age.seconds());
+      const Duration age = acked == kNeverSampled ? kUnknownAge : now - acked;
+      value = -1.0 / (1.0 + age.seconds() / row.target_age.seconds());
     }
     CHECK(due.push({row.group, value}));
   }
