@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/telemetry/endpoint/station_endpoint.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/support/endpoint_pair.hpp"
+
+namespace pitwall::telemetry {
+namespace {
+
+using pitwall::testing::EndpointPair;
+using pitwall::testing::WireDatagram;
+
+constexpr FieldIndex kX = field("ego.x");
+
+TEST(StationEndpoint, ShowsValuesWithTheTimeOfTheirSample) {
+  EndpointPair pair;
+  pair.snapshot.values[kX] = 12.0;
+  EXPECT_FALSE(pair.base->state().ever(Group::kEgo));
+  pair.run(seconds(1));
+  EXPECT_TRUE(pair.base->clock_known());
+  EXPECT_DOUBLE_EQ(pair.base->state().values[kX], 12.0);
+  const Instant sampled = pair.base->state().at(Group::kEgo);
+  EXPECT_LE(sampled, pair.now);
+  EXPECT_GE(sampled, pair.now - milliseconds(100));
+}
+
+// Packets that overtake each other: the newest sample stays.
+TEST(StationEndpoint, AValueNeverGoesBackInTime) {
+  EndpointPair pair;
+  pair.run(seconds(1));
+  std::vector<WireDatagram> held;
+  pair.gate = [&](const WireDatagram& datagram) {
+    if (!datagram.down) return true;
+    held.push_back(datagram);
+    return false;
+  };
+  for (int i = 1; i <= 10; ++i) {
+    pair.snapshot.values[kX] = i;
+    pair.run(milliseconds(20));
+  }
+  ASSERT_GE(held.size(), 9u);
+  double shown = 0.0;
+  for (const std::size_t which : {3U, 1U, 7U, 0U, 2U, 6U, 8U, 5U, 4U}) {
+    pair.feed(held[which]);
+    EXPECT_GE(pair.base->state().values[kX], shown) << which;
+    shown = pair.base->state().values[kX];
+  }
+  EXPECT_GE(shown, 5.0);
+}
+
+TEST(StationEndpoint, AfterARestartOfTheCarItsOldStateIsNotShown) {
+  EndpointPair pair;
+  pair.run(seconds(1));
+  ASSERT_TRUE(pair.base->state().ever(Group::kTyres));
+  SeededRandomness other(5);
+  pair.car = std::make_unique<CarEndpoint>(pair.config(true), other);
+  // The new process never samples tyres.
+  pair.gate = [&](const WireDatagram&) { return true; };
+  for (int ms = 0; ms < 500; ++ms) pair.step();
+  const LinkReport report = pair.base->report(pair.now);
+  EXPECT_EQ(report.sessions, 2u);
+  EXPECT_GE(pair.base->state().at(Group::kMode), pair.now - milliseconds(100));
+}
+
+TEST(StationEndpoint, OneTruthAboutACommandAtBothEnds) {
+  EndpointPair pair;
+  pair.run(seconds(1));
+  EXPECT_FALSE(pair.base->issue({CommandType::kSpeedLimit, 1e9, 1}, pair.now));
+  pair.base->authority().take(1, pair.now);
+  const auto id = pair.base->issue({CommandType::kSpeedLimit, 30.0, 1}, pair.now);
+  ASSERT_TRUE(id);
+  EXPECT_FALSE(pair.base->progress(*id)->fate);
+  for (int ms = 0; ms < 100; ++ms) {
+    pair.step();
+    while (const auto due = pair.car->next_command(pair.now)) {
+      EXPECT_NEAR(due->command.argument, 30.0, 0.06);
+      pair.car->decide(due->id, Outcome::kRefused, pair.now);
+    }
+  }
+  EXPECT_EQ(pair.base->progress(*id)->fate, Outcome::kRefused);
+}
+
+}  // namespace
+}  // namespace pitwall::telemetry
