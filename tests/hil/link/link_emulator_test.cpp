@@ -73,6 +73,35 @@ TEST(LinkEmulator, LosesTheShareInBurstsOfTheLengthThatWereAskedFor) {
   }
 }
 
+TEST(LinkEmulator, LosesSomeInGoodTimesAndKeepsSomeInFades) {
+  LinkParams params;
+  params.fades = {milliseconds(280), milliseconds(120), 0.05, 0.8};
+  LinkEmulator link(params, 19);
+  const auto sent = send_evenly(link, milliseconds(10), seconds(3'600), 32);
+  EXPECT_NEAR(share_lost(sent), 0.7 * 0.05 + 0.3 * 0.8, 0.01);
+  const auto count = static_cast<double>(sent.size());
+  EXPECT_NEAR(static_cast<double>(link.counters().lost) / count, 0.7 * 0.05, 0.005);
+  EXPECT_NEAR(static_cast<double>(link.counters().faded) / count, 0.3 * 0.8, 0.01);
+}
+
+TEST(LinkEmulator, ReplaysARecordingAgainAndAgainWithTheLossItHolds) {
+  LinkParams params;
+  params.trace.outages = {{Instant{} + seconds(1), Instant{} + seconds(3), 0.25}};
+  params.trace.repeat = seconds(10);
+  LinkEmulator link(params, 23);
+  double inside = 0.0, lost = 0.0;
+  for (const Sent& s : send_evenly(link, milliseconds(5), seconds(1'000), 32)) {
+    const double in_turn = std::fmod(Duration{s.at.ns}.seconds(), 10.0);
+    if (in_turn < 1.0 || in_turn >= 3.0) {
+      ASSERT_TRUE(s.arrived);
+      continue;
+    }
+    inside += 1.0;
+    lost += s.arrived ? 0.0 : 1.0;
+  }
+  EXPECT_NEAR(lost / inside, 0.25, 0.01);
+}
+
 TEST(LinkEmulator, IndependentLossHitsEachDatagramAlike) {
   LinkParams params;
   params.loss = 0.3;
