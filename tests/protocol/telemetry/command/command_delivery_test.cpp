@@ -114,8 +114,8 @@ TEST(CommandDelivery, LateDoubledAndShuffled) {
   EXPECT_GT(tally.of(Outcome::kSuperseded), 200);
 }
 
-// A packet with room for a few records only, and always more to command than that: receipts must not
-// wait behind commands, nor new results behind old ones for which no receipt came.
+// A packet with room for a few records only, and always more to command than that: receipts must
+// not wait behind commands, nor new results behind old ones for which no receipt came.
 TEST(CommandDelivery, AStormInSmallPacketsNeverStandsStill) {
   TwoEnds rig({.fading = {.loss = 0.1}, .seed = 16});
   rig.room = 160;

@@ -19,8 +19,8 @@ std::optional<Outcome> fate(const TwoEnds& rig, CommandId id) {
   return progress == nullptr ? std::nullopt : progress->fate;
 }
 
-// A peer repeated a command in five packets, fifty milliseconds, and forgot it: a fade of a tenth of
-// a second swallowed one in five.
+// A peer repeated a command in five packets, fifty milliseconds, and forgot it: a fade of a tenth
+// of a second swallowed one in five.
 TEST(CommandLedger, ACommandOutlivesAFadeOfAnyLengthUnlikeFiveRepeats) {
   for (const int fade_ms : {50, 120, 400, 1'500}) {
     TwoEnds rig({.seed = 1});
@@ -44,8 +44,8 @@ TEST(CommandLedger, ACommandOutlivesAFadeOfAnyLengthUnlikeFiveRepeats) {
   EXPECT_EQ(rig.stories[*id].applied, 0);
 }
 
-// A peer told copies of a command from a second press by the clock: within a second the second press
-// was dropped without a word.
+// A peer told copies of a command from a second press by the clock: within a second the second
+// press was dropped without a word.
 TEST(CommandLedger, ASecondPressWithinASecondCounts) {
   TwoEnds rig({.fading = {.loss = 0.3}, .seed = 2});
   rig.run(seconds(1));
@@ -127,18 +127,6 @@ TEST(CommandLedger, ACommandForTheRunBeforeIsAnsweredByItsName) {
   const auto fresh = rig.issue(CommandType::kArm, 1.0);
   rig.run(milliseconds(200));
   EXPECT_EQ(fate(rig, *fresh), Outcome::kApplied);
-}
-
-TEST(CommandLedger, ABaseThatLearnsOfTheRestartDecidesWhatWasOpen) {
-  TwoEnds rig({.seed = 7});
-  rig.run(seconds(1));
-  rig.up.cut = true;
-  const auto old = rig.issue(CommandType::kArm, 1.0);
-  rig.desk.meets(TwoEnds::kCarBoot, rig.now);
-  EXPECT_FALSE(fate(rig, *old)) << "the same run of the car";
-  rig.desk.meets(TwoEnds::kCarBoot + 1, rig.now);
-  EXPECT_EQ(fate(rig, *old), Outcome::kOtherRun);
-  EXPECT_EQ(rig.desk.open(), 0U);
 }
 
 // Numbers begin again with the base; neither old records nor answers to old commands count for new.
@@ -223,39 +211,6 @@ TEST(CommandLedger, AnExpiryIsNeverLaterThanTheAuthority) {
   ASSERT_TRUE(due);
   EXPECT_EQ(rig.view.holder(due->expires), kOperator);
   EXPECT_EQ(rig.view.holder(due->expires + nanoseconds(1)), 0);
-}
-
-TEST(CommandDesk, IssuesOnlyWhatItCanKeepItsWordOn) {
-  CommandDesk desk(1);
-  const Instant now{};
-  EXPECT_FALSE(desk.issue({CommandType::kArm, 1.0, 1}, now)) << "no car was met";
-  desk.meets(2, now);
-  EXPECT_FALSE(desk.issue({CommandType::kSpeedLimit, 120.1, 1}, now));
-  EXPECT_FALSE(desk.issue({CommandType::kSpeedLimit, -0.1, 1}, now));
-  EXPECT_FALSE(desk.issue({CommandType::kSpeedLimit, kUnset, 1}, now));
-  for (std::size_t i = 0; i < CommandDesk::kOpen; ++i) {
-    EXPECT_TRUE(desk.issue({CommandType::kSpeedLimit, 33.33, 1}, now));
-  }
-  EXPECT_FALSE(desk.issue({CommandType::kArm, 1.0, 1}, now));
-  EXPECT_NEAR(desk.progress(1)->command.argument, 33.3, 1e-9) << "as the car will understand it";
-  EXPECT_EQ(desk.progress(0), nullptr);
-  EXPECT_EQ(desk.progress(17), nullptr);
-  desk.confirm(1, now);
-  EXPECT_FALSE(desk.progress(1)->confirmed) << "what was not applied cannot be confirmed";
-}
-
-TEST(CommandDesk, StagesComeInTheirOrder) {
-  TwoEnds rig({.seed = 11});
-  rig.run(seconds(1));
-  const auto id = rig.issue(CommandType::kTrackFlag, 2.0);
-  rig.run(seconds(1));
-  rig.desk.confirm(*id, rig.now);
-  const CommandProgress& p = *rig.desk.progress(*id);
-  ASSERT_TRUE(p.sent && p.received && p.decided && p.confirmed);
-  EXPECT_LE(p.issued, *p.sent);
-  EXPECT_LT(*p.sent, *p.received);
-  EXPECT_LE(*p.received, *p.decided);
-  EXPECT_LT(*p.decided, *p.confirmed);
 }
 
 }  // namespace

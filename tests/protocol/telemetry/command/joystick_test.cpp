@@ -18,7 +18,7 @@ Received received(Instant at, std::optional<Instant> sent) {
   return out;
 }
 
-// A hand that moves the stick a hundred times a second; returns whether the car heeds it at the end.
+// A hand that moves the stick a hundred times a second; whether the car heeds it at the end.
 bool heeded(TwoEnds& rig, Duration span) {
   for (const Instant end = rig.now + span; rig.now < end;) {
     if (rig.now.ns % milliseconds(10).ns == 0) rig.stick.sample({0.5, 0.25}, rig.now);
@@ -136,8 +136,8 @@ TEST(Joystick, WhatIsNoNumberIsNoSampleAndMoreThanAllIsAll) {
   EXPECT_EQ(values[field("joystick.brake")], 0.0);
 }
 
-// A peer's car made samples of its own, a hundred a second with a counter that rose, where it had no
-// joystick: its watchdog was fed by nobody. Here the operator's end is the only maker of samples,
+// A peer's car made samples of its own, a hundred a second with a counter that rose, where it had
+// no joystick: its watchdog was fed by nobody. Here the operator's end is the only maker of samples,
 // and without a device it says nothing.
 TEST(Joystick, NobodySpoofsAHandThatIsNotThere) {
   TwoEnds rig({.seed = 6});

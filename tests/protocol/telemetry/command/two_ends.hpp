@@ -19,8 +19,12 @@
 #include "protocol/telemetry/command/joystick.hpp"
 #include "protocol/telemetry/command/stop_latch.hpp"
 #include "protocol/telemetry/packet/body.hpp"
+#include "tests/support/draw.hpp"
 
 namespace pitwall::telemetry::testing {
+
+using pitwall::testing::draw_exponential;
+using pitwall::testing::draw_uniform;
 
 inline constexpr Duration kSlotTime = milliseconds(20), kTickTime = milliseconds(1);
 inline constexpr Duration kCarAhead = seconds(777'777);
@@ -43,8 +47,8 @@ struct AirParams {
 };
 
 // Between nothing and all of it.
-inline Duration some_of(Duration most, std::mt19937& random) {
-  return nanoseconds(std::uniform_int_distribution<std::int64_t>(0, most.ns)(random));
+inline Duration some_of(Duration most, std::mt19937_64& random) {
+  return from_seconds(draw_uniform(random, 0.0, most.seconds()));
 }
 
 class Radio {
@@ -58,16 +62,16 @@ class Radio {
       fades_ = !fades_;
       const double mean_s = fades_ ? fading_.mean_fade.seconds()
                                    : fading_.mean_fade.seconds() * (1.0 - share) / share;
-      until_ += from_seconds(std::exponential_distribution<double>(1.0 / mean_s)(random_));
+      until_ += from_seconds(draw_exponential(random_, mean_s));
     }
     return fades_ || chance(fading_.loss_between);
   }
 
  private:
-  bool chance(double p) { return std::uniform_real_distribution<double>(0.0, 1.0)(random_) < p; }
+  bool chance(double p) { return draw_uniform(random_) < p; }
 
   Fading fading_;
-  std::mt19937 random_;
+  std::mt19937_64 random_;
   bool fades_ = false;
   Instant until_{};
 };
@@ -91,7 +95,7 @@ class Way {
     ++sequence_;
     for (Radio& radio : radios_) {
       const bool lost = radio.loses(now);
-      const int copies = std::bernoulli_distribution(params_.twice)(random_) ? 2 : 1;
+      const int copies = draw_uniform(random_) < params_.twice ? 2 : 1;
       for (int i = 0; i < copies && !lost && !cut; ++i) {
         const Duration delay =
             params_.delay_min + some_of(params_.delay_max - params_.delay_min, random_);
@@ -117,7 +121,7 @@ class Way {
     bool operator()(const Flight& a, const Flight& b) const { return a.arrives > b.arrives; }
   };
   AirParams params_;
-  std::mt19937 random_;
+  std::mt19937_64 random_;
   std::vector<Radio> radios_;
   std::priority_queue<Flight, std::vector<Flight>, Later> flying_;
   std::set<std::uint64_t> seen_;
@@ -257,7 +261,7 @@ class TwoEnds {
     return latch.release(challenge, stands) ? Outcome::kApplied : Outcome::kRefused;
   }
 
-  std::mt19937 random_;
+  std::mt19937_64 random_;
 };
 
 }  // namespace pitwall::telemetry::testing

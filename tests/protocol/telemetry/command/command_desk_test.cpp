@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/telemetry/command/command_desk.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/protocol/telemetry/command/two_ends.hpp"
+
+namespace pitwall::telemetry {
+namespace {
+
+using testing::TwoEnds;
+
+std::optional<Outcome> fate(const TwoEnds& rig, CommandId id) {
+  const CommandProgress* progress = rig.desk.progress(id);
+  return progress == nullptr ? std::nullopt : progress->fate;
+}
+
+TEST(CommandDesk, ABaseThatLearnsOfTheRestartDecidesWhatWasOpen) {
+  TwoEnds rig({.seed = 7});
+  rig.run(seconds(1));
+  rig.up.cut = true;
+  const auto old = rig.issue(CommandType::kArm, 1.0);
+  rig.desk.meets(TwoEnds::kCarBoot, rig.now);
+  EXPECT_FALSE(fate(rig, *old)) << "the same run of the car";
+  rig.desk.meets(TwoEnds::kCarBoot + 1, rig.now);
+  EXPECT_EQ(fate(rig, *old), Outcome::kOtherRun);
+  EXPECT_EQ(rig.desk.open(), 0U);
+}
+
+TEST(CommandDesk, IssuesOnlyWhatItCanKeepItsWordOn) {
+  CommandDesk desk(1);
+  const Instant now{};
+  EXPECT_FALSE(desk.issue({CommandType::kArm, 1.0, 1}, now)) << "no car was met";
+  desk.meets(2, now);
+  EXPECT_FALSE(desk.issue({CommandType::kSpeedLimit, 120.1, 1}, now));
+  EXPECT_FALSE(desk.issue({CommandType::kSpeedLimit, -0.1, 1}, now));
+  EXPECT_FALSE(desk.issue({CommandType::kSpeedLimit, kUnset, 1}, now));
+  for (std::size_t i = 0; i < CommandDesk::kOpen; ++i) {
+    EXPECT_TRUE(desk.issue({CommandType::kSpeedLimit, 33.33, 1}, now));
+  }
+  EXPECT_FALSE(desk.issue({CommandType::kArm, 1.0, 1}, now));
+  EXPECT_NEAR(desk.progress(1)->command.argument, 33.3, 1e-9) << "as the car will understand it";
+  EXPECT_EQ(desk.progress(0), nullptr);
+  EXPECT_EQ(desk.progress(17), nullptr);
+  desk.confirm(1, now);
+  EXPECT_FALSE(desk.progress(1)->confirmed) << "what was not applied cannot be confirmed";
+}
+
+TEST(CommandDesk, StagesComeInTheirOrder) {
+  TwoEnds rig({.seed = 11});
+  rig.run(seconds(1));
+  const auto id = rig.issue(CommandType::kTrackFlag, 2.0);
+  rig.run(seconds(1));
+  rig.desk.confirm(*id, rig.now);
+  const CommandProgress& p = *rig.desk.progress(*id);
+  ASSERT_TRUE(p.sent && p.received && p.decided && p.confirmed);
+  EXPECT_LE(p.issued, *p.sent);
+  EXPECT_LT(*p.sent, *p.received);
+  EXPECT_LE(*p.received, *p.decided);
+  EXPECT_LT(*p.decided, *p.confirmed);
+}
+
+}  // namespace
+}  // namespace pitwall::telemetry

@@ -1,0 +1,201 @@
+// Both ends of commands, stops and authority, the packets between them and an all-knowing witness,
+// as one value: copied, changed by one action, judged and told apart by its fingerprint.
+//   in     actions
+//   out    the next world; the first law that it breaks
+//   law    packets carry what the real desks say and are read by the real ledger, view and latch.
+//          The air may hold, lose, double and reorder them; a session's packets end with it, as the
+//          association has it
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "protocol/telemetry/command/authority.hpp"
+#include "protocol/telemetry/command/command_desk.hpp"
+#include "protocol/telemetry/command/command_ledger.hpp"
+#include "protocol/telemetry/command/stop_latch.hpp"
+#include "protocol/vocabulary/fixed_vector.hpp"
+
+namespace pitwall::telemetry {
+
+// What tells two worlds apart: all that can change what happens next.
+struct Fingerprint {
+  std::uint64_t a = 0x9E3779B97F4A7C15ULL, b = 0xC2B2AE3D27D4EB4FULL;
+
+  void add(std::uint64_t word);
+  void add(Instant at) { add(static_cast<std::uint64_t>(at.ns)); }
+  void add(const std::optional<Instant>& at);
+  void add(const CommandDeskOf<4>& desk);
+  void add(const CommandLedgerOf<4>& ledger);
+  void add(const AuthorityDesk& desk);
+  void add(const AuthorityView& view);
+  void add(const StopDesk& desk);
+  void add(const StopLatch& latch);
+};
+
+}  // namespace pitwall::telemetry
+
+namespace pitwall::explorer {
+
+using telemetry::CommandId;
+using telemetry::HolderId;
+
+inline constexpr HolderId kA = 1, kB = 2;
+inline constexpr std::uint8_t kNumbersMax = 8;  // commands of one run of the base
+inline constexpr std::uint8_t kRunsMax = 4;     // of either end
+
+enum class Action : std::uint8_t {
+  kIssueA,  // a speed limit, by console A
+  kIssueB,
+  kPress,
+  kRelease,
+  kTake,      // by console A
+  kHandOver,  // to the other console
+  kRenew,     // by whoever holds it
+  kBaseSends,
+  kCarSends,
+  kDeliverUp0,  // and it is gone
+  kDeliverUp1,
+  kDeliverUp2,
+  kDoubleUp0,  // delivered, and still on its way
+  kDoubleUp1,
+  kDoubleUp2,
+  kLoseUp0,
+  kLoseUp1,
+  kDeliverDown0,
+  kDeliverDown1,
+  kLoseDown0,
+  kHandOut,  // the ledger to the consumer
+  kApply,    // by the consumer
+  kWait,     // 1.1 s
+  kRestartBase,
+  kRestartCar
+};
+inline constexpr std::size_t kActions = 25;
+const char* text_of(Action action);
+
+// How often each may happen; what is left is part of the world.
+struct Budget {
+  std::uint8_t issues = 0, presses = 0, releases = 0, changes = 0, up = 0, down = 0, doubles = 0,
+               waits = 0, base_restarts = 0, car_restarts = 0;
+};
+
+// Faults that a test plants, to see that they are found.
+enum class Planted : std::uint8_t {
+  kNone,
+  kForgetfulLedger,     // the car remembers no number
+  kAgeFromReception,    // a command is as old as its packet is here
+  kRenewalAtReception,  // the authority is renewed by whatever arrives
+  kLatchFollows,        // the stop ends when the base says none
+  kReleaseAfterPress,   // a release that was given before the press undoes it at the base
+  kAnyConsole,          // the ledger does not ask who gave a command
+  kOldRunsCount         // the ledger keeps its numbers when the base begins again
+};
+
+enum class Broken : std::uint8_t {
+  kNothing,
+  kAppliedTwice,
+  kAppliedLate,
+  kAppliedWithoutAuthority,
+  kAppliedOutOfOrder,
+  kFateIsWrong,
+  kHolderIsOld,
+  kStopWentByItself,
+  kPressIgnored,
+  kPressForgottenAtBase
+};
+const char* text_of(Broken broken);
+
+struct UpPacket {
+  std::uint8_t run = 0, boot = 0;  // the session's
+  Instant sent{};
+  telemetry::StopState stop;
+  std::uint8_t presses = 0;  // before it was sent
+  double holder = 0, epoch = 0, renewal = 0, renewal_age = 0;
+  FixedVector<std::uint8_t, 96> body;
+};
+struct DownPacket {
+  std::uint8_t run = 0, boot = 0;
+  std::uint16_t challenge = 0;
+  FixedVector<std::uint8_t, 72> body;
+};
+
+// What really happened, for the judge alone.
+struct Truth {
+  struct OfCommand {
+    Instant issued{};
+    std::uint8_t applied = 0;
+    std::uint8_t presses = 0;  // before it was given
+    HolderId issuer = 0;
+    bool release = false;
+  };
+  std::array<std::array<OfCommand, kNumbersMax>, kRunsMax> commands{};
+  std::array<Instant, 3> renewed{};  // by console
+  std::array<bool, 3> ever_held{};
+  std::uint8_t presses = 0;           // in this run of the base
+  std::uint8_t presses_heard = 0;     // by this run of the car, of this run of the base
+  std::uint8_t presses_released = 0;  // before the newest release that was applied was given
+  std::uint8_t releases = 0;          // that opened the latch
+  CommandId newest_applied = 0;       // speed limits, of this run of both
+  double newest_epoch = -1, newest_holder = 0;  // heard by this run of the car
+};
+
+class World {
+ public:
+  World(const Budget& budget, Planted planted);
+
+  bool can(Action action) const;
+  Broken act(Action action);  // CHECKs that it can
+  telemetry::Fingerprint fingerprint() const;
+
+ private:
+  void by_operator(Action action);
+  Broken by_air(Action action);
+  Broken by_car_or_fate(Action action);
+  void issue(HolderId by);
+  void press();
+  void release();
+  void note_holders();
+  void base_sends();
+  void car_sends();
+  Broken deliver_up(const UpPacket& packet);
+  void meet(std::uint8_t run);
+  void hear_state(const UpPacket& packet);
+  Broken deliver_down(const DownPacket& packet);
+  void hand_out();
+  telemetry::AuthorityView forged_view(HolderId who) const;
+  Broken apply();
+  Broken note_applied(const telemetry::DueCommand& due, Truth::OfCommand& truth);
+  void restart_base();
+  void restart_car();
+  Broken judge(telemetry::StopLevel before, bool released) const;
+  void fingerprint_truth(telemetry::Fingerprint& print) const;
+
+  Budget left_;
+  Planted planted_;
+  Instant now_{seconds(100).ns};
+  std::uint8_t run_ = 1, boot_ = 1;
+
+  telemetry::CommandDeskOf<4> desk_;
+  telemetry::AuthorityDesk authority_;
+  telemetry::StopDesk stop_;
+  std::uint16_t challenge_known_ = 0;
+  std::uint8_t boot_met_ = 1;
+  CommandId release_id_ = 0;
+
+  telemetry::CommandLedgerOf<4> ledger_;
+  telemetry::AuthorityView view_;
+  telemetry::StopLatch latch_;
+  std::uint8_t run_met_ = 0;  // by this run of the car
+  std::optional<telemetry::DueCommand> in_hand_;
+  std::uint8_t run_in_hand_ = 0;  // of the base that gave it
+
+  FixedVector<UpPacket, 3> up_;
+  FixedVector<DownPacket, 2> down_;
+  Truth truth_;
+};
+
+}  // namespace pitwall::explorer

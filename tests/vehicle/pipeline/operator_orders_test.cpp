@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/pipeline/operator_orders.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace pitwall::pipeline {
+namespace {
+
+using world::CommandAnswer;
+using world::Mode;
+using world::OperatorCommand;
+using world::OperatorCommandKind;
+using world::TrackFlag;
+
+// The orders, and a supervisor that arms what it is allowed to.
+struct Rig {
+  OperatorOrders orders;
+  safety::OperatorRequests switches;
+  world::OperatorWishes wishes;
+  Mode mode = Mode::kDisarmed;
+  bool barred = false, may_arm = true, resettable = false, arm_used = false;
+  Instant now{seconds(1).ns};
+  safety::OperatorRequests heard;
+  Answers answers;
+  std::uint32_t next_id = 1;
+
+  std::uint32_t tick(std::vector<OperatorCommand> commands = {}) {
+    answers = {};
+    for (OperatorCommand& command : commands) {
+      if (command.id == 0) command.id = next_id++;
+      if (command.expires.ns == 0) command.expires = now + seconds(2);
+    }
+    heard = obey(orders,
+                 {.switches = switches,
+                  .wishes = wishes,
+                  .commands = commands,
+                  .may_arm = may_arm,
+                  .mode = mode,
+                  .now = now},
+                 answers);
+    const Mode before = mode;
+    if (!heard.arm) arm_used = false;
+    if (mode == Mode::kDisarmed && heard.arm && !barred && !arm_used) {
+      mode = Mode::kStandby;
+      arm_used = true;
+    }
+    if (mode == Mode::kStandby && !heard.arm) mode = Mode::kDisarmed;
+    if (mode == Mode::kHalted && heard.reset) mode = Mode::kDisarmed;
+    safety::SupervisorOutput chosen;
+    chosen.mode = mode;
+    conclude(orders, before, chosen, resettable, now, answers);
+    now += milliseconds(10);
+    return commands.empty() ? 0 : commands.back().id;
+  }
+  std::optional<CommandAnswer> answer(std::uint32_t id) const {
+    for (const world::AnsweredCommand& one : answers)
+      if (one.id == id) return one.answer;
+    return std::nullopt;
+  }
+  // Ticks until the command is answered.
+  CommandAnswer done(OperatorCommandKind kind, double argument) {
+    const std::uint32_t id = tick({{.kind = kind, .argument = argument}});
+    for (int i = 0; i < 3; ++i) {
+      if (const auto a = answer(id)) return *a;
+      tick();
+    }
+    ADD_FAILURE() << "no answer";
+    return CommandAnswer::kRefused;
+  }
+};
+
+TEST(OperatorOrders, ArmsByCommandAndSaysAppliedWhenTheCarIsArmed) {
+  Rig rig;
+  EXPECT_EQ(rig.done(OperatorCommandKind::kArm, 1.0), CommandAnswer::kApplied);
+  EXPECT_EQ(rig.mode, Mode::kStandby);
+  EXPECT_TRUE(rig.heard.arm);
+  EXPECT_EQ(rig.done(OperatorCommandKind::kArm, 1.0), CommandAnswer::kApplied) << "it is armed";
+  EXPECT_EQ(rig.mode, Mode::kStandby) << "saying it again let nothing go";
+  EXPECT_EQ(rig.done(OperatorCommandKind::kArm, 0.0), CommandAnswer::kApplied);
+  EXPECT_EQ(rig.mode, Mode::kDisarmed);
+}
+
+TEST(OperatorOrders, AnArmCommandThatIsBarredIsRefusedAndDoesNotLieInWait) {
+  Rig rig;
+  rig.barred = true;
+  EXPECT_EQ(rig.done(OperatorCommandKind::kArm, 1.0), CommandAnswer::kRefused);
+  rig.barred = false;
+  for (int i = 0; i < 100; ++i) rig.tick();
+  EXPECT_EQ(rig.mode, Mode::kDisarmed);
+}
+
+TEST(OperatorOrders, AfterAStopAResetAndAnArmCommandAreEnough) {
+  Rig rig;
+  rig.done(OperatorCommandKind::kArm, 1.0);
+  rig.mode = Mode::kHalted;
+  EXPECT_EQ(rig.done(OperatorCommandKind::kArm, 1.0), CommandAnswer::kRefused);
+  EXPECT_EQ(rig.done(OperatorCommandKind::kReset, 1.0), CommandAnswer::kApplied);
+  EXPECT_EQ(rig.mode, Mode::kDisarmed) << "the arm request of before is spent";
+  EXPECT_EQ(rig.done(OperatorCommandKind::kArm, 1.0), CommandAnswer::kApplied);
+  EXPECT_EQ(rig.mode, Mode::kStandby);
+}
+
+TEST(OperatorOrders, TheSwitchAtTheCarWorksAsWithoutARadioAndHasTheLastWordWhenItIsClosed) {
+  Rig rig;
+  rig.switches.arm = true;
+  rig.tick();
+  EXPECT_EQ(rig.mode, Mode::kStandby);
+  EXPECT_EQ(rig.done(OperatorCommandKind::kArm, 0.0), CommandAnswer::kApplied);
+  for (int i = 0; i < 10; ++i) rig.tick();
+  EXPECT_EQ(rig.mode, Mode::kDisarmed) << "held closed it is not closed again";
+  rig.switches.arm = false;
+  rig.tick();
+  rig.switches.arm = true;
+  rig.tick();
+  EXPECT_EQ(rig.mode, Mode::kStandby);
+}
+
+TEST(OperatorOrders, WhoOnlyListensIsNotArmed) {
+  Rig rig;
+  rig.may_arm = false;
+  rig.switches.arm = true;
+  EXPECT_EQ(rig.done(OperatorCommandKind::kArm, 1.0), CommandAnswer::kRefused);
+  EXPECT_FALSE(rig.heard.arm);
+}
+
+TEST(OperatorOrders, NothingIsAppliedAfterItsExpiry) {
+  for (const auto kind : {OperatorCommandKind::kArm, OperatorCommandKind::kReset,
+                          OperatorCommandKind::kSpeedLimit, OperatorCommandKind::kTrackFlag}) {
+    Rig rig;
+    const auto id =
+        rig.tick({{.kind = kind, .argument = 1.0, .expires = rig.now - nanoseconds(1)}});
+    EXPECT_EQ(rig.answer(id), CommandAnswer::kExpired);
+  }
+  Rig rig;  // expires while the arm request is let go
+  const auto id = rig.tick(
+      {{.kind = OperatorCommandKind::kArm, .argument = 1.0, .expires = rig.now + milliseconds(5)}});
+  rig.tick();
+  EXPECT_EQ(rig.answer(id), CommandAnswer::kExpired);
+  EXPECT_EQ(rig.mode, Mode::kDisarmed);
+}
+
+TEST(OperatorOrders, AResetIsAppliedWhereThereIsSomethingToReset) {
+  Rig rig;
+  EXPECT_EQ(rig.done(OperatorCommandKind::kReset, 1.0), CommandAnswer::kRefused);
+  EXPECT_EQ(rig.done(OperatorCommandKind::kReset, 0.0), CommandAnswer::kRefused);
+  rig.resettable = true;
+  EXPECT_EQ(rig.done(OperatorCommandKind::kReset, 1.0), CommandAnswer::kApplied);
+  rig.tick();
+  EXPECT_FALSE(rig.heard.reset) << "for one tick only";
+}
+
+TEST(OperatorOrders, WhatThisCarDoesNotHaveIsUnsupported) {
+  for (const auto kind : {OperatorCommandKind::kRaceLine, OperatorCommandKind::kRole,
+                          OperatorCommandKind::kReceiverUse, OperatorCommandKind::kEndRun,
+                          OperatorCommandKind::kSendParameters}) {
+    Rig rig;
+    EXPECT_EQ(rig.done(kind, 1.0), CommandAnswer::kUnsupported);
+  }
+}
+
+TEST(OperatorOrders, EveryCommandOfATickIsAnsweredOnce) {
+  Rig rig;
+  std::vector<OperatorCommand> commands(world::kOperatorCommandsMax);
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    commands[i].kind = static_cast<OperatorCommandKind>(i % 9);
+    commands[i].argument = 1.0;
+  }
+  std::vector<int> answered(commands.size() + 1);
+  rig.tick(commands);
+  for (int i = 0; i < 3; ++i, rig.tick())
+    for (const world::AnsweredCommand& one : rig.answers) ++answered.at(one.id);
+  for (std::size_t id = 1; id < answered.size(); ++id) EXPECT_EQ(answered[id], 1) << id;
+}
+
+TEST(OperatorOrders, ALatchedStopIsARequest) {
+  Rig rig;
+  rig.wishes.stop = world::StopWish::kControlled;
+  rig.tick();
+  EXPECT_TRUE(rig.heard.stop);
+  EXPECT_FALSE(rig.heard.emergency_stop);
+  rig.wishes.stop = world::StopWish::kEmergency;
+  rig.tick();
+  EXPECT_TRUE(rig.heard.emergency_stop);
+}
+
+TEST(OperatorOrders, OfTwoFlagsTheStricterHolds) {
+  const std::vector<TrackFlag> by_strictness{
+      TrackFlag::kGreen,  TrackFlag::kWavingGreen, TrackFlag::kYellow, TrackFlag::kChequered,
+      TrackFlag::kOrange, TrackFlag::kUnknown,     TrackFlag::kRed};
+  for (std::size_t can = 0; can < by_strictness.size(); ++can) {
+    world::RaceControl heard;
+    heard.track = by_strictness[can];
+    heard.raw_track = 9;
+    EXPECT_EQ(stricter(heard, TrackFlag::kNone).track, heard.track) << "no opinion";
+    for (std::size_t base = 0; base < by_strictness.size(); ++base) {
+      const world::RaceControl held = stricter(heard, by_strictness[base]);
+      EXPECT_EQ(held.track, by_strictness[std::max(can, base)]);
+      EXPECT_EQ(held.raw_track, 9) << "what was heard is acknowledged as it was";
+    }
+  }
+  EXPECT_EQ(stricter({}, TrackFlag::kGreen).track, TrackFlag::kNone)
+      << "the base cannot wave a car off that race control has not";
+}
+
+TEST(OperatorOrders, OfTwoLimitsTheLowerHolds) {
+  EXPECT_EQ(lower_limit_mps(30.0, 20.0), 20.0);
+  EXPECT_EQ(lower_limit_mps(kUnset, 20.0), 20.0);
+  EXPECT_EQ(lower_limit_mps(30.0, kUnset), 30.0);
+  EXPECT_TRUE(std::isnan(lower_limit_mps(kUnset, kUnset)));
+  Rig rig;
+  EXPECT_EQ(rig.done(OperatorCommandKind::kSpeedLimit, 33.0), CommandAnswer::kApplied);
+  EXPECT_EQ(rig.orders.speed_limit_mps, 33.0);
+  EXPECT_EQ(rig.done(OperatorCommandKind::kSpeedLimit, -1.0), CommandAnswer::kRefused);
+  EXPECT_EQ(rig.done(OperatorCommandKind::kTrackFlag, 99.0), CommandAnswer::kRefused);
+}
+
+}  // namespace
+}  // namespace pitwall::pipeline
