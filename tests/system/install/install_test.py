@@ -81,7 +81,8 @@ class Installation(unittest.TestCase):
                  ("--gnss", "23501"), ("--gnss", "23501,23501"), ("--gnss", "1,65536"),
                  ("--gnss", "0,1"), ("--gnss", "1,2,3"), ("--guardian-gnss", "5,5"),
                  ("--car", "/nonexistent.yaml"), ("--car", "/etc"), ("--car", str(car)),
-                 ("--track", "/etc/hostname"), ("--root", "/nonexistent"), ("--root", "/"),
+                 ("--track", "/etc/hostname"), ("--keys", "/nonexistent"),
+                 ("--keys", "/etc/hostname"), ("--root", "/nonexistent"), ("--root", "/"),
                  ("--build", "/nonexistent"), ("--arm",), ("--simulation",), ("extra",)]
         for arguments in wrong:
             with self.subTest(arguments=arguments):
@@ -170,15 +171,58 @@ class Installation(unittest.TestCase):
         environment = dict(line.split("=", 1) for line in self.text(ENVIRONMENT).splitlines()
                            if line and not line.startswith("#"))
         start = unit_files.read(self.text(unit))["Service", "ExecStart"][0]
-        command = re.sub(r"\$\{(\w+)\}", lambda name: environment[name[1]], start).split()
+        command = re.sub(r"\$\{(\w+)\}", lambda name: environment[name[1]], start)
+        command = command.replace("%d/", "/etc/pitwall/").split()  # the service's credentials
         return [f"{self.root}{part}" if part.startswith(("/etc", "/opt")) else part
                 for part in command]
 
     def test_the_unit_starts_a_process_that_the_car_process_accepts(self):
-        self.install("--track", SOURCE / "vehicle/config/tracks/ims.yaml")
+        self.install("--track", SOURCE / "vehicle/config/tracks/ims.yaml",
+                     "--keys", self.make_keys() / "car.keys")
         self.assertIn("PITWALL_TRACK=/etc/pitwall/tracks/ims.yaml\n", self.text(ENVIRONMENT))
         program, *arguments = self.command_of(UNIT)
         self.run_installer(*arguments, "--check", program=program)
+
+    # --- the keys of the radio
+
+    def make_keys(self):
+        folder = Path(tempfile.mkdtemp(dir=self.root.parent))
+        self.run_installer("keygen", "--out", folder / "keys",
+                           program=BUILD / "basestation/pitwall-base")
+        return folder / "keys"
+
+    def test_the_keys_are_roots_alone_and_never_shown(self):
+        keys = self.make_keys() / "car.keys"
+        first = self.install("--keys", keys).stdout
+        there = self.root / "etc/pitwall/car.keys"
+        self.assertEqual(stat.S_IMODE(there.stat().st_mode), 0o600)
+        self.assertEqual(there.read_bytes(), keys.read_bytes())
+        others = self.make_keys() / "car.keys"
+        second = self.install("--keys", others).stdout
+        self.assertIn("replace  /etc/pitwall/car.keys", second)
+        self.assertEqual(there.read_bytes(), others.read_bytes())
+        for text in (keys.read_text(), others.read_text()):
+            for key in re.findall(r"\b[0-9a-f]{64}\b", text):
+                self.assertNotIn(key, first + second)
+        self.assertNotIn("no keys", second)
+        credential = unit_files.read(self.text(UNIT))["Service", "LoadCredential"]
+        self.assertEqual(credential, ["car.keys:/etc/pitwall/car.keys"])
+
+    def test_keys_stay_when_none_are_brought_and_go_with_an_uninstall(self):
+        self.install("--keys", self.make_keys() / "car.keys")
+        before = snapshot(self.root)
+        self.install()
+        self.assertEqual(snapshot(self.root), before)
+        self.install("--uninstall")
+        self.assertEqual(snapshot(self.root), {})
+
+    def test_an_installation_without_keys_says_so(self):
+        self.assertRegex(self.install().stdout, r"(?m)^note +no keys for the radio yet")
+
+    def test_the_keys_of_the_pit_wall_are_not_the_cars(self):
+        said = self.install("--keys", self.make_keys() / "base.keys", expect=2).stderr
+        self.assertIn("role: car", said)
+        self.assertEqual(snapshot(self.root), {})
 
     def test_the_guardian_accepts_its_unit_and_shares_the_record_of_the_car_process(self):
         self.install()

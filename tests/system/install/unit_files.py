@@ -10,8 +10,9 @@ KNOWN = {
     ".service": {
         "Unit": "Description BindsTo After Before Wants StartLimitIntervalSec StartLimitBurst",
         "Service":
-            "Type User EnvironmentFile StateDirectory ExecStart ExecStop RemainAfterExit Restart "
-            "RestartSec RestartPreventExitStatus TimeoutStopSec LimitRTPRIO LimitMEMLOCK "
+            "Type User EnvironmentFile StateDirectory LoadCredential ExecStart ExecStop "
+            "RemainAfterExit Restart RestartSec RestartPreventExitStatus TimeoutStopSec "
+            "LimitRTPRIO LimitMEMLOCK "
             "OOMScoreAdjust AmbientCapabilities CapabilityBoundingSet NoNewPrivileges "
             "ProtectSystem ProtectHome PrivateTmp PrivateDevices ProtectProc ProtectClock "
             "ProtectHostname ProtectKernelTunables ProtectKernelModules ProtectKernelLogs "

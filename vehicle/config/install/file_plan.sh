@@ -35,7 +35,7 @@ load_manifest() {
   while IFS=$'\t' read -r kind sum path; do
     line=$((line + 1))
     [[ $kind == folder && $path == /* && $path != *..* ]] ||
-      { [[ $kind =~ ^(program|system|config|link)$ ]] && may_be_ours "$path"; } ||
+      { [[ $kind =~ ^(program|system|config|secret|link)$ ]] && may_be_ours "$path"; } ||
       fail "$target$manifest:$line: no line of ours; nothing was changed"
     old_kind[$path]=$kind old_sum[$path]=$sum
     old_order+=("$path")
@@ -72,7 +72,7 @@ plan_folders() {
   fi
 }
 
-# plan_file KIND MODE PATH SOURCE: KIND program, system or config.
+# plan_file KIND MODE PATH SOURCE: KIND program, system, config or secret (never shown).
 plan_file() {
   local kind=$1 mode=$2 path=$3 source=$4 there=$target$3 wanted current
   plan_folders "$path"
@@ -127,7 +127,10 @@ plan_leftovers() {
   for ((i = ${#old_order[@]} - 1; i >= 0; i--)); do
     path=${old_order[i]} kind=${old_kind[${old_order[i]}]}
     [[ -z ${planned[$path]:-} && (-e $target$path || -L $target$path) ]] || continue
-    if [[ $kind != config ]]; then
+    if [[ $kind == secret && $1 == 0 ]]; then
+      append secret keep "$path" 0600 ''
+      record "$path" secret "${old_sum[$path]}"
+    elif [[ $kind != config ]]; then
       append "$kind" remove "$path" '' ''
     elif [[ $(checksum "$target$path") != "${old_sum[$path]}" ]]; then
       note "$path was edited here and stays"
@@ -171,7 +174,7 @@ show_line() {
       ;;
     *) printf '%-8s %s %s %s\n' "$action" "$path" "$(owner)" "${plan_mode[i]}" ;;
   esac
-  [[ $action != replace || ${plan_kind[i]} == program ]] ||
+  [[ $action != replace || ${plan_kind[i]} =~ ^(program|secret)$ ]] ||
     diff -u --label "$path (as it is)" --label "$path (as it will be)" \
       "$target$path" "${plan_source[i]}" || true
 }

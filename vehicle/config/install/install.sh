@@ -26,6 +26,8 @@ usage: ./pitwall install car [OPTION]...
   --car FILE             car file (default vehicle/config/cars/av21.yaml)
   --track FILE           track file (default vehicle/config/tracks/lvms.yaml)
   --radio ADDRESS:PORT   where telemetry goes, an IPv4 address (default 127.0.0.1:23431)
+  --keys FILE            the car's keys for the radio, as `pitwall-base keygen` writes them; goes to
+                         /etc/pitwall/car.keys, readable by root only
   --gnss P0,P1           UDP ports of the two GNSS receivers (default 23501,23502)
   --guardian-gnss P0,P1  UDP ports to which they send a second time, for the guardian (default
                          23511,23512)
@@ -51,7 +53,7 @@ source "$here/file_plan.sh"
 target='' dry_run=0 uninstall=0 settings=()
 can=can0 bitrate=500000 restart_ms=0 listen_only=0
 car=$top/vehicle/config/cars/av21.yaml track=$top/vehicle/config/tracks/lvms.yaml
-radio=127.0.0.1:23431 gnss=23501,23502 guardian_gnss=23511,23512
+radio=127.0.0.1:23431 keys='' gnss=23501,23502 guardian_gnss=23511,23512
 build=$top/build/release
 
 # check_number OPTION VALUE LOW HIGH
@@ -81,6 +83,11 @@ check_radio() {
   fi
 }
 
+check_keys() {
+  [[ -f $1 && -r $1 ]] || refuse "--keys: no readable file '$1'"
+  grep -qx 'role: car' "$1" || refuse "--keys: '$1' does not say 'role: car'"
+}
+
 check_gnss() { # OPTION VALUE
   if [[ ! $2 =~ ^[1-9][0-9]{0,4},[1-9][0-9]{0,4}$ ]] ||
     ((${2%,*} > 65535 || ${2#*,} > 65535 || ${2%,*} == ${2#*,})); then
@@ -101,8 +108,8 @@ parse() {
       --uninstall) uninstall=1 ;;
       --listen-only) listen_only=1 settings+=("$1") ;;
       --help | -h) usage; exit 0 ;;
-      --can | --bitrate | --restart-ms | --car | --track | --radio | --gnss | --guardian-gnss | \
-        --root | --build)
+      --can | --bitrate | --restart-ms | --car | --track | --radio | --keys | --gnss | \
+        --guardian-gnss | --root | --build)
         (($# >= 2)) || refuse "$1 needs a value"
         [[ $1 == --root || $1 == --build ]] || settings+=("$1")
         take "$1" "$2"
@@ -123,6 +130,7 @@ take() { # OPTION VALUE
     --car) check_file "$1" "$2"; car=$2 ;;
     --track) check_file "$1" "$2"; track=$2 ;;
     --radio) check_radio "$2"; radio=$2 ;;
+    --keys) check_keys "$2"; keys=$2 ;;
     --gnss) check_gnss "$1" "$2"; gnss=$2 ;;
     --guardian-gnss) check_gnss "$1" "$2"; guardian_gnss=$2 ;;
     --root) check_root "$2" ;;
@@ -155,6 +163,7 @@ plan_files() {
   plan_file config 0644 "/etc/pitwall/cars/${car##*/}" "$car"
   plan_file config 0644 "/etc/pitwall/tracks/${track##*/}" "$track"
   plan_file config 0644 /etc/pitwall/vehicle.env "$(render vehicle.env)"
+  plan_keys
   plan_file system 0644 /etc/sysusers.d/pitwall.conf "$(render sysusers.conf)"
   plan_file system 0644 /etc/modules-load.d/pitwall.conf "$(render modules.conf)"
   plan_file config 0644 /etc/sysctl.d/05-pitwall.conf "$(render sysctl.conf)"
@@ -171,6 +180,16 @@ plan_files() {
     refuse "--guardian-gnss: the car's process has one of these ports"
   [[ $radio != 127.* ]] ||
     note "telemetry stays on this machine ($radio) until --radio says where the pit wall is"
+}
+
+# Root's alone: systemd hands the service a copy (LoadCredential).
+plan_keys() {
+  if [[ -n $keys ]]; then
+    plan_file secret 0600 /etc/pitwall/car.keys "$keys"
+  elif [[ ! -f $target/etc/pitwall/car.keys ]]; then
+    note "no keys for the radio yet: pitwall-vehicle does not start before --keys FILE brings" \
+      "them (pitwall-base keygen makes a pair)"
+  fi
 }
 
 # The controller appears, the unit starts: also after an adapter was pulled and put back.
