@@ -27,7 +27,7 @@ constexpr auto kCodes = [] {
 
 constexpr unsigned kWord = 32;  // no field is wider; two fit into a register
 
-// Fields gathered into words: a writer takes eight bytes at a time sooner than each field's bits.
+// Fields gathered into words: a writer takes 32 bits at once sooner than a few at a time.
 class Packer {
  public:
   explicit Packer(bits::BitWriter& out) : out_(out) {}
