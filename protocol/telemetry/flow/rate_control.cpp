@@ -19,6 +19,8 @@ constexpr double kStandingQueue_s = 0.03;  // above it nothing is probed
 constexpr double kInterval_s = 5.0;        // of the least delay
 constexpr double kSmoothing = 0.2;         // of the newest delay in the smoothed one
 constexpr double kLeastFactor = 1e-3;
+// A gap longer than this, and longer than its bytes take at a twentieth of the budget, is a fade.
+constexpr double kFade_s = 0.06, kFadeShare = 20.0;
 constexpr Duration kSilence = milliseconds(500);
 
 }  // namespace
@@ -56,10 +58,17 @@ RateControl::Line RateControl::line() const {
   return {slope, std::sqrt(residual / (n - 2.0) / tt)};
 }
 
+// While something arrives: a fade within the span says nothing of what the link carries.
 double RateControl::arrived_rate() const {
-  const double span_s = points_[(first_ + count_ - 1) % kWindow].at_s - points_[first_].at_s;
-  double bytes = 0.0;  // of the first point came before the span
-  for (std::size_t i = 1; i < count_; ++i) bytes += points_[(first_ + i) % kWindow].bytes;
+  double bytes = 0.0, span_s = 0.0;
+  for (std::size_t i = 1; i < count_; ++i) {
+    const Point &before = points_[(first_ + i - 1) % kWindow], &p = points_[(first_ + i) % kWindow];
+    const double gap_s = p.at_s - before.at_s;
+    const bool faded = gap_s > kFade_s && gap_s > kFadeShare * (p.bytes / budget_);
+    if (faded) continue;
+    bytes += p.bytes;
+    span_s += gap_s;
+  }
   return span_s > 0.0 ? bytes / span_s : budget_;
 }
 

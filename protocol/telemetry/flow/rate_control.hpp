@@ -5,9 +5,9 @@
 //   out    factor of the budget, (0, 1]
 //   law    overuse: a queue of more than kLeastQueue whose delay, by a straight line through the
 //          last half second (and at least eight deliveries), grows faster than kOveruse and than
-//          its noise explains. Then 0.85 of the rate that arrived; else, unless a queue stands,
-//          + 5 % of the budget per second; never below the floor that safety needs. Without
-//          deliveries nothing changes
+//          its noise explains. Then 0.85 of the rate that arrived between fades; else, unless a
+//          queue stands, + 5 % of the budget per second; never below the floor that safety needs.
+//          Without deliveries nothing changes
 //   source trendline filter of Google congestion control (draft-ietf-rmcat-gcc-02, 5.3 to 5.5), its
 //          delay part only
 // SPDX-License-Identifier: Apache-2.0

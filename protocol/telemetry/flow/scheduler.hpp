@@ -2,12 +2,13 @@
 // to have.
 //   law    index_g = w_g * (max(0, age_g - T_g / 2) / T_g)^2 / sqrt(bits_g); age_g since the sample
 //          that was acknowledged, or is under way for less than a round trip and the wait of an
-//          acknowledgement to be written. Ages grow without bound, so no group starves. A sample that the other end has is not offered again
+//          acknowledgement to be written. Ages grow without bound, so no group starves. A sample
+//          that the other end has is not offered again
 //          while nothing comes back that was sent since, what is under way counts as lost: after a
 //          fade the first packet that arrives has what is oldest
 //   in     snapshots, what was written into which packet, which packets were acknowledged
 //   out    groups in falling order; counters that explain each choice
-//   cost   O(G^2) of at most 16 groups, no allocation
+//   cost   O(G log G), no allocation
 //   source Kadota et al., "Scheduling Policies for Minimizing Age of Information in Broadcast
 //          Wireless Networks", 2018, max-weight policy
 // SPDX-License-Identifier: Apache-2.0

@@ -104,6 +104,21 @@ TEST(RateControl, AQueueThatGrowsIsBroughtDownAndTheRateComesBack) {
   }
 }
 
+// What a fade swallows does not count against the link.
+TEST(RateControl, BetweenFadesTheRateIsTheLinks) {
+  RateControl rate(kBudget, kFloor);
+  Air air(kBudget * 0.7, 0.0, milliseconds(5), 6);
+  double sum = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    air.run(rate, milliseconds(280));
+    air.wait(milliseconds(120));
+    sum += i >= 20 ? rate.factor({}) : 0.0;
+  }
+  EXPECT_GT(rate.backoffs(), 0U);
+  EXPECT_GT(sum / 80, 0.45);
+  EXPECT_LT(sum / 80, 1.0);
+}
+
 TEST(RateControl, StaysNearTheCapacityOfALinkThatIsSmallerThanTheBudget) {
   RateControl rate(kBudget, kFloor);
   Air air(kBudget * 0.5, 0.0, milliseconds(5), 8);
