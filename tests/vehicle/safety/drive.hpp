@@ -40,7 +40,8 @@ struct Drive {
                      .bus_failed = car.bus_failed,
                      .gate_refused = car.gate_refused,
                      .operator_requests = car.requests,
-                     .last_run_armed = car.last_run_armed},
+                     .last_run_armed = car.last_run_armed,
+                     .radio = car.radio},
                     now);
     const double brake = std::isfinite(out.command.brake_kpa) ? out.command.brake_kpa : 0.0;
     const double pedal =

@@ -6,6 +6,7 @@
 
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/safety/fault_detection.hpp"
+#include "vehicle/safety/radio_ladder.hpp"
 #include "vehicle/safety/watchdog.hpp"
 #include "vehicle/world/actuator_command.hpp"
 #include "vehicle/world/bus_health.hpp"
@@ -41,6 +42,7 @@ struct Situation {
   world::Trajectory stop;
   world::ActuatorCommand control;
   OperatorRequests requests;
+  RadioLadderOutput radio;
   bool control_ok = true, drive_available = true, own_id_seen = false, bus_failed = false,
        gate_refused = false, last_run_armed = false;
 
