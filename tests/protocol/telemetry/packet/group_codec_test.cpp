@@ -122,8 +122,8 @@ TEST(GroupCodec, ATruncatedGroupLeavesTheValuesUntouched) {
   }
 }
 
-// A peer parses its receive buffer whole, however short the datagram is: what lies there from the one
-// before is taken for new. Here the buffer still holds a whole legal group behind the datagram.
+// A peer parses its receive buffer whole, however short the datagram is: what lies there from the
+// one before is taken for new. Here the buffer still holds a whole legal group behind the datagram.
 TEST(GroupCodec, ReadsADatagramOnlyAsFarAsItGoesWhateverStillLiesBehindIt) {
   Values before;
   for (FieldIndex i = 0; i < kFieldCount; ++i) before[i] = kFields[i].max;
