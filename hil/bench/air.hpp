@@ -3,8 +3,8 @@
 //   in     datagrams of one end; faults of the radio; now, of the scenario, never going back
 //   out    those that arrive at the other end; when the car could last hear its base
 //   law    radio_down: nothing passes either way. base_station_silent: nothing reaches the car.
-//          radio_loss: each datagram is lost with this probability. radio_delay: each comes later by
-//          so much, in order (what waits in a queue that is too long)
+//          radio_loss: each datagram is lost with this probability. radio_delay: each comes so much
+//          later, in order (what waits in a queue that is too long)
 //          both directions of a path meet the same fades; two paths meet different ones
 //   errors what is dropped is counted by reason
 // SPDX-License-Identifier: Apache-2.0

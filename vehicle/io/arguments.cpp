@@ -29,7 +29,8 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
                  "where the base station is reached, ADDRESS:PORT; once more for a second path")
       ->expected(1, static_cast<int>(telemetry::kPaths))
       ->capture_default_str();
-  app.add_option("--keys", args.keys, "key file of this car (pitwall-base keygen --out FOLDER makes it)");
+  app.add_option("--keys", args.keys,
+                 "key file of this car (pitwall-base keygen --out FOLDER makes it)");
   app.add_option("--local-report", args.local_report,
                  "tell programs on this machine the car's state, unsealed: a port on 127.0.0.1")
       ->check(CLI::Range(1, kPortMax));
@@ -46,8 +47,8 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
     if (args.keys.empty() && !args.no_base && !args.check)
       throw CLI::ValidationError(
           "--keys",
-          "the radio needs keys: make them once with `pitwall-base keygen --out FOLDER` and give the "
-          "car FOLDER/car.keys (or --no-base, for a bench)");
+          "the radio needs keys: make them once with `pitwall-base keygen --out FOLDER` and give "
+          "the car FOLDER/car.keys (or --no-base, for a bench)");
     if (ports[0] == ports[1])
       throw CLI::ValidationError("--gnss", "the receivers need two different ports");
   } catch (const CLI::ParseError& error) {

@@ -42,13 +42,14 @@ void EventTap::look_at_faults(const safety::FaultLog& log, safety::CauseSet caus
     const safety::FaultEntry& fault = log.entry(i);
     add(make_event(telemetry::FaultEvent{number_of(fault.cause), true, value_of(fault.value)},
                    fault.at));
+    told_.add(fault.cause);
   }
   faults_ = log.total;
-  const safety::CauseSet ended = causes_.without(causes);
+  const safety::CauseSet ended = told_.without(causes);
   for (std::size_t i = 1; i < safety::kCauses && !ended.empty(); ++i)
     if (const auto cause = static_cast<safety::Cause>(i); ended.has(cause))
       add(make_event(telemetry::FaultEvent{number_of(cause), false, 0.0F}, now));
-  causes_ = causes;
+  told_ = told_.without(ended);
 }
 
 void EventTap::look_at_flags(const world::RaceControl& race, Instant now) {

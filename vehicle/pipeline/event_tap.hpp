@@ -2,7 +2,8 @@
 // when it begins and when it ends. Values may be overwritten on the radio; an event arrives.
 //   in     Outputs of this tick, the car's fault log; one call per tick
 //   out    events in the order: faults, mode, arming, flags, lap (laps as race control counts them)
-//   law    each change once; of a first tick only what differs from a car that was switched on
+//   law    each change once, and the end only of a fault whose beginning was told; of a first tick
+//          only what differs from a car that was switched on
 //   errors faults that the log has dropped, and events without room, are counted in `missed`
 //   cost   no allocation
 // SPDX-License-Identifier: Apache-2.0
@@ -33,7 +34,7 @@ class EventTap {
 
   TickEvents events_;
   std::uint64_t faults_ = 0;  // of the log, told
-  safety::CauseSet causes_;
+  safety::CauseSet told_;     // begun, and not over yet
   world::Mode mode_ = world::Mode::kDisarmed;
   safety::Arming arming_ = safety::Arming::kNotAsked;
   world::TrackFlag track_ = world::TrackFlag::kNone;

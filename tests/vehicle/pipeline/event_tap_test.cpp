@@ -50,14 +50,22 @@ TEST_F(Events, EveryFaultIsToldWhenItBeginsAndWhenItEnds) {
   raise(Cause::kRadioLost, 3.5);
   raise(Cause::kBusOff, NAN);
   raise(Cause::kImuLost, 1.0, false);  // came and went within a tick
-  EXPECT_EQ(look(), (std::vector<EventContent>{FaultEvent{31, true, 3.5F}, FaultEvent{16, true, 0},
-                                               FaultEvent{28, true, 1.0F}}));
+  EXPECT_EQ(look(),
+            (std::vector<EventContent>{FaultEvent{31, true, 3.5F}, FaultEvent{16, true, 0},
+                                       FaultEvent{28, true, 1.0F}, FaultEvent{28, false, 0}}));
   EXPECT_TRUE(look().empty());
   out_->chosen.causes = {};
   out_->chosen.causes.add(Cause::kBusOff);
   EXPECT_EQ(look(), (std::vector<EventContent>{FaultEvent{31, false, 0}}));
   out_->chosen.causes = {};
   EXPECT_EQ(look(), (std::vector<EventContent>{FaultEvent{16, false, 0}}));
+}
+
+TEST_F(Events, AFaultWhoseBeginningWasNotToldHasNoEnd) {
+  out_->chosen.causes.add(Cause::kGnssRateLost);  // holds in the garage, and is not logged
+  EXPECT_TRUE(look().empty());
+  out_->chosen.causes = {};
+  EXPECT_TRUE(look().empty());
 }
 
 TEST_F(Events, FaultsThatTheLogOrTheTickHadNoRoomForAreCounted) {
