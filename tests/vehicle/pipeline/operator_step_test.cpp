@@ -1,0 +1,170 @@
+// What the operator says, through the whole step: the car does it, and says what it did.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "tests/support/allocation_guard.hpp"
+#include "tests/vehicle/pipeline/standing_car.hpp"
+
+namespace pitwall::pipeline {
+namespace {
+
+using testing::kStart;
+using testing::kTick;
+using testing::setup;
+using world::CommandAnswer;
+using world::Mode;
+using world::OperatorCommand;
+using world::OperatorCommandKind;
+
+// A healthy car at standstill, told what to do by radio alone.
+struct Told {
+  testing::StandingCar source;
+  std::unique_ptr<Car> car = std::make_unique<Car>();
+  world::OperatorWishes wishes;
+  std::vector<world::AnsweredCommand> answers;
+  Instant now = kStart;
+  std::unique_ptr<Outputs> out = std::make_unique<Outputs>();
+  std::uint32_t ids = 0;
+
+  void tick(std::span<const OperatorCommand> commands = {}) {
+    const testing::Heard heard = source.hear(now);
+    Inputs in = heard.inputs(now);
+    in.wishes = wishes;
+    in.commands = commands;
+    *out = step(setup(), *car, in);
+    answers.insert(answers.end(), out->answers.begin(), out->answers.end());
+    now += kTick;
+  }
+  void run(Duration span) {
+    for (const Instant end = now + span; now < end;) tick();
+  }
+  CommandAnswer say(OperatorCommandKind kind, double argument) {
+    const OperatorCommand command{++ids, kind, argument, now + seconds(2)};
+    answers.clear();
+    tick({&command, 1});
+    tick();
+    EXPECT_EQ(answers.size(), 1U);
+    return answers.empty() ? CommandAnswer::kRefused : answers.front().answer;
+  }
+  Mode mode() const { return out->chosen.mode; }
+};
+
+TEST(OperatorStep, ArmsDrivesStopsAndArmsAgainByRadioAlone) {
+  Told t;
+  t.run(seconds(3));
+  EXPECT_EQ(t.mode(), Mode::kDisarmed);
+  EXPECT_EQ(t.say(OperatorCommandKind::kArm, 1.0), CommandAnswer::kApplied);
+  t.run(milliseconds(300));
+  ASSERT_EQ(t.mode(), Mode::kDriving);
+  t.wishes.stop = world::StopWish::kControlled;
+  t.run(seconds(2));
+  EXPECT_EQ(t.mode(), Mode::kHalted);
+  EXPECT_EQ(t.out->chosen.cause, safety::Cause::kOperatorStop);
+  EXPECT_EQ(t.say(OperatorCommandKind::kArm, 1.0), CommandAnswer::kRefused);
+  t.wishes.stop = world::StopWish::kNone;
+  EXPECT_EQ(t.say(OperatorCommandKind::kReset, 1.0), CommandAnswer::kApplied);
+  EXPECT_EQ(t.mode(), Mode::kDisarmed);
+  EXPECT_EQ(t.say(OperatorCommandKind::kArm, 1.0), CommandAnswer::kApplied);
+  t.run(milliseconds(300));
+  EXPECT_EQ(t.mode(), Mode::kDriving);
+  EXPECT_EQ(t.say(OperatorCommandKind::kArm, 0.0), CommandAnswer::kApplied);
+  t.run(seconds(2));
+  EXPECT_EQ(t.mode(), Mode::kHalted);
+}
+
+TEST(OperatorStep, ALatchedStopBarsArming) {
+  Told t;
+  t.wishes.stop = world::StopWish::kEmergency;
+  t.run(seconds(3));
+  EXPECT_EQ(t.say(OperatorCommandKind::kArm, 1.0), CommandAnswer::kRefused);
+  t.wishes.stop = world::StopWish::kNone;
+  t.run(seconds(1));
+  EXPECT_EQ(t.mode(), Mode::kDisarmed) << "the refused request does not wait";
+}
+
+TEST(OperatorStep, TheBasesRedHoldsACarThatRaceControlWavesOff) {
+  Told t;
+  t.run(seconds(3));
+  EXPECT_EQ(t.say(OperatorCommandKind::kTrackFlag, 1.0), CommandAnswer::kApplied);
+  EXPECT_EQ(t.say(OperatorCommandKind::kArm, 1.0), CommandAnswer::kApplied);
+  t.run(seconds(1));
+  EXPECT_EQ(t.mode(), Mode::kStandby);
+  EXPECT_EQ(t.out->race_control.track, world::TrackFlag::kRed);
+  EXPECT_EQ(t.out->heard.race_control.track, world::TrackFlag::kGreen);
+  EXPECT_EQ(t.say(OperatorCommandKind::kTrackFlag, 0.0), CommandAnswer::kApplied);
+  t.run(seconds(1));
+  EXPECT_EQ(t.mode(), Mode::kDriving);
+}
+
+TEST(OperatorStep, TheSpeedLimitReachesThePlan) {
+  Told t;
+  t.run(seconds(3));
+  EXPECT_EQ(t.say(OperatorCommandKind::kSpeedLimit, 7.5), CommandAnswer::kApplied);
+  t.run(milliseconds(100));
+  EXPECT_EQ(t.out->speed_limit_mps, 7.5);
+  EXPECT_EQ(t.car->plan.output.reason, planning::Reason::kOperatorLimit);
+  for (const auto& point : t.car->plan.output.drive.points) EXPECT_LE(point.speed_mps, 7.51);
+}
+
+TEST(OperatorStep, AJoystickLowersTheThrottleUntilItsSampleIsOld) {
+  Told t;
+  t.run(seconds(3));
+  t.say(OperatorCommandKind::kArm, 1.0);
+  t.run(seconds(2));
+  ASSERT_EQ(t.mode(), Mode::kDriving);
+  ASSERT_GT(t.out->chosen.command.throttle_fraction, 0.0);
+  t.wishes.joystick = world::Joystick{.throttle_cap = 0.0, .brake = 0.5, .at = t.now};
+  t.tick();
+  EXPECT_EQ(t.out->chosen.command.throttle_fraction, 0.0);
+  EXPECT_GT(t.out->chosen.command.brake_kpa, 0.0);
+  t.run(seconds(2));  // the rim goes on saying it; its age is looked at here
+  EXPECT_GT(t.out->chosen.command.throttle_fraction, 0.0);
+  EXPECT_EQ(t.out->radio.throttle_cap, 1.0);
+}
+
+// Anything an operator or a broken rim may hand over: one answer each, no heap, nothing refused by
+// the frame gate.
+TEST(OperatorStep, WhateverIsSaidIsAnsweredOnceWithoutTheHeapOrTheGate) {
+  testing::Random random{7};
+  Told t;
+  std::vector<int> answered(100'000);
+  std::vector<OperatorCommand> commands;
+  for (int i = 0; i < 2'000; ++i) {
+    commands.clear();
+    while (random.one_in(2) && commands.size() < world::kOperatorCommandsMax) {
+      const Instant expires = t.now + milliseconds(static_cast<int>(random.below(200)) - 100);
+      commands.push_back({++t.ids, static_cast<OperatorCommandKind>(random.below(9)),
+                          random.one_in(2) ? 1.0 : random.number(), expires});
+    }
+    t.wishes.stop =
+        random.one_in(50) ? static_cast<world::StopWish>(random.below(3)) : world::StopWish::kNone;
+    t.wishes.joystick.reset();
+    if (random.one_in(3)) {
+      const Duration age = milliseconds(static_cast<int>(random.below(400)) - 100);
+      t.wishes.joystick = world::Joystick{random.number(), random.number(), t.now - age};
+    }
+    const testing::Heard heard = t.source.hear(t.now);
+    Inputs in = heard.inputs(t.now);
+    in.wishes = t.wishes;
+    in.commands = commands;
+    const auto allocations =
+        pitwall::testing::allocations_of([&] { *t.out = step(setup(), *t.car, in); });
+    if (pitwall::testing::kAllocationsCounted) {
+      ASSERT_EQ(allocations, 0U);
+    }
+    for (const world::AnsweredCommand& one : t.out->answers) ++answered.at(one.id);
+    ASSERT_EQ(t.out->passed.refused_total, 0U) << i;
+    t.now += kTick;
+  }
+  t.answers.clear();
+  t.run(milliseconds(50));
+  for (const world::AnsweredCommand& one : t.answers) ++answered.at(one.id);
+  for (std::uint32_t id = 1; id <= t.ids; ++id) ASSERT_EQ(answered[id], 1) << id;
+}
+
+}  // namespace
+}  // namespace pitwall::pipeline
