@@ -69,7 +69,23 @@ TEST(ScenarioFiles, AFaultThatDoesNotComeIsNoticed) {
   }
   EXPECT_GE(with_faults, 10u);
   // What the car must shrug off looks the same without the fault.
-  EXPECT_EQ(blind, (std::set<std::string>{"base_blink", "gnss_one_unit_bad", "grip_low"}));
+  EXPECT_EQ(blind, (std::set<std::string>{"base_blink", "base_restarted_commands",
+                                          "gnss_one_unit_bad", "grip_low", "operator_emergency"}));
+}
+
+TEST(ScenarioFiles, AnOperatorWhoSaysNothingIsNoticed) {
+  std::size_t with_words = 0;
+  for (const std::string& name : scenario_files()) {
+    auto loaded = load_scenario(name);
+    ASSERT_TRUE(loaded);
+    if (loaded->scenario.operator_words.empty()) continue;
+    ++with_words;
+    loaded->scenario.operator_words.clear();
+    const auto run = run_lockstep(loaded->scenario, loaded->setup, {});
+    ASSERT_TRUE(run);
+    EXPECT_FALSE(run->passed()) << name;
+  }
+  EXPECT_GE(with_words, 4u);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include "protocol/transport/udp_socket.hpp"
 
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 
 #include <string>
 #include <vector>
@@ -104,6 +106,18 @@ TEST(UdpSocket, NobodyAtTheOtherEndIsCountedAndSendingGoesOn) {
   EXPECT_EQ(a->receive(none), 0U);
   EXPECT_GT(a->counters().rx_refused, 0U);
   EXPECT_EQ(a->counters().tx_failed, 0U);
+}
+
+// As the kernel has it: the code point is the upper six bits of the type of service (RFC 2474).
+TEST(UdpSocket, MarksWhatItSends) {
+  for (const std::uint8_t dscp : {0, 8, 46, 63}) {
+    const auto socket = UdpSocket::bind({}, {.dscp = dscp});
+    ASSERT_TRUE(socket);
+    int service = -1;
+    socklen_t length = sizeof service;
+    ASSERT_EQ(getsockopt(socket->fd(), IPPROTO_IP, IP_TOS, &service, &length), 0);
+    EXPECT_EQ(service, dscp << 2);
+  }
 }
 
 TEST(UdpAddress, TextThereAndBack) {

@@ -69,7 +69,7 @@ TEST_F(Events, AFaultWhoseBeginningWasNotToldHasNoEnd) {
 }
 
 TEST_F(Events, FaultsThatTheLogOrTheTickHadNoRoomForAreCounted) {
-  for (std::size_t i = 0; i < safety::kFaultEntries + 7; ++i) raise(Cause::kBusOff, 1.0, false);
+  for (std::size_t i = 0; i < safety::kFaultEntries + 7; ++i) raise(Cause::kBusOff, 1.0);
   EXPECT_EQ(look().size(), TickEvents::capacity());
   EXPECT_EQ(tap_.missed(), safety::kFaultEntries + 7 - TickEvents::capacity());
 }

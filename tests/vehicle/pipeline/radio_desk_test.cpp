@@ -26,7 +26,7 @@ const std::string kParameters = "car: some\n";
 class Desk : public ::testing::Test {
  protected:
   Desk() {
-    telemetry::ConduitConfig car, base;
+    telemetry::ConduitConfig car, &base = base_config_;
     car.association.keys.own = telemetry::make_identity(random_);
     base.association.keys.role = telemetry::Role::kBase;
     base.association.keys.own = telemetry::make_identity(random_);
@@ -81,6 +81,7 @@ class Desk : public ::testing::Test {
 
   static constexpr telemetry::Address kCarAt{1, 40'000}, kBaseAt{2, 23'431};
   telemetry::SeededRandomness random_{7};
+  telemetry::ConduitConfig base_config_;
   std::optional<telemetry::CarEndpoint> car_radio_;
   std::optional<telemetry::StationEndpoint> base_radio_;
   RadioDesk desk_{kParameters};
@@ -110,6 +111,15 @@ TEST_F(Desk, TheBaseIsAliveAndEndsThatAgreeMayArm) {
   EXPECT_TRUE(shown_.uplink.schema_agrees);
   EXPECT_EQ(shown_.base_runs, 1u);
   EXPECT_GT(shown_.heartbeats, 10u);
+}
+
+TEST_F(Desk, EndsThatUnderstandSafetyDifferentlyDoNotArm) {
+  base_config_.association.greeting.safety_schema = 1;
+  base_radio_.emplace(base_config_, random_);
+  run(seconds(1));
+  ASSERT_TRUE(radio_at_) << "it is heard all the same";
+  EXPECT_FALSE(may_arm_);
+  EXPECT_FALSE(shown_.uplink.schema_agrees);
 }
 
 TEST_F(Desk, AStopOfTheOperatorIsAWishThatStays) {
