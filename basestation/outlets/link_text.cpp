@@ -69,43 +69,49 @@ std::string address_text(telemetry::Address address) {
              address.ip >> 8 & kByte, address.ip & kByte, unsigned{address.port});
 }
 
-// A field of the car about this path; "?" until it has told.
-std::string told(const intake::Station& station, telemetry::FieldIndex which, double factor,
-                 const char* unit, Instant now) {
-  const picture::FieldView view = station.picture().view(which, now);
-  if (view.quality == picture::Quality::kNever) return "?";
-  return say("%.0f%s", factor * view.value, unit);
+// What the car told of this path, and how long ago.
+std::string told(const intake::Station& station, telemetry::PathId path, Instant now) {
+  const picture::FieldView radio = station.picture().group(telemetry::Group::kRadio, now);
+  if (radio.quality == picture::Quality::kNever) return "the car has told nothing";
+  const bool second = path == 1;
+  const auto part = [&](const char* name, telemetry::FieldIndex which, double factor,
+                        const char* unit) {
+    const picture::FieldView view = station.picture().view(which, now);
+    if (view.quality == picture::Quality::kNever) return say("%s ?", name);
+    const std::string text = say("%s %.0f%s", name, factor * view.value, unit);
+    return view.age > radio.age ? text + " (" + age_text(view.age) + " ago)" : text;
+  };
+  return "the car told " + age_text(radio.age) + " ago: " +
+         part("loss", second ? field("radio.loss_1") : field("radio.loss_0"), kPercent, " %") +
+         part(", one way", second ? field("radio.delay_1") : field("radio.delay_0"), 1.0, " ms") +
+         part(", budget used", second ? field("radio.budget_use_1") : field("radio.budget_use_0"),
+              kPercent, " %");
 }
 
 std::vector<TextLine> path_lines(const intake::Station& station, const LinkReport& report,
                                  telemetry::PathId path, Instant now) {
   const telemetry::PathReport& p = report.paths[path];
   const telemetry::PathFigures& h = p.heard;
-  const bool second = path == 1;
-  const auto loss = second ? field("radio.loss_1") : field("radio.loss_0");
-  const auto delay = second ? field("radio.delay_1") : field("radio.delay_0");
-  const auto use = second ? field("radio.budget_use_1") : field("radio.budget_use_0");
   std::vector<TextLine> lines;
   const std::string bursts =
       h.mean_bad.ns > 0
           ? say("bursts %.0f ms each %.1f s", h.mean_bad.milliseconds(), h.mean_good.seconds())
           : "no bursts yet";
   lines.push_back(
-      {say("path %d    down %6.1f kbit/s   budget used %s   loss %.1f %% (%llu in all)   %s   "
+      {say("path %d    down %6.1f kbit/s   loss %.1f %% (%llu in all)   %s   "
            "one way %.0f/%.0f/%.0f ms p50/95/99   jitter %.1f ms",
-           int{path}, h.rate_bytes_per_s * kBitsPerByte * kPerKilo,
-           told(station, use, kPercent, " %", now).c_str(), kPercent * h.loss, count(h.lost),
-           bursts.c_str(), h.delay_p50.milliseconds(), h.delay_p95.milliseconds(),
+           int{path}, h.rate_bytes_per_s * kBitsPerByte * kPerKilo, kPercent * h.loss,
+           count(h.lost), bursts.c_str(), h.delay_p50.milliseconds(), h.delay_p95.milliseconds(),
            h.delay_p99.milliseconds(), h.jitter.milliseconds())});
   lines.push_back(
-      {say("          up   %6llu packets   budget used %.1f %% (x%.2f)   no room %llu times   "
-           "loss %s   one way p99 %s   %s %s",
+      {say("          up   %llu packets   budget used %.1f %% (x%.2f)   "
+           "no room %llu times   %s %s",
            count(p.spent.packets), kPercent * p.budget_use, p.rate_factor, count(p.spent.refused),
-           told(station, loss, kPercent, " %", now).c_str(),
-           told(station, delay, 1.0, " ms", now).c_str(), address_text(p.peer).c_str(),
+           address_text(p.peer).c_str(),
            p.validated      ? "proved"
            : p.peer.known() ? "not proved"
                             : "")});
+  lines.push_back({"          " + told(station, path, now)});
   return lines;
 }
 

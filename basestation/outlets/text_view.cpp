@@ -58,8 +58,8 @@ std::string group_head(const telemetry::GroupRow& row, const picture::FieldView&
 
 std::string cell_text(const telemetry::FieldRow& row, const picture::FieldView& view,
                       const picture::FieldView& group) {
-  if (view.quality == Quality::kNever) return std::string{row.name} + " -";
-  std::string text = std::string{row.name} + " " + value_text(row, view.value);
+  if (view.quality == Quality::kNever) return std::string{row.name} + ": -";
+  std::string text = std::string{row.name} + ": " + value_text(row, view.value);
   if (!row.unit.empty()) text += " " + std::string{row.unit};
   if (view.age > group.age) text += " (" + age_text(view.age) + " ago)";
   return text;
@@ -92,7 +92,7 @@ void add_group(const telemetry::GroupRow& row, const picture::Picture& picture, 
   std::size_t used = 0;
   for (telemetry::FieldIndex i = first; i < first + count; ++i) {
     const std::string cell = cell_text(telemetry::kFields[i], picture.view(i, now), group);
-    const std::size_t width = std::min(cell.size() / kCellWidth + 1, kCells);
+    const std::size_t width = std::min((cell.size() + 1) / kCellWidth + 1, kCells);
     if (used + width > kCells) {
       trim(line);
       lines.push_back({line, tone});

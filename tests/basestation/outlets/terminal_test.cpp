@@ -99,7 +99,7 @@ TEST_F(Terminal, MeetsTheCarAndShowsWhatItSays) {
   const std::string screens =
       run_with_car({.text = true, .plain = true, .duration = milliseconds(600)});
   EXPECT_NE(screens.find("REAL CAR"), std::string::npos);
-  EXPECT_NE(screens.find("x 12.0"), std::string::npos);
+  EXPECT_NE(screens.find("x: 12.0"), std::string::npos);
   EXPECT_EQ(screens.find('\x1b'), std::string::npos);
   EXPECT_GT(station_->rate().packets(), 3U);
 }

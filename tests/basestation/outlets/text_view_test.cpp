@@ -94,7 +94,7 @@ TEST(TextView, EveryFieldOfAHeardGroupIsThereWithItsUnitAndItsGroupsAge) {
   const std::string screen = base.screen({.all = true});
   for (const telemetry::FieldRow& row : telemetry::kFields) {
     if (telemetry::row_of(row.group).direction != telemetry::Direction::kDown) continue;
-    EXPECT_NE(screen.find(std::string{row.name} + " "), std::string::npos) << row.name;
+    EXPECT_NE(screen.find(std::string{row.name} + ": "), std::string::npos) << row.name;
     EXPECT_NE(screen.find(std::string{row.unit}), std::string::npos) << row.name;
   }
   EXPECT_EQ(screen.find("never heard"), std::string::npos);
@@ -125,7 +125,7 @@ TEST(TextView, AValueOlderThanItsGroupSaysItsOwnAge) {
   base.drive();
   base.snapshot.values[field("ego.x")] = kUnset;
   base.run(seconds(2));
-  EXPECT_TRUE(base.shows("x 123.4")) << base.screen();
+  EXPECT_TRUE(base.shows("x: 123.4")) << base.screen();
   EXPECT_TRUE(base.shows("(20")) << base.screen();
 }
 

@@ -75,7 +75,7 @@ def hears_the_car_and_stops_on(stop_signal, folder):
     expect([e["event"] for e in heard["events"]] == ["the car is here"], "events come once")
     expect("waiting for the first packet" in screens, "the first screen waits")
     expect("*** SIMULATION ***" in screens, "a simulation is shown as one")
-    expect("vx 50.50 m/s" in screens, "the last screen shows the last value")
+    expect("vx: 50.50 m/s" in screens, "the last screen shows the last value")
     expect("\x1b" not in screens, "plain is plain")
 
 
