@@ -27,6 +27,15 @@ constexpr Budget kStopsAndRestarts{
     .presses = 2, .releases = 1, .up = 3, .down = 2, .base_restarts = 1, .car_restarts = 1};
 constexpr Budget kAuthority{.issues = 1, .changes = 2, .up = 2, .doubles = 1, .waits = 3};
 
+constexpr Budget kTogether{.issues = 1,
+                           .presses = 1,
+                           .releases = 1,
+                           .changes = 1,
+                           .up = 2,
+                           .down = 1,
+                           .waits = 1,
+                           .base_restarts = 1};
+
 void expect_lawful(const Budget& budget, std::size_t depth_least) {
   const Explored all = explore(budget, Planted::kNone, kAll, kWorldsMax);
   std::cout << all.worlds << " worlds, " << all.transitions << " transitions, depth " << all.depth
@@ -40,7 +49,8 @@ TEST(RadioExplorer, CommandsHaveOneFateInEveryOrder) { expect_lawful(kCommands, 
 TEST(RadioExplorer, RestartsOfEitherEndApplyNothingTwice) { expect_lawful(kRestarts, 12); }
 TEST(RadioExplorer, AStopEndsByItsReleaseOnly) { expect_lawful(kStops, 12); }
 TEST(RadioExplorer, AStopOutlivesRestarts) { expect_lawful(kStopsAndRestarts, 12); }
-TEST(RadioExplorer, OneHolderAndNoEffectAfterItsExpiry) { expect_lawful(kAuthority, 10); }
+TEST(RadioExplorer, OneHolderAndNoEffectAfterItsExpiry) { expect_lawful(kAuthority, 12); }
+TEST(RadioExplorer, AllOfItTogether) { expect_lawful(kTogether, 12); }
 
 // The explorer itself: faults that it must find.
 void expect_found(Planted planted, const Budget& budget, Broken broken) {

@@ -137,8 +137,8 @@ TEST(Joystick, WhatIsNoNumberIsNoSampleAndMoreThanAllIsAll) {
 }
 
 // A peer's car made samples of its own, a hundred a second with a counter that rose, where it had
-// no joystick: its watchdog was fed by nobody. Here the operator's end is the only maker of samples,
-// and without a device it says nothing.
+// no joystick: its watchdog was fed by nobody. Here the operator's end alone makes samples, and
+// without a device it says nothing.
 TEST(Joystick, NobodySpoofsAHandThatIsNotThere) {
   TwoEnds rig({.seed = 6});
   rig.run(seconds(2));
