@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <sstream>
 #include <string>
 
@@ -40,6 +41,12 @@ struct Base : RadioRig {
   }
 };
 
+// The radio's figures and ages are other modules' business: each number is '#'.
+std::string without_numbers(const std::string& screen) {
+  static const std::regex kNumber{" *[0-9]+(\\.[0-9]+)?"};
+  return std::regex_replace(screen, kNumber, " #");
+}
+
 TEST(TextView, Golden) {
   Base base({.paths = 2, .real_car = false});
   base.drive();
@@ -48,7 +55,7 @@ TEST(TextView, Golden) {
   ASSERT_FALSE(base.station->obey("command fly 1", base.now));
   base.car->log(telemetry::make_event(telemetry::ModeEvent{.from = 1, .to = 2}, base.now));
   base.run(milliseconds(60));
-  const std::string now = base.screen({.all = true});
+  const std::string now = without_numbers(base.screen({.all = true}));
   const std::string path = PITWALL_SOURCE_DIR "/tests/golden/basestation/text_view.txt";
   if (std::getenv("PITWALL_WRITE_GOLDEN") != nullptr) std::ofstream{path} << now;
   std::ifstream in{path};
