@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "tests/protocol/telemetry/command/two_ends.hpp"
 
 namespace pitwall::telemetry {
@@ -63,6 +65,40 @@ TEST(Joystick, AQueueThatGrowsIsNoticedWithinTheDeadTime) {
     EXPECT_FALSE(heeded(rig, kJoystickDead + milliseconds(21))) << queue_ms;
     EXPECT_FALSE(heeded(rig, seconds(6))) << queue_ms;
   }
+}
+
+// Ten thousand times something breaks at some moment: the device, the way up, the comparison of
+// clocks, or a queue grows on the way. Whatever the car heeds, the hand did it no longer than the
+// dead time ago; and a hand that is cut off is gone by then.
+TEST(Joystick, WhateverBreaksNoSampleActsLongerThanItsDeadTime) {
+  constexpr int kValues = 200;  // the throttle cap tells which sample it is
+  std::mt19937_64 random(9);
+  int heeded_after = 0;
+  for (int run = 0; run < 10'000; ++run) {
+    TwoEnds rig({.delay_min = milliseconds(5), .delay_max = milliseconds(35), .seed = 1});
+    const auto broken_at = Instant{} + milliseconds(60 + static_cast<int>(random() % 60));
+    const auto fault = random() % 4;
+    const Duration queue = milliseconds(200 + static_cast<int>(random() % 4'800));
+    for (int ms = 0; ms < 400; ++ms) {
+      const bool broken = rig.now >= broken_at;
+      if (ms % 10 == 0 && !(broken && fault == 0)) {
+        rig.stick.sample({0.005 * (ms / 10 % kValues), 0.0}, rig.now);
+      }
+      if (rig.now == broken_at && fault == 1) rig.up.cut = true;
+      if (rig.now == broken_at && fault == 2) rig.clock_known = false;
+      if (rig.now == broken_at && fault == 3) {
+        rig.up = testing::Way({.delay_min = queue, .delay_max = queue, .seed = 2}, 5);
+      }
+      rig.run(milliseconds(1));
+      const auto sample = rig.joystick.sample(rig.car_now());
+      if (!sample) continue;
+      const auto which = static_cast<int>(sample->throttle_cap / 0.005 + 0.5);
+      ASSERT_LE(rig.now - (Instant{} + milliseconds(10 * which)), kJoystickDead) << fault;
+      heeded_after += rig.now > broken_at ? 1 : 0;
+      ASSERT_LE(rig.now, broken_at + kJoystickDead + milliseconds(1)) << fault;
+    }
+  }
+  EXPECT_GT(heeded_after, 100'000) << "else nothing was shown";
 }
 
 TEST(Joystick, WithoutComparedClocksNothingIsHeeded) {
