@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/radio/budget_run.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <utility>
 
+#include "hil/link/rate_window.hpp"
 #include "hil/radio/offered_load.hpp"
 #include "protocol/telemetry/packet/header.hpp"
 
@@ -39,19 +39,11 @@ RadioSetup setup_of(const BudgetCell& cell) {
 
 }  // namespace
 
+// Closed at both ends: a nanosecond longer than what RateWindow counts.
 WorstWindow worst_window(const std::vector<Departure>& departures, Duration length) {
-  WorstWindow worst;
-  std::size_t end = 0;
-  std::uint64_t bytes = 0;
-  for (std::size_t first = 0; first < departures.size(); ++first) {
-    while (end < departures.size() && departures[end].at <= departures[first].at + length) {
-      bytes += departures[end++].bytes;
-    }
-    worst.bytes = std::max(worst.bytes, bytes);
-    worst.packets = std::max<std::uint64_t>(worst.packets, end - first);
-    bytes -= departures[first].bytes;
-  }
-  return worst;
+  link::RateWindow window(length + nanoseconds(1));
+  for (const Departure& d : departures) window.sent(d.bytes, d.at);
+  return {window.worst_bytes(), window.worst_packets()};
 }
 
 bool BudgetVerdict::holds() const {

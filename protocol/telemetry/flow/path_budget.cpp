@@ -71,11 +71,17 @@ Result<PathBudget, Problem> PathBudget::make(const BudgetParams& params) {
   }
   budget.scaled_rate_ = budget.whole_rate_;
   budget.full_ = {share * kByte, (packet - share) * kByte};
-  budget.at_ = budget.full_;
   const double spacing_ns = static_cast<double>(kNanosecondsPerSecond) / params.packets_per_s;
   budget.spacing_ = {whole(std::ceil(spacing_ns))};
   budget.early_ = {whole(spacing_ns * early_share(params.packets_per_s))};
   return budget;
+}
+
+void PathBudget::begin(Instant now) const {
+  if (begun_) return;
+  begun_ = true;
+  at_time_ = now;
+  next_packet_ = now + spacing_ + early_;
 }
 
 PathBudget::Levels PathBudget::levels(Instant now) const {
@@ -87,6 +93,7 @@ PathBudget::Levels PathBudget::levels(Instant now) const {
 }
 
 std::size_t PathBudget::room_for_safety(Instant now) const {
+  begin(now);
   if (!spaced(now)) return 0;
   const Levels l = levels(now);
   return static_cast<std::size_t>(
@@ -94,11 +101,13 @@ std::size_t PathBudget::room_for_safety(Instant now) const {
 }
 
 std::size_t PathBudget::room_for_all(Instant now) const {
+  begin(now);
   if (!spaced(now)) return 0;
   return static_cast<std::size_t>(std::max<std::int64_t>(0, levels(now).rest / kByte - kOverhead));
 }
 
 std::size_t PathBudget::room_beside(std::size_t safety_payload, Instant now) const {
+  begin(now);
   if (safety_payload == 0) return room_for_all(now);
   if (safety_payload > room_for_safety(now)) return 0;
   const Levels l = levels(now);
@@ -123,6 +132,7 @@ void PathBudget::spend(std::size_t payload, std::size_t safety_payload, Instant 
 }
 
 void PathBudget::scale(double factor, Instant now) {
+  begin(now);
   CHECK(factor > 0.0 && factor <= 1.0);
   at_ = levels(now);
   at_time_ = std::max(at_time_, now);
@@ -130,6 +140,7 @@ void PathBudget::scale(double factor, Instant now) {
 }
 
 Instant PathBudget::due(std::size_t payload, Instant now) const {
+  begin(now);
   const std::int64_t wanted = (static_cast<std::int64_t>(payload) + kOverhead) * kByte;
   if (wanted > full_.rest) return kNever;
   const Instant spaced_at = std::max(now, next_packet_ - early_);

@@ -4,6 +4,7 @@
 //   law    in every window of 100 ms (at any start) bytes <= rate / 10 + one largest packet and
 //          packets <= packet rate / 10 + 1; in every window of 1 s bytes <= rate
 //          what safety may use is never less than its share; others never touch the share
+//          it begins empty when it is first asked: what was spent before a restart is not known
 //   units  bytes and packets per second; sizes are UDP payload, the overhead is added here
 //   errors make(): Problem where the share, the largest packet or the rate contradict each other
 //   source token bucket, split in two; depth is latency, so both together hold one largest packet.
@@ -78,13 +79,16 @@ class PathBudget {
   explicit PathBudget(const BudgetParams& params) : params_(params) {}
   Levels levels(Instant now) const;
   bool spaced(Instant now) const { return now >= next_packet_ - early_; }
+  void begin(Instant now) const;
 
   BudgetParams params_;
   BudgetCounters counters_;
   std::int64_t largest_payload_ = 0;
   std::int64_t share_rate_ = 0, whole_rate_ = 0, scaled_rate_ = 0;  // bytes per second
   Levels full_, at_;
-  Instant at_time_{}, next_packet_{INT64_MIN / 2};
+  // Asking is what begins it, hence mutable.
+  mutable bool begun_ = false;
+  mutable Instant at_time_{}, next_packet_{};
   Duration spacing_{}, early_{};
 };
 

@@ -1,5 +1,5 @@
 // A link that carries less than its budget says: the queue before the air grows. Both ends notice
-// by the delay and take back their rate, so that what the operator sees does not grow old behind it.
+// by the delay and take back their rate, so that what the operator sees does not grow old with it.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 

@@ -24,7 +24,10 @@ class Car {
     config.peer = {kBase[0], kBase[1]};
     config.paths = paths;
     association = std::make_unique<Association>(config, random_);
-    for (std::uint8_t i = 0; i < paths; ++i) lanes.emplace_back(BudgetParams{});
+    for (std::uint8_t i = 0; i < paths; ++i) {
+      lanes.emplace_back(BudgetParams{});
+      (void)lanes.back().budget.room_for_all(at_ms(-5'000));  // full by the time zero
+    }
   }
 
   FixedVector<PacketPlan, kPaths> plans(PathPolicy policy, Instant now, bool between = false,

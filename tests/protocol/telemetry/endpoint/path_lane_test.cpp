@@ -13,6 +13,7 @@ Instant at_ms(std::int64_t ms) { return Instant{} + milliseconds(ms); }
 TEST(PathLane, UseIsTheShareOfTheRateInTheLastSecond) {
   PathLane lane{BudgetParams{}};
   EXPECT_EQ(lane.use(at_ms(500)), 0.0);
+  (void)lane.budget.room_for_all(at_ms(-5'000));
   for (std::int64_t ms = 0; ms < 5'000; ms += 20) lane.spend(292, 0, at_ms(ms));  // 320 on the wire
   EXPECT_NEAR(lane.use(at_ms(5'000)), 0.5, 0.02);  // 16 000 of 32 000 bytes
   EXPECT_NEAR(lane.use(at_ms(5'450)), 0.3, 0.06);

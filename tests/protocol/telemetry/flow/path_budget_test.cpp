@@ -55,10 +55,17 @@ Worst worst_window(const std::vector<Departure>& departures, Duration length) {
   return worst_of_starts(departures, starts, length);
 }
 
-PathBudget made(const BudgetParams& params) {
+PathBudget fresh(const BudgetParams& params) {
   auto budget = PathBudget::make(params);
-  EXPECT_TRUE(budget) << to_string(budget.error());
+  if (!budget) ADD_FAILURE() << to_string(budget.error());
   return *budget;
+}
+
+// Full, as one is that was not used for long.
+PathBudget made(const BudgetParams& params) {
+  const PathBudget budget = fresh(params);
+  EXPECT_EQ(budget.room_for_safety(Instant{} - seconds(50)), 0U);
+  return budget;
 }
 
 // Somebody who sends what he likes whenever there is room, now and then after a pause.
@@ -132,6 +139,28 @@ TEST(PathBudget, AJitteringLoopLosesNoPacket) {
     departures.push_back({now, 100 + kIpUdpOverhead});
   }
   EXPECT_LE(worst_window(departures, milliseconds(100)).packets, 11U);
+}
+
+// An end that restarts again and again spends no more than one that does not.
+TEST(PathBudget, ARestartIsNoWayAroundIt) {
+  std::mt19937_64 random(5);
+  const BudgetParams params;
+  std::vector<Departure> departures;
+  PathBudget budget = fresh(params);
+  for (int ms = 0; ms < 60'000; ++ms) {
+    const Instant now = Instant{} + milliseconds(ms);
+    if (random() % 150 == 0) budget = fresh(params);
+    const std::size_t room = budget.room_beside(50, now);
+    if (room < 50) continue;
+    budget.spend(room, 50, now);
+    departures.push_back({now, room + kIpUdpOverhead});
+  }
+  ASSERT_GT(departures.size(), 3'000U);
+  const auto largest = static_cast<double>(budget.largest_payload() + kIpUdpOverhead);
+  const Worst tenth = worst_window(departures, milliseconds(100));
+  EXPECT_LE(static_cast<double>(tenth.bytes), params.bytes_per_s * 0.1 + largest);
+  EXPECT_LE(tenth.packets, 11U);
+  EXPECT_LE(static_cast<double>(worst_window(departures, seconds(1)).bytes), params.bytes_per_s);
 }
 
 TEST(PathBudget, UsesNearlyAllOfTheRate) {
