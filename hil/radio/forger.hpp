@@ -68,8 +68,8 @@ class Forger {
   ForgeryFigures figures_;
 };
 
-// Runs the radio while `count` forged datagrams come, so many each millisecond; ends restart now and
-// then, so that there are sessions that are over.
+// Runs the radio while `count` forged datagrams come, so many each millisecond; ends restart at
+// times, so that there are sessions that are over.
 ForgeryFigures run_forgeries(VirtualRadio& radio, std::uint64_t count, std::size_t each_ms);
 
 }  // namespace pitwall::radio

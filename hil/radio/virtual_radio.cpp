@@ -83,12 +83,14 @@ ConduitConfig VirtualRadio::config(bool car) const {
   return config;
 }
 
-void VirtualRadio::restart_car() {
+void VirtualRadio::restart_car(Duration away) {
+  car_side_.there = now_ + away;
   car_ = std::make_unique<CarEndpoint>(config(true), randomness_);
   sample_at_base_.fill(-1);
 }
 
-void VirtualRadio::restart_base() {
+void VirtualRadio::restart_base(Duration away) {
+  base_side_.there = now_ + away;
   station_ = std::make_unique<StationEndpoint>(config(false), randomness_);
   sample_at_base_.fill(-1);
 }
@@ -120,19 +122,19 @@ void VirtualRadio::deliver() {
 }
 
 void VirtualRadio::take_at_car(const link::Datagram& datagram, PathId path) {
-  if ((datagram.tag & 0xFFFF) != car_side_.address[path].port) return;
+  if ((datagram.tag & 0xFFFF) != car_side_.address[path].port || now_ < car_side_.there) return;
   car_->feed(datagram.bytes, path, source_of(datagram.tag), car_now());
 }
 
 void VirtualRadio::take_at_base(const link::Datagram& datagram, PathId path) {
-  if ((datagram.tag & 0xFFFF) != base_side_.address[path].port) return;
+  if ((datagram.tag & 0xFFFF) != base_side_.address[path].port || now_ < base_side_.there) return;
   const auto arrival = station_->feed(datagram.bytes, path, source_of(datagram.tag), base_now());
   if (arrival) judge(datagram.bytes, *arrival);
 }
 
 void VirtualRadio::inject(bool at_base, PathId path, Address from,
                           std::span<const std::uint8_t> bytes) {
-  if (path >= setup_.paths) return;
+  if (path >= setup_.paths || now_ < (at_base ? base_side_ : car_side_).there) return;
   if (!at_base) return car_->feed(bytes, path, from, car_now());
   const auto arrival = station_->feed(bytes, path, from, base_now());
   if (arrival) judge(bytes, *arrival);
@@ -189,11 +191,12 @@ void VirtualRadio::tick_car() {
   for (const GroupRow& row : kGroupTable) {
     if (sampled_.has(row.group)) snapshot_.at(row.group) = car_now();
   }
+  if (now_ < car_side_.there) return;
   while (const auto out = car_->poll(snapshot_, car_now())) send(true, *out);
 }
 
 void VirtualRadio::poll_base() {
-  if (station_->due() > base_now()) return;
+  if (now_ < base_side_.there || station_->due() > base_now()) return;
   while (const auto out = station_->poll(base_now())) send(false, *out);
 }
 

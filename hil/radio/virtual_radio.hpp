@@ -5,7 +5,7 @@
 //          them, every departure
 //   law    one seed, one run; time moves in steps of 1 ms. The car samples its state and polls each
 //          kTick, as the vehicle's loop does; the base each step. A value tells its field and the
-//          millisecond of its sample (value_of()), so that what arrives can be compared with what was
+//          millisecond of its sample (value_of()), so that what arrives can be compared with it
 //   time   now() is the air's; the ends have clocks of their own
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -82,9 +82,10 @@ class VirtualRadio {
   link::LinkEmulator& down(telemetry::PathId path) { return *down_[path]; }
   link::LinkEmulator& up(telemetry::PathId path) { return *up_[path]; }
 
-  // A new process: nothing is remembered but the keys.
-  void restart_car();
-  void restart_base();
+  // A new process: nothing is remembered but the keys. It is there after `away`; until then nobody
+  // hears or speaks.
+  void restart_car(Duration away = {});
+  void restart_base(Duration away = {});
   // From now on nothing passes in this direction; or again.
   void cut(telemetry::PathId path, bool down, bool up);
   // The base sees this source from now on (another port of a NAT); the old one is dead.
@@ -97,7 +98,7 @@ class VirtualRadio {
   void inject(bool at_base, telemetry::PathId path, telemetry::Address from,
               std::span<const std::uint8_t> bytes);
   // Nobody polls and nothing arrives for so long: a process that was stopped.
-  void sleep(Duration length) { now_ += kTick * (length / kTick); }
+  void pause(Duration length) { now_ += kTick * (length / kTick); }
   telemetry::Address car_address(telemetry::PathId path) const { return car_side_.address[path]; }
   telemetry::Address base_address(telemetry::PathId path) const { return base_side_.address[path]; }
   // Which groups the car samples (all); a group that it does not is never sent.
@@ -129,6 +130,7 @@ class VirtualRadio {
   struct Side {
     std::array<telemetry::Address, telemetry::kPaths> address{};
     std::array<bool, telemetry::kPaths> cut{};
+    Instant there{};  // away before
   };
 
   telemetry::ConduitConfig config(bool car) const;

@@ -1,7 +1,7 @@
-// Both ends of the radio under a network that the fuzzer drives: what is delivered when, twice, late,
-// spoiled, from elsewhere, or never; restarts and long silences in between. Aborts where the car
-// applies a command twice or late, where its stop opens by itself, or where the base shows what the
-// car never had or says it is younger than it is.
+// Both ends of the radio under a network that the fuzzer drives: what is delivered when, twice,
+// late, spoiled, from elsewhere, or never; restarts and long silences in between. Aborts where the
+// car applies a command twice or late, where its stop opens by itself, or where the base shows what
+// the car never had or says it is younger than it is.
 // SPDX-License-Identifier: Apache-2.0
 #include <cstddef>
 #include <cstdint>
@@ -169,7 +169,7 @@ class Adversary {
   }
   void jump() {
     steps(1);
-    radio_.sleep(milliseconds(byte() * 40));
+    radio_.pause(milliseconds(byte() * 40));
     look();
   }
 

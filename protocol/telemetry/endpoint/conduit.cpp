@@ -15,10 +15,6 @@ constexpr Duration kUnknownRoundTrip = milliseconds(60);
 constexpr Duration kDoubt = milliseconds(60);
 constexpr std::uint64_t kReceiptEvery = 4, kLossEvery = 25;  // slots
 
-constexpr Direction other(Direction direction) {
-  return direction == Direction::kDown ? Direction::kUp : Direction::kDown;
-}
-
 const SchemaClaim& claim_of(const ConduitConfig& config) {
   return config.schema ? *config.schema : own_claim();
 }

@@ -1,7 +1,7 @@
 // On which paths the packets of a slot go, and to which of the peer's addresses.
-//   law    kDuplicate: one packet on all paths that have room. kBest: safety on all, the rest on the
-//          better one. A path whose peer must prove an address, or that has much less room than the
-//          other, has a packet of its own
+//   law    kDuplicate: one packet on all paths that have room. kBest: safety on all, the rest on
+//          the better one. A path whose peer must prove an address, or that has much less room than
+//          the other, has a packet of its own
 //          the token that proves an address goes to that address alone: on the slot the packet goes
 //          to the address on trial, half a slot later to the proved one
 //   out    no plan where no path has room

@@ -25,9 +25,9 @@ std::size_t fast_size(Direction direction) {
 StateLane::StateLane(Direction direction)
     : direction_(direction), fast_size_(fast_size(direction)), scheduler_(direction) {}
 
-// Motion goes before its time once in a slot, where that leaves a third of the packet to what waits;
-// between slots only where nothing waits. There a packet has safety and motion alone, so that the
-// next one of a slot has room for all groups.
+// Motion goes before its time once in a slot, where that leaves a third of the packet to what
+// waits; between slots only where nothing waits. There a packet has safety and motion alone, so
+// that the next one of a slot has room for all groups.
 bool StateLane::takes(Group group, Writing how, std::size_t room) const {
   const Class priority = row_of(group).priority;
   if (priority == Class::kSafety) return true;

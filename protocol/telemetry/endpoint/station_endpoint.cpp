@@ -180,8 +180,10 @@ const Snapshot& StationEndpoint::state() const { return parts_->state; }
 bool StationEndpoint::clock_known() const { return parts_->conduit.clock().known(); }
 
 std::optional<CommandId> StationEndpoint::issue(const Command& command, Instant now) {
+  const bool releases = command.type == CommandType::kReleaseStop;
+  if (releases && parts_->release) return {};  // of two, the fate of the first would be missed
   const auto id = parts_->desk.issue(command, now);
-  if (id && command.type == CommandType::kReleaseStop) {
+  if (id && releases) {
     parts_->release = id;
     parts_->stop.release_asked(*id);
   }

@@ -52,6 +52,7 @@ class StationEndpoint {
   const Snapshot& state() const;
   bool clock_known() const;
 
+  // None as CommandDesk has it, and for a release of the stop while another is under way.
   std::optional<CommandId> issue(const Command& command, Instant now);
   const CommandProgress* progress(CommandId id) const;
   StopDesk& stop();

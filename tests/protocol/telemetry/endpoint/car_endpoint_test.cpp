@@ -64,6 +64,25 @@ TEST(CarEndpoint, AReleaseOpensTheLatchOnlyAtStandstillAndIsNoBusinessOfTheConsu
   }
 }
 
+TEST(CarEndpoint, ADoubleClickOnReleaseIsOneRelease) {
+  EndpointPair pair;
+  pair.run(seconds(1));
+  pair.base->stop().demand(StopLevel::kEmergency, StopReason::kOperator);
+  pair.base->authority().take(kOperator, pair.now);
+  pair.run(milliseconds(100));
+  pair.car->standstill(true);
+  const double challenge = pair.car->view(pair.now).stop_challenge;
+  const Command release{CommandType::kReleaseStop, challenge, kOperator};
+  EXPECT_TRUE(pair.base->issue(release, pair.now));
+  EXPECT_FALSE(pair.base->issue(release, pair.now));
+  for (int ms = 0; ms < 500; ++ms) {
+    pair.step();
+    EXPECT_FALSE(pair.car->next_command(pair.now));
+  }
+  EXPECT_EQ(pair.base->stop().state().level, StopLevel::kNone);
+  EXPECT_EQ(pair.car->view(pair.now).stop, StopLevel::kNone);
+}
+
 TEST(CarEndpoint, APressDuringAReleaseWins) {
   EndpointPair pair;
   pair.run(seconds(1));
