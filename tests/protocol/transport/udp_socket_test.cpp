@@ -5,6 +5,7 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -110,7 +111,7 @@ TEST(UdpSocket, NobodyAtTheOtherEndIsCountedAndSendingGoesOn) {
 
 // As the kernel has it: the code point is the upper six bits of the type of service (RFC 2474).
 TEST(UdpSocket, MarksWhatItSends) {
-  for (const std::uint8_t dscp : {0, 8, 46, 63}) {
+  for (const std::uint8_t dscp : std::to_array<std::uint8_t>({0, 8, 46, 63})) {
     const auto socket = UdpSocket::bind({}, {.dscp = dscp});
     ASSERT_TRUE(socket);
     int service = -1;
