@@ -43,9 +43,7 @@ bool CommandLedgerOf<Remembered>::take_command(const Record& record, const Recei
     return true;
   }
   // What is older than memory reaches has had its answer, else the newer one were not given.
-  if (entry.number > said->number || said->number + std::uint64_t{Remembered} <= newest_) {
-    return ++counters_.repeated, true;
-  }
+  if (said->number + std::uint64_t{Remembered} <= newest_) return ++counters_.repeated, true;
   if (entry.number != 0 && !is_final(entry.outcome)) return ++counters_.full, true;
   ++counters_.received;
   newest_ = std::max(newest_, said->number);

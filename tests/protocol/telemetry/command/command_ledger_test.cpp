@@ -110,6 +110,54 @@ TEST(CommandLedger, AConsumerThatDoesNotAskInTimeGetsNothingLate) {
   EXPECT_EQ(rig.stories[*id].applied, 0);
 }
 
+TEST(CommandLedger, TheAgeIsLookedAtWhenTheConsumerAsksAndToTheNanosecond) {
+  const Instant sent{seconds(50).ns};
+  const CommandRecord said{.number = 1,
+                           .base_run = short_boot(9),
+                           .car_boot = short_boot(5),
+                           .type = static_cast<std::uint8_t>(CommandType::kSendParameters),
+                           .step = 1};
+  const auto bytes = to_bytes(said);
+  Received received;
+  received.at = sent + milliseconds(30);
+  received.sent_earliest = sent;
+  const Duration told = parse_command(bytes)->age;
+  const Instant expires = sent - told + row_of(CommandType::kSendParameters).time_to_live;
+  for (const Duration past : {Duration{}, nanoseconds(1)}) {
+    CommandLedger ledger(5);
+    ledger.meets(9);
+    ASSERT_TRUE(ledger.take({RecordType::kCommand, bytes}, received, {}));
+    EXPECT_EQ(ledger.take_due(expires + past, {}).has_value(), past == Duration{});
+  }
+}
+
+// What memory no longer holds is not begun anew.
+TEST(CommandLedger, ANumberOlderThanMemoryIsNeverHandedOut) {
+  CommandLedger ledger(5);
+  ledger.meets(9);
+  const Instant now{seconds(50).ns};
+  Received received;
+  received.at = now;
+  received.sent_earliest = now;
+  const auto offer = [&](CommandId number) {
+    const CommandRecord said{.number = number,
+                             .base_run = short_boot(9),
+                             .car_boot = short_boot(5),
+                             .type = static_cast<std::uint8_t>(CommandType::kSendParameters),
+                             .step = 1};
+    const auto bytes = to_bytes(said);
+    EXPECT_TRUE(ledger.take({RecordType::kCommand, bytes}, received, {}));
+    const auto due = ledger.take_due(now, {});
+    if (due) ledger.decide(due->id, Outcome::kApplied, now);
+    return due.has_value();
+  };
+  EXPECT_TRUE(offer(1'000));
+  EXPECT_FALSE(offer(1'000 - CommandLedger::kRemembered));
+  EXPECT_FALSE(offer(1'000 - CommandLedger::kRemembered - 7));
+  EXPECT_FALSE(offer(1));
+  EXPECT_TRUE(offer(1'001));
+}
+
 TEST(CommandLedger, ACommandForTheRunBeforeIsAnsweredByItsName) {
   TwoEnds rig({.seed = 6});
   rig.run(seconds(1));
@@ -146,10 +194,12 @@ TEST(CommandLedger, ABaseThatBeginsAgainIsNotMistakenForTheOneBefore) {
   EXPECT_GT(rig.ledger.counters().other_base, before) << "before the sessions say so it is ignored";
   rig.ledger.meets(TwoEnds::kBaseBoot + 1);
   rig.run(milliseconds(100));
+  const auto now_due = rig.ledger.take_due(rig.car_now(), rig.view);  // both are in its hands
+  ASSERT_TRUE(now_due);
   rig.ledger.decide(due->id, Outcome::kRefused, rig.car_now());
   rig.run(milliseconds(100));
   EXPECT_FALSE(fate(rig, 1)) << "that answer was to another command";
-  rig.consumer_asks = true;
+  rig.ledger.decide(now_due->id, Outcome::kApplied, rig.car_now());
   rig.run(milliseconds(100));
   EXPECT_EQ(fate(rig, 1), Outcome::kApplied);
   EXPECT_EQ(rig.desk.progress(1)->command.argument, 99.0);
