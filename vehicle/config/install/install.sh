@@ -184,12 +184,9 @@ plan_files() {
 
 # Root's alone: systemd hands the service a copy (LoadCredential).
 plan_keys() {
-  if [[ -n $keys ]]; then
-    plan_file secret 0600 /etc/pitwall/car.keys "$keys"
-  elif [[ ! -f $target/etc/pitwall/car.keys ]]; then
-    note "no keys for the radio yet: pitwall-vehicle does not start before --keys FILE brings" \
-      "them (pitwall-base keygen makes a pair)"
-  fi
+  [[ -z $keys ]] || plan_file secret 0600 /etc/pitwall/car.keys "$keys"
+  [[ -n $keys || -f $target/etc/pitwall/car.keys ]] ||
+    note 'no keys for the radio yet (pitwall-base keygen): without --keys the car does not start'
 }
 
 # The controller appears, the unit starts: also after an adapter was pulled and put back.
