@@ -22,6 +22,7 @@ namespace {
 constexpr Duration kLongestWait = seconds(1);
 constexpr Instant kNever{INT64_MAX};
 constexpr int kHubPriority = 85;
+constexpr int kLinePriority = 70;  // above the bench, below the car
 constexpr const char* kGuestLine = "/dev/ttyS0";
 
 int refuse(const Problem& problem, int code) {
@@ -174,6 +175,8 @@ int bus_line(std::span<const std::string> args) {
     const auto told = transport::write_file(args[2], "ready\n");
     if (!told) return refuse(told.error(), kExitUsage);
   }
+  // Car and bench of a guest share one processor and are urgent: what waits here grows old.
+  transport::request_realtime(kLinePriority);
   while (!line->closed()) {
     relay->serve(*line);
     const int watched[] = {relay->fd(), line->fd()};
