@@ -97,7 +97,7 @@ class Reports {
   std::vector<Said> said_;
 };
 
-bool is_of_the_car(std::uint32_t id) {
+bool is_of_the_bench(std::uint32_t id) {
   return std::ranges::any_of(can::av21::kMessages, [id](const can::MessageRow& row) {
     return row.id == id && row.direction == can::Direction::kFromCar;
   });
@@ -166,7 +166,7 @@ class Experiment {
     reports_.read();
     for (std::size_t count = bus_->receive(inbox_); count > 0; count = bus_->receive(inbox_))
       for (const auto& received : std::span(inbox_).first(count))
-        if (!is_of_the_car(received.frame.id)) last_frame_ = received.at;
+        if (is_of_the_bench(received.frame.id)) last_frame_ = received.at;
     transport::sleep_until(transport::monotonic_now() + milliseconds(2));
   }
 
