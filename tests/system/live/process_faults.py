@@ -16,6 +16,9 @@ import sys
 SCENARIOS = ["base_killed", "base_paused", "base_restarted", "base_blink", "computer_paused",
              "computer_killed", "computer_restarted", "computer_slow",
              "computer_and_guardian_killed", "clock_stepped", "log_disk_full"]
+# Of the radio; only those that --only names are run.
+RADIO = ["lvms_radio_bursty", "radio_blackout", "radio_bufferbloat", "radio_two_paths",
+         "operator_stop", "operator_emergency", "base_restarted_commands"]
 GUEST_ONLY = {"clock_stepped", "log_disk_full"}
 FAST_AT_S, LAP_S, STOP_S = 50.0, 38.0, 25.0  # at speed by then; one lap at speed; to a standstill
 
@@ -96,8 +99,11 @@ def main():
     parser.add_argument("--points", type=int, default=8)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/process_faults"))
     arguments = parser.parse_args()
-    known = [(name, pathlib.Path("hil/scenarios") / f"{name}.yaml") for name in SCENARIOS]
-    wanted = [row for row in known if not arguments.only or row[0] in arguments.only]
+    unknown = set(arguments.only) - set(SCENARIOS + RADIO)
+    if unknown:
+        parser.error(f"--only: no such run: {', '.join(sorted(unknown))}")
+    names = [name for name in SCENARIOS + RADIO if name in (arguments.only or SCENARIOS)]
+    wanted = [(name, pathlib.Path("hil/scenarios") / f"{name}.yaml") for name in names]
     outcomes = []
     for name, scenario in wanted + list(points(arguments)):
         if arguments.interface.startswith("unix:") and name in GUEST_ONLY:
