@@ -14,6 +14,7 @@
 #include "protocol/transport/realtime.hpp"
 #include "vehicle/gateway/bus_identity.hpp"
 #include "vehicle/io/arguments.hpp"
+#include "vehicle/io/computer_watch.hpp"
 #include "vehicle/io/guarded.hpp"
 #include "vehicle/io/local_report.hpp"
 #include "vehicle/io/radio.hpp"
@@ -64,6 +65,7 @@ struct Parts {
   io::Guarded guarded;
   std::optional<io::Radio> radio;  // none: no base station is watched
   io::LocalReport report;
+  std::unique_ptr<io::ComputerWatch> computer;  // none: the kernel gave no event file
 };
 
 class Drive {
@@ -138,6 +140,8 @@ class Drive {
     counters.steps = tally_.steps();
     counters.missed_deadlines = tally_.missed_deadlines();
     counters.step_time_max_us = tally_.take_recent_max_us();
+    counters.step_time_p50_us = tally_.recent_median_us();
+    show_computer(counters);
     if (parts_.radio) desk_.show(parts_.radio->endpoint(), counters, now);
     const telemetry::Snapshot snapshot = pipeline::tap(
         {.setup = setup_, .car = *car_, .out = out, .log = *log_, .rim = counters, .now = now});
@@ -145,6 +149,14 @@ class Drive {
     if (!radio_due) return;
     parts_.radio->speak(snapshot, now);
     tell_schema(now);
+  }
+
+  void show_computer(pipeline::RimCounters& counters) const {
+    if (!parts_.computer) return;
+    const io::ComputerReport report = parts_.computer->newest();
+    counters.processor_share = report.processor_share;
+    counters.memory_mib = report.memory_mib;
+    counters.temperature_c = report.temperature_c;
   }
 
   void tell_schema(Instant now) {
@@ -205,7 +217,8 @@ Result<Parts, Problem> open_parts(const io::Arguments& args, const pipeline::Set
       io::LocalReport::open(args.local_report, args.simulation ? telemetry::Source::kSimulation
                                                                : telemetry::Source::kCar);
   if (!report) return Unexpected{report.error()};
-  return Parts{*std::move(rim), *std::move(guarded), std::move(radio), *std::move(report)};
+  return Parts{*std::move(rim), *std::move(guarded), std::move(radio), *std::move(report),
+               io::ComputerWatch::start()};
 }
 
 void introduce(const io::Arguments& args, const pipeline::Setup& setup, Parts& parts) {

@@ -175,7 +175,7 @@ bench::GatewayPlan plan_of(const Options& options, const std::string& folder) {
           .folder = folder,
           .vehicle = {(build / "vehicle/pitwall-vehicle").string(), "--car",
                       "vehicle/config/cars/av21.yaml", "--track", "vehicle/config/tracks/lvms.yaml",
-                      "--gnss", kGnssPorts},
+                      "--gnss", kGnssPorts, "--no-base"},
           .sender = {own_program(), "bench", "gateway", "--interface", options.interface,
                      "--seconds", std::to_string(options.seconds), "--omissions",
                      std::to_string(options.omissions), "--seed", std::to_string(options.seed)},

@@ -14,6 +14,7 @@ void StepTally::add(Duration step, std::uint64_t missed_deadlines) {
   const double us = static_cast<double>(step.ns) * 1e-3;
   const auto bin = std::min(kBins - 1, static_cast<std::size_t>(std::max(0.0, us)));
   ++bins_[bin];
+  recent_us_[steps_ % kRecent] = static_cast<float>(us);
   ++steps_;
   missed_ += missed_deadlines;
   max_us_ = std::max(max_us_, us);
@@ -21,6 +22,15 @@ void StepTally::add(Duration step, std::uint64_t missed_deadlines) {
 }
 
 double StepTally::take_recent_max_us() { return std::exchange(recent_max_us_, 0.0); }
+
+double StepTally::recent_median_us() const {
+  const auto count = std::min<std::uint64_t>(steps_, kRecent);
+  if (count == 0) return kUnset;
+  std::array<float, kRecent> sorted = recent_us_;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<std::ptrdiff_t>(count));
+  return static_cast<double>(*middle);
+}
 
 double StepTally::quantile_us(double q) const {
   const double wanted = q * static_cast<double>(steps_);

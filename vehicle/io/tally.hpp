@@ -11,6 +11,7 @@
 
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
 #include "vehicle/safety/frame_gate.hpp"
 #include "vehicle/world/bus_health.hpp"
 
@@ -21,6 +22,8 @@ class StepTally {
   void add(Duration step, std::uint64_t missed_deadlines);
   // Of the steps since the last call; for telemetry.
   double take_recent_max_us();
+  // Of the last kRecent steps; unset before the first.
+  double recent_median_us() const;
 
   std::uint64_t steps() const { return steps_; }
   std::uint64_t missed_deadlines() const { return missed_; }
@@ -28,8 +31,9 @@ class StepTally {
   double max_us() const { return max_us_; }
 
  private:
-  static constexpr std::size_t kBins = 4'000;
+  static constexpr std::size_t kBins = 4'000, kRecent = 100;
   std::array<std::uint32_t, kBins> bins_{};
+  std::array<float, kRecent> recent_us_{};  // a ring
   std::uint64_t steps_ = 0, missed_ = 0;
   double max_us_ = 0.0, recent_max_us_ = 0.0;
 };

@@ -25,7 +25,8 @@ namespace pitwall::pipeline {
 // Known to the rim only: sockets, clocks, the radio. Unset: not known.
 struct RimCounters {
   std::uint64_t frames_sent = 0, tx_drops = 0, steps = 0, missed_deadlines = 0;
-  double step_time_max_us = kUnset, step_time_p50_us = kUnset;  // since the last snapshot
+  double step_time_max_us = kUnset;  // since the last snapshot
+  double step_time_p50_us = kUnset;  // of the last hundred steps
   double processor_share = kUnset, memory_mib = kUnset, temperature_c = kUnset;
   // Of the radio: packets of the base that were accepted and that were not, sessions.
   std::uint64_t heartbeats = 0, heartbeats_refused = 0, base_runs = 0, slots_skipped = 0;

@@ -24,6 +24,16 @@ std::uint64_t next(std::uint64_t& state) {
   return z ^ (z >> 31U);
 }
 
+TEST(StepTally, TheRecentMedianIsOfTheLastHundredSteps) {
+  const auto tally = std::make_unique<StepTally>();
+  EXPECT_TRUE(std::isnan(tally->recent_median_us()));
+  tally->add(microseconds(7), 0);
+  EXPECT_DOUBLE_EQ(tally->recent_median_us(), 7.0);
+  for (int i = 0; i < 500; ++i) tally->add(microseconds(3'000), 0);
+  for (int i = 0; i < 100; ++i) tally->add(microseconds(i), 0);
+  EXPECT_DOUBLE_EQ(tally->recent_median_us(), 50.0);
+}
+
 // Against the sorted list: never below the true quantile, and at most one bin above it.
 TEST(StepTally, QuantilesAreThoseOfTheSortedListToOneMicrosecond) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
