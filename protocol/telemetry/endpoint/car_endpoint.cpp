@@ -204,10 +204,7 @@ LinkReport CarEndpoint::report(Instant now) const {
   LinkReport report;
   p.conduit.report(report, now);
   report.bad_records = p.bad_records;
-  report.codec = p.lane.codec();
-  for (const GroupRow& row : kGroupTable) {
-    report.groups[index_of(row.group)] = p.lane.figures(row.group);
-  }
+  p.lane.report(report);
   report.ledger = p.ledger.counters();
   report.events = p.events.counters();
   report.bulk = p.bulk.counters();

@@ -73,4 +73,11 @@ void StateLane::sent(std::uint64_t sequence, const Snapshot& snapshot, Instant n
   scheduler_.sent(sequence, written_, wanted_, snapshot, now);
 }
 
+void StateLane::report(LinkReport& out) const {
+  out.codec = codec_;
+  for (const GroupRow& row : kGroupTable) {
+    out.groups[index_of(row.group)] = scheduler_.figures(row.group);
+  }
+}
+
 }  // namespace pitwall::telemetry

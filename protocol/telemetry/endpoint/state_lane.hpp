@@ -8,6 +8,7 @@
 
 #include <cstdint>
 
+#include "protocol/telemetry/endpoint/link_report.hpp"
 #include "protocol/telemetry/flow/scheduler.hpp"
 #include "protocol/telemetry/packet/body.hpp"
 #include "protocol/telemetry/registry/snapshot.hpp"
@@ -37,7 +38,7 @@ class StateLane {
   void forget() { scheduler_.forget(); }
 
   const GroupFigures& figures(Group group) const { return scheduler_.figures(group); }
-  const CodecCounters& codec() const { return codec_; }
+  void report(LinkReport& out) const;
 
  private:
   bool takes(Group group, Writing how, std::size_t room) const;

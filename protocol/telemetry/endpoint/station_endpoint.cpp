@@ -233,10 +233,7 @@ LinkReport StationEndpoint::report(Instant now) const {
   LinkReport report;
   p.conduit.report(report, now);
   report.bad_records = p.bad_records;
-  report.codec = p.lane.codec();
-  for (const GroupRow& row : kGroupTable) {
-    report.groups[index_of(row.group)] = p.lane.figures(row.group);
-  }
+  p.lane.report(report);
   report.events = p.events.counters();
   report.bulk = p.bulk.counters();
   return report;
