@@ -163,11 +163,9 @@ class Drive {
     const telemetry::CarEndpoint& radio = parts_.radio->endpoint();
     if (now - schema_looked_at_ < kSchemaPeriod) return;
     schema_looked_at_ = now;
-    if (radio.schema_agrees() || !radio.view(now).alive_at) return;
-    const std::string difference = radio.schema_difference();
-    if (difference == schema_told_) return;
-    schema_told_ = difference;
-    say("not armed: the base station understands the radio otherwise:\n" + difference);
+    if (radio.schema_agrees() || !radio.view(now).alive_at || schema_told_) return;
+    schema_told_ = true;
+    say("not armed: the base station understands the radio otherwise and lists what differs");
   }
 
   int leave_summary() {
@@ -197,7 +195,7 @@ class Drive {
   io::LossTally losses_;
   world::BusHealth bus_;
   safety::Arming arming_ = safety::Arming::kNotAsked;
-  std::string schema_told_;
+  bool schema_told_ = false;
   Instant schema_looked_at_;
   Instant last_;
 };

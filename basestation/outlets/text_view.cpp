@@ -60,7 +60,9 @@ std::string cell_text(const telemetry::FieldRow& row, const picture::FieldView& 
                       const picture::FieldView& group) {
   if (view.quality == Quality::kNever) return std::string{row.name} + ": -";
   std::string text = std::string{row.name} + ": " + value_text(row, view.value);
-  if (!row.unit.empty()) text += " " + std::string{row.unit};
+  if (!row.unit.empty() && row.unit != telemetry::FieldRow::kBitSet) {
+    text += " " + std::string{row.unit};
+  }
   if (view.age > group.age) text += " (" + age_text(view.age) + " ago)";
   return text;
 }

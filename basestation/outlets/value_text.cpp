@@ -15,10 +15,28 @@ int decimals_of(double resolution) {
   return decimals;
 }
 
+// Names of the first bits that are set, and how many more there are: a line of the screen holds it.
+std::string bits_text(std::string_view labels, std::uint32_t bits) {
+  constexpr int kNamed = 3;
+  if (bits == 0) return "none";
+  std::string text;
+  int count = 0;
+  for (std::size_t k = 0; k < 32; ++k) {
+    if ((bits >> k & 1U) == 0 || ++count > kNamed) continue;
+    const auto label = telemetry::label_at(labels, k);
+    text += count == 1 ? "" : ", ";
+    text += label.empty() ? "bit " + std::to_string(k) : std::string{label};
+  }
+  return count > kNamed ? text + " and " + std::to_string(count - kNamed) + " more" : text;
+}
+
 }  // namespace
 
 std::string value_text(const telemetry::FieldRow& row, double value) {
   if (std::isnan(value)) return "-";
+  if (row.unit == telemetry::FieldRow::kBitSet && !row.labels.empty()) {
+    return bits_text(row.labels, static_cast<std::uint32_t>(value));
+  }
   if (!row.labels.empty() && value >= 0.0) {
     const auto label = telemetry::label_at(row.labels, static_cast<std::size_t>(value + 0.5));
     if (!label.empty()) return std::string{label};

@@ -194,10 +194,6 @@ void CarEndpoint::place(double station_m, double lap_length_m, Instant now) {
 }
 
 bool CarEndpoint::schema_agrees() const { return parts_->conduit.schema_agrees(); }
-std::string CarEndpoint::schema_difference() const {
-  if (schema_agrees() || !parts_->conduit.peer()) return {};
-  return "safety schema of the base is not ours; the base station lists what differs\n";
-}
 
 LinkReport CarEndpoint::report(Instant now) const {
   const Parts& p = *parts_;

@@ -12,7 +12,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 
 #include "protocol/telemetry/command/authority.hpp"
 #include "protocol/telemetry/command/command_ledger.hpp"
@@ -61,10 +60,8 @@ class CarEndpoint {
   void place(double station_m, double lap_length_m, Instant now);
 
   // Safety groups of both ends are the same; else the car must not be armed. False before the
-  // first session.
+  // first session. The base says which differ: StationEndpoint::schema_difference().
   bool schema_agrees() const;
-  // That there is a difference; the base says which (StationEndpoint). Empty where there is none.
-  std::string schema_difference() const;
   LinkReport report(Instant now) const;
 
  private:

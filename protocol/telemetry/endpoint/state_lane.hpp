@@ -1,5 +1,5 @@
 // State of one direction on its way into packets: safety groups first and always, then by the
-// scheduler, as far as there is room.
+// scheduler, as far as there is room; what is not yet due fills a tenth of a packet that has room.
 //   in     the newest snapshot at the moment when a packet is made
 //   out    groups in the packet; what of it is safety's
 //   cost   no allocation
@@ -42,6 +42,7 @@ class StateLane {
 
  private:
   bool takes(Group group, Writing how, std::size_t room) const;
+  void add_early(Scheduler::Order& wanted, Writing how, std::size_t room) const;
 
   Direction direction_;
   std::size_t fast_size_;  // of safety and motion

@@ -37,7 +37,7 @@ std::string field_lua(const FieldRow& row) {
                      std::string{Decimal{row.min}.text()} + ", " +
                      std::string{Decimal{row.resolution}.text()} + ", " +
                      std::to_string(code.bits()) + ", " + std::to_string(code.count());
-  if (!row.labels.empty()) text += ", " + quoted(row.labels);
+  if (!row.labels.empty() && row.unit != FieldRow::kBitSet) text += ", " + quoted(row.labels);
   return text + "}";
 }
 

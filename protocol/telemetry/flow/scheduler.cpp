@@ -65,11 +65,11 @@ Scheduler::Order Scheduler::order(const Snapshot& snapshot, Duration round_trip,
       continue;
     }
     double value = index(row.group, snapshot, round_trip, now);
-    const Instant acked = figures(row.group).acked_sample;
     if (value <= 0.0) {
-      if (!fill || snapshot.at(row.group) <= acked) continue;
+      if (!fill || snapshot.at(row.group) <= figures(row.group).acked_sample) continue;
       // Below all that are due: the nearer to being due, the sooner.
-      const Duration age = acked == kNeverSampled ? kUnknownAge : now - acked;
+      const Instant known = known_sample(row.group, round_trip, now);
+      const Duration age = known == kNeverSampled ? kUnknownAge : now - known;
       value = -1.0 / (1.0 + age.seconds() / row.target_age.seconds());
     }
     CHECK(due.push({row.group, value}));

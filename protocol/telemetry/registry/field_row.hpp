@@ -23,7 +23,7 @@ struct FieldRow {
   std::string_view name;
   std::string_view unit;
   double min, max, resolution;
-  std::string_view labels = {};  // of the values 0, 1, 2 ...: "off|on"; empty: a number
+  std::string_view labels = {};  // of the values 0, 1, 2 ...: "off|on"; of a bit set: of the bits
 
   constexpr bits::Quantized quantized() const { return {min, max, resolution}; }
   constexpr FieldKind kind() const {

@@ -58,6 +58,9 @@ inline constexpr std::string_view kStopCauses =
     "GNSS: both units lost the solution|IMU: both units lost|race control lost|"
     "race control lost, says the drive-by-wire|base station lost";
 
+// Bit k of a set of them is cause k + 1.
+inline constexpr std::string_view kFaultNames = kStopCauses.substr(sizeof "none");
+
 // The name at this place of "a|b|c"; empty past the end.
 constexpr std::string_view label_at(std::string_view labels, std::size_t index) {
   for (; index > 0; --index) {

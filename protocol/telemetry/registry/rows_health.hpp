@@ -70,7 +70,7 @@ inline constexpr auto kHealthRows = [] {
       {kComputer, "memory", "MiB", 0, 32'000, 32},
       {kComputer, "temperature", "degC", 0, 127, 0.5},
 
-      {kFaults, "now", FieldRow::kBitSet, 0, 2'147'483'646, 1},  // bit k - 1: cause k of the labels
+      {kFaults, "now", FieldRow::kBitSet, 0, 2'147'483'646, 1, kFaultNames},
       count(kFaults, "recorded"),
       choice(kFaults, "last_cause", kStopCauses, 126),
       {kFaults, "last_age", "s", 0, 1'000, 1},

@@ -24,6 +24,17 @@ TEST(ValueText, EnumeratedValuesHaveNamesAndStrangeOnesTheirNumber) {
   EXPECT_EQ(value_text(kFields[field("mode.ct_state")], 255.0), "255");
 }
 
+TEST(ValueText, SetsOfFaultsAreNamedUpToThree) {
+  const telemetry::FieldRow& faults = kFields[field("faults.now")];
+  EXPECT_EQ(value_text(faults, 0.0), "none");
+  EXPECT_EQ(value_text(faults, 0b1001), "operator: emergency stop, drive-by-wire: system failure");
+  EXPECT_EQ(
+      value_text(faults, 0b1'1111),
+      "operator: emergency stop, purple flag, CAN bus dead: the drive-by-wire is silent and 2 "
+      "more");
+  EXPECT_EQ(value_text(kFields[field("electric.diagnostics")], 5.0), "5");
+}
+
 TEST(ValueText, UnsetIsADash) { EXPECT_EQ(value_text(kFields[field("ego.x")], kUnset), "-"); }
 
 TEST(ValueText, PathsAreGroupAndName) { EXPECT_EQ(path_of(kFields[field("ego.vx")]), "ego.vx"); }

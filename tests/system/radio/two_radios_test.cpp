@@ -55,8 +55,8 @@ TEST(TwoRadios, TheBetterPathOnlyStillHasSafetyOnBoth) {
   }
   single.run(seconds(60));
   run_with_kills(killed, seconds(60), 5);
-  // As if it were one radio that nobody kills.
-  EXPECT_LE(killed.ages().worst(Group::kMode), single.ages().worst(Group::kMode));
+  // As if it were one radio that nobody kills, but for the byte or two of a second path's records.
+  EXPECT_LE(killed.ages().worst(Group::kMode), single.ages().worst(Group::kMode) + milliseconds(1));
   EXPECT_EQ(killed.falsehoods().all(), 0u);
 }
 
