@@ -44,6 +44,7 @@
 #include "protocol/can/message_monitor.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/world/bus_health.hpp"
+#include "vehicle/world/monitor.hpp"
 #include "vehicle/world/race_control.hpp"
 #include "vehicle/world/signals.hpp"
 
@@ -66,6 +67,7 @@ struct InboundParams {
   Span tyre_temperature_c{-40.0, 250.0};   // within [-100, 6453]
   Span tyre_pressure_kpa{-50.0, 500.0};    // gauge; within [-100, 6553]
   std::uint8_t gear_max = 6;               // [1, 8]
+  world::MonitorSet off{};                 // of the bench alone: no car file sets it
 };
 
 // What became of the frames of one expected message.
@@ -127,6 +129,7 @@ struct InboundOutput {
   world::BusHealth bus;
   std::uint64_t own_frames = 0;  // frames with an id of ours from somebody else
   bool own_id_seen = false;
+  world::MonitorSet seen{};  // monitors that see something wrong now
 };
 
 InboundOutput decode(const InboundParams& params, InboundState& state,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vehicle/pipeline/step.hpp"
+#include "vehicle/pipeline/monitoring.hpp"
 
 #include <cmath>
 
@@ -170,6 +171,7 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
   out.quiet = in.guardian.drives;
   car.gate_refused = false;
   if (!out.quiet) say(setup, car, in, out);
+  out.seen = seen(out, located.seen);
   ++car.ticks;
   return out;
 }

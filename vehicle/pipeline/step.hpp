@@ -20,6 +20,7 @@
 #include "vehicle/pipeline/operator_orders.hpp"
 #include "vehicle/pipeline/setup.hpp"
 #include "vehicle/safety/radio_ladder.hpp"
+#include "vehicle/world/monitor.hpp"
 #include "vehicle/world/operator_wishes.hpp"
 #include "vehicle/world/sensor_input.hpp"
 
@@ -70,6 +71,7 @@ struct Outputs {
   world::RaceControl race_control;  // acted on: what was heard, or stricter by the base's flag
   double speed_limit_mps = kUnset;  // of operator and radio ladder; unset: none
   Answers answers;                  // to commands of this tick and of the one before
+  world::MonitorSet seen{};         // all monitors of the car: monitoring.hpp
 };
 
 Outputs step(const Setup& setup, Car& car, const Inputs& in);

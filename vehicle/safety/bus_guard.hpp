@@ -20,6 +20,7 @@
 
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/world/bus_health.hpp"
+#include "vehicle/world/monitor.hpp"
 
 namespace pitwall::safety {
 
@@ -30,6 +31,7 @@ struct BusGuardParams {
   Duration window = seconds(10);       // [1, 60] s
   Duration pause = milliseconds(100);  // from bus-off to a restart, and between two; [10 ms, 1 s]
   Duration stall_max = milliseconds(50);  // the queue takes nothing; [20 ms, 1 s]
+  world::MonitorSet off{};                // of the bench alone: no car file sets it
 };
 
 struct BusGuardState {
@@ -46,6 +48,7 @@ static_assert(std::is_trivially_copyable_v<BusGuardState>);
 struct BusGuardOutput {
   bool restart_now = false;
   bool failed = false;
+  world::MonitorSet seen{};  // monitors that see something wrong now
 };
 
 BusGuardOutput guard(const BusGuardParams& params, BusGuardState& state,

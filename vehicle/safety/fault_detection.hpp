@@ -24,6 +24,7 @@
 #include "vehicle/safety/watchdog.hpp"
 #include "vehicle/world/bus_health.hpp"
 #include "vehicle/world/ego_state.hpp"
+#include "vehicle/world/monitor.hpp"
 #include "vehicle/world/race_control.hpp"
 #include "vehicle/world/signals.hpp"
 
@@ -38,6 +39,7 @@ struct FaultParams {
   std::uint8_t refused_ticks = 3;                    // ticks in a row with a refused frame; [1, 20]
   bool radio_loss_stops = true;                      // base station lost for the watchdog's limit
   bool race_control_required = true;
+  world::MonitorSet off{};  // of the bench alone: no car file sets it
 };
 
 // What the operator asks, as levels. `stop` and `emergency_stop` act while they are held and their
@@ -73,6 +75,7 @@ struct FaultOutput {
   CauseSet causes;
   std::array<double, kCauses> values{};  // per cause that holds
   bool nobody_obeys = false;             // the bus has been dead for bus_dead_disarm
+  world::MonitorSet seen{};              // monitors that see something wrong now
 };
 
 FaultOutput detect(const FaultParams& params, FaultState& state, const FaultInputs& inputs,

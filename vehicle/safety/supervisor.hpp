@@ -37,6 +37,7 @@
 #include "vehicle/safety/safe_stop.hpp"
 #include "vehicle/world/actuator_command.hpp"
 #include "vehicle/world/mode.hpp"
+#include "vehicle/world/monitor.hpp"
 #include "vehicle/world/trajectory.hpp"
 
 namespace pitwall::safety {
@@ -123,7 +124,8 @@ struct SupervisorOutput {
   bool actuate = false;       // armed: outbound sends actuator frames and the gate lets them pass
   double speed_mps = kUnset;  // by the wheels
   bool standstill = false;
-  bool limited = false;  // the slew limits changed the command
+  bool limited = false;      // the slew limits changed the command
+  world::MonitorSet seen{};  // monitors that see something wrong now
 };
 
 SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& state,

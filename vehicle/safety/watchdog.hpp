@@ -15,6 +15,7 @@
 #include <type_traits>
 
 #include "protocol/vocabulary/time.hpp"
+#include "vehicle/world/monitor.hpp"
 #include "vehicle/world/race_control.hpp"
 #include "vehicle/world/sensor_input.hpp"
 #include "vehicle/world/signals.hpp"
@@ -83,6 +84,8 @@ struct WatchdogParams {
       {Stream::kRadio, "radio", true, seconds(1), seconds(3)},
   }};
 
+  world::MonitorSet off{};  // of the bench alone: no car file sets it
+
   constexpr StreamLimit& operator[](Stream s) { return limits[static_cast<std::size_t>(s)]; }
 };
 
@@ -115,6 +118,7 @@ struct StreamRow {
 
 struct WatchdogOutput {
   std::array<StreamRow, kStreams> rows{};
+  world::MonitorSet seen{};  // monitors that see something wrong now
 
   constexpr const StreamRow& operator[](Stream s) const {
     return rows[static_cast<std::size_t>(s)];

@@ -17,10 +17,13 @@ struct EgoState {
   Instant at{};
   Validity validity = Validity::kNever;
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
-  double vx_mps = kUnset, vy_mps = kUnset;    // body, in the plane of the road
-  double yaw_rate_rad_per_s = kUnset;         // about body z
-  double ax_mps2 = kUnset, ay_mps2 = kUnset;  // specific force, body
-  double position_sigma_m = kUnset;           // larger semi-axis, one sigma
+  double vx_mps = kUnset, vy_mps = kUnset;       // body, in the plane of the road
+  double yaw_rate_rad_per_s = kUnset;            // about body z
+  double ax_mps2 = kUnset, ay_mps2 = kUnset;     // specific force, body
+  double z_m = kUnset;                           // Map; unset by a planar filter
+  double roll_rad = kUnset, pitch_rad = kUnset;  // ISO 8855: on a banking that falls to the left
+                                                 // the roll is minus the banking
+  double position_sigma_m = kUnset;              // larger semi-axis, one sigma
   double yaw_sigma_rad = kUnset;
 };
 

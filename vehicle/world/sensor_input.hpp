@@ -28,6 +28,7 @@ struct GnssPosition {
   double latitude_deg = kUnset, longitude_deg = kUnset, height_m = kUnset;
   double latitude_sigma_m = kUnset, longitude_sigma_m = kUnset, height_sigma_m = kUnset;
   std::uint8_t satellites = 0;
+  double differential_age_s = kUnset, solution_age_s = kUnset;
 };
 
 struct GnssVelocity {
@@ -37,6 +38,7 @@ struct GnssVelocity {
   double horizontal_mps = kUnset;
   double track_over_ground_rad = kUnset;  // from true north, clockwise, as BESTVEL has it
   double vertical_mps = kUnset;
+  double sigma_mps = kUnset;  // per axis; unset where the receiver does not say
 };
 
 struct GnssHeading {
@@ -45,6 +47,28 @@ struct GnssHeading {
   std::uint32_t solution_status = 1, position_type = kPositionNone;
   double heading_rad = kUnset;  // of the antenna baseline, from true north, clockwise
   double heading_sigma_rad = kUnset;
+  double baseline_m = kUnset;  // measured; unset where the receiver does not say
+};
+
+// The receiver's own inertial solution: what it believes of its attitude, for comparison and for a
+// heading where the antennas have none.
+enum class InsStatus : std::uint8_t { kInactive, kAligning, kHighVariance, kGood, kFree };
+struct InsAttitude {
+  std::uint8_t unit = 0;
+  Instant at{};
+  InsStatus status = InsStatus::kInactive;
+  double roll_rad = kUnset, pitch_rad = kUnset;  // ISO 8855: left side up, nose down positive
+  double heading_rad = kUnset;                   // from true north, clockwise
+  double roll_sigma_rad = kUnset, pitch_sigma_rad = kUnset, heading_sigma_rad = kUnset;
+};
+
+// What a receiver says of itself.
+struct ReceiverHealth {
+  std::uint8_t unit = 0;
+  Instant at{};
+  bool error = false;  // its own error word is not zero
+  std::uint32_t error_word = 0, status_word = 0;
+  bool time_valid = true;
 };
 
 struct ImuSample {
@@ -60,6 +84,8 @@ struct SensorInput {
   FixedVector<GnssVelocity, 8> velocities;
   FixedVector<GnssHeading, 8> headings;
   FixedVector<ImuSample, 32> imu;
+  FixedVector<InsAttitude, 16> attitudes;
+  FixedVector<ReceiverHealth, 8> receivers;
   std::uint32_t overflows = 0;  // samples that found their list full
 };
 

@@ -346,4 +346,14 @@ TrackPoint TrackMap::offset(double s_m, double n_m) const {
   return p;
 }
 
+RoadPoint TrackMap::road(double s_m, double n_m) const {
+  const TrackPoint here = at(s_m);
+  const TrackPoint before = at(s_m - spacing_m_), after = at(s_m + spacing_m_);
+  const double change = (std::tan(after.bank_rad) - std::tan(before.bank_rad)) / (2.0 * spacing_m_);
+  const double stretch = 1.0 - n_m * here.curvature_per_m;  // of a step along the offset line
+  return {.height_m = -n_m * std::tan(here.bank_rad),
+          .bank_rad = here.bank_rad,
+          .climb_rad = std::atan(-n_m * change / stretch)};
+}
+
 }  // namespace pitwall::world

@@ -44,6 +44,13 @@ struct TrackPoint {
   double width_left_m = kUnset, width_right_m = kUnset;
 };
 
+// The road itself at a place: a surface ruled by the banking, whose reference line is level.
+struct RoadPoint {
+  double height_m = kUnset;   // over the datum
+  double bank_rad = kUnset;   // across, positive where the left side is lower
+  double climb_rad = kUnset;  // along the direction of travel, positive uphill
+};
+
 struct Curvilinear {
   double s_m = kUnset, n_m = kUnset;
 };
@@ -72,6 +79,8 @@ class TrackMap {
   Curvilinear project(double x_m, double y_m, std::optional<double> hint_s_m = std::nullopt) const;
   // The point with offset n beside station s.
   TrackPoint offset(double s_m, double n_m) const;
+  // z = -n tan(bank(s)); its slope along the track, at offset n.
+  RoadPoint road(double s_m, double n_m) const;
   std::size_t size() const { return points_.size(); }
   const TrackPoint& point(std::size_t i) const { return points_[i]; }  // i < size()
 

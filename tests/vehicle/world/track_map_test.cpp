@@ -144,6 +144,27 @@ TEST(TrackMap, AnswersNonsenseWithNaN) {
   }
 }
 
+// The road falls to the inside by its banking, and along an offset line it climbs as that changes.
+TEST(TrackMap, TheRoadIsRuledByItsBanking) {
+  const TrackMap map = built(stadium());
+  constexpr double kStep_m = 0.5;
+  double steepest = 0.0;
+  for (double s = 0.0; s < map.length_m(); s += 7.0) {
+    EXPECT_DOUBLE_EQ(map.road(s, 0.0).height_m, 0.0);
+    for (const double n : {-6.0, 3.0}) {
+      const RoadPoint road = map.road(s, n);
+      EXPECT_NEAR(road.height_m, -n * std::tan(map.at(s).bank_rad), 1e-12);
+      EXPECT_DOUBLE_EQ(road.bank_rad, map.at(s).bank_rad);
+      const TrackPoint behind = map.offset(s - kStep_m, n), ahead = map.offset(s + kStep_m, n);
+      const double way_m = std::hypot(ahead.x_m - behind.x_m, ahead.y_m - behind.y_m);
+      const double rise_m = map.road(s + kStep_m, n).height_m - map.road(s - kStep_m, n).height_m;
+      EXPECT_NEAR(road.climb_rad, std::atan2(rise_m, way_m), 5e-4) << s << " " << n;
+      steepest = std::max(steepest, std::abs(road.climb_rad));
+    }
+  }
+  EXPECT_GT(steepest, 0.006);
+}
+
 TEST(TrackMap, ClosesASmallResidual) {
   TrackDescription d = stadium();
   for (TrackKnot& k : d.knots) k.curvature_per_m *= 1.005;

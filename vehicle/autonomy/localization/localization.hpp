@@ -19,6 +19,7 @@
 #include "vehicle/autonomy/localization/params.hpp"
 #include "vehicle/autonomy/localization/timeline.hpp"
 #include "vehicle/world/ego_state.hpp"
+#include "vehicle/world/monitor.hpp"
 #include "vehicle/world/sensor_input.hpp"
 #include "vehicle/world/signals.hpp"
 
@@ -85,6 +86,7 @@ struct Output {
   double position_age_s = kUnset;  // since the last accepted position was true
   double imu_age_s = kUnset;
   State next;
+  world::MonitorSet seen{};  // monitors that see something wrong now
 };
 
 Output step(const Params& params, const Datum& datum, const State& state,

@@ -9,6 +9,7 @@
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/autonomy/localization/ekf.hpp"
 #include "vehicle/autonomy/localization/timeline.hpp"
+#include "vehicle/world/monitor.hpp"
 #include "vehicle/world/sensor_input.hpp"
 
 namespace pitwall::localization {
@@ -43,6 +44,7 @@ struct Params {
   double good_sigma_max_m = kUnset;         // 0.05..5
   double lost_sigma_max_m = kUnset;         // 0.5..50
   double reset_after_s = kUnset;            // 0.5..10: positions refused so long restart the filter
+  world::MonitorSet off{};                  // of the bench alone: no car file sets it
 };
 
 // Start-up: every parameter against its legal range; the place is the parameter's name.

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/pipeline/monitoring.hpp"
+
+namespace pitwall::pipeline {
+
+world::MonitorSet seen(const Outputs& out, world::MonitorSet by_localization) {
+  world::MonitorSet all = by_localization;
+  all.add(out.heard.seen);
+  all.add(out.watchdog.seen);
+  all.add(out.bus_guard.seen);
+  all.add(out.chosen.seen);
+  return all;
+}
+
+void switch_off(CarParams& params, world::MonitorSet monitors) {
+  params.inbound.off = monitors;
+  params.localization.off = monitors;
+  params.watchdog.off = monitors;
+  params.bus_guard.off = monitors;
+  params.supervisor.faults.off = monitors;
+}
+
+}  // namespace pitwall::pipeline
