@@ -13,9 +13,10 @@ enum class Mode : std::uint8_t {
   kDriving,         // follows the drive trajectory
   kControlledStop,  // follows the stop trajectory
   kEmergencyStop,   // brakes as hard as grip allows, holds the line
-  kHalted           // latched at standstill after a stop; left by an explicit reset only
+  kHalted,          // latched at standstill after a stop; left by an explicit reset only
+  kCoast            // follows the drive trajectory without throttle: what may pass is waited for
 };
-inline constexpr std::size_t kModes = 6;
+inline constexpr std::size_t kModes = 7;
 
 // Computer (CT) state, CAN ct_report.ct_state.
 enum class CtState : std::uint8_t {

@@ -78,6 +78,14 @@ struct ImuSample {
   std::array<double, 3> specific_force_mps2{kUnset, kUnset, kUnset};  // x, y, z
 };
 
+// When a receiver said what time it was: its clock beside the car's.
+struct ReceiverTime {
+  std::uint8_t unit = 0;
+  Instant heard{};               // when the bytes arrived, on the car's clock
+  std::int64_t gps_ns = 0;       // since the GPS epoch; without leap seconds
+  double utc_offset_s = kUnset;  // UTC minus GPS time, where the receiver says it
+};
+
 // What arrived since the last step, in order of arrival.
 struct SensorInput {
   FixedVector<GnssPosition, 8> positions;
@@ -86,6 +94,7 @@ struct SensorInput {
   FixedVector<ImuSample, 32> imu;
   FixedVector<InsAttitude, 16> attitudes;
   FixedVector<ReceiverHealth, 8> receivers;
+  FixedVector<ReceiverTime, 8> times;
   std::uint32_t overflows = 0;  // samples that found their list full
 };
 

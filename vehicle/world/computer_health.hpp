@@ -1,0 +1,15 @@
+// How the car's computer is, where the rim knows it; unset where it does not.
+//   units  share of all processors over the last second, 0 .. 1; MiB in use, caches left out;
+//          degrees Celsius of the hottest zone
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::world {
+
+struct ComputerHealth {
+  double processor_share = kUnset, memory_mib = kUnset, temperature_c = kUnset;
+};
+
+}  // namespace pitwall::world
