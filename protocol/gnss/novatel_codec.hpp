@@ -1,8 +1,9 @@
-// NovAtel OEM7 binary: one whole message to values and back. Used by the car (decode) and by the
-// bench, which speaks as a receiver (encode).
-//   in     a frame cut out and checked by NovatelStream; a header and a message
-//   out    values; a complete frame with header and CRC
-//   errors DecodeError. A body may be longer than we know (newer firmware appends), never shorter.
+// NovAtel OEM7: one whole log to values and back. Used by the car (decode) and by the bench, which
+// speaks as a receiver (encode).
+//   in     a frame cut out and checked by NovatelStream, binary or ASCII; a header and a message
+//   out    values; a complete binary frame with header and CRC (ASCII: novatel_ascii.hpp)
+//   errors DecodeError (refusal.hpp). A body may be longer than we know (newer firmware appends),
+//          never shorter.
 //   source OEM7 Commands and Logs Reference Manual
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -12,6 +13,7 @@
 #include <span>
 
 #include "protocol/gnss/novatel_message.hpp"
+#include "protocol/gnss/refusal.hpp"
 #include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::gnss {
@@ -19,14 +21,13 @@ namespace pitwall::gnss {
 struct NovatelFrame {
   NovatelHeader header;
   std::span<const std::uint8_t> body;  // valid until the stream is fed again
+  bool ascii = false;                  // then the body is the text between ';' and '*'
 };
-
-enum class DecodeError : std::uint8_t { kUnknownId, kResponse, kNotBinary, kTooShort, kNotFinite };
 
 Result<NovatelMessage, DecodeError> decode(const NovatelFrame& frame);
 
 // The longest frame that encode() writes.
-inline constexpr std::size_t kMaxEncodedBytes = kLongHeaderBytes + BestPos::kBytes + kCrcBytes;
+inline constexpr std::size_t kMaxEncodedBytes = kLongHeaderBytes + InsPvaX::kBytes + kCrcBytes;
 
 // Writes header, body and CRC; id and form of the header follow from the message. Returns the bytes
 // written; `out` must have room for kMaxEncodedBytes.

@@ -1,9 +1,10 @@
 // What a NovAtel OEM7 receiver says, as plain values in the receiver's own units and axes.
 //   frames WGS 84 geodetic; angles from true north, clockwise; IMU axes are the enclosure's. In
-//          NovAtel's vehicle frame x is right, y forward, z up.
-//   units  as named; counts of RAWIMUSX are increments over one sample (see imu_scale.hpp)
-//   source OEM7 Commands and Logs Reference Manual: Binary, Description of ASCII and Binary Logs
-//          with Short Headers, BESTPOS, BESTVEL, HEADING2, RAWIMUSX, CORRIMUDATAS
+//          NovAtel's vehicle frame x is right, y forward, z up; roll is right-handed about y,
+//          pitch about x.
+//   units  as named; counts of RAWIMU* are increments over one sample (see imu_scale.hpp)
+//   source OEM7 Commands and Logs Reference Manual, the pages of these logs; the layouts agree with
+//          NovAtel's own driver (novatel_oem7_driver, oem7_messages.h) where that has them
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -34,7 +35,7 @@ struct NovatelHeader {
   std::uint8_t message_type = 0;  // bit 7: response to a command; bits 5-6: format, 0 is binary
   std::uint8_t port = 0x20;
   std::uint16_t sequence = 0;
-  std::uint8_t idle_time = 0;
+  std::uint8_t idle_time = 0;  // half per cent
   std::uint8_t time_status = static_cast<std::uint8_t>(TimeStatus::kFineSteering);
   std::uint16_t week = 0;
   std::uint32_t milliseconds = 0;  // of the week
@@ -64,6 +65,26 @@ struct BestPos {
   std::uint8_t reserved = 0, extended_status = 0, galileo_beidou_mask = 0, gps_glonass_mask = 0;
 
   bool operator==(const BestPos&) const = default;
+};
+
+// The same position on the UTM grid.
+struct BestUtm {
+  static constexpr std::uint16_t kId = 726;
+  static constexpr std::size_t kBytes = 80;
+  static constexpr bool kShort = false;
+
+  std::uint32_t solution_status = 1, position_type = 0;
+  std::uint32_t zone_number = 0, zone_letter = '*';  // '*': outside the grid
+  double northing_m = kUnset, easting_m = kUnset, height_m = kUnset;
+  float undulation_m = 0.0F;
+  std::uint32_t datum = 61;
+  float northing_sigma_m = 0.0F, easting_sigma_m = 0.0F, height_sigma_m = 0.0F;
+  std::array<char, 4> station{};
+  float differential_age_s = 0.0F, solution_age_s = 0.0F;
+  std::uint8_t satellites_tracked = 0, satellites_used = 0, satellites_l1 = 0, satellites_multi = 0;
+  std::uint8_t reserved = 0, extended_status = 0, galileo_beidou_mask = 0, gps_glonass_mask = 0;
+
+  bool operator==(const BestUtm&) const = default;
 };
 
 struct BestVel {
@@ -100,11 +121,90 @@ struct Heading2 {
   bool operator==(const Heading2&) const = default;
 };
 
-// Measurements of the IMU as they are: specific force, gravity not removed.
-struct RawImuSx {
-  static constexpr std::uint16_t kId = 1462;
+// HEADING2 of one receiver with two antennas: no rover.
+struct DualAntennaHeading {
+  static constexpr std::uint16_t kId = 2042;
+  static constexpr std::size_t kBytes = 44;
+  static constexpr bool kShort = false;
+
+  std::uint32_t solution_status = 1, position_type = 0;
+  float baseline_m = -1.0F;
+  float heading_deg = 0.0F;  // of the vector primary antenna -> secondary antenna
+  float pitch_deg = 0.0F;
+  float reserved = 0.0F;
+  float heading_sigma_deg = 0.0F, pitch_sigma_deg = 0.0F;
+  std::array<char, 4> station{};
+  std::uint8_t satellites_tracked = 0, satellites_used = 0, satellites_obs = 0,
+               satellites_multi = 0;
+  std::uint8_t solution_source = 0, extended_status = 0, galileo_beidou_mask = 0,
+               gps_glonass_mask = 0;
+
+  bool operator==(const DualAntennaHeading&) const = default;
+};
+
+// INSPVA and, with the short header, INSPVAS.
+template <std::uint16_t Id, bool Short>
+struct InsPvaOf {
+  static constexpr std::uint16_t kId = Id;
+  static constexpr std::size_t kBytes = 88;
+  static constexpr bool kShort = Short;
+
+  std::uint32_t week = 0;
+  double seconds = 0.0;                                                     // of the week
+  double latitude_deg = kUnset, longitude_deg = kUnset, height_m = kUnset;  // above the ellipsoid
+  double north_mps = kUnset, east_mps = kUnset, up_mps = kUnset;
+  double roll_deg = kUnset, pitch_deg = kUnset, azimuth_deg = kUnset;
+  std::uint32_t ins_status = 0;
+
+  bool operator==(const InsPvaOf&) const = default;
+};
+using InsPva = InsPvaOf<507, false>;
+using InsPvaS = InsPvaOf<508, true>;
+
+// With standard deviations. The height is above mean sea level here, other than in INSPVA.
+struct InsPvaX {
+  static constexpr std::uint16_t kId = 1465;
+  static constexpr std::size_t kBytes = 126;
+  static constexpr bool kShort = false;
+
+  std::uint32_t ins_status = 0, position_type = 0;
+  double latitude_deg = kUnset, longitude_deg = kUnset, height_m = kUnset;
+  float undulation_m = 0.0F;
+  double north_mps = kUnset, east_mps = kUnset, up_mps = kUnset;
+  double roll_deg = kUnset, pitch_deg = kUnset, azimuth_deg = kUnset;
+  float latitude_sigma_m = 0.0F, longitude_sigma_m = 0.0F, height_sigma_m = 0.0F;
+  float north_sigma_mps = 0.0F, east_sigma_mps = 0.0F, up_sigma_mps = 0.0F;
+  float roll_sigma_deg = 0.0F, pitch_sigma_deg = 0.0F, azimuth_sigma_deg = 0.0F;
+  std::uint32_t extended_status = 0;
+  std::uint16_t since_update_s = 0;  // last position or zero-velocity update
+
+  bool operator==(const InsPvaX&) const = default;
+};
+
+// RAWIMU and RAWIMUS: measurements of the IMU as they are, gravity not removed.
+template <std::uint16_t Id, bool Short>
+struct RawImuOf {
+  static constexpr std::uint16_t kId = Id;
   static constexpr std::size_t kBytes = 40;
-  static constexpr bool kShort = true;
+  static constexpr bool kShort = Short;
+
+  std::uint32_t week = 0;
+  double seconds = 0.0;  // of the week
+  std::uint32_t imu_status = 0;
+  std::int32_t z_accel = 0, minus_y_accel = 0, x_accel = 0;  // counts; the receiver negates y
+  std::int32_t z_gyro = 0, minus_y_gyro = 0, x_gyro = 0;
+
+  bool operator==(const RawImuOf&) const = default;
+};
+using RawImu = RawImuOf<268, false>;
+using RawImuS = RawImuOf<325, true>;
+
+// RAWIMUX and RAWIMUSX: the same with the type of the IMU.
+template <std::uint16_t Id, bool Short>
+struct RawImuXOf {
+  static constexpr std::uint16_t kId = Id;
+  static constexpr std::size_t kBytes = 40;
+  static constexpr bool kShort = Short;
   static constexpr std::uint8_t kImuError = 0x01;  // in imu_info
 
   std::uint8_t imu_info = 0, imu_type = 41;  // 41: Epson G320N, the IMU of the PwrPak7D-E1
@@ -114,24 +214,80 @@ struct RawImuSx {
   std::int32_t z_accel = 0, minus_y_accel = 0, x_accel = 0;  // counts; the receiver negates y
   std::int32_t z_gyro = 0, minus_y_gyro = 0, x_gyro = 0;
 
-  bool operator==(const RawImuSx&) const = default;
+  bool operator==(const RawImuXOf&) const = default;
 };
+using RawImuX = RawImuXOf<1461, false>;
+using RawImuSx = RawImuXOf<1462, true>;
 
-// Increments over one logging interval, corrected for gravity, the earth's rotation and estimated
-// sensor errors: not a specific force.
-struct CorrImuDataS {
-  static constexpr std::uint16_t kId = 813;
+// CORRIMUDATA and CORRIMUDATAS: increments over one logging interval, corrected for gravity, the
+// earth's rotation and estimated sensor errors: not a specific force.
+template <std::uint16_t Id, bool Short>
+struct CorrImuDataOf {
+  static constexpr std::uint16_t kId = Id;
   static constexpr std::size_t kBytes = 60;
-  static constexpr bool kShort = true;
+  static constexpr bool kShort = Short;
 
   std::uint32_t week = 0;
   double seconds = 0.0;
   double pitch_rad = kUnset, roll_rad = kUnset, yaw_rad = kUnset;  // about x, y, z; per sample
   double lateral_mps = kUnset, longitudinal_mps = kUnset, vertical_mps = kUnset;  // along x, y, z
 
-  bool operator==(const CorrImuDataS&) const = default;
+  bool operator==(const CorrImuDataOf&) const = default;
+};
+using CorrImuData = CorrImuDataOf<812, false>;
+using CorrImuDataS = CorrImuDataOf<813, true>;
+
+// Their successor: the sum over `samples` of the IMU; the time is the header's.
+struct CorrImuS {
+  static constexpr std::uint16_t kId = 2264;
+  static constexpr std::size_t kBytes = 60;
+  static constexpr bool kShort = true;
+
+  std::uint32_t samples = 0;
+  double pitch_rad = kUnset, roll_rad = kUnset, yaw_rad = kUnset;
+  double lateral_mps = kUnset, longitudinal_mps = kUnset, vertical_mps = kUnset;
+  float reserved_1 = 0.0F;  // a recording of firmware 7.08 has a decimal number here
+  std::uint32_t reserved_2 = 0;
+
+  bool operator==(const CorrImuS&) const = default;
 };
 
-using NovatelMessage = std::variant<BestPos, BestVel, Heading2, RawImuSx, CorrImuDataS>;
+struct StatusWord {
+  std::uint32_t bits = 0, priority_mask = 0, set_mask = 0, clear_mask = 0;
+
+  bool operator==(const StatusWord&) const = default;
+};
+
+struct RxStatus {
+  static constexpr std::uint16_t kId = 93;
+  static constexpr std::size_t kBytes = 88;
+  static constexpr bool kShort = false;
+
+  std::uint32_t error = 0;
+  std::uint32_t words = 5;  // that follow; OEM7 has five
+  StatusWord receiver, auxiliary_1, auxiliary_2, auxiliary_3, auxiliary_4;
+
+  bool operator==(const RxStatus&) const = default;
+};
+
+struct Time {
+  static constexpr std::uint16_t kId = 101;
+  static constexpr std::size_t kBytes = 44;
+  static constexpr bool kShort = false;
+
+  std::uint32_t clock_status = 3;                     // 0 valid, 3 invalid
+  double offset_s = kUnset, offset_sigma_s = kUnset;  // of the receiver's clock from GPS time
+  double utc_offset_s = kUnset;                       // UTC = GPS time + this (-18 since 2017)
+  std::uint32_t utc_year = 0;
+  std::uint8_t utc_month = 0, utc_day = 0, utc_hour = 0, utc_minute = 0;
+  std::uint32_t utc_ms = 0;      // of the minute
+  std::uint32_t utc_status = 0;  // 1 valid, 2 leap second not yet known
+
+  bool operator==(const Time&) const = default;
+};
+
+using NovatelMessage = std::variant<BestPos, BestVel, Heading2, RawImuSx, CorrImuDataS,
+                                    DualAntennaHeading, InsPva, InsPvaS, InsPvaX, RawImu, RawImuS,
+                                    RawImuX, CorrImuData, CorrImuS, RxStatus, Time, BestUtm>;
 
 }  // namespace pitwall::gnss

@@ -1,0 +1,67 @@
+// What a field of a receiver's message is: which values it cannot have and, for NovAtel's ASCII,
+// how it is written.
+//   in     the kind and the value of a field, as sent
+//   out    why it is refused, if it is
+//   law    a value is refused or taken as it is; nothing is clamped, wrapped or replaced
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+
+#include "protocol/gnss/refusal.hpp"
+
+namespace pitwall::gnss {
+
+enum class Kind : std::uint8_t {
+  kNumber,     // finite
+  kSigma,      // finite, not negative
+  kLatitude,   // degrees
+  kLongitude,  // degrees
+  kSeconds,    // of the week
+  kReserved,   // anything
+  kHex,
+  kSolution,  // names of NovAtel's tables from here on (novatel_names.hpp)
+  kPosition,
+  kInsStatus,
+  kDatum,
+  kClock,
+  kUtc,
+  kLetter,
+  kText,
+};
+
+inline std::optional<DecodeError> judge(Kind kind, double value) {
+  constexpr double kMaxLatitude_deg = 90.0, kMaxLongitude_deg = 180.0, kWeek_s = 604'800.0;
+  if (kind == Kind::kReserved) return std::nullopt;
+  if (!std::isfinite(value)) return DecodeError::kNotFinite;
+  if (kind == Kind::kSigma && value < 0.0) return DecodeError::kNegativeDeviation;
+  if (kind == Kind::kLatitude && std::fabs(value) > kMaxLatitude_deg) return DecodeError::kLatitude;
+  if (kind == Kind::kLongitude && std::fabs(value) > kMaxLongitude_deg) {
+    return DecodeError::kLongitude;
+  }
+  if (kind == Kind::kSeconds && (value < 0.0 || value > kWeek_s)) return DecodeError::kTimeOfWeek;
+  return std::nullopt;
+}
+
+// Keeps the first reason to refuse a message while its fields go by.
+class Judge {
+ public:
+  template <class T>
+  void see(Kind kind, T value) {
+    if constexpr (std::is_floating_point_v<T>) {
+      if (!refusal_) refusal_ = judge(kind, static_cast<double>(value));
+    }
+  }
+  void refuse(DecodeError reason) {
+    if (!refusal_) refusal_ = reason;
+  }
+  const std::optional<DecodeError>& refusal() const { return refusal_; }
+
+ private:
+  std::optional<DecodeError> refusal_;
+};
+
+}  // namespace pitwall::gnss

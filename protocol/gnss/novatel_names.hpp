@@ -1,0 +1,38 @@
+// The words of NovAtel's ASCII logs and the numbers for which they stand: names of logs, solution
+// and position types, INS status, datum, clock, time status, ports.
+//   in     a number or a word
+//   out    the other; nothing where the tables do not have it
+//   source OEM7 Commands and Logs Reference Manual: "Solution Status", "Position or Velocity Type",
+//          "Inertial Solution Status", "Datum Transformation Parameters", "Clock Model Status", "GPS
+//          Reference Time Status", "Detailed Port Identifier"
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "protocol/gnss/field_kind.hpp"
+
+namespace pitwall::gnss {
+
+// Of kSolution, kPosition, kInsStatus, kDatum, kClock and kUtc. Empty for a number without a name.
+std::string_view name_of(Kind kind, std::uint32_t value);
+std::optional<std::uint32_t> value_of(Kind kind, std::string_view name);
+
+// Names without the letter of the format: "BESTPOS", 42.
+std::string_view log_name(std::uint16_t id);
+std::optional<std::uint16_t> log_id(std::string_view name);
+
+std::string_view time_status_name(std::uint8_t status);
+std::optional<std::uint8_t> time_status_value(std::string_view name);
+
+// A port is a name and, within it, a virtual port: COM1_30.
+struct PortName {
+  std::string_view name;
+  unsigned virtual_port = 0;
+};
+std::optional<PortName> port_name(std::uint8_t port);
+std::optional<std::uint8_t> port_value(std::string_view name);
+
+}  // namespace pitwall::gnss
