@@ -165,8 +165,6 @@ void GnssInput::use(const gnss::RawImuSx& m, Instant at, world::SensorInput& out
          out);
 }
 
-void GnssInput::use(const gnss::CorrImuDataS&, Instant, world::SensorInput&) { ++counters_.unused; }
-
 std::size_t receive(transport::UdpSocket& socket, GnssInput& input, world::SensorInput& out) {
   std::array<transport::UdpDatagram, transport::UdpSocket::kBatch> datagrams;
   const std::size_t n = socket.receive(datagrams);

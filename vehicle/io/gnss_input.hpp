@@ -64,7 +64,10 @@ class GnssInput {
   void use(const gnss::BestVel& m, Instant at, world::SensorInput& out);
   void use(const gnss::Heading2& m, Instant at, world::SensorInput& out);
   void use(const gnss::RawImuSx& m, Instant at, world::SensorInput& out);
-  void use(const gnss::CorrImuDataS& m, Instant at, world::SensorInput& out);
+  template <class Other>
+  void use(const Other&, Instant, world::SensorInput&) {
+    ++counters_.unused;
+  }
 
   GnssInputParams params_;
   gnss::NovatelStream stream_;
