@@ -39,6 +39,13 @@ void visit_motion(Message& m, Visit& v) {
   v(Kind::kNumber, m.roll_deg, m.pitch_deg, m.azimuth_deg);
 }
 
+// The end of INSPVAX and INSATTX.
+template <class Message, class Visit>
+void visit_attitude_quality(Message& m, Visit& v) {
+  v(Kind::kSigma, m.roll_sigma_deg, m.pitch_sigma_deg, m.azimuth_sigma_deg);
+  v(Kind::kHex, m.extended_status), v(Kind::kNumber, m.since_update_s);
+}
+
 // What BESTPOS and BESTUTM have in common from the undulation on.
 template <class Message, class Visit>
 void visit_quality(Message& m, Visit& v) {
@@ -128,8 +135,14 @@ void visit(Tag<InsPvaX>, Message& m, Visit& v) {
   visit_motion(m, v);
   v(Kind::kSigma, m.latitude_sigma_m, m.longitude_sigma_m, m.height_sigma_m);
   v(Kind::kSigma, m.north_sigma_mps, m.east_sigma_mps, m.up_sigma_mps);
-  v(Kind::kSigma, m.roll_sigma_deg, m.pitch_sigma_deg, m.azimuth_sigma_deg);
-  v(Kind::kHex, m.extended_status), v(Kind::kNumber, m.since_update_s);
+  visit_attitude_quality(m, v);
+}
+
+template <class Message, class Visit>
+void visit(Tag<InsAttX>, Message& m, Visit& v) {
+  v(Kind::kInsStatus, m.ins_status), v(Kind::kPosition, m.position_type);
+  v(Kind::kNumber, m.roll_deg, m.pitch_deg, m.azimuth_deg);
+  visit_attitude_quality(m, v);
 }
 
 template <std::uint16_t Id, bool Short, class Message, class Visit>

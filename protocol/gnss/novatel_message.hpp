@@ -181,6 +181,21 @@ struct InsPvaX {
   bool operator==(const InsPvaX&) const = default;
 };
 
+// The attitude of it alone.
+struct InsAttX {
+  static constexpr std::uint16_t kId = 1457;
+  static constexpr std::size_t kBytes = 50;
+  static constexpr bool kShort = false;
+
+  std::uint32_t ins_status = 0, position_type = 0;
+  double roll_deg = kUnset, pitch_deg = kUnset, azimuth_deg = kUnset;
+  float roll_sigma_deg = 0.0F, pitch_sigma_deg = 0.0F, azimuth_sigma_deg = 0.0F;
+  std::uint32_t extended_status = 0;
+  std::uint16_t since_update_s = 0;
+
+  bool operator==(const InsAttX&) const = default;
+};
+
 // RAWIMU and RAWIMUS: measurements of the IMU as they are, gravity not removed.
 template <std::uint16_t Id, bool Short>
 struct RawImuOf {

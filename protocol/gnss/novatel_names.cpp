@@ -15,14 +15,23 @@ struct Named {
 };
 
 constexpr std::array kLogs{
-    Named{42, "BESTPOS"},       Named{93, "RXSTATUS"},
-    Named{99, "BESTVEL"},       Named{101, "TIME"},
-    Named{268, "RAWIMU"},       Named{325, "RAWIMUS"},
-    Named{507, "INSPVA"},       Named{508, "INSPVAS"},
-    Named{726, "BESTUTM"},      Named{812, "CORRIMUDATA"},
-    Named{813, "CORRIMUDATAS"}, Named{1335, "HEADING2"},
-    Named{1461, "RAWIMUX"},     Named{1462, "RAWIMUSX"},
-    Named{1465, "INSPVAX"},     Named{2042, "DUALANTENNAHEADING"},
+    Named{42, "BESTPOS"},
+    Named{93, "RXSTATUS"},
+    Named{99, "BESTVEL"},
+    Named{101, "TIME"},
+    Named{268, "RAWIMU"},
+    Named{325, "RAWIMUS"},
+    Named{507, "INSPVA"},
+    Named{508, "INSPVAS"},
+    Named{726, "BESTUTM"},
+    Named{812, "CORRIMUDATA"},
+    Named{813, "CORRIMUDATAS"},
+    Named{1335, "HEADING2"},
+    Named{1457, "INSATTX"},
+    Named{1461, "RAWIMUX"},
+    Named{1462, "RAWIMUSX"},
+    Named{1465, "INSPVAX"},
+    Named{2042, "DUALANTENNAHEADING"},
     Named{2264, "CORRIMUS"},
 };
 

@@ -1,5 +1,5 @@
 // The bytes of a stream that are not yet decided: fed at the back in pieces of any size, looked at
-// as a whole, taken off at the front. No allocation.
+// as a whole, taken off at the front; and what is counted of a stream. No allocation.
 //   law    as long as the drain decides whenever kMaxFrame bytes are unread, every byte fits
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -13,6 +13,16 @@
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::gnss {
+
+struct StreamCounters {
+  std::uint64_t bytes = 0, frames = 0;
+  std::uint64_t ascii_frames = 0;   // of the frames
+  std::uint64_t garbage_bytes = 0;  // in no frame
+  std::uint64_t bad_crc = 0;
+  std::uint64_t oversize = 0;    // longer than kMaxFrameBytes by its own header
+  std::uint64_t bad_header = 0;  // a header that the format does not know
+  std::uint64_t unexpected = 0;  // a good header of an output that nobody asked for
+};
 
 template <std::size_t kMaxFrame>
 class StreamWindow {

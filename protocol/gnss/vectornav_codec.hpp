@@ -1,0 +1,56 @@
+// VectorNav binary output (VN-310): one whole message to values and back. Used by the car (decode)
+// and by the bench, which speaks as a sensor (encode).
+//   in     a frame cut out and checked by VectorNavStream; a message with its output
+//   out    values; a complete frame: 0xFA, groups, fields, payload, CRC-16 (most significant byte
+//          first)
+//   errors DecodeError (refusal.hpp)
+//   bound  the groups common, time, IMU, GNSS 1, attitude, INS, GNSS 2; a header that asks for more
+//          groups, for satellites or raw measurements (whose length it does not tell) is none
+//   source UM001 v2.22, section 4.3
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "protocol/gnss/refusal.hpp"
+#include "protocol/gnss/vectornav_message.hpp"
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::gnss {
+
+inline constexpr std::uint8_t kVectorNavSync = 0xFA;
+inline constexpr std::size_t kVectorNavCrcBytes = 2;
+// Sync, groups, two words for each of seven groups.
+inline constexpr std::size_t kMaxVectorNavHeaderBytes = 2 + 4 * kVectorNavGroups;
+// More than everything that we know in one message.
+inline constexpr std::size_t kMaxVectorNavBytes = 1'536;
+
+struct VectorNavHeader {
+  VectorNavOutput output;
+  std::size_t header_bytes = 0, payload_bytes = 0;
+
+  std::size_t frame_bytes() const { return header_bytes + payload_bytes + kVectorNavCrcBytes; }
+};
+
+// What the bytes at the front of `bytes`, which begin with the sync, announce.
+//   out    nothing where no header is possible; a header of no bytes where more are needed
+std::optional<VectorNavHeader> read_vectornav_header(std::span<const std::uint8_t> bytes);
+
+struct VectorNavFrame {
+  VectorNavOutput output;
+  std::span<const std::uint8_t> payload;  // valid until the stream is fed again
+};
+
+Result<VectorNavMessage, DecodeError> decode(const VectorNavFrame& frame);
+
+// Writes what message.output names; it must name something, and nothing that decode() steps over.
+// Returns the bytes written; `out` must have room for kMaxVectorNavBytes.
+std::size_t encode(const VectorNavMessage& message, std::span<std::uint8_t> out);
+
+// All that encode() can write of a group.
+std::uint32_t writable_fields(VectorNavGroup group);
+
+}  // namespace pitwall::gnss
