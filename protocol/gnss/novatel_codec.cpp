@@ -58,12 +58,7 @@ Result<NovatelMessage, DecodeError> decode_binary(const NovatelFrame& frame) {
   auto message = message_of(frame.header.id);
   if (!message) return Unexpected{DecodeError::kUnknownId};
   FieldReader reader{ByteReader{frame.body}, {}};
-  std::visit(
-      [&](auto& m) {
-        if (frame.body.size() < m.kBytes) return reader.judge.refuse(DecodeError::kTooShort);
-        visit_fields(m, reader);
-      },
-      *message);
+  std::visit([&reader](auto& m) { visit_fields(m, reader); }, *message);
   if (reader.judge.refusal()) return Unexpected{*reader.judge.refusal()};
   return *message;
 }
@@ -106,10 +101,11 @@ std::size_t encode(NovatelHeader header, const NovatelMessage& message,
         using Message = std::remove_cvref_t<decltype(m)>;
         header.id = Message::kId;
         header.short_form = Message::kShort;
-        const std::size_t at = encode_header(header, Message::kBytes, out);
+        const std::size_t at = Message::kShort ? kShortHeaderBytes : kLongHeaderBytes;
         FieldWriter body{ByteWriter{out.subspan(at)}};
         visit_fields(m, body);
-        CHECK(body.out.size() == Message::kBytes);
+        CHECK(body.out.size() <= Message::kBytes);
+        encode_header(header, static_cast<std::uint16_t>(body.out.size()), out);
         const std::size_t covered = at + body.out.size();
         ByteWriter crc{out.subspan(covered)};
         crc.put(bits::crc32_novatel(out.first(covered)));

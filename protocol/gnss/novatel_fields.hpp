@@ -1,7 +1,8 @@
 // The fields of every NovAtel log in the order in which they are sent, once, for reading, writing
 // and checking, in binary and in ASCII.
 //   in     a message; a visitor, called as visit(Kind, field...)
-//   law    the sum of the sizes of the fields is the kBytes of the message
+//   law    the sum of the sizes of the fields is the kBytes of the message (RXSTATUS, which says
+//          itself how many words it has: at most)
 //   source OEM7 Commands and Logs Reference Manual
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -174,8 +175,11 @@ void visit(Tag<CorrImuS>, Message& m, Visit& v) {
 template <class Message, class Visit>
 void visit(Tag<RxStatus>, Message& m, Visit& v) {
   v(Kind::kHex, m.error), v(Kind::kNumber, m.words);
-  visit_status(m.receiver, v), visit_status(m.auxiliary_1, v), visit_status(m.auxiliary_2, v);
-  visit_status(m.auxiliary_3, v), visit_status(m.auxiliary_4, v);
+  if (m.words > 0) visit_status(m.receiver, v);
+  if (m.words > 1) visit_status(m.auxiliary_1, v);
+  if (m.words > 2) visit_status(m.auxiliary_2, v);
+  if (m.words > 3) visit_status(m.auxiliary_3, v);
+  if (m.words > 4) visit_status(m.auxiliary_4, v);
 }
 
 template <class Message, class Visit>

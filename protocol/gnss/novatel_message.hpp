@@ -279,7 +279,7 @@ struct RxStatus {
   static constexpr bool kShort = false;
 
   std::uint32_t error = 0;
-  std::uint32_t words = 5;  // that follow; OEM7 has five
+  std::uint32_t words = 5;  // that follow: five, four with early firmware; we know no more
   StatusWord receiver, auxiliary_1, auxiliary_2, auxiliary_3, auxiliary_4;
 
   bool operator==(const RxStatus&) const = default;
@@ -301,8 +301,9 @@ struct Time {
   bool operator==(const Time&) const = default;
 };
 
-using NovatelMessage = std::variant<BestPos, BestVel, Heading2, RawImuSx, CorrImuDataS,
-                                    DualAntennaHeading, InsPva, InsPvaS, InsPvaX, RawImu, RawImuS,
-                                    RawImuX, CorrImuData, CorrImuS, RxStatus, Time, BestUtm>;
+using NovatelMessage =
+    std::variant<BestPos, BestVel, Heading2, RawImuSx, CorrImuDataS, DualAntennaHeading, InsPva,
+                 InsPvaS, InsPvaX, InsAttX, RawImu, RawImuS, RawImuX, CorrImuData, CorrImuS,
+                 RxStatus, Time, BestUtm>;
 
 }  // namespace pitwall::gnss

@@ -111,7 +111,8 @@ std::optional<VectorNavHeader> read_vectornav_header(std::span<const std::uint8_
   if (bytes.size() < 2) return VectorNavHeader{};
   const std::uint8_t groups = bytes[1];
   if (groups == 0 || (groups & kMoreGroups) != 0) return std::nullopt;
-  VectorNavHeader h{.header_bytes = 2};
+  VectorNavHeader h;
+  h.header_bytes = 2;
   for (std::size_t i = 0; i < kVectorNavGroups; ++i) {
     if ((groups >> i & 1U) == 0) continue;
     std::uint32_t mask = 0;
