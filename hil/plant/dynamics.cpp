@@ -29,6 +29,20 @@ Air air_of(const Motion& m, const Surface& road) {
   return {m.vx_mps - along_mps, across_mps * std::cos(road.bank_rad)};
 }
 
+// How the road turns the car, and the force that keeps it on the road.
+void add_turning(double mass_kg, const Motion& m, const Surface& road, Forces& f) {
+  const double cos_bank = std::cos(road.bank_rad), sin_bank = std::sin(road.bank_rad);
+  const double cos_climb = std::cos(road.climb_rad), sin_climb = std::sin(road.climb_rad);
+  f.heading_rate_rad_per_s =
+      (m.yaw_rate_rad_per_s + road.climb_rate_rad_per_s * sin_bank) / (cos_climb * cos_bank);
+  f.roll_rate_rad_per_s = f.heading_rate_rad_per_s * sin_climb - road.bank_rate_rad_per_s;
+  f.pitch_rate_rad_per_s =
+      -(f.heading_rate_rad_per_s * cos_climb * sin_bank) - road.climb_rate_rad_per_s * cos_bank;
+  f.normal_n = std::max(
+      0.0, mass_kg * (kGravity_mps2 * cos_climb * cos_bank + f.roll_rate_rad_per_s * m.vy_mps -
+                      f.pitch_rate_rad_per_s * m.vx_mps));
+}
+
 // Quasi-static loads; springs and anti-roll bars enter as the share of the front axle. A wheel that
 // would lift carries nothing and its neighbour the whole axle, so that the sum is always right.
 void add_loads(const Params& p, double mass_kg, const Motion& m, const Surface& road,
@@ -36,10 +50,7 @@ void add_loads(const Params& p, double mass_kg, const Motion& m, const Surface& 
   const Chassis& c = p.chassis;
   const double wheelbase_m = c.front_axle_m + c.rear_axle_m;
   const double pressure = 0.5 * p.aero.air_density_kgpm3 * air.along_mps * air.along_mps;
-  const double cos_bank = std::cos(road.bank_rad), sin_bank = std::sin(road.bank_rad);
-  f.heading_rate_rad_per_s = m.yaw_rate_rad_per_s / cos_bank;
-  f.normal_n = std::max(
-      0.0, mass_kg * (kGravity_mps2 * cos_bank + m.vx_mps * f.heading_rate_rad_per_s * sin_bank));
+  add_turning(mass_kg, m, road, f);
   const double down_front_n = pressure * p.aero.front_lift_area_m2;
   const double down_rear_n = pressure * p.aero.rear_lift_area_m2;
   const double sum_n = f.normal_n + down_front_n + down_rear_n;
@@ -197,6 +208,16 @@ void drive_actuators(const Params& p, const Motion& m, const SetPoints& set, Mot
 
 }  // namespace
 
+MapVelocity map_velocity(const Motion& m, const Surface& road) {
+  const double cos_yaw = std::cos(m.yaw_rad), sin_yaw = std::sin(m.yaw_rad);
+  const double sin_bank = std::sin(road.bank_rad);
+  const double cos_climb = std::cos(road.climb_rad), sin_climb = std::sin(road.climb_rad);
+  const double ahead_mps = m.vx_mps * cos_climb + m.vy_mps * sin_bank * sin_climb;
+  const double left_mps = m.vy_mps * std::cos(road.bank_rad);
+  return {ahead_mps * cos_yaw - left_mps * sin_yaw, ahead_mps * sin_yaw + left_mps * cos_yaw,
+          m.vx_mps * sin_climb - m.vy_mps * sin_bank * cos_climb};
+}
+
 Forces forces_of(const Params& params, const State& discrete, const Motion& motion,
                  const Surface& surface) {
   Forces f;
@@ -218,14 +239,15 @@ Motion derivative_of(const Params& params, const State& discrete, const Motion& 
   const Steered steer = steered(params, m);
   const double carried_kg = mass_kg(params, discrete);
   const double ax_mps2 = f.body_x_n / carried_kg, ay_mps2 = f.body_y_n / carried_kg;
-  const double cos_yaw = std::cos(m.yaw_rad), sin_yaw = std::sin(m.yaw_rad);
-  const double level_vy_mps = m.vy_mps * std::cos(surface.bank_rad);
+  const MapVelocity over_ground = map_velocity(m, surface);
   Motion d;
-  d.x_m = m.vx_mps * cos_yaw - level_vy_mps * sin_yaw;
-  d.y_m = m.vx_mps * sin_yaw + level_vy_mps * cos_yaw;
+  d.x_m = over_ground.east_mps;
+  d.y_m = over_ground.north_mps;
   d.yaw_rad = f.heading_rate_rad_per_s;
-  d.vx_mps = ax_mps2 + m.vy_mps * m.yaw_rate_rad_per_s;
-  d.vy_mps = ay_mps2 + kGravity_mps2 * std::sin(surface.bank_rad) - m.vx_mps * m.yaw_rate_rad_per_s;
+  d.vx_mps =
+      ax_mps2 - kGravity_mps2 * std::sin(surface.climb_rad) + m.vy_mps * m.yaw_rate_rad_per_s;
+  d.vy_mps = ay_mps2 + kGravity_mps2 * std::sin(surface.bank_rad) * std::cos(surface.climb_rad) -
+             m.vx_mps * m.yaw_rate_rad_per_s;
   d.yaw_rate_rad_per_s = f.yaw_moment_nm / c.yaw_inertia_kgm2;
   for (std::size_t i = 0; i < world::kCorners; ++i) {
     // Deflection of the patch: fed by slip speed, laid down again as the tyre rolls.

@@ -23,8 +23,14 @@ struct Forces {
   double body_x_n = 0.0, body_y_n = 0.0;  // all but gravity, in the plane of the road
   double normal_n = 0.0;                  // tyres less downforce
   double yaw_moment_nm = 0.0;
-  double heading_rate_rad_per_s = 0.0;  // of the map yaw
+  double heading_rate_rad_per_s = 0.0;                           // of the map yaw
+  double roll_rate_rad_per_s = 0.0, pitch_rate_rad_per_s = 0.0;  // about body x and y
 };
+
+struct MapVelocity {
+  double east_mps = 0.0, north_mps = 0.0, up_mps = 0.0;
+};
+MapVelocity map_velocity(const Motion& motion, const Surface& surface);
 
 Forces forces_of(const Params& params, const State& discrete, const Motion& motion,
                  const Surface& surface);

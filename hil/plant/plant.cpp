@@ -108,11 +108,12 @@ std::uint8_t shift_status(const State& s) {
 }
 
 void observe_map(const Motion& m, const Forces& f, const Surface& road, Truth& t) {
-  const double level_vy_mps = m.vy_mps * std::cos(road.bank_rad);
-  t.x_m = m.x_m, t.y_m = m.y_m, t.yaw_rad = wrap_pi(m.yaw_rad);
+  const MapVelocity over_ground = map_velocity(m, road);
+  t.x_m = m.x_m, t.y_m = m.y_m, t.z_m = road.height_m, t.yaw_rad = wrap_pi(m.yaw_rad);
+  t.roll_rad = -road.bank_rad, t.pitch_rad = -road.climb_rad;
   t.vx_mps = m.vx_mps, t.vy_mps = m.vy_mps, t.yaw_rate_rad_per_s = m.yaw_rate_rad_per_s;
-  t.map_vx_mps = m.vx_mps * std::cos(m.yaw_rad) - level_vy_mps * std::sin(m.yaw_rad);
-  t.map_vy_mps = m.vx_mps * std::sin(m.yaw_rad) + level_vy_mps * std::cos(m.yaw_rad);
+  t.map_vx_mps = over_ground.east_mps, t.map_vy_mps = over_ground.north_mps;
+  t.map_vz_mps = over_ground.up_mps;
   t.heading_rate_rad_per_s = f.heading_rate_rad_per_s;
   t.bank_rad = road.bank_rad;
   t.speed_mps = std::hypot(m.vx_mps, m.vy_mps);
@@ -174,8 +175,7 @@ Truth observe(const Params& params, const State& state, const Surface& surface) 
   const Forces f = forces_of(params, state, m, surface);
   Truth t;
   observe_map(m, f, surface, t);
-  t.rate_rad_per_s = {-surface.bank_rate_rad_per_s,
-                      -f.heading_rate_rad_per_s * std::sin(surface.bank_rad), m.yaw_rate_rad_per_s};
+  t.rate_rad_per_s = {f.roll_rate_rad_per_s, f.pitch_rate_rad_per_s, m.yaw_rate_rad_per_s};
   const double carried_kg = mass_kg(params, state);
   t.specific_force_mps2 = {f.body_x_n / carried_kg, f.body_y_n / carried_kg,
                            f.normal_n / carried_kg};

@@ -1,10 +1,13 @@
 // The modelled car: a double-track AV-21 as a function from state to state.
 //   in     what the drive-by-wire tells its actuators, and the road under the car
 //   out    the next state; observe() says everything that a sensor or a judge may ask of a state
-//   frames Map: x east, y north, yaw from east, counter-clockwise. Body: ISO 8855 at the centre of
-//          gravity; velocities, yaw rate and forces lie in the plane of the road. Banking positive
-//          where the left side is lower: then gravity pulls to the left with g sin(bank), the
-//          heading turns with r / cos(bank), and the map sees lateral distances times cos(bank).
+//   frames Map: x east, y north, z up, yaw from east, counter-clockwise. Body: ISO 8855 at the
+//          centre of gravity; velocities, yaw rate and forces lie in the plane of the road. Banking
+//          positive where the left side is lower, climb positive uphill: the car's roll is minus the
+//          banking, its pitch minus the climb (Euler angles in the order yaw, pitch, roll). Gravity
+//          pulls to the left with g sin(bank) cos(climb) and back with g sin(climb); the heading
+//          turns with (r + climb' sin(bank)) / (cos(bank) cos(climb)); the road carries the weight
+//          and what bends the path out of its plane.
 //   method classical Runge-Kutta, one step of substep_s; the discrete parts (command delay, gear
 //          box, wheels that lock) change between two substeps
 //   wind   drag and downforce follow the air's speed along the car; the side force is that of the
@@ -41,11 +44,12 @@ struct Actuation {
   bool starter = false;             // turns a standing engine
 };
 
-// The road under the car. Default: level, dry.
+// The road under the car, as it lies along and across the car. Default: level, dry.
 struct Surface {
-  double bank_rad = 0.0;
-  double bank_rate_rad_per_s = 0.0;  // change of banking as the car moves, for the gyros only
-  double grip = 1.0;                 // scales every friction coefficient
+  double bank_rad = 0.0, climb_rad = 0.0;
+  double bank_rate_rad_per_s = 0.0, climb_rate_rad_per_s = 0.0;  // as the car moves
+  double height_m = 0.0;  // Map z of the centre of gravity; nothing depends on it
+  double grip = 1.0;      // scales every friction coefficient
   double wind_east_mps = 0.0, wind_north_mps = 0.0;  // of the air over ground, where it blows to
 };
 
@@ -96,8 +100,10 @@ inline double mass_kg(const Params& params, const State& state) {
 struct Truth {
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;  // Map; yaw wrapped
   double vx_mps = kUnset, vy_mps = kUnset, yaw_rate_rad_per_s = kUnset;
-  double map_vx_mps = kUnset, map_vy_mps = kUnset;  // velocity over ground, east and north
-  double heading_rate_rad_per_s = kUnset;           // of the map yaw
+  double z_m = kUnset;                           // of the centre of gravity
+  double roll_rad = kUnset, pitch_rad = kUnset;  // left side up, nose down positive
+  double map_vx_mps = kUnset, map_vy_mps = kUnset, map_vz_mps = kUnset;  // east, north, up
+  double heading_rate_rad_per_s = kUnset;                                // of the map yaw
   double bank_rad = kUnset;
   double speed_mps = kUnset;
   std::array<double, 3> rate_rad_per_s{kUnset, kUnset, kUnset};       // body x, y, z
