@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <string>
 #include <vector>
+
+#include "protocol/gnss/novatel_ascii.hpp"
 
 namespace pitwall::gnss {
 namespace {
@@ -29,6 +32,17 @@ Bytes frame_of(std::uint32_t ms) {
   m.horizontal_mps = m.track_over_ground_deg = m.vertical_mps = 1.0;
   RawImuSx raw{.week = 2209, .seconds = ms * 1e-3};
   const std::size_t n = ms % 2 == 0 ? encode(header, m, out) : encode(header, raw, out);
+  return {out.begin(), out.begin() + static_cast<std::ptrdiff_t>(n)};
+}
+
+Bytes ascii_of(std::uint32_t ms) {
+  std::array<std::uint8_t, kMaxAsciiBytes> out{};
+  NovatelHeader header;
+  header.week = 2209, header.milliseconds = ms;
+  RawImuSx raw{.week = 2209, .seconds = ms * 1e-3};
+  Time time{.offset_s = 0.0, .offset_sigma_s = 0.0, .utc_offset_s = -18.0};
+  const std::size_t n =
+      ms % 2 == 0 ? encode_ascii(header, time, out) : encode_ascii(header, raw, out);
   return {out.begin(), out.begin() + static_cast<std::ptrdiff_t>(n)};
 }
 
@@ -57,6 +71,65 @@ Bytes frames_among_garbage(Random& random, std::uint32_t frames) {
   }
   bytes.resize(bytes.size() + NovatelStream::kMaxFrameBytes, 0);  // lets every false start end
   return bytes;
+}
+
+// Binary and ASCII by turns, NMEA and parts of logs between them.
+Bytes mixed_stream(Random& random, std::uint32_t frames) {
+  const std::string nmea = "$GPGGA,134658.00,5106.9792,N,11402.3003,W,2,09,1.0,1048.47,M,,,*5B\r\n";
+  Bytes bytes;
+  for (std::uint32_t i = 0; i < frames; ++i) {
+    if (random.below(3) == 0) append(bytes, Bytes{nmea.begin(), nmea.end()});
+    const Bytes frame = random.below(2) == 0 ? ascii_of(i) : frame_of(i);
+    if (random.below(3) == 0) {
+      append(bytes, {frame.begin(),
+                     frame.begin() + static_cast<std::ptrdiff_t>(random.below(frame.size()))});
+    }
+    append(bytes, frame);
+  }
+  bytes.resize(bytes.size() + NovatelStream::kMaxFrameBytes, 0);
+  return bytes;
+}
+
+TEST(NovatelStream, FindsBinaryAndAsciiMixedHoweverTheBytesAreCut) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Random random{seed * 0x9E3779B97F4A7C15ULL};
+    const Bytes bytes = mixed_stream(random, 40);
+    std::vector<std::uint32_t> expected(40);
+    for (std::uint32_t i = 0; i < 40; ++i) expected[i] = i;
+    StreamCounters first;
+    for (const std::size_t piece :
+         {std::size_t{1}, 1 + random.below(50), std::size_t{1'000}, bytes.size()}) {
+      NovatelStream stream;
+      EXPECT_EQ(times_in(stream, bytes, piece), expected) << "seed " << seed << " piece " << piece;
+      if (piece == 1) first = stream.counters();
+      EXPECT_EQ(stream.counters().garbage_bytes, first.garbage_bytes);
+      EXPECT_EQ(stream.counters().ascii_frames, first.ascii_frames);
+      EXPECT_EQ(stream.counters().bad_crc, first.bad_crc);
+    }
+    EXPECT_GT(first.ascii_frames, 0U);
+  }
+}
+
+TEST(NovatelStream, ATextThatBeginsLikeALogHoldsUpItsOwnLengthOnly) {
+  Bytes bytes(1'500, 'A');
+  bytes[0] = '#';
+  append(bytes, frame_of(8));
+  NovatelStream stream;
+  EXPECT_EQ(times_in(stream, bytes, 10), std::vector<std::uint32_t>{8});
+  EXPECT_EQ(stream.counters().garbage_bytes, 1'500U);
+}
+
+TEST(NovatelStream, AnAsciiLogEndsWithItsLineEnd) {
+  Bytes bytes = ascii_of(6);
+  const Bytes whole = bytes;
+  for (std::size_t keep = 0; keep < whole.size(); ++keep) {
+    NovatelStream stream;
+    bytes.assign(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(keep));
+    EXPECT_TRUE(times_in(stream, bytes, 5).empty()) << keep;
+    append(bytes, whole);
+    NovatelStream again;
+    EXPECT_EQ(times_in(again, bytes, 5), std::vector<std::uint32_t>{6}) << keep;
+  }
 }
 
 TEST(NovatelStream, FindsEveryFrameAmongGarbageHoweverTheBytesAreCut) {
