@@ -35,6 +35,11 @@ std::uint32_t wait_readable(std::span<const int> descriptors, Instant deadline) 
 ReadOutcome read_available(int descriptor, std::span<std::uint8_t> into) {
   const int watched[] = {descriptor};
   if (into.empty() || wait_readable(watched, Instant{}) == 0) return {};
+  return read_now(descriptor, into);
+}
+
+ReadOutcome read_now(int descriptor, std::span<std::uint8_t> into) {
+  if (into.empty()) return {};
   const auto got = posix_call([&] { return ::read(descriptor, into.data(), into.size()); });
   if (got.would_block()) return {};
   if (!got.ok() || got.value == 0) return {.bytes = 0, .ended = true};

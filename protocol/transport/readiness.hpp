@@ -24,5 +24,7 @@ struct ReadOutcome {
 
 // What is there now, without waiting.
 ReadOutcome read_available(int descriptor, std::span<std::uint8_t> into);
+// Likewise of a descriptor that is non-blocking: one system call.
+ReadOutcome read_now(int descriptor, std::span<std::uint8_t> into);
 
 }  // namespace pitwall::transport

@@ -3,10 +3,11 @@
 
 #include <fcntl.h>
 #include <sys/socket.h>
-#include <termios.h>
 
 #include <algorithm>
 #include <cstring>
+
+#include "protocol/transport/serial_port.hpp"
 
 namespace pitwall::transport {
 namespace {
@@ -17,17 +18,6 @@ PosixOutcome write_some(int fd, std::span<const std::uint8_t> bytes) {
       posix_call([&] { return ::send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL); });
   if (sent.error != ENOTSOCK) return sent;
   return posix_call([&] { return ::write(fd, bytes.data(), bytes.size()); });
-}
-
-PosixOutcome make_raw(int fd) {
-  termios settings{};
-  const auto got = posix_call([&] { return tcgetattr(fd, &settings); });
-  if (!got.ok()) return got;
-  cfmakeraw(&settings);
-  settings.c_cflag |= CLOCAL;
-  settings.c_cc[VMIN] = 1;
-  settings.c_cc[VTIME] = 0;
-  return posix_call([&] { return tcsetattr(fd, TCSANOW, &settings); });
 }
 
 }  // namespace

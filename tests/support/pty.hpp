@@ -1,0 +1,36 @@
+// A serial device for tests: a pseudo-terminal whose other end the test holds.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "protocol/transport/posix_call.hpp"
+
+namespace pitwall::support {
+
+class Pty {
+ public:
+  Pty() : master_(transport::posix_call([] { return posix_openpt(O_RDWR | O_NOCTTY); })) {
+    EXPECT_EQ(grantpt(master_.get()), 0);
+    EXPECT_EQ(unlockpt(master_.get()), 0);
+  }
+  std::string path() const { return ptsname(master_.get()); }
+  void say(std::span<const std::uint8_t> bytes) const {
+    EXPECT_EQ(::write(master_.get(), bytes.data(), bytes.size()), std::ssize(bytes));
+  }
+  void say(std::string_view text) const {
+    say({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  }
+
+ private:
+  transport::FileDescriptor master_;
+};
+
+}  // namespace pitwall::support
