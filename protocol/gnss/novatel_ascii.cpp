@@ -88,7 +88,7 @@ bool read_value(Kind kind, std::string_view text, T& value) {
 bool read_text(std::string_view text, std::array<char, 4>& value) {
   if (text.size() < 2 || text.front() != '"' || text.back() != '"') return false;
   text = text.substr(1, text.size() - 2);
-  if (text.size() > value.size()) return false;
+  if (text.size() > value.size() || text.find('"') != std::string_view::npos) return false;
   value = {};
   std::copy(text.begin(), text.end(), value.begin());
   return true;

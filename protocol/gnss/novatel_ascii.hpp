@@ -6,8 +6,8 @@
 //          (newer firmware appends), fewer are not.
 //   law    what is written reads back the same: numbers are written with as many digits as they
 //          need, values without a name as decimal numbers
-//   source OEM7 Commands and Logs Reference Manual: ASCII, Description of ASCII and Binary Logs with
-//          Short Headers
+//   source OEM7 Commands and Logs Reference Manual: ASCII, Description of ASCII and Binary Logs
+//          with Short Headers
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -3,8 +3,8 @@
 //   in     a number or a word
 //   out    the other; nothing where the tables do not have it
 //   source OEM7 Commands and Logs Reference Manual: "Solution Status", "Position or Velocity Type",
-//          "Inertial Solution Status", "Datum Transformation Parameters", "Clock Model Status", "GPS
-//          Reference Time Status", "Detailed Port Identifier"
+//          "Inertial Solution Status", "Datum Transformation Parameters", "Clock Model Status",
+//          "GPS Reference Time Status", "Detailed Port Identifier"
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Logs of every kind with one to three bits flipped anywhere: none is accepted. PITWALL_FLIPPED_LOGS
-// raises their number; a million are the gate of a long run.
+// Logs of every kind with one to three bits flipped anywhere: none is accepted. Their number is
+// raised by PITWALL_FLIPPED_LOGS; a million are the gate of a long run.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -165,8 +165,8 @@ TEST(NovatelCodec, RecordedFramesSurviveDecodeAndEncodeToTheByte) {
   EXPECT_GE(compared, 30);
 }
 
-// Oracle: the driver's gps message takes its position from the INSPVAS before it or the INSPVAX, and
-// its odometry from the BESTUTM.
+// Oracle: the driver's gps message takes its position from the BESTPOS or INSPVAS before it, its
+// speed from the BESTVEL or INSPVAS.
 TEST(NovatelCodec, ReadsPositionsAsTheVendorsDriverDoes) {
   const auto bytes = recording("bestpos.gps");
   if (!bytes) GTEST_SKIP() << "no recordings at " << recordings_folder();

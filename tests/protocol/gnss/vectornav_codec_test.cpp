@@ -61,7 +61,7 @@ TEST(VectorNavCodec, ReadsTheSecondExampleOfTheManual) {
   EXPECT_FLOAT_EQ(m.temperature_c, 20.522337F);
 }
 
-// The array of lengths in the manual, section 4.3.6 (groups 1 to 6; group 4 and 7 have grown since).
+// The array of lengths in the manual, section 4.3.6 (groups 1 to 6; 4 and 7 have grown since).
 TEST(VectorNavCodec, LengthsOfFieldsAreThoseOfTheManual) {
   constexpr std::array<std::array<unsigned, 15>, 6> kManual{{
       {8, 8, 8, 12, 16, 12, 24, 12, 12, 24, 20, 28, 2, 4, 8},
