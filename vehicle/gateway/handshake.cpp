@@ -113,14 +113,15 @@ CtEvents events_of(const HandshakeParams& params, const HandshakeInputs& in) {
   const bool halt =
       red || kill || in.vehicle == VehicleFlag::kStop || in.vehicle == VehicleFlag::kUnknown;
   const bool stands = in.speed_mps <= params.standstill_mps;  // unset: false
-  const bool armed = in.mode == Mode::kStandby || in.mode == Mode::kDriving;
+  // A car that coasts drives on for the drive-by-wire, which has no word for it.
+  const bool drives = in.mode == Mode::kDriving || in.mode == Mode::kCoast;
+  const bool armed = in.mode == Mode::kStandby || drives;
   const bool orange =
       in.track == TrackFlag::kOrange || in.vehicle == VehicleFlag::kOrangeStartEngine;
   const bool green = in.track == TrackFlag::kGreen || in.track == TrackFlag::kWavingGreen;
   const bool yellow = in.track == TrackFlag::kYellow || in.track == TrackFlag::kChequered;
   const bool running = in.sys == SysState::kEngineRunning || in.sys == SysState::kDriving;
-  const bool roll =
-      in.mode == Mode::kDriving && in.sys == SysState::kDriving && (green || yellow) && !halt;
+  const bool roll = drives && in.sys == SysState::kDriving && (green || yellow) && !halt;
   CtEvents events{};
   events[at(CtEvent::kEmergency)] = in.mode == Mode::kEmergencyStop || in.operator_emergency ||
                                     in.vehicle == VehicleFlag::kPurpleEmergency;

@@ -8,6 +8,7 @@
 namespace pitwall::safety {
 namespace {
 
+using world::Monitor;
 using world::SysState;
 using world::Validity;
 using world::VehicleFlag;
@@ -20,12 +21,22 @@ struct Finder {
   const FaultInputs& in;
   FaultOutput out;
 
+  bool is_off(Monitor monitor) const { return params.off.has(monitor); }
   void add(Cause cause, bool holds, double value) {
     if (!holds) return;
     out.causes.add(cause);
     out.values[static_cast<std::size_t>(cause)] = value;
   }
   void add(Cause cause, bool holds) { add(cause, holds, 1.0); }
+  // What this monitor found.
+  void add(Monitor monitor, Cause cause, bool holds, double value) {
+    if (is_off(monitor)) return;
+    add(cause, holds, value);
+    see(monitor, holds);
+  }
+  void see(Monitor monitor, bool holds) {
+    if (holds && !is_off(monitor)) out.seen.add(monitor);
+  }
 };
 
 bool is_down(const StreamRow& row) {
@@ -67,7 +78,7 @@ void drive_by_wire(Finder& f) {
   f.add(Cause::kMotecCommsLost, d.motec_comms_lost);
   f.add(Cause::kBrakeOutOfSpec, d.front_brake_out_of_spec || d.rear_brake_out_of_spec);
   f.add(Cause::kComputerHeartbeatLost, d.computer_heartbeat_lost);
-  f.add(Cause::kRaceControlReportedLost, d.race_control_lost);
+  f.add(Monitor::kRaceControl, Cause::kRaceControlReportedLost, d.race_control_lost, 1.0);
 }
 
 void bus(Finder& f) {
@@ -79,7 +90,8 @@ void bus(Finder& f) {
   f.add(Cause::kOwnIdOnBus, f.in.own_id_seen);
   // Value: which stream.
   for (std::size_t s = kFirstOfDriveByWire; s <= kLastOfDriveByWire; ++s)
-    f.add(Cause::kBusMessageLost, is_down(f.in.watchdog.rows[s]), static_cast<double>(s));
+    f.add(Monitor::kMessageAge, Cause::kBusMessageLost, is_down(f.in.watchdog.rows[s]),
+          static_cast<double>(s));
 }
 
 // Since the newest message of the drive-by-wire; none before the first.
@@ -95,10 +107,10 @@ std::optional<Duration> drive_by_wire_silence(const WatchdogOutput& dog) {
 
 void dead_bus(Finder& f, FaultState& state, Instant now) {
   const auto silence = drive_by_wire_silence(f.in.watchdog);
-  const bool dead = silence && *silence > f.params.bus_dead;
+  const bool dead = silence && *silence > f.params.bus_dead && !f.is_off(Monitor::kMessageAge);
   if (dead && !state.bus_dead) state.bus_dead_since = now;
   state.bus_dead = dead;
-  f.add(Cause::kBusDead, dead, silence ? silence->seconds() : kUnset);
+  f.add(Monitor::kMessageAge, Cause::kBusDead, dead, silence ? silence->seconds() : kUnset);
   f.out.nobody_obeys = dead && now - state.bus_dead_since >= f.params.bus_dead_disarm;
 }
 
@@ -110,7 +122,9 @@ void counts(Finder& f, FaultState& state) {
   const bool failed =
       run(state.control_failed_ticks, f.in.driving && !f.in.control_ok, f.params.control_failures);
   const bool refused = run(state.gate_refused_ticks, f.in.gate_refused, f.params.refused_ticks);
-  f.add(Cause::kControlFailed, failed, state.control_failed_ticks);
+  const std::uint8_t missing = state.control_failed_ticks;
+  f.add(Monitor::kModule, Cause::kControlFailed, failed, missing);
+  f.add(Monitor::kModule, Cause::kControlLate, missing > 0 && !failed, missing);
   f.add(Cause::kCommandRefused, refused, state.gate_refused_ticks);
 }
 
@@ -126,29 +140,143 @@ void localization(Finder& f, FaultState& state, Instant now) {
   const Duration blind = now - state.last_good;
   f.add(Cause::kDeadReckoningTooLong, !state.positioned || blind > f.params.dead_reckoning_max,
         state.positioned ? blind.seconds() : kUnset);
+  const bool passing = state.positioned && blind > f.params.dead_reckoning_coast;
+  f.add(Cause::kPositionPassing, passing, blind.seconds());
   // Not a number is uncertain.
   f.add(Cause::kLocalizationUncertain, !(ego.position_sigma_m <= f.params.position_sigma_max_m),
         ego.position_sigma_m);
 }
 
+void gnss(Finder& f) {
+  const WatchdogOutput& dog = f.in.watchdog;
+  const auto pair = [&](Monitor monitor, Cause cause, Stream a, Stream b) {
+    f.add(monitor, cause, both_down(dog, a, b), age_s(dog, a, b));
+    return both_down(dog, a, b);
+  };
+  bool lost = false;
+  for (const Stream link : {Stream::kGnss0Link, Stream::kGnss1Link}) {
+    lost = lost || is_down(dog[link]);
+    f.add(Monitor::kStreamAge, Cause::kGnssUnitDisconnected, is_down(dog[link]),
+          dog[link].age.seconds());
+  }
+  lost = pair(Monitor::kStreamAge, Cause::kGnssRateLost, Stream::kGnss0Position,
+              Stream::kGnss1Position) ||
+         lost;
+  lost = pair(Monitor::kSolution, Cause::kGnssSolutionLost, Stream::kGnss0Solution,
+              Stream::kGnss1Solution) ||
+         lost;
+  pair(Monitor::kStreamAge, Cause::kImuLost, Stream::kImu0, Stream::kImu1);
+
+  const auto is_uncertain = [&](std::size_t unit) {
+    return dog.sigma_m[unit] > f.params.gnss_sigma_max_m;  // unset: false
+  };
+  const auto is_bad = [&](Stream position, Stream solution, std::size_t unit) {
+    return is_down(dog[position]) || is_down(dog[solution]) || is_uncertain(unit);
+  };
+  const auto is_watched = [&](Stream s) { return dog[s].health != Health::kUnwatched; };
+  const bool has_0 = is_watched(Stream::kGnss0Position), has_1 = is_watched(Stream::kGnss1Position);
+  const bool bad_0 = has_0 && is_bad(Stream::kGnss0Position, Stream::kGnss0Solution, 0);
+  const bool bad_1 = has_1 && is_bad(Stream::kGnss1Position, Stream::kGnss1Solution, 1);
+  const bool none_good = (bad_0 || !has_0) && (bad_1 || !has_1);
+  const bool uncertain = (has_0 && is_uncertain(0)) || (has_1 && is_uncertain(1));
+  f.add(Monitor::kSolution, Cause::kGnssRtkLost, none_good && uncertain,
+        std::fmin(dog.sigma_m[0], dog.sigma_m[1]));
+  f.add(Monitor::kStreamAge, Cause::kGnssDegraded, (bad_0 || bad_1) && !none_good && !lost,
+        bad_1 ? 1.0 : 0.0);
+}
+
 void streams(Finder& f) {
   const WatchdogOutput& dog = f.in.watchdog;
-  const auto down = [&](Cause cause, Stream s) {
-    f.add(cause, is_down(dog[s]), dog[s].age.seconds());
-  };
-  const auto pair = [&](Cause cause, Stream a, Stream b) {
-    f.add(cause, both_down(dog, a, b), age_s(dog, a, b));
-  };
-  down(Cause::kPlanLost, Stream::kPlanner);
-  down(Cause::kGnssUnitDisconnected, Stream::kGnss0Link);
-  down(Cause::kGnssUnitDisconnected, Stream::kGnss1Link);
-  pair(Cause::kGnssRateLost, Stream::kGnss0Position, Stream::kGnss1Position);
-  pair(Cause::kGnssSolutionLost, Stream::kGnss0Solution, Stream::kGnss1Solution);
-  pair(Cause::kImuLost, Stream::kImu0, Stream::kImu1);
-  if (f.params.race_control_required) down(Cause::kRaceControlLost, Stream::kRaceControl);
+  const auto is_late = [&](Stream s) { return dog[s].health == Health::kWarning; };
+  const StreamRow& plan = dog[Stream::kPlanner];
+  f.add(Monitor::kModule, Cause::kPlanLost, is_down(plan), plan.age.seconds());
+  f.add(Monitor::kModule, Cause::kPlanLate, is_late(Stream::kPlanner), plan.age.seconds());
+
+  const StreamRow& race = dog[Stream::kRaceControl];
+  if (f.params.race_control_required)
+    f.add(Monitor::kRaceControl, Cause::kRaceControlLost, is_down(race), race.age.seconds());
+  f.see(Monitor::kRaceControl, is_late(Stream::kRaceControl));
   if (f.params.radio_loss_stops)
-    f.add(Cause::kRadioLost, f.in.radio_stop || is_down(dog[Stream::kRadio]),
+    f.add(Monitor::kRadioLink, Cause::kRadioLost, f.in.radio_stop || is_down(dog[Stream::kRadio]),
           dog[Stream::kRadio].age.seconds());
+  f.see(Monitor::kRadioLink, f.in.radio_fades || is_late(Stream::kRadio));
+}
+
+void flags(Finder& f) {
+  const world::RaceControl& race = f.in.race_control;
+  const bool unknown =
+      race.track == world::TrackFlag::kUnknown || race.vehicle == VehicleFlag::kUnknown;
+  f.add(Monitor::kFlagAgreement, Cause::kFlagsDisagree,
+        race.ever_heard && (unknown || race.conflict), race.conflict ? 2.0 : 1.0);
+}
+
+// While the car rolls and nobody but us tells its actuators what to do.
+bool obeys_us(const Finder& f) {
+  const auto& misc = f.in.signals.misc;
+  const auto& said = f.in.signals.diagnostics;
+  const bool drives = misc.heard && misc.value.sys_state == SysState::kDriving;
+  const bool own_will =
+      said.heard && (said.value.emergency_brake || said.value.computer_heartbeat_lost);
+  return f.in.moves && drives && !own_will && f.in.speed_mps > f.params.following.moving_mps;
+}
+
+template <class T, class Part>
+world::Heard<double> part_of(const world::Heard<T>& whole, Part part) {
+  return {whole.value.*part, whole.at, whole.heard};
+}
+
+void actuators(Finder& f, FaultState& state, Instant now) {
+  const ActuatorParams& p = f.params.following;
+  const world::VehicleSignals& s = f.in.signals;
+  const world::ActuatorCommand& told = f.in.told;
+  if (!obeys_us(f)) {
+    state.steering = state.brake_front = state.brake_rear = state.throttle = {};
+    return;
+  }
+  const auto judge = [&](Monitor monitor, Cause cause, const FollowLimits& limits,
+                         FollowState& follow, double command, const world::Heard<double>& heard) {
+    const double excess = straying(limits, follow, command, heard, now);
+    f.add(monitor, cause, excess > 0.0, excess);
+  };
+  judge(Monitor::kSteeringFollows, Cause::kSteeringStrays, p.steering, state.steering,
+        told.road_wheel_rad * f.in.steering_ratio, s.steering_motor_rad);
+  judge(Monitor::kBrakeFollows, Cause::kBrakeStrays, p.brake, state.brake_front, told.brake_kpa,
+        part_of(s.brake, &world::BrakePressure::front_kpa));
+  judge(Monitor::kBrakeFollows, Cause::kBrakeStrays, p.brake, state.brake_rear, told.brake_kpa,
+        part_of(s.brake, &world::BrakePressure::rear_kpa));
+  judge(Monitor::kThrottleFollows, Cause::kThrottleStrays, p.throttle, state.throttle,
+        told.throttle_fraction, s.throttle_fraction);
+}
+
+void rear_axle(Finder& f, FaultState& state, Instant now) {
+  constexpr Duration kAge = milliseconds(50);
+  const world::VehicleSignals& s = f.in.signals;
+  const bool located = f.in.ego.validity == Validity::kGood;
+  OversteerInputs in;
+  if (s.wheel_speed_mps.fresh(now, kAge)) in.wheel_mps = s.wheel_speed_mps.value;
+  if (s.steering_motor_rad.fresh(now, kAge))
+    in.road_wheel_rad = s.steering_motor_rad.value / f.in.steering_ratio;
+  if (located) in.speed_mps = f.in.ego.vx_mps;
+  if (located) in.yaw_rate_rad_per_s = f.in.ego.yaw_rate_rad_per_s;
+  const double worst = oversteer(f.params.oversteer, state.oversteer, in);
+  f.add(Monitor::kOversteer, Cause::kOversteer, f.in.moves && worst > 0.0, worst);
+}
+
+void computer(Finder& f, FaultState& state, Instant now) {
+  const world::ComputerHealth& health = f.in.computer;
+  const ComputerVerdict v = judge_computer(f.params.computer, state.computer, health, now);
+  f.add(Monitor::kTiming, Cause::kTicksMissed, v.missed, v.gap.seconds());
+  f.add(Monitor::kTiming, Cause::kComputerLate, v.late, state.computer.late_s);
+  f.add(Monitor::kTiming, Cause::kProcessorBusy, v.busy, health.processor_share);
+  f.add(Monitor::kTiming, Cause::kComputerMemory, v.full, health.memory_mib);
+  f.add(Monitor::kTiming, Cause::kComputerHot, v.hot, health.temperature_c);
+}
+
+void clocks(Finder& f, FaultState& state, Instant now) {
+  if (f.in.sensors == nullptr) return;
+  const ClockOutput v = watch_clock(f.params.clock, state.clock, *f.in.sensors, now);
+  f.add(Monitor::kClock, Cause::kClockStepped, v.stepped, v.step_s);
+  f.add(Monitor::kClock, Cause::kClockSkewed, v.skewed, v.skew_ppm);
 }
 
 }  // namespace
@@ -162,7 +290,13 @@ FaultOutput detect(const FaultParams& params, FaultState& state, const FaultInpu
   dead_bus(finder, state, now);
   counts(finder, state);
   localization(finder, state, now);
+  gnss(finder);
   streams(finder);
+  flags(finder);
+  actuators(finder, state, now);
+  rear_axle(finder, state, now);
+  computer(finder, state, now);
+  clocks(finder, state, now);
   return finder.out;
 }
 

@@ -1,7 +1,9 @@
 // What is wrong now: every cause that holds in this tick, each with the number that crossed its
 // limit. Pure; latches nothing but the instants that "too long" needs.
-//   in     signals, bus health, flags, ego state, watchdog rows, verdicts of planning and control
-//   out    a set of causes; mode_table decides what they mean
+//   in     signals, bus health, flags, ego state, watchdog rows, verdicts of planning and control,
+//          what the actuators were told, the computer's health
+//   out    a set of causes; causes.hpp says what is done about each, mode_table what follows
+//   law    what a monitor finds that is switched off is not found
 //   errors none
 //
 // The dead bus. The drive-by-wire sends four messages every 10 ms or faster and never pauses. When
@@ -20,25 +22,47 @@
 
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/safety/clock_watch.hpp"
+#include "vehicle/safety/computer_judge.hpp"
 #include "vehicle/safety/fault_log.hpp"
+#include "vehicle/safety/following.hpp"
+#include "vehicle/safety/oversteer.hpp"
 #include "vehicle/safety/watchdog.hpp"
+#include "vehicle/world/actuator_command.hpp"
 #include "vehicle/world/bus_health.hpp"
+#include "vehicle/world/computer_health.hpp"
 #include "vehicle/world/ego_state.hpp"
 #include "vehicle/world/monitor.hpp"
 #include "vehicle/world/race_control.hpp"
+#include "vehicle/world/sensor_input.hpp"
 #include "vehicle/world/signals.hpp"
 
 namespace pitwall::safety {
 
+// Of the actuators as localization and the drive-by-wire know them: the lags of [T] and [O] of the
+// plant's sources, 0.1 s of steering, 0.1 s of brake, 0.05 s of throttle, and the way on the bus.
+struct ActuatorParams {
+  FollowLimits steering{.settle_s = 0.2, .tolerance = 0.05};                // rad at the motor
+  FollowLimits brake{.settle_s = 0.25, .tolerance = 200.0, .share = 0.05};  // kPa
+  FollowLimits throttle{.settle_s = 0.15, .tolerance = 0.06};               // 0 .. 1
+  double moving_mps = 3.0;  // below, the drive-by-wire may hold the car itself; [1, 20]
+};
+
 struct FaultParams {
-  Duration dead_reckoning_max = milliseconds(1500);  // [0.1, 10] s
-  Duration bus_dead = milliseconds(70);              // nothing of the drive-by-wire; [0.03, 0.1] s
-  Duration bus_dead_disarm = seconds(20);            // thereafter; [5, 60] s
-  double position_sigma_max_m = 1.0;                 // [0.1, 10]
-  std::uint8_t control_failures = 3;                 // ticks in a row; [1, 20]
-  std::uint8_t refused_ticks = 3;                    // ticks in a row with a refused frame; [1, 20]
-  bool radio_loss_stops = true;                      // base station lost for the watchdog's limit
+  Duration dead_reckoning_max = milliseconds(1500);   // [0.1, 10] s
+  Duration dead_reckoning_coast = milliseconds(300);  // [0.05 s, dead_reckoning_max)
+  Duration bus_dead = milliseconds(70);               // nothing of the drive-by-wire; [0.03, 0.1] s
+  Duration bus_dead_disarm = seconds(20);             // thereafter; [5, 60] s
+  double position_sigma_max_m = 1.0;                  // of the fused position; [0.1, 10]
+  double gnss_sigma_max_m = 0.5;                      // of both units' own; [0.05, 10]
+  std::uint8_t control_failures = 3;                  // ticks in a row; [1, 20]
+  std::uint8_t refused_ticks = 3;  // ticks in a row with a refused frame; [1, 20]
+  bool radio_loss_stops = true;    // base station lost for the watchdog's limit
   bool race_control_required = true;
+  ActuatorParams following;
+  OversteerParams oversteer;
+  ClockParams clock;
+  ComputerParams computer;
   world::MonitorSet off{};  // of the bench alone: no car file sets it
 };
 
@@ -61,6 +85,14 @@ struct FaultInputs {
   bool control_ok = false;    // control gave a command this tick
   bool gate_refused = false;  // the gate refused a frame of the previous tick
   bool driving = false;       // control is expected to give commands
+  bool moves = false;         // a mode in which the car may roll: driving, coasting, stopping
+  bool radio_fades = false;   // a rung of the radio's ladder has gone
+  const world::SensorInput* sensors = nullptr;  // of this tick; none: no clock is watched
+  world::ComputerHealth computer{};
+  // What the actuators were told last; unset while nothing was.
+  world::ActuatorCommand told{};
+  double steering_ratio = 19.5;
+  double speed_mps = kUnset;  // by the wheels
 };
 
 struct FaultState {
@@ -69,6 +101,10 @@ struct FaultState {
   std::uint8_t control_failed_ticks = 0, gate_refused_ticks = 0;
   bool bus_dead = false;
   Instant bus_dead_since{};  // when it was noticed
+  FollowState steering, brake_front, brake_rear, throttle;
+  OversteerState oversteer;
+  ClockState clock;
+  ComputerState computer;
 };
 
 struct FaultOutput {

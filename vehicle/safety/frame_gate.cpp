@@ -88,13 +88,30 @@ struct Bench {
   const GateParams& params;
   const GateContext& context;
   GateState& state;
+
+  // The line is held, gently; an emergency is another matter.
+  bool is_gentle() const {
+    return context.mode == Mode::kControlledStop || context.mode == Mode::kCoast;
+  }
+  bool stands() const { return context.mode == Mode::kStandby || context.mode == Mode::kHalted; }
 };
+
+// A pressure that was higher already may come down.
+Verdict brake_by_mode(const Bench& b, double kpa) {
+  const double last_kpa = b.state.memory.last_brake_kpa;
+  const double grip_kpa = stop_brake_limit_kpa(b.params, b.context.speed_mps);
+  if (b.is_gentle() && kpa > grip_kpa && kpa >= last_kpa) return Verdict::kOutOfRange;
+  if (b.stands() && kpa < b.params.hold_least_kpa && kpa < last_kpa) return Verdict::kBrakeReleased;
+  return Verdict::kPass;
+}
 
 Verdict judge_brake(Bench& b, const can::Frame& frame) {
   av21::BrakePressureCmd m;
   if (!av21::decode(frame, m)) return Verdict::kWrongLength;
   const double kpa = m.brake_pressure_cmd;
   if (kpa > b.params.brake_max_kpa) return Verdict::kOutOfRange;
+  const Verdict by_mode = brake_by_mode(b, kpa);
+  if (by_mode != Verdict::kPass) return by_mode;
   const Slew rise{b.params.brake_rise_kpa_per_s, kBrakeStep_kpa};
   const Slew fall{b.params.brake_fall_kpa_per_s, kBrakeStep_kpa};
   GateMemory& last = b.state.memory;
@@ -136,8 +153,12 @@ Verdict judge_steering(Bench& b, const can::Frame& frame) {
   av21::SteeringCmd m;
   if (!av21::decode(frame, m)) return Verdict::kWrongLength;
   const double deg = m.steering_motor_ang_cmd;
-  if (std::abs(deg) > steer_limit_deg(b.params, b.context.speed_mps)) return Verdict::kOutOfRange;
-  const Slew slew{b.params.steer_slew_deg_per_s, kSteerStep_deg};
+  const double share = b.is_gentle() ? b.params.stop_steer_share : 1.0;
+  if (std::abs(deg) > share * steer_limit_deg(b.params, b.context.speed_mps))
+    return Verdict::kOutOfRange;
+  const double per_s =
+      b.stands() ? b.params.hold_steer_slew_deg_per_s : b.params.steer_slew_deg_per_s;
+  const Slew slew{per_s, kSteerStep_deg};
   GateMemory& last = b.state.memory;
   const Instant now = b.context.now;
   if (too_fast(last.steer_deg, deg, slew, now) || too_fast(last.steer_negated_deg, -deg, slew, now))
@@ -254,6 +275,17 @@ double steer_limit_deg(const GateParams& params, double speed_mps) {
     limit_deg += std::fmax(0.0, std::fmin(1.0, share)) * (above.motor_deg - below.motor_deg);
   }
   return limit_deg;
+}
+
+double stop_brake_limit_kpa(const GateParams& params, double speed_mps) {
+  const auto& rows = params.stop_brake;
+  double limit_kpa = rows.front().kpa;
+  for (std::size_t i = 1; i < kStopBrakeRows; ++i) {
+    const StopBrakeRow &below = rows[i - 1], &above = rows[i];
+    const double share = (speed_mps - below.speed_mps) / (above.speed_mps - below.speed_mps);
+    limit_kpa += std::fmin(1.0, std::fmax(0.0, share)) * (above.kpa - below.kpa);
+  }
+  return limit_kpa;
 }
 
 GateOutput gate(const GateParams& params, GateState& state, const GateContext& context,

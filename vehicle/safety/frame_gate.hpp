@@ -11,6 +11,14 @@
 // Disarmed, only these pass: 1404 ct_report, 1405 ct_report_2, 1406 dash_switches_cmd, 1450
 // ct_vehicle_acc_feedback. Brake frames are judged before the others, wherever they stand: where
 // throttle and brake contradict each other it is the throttle that is refused.
+//
+//   armed and      throttle    brake                              steering
+//   Driving        may rise    up to brake_max                    table
+//   Coast          none        up to stop_brake, or less than was share of the table
+//   ControlledStop may fall    up to stop_brake, or less than was share of the table
+//   EmergencyStop  may fall    up to brake_max                    table
+//   Standby,       none        up to brake_max, not less than     table, hardly moves
+//   Halted                     hold_least once it is there
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -31,7 +39,7 @@ namespace pitwall::safety {
 
 inline constexpr std::size_t kMaxFrames = 16;     // 8 messages per tick, twice
 inline constexpr std::size_t kGatedMessages = 8;  // kToCar messages of the database
-inline constexpr std::size_t kSteerRows = 10;
+inline constexpr std::size_t kSteerRows = 10, kStopBrakeRows = 5;
 inline constexpr Duration kRateWindow = milliseconds(250);
 inline constexpr std::size_t kMaxPerWindow = 31;  // all have 100 Hz: x 0.25 s x 1.2 + 1
 
@@ -51,9 +59,10 @@ enum class Verdict : std::uint8_t {
   kGearStep,           // more than one gear, or sooner than the least time between shifts
   kThrottleForbidden,  // throttle in a mode that does not drive
   kThrottleRises,      // in a stop
-  kThrottleWithBrake   // both above their thresholds
+  kThrottleWithBrake,  // both above their thresholds
+  kBrakeReleased       // at standstill
 };
-inline constexpr std::size_t kVerdicts = 16;
+inline constexpr std::size_t kVerdicts = 17;
 
 constexpr const char* text_of(Verdict verdict) {
   constexpr std::array<const char*, kVerdicts> kTexts{"pass",
@@ -71,13 +80,19 @@ constexpr const char* text_of(Verdict verdict) {
                                                       "gear step",
                                                       "throttle forbidden",
                                                       "throttle rises",
-                                                      "throttle with brake"};
+                                                      "throttle with brake",
+                                                      "brake released"};
   return kTexts[static_cast<std::size_t>(verdict)];
 }
 
 // Largest motor angle at a speed; linear between rows, constant outside.
 struct SteerRow {
   double speed_mps, motor_deg;
+};
+
+// Largest pressure at a speed, likewise.
+struct StopBrakeRow {
+  double speed_mps, kpa;
 };
 
 struct GateParams {
@@ -93,7 +108,14 @@ struct GateParams {
                                           {60.0, 50.0},
                                           {70.0, 40.0},
                                           {80.0, 33.0}}};
-  double steer_slew_deg_per_s = 720.0;          // the motor's own limit; [60, 1500]
+  double steer_slew_deg_per_s = 720.0;      // the motor's own limit; [60, 1500]
+  double stop_steer_share = 0.85;           // of the table, in a stop; [0.5, 1]
+  double hold_steer_slew_deg_per_s = 60.0;  // at standstill; [1, steer_slew]
+  // What the front tyres can take on a straight before they lock: 1.05 x 350 kPa per m/s^2 x 0.65
+  // x 1.3 (g + downforce). Speeds and pressures rise; an unknown speed counts as none.
+  std::array<StopBrakeRow, kStopBrakeRows> stop_brake{
+      {{0.0, 3050.0}, {20.0, 3210.0}, {40.0, 3700.0}, {60.0, 4510.0}, {80.0, 5640.0}}};
+  double hold_least_kpa = 300.0;                // [0, 3000]
   double brake_max_kpa = 6000.0;                // [1000, 8191]
   double brake_rise_kpa_per_s = 30000.0;        // [1000, 100000]
   double brake_fall_kpa_per_s = 60000.0;        // [1000, 200000]
@@ -165,7 +187,9 @@ struct GateOutput {
 GateOutput gate(const GateParams& params, GateState& state, const GateContext& context,
                 std::span<const can::Frame> proposed);
 
-// The limit of the table at a speed; that of the last row where the speed is not a number.
+// The limits of the tables at a speed; where it is not a number, that of the last row for steering
+// and that of the first for the brake.
 double steer_limit_deg(const GateParams& params, double speed_mps);
+double stop_brake_limit_kpa(const GateParams& params, double speed_mps);
 
 }  // namespace pitwall::safety

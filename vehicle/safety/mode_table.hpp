@@ -17,35 +17,40 @@ namespace pitwall::safety {
 enum class Event : std::uint8_t {
   kNobodyObeys,  // the drive-by-wire has been silent for longer than any stop takes
   kEmergency,    // a cause of Reaction::kEmergencyStop holds
-  kStop,         // a cause of Reaction::kControlledStop holds
+  kStop,         // a cause of Reaction::kControlledStop holds, or one of kCoast has lasted
+  kCoast,        // a cause of Reaction::kCoast holds
   kStandstill,   // the car has stood for the dwell
   kDisarm,       // the arm request is withdrawn
   kReset,        // rising edge of the operator's reset, and no emergency cause holds
+  kPassed,       // no cause of Reaction::kCoast has held for the dwell
   kArm,          // arm requested, and no cause holds that bars arming
   kGo            // everything that driving needs is there, and no cause holds
 };
-inline constexpr std::size_t kEvents = 8;
+inline constexpr std::size_t kEvents = 10;
 using Events = std::array<bool, kEvents>;
 
 namespace table {
 using enum world::Mode;
 using Row = std::array<world::Mode, kEvents>;
+inline constexpr auto kCtrlStop = kControlledStop, kEmergency = kEmergencyStop;
 // clang-format off
 inline constexpr std::array<Row, world::kModes> kNext{{
-  //                     NobodyObeys     Emergency       Stop             Standstill
-  //                     Disarm          Reset           Arm              Go
-  /* Disarmed       */ {{kDisarmed,      kDisarmed,      kDisarmed,       kDisarmed,
-                         kDisarmed,      kDisarmed,      kStandby,        kDisarmed}},
-  /* Standby        */ {{kDisarmed,      kEmergencyStop, kStandby,        kStandby,
-                         kDisarmed,      kStandby,       kStandby,        kDriving}},
-  /* Driving        */ {{kDisarmed,      kEmergencyStop, kControlledStop, kDriving,
-                         kControlledStop, kDriving,      kDriving,        kDriving}},
-  /* ControlledStop */ {{kDisarmed,      kEmergencyStop, kControlledStop, kHalted,
-                         kControlledStop, kControlledStop, kControlledStop, kControlledStop}},
-  /* EmergencyStop  */ {{kDisarmed,      kEmergencyStop, kEmergencyStop,  kHalted,
-                         kEmergencyStop, kEmergencyStop, kEmergencyStop,  kEmergencyStop}},
-  /* Halted         */ {{kDisarmed,      kHalted,        kHalted,         kHalted,
-                         kHalted,        kDisarmed,      kHalted,         kHalted}},
+  //                   NobodyObeys Emergency   Stop       Coast       Standstill
+  //                   Disarm      Reset       Passed     Arm         Go
+  /* Disarmed       */ {{kDisarmed, kDisarmed,  kDisarmed,  kDisarmed,  kDisarmed,
+                         kDisarmed, kDisarmed,  kDisarmed,  kStandby,   kDisarmed}},
+  /* Standby        */ {{kDisarmed, kEmergency, kStandby,   kStandby,   kStandby,
+                         kDisarmed, kStandby,   kStandby,   kStandby,   kDriving}},
+  /* Driving        */ {{kDisarmed, kEmergency, kCtrlStop,  kCoast,     kDriving,
+                         kCtrlStop, kDriving,   kDriving,   kDriving,   kDriving}},
+  /* ControlledStop */ {{kDisarmed, kEmergency, kCtrlStop,  kCtrlStop,  kHalted,
+                         kCtrlStop, kCtrlStop,  kCtrlStop,  kCtrlStop,  kCtrlStop}},
+  /* EmergencyStop  */ {{kDisarmed, kEmergency, kEmergency, kEmergency, kHalted,
+                         kEmergency, kEmergency, kEmergency, kEmergency, kEmergency}},
+  /* Halted         */ {{kDisarmed, kHalted,    kHalted,    kHalted,    kHalted,
+                         kHalted,   kDisarmed,  kHalted,    kHalted,    kHalted}},
+  /* Coast          */ {{kDisarmed, kEmergency, kCtrlStop,  kCoast,     kCoast,
+                         kCtrlStop, kCoast,     kDriving,   kCoast,     kCoast}},
 }};
 // clang-format on
 }  // namespace table
@@ -66,6 +71,9 @@ constexpr world::Mode next(world::Mode mode, const Events& events) {
 constexpr bool stops(world::Mode mode) {
   return mode == world::Mode::kControlledStop || mode == world::Mode::kEmergencyStop;
 }
+constexpr bool follows_the_drive(world::Mode mode) {
+  return mode == world::Mode::kDriving || mode == world::Mode::kCoast;
+}
 
 // Properties, over every cell.
 template <class Property>
@@ -80,10 +88,10 @@ consteval bool every_cell(Property holds) {
 }
 
 static_assert(every_cell([](world::Mode, Event event, world::Mode to) {
-                return (event != Event::kEmergency && event != Event::kStop) ||
-                       to != world::Mode::kDriving;
+                const bool fault = event == Event::kEmergency || event == Event::kStop;
+                return !fault || (to != world::Mode::kDriving && to != world::Mode::kCoast);
               }),
-              "a fault never leads to driving, nor leaves it as it is");
+              "a fault never leads to driving or coasting, nor leaves them as they are");
 static_assert(every_cell([](world::Mode from, Event event, world::Mode to) {
                 const bool leaves = event == Event::kReset || event == Event::kNobodyObeys;
                 return from != world::Mode::kHalted || to == world::Mode::kHalted ||
@@ -96,9 +104,19 @@ static_assert(every_cell([](world::Mode, Event event, world::Mode to) {
               "where nobody obeys nothing is commanded, whatever the mode");
 static_assert(every_cell([](world::Mode from, Event event, world::Mode to) {
                 return to != world::Mode::kDriving || from == world::Mode::kDriving ||
-                       (from == world::Mode::kStandby && event == Event::kGo);
+                       (from == world::Mode::kStandby && event == Event::kGo) ||
+                       (from == world::Mode::kCoast && event == Event::kPassed);
               }),
-              "driving is entered from standby on go only");
+              "driving is entered from standby on go, and from coast when what coasted has passed");
+static_assert(every_cell([](world::Mode from, Event event, world::Mode to) {
+                return to != world::Mode::kCoast || from == world::Mode::kCoast ||
+                       (from == world::Mode::kDriving && event == Event::kCoast);
+              }),
+              "only a car that drives begins to coast: no stop softens to it");
+static_assert(every_cell([](world::Mode from, Event event, world::Mode to) {
+                return from != world::Mode::kCoast || event != Event::kCoast || to == from;
+              }),
+              "while what may pass holds, coasting goes on");
 static_assert(every_cell([](world::Mode from, Event event, world::Mode to) {
                 return !stops(from) || stops(to) || to == world::Mode::kHalted ||
                        event == Event::kNobodyObeys;

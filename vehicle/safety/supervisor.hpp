@@ -10,6 +10,9 @@
 //   joystick it can lower the throttle and raise the brake of whatever was chosen, within the grip
 //          of the tyres and before the slew limits; it never steers
 //   errors none: every fault is a Cause with a value and an entry in the fault log
+//   coast  what may pass (Reaction::kCoast) takes the throttle away in the tick in which it is
+//          seen; the line is held and the brake is free. coast_dwell after the last sign of it the
+//          car drives on; where it lasts for coast_max the car stops
 //   arming a request arms once. While a fault bars it, it waits; it is refused, and spent, when the
 //          wheels turn (a process that begins while the car moves must not take it over) or when it
 //          has been held since the start of a process whose predecessor ended while armed. A spent
@@ -19,9 +22,11 @@
 //
 //           fault                   stands for 0.5 s           reset
 //   Driving -----> ControlledStop -------------------> Halted ------> Disarmed
-//      ^                  | emergency                     ^              | arm, released and given
-//      | go               v                               |              v anew after a stop
-//   Standby ------> EmergencyStop ------------------------+           Standby
+//    ^  ^ \ may pass      | emergency                     ^              | arm, released and given
+//    |  |  v     lasts    v                               |              v anew after a stop
+//    |  Coast --------> a stop; EmergencyStop ------------+           Standby
+//    | go
+//   Standby
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -55,6 +60,9 @@ struct SupervisorParams {
   Duration shift_least = milliseconds(150);  // one gear at a time; [0.1, 2] s
   double brake_rise_kpa_per_s = 15000.0;     // [1000, 30000]
   bool go_needs_driving_state = true;        // drive-by-wire must say "driving" first
+  Duration coast_dwell = milliseconds(500);  // [0.1, 5] s
+  Duration coast_max = milliseconds(1500);   // above coast_dwell; [0.2, 10] s
+  double coast_brakes_below_mps = 5.0;       // where the brake stays free no longer; [1, 20]
 };
 
 enum class Follow : std::uint8_t { kNone, kDrive, kStop };
@@ -89,6 +97,8 @@ struct SupervisorInputs {
   OperatorRequests operator_requests;
   bool last_run_armed = false;  // the run of this process before ended while armed
   RadioLadderOutput radio{};    // what is left of the joystick; whether the link's age stops
+  const world::SensorInput* sensors = nullptr;  // of this tick
+  world::ComputerHealth computer{};
 };
 
 struct SupervisorState {
@@ -96,7 +106,9 @@ struct SupervisorState {
   Instant mode_since{};
   FaultState faults;
   FaultLog log;
-  CauseSet causes;  // of the previous tick: its rising edges are logged
+  CauseSet causes;       // of the previous tick: its rising edges are logged
+  FaultEntry coasts;     // why the car coasts
+  Instant coast_last{};  // when a reason for it held last
   SafeStopState safe_stop;
   bool safe_stop_engaged = false;
   bool reset_was = false;

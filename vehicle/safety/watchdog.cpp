@@ -2,6 +2,9 @@
 #include "vehicle/safety/watchdog.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
 
 namespace pitwall::safety {
 namespace {
@@ -29,90 +32,195 @@ consteval bool limits_are_in_order() {
 }
 static_assert(limits_are_in_order(), "WatchdogParams::limits is indexed by Stream");
 
-void seen(WatchdogState& state, Stream stream, Instant when) {
+std::int64_t slot_number(Instant at) { return (at - Instant{}) / kFigureSlot; }
+std::size_t slot_of(Instant at) { return static_cast<std::size_t>(slot_number(at)) % kFigureSlots; }
+
+void note(StreamHistory& history, Duration gap, Duration latency, Instant now) {
+  const std::size_t slot = slot_of(now);
+  if (history.samples[slot] < std::numeric_limits<std::uint16_t>::max()) ++history.samples[slot];
+  history.gap[slot] = std::max(history.gap[slot], gap);
+  history.latency[slot] = std::max(history.latency[slot], latency);
+}
+
+// `delayed`: between true and heard.
+void seen(WatchdogState& state, Stream stream, Instant when, Duration delayed, Instant now) {
   const std::size_t i = at(stream);
-  if (!state.ever[i] || when > state.last[i]) {
-    state.last[i] = when;
-    state.pardoned[i] = {};
-  }
+  if (state.ever[i] && when <= state.last[i]) return;
+  if (!state.ever[i]) state.history[i].began = now;
+  note(state.history[i], state.ever[i] ? when - state.last[i] : Duration{}, delayed, now);
+  state.last[i] = when;
+  state.pardoned[i] = {};
   state.ever[i] = true;
 }
 
+// Slots that have begun since the last tick are empty.
+void turn(WatchdogState& state, Instant now) {
+  const std::int64_t passed = slot_number(now) - slot_number(state.watched_at);
+  const auto fresh = std::clamp<std::int64_t>(passed, 0, kFigureSlots);
+  for (std::int64_t k = 0; k < fresh; ++k) {
+    const std::size_t slot = slot_of(now - k * kFigureSlot);
+    for (StreamHistory& history : state.history) {
+      history.samples[slot] = 0;
+      history.gap[slot] = history.latency[slot] = {};
+    }
+  }
+}
+
 // Of a sleep that is over, what lies after a stream's newest.
-void pardon(WatchdogState& state, Instant now) {
-  const Duration slept = now - state.watched_at;
-  const bool overslept = state.watched_at != Instant{} && slept > kOverslept;
-  state.watched_at = now;
-  if (!overslept) return;
+void pardon(WatchdogState& state, Instant now, Duration slept) {
   for (std::size_t i = 0; i < kStreams; ++i) {
     const Duration of_this = std::min(slept, now - state.last[i]) - kTick;
     state.pardoned[i] = std::clamp(state.pardoned[i] + of_this, state.pardoned[i], kPardonMax);
   }
 }
 
+// With a receiver that counts its satellites, enough of them.
 bool is_solved(const world::GnssPosition& p) {
-  return p.solution_status == world::kSolutionComputed && p.position_type != world::kPositionNone;
+  constexpr std::uint8_t kSatellitesLeast = 4;
+  return p.solution_status == world::kSolutionComputed && p.position_type != world::kPositionNone &&
+         (p.satellites == 0 || p.satellites >= kSatellitesLeast);
 }
+
+// What of a delay is not the car's own sleep.
+struct Ear {
+  WatchdogState& state;
+  Instant now;
+  Duration slept;
+
+  void hears(Stream stream, Instant when) const {
+    seen(state, stream, when, now - when - slept, now);
+  }
+  template <class T>
+  void hears(Stream stream, const world::Heard<T>& signal) const {
+    if (signal.heard) hears(stream, signal.at);
+  }
+};
 
 template <class Sample>
-void samples(WatchdogState& state, const WatchdogInputs& inputs, const Sample& sample,
-             Stream unit_0) {
+void samples(const Ear& ear, const WatchdogInputs& inputs, const Sample& sample, Stream unit_0) {
   if (sample.unit >= world::kGnssUnits) return;  // not a unit of this car
-  seen(state, of_unit(unit_0, sample.unit), sample.at);
+  ear.hears(of_unit(unit_0, sample.unit), sample.at);
   if (!inputs.gnss_byte_at[sample.unit])
-    seen(state, of_unit(Stream::kGnss0Link, sample.unit), sample.at);
+    ear.hears(of_unit(Stream::kGnss0Link, sample.unit), sample.at);
 }
 
-void sensors(WatchdogState& state, const WatchdogInputs& inputs) {
+void take_sigma(WatchdogState& state, const world::GnssPosition& p) {
+  if (p.unit >= world::kGnssUnits) return;
+  const double sigma_m = std::max(p.latitude_sigma_m, p.longitude_sigma_m);
+  const bool told = p.latitude_sigma_m >= 0.0 && p.longitude_sigma_m >= 0.0;
+  auto& kept_m = state.sigmas_m[p.unit];
+  kept_m[state.positions[p.unit]++ % kept_m.size()] =
+      told ? sigma_m : std::numeric_limits<double>::infinity();
+}
+
+void sensors(const Ear& ear, const WatchdogInputs& inputs) {
   for (const auto& p : inputs.sensors.positions) {
-    samples(state, inputs, p, Stream::kGnss0Position);
-    if (is_solved(p)) samples(state, inputs, p, Stream::kGnss0Solution);
+    samples(ear, inputs, p, Stream::kGnss0Position);
+    if (is_solved(p)) samples(ear, inputs, p, Stream::kGnss0Solution);
+    take_sigma(ear.state, p);
   }
-  for (const auto& v : inputs.sensors.velocities) samples(state, inputs, v, Stream::kGnss0Velocity);
-  for (const auto& h : inputs.sensors.headings) samples(state, inputs, h, Stream::kGnss0Heading);
-  for (const auto& i : inputs.sensors.imu) samples(state, inputs, i, Stream::kImu0);
+  for (const auto& v : inputs.sensors.velocities) samples(ear, inputs, v, Stream::kGnss0Velocity);
+  for (const auto& h : inputs.sensors.headings) samples(ear, inputs, h, Stream::kGnss0Heading);
+  for (const auto& i : inputs.sensors.imu) samples(ear, inputs, i, Stream::kImu0);
   for (std::uint8_t unit = 0; unit < world::kGnssUnits; ++unit)
     if (inputs.gnss_byte_at[unit])
-      seen(state, of_unit(Stream::kGnss0Link, unit), *inputs.gnss_byte_at[unit]);
+      ear.hears(of_unit(Stream::kGnss0Link, unit), *inputs.gnss_byte_at[unit]);
 }
 
-template <class T>
-void heard(WatchdogState& state, Stream stream, const world::Heard<T>& signal) {
-  if (signal.heard) seen(state, stream, signal.at);
+Health grade(Duration value, const DurationLimit& limit) {
+  if (limit.bad != Duration{} && value > limit.bad) return Health::kBad;
+  return limit.warning != Duration{} && value > limit.warning ? Health::kWarning : Health::kGood;
+}
+Health grade(double rate_hz, const RateLimit& limit) {  // not a number is not judged
+  if (rate_hz < limit.bad_hz) return Health::kBad;
+  return rate_hz < limit.warning_hz ? Health::kWarning : Health::kGood;
+}
+
+// Of the ten slots before the running one.
+void figures(const StreamHistory& history, Instant now, StreamRow& row) {
+  if (now - history.began < static_cast<std::int64_t>(kFigureSlots) * kFigureSlot) return;
+  const std::size_t running = slot_of(now);
+  double samples = 0.0;
+  for (std::size_t slot = 0; slot < kFigureSlots; ++slot) {
+    if (slot == running) continue;
+    samples += history.samples[slot];
+    row.gap = std::max(row.gap, history.gap[slot]);
+    row.latency = std::max(row.latency, history.latency[slot]);
+  }
+  row.rate_hz = samples / (kFigureSlot.seconds() * (kFigureSlots - 1));
 }
 
 StreamRow judge(const StreamLimit& limit, const WatchdogState& state, Instant now) {
-  if (!limit.watched) return {limit.stream, Health::kUnwatched, Duration{}};
   const std::size_t i = at(limit.stream);
-  if (!state.ever[i]) return {limit.stream, Health::kNever, Duration{}};
-  const Duration age = std::max(Duration{}, now - state.last[i] - state.pardoned[i]);
-  if (age > limit.bad) return {limit.stream, Health::kBad, age};
-  return {limit.stream, age > limit.warning ? Health::kWarning : Health::kGood, age};
+  StreamRow row{.stream = limit.stream, .health = Health::kUnwatched};
+  if (!limit.watched) return row;
+  row.health = Health::kNever;
+  if (!state.ever[i]) return row;
+  row.age = std::max(Duration{}, now - state.last[i] - state.pardoned[i]);
+  figures(state.history[i], now, row);
+  const DurationLimit age{limit.warning, limit.bad};
+  const DurationLimit gap = limit.gap.bad == Duration{} ? age : limit.gap;
+  row.health = std::max({grade(row.age, age), grade(row.rate_hz, limit.rate),
+                         grade(row.latency, limit.latency),
+                         std::min(grade(row.gap, gap), Health::kWarning)});
+  return row;
 }
+
+// Whether the operator has told the car not to believe the sensor behind it.
+bool is_excluded(const world::SensorUse& use, Stream stream) {
+  using enum world::Excludable;
+  if (stream < Stream::kImu0) {
+    const bool first = at(stream) % 2 == 0;  // links, positions ... of units 0 and 1 alternate
+    return !use.uses(first ? kGnss0 : kGnss1);
+  }
+  if (stream == Stream::kImu0) return !use.uses(kImu0);
+  if (stream == Stream::kImu1) return !use.uses(kImu1);
+  return false;
+}
+static_assert(at(Stream::kGnss0Heading) % 2 == 0 && at(Stream::kImu0) == 10);
+
+// What localization lives on: receivers, IMUs and wheels.
+constexpr bool is_of_localization(Stream stream) { return stream <= Stream::kWheelSpeed; }
 
 }  // namespace
 
 WatchdogOutput watch(const WatchdogParams& params, WatchdogState& state,
                      const WatchdogInputs& inputs, Instant now) {
-  sensors(state, inputs);
+  turn(state, now);
+  const Duration slept = now - state.watched_at;
+  const bool overslept = state.watched_at != Instant{} && slept > kOverslept;
+  const Ear ear{state, now, overslept ? slept : Duration{}};
+  sensors(ear, inputs);
   const world::VehicleSignals& s = inputs.signals;
-  heard(state, Stream::kWheelSpeed, s.wheel_speed_mps);
-  heard(state, Stream::kBrake, s.brake);
-  heard(state, Stream::kThrottle, s.throttle_fraction);
-  heard(state, Stream::kSteering, s.steering_motor_rad);
-  heard(state, Stream::kMisc, s.misc);
-  heard(state, Stream::kPowertrain, s.powertrain);
-  heard(state, Stream::kDiagnostics, s.diagnostics);
+  ear.hears(Stream::kWheelSpeed, s.wheel_speed_mps);
+  ear.hears(Stream::kBrake, s.brake);
+  ear.hears(Stream::kThrottle, s.throttle_fraction);
+  ear.hears(Stream::kSteering, s.steering_motor_rad);
+  ear.hears(Stream::kMisc, s.misc);
+  ear.hears(Stream::kPowertrain, s.powertrain);
+  ear.hears(Stream::kDiagnostics, s.diagnostics);
   if (inputs.race_control.ever_heard)
-    seen(state, Stream::kRaceControl, inputs.race_control.last_heartbeat_change);
-  if (inputs.planner_at) seen(state, Stream::kPlanner, *inputs.planner_at);
-  if (inputs.radio_at) seen(state, Stream::kRadio, *inputs.radio_at);
+    ear.hears(Stream::kRaceControl, inputs.race_control.last_heartbeat_change);
+  if (inputs.planner_at) ear.hears(Stream::kPlanner, *inputs.planner_at);
+  if (inputs.radio_at) ear.hears(Stream::kRadio, *inputs.radio_at);
 
   // A stamp from the future keeps nothing alive.
   for (Instant& last : state.last) last = std::min(last, now);
-  pardon(state, now);
+  if (overslept) pardon(state, now, slept);
+  state.watched_at = now;
   WatchdogOutput out;
-  for (std::size_t i = 0; i < kStreams; ++i) out.rows[i] = judge(params.limits[i], state, now);
+  for (std::size_t i = 0; i < kStreams; ++i) {
+    StreamRow& row = out.rows[i] = judge(params.limits[i], state, now);
+    const auto stream = static_cast<Stream>(i);
+    if (is_excluded(inputs.use, stream)) row.health = Health::kUnwatched;
+    if (row.health > Health::kGood && is_of_localization(stream))
+      out.seen.add(world::Monitor::kStreamAge);
+  }
+  for (std::size_t unit = 0; unit < world::kGnssUnits; ++unit)
+    if (state.positions[unit] > 0)
+      out.sigma_m[unit] = *std::ranges::min_element(
+          std::span{state.sigmas_m[unit]}.first(std::min<std::size_t>(state.positions[unit], 3)));
+  out.seen.bits &= ~params.off.bits;
   return out;
 }
 

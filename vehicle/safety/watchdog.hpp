@@ -1,10 +1,16 @@
-// Is everything still alive? One row per stream: when it was last heard, how old that is, and what
-// the age means by the row's limits. Ages decide: a stream that misses its rate grows old. Time in
-// which the car's process itself did not run is taken off the age, up to kPardonMax: whoever slept
-// cannot say who else was silent, and hears in its next ticks who lives.
+// Is everything still alive and on time? One row per stream: how old its newest is; and of the last
+// second how many came, the longest gap between two, and the longest delay from true to heard. Each
+// figure is good, warning or bad by the row's limits; the row is as good as the worst of them, but
+// a gap alone, which is over, is never worse than a warning. Time in which the car's process itself
+// did not run is taken off the age, up to kPardonMax: whoever slept cannot say who else was silent,
+// and hears in its next ticks who lives.
 //   in     the samples of this tick, the signals and flags heard so far, the instants of the
-//          planner and of the radio
-//   out    one row per stream: good, warning, bad, never heard, or not watched
+//          planner and of the radio; the sensors that the operator has excluded
+//   out    one row per stream: good, warning, bad, never heard, or not watched; for each receiver
+//          what it says of its own accuracy
+//   law    a rate and a delay are judged from a whole second on; of several of a signal within one
+//          tick the newest counts; a sensor that is excluded is not watched
+//   units  Hz, s, m
 //   errors none
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -15,9 +21,11 @@
 #include <type_traits>
 
 #include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
 #include "vehicle/world/monitor.hpp"
 #include "vehicle/world/race_control.hpp"
 #include "vehicle/world/sensor_input.hpp"
+#include "vehicle/world/sensor_use.hpp"
 #include "vehicle/world/signals.hpp"
 
 namespace pitwall::safety {
@@ -50,39 +58,56 @@ inline constexpr std::size_t kStreams = 22;
 
 enum class Health : std::uint8_t { kUnwatched, kNever, kGood, kWarning, kBad };
 
+// Bounds of one figure; zero: it is not judged.
+struct DurationLimit {
+  Duration warning{}, bad{};
+};
+struct RateLimit {
+  double warning_hz = 0.0, bad_hz = 0.0;  // fewer are a warning, are bad; bad < warning
+};
+
 struct StreamLimit {
   Stream stream;
   const char* name;
   bool watched;      // false: the car has no such stream
   Duration warning;  // older than this is a warning; (0, bad)
   Duration bad;      // older than this is bad; [20 ms, 60 s]
+  RateLimit rate{};
+  DurationLimit latency{};
+  DurationLimit gap{};  // zero: as of the age
 };
 
-struct WatchdogParams {
-  std::array<StreamLimit, kStreams> limits{{
-      {Stream::kGnss0Link, "gnss0 link", true, milliseconds(100), milliseconds(500)},
-      {Stream::kGnss1Link, "gnss1 link", true, milliseconds(100), milliseconds(500)},
-      {Stream::kGnss0Position, "gnss0 position", true, milliseconds(125), milliseconds(500)},
-      {Stream::kGnss1Position, "gnss1 position", true, milliseconds(125), milliseconds(500)},
-      {Stream::kGnss0Solution, "gnss0 solution", true, milliseconds(250), seconds(2)},
-      {Stream::kGnss1Solution, "gnss1 solution", true, milliseconds(250), seconds(2)},
-      {Stream::kGnss0Velocity, "gnss0 velocity", true, milliseconds(125), milliseconds(500)},
-      {Stream::kGnss1Velocity, "gnss1 velocity", true, milliseconds(125), milliseconds(500)},
-      {Stream::kGnss0Heading, "gnss0 heading", true, milliseconds(2500), seconds(5)},
-      {Stream::kGnss1Heading, "gnss1 heading", true, milliseconds(2500), seconds(5)},
-      {Stream::kImu0, "imu0", true, milliseconds(25), milliseconds(250)},
-      {Stream::kImu1, "imu1", true, milliseconds(25), milliseconds(250)},
-      {Stream::kWheelSpeed, "wheel speed", true, milliseconds(25), milliseconds(250)},
-      {Stream::kBrake, "brake", true, milliseconds(25), milliseconds(250)},
-      {Stream::kThrottle, "throttle", true, milliseconds(25), milliseconds(250)},
-      {Stream::kSteering, "steering", true, milliseconds(25), milliseconds(250)},
-      {Stream::kMisc, "drive-by-wire state", true, milliseconds(1250), milliseconds(2500)},
-      {Stream::kPowertrain, "powertrain", true, milliseconds(25), milliseconds(500)},
-      {Stream::kDiagnostics, "diagnostics", true, milliseconds(250), milliseconds(1000)},
-      {Stream::kRaceControl, "race control", true, milliseconds(1250), seconds(10)},
-      {Stream::kPlanner, "planner", true, milliseconds(125), milliseconds(500)},
-      {Stream::kRadio, "radio", true, seconds(1), seconds(3)},
+inline constexpr std::array<StreamLimit, kStreams> kStreamLimits = [] {
+  constexpr auto ms = [](std::int64_t n) { return milliseconds(n); };
+  using enum Stream;
+  return std::array<StreamLimit, kStreams>{{
+      {kGnss0Link, "gnss0 link", true, ms(100), ms(500), {}, {}},
+      {kGnss1Link, "gnss1 link", true, ms(100), ms(500), {}, {}},
+      {kGnss0Position, "gnss0 position", true, ms(125), ms(500), {15, 8}, {ms(120), ms(300)}},
+      {kGnss1Position, "gnss1 position", true, ms(125), ms(500), {15, 8}, {ms(120), ms(300)}},
+      {kGnss0Solution, "gnss0 solution", true, ms(250), ms(500), {}, {}},
+      {kGnss1Solution, "gnss1 solution", true, ms(250), ms(500), {}, {}},
+      {kGnss0Velocity, "gnss0 velocity", true, ms(125), ms(500), {15, 8}, {ms(120), ms(300)}},
+      {kGnss1Velocity, "gnss1 velocity", true, ms(125), ms(500), {15, 8}, {ms(120), ms(300)}},
+      {kGnss0Heading, "gnss0 heading", true, ms(2500), seconds(5), {}, {ms(300), ms(1000)}},
+      {kGnss1Heading, "gnss1 heading", true, ms(2500), seconds(5), {}, {ms(300), ms(1000)}},
+      {kImu0, "imu0", true, ms(25), ms(250), {80, 40}, {ms(30), ms(200)}},
+      {kImu1, "imu1", true, ms(25), ms(250), {80, 40}, {ms(30), ms(200)}},
+      {kWheelSpeed, "wheel speed", true, ms(25), ms(250), {70, 30}, {}},
+      {kBrake, "brake", true, ms(25), ms(250), {70, 30}, {}},
+      {kThrottle, "throttle", true, ms(25), ms(250), {70, 30}, {}},
+      {kSteering, "steering", true, ms(25), ms(250), {70, 30}, {}},
+      {kMisc, "drive-by-wire state", true, ms(1250), ms(2500), {}, {}},
+      {kPowertrain, "powertrain", true, ms(25), ms(500), {70, 30}, {}},
+      {kDiagnostics, "diagnostics", true, ms(250), ms(1000), {}, {}},
+      {kRaceControl, "race control", true, ms(1250), seconds(10), {}, {}},
+      {kPlanner, "planner", true, ms(125), ms(500), {15, 8}, {}},
+      {kRadio, "radio", true, seconds(1), seconds(3), {}, {}},
   }};
+}();
+
+struct WatchdogParams {
+  std::array<StreamLimit, kStreams> limits = kStreamLimits;
 
   world::MonitorSet off{};  // of the bench alone: no car file sets it
 
@@ -92,11 +117,24 @@ struct WatchdogParams {
 inline constexpr Duration kOverslept = milliseconds(25);  // two ticks missed
 inline constexpr Duration kPardonMax = milliseconds(250);
 
+// What came lately, in slots of a tenth of a second; one more than are shown: the running one.
+inline constexpr Duration kFigureSlot = milliseconds(100);
+inline constexpr std::size_t kFigureSlots = 11;
+struct StreamHistory {
+  std::array<std::uint16_t, kFigureSlots> samples{};
+  std::array<Duration, kFigureSlots> gap{}, latency{};
+  Instant began{};  // the first that was heard
+};
+
 struct WatchdogState {
   std::array<Instant, kStreams> last{};
   std::array<bool, kStreams> ever{};
   std::array<Duration, kStreams> pardoned{};  // since it was last heard; [0, kPardonMax]
-  Instant watched_at{};                       // the last tick
+  std::array<StreamHistory, kStreams> history{};
+  // Of the last three positions of each unit, as it says itself.
+  std::array<std::array<double, 3>, world::kGnssUnits> sigmas_m{};
+  std::array<std::uint32_t, world::kGnssUnits> positions{};
+  Instant watched_at{};  // the last tick
 };
 static_assert(std::is_trivially_copyable_v<WatchdogState>);
 
@@ -108,16 +146,22 @@ struct WatchdogInputs {
   std::array<std::optional<Instant>, world::kGnssUnits> gnss_byte_at{};
   std::optional<Instant> planner_at;  // when the newest trajectory was planned
   std::optional<Instant> radio_at;    // the base station was alive then
+  world::SensorUse use{};
 };
 
 struct StreamRow {
   Stream stream = Stream::kGnss0Link;
   Health health = Health::kUnwatched;
   Duration age{};  // since the last; zero where never
+  // Of the last whole second; unset and zero before there was one.
+  double rate_hz = kUnset;
+  Duration gap{}, latency{};
 };
 
 struct WatchdogOutput {
   std::array<StreamRow, kStreams> rows{};
+  // The best of its last three positions; unset before. One that is no number counts as infinite.
+  std::array<double, world::kGnssUnits> sigma_m{kUnset, kUnset};
   world::MonitorSet seen{};  // monitors that see something wrong now
 
   constexpr const StreamRow& operator[](Stream s) const {

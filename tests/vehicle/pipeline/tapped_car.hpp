@@ -111,6 +111,8 @@ inline Outputs full() {
   out.heard.race_control.conflict = true;
   out.chosen.causes.add(safety::Cause::kOperatorEmergency);
   out.chosen.causes.add(safety::Cause::kRadioLost);
+  out.chosen.causes.add(safety::Cause::kGnssRtkLost);
+  out.chosen.causes.add(safety::Cause::kGnssDegraded);
   out.chosen.limited = true;
   out.chosen.standstill = true;
   out.quiet = true;

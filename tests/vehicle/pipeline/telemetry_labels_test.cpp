@@ -40,7 +40,8 @@ TEST(TelemetryLabels, NameTheModes) {
                                             {kDriving, "driving"},
                                             {kControlledStop, "controlled stop"},
                                             {kEmergencyStop, "emergency stop"},
-                                            {kHalted, "halted"}});
+                                            {kHalted, "halted"},
+                                            {kCoast, "coast"}});
   EXPECT_EQ(names, names_in(telemetry::kModes));
   EXPECT_EQ(names.size(), world::kModes);
 }

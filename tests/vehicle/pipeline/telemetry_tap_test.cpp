@@ -223,6 +223,7 @@ TEST(TelemetryTap, WhatWasNeverHeardIsNotANumberAndHasNoTime) {
                                     "computer.steps",
                                     "computer.missed_deadlines",
                                     "faults.now",
+                                    "faults.now_more",
                                     "faults.recorded",
                                     "radio.base",
                                     "radio.rung",

@@ -39,11 +39,24 @@ TEST(FaultLog, EveryCauseHasItsOwnTextAndAReaction) {
     texts.insert(row.text);
     EXPECT_EQ(row.reaction == Reaction::kNone, row.cause == Cause::kNone) << row.text;
     if (row.reaction == Reaction::kEmergencyStop) {
-      EXPECT_TRUE(row.bars_arming) << row.text;
+      EXPECT_NE(row.arms, Arms::kAnyway) << row.text;
     }
     EXPECT_EQ(std::string{text_of(row.cause)}, row.text);
   }
   EXPECT_EQ(texts.size(), kCauses);
+}
+
+TEST(FaultLog, TheFiveRulesOfThePaperAreCausesOfTheirOwnWithADeadline) {
+  std::set<Cause> rules;
+  for (const CauseRow& row : kCauseTable) {
+    if (!row.of_the_paper) continue;
+    rules.insert(row.cause);
+    EXPECT_EQ(row.reaction, Reaction::kControlledStop) << row.text;
+    EXPECT_LE(row.deadline, milliseconds(1'300)) << row.text;
+  }
+  EXPECT_EQ(rules,
+            (std::set{Cause::kGnssRateLost, Cause::kGnssUnitDisconnected, Cause::kGnssSolutionLost,
+                      Cause::kGnssRtkLost, Cause::kLocalizationUncertain}));
 }
 
 TEST(CauseSet, BehavesAsASetAndNamesTheFirst) {
@@ -69,6 +82,11 @@ TEST(CauseSet, BehavesAsASetAndNamesTheFirst) {
       EXPECT_EQ(set_a.without(set_b).has(cause), a.contains(cause) && !b.contains(cause));
     }
   }
+  CauseSet each;
+  for (std::size_t i = 1; i < kCauses; ++i) each.add(static_cast<Cause>(i));
+  for (const Reaction least : {Reaction::kTell, Reaction::kCoast, Reaction::kEmergencyStop})
+    for (const CauseRow& row : kCauseTable)
+      EXPECT_EQ(each.at_least(least).has(row.cause), row.reaction >= least) << row.text;
   CauseSet none;
   none.add(Cause::kNone);
   EXPECT_TRUE(none.empty());

@@ -15,7 +15,8 @@ namespace pitwall::safety::testing {
 
 inline constexpr std::array kAllModes{world::Mode::kDisarmed,      world::Mode::kStandby,
                                       world::Mode::kDriving,       world::Mode::kControlledStop,
-                                      world::Mode::kEmergencyStop, world::Mode::kHalted};
+                                      world::Mode::kEmergencyStop, world::Mode::kHalted,
+                                      world::Mode::kCoast};
 
 template <class M>
 can::Frame frame_of(const M& message) {

@@ -173,7 +173,7 @@ TEST(FrameGate, EveryRefusalIsCountedUnderItsOwnReason) {
   g.all({blank(7, 8), blank(1300, 8), remote, blank(1405, 7), brake(200, 0), report(99, 2),
          brake(900, 1), gear(5), throttle(2.2, 1)});
   g.context.mode = Mode::kHalted;
-  g.all({throttle(1, 2)});
+  g.all({throttle(1, 2), brake(100, 1)});
   g.context.mode = Mode::kControlledStop;
   g.all({throttle(3, 2)});
   g.context.command_at = g.context.now + nanoseconds(1);
@@ -241,7 +241,7 @@ TEST(FrameGate, EveryVerdictHasItsOwnText) {
   std::vector<std::string> texts;
   for (std::size_t v = 0; v < kVerdicts; ++v) texts.emplace_back(text_of(static_cast<Verdict>(v)));
   EXPECT_EQ(texts.front(), "pass");
-  EXPECT_EQ(texts.back(), "throttle with brake");
+  EXPECT_EQ(texts.back(), "brake released");
   for (const std::string& text : texts) EXPECT_FALSE(text.empty());
   std::sort(texts.begin(), texts.end());
   EXPECT_EQ(std::unique(texts.begin(), texts.end()), texts.end());

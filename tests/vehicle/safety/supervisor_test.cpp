@@ -375,6 +375,7 @@ void spoil(Random& random, Situation& car) {
   const std::uint64_t sick = random.below(4000);
   for (std::size_t i = 0; i < kStreams; ++i)
     car.watchdog.rows[i].health = sick == i ? Health::kBad : Health::kGood;
+  if (random.one_in(200)) car.watchdog.rows[20].health = Health::kWarning;  // the planner
   car.ego.validity = random.one_in(3000) ? world::Validity::kLost : world::Validity::kGood;
   car.control.road_wheel_rad = random.between(-0.012, 0.012);  // jumps, as no control would
   car.control.throttle_fraction = random.one_in(2) ? random.between(0.0, 1.0) : 0.0;
@@ -398,21 +399,25 @@ TEST(Supervisor, RandomDaysNeverDriveAfterAFaultWithoutAResetAndAlwaysPassTheGat
     spoil(random, d.car);
     const bool reset_was = d.state.reset_was;
     const SupervisorOutput& out = d.tick();
+    const world::ActuatorCommand& c = out.command;
     seen.insert(out.mode);
-    if (before == Mode::kDriving && !out.causes.empty()) faulted = true;
+    if (follows_the_drive(before) && !out.causes.at_least(Reaction::kControlledStop).empty())
+      faulted = true;
     if (before == Mode::kHalted && out.mode != Mode::kHalted) {
       ASSERT_TRUE(d.car.requests.reset && !reset_was);
       ASSERT_EQ(out.mode, Mode::kDisarmed);
       faulted = false;
     }
     halts += before != Mode::kHalted && out.mode == Mode::kHalted;
-    ASSERT_FALSE(faulted && out.mode == Mode::kDriving) << i;
+    ASSERT_FALSE(faulted && follows_the_drive(out.mode)) << i;
     ASSERT_EQ(out.actuate, out.mode != Mode::kDisarmed);
-    ASSERT_EQ(out.follow == Follow::kDrive, out.mode == Mode::kDriving);
+    ASSERT_EQ(out.follow == Follow::kDrive, follows_the_drive(out.mode));
+    if (out.mode == Mode::kCoast) {
+      ASSERT_EQ(c.throttle_fraction, 0.0);
+    }
     if (stops(out.mode)) {
       ASSERT_NE(out.cause, Cause::kNone);
     }
-    const world::ActuatorCommand& c = out.command;
     if (out.actuate) {
       ASSERT_TRUE(std::isfinite(c.road_wheel_rad));
       ASSERT_TRUE(c.brake_kpa >= 0.0 && c.throttle_fraction >= 0.0);

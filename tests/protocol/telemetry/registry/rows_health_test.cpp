@@ -34,9 +34,16 @@ TEST(SensorRows, ComeInThreesOfOneSensor) {
 TEST(FaultRows, HaveABitForEachCauseOfAStop) {
   std::size_t causes = 0;
   while (!label_at(kStopCauses, causes).empty()) ++causes;
-  EXPECT_LE(causes - 1, 31U);
-  EXPECT_GE(kFields[field("faults.now")].max + 1.0,
-            static_cast<double>(1ULL << (causes - 1)) - 1.0);
+  ASSERT_GT(causes - 1, kFaultBits);
+  const auto largest = [](std::size_t bits) { return static_cast<double>((1ULL << bits) - 1); };
+  EXPECT_GE(kFields[field("faults.now")].max + 1.0, largest(kFaultBits));
+  EXPECT_GE(kFields[field("faults.now_more")].max, largest(causes - 1 - kFaultBits));
+  for (std::size_t i = 1; i < causes; ++i) {
+    const bool first = i <= kFaultBits;
+    EXPECT_EQ(label_at(first ? kFaultNames : kFaultNamesMore, first ? i - 1 : i - 1 - kFaultBits),
+              label_at(kStopCauses, i));
+  }
+  EXPECT_TRUE(label_at(kFaultNames, kFaultBits).empty());
 }
 
 }  // namespace

@@ -1,0 +1,216 @@
+// Every reason for which the car stops, coasts or complains, as one table: what is done about it
+// and how soon, counted from the fault to the tick in which the mode changes, with the limits of
+// the default parameters.
+//   source paper: the five rules of its system executive are marked so; the rest is ours
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::safety {
+
+// In the order of precedence: of several in one tick the first listed is "the cause".
+enum class Cause : std::uint8_t {
+  kNone,
+  // emergency: brake as hard as grip allows
+  kOperatorEmergency,
+  kPurpleFlag,
+  kBusDead,
+  kSystemFailure,
+  kEmergencyBrake,
+  kSteeringCommsLost,
+  kSysEmergencyShutdown,
+  // controlled stop
+  kOperatorStop,
+  kDisarmRequest,
+  kEngineKillFlag,
+  kMotecCommsLost,
+  kBrakeOutOfSpec,
+  kCriticalLimits,
+  kComputerHeartbeatLost,
+  kWrongBus,
+  kBusOff,
+  kOwnIdOnBus,
+  kBusMessageLost,
+  kCommandRefused,
+  kControlFailed,
+  kPlanLost,
+  kLocalizationLost,
+  kDeadReckoningTooLong,
+  kLocalizationUncertain,
+  kGnssUnitDisconnected,
+  kGnssRateLost,
+  kGnssSolutionLost,
+  kImuLost,
+  kRaceControlLost,
+  kRaceControlReportedLost,
+  kRadioLost,
+  kGnssRtkLost,
+  kSteeringStrays,
+  kBrakeStrays,
+  kThrottleStrays,
+  kComputerLate,
+  kComputerMemory,
+  kComputerHot,
+  // coast: what may pass
+  kOversteer,
+  kPositionPassing,
+  kPlanLate,
+  kControlLate,
+  // told, and nothing else
+  kFlagsDisagree,
+  kTicksMissed,
+  kProcessorBusy,
+  kClockStepped,
+  kClockSkewed,
+  kGnssDegraded
+};
+inline constexpr std::size_t kCauses = 49;
+
+// Rising: each does more than the one before.
+enum class Reaction : std::uint8_t { kNone, kTell, kCoast, kControlledStop, kEmergencyStop };
+
+enum class Arms : std::uint8_t {
+  kAnyway,  // may be absent in the garage: bars driving only
+  kBars,
+  kVoids  // bars, and disarms a car that has not moved yet: it must not set off when it is gone
+};
+
+struct CauseRow {
+  Cause cause;
+  const char* text;
+  Reaction reaction;
+  Duration deadline;
+  Arms arms = Arms::kAnyway;
+  bool of_the_paper = false;
+};
+
+inline constexpr std::array<CauseRow, kCauses> kCauseTable = [] {
+  using enum Cause;
+  using enum Arms;
+  constexpr auto kTell = Reaction::kTell, kCoast = Reaction::kCoast,
+                 kControlledStop = Reaction::kControlledStop,
+                 kEmergencyStop = Reaction::kEmergencyStop;
+  constexpr auto ms = [](std::int64_t n) { return milliseconds(n); };
+  // Of the drive-by-wire's own words: diagnostic_report comes every 100 ms, misc_report every
+  // second.
+  constexpr Duration kSaid = ms(120), kSaidSlowly = ms(1'020), kTick = ms(20);
+  // clang-format off
+  return std::array<CauseRow, kCauses>{{
+    {Cause::kNone, "none", Reaction::kNone, {}},
+    {kOperatorEmergency, "operator: emergency stop", kEmergencyStop, kTick, kBars},
+    {kPurpleFlag, "purple flag", kEmergencyStop, kTick, kBars},
+    {kBusDead, "CAN bus dead: the drive-by-wire is silent", kEmergencyStop, ms(100), kBars},
+    {kSystemFailure, "drive-by-wire: system failure", kEmergencyStop, kSaid, kBars},
+    {kEmergencyBrake, "drive-by-wire: emergency brake", kEmergencyStop, kSaid, kBars},
+    {kSteeringCommsLost, "drive-by-wire: steering lost", kEmergencyStop, kSaid, kBars},
+    {kSysEmergencyShutdown, "drive-by-wire: emergency shutdown", kEmergencyStop, kSaidSlowly, kBars},
+    {kOperatorStop, "operator: stop", kControlledStop, kTick, kBars},
+    {kDisarmRequest, "operator: disarm", kControlledStop, kTick},
+    {kEngineKillFlag, "engine-kill flag", kControlledStop, kTick, kBars},
+    {kMotecCommsLost, "drive-by-wire: engine lost", kControlledStop, kSaid, kBars},
+    {kBrakeOutOfSpec, "drive-by-wire: brake out of spec", kControlledStop, kSaid, kBars},
+    {kCriticalLimits, "drive-by-wire: critical limits", kControlledStop, kSaidSlowly, kBars},
+    {kComputerHeartbeatLost, "drive-by-wire: does not hear us", kControlledStop, kSaid},
+    {kWrongBus, "CAN bus does not fit the database", kControlledStop, kTick, kBars},
+    {kBusOff, "CAN bus off", kControlledStop, ms(500), kBars},
+    {kOwnIdOnBus, "another node sends our CAN ids", kControlledStop, kTick, kBars},
+    {kBusMessageLost, "CAN message lost", kControlledStop, ms(270), kBars},
+    {kCommandRefused, "frame gate refused commands", kControlledStop, ms(40)},
+    {kControlFailed, "control failed", kControlledStop, ms(30)},
+    {kPlanLost, "planning failed or late", kControlledStop, ms(520)},
+    {kLocalizationLost, "localization lost", kControlledStop, kTick},
+    {kDeadReckoningTooLong, "dead reckoning too long", kControlledStop, ms(1'520)},
+    {kLocalizationUncertain, "position too uncertain", kControlledStop, kTick, kAnyway, true},
+    {kGnssUnitDisconnected, "GNSS unit disconnected", kControlledStop, ms(520), kAnyway, true},
+    {kGnssRateLost, "GNSS: both units miss the rate", kControlledStop, ms(1'220), kAnyway, true},
+    {kGnssSolutionLost, "GNSS: both units lost the solution", kControlledStop, ms(520), kAnyway,
+     true},
+    {kImuLost, "IMU: both units lost", kControlledStop, ms(270)},
+    {kRaceControlLost, "race control lost", kControlledStop, ms(10'020)},
+    {kRaceControlReportedLost, "race control lost, says the drive-by-wire", kControlledStop, kSaid},
+    {kRadioLost, "base station lost", kControlledStop, ms(3'020), kVoids},
+    {kGnssRtkLost, "GNSS: both units lost RTK and their accuracy", kControlledStop, ms(220),
+     kAnyway, true},
+    {kSteeringStrays, "steering does not do as it is told", kControlledStop, ms(300)},
+    {kBrakeStrays, "brake does not do as it is told", kControlledStop, ms(300)},
+    {kThrottleStrays, "throttle does not do as it is told", kControlledStop, ms(300)},
+    {kComputerLate, "computer misses too many ticks", kControlledStop, ms(2'500)},
+    {kComputerMemory, "computer out of memory", kControlledStop, ms(1'020)},
+    {kComputerHot, "computer too hot", kControlledStop, ms(1'020)},
+    {kOversteer, "over-steer", kCoast, kTick},
+    {kPositionPassing, "no good position", kCoast, ms(320)},
+    {kPlanLate, "planning a beat late", kCoast, ms(145)},
+    {kControlLate, "control a beat late", kCoast, ms(10)},
+    {kFlagsDisagree, "race control: flags unknown or contradictory", kTell, kTick},
+    {kTicksMissed, "computer missed ticks", kTell, kTick},
+    {kProcessorBusy, "computer busy", kTell, ms(1'020)},
+    {kClockStepped, "a clock stepped", kTell, ms(200)},
+    {kClockSkewed, "clock too fast or slow", kTell, seconds(40)},
+    {kGnssDegraded, "GNSS: one unit is bad", kTell, ms(1'220)},
+  }};
+  // clang-format on
+}();
+
+constexpr const CauseRow& row_of(Cause cause) {
+  return kCauseTable[static_cast<std::size_t>(cause)];
+}
+constexpr const char* text_of(Cause cause) { return row_of(cause).text; }
+
+template <class Property>
+consteval bool every_cause(Property holds) {
+  for (std::size_t i = 0; i < kCauses; ++i)
+    if (!holds(kCauseTable[i], i)) return false;
+  return true;
+}
+static_assert(every_cause([](const CauseRow& row, std::size_t i) {
+                return static_cast<std::size_t>(row.cause) == i;
+              }),
+              "kCauseTable is indexed by Cause");
+static_assert(every_cause([](const CauseRow& row, std::size_t) {
+                return (row.reaction == Reaction::kNone) == (row.deadline == Duration{});
+              }),
+              "whatever is reacted to has a deadline");
+static_assert(every_cause([](const CauseRow& row, std::size_t) {
+                return row.reaction != Reaction::kEmergencyStop || row.arms != Arms::kAnyway;
+              }),
+              "what would brake hard bars arming");
+
+// A set of causes: what holds in one tick.
+class CauseSet {
+ public:
+  constexpr void add(Cause cause) { bits_ |= bit(cause); }
+  constexpr bool has(Cause cause) const { return (bits_ & bit(cause)) != 0; }
+  constexpr bool empty() const { return bits_ == 0; }
+  constexpr std::uint64_t bits() const { return bits_; }
+  constexpr CauseSet without(CauseSet other) const { return CauseSet{bits_ & ~other.bits_}; }
+  // The first in the order of precedence; kNone of an empty set.
+  constexpr Cause first() const {
+    for (std::size_t i = 1; i < kCauses; ++i)
+      if (has(static_cast<Cause>(i))) return static_cast<Cause>(i);
+    return Cause::kNone;
+  }
+  // Those whose reaction is this one, or more.
+  constexpr CauseSet at_least(Reaction reaction) const {
+    CauseSet out;
+    for (const CauseRow& row : kCauseTable)
+      if (row.reaction >= reaction && has(row.cause)) out.add(row.cause);
+    return out;
+  }
+  constexpr bool operator==(const CauseSet&) const = default;
+  constexpr CauseSet() = default;
+
+ private:
+  constexpr explicit CauseSet(std::uint64_t bits) : bits_(bits) {}
+  static constexpr std::uint64_t bit(Cause cause) {
+    return cause == Cause::kNone ? 0 : std::uint64_t{1} << static_cast<unsigned>(cause);
+  }
+  std::uint64_t bits_ = 0;
+};
+static_assert(kCauses <= 64);
+
+}  // namespace pitwall::safety

@@ -1,0 +1,50 @@
+// Does the rear of the car step out? Two signs, each over two ticks in a row: both rear wheels turn
+// faster (or, braked, slower) than the road passes by, as the front wheels and localization have
+// it; or the car turns faster than its front wheels are steered, or the other way.
+//   in     wheel speeds, angle of the road wheels as measured, speed and yaw rate of localization
+//   out    by how much the worse sign exceeds its limit, 1 at the limit; 0: no over-steer
+//   law    one wheel that lies, spins, locks or has left the ground over a bump has no say, nor has
+//          a launch: below speed_min nothing is judged
+//   model  yaw rate = v * angle / (wheelbase + understeer * v^2), on the road's own plane
+//   errors what is not known is not judged
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/signals.hpp"
+
+namespace pitwall::safety {
+
+struct OversteerParams {
+  double speed_min_mps = 12.0;              // [5, 30]
+  double rear_spin_max = 0.10;              // of the speed; [0.03, 0.5]
+  double rear_lock_max = 0.20;              // of the speed; [0.05, 0.9]
+  double yaw_excess_max_rad_per_s = 0.25;   // [0.1, 1]
+  double wheelbase_m = 2.971;               // as of the safe stop
+  double understeer_rad_per_mps2 = 0.0002;  // as of the safe stop
+};
+
+struct OversteerInputs {
+  world::PerWheel wheel_mps;
+  double road_wheel_rad = kUnset;
+  double speed_mps = kUnset, yaw_rate_rad_per_s = kUnset;  // by localization
+};
+
+struct OversteerState {
+  std::uint8_t ticks = 0;  // in a row
+};
+static_assert(std::is_trivially_copyable_v<OversteerState>);
+
+inline constexpr std::uint8_t kOversteerTicks = 2;
+
+double oversteer(const OversteerParams& params, OversteerState& state,
+                 const OversteerInputs& inputs);
+
+// The signs of one tick, each 1 at its limit.
+double rear_slip(const OversteerParams& params, const OversteerInputs& inputs);
+double yaw_excess(const OversteerParams& params, const OversteerInputs& inputs);
+
+}  // namespace pitwall::safety
