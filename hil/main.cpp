@@ -14,6 +14,7 @@
 #include "hil/verbs/dbc_verb.hpp"
 #include "hil/verbs/demo_verb.hpp"
 #include "hil/verbs/exit_code.hpp"
+#include "hil/verbs/faults_verb.hpp"
 #include "hil/verbs/radio_verb.hpp"
 #include "hil/verbs/report_verb.hpp"
 #include "hil/verbs/run_verb.hpp"
@@ -35,6 +36,8 @@ constexpr std::array kVerbs{
     Verb{"replay", "replay a candump log onto a CAN interface", replay::replay_verb},
     Verb{"dbc", "CAN databases: check, show, diff", verbs::dbc_verb},
     Verb{"bus", "CAN interfaces: from this kernel or from a guest", guest::bus_verb},
+    Verb{"faults", "every fault of the catalogue: who notices it, how fast, and the outcome",
+         verbs::faults_verb},
     Verb{"track", "tracks: check, import from a CSV, picture", verbs::track_verb},
     Verb{"radio", "the radio's promises at length, in virtual time", verbs::radio_verb},
     Verb{"bench", "benchmarks with gates; --help names them", verbs::bench_verb},

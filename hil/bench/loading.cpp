@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "hil/plant_file/plant_file.hpp"
+#include "hil/revision/protected_messages.hpp"
 #include "protocol/transport/file.hpp"
 #include "vehicle/parameters/car_file.hpp"
 #include "vehicle/parameters/track_file.hpp"
@@ -42,6 +43,10 @@ Result<Loaded, Problem> load(const std::string& scenario_file, const std::string
   }
   auto setup = pipeline::prepare(car->params, *track);
   if (!setup) return Unexpected{setup.error()};
+  if (scenario->bus == scenario::BusRevision::kProtected) {
+    setup->params.inbound.also = revision::protected_rows();
+    setup->params.identity.also = revision::protected_rows();
+  }
   return Loaded{*std::move(scenario), *std::move(setup)};
 }
 

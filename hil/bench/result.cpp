@@ -120,8 +120,9 @@ std::string to_text(const RunResult& r) {
   for (const std::string& remark : r.remarks) out += "note: " + remark + "\n";
   for (const grading::Verdict& verdict : r.verdicts)
     out += (verdict.pass ? "PASS  " : "FAIL  ") + verdict.text +
-           format("  (margin %.4g)", verdict.margin) + (verdict.pass ? "" : "  " + verdict.reason) +
-           "\n";
+           format("  (margin %.4g)", verdict.margin) +
+           (verdict.delay ? format("  after %.3f s", verdict.delay->seconds()) : std::string()) +
+           (verdict.pass ? "" : "  " + verdict.reason) + "\n";
   if (!r.digest.empty()) out += "event log SHA-256 " + r.digest + "\n";
   return out + (r.passed() ? "verdict: PASS\n" : "verdict: FAIL\n");
 }
@@ -144,6 +145,7 @@ std::string to_json(const grading::Verdict& v) {
   return "{\"text\":" + in_quotes(v.text) + ",\"pass\":" + (v.pass ? "true" : "false") +
          ",\"margin\":" + number(v.margin) + ",\"first_violation_s\":" + number(first_s) +
          ",\"time_left_s\":" + number(v.time_left ? v.time_left->seconds() : kUnset) +
+         ",\"delay_s\":" + number(v.delay ? v.delay->seconds() : kUnset) +
          ",\"place\":" + in_quotes(v.name) + ",\"reason\":" + in_quotes(v.reason) + "}";
 }
 

@@ -47,6 +47,15 @@ void add_radio(SignalValues& v, const SignalSources& from) {
   set(v, Signal::kRadioStopUnexplained, stopped && !explained ? 1.0 : 0.0);
 }
 
+void add_seen(SignalValues& v, const CarReport& car) {
+  for (std::size_t m = 0; m < world::kMonitors; ++m) {
+    const bool sees = car.seen && car.seen->has(static_cast<world::Monitor>(m));
+    v[kSignals + m] = car.seen ? (sees ? 1.0 : 0.0) : kUnset;
+  }
+}
+
+constexpr std::string_view kSeen = "seen_";
+
 constexpr double kSlipSpeed_mps = 5.0;  // slower, the direction of motion says little
 
 double side_slip_deg(const plant::Truth& truth) {
@@ -62,6 +71,8 @@ grading::Kind kind_of(scenario::ExpectKind kind) {
       return grading::Kind::kNever;
     case scenario::ExpectKind::kWithin:
       return grading::Kind::kWithin;
+    case scenario::ExpectKind::kDetects:
+      return grading::Kind::kDetects;
   }
   CHECK(false);
 }
@@ -117,20 +128,36 @@ SignalValues observe(const SignalSources& from) {
   set(v, Signal::kDeceleration, -truth.specific_force_mps2[0]);
   add_car_report(v, from.car, truth);
   add_radio(v, from);
+  add_seen(v, from.car);
   return v;
 }
 
-std::vector<std::string> signal_names() { return {kSignalNames.begin(), kSignalNames.end()}; }
+std::vector<std::string> signal_names() {
+  std::vector<std::string> names{kSignalNames.begin(), kSignalNames.end()};
+  for (const std::string_view monitor : world::kMonitorNames)
+    names.push_back(std::string(kSeen) + std::string(monitor));
+  return names;
+}
+
+std::optional<Problem> unjudged_by(BenchMode mode, const scenario::Scenario& scenario) {
+  if (mode == BenchMode::kLockstep) return std::nullopt;
+  for (const scenario::Expectation& row : scenario.expect)
+    if (row.signal.starts_with(kSeen))
+      return Problem{row.place,
+                     "what the car's monitors see is known in lockstep only: without --live"};
+  return std::nullopt;
+}
 
 Result<std::vector<grading::Expectation>, Problem> expectations_of(
     const scenario::Scenario& scenario) {
+  const std::vector<std::string> names = signal_names();
   std::vector<grading::Expectation> out;
   for (const scenario::Expectation& row : scenario.expect) {
     const auto op = grading::op_of(row.relation);
     if (!op)
       return Unexpected{
           Problem{row.place, "\"" + row.relation + "\" is not one of: < <= > >= == !="}};
-    if (std::find(kSignalNames.begin(), kSignalNames.end(), row.signal) == kSignalNames.end())
+    if (std::find(names.begin(), names.end(), row.signal) == names.end())
       return Unexpected{Problem{row.place, "unknown signal \"" + row.signal + "\""}};
     grading::Expectation e;
     e.name = row.place;

@@ -1,22 +1,26 @@
 // The numbers that a scenario may put conditions on, by name, once per tick. What the car says of
 // itself comes in lockstep from its outputs and in the live bench from its telemetry; everything
-// else is the bench's own truth.
+// else is the bench's own truth. What its monitors see is known in lockstep alone: "seen_counter"
+// and so on, 1 in each tick in which the monitor sees something wrong.
 //   units  in the names; enumerations by their number
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "hil/bench/fault_plan.hpp"
 #include "hil/bench/outcome.hpp"
 #include "hil/bench/rig.hpp"
 #include "hil/grading/expectation.hpp"
 #include "hil/scenario/scenario.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "vehicle/pipeline/setup.hpp"
+#include "vehicle/world/monitor.hpp"
 
 namespace pitwall::bench {
 
@@ -99,10 +103,12 @@ struct CarReport {
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
   double identity = kUnset, differing_id = kUnset;
   double cause = kUnset, operator_limit_mps = kUnset;
+  std::optional<world::MonitorSet> seen{};  // in lockstep
   bool silent = false;
 };
 
-using SignalValues = std::array<double, kSignals>;
+// Those of Signal, then one per monitor in the order of world::Monitor; NaN: not known here.
+using SignalValues = std::array<double, kSignals + world::kMonitors>;
 
 struct SignalSources {
   const Rig& rig;
@@ -123,6 +129,9 @@ double wall_gap_m(const Rig& rig);  // of the nearest corner, on either side
 Whereabouts whereabouts(const Rig& rig, double line_offset_m, Instant now);
 
 std::vector<std::string> signal_names();
+
+// The first expectation that this kind of bench cannot judge.
+std::optional<Problem> unjudged_by(BenchMode mode, const scenario::Scenario& scenario);
 
 // The expectations of a scenario as the grader takes them.
 Result<std::vector<grading::Expectation>, Problem> expectations_of(

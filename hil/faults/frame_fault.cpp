@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "hil/faults/signal_change.hpp"
 #include "protocol/can/av21.hpp"
+#include "protocol/can/integrity_bench.hpp"
 #include "protocol/can/message_monitor.hpp"
 #include "protocol/vocabulary/check.hpp"
 
@@ -25,7 +27,14 @@ constexpr std::array<Name, kFrameFaultKinds> kNames{
     Name{FrameFaultKind::kCounterJump, "counter_jump"},
     Name{FrameFaultKind::kWrongLength, "wrong_length"},
     Name{FrameFaultKind::kUnknownId, "unknown_id"},
-    Name{FrameFaultKind::kFrozenValue, "frozen_value"}};
+    Name{FrameFaultKind::kFrozenValue, "frozen_value"},
+    Name{FrameFaultKind::kWrongChecksum, "wrong_checksum"},
+    Name{FrameFaultKind::kExtendedAlias, "extended_alias"},
+    Name{FrameFaultKind::kMasquerade, "masquerade"},
+    Name{FrameFaultKind::kSignalOffset, "signal_offset"},
+    Name{FrameFaultKind::kSignalDrift, "signal_drift"},
+    Name{FrameFaultKind::kSignalNoise, "signal_noise"},
+    Name{FrameFaultKind::kSignalSet, "signal_set"}};
 
 const can::MessageRow* row_with_counter(std::uint32_t id) {
   for (const can::MessageRow& row : can::av21::kMessages)
@@ -104,14 +113,36 @@ bool drops(const FrameFault& fault, FrameFaultState::One& one) {
   }
 }
 
-std::uint32_t copies(const FrameFault& fault, FrameFaultState::One& one) {
-  const bool extra =
-      fault.kind == FrameFaultKind::kDuplicate || fault.kind == FrameFaultKind::kUnknownId;
-  if (!extra || one.random.uniform() >= fault.probability) return 0;
-  return fault.kind == FrameFaultKind::kUnknownId ? 1 : fault.count;
+bool adds_a_frame(FrameFaultKind kind) {
+  return kind == FrameFaultKind::kDuplicate || kind == FrameFaultKind::kUnknownId ||
+         kind == FrameFaultKind::kExtendedAlias || kind == FrameFaultKind::kMasquerade;
 }
 
-void rewrite(const FrameFault& fault, FrameFaultState::One& one, TimedFrame& timed) {
+std::uint32_t copies(const FrameFault& fault, FrameFaultState::One& one) {
+  if (!adds_a_frame(fault.kind) || one.random.uniform() >= fault.probability) return 0;
+  return fault.kind == FrameFaultKind::kDuplicate ? fault.count : 1;
+}
+
+can::Frame extra_frame(const FrameFault& fault, const can::Frame& like) {
+  can::Frame extra = like;
+  if (fault.kind == FrameFaultKind::kUnknownId) extra.id = fault.other_id;
+  if (fault.kind == FrameFaultKind::kExtendedAlias) extra.extended = true;
+  if (fault.kind != FrameFaultKind::kMasquerade) return extra;
+  extra = {};
+  extra.id = fault.id.value_or(0);
+  for (const can::MessageRow& row : can::av21::kMessages)
+    if (row.id == extra.id) extra.length = row.length;
+  return extra;
+}
+
+// The checksum byte alone: everything else of the frame is true.
+void spoil_checksum(can::Frame& frame) {
+  for (const can::MessageRow& row : can::integrity_bench::kMessages)
+    if (row.id == frame.id && row.protection.profile != can::Protection::kNone)
+      frame.data[row.protection.crc_byte] ^= 0x55U;
+}
+
+void rewrite(const FrameFault& fault, FrameFaultState::One& one, TimedFrame& timed, Instant now) {
   can::Frame& frame = timed.frame;
   switch (fault.kind) {
     case FrameFaultKind::kDelay:
@@ -131,6 +162,16 @@ void rewrite(const FrameFault& fault, FrameFaultState::One& one, TimedFrame& tim
       return;
     case FrameFaultKind::kFrozenValue:
       return freeze_value(one, frame);
+    case FrameFaultKind::kWrongChecksum:
+      return spoil_checksum(frame);
+    case FrameFaultKind::kSignalOffset:
+      return add_to_signal(frame, fault.unit, fault.value);
+    case FrameFaultKind::kSignalDrift:
+      return add_to_signal(frame, fault.unit, fault.value * (now - fault.start).seconds());
+    case FrameFaultKind::kSignalNoise:
+      return add_to_signal(frame, fault.unit, fault.value * (2.0 * one.random.uniform() - 1.0));
+    case FrameFaultKind::kSignalSet:
+      return set_signal(frame, fault.unit, fault.value);
     default:
       return;
   }
@@ -138,19 +179,21 @@ void rewrite(const FrameFault& fault, FrameFaultState::One& one, TimedFrame& tim
 
 // What one fault makes of one frame, appended to `out`.
 void pass_on(const FrameFault& fault, FrameFaultState& state, FrameFaultState::One& one,
-             TimedFrame timed, TimedFrames& out) {
+             TimedFrame timed, Instant now, TimedFrames& out) {
   const auto put = [&](const TimedFrame& t) { state.overflow += out.push(t) ? 0U : 1U; };
-  const bool concerned = !fault.id || *fault.id == timed.frame.id;
+  const bool concerned = fault.kind == FrameFaultKind::kMasquerade
+                             ? timed.frame.id == kBeside
+                             : !fault.id || *fault.id == timed.frame.id;
   if (!concerned) return put(timed);
   if (drops(fault, one)) {
     ++one.acted;
     return;
   }
   const TimedFrame before = timed;
-  rewrite(fault, one, timed);
+  rewrite(fault, one, timed, now);
   put(timed);
   TimedFrame extra = timed;
-  if (fault.kind == FrameFaultKind::kUnknownId) extra.frame.id = fault.other_id;
+  extra.frame = extra_frame(fault, timed.frame);
   const std::uint32_t more = copies(fault, one);
   for (std::uint32_t i = 0; i < more; ++i) put(extra);
   if (more > 0 || !(timed.frame == before.frame) || timed.at != before.at) ++one.acted;
@@ -186,7 +229,7 @@ TimedFrames apply(std::span<const FrameFault> faults, FrameFaultState& state,
     if (!one.seeded) one.random.state = faults[i].seed;
     one.seeded = true;
     TimedFrames next;
-    for (const TimedFrame& timed : frames) pass_on(faults[i], state, one, timed, next);
+    for (const TimedFrame& timed : frames) pass_on(faults[i], state, one, timed, now, next);
     frames = next;
   }
   return frames;

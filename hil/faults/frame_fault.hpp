@@ -1,4 +1,4 @@
-// Faults of single CAN frames on their way from the bench to the car (F01 to F11, F16 of the
+// Faults of single CAN frames on their way from the bench to the car (F01 to F12, F16 to F18 of the
 // catalogue).
 //   in     the list of faults of the scenario, their state, one frame, now
 //   out    what is put on the bus in its place, each with the instant from which it may be sent
@@ -24,19 +24,28 @@
 namespace pitwall::faults {
 
 enum class FrameFaultKind : std::uint8_t {
-  kDrop,          // F01 each frame with `probability`
-  kDropBurst,     // F02 with `probability` a burst of `count` frames is lost
-  kDropAll,       // F03 one id, F04 without an id
-  kDelay,         // F05 `delay` plus up to `jitter`
-  kDuplicate,     // F06 `count` copies more, with `probability`
-  kBitFlip,       // F07 `count` bits of the payload, with `probability`
-  kStuckCounter,  // F08 the counter stays at its value when the fault began
-  kCounterJump,   // F09 the counter is `count` ahead
-  kWrongLength,   // F11 one byte less (or one more when the message is empty)
-  kUnknownId,     // F11 an extra frame with identifier `other_id`, with `probability`
-  kFrozenValue    // F16 the payload of the beginning, with a live counter
+  kDrop,           // F01 each frame with `probability`
+  kDropBurst,      // F02 with `probability` a burst of `count` frames is lost
+  kDropAll,        // F03 one id, F04 without an id
+  kDelay,          // F05 `delay` plus up to `jitter`
+  kDuplicate,      // F06 `count` copies more, with `probability`
+  kBitFlip,        // F07 `count` bits of the payload, with `probability`
+  kStuckCounter,   // F08 the counter stays at its value when the fault began
+  kCounterJump,    // F09 the counter is `count` ahead
+  kWrongLength,    // F11 one byte less (or one more when the message is empty)
+  kUnknownId,      // F11 an extra frame with identifier `other_id`, with `probability`
+  kFrozenValue,    // F16 the payload of the beginning, with a live counter
+  kWrongChecksum,  // F10 the counter is right; of a message that has a checksum
+  kExtendedAlias,  // F11 an extra frame with an identifier of 29 bits that reads the same
+  kMasquerade,    // F12 an extra frame with `id`, one of the computer's own, all zeros, beside each
+                  // of kBeside
+  kSignalOffset,  // F17 the signal no. `unit` of the message: `value` is added
+  kSignalDrift,   // F17 `value` per second
+  kSignalNoise,   // F17 up to +-`value`
+  kSignalSet      // F17, F18 says `value`, be it out of its range
 };
-inline constexpr std::size_t kFrameFaultKinds = 11;
+inline constexpr std::size_t kFrameFaultKinds = 18;
+inline constexpr std::uint32_t kBeside = 1301;  // brake_pressure_report
 
 std::string_view name_of(FrameFaultKind kind);  // "drop", "drop_burst", ... as in scenario files
 std::optional<FrameFaultKind> frame_fault_kind(std::string_view name);
@@ -51,6 +60,8 @@ struct FrameFault {
   std::uint32_t count = 1;
   Duration delay{}, jitter{};
   std::uint32_t other_id = 0x7A0;
+  std::uint8_t unit = 0;
+  double value = 0.0;  // in the unit of the database
 };
 
 inline constexpr std::size_t kMaxFrameFaults = 32;

@@ -12,7 +12,7 @@ namespace pitwall::grading {
 namespace {
 
 constexpr std::array<std::string_view, 6> kOps{"<", "<=", ">", ">=", "==", "!="};
-constexpr std::array<std::string_view, 4> kKinds{"always", "never", "within", "after"};
+constexpr std::array<std::string_view, 5> kKinds{"always", "never", "within", "after", "detects"};
 
 std::string number_text(double value) {
   char text[32];
@@ -79,7 +79,8 @@ double margin(Op op, double value, double number, double tolerance) {
 std::string to_string(const Expectation& e) {
   const std::string within = " within " + number_text(e.limit.seconds()) + " s";
   std::string text = std::string(name_of(e.kind)) + " ";
-  if (e.kind == Kind::kWithin) text = "within " + number_text(e.limit.seconds()) + " s ";
+  if (e.kind == Kind::kWithin || e.kind == Kind::kDetects)
+    text += number_text(e.limit.seconds()) + " s ";
   if (e.kind == Kind::kAfter) text += condition_text(e.trigger) + ": ";
   text += condition_text(e.condition);
   if (e.kind == Kind::kAfter) text += within;

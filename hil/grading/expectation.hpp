@@ -35,10 +35,14 @@ enum class Kind : std::uint8_t {
   kAlways,  // `condition` at every tick of the window
   kNever,   // at no tick of the window
   kWithin,  // at some tick at most `limit` after the window opens
-  kAfter    // each time that `trigger` becomes true in the window, `condition` within `limit`
+  kAfter,   // each time that `trigger` becomes true in the window, `condition` within `limit`
+  kDetects  // as kWithin, of a fault at `from`: after that instant, and not in the kQuiet before
 };
 
-std::string_view name_of(Kind kind);  // "always" "never" "within" "after"
+// What was already seen before a fault is not its detection.
+inline constexpr Duration kQuiet = seconds(2);
+
+std::string_view name_of(Kind kind);  // "always" "never" "within" "after" "detects"
 std::optional<Kind> kind_of(std::string_view text);
 
 struct Expectation {
@@ -46,7 +50,7 @@ struct Expectation {
   Kind kind = Kind::kAlways;
   Condition condition{};
   Condition trigger{};                  // kAfter only
-  Duration limit{};                     // kWithin and kAfter
+  Duration limit{};                     // kWithin, kAfter, kDetects
   std::optional<Instant> from{}, to{};  // window; absent: the whole run
 };
 

@@ -36,7 +36,8 @@ std::optional<std::string> defect_of(const Expectation& e, std::span<const std::
   if (const auto defect = defect_of(e.condition, names)) return defect;
   if (e.kind == Kind::kAfter)
     if (const auto defect = defect_of(e.trigger, names)) return defect;
-  const bool timed = e.kind == Kind::kWithin || e.kind == Kind::kAfter;
+  if (e.kind == Kind::kDetects && !e.from) return "needs the instant of its fault";
+  const bool timed = e.kind == Kind::kWithin || e.kind == Kind::kAfter || e.kind == Kind::kDetects;
   if (timed && e.limit.ns <= 0) return "needs a time limit above zero";
   if (e.from && e.to && *e.to < *e.from) return "its window ends before it begins";
   return std::nullopt;
@@ -94,10 +95,14 @@ void Grader::observe_one(const Expectation& e, Track& t, Instant now,
     t.trigger_was = triggered;
     return observe_after(e, t, now, value, rises);
   }
+  if (e.kind == Kind::kDetects && now <= *e.from) {
+    t.held_before |= now >= *e.from - kQuiet && met(e.condition, value);
+    return;
+  }
   if (before || past) return;
   ++t.ticks;
   if (std::isnan(value)) ++t.undefined;
-  if (e.kind == Kind::kWithin) return observe_within(e, t, now, value);
+  if (e.kind == Kind::kWithin || e.kind == Kind::kDetects) return observe_within(e, t, now, value);
 
   const bool wanted = e.kind == Kind::kAlways;
   const bool good = !std::isnan(value) && met(e.condition, value) == wanted;
@@ -161,7 +166,9 @@ Verdict Grader::verdict(const Expectation& e, const Track& t) {
   v.ticks = t.ticks;
   v.undefined = t.undefined;
   v.triggers = t.triggers;
-  v.margin = e.kind == Kind::kWithin ? t.best : t.worst;
+  const bool within = e.kind == Kind::kWithin || e.kind == Kind::kDetects;
+  if (e.kind == Kind::kDetects && t.held) v.delay = e.limit - *t.time_left;
+  v.margin = within ? t.best : t.worst;
   if (t.failed)
     v.reason = std::string(e.kind == Kind::kAlways || e.kind == Kind::kNever ? "violated"
                                                                              : "did not hold by") +
@@ -170,9 +177,11 @@ Verdict Grader::verdict(const Expectation& e, const Track& t) {
     v.reason = "the trigger never came";
   else if (e.kind == Kind::kAfter && t.decided == 0)
     v.reason = "the run ended before the limit had passed";
+  else if (t.held_before)
+    v.reason = "it held before the fault began";
   else if (e.kind != Kind::kAfter && t.ticks == 0)
     v.reason = "no tick in its window";
-  else if (e.kind == Kind::kWithin && !t.held)
+  else if (within && !t.held)
     v.reason = "the run ended and it had not held";
   v.pass = v.reason.empty();
   return v;

@@ -4,6 +4,8 @@
 //   out    finish(): one verdict per expectation, in order
 //   rules  always, never: a window without a tick fails (nothing was shown)
 //          within: fails at the first tick after the limit, or at the end if it never held
+//          detects: likewise; a tick at the very instant of the fault comes before it, and what
+//          held at any tick of the kQuiet before fails it
 //          after: the trigger must come at least once, else it fails; a trigger whose limit had
 //          not passed when the run ended does not count, unless it was the only one
 //   margin the least over ticks (always, never) or over triggers (after), of the best in the time
@@ -33,9 +35,10 @@ struct Verdict {
   double margin = 0.0;                // in the unit of the signal; negative is a violation
   std::optional<Duration> time_left;  // within, after: least time between success and limit
   std::optional<Instant> first_violation;
-  std::uint64_t ticks = 0;      // judged
-  std::uint64_t undefined = 0;  // of these with a NaN
-  std::uint64_t triggers = 0;   // after: how often it came
+  std::uint64_t ticks = 0;        // judged
+  std::uint64_t undefined = 0;    // of these with a NaN
+  std::uint64_t triggers = 0;     // after: how often it came
+  std::optional<Duration> delay;  // detects: from the fault to the first tick that sees it
 };
 
 class Grader {
@@ -52,6 +55,7 @@ class Grader {
     double worst = 0.0;  // always, never: least so far; after: least over decided triggers
     double best = 0.0;   // within, after: best since the window or trigger opened
     bool held = false, failed = false, pending = false, trigger_was = false;
+    bool held_before = false;
     Instant deadline{};
     std::optional<Duration> time_left;
     std::optional<Instant> first_violation;

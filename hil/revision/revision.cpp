@@ -57,6 +57,7 @@ struct Spelling {
 Spelling spelling_of(BusRevision which) {
   switch (which) {
     case BusRevision::kV14:
+    case BusRevision::kProtected:
       break;
     case BusRevision::kV9:
       return {.text = kV9Text,
@@ -188,14 +189,16 @@ Result<Revision, Problem> Revision::of(BusRevision which) {
   auto other = can::parse_dbc(spelling.text, scenario::name_of(which));
   if (!other) return Unexpected{other.error()};
   auto book = std::make_shared<Dictionary>();
-  book->same = which == BusRevision::kV14;
+  book->same = which == BusRevision::kV14 || which == BusRevision::kProtected;
   book->bus =
       spelling.whole ? *std::move(other) : overlaid(*model, *std::move(other), spelling.absent);
   book->model = *std::move(model);
   add_spoken(*book, spelling);
   add_heard(*book, spelling);
   add_own(*book);
-  return Revision{std::move(book)};
+  Revision revision{std::move(book)};
+  if (which == BusRevision::kProtected) revision.also_.emplace();
+  return revision;
 }
 
 Revision::Revision(std::shared_ptr<const Dictionary> dictionary)
@@ -231,6 +234,8 @@ Frames Revision::due(Instant now) {
     can::EncodeCounters counters;
     if (can::encode(*own.message, own.values, frame, counters)) CHECK(out.push(frame));
   }
+  if (also_)
+    for (const can::Frame& frame : also_->due(now)) CHECK(out.push(frame));
   return out;
 }
 

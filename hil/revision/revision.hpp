@@ -3,7 +3,7 @@
 //   in     frames as the bench's models exchange them (av21, CAN1-INDY-V14); frames of the bus
 //   out    the same values by name in the layout of the other revision, and back; messages that
 //          only the other revision has, at their period, with values of a healthy car at rest
-//   law    V14 changes nothing. What the other revision lacks is not sent; a frame of the bus is
+//   law    V14 changes nothing, and V14 with protected messages adds those. What the other revision lacks is not sent; a frame of the bus is
 //          heard only if its length is right there and it says all that the model's message has
 //   units  those of the databases
 //   errors of(): Problem of a database; frames that cannot be encoded are left out and counted
@@ -17,6 +17,7 @@
 #include <optional>
 #include <vector>
 
+#include "hil/revision/protected_messages.hpp"
 #include "hil/scenario/scenario.hpp"
 #include "protocol/can/database.hpp"
 #include "protocol/can/frame.hpp"
@@ -37,7 +38,7 @@ class Revision {
 
   Frames spoken(const can::Frame& frame);
   std::optional<can::Frame> heard(const can::Frame& frame);
-  // Of the messages that only this revision has. `now` does not run backwards.
+  // Of the messages that only this bus has. `now` does not run backwards.
   Frames due(Instant now);
 
   const can::Database& database() const;
@@ -48,6 +49,7 @@ class Revision {
 
   std::shared_ptr<const Dictionary> dictionary_;
   std::vector<Instant> due_;
+  std::optional<ProtectedMessages> also_;
   std::uint64_t unsent_ = 0;
 };
 

@@ -50,12 +50,14 @@ constexpr std::array kBusRevisions = {
     Named<BusRevision>{"v9", BusRevision::kV9},
     Named<BusRevision>{"v12", BusRevision::kV12},
     Named<BusRevision>{"av24", BusRevision::kAv24},
+    Named<BusRevision>{"v14_protected", BusRevision::kProtected},
 };
 
 constexpr std::array kExpectKinds = {
     Named<ExpectKind>{"always", ExpectKind::kAlways},
     Named<ExpectKind>{"never", ExpectKind::kNever},
     Named<ExpectKind>{"within", ExpectKind::kWithin},
+    Named<ExpectKind>{"detects", ExpectKind::kDetects},
 };
 
 constexpr double kLongest_s = 36'000.0;  // ten hours: the longest soak
@@ -145,13 +147,40 @@ Fault read_fault(yaml::StrictMap& map) {
   return fault;
 }
 
-Expectation read_expectation(yaml::StrictMap& map) {
-  Expectation expectation;
-  expectation.place = map.place("kind");
-  expectation.kind = one_of(map, "kind", kExpectKinds);
+// `monitor: NAME` says that a monitor of the car sees something; else any signal may tell.
+void read_condition(yaml::StrictMap& map, Expectation& expectation) {
+  if (expectation.kind == ExpectKind::kDetects && map.has("monitor")) {
+    expectation.signal = "seen_" + map.text("monitor");
+    expectation.relation = "==";
+    expectation.value = 1.0;
+    return;
+  }
   expectation.signal = map.text("signal");
   expectation.relation = map.text("is");
   expectation.value = map.number("value", -1e12, 1e12);
+}
+
+// The faults are counted from 1, as a person counts them.
+void read_detection(yaml::StrictMap& map, Expectation& expectation,
+                    const std::vector<Fault>& faults) {
+  const auto number = map.integer_or("fault", 1, 1, static_cast<std::int64_t>(kMaxListed));
+  expectation.fault = static_cast<std::size_t>(number - 1);
+  if (expectation.fault >= faults.size()) map.fail("kind", "there is no such fault to detect");
+  expectation.from = faults[expectation.fault].at;
+  const Duration within = from_seconds(map.number("within_s", 0.001, kLongest_s));
+  expectation.until = expectation.from + within;
+  map.finish();
+}
+
+Expectation read_expectation(yaml::StrictMap& map, const std::vector<Fault>& faults) {
+  Expectation expectation;
+  expectation.place = map.place("kind");
+  expectation.kind = one_of(map, "kind", kExpectKinds);
+  read_condition(map, expectation);
+  if (expectation.kind == ExpectKind::kDetects) {
+    read_detection(map, expectation, faults);
+    return expectation;
+  }
   expectation.from = time_at(map, "from_s", 0.0);
   expectation.until = time_at(map, "until_s", 0.0);
   if (expectation.until.ns != 0 && expectation.until <= expectation.from)
@@ -195,7 +224,9 @@ Scenario read_root(yaml::StrictMap& map) {
   scenario.radio = read_radio(map);
   scenario.operator_words = read_operator(map);
   read_list(map, "faults", scenario.faults, read_fault);
-  read_list(map, "expect", scenario.expect, read_expectation);
+  read_list(map, "expect", scenario.expect, [&scenario](yaml::StrictMap& entry) {
+    return read_expectation(entry, scenario.faults);
+  });
   check_order(map, scenario);
   map.finish();
   return scenario;

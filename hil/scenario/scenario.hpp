@@ -60,16 +60,19 @@ struct Fault {
   std::string place;         // for messages
 };
 
-// What the drive-by-wire and race control speak; V14 is what the bench models.
-enum class BusRevision : std::uint8_t { kV14, kV9, kV12, kAv24 };
+// What the drive-by-wire and race control speak; V14 is what the bench models. kProtected: V14 with
+// messages beside it that have checksums, which the car is told to judge.
+enum class BusRevision : std::uint8_t { kV14, kV9, kV12, kAv24, kProtected };
 
-enum class ExpectKind : std::uint8_t { kAlways, kNever, kWithin };
+// kDetects: from the start of a fault, the signal meets its condition within a deadline.
+enum class ExpectKind : std::uint8_t { kAlways, kNever, kWithin, kDetects };
 
 struct Expectation {
   ExpectKind kind = ExpectKind::kAlways;
   std::string signal, relation;
   double value = kUnset;
   Duration from{}, until{};  // the window; until zero means the end
+  std::size_t fault = 0;     // kDetects: its place in Scenario::faults
   std::string place;
 };
 

@@ -87,7 +87,9 @@ void hear(const IdentityParams& params, IdentityState& state, const can::Receive
   const bool standard = !frame.extended;
   const std::size_t index = index_of(frame.id);
   if (index == kNotFound) {
-    if (!standard || !ignored(frame.id)) hear_stranger(params, state, frame, now);
+    const bool known = standard && std::ranges::find(params.also, frame.id, &can::MessageRow::id) !=
+                                       params.also.end();
+    if (!known && (!standard || !ignored(frame.id))) hear_stranger(params, state, frame, now);
     return;
   }
   const can::MessageRow& row = kMessages[index];

@@ -52,7 +52,8 @@ inline constexpr Duration kListenLeast = [] {
 }();
 
 struct IdentityParams {
-  Duration listen = milliseconds(3500);  // [kListenLeast, 10 s]
+  Duration listen = milliseconds(3500);     // [kListenLeast, 10 s]
+  std::span<const can::MessageRow> also{};  // of the bench alone: no strangers either
 };
 
 // What is known of one message of the database.

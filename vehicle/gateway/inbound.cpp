@@ -26,6 +26,8 @@ std::size_t row_index(std::uint32_t id) {
   return low < kMessages.size() && kMessages[low].id == id ? low : kNotFound;
 }
 
+using world::Monitor;
+
 // The verdict of the monitor; true if the frame may be read.
 bool admit(world::FrameRefusals& refused, can::FrameVerdict verdict) {
   switch (verdict) {
@@ -61,41 +63,96 @@ void tally(InboundState& state, Reading reading) {
   }
 }
 
+// What is refused, or would be: nothing where its monitor is off.
+bool refuses(const InboundParams& params, InboundState& state, Monitor monitor) {
+  if (params.off.has(monitor)) return false;
+  state.seen.add(monitor);
+  return true;
+}
+
+bool has_length(const InboundParams& params, InboundState& state, const can::MessageRow& row,
+                const can::Frame& frame) {
+  if (frame.length == row.length || !refuses(params, state, Monitor::kFrameShape)) return true;
+  ++state.refused.wrong_length;
+  return false;
+}
+
+// Rules 5 to 7. A debt that rises is a bad frame, whether it is refused yet or not.
+bool is_alive(const InboundParams& params, InboundState& state, const can::MessageRow& row,
+              can::MessageMonitor& monitor, const can::ReceivedFrame& received) {
+  can::MessageRow rules_of = row;
+  if (params.off.has(Monitor::kChecksum)) rules_of.protection = {};
+  const can::MonitorRules rules{.fault_debt = params.fault_debt,
+                                .use_counter = row.safety != can::SafetyClass::kRaceControl &&
+                                               !params.off.has(Monitor::kCounter)};
+  const std::uint8_t before = monitor.debt;
+  const can::FrameVerdict verdict = can::judge(rules_of, rules, monitor, received, state.losses);
+  const bool is_whole = verdict != can::FrameVerdict::kWrongChecksum;
+  if (!is_whole)
+    state.seen.add(Monitor::kChecksum);
+  else if (verdict != can::FrameVerdict::kGood || monitor.debt > before)
+    state.seen.add(Monitor::kCounter);
+  return admit(state.refused, verdict);
+}
+
+can::ReceivedFrame with_length(const can::ReceivedFrame& received, std::uint8_t length) {
+  can::ReceivedFrame whole = received;
+  whole.frame.length = length;
+  whole.frame.extended = whole.frame.remote = whole.frame.fd = false;
+  return whole;
+}
+
 // A frame of a message of the car: rules 4 to 9.
 bool accept(const InboundParams& params, InboundState& state, std::size_t index,
             const can::ReceivedFrame& received) {
   const can::MessageRow& row = kMessages[index];
-  if (received.frame.length != row.length) {
-    ++state.refused.wrong_length;
-    return false;
-  }
-  const can::MonitorRules rules{.fault_debt = params.fault_debt,
-                                .use_counter = row.safety != can::SafetyClass::kRaceControl};
-  if (!admit(state.refused, can::judge(row, rules, state.monitors[index], received, state.losses)))
-    return false;
-  const Reading reading = apply(params, state, received);
+  if (!has_length(params, state, row, received.frame)) return false;
+  const can::ReceivedFrame whole = with_length(received, row.length);
+  if (!is_alive(params, state, row, state.monitors[index], whole)) return false;
+  const Reading reading = apply(params, state, whole);
   tally(state, reading);
+  if (reading != Reading::kApplied) state.seen.add(Monitor::kDecodedRange);
   return reading == Reading::kApplied;
+}
+
+// Of the messages beside the database; false: it is none of them.
+bool receive_also(const InboundParams& params, InboundState& state,
+                  const can::ReceivedFrame& received) {
+  for (std::size_t i = 0; i < params.also.size(); ++i) {
+    const can::MessageRow& row = params.also[i];
+    if (row.id != received.frame.id) continue;
+    if (!has_length(params, state, row, received.frame)) return true;
+    const can::ReceivedFrame whole = with_length(received, row.length);
+    if (is_alive(params, state, row, state.also[i], whole)) ++state.frames_applied;
+    return true;
+  }
+  return false;
+}
+
+void receive_own(const InboundParams& params, InboundState& state, Instant at) {
+  ++state.own_frames;
+  if (state.stand_in.covers(at) || !refuses(params, state, Monitor::kOwnId)) return;
+  state.own_id_seen = true;
 }
 
 void receive(const InboundParams& params, InboundState& state, const can::ReceivedFrame& received) {
   const can::Frame& frame = received.frame;
   state.last_frame = received.at;
-  if (frame.extended || frame.remote || frame.fd) {
+  state.load.add(received);
+  if ((frame.extended || frame.remote || frame.fd) &&
+      refuses(params, state, Monitor::kFrameShape)) {
     ++state.refused.remote_or_error;
     return;
   }
+  if (receive_also(params, state, received)) return;
   const std::size_t index = row_index(frame.id);
   if (index == kNotFound) {
+    refuses(params, state, Monitor::kFrameShape);
     ++state.refused.unknown_id;
     return;
   }
   const can::MessageRow& row = kMessages[index];
-  if (row.direction == can::Direction::kToCar) {
-    ++state.own_frames;
-    if (!state.stand_in.covers(received.at)) state.own_id_seen = true;
-    return;
-  }
+  if (row.direction == can::Direction::kToCar) return receive_own(params, state, received.at);
   MessageTrack& track = state.messages[index];
   if (!accept(params, state, index, received)) {
     ++track.refused;
@@ -103,6 +160,23 @@ void receive(const InboundParams& params, InboundState& state, const can::Receiv
   }
   track.last = received.at;
   track.ever = true;
+}
+
+void watch_ages(const InboundParams& params, InboundState& state, Instant now) {
+  if (params.off.has(Monitor::kMessageAge)) return;
+  bool late = state.losses.count > 0;
+  for (std::size_t i = 0; i < kMessages.size() && !late; ++i) {
+    if (kMessages[i].direction != can::Direction::kFromCar) continue;
+    const world::Liveness life = liveness(kMessages[i], state.messages[i], now);
+    late = life == world::Liveness::kLate || life == world::Liveness::kLost;
+  }
+  if (late) state.seen.add(Monitor::kMessageAge);
+}
+
+void watch_frozen(const InboundParams& params, InboundState& state, Instant now) {
+  if (params.off.has(Monitor::kFrozenSignal)) return;
+  judge_frozen(state.frozen, state.signals, now);
+  if (state.frozen.any()) state.seen.add(Monitor::kFrozenSignal);
 }
 
 // Silence of the other source never lifts its flag, and "none" of it is no statement: it can make
@@ -181,9 +255,14 @@ world::Liveness liveness(const can::MessageRow& row, const MessageTrack& track, 
 
 InboundOutput decode(const InboundParams& params, InboundState& state,
                      std::span<const can::ReceivedFrame> frames, Instant now) {
+  CHECK(params.also.size() <= kAlsoMax);
   state.losses.clear();
+  state.seen = {};
   for (const can::ReceivedFrame& received : frames) receive(params, state, received);
   can::watch(kMessages, state.monitors, now, state.losses);
+  can::watch(params.also, std::span{state.also}.first(params.also.size()), now, state.losses);
+  watch_ages(params, state, now);
+  watch_frozen(params, state, now);
   const bool mylaps = params.flag_encoding == world::FlagEncoding::kMyLaps;
   const FlagSource& main = mylaps ? state.mylaps : state.marelli;
   const FlagSource& other = mylaps ? state.marelli : state.mylaps;
@@ -191,7 +270,13 @@ InboundOutput decode(const InboundParams& params, InboundState& state,
           .race_control = merge(main, other, params.flag_encoding, state.mylaps.lap_count),
           .bus = health(state, now),
           .own_frames = state.own_frames,
-          .own_id_seen = state.own_id_seen};
+          .own_id_seen = state.own_id_seen,
+          .seen = state.seen};
+}
+
+void remember_command(InboundState& state, const world::ActuatorCommand& command, bool told,
+                      Instant now) {
+  remember(state.frozen, command, told, now);
 }
 
 void observe_link(InboundState& state, world::BusHealth& bus, const world::LinkObservation& link,
@@ -205,6 +290,7 @@ void observe_link(InboundState& state, world::BusHealth& bus, const world::LinkO
   report(world::LossDetector::kSocketQueue, state.link.lost_in_socket, link.lost_in_socket);
   report(world::LossDetector::kInterface, state.link.lost_in_interface, link.lost_in_interface);
   state.link = bus.link = link;
+  bus.link.load = state.load.share(now);
 }
 
 }  // namespace pitwall::gateway

@@ -31,6 +31,11 @@
 // Losses are those of can::MessageMonitor, for every message that was heard at least once; a frame
 // that is refused by rules 5 to 9 came and is not lost. A frame that comes after it was reported is
 // taken out of frames_lost again, its report stands.
+//
+// Monitors: kMessageAge sees a message that is late or a loss that is noticed, kCounter, kChecksum,
+// kFrameShape (rules 1, 2, 4), kOwnId (rule 3) and kDecodedRange (8, 9) what their rules refuse in
+// this tick, kFrozenSignal what frozen_signal.hpp says. What a monitor that is off would refuse
+// passes: a frame of a wrong length is read as if it were whole.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -43,6 +48,9 @@
 #include "protocol/can/frame.hpp"
 #include "protocol/can/message_monitor.hpp"
 #include "protocol/vocabulary/time.hpp"
+#include "vehicle/gateway/bus_load.hpp"
+#include "vehicle/gateway/frozen_signal.hpp"
+#include "vehicle/world/actuator_command.hpp"
 #include "vehicle/world/bus_health.hpp"
 #include "vehicle/world/monitor.hpp"
 #include "vehicle/world/race_control.hpp"
@@ -67,7 +75,10 @@ struct InboundParams {
   Span tyre_temperature_c{-40.0, 250.0};   // within [-100, 6453]
   Span tyre_pressure_kpa{-50.0, 500.0};    // gauge; within [-100, 6553]
   std::uint8_t gear_max = 6;               // [1, 8]
-  world::MonitorSet off{};                 // of the bench alone: no car file sets it
+  // Of the bench alone, no car file sets them: monitors that are switched off; messages beside the
+  // database that are judged by rules 4 to 7 and mean nothing.
+  world::MonitorSet off{};
+  std::span<const can::MessageRow> also{};  // at most kAlsoMax, in the order of their ids
 };
 
 // What became of the frames of one expected message.
@@ -103,6 +114,7 @@ struct StandIn {
 };
 
 inline constexpr std::size_t kTyreSensors = 16;
+inline constexpr std::size_t kAlsoMax = 16;
 
 struct InboundState {
   std::array<MessageTrack, can::av21::kMessages.size()> messages{};
@@ -120,6 +132,10 @@ struct InboundState {
   bool own_id_seen = false;  // latched
   StandIn stand_in;          // told by the pipeline
   Instant last_frame{};
+  std::array<can::MessageMonitor, kAlsoMax> also{};
+  BusLoad load;
+  FrozenState frozen;
+  world::MonitorSet seen{};  // in this tick
 };
 static_assert(std::is_trivially_copyable_v<InboundState>);
 
@@ -134,6 +150,11 @@ struct InboundOutput {
 
 InboundOutput decode(const InboundParams& params, InboundState& state,
                      std::span<const can::ReceivedFrame> frames, Instant now);
+
+// What the actuators were told last, in the tick before, if anything: what they report has to move
+// with it. Before decode().
+void remember_command(InboundState& state, const world::ActuatorCommand& command, bool told,
+                      Instant now);
 
 // What the rim sees of the interface; frames that it lost since the tick before become reports
 // without an identifier. After decode() of the same tick.

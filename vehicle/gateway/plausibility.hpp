@@ -88,11 +88,13 @@ Reading settle(Context& c, const std::array<Change, N>& changes) {
 template <std::size_t R, std::size_t N>
 Reading accept(Context& c, const std::array<Ranged, R>& ranged,
                const std::array<Change, N>& changes) {
+  if (c.params.off.has(world::Monitor::kDecodedRange)) return Reading::kApplied;
   const Reading range = in_range(ranged);
   return range == Reading::kApplied ? settle(c, changes) : range;
 }
 template <std::size_t R>
-Reading accept(Context&, const std::array<Ranged, R>& ranged) {
+Reading accept(Context& c, const std::array<Ranged, R>& ranged) {
+  if (c.params.off.has(world::Monitor::kDecodedRange)) return Reading::kApplied;
   return in_range(ranged);
 }
 

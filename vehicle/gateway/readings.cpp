@@ -87,7 +87,8 @@ Reading take(Context& c, const av21::MiscReport& m) {
   const Reading reading =
       accept(c, std::array<Ranged, 1>{{{m.battery_voltage, c.params.battery_v}}});
   if (reading != Reading::kApplied) return reading;
-  if (!is_sys_state(m.sys_state)) return Reading::kOutOfRange;
+  const bool ranged = !c.params.off.has(world::Monitor::kDecodedRange);
+  if (ranged && !is_sys_state(m.sys_state)) return Reading::kOutOfRange;
   const auto sys = static_cast<world::SysState>(static_cast<std::uint8_t>(m.sys_state));
   hear(c.state.signals.misc,
        world::Misc{.battery_v = m.battery_voltage,
@@ -192,7 +193,7 @@ using TyrePart = std::array<double, kTyreSensors / kTyreParts>;
 // A quarter of a tyre's sensors; the mean is given once all four quarters were heard.
 Reading temperatures(Context& c, Corner corner, std::size_t part, const TyrePart& sensor_c) {
   for (const double t_c : sensor_c) {
-    const Reading reading = in_range(std::array<Ranged, 1>{{{t_c, c.params.tyre_temperature_c}}});
+    const Reading reading = accept(c, std::array<Ranged, 1>{{{t_c, c.params.tyre_temperature_c}}});
     if (reading != Reading::kApplied) return reading;
   }
   const auto tyre = static_cast<std::size_t>(corner);

@@ -6,9 +6,29 @@
 namespace pitwall::safety {
 namespace {
 
+using world::ControllerState;
+using world::Monitor;
+
 bool is_down(const BusGuardParams& params, const world::LinkObservation& link) {
-  return link.controller == world::ControllerState::kBusOff ||
-         link.controller == world::ControllerState::kDown || link.tx_stalled >= params.stall_max;
+  const bool silent =
+      link.controller == ControllerState::kBusOff || link.controller == ControllerState::kDown;
+  return (silent && !params.off.has(Monitor::kControllerState)) ||
+         (link.tx_stalled >= params.stall_max && !params.off.has(Monitor::kTransmitStall));
+}
+
+world::MonitorSet watch(const BusGuardParams& params, BusGuardState& state,
+                        const world::LinkObservation& link) {
+  world::MonitorSet seen;
+  const auto see = [&](Monitor monitor, bool holds) {
+    if (holds && !params.off.has(monitor)) seen.add(monitor);
+  };
+  const bool errors = link.error_frames > state.error_frames;
+  state.error_frames = link.error_frames;
+  see(Monitor::kBusLoad, link.load > params.load_max);
+  see(Monitor::kControllerState, errors || (link.controller != ControllerState::kUnknown &&
+                                            link.controller != ControllerState::kActive));
+  see(Monitor::kTransmitStall, link.tx_stalled >= params.stall_seen);
+  return seen;
 }
 
 std::size_t restarts_within(const BusGuardParams& params, const BusGuardState& state, Instant now) {
@@ -39,6 +59,7 @@ bool restart_or_fail(const BusGuardParams& params, BusGuardState& state, bool be
 
 BusGuardOutput guard(const BusGuardParams& params, BusGuardState& state,
                      const world::LinkObservation& link, bool reset, Instant now) {
+  const world::MonitorSet seen = watch(params, state, link);
   const bool down = is_down(params, link);
   const bool begins = down && !state.down;
   if (begins) {
@@ -49,7 +70,7 @@ BusGuardOutput guard(const BusGuardParams& params, BusGuardState& state,
   if (reset && !state.reset_was && !down) state.failed = false;
   state.reset_was = reset;
   const bool restart = down && !state.failed && restart_or_fail(params, state, begins, now);
-  return {.restart_now = restart, .failed = state.failed};
+  return {.restart_now = restart, .failed = state.failed, .seen = seen};
 }
 
 }  // namespace pitwall::safety

@@ -8,6 +8,9 @@
 //          is at most (restarts + 1) x pause from going down to a restart that helps or the latch.
 //          Reset (rising edge) clears the latch only while the controller is not bus-off. It does
 //          not give the restarts back.
+//   seen   kBusLoad: the bus is fuller than `load_max`; kControllerState: warned, passive, bus-off
+//          or down, or error frames since the tick before; kTransmitStall: nothing was taken for
+//          `stall_seen`. One that is off restarts nothing
 //   errors none
 //   source Linux can.rst (restart-ms); a controller that is bus-off speaks to nobody, so it is the
 //          drive-by-wire's own watchdog that stops the car
@@ -31,7 +34,9 @@ struct BusGuardParams {
   Duration window = seconds(10);       // [1, 60] s
   Duration pause = milliseconds(100);  // from bus-off to a restart, and between two; [10 ms, 1 s]
   Duration stall_max = milliseconds(50);  // the queue takes nothing; [20 ms, 1 s]
-  world::MonitorSet off{};                // of the bench alone: no car file sets it
+  Duration stall_seen = milliseconds(10);
+  double load_max = 0.7;    // share of the bit rate, without stuff bits; [0.3, 1]
+  world::MonitorSet off{};  // of the bench alone: no car file sets it
 };
 
 struct BusGuardState {
@@ -42,6 +47,7 @@ struct BusGuardState {
   bool down = false;
   bool failed = false;  // latched
   bool reset_was = false;
+  std::uint64_t error_frames = 0;  // as of the tick before
 };
 static_assert(std::is_trivially_copyable_v<BusGuardState>);
 

@@ -69,6 +69,7 @@ struct LinkObservation {
   std::uint64_t tx_drops = 0;  // frames that could not be sent in time
   std::uint64_t restarts = 0;  // of the controller, since the start
   Duration tx_stalled{};       // how long the interface has taken nothing; zero: it does
+  double load = 0.0;  // share of the bit rate that the frames heard take at least, by the gateway
 };
 
 // Frames that did not come, oldest first; a ring would hide which. Of one tick.

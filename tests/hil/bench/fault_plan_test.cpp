@@ -45,17 +45,48 @@ TEST(FaultPlan, EveryKindOfTheCatalogueIsPlannedOrRefusedByName) {
     ++planned;
     const auto& here = is_process_fault(kind.kind) ? plan->processes
                        : is_radio_fault(kind.kind) ? plan->radio
+                       : is_bus_fault(kind.kind)   ? plan->bus
+                       : is_clock_fault(kind.kind) ? plan->clock
+                       : is_byte_fault(kind.kind)  ? plan->bytes
                                                    : plan->models;
     ASSERT_EQ(here.size(), 1u);
-    EXPECT_EQ(
-        plan->frames.size() + plan->models.size() + plan->radio.size() + plan->processes.size(), 1u)
+    EXPECT_EQ(plan->frames.size() + plan->models.size() + plan->radio.size() + plan->bus.size() +
+                  plan->clock.size() + plan->bytes.size() + plan->processes.size(),
+              1u)
         << kind.name;
     EXPECT_EQ(here[0].kind, kind.kind);
     EXPECT_EQ(here[0].start, Instant{} + seconds(3));
     EXPECT_EQ(here[0].duration, seconds(2));
-    EXPECT_TRUE(carried_out(kind.kind, BenchMode::kLive)) << "planned means done somewhere";
+    EXPECT_TRUE(carried_out(kind.kind, BenchMode::kLive) ||
+                carried_out(kind.kind, BenchMode::kLockstep))
+        << "planned means done somewhere";
   }
   EXPECT_EQ(planned, 35u);
+}
+
+TEST(FaultPlan, ASignalIsNamedByItsMessageAndItsNumber) {
+  scenario::Fault fault = row("signal_offset", 5.0);
+  EXPECT_TRUE(is_refused_there(fault)) << "of which message?";
+  fault.can_id = 1300;
+  fault.unit = 3;
+  const auto plan = plan_faults({fault}, 1);
+  ASSERT_TRUE(plan) << to_string(plan.error());
+  EXPECT_EQ(plan->frames.at(0).unit, 3);
+  EXPECT_EQ(plan->frames.at(0).value, 5.0);
+  fault.unit = 4;
+  EXPECT_TRUE(is_refused_there(fault));
+  fault.unit = 3;
+  fault.value = kUnset;
+  EXPECT_TRUE(is_refused_there(fault)) << "by how much?";
+}
+
+TEST(FaultPlan, OnlyTheComputersOwnFramesCanBeMasqueraded) {
+  scenario::Fault fault = row("masquerade");
+  EXPECT_TRUE(is_refused_there(fault));
+  fault.can_id = 1303;
+  EXPECT_TRUE(is_refused_there(fault));
+  fault.can_id = 1402;
+  EXPECT_TRUE(plan_faults({fault}, 1));
 }
 
 TEST(FaultPlan, WhatABenchCannotCarryOutItRefusesByPlaceAndName) {

@@ -54,6 +54,7 @@ TEST(FrameFault, OutsideItsTimeEveryKindChangesNothing) {
   for (std::size_t k = 0; k < kFrameFaultKinds; ++k) {
     FrameFault fault = fault_of(static_cast<FrameFaultKind>(k));
     fault.delay = milliseconds(3);
+    fault.value = 50.0;
     const auto out = run(fault);
     int changed = 0;
     for (int i = 0; i < 300; ++i) {
@@ -64,7 +65,14 @@ TEST(FrameFault, OutsideItsTimeEveryKindChangesNothing) {
       ASSERT_TRUE(same || in_fault(i)) << name_of(fault.kind) << " at " << i;
       changed += same ? 0 : 1;
     }
-    EXPECT_GE(changed, 99) << name_of(fault.kind);  // a frozen value begins as it was
+    // The report has no checksum, and is not the one that a masquerade speaks beside.
+    if (fault.kind == FrameFaultKind::kWrongChecksum || fault.kind == FrameFaultKind::kMasquerade) {
+      EXPECT_EQ(changed, 0) << name_of(fault.kind);
+      continue;
+    }
+    // A frozen value begins as it was, noise may be nothing.
+    const int least = fault.kind == FrameFaultKind::kSignalNoise ? 95 : 99;
+    EXPECT_GE(changed, least) << name_of(fault.kind);
   }
 }
 

@@ -46,6 +46,44 @@ Verdict judge(
 
 Instant at_s(double t_s) { return Instant{} + from_seconds(t_s); }
 
+Expectation detection(Duration limit) {
+  Expectation e = expect(Kind::kDetects, {"x", Op::kEqual, 1.0});
+  e.from = at_s(5.0);
+  e.to = at_s(5.0) + limit;
+  e.limit = limit;
+  return e;
+}
+
+TEST(Grader, ADetectionIsMeasuredFromItsFault) {
+  for (const double delay_s : {0.01, 0.02, 0.05, 0.1}) {
+    const Verdict v = judge(detection(milliseconds(100)),
+                            [delay_s](double t) { return t >= 5.0 + delay_s - 1e-6 ? 1.0 : 0.0; });
+    EXPECT_TRUE(v.pass) << v.reason;
+    ASSERT_TRUE(v.delay);
+    EXPECT_NEAR(v.delay->seconds(), delay_s, 1e-9);
+  }
+  const Verdict late =
+      judge(detection(milliseconds(100)), [](double t) { return t >= 5.109 ? 1.0 : 0.0; });
+  EXPECT_FALSE(late.pass);
+  EXPECT_FALSE(late.delay);
+}
+
+TEST(Grader, WhatWasSeenBeforeAFaultIsNoDetection) {
+  const auto seen_at = [](double from_s, double to_s) {
+    return judge(detection(milliseconds(100)),
+                 [=](double t) { return (t > from_s && t < to_s) || t > 5.02 ? 1.0 : 0.0; });
+  };
+  EXPECT_FALSE(seen_at(4.995, 5.005).pass) << "the tick of the fault itself comes before it";
+  EXPECT_FALSE(seen_at(3.5, 3.6).pass);
+  EXPECT_TRUE(seen_at(2.5, 2.6).pass) << "longer ago than kQuiet";
+}
+
+TEST(Grader, ADetectionNeedsItsFault) {
+  Expectation e = detection(milliseconds(100));
+  e.from.reset();
+  EXPECT_FALSE(Grader::create({e}, kNames).has_value());
+}
+
 TEST(Grader, AlwaysHasTheLeastMarginOfTheRun) {
   const Signal wave = [](double t) { return std::sin(t); };
   const Verdict pass = judge(expect(Kind::kAlways, {"x", Op::kLess, 1.5}), wave);

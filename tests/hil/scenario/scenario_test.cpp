@@ -174,7 +174,8 @@ TEST(Scenario, TextCutAnywhereIsReadOrRefusedAndNeverCrashes) {
 TEST(Scenario, EveryScenarioOfTheTreeIsReadable) {
   int count = 0;
   const std::string folder = std::string(PITWALL_SOURCE_DIR) + "/hil/scenarios";
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_directory()) continue;
     std::ifstream file(entry.path());
     std::stringstream text;
     text << file.rdbuf();
@@ -183,6 +184,37 @@ TEST(Scenario, EveryScenarioOfTheTreeIsReadable) {
     ++count;
   }
   EXPECT_GE(count, 1);
+}
+
+std::string with_expectation(const std::string& expectation) {
+  std::string text = kGood;
+  text += "  - {" + expectation + "}\n";
+  return text;
+}
+
+TEST(Scenario, ADetectionCountsFromItsFault) {
+  const auto base = read_scenario(kGood, "good.yaml");
+  ASSERT_TRUE(base);
+  ASSERT_FALSE(base->faults.empty());
+  const auto read = read_scenario(
+      with_expectation("kind: detects, monitor: counter, within_s: 0.02"), "good.yaml");
+  ASSERT_TRUE(read) << to_string(read.error());
+  const Expectation& e = read->expect.back();
+  EXPECT_EQ(e.kind, ExpectKind::kDetects);
+  EXPECT_EQ(e.signal, "seen_counter");
+  EXPECT_EQ(e.from, base->faults[0].at);
+  EXPECT_EQ(e.until - e.from, milliseconds(20));
+  const auto told = read_scenario(
+      with_expectation(
+          "kind: detects, signal: mode, is: \">=\", value: 3, fault: 1, within_s: 0.5"),
+      "good.yaml");
+  ASSERT_TRUE(told) << to_string(told.error());
+  EXPECT_EQ(told->expect.back().relation, ">=");
+  for (const char* wrong :
+       {"kind: detects, monitor: counter, within_s: 0", "kind: detects, monitor: counter",
+        "kind: detects, monitor: counter, fault: 9, within_s: 1",
+        "kind: always, monitor: counter, within_s: 1"})
+    EXPECT_FALSE(read_scenario(with_expectation(wrong), "good.yaml")) << wrong;
 }
 
 TEST(Scenario, TheBusIsThatOfTheCarUnlessItIsNamed) {

@@ -177,10 +177,12 @@ TEST(Handshake, RandomInputsNeverLeaveThePublishedEdges) {
             << static_cast<int>(from) << ">" << static_cast<int>(to);
       }
       if (to == CtState::kCaution || to == CtState::kNominalRace) {
-        ASSERT_TRUE(in.mode == Mode::kDriving && in.sys == SysState::kDriving);
+        ASSERT_TRUE(in.mode == Mode::kDriving || in.mode == Mode::kCoast);
+        ASSERT_EQ(in.sys, SysState::kDriving);
       }
       if (drives(to)) {
-        ASSERT_TRUE(in.mode == Mode::kStandby || in.mode == Mode::kDriving);
+        ASSERT_TRUE(in.mode == Mode::kStandby || in.mode == Mode::kDriving ||
+                    in.mode == Mode::kCoast);
       }
     }
   }

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/bus_faults.hpp"
+
+#include <algorithm>
+
+#include "hil/bench/rig.hpp"
+#include "protocol/vocabulary/check.hpp"
+
+namespace pitwall::bench {
+namespace {
+
+using faults::BenchFaultKind;
+
+constexpr auto kCar = static_cast<std::uint8_t>(Node::kCar);
+constexpr auto kStranger = static_cast<std::uint8_t>(Node::kStranger);
+// Within a frame or two it is sent in any case: no stall.
+constexpr Duration kTakenSoon = milliseconds(5);
+
+can::Frame babble() {
+  can::Frame frame;
+  frame.id = 0;
+  frame.length = 8;
+  return frame;
+}
+
+world::ControllerState controller_of(bus::ErrorState state) {
+  switch (state) {
+    case bus::ErrorState::kActive:
+      return world::ControllerState::kActive;
+    case bus::ErrorState::kWarning:
+      return world::ControllerState::kWarning;
+    case bus::ErrorState::kPassive:
+      return world::ControllerState::kPassive;
+    case bus::ErrorState::kBusOff:
+      return world::ControllerState::kBusOff;
+  }
+  CHECK(false);
+}
+
+}  // namespace
+
+double BusFaults::value_of(BenchFaultKind kind, Instant now) const {
+  double value = 0.0;
+  for (const faults::BenchFault& fault : plan_)
+    if (fault.kind == kind && faults::active(fault, now)) value = std::max(value, fault.value);
+  return value;
+}
+
+void BusFaults::act_on(bus::MemoryBus& bus, Instant now) const {
+  if (plan_.empty()) return;
+  const bool stalled = std::ranges::any_of(plan_, [now](const faults::BenchFault& fault) {
+    return fault.kind == BenchFaultKind::kTransmitStall && faults::active(fault, now);
+  });
+  bus.disturb(value_of(BenchFaultKind::kBusErrors, now));
+  bus.damage_transmitter(kCar, value_of(BenchFaultKind::kBusTransmitter, now));
+  bus.stall(kCar, stalled);
+  bus.babble(kStranger, babble(), value_of(BenchFaultKind::kBusBabble, now), now);
+}
+
+world::LinkObservation link_of_car(const bus::MemoryBus& bus) {
+  const bus::PortStatus status = bus.status(kCar);
+  return {.controller = controller_of(status.state),
+          .error_frames = bus.counters().error_frames,
+          .tx_drops = status.dropped,
+          .restarts = status.restarts,
+          .tx_stalled = status.blocked >= kTakenSoon ? status.blocked : Duration{}};
+}
+
+}  // namespace pitwall::bench

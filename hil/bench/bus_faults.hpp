@@ -1,0 +1,35 @@
+// What the scenario does to the bus itself, and how the car's controller sees it.
+//   in     the faults of the plan; at each step of the rig the bus and now; a restart that the car
+//          asks for
+//   out    a bus that is disturbed, stalled or babbled on; the car's LinkObservation
+//   law    bus_errors: each bit is seen wrong with probability `value`. bus_transmitter: this share
+//          of the car's frames is destroyed. transmit_stall: the car's controller sends nothing.
+//          bus_babble: a stranger sends identifier 0 so that it fills this share of the bus; at 1
+//          nobody else is heard
+//   errors none
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "hil/bus/memory_bus.hpp"
+#include "hil/faults/bench_fault.hpp"
+#include "vehicle/world/bus_health.hpp"
+
+namespace pitwall::bench {
+
+class BusFaults {
+ public:
+  explicit BusFaults(std::vector<faults::BenchFault> plan) : plan_(std::move(plan)) {}
+
+  void act_on(bus::MemoryBus& bus, Instant now) const;
+
+ private:
+  double value_of(faults::BenchFaultKind kind, Instant now) const;  // 0: none is active
+
+  std::vector<faults::BenchFault> plan_;
+};
+
+world::LinkObservation link_of_car(const bus::MemoryBus& bus);
+
+}  // namespace pitwall::bench

@@ -1,0 +1,75 @@
+// Every scenario of a fault: noticed within its deadline, and the car ends well. And no fault of the
+// catalogue without a scenario, no monitor that none of them asks.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "hil/bench/loading.hpp"
+#include "hil/matrix/catalogue.hpp"
+#include "hil/matrix/fault_matrix.hpp"
+
+namespace pitwall::matrix {
+namespace {
+
+const std::string kRoot = PITWALL_SOURCE_DIR;
+const std::string kFolder = kRoot + "/hil/scenarios/faults";
+
+std::vector<std::string> names() {
+  std::vector<std::string> all;
+  for (const auto& entry : std::filesystem::directory_iterator(kFolder))
+    all.push_back(entry.path().stem().string());
+  std::ranges::sort(all);
+  return all;
+}
+
+Result<bench::Loaded, Problem> loaded(const std::string& name) {
+  return bench::load(kFolder + "/" + name + ".yaml", kRoot);
+}
+
+class Fault : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Fault, IsNoticedInTimeAndEndsWell) {
+  const auto scenario = loaded(GetParam());
+  ASSERT_TRUE(scenario) << to_string(scenario.error());
+  EXPECT_EQ(scenario->scenario.name, GetParam()) << "a scenario is called as its file";
+  const auto row = run_fault(*scenario, {});
+  ASSERT_TRUE(row) << to_string(row.error());
+  EXPECT_TRUE(row->passed()) << to_text(std::vector{*row});
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Fault, ::testing::ValuesIn(names()),
+                         [](const auto& name) { return name.param; });
+
+TEST(FaultMatrix, EveryFaultOfTheCatalogueHasAScenarioThatDetects) {
+  std::set<std::string> filled;
+  for (const std::string& name : names()) {
+    const auto scenario = loaded(name);
+    ASSERT_TRUE(scenario) << to_string(scenario.error());
+    if (std::ranges::any_of(scenario->scenario.expect, [](const scenario::Expectation& e) {
+          return e.kind == scenario::ExpectKind::kDetects;
+        }))
+      filled.insert(id_of(name));
+  }
+  for (const CatalogueRow& row : kCatalogue)
+    EXPECT_TRUE(filled.contains(std::string(row.id))) << row.id << ": " << row.fault;
+}
+
+TEST(FaultMatrix, EveryMonitorIsAsked) {
+  std::set<std::size_t> asked;
+  for (const std::string& name : names()) {
+    const auto scenario = loaded(name);
+    ASSERT_TRUE(scenario);
+    for (std::size_t m = 0; m < world::kMonitors; ++m)
+      if (asks(scenario->scenario, static_cast<world::Monitor>(m))) asked.insert(m);
+  }
+  for (std::size_t m = 0; m < world::kMonitors; ++m)
+    EXPECT_TRUE(asked.contains(m)) << world::kMonitorNames[m];
+}
+
+}  // namespace
+}  // namespace pitwall::matrix

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/gateway/frozen_signal.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pitwall::gateway {
+namespace {
+
+constexpr double kMoving_mps = 5.0;
+constexpr Duration kActuatorLag = milliseconds(100);
+constexpr Duration kFresh = milliseconds(50);  // of a speed that bears witness
+// In the order of Watched: rad at the road wheel, kPa, share, m/s, m/s.
+constexpr std::array<double, kWatched> kLimits{0.0015, 300.0, 0.1, 0.5, 0.5};
+
+// What was told kActuatorLag ago.
+world::ActuatorCommand told_then(const FrozenState& state, Instant now) {
+  world::ActuatorCommand command;
+  Instant newest{};
+  for (std::size_t i = 0; i < FrozenState::kCommands; ++i) {
+    if (state.told_at[i] > now - kActuatorLag || state.told_at[i] <= newest) continue;
+    newest = state.told_at[i];
+    command = state.commands[i];
+  }
+  return command;
+}
+
+double mean_mps(const world::VehicleSignals& signals) {
+  double sum = 0.0;
+  for (const double wheel : signals.wheel_speed_mps.value.at) sum += wheel;
+  return sum / static_cast<double>(world::kCorners);
+}
+
+// One number that changes when any wheel does.
+double mark_of(const world::PerWheel& wheels) {
+  double mark = 0.0;
+  for (const double wheel : wheels.at) mark = mark * 1009.0 + wheel;
+  return mark;
+}
+
+struct Judge {
+  FrozenState& state;
+  Instant now;
+  bool moving;
+
+  template <class T>
+  void operator()(Watched which, world::Heard<T>& signal, double value, double witness) {
+    FrozenTrack& track = state.tracks[static_cast<std::size_t>(which)];
+    if (!moving || !signal.heard || !std::isfinite(witness) || !std::isfinite(value)) {
+      track = {};
+      return;
+    }
+    if (value != track.value || !std::isfinite(track.witness)) {
+      track = {.value = value, .witness = witness};
+      return;
+    }
+    const double moved = std::abs(witness - track.witness);
+    if (!track.frozen && moved < kLimits[static_cast<std::size_t>(which)]) return;
+    if (!track.frozen) track.frozen_since = now;
+    track.frozen = true;
+    signal.at = std::min(signal.at, track.frozen_since);
+  }
+};
+
+template <class T>
+double fresh_or_unset(const world::Heard<T>& signal, double value, Instant now) {
+  return signal.fresh(now, kFresh) ? value : kUnset;
+}
+
+}  // namespace
+
+void remember(FrozenState& state, const world::ActuatorCommand& command, bool told, Instant now) {
+  state.commands[state.next] = told ? command : world::ActuatorCommand{};
+  state.told_at[state.next] = now;
+  state.next = (state.next + 1) % FrozenState::kCommands;
+}
+
+void judge_frozen(FrozenState& state, world::VehicleSignals& signals, Instant now) {
+  const double wheels_mps = mean_mps(signals);
+  const double powertrain_mps = signals.powertrain.value.vehicle_speed_mps;
+  const world::ActuatorCommand told = told_then(state, now);
+  // Of the other speed as well: frozen wheels must not tell that the car stands.
+  const bool moving = wheels_mps > kMoving_mps || powertrain_mps > kMoving_mps;
+  const double wheels_fresh = fresh_or_unset(signals.wheel_speed_mps, wheels_mps, now);
+  const double powertrain_fresh = fresh_or_unset(signals.powertrain, powertrain_mps, now);
+  Judge judge{state, now, moving};
+  judge(Watched::kSteering, signals.steering_motor_rad, signals.steering_motor_rad.value,
+        told.road_wheel_rad);
+  judge(Watched::kBrake, signals.brake, signals.brake.value.front_kpa, told.brake_kpa);
+  judge(Watched::kThrottle, signals.throttle_fraction, signals.throttle_fraction.value,
+        told.throttle_fraction);
+  // Wheels that stand while the car slides are locked, not frozen.
+  if (wheels_mps > kMoving_mps)
+    judge(Watched::kWheels, signals.wheel_speed_mps, mark_of(signals.wheel_speed_mps.value),
+          powertrain_fresh);
+  else
+    state.tracks[static_cast<std::size_t>(Watched::kWheels)] = {};
+  judge(Watched::kPowertrain, signals.powertrain, powertrain_mps, wheels_fresh);
+}
+
+}  // namespace pitwall::gateway

@@ -1,0 +1,56 @@
+// A live counter over a value that must move and does not. Nothing of the message tells; a witness
+// does: what the actuator was told, for steering, brake and accelerator; the other speed, for the
+// speed of the wheels and that of the powertrain.
+//   in     the values as they were heard; the last commands; now
+//   out    which values are frozen: the same to the bit since they changed last, while their witness
+//          moved by more than its limit
+//   law    a value that changed is not frozen. Nothing is judged at a standstill (below 5 m/s), of
+//          an actuator that is told nothing, or while the witness rests: a straight line at one
+//          speed freezes nothing
+//   limits command: 1.7 deg of the steering motor, 300 kPa, a tenth of the pedal, each as told
+//          0.1 s ago (delay and lag of the actuators); speed: 0.5 m/s
+//   cost   no allocation
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/actuator_command.hpp"
+#include "vehicle/world/signals.hpp"
+
+namespace pitwall::gateway {
+
+enum class Watched : std::uint8_t { kSteering, kBrake, kThrottle, kWheels, kPowertrain };
+inline constexpr std::size_t kWatched = 5;
+
+struct FrozenTrack {
+  double value = kUnset;
+  double witness = kUnset;  // when the value changed last
+  bool frozen = false;
+  Instant frozen_since{};
+};
+
+struct FrozenState {
+  static constexpr std::size_t kCommands = 16;  // of the last ticks
+  std::array<FrozenTrack, kWatched> tracks{};
+  std::array<world::ActuatorCommand, kCommands> commands{};  // unset: told nothing
+  std::array<Instant, kCommands> told_at{};
+  std::size_t next = 0;
+
+  bool any() const {
+    bool found = false;
+    for (const FrozenTrack& track : tracks) found |= track.frozen;
+    return found;
+  }
+};
+
+void remember(FrozenState& state, const world::ActuatorCommand& command, bool told, Instant now);
+
+// Once per tick, after its frames. A signal that is frozen is as old as its freezing.
+void judge_frozen(FrozenState& state, world::VehicleSignals& signals, Instant now);
+
+}  // namespace pitwall::gateway
