@@ -157,6 +157,8 @@ Predicted predict_measurement(const Vector6& x, const Measurement& m, const Moti
     case Kind::kNone:
     case Kind::kWiden:
     case Kind::kImu:
+    case Kind::kRoad:
+    case Kind::kAttitude:
       break;
   }
   return {};

@@ -1,5 +1,5 @@
 // The extended Kalman filter of the car in the plane of the road: motion, measurement models and
-// their Jacobians. Pure arithmetic; what is measured when is the business of timeline.
+// their Jacobians. Pure arithmetic; what is measured when is the business of filter_window.
 //   state  x, y [m], yaw [rad] in Map; vx, vy [m/s] of the centre of gravity in Body, in the plane
 //          of the road; bias of the yaw gyro [rad/s]
 //   law    with r = gyro - bias and the road banked by phi (left side lower):
@@ -17,6 +17,7 @@
 
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/autonomy/localization/measurement.hpp"
 
 namespace pitwall::localization {
 
@@ -47,45 +48,10 @@ struct Belief {
   Motion motion;
 };
 
-enum class Kind : std::uint8_t {
-  kNone,
-  kImu,
-  kWiden,
-  kPosition,
-  kVelocity,
-  kHeading,
-  kWheelSpeed,
-  kSlip
-};
-
-struct LeverArm {  // from the centre of gravity, Body
-  double x_m = 0.0, y_m = 0.0, z_m = 0.0;
-};
-
-// One measurement in Map or Body. kPosition: a, b = x, y [m] of the antenna. kVelocity: a, b =
-// east, north [m/s] of the antenna. kHeading: a = yaw [rad]. kWheelSpeed: a = vx [m/s]. kSlip:
-// a = vy.
-// kWiden measures nothing: it takes confidence in the position away, sigma_a and sigma_b [m].
-struct Measurement {
-  Kind kind = Kind::kNone;
-  std::uint8_t unit = 0;
-  Instant at{};
-  double a = kUnset, b = kUnset;
-  double sigma_a = kUnset, sigma_b = kUnset;
-  LeverArm arm{};
-  Motion motion{};  // kImu only; its banking holds for the others as well
-};
-
 struct Predicted {
   int size = 0;  // 1 or 2
   Eigen::Vector2d value = Eigen::Vector2d::Zero();
   Eigen::Matrix<double, 2, kStates> jacobian = Eigen::Matrix<double, 2, kStates>::Zero();
-};
-
-struct Innovation {
-  bool accepted = false;
-  double nis = kUnset;  // normalised innovation squared, chi-square with `size` degrees of freedom
-  int size = 0;
 };
 
 Vector6 motion_rate(const Vector6& x, const Motion& motion);

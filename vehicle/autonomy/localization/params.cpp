@@ -19,38 +19,19 @@ std::optional<Problem> illegal_unit(const UnitParams& unit, std::size_t index) {
       LegalRange{"antenna.x_m", unit.antenna.x_m, -kReach_m, kReach_m},
       LegalRange{"antenna.y_m", unit.antenna.y_m, -kReach_m, kReach_m},
       LegalRange{"antenna.z_m", unit.antenna.z_m, -kReach_m, kReach_m},
+      LegalRange{"imu.x_m", unit.imu.x_m, -kReach_m, kReach_m},
+      LegalRange{"imu.y_m", unit.imu.y_m, -kReach_m, kReach_m},
+      LegalRange{"imu.z_m", unit.imu.z_m, -kReach_m, kReach_m},
+      LegalRange{"baseline_m", unit.baseline_m, 0.2, 5.0},
       LegalRange{"baseline_yaw_rad", unit.baseline_yaw_rad, -std::numbers::pi, std::numbers::pi}});
   if (problem) problem->place = place + problem->place;
   return problem;
 }
 
-std::optional<Problem> illegal_timeline(const TimelineParams& t) {
-  const MotionNoise& n = t.noise;
-  return world::first_illegal(std::array{
-      LegalRange{"timeline.noise.gyro_rad_per_sqrt_s", n.gyro_rad_per_sqrt_s, 1e-5, 0.1},
-      LegalRange{"timeline.noise.accel_mps_per_sqrt_s", n.accel_mps_per_sqrt_s, 1e-3, 5},
-      LegalRange{"timeline.noise.lateral_mps_per_sqrt_s", n.lateral_mps_per_sqrt_s, 1e-3, 5},
-      LegalRange{"timeline.noise.gyro_bias_rad_per_s_sqrt_s", n.gyro_bias_rad_per_s_sqrt_s, 1e-7,
-                 0.01},
-      LegalRange{"timeline.noise.position_m_per_sqrt_s", n.position_m_per_sqrt_s, 0, 1},
-      LegalRange{"timeline.gate_nis[0]", t.gate_nis[0], 4, 100},
-      LegalRange{"timeline.gate_nis[1]", t.gate_nis[1], 4, 100},
-      LegalRange{"timeline.window_s", t.window_s, 0.05, 0.5}});
-}
-
 std::optional<Problem> illegal_sensors(const Params& p) {
   return world::first_illegal(
-      std::array{LegalRange{"position_sigma_floor_m", p.position_sigma_floor_m, 0.001, 1},
-                 LegalRange{"position_sigma_max_m", p.position_sigma_max_m, 0.05, 20},
-                 LegalRange{"velocity_sigma_mps", p.velocity_sigma_mps, 0.01, 2},
-                 LegalRange{"heading_sigma_floor_rad", p.heading_sigma_floor_rad, 0.0005, 0.2},
+      std::array{LegalRange{"position_sigma_max_m", p.position_sigma_max_m, 0.05, 20},
                  LegalRange{"heading_sigma_max_rad", p.heading_sigma_max_rad, 0.005, 0.5},
-                 LegalRange{"wheel_sigma_mps", p.wheel_sigma_mps, 0.01, 2},
-                 LegalRange{"wheel_sigma_per_speed", p.wheel_sigma_per_speed, 0, 0.1},
-                 LegalRange{"slip_sigma_mps", p.slip_sigma_mps, 0.05, 5},
-                 LegalRange{"slip_after_s", p.slip_after_s, 0.05, 5},
-                 LegalRange{"cg_to_rear_m", p.cg_to_rear_m, 0.5, 3},
-                 LegalRange{"rear_slip_rad_per_mps2", p.rear_slip_rad_per_mps2, 0, 0.02},
                  LegalRange{"steering_ratio", p.steering_ratio, 5, 40},
                  LegalRange{"wheelbase_m", p.wheelbase_m, 1, 5},
                  LegalRange{"understeer_rad_per_mps2", p.understeer_rad_per_mps2, -0.005, 0.02},
@@ -68,7 +49,8 @@ Result<Params, Problem> checked(const Params& params) {
   for (std::size_t i = 0; i < params.units.size(); ++i) {
     if (auto problem = illegal_unit(params.units[i], i)) return Unexpected{*problem};
   }
-  if (auto problem = illegal_timeline(params.timeline)) return Unexpected{*problem};
+  if (auto problem = illegal(params.filter)) return Unexpected{*problem};
+  if (auto problem = illegal(params.checks)) return Unexpected{*problem};
   if (auto problem = illegal_sensors(params)) return Unexpected{*problem};
   return params;
 }

@@ -7,8 +7,9 @@
 
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/units.hpp"
-#include "vehicle/autonomy/localization/ekf.hpp"
-#include "vehicle/autonomy/localization/timeline.hpp"
+#include "vehicle/autonomy/localization/checks/check_params.hpp"
+#include "vehicle/autonomy/localization/filter_params.hpp"
+#include "vehicle/autonomy/localization/measurement.hpp"
 #include "vehicle/world/monitor.hpp"
 #include "vehicle/world/sensor_input.hpp"
 
@@ -18,22 +19,17 @@ struct UnitParams {
   LeverArm antenna;                  // of the primary antenna, from the centre of gravity: +-5 m
   double baseline_yaw_rad = kUnset;  // -pi..pi: direction of the antenna baseline in Body, from x
                                      // counter-clockwise
+  double baseline_m = kUnset;        // 0.2..5: between the antennas
+  LeverArm imu;                      // of the inertial unit, from the centre of gravity: +-5 m
 };
 
 struct Params {
   std::array<UnitParams, world::kGnssUnits> units;
-  TimelineParams timeline;
-  double position_sigma_floor_m = kUnset;   // 0.001..1: added to the receiver's own figure
-  double position_sigma_max_m = kUnset;     // 0.05..20: a worse solution is refused
-  double velocity_sigma_mps = kUnset;       // 0.01..2
-  double heading_sigma_floor_rad = kUnset;  // 0.0005..0.2
-  double heading_sigma_max_rad = kUnset;    // 0.005..0.5: a worse solution is refused
-  double wheel_sigma_mps = kUnset;          // 0.01..2
-  double wheel_sigma_per_speed = kUnset;    // 0..0.1: share of the speed (slip, tyre growth)
-  double slip_sigma_mps = kUnset;           // 0.05..5: of the lateral speed by the tyre model
-  double slip_after_s = kUnset;             // 0.05..5: without GNSS velocity the model is used
-  double cg_to_rear_m = kUnset;             // 0.5..3
-  double rear_slip_rad_per_mps2 = kUnset;   // 0..0.02: rear slip angle per lateral acceleration
+  FilterParams filter;
+  CheckParams checks;
+  Priorities priorities;
+  double position_sigma_max_m = kUnset;   // 0.05..20: a worse solution is refused
+  double heading_sigma_max_rad = kUnset;  // 0.005..0.5: a worse solution is refused
   // Without any IMU the yaw rate comes from the steering: how the car turns at a steering angle.
   double steering_ratio = kUnset;           // 5..40: motor angle : road-wheel angle
   double wheelbase_m = kUnset;              // 1..5

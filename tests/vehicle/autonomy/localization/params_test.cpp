@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/vehicle/autonomy/localization/drive.hpp"
+#include "tests/vehicle/autonomy/localization/recommended.hpp"
 
 namespace pitwall::localization {
 namespace {
@@ -24,8 +24,8 @@ TEST(Params, TheOffenderIsNamed) {
   EXPECT_EQ(place([](Params& p) { p.units[1].antenna.z_m = 7.0; }), "units[1].antenna.z_m");
   EXPECT_EQ(place([](Params& p) { p.units[0].baseline_yaw_rad = kUnset; }),
             "units[0].baseline_yaw_rad");
-  EXPECT_EQ(place([](Params& p) { p.timeline.window_s = 0.0; }), "timeline.window_s");
-  EXPECT_EQ(place([](Params& p) { p.timeline.gate_nis[1] = 1.0; }), "timeline.gate_nis[1]");
+  EXPECT_EQ(place([](Params& p) { p.filter.window_s = 0.0; }), "filter.window_s");
+  EXPECT_EQ(place([](Params& p) { p.checks.jump_sigmas = 1.0; }), "checks.jump_sigmas");
   EXPECT_EQ(place([](Params& p) { p.reset_after_s = kUnset; }), "reset_after_s");
 }
 

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/parameters/filter_section.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+
+namespace pitwall::parameters {
+namespace {
+
+using localization::NamedRange;
+
+template <class Params, std::size_t N>
+void read_ranges(yaml::StrictMap& map, const std::array<NamedRange<Params>, N>& ranges,
+                 Params& params) {
+  for (const NamedRange<Params>& r : ranges) params.*r.value = map.number(r.name, r.least, r.most);
+}
+
+template <std::size_t N>
+void read_gates(yaml::StrictMap& map, std::array<double, N>& gates) {
+  const auto read =
+      map.numbers("gate_nis", N, N, localization::kGateLeast, localization::kGateMost);
+  std::copy(read.begin(), read.end(), gates.begin());
+}
+
+localization::FilterKind read_kind(yaml::StrictMap& map) {
+  const std::string name = map.text("kind");
+  const auto& names = localization::kFilterKindNames;
+  const auto* found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) map.fail("kind", "\"" + name + "\" is no filter; planar or spatial");
+  return static_cast<localization::FilterKind>(found - names.begin());
+}
+
+}  // namespace
+
+localization::FilterParams read_filter(yaml::StrictMap map) {
+  localization::FilterParams p;
+  p.kind = read_kind(map);
+  p.window_s = map.number("window_s", 0.05, 0.5);
+  p.reentry_mps = map.number("reentry_mps", 0.5, 5.0);
+  yaml::StrictMap planar = map.map("planar"), spatial = map.map("spatial");
+  read_ranges(planar, localization::kMotionNoiseRanges, p.planar.noise);
+  read_ranges(planar, localization::kPlanarRanges, p.planar);
+  read_gates(planar, p.planar.gate_nis);
+  read_ranges(spatial, localization::kSpatialRanges, p.spatial);
+  read_gates(spatial, p.spatial.gate_nis);
+  return p;
+}
+
+localization::CheckParams read_checks(yaml::StrictMap& section) {
+  localization::CheckParams checks;
+  if (auto map = section.optional_map("checks")) {
+    for (const localization::CheckRange& r : localization::kCheckRanges)
+      checks.*r.value = map->number_or(std::string(r.name), checks.*r.value, r.least, r.most);
+  }
+  return checks;
+}
+
+}  // namespace pitwall::parameters
