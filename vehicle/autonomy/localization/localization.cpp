@@ -4,264 +4,70 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <type_traits>
+#include <optional>
 
-#include "protocol/vocabulary/check.hpp"
-#include "vehicle/autonomy/localization/sample_gate.hpp"
+#include "vehicle/autonomy/localization/intake.hpp"
 
 namespace pitwall::localization {
 namespace {
 
-constexpr double kWheelAccelLag_s = 0.15, kWheelAccelMax_mps2 = 30.0;
+using world::Excludable;
+using world::Monitor;
 
-static_assert(std::is_trivially_copyable_v<State>);
-
-constexpr Duration kFutureMax = milliseconds(5);  // clocks of receivers are estimates
-constexpr double kSeedAgeMax_s = 1.5;             // a heading once per second is enough to start
-constexpr double kCourseSpeedMin_mps = 5.0;       // from here the course is the heading of the car
+constexpr double kSeedAgeMax_s = 1.5;        // a heading once per second is enough to start
+constexpr double kCourseSpeedMin_mps = 5.0;  // from here the course is the heading of the car
 constexpr double kCourseSigma_rad = 0.05;
 constexpr double kTurnMax_rad_per_s = 0.3;  // fastest turn assumed while a seed heading ages
-constexpr double kReacquire_s = 0.1;  // refused positions in a row before reckoning is distrusted
-constexpr double kStartSpeedSigma_mps = 1.0, kStartBiasSigma_rad_per_s = 0.005;
-constexpr double kSlowSpeed_mps = 5.0, kSlowSlipSigma_mps = 0.1;  // no side slip to speak of
+constexpr Duration kOverslept = milliseconds(25);
+constexpr double kOpenGate = 1e30;
 
-struct Context {
-  const Params& params;
-  const Datum& datum;
-  double bank_rad;
-  Instant now;
-  Output& out;
+double combined(double a, double b) { return std::sqrt(a * a + b * b); }
 
-  State& state() const { return out.next; }
-};
-
-void tell(const Context& c, Source source, std::uint8_t unit, Instant at, Gate gate, double nis) {
-  const Verdict verdict{source, unit, gate, nis, (c.now - at).seconds()};
-  CHECK(c.out.verdicts.push(verdict));
-  if (unit >= world::kGnssUnits) return;
-  Tally& tally = c.state().tally[static_cast<std::size_t>(source)][unit];
-  ++tally.by_gate[static_cast<std::size_t>(gate)];
-  if (gate != Gate::kAccepted) return;
-  tally.last_accepted = tally.ever_accepted ? std::max(tally.last_accepted, at) : at;
-  tally.ever_accepted = true;
-}
-
-// Timing first: it needs no look at the contents.
-Gate timing(const Context& c, std::uint8_t unit, Instant at) {
-  if (unit >= world::kGnssUnits) return Gate::kUnknownUnit;
-  if (at > c.now + kFutureMax) return Gate::kFromTheFuture;
-  if (c.now - at > from_seconds(c.params.timeline.window_s)) return Gate::kTooOld;
-  return Gate::kAccepted;
-}
-
-void fuse(const Context& c, Source source, const Measurement& m) {
-  if (!c.state().started) return tell(c, source, m.unit, m.at, Gate::kNotStarted, kUnset);
-  const auto innovation = insert(c.state().timeline, c.params.timeline, m);
-  if (!innovation) return tell(c, source, m.unit, m.at, Gate::kTooOld, kUnset);
-  tell(c, source, m.unit, m.at, innovation->accepted ? Gate::kAccepted : Gate::kOutlier,
-       innovation->nis);
-}
-
-double combined(double sigma, double floor) { return std::sqrt(sigma * sigma + floor * floor); }
-
-Gate judge(const Context& c, const world::GnssPosition& p) {
-  const Gate gate = timing(c, p.unit, p.at);
-  return gate == Gate::kAccepted ? contents(c.params, c.datum, p) : gate;
-}
-
-Gate judge(const Context& c, const world::GnssVelocity& v) {
-  const Gate gate = timing(c, v.unit, v.at);
-  return gate == Gate::kAccepted ? contents(v) : gate;
-}
-
-Gate judge(const Context& c, const world::GnssHeading& h) {
-  const Gate gate = timing(c, h.unit, h.at);
-  return gate == Gate::kAccepted ? contents(c.params, h) : gate;
-}
-
-Gate judge(const Context& c, const world::ImuSample& s) {
-  Gate gate = timing(c, s.unit, s.at);
-  if (gate == Gate::kAccepted) gate = contents(s);
-  if (gate != Gate::kAccepted || s.unit == 0) return gate;
-  const Tally& first = c.state().tally[static_cast<std::size_t>(Source::kImu)][0];
-  const bool first_lives =
-      first.ever_accepted && s.at - first.last_accepted <= from_seconds(c.params.imu_timeout_s);
-  return first_lives ? Gate::kStandby : Gate::kAccepted;
-}
-
-Measurement measurement(const Context& c, const world::GnssPosition& p) {
-  const auto place = c.datum.to_map(p.latitude_deg, p.longitude_deg, p.height_m);
-  CHECK(place.has_value());  // judged before
-  const double floor_m = c.params.position_sigma_floor_m;
-  return {.kind = Kind::kPosition,
-          .unit = p.unit,
-          .at = p.at,
-          .a = place->x_m,
-          .b = place->y_m,
-          .sigma_a = combined(p.longitude_sigma_m, floor_m),
-          .sigma_b = combined(p.latitude_sigma_m, floor_m),
-          .arm = c.params.units[p.unit].antenna};
-}
-
-Measurement measurement(const Context& c, const world::GnssVelocity& v) {
-  return {.kind = Kind::kVelocity,
-          .unit = v.unit,
-          .at = v.at,
-          .a = v.horizontal_mps * std::sin(v.track_over_ground_rad),
-          .b = v.horizontal_mps * std::cos(v.track_over_ground_rad),
-          .sigma_a = c.params.velocity_sigma_mps,
-          .sigma_b = c.params.velocity_sigma_mps,
-          .arm = c.params.units[v.unit].antenna};
-}
-
-Measurement measurement(const Context& c, const world::GnssHeading& h) {
-  const double baseline_rad = c.params.units[h.unit].baseline_yaw_rad;
-  return {.kind = Kind::kHeading,
-          .unit = h.unit,
-          .at = h.at,
-          .a = wrap_pi(0.5 * std::numbers::pi - h.heading_rad - baseline_rad),
-          .sigma_a = combined(h.heading_sigma_rad, c.params.heading_sigma_floor_rad)};
-}
-
-Measurement measurement(const Context& c, const world::ImuSample& s) {
-  return {.kind = Kind::kImu,
-          .unit = s.unit,
-          .at = s.at,
-          .motion = {s.rate_rad_per_s[2], s.specific_force_mps2[0], s.specific_force_mps2[1],
-                     c.bank_rad}};
-}
-
-template <class Sample>
-bool take(const Context& c, Source source, const Sample& sample) {
-  const Gate gate = judge(c, sample);
-  if (gate == Gate::kAccepted) return fuse(c, source, measurement(c, sample)), true;
-  tell(c, source, sample.unit, sample.at, gate, kUnset);
-  return false;
-}
-
-// Without GNSS velocity the lateral speed comes from the tyres: the rear axle slips in proportion
-// to the lateral force. At walking pace it does not slip at all.
-void use_slip_model(const Context& c, Instant at) {
-  const Belief& belief = c.state().timeline.newest();
-  const double vx = belief.mean[kVx];
-  const bool slow = std::abs(vx) < kSlowSpeed_mps;
-  bool velocity_lives = false;
-  for (const Tally& t : c.state().tally[static_cast<std::size_t>(Source::kVelocity)]) {
-    velocity_lives |=
-        t.ever_accepted && at - t.last_accepted <= from_seconds(c.params.slip_after_s);
-  }
-  if (velocity_lives && !slow) return;
-  const double rate = belief.motion.yaw_rate_rad_per_s - belief.mean[kBias];
-  const double slip_rad = c.params.rear_slip_rad_per_mps2 * belief.motion.fy_mps2;
-  const Measurement m{
-      .kind = Kind::kSlip,
-      .at = at,
-      .a = slow ? c.params.cg_to_rear_m * rate : c.params.cg_to_rear_m * rate - vx * slip_rad,
-      .sigma_a = slow ? kSlowSlipSigma_mps : c.params.slip_sigma_mps};
-  (void)insert(c.state().timeline, c.params.timeline, m);  // a model, not a sample: no verdict
-}
-
-// Without any IMU the car turns as its steering says, in steady state:
-//   delta = L r / v + K (v r - g sin(bank))      Rajamani, Vehicle Dynamics and Control, eq. 3.12
-// The held rate of a dead gyro would be believed for ever.
-void use_steering_model(const Context& c, const world::VehicleSignals& car, Instant at) {
-  const State& s = c.state();
-  for (const Tally& imu : s.tally[static_cast<std::size_t>(Source::kImu)])
-    if (imu.ever_accepted && at - imu.last_accepted <= from_seconds(c.params.imu_timeout_s)) return;
-  if (!car.steering_motor_rad.fresh(at, from_seconds(c.params.imu_timeout_s))) return;
-  const Params& p = c.params;
-  const double speed = s.wheel_mps, fall = kGravity_mps2 * std::sin(c.bank_rad);
-  const double angle_rad = car.steering_motor_rad.value / p.steering_ratio;
-  const double rate = speed * (angle_rad + p.understeer_rad_per_mps2 * fall) /
-                      (p.wheelbase_m + p.understeer_rad_per_mps2 * speed * speed);
-  const double bias = s.timeline.newest().mean[kBias];
-  (void)insert(c.state().timeline, p.timeline,
-               {.kind = Kind::kImu,
-                .at = at,
-                .motion = {.yaw_rate_rad_per_s = rate + bias,
-                           .fx_mps2 = s.wheel_accel_mps2,
-                           .fy_mps2 = speed * rate - fall,
-                           .bank_rad = c.bank_rad}});
-}
-
-void take_wheels(const Context& c, const world::VehicleSignals& car) {
-  const world::Heard<world::PerWheel>& wheels = car.wheel_speed_mps;
-  State& state = c.state();
-  if (!wheels.heard || (state.have_wheel && wheels.at <= state.last_wheel)) return;
-  const double speed =
-      0.5 * (wheels.value[world::Corner::kRearLeft] + wheels.value[world::Corner::kRearRight]);
-  Gate gate = timing(c, 0, wheels.at);
-  if (gate == Gate::kAccepted && !std::isfinite(speed)) gate = Gate::kNotFinite;
-  const double since_s = (wheels.at - state.last_wheel).seconds();
-  state.last_wheel = wheels.at;
-  if (gate != Gate::kAccepted) return tell(c, Source::kWheelSpeed, 0, wheels.at, gate, kUnset);
-  if (state.have_wheel && since_s > 0.0) {
-    const double accel =
-        std::clamp((speed - state.wheel_mps) / since_s, -kWheelAccelMax_mps2, kWheelAccelMax_mps2);
-    const double share = std::min(since_s / kWheelAccelLag_s, 1.0);
-    state.wheel_accel_mps2 += share * (accel - state.wheel_accel_mps2);
-  }
-  state.have_wheel = true;
-  state.wheel_mps = speed;
-  fuse(c, Source::kWheelSpeed,
-       {.kind = Kind::kWheelSpeed,
-        .at = wheels.at,
-        .a = speed,
-        .sigma_a = combined(c.params.wheel_sigma_per_speed * speed, c.params.wheel_sigma_mps)});
-  if (!state.started) return;
-  use_steering_model(c, car, wheels.at);
-  use_slip_model(c, wheels.at);
+// The gates of the filter itself belong to kInnovation as well.
+FilterParams without_gates(FilterParams params) {
+  params.planar.gate_nis.fill(kOpenGate);
+  params.spatial.gate_nis.fill(kOpenGate);
+  return params;
 }
 
 struct SeedHeading {
   double yaw_rad, sigma_rad;
 };
 
-std::optional<SeedHeading> seed_heading(const Context& c) {
-  const State& s = c.state();
+std::optional<SeedHeading> seed_heading(const Intake& in) {
+  const State& s = in.state;
   const auto age_s = [&](Instant at) { return std::abs((s.seed_position.at - at).seconds()); };
   if (s.have_heading && age_s(s.seed_heading.at) <= kSeedAgeMax_s) {
-    const Measurement m = measurement(c, s.seed_heading);
+    const Measurement m = measurement(in, s.seed_heading);
     const double turned = s.have_velocity && s.seed_velocity.horizontal_mps > 1.0
                               ? kTurnMax_rad_per_s * age_s(s.seed_heading.at)
                               : 0.0;
     return SeedHeading{m.a, combined(m.sigma_a, turned)};
   }
-  const bool moving = s.have_velocity && age_s(s.seed_velocity.at) <= c.params.timeline.window_s &&
+  const bool moving = s.have_velocity && age_s(s.seed_velocity.at) <= in.params.filter.window_s &&
                       s.seed_velocity.horizontal_mps >= kCourseSpeedMin_mps;
   if (!moving) return std::nullopt;
   const double course_rad = 0.5 * std::numbers::pi - s.seed_velocity.track_over_ground_rad;
   return SeedHeading{wrap_pi(course_rad), kCourseSigma_rad};
 }
 
-void try_start(const Context& c) {
-  State& s = c.state();
+void try_start(const Intake& in) {
+  State& s = in.state;
   if (s.started || !s.have_position) return;
-  if (timing(c, s.seed_position.unit, s.seed_position.at) != Gate::kAccepted) return;
-  const auto heading = seed_heading(c);
+  if ((in.now - s.seed_position.at).seconds() > in.params.filter.window_s) return;
+  const auto heading = seed_heading(in);
   if (!heading) return;
-  const Measurement m = measurement(c, s.seed_position);
-  const double cy = std::cos(heading->yaw_rad), sy = std::sin(heading->yaw_rad);
-  const double left_m = m.arm.y_m * std::cos(c.bank_rad) + m.arm.z_m * std::sin(c.bank_rad);
-  const double speed = s.have_velocity ? s.seed_velocity.horizontal_mps : s.wheel_mps;
-  Belief belief;
-  belief.at = m.at;
-  belief.mean = {m.a - cy * m.arm.x_m + sy * left_m,
-                 m.b - sy * m.arm.x_m - cy * left_m,
-                 heading->yaw_rad,
-                 speed,
-                 0.0,
-                 0.0};
-  const std::array<double, kStates> sigma{m.sigma_a + 5.0 * heading->sigma_rad,
-                                          m.sigma_b + 5.0 * heading->sigma_rad,
-                                          heading->sigma_rad,
-                                          kStartSpeedSigma_mps,
-                                          kStartSpeedSigma_mps,
-                                          kStartBiasSigma_rad_per_s};
-  for (std::size_t i = 0; i < kStates; ++i)
-    belief.covariance[i * kStates + i] = sigma[i] * sigma[i];
-  belief.motion.bank_rad = c.bank_rad;
-  start(s.timeline, belief);
+  const Measurement m = measurement(in, s.seed_position);
+  const double by_wheels = std::isfinite(s.wheels.speed_mps) ? s.wheels.speed_mps : 0.0;
+  start(s.filter, in.filter,
+        {.at = m.at,
+         .antenna_m = {m.a, m.b, m.c},
+         .antenna_sigma_m = std::max(m.sigma_a, m.sigma_b),
+         .arm = m.arm,
+         .yaw_rad = heading->yaw_rad,
+         .yaw_sigma_rad = heading->sigma_rad,
+         .speed_mps = s.have_velocity ? s.seed_velocity.horizontal_mps : by_wheels,
+         .road = in.around.road});
   s.started = true;
   s.refusing = false;
   Tally& tally = s.tally[static_cast<std::size_t>(Source::kPosition)][m.unit];
@@ -269,7 +75,97 @@ void try_start(const Context& c) {
   tally.ever_accepted = true;
 }
 
-double age_s(const State& state, Source source, Instant now) {
+// Once per estimate: the same road twice would count twice.
+void take_road(const Intake& in) {
+  State& s = in.state;
+  const Surroundings& around = in.around;
+  if (!s.started || !std::isfinite(around.road.bank_rad) || around.at <= s.road_at) return;
+  s.road_at = around.at;
+  (void)insert(s.filter, in.filter, {.kind = Kind::kRoad, .at = around.at, .road = around.road});
+}
+
+void watch_inertial(const Intake& in) {
+  if (in.params.off.has(Monitor::kUnitAgreement)) {
+    in.state.imu.blamed.reset();
+    return;
+  }
+  const WheelState& wheels = in.state.wheels;
+  const Moment* moment = in.state.trail.newest();
+  const bool fresh =
+      wheels.heard && (in.now - wheels.at).seconds() <= in.params.checks.wheel_gap_max_s;
+  ImuWitness witness;
+  witness.bank_rad = in.bank_rad();
+  if (moment) witness.speed_mps = moment->speed_mps;
+  if (fresh && std::isfinite(wheels.speed_mps)) witness.accel_mps2 = wheels.accel_mps2;
+  constexpr double kStands_mps = 0.2;
+  witness.stands =
+      fresh && moment && moment->speed_mps < 1.0 && std::abs(wheels.speed_mps) < kStands_mps;
+  watch_imu(in.params.checks, in.state.imu, witness, in.now);
+}
+
+void take_all(const Intake& in, const world::SensorInput& sensors,
+              const world::VehicleSignals& car) {
+  for (const world::ReceiverHealth& health : sensors.receivers)
+    if (health.unit < world::kGnssUnits) in.state.receivers[health.unit] = health;
+  take_road(in);
+  for (const auto& sample : sensors.imu) take(in, sample);
+  take_wheels(in, car);
+  for (const auto& v : sensors.velocities) take(in, v);
+  for (const auto& h : sensors.headings) take(in, h);
+  for (const auto& a : sensors.attitudes) take(in, a);
+  for (const auto& p : sensors.positions) take(in, p);
+  try_start(in);
+  watch_inertial(in);
+}
+
+Excludable excludable(Source source, std::size_t unit) {
+  if (source == Source::kImu) return unit == 0 ? Excludable::kImu0 : Excludable::kImu1;
+  return unit == 0 ? Excludable::kGnss0 : Excludable::kGnss1;
+}
+
+// Streams that fell silent. A car that slept itself hears them in the next tick.
+void watch_streams(const Intake& in) {
+  if (in.now - in.state.stepped_at > kOverslept) return;
+  const CheckParams& checks = in.params.checks;
+  constexpr std::array kWatched{Source::kPosition, Source::kVelocity, Source::kHeading,
+                                Source::kImu};
+  const auto late = [&](Instant at, Source source) {
+    return (in.now - at).seconds() > gap_max_s(checks, source);
+  };
+  for (const Source source : kWatched) {
+    for (std::uint8_t unit = 0; unit < world::kGnssUnits; ++unit) {
+      Stream& stream = in.stream(source, unit);
+      if (!stream.trust.heard || !in.use.uses(excludable(source, unit))) continue;
+      if (!late(stream.trust.heard_at, source)) continue;
+      stream.verdict = Gate::kSilent;
+      stream.comparable = false;
+      stream.seen = {};
+      stream.seen.add(Monitor::kStreamAge);
+    }
+  }
+  WheelState& wheels = in.state.wheels;
+  if (!wheels.heard || !late(wheels.at, Source::kWheelSpeed)) return;
+  wheels.verdict = Gate::kSilent;
+  wheels.seen.add(Monitor::kStreamAge);
+}
+
+// What the newest sample of each stream showed holds until the next one.
+void gather_seen(const Intake& in) {
+  world::MonitorSet& seen = in.out.seen;
+  for (std::size_t source = 0; source < kSources; ++source)
+    for (std::uint8_t unit = 0; unit < world::kGnssUnits; ++unit)
+      if (in.use.uses(excludable(static_cast<Source>(source), unit)))
+        seen.add(in.state.streams[source][unit].seen);
+  seen.add(in.state.wheels.seen);
+  const ImuWatch& imu = in.state.imu;
+  const bool apart =
+      imu.apart && in.now - imu.apart_since >= from_seconds(in.params.checks.imu_contradict_s);
+  const bool both = in.use.uses(Excludable::kImu0) && in.use.uses(Excludable::kImu1);
+  if (both && (apart || imu.blamed)) seen.add(Monitor::kUnitAgreement);
+  seen.bits &= ~in.params.off.bits;
+}
+
+double youngest_s(const State& state, Source source, Instant now) {
   double youngest = kUnset;
   for (const Tally& t : state.tally[static_cast<std::size_t>(source)]) {
     if (!t.ever_accepted) continue;
@@ -278,56 +174,8 @@ double age_s(const State& state, Source source, Instant now) {
   return youngest;
 }
 
-// Positions came back after dead reckoning and do not fit: the reckoning is wrong.
-void widen(const Context& c, Instant at) {
-  const double sigma_m = c.params.lost_sigma_max_m;
-  (void)insert(c.state().timeline, c.params.timeline,
-               {.kind = Kind::kWiden, .at = at, .sigma_a = sigma_m, .sigma_b = sigma_m});
-}
-
-void refused(const Context& c, Instant at) {
-  State& s = c.state();
-  if (!s.refusing) s.refusing = true, s.refused_since = at;
-  const double for_s = (at - s.refused_since).seconds();
-  if (for_s >= c.params.reset_after_s) {  // the filter is wrong, not the receivers
-    s.started = false;
-    s.refusing = false;
-    ++s.restarts;
-    return;
-  }
-  const bool reckoning = age_s(s, Source::kPosition, at) > c.params.good_age_max_s;
-  if (reckoning && for_s >= kReacquire_s) widen(c, at);
-}
-
-void take_position(const Context& c, const world::GnssPosition& p) {
-  State& s = c.state();
-  if (!take(c, Source::kPosition, p)) return;
-  s.seed_position = p;
-  s.have_position = true;
-  if (!s.started) return;
-  const Gate gate = c.out.verdicts.back().gate;
-  if (gate == Gate::kAccepted) s.refusing = false;
-  if (gate == Gate::kOutlier) refused(c, p.at);
-}
-
-void take_all(const Context& c, const world::SensorInput& in, const world::VehicleSignals& car) {
-  State& s = c.state();
-  for (const auto& sample : in.imu) (void)take(c, Source::kImu, sample);
-  take_wheels(c, car);
-  for (const auto& v : in.velocities) {
-    if (take(c, Source::kVelocity, v)) s.seed_velocity = v, s.have_velocity = true;
-  }
-  for (const auto& h : in.headings) {
-    if (take(c, Source::kHeading, h)) s.seed_heading = h, s.have_heading = true;
-  }
-  for (const auto& p : in.positions) take_position(c, p);
-  try_start(c);
-}
-
-world::Validity validity(const Params& p, const Output& out) {
-  if (!out.next.started) {
-    return out.next.restarts > 0 ? world::Validity::kLost : world::Validity::kNever;
-  }
+world::Validity validity(const Params& p, const State& state, const Output& out) {
+  if (!state.started) return state.restarts > 0 ? world::Validity::kLost : world::Validity::kNever;
   const double age = out.position_age_s, sigma = out.ego.position_sigma_m;
   if (!(age <= p.dead_reckoning_max_s && sigma <= p.lost_sigma_max_m &&
         out.imu_age_s <= p.dead_reckoning_max_s)) {
@@ -338,38 +186,60 @@ world::Validity validity(const Params& p, const Output& out) {
   return good ? world::Validity::kGood : world::Validity::kDeadReckoning;
 }
 
-void conclude(const Params& params, Instant now, Output& out) {
-  out.ego.at = now;
-  out.position_age_s = age_s(out.next, Source::kPosition, now);
-  out.imu_age_s = age_s(out.next, Source::kImu, now);
-  if (out.next.started) {
-    Belief belief = out.next.timeline.newest();
-    if (now > belief.at) advance(belief, params.timeline.noise, now);
-    const auto& x = belief.mean;
-    const auto& p = belief.covariance;
-    const double xx = p[0], yy = p[kStates + 1], xy = p[1];
-    const double larger = 0.5 * (xx + yy + std::hypot(xx - yy, 2.0 * xy));
-    out.ego.x_m = x[kX], out.ego.y_m = x[kY], out.ego.yaw_rad = x[kYaw];
-    out.ego.vx_mps = x[kVx], out.ego.vy_mps = x[kVy];
-    out.ego.yaw_rate_rad_per_s = belief.motion.yaw_rate_rad_per_s - x[kBias];
-    out.ego.ax_mps2 = belief.motion.fx_mps2, out.ego.ay_mps2 = belief.motion.fy_mps2;
-    out.ego.position_sigma_m = std::sqrt(std::max(larger, 0.0));
-    out.ego.yaw_sigma_rad = std::sqrt(std::max(p[kYaw * kStates + kYaw], 0.0));
-    out.gyro_bias_rad_per_s = x[kBias];
+void say(const Estimate& estimate, world::EgoState& ego) {
+  ego.x_m = estimate.position_m[0];
+  ego.y_m = estimate.position_m[1];
+  ego.z_m = estimate.position_m[2];
+  ego.yaw_rad = estimate.yaw_rad;
+  ego.pitch_rad = estimate.pitch_rad;
+  ego.roll_rad = estimate.roll_rad;
+  ego.vx_mps = estimate.velocity_mps[0];
+  ego.vy_mps = estimate.velocity_mps[1];
+  ego.yaw_rate_rad_per_s = estimate.rate_rad_per_s[2];
+  ego.ax_mps2 = estimate.force_mps2[0];
+  ego.ay_mps2 = estimate.force_mps2[1];
+  ego.position_sigma_m = estimate.position_sigma_m;
+  ego.yaw_sigma_rad = estimate.yaw_sigma_rad;
+}
+
+void conclude(const Intake& in) {
+  State& s = in.state;
+  Output& out = in.out;
+  out.ego.at = in.now;
+  out.position_age_s = youngest_s(s, Source::kPosition, in.now);
+  out.imu_age_s = youngest_s(s, Source::kImu, in.now);
+  for (std::size_t source = 0; source < kSources; ++source)
+    for (std::size_t unit = 0; unit < world::kGnssUnits; ++unit)
+      if (in_use(in, static_cast<Source>(source), unit))
+        out.in_use[source] |= static_cast<UnitSet>(1U << unit);
+  if (s.started) {
+    // A sample may be a little ahead of the car's clock.
+    const Instant at = std::max(in.now, newest(s.filter));
+    Estimate raw = estimate_at(s.filter, in.filter, at);
+    s.trail.note(raw, in.around.road);
+    const Moment& moment = *s.trail.newest();
+    go(s.drift, moment.velocity_mps[0], moment.velocity_mps[1], at);
+    out.estimate = publish(s.filter, in.filter, at);
+    say(out.estimate, out.ego);
   }
-  out.ego.validity = validity(params, out);
+  out.ego.validity = validity(in.params, s, out);
 }
 
 }  // namespace
 
-Output step(const Params& params, const Datum& datum, const State& state,
+Output step(const Params& params, const Datum& datum, State& state,
             const world::SensorInput& sensors, const world::VehicleSignals& signals,
-            double bank_rad, Instant now) {
+            const Surroundings& surroundings, world::SensorUse use, Instant now) {
   Output out;
-  out.next = state;
-  const Context context{params, datum, std::isfinite(bank_rad) ? bank_rad : 0.0, now, out};
-  take_all(context, sensors, signals);
-  conclude(params, now, out);
+  const bool gated = !params.off.has(Monitor::kInnovation);
+  const FilterParams open = gated ? FilterParams{} : without_gates(params.filter);
+  const Intake in{params, gated ? params.filter : open, datum, surroundings, use, now, state, out};
+  state.wheels.seen = {};
+  take_all(in, sensors, signals);
+  watch_streams(in);
+  state.stepped_at = now;
+  conclude(in);
+  gather_seen(in);
   return out;
 }
 

@@ -20,7 +20,7 @@ struct UnitParams {
   double baseline_yaw_rad = kUnset;  // -pi..pi: direction of the antenna baseline in Body, from x
                                      // counter-clockwise
   double baseline_m = kUnset;        // 0.2..5: between the antennas
-  LeverArm imu;                      // of the inertial unit, from the centre of gravity: +-5 m
+  LeverArm imu{};                    // of the inertial unit, from the centre of gravity: +-5 m
 };
 
 struct Params {

@@ -1,0 +1,117 @@
+// The limits of localization's checks, each with its legal range: one table that start-up, the car
+// file and the tests read.
+//   units  in the names; a limit that compares adds the reported sigmas where its comment says so
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::localization {
+
+// Which unit a channel prefers; the other one is used when that one is not well.
+enum class Preference : std::uint8_t { kBoth, kUnit0, kUnit1 };
+struct Priorities {
+  Preference position = Preference::kBoth, velocity = Preference::kBoth,
+             heading = Preference::kBoth;
+  Preference imu = Preference::kUnit0;  // of two gyros one is used: their biases differ
+};
+
+struct CheckParams {
+  // Stamps.
+  double future_max_s = 0.005;        // clocks of receivers are estimates
+  double reorder_max_s = 0.12;        // a stamp may lie so far before the newest of its stream
+  double spacing_min_s = 0.001;       // closer to a used stamp: the same one again
+  double frozen_speed_min_mps = 2.0;  // faster than this no content repeats
+  // Streams.
+  double position_gap_max_s = 0.125, velocity_gap_max_s = 0.125, heading_gap_max_s = 2.5,
+         imu_gap_max_s = 0.05, wheel_gap_max_s = 0.05;
+  double rate_window_s = 1.0;  // an outage longer than this ends the trust in a unit
+  // Solution.
+  double position_rank_min = 1.0;  // 0 any solved, 1 single point, 2 differential or float, 3 fixed
+  double height_sigma_max_m = 10.0;
+  double differential_age_max_s = 10.0, solution_age_max_s = 1.0;
+  double velocity_sigma_max_mps = 1.0;
+  double attitude_sigma_max_rad = 0.1;
+  double baseline_tolerance_m = 0.1;
+  // Jumps against the prediction: beyond so many sigma of both, and larger than this.
+  double jump_sigmas = 4.0;
+  double jump_position_m = 0.08, jump_velocity_mps = 0.2, jump_heading_rad = 0.01;
+  // One unit against the other, beside three sigma of both.
+  double agree_position_m = 0.08, agree_velocity_mps = 0.3, agree_heading_rad = 0.02;
+  double agree_within_s = 0.2;  // so far apart in time two residuals are compared
+  double worse_factor = 1.5;    // the one that is to blame is so many times worse
+  double drift_memory_s = 5.0;  // over which a unit is seen to stray by itself
+  double course_speed_min_mps = 10.0, course_max_rad = 0.15;
+  // Inertial units, against each other and against the turning of the course.
+  double imu_rate_max_rad_per_s = 0.03, imu_force_max_mps2 = 1.5;
+  double imu_contradict_s = 0.04;     // so long before one is blamed
+  double imu_offset_memory_s = 20.0;  // of their lasting difference
+  // Wheels, against each other and against the car.
+  double wheel_spread_mps = 0.8, wheel_spread_per_speed = 0.04;
+  double wheel_speed_max_mps = 1.5, wheel_speed_max_per_speed = 0.1;
+  double half_track_m = 0.82;
+  // Trust.
+  double distrust_samples = 3.0;       // refused in a row
+  double readmit_after_s = 1.0;        // consistent without a break
+  double readmit_alone_after_s = 0.1;  // where nothing else gives the state
+};
+
+struct CheckRange {
+  std::string_view name;
+  double CheckParams::*value;
+  double least, most;
+};
+
+inline constexpr auto kCheckRanges = std::to_array<CheckRange>({
+    {"future_max_s", &CheckParams::future_max_s, 0.0, 0.1},
+    {"reorder_max_s", &CheckParams::reorder_max_s, 0.0, 0.5},
+    {"spacing_min_s", &CheckParams::spacing_min_s, 0.0, 0.004},
+    {"frozen_speed_min_mps", &CheckParams::frozen_speed_min_mps, 0.5, 30.0},
+    {"position_gap_max_s", &CheckParams::position_gap_max_s, 0.05, 2.0},
+    {"velocity_gap_max_s", &CheckParams::velocity_gap_max_s, 0.05, 2.0},
+    {"heading_gap_max_s", &CheckParams::heading_gap_max_s, 0.05, 10.0},
+    {"imu_gap_max_s", &CheckParams::imu_gap_max_s, 0.01, 0.5},
+    {"wheel_gap_max_s", &CheckParams::wheel_gap_max_s, 0.01, 0.5},
+    {"rate_window_s", &CheckParams::rate_window_s, 0.2, 10.0},
+    {"position_rank_min", &CheckParams::position_rank_min, 0.0, 3.0},
+    {"height_sigma_max_m", &CheckParams::height_sigma_max_m, 0.1, 50.0},
+    {"differential_age_max_s", &CheckParams::differential_age_max_s, 1.0, 120.0},
+    {"solution_age_max_s", &CheckParams::solution_age_max_s, 0.1, 10.0},
+    {"velocity_sigma_max_mps", &CheckParams::velocity_sigma_max_mps, 0.05, 10.0},
+    {"attitude_sigma_max_rad", &CheckParams::attitude_sigma_max_rad, 0.005, 0.5},
+    {"baseline_tolerance_m", &CheckParams::baseline_tolerance_m, 0.01, 1.0},
+    {"jump_sigmas", &CheckParams::jump_sigmas, 2.0, 10.0},
+    {"jump_position_m", &CheckParams::jump_position_m, 0.02, 1.0},
+    {"jump_velocity_mps", &CheckParams::jump_velocity_mps, 0.05, 2.0},
+    {"jump_heading_rad", &CheckParams::jump_heading_rad, 0.002, 0.2},
+    {"agree_position_m", &CheckParams::agree_position_m, 0.02, 1.0},
+    {"agree_velocity_mps", &CheckParams::agree_velocity_mps, 0.05, 2.0},
+    {"agree_heading_rad", &CheckParams::agree_heading_rad, 0.002, 0.2},
+    {"agree_within_s", &CheckParams::agree_within_s, 0.05, 2.0},
+    {"worse_factor", &CheckParams::worse_factor, 1.0, 5.0},
+    {"drift_memory_s", &CheckParams::drift_memory_s, 1.0, 60.0},
+    {"course_speed_min_mps", &CheckParams::course_speed_min_mps, 3.0, 30.0},
+    {"course_max_rad", &CheckParams::course_max_rad, 0.05, 1.0},
+    {"imu_rate_max_rad_per_s", &CheckParams::imu_rate_max_rad_per_s, 0.005, 0.5},
+    {"imu_force_max_mps2", &CheckParams::imu_force_max_mps2, 0.2, 20.0},
+    {"imu_contradict_s", &CheckParams::imu_contradict_s, 0.0, 0.5},
+    {"imu_offset_memory_s", &CheckParams::imu_offset_memory_s, 1.0, 120.0},
+    {"wheel_spread_mps", &CheckParams::wheel_spread_mps, 0.1, 10.0},
+    {"wheel_spread_per_speed", &CheckParams::wheel_spread_per_speed, 0.0, 0.3},
+    {"wheel_speed_max_mps", &CheckParams::wheel_speed_max_mps, 0.1, 10.0},
+    {"wheel_speed_max_per_speed", &CheckParams::wheel_speed_max_per_speed, 0.0, 0.5},
+    {"half_track_m", &CheckParams::half_track_m, 0.3, 1.5},
+    {"distrust_samples", &CheckParams::distrust_samples, 1.0, 50.0},
+    {"readmit_after_s", &CheckParams::readmit_after_s, 0.0, 30.0},
+    {"readmit_alone_after_s", &CheckParams::readmit_alone_after_s, 0.0, 5.0},
+});
+
+// The first limit that is outside its range (NaN is outside); the place is "checks." and its name.
+std::optional<Problem> illegal(const CheckParams& params);
+
+}  // namespace pitwall::localization

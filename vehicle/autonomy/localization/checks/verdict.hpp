@@ -1,0 +1,91 @@
+// What localization says of a sample, and what it has said so far: the words of its checks.
+//   law    every sample gets one verdict; a refused one changes no estimate, and none is repaired
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/sensor_input.hpp"
+
+namespace pitwall::localization {
+
+enum class Source : std::uint8_t { kPosition, kVelocity, kHeading, kImu, kWheelSpeed, kAttitude };
+inline constexpr std::size_t kSources = 6;
+
+enum class Gate : std::uint8_t {
+  kUnknown,
+  kAccepted,
+  kNotFinite,
+  kUnknownUnit,
+  kNotSolved,
+  kTooUncertain,
+  kTooOld,
+  kFromTheFuture,
+  kOutlier,  // a step against the car's own motion
+  kNotStarted,
+  kStandby,           // healthy, but another unit or source is preferred
+  kImplausible,       // finite, but nothing that a car on a track can do or a receiver can mean
+  kExcluded,          // by the operator
+  kNegativeVariance,  // never repaired by its magnitude
+  kOldCorrections,
+  kWrongBaseline,  // the antennas are not as far apart as they are mounted
+  kRepeated,       // a stamp that was used before: it stands still
+  kRanBack,
+  kFrozen,  // new stamps over a content that does not change while the car moves
+  kDisagrees,
+  kOffCourse,      // a heading across the way the car goes
+  kReceiverError,  // the receiver says itself that it is not well
+  kProbation,      // consistent, but not for long enough since it was refused
+  kSilent          // of a stream, not of a sample: nothing comes
+};
+inline constexpr std::size_t kGates = 24;
+
+// In the order of Gate; telemetry compares its labels with them.
+inline constexpr std::array<std::string_view, kGates> kGateNames{"-",
+                                                                 "in use",
+                                                                 "NOT A NUMBER",
+                                                                 "no such unit",
+                                                                 "no solution",
+                                                                 "too uncertain",
+                                                                 "too old",
+                                                                 "from the future",
+                                                                 "JUMPED",
+                                                                 "waits for a start",
+                                                                 "stands by",
+                                                                 "IMPLAUSIBLE",
+                                                                 "excluded",
+                                                                 "NEGATIVE VARIANCE",
+                                                                 "old corrections",
+                                                                 "WRONG BASELINE",
+                                                                 "STAMP STANDS STILL",
+                                                                 "STAMP RAN BACK",
+                                                                 "FROZEN",
+                                                                 "CONTRADICTS THE OTHER",
+                                                                 "OFF ITS COURSE",
+                                                                 "receiver error",
+                                                                 "on probation",
+                                                                 "SILENT"};
+constexpr std::string_view text_of(Gate gate) { return kGateNames[static_cast<std::size_t>(gate)]; }
+
+struct Verdict {
+  Source source = Source::kPosition;
+  std::uint8_t unit = 0;
+  Gate gate = Gate::kUnknown;
+  double nis = kUnset;
+  double age_s = kUnset;
+};
+
+// Since the start; one row per source and unit (wheel speed is unit 0).
+struct Tally {
+  std::array<std::uint32_t, kGates> by_gate{};
+  Instant last_accepted{};
+  bool ever_accepted = false;
+};
+using Tallies = std::array<std::array<Tally, world::kGnssUnits>, kSources>;
+
+}  // namespace pitwall::localization

@@ -1,0 +1,146 @@
+// The samples that say how the car moves: inertial units and wheels, and what stands in for them.
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "vehicle/autonomy/localization/intake.hpp"
+
+namespace pitwall::localization {
+namespace {
+
+constexpr double kWheelAccelLag_s = 0.15, kWheelAccelMax_mps2 = 30.0;
+
+using world::Excludable;
+using world::Monitor;
+
+std::uint8_t preferred_imu(const Intake& in) {
+  return in.params.priorities.imu == Preference::kUnit1 ? 1 : 0;
+}
+
+bool uses_imu(const Intake& in, std::uint8_t unit) {
+  return in.use.uses(unit == 0 ? Excludable::kImu0 : Excludable::kImu1);
+}
+
+bool blamed(const Intake& in, std::uint8_t unit) {
+  return !in.params.off.has(Monitor::kUnitAgreement) && in.state.imu.blamed == unit;
+}
+
+// Whether the unit may be relied on at `at`; without the watch over ages for ever.
+bool lives(const Intake& in, std::uint8_t unit, Instant at) {
+  const Tally& t = in.tally(Source::kImu, unit);
+  if (!t.ever_accepted || !uses_imu(in, unit) || blamed(in, unit)) return false;
+  return in.params.off.has(Monitor::kStreamAge) ||
+         (at - t.last_accepted).seconds() <= in.params.imu_timeout_s;
+}
+
+Gate timing(const Intake& in, Instant at) {
+  const CheckParams& checks = in.params.checks;
+  const double age_s = (in.now - at).seconds();
+  if (-age_s > checks.future_max_s) return Gate::kFromTheFuture;
+  return age_s > in.params.filter.window_s ? Gate::kTooOld : Gate::kAccepted;
+}
+
+// Without any IMU the car turns as its steering says, in steady state:
+//   delta = L r / v + K (v r - g sin(bank))      Rajamani, Vehicle Dynamics and Control, eq. 3.12
+// The held rate of a dead gyro would be believed for ever.
+void use_steering_model(const Intake& in, const world::VehicleSignals& car, Instant at) {
+  for (std::uint8_t unit = 0; unit < world::kGnssUnits; ++unit)
+    if (lives(in, unit, at)) return;
+  if (!car.steering_motor_rad.fresh(at, from_seconds(in.params.imu_timeout_s))) return;
+  const Params& p = in.params;
+  const double speed = in.state.wheels.speed_mps;
+  const double fall = kGravity_mps2 * std::sin(in.bank_rad());
+  const double angle_rad = car.steering_motor_rad.value / p.steering_ratio;
+  const double rate = speed * (angle_rad + p.understeer_rad_per_mps2 * fall) /
+                      (p.wheelbase_m + p.understeer_rad_per_mps2 * speed * speed);
+  Measurement m{.kind = Kind::kImu, .at = at};
+  m.imu.rate_rad_per_s[2] = rate;
+  m.imu.force_mps2[0] = in.state.wheels.accel_mps2;
+  m.imu.force_mps2[1] = speed * rate - fall;
+  (void)insert(in.state.filter, in.filter, m);
+}
+
+void follow_speed(WheelState& wheels, double speed_mps, Instant at) {
+  const double since_s = (at - wheels.at).seconds();
+  if (wheels.heard && std::isfinite(wheels.speed_mps) && since_s > 0.0) {
+    const double accel = std::clamp((speed_mps - wheels.speed_mps) / since_s, -kWheelAccelMax_mps2,
+                                    kWheelAccelMax_mps2);
+    const double share = std::min(since_s / kWheelAccelLag_s, 1.0);
+    wheels.accel_mps2 += share * (accel - wheels.accel_mps2);
+  }
+  wheels.speed_mps = speed_mps;
+}
+
+WheelSpeed judge_wheels(const Intake& in, const world::PerWheel& reported) {
+  WheelFacts facts;
+  facts.speed_mps = reported;
+  if (const Moment* moment = in.state.trail.newest()) {
+    facts.yaw_rate_rad_per_s = moment->rate_rad_per_s[2];
+    const bool measured = in_use(in, Source::kVelocity, 0) || in_use(in, Source::kVelocity, 1);
+    if (measured) facts.by_receivers_mps = moment->speed_mps;
+  }
+  const bool watched = !in.params.off.has(Monitor::kWheelAgreement);
+  return watch_wheels(in.params.checks, in.state.wheels.watch, facts, watched, in.now);
+}
+
+}  // namespace
+
+void take(const Intake& in, const world::ImuSample& sample) {
+  const std::uint8_t unit = sample.unit;
+  if (unit < world::kGnssUnits && !uses_imu(in, unit))
+    return tell(in, Source::kImu, unit, sample.at, Gate::kExcluded);
+  Evidence e = evidence_of(in.params, in.datum, sample);
+  if (!e.known_unit) return tell(in, Source::kImu, unit, sample.at, Gate::kUnknownUnit);
+  const Content content = content_of(sample);
+  complete(in, in.stream(Source::kImu, unit), content, sample.at, e);
+  Gate gate = admit(in, e, unit, content, sample.at);
+  if (gate == Gate::kAccepted || gate == Gate::kProbation) note(in.state.imu, sample);
+  const std::uint8_t preferred = preferred_imu(in);
+  if (gate == Gate::kAccepted && blamed(in, unit)) gate = Gate::kDisagrees;
+  if (gate == Gate::kAccepted && unit != preferred && lives(in, preferred, sample.at))
+    gate = Gate::kStandby;
+  if (gate != Gate::kAccepted) return tell(in, Source::kImu, unit, sample.at, gate);
+  (void)fuse(in, Source::kImu,
+             {.kind = Kind::kImu,
+              .unit = unit,
+              .at = sample.at,
+              .arm = in.params.units[unit].imu,
+              .imu = {sample.rate_rad_per_s, sample.specific_force_mps2}});
+}
+
+void take_wheels(const Intake& in, const world::VehicleSignals& car) {
+  const world::Heard<world::PerWheel>& report = car.wheel_speed_mps;
+  WheelState& wheels = in.state.wheels;
+  if (!report.heard) return;
+  if (!in.use.uses(Excludable::kWheels)) {
+    wheels = {};
+    wheels.verdict = Gate::kExcluded;
+    return;
+  }
+  if (wheels.heard && report.at <= wheels.at) return;
+  Gate gate = timing(in, report.at);
+  WheelSpeed judged;
+  if (gate == Gate::kAccepted) {
+    judged = judge_wheels(in, report.value);
+    if (judged.contradiction) wheels.seen.add(Monitor::kWheelAgreement);
+    if (!std::isfinite(judged.speed_mps))
+      gate = judged.contradiction ? Gate::kDisagrees : Gate::kNotFinite;
+  }
+  if (gate != Gate::kAccepted) {
+    wheels.at = report.at;
+    wheels.heard = true;
+    wheels.speed_mps = kUnset;
+    return tell(in, Source::kWheelSpeed, 0, report.at, gate);
+  }
+  follow_speed(wheels, judged.speed_mps, report.at);
+  wheels.at = report.at;
+  wheels.heard = true;
+  const bool fused = fuse(in, Source::kWheelSpeed,
+                          {.kind = Kind::kWheelSpeed, .at = report.at, .a = judged.speed_mps});
+  (void)fused;  // told
+  if (!in.state.started) return;
+  use_steering_model(in, car, report.at);
+  (void)insert(in.state.filter, in.filter, {.kind = Kind::kSlip, .at = report.at});
+}
+
+}  // namespace pitwall::localization

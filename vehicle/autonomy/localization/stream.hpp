@@ -1,0 +1,36 @@
+// What is remembered of one stream of samples, source by unit, between ticks.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <type_traits>
+
+#include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
+#include "vehicle/autonomy/localization/checks/check_table.hpp"
+#include "vehicle/autonomy/localization/checks/stamp_watch.hpp"
+#include "vehicle/autonomy/localization/checks/trust.hpp"
+#include "vehicle/autonomy/localization/evidence.hpp"
+
+namespace pitwall::localization {
+
+struct Stream {
+  Gate verdict = Gate::kUnknown;  // on its newest sample; kSilent when nothing comes
+  world::MonitorSet seen{};       // with it
+  Trust trust;
+  StampWatch stamps;
+  Instant stamped_at{};  // when a stamp was used last, on the car's clock
+  bool has_content = false;
+  Content content{};
+  // Of the newest sample whose form, time and solution were right: what the other unit is held
+  // against.
+  bool comparable = false;
+  Instant residual_at{};
+  std::array<double, 3> residual{};
+  double residual_sigma = kUnset, stray = kUnset, rank = kUnset;
+};
+static_assert(std::is_trivially_copyable_v<Stream>);
+
+using Streams = std::array<std::array<Stream, world::kGnssUnits>, kSources>;
+
+}  // namespace pitwall::localization

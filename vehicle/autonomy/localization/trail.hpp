@@ -1,0 +1,56 @@
+// Where the filter said, tick by tick, that the car was: what samples that come late are held
+// against before they may enter. A prediction, because the filter did not know them then.
+//   in     one Estimate per tick
+//   out    what an antenna at a lever arm would have measured at an instant of the last kTrailTicks
+//   frames Map and Body as in measurement.hpp
+//   law    nothing is known before the first tick, nor of an instant that is older than the trail;
+//          from the newest tick on the motion goes on as it was, for kAhead at most
+//   cost   O(kTrailTicks); no allocation
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <type_traits>
+
+#include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
+#include "vehicle/autonomy/localization/filter.hpp"
+
+namespace pitwall::localization {
+
+inline constexpr std::size_t kTrailTicks = 64;  // more than the longest window of the filter
+
+// Angles and heights that a planar filter does not know are those of the road.
+struct Moment {
+  Instant at{};
+  double x_m = kUnset, y_m = kUnset, z_m = kUnset;  // of the centre of gravity
+  double yaw_rad = kUnset, pitch_rad = 0.0, roll_rad = 0.0;
+  std::array<double, 3> velocity_mps{};    // Map
+  std::array<double, 3> rate_rad_per_s{};  // Body
+  double speed_mps = 0.0;                  // over ground
+  double position_sigma_m = kUnset, yaw_sigma_rad = kUnset, speed_sigma_mps = kUnset;
+
+  struct Vector {
+    double x, y, z;
+  };
+  Vector arm_m(const LeverArm& arm) const;         // from the centre of gravity to it, Map
+  Vector antenna_mps(const LeverArm& arm) const;   // Map
+  double azimuth_rad(double direction_rad) const;  // of a direction in the plane of the car, Map
+  double course_rad() const;                       // of the centre of gravity, Map
+};
+
+struct Trail {
+  std::array<Moment, kTrailTicks> moments{};
+  std::size_t size = 0, next = 0;
+
+  static constexpr Duration kAhead = milliseconds(50);
+
+  void note(const Estimate& estimate, const Road& road);
+  std::optional<Moment> at(Instant instant) const;
+  const Moment* newest() const;  // null before the first
+};
+static_assert(std::is_trivially_copyable_v<Trail>);
+
+}  // namespace pitwall::localization
