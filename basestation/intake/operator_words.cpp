@@ -29,7 +29,11 @@ struct Authority {
   Claim claim;
   HolderId who = 0, to = 0;
 };
-using Wish = std::variant<Stop, Release, Authority, Command, telemetry::JoystickSample>;
+struct SensorWish {
+  std::uint32_t bit;  // of CommandType::kSensorsExcluded
+  bool exclude;
+};
+using Wish = std::variant<Stop, Release, Authority, SensorWish, Command, telemetry::JoystickSample>;
 
 using Words = FixedVector<std::string_view, 4>;
 
@@ -75,10 +79,22 @@ std::optional<double> argument_of(const telemetry::CommandRow& row, std::string_
     const bool in_range = *number >= row.min && *number <= row.max;
     return in_range ? number : std::nullopt;
   }
+  const bool is_set = row.unit == telemetry::CommandRow::kBitSet;
   for (std::size_t i = 0; !telemetry::label_at(row.labels, i).empty(); ++i) {
-    if (same_name(word, telemetry::label_at(row.labels, i))) return static_cast<double>(i);
+    if (!same_name(word, telemetry::label_at(row.labels, i))) continue;
+    return static_cast<double>(is_set ? std::size_t{1} << i : i);
   }
   return std::nullopt;
+}
+
+Result<Wish, Problem> parse_sensor(std::string_view line, const Words& words, bool exclude) {
+  const telemetry::CommandRow& row = row_of(telemetry::CommandType::kSensorsExcluded);
+  for (std::size_t i = 0; words.size() == 2; ++i) {
+    const std::string_view name = telemetry::label_at(row.labels, i);
+    if (name.empty()) break;
+    if (name == words[1]) return Wish{SensorWish{.bit = 1U << i, .exclude = exclude}};
+  }
+  return wrong(line, "a sensor: one of " + std::string{row.labels});
 }
 
 Result<Wish, Problem> parse_command(std::string_view line, const Words& words) {
@@ -129,9 +145,26 @@ Result<Wish, Problem> parse(std::string_view line) {
   if (verb == "renew") return parse_authority(line, *words, Claim::kRenew);
   if (verb == "drop") return parse_authority(line, *words, Claim::kDrop);
   if (verb == "hand") return parse_authority(line, *words, Claim::kHand);
+  if (verb == "exclude" || verb == "admit") return parse_sensor(line, *words, verb == "exclude");
   if (verb == "command") return parse_command(line, *words);
   if (verb == "joystick") return parse_joystick(line, *words);
-  return wrong(line, "not one of stop, release, take, renew, drop, hand, command, joystick");
+  return wrong(line,
+               "not one of stop, release, take, renew, drop, hand, exclude, admit, command, "
+               "joystick");
+}
+
+// What the car does not believe now: as ordered last, until the car tells it itself.
+std::optional<std::uint32_t> excluded_now(const telemetry::StationEndpoint& station) {
+  using telemetry::Group;
+  const auto* ordered = station.newest(telemetry::CommandType::kSensorsExcluded);
+  const Instant told_at = station.state().at(Group::kLocalization);
+  const bool pending = ordered != nullptr && !ordered->fate;
+  const bool untold = ordered != nullptr && ordered->fate == telemetry::Outcome::kApplied &&
+                      ordered->decided && told_at <= *ordered->decided;
+  if (pending || untold) return static_cast<std::uint32_t>(ordered->command.argument);
+  const double told = station.state().values[telemetry::field("localization.excluded")];
+  if (!station.state().ever(Group::kLocalization) || !(told >= 0.0)) return std::nullopt;
+  return static_cast<std::uint32_t>(told);
 }
 
 struct Doing {
@@ -148,6 +181,14 @@ struct Doing {
     if (!(challenge > 0.0)) return wrong(line, "the car has not said that a stop is latched");
     return (*this)(
         Command{.type = telemetry::CommandType::kReleaseStop, .argument = challenge, .issuer = 0});
+  }
+  Result<Obeyed, Problem> operator()(const SensorWish& wish) const {
+    const auto now_excluded = excluded_now(station);
+    if (!now_excluded) return wrong(line, "the car has not said which sensors it excludes");
+    const std::uint32_t set = wish.exclude ? *now_excluded | wish.bit : *now_excluded & ~wish.bit;
+    return (*this)(Command{.type = telemetry::CommandType::kSensorsExcluded,
+                           .argument = static_cast<double>(set),
+                           .issuer = 0});
   }
   Result<Obeyed, Problem> operator()(const Authority& wish) const {
     telemetry::AuthorityDesk& desk = station.authority();

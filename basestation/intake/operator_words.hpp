@@ -3,12 +3,14 @@
 //          release                    the stop that the car has latched, with the car's challenge
 //          take N | renew N | drop N | hand N M      authority of the consoles N and M, 1 .. 254;
 //                                     take by who holds it renews
+//          exclude SENSOR | admit SENSOR      gnss0, gnss1, imu0, imu1 or wheels: added to or taken
+//                                     from the set that was ordered last or that the car tells
 //          command NAME ARGUMENT      kCommandTable; "_" for a blank, a number or a label
 //          joystick CAP BRAKE         one sample: throttle cap and brake, 0 .. 1
 //   out    the endpoint wants it from now on; the number of a command that was given
 //   law    commands are given in the name of the console that holds the authority
 //   errors Problem with the line as place: unknown words, numbers out of range, authority that
-//          somebody else holds, no car to give a command to
+//          somebody else holds, no car to give a command to, a set that nobody knows yet
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -160,12 +160,43 @@ std::optional<TextLine> bus_line(const picture::Picture& picture, Instant now) {
   }
 }
 
+// Which sensors the operator has excluded, and what the car says of each receiver: nothing until
+// the car has said so.
+std::vector<TextLine> sensor_lines(const picture::Picture& picture, Instant now) {
+  using telemetry::field;
+  const picture::FieldView excluded = picture.view(field("localization.excluded"), now);
+  if (excluded.quality == Quality::kNever || std::isnan(excluded.value)) return {};
+  const auto word = [&](telemetry::FieldIndex at) {
+    return value_text(telemetry::kFields[at], picture.view(at, now).value);
+  };
+  const bool some = excluded.value > 0.0;
+  std::vector<TextLine> lines;
+  lines.push_back({"sensors   excluded by the operator: " + word(field("localization.excluded")) +
+                       "   imu0: " + word(field("localization.imu0_verdict")) +
+                       "   imu1: " + word(field("localization.imu1_verdict")) +
+                       "   wheels: " + word(field("localization.wheel_verdict")),
+                   some ? Tone::kWarning : Tone::kPlain});
+  const auto receiver = [&](const char* name, telemetry::FieldIndex position,
+                            telemetry::FieldIndex velocity, telemetry::FieldIndex heading) {
+    if (picture.view(position, now).quality == Quality::kNever) return;
+    lines.push_back({std::string{"          "} + name + "   position: " + word(position) +
+                         "   velocity: " + word(velocity) + "   heading: " + word(heading),
+                     Tone::kPlain});
+  };
+  receiver("gnss0", field("gnss0.position_verdict"), field("gnss0.velocity_verdict"),
+           field("gnss0.heading_verdict"));
+  receiver("gnss1", field("gnss1.position_verdict"), field("gnss1.velocity_verdict"),
+           field("gnss1.heading_verdict"));
+  return lines;
+}
+
 }  // namespace
 
 std::string text_view(const intake::Station& station, Instant now, const ViewOptions& options) {
   const std::string end = options.ansi ? std::string{kClearLine} + "\n" : "\n";
   std::vector<TextLine> lines = link_lines(station, now);
   if (auto bus = bus_line(station.picture(), now)) lines.push_back(*std::move(bus));
+  for (TextLine& line : sensor_lines(station.picture(), now)) lines.push_back(std::move(line));
   lines.push_back({});
   for (TextLine& line : group_lines(station.picture(), now, options.all)) {
     lines.push_back(std::move(line));

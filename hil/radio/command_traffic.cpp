@@ -27,9 +27,14 @@ struct Given {
   bool judged = false;
 };
 
-constexpr std::array kTypes{
-    CommandType::kArm,  CommandType::kReset,     CommandType::kSpeedLimit,  CommandType::kRaceLine,
-    CommandType::kRole, CommandType::kTrackFlag, CommandType::kReceiverUse, CommandType::kEndRun};
+constexpr std::array kTypes{CommandType::kArm,
+                            CommandType::kReset,
+                            CommandType::kSpeedLimit,
+                            CommandType::kRaceLine,
+                            CommandType::kRole,
+                            CommandType::kTrackFlag,
+                            CommandType::kSensorsExcluded,
+                            CommandType::kEndRun};
 
 class Operator {
  public:

@@ -52,6 +52,7 @@ struct Car {
   bool gate_refused = false;                      // in the last tick
   double station_m = kUnset;                      // of the last tick: where to search from
   double bank_rad = 0.0;                          // there
+  localization::Surroundings surroundings;        // likewise
   std::uint64_t ticks = 0;
 };
 static_assert(std::is_trivially_copyable_v<Car>, "snapshot == memcpy == replay == rewind");

@@ -13,8 +13,8 @@ guardian::Params guardian_params(const CarParams& params) {
                               .z_m = unit.antenna.z_m,
                               .baseline_yaw_rad = unit.baseline_yaw_rad};
   }
-  out.reckoning.cg_to_rear_m = located.cg_to_rear_m;
-  out.reckoning.rear_slip_rad_per_mps2 = located.rear_slip_rad_per_mps2;
+  out.reckoning.cg_to_rear_m = located.filter.spatial.cg_to_rear_m;
+  out.reckoning.rear_slip_rad_per_mps2 = located.filter.spatial.rear_slip_rad_per_mps2;
   out.reckoning.wheelbase_m = located.wheelbase_m;
   out.reckoning.understeer_rad_per_mps2 = located.understeer_rad_per_mps2;
   out.reckoning.steering_ratio = params.outbound.steering_ratio;

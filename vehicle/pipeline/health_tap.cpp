@@ -30,23 +30,34 @@ static_assert(field("streams.misc") - kFirstStream ==
 static_assert(field("streams.radio") - kFirstStream ==
               static_cast<std::size_t>(safety::Stream::kRadio));
 
+constexpr bool verdicts_are_labelled_as_in_localization() {
+  for (std::size_t i = 0; i < localization::kGates; ++i)
+    if (telemetry::label_at(telemetry::kSampleVerdicts, i) != localization::kGateNames[i])
+      return false;
+  return telemetry::label_at(telemetry::kSampleVerdicts, localization::kGates).empty();
+}
+static_assert(verdicts_are_labelled_as_in_localization(), "labels of verdicts are out of date");
+static_assert(telemetry::label_at(telemetry::kExcludableNames,
+                                  static_cast<std::size_t>(world::Excludable::kWheels)) ==
+              "wheels");
+
 template <class T>
 double number(T value) {
   return static_cast<double>(value);
 }
 
-void put_sigmas(Values& v, const localization::State& state) {
-  if (!state.started) return;
-  const localization::Belief& belief = state.timeline.newest();
-  const auto sigma = [&](localization::StateIndex i) {
-    return std::sqrt(belief.covariance[static_cast<std::size_t>(i * localization::kStates + i)]);
-  };
-  v[field("localization.sigma_x")] = sigma(localization::kX);
-  v[field("localization.sigma_y")] = sigma(localization::kY);
-  v[field("localization.sigma_yaw")] = sigma(localization::kYaw);
-  v[field("localization.sigma_vx")] = sigma(localization::kVx);
-  v[field("localization.sigma_vy")] = sigma(localization::kVy);
-  v[field("localization.gyro_bias")] = belief.mean[localization::kBias];
+void put_estimate(Values& v, const localization::Estimate& estimate) {
+  constexpr std::size_t kSize = 5;  // x, y, yaw, velocity x, velocity y
+  const auto sigma = [&](std::size_t i) { return std::sqrt(estimate.covariance[i * kSize + i]); };
+  if (!std::isfinite(estimate.yaw_rad)) return;
+  v[field("localization.sigma_x")] = sigma(0);
+  v[field("localization.sigma_y")] = sigma(1);
+  v[field("localization.sigma_yaw")] = sigma(2);
+  v[field("localization.sigma_vx")] = sigma(3);
+  v[field("localization.sigma_vy")] = sigma(4);
+  v[field("localization.gyro_bias")] = estimate.gyro_bias_rad_per_s[2];
+  v[field("localization.height")] = estimate.position_m[2];
+  v[field("localization.sigma_height")] = estimate.height_sigma_m;
 }
 
 // Which units were accepted lately: 0 none, 1 unit 0, 2 unit 1, 3 both.
@@ -68,10 +79,29 @@ double gate_total(const localization::State& state, Gate gate) {
   return number(total);
 }
 
+double verdict_of(const localization::State& state, Source source, std::size_t unit) {
+  return number(
+      static_cast<std::uint8_t>(state.streams[static_cast<std::size_t>(source)][unit].verdict));
+}
+
+void put_verdicts(const TapInputs& in, Values& v) {
+  const localization::State& state = in.car.localization;
+  v[field("localization.excluded")] = in.car.orders.use.excluded;
+  v[field("localization.imu0_verdict")] = verdict_of(state, Source::kImu, 0);
+  v[field("localization.imu1_verdict")] = verdict_of(state, Source::kImu, 1);
+  v[field("localization.wheel_verdict")] = number(static_cast<std::uint8_t>(state.wheels.verdict));
+  v[field("localization.contradicted")] = gate_total(state, Gate::kDisagrees);
+  double stamps = 0.0;
+  for (const Gate gate : {Gate::kFromTheFuture, Gate::kRepeated, Gate::kRanBack, Gate::kFrozen})
+    stamps += gate_total(state, gate);
+  v[field("localization.bad_stamps")] = stamps;
+}
+
 void put_localization(const TapInputs& in, Snapshot& snapshot) {
   Values& v = snapshot.values;
   const localization::State& state = in.car.localization;
-  put_sigmas(v, state);
+  put_estimate(v, in.out.estimate);
+  put_verdicts(in, v);
   const auto& positions = state.tally[static_cast<std::size_t>(Source::kPosition)];
   for (const localization::Tally& unit : positions) {
     if (!unit.ever_accepted) continue;
@@ -83,6 +113,8 @@ void put_localization(const TapInputs& in, Snapshot& snapshot) {
                      kImuLately = milliseconds(50);
   v[field("localization.position_units")] =
       units_of(state, Source::kPosition, kPositionLately, in.now);
+  v[field("localization.velocity_units")] =
+      units_of(state, Source::kVelocity, kPositionLately, in.now);
   v[field("localization.heading_units")] =
       units_of(state, Source::kHeading, kHeadingLately, in.now);
   v[field("localization.imu_units")] = units_of(state, Source::kImu, kImuLately, in.now);
@@ -145,6 +177,12 @@ void put_receiver(const TapInputs& in, std::size_t unit, Snapshot& snapshot) {
     at(field("gnss0.heading_type")) = heading->position_type;
     at(field("gnss0.heading_sigma")) = heading->heading_sigma_rad;
   }
+  const localization::State& state = in.car.localization;
+  at(field("gnss0.differential_age")) = position->differential_age_s;
+  at(field("gnss0.position_verdict")) = verdict_of(state, Source::kPosition, unit);
+  at(field("gnss0.velocity_verdict")) = verdict_of(state, Source::kVelocity, unit);
+  at(field("gnss0.heading_verdict")) = verdict_of(state, Source::kHeading, unit);
+  at(field("gnss0.attitude_verdict")) = verdict_of(state, Source::kAttitude, unit);
   snapshot.at(group) = std::min(position->at, in.now);
 }
 
@@ -163,7 +201,10 @@ void put_computer(const TapInputs& in, Snapshot& snapshot) {
 void put_faults(const TapInputs& in, Snapshot& snapshot) {
   Values& v = snapshot.values;
   const safety::FaultLog& log = in.car.supervisor.log;
-  v[field("faults.now")] = in.out.chosen.causes.bits() >> 1U;  // bit 0 is kNone, never set
+  const std::uint64_t causes = in.out.chosen.causes.bits() >> 1U;  // bit 0 is kNone, never set
+  constexpr std::uint64_t kFirst = (std::uint64_t{1} << telemetry::kFaultBits) - 1;
+  v[field("faults.now")] = number(causes & kFirst);
+  v[field("faults.now_more")] = number(causes >> telemetry::kFaultBits);
   v[field("faults.recorded")] = number(log.total);
   if (log.size() > 0) {
     const safety::FaultEntry& last = log.entry(log.size() - 1);

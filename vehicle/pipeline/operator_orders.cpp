@@ -27,6 +27,7 @@ struct Desk {
   void give_what_was_let_go();
   void arm(const OperatorCommand& command);
   void reset(const OperatorCommand& command);
+  void exclude(const OperatorCommand& command);
   void take(const OperatorCommand& command);
 };
 
@@ -51,7 +52,8 @@ void Desk::arm(const OperatorCommand& command) {
   }
   if (!in.may_arm || orders.arming) return answer(command, CommandAnswer::kRefused);
   if (in.mode != Mode::kDisarmed) {
-    const bool is_armed = in.mode == Mode::kStandby || in.mode == Mode::kDriving;
+    const bool is_armed =
+        in.mode == Mode::kStandby || in.mode == Mode::kDriving || in.mode == Mode::kCoast;
     return answer(command, is_armed ? CommandAnswer::kApplied : CommandAnswer::kRefused);
   }
   orders.arm_before = orders.arm;
@@ -61,8 +63,21 @@ void Desk::arm(const OperatorCommand& command) {
 }
 
 void Desk::reset(const OperatorCommand& command) {
-  if (command.argument != kYes || orders.reset) return answer(command, CommandAnswer::kRefused);
+  const bool now = in.stands || in.mode == Mode::kHalted;
+  if (command.argument != kYes || orders.reset || !now)
+    return answer(command, CommandAnswer::kRefused);
   orders.reset = command;
+}
+
+void Desk::exclude(const OperatorCommand& command) {
+  constexpr double kAll = (1U << world::kExcludables) - 1U;
+  const bool is_set = command.argument >= 0.0 && command.argument <= kAll &&
+                      command.argument == std::floor(command.argument);
+  if (!is_set) return answer(command, CommandAnswer::kRefused);
+  const world::SensorUse use{static_cast<std::uint8_t>(command.argument)};
+  if (!in.stands && !enough_to_drive(use)) return answer(command, CommandAnswer::kRefused);
+  orders.use = use;
+  answer(command, CommandAnswer::kApplied);
 }
 
 void Desk::take(const OperatorCommand& command) {
@@ -83,12 +98,13 @@ void Desk::take(const OperatorCommand& command) {
       orders.flag = static_cast<TrackFlag>(command.argument);
       return answer(command, CommandAnswer::kApplied);
     }
+    case OperatorCommandKind::kSensorsExcluded:
+      return exclude(command);
     case OperatorCommandKind::kRaceLine:
     case OperatorCommandKind::kRole:
-    case OperatorCommandKind::kReceiverUse:
     case OperatorCommandKind::kEndRun:
     case OperatorCommandKind::kSendParameters:
-      break;  // this car drives one line, alone, with all receivers; the rest is the rim's
+      break;  // this car drives one line, alone; the rest is the rim's
   }
   answer(command, CommandAnswer::kUnsupported);
 }
@@ -149,6 +165,12 @@ void conclude(OperatorOrders& orders, Mode before, const safety::SupervisorOutpu
       {orders.arming->id, armed ? CommandAnswer::kApplied : CommandAnswer::kRefused, now});
   if (!armed) orders.arm = orders.arm_before;
   orders.arming.reset();
+}
+
+bool enough_to_drive(world::SensorUse use) {
+  using enum world::Excludable;
+  const bool position = use.uses(kGnss0) || use.uses(kGnss1);
+  return position && (use.uses(kImu0) || use.uses(kImu1) || use.uses(kWheels));
 }
 
 double lower_limit_mps(double a_mps, double b_mps) { return std::fmin(a_mps, b_mps); }

@@ -7,6 +7,8 @@
 //          of two flags the one that allows less holds, of two speed limits the lower
 //          arming by command is an act of its own, as a switch that is released and closed again;
 //          a switch that is closed afterwards has the last word again
+//          what leaves the car without any position or without any sense of its motion is not
+//          excluded while it moves; a stop is acknowledged only where the car stands
 //   units  m/s
 //   cost   no allocation; O(commands)
 // SPDX-License-Identifier: Apache-2.0
@@ -25,6 +27,7 @@
 #include "vehicle/world/mode.hpp"
 #include "vehicle/world/operator_wishes.hpp"
 #include "vehicle/world/race_control.hpp"
+#include "vehicle/world/sensor_use.hpp"
 
 namespace pitwall::pipeline {
 
@@ -37,6 +40,7 @@ struct OperatorOrders {
   std::optional<bool> arm_before;                       // what `arm` was before `arming`
   bool close_next = false;                              // `arming` is let go now, given next tick
   double speed_limit_mps = kUnset;
+  world::SensorUse use;                             // until another set is ordered
   world::TrackFlag flag = world::TrackFlag::kNone;  // kNone: no opinion
 };
 static_assert(std::is_trivially_copyable_v<OperatorOrders>);
@@ -47,6 +51,7 @@ struct OrderInputs {
   std::span<const world::OperatorCommand> commands;
   bool may_arm = true;
   world::Mode mode = world::Mode::kDisarmed;  // before this tick
+  bool stands = true;                         // likewise
   Instant now{};
 };
 
@@ -58,6 +63,8 @@ safety::OperatorRequests obey(OperatorOrders& orders, const OrderInputs& inputs,
 void conclude(OperatorOrders& orders, world::Mode before, const safety::SupervisorOutput& chosen,
               bool resettable, Instant now, Answers& answers);
 
+// Whether what is left gives the car a position and a sense of its motion.
+bool enough_to_drive(world::SensorUse use);
 // NaN means none.
 double lower_limit_mps(double a_mps, double b_mps);
 // Race control as the car acts on it: the base's flag can only make it stricter.

@@ -44,8 +44,8 @@ std::optional<OperatorCommandKind> kind_of(CommandType type) {
       return OperatorCommandKind::kRole;
     case CommandType::kTrackFlag:
       return OperatorCommandKind::kTrackFlag;
-    case CommandType::kReceiverUse:
-      return OperatorCommandKind::kReceiverUse;
+    case CommandType::kSensorsExcluded:
+      return OperatorCommandKind::kSensorsExcluded;
     case CommandType::kEndRun:
       return OperatorCommandKind::kEndRun;
     case CommandType::kSendParameters:

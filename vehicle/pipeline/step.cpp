@@ -12,28 +12,56 @@ using world::Mode;
 
 constexpr Duration kGuardianEcho = milliseconds(50);  // its last frames are on their way
 
-// Curvilinear place of the car and the banking there, for the next tick's localization.
+// Curvilinear place of the car and the road there, for the next tick's localization.
 world::Curvilinear place_of(const Setup& setup, Car& car, const world::EgoState& ego) {
   if (!std::isfinite(ego.x_m) || !std::isfinite(ego.y_m)) return {};
   const auto hint =
       std::isfinite(car.station_m) ? std::optional<double>{car.station_m} : std::nullopt;
   const world::Curvilinear place = setup.track.project(ego.x_m, ego.y_m, hint);
   car.station_m = place.s_m;
-  car.bank_rad = setup.track.at(place.s_m).bank_rad;
+  const world::RoadPoint road = setup.track.road(place.s_m, place.n_m);
+  car.bank_rad = road.bank_rad;
+  car.surroundings = {.road = {.x_m = ego.x_m,
+                               .y_m = ego.y_m,
+                               .height_m = road.height_m,
+                               .bank_rad = road.bank_rad,
+                               .climb_rad = road.climb_rad,
+                               .direction_rad = setup.track.at(place.s_m).yaw_rad},
+                      .at = ego.at};
   return place;
+}
+
+planning::Followed followed(const Car& car) {
+  switch (car.follow) {
+    case Follow::kNone:
+      return planning::Followed::kNothing;
+    case Follow::kDrive:
+      return planning::Followed::kDrive;
+    case Follow::kStop:
+      break;
+  }
+  return car.supervisor.mode == Mode::kEmergencyStop ? planning::Followed::kEmergency
+                                                     : planning::Followed::kStop;
 }
 
 void plan_when_due(const Setup& setup, Car& car, const Outputs& out, const Inputs& in) {
   Plan& plan = car.plan;
   if (plan.ever && in.now - plan.at < setup.params.rates.planning) return;
-  const auto followed = car.follow == Follow::kNone   ? planning::Followed::kNothing
-                        : car.follow == Follow::kStop ? planning::Followed::kStop
-                                                      : planning::Followed::kDrive;
+  world::Trajectory stop = plan.output.stop;
   plan.output = planning::step(setup.params.planning, setup.line, setup.track, plan.output.next,
-                               out.ego, out.race_control, out.speed_limit_mps, followed, in.now);
+                               {.ego = out.ego,
+                                .race_control = out.race_control,
+                                .operator_speed_limit_mps = out.speed_limit_mps,
+                                .followed = followed(car),
+                                .tyre_c = world::coldest_c(
+                                    out.heard.signals.tyre_temperature_c, in.now)},
+                               in.now);
+  const bool good = !plan.output.drive.points.empty() && !plan.output.stop.points.empty();
+  // Who stops without localization has no other path than the last one.
+  if (plan.output.stop.points.empty()) plan.output.stop = stop;
   plan.made_with = out.race_control;
   plan.at = in.now;
-  if (!plan.output.drive.points.empty() && !plan.output.stop.points.empty()) plan.good_at = in.now;
+  if (good) plan.good_at = in.now;
   plan.ever = true;
 }
 
@@ -55,7 +83,9 @@ safety::SupervisorOutput supervise(const Setup& setup, Car& car, const Outputs& 
                             .gate_refused = car.gate_refused,
                             .operator_requests = out.requests,
                             .last_run_armed = in.last_run_armed,
-                            .radio = out.radio},
+                            .radio = out.radio,
+                            .sensors = &in.sensors,
+                            .computer = in.computer},
                            in.now);
 }
 
@@ -96,6 +126,7 @@ void heed_operator(Car& car, const Inputs& in, Outputs& out) {
                        .commands = in.commands,
                        .may_arm = in.may_arm,
                        .mode = car.supervisor.mode,
+                       .stands = car.supervisor.standing,
                        .now = in.now},
                       out.answers);
   out.race_control = stricter(out.heard.race_control, car.orders.flag);
@@ -129,25 +160,32 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
   const CarParams& p = setup.params;
   Outputs out;
   heed_guardian(car, in.guardian, in.now);
+  gateway::remember_command(car.inbound, car.supervisor.last,
+                            car.supervisor.last_known && car.supervisor.mode != Mode::kDisarmed,
+                            in.now);
   out.heard = gateway::decode(p.inbound, car.inbound, in.can, in.now);
   const bool armed = car.supervisor.mode != Mode::kDisarmed;
   out.heard.bus.identity = gateway::identify(p.identity, car.identity, in.can, armed, in.now);
   gateway::observe_link(car.inbound, out.heard.bus, in.link, in.now);
 
-  const auto located = localization::step(p.localization, setup.datum, car.localization, in.sensors,
-                                          out.heard.signals, car.bank_rad, in.now);
-  car.localization = located.next;
+  heed_operator(car, in, out);
+  const auto located =
+      localization::step(p.localization, setup.datum, car.localization, in.sensors,
+                         out.heard.signals, car.surroundings, car.orders.use, in.now);
   out.ego = located.ego;
   out.located = located.verdicts;
+  out.estimate = located.estimate;
+  out.in_use = located.in_use;
   out.place = place_of(setup, car, out.ego);
 
-  heed_operator(car, in, out);
   plan_when_due(setup, car, out, in);
-  const world::Trajectory& followed =
+  const world::Trajectory& path =
       car.follow == Follow::kStop ? car.plan.output.stop : car.plan.output.drive;
 
-  out.steered =
-      control::step(p.control, setup.gains, car.control, out.ego, followed, in.now, in.dt);
+  out.steered = control::step(
+      p.control, setup.gains, car.control,
+      {.ego = out.ego, .trajectory = path, .stopping = car.follow == Follow::kStop}, in.now,
+      in.dt);
   car.control = out.steered.next;
 
   out.watchdog = safety::watch(p.watchdog, car.watchdog,
@@ -161,7 +199,8 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
   out.radio = safety::descend(p.radio.ladder, car.radio_ladder,
                               out.watchdog[safety::Stream::kRadio], in.wishes.joystick, in.now);
   const bool resettable = car.bus_guard.failed || in.guardian.stopped;
-  out.bus_guard = safety::guard(p.bus_guard, car.bus_guard, in.link, out.requests.reset, in.now);
+  out.bus_guard = safety::guard(p.bus_guard, car.bus_guard, out.heard.bus.link,
+                                out.requests.reset, in.now);
   const Mode before = car.supervisor.mode;
   out.chosen = supervise(setup, car, out, in);
   conclude(car.orders, before, out.chosen, resettable, in.now, out.answers);

@@ -20,6 +20,7 @@
 #include "vehicle/pipeline/operator_orders.hpp"
 #include "vehicle/pipeline/setup.hpp"
 #include "vehicle/safety/radio_ladder.hpp"
+#include "vehicle/world/computer_health.hpp"
 #include "vehicle/world/monitor.hpp"
 #include "vehicle/world/operator_wishes.hpp"
 #include "vehicle/world/sensor_input.hpp"
@@ -51,13 +52,16 @@ struct Inputs {
   world::LinkObservation link{};      // of the CAN interface, by the rim
   std::optional<Instant> radio_at{};  // newest authentic packet of the base station
   GuardianView guardian{};
-  bool last_run_armed = false;  // the process before this one ended while it was armed
+  world::ComputerHealth computer{};  // where the rim knows it
+  bool last_run_armed = false;       // the process before this one ended while it was armed
 };
 
 struct Outputs {
   gateway::InboundOutput heard;
   world::EgoState ego;
   FixedVector<localization::Verdict, localization::kVerdictsMax> located;
+  localization::Estimate estimate;                                     // what ego is made of
+  std::array<localization::UnitSet, localization::kSources> in_use{};  // channels and units
   world::Curvilinear place;  // on the track; unset before the first position
   control::Output steered;
   safety::WatchdogOutput watchdog;

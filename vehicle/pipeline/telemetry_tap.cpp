@@ -157,6 +157,8 @@ void put_dynamics(Values& v, const TapInputs& in) {
     v[field("dynamics.roll_rate")] = imu->rate_rad_per_s[0];
     v[field("dynamics.pitch_rate")] = imu->rate_rad_per_s[1];
   }
+  v[field("dynamics.roll")] = ego.roll_rad;
+  v[field("dynamics.pitch")] = ego.pitch_rad;
   v[field("dynamics.bank")] = in.car.bank_rad;
   v[field("dynamics.lateral_error")] = in.out.steered.lateral.cross_track_m;
   v[field("dynamics.heading_error")] = in.out.steered.lateral.heading_error_rad;
@@ -169,7 +171,7 @@ static_assert(telemetry::label_at(telemetry::kPrimitives, kMerges) == "merges");
 Primitive primitive_of(const Car& car) {
   if (car.follow == safety::Follow::kNone) return kNoPrimitive;
   if (car.follow == safety::Follow::kStop) return kStops;
-  return car.plan.output.next.merge_length_m > 0.0 ? kMerges : kHoldsLine;
+  return car.plan.output.next.merge.length_m > 0.0 ? kMerges : kHoldsLine;
 }
 
 double role_of(const world::RaceControl& race) {

@@ -7,8 +7,7 @@
 //          radio never sends it
 //   unset  what no part of this car tells yet: suspension, tread, fuel, steering_unit and brakes
 //          (the gateway does not decode those messages); opponents; lidar, camera and radar of
-//          sensors; roll and pitch of dynamics; torque, oil and traction of powertrain;
-//          differential_age of the receivers; line, target_gap and cost of planner
+//          sensors; torque, oil and traction of powertrain; line, target_gap and cost of planner
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

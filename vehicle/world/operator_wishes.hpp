@@ -33,8 +33,8 @@ enum class OperatorCommandKind : std::uint8_t {
   kSpeedLimit,  // m/s
   kRaceLine,
   kRole,
-  kTrackFlag,  // a TrackFlag; kNone: the base has no opinion
-  kReceiverUse,
+  kTrackFlag,        // a TrackFlag; kNone: the base has no opinion
+  kSensorsExcluded,  // bits of world::Excludable
   kEndRun,
   kSendParameters
 };

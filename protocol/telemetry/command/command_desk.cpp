@@ -109,6 +109,17 @@ const CommandProgress* CommandDeskOf<Kept>::progress(CommandId id) const {
 }
 
 template <std::size_t Kept>
+const CommandProgress* CommandDeskOf<Kept>::newest(CommandType type) const {
+  const CommandProgress* found = nullptr;
+  for (const Entry& entry : kept_) {
+    const CommandProgress& one = entry.progress;
+    if (one.id == 0 || one.command.type != type) continue;
+    if (!found || one.id > found->id) found = &one;
+  }
+  return found;
+}
+
+template <std::size_t Kept>
 void CommandDeskOf<Kept>::decide(Entry& entry, Outcome fate, Instant now) {
   entry.progress.fate = fate;
   entry.progress.decided = now;

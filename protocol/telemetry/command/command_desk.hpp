@@ -57,6 +57,7 @@ class CommandDeskOf {
   void confirm(CommandId id, Instant now);
 
   const CommandProgress* progress(CommandId id) const;
+  const CommandProgress* newest(CommandType type) const;  // of those that are kept
   std::size_t open() const { return open_; }
 
  private:

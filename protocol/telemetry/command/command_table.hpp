@@ -11,22 +11,23 @@
 #include <string_view>
 
 #include "protocol/bits/quantized.hpp"
+#include "protocol/telemetry/registry/labels.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
 
 namespace pitwall::telemetry {
 
 enum class CommandType : std::uint8_t {
-  kArm,            // 0 disarm, 1 arm
-  kReset,          // 1: a stop that has ended is acknowledged by the operator
-  kSpeedLimit,     // m/s; the car never drives faster
-  kRaceLine,       // number of the line
-  kRole,           // 0 none, 1 defender, 2 attacker
-  kTrackFlag,      // as telemetry labels kTrackFlags; the most restrictive of all sources holds
-  kReceiverUse,    // 0: both, 1: unit 0 excluded, 2: unit 1 excluded
-  kReleaseStop,    // argument: the car's challenge; see stop_latch.hpp
-  kEndRun,         // 1: the car ends its run where it stands
-  kSendParameters  // 1: as bulk
+  kArm,              // 0 disarm, 1 arm
+  kReset,            // 1: a stop that has ended is acknowledged by the operator
+  kSpeedLimit,       // m/s; the car never drives faster
+  kRaceLine,         // number of the line
+  kRole,             // 0 none, 1 defender, 2 attacker
+  kTrackFlag,        // as telemetry labels kTrackFlags; the most restrictive of all sources holds
+  kSensorsExcluded,  // a set of bits: which sensors the car does not believe; 0: uses all
+  kReleaseStop,      // argument: the car's challenge; see stop_latch.hpp
+  kEndRun,           // 1: the car ends its run where it stands
+  kSendParameters    // 1: as bulk
 };
 inline constexpr std::size_t kCommandTypes = 10;
 
@@ -37,7 +38,9 @@ struct CommandRow {
   double min, max, resolution;
   Duration time_to_live;  // not applied later than this after it was given
   bool needs_authority;
-  std::string_view labels = {};
+  std::string_view labels = {};  // of the values 0, 1, 2 ...; of a bit set: of the bits
+
+  static constexpr std::string_view kBitSet = "bits";
 
   constexpr bits::Quantized quantized() const { return {min, max, resolution}; }
 };
@@ -51,8 +54,8 @@ inline constexpr auto kCommandTable = [] {
       {kRaceLine, "race line", "", 0, 30, 1, seconds(2), true},
       {kRole, "role", "", 0, 6, 1, seconds(2), true, "none|defender|attacker"},
       {kTrackFlag, "track flag", "", 0, 14, 1, seconds(2), true},
-      {kReceiverUse, "receiver use", "", 0, 6, 1, seconds(2), true,
-       "both|without unit 0|without unit 1"},
+      {kSensorsExcluded, "sensors excluded", CommandRow::kBitSet, 0, 62, 1, seconds(2), true,
+       kExcludableNames},
       {kReleaseStop, "release stop", "", 0, 65'534, 1, seconds(2), true},
       {kEndRun, "end run", "", 0, 2, 1, seconds(2), true, "-|end"},
       {kSendParameters, "send parameters", "", 0, 2, 1, seconds(5), false, "-|send"},

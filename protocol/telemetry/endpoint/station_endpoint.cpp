@@ -193,6 +193,9 @@ std::optional<CommandId> StationEndpoint::issue(const Command& command, Instant 
 const CommandProgress* StationEndpoint::progress(CommandId id) const {
   return parts_->desk.progress(id);
 }
+const CommandProgress* StationEndpoint::newest(CommandType type) const {
+  return parts_->desk.newest(type);
+}
 StopDesk& StationEndpoint::stop() { return parts_->stop; }
 const StopDesk& StationEndpoint::stop() const { return parts_->stop; }
 AuthorityDesk& StationEndpoint::authority() { return parts_->authority; }

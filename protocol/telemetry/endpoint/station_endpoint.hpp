@@ -55,6 +55,7 @@ class StationEndpoint {
   // None as CommandDesk has it, and for a release of the stop while another is under way.
   std::optional<CommandId> issue(const Command& command, Instant now);
   const CommandProgress* progress(CommandId id) const;
+  const CommandProgress* newest(CommandType type) const;  // of those that are kept
   StopDesk& stop();
   const StopDesk& stop() const;
   AuthorityDesk& authority();

@@ -9,7 +9,7 @@
 namespace pitwall::telemetry {
 
 inline constexpr std::string_view kModes =
-    "disarmed|standby|driving|controlled stop|emergency stop|halted";
+    "disarmed|standby|driving|controlled stop|emergency stop|halted|coast";
 inline constexpr std::string_view kCtStates =
     "-|power on|initialized|actuator test|crank ready|cranking|race ready|init driving|caution|"
     "nominal race|coordinated stop|controlled shutdown|emergency shutdown";
@@ -36,6 +36,13 @@ inline constexpr std::string_view kLadderRungs =
 inline constexpr std::string_view kShiftStates =
     "not initialised|ready|locked out|shifts up|shifts down";
 inline constexpr std::string_view kUnitSets = "none|unit 0|unit 1|both";
+// Bits of a set of sensors, as an operator says them.
+inline constexpr std::string_view kExcludableNames = "gnss0|gnss1|imu0|imu1|wheels";
+inline constexpr std::string_view kSampleVerdicts =
+    "-|in use|NOT A NUMBER|no such unit|no solution|too uncertain|too old|from the future|JUMPED|"
+    "waits for a start|stands by|IMPLAUSIBLE|excluded|NEGATIVE VARIANCE|old corrections|"
+    "WRONG BASELINE|STAMP STANDS STILL|STAMP RAN BACK|FROZEN|CONTRADICTS THE OTHER|OFF ITS COURSE|"
+    "receiver error|on probation|SILENT";
 inline constexpr std::string_view kRoles = "none|defender|attacker";
 inline constexpr std::string_view kPrimitives = "-|holds the line|stops|merges";
 inline constexpr std::string_view kSpeedReasons =
@@ -56,19 +63,35 @@ inline constexpr std::string_view kStopCauses =
     "control failed|planning failed or late|localization lost|dead reckoning too long|"
     "position too uncertain|GNSS unit disconnected|GNSS: both units miss the rate|"
     "GNSS: both units lost the solution|IMU: both units lost|race control lost|"
-    "race control lost, says the drive-by-wire|base station lost";
+    "race control lost, says the drive-by-wire|base station lost|"
+    "GNSS: both units lost RTK and their accuracy|steering does not do as it is told|"
+    "brake does not do as it is told|throttle does not do as it is told|"
+    "computer misses too many ticks|computer out of memory|computer too hot|over-steer|"
+    "no good position|planning a beat late|control a beat late|"
+    "race control: flags unknown or contradictory|computer missed ticks|computer busy|"
+    "a clock stepped|clock too fast or slow|GNSS: one unit is bad";
 
-// Bit k of a set of them is cause k + 1.
-inline constexpr std::string_view kFaultNames = kStopCauses.substr(sizeof "none");
-
-// The name at this place of "a|b|c"; empty past the end.
-constexpr std::string_view label_at(std::string_view labels, std::size_t index) {
-  for (; index > 0; --index) {
+// What is left of "a|b|c" without the first so many names.
+constexpr std::string_view labels_from(std::string_view labels, std::size_t first) {
+  for (; first > 0; --first) {
     const std::size_t bar = labels.find('|');
     if (bar == std::string_view::npos) return {};
     labels.remove_prefix(bar + 1);
   }
-  return labels.substr(0, labels.find('|'));
+  return labels;
+}
+
+// Two sets of bits hold the causes: bit k of the first is cause k + 1, of the second k + 32.
+inline constexpr std::size_t kFaultBits = 31;
+inline constexpr std::string_view kFaultNamesMore = labels_from(kStopCauses, 1 + kFaultBits);
+inline constexpr std::string_view kFaultNames =
+    labels_from(kStopCauses, 1)
+        .substr(0, labels_from(kStopCauses, 1).size() - kFaultNamesMore.size() - 1);
+
+// The name at this place of "a|b|c"; empty past the end.
+constexpr std::string_view label_at(std::string_view labels, std::size_t index) {
+  const std::string_view rest = labels_from(labels, index);
+  return rest.substr(0, rest.find('|'));
 }
 
 }  // namespace pitwall::telemetry

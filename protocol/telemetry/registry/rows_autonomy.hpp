@@ -43,6 +43,15 @@ inline constexpr auto kLocalizationRows = [] {
       count(kGroup, "late"),
       count(kGroup, "implausible"),
       {kGroup, "restarts", "", 0, 254, 1},
+      {kGroup, "excluded", FieldRow::kBitSet, 0, 62, 1, kExcludableNames},  // by the operator
+      choice(kGroup, "velocity_units", kUnitSets, 6),
+      choice(kGroup, "imu0_verdict", kSampleVerdicts, 62),  // on the newest sample
+      choice(kGroup, "imu1_verdict", kSampleVerdicts, 62),
+      choice(kGroup, "wheel_verdict", kSampleVerdicts, 62),
+      count(kGroup, "contradicted"),
+      count(kGroup, "bad_stamps"),
+      {kGroup, "height", "m", -100, 400, 0.02},  // of the centre of gravity over the datum
+      {kGroup, "sigma_height", "m", 0, 20, 0.02},
   });
 }();
 

@@ -21,7 +21,7 @@ constexpr FieldRow latency(std::string_view name) {  // from true to heard, like
   return {Group::kSensors, name, "ms", 0, 508, 2};
 }
 
-constexpr std::size_t kReceiverFields = 11;
+constexpr std::size_t kReceiverFields = 15;
 constexpr std::array<FieldRow, kReceiverFields> receiver(Group group) {
   return {{{group, "status", "", 0, 62, 1},
            {group, "type", "", 0, 126, 1},
@@ -33,7 +33,11 @@ constexpr std::array<FieldRow, kReceiverFields> receiver(Group group) {
            {group, "heading_type", "", 0, 126, 1},
            {group, "heading_sigma", "rad", 0, 0.5, 0.001},
            {group, "speed", "m/s", 0, 102, 0.1},
-           {group, "position_age", "s", 0, 10, 0.02}}};
+           {group, "position_age", "s", 0, 10, 0.02},
+           choice(group, "position_verdict", kSampleVerdicts, 62),  // on the newest sample
+           choice(group, "velocity_verdict", kSampleVerdicts, 62),
+           choice(group, "heading_verdict", kSampleVerdicts, 62),
+           choice(group, "attitude_verdict", kSampleVerdicts, 62)}};
 }
 inline constexpr auto kGnss0 = receiver(Group::kGnss0);
 inline constexpr auto kGnss1 = receiver(Group::kGnss1);
@@ -71,6 +75,7 @@ inline constexpr auto kHealthRows = [] {
       {kComputer, "temperature", "degC", 0, 127, 0.5},
 
       {kFaults, "now", FieldRow::kBitSet, 0, 2'147'483'646, 1, kFaultNames},
+      {kFaults, "now_more", FieldRow::kBitSet, 0, 16'777'213, 1, kFaultNamesMore},
       count(kFaults, "recorded"),
       choice(kFaults, "last_cause", kStopCauses, 126),
       {kFaults, "last_age", "s", 0, 1'000, 1},
