@@ -4,7 +4,9 @@
 #include <cmath>
 #include <string>
 
-#include "vehicle/world/sensor_input.hpp"
+#include "hil/bench/sensor_faults.hpp"
+#include "hil/faults/signal_change.hpp"
+#include "protocol/can/av21.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -16,15 +18,8 @@ constexpr double kMaxRadioDelay_s = 10.0;
 
 // What rig.cpp carries out; a kind that nobody carries out is refused rather than ignored.
 bool in_the_rig(BenchFaultKind kind) {
+  if (is_sensor_fault(kind)) return true;
   switch (kind) {
-    case BenchFaultKind::kGnssUnitOutage:
-    case BenchFaultKind::kGnssRtkLost:
-    case BenchFaultKind::kGnssVarianceSpike:
-    case BenchFaultKind::kGnssPositionJump:
-    case BenchFaultKind::kGnssHeadingFlip:
-    case BenchFaultKind::kGnssStampFrozen:
-    case BenchFaultKind::kImuOutage:
-    case BenchFaultKind::kImuBias:
     case BenchFaultKind::kWheelSpeedLoss:
     case BenchFaultKind::kRaceControlSilent:
     case BenchFaultKind::kRaceHeartbeatStop:
@@ -52,31 +47,35 @@ Unexpected<Problem> refuse(const scenario::Fault& row, const std::string& what) 
 
 // A row says more than its kind can mean.
 const char* excess_of(const scenario::Fault& row, const faults::BenchFaultRow& kind) {
-  const bool has_units =
-      kind.acts_on == faults::BenchPart::kGnss || kind.acts_on == faults::BenchPart::kImu;
+  const std::size_t parts = is_byte_fault(kind.kind) ? world::kGnssUnits : parts_of(kind.kind);
   if (row.can_id != 0) return "this kind takes no can_id";
-  if (row.unit != 0 && !has_units) return "this kind has no units";
-  if (row.unit >= world::kGnssUnits) return "the car has no such unit";
+  if (row.unit != 0 && parts == 1) return "this kind has no units";
+  if (row.unit >= parts) return "the car has no such unit";
   if (kind.value.empty() && !std::isnan(row.value)) return "this kind takes no value";
   return nullptr;
 }
 
 bool is_sensible(BenchFaultKind kind, double value) {
   if (!std::isfinite(value)) return false;
+  if (is_sensor_fault(kind)) return is_sensor_value(kind, value);
   switch (kind) {
     case BenchFaultKind::kBrakeLeak:
       return value >= 0.0 && value <= 1.0;
     case BenchFaultKind::kLowGrip:
       return value > 0.0 && value <= 2.0;
     case BenchFaultKind::kSteeringSlow:
-    case BenchFaultKind::kGnssVarianceSpike:
       return value > 0.0;
     case BenchFaultKind::kWrongRoundSpeed:
       return value >= 0.0;
     case BenchFaultKind::kColdTyres:
       return value >= scenario::kColdest_c && value <= scenario::kHottest_c;
     case BenchFaultKind::kComputerSlow:
+    case BenchFaultKind::kBusErrors:
       return value > 0.0 && value < 1.0;
+    case BenchFaultKind::kBusBabble:
+    case BenchFaultKind::kBusTransmitter:
+    case BenchFaultKind::kGnssBytesDamaged:
+      return value > 0.0 && value <= 1.0;
     case BenchFaultKind::kRadioLoss:
       return value >= 0.0 && value <= 1.0;
     case BenchFaultKind::kRadioDelay:
@@ -89,7 +88,8 @@ bool is_sensible(BenchFaultKind kind, double value) {
 Result<faults::BenchFault, Problem> bench_fault(const scenario::Fault& row, BenchFaultKind kind,
                                                 std::uint64_t seed) {
   const faults::BenchFaultRow& of_kind = faults::row_of(kind);
-  if (!in_the_rig(kind) && !is_process_fault(kind) && !is_radio_fault(kind))
+  if (!in_the_rig(kind) && !is_process_fault(kind) && !is_radio_fault(kind) &&
+      !is_bus_fault(kind) && !is_byte_fault(kind) && !is_clock_fault(kind))
     return refuse(row, "fault \"" + row.kind + "\" is in the catalogue but not in this bench");
   if (const char* excess = excess_of(row, of_kind)) return refuse(row, excess);
   if (!of_kind.value.empty() && !is_sensible(kind, row.value))
@@ -102,19 +102,46 @@ Result<faults::BenchFault, Problem> bench_fault(const scenario::Fault& row, Benc
                             .seed = seed};
 }
 
+bool changes_signal(FrameFaultKind kind) {
+  return kind == FrameFaultKind::kSignalOffset || kind == FrameFaultKind::kSignalDrift ||
+         kind == FrameFaultKind::kSignalNoise || kind == FrameFaultKind::kSignalSet;
+}
+
+bool is_own(std::uint32_t id) {
+  for (const can::MessageRow& row : can::av21::kMessages)
+    if (row.id == id) return row.direction == can::Direction::kToCar;
+  return false;
+}
+
+Result<faults::FrameFault, Problem> signal_fault(const scenario::Fault& row,
+                                                 faults::FrameFault fault) {
+  if (!faults::has_signal(row.can_id, row.unit))
+    return refuse(row, "the bench changes no such signal: can_id and unit name it");
+  if (std::isnan(row.value)) return refuse(row, "value is missing, in the unit of the database");
+  fault.unit = static_cast<std::uint8_t>(row.unit);
+  fault.value = row.value;
+  return fault;
+}
+
 // The one number of a scenario row means a probability, a count or a time, by kind.
 Result<faults::FrameFault, Problem> frame_fault(const scenario::Fault& row, FrameFaultKind kind,
                                                 std::uint64_t seed) {
   faults::FrameFault fault{
       .kind = kind, .start = Instant{} + row.at, .duration = row.lasts, .seed = seed};
-  if (row.unit != 0) return refuse(row, "this kind has no units");
+  const bool of_signal = changes_signal(kind);
+  if (row.unit != 0 && !of_signal) return refuse(row, "this kind has no units");
   if (row.can_id != 0) fault.id = row.can_id;
+  if (of_signal) return signal_fault(row, fault);
+  if (kind == FrameFaultKind::kMasquerade && !is_own(row.can_id))
+    return refuse(row, "can_id is no message that the computer alone may send");
   if (std::isnan(row.value)) return fault;
   switch (kind) {
     case FrameFaultKind::kDrop:
     case FrameFaultKind::kDropBurst:
     case FrameFaultKind::kDuplicate:
     case FrameFaultKind::kUnknownId:
+    case FrameFaultKind::kExtendedAlias:
+    case FrameFaultKind::kMasquerade:
       if (row.value < 0.0 || row.value > 1.0) return refuse(row, "value is a probability, 0 to 1");
       fault.probability = row.value;
       return fault;
@@ -163,8 +190,21 @@ bool is_radio_fault(BenchFaultKind kind) {
          kind == BenchFaultKind::kRadioDelay || kind == BenchFaultKind::kBaseStationSilent;
 }
 
+bool is_bus_fault(BenchFaultKind kind) {
+  return kind == BenchFaultKind::kBusErrors || kind == BenchFaultKind::kBusTransmitter ||
+         kind == BenchFaultKind::kTransmitStall || kind == BenchFaultKind::kBusBabble;
+}
+
+bool is_clock_fault(BenchFaultKind kind) {
+  return kind == BenchFaultKind::kGpsTimeStep || kind == BenchFaultKind::kClockSkew;
+}
+
+bool is_byte_fault(BenchFaultKind kind) { return kind == BenchFaultKind::kGnssBytesDamaged; }
+
 bool carried_out(BenchFaultKind kind, BenchMode mode) {
-  if (!is_process_fault(kind)) return in_the_rig(kind) || is_radio_fault(kind);
+  if (is_bus_fault(kind) || is_clock_fault(kind)) return mode == BenchMode::kLockstep;
+  if (!is_process_fault(kind))
+    return in_the_rig(kind) || is_radio_fault(kind) || is_byte_fault(kind);
   return mode == BenchMode::kLive || in_lockstep(kind);
 }
 
@@ -172,10 +212,10 @@ std::optional<Problem> refused_by(BenchMode mode, const std::vector<scenario::Fa
   for (const scenario::Fault& row : rows) {
     const auto kind = faults::bench_fault_kind(row.kind);
     if (!kind || carried_out(*kind, mode)) continue;
-    const bool elsewhere = mode == BenchMode::kLockstep && carried_out(*kind, BenchMode::kLive);
-    return Problem{row.place, "fault \"" + row.kind + "\" " +
-                                  (elsewhere ? "needs the live bench: add --live"
-                                             : "is in the catalogue but not in this bench")};
+    const char* where = "is in the catalogue but not in this bench";
+    if (carried_out(*kind, BenchMode::kLive)) where = "needs the live bench: add --live";
+    if (carried_out(*kind, BenchMode::kLockstep)) where = "needs the lockstep bench";
+    return Problem{row.place, "fault \"" + row.kind + "\" " + where};
   }
   return std::nullopt;
 }
@@ -200,6 +240,9 @@ Result<FaultPlan, Problem> plan_faults(const std::vector<scenario::Fault>& rows,
     if (!fault) return Unexpected{fault.error()};
     (is_process_fault(*kind) ? plan.processes
      : is_radio_fault(*kind) ? plan.radio
+     : is_bus_fault(*kind)   ? plan.bus
+     : is_clock_fault(*kind) ? plan.clock
+     : is_byte_fault(*kind)  ? plan.bytes
                              : plan.models)
         .push_back(*fault);
   }

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
+#include "hil/bench/sensor_faults.hpp"
 #include "hil/plant_file/perturbed.hpp"
 #include "protocol/can/av21.hpp"
 
@@ -54,12 +54,15 @@ Result<Rig, Problem> Rig::build(const scenario::Scenario& scenario, const world:
   rig.road_ = plant::road_at(rig.plant_params_, track, rig.plant_);
   if (rig.road_.contact)
     return Unexpected{Problem{scenario.name, "start.n_m puts the car into a wall"}};
+  rig.ground_ = plant::RoadSurface(track, scenario.perturb.bank_error_rad,
+                                   rig.plant_params_.chassis.height_m);
   rig.surface_ = rig.true_road();
   rig.truth_ = plant::observe(rig.plant_params_, rig.plant_, rig.surface_);
   rig.script_ = script_of(scenario);
   rig.timer_params_ = {.track_length_m = track.length_m()};
   rig.sensor_params_ = sensors::params_for(track);
   rig.sensors_ = sensors::make_state(rig.sensor_params_, scenario.seed, Instant{});
+  rig.wheels_ = sensors::make_wheels(rig.wheel_params_, scenario.seed, Instant{});
   return rig;
 }
 
@@ -73,6 +76,7 @@ void Rig::step(std::span<const can::ReceivedFrame> from_car, Instant now) {
       drive_by_wire::step(raptor_params_, raptor_, understood(heard), feedback(), now);
   demand_ = raptor.demand;
   step_plant();
+  wheel_speed_mps_ = sensors::step_wheels(wheel_params_, wheels_, truth_.wheel_speed_mps, now);
   time_laps(now);
   for (const can::Frame& frame : raptor.frames) speak(Node::kDriveByWire, frame, now);
   for (const can::Frame& frame : revision_.due(now)) send(Node::kDriveByWire, frame, now);
@@ -95,24 +99,24 @@ void Rig::step_plant() {
                                    .gear = demand_.gear,
                                    .ignition = demand_.engine_on && !engine_stalled_,
                                    .starter = demand_.crank};
-  const double before_rad = surface_.bank_rad;
   plant_ = plant::step(plant_params_, plant_, actuation, surface_, kRigStep.seconds());
   road_ = plant::road_at(plant_params_, track_, plant_, road_.s_m);
   if (held_tyre_c_) plant_.tyre_c.fill(*held_tyre_c_);
   surface_ = true_road();
-  surface_.bank_rate_rad_per_s = (surface_.bank_rad - before_rad) / kRigStep.seconds();
   truth_ = plant::observe(plant_params_, plant_, surface_);
 }
 
 plant::Surface Rig::true_road() const {
-  plant::Surface road = plant_file::perturbed(road_.surface, perturb_);
+  scenario::Perturbations but_the_bank = perturb_;  // the ground has that
+  but_the_bank.bank_error_rad = 0.0;
+  plant::Surface road = plant_file::perturbed(ground_.at(road_, plant_.motion), but_the_bank);
   road.grip *= grip_;
   return road;
 }
 
 drive_by_wire::Feedback Rig::feedback() const {
   drive_by_wire::Feedback f;
-  if (!wheel_speeds_lost_) f.wheel_speed_mps = truth_.wheel_speed_mps;  // else it sends no report
+  if (!wheel_speeds_lost_) f.wheel_speed_mps = wheel_speed_mps_;  // else it sends no report
   f.vehicle_speed_mps = truth_.speed_mps;
   f.brake_front_kpa = truth_.brake_front_kpa;
   f.brake_rear_kpa = truth_.brake_rear_kpa;
@@ -179,17 +183,17 @@ void Rig::time_laps(Instant now) {
 void Rig::apply_model_faults(Instant now) {
   if (plan_.models.empty()) return;
   sensors_.fault = {};
+  wheels_.fault = {};
   raptor_.faults = {};
   race_.faults = {};
   bus_silent_ = computer_silent_ = engine_stalled_ = wheel_speeds_lost_ = false;
   held_tyre_c_.reset();
   grip_ = 1.0;
   for (const faults::BenchFault& fault : plan_.models)
-    apply_model_fault(fault, faults::active(fault, now));
+    if (faults::active(fault, now)) apply_model_fault(fault, now);
 }
 
-void Rig::apply_model_fault(const faults::BenchFault& fault, bool active) {
-  if (!active) return;
+void Rig::apply_model_fault(const faults::BenchFault& fault, Instant now) {
   switch (fault.kind) {
     case BenchFaultKind::kRaceControlSilent:
       race_.faults.silent = true;
@@ -237,41 +241,8 @@ void Rig::apply_model_fault(const faults::BenchFault& fault, bool active) {
       computer_silent_ = true;
       return;
     default:
-      apply_gnss_fault(fault);
+      apply_sensor_fault(fault, now, sensors_, wheels_);
       return;
-  }
-}
-
-void Rig::apply_gnss_fault(const faults::BenchFault& fault) {
-  if (fault.unit >= world::kGnssUnits) return;
-  sensors::UnitFault& unit = sensors_.fault[fault.unit];
-  switch (fault.kind) {
-    case BenchFaultKind::kGnssUnitOutage:
-      unit.outage = true;
-      return;
-    case BenchFaultKind::kGnssRtkLost:
-      unit.fix = sensors::Fix::kRtkFloat;
-      return;
-    case BenchFaultKind::kGnssVarianceSpike:
-      unit.sigma_scale = fault.value;
-      return;
-    case BenchFaultKind::kGnssPositionJump:
-      unit.offset_east_m = fault.value;
-      return;
-    case BenchFaultKind::kGnssHeadingFlip:
-      unit.heading_offset_rad = std::numbers::pi;
-      return;
-    case BenchFaultKind::kGnssStampFrozen:
-      unit.position_frozen = true;
-      return;
-    case BenchFaultKind::kImuOutage:
-      unit.imu_outage = true;
-      return;
-    case BenchFaultKind::kImuBias:
-      unit.yaw_rate_bias_rad_per_s = fault.value;
-      return;
-    default:
-      CHECK(false);  // plan_faults() refuses what is not carried out
   }
 }
 

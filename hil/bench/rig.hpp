@@ -18,11 +18,13 @@
 #include "hil/drive_by_wire/raptor.hpp"
 #include "hil/faults/delay_queue.hpp"
 #include "hil/plant/plant.hpp"
+#include "hil/plant/road_surface.hpp"
 #include "hil/race/lap_timer.hpp"
 #include "hil/race/race_control.hpp"
 #include "hil/revision/revision.hpp"
 #include "hil/scenario/scenario.hpp"
 #include "hil/sensors/sensors.hpp"
+#include "hil/sensors/wheel_speeds.hpp"
 #include "protocol/can/frame.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/result.hpp"
@@ -33,8 +35,9 @@ namespace pitwall::bench {
 
 inline constexpr Duration kRigStep = milliseconds(1);
 
-enum class Node : std::uint8_t { kCar, kDriveByWire, kRaceControl, kGuardian };
-inline constexpr std::uint8_t kNodes = 4;
+// kStranger: belongs to nobody, and speaks only where a fault makes it.
+enum class Node : std::uint8_t { kCar, kDriveByWire, kRaceControl, kGuardian, kStranger };
+inline constexpr std::uint8_t kNodes = 5;
 
 struct Outgoing {
   Node from = Node::kDriveByWire;
@@ -59,6 +62,10 @@ class Rig {
   // What the nodes put on the bus since the last call; valid until the next step.
   std::span<const Outgoing> take_frames();
   // What the sensors delivered since the last call.
+  bool has_samples() const {
+    return !(samples_.imu.empty() && samples_.positions.empty() && samples_.velocities.empty() &&
+             samples_.headings.empty() && samples_.attitudes.empty() && samples_.receivers.empty());
+  }
   world::SensorInput take_samples();
 
   const plant::Truth& truth() const { return truth_; }
@@ -77,8 +84,7 @@ class Rig {
   // What the drive-by-wire understands of the bus.
   std::span<const can::ReceivedFrame> understood(std::span<const can::ReceivedFrame> heard);
   void apply_model_faults(Instant now);
-  void apply_model_fault(const faults::BenchFault& fault, bool active);
-  void apply_gnss_fault(const faults::BenchFault& fault);
+  void apply_model_fault(const faults::BenchFault& fault, Instant now);
   void step_plant();
   plant::Surface true_road() const;  // under the car, with what the scenario does to it
   void speak(Node from, const can::Frame& frame, Instant now);  // in the words of the revision
@@ -98,7 +104,8 @@ class Rig {
   plant::State plant_;
   plant::Surface surface_;
   plant::Truth truth_;
-  plant::Road road_;
+  plant::Road road_;           // by the map
+  plant::RoadSurface ground_;  // as it is
   drive_by_wire::Params raptor_params_;
   drive_by_wire::State raptor_;
   drive_by_wire::Demand demand_;
@@ -109,6 +116,9 @@ class Rig {
   Laps laps_;
   sensors::Params sensor_params_;
   sensors::State sensors_;
+  sensors::WheelParams wheel_params_;
+  sensors::WheelState wheels_;
+  plant::Wheels wheel_speed_mps_{};  // as the sensors have them
   world::SensorInput samples_;
   FixedVector<Outgoing, kMaxOutgoing> outgoing_;
   bool outgoing_taken_ = false;  // cleared by the next step

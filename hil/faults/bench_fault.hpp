@@ -25,6 +25,36 @@ enum class BenchFaultKind : std::uint8_t {
   kImuBias,
   kImuOutage,
   kWheelSpeedLoss,
+  kGnssNoSolution,
+  kGnssSingle,
+  kGnssRtkFloat,
+  kGnssCorrectionsLost,
+  kGnssNoise,
+  kGnssPositionJumpNorth,
+  kGnssPositionJumpUp,
+  kGnssPositionJumpLeft,
+  kGnssPositionJumpAhead,
+  kGnssPositionDrift,
+  kGnssPositionDriftAhead,
+  kGnssPositionFrozen,
+  kGnssStampFuture,
+  kGnssStampBack,
+  kGnssHeadingOffset,
+  kGnssHeadingOutage,
+  kGnssVelocityWrong,
+  kGnssVelocityWrongLeft,
+  kGnssNotANumber,
+  kGnssNegativeSigma,
+  kGnssLatency,
+  kGnssGaps,
+  kImuAccelBias,
+  kImuAccelBiasLeft,
+  kImuGyroScale,
+  kImuFrozen,
+  kImuNotANumber,
+  kWheelLoss,
+  kWheelLock,
+  kWheelSpin,
   kLidarOutage,
   kLidarLate,
   kCameraOutage,
@@ -57,7 +87,12 @@ enum class BenchFaultKind : std::uint8_t {
   kBasePaused,
   kClockStep,
   kClockSkew,
-  kLogDiskFull
+  kLogDiskFull,
+  kBusErrors,
+  kBusTransmitter,
+  kTransmitStall,
+  kGnssBytesDamaged,
+  kGpsTimeStep
 };
 
 enum class BenchPart : std::uint8_t {
@@ -91,7 +126,7 @@ struct BenchFault {
   std::uint64_t seed = 1;
 };
 
-inline constexpr std::size_t kBenchFaultKinds = 42;
+inline constexpr std::size_t kBenchFaultKinds = 77;
 extern const std::array<BenchFaultRow, kBenchFaultKinds> kBenchFaults;
 
 const BenchFaultRow& row_of(BenchFaultKind kind);

@@ -1,0 +1,45 @@
+// The car's attitude as a rotation, and places and directions in the car seen from the map.
+//   frames Body: ISO 8855. Map: east, north, up. Euler angles in the order yaw, pitch, roll
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "hil/plant/plant.hpp"
+#include "hil/sensors/unit_params.hpp"
+
+namespace pitwall::sensors {
+
+using Vector3 = std::array<double, 3>;
+
+constexpr Vector3 vector(const Lever& l) { return {l.x_m, l.y_m, l.z_m}; }
+constexpr Vector3 plus(const Vector3& a, const Vector3& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+constexpr Vector3 times(double factor, const Vector3& a) {
+  return {factor * a[0], factor * a[1], factor * a[2]};
+}
+constexpr Vector3 cross(const Vector3& a, const Vector3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+inline Vector3 in_map(const Vector3& v, const plant::Truth& t) {
+  const double cos_roll = std::cos(t.roll_rad), sin_roll = std::sin(t.roll_rad);
+  const double cos_pitch = std::cos(t.pitch_rad), sin_pitch = std::sin(t.pitch_rad);
+  const double cos_yaw = std::cos(t.yaw_rad), sin_yaw = std::sin(t.yaw_rad);
+  const double left = v[1] * cos_roll - v[2] * sin_roll;
+  const double raised = v[1] * sin_roll + v[2] * cos_roll;
+  const double ahead = v[0] * cos_pitch + raised * sin_pitch;
+  return {ahead * cos_yaw - left * sin_yaw, ahead * sin_yaw + left * cos_yaw,
+          raised * cos_pitch - v[0] * sin_pitch};
+}
+
+// From north, clockwise, in [0, 2 pi).
+inline double compass_rad(double east, double north) {
+  const double angle_rad = std::atan2(east, north);
+  return angle_rad < 0.0 ? angle_rad + 2.0 * std::numbers::pi : angle_rad;
+}
+
+}  // namespace pitwall::sensors

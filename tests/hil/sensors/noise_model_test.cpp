@@ -1,0 +1,164 @@
+// The receivers' noise has the size, the memory and the kinship that hil/sensors/README.md states.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/hil/sensors/sensor_log.hpp"
+
+namespace pitwall::sensors {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Params quick_wander(Params p) {  // so that a run holds many correlation times
+  for (UnitParams& u : p.unit) u.noise.position.correlation_s = 1.0;
+  return p;
+}
+
+std::vector<double> norths_m(const Params& p, const Log& log, int unit) {
+  std::vector<double> north;
+  for (const auto& s : of_unit(log.positions, unit)) north.push_back(north_m(p, s));
+  return north;
+}
+
+TEST(NoiseModel, PositionIsOfItsSizeAndWanders) {
+  const Params p = quick_wander(noisy());
+  const PositionNoise& n = p.unit[0].noise.position;
+  const Log log = run(p, standing_at(0, 0, 0), 1'000'000);
+  const Moments m = moments(norths_m(p, log, 0));
+  EXPECT_NEAR(m.sigma, n.sigma_m, 0.1 * n.sigma_m);
+  EXPECT_NEAR(m.mean, 0.0, 0.2 * n.sigma_m);
+  EXPECT_NEAR(m.lag_one, (1.0 - n.white_share) * std::exp(-0.05), 0.03);
+  std::vector<double> height_m;
+  for (const auto& s : of_unit(log.positions, 0)) height_m.push_back(s.height_m - 600.0);
+  EXPECT_NEAR(moments(height_m).sigma, n.height_factor * n.sigma_m,
+              0.1 * n.height_factor * n.sigma_m);
+}
+
+TEST(NoiseModel, UnitsSeeTheSameSky) {
+  const Params p = quick_wander(noisy());
+  const PositionNoise& n = p.unit[0].noise.position;
+  const Log log = run(p, standing_at(0, 0, 0), 500'000);
+  const double shared = (1.0 - n.white_share) * n.common_share;
+  EXPECT_NEAR(correlation(norths_m(p, log, 0), norths_m(p, log, 1)), shared, 0.08);
+  std::vector<double> east_0, north_0;
+  for (const auto& s : of_unit(log.positions, 0))
+    east_0.push_back(east_m(p, s)), north_0.push_back(north_m(p, s));
+  EXPECT_NEAR(correlation(east_0, north_0), 0.0, 0.15);
+  // Nothing else is shared.
+  std::vector<double> v0, v1;
+  for (const auto& s : of_unit(log.velocities, 0)) v0.push_back(s.vertical_mps);
+  for (const auto& s : of_unit(log.velocities, 1)) v1.push_back(s.vertical_mps);
+  EXPECT_NEAR(correlation(v0, v1), 0.0, 0.05);
+}
+
+TEST(NoiseModel, ReceiversReportAboutTheDeviationThatTheyHave) {
+  const Params p = noisy();
+  std::vector<double> sigma_m;
+  for (const auto& s : run(p, standing_at(0, 0, 0), 300'000).positions) {
+    EXPECT_NEAR(s.latitude_sigma_m, p.unit[0].noise.position.sigma_m, 0.0021);
+    EXPECT_EQ(s.latitude_sigma_m, static_cast<double>(static_cast<float>(s.latitude_sigma_m)));
+    EXPECT_GE(s.differential_age_s, 0.6);
+    EXPECT_LT(s.differential_age_s, 1.6);
+    sigma_m.push_back(s.latitude_sigma_m);
+  }
+  EXPECT_GT(moments(sigma_m).sigma, 0.0);
+}
+
+TEST(NoiseModel, VelocityIsWhite) {
+  const Params p = noisy();
+  std::vector<double> up_mps;
+  for (const auto& s : of_unit(run(p, standing_at(0, 0, 0), 200'000).velocities, 0))
+    up_mps.push_back(s.vertical_mps);
+  const Moments m = moments(up_mps);
+  EXPECT_NEAR(m.sigma, p.unit[0].noise.velocity.vertical_sigma_mps, 0.003);
+  EXPECT_NEAR(m.lag_one, 0.0, 0.05);
+}
+
+TEST(NoiseModel, HeadingIsTheBetterTheLongerItsBaseline) {
+  Params p = noisy();
+  p.heading.period = milliseconds(10);
+  for (UnitParams& u : p.unit) u.noise.heading.correlation_s = 0.2;
+  const Log log = run(p, standing_at(0, 0, 0), 120'000);
+  for (const int unit : {0, 1}) {
+    std::vector<double> error;
+    for (const auto& s : of_unit(log.headings, unit))
+      error.push_back(wrap_pi(s.heading_rad - kPi / 2.0 +
+                              p.unit[static_cast<std::size_t>(unit)].baseline_yaw_rad));
+    const double expected = 0.0028 / p.unit[static_cast<std::size_t>(unit)].baseline_m;
+    EXPECT_NEAR(moments(error).sigma, expected, 0.05 * expected);
+    EXPECT_NEAR(moments(error).lag_one, 0.5 * std::exp(-0.05), 0.05);
+  }
+}
+
+// ---- Inertial unit.
+std::vector<double> yaw_rates(const Params& p, const plant::Truth& t, int duration_ms, int unit,
+                              std::uint64_t seed = 1) {
+  std::vector<double> rate;
+  for (const auto& s : of_unit(run(p, t, duration_ms, seed).imu, unit))
+    rate.push_back(s.rate_rad_per_s[2] - t.rate_rad_per_s[2]);
+  return rate;
+}
+
+TEST(NoiseModel, ImuNoiseIsWhiteAroundABias) {
+  const Params p = noisy();
+  const ImuNoise& n = p.unit[1].noise.imu;
+  const Moments m = moments(yaw_rates(p, standing_at(0, 0, 0), 200'000, 1));
+  const double expected =
+      std::hypot(n.gyro_vibration_rad_per_s, n.gyro_rad_per_sqrt_s * std::sqrt(125.0));
+  EXPECT_NEAR(m.sigma, expected, 0.05 * expected);
+  EXPECT_NEAR(m.lag_one, 0.0, 0.04);
+}
+
+TEST(NoiseModel, TurnOnBiasIsDrawnForARun) {
+  const Params p = noisy();
+  const ImuNoise& n = p.unit[0].noise.imu;
+  std::vector<double> bias;
+  for (std::uint64_t seed = 0; seed < 60; ++seed)
+    bias.push_back(moments(yaw_rates(p, standing_at(0, 0, 0), 3000, 0, seed)).mean);
+  EXPECT_NEAR(moments(bias).sigma, n.gyro_turn_on_rad_per_s, 0.3 * n.gyro_turn_on_rad_per_s);
+}
+
+// Allan deviation at tau: root of half the mean square of the difference of neighbouring means.
+double allan(const std::vector<double>& x, std::size_t bin) {
+  std::vector<double> mean;
+  for (std::size_t i = 0; i + bin <= x.size(); i += bin) {
+    double sum = 0.0;
+    for (std::size_t k = i; k < i + bin; ++k) sum += x[k];
+    mean.push_back(sum / static_cast<double>(bin));
+  }
+  double squares = 0.0;
+  for (std::size_t i = 1; i < mean.size(); ++i)
+    squares += (mean[i] - mean[i - 1]) * (mean[i] - mean[i - 1]);
+  return std::sqrt(0.5 * squares / static_cast<double>(mean.size() - 1));
+}
+
+TEST(NoiseModel, AllanDeviationFallsWithTheRandomWalkAndEndsInTheBias) {
+  Params p = noisy();
+  ImuNoise& n = p.unit[0].noise.imu;
+  n.gyro_vibration_rad_per_s = 0.0;     // the sensor's own
+  n.gyro_instability_rad_per_s = 1e-4;  // larger and quicker, so that a short run shows it
+  n.instability_correlation_s = 20.0;
+  const std::vector<double> rate = yaw_rates(p, standing_at(0, 0, 0), 600'000, 0);
+  const double walk = n.gyro_rad_per_sqrt_s;
+  EXPECT_NEAR(allan(rate, 12), walk / std::sqrt(12 * 0.008), 0.1 * walk / std::sqrt(12 * 0.008));
+  // A Gauss-Markov bias peaks near 1.89 correlation times at 0.437 of its root of 2 sigma squared.
+  const double peak = allan(rate, 4725);
+  EXPECT_NEAR(peak, 0.437 * std::sqrt(2.0) * 1e-4, 0.4e-4);
+}
+
+TEST(NoiseModel, ImuEndsAtItsRange) {
+  Params p = quiet();
+  plant::Truth t = standing_at(0, 0, 0);
+  t.rate_rad_per_s = {0.0, 0.0, 9.0};
+  t.specific_force_mps2 = {-80.0, 0.0, 60.0};
+  const auto s = run(p, t, 50).imu.front();
+  EXPECT_EQ(s.rate_rad_per_s[2], 2.618);
+  EXPECT_EQ(s.specific_force_mps2[0], -49.0);
+  EXPECT_EQ(s.specific_force_mps2[2], 49.0);
+}
+
+}  // namespace
+}  // namespace pitwall::sensors
