@@ -180,7 +180,8 @@ class Drive {
                                       parts_.radio->paths())
                      : "{}";
     const auto written = transport::write_file(
-        args_.summary_file, io::summary_json(tally_, frames_, bus_, losses_, radio));
+        args_.summary_file, io::summary_json(tally_, frames_, bus_, losses_, radio,
+                                             io::receivers_json(parts_.rim.receivers())));
     return written ? 0 : (refuse(written.error()), kExitFailed);
   }
 
@@ -201,7 +202,7 @@ class Drive {
 };
 
 Result<Parts, Problem> open_parts(const io::Arguments& args, const pipeline::Setup& setup) {
-  auto rim = io::Rim::open(args);
+  auto rim = io::Rim::open(args, setup.params.receivers);
   if (!rim) return Unexpected{rim.error()};
   auto guarded = io::Guarded::open(args.guardian, args.arm);
   if (!guarded) return Unexpected{guarded.error()};

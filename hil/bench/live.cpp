@@ -150,7 +150,7 @@ class Live {
       collect_frames(at);
     }
     write_bus();
-    parts_.receivers.send(parts_.rig.take_samples());
+    if (parts_.rig.has_samples()) parts_.receivers.send(parts_.rig.take_samples(), now);
     if ((now - Instant{}).ns % setup_.params.rates.tick.ns == 0) judge(now);
   }
 
@@ -344,6 +344,8 @@ Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
   if (!faults) return Unexpected{faults.error()};
   auto rig = Rig::build(scenario, setup.track);
   if (!rig) return Unexpected{rig.error()};
+  if (auto problem = unjudged_by(BenchMode::kLive, scenario))
+    return Unexpected{*std::move(problem)};
   auto expectations = expectations_of(scenario);
   if (!expectations) return Unexpected{expectations.error()};
   auto grader = grading::Grader::create(*expectations, signal_names());
@@ -364,7 +366,8 @@ Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
   if (!monitor) return Unexpected{monitor.error()};
   auto desk = transport::UdpSocket::bind({});
   if (!desk) return Unexpected{desk.error()};
-  auto receivers = ReceiverPort::open(receiver_ports(plan));
+  auto receivers = ReceiverPort::open(receiver_ports(plan),
+                                      ReceiverSpeech{setup.params.receivers, faults->bytes});
   if (!receivers) return Unexpected{receivers.error()};
   transport::request_realtime(kPriority);
   return Live{scenario,

@@ -9,6 +9,10 @@
 #include <vector>
 
 #include "basestation/intake/operator_words.hpp"
+#include "hil/bench/bus_faults.hpp"
+#include "hil/bench/clock_faults.hpp"
+#include "hil/bench/receiver_ears.hpp"
+#include "hil/bench/receiver_speech.hpp"
 #include "hil/bench/run_record.hpp"
 #include "hil/bench/signals.hpp"
 #include "hil/bench/virtual_station.hpp"
@@ -31,8 +35,13 @@ class Lockstep {
         grader_(std::move(grader)),
         guardian_(std::move(guardian)),
         base_(scenario, setup, faults),
+        bus_faults_(faults.bus),
+        clock_faults_(faults.clock),
+        speech_(setup.params.receivers, faults.bytes),
+        ears_(setup.params.receivers),
+        guardian_ears_(setup.params.receivers),
         options_(options),
-        bus_({.ports = kNodes, .bit_rate = 500'000}),
+        bus_({.ports = kNodes, .bit_rate = 500'000, .seed = scenario.seed}),
         car_(std::make_unique<pipeline::Car>()),
         stepped_at_(Instant{} - setup.params.rates.tick) {
     inbox_.reserve(kInboxFrames);
@@ -55,11 +64,14 @@ class Lockstep {
     if (guardian_.car_restarts(now)) {
       *car_ = {};
       inbox_.clear();
-      samples_ = {};
+      ears_ = ReceiverEars{setup_.params.receivers};
       base_.restart_car();
       stepped_at_ = now - setup_.params.rates.tick;
     }
-    if (guardian_.car_runs(now)) step_car(now);
+    if (guardian_.car_runs(now))
+      step_car(now);
+    else if (out_)
+      out_->seen = {};
     judge(*out_, now);
     note_changes(*out_, now);
     out_->chosen.mode_changed = false;
@@ -67,18 +79,20 @@ class Lockstep {
   }
 
   void step_car(Instant now) {
-    collect(rig_.take_samples());
     pipeline::Inputs in{.now = now,
                         .dt = now - stepped_at_,
                         .can = inbox_,
-                        .sensors = samples_,
+                        .sensors = ears_.samples(),
                         .requests = {.arm = guardian_.armed_from_the_start()},
+                        .gnss_byte_at = ears_.byte_at(),
+                        .link = link_of_car(bus_),
                         .guardian = guardian_.view(now)};
     base_.hear(in);
     out_ = options_.step(setup_, *car_, in);
     base_.tell(*car_, in, *out_);
     stepped_at_ = now;
-    samples_ = {};
+    if (out_->bus_guard.restart_now) bus_.restart(static_cast<std::uint8_t>(Node::kCar), now);
+    ears_.clear();
     result_.traffic.car_received += inbox_.size();
     inbox_.clear();
     guardian_.tell(setup_, *car_, *out_, now);
@@ -88,10 +102,9 @@ class Lockstep {
 
   void step_guardian(Instant at) {
     if (!guardian_.present() || (at - Instant{}).ns % guardian::kTick.ns != 0) return;
-    const world::SensorInput samples = rig_.take_samples();
-    collect(samples);
-    for (const can::Frame& frame : guardian_.step(samples, at))
+    for (const can::Frame& frame : guardian_.step(guardian_ears_.samples(), at))
       bus_.offer(static_cast<std::uint8_t>(Node::kGuardian), frame, at);
+    guardian_ears_.clear();
     const guardian::Mode mode = guardian_.status().mode;
     const bool acts = mode != guardian::Mode::kIdle && mode != guardian::Mode::kWatching;
     if (guardian_.mode_changed() && acts && record_)
@@ -101,17 +114,14 @@ class Lockstep {
     if (options_.watch_guardian) options_.watch_guardian(guardian_, at);
   }
 
-  // What the receivers said since the car's last tick, in order of arrival.
-  void collect(const world::SensorInput& fresh) {
-    const auto append = [this](auto& to, const auto& from) {
-      for (const auto& sample : from)
-        if (!to.push(sample)) ++samples_.overflows;
-    };
-    append(samples_.positions, fresh.positions);
-    append(samples_.velocities, fresh.velocities);
-    append(samples_.headings, fresh.headings);
-    append(samples_.imu, fresh.imu);
-    samples_.overflows += fresh.overflows;
+  // The receivers' bytes, to each of the car's two processes.
+  void hear_receivers(Instant at) {
+    if (!rig_.has_samples()) return;
+    speech_.say(clock_faults_.apply(rig_.take_samples(), at), at,
+                [&](std::uint8_t unit, std::span<const std::uint8_t> bytes) {
+                  ears_.hear(unit, bytes, at);
+                  if (guardian_.present()) guardian_ears_.hear(unit, bytes, at);
+                });
   }
 
   void step_rig(Instant at) {
@@ -120,8 +130,10 @@ class Lockstep {
     for (const Outgoing& outgoing : rig_.take_frames())
       if (bus_.offer(static_cast<std::uint8_t>(outgoing.from), outgoing.frame, at))
         ++result_.traffic.to_car;
+    bus_faults_.act_on(bus_, at);
     for (const bus::Delivery& delivery : bus_.advance(at)) deliver(delivery);
     base_.advance(at);
+    hear_receivers(at);
     step_guardian(at);
   }
 
@@ -150,7 +162,8 @@ class Lockstep {
                            .identity = static_cast<double>(out.heard.bus.identity.verdict),
                            .differing_id = static_cast<double>(out.heard.bus.identity.id),
                            .cause = static_cast<double>(out.chosen.cause),
-                           .operator_limit_mps = out.speed_limit_mps};
+                           .operator_limit_mps = out.speed_limit_mps,
+                           .seen = out.seen};
     const double offset_m = setup_.params.planning.line.offset_m;
     grader_.observe(now, observe({.rig = rig_,
                                   .car = report,
@@ -225,11 +238,14 @@ class Lockstep {
   grading::Grader grader_;
   GuardianNode guardian_;
   VirtualStation base_;
+  BusFaults bus_faults_;
+  ClockFaults clock_faults_;
+  ReceiverSpeech speech_;
+  ReceiverEars ears_, guardian_ears_;
   const LockstepOptions& options_;
   bus::MemoryBus bus_;
   std::unique_ptr<pipeline::Car> car_;
   std::vector<can::ReceivedFrame> inbox_, heard_;
-  world::SensorInput samples_;            // that the car has not taken yet
   std::optional<pipeline::Outputs> out_;  // of the car's last tick
   Instant stepped_at_;
   std::optional<RunRecord> record_;

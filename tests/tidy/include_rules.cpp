@@ -62,8 +62,14 @@ Names rim_and(Names more) {
 
 const Names kShared{"protocol/vocabulary", "protocol/bits"};
 const Names kAutonomy{"vehicle/world", "protocol/vocabulary"};
-const Names kBench{"hil",      "vehicle/pipeline",   "vehicle/world",      "vehicle/parameters",
-                   "protocol", "basestation/intake", "basestation/picture"};
+const Names kBench{"hil",
+                   "vehicle/pipeline",
+                   "vehicle/world",
+                   "vehicle/receivers",
+                   "vehicle/parameters",
+                   "protocol",
+                   "basestation/intake",
+                   "basestation/picture"};
 
 const std::vector<Part> kParts{
     {"protocol/vocabulary", {}, {}},
@@ -87,6 +93,7 @@ const std::vector<Part> kParts{
     {"vehicle/autonomy/tracking", kAutonomy, {"eigen"}},
     {"vehicle/autonomy/planning", kAutonomy, {"eigen"}},
     {"vehicle/autonomy/control", kAutonomy, {"eigen", "lapack"}},
+    {"vehicle/receivers", {"vehicle/world", "protocol/gnss", "protocol/vocabulary"}, {}},
     {"vehicle/safety", {"vehicle/world", "protocol/can", "protocol/vocabulary"}, {}},
     {"vehicle/guardian",
      {"vehicle/safety", "vehicle/world", "protocol/can", "protocol/vocabulary"},

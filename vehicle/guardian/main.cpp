@@ -12,10 +12,9 @@
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
 #include "protocol/transport/realtime.hpp"
-#include "protocol/transport/udp_socket.hpp"
 #include "vehicle/guardian/guardian.hpp"
-#include "vehicle/io/gnss_input.hpp"
 #include "vehicle/io/guardian_arguments.hpp"
+#include "vehicle/io/receiver_port.hpp"
 #include "vehicle/io/shared_stop.hpp"
 #include "vehicle/parameters/car_file.hpp"
 #include "vehicle/pipeline/guarding.hpp"
@@ -40,25 +39,21 @@ struct Counts {
 // What the guardian hears and says.
 class Rim {
  public:
-  static Result<Rim, Problem> open(const io::GuardianArguments& args) {
+  static Result<Rim, Problem> open(const io::GuardianArguments& args,
+                                   const world::Receivers& receivers) {
     auto can = transport::CanSocket::open(args.can_interface);
     if (!can) return Unexpected{can.error()};
-    std::vector<transport::UdpSocket> gnss;
-    for (const std::uint16_t port : args.gnss_ports) {
-      auto socket = transport::UdpSocket::bind({.ip = transport::kLoopbackIp, .port = port});
-      if (!socket) return Unexpected{socket.error()};
-      gnss.push_back(*std::move(socket));
-    }
+    auto ports = io::open_receivers(args.receivers, receivers);
+    if (!ports) return Unexpected{ports.error()};
     auto shared = io::SharedStop::open(args.guardian);
     if (!shared) return Unexpected{shared.error()};
-    return Rim{*std::move(can), std::move(gnss), *std::move(shared)};
+    return Rim{*std::move(can), *std::move(ports), *std::move(shared)};
   }
 
   // Valid until the next one.
   guardian::Inputs read(Instant now) {
     samples_ = {};
-    for (std::size_t unit = 0; unit < gnss_.size(); ++unit)
-      io::receive(gnss_[unit], receivers_[unit], samples_);
+    for (io::ReceiverPort& receiver : receivers_) receiver.read(samples_, now);
     const std::size_t count = can_.receive(frames_);
     known_ = shared_.read(*record_) || known_;
     return {.record = known_ ? record_.get() : nullptr,
@@ -76,17 +71,15 @@ class Rim {
   const transport::CanSocketCounters& can() const { return can_.counters(); }
 
  private:
-  Rim(transport::CanSocket can, std::vector<transport::UdpSocket> gnss, io::SharedStop shared)
+  Rim(transport::CanSocket can, std::vector<io::ReceiverPort> receivers, io::SharedStop shared)
       : can_(std::move(can)),
-        gnss_(std::move(gnss)),
-        receivers_{io::GnssInput{{.unit = 0}}, io::GnssInput{{.unit = 1}}},
+        receivers_(std::move(receivers)),
         shared_(std::move(shared)),
         record_(std::make_unique<guardian::CarRecord>()),
         frames_(kFramesPerRead) {}
 
   transport::CanSocket can_;
-  std::vector<transport::UdpSocket> gnss_;
-  std::array<io::GnssInput, world::kGnssUnits> receivers_;
+  std::vector<io::ReceiverPort> receivers_;
   io::SharedStop shared_;
   std::unique_ptr<guardian::CarRecord> record_;
   bool known_ = false;
@@ -144,7 +137,7 @@ int run(int argc, const char* const* argv) {
   const auto car = parameters::read_car(*text, args.car_file);
   if (!car) return refuse(car.error());
   if (args.check) return 0;
-  auto rim = Rim::open(args);
+  auto rim = Rim::open(args, car->params.receivers);
   if (!rim) return refuse(rim.error());
   const auto realtime = transport::request_realtime(kPriority);
   std::fprintf(stderr, "pitwall-guardian: on %s, %s, %s%s\n", args.can_interface.c_str(),

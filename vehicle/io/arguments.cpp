@@ -2,10 +2,9 @@
 #include "vehicle/io/arguments.hpp"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <vector>
 
 #include "protocol/telemetry/packet/body.hpp"
+#include "vehicle/io/receiver_options.hpp"
 
 namespace pitwall::io {
 
@@ -19,12 +18,7 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   app.add_option("--track", args.track_file, "track file (vehicle/config/tracks/*.yaml)")
       ->required();
   app.add_option("--can", args.can_interface, "CAN interface, e.g. can0")->required();
-  std::vector<std::uint16_t> ports;
-  app.add_option("--gnss", ports, "UDP ports of the two GNSS receivers, e.g. 23501,23502")
-      ->delimiter(',')
-      ->check(CLI::Range(1, kPortMax))
-      ->expected(static_cast<int>(world::kGnssUnits))
-      ->required();
+  const ReceiverOptions receivers{app};
   app.add_option("--radio", args.radio,
                  "where the base station is reached, ADDRESS:PORT; once more for a second path")
       ->expected(1, static_cast<int>(telemetry::kPaths))
@@ -49,13 +43,11 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
           "--keys",
           "the radio needs keys: make them once with `pitwall-base keygen --out FOLDER` and give "
           "the car FOLDER/car.keys (or --no-base, for a bench)");
-    if (ports[0] == ports[1])
-      throw CLI::ValidationError("--gnss", "the receivers need two different ports");
+    args.receivers = receivers.links();
   } catch (const CLI::ParseError& error) {
     const int code = app.exit(error);
     return code == 0 ? 0 : kExitUsage;
   }
-  std::copy(ports.begin(), ports.end(), args.gnss_ports.begin());
   return args;
 }
 

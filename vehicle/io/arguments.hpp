@@ -4,21 +4,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "vehicle/world/sensor_input.hpp"
+#include "vehicle/io/receiver_link.hpp"
 
 namespace pitwall::io {
 
 struct Arguments {
   std::string car_file, track_file;
   std::string can_interface;
-  std::array<std::uint16_t, world::kGnssUnits> gnss_ports{};
+  ReceiverLinks receivers;                            // where the bytes of each come in
   std::vector<std::string> radio{"127.0.0.1:23431"};  // where the base is reached, by path
   std::string keys;                                   // file of the car's keys
   std::uint16_t local_report = 0;                     // port on loopback; 0: nobody is told

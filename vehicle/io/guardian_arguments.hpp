@@ -3,18 +3,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <string>
 #include <variant>
 
-#include "vehicle/world/sensor_input.hpp"
+#include "vehicle/io/receiver_link.hpp"
 
 namespace pitwall::io {
 
 struct GuardianArguments {
   std::string car_file, can_interface, guardian, summary_file;  // no summary if empty
-  std::array<std::uint16_t, world::kGnssUnits> gnss_ports{};    // its own, not the car's
+  ReceiverLinks receivers;                                      // links of its own, not the car's
   bool check = false;       // read the car file, say what is wrong with it, and stop
   bool simulation = false;  // said on stderr; decides nothing
 };

@@ -15,37 +15,33 @@ constexpr std::size_t kFramesPerRead = 22'528;
 }  // namespace
 
 Rim::Rim(transport::CanSocket can, std::unique_ptr<BusWatch> watch,
-         std::vector<transport::UdpSocket> gnss)
+         std::vector<ReceiverPort> receivers)
     : can_(std::move(can)),
       watch_(std::move(watch)),
-      gnss_(std::move(gnss)),
-      receivers_{GnssInput{{.unit = 0}}, GnssInput{{.unit = 1}}},
+      receivers_(std::move(receivers)),
       frames_(kFramesPerRead) {}
 
-Result<Rim, Problem> Rim::open(const Arguments& args) {
+Result<Rim, Problem> Rim::open(const Arguments& args, const world::Receivers& receivers) {
   auto can = transport::CanSocket::open(args.can_interface);
   if (!can) return Unexpected{can.error()};
   auto watch = BusWatch::start(args.can_interface);
   if (!watch) return Unexpected{watch.error()};
-  std::vector<transport::UdpSocket> gnss;
-  for (const std::uint16_t port : args.gnss_ports) {
-    auto socket = transport::UdpSocket::bind({.ip = transport::kLoopbackIp, .port = port});
-    if (!socket) return Unexpected{socket.error()};
-    gnss.push_back(*std::move(socket));
-  }
-  return Rim{*std::move(can), *std::move(watch), std::move(gnss)};
+  auto ports = open_receivers(args.receivers, receivers);
+  if (!ports) return Unexpected{ports.error()};
+  return Rim{*std::move(can), *std::move(watch), *std::move(ports)};
 }
 
 Rim::Heard Rim::read() {
   Heard heard;
   const std::size_t count = can_.receive(frames_);
-  look_at_bus(transport::monotonic_now());
+  const Instant now = transport::monotonic_now();
+  look_at_bus(now);
   heard.link = link_;
   heard.can = std::span<const can::ReceivedFrame>(frames_).first(count);
-  for (std::size_t unit = 0; unit < gnss_.size(); ++unit)
-    if (receive(gnss_[unit], receivers_[unit], heard.sensors) > 0)
-      gnss_byte_at_[unit] = transport::monotonic_now();
-  heard.gnss_byte_at = gnss_byte_at_;
+  for (std::size_t unit = 0; unit < receivers_.size(); ++unit) {
+    receivers_[unit].read(heard.sensors, now);
+    heard.gnss_byte_at[unit] = receivers_[unit].byte_at();
+  }
   return heard;
 }
 

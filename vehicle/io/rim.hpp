@@ -1,8 +1,8 @@
-// What of the car process touches bus and receivers: CAN socket, UDP ports of the receivers. read()
+// What of the car process touches bus and receivers: CAN socket, ports of the receivers. read()
 // before the step, write() after it. The radio is radio.hpp's.
-//   in     Arguments
+//   in     Arguments; what the car file says of the receivers
 //   out    what arrived since the last read; counters
-//   errors open(): Problem that names the interface or the port; afterwards counters only
+//   errors open(): Problem that names the interface or the link; afterwards counters only
 //   cost   no allocation after open()
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -16,12 +16,11 @@
 
 #include "protocol/can/frame.hpp"
 #include "protocol/transport/can_socket.hpp"
-#include "protocol/transport/udp_socket.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "vehicle/io/arguments.hpp"
 #include "vehicle/io/bus_watch.hpp"
-#include "vehicle/io/gnss_input.hpp"
 #include "vehicle/io/link_observer.hpp"
+#include "vehicle/io/receiver_port.hpp"
 #include "vehicle/io/transmit_slots.hpp"
 #include "vehicle/world/sensor_input.hpp"
 
@@ -29,7 +28,7 @@ namespace pitwall::io {
 
 class Rim {
  public:
-  static Result<Rim, Problem> open(const Arguments& args);
+  static Result<Rim, Problem> open(const Arguments& args, const world::Receivers& receivers = {});
 
   struct Heard {
     std::span<const can::ReceivedFrame> can;  // valid until the next read()
@@ -45,6 +44,7 @@ class Rim {
   void restart_bus() { watch_->restart(); }
 
   const transport::CanSocketCounters& can() const { return can_.counters(); }
+  std::span<const ReceiverPort> receivers() const { return receivers_; }
   const TransmitCounters& transmit() const { return slots_.counters(); }
   // Frames that did not go out in time: a command is never sent late.
   std::uint64_t tx_drops() const { return slots_.counters().dropped() + silenced_; }
@@ -57,7 +57,7 @@ class Rim {
 
  private:
   Rim(transport::CanSocket can, std::unique_ptr<BusWatch> watch,
-      std::vector<transport::UdpSocket> gnss);
+      std::vector<ReceiverPort> receivers);
   void look_at_bus(Instant now);
 
   transport::CanSocket can_;
@@ -67,10 +67,8 @@ class Rim {
   world::LinkObservation link_;
   bool refusal_told_ = false;
   std::uint64_t emptied_ = 0;  // how often the kernel's queue has been, as of the last look
-  std::vector<transport::UdpSocket> gnss_;
-  std::array<GnssInput, world::kGnssUnits> receivers_;
+  std::vector<ReceiverPort> receivers_;
   std::vector<can::ReceivedFrame> frames_;
-  std::array<std::optional<Instant>, world::kGnssUnits> gnss_byte_at_{};
   std::uint64_t silenced_ = 0;  // frames not sent because the interface only listens
 };
 

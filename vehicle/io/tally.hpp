@@ -62,9 +62,10 @@ struct FrameTotals {
   std::array<std::uint64_t, safety::kVerdicts> gate_verdicts{};  // of what was to be said
 };
 
-// One JSON object; `bus` as of the last tick, `radio` as radio_json() writes it.
+// One JSON object; `bus` as of the last tick, `radio` as radio_json() writes it, `receivers` as
+// receivers_json() does.
 std::string summary_json(const StepTally& tally, const FrameTotals& frames,
                          const world::BusHealth& bus, const LossTally& losses,
-                         const std::string& radio = "{}");
+                         const std::string& radio = "{}", const std::string& receivers = "[]");
 
 }  // namespace pitwall::io

@@ -24,6 +24,7 @@
 #include "vehicle/safety/radio_ladder.hpp"
 #include "vehicle/safety/supervisor.hpp"
 #include "vehicle/safety/watchdog.hpp"
+#include "vehicle/world/receiver_params.hpp"
 #include "vehicle/world/track_map.hpp"
 
 namespace pitwall::pipeline {
@@ -53,6 +54,7 @@ struct CarParams {
   gateway::IdentityParams identity;
   gateway::HandshakeParams handshake;
   gateway::OutboundParams outbound;
+  world::Receivers receivers;  // not of the step: of whoever hears them
   localization::Params localization;
   planning::Params planning;
   control::Params control;

@@ -61,7 +61,6 @@ class Transmit : public ::testing::Test {
     ASSERT_FALSE(problem) << to_string(*problem);
     io::Arguments args;
     args.can_interface = controller_->interface();
-    args.gnss_ports = {0, 0};
     auto rim = io::Rim::open(args);
     ASSERT_TRUE(rim) << to_string(rim.error());
     rim_.emplace(*std::move(rim));

@@ -44,7 +44,8 @@ TEST(Arguments, TheLeastHaveDefaults) {
   EXPECT_EQ(p.args().car_file, "a.yaml");
   EXPECT_EQ(p.args().track_file, "b.yaml");
   EXPECT_EQ(p.args().can_interface, "can0");
-  EXPECT_EQ(p.args().gnss_ports, (std::array<std::uint16_t, 2>{23501, 23502}));
+  EXPECT_EQ(to_string(p.args().receivers[0]), "udp:127.0.0.1:23501");
+  EXPECT_EQ(to_string(p.args().receivers[1]), "udp:127.0.0.1:23502");
   EXPECT_EQ(p.args().radio, Words{"127.0.0.1:23431"});
   EXPECT_EQ(p.args().keys, "c.keys");
   EXPECT_EQ(p.args().local_report, 0) << "nobody is told without being asked for";
@@ -72,8 +73,9 @@ TEST(Arguments, HelpIsNoError) {
   const Parsed p = parse({"--help"});
   ASSERT_TRUE(p.refused());
   EXPECT_EQ(p.code(), 0);
-  for (const char* option : {"--car", "--track", "--can", "--gnss", "--radio", "--keys",
-                             "--local-report", "--summary", "--simulation", "--arm", "--no-base"})
+  for (const char* option :
+       {"--car", "--track", "--can", "--gnss", "--receiver", "--radio", "--keys", "--local-report",
+        "--summary", "--simulation", "--arm", "--no-base"})
     EXPECT_NE(p.out.find(option), std::string::npos) << option;
 }
 
@@ -119,6 +121,41 @@ TEST(Arguments, WrongUsageIsCodeTwoAndSaysWhy) {
     ASSERT_TRUE(p.refused()) << (words.empty() ? "nothing" : words.back());
     EXPECT_EQ(p.code(), 2);
     EXPECT_FALSE(p.err.empty());
+  }
+}
+
+TEST(Arguments, EachReceiverMayHaveALinkOfItsOwn) {
+  Words words = kLeast;
+  words.resize(8);
+  const Parsed p = parse(with(words, {"--receiver", "1=serial:/dev/ttyUSB0:921600", "--receiver",
+                                      "0=tcp:192.168.7.2:3001"}));
+  ASSERT_FALSE(p.refused()) << p.err;
+  EXPECT_EQ(to_string(p.args().receivers[0]), "tcp:192.168.7.2:3001");
+  EXPECT_EQ(to_string(p.args().receivers[1]), "serial:/dev/ttyUSB0:921600");
+}
+
+TEST(Arguments, ALinkThatMakesNoSenseIsNamedWithItsOption) {
+  Words words = kLeast;
+  words.resize(8);
+  const std::vector<std::pair<Words, std::string>> wrong{
+      {{"--receiver", "0=udp:23501"}, "unit 1"},
+      {{"--receiver", "0=udp:23501", "--receiver", "1=udp:23501"}, "two different"},
+      {{"--receiver", "0=udp:1", "--receiver", "0=udp:2"}, "already"},
+      {{"--receiver", "2=udp:1", "--receiver", "0=udp:2"}, "0=LINK"},
+      {{"--receiver", "udp:1", "--receiver", "0=udp:2"}, "0=LINK"},
+      {{"--receiver", "0=usb:1", "--receiver", "1=udp:2"}, "tcp:ADDRESS:PORT"},
+      {{"--receiver", "0=tcp:host:1", "--receiver", "1=udp:2"}, "IPv4"},
+      {{"--receiver", "0=udp:0", "--receiver", "1=udp:2"}, "port"},
+      {{"--receiver", "0=serial:/dev/ttyS0:12345", "--receiver", "1=udp:2"}, "12345"},
+      {{"--receiver", "0=serial:/dev/ttyS0:fast", "--receiver", "1=udp:2"}, "fast"},
+      {{"--receiver", "0=serial:ttyS0", "--receiver", "1=udp:2"}, "/dev/ttyS0"},
+      {{"--gnss", "1,2", "--receiver", "0=udp:3"}, "already"}};
+  for (const auto& [more, said] : wrong) {
+    const Parsed p = parse(with(words, more));
+    ASSERT_TRUE(p.refused()) << more.back();
+    EXPECT_EQ(p.code(), 2);
+    EXPECT_NE(p.err.find("--receiver"), std::string::npos) << p.err;
+    EXPECT_NE(p.err.find(said), std::string::npos) << p.err;
   }
 }
 

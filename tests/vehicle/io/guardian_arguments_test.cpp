@@ -32,7 +32,8 @@ TEST(GuardianArguments, EveryOptionArrives) {
   EXPECT_EQ(args.car_file, "a.yaml");
   EXPECT_EQ(args.can_interface, "can0");
   EXPECT_EQ(args.guardian, "pitwall-can0");
-  EXPECT_EQ(args.gnss_ports, (std::array<std::uint16_t, 2>{23503, 23504}));
+  EXPECT_EQ(to_string(args.receivers[0]), "udp:127.0.0.1:23503");
+  EXPECT_EQ(to_string(args.receivers[1]), "udp:127.0.0.1:23504");
   EXPECT_EQ(args.summary_file, "s.json");
   EXPECT_TRUE(args.simulation);
 }

@@ -13,7 +13,6 @@ namespace {
 Arguments somewhere() {
   Arguments args;
   args.can_interface = "pwnone0";
-  args.gnss_ports = {0, 0};
   return args;
 }
 

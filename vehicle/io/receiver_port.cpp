@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/io/receiver_port.hpp"
+
+#include <array>
+
+#include "protocol/transport/serial_port.hpp"
+#include "vehicle/io/json_counts.hpp"
+
+namespace pitwall::io {
+namespace {
+
+// What waits after a stall of the process is read within a few ticks; a flood is not read at once.
+constexpr std::size_t kBatchesPerRead = 4;
+constexpr std::size_t kBytesPerRead = 4'096;
+
+constexpr std::array<const char*, receivers::kStreams> kStreamNames{"positions", "velocities",
+                                                                    "headings", "imu", "attitudes"};
+
+void add_source(JsonCounts& out, const transport::UdpSocket& socket) {
+  out.add("datagrams", socket.counters().received);
+  out.add("rx_dropped", socket.counters().rx_dropped_queue + socket.counters().rx_truncated);
+}
+
+void add_source(JsonCounts& out, const transport::StreamLink& stream) {
+  const transport::StreamCounters& c = stream.counters();
+  out.add("opened", c.opened);
+  out.add("attempts_failed", c.refused);
+  out.add("ended", c.ended);
+  out.add("silent", c.silent);
+}
+
+}  // namespace
+
+Result<ReceiverPort, Problem> ReceiverPort::open(const ReceiverLink& link, std::uint8_t unit,
+                                                 const world::ReceiverParams& params) {
+  if (const auto* udp = std::get_if<UdpIntake>(&link)) {
+    auto socket = transport::UdpSocket::bind(udp->local);
+    if (!socket) return Unexpected{socket.error()};
+    return ReceiverPort{link, *std::move(socket), unit, params};
+  }
+  if (const auto* tcp = std::get_if<transport::TcpAddress>(&link))
+    return ReceiverPort{link, transport::StreamLink{*tcp}, unit, params};
+  // One that cannot be opened at the start is a mistake of whoever wrote it.
+  const auto& device = std::get<transport::SerialDevice>(link);
+  if (const auto tried = transport::open_serial(device.path, device.baud); !tried)
+    return Unexpected{tried.error()};
+  return ReceiverPort{link, transport::StreamLink{device}, unit, params};
+}
+
+void ReceiverPort::read(world::SensorInput& out, Instant now) {
+  std::visit([&](auto& source) { read(source, out, now); }, source_);
+}
+
+void ReceiverPort::read(transport::UdpSocket& socket, world::SensorInput& out, Instant now) {
+  std::array<transport::UdpDatagram, transport::UdpSocket::kBatch> datagrams;
+  for (std::size_t batch = 0; batch < kBatchesPerRead; ++batch) {
+    const std::size_t count = socket.receive(datagrams);
+    for (std::size_t i = 0; i < count; ++i)
+      receiver_.feed(datagrams[i].payload(), datagrams[i].at, out);
+    if (count > 0) byte_at_ = now;
+    if (count < datagrams.size()) return;
+  }
+}
+
+void ReceiverPort::read(transport::StreamLink& stream, world::SensorInput& out, Instant now) {
+  std::array<std::uint8_t, kBytesPerRead> buffer;
+  for (std::size_t batch = 0; batch < kBatchesPerRead; ++batch) {
+    const auto bytes = stream.read(buffer, now);
+    receiver_.feed(bytes, now, out);
+    if (!bytes.empty()) byte_at_ = now;
+    if (bytes.size() < buffer.size()) return;
+  }
+}
+
+std::string ReceiverPort::json() const {
+  const receivers::Counters c = receiver_.counters();
+  JsonCounts out;
+  out.add_text("link", to_string(link_));
+  out.add_text("kind", std::string(world::name_of(kind_)));
+  std::visit([&](const auto& source) { add_source(out, source); }, source_);
+  out.add("bytes", c.bytes);
+  out.add("frames", c.frames);
+  out.add("garbage_bytes", c.garbage_bytes);
+  out.add("bad_checksum", c.bad_checksum);
+  out.add("bad_frame", c.bad_frame);
+  out.add("unused", c.unused);
+  out.add("time_unknown", c.time_unknown);
+  out.add("out_of_range", c.out_of_range);
+  out.add("imu_error", c.imu_error);
+  for (std::size_t i = 0; i < receivers::kStreams; ++i) out.add(kStreamNames[i], c.samples[i]);
+  out.add("health", c.health);
+  using receivers::StampFlaw;
+  out.add("stamps_frozen", c.stamps[static_cast<std::size_t>(StampFlaw::kFrozen)]);
+  out.add("stamps_back", c.stamps[static_cast<std::size_t>(StampFlaw::kBack)]);
+  out.add("stamps_future", c.stamps[static_cast<std::size_t>(StampFlaw::kFuture)]);
+  out.add("clock_steps", c.clock_steps);
+  JsonCounts refused;
+  for (std::size_t i = 0; i < c.refused.counts.size(); ++i)
+    refused.add(std::string(gnss::kDecodeErrorText[i]), c.refused.counts[i]);
+  out.add_json("refused", refused.object());
+  return out.object();
+}
+
+Result<std::vector<ReceiverPort>, Problem> open_receivers(const ReceiverLinks& links,
+                                                          const world::Receivers& params) {
+  std::vector<ReceiverPort> ports;
+  for (std::size_t unit = 0; unit < links.size(); ++unit) {
+    auto port = ReceiverPort::open(links[unit], static_cast<std::uint8_t>(unit), params[unit]);
+    if (!port) return Unexpected{port.error()};
+    ports.push_back(*std::move(port));
+  }
+  return ports;
+}
+
+std::string receivers_json(std::span<const ReceiverPort> ports) {
+  std::string list;
+  for (const ReceiverPort& port : ports) list += (list.empty() ? "\n  " : ",\n  ") + port.json();
+  return "[" + list + "]";
+}
+
+}  // namespace pitwall::io

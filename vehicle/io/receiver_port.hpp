@@ -1,0 +1,62 @@
+// Where the bytes of one receiver come in: over UDP, a TCP connection or a serial line.
+//   in     the link, the kind of receiver; now
+//   out    samples of all that waits; when its newest byte came
+//   law    a datagram carries the time at which the kernel had it; bytes of a stream have come when
+//          they are read, so that the clock of the receiver has to be learned from the quickest
+//   errors open(): Problem with the link: a port that is taken, a device that is not there. Later
+//          a stream that ends is opened again, and counted
+//   cost   never waits, never allocates in the heap
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "protocol/transport/stream_link.hpp"
+#include "protocol/transport/udp_socket.hpp"
+#include "vehicle/io/receiver_link.hpp"
+#include "vehicle/receivers/receiver.hpp"
+#include "vehicle/world/receiver_params.hpp"
+#include "vehicle/world/sensor_input.hpp"
+
+namespace pitwall::io {
+
+class ReceiverPort {
+ public:
+  static Result<ReceiverPort, Problem> open(const ReceiverLink& link, std::uint8_t unit,
+                                            const world::ReceiverParams& params);
+
+  void read(world::SensorInput& out, Instant now);
+
+  std::optional<Instant> byte_at() const { return byte_at_; }
+  receivers::Counters counters() const { return receiver_.counters(); }
+  // One JSON object: the link, what became of it and of its bytes.
+  std::string json() const;
+
+ private:
+  using Source = std::variant<transport::UdpSocket, transport::StreamLink>;
+
+  ReceiverPort(const ReceiverLink& link, Source source, std::uint8_t unit,
+               const world::ReceiverParams& params)
+      : link_(link), kind_(params.kind), source_(std::move(source)), receiver_(unit, params) {}
+  void read(transport::UdpSocket& socket, world::SensorInput& out, Instant now);
+  void read(transport::StreamLink& stream, world::SensorInput& out, Instant now);
+
+  ReceiverLink link_;
+  world::ReceiverKind kind_;
+  Source source_;
+  receivers::Receiver receiver_;
+  std::optional<Instant> byte_at_;
+};
+
+// Ports of all units, of the kinds that the car file names.
+Result<std::vector<ReceiverPort>, Problem> open_receivers(const ReceiverLinks& links,
+                                                          const world::Receivers& params);
+
+std::string receivers_json(std::span<const ReceiverPort> ports);
+
+}  // namespace pitwall::io

@@ -1,0 +1,57 @@
+// The last step of every kind of receiver: a sample gets its unit, its time on the car's clock and
+// its place in the list, and is counted.
+//   in     stream, GPS time of validity, arrival, the sample without `unit` and `at`
+//   out    appended to SensorInput; one that finds its list full counts in `overflows`
+//   law    no sample is refused for its stamp: who locates the car shall see what is wrong with it
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vehicle/receivers/counters.hpp"
+#include "vehicle/receivers/gps_clock.hpp"
+#include "vehicle/world/sensor_input.hpp"
+
+namespace pitwall::receivers {
+
+class SampleWriter {
+ public:
+  SampleWriter(std::uint8_t unit, Duration least_delay) : unit_(unit), clock_(least_delay) {}
+
+  template <class List, class Sample>
+  void write(Stream stream, gnss::GpsTime valid, Instant arrival, Sample sample, List& list,
+             world::SensorInput& out) {
+    const Placed placed = clock_.place(stream, valid, arrival);
+    ++counters_.stamps[static_cast<std::size_t>(placed.flaw)];
+    ++counters_.samples[static_cast<std::size_t>(stream)];
+    counters_.clock_steps = clock_.steps();
+    sample.at = placed.at;
+    append(sample, list, out);
+  }
+
+  // At its arrival: what a receiver says of itself holds whatever time it believes it is.
+  void write(Instant arrival, world::ReceiverHealth health, world::SensorInput& out) {
+    ++counters_.health;
+    health.at = arrival;
+    append(health, out.receivers, out);
+  }
+
+  void write(gnss::GpsTime said, double utc_offset_s, Instant arrival, world::SensorInput& out) {
+    static_cast<void>(out.times.push(
+        {.unit = unit_, .heard = arrival, .gps_ns = said.ns, .utc_offset_s = utc_offset_s}));
+  }
+
+  Counters& counters() { return counters_; }
+  const Counters& counters() const { return counters_; }
+
+ private:
+  template <class List, class Sample>
+  void append(Sample& sample, List& list, world::SensorInput& out) {
+    sample.unit = unit_;
+    if (!list.push(sample)) ++out.overflows;
+  }
+
+  std::uint8_t unit_;
+  GpsClock clock_;
+  Counters counters_;
+};
+
+}  // namespace pitwall::receivers

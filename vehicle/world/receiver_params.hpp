@@ -1,0 +1,31 @@
+// What the car file says of one satellite receiver.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "protocol/vocabulary/time.hpp"
+#include "vehicle/world/sensor_input.hpp"
+
+namespace pitwall::world {
+
+enum class ReceiverKind : std::uint8_t { kNovatelOem7, kVectorNav };
+inline constexpr std::array<std::string_view, 2> kReceiverKindNames{"novatel_oem7", "vectornav"};
+
+constexpr std::string_view name_of(ReceiverKind kind) {
+  return kReceiverKindNames[static_cast<std::size_t>(kind)];
+}
+
+struct ReceiverParams {
+  ReceiverKind kind = ReceiverKind::kNovatelOem7;
+  // Of its quickest message, which is the IMU's, from measurement to arrival: known of the
+  // receiver, and not to be seen in what it sends. 0..0.05 s
+  Duration least_delay = milliseconds(2);
+};
+
+using Receivers = std::array<ReceiverParams, kGnssUnits>;
+
+}  // namespace pitwall::world
