@@ -15,12 +15,17 @@
 #include "protocol/gnss/vectornav_stream.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
+#include "vehicle/receivers/receiver.hpp"
+#include "vehicle/receivers/vectornav_outputs.hpp"
 
 namespace pitwall::verbs {
 namespace {
 
 constexpr double kShareLimit = 0.02;  // of one core
 constexpr int kMinute_ms = 60'000, kReceivers = 2, kRuns = 9;
+constexpr double kMinute_s = 1e-3 * kMinute_ms;
+constexpr int kTick_ms = 10;  // of the car
+constexpr int kDelay_ms = 2;  // of every log
 constexpr std::uint16_t kWeek = 2209;
 constexpr std::size_t kPortPiece = 64;  // what a serial port hands out at a time
 // Milliseconds between two of a kind.
@@ -29,12 +34,14 @@ constexpr int kImuEvery_ms = 8, kInsEvery_ms = 20, kFixEvery_ms = 50, kHeadingEv
 // One minute of one receiver.
 struct Recording {
   std::vector<std::uint8_t> bytes;
+  std::vector<std::size_t> ends;  // of what is said in each millisecond
   std::size_t logs = 0;
 
   void add(std::span<const std::uint8_t> log) {
     bytes.insert(bytes.end(), log.begin(), log.end());
     ++logs;
   }
+  void end_millisecond() { ends.push_back(bytes.size()); }
 };
 
 // A lap's worth of change, so that no two logs are the same.
@@ -101,24 +108,9 @@ Recording novatel_minute(bool ascii) {
     if (ms % kInsEvery_ms == 0) say(ins_at(ms));
     if (ms % kFixEvery_ms == 0) say(position_at(ms)), say(velocity_at(ms));
     if (ms % kHeadingEvery_ms == 0) say(heading_at(ms));
+    r.end_millisecond();
   }
   return r;
-}
-
-// IMU, inertial solution, satellites alone: as the sensor's three binary outputs.
-std::array<gnss::VectorNavOutput, 3> vectornav_outputs() {
-  using namespace gnss::vectornav;
-  const auto of = [](std::initializer_list<gnss::VectorNavField> fields) {
-    gnss::VectorNavOutput output;
-    for (const gnss::VectorNavField f : fields) output = output.with(f);
-    return output;
-  };
-  return {of({kTimeGps, kImuStatus, kAccel, kAngularRate}),
-          of({kTimeGps, kYawPitchRoll, kYawPitchRollUncertainty, kInsStatus, kInsPosition,
-              kInsVelocity, kInsPositionUncertainty, kInsVelocityUncertainty}),
-          of({kTimeGps, kTimeStatus, kGnssTow, kGnssWeek, kGnssSatellites, kGnssFix, kGnssPosition,
-              kGnssVelocity, kGnssPositionUncertainty, kGnssVelocityUncertainty, kGnssTimeInfo,
-              kGnssStatus})};
 }
 
 gnss::VectorNavMessage vectornav_at(int ms) {
@@ -145,8 +137,8 @@ gnss::VectorNavMessage vectornav_at(int ms) {
 
 Recording vectornav_minute() {
   Recording r;
-  const auto outputs = vectornav_outputs();
-  constexpr std::array kEvery_ms{kImuEvery_ms, kInsEvery_ms, kFixEvery_ms};
+  constexpr auto& outputs = receivers::kVectorNavOutputs;
+  constexpr std::array kEvery_ms{kImuEvery_ms, kFixEvery_ms, kInsEvery_ms};  // in their order
   std::array<std::uint8_t, gnss::kMaxVectorNavBytes> log{};
   for (int ms = 0; ms < kMinute_ms; ++ms) {
     for (std::size_t i = 0; i < outputs.size(); ++i) {
@@ -155,67 +147,112 @@ Recording vectornav_minute() {
       message.output = outputs[i];
       r.add(std::span{log}.first(gnss::encode(message, log)));
     }
+    r.end_millisecond();
   }
   return r;
 }
 
-// The car's side of a minute of both receivers; how many logs it decoded.
+// The minute in the pieces in which ports deliver it; listen(piece, millisecond).
+template <class Listen>
+void replay(const Recording& r, Listen listen) {
+  std::size_t at = 0;
+  for (int ms = 0; ms < kMinute_ms; ++ms) {
+    for (const std::size_t end = r.ends[static_cast<std::size_t>(ms)]; at < end;) {
+      const std::size_t n = std::min(kPortPiece, end - at);
+      listen(std::span{r.bytes}.subspan(at, n), ms);
+      at += n;
+    }
+  }
+}
+
+// Found, checked and decoded by both; how many logs.
 template <class Stream>
-std::size_t hear(const Recording& r, std::vector<Stream> streams) {
+std::size_t decode_all(const Recording& r, std::vector<Stream> streams) {
   std::size_t decoded = 0;
-  for (std::size_t at = 0; at < r.bytes.size(); at += kPortPiece) {
-    const auto piece = std::span{r.bytes}.subspan(at, std::min(kPortPiece, r.bytes.size() - at));
+  replay(r, [&](std::span<const std::uint8_t> piece, int) {
     for (Stream& stream : streams) {
       stream.feed(piece, [&](const auto& frame) { decoded += gnss::decode(frame) ? 1U : 0U; });
     }
-  }
+  });
   return decoded;
+}
+
+// The whole way to what the car thinks in, a new list each tick; how many IMU samples.
+std::size_t hear_all(const Recording& r, world::ReceiverKind kind) {
+  std::vector<receivers::Receiver> both;
+  for (std::uint8_t unit = 0; unit < kReceivers; ++unit) {
+    both.emplace_back(unit, world::ReceiverParams{.kind = kind});
+  }
+  world::SensorInput input;
+  std::size_t samples = 0;
+  int tick = 0;
+  replay(r, [&](std::span<const std::uint8_t> piece, int ms) {
+    if (ms / kTick_ms != tick) {
+      tick = ms / kTick_ms;
+      samples += input.imu.size();
+      input = {};
+    }
+    const Instant arrival{(ms + kDelay_ms) * std::int64_t{1'000'000}};
+    for (receivers::Receiver& receiver : both) receiver.feed(piece, arrival, input);
+  });
+  return samples + input.imu.size();
+}
+
+struct Share {
+  double median = 0.0, least = 0.0;  // of a core
+};
+
+template <class Work>
+Share timed(Work work) {
+  std::array<double, kRuns> shares{};
+  for (double& share : shares) {
+    const Instant begun = transport::monotonic_now();
+    work();
+    share = (transport::monotonic_now() - begun).seconds() / kMinute_s;
+  }
+  std::sort(shares.begin(), shares.end());
+  return {shares[kRuns / 2], shares.front()};
 }
 
 struct Row {
   const char* name = "";
   const char* key = "";
   double bytes_per_s = 0.0, logs_per_s = 0.0;
-  double share = 0.0;  // of a core: median of the runs
-  double least_share = 0.0;
-  bool all_decoded = true;
+  Share decoded = {}, whole_way = {};
+  bool complete = true;  // every log was decoded, every IMU sample came out
 
-  bool held() const { return share <= kShareLimit && all_decoded; }
+  bool held() const { return whole_way.median <= kShareLimit && complete; }
 };
 
 template <class Stream>
-Row measure(const char* name, const char* key, const Recording& r, const Stream& stream) {
-  constexpr double kMinute_s = 1e-3 * kMinute_ms;
-  Row row{.name = name, .key = key};
+Row measure(Row row, const Recording& r, const Stream& stream, world::ReceiverKind kind) {
   row.bytes_per_s = kReceivers * static_cast<double>(r.bytes.size()) / kMinute_s;
   row.logs_per_s = kReceivers * static_cast<double>(r.logs) / kMinute_s;
-  std::array<double, kRuns> shares{};
-  for (double& share : shares) {
-    const Instant begun = transport::monotonic_now();
-    const std::size_t decoded = hear(r, std::vector<Stream>(kReceivers, stream));
-    share = (transport::monotonic_now() - begun).seconds() / kMinute_s;
-    row.all_decoded = row.all_decoded && decoded == kReceivers * r.logs;
-  }
-  std::sort(shares.begin(), shares.end());
-  row.share = shares[kRuns / 2], row.least_share = shares.front();
+  const std::vector<Stream> streams(kReceivers, stream);
+  constexpr std::size_t kSamples = kReceivers * kMinute_ms / kImuEvery_ms;
+  row.decoded =
+      timed([&] { row.complete = decode_all(r, streams) == kReceivers * r.logs && row.complete; });
+  row.whole_way = timed([&] { row.complete = hear_all(r, kind) == kSamples && row.complete; });
   return row;
 }
 
 std::vector<Row> measure_all() {
-  const auto outputs = vectornav_outputs();
-  return {
-      measure("two NovAtel, binary", "novatel_binary", novatel_minute(false),
-              gnss::NovatelStream{}),
-      measure("two NovAtel, ASCII", "novatel_ascii", novatel_minute(true), gnss::NovatelStream{}),
-      measure("two VN-310", "vectornav", vectornav_minute(), gnss::VectorNavStream{outputs})};
+  using world::ReceiverKind;
+  return {measure({.name = "two NovAtel, binary", .key = "novatel_binary"}, novatel_minute(false),
+                  gnss::NovatelStream{}, ReceiverKind::kNovatelOem7),
+          measure({.name = "two NovAtel, ASCII", .key = "novatel_ascii"}, novatel_minute(true),
+                  gnss::NovatelStream{}, ReceiverKind::kNovatelOem7),
+          measure({.name = "two VN-310", .key = "vectornav"}, vectornav_minute(),
+                  gnss::VectorNavStream{receivers::kVectorNavOutputs}, ReceiverKind::kVectorNav)};
 }
 
 std::string json_of(const std::vector<Row>& rows, bool held) {
   std::string json = "{\"bench\":\"gnss\",\"gate_share\":" + std::to_string(kShareLimit);
   for (const Row& row : rows) {
     const std::string key = row.key;
-    json += ",\"" + key + "_share\":" + std::to_string(row.share) + ",\"" + key +
-            "_least_share\":" + std::to_string(row.least_share) + ",\"" + key +
+    json += ",\"" + key + "_share\":" + std::to_string(row.whole_way.median) + ",\"" + key +
+            "_least_share\":" + std::to_string(row.whole_way.least) + ",\"" + key +
+            "_decode_share\":" + std::to_string(row.decoded.median) + ",\"" + key +
             "_bytes_per_s\":" + std::to_string(row.bytes_per_s) + ",\"" + key +
             "_logs_per_s\":" + std::to_string(row.logs_per_s);
   }
@@ -231,15 +268,17 @@ int bench_gnss(std::span<const std::string> args) {
   if (const auto code = ended_by(app, args)) return *code;
   const std::vector<Row> rows = measure_all();
   const bool held = std::all_of(rows.begin(), rows.end(), [](const Row& r) { return r.held(); });
-  std::printf("two receivers at full rate for a minute, %d runs, one core\n%-22s %9s %9s %9s %9s\n",
-              kRuns, "", "bytes/s", "logs/s", "core, %", "least, %");
+  std::printf(
+      "two receivers at full rate for a minute, %d runs; %% of a core, median\n"
+      "%-22s %9s %9s %9s %10s %9s\n",
+      kRuns, "", "bytes/s", "logs/s", "decoded", "as samples", "least");
   for (const Row& row : rows) {
-    std::printf("%-22s %9.0f %9.0f %9.3f %9.3f%s\n", row.name, row.bytes_per_s, row.logs_per_s,
-                100.0 * row.share, 100.0 * row.least_share,
-                row.all_decoded ? "" : "  not every log was decoded");
+    std::printf("%-22s %9.0f %9.0f %9.3f %10.3f %9.3f%s\n", row.name, row.bytes_per_s,
+                row.logs_per_s, 100.0 * row.decoded.median, 100.0 * row.whole_way.median,
+                100.0 * row.whole_way.least, row.complete ? "" : "  not every log came out");
   }
-  std::printf("gate: at most %.0f %% of a core each, every log decoded: %s\n", 100.0 * kShareLimit,
-              held ? "held" : "MISSED");
+  std::printf("gate: as samples at most %.0f %% of a core, every log came out: %s\n",
+              100.0 * kShareLimit, held ? "held" : "MISSED");
   if (!json_file.empty()) {
     const auto written = transport::write_file(json_file, json_of(rows, held));
     if (!written) return refuse(written.error());

@@ -26,6 +26,7 @@ TEST_F(BenchGnss, CodeWordsAndFileSayTheSame) {
   for (const std::string key : {"novatel_binary", "novatel_ascii", "vectornav"}) {
     const double share = map.number(key + "_share", 1e-9, 1e3);
     EXPECT_LE(map.number(key + "_least_share", 0.0, 1e3), share);
+    EXPECT_GT(map.number(key + "_decode_share", 0.0, 1e3), 0.0);
     within = within && share <= limit;
     const double expected = key == "vectornav" ? 2.0 * (125 + 50 + 20) : 2.0 * (125 + 50 + 40 + 1);
     EXPECT_DOUBLE_EQ(map.number(key + "_logs_per_s", 0.0, 1e6), expected);
