@@ -36,8 +36,8 @@ void enter(const Tick& t, Mode mode, Cause cause) {
 }
 
 bool moves(world::Mode mode) {
-  return mode == world::Mode::kDriving || mode == world::Mode::kControlledStop ||
-         mode == world::Mode::kEmergencyStop;
+  return mode == world::Mode::kDriving || mode == world::Mode::kCoast ||
+         mode == world::Mode::kControlledStop || mode == world::Mode::kEmergencyStop;
 }
 
 bool guarded(const CarRecord& record) { return record.armed && moves(record.mode); }
@@ -131,6 +131,14 @@ void reckon(const Tick& t, const world::SensorInput& sensors) {
          s.following.bank_rad, t.in.now);
 }
 
+safety::PathPose on_path(const Pose& pose) {
+  return {.x_m = pose.x_m,
+          .y_m = pose.y_m,
+          .yaw_rad = pose.yaw_rad,
+          .speed_mps = pose.speed_mps,
+          .slip_mps = pose.slip_mps};
+}
+
 // Why it must not or cannot act; kNone: it can.
 Cause hindrance(Tick& t) {
   State& s = t.state;
@@ -139,9 +147,9 @@ Cause hindrance(Tick& t) {
   if (s.record.stop.points.size() < 2 || !s.heard.complete()) return Cause::kNoPath;
   if (!s.reckoning.begun) return Cause::kOffPath;
   s.following = {};
-  locate(s.following, s.record.stop, s.reckoning.pose);
+  safety::locate(s.following, s.record.stop, on_path(s.reckoning.pose));
   reckon(t, kNoSamples);  // taken once, by drive()
-  locate(s.following, s.record.stop, s.reckoning.pose);
+  safety::locate(s.following, s.record.stop, on_path(s.reckoning.pose));
   return std::abs(s.following.lateral_m) <= t.params.off_path_max_m ? Cause::kNone
                                                                     : Cause::kOffPath;
 }
@@ -269,7 +277,8 @@ world::ActuatorCommand next_command(const Tick& t) {
   s.status.guidance = guidance_of(t);
   if (s.status.guidance != Guidance::kOpenLoop) {
     s.open_loop = {};
-    return follow_stop(t.params.following, s.following, s.record.stop, s.reckoning.pose, t.in.now);
+    return safety::follow_stop(t.params.following, s.following, s.record.stop,
+                               on_path(s.reckoning.pose), t.in.now);
   }
   s.following.command = open_loop(t);
   return s.following.command;

@@ -24,10 +24,10 @@
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/guardian/reckoning.hpp"
 #include "vehicle/guardian/record.hpp"
-#include "vehicle/guardian/stop_following.hpp"
 #include "vehicle/guardian/voice.hpp"
 #include "vehicle/safety/frame_gate.hpp"
 #include "vehicle/safety/safe_stop.hpp"
+#include "vehicle/safety/stop_following.hpp"
 #include "vehicle/world/sensor_input.hpp"
 #include "vehicle/world/signals.hpp"
 
@@ -40,7 +40,7 @@ inline constexpr Duration kTick = milliseconds(5);
 
 struct Params {
   ReckoningParams reckoning;
-  FollowingParams following;
+  safety::FollowingParams following;
   safety::GateParams gate;
   double off_path_max_m = 5.0;  // the car beside the trajectory when it takes over
   Duration standstill_dwell = milliseconds(500);
@@ -58,7 +58,7 @@ struct State {
   Instant others_at{};            // newest frame of anybody else
   world::VehicleSignals signals;  // wheel speeds and steering only
   ReckoningState reckoning;
-  FollowingState following;
+  safety::FollowingState following;
   safety::SafeStopState open_loop;
   safety::GateState gate;
   Instant next_speech{}, standing_since{}, handed_back_at{};

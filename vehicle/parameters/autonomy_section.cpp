@@ -3,27 +3,32 @@
 #include <numbers>
 
 #include "vehicle/parameters/car_file.hpp"
+#include "vehicle/parameters/filter_section.hpp"
+#include "vehicle/parameters/stop_section.hpp"
 
 namespace pitwall::parameters {
 namespace {
 
 localization::UnitParams read_unit(yaml::StrictMap map) {
   const auto arm = map.numbers("antenna_m", 3, 3, -5.0, 5.0);
+  const auto imu = map.numbers("imu_m", 3, 3, -5.0, 5.0);
   return {.antenna = {arm[0], arm[1], arm[2]},
-          .baseline_yaw_rad = from_deg(map.number("baseline_yaw_deg", -180.0, 180.0))};
+          .baseline_yaw_rad = from_deg(map.number("baseline_yaw_deg", -180.0, 180.0)),
+          .baseline_m = map.number("baseline_m", 0.2, 5.0),
+          .imu = {imu[0], imu[1], imu[2]}};
 }
 
-localization::TimelineParams read_timeline(yaml::StrictMap map) {
-  localization::TimelineParams t;
-  t.noise.gyro_rad_per_sqrt_s = map.number("gyro_rad_per_sqrt_s", 1e-5, 0.1);
-  t.noise.accel_mps_per_sqrt_s = map.number("accel_mps_per_sqrt_s", 1e-3, 5.0);
-  t.noise.lateral_mps_per_sqrt_s = map.number("lateral_mps_per_sqrt_s", 1e-3, 5.0);
-  t.noise.gyro_bias_rad_per_s_sqrt_s = map.number("gyro_bias_rad_per_s_sqrt_s", 1e-7, 0.01);
-  t.noise.position_m_per_sqrt_s = map.number("position_m_per_sqrt_s", 0.0, 1.0);
-  const auto gates = map.numbers("gate_nis", 2, 2, 4.0, 100.0);
-  t.gate_nis = {gates[0], gates[1]};
-  t.window_s = map.number("window_s", 0.05, 0.5);
-  return t;
+// What the unit is, of whoever hears it; may be left out.
+world::ReceiverParams read_receiver(yaml::StrictMap map) {
+  world::ReceiverParams receiver;
+  const std::string name = map.text_or("receiver", std::string(world::name_of(receiver.kind)));
+  const auto* kind = std::ranges::find(world::kReceiverKindNames, name);
+  if (kind == world::kReceiverKindNames.end())
+    map.fail("receiver", "\"" + name + "\" is no kind of receiver; novatel_oem7 or vectornav");
+  receiver.kind = static_cast<world::ReceiverKind>(kind - world::kReceiverKindNames.begin());
+  receiver.least_delay =
+      from_seconds(map.number_or("receiver_delay_s", receiver.least_delay.seconds(), 0.0, 0.05));
+  return receiver;
 }
 
 planning::LineParams read_line(yaml::StrictMap map) {
@@ -33,13 +38,7 @@ planning::LineParams read_line(yaml::StrictMap map) {
   line.spacing_m = map.number("spacing_m", 0.5, 5.0);
   line.speed_max_mps = map.number("speed_max_mps", 5.0, 110.0);
   line.grip_share = map.number("grip_share", 0.1, 1.0);
-  yaml::StrictMap friction = map.map("friction");
-  line.friction.friction = friction.number("friction", 0.3, 2.5);
-  line.friction.downforce_per_m = friction.number("downforce_per_m", 0.0, 0.01);
-  line.friction.drag_per_m = friction.number("drag_per_m", 0.0, 0.01);
-  line.friction.accel_max_mps2 = friction.number("accel_max_mps2", 0.5, 15.0);
-  line.friction.power_w_per_kg = friction.number("power_w_per_kg", 10.0, 1000.0);
-  line.friction.brake_max_mps2 = friction.number("brake_max_mps2", 1.0, 30.0);
+  line.friction = read_friction(map.map("friction"));
   return line;
 }
 
@@ -107,23 +106,18 @@ control::GearParams read_gear(yaml::StrictMap map) {
 
 }  // namespace
 
-localization::Params read_localization(yaml::StrictMap map) {
+localization::Params read_localization(yaml::StrictMap map, world::Receivers& receivers) {
   localization::Params p;
   std::vector<yaml::StrictMap> units = map.maps("units");
   if (units.size() != world::kGnssUnits) map.fail("units", "one entry per GNSS unit is needed: 2");
-  for (std::size_t i = 0; i < units.size(); ++i) p.units[i] = read_unit(units[i]);
-  p.timeline = read_timeline(map.map("timeline"));
-  p.position_sigma_floor_m = map.number("position_sigma_floor_m", 0.001, 1.0);
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    p.units[i] = read_unit(units[i]);
+    receivers[i] = read_receiver(units[i]);
+  }
+  p.filter = read_filter(map.map("filter"));
+  p.checks = read_checks(map);
   p.position_sigma_max_m = map.number("position_sigma_max_m", 0.05, 20.0);
-  p.velocity_sigma_mps = map.number("velocity_sigma_mps", 0.01, 2.0);
-  p.heading_sigma_floor_rad = map.number("heading_sigma_floor_rad", 0.0005, 0.2);
   p.heading_sigma_max_rad = map.number("heading_sigma_max_rad", 0.005, 0.5);
-  p.wheel_sigma_mps = map.number("wheel_sigma_mps", 0.01, 2.0);
-  p.wheel_sigma_per_speed = map.number("wheel_sigma_per_speed", 0.0, 0.1);
-  p.slip_sigma_mps = map.number("slip_sigma_mps", 0.05, 5.0);
-  p.slip_after_s = map.number("slip_after_s", 0.05, 5.0);
-  p.cg_to_rear_m = map.number("cg_to_rear_m", 0.5, 3.0);
-  p.rear_slip_rad_per_mps2 = map.number("rear_slip_rad_per_mps2", 0.0, 0.02);
   p.imu_timeout_s = map.number("imu_timeout_s", 0.02, 0.5);
   p.good_age_max_s = map.number("good_age_max_s", 0.1, 2.0);
   p.dead_reckoning_max_s = map.number("dead_reckoning_max_s", 0.5, 20.0);
@@ -145,6 +139,7 @@ planning::Params read_planning(yaml::StrictMap map) {
   p.stop_decel_max_mps2 = map.number("stop_decel_max_mps2", 1.0, 12.0);
   p.stop_jerk_max_mps3 = map.number("stop_jerk_max_mps3", 1.0, 30.0);
   p.stop_grip_share = map.number("stop_grip_share", 0.3, 0.9);
+  read_stop_plan(map.map("stop"), p);
   p.point_spacing_m = map.number("point_spacing_m", 1.0, 4.0);
   p.merge_from_m = map.number("merge_from_m", 0.5, 5.0);
   p.merge_time_s = map.number("merge_time_s", 1.0, 10.0);
@@ -155,7 +150,11 @@ planning::Params read_planning(yaml::StrictMap map) {
 control::Params read_control(yaml::StrictMap map) {
   control::Params p;
   p.bicycle = read_bicycle(map.map("bicycle"));
-  p.lateral = read_lateral(map.map("lateral"));
+  yaml::StrictMap lateral = map.map("lateral");
+  p.drive_law = read_law(lateral, "drive_law");
+  p.stop_law = read_law(lateral, "stop_law");
+  p.lateral = read_lateral(lateral);
+  read_stop_control(map.map("stop"), p);
   p.longitudinal = read_longitudinal(map.map("longitudinal"));
   p.gear = read_gear(map.map("gear"));
   return p;

@@ -22,7 +22,7 @@ CarFile read_root(yaml::StrictMap& map) {
     map.fail("database", "\"" + car.database + "\" is not built in; built in: av21");
   car.params.rates = read_rates(map.map("rates"));
   read_gateway(map.map("gateway"), car.params);
-  car.params.localization = read_localization(map.map("localization"));
+  car.params.localization = read_localization(map.map("localization"), car.params.receivers);
   car.params.planning = read_planning(map.map("planning"));
   car.params.control = read_control(map.map("control"));
   read_safety(map.map("safety"), car.params);
@@ -30,6 +30,7 @@ CarFile read_root(yaml::StrictMap& map) {
   // Written once in the file, known to two modules that must not include each other.
   car.params.localization.steering_ratio = car.params.outbound.steering_ratio;
   car.params.localization.wheelbase_m = car.params.supervisor.safe_stop.wheelbase_m;
+  car.params.supervisor.safe_stop.tyres = car.params.planning.line.friction.tyres;
   car.params.localization.understeer_rad_per_mps2 =
       car.params.supervisor.safe_stop.understeer_rad_per_mps2;
   return car;

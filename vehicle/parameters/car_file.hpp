@@ -24,7 +24,7 @@ struct CarFile {
 Result<CarFile, Problem> read_car(const std::string& text, const std::string& name);
 
 // Sections of the file, each in its own source file.
-localization::Params read_localization(yaml::StrictMap map);
+localization::Params read_localization(yaml::StrictMap map, world::Receivers& receivers);
 planning::Params read_planning(yaml::StrictMap map);
 control::Params read_control(yaml::StrictMap map);
 void read_gateway(yaml::StrictMap map, pipeline::CarParams& params);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <string>
 
 #include "vehicle/parameters/car_file.hpp"
@@ -57,6 +58,21 @@ void read_outbound(yaml::StrictMap map, gateway::OutboundParams& out) {
   out.traction_range = static_cast<std::uint8_t>(map.integer("traction_range", 0, 4));
 }
 
+// Of a row of the watchdog; zero: not judged.
+void read_figures(yaml::StrictMap& row, safety::StreamLimit& limit) {
+  safety::RateLimit& rate = limit.rate;
+  rate.warning_hz = row.number_or("rate_warning_hz", rate.warning_hz, 0.0, 1000.0);
+  rate.bad_hz = row.number_or("rate_bad_hz", rate.bad_hz, 0.0, 1000.0);
+  if (rate.bad_hz > rate.warning_hz) row.fail("rate_bad_hz", "must not be above rate_warning_hz");
+  const auto read = [&](const char* warning, const char* bad, safety::DurationLimit& of) {
+    of.warning = from_seconds(row.number_or(warning, of.warning.seconds(), 0.0, 60.0));
+    of.bad = from_seconds(row.number_or(bad, of.bad.seconds(), 0.0, 60.0));
+    if (of.warning > of.bad) row.fail(bad, std::string{"must not be below "} + warning);
+  };
+  read("latency_warning_s", "latency_bad_s", limit.latency);
+  read("gap_warning_s", "gap_bad_s", limit.gap);
+}
+
 // Rows by the names of the table; a row that is not written keeps the module's limits.
 void read_watchdog(yaml::StrictMap map, safety::WatchdogParams& watchdog) {
   for (safety::StreamLimit& limit : watchdog.limits) {
@@ -66,11 +82,51 @@ void read_watchdog(yaml::StrictMap map, safety::WatchdogParams& watchdog) {
     limit.warning = from_seconds(row->number_or("warning_s", limit.warning.seconds(), 0.005, 60.0));
     limit.bad = from_seconds(row->number_or("bad_s", limit.bad.seconds(), 0.02, 60.0));
     if (limit.warning >= limit.bad) row->fail("bad_s", "must be above warning_s");
+    read_figures(*row, limit);
   }
+}
+
+safety::FollowLimits read_follow(yaml::StrictMap map, double tolerance_max) {
+  return {.settle_s = map.number("settle_s", 0.05, 2.0),
+          .tolerance = map.number("tolerance", 0.0, tolerance_max),
+          .share = map.number("share", 0.0, 0.5),
+          .persist = time_s(map, "persist_s", 0.03, 0.3)};
+}
+
+void read_following(yaml::StrictMap map, safety::ActuatorParams& following) {
+  following.steering = read_follow(map.map("steering"), 1.0);
+  following.brake = read_follow(map.map("brake"), 2000.0);
+  following.throttle = read_follow(map.map("throttle"), 0.5);
+  following.moving_mps = map.number("moving_mps", 1.0, 20.0);
+}
+
+void read_oversteer(yaml::StrictMap map, safety::OversteerParams& oversteer) {
+  oversteer.speed_min_mps = map.number("speed_min_mps", 5.0, 30.0);
+  oversteer.rear_spin_max = map.number("rear_spin_max", 0.03, 0.5);
+  oversteer.rear_lock_max = map.number("rear_lock_max", 0.05, 0.9);
+  oversteer.yaw_excess_max_rad_per_s = map.number("yaw_excess_max_rad_per_s", 0.1, 1.0);
+}
+
+void read_computer(yaml::StrictMap map, safety::ComputerParams& computer) {
+  computer.idle_share = map.number("idle_share", 0.1, 0.9);
+  computer.late_max_s = map.number("late_max_s", 0.2, 5.0);
+  computer.processor_warn = map.number("processor_warn", 0.5, 1.0);
+  computer.memory_max_mib = map.number("memory_max_mib", 256.0, 1e6);
+  computer.temperature_max_c = map.number("temperature_max_c", 60.0, 120.0);
+}
+
+void read_clock(yaml::StrictMap map, safety::ClockParams& clock) {
+  clock.step_s = map.number("step_s", 0.02, 1.0);
+  clock.skew_max_ppm = map.number("skew_max_ppm", 20.0, 1000.0);
+  clock.show = time_s(map, "show_s", 0.1, 60.0);
 }
 
 void read_faults(yaml::StrictMap map, safety::FaultParams& faults) {
   faults.dead_reckoning_max = time_s(map, "dead_reckoning_max_s", 0.1, 10.0);
+  faults.dead_reckoning_coast = time_s(map, "dead_reckoning_coast_s", 0.05, 10.0);
+  if (faults.dead_reckoning_coast >= faults.dead_reckoning_max)
+    map.fail("dead_reckoning_coast_s", "must be below dead_reckoning_max_s");
+  faults.gnss_sigma_max_m = map.number("gnss_sigma_max_m", 0.05, 10.0);
   faults.bus_dead = time_s(map, "bus_dead_s", 0.03, 0.1);
   faults.bus_dead_disarm = time_s(map, "bus_dead_disarm_s", 5.0, 60.0);
   faults.position_sigma_max_m = map.number("position_sigma_max_m", 0.1, 10.0);
@@ -78,6 +134,10 @@ void read_faults(yaml::StrictMap map, safety::FaultParams& faults) {
   faults.refused_ticks = static_cast<std::uint8_t>(map.integer("refused_ticks", 1, 20));
   faults.radio_loss_stops = map.flag("radio_loss_stops");
   faults.race_control_required = map.flag("race_control_required");
+  read_following(map.map("following"), faults.following);
+  read_oversteer(map.map("oversteer"), faults.oversteer);
+  read_computer(map.map("computer"), faults.computer);
+  read_clock(map.map("clock"), faults.clock);
 }
 
 void read_safe_stop(yaml::StrictMap map, safety::SafeStopParams& stop) {
@@ -95,6 +155,9 @@ void read_safe_stop(yaml::StrictMap map, safety::SafeStopParams& stop) {
       map.number("decel_without_plan_mps2", stop.decel_min_mps2, stop.decel_max_mps2);
   stop.emergency_decel_mps2 = map.number("emergency_decel_mps2", stop.decel_max_mps2, 25.0);
   stop.friction = map.number("friction", 0.3, 2.0);
+  stop.brake_share = map.number("brake_share", 0.3, 1.0);
+  stop.drag_per_m = map.number("drag_per_m", 0.0, 0.01);
+  stop.coast_mps2 = map.number("coast_mps2", 0.0, 3.0);
   stop.downforce_per_m = map.number("downforce_per_m", 0.0, 0.01);
   stop.grip_share = map.number("grip_share", 0.05, 1.0);
   stop.emergency_grip_share = map.number("emergency_grip_share", stop.grip_share, 1.0);
@@ -113,6 +176,14 @@ void read_supervisor(yaml::StrictMap map, safety::SupervisorParams& supervisor) 
   supervisor.brake_fall_kpa_per_s = map.number("brake_fall_kpa_per_s", 1000.0, 60000.0);
   supervisor.shift_least = time_s(map, "shift_least_s", 0.1, 2.0);
   supervisor.go_needs_driving_state = map.flag("go_needs_driving_state");
+  supervisor.coast_dwell = time_s(map, "coast_dwell_s", 0.1, 5.0);
+  supervisor.coast_max = time_s(map, "coast_max_s", 0.2, 10.0);
+  if (supervisor.coast_max <= supervisor.coast_dwell)
+    map.fail("coast_max_s", "must be above coast_dwell_s");
+  supervisor.coast_brakes_below_mps = map.number("coast_brakes_below_mps", 1.0, 20.0);
+  supervisor.faults.oversteer.wheelbase_m = supervisor.safe_stop.wheelbase_m;
+  supervisor.faults.oversteer.understeer_rad_per_mps2 =
+      supervisor.safe_stop.understeer_rad_per_mps2;
 }
 
 void read_steer_rows(yaml::StrictMap& map, safety::GateParams& gate) {
@@ -127,8 +198,24 @@ void read_steer_rows(yaml::StrictMap& map, safety::GateParams& gate) {
   }
 }
 
+void read_stop_brake_rows(yaml::StrictMap& map, safety::GateParams& gate) {
+  constexpr std::size_t kRows = safety::kStopBrakeRows;
+  const auto speeds = map.numbers("stop_brake_speed_mps", kRows, kRows, 0.0, 110.0);
+  const auto pressures = map.numbers("stop_brake_kpa", kRows, kRows, 500.0, 8191.0);
+  for (std::size_t i = 0; i < kRows; ++i) {
+    if (i > 0 && speeds[i] <= speeds[i - 1]) map.fail("stop_brake_speed_mps", "speeds must rise");
+    if (i > 0 && pressures[i] < pressures[i - 1])
+      map.fail("stop_brake_kpa", "pressures must not fall");
+    gate.stop_brake[i] = {speeds[i], pressures[i]};
+  }
+}
+
 void read_gate(yaml::StrictMap map, safety::GateParams& gate) {
   read_steer_rows(map, gate);
+  read_stop_brake_rows(map, gate);
+  gate.stop_steer_share = map.number("stop_steer_share", 0.5, 1.0);
+  gate.hold_steer_slew_deg_per_s = map.number("hold_steer_slew_deg_per_s", 1.0, 1500.0);
+  gate.hold_least_kpa = map.number("hold_least_kpa", 0.0, 3000.0);
   gate.steer_slew_deg_per_s = map.number("steer_slew_deg_per_s", 60.0, 1500.0);
   gate.brake_max_kpa = map.number("brake_max_kpa", 1000.0, 8191.0);
   gate.brake_rise_kpa_per_s = map.number("brake_rise_kpa_per_s", 1000.0, 100000.0);
@@ -150,6 +237,8 @@ void read_bus_guard(yaml::StrictMap map, safety::BusGuardParams& guard) {
   guard.stall_max = time_s(map, "stall_max_s", 0.02, 1.0);
 }
 
+constexpr double kWarm_c = 90.0;  // tyres at their best
+
 // What the supervisor may ask for must be what the gate lets pass: a command at its own limit would
 // otherwise be refused.
 void check_slews(const yaml::StrictMap& map, const CarParams& params) {
@@ -164,6 +253,15 @@ void check_slews(const yaml::StrictMap& map, const CarParams& params) {
   if (s.brake_fall_kpa_per_s >= g.brake_fall_kpa_per_s)
     map.fail("brake_fall_kpa_per_s", "not below gate.brake_fall_kpa_per_s");
   if (s.shift_least <= g.shift_least) map.fail("shift_least_s", "not above gate.shift_least_s");
+  if (s.safe_stop.hold_kpa <= g.hold_least_kpa)
+    map.fail("safe_stop", "hold_kpa: not above gate.hold_least_kpa");
+  for (const safety::StopBrakeRow& row : g.stop_brake) {
+    const safety::Grip grip = safety::grip_at(s.safe_stop, row.speed_mps, 0.0, 0.0, kWarm_c);
+    const double grip_kpa =
+        grip.total_mps2 * s.safe_stop.brake_share * s.safe_stop.brake_kpa_per_mps2;
+    if (row.kpa < std::min(grip_kpa, s.safe_stop.brake_max_kpa))
+      map.fail("safe_stop", "friction: more than gate.stop_brake_kpa at some speed");
+  }
 }
 
 }  // namespace

@@ -12,7 +12,6 @@ using world::Trajectory;
 using world::TrajectoryPoint;
 
 constexpr double kTickMax_s = 0.1;  // a longer pause does not jump along the path
-constexpr double kRelease = 2.0;    // the brake is let go at twice the ramp
 
 double finite_or(double value, double fallback) { return std::isfinite(value) ? value : fallback; }
 
@@ -42,7 +41,9 @@ double feedforward_rad(const SafeStopParams& params, double speed_mps, const Wan
          params.understeer_rad_per_mps2 * grip.lateral_mps2;
 }
 
-SafeStopState begin(const SafeStopParams& params, const SafeStopInputs& in, Instant now) {
+// `followed`: how far feedback came; not begun where there was none.
+SafeStopState begin(const SafeStopParams& params, const SafeStopInputs& in,
+                    const FollowingState& followed, Instant now) {
   SafeStopState s;
   s.active = true;
   s.begun = s.last = now;
@@ -54,8 +55,10 @@ SafeStopState begin(const SafeStopParams& params, const SafeStopInputs& in, Inst
   if (!std::isfinite(in.speed_mps))
     s.speed_mps = std::max(0.0, finite_or(in.stop.points[0].speed_mps, 0.0));
   s.travelled_m = std::max(0.0, (now - in.stop.at).seconds()) * s.speed_mps;
+  if (followed.path_at == in.stop.at && followed.begun) s.travelled_m = followed.s_m;
   const Wanted w = wanted_at(in.stop, s.travelled_m);
-  s.steer_offset_rad = last_good_rad - feedforward_rad(params, s.speed_mps, w);
+  s.trim_rad = followed.begun ? followed.trim_rad : 0.0;
+  s.steer_offset_rad = last_good_rad - feedforward_rad(params, s.speed_mps, w) - s.trim_rad;
   return s;
 }
 
@@ -72,77 +75,85 @@ double decel_of(const SafeStopParams& params, const SafeStopInputs& in, const Wa
   return std::clamp(-w.accel_mps2, params.decel_min_mps2, params.decel_max_mps2);
 }
 
-double ramp_of(const SafeStopParams& params, StopKind kind) {
-  return kind == StopKind::kEmergency ? params.emergency_ramp_kpa_per_s
-                                      : params.brake_ramp_kpa_per_s;
+bool is_located(const world::EgoState& ego) {
+  return (ego.validity == world::Validity::kGood ||
+          ego.validity == world::Validity::kDeadReckoning) &&
+         std::isfinite(ego.x_m + ego.y_m + ego.yaw_rad + ego.vx_mps + ego.vy_mps);
 }
 
-double ramped(double last_kpa, double target_kpa, double ramp_kpa_per_s, double dt_s) {
-  return std::clamp(target_kpa, last_kpa - kRelease * ramp_kpa_per_s * dt_s,
-                    last_kpa + ramp_kpa_per_s * dt_s);
+void start_following(const SafeStopInputs& in, SafeStopState& s) {
+  s.following = {};
+  s.following.command = in.last_good;
+  s.following.command.road_wheel_rad = finite_or(in.last_good.road_wheel_rad, 0.0);
+  s.following.command.brake_kpa = s.brake_kpa;
 }
 
-double grip_left_mps2(const SafeStopParams& params, StopKind kind, const Grip& grip) {
-  const bool emergency = kind == StopKind::kEmergency;
-  const double share = emergency ? params.emergency_grip_share : params.grip_share;
-  const double total = grip.total_mps2, lateral = grip.lateral_mps2;
-  return share * std::sqrt(std::max(0.0, total * total - lateral * lateral));
+ActuatorCommand with_feedback(const SafeStopParams& params, SafeStopState& s,
+                              const SafeStopInputs& in, double dt_s, Instant now) {
+  const double last_kpa = s.brake_kpa;
+  s.following.tyre_c = in.tyre_c;
+  FollowingParams following;
+  following.stop = params;
+  const PathPose pose{.x_m = in.ego.x_m,
+                      .y_m = in.ego.y_m,
+                      .yaw_rad = in.ego.yaw_rad,
+                      .speed_mps = finite_or(in.speed_mps, std::max(in.ego.vx_mps, 0.0)),
+                      .slip_mps = in.ego.vy_mps};
+  ActuatorCommand command = follow_stop(following, s.following, in.stop, pose, now);
+  if (in.kind == StopKind::kEmergency && pose.speed_mps >= params.standstill_mps) {
+    const Wanted w = wanted_at(in.stop, s.following.s_m);
+    const Grip grip = grip_at(params, pose.speed_mps, w.curvature_per_m, w.bank_rad, in.tyre_c);
+    command.brake_kpa = brake_towards(params, in.kind,
+                                      {.decel_mps2 = params.emergency_decel_mps2,
+                                       .grip = grip,
+                                       .last_kpa = last_kpa,
+                                       .dt_s = dt_s});
+    s.following.command.brake_kpa = command.brake_kpa;
+  }
+  s.brake_kpa = command.brake_kpa;
+  s.travelled_m = s.following.s_m;
+  command.gear = in.last_good.gear;
+  return command;
 }
 
-}  // namespace
-
-Grip grip_at(const SafeStopParams& params, double speed_mps, double curvature_per_m,
-             double bank_rad) {
-  const double centripetal_mps2 = speed_mps * speed_mps * curvature_per_m;
-  const double normal_mps2 = kGravity_mps2 * std::cos(bank_rad) +
-                             centripetal_mps2 * std::sin(bank_rad) +
-                             params.downforce_per_m * speed_mps * speed_mps;
-  return {params.friction * std::max(0.0, normal_mps2),
-          centripetal_mps2 - kGravity_mps2 * std::sin(bank_rad)};
-}
-
-double brake_for(const SafeStopParams& params, StopKind kind, double decel_mps2, const Grip& grip) {
-  const double left_mps2 = grip_left_mps2(params, kind, grip);
-  return std::min(std::min(decel_mps2, left_mps2) * params.brake_kpa_per_mps2,
-                  params.brake_max_kpa);
-}
-
-double brake_towards(const SafeStopParams& params, StopKind kind, const BrakeDemand& demand) {
-  const double left_mps2 = grip_left_mps2(params, kind, demand.grip);
-  const double decel_mps2 = std::max(params.decel_min_mps2, std::min(demand.decel_mps2, left_mps2));
-  const double target_kpa = std::min(decel_mps2 * params.brake_kpa_per_mps2, params.brake_max_kpa);
-  return ramped(demand.last_kpa, target_kpa, ramp_of(params, kind), demand.dt_s);
-}
-
-ActuatorCommand stop_along(const SafeStopParams& params, SafeStopState& state,
-                           const SafeStopInputs& in, Instant now) {
-  if (!state.active) state = begin(params, in, now);
-  const double dt_s = std::clamp((now - state.last).seconds(), 0.0, kTickMax_s);
-  state.last = now;
-  advance(params, state, in.speed_mps, dt_s);
-
+ActuatorCommand open_loop(const SafeStopParams& params, SafeStopState& state,
+                          const SafeStopInputs& in, double dt_s, Instant now) {
   const bool planned = !in.stop.points.empty();
   const Wanted w = planned ? wanted_at(in.stop, state.travelled_m) : Wanted{0.0, 0.0, 0.0};
   const double settled = planned ? std::exp(-(now - state.begun).seconds() / params.steer_settle_s)
                                  : 1.0;  // nothing to settle to: hold
-  const double angle_rad = (planned ? feedforward_rad(params, state.speed_mps, w) : 0.0) +
-                           state.steer_offset_rad * settled;
-
-  if (state.speed_mps < params.standstill_mps) {
-    state.brake_kpa = ramped(state.brake_kpa, params.hold_kpa, ramp_of(params, in.kind), dt_s);
-  } else {
-    const Grip grip = grip_at(params, state.speed_mps, w.curvature_per_m, w.bank_rad);
+  const double angle_rad =
+      (planned ? feedforward_rad(params, state.speed_mps, w) + state.trim_rad : 0.0) +
+      state.steer_offset_rad * settled;
+  const Grip grip = grip_at(params, state.speed_mps, w.curvature_per_m, w.bank_rad, in.tyre_c);
+  if (state.speed_mps < params.standstill_mps)
+    state.brake_kpa = hold_towards(params, in.kind, state.brake_kpa, dt_s);
+  else
     state.brake_kpa = brake_towards(params, in.kind,
                                     {.decel_mps2 = decel_of(params, in, w),
                                      .grip = grip,
                                      .last_kpa = state.brake_kpa,
                                      .dt_s = dt_s});
-  }
   return {.at = now,
           .road_wheel_rad = angle_rad,
           .throttle_fraction = 0.0,
           .brake_kpa = state.brake_kpa,
           .gear = in.last_good.gear};
+}
+
+}  // namespace
+
+ActuatorCommand stop_along(const SafeStopParams& params, SafeStopState& state,
+                           const SafeStopInputs& in, Instant now) {
+  const bool located = is_located(in.ego) && in.stop.points.size() >= 2;
+  if (!state.active || (state.located && !located)) state = begin(params, in, state.following, now);
+  const double dt_s = std::clamp((now - state.last).seconds(), 0.0, kTickMax_s);
+  state.last = now;
+  advance(params, state, in.speed_mps, dt_s);
+  if (located && !state.located) start_following(in, state);
+  state.located = located;
+  return located ? with_feedback(params, state, in, dt_s, now)
+                 : open_loop(params, state, in, dt_s, now);
 }
 
 }  // namespace pitwall::safety

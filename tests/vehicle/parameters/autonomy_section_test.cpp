@@ -17,39 +17,27 @@ using testing::Told;
 using testing::with;
 
 Told localization(const CarParams& p) {
-  return {
+  Told told{
       {"localization.units[0].antenna_m[0]", p.localization.units[0].antenna.x_m},
       {"localization.units[0].antenna_m[1]", p.localization.units[0].antenna.y_m},
       {"localization.units[0].antenna_m[2]", p.localization.units[0].antenna.z_m},
       {"localization.units[0].baseline_yaw_deg", to_deg(p.localization.units[0].baseline_yaw_rad)},
+      {"localization.units[0].baseline_m", p.localization.units[0].baseline_m},
+      {"localization.units[0].imu_m[0]", p.localization.units[0].imu.x_m},
+      {"localization.units[0].imu_m[1]", p.localization.units[0].imu.y_m},
+      {"localization.units[0].imu_m[2]", p.localization.units[0].imu.z_m},
       {"localization.units[1].antenna_m[0]", p.localization.units[1].antenna.x_m},
       {"localization.units[1].antenna_m[1]", p.localization.units[1].antenna.y_m},
       {"localization.units[1].antenna_m[2]", p.localization.units[1].antenna.z_m},
       {"localization.units[1].baseline_yaw_deg", to_deg(p.localization.units[1].baseline_yaw_rad)},
-      {"localization.timeline.gyro_rad_per_sqrt_s",
-       p.localization.timeline.noise.gyro_rad_per_sqrt_s},
-      {"localization.timeline.accel_mps_per_sqrt_s",
-       p.localization.timeline.noise.accel_mps_per_sqrt_s},
-      {"localization.timeline.lateral_mps_per_sqrt_s",
-       p.localization.timeline.noise.lateral_mps_per_sqrt_s},
-      {"localization.timeline.gyro_bias_rad_per_s_sqrt_s",
-       p.localization.timeline.noise.gyro_bias_rad_per_s_sqrt_s},
-      {"localization.timeline.position_m_per_sqrt_s",
-       p.localization.timeline.noise.position_m_per_sqrt_s},
-      {"localization.timeline.gate_nis[0]", p.localization.timeline.gate_nis[0]},
-      {"localization.timeline.gate_nis[1]", p.localization.timeline.gate_nis[1]},
-      {"localization.timeline.window_s", p.localization.timeline.window_s},
-      {"localization.position_sigma_floor_m", p.localization.position_sigma_floor_m},
+      {"localization.units[1].baseline_m", p.localization.units[1].baseline_m},
+      {"localization.units[1].imu_m[0]", p.localization.units[1].imu.x_m},
+      {"localization.units[1].imu_m[1]", p.localization.units[1].imu.y_m},
+      {"localization.units[1].imu_m[2]", p.localization.units[1].imu.z_m},
       {"localization.position_sigma_max_m", p.localization.position_sigma_max_m},
-      {"localization.velocity_sigma_mps", p.localization.velocity_sigma_mps},
-      {"localization.heading_sigma_floor_rad", p.localization.heading_sigma_floor_rad},
       {"localization.heading_sigma_max_rad", p.localization.heading_sigma_max_rad},
-      {"localization.wheel_sigma_mps", p.localization.wheel_sigma_mps},
-      {"localization.wheel_sigma_per_speed", p.localization.wheel_sigma_per_speed},
-      {"localization.slip_sigma_mps", p.localization.slip_sigma_mps},
-      {"localization.slip_after_s", p.localization.slip_after_s},
-      {"localization.cg_to_rear_m", p.localization.cg_to_rear_m},
-      {"localization.rear_slip_rad_per_mps2", p.localization.rear_slip_rad_per_mps2},
+      {"localization.filter.window_s", p.localization.filter.window_s},
+      {"localization.filter.reentry_mps", p.localization.filter.reentry_mps},
       {"localization.imu_timeout_s", p.localization.imu_timeout_s},
       {"localization.good_age_max_s", p.localization.good_age_max_s},
       {"localization.dead_reckoning_max_s", p.localization.dead_reckoning_max_s},
@@ -57,6 +45,19 @@ Told localization(const CarParams& p) {
       {"localization.lost_sigma_max_m", p.localization.lost_sigma_max_m},
       {"localization.reset_after_s", p.localization.reset_after_s},
   };
+  const localization::FilterParams& filter = p.localization.filter;
+  const std::string planar = "localization.filter.planar.",
+                    spatial = "localization.filter.spatial.";
+  for (const auto& r : localization::kMotionNoiseRanges)
+    told[planar + r.name] = filter.planar.noise.*r.value;
+  for (const auto& r : localization::kPlanarRanges) told[planar + r.name] = filter.planar.*r.value;
+  for (const auto& r : localization::kSpatialRanges)
+    told[spatial + r.name] = filter.spatial.*r.value;
+  for (std::size_t i = 0; i < 2; ++i)
+    told[planar + "gate_nis[" + std::to_string(i) + "]"] = filter.planar.gate_nis[i];
+  for (std::size_t i = 0; i < 3; ++i)
+    told[spatial + "gate_nis[" + std::to_string(i) + "]"] = filter.spatial.gate_nis[i];
+  return told;
 }
 
 Told planning(const CarParams& p) {
@@ -72,6 +73,28 @@ Told planning(const CarParams& p) {
       {"planning.line.friction.accel_max_mps2", p.planning.line.friction.accel_max_mps2},
       {"planning.line.friction.power_w_per_kg", p.planning.line.friction.power_w_per_kg},
       {"planning.line.friction.brake_max_mps2", p.planning.line.friction.brake_max_mps2},
+      {"planning.line.friction.brake_front", p.planning.line.friction.brake_front},
+      {"planning.line.friction.load_front", p.planning.line.friction.load_front},
+      {"planning.line.friction.load_shift", p.planning.line.friction.load_shift},
+      {"planning.line.friction.long_friction", p.planning.line.friction.long_friction},
+      {"planning.line.friction.tyres.temperature_c[0]",
+       p.planning.line.friction.tyres.temperature_c[0]},
+      {"planning.line.friction.tyres.share[0]", p.planning.line.friction.tyres.share[0]},
+      {"planning.line.friction.tyres.temperature_c[1]",
+       p.planning.line.friction.tyres.temperature_c[1]},
+      {"planning.line.friction.tyres.share[1]", p.planning.line.friction.tyres.share[1]},
+      {"planning.line.friction.tyres.temperature_c[2]",
+       p.planning.line.friction.tyres.temperature_c[2]},
+      {"planning.line.friction.tyres.share[2]", p.planning.line.friction.tyres.share[2]},
+      {"planning.line.friction.tyres.temperature_c[3]",
+       p.planning.line.friction.tyres.temperature_c[3]},
+      {"planning.line.friction.tyres.share[3]", p.planning.line.friction.tyres.share[3]},
+      {"planning.stop.clearance_m", p.planning.stop_path.clearance_m},
+      {"planning.stop.low_speed_mps", p.planning.stop_path.low_speed_mps},
+      {"planning.stop.stretch_max", p.planning.stop_path.stretch_max},
+      {"planning.stop.emergency_decel_max_mps2", p.planning.emergency_decel_max_mps2},
+      {"planning.stop.emergency_jerk_max_mps3", p.planning.emergency_jerk_max_mps3},
+      {"planning.stop.emergency_grip_share", p.planning.emergency_grip_share},
       {"planning.green_speed_mps", p.planning.green_speed_mps},
       {"planning.caution_speed_mps", p.planning.caution_speed_mps},
       {"planning.accel_max_mps2", p.planning.accel_max_mps2},
@@ -113,6 +136,23 @@ Told control(const CarParams& p) {
       {"control.longitudinal.brake_fall_kpa_per_s", p.control.longitudinal.brake_fall_kpa_per_s},
       {"control.longitudinal.hold_speed_mps", p.control.longitudinal.hold_speed_mps},
       {"control.longitudinal.hold_brake_kpa", p.control.longitudinal.hold_brake_kpa},
+      {"control.stop.steering.bandwidth_rad_per_s", p.control.stop_steering.bandwidth_rad_per_s},
+      {"control.stop.steering.damping", p.control.stop_steering.damping},
+      {"control.stop.steering.preview_s", p.control.stop_steering.preview_s},
+      {"control.stop.steering.observer_s", p.control.stop_steering.observer_s},
+      {"control.stop.steering.trim_per_s", p.control.stop_steering.trim_per_s},
+      {"control.stop.steering.settle_s", p.control.stop_steering.settle_s},
+      {"control.stop.steering.correction_max_rad", p.control.stop_steering.correction_max_rad},
+      {"control.stop.steering.gain_speed_least_mps", p.control.stop_steering.gain_speed_least_mps},
+      {"control.stop.steering.hold_speed_mps", p.control.stop_steering.hold_speed_mps},
+      {"control.stop.speed.kpa_per_mps2", p.control.stop_speed.kpa_per_mps2},
+      {"control.stop.speed.coast_mps2", p.control.stop_speed.coast_mps2},
+      {"control.stop.speed.drag_per_m", p.control.stop_speed.drag_per_m},
+      {"control.stop.speed.speed_share_per_s", p.control.stop_speed.speed_share_per_s},
+      {"control.stop.speed.preview_s", p.control.stop_speed.preview_s},
+      {"control.stop.speed.throttle_fall_per_s", p.control.stop_speed.throttle_fall_per_s},
+      {"control.stop.speed.brake_rate_kpa_per_s", p.control.stop_speed.brake_rate_kpa_per_s},
+      {"control.stop.speed.hold_rate_kpa_per_s", p.control.stop_speed.hold_rate_kpa_per_s},
       {"control.gear.up_above_mps[0]", p.control.gear.up_above_mps[0]},
       {"control.gear.up_above_mps[1]", p.control.gear.up_above_mps[1]},
       {"control.gear.up_above_mps[2]", p.control.gear.up_above_mps[2]},

@@ -42,8 +42,10 @@ struct Teller {
                .vx_mps = 50.0,
                .vy_mps = 0.0,
                .yaw_rate_rad_per_s = 0.0};
-    car->plan.output = planning::step(setup().params.planning, setup().line, setup().track, {},
-                                      out.ego, {}, kUnset, planning::Followed::kDrive, now);
+    const world::RaceControl silent;
+    car->plan.output = planning::step(
+        setup().params.planning, setup().line, setup().track, {},
+        {.ego = out.ego, .race_control = silent, .followed = planning::Followed::kDrive}, now);
     car->plan.at = now;
     car->plan.ever = true;
   }

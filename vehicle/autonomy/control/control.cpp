@@ -57,6 +57,27 @@ std::optional<Problem> illegal_gear(const GearParams& p) {
   return world::first_illegal(std::array{LegalRange{"gear.dwell_s", p.dwell_s, 0.2, 5}});
 }
 
+std::optional<Problem> illegal_stop(const StopSteeringParams& s, const StopSpeedParams& v) {
+  return world::first_illegal(
+      std::array{LegalRange{"stop_steering.bandwidth_rad_per_s", s.bandwidth_rad_per_s, 0.5, 6},
+                 LegalRange{"stop_steering.damping", s.damping, 0.5, 1.5},
+                 LegalRange{"stop_steering.preview_s", s.preview_s, 0, 0.5},
+                 LegalRange{"stop_steering.observer_s", s.observer_s, 0.05, 5},
+                 LegalRange{"stop_steering.trim_per_s", s.trim_per_s, 0, 2},
+                 LegalRange{"stop_steering.settle_s", s.settle_s, 0.1, 5},
+                 LegalRange{"stop_steering.correction_max_rad", s.correction_max_rad, 0, 0.1},
+                 LegalRange{"stop_steering.gain_speed_least_mps", s.gain_speed_least_mps, 2, 20},
+                 LegalRange{"stop_steering.hold_speed_mps", s.hold_speed_mps, 0.1, 5},
+                 LegalRange{"stop_speed.kpa_per_mps2", v.kpa_per_mps2, 50, 1000},
+                 LegalRange{"stop_speed.coast_mps2", v.coast_mps2, 0, 3},
+                 LegalRange{"stop_speed.drag_per_m", v.drag_per_m, 0, 0.01},
+                 LegalRange{"stop_speed.speed_share_per_s", v.speed_share_per_s, 0, 3},
+                 LegalRange{"stop_speed.preview_s", v.preview_s, 0, 0.5},
+                 LegalRange{"stop_speed.throttle_fall_per_s", v.throttle_fall_per_s, 0.2, 20},
+                 LegalRange{"stop_speed.brake_rate_kpa_per_s", v.brake_rate_kpa_per_s, 500, 20000},
+                 LegalRange{"stop_speed.hold_rate_kpa_per_s", v.hold_rate_kpa_per_s, 100, 20000}});
+}
+
 double target_speed(const LongitudinalParams& p, const world::EgoState& ego,
                     const world::Trajectory& trajectory) {
   const auto here = project(trajectory, ego.x_m, ego.y_m);
@@ -64,28 +85,65 @@ double target_speed(const LongitudinalParams& p, const world::EgoState& ego,
   return at(trajectory, *here + std::max(ego.vx_mps, 0.0) * p.speed_preview_s).speed_mps;
 }
 
+StopTarget stop_target(const StopSpeedParams& p, const world::EgoState& ego,
+                       const world::Trajectory& trajectory) {
+  const auto here = project(trajectory, ego.x_m, ego.y_m);
+  if (!here) return {};
+  const double ahead_m = std::max(ego.vx_mps, 0.0) * p.preview_s;
+  return {at(trajectory, *here).speed_mps, at(trajectory, *here + ahead_m).accel_mps2};
+}
+
+double bank_beside(const world::EgoState& ego, const world::Trajectory& trajectory) {
+  const auto here = project(trajectory, ego.x_m, ego.y_m);
+  return here ? at(trajectory, *here).bank_rad : 0.0;
+}
+
+// The observer runs whoever steers: the first tick of a stop finds it settled.
+LateralDiagnostics steer(const Params& p, const LateralGains& gains, const Inputs& in,
+                         double last_angle_rad, StopSteering& steering, Duration dt) {
+  observe(p.stop_steering, p.bicycle, steering, last_angle_rad, in.ego,
+          bank_beside(in.ego, in.trajectory), dt);
+  const LateralLaw law = in.stopping ? p.stop_law : p.drive_law;
+  if (law == LateralLaw::kFeedForward)
+    return steer_stop(p.stop_steering, p.lateral, p.bicycle, steering, last_angle_rad, in.ego,
+                      in.trajectory, dt);
+  steering.active = false;
+  return steer(p.lateral, gains, last_angle_rad, in.ego, in.trajectory);
+}
+
+LongitudinalOutput drive(const Params& p, const State& state, const Inputs& in, bool following,
+                         Duration dt) {
+  if (in.stopping)
+    return slow(p.stop_speed, p.longitudinal, state.longitudinal,
+                following ? stop_target(p.stop_speed, in.ego, in.trajectory) : StopTarget{},
+                in.ego.vx_mps, dt);
+  const double target = following ? target_speed(p.longitudinal, in.ego, in.trajectory) : kUnset;
+  return step(p.longitudinal, state.longitudinal, target, in.ego.vx_mps, dt);
+}
+
 }  // namespace
 
 Result<LateralGains, Problem> prepare(const Params& params) {
   if (auto problem = illegal_car(params.bicycle, params.lateral)) return Unexpected{*problem};
   if (auto problem = illegal_longitudinal(params.longitudinal)) return Unexpected{*problem};
+  if (auto problem = illegal_stop(params.stop_steering, params.stop_speed))
+    return Unexpected{*problem};
   if (auto problem = illegal_gear(params.gear)) return Unexpected{*problem};
   return design(params.lateral, params.bicycle);
 }
 
-Output step(const Params& params, const LateralGains& gains, const State& state,
-            const world::EgoState& ego, const world::Trajectory& trajectory, Instant now,
-            Duration dt) {
+Output step(const Params& params, const LateralGains& gains, const State& state, const Inputs& in,
+            Instant now, Duration dt) {
   Output out;
-  out.lateral = steer(params.lateral, gains, state.road_wheel_rad, ego, trajectory);
+  out.next.steering = state.steering;
+  out.lateral = steer(params, gains, in, state.road_wheel_rad, out.next.steering, dt);
   const bool following = out.lateral.verdict == LateralVerdict::kGood ||
                          out.lateral.verdict == LateralVerdict::kTooFar;
-  const double target = following ? target_speed(params.longitudinal, ego, trajectory) : kUnset;
-  const LongitudinalOutput longitudinal =
-      step(params.longitudinal, state.longitudinal, target, ego.vx_mps, dt);
-  out.target_speed_mps = target;
-  out.next = {out.lateral.angle_rad, longitudinal.next,
-              step(params.gear, state.gear, ego.vx_mps, now)};
+  const LongitudinalOutput longitudinal = drive(params, state, in, following, dt);
+  out.target_speed_mps = longitudinal.target_speed_mps;
+  out.next.road_wheel_rad = out.lateral.angle_rad;
+  out.next.longitudinal = longitudinal.next;
+  out.next.gear = step(params.gear, state.gear, in.ego.vx_mps, now);
   out.command = {.at = now,
                  .road_wheel_rad = out.next.road_wheel_rad,
                  .throttle_fraction = out.next.longitudinal.throttle_fraction,

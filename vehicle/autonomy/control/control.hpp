@@ -1,5 +1,7 @@
-// The controller of the car: trajectory in, actuator command out.
-//   in     EgoState and Trajectory (Map, Body)
+// The controller of the car: trajectory in, actuator command out. Each of two laws steers: the
+// published regulator (lateral.hpp) and the one with feed-forward (stop_steering.hpp); parameters
+// say which steers along the drive trajectory and which along a stop.
+//   in     EgoState and Trajectory (Map, Body); whether the trajectory is a stop
 //   out    ActuatorCommand, diagnostics, next state
 //   rate   100 Hz
 //   errors LateralDiagnostics.verdict; a missing trajectory or ego holds the angle and lets go of
@@ -14,15 +16,22 @@
 #include "vehicle/autonomy/control/gear.hpp"
 #include "vehicle/autonomy/control/lateral.hpp"
 #include "vehicle/autonomy/control/longitudinal.hpp"
+#include "vehicle/autonomy/control/stop_speed.hpp"
+#include "vehicle/autonomy/control/stop_steering.hpp"
 #include "vehicle/world/actuator_command.hpp"
 #include "vehicle/world/ego_state.hpp"
 #include "vehicle/world/trajectory.hpp"
 
 namespace pitwall::control {
 
+enum class LateralLaw : std::uint8_t { kPaperLqr, kFeedForward };
+
 struct Params {
   BicycleParams bicycle;
   LateralParams lateral;
+  LateralLaw drive_law = LateralLaw::kPaperLqr, stop_law = LateralLaw::kFeedForward;
+  StopSteeringParams stop_steering;
+  StopSpeedParams stop_speed;
   LongitudinalParams longitudinal;
   GearParams gear;
 };
@@ -31,6 +40,13 @@ struct State {
   double road_wheel_rad = 0.0;  // as last commanded
   LongitudinalState longitudinal;
   GearState gear;
+  StopSteering steering;
+};
+
+struct Inputs {
+  const world::EgoState& ego;
+  const world::Trajectory& trajectory;
+  bool stopping = false;  // the trajectory is a stop
 };
 
 struct Output {
@@ -44,7 +60,6 @@ struct Output {
 Result<LateralGains, Problem> prepare(const Params& params);
 
 Output step(const Params& params, const LateralGains& gains, const State& state,
-            const world::EgoState& ego, const world::Trajectory& trajectory, Instant now,
-            Duration dt);
+            const Inputs& inputs, Instant now, Duration dt);
 
 }  // namespace pitwall::control

@@ -40,13 +40,6 @@ bool legal(const LateralWeights& w) {
          w.steering > 0.0;
 }
 
-bool usable(const EgoState& ego) {
-  const bool placed =
-      ego.validity == world::Validity::kGood || ego.validity == world::Validity::kDeadReckoning;
-  return placed && std::isfinite(ego.x_m + ego.y_m + ego.yaw_rad + ego.vx_mps + ego.vy_mps +
-                                 ego.yaw_rate_rad_per_s);
-}
-
 // e = (e1, e1', e2, e2') of the car at a point of the trajectory.
 LateralGain error_at(const TrajectoryPoint& p, const EgoState& ego) {
   const double dx = ego.x_m - p.x_m, dy = ego.y_m - p.y_m;
@@ -58,6 +51,13 @@ LateralGain error_at(const TrajectoryPoint& p, const EgoState& ego) {
 }
 
 }  // namespace
+
+bool is_usable(const EgoState& ego) {
+  const bool placed =
+      ego.validity == world::Validity::kGood || ego.validity == world::Validity::kDeadReckoning;
+  return placed && std::isfinite(ego.x_m + ego.y_m + ego.yaw_rad + ego.vx_mps + ego.vy_mps +
+                                 ego.yaw_rate_rad_per_s);
+}
 
 std::size_t bracket_of(double speed_mps) {
   std::size_t bracket = 0;
@@ -85,7 +85,7 @@ LateralDiagnostics steer(const LateralParams& params, const LateralGains& gains,
                          const world::Trajectory& trajectory) {
   LateralDiagnostics out;
   out.angle_rad = last_angle_rad;
-  if (!usable(ego)) return out.verdict = LateralVerdict::kNoEgo, out;
+  if (!is_usable(ego)) return out.verdict = LateralVerdict::kNoEgo, out;
   const auto here = project(trajectory, ego.x_m, ego.y_m);
   if (!here) return out.verdict = LateralVerdict::kNoTrajectory, out;
 

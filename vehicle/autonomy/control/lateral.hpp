@@ -66,6 +66,7 @@ struct LateralDiagnostics {
 Result<LateralGains, Problem> design(const LateralParams& params, const BicycleParams& car);
 
 std::size_t bracket_of(double speed_mps);
+bool is_usable(const world::EgoState& ego);
 
 LateralDiagnostics steer(const LateralParams& params, const LateralGains& gains,
                          double last_angle_rad, const world::EgoState& ego,

@@ -16,7 +16,23 @@ double left_over(double grip_mps2, double lateral_mps2) {
   return rest > 0.0 ? std::sqrt(rest) : 0.0;
 }
 
+// The largest deceleration that both axles carry when `left` of the friction is theirs.
+double braked_axles_mps2(const FrictionParams& car, double load_mps2, double left) {
+  const double m = left * car.long_friction;
+  const double front = m * car.load_front * load_mps2 / (car.brake_front - m * car.load_shift);
+  const double rear =
+      m * (1.0 - car.load_front) * load_mps2 / (1.0 - car.brake_front + m * car.load_shift);
+  // A front axle that gains load faster than the brakes need it never limits.
+  return car.brake_front > m * car.load_shift ? std::min(front, rear) : rear;
+}
+
 }  // namespace
+
+FrictionParams on_tyres(const FrictionParams& car, double tyre_c) {
+  FrictionParams out = car;
+  out.friction *= world::share_at(car.tyres, tyre_c);
+  return out;
+}
 
 double grip_mps2(const FrictionParams& car, const RoadLoad& at) {
   const double v2 = at.speed_mps * at.speed_mps;
@@ -31,8 +47,11 @@ double lateral_demand_mps2(const RoadLoad& at) {
 }
 
 double brake_available_mps2(const FrictionParams& car, const RoadLoad& at, double share) {
-  const double rest = left_over(share * grip_mps2(car, at), lateral_demand_mps2(at));
-  return std::min(rest, car.brake_max_mps2);
+  const double grip = grip_mps2(car, at);
+  const double rest = left_over(share * grip, lateral_demand_mps2(at));
+  if (!(rest > 0.0)) return 0.0;
+  const double load = grip / car.friction;
+  return std::min({rest, braked_axles_mps2(car, load, rest / load), car.brake_max_mps2});
 }
 
 double drive_available_mps2(const FrictionParams& car, const RoadLoad& at, double share) {

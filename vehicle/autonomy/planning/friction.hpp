@@ -2,22 +2,38 @@
 //   frames accelerations in the plane of the road; lateral positive left
 //   law    normal load per mass  n = g cos(bank) + v^2 kappa sin(bank) + downforce v^2
 //          lateral demand        a = v^2 kappa cos(bank) - g sin(bank)
-//          grip                  g_max = friction * n; longitudinal share by the friction ellipse
+//          grip                  g_max = friction * n; what a corner leaves of it is
+//                                r = sqrt((share g_max)^2 - a^2) / n
+//          braking               the axle whose tyres reach it first limits: with the share b of
+//                                the brakes in front and the load l n + h d of the front axle,
+//                                  b d <= m r (l n + h d),  (1 - b) d <= m r ((1 - l) n - h d),
+//                                m the longitudinal over the lateral friction; and d <= r n
+//          cold tyres            friction times the share of world/tyre_grip.hpp
+//   source load transfer as in Rajamani, Vehicle Dynamics and Control, 2nd ed., sec. 4.1
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/tyre_grip.hpp"
 
 namespace pitwall::planning {
 
 struct FrictionParams {
-  double friction = kUnset;         // 0.3..2.5: tyre friction coefficient
+  double friction = kUnset;         // 0.3..2.5: tyre friction coefficient, warm
   double downforce_per_m = kUnset;  // 0..0.01: downforce / (mass v^2)
   double drag_per_m = kUnset;       // 0..0.01: drag / (mass v^2)
   double accel_max_mps2 = kUnset;   // 0.5..15: by traction and gearing
   double power_w_per_kg = kUnset;   // 10..1000: at the wheels
   double brake_max_mps2 = kUnset;   // 1..30: by the brakes
+  double brake_front = kUnset;      // 0.3..0.9: share of the brakes in front
+  double load_front = kUnset;       // 0.3..0.7: share of the load in front
+  double load_shift = kUnset;       // 0..0.4: height of the centre of gravity over the wheelbase
+  double long_friction = kUnset;    // 0.3..1.5: longitudinal over lateral friction
+  world::TyreGrip tyres;            // of the temperature
 };
+
+// The same car on tyres of that temperature; unset counts as cold.
+FrictionParams on_tyres(const FrictionParams& car, double tyre_c);
 
 // A place on the road at a speed.
 struct RoadLoad {

@@ -50,7 +50,9 @@ LinePoint sample(const world::TrackMap& track, double offset_m, double s_m, doub
           .cos_yaw = std::cos(p.yaw_rad),
           .sin_yaw = std::sin(p.yaw_rad),
           .curvature_per_m = curvature_per_m,
-          .bank_rad = p.bank_rad};
+          .bank_rad = p.bank_rad,
+          .room_left_m = p.width_left_m - offset_m,
+          .room_right_m = p.width_right_m + offset_m};
 }
 
 void place_points(const world::TrackMap& track, const LineParams& params, Line& line) {
@@ -73,28 +75,35 @@ RoadLoad load(const LinePoint& p) { return {p.speed_mps, p.curvature_per_m, p.ba
 
 // Forward and backward over the closed line: no point is faster than its corner, than the engine
 // gets there from the point before, or than the brakes allow before the point after.
-void limit_speeds(const LineParams& params, Line& line) {
+void limit_speeds(const LineParams& params, const FrictionParams& friction, Line& line) {
   auto& p = line.points;
   const std::size_t n = p.size();
   for (LinePoint& point : p) {
-    const double corner = corner_speed_mps(params.friction, load(point), params.grip_share);
+    const double corner = corner_speed_mps(friction, load(point), params.grip_share);
     point.speed_mps = std::min(corner, params.speed_max_mps);
   }
   const double twice_m = 2.0 * line.spacing_m;
   for (std::size_t k = 0; k < kProfileLaps * n; ++k) {
     const LinePoint& a = p[k % n];
     LinePoint& b = p[(k + 1) % n];
-    const double accel = drive_available_mps2(params.friction, load(a), params.grip_share);
+    const double accel = drive_available_mps2(friction, load(a), params.grip_share);
     const double most = a.speed_mps * a.speed_mps + twice_m * accel;
     b.speed_mps = std::min(b.speed_mps, std::sqrt(std::max(most, 0.0)));
   }
   for (std::size_t k = kProfileLaps * n; k > 0; --k) {
     const LinePoint& b = p[k % n];
     LinePoint& a = p[(k - 1) % n];
-    const double brake = brake_available_mps2(params.friction, load(b), params.grip_share) +
-                         params.friction.drag_per_m * b.speed_mps * b.speed_mps;
+    const double brake = brake_available_mps2(friction, load(b), params.grip_share) +
+                         friction.drag_per_m * b.speed_mps * b.speed_mps;
     a.speed_mps = std::min(a.speed_mps, std::sqrt(b.speed_mps * b.speed_mps + twice_m * brake));
   }
+}
+
+// On the coldest tyres first; what is left in speed_mps are the limits on warm ones.
+void limit_speeds(const LineParams& params, Line& line) {
+  limit_speeds(params, on_tyres(params.friction, kUnset), line);
+  for (LinePoint& point : line.points) point.cold_speed_mps = point.speed_mps;
+  limit_speeds(params, params.friction, line);
 }
 
 // The first place where the line comes too close to a wall.
@@ -142,6 +151,9 @@ LinePoint Line::at(double s_m) const {
   p.curvature_per_m = mix(a.curvature_per_m, b.curvature_per_m, t);
   p.bank_rad = mix(a.bank_rad, b.bank_rad, t);
   p.speed_mps = mix(a.speed_mps, b.speed_mps, t);
+  p.cold_speed_mps = mix(a.cold_speed_mps, b.cold_speed_mps, t);
+  p.room_left_m = mix(a.room_left_m, b.room_left_m, t);
+  p.room_right_m = mix(a.room_right_m, b.room_right_m, t);
   return p;
 }
 

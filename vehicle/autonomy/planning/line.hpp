@@ -31,8 +31,15 @@ struct LinePoint {
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
   double cos_yaw = kUnset, sin_yaw = kUnset;  // of the points; unset in what at() returns
   double curvature_per_m = kUnset, bank_rad = kUnset;
-  double speed_mps = kUnset;  // limit
+  double speed_mps = kUnset;                           // limit on warm tyres
+  double cold_speed_mps = kUnset;                      // limit on the coldest tyres of the table
+  double room_left_m = kUnset, room_right_m = kUnset;  // from the line to the walls
 };
+
+// Between the limit on the coldest tyres (0) and on warm ones (1).
+inline double limit_mps(const LinePoint& p, double warmth) {
+  return p.cold_speed_mps + warmth * (p.speed_mps - p.cold_speed_mps);
+}
 
 struct LinePosition {
   double s_m = kUnset, offset_m = kUnset;

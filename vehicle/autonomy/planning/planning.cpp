@@ -18,6 +18,7 @@ using world::VehicleFlag;
 
 constexpr double kTickMax_s = 0.2;      // a longer gap between steps moves the reference no further
 constexpr double kBeyondStop_m = 40.0;  // path past the standstill: control looks ahead
+constexpr double kCoastLeast_mps2 = 1.0;  // with the engine's own drag
 
 std::optional<Problem> illegal_line(const LineParams& p) {
   const FrictionParams& f = p.friction;
@@ -32,7 +33,31 @@ std::optional<Problem> illegal_line(const LineParams& p) {
                  LegalRange{"line.friction.drag_per_m", f.drag_per_m, 0, 0.01},
                  LegalRange{"line.friction.accel_max_mps2", f.accel_max_mps2, 0.5, 15},
                  LegalRange{"line.friction.power_w_per_kg", f.power_w_per_kg, 10, 1000},
-                 LegalRange{"line.friction.brake_max_mps2", f.brake_max_mps2, 1, 30}});
+                 LegalRange{"line.friction.brake_max_mps2", f.brake_max_mps2, 1, 30},
+                 LegalRange{"line.friction.brake_front", f.brake_front, 0.3, 0.9},
+                 LegalRange{"line.friction.load_front", f.load_front, 0.3, 0.7},
+                 LegalRange{"line.friction.load_shift", f.load_shift, 0, 0.4},
+                 LegalRange{"line.friction.long_friction", f.long_friction, 0.3, 1.5}});
+}
+
+std::optional<Problem> illegal_tyres(const world::TyreGrip& tyres) {
+  if (world::is_legal(tyres)) return std::nullopt;
+  return Problem{"line.friction.tyres",
+                 "temperatures must rise, shares must lie in (0, 1] and not fall"};
+}
+
+std::optional<Problem> illegal_stop(const Params& p) {
+  const StopPathParams& path = p.stop_path;
+  return world::first_illegal(std::array{
+      LegalRange{"stop_decel_max_mps2", p.stop_decel_max_mps2, 1, 12},
+      LegalRange{"stop_jerk_max_mps3", p.stop_jerk_max_mps3, 1, 30},
+      LegalRange{"stop_grip_share", p.stop_grip_share, 0.3, 0.9},
+      LegalRange{"stop_path.clearance_m", path.clearance_m, 0.5, 10},
+      LegalRange{"stop_path.low_speed_mps", path.low_speed_mps, 5, 40},
+      LegalRange{"stop_path.stretch_max", path.stretch_max, 1, 2},
+      LegalRange{"emergency_decel_max_mps2", p.emergency_decel_max_mps2, p.stop_decel_max_mps2, 15},
+      LegalRange{"emergency_jerk_max_mps3", p.emergency_jerk_max_mps3, p.stop_jerk_max_mps3, 30},
+      LegalRange{"emergency_grip_share", p.emergency_grip_share, p.stop_grip_share, 0.95}});
 }
 
 std::optional<Problem> illegal_speed(const Params& p) {
@@ -43,9 +68,6 @@ std::optional<Problem> illegal_speed(const Params& p) {
                  LegalRange{"decel_max_mps2", p.decel_max_mps2, 0.2, 10},
                  LegalRange{"jerk_max_mps3", p.jerk_max_mps3, 0.5, 30},
                  LegalRange{"speed_band_mps", p.speed_band_mps, 0.5, 10},
-                 LegalRange{"stop_decel_max_mps2", p.stop_decel_max_mps2, 1, 12},
-                 LegalRange{"stop_jerk_max_mps3", p.stop_jerk_max_mps3, 1, 30},
-                 LegalRange{"stop_grip_share", p.stop_grip_share, 0.3, 0.9},
                  LegalRange{"point_spacing_m", p.point_spacing_m, 1, 4},
                  LegalRange{"merge_from_m", p.merge_from_m, 0.5, 5},
                  LegalRange{"merge_time_s", p.merge_time_s, 1, 10},
@@ -58,70 +80,93 @@ bool usable(const EgoState& ego) {
   return placed && std::isfinite(ego.x_m + ego.y_m + ego.vx_mps);
 }
 
-// Lateral offset from the line and its first two derivatives along it.
-struct Offset {
-  double n_m = 0.0, slope = 0.0, bend_per_m = 0.0;
-};
-
-// n0 (1 - 10 u^3 + 15 u^4 - 6 u^5): of all ways back with no slope and no bend at either end the
-// one with the least jerk.
-Offset merge_offset(const Line& line, const State& state, double s_m) {
-  if (!(state.merge_length_m > 0.0)) return {};
-  const double l = state.merge_length_m;
-  const double u = line.wrap(s_m - state.merge_from_s_m) / l;
-  if (u >= 1.0) return {};
-  const double u2 = u * u, v = 1.0 - u, n0 = state.merge_offset_m;
-  return {n0 * (1.0 - u2 * u * (10.0 - 15.0 * u + 6.0 * u2)), -n0 * 30.0 * u2 * v * v / l,
-          -n0 * 60.0 * u * v * (1.0 - 2.0 * u) / (l * l)};
-}
-
 void merge_if_far(const Params& params, const Line& line, const LinePosition& car, double speed_mps,
                   State& state) {
-  const Offset wanted = merge_offset(line, state, car.s_m);
-  if (std::abs(car.offset_m - wanted.n_m) <= params.merge_from_m) return;
-  state.merge_from_s_m = car.s_m;
-  state.merge_offset_m = car.offset_m;
-  state.merge_length_m = std::clamp(speed_mps * params.merge_time_s, params.merge_least_m,
-                                    std::max(params.merge_least_m, 0.5 * line.length_m));
+  OffsetChange& merge = state.merge;
+  if (merge.length_m > 0.0 && is_over(line, merge, car.s_m)) merge = {};
+  const double wanted_m = offset_at(line, merge, car.s_m).n_m;
+  if (std::abs(car.offset_m - wanted_m) <= params.merge_from_m) return;
+  merge = {.from_s_m = car.s_m,
+           .length_m = std::clamp(speed_mps * params.merge_time_s, params.merge_least_m,
+                                  std::max(params.merge_least_m, 0.5 * line.length_m)),
+           .from_m = car.offset_m,
+           .to_m = 0.0};
 }
 
-world::Trajectory trajectory(const Line& line, const State& state, const SpeedProfile& profile,
-                             Instant now) {
+template <class OffsetAt>
+world::Trajectory trajectory(const Line& line, double line_s_m, OffsetAt offset,
+                             const SpeedProfile& profile, Instant now) {
   world::Trajectory out;
   out.at = now;
   double s_m = 0.0;
   for (std::size_t i = 0; i < profile.at.size(); ++i) {
-    const LinePoint p = line.at(state.line_s_m + static_cast<double>(i) * profile.spacing_m);
-    const Offset o = merge_offset(line, state, p.s_m);
-    const bool aside = o.n_m != 0.0 || o.slope != 0.0;
-    const double stretch = 1.0 - p.curvature_per_m * o.n_m;
-    const double x_m = aside ? p.x_m - o.n_m * std::sin(p.yaw_rad) : p.x_m;
-    const double y_m = aside ? p.y_m + o.n_m * std::cos(p.yaw_rad) : p.y_m;
-    if (i > 0) s_m += std::hypot(x_m - out.points.back().x_m, y_m - out.points.back().y_m);
-    const bool pushed = out.points.push(
-        {.s_m = s_m,
-         .x_m = x_m,
-         .y_m = y_m,
-         .yaw_rad = aside ? wrap_pi(p.yaw_rad + std::atan2(o.slope, stretch)) : p.yaw_rad,
-         .curvature_per_m = p.curvature_per_m / stretch + o.bend_per_m,
-         .bank_rad = p.bank_rad,
-         .speed_mps = profile.at[i].speed_mps,
-         .accel_mps2 = profile.at[i].accel_mps2});
+    const LinePoint p = line.at(line_s_m + static_cast<double>(i) * profile.spacing_m);
+    const Beside at = beside(p, offset(p.s_m));
+    if (i > 0) s_m += std::hypot(at.x_m - out.points.back().x_m, at.y_m - out.points.back().y_m);
+    const bool pushed = out.points.push({.s_m = s_m,
+                                         .x_m = at.x_m,
+                                         .y_m = at.y_m,
+                                         .yaw_rad = at.yaw_rad,
+                                         .curvature_per_m = at.curvature_per_m,
+                                         .bank_rad = p.bank_rad,
+                                         .speed_mps = profile.at[i].speed_mps,
+                                         .accel_mps2 = profile.at[i].accel_mps2});
     CHECK(pushed);
   }
   return out;
 }
 
+bool stops(Followed followed) {
+  return followed == Followed::kStop || followed == Followed::kEmergency;
+}
+
+struct Limits {
+  DriveLimits drive;
+  StopLimits stop;
+};
+
+double warmth_of(const world::TyreGrip& tyres, double tyre_c) {
+  const double cold = tyres.cold();
+  return cold < 1.0 ? (world::share_at(tyres, tyre_c) - cold) / (1.0 - cold) : 1.0;
+}
+
+Limits limits_of(const Params& p, const Inputs& in, double demand_mps, double speed_mps) {
+  const FrictionParams friction = on_tyres(p.line.friction, in.tyre_c);
+  const bool coasts = in.followed == Followed::kCoast;
+  const double coast_mps2 = std::max(coasting_mps2(friction, speed_mps), kCoastLeast_mps2);
+  const bool hard = in.followed == Followed::kEmergency;
+  return {.drive = {.target_mps = coasts ? 0.0 : demand_mps,
+                    .warmth = warmth_of(p.line.friction.tyres, in.tyre_c),
+                    .accel_max_mps2 = p.accel_max_mps2,
+                    .decel_max_mps2 = coasts ? coast_mps2 : p.decel_max_mps2,
+                    .jerk_max_mps3 = p.jerk_max_mps3},
+          .stop = {.friction = friction,
+                   .grip_share = hard ? p.emergency_grip_share : p.stop_grip_share,
+                   .decel_max_mps2 = hard ? p.emergency_decel_max_mps2 : p.stop_decel_max_mps2,
+                   .jerk_max_mps3 = hard ? p.emergency_jerk_max_mps3 : p.stop_jerk_max_mps3}};
+}
+
+// The path that is followed stays; before, it is chosen anew from where the car is.
+void plan_stop_path(const Params& params, const Line& line, const LinePosition& car,
+                    double speed_mps, Followed followed, const StopLimits& limits, State& state) {
+  if (stops(followed) && state.stop.chosen) return;
+  const double aside_m = car.offset_m - offset_at(line, state.merge, car.s_m).n_m;
+  state.stop = choose_stop(
+      line, {.s_m = car.s_m, .speed_mps = speed_mps, .merge = state.merge, .beside_m = aside_m},
+      limits, params.stop_path);
+}
+
 // The reference at `now`: moved on by what control followed, kept near the measured speed.
-SpeedReference reference(const Params& params, const Line& line, const State& state, double s_m,
-                         const DriveLimits& drive, const StopLimits& stop, Followed followed,
-                         double speed_mps, Instant now) {
+SpeedReference reference(const Params& params, const Line& line, const State& state,
+                         const RoadAhead& road, const Limits& limits, const Inputs& in,
+                         const LinePosition& car, Instant now) {
+  const double speed_mps = std::max(in.ego.vx_mps, 0.0);
   if (!state.started) return {speed_mps, 0.0};
   const double dt_s = std::clamp((now - state.at).seconds(), 0.0, kTickMax_s);
   const SpeedReference last{state.speed_mps, state.accel_mps2};
-  const SpeedReference next = followed == Followed::kStop
-                                  ? advance_stop(line, s_m, last, stop, dt_s)
-                                  : advance_drive(line, s_m, last, drive, dt_s);
+  const SpeedReference next = stops(in.followed)
+                                  ? advance_stop(road, last, limits.stop, dt_s)
+                                  : advance_drive(line, car.s_m, last, limits.drive, dt_s);
   const double low = std::max(speed_mps - params.speed_band_mps, 0.0);
   return {std::clamp(next.speed_mps, low, speed_mps + params.speed_band_mps), next.accel_mps2};
 }
@@ -180,7 +225,9 @@ SpeedDemand by_vehicle_flag(const Params& params, VehicleFlag flag) {
 
 Result<Line, Problem> prepare(const Params& params, const world::TrackMap& track) {
   if (auto problem = illegal_line(params.line)) return Unexpected{*problem};
+  if (auto problem = illegal_tyres(params.line.friction.tyres)) return Unexpected{*problem};
   if (auto problem = illegal_speed(params)) return Unexpected{*problem};
+  if (auto problem = illegal_stop(params)) return Unexpected{*problem};
   return build_line(track, params.line);
 }
 
@@ -197,40 +244,42 @@ SpeedDemand demanded_speed(const Params& params, const world::RaceControl& race_
 }
 
 Output step(const Params& params, const Line& line, const world::TrackMap& track,
-            const State& state, const EgoState& ego, const world::RaceControl& race_control,
-            double operator_speed_limit_mps, Followed followed, Instant now) {
+            const State& state, const Inputs& in, Instant now) {
   Output out;
   out.next = state;
-  if (!usable(ego)) {
+  State& next = out.next;
+  if (!usable(in.ego)) {
     out.reason = Reason::kNoEgo;
-    out.next.started = false;
+    next.started = false;
     return out;
   }
   const std::optional<double> hint = state.started ? std::optional{state.line_s_m} : std::nullopt;
-  const LinePosition car = line.project(ego.x_m, ego.y_m, hint);
-  const SpeedDemand demand = demanded_speed(params, race_control, operator_speed_limit_mps);
-  const DriveLimits drive{demand.speed_mps, params.accel_max_mps2, params.decel_max_mps2,
-                          params.jerk_max_mps3};
-  const StopLimits stop{params.line.friction, params.stop_grip_share, params.stop_decel_max_mps2,
-                        params.stop_jerk_max_mps3};
-  const double speed_mps = std::max(ego.vx_mps, 0.0);
-  const SpeedReference now_at =
-      reference(params, line, state, car.s_m, drive, stop, followed, speed_mps, now);
-  State& next = out.next;
+  const LinePosition car = line.project(in.ego.x_m, in.ego.y_m, hint);
+  const double speed_mps = std::max(in.ego.vx_mps, 0.0);
+  const SpeedDemand demand = demanded_speed(params, in.race_control, in.operator_speed_limit_mps);
+  Limits limits = limits_of(params, in, demand.speed_mps, speed_mps);
+
+  if (!stops(in.followed)) merge_if_far(params, line, car, speed_mps, next);
+  plan_stop_path(params, line, car, speed_mps, in.followed, limits.stop, next);
+  if (in.followed != Followed::kEmergency) limits.stop.decel_max_mps2 *= next.stop.decel_share;
+  const RoadAhead road = road_ahead(line, next.stop, car.s_m);
+  const SpeedReference now_at = reference(params, line, state, road, limits, in, car, now);
   next.started = true;
   next.at = now;
   next.line_s_m = car.s_m;
   next.speed_mps = now_at.speed_mps;
   next.accel_mps2 = now_at.accel_mps2;
-  merge_if_far(params, line, car, speed_mps, next);
 
-  const SpeedProfile stopping = stop_profile(line, car.s_m, now_at, stop, kBeyondStop_m);
-  out.stop = trajectory(line, next, stopping, now);
-  out.drive = trajectory(line, next,
-                         drive_profile(line, car.s_m, now_at, drive, params.point_spacing_m), now);
+  const SpeedProfile stopping = stop_profile(road, now_at, limits.stop, kBeyondStop_m);
+  out.stop = trajectory(
+      line, car.s_m, [&](double s_m) { return offset_at(line, next.stop, s_m); }, stopping, now);
+  out.drive = trajectory(
+      line, car.s_m, [&](double s_m) { return offset_at(line, next.merge, s_m); },
+      drive_profile(line, car.s_m, now_at, limits.drive, params.point_spacing_m), now);
   const LinePoint here = line.at(car.s_m);
-  const bool line_limits = here.speed_mps < demand.speed_mps;
-  out.target_speed_mps = line_limits ? here.speed_mps : demand.speed_mps;
+  const double limit = limit_mps(here, limits.drive.warmth);
+  const bool line_limits = limit < demand.speed_mps;
+  out.target_speed_mps = line_limits ? limit : demand.speed_mps;
   out.reason = line_limits ? Reason::kLineLimit : demand.reason;
   out.line_s_m = car.s_m;
   out.track_s_m = track.wrap_station(here.track_s_m);

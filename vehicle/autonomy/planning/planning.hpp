@@ -1,14 +1,18 @@
 // The planner: holds the line at the speed that race control and the operator allow, and keeps a
 // stop trajectory ready at every tick.
-//   in     EgoState (Map), RaceControl, operator's limit; which of the two trajectories control
+//   in     EgoState (Map), RaceControl, operator's limit, the coldest tyre; which trajectory control
 //          has followed since the last step
 //   out    drive and stop trajectory (Map), both from the car's present place and from the same
-//          reference speed, so that a change from one to the other never steps
+//          reference speed; the stop begins where the car is, in the direction and with the
+//          curvature of the drive trajectory, so that a change to it never steps
 //   rate   20 Hz (any rate up to 100 Hz works: the reference speed advances with time)
 //   law    speed follows a reference that starts at the present speed, moves with limited jerk and
 //          acceleration, and stays within speed_band_mps of the measured speed. The stop uses
-//          stop_grip_share of the friction ellipse left over by the corner. A car far off the line
-//          is led back by a minimum-jerk offset over merge_time_s
+//          stop_grip_share of the friction ellipse, by the temperature of the tyres, along the path
+//          of stop_plan.hpp; its path is kept from the moment on at which it is followed, and an
+//          emergency stop is the same path with more brake. While the car coasts the drive
+//          trajectory slows as a car does whose throttle is closed. A car far off the line is led
+//          back by a minimum-jerk offset over merge_time_s
 //   errors without a usable ego both trajectories are empty and the reason says so
 //   cost   O(points + horizon steps), below 1 ms; no allocation
 // SPDX-License-Identifier: Apache-2.0
@@ -19,6 +23,8 @@
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/autonomy/planning/line.hpp"
+#include "vehicle/autonomy/planning/offset.hpp"
+#include "vehicle/autonomy/planning/stop_plan.hpp"
 #include "vehicle/world/ego_state.hpp"
 #include "vehicle/world/race_control.hpp"
 #include "vehicle/world/track_map.hpp"
@@ -37,10 +43,14 @@ struct Params {
   double stop_decel_max_mps2 = kUnset;  // 1..12
   double stop_jerk_max_mps3 = kUnset;   // 1..30
   double stop_grip_share = kUnset;      // 0.3..0.9: 0.7 is a margin of 30 %
-  double point_spacing_m = kUnset;      // 1..4: of the drive trajectory
-  double merge_from_m = kUnset;         // 0.5..5: deviation from the line that starts a merge
-  double merge_time_s = kUnset;         // 1..10
-  double merge_least_m = kUnset;        // 10..200: shortest merge
+  StopPathParams stop_path;
+  double emergency_decel_max_mps2 = kUnset;  // stop_decel_max_mps2..15
+  double emergency_jerk_max_mps3 = kUnset;   // stop_jerk_max_mps3..30
+  double emergency_grip_share = kUnset;      // stop_grip_share..0.95
+  double point_spacing_m = kUnset;           // 1..4: of the drive trajectory
+  double merge_from_m = kUnset;              // 0.5..5: deviation from the line that starts a merge
+  double merge_time_s = kUnset;              // 1..10
+  double merge_least_m = kUnset;             // 10..200: shortest merge
 };
 
 // Why the target speed is what it is.
@@ -62,14 +72,29 @@ enum class Reason : std::uint8_t {
   kLineLimit
 };
 
-enum class Followed : std::uint8_t { kNothing, kDrive, kStop };
+enum class Followed : std::uint8_t {
+  kNothing,
+  kDrive,
+  kCoast,  // the drive trajectory, without driving it on
+  kStop,
+  kEmergency  // the stop trajectory, as short as the grip allows
+};
+
+struct Inputs {
+  const world::EgoState& ego;
+  const world::RaceControl& race_control;
+  double operator_speed_limit_mps = kUnset;  // unset: none
+  Followed followed = Followed::kNothing;
+  double tyre_c = kUnset;  // the coldest; unset counts as cold
+};
 
 struct State {
   bool started = false;
   Instant at{};
   double line_s_m = kUnset;                     // the car on the line
   double speed_mps = kUnset, accel_mps2 = 0.0;  // the reference
-  double merge_from_s_m = kUnset, merge_length_m = 0.0, merge_offset_m = 0.0;
+  OffsetChange merge;                           // back to the line
+  StopPath stop;                                // of the last stop trajectory
 };
 
 struct Output {
@@ -85,10 +110,8 @@ struct Output {
 // Start-up: every parameter against its legal range; the place is the parameter's name.
 Result<Line, Problem> prepare(const Params& params, const world::TrackMap& track);
 
-// operator_speed_limit_mps: NaN for none.
 Output step(const Params& params, const Line& line, const world::TrackMap& track,
-            const State& state, const world::EgoState& ego, const world::RaceControl& race_control,
-            double operator_speed_limit_mps, Followed followed, Instant now);
+            const State& state, const Inputs& inputs, Instant now);
 
 struct SpeedDemand {
   double speed_mps = kUnset;

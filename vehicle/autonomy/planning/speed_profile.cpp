@@ -9,7 +9,9 @@ namespace {
 
 constexpr double kLandingShare = 0.8;  // of the jerk: the rest lets the landing law be followed
 constexpr double kCoast_mps2 = 0.3;    // rolling resistance: a car always slows by that much
-constexpr double kCapAhead_s = 0.45;   // a falling limit is read this far ahead: time for the jerk
+// Where a stop looks for the ellipse to shrink: as far as the jerk takes to let go of the brake.
+constexpr std::array kStopAhead_s{0.0, 0.2, 0.4, 0.6};
+constexpr double kCapAhead_s = 0.45;  // a falling limit is read this far ahead: time for the jerk
 constexpr double kCapHorizon_m = 250.0;  // how far ahead the line's limits are looked at
 constexpr double kCapDecelShare = 0.9;
 constexpr double kSpacingMin_m = 2.0;
@@ -22,7 +24,7 @@ const LinePoint& nearest(const Line& line, double s_m) {
 }
 
 // The speed now from which every limit of the line ahead can be met at a moderate deceleration.
-double cap(const Line& line, double s_m, double speed_mps, double decel_mps2) {
+double cap(const Line& line, double s_m, double speed_mps, double warmth, double decel_mps2) {
   constexpr double kCapStep_m = 10.0;
   const double horizon_m = std::min(kCapHorizon_m, speed_mps * speed_mps / (2.0 * decel_mps2));
   const std::size_t count = line.points.size();
@@ -30,28 +32,24 @@ double cap(const Line& line, double s_m, double speed_mps, double decel_mps2) {
       std::max(static_cast<std::size_t>(kCapStep_m / line.spacing_m), static_cast<std::size_t>(1));
   const double stride_m = static_cast<double>(stride) * line.spacing_m;
   auto i = static_cast<std::size_t>(line.wrap(s_m + kCapAhead_s * speed_mps) / line.spacing_m);
-  const double here_mps = nearest(line, s_m).speed_mps;
+  const double here_mps = limit_mps(nearest(line, s_m), warmth);
   double lowest = here_mps * here_mps;
   for (double d = 0.0; d <= horizon_m; d += stride_m, i += stride) {
     if (i >= count) i %= count;
-    const double v = line.points[i].speed_mps;
+    const double v = limit_mps(line.points[i], warmth);
     lowest = std::min(lowest, v * v + 2.0 * decel_mps2 * d);
   }
   return std::sqrt(lowest);
 }
 
 SpeedLimits drive_limits(const Line& line, double s_m, double speed_mps, const DriveLimits& l) {
-  const double limit_mps = cap(line, s_m, speed_mps, kCapDecelShare * l.decel_max_mps2);
+  const double limit_mps = cap(line, s_m, speed_mps, l.warmth, kCapDecelShare * l.decel_max_mps2);
   return {std::min(l.target_mps, limit_mps), l.accel_max_mps2, l.decel_max_mps2, l.jerk_max_mps3};
 }
 
-SpeedLimits stop_limits(const Line& line, double s_m, double speed_mps, const StopLimits& l) {
-  const LinePoint& p = nearest(line, s_m);
-  const double brake =
-      brake_available_mps2(l.friction, {speed_mps, p.curvature_per_m, p.bank_rad}, l.grip_share);
-  const double coast = kCoast_mps2 + l.friction.drag_per_m * speed_mps * speed_mps;
-  const double decel = std::max(std::min(brake + coast, l.decel_max_mps2), kCoast_mps2);
-  return {0.0, 0.0, decel, l.jerk_max_mps3};
+SpeedLimits stop_limits(const RoadAhead& road, double distance_m, double speed_mps,
+                        const StopLimits& l) {
+  return {0.0, 0.0, stop_decel_mps2(road, distance_m, speed_mps, l), l.jerk_max_mps3};
 }
 
 // The reference played forward in time, as far as `reach_m` or to standstill.
@@ -109,6 +107,27 @@ SpeedProfile sampled(const History& history, double spacing_m) {
 
 }  // namespace
 
+const RoadSample& RoadAhead::sample(double distance_m) const {
+  const double index = std::max(distance_m, 0.0) / kRoadStep_m + 0.5;
+  return at[std::min(static_cast<std::size_t>(index), kRoadPoints - 1)];
+}
+
+double coasting_mps2(const FrictionParams& car, double speed_mps) {
+  return kCoast_mps2 + car.drag_per_m * speed_mps * speed_mps;
+}
+
+double stop_decel_mps2(const RoadAhead& road, double distance_m, double speed_mps,
+                       const StopLimits& l) {
+  double brake = l.decel_max_mps2;
+  for (const double ahead_s : kStopAhead_s) {
+    const RoadSample& p = road.sample(distance_m + ahead_s * speed_mps);
+    const RoadLoad load{speed_mps, p.curvature_per_m, p.bank_rad};
+    brake = std::min(brake, brake_available_mps2(l.friction, load, l.grip_share));
+  }
+  const double coast = coasting_mps2(l.friction, speed_mps);
+  return std::max(std::min(brake + coast, l.decel_max_mps2), coast);
+}
+
 SpeedReference advance(const SpeedReference& r, const SpeedLimits& limits, double dt_s) {
   if (!(dt_s > 0.0)) return r;
   const double error = limits.target_mps - r.speed_mps;
@@ -139,17 +158,17 @@ SpeedProfile drive_profile(const Line& line, double s_m, const SpeedReference& f
   return sampled(history, spacing_m);
 }
 
-SpeedReference advance_stop(const Line& line, double s_m, const SpeedReference& from,
+SpeedReference advance_stop(const RoadAhead& road, const SpeedReference& from,
                             const StopLimits& limits, double dt_s) {
-  return advance(from, stop_limits(line, s_m, from.speed_mps, limits), dt_s);
+  return advance(from, stop_limits(road, 0.0, from.speed_mps, limits), dt_s);
 }
 
-SpeedProfile stop_profile(const Line& line, double s_m, const SpeedReference& from,
+SpeedProfile stop_profile(const RoadAhead& road, const SpeedReference& from,
                           const StopLimits& limits, double beyond_m) {
   constexpr double kAnywhere_m = 1e9;
   History history;
   play(
-      s_m, from, kAnywhere_m, [&](double s, double v) { return stop_limits(line, s, v, limits); },
+      0.0, from, kAnywhere_m, [&](double d, double v) { return stop_limits(road, d, v, limits); },
       history);
   const double least_m = history.stands ? history.at[history.size - 1].gone_m : 0.0;
   constexpr double kSegments = world::kTrajectoryPoints - 1;

@@ -65,12 +65,15 @@ TEST(Control, ABadTuneLosesTheCar) {
 TEST(Control, HoldsSteeringAndLetsGoWithoutTrajectory) {
   const Params p = recommended();
   const LateralGains gains = gains_of(p);
-  State state{.road_wheel_rad = 0.02, .longitudinal = {0.7, 0.0}, .gear = {}};
+  State state{.road_wheel_rad = 0.02, .longitudinal = {0.7, 0.0}, .gear = {}, .steering = {}};
+  const world::Trajectory none;
   testing::Car car;
   car.vx_mps = 40.0;
   for (int i = 0; i < 100; ++i) {
     const Instant now{i * 10'000'000LL};
-    const Output out = step(p, gains, state, car.ego(now), {}, now, milliseconds(10));
+    const world::EgoState ego = car.ego(now);
+    const Output out =
+        step(p, gains, state, {.ego = ego, .trajectory = none}, now, milliseconds(10));
     EXPECT_EQ(out.lateral.verdict, LateralVerdict::kNoTrajectory);
     EXPECT_EQ(out.command.road_wheel_rad, 0.02);
     EXPECT_LE(out.command.throttle_fraction, state.longitudinal.throttle_fraction);
@@ -92,13 +95,16 @@ TEST(Control, CommandIsFiniteWhateverTheEgo) {
       double* const fields[] = {&ego.x_m,    &ego.y_m,    &ego.yaw_rad,
                                 &ego.vx_mps, &ego.vy_mps, &ego.yaw_rate_rad_per_s};
       *fields[field] = bad;
-      const Output out =
-          step(p, gains, {}, ego, path.window(0.0, 20.0), Instant{}, milliseconds(10));
-      EXPECT_LE(std::abs(out.command.road_wheel_rad), p.lateral.angle_max_rad);
-      EXPECT_GE(out.command.throttle_fraction, 0.0);
-      EXPECT_LE(out.command.throttle_fraction, 1.0);
-      EXPECT_GE(out.command.brake_kpa, 0.0);
-      EXPECT_LE(out.command.brake_kpa, p.longitudinal.brake_max_kpa);
+      const world::Trajectory t = path.window(0.0, 20.0);
+      for (const bool stopping : {false, true}) {
+        const Output out = step(p, gains, {}, {.ego = ego, .trajectory = t, .stopping = stopping},
+                                Instant{}, milliseconds(10));
+        EXPECT_LE(std::abs(out.command.road_wheel_rad), p.lateral.angle_max_rad);
+        EXPECT_GE(out.command.throttle_fraction, 0.0);
+        EXPECT_LE(out.command.throttle_fraction, 1.0);
+        EXPECT_GE(out.command.brake_kpa, 0.0);
+        EXPECT_LE(out.command.brake_kpa, p.longitudinal.brake_max_kpa);
+      }
     }
   }
 }
@@ -111,8 +117,11 @@ TEST(Control, TakesNothingFromTheHeap) {
   const world::Trajectory t = path.window(0.0, 30.0);
   testing::Car car;
   car.vx_mps = 30.0;
+  const world::EgoState ego = car.ego(Instant{});
   EXPECT_EQ(pitwall::testing::allocations_of([&] {
-              (void)step(p, gains, {}, car.ego(Instant{}), t, Instant{}, milliseconds(10));
+              for (const bool stopping : {false, true})
+                (void)step(p, gains, {}, {.ego = ego, .trajectory = t, .stopping = stopping},
+                           Instant{}, milliseconds(10));
             }),
             0u);
 }
@@ -130,6 +139,8 @@ TEST(Control, PrepareNamesTheIllegalParameter) {
   EXPECT_EQ(place([](Params& p) { p.longitudinal.kp_per_mps = -1.0; }), "longitudinal.kp_per_mps");
   EXPECT_EQ(place([](Params& p) { p.gear.up_above_mps[2] = 1.0; }), "gear.up_above_mps[2]");
   EXPECT_EQ(place([](Params& p) { p.gear.down_below_mps[1] = 99.0; }), "gear.down_below_mps[1]");
+  EXPECT_EQ(place([](Params& p) { p.stop_steering.damping = 0.0; }), "stop_steering.damping");
+  EXPECT_EQ(place([](Params& p) { p.stop_speed.coast_mps2 = kUnset; }), "stop_speed.coast_mps2");
 }
 
 }  // namespace

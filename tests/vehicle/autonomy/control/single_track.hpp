@@ -171,7 +171,9 @@ inline Lap drive(const Params& params, const LateralGains& gains, const Path& pa
     while (distance(near + 1) < distance(near)) ++near;
     const std::size_t start = (near + path.points.size() - 10) % path.points.size();
     const world::Trajectory t = path.window(static_cast<double>(start) * kPathStep_m, speed_mps);
-    const Output out = step(params, gains, state, car.ego(now), t, now, milliseconds(10));
+    const world::EgoState ego = car.ego(now);
+    const Output out =
+        step(params, gains, state, {.ego = ego, .trajectory = t}, now, milliseconds(10));
     const double rate = (out.next.road_wheel_rad - state.road_wheel_rad) / 0.01;
     state = out.next;
     for (int k = 0; k < 10; ++k)
@@ -225,6 +227,23 @@ inline Params recommended() {
                     .brake_fall_kpa_per_s = 20000.0,
                     .hold_speed_mps = 0.5,
                     .hold_brake_kpa = 800.0};
+  p.stop_steering = {.bandwidth_rad_per_s = 2.5,
+                     .damping = 0.9,
+                     .preview_s = 0.12,
+                     .observer_s = 0.3,
+                     .trim_per_s = 0.3,
+                     .settle_s = 0.4,
+                     .correction_max_rad = 0.03,
+                     .gain_speed_least_mps = 8.0,
+                     .hold_speed_mps = 0.5};
+  p.stop_speed = {.kpa_per_mps2 = 370.0,
+                  .coast_mps2 = 0.6,
+                  .drag_per_m = 0.00061,
+                  .speed_share_per_s = 0.8,
+                  .preview_s = 0.15,
+                  .throttle_fall_per_s = 1.2,
+                  .brake_rate_kpa_per_s = 4000.0,
+                  .hold_rate_kpa_per_s = 1500.0};
   p.gear = {.up_above_mps = {21.5, 33.5, 45.5, 56.5, 65.5},
             .down_below_mps = {19.0, 30.5, 42.0, 52.5, 61.0},
             .dwell_s = 0.8};

@@ -23,13 +23,19 @@ struct Rig {
   Line line = prepare(params, track).value();
   State state;
   Instant now{};
-  double s_m = 0.0, offset_m = 0.0, speed_mps = 0.0;
+  double s_m = 0.0, offset_m = 0.0, speed_mps = 0.0, tyre_c = 85.0;
 
   // One tick of 50 ms with a car that does exactly what it is told.
   Output tick(const world::RaceControl& rc, Followed followed = Followed::kDrive,
               double limit_mps = kUnset) {
-    const Output out = step(params, line, track, state, ego_on(line, s_m, offset_m, speed_mps), rc,
-                            limit_mps, followed, now);
+    const world::EgoState ego = ego_on(line, s_m, offset_m, speed_mps);
+    const Output out = step(params, line, track, state,
+                            {.ego = ego,
+                             .race_control = rc,
+                             .operator_speed_limit_mps = limit_mps,
+                             .followed = followed,
+                             .tyre_c = tyre_c},
+                            now);
     state = out.next;
     now += milliseconds(50);
     speed_mps = out.next.speed_mps;
@@ -173,8 +179,10 @@ TEST(Planning, WithoutEgoThereIsNoTrajectory) {
   lost.validity = world::Validity::kLost;
   nan.vx_mps = kUnset;
   for (const world::EgoState& ego : {lost, nan, world::EgoState{}}) {
-    const Output out = step(rig.params, rig.line, rig.track, rig.state, ego, green(30.0), kUnset,
-                            Followed::kDrive, rig.now);
+    const world::RaceControl rc = green(30.0);
+    const Output out =
+        step(rig.params, rig.line, rig.track, rig.state,
+             {.ego = ego, .race_control = rc, .followed = Followed::kDrive}, rig.now);
     EXPECT_EQ(out.reason, Reason::kNoEgo);
     EXPECT_TRUE(out.drive.points.empty());
     EXPECT_TRUE(out.stop.points.empty());
@@ -215,6 +223,11 @@ TEST(Planning, PrepareNamesTheIllegalParameter) {
   EXPECT_EQ(place([](Params& p) { p.jerk_max_mps3 = 0.0; }), "jerk_max_mps3");
   EXPECT_EQ(place([](Params& p) { p.line.friction.friction = kUnset; }), "line.friction.friction");
   EXPECT_EQ(place([](Params& p) { p.line.offset_m = 7.0; }), "line.offset_m");
+  EXPECT_EQ(place([](Params& p) { p.line.friction.brake_front = 1.0; }),
+            "line.friction.brake_front");
+  EXPECT_EQ(place([](Params& p) { p.line.friction.tyres.share[1] = 0.5; }), "line.friction.tyres");
+  EXPECT_EQ(place([](Params& p) { p.stop_path.clearance_m = kUnset; }), "stop_path.clearance_m");
+  EXPECT_EQ(place([](Params& p) { p.emergency_grip_share = 0.6; }), "emergency_grip_share");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/vehicle/autonomy/planning/stadium.hpp"
+#include "vehicle/autonomy/planning/stop_plan.hpp"
 
 namespace pitwall::planning {
 namespace {
@@ -19,7 +20,7 @@ Line line_of(double radius_m = 200.0) {
 }
 
 DriveLimits drive_to(double target) {
-  return {target, kParams.accel_max_mps2, kParams.decel_max_mps2, kParams.jerk_max_mps3};
+  return {target, 1.0, kParams.accel_max_mps2, kParams.decel_max_mps2, kParams.jerk_max_mps3};
 }
 
 const StopLimits kStop{kParams.line.friction, kParams.stop_grip_share, kParams.stop_decel_max_mps2,
@@ -89,12 +90,15 @@ TEST(SpeedProfile, DriveSlowsInTimeForATightTurn) {
   EXPECT_GT(s, 2.0 * line.length_m);
 }
 
+// What lies ahead on the line itself.
+RoadAhead ahead(const Line& line, double s_m) { return road_ahead(line, StopPath{}, s_m); }
+
 TEST(SpeedProfile, StopStandsWithinTheEllipseFromEveryPlaceAndSpeed) {
   const Line line = line_of();
   const auto& car = kParams.line.friction;
   for (double s = 0.0; s < line.length_m; s += line.length_m / 16.0) {
     for (const double v : {0.0, 0.5, 8.0, 30.0, 50.0, 65.0}) {
-      const SpeedProfile p = stop_profile(line, s, {v, 0.0}, kStop, 40.0);
+      const SpeedProfile p = stop_profile(ahead(line, s), {v, 0.0}, kStop, 40.0);
       ASSERT_TRUE(std::isfinite(p.stop_distance_m)) << s << ' ' << v;
       EXPECT_LT(p.stop_distance_m, v * v / (2.0 * 2.0) + 3.0 * v + 1.0) << s << ' ' << v;
       EXPECT_EQ(p.at.back().speed_mps, 0.0);
@@ -120,7 +124,7 @@ TEST(SpeedProfile, StopStartsWithLimitedJerk) {
   const Line line = line_of();
   SpeedReference r{65.0, 1.5};  // from full acceleration
   for (int i = 0; i < 1500; ++i) {
-    const SpeedReference next = advance_stop(line, 500.0, r, kStop, 0.02);
+    const SpeedReference next = advance_stop(ahead(line, 500.0), r, kStop, 0.02);
     if (next.speed_mps > 0.0) {
       EXPECT_LE(std::abs(next.accel_mps2 - r.accel_mps2), kParams.stop_jerk_max_mps3 * 0.02 + 1e-9);
     }

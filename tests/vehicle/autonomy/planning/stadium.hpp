@@ -44,11 +44,19 @@ inline Params recommended() {
                          .drag_per_m = 0.00061,
                          .accel_max_mps2 = 6.0,
                          .power_w_per_kg = 320.0,
-                         .brake_max_mps2 = 9.0}};
+                         .brake_max_mps2 = 9.0,
+                         .brake_front = 0.615,
+                         .load_front = 0.40,
+                         .load_shift = 0.094,
+                         .long_friction = 0.8,
+                         .tyres = {}}};
   p.green_speed_mps = 40.0, p.caution_speed_mps = 22.0;
   p.accel_max_mps2 = 2.5, p.decel_max_mps2 = 3.0, p.jerk_max_mps3 = 5.0;
   p.speed_band_mps = 4.0;
   p.stop_decel_max_mps2 = 5.0, p.stop_jerk_max_mps3 = 8.0, p.stop_grip_share = 0.7;
+  p.stop_path = {.clearance_m = 2.5, .low_speed_mps = 20.0, .stretch_max = 1.5};
+  p.emergency_decel_max_mps2 = 8.0, p.emergency_jerk_max_mps3 = 15.0;
+  p.emergency_grip_share = 0.85;
   p.point_spacing_m = 2.5;
   p.merge_from_m = 1.5, p.merge_time_s = 4.0, p.merge_least_m = 60.0;
   return p;

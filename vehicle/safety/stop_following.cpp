@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/guardian/stop_following.hpp"
+#include "vehicle/safety/stop_following.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "protocol/vocabulary/check.hpp"
 
-namespace pitwall::guardian {
+namespace pitwall::safety {
 namespace {
 
-using safety::SafeStopParams;
 using world::Trajectory;
 using world::TrajectoryPoint;
 
@@ -31,7 +30,7 @@ PathPoint path_at(const Trajectory& path, std::size_t segment, double s_m) {
 }
 
 double feedforward_rad(const SafeStopParams& p, double speed_mps, const PathPoint& at) {
-  const safety::Grip grip = safety::grip_at(p, speed_mps, at.curvature_per_m, at.bank_rad);
+  const Grip grip = grip_at(p, speed_mps, at.curvature_per_m, at.bank_rad);
   return p.wheelbase_m * at.curvature_per_m + p.understeer_rad_per_mps2 * grip.lateral_mps2;
 }
 
@@ -63,19 +62,21 @@ double next_brake_kpa(const FollowingParams& p, const FollowingState& s, const P
                       s.command.brake_kpa + step_kpa);
   }
   const double wanted_mps2 = -here.accel_mps2 + p.speed_share_per_s * (speed_mps - here.speed_mps);
-  return safety::brake_towards(
-      p.stop, safety::StopKind::kControlled,
+  return brake_towards(
+      p.stop, StopKind::kControlled,
       {.decel_mps2 = std::clamp(wanted_mps2, 0.0, p.stop.decel_max_mps2),
-       .grip = safety::grip_at(p.stop, speed_mps, here.curvature_per_m, here.bank_rad),
+       .grip = grip_at(p.stop, speed_mps, here.curvature_per_m, here.bank_rad, s.tyre_c),
        .last_kpa = s.command.brake_kpa,
        .dt_s = dt_s});
 }
 
 }  // namespace
 
-void locate(FollowingState& state, const Trajectory& path, const Pose& pose) {
+void locate(FollowingState& state, const Trajectory& path, const PathPose& pose) {
   const auto& points = path.points;
   CHECK(points.size() >= 2);
+  if (path.at != state.path_at) state.segment = 0;
+  state.path_at = path.at;
   const auto ahead_m = [&](const TrajectoryPoint& p) {
     return std::cos(p.yaw_rad) * (pose.x_m - p.x_m) + std::sin(p.yaw_rad) * (pose.y_m - p.y_m);
   };
@@ -102,7 +103,7 @@ void locate(FollowingState& state, const Trajectory& path, const Pose& pose) {
 }
 
 world::ActuatorCommand follow_stop(const FollowingParams& params, FollowingState& state,
-                                   const Trajectory& path, const Pose& pose, Instant now) {
+                                   const Trajectory& path, const PathPose& pose, Instant now) {
   locate(state, path, pose);
   const double v_mps = pose.speed_mps;
   const PathPoint ahead = path_at(path, state.segment, state.s_m + v_mps * params.preview_s);
@@ -132,4 +133,4 @@ world::ActuatorCommand follow_stop(const FollowingParams& params, FollowingState
   return command;
 }
 
-}  // namespace pitwall::guardian
+}  // namespace pitwall::safety

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vehicle/guardian/stop_following.hpp"
+#include "vehicle/safety/stop_following.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace pitwall::guardian {
+namespace pitwall::safety {
 namespace {
 
 constexpr double kDecel_mps2 = 5.0;
@@ -34,7 +34,7 @@ world::Trajectory arc(double curvature_per_m, double speed_mps, double bank_rad)
 struct Bicycle {
   FollowingParams params;
   FollowingState state;
-  Pose pose;
+  PathPose pose;
   double road_rad = 0.0, understeer = 0.0002, worst_m = 0.0, hardest_rad_per_s = 0.0;
   Instant now{seconds(10).ns};
 
@@ -42,7 +42,6 @@ struct Bicycle {
     constexpr Duration kTick = milliseconds(10);
     for (int i = 0; i < 3000; ++i) {
       now += kTick;
-      pose.at = now;
       const double before = state.command.road_wheel_rad;
       const world::ActuatorCommand command = follow_stop(params, state, path, pose, now);
       if (i > 0)
@@ -57,9 +56,8 @@ struct Bicycle {
   void move(const world::ActuatorCommand& command, double dt_s) {
     const double v = pose.speed_mps, fall = kGravity_mps2 * std::sin(state.bank_rad);
     road_rad += (command.road_wheel_rad - road_rad) * dt_s / 0.08;
-    pose.yaw_rate_rad_per_s =
+    const double rate =
         v * (road_rad + understeer * fall) / (params.stop.wheelbase_m + understeer * v * v);
-    const double rate = pose.yaw_rate_rad_per_s;
     pose.x_m += v * std::cos(pose.yaw_rad + 0.5 * rate * dt_s) * dt_s;
     pose.y_m += v * std::sin(pose.yaw_rad + 0.5 * rate * dt_s) * dt_s;
     pose.yaw_rad = wrap_pi(pose.yaw_rad + rate * dt_s);
@@ -127,10 +125,10 @@ TEST(StopFollowing, MeasuresFromTheArcAndNotFromItsChords) {
   const world::Trajectory path = arc(k, 60.0, 0.0);
   for (double s_m = 1.0; s_m < 200.0; s_m += 0.37) {
     FollowingState state;
-    const Pose pose{.x_m = std::sin(k * s_m) / k,
-                    .y_m = (1.0 - std::cos(k * s_m)) / k,
-                    .yaw_rad = k * s_m,
-                    .speed_mps = 60.0};
+    const PathPose pose{.x_m = std::sin(k * s_m) / k,
+                        .y_m = (1.0 - std::cos(k * s_m)) / k,
+                        .yaw_rad = k * s_m,
+                        .speed_mps = 60.0};
     locate(state, path, pose);
     EXPECT_NEAR(state.lateral_m, 0.0, 0.01) << s_m;
     EXPECT_NEAR(state.course_rad, 0.0, 1e-3) << s_m;
@@ -148,7 +146,7 @@ TEST(StopFollowing, StaysWithinTheGripThatTheCornerLeaves) {
     b.now += milliseconds(10);
     follow_stop(b.params, b.state, path, b.pose, b.now);
   }
-  const safety::Grip grip = safety::grip_at(b.params.stop, 60.0, k, 0.0);
+  const Grip grip = grip_at(b.params.stop, 60.0, k, 0.0);
   const double left = std::sqrt(
       std::max(0.0, grip.total_mps2 * grip.total_mps2 - grip.lateral_mps2 * grip.lateral_mps2));
   const double asked = b.state.command.brake_kpa / b.params.stop.brake_kpa_per_mps2;
@@ -156,4 +154,4 @@ TEST(StopFollowing, StaysWithinTheGripThatTheCornerLeaves) {
 }
 
 }  // namespace
-}  // namespace pitwall::guardian
+}  // namespace pitwall::safety

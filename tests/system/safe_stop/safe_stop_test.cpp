@@ -1,0 +1,88 @@
+// A controlled stop from 68 m/s in a turn banked 20 degrees, from eight places round both ends of
+// Las Vegas Motor Speedway, on warm and on cold tyres; and what is left of it when something dies.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <tuple>
+
+#include "tests/system/safe_stop/stop_run.hpp"
+
+namespace pitwall::testing {
+namespace {
+
+constexpr double kWarm_c = 85.0, kCold_c = 30.0;
+// Entry, both thirds and exit of either end.
+const auto kPlaces = ::testing::Values(440.0, 560.0, 700.0, 850.0, 1560.0, 1680.0, 1830.0, 1970.0);
+
+constexpr double kCrossTrackMax_m = 0.6, kUseMax = 0.9, kJerkMax_mps3 = 15.0;
+constexpr double kWarmFrom_mps = 67.0, kColdFrom_mps = 60.0;
+
+void expect_on_track(const StopFigures& f) {
+  EXPECT_TRUE(f.begun);
+  EXPECT_TRUE(f.stood);
+  EXPECT_FALSE(f.contact);
+  EXPECT_GT(f.wall_gap_m, 0.0);
+}
+
+StopFigures shown(const StopCase& stop) {
+  const StopFigures f = run_stop(stop);
+  std::printf("%s\n", row_of(stop, f).c_str());
+  return f;
+}
+
+class SafeStopFrom : public ::testing::TestWithParam<std::tuple<double, double>> {};
+
+TEST_P(SafeStopFrom, EndsOnTrackWithinTheEllipseOnItsPath) {
+  const auto [station_m, tyre_c] = GetParam();
+  const StopFigures f = shown({.station_m = station_m, .tyre_c = tyre_c});
+  expect_on_track(f);
+  EXPECT_GT(f.from_mps, tyre_c == kWarm_c ? kWarmFrom_mps : kColdFrom_mps);
+  EXPECT_LE(f.cross_track_m, kCrossTrackMax_m);
+  EXPECT_LE(f.use, kUseMax);
+  EXPECT_LE(f.jerk_mps3, kJerkMax_mps3);
+  EXPECT_LE(f.planned_jerk_mps3, kJerkMax_mps3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Turns, SafeStopFrom,
+                         ::testing::Combine(kPlaces, ::testing::Values(kWarm_c, kCold_c)));
+
+// The same place with all the brake there is: else the tests above would prove nothing.
+class FullBrakeFrom : public ::testing::TestWithParam<double> {};
+
+TEST_P(FullBrakeFrom, LosesTheCar) {
+  const StopFigures f =
+      shown({.station_m = 700.0, .tyre_c = GetParam(), .breakage = Breakage::kFullBrake});
+  EXPECT_TRUE(f.begun);
+  EXPECT_TRUE(f.contact || f.slip_deg > 45.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tyres, FullBrakeFrom, ::testing::Values(kWarm_c, kCold_c));
+
+TEST(SafeStop, AnEmergencyIsShorterAndStillWithinTheEllipse) {
+  for (const double tyre_c : {kWarm_c, kCold_c}) {
+    const StopFigures soft = shown({.station_m = 700.0, .tyre_c = tyre_c});
+    const StopFigures hard = shown({.station_m = 700.0, .tyre_c = tyre_c, .emergency = true});
+    expect_on_track(hard);
+    EXPECT_LT(hard.distance_m, soft.distance_m);
+    EXPECT_LT(hard.use, 1.0);
+  }
+}
+
+class BrokenStop : public ::testing::TestWithParam<std::tuple<Breakage, double>> {};
+
+TEST_P(BrokenStop, EndsOnTrack) {
+  const auto [breakage, tyre_c] = GetParam();
+  for (const double station_m : {440.0, 1830.0})
+    expect_on_track(shown({.station_m = station_m, .tyre_c = tyre_c, .breakage = breakage}));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Dead, BrokenStop,
+    ::testing::Combine(::testing::Values(Breakage::kPlanning, Breakage::kControl,
+                                         Breakage::kPlanningAndControl, Breakage::kPositions,
+                                         Breakage::kSensors),
+                       ::testing::Values(kWarm_c, kCold_c)));
+
+}  // namespace
+}  // namespace pitwall::testing

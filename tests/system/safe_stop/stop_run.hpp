@@ -1,0 +1,55 @@
+// One stop from speed at a place of Las Vegas Motor Speedway: a car starts from rest far enough
+// before it, drives at the speed that its planner allows, and at the place the operator's switch
+// disarms it, which is a controlled stop. Sensors with noise, localization in the loop; judged by
+// what is true of the plant.
+//   in     station, temperature of the tyres, what breaks at the stop
+//   out    StopFigures; `planned` is the stop trajectory that was ready when the stop began
+//   errors a run that cannot be built fails the test
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/trajectory.hpp"
+
+namespace pitwall::testing {
+
+enum class Breakage : std::uint8_t {
+  kNothing,
+  kFullBrake,           // the stop is planned and followed without any limit
+  kPlanning,            // planning is dead from the first tick of the stop on
+  kControl,             // control gives nothing usable
+  kPlanningAndControl,  // both
+  kPositions,           // no position, velocity and heading from 4 s after the begin on
+  kSensors              // no sample of any receiver from 4 s after the begin on
+};
+const char* text_of(Breakage breakage);
+
+struct StopCase {
+  double station_m = 0.0;
+  double tyre_c = 85.0;
+  Breakage breakage = Breakage::kNothing;
+  bool emergency = false;
+};
+
+struct StopFigures {
+  bool begun = false, stood = false, contact = false;
+  double from_mps = kUnset, from_bank_deg = kUnset;
+  double distance_m = 0.0, lasted_s = kUnset;
+  double cross_track_m = 0.0;  // largest, of the true place from the planned path
+  double use = 0.0;            // largest share of its friction that a tyre used
+  double use_before = 0.0;     // in the second before the stop began
+  double jerk_mps3 = 0.0;      // largest, of the true forward acceleration over 0.2 s
+  double planned_jerk_mps3 = 0.0;
+  double decel_mps2 = 0.0, slip_deg = 0.0;
+  double wall_gap_m = 1e9;
+  double end_s_m = kUnset, end_n_m = kUnset, end_bank_deg = kUnset;
+  world::Trajectory planned;
+};
+
+StopFigures run_stop(const StopCase& stop);
+std::string row_of(const StopCase& stop, const StopFigures& figures);
+
+}  // namespace pitwall::testing

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/autonomy/planning/stop_plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pitwall::planning {
+namespace {
+
+constexpr std::array kDecelShares{1.0, 0.87, 0.75, 0.65};
+constexpr std::array kChangeShares{1.0, 0.75, 0.5, 0.25};     // of the way to the low side
+constexpr std::array kBegins{0.0, 0.15, 0.3, 0.45, 0.6};      // of the way to the low speed
+constexpr double kChangeMost_mps2 = 1.5;                      // lateral, of the change alone
+constexpr double kChangeGripShare = 0.95;                     // of the share: the rest brakes
+constexpr double kChangeLeast_m = 40.0, kShiftLeast_m = 0.3;  // less is not worth a change
+constexpr double kLevel_rad = from_deg(1.0);                  // a road without a low side
+constexpr double kBeyond_m = 48.0;                            // clear past the place, too
+// What a place costs, in lengths of the shortest stop: 20 degrees of banking and a radius of 230 m.
+constexpr double kBankCost_per_rad = 0.75 / from_deg(20.0);
+constexpr double kBendCost_m = 0.35 * 230.0;
+
+// The speed over distance, without its jerk: where the car would be slow and where it would stand.
+struct Slowing {
+  std::array<double, kRoadPoints> speed2{};
+  std::size_t low = 0, stands = 0;  // points; stands == kRoadPoints: not within them
+};
+
+double distance_m(std::size_t point) { return static_cast<double>(point) * kRoadStep_m; }
+
+Slowing slow_down(const RoadAhead& road, double speed_mps, const StopLimits& limits,
+                  double low_speed_mps) {
+  Slowing out;
+  double v2 = speed_mps * speed_mps;
+  const double begin_m = 0.5 * speed_mps * limits.decel_max_mps2 / limits.jerk_max_mps3;
+  for (std::size_t i = 0; i < kRoadPoints; ++i) {
+    out.speed2[i] = v2;
+    if (v2 > low_speed_mps * low_speed_mps) out.low = i + 1;
+    if (v2 > 0.0) out.stands = i + 1;
+    const double decel =
+        distance_m(i) < begin_m ? 0.0 : stop_decel_mps2(road, distance_m(i), std::sqrt(v2), limits);
+    v2 = std::max(v2 - 2.0 * kRoadStep_m * decel, 0.0);
+  }
+  out.low = std::min(out.low, kRoadPoints - 1);
+  return out;
+}
+
+const LinePoint& nearest(const Line& line, double s_m) {
+  const auto i = static_cast<std::size_t>(line.wrap(s_m) / line.spacing_m + 0.5);
+  return line.points[i % line.points.size()];
+}
+
+double cost_of(const LinePoint& place, double stretch) {
+  return kBankCost_per_rad * std::abs(place.bank_rad) +
+         kBendCost_m * std::abs(place.curvature_per_m) + (stretch - 1.0);
+}
+
+StopLimits softened(const StopLimits& limits, double share) {
+  StopLimits out = limits;
+  out.decel_max_mps2 *= share;
+  return out;
+}
+
+// The gentlest of the decelerations that is worth its longer way.
+double choose_decel(const Line& line, const RoadAhead& road, const StopFrom& from,
+                    const StopLimits& limits, const StopPathParams& params, Slowing& best) {
+  best = slow_down(road, from.speed_mps, limits, params.low_speed_mps);
+  if (best.stands >= kRoadPoints) return 1.0;
+  const double shortest_m = std::max(distance_m(best.stands), kRoadStep_m);
+  double best_share = 1.0;
+  double best_cost = cost_of(nearest(line, from.s_m + shortest_m), 1.0);
+  for (const double share : kDecelShares) {
+    if (share == 1.0) continue;
+    const Slowing s =
+        slow_down(road, from.speed_mps, softened(limits, share), params.low_speed_mps);
+    const double length_m = distance_m(s.stands);
+    if (s.stands >= kRoadPoints || length_m > params.stretch_max * shortest_m) break;
+    const double cost = cost_of(nearest(line, from.s_m + length_m), length_m / shortest_m);
+    if (cost < best_cost) best_cost = cost, best_share = share, best = s;
+  }
+  return best_share;
+}
+
+// Whether the corner leaves room for the curvature that the change adds.
+bool is_carried(const StopLimits& limits, const LinePoint& p, const Offset& without,
+                const Offset& with, double speed2) {
+  if (std::abs(with.bend_per_m) * speed2 > kChangeMost_mps2) return false;
+  const auto load = [&](const Offset& o) {
+    return RoadLoad{std::sqrt(speed2), curvature_beside(p.curvature_per_m, o), p.bank_rad};
+  };
+  const double demand = std::abs(lateral_demand_mps2(load(with)));
+  const double share = kChangeGripShare * limits.grip_share;
+  return demand <= share * grip_mps2(limits.friction, load(with)) ||
+         demand <= std::abs(lateral_demand_mps2(load(without)));
+}
+
+bool is_clear(const LinePoint& p, double clearance_m, double without_m, double with_m) {
+  const double left_m = std::min(clearance_m, p.room_left_m - without_m);
+  const double right_m = std::min(clearance_m, p.room_right_m + without_m);
+  return p.room_left_m - with_m >= left_m && p.room_right_m + with_m >= right_m;
+}
+
+bool is_possible(const Line& line, const StopPath& path, const StopFrom& from,
+                 const StopLimits& limits, const StopPathParams& params, const Slowing& slowing) {
+  StopPath straight_on = path;
+  straight_on.low = {};
+  const std::size_t end =
+      std::min(slowing.stands + static_cast<std::size_t>(kBeyond_m / kRoadStep_m), kRoadPoints);
+  for (std::size_t i = 0; i < end; ++i) {
+    const double s_m = from.s_m + distance_m(i);
+    const LinePoint& p = nearest(line, s_m);
+    const Offset with = offset_at(line, path, s_m), without = offset_at(line, straight_on, s_m);
+    if (!is_clear(p, params.clearance_m, without.n_m, with.n_m)) return false;
+    if (!is_carried(limits, p, without, with, slowing.speed2[i])) return false;
+  }
+  return true;
+}
+
+// How far the low side lies at the place where the car will stand; zero where it is level.
+double way_down_m(const LinePoint& place, double offset_m, double clearance_m) {
+  if (std::abs(place.bank_rad) < kLevel_rad) return 0.0;
+  if (place.bank_rad > 0.0) return std::max(place.room_left_m - clearance_m - offset_m, 0.0);
+  return std::min(clearance_m - place.room_right_m - offset_m, 0.0);
+}
+
+}  // namespace
+
+Offset offset_at(const Line& line, const StopPath& path, double s_m) {
+  const Offset aside{path.beside_m, 0.0, 0.0};
+  return aside + offset_at(line, path.merge, s_m) + offset_at(line, path.low, s_m);
+}
+
+RoadAhead road_ahead(const Line& line, const StopPath& path, double s_m) {
+  RoadAhead road;
+  for (std::size_t i = 0; i < kRoadPoints; ++i) {
+    const double at_m = s_m + distance_m(i);
+    const LinePoint& p = nearest(line, at_m);
+    road.at[i] = {curvature_beside(p.curvature_per_m, offset_at(line, path, at_m)), p.bank_rad};
+  }
+  return road;
+}
+
+StopPath choose_stop(const Line& line, const StopFrom& from, const StopLimits& limits,
+                     const StopPathParams& params) {
+  StopPath path;
+  path.chosen = true;
+  path.merge = from.merge;
+  path.beside_m = from.beside_m;
+  const RoadAhead road = road_ahead(line, path, from.s_m);
+  Slowing slowing;
+  path.decel_share = choose_decel(line, road, from, limits, params, slowing);
+  const double stop_s_m = from.s_m + distance_m(std::min(slowing.stands, kRoadPoints - 1));
+  const double down_m =
+      way_down_m(nearest(line, stop_s_m), offset_at(line, path, stop_s_m).n_m, params.clearance_m);
+  const double low_m = distance_m(slowing.low);
+  const StopLimits softer = softened(limits, path.decel_share);
+  for (const double share : kChangeShares) {
+    if (std::abs(share * down_m) < kShiftLeast_m) break;
+    for (const double begin : kBegins) {
+      StopPath tried = path;
+      tried.low = {.from_s_m = from.s_m + begin * low_m,
+                   .length_m = (1.0 - begin) * low_m,
+                   .from_m = 0.0,
+                   .to_m = share * down_m};
+      if (tried.low.length_m < kChangeLeast_m) break;
+      if (is_possible(line, tried, from, softer, params, slowing)) return tried;
+    }
+  }
+  return path;
+}
+
+}  // namespace pitwall::planning

@@ -1,0 +1,49 @@
+// Where a stop goes: from where the car is, beside the line, down to the low side of the banking
+// before it is slow (a slow car slides down), and to a place that is straight and level if one lies
+// within the distance it has.
+//   in     the line, the car's place on it, the change of offset that the drive trajectory is in,
+//          the limits of the speed
+//   out    StopPath: a path that begins where the car is, with the direction and the curvature of
+//          the drive trajectory, and the share of the deceleration that ends it at the better place
+//   law    the change to the low side needs no more lateral acceleration than kChangeMost and than
+//          the corner leaves of the share of the friction ellipse, at the speed that the car has
+//          there; it is over where the car is at low_speed. The path comes no nearer to a wall than
+//          clearance_m, or where the car is nearer already, no nearer than that
+//   frames Map; offsets positive left
+//   errors none: where nothing better is possible the path stays beside the line
+//   cost   O(kRoadPoints) per tried place and change, below 0.2 ms; no allocation
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vehicle/autonomy/planning/offset.hpp"
+#include "vehicle/autonomy/planning/speed_profile.hpp"
+
+namespace pitwall::planning {
+
+struct StopPathParams {
+  double clearance_m = kUnset;    // 0.5..10: of the centre of gravity to a wall
+  double low_speed_mps = kUnset;  // 5..40: low by then
+  double stretch_max = kUnset;    // 1..2: how much longer than the shortest stop
+};
+
+struct StopPath {
+  bool chosen = false;
+  OffsetChange merge;        // of the drive trajectory, when the path was chosen
+  double beside_m = 0.0;     // the car beside the drive trajectory then
+  OffsetChange low;          // to the low side
+  double decel_share = 1.0;  // of the largest deceleration
+};
+
+Offset offset_at(const Line& line, const StopPath& path, double s_m);
+RoadAhead road_ahead(const Line& line, const StopPath& path, double s_m);
+
+struct StopFrom {
+  double s_m = kUnset, speed_mps = kUnset;
+  OffsetChange merge;
+  double beside_m = 0.0;
+};
+
+StopPath choose_stop(const Line& line, const StopFrom& from, const StopLimits& limits,
+                     const StopPathParams& params);
+
+}  // namespace pitwall::planning

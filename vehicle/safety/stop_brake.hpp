@@ -1,0 +1,74 @@
+// The brake of the stop of last resort: as much pressure as a deceleration needs, ramped, and kept
+// below what the tyres have left beside the lateral force (a hard stop on a banked turn spins the
+// car). Knows nothing of paths.
+//   in     speed, curvature and banking of the road, temperature of the coldest tyre
+//   out    grip, pressure
+//   frames lateral positive left; bank positive where the left side is lower
+//   law    friction circle a_x^2 + a_y^2 <= (mu N / m)^2,
+//          N / m = g cos(bank) + v^2 k sin(bank) + downforce v^2, a_y = v^2 k - g sin(bank),
+//          mu by the temperature of the tyres, of it the share that may be used; braking has
+//          brake_share of what the corner leaves, because the front axle locks before the rear one.
+//          Air, rolling and engine slow the car as well, and the brake needs not
+//   source Rajamani, Vehicle Dynamics and Control, 2nd ed., sec. 4.1
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/tyre_grip.hpp"
+
+namespace pitwall::safety {
+
+struct SafeStopParams {
+  double wheelbase_m = 2.971;                 // [2.5, 3.5]
+  double understeer_rad_per_mps2 = 0.0006;    // [-0.002, 0.01]
+  double brake_kpa_per_mps2 = 250.0;          // pressure for 1 m/s^2; [50, 1000]
+  double brake_ramp_kpa_per_s = 4000.0;       // controlled stop; [500, 20000]
+  double emergency_ramp_kpa_per_s = 12000.0;  // [brake_ramp, 30000]
+  double brake_max_kpa = 5500.0;              // [1000, 8191]
+  double hold_kpa = 1500.0;                   // at standstill; [300, 4000]
+  double decel_min_mps2 = 2.0;                // ends every stop; [0.5, 5]
+  double decel_max_mps2 = 8.0;                // controlled stop; [decel_min, 15]
+  double decel_without_plan_mps2 = 4.0;       // [decel_min, decel_max]
+  double emergency_decel_mps2 = 14.0;         // [decel_max, 25]
+  double friction = 1.3;                      // of warm tyres; [0.3, 2]
+  double brake_share = 0.65;                  // of the grip, when the front axle locks; [0.3, 1]
+  double downforce_per_m = 0.0013;            // lift / mass per v^2; [0, 0.01]
+  double grip_share = 0.7;                    // of the grip left beside the lateral force; (0, 1]
+  double emergency_grip_share = 0.9;          // [grip_share, 1]
+  double steer_settle_s = 0.8;                // the offset from the feed-forward decays; [0.1, 5]
+  double standstill_mps = 0.3;                // [0.1, 1]
+  double drag_per_m = 0.0;                    // drag / (mass v^2); [0, 0.01]
+  double coast_mps2 = 0.0;                    // rolling and engine, throttle closed; [0, 3]
+  world::TyreGrip tyres;                      // of the temperature; as planning has it
+};
+
+enum class StopKind : std::uint8_t { kControlled, kEmergency };
+
+// The grip of the tyres as an acceleration in the plane of the road, and the lateral part in use.
+struct Grip {
+  double total_mps2 = kUnset, lateral_mps2 = kUnset;
+  double free_mps2 = 0.0;  // deceleration without the brake
+};
+// tyre_c: of the coldest tyre; unset counts as cold.
+Grip grip_at(const SafeStopParams& params, double speed_mps, double curvature_per_m,
+             double bank_rad, double tyre_c = kUnset);
+
+// The pressure for a deceleration by the brake, within grip and maximum.
+double brake_for(const SafeStopParams& params, StopKind kind, double decel_mps2, const Grip& grip);
+
+// The brake alone: the next pressure towards a deceleration, within ramp, grip and maximum. Never
+// aims below decel_min: every stop ends. Used to add the emergency brake to a command whose
+// steering is still good.
+struct BrakeDemand {
+  double decel_mps2 = kUnset;
+  Grip grip;
+  double last_kpa = kUnset, dt_s = kUnset;
+};
+double brake_towards(const SafeStopParams& params, StopKind kind, const BrakeDemand& demand);
+
+// At standstill: the next pressure towards the one that holds the car, within the ramp.
+double hold_towards(const SafeStopParams& params, StopKind kind, double last_kpa, double dt_s);
+
+}  // namespace pitwall::safety

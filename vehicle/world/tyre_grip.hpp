@@ -1,0 +1,64 @@
+// How much of the friction of warm tyres is there, by their temperature: cold tyres have less.
+//   in     mean temperature of every tyre, as the car says it; a value that is missing, not a
+//          number or older than kTyreAgeMax is not known
+//   out    share of the warm friction, (0, 1], linear between the rows of the table
+//   law    the coldest tyre counts, and what is not known counts as cold: the first row. A tyre
+//          that is hotter than the last row has the last row's share: heat is not modelled
+//   source 29 C against at least 79 C: Saba et al., Fast and Modular Autonomy Software (a spin on
+//          cold tyres); the shares between are estimates
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/signals.hpp"
+
+namespace pitwall::world {
+
+inline constexpr std::size_t kTyreRows = 4;
+inline constexpr Duration kTyreAgeMax = seconds(30);  // a tyre takes minutes to cool
+
+struct TyreGrip {
+  std::array<double, kTyreRows> temperature_c{30.0, 50.0, 65.0, 79.0};  // rising
+  std::array<double, kTyreRows> share{0.60, 0.74, 0.86, 1.0};           // (0, 1], never falling
+
+  constexpr double cold() const { return share.front(); }
+};
+
+inline double coldest_c(const Heard<PerWheel>& tyres, Instant now) {
+  if (!tyres.fresh(now, kTyreAgeMax)) return kUnset;
+  double coldest = tyres.value.at[0];
+  for (const double tyre_c : tyres.value.at) {
+    if (!std::isfinite(tyre_c)) return kUnset;
+    coldest = std::min(coldest, tyre_c);
+  }
+  return coldest;
+}
+
+inline double share_at(const TyreGrip& grip, double tyre_c) {
+  if (!(tyre_c > grip.temperature_c.front())) return grip.share.front();
+  for (std::size_t i = 1; i < kTyreRows; ++i) {
+    const double from_c = grip.temperature_c[i - 1], to_c = grip.temperature_c[i];
+    if (tyre_c >= to_c) continue;
+    const double t = (tyre_c - from_c) / (to_c - from_c);
+    return grip.share[i - 1] + t * (grip.share[i] - grip.share[i - 1]);
+  }
+  return grip.share.back();
+}
+
+inline bool is_legal(const TyreGrip& grip) {
+  for (std::size_t i = 0; i < kTyreRows; ++i) {
+    if (!std::isfinite(grip.temperature_c[i])) return false;
+    if (!(grip.share[i] > 0.0 && grip.share[i] <= 1.0)) return false;
+    if (i > 0 && !(grip.temperature_c[i] > grip.temperature_c[i - 1])) return false;
+    if (i > 0 && !(grip.share[i] >= grip.share[i - 1])) return false;
+  }
+  return true;
+}
+
+}  // namespace pitwall::world
