@@ -116,6 +116,7 @@ localization::Params read_localization(yaml::StrictMap map, world::Receivers& re
   }
   p.filter = read_filter(map.map("filter"));
   p.checks = read_checks(map);
+  p.priorities = read_priorities(map);
   p.position_sigma_max_m = map.number("position_sigma_max_m", 0.05, 20.0);
   p.heading_sigma_max_rad = map.number("heading_sigma_max_rad", 0.005, 0.5);
   p.imu_timeout_s = map.number("imu_timeout_s", 0.02, 0.5);

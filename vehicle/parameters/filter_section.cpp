@@ -31,6 +31,14 @@ localization::FilterKind read_kind(yaml::StrictMap& map) {
   return static_cast<localization::FilterKind>(found - names.begin());
 }
 
+void read_preference(yaml::StrictMap& map, const char* key, localization::Preference& preference) {
+  constexpr std::array<const char*, 3> kNames{"both", "unit_0", "unit_1"};
+  const std::string name = map.text_or(key, kNames[static_cast<std::size_t>(preference)]);
+  const auto* found = std::find(kNames.begin(), kNames.end(), name);
+  if (found == kNames.end()) map.fail(key, "\"" + name + "\" is not both, unit_0 or unit_1");
+  preference = static_cast<localization::Preference>(found - kNames.begin());
+}
+
 }  // namespace
 
 localization::FilterParams read_filter(yaml::StrictMap map) {
@@ -54,6 +62,19 @@ localization::CheckParams read_checks(yaml::StrictMap& section) {
       checks.*r.value = map->number_or(std::string(r.name), checks.*r.value, r.least, r.most);
   }
   return checks;
+}
+
+localization::Priorities read_priorities(yaml::StrictMap& section) {
+  localization::Priorities priorities;
+  auto map = section.optional_map("priorities");
+  if (!map) return priorities;
+  read_preference(*map, "position", priorities.position);
+  read_preference(*map, "velocity", priorities.velocity);
+  read_preference(*map, "heading", priorities.heading);
+  read_preference(*map, "imu", priorities.imu);
+  if (priorities.imu == localization::Preference::kBoth)
+    map->fail("imu", "one unit is used, the other stands by: unit_0 or unit_1");
+  return priorities;
 }
 
 }  // namespace pitwall::parameters

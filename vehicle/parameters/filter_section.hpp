@@ -14,5 +14,7 @@ namespace pitwall::parameters {
 localization::FilterParams read_filter(yaml::StrictMap map);
 // May be left out, whole or in parts: the default is the module's.
 localization::CheckParams read_checks(yaml::StrictMap& section);
+// Likewise: which unit each channel prefers, "both", "unit_0" or "unit_1".
+localization::Priorities read_priorities(yaml::StrictMap& section);
 
 }  // namespace pitwall::parameters

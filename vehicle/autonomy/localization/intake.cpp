@@ -89,7 +89,7 @@ Gate admit(const Intake& in, const Evidence& evidence, std::uint8_t unit, const 
            Instant at) {
   const CheckParams& checks = in.params.checks;
   const Judged judged = judge(evidence, checks, in.params.off);
-  if (!evidence.known_unit || judged.gate == Gate::kExcluded) return judged.gate;
+  if (!evidence.known_unit) return judged.gate;
   Stream& stream = in.stream(evidence.source, unit);
   stream.seen = judged.seen;
   stream.trust.hear(std::max(checks.rate_window_s, kLately * gap_max_s(checks, evidence.source)),

@@ -22,9 +22,11 @@ Moment moved(const Moment& from, Instant to) {
   m.x_m += dt_s * from.velocity_mps[0];
   m.y_m += dt_s * from.velocity_mps[1];
   m.z_m += dt_s * from.velocity_mps[2];
-  // Yaw turns in the plane of the map, the rates in that of the car.
-  const double turn_rad =
-      dt_s * from.rate_rad_per_s[2] * std::cos(from.roll_rad) / std::cos(from.pitch_rad);
+  // Yaw turns about the vertical, the rates about the axes of the car.
+  const double turn_rad = dt_s *
+                          (from.rate_rad_per_s[1] * std::sin(from.roll_rad) +
+                           from.rate_rad_per_s[2] * std::cos(from.roll_rad)) /
+                          std::cos(from.pitch_rad);
   m.yaw_rad = wrap_pi(from.yaw_rad + turn_rad);
   const double c = std::cos(turn_rad), s = std::sin(turn_rad);
   m.velocity_mps[0] = c * from.velocity_mps[0] - s * from.velocity_mps[1];
@@ -63,7 +65,10 @@ void Trail::note(const Estimate& e, const Road& road) {
   m.yaw_rad = e.yaw_rad;
   m.pitch_rad = known(e.pitch_rad, -known(road.climb_rad, 0.0));
   m.roll_rad = known(e.roll_rad, -known(road.bank_rad, 0.0));
-  for (std::size_t i = 0; i < 3; ++i) m.rate_rad_per_s[i] = known(e.rate_rad_per_s[i], 0.0);
+  // A car that lies in its road and turns about the vertical pitches in its own frame.
+  m.rate_rad_per_s = {known(e.rate_rad_per_s[0], 0.0),
+                      known(e.rate_rad_per_s[1], e.rate_rad_per_s[2] * std::tan(m.roll_rad)),
+                      e.rate_rad_per_s[2]};
   const Eigen::Vector3d body{known(e.velocity_mps[0], 0.0), known(e.velocity_mps[1], 0.0),
                              known(e.velocity_mps[2], 0.0)};
   const Eigen::Vector3d map = rotation(m) * body;

@@ -1,4 +1,4 @@
-// Every check of a sample of a receiver, as one table: the reason, the monitor that looks, which
+// Every check of a sample that is not excluded, as one table: the reason, the monitor that looks, which
 // sources it judges, and the law. Read from top to bottom; the first row that a sample fails is its
 // verdict, every row that it fails is seen.
 //   in     Evidence: what is known of one sample; a number that does not apply is NaN, and no law
@@ -26,7 +26,7 @@ namespace pitwall::localization {
 struct Evidence {
   Source source = Source::kPosition;
   // Form.
-  bool excluded = false, known_unit = true, finite = true, plausible = true;
+  bool known_unit = true, finite = true, plausible = true;
   double least_sigma = kUnset;  // of all that the sample reports
   // Time.
   double age_s = kUnset, window_s = kUnset;  // how late the filter can still take it
@@ -81,35 +81,44 @@ inline constexpr auto kChecks = [] {
                  kSolution = world::Monitor::kSolution, kInnovation = world::Monitor::kInnovation,
                  kUnits = world::Monitor::kUnitAgreement;
   constexpr bool kRefuse = true, kNotice = false;
-  // clang-format off
   return std::to_array<CheckRow>({
-      {kExcluded,         kForm,       kAll,   kRefuse, [](E e, P) { return e.excluded; }},
-      {kUnknownUnit,      kForm,       kAll,   kRefuse, [](E e, P) { return !e.known_unit; }},
+      {kUnknownUnit, kForm, kAll, kRefuse, [](E e, P) { return !e.known_unit; }},
       // What has no solution says zeros or nothing; that is its reason, and not the zeros.
-      {kNotSolved,        kSolution,   kAll,   kRefuse, [](E e, P) { return !e.solved; }},
-      {kNotFinite,        kForm,       kAll,   kRefuse, [](E e, P) { return !e.finite; }},
-      {kNegativeVariance, kForm,       kAll,   kRefuse, [](E e, P) { return e.least_sigma < 0.0; }},
-      {kImplausible,      kForm,       kAll,   kRefuse, [](E e, P) { return !e.plausible; }},
+      {kNotSolved, kSolution, kAll, kRefuse, [](E e, P) { return !e.solved; }},
+      {kNotFinite, kForm, kAll, kRefuse, [](E e, P) { return !e.finite; }},
+      {kNegativeVariance, kForm, kAll, kRefuse, [](E e, P) { return e.least_sigma < 0.0; }},
+      {kImplausible, kForm, kAll, kRefuse, [](E e, P) { return !e.plausible; }},
 
-      {kFromTheFuture,    kStamp,      kAll,   kRefuse, [](E e, P p) { return -e.age_s > p.future_max_s; }},
-      {kTooOld,           kAge,        kAll,   kRefuse, [](E e, P) { return e.age_s > e.window_s; }},
-      {kRanBack,          kStamp,      kAll,   kRefuse, [](E e, P p) { return -e.after_newest_s > p.reorder_max_s; }},
-      {kRepeated,         kStamp,      kAll,   kRefuse, [](E e, P p) { return e.spacing_s < p.spacing_min_s; }},
-      {kFrozen,           kStamp,      kAll,   kRefuse, [](E e, P p) { return e.same_content && e.speed_mps > p.frozen_speed_min_mps; }},
+      {kFromTheFuture, kStamp, kAll, kRefuse, [](E e, P p) { return -e.age_s > p.future_max_s; }},
+      {kTooOld, kAge, kAll, kRefuse, [](E e, P) { return e.age_s > e.window_s; }},
+      {kRanBack, kStamp, kAll, kRefuse,
+       [](E e, P p) { return -e.after_newest_s > p.reorder_max_s; }},
+      {kRepeated, kStamp, kAll, kRefuse, [](E e, P p) { return e.spacing_s < p.spacing_min_s; }},
+      {kFrozen, kStamp, kAll, kRefuse,
+       [](E e, P p) { return e.same_content && e.speed_mps > p.frozen_speed_min_mps; }},
 
-      {kNotSolved,        kSolution,   kAll,   kRefuse, [](E e, P p) { return e.rank < p.position_rank_min; }},
-      {kTooUncertain,     kSolution,   kAll,   kRefuse, [](E e, P) { return e.sigma > e.sigma_max; }},
-      {kTooUncertain,     kSolution,   only(kPosition), kRefuse, [](E e, P p) { return e.height_sigma_m > p.height_sigma_max_m; }},
-      {kOldCorrections,   kSolution,   kFixes, kRefuse, [](E e, P p) { return e.differential_age_s > p.differential_age_max_s || e.solution_age_s > p.solution_age_max_s; }},
-      {kWrongBaseline,    kSolution,   only(kHeading), kRefuse, [](E e, P p) { return std::abs(e.baseline_error_m) > p.baseline_tolerance_m; }},
-      {kReceiverError,    kSolution,   kFixes, kRefuse, [](E e, P) { return !e.receiver_well && e.other_well; }},
+      {kNotSolved, kSolution, kAll, kRefuse, [](E e, P p) { return e.rank < p.position_rank_min; }},
+      {kTooUncertain, kSolution, kAll, kRefuse, [](E e, P) { return e.sigma > e.sigma_max; }},
+      {kTooUncertain, kSolution, only(kPosition), kRefuse,
+       [](E e, P p) { return e.height_sigma_m > p.height_sigma_max_m; }},
+      {kOldCorrections, kSolution, kFixes, kRefuse,
+       [](E e, P p) {
+         return e.differential_age_s > p.differential_age_max_s ||
+                e.solution_age_s > p.solution_age_max_s;
+       }},
+      {kWrongBaseline, kSolution, only(kHeading), kRefuse,
+       [](E e, P p) { return std::abs(e.baseline_error_m) > p.baseline_tolerance_m; }},
+      {kReceiverError, kSolution, kFixes, kRefuse,
+       [](E e, P) { return !e.receiver_well && e.other_well; }},
 
-      {kOutlier,          kInnovation, kFixes + kAttitude, kRefuse, [](E e, P) { return e.residual > e.jump_min && e.residual > e.jump_sigma_max; }},
-      {kDisagrees,        kUnits,      kFixes, kNotice, [](E e, P) { return e.apart > e.apart_max; }},
-      {kDisagrees,        kUnits,      kFixes, kRefuse, [](E e, P p) { return e.apart > e.apart_max && e.stray > p.worse_factor * e.other_stray; }},
-      {kOffCourse,        kUnits,      kHeading + kAttitude, kRefuse, [](E e, P p) { return std::abs(e.course_error_rad) > p.course_max_rad; }},
+      {kOutlier, kInnovation, kFixes + kAttitude, kRefuse,
+       [](E e, P) { return e.residual > e.jump_min && e.residual > e.jump_sigma_max; }},
+      {kDisagrees, kUnits, kFixes, kNotice, [](E e, P) { return e.apart > e.apart_max; }},
+      {kDisagrees, kUnits, kFixes, kRefuse,
+       [](E e, P p) { return e.apart > e.apart_max && e.stray > p.worse_factor * e.other_stray; }},
+      {kOffCourse, kUnits, kHeading + kAttitude, kRefuse,
+       [](E e, P p) { return std::abs(e.course_error_rad) > p.course_max_rad; }},
   });
-  // clang-format on
 }();
 
 struct Judged {

@@ -48,7 +48,6 @@ struct Case {
 const std::vector<Case>& cases() {
   using enum Source;
   static const std::vector<Case> all{
-      {Gate::kExcluded, {}, kPosition, [](Evidence& e) { e.excluded = true; }},
       {Gate::kUnknownUnit, {}, kImu, [](Evidence& e) { e.known_unit = false; }},
       {Gate::kNotFinite, {}, kVelocity, [](Evidence& e) { e.finite = false; }},
       {Gate::kNegativeVariance, {}, kHeading, [](Evidence& e) { e.least_sigma = -1e-9; }},
