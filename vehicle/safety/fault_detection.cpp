@@ -2,6 +2,7 @@
 #include "vehicle/safety/fault_detection.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -147,42 +148,46 @@ void localization(Finder& f, FaultState& state, Instant now) {
         ego.position_sigma_m);
 }
 
+// What is left of a receiver for localization.
+struct ReceiverState {
+  bool watched = false, silent = false, unsolved = false, uncertain = false;
+  bool is_good() const { return watched && !silent && !unsolved && !uncertain; }
+};
+ReceiverState receiver(const Finder& f, std::size_t unit) {
+  constexpr std::array kPosition{Stream::kGnss0Position, Stream::kGnss1Position};
+  constexpr std::array kSolution{Stream::kGnss0Solution, Stream::kGnss1Solution};
+  const WatchdogOutput& dog = f.in.watchdog;
+  ReceiverState out{.watched = dog[kPosition[unit]].health != Health::kUnwatched};
+  out.silent = out.watched && is_down(dog[kPosition[unit]]);
+  out.unsolved = out.watched && is_down(dog[kSolution[unit]]);
+  out.uncertain = out.watched && dog.sigma_m[unit] > f.params.gnss_sigma_max_m;  // unset: false
+  return out;
+}
+
+// The paper's rules; where each unit is lost in its own way, each way is a cause.
 void gnss(Finder& f) {
   const WatchdogOutput& dog = f.in.watchdog;
-  const auto pair = [&](Monitor monitor, Cause cause, Stream a, Stream b) {
-    f.add(monitor, cause, both_down(dog, a, b), age_s(dog, a, b));
-    return both_down(dog, a, b);
-  };
-  bool lost = false;
+  const ReceiverState a = receiver(f, 0), b = receiver(f, 1);
+  const bool has_any = a.watched || b.watched;
+  const bool none_good = has_any && !a.is_good() && !b.is_good();
+  bool linked = true;
   for (const Stream link : {Stream::kGnss0Link, Stream::kGnss1Link}) {
-    lost = lost || is_down(dog[link]);
+    linked = linked && !is_down(dog[link]);
     f.add(Monitor::kStreamAge, Cause::kGnssUnitDisconnected, is_down(dog[link]),
           dog[link].age.seconds());
   }
-  lost = pair(Monitor::kStreamAge, Cause::kGnssRateLost, Stream::kGnss0Position,
-              Stream::kGnss1Position) ||
-         lost;
-  lost = pair(Monitor::kSolution, Cause::kGnssSolutionLost, Stream::kGnss0Solution,
-              Stream::kGnss1Solution) ||
-         lost;
-  pair(Monitor::kStreamAge, Cause::kImuLost, Stream::kImu0, Stream::kImu1);
-
-  const auto is_uncertain = [&](std::size_t unit) {
-    return dog.sigma_m[unit] > f.params.gnss_sigma_max_m;  // unset: false
-  };
-  const auto is_bad = [&](Stream position, Stream solution, std::size_t unit) {
-    return is_down(dog[position]) || is_down(dog[solution]) || is_uncertain(unit);
-  };
-  const auto is_watched = [&](Stream s) { return dog[s].health != Health::kUnwatched; };
-  const bool has_0 = is_watched(Stream::kGnss0Position), has_1 = is_watched(Stream::kGnss1Position);
-  const bool bad_0 = has_0 && is_bad(Stream::kGnss0Position, Stream::kGnss0Solution, 0);
-  const bool bad_1 = has_1 && is_bad(Stream::kGnss1Position, Stream::kGnss1Solution, 1);
-  const bool none_good = (bad_0 || !has_0) && (bad_1 || !has_1);
-  const bool uncertain = (has_0 && is_uncertain(0)) || (has_1 && is_uncertain(1));
-  f.add(Monitor::kSolution, Cause::kGnssRtkLost, none_good && uncertain,
+  f.add(Monitor::kStreamAge, Cause::kGnssRateLost,
+        both_down(dog, Stream::kGnss0Position, Stream::kGnss1Position),
+        age_s(dog, Stream::kGnss0Position, Stream::kGnss1Position));
+  f.add(Monitor::kSolution, Cause::kGnssSolutionLost, none_good && (a.unsolved || b.unsolved),
+        age_s(dog, Stream::kGnss0Solution, Stream::kGnss1Solution));
+  f.add(Monitor::kSolution, Cause::kGnssRtkLost, none_good && (a.uncertain || b.uncertain),
         std::fmin(dog.sigma_m[0], dog.sigma_m[1]));
-  f.add(Monitor::kStreamAge, Cause::kGnssDegraded, (bad_0 || bad_1) && !none_good && !lost,
-        bad_1 ? 1.0 : 0.0);
+  f.add(Monitor::kStreamAge, Cause::kImuLost, both_down(dog, Stream::kImu0, Stream::kImu1),
+        age_s(dog, Stream::kImu0, Stream::kImu1));
+  const bool one_bad = has_any && ((a.watched && !a.is_good()) || (b.watched && !b.is_good()));
+  f.add(Monitor::kStreamAge, Cause::kGnssDegraded, one_bad && !none_good && linked,
+        a.is_good() ? 1.0 : 0.0);
 }
 
 void streams(Finder& f) {
