@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <initializer_list>
@@ -209,6 +210,25 @@ Result<int, Problem> run_once(const RunOptions& options) {
   return result->timely() ? kExitFailed : kExitUnusable;
 }
 
+// As many runs as fill the hours; the exit code of the first that failed.
+Result<int, Problem> run_hours(RunOptions options) {
+  const auto loaded = bench::load(options.scenario, "");
+  if (!loaded) return Unexpected{loaded.error()};
+  const double each_s = options.duration.value_or(loaded->scenario.duration).seconds();
+  const std::uint64_t first = options.seed.value_or(loaded->scenario.seed);
+  const auto runs = static_cast<std::uint64_t>(std::ceil(options.hours * 3600.0 / each_s));
+  for (std::uint64_t run = 0; run < runs; ++run) {
+    options.seed = first + run;
+    const auto code = run_once(options);
+    if (!code) return code;
+    std::printf(
+        "seed %llu: %llu of %llu runs of %.0f s\n", static_cast<unsigned long long>(*options.seed),
+        static_cast<unsigned long long>(run + 1), static_cast<unsigned long long>(runs), each_s);
+    if (*code != kExitPass) return code;
+  }
+  return kExitPass;
+}
+
 int report_failure(const RunOptions& options, const Problem& problem) {
   if (!options.report_folder.empty()) write_report(report_files(options.report_folder), problem);
   return refuse(problem);
@@ -217,7 +237,7 @@ int report_failure(const RunOptions& options, const Problem& problem) {
 }  // namespace
 
 int run_scenario(const RunOptions& options) {
-  const auto code = run_once(options);
+  const auto code = options.hours > 0.0 ? run_hours(options) : run_once(options);
   if (!code) return report_failure(options, code.error());
   if (options.report_folder.empty()) return *code;
   return write_report(report_files(options.report_folder), std::nullopt);
@@ -251,6 +271,12 @@ int run_verb(std::span<const std::string> args) {
                  "live: folder of car.keys and base.keys; default: new ones for this run");
   const auto* duration = app.add_option("--duration", duration_s, "seconds, instead of the file's")
                              ->check(CLI::Range(0.1, 36'000.0));
+  auto* live = app.get_option("--live");
+  app.add_option("--hours", options.hours, "lockstep: with one seed after the other, so long")
+      ->check(CLI::Range(0.001, 1'000.0))
+      ->excludes(log)
+      ->excludes(json)
+      ->excludes(live);
   const auto* with_seed =
       app.add_option("--seed", seed, "instead of the file's")->check(CLI::Range(0, 1'000'000'000));
   if (const auto code = ended_by(app, args)) return *code;

@@ -5,6 +5,8 @@
 //   --interface unix:PATH  live without either: a bus over a Unix socket, its hub started if needed
 //   --attach          live: the car runs already; what the bench adds is the rest of its world
 //   --log FILE        event log (MCAP)       --json FILE   result for programs
+//   --hours H         lockstep: again and again, each time with the next seed, until so many hours
+//                     have been driven or one failed
 //   --report FOLDER   both of these and their page and JUnit file: report.html, junit.xml
 //   --out FOLDER      live: summary of the car, candump of the bus
 //   out    exit code 0 passed, 1 an expectation failed, 2 bad input or bench failure
@@ -26,6 +28,7 @@ struct RunOptions {
   std::string report_folder;          // empty: no report
   std::optional<Duration> duration;   // instead of the scenario's
   std::optional<std::uint64_t> seed;  // likewise
+  double hours = 0.0;                 // 0: once
   bool live = false, here = false, candump = false, quiet = false;
   bool attach = false;       // live: the car is not ours, it runs already
   bool no_guardian = false;  // live: the car alone, although the guardian's program is there
