@@ -101,6 +101,7 @@ class Drive {
                         .gnss_byte_at = heard.gnss_byte_at,
                         .link = heard.link,
                         .guardian = parts_.guarded.view(now),
+                        .computer = computer(),
                         .last_run_armed = parts_.guarded.barred()};
     if (parts_.radio) desk_.fill(parts_.radio->endpoint(), in);
     const pipeline::Outputs out = pipeline::step(setup_, *car_, in);
@@ -151,12 +152,16 @@ class Drive {
     tell_schema(now);
   }
 
-  void show_computer(pipeline::RimCounters& counters) const {
-    if (!parts_.computer) return;
+  world::ComputerHealth computer() const {
+    if (!parts_.computer) return {};
     const io::ComputerReport report = parts_.computer->newest();
-    counters.processor_share = report.processor_share;
-    counters.memory_mib = report.memory_mib;
-    counters.temperature_c = report.temperature_c;
+    return {report.processor_share, report.memory_mib, report.temperature_c};
+  }
+  void show_computer(pipeline::RimCounters& counters) const {
+    const world::ComputerHealth health = computer();
+    counters.processor_share = health.processor_share;
+    counters.memory_mib = health.memory_mib;
+    counters.temperature_c = health.temperature_c;
   }
 
   void tell_schema(Instant now) {
