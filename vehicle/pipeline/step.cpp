@@ -36,7 +36,8 @@ planning::Followed followed(const Car& car) {
     case Follow::kNone:
       return planning::Followed::kNothing;
     case Follow::kDrive:
-      return planning::Followed::kDrive;
+      return car.supervisor.mode == Mode::kCoast ? planning::Followed::kCoast
+                                                 : planning::Followed::kDrive;
     case Follow::kStop:
       break;
   }
@@ -48,14 +49,14 @@ void plan_when_due(const Setup& setup, Car& car, const Outputs& out, const Input
   Plan& plan = car.plan;
   if (plan.ever && in.now - plan.at < setup.params.rates.planning) return;
   world::Trajectory stop = plan.output.stop;
-  plan.output = planning::step(setup.params.planning, setup.line, setup.track, plan.output.next,
-                               {.ego = out.ego,
-                                .race_control = out.race_control,
-                                .operator_speed_limit_mps = out.speed_limit_mps,
-                                .followed = followed(car),
-                                .tyre_c = world::coldest_c(
-                                    out.heard.signals.tyre_temperature_c, in.now)},
-                               in.now);
+  plan.output =
+      planning::step(setup.params.planning, setup.line, setup.track, plan.output.next,
+                     {.ego = out.ego,
+                      .race_control = out.race_control,
+                      .operator_speed_limit_mps = out.speed_limit_mps,
+                      .followed = followed(car),
+                      .tyre_c = world::coldest_c(out.heard.signals.tyre_temperature_c, in.now)},
+                     in.now);
   const bool good = !plan.output.drive.points.empty() && !plan.output.stop.points.empty();
   // Who stops without localization has no other path than the last one.
   if (plan.output.stop.points.empty()) plan.output.stop = stop;
@@ -184,8 +185,7 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
 
   out.steered = control::step(
       p.control, setup.gains, car.control,
-      {.ego = out.ego, .trajectory = path, .stopping = car.follow == Follow::kStop}, in.now,
-      in.dt);
+      {.ego = out.ego, .trajectory = path, .stopping = car.follow == Follow::kStop}, in.now, in.dt);
   car.control = out.steered.next;
 
   out.watchdog = safety::watch(p.watchdog, car.watchdog,
@@ -194,13 +194,14 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
                                 .race_control = out.heard.race_control,
                                 .gnss_byte_at = in.gnss_byte_at,
                                 .planner_at = car.plan.good_at,
-                                .radio_at = in.radio_at},
+                                .radio_at = in.radio_at,
+                                .use = car.orders.use},
                                in.now);
   out.radio = safety::descend(p.radio.ladder, car.radio_ladder,
                               out.watchdog[safety::Stream::kRadio], in.wishes.joystick, in.now);
   const bool resettable = car.bus_guard.failed || in.guardian.stopped;
-  out.bus_guard = safety::guard(p.bus_guard, car.bus_guard, out.heard.bus.link,
-                                out.requests.reset, in.now);
+  out.bus_guard =
+      safety::guard(p.bus_guard, car.bus_guard, out.heard.bus.link, out.requests.reset, in.now);
   const Mode before = car.supervisor.mode;
   out.chosen = supervise(setup, car, out, in);
   conclude(car.orders, before, out.chosen, resettable, in.now, out.answers);
