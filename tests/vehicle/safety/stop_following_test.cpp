@@ -68,6 +68,8 @@ struct Bicycle {
 Bicycle at_start(double off_m, double turned_rad, double speed_mps) {
   Bicycle b;
   b.params.stop.understeer_rad_per_mps2 = 0.0002;
+  b.params.stop.grip_share = 0.9;
+  b.state.tyre_c = 85.0;
   b.pose = {.x_m = 0.0, .y_m = off_m, .yaw_rad = turned_rad, .speed_mps = speed_mps};
   b.state.command = {.road_wheel_rad = 0.0, .throttle_fraction = 0.0, .brake_kpa = 0.0, .gear = 5};
   return b;
@@ -146,11 +148,12 @@ TEST(StopFollowing, StaysWithinTheGripThatTheCornerLeaves) {
     b.now += milliseconds(10);
     follow_stop(b.params, b.state, path, b.pose, b.now);
   }
-  const Grip grip = grip_at(b.params.stop, 60.0, k, 0.0);
-  const double left = std::sqrt(
-      std::max(0.0, grip.total_mps2 * grip.total_mps2 - grip.lateral_mps2 * grip.lateral_mps2));
+  const Grip grip = grip_at(b.params.stop, 60.0, k, 0.0, b.state.tyre_c);
+  const double usable = b.params.stop.grip_share * grip.total_mps2;
+  const double left =
+      std::sqrt(std::max(0.0, usable * usable - grip.lateral_mps2 * grip.lateral_mps2));
   const double asked = b.state.command.brake_kpa / b.params.stop.brake_kpa_per_mps2;
-  EXPECT_LE(asked, std::max(b.params.stop.grip_share * left, b.params.stop.decel_min_mps2) + 1e-9);
+  EXPECT_LE(asked, std::max(b.params.stop.brake_share * left, b.params.stop.decel_min_mps2) + 1e-9);
 }
 
 }  // namespace

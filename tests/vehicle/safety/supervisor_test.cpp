@@ -237,6 +237,7 @@ TEST(Supervisor, AnEmergencyBrakesHarderThanControlWishesAndKeepsItsSteering) {
   Drive d;
   d.race();
   d.car.race_control.vehicle = world::VehicleFlag::kPurpleEmergency;
+  d.car.signals.tyre_temperature_c = {{{85.0, 85.0, 85.0, 85.0}}, Instant{} + seconds(3600), true};
   d.car.control.road_wheel_rad = 0.012;
   d.car.control.brake_kpa = 0.0;
   double most_kpa = 0.0;
