@@ -11,6 +11,8 @@
 namespace pitwall::bench {
 namespace {
 
+constexpr std::int64_t kMostCounted = std::numeric_limits<std::int64_t>::max();
+
 CarSummary::Counts counts_of(yaml::StrictMap map) {
   CarSummary::Counts counts;
   for (const std::string& name : map.keys())
@@ -74,6 +76,18 @@ void read_radio(yaml::StrictMap map, CarSummary& car) {
   }
 }
 
+CarReceiver receiver_of(yaml::StrictMap map) {
+  CarReceiver receiver{.link = map.text("link"), .kind = map.text("kind"), .counts = {}};
+  for (const std::string& name : map.keys()) {
+    if (name == "link" || name == "kind") continue;
+    const CarSummary::Counts refused =
+        name == "refused" ? counts_of(map.map(name))
+                          : CarSummary::Counts{{name, map.integer(name, 0, kMostCounted)}};
+    receiver.counts.insert(receiver.counts.end(), refused.begin(), refused.end());
+  }
+  return receiver;
+}
+
 }  // namespace
 
 Result<CarSummary, Problem> read_car_summary(const std::string& path) {
@@ -104,6 +118,7 @@ Result<CarSummary, Problem> read_car_summary(const std::string& path) {
     for (yaml::StrictMap& row : map.maps("messages")) car.messages.push_back(message_of(row));
     for (yaml::StrictMap& row : map.maps("losses")) car.losses.push_back(loss_of(row));
     read_radio(map.map("radio"), car);
+    for (yaml::StrictMap& row : map.maps("receivers")) car.receivers.push_back(receiver_of(row));
     car.refused_by_kind = counts_of(map.map("refused_by_kind"));
     car.gate_verdicts = counts_of(map.map("gate_verdicts"));
     car.step_p50_us = map.number("step_p50_us", 0.0, 1e9);

@@ -25,6 +25,12 @@ struct CarMessage {
   Instant last{};
 };
 
+// One of its receivers, as vehicle/io/receiver_port.hpp writes it.
+struct CarReceiver {
+  std::string link, kind;
+  std::vector<std::pair<std::string, std::uint64_t>> counts;
+};
+
 struct CarSummary {
   using Counts = std::vector<std::pair<std::string, std::uint64_t>>;
 
@@ -39,6 +45,7 @@ struct CarSummary {
   // Of its radio, as vehicle/io/radio_summary.hpp writes them; empty where it had none.
   Counts radio, radio_refused, radio_commands;
   std::vector<Counts> radio_paths;
+  std::vector<CarReceiver> receivers;
   std::vector<CarMessage> messages;
   std::vector<world::LossReport> losses;  // the first of loss_reports
   double step_p50_us = kUnset, step_p99_us = kUnset, step_max_us = kUnset;

@@ -7,6 +7,7 @@
 
 #include "protocol/transport/file.hpp"
 #include "vehicle/io/radio_summary.hpp"
+#include "vehicle/io/receiver_port.hpp"
 #include "vehicle/io/tally.hpp"
 
 namespace pitwall::bench {
@@ -123,6 +124,30 @@ TEST_F(CarSummaryFile, IsReadAsTheCarWroteIt) {
   EXPECT_EQ(car->refused_by_kind[8],
             (std::pair<std::string, std::uint64_t>{"implausible_slew", 9}));
   EXPECT_EQ(car->gate_verdicts.size(), safety::kVerdicts);
+}
+
+TEST_F(CarSummaryFile, ItsReceiversAreReadAsTheCarHadThem) {
+  std::vector<io::ReceiverPort> ports;
+  for (const auto kind : {world::ReceiverKind::kNovatelOem7, world::ReceiverKind::kVectorNav}) {
+    auto port = io::ReceiverPort::open(io::UdpIntake{}, 0, {.kind = kind});
+    ASSERT_TRUE(port);
+    ports.push_back(*std::move(port));
+  }
+  const std::string text =
+      io::summary_json({}, some_totals(), some_health(), {}, "{}", io::receivers_json(ports));
+  const auto car = read_car_summary(write(text));
+  ASSERT_TRUE(car) << to_string(car.error()) << text;
+  ASSERT_EQ(car->receivers.size(), 2u);
+  EXPECT_EQ(car->receivers[0].kind, "novatel_oem7");
+  EXPECT_EQ(car->receivers[1].kind, "vectornav");
+  EXPECT_EQ(car->receivers[0].link, "udp:127.0.0.1:0");
+  const auto has = [&](const char* name) {
+    return std::ranges::any_of(car->receivers[0].counts,
+                               [&](const auto& count) { return count.first == name; });
+  };
+  for (const char* name :
+       {"bytes", "bad_checksum", "positions", "stamps_frozen", "negative standard deviation"})
+    EXPECT_TRUE(has(name)) << name;
 }
 
 TEST_F(CarSummaryFile, ItsRadioIsReadAsTheCarHadIt) {
