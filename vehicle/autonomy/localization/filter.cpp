@@ -168,13 +168,6 @@ Estimate said_by(const SpatialBelief& b) {
   return e;
 }
 
-// In Map; a planar filter moves in the level.
-Vector3d over_ground(const Estimate& e) {
-  const double pitch = or_else(e.pitch_rad, 0.0), roll = or_else(e.roll_rad, 0.0);
-  const Vector3d body(e.velocity_mps[0], e.velocity_mps[1], or_else(e.velocity_mps[2], 0.0));
-  return rotation_of({e.yaw_rad, pitch, roll}) * body;
-}
-
 }  // namespace
 
 void start(FilterState& state, const FilterParams& params, const Seed& seed) {
@@ -218,9 +211,10 @@ Estimate estimate_at(FilterState& state, const FilterParams& params, Instant now
 
 Estimate publish(FilterState& state, const FilterParams& params, Instant now) {
   Estimate e = estimate_at(state, params, now);
-  const Vector3d believed =
-      Vector3d(e.position_m[0], e.position_m[1], or_else(e.position_m[2], 0.0));
-  const Vector3d velocity = over_ground(e);
+  if (state.kind == FilterKind::kPlanar) return e;
+  const Vector3d believed = as_vector(e.position_m);
+  const Vector3d velocity =
+      rotation_of({e.yaw_rad, e.pitch_rad, e.roll_rad}) * as_vector(e.velocity_mps);
   Vector3d said = believed;
   Published& last = state.published;
   if (last.ever && now > last.at) {
@@ -234,7 +228,7 @@ Estimate publish(FilterState& state, const FilterParams& params, Instant now) {
   last = {.ever = true, .at = now, .position_m = array(said), .velocity_mps = array(velocity)};
   e.correction_left_m = (believed - said).norm();
   e.position_sigma_m = std::hypot(e.position_sigma_m, e.correction_left_m);
-  e.position_m = {said.x(), said.y(), std::isfinite(e.position_m[2]) ? said.z() : kUnset};
+  e.position_m = array(said);
   return e;
 }
 

@@ -74,9 +74,9 @@ struct FilterState {
 
 void start(FilterState& state, const FilterParams& params, const Seed& seed);
 
-// After start(). The innovation is the measurement's own at its place in time; of kImu, kRoad, kSlip
-// and kWiden none is told. A wheel speed or an attitude that comes too soon after the last one to
-// say anything new is accepted without one.
+// After start(). The innovation is the measurement's own at its place in time; of kImu, kRoad,
+// kSlip and kWiden none is told. A wheel speed or an attitude that comes too soon after the last
+// one to say anything new is accepted without one.
 std::optional<Innovation> insert(FilterState& state, const FilterParams& params,
                                  const Measurement& measurement);
 
@@ -88,7 +88,8 @@ Estimate estimate_at(FilterState& state, const FilterParams& params, Instant now
 
 // The same for those who steer by it, once per tick: a correction after dead reckoning moves the
 // position no faster than reentry_mps, and what is left of it counts in position_sigma_m. The
-// filter itself stays as it is, and so does its consistency.
+// filter itself stays as it is, and so does its consistency. The planar filter says what it
+// believes, as the paper's does.
 Estimate publish(FilterState& state, const FilterParams& params, Instant now);
 
 }  // namespace pitwall::localization

@@ -12,8 +12,8 @@
 //                                   const Measurement* next_imu)
 //          which takes a measurement in at its instant
 //   errors insert_into() gives nothing for what is older than the first entry
-//   cost   insert_into() and settle(): O(entries since the oldest insertion that is not folded yet +
-//          kMemoStride) folds; no allocation
+//   cost   insert_into() and settle(): O(entries since the oldest insertion that is not folded yet
+//          + kMemoStride) folds; no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -11,7 +11,7 @@
 namespace pitwall::localization {
 namespace {
 
-const MotionNoise kNoise = testing::recommended().timeline.noise;
+const MotionNoise kNoise = testing::recommended().filter.planar.noise;
 constexpr std::array<double, 2> kOpenGate{1e12, 1e12};
 
 std::vector<Vector6> states_over_the_envelope() {
