@@ -195,7 +195,10 @@ void pass_on(const FrameFault& fault, FrameFaultState& state, FrameFaultState::O
   TimedFrame extra = timed;
   extra.frame = extra_frame(fault, timed.frame);
   const std::uint32_t more = copies(fault, one);
-  for (std::uint32_t i = 0; i < more; ++i) put(extra);
+  for (std::uint32_t i = 0; i < more; ++i) {
+    if (fault.kind == FrameFaultKind::kDuplicate) extra.at += kCopyAfter;
+    put(extra);
+  }
   if (more > 0 || !(timed.frame == before.frame) || timed.at != before.at) ++one.acted;
 }
 

@@ -28,7 +28,7 @@ enum class FrameFaultKind : std::uint8_t {
   kDropBurst,      // F02 with `probability` a burst of `count` frames is lost
   kDropAll,        // F03 one id, F04 without an id
   kDelay,          // F05 `delay` plus up to `jitter`
-  kDuplicate,      // F06 `count` copies more, with `probability`
+  kDuplicate,      // F06 `count` copies more, kCopyAfter one another, with `probability`
   kBitFlip,        // F07 `count` bits of the payload, with `probability`
   kStuckCounter,   // F08 the counter stays at its value when the fault began
   kCounterJump,    // F09 the counter is `count` ahead
@@ -45,6 +45,8 @@ enum class FrameFaultKind : std::uint8_t {
   kSignalSet      // F17, F18 says `value`, be it out of its range
 };
 inline constexpr std::size_t kFrameFaultKinds = 18;
+// A controller has one place per identifier: a copy at once would replace its original.
+inline constexpr Duration kCopyAfter = milliseconds(1);
 inline constexpr std::uint32_t kBeside = 1301;  // brake_pressure_report
 
 std::string_view name_of(FrameFaultKind kind);  // "drop", "drop_burst", ... as in scenario files

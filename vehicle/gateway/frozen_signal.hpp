@@ -8,7 +8,7 @@
 //          an actuator that is told nothing, or while the witness rests: a straight line at one
 //          speed freezes nothing
 //   limits command: 1.7 deg of the steering motor, 300 kPa, a tenth of the pedal, each as told
-//          0.1 s ago (delay and lag of the actuators); speed: 0.5 m/s
+//          0.1 s ago (delay and lag of the actuators); speed: 0.3 m/s
 //   cost   no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -50,7 +50,8 @@ struct FrozenState {
 
 void remember(FrozenState& state, const world::ActuatorCommand& command, bool told, Instant now);
 
-// Once per tick, after its frames. A signal that is frozen is as old as its freezing.
+// Once per tick, after its frames. A speed that is frozen is as old as its freezing; an actuator's
+// feedback stays as it is, so that what compares it with the command has something to compare.
 void judge_frozen(FrozenState& state, world::VehicleSignals& signals, Instant now);
 
 }  // namespace pitwall::gateway

@@ -28,7 +28,9 @@ TEST(Signals, EachHasItsOwnName) {
   const std::set<std::string_view> names(kSignalNames.begin(), kSignalNames.end());
   EXPECT_EQ(names.size(), kSignals);
   EXPECT_EQ(names.count(""), 0u);
-  EXPECT_EQ(signal_names().size(), kSignals);
+  ASSERT_EQ(signal_names().size(), kSignals + world::kMonitors);
+  EXPECT_EQ(signal_names()[kSignals], "seen_message_age");
+  EXPECT_EQ(signal_names().back(), "seen_module");
   const auto name = [](Signal signal) { return kSignalNames[static_cast<std::size_t>(signal)]; };
   EXPECT_EQ(name(Signal::kSpeed), "speed_mps");
   EXPECT_EQ(name(Signal::kWallGap), "wall_gap_m");
@@ -63,6 +65,39 @@ TEST(Signals, AreTheTruthOfTheRig) {
   EXPECT_NEAR(value(v, Signal::kPositionError), 5.0, 1e-9);
   EXPECT_NEAR(value(v, Signal::kYawError), 2.0 * std::numbers::pi - 6.0, 1e-9)
       << "the short way round";
+}
+
+TEST(Signals, WhatAMonitorSeesIsKnownWhereTheCarIsInTheSameProcess) {
+  const Rig rig = standing_rig();
+  world::MonitorSet seen;
+  seen.add(world::Monitor::kCounter);
+  const SignalValues known = observe({.rig = rig, .car = {.seen = seen}});
+  const SignalValues unknown = observe({.rig = rig, .car = {}});
+  for (std::size_t m = 0; m < world::kMonitors; ++m) {
+    const bool sees = m == static_cast<std::size_t>(world::Monitor::kCounter);
+    EXPECT_EQ(known[kSignals + m], sees ? 1.0 : 0.0);
+    EXPECT_TRUE(std::isnan(unknown[kSignals + m])) << "by telemetry nobody says so";
+  }
+}
+
+TEST(Signals, TheLiveBenchRefusesWhatOnlyLockstepCanJudge) {
+  scenario::Scenario s = lap().scenario;
+  EXPECT_FALSE(unjudged_by(BenchMode::kLive, s));
+  s.expect.push_back({.kind = scenario::ExpectKind::kDetects,
+                      .signal = "seen_counter",
+                      .relation = "==",
+                      .value = 1.0,
+                      .from = seconds(1),
+                      .until = seconds(2),
+                      .place = "file.yaml:9:5"});
+  EXPECT_FALSE(unjudged_by(BenchMode::kLockstep, s));
+  const auto problem = unjudged_by(BenchMode::kLive, s);
+  ASSERT_TRUE(problem);
+  EXPECT_EQ(problem->place, "file.yaml:9:5");
+  const auto expectations = expectations_of(s);
+  ASSERT_TRUE(expectations) << to_string(expectations.error());
+  EXPECT_EQ(expectations->back().kind, grading::Kind::kDetects);
+  EXPECT_EQ(expectations->back().limit, seconds(1));
 }
 
 TEST(Signals, AreNumbersBeforeTheCarHasSpoken) {

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "hil/bench/loading.hpp"
+#include "hil/bench/lockstep.hpp"
 #include "hil/matrix/catalogue.hpp"
 #include "hil/matrix/fault_matrix.hpp"
 
@@ -57,6 +59,26 @@ TEST(FaultMatrix, EveryFaultOfTheCatalogueHasAScenarioThatDetects) {
   }
   for (const CatalogueRow& row : kCatalogue)
     EXPECT_TRUE(filled.contains(std::string(row.id))) << row.id << ": " << row.fault;
+}
+
+// From the green flag through two turns at speed: no monitor sees anything.
+TEST(FaultMatrix, HealthyDrivingAlarmsNobody) {
+  auto scenario = loaded("f01_frames_lost");
+  ASSERT_TRUE(scenario);
+  scenario->scenario.faults.clear();
+  scenario->scenario.expect.clear();
+  scenario->scenario.duration = seconds(60);
+  std::map<std::string, double> alarms;  // first instant
+  const auto watch = [&alarms](const pipeline::Outputs& out, const bench::Rig&, Instant now) {
+    if (now < Instant{} + seconds(12)) return;
+    for (std::size_t m = 0; m < world::kMonitors; ++m)
+      if (out.seen.has(static_cast<world::Monitor>(m)))
+        alarms.try_emplace(std::string(world::kMonitorNames[m]), (now - Instant{}).seconds());
+  };
+  bench::LockstepOptions options;
+  options.watch = watch;
+  ASSERT_TRUE(bench::run_lockstep(scenario->scenario, scenario->setup, options));
+  for (const auto& [monitor, at_s] : alarms) ADD_FAILURE() << monitor << " at " << at_s << " s";
 }
 
 TEST(FaultMatrix, EveryMonitorIsAsked) {
