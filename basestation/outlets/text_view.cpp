@@ -171,11 +171,12 @@ std::vector<TextLine> sensor_lines(const picture::Picture& picture, Instant now)
   };
   const bool some = excluded.value > 0.0;
   std::vector<TextLine> lines;
-  lines.push_back({"sensors   excluded by the operator: " + word(field("localization.excluded")) +
-                       "   imu0: " + word(field("localization.imu0_verdict")) +
+  lines.push_back({"sensors   excluded by the operator: " + word(field("localization.excluded")),
+                   some ? Tone::kWarning : Tone::kPlain});
+  lines.push_back({"          imu0: " + word(field("localization.imu0_verdict")) +
                        "   imu1: " + word(field("localization.imu1_verdict")) +
                        "   wheels: " + word(field("localization.wheel_verdict")),
-                   some ? Tone::kWarning : Tone::kPlain});
+                   Tone::kPlain});
   const auto receiver = [&](const char* name, telemetry::FieldIndex position,
                             telemetry::FieldIndex velocity, telemetry::FieldIndex heading) {
     if (picture.view(position, now).quality == Quality::kNever) return;

@@ -18,16 +18,22 @@ int decimals_of(double resolution) {
 // Names of the first bits that are set, and how many more there are: a line of the screen holds it.
 std::string bits_text(std::string_view labels, std::uint32_t bits) {
   constexpr int kNamed = 3;
+  constexpr std::size_t kWidth = 80;  // of the names
   if (bits == 0) return "none";
   std::string text;
-  int count = 0;
+  int named = 0, more = 0;
   for (std::size_t k = 0; k < 32; ++k) {
-    if ((bits >> k & 1U) == 0 || ++count > kNamed) continue;
+    if ((bits >> k & 1U) == 0) continue;
     const auto label = telemetry::label_at(labels, k);
-    text += count == 1 ? "" : ", ";
-    text += label.empty() ? "bit " + std::to_string(k) : std::string{label};
+    const std::string name = label.empty() ? "bit " + std::to_string(k) : std::string{label};
+    const bool room = named == 0 || text.size() + name.size() <= kWidth;
+    if (more > 0 || named == kNamed || !room) {
+      ++more;
+      continue;
+    }
+    text += (named++ == 0 ? "" : ", ") + name;
   }
-  return count > kNamed ? text + " and " + std::to_string(count - kNamed) + " more" : text;
+  return more > 0 ? text + " and " + std::to_string(more) + " more" : text;
 }
 
 }  // namespace

@@ -39,7 +39,8 @@ TEST(OperatorWords, CommandsReachTheCarAsTheyWereMeant) {
   } cases[] = {{"command speed_limit 30.5", CommandType::kSpeedLimit, 30.5},
                {"  command\tarm  arm \n", CommandType::kArm, 1},
                {"command role attacker", CommandType::kRole, 2},
-               {"command receiver_use without_unit_0", CommandType::kReceiverUse, 1},
+               {"command sensors_excluded imu1", CommandType::kSensorsExcluded, 8},
+               {"command sensors_excluded 3", CommandType::kSensorsExcluded, 3},
                {"command race_line 4", CommandType::kRaceLine, 4}};
   for (const auto& c : cases) {
     ASSERT_TRUE(pit.say("take 7")) << "who holds it renews it";
@@ -52,6 +53,42 @@ TEST(OperatorWords, CommandsReachTheCarAsTheyWereMeant) {
     ASSERT_FALSE(pit.station->commands().empty());
     EXPECT_EQ(pit.station->commands().back().fate, telemetry::Outcome::kApplied) << c.words;
   }
+}
+
+// One sensor after the other, quicker than the car tells its set: none is forgotten.
+TEST(OperatorWords, SensorsAreExcludedAndAdmittedOneByOne) {
+  Pit pit;
+  pit.run(seconds(1));
+  ASSERT_TRUE(pit.say("take 7"));
+  EXPECT_FALSE(pit.say("exclude gnss0")) << "nobody knows what the car excludes";
+  pit.set(field("localization.excluded"), 0.0);
+  pit.run(seconds(1));
+  const struct {
+    const char* words;
+    double set;
+  } cases[] = {{"exclude gnss0", 1}, {"exclude imu1", 9},    {"exclude gnss0", 9},
+               {"admit gnss0", 8},   {"exclude wheels", 24}, {"admit imu1", 16}};
+  for (const auto& c : cases) {
+    ASSERT_TRUE(pit.say("take 7"));
+    const auto due = pit.arrives(c.words);
+    ASSERT_TRUE(due) << c.words;
+    EXPECT_EQ(due->command.type, CommandType::kSensorsExcluded);
+    EXPECT_EQ(due->command.argument, c.set) << c.words;
+    pit.car->decide(due->id, telemetry::Outcome::kApplied, pit.now);
+    pit.set(field("localization.excluded"), c.set);
+  }
+  ASSERT_TRUE(pit.say("take 7"));
+  const auto due = pit.arrives("exclude gnss1");
+  ASSERT_TRUE(due);
+  EXPECT_EQ(due->command.argument, 18);
+  pit.car->decide(due->id, telemetry::Outcome::kRefused, pit.now);
+  pit.run(seconds(1));
+  ASSERT_TRUE(pit.say("take 7"));
+  const auto next = pit.arrives("exclude imu0");
+  ASSERT_TRUE(next);
+  EXPECT_EQ(next->command.argument, 20) << "what was refused is not counted in";
+  for (const char* wrong : {"exclude", "exclude gnss2", "admit lidar", "exclude gnss0 gnss1"})
+    EXPECT_FALSE(pit.say(wrong)) << wrong;
 }
 
 TEST(OperatorWords, AStopIsLatchedAndLetGoByItsChallenge) {
