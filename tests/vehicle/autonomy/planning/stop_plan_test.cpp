@@ -1,0 +1,190 @@
+// Laws of the stop: for random speeds, roads and tyres it stays inside its share of the ellipse,
+// slows only, keeps its jerk, keeps its distance to the walls, ends lower, and never steps.
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/autonomy/planning/stop_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "tests/vehicle/autonomy/planning/stadium.hpp"
+
+namespace pitwall::planning {
+namespace {
+
+using testing::ego_on;
+using testing::green;
+using testing::recommended;
+
+const Params kParams = recommended();
+
+StopLimits limits_on(double tyre_c) {
+  return {on_tyres(kParams.line.friction, tyre_c), kParams.stop_grip_share,
+          kParams.stop_decel_max_mps2, kParams.stop_jerk_max_mps3};
+}
+
+// A road whose curvature and banking wander as those of an oval do: by ramps of 60 m and more.
+RoadAhead random_road(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> curvature{-0.003, 0.0045}, bank{-0.05, 0.35},
+      ramp{60, 200};
+  RoadAhead road;
+  RoadSample from{curvature(random), bank(random)};
+  std::size_t i = 0;
+  while (i < kRoadPoints) {
+    const RoadSample to{curvature(random), bank(random)};
+    const auto steps = static_cast<std::size_t>(ramp(random) / kRoadStep_m);
+    for (std::size_t k = 0; k < steps && i < kRoadPoints; ++k, ++i) {
+      const double t = static_cast<double>(k) / static_cast<double>(steps);
+      road.at[i] = {from.curvature_per_m + t * (to.curvature_per_m - from.curvature_per_m),
+                    from.bank_rad + t * (to.bank_rad - from.bank_rad)};
+    }
+    from = to;
+  }
+  return road;
+}
+
+// What the tyres are asked for, as a share of their ellipse, written anew: the corner and the front
+// axle, which brakes with brake_front of the force on load_front of the load and what shifts to it.
+double used(const FrictionParams& car, const RoadSample& p, double v, double brake) {
+  const double g = 9.80665, c = std::cos(p.bank_rad), s = std::sin(p.bank_rad);
+  const double n = g * c + v * v * p.curvature_per_m * s + car.downforce_per_m * v * v;
+  const double lateral = std::abs(v * v * p.curvature_per_m * c - g * s) / (car.friction * n);
+  const double front =
+      car.brake_front * brake /
+      (car.long_friction * car.friction * (car.load_front * n + car.load_shift * brake));
+  return std::hypot(lateral, front);
+}
+
+TEST(StopPlan, DemandStaysInsideItsShareOfTheEllipseOnEveryRoadAtEveryTemperature) {
+  std::mt19937_64 random{7};
+  std::uniform_real_distribution<double> speed{5.0, 68.0}, tyre{10.0, 100.0};
+  for (int run = 0; run < 200; ++run) {
+    const RoadAhead road = random_road(random);
+    const StopLimits limits = limits_on(tyre(random));
+    SpeedReference now{speed(random), 0.0};
+    double d = 0.0, last_accel = 0.0;
+    for (int i = 0; i < 3000 && now.speed_mps > 0.0 && d < 1100.0; ++i) {
+      constexpr double kDt_s = 0.02;
+      RoadAhead from = road;
+      const auto skip = static_cast<std::size_t>(d / kRoadStep_m + 0.5);
+      for (std::size_t k = 0; k < kRoadPoints; ++k)
+        from.at[k] = road.at[std::min(k + skip, kRoadPoints - 1)];
+      const SpeedReference next = advance_stop(from, now, limits, kDt_s);
+      ASSERT_LE(next.speed_mps, now.speed_mps + 1e-9);
+      if (next.speed_mps > 0.0) {
+        ASSERT_LE(std::abs(next.accel_mps2 - last_accel), limits.jerk_max_mps3 * kDt_s + 1e-9);
+      }
+      const double free = coasting_mps2(limits.friction, next.speed_mps);
+      const double brake = std::max(-next.accel_mps2 - free, 0.0);
+      const double corner = used(limits.friction, road.sample(d), next.speed_mps, 0.0);
+      ASSERT_LE(used(limits.friction, road.sample(d), next.speed_mps, brake),
+                std::max(limits.grip_share, corner) + 0.02)
+          << run << ' ' << d << ' ' << next.speed_mps;
+      d += 0.5 * (now.speed_mps + next.speed_mps) * kDt_s;
+      last_accel = next.accel_mps2;
+      now = next;
+    }
+  }
+}
+
+TEST(StopPlan, ColdTyresNeverBrakeHarderAndNoTemperatureIsCold) {
+  const RoadLoad at{50.0, 0.004, 0.3};
+  double last = 0.0;
+  for (double tyre_c = -20.0; tyre_c < 120.0; tyre_c += 5.0) {
+    const double brake = brake_available_mps2(limits_on(tyre_c).friction, at, 0.7);
+    EXPECT_GE(brake, last);
+    last = brake;
+  }
+  EXPECT_EQ(brake_available_mps2(limits_on(kUnset).friction, at, 0.7),
+            brake_available_mps2(limits_on(-20.0).friction, at, 0.7));
+}
+
+struct Rig {
+  world::TrackMap track = testing::stadium(230.0);
+  Line line = prepare(kParams, track).value();
+};
+
+TEST(StopPlan, PathEndsNoHigherKeepsItsClearanceAndNeverSteps) {
+  const Rig rig;
+  int moved = 0;
+  for (double s = 0.0; s < rig.line.length_m; s += 61.0) {
+    for (const double v : {15.0, 40.0, 66.0}) {
+      for (const double tyre_c : {85.0, 30.0}) {
+        for (const double aside : {-1.5, 0.0, 1.0}) {
+          const StopPath path =
+              choose_stop(rig.line, {s, v, {}, aside}, limits_on(tyre_c), kParams.stop_path);
+          const Offset first = offset_at(rig.line, path, s);
+          EXPECT_NEAR(first.n_m, aside, 1e-9);
+          EXPECT_NEAR(first.slope, 0.0, 1e-9);
+          EXPECT_NEAR(first.bend_per_m, 0.0, 1e-9);
+          StopLimits softer = limits_on(tyre_c);
+          softer.decel_max_mps2 *= path.decel_share;
+          const SpeedProfile slowing =
+              stop_profile(road_ahead(rig.line, path, s), {v, 0.0}, softer, 40.0);
+          double last_m = aside;
+          for (double d = 0.0; d < 900.0; d += 1.0) {
+            const Offset o = offset_at(rig.line, path, s + d);
+            EXPECT_GE(o.n_m, last_m - 1e-9);  // banked to the left everywhere
+            const auto k = static_cast<std::size_t>(d / slowing.spacing_m);
+            const double then = slowing.at[std::min(k, slowing.at.size() - 1)].speed_mps;
+            EXPECT_LE(std::abs(o.bend_per_m) * then * then, 1.6);
+            const LinePoint p = rig.line.at(s + d);
+            EXPECT_GE(p.room_left_m - o.n_m, kParams.stop_path.clearance_m - 1e-6);
+            last_m = o.n_m;
+          }
+          if (last_m > aside + 0.1) ++moved;
+        }
+      }
+    }
+  }
+  EXPECT_GT(moved, 100);
+}
+
+TEST(StopPlan, ConsecutivePlansAndTheChangeToTheStopAreContinuous) {
+  const Rig rig;
+  for (const Followed followed : {Followed::kStop, Followed::kEmergency}) {
+    State state;
+    double s = 300.0, v = 65.0;
+    std::optional<world::TrajectoryPoint> last;
+    double last_accel = 0.0;
+    Instant now{};
+    for (int i = 0; i < 900 && (i < 60 || v > 0.0); ++i, now += milliseconds(50)) {
+      const double n = state.started ? offset_at(rig.line, state.stop, s).n_m : 0.0;
+      const bool stopping = i >= 40;
+      const world::EgoState ego = ego_on(rig.line, s, stopping ? n : 0.0, v);
+      const world::RaceControl rc = green(65.0);
+      const Output out = step(kParams, rig.line, rig.track, state,
+                              {.ego = ego,
+                               .race_control = rc,
+                               .followed = stopping ? followed : Followed::kDrive,
+                               .tyre_c = 85.0},
+                              now);
+      const world::TrajectoryPoint& p = out.stop.points[0];
+      EXPECT_NEAR(std::hypot(p.x_m - ego.x_m, p.y_m - ego.y_m), 0.0, 1e-3);
+      EXPECT_NEAR(p.speed_mps, out.drive.points[0].speed_mps, 1e-9);
+      if (i == 40) {
+        EXPECT_NEAR(wrap_pi(p.yaw_rad - out.drive.points[0].yaw_rad), 0.0, 1e-3);
+        EXPECT_NEAR(p.curvature_per_m, out.drive.points[0].curvature_per_m, 1e-4);
+      }
+      if (last) {
+        EXPECT_NEAR(p.curvature_per_m, last->curvature_per_m, 4e-4) << i;
+        EXPECT_LE(std::abs(p.speed_mps - last->speed_mps), 0.55) << i;
+      }
+      if (stopping && out.next.speed_mps > 0.0) {
+        const double jerk = std::abs(out.next.accel_mps2 - last_accel) / 0.05;
+        EXPECT_LE(jerk, kParams.emergency_jerk_max_mps3 + 1e-6) << i;
+      }
+      last = p;
+      last_accel = out.next.accel_mps2;
+      state = out.next;
+      v = out.next.speed_mps;
+      s += v * 0.05;
+    }
+    EXPECT_EQ(v, 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace pitwall::planning
