@@ -21,7 +21,7 @@ struct Rig {
   safety::OperatorRequests switches;
   world::OperatorWishes wishes;
   Mode mode = Mode::kDisarmed;
-  bool barred = false, may_arm = true, resettable = false, arm_used = false;
+  bool barred = false, may_arm = true, resettable = false, arm_used = false, stands = true;
   Instant now{seconds(1).ns};
   safety::OperatorRequests heard;
   Answers answers;
@@ -39,6 +39,7 @@ struct Rig {
                   .commands = commands,
                   .may_arm = may_arm,
                   .mode = mode,
+                  .stands = stands,
                   .now = now},
                  answers);
     const Mode before = mode;
@@ -152,10 +153,44 @@ TEST(OperatorOrders, AResetIsAppliedWhereThereIsSomethingToReset) {
   EXPECT_FALSE(rig.heard.reset) << "for one tick only";
 }
 
+TEST(OperatorOrders, AResetWaitsUntilTheCarStands) {
+  Rig rig;
+  rig.resettable = true;
+  rig.stands = false;
+  EXPECT_EQ(rig.done(OperatorCommandKind::kReset, 1.0), CommandAnswer::kRefused);
+  rig.stands = true;
+  EXPECT_EQ(rig.done(OperatorCommandKind::kReset, 1.0), CommandAnswer::kApplied);
+}
+
+// Every set, at rest and moving: what leaves a moving car without a position or without a sense of
+// its motion is refused, and what is refused changes nothing.
+TEST(OperatorOrders, SensorsAreExcludedBySetAndStayExcluded) {
+  for (const bool stands : {false, true}) {
+    Rig rig;
+    rig.stands = stands;
+    std::uint8_t held = 0;
+    for (unsigned set = 0; set < 32; ++set) {
+      const bool blind = (set & 3U) == 3U, numb = (set >> 2U) == 7U;
+      const auto answer = rig.done(OperatorCommandKind::kSensorsExcluded, static_cast<double>(set));
+      const bool refused = !stands && (blind || numb);
+      EXPECT_EQ(answer, refused ? CommandAnswer::kRefused : CommandAnswer::kApplied) << set;
+      if (!refused) held = static_cast<std::uint8_t>(set);
+      for (int i = 0; i < 3; ++i) rig.tick();
+      EXPECT_EQ(rig.orders.use.excluded, held) << set;
+    }
+  }
+}
+
+TEST(OperatorOrders, WhatIsNoSetOfSensorsIsRefused) {
+  Rig rig;
+  for (const double argument : {-1.0, 0.5, 32.0, 1e9, kUnset})
+    EXPECT_EQ(rig.done(OperatorCommandKind::kSensorsExcluded, argument), CommandAnswer::kRefused);
+  EXPECT_EQ(rig.orders.use, world::SensorUse{});
+}
+
 TEST(OperatorOrders, WhatThisCarDoesNotHaveIsUnsupported) {
   for (const auto kind : {OperatorCommandKind::kRaceLine, OperatorCommandKind::kRole,
-                          OperatorCommandKind::kReceiverUse, OperatorCommandKind::kEndRun,
-                          OperatorCommandKind::kSendParameters}) {
+                          OperatorCommandKind::kEndRun, OperatorCommandKind::kSendParameters}) {
     Rig rig;
     EXPECT_EQ(rig.done(kind, 1.0), CommandAnswer::kUnsupported);
   }

@@ -8,6 +8,7 @@
 
 #include "tests/support/allocation_guard.hpp"
 #include "tests/vehicle/pipeline/standing_car.hpp"
+#include "vehicle/pipeline/telemetry_tap.hpp"
 
 namespace pitwall::pipeline {
 namespace {
@@ -108,6 +109,41 @@ TEST(OperatorStep, TheSpeedLimitReachesThePlan) {
   EXPECT_EQ(t.out->speed_limit_mps, 7.5);
   EXPECT_EQ(t.car->plan.output.reason, planning::Reason::kOperatorLimit);
   for (const auto& point : t.car->plan.output.drive.points) EXPECT_LE(point.speed_mps, 7.51);
+}
+
+// In the very tick in which the command comes, until the next set is ordered; and told.
+TEST(OperatorStep, AnExcludedReceiverIsNotBelievedFromThisTickOn) {
+  Told t;
+  t.run(seconds(3));
+  const auto gates_of_unit_0 = [&] {
+    std::vector<localization::Gate> gates;
+    for (const localization::Verdict& v : t.out->located)
+      if (v.source == localization::Source::kPosition && v.unit == 0) gates.push_back(v.gate);
+    return gates;
+  };
+  const auto until_a_position = [&] {
+    while ((t.now - kStart) / kTick % 5 != 0) t.tick();
+  };
+  until_a_position();
+  const OperatorCommand exclude{++t.ids, OperatorCommandKind::kSensorsExcluded, 1.0,
+                                t.now + seconds(2)};
+  t.answers.clear();
+  t.tick({&exclude, 1});
+  ASSERT_EQ(t.answers.size(), 1U);
+  EXPECT_EQ(t.answers.front().answer, CommandAnswer::kApplied);
+  EXPECT_EQ(gates_of_unit_0(), std::vector{localization::Gate::kExcluded});
+  t.run(seconds(5));
+  EXPECT_EQ(t.out->ego.validity, world::Validity::kGood) << "by the other one";
+  EXPECT_EQ(t.car->orders.use.excluded, 1) << "it stays";
+  TickLog log;
+  const auto told =
+      tap({.setup = setup(), .car = *t.car, .out = *t.out, .log = log, .rim = {}, .now = t.now});
+  EXPECT_EQ(told.values[telemetry::field("localization.excluded")], 1.0);
+  EXPECT_EQ(t.say(OperatorCommandKind::kSensorsExcluded, 0.0), CommandAnswer::kApplied);
+  t.run(seconds(3));
+  until_a_position();
+  t.tick();
+  EXPECT_EQ(gates_of_unit_0(), std::vector{localization::Gate::kAccepted});
 }
 
 TEST(OperatorStep, AJoystickLowersTheThrottleUntilItsSampleIsOld) {

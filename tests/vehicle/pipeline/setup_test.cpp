@@ -50,7 +50,7 @@ TEST(Setup, RefusesWithTheNameOfTheParameter) {
       {"position_sigma_max_m",
        [](CarParams& p, double v) { p.localization.position_sigma_max_m = v; }},
       {"reset_after_s", [](CarParams& p, double v) { p.localization.reset_after_s = v; }},
-      {"window_s", [](CarParams& p, double v) { p.localization.timeline.window_s = v; }},
+      {"window_s", [](CarParams& p, double v) { p.localization.filter.window_s = v; }},
       {"line.grip_share", [](CarParams& p, double v) { p.planning.line.grip_share = v; }},
       {"line.friction.friction",
        [](CarParams& p, double v) { p.planning.line.friction.friction = v; }},

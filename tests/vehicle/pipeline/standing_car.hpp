@@ -170,9 +170,14 @@ class StandingCar {
       if (tick % 5 != 0) continue;  // 20 Hz
       world::GnssPosition p{.unit = unit, .at = now, .solution_status = world::kSolutionComputed};
       p.position_type = world::kPositionNarrowInt;
-      plane.Reverse(here.x_m + c * mount.antenna.x_m - s * mount.antenna.y_m,
-                    here.y_m + s * mount.antenna.x_m + c * mount.antenna.y_m, 0, p.latitude_deg,
-                    p.longitude_deg, p.height_m);
+      // The car leans with the road, and its masts with it.
+      const double cb = std::cos(here.bank_rad), sb = std::sin(here.bank_rad);
+      const double ahead = mount.antenna.x_m,
+                   left = cb * mount.antenna.y_m + sb * mount.antenna.z_m;
+      const double cg_m = setup().params.localization.filter.spatial.cg_height_m;
+      const double up = cg_m / cb + cb * mount.antenna.z_m - sb * mount.antenna.y_m;
+      plane.Reverse(here.x_m + c * ahead - s * left, here.y_m + s * ahead + c * left, up,
+                    p.latitude_deg, p.longitude_deg, p.height_m);
       p.latitude_sigma_m = p.longitude_sigma_m = p.height_sigma_m = 0.01;
       p.satellites = 20;
       EXPECT_TRUE(out.positions.push(p));

@@ -116,6 +116,14 @@ inline Outputs full() {
   out.chosen.limited = true;
   out.chosen.standstill = true;
   out.quiet = true;
+  out.estimate.yaw_rad = 1.0;
+  for (std::size_t i = 0; i < 5; ++i) {
+    const double sigma = 0.01 * static_cast<double>(i + 1);
+    out.estimate.covariance[6 * i] = sigma * sigma;
+  }
+  out.estimate.gyro_bias_rad_per_s[2] = 0.01;
+  out.estimate.position_m[2] = -3.5;
+  out.estimate.height_sigma_m = 0.06;
   out.radio = {.rung = safety::RadioRung::kNoComm, .throttle_cap = 0.6};
   out.speed_limit_mps = 55.5;
   out.steered.lateral.cross_track_m = 0.375;
@@ -144,13 +152,6 @@ inline std::unique_ptr<Car> full_car() {
   localization::State& state = car->localization;
   state.started = true;
   state.restarts = 3;
-  state.timeline.size = 1;
-  localization::Belief& belief = state.timeline.entries[0].after;
-  belief.mean[localization::kBias] = 0.01;
-  for (std::size_t i = 0; i < localization::kStates; ++i) {
-    const double sigma = 0.01 * static_cast<double>(i + 1);
-    belief.covariance[i * localization::kStates + i] = sigma * sigma;
-  }
   using enum localization::Gate;
   const auto tally = [&](localization::Source source, std::size_t unit) -> localization::Tally& {
     return state.tally[static_cast<std::size_t>(source)][unit];
@@ -168,6 +169,20 @@ inline std::unique_ptr<Car> full_car() {
     tally(localization::Source::kHeading, unit).ever_accepted = true;
     tally(localization::Source::kHeading, unit).last_accepted = ago_ms(900);
   }
+  car->orders.use.excluded = 0b01010;
+  const auto verdict = [&](localization::Source source, std::size_t unit, localization::Gate gate) {
+    state.streams[static_cast<std::size_t>(source)][unit].verdict = gate;
+  };
+  verdict(localization::Source::kPosition, 1, kDisagrees);
+  verdict(localization::Source::kVelocity, 1, kAccepted);
+  verdict(localization::Source::kHeading, 1, kWrongBaseline);
+  verdict(localization::Source::kAttitude, 1, kStandby);
+  verdict(localization::Source::kImu, 0, kAccepted);
+  verdict(localization::Source::kImu, 1, kSilent);
+  state.wheels.verdict = kProbation;
+  position.by_gate[static_cast<std::size_t>(kDisagrees)] = 46;
+  position.by_gate[static_cast<std::size_t>(kRepeated)] = 40;
+  position.by_gate[static_cast<std::size_t>(kRanBack)] = 7;
   tally(localization::Source::kImu, 0).ever_accepted = true;
   tally(localization::Source::kImu, 0).last_accepted = ago_ms(8);
   return car;
@@ -188,7 +203,8 @@ inline TickLog full_log() {
                                     .latitude_sigma_m = 0.02,
                                     .longitude_sigma_m = 0.03,
                                     .height_sigma_m = 0.04,
-                                    .satellites = 17});
+                                    .satellites = 17,
+                                    .differential_age_s = 1.5});
       (void)sensors.velocities.push({.unit = 1, .at = now, .horizontal_mps = 61.5});
       (void)sensors.headings.push({.unit = 1,
                                    .at = now,

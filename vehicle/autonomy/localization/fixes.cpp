@@ -44,6 +44,7 @@ void compare(const Intake& in, std::uint8_t unit, Instant at, const Residual& re
     e.apart = magnitude({residual[0] - other.residual[0], residual[1] - other.residual[1], 0.0});
     e.apart_max = apart_max(checks, e.source) + kReported * std::hypot(sigma, other.residual_sigma);
     e.other_stray = other.stray;
+    if (in_use(in, e.source, u)) e.other_sigma = other.residual_sigma;
   }
 }
 

@@ -142,7 +142,20 @@ TEST(Localization, AVarianceThatJumpsIsRefusedOrWeighedLess) {
       rig->tick();
       ASSERT_LT(rig->position_error_m(), 0.10) << factor << " " << i;
     }
-    EXPECT_EQ(factor > 100.0, rig->out.seen.has(Monitor::kSolution));
+    EXPECT_TRUE(rig->out.seen.has(Monitor::kSolution));
+    EXPECT_EQ(rig->state.streams[0][0].verdict, Gate::kTooUncertain);
+  }
+}
+
+// Both become worse at once: there is nothing better, and they go on being used.
+TEST(Localization, TwoVariancesThatJumpTogetherAreUsed) {
+  auto rig = rig_on(banked_turn());
+  rig->run(8.0);
+  rig->sensors.reported_sigma_factor = {20.0, 20.0};
+  rig->run(0.3);
+  for (int i = 0; i < 300; ++i) {
+    rig->tick();
+    ASSERT_LE(rig->out.position_age_s, 0.2) << i;
   }
 }
 

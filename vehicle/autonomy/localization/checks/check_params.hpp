@@ -38,6 +38,7 @@ struct CheckParams {
   double velocity_sigma_max_mps = 1.0;
   double attitude_sigma_max_rad = 0.1;
   double baseline_tolerance_m = 0.1;
+  double sigma_ratio_max = 5.0;  // to that of the other unit, while that one is in use
   // Jumps against the prediction: beyond so many sigma of both, and larger than this.
   double jump_sigmas = 4.0;
   double jump_position_m = 0.08, jump_velocity_mps = 0.2, jump_heading_rad = 0.01;
@@ -85,6 +86,7 @@ inline constexpr auto kCheckRanges = std::to_array<CheckRange>({
     {"velocity_sigma_max_mps", &CheckParams::velocity_sigma_max_mps, 0.05, 10.0},
     {"attitude_sigma_max_rad", &CheckParams::attitude_sigma_max_rad, 0.005, 0.5},
     {"baseline_tolerance_m", &CheckParams::baseline_tolerance_m, 0.01, 1.0},
+    {"sigma_ratio_max", &CheckParams::sigma_ratio_max, 2.0, 100.0},
     {"jump_sigmas", &CheckParams::jump_sigmas, 2.0, 10.0},
     {"jump_position_m", &CheckParams::jump_position_m, 0.02, 1.0},
     {"jump_velocity_mps", &CheckParams::jump_velocity_mps, 0.05, 2.0},

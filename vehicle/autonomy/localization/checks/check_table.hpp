@@ -37,6 +37,7 @@ struct Evidence {
   bool solved = true;
   double rank = kUnset;
   double sigma = kUnset, sigma_max = kUnset;
+  double other_sigma = kUnset;  // of the other unit, while it is in use
   double height_sigma_m = kUnset;
   double differential_age_s = kUnset, solution_age_s = kUnset;
   double baseline_error_m = kUnset;
@@ -101,6 +102,8 @@ inline constexpr auto kChecks = [] {
       {kTooUncertain, kSolution, kAll, kRefuse, [](E e, P) { return e.sigma > e.sigma_max; }},
       {kTooUncertain, kSolution, only(kPosition), kRefuse,
        [](E e, P p) { return e.height_sigma_m > p.height_sigma_max_m; }},
+      {kTooUncertain, kSolution, only(kPosition), kRefuse,
+       [](E e, P p) { return e.sigma > p.sigma_ratio_max * e.other_sigma; }},
       {kOldCorrections, kSolution, kFixes, kRefuse,
        [](E e, P p) {
          return e.differential_age_s > p.differential_age_max_s ||

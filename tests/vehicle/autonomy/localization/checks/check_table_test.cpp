@@ -26,7 +26,7 @@ Evidence healthy(Source source = Source::kPosition) {
   e.after_newest_s = e.spacing_s = 0.05;
   e.speed_mps = 60.0;
   e.rank = 3.0;
-  e.sigma = 0.01, e.sigma_max = 1.0;
+  e.sigma = 0.01, e.sigma_max = 1.0, e.other_sigma = 0.011;
   e.height_sigma_m = 0.02;
   e.differential_age_s = 1.0, e.solution_age_s = 0.0;
   e.baseline_error_m = 0.001;
@@ -55,6 +55,7 @@ const std::vector<Case>& cases() {
       {Gate::kNotSolved, Monitor::kSolution, kPosition, [](Evidence& e) { e.solved = false; }},
       {Gate::kNotSolved, Monitor::kSolution, kPosition, [](Evidence& e) { e.rank = 0.0; }},
       {Gate::kTooUncertain, Monitor::kSolution, kPosition, [](Evidence& e) { e.sigma = 1.01; }},
+      {Gate::kTooUncertain, Monitor::kSolution, kPosition, [](Evidence& e) { e.sigma = 0.06; }},
       {Gate::kTooUncertain, Monitor::kSolution, kPosition,
        [](Evidence& e) { e.height_sigma_m = 11.0; }},
       {Gate::kOldCorrections, Monitor::kSolution, kPosition,
