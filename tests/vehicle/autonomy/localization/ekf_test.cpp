@@ -71,7 +71,8 @@ TEST(Ekf, MeasurementJacobiansMatchFiniteDifferences) {
 }
 
 TEST(Ekf, PredictionFollowsTheClosedFormOfACircle) {
-  for (const auto& course : {testing::banked_turn(), testing::Course{}}) {
+  for (testing::Course course : {testing::banked_turn(), testing::Course{}}) {
+    course.slip_rad = 0.0;  // the nose that it lifts or lowers in a bank is not in the planar law
     const world::EgoState from = course.at(0.0), to = course.at(2.0);
     Belief b;
     b.mean = {from.x_m, from.y_m, from.yaw_rad, from.vx_mps, from.vy_mps, 0.0};
