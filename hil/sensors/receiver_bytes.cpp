@@ -15,6 +15,7 @@ namespace {
 constexpr std::uint8_t kImuType = 41;  // Epson G320N
 constexpr std::uint32_t kClockValid = 0, kClockInvalid = 3;
 constexpr std::uint32_t kUtcValid = 1;
+constexpr double kVectorNavSigma_mps = 0.05;  // it always says one: of the data sheet
 
 gnss::GpsTime gps_of(Instant at) { return gnss::gps_time(kScenarioGpsWeek, at - Instant{}); }
 
@@ -198,7 +199,7 @@ ReceiverBytes VectorNavVoice::say(const world::GnssVelocity& sample) {
                narrow(sample.horizontal_mps * std::sin(track_rad)), narrow(-sample.vertical_mps)};
   s.position_u_m = {narrow(position_.latitude_sigma_m), narrow(position_.longitude_sigma_m),
                     narrow(position_.height_sigma_m)};
-  s.velocity_u_mps = or_zero(sample.sigma_mps);
+  s.velocity_u_mps = narrow(std::isnan(sample.sigma_mps) ? kVectorNavSigma_mps : sample.sigma_mps);
   using namespace gnss::vectornav;
   s.time_status = health_.time_valid ? kTowValid | kDateValid | kUtcValid : 0;
   s.leap_s = static_cast<std::int8_t>(kLeapSeconds);
