@@ -1,6 +1,6 @@
-// Every check of a sample that is not excluded, as one table: the reason, the monitor that looks, which
-// sources it judges, and the law. Read from top to bottom; the first row that a sample fails is its
-// verdict, every row that it fails is seen.
+// Every check of a sample that is not excluded, as one table: the reason, the monitor that looks,
+// which sources it judges, and the law. Read from top to bottom; the first row that a sample fails
+// is its verdict, every row that it fails is seen.
 //   in     Evidence: what is known of one sample; a number that does not apply is NaN, and no law
 //          holds against a NaN
 //   out    the verdict, and the monitors that see something wrong
