@@ -118,3 +118,5 @@ BENCHMARK_CAPTURE(tick, spatial, FilterKind::kSpatial)->Unit(benchmark::kMillise
 
 }  // namespace
 }  // namespace pitwall::localization
+
+BENCHMARK_MAIN();
