@@ -5,8 +5,8 @@
 //   method difference = arrival - GPS time, to which transport can only add. A step against the
 //          smallest of the last windows is believed at once where it is below it (delay cannot
 //          shrink so far), and where it is above after three messages that agree and did not come
-//          at once (a car that slept hears old messages all together, each a little less late). The skew is the slope of
-//          the smallest differences of whole windows, over the last nine
+//          at once (a car that slept hears old messages all together, each a little less late). The
+//          skew is the slope of the smallest differences of whole windows, over the last nine
 //   units  seconds; ppm, positive where the car's clock is fast; for skew of the unit that is worse
 //   errors a unit that says nothing has no say; a leap second shows as a step of the UTC offset
 // SPDX-License-Identifier: Apache-2.0

@@ -112,8 +112,8 @@ std::uint8_t next_gear(const Tick& t, std::uint8_t wanted) {
   return static_cast<std::uint8_t>(wanted > gear ? gear + 1 : gear - 1);
 }
 
-// Not more than the front tyres can take on a straight at this speed, which the gate would refuse; a
-// pressure that was higher comes down as fast as it may.
+// Not more than the front tyres can take on a straight at this speed, which the gate would refuse;
+// a pressure that was higher comes down as fast as it may.
 double within_grip(const Tick& t, double brake_kpa) {
   const double grip_kpa = grip_now(t).total_mps2 * t.params.safe_stop.brake_share *
                           t.params.safe_stop.brake_kpa_per_mps2;
