@@ -1,6 +1,6 @@
 // One CAN bus in memory, in virtual time: bit-exact frame lengths, arbitration, queues, load, and
-// what goes wrong on a wire: bit errors with error frames and retransmission, nodes that are warned,
-// passive and bus-off, one that babbles, one that takes nothing.
+// what goes wrong on a wire: bit errors with error frames and retransmission, nodes that are
+// warned, passive and bus-off, one that babbles, one that takes nothing.
 //   in     offer(port, frame, now): a node hands a frame to its controller; `now` does not run
 //          backwards (an offer in the past counts as now). Each port has one slot per identifier:
 //          a newer frame overwrites the one that still waits.
@@ -11,8 +11,8 @@
 //   faults all off until somebody asks for one. A frame that is destroyed costs the bits up to the
 //          error, an error frame of 20 bits (flag 6, echo 6, delimiter 8) and the interframe space,
 //          and is sent again, unless its slot has a newer one by then. A passive node waits 8 bits
-//          after each try. Bus-off empties the queue and refuses offers until restart() and 128 runs
-//          of 11 recessive bits
+//          after each try. Bus-off empties the queue and refuses offers until restart() and 128
+//          runs of 11 recessive bits
 //   units  bit/s, Instant of the bench; a frame is received 3 bits before the bus is free again
 //   errors full queue or a CAN FD frame -> offer() returns false, counted; nothing is silent
 //   cost   O(pending) per frame; no allocation after construction

@@ -1,5 +1,6 @@
 // Changes what one signal of a report says, and nothing else of the frame.
-//   in     a frame; which of the signals of its message that the bench can change, from 0; the value
+//   in     a frame; which of the signals of its message that the bench can change, from 0; the
+//          value
 //   out    the frame
 //   units  those of the database (km/h, kPa, %, deg; raw for sys_state)
 //   law    a value beyond what the field holds becomes the field's end; a frame of another message

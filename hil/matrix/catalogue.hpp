@@ -1,5 +1,6 @@
 // The faults that the car has to notice, each at least once. What is left out of F01 to F40 needs
-// a LiDAR or camera (F26 to F28), is no fault of one part (F37 to F40: memory, disk, pairs), or both.
+// a LiDAR or camera (F26 to F28), is no fault of one part (F37 to F40: memory, disk, pairs), or
+// both.
 //   source fault catalogue of the bench
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

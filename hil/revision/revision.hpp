@@ -3,8 +3,9 @@
 //   in     frames as the bench's models exchange them (av21, CAN1-INDY-V14); frames of the bus
 //   out    the same values by name in the layout of the other revision, and back; messages that
 //          only the other revision has, at their period, with values of a healthy car at rest
-//   law    V14 changes nothing, and V14 with protected messages adds those. What the other revision lacks is not sent; a frame of the bus is
-//          heard only if its length is right there and it says all that the model's message has
+//   law    V14 changes nothing, and V14 with protected messages adds those. What the other revision
+//          lacks is not sent; a frame of the bus is heard only if its length is right there and it
+//          says all that the model's message has
 //   units  those of the databases
 //   errors of(): Problem of a database; frames that cannot be encoded are left out and counted
 //   source databases: protocol/can/dbc/av24.dbc; for V9 and V12 the messages that differ from

@@ -4,8 +4,8 @@
 //   out    share of the bit rate in the last three full slots of 10 ms, at least: without stuff
 //          bits, which add up to a fifth, and without what this node sends itself
 //   cost   no allocation, O(1) per frame
-//   source Bosch CAN 2.0: 47 bits round the data of a frame with an identifier of 11 bits, the space
-//          between two frames included, 67 with 29
+//   source Bosch CAN 2.0: 47 bits round the data of a frame with an identifier of 11 bits, the
+//          space between two frames included, 67 with 29
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

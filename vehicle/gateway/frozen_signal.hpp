@@ -2,8 +2,8 @@
 // does: what the actuator was told, for steering, brake and accelerator; the other speed, for the
 // speed of the wheels and that of the powertrain.
 //   in     the values as they were heard; the last commands; now
-//   out    which values are frozen: the same to the bit since they changed last, while their witness
-//          moved by more than its limit
+//   out    which values are frozen: the same to the bit since they changed last, while their
+//          witness moved by more than its limit
 //   law    a value that changed is not frozen. Nothing is judged at a standstill (below 5 m/s), of
 //          an actuator that is told nothing, or while the witness rests: a straight line at one
 //          speed freezes nothing

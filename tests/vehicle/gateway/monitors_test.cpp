@@ -1,5 +1,5 @@
-// What each monitor of the gateway sees, in the very tick, and that one that is off sees and refuses
-// nothing.
+// What each monitor of the gateway sees, in the very tick, and that one that is off sees and
+// refuses nothing.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 

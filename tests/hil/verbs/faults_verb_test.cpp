@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/verbs/faults_verb.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/hil/verbs/program_run.hpp"
+
+namespace pitwall::verbs {
+namespace {
+
+using FaultsVerb = ProgramRun;
+
+TEST_F(FaultsVerb, RefusesWhatItCannotUse) {
+  expect_refusal({"faults", "--prvoe"}, "prvoe");
+  expect_refusal({"faults", "--only", "no_such_scenario"}, "no such scenario");
+  expect_refusal({"faults", "--without", "no_such_monitor"}, "no_such_monitor");
+}
+
+// One scenario: the row, its delay; red once its monitor is off, and only then.
+TEST_F(FaultsVerb, AMonitorThatIsOffTurnsItsScenarioRed) {
+  const Said seen = run({"faults", "--only", "f06", "--json", path("matrix.json")});
+  EXPECT_EQ(seen.code, 0) << seen.out << seen.err;
+  EXPECT_NE(seen.out.find("f06_frames_twice"), std::string::npos) << seen.out;
+  EXPECT_NE(text_of("matrix.json").find("\"delay_s\":0.0"), std::string::npos);
+  const Said blind = run({"faults", "--only", "f06", "--without", "counter"});
+  EXPECT_EQ(blind.code, 1) << blind.out << blind.err;
+  EXPECT_NE(blind.out.find("MISSED"), std::string::npos) << blind.out;
+}
+
+}  // namespace
+}  // namespace pitwall::verbs
