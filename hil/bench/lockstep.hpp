@@ -29,7 +29,7 @@ using StepFunction = std::function<pipeline::Outputs(const pipeline::Setup&, pip
                                                      const pipeline::Inputs&)>;
 
 struct LockstepOptions {
-  recording::Sink log;                 // empty: no event log, no digest
+  recording::Sink log = {};            // empty: no event log, no digest
   StepFunction step = pipeline::step;  // the car; a benchmark or a test may wrap it to measure it
   // Called after every tick of the car, e.g. by a test that watches for something.
   // While its process is stopped or dead, with its last outputs.

@@ -33,8 +33,10 @@ bool is_refused_there(const scenario::Fault& fault) {
 double legal_value(const faults::BenchFaultRow& kind) { return kind.value.empty() ? kUnset : 0.5; }
 
 TEST(FaultPlan, EveryKindOfTheCatalogueIsPlannedOrRefusedByName) {
-  std::size_t planned = 0;
+  std::size_t planned = 0, done_somewhere = 0;
   for (const auto& kind : faults::kBenchFaults) {
+    done_somewhere +=
+        carried_out(kind.kind, BenchMode::kLive) || carried_out(kind.kind, BenchMode::kLockstep);
     const scenario::Fault fault = row(std::string(kind.name), legal_value(kind));
     const auto plan = plan_faults({fault}, 1);
     if (!plan) {
@@ -61,7 +63,8 @@ TEST(FaultPlan, EveryKindOfTheCatalogueIsPlannedOrRefusedByName) {
                 carried_out(kind.kind, BenchMode::kLockstep))
         << "planned means done somewhere";
   }
-  EXPECT_EQ(planned, 35u);
+  EXPECT_EQ(planned, done_somewhere);
+  EXPECT_GE(planned, 72u);
 }
 
 TEST(FaultPlan, ASignalIsNamedByItsMessageAndItsNumber) {
