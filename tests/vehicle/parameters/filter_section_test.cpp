@@ -28,7 +28,7 @@ TEST(FilterSection, TheFilterIsChosenByItsName) {
 }
 
 TEST(FilterSection, GatesAreAsManyAsThereAreDegreesOfFreedom) {
-  EXPECT_NE(refusal(with(av21(), "gate_nis: [14.0, 18.0, 22.0]", "gate_nis: [14.0, 18.0]")), "");
+  EXPECT_NE(refusal(with(av21(), "gate_nis: [20.0, 25.0, 30.0]", "gate_nis: [20.0, 25.0]")), "");
   EXPECT_NE(refusal(with(av21(), "gate_nis: [12.0, 16.0]", "gate_nis: [12.0, 3.0]")), "");
 }
 

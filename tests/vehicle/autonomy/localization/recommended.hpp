@@ -53,7 +53,7 @@ inline SpatialParams recommended_spatial() {
           .accel_bias_start_mps2 = 0.06,
           .gyro_scale_start = 0.002,
           .accel_scale_start = 0.002,
-          .gate_nis = {14.0, 18.0, 22.0},
+          .gate_nis = {20.0, 25.0, 30.0},
           .reacquire_s = 1.0,
           .position_wander_share = 0.949,
           .position_wander_s = 30.0,
