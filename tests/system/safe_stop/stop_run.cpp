@@ -20,7 +20,8 @@ namespace {
 using bench::Loaded;
 using bench::Rig;
 
-constexpr double kRunUp_m = 1500.0;  // from rest to the place
+// From rest to the place: where the road is nearly level, 1.5 km and more before it.
+constexpr double kFrontStretch_m = 2250.0, kBackStretch_m = 1250.0, kFirstEnd_m = 1100.0;
 constexpr double kEnd_s = 110.0;
 constexpr double kBreaks_s = 4.0;   // after the begin of the stop
 constexpr double kColdLoss = 0.35;  // of the modelled friction at 25 C
@@ -77,7 +78,7 @@ scenario::Scenario scenario_of(const StopCase& stop) {
   scenario::Scenario s = lap().scenario;
   s.duration = from_seconds(kEnd_s);
   s.expect.clear();
-  s.start.s_m = setup().track.wrap_station(stop.station_m - kRunUp_m);
+  s.start.s_m = stop.station_m < kFirstEnd_m ? kBackStretch_m : kFrontStretch_m;
   s.tyres.temperature_c = stop.tyre_c;
   s.plant.thermal.cold_grip_loss = kColdLoss;
   scenario::Fault held;  // at their temperature, whatever warms or cools them

@@ -5,8 +5,8 @@
 //   law    angle = L k + K a_y + (L + K v^2) k_fb + d + trim + bumpless, with, of the path a moment
 //          ahead, k = kappa cos(bank), a_y = v^2 k - g sin(bank), and
 //            K    = m lr / (Cf L) - m lf / (Cr L)
-//            k_fb = -(w^2 e + 2 z w v chi) / v^2: both poles of e' = v chi, chi' = v k at w, damping
-//                   z; e to the left of the path, chi the course against it
+//            k_fb = -(w^2 e + 2 z w v chi) / v^2: both poles of e' = v chi, chi' = v k at w, with
+//                   damping z; e to the left of the path, chi the course against it
 //            d    = low pass of (angle commanded a moment ago) - (L r / v + K (v r - g sin(bank))):
 //                   what this car on these tyres needs beyond the model, seen by its yaw rate r
 //            trim = -trim_per_s * (L + K v^2) w^2 / v^2 * integral of e

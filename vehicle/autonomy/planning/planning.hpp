@@ -1,7 +1,7 @@
 // The planner: holds the line at the speed that race control and the operator allow, and keeps a
 // stop trajectory ready at every tick.
-//   in     EgoState (Map), RaceControl, operator's limit, the coldest tyre; which trajectory control
-//          has followed since the last step
+//   in     EgoState (Map), RaceControl, operator's limit, the coldest tyre; which trajectory
+//          control has followed since the last step
 //   out    drive and stop trajectory (Map), both from the car's present place and from the same
 //          reference speed; the stop begins where the car is, in the direction and with the
 //          curvature of the drive trajectory, so that a change to it never steps

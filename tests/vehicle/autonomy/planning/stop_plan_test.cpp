@@ -7,7 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
+#include <cstdint>
+#include <optional>
 
 #include "tests/vehicle/autonomy/planning/stadium.hpp"
 
@@ -25,16 +26,28 @@ StopLimits limits_on(double tyre_c) {
           kParams.stop_decel_max_mps2, kParams.stop_jerk_max_mps3};
 }
 
+// splitmix64: small, seeded, the same everywhere.
+struct Random {
+  std::uint64_t state;
+  double between(double low, double high) {
+    std::uint64_t z = (state += 0x9E3779B97F4A7C15ull);
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
+    return low + (high - low) * static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+  }
+};
+
 // A road whose curvature and banking wander as those of an oval do: by ramps of 60 m and more.
-RoadAhead random_road(std::mt19937_64& random) {
-  std::uniform_real_distribution<double> curvature{-0.003, 0.0045}, bank{-0.05, 0.35},
-      ramp{60, 200};
+RoadAhead random_road(Random& random) {
+  const auto sample = [&] {
+    return RoadSample{random.between(-0.003, 0.0045), random.between(-0.05, 0.35)};
+  };
   RoadAhead road;
-  RoadSample from{curvature(random), bank(random)};
+  RoadSample from = sample();
   std::size_t i = 0;
   while (i < kRoadPoints) {
-    const RoadSample to{curvature(random), bank(random)};
-    const auto steps = static_cast<std::size_t>(ramp(random) / kRoadStep_m);
+    const RoadSample to = sample();
+    const auto steps = static_cast<std::size_t>(random.between(60.0, 200.0) / kRoadStep_m);
     for (std::size_t k = 0; k < steps && i < kRoadPoints; ++k, ++i) {
       const double t = static_cast<double>(k) / static_cast<double>(steps);
       road.at[i] = {from.curvature_per_m + t * (to.curvature_per_m - from.curvature_per_m),
@@ -58,12 +71,11 @@ double used(const FrictionParams& car, const RoadSample& p, double v, double bra
 }
 
 TEST(StopPlan, DemandStaysInsideItsShareOfTheEllipseOnEveryRoadAtEveryTemperature) {
-  std::mt19937_64 random{7};
-  std::uniform_real_distribution<double> speed{5.0, 68.0}, tyre{10.0, 100.0};
+  Random random{7};
   for (int run = 0; run < 200; ++run) {
     const RoadAhead road = random_road(random);
-    const StopLimits limits = limits_on(tyre(random));
-    SpeedReference now{speed(random), 0.0};
+    const StopLimits limits = limits_on(random.between(10.0, 100.0));
+    SpeedReference now{random.between(5.0, 68.0), 0.0};
     double d = 0.0, last_accel = 0.0;
     for (int i = 0; i < 3000 && now.speed_mps > 0.0 && d < 1100.0; ++i) {
       constexpr double kDt_s = 0.02;

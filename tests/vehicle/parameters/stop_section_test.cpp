@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/parameters/stop_section.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/vehicle/parameters/mutation.hpp"
+
+namespace pitwall::parameters {
+namespace {
+
+using testing::av21;
+using testing::refusal;
+using testing::with;
+
+TEST(StopSection, TyresOfTheFileReachPlanningAndTheStopOfLastResort) {
+  const auto car = read_car(av21(), "car.yaml");
+  ASSERT_TRUE(car) << to_string(car.error());
+  const pipeline::CarParams& p = car->params;
+  EXPECT_EQ(p.supervisor.safe_stop.tyres.share, p.planning.line.friction.tyres.share);
+  EXPECT_EQ(p.control.drive_law, control::LateralLaw::kPaperLqr);
+  EXPECT_EQ(p.control.stop_law, control::LateralLaw::kFeedForward);
+}
+
+TEST(StopSection, ATableThatFallsAndALawThatIsNoneAreRefusedByName) {
+  const std::string falls = refusal(with(av21(), "share: [0.60, 0.74", "share: [0.80, 0.74"));
+  EXPECT_NE(falls.find("share"), std::string::npos) << falls;
+  const std::string law = refusal(with(av21(), "drive_law: paper_lqr", "drive_law: pid"));
+  EXPECT_NE(law.find("feed_forward"), std::string::npos) << law;
+}
+
+}  // namespace
+}  // namespace pitwall::parameters

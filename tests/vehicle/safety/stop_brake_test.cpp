@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/safety/stop_brake.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace pitwall::safety {
+namespace {
+
+TEST(StopBrake, ColdTyresHaveLessGripAndUnknownOnesCountAsCold) {
+  const SafeStopParams p;
+  const Grip warm = grip_at(p, 50.0, 0.004, 0.3, 85.0), cold = grip_at(p, 50.0, 0.004, 0.3, 20.0);
+  EXPECT_NEAR(cold.total_mps2, p.tyres.cold() * warm.total_mps2, 1e-9);
+  EXPECT_EQ(cold.lateral_mps2, warm.lateral_mps2);
+  EXPECT_EQ(grip_at(p, 50.0, 0.004, 0.3).total_mps2, cold.total_mps2);
+}
+
+TEST(StopBrake, NeverBrakesBeyondItsShareAndWhatAirGivesIsNotBraked) {
+  SafeStopParams p;
+  p.drag_per_m = 0.0006, p.coast_mps2 = 0.5;
+  for (const double v : {5.0, 30.0, 65.0}) {
+    for (const double k : {-0.004, 0.0, 0.004}) {
+      for (const StopKind kind : {StopKind::kControlled, StopKind::kEmergency}) {
+        const Grip grip = grip_at(p, v, k, 0.3, 60.0);
+        double last_kpa = 0.0;
+        for (int i = 0; i < 400; ++i)
+          last_kpa = brake_towards(p, kind, {4.0, grip, last_kpa, 0.01});
+        const double brake = last_kpa / p.brake_kpa_per_mps2;
+        const double share = kind == StopKind::kEmergency ? p.emergency_grip_share : p.grip_share;
+        const double least = std::max(p.decel_min_mps2 - grip.free_mps2, 0.0);
+        EXPECT_LE(brake, std::max(4.0 - grip.free_mps2, least) + 1e-9);
+        EXPECT_LE(std::hypot(std::max(brake - least, 0.0), grip.lateral_mps2),
+                  std::max(share * grip.total_mps2, std::abs(grip.lateral_mps2)) + 1e-9);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pitwall::safety
