@@ -14,7 +14,7 @@ namespace pitwall::localization {
 
 struct Intake {
   const Params& params;
-  const FilterParams& filter;  // of params, or without gates for the bench
+  const FilterParams& filter;  // of params, its gates as localization.cpp has them
   const Datum& datum;
   const Surroundings& around;
   world::SensorUse use;
