@@ -3,7 +3,7 @@
 //   out    the next state; observe() says everything that a sensor or a judge may ask of a state
 //   frames Map: x east, y north, z up, yaw from east, counter-clockwise. Body: ISO 8855 at the
 //          centre of gravity; velocities, yaw rate and forces lie in the plane of the road. Banking
-//          positive where the left side is lower, climb positive uphill: the car's roll is minus the
+//          positive where the left side is lower, climb positive uphill: the roll is minus the
 //          banking, its pitch minus the climb (Euler angles in the order yaw, pitch, roll). Gravity
 //          pulls to the left with g sin(bank) cos(climb) and back with g sin(climb); the heading
 //          turns with (r + climb' sin(bank)) / (cos(bank) cos(climb)); the road carries the weight

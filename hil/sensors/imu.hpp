@@ -1,6 +1,6 @@
 // An inertial unit bolted to the car away from its centre of gravity.
 //   in     body rates, angular acceleration and specific force at the centre of gravity
-//   out    what it reads: at its own place, with scale, bias that wanders from where it began, white
+//   out    what it reads: at its own place, with scale, bias that wanders from its start, white
 //          noise of the sensor and of the car's vibration; clipped at its range
 //   frames Body: ISO 8855, as the driver of the receiver rotates it
 //   not modelled  alignment of its axes, sculling and coning over an interval (a sample is of one

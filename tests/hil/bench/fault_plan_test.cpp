@@ -118,7 +118,11 @@ TEST(FaultPlan, EveryKindOfFrameFaultIsPlanned) {
   for (std::size_t i = 0; i < faults::kFrameFaultKinds; ++i) {
     const auto kind = static_cast<FrameFaultKind>(i);
     const auto plan = plan_faults({row(std::string(faults::name_of(kind)))}, 1);
-    ASSERT_TRUE(plan) << faults::name_of(kind);
+    using enum FrameFaultKind;
+    const bool names_what = kind == kMasquerade || kind == kSignalOffset || kind == kSignalDrift ||
+                            kind == kSignalNoise || kind == kSignalSet;
+    ASSERT_EQ(static_cast<bool>(plan), !names_what) << faults::name_of(kind);
+    if (names_what) continue;  // refused without the message
     ASSERT_EQ(plan->frames.size(), 1u);
     EXPECT_EQ(plan->frames[0].kind, kind);
     EXPECT_FALSE(plan->frames[0].id.has_value()) << "no id means every id";

@@ -1,4 +1,4 @@
-// What the bench says as a receiver must arrive in the car as what it meant: sample -> bytes of each
+// What the bench says as a receiver must arrive in the car as it was meant: sample -> bytes of each
 // kind of receiver -> vehicle/receivers -> sample.
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/sensors/receiver_bytes.hpp"

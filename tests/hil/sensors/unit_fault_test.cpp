@@ -1,4 +1,4 @@
-// What a fault does to a unit: that, for its time, and nothing else. Each acts on unit 0 between 1 s
+// A fault does this to a unit, for its time, and nothing else. Each acts on unit 0 between 1 s
 // and 2 s of 3 s.
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/sensors/unit_fault.hpp"

@@ -1,5 +1,7 @@
-// The receivers' noise has the size, the memory and the kinship that hil/sensors/README.md states.
+// A receiver's noise has the size, the memory and the kinship that hil/sensors/README.md states.
 // SPDX-License-Identifier: Apache-2.0
+#include "hil/sensors/gnss.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +25,7 @@ std::vector<double> norths_m(const Params& p, const Log& log, int unit) {
   return north;
 }
 
-TEST(NoiseModel, PositionIsOfItsSizeAndWanders) {
+TEST(Gnss, PositionIsOfItsSizeAndWanders) {
   const Params p = quick_wander(noisy());
   const PositionNoise& n = p.unit[0].noise.position;
   const Log log = run(p, standing_at(0, 0, 0), 1'000'000);
@@ -37,7 +39,7 @@ TEST(NoiseModel, PositionIsOfItsSizeAndWanders) {
               0.1 * n.height_factor * n.sigma_m);
 }
 
-TEST(NoiseModel, UnitsSeeTheSameSky) {
+TEST(Gnss, UnitsSeeTheSameSky) {
   const Params p = quick_wander(noisy());
   const PositionNoise& n = p.unit[0].noise.position;
   const Log log = run(p, standing_at(0, 0, 0), 500'000);
@@ -54,7 +56,7 @@ TEST(NoiseModel, UnitsSeeTheSameSky) {
   EXPECT_NEAR(correlation(v0, v1), 0.0, 0.05);
 }
 
-TEST(NoiseModel, ReceiversReportAboutTheDeviationThatTheyHave) {
+TEST(Gnss, ReceiversReportAboutTheDeviationThatTheyHave) {
   const Params p = noisy();
   std::vector<double> sigma_m;
   for (const auto& s : run(p, standing_at(0, 0, 0), 300'000).positions) {
@@ -67,7 +69,7 @@ TEST(NoiseModel, ReceiversReportAboutTheDeviationThatTheyHave) {
   EXPECT_GT(moments(sigma_m).sigma, 0.0);
 }
 
-TEST(NoiseModel, VelocityIsWhite) {
+TEST(Gnss, VelocityIsWhite) {
   const Params p = noisy();
   std::vector<double> up_mps;
   for (const auto& s : of_unit(run(p, standing_at(0, 0, 0), 200'000).velocities, 0))
@@ -77,7 +79,7 @@ TEST(NoiseModel, VelocityIsWhite) {
   EXPECT_NEAR(m.lag_one, 0.0, 0.05);
 }
 
-TEST(NoiseModel, HeadingIsTheBetterTheLongerItsBaseline) {
+TEST(Gnss, HeadingIsTheBetterTheLongerItsBaseline) {
   Params p = noisy();
   p.heading.period = milliseconds(10);
   for (UnitParams& u : p.unit) u.noise.heading.correlation_s = 0.2;
@@ -91,73 +93,6 @@ TEST(NoiseModel, HeadingIsTheBetterTheLongerItsBaseline) {
     EXPECT_NEAR(moments(error).sigma, expected, 0.05 * expected);
     EXPECT_NEAR(moments(error).lag_one, 0.5 * std::exp(-0.05), 0.05);
   }
-}
-
-// ---- Inertial unit.
-std::vector<double> yaw_rates(const Params& p, const plant::Truth& t, int duration_ms, int unit,
-                              std::uint64_t seed = 1) {
-  std::vector<double> rate;
-  for (const auto& s : of_unit(run(p, t, duration_ms, seed).imu, unit))
-    rate.push_back(s.rate_rad_per_s[2] - t.rate_rad_per_s[2]);
-  return rate;
-}
-
-TEST(NoiseModel, ImuNoiseIsWhiteAroundABias) {
-  const Params p = noisy();
-  const ImuNoise& n = p.unit[1].noise.imu;
-  const Moments m = moments(yaw_rates(p, standing_at(0, 0, 0), 200'000, 1));
-  const double expected =
-      std::hypot(n.gyro_vibration_rad_per_s, n.gyro_rad_per_sqrt_s * std::sqrt(125.0));
-  EXPECT_NEAR(m.sigma, expected, 0.05 * expected);
-  EXPECT_NEAR(m.lag_one, 0.0, 0.04);
-}
-
-TEST(NoiseModel, TurnOnBiasIsDrawnForARun) {
-  const Params p = noisy();
-  const ImuNoise& n = p.unit[0].noise.imu;
-  std::vector<double> bias;
-  for (std::uint64_t seed = 0; seed < 60; ++seed)
-    bias.push_back(moments(yaw_rates(p, standing_at(0, 0, 0), 3000, 0, seed)).mean);
-  EXPECT_NEAR(moments(bias).sigma, n.gyro_turn_on_rad_per_s, 0.3 * n.gyro_turn_on_rad_per_s);
-}
-
-// Allan deviation at tau: root of half the mean square of the difference of neighbouring means.
-double allan(const std::vector<double>& x, std::size_t bin) {
-  std::vector<double> mean;
-  for (std::size_t i = 0; i + bin <= x.size(); i += bin) {
-    double sum = 0.0;
-    for (std::size_t k = i; k < i + bin; ++k) sum += x[k];
-    mean.push_back(sum / static_cast<double>(bin));
-  }
-  double squares = 0.0;
-  for (std::size_t i = 1; i < mean.size(); ++i)
-    squares += (mean[i] - mean[i - 1]) * (mean[i] - mean[i - 1]);
-  return std::sqrt(0.5 * squares / static_cast<double>(mean.size() - 1));
-}
-
-TEST(NoiseModel, AllanDeviationFallsWithTheRandomWalkAndEndsInTheBias) {
-  Params p = noisy();
-  ImuNoise& n = p.unit[0].noise.imu;
-  n.gyro_vibration_rad_per_s = 0.0;     // the sensor's own
-  n.gyro_instability_rad_per_s = 1e-4;  // larger and quicker, so that a short run shows it
-  n.instability_correlation_s = 20.0;
-  const std::vector<double> rate = yaw_rates(p, standing_at(0, 0, 0), 600'000, 0);
-  const double walk = n.gyro_rad_per_sqrt_s;
-  EXPECT_NEAR(allan(rate, 12), walk / std::sqrt(12 * 0.008), 0.1 * walk / std::sqrt(12 * 0.008));
-  // A Gauss-Markov bias peaks near 1.89 correlation times at 0.437 of its root of 2 sigma squared.
-  const double peak = allan(rate, 4725);
-  EXPECT_NEAR(peak, 0.437 * std::sqrt(2.0) * 1e-4, 0.4e-4);
-}
-
-TEST(NoiseModel, ImuEndsAtItsRange) {
-  Params p = quiet();
-  plant::Truth t = standing_at(0, 0, 0);
-  t.rate_rad_per_s = {0.0, 0.0, 9.0};
-  t.specific_force_mps2 = {-80.0, 0.0, 60.0};
-  const auto s = run(p, t, 50).imu.front();
-  EXPECT_EQ(s.rate_rad_per_s[2], 2.618);
-  EXPECT_EQ(s.specific_force_mps2[0], -49.0);
-  EXPECT_EQ(s.specific_force_mps2[2], 49.0);
 }
 
 }  // namespace
