@@ -1,11 +1,12 @@
 // Whatever happens to a receiver's bytes, the car is told what the receiver said, or nothing.
 // SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/receiver_speech.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "hil/bench/receiver_ears.hpp"
-#include "hil/bench/receiver_speech.hpp"
 
 namespace pitwall::bench {
 namespace {
