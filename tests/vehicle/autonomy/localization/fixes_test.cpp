@@ -159,7 +159,7 @@ TEST(Fixes, APreferredUnitIsTheOnlyOneThatEnters) {
 }
 
 TEST(Fixes, AReceiversOwnAttitudeStandsByUntilNoHeadingComes) {
-  Running running;
+  Running running(banked_turn());
   Rig& rig = *running.rig;
   const auto attitude = [&] {
     const world::EgoState truth = rig.truth();
