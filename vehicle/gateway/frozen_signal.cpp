@@ -11,7 +11,7 @@ constexpr double kMoving_mps = 5.0;
 constexpr Duration kActuatorLag = milliseconds(100);
 constexpr Duration kFresh = milliseconds(50);  // of a speed that bears witness
 // In the order of Watched: rad at the road wheel, kPa, share, m/s, m/s.
-constexpr std::array<double, kWatched> kLimits{0.0015, 300.0, 0.1, 0.3, 0.3};
+constexpr std::array<double, kWatched> kLimits{0.0015, 300.0, 0.1, 0.3, 1.0};
 
 // What was told kActuatorLag ago.
 world::ActuatorCommand told_then(const FrozenState& state, Instant now) {

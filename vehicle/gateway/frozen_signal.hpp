@@ -8,7 +8,8 @@
 //          an actuator that is told nothing, or while the witness rests: a straight line at one
 //          speed freezes nothing
 //   limits command: 1.7 deg of the steering motor, 300 kPa, a tenth of the pedal, each as told
-//          0.1 s ago (delay and lag of the actuators); speed: 0.3 m/s
+//          0.1 s ago (delay and lag of the actuators); speed: 0.3 m/s for the
+//          wheels, 1 m/s for the powertrain, whose witness scatters
 //   cost   no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
