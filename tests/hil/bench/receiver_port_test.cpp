@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <optional>
+#include <array>
 #include <vector>
 
 #include "protocol/transport/clock.hpp"
@@ -38,7 +38,7 @@ TEST(ReceiverPort, SpeaksAsEachUnitToItsOwnPortInItsOwnLanguage) {
   auto bench = ReceiverPort::open({port}, ReceiverSpeech{kinds, {}});
   ASSERT_TRUE(bench);
   world::SensorInput samples;
-  for (const std::uint8_t unit : {0, 1, 1}) {
+  for (const std::uint8_t unit : std::array<std::uint8_t, 3>{0, 1, 1}) {
     world::ImuSample imu{.unit = unit, .at = Instant{} + milliseconds(8 * samples.imu.size())};
     imu.rate_rad_per_s = imu.specific_force_mps2 = {0.0, 0.0, 1.0 + unit};
     ASSERT_TRUE(samples.imu.push(imu));

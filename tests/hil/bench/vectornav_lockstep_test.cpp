@@ -18,7 +18,11 @@ TEST(VectorNavInLockstep, TheCarKnowsWhereItIsByItAlone) {
   loaded->scenario.duration = seconds(30);
   loaded->scenario.expect.clear();
   // From here on the VectorNav alone knows where the car is.
-  loaded->scenario.faults = {{.kind = "gnss_no_solution", .at = seconds(20), .lasts = seconds(10)}};
+  scenario::Fault silent;
+  silent.kind = "gnss_no_solution";
+  silent.at = seconds(20);
+  silent.lasts = seconds(10);
+  loaded->scenario.faults = {silent};
   loaded->setup.params.receivers[1].kind = world::ReceiverKind::kVectorNav;
   loaded->setup.params.localization.units[1].baseline_yaw_rad = 0.0;
   double error_max_m = 0.0;
