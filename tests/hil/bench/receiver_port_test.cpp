@@ -39,7 +39,8 @@ TEST(ReceiverPort, SpeaksAsEachUnitToItsOwnPortInItsOwnLanguage) {
   ASSERT_TRUE(bench);
   world::SensorInput samples;
   for (const std::uint8_t unit : std::array<std::uint8_t, 3>{0, 1, 1}) {
-    world::ImuSample imu{.unit = unit, .at = Instant{} + milliseconds(8 * samples.imu.size())};
+    world::ImuSample imu{.unit = unit,
+                         .at = Instant{} + milliseconds(8) * std::ssize(samples.imu.span())};
     imu.rate_rad_per_s = imu.specific_force_mps2 = {0.0, 0.0, 1.0 + unit};
     ASSERT_TRUE(samples.imu.push(imu));
   }
