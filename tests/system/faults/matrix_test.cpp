@@ -61,8 +61,8 @@ TEST(FaultMatrix, EveryFaultOfTheCatalogueHasAScenarioThatDetects) {
     EXPECT_TRUE(filled.contains(std::string(row.id))) << row.id << ": " << row.fault;
 }
 
-// From the green flag through two turns at speed no monitor sees anything; but a gate on innovations
-// is a matter of chance, and may refuse one in a hundred ticks.
+// From the green flag through two turns at speed no monitor sees anything; but a gate on
+// innovations is a matter of chance, and may refuse one in a hundred ticks.
 TEST(FaultMatrix, HealthyDrivingAlarmsNobody) {
   auto scenario = loaded("f01_frames_lost");
   ASSERT_TRUE(scenario);

@@ -27,12 +27,17 @@ TEST(Congestion, AlsoWhereItFades) {
   OfferedLoad load(kRate, 3.0);
   load.run(radio, seconds(15));
   radio.reset_ages();
-  load.run(radio, seconds(120));
+  constexpr int kSeconds = 120;
+  double factor = 0.0;  // a saw tooth: its mean is what the link carries
+  for (int i = 0; i < kSeconds; ++i) {
+    load.run(radio, seconds(1));
+    factor += radio.car_report().paths[0].rate_factor / kSeconds;
+  }
   const AgeQuantiles safety = ages_of(radio, Class::kSafety);
   std::printf("and fades: safety p50 %.0f p99 %.0f ms, factor %.2f\n", safety.p50.milliseconds(),
-              safety.p99.milliseconds(), radio.car_report().paths[0].rate_factor);
-  EXPECT_LT(radio.car_report().paths[0].rate_factor, 0.9);
-  EXPECT_GT(radio.car_report().paths[0].rate_factor, 0.4);
+              safety.p99.milliseconds(), factor);
+  EXPECT_LT(factor, 0.9);
+  EXPECT_GT(factor, 0.4);
   EXPECT_LE(safety.p50, milliseconds(120));
 }
 

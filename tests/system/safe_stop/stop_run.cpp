@@ -60,6 +60,10 @@ const pipeline::Setup& brutal() {
     p.stop_decel_max_mps2 = 100.0, p.stop_jerk_max_mps3 = 1000.0, p.stop_grip_share = 100.0;
     p.line.friction.brake_max_mps2 = 100.0;
     s.params.control.stop_speed.brake_rate_kpa_per_s = 20000.0;
+    s.params.control.longitudinal.brake_max_kpa = 8000.0;
+    s.params.supervisor.safe_stop.friction = 100.0, s.params.supervisor.safe_stop.brake_share = 1.0;
+    s.params.gate.brake_max_kpa = 8191.0;
+    for (auto& row : s.params.gate.stop_brake) row.kpa = 8191.0;
     return s;
   }();
   return made;

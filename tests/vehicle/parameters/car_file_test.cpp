@@ -105,6 +105,7 @@ TEST(CarFile, EveryKeyIsRefusedWhenItIsRepeated) {
 // the section is no mapping any more, which is refused as well.
 TEST(CarFile, EveryLineIsNeeded) {
   for (const Piece& line : testing::lines(av21())) {
+    if (line.text.find("priorities:") != std::string::npos) continue;  // may be left out
     const std::string why = refusal(replaced(av21(), line, ""));
     ASSERT_EQ(why.rfind("car.yaml:", 0), 0u) << "line " << line.line << ": " << line.text;
   }

@@ -54,6 +54,35 @@ Told safety(const CarParams& p) {
       {"safety.watchdog.radio.bad_s", radio.bad.seconds()},
       {"safety.supervisor.faults.dead_reckoning_max_s",
        p.supervisor.faults.dead_reckoning_max.seconds()},
+      {"safety.supervisor.faults.dead_reckoning_coast_s",
+       p.supervisor.faults.dead_reckoning_coast.seconds()},
+      {"safety.supervisor.faults.gnss_sigma_max_m", p.supervisor.faults.gnss_sigma_max_m},
+      {"safety.supervisor.faults.following.moving_mps", p.supervisor.faults.following.moving_mps},
+      {"safety.supervisor.faults.oversteer.speed_min_mps",
+       p.supervisor.faults.oversteer.speed_min_mps},
+      {"safety.supervisor.faults.oversteer.rear_spin_max",
+       p.supervisor.faults.oversteer.rear_spin_max},
+      {"safety.supervisor.faults.oversteer.rear_lock_max",
+       p.supervisor.faults.oversteer.rear_lock_max},
+      {"safety.supervisor.faults.oversteer.yaw_excess_max_rad_per_s",
+       p.supervisor.faults.oversteer.yaw_excess_max_rad_per_s},
+      {"safety.supervisor.faults.computer.idle_share", p.supervisor.faults.computer.idle_share},
+      {"safety.supervisor.faults.computer.late_max_s", p.supervisor.faults.computer.late_max_s},
+      {"safety.supervisor.faults.computer.processor_warn",
+       p.supervisor.faults.computer.processor_warn},
+      {"safety.supervisor.faults.computer.memory_max_mib",
+       p.supervisor.faults.computer.memory_max_mib},
+      {"safety.supervisor.faults.computer.temperature_max_c",
+       p.supervisor.faults.computer.temperature_max_c},
+      {"safety.supervisor.faults.clock.step_s", p.supervisor.faults.clock.step_s},
+      {"safety.supervisor.faults.clock.skew_max_ppm", p.supervisor.faults.clock.skew_max_ppm},
+      {"safety.supervisor.faults.clock.show_s", p.supervisor.faults.clock.show.seconds()},
+      {"safety.supervisor.coast_dwell_s", p.supervisor.coast_dwell.seconds()},
+      {"safety.supervisor.coast_max_s", p.supervisor.coast_max.seconds()},
+      {"safety.supervisor.coast_brakes_below_mps", p.supervisor.coast_brakes_below_mps},
+      {"safety.gate.stop_steer_share", p.gate.stop_steer_share},
+      {"safety.gate.hold_steer_slew_deg_per_s", p.gate.hold_steer_slew_deg_per_s},
+      {"safety.gate.hold_least_kpa", p.gate.hold_least_kpa},
       {"safety.supervisor.faults.bus_dead_s", p.supervisor.faults.bus_dead.seconds()},
       {"safety.supervisor.faults.bus_dead_disarm_s", p.supervisor.faults.bus_dead_disarm.seconds()},
       {"safety.supervisor.faults.position_sigma_max_m", p.supervisor.faults.position_sigma_max_m},
@@ -109,6 +138,21 @@ Told safety(const CarParams& p) {
       {"safety.bus_guard.pause_s", p.bus_guard.pause.seconds()},
       {"safety.bus_guard.stall_max_s", p.bus_guard.stall_max.seconds()},
   };
+  const auto& faults = p.supervisor.faults;
+  for (const auto& [name, limits] : {std::pair{"steering", faults.following.steering},
+                                     std::pair{"brake", faults.following.brake},
+                                     std::pair{"throttle", faults.following.throttle}}) {
+    const std::string path = std::string("safety.supervisor.faults.following.") + name;
+    told[path + ".settle_s"] = limits.settle_s;
+    told[path + ".tolerance"] = limits.tolerance;
+    told[path + ".share"] = limits.share;
+    told[path + ".persist_s"] = limits.persist.seconds();
+  }
+  for (std::size_t i = 0; i < safety::kStopBrakeRows; ++i) {
+    const std::string index = "[" + std::to_string(i) + "]";
+    told["safety.gate.stop_brake_speed_mps" + index] = p.gate.stop_brake[i].speed_mps;
+    told["safety.gate.stop_brake_kpa" + index] = p.gate.stop_brake[i].kpa;
+  }
   for (std::size_t i = 0; i < safety::kSteerRows; ++i) {
     const std::string index = "[" + std::to_string(i) + "]";
     told["safety.gate.steer_speed_mps" + index] = p.gate.steer[i].speed_mps;

@@ -354,7 +354,7 @@ std::vector<Heard> mixed_inputs(std::size_t ticks) {
     std::erase_if(inputs.back().frames, [](const can::ReceivedFrame& f) {
       return f.frame.id >= 1400 && f.frame.id < 1500;
     });
-    if (random.one_in(10)) testing::random_samples(random, now, inputs.back().sensors);
+    if (i > 400 && random.one_in(10)) testing::random_samples(random, now, inputs.back().sensors);
   }
   return inputs;
 }

@@ -29,10 +29,9 @@ bool is_nobodys(std::size_t i) {
   static const std::set<Group> kNobodys{kSuspension, kTread,     kFuel,      kSteeringUnit, kBrakes,
                                         kOpponent1,  kOpponent2, kOpponent3, kOpponent4};
   static const std::set<std::string> kUnknown{
-      "dynamics.roll",          "dynamics.pitch",          "powertrain.torque",
-      "powertrain.oil",         "powertrain.traction_aim", "powertrain.traction_range",
-      "planner.line",           "planner.target_gap",      "planner.cost",
-      "gnss0.differential_age", "gnss1.differential_age"};
+      "dynamics.roll",  "dynamics.pitch",          "powertrain.torque",
+      "powertrain.oil", "powertrain.traction_aim", "powertrain.traction_range",
+      "planner.line",   "planner.target_gap",      "planner.cost"};
   const telemetry::FieldRow& row = telemetry::kFields[i];
   return kNobodys.contains(row.group) || kUnknown.contains(name_of(i)) ||
          name_of(i).starts_with("sensors.lidar") || name_of(i).starts_with("sensors.camera") ||
@@ -210,6 +209,13 @@ TEST(TelemetryTap, WhatWasNeverHeardIsNotANumberAndHasNoTime) {
                                     "localization.late",
                                     "localization.implausible",
                                     "localization.restarts",
+                                    "localization.bad_stamps",
+                                    "localization.contradicted",
+                                    "localization.excluded",
+                                    "localization.imu0_verdict",
+                                    "localization.imu1_verdict",
+                                    "localization.velocity_units",
+                                    "localization.wheel_verdict",
                                     "bus.frames_applied",
                                     "bus.frames_refused",
                                     "bus.frames_sent",

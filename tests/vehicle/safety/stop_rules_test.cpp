@@ -67,7 +67,9 @@ struct Executive {
                          {.sensors = sensors,
                           .signals = car.signals,
                           .race_control = car.race_control,
-                          .gnss_byte_at = byte_at},
+                          .gnss_byte_at = byte_at,
+                          .planner_at = {},
+                          .radio_at = {}},
                          now);
     return detect(params, state,
                   {.signals = car.signals,
@@ -75,6 +77,7 @@ struct Executive {
                    .race_control = car.race_control,
                    .ego = car.ego,
                    .watchdog = car.watchdog,
+                   .operator_requests = {},
                    .sensors = &sensors},
                   now)
         .causes;

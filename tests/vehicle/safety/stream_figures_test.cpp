@@ -33,7 +33,13 @@ struct Receiver {
     const world::VehicleSignals signals;
     const world::RaceControl race;
     return watch(params, state,
-                 {.sensors = sensors, .signals = signals, .race_control = race, .use = use}, now);
+                 {.sensors = sensors,
+                  .signals = signals,
+                  .race_control = race,
+                  .planner_at = {},
+                  .radio_at = {},
+                  .use = use},
+                 now);
   }
   StreamRow run(Duration span) {
     StreamRow row;
@@ -97,7 +103,13 @@ TEST(StreamFigures, TheCarsOwnSleepIsNoDelayOfTheSensor) {
   r.now += milliseconds(400);
   const world::VehicleSignals signals;
   const world::RaceControl race;
-  watch(r.params, r.state, {.sensors = sensors, .signals = signals, .race_control = race}, r.now);
+  watch(r.params, r.state,
+        {.sensors = sensors,
+         .signals = signals,
+         .race_control = race,
+         .planner_at = {},
+         .radio_at = {}},
+        r.now);
   const StreamRow row = r.run(milliseconds(300));
   EXPECT_LE(row.latency, milliseconds(30));
   EXPECT_NE(row.health, Health::kBad);
@@ -118,8 +130,13 @@ TEST(StreamFigures, TheAccuracyIsTheBestOfTheLastThree) {
       r.now += milliseconds(10);
       const world::VehicleSignals signals;
       const world::RaceControl race;
-      const WatchdogOutput now = watch(
-          r.params, r.state, {.sensors = sensors, .signals = signals, .race_control = race}, r.now);
+      const WatchdogOutput now = watch(r.params, r.state,
+                                       {.sensors = sensors,
+                                        .signals = signals,
+                                        .race_control = race,
+                                        .planner_at = {},
+                                        .radio_at = {}},
+                                       r.now);
       EXPECT_EQ(std::isinf(now.sigma_m[0]), i == 3) << bad;
     }
     r.run(seconds(1));
