@@ -47,11 +47,8 @@ Told gateway(const CarParams& p) {
   };
 }
 
-Told safety(const CarParams& p) {
-  const auto& radio = p.watchdog.limits[static_cast<std::size_t>(safety::Stream::kRadio)];
+Told faults(const CarParams& p) {
   Told told{
-      {"safety.watchdog.radio.warning_s", radio.warning.seconds()},
-      {"safety.watchdog.radio.bad_s", radio.bad.seconds()},
       {"safety.supervisor.faults.dead_reckoning_max_s",
        p.supervisor.faults.dead_reckoning_max.seconds()},
       {"safety.supervisor.faults.dead_reckoning_coast_s",
@@ -77,17 +74,30 @@ Told safety(const CarParams& p) {
       {"safety.supervisor.faults.clock.step_s", p.supervisor.faults.clock.step_s},
       {"safety.supervisor.faults.clock.skew_max_ppm", p.supervisor.faults.clock.skew_max_ppm},
       {"safety.supervisor.faults.clock.show_s", p.supervisor.faults.clock.show.seconds()},
-      {"safety.supervisor.coast_dwell_s", p.supervisor.coast_dwell.seconds()},
-      {"safety.supervisor.coast_max_s", p.supervisor.coast_max.seconds()},
-      {"safety.supervisor.coast_brakes_below_mps", p.supervisor.coast_brakes_below_mps},
-      {"safety.gate.stop_steer_share", p.gate.stop_steer_share},
-      {"safety.gate.hold_steer_slew_deg_per_s", p.gate.hold_steer_slew_deg_per_s},
-      {"safety.gate.hold_least_kpa", p.gate.hold_least_kpa},
       {"safety.supervisor.faults.bus_dead_s", p.supervisor.faults.bus_dead.seconds()},
       {"safety.supervisor.faults.bus_dead_disarm_s", p.supervisor.faults.bus_dead_disarm.seconds()},
       {"safety.supervisor.faults.position_sigma_max_m", p.supervisor.faults.position_sigma_max_m},
       {"safety.supervisor.faults.control_failures", p.supervisor.faults.control_failures},
       {"safety.supervisor.faults.refused_ticks", p.supervisor.faults.refused_ticks},
+  };
+  const auto& following = p.supervisor.faults.following;
+  for (const auto& [name, limits] :
+       {std::pair{"steering", following.steering}, std::pair{"brake", following.brake},
+        std::pair{"throttle", following.throttle}}) {
+    const std::string path = std::string("safety.supervisor.faults.following.") + name;
+    told[path + ".settle_s"] = limits.settle_s;
+    told[path + ".tolerance"] = limits.tolerance;
+    told[path + ".share"] = limits.share;
+    told[path + ".persist_s"] = limits.persist.seconds();
+  }
+  return told;
+}
+
+Told supervisor(const CarParams& p) {
+  return {
+      {"safety.supervisor.coast_dwell_s", p.supervisor.coast_dwell.seconds()},
+      {"safety.supervisor.coast_max_s", p.supervisor.coast_max.seconds()},
+      {"safety.supervisor.coast_brakes_below_mps", p.supervisor.coast_brakes_below_mps},
       {"safety.supervisor.safe_stop.wheelbase_m", p.supervisor.safe_stop.wheelbase_m},
       {"safety.supervisor.safe_stop.understeer_rad_per_mps2",
        p.supervisor.safe_stop.understeer_rad_per_mps2},
@@ -121,6 +131,14 @@ Told safety(const CarParams& p) {
       {"safety.supervisor.brake_rise_kpa_per_s", p.supervisor.brake_rise_kpa_per_s},
       {"safety.supervisor.brake_fall_kpa_per_s", p.supervisor.brake_fall_kpa_per_s},
       {"safety.supervisor.shift_least_s", p.supervisor.shift_least.seconds()},
+  };
+}
+
+Told gate(const CarParams& p) {
+  Told told{
+      {"safety.gate.stop_steer_share", p.gate.stop_steer_share},
+      {"safety.gate.hold_steer_slew_deg_per_s", p.gate.hold_steer_slew_deg_per_s},
+      {"safety.gate.hold_least_kpa", p.gate.hold_least_kpa},
       {"safety.gate.steer_slew_deg_per_s", p.gate.steer_slew_deg_per_s},
       {"safety.gate.brake_max_kpa", p.gate.brake_max_kpa},
       {"safety.gate.brake_rise_kpa_per_s", p.gate.brake_rise_kpa_per_s},
@@ -138,16 +156,6 @@ Told safety(const CarParams& p) {
       {"safety.bus_guard.pause_s", p.bus_guard.pause.seconds()},
       {"safety.bus_guard.stall_max_s", p.bus_guard.stall_max.seconds()},
   };
-  const auto& faults = p.supervisor.faults;
-  for (const auto& [name, limits] : {std::pair{"steering", faults.following.steering},
-                                     std::pair{"brake", faults.following.brake},
-                                     std::pair{"throttle", faults.following.throttle}}) {
-    const std::string path = std::string("safety.supervisor.faults.following.") + name;
-    told[path + ".settle_s"] = limits.settle_s;
-    told[path + ".tolerance"] = limits.tolerance;
-    told[path + ".share"] = limits.share;
-    told[path + ".persist_s"] = limits.persist.seconds();
-  }
   for (std::size_t i = 0; i < safety::kStopBrakeRows; ++i) {
     const std::string index = "[" + std::to_string(i) + "]";
     told["safety.gate.stop_brake_speed_mps" + index] = p.gate.stop_brake[i].speed_mps;
@@ -158,6 +166,17 @@ Told safety(const CarParams& p) {
     told["safety.gate.steer_speed_mps" + index] = p.gate.steer[i].speed_mps;
     told["safety.gate.steer_motor_deg" + index] = p.gate.steer[i].motor_deg;
   }
+  return told;
+}
+
+Told safety(const CarParams& p) {
+  const auto& radio = p.watchdog.limits[static_cast<std::size_t>(safety::Stream::kRadio)];
+  Told told{
+      {"safety.watchdog.radio.warning_s", radio.warning.seconds()},
+      {"safety.watchdog.radio.bad_s", radio.bad.seconds()},
+  };
+  for (const Told& part : {faults(p), supervisor(p), gate(p)})
+    told.insert(part.begin(), part.end());
   return told;
 }
 
