@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <variant>
 
+#include "basestation/outlets/value_text.hpp"
 #include "protocol/telemetry/command/command_table.hpp"
 #include "protocol/telemetry/delivery/event_content.hpp"
 #include "protocol/telemetry/registry/labels.hpp"
@@ -76,6 +77,9 @@ struct EventText {
 std::string command_text(const telemetry::Command& command) {
   const telemetry::CommandRow& row = telemetry::row_of(command.type);
   std::string text = std::string{row.name} + " ";
+  if (row.unit == telemetry::CommandRow::kBitSet && command.argument >= 0.0) {
+    return text + bits_text(row.labels, static_cast<std::uint32_t>(command.argument));
+  }
   if (!row.labels.empty() && command.argument >= 0.0) {
     return text + "\"" + label(row.labels, static_cast<std::size_t>(command.argument)) + "\"";
   }

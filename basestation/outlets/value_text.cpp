@@ -15,7 +15,8 @@ int decimals_of(double resolution) {
   return decimals;
 }
 
-// Names of the first bits that are set, and how many more there are: a line of the screen holds it.
+}  // namespace
+
 std::string bits_text(std::string_view labels, std::uint32_t bits) {
   constexpr int kNamed = 3;
   constexpr std::size_t kWidth = 80;  // of the names
@@ -35,8 +36,6 @@ std::string bits_text(std::string_view labels, std::uint32_t bits) {
   }
   return more > 0 ? text + " and " + std::to_string(more) + " more" : text;
 }
-
-}  // namespace
 
 std::string value_text(const telemetry::FieldRow& row, double value) {
   if (std::isnan(value)) return "-";

@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "protocol/telemetry/registry/field_row.hpp"
 
 namespace pitwall::outlets {
 
 std::string value_text(const telemetry::FieldRow& row, double value);
+// Names of the first bits that are set, and how many more there are: a line of the screen holds it.
+std::string bits_text(std::string_view labels, std::uint32_t bits);
 std::string path_of(const telemetry::FieldRow& row);  // "ego.x"
 
 }  // namespace pitwall::outlets

@@ -18,6 +18,12 @@ std::string said(const telemetry::EventContent& content) {
 TEST(LogText, CommandsHaveTheirUnitOrLabel) {
   EXPECT_EQ(command_text({.type = CommandType::kSpeedLimit, .argument = 30.5, .issuer = 1}),
             "speed limit 30.5 m/s");
+  const auto excluded = [](double bits) {
+    return command_text({.type = CommandType::kSensorsExcluded, .argument = bits, .issuer = 1});
+  };
+  EXPECT_EQ(excluded(0), "sensors excluded none");
+  EXPECT_EQ(excluded(1), "sensors excluded gnss0");
+  EXPECT_EQ(excluded(6), "sensors excluded gnss1, imu0");
   EXPECT_EQ(command_text({.type = CommandType::kArm, .argument = 1, .issuer = 1}), "arm \"arm\"");
   EXPECT_EQ(command_text({.type = CommandType::kRaceLine, .argument = 3, .issuer = 1}),
             "race line 3");
