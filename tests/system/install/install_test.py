@@ -80,6 +80,11 @@ class Installation(unittest.TestCase):
                  ("--radio", "10.0.0.1:0"), ("--radio", "10.0.0.1:65536"), ("--radio", ":1"),
                  ("--gnss", "23501"), ("--gnss", "23501,23501"), ("--gnss", "1,65536"),
                  ("--gnss", "0,1"), ("--gnss", "1,2,3"), ("--guardian-gnss", "5,5"),
+                 ("--receiver", "udp:23501"), ("--receiver", "2=udp:23501"),
+                 ("--receiver", "0=udp:65536"), ("--receiver", "0=tcp:3001"),
+                 ("--receiver", "0=tcp:receiver:3001"), ("--receiver", "0=serial:ttyS0"),
+                 ("--receiver", "0=serial:/dev/tty S0"), ("--receiver", "0=udp:23502"),
+                 ("--guardian-receiver", "1=udp:23502"), ("--guardian-receiver", "1=file:/x"),
                  ("--car", "/nonexistent.yaml"), ("--car", "/etc"), ("--car", str(car)),
                  ("--track", "/etc/hostname"), ("--keys", "/nonexistent"),
                  ("--keys", "/etc/hostname"), ("--root", "/nonexistent"), ("--root", "/"),
@@ -231,14 +236,38 @@ class Installation(unittest.TestCase):
         car = self.command_of(UNIT)
         for option in ("--guardian", "--can", "--car"):
             self.assertEqual(arguments[arguments.index(option) + 1], car[car.index(option) + 1])
-        own, of_car = (set(words[words.index("--gnss") + 1].split(","))
+        own, of_car = ({word[2:] for word in words if re.match("[01]=", word)}
                        for words in (arguments, car))
+        self.assertEqual((len(own), len(of_car)), (2, 2))
         self.assertFalse(own & of_car, "two processes cannot have one port")
 
     def test_the_guardian_never_has_a_port_of_the_car_process(self):
-        said = self.install("--gnss", "4000,4001", "--guardian-gnss", "4001,4002", expect=2).stderr
-        self.assertIn("--guardian-gnss", said)
+        for links in [("--gnss", "4000,4001", "--guardian-gnss", "4001,4002"),
+                      ("--receiver", "0=tcp:10.0.0.9:3001", "--guardian-receiver",
+                       "1=tcp:10.0.0.9:3001"),
+                      ("--receiver", "0=serial:/dev/ttyS0:460800", "--guardian-receiver",
+                       "0=serial:/dev/ttyS0")]:
+            self.assertIn("--guardian-gnss", self.install(*links, expect=2).stderr)
         self.assertEqual(snapshot(self.root), {})
+
+    # --- receivers that are not on UDP
+
+    def test_receivers_over_tcp_and_a_serial_line(self):
+        """The links of the README's example, and the device that the unit may open for them."""
+        example = re.search(r"`((?:--receiver \S+ ?){2})`", (SOURCE / "README.md").read_text())[1]
+        self.assertIn("=tcp:", example)
+        device = re.search(r"serial:(/dev/\w+)", example)[1]
+        self.install(*example.split(), "--keys", self.make_keys() / "car.keys")
+        program, *arguments = self.command_of(UNIT)
+        for word in example.split():
+            self.assertIn(word, arguments)
+        self.run_installer(*arguments, "--check", program=program)
+        serial = unit_files.read(self.text(UNIT + ".d/serial.conf"))["Service", "DeviceAllow"]
+        self.assertEqual(serial, [f"{device} rw"])
+        self.assertEqual(unit_files.unknown_keys(self.root), [])
+        self.assertFalse((self.root / (GUARDIAN_UNIT + ".d")).exists(), "it has no serial line")
+        self.install()  # back on UDP
+        self.assertFalse((self.root / (UNIT + ".d")).exists())
 
     def test_a_crashing_process_stays_down(self):
         self.install()

@@ -18,7 +18,7 @@ KNOWN = {
             "ProtectHostname ProtectKernelTunables ProtectKernelModules ProtectKernelLogs "
             "ProtectControlGroups RestrictAddressFamilies RestrictNamespaces RestrictSUIDSGID "
             "LockPersonality MemoryDenyWriteExecute SystemCallArchitectures SystemCallFilter "
-            "SystemCallErrorNumber UMask",
+            "SystemCallErrorNumber UMask SupplementaryGroups DevicePolicy DeviceAllow",
         "Install": "WantedBy",
     },
     ".network": {"Match": "Name", "Link": "RequiredForOnline",
@@ -48,12 +48,14 @@ def unknown_keys(root):
     unknown = []
     networkd = NETWORKD.read_bytes() if NETWORKD.exists() else None
     for path in sorted((root / "etc/systemd").rglob("70-pitwall-*")) + \
-            sorted((root / "etc/systemd").rglob("pitwall-*.service")):
+            sorted((root / "etc/systemd").rglob("pitwall-*.service")) + \
+            sorted((root / "etc/systemd").rglob("pitwall-*.service.d/*.conf")):
         if path.is_symlink():
             continue
         for section, key in read(path.read_text()):
             name = f"{section}.{key}"
-            known = key in KNOWN[path.suffix].get(section, "").split()
+            kind = path.parent.suffixes[0] if path.suffix == ".conf" else path.suffix
+            known = key in KNOWN[kind].get(section, "").split()
             if networkd and path.suffix == ".network":
                 known = known and name.encode() + b"\0" in networkd
             if not known:

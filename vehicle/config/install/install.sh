@@ -31,6 +31,10 @@ usage: ./pitwall install car [OPTION]...
   --gnss P0,P1           UDP ports of the two GNSS receivers (default 23501,23502)
   --guardian-gnss P0,P1  UDP ports to which they send a second time, for the guardian (default
                          23511,23512)
+  --receiver UNIT=LINK   instead of --gnss, once for each receiver, UNIT 0 or 1; LINK is
+                         udp:[ADDRESS:]PORT, tcp:ADDRESS:PORT or serial:/dev/DEVICE[:BAUD]
+  --guardian-receiver UNIT=LINK
+                         likewise instead of --guardian-gnss; never a link of the car's process
   --uninstall            remove what was installed; edited configuration stays
   --root DIR             work on the tree in DIR (an image) instead of this machine
   --build DIR            the build with the programs (default build/release)
@@ -53,7 +57,8 @@ source "$here/file_plan.sh"
 target='' dry_run=0 uninstall=0 settings=()
 can=can0 bitrate=500000 restart_ms=0 listen_only=0
 car=$top/vehicle/config/cars/av21.yaml track=$top/vehicle/config/tracks/lvms.yaml
-radio=127.0.0.1:23431 keys='' gnss=23501,23502 guardian_gnss=23511,23512
+radio=127.0.0.1:23431 keys=''
+receiver=(udp:23501 udp:23502) guardian_receiver=(udp:23511 udp:23512)
 build=$top/build/release
 
 # check_number OPTION VALUE LOW HIGH
@@ -76,9 +81,11 @@ check_can() {
     refuse "--can $1 is a virtual bus without bit rate; pitwall-hil bus up makes those"
 }
 
+byte='(25[0-5]|2[0-4][0-9]|1?[0-9]?[0-9])'
+address="($byte\\.){3}$byte" port='[1-9][0-9]{0,4}'
+
 check_radio() {
-  local byte='(25[0-5]|2[0-4][0-9]|1?[0-9]?[0-9])'
-  if [[ ! $1 =~ ^($byte\.){3}$byte:([1-9][0-9]{0,4})$ ]] || ((${1##*:} > 65535)); then
+  if [[ ! $1 =~ ^$address:$port$ ]] || ((${1##*:} > 65535)); then
     refuse "--radio needs ADDRESS:PORT with an IPv4 address and a port 1..65535, got '$1'"
   fi
 }
@@ -95,6 +102,32 @@ check_gnss() { # OPTION VALUE
   fi
 }
 
+# Its form; which device and which rate there can be, the car process knows (check_config).
+check_link() { # OPTION UNIT=LINK
+  local link=${2#*=}
+  if [[ ! $2 =~ ^[01]=(udp:($address:)?$port|tcp:$address:$port|serial:/dev/[A-Za-z0-9_./-]+(:[1-9][0-9]{0,6})?)$ ]] ||
+    { [[ $link != serial:* ]] && ((${link##*:} > 65535)); }; then
+    refuse "$1 needs 0= or 1= and udp:[ADDRESS:]PORT, tcp:ADDRESS:PORT or" \
+      "serial:/dev/DEVICE[:BAUD], got '$2'"
+  fi
+}
+
+# A serial line is its device, whatever the rate.
+line_of() { [[ $1 == serial:*:* ]] && printf '%s' "${1%:*}" || printf '%s' "$1"; }
+
+check_links() {
+  local i
+  [[ $(line_of "${receiver[0]}") != "$(line_of "${receiver[1]}")" ]] ||
+    refuse "--receiver: both receivers have ${receiver[0]}"
+  [[ $(line_of "${guardian_receiver[0]}") != "$(line_of "${guardian_receiver[1]}")" ]] ||
+    refuse "--guardian-receiver: both receivers have ${guardian_receiver[0]}"
+  for i in "${guardian_receiver[@]}"; do
+    [[ $(line_of "$i") != "$(line_of "${receiver[0]}")" &&
+      $(line_of "$i") != "$(line_of "${receiver[1]}")" ]] ||
+      refuse "--guardian-gnss or --guardian-receiver: the car's process has $i"
+  done
+}
+
 check_root() {
   [[ -n $1 && -d $1 ]] || refuse "--root: no such folder '$1'"
   target=$(readlink -f -- "$1")
@@ -109,7 +142,7 @@ parse() {
       --listen-only) listen_only=1 settings+=("$1") ;;
       --help | -h) usage; exit 0 ;;
       --can | --bitrate | --restart-ms | --car | --track | --radio | --keys | --gnss | \
-        --guardian-gnss | --root | --build)
+        --guardian-gnss | --receiver | --guardian-receiver | --root | --build)
         (($# >= 2)) || refuse "$1 needs a value"
         [[ $1 == --root || $1 == --build ]] || settings+=("$1")
         take "$1" "$2"
@@ -120,6 +153,7 @@ parse() {
     shift
   done
   ((!uninstall || !${#settings[@]})) || refuse "--uninstall takes no ${settings[0]}"
+  check_links
 }
 
 take() { # OPTION VALUE
@@ -131,8 +165,10 @@ take() { # OPTION VALUE
     --track) check_file "$1" "$2"; track=$2 ;;
     --radio) check_radio "$2"; radio=$2 ;;
     --keys) check_keys "$2"; keys=$2 ;;
-    --gnss) check_gnss "$1" "$2"; gnss=$2 ;;
-    --guardian-gnss) check_gnss "$1" "$2"; guardian_gnss=$2 ;;
+    --gnss) check_gnss "$1" "$2"; receiver=("udp:${2%,*}" "udp:${2#*,}") ;;
+    --guardian-gnss) check_gnss "$1" "$2"; guardian_receiver=("udp:${2%,*}" "udp:${2#*,}") ;;
+    --receiver) check_link "$1" "$2"; receiver[${2%%=*}]=${2#*=} ;;
+    --guardian-receiver) check_link "$1" "$2"; guardian_receiver[${2%%=*}]=${2#*=} ;;
     --root) check_root "$2" ;;
     --build) [[ -d $2 ]] || refuse "--build: no such folder '$2'"; build=$(readlink -f -- "$2") ;;
   esac
@@ -147,7 +183,9 @@ render() {
     -e "s|@LISTEN_ONLY_YES_NO@|$( ((listen_only)) && echo yes || echo no)|g" \
     -e "s|@LISTEN_ONLY_ON_OFF@|$( ((listen_only)) && echo on || echo off)|g" \
     -e "s|@TX_QUEUE@|$tx_queue_frames|g" -e "s|@CAR@|${car##*/}|g" -e "s|@TRACK@|${track##*/}|g" \
-    -e "s|@GNSS@|$gnss|g" -e "s|@GUARDIAN_GNSS@|$guardian_gnss|g" \
+    -e "s|@RECEIVER_0@|${receiver[0]}|g" -e "s|@RECEIVER_1@|${receiver[1]}|g" \
+    -e "s|@GUARDIAN_RECEIVER_0@|${guardian_receiver[0]}|g" \
+    -e "s|@GUARDIAN_RECEIVER_1@|${guardian_receiver[1]}|g" \
     -e "s|@RADIO@|$radio|g" "$here/$1" >"$out"
   printf '%s' "$out"
 }
@@ -175,11 +213,24 @@ plan_files() {
   plan_file system 0644 /etc/systemd/system/pitwall-guardian.service \
     "$(render pitwall-guardian.service)"
   plan_wanted_by_device pitwall-guardian.service
-  [[ ${gnss%,*} != "${guardian_gnss%,*}" && ${gnss#*,} != "${guardian_gnss#*,}" &&
-    ${gnss%,*} != "${guardian_gnss#*,}" && ${gnss#*,} != "${guardian_gnss%,*}" ]] ||
-    refuse "--guardian-gnss: the car's process has one of these ports"
+  plan_serial pitwall-vehicle.service "${receiver[@]}"
+  plan_serial pitwall-guardian.service "${guardian_receiver[@]}"
   [[ $radio != 127.* ]] ||
     note "telemetry stays on this machine ($radio) until --radio says where the pit wall is"
+}
+
+# A unit sees no device and its user may open none, except the serial lines of its receivers.
+plan_serial() { # UNIT LINK...
+  local unit=$1 link out
+  shift
+  [[ "$*" == *serial:* ]] || return 0
+  out=$scratch/$unit.serial
+  printf '%s\n' '# Serial lines of receivers.' '[Service]' 'SupplementaryGroups=dialout' \
+    'PrivateDevices=no' 'DevicePolicy=closed' >"$out"
+  for link; do
+    [[ $link != serial:* ]] || printf 'DeviceAllow=%s rw\n' "$(line_of "$link" | cut -d: -f2)"
+  done >>"$out"
+  plan_file system 0644 "/etc/systemd/system/$unit.d/serial.conf" "$out"
 }
 
 # Root's alone: systemd hands the service a copy (LoadCredential).
@@ -362,7 +413,7 @@ check_config() {
   local said
   [[ -x $build/vehicle/pitwall-vehicle ]] || return 0
   said=$("$build/vehicle/pitwall-vehicle" --check --car "$car" --track "$track" --can "$can" \
-    --gnss "$gnss" --radio "$radio" 2>&1) && return
+    --receiver "0=${receiver[0]}" --receiver "1=${receiver[1]}" --radio "$radio" 2>&1) && return
   ((dry_run)) || refuse "the car process refuses its files: ${said%%$'\n'*}"
   note "the car process, as built now, refuses its files: ${said%%$'\n'*}"
 }
