@@ -108,6 +108,11 @@ std::optional<McapMessage> McapReader::read_message(const Record& record, bool v
     ++counters_.unknown_channel;
     return std::nullopt;
   }
+  const bool in_time = message.logged_ns >= chunk_start_ns_ && message.logged_ns <= chunk_end_ns_;
+  if (in_chunk_ && chunk_cut_ && !in_time) {
+    ++counters_.implausible;
+    return std::nullopt;
+  }
   ++counters_.messages;
   if (!verified) ++counters_.unverified;
   return message;
@@ -200,8 +205,8 @@ bool McapReader::read_footer(const Record& record) {
 
 bool McapReader::open_chunk(const Record& record) {
   McapCursor in{record.content};
-  in.u64();  // times of its first and last message
-  in.u64();
+  chunk_start_ns_ = in.u64();
+  chunk_end_ns_ = in.u64();
   const std::uint64_t plain_bytes = in.u64();
   const std::uint32_t crc = in.u32();
   const std::string_view compression = in.string();

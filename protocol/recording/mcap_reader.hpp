@@ -5,7 +5,8 @@
 //   errors a file that is cut or broken delivers everything before that place; end() tells the
 //          reason and the place. A chunk whose CRC is wrong, or that is compressed, is skipped as a
 //          whole and counted. Messages of a chunk that the cut goes through are delivered, though
-//          its CRC cannot be checked; they are counted as unverified
+//          its CRC cannot be checked; they are counted as unverified, and skipped where their
+//          time is none of the chunk's
 //   cost   O(bytes); allocates for channels and schemas only
 //   source https://mcap.dev/spec
 // SPDX-License-Identifier: Apache-2.0
@@ -44,6 +45,7 @@ struct McapReaderCounters {
   std::uint64_t compressed_chunks = 0;  // chunks skipped
   std::uint64_t bad_data_crc = 0, bad_summary_crc = 0;
   std::uint64_t unknown_channel = 0;  // messages skipped
+  std::uint64_t implausible = 0;      // skipped: in a cut chunk, outside of the time that it names
   std::uint64_t other_records = 0;    // of kinds that carry no message: passed over
 };
 
@@ -84,6 +86,7 @@ class McapReader {
 
   std::span<const std::uint8_t> file_, rest_, chunk_;
   bool in_chunk_ = false, chunk_verified_ = false, chunk_cut_ = false;
+  std::uint64_t chunk_start_ns_ = 0, chunk_end_ns_ = 0;
   McapEnd end_ = McapEnd::kReading;
   std::uint64_t place_ = 0;
   McapReaderCounters counters_;

@@ -54,6 +54,14 @@ bool McapWriter::write(ChannelId channel, Instant at, std::span<const std::uint8
 
 bool McapWriter::write(ChannelId channel, Instant logged, Instant published,
                        std::span<const std::uint8_t> data) {
+  const bool known = channel.index < tallies_.size();
+  const std::uint32_t sequence = known ? tallies_[channel.index].next_sequence : 0;
+  return copy(channel, {.logged = logged, .published = published, .sequence = sequence}, data);
+}
+
+bool McapWriter::copy(ChannelId channel, const McapStamps& stamps,
+                      std::span<const std::uint8_t> data) {
+  const Instant logged = stamps.logged, published = stamps.published;
   const std::size_t record_bytes = kMcapRecordHeaderBytes + kMessageFixedBytes + data.size();
   if (!admits(channel, logged, published, record_bytes)) return false;
   const bool full = chunk_.size() + record_bytes > limits_.chunk_bytes ||
@@ -71,11 +79,12 @@ bool McapWriter::write(ChannelId channel, Instant logged, Instant published,
   McapAppender out{chunk_};
   const std::size_t record = out.begin_record(McapOpcode::kMessage);
   out.u16(channel.index);
-  out.u32(tally.next_sequence++);
+  out.u32(stamps.sequence);
   out.u64(as_ns(logged));
   out.u64(as_ns(published));
   out.bytes(data);
   out.end_record(record);
+  tally.next_sequence = stamps.sequence + 1;
   ++tally.messages;
   ++counters_.messages;
   return true;

@@ -57,6 +57,12 @@ struct McapLimits {
   std::size_t chunks = 4096;         // reserved in the summary: more than an hour
 };
 
+// A message as it stood in another file, which a copy must not change.
+struct McapStamps {
+  Instant logged{}, published{};
+  std::uint32_t sequence = 0;
+};
+
 struct McapCounters {
   std::uint64_t messages = 0;
   std::uint64_t bytes = 0;  // handed to the sink and kept
@@ -78,6 +84,7 @@ class McapWriter {
   // `published` is when the sender made the message, `logged` when it was taken down.
   bool write(ChannelId channel, Instant logged, Instant published,
              std::span<const std::uint8_t> data);
+  bool copy(ChannelId channel, const McapStamps& stamps, std::span<const std::uint8_t> data);
   // Hands the open chunk to the sink; false when the sink has failed, now or before.
   bool flush();
   // Flushes and writes the summary; false when the sink has failed. Later calls do nothing.

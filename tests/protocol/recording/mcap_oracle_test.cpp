@@ -14,34 +14,12 @@
 #include "protocol/recording/mcap_reader.hpp"
 #include "protocol/recording/mcap_writer.hpp"
 #include "tests/protocol/recording/mcap_samples.hpp"
+#include "tests/support/oracle_node.hpp"
 
 namespace pitwall::recording {
 namespace {
 
-const std::filesystem::path kOracles =
-    std::filesystem::path{PITWALL_SOURCE_DIR} / "tests/support/oracles";
-
-#define NEEDS_ORACLES()                                                      \
-  ASSERT_TRUE(std::filesystem::exists(kOracles / "node_modules/@mcap/core")) \
-      << "the npm packages in " << kOracles << " are not installed (./pitwall setup)"
-
-// Standard output of a program; a failure of the program fails the test.
-std::string output_of(const std::string& command) {
-  std::string text;
-  FILE* pipe = popen(command.c_str(), "r");
-  EXPECT_NE(pipe, nullptr);
-  std::array<char, 4096> piece{};
-  for (std::size_t got; (got = std::fread(piece.data(), 1, piece.size(), pipe)) > 0;) {
-    text.append(piece.data(), got);
-  }
-  EXPECT_EQ(pclose(pipe), 0) << command;
-  return text;
-}
-
-std::string node(const std::string& script, const std::string& arguments) {
-  return output_of("'" + (kOracles / "node_modules/.bin/node").string() + "' '" +
-                   (kOracles / script).string() + "' " + arguments);
-}
+using pitwall::testing::node;
 
 std::string scratch_file(const std::string& name) {
   return (std::filesystem::path{::testing::TempDir()} / ("pitwall_oracle_" + name)).string();
