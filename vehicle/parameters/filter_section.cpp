@@ -44,7 +44,7 @@ void read_preference(yaml::StrictMap& map, const char* key, localization::Prefer
 localization::FilterParams read_filter(yaml::StrictMap map) {
   localization::FilterParams p;
   p.kind = read_kind(map);
-  p.window_s = map.number("window_s", 0.05, 0.5);
+  p.window_s = map.number("window_s", localization::kWindowLeast_s, localization::kWindowMost_s);
   p.reentry_mps = map.number("reentry_mps", 0.5, 5.0);
   yaml::StrictMap planar = map.map("planar"), spatial = map.map("spatial");
   read_ranges(planar, localization::kMotionNoiseRanges, p.planar.noise);

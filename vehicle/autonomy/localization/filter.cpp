@@ -192,7 +192,7 @@ std::optional<Innovation> insert(FilterState& state, const FilterParams& params,
 
 Instant newest(const FilterState& state) {
   CHECK(state.entries.size > 0);
-  return state.entries.list[state.entries.size - 1].at;
+  return state.entries[state.entries.size - 1].at;
 }
 
 Estimate estimate_at(FilterState& state, const FilterParams& params, Instant now) {

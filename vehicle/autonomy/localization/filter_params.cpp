@@ -40,7 +40,7 @@ std::optional<Problem> illegal_gates(std::span<const double> gates, const std::s
 }  // namespace
 
 std::optional<Problem> illegal(const FilterParams& p) {
-  const std::array shared{LegalRange{"window_s", p.window_s, 0.05, 0.5},
+  const std::array shared{LegalRange{"window_s", p.window_s, kWindowLeast_s, kWindowMost_s},
                           LegalRange{"reentry_mps", p.reentry_mps, 0.5, 5.0}};
   if (auto problem = at_place("filter.", shared)) return problem;
   if (auto problem = illegal_in(kMotionNoiseRanges, p.planar.noise, "filter.planar."))

@@ -19,11 +19,14 @@ inline constexpr std::array<const char*, 2> kFilterKindNames{"planar", "spatial"
 
 struct FilterParams {
   FilterKind kind = FilterKind::kSpatial;
-  double window_s = kUnset;     // 0.05..0.5: how late a measurement may be
+  double window_s = kUnset;     // how late a measurement may be: kWindowLeast_s..kWindowMost_s
   double reentry_mps = kUnset;  // 0.5..5: fastest that a correction moves the published position
   PlanarParams planar;
   SpatialParams spatial;
 };
+
+// What the list of measurements holds at their rates is a little more (filter_window.hpp).
+inline constexpr double kWindowLeast_s = 0.05, kWindowMost_s = 1.1;
 
 template <class Params>
 struct NamedRange {

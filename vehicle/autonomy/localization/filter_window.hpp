@@ -17,7 +17,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -27,20 +26,30 @@
 
 namespace pitwall::localization {
 
-// 0.25 s of IMU at 125 Hz, wheels, slip and road at 100 Hz, two receivers at 20 Hz with their
-// attitudes, and reserve.
-inline constexpr std::size_t kEntries = 192, kMemoStride = 8, kMemos = kEntries / kMemoStride;
+// 1.1 s of IMU at 125 Hz, wheels, slip and road at 100 Hz, two receivers at 20 Hz with their
+// attitudes at 50 Hz: 670, and reserve.
+inline constexpr std::size_t kEntries = 768, kMemoStride = 8, kMemos = kEntries / kMemoStride;
 
+// Rings, so that forgetting moves nothing.
 struct Entries {
-  std::array<Measurement, kEntries> list{};
+  std::array<Measurement, kEntries> ring{};
+  std::size_t begins = 0;  // where entry 0 is; a multiple of kMemoStride
   std::size_t size = 0;
   std::size_t folded = 0;  // the last entry that the tip knows
+
+  Measurement& operator[](std::size_t i) { return ring[(begins + i) % kEntries]; }
+  const Measurement& operator[](std::size_t i) const { return ring[(begins + i) % kEntries]; }
 };
 
 template <class Belief>
 struct Memory {
-  std::array<Belief, kMemos> every{};  // [k]: after entry k * kMemoStride
-  Belief tip{};                        // after entry `folded`
+  std::array<Belief, kMemos> ring{};
+  Belief tip{};  // after entry `folded`
+
+  // After entry k * kMemoStride.
+  Belief& every(const Entries& e, std::size_t k) {
+    return ring[(e.begins / kMemoStride + k) % kMemos];
+  }
 };
 
 // Order in time; what was true at once is ordered by what it is, so that the order of arrival never
@@ -54,21 +63,22 @@ inline bool before(const Measurement& a, const Measurement& b) {
 
 template <class Belief>
 void begin(Entries& entries, Memory<Belief>& memory, const Belief& belief, Instant at) {
+  entries.begins = 0;
   entries.size = 1;
   entries.folded = 0;
-  entries.list[0] = {.at = at};
-  memory.every[0] = memory.tip = belief;
+  entries[0] = {.at = at};
+  memory.every(entries, 0) = memory.tip = belief;
 }
 
 // The first kImu at or after entry i; e.size where there is none.
 inline std::size_t imu_from(const Entries& e, std::size_t i) {
-  while (i < e.size && e.list[i].kind != Kind::kImu) ++i;
+  while (i < e.size && e[i].kind != Kind::kImu) ++i;
   return i;
 }
 
 // The last kImu before entry i, or entry 0.
 inline std::size_t imu_before(const Entries& e, std::size_t i) {
-  while (--i > 0 && e.list[i].kind != Kind::kImu) continue;
+  while (--i > 0 && e[i].kind != Kind::kImu) continue;
   return i;
 }
 
@@ -81,9 +91,9 @@ Innovation fold_to(Entries& e, Memory<typename Model::Belief>& memory,
   while (e.folded < last) {
     const std::size_t i = ++e.folded;
     if (next_imu < i) next_imu = imu_from(e, i);
-    const Measurement* ahead = next_imu < e.size ? &e.list[next_imu] : nullptr;
-    innovation = Model::fold(memory.tip, params, e.list[i], ahead);
-    if (i % kMemoStride == 0) memory.every[i / kMemoStride] = memory.tip;
+    const Measurement* ahead = next_imu < e.size ? &e[next_imu] : nullptr;
+    innovation = Model::fold(memory.tip, params, e[i], ahead);
+    if (i % kMemoStride == 0) memory.every(e, i / kMemoStride) = memory.tip;
   }
   return innovation;
 }
@@ -93,7 +103,7 @@ template <class Belief>
 void rewind(Entries& e, Memory<Belief>& memory, std::size_t first) {
   if (e.folded < first) return;
   const std::size_t k = (first - 1) / kMemoStride;
-  memory.tip = memory.every[k];
+  memory.tip = memory.every(e, k);
   e.folded = k * kMemoStride;
 }
 
@@ -109,18 +119,15 @@ void settle(Entries& e, Memory<typename Model::Belief>& memory,
 template <class Model>
 void forget(Entries& e, Memory<typename Model::Belief>& memory,
             const typename Model::Params& params, Duration window) {
-  const Instant oldest = e.list[e.size - 1].at - window;
+  const Instant oldest = e[e.size - 1].at - window;
   std::size_t strides = 0;
-  while ((strides + 1) * kMemoStride < e.size && e.list[(strides + 1) * kMemoStride].at <= oldest)
+  while ((strides + 1) * kMemoStride < e.size && e[(strides + 1) * kMemoStride].at <= oldest)
     ++strides;
   if (strides == 0 && e.size == kEntries) strides = 1;
   if (strides == 0) return;
   const std::size_t count = strides * kMemoStride;
   if (e.folded < count) (void)fold_to<Model>(e, memory, params, count);
-  std::move(e.list.begin() + static_cast<std::ptrdiff_t>(count),
-            e.list.begin() + static_cast<std::ptrdiff_t>(e.size), e.list.begin());
-  std::move(memory.every.begin() + static_cast<std::ptrdiff_t>(strides), memory.every.end(),
-            memory.every.begin());
+  e.begins = (e.begins + count) % kEntries;
   e.size -= count;
   e.folded -= count;
 }
@@ -135,17 +142,15 @@ std::optional<Innovation> insert_into(Entries& e, Memory<typename Model::Belief>
                                       const typename Model::Params& params, Duration window,
                                       const Measurement& m) {
   CHECK(e.size > 0);
-  if (m.at < e.list[0].at) return std::nullopt;
+  if (m.at < e[0].at) return std::nullopt;
   forget<Model>(e, memory, params, window);
-  if (m.at < e.list[0].at) return std::nullopt;
+  if (m.at < e[0].at) return std::nullopt;
   std::size_t place = e.size;
-  while (place > 1 && before(m, e.list[place - 1])) --place;
+  while (place > 1 && before(m, e[place - 1])) --place;
   const bool imu = m.kind == Kind::kImu;
   rewind(e, memory, imu ? imu_before(e, place) + 1 : place);
-  std::move_backward(e.list.begin() + static_cast<std::ptrdiff_t>(place),
-                     e.list.begin() + static_cast<std::ptrdiff_t>(e.size),
-                     e.list.begin() + static_cast<std::ptrdiff_t>(e.size + 1));
-  e.list[place] = m;
+  for (std::size_t i = e.size; i > place; --i) e[i] = e[i - 1];
+  e[place] = m;
   ++e.size;
   if (is_quiet(m.kind)) return Innovation{.accepted = true, .nis = kUnset, .size = 0};
   return fold_to<Model>(e, memory, params, place);

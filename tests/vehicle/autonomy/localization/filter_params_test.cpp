@@ -48,7 +48,7 @@ TEST(FilterParams, EachHasItsRange) {
 
 TEST(FilterParams, GatesAndSharedOnesToo) {
   FilterParams p = recommended_filter();
-  p.window_s = 0.6;
+  p.window_s = kWindowMost_s + 0.01;
   EXPECT_EQ(place(p), "filter.window_s");
   p = recommended_filter();
   p.reentry_mps = kUnset;
