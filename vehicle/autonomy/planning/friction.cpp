@@ -36,14 +36,14 @@ FrictionParams on_tyres(const FrictionParams& car, double tyre_c) {
 
 double grip_mps2(const FrictionParams& car, const RoadLoad& at) {
   const double v2 = at.speed_mps * at.speed_mps;
-  const double load = kGravity_mps2 * std::cos(at.bank_rad) +
-                      v2 * at.curvature_per_m * std::sin(at.bank_rad) + car.downforce_per_m * v2;
+  const double load = kGravity_mps2 * at.cos_bank + v2 * at.curvature_per_m * at.sin_bank +
+                      car.downforce_per_m * v2;
   return car.friction * std::max(load, 0.0);
 }
 
 double lateral_demand_mps2(const RoadLoad& at) {
-  return at.speed_mps * at.speed_mps * at.curvature_per_m * std::cos(at.bank_rad) -
-         kGravity_mps2 * std::sin(at.bank_rad);
+  return at.speed_mps * at.speed_mps * at.curvature_per_m * at.cos_bank -
+         kGravity_mps2 * at.sin_bank;
 }
 
 double brake_available_mps2(const FrictionParams& car, const RoadLoad& at, double share) {
@@ -62,14 +62,14 @@ double drive_available_mps2(const FrictionParams& car, const RoadLoad& at, doubl
 
 double corner_speed_mps(const FrictionParams& car, const RoadLoad& at, double share) {
   const auto carries = [&](double speed_mps) {
-    const RoadLoad load{speed_mps, at.curvature_per_m, at.bank_rad};
+    const RoadLoad load{speed_mps, at.curvature_per_m, at.bank_rad, at.cos_bank, at.sin_bank};
     return std::abs(lateral_demand_mps2(load)) <= share * grip_mps2(car, load);
   };
   if (carries(kSpeedCeiling_mps)) return kSpeedCeiling_mps;
   // On a bank the slowest speeds may need more than the fast ones; the neutral speed, where gravity
   // turns the car, is carried if any is.
-  const double turn = at.curvature_per_m * std::cos(at.bank_rad);
-  const double fall = kGravity_mps2 * std::sin(at.bank_rad);
+  const double turn = at.curvature_per_m * at.cos_bank;
+  const double fall = kGravity_mps2 * at.sin_bank;
   double good = turn * fall > 0.0 ? std::sqrt(fall / turn) : 0.0, bad = kSpeedCeiling_mps;
   if (!carries(good)) return 0.0;
   for (int i = 0; i < kBisections; ++i) {

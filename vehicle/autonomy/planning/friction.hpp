@@ -13,6 +13,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/world/tyre_grip.hpp"
 
@@ -35,9 +37,11 @@ struct FrictionParams {
 // The same car on tyres of that temperature; unset counts as cold.
 FrictionParams on_tyres(const FrictionParams& car, double tyre_c);
 
-// A place on the road at a speed.
+// A place on the road at a speed. Who asks for one place at many speeds hands the bank's functions
+// on.
 struct RoadLoad {
   double speed_mps = kUnset, curvature_per_m = kUnset, bank_rad = kUnset;
+  double cos_bank = std::cos(bank_rad), sin_bank = std::sin(bank_rad);
 };
 
 double grip_mps2(const FrictionParams& car, const RoadLoad& at);

@@ -121,7 +121,7 @@ double stop_decel_mps2(const RoadAhead& road, double distance_m, double speed_mp
   double brake = l.decel_max_mps2;
   for (const double ahead_s : kStopAhead_s) {
     const RoadSample& p = road.sample(distance_m + ahead_s * speed_mps);
-    const RoadLoad load{speed_mps, p.curvature_per_m, p.bank_rad};
+    const RoadLoad load{speed_mps, p.curvature_per_m, p.bank_rad, p.cos_bank, p.sin_bank};
     brake = std::min(brake, brake_available_mps2(l.friction, load, l.grip_share));
   }
   const double coast = coasting_mps2(l.friction, speed_mps);

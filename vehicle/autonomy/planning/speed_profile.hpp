@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "protocol/vocabulary/units.hpp"
@@ -58,6 +59,7 @@ inline constexpr double kRoadStep_m = 4.0;
 
 struct RoadSample {
   double curvature_per_m = kUnset, bank_rad = kUnset;
+  double cos_bank = std::cos(bank_rad), sin_bank = std::sin(bank_rad);
 };
 struct RoadAhead {
   std::array<RoadSample, kRoadPoints> at{};

@@ -34,9 +34,10 @@ Slowing slow_down(const RoadAhead& road, double speed_mps, const StopLimits& lim
   double v2 = speed_mps * speed_mps;
   const double begin_m = 0.5 * speed_mps * limits.decel_max_mps2 / limits.jerk_max_mps3;
   for (std::size_t i = 0; i < kRoadPoints; ++i) {
+    if (!(v2 > 0.0)) break;  // it stands
     out.speed2[i] = v2;
     if (v2 > low_speed_mps * low_speed_mps) out.low = i + 1;
-    if (v2 > 0.0) out.stands = i + 1;
+    out.stands = i + 1;
     const double decel =
         distance_m(i) < begin_m ? 0.0 : stop_decel_mps2(road, distance_m(i), std::sqrt(v2), limits);
     v2 = std::max(v2 - 2.0 * kRoadStep_m * decel, 0.0);
