@@ -1,4 +1,5 @@
 // `pitwall-hil bench NAME [--json FILE]`: benchmarks that are runs of the bench itself.
+//   ekf        what the filter of localization costs the car; gates in bench_ekf.hpp
 //   gateway    27,000 frames/s and every lost frame reported; options in bench_gateway.hpp
 //   laps       three ovals, nominal and perturbed; gates in hil/laps/lap_table.hpp
 //   lockstep   how much faster than real time the closed loop runs; gate: at least 20 times

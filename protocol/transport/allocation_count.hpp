@@ -1,0 +1,66 @@
+// Counts what a piece of code takes from the heap of its thread: operator new, malloc, Eigen's
+// buffers. For benchmarks and tests; a program that includes it nowhere has glibc's own malloc.
+//   out    how many blocks were taken since the thread began; the difference is what the work took
+//   law    any number of files of a program may include it: its functions are weak, hence one each
+//   errors under AddressSanitizer, which has a heap of its own, nothing is counted and
+//          kAllocationsCounted is false
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#if defined(__SANITIZE_ADDRESS__)
+#define PITWALL_ADDRESS_SANITIZER
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define PITWALL_ADDRESS_SANITIZER
+#endif
+#endif
+
+namespace pitwall::transport {
+
+inline thread_local std::size_t allocation_count = 0;
+
+#ifdef PITWALL_ADDRESS_SANITIZER
+inline constexpr bool kAllocationsCounted = false;
+#else
+inline constexpr bool kAllocationsCounted = true;
+#endif
+
+template <class Work>
+std::size_t allocations_of(Work&& work) {
+  const std::size_t before = allocation_count;
+  work();
+  return allocation_count - before;
+}
+
+}  // namespace pitwall::transport
+
+#ifndef PITWALL_ADDRESS_SANITIZER
+// glibc lets a program put its own in front: https://www.gnu.org/software/libc/manual, 3.2.5.
+// NOLINTBEGIN(bugprone-reserved-identifier): the names are glibc's.
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* old, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+
+[[gnu::weak]] void* malloc(std::size_t size) {
+  ++pitwall::transport::allocation_count;
+  return __libc_malloc(size);
+}
+[[gnu::weak]] void* calloc(std::size_t count, std::size_t size) {
+  ++pitwall::transport::allocation_count;
+  return __libc_calloc(count, size);
+}
+[[gnu::weak]] void* realloc(void* old, std::size_t size) {
+  ++pitwall::transport::allocation_count;
+  return __libc_realloc(old, size);
+}
+[[gnu::weak]] void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  ++pitwall::transport::allocation_count;
+  return __libc_memalign(alignment, size);
+}
+}
+// NOLINTEND(bugprone-reserved-identifier)
+#endif
