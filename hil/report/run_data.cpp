@@ -7,13 +7,14 @@
 #include <map>
 
 #include "hil/bus/frame_length.hpp"
-#include "hil/report/json_value.hpp"
 #include "hil/report/text.hpp"
+#include "protocol/json/json_value.hpp"
 #include "protocol/recording/sha256.hpp"
 
 namespace pitwall::report {
 namespace {
 
+using json::JsonValue;
 using recording::McapEnd;
 
 class LogReading {

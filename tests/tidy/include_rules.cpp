@@ -76,6 +76,7 @@ const std::vector<Part> kParts{
     {"protocol/vocabulary/check.hpp", {}, {}},
     {"protocol/bits", {"protocol/vocabulary"}, {}},
     {"protocol/yaml", {"protocol/vocabulary"}, {"yaml", "files"}},
+    {"protocol/json", {"protocol/vocabulary"}, {}},
     {"protocol/can", {"protocol/vocabulary", "protocol/bits", "protocol/yaml"}, {"yaml", "files"}},
     {"protocol/telemetry", kShared, {}},
     {"protocol/telemetry/session",

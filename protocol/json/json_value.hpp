@@ -1,4 +1,4 @@
-// A small reader of JSON that programs wrote: the result of a run, the text of an event.
+// A small reader of JSON: the result of a run, the text of an event, what a console says.
 //   in     one JSON document; its name, for messages
 //   out    a value; asked for by key it gives what is there, or the neutral answer: no text, NaN,
 //          false, no items. So a reader of today reads what a writer of tomorrow adds
@@ -17,7 +17,7 @@
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/units.hpp"
 
-namespace pitwall::report {
+namespace pitwall::json {
 
 class JsonValue {
  public:
@@ -45,4 +45,4 @@ class JsonValue {
   std::variant<std::monostate, bool, double, std::string, Items, Members> value_;
 };
 
-}  // namespace pitwall::report
+}  // namespace pitwall::json

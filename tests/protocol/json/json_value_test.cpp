@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/report/json_value.hpp"
+#include "protocol/json/json_value.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace pitwall::report {
+namespace pitwall::json {
 namespace {
 
 JsonValue read(const std::string& text) {
@@ -60,4 +60,4 @@ TEST(Json, EveryPrefixIsRefused) {
 }
 
 }  // namespace
-}  // namespace pitwall::report
+}  // namespace pitwall::json

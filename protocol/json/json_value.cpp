@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/report/json_value.hpp"
+#include "protocol/json/json_value.hpp"
 
 #include <charconv>
 #include <cstdint>
 #include <optional>
 
-namespace pitwall::report {
+namespace pitwall::json {
 
 constexpr int kDepthMax = 32;
 
@@ -206,4 +206,4 @@ double JsonValue::number() const {
   return number != nullptr ? *number : kUnset;
 }
 
-}  // namespace pitwall::report
+}  // namespace pitwall::json
