@@ -31,8 +31,8 @@ const char* text_of(Quality quality) {
 }
 
 Quality quality_of(Duration age, Duration target_age) {
-  if (age <= target_age) return Quality::kFresh;
-  return age <= kLateFactor * target_age ? Quality::kLate : Quality::kStale;
+  if (age <= fresh_until(target_age)) return Quality::kFresh;
+  return age <= stale_after(target_age) ? Quality::kLate : Quality::kStale;
 }
 
 void Picture::update(const telemetry::Snapshot& state, telemetry::GroupSet groups) {
@@ -52,7 +52,10 @@ void Picture::update(const telemetry::Snapshot& state, telemetry::GroupSet group
 
 FieldView Picture::view(telemetry::FieldIndex field, Instant now) const {
   const Latest& latest = latest_[field];
-  return view_of(latest.value, latest.sampled, telemetry::kFields[field].target_age(), now);
+  const telemetry::FieldRow& row = telemetry::kFields[field];
+  FieldView view = view_of(latest.value, latest.sampled, row.target_age(), now);
+  view.unset = latest.sampled != sampled_[telemetry::index_of(row.group)];
+  return view;
 }
 
 FieldView Picture::group(telemetry::Group group, Instant now) const {

@@ -3,10 +3,11 @@
 //   out    value, age and quality of each field at any later time
 //   age    since the sample was taken in the car, the way to the base included: never younger than
 //          the truth while the clocks of car and base are compared
-//   unset  a field that the car no longer knows keeps its last value and grows old
+//   unset  a field that the car no longer knows keeps its last value, grows old, and is marked so
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -17,12 +18,16 @@
 namespace pitwall::picture {
 
 enum class Quality : std::uint8_t {
-  kFresh,  // within the field's target age
-  kLate,   // within three times of it
-  kStale,
+  kFresh,  // up to one and a half times the field's target age
+  kLate,   // up to five times of it, but no longer than 2 s; of the slowest fields twice of it
+  kStale,  // it says nothing of now
   kNever
 };
-inline constexpr int kLateFactor = 3;
+inline constexpr Duration kStaleAfter = seconds(2);
+constexpr Duration fresh_until(Duration target_age) { return 3 * target_age / 2; }
+constexpr Duration stale_after(Duration target_age) {
+  return std::min(5 * target_age, std::max(kStaleAfter, 2 * target_age));
+}
 const char* text_of(Quality quality);
 Quality quality_of(Duration age, Duration target_age);
 
@@ -30,6 +35,7 @@ struct FieldView {
   double value = kUnset;
   Duration age{};
   Quality quality = Quality::kNever;
+  bool unset = false;  // the car says that it does not know: the value is the last known one
 };
 
 class Picture {

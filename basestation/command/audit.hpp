@@ -1,0 +1,36 @@
+// Who did what, when, and what came of it. Every act of an operator leaves a line, a refused one
+// too.
+//   bound  the newest kKept are kept, all are counted; the recorder has them all
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <string>
+
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::command {
+
+struct AuditLine {
+  std::uint64_t number = 0;  // from 1
+  Instant at{};
+  std::string who, what, result;
+
+  bool operator==(const AuditLine&) const = default;
+};
+
+class Audit {
+ public:
+  static constexpr std::size_t kKept = 1'000;
+
+  void add(Instant at, std::string who, std::string what, std::string result);
+  const std::deque<AuditLine>& lines() const { return lines_; }
+  std::uint64_t count() const { return count_; }
+
+ private:
+  std::deque<AuditLine> lines_;
+  std::uint64_t count_ = 0;
+};
+
+}  // namespace pitwall::command

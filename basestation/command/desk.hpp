@@ -1,0 +1,111 @@
+// The operator's desk: commands on their way from a thought to the car, step by step.
+//
+//   staged -> gated -> sent -> received -> applied
+//                |       |         `-> refused | expired | superseded
+//                `-------`-> refused (gates, or cancelled), expired (nobody sent it)
+//
+//   in     what operators stage, send and cancel; what the picture says; what the car answers
+//   out    tickets with every step and its time; commands issued on the radio's desk; audit lines
+//   law    gates are judged when a command is staged and again when it is sent: what has passed a
+//          minute ago has not passed now. One that did not pass goes only with a reason and by a
+//          second person, and never past a gate that cannot be overridden
+//          a stop needs no ticket, no gate, no authority, and is said at once, again and again
+//          a ticket is sent once; nothing waits for the link to come back
+//   errors Problem with the ticket or the command as place; the audit log has the refusal too
+//   bound  kKept tickets; staged ones expire after kStagedFor
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "basestation/command/audit.hpp"
+#include "basestation/command/gates.hpp"
+#include "basestation/command/person.hpp"
+#include "protocol/telemetry/endpoint/station_endpoint.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::command {
+
+enum class Step : std::uint8_t {
+  kStaged,
+  kGated,
+  kSent,
+  kReceived,
+  kApplied,
+  kRefused,
+  kExpired,
+  kSuperseded
+};
+inline constexpr std::size_t kSteps = 8;
+std::string_view text_of(Step step);
+constexpr bool is_final(Step step) { return step >= Step::kApplied; }
+
+using TicketId = std::uint32_t;  // from 1
+
+// A reason, and the second person who agrees. Who that is the caller has found out by the token.
+struct Override {
+  std::string reason;
+  Person second;
+};
+
+struct Ticket {
+  TicketId id = 0;
+  telemetry::Command command;
+  Person by;
+  Step step = Step::kStaged;
+  std::array<std::optional<Instant>, kSteps> at{};
+  std::vector<Gate> gates;
+  std::optional<Override> overridden;
+  std::optional<telemetry::CommandId> number;  // on the radio
+  std::string text;                            // why it ended as it did
+  bool echoed = false;                         // the car's state shows it
+};
+
+class Desk {
+ public:
+  static constexpr std::size_t kKept = 200;
+  static constexpr Duration kStagedFor = seconds(30);
+
+  Desk(const GateParams& params, Audit& audit) : params_(params), audit_(&audit) {}
+
+  Result<TicketId, Problem> stage(const Person& by, telemetry::CommandType type, double argument,
+                                  const GateInputs& inputs);
+  Result<bool, Problem> send(TicketId id, const Person& by,
+                             const std::optional<Override>& overriding, const GateInputs& inputs,
+                             telemetry::StationEndpoint& radio);
+  Result<bool, Problem> cancel(TicketId id, const Person& by, Instant now);
+  void stop(telemetry::StopLevel level, telemetry::StopReason reason, const Person& by, Instant now,
+            telemetry::StationEndpoint& radio);
+
+  // How far the car got; what is staged too long expires. After every packet, and before the
+  // tickets are shown.
+  void follow(const picture::Picture& picture, const telemetry::StationEndpoint& radio,
+              Instant now);
+
+  const std::deque<Ticket>& tickets() const { return tickets_; }
+  const Ticket* ticket(TicketId id) const;
+  // Tickets that changed since they were last asked for, oldest first.
+  std::vector<Ticket> take_changed();
+
+ private:
+  Ticket* find(TicketId id);
+  void reach(Ticket& ticket, Step step, Instant now);
+  Result<bool, Problem> refuse(Ticket* ticket, TicketId id, const Person& by, std::string what,
+                               Instant now);
+  void follow(Ticket& ticket, const telemetry::CommandProgress& progress);
+
+  GateParams params_;
+  Audit* audit_;
+  std::deque<Ticket> tickets_;
+  std::vector<TicketId> changed_;
+  TicketId newest_ = 0;
+};
+
+}  // namespace pitwall::command

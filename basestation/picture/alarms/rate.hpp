@@ -1,0 +1,39 @@
+// How many alarms came lately, against what people can bear.
+//   in     the time of each coming
+//   out    comings in the last 10 min; whether the list is flooded
+//   law    flood begins above kFloodAbove in 10 min, and is over at kFloodOver or fewer
+//   bound  the newest kKept comings are known; more in 10 min count as kKept
+//   source EEMUA 191, ISA-18.2: about one in 10 min can be borne, more than 10 is a flood
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::alarms {
+
+inline constexpr Duration kRateWindow = seconds(600);
+inline constexpr std::size_t kFloodAbove = 10, kFloodOver = 5;
+
+class AlarmRate {
+ public:
+  static constexpr std::size_t kKept = 256;
+
+  void came(Instant at);
+  // True: flood began or ended.
+  bool advance(Instant now);
+  std::size_t per_10_min() const { return count_; }
+  bool flood() const { return flood_; }
+  std::uint64_t ever() const { return ever_; }
+
+ private:
+  std::array<Instant, kKept> times_{};
+  std::uint64_t ever_ = 0;
+  std::size_t count_ = 0;
+  bool flood_ = false;
+};
+
+}  // namespace pitwall::alarms

@@ -1,0 +1,44 @@
+// The base's own fields, made of the car's: one pass over the picture.
+//   in     the picture, what is known beside it, books that remember (fuel, corrections, link)
+//   out    a view of each base field: as old as the oldest value that it needed, and no better
+//   law    a value that needs a field nobody ever told is never there; one of a stale field is
+//          stale. Judged fields keep their last value like the car's
+//   cost   about forty views of the picture; no allocation
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "basestation/picture/alarms/alarm_table.hpp"
+#include "basestation/picture/course.hpp"
+#include "basestation/picture/incidents/corrections.hpp"
+#include "basestation/picture/incidents/fuel.hpp"
+#include "basestation/picture/incidents/link_state.hpp"
+#include "basestation/picture/incidents/tyre_gate.hpp"
+#include "basestation/picture/known.hpp"
+
+namespace pitwall::picture {
+
+struct DeriveParams {
+  TyreGate tyres;
+  FuelPlan fuel;
+};
+
+// What the base remembers of earlier values.
+struct Books {
+  FuelBook fuel;
+  CorrectionWatch corrections;
+  LinkWatch link;
+
+  // Once for each new sample of the groups they follow, and once each step of the grid.
+  void step(const Picture& picture, const Known& known, Instant now);
+
+ private:
+  Instant fuel_at_ = telemetry::kNeverSampled;
+  std::array<Instant, CorrectionWatch::kUnits> gnss_at_{telemetry::kNeverSampled,
+                                                        telemetry::kNeverSampled};
+};
+
+void derive(const DeriveParams& params, const Picture& picture, const Known& known,
+            const Books& books, const Course* course, Instant now, BaseViews& views);
+alarms::Situations situations_of(const Picture& picture, const BaseViews& views, Instant now);
+
+}  // namespace pitwall::picture

@@ -1,0 +1,51 @@
+// For how many laps and attempts there is fuel. The paper's team accepted an attempt of two laps
+// with fuel for one, and lost its place.
+//   in     litres in the tank and lap number as they come; the plan of the race
+//   out    litres per lap, laps left, whole attempts that still leave fuel to come home
+//   law    a lap counts when the car drove it whole: from one change of the lap number to the next,
+//          with fuel burnt. Judged by the thirstiest of the last kLaps, or by the plan's guess until
+//          there is one: never more laps than the truth has
+//          filling the tank begins anew, and forgets no lap
+//   errors a level that is no number changes nothing
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::picture {
+
+struct FuelPlan {
+  double attempt_laps = 2.0;     // of the passing competition
+  double home_laps = 1.0;        // the lap into the pits
+  double reserve_l = 2.0;        // that the pump does not reach
+  double guess_l_per_lap = 2.2;  // of LVMS at speed, before a lap was measured
+};
+
+enum class FuelState : std::uint8_t { kUnknown, kEnough, kLastAttempt, kHomeNow };
+
+struct FuelLeft {
+  double per_lap_l = kUnset, laps = kUnset, attempts = kUnset;
+  FuelState state = FuelState::kUnknown;
+  bool measured = false;  // else by the plan's guess
+};
+
+class FuelBook {
+ public:
+  static constexpr std::size_t kLaps = 3;
+
+  void heard(double level_l, double lap);
+  FuelLeft left(const FuelPlan& plan) const;
+
+ private:
+  double level_l_ = kUnset;
+  double lap_ = kUnset, level_at_lap_l_ = kUnset;
+  bool whole_lap_ = false, filled_ = false;
+  std::array<double, kLaps> burnt_l_{};
+  std::uint64_t laps_ = 0;
+};
+
+}  // namespace pitwall::picture

@@ -1,0 +1,47 @@
+// All that the base judges by, beside the picture: figures of the link, of the base itself, and
+// what its people expect. Plain values; whoever has them tells them, with the time of the change.
+//   units  as the names say; kUnset where nobody knows
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "basestation/picture/base_field.hpp"
+#include "basestation/picture/picture.hpp"
+#include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::picture {
+
+struct LinkFigures {
+  std::optional<Instant> heard;                 // the car's newest authentic packet
+  double down_loss = kUnset, up_loss = kUnset;  // of the last 5 s, 0 .. 1; on all paths
+  double round_trip_ms = kUnset, jitter_ms = kUnset;
+  double loss_1s = kUnset, loss_30s = kUnset, packets_hz = kUnset;
+  double down_kbit_s = kUnset, down_cap_kbit_s = kUnset, up_kbit_s = kUnset;
+};
+
+struct BaseFigures {
+  double disk_minutes = kUnset;     // that the recorder can still write
+  double clock_offset_ms = kUnset;  // of the base against UTC, where something compares them
+  bool joystick_lost = false;       // was in use, gives no samples now
+  bool authority_lost = false;      // expired without being dropped or handed over
+  bool schema_differs = false;      // car and base disagree on the safety groups
+};
+
+// What the pit wall expects, as its people said.
+struct Expectations {
+  double round_speed_mps = kUnset;  // of the bracket that was announced
+  double track_flag = kUnset;       // that the base relays, as telemetry::kTrackFlags
+};
+
+struct Known {
+  LinkFigures link;
+  BaseFigures base;
+  Expectations expected;
+};
+
+using BaseViews = std::array<FieldView, kBaseFields>;
+
+}  // namespace pitwall::picture

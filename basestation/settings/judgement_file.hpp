@@ -1,0 +1,34 @@
+// The file of limits and alarms that people changed: read at the start, written after each change.
+//   in     YAML: version, fuel and tyre gate where they differ, a list of alarms, a list of limits,
+//          each with its author and reason
+//   out    settings in force; the same as text
+//   errors Problem with file, line and column: unknown keys, alarms or fields, numbers out of
+//          range, a missing author. A file with one mistake changes nothing
+//
+//   version: 1
+//   alarms:
+//     - {alarm: fuel_last_attempt, priority: medium, limit: 0.5, deadband: 0, on_s: 0, off_s: 1,
+//        author: A. Saba, reason: short track}
+//   limits:
+//     - {field: tyres.pressure_rear_left, warning_low: 150, author: A. Saba, reason: new tyres}
+//   fuel: {attempt_laps: 2, home_laps: 1, reserve_l: 2, guess_l_per_lap: 2.2}
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "basestation/picture/watch/watch.hpp"
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::settings {
+
+// The course is not in it.
+Result<picture::WatchConfig, Problem> read_judgement_file(const std::filesystem::path& path);
+Result<picture::WatchConfig, Problem> read_judgement_text(std::string_view text,
+                                                          const std::string& name);
+std::string judgement_text(const picture::DeriveParams& params, const picture::Limits& limits,
+                           const alarms::AlarmSettings& alarms);
+
+}  // namespace pitwall::settings
