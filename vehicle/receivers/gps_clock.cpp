@@ -17,13 +17,14 @@ Placed GpsClock::place(Stream stream, gnss::GpsTime sampled, Instant arrival) {
   heard.last = sampled;
   heard.ever = true;
   const auto placed = [&](StampFlaw flaw) {
-    return Placed{Instant{sampled.ns + offset().ns - least_delay_.ns}, flaw};
+    return Placed{Instant{sampled.ns + offset_.ns - least_delay_.ns}, flaw};
   };
   if (!follows && started_) return placed(standing);
 
   const Duration difference{arrival.ns - sampled.ns};
   const Duration level = difference - heard.slower;
-  const bool stale = started_ && arrival - heard_at_ >= kHalfWindow * 2;
+  const Duration elapsed = arrival - heard_at_;
+  const bool stale = started_ && elapsed >= kHalfWindow * 2;
   heard_at_ = arrival;
   if (!started_ || stale) {
     begin(level, arrival);
@@ -32,7 +33,10 @@ Placed GpsClock::place(Stream stream, gnss::GpsTime sampled, Instant arrival) {
   }
   turn_half_window(arrival);
   heard.smallest = std::min(heard.smallest, difference);
-  current_ = std::min(current_, level);
+  ++heard.samples;
+  if (is_evidence(heard, arrival)) current_ = std::min(current_, level);
+  heard.at = arrival;
+  follow(elapsed);
   return placed(StampFlaw::kNone);
 }
 
@@ -41,9 +45,9 @@ void GpsClock::begin(Duration level, Instant arrival) {
   started_ = true;
   settled_ = false;
   half_began_ = arrival;
-  current_ = previous_ = level;
+  offset_ = current_ = previous_ = level;
   confirmations_ = 0;
-  for (Heard& heard : streams_) heard.smallest = kNever;
+  for (Heard& heard : streams_) heard.smallest = kNever, heard.samples = 0;
 }
 
 void GpsClock::turn_half_window(Instant arrival) {
@@ -52,27 +56,51 @@ void GpsClock::turn_half_window(Instant arrival) {
   learn_delays();
   settled_ = true;
   half_began_ = arrival;
-  previous_ = current_;
+  if (current_ != kNever) previous_ = current_;
   current_ = kNever;
-  for (Heard& heard : streams_) heard.smallest = kNever;
+  for (Heard& heard : streams_) heard.smallest = kNever, heard.samples = 0;
 }
 
 // Only where the stream that was the quickest was heard: else the others would all seem quicker.
 void GpsClock::learn_delays() {
-  Duration quickest = kNever;
-  bool comparable = false;
-  for (const Heard& heard : streams_) {
-    quickest = std::min(quickest, heard.smallest);
-    comparable = comparable || (heard.smallest != kNever && heard.slower == Duration{});
+  if (quickest_ < kStreams && streams_[quickest_].smallest == kNever) return;
+  std::size_t quickest = 0;
+  for (std::size_t i = 1; i < kStreams; ++i)
+    if (streams_[i].smallest < streams_[quickest].smallest) quickest = i;
+  const Duration least = streams_[quickest].smallest;
+  for (Heard& heard : streams_) {
+    if (quickest != quickest_) heard.learned = false;
+    if (heard.samples < kEnough) continue;
+    const Duration slower = heard.smallest - least;
+    // Chance adds delay and takes none away.
+    constexpr int kShare = 4;
+    heard.slower = !heard.learned || slower < heard.slower
+                       ? slower
+                       : heard.slower + (slower - heard.slower) / kShare;
+    heard.learned = true;
   }
-  if (!comparable) return;
-  for (Heard& heard : streams_)
-    if (heard.smallest != kNever) heard.slower = heard.smallest - quickest;
+  streams_[quickest].slower = {};
+  streams_[quickest].learned = true;
+  quickest_ = quickest;
+}
+
+bool GpsClock::is_evidence(const Heard& heard, Instant arrival) const {
+  if (quickest_ == kStreams) return true;
+  const Heard& quickest = streams_[quickest_];
+  return &heard == &quickest || (heard.learned && arrival - quickest.at > kSilence);
+}
+
+// Down at once, so that nothing comes before it was true; up slowly, or by a whole step.
+void GpsClock::follow(Duration elapsed) {
+  const Duration wanted = std::min(current_, previous_);
+  const Duration most = elapsed * kSlewPerMillion / 1'000'000;
+  const bool steps = wanted <= offset_ || wanted - offset_ > kJitter;
+  offset_ = steps ? wanted : std::min(wanted, offset_ + most);
 }
 
 // True while a difference far below all others has not been confirmed.
 bool GpsClock::is_suspect(Duration level) {
-  if (level >= offset() - (settled_ ? kJitter : kFirstStep)) {
+  if (level >= offset_ - (settled_ ? kJitter : kFirstStep)) {
     confirmations_ = 0;
     return false;
   }

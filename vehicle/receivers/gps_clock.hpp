@@ -3,11 +3,18 @@
 //          arrival
 //   out    the Instant of every GPS time, and what is wrong with the stamp itself. A stamp without
 //          flaw is never placed after its arrival
-//   method offset = the smallest (arrival - GPS time) of the last 8 to 16 seconds: transport and
-//          computing can only add delay, so the smallest is the truest. How much slower each stream
-//          is than the quickest one is learned meanwhile, so that the offset stays when the
-//          quickest falls silent. What is left is the delay of the quickest message itself: it is
-//          known of the receiver and taken out.
+//   method offset = the smallest (arrival - GPS time) of the quickest stream in the last 8 to 16
+//          seconds: transport and computing can only add delay, so the smallest is the truest. A
+//          slower stream says less: a few of its samples may all have been late. How much slower
+//          each one is is learned meanwhile, so that the offset stays when the quickest falls
+//          silent. What is left is the delay of the quickest message itself: it is known of the
+//          receiver and taken out.
+//
+//   quickest  | | | | | | | | | |                  its least delay of each half window
+//   slower       |     |     |     |     |     |   counts from here on, less what it is slower
+//                                        ^ kSilence after the last of the quickest
+//
+//          An offset that grows does so slowly: the car shall not seem to jump along its way.
 //   errors a stamp that stands still or runs back is evidence of nothing. One from the future is
 //          not either, until kConfirmations samples in a row, of whatever stream, agree that the
 //          receiver's time was stepped; a step to the past looks like delay and is believed when
@@ -44,6 +51,9 @@ class GpsClock {
   static constexpr Duration kFirstStep = milliseconds(500);  // likewise, while settling
   static constexpr Duration kAgreement = milliseconds(50);   // of samples that tell of one step
   static constexpr int kConfirmations = 5;
+  static constexpr Duration kSilence = milliseconds(500);
+  static constexpr int kEnough = 5;            // samples of a half window, to learn a delay from
+  static constexpr int kSlewPerMillion = 500;  // more than clocks drift; 0.03 m/s at 68 m/s
 
   explicit GpsClock(Duration least_delay = {}) : least_delay_(least_delay) {}
 
@@ -57,19 +67,25 @@ class GpsClock {
   struct Heard {
     gnss::GpsTime last{};        // stamp
     bool ever = false;           // last is one
+    Instant at{};                // when it came
     Duration smallest = kNever;  // difference of this half window
-    Duration slower{};           // than the quickest stream
+    int samples = 0;             // of this half window
+    bool learned = false;        // how much
+    Duration slower{};           // it is than the quickest stream
   };
 
   void begin(Duration difference, Instant arrival);
   void turn_half_window(Instant arrival);
   void learn_delays();
   bool is_suspect(Duration level);
-  Duration offset() const { return current_ < previous_ ? current_ : previous_; }
+  bool is_evidence(const Heard& heard, Instant arrival) const;
+  void follow(Duration elapsed);
 
   Duration least_delay_;
   std::array<Heard, kStreams> streams_{};
+  std::size_t quickest_ = kStreams;  // of streams_; none is known yet
   bool started_ = false, settled_ = false;
+  Duration offset_{};
   Duration current_ = kNever, previous_ = kNever;  // level of this half window, of the one before
   Instant half_began_{}, heard_at_{};
   Duration suspect_{};

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace pitwall::receivers {
@@ -76,6 +77,39 @@ TEST(GpsClock, ForgetsASmallDelayThatIsGoneForGood) {
   Placed last;
   for (int k = 1; k < 1'900; ++k) last = r.say(Stream::kImu, 10 * k, milliseconds(9));
   EXPECT_EQ(last.at, truth(18'990) + milliseconds(9));
+}
+
+// A heading comes once a second; the one of the first second may have been the slowest of all.
+TEST(GpsClock, AStreamOfFewSamplesMovesNothingWhileTheQuickestIsHeard) {
+  Source r;
+  for (std::int64_t ms = 0; ms < 60'000; ms += 50) {
+    r.run(ms, ms + 50);
+    const bool first = ms == 0;
+    if (ms % 1'000 == 0) r.say(Stream::kHeading, ms, milliseconds(first ? 55 : 50 + ms % 3));
+    ASSERT_EQ(r.say(Stream::kImu, ms + 49, milliseconds(2)).at, truth(ms + 49) + milliseconds(2))
+        << ms;
+  }
+}
+
+TEST(GpsClock, AStreamOfUnknownDelayAloneLeavesTheOffsetAsItIs) {
+  Source r;
+  r.run(0, 20'000);
+  for (std::int64_t ms = 20'000; ms < 60'000; ms += 1'000)
+    EXPECT_EQ(r.say(Stream::kAttitude, ms, milliseconds(50)).at, truth(ms) + milliseconds(2)) << ms;
+}
+
+// 5 ms of delay that come or go along the way are no step of the car.
+TEST(GpsClock, AnOffsetThatGrowsALittleGrowsSlowly) {
+  Source r;
+  Duration before{}, most{};
+  for (std::int64_t ms = 0; ms < 60'000; ms += 10) {
+    const Placed placed = r.say(Stream::kImu, ms, milliseconds(ms < 10'000 ? 2 : 6));
+    const Duration off = placed.at - truth(ms);
+    if (ms > 0) most = std::max(most, off - before);
+    before = off;
+  }
+  EXPECT_EQ(before, milliseconds(6));
+  EXPECT_LE(most, milliseconds(10) * GpsClock::kSlewPerMillion / 1'000'000);
 }
 
 // The position takes 28 ms longer than the IMU: at 70 m/s that is two metres.
