@@ -1,0 +1,51 @@
+/**
+ * The whole console: the fixed frame and the page in it. The frame's border says in which world we
+ * are: none for the real car, dashed blue for the bench, hatched for a replay, amber for the past.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import type { FunctionComponent } from "preact";
+import { AlarmLine } from "./frame/alarm_line";
+import { DvrBar } from "./frame/dvr_bar";
+import { Finder } from "./frame/finder";
+import { Help } from "./frame/help";
+import { finderShown, helpShown } from "./frame/keys";
+import { Navigation } from "./frame/navigation";
+import { page } from "./frame/pages";
+import type { PageName } from "./frame/pages";
+import { StopRail } from "./frame/stop_rail";
+import { TopBar } from "./frame/top_bar";
+import { AlarmsPage } from "./pages/alarms/page";
+import { CommandsPage } from "./pages/commands/page";
+import { LinkPage } from "./pages/link/page";
+import { PlotsPage } from "./pages/plots/page";
+import { PrimaryPage } from "./pages/primary/page";
+import { TelemetryPage } from "./pages/telemetry/page";
+import * as session from "./store/session";
+import { isLive } from "./view/timeline";
+
+const kBodies: Record<PageName, FunctionComponent> = {
+  primary: PrimaryPage,
+  plots: PlotsPage,
+  telemetry: TelemetryPage,
+  link: LinkPage,
+  commands: CommandsPage,
+  alarms: AlarmsPage,
+};
+
+export function App() {
+  const Body = kBodies[page.value];
+  const mode = session.hello.value?.mode ?? "NONE";
+  return (
+    <div class="frame" data-mode={mode} data-held={!isLive.value}
+      data-connected={session.connected.value}>
+      <TopBar />
+      <Navigation />
+      <Body />
+      <StopRail />
+      <AlarmLine />
+      <DvrBar />
+      {helpShown.value && <Help />}
+      {finderShown.value && <Finder />}
+    </div>
+  );
+}

@@ -1,0 +1,44 @@
+/**
+ * The bottom line: the newest unacknowledged alarm of the highest priority, with what to do about
+ * it. A high one is spoken at once, others when the screen reader has a pause.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import * as session from "../store/session";
+import { inOrder, loudest, needsEyes } from "../view/alarm_order";
+import { acknowledge } from "./keys";
+import { isOperator } from "../store/uplink";
+import { showPage } from "./pages";
+import { AgeSince } from "../view/age_since";
+
+export function AlarmLine() {
+  const active = session.alarms.value?.active ?? [];
+  const first = loudest(active);
+  const others = inOrder(active).filter(needsEyes).length - 1;
+  const error = session.lastError.value;
+  if (!first) {
+    return (
+      <div class="alarm-line" data-priority="none" role="status" aria-live="polite">
+        <span class="text">
+          {active.length > 0 ? `${active.length} alarms, all acknowledged` : "no alarms"}
+        </span>
+        {error && <span class="refused">refused: {error.what} ({error.place})</span>}
+      </div>
+    );
+  }
+  return (
+    <div class="alarm-line" data-priority={first.priority} data-state={first.state} role="status"
+      aria-live={first.priority === "high" ? "assertive" : "polite"}>
+      <i class="mark" aria-hidden="true" />
+      <strong>{first.priority.toUpperCase()}</strong>
+      <span class="text">{first.text}{first.count > 1 ? ` \u00d7${first.count}` : ""}</span>
+      <span class="response">{first.response}</span>
+      <AgeSince sinceMs={first.since_ms} />
+      {others > 0 && (
+        <button type="button" onClick={() => showPage("alarms")}>+{others} more</button>
+      )}
+      {isOperator.value && (
+        <button type="button" onClick={() => acknowledge(first.id)}>Ack <kbd>A</kbd></button>
+      )}
+    </div>
+  );
+}

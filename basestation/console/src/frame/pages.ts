@@ -1,0 +1,29 @@
+/**
+ * The pages by their number key, and which one is shown; the address keeps it, so that a link and
+ * the browser's own back key work.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import { signal } from "@preact/signals";
+
+export const kPages = [
+  { name: "primary", title: "Primary" },
+  { name: "plots", title: "Plots" },
+  { name: "telemetry", title: "Telemetry" },
+  { name: "link", title: "Link" },
+  { name: "commands", title: "Commands" },
+  { name: "alarms", title: "Alarms" },
+] as const;
+
+export type PageName = (typeof kPages)[number]["name"];
+
+const named = (): PageName =>
+  kPages.find((page) => `#/${page.name}` === location.hash)?.name ?? "primary";
+
+export const page = signal<PageName>(named());
+
+export function showPage(name: PageName): void {
+  if (location.hash !== `#/${name}`) location.hash = `#/${name}`;
+  page.value = name;
+}
+
+window.addEventListener("hashchange", () => (page.value = named()));

@@ -1,0 +1,66 @@
+/**
+ * The right edge, on every page: a controlled stop at one press, an emergency stop held for 400 ms.
+ * A replay has no such rail, because there is nothing to stop.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import { useRef } from "preact/hooks";
+import * as session from "../store/session";
+import { isOperator, lastStop, stop } from "../store/uplink";
+import { HoldButton } from "../view/hold_button";
+import { kEachFrame, usePainter } from "../view/painting";
+import { readLive } from "../view/timeline";
+import { Quality } from "../wire/status";
+
+export const kEmergencyHoldMs = 400;
+const kShownMs = 4000;
+
+/** What the car itself says about a stop, and what became of the press. */
+function Outcome() {
+  const root = useRef<HTMLParagraphElement>(null);
+  const store = session.fields.value;
+  const slot = store.slot("mode.stop_latch");
+  usePainter(
+    () => {
+      if (!root.current) return;
+      const reading = readLive(slot);
+      const latched = reading.quality < Quality.stale && reading.value > 0;
+      const last = lastStop.value;
+      const recent = last !== null && performance.now() - last.at < kShownMs;
+      let text = "";
+      if (recent && !last.sent) text = "NOT SENT: no base";
+      else if (latched) text = `car: ${store.info[slot]?.labels?.[reading.value] ?? "stops"}`;
+      else if (recent) text = "sent to the base";
+      if (root.current.textContent !== text) root.current.textContent = text;
+      root.current.dataset.failed = String(recent && !last.sent);
+    },
+    kEachFrame,
+    [store, slot],
+  );
+  return <p class="outcome" role="alert" ref={root} />;
+}
+
+export function StopRail() {
+  const mode = session.hello.value?.mode;
+  if (mode === "REPLAY") {
+    return <aside class="stop-rail" aria-label="no stop in a replay"><p>no car</p></aside>;
+  }
+  const barred = !isOperator.value;
+  return (
+    <aside class="stop-rail" aria-label="stop the car">
+      <button type="button" class="stop controlled" disabled={barred}
+        aria-label="controlled stop" onClick={() => stop("controlled")}>
+        <strong>STOP</strong>
+        <span>controlled</span>
+        <kbd>Esc Esc</kbd>
+      </button>
+      <Outcome />
+      {barred && <p class="barred">{mode ? "viewer: no stop from here" : "no base"}</p>}
+      <HoldButton holdMs={kEmergencyHoldMs} class="stop emergency" disabled={barred}
+        label="emergency stop, hold" onHeld={() => stop("emergency")}>
+        <strong>E&#8209;STOP</strong>
+        <span>hold</span>
+        <kbd>Ctrl Shift E</kbd>
+      </HoldButton>
+    </aside>
+  );
+}

@@ -1,0 +1,113 @@
+/**
+ * The fixed bar over every page: which car in which world, flags, speeds of the round, what the
+ * car does, the link, who commands, alarms, time. Of the present moment always.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import { useRef } from "preact/hooks";
+import * as session from "../store/session";
+import { countOf, kPriorities, needsEyes } from "../view/alarm_order";
+import { clockText, kDash } from "../view/format";
+import { kDigitsHz, kEachFrame, lastPaintMs, usePainter } from "../view/painting";
+import { nextSpeedUnit } from "../view/speed_unit";
+import { isSilent, liveMs } from "../view/timeline";
+import { Value } from "../view/value";
+import { Flag } from "./flag_tile";
+import { LinkTile } from "./link_tile";
+import { showPage } from "./pages";
+
+const kWords: Record<string, string> = { REAL: "REAL CAR", HIL: "HIL", REPLAY: "REPLAY", NONE: "NO CAR" };
+
+function ModeWord() {
+  const hello = session.hello.value;
+  const mode = hello?.mode ?? "NONE";
+  const car = hello && mode !== "NONE" ? ` ${hello.car}` : "";
+  return (
+    <div class="mode-word" role="status">
+      <strong>{hello ? kWords[mode] + car : "NO BASE"}</strong>
+      <span>{hello?.name || "\u00a0"}</span>
+    </div>
+  );
+}
+
+function AlarmCounts() {
+  const active = session.alarms.value?.active ?? [];
+  return (
+    <button type="button" class="alarm-counts" onClick={() => showPage("alarms")}
+      aria-label={`alarms: ${kPriorities.map((p) => `${countOf(active, p)} ${p}`).join(", ")}`}>
+      {kPriorities.map((priority) => {
+        const count = countOf(active, priority);
+        const unseen = active.some((a) => a.priority === priority && needsEyes(a));
+        return (
+          <span key={priority} class={`count ${priority}`} data-some={count > 0}
+            data-unseen={unseen}>
+            <i class="mark" aria-hidden="true" />{count}
+          </span>
+        );
+      })}
+    </button>
+  );
+}
+
+function Holder() {
+  const authority = session.authority.value;
+  const hello = session.hello.value;
+  const mine = authority && hello && authority.holder === hello.client;
+  const name = !authority || !authority.holder ? "nobody"
+    : mine ? "this console" : authority.holder_name || `console ${authority.holder}`;
+  return (
+    <button type="button" class="top-tile holder" data-mine={Boolean(mine)}
+      onClick={() => showPage("commands")}>
+      <span class="label">Authority</span>
+      <span class="word">{name}</span>
+    </button>
+  );
+}
+
+function Clocks() {
+  const root = useRef<HTMLDivElement>(null);
+  usePainter(
+    () => {
+      const [, time, detail] = root.current?.children ?? [];
+      if (!time) return;
+      time.textContent = isSilent() ? kDash : clockText(session.clock.utcMs(liveMs()));
+      detail.textContent = `UTC \u00b7 draws in ${lastPaintMs.toFixed(1)} ms`;
+    },
+    kDigitsHz,
+    [],
+  );
+  return (
+    <div class="top-tile clocks" ref={root}>
+      <span class="label">Time</span>
+      <span class="word">{kDash}</span>
+      <span class="detail" />
+    </div>
+  );
+}
+
+export function TopBar() {
+  return (
+    <header class="top-bar">
+      <ModeWord />
+      <Flag path="flags.track" label="Track flag" />
+      <Flag path="flags.vehicle" label="Car flag" />
+      <button type="button" class="top-tile round" onClick={nextSpeedUnit}
+        aria-label="round speed, press for another unit">
+        <span class="label">Round</span>
+        <span class="pair">
+          <Value path="flags.round_target_speed" speed live hz={kEachFrame} />
+          <span class="of" title="limit set by the operator">
+            <Value path="planner.operator_limit" speed unit={false} live hz={kEachFrame} />
+          </span>
+        </span>
+      </button>
+      <div class="top-tile car-state" role="group" aria-label="Car">
+        <span class="label">Car</span>
+        <Value path="mode.mode" live hz={kEachFrame} class="word" />
+      </div>
+      <LinkTile />
+      <Holder />
+      <AlarmCounts />
+      <Clocks />
+    </header>
+  );
+}

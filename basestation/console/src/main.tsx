@@ -1,0 +1,61 @@
+/**
+ * Starts the console: style sheet, first frame, keys, the connection to the base, layouts.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import { effect } from "@preact/signals";
+import { render } from "preact";
+import "uplot/dist/uPlot.min.css";
+import "./theme/fonts.css";
+import "./theme/palette.css";
+import "./theme/frame.css";
+import "./theme/values.css";
+import "./theme/primary.css";
+import "./theme/pages.css";
+import { App } from "./app";
+import { listenToKeys } from "./frame/keys";
+import { forgetEarlier } from "./pages/plots/backfill";
+import { plotLayout, readPlotLayout } from "./pages/plots/layout";
+import { primaryLayout, readPrimaryLayout } from "./pages/primary/layout";
+import { fetchLayout } from "./store/layouts";
+import * as session from "./store/session";
+import { keepAuthority, openUplink } from "./store/uplink";
+import { setTheme, theme } from "./theme/theme";
+import { startPainting } from "./view/painting";
+import type { Track } from "./wire/messages";
+
+async function fetchTrack(): Promise<void> {
+  try {
+    const answer = await fetch("api/track");
+    session.track.value = answer.ok ? ((await answer.json()) as Track) : null;
+  } catch {
+    session.track.value = null;
+  }
+}
+
+async function fetchLayouts(): Promise<void> {
+  const [primary, plots] = await Promise.all([fetchLayout("primary"), fetchLayout("plots")]);
+  const readPrimary = readPrimaryLayout(primary);
+  if (readPrimary) primaryLayout.value = readPrimary;
+  const readPlots = readPlotLayout(plots);
+  if (readPlots) plotLayout.value = readPlots;
+}
+
+setTheme(theme.value);
+listenToKeys();
+render(<App />, document.getElementById("console")!);
+startPainting();
+keepAuthority();
+
+const scheme = location.protocol === "https:" ? "wss:" : "ws:";
+const token = new URLSearchParams(location.search).get("token");
+openUplink(`${scheme}//${location.host}/ws${token ? `?token=${encodeURIComponent(token)}` : ""}`);
+void fetchLayouts();
+
+// A base that was started anew may know another track and has forgotten our questions.
+effect(() => {
+  if (!session.connected.value) return;
+  forgetEarlier();
+  void fetchTrack();
+});
+// The console as a test or a curious engineer may look into it.
+Object.assign(window, { pitwall: { session } });

@@ -1,0 +1,97 @@
+/**
+ * The road around the car, straightened: 80 m behind to 160 m ahead, walls, own car and rivals at
+ * their offsets. Shows sideways what the map is too small for.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import type { Palette } from "../theme/theme";
+import type { Course } from "./course";
+import { diamond, gapText } from "./cars";
+import type { Rival } from "./scene";
+
+type Pen = CanvasRenderingContext2D;
+
+const kBehindM = 80;
+const kAheadM = 160;
+const kStepM = 4;
+const kHalfHeightM = 16;
+const kRungsM = [-60, -30, 30, 60, 90, 120, 150] as const;
+
+export interface StripState {
+  station: number;
+  offset: number;
+  stale: boolean;
+  rivals: readonly Rival[];
+}
+
+function rungs(pen: Pen, x: (s: number) => number, here: number, height: number): void {
+  pen.textAlign = "center";
+  pen.textBaseline = "bottom";
+  pen.font = "400 12px Barlow, sans-serif";
+  for (const ahead of kRungsM) {
+    const at = x(here + ahead);
+    pen.beginPath();
+    pen.moveTo(at, height - 16);
+    pen.lineTo(at, height - 22);
+    pen.stroke();
+    pen.fillText(`${ahead > 0 ? "+" : "\u2212"}${Math.abs(ahead)}`, at, height - 1);
+  }
+}
+
+export function drawStrip(pen: Pen, course: Course, state: StripState, colours: Palette,
+  width: number, height: number): void {
+  const road = height - 24;
+  const x = (s: number) => ((s - state.station + kBehindM) / (kBehindM + kAheadM)) * width;
+  const y = (offset: number) => (road / 2) * (1 - offset / kHalfHeightM);
+  const edge = (side: 1 | -1): [number, number][] => {
+    const points: [number, number][] = [];
+    for (let d = -kBehindM; d <= kAheadM; d += kStepM) {
+      const w = course.width(state.station + d);
+      points.push([x(state.station + d), y(side === 1 ? w.left : -w.right)]);
+    }
+    return points;
+  };
+  const [left, right] = [edge(1), edge(-1)];
+  pen.beginPath();
+  for (const [px, py] of left) pen.lineTo(px, py);
+  for (const [px, py] of right.toReversed()) pen.lineTo(px, py);
+  pen.fillStyle = colours.asphalt;
+  pen.fill();
+  pen.strokeStyle = colours.dim;
+  pen.lineWidth = colours.stroke * 0.6;
+  for (const wall of [left, right]) {
+    pen.beginPath();
+    for (const [px, py] of wall) pen.lineTo(px, py);
+    pen.stroke();
+  }
+  pen.fillStyle = colours.dim;
+  rungs(pen, x, state.station, height);
+  drawCars(pen, state, colours, x, y);
+}
+
+function drawCars(pen: Pen, state: StripState, colours: Palette, x: (s: number) => number,
+  y: (offset: number) => number): void {
+  for (const rival of state.rivals) {
+    if (rival.gap < -kBehindM || rival.gap > kAheadM) continue;
+    const [px, py] = [x(state.station + rival.gap), y(rival.offset)];
+    diamond(pen, px, py, 7, rival.stale, colours);
+    pen.fillStyle = colours.text;
+    pen.font = "600 13px Barlow, sans-serif";
+    pen.textAlign = "center";
+    pen.textBaseline = "bottom";
+    pen.fillText(`#${rival.identity} ${gapText(rival.gap)}`, px, py - 9);
+  }
+  const [px, py] = [x(state.station), y(state.offset)];
+  pen.beginPath();
+  pen.moveTo(px + 13, py);
+  pen.lineTo(px - 9, py + 7);
+  pen.lineTo(px - 9, py - 7);
+  pen.closePath();
+  if (state.stale) {
+    pen.strokeStyle = colours.stale;
+    pen.lineWidth = colours.stroke;
+    pen.stroke();
+  } else {
+    pen.fillStyle = colours.ego;
+    pen.fill();
+  }
+}

@@ -1,0 +1,156 @@
+/**
+ * The link and its budget: loss, round trip, jitter and load of each path and direction over 1, 5
+ * and 30 s, what each group costs and how old it gets, and messages to race control, drafted.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import * as session from "../../store/session";
+import { isOperator, send } from "../../store/uplink";
+import { AgeSince } from "../../view/age_since";
+import { ageText, kDash } from "../../view/format";
+import { Line } from "../../view/value";
+import type { LinkPath, LinkWindow, Notice } from "../../wire/messages";
+
+type WindowOf = LinkWindow & { seconds: number };
+
+const figure = (value: number | null | undefined, scale = 1, decimals = 0): string =>
+  typeof value === "number" && Number.isFinite(value) ? (value * scale).toFixed(decimals) : kDash;
+
+function PathRows({ path }: { path: LinkPath }) {
+  const windows = Array.isArray(path.windows) ? (path.windows as WindowOf[]) : [];
+  return (
+    <>
+      {windows.map((w, i) => (
+        <tr key={w.seconds}>
+          {i === 0 && <th scope="rowgroup" rowSpan={windows.length}>{path.path} {path.direction}</th>}
+          <td>{w.seconds} s</td>
+          <td>{figure(w.loss, 100, 1)}</td>
+          <td>{figure(w.rtt_ms, 1, 1)}</td>
+          <td>{figure(w.jitter_ms, 1, 1)}</td>
+          <td>{figure(w.reorder, 100, 1)}</td>
+          <td>{figure(w.duplicate, 100, 1)}</td>
+          <td>{figure(w.kbit_s, 1, 1)}</td>
+          <td>{figure(w.cap_kbit_s)}</td>
+        </tr>
+      ))}
+    </>
+  );
+}
+
+function Paths() {
+  const paths = session.link.value?.paths ?? [];
+  return (
+    <section class="panel" aria-label="paths" tabIndex={0}>
+      <h2>Paths</h2>
+      <table class="readings wide">
+        <thead>
+          <tr>
+            <th scope="col">path</th><th scope="col">over</th><th scope="col">loss %</th>
+            <th scope="col">round trip ms</th><th scope="col">jitter ms</th>
+            <th scope="col">reorder %</th><th scope="col">twice %</th>
+            <th scope="col">kbit/s</th><th scope="col">cap</th>
+          </tr>
+        </thead>
+        <tbody>
+          {paths.map((path) => <PathRows path={path} key={`${path.path} ${path.direction}`} />)}
+        </tbody>
+      </table>
+      {paths.length === 0 && <p class="empty">Nothing heard of the link yet.</p>}
+    </section>
+  );
+}
+
+function Groups() {
+  const groups = session.link.value?.groups ?? [];
+  const most = Math.max(1, ...groups.map((group) => group.kbit_s));
+  const total = groups.reduce((sum, group) => sum + group.kbit_s, 0);
+  return (
+    <section class="panel groups" aria-label="groups" tabIndex={0}>
+      <h2>Groups down <span class="sum">{total.toFixed(1)} kbit/s</span></h2>
+      <table class="readings wide">
+        <thead>
+          <tr>
+            <th scope="col">group</th><th scope="col">kbit/s</th><th scope="col" aria-label="share" />
+            <th scope="col">age</th><th scope="col">wanted</th>
+          </tr>
+        </thead>
+        <tbody>
+          {groups.map((group) => (
+            <tr key={group.group} data-over={group.age_ms > 2 * group.target_ms}>
+              <th scope="row">{group.group}</th>
+              <td>{group.kbit_s.toFixed(2)}</td>
+              <td class="share">
+                <i style={{ width: `${((100 * group.kbit_s) / most).toFixed(1)}%` }} />
+              </td>
+              <td>{group.age_ms < 0 ? kDash : ageText(group.age_ms)}</td>
+              <td>{group.target_ms} ms</td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+      {groups.length === 0 && <p class="empty">No figures by group yet.</p>}
+    </section>
+  );
+}
+
+function NoticeCard({ notice }: { notice: Notice }) {
+  const answer = (what: "send" | "dismiss") => {
+    send({ type: "notice", id: notice.id, do: what });
+    session.dismissNotice(notice.id);
+  };
+  return (
+    <article class="notice">
+      <h3>{notice.kind}</h3>
+      <p>{notice.text}</p>
+      <p class="evidence">{notice.evidence}</p>
+      {isOperator.value && (
+        <div class="tools">
+          <button type="button" onClick={() => answer("send")}>Send to race control</button>
+          <button type="button" onClick={() => answer("dismiss")}>Dismiss</button>
+        </div>
+      )}
+    </article>
+  );
+}
+
+function Notices() {
+  const notices = session.notices.value;
+  return (
+    <section class="panel" aria-label="messages to race control" tabIndex={0}>
+      <h2>To race control</h2>
+      {notices.map((notice) => <NoticeCard notice={notice} key={notice.id} />)}
+      {notices.length === 0 && <p class="empty">Nothing to tell.</p>}
+    </section>
+  );
+}
+
+function State() {
+  const link = session.link.value;
+  return (
+    <section class="panel" aria-label="state" tabIndex={0}>
+      <h2>Link {link ? link.state : kDash}{link && <AgeSince sinceMs={link.since_ms} />}</h2>
+      <div class="lines two">
+        <Line label="loss down, 5 s" path="link.down_loss" scale={100} decimals={1} unit="%" />
+        <Line label="loss up, 5 s" path="link.up_loss" scale={100} decimals={1} unit="%" />
+        <Line label="round trip" path="link.rtt_ms" decimals={1} />
+        <Line label="jitter" path="link.jitter_ms" decimals={1} />
+        <Line label="load down" path="link.down_kbit_s" decimals={1} />
+        <Line label="cap down" path="link.down_cap_kbit_s" decimals={0} />
+        <Line label="load up" path="link.up_kbit_s" decimals={1} />
+        <Line label="worst age" path="link.worst_age_ms" decimals={0} />
+        <Line label="silence of the car" path="link.silence_ms" decimals={0} />
+        <Line label="stale groups" path="link.stale_groups" decimals={0} />
+        <Line label="car hears the base" path="radio.base" />
+        <Line label="car's link rule" path="radio.rung" />
+      </div>
+    </section>
+  );
+}
+
+export function LinkPage() {
+  return (
+    <main class="page link-page">
+      <div class="column"><State /><Paths /><Notices /></div>
+      <div class="column"><Groups /></div>
+    </main>
+  );
+}

@@ -1,0 +1,81 @@
+/**
+ * Columns for a chart out of the ring of rows: a stretch that is stale or was not received is a
+ * gap (null), never a line across it; many rows are thinned to what the pixels can show, keeping
+ * the extremes of each bucket.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import type { History } from "../../store/history";
+import { Quality } from "../../wire/status";
+
+/** Rows further apart than this are a gap: nothing came in between. */
+export const kGapMs = 500;
+
+export type Column = (number | null)[];
+
+export interface Columns {
+  timeS: number[];
+  values: Column[];
+}
+
+/** What came before this console's own rows, as the base remembers it. */
+export interface Earlier {
+  timeS: Float64Array;
+  value: Float32Array;
+  quality: Uint8Array;
+}
+
+const shown = (value: number, status: number): number | null =>
+  (status & 3) < Quality.stale && Number.isFinite(value) ? value : null;
+
+/** Of rows n and m of one bucket: which has the larger swing of the first column that has any. */
+function extremes(history: History, slots: readonly number[], from: number, to: number): number[] {
+  const slot = slots.find((s) => s >= 0);
+  if (slot === undefined) return [from];
+  let [low, high] = [from, from];
+  for (let n = from; n < to; ++n) {
+    const value = history.value[slot][history.index(n)];
+    if (value < history.value[slot][history.index(low)]) low = n;
+    if (value > history.value[slot][history.index(high)]) high = n;
+  }
+  return low === high ? [low] : low < high ? [low, high] : [high, low];
+}
+
+/** The rows between two moments, at most about `points` of them. */
+export function columns(history: History, slots: readonly number[], fromMs: number, toMs: number,
+  points: number): Columns {
+  const out: Columns = { timeS: [], values: slots.map(() => []) };
+  const end = history.find(toMs) + 1;
+  const begin = Math.max(history.find(fromMs), 0);
+  const bucket = Math.max(1, Math.floor((2 * (end - begin)) / points));
+  let lastMs = NaN;
+  const push = (timeMs: number, value: (slot: number) => number | null) => {
+    out.timeS.push(timeMs / 1000);
+    slots.forEach((slot, i) => out.values[i].push(slot < 0 ? null : value(slot)));
+    lastMs = timeMs;
+  };
+  const first = bucket === 1 ? begin : begin - (begin % bucket);
+  for (let n = Math.max(first, 0); n < end; n += bucket) {
+    const rows = bucket === 1 ? [n] : extremes(history, slots, n, Math.min(n + bucket, end));
+    for (const each of rows) {
+      const row = history.index(each);
+      const timeMs = history.timeMs[row];
+      const apart = bucket * 40 + kGapMs;
+      if (timeMs - lastMs > apart) push(lastMs + 1, () => null);
+      push(timeMs, (slot) => shown(history.value[slot][row], history.status[slot][row]));
+    }
+  }
+  return out;
+}
+
+/** Points of the base's own memory in front of ours, for a chart of one field. */
+export function withEarlier(after: Columns, earlier: Earlier, fromS: number): Columns {
+  const until = after.timeS[0] ?? Infinity;
+  const timeS: number[] = [];
+  const value: Column = [];
+  for (let i = 0; i < earlier.timeS.length && earlier.timeS[i] < until; ++i) {
+    if (earlier.timeS[i] < fromS) continue;
+    timeS.push(earlier.timeS[i]);
+    value.push(shown(earlier.value[i], earlier.quality[i]));
+  }
+  return { timeS: [...timeS, ...after.timeS], values: [[...value, ...after.values[0]]] };
+}

@@ -1,0 +1,25 @@
+/**
+ * Fuel in what matters: laps, and attempts of two laps with the way home after them.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import * as session from "../../store/session";
+import { Bar } from "../../view/bar";
+import { Tile } from "../../view/value";
+
+const kTankLitres = 45;
+
+export function FuelPanel() {
+  const text = session.fuel.value?.text;
+  return (
+    <div class="fuel-body">
+      <div class="tiles four">
+        <Tile label="attempts left" path="derived.fuel_attempts" big />
+        <Tile label="laps left" path="derived.fuel_laps" decimals={1} big />
+        <Tile label="level" path="fuel.level" decimals={1} />
+        <Tile label="per lap" path="derived.fuel_per_lap" decimals={2} />
+      </div>
+      <Bar path="fuel.level" label="fuel level" max={kTankLitres} />
+      {text && <p class="note">{text}</p>}
+    </div>
+  );
+}

@@ -1,0 +1,181 @@
+/**
+ * The JSON texts between base and console, as PROTOCOL.md names them. Stamps `*_ms` are on the
+ * clock of the snapshots.
+ */
+// SPDX-License-Identifier: Apache-2.0
+
+export type Mode = "REAL" | "HIL" | "REPLAY" | "NONE";
+export type Role = "viewer" | "operator";
+
+export interface Hello {
+  version: number;
+  car: number;
+  name: string;
+  mode: Mode;
+  role: Role;
+  client: number;
+  alarm_config: string;
+  time_ns: number;
+  utc_ms: number;
+}
+
+export interface Limits {
+  warning_low?: number;
+  warning_high?: number;
+  bad_low?: number;
+  bad_high?: number;
+}
+
+export interface FieldInfo {
+  id: number;
+  path: string;
+  group: string;
+  name: string;
+  unit: string;
+  kind: string;
+  min: number;
+  max: number;
+  resolution: number;
+  labels?: string[] | null;
+  period_ms: number;
+  limits?: Limits | null;
+}
+
+export interface CommandInfo {
+  name: string;
+  unit: string;
+  min: number;
+  max: number;
+  resolution: number;
+  labels?: string[] | null;
+  time_to_live_ms: number;
+  needs_authority: boolean;
+}
+
+export interface Catalogue {
+  fields: FieldInfo[];
+  commands: CommandInfo[];
+}
+
+export interface Alarm {
+  id: number;
+  key: string;
+  text: string;
+  response: string;
+  priority: "high" | "medium" | "low";
+  state: "unack" | "acked" | "rtn_unack" | "latched";
+  since_ms: number;
+  value?: number | string | null;
+  count: number;
+  first_up: boolean;
+  shelved_until_ms?: number | null;
+  reason?: string | null;
+  by?: string | null;
+}
+
+export interface Alarms {
+  active: Alarm[];
+  shelved: Alarm[];
+  suppressed: Alarm[];
+  kpi: { per_10_min: number; flood: boolean };
+  revision: number | string;
+}
+
+export interface AlarmEvent {
+  time_ms: number;
+  key: string;
+  from: string;
+  to: string;
+  by?: string | null;
+  reason?: string | null;
+}
+
+export interface Authority {
+  holder: number;
+  holder_name: string;
+  epoch: number;
+  expires_ms: number;
+  request: { by: number; name: string; until_ms: number } | null;
+}
+
+export interface Gate {
+  name: string;
+  ok: boolean;
+  value?: number | string | null;
+  age_ms?: number | null;
+  text: string;
+}
+
+export interface CommandStep {
+  ticket: number;
+  name: string;
+  argument: number;
+  by: string | number;
+  step: string;
+  gates?: Gate[];
+  override?: { reason: string; token?: string } | null;
+  times_ms?: Record<string, number>;
+  text?: string;
+}
+
+export interface AuditLine {
+  time_ms: number;
+  who: string | number;
+  what: string;
+  result: string;
+}
+
+export interface CarEvent {
+  time_ms: number;
+  text: string;
+  severity: string | number;
+}
+
+export interface LinkWindow {
+  loss?: number | null;
+  rtt_ms?: number | null;
+  jitter_ms?: number | null;
+  reorder?: number | null;
+  duplicate?: number | null;
+  kbit_s?: number | null;
+  cap_kbit_s?: number | null;
+}
+
+export interface LinkPath {
+  path: string | number;
+  direction: string;
+  [window: string]: unknown;
+}
+
+export interface Link {
+  state: "good" | "degraded" | "lost";
+  since_ms: number;
+  paths?: LinkPath[];
+  groups?: { group: string; kbit_s: number; age_ms: number; target_ms: number }[];
+}
+
+export interface Notice {
+  id: number;
+  kind: string;
+  text: string;
+  evidence: string;
+}
+
+export interface Fuel {
+  laps: number | null;
+  attempts: number | null;
+  per_lap: number | null;
+  text: string;
+}
+
+export interface Track {
+  name: string;
+  length_m: number;
+  centre: number[][];
+  left: number[][];
+  right: number[][];
+  lines: { name: string; points: number[][] }[];
+  pit: number[][];
+  corners: { name: string; from_s: number; to_s: number }[];
+  sectors: number[];
+}
