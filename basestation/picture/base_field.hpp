@@ -83,7 +83,7 @@ struct BaseRow {
 inline constexpr Duration kBasePeriod = milliseconds(100);  // they are made anew more often
 
 inline constexpr std::string_view kLinkStates = "none|good|degraded|lost";
-inline constexpr std::string_view kFuelStates = "unknown|enough|last attempt|home now";
+inline constexpr std::string_view kFuelStates = "unknown|enough|no attempt left|home now";
 
 inline constexpr auto kBaseTable = [] {
   using enum BaseField;

@@ -38,6 +38,11 @@ struct FieldView {
   bool unset = false;  // the car says that it does not know: the value is the last known one
 };
 
+// Old enough to be shown with its age, too young to be struck out.
+constexpr bool usable(const FieldView& view) {
+  return view.quality == Quality::kFresh || view.quality == Quality::kLate;
+}
+
 class Picture {
  public:
   void update(const telemetry::Snapshot& state, telemetry::GroupSet groups);

@@ -79,7 +79,8 @@ class Alarm {
   void settle();
 
   bool active_ = false, unseen_ = false, held_ = false, folded_ = false, suppressed_ = false;
-  bool raw_ = false;  // the bound is broken, before delays
+  bool raw_ = false;      // the bound is broken, before delays
+  bool counted_ = false;  // this breaking of it has been counted
   Instant raw_since_{}, since_{};
   std::optional<Instant> shelved_until_;
   std::uint32_t count_ = 0;

@@ -72,16 +72,18 @@ class Engine {
                                std::string_view reason, Instant now);
   Result<bool, Problem> unshelve(AlarmId id, std::string_view by, Instant now);
   Result<bool, Problem> reset(AlarmId id, std::string_view by, Instant now);
-  Result<bool, Problem> edit(const AlarmEdit& edit, Instant now);
+  Result<bool, Problem> edit(const AlarmEdit& edit);
 
-  // High first, then in the order of their coming. Changes only when revision() does.
+  // High first, then in the order of their coming. All but the values in it changes only when
+  // revision() does.
   std::vector<ListedAlarm> active() const;
   std::vector<ListedAlarm> shelved() const;
   std::vector<ListedAlarm> suppressed() const;
   std::uint64_t revision() const { return revision_; }
   const std::deque<AlarmEvent>& history() const { return history_; }
   std::uint64_t events() const { return events_; }
-  std::size_t count(Priority priority) const;  // in the active list
+  std::size_t count() const;  // in the active list
+  std::size_t count(Priority priority) const;
   std::size_t unseen(Priority priority) const;
   State state(AlarmIndex index) const { return entries_[index].alarm.state(); }
   const AlarmRate& rate() const { return rate_; }
@@ -100,17 +102,20 @@ class Engine {
   bool overruled(AlarmIndex index) const;
   std::vector<ListedAlarm> list(Part part) const;
   ListedAlarm line(AlarmIndex index) const;
-  Result<Entry*, Problem> find(AlarmId id);
+  struct Said {
+    std::string_view by, reason;
+  };
+  Result<AlarmIndex, Problem> find(AlarmId id) const;
   void note(AlarmIndex index, State from, Instant now, std::string_view by,
             std::string_view reason);
-  void mark_first(const std::vector<AlarmIndex>& came);
+  void mark_first();
   template <class Act>
-  Result<bool, Problem> act(AlarmId id, std::string_view by, std::string_view reason, Instant now,
-                            const Act& act);
+  Result<bool, Problem> act(AlarmId id, const Said& said, Instant now, const Act& act);
 
   AlarmSettings settings_;
   std::vector<Entry> entries_;
   std::vector<std::optional<AlarmIndex>> overruled_by_;
+  std::vector<AlarmIndex> came_;  // in this step
   std::deque<AlarmEvent> history_;
   AlarmRate rate_;
   std::uint64_t revision_ = 0, events_ = 0;

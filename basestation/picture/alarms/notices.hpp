@@ -56,13 +56,17 @@ class Notices {
   std::uint64_t revision() const { return revision_; }
 
  private:
+  void begin(Instant now);
+  void note_worst(const LinkEvidence& link);
+  void tell_degraded(const LinkEvidence& link, bool lost, Instant now);
+  void tell_restored(const LinkEvidence& link, Instant now);
   Notice& draft(NoticeKind kind, Instant now);
   Result<bool, Problem> decide(std::uint32_t id, NoticeFate fate, std::string_view by);
 
   std::deque<Notice> notices_;
   std::uint32_t ids_ = 0;
   std::uint64_t revision_ = 0;
-  bool episode_ = false, lost_ = false;
+  bool episode_ = false, told_ = false, lost_ = false;
   Instant began_{};
   std::optional<Instant> good_since_;
   double worst_loss_ = 0.0, worst_round_trip_ms_ = 0.0;

@@ -34,11 +34,12 @@ class CorrectionWatch {
 
  private:
   struct Unit {
-    std::optional<Instant> flows_since;  // of the present stream; none while there is none
-    std::optional<Instant> newest;       // correction
+    std::optional<Instant> flows_since;  // the present stream, whose beginning was seen
     std::optional<Instant> lost;         // its newest loss of this kind, not yet matched
     std::optional<Instant> sky_lost;
+    bool was_silent = false;
   };
+  bool sky_lost_near(const Unit& unit, Instant at) const;
   void lose(std::size_t unit, Instant at);
 
   std::array<Unit, kUnits> units_{};

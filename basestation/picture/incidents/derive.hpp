@@ -7,7 +7,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "basestation/picture/alarms/alarm_table.hpp"
 #include "basestation/picture/course.hpp"
 #include "basestation/picture/incidents/corrections.hpp"
 #include "basestation/picture/incidents/fuel.hpp"
@@ -39,6 +38,5 @@ struct Books {
 
 void derive(const DeriveParams& params, const Picture& picture, const Known& known,
             const Books& books, const Course* course, Instant now, BaseViews& views);
-alarms::Situations situations_of(const Picture& picture, const BaseViews& views, Instant now);
 
 }  // namespace pitwall::picture

@@ -1,6 +1,6 @@
 // For how many laps and attempts there is fuel. The paper's team accepted an attempt of two laps
 // with fuel for one, and lost its place.
-//   in     litres in the tank and lap number as they come; the plan of the race
+//   in     litres in the tank, litres used and lap number as they come; the plan of the race
 //   out    litres per lap, laps left, whole attempts that still leave fuel to come home
 //   law    a lap counts when the car drove it whole: from one change of the lap number to the next,
 //          with fuel burnt. Judged by the thirstiest of the last kLaps, or by the plan's guess until
@@ -25,7 +25,7 @@ struct FuelPlan {
   double guess_l_per_lap = 2.2;  // of LVMS at speed, before a lap was measured
 };
 
-enum class FuelState : std::uint8_t { kUnknown, kEnough, kLastAttempt, kHomeNow };
+enum class FuelState : std::uint8_t { kUnknown, kEnough, kNoAttempt, kHomeNow };
 
 struct FuelLeft {
   double per_lap_l = kUnset, laps = kUnset, attempts = kUnset;
@@ -37,13 +37,14 @@ class FuelBook {
  public:
   static constexpr std::size_t kLaps = 3;
 
-  void heard(double level_l, double lap);
+  // `used_l`: since the start, where the car counts it; finer than the level.
+  void heard(double level_l, double used_l, double lap);
   FuelLeft left(const FuelPlan& plan) const;
 
  private:
   double level_l_ = kUnset;
-  double lap_ = kUnset, level_at_lap_l_ = kUnset;
-  bool whole_lap_ = false, filled_ = false;
+  double lap_ = kUnset, burnt_at_lap_l_ = kUnset;
+  bool whole_lap_ = false, by_used_ = false;
   std::array<double, kLaps> burnt_l_{};
   std::uint64_t laps_ = 0;
 };

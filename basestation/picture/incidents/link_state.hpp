@@ -1,9 +1,9 @@
 // How the way from the car is: good, degraded or lost, by evidence and not by feeling.
 //   in     the newest authentic packet, loss and round trip of the last seconds
 //   out    state, and since when
-//   law    lost: no packet for kLostAfter. Degraded: loss above kLossMax for kLossFor, or a round
-//          trip above kRoundTripMax. From degraded to good only after kGoodFor of both below;
-//          from lost with the first packet to degraded. A car that was never heard is none of them
+//   law    lost: no packet for kLostAfter. Degraded: loss of the last seconds above kLossMax, either
+//          way, or a round trip above kRoundTripMax. From degraded to good only after kGoodFor of
+//          neither; from lost with the first packet to degraded. A car that was never heard is none
 //   units  loss 0 .. 1
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -20,8 +20,7 @@ enum class LinkState : std::uint8_t { kNone, kGood, kDegraded, kLost };
 
 class LinkWatch {
  public:
-  static constexpr Duration kLostAfter = milliseconds(500), kLossFor = seconds(5),
-                            kGoodFor = seconds(2);
+  static constexpr Duration kLostAfter = milliseconds(500), kGoodFor = seconds(2);
   static constexpr double kLossMax = 0.10, kRoundTripMax_ms = 150.0;
 
   void step(const LinkFigures& link, Instant now);
@@ -33,7 +32,7 @@ class LinkWatch {
 
   LinkState state_ = LinkState::kNone;
   Instant since_{};
-  std::optional<Instant> lossy_since_, clean_since_;
+  std::optional<Instant> clean_since_;
 };
 
 }  // namespace pitwall::picture

@@ -70,6 +70,7 @@ class Watch {
 
  private:
   void step(const Picture& picture, Instant now);
+  alarms::Situations situations(const Picture& picture, Instant now) const;
 
   DeriveParams params_;
   Limits limits_;
@@ -79,7 +80,7 @@ class Watch {
   Books books_;
   alarms::Notices notices_;
   BaseViews views_{};
-  std::vector<alarms::Reading> readings_;
+  std::vector<alarms::Reading> readings_;  // kept for its storage
   std::optional<std::int64_t> newest_step_;
   std::uint64_t left_out_ = 0;
 };
