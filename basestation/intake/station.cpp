@@ -20,6 +20,7 @@ bool Station::take(std::span<const std::uint8_t> datagram, telemetry::PathId pat
                    telemetry::Address from, Instant received) {
   const auto arrival = endpoint_.feed(datagram, path, from, received);
   if (!arrival) return false;
+  arrival_ = arrival;
   rate_.note(received);
   count(*arrival);
   const telemetry::Snapshot& state = endpoint_.state();

@@ -42,6 +42,8 @@ class Station {
   // True: an authentic packet of the car that was not had before.
   bool take(std::span<const std::uint8_t> datagram, telemetry::PathId path, telemetry::Address from,
             Instant received);
+  // What the datagram brought that was taken last; none before.
+  const std::optional<telemetry::Arrival>& arrival() const { return arrival_; }
   std::optional<telemetry::Outgoing> poll(Instant now) { return endpoint_.poll(now); }
   Instant due() const { return endpoint_.due(); }
   // Lets the figures grow older; before they are read.
@@ -76,6 +78,7 @@ class Station {
 
   telemetry::StationEndpoint endpoint_;
   std::uint8_t paths_;
+  std::optional<telemetry::Arrival> arrival_;
   picture::Picture picture_;
   PacketRate rate_;
   AgeBook ages_;

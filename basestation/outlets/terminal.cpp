@@ -17,7 +17,7 @@ namespace {
 
 constexpr Instant kForever{INT64_MAX};
 constexpr int kMaxRounds = 64;  // a flood must not keep screen and stop signal waiting
-constexpr std::size_t kMaxLines = telemetry::kPaths + 2;
+constexpr std::size_t kMaxLines = transport::kMaxWatched;
 
 class Loop {
  public:
@@ -27,6 +27,7 @@ class Loop {
     CHECK(watched_.push(lines.stop));
     for (const transport::UdpSocket& socket : lines.radio) CHECK(watched_.push(socket.fd()));
     if (lines.words != nullptr) CHECK(watched_.push(lines.words->fd()));
+    for (const Outlet* const outlet : lines.outlets) CHECK(watched_.push(outlet->fd()));
   }
 
   void run() {
@@ -35,12 +36,14 @@ class Loop {
     next_screen_ = options_.text ? start : kForever;
     bool stopped = false;
     while (!stopped) {
-      const Instant due = std::min({next_screen_, station_.due(), script_due(), end});
+      const Instant due =
+          std::min({next_screen_, station_.due(), script_due(), outlets_due(), end});
       const std::uint32_t ready = transport::wait_readable(watched_.span(), due);
       drain();
       hear_words();
       const Instant now = transport::monotonic_now();
       say_script(now);
+      for (Outlet* const outlet : lines_.outlets) outlet->serve(station_, now);
       send(now);
       show_if_due(now);
       stopped = (ready & 1U) != 0 || now >= end;
@@ -62,7 +65,9 @@ class Loop {
 
   void take(const transport::UdpDatagram& datagram, telemetry::PathId path) {
     const telemetry::Address from{.ip = datagram.from.ip, .port = datagram.from.port};
-    station_.take(datagram.payload(), path, from, datagram.at);
+    if (station_.take(datagram.payload(), path, from, datagram.at)) {
+      for (Outlet* const outlet : lines_.outlets) outlet->packet(station_, *station_.arrival());
+    }
     if (station_.due() <= datagram.at) send(transport::monotonic_now());
   }
 
@@ -80,6 +85,12 @@ class Loop {
       const auto bytes = batch_[i].payload();
       say({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, batch_[i].at);
     }
+  }
+
+  Instant outlets_due() const {
+    Instant due = kForever;
+    for (const Outlet* const outlet : lines_.outlets) due = std::min(due, outlet->due());
+    return due;
   }
 
   Instant script_due() const {

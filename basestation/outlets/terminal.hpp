@@ -1,7 +1,7 @@
 // The loop of a base station at a terminal: takes every datagram that is there at each wake-up,
 // sends what is due, says the operator's words, prints a screen now and then.
-//   in     a socket for each path, one for words (loopback), a script, a descriptor that becomes
-//          readable when it shall stop
+//   in     a socket for each path, one for words (loopback), a script, other outlets, a descriptor
+//          that becomes readable when it shall stop
 //   out    the station up to date; datagrams to where it says, from the socket of their path;
 //          screens on the given stream
 //   law    a terminal that takes no text (Ctrl-S, a full pipe) stops the loop and with it what the
@@ -16,6 +16,7 @@
 
 #include "basestation/intake/operator_script.hpp"
 #include "basestation/intake/station.hpp"
+#include "basestation/outlets/outlet.hpp"
 #include "protocol/transport/udp_socket.hpp"
 #include "protocol/vocabulary/time.hpp"
 
@@ -33,6 +34,7 @@ struct Lines {
   std::span<transport::UdpSocket> radio;  // by path
   transport::UdpSocket* words = nullptr;  // one line of words for each datagram
   intake::OperatorScript* script = nullptr;
+  std::span<Outlet* const> outlets{};
   int stop = -1;
 };
 
