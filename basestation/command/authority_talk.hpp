@@ -49,10 +49,11 @@ class AuthorityTalk {
   std::uint64_t revision() const { return revision_; }
 
  private:
-  Result<bool, Problem> say(const Person& who, const char* what, bool ok, const char* why,
-                            Instant now);
+  // `why_not`: nullptr where it was done.
+  Result<bool, Problem> say(const Person& who, const char* what, const char* why_not, Instant now);
+  const char* why_not_answer(const Person& who, Instant now);
   void hold(const Person& who);
-  void hand_over(Instant now);
+  void give(Instant now);
 
   telemetry::AuthorityDesk* desk_;
   Audit* audit_;

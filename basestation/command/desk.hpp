@@ -97,8 +97,9 @@ class Desk {
  private:
   Ticket* find(TicketId id);
   void reach(Ticket& ticket, Step step, Instant now);
-  Result<bool, Problem> refuse(Ticket* ticket, TicketId id, const Person& by, std::string what,
-                               Instant now);
+  Unexpected<Problem> refuse(const Person& by, const std::string& what, std::string why,
+                             Instant now);
+  void end(Ticket& ticket, Step step, std::string text, Instant now);
   void follow(Ticket& ticket, const telemetry::CommandProgress& progress);
 
   GateParams params_;

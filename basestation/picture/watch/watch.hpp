@@ -61,7 +61,7 @@ class Watch {
   LinkState link_state() const { return books_.link.state(); }
   Instant link_since() const { return books_.link.since(); }
   FuelLeft fuel() const { return books_.fuel.left(params_.fuel); }
-  const FuelPlan& fuel_plan() const { return params_.fuel; }
+  const DeriveParams& params() const { return params_; }  // as the file has them
   const TyreGate& tyre_gate() const { return params_.tyres; }
 
   // Of any field, the car's at `now`, the base's own as of the newest step.

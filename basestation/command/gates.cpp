@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/command/gates.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "basestation/picture/incidents/flags.hpp"
+#include "basestation/picture/incidents/tyre_gate.hpp"
+
+namespace pitwall::command {
+namespace {
+
+using picture::BaseField;
+using picture::FieldView;
+using telemetry::CommandType;
+using telemetry::field;
+
+// Values of enumerations, as telemetry/registry/labels.hpp has them.
+constexpr double kYellow = 3.0, kGreen = 4.0, kWavingGreen = 5.0;
+constexpr std::array kVehicleFlagsThatAllow{0.0, 2.0, 9.0, 10.0};  // none, blue, the two roles
+constexpr double kAttacker = 2.0;
+
+std::string number(double value, const char* unit) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.1f %s", value, unit);
+  return text.data();
+}
+
+std::string label(std::string_view labels, double value) {
+  return std::string{telemetry::label_at(labels, static_cast<std::size_t>(value))};
+}
+
+// The judge of one command at one moment.
+class Judge {
+ public:
+  Judge(const telemetry::Command& command, const GateParams& params, const GateInputs& in)
+      : command_(command), params_(params), in_(in) {}
+
+  std::vector<Gate> all() {
+    using enum GateKind;
+    link();
+    if (telemetry::row_of(command_.type).needs_authority) authority();
+    switch (command_.type) {
+      case CommandType::kSpeedLimit:
+        if (!slower()) faster();
+        break;
+      case CommandType::kArm:
+        if (command_.argument > 0.0) stop(), alarms();
+        break;
+      case CommandType::kRole:
+        if (command_.argument == kAttacker) stop(), flag(kUnset), fuel(), alarms();
+        break;
+      case CommandType::kTrackFlag:
+        source();
+        break;
+      case CommandType::kReset:
+      case CommandType::kReleaseStop:
+      case CommandType::kEndRun:
+        standing();
+        break;
+      case CommandType::kRaceLine:
+        alarms();
+        break;
+      case CommandType::kSensorsExcluded:
+      case CommandType::kSendParameters:
+        break;
+    }
+    return std::move(gates_);
+  }
+
+ private:
+  FieldView see(telemetry::FieldIndex index) const { return in_.picture.view(index, in_.now); }
+  FieldView see(BaseField base) const {
+    return in_.watch.view(in_.picture, picture::id_of(base), in_.now);
+  }
+
+  // `ok` counts only where the value is known and not stale.
+  void add(GateKind kind, const FieldView& seen, bool ok, std::string text) {
+    const bool known = picture::usable(seen) && !std::isnan(seen.value);
+    if (!known) {
+      const bool never = seen.quality == picture::Quality::kNever || std::isnan(seen.value);
+      text = (never ? "never heard" : "too old: " + number(seen.age.seconds(), "s")) +
+             std::string{"; "} + text;
+    }
+    gates_.push_back({.kind = kind,
+                      .ok = known && ok,
+                      .value = seen.value,
+                      .age = seen.age,
+                      .known = known,
+                      .text = std::move(text)});
+  }
+  static FieldView own(double value) {  // of the base itself: always known
+    return {.value = value, .age = {}, .quality = picture::Quality::kFresh};
+  }
+
+  // What the car may drive now; without a limit of ours, what it drives.
+  FieldView present_limit() const {
+    const FieldView limit = see(field("planner.operator_limit"));
+    return limit.quality == picture::Quality::kNever ? see(field("ego.vx")) : limit;
+  }
+  // Also by a limit that was told long ago: lowering it must always be possible.
+  bool slower() const {
+    const double limit_mps = see(field("planner.operator_limit")).value;
+    if (!std::isnan(limit_mps)) return command_.argument <= limit_mps;
+    const FieldView speed = see(field("ego.vx"));
+    return picture::usable(speed) && command_.argument <= speed.value;
+  }
+
+  void faster() {
+    stop();
+    flag(command_.argument);
+    tyres();
+    step();
+    corner();
+    fuel();
+    alarms();
+  }
+
+  void link() {
+    using picture::LinkState;
+    const LinkState state = in_.watch.link_state();
+    const bool enough = state == LinkState::kGood || (state == LinkState::kDegraded && harmless());
+    FieldView seen = own(static_cast<double>(state));
+    const FieldView silence = see(BaseField::kLinkSilence);
+    if (picture::usable(silence)) {
+      seen.age = {static_cast<std::int64_t>(silence.value * 1e6)};  // of the newest packet
+    }
+    add(GateKind::kLink, seen, enough, "link " + label(picture::kLinkStates, seen.value));
+  }
+  bool harmless() const { return command_.type != CommandType::kSpeedLimit || slower(); }
+
+  void authority() {
+    add(GateKind::kAuthority, own(in_.holder),
+        command_.issuer != 0 && in_.holder == command_.issuer,
+        in_.holder == 0 ? "nobody holds it" : "held by console " + std::to_string(in_.holder));
+  }
+
+  void stop() {
+    const FieldView seen = see(BaseField::kStop);
+    add(GateKind::kStop, seen, seen.value == 0.0, label(telemetry::kStopLevels, seen.value));
+  }
+
+  void flag(double speed_mps) {
+    const FieldView track = see(field("flags.track_acted_on"));
+    const FieldView vehicle = see(field("flags.vehicle_acted_on"));
+    const bool slow_enough = speed_mps <= params_.caution_speed_mps;
+    const bool track_allows = track.value == kGreen || track.value == kWavingGreen ||
+                              (track.value == kYellow && slow_enough);
+    const bool vehicle_allows =
+        picture::usable(vehicle) &&
+        std::find(kVehicleFlagsThatAllow.begin(), kVehicleFlagsThatAllow.end(), vehicle.value) !=
+            kVehicleFlagsThatAllow.end();
+    add(GateKind::kFlag, track, track_allows && vehicle_allows,
+        "track " + label(telemetry::kTrackFlags, track.value) + ", vehicle " +
+            label(telemetry::kVehicleFlags, vehicle.value));
+  }
+
+  void tyres() {
+    const FieldView coldest = see(BaseField::kTyreMin);
+    const double needed_c = picture::tyre_needed_c(in_.watch.tyre_gate(), command_.argument);
+    add(GateKind::kTyres, coldest, coldest.value >= needed_c,
+        number(coldest.value, "degC") + ", " + number(needed_c, "degC") + " needed for " +
+            number(command_.argument, "m/s"));
+  }
+
+  void step() {
+    const FieldView now = present_limit();
+    const double step_mps = command_.argument - now.value;
+    FieldView seen = now;
+    seen.value = step_mps;
+    add(GateKind::kStep, seen, step_mps <= params_.step_max_mps,
+        "+" + number(step_mps, "m/s") + ", at most +" + number(params_.step_max_mps, "m/s"));
+  }
+
+  void corner() {
+    const FieldView ahead = see(BaseField::kCornerIn);
+    add(GateKind::kCorner, ahead, ahead.value > params_.corner_ahead.seconds(),
+        ahead.value == 0.0 ? "in a corner" : "a corner in " + number(ahead.value, "s"));
+  }
+
+  void fuel() {
+    const FieldView attempts = see(BaseField::kFuelAttempts);
+    add(GateKind::kFuel, attempts, attempts.value >= 1.0,
+        number(see(BaseField::kFuelLaps).value, "laps") +
+            ", attempts: " + number(attempts.value, ""));
+  }
+
+  void alarms() {
+    const auto high = static_cast<double>(in_.watch.alarms().count(alarms::Priority::kHigh));
+    add(GateKind::kAlarms, own(high), high == 0.0, "high alarms: " + number(high, ""));
+  }
+
+  void source() {
+    const FieldView acted_on = see(field("flags.track_acted_on"));
+    const FieldView said = see(field("flags.track"));
+    const double wanted = command_.argument;
+    if (picture::restriction_of_track_flag(wanted) >=
+            picture::restriction_of_track_flag(acted_on.value) &&
+        picture::usable(acted_on)) {
+      add(GateKind::kSource, acted_on, true, "not less restrictive than now");
+      return;
+    }
+    add(GateKind::kSource, said, said.value == wanted,
+        "race control shows " + label(telemetry::kTrackFlags, said.value));
+  }
+
+  void standing() {
+    const FieldView speed = see(field("ego.vx"));
+    add(GateKind::kStanding, speed, std::abs(speed.value) <= params_.standing_mps,
+        number(speed.value, "m/s"));
+  }
+
+  const telemetry::Command& command_;
+  const GateParams& params_;
+  const GateInputs& in_;
+  std::vector<Gate> gates_;
+};
+
+}  // namespace
+
+std::string_view text_of(GateKind kind) {
+  constexpr std::array<std::string_view, 11> kTexts{"link",   "authority", "stop",    "flag",
+                                                    "tyres",  "step",      "corner",  "fuel",
+                                                    "alarms", "source",    "standing"};
+  return kTexts.at(static_cast<std::size_t>(kind));
+}
+
+bool can_be_overridden(GateKind kind) {
+  return kind != GateKind::kLink && kind != GateKind::kAuthority && kind != GateKind::kStop;
+}
+
+std::vector<Gate> gates_of(const telemetry::Command& command, const GateParams& params,
+                           const GateInputs& inputs) {
+  return Judge{command, params, inputs}.all();
+}
+
+bool all_pass(const std::vector<Gate>& gates) {
+  return std::all_of(gates.begin(), gates.end(), [](const Gate& gate) { return gate.ok; });
+}
+
+}  // namespace pitwall::command

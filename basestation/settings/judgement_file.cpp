@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/settings/judgement_file.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "protocol/yaml/strict_map.hpp"
+
+namespace pitwall::settings {
+namespace {
+
+using picture::Limit;
+
+constexpr double kAny = 1e9, kDelayMax_s = 600.0, kLapsMax = 100.0, kLitresMax = 200.0;
+
+double bound(yaml::StrictMap& map, const char* key) {
+  return map.number_or(key, kUnset, -kAny, kAny);
+}
+
+std::uint64_t value_set(yaml::StrictMap& map, const char* key) {
+  constexpr double kBits = 63.0;
+  std::uint64_t set = 0;
+  if (!map.has(key)) return set;
+  for (const double value : map.numbers(key, 0, 64, 0.0, kBits)) {
+    if (value != std::floor(value)) map.fail(key, "a value of an enumeration is a whole number");
+    set |= std::uint64_t{1} << static_cast<unsigned>(value);
+  }
+  return set;
+}
+
+picture::LimitEdit limit_of(yaml::StrictMap& map) {
+  picture::LimitEdit edit;
+  const std::string path = map.text("field");
+  const auto id = picture::find_field(path);
+  if (!id) map.fail("field", "no field is called " + path);
+  edit.field = *id;
+  edit.limit = {.warning_low = bound(map, "warning_low"),
+                .warning_high = bound(map, "warning_high"),
+                .bad_low = bound(map, "bad_low"),
+                .bad_high = bound(map, "bad_high"),
+                .warning_values = value_set(map, "warning_values"),
+                .bad_values = value_set(map, "bad_values")};
+  edit.author = map.text("author");
+  edit.reason = map.text_or("reason", "");
+  return edit;
+}
+
+alarms::Priority priority_of(yaml::StrictMap& map, alarms::Priority otherwise) {
+  using enum alarms::Priority;
+  if (!map.has("priority")) return otherwise;
+  const std::string text = map.text("priority");
+  for (const alarms::Priority one : {kLow, kMedium, kHigh}) {
+    if (text == alarms::text_of(one)) return one;
+  }
+  map.fail("priority", "one of low, medium, high");
+}
+
+alarms::AlarmEdit alarm_of(yaml::StrictMap& map) {
+  alarms::AlarmEdit edit;
+  edit.key = map.text("alarm");
+  const auto index = alarms::find_alarm(edit.key);
+  if (!index) map.fail("alarm", "no alarm is called " + edit.key);
+  const alarms::AlarmSetting usual = alarms::default_setting(*index);
+  const auto delay = [&](const char* key, Duration otherwise) {
+    return from_seconds(map.number_or(key, otherwise.seconds(), 0.0, kDelayMax_s));
+  };
+  edit.setting = {.priority = priority_of(map, usual.priority),
+                  .limit = map.number_or("limit", usual.limit, -kAny, kAny),
+                  .deadband = map.number_or("deadband", usual.deadband, 0.0, kAny),
+                  .on_delay = delay("on_s", usual.on_delay),
+                  .off_delay = delay("off_s", usual.off_delay)};
+  edit.author = map.text("author");
+  edit.reason = map.text_or("reason", "");
+  return edit;
+}
+
+picture::FuelPlan fuel_of(yaml::StrictMap& map) {
+  const picture::FuelPlan usual;
+  return {
+      .attempt_laps = map.number_or("attempt_laps", usual.attempt_laps, 1.0, kLapsMax),
+      .home_laps = map.number_or("home_laps", usual.home_laps, 0.0, kLapsMax),
+      .reserve_l = map.number_or("reserve_l", usual.reserve_l, 0.0, kLitresMax),
+      .guess_l_per_lap = map.number_or("guess_l_per_lap", usual.guess_l_per_lap, 0.01, kLitresMax)};
+}
+
+picture::TyreGate gate_of(yaml::StrictMap& map) {
+  constexpr std::size_t kRows = picture::TyreGate::kRows;
+  constexpr double kSpeedMax_mps = 120.0, kColdest_c = -40.0, kHottest_c = 214.0;
+  picture::TyreGate gate;
+  const auto speeds = map.numbers("speed_mps", kRows, kRows, 0.0, kSpeedMax_mps);
+  const auto temperatures = map.numbers("temperature_c", kRows, kRows, kColdest_c, kHottest_c);
+  for (std::size_t i = 0; i < kRows; ++i) {
+    if (i > 0 && !(speeds[i] > speeds[i - 1])) map.fail("speed_mps", "rises from row to row");
+    if (i > 0 && !(temperatures[i] > temperatures[i - 1])) {
+      map.fail("temperature_c", "rises from row to row");
+    }
+    gate.speed_mps[i] = speeds[i];
+    gate.temperature_c[i] = temperatures[i];
+  }
+  return gate;
+}
+
+std::vector<yaml::StrictMap> list(yaml::StrictMap& root, const char* key) {
+  return root.has(key) ? root.maps(key) : std::vector<yaml::StrictMap>{};
+}
+
+picture::WatchConfig config_of(yaml::StrictMap& root) {
+  picture::WatchConfig config;
+  (void)root.integer("version", 1, 1);
+  if (auto fuel = root.optional_map("fuel")) config.derive.fuel = fuel_of(*fuel);
+  if (auto gate = root.optional_map("tyre_gate")) config.derive.tyres = gate_of(*gate);
+  for (yaml::StrictMap& map : list(root, "alarms")) {
+    const auto edited = config.alarms.edit(alarm_of(map));
+    if (!edited) map.fail("alarm", edited.error().what);
+  }
+  for (yaml::StrictMap& map : list(root, "limits")) {
+    const auto edited = config.limits.edit(limit_of(map));
+    if (!edited) map.fail("field", edited.error().what);
+  }
+  return config;
+}
+
+// The shortest text that is read as the same number.
+std::string text_of(double value) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.begin(), text.end(), value).ptr;
+  return {text.data(), end};
+}
+
+// As a YAML text in double quotes, whatever people are called.
+std::string in_quotes(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += static_cast<unsigned char>(c) < 0x20U ? ' ' : c;
+  }
+  return out + "\"";
+}
+
+std::string signature(const std::string& author, const std::string& reason) {
+  return ", author: " + in_quotes(author) + ", reason: " + in_quotes(reason) + "}\n";
+}
+
+std::string line(const alarms::AlarmEdit& edit) {
+  const alarms::AlarmSetting& set = edit.setting;
+  return "  - {alarm: " + edit.key + ", priority: " + std::string{text_of(set.priority)} +
+         ", limit: " + text_of(set.limit) + ", deadband: " + text_of(set.deadband) +
+         ", on_s: " + text_of(set.on_delay.seconds()) +
+         ", off_s: " + text_of(set.off_delay.seconds()) + signature(edit.author, edit.reason);
+}
+
+std::string set_text(const char* key, std::uint64_t set) {
+  if (set == 0) return {};
+  std::string out;
+  for (unsigned bit = 0; bit < 64; ++bit) {
+    if ((set >> bit & 1U) != 0) out += (out.empty() ? "" : ", ") + std::to_string(bit);
+  }
+  return std::string{", "} + key + ": [" + out + "]";
+}
+
+std::string line(const picture::LimitEdit& edit) {
+  const auto bound_text = [](const char* key, double value) {
+    return std::isnan(value) ? std::string{} : std::string{", "} + key + ": " + text_of(value);
+  };
+  const Limit& limit = edit.limit;
+  return "  - {field: " + picture::path_of(edit.field) +
+         bound_text("warning_low", limit.warning_low) +
+         bound_text("warning_high", limit.warning_high) + bound_text("bad_low", limit.bad_low) +
+         bound_text("bad_high", limit.bad_high) + set_text("warning_values", limit.warning_values) +
+         set_text("bad_values", limit.bad_values) + signature(edit.author, edit.reason);
+}
+
+template <std::size_t N>
+std::string row(const char* key, const std::array<double, N>& numbers) {
+  std::string out = "  " + std::string{key} + ": [";
+  for (std::size_t i = 0; i < N; ++i) out += (i == 0 ? "" : ", ") + text_of(numbers.at(i));
+  return out + "]\n";
+}
+
+}  // namespace
+
+Result<picture::WatchConfig, Problem> read_judgement_text(std::string_view text,
+                                                          const std::string& name) {
+  const auto document = yaml::load_text(text, name);
+  if (!document) return Unexpected{document.error()};
+  return yaml::read(*document, config_of);
+}
+
+Result<picture::WatchConfig, Problem> read_judgement_file(const std::filesystem::path& path) {
+  const auto document = yaml::load_file(path);
+  if (!document) return Unexpected{document.error()};
+  return yaml::read(*document, config_of);
+}
+
+std::string judgement_text(const picture::DeriveParams& params, const picture::Limits& limits,
+                           const alarms::AlarmSettings& alarms) {
+  const picture::FuelPlan& fuel = params.fuel;
+  std::string out =
+      "version: 1\nfuel: {attempt_laps: " + text_of(fuel.attempt_laps) +
+      ", home_laps: " + text_of(fuel.home_laps) + ", reserve_l: " + text_of(fuel.reserve_l) +
+      ", guess_l_per_lap: " + text_of(fuel.guess_l_per_lap) + "}\ntyre_gate:\n" +
+      row("speed_mps", params.tyres.speed_mps) + row("temperature_c", params.tyres.temperature_c);
+  out += alarms.edits().empty() ? "alarms: []\n" : "alarms:\n";
+  for (const alarms::AlarmEdit& edit : alarms.edits()) out += line(edit);
+  out += limits.edits().empty() ? "limits: []\n" : "limits:\n";
+  for (const picture::LimitEdit& edit : limits.edits()) out += line(edit);
+  return out;
+}
+
+}  // namespace pitwall::settings
