@@ -65,16 +65,22 @@ bool is_text_sync(std::uint8_t byte) { return byte == kAsciiLong || byte == kAsc
 
 bool is_printable(std::uint8_t byte) { return byte >= ' ' && byte <= '~'; }
 
-// Lower case only, as the receiver writes it: two ways to write one checksum would be one too many.
+// The receiver writes lower case; what passes its logs on may write upper. Not both in one checksum:
+// no one writes that.
 std::optional<std::uint32_t> hex_digit(std::uint8_t byte) {
   if (byte >= '0' && byte <= '9') return static_cast<std::uint32_t>(byte - '0');
   if (byte >= 'a' && byte <= 'f') return static_cast<std::uint32_t>(byte - 'a') + 10U;
+  if (byte >= 'A' && byte <= 'F') return static_cast<std::uint32_t>(byte - 'A') + 10U;
   return std::nullopt;
 }
 
 // Whether what follows a '*' can be a tail, as far as it is there.
 bool may_be_tail(Bytes at) {
+  bool lower = false, upper = false;
   for (std::size_t i = 0; i < at.size(); ++i) {
+    lower = lower || (at[i] >= 'a' && at[i] <= 'f');
+    upper = upper || (at[i] >= 'A' && at[i] <= 'F');
+    if (lower && upper) return false;
     if (i < kCrcDigits && !hex_digit(at[i])) return false;
     if (i == kCrcDigits && at[i] != '\r') return false;
     if (i == kCrcDigits + 1 && at[i] != '\n') return false;
@@ -125,6 +131,7 @@ bool NovatelStream::next(NovatelFrame& frame) {
     if (found == Found::kNotYet) return false;
     if (found == Found::kFrame) {
       ++counters_.frames;
+      astray_ = false;
       return true;
     }
     discard(1);
@@ -191,6 +198,8 @@ void NovatelStream::skip_to_sync() {
 void NovatelStream::discard(std::size_t n) {
   window_.take_off(n);
   counters_.garbage_bytes += n;
+  if (n > 0 && !astray_) ++counters_.resyncs;
+  astray_ = astray_ || n > 0;
 }
 
 }  // namespace pitwall::gnss

@@ -47,6 +47,7 @@ class NovatelStream {
 
   StreamWindow<kMaxFrameBytes> window_;
   StreamCounters counters_;
+  bool astray_ = false;  // in bytes of no frame
 };
 
 }  // namespace pitwall::gnss

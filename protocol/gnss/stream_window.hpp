@@ -18,6 +18,7 @@ struct StreamCounters {
   std::uint64_t bytes = 0, frames = 0;
   std::uint64_t ascii_frames = 0;   // of the frames
   std::uint64_t garbage_bytes = 0;  // in no frame
+  std::uint64_t resyncs = 0;        // times that garbage began: after a frame, or at the start
   std::uint64_t bad_crc = 0;
   std::uint64_t oversize = 0;    // longer than kMaxFrameBytes by its own header
   std::uint64_t bad_header = 0;  // a header that the format does not know

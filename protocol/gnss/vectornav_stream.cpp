@@ -40,6 +40,7 @@ bool VectorNavStream::next(VectorNavFrame& frame) {
              .payload = whole.subspan(header->header_bytes, header->payload_bytes)};
     window_.take_off(whole.size());
     ++counters_.frames;
+    astray_ = false;
     return true;
   }
 }
@@ -52,6 +53,8 @@ bool VectorNavStream::is_expected(const VectorNavOutput& output) const {
 void VectorNavStream::discard(std::size_t n) {
   window_.take_off(n);
   counters_.garbage_bytes += n;
+  if (n > 0 && !astray_) ++counters_.resyncs;
+  astray_ = astray_ || n > 0;
 }
 
 }  // namespace pitwall::gnss

@@ -45,6 +45,7 @@ class VectorNavStream {
   FixedVector<VectorNavOutput, kMaxOutputs> expected_;
   StreamWindow<kMaxVectorNavBytes> window_;
   StreamCounters counters_;
+  bool astray_ = false;  // in bytes of no frame
 };
 
 }  // namespace pitwall::gnss

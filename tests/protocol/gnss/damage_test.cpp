@@ -3,6 +3,8 @@
 // raised by PITWALL_FLIPPED_LOGS; a million are the gate of a long run.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <vector>
 
@@ -30,6 +32,15 @@ void flip(Bytes& bytes, std::mt19937_64& random) {
     const std::size_t bit = random() % (8 * bytes.size());
     bytes[bit / 8] = static_cast<std::uint8_t>(bytes[bit / 8] ^ 1U << bit % 8);
   }
+}
+
+// The checksum of a text in another case is no damage: it may have one letter only.
+bool is_same_text(const Bytes& a, const Bytes& b) {
+  constexpr std::size_t kTail = 10;
+  const auto whole = static_cast<std::ptrdiff_t>(b.size() - kTail);
+  return std::equal(b.begin(), b.begin() + whole, a.begin()) &&
+         std::equal(b.begin() + whole, b.end(), a.begin() + whole,
+                    [](int x, int y) { return std::tolower(x) == std::tolower(y); });
 }
 
 template <class Encode>
@@ -62,7 +73,9 @@ TEST(Damage, NoNovatelLogWithFlippedBitsIsAccepted) {
             ? written(kMaxEncodedBytes, [&](auto out) { return encode(header, message, out); })
             : written(kMaxAsciiBytes, [&](auto out) { return encode_ascii(header, message, out); });
     if (i % 1'000 < 2) seen += accepted(stream, bytes);  // it is the damage that is refused
+    const Bytes whole = bytes;
     flip(bytes, random);
+    if (i % 2 == 1 && is_same_text(bytes, whole)) continue;
     (i % 2 == 0 ? binary : ascii) += accepted(stream, bytes);
   }
   EXPECT_EQ(binary, 0U);

@@ -119,6 +119,44 @@ TEST(NovatelStream, ATextThatBeginsLikeALogHoldsUpItsOwnLengthOnly) {
   EXPECT_EQ(stream.counters().garbage_bytes, 1'500U);
 }
 
+// NovAtel writes its checksum in lower case, others in upper; nobody in both.
+TEST(NovatelStream, TheChecksumOfATextMayBeInEitherCase) {
+  constexpr std::size_t kTail = 10, kDigits = 8;
+  int with_letters = 0;
+  for (std::uint32_t ms = 0; ms < 200; ++ms) {
+    const Bytes lower = ascii_of(ms);
+    Bytes upper = lower, mixed = lower;
+    int letters = 0;
+    for (std::size_t i = lower.size() - kTail; i < lower.size() - kTail + kDigits; ++i) {
+      if (lower[i] < 'a') continue;
+      upper[i] = static_cast<std::uint8_t>(lower[i] - 'a' + 'A');
+      if (letters++ == 0) mixed[i] = upper[i];
+    }
+    NovatelStream a, b, c;
+    EXPECT_EQ(times_in(a, lower, 5), std::vector<std::uint32_t>{ms});
+    EXPECT_EQ(times_in(b, upper, 5), std::vector<std::uint32_t>{ms});
+    if (letters < 2) continue;
+    ++with_letters;
+    EXPECT_TRUE(times_in(c, mixed, 5).empty()) << ms;
+  }
+  EXPECT_GT(with_letters, 100);
+}
+
+TEST(NovatelStream, CountsHowOftenItWasAstray) {
+  NovatelStream stream;
+  Bytes bytes = frame_of(0);
+  append(bytes, frame_of(1));
+  times_in(stream, bytes, 7);
+  EXPECT_EQ(stream.counters().resyncs, 0U);
+  bytes.assign(30, 0);  // one stretch, however long and however it is cut
+  append(bytes, frame_of(2));
+  times_in(stream, bytes, 7);
+  EXPECT_EQ(stream.counters().resyncs, 1U);
+  times_in(stream, bytes, 40);
+  EXPECT_EQ(stream.counters().resyncs, 2U);
+  EXPECT_EQ(stream.counters().garbage_bytes, 60U);
+}
+
 TEST(NovatelStream, AnAsciiLogEndsWithItsLineEnd) {
   Bytes bytes = ascii_of(6);
   const Bytes whole = bytes;

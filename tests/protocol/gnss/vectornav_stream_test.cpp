@@ -93,6 +93,22 @@ TEST(VectorNavStream, AFlippedBitCostsItsOwnMessageOnly) {
   }
 }
 
+TEST(VectorNavStream, CountsHowOftenItWasAstray) {
+  std::mt19937_64 random{5};
+  const Bytes bytes = among_garbage(30, random);
+  std::uint64_t resyncs = 0;
+  for (const std::size_t piece : {std::size_t{1}, std::size_t{9}, bytes.size()}) {
+    VectorNavStream stream{kOutputs};
+    for (std::size_t at = 0; at < bytes.size(); at += piece)
+      stream.feed(std::span{bytes}.subspan(at, std::min(piece, bytes.size() - at)),
+                  [](const VectorNavFrame&) {});
+    if (piece == 1) resyncs = stream.counters().resyncs;
+    EXPECT_GT(stream.counters().resyncs, 0U);
+    EXPECT_LE(stream.counters().resyncs, 31U);  // before each message and at the end
+    EXPECT_EQ(stream.counters().resyncs, resyncs) << piece;
+  }
+}
+
 TEST(VectorNavStream, CountsWhatNobodyAskedFor) {
   std::mt19937_64 random{4};
   Bytes bytes = message_of(0, random);
