@@ -67,7 +67,7 @@ function Clocks() {
   const root = useRef<HTMLDivElement>(null);
   usePainter(
     () => {
-      const [, time, detail] = root.current?.children ?? [];
+      const [detail, time] = root.current?.children ?? [];
       if (!time) return;
       time.textContent = isSilent() ? kDash : clockText(session.clock.utcMs(liveMs()));
       detail.textContent = `UTC \u00b7 draws in ${lastPaintMs.toFixed(1)} ms`;
@@ -77,9 +77,8 @@ function Clocks() {
   );
   return (
     <div class="top-tile clocks" ref={root}>
-      <span class="label">Time</span>
-      <span class="word">{kDash}</span>
       <span class="detail" />
+      <span class="word">{kDash}</span>
     </div>
   );
 }

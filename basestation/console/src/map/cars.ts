@@ -12,6 +12,8 @@ import type { Ghost, Own, Rival, TrailPoint } from "./scene";
 
 type Pen = CanvasRenderingContext2D;
 
+/** Height of a row of the list of rivals. */
+const kListPx = 22;
 const kArrow = [[13, 0], [-9, 8], [-5, 0], [-9, -8]] as const;
 
 /** A car as an arrow at its place, pointing where it points. */
@@ -102,20 +104,27 @@ export function diamond(pen: Pen, x: number, y: number, size: number, stale: boo
   pen.fill();
 }
 
+/** Each rival by its number beside its diamond, and once more in the corner with gap and closing
+    speed, where close cars do not write over each other. */
 export function drawRivals(pen: Pen, rivals: readonly Rival[], into: Projection,
   colours: Palette): void {
-  pen.font = "600 14px Barlow, sans-serif";
   pen.textBaseline = "middle";
-  for (const rival of rivals) {
+  rivals.forEach((rival, i) => {
     const { x, y } = into.toPixel(rival.x, rival.y);
+    const ink = rival.stale ? colours.stale : colours.text;
     diamond(pen, x, y, 8, rival.stale, colours);
-    const text = `#${rival.identity} ${gapText(rival.gap)} ${closingText(rival.closing)}`;
-    pen.fillStyle = rival.stale ? colours.stale : colours.text;
-    const left = x > pen.canvas.clientWidth / 2;
-    pen.textAlign = left ? "right" : "left";
-    pen.strokeStyle = colours.ground;
-    pen.lineWidth = 4;
-    pen.strokeText(text, x + (left ? -14 : 14), y);
-    pen.fillText(text, x + (left ? -14 : 14), y);
-  }
+    const across = into.toAngle(rival.yaw + Math.PI / 2);
+    pen.font = "600 14px Barlow, sans-serif";
+    pen.textAlign = "center";
+    pen.fillStyle = ink;
+    pen.fillText(`#${rival.identity}`, x + 24 * Math.cos(across), y + 24 * Math.sin(across));
+    const row = kListPx + i * kListPx;
+    diamond(pen, 10, row, 6, rival.stale, colours);
+    pen.fillStyle = ink;
+    pen.font = "600 16px Barlow, sans-serif";
+    pen.textAlign = "left";
+    pen.fillText(`#${rival.identity}`, 24, row);
+    pen.fillText(gapText(rival.gap), 60, row);
+    pen.fillText(closingText(rival.closing), 124, row);
+  });
 }

@@ -45,8 +45,12 @@ function across(pen: Pen, course: Course, s: number, into: Projection, beyond: n
   pen.stroke();
 }
 
-function label(pen: Pen, course: Course, s: number, text: string, into: Projection): void {
-  const place = course.place(s, course.width(s).left + 26 / into.scale);
+/** A word beside the road: in the infield, or outside of it. */
+function label(pen: Pen, course: Course, s: number, text: string, into: Projection,
+  outside = false): void {
+  const width = course.width(s);
+  const away = 24 / into.scale;
+  const place = course.place(s, outside ? -width.right - away : width.left + away);
   const { x, y } = into.toPixel(place.x, place.y);
   pen.fillText(text, x, y);
 }
@@ -91,7 +95,7 @@ export function drawGround(pen: Pen, course: Course, into: Projection, colours: 
   pen.lineWidth = 1;
   track.sectors.forEach((s, i) => {
     across(pen, course, s, into, 2);
-    if (i > 0 || s > 1) label(pen, course, s, `S${i + 1}`, into);
+    if (i > 0 || s > 1) label(pen, course, s, `S${i + 1}`, into, true);
   });
   for (const corner of track.corners) {
     const middle = corner.from_s + course.wrapped(corner.to_s - corner.from_s) / 2;

@@ -5,7 +5,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Palette } from "../theme/theme";
 import type { Course } from "./course";
-import { diamond, gapText } from "./cars";
+import { closingText, diamond, gapText } from "./cars";
 import type { Rival } from "./scene";
 
 type Pen = CanvasRenderingContext2D;
@@ -78,7 +78,7 @@ function drawCars(pen: Pen, state: StripState, colours: Palette, x: (s: number) 
     pen.font = "600 13px Barlow, sans-serif";
     pen.textAlign = "center";
     pen.textBaseline = "bottom";
-    pen.fillText(`#${rival.identity} ${gapText(rival.gap)}`, px, py - 9);
+    pen.fillText(`#${rival.identity} ${gapText(rival.gap)} ${closingText(rival.closing)}`, px, py - 9);
   }
   const [px, py] = [x(state.station), y(state.offset)];
   pen.beginPath();

@@ -40,6 +40,7 @@ const kUnits: Record<string, string> = {
   degC: "\u00b0C",
   "m/s^2": "m/s\u00b2",
   bits: "",
+  us: "\u00b5s",
 };
 
 export const unitText = (unit: string): string => kUnits[unit] ?? unit;

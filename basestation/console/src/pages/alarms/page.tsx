@@ -53,7 +53,7 @@ function ActiveRow({ alarm }: { alarm: Alarm }) {
       <i class="mark" aria-hidden="true" />
       <span class="priority">{alarm.priority}</span>
       <span class="text">
-        {alarm.first_up && <b class="first-up">first </b>}
+        {alarm.first_up && <b class="first-up">first</b>}
         {alarm.text}
         {alarm.count > 1 && <b> &times;{alarm.count}</b>}
       </span>

@@ -7,7 +7,7 @@ import uPlot from "uplot";
 import { useEffect, useRef } from "preact/hooks";
 import * as session from "../../store/session";
 import { colours, theme } from "../../theme/theme";
-import { kDash, unitText, valueText } from "../../view/format";
+import { decimalsOf, fixed, kDash, unitText, valueText } from "../../view/format";
 import { kPlotsHz, addPainter } from "../../view/painting";
 import { shownMs } from "../../view/timeline";
 import { finderShown } from "../../frame/keys";
@@ -30,10 +30,21 @@ function axes(): uPlot.Axis[] {
   return [
     {
       stroke: dim, font, grid, ticks, size: 26, space: 70,
+      splits: (_, __, min, max, step) => backFrom(max, min, step),
       values: (_, splits) => splits.map((s) => agoText(s)),
     },
-    { stroke: dim, font, grid, ticks, size: 52 },
+    {
+      stroke: dim, font, grid, ticks, size: 52, space: 34,
+      values: (_, splits, __, ___, step) => splits.map((v) => fixed(v, decimalsOf(step))),
+    },
   ];
+}
+
+/** Ticks at whole steps before the moment shown, so that they stand still while the data runs. */
+function backFrom(max: number, min: number, step: number): number[] {
+  const splits: number[] = [];
+  for (let at = max; at >= min; at -= step) splits.unshift(at);
+  return splits;
 }
 
 function agoText(atS: number): string {
@@ -118,7 +129,6 @@ export function Chart({ spec, index, windowS }: ChartProps) {
       plot.batch(() => {
         plot.setData([timeS, ...values] as uPlot.AlignedData, false);
         plot.setScale("x", { min: to / 1000 - windowS, max: to / 1000 });
-        plot.redraw(true, true);
       });
       if (head.current) readOut(plot, spec, head.current);
     };

@@ -10,6 +10,9 @@ import { Quality } from "../../wire/status";
 /** Rows further apart than this are a gap: nothing came in between. */
 export const kGapMs = 500;
 
+/** The base thins its memory to the points that were asked for: a wider gap there. */
+const kEarlierGapMs = 2000;
+
 export type Column = (number | null)[];
 
 export interface Columns {
@@ -76,6 +79,11 @@ export function withEarlier(after: Columns, earlier: Earlier, fromS: number): Co
     if (earlier.timeS[i] < fromS) continue;
     timeS.push(earlier.timeS[i]);
     value.push(shown(earlier.value[i], earlier.quality[i]));
+  }
+  const last = timeS.at(-1);
+  if (last !== undefined && (until - last) * 1000 > kEarlierGapMs) {
+    timeS.push(last + 0.001);
+    value.push(null);
   }
   return { timeS: [...timeS, ...after.timeS], values: [[...value, ...after.values[0]]] };
 }

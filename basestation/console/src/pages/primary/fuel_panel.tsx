@@ -13,8 +13,8 @@ export function FuelPanel() {
   return (
     <div class="fuel-body">
       <div class="tiles four">
-        <Tile label="attempts left" path="derived.fuel_attempts" big />
-        <Tile label="laps left" path="derived.fuel_laps" decimals={1} big />
+        <Tile label="attempts" path="derived.fuel_attempts" decimals={0} big />
+        <Tile label="laps" path="derived.fuel_laps" decimals={1} big />
         <Tile label="level" path="fuel.level" decimals={1} />
         <Tile label="per lap" path="derived.fuel_per_lap" decimals={2} />
       </div>
