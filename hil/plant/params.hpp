@@ -70,8 +70,10 @@ struct Brakes {
   double lag_s = 0.100;              // [O] dummy AV-24 configuration
   double delay_s = 0.0;              // command to first movement; [A] 0.040, not from a car
   double pressure_max_kpa = 9000.0;  // [A]
-  double front_nm_per_kpa = 0.40;    // whole axle; both axles 0.65 [P], split [E]
-  double rear_nm_per_kpa = 0.25;
+  // Whole axle. Both axles 0.65 [P]; 54 % in front [A] (brakeBias; the bias knob of the AV-24's
+  // dash goes from 50 to 58 %). The same pressure in both circuits: the front wheels lock first.
+  double front_nm_per_kpa = 0.351;
+  double rear_nm_per_kpa = 0.299;
   // Share of each axle's torque that works: a fault lowers it.
   double front_remaining = 1.0, rear_remaining = 1.0;
 };

@@ -25,9 +25,10 @@ constexpr double kFrontStretch_m = 2250.0, kBackStretch_m = 1250.0, kFirstEnd_m 
 constexpr double kEnd_s = 110.0;
 constexpr double kBreaks_s = 4.0;   // after the begin of the stop
 constexpr double kColdLoss = 0.35;  // of the modelled friction at 25 C
+constexpr double kFrontLeft = 0.5;  // of the front brakes' torque, where they are weak
 constexpr double kTick_s = 0.01;
 constexpr std::size_t kSmooth = 20;  // ticks: 0.2 s
-constexpr double kStands_mps = 0.05, kSlipFrom_mps = 5.0;
+constexpr double kStands_mps = 0.05, kSlipFrom_mps = 5.0, kTurnedFrom_deg = 10.0;
 
 const Loaded& lap() {
   static const Loaded loaded = [] {
@@ -85,6 +86,8 @@ scenario::Scenario scenario_of(const StopCase& stop) {
   s.start.s_m = stop.station_m < kFirstEnd_m ? kBackStretch_m : kFrontStretch_m;
   s.tyres.temperature_c = stop.tyre_c;
   s.plant.thermal.cold_grip_loss = kColdLoss;
+  if (stop.breakage == Breakage::kFrontBrakes || stop.breakage == Breakage::kFullRearBrake)
+    s.plant.brakes.front_remaining = kFrontLeft;
   scenario::Fault held;  // at their temperature, whatever warms or cools them
   held.kind = "cold_tyres";
   held.lasts = from_seconds(1e3);
@@ -165,9 +168,7 @@ class StopRun {
     figures.cross_track_m =
         std::max(figures.cross_track_m, std::abs(beside(figures.planned, t.x_m, t.y_m)));
     figures.use = std::max(figures.use, t.friction_use);
-    if (t.speed_mps > kSlipFrom_mps)
-      figures.slip_deg =
-          std::max(figures.slip_deg, std::abs(to_deg(std::atan2(t.vy_mps, t.vx_mps))));
+    watch_wheels(t);
     judge_jerk(out);
     if (t.speed_mps < kStands_mps && !figures.stood) end(rig);
   }
@@ -179,7 +180,8 @@ class StopRun {
     return stop_.breakage == what || stop_.breakage == Breakage::kPlanningAndControl;
   }
   const pipeline::Setup& broken(const pipeline::Setup&) const {
-    if (stop_.breakage == Breakage::kFullBrake) return brutal();
+    if (stop_.breakage == Breakage::kFullBrake || stop_.breakage == Breakage::kFullRearBrake)
+      return brutal();
     return breaks(Breakage::kControl) ? without_control() : setup();
   }
 
@@ -188,6 +190,15 @@ class StopRun {
     figures.from_bank_deg = to_deg(rig.truth().bank_rad);
     const std::size_t second = std::min<std::size_t>(use_.size(), 100);
     figures.use_before = *std::max_element(use_.end() - static_cast<long>(second), use_.end());
+  }
+
+  void watch_wheels(const plant::Truth& t) {
+    if (t.speed_mps < kSlipFrom_mps) return;
+    figures.slip_deg = std::max(figures.slip_deg, std::abs(to_deg(std::atan2(t.vy_mps, t.vx_mps))));
+    const auto stands = [&](std::size_t i) { return t.wheel_speed_mps[i] < kStands_mps; };
+    if (figures.slip_deg > kTurnedFrom_deg) return;  // what locks in a spin is no cause of it
+    figures.front_locked = figures.front_locked || (stands(0) && stands(1));
+    figures.rear_locked = figures.rear_locked || (stands(2) && stands(3));
   }
 
   void end(const Rig& rig) {
@@ -233,9 +244,10 @@ double jerk_of(const world::Trajectory& plan) {
 }  // namespace
 
 const char* text_of(Breakage breakage) {
-  constexpr std::array<const char*, 7> kTexts{
-      "nothing broken",         "full brake",   "planning dead", "control dead",
-      "planning, control dead", "no positions", "no receivers"};
+  constexpr std::array<const char*, 9> kTexts{
+      "nothing broken", "full brake",   "weak front brakes",      "full brake, weak front brakes",
+      "planning dead",  "control dead", "planning, control dead", "no positions",
+      "no receivers"};
   return kTexts[static_cast<std::size_t>(breakage)];
 }
 
@@ -261,12 +273,13 @@ std::string row_of(const StopCase& stop, const StopFigures& f) {
       "s %4.0f m, bank %4.1f, %2.0f C, %s%s: from %4.1f m/s (use %.2f) %s after %4.1f s, %3.0f m, "
       "at "
       "s %4.0f n %4.1f bank %4.1f; cross-track %.2f m, use %.2f, jerk %4.1f (plan %4.1f) m/s3, "
-      "decel %.1f m/s2, slip %.1f deg, wall %.2f m%s",
+      "decel %.1f m/s2, slip %.1f deg, wall %.2f m%s%s%s",
       stop.station_m, f.from_bank_deg, stop.tyre_c, text_of(stop.breakage),
       stop.emergency ? ", emergency" : "", f.from_mps, f.use_before,
       f.stood ? "stands" : "DOES NOT STAND", f.lasted_s, f.distance_m, f.end_s_m, f.end_n_m,
       f.end_bank_deg, f.cross_track_m, f.use, f.jerk_mps3, f.planned_jerk_mps3, f.decel_mps2,
-      f.slip_deg, f.wall_gap_m, f.contact ? ", HITS A WALL" : "");
+      f.slip_deg, f.wall_gap_m, f.front_locked ? ", front locked" : "",
+      f.rear_locked ? ", rear locked" : "", f.contact ? ", HITS A WALL" : "");
   return text.data();
 }
 

@@ -19,6 +19,8 @@ namespace pitwall::testing {
 enum class Breakage : std::uint8_t {
   kNothing,
   kFullBrake,           // the stop is planned and followed without any limit
+  kFrontBrakes,         // half the torque of the front brakes is gone: the rear ones lock first
+  kFullRearBrake,       // both
   kPlanning,            // planning is dead from the first tick of the stop on
   kControl,             // control gives nothing usable
   kPlanningAndControl,  // both
@@ -44,6 +46,7 @@ struct StopFigures {
   double jerk_mps3 = 0.0;      // largest, of the true forward acceleration over 0.2 s
   double planned_jerk_mps3 = 0.0;
   double decel_mps2 = 0.0, slip_deg = 0.0;
+  bool front_locked = false, rear_locked = false;  // both wheels, before 10 degrees
   double wall_gap_m = 1e9;
   double end_s_m = kUnset, end_n_m = kUnset, end_bank_deg = kUnset;
   world::Trajectory planned;
