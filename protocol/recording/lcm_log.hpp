@@ -5,8 +5,9 @@
 //   law    the writer counts events from 0; the reader hands them out in the order of the file.
 //          Behind damage it goes on at the next sync word from which a whole event follows; the
 //          event in front of the damage is lost with it, for what follows it is no sync word
-//   errors writer: a channel that LCM does not carry (none, or over 63 bytes), data over kLcmDataMax
-//          or a negative time is refused and counted; once the sink has failed everything is
+//   errors writer: a channel that LCM does not carry (none, or over 63 bytes), data over
+//          kLcmDataMax or a negative time is refused and counted; once the sink has failed
+//          everything is
 //          reader: bytes between events are counted as skipped; a cut event at the end is not
 //          handed out
 //   cost   O(bytes); the writer keeps one event in memory

@@ -1,5 +1,5 @@
-// Reads MCAP files with @mcap/core, twice each: as a stream and by the index, all CRCs checked. Both
-// ways must give the same messages.
+// Reads MCAP files with @mcap/core, twice each: as a stream and by the index, all CRCs checked.
+// Both ways must give the same messages.
 //   node check_mcap.mjs FILE...
 //   out    a line for each file: messages, first and last log time, topics with a message
 // SPDX-License-Identifier: Apache-2.0
@@ -13,7 +13,8 @@ function streamed(bytes) {
   reader.append(bytes);
   for (let record; (record = reader.nextRecord()); ) {
     if (record.type === "Channel") topics.set(record.id, record.topic);
-    if (record.type === "Message") messages.push({ ...record, topic: topics.get(record.channelId) });
+    if (record.type !== "Message") continue;
+    messages.push({ logTime: record.logTime, topic: topics.get(record.channelId) });
   }
   if (!reader.done()) throw new Error("the file does not end with a footer and magic");
   return messages;

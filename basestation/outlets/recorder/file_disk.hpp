@@ -1,0 +1,60 @@
+// Segments as files of a folder: what is written is on the disk within a second.
+//   in     a folder, which is made; names and bytes
+//   out    files; a lock on each that is open, so that nobody takes it for an old one
+//   law    appending does not wait for the disk to be written: a thread of its own does, once a
+//          second. How long that took is told
+//   errors Problem with the path; syncs that failed are counted
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "basestation/outlets/recorder/segment_chain.hpp"
+#include "protocol/transport/file.hpp"
+
+namespace pitwall::recorder {
+
+class FileDisk : public Disk {
+ public:
+  static constexpr Duration kSyncEvery = seconds(1);
+
+  explicit FileDisk(std::string folder);
+  ~FileDisk() override;
+
+  // The folder is there and can be written to.
+  std::optional<Problem> check() const;
+  std::optional<Problem> begin(const std::string& name) override;
+  bool append(std::span<const std::uint8_t> bytes) override;
+  void end(bool keep) override;
+  std::string problem() const override;
+  std::uint64_t free_bytes() const override;
+
+  std::uint64_t syncs() const { return syncs_; }
+  std::uint64_t failed_syncs() const { return failed_syncs_; }
+  Duration longest_sync() const { return {longest_sync_ns_}; }
+
+ private:
+  void sync_now_and_then();
+  void sync(int fd);
+
+  std::string folder_, path_;
+  std::optional<transport::AppendWriter> file_;
+  std::atomic<std::uint64_t> syncs_ = 0, failed_syncs_ = 0;
+  std::atomic<std::int64_t> longest_sync_ns_ = 0;
+  std::mutex mutex_;
+  std::condition_variable ends_;
+  std::shared_ptr<transport::FileDescriptor> to_sync_;  // a second descriptor of the open file
+  bool stop_ = false;
+  std::thread syncer_;
+};
+
+// Another process writes this file just now.
+bool is_being_written(const std::string& path);
+
+}  // namespace pitwall::recorder

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/outlets/recorder/recorder.hpp"
+
+#include <utility>
+
+#include "protocol/json/json_text.hpp"
+#include "protocol/transport/clock.hpp"
+#include "protocol/transport/file.hpp"
+
+namespace pitwall::recorder {
+namespace {
+
+constexpr Duration kTurn = milliseconds(100);
+constexpr double kSecondsPerMinute = 60.0;
+constexpr const char* kBootId = "/proc/sys/kernel/random/boot_id";
+
+ChainParams params_of(recording::Metadata run, const ClockMap& clock) {
+  ChainParams params;
+  params.run = std::move(run);
+  params.clock = clock;
+  return params;
+}
+
+std::span<const std::uint8_t> as_bytes(std::string_view text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+}  // namespace
+
+ClockMap clock_now() {
+  std::string boot = transport::read_file(kBootId).value_or("unknown");
+  while (!boot.empty() && boot.back() == '\n') boot.pop_back();
+  return {.utc_minus_base = transport::realtime_minus_monotonic(), .boot = boot};
+}
+
+double RecorderFigures::minutes_left() const {
+  if (!(bytes_per_s > 0.0)) return kUnset;
+  return static_cast<double>(free_bytes) / bytes_per_s / kSecondsPerMinute;
+}
+
+Result<std::unique_ptr<Recorder>, Problem> Recorder::start(const std::string& folder,
+                                                           recording::Metadata run) {
+  std::unique_ptr<Recorder> recorder{new Recorder{folder, std::move(run), clock_now()}};
+  if (const auto problem = recorder->disk_.check()) return Unexpected{*problem};
+  return recorder;
+}
+
+Recorder::Recorder(const std::string& folder, recording::Metadata run, ClockMap clock)
+    : clock_(std::move(clock)),
+      started_(transport::monotonic_now()),
+      disk_(folder),
+      chain_(disk_, params_of(std::move(run), clock_)),
+      writer_([this] { write_all(); }) {}
+
+Recorder::~Recorder() {
+  queue_.close();
+  writer_.join();
+}
+
+void Recorder::state(const telemetry::Snapshot& state, telemetry::GroupSet groups,
+                     Instant received) {
+  for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
+    if (!groups.has(row.group) || !state.ever(row.group)) continue;
+    const GroupBytes bytes = encode(row.group, state.values);
+    queue_.push({.channel = channel_of(row.group),
+                 .logged = received,
+                 .published = state.at(row.group),
+                 .data = bytes.span()});
+  }
+}
+
+void Recorder::text(Topic topic, Instant at, std::string_view json) {
+  queue_.push(
+      {.channel = channel_of(topic), .logged = at, .published = at, .data = as_bytes(json)});
+}
+
+void Recorder::datagram(bool down, Instant at, std::span<const std::uint8_t> bytes) {
+  queue_.push(
+      {.channel = down ? kDownChannel : kUpChannel, .logged = at, .published = at, .data = bytes});
+}
+
+void Recorder::write_all() {
+  Batch batch;
+  for (bool more = true; more;) {
+    more = queue_.take_all(batch, kTurn);
+    const Instant now = transport::monotonic_now();
+    while (const auto record = batch.next()) chain_.take(*record, now);
+    chain_.turn(now);
+    if (!more) chain_.close();
+    const std::lock_guard lock{mutex_};
+    told_ = chain_.figures();
+  }
+}
+
+RecorderFigures Recorder::figures() const {
+  RecorderFigures figures;
+  {
+    const std::lock_guard lock{mutex_};
+    figures.chain = told_;
+  }
+  figures.dropped = queue_.dropped();
+  figures.syncs = disk_.syncs();
+  figures.failed_syncs = disk_.failed_syncs();
+  figures.longest_sync = disk_.longest_sync();
+  figures.free_bytes = disk_.free_bytes();
+  const double run_s = (transport::monotonic_now() - started_).seconds();
+  if (run_s > 1.0) figures.bytes_per_s = static_cast<double>(figures.chain.bytes) / run_s;
+  return figures;
+}
+
+std::string json_of(const RecorderFigures& figures, Instant now) {
+  return json::Object{}
+      .text("type", "recorder")
+      .number("time_ms", now.ns / 1'000'000)
+      .flag("recording", figures.chain.recording)
+      .text("segment", figures.chain.segment)
+      .number("records", figures.chain.records)
+      .number("dropped", figures.dropped)
+      .number("lost", figures.chain.lost)
+      .number("interruptions", figures.chain.interruptions)
+      .text("problem", figures.chain.problem)
+      .number("bytes_per_s", figures.bytes_per_s)
+      .number("minutes_left", figures.minutes_left())
+      .number("longest_sync_ms", figures.longest_sync.milliseconds())
+      .number("failed_syncs", figures.failed_syncs)
+      .str();
+}
+
+}  // namespace pitwall::recorder

@@ -1,0 +1,71 @@
+// Keeps everything that comes in and goes out, in a folder of MCAP segments.
+//   in     states, events, texts, datagrams, as they happen, each with its time
+//   out    files as segment_chain.hpp has them; figures
+//   law    no call waits for the disk: a thread writes, another has it synchronized every second.
+//          A base that is killed loses less than the last second
+//   bound  kQueueBytes wait at most; what is over is dropped and counted
+//   errors start(): Problem where the folder cannot be made or written. Later: figures(); a full
+//          disk stops nothing, and the recording goes on when there is room again
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include "basestation/outlets/recorder/file_disk.hpp"
+#include "basestation/outlets/recorder/segment_chain.hpp"
+#include "protocol/telemetry/registry/snapshot.hpp"
+
+namespace pitwall::recorder {
+
+inline constexpr std::size_t kQueueBytes = std::size_t{4} << 20;  // some ten seconds
+
+struct RecorderFigures {
+  ChainFigures chain;
+  std::uint64_t dropped = 0;  // records that did not fit into the queue
+  std::uint64_t syncs = 0, failed_syncs = 0;
+  Duration longest_sync{};
+  std::uint64_t free_bytes = 0;
+  double bytes_per_s = 0.0;     // since the start
+  double minutes_left() const;  // NaN: not known
+  std::uint64_t lost() const { return chain.lost + dropped; }
+};
+
+class Recorder {
+ public:
+  // `run`: what the metadata of each segment says besides clock and number.
+  static Result<std::unique_ptr<Recorder>, Problem> start(const std::string& folder,
+                                                          recording::Metadata run);
+  ~Recorder();
+
+  void state(const telemetry::Snapshot& state, telemetry::GroupSet groups, Instant received);
+  void text(Topic topic, Instant at, std::string_view json);
+  void datagram(bool down, Instant at, std::span<const std::uint8_t> bytes);
+  RecorderFigures figures() const;
+  const ClockMap& clock() const { return clock_; }
+
+ private:
+  Recorder(const std::string& folder, recording::Metadata run, ClockMap clock);
+  void write_all();
+
+  ClockMap clock_;
+  Instant started_;
+  FileDisk disk_;
+  SegmentChain chain_;
+  RecordQueue queue_{kQueueBytes};
+  mutable std::mutex mutex_;
+  ChainFigures told_;  // as of the last turn of the writer
+  std::thread writer_;
+};
+
+// The clock of this process and machine.
+ClockMap clock_now();
+// {"type":"recorder",...}
+std::string json_of(const RecorderFigures& figures, Instant now);
+
+}  // namespace pitwall::recorder
