@@ -123,6 +123,16 @@ void at_health_epoch(const Params& p, const Epoch& e, UnitState& u) {
   if (!e.fault.stream.outage) post(u.health, health, way.takes, e);
 }
 
+// What was on its way is lost with the connection.
+void disconnect(UnitState& u) {
+  u.positions.queue = {};
+  u.velocities.queue = {};
+  u.headings.queue = {};
+  u.imu_samples.queue = {};
+  u.attitudes.queue = {};
+  u.health.queue = {};
+}
+
 void measure_unit(const Params& p, std::size_t unit, const plant::Truth& t, const Inertial& body,
                   Instant now, State& state, world::SensorInput& out) {
   UnitState& u = state.unit[unit];
@@ -131,6 +141,7 @@ void measure_unit(const Params& p, std::size_t unit, const plant::Truth& t, cons
   if (due(now, p.heading.period, u.next_heading)) at_heading_epoch(p, t, e, u);
   if (due(now, p.imu.period, u.next_imu)) at_imu_epoch(p, body, e, u);
   if (due(now, p.health.period, u.next_health)) at_health_epoch(p, e, u);
+  if (e.fault.stream.outage) disconnect(u);
 }
 
 // The angular acceleration by the difference from the last call.
