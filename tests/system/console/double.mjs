@@ -14,6 +14,7 @@ import { kTrack, valuesAt } from "./drive.mjs";
 import * as wire from "./wire.mjs";
 
 const kDist = join(kRoot, "build/console/dist");
+const kProgram = join(kRoot, "build/release/basestation/pitwall-base");
 const kTypes = {
   ".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css",
   ".svg": "image/svg+xml", ".woff2": "font/woff2",
@@ -29,7 +30,7 @@ const kBaseFields = {
 const kFirstBaseField = 16_384;
 
 /** The catalogue as a base would serve it: the registry out of the real program, and its own. */
-export function catalogue(program = process.env.PITWALL_BASE) {
+export function catalogue(program = process.env.PITWALL_BASE ?? kProgram) {
   const registry = JSON.parse(execFileSync(program, ["export", "json"], { maxBuffer: 1 << 24 }));
   const fields = [];
   let id = 0;

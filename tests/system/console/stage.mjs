@@ -23,9 +23,11 @@ export async function launch() {
 }
 
 /** A page on `address`, live: resolves when the first values are drawn. */
-export async function open(browser, address, { size = [1920, 1080], theme = "dark", hash = "" } = {}) {
+export async function open(browser, address, options = {}) {
+  const { size = [1920, 1080], theme = "dark", hash = "", ownClock = false } = options;
   const context = await browser.newContext({ viewport: { width: size[0], height: size[1] } });
   const page = await context.newPage();
+  if (ownClock) await page.clock.install();
   const faults = [];
   page.on("console", (message) => {
     if (message.type() === "error" || message.type() === "warning") faults.push(message.text());

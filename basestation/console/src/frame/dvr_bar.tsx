@@ -44,7 +44,7 @@ export function DvrBar() {
         aria-label={held && speed === 0 ? "play" : "pause"}>
         <i class={held && speed === 0 ? "glyph play" : "glyph pause"} aria-hidden="true" />
       </button>
-      <button type="button" onClick={() => timeline.step(-10_000)} aria-label="10 seconds back">
+      <button type="button" onClick={() => timeline.step(-10_000)} title="10 seconds back">
         &minus;10 s
       </button>
       <input type="range" ref={slider} min={-kSpanS} max={0} step={0.04} defaultValue="0"

@@ -2,7 +2,7 @@
  * Finds any field by a few letters of its path; Enter plots it.
  */
 // SPDX-License-Identifier: Apache-2.0
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import * as session from "../store/session";
 import type { FieldInfo } from "../wire/messages";
 import { plotTarget } from "../pages/plots/finder_target";
@@ -31,7 +31,8 @@ export function Finder() {
   const input = useRef<HTMLInputElement>(null);
   const [query, setQuery] = useState("");
   const [at, setAt] = useState(0);
-  useEffect(() => {
+  // Before the next key can come: what is typed after "/" belongs here.
+  useLayoutEffect(() => {
     const before = document.activeElement as HTMLElement | null;
     input.current?.focus();
     return () => {

@@ -39,7 +39,7 @@ export function LinkTile() {
   );
   return (
     <button type="button" class="top-tile link-tile" ref={root} data-judgement="none"
-      onClick={() => showPage("link")} aria-label="link to the car">
+      onClick={() => showPage("link")} title="link to the car">
       <span class="detail">
         <span class="label">Link</span>
         <Value path="link.down_loss" scale={100} unit="%" decimals={1} live />

@@ -21,7 +21,7 @@ export function Navigation() {
         </button>
       ))}
       <span class="spacer" />
-      <button type="button" class="small" onClick={nextTheme} aria-label={`theme ${theme.value}`}>
+      <button type="button" class="small" onClick={nextTheme} title="next theme">
         <kbd>T</kbd><span>{theme.value}</span>
       </button>
       <button type="button" class="small" onClick={() => (helpShown.value = true)}>

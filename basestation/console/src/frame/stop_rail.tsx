@@ -48,7 +48,7 @@ export function StopRail() {
   return (
     <aside class="stop-rail" aria-label="stop the car">
       <button type="button" class="stop controlled" disabled={barred}
-        aria-label="controlled stop" onClick={() => stop("controlled")}>
+        onClick={() => stop("controlled")}>
         <strong>STOP</strong>
         <span>controlled</span>
         <kbd>Esc Esc</kbd>

@@ -32,8 +32,7 @@ function ModeWord() {
 function AlarmCounts() {
   const active = session.alarms.value?.active ?? [];
   return (
-    <button type="button" class="alarm-counts" onClick={() => showPage("alarms")}
-      aria-label={`alarms: ${kPriorities.map((p) => `${countOf(active, p)} ${p}`).join(", ")}`}>
+    <button type="button" class="alarm-counts" onClick={() => showPage("alarms")} title="alarms">
       {kPriorities.map((priority) => {
         const count = countOf(active, priority);
         const unseen = active.some((a) => a.priority === priority && needsEyes(a));
@@ -41,6 +40,7 @@ function AlarmCounts() {
           <span key={priority} class={`count ${priority}`} data-some={count > 0}
             data-unseen={unseen}>
             <i class="mark" aria-hidden="true" />{count}
+            <span class="heard-only"> {priority} alarms</span>
           </span>
         );
       })}
@@ -90,7 +90,7 @@ export function TopBar() {
       <Flag path="flags.track" label="Track flag" />
       <Flag path="flags.vehicle" label="Car flag" />
       <button type="button" class="top-tile round" onClick={nextSpeedUnit}
-        aria-label="round speed, press for another unit">
+        title="round speed of race control; press for another unit">
         <span class="label">Round</span>
         <span class="pair">
           <Value path="flags.round_target_speed" speed live hz={kEachFrame} />

@@ -37,7 +37,7 @@ export function HoldButton(props: HoldButtonProps) {
   const isKey = (event: KeyboardEvent) => event.key === "Enter" || event.key === " ";
   return (
     <button type="button" class={`hold hold-${props.holdMs} ${props.class ?? ""}`}
-      data-held={held} aria-label={props.label} disabled={props.disabled}
+      data-held={held} title={props.label} disabled={props.disabled}
       onPointerDown={(e) => { if (e.button === 0) press(); }}
       onPointerUp={release} onPointerLeave={release} onPointerCancel={release} onBlur={release}
       onContextMenu={(e) => e.preventDefault()}

@@ -1,0 +1,221 @@
+/**
+ * Hands on the console: stops, holding, keys. What reaches the base is exactly what was meant, and
+ * no single key ever sends a command.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { afterEach, after, before, beforeEach, test } from "node:test";
+import { Double } from "./double.mjs";
+import { launch, open, until } from "./stage.mjs";
+import { greetings } from "./story.mjs";
+
+let browser;
+let double;
+let address;
+
+before(async () => (browser = await launch()));
+after(async () => browser?.close());
+beforeEach(async () => {
+  double = new Double();
+  double.greetings = greetings(double);
+  address = await double.listen();
+});
+afterEach(async () => {
+  for (const context of browser.contexts()) await context.close();
+  await double.close();
+});
+
+const kHarmless = ["history", "mark", "ack", "ping"];
+const commands = () => double.received.filter((m) => !kHarmless.includes(m.type) &&
+  !(m.type === "authority" && m.do === "renew"));
+
+test("no single key sends a command", async () => {
+  const { page } = await open(browser, address);
+  for (const name of ["primary", "plots", "telemetry", "link", "commands", "alarms"]) {
+    await page.evaluate((hash) => (location.hash = hash), `#/${name}`);
+    for (let code = 32; code < 127; ++code) {
+      await page.keyboard.press(String.fromCharCode(code));
+      await page.evaluate((hash) => {
+        document.querySelector(".veil")?.click();
+        document.activeElement?.blur?.();
+        location.hash = hash;
+      }, `#/${name}`);
+    }
+    assert.deepEqual(commands(), [], `on ${name}`);
+  }
+});
+
+/** A page whose clock stands still until the test moves it on. */
+async function stopped(options) {
+  const { page } = await open(browser, address, { ...options, ownClock: true });
+  await page.clock.pauseAt((await page.evaluate(() => Date.now())) + 2000);
+  return page;
+}
+
+/** What has reached the base once everything sent so far has. */
+async function reached(page) {
+  await page.evaluate(() => document.activeElement?.tagName);
+  await new Promise((done) => setTimeout(done, 100));
+  return commands();
+}
+
+test("Escape twice within 600 ms is a controlled stop, later it is none", async () => {
+  const page = await stopped();
+  await page.keyboard.press("Escape");
+  await page.clock.runFor(620);
+  await page.keyboard.press("Escape");
+  await page.clock.runFor(620);
+  assert.deepEqual(await reached(page), []);
+  await page.keyboard.press("Escape");
+  await page.clock.runFor(580);
+  await page.keyboard.press("Escape");
+  assert.deepEqual(await reached(page), [{ type: "stop", kind: "controlled" }]);
+});
+
+test("stops work from inside a text field, a dialog and a held view", async () => {
+  const { page } = await open(browser, address);
+  await page.keyboard.press(" ");
+  await until(page, "held", () => document.querySelector('.frame[data-held="true"]'));
+  await page.keyboard.press("/");
+  await page.keyboard.type("ego");
+  await page.keyboard.press("Control+Shift+E");
+  await page.waitForTimeout(200);
+  assert.deepEqual(commands(), [{ type: "stop", kind: "emergency" }]);
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("Escape");
+  await page.click("button.stop.controlled");
+  await page.waitForTimeout(200);
+  assert.equal(commands().length, 3);
+});
+
+test("the emergency button acts after 400 ms, not on a tap", async () => {
+  const page = await stopped();
+  const box = await page.locator("button.stop.emergency").boundingBox();
+  const at = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(...at);
+  await page.mouse.down();
+  await page.clock.runFor(380);
+  await page.mouse.up();
+  await page.mouse.down();
+  await page.clock.runFor(380);
+  await page.mouse.move(at[0] - 400, at[1]);
+  await page.clock.runFor(500);
+  await page.mouse.up();
+  assert.deepEqual(await reached(page), []);
+  await page.mouse.move(...at);
+  await page.mouse.down();
+  await page.clock.runFor(420);
+  await page.mouse.up();
+  assert.deepEqual(await reached(page), [{ type: "stop", kind: "emergency" }]);
+});
+
+test("a stop without a base says that it was not sent", async () => {
+  const { page } = await open(browser, address);
+  await double.close();
+  await until(page, "no connection", () => !globalThis.pitwall.session.connected.value);
+  await page.click("button.stop.controlled");
+  await until(page, "NOT SENT", () =>
+    document.querySelector(".outcome").textContent.startsWith("NOT SENT"));
+  await double.listen();
+});
+
+test("a viewer cannot stop, and is told so", async () => {
+  double.hello.role = "viewer";
+  const { page } = await open(browser, address);
+  assert.equal(await page.isDisabled("button.stop.controlled"), true);
+  assert.match(await page.textContent(".stop-rail"), /viewer/);
+});
+
+test("stage, gates, hold: the keyboard alone, from any page", async () => {
+  double.greetings = double.greetings.filter((m) => m.type !== "command");
+  double.answers = (message, say) => {
+    if (message.type !== "stage") return;
+    say({ type: "command", ticket: 50, name: message.name, argument: message.argument,
+      by: "console 16", step: "gated", times_ms: { staged: 1, gated: 2 }, text: "",
+      gates: [{ name: "tyres", ok: true, value: 81, age_ms: 100, text: "warm" }] });
+  };
+  const { page } = await open(browser, address, { ownClock: true });
+  await page.keyboard.press("5");
+  const reach = async (selector) => {
+    for (let n = 0; n < 80; ++n) {
+      if (await page.evaluate((s) => document.activeElement?.matches(s), selector)) return;
+      await page.keyboard.press("Tab");
+    }
+    assert.fail(`Tab does not reach ${selector}`);
+  };
+  await reach('select[aria-label="command"]');
+  await page.keyboard.type("speed");
+  await reach('input[aria-label="argument"]');
+  await page.keyboard.press("Control+A");
+  await page.keyboard.type("120");
+  await page.keyboard.press("Enter");
+  await until(page, "the gates", () => document.querySelector(".gate[data-ok=true]"));
+  const staged = commands().find((m) => m.type === "stage");
+  assert.equal(staged.name, "speed limit");
+  assert.ok(Math.abs(staged.argument - 53.645) < 0.01, `${staged.argument} m/s of 120 mph`);
+  await reach("button.send");
+  await page.clock.pauseAt((await page.evaluate(() => Date.now())) + 2000);
+  await page.keyboard.down("Enter");
+  await page.clock.runFor(580);
+  await page.keyboard.up("Enter");
+  await page.clock.runFor(580);
+  const sent = (await reached(page)).filter((m) => m.type === "send");
+  assert.deepEqual(sent, [], "released early");
+  await page.keyboard.down("Enter");
+  await page.clock.runFor(620);
+  await page.keyboard.up("Enter");
+  assert.deepEqual((await reached(page)).at(-1), { type: "send", ticket: 50 });
+});
+
+test("a gate that refuses needs a reason and a second person", async () => {
+  const { page } = await open(browser, address, { hash: "#/commands" });
+  assert.equal(await page.locator('.gate[data-ok="false"]').count(), 3);
+  assert.equal(await page.isDisabled("button.send"), true);
+  await page.fill(".override input:not([type])", "test run");
+  assert.equal(await page.isDisabled("button.send"), true);
+  await page.fill(".override input[type=password]", "secret");
+  const box = await page.locator("button.send").boundingBox();
+  await page.mouse.move(box.x + 20, box.y + 20);
+  await page.mouse.down();
+  await page.waitForTimeout(900);
+  await page.mouse.up();
+  assert.deepEqual(commands().at(-1),
+    { type: "send", ticket: 41, override: { reason: "test run", token: "secret" } });
+});
+
+test("keys find a field, plot it and acknowledge an alarm", async () => {
+  const { page } = await open(browser, address);
+  await page.keyboard.press("/");
+  await page.keyboard.type("oil_pres");
+  await page.keyboard.press("Enter");
+  await until(page, "the plot", () => location.hash === "#/plots" &&
+    document.querySelector('[aria-label="chart engine.oil_pressure"] canvas'));
+  await page.keyboard.press("a");
+  await page.waitForTimeout(100);
+  assert.deepEqual(double.received.filter((m) => m.type === "ack"), [{ type: "ack", alarm: 1 }]);
+  await page.keyboard.press("A");
+  await page.waitForTimeout(100);
+  assert.deepEqual(double.received.at(-1), { type: "ack", all: [1, 2, 4] });
+});
+
+test("pause, scrub and back to live concern the view alone", async () => {
+  const { page } = await open(browser, address, { hash: "#/telemetry" });
+  await page.waitForTimeout(2500);
+  const lap = () => page.evaluate(() => {
+    const { session } = globalThis.pitwall;
+    return session.history.newestMs();
+  });
+  const before = await lap();
+  await page.keyboard.press(" ");
+  await page.keyboard.press("ArrowLeft");
+  await until(page, "the past", () =>
+    /^\u2212[12]\.\d s$/.test(document.querySelector(".behind").textContent));
+  const station = () => page.textContent('[data-path="ego.x"] .digits');
+  const held = await station();
+  await page.waitForTimeout(600);
+  assert.equal(await station(), held, "the view stands still");
+  assert.ok((await lap()) > before, "the record runs on");
+  await page.keyboard.press("l");
+  await until(page, "live", () => document.querySelector(".behind").textContent === "LIVE");
+  assert.notEqual(await station(), held);
+});

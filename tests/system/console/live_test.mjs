@@ -1,0 +1,131 @@
+/**
+ * What the console shows of the car is alive, or says that it is not: first values within a second,
+ * a silent car and a silent base both take every colour away, and the console comes back by itself.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { afterEach, before, beforeEach, after, test } from "node:test";
+import { Double } from "./double.mjs";
+import { kPages, launch, open, until } from "./stage.mjs";
+import { kBad, kWarning } from "./wire.mjs";
+
+let browser;
+let double;
+let address;
+
+before(async () => (browser = await launch()));
+after(async () => browser?.close());
+beforeEach(async () => {
+  double = new Double();
+  address = await double.listen();
+});
+afterEach(async () => {
+  for (const context of browser.contexts()) await context.close();
+  await double.close();
+});
+
+/** Values drawn with a colour, or as if they were fresh: there must be none when all is silent. */
+const alive = () =>
+  [...document.querySelectorAll(".value, .bar")]
+    .filter((e) => ["fresh", "late"].includes(e.dataset.quality) ||
+      (e.dataset.judgement ?? "none") !== "none" || (e.dataset.flag ?? "none") !== "none")
+    .map((e) => e.dataset.path ?? e.getAttribute("aria-label"));
+
+test("live values within a second of loading", async () => {
+  const { page } = await open(browser, address);
+  const ms = await page.evaluate(() => performance.now());
+  const drawn = await page.textContent('[data-path="ego.vx"] .digits');
+  assert.match(drawn, /^1[34]\d$/, "62 m/s in mph");
+  // The time of the page's own clock at which values were there, on a machine that others use too.
+  assert.ok(ms < 3000, `first values after ${ms} ms`);
+});
+
+test("a field that was never heard is an en dash, a zero is a zero", async () => {
+  const { page } = await open(browser, address, { hash: "#/telemetry" });
+  await page.fill("input[type=search]", "uplink.stop_reason");
+  await until(page, "an en dash", () =>
+    document.querySelector('[data-path="uplink.stop_reason"] .digits')?.textContent === "\u2013");
+  await page.fill("input[type=search]", "feedback.brake_front");
+  await until(page, "a zero", () =>
+    document.querySelector('[data-path="feedback.brake_front"] .digits')?.textContent === "0");
+});
+
+test("the car falls silent: every value stale, none coloured, each keeps its digits", async () => {
+  for (const path of ["derived.slip", "tyres.temperature_front_left", "sensors.lidar_rate"]) {
+    double.set(path, 0.5, path.startsWith("derived") ? kBad : kWarning);
+  }
+  const { page } = await open(browser, address);
+  await until(page, "colours", () => document.querySelector('[data-judgement="bad"]'));
+  const before = await page.textContent('[data-path="derived.slip"] .digits');
+  double.silence();
+  for (let n = 0; n < 100 && (await page.evaluate(alive)).length > 0; ++n) {
+    await page.waitForTimeout(100);
+  }
+  assert.deepEqual(await page.evaluate(alive), []);
+  assert.equal(await page.textContent('[data-path="derived.slip"] .digits'), before);
+  const drawn = await page.evaluate(() => {
+    const digits = document.querySelector('[data-path="ego.vx"] .digits');
+    const style = getComputedStyle(digits);
+    return { line: style.textDecorationLine,
+      age: document.querySelector('[data-path="ego.vx"] .age').textContent };
+  });
+  assert.equal(drawn.line, "line-through");
+  assert.match(drawn.age, /s$/);
+});
+
+test("the base dies: within 600 ms nothing looks alive, and a new one is found again", async () => {
+  const { page } = await open(browser, address);
+  const port = Number(new URL(address).port);
+  await double.close();
+  await until(page, "NO BASE", () =>
+    document.querySelector(".link-tile .word").textContent.startsWith("NO BASE"), undefined, 2000);
+  for (const name of kPages) {
+    await page.evaluate((hash) => (location.hash = hash), `#/${name}`);
+    await page.waitForTimeout(400);
+    assert.deepEqual(await page.evaluate(alive), [], `page ${name}`);
+  }
+  const silence = await page.textContent(".link-tile .word");
+  assert.match(silence, /\d/, "says for how long");
+  double = new Double();
+  await double.listen(port);
+  const from = Date.now();
+  await until(page, "fresh values again", () => document.querySelector('[data-quality="fresh"]'));
+  assert.ok(Date.now() - from < 2500, `back after ${Date.now() - from} ms`);
+});
+
+test("frames and texts that are none are counted and change nothing", async () => {
+  const { page, faults } = await open(browser, address);
+  for (const socket of double.sockets.clients) {
+    for (const text of ["", "{", "null", "[]", '{"type":"constructor"}', '{"type":7}']) {
+      socket.send(text);
+    }
+    socket.send(Buffer.from([9, 9, 9]));
+    socket.send(Buffer.alloc(4000, 255));
+  }
+  await until(page, "all counted", () => {
+    const { counters } = globalThis.pitwall.session;
+    return counters.badFrames === 2 && counters.badTexts === 6;
+  });
+  assert.equal(await page.textContent(".mode-word strong"), "HIL 7");
+  assert.deepEqual(faults, []);
+});
+
+test("in which world we are cannot be mistaken", async () => {
+  const seen = new Set();
+  for (const mode of ["REAL", "HIL", "REPLAY", "NONE"]) {
+    double.hello.mode = mode;
+    const { page, context } = await open(browser, address);
+    await until(page, "mode", (m) => document.querySelector(".frame").dataset.mode === m, mode);
+    const look = await page.evaluate(() => {
+      const border = getComputedStyle(document.querySelector(".frame"), "::after");
+      const word = document.querySelector(".mode-word");
+      return [word.textContent, border.borderTopStyle, border.borderImageSource,
+        getComputedStyle(word).backgroundColor].join(" | ");
+    });
+    seen.add(look);
+    const stops = await page.locator("button.stop").count();
+    assert.equal(stops, mode === "REPLAY" ? 0 : 2, `stop buttons in ${mode}`);
+    await context.close();
+  }
+  assert.equal(seen.size, 4, [...seen].join("\n"));
+});
