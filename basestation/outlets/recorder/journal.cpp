@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "basestation/outlets/recorder/journal.hpp"
 
-#include <algorithm>
-
 #include "basestation/outlets/log_text.hpp"
 #include "protocol/json/json_text.hpp"
 #include "protocol/telemetry/command/command_table.hpp"
@@ -36,7 +34,7 @@ void Journal::packet(const intake::Station& station, const telemetry::Arrival& a
   recorder_.state(station.endpoint().state(), arrival.groups, arrival.received);
 }
 
-void Journal::serve(const intake::Station& station, Instant now) {
+void Journal::serve(intake::Station& station, Instant now) {
   if (texts_) {
     if (source_ != station.source()) tell_source(station.source(), now);
     tell_events(station);

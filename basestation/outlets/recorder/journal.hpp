@@ -8,25 +8,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 
 #include "basestation/intake/station.hpp"
+#include "basestation/outlets/outlet.hpp"
 #include "basestation/outlets/recorder/recorder.hpp"
 
 namespace pitwall::recorder {
 
-class Journal {
+class Journal : public outlets::Outlet {
  public:
   static constexpr Duration kLinkEvery = milliseconds(500), kFiguresEvery = seconds(1);
 
   Journal(Recorder& recorder, bool texts) : recorder_(recorder), texts_(texts) {}
 
-  void packet(const intake::Station& station, const telemetry::Arrival& arrival);
-  void serve(const intake::Station& station, Instant now);
-  Instant due() const { return figures_at_; }
+  void packet(const intake::Station& station, const telemetry::Arrival& arrival) override;
+  void serve(intake::Station& station, Instant now) override;
+  Instant due() const override { return texts_ ? std::min(link_at_, figures_at_) : figures_at_; }
 
  private:
   void tell_source(intake::Station::Source source, Instant now);

@@ -24,10 +24,13 @@ SegmentChain::~SegmentChain() { close(); }
 
 void SegmentChain::take(const Record& record, Instant now) {
   now_ = now;
-  if (is_group(record.channel)) {
-    known_.take(static_cast<telemetry::Group>(record.channel), record.data,
-                params_.clock.to_file(record.published));
-  }
+  keep(record);
+  if (!is_group(record.channel)) return;
+  known_.take(static_cast<telemetry::Group>(record.channel), record.data,
+              params_.clock.to_file(record.published));
+}
+
+void SegmentChain::keep(const Record& record) {
   if (writer_ && record.logged >= segment_end_) end_segment();
   if (!writer_ && !open(record.logged)) {
     ++figures_.lost;

@@ -65,6 +65,7 @@ class SegmentChain {
   const ChainFigures& figures() const { return figures_; }
 
  private:
+  void keep(const Record& record);
   bool open(Instant stamp);
   void fail(std::string problem);
   void end_segment();
