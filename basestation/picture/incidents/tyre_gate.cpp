@@ -11,12 +11,12 @@ double between(double from, double to, double t) { return from + t * (to - from)
 double tyre_needed_c(const TyreGate& gate, double speed_mps) {
   if (speed_mps < gate.speed_mps.front()) return kNoTyreGate_c;
   for (std::size_t i = 1; i < TyreGate::kRows; ++i) {
-    if (speed_mps >= gate.speed_mps[i]) continue;
+    if (!(speed_mps < gate.speed_mps[i])) continue;  // no number, too: the last row
     const double t =
         (speed_mps - gate.speed_mps[i - 1]) / (gate.speed_mps[i] - gate.speed_mps[i - 1]);
     return between(gate.temperature_c[i - 1], gate.temperature_c[i], t);
   }
-  return gate.temperature_c.back();  // no number, too
+  return gate.temperature_c.back();
 }
 
 double speed_allowed_mps(const TyreGate& gate, double tyre_c) {
