@@ -7,7 +7,9 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +19,11 @@
 #include "basestation/intake/station.hpp"
 #include "basestation/outlets/summary.hpp"
 #include "basestation/outlets/terminal.hpp"
+#include "basestation/outlets/wall/catalogue_text.hpp"
+#include "basestation/outlets/wall/track_document.hpp"
+#include "basestation/outlets/wall/wall.hpp"
+#include "basestation/outlets/web/web_server.hpp"
+#include "basestation/settings/judgement_file.hpp"
 #include "protocol/telemetry/export/export.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
@@ -25,6 +32,9 @@
 
 namespace pitwall {
 namespace {
+
+namespace wall = outlets::wall;
+namespace web = outlets::web;
 
 constexpr int kDone = 0, kFailed = 1, kMistake = 2;  // exit codes
 constexpr std::uint16_t kDefaultPort = 23'431;
@@ -39,6 +49,11 @@ struct Arguments {
   bool text = false, plain = false, all = false, network = false, signed_only = false;
   double duration_s = 0.0, refresh_hz = 10.0, budget_kbit = 256.0;
   std::string keygen_folder, export_kind;
+  std::optional<int> web_port;
+  std::string console_folder, track, tokens_file, default_role, layouts_folder, judgement_file;
+  std::vector<std::string> web_names;
+  int car = 0;
+  std::string car_name;
 };
 
 std::string kinds() {
@@ -47,6 +62,23 @@ std::string kinds() {
     text += (text.empty() ? "" : ", ") + std::string{kind};
   }
   return text;
+}
+
+void describe_web(CLI::App& app, Arguments& a) {
+  app.add_option("--web", a.web_port, "Serve the console at this TCP port; 0: any that is free")
+      ->check(CLI::Range(0, 65'535));
+  app.add_option("--console-dir", a.console_folder, "The console's built files");
+  app.add_option("--track", a.track, "Name or file of the track that consoles show");
+  app.add_option("--web-tokens", a.tokens_file, "Who may come in: lines ROLE TOKEN NAME");
+  app.add_option("--default-role", a.default_role,
+                 "Of a console without a token; operator on loopback, viewer with --network")
+      ->check(CLI::IsMember({"viewer", "operator"}));
+  app.add_option("--web-name", a.web_names, "A name under which browsers reach this machine")
+      ->take_all();
+  app.add_option("--layouts", a.layouts_folder, "Folder that keeps the consoles' layouts");
+  app.add_option("--judgement", a.judgement_file, "File of limits and alarms that were changed");
+  app.add_option("--car", a.car, "The car's number")->check(CLI::Range(0, 255));
+  app.add_option("--car-name", a.car_name, "The car's name");
 }
 
 void describe(CLI::App& app, Arguments& a) {
@@ -72,6 +104,7 @@ void describe(CLI::App& app, Arguments& a) {
       ->check(CLI::Range(kMinRefresh_hz, kMaxRefresh_hz))
       ->capture_default_str();
   app.add_option("--json", a.json_path, "Write a summary of the run to this file");
+  describe_web(app, a);
   CLI::App* const keygen = app.add_subcommand("keygen", "Make the keys of a car and its base");
   keygen->add_option("--out", a.keygen_folder, "Folder for car.keys and base.keys")->required();
   CLI::App* const exporting =
@@ -116,6 +149,8 @@ struct Plan {
   std::vector<transport::UdpAddress> listen;
   intake::OperatorScript script;
   telemetry::ConduitConfig config;
+  web::HttpConfig http;
+  wall::WallConfig wall;
 };
 
 Result<std::vector<transport::UdpAddress>, Problem> addresses_of(const Arguments& arguments) {
@@ -136,6 +171,58 @@ Result<std::vector<transport::UdpAddress>, Problem> addresses_of(const Arguments
     addresses.push_back(*address);
   }
   return addresses;
+}
+
+// A folder beside the program, or of the tree that it was built from.
+std::filesystem::path data_folder(const char* beside, const char* in_tree) {
+  std::error_code none;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", none);
+  const auto folder = program.parent_path() / beside;
+  if (!none && std::filesystem::is_directory(folder, none)) return folder;
+  return std::filesystem::path{PITWALL_SOURCE_DIR} / in_tree;
+}
+
+std::string track_file(const std::string& track) {
+  if (track.find('/') != std::string::npos || track.ends_with(".yaml")) return track;
+  return data_folder("tracks", "vehicle/config/tracks") / (track + ".yaml");
+}
+
+Result<bool, Problem> plan_web(const Arguments& a, Plan& plan) {
+  plan.http.console = a.console_folder.empty() ? data_folder("console", "build/console/dist")
+                                               : std::filesystem::path{a.console_folder};
+  plan.http.layouts = a.layouts_folder;
+  web::AccessRules& access = plan.http.access;
+  access.names = a.web_names;
+  const bool trusted = a.default_role.empty() ? !a.network : a.default_role == "operator";
+  access.default_role = trusted ? web::Role::kOperator : web::Role::kViewer;
+  if (!a.tokens_file.empty()) {
+    const auto text = transport::read_private_file(a.tokens_file);
+    if (!text) return Unexpected{text.error()};
+    auto tokens = web::Tokens::parse(*text, a.tokens_file);
+    if (!tokens) return Unexpected{tokens.error()};
+    access.tokens = *std::move(tokens);
+  }
+  if (!a.judgement_file.empty()) {
+    auto watch = settings::read_judgement_file(a.judgement_file);
+    if (!watch) return Unexpected{watch.error()};
+    plan.wall.watch = *std::move(watch);
+  }
+  if (!a.track.empty()) {
+    auto track = wall::read_track(track_file(a.track));
+    if (!track) return Unexpected{track.error()};
+    plan.http.documents.emplace("/api/track", std::move(track->json));
+    plan.wall.watch.course = std::move(track->course);
+  }
+  plan.wall.car = a.car;
+  plan.wall.name = a.car_name;
+  plan.wall.up_cap_kbit_s = a.budget_kbit;
+  plan.wall.tokens = access.tokens;
+  const auto& limits = plan.wall.watch.limits;
+  plan.http.documents.emplace(
+      "/api/catalogue", wall::catalogue_text([&](picture::FieldId id) -> const picture::Limit& {
+        return limits.of(id);
+      }));
+  return true;
 }
 
 Result<Plan, Problem> plan_of(const Arguments& arguments) {
@@ -163,6 +250,10 @@ Result<Plan, Problem> plan_of(const Arguments& arguments) {
     if (!script) return Unexpected{script.error()};
     plan.script = *std::move(script);
   }
+  if (arguments.web_port) {
+    const auto planned = plan_web(arguments, plan);
+    if (!planned) return Unexpected{planned.error()};
+  }
   return plan;
 }
 
@@ -186,9 +277,24 @@ int run(const Arguments& arguments, Plan& plan) {
   complain(kDone, said);
   telemetry::SystemRandomness randomness;
   const auto station = std::make_unique<intake::Station>(plan.config, randomness);
+  std::unique_ptr<web::WebServer> server;
+  std::unique_ptr<wall::Wall> consoles;
+  std::vector<outlets::Outlet*> others;
+  if (arguments.web_port) {
+    auto started =
+        web::WebServer::start({.ip = arguments.network ? transport::kAnyIp : transport::kLoopbackIp,
+                               .port = static_cast<std::uint16_t>(*arguments.web_port)},
+                              std::move(plan.http));
+    if (!started) return complain(kFailed, started.error());
+    server = *std::move(started);
+    consoles = std::make_unique<wall::Wall>(std::move(plan.wall), *station, *server);
+    others.push_back(consoles.get());
+    complain(kDone, "console at http://" + to_string(server->local()));
+  }
   outlets::run_terminal({.radio = radio,
                          .words = words.empty() ? nullptr : &words.front(),
                          .script = &plan.script,
+                         .outlets = others,
                          .stop = stop.get()},
                         {.text = arguments.text,
                          .plain = arguments.plain,

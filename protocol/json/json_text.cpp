@@ -77,11 +77,9 @@ std::string quoted(std::string_view text) {
 }
 
 std::string number(double value) {
-  constexpr int kDigits = 10;
   if (!std::isfinite(value)) return "null";
   std::array<char, 32> text{};
-  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value,
-                                          std::chars_format::general, kDigits);
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc{} ? std::string(text.data(), end) : "null";
 }
 

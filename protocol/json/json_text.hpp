@@ -15,7 +15,7 @@
 namespace pitwall::json {
 
 std::string quoted(std::string_view text);
-std::string number(double value);  // ten digits
+std::string number(double value);  // as many digits as it takes
 std::string integer(std::int64_t value);
 
 // {"a": 1, "b": "x"}

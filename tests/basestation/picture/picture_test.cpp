@@ -43,11 +43,21 @@ TEST(Picture, QualityFollowsTheTargetAge) {
   const auto quality = [&](Duration age) {
     return picture.view(field("ego.x"), kAt + age).quality;
   };
-  EXPECT_EQ(quality(target), Quality::kFresh);
-  EXPECT_EQ(quality(target + nanoseconds(1)), Quality::kLate);
-  EXPECT_EQ(quality(kLateFactor * target), Quality::kLate);
-  EXPECT_EQ(quality(kLateFactor * target + nanoseconds(1)), Quality::kStale);
+  EXPECT_EQ(quality(fresh_until(target)), Quality::kFresh);
+  EXPECT_EQ(quality(fresh_until(target) + nanoseconds(1)), Quality::kLate);
+  EXPECT_EQ(quality(stale_after(target)), Quality::kLate);
+  EXPECT_EQ(quality(stale_after(target) + nanoseconds(1)), Quality::kStale);
   EXPECT_EQ(picture.view(field("ego.y"), kAt).quality, Quality::kNever);
+}
+
+TEST(Picture, EveryFieldHasAllThreeAgesAndNoneLooksAliveLongAfterItsTime) {
+  for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
+    const Duration target = row.target_age;
+    EXPECT_LT(target, fresh_until(target)) << row.name;
+    EXPECT_LT(fresh_until(target), stale_after(target)) << row.name;
+    EXPECT_LE(stale_after(target), std::max(kStaleAfter, 2 * target)) << row.name;
+  }
+  EXPECT_LE(stale_after(telemetry::row_of(Group::kMode).target_age), milliseconds(500));
 }
 
 TEST(Picture, WhatIsNotNewIsNotTouched) {
@@ -64,6 +74,8 @@ TEST(Picture, AFieldThatTheCarNoLongerKnowsKeepsItsValueAndGrowsOldWhileItsGroup
   const FieldView view = picture.view(field("ego.x"), kAt + seconds(1));
   EXPECT_EQ(view.value, 5.0);
   EXPECT_EQ(view.age, seconds(1));
+  EXPECT_TRUE(view.unset);
+  EXPECT_FALSE(picture.view(field("flags.track"), kAt).unset);
   EXPECT_EQ(picture.group(Group::kEgo, kAt + seconds(1)).quality, Quality::kFresh);
 }
 

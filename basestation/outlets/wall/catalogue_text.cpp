@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/outlets/wall/catalogue_text.hpp"
+
+#include <cmath>
+#include <string_view>
+
+#include "basestation/outlets/wall/snapshots.hpp"
+#include "protocol/json/json_text.hpp"
+#include "protocol/telemetry/command/command_table.hpp"
+
+namespace pitwall::outlets::wall {
+namespace {
+
+using json::Array;
+using json::Object;
+using telemetry::FieldKind;
+
+std::string labels_text(std::string_view labels) {
+  Array list;
+  for (std::size_t i = 0; !telemetry::label_at(labels, i).empty(); ++i) {
+    list.json(json::quoted(telemetry::label_at(labels, i)));
+  }
+  return list.str();
+}
+
+std::string limits_text(const picture::Limit& limit) {
+  Object object;
+  const auto add = [&](std::string_view name, double value) {
+    if (!std::isnan(value)) object.number(name, value);
+  };
+  add("warning_low", limit.warning_low);
+  add("warning_high", limit.warning_high);
+  add("bad_low", limit.bad_low);
+  add("bad_high", limit.bad_high);
+  return limit.bounded() ? object.str() : "null";
+}
+
+std::string_view text_of(FieldKind kind) {
+  switch (kind) {
+    case FieldKind::kReal:
+      return "real";
+    case FieldKind::kInteger:
+      return "integer";
+    case FieldKind::kYesNo:
+      return "yes-no";
+  }
+  return "?";
+}
+
+// What a row of either table has.
+struct Row {
+  std::string_view group, name, unit, labels;
+  FieldKind kind;
+  double min, max, resolution;
+  Duration period;
+};
+
+Row row_of_field(picture::FieldId id) {
+  if (picture::is_base(id)) {
+    const picture::BaseRow& row = picture::row_of(picture::base_field(id));
+    // Kinds are told as those of the registry.
+    const telemetry::FieldRow like{telemetry::Group::kMode, row.name,  row.unit, row.min, row.max,
+                                   row.resolution,          row.labels};
+    return {row.group, row.name, row.unit,       row.labels,          like.kind(),
+            row.min,   row.max,  row.resolution, picture::kBasePeriod};
+  }
+  const telemetry::FieldRow& row = telemetry::kFields[id];
+  return {telemetry::row_of(row.group).name,
+          row.name,
+          row.unit,
+          row.labels,
+          row.kind(),
+          row.min,
+          row.max,
+          row.resolution,
+          row.target_age()};
+}
+
+std::string field_text(picture::FieldId id, const picture::Limit& limit) {
+  const Row row = row_of_field(id);
+  return Object{}
+      .number("id", id)
+      .text("path", picture::path_of(id))
+      .text("group", row.group)
+      .text("name", row.name)
+      .text("unit", row.unit)
+      .text("kind", text_of(row.kind))
+      .number("min", row.min)
+      .number("max", row.max)
+      .number("resolution", row.resolution)
+      .json("labels", labels_text(row.labels))
+      .number("period_ms", row.period.milliseconds())
+      .json("limits", limits_text(limit))
+      .str();
+}
+
+std::string command_text(const telemetry::CommandRow& row) {
+  return Object{}
+      .text("name", row.name)
+      .text("unit", row.unit)
+      .number("min", row.min)
+      .number("max", row.max)
+      .number("resolution", row.resolution)
+      .json("labels", labels_text(row.labels))
+      .number("time_to_live_ms", row.time_to_live.milliseconds())
+      .flag("needs_authority", row.needs_authority)
+      .str();
+}
+
+}  // namespace
+
+std::string catalogue_text(const LimitOf& limit_of) {
+  Array fields, commands;
+  for (const picture::FieldId id : told_fields()) fields.json(field_text(id, limit_of(id)));
+  for (const telemetry::CommandRow& row : telemetry::kCommandTable)
+    commands.json(command_text(row));
+  return Object{}
+      .text("type", "catalogue")
+      .json("fields", fields.str())
+      .json("commands", commands.str())
+      .str();
+}
+
+}  // namespace pitwall::outlets::wall

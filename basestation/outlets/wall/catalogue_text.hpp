@@ -1,0 +1,18 @@
+// The list of all fields and commands as the console reads it: see PROTOCOL.md.
+//   in     the registry, the base's own fields, the limits in force
+//   out    one JSON object, type "catalogue"
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "basestation/picture/limits.hpp"
+
+namespace pitwall::outlets::wall {
+
+using LimitOf = std::function<const picture::Limit&(picture::FieldId)>;
+
+std::string catalogue_text(const LimitOf& limit_of);
+
+}  // namespace pitwall::outlets::wall

@@ -1,0 +1,59 @@
+// How the radio was in the last second, five, thirty: from counters that only rise.
+//   in     the link's counters, ten times a second; packets with their groups
+//   out    loss, rate, copies and late ones of a window; what each group takes of the link
+//   law    loss of a window is what was missing of what was sent in it; with nothing sent it is
+//          not known. A session that begins anew begins the windows anew
+//   units  shares 0 .. 1, kbit/s
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+
+#include "protocol/telemetry/endpoint/link_report.hpp"
+#include "protocol/telemetry/registry/registry.hpp"
+#include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::outlets::wall {
+
+struct PathCount {
+  std::uint64_t received = 0, lost = 0, duplicates = 0, late = 0, up_bytes = 0;
+};
+struct LinkCount {
+  std::uint64_t packets = 0, missing = 0;  // of all paths: numbers that came, that did not
+  std::array<PathCount, telemetry::kPaths> paths{};
+};
+LinkCount count_of(const telemetry::LinkReport& report, std::uint64_t packets,
+                   std::uint64_t missing);
+
+struct PathWindow {
+  double loss = kUnset, duplicate = kUnset, late = kUnset, up_kbit_s = kUnset;
+};
+
+class LinkMeter {
+ public:
+  static constexpr Duration kEvery = milliseconds(100), kLongest = seconds(30);
+
+  void note(const LinkCount& count, Instant now);
+  void packet(telemetry::GroupSet groups, Instant now);
+
+  double loss(Duration window) const;
+  PathWindow path(std::size_t path, Duration window) const;
+  double group_kbit_s(telemetry::Group group) const;  // of the last whole second
+
+ private:
+  struct Sample {
+    Instant at;
+    LinkCount count;
+  };
+  const Sample* before(Duration window) const;
+
+  std::deque<Sample> samples_;  // oldest first
+  std::array<std::uint32_t, telemetry::kGroups> counting_{}, counted_{};
+  Instant second_{};
+};
+
+}  // namespace pitwall::outlets::wall

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/outlets/wall/requests.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "protocol/json/json_value.hpp"
+
+namespace pitwall::outlets::wall {
+namespace {
+
+using json::JsonValue;
+
+constexpr std::size_t kLineMax = 500, kAlarmsMax = 1'000;
+constexpr double kShelveMax_min = 10.0, kHistoryMax_s = 24.0 * 3'600.0;
+
+// Reads members; the first that is wrong is kept, and the rest does not matter any more.
+class Reader {
+ public:
+  explicit Reader(const JsonValue& value) : value_(value) {}
+
+  double number(const char* key, double min, double max) {
+    const double number = value_.number(key);
+    if (!(number >= min && number <= max)) {
+      wrong(key, "a number from " + text_of(min) + " to " + text_of(max));
+      return min;
+    }
+    return number;
+  }
+  template <class Number>
+  Number whole(const char* key, Number min, Number max) {
+    const double found = number(key, static_cast<double>(min), static_cast<double>(max));
+    if (found != std::floor(found)) wrong(key, "a whole number");
+    return static_cast<Number>(found);
+  }
+  std::string text(const char* key, std::size_t min, std::size_t max) {
+    std::string text = value_.text(key);
+    if (text.size() < min || text.size() > max) {
+      wrong(key, "a text of " + std::to_string(min) + " to " + std::to_string(max) + " bytes");
+    }
+    return text;
+  }
+  // One of the words; the first where it is none.
+  template <class Value, std::size_t N>
+  Value word(const char* key, const std::array<std::pair<std::string_view, Value>, N>& words) {
+    const std::string found = value_.text(key);
+    std::string all;
+    for (const auto& [name, value] : words) {
+      if (found == name) return value;
+      all += (all.empty() ? "" : ", ") + std::string{name};
+    }
+    wrong(key, "one of " + all);
+    return words[0].second;
+  }
+  bool has(const char* key) const { return value_.find(key) != nullptr; }
+  const JsonValue& value() const { return value_; }
+  void wrong(const std::string& key, const std::string& what) {
+    if (!problem_) problem_ = Problem{key, what};
+  }
+  const std::optional<Problem>& problem() const { return problem_; }
+
+ private:
+  static std::string text_of(double number) {
+    std::string text = std::to_string(number);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.ends_with('.')) text.pop_back();
+    return text;
+  }
+
+  const JsonValue& value_;
+  std::optional<Problem> problem_;
+};
+
+constexpr std::uint32_t kIdMax = std::numeric_limits<std::uint32_t>::max();
+
+Request history(Reader& read) {
+  AskHistory ask;
+  ask.field = read.whole<std::uint16_t>("field", 0, std::numeric_limits<std::uint16_t>::max());
+  ask.from_s = read.number("from_s", 0.0, kHistoryMax_s);
+  ask.to_s = read.number("to_s", 0.0, kHistoryMax_s);
+  ask.points = read.whole<std::size_t>("points", 1, kPointsMax);
+  if (ask.to_s > ask.from_s) read.wrong("to_s", "not further back than from_s");
+  return ask;
+}
+
+Request acknowledge(Reader& read) {
+  AskAcknowledge ask;
+  if (!read.has("all")) {
+    ask.alarms.push_back(read.whole<std::uint32_t>("alarm", 0, kIdMax));
+    return ask;
+  }
+  for (const JsonValue& item : read.value().items("all")) {
+    const double id = item.number();
+    if (!(id >= 0.0 && id <= kIdMax) || id != std::floor(id))
+      read.wrong("all", "numbers of alarms");
+    if (!read.problem()) ask.alarms.push_back(static_cast<std::uint32_t>(id));
+  }
+  if (ask.alarms.size() > kAlarmsMax) read.wrong("all", "at most 1000 alarms");
+  return ask;
+}
+
+Request shelve(Reader& read) {
+  AskShelve ask;
+  ask.alarm = read.whole<std::uint32_t>("alarm", 0, kIdMax);
+  ask.minutes = read.number("minutes", 0.0, kShelveMax_min);
+  ask.reason = read.text("reason", 1, kLineMax);
+  return ask;
+}
+
+template <class Ask>
+Request of_alarm(Reader& read) {
+  return Ask{read.whole<std::uint32_t>("alarm", 0, kIdMax)};
+}
+
+Request stop(Reader& read) {
+  using telemetry::StopLevel;
+  constexpr std::array<std::pair<std::string_view, StopLevel>, 2> kLevels{
+      {{"controlled", StopLevel::kControlled}, {"emergency", StopLevel::kEmergency}}};
+  return AskStop{read.word("kind", kLevels)};
+}
+
+Request authority(Reader& read) {
+  constexpr std::array<std::pair<std::string_view, Claim>, 6> kClaims{{{"take", Claim::kTake},
+                                                                       {"renew", Claim::kRenew},
+                                                                       {"drop", Claim::kDrop},
+                                                                       {"request", Claim::kRequest},
+                                                                       {"grant", Claim::kGrant},
+                                                                       {"refuse", Claim::kRefuse}}};
+  AskAuthority ask{.claim = read.word("do", kClaims)};
+  if (read.has("to")) ask.to = read.whole<ClientId>("to", 0, web::kLastClient);
+  return ask;
+}
+
+Request stage(Reader& read) {
+  AskStage ask;
+  ask.name = read.text("name", 1, kLineMax);
+  constexpr double kArgumentMax = 1e6;
+  ask.argument = read.number("argument", -kArgumentMax, kArgumentMax);
+  return ask;
+}
+
+Request send(Reader& read) {
+  AskSend ask;
+  ask.ticket = read.whole<std::uint32_t>("ticket", 0, kIdMax);
+  const JsonValue* overriding = read.value().find("override");
+  ask.overrides = overriding != nullptr && overriding->is_object();
+  if (!ask.overrides) return ask;
+  Reader inner{*overriding};
+  ask.reason = inner.text("reason", 1, kLineMax);
+  ask.token = inner.text("token", 0, kLineMax);
+  if (inner.problem()) read.wrong("override." + inner.problem()->place, inner.problem()->what);
+  return ask;
+}
+
+Request cancel(Reader& read) { return AskCancel{read.whole<std::uint32_t>("ticket", 0, kIdMax)}; }
+Request mark(Reader& read) { return AskMark{read.text("text", 1, kLineMax)}; }
+
+Request notice(Reader& read) {
+  constexpr std::array<std::pair<std::string_view, bool>, 2> kDoings{
+      {{"send", true}, {"dismiss", false}}};
+  AskNotice ask{.id = read.whole<std::uint32_t>("id", 0, kIdMax)};
+  ask.send = read.word("do", kDoings);
+  return ask;
+}
+
+Request ping(Reader& read) {
+  constexpr double kForever_ms = 1e15;
+  return AskPing{read.number("at", -kForever_ms, kForever_ms)};
+}
+
+struct Kind {
+  std::string_view name;
+  Request (*read)(Reader&);
+};
+constexpr std::array<Kind, 14> kKinds{
+    {{"history", history},
+     {"ping", ping},
+     {"mark", mark},
+     {"ack", acknowledge},
+     {"shelve", shelve},
+     {"unshelve", of_alarm<AskUnshelve>},
+     {"reset", of_alarm<AskReset>},
+     {"stop", stop},
+     {"release_stop", [](Reader&) -> Request { return AskReleaseStop{}; }},
+     {"authority", authority},
+     {"stage", stage},
+     {"send", send},
+     {"cancel", cancel},
+     {"notice", notice}}};
+
+}  // namespace
+
+Result<Request, Problem> parse_request(std::string_view text) {
+  const auto value = JsonValue::parse(text, "text");
+  if (!value) return Unexpected{value.error()};
+  const std::string type = value->text("type");
+  for (const Kind& kind : kKinds) {
+    if (kind.name != type) continue;
+    Reader reader{*value};
+    Request request = kind.read(reader);
+    if (!reader.problem()) return request;
+    return Unexpected{Problem{type + "." + reader.problem()->place, reader.problem()->what}};
+  }
+  return Unexpected{Problem{"type", "not one that this base knows"}};
+}
+
+Role role_for(const Request& request) {
+  const bool looks = std::holds_alternative<AskHistory>(request) ||
+                     std::holds_alternative<AskPing>(request) ||
+                     std::holds_alternative<AskMark>(request);
+  return looks ? Role::kViewer : Role::kOperator;
+}
+
+}  // namespace pitwall::outlets::wall

@@ -1,0 +1,84 @@
+// What a console asks for, read from its text: see PROTOCOL.md.
+//   in     one JSON text of a client
+//   out    the request with every number in its range; the role that it takes
+//   errors Problem with the member as place; nothing is guessed
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "basestation/outlets/web/client.hpp"
+#include "protocol/telemetry/command/stop_latch.hpp"
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::outlets::wall {
+
+using web::ClientId;
+using web::Role;
+
+inline constexpr std::size_t kPointsMax = 20'000;
+
+struct AskHistory {
+  std::uint16_t field = 0;
+  double from_s = 0.0, to_s = 0.0;  // before now; from is further back
+  std::size_t points = kPointsMax;
+};
+struct AskAcknowledge {
+  std::vector<std::uint32_t> alarms;
+};
+struct AskShelve {
+  std::uint32_t alarm = 0;
+  double minutes = 0.0;
+  std::string reason;
+};
+struct AskUnshelve {
+  std::uint32_t alarm = 0;
+};
+struct AskReset {
+  std::uint32_t alarm = 0;
+};
+struct AskStop {
+  telemetry::StopLevel level = telemetry::StopLevel::kControlled;
+};
+struct AskReleaseStop {};
+enum class Claim : std::uint8_t { kTake, kRenew, kDrop, kRequest, kGrant, kRefuse };
+struct AskAuthority {
+  Claim claim = Claim::kTake;
+  ClientId to = 0;
+};
+struct AskStage {
+  std::string name;
+  double argument = 0.0;
+};
+struct AskSend {
+  std::uint32_t ticket = 0;
+  bool overrides = false;
+  std::string reason, token;  // of an override
+};
+struct AskCancel {
+  std::uint32_t ticket = 0;
+};
+struct AskMark {
+  std::string text;
+};
+struct AskNotice {
+  std::uint32_t id = 0;
+  bool send = false;  // else it is dismissed
+};
+struct AskPing {
+  double at = 0.0;
+};
+
+using Request =
+    std::variant<AskHistory, AskPing, AskMark, AskAcknowledge, AskShelve, AskUnshelve, AskReset,
+                 AskStop, AskReleaseStop, AskAuthority, AskStage, AskSend, AskCancel, AskNotice>;
+
+Result<Request, Problem> parse_request(std::string_view text);
+Role role_for(const Request& request);
+
+}  // namespace pitwall::outlets::wall

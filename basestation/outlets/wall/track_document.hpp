@@ -1,0 +1,27 @@
+// A track file as the base needs it: the drawing that consoles get, and the course that gates and
+// ghost use.
+//   in     vehicle/config/tracks/*.yaml: stations with curvature and widths
+//   out    JSON as PROTOCOL.md has it; a Course
+//   frames Map, as ego.x and ego.y
+//   law    the line is integrated from the knots and closed by spreading what is missing evenly: a
+//          drawing, within a metre of the car's own map
+//   errors Problem with file, line and column
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "basestation/picture/course.hpp"
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::outlets::wall {
+
+struct TrackDocument {
+  std::string json;
+  std::optional<picture::Course> course;
+};
+
+Result<TrackDocument, Problem> read_track(const std::string& path);
+
+}  // namespace pitwall::outlets::wall

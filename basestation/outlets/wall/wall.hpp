@@ -1,0 +1,94 @@
+// The pit wall: what consoles see and do, between the station and the web server.
+//   in     packets and figures of the station; what consoles say, by the server
+//   out    messages to the server; stops, authority and commands to the station's endpoint
+//   law    ages, qualities, judgements, alarms and gates are the base's: consoles show them
+//          a stop is said to the endpoint in the turn of the loop in which it was heard, before
+//          anything is told to anybody
+//   cost   serve(): some tens of microseconds, a frame with all fields about 50
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "basestation/command/audit.hpp"
+#include "basestation/command/authority_talk.hpp"
+#include "basestation/command/desk.hpp"
+#include "basestation/intake/station.hpp"
+#include "basestation/outlets/outlet.hpp"
+#include "basestation/outlets/wall/console_room.hpp"
+#include "basestation/outlets/wall/link_meter.hpp"
+#include "basestation/outlets/web/access.hpp"
+#include "basestation/outlets/web/web_server.hpp"
+#include "basestation/picture/trends.hpp"
+#include "basestation/picture/watch/watch.hpp"
+
+namespace pitwall::outlets::wall {
+
+struct WallConfig {
+  int car = 0;
+  std::string name;
+  double up_cap_kbit_s = kUnset;  // of each path
+  picture::WatchConfig watch{};
+  command::GateParams gates{};
+  web::Tokens tokens{};  // of the second person of an override
+};
+
+class Wall : public Outlet, private Eyes {
+ public:
+  Wall(WallConfig config, intake::Station& station, web::WebServer& server);
+
+  void packet(const intake::Station& station, const telemetry::Arrival& arrival) override;
+  void serve(intake::Station& station, Instant now) override;
+  Instant due() const override;
+  int fd() const override { return server_.fd(); }
+
+  ConsoleRoom& room() { return room_; }
+  picture::Watch& watch() { return watch_; }
+  const picture::Trends& trends() const { return trends_; }
+
+ private:
+  static constexpr Duration kLinkEvery = milliseconds(100), kTellLinkEvery = milliseconds(500);
+
+  picture::FieldView view(picture::FieldId field, Instant now) const override;
+  picture::Judgement judge(picture::FieldId field, const picture::FieldView& v) const override;
+  std::vector<picture::TrendPoint> past(picture::FieldId field, Instant from, Instant to,
+                                        std::size_t points) const override;
+
+  void hear(intake::Station& station, Instant now);
+  void do_now(intake::Station& station, web::ClientId client, const Request& request, Instant now);
+  void measure(intake::Station& station, Instant now);
+  void tell(intake::Station& station, Instant now);
+  void tell_alarms(Instant now);
+  void tell_desk(intake::Station& station, Instant now);
+  void tell_events(intake::Station& station, Instant now);
+  command::GateInputs gate_inputs(Instant now) const;
+  std::optional<command::Override> override_of(const AskSend& ask) const;
+
+  // What a console asks for, carried out; the problem that it is told.
+  struct Doing;
+
+  WallConfig config_;
+  web::WebServer& server_;
+  picture::Picture picture_;
+  picture::Trends trends_;
+  picture::TrendTable own_trends_{picture::kBaseFields};
+  picture::Watch watch_;
+  LinkMeter meter_;
+  command::Audit audit_;
+  command::AuthorityTalk talk_;
+  command::Desk desk_;
+  ConsoleRoom room_;
+  Instant measured_{}, told_link_{};
+  // What consoles have been told of.
+  std::uint64_t alarms_told_ = 0, alarm_events_told_ = 0, notices_told_ = 0;
+  std::uint64_t audit_told_ = 0, authority_told_ = 0, events_told_ = 0;
+  bool states_told_ = false;
+  Instant authority_said_{};
+  std::string fuel_told_;
+  std::vector<alarms::Notice> notices_said_;
+};
+
+}  // namespace pitwall::outlets::wall

@@ -1,0 +1,457 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/outlets/web/web_server.hpp"
+
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <array>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <chrono>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "protocol/transport/posix_call.hpp"
+
+namespace pitwall::outlets::web {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using boost::system::error_code;
+using Tcp = asio::ip::tcp;
+
+constexpr std::size_t kHeaderMax = 16 * 1'024;
+constexpr auto kHttpPatience = std::chrono::seconds(15);
+constexpr auto kSilence = std::chrono::seconds(60);  // of a socket, pings unanswered
+constexpr auto kClosing = std::chrono::seconds(2);
+constexpr int kSendBuffer = 64 * 1'024;  // what waits is to wait where it can be dropped
+constexpr std::size_t kPostsMax = 4'096, kNewsMax = 8'192;
+
+std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
+
+}  // namespace
+
+struct WebServer::Engine {
+  class HttpSession;
+  class Socket;
+
+  Engine(const Tcp::endpoint& endpoint, HttpConfig config)
+      : acceptor(io, endpoint), desk(std::move(config)) {}
+
+  void run();
+  void accept();
+  void tell(ClientNews news);
+  void deliver();
+  ClientId free_number();
+  template <class Change>
+  void count(const Change& change) {
+    const std::lock_guard hold(lock);
+    change(counters);
+  }
+
+  struct Post {
+    ClientSet to;
+    SharedMessage message;  // null: a request of these clients was handled
+  };
+  mutable std::mutex lock;
+  std::deque<ClientNews> news;  // these four under the lock
+  std::vector<Post> posts;
+  bool post_under_way = false;
+  WebCounters counters;
+
+  transport::FileDescriptor bell;
+  std::size_t connections = 0;  // the rest belongs to the web thread
+  ClientId newest = kLastClient;
+  // After what the sessions in its handlers refer to, so that it goes before.
+  asio::io_context io{1};
+  Tcp::acceptor acceptor;
+  HttpDesk desk;
+  std::array<std::shared_ptr<Socket>, 256> sockets{};  // by client
+  std::thread thread;
+};
+
+// One console. Lives while an operation of it is under way or the engine has it.
+class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
+ public:
+  Socket(Engine& engine, beast::tcp_stream&& stream, ClientId client, Identity who)
+      : engine_(engine),
+        stream_(std::move(stream)),
+        timer_(engine.io),
+        client_(client),
+        who_(std::move(who)) {}
+  ~Socket() { --engine_.connections; }
+
+  void accept(const http::request<http::string_body>& request) {
+    beast::get_lowest_layer(stream_).expires_never();
+    stream_.set_option(websocket::stream_base::timeout{kHttpPatience, kSilence, true});
+    stream_.read_message_max(kTextMax);
+    stream_.auto_fragment(false);
+    stream_.async_accept(request, [self = shared_from_this()](error_code failed) {
+      if (failed) return self->gone();
+      self->engine_.count([](WebCounters& c) { ++c.joined; });
+      self->engine_.tell(
+          {.kind = ClientNews::Kind::kJoined, .client = self->client_, .who = self->who_});
+      self->joined_ = true;
+      self->read();
+    });
+  }
+
+  void send(const SharedMessage& message) {
+    if (!joined_ || closing_) return;
+    const std::uint32_t before = queue_.dropped();
+    const bool room = queue_.push(message);
+    const std::uint32_t dropped = queue_.dropped() - before;
+    if (dropped > 0) engine_.count([&](WebCounters& c) { c.pictures_dropped += dropped; });
+    if (!room) {
+      engine_.count([](WebCounters& c) { ++c.closed_unread; });
+      return close(websocket::close_code::try_again_later);
+    }
+    if (!writing_) write();
+  }
+
+  void handled() {
+    if (unhandled_ > 0) --unhandled_;
+    if (!reading_ && joined_ && !closing_) read();
+  }
+
+  void close(websocket::close_code code) {
+    if (closing_) return;
+    closing_ = true;
+    timer_.expires_after(kClosing);
+    timer_.async_wait([self = shared_from_this()](error_code cancelled) {
+      if (!cancelled) self->cut();
+    });
+    stream_.async_close(code, [self = shared_from_this()](error_code) { self->cut(); });
+  }
+
+  void cut() {
+    error_code ignored;
+    beast::get_lowest_layer(stream_).socket().close(ignored);
+    timer_.cancel();
+    gone();
+  }
+
+ private:
+  void read() {
+    if (unhandled_ >= kUnhandled) return;  // handled() goes on
+    reading_ = true;
+    stream_.async_read(heard_, [self = shared_from_this()](error_code failed, std::size_t) {
+      self->reading_ = false;
+      if (failed) return self->gone();
+      self->take();
+      self->read();
+    });
+  }
+
+  void take() {
+    ++unhandled_;
+    engine_.count([](WebCounters& c) { ++c.texts_heard; });
+    ClientNews news{
+        .kind = stream_.got_text() ? ClientNews::Kind::kSaid : ClientNews::Kind::kBinary,
+        .client = client_};
+    if (stream_.got_text()) news.text = beast::buffers_to_string(heard_.data());
+    heard_.consume(heard_.size());
+    engine_.tell(std::move(news));
+  }
+
+  void write() {
+    current_ = queue_.pop();
+    writing_ = current_ != nullptr;
+    if (!writing_ || closing_) return;
+    auto done = [self = shared_from_this()](error_code failed, std::size_t bytes) {
+      self->writing_ = false;
+      if (failed) return self->gone();
+      self->engine_.count([&](WebCounters& c) {
+        ++c.messages_sent;
+        c.bytes_sent += bytes;
+      });
+      self->write();
+    };
+    stream_.text(!current_->frame);
+    if (!current_->frame) return stream_.async_write(asio::buffer(current_->text), std::move(done));
+    header_ = header_of(*current_->frame, queue_.dropped());
+    const std::array<asio::const_buffer, 2> parts{asio::buffer(header_),
+                                                  asio::buffer(current_->frame->entries)};
+    stream_.async_write(parts, std::move(done));
+  }
+
+  void gone() {
+    closing_ = true;
+    if (engine_.sockets[client_].get() != this) return;
+    const auto self = shared_from_this();
+    engine_.sockets[client_].reset();
+    if (!joined_) return;
+    engine_.count([](WebCounters& c) { ++c.left; });
+    engine_.tell({.kind = ClientNews::Kind::kLeft, .client = client_});
+  }
+
+  Engine& engine_;
+  websocket::stream<beast::tcp_stream> stream_;
+  asio::steady_timer timer_;
+  ClientId client_;
+  Identity who_;
+  beast::flat_buffer heard_;
+  ClientQueue queue_;
+  SharedMessage current_;
+  std::array<std::uint8_t, kFrameHeader> header_{};
+  std::size_t unhandled_ = 0;
+  bool joined_ = false, reading_ = false, writing_ = false, closing_ = false;
+};
+
+// One connection while it speaks HTTP.
+class WebServer::Engine::HttpSession : public std::enable_shared_from_this<HttpSession> {
+ public:
+  HttpSession(Engine& engine, Tcp::socket&& socket) : engine_(engine), stream_(std::move(socket)) {}
+  ~HttpSession() {
+    if (!handed_on_) --engine_.connections;
+  }
+
+  void read() {
+    parser_.emplace();
+    parser_->body_limit(HttpDesk::kLayoutBytes);
+    parser_->header_limit(kHeaderMax);
+    stream_.expires_after(kHttpPatience);
+    http::async_read(stream_, buffer_, *parser_,
+                     [self = shared_from_this()](error_code failed, std::size_t) {
+                       if (failed) return self->malformed(failed);
+                       self->answer();
+                     });
+  }
+
+ private:
+  void malformed(const error_code& failed) {
+    unsigned status = 400;
+    if (failed == http::error::end_of_stream || failed == beast::error::timeout ||
+        failed.category() == boost::system::system_category()) {
+      return shut();
+    }
+    if (failed == http::error::body_limit) status = 413;
+    if (failed == http::error::header_limit) status = 431;
+    engine_.count([](WebCounters& c) { ++c.bad_http; });
+    write(refusal(status, "malformed request: " + failed.message()), false, 11, false);
+  }
+
+  void answer() {
+    const auto& request = parser_->get();
+    const std::string host{view(request[http::field::host])};
+    const HttpQuestion question{.method = view(request.method_string()),
+                                .target = view(request.target()),
+                                .host = host,
+                                .origin = view(request[http::field::origin]),
+                                .authorization = view(request[http::field::authorization]),
+                                .accept_encoding = view(request[http::field::accept_encoding]),
+                                .upgrade = websocket::is_upgrade(request),
+                                .body = request.body()};
+    HttpAnswer answer = engine_.desk.answer(question);
+    if (answer.visitor) {
+      if (const ClientId client = engine_.free_number(); client != 0) {
+        return upgrade(client, *std::move(answer.visitor));
+      }
+      answer = refusal(503, "all places for consoles are taken");
+    }
+    if (answer.status >= 400) engine_.count([](WebCounters& c) { ++c.refused_http; });
+    write(std::move(answer), request.keep_alive(), request.version(),
+          request.method() == http::verb::head);
+  }
+
+  void upgrade(ClientId client, Identity who) {
+    handed_on_ = true;
+    auto socket = std::make_shared<Socket>(engine_, std::move(stream_), client, std::move(who));
+    engine_.sockets[client] = socket;
+    socket->accept(parser_->get());
+  }
+
+  void write(HttpAnswer answer, bool keep_alive, unsigned version, bool only_head) {
+    response_ = {};
+    response_.version(version);
+    response_.result(answer.status);
+    response_.set(http::field::server, "pitwall-base");
+    response_.set(http::field::cache_control, std::string{answer.cache});
+    response_.set(http::field::content_type, std::string{answer.type});
+    response_.set("X-Content-Type-Options", "nosniff");
+    response_.set("Referrer-Policy", "no-referrer");
+    response_.set("Cross-Origin-Resource-Policy", "same-origin");
+    if (!answer.policy.empty()) response_.set("Content-Security-Policy", answer.policy);
+    if (!answer.allow.empty()) response_.set(http::field::allow, std::string{answer.allow});
+    if (answer.gzipped) response_.set(http::field::content_encoding, "gzip");
+    response_.set(http::field::vary, "Accept-Encoding");
+    response_.keep_alive(keep_alive);
+    response_.content_length(answer.body ? answer.body->size() : 0);
+    if (answer.body && !only_head) response_.body() = *answer.body;
+    stream_.expires_after(kHttpPatience);
+    serializer_.emplace(response_);
+    auto done = [self = shared_from_this(), keep_alive](error_code failed, std::size_t) {
+      if (failed || !keep_alive) return self->shut();
+      self->read();
+    };
+    if (only_head) {
+      http::async_write_header(stream_, *serializer_, std::move(done));
+    } else {
+      http::async_write(stream_, *serializer_, std::move(done));
+    }
+  }
+
+  void shut() {
+    error_code ignored;
+    stream_.socket().shutdown(Tcp::socket::shutdown_send, ignored);
+  }
+
+  Engine& engine_;
+  beast::tcp_stream stream_;
+  beast::flat_buffer buffer_;
+  std::optional<http::request_parser<http::string_body>> parser_;
+  http::response<http::string_body> response_;
+  std::optional<http::response_serializer<http::string_body>> serializer_;
+  bool handed_on_ = false;
+};
+
+void WebServer::Engine::run() {
+  while (true) {
+    try {
+      io.run();
+      return;
+    } catch (const std::exception&) {
+      count([](WebCounters& c) { ++c.faults; });
+    }
+  }
+}
+
+void WebServer::Engine::accept() {
+  acceptor.async_accept([this](error_code failed, Tcp::socket socket) {
+    if (failed == asio::error::operation_aborted) return;
+    error_code ignored;
+    if (failed) {
+      // No descriptor is left, for example: another one comes free by itself.
+    } else if (connections >= kConnections) {
+      count([](WebCounters& c) { ++c.refused_room; });
+    } else {
+      ++connections;
+      count([](WebCounters& c) { ++c.connections; });
+      socket.set_option(Tcp::no_delay(true), ignored);
+      socket.set_option(asio::socket_base::send_buffer_size(kSendBuffer), ignored);
+      std::make_shared<HttpSession>(*this, std::move(socket))->read();
+    }
+    accept();
+  });
+}
+
+void WebServer::Engine::tell(ClientNews item) {
+  {
+    const std::lock_guard hold(lock);
+    // kUnhandled bounds what is said; joining and leaving is bounded by kConnections.
+    if (news.size() < kNewsMax || item.kind == ClientNews::Kind::kLeft) {
+      news.push_back(std::move(item));
+    }
+  }
+  const std::uint64_t one = 1;
+  (void)transport::posix_call([&] { return ::write(bell.get(), &one, sizeof one); });
+}
+
+void WebServer::Engine::deliver() {
+  std::vector<Post> due;
+  {
+    const std::lock_guard hold(lock);
+    due.swap(posts);
+    post_under_way = false;
+  }
+  for (const Post& post : due) {
+    for (std::size_t client = kFirstClient; client <= kLastClient; ++client) {
+      if (!post.to.test(client)) continue;
+      const auto socket = sockets[client];
+      if (socket == nullptr) continue;
+      if (post.message) {
+        socket->send(post.message);
+      } else {
+        socket->handled();
+      }
+    }
+  }
+}
+
+// The next after the newest that is free, so that a number is not soon another console's.
+ClientId WebServer::Engine::free_number() {
+  for (int tried = 0; tried <= kLastClient - kFirstClient; ++tried) {
+    newest = newest >= kLastClient ? kFirstClient : static_cast<ClientId>(newest + 1);
+    if (sockets[newest] == nullptr) return newest;
+  }
+  return 0;
+}
+
+Result<std::unique_ptr<WebServer>, Problem> WebServer::start(transport::UdpAddress listen,
+                                                             HttpConfig config) {
+  const Tcp::endpoint endpoint{asio::ip::address_v4{listen.ip}, listen.port};
+  std::unique_ptr<Engine> engine;
+  try {
+    engine = std::make_unique<Engine>(endpoint, std::move(config));
+  } catch (const std::exception& failed) {
+    return Unexpected{Problem{"--web " + to_string(listen), failed.what()}};
+  }
+  engine->bell = transport::FileDescriptor{
+      transport::posix_call([] { return ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK); })};
+  engine->accept();
+  engine->thread = std::thread([raw = engine.get()] { raw->run(); });
+  return std::unique_ptr<WebServer>{new WebServer(std::move(engine))};
+}
+
+WebServer::WebServer(std::unique_ptr<Engine> engine) : engine_(std::move(engine)) {}
+
+WebServer::~WebServer() {
+  engine_->io.stop();
+  engine_->thread.join();
+  engine_->sockets = {};
+}
+
+transport::UdpAddress WebServer::local() const {
+  const Tcp::endpoint at = engine_->acceptor.local_endpoint();
+  return {.ip = at.address().to_v4().to_uint(), .port = at.port()};
+}
+
+int WebServer::fd() const { return engine_->bell.get(); }
+
+std::optional<ClientNews> WebServer::next_news() {
+  std::optional<ClientNews> item;
+  {
+    const std::lock_guard hold(engine_->lock);
+    if (engine_->news.empty()) {
+      // Under the lock: what is told from now on rings again.
+      std::uint64_t rung = 0;
+      (void)transport::posix_call([&] { return ::read(engine_->bell.get(), &rung, sizeof rung); });
+      return item;
+    }
+    item = std::move(engine_->news.front());
+    engine_->news.pop_front();
+  }
+  if (item->kind == ClientNews::Kind::kSaid || item->kind == ClientNews::Kind::kBinary) {
+    send(ClientSet{}.set(item->client), nullptr);
+  }
+  return item;
+}
+
+void WebServer::send(const ClientSet& to, SharedMessage message) {
+  if (to.none()) return;
+  const std::lock_guard hold(engine_->lock);
+  if (engine_->posts.size() >= kPostsMax && message != nullptr) {
+    ++engine_->counters.posts_dropped;
+    return;
+  }
+  engine_->posts.push_back({to, std::move(message)});
+  if (std::exchange(engine_->post_under_way, true)) return;
+  asio::post(engine_->io, [raw = engine_.get()] { raw->deliver(); });
+}
+
+WebCounters WebServer::counters() const {
+  const std::lock_guard hold(engine_->lock);
+  return engine_->counters;
+}
+
+}  // namespace pitwall::outlets::web
