@@ -142,6 +142,8 @@ class Drive {
     counters.missed_deadlines = tally_.missed_deadlines();
     counters.step_time_max_us = tally_.take_recent_max_us();
     counters.step_time_p50_us = tally_.recent_median_us();
+    for (std::size_t unit = 0; unit < counters.receivers.size(); ++unit)
+      counters.receivers[unit] = parts_.rim.receivers()[unit].traffic();
     show_computer(counters);
     if (parts_.radio) desk_.show(parts_.radio->endpoint(), counters, now);
     const telemetry::Snapshot snapshot = pipeline::tap(

@@ -71,17 +71,17 @@ void trim(std::string& line) { line.erase(line.find_last_not_of(' ') + 1); }
 
 // Words in lines of the screen's width.
 void add_words(const std::string& head, const std::vector<std::string>& words,
-               std::vector<TextLine>& lines) {
+               std::vector<TextLine>& lines, Tone tone = Tone::kDim) {
   if (words.empty()) return;
   std::string line = head;
   for (const std::string& word : words) {
     if (line.size() + 1 + word.size() > kScreenColumns) {
-      lines.push_back({line, Tone::kDim});
+      lines.push_back({line, tone});
       line = std::string(head.size(), ' ');
     }
     line += " " + word;
   }
-  lines.push_back({line, Tone::kDim});
+  lines.push_back({line, tone});
 }
 
 // Cells in columns; a long one takes as many as it needs.
@@ -160,35 +160,108 @@ std::optional<TextLine> bus_line(const picture::Picture& picture, Instant now) {
   }
 }
 
+// One field as its value is said, with its unit; nothing to add where it was never heard.
+class Said {
+ public:
+  Said(const picture::Picture& picture, Instant now) : picture_(picture), now_(now) {}
+  std::string word(telemetry::FieldIndex at) const {
+    const telemetry::FieldRow& row = telemetry::kFields[at];
+    std::string text = value_text(row, picture_.view(at, now_).value);
+    const bool unit = !row.unit.empty() && row.unit != telemetry::FieldRow::kBitSet;
+    return unit ? text + " " + std::string{row.unit} : text;
+  }
+  bool ever(telemetry::FieldIndex at) const {
+    return picture_.view(at, now_).quality != Quality::kNever;
+  }
+  double value(telemetry::FieldIndex at) const { return picture_.view(at, now_).value; }
+
+ private:
+  const picture::Picture& picture_;
+  Instant now_;
+};
+
+// What a receiver says of itself, what the car makes of it, and what became of its bytes.
+void add_receiver(const Said& said, std::size_t unit, std::vector<TextLine>& lines) {
+  using telemetry::field;
+  using telemetry::FieldIndex;
+  using telemetry::Group;
+  constexpr FieldIndex kFirst = telemetry::fields_of(Group::kGnss0).first;
+  const FieldIndex first = telemetry::fields_of(unit == 0 ? Group::kGnss0 : Group::kGnss1).first;
+  const auto of = [&](FieldIndex of_unit_0) { return first + of_unit_0 - kFirst; };
+  const std::string head = "          gnss" + std::to_string(unit) + "  ";
+  if (said.ever(of(field("gnss0.position_verdict")))) {
+    lines.push_back({head + " position: " + said.word(of(field("gnss0.position_verdict"))) +
+                         "   velocity: " + said.word(of(field("gnss0.velocity_verdict"))) +
+                         "   heading: " + said.word(of(field("gnss0.heading_verdict"))),
+                     Tone::kPlain});
+    add_words(std::string(head.size(), ' '),
+              {"satellites " + said.word(of(field("gnss0.satellites"))),
+               "  type " + said.word(of(field("gnss0.type"))),
+               "  sigma " + said.word(of(field("gnss0.sigma"))),
+               "  corrections " + said.word(of(field("gnss0.differential_age"))) + " old"},
+              lines, Tone::kPlain);
+  }
+  constexpr FieldIndex kTraffic = telemetry::fields_of(Group::kReceivers).first;
+  constexpr FieldIndex kPerUnit = telemetry::fields_of(Group::kReceivers).count / 2;
+  static_assert(field("receivers.bytes_1") == kTraffic + kPerUnit);
+  if (!said.ever(kTraffic)) return;
+  constexpr std::array<const char*, kPerUnit> kNames{
+      "bytes", "logs", "bad checksum", "bad frame", "resynchronised", "refused", "lost"};
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < kPerUnit; ++i)
+    words.push_back((i == 0 ? "" : "  ") +
+                    (kNames[i] + (" " + said.word(kTraffic + unit * kPerUnit + i))));
+  add_words(std::string(head.size(), ' '), words, lines, Tone::kPlain);
+}
+
 // Which sensors the operator has excluded, and what the car says of each receiver: nothing until
 // the car has said so.
 std::vector<TextLine> sensor_lines(const picture::Picture& picture, Instant now) {
   using telemetry::field;
-  const picture::FieldView excluded = picture.view(field("localization.excluded"), now);
-  if (excluded.quality == Quality::kNever || std::isnan(excluded.value)) return {};
-  const auto word = [&](telemetry::FieldIndex at) {
-    return value_text(telemetry::kFields[at], picture.view(at, now).value);
-  };
-  const bool some = excluded.value > 0.0;
+  const Said said(picture, now);
+  const double excluded = said.value(field("localization.excluded"));
+  if (!said.ever(field("localization.excluded")) || std::isnan(excluded)) return {};
   std::vector<TextLine> lines;
-  lines.push_back({"sensors   excluded by the operator: " + word(field("localization.excluded")),
-                   some ? Tone::kWarning : Tone::kPlain});
-  lines.push_back({"          imu0: " + word(field("localization.imu0_verdict")) +
-                       "   imu1: " + word(field("localization.imu1_verdict")) +
-                       "   wheels: " + word(field("localization.wheel_verdict")),
+  lines.push_back(
+      {"sensors   excluded by the operator: " + said.word(field("localization.excluded")),
+       excluded > 0.0 ? Tone::kWarning : Tone::kPlain});
+  lines.push_back({"          imu0: " + said.word(field("localization.imu0_verdict")) +
+                       "   imu1: " + said.word(field("localization.imu1_verdict")) +
+                       "   wheels: " + said.word(field("localization.wheel_verdict")),
                    Tone::kPlain});
-  const auto receiver = [&](const char* name, telemetry::FieldIndex position,
-                            telemetry::FieldIndex velocity, telemetry::FieldIndex heading) {
-    if (picture.view(position, now).quality == Quality::kNever) return;
-    lines.push_back({std::string{"          "} + name + "   position: " + word(position) +
-                         "   velocity: " + word(velocity) + "   heading: " + word(heading),
-                     Tone::kPlain});
-  };
-  receiver("gnss0", field("gnss0.position_verdict"), field("gnss0.velocity_verdict"),
-           field("gnss0.heading_verdict"));
-  receiver("gnss1", field("gnss1.position_verdict"), field("gnss1.velocity_verdict"),
-           field("gnss1.heading_verdict"));
+  for (const std::size_t unit : {0U, 1U}) add_receiver(said, unit, lines);
   return lines;
+}
+
+// Of all streams that the car watches, those that are not as they should be.
+void add_watchdogs(const picture::Picture& picture, Instant now, std::vector<TextLine>& lines) {
+  const Said said(picture, now);
+  const auto [first, count] = telemetry::fields_of(telemetry::Group::kStreams);
+  if (!said.ever(first)) return;
+  constexpr double kNever = 1.0, kLate = 3.0, kLost = 4.0;
+  static_assert(telemetry::label_at(telemetry::kBaseStates, 4) == "LOST");
+  std::vector<std::string> words;
+  bool bad = false;
+  for (telemetry::FieldIndex i = first; i < first + count; ++i) {
+    const double health = said.value(i);
+    if (!(health >= kLate) && health != kNever) continue;
+    bad = bad || health >= kLost;
+    words.push_back(std::string{telemetry::kFields[i].name} + " " + said.word(i));
+  }
+  const Tone tone = bad ? Tone::kAlarm : words.empty() ? Tone::kPlain : Tone::kWarning;
+  if (words.empty()) words.emplace_back("all streams are as they should be");
+  add_words("watchdogs", words, lines, tone);
+}
+
+// Why the car stops or has stopped; nothing until it has said so.
+std::optional<TextLine> stop_line(const picture::Picture& picture, Instant now) {
+  const Said said(picture, now);
+  constexpr auto kCause = telemetry::field("mode.first_stop_cause");
+  if (!said.ever(kCause)) return std::nullopt;
+  const bool stops = said.value(kCause) > 0.0;
+  return TextLine{
+      "stop      " + (stops ? "because: " + said.word(kCause) : std::string{"no reason"}),
+      stops ? Tone::kAlarm : Tone::kPlain};
 }
 
 }  // namespace
@@ -197,6 +270,8 @@ std::string text_view(const intake::Station& station, Instant now, const ViewOpt
   const std::string end = options.ansi ? std::string{kClearLine} + "\n" : "\n";
   std::vector<TextLine> lines = link_lines(station, now);
   if (auto bus = bus_line(station.picture(), now)) lines.push_back(*std::move(bus));
+  if (auto stop = stop_line(station.picture(), now)) lines.push_back(*std::move(stop));
+  add_watchdogs(station.picture(), now, lines);
   for (TextLine& line : sensor_lines(station.picture(), now)) lines.push_back(std::move(line));
   lines.push_back({});
   for (TextLine& line : group_lines(station.picture(), now, options.all)) {

@@ -11,6 +11,7 @@
 #include "basestation/intake/operator_words.hpp"
 #include "hil/bench/bus_faults.hpp"
 #include "hil/bench/clock_faults.hpp"
+#include "hil/bench/held_path.hpp"
 #include "hil/bench/receiver_ears.hpp"
 #include "hil/bench/receiver_speech.hpp"
 #include "hil/bench/run_record.hpp"
@@ -89,7 +90,8 @@ class Lockstep {
                         .guardian = guardian_.view(now)};
     base_.hear(in);
     out_ = options_.step(setup_, *car_, in);
-    base_.tell(*car_, in, *out_);
+    const auto told = base_.tell(*car_, in, *out_, ears_.traffic());
+    if (told && options_.watch_telemetry) options_.watch_telemetry(*told, now);
     stepped_at_ = now;
     if (out_->bus_guard.restart_now) bus_.restart(static_cast<std::uint8_t>(Node::kCar), now);
     ears_.clear();
@@ -165,13 +167,16 @@ class Lockstep {
                            .operator_limit_mps = out.speed_limit_mps,
                            .seen = out.seen};
     const double offset_m = setup_.params.planning.line.offset_m;
+    const double off_m = held_path_.off_path_m(rig_.truth(), cross_track_m(rig_, offset_m),
+                                               report.mode, report.silent, now);
     grader_.observe(now, observe({.rig = rig_,
                                   .car = report,
                                   .line_offset_m = offset_m,
                                   .frames_lost = frames_lost(),
                                   .radio_gap = base_.air().silence(now).value_or(Duration{}),
                                   .radio_gap_max = base_.air().longest_silence(now),
-                                  .radio_limit = radio_limit_of(setup_.params)}));
+                                  .radio_limit = radio_limit_of(setup_.params),
+                                  .off_path_m = off_m}));
     grading::add(result_.cross_track, rig_.truth().speed_mps, cross_track_m(rig_, offset_m));
     result_.speed_max_mps = std::max(result_.speed_max_mps, rig_.truth().speed_mps);
     follow(result_.outcome, whereabouts(rig_, offset_m, now));
@@ -250,6 +255,7 @@ class Lockstep {
   Instant stepped_at_;
   std::optional<RunRecord> record_;
   RunResult result_;
+  HeldPath held_path_{setup_};
   world::TrackFlag flag_ = world::TrackFlag::kNone;
   std::uint32_t laps_ = 0;
   world::BusIdentity identity_;  // as the car saw it last

@@ -20,6 +20,7 @@
 #include "hil/bench/rig.hpp"
 #include "hil/scenario/scenario.hpp"
 #include "protocol/recording/mcap_writer.hpp"
+#include "protocol/telemetry/registry/snapshot.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "vehicle/pipeline/step.hpp"
 
@@ -34,6 +35,8 @@ struct LockstepOptions {
   // Called after every tick of the car, e.g. by a test that watches for something.
   // While its process is stopped or dead, with its last outputs.
   std::function<void(const pipeline::Outputs&, const Rig&, Instant)> watch = {};
+  // Called with what the car sends to the pit wall, when it sends.
+  std::function<void(const telemetry::Snapshot&, Instant)> watch_telemetry = {};
   // The guardian is there where the scenario stops or kills a process; here: in any case.
   bool guardian = false;
   // Called after every tick of the guardian.

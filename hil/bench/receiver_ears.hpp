@@ -31,6 +31,9 @@ class ReceiverEars {
   void clear() { samples_ = {}; }
   const std::array<std::optional<Instant>, world::kGnssUnits>& byte_at() const { return byte_at_; }
   receivers::Counters counters(std::size_t unit) const { return receivers_[unit].counters(); }
+  std::array<world::ReceiverTraffic, world::kGnssUnits> traffic() const {
+    return {receivers::traffic_of(counters(0)), receivers::traffic_of(counters(1))};
+  }
 
  private:
   std::array<receivers::Receiver, world::kGnssUnits> receivers_;

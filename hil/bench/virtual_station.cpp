@@ -134,18 +134,21 @@ void VirtualStation::hear(pipeline::Inputs& in) {
   desk_->fill(*car_, in);
 }
 
-void VirtualStation::tell(const pipeline::Car& car, const pipeline::Inputs& in,
-                          const pipeline::Outputs& out) {
+std::optional<telemetry::Snapshot> VirtualStation::tell(
+    const pipeline::Car& car, const pipeline::Inputs& in, const pipeline::Outputs& out,
+    const std::array<world::ReceiverTraffic, world::kGnssUnits>& receivers) {
   log_.note(in, out, setup_.track.length_m());
   desk_->take(*car_, setup_, car, out, in.now);
-  if (car_->due() > in.now + kEarly) return;
+  if (car_->due() > in.now + kEarly) return std::nullopt;
   pipeline::RimCounters figures;
   figures.steps = car.ticks;
+  figures.receivers = receivers;
   desk_->show(*car_, figures, in.now);
   const telemetry::Snapshot snapshot = pipeline::tap(
       {.setup = setup_, .car = car, .out = out, .log = log_, .rim = figures, .now = in.now});
   while (const auto datagram = car_->poll(snapshot, in.now))
     air_.offer(Way::kDown, datagram->path, datagram->bytes, in.now);
+  return snapshot;
 }
 
 }  // namespace pitwall::bench

@@ -45,7 +45,10 @@ class VirtualStation {
   void advance(Instant at);
   // The car's rim: before its step, and after it.
   void hear(pipeline::Inputs& in);
-  void tell(const pipeline::Car& car, const pipeline::Inputs& in, const pipeline::Outputs& out);
+  // What was sent, if anything was due.
+  std::optional<telemetry::Snapshot> tell(
+      const pipeline::Car& car, const pipeline::Inputs& in, const pipeline::Outputs& out,
+      const std::array<world::ReceiverTraffic, world::kGnssUnits>& receivers);
   // The car's process begins anew: it has heard nothing yet.
   void restart_car();
 

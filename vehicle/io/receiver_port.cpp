@@ -16,9 +16,17 @@ constexpr std::size_t kBytesPerRead = 4'096;
 constexpr std::array<const char*, receivers::kStreams> kStreamNames{"positions", "velocities",
                                                                     "headings", "imu", "attitudes"};
 
+std::uint64_t lost_by(const transport::UdpSocket& socket) {
+  return socket.counters().rx_dropped_queue + socket.counters().rx_truncated;
+}
+
+std::uint64_t lost_by(const transport::StreamLink& stream) {
+  return stream.counters().ended + stream.counters().silent;
+}
+
 void add_source(JsonCounts& out, const transport::UdpSocket& socket) {
   out.add("datagrams", socket.counters().received);
-  out.add("rx_dropped", socket.counters().rx_dropped_queue + socket.counters().rx_truncated);
+  out.add("rx_dropped", lost_by(socket));
 }
 
 void add_source(JsonCounts& out, const transport::StreamLink& stream) {
@@ -72,6 +80,12 @@ void ReceiverPort::read(transport::StreamLink& stream, world::SensorInput& out, 
   }
 }
 
+world::ReceiverTraffic ReceiverPort::traffic() const {
+  world::ReceiverTraffic traffic = receivers::traffic_of(receiver_.counters());
+  traffic.lost = std::visit([](const auto& source) { return lost_by(source); }, source_);
+  return traffic;
+}
+
 std::string ReceiverPort::json() const {
   const receivers::Counters c = receiver_.counters();
   JsonCounts out;
@@ -81,6 +95,7 @@ std::string ReceiverPort::json() const {
   out.add("bytes", c.bytes);
   out.add("frames", c.frames);
   out.add("garbage_bytes", c.garbage_bytes);
+  out.add("resyncs", c.resyncs);
   out.add("bad_checksum", c.bad_checksum);
   out.add("bad_frame", c.bad_frame);
   out.add("unused", c.unused);

@@ -34,6 +34,7 @@ class ReceiverPort {
 
   std::optional<Instant> byte_at() const { return byte_at_; }
   receivers::Counters counters() const { return receiver_.counters(); }
+  world::ReceiverTraffic traffic() const;
   // One JSON object: the link, what became of it and of its bytes.
   std::string json() const;
 

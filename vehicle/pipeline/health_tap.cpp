@@ -136,23 +136,24 @@ void put_streams(const TapInputs& in, Snapshot& snapshot) {
 }
 
 void put_sensors(const TapInputs& in, Snapshot& snapshot) {
-  using Sensor = TickLog::Sensor;
+  using safety::Stream;
   struct Row {
-    Sensor sensor;
+    Stream stream;
     FieldIndex rate;  // gap and latency follow it
   };
-  constexpr std::array kRows{Row{Sensor::kGnss0, field("sensors.gnss0_rate")},
-                             Row{Sensor::kGnss1, field("sensors.gnss1_rate")},
-                             Row{Sensor::kImu0, field("sensors.imu0_rate")},
-                             Row{Sensor::kImu1, field("sensors.imu1_rate")}};
+  constexpr std::array kRows{Row{Stream::kGnss0Position, field("sensors.gnss0_rate")},
+                             Row{Stream::kGnss1Position, field("sensors.gnss1_rate")},
+                             Row{Stream::kImu0, field("sensors.imu0_rate")},
+                             Row{Stream::kImu1, field("sensors.imu1_rate")}};
   static_assert(field("sensors.gnss0_gap") == field("sensors.gnss0_rate") + 1 &&
                 field("sensors.gnss0_latency") == field("sensors.gnss0_rate") + 2);
   for (const Row& row : kRows) {
-    const SensorFigures& figures = in.log.figures(row.sensor);
+    const safety::StreamRow& figures = in.out.watchdog[row.stream];
+    if (std::isnan(figures.rate_hz)) continue;  // not heard for a whole second yet
     snapshot.values[row.rate] = figures.rate_hz;
-    snapshot.values[row.rate + 1] = figures.gap_ms;
-    snapshot.values[row.rate + 2] = figures.latency_ms;
-    if (!std::isnan(figures.rate_hz)) snapshot.at(Group::kSensors) = in.now;
+    snapshot.values[row.rate + 1] = figures.gap.milliseconds();
+    snapshot.values[row.rate + 2] = figures.latency.milliseconds();
+    snapshot.at(Group::kSensors) = in.now;
   }
 }
 
@@ -184,6 +185,22 @@ void put_receiver(const TapInputs& in, std::size_t unit, Snapshot& snapshot) {
   at(field("gnss0.heading_verdict")) = verdict_of(state, Source::kHeading, unit);
   at(field("gnss0.attitude_verdict")) = verdict_of(state, Source::kAttitude, unit);
   snapshot.at(group) = std::min(position->at, in.now);
+}
+
+void put_traffic(const TapInputs& in, Snapshot& snapshot) {
+  constexpr FieldIndex kFirst = telemetry::fields_of(Group::kReceivers).first;
+  constexpr FieldIndex kPerUnit = telemetry::fields_of(Group::kReceivers).count / world::kGnssUnits;
+  static_assert(field("receivers.lost_0") == kFirst + kPerUnit - 1);
+  const auto known = [](const world::ReceiverTraffic& t) { return t.bytes + t.lost > 0; };
+  if (std::none_of(in.rim.receivers.begin(), in.rim.receivers.end(), known)) return;
+  for (std::size_t unit = 0; unit < world::kGnssUnits; ++unit) {
+    const world::ReceiverTraffic& t = in.rim.receivers[unit];
+    const std::array<std::uint64_t, kPerUnit> counts{
+        t.bytes, t.logs, t.bad_checksum, t.bad_frame, t.resyncs, t.refused, t.lost};
+    for (std::size_t i = 0; i < kPerUnit; ++i)
+      snapshot.values[kFirst + unit * kPerUnit + i] = number(counts[i]);
+  }
+  snapshot.at(Group::kReceivers) = in.now;
 }
 
 void put_computer(const TapInputs& in, Snapshot& snapshot) {
@@ -260,6 +277,7 @@ void tap_health(const TapInputs& in, Snapshot& snapshot) {
   put_sensors(in, snapshot);
   put_receiver(in, 0, snapshot);
   put_receiver(in, 1, snapshot);
+  put_traffic(in, snapshot);
   put_computer(in, snapshot);
   put_faults(in, snapshot);
   put_bus(in, snapshot);

@@ -2,7 +2,7 @@
 // receivers, computer, faults, bus, radio.
 //   in     as telemetry_tap.hpp
 //   out    values and times of sampling of the groups kLocalization, kStreams, kSensors, kGnss0,
-//          kGnss1, kComputer, kFaults, kBus and kRadio
+//          kGnss1, kReceivers, kComputer, kFaults, kBus and kRadio
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -18,6 +18,7 @@
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/pipeline/step.hpp"
 #include "vehicle/pipeline/tick_log.hpp"
+#include "vehicle/world/receiver_traffic.hpp"
 
 namespace pitwall::pipeline {
 
@@ -35,6 +36,7 @@ struct RimCounters {
     double budget_use = kUnset;                   // of what leaves
   };
   std::array<Path, 2> paths{};
+  std::array<world::ReceiverTraffic, world::kGnssUnits> receivers{};
   // What the base said last, as the car's end of the radio keeps it; unset fields: nothing yet.
   struct Uplink {
     bool known = false;                                   // there is a radio

@@ -1,7 +1,6 @@
-// What telemetry shows of more than one tick: how often each sensor speaks, its largest gap and
-// delay, what each receiver said last, and lap times.
+// What telemetry shows of more than one tick: what each receiver said last, and lap times.
 //   in     Inputs and Outputs of every tick, length of the track
-//   out    figures of the last whole second; the newest sample of each kind and unit
+//   out    the newest sample of each kind and unit; the last lap
 //   law    a lap is timed from one crossing of station zero to the next, forward; a car that jumps
 //          or goes back across it begins anew
 //   units  SI; instants of the car's clock
@@ -21,23 +20,6 @@
 
 namespace pitwall::pipeline {
 
-struct SensorFigures {
-  double rate_hz = kUnset, gap_ms = kUnset, latency_ms = kUnset;  // unset: not heard in a second
-};
-
-class SensorClock {
- public:
-  void heard(Instant true_at, Instant now);
-  void advance(Instant now);  // once per tick, after heard()
-  const SensorFigures& figures() const { return shown_; }
-
- private:
-  SensorFigures shown_;
-  std::optional<Instant> begun_, last_;  // of the second; when it was heard last
-  std::uint32_t samples_ = 0;
-  Duration gap_{}, latency_{};
-};
-
 class LapClock {
  public:
   void advance(double station_m, double length_m, Instant now);
@@ -53,11 +35,6 @@ class TickLog {
  public:
   void note(const Inputs& in, const Outputs& out, double track_length_m);
 
-  enum class Sensor : std::uint8_t { kGnss0, kGnss1, kImu0, kImu1 };
-  static constexpr std::size_t kSensors = 4;
-  const SensorFigures& figures(Sensor s) const {
-    return sensors_[static_cast<std::size_t>(s)].figures();
-  }
   const std::optional<world::GnssPosition>& position(std::size_t unit) const {
     return positions_[unit];
   }
@@ -72,9 +49,6 @@ class TickLog {
   Instant at() const { return at_; }  // of the newest tick
 
  private:
-  SensorClock* clock_of(Sensor first, std::uint8_t unit);
-
-  std::array<SensorClock, kSensors> sensors_{};
   std::array<std::optional<world::GnssPosition>, world::kGnssUnits> positions_{};
   std::array<std::optional<world::GnssVelocity>, world::kGnssUnits> velocities_{};
   std::array<std::optional<world::GnssHeading>, world::kGnssUnits> headings_{};

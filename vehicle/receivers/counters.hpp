@@ -8,6 +8,7 @@
 #include "protocol/gnss/refusal.hpp"
 #include "protocol/gnss/stream_window.hpp"
 #include "vehicle/receivers/gps_clock.hpp"
+#include "vehicle/world/receiver_traffic.hpp"
 
 namespace pitwall::receivers {
 
@@ -15,6 +16,7 @@ struct Counters {
   // Of the byte stream.
   std::uint64_t bytes = 0, frames = 0;
   std::uint64_t garbage_bytes = 0;  // in no frame
+  std::uint64_t resyncs = 0;        // times that garbage began
   std::uint64_t bad_checksum = 0;
   std::uint64_t bad_frame = 0;  // a header that the format does not know, or nobody asked for
   // Of whole frames.
@@ -33,9 +35,20 @@ inline Counters with_stream(Counters counters, const gnss::StreamCounters& strea
   counters.bytes = stream.bytes;
   counters.frames = stream.frames;
   counters.garbage_bytes = stream.garbage_bytes;
+  counters.resyncs = stream.resyncs;
   counters.bad_checksum = stream.bad_crc;
   counters.bad_frame = stream.bad_header + stream.oversize + stream.unexpected;
   return counters;
+}
+
+// What the pit wall is told of it; what was lost on the way here only the rim knows.
+inline world::ReceiverTraffic traffic_of(const Counters& c) {
+  return {.bytes = c.bytes,
+          .logs = c.frames,
+          .bad_checksum = c.bad_checksum,
+          .bad_frame = c.bad_frame,
+          .resyncs = c.resyncs,
+          .refused = c.refused.total() + c.time_unknown + c.out_of_range + c.imu_error};
 }
 
 }  // namespace pitwall::receivers

@@ -46,6 +46,7 @@ enum class Group : std::uint8_t {
   kSensors,
   kGnss0,
   kGnss1,
+  kReceivers,
   kComputer,
   kFaults,
   kBus,
@@ -54,7 +55,7 @@ enum class Group : std::uint8_t {
   kJoystick,  // up: the dead-man's samples
   kAuthority  // up: whose console may command
 };
-inline constexpr std::size_t kGroups = 35;
+inline constexpr std::size_t kGroups = 36;
 
 constexpr std::size_t index_of(Group group) { return static_cast<std::size_t>(group); }
 
@@ -107,6 +108,7 @@ inline constexpr auto kGroupTable = [] {
       {kSensors, "sensors", kDown, kStatistics, seconds(1), 0.5},
       {kGnss0, "gnss0", kDown, kHealth, milliseconds(500), 1.0},
       {kGnss1, "gnss1", kDown, kHealth, milliseconds(500), 1.0},
+      {kReceivers, "receivers", kDown, kStatistics, seconds(2), 0.5},
       {kComputer, "computer", kDown, kStatistics, seconds(1), 1.0},
       {kFaults, "faults", kDown, kHealth, milliseconds(250), 1.5},
       {kBus, "bus", kDown, kStatistics, seconds(1), 1.0},

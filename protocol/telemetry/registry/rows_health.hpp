@@ -42,6 +42,24 @@ constexpr std::array<FieldRow, kReceiverFields> receiver(Group group) {
 inline constexpr auto kGnss0 = receiver(Group::kGnss0);
 inline constexpr auto kGnss1 = receiver(Group::kGnss1);
 
+// What became of the bytes of each: counts since the car's process began.
+inline constexpr auto kReceiverRows = std::to_array<FieldRow>({
+    large_count(Group::kReceivers, "bytes_0"),
+    large_count(Group::kReceivers, "logs_0"),
+    count(Group::kReceivers, "bad_checksum_0"),
+    count(Group::kReceivers, "bad_frame_0"),
+    count(Group::kReceivers, "resyncs_0"),
+    count(Group::kReceivers, "refused_0"),
+    count(Group::kReceivers, "lost_0"),
+    large_count(Group::kReceivers, "bytes_1"),
+    large_count(Group::kReceivers, "logs_1"),
+    count(Group::kReceivers, "bad_checksum_1"),
+    count(Group::kReceivers, "bad_frame_1"),
+    count(Group::kReceivers, "resyncs_1"),
+    count(Group::kReceivers, "refused_1"),
+    count(Group::kReceivers, "lost_1"),
+});
+
 inline constexpr auto kStreamRows = std::to_array<FieldRow>({
     stream("gnss0_link"),     stream("gnss1_link"),     stream("gnss0_position"),
     stream("gnss1_position"), stream("gnss0_solution"), stream("gnss1_solution"),

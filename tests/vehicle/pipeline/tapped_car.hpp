@@ -108,6 +108,12 @@ inline Outputs full() {
     auto& row = out.watchdog.rows[i];
     row = {static_cast<safety::Stream>(i), static_cast<safety::Health>(i % 5), milliseconds(5)};
   }
+  const auto figures = [&out](safety::Stream stream, double rate_hz, int gap_ms, int latency_ms) {
+    auto& row = out.watchdog.rows[static_cast<std::size_t>(stream)];
+    row.rate_hz = rate_hz, row.gap = milliseconds(gap_ms), row.latency = milliseconds(latency_ms);
+  };
+  figures(safety::Stream::kGnss1Position, 20, 50, 30);
+  figures(safety::Stream::kImu0, 100, 10, 4);
   out.heard.race_control.conflict = true;
   out.chosen.causes.add(safety::Cause::kOperatorEmergency);
   out.chosen.causes.add(safety::Cause::kRadioLost);
@@ -223,28 +229,30 @@ inline TickLog full_log() {
   return log;
 }
 
-inline constexpr RimCounters kRim{.frames_sent = 2002,
-                                  .tx_drops = 3,
-                                  .steps = 4004,
-                                  .missed_deadlines = 5,
-                                  .step_time_max_us = 66,
-                                  .step_time_p50_us = 40,
-                                  .processor_share = 0.4,
-                                  .memory_mib = 512,
-                                  .temperature_c = 61.5,
-                                  .heartbeats = 88,
-                                  .heartbeats_refused = 9,
-                                  .base_runs = 2,
-                                  .slots_skipped = 6,
-                                  .round_trip_ms = 12.5,
-                                  .paths = {{{0.25, 40, 0.5}, {0.125, 44, 0.75}}},
-                                  .uplink = {.known = true,
-                                             .stop_latch = 1,
-                                             .stop_challenge = 4711,
-                                             .stop_reason = 3,
-                                             .authority = 5,
-                                             .joystick = true,
-                                             .schema_agrees = true}};
+inline constexpr RimCounters kRim{
+    .frames_sent = 2002,
+    .tx_drops = 3,
+    .steps = 4004,
+    .missed_deadlines = 5,
+    .step_time_max_us = 66,
+    .step_time_p50_us = 40,
+    .processor_share = 0.4,
+    .memory_mib = 512,
+    .temperature_c = 61.5,
+    .heartbeats = 88,
+    .heartbeats_refused = 9,
+    .base_runs = 2,
+    .slots_skipped = 6,
+    .round_trip_ms = 12.5,
+    .paths = {{{0.25, 40, 0.5}, {0.125, 44, 0.75}}},
+    .receivers = {{{601, 602, 603, 604, 605, 606, 607}, {701, 702, 703, 704, 705, 706, 707}}},
+    .uplink = {.known = true,
+               .stop_latch = 1,
+               .stop_challenge = 4711,
+               .stop_reason = 3,
+               .authority = 5,
+               .joystick = true,
+               .schema_agrees = true}};
 
 inline std::string name_of(std::size_t i) {
   const auto& row = telemetry::kFields[i];

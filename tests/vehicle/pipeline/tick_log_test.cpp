@@ -11,48 +11,6 @@ namespace {
 constexpr Instant kStart{1'000'000'000};
 constexpr double kLength_m = 2'000.0;
 
-TEST(SensorClock, SaysNothingBeforeTheFirstWholeSecond) {
-  SensorClock clock;
-  for (int ms = 0; ms < 1'000; ms += 10) {
-    const Instant now = kStart + milliseconds(ms);
-    clock.heard(now, now);
-    clock.advance(now);
-    EXPECT_TRUE(std::isnan(clock.figures().rate_hz));
-  }
-}
-
-TEST(SensorClock, TellsRateLargestGapAndLargestDelay) {
-  SensorClock clock;
-  for (int ms = 0; ms <= 1'000; ms += 10) {
-    const Instant now = kStart + milliseconds(ms);
-    const bool in_gap = ms > 300 && ms < 380;
-    if (ms % 20 == 0 && !in_gap) clock.heard(now - milliseconds(ms == 500 ? 33 : 5), now);
-    clock.advance(now);
-  }
-  EXPECT_NEAR(clock.figures().rate_hz, 47.0, 1e-9);  // 50 intervals less the three of the gap
-  EXPECT_NEAR(clock.figures().gap_ms, 80.0, 1e-9);
-  EXPECT_NEAR(clock.figures().latency_ms, 33.0, 1e-9);
-}
-
-TEST(SensorClock, WhoFellSilentIsUnsetAfterASecondOfSilence) {
-  SensorClock clock;
-  Instant now = kStart;
-  clock.heard(now, now);
-  for (int ms = 10; ms <= 2'100; ms += 10) clock.advance(now = kStart + milliseconds(ms));
-  EXPECT_TRUE(std::isnan(clock.figures().rate_hz));
-}
-
-// The gap that is still open counts: a sensor that died is not shown with the gaps of its life.
-TEST(SensorClock, TheGapAtTheEndCounts) {
-  SensorClock clock;
-  for (int ms = 0; ms <= 1'000; ms += 10) {
-    const Instant now = kStart + milliseconds(ms);
-    if (ms <= 400) clock.heard(now, now);
-    clock.advance(now);
-  }
-  EXPECT_NEAR(clock.figures().gap_ms, 600.0, 1e-9);
-}
-
 struct Driver {
   LapClock clock;
   Instant now = kStart;
