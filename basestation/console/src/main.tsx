@@ -20,7 +20,8 @@ import { fetchLayout } from "./store/layouts";
 import * as session from "./store/session";
 import { keepAuthority, openUplink } from "./store/uplink";
 import { setTheme, theme } from "./theme/theme";
-import { startPainting } from "./view/painting";
+import { repaint, startPainting } from "./view/painting";
+import { heldMs, speed } from "./view/timeline";
 import type { Track } from "./wire/messages";
 
 async function fetchTrack(): Promise<void> {
@@ -56,6 +57,10 @@ effect(() => {
   if (!session.connected.value) return;
   forgetEarlier();
   void fetchTrack();
+});
+// A jump in time is seen at once, not at the next turn of each painter.
+effect(() => {
+  if (heldMs.value === null || speed.value === 0) repaint();
 });
 // The console as a test or a curious engineer may look into it.
 Object.assign(window, { pitwall: { session } });

@@ -1,0 +1,131 @@
+/**
+ * The console on the real base, with a car's real end of the radio behind it: live within a second,
+ * stale everywhere when the car is killed, stops that reach the car, the base killed and started
+ * again.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { after, afterEach, before, beforeEach, test } from "node:test";
+import { Programs } from "./programs.mjs";
+import { kPages, launch, open, until } from "./stage.mjs";
+
+let browser;
+let programs;
+let address;
+
+before(async () => (browser = await launch()));
+after(async () => browser?.close());
+beforeEach(async () => {
+  programs = new Programs();
+  address = await programs.startBase();
+  programs.startCar();
+});
+afterEach(async () => {
+  for (const context of browser.contexts()) await context.close();
+  await programs.close();
+});
+
+/** Fields of the car that are drawn as if they were known, on a page on which none should be. */
+const carAlive = () => [...document.querySelectorAll(".value[data-path]")]
+  .filter((e) => !/^(link|derived|base|radio)\./.test(e.dataset.path))
+  .filter((e) => ["fresh", "late"].includes(e.dataset.quality) ||
+    !["none", undefined].includes(e.dataset.judgement))
+  .map((e) => `${e.dataset.path} ${e.dataset.quality} ${e.dataset.judgement}`);
+
+test("the live car, its mode and its link are shown, every page without a fault", async () => {
+  const { page, faults } = await open(browser, address);
+  await until(page, "50.5 m/s in mph", () =>
+    document.querySelector('[data-path="ego.vx"] .digits').textContent === "113");
+  await until(page, "the link's state", () =>
+    /GOOD|DEGRADED/.test(document.querySelector(".link-tile .word").textContent));
+  assert.notEqual(await page.textContent(".mode-word strong"), "NO BASE");
+  for (const name of kPages) {
+    await page.evaluate((hash) => (location.hash = hash), `#/${name}`);
+    await page.waitForTimeout(400);
+  }
+  assert.deepEqual(faults, []);
+  const counters = await page.evaluate(() => globalThis.pitwall.session.counters);
+  assert.equal(counters.badFrames, 0);
+  assert.equal(counters.badTexts, 0);
+  assert.equal(await page.evaluate(() => globalThis.pitwall.session.fields.value.unknownIds), 0);
+});
+
+test("the track of the base is drawn", async () => {
+  const { page } = await open(browser, address);
+  await until(page, "the track's name", () =>
+    document.querySelector(".map-caption").textContent === "LVMS");
+});
+
+test("the car is killed: every field of it stale, none coloured, on every page", async () => {
+  const { page } = await open(browser, address);
+  await programs.kill("car");
+  for (let n = 0; n < 150 && (await page.evaluate(carAlive)).length > 0; ++n) {
+    await page.waitForTimeout(100);
+  }
+  for (const name of kPages) {
+    await page.evaluate((hash) => (location.hash = hash), `#/${name}`);
+    await page.waitForTimeout(400);
+    assert.deepEqual(await page.evaluate(carAlive), [], name);
+  }
+  await page.evaluate(() => (location.hash = "#/primary"));
+  await until(page, "the last speed, struck", () => {
+    const value = document.querySelector('.primary [data-path="ego.vx"]');
+    return value?.dataset.quality === "stale" &&
+      value.querySelector(".digits").textContent === "113";
+  });
+  assert.match(await page.textContent(".link-tile .word"), /LOST/);
+});
+
+test("a stop reaches the car, and the console says what the car says", async () => {
+  const { page } = await open(browser, address);
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("Escape");
+  await until(page, "the car's own word", () =>
+    document.querySelector(".outcome").textContent === "car: controlled stop");
+  assert.match(programs.carSaid, /stop 1/);
+});
+
+test("a command climbs its ladder, or its gates say why not", async () => {
+  const { page } = await open(browser, address, { hash: "#/commands" });
+  await page.click("text=Take authority");
+  await until(page, "the authority", () =>
+    document.querySelector(".holder").dataset.mine === "true");
+  await page.selectOption('select[aria-label="command"]', "speed limit");
+  await page.fill('input[aria-label="argument"]', "120");
+  await page.click(".stage button[type=submit]");
+  await until(page, "gates", () => document.querySelector(".staged .gate"));
+  // Nothing is known of this car's flags and tyres: such a car gets no speed.
+  assert.ok(await page.locator('.gate[data-ok="false"]').count() > 0);
+  assert.equal(await page.isDisabled("button.send"), true);
+  await page.click(".staged >> text=Cancel");
+  await page.selectOption('select[aria-label="command"]', "send parameters");
+  await page.selectOption('select[aria-label="argument"]', "1");
+  await page.click(".stage button[type=submit]");
+  await until(page, "a way to send", () =>
+    document.querySelector(".staged button.send:not(:disabled)"));
+  const box = await page.locator(".staged button.send").first().boundingBox();
+  await page.mouse.move(box.x + 20, box.y + 20);
+  await page.mouse.down();
+  await page.waitForTimeout(1200);
+  await page.mouse.up();
+  await until(page, "applied by the car", () => [...document.querySelectorAll(".ladder > li")]
+    .some((li) => li.textContent.includes("send parameters") &&
+      li.querySelector(".rungs li:nth-child(5)").dataset.reached === "true"));
+  assert.match(programs.carSaid, /command send parameters 1/);
+});
+
+test("the base is killed and started again: the console finds it, a layout is kept", async () => {
+  const { page } = await open(browser, address);
+  await page.focus(".panel-fuel");
+  await page.keyboard.press("Alt+ArrowUp");
+  await page.waitForTimeout(400);
+  await programs.kill("base");
+  await until(page, "NO BASE", () =>
+    document.querySelector(".link-tile .word").textContent.startsWith("NO BASE"));
+  await programs.startBase();
+  await until(page, "fresh values", () =>
+    document.querySelector('[data-path="ego.vx"]').dataset.quality === "fresh", undefined, 20_000);
+  await page.reload();
+  await until(page, "the layout", () => [...document.querySelectorAll(".primary .panel")]
+    .findIndex((p) => p.classList.contains("panel-fuel")) === 2);
+});

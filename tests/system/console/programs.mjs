@@ -1,0 +1,76 @@
+/**
+ * The real base with its console, and a car's end of the radio, as processes of a test.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import { execFileSync, spawn } from "node:child_process";
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { kRoot } from "./packages.mjs";
+
+const kBase = process.env.PITWALL_BASE ?? join(kRoot, "build/release/basestation/pitwall-base");
+const kCar = process.env.PITWALL_CAR ??
+  join(kRoot, "build/release/tests/system/basestation/radio_car");
+const kPatienceMs = 20_000;
+
+/** Resolves with the match of `pattern` in what the process says on stderr. */
+function said(process, patterns) {
+  return new Promise((resolve, reject) => {
+    let text = "";
+    const timer = setTimeout(() => reject(new Error(`said only: ${text}`)), kPatienceMs);
+    process.on("exit", (code) => reject(new Error(`ended with ${code}: ${text}`)));
+    process.stderr.on("data", (part) => {
+      text += part;
+      const found = patterns.map((pattern) => pattern.exec(text));
+      if (found.every(Boolean)) {
+        clearTimeout(timer);
+        resolve(found.map((match) => match[1]));
+      }
+    });
+  });
+}
+
+const ended = (process) => process.exitCode !== null || process.signalCode !== null
+  ? Promise.resolve() : new Promise((done) => process.once("exit", done));
+
+export class Programs {
+  folder = mkdtempSync(join(tmpdir(), "pitwall-console-"));
+  /** What the car said: "stop LEVEL", "command NAME ARGUMENT". */
+  carSaid = "";
+
+  constructor() {
+    execFileSync(kBase, ["keygen", "--out", join(this.folder, "keys")]);
+  }
+
+  /** Starts the base; resolves with the address of its console. */
+  async startBase(...flags) {
+    this.base = spawn(kBase, ["--keys", join(this.folder, "keys/base.keys"), "--listen",
+      this.radio ?? "127.0.0.1:0", "--web", String(this.port ?? 0), "--track", "lvms",
+      "--layouts", join(this.folder, "layouts"), "--console-dir", join(kRoot, "build/console/dist"),
+      ...flags], { stdio: ["ignore", "pipe", "pipe"] });
+    this.base.stdout.resume();
+    const [address, radio] = await said(this.base,
+      [/console at (http:\/\/[\d.]+:\d+)\s/, /listening at ([\d.]+:\d+)\s/]);
+    this.radio = radio;
+    this.port = Number(new URL(address).port);
+    return address;
+  }
+
+  startCar(seconds = 120) {
+    this.car = spawn(kCar, [join(this.folder, "keys/car.keys"), this.radio, String(seconds)],
+      { stdio: ["ignore", "pipe", "inherit"] });
+    this.car.stdout.on("data", (part) => (this.carSaid += part));
+  }
+
+  async kill(name) {
+    this[name]?.kill("SIGKILL");
+    if (this[name]) await ended(this[name]);
+    this[name] = undefined;
+  }
+
+  async close() {
+    await this.kill("car");
+    await this.kill("base");
+    rmSync(this.folder, { recursive: true, force: true });
+  }
+}
