@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/outlets/joystick_feed.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+
+#include "protocol/transport/readiness.hpp"
+#include "tests/basestation/radio_rig.hpp"
+#include "tests/support/input_events.hpp"
+
+namespace pitwall::outlets {
+namespace {
+
+using pitwall::testing::InputBytes;
+
+// A device at the other end of a pipe, and a car that hears the hand over the radio.
+struct Bench {
+  RadioRig rig;
+  transport::FileDescriptor hand;
+  std::optional<JoystickFeed> feed;
+
+  Bench() {
+    std::array<int, 2> ends{};
+    EXPECT_EQ(::pipe2(ends.data(), O_NONBLOCK | O_CLOEXEC), 0);
+    hand = transport::FileDescriptor{ends[1]};
+    feed.emplace(JoystickFeed::of(transport::FileDescriptor{ends[0]}, {}));
+    rig.set(telemetry::fields_of(telemetry::Group::kEgo).first, 1.0);
+    rig.run(seconds(2));
+  }
+  void say(const InputBytes& bytes) {
+    ASSERT_EQ(::write(hand.get(), bytes.bytes.data(), bytes.bytes.size()),
+              static_cast<ssize_t>(bytes.bytes.size()));
+  }
+  void run(Duration length) {
+    for (const Instant end = rig.now + length; rig.now < end;) {
+      feed->serve(*rig.station, rig.now);
+      rig.run(milliseconds(1));
+    }
+  }
+  // A hand that speaks at 50 Hz for so long.
+  void hold(Duration length) {
+    for (const Instant end = rig.now + length; rig.now < end;) {
+      say(InputBytes{}.key(310, 1).axis(2, 255).axis(5, 51).report());
+      run(milliseconds(20));
+    }
+  }
+  auto heard() const { return rig.car->view(rig.now).joystick; }
+};
+
+TEST(JoystickFeed, TheCarHearsTheHandAndNothingElse) {
+  Bench bench;
+  EXPECT_FALSE(bench.heard());
+  bench.hold(seconds(1));
+  const auto sample = bench.heard();
+  ASSERT_TRUE(sample);
+  EXPECT_NEAR(sample->throttle_cap, 0.0, 0.01);
+  EXPECT_NEAR(sample->brake, 0.2, 0.01);
+}
+
+TEST(JoystickFeed, AHandThatFreezesIsDeadAfter200Milliseconds) {
+  Bench bench;
+  bench.hold(seconds(1));
+  ASSERT_TRUE(bench.heard());
+  bench.run(telemetry::kJoystickDead + milliseconds(1));
+  EXPECT_FALSE(bench.heard());
+}
+
+TEST(JoystickFeed, APulledPlugIsDeadAfter200MillisecondsAndKeepsNobodyBusy) {
+  Bench bench;
+  bench.hold(seconds(1));
+  bench.hand.reset();
+  bench.run(telemetry::kJoystickDead + milliseconds(1));
+  EXPECT_FALSE(bench.heard());
+  EXPECT_FALSE(bench.feed->present());
+  const std::array<int, 1> watched{bench.feed->fd()};
+  EXPECT_EQ(transport::wait_readable(watched, Instant{}), 0U);
+}
+
+TEST(JoystickFeed, AKeyLetGoIsDeadAfter200MillisecondsThoughTheStickMoves) {
+  Bench bench;
+  bench.hold(seconds(1));
+  for (int i = 0; i < 11; ++i) {
+    bench.say(InputBytes{}.key(310, 0).axis(2, 100 + i).report());
+    bench.run(milliseconds(20));
+  }
+  EXPECT_FALSE(bench.heard());
+}
+
+TEST(JoystickFeed, ADeviceThatIsNotThereIsToldWithItsPath) {
+  const auto feed = JoystickFeed::open("/dev/input/none", {});
+  ASSERT_FALSE(feed);
+  EXPECT_EQ(feed.error().place, "/dev/input/none");
+}
+
+}  // namespace
+}  // namespace pitwall::outlets
