@@ -36,8 +36,12 @@ export function App() {
   const Body = kBodies[page.value];
   const mode = session.hello.value?.mode ?? "NONE";
   return (
-    <div class="frame" data-mode={mode} data-held={!isLive.value}
-      data-connected={session.connected.value}>
+    <div
+      class="frame"
+      data-mode={mode}
+      data-held={!isLive.value}
+      data-connected={session.connected.value}
+    >
       <TopBar />
       <Navigation />
       <Body />

@@ -8,15 +8,21 @@ import "uplot/dist/uPlot.min.css";
 import "./theme/fonts.css";
 import "./theme/palette.css";
 import "./theme/frame.css";
+import "./theme/top_bar.css";
+import "./theme/stops.css";
+import "./theme/foot.css";
 import "./theme/values.css";
 import "./theme/primary.css";
 import "./theme/pages.css";
+import "./theme/tables.css";
+import "./theme/alarms.css";
+import "./theme/narrow.css";
 import { App } from "./app";
 import { listenToKeys } from "./frame/keys";
 import { forgetEarlier } from "./pages/plots/backfill";
 import { plotLayout, readPlotLayout } from "./pages/plots/layout";
 import { primaryLayout, readPrimaryLayout } from "./pages/primary/layout";
-import { fetchLayout } from "./store/layouts";
+import { fetchLayout, token } from "./store/layouts";
 import * as session from "./store/session";
 import { keepAuthority, openUplink } from "./store/uplink";
 import { setTheme, theme } from "./theme/theme";
@@ -27,7 +33,7 @@ import type { Track } from "./wire/messages";
 async function fetchTrack(): Promise<void> {
   try {
     const answer = await fetch("api/track");
-    session.track.value = answer.ok ? ((await answer.json()) as Track) : null;
+    session.track.value = answer.status === 200 ? ((await answer.json()) as Track) : null;
   } catch {
     session.track.value = null;
   }
@@ -47,9 +53,9 @@ render(<App />, document.getElementById("console")!);
 startPainting();
 keepAuthority();
 
+const bearer = token();
 const scheme = location.protocol === "https:" ? "wss:" : "ws:";
-const token = new URLSearchParams(location.search).get("token");
-openUplink(`${scheme}//${location.host}/ws${token ? `?token=${encodeURIComponent(token)}` : ""}`);
+openUplink(`${scheme}//${location.host}/ws${bearer ? `?token=${encodeURIComponent(bearer)}` : ""}`);
 void fetchLayouts();
 
 // A base that was started anew may know another track and has forgotten our questions.

@@ -11,22 +11,30 @@ const course = new Course(kTrack as never);
 const station = fc.double({ min: -2 * kLengthM, max: 2 * kLengthM, noNaN: true });
 
 test("a place is where its station and offset are", () => {
-  fc.assert(fc.property(station, fc.double({ min: -8, max: 8, noNaN: true }), (s, offset) => {
-    const [got, want] = [course.place(s, offset), placeAt(s, offset)];
-    expect(Math.hypot(got.x - want.x, got.y - want.y)).toBeLessThan(0.25);
-  }));
+  fc.assert(
+    fc.property(station, fc.double({ min: -8, max: 8, noNaN: true }), (s, offset) => {
+      const [got, want] = [course.place(s, offset), placeAt(s, offset)];
+      expect(Math.hypot(got.x - want.x, got.y - want.y)).toBeLessThan(0.25);
+    }),
+  );
 });
 
 test("the gap goes the shorter way round and back again", () => {
-  fc.assert(fc.property(station, station, (a, b) => {
-    const gap = course.gap(a, b);
-    expect(Math.abs(gap)).toBeLessThanOrEqual(kLengthM / 2 + 1e-6);
-    expect(Math.abs(course.gap(a + gap, b))).toBeLessThan(1e-6);
-  }));
+  fc.assert(
+    fc.property(station, station, (a, b) => {
+      const gap = course.gap(a, b);
+      expect(Math.abs(gap)).toBeLessThanOrEqual(kLengthM / 2 + 1e-6);
+      expect(Math.abs(course.gap(a + gap, b))).toBeLessThan(1e-6);
+    }),
+  );
 });
 
 test("everything fitted lies inside the margin, upright or turned, without distortion", () => {
-  for (const [w, h] of [[800, 400], [300, 700], [500, 500]]) {
+  for (const [w, h] of [
+    [800, 400],
+    [300, 700],
+    [500, 500],
+  ]) {
     const into = fit(kTrack.left, w, h, 20);
     for (const [x, y] of kTrack.left) {
       const p = into.toPixel(x, y);

@@ -16,8 +16,18 @@ import { decimalsOf, fixed, valueText } from "../src/view/format";
 import type { Alarm, CommandStep } from "../src/wire/messages";
 import { Quality } from "../src/wire/status";
 
-const info = { id: 1, path: "a.b", group: "a", name: "b", unit: "", kind: "real", min: 0, max: 9,
-  resolution: 0.01, period_ms: 100 };
+const info = {
+  id: 1,
+  path: "a.b",
+  group: "a",
+  name: "b",
+  unit: "",
+  kind: "real",
+  min: 0,
+  max: 9,
+  resolution: 0.01,
+  period_ms: 100,
+};
 
 function drawn(rows: readonly (readonly [ms: number, value: number, quality: Quality])[]): History {
   const fields = new Fields([info]);
@@ -31,12 +41,19 @@ function drawn(rows: readonly (readonly [ms: number, value: number, quality: Qua
 
 describe("columns of a chart", () => {
   test("stale is a gap", () => {
-    const history = drawn([[0, 1, 0], [40, 2, Quality.stale], [80, 3, Quality.late]]);
+    const history = drawn([
+      [0, 1, 0],
+      [40, 2, Quality.stale],
+      [80, 3, Quality.late],
+    ]);
     expect(columns(history, [0], 0, 1000, 500).values[0]).toEqual([1, null, 3]);
   });
 
   test("time without rows is a gap", () => {
-    const history = drawn([[0, 1, 0], [40 + kGapMs + 1000, 2, 0]]);
+    const history = drawn([
+      [0, 1, 0],
+      [40 + kGapMs + 1000, 2, 0],
+    ]);
     expect(columns(history, [0], 0, 9000, 500).values[0]).toEqual([1, null, 2]);
   });
 
@@ -45,34 +62,52 @@ describe("columns of a chart", () => {
   });
 
   test("thinning keeps the extremes and the order of time", () => {
-    fc.assert(fc.property(
-      fc.array(fc.float({ min: -100, max: 100, noNaN: true }), { minLength: 300, maxLength: 900 }),
-      (values) => {
-        const history = drawn(values.map((value, i) => [40 * i, value, 0] as const));
-        const { timeS, values: [thin] } = columns(history, [0], 0, 1e9, 100);
-        expect(timeS.length).toBeLessThan(260);
-        const known = thin.filter((v) => v !== null);
-        expect(Math.max(...known)).toBeCloseTo(Math.max(...values), 4);
-        expect(Math.min(...known)).toBeCloseTo(Math.min(...values), 4);
-        for (let i = 1; i < timeS.length; ++i) expect(timeS[i]).toBeGreaterThanOrEqual(timeS[i - 1]);
-      }), { numRuns: 30 });
+    fc.assert(
+      fc.property(
+        fc.array(fc.float({ min: -100, max: 100, noNaN: true }), {
+          minLength: 300,
+          maxLength: 900,
+        }),
+        (values) => {
+          const history = drawn(values.map((value, i) => [40 * i, value, 0] as const));
+          const {
+            timeS,
+            values: [thin],
+          } = columns(history, [0], 0, 1e9, 100);
+          expect(timeS.length).toBeLessThan(260);
+          const known = thin.filter((v) => v !== null);
+          expect(Math.max(...known)).toBeCloseTo(Math.max(...values), 4);
+          expect(Math.min(...known)).toBeCloseTo(Math.min(...values), 4);
+          for (let i = 1; i < timeS.length; ++i)
+            expect(timeS[i]).toBeGreaterThanOrEqual(timeS[i - 1]);
+        },
+      ),
+      { numRuns: 30 },
+    );
   });
 
   test("what the base remembers stands in front, its stale points as gaps", () => {
     const after = { timeS: [10, 11], values: [[5, 6]] };
-    const earlier = { timeS: new Float64Array([7, 8, 9, 10.5]),
-      value: new Float32Array([1, 2, 3, 4]), quality: new Uint8Array([0, 2, 0, 0]) };
-    expect(withEarlier(after, earlier, 7.5)).toEqual(
-      { timeS: [8, 9, 10, 11], values: [[null, 3, 5, 6]] });
+    const earlier = {
+      timeS: new Float64Array([7, 8, 9, 10.5]),
+      value: new Float32Array([1, 2, 3, 4]),
+      quality: new Uint8Array([0, 2, 0, 0]),
+    };
+    expect(withEarlier(after, earlier, 7.5)).toEqual({
+      timeS: [8, 9, 10, 11],
+      values: [[null, 3, 5, 6]],
+    });
   });
 });
 
 describe("layouts out of foreign JSON", () => {
   test("what is no layout is refused, never thrown at", () => {
-    fc.assert(fc.property(fc.jsonValue(), (json) => {
-      readPrimaryLayout(json);
-      readPlotLayout(json);
-    }));
+    fc.assert(
+      fc.property(fc.jsonValue(), (json) => {
+        readPrimaryLayout(json);
+        readPlotLayout(json);
+      }),
+    );
     expect(readPlotLayout({ charts: [], window_s: 1e9 })).toBeNull();
     expect(readPrimaryLayout({ columns: [] })).toBeNull();
   });
@@ -82,20 +117,34 @@ describe("layouts out of foreign JSON", () => {
   });
 
   test("moving a panel loses none", () => {
-    fc.assert(fc.property(
-      fc.array(fc.tuple(fc.constantFrom("map", "speed", "tyres", "gnss", "computer"),
-        fc.constantFrom("ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight"))), (moves) => {
-        let layout = kDefaultLayout;
-        for (const [panel, key] of moves) layout = moved(layout, panel as never, key);
-        const names = layout.columns.flatMap((column) => column.panels).sort();
-        expect(names).toEqual(kDefaultLayout.columns.flatMap((c) => c.panels).sort());
-      }));
+    fc.assert(
+      fc.property(
+        fc.array(
+          fc.tuple(
+            fc.constantFrom("map", "speed", "tyres", "gnss", "computer"),
+            fc.constantFrom("ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight"),
+          ),
+        ),
+        (moves) => {
+          let layout = kDefaultLayout;
+          for (const [panel, key] of moves) layout = moved(layout, panel as never, key);
+          const names = layout.columns.flatMap((column) => column.panels).sort();
+          expect(names).toEqual(kDefaultLayout.columns.flatMap((c) => c.panels).sort());
+        },
+      ),
+    );
   });
 });
 
 describe("ladder", () => {
-  const step = (name: string, times: Record<string, number>): CommandStep =>
-    ({ ticket: 1, name: "arm", argument: 1, by: "", step: name, times_ms: times });
+  const step = (name: string, times: Record<string, number>): CommandStep => ({
+    ticket: 1,
+    name: "arm",
+    argument: 1,
+    by: "",
+    step: name,
+    times_ms: times,
+  });
   test("knows how far a command got, also when it fell", () => {
     expect(rung(step("gated", { staged: 1, gated: 2 }))).toBe(1);
     expect(rung(step("refused", { staged: 1, gated: 2, sent: 3 }))).toBe(2);
@@ -106,12 +155,29 @@ describe("ladder", () => {
 });
 
 describe("alarms", () => {
-  const alarm = (id: number, priority: Alarm["priority"], state: Alarm["state"], since: number) =>
-    ({ id, priority, state, since_ms: since, key: "", text: "", response: "", count: 1,
-      first_up: false });
+  const alarm = (
+    id: number,
+    priority: Alarm["priority"],
+    state: Alarm["state"],
+    since: number,
+  ) => ({
+    id,
+    priority,
+    state,
+    since_ms: since,
+    key: "",
+    text: "",
+    response: "",
+    count: 1,
+    first_up: false,
+  });
   test("the loudest is the newest of the highest priority that nobody has seen", () => {
-    const list = [alarm(1, "low", "unack", 9), alarm(2, "high", "acked", 10),
-      alarm(3, "high", "unack", 4), alarm(4, "high", "rtn_unack", 5)];
+    const list = [
+      alarm(1, "low", "unack", 9),
+      alarm(2, "high", "acked", 10),
+      alarm(3, "high", "unack", 4),
+      alarm(4, "high", "rtn_unack", 5),
+    ];
     expect(loudest(list)?.id).toBe(4);
     expect(inOrder(list).map((a) => a.id)).toEqual([4, 3, 1, 2]);
     expect(loudest([alarm(2, "high", "acked", 10)])).toBeUndefined();

@@ -5,15 +5,23 @@
 // SPDX-License-Identifier: Apache-2.0
 import fc from "fast-check";
 import { describe, expect, test } from "vitest";
-import { BaseClock, kSilenceMs } from "../src/store/base_clock";
+import { BaseClock, kSilenceMs } from "../src/store/station_clock";
 import { Fields, kNothing } from "../src/store/fields";
 import { History } from "../src/store/history";
 import type { FieldInfo } from "../src/wire/messages";
 import { Judgement, Quality } from "../src/wire/status";
 
 const field = (id: number, path: string): FieldInfo => ({
-  id, path, group: path.split(".")[0], name: path.split(".")[1], unit: "", kind: "real", min: 0,
-  max: 1, resolution: 0.1, period_ms: 100,
+  id,
+  path,
+  group: path.split(".")[0],
+  name: path.split(".")[1],
+  unit: "",
+  kind: "real",
+  min: 0,
+  max: 1,
+  resolution: 0.1,
+  period_ms: 100,
 });
 const kGoodFresh = (Judgement.good << 2) | Quality.fresh;
 
@@ -37,7 +45,10 @@ describe("fields", () => {
     expect(fields.read(0, 1300, false, { ...kNothing }).ageMs).toBe(320);
     const reading = fields.read(0, 1700, true, { ...kNothing });
     expect(reading).toMatchObject({
-      value: 4.5, quality: Quality.stale, judgement: Judgement.none, ageMs: 720,
+      value: 4.5,
+      quality: Quality.stale,
+      judgement: Judgement.none,
+      ageMs: 720,
     });
   });
 
@@ -87,14 +98,19 @@ describe("history", () => {
   };
 
   test("find is the last row at or before the moment, however full the ring is", () => {
-    fc.assert(fc.property(fc.integer({ min: 0, max: 50 }), fc.integer({ min: -50, max: 6000 }),
-      (count, at) => {
-        const { history } = filled(count);
-        const kept = Math.min(count, 16);
-        const times = Array.from({ length: kept }, (_, n) => 100 * (count - kept + n));
-        expect(history.find(at)).toBe(times.filter((t) => t <= at).length - 1);
-        expect(history.size).toBe(kept);
-      }));
+    fc.assert(
+      fc.property(
+        fc.integer({ min: 0, max: 50 }),
+        fc.integer({ min: -50, max: 6000 }),
+        (count, at) => {
+          const { history } = filled(count);
+          const kept = Math.min(count, 16);
+          const times = Array.from({ length: kept }, (_, n) => 100 * (count - kept + n));
+          expect(history.find(at)).toBe(times.filter((t) => t <= at).length - 1);
+          expect(history.size).toBe(kept);
+        },
+      ),
+    );
   });
 
   test("gives back what was known then", () => {

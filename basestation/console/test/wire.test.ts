@@ -5,7 +5,13 @@
 // SPDX-License-Identifier: Apache-2.0
 import fc from "fast-check";
 import { describe, expect, test } from "vitest";
-import { ageCode, history, kFresh, snapshot, statusByte } from "../../../tests/system/console/wire.mjs";
+import {
+  ageCode,
+  history,
+  kFresh,
+  snapshot,
+  statusByte,
+} from "../../../tests/system/console/wire.mjs";
 import { ageMs, kAgeNever } from "../src/wire/age";
 import { readHead, readHistory, readSnapshot } from "../src/wire/frame";
 import { Judgement, Quality, judgementOf, qualityOf, saysUnknown } from "../src/wire/status";
@@ -15,8 +21,9 @@ const viewOf = (bytes: Uint8Array) =>
 
 describe("age code", () => {
   test("has the steps of the contract", () => {
-    expect([0, 99, 100, 189, 190, 249, 250, 254].map(ageMs)).toEqual(
-      [0, 990, 1000, 9900, 10_000, 69_000, 70_000, 310_000]);
+    expect([0, 99, 100, 189, 190, 249, 250, 254].map(ageMs)).toEqual([
+      0, 990, 1000, 9900, 10_000, 69_000, 70_000, 310_000,
+    ]);
     expect(ageMs(kAgeNever)).toBe(Infinity);
   });
 
@@ -25,12 +32,14 @@ describe("age code", () => {
   });
 
   test("of a time is at most one step below it", () => {
-    fc.assert(fc.property(fc.double({ min: 0, max: 69_999, noNaN: true }), (ms) => {
-      const step = ms < 1000 ? 10 : ms < 10_000 ? 100 : 1000;
-      const back = ageMs(ageCode(ms));
-      expect(back).toBeLessThanOrEqual(ms + 1e-9);
-      expect(ms - back).toBeLessThan(step + 1e-6);
-    }));
+    fc.assert(
+      fc.property(fc.double({ min: 0, max: 69_999, noNaN: true }), (ms) => {
+        const step = ms < 1000 ? 10 : ms < 10_000 ? 100 : 1000;
+        const back = ageMs(ageCode(ms));
+        expect(back).toBeLessThanOrEqual(ms + 1e-9);
+        expect(ms - back).toBeLessThan(step + 1e-6);
+      }),
+    );
   });
 });
 
@@ -54,31 +63,44 @@ describe("snapshot", () => {
   });
 
   test("is read as it was written", () => {
-    fc.assert(fc.property(fc.array(entry, { maxLength: 40 }), (entries) => {
-      const view = viewOf(snapshot(entries, { timeMs: 123_456.789, sequence: 9, dropped: 2 }));
-      const head = readHead(view)!;
-      expect(head).toMatchObject({ count: entries.length, sequence: 9, dropped: 2, car: 7 });
-      expect(head.timeMs).toBeCloseTo(123_456.789, 5);
-      const read: unknown[] = [];
-      const good = readSnapshot(view, head, (id, status, age, value) =>
-        read.push({ id, status, age, value }));
-      expect(good).toBe(true);
-      expect(read).toEqual(entries);
-    }));
+    fc.assert(
+      fc.property(fc.array(entry, { maxLength: 40 }), (entries) => {
+        const view = viewOf(snapshot(entries, { timeMs: 123_456.789, sequence: 9, dropped: 2 }));
+        const head = readHead(view)!;
+        expect(head).toMatchObject({ count: entries.length, sequence: 9, dropped: 2, car: 7 });
+        expect(head.timeMs).toBeCloseTo(123_456.789, 5);
+        const read: unknown[] = [];
+        const good = readSnapshot(view, head, (id, status, age, value) =>
+          read.push({ id, status, age, value }),
+        );
+        expect(good).toBe(true);
+        expect(read).toEqual(entries);
+      }),
+    );
   });
 
   test("that is cut, too long or of another version is refused, and hands over nothing", () => {
-    const bytes = new Uint8Array(snapshot(
-      [{ id: 1, status: statusByte(kFresh), age: 1, value: 2 }], { timeMs: 1 }));
+    const bytes = new Uint8Array(
+      snapshot([{ id: 1, status: statusByte(kFresh), age: 1, value: 2 }], { timeMs: 1 }),
+    );
     const refused = (raw: Uint8Array) => {
       const head = readHead(viewOf(raw));
-      return head === null || !readSnapshot(viewOf(raw), head, () => { throw Error("handed over"); });
+      return (
+        head === null ||
+        !readSnapshot(viewOf(raw), head, () => {
+          throw Error("handed over");
+        })
+      );
     };
     for (let length = 0; length < bytes.length; ++length) {
       expect(refused(bytes.slice(0, length))).toBe(true);
     }
     expect(refused(new Uint8Array([...bytes, 0]))).toBe(true);
-    for (const [at, value] of [[0, 3], [0, 0], [1, 2]]) {
+    for (const [at, value] of [
+      [0, 3],
+      [0, 0],
+      [1, 2],
+    ]) {
       const other = bytes.slice();
       other[at] = value;
       expect(refused(other)).toBe(true);
@@ -87,7 +109,10 @@ describe("snapshot", () => {
 });
 
 test("a history is read as it was written, and refused when it is cut", () => {
-  const points = [{ timeS: 1.5, value: -2, quality: 0 }, { timeS: 1.6, value: 3, quality: 2 }];
+  const points = [
+    { timeS: 1.5, value: -2, quality: 0 },
+    { timeS: 1.6, value: 3, quality: 2 },
+  ];
   const bytes = new Uint8Array(history(17, points, { timeMs: 1 }));
   const read = readHistory(viewOf(bytes))!;
   expect(read.field).toBe(17);

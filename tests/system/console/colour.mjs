@@ -28,22 +28,43 @@ export function contrast(a, b) {
 }
 
 const kVisions = [
-  [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
-  [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216],
-    [-0.003882, -0.048116, 1.051998]],
-  [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413],
-    [-0.01182, 0.04294, 0.968881]],
-  [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602],
-    [0.004733, 0.691367, 0.3039]],
+  [
+    [1, 0, 0],
+    [0, 1, 0],
+    [0, 0, 1],
+  ],
+  [
+    [0.152286, 1.052583, -0.204868],
+    [0.114503, 0.786281, 0.099216],
+    [-0.003882, -0.048116, 1.051998],
+  ],
+  [
+    [0.367322, 0.860646, -0.227968],
+    [0.280085, 0.672501, 0.047413],
+    [-0.01182, 0.04294, 0.968881],
+  ],
+  [
+    [1.255528, -0.076749, -0.178779],
+    [-0.078411, 0.930809, 0.147602],
+    [0.004733, 0.691367, 0.3039],
+  ],
 ];
 
-const times = (matrix, v) => matrix.map((row) => row.reduce((sum, m, i) => sum + m * v[i], 0));
+const times = (matrix, v) =>
+  matrix.map((row) => row.reduce((sum, m, i) => sum + m * v[i], 0));
 const clamp = (v) => Math.min(Math.max(v, 0), 1);
 
 function lab(rgb) {
-  const [x, y, z] = times([[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.072175],
-    [0.0193339, 0.119192, 0.9503041]], rgb);
-  const f = (t) => (t > 216 / 24389 ? Math.cbrt(t) : (24389 / 27 * t + 16) / 116);
+  const [x, y, z] = times(
+    [
+      [0.4124564, 0.3575761, 0.1804375],
+      [0.2126729, 0.7151522, 0.072175],
+      [0.0193339, 0.119192, 0.9503041],
+    ],
+    rgb,
+  );
+  const f = (t) =>
+    t > 216 / 24389 ? Math.cbrt(t) : ((24389 / 27) * t + 16) / 116;
   const [fx, fy, fz] = [f(x / 0.95047), f(y), f(z / 1.08883)];
   return [116 * fy - 16, 500 * (fx - fy), 200 * (fy - fz)];
 }
@@ -51,7 +72,9 @@ function lab(rgb) {
 /** The least distance of two colours over all kinds of colour vision. */
 export function cvdDistance(a, b) {
   const distances = kVisions.map((vision) => {
-    const [p, q] = [a, b].map((colour) => lab(times(vision, colour.map(linear)).map(clamp)));
+    const [p, q] = [a, b].map((colour) =>
+      lab(times(vision, colour.map(linear)).map(clamp)),
+    );
     return Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
   });
   return Math.min(...distances);

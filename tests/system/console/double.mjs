@@ -16,22 +16,48 @@ import * as wire from "./wire.mjs";
 const kDist = join(kRoot, "build/console/dist");
 const kProgram = join(kRoot, "build/release/basestation/pitwall-base");
 const kTypes = {
-  ".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css",
-  ".svg": "image/svg+xml", ".woff2": "font/woff2",
+  ".html": "text/html; charset=utf-8",
+  ".js": "text/javascript",
+  ".css": "text/css",
+  ".svg": "image/svg+xml",
+  ".woff2": "font/woff2",
 };
 const kBaseFields = {
-  link: { state: ["", ["none", "good", "degraded", "lost"]], silence_ms: ["ms"], down_loss: [""],
-    up_loss: [""], rtt_ms: ["ms"], jitter_ms: ["ms"], down_kbit_s: ["kbit/s"],
-    down_cap_kbit_s: ["kbit/s"], up_kbit_s: ["kbit/s"], worst_age_ms: ["ms"], stale_groups: [""] },
-  derived: { tyre_min: ["degC"], tyre_gate: ["degC"], slip: [""], fuel_per_lap: ["l"],
-    fuel_laps: [""], fuel_attempts: [""], ghost_x: ["m"], ghost_y: ["m"], ghost_yaw: ["rad"],
-    ghost_radius: ["m"], slip_rear_front: [""], slip_rear_gnss: [""] },
+  link: {
+    state: ["", ["none", "good", "degraded", "lost"]],
+    silence_ms: ["ms"],
+    down_loss: [""],
+    up_loss: [""],
+    rtt_ms: ["ms"],
+    jitter_ms: ["ms"],
+    down_kbit_s: ["kbit/s"],
+    down_cap_kbit_s: ["kbit/s"],
+    up_kbit_s: ["kbit/s"],
+    worst_age_ms: ["ms"],
+    stale_groups: [""],
+  },
+  derived: {
+    tyre_min: ["degC"],
+    tyre_gate: ["degC"],
+    slip: [""],
+    fuel_per_lap: ["l"],
+    fuel_laps: [""],
+    fuel_attempts: [""],
+    ghost_x: ["m"],
+    ghost_y: ["m"],
+    ghost_yaw: ["rad"],
+    ghost_radius: ["m"],
+    slip_rear_front: [""],
+    slip_rear_gnss: [""],
+  },
 };
 const kFirstBaseField = 16_384;
 
 /** The catalogue as a base would serve it: the registry out of the real program, and its own. */
 export function catalogue(program = process.env.PITWALL_BASE ?? kProgram) {
-  const registry = JSON.parse(execFileSync(program, ["export", "json"], { maxBuffer: 1 << 24 }));
+  const registry = JSON.parse(
+    execFileSync(program, ["export", "json"], { maxBuffer: 1 << 24 }),
+  );
   const fields = [];
   let id = 0;
   for (const group of registry.groups) {
@@ -39,9 +65,18 @@ export function catalogue(program = process.env.PITWALL_BASE ?? kProgram) {
       const at = id++;
       if (group.direction !== "down") continue;
       fields.push({
-        id: at, path: field.path, group: group.name, name: field.name, unit: field.unit,
-        kind: field.kind, min: field.min, max: field.max, resolution: field.resolution,
-        labels: field.labels ?? null, period_ms: group.target_age_ms, limits: null,
+        id: at,
+        path: field.path,
+        group: group.name,
+        name: field.name,
+        unit: field.unit,
+        kind: field.kind,
+        min: field.min,
+        max: field.max,
+        resolution: field.resolution,
+        labels: field.labels ?? null,
+        period_ms: group.target_age_ms,
+        limits: null,
       });
     }
   }
@@ -49,8 +84,18 @@ export function catalogue(program = process.env.PITWALL_BASE ?? kProgram) {
   for (const [group, rows] of Object.entries(kBaseFields)) {
     for (const [name, [unit, labels]] of Object.entries(rows)) {
       fields.push({
-        id: own++, path: `${group}.${name}`, group, name, unit, kind: labels ? "integer" : "real",
-        min: 0, max: 1e6, resolution: 0.001, labels: labels ?? null, period_ms: 100, limits: null,
+        id: own++,
+        path: `${group}.${name}`,
+        group,
+        name,
+        unit,
+        kind: labels ? "integer" : "real",
+        min: 0,
+        max: 1e6,
+        resolution: 0.001,
+        labels: labels ?? null,
+        period_ms: 100,
+        limits: null,
       });
     }
   }
@@ -65,12 +110,24 @@ export class Double {
   /** False: the car is silent, ages grow, every field becomes stale in its time. */
   carAlive = true;
   layouts = new Map();
-  hello = { type: "hello", version: 1, car: 7, name: "Caracara", mode: "HIL", role: "operator",
-    client: 16, alarm_config: "3f2a", time_ns: 0, utc_ms: 0 };
+  hello = {
+    type: "hello",
+    version: 1,
+    car: 7,
+    name: "Caracara",
+    mode: "HIL",
+    role: "operator",
+    client: 16,
+    alarm_config: "3f2a",
+    time_ns: 0,
+    utc_ms: 0,
+  };
 
   constructor(known = catalogue()) {
     this.catalogue = known;
-    this.streams = known.fields.filter((f) => f.group === "streams").map((f) => f.path);
+    this.streams = known.fields
+      .filter((f) => f.group === "streams")
+      .map((f) => f.path);
     this.started = performance.now();
     this.silentSince = NaN;
     this.sequence = 0;
@@ -79,7 +136,9 @@ export class Double {
 
   /** Starts on a port of its own (or the given one) and resolves with its address. */
   async listen(port = 0) {
-    this.server = createServer((request, response) => this.serve(request, response));
+    this.server = createServer((request, response) =>
+      this.serve(request, response),
+    );
     this.sockets = new WebSocketServer({ server: this.server, path: "/ws" });
     this.sockets.on("connection", (socket) => this.greet(socket));
     await new Promise((done) => this.server.listen(port, "127.0.0.1", done));
@@ -104,7 +163,8 @@ export class Double {
   }
 
   say(message) {
-    for (const socket of this.sockets.clients) socket.send(JSON.stringify(message));
+    for (const socket of this.sockets.clients)
+      socket.send(JSON.stringify(message));
   }
 
   set(path, value, judgement = 0, quality = wire.kFresh) {
@@ -113,31 +173,46 @@ export class Double {
 
   entries() {
     const silentMs = this.carAlive ? 0 : this.nowMs() - this.silentSince;
-    const values = valuesAt((this.nowMs() - silentMs) / 1000 - 80, this.streams);
+    const values = valuesAt(
+      (this.nowMs() - silentMs) / 1000 - 80,
+      this.streams,
+    );
     return this.catalogue.fields.map((field) => {
       const own = this.overrides.get(field.path);
       const value = own?.value ?? values[field.path];
       if (value === undefined) {
-        return { id: field.id, status: wire.statusByte(wire.kNever), age: 255, value: NaN };
+        return {
+          id: field.id,
+          status: wire.statusByte(wire.kNever),
+          age: 255,
+          value: NaN,
+        };
       }
-      const age = silentMs + (own?.quality === wire.kStale ? 6 * field.period_ms : 20);
+      const age =
+        silentMs + (own?.quality === wire.kStale ? 6 * field.period_ms : 20);
       const quality = own?.quality || this.qualityAt(age, field.period_ms);
-      const judged = own?.judgement || (field.group === "streams" ? wire.kGood : 0);
+      const judged =
+        own?.judgement || (field.group === "streams" ? wire.kGood : 0);
       return {
-        id: field.id, value, age: wire.ageCode(age), status: wire.statusByte(quality, judged),
+        id: field.id,
+        value,
+        age: wire.ageCode(age),
+        status: wire.statusByte(quality, judged),
       };
     });
   }
 
   /** FRESH up to 1.5 periods, LATE up to 5, STALE after that or after 2 s. */
   qualityAt(ageMs, periodMs) {
-    if (ageMs > Math.min(5 * periodMs, Math.max(2000, 1.5 * periodMs))) return wire.kStale;
+    if (ageMs > Math.min(5 * periodMs, Math.max(2000, 1.5 * periodMs)))
+      return wire.kStale;
     return ageMs > 1.5 * periodMs ? wire.kLate : wire.kFresh;
   }
 
   tick() {
     const frame = wire.snapshot(this.entries(), {
-      sequence: ++this.sequence, timeMs: this.nowMs(),
+      sequence: ++this.sequence,
+      timeMs: this.nowMs(),
     });
     for (const socket of this.sockets.clients) socket.send(frame);
     for (const listener of this.frameListeners) listener(this.nowMs());
@@ -145,7 +220,11 @@ export class Double {
 
   greet(socket) {
     const texts = [
-      { ...this.hello, time_ns: this.nowMs() * 1e6, utc_ms: Date.UTC(2026, 0, 9, 19, 4, 12) },
+      {
+        ...this.hello,
+        time_ns: this.nowMs() * 1e6,
+        utc_ms: Date.UTC(2026, 0, 9, 19, 4, 12),
+      },
       { type: "catalogue", ...this.catalogue },
       ...(this.greetings ?? []),
     ];
@@ -158,9 +237,13 @@ export class Double {
     this.received.push(message);
     if (message.type === "history") {
       const points = Array.from({ length: 50 }, (_, i) => ({
-        timeS: this.nowMs() / 1000 - 60 + i, value: 60 + Math.sin(i / 4), quality: wire.kFresh,
+        timeS: this.nowMs() / 1000 - 60 + i,
+        value: 60 + Math.sin(i / 4),
+        quality: wire.kFresh,
       }));
-      socket.send(wire.history(message.field, points, { timeMs: this.nowMs() }));
+      socket.send(
+        wire.history(message.field, points, { timeMs: this.nowMs() }),
+      );
     }
     this.answers?.(message, (answer) => this.say(answer));
   }
@@ -174,11 +257,16 @@ export class Double {
     };
     if (path === "/api/catalogue") return json(this.catalogue);
     if (path === "/api/track") return json(kTrack);
-    if (path.startsWith("/api/layouts/")) return this.serveLayout(request, response, path);
-    const file = path === "/" ? "index.html" : normalize(path).replace(/^[/.]+/, "");
+    if (path.startsWith("/api/layouts/"))
+      return this.serveLayout(request, response, path);
+    const file =
+      path === "/" ? "index.html" : normalize(path).replace(/^[/.]+/, "");
     try {
       const bytes = await readFile(join(kDist, file));
-      response.setHeader("Content-Type", kTypes[extname(file)] ?? "application/octet-stream");
+      response.setHeader(
+        "Content-Type",
+        kTypes[extname(file)] ?? "application/octet-stream",
+      );
       response.end(bytes);
     } catch {
       response.writeHead(404).end("not found\n");

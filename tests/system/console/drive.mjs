@@ -18,13 +18,21 @@ export function centreAt(s) {
   if (at < kStraightM) return { x: at - half, y: -kRadiusM, yaw: 0 };
   if (at < kStraightM + kTurnM) {
     const a = (at - kStraightM) / kRadiusM;
-    return { x: half + kRadiusM * Math.sin(a), y: -kRadiusM * Math.cos(a), yaw: a };
+    return {
+      x: half + kRadiusM * Math.sin(a),
+      y: -kRadiusM * Math.cos(a),
+      yaw: a,
+    };
   }
   if (at < 2 * kStraightM + kTurnM) {
     return { x: half - (at - kStraightM - kTurnM), y: kRadiusM, yaw: Math.PI };
   }
   const a = (at - 2 * kStraightM - kTurnM) / kRadiusM;
-  return { x: -half - kRadiusM * Math.sin(a), y: kRadiusM * Math.cos(a), yaw: Math.PI + a };
+  return {
+    x: -half - kRadiusM * Math.sin(a),
+    y: kRadiusM * Math.cos(a),
+    yaw: Math.PI + a,
+  };
 }
 
 export function placeAt(s, offset) {
@@ -58,8 +66,12 @@ export const kTrack = {
 };
 
 const wheels = (group, values) =>
-  Object.fromEntries(["front_left", "front_right", "rear_left", "rear_right"]
-    .map((wheel, i) => [`${group}${wheel}`, values[i]]));
+  Object.fromEntries(
+    ["front_left", "front_right", "rear_left", "rear_right"].map((wheel, i) => [
+      `${group}${wheel}`,
+      values[i],
+    ]),
+  );
 
 function motion(t, speed) {
   const station = (speed * t) % kLengthM;
@@ -68,28 +80,50 @@ function motion(t, speed) {
   const turning = Math.abs(Math.sin(pose.yaw)) > 1e-9;
   const swing = Math.sin(t * 1.7);
   return {
-    "ego.x": pose.x, "ego.y": pose.y, "ego.yaw": Math.atan2(Math.sin(pose.yaw), Math.cos(pose.yaw)),
-    "ego.vx": speed + 0.4 * swing, "ego.vy": 0.05 * swing, "ego.validity": 1,
-    "ego.yaw_rate": turning ? speed / kRadiusM : 0, "ego.position_sigma": 0.012,
-    "track.station": station, "track.offset": offset, "track.target_speed": speed + 1,
-    "track.lap": Math.floor((speed * t) / kLengthM) + 3, "track.last_lap_time": 38.42,
-    "command.steering": turning ? 0.014 : 0.001 * swing, "command.throttle": 0.62 + 0.05 * swing,
-    "command.brake": 0, "command.gear": 6, "command.actuate": 1, "command.limited": 0,
-    "feedback.steering": (turning ? 0.0135 : 0.001 * swing) + 0.0004 * Math.sin(t * 9),
-    "feedback.throttle": 0.6 + 0.05 * Math.sin(t * 1.7 - 0.2), "feedback.gear": 6,
-    "feedback.brake_front": 0, "feedback.brake_rear": 0,
-    "dynamics.forward": 0.3 * swing, "dynamics.left": turning ? 21.2 : 0.2 * swing, "dynamics.up": 9.8,
-    "dynamics.lateral_error": 0.14 * Math.sin(t * 0.9), "dynamics.speed_error": 0.4 * swing,
+    "ego.x": pose.x,
+    "ego.y": pose.y,
+    "ego.yaw": Math.atan2(Math.sin(pose.yaw), Math.cos(pose.yaw)),
+    "ego.vx": speed + 0.4 * swing,
+    "ego.vy": 0.05 * swing,
+    "ego.validity": 1,
+    "ego.yaw_rate": turning ? speed / kRadiusM : 0,
+    "ego.position_sigma": 0.012,
+    "track.station": station,
+    "track.offset": offset,
+    "track.target_speed": speed + 1,
+    "track.lap": Math.floor((speed * t) / kLengthM) + 3,
+    "track.last_lap_time": 38.42,
+    "command.steering": turning ? 0.014 : 0.001 * swing,
+    "command.throttle": 0.62 + 0.05 * swing,
+    "command.brake": 0,
+    "command.gear": 6,
+    "command.actuate": 1,
+    "command.limited": 0,
+    "feedback.steering":
+      (turning ? 0.0135 : 0.001 * swing) + 0.0004 * Math.sin(t * 9),
+    "feedback.throttle": 0.6 + 0.05 * Math.sin(t * 1.7 - 0.2),
+    "feedback.gear": 6,
+    "feedback.brake_front": 0,
+    "feedback.brake_rear": 0,
+    "dynamics.forward": 0.3 * swing,
+    "dynamics.left": turning ? 21.2 : 0.2 * swing,
+    "dynamics.up": 9.8,
+    "dynamics.lateral_error": 0.14 * Math.sin(t * 0.9),
+    "dynamics.speed_error": 0.4 * swing,
     ...wheels("wheels.", [speed, speed + 0.1, speed + 0.3, speed + 0.4]),
   };
 }
 
 function rivals(t, speed) {
   const values = {};
-  [[12, 78, 4.5], [31, -46, 1.0]].forEach(([identity, gap, offset], i) => {
+  [
+    [12, 78, 4.5],
+    [31, -46, 1.0],
+  ].forEach(([identity, gap, offset], i) => {
     const group = `opponent_${i + 1}.`;
     values[`${group}identity`] = identity;
-    values[`${group}station`] = (speed * t + gap + 6 * Math.sin(t / 5) + kLengthM) % kLengthM;
+    values[`${group}station`] =
+      (speed * t + gap + 6 * Math.sin(t / 5) + kLengthM) % kLengthM;
     values[`${group}offset`] = offset;
     values[`${group}speed`] = speed + 1.2 * Math.cos(t / 5);
     values[`${group}age`] = 0.05;
@@ -100,7 +134,15 @@ function rivals(t, speed) {
 
 function body(t) {
   const sensors = {};
-  const nominal = { gnss0: 20, gnss1: 20, imu0: 125, imu1: 125, lidar: 20, camera: 10, radar: 14 };
+  const nominal = {
+    gnss0: 20,
+    gnss1: 20,
+    imu0: 125,
+    imu1: 125,
+    lidar: 20,
+    camera: 10,
+    radar: 14,
+  };
   for (const [name, rate] of Object.entries(nominal)) {
     sensors[`sensors.${name}_rate`] = rate;
     sensors[`sensors.${name}_gap`] = Math.round(1100 / rate);
@@ -110,14 +152,30 @@ function body(t) {
     ...sensors,
     ...wheels("tyres.temperature_", [74 + Math.sin(t / 20), 88, 79, 92]),
     ...wheels("tyres.pressure_", [152, 176, 149, 171]),
-    ...wheels("tread.inner_", [78, 92, 81, 95]), ...wheels("tread.outer_", [70, 84, 76, 88]),
-    "engine.speed": 5900 + 60 * Math.sin(t), "engine.running": 1, "engine.fuel_pressure": 412,
-    "engine.oil_pressure": 545, "engine.coolant": 88, "powertrain.oil": 104,
-    "powertrain.transmission": 91, "powertrain.torque": 310, "electric.battery": 13.8,
-    "fuel.level": 31.4 - t / 500, "fuel.used": 12 + t / 500, "fuel.flow": 41, "fuel.laps_left": 14,
-    "computer.processor": 0.61, "computer.memory": 3120, "computer.temperature": 68,
-    "computer.step_time_p50": 310, "computer.step_time_max": 1420, "computer.missed_deadlines": 0,
-    "localization.sigma_x": 0.012, "localization.sigma_y": 0.011, "localization.height": 601.2,
+    ...wheels("tread.inner_", [78, 92, 81, 95]),
+    ...wheels("tread.outer_", [70, 84, 76, 88]),
+    "engine.speed": 5900 + 60 * Math.sin(t),
+    "engine.running": 1,
+    "engine.fuel_pressure": 412,
+    "engine.oil_pressure": 545,
+    "engine.coolant": 88,
+    "powertrain.oil": 104,
+    "powertrain.transmission": 91,
+    "powertrain.torque": 310,
+    "electric.battery": 13.8,
+    "fuel.level": 31.4 - t / 500,
+    "fuel.used": 12 + t / 500,
+    "fuel.flow": 41,
+    "fuel.laps_left": 14,
+    "computer.processor": 0.61,
+    "computer.memory": 3120,
+    "computer.temperature": 68,
+    "computer.step_time_p50": 310,
+    "computer.step_time_max": 1420,
+    "computer.missed_deadlines": 0,
+    "localization.sigma_x": 0.012,
+    "localization.sigma_y": 0.011,
+    "localization.height": 601.2,
   };
 }
 
@@ -125,9 +183,14 @@ function receivers() {
   const values = {};
   for (const unit of ["gnss0", "gnss1"]) {
     Object.assign(values, {
-      [`${unit}.status`]: 0, [`${unit}.type`]: 50, [`${unit}.satellites`]: unit === "gnss0" ? 19 : 17,
-      [`${unit}.sigma`]: 0.012, [`${unit}.heading_sigma`]: 0.0014,
-      [`${unit}.differential_age`]: 1, [`${unit}.position_verdict`]: 1, [`${unit}.speed`]: 66,
+      [`${unit}.status`]: 0,
+      [`${unit}.type`]: 50,
+      [`${unit}.satellites`]: unit === "gnss0" ? 19 : 17,
+      [`${unit}.sigma`]: 0.012,
+      [`${unit}.heading_sigma`]: 0.0014,
+      [`${unit}.differential_age`]: 1,
+      [`${unit}.position_verdict`]: 1,
+      [`${unit}.speed`]: 66,
     });
   }
   return values;
@@ -137,18 +200,49 @@ function receivers() {
 export function valuesAt(t, streams) {
   const speed = 62;
   return {
-    "mode.mode": 2, "mode.ct_state": 9, "mode.sys_state": 8, "mode.first_stop_cause": 0,
-    "mode.arming": 1, "mode.stop_latch": 0, "mode.stop_challenge": 17, "mode.quiet": 0,
-    "flags.track": 4, "flags.vehicle": 10, "flags.round_target_speed": 62.6,
-    "flags.heartbeat_age": 0.05, "flags.track_acted_on": 4, "flags.vehicle_acted_on": 10,
-    "flags.conflict": 0, "planner.role": 2, "planner.primitive": 1, "planner.operator_limit": 65,
-    ...motion(t, speed), ...rivals(t, speed), ...body(t), ...receivers(),
+    "mode.mode": 2,
+    "mode.ct_state": 9,
+    "mode.sys_state": 8,
+    "mode.first_stop_cause": 0,
+    "mode.arming": 1,
+    "mode.stop_latch": 0,
+    "mode.stop_challenge": 17,
+    "mode.quiet": 0,
+    "flags.track": 4,
+    "flags.vehicle": 10,
+    "flags.round_target_speed": 62.6,
+    "flags.heartbeat_age": 0.05,
+    "flags.track_acted_on": 4,
+    "flags.vehicle_acted_on": 10,
+    "flags.conflict": 0,
+    "planner.role": 2,
+    "planner.primitive": 1,
+    "planner.operator_limit": 65,
+    ...motion(t, speed),
+    ...rivals(t, speed),
+    ...body(t),
+    ...receivers(),
     ...Object.fromEntries(streams.map((path) => [path, 2])),
-    "radio.base": 2, "radio.rung": 0, "radio.silence": 0.04, "radio.round_trip": 31,
-    "link.state": 1, "link.silence_ms": 20, "link.down_loss": 0.012, "link.up_loss": 0.004,
-    "link.rtt_ms": 31 + 4 * Math.sin(t), "link.jitter_ms": 3.2, "link.down_kbit_s": 52.4,
-    "link.down_cap_kbit_s": 56, "link.up_kbit_s": 6.1, "link.worst_age_ms": 84,
-    "link.stale_groups": 0, "derived.tyre_min": 74, "derived.tyre_gate": 79, "derived.slip": 0.006,
-    "derived.fuel_per_lap": 2.1, "derived.fuel_laps": 14.9, "derived.fuel_attempts": 6,
+    "radio.base": 2,
+    "radio.rung": 0,
+    "radio.silence": 0.04,
+    "radio.round_trip": 31,
+    "link.state": 1,
+    "link.silence_ms": 20,
+    "link.down_loss": 0.012,
+    "link.up_loss": 0.004,
+    "link.rtt_ms": 31 + 4 * Math.sin(t),
+    "link.jitter_ms": 3.2,
+    "link.down_kbit_s": 52.4,
+    "link.down_cap_kbit_s": 56,
+    "link.up_kbit_s": 6.1,
+    "link.worst_age_ms": 84,
+    "link.stale_groups": 0,
+    "derived.tyre_min": 74,
+    "derived.tyre_gate": 79,
+    "derived.slip": 0.006,
+    "derived.fuel_per_lap": 2.1,
+    "derived.fuel_laps": 14.9,
+    "derived.fuel_attempts": 6,
   };
 }

@@ -26,12 +26,23 @@ afterEach(async () => {
 });
 
 const kHarmless = ["history", "mark", "ack", "ping"];
-const commands = () => double.received.filter((m) => !kHarmless.includes(m.type) &&
-  !(m.type === "authority" && m.do === "renew"));
+const commands = () =>
+  double.received.filter(
+    (m) =>
+      !kHarmless.includes(m.type) &&
+      !(m.type === "authority" && m.do === "renew"),
+  );
 
 test("no single key sends a command", async () => {
   const { page } = await open(browser, address);
-  for (const name of ["primary", "plots", "telemetry", "link", "commands", "alarms"]) {
+  for (const name of [
+    "primary",
+    "plots",
+    "telemetry",
+    "link",
+    "commands",
+    "alarms",
+  ]) {
     await page.evaluate((hash) => (location.hash = hash), `#/${name}`);
     for (let code = 32; code < 127; ++code) {
       await page.keyboard.press(String.fromCharCode(code));
@@ -75,7 +86,9 @@ test("Escape twice within 600 ms is a controlled stop, later it is none", async 
 test("stops work from inside a text field, a dialog and a held view", async () => {
   const { page } = await open(browser, address);
   await page.keyboard.press(" ");
-  await until(page, "held", () => document.querySelector('.frame[data-held="true"]'));
+  await until(page, "held", () =>
+    document.querySelector('.frame[data-held="true"]'),
+  );
   await page.keyboard.press("/");
   await page.keyboard.type("ego");
   await page.keyboard.press("Control+Shift+E");
@@ -112,10 +125,15 @@ test("the emergency button acts after 400 ms, not on a tap", async () => {
 test("a stop without a base says that it was not sent", async () => {
   const { page } = await open(browser, address);
   await double.close();
-  await until(page, "no connection", () => !globalThis.pitwall.session.connected.value);
+  await until(
+    page,
+    "no connection",
+    () => !globalThis.pitwall.session.connected.value,
+  );
   await page.click("button.stop.controlled");
   await until(page, "NOT SENT", () =>
-    document.querySelector(".outcome").textContent.startsWith("NOT SENT"));
+    document.querySelector(".outcome").textContent.startsWith("NOT SENT"),
+  );
   await double.listen();
 });
 
@@ -130,15 +148,28 @@ test("stage, gates, hold: the keyboard alone, from any page", async () => {
   double.greetings = double.greetings.filter((m) => m.type !== "command");
   double.answers = (message, say) => {
     if (message.type !== "stage") return;
-    say({ type: "command", ticket: 50, name: message.name, argument: message.argument,
-      by: "console 16", step: "gated", times_ms: { staged: 1, gated: 2 }, text: "",
-      gates: [{ name: "tyres", ok: true, value: 81, age_ms: 100, text: "warm" }] });
+    say({
+      type: "command",
+      ticket: 50,
+      name: message.name,
+      argument: message.argument,
+      by: "console 16",
+      step: "gated",
+      times_ms: { staged: 1, gated: 2 },
+      text: "",
+      gates: [
+        { name: "tyres", ok: true, value: 81, age_ms: 100, text: "warm" },
+      ],
+    });
   };
   const { page } = await open(browser, address, { ownClock: true });
   await page.keyboard.press("5");
   const reach = async (selector) => {
     for (let n = 0; n < 80; ++n) {
-      if (await page.evaluate((s) => document.activeElement?.matches(s), selector)) return;
+      if (
+        await page.evaluate((s) => document.activeElement?.matches(s), selector)
+      )
+        return;
       await page.keyboard.press("Tab");
     }
     assert.fail(`Tab does not reach ${selector}`);
@@ -149,10 +180,15 @@ test("stage, gates, hold: the keyboard alone, from any page", async () => {
   await page.keyboard.press("Control+A");
   await page.keyboard.type("120");
   await page.keyboard.press("Enter");
-  await until(page, "the gates", () => document.querySelector(".gate[data-ok=true]"));
+  await until(page, "the gates", () =>
+    document.querySelector(".gate[data-ok=true]"),
+  );
   const staged = commands().find((m) => m.type === "stage");
   assert.equal(staged.name, "speed limit");
-  assert.ok(Math.abs(staged.argument - 53.645) < 0.01, `${staged.argument} m/s of 120 mph`);
+  assert.ok(
+    Math.abs(staged.argument - 53.645) < 0.01,
+    `${staged.argument} m/s of 120 mph`,
+  );
   await reach("button.send");
   await page.clock.pauseAt((await page.evaluate(() => Date.now())) + 2000);
   await page.keyboard.down("Enter");
@@ -179,8 +215,11 @@ test("a gate that refuses needs a reason and a second person", async () => {
   await page.mouse.down();
   await page.waitForTimeout(900);
   await page.mouse.up();
-  assert.deepEqual(commands().at(-1),
-    { type: "send", ticket: 41, override: { reason: "test run", token: "secret" } });
+  assert.deepEqual(commands().at(-1), {
+    type: "send",
+    ticket: 41,
+    override: { reason: "test run", token: "secret" },
+  });
 });
 
 test("keys find a field, plot it and acknowledge an alarm", async () => {
@@ -188,11 +227,19 @@ test("keys find a field, plot it and acknowledge an alarm", async () => {
   await page.keyboard.press("/");
   await page.keyboard.type("oil_pres");
   await page.keyboard.press("Enter");
-  await until(page, "the plot", () => location.hash === "#/plots" &&
-    document.querySelector('[aria-label="chart engine.oil_pressure"] canvas'));
+  await until(
+    page,
+    "the plot",
+    () =>
+      location.hash === "#/plots" &&
+      document.querySelector('[aria-label="chart engine.oil_pressure"] canvas'),
+  );
   await page.keyboard.press("a");
   await page.waitForTimeout(100);
-  assert.deepEqual(double.received.filter((m) => m.type === "ack"), [{ type: "ack", alarm: 1 }]);
+  assert.deepEqual(
+    double.received.filter((m) => m.type === "ack"),
+    [{ type: "ack", alarm: 1 }],
+  );
   await page.keyboard.press("A");
   await page.waitForTimeout(100);
   assert.deepEqual(double.received.at(-1), { type: "ack", all: [1, 2, 4] });
@@ -201,22 +248,34 @@ test("keys find a field, plot it and acknowledge an alarm", async () => {
 test("pause, scrub and back to live concern the view alone", async () => {
   const { page } = await open(browser, address, { hash: "#/telemetry" });
   await page.waitForTimeout(2500);
-  const lap = () => page.evaluate(() => {
-    const { session } = globalThis.pitwall;
-    return session.history.newestMs();
-  });
+  const lap = () =>
+    page.evaluate(() => {
+      const { session } = globalThis.pitwall;
+      return session.history.newestMs();
+    });
   const before = await lap();
   await page.keyboard.press(" ");
   await page.keyboard.press("ArrowLeft");
   await until(page, "the past", () =>
-    /^\u2212[12]\.\d s$/.test(document.querySelector(".behind").textContent));
+    /^\u2212[12]\.\d s$/.test(document.querySelector(".behind").textContent),
+  );
   const station = () => page.textContent('[data-path="ego.x"] .digits');
   const held = await station();
   await page.waitForTimeout(600);
   assert.equal(await station(), held, "the view stands still");
   assert.ok((await lap()) > before, "the record runs on");
   await page.keyboard.press("l");
-  await until(page, "live", () => document.querySelector(".behind").textContent === "LIVE");
-  await until(page, "the present", (past) =>
-    document.querySelector('[data-path="ego.x"] .digits').textContent !== past, held);
+  await until(
+    page,
+    "live",
+    () => document.querySelector(".behind").textContent === "LIVE",
+  );
+  await until(
+    page,
+    "the present",
+    (past) =>
+      document.querySelector('[data-path="ego.x"] .digits').textContent !==
+      past,
+    held,
+  );
 });

@@ -27,8 +27,12 @@ afterEach(async () => {
 /** Values drawn with a colour, or as if they were fresh: there must be none when all is silent. */
 const alive = () =>
   [...document.querySelectorAll(".value, .bar")]
-    .filter((e) => ["fresh", "late"].includes(e.dataset.quality) ||
-      (e.dataset.judgement ?? "none") !== "none" || (e.dataset.flag ?? "none") !== "none")
+    .filter(
+      (e) =>
+        ["fresh", "late"].includes(e.dataset.quality) ||
+        (e.dataset.judgement ?? "none") !== "none" ||
+        (e.dataset.flag ?? "none") !== "none",
+    )
     .map((e) => e.dataset.path ?? e.getAttribute("aria-label"));
 
 test("live values within a second of loading", async () => {
@@ -43,31 +47,52 @@ test("live values within a second of loading", async () => {
 test("a field that was never heard is an en dash, a zero is a zero", async () => {
   const { page } = await open(browser, address, { hash: "#/telemetry" });
   await page.fill("input[type=search]", "uplink.stop_reason");
-  await until(page, "an en dash", () =>
-    document.querySelector('[data-path="uplink.stop_reason"] .digits')?.textContent === "\u2013");
+  await until(
+    page,
+    "an en dash",
+    () =>
+      document.querySelector('[data-path="uplink.stop_reason"] .digits')
+        ?.textContent === "\u2013",
+  );
   await page.fill("input[type=search]", "feedback.brake_front");
-  await until(page, "a zero", () =>
-    document.querySelector('[data-path="feedback.brake_front"] .digits')?.textContent === "0");
+  await until(
+    page,
+    "a zero",
+    () =>
+      document.querySelector('[data-path="feedback.brake_front"] .digits')
+        ?.textContent === "0",
+  );
 });
 
 test("the car falls silent: every value stale, none coloured, each keeps its digits", async () => {
-  for (const path of ["derived.slip", "tyres.temperature_front_left", "sensors.lidar_rate"]) {
+  for (const path of [
+    "derived.slip",
+    "tyres.temperature_front_left",
+    "sensors.lidar_rate",
+  ]) {
     double.set(path, 0.5, path.startsWith("derived") ? kBad : kWarning);
   }
   const { page } = await open(browser, address);
-  await until(page, "colours", () => document.querySelector('[data-judgement="bad"]'));
+  await until(page, "colours", () =>
+    document.querySelector('[data-judgement="bad"]'),
+  );
   const before = await page.textContent('[data-path="derived.slip"] .digits');
   double.silence();
   for (let n = 0; n < 100 && (await page.evaluate(alive)).length > 0; ++n) {
     await page.waitForTimeout(100);
   }
   assert.deepEqual(await page.evaluate(alive), []);
-  assert.equal(await page.textContent('[data-path="derived.slip"] .digits'), before);
+  assert.equal(
+    await page.textContent('[data-path="derived.slip"] .digits'),
+    before,
+  );
   const drawn = await page.evaluate(() => {
     const digits = document.querySelector('[data-path="ego.vx"] .digits');
     const style = getComputedStyle(digits);
-    return { line: style.textDecorationLine,
-      age: document.querySelector('[data-path="ego.vx"] .age').textContent };
+    return {
+      line: style.textDecorationLine,
+      age: document.querySelector('[data-path="ego.vx"] .age').textContent,
+    };
   });
   assert.equal(drawn.line, "line-through");
   assert.match(drawn.age, /s$/);
@@ -77,8 +102,16 @@ test("the base dies: within 600 ms nothing looks alive, and a new one is found a
   const { page } = await open(browser, address);
   const port = Number(new URL(address).port);
   await double.close();
-  await until(page, "NO BASE", () =>
-    document.querySelector(".link-tile .word").textContent.startsWith("NO BASE"), undefined, 2000);
+  await until(
+    page,
+    "NO BASE",
+    () =>
+      document
+        .querySelector(".link-tile .word")
+        .textContent.startsWith("NO BASE"),
+    undefined,
+    2000,
+  );
   for (const name of kPages) {
     await page.evaluate((hash) => (location.hash = hash), `#/${name}`);
     await page.waitForTimeout(400);
@@ -89,14 +122,23 @@ test("the base dies: within 600 ms nothing looks alive, and a new one is found a
   double = new Double();
   await double.listen(port);
   const from = Date.now();
-  await until(page, "fresh values again", () => document.querySelector('[data-quality="fresh"]'));
+  await until(page, "fresh values again", () =>
+    document.querySelector('[data-quality="fresh"]'),
+  );
   assert.ok(Date.now() - from < 2500, `back after ${Date.now() - from} ms`);
 });
 
 test("frames and texts that are none are counted and change nothing", async () => {
   const { page, faults } = await open(browser, address);
   for (const socket of double.sockets.clients) {
-    for (const text of ["", "{", "null", "[]", '{"type":"constructor"}', '{"type":7}']) {
+    for (const text of [
+      "",
+      "{",
+      "null",
+      "[]",
+      '{"type":"constructor"}',
+      '{"type":7}',
+    ]) {
       socket.send(text);
     }
     socket.send(Buffer.from([9, 9, 9]));
@@ -115,12 +157,24 @@ test("in which world we are cannot be mistaken", async () => {
   for (const mode of ["REAL", "HIL", "REPLAY", "NONE"]) {
     double.hello.mode = mode;
     const { page, context } = await open(browser, address);
-    await until(page, "mode", (m) => document.querySelector(".frame").dataset.mode === m, mode);
+    await until(
+      page,
+      "mode",
+      (m) => document.querySelector(".frame").dataset.mode === m,
+      mode,
+    );
     const look = await page.evaluate(() => {
-      const border = getComputedStyle(document.querySelector(".frame"), "::after");
+      const border = getComputedStyle(
+        document.querySelector(".frame"),
+        "::after",
+      );
       const word = document.querySelector(".mode-word");
-      return [word.textContent, border.borderTopStyle, border.borderImageSource,
-        getComputedStyle(word).backgroundColor].join(" | ");
+      return [
+        word.textContent,
+        border.borderTopStyle,
+        border.borderImageSource,
+        getComputedStyle(word).backgroundColor,
+      ].join(" | ");
     });
     seen.add(look);
     const stops = await page.locator("button.stop").count();

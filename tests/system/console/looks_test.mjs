@@ -38,28 +38,57 @@ after(async () => {
 const cutOff = () => {
   const found = [];
   const seen = (e) => e.getClientRects().length > 0;
-  for (const e of document.querySelectorAll(".primary, .primary .panel, .primary .column, body")) {
-    if (e.scrollHeight > e.clientHeight + 1 || e.scrollWidth > e.clientWidth + 1) {
-      found.push(`${e.className || e.tagName} ${e.scrollWidth}x${e.scrollHeight} in ` +
-        `${e.clientWidth}x${e.clientHeight}`);
+  for (const e of document.querySelectorAll(
+    ".primary, .primary .panel, .primary .column, body",
+  )) {
+    if (
+      e.scrollHeight > e.clientHeight + 1 ||
+      e.scrollWidth > e.clientWidth + 1
+    ) {
+      found.push(
+        `${e.className || e.tagName} ${e.scrollWidth}x${e.scrollHeight} in ` +
+          `${e.clientWidth}x${e.clientHeight}`,
+      );
     }
   }
-  for (const e of document.querySelectorAll(".primary .digits, .top-bar .digits, .top-bar .word")) {
-    if (seen(e) && e.scrollWidth > e.clientWidth + 1 && getComputedStyle(e).display !== "inline") {
-      found.push(`digits cut: ${e.textContent} (${e.parentElement.dataset.path ?? "frame"})`);
+  for (const e of document.querySelectorAll(
+    ".primary .digits, .top-bar .digits, .top-bar .word",
+  )) {
+    if (
+      seen(e) &&
+      e.scrollWidth > e.clientWidth + 1 &&
+      getComputedStyle(e).display !== "inline"
+    ) {
+      found.push(
+        `digits cut: ${e.textContent} (${e.parentElement.dataset.path ?? "frame"})`,
+      );
     }
   }
-  const panels = [...document.querySelectorAll(".primary .panel")].map((e) =>
-    [e.className, e.getBoundingClientRect()]);
-  panels.forEach(([a, p], i) => panels.slice(i + 1).forEach(([b, q]) => {
-    if (p.left < q.right - 1 && q.left < p.right - 1 && p.top < q.bottom - 1 && q.top < p.bottom - 1) {
-      found.push(`${a} over ${b}`);
-    }
-  }));
-  for (const e of document.querySelectorAll(".primary .value, .primary .label")) {
+  const panels = [...document.querySelectorAll(".primary .panel")].map((e) => [
+    e.className,
+    e.getBoundingClientRect(),
+  ]);
+  panels.forEach(([a, p], i) =>
+    panels.slice(i + 1).forEach(([b, q]) => {
+      if (
+        p.left < q.right - 1 &&
+        q.left < p.right - 1 &&
+        p.top < q.bottom - 1 &&
+        q.top < p.bottom - 1
+      ) {
+        found.push(`${a} over ${b}`);
+      }
+    }),
+  );
+  for (const e of document.querySelectorAll(
+    ".primary .value, .primary .label",
+  )) {
     const panel = e.closest(".panel").getBoundingClientRect();
     const box = e.getBoundingClientRect();
-    if (seen(e) && (box.bottom > panel.bottom + 1 || box.right > panel.right + 1)) {
+    if (
+      seen(e) &&
+      (box.bottom > panel.bottom + 1 || box.right > panel.right + 1)
+    ) {
       found.push(`out of its panel: ${e.textContent}`);
     }
   }
@@ -67,13 +96,12 @@ const cutOff = () => {
 };
 
 for (const size of kSizes) {
-  test(`the primary page fits ${size.join(" x ")}: no scroll bar, nothing cut or over another`,
-    async () => {
-      const { page, context } = await open(browser, address, { size });
-      await page.waitForTimeout(800);
-      assert.deepEqual(await page.evaluate(cutOff), []);
-      await context.close();
-    });
+  test(`primary fits ${size.join(" x ")}: no scroll bar, nothing cut or over another`, async () => {
+    const { page, context } = await open(browser, address, { size });
+    await page.waitForTimeout(800);
+    assert.deepEqual(await page.evaluate(cutOff), []);
+    await context.close();
+  });
 }
 
 test("targets are large enough on every page", async () => {
@@ -81,15 +109,31 @@ test("targets are large enough on every page", async () => {
   for (const name of kPages) {
     await page.evaluate((hash) => (location.hash = hash), `#/${name}`);
     await page.waitForTimeout(300);
-    const small = await page.evaluate(([touch, command]) =>
-      [...document.querySelectorAll("button, select, input:not([type=range])")]
-        .filter((e) => e.getClientRects().length > 0)
-        .map((e) => [e, e.getBoundingClientRect(),
-          e.matches(".stop, .send, .stage *") ? command : touch])
-        .filter(([e, box, least]) => box.height < (e.closest(".alarm-line, .chart") ? 32 : least) - 0.5
-          || box.width < touch - 0.5)
-        .map(([e, box]) => `${e.textContent || e.ariaLabel} ${box.width}x${box.height}`),
-    [kTouchPx, kCommandPx]);
+    const small = await page.evaluate(
+      ([touch, command]) =>
+        [
+          ...document.querySelectorAll(
+            "button, select, input:not([type=range])",
+          ),
+        ]
+          .filter((e) => e.getClientRects().length > 0)
+          .map((e) => [
+            e,
+            e.getBoundingClientRect(),
+            e.matches(".stop, .send, .stage *") ? command : touch,
+          ])
+          .filter(
+            ([e, box, least]) =>
+              box.height <
+                (e.closest(".alarm-line, .chart") ? 32 : least) - 0.5 ||
+              box.width < touch - 0.5,
+          )
+          .map(
+            ([e, box]) =>
+              `${e.textContent || e.ariaLabel} ${box.width}x${box.height}`,
+          ),
+      [kTouchPx, kCommandPx],
+    );
     assert.deepEqual(small, [], name);
   }
   await context.close();
@@ -103,9 +147,18 @@ test("axe finds nothing serious on any page in any theme", async () => {
       await page.evaluate((hash) => (location.hash = hash), `#/${name}`);
       await page.waitForTimeout(400);
       const grave = await page.evaluate(async () => {
-        const { violations } = await globalThis.axe.run(document, { resultTypes: ["violations"] });
-        return violations.filter((v) => ["serious", "critical"].includes(v.impact))
-          .map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 120)).join(" | ")}`);
+        const { violations } = await globalThis.axe.run(document, {
+          resultTypes: ["violations"],
+        });
+        return violations
+          .filter((v) => ["serious", "critical"].includes(v.impact))
+          .map(
+            (v) =>
+              `${v.id}: ${v.nodes
+                .slice(0, 3)
+                .map((n) => n.html.slice(0, 120))
+                .join(" | ")}`,
+          );
       });
       assert.deepEqual(grave, [], `${name} in ${theme}`);
     }
@@ -119,25 +172,41 @@ const texts = () => {
     for (let at = e; at; at = at.parentElement) {
       const { backgroundColor, backgroundImage } = getComputedStyle(at);
       if (backgroundImage !== "none") return null;
-      if (!/^rgba.*, 0\)$|transparent/.test(backgroundColor)) return backgroundColor;
+      if (!/^rgba.*, 0\)$|transparent/.test(backgroundColor))
+        return backgroundColor;
     }
     return "rgb(255, 255, 255)";
   };
   const found = new Map();
   for (const e of document.querySelectorAll("#console *")) {
-    const own = [...e.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim() !== "");
-    if (!own || e.getClientRects().length === 0 || e.closest(".heard-only, [disabled], option")) continue;
+    const own = [...e.childNodes].some(
+      (n) => n.nodeType === 3 && n.textContent.trim() !== "",
+    );
+    if (
+      !own ||
+      e.getClientRects().length === 0 ||
+      e.closest(".heard-only, [disabled], option")
+    )
+      continue;
     const style = getComputedStyle(e);
     if (style.visibility === "hidden") continue;
     const ground = behind(e);
     if (ground === null) continue;
-    const status = e.closest('[data-judgement="warning"], [data-judgement="bad"], .count, ' +
-      '.alarm-line, .alarm .state, .gate, .fallen, .stop, .mode-word, .flood, .dvr-bar .behind, ' +
-      '[data-quality="stale"], [data-quality="never"]') !== null;
+    const status =
+      e.closest(
+        '[data-judgement="warning"], [data-judgement="bad"], .count, ' +
+          ".alarm-line, .alarm .state, .gate, .fallen, .stop, .mode-word, .flood, .behind, " +
+          '[data-quality="stale"], [data-quality="never"]',
+      ) !== null;
     const key = `${style.color} on ${ground} ${status}`;
     if (!found.has(key)) {
-      found.set(key, { ink: style.color, ground, status, example: e.textContent.slice(0, 30),
-        where: e.className || e.tagName });
+      found.set(key, {
+        ink: style.color,
+        ground,
+        status,
+        example: e.textContent.slice(0, 30),
+        where: e.className || e.tagName,
+      });
     }
   }
   return [...found.values()];
@@ -152,9 +221,15 @@ test("text has its contrast: 7 to 1, status words 4.5 to 1", async () => {
       const drawn = await page.evaluate(texts);
       assert.ok(drawn.length > 3, "there is text");
       const weak = drawn
-        .map((t) => ({ ...t, ratio: contrast(parseColour(t.ink), parseColour(t.ground)) }))
+        .map((t) => ({
+          ...t,
+          ratio: contrast(parseColour(t.ink), parseColour(t.ground)),
+        }))
         .filter((t) => t.ratio < (t.status ? kStatusContrast : kTextContrast))
-        .map((t) => `${t.ratio.toFixed(2)} ${t.where} "${t.example}" ${t.ink} on ${t.ground}`);
+        .map(
+          (t) =>
+            `${t.ratio.toFixed(2)} ${t.where} "${t.example}" ${t.ink} on ${t.ground}`,
+        );
       assert.deepEqual(weak, [], `${name} in ${theme}`);
     }
     await context.close();
@@ -166,7 +241,8 @@ test("good, warning and bad as drawn stay apart for every colour vision", async 
     const { page, context } = await open(browser, address, { theme });
     await page.waitForTimeout(500);
     const drawn = await page.evaluate(() => {
-      const fill = (selector) => getComputedStyle(document.querySelector(selector)).backgroundColor;
+      const fill = (selector) =>
+        getComputedStyle(document.querySelector(selector)).backgroundColor;
       return {
         good: fill('.watchdogs .value[data-judgement="good"] .mark'),
         warning: fill('.watchdogs .value[data-judgement="warning"]'),
@@ -177,8 +253,10 @@ test("good, warning and bad as drawn stay apart for every colour vision", async 
     for (const a of names) {
       for (const b of names.slice(names.indexOf(a) + 1)) {
         const least = cvdDistance(parseColour(drawn[a]), parseColour(drawn[b]));
-        assert.ok(least >= kLeastDistance,
-          `${theme}: ${a} ${drawn[a]} and ${b} ${drawn[b]} are ${least.toFixed(1)} apart`);
+        assert.ok(
+          least >= kLeastDistance,
+          `${theme}: ${a} ${drawn[a]} and ${b} ${drawn[b]} are ${least.toFixed(1)} apart`,
+        );
       }
     }
     await context.close();
@@ -191,8 +269,12 @@ test("a stale value is grey and struck, and has a shape besides its colour", asy
   const drawn = await page.evaluate(() => {
     const value = document.querySelector('.value[data-quality="stale"]');
     const style = (selector) => getComputedStyle(value.querySelector(selector));
-    return { line: style(".digits").textDecorationLine, mark: style(".mark").display,
-      shape: style(".mark").clipPath, ink: style(".digits").color };
+    return {
+      line: style(".digits").textDecorationLine,
+      mark: style(".mark").display,
+      shape: style(".mark").clipPath,
+      ink: style(".digits").color,
+    };
   });
   assert.equal(drawn.line, "line-through");
   assert.equal(drawn.mark, "block");

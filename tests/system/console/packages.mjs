@@ -11,4 +11,7 @@ const require = createRequire(`${kRoot}basestation/console/package.json`);
 
 export const { chromium } = require("playwright-core");
 export const { WebSocketServer, WebSocket } = require("ws");
-export const kAxe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
+export const kAxe = readFileSync(
+  require.resolve("axe-core/axe.min.js"),
+  "utf8",
+);

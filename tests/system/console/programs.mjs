@@ -3,13 +3,16 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import { execFileSync, spawn } from "node:child_process";
-import { mkdtempSync, rmSync } from "node:fs";
+import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { kRoot } from "./packages.mjs";
 
-const kBase = process.env.PITWALL_BASE ?? join(kRoot, "build/release/basestation/pitwall-base");
-const kCar = process.env.PITWALL_CAR ??
+const kBase =
+  process.env.PITWALL_BASE ??
+  join(kRoot, "build/release/basestation/pitwall-base");
+const kCar =
+  process.env.PITWALL_CAR ??
   join(kRoot, "build/release/tests/system/basestation/radio_car");
 const kPatienceMs = 20_000;
 
@@ -17,8 +20,13 @@ const kPatienceMs = 20_000;
 function said(process, patterns) {
   return new Promise((resolve, reject) => {
     let text = "";
-    const timer = setTimeout(() => reject(new Error(`said only: ${text}`)), kPatienceMs);
-    process.on("exit", (code) => reject(new Error(`ended with ${code}: ${text}`)));
+    const timer = setTimeout(
+      () => reject(new Error(`said only: ${text}`)),
+      kPatienceMs,
+    );
+    process.on("exit", (code) =>
+      reject(new Error(`ended with ${code}: ${text}`)),
+    );
     process.stderr.on("data", (part) => {
       text += part;
       const found = patterns.map((pattern) => pattern.exec(text));
@@ -30,8 +38,10 @@ function said(process, patterns) {
   });
 }
 
-const ended = (process) => process.exitCode !== null || process.signalCode !== null
-  ? Promise.resolve() : new Promise((done) => process.once("exit", done));
+const ended = (process) =>
+  process.exitCode !== null || process.signalCode !== null
+    ? Promise.resolve()
+    : new Promise((done) => process.once("exit", done));
 
 export class Programs {
   folder = mkdtempSync(join(tmpdir(), "pitwall-console-"));
@@ -39,26 +49,47 @@ export class Programs {
   carSaid = "";
 
   constructor() {
+    mkdirSync(join(this.folder, "layouts"));
     execFileSync(kBase, ["keygen", "--out", join(this.folder, "keys")]);
   }
 
   /** Starts the base; resolves with the address of its console. */
   async startBase(...flags) {
-    this.base = spawn(kBase, ["--keys", join(this.folder, "keys/base.keys"), "--listen",
-      this.radio ?? "127.0.0.1:0", "--web", String(this.port ?? 0), "--track", "lvms",
-      "--layouts", join(this.folder, "layouts"), "--console-dir", join(kRoot, "build/console/dist"),
-      ...flags], { stdio: ["ignore", "pipe", "pipe"] });
+    this.base = spawn(
+      kBase,
+      [
+        "--keys",
+        join(this.folder, "keys/base.keys"),
+        "--listen",
+        this.radio ?? "127.0.0.1:0",
+        "--web",
+        String(this.port ?? 0),
+        "--track",
+        "lvms",
+        "--layouts",
+        join(this.folder, "layouts"),
+        "--console-dir",
+        join(kRoot, "build/console/dist"),
+        ...flags,
+      ],
+      { stdio: ["ignore", "pipe", "pipe"] },
+    );
     this.base.stdout.resume();
-    const [address, radio] = await said(this.base,
-      [/console at (http:\/\/[\d.]+:\d+)\s/, /listening at ([\d.]+:\d+)\s/]);
+    const [address, radio] = await said(this.base, [
+      /console at (http:\/\/[\d.]+:\d+)\s/,
+      /listening at ([\d.]+:\d+)\s/,
+    ]);
     this.radio = radio;
     this.port = Number(new URL(address).port);
     return address;
   }
 
   startCar(seconds = 120) {
-    this.car = spawn(kCar, [join(this.folder, "keys/car.keys"), this.radio, String(seconds)],
-      { stdio: ["ignore", "pipe", "inherit"] });
+    this.car = spawn(
+      kCar,
+      [join(this.folder, "keys/car.keys"), this.radio, String(seconds)],
+      { stdio: ["ignore", "pipe", "inherit"] },
+    );
     this.car.stdout.on("data", (part) => (this.carSaid += part));
   }
 

@@ -6,8 +6,17 @@
 import { kBad, kLate, kStale, kWarning } from "./wire.mjs";
 
 const alarm = (id, priority, state, text, response, more = {}) => ({
-  id, key: `alarm_${id}`, text, response, priority, state, since_ms: 0, value: null, count: 1,
-  first_up: false, ...more,
+  id,
+  key: `alarm_${id}`,
+  text,
+  response,
+  priority,
+  state,
+  since_ms: 0,
+  value: null,
+  count: 1,
+  first_up: false,
+  ...more,
 });
 
 export function alarms(now) {
@@ -16,69 +25,189 @@ export function alarms(now) {
     revision: 4,
     kpi: { per_10_min: 3, flood: false },
     active: [
-      alarm(1, "high", "unack", "Rear wheels 9.4 % faster than GNSS", "Lift.",
-        { since_ms: now - 4_000, first_up: true }),
-      alarm(2, "medium", "unack", "Tyres cold for the commanded speed: 74 of 79 \u00b0C",
-        "Warm-up laps.", { since_ms: now - 31_000, count: 3 }),
-      alarm(3, "medium", "acked", "RTK corrections 6.2 s old", "Slow; check the modem.",
-        { since_ms: now - 95_000 }),
-      alarm(4, "low", "rtn_unack", "Recorder disk below 30 minutes", "Change the disk.",
-        { since_ms: now - 240_000 }),
+      alarm(1, "high", "unack", "Rear wheels 9.4 % faster than GNSS", "Lift.", {
+        since_ms: now - 4_000,
+        first_up: true,
+      }),
+      alarm(
+        2,
+        "medium",
+        "unack",
+        "Tyres cold for the commanded speed: 74 of 79 \u00b0C",
+        "Warm-up laps.",
+        { since_ms: now - 31_000, count: 3 },
+      ),
+      alarm(
+        3,
+        "medium",
+        "acked",
+        "RTK corrections 6.2 s old",
+        "Slow; check the modem.",
+        { since_ms: now - 95_000 },
+      ),
+      alarm(
+        4,
+        "low",
+        "rtn_unack",
+        "Recorder disk below 30 minutes",
+        "Change the disk.",
+        { since_ms: now - 240_000 },
+      ),
     ],
-    shelved: [alarm(5, "low", "acked", "Camera rate 71 % of nominal", "Terminate?",
-      { reason: "camera is off today", by: "console 16", shelved_until_ms: now + 200_000 })],
-    suppressed: [alarm(6, "medium", "acked", "Oil pressure low", "Stop the engine.",
-      { reason: "engine off" })],
+    shelved: [
+      alarm(5, "low", "acked", "Camera rate 71 % of nominal", "Terminate?", {
+        reason: "camera is off today",
+        by: "console 16",
+        shelved_until_ms: now + 200_000,
+      }),
+    ],
+    suppressed: [
+      alarm(6, "medium", "acked", "Oil pressure low", "Stop the engine.", {
+        reason: "engine off",
+      }),
+    ],
   };
 }
 
 const gates = (ok) => [
-  { name: "flag permits", ok: true, value: "GREEN", age_ms: 40, text: "track flag of the car" },
-  { name: "link good", ok: true, value: "good", age_ms: 20, text: "loss 1.2 %" },
-  { name: "tyres", ok, value: ok ? 81 : 29, age_ms: 300, text: "needs 79 \u00b0C at this speed" },
-  { name: "step", ok, value: ok ? 4 : 9, age_ms: 60, text: "at most 5 m/s in one step" },
-  { name: "corner", ok, value: ok ? 11.2 : 1.4, age_ms: 60, text: "not within 3 s of a corner" },
+  {
+    name: "flag permits",
+    ok: true,
+    value: "GREEN",
+    age_ms: 40,
+    text: "track flag of the car",
+  },
+  {
+    name: "link good",
+    ok: true,
+    value: "good",
+    age_ms: 20,
+    text: "loss 1.2 %",
+  },
+  {
+    name: "tyres",
+    ok,
+    value: ok ? 81 : 29,
+    age_ms: 300,
+    text: "needs 79 \u00b0C at this speed",
+  },
+  {
+    name: "step",
+    ok,
+    value: ok ? 4 : 9,
+    age_ms: 60,
+    text: "at most 5 m/s in one step",
+  },
+  {
+    name: "corner",
+    ok,
+    value: ok ? 11.2 : 1.4,
+    age_ms: 60,
+    text: "not within 3 s of a corner",
+  },
   { name: "fuel", ok: true, value: 6, age_ms: 800, text: "attempts left" },
 ];
 
 export function refusedCommand(now) {
-  return { type: "command", ticket: 41, name: "speed limit", argument: 71.1, by: "console 16",
-    step: "gated", gates: gates(false), override: null,
-    times_ms: { staged: now - 5000, gated: now - 4990 }, text: "" };
+  return {
+    type: "command",
+    ticket: 41,
+    name: "speed limit",
+    argument: 71.1,
+    by: "console 16",
+    step: "gated",
+    gates: gates(false),
+    override: null,
+    times_ms: { staged: now - 5000, gated: now - 4990 },
+    text: "",
+  };
 }
 
 export function appliedCommand(now) {
-  return { type: "command", ticket: 40, name: "speed limit", argument: 62.1, by: "console 16",
-    step: "applied", gates: gates(true), override: null,
-    times_ms: { staged: now - 64_000, gated: now - 63_990, sent: now - 61_000,
-      received: now - 60_940, applied: now - 60_900 },
-    text: "operator limit 62.1 m/s" };
+  return {
+    type: "command",
+    ticket: 40,
+    name: "speed limit",
+    argument: 62.1,
+    by: "console 16",
+    step: "applied",
+    gates: gates(true),
+    override: null,
+    times_ms: {
+      staged: now - 64_000,
+      gated: now - 63_990,
+      sent: now - 61_000,
+      received: now - 60_940,
+      applied: now - 60_900,
+    },
+    text: "operator limit 62.1 m/s",
+  };
 }
 
 export function refusedByCar(now) {
-  return { type: "command", ticket: 39, name: "arm", argument: 1, by: "console 17",
-    step: "refused", gates: gates(true), override: null,
-    times_ms: { staged: now - 164_000, gated: now - 163_990, sent: now - 161_000 },
-    text: "the car moves" };
+  return {
+    type: "command",
+    ticket: 39,
+    name: "arm",
+    argument: 1,
+    by: "console 17",
+    step: "refused",
+    gates: gates(true),
+    override: null,
+    times_ms: {
+      staged: now - 164_000,
+      gated: now - 163_990,
+      sent: now - 161_000,
+    },
+    text: "the car moves",
+  };
 }
 
-const windows = (loss, rtt) => [1, 5, 30].map((seconds) => ({
-  seconds, loss: loss * (1 + 1 / seconds), rtt_ms: rtt, jitter_ms: 3.1, reorder: 0.001,
-  duplicate: 0, kbit_s: 26.2, cap_kbit_s: 28,
-}));
+const windows = (loss, rtt) =>
+  [1, 5, 30].map((seconds) => ({
+    seconds,
+    loss: loss * (1 + 1 / seconds),
+    rtt_ms: rtt,
+    jitter_ms: 3.1,
+    reorder: 0.001,
+    duplicate: 0,
+    kbit_s: 26.2,
+    cap_kbit_s: 28,
+  }));
 
 export function link(now) {
-  const groups = ["mode", "flags", "uplink", "ego", "track", "command", "feedback", "wheels",
-    "dynamics", "opponent_1", "planner", "tyres", "engine", "fuel", "localization", "streams"];
+  const groups = [
+    "mode",
+    "flags",
+    "uplink",
+    "ego",
+    "track",
+    "command",
+    "feedback",
+    "wheels",
+    "dynamics",
+    "opponent_1",
+    "planner",
+    "tyres",
+    "engine",
+    "fuel",
+    "localization",
+    "streams",
+  ];
   return {
-    type: "link", state: "good", since_ms: now - 312_000,
+    type: "link",
+    state: "good",
+    since_ms: now - 312_000,
     paths: [
       { path: 0, direction: "down", windows: windows(0.012, 31) },
       { path: 0, direction: "up", windows: windows(0.004, 31) },
       { path: 1, direction: "down", windows: windows(0.051, 64) },
     ],
     groups: groups.map((group, i) => ({
-      group, kbit_s: 6.2 / (1 + i / 2), age_ms: 60 + 40 * i, target_ms: i < 3 ? 100 : 150,
+      group,
+      kbit_s: 6.2 / (1 + i / 2),
+      age_ms: 60 + 40 * i,
+      target_ms: i < 3 ? 100 : 150,
     })),
   };
 }
@@ -86,23 +215,56 @@ export function link(now) {
 /** What a console hears on connecting, after hello and catalogue. */
 export function greetings(double) {
   const now = double.nowMs();
-  const audit = ["stop released", "speed limit 62.1 m/s sent", "role attacker sent",
-    "authority taken", "alarm RTK corrections acknowledged"];
+  const audit = [
+    "stop released",
+    "speed limit 62.1 m/s sent",
+    "role attacker sent",
+    "authority taken",
+    "alarm RTK corrections acknowledged",
+  ];
   return [
-    { type: "authority", holder: 16, holder_name: "console 16", epoch: 3,
-      expires_ms: now + 2500, request: { by: 17, name: "console 17", until_ms: now + 4000 } },
-    alarms(now), link(now), refusedByCar(now), appliedCommand(now), refusedCommand(now),
-    { type: "fuel", laps: 14.9, attempts: 6, per_lap: 2.1,
-      text: "14.9 laps: six attempts and the way home" },
-    { type: "notice", id: 1, kind: "degraded",
+    {
+      type: "authority",
+      holder: 16,
+      holder_name: "console 16",
+      epoch: 3,
+      expires_ms: now + 2500,
+      request: { by: 17, name: "console 17", until_ms: now + 4000 },
+    },
+    alarms(now),
+    link(now),
+    refusedByCar(now),
+    appliedCommand(now),
+    refusedCommand(now),
+    {
+      type: "fuel",
+      laps: 14.9,
+      attempts: 6,
+      per_lap: 2.1,
+      text: "14.9 laps: six attempts and the way home",
+    },
+    {
+      type: "notice",
+      id: 1,
+      kind: "degraded",
       text: "Car 7: radio degraded since 19:02:40 UTC. The car drives on under its own rules.",
-      evidence: "loss 14 % over 5 s, round trip 212 ms, car state driving" },
+      evidence: "loss 14 % over 5 s, round trip 212 ms, car state driving",
+    },
     ...audit.map((what, i) => ({
-      type: "audit", time_ms: now - 200_000 + 30_000 * i, who: "console 16", what, result: "ok",
+      type: "audit",
+      time_ms: now - 200_000 + 30_000 * i,
+      who: "console 16",
+      what,
+      result: "ok",
     })),
     ...["unack", "acked"].map((to, i) => ({
-      type: "alarm_event", time_ms: now - 95_000 + 9_000 * i, key: "rtk_correction_age",
-      from: i ? "unack" : "normal", to, by: i ? "console 16" : "", reason: "",
+      type: "alarm_event",
+      time_ms: now - 95_000 + 9_000 * i,
+      key: "rtk_correction_age",
+      from: i ? "unack" : "normal",
+      to,
+      by: i ? "console 16" : "",
+      reason: "",
     })),
   ];
 }

@@ -39,10 +39,19 @@ function head(bytes, { kind, car, flags, count, sequence, dropped, timeMs }) {
 }
 
 /** A snapshot of entries `{id, status, age, value}`. */
-export function snapshot(entries, { car = 7, flags = 2, sequence = 0, dropped = 0, timeMs }) {
+export function snapshot(
+  entries,
+  { car = 7, flags = 2, sequence = 0, dropped = 0, timeMs },
+) {
   const bytes = new ArrayBuffer(24 + 8 * entries.length);
   const view = head(bytes, {
-    kind: 1, car, flags, count: entries.length, sequence, dropped, timeMs,
+    kind: 1,
+    car,
+    flags,
+    count: entries.length,
+    sequence,
+    dropped,
+    timeMs,
   });
   entries.forEach(({ id, status, age, value }, i) => {
     view.setUint16(24 + 8 * i, id, true);
@@ -57,7 +66,13 @@ export function snapshot(entries, { car = 7, flags = 2, sequence = 0, dropped = 
 export function history(field, points, { car = 7, timeMs }) {
   const bytes = new ArrayBuffer(32 + 16 * points.length);
   const view = head(bytes, {
-    kind: 2, car, flags: 0, count: 1, sequence: 0, dropped: 0, timeMs,
+    kind: 2,
+    car,
+    flags: 0,
+    count: 1,
+    sequence: 0,
+    dropped: 0,
+    timeMs,
   });
   view.setUint16(24, field, true);
   view.setUint32(28, points.length, true);

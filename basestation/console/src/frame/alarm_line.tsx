@@ -21,23 +21,39 @@ export function AlarmLine() {
         <span class="text">
           {active.length > 0 ? `${active.length} alarms, all acknowledged` : "no alarms"}
         </span>
-        {error && <span class="refused">refused: {error.what} ({error.place})</span>}
+        {error && (
+          <span class="refused">
+            refused: {error.what} ({error.place})
+          </span>
+        )}
       </div>
     );
   }
   return (
-    <div class="alarm-line" data-priority={first.priority} data-state={first.state} role="status"
-      aria-live={first.priority === "high" ? "assertive" : "polite"}>
+    <div
+      class="alarm-line"
+      data-priority={first.priority}
+      data-state={first.state}
+      role="status"
+      aria-live={first.priority === "high" ? "assertive" : "polite"}
+    >
       <i class="mark" aria-hidden="true" />
       <strong>{first.priority.toUpperCase()}</strong>
-      <span class="text">{first.text}{first.count > 1 ? ` \u00d7${first.count}` : ""}</span>
+      <span class="text">
+        {first.text}
+        {first.count > 1 ? ` \u00d7${first.count}` : ""}
+      </span>
       <span class="response">{first.response}</span>
       <AgeSince sinceMs={first.since_ms} />
       {others > 0 && (
-        <button type="button" onClick={() => showPage("alarms")}>+{others} more</button>
+        <button type="button" onClick={() => showPage("alarms")}>
+          +{others} more
+        </button>
       )}
       {isOperator.value && (
-        <button type="button" onClick={() => acknowledge(first.id)}>Ack <kbd>A</kbd></button>
+        <button type="button" onClick={() => acknowledge(first.id)}>
+          Ack <kbd>A</kbd>
+        </button>
       )}
     </div>
   );

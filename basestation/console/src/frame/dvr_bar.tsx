@@ -40,19 +40,29 @@ export function DvrBar() {
   );
   return (
     <footer class="dvr-bar" data-held={held}>
-      <button type="button" onClick={timeline.togglePlay}
-        aria-label={held && speed === 0 ? "play" : "pause"}>
+      <button
+        type="button"
+        onClick={timeline.togglePlay}
+        aria-label={held && speed === 0 ? "play" : "pause"}
+      >
         <i class={held && speed === 0 ? "glyph play" : "glyph pause"} aria-hidden="true" />
       </button>
       <button type="button" onClick={() => timeline.step(-10_000)} title="10 seconds back">
         &minus;10 s
       </button>
-      <input type="range" ref={slider} min={-kSpanS} max={0} step={0.04} defaultValue="0"
+      <input
+        type="range"
+        ref={slider}
+        min={-kSpanS}
+        max={0}
+        step={0.04}
+        defaultValue="0"
         aria-label="moment shown, seconds before now"
         onInput={(e) => {
           timeline.speed.value = 0;
           timeline.seek(session.history.newestMs() + Number(e.currentTarget.value) * 1000);
-        }} />
+        }}
+      />
       <button type="button" onClick={() => timeline.changeSpeed(false)} aria-label="slower">
         &minus;
       </button>
@@ -60,11 +70,15 @@ export function DvrBar() {
       <button type="button" onClick={() => timeline.changeSpeed(true)} aria-label="faster">
         +
       </button>
-      <output ref={behind} class="behind">LIVE</output>
+      <output ref={behind} class="behind">
+        LIVE
+      </output>
       <button type="button" class="to-live" onClick={timeline.backToLive} disabled={!held}>
         Live <kbd>L</kbd>
       </button>
-      <button type="button" class="mark-button" onClick={mark}>Mark <kbd>M</kbd></button>
+      <button type="button" class="mark-button" onClick={mark}>
+        Mark <kbd>M</kbd>
+      </button>
     </footer>
   );
 }

@@ -14,7 +14,10 @@ const kShown = 12;
 
 /** Fields whose path holds every word, those that begin with the first word in front. */
 export function findFields(info: readonly FieldInfo[], query: string): FieldInfo[] {
-  const words = query.toLowerCase().split(/[\s.]+/).filter(Boolean);
+  const words = query
+    .toLowerCase()
+    .split(/[\s.]+/)
+    .filter(Boolean);
   const hits = info.filter((f) => words.every((word) => f.path.toLowerCase().includes(word)));
   const first = words[0] ?? "";
   const rank = (f: FieldInfo) => (f.path.startsWith(first) || f.name.startsWith(first) ? 0 : 1);
@@ -44,30 +47,56 @@ export function Finder() {
   const chosen = hits[Math.min(at, hits.length - 1)];
   return (
     <div class="veil" onClick={() => (finderShown.value = false)}>
-      <div class="dialog finder" role="dialog" aria-modal="true" aria-label="find a field"
-        onClick={(e) => e.stopPropagation()}>
-        <input ref={input} type="text" role="combobox" aria-expanded="true" spellcheck={false}
-          aria-controls="found" aria-autocomplete="list" aria-label="field to plot"
+      <div
+        class="dialog finder"
+        role="dialog"
+        aria-modal="true"
+        aria-label="find a field"
+        onClick={(e) => e.stopPropagation()}
+      >
+        <input
+          ref={input}
+          type="text"
+          role="combobox"
+          aria-expanded="true"
+          spellcheck={false}
+          aria-controls="found"
+          aria-autocomplete="list"
+          aria-label="field to plot"
           aria-activedescendant={chosen ? `found-${chosen.id}` : undefined}
-          placeholder="find a field, Enter plots it" value={query}
-          onInput={(e) => { setQuery(e.currentTarget.value); setAt(0); }}
+          placeholder="find a field, Enter plots it"
+          value={query}
+          onInput={(e) => {
+            setQuery(e.currentTarget.value);
+            setAt(0);
+          }}
           onKeyDown={(e) => {
             if (e.key === "ArrowDown") setAt(Math.min(at + 1, hits.length - 1));
             else if (e.key === "ArrowUp") setAt(Math.max(at - 1, 0));
             else if (e.key === "Enter" && chosen) choose(chosen.path);
             else return;
             e.preventDefault();
-          }} />
+          }}
+        />
         <ul id="found" role="listbox" aria-label="fields found">
           {hits.map((field) => (
-            <li key={field.id} id={`found-${field.id}`} role="option"
-              aria-selected={field === chosen} onClick={() => choose(field.path)}>
+            <li
+              key={field.id}
+              id={`found-${field.id}`}
+              role="option"
+              aria-selected={field === chosen}
+              onClick={() => choose(field.path)}
+            >
               <span class="path">{field.path}</span>
               <Value path={field.path} />
             </li>
           ))}
         </ul>
-        {hits.length === 0 && <p class="empty" role="status">no field of this name</p>}
+        {hits.length === 0 && (
+          <p class="empty" role="status">
+            no field of this name
+          </p>
+        )}
       </div>
     </div>
   );

@@ -50,8 +50,15 @@ export function Flag({ path, label }: { path: string; label: string }) {
     [store, slot],
   );
   return (
-    <div class="flag value" ref={root} role="group" aria-label={label} data-path={path}
-      data-quality="never" data-judgement="none">
+    <div
+      class="flag value"
+      ref={root}
+      role="group"
+      aria-label={label}
+      data-path={path}
+      data-quality="never"
+      data-judgement="none"
+    >
       <span class="label">{label}</span>
       <i class="cloth" aria-hidden="true" />
       <span class="digits">{kDash}</span>

@@ -48,7 +48,8 @@ export const kKeys: Record<string, Key> = {
   "/": { keys: "/", does: "find a field and plot it", run: () => (finderShown.value = true) },
   " ": { keys: "Space", does: "pause the view or play it", run: timeline.togglePlay },
   ArrowLeft: {
-    keys: "\u2190 \u2192", does: "1 s back or forward, with Shift 10 s",
+    keys: "\u2190 \u2192",
+    does: "1 s back or forward, with Shift 10 s",
     run: (e) => timeline.step(e.shiftKey ? -10_000 : -1000),
   },
   ArrowRight: { keys: "", does: "", run: (e) => timeline.step(e.shiftKey ? 10_000 : 1000) },
@@ -60,7 +61,11 @@ export const kKeys: Record<string, Key> = {
   m: { keys: "M", does: "mark this moment in the recording", run: () => mark() },
   t: { keys: "T", does: "next theme: dark, light, sun", run: nextTheme },
   u: { keys: "U", does: "next unit of speed", run: nextSpeedUnit },
-  "?": { keys: "?", does: "show or hide this list", run: () => (helpShown.value = !helpShown.value) },
+  "?": {
+    keys: "?",
+    does: "show or hide this list",
+    run: () => (helpShown.value = !helpShown.value),
+  },
 };
 
 export function mark(): void {

@@ -38,15 +38,24 @@ export function LinkTile() {
     [],
   );
   return (
-    <button type="button" class="top-tile link-tile" ref={root} data-judgement="none"
-      onClick={() => showPage("link")} title="link to the car">
+    <button
+      type="button"
+      class="top-tile link-tile"
+      ref={root}
+      data-judgement="none"
+      onClick={() => showPage("link")}
+      title="link to the car"
+    >
       <span class="detail">
         <span class="label">Link</span>
         <Value path="link.down_loss" scale={100} unit="%" decimals={1} live />
         <Value path="link.rtt_ms" unit="ms" decimals={0} live />
         <Value path="link.down_kbit_s" unit="kbit/s" decimals={0} live />
       </span>
-      <span class="state"><i class="mark" aria-hidden="true" /><span ref={word} class="word" /></span>
+      <span class="state">
+        <i class="mark" aria-hidden="true" />
+        <span ref={word} class="word" />
+      </span>
     </button>
   );
 }

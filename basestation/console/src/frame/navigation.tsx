@@ -13,8 +13,12 @@ export function Navigation() {
   return (
     <nav class="navigation" aria-label="pages">
       {kPages.map(({ name, title }, i) => (
-        <button type="button" key={name} aria-current={page.value === name ? "page" : undefined}
-          onClick={() => showPage(name)}>
+        <button
+          type="button"
+          key={name}
+          aria-current={page.value === name ? "page" : undefined}
+          onClick={() => showPage(name)}
+        >
           <kbd>{i + 1}</kbd>
           <span>{title}</span>
           {name === "alarms" && unseen > 0 && <b class="badge">{unseen}</b>}
@@ -22,10 +26,12 @@ export function Navigation() {
       ))}
       <span class="spacer" />
       <button type="button" class="small" onClick={nextTheme} title="next theme">
-        <kbd>T</kbd><span>{theme.value}</span>
+        <kbd>T</kbd>
+        <span>{theme.value}</span>
       </button>
       <button type="button" class="small" onClick={() => (helpShown.value = true)}>
-        <kbd>?</kbd><span>keys</span>
+        <kbd>?</kbd>
+        <span>keys</span>
       </button>
     </nav>
   );

@@ -42,21 +42,34 @@ function Outcome() {
 export function StopRail() {
   const mode = session.hello.value?.mode;
   if (mode === "REPLAY") {
-    return <aside class="stop-rail" aria-label="no stop in a replay"><p>no car</p></aside>;
+    return (
+      <aside class="stop-rail" aria-label="no stop in a replay">
+        <p>no car</p>
+      </aside>
+    );
   }
   const barred = !isOperator.value;
   return (
     <aside class="stop-rail" aria-label="stop the car">
-      <button type="button" class="stop controlled" disabled={barred}
-        onClick={() => stop("controlled")}>
+      <button
+        type="button"
+        class="stop controlled"
+        disabled={barred}
+        onClick={() => stop("controlled")}
+      >
         <strong>STOP</strong>
         <span>controlled</span>
         <kbd>Esc Esc</kbd>
       </button>
       <Outcome />
       {barred && <p class="barred">{mode ? "viewer: no stop from here" : "no base"}</p>}
-      <HoldButton holdMs={kEmergencyHoldMs} class="stop emergency" disabled={barred}
-        label="emergency stop, hold" onHeld={() => stop("emergency")}>
+      <HoldButton
+        holdMs={kEmergencyHoldMs}
+        class="stop emergency"
+        disabled={barred}
+        label="emergency stop, hold"
+        onHeld={() => stop("emergency")}
+      >
         <strong>E&#8209;STOP</strong>
         <span>hold</span>
         <kbd>Ctrl Shift E</kbd>

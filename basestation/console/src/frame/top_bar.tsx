@@ -15,7 +15,12 @@ import { Flag } from "./flag_tile";
 import { LinkTile } from "./link_tile";
 import { showPage } from "./pages";
 
-const kWords: Record<string, string> = { REAL: "REAL CAR", HIL: "HIL", REPLAY: "REPLAY", NONE: "NO CAR" };
+const kWords: Record<string, string> = {
+  REAL: "REAL CAR",
+  HIL: "HIL",
+  REPLAY: "REPLAY",
+  NONE: "NO CAR",
+};
 
 function ModeWord() {
   const hello = session.hello.value;
@@ -37,9 +42,14 @@ function AlarmCounts() {
         const count = countOf(active, priority);
         const unseen = active.some((a) => a.priority === priority && needsEyes(a));
         return (
-          <span key={priority} class={`count ${priority}`} data-some={count > 0}
-            data-unseen={unseen}>
-            <i class="mark" aria-hidden="true" />{count}
+          <span
+            key={priority}
+            class={`count ${priority}`}
+            data-some={count > 0}
+            data-unseen={unseen}
+          >
+            <i class="mark" aria-hidden="true" />
+            {count}
             <span class="heard-only"> {priority} alarms</span>
           </span>
         );
@@ -52,11 +62,19 @@ function Holder() {
   const authority = session.authority.value;
   const hello = session.hello.value;
   const mine = authority && hello && authority.holder === hello.client;
-  const name = !authority || !authority.holder ? "nobody"
-    : mine ? "this console" : authority.holder_name || `console ${authority.holder}`;
+  const name =
+    !authority || !authority.holder
+      ? "nobody"
+      : mine
+        ? "this console"
+        : authority.holder_name || `console ${authority.holder}`;
   return (
-    <button type="button" class="top-tile holder" data-mine={Boolean(mine)}
-      onClick={() => showPage("commands")}>
+    <button
+      type="button"
+      class="top-tile holder"
+      data-mine={Boolean(mine)}
+      onClick={() => showPage("commands")}
+    >
       <span class="label">Authority</span>
       <span class="word">{name}</span>
     </button>
@@ -89,8 +107,12 @@ export function TopBar() {
       <ModeWord />
       <Flag path="flags.track" label="Track flag" />
       <Flag path="flags.vehicle" label="Car flag" />
-      <button type="button" class="top-tile round" onClick={nextSpeedUnit}
-        title="round speed of race control; press for another unit">
+      <button
+        type="button"
+        class="top-tile round"
+        onClick={nextSpeedUnit}
+        title="round speed of race control; press for another unit"
+      >
         <span class="label">Round</span>
         <span class="pair">
           <Value path="flags.round_target_speed" speed live hz={kEachFrame} />

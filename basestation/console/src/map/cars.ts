@@ -14,7 +14,12 @@ type Pen = CanvasRenderingContext2D;
 
 /** Height of a row of the list of rivals. */
 const kListPx = 22;
-const kArrow = [[13, 0], [-9, 8], [-5, 0], [-9, -8]] as const;
+const kArrow = [
+  [13, 0],
+  [-9, 8],
+  [-5, 0],
+  [-9, -8],
+] as const;
 
 /** A car as an arrow at its place, pointing where it points. */
 function arrow(pen: Pen, pose: Pose, into: Projection, size = 1): void {
@@ -28,16 +33,25 @@ function arrow(pen: Pen, pose: Pose, into: Projection, size = 1): void {
   pen.restore();
 }
 
-export function drawTrail(pen: Pen, points: readonly TrailPoint[], into: Projection,
-  colours: Palette): void {
+export function drawTrail(
+  pen: Pen,
+  points: readonly TrailPoint[],
+  into: Projection,
+  colours: Palette,
+): void {
   pen.lineWidth = colours.stroke * 1.5;
   pen.lineJoin = "round";
   for (let i = 1; i < points.length; ++i) {
     const [a, b] = [points[i - 1], points[i]];
     const [p, q] = [into.toPixel(a.x, a.y), into.toPixel(b.x, b.y)];
-    pen.strokeStyle = b.judgement === Judgement.bad ? colours.bad
-      : b.judgement === Judgement.warning ? colours.warning : colours.ego;
-    pen.globalAlpha = (b.judgement >= Judgement.warning ? 1 : 0.75) * (0.15 + 0.85 * (i / points.length));
+    pen.strokeStyle =
+      b.judgement === Judgement.bad
+        ? colours.bad
+        : b.judgement === Judgement.warning
+          ? colours.warning
+          : colours.ego;
+    pen.globalAlpha =
+      (b.judgement >= Judgement.warning ? 1 : 0.75) * (0.15 + 0.85 * (i / points.length));
     pen.beginPath();
     pen.moveTo(p.x, p.y);
     pen.lineTo(q.x, q.y);
@@ -76,8 +90,7 @@ export function drawGhost(pen: Pen, ghost: Ghost, into: Projection, colours: Pal
   pen.setLineDash([]);
 }
 
-export const gapText = (gap: number): string =>
-  `${gap >= 0 ? "+" : ""}${fixed(gap, 0)} m`;
+export const gapText = (gap: number): string => `${gap >= 0 ? "+" : ""}${fixed(gap, 0)} m`;
 
 export function closingText(closing: number): string {
   if (!Number.isFinite(closing)) return "";
@@ -86,8 +99,14 @@ export function closingText(closing: number): string {
 }
 
 /** A diamond of a rival at a pixel; hollow once its report is stale. */
-export function diamond(pen: Pen, x: number, y: number, size: number, stale: boolean,
-  colours: Palette): void {
+export function diamond(
+  pen: Pen,
+  x: number,
+  y: number,
+  size: number,
+  stale: boolean,
+  colours: Palette,
+): void {
   pen.beginPath();
   pen.moveTo(x, y - size);
   pen.lineTo(x + size, y);
@@ -106,8 +125,12 @@ export function diamond(pen: Pen, x: number, y: number, size: number, stale: boo
 
 /** Each rival by its number beside its diamond, and once more in the corner with gap and closing
     speed, where close cars do not write over each other. */
-export function drawRivals(pen: Pen, rivals: readonly Rival[], into: Projection,
-  colours: Palette): void {
+export function drawRivals(
+  pen: Pen,
+  rivals: readonly Rival[],
+  into: Projection,
+  colours: Palette,
+): void {
   pen.textBaseline = "middle";
   rivals.forEach((rival, i) => {
     const { x, y } = into.toPixel(rival.x, rival.y);

@@ -88,8 +88,12 @@ export interface Projection {
   toAngle(yaw: number): number;
 }
 
-export function fit(points: readonly number[][], width: number, height: number,
-  margin: number): Projection {
+export function fit(
+  points: readonly number[][],
+  width: number,
+  height: number,
+  margin: number,
+): Projection {
   let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
   for (const [x, y] of points) {
     x0 = Math.min(x0, x);

@@ -46,8 +46,14 @@ function across(pen: Pen, course: Course, s: number, into: Projection, beyond: n
 }
 
 /** A word beside the road: in the infield, or outside of it. */
-function label(pen: Pen, course: Course, s: number, text: string, into: Projection,
-  outside = false): void {
+function label(
+  pen: Pen,
+  course: Course,
+  s: number,
+  text: string,
+  into: Projection,
+  outside = false,
+): void {
   const width = course.width(s);
   const away = 24 / into.scale;
   const place = course.place(s, outside ? -width.right - away : width.left + away);

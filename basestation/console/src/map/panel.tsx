@@ -82,12 +82,19 @@ function paintStrip(canvas: HTMLCanvasElement, course: Course): void {
   pen.clearRect(0, 0, canvas.clientWidth, canvas.clientHeight);
   const station = { ...readPath("track.station") };
   if (station.quality === Quality.never || !Number.isFinite(station.value)) return;
-  drawStrip(pen, course, {
-    station: station.value,
-    offset: readPath("track.offset").value || 0,
-    stale: station.quality >= Quality.stale,
-    rivals: rivals(session.fields.value, course),
-  }, colours(), canvas.clientWidth, canvas.clientHeight);
+  drawStrip(
+    pen,
+    course,
+    {
+      station: station.value,
+      offset: readPath("track.offset").value || 0,
+      stale: station.quality >= Quality.stale,
+      rivals: rivals(session.fields.value, course),
+    },
+    colours(),
+    canvas.clientWidth,
+    canvas.clientHeight,
+  );
 }
 
 export function MapPanel() {

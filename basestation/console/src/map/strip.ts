@@ -37,8 +37,14 @@ function rungs(pen: Pen, x: (s: number) => number, here: number, height: number)
   }
 }
 
-export function drawStrip(pen: Pen, course: Course, state: StripState, colours: Palette,
-  width: number, height: number): void {
+export function drawStrip(
+  pen: Pen,
+  course: Course,
+  state: StripState,
+  colours: Palette,
+  width: number,
+  height: number,
+): void {
   const road = height - 24;
   const x = (s: number) => ((s - state.station + kBehindM) / (kBehindM + kAheadM)) * width;
   const y = (offset: number) => (road / 2) * (1 - offset / kHalfHeightM);
@@ -68,8 +74,13 @@ export function drawStrip(pen: Pen, course: Course, state: StripState, colours: 
   drawCars(pen, state, colours, x, y);
 }
 
-function drawCars(pen: Pen, state: StripState, colours: Palette, x: (s: number) => number,
-  y: (offset: number) => number): void {
+function drawCars(
+  pen: Pen,
+  state: StripState,
+  colours: Palette,
+  x: (s: number) => number,
+  y: (offset: number) => number,
+): void {
   for (const rival of state.rivals) {
     if (rival.gap < -kBehindM || rival.gap > kAheadM) continue;
     const [px, py] = [x(state.station + rival.gap), y(rival.offset)];
@@ -78,7 +89,11 @@ function drawCars(pen: Pen, state: StripState, colours: Palette, x: (s: number) 
     pen.font = "600 13px Barlow, sans-serif";
     pen.textAlign = "center";
     pen.textBaseline = "bottom";
-    pen.fillText(`#${rival.identity} ${gapText(rival.gap)} ${closingText(rival.closing)}`, px, py - 9);
+    pen.fillText(
+      `#${rival.identity} ${gapText(rival.gap)} ${closingText(rival.closing)}`,
+      px,
+      py - 9,
+    );
   }
   const [px, py] = [x(state.station), y(state.offset)];
   pen.beginPath();

@@ -7,7 +7,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import { ageMs } from "../wire/age";
 import type { FieldInfo } from "../wire/messages";
-import { Judgement, Quality, judgementOf, kNeverStatus, qualityOf, saysUnknown } from "../wire/status";
+import {
+  Judgement,
+  Quality,
+  judgementOf,
+  kNeverStatus,
+  qualityOf,
+  saysUnknown,
+} from "../wire/status";
 
 const kIds = 65536;
 

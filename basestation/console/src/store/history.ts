@@ -4,7 +4,14 @@
  * once, on the catalogue, and never grows.
  */
 // SPDX-License-Identifier: Apache-2.0
-import { Judgement, Quality, judgementOf, kNeverStatus, qualityOf, saysUnknown } from "../wire/status";
+import {
+  Judgement,
+  Quality,
+  judgementOf,
+  kNeverStatus,
+  qualityOf,
+  saysUnknown,
+} from "../wire/status";
 import type { Fields, Reading } from "./fields";
 import { kNothing } from "./fields";
 

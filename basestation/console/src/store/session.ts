@@ -8,7 +8,7 @@ import { signal } from "@preact/signals";
 import type * as Wire from "../wire/messages";
 import { Kind, readHead, readHistory, readSnapshot } from "../wire/frame";
 import type { History as HistoryAnswer } from "../wire/frame";
-import { BaseClock } from "./base_clock";
+import { BaseClock } from "./station_clock";
 import { Fields } from "./fields";
 import { History } from "./history";
 
@@ -62,7 +62,11 @@ export function takeBinary(view: DataView, localMs: number): void {
   if (head.kind === Kind.history) {
     const answer = readHistory(view);
     if (answer === null) ++counters.badFrames;
-    else historyWaiters.get(answer.field)?.splice(0).forEach((waiter) => waiter(answer));
+    else
+      historyWaiters
+        .get(answer.field)
+        ?.splice(0)
+        .forEach((waiter) => waiter(answer));
     return;
   }
   const store = fields.value;
@@ -86,7 +90,7 @@ export function awaitHistory(field: number, waiter: (answer: HistoryAnswer) => v
   else historyWaiters.set(field, [waiter]);
 }
 
-/** A new step replaces the last known step of its ticket, and keeps the gates it does not repeat. */
+/** A new step replaces the last known one of its ticket, and keeps the gates it does not repeat. */
 function climb(known: readonly Wire.CommandStep[], step: Wire.CommandStep): Wire.CommandStep[] {
   const before = known.find((s) => s.ticket === step.ticket);
   const merged = before

@@ -47,9 +47,18 @@ export function colours(): Palette {
   const style = getComputedStyle(document.documentElement);
   const get = (name: string) => style.getPropertyValue(`--${name}`).trim();
   palette = {
-    ground: get("panel"), text: get("text"), dim: get("dim"), line: get("line"),
-    stale: get("stale"), good: get("good"), warning: get("warning"), bad: get("bad"),
-    ego: get("ego"), asphalt: get("asphalt"), corner: get("corner"), rival: get("rival"),
+    ground: get("panel"),
+    text: get("text"),
+    dim: get("dim"),
+    line: get("line"),
+    stale: get("stale"),
+    good: get("good"),
+    warning: get("warning"),
+    bad: get("bad"),
+    ego: get("ego"),
+    asphalt: get("asphalt"),
+    corner: get("corner"),
+    rival: get("rival"),
     series: [1, 2, 3, 4, 5, 6].map((n) => get(`series-${n}`)),
     stroke: Number(get("stroke")) || 2,
   };

@@ -74,7 +74,9 @@ export function Bar({ path, label, min = 0, max, asked, ticks = [], centred }: B
     <div class="bar" ref={root} role="img" aria-label={label}>
       <i class="fill" />
       <i class="asked" hidden />
-      {ticks.map((tick) => <i class="tick" key={tick.label} title={tick.label} />)}
+      {ticks.map((tick) => (
+        <i class="tick" key={tick.label} title={tick.label} />
+      ))}
     </div>
   );
 }

@@ -36,17 +36,29 @@ export function HoldButton(props: HoldButtonProps) {
 
   const isKey = (event: KeyboardEvent) => event.key === "Enter" || event.key === " ";
   return (
-    <button type="button" class={`hold hold-${props.holdMs} ${props.class ?? ""}`}
-      data-held={held} title={props.label} disabled={props.disabled}
-      onPointerDown={(e) => { if (e.button === 0) press(); }}
-      onPointerUp={release} onPointerLeave={release} onPointerCancel={release} onBlur={release}
+    <button
+      type="button"
+      class={`hold hold-${props.holdMs} ${props.class ?? ""}`}
+      data-held={held}
+      title={props.label}
+      disabled={props.disabled}
+      onPointerDown={(e) => {
+        if (e.button === 0) press();
+      }}
+      onPointerUp={release}
+      onPointerLeave={release}
+      onPointerCancel={release}
+      onBlur={release}
       onContextMenu={(e) => e.preventDefault()}
       onKeyDown={(e) => {
         if (!isKey(e)) return;
         e.preventDefault();
         if (!e.repeat) press();
       }}
-      onKeyUp={(e) => { if (isKey(e)) release(); }}>
+      onKeyUp={(e) => {
+        if (isKey(e)) release();
+      }}
+    >
       <i class="progress" aria-hidden="true" />
       <span class="face">{props.children}</span>
     </button>

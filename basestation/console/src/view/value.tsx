@@ -57,7 +57,11 @@ function digitsText(info: FieldInfo | undefined, reading: Reading, props: ValueP
   if (!info || reading.quality === Quality.never || !Number.isFinite(reading.value)) return kDash;
   if (props.text) return props.text(reading.value, info);
   const factor = props.speed ? speedUnit.value.perMps : (props.scale ?? 1);
-  return valueText(info, reading.value * factor, props.speed ? (props.decimals ?? 0) : props.decimals);
+  return valueText(
+    info,
+    reading.value * factor,
+    props.speed ? (props.decimals ?? 0) : props.decimals,
+  );
 }
 
 function unitOf(info: FieldInfo | undefined, props: ValueProps): string {
@@ -81,15 +85,24 @@ export function Value(props: ValueProps) {
       const [, word, digits, , age] = element.children;
       put(word, stateWord(reading));
       put(digits, digitsText(info, reading, props));
-      put(age, reading.quality === Quality.late || reading.quality === Quality.stale
-        ? ageText(reading.ageMs) : "");
+      put(
+        age,
+        reading.quality === Quality.late || reading.quality === Quality.stale
+          ? ageText(reading.ageMs)
+          : "",
+      );
     },
     props.hz ?? kDigitsHz,
     [slot, info, props.speed, props.decimals, props.scale, unit],
   );
   return (
-    <span ref={root} class={`value ${props.class ?? ""}`} data-path={props.path}
-      data-quality="never" data-judgement="none">
+    <span
+      ref={root}
+      class={`value ${props.class ?? ""}`}
+      data-path={props.path}
+      data-quality="never"
+      data-judgement="none"
+    >
       <i class="mark" aria-hidden="true" />
       <span class="heard-only" />
       <span class="digits">{kDash}</span>

@@ -16,27 +16,42 @@ import type { Alarm } from "../../wire/messages";
 const kRateWanted = 1;
 
 const kStates = {
-  unack: "NEW", acked: "acknowledged", rtn_unack: "gone, not seen", latched: "latched",
+  unack: "NEW",
+  acked: "acknowledged",
+  rtn_unack: "gone, not seen",
+  latched: "latched",
 } as const;
 
 function ShelveForm({ alarm, onDone }: { alarm: Alarm; onDone: () => void }) {
   const [reason, setReason] = useState("");
   const [minutes, setMinutes] = useState(5);
   return (
-    <form class="shelve" onSubmit={(e) => {
-      e.preventDefault();
-      send({ type: "shelve", alarm: alarm.id, minutes, reason });
-      onDone();
-    }}>
-      <label>reason
+    <form
+      class="shelve"
+      onSubmit={(e) => {
+        e.preventDefault();
+        send({ type: "shelve", alarm: alarm.id, minutes, reason });
+        onDone();
+      }}
+    >
+      <label>
+        reason
         <input required value={reason} onInput={(e) => setReason(e.currentTarget.value)} />
       </label>
-      <label>minutes
-        <input type="number" min={1} max={10} value={minutes}
-          onInput={(e) => setMinutes(Number(e.currentTarget.value))} />
+      <label>
+        minutes
+        <input
+          type="number"
+          min={1}
+          max={10}
+          value={minutes}
+          onInput={(e) => setMinutes(Number(e.currentTarget.value))}
+        />
       </label>
       <button type="submit">Shelve</button>
-      <button type="button" onClick={onDone}>Cancel</button>
+      <button type="button" onClick={onDone}>
+        Cancel
+      </button>
     </form>
   );
 }
@@ -45,11 +60,16 @@ function ActiveRow({ alarm }: { alarm: Alarm }) {
   const [shelving, setShelving] = useState(false);
   const selected = selectedAlarm.value === alarm.id;
   return (
-    <li class="alarm" data-priority={alarm.priority} data-state={alarm.state}
-      data-selected={selected} tabIndex={0}
+    <li
+      class="alarm"
+      data-priority={alarm.priority}
+      data-state={alarm.state}
+      data-selected={selected}
+      tabIndex={0}
       aria-label={`${alarm.priority} alarm, ${kStates[alarm.state] ?? alarm.state}: ${alarm.text}`}
       onFocus={() => (selectedAlarm.value = alarm.id)}
-      onClick={() => (selectedAlarm.value = alarm.id)}>
+      onClick={() => (selectedAlarm.value = alarm.id)}
+    >
       <i class="mark" aria-hidden="true" />
       <span class="priority">{alarm.priority}</span>
       <span class="text">
@@ -63,14 +83,18 @@ function ActiveRow({ alarm }: { alarm: Alarm }) {
       {isOperator.value && (
         <span class="actions">
           {needsEyes(alarm) && (
-            <button type="button" onClick={() => acknowledge(alarm.id)}>Ack</button>
+            <button type="button" onClick={() => acknowledge(alarm.id)}>
+              Ack
+            </button>
           )}
           {alarm.state === "latched" && (
             <button type="button" onClick={() => send({ type: "reset", alarm: alarm.id })}>
               Reset
             </button>
           )}
-          <button type="button" onClick={() => setShelving(!shelving)}>Shelve</button>
+          <button type="button" onClick={() => setShelving(!shelving)}>
+            Shelve
+          </button>
         </span>
       )}
       {shelving && <ShelveForm alarm={alarm} onDone={() => setShelving(false)} />}
@@ -78,15 +102,28 @@ function ActiveRow({ alarm }: { alarm: Alarm }) {
   );
 }
 
-function Quiet({ title, alarms, shelf }: { title: string; alarms: readonly Alarm[]; shelf: boolean }) {
+function Quiet({
+  title,
+  alarms,
+  shelf,
+}: {
+  title: string;
+  alarms: readonly Alarm[];
+  shelf: boolean;
+}) {
   return (
     <section class="panel" aria-label={title} tabIndex={0}>
-      <h2>{title} <span class="sum">{alarms.length}</span></h2>
+      <h2>
+        {title} <span class="sum">{alarms.length}</span>
+      </h2>
       <ul class="quiet">
         {alarms.map((alarm) => (
           <li key={alarm.id}>
             <span class="text">{alarm.text}</span>
-            <span class="reason">{alarm.reason ?? ""}{alarm.by ? ` (${alarm.by})` : ""}</span>
+            <span class="reason">
+              {alarm.reason ?? ""}
+              {alarm.by ? ` (${alarm.by})` : ""}
+            </span>
             {shelf && isOperator.value && (
               <button type="button" onClick={() => send({ type: "unshelve", alarm: alarm.id })}>
                 Unshelve
@@ -107,7 +144,9 @@ function HistoryTable() {
       <table class="readings wide log">
         <thead>
           <tr>
-            <th scope="col">UTC</th><th scope="col">alarm</th><th scope="col">change</th>
+            <th scope="col">UTC</th>
+            <th scope="col">alarm</th>
+            <th scope="col">change</th>
             <th scope="col">by</th>
           </tr>
         </thead>
@@ -116,8 +155,12 @@ function HistoryTable() {
             <tr key={`${event.time_ms} ${event.key} ${i}`}>
               <td>{clockText(session.clock.utcMs(event.time_ms))}</td>
               <th scope="row">{event.key}</th>
-              <td>{event.from} &rarr; {event.to}</td>
-              <td>{event.by ?? ""} {event.reason ?? ""}</td>
+              <td>
+                {event.from} &rarr; {event.to}
+              </td>
+              <td>
+                {event.by ?? ""} {event.reason ?? ""}
+              </td>
             </tr>
           ))}
         </tbody>
@@ -137,14 +180,22 @@ export function AlarmsPage() {
       <section class="panel grows" aria-label="active alarms" tabIndex={0}>
         <h2>
           Active <span class="sum">{active.length}</span>
-          <span class="kpi" data-over={rate > kRateWanted}>{rate} in 10 min, wanted 1</span>
+          <span class="kpi" data-over={rate > kRateWanted}>
+            {rate} in 10 min, wanted 1
+          </span>
           {flood && <strong class="flood">FLOOD: first and high only</strong>}
           <span class="config">limits {session.hello.value?.alarm_config ?? ""}</span>
           {isOperator.value && active.some(needsEyes) && (
-            <button type="button" onClick={acknowledgeAll}>Ack all shown <kbd>Shift A</kbd></button>
+            <button type="button" onClick={acknowledgeAll}>
+              Ack all shown <kbd>Shift A</kbd>
+            </button>
           )}
         </h2>
-        <ul class="active">{shown.map((alarm) => <ActiveRow alarm={alarm} key={alarm.id} />)}</ul>
+        <ul class="active">
+          {shown.map((alarm) => (
+            <ActiveRow alarm={alarm} key={alarm.id} />
+          ))}
+        </ul>
         {active.length === 0 && <p class="empty">No alarm is active.</p>}
       </section>
       <div class="column">

@@ -12,7 +12,9 @@ export function auditText(): string {
   const clean = (text: unknown) => String(text).replaceAll(/[\t\r\n]/g, " ");
   const lines = session.audit.value.map((line) =>
     [new Date(session.clock.utcMs(line.time_ms)).toISOString(), line.who, line.what, line.result]
-      .map(clean).join("\t"));
+      .map(clean)
+      .join("\t"),
+  );
   return ["utc\twho\twhat\tresult", ...lines, ""].join("\n");
 }
 
@@ -31,12 +33,16 @@ export function AuditPanel() {
     <section class="panel grows" aria-label="audit" tabIndex={0}>
       <h2>
         Audit <span class="sum">{session.audit.value.length}</span>
-        <button type="button" onClick={save} disabled={lines.length === 0}>Save</button>
+        <button type="button" onClick={save} disabled={lines.length === 0}>
+          Save
+        </button>
       </h2>
       <table class="readings wide log">
         <thead>
           <tr>
-            <th scope="col">UTC</th><th scope="col">who</th><th scope="col">what</th>
+            <th scope="col">UTC</th>
+            <th scope="col">who</th>
+            <th scope="col">what</th>
             <th scope="col">result</th>
           </tr>
         </thead>

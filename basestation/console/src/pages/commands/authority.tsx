@@ -8,7 +8,8 @@ import { isHolder, isOperator, send } from "../../store/uplink";
 
 type Deed = "take" | "drop" | "request" | "grant" | "refuse";
 
-const act = (deed: Deed, to?: number) => send({ type: "authority", do: deed, ...(to ? { to } : {}) });
+const act = (deed: Deed, to?: number) =>
+  send({ type: "authority", do: deed, ...(to ? { to } : {}) });
 
 export function AuthorityPanel() {
   const authority = session.authority.value;
@@ -19,29 +20,48 @@ export function AuthorityPanel() {
     <section class="panel" aria-label="authority" tabIndex={0}>
       <h2>Authority</h2>
       <p class="who">
-        {held ? isHolder.value ? "This console commands the car."
-          : `${authority?.holder_name || `Console ${authority?.holder}`} commands the car.`
+        {held
+          ? isHolder.value
+            ? "This console commands the car."
+            : `${authority?.holder_name || `Console ${authority?.holder}`} commands the car.`
           : "Nobody commands the car."}
         <span class="sum"> epoch {authority?.epoch ?? 0}</span>
       </p>
       {isOperator.value ? (
         <div class="tools">
-          {!held && <button type="button" onClick={() => act("take")}>Take authority</button>}
+          {!held && (
+            <button type="button" onClick={() => act("take")}>
+              Take authority
+            </button>
+          )}
           {held && !isHolder.value && (
-            <button type="button" disabled={request?.by === hello?.client}
-              onClick={() => act("request")}>
+            <button
+              type="button"
+              disabled={request?.by === hello?.client}
+              onClick={() => act("request")}
+            >
               {request?.by === hello?.client ? "Asked, waiting" : "Ask for authority"}
             </button>
           )}
-          {isHolder.value && <button type="button" onClick={() => act("drop")}>Give it up</button>}
+          {isHolder.value && (
+            <button type="button" onClick={() => act("drop")}>
+              Give it up
+            </button>
+          )}
         </div>
-      ) : <p class="empty">This console is a viewer.</p>}
+      ) : (
+        <p class="empty">This console is a viewer.</p>
+      )}
       {isHolder.value && request && (
         <div class="request" role="alert">
           <p>{request.name || `Console ${request.by}`} asks for the authority.</p>
           <div class="tools">
-            <button type="button" onClick={() => act("grant", request.by)}>Grant</button>
-            <button type="button" onClick={() => act("refuse", request.by)}>Refuse</button>
+            <button type="button" onClick={() => act("grant", request.by)}>
+              Grant
+            </button>
+            <button type="button" onClick={() => act("refuse", request.by)}>
+              Refuse
+            </button>
           </div>
         </div>
       )}

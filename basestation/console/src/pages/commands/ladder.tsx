@@ -23,7 +23,11 @@ function Rungs({ step }: { step: CommandStep }) {
           )}
         </li>
       ))}
-      {isFallen(step) && <li class="fallen" data-reached="true">{step.step}</li>}
+      {isFallen(step) && (
+        <li class="fallen" data-reached="true">
+          {step.step}
+        </li>
+      )}
     </ol>
   );
 }
@@ -36,7 +40,9 @@ export function LadderPanel() {
       <ul class="ladder" aria-live="polite">
         {steps.map((step) => (
           <li key={step.ticket} data-fallen={isFallen(step)}>
-            <span class="name">{step.name} <b>{argumentText(step, session.commands.value)}</b></span>
+            <span class="name">
+              {step.name} <b>{argumentText(step, session.commands.value)}</b>
+            </span>
             <span class="by">{step.by}</span>
             <Rungs step={step} />
             {step.text && <span class="text">{step.text}</span>}

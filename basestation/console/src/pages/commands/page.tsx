@@ -13,15 +13,25 @@ export function CommandsPage() {
   if (session.hello.value?.mode === "REPLAY") {
     return (
       <main class="page commands-page replay">
-        <div class="column"><AuditPanel /></div>
-        <div class="column"><LadderPanel /></div>
+        <div class="column">
+          <AuditPanel />
+        </div>
+        <div class="column">
+          <LadderPanel />
+        </div>
       </main>
     );
   }
   return (
     <main class="page commands-page">
-      <div class="column"><AuthorityPanel /><StagePanel /></div>
-      <div class="column"><LadderPanel /><AuditPanel /></div>
+      <div class="column">
+        <AuthorityPanel />
+        <StagePanel />
+      </div>
+      <div class="column">
+        <LadderPanel />
+        <AuditPanel />
+      </div>
     </main>
   );
 }

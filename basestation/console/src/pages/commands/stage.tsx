@@ -15,8 +15,10 @@ import { argumentText, isPending } from "./steps";
 export const kSendHoldMs = 600;
 
 function GateRow({ gate }: { gate: Gate }) {
-  const value = typeof gate.value === "number" ? String(Math.round(gate.value * 100) / 100)
-    : (gate.value ?? kDash);
+  const value =
+    typeof gate.value === "number"
+      ? String(Math.round(gate.value * 100) / 100)
+      : (gate.value ?? kDash);
   return (
     <li class="gate" data-ok={gate.ok}>
       <i class="mark" aria-hidden="true" />
@@ -39,44 +41,77 @@ function StagedCard({ step }: { step: CommandStep }) {
   const cancel = () => send({ type: "cancel", ticket: step.ticket });
   return (
     <article class="staged" aria-label={`staged ${step.name}`}>
-      <h3>{step.name} <strong>{argumentText(step, session.commands.value)}</strong></h3>
-      <ul class="gates">{gates.map((gate) => <GateRow gate={gate} key={gate.name} />)}</ul>
+      <h3>
+        {step.name} <strong>{argumentText(step, session.commands.value)}</strong>
+      </h3>
+      <ul class="gates">
+        {gates.map((gate) => (
+          <GateRow gate={gate} key={gate.name} />
+        ))}
+      </ul>
       {!ready && <p class="empty">The base looks at the gates.</p>}
       {shut.length > 0 && (
         <fieldset class="override">
           <legend>{shut.length === 1 ? "One gate refuses" : `${shut.length} gates refuse`}</legend>
-          <label>reason
+          <label>
+            reason
             <input value={reason} onInput={(e) => setReason(e.currentTarget.value)} />
           </label>
-          <label>second person's token
-            <input type="password" value={token} autocomplete="off"
-              onInput={(e) => setToken(e.currentTarget.value)} />
+          <label>
+            second person's token
+            <input
+              type="password"
+              value={token}
+              autocomplete="off"
+              onInput={(e) => setToken(e.currentTarget.value)}
+            />
           </label>
         </fieldset>
       )}
       <div class="tools">
-        <HoldButton holdMs={kSendHoldMs} class="send" label={`send ${step.name}, hold`}
+        <HoldButton
+          holdMs={kSendHoldMs}
+          class="send"
+          label={`send ${step.name}, hold`}
           disabled={!ready || (shut.length > 0 && !overridden)}
-          onHeld={() => send({
-            type: "send", ticket: step.ticket,
-            ...(shut.length > 0 ? { override: { reason: reason.trim(), token: token.trim() } } : {}),
-          })}>
+          onHeld={() =>
+            send({
+              type: "send",
+              ticket: step.ticket,
+              ...(shut.length > 0
+                ? { override: { reason: reason.trim(), token: token.trim() } }
+                : {}),
+            })
+          }
+        >
           {shut.length > 0 ? "Hold to override and send" : "Hold to send"}
         </HoldButton>
-        <button type="button" onClick={cancel}>Cancel</button>
+        <button type="button" onClick={cancel}>
+          Cancel
+        </button>
       </div>
     </article>
   );
 }
 
-function Argument({ info, text, onText }: {
-  info: CommandInfo; text: string; onText: (text: string) => void;
+function Argument({
+  info,
+  text,
+  onText,
+}: {
+  info: CommandInfo;
+  text: string;
+  onText: (text: string) => void;
 }) {
   const labels = info.labels ?? [];
   if (labels.length > 0 && info.unit !== "bits") {
     return (
       <select aria-label="argument" value={text} onChange={(e) => onText(e.currentTarget.value)}>
-        {labels.map((label, i) => <option value={String(i)} key={label}>{label}</option>)}
+        {labels.map((label, i) => (
+          <option value={String(i)} key={label}>
+            {label}
+          </option>
+        ))}
       </select>
     );
   }
@@ -84,9 +119,16 @@ function Argument({ info, text, onText }: {
   const factor = isSpeed ? speedUnit.value.perMps : 1;
   return (
     <label class="amount">
-      <input type="number" aria-label="argument" required value={text}
-        min={info.min * factor} max={Math.floor(info.max * factor)} step={isSpeed ? 1 : info.resolution}
-        onInput={(e) => onText(e.currentTarget.value)} />
+      <input
+        type="number"
+        aria-label="argument"
+        required
+        value={text}
+        min={info.min * factor}
+        max={Math.floor(info.max * factor)}
+        step={isSpeed ? 1 : info.resolution}
+        onInput={(e) => onText(e.currentTarget.value)}
+      />
       <span class="unit">{isSpeed ? speedUnit.value.name : info.unit}</span>
     </label>
   );
@@ -104,14 +146,25 @@ export function StagePanel() {
     <section class="panel grows" aria-label="stage a command" tabIndex={0}>
       <h2>Stage a command</h2>
       {info && (
-        <form class="stage" onSubmit={(e) => {
-          e.preventDefault();
-          send({ type: "stage", name: info.name, argument: value });
-        }}>
-          <select aria-label="command" value={info.name}
-            onChange={(e) => { setName(e.currentTarget.value); setText("0"); }}>
+        <form
+          class="stage"
+          onSubmit={(e) => {
+            e.preventDefault();
+            send({ type: "stage", name: info.name, argument: value });
+          }}
+        >
+          <select
+            aria-label="command"
+            value={info.name}
+            onChange={(e) => {
+              setName(e.currentTarget.value);
+              setText("0");
+            }}
+          >
             {infos.map((command) => (
-              <option value={command.name} key={command.name}>{command.name}</option>
+              <option value={command.name} key={command.name}>
+                {command.name}
+              </option>
             ))}
           </select>
           <Argument info={info} text={text} onText={setText} />
@@ -121,7 +174,9 @@ export function StagePanel() {
         </form>
       )}
       {barred && <p class="empty">Take the authority to stage this command.</p>}
-      {pending.map((step) => <StagedCard step={step} key={step.ticket} />)}
+      {pending.map((step) => (
+        <StagedCard step={step} key={step.ticket} />
+      ))}
     </section>
   );
 }

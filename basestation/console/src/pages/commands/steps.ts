@@ -27,8 +27,9 @@ export function argumentText(step: CommandStep, infos: readonly CommandInfo[]): 
   const info = infos.find((command) => command.name === step.name);
   if (info?.labels?.length) {
     if (info.unit !== "bits") return info.labels[step.argument] ?? String(step.argument);
-    return info.labels.filter((_, bit) => Math.floor(step.argument / 2 ** bit) % 2).join(", ") ||
-      "none";
+    return (
+      info.labels.filter((_, bit) => Math.floor(step.argument / 2 ** bit) % 2).join(", ") || "none"
+    );
   }
   if (info?.unit === "m/s") {
     return `${fixed(step.argument * speedUnit.value.perMps, 0)} ${speedUnit.value.name}`;

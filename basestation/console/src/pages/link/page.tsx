@@ -21,7 +21,11 @@ function PathRows({ path }: { path: LinkPath }) {
     <>
       {windows.map((w, i) => (
         <tr key={w.seconds}>
-          {i === 0 && <th scope="rowgroup" rowSpan={windows.length}>{path.path} {path.direction}</th>}
+          {i === 0 && (
+            <th scope="rowgroup" rowSpan={windows.length}>
+              {path.path} {path.direction}
+            </th>
+          )}
           <td>{w.seconds} s</td>
           <td>{figure(w.loss, 100, 1)}</td>
           <td>{figure(w.rtt_ms, 1, 1)}</td>
@@ -44,14 +48,21 @@ function Paths() {
       <table class="readings wide">
         <thead>
           <tr>
-            <th scope="col">path</th><th scope="col">over</th><th scope="col">loss %</th>
-            <th scope="col">round trip ms</th><th scope="col">jitter ms</th>
-            <th scope="col">reorder %</th><th scope="col">twice %</th>
-            <th scope="col">kbit/s</th><th scope="col">cap</th>
+            <th scope="col">path</th>
+            <th scope="col">over</th>
+            <th scope="col">loss %</th>
+            <th scope="col">round trip ms</th>
+            <th scope="col">jitter ms</th>
+            <th scope="col">reorder %</th>
+            <th scope="col">twice %</th>
+            <th scope="col">kbit/s</th>
+            <th scope="col">cap</th>
           </tr>
         </thead>
         <tbody>
-          {paths.map((path) => <PathRows path={path} key={`${path.path} ${path.direction}`} />)}
+          {paths.map((path) => (
+            <PathRows path={path} key={`${path.path} ${path.direction}`} />
+          ))}
         </tbody>
       </table>
       {paths.length === 0 && <p class="empty">Nothing heard of the link yet.</p>}
@@ -65,12 +76,17 @@ function Groups() {
   const total = groups.reduce((sum, group) => sum + group.kbit_s, 0);
   return (
     <section class="panel groups" aria-label="groups" tabIndex={0}>
-      <h2>Groups down <span class="sum">{total.toFixed(1)} kbit/s</span></h2>
+      <h2>
+        Groups down <span class="sum">{total.toFixed(1)} kbit/s</span>
+      </h2>
       <table class="readings wide">
         <thead>
           <tr>
-            <th scope="col">group</th><th scope="col">kbit/s</th><th scope="col" aria-label="share" />
-            <th scope="col">age</th><th scope="col">wanted</th>
+            <th scope="col">group</th>
+            <th scope="col">kbit/s</th>
+            <th scope="col" aria-label="share" />
+            <th scope="col">age</th>
+            <th scope="col">wanted</th>
           </tr>
         </thead>
         <tbody>
@@ -104,8 +120,12 @@ function NoticeCard({ notice }: { notice: Notice }) {
       <p class="evidence">{notice.evidence}</p>
       {isOperator.value && (
         <div class="tools">
-          <button type="button" onClick={() => answer("send")}>Send to race control</button>
-          <button type="button" onClick={() => answer("dismiss")}>Dismiss</button>
+          <button type="button" onClick={() => answer("send")}>
+            Send to race control
+          </button>
+          <button type="button" onClick={() => answer("dismiss")}>
+            Dismiss
+          </button>
         </div>
       )}
     </article>
@@ -117,7 +137,9 @@ function Notices() {
   return (
     <section class="panel" aria-label="messages to race control" tabIndex={0}>
       <h2>To race control</h2>
-      {notices.map((notice) => <NoticeCard notice={notice} key={notice.id} />)}
+      {notices.map((notice) => (
+        <NoticeCard notice={notice} key={notice.id} />
+      ))}
       {notices.length === 0 && <p class="empty">Nothing to tell.</p>}
     </section>
   );
@@ -127,7 +149,10 @@ function State() {
   const link = session.link.value;
   return (
     <section class="panel" aria-label="state" tabIndex={0}>
-      <h2>Link {link ? link.state : kDash}{link && <AgeSince sinceMs={link.since_ms} />}</h2>
+      <h2>
+        Link {link ? link.state : kDash}
+        {link && <AgeSince sinceMs={link.since_ms} />}
+      </h2>
       <div class="lines two">
         <Line label="loss down, 5 s" path="link.down_loss" scale={100} decimals={1} unit="%" />
         <Line label="loss up, 5 s" path="link.up_loss" scale={100} decimals={1} unit="%" />
@@ -149,8 +174,14 @@ function State() {
 export function LinkPage() {
   return (
     <main class="page link-page">
-      <div class="column"><State /><Paths /><Notices /></div>
-      <div class="column"><Groups /></div>
+      <div class="column">
+        <State />
+        <Paths />
+        <Notices />
+      </div>
+      <div class="column">
+        <Groups />
+      </div>
     </main>
   );
 }

@@ -20,7 +20,11 @@ export function requestEarlier(path: string): void {
   const info = store.info[store.slot(path)];
   if (!info) return;
   const sent = send({
-    type: "history", field: info.id, from_s: kBackS, to_s: 0, points: kPoints,
+    type: "history",
+    field: info.id,
+    from_s: kBackS,
+    to_s: 0,
+    points: kPoints,
   });
   if (!sent) return;
   answers.set(path, null);

@@ -29,12 +29,22 @@ function axes(): uPlot.Axis[] {
   const ticks = { stroke: line, width: 1, size: 4 };
   return [
     {
-      stroke: dim, font, grid, ticks, size: 26, space: 70,
+      stroke: dim,
+      font,
+      grid,
+      ticks,
+      size: 26,
+      space: 70,
       splits: (_, __, min, max, step) => backFrom(max, min, step),
       values: (_, splits) => splits.map((s) => agoText(s)),
     },
     {
-      stroke: dim, font, grid, ticks, size: 52, space: 34,
+      stroke: dim,
+      font,
+      grid,
+      ticks,
+      size: 52,
+      space: 34,
       values: (_, splits, __, ___, step) => splits.map((v) => fixed(v, decimalsOf(step))),
     },
   ];
@@ -95,8 +105,10 @@ function readOut(plot: uPlot, spec: ChartSpec, head: HTMLElement): void {
   spec.fields.forEach((path, i) => {
     const info = store.info[store.slot(path)];
     const value = at >= 0 ? plot.data[i + 1]?.[at] : null;
-    const text = info && typeof value === "number"
-      ? `${valueText(info, value)} ${unitText(info.unit)}` : kDash;
+    const text =
+      info && typeof value === "number"
+        ? `${valueText(info, value)} ${unitText(info.unit)}`
+        : kDash;
     const cell = head.children[i]?.lastElementChild;
     if (cell && cell.textContent !== text) cell.textContent = text;
   });
@@ -140,13 +152,17 @@ export function Chart({ spec, index, windowS }: ChartProps) {
   }, [spec, windowS, grounds, store]);
 
   return (
-    <section class="chart" aria-label={`chart ${spec.title}`} tabIndex={0}
+    <section
+      class="chart"
+      aria-label={`chart ${spec.title}`}
+      tabIndex={0}
       onDragOver={(e) => e.preventDefault()}
       onDrop={(e) => {
         e.preventDefault();
         const path = e.dataTransfer?.getData("text/plain");
         if (path) plotTarget.add(index, path);
-      }}>
+      }}
+    >
       <header>
         <h2>{spec.title}</h2>
         <ul class="read-outs" ref={head}>
@@ -158,10 +174,23 @@ export function Chart({ spec, index, windowS }: ChartProps) {
             </li>
           ))}
         </ul>
-        <button type="button" aria-label={`add a field to ${spec.title}`}
-          onClick={() => { plotTarget.chart = index; finderShown.value = true; }}>+</button>
-        <button type="button" aria-label={`remove chart ${spec.title}`}
-          onClick={() => removeChart(index)}>&times;</button>
+        <button
+          type="button"
+          aria-label={`add a field to ${spec.title}`}
+          onClick={() => {
+            plotTarget.chart = index;
+            finderShown.value = true;
+          }}
+        >
+          +
+        </button>
+        <button
+          type="button"
+          aria-label={`remove chart ${spec.title}`}
+          onClick={() => removeChart(index)}
+        >
+          &times;
+        </button>
       </header>
       <div class="plot" ref={box} />
     </section>

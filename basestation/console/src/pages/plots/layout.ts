@@ -58,7 +58,10 @@ export const kPresets: Record<string, PlotLayout> = {
   ]),
   powertrain: preset([
     { title: "engine speed", fields: ["engine.speed"] },
-    { title: "temperatures", fields: ["engine.coolant", "powertrain.oil", "powertrain.transmission"] },
+    {
+      title: "temperatures",
+      fields: ["engine.coolant", "powertrain.oil", "powertrain.transmission"],
+    },
     { title: "pressures", fields: ["engine.oil_pressure", "engine.fuel_pressure"] },
     { title: "torque", fields: ["powertrain.torque"] },
     { title: "battery", fields: ["electric.battery"] },
@@ -92,7 +95,7 @@ export function readPlotLayout(json: unknown): PlotLayout | null {
 
 export function changeLayout(to: PlotLayout): void {
   plotLayout.value = to;
-  storeLayout("plots", to);
+  void storeLayout("plots", to);
 }
 
 /** A chart of this field alone in front of the others, unless one has it already. */
@@ -108,7 +111,8 @@ export function addToChart(index: number, path: string): void {
   const layout = plotLayout.value;
   const charts = layout.charts.map((chart, i) =>
     i === index && !chart.fields.includes(path) && chart.fields.length < kMostFields
-      ? { ...chart, fields: [...chart.fields, path] } : chart,
+      ? { ...chart, fields: [...chart.fields, path] }
+      : chart,
   );
   changeLayout({ ...layout, charts });
 }

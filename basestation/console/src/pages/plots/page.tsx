@@ -10,7 +10,8 @@ import { Chart } from "./chart";
 import { requestEarlier } from "./backfill";
 import { changeLayout, kPresets, kWindowsS, plotLayout } from "./layout";
 
-const columnsFor = (charts: number): number => (charts <= 1 ? 1 : charts <= 8 ? 2 : charts <= 15 ? 3 : 4);
+const columnsFor = (charts: number): number =>
+  charts <= 1 ? 1 : charts <= 8 ? 2 : charts <= 15 ? 3 : 4;
 
 export function PlotsPage() {
   const layout = plotLayout.value;
@@ -22,24 +23,38 @@ export function PlotsPage() {
     <main class="page plots">
       <div class="tools" role="toolbar" aria-label="plots">
         {Object.keys(kPresets).map((name) => (
-          <button type="button" key={name} aria-pressed={layout.charts === kPresets[name].charts}
-            onClick={() => changeLayout({ ...kPresets[name], window_s: layout.window_s })}>
+          <button
+            type="button"
+            key={name}
+            aria-pressed={layout.charts === kPresets[name].charts}
+            onClick={() => changeLayout({ ...kPresets[name], window_s: layout.window_s })}
+          >
             {name}
           </button>
         ))}
         <label>
           window
-          <select value={String(layout.window_s)}
-            onChange={(e) => changeLayout({ ...layout, window_s: Number(e.currentTarget.value) })}>
-            {kWindowsS.map((s) => <option value={String(s)} key={s}>{s} s</option>)}
+          <select
+            value={String(layout.window_s)}
+            onChange={(e) => changeLayout({ ...layout, window_s: Number(e.currentTarget.value) })}
+          >
+            {kWindowsS.map((s) => (
+              <option value={String(s)} key={s}>
+                {s} s
+              </option>
+            ))}
           </select>
         </label>
         <button type="button" onClick={() => (finderShown.value = true)}>
           Add field <kbd>/</kbd>
         </button>
       </div>
-      <div class="charts"
-        style={{ gridTemplateColumns: `repeat(${columnsFor(layout.charts.length)}, minmax(0, 1fr))` }}>
+      <div
+        class="charts"
+        style={{
+          gridTemplateColumns: `repeat(${columnsFor(layout.charts.length)}, minmax(0, 1fr))`,
+        }}
+      >
         {layout.charts.map((spec, i) => (
           <Chart spec={spec} index={i} windowS={layout.window_s} key={spec.title + spec.fields} />
         ))}

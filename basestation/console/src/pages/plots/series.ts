@@ -44,8 +44,13 @@ function extremes(history: History, slots: readonly number[], from: number, to: 
 }
 
 /** The rows between two moments, at most about `points` of them. */
-export function columns(history: History, slots: readonly number[], fromMs: number, toMs: number,
-  points: number): Columns {
+export function columns(
+  history: History,
+  slots: readonly number[],
+  fromMs: number,
+  toMs: number,
+  points: number,
+): Columns {
   const out: Columns = { timeS: [], values: slots.map(() => []) };
   const end = history.find(toMs) + 1;
   const begin = Math.max(history.find(fromMs), 0);

@@ -23,14 +23,22 @@ export function GnssPanel() {
   return (
     <table class="readings">
       <thead>
-        <tr><th scope="col" /><th scope="col">unit 0</th><th scope="col">unit 1</th></tr>
+        <tr>
+          <th scope="col" />
+          <th scope="col">unit 0</th>
+          <th scope="col">unit 1</th>
+        </tr>
       </thead>
       <tbody>
         {kRows.map(([label, field, props]) => (
           <tr key={field}>
             <th scope="row">{label}</th>
-            <td><Value path={`gnss0.${field}`} {...props} /></td>
-            <td><Value path={`gnss1.${field}`} {...props} /></td>
+            <td>
+              <Value path={`gnss0.${field}`} {...props} />
+            </td>
+            <td>
+              <Value path={`gnss1.${field}`} {...props} />
+            </td>
           </tr>
         ))}
       </tbody>

@@ -6,7 +6,15 @@
 import { signal } from "@preact/signals";
 
 export const kPanels = [
-  "map", "speed", "tyres", "fuel", "watchdogs", "sensors", "gnss", "computer", "powertrain",
+  "map",
+  "speed",
+  "tyres",
+  "fuel",
+  "watchdogs",
+  "sensors",
+  "gnss",
+  "computer",
+  "powertrain",
 ] as const;
 export type PanelName = (typeof kPanels)[number];
 

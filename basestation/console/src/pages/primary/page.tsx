@@ -34,14 +34,18 @@ function move(event: KeyboardEvent, name: PanelName): void {
   const next = moved(primaryLayout.value, name, event.key);
   if (next === primaryLayout.value) return;
   primaryLayout.value = next;
-  storeLayout("primary", next);
+  void storeLayout("primary", next);
 }
 
 function Panel({ name }: { name: PanelName }) {
   const [title, Body] = kBodies[name];
   return (
-    <section class={`panel panel-${name}`} tabIndex={0} aria-label={title}
-      onKeyDown={(event) => move(event, name)}>
+    <section
+      class={`panel panel-${name}`}
+      tabIndex={0}
+      aria-label={title}
+      onKeyDown={(event) => move(event, name)}
+    >
       <h2>{title}</h2>
       <Body />
     </section>
@@ -51,11 +55,15 @@ function Panel({ name }: { name: PanelName }) {
 export function PrimaryPage() {
   const { columns } = primaryLayout.value;
   return (
-    <main class="page primary"
-      style={{ gridTemplateColumns: columns.map((c) => `minmax(0, ${c.share}fr)`).join(" ") }}>
+    <main
+      class="page primary"
+      style={{ gridTemplateColumns: columns.map((c) => `minmax(0, ${c.share}fr)`).join(" ") }}
+    >
       {columns.map((column, i) => (
         <div class="column" key={i}>
-          {column.panels.map((name) => <Panel name={name} key={name} />)}
+          {column.panels.map((name) => (
+            <Panel name={name} key={name} />
+          ))}
         </div>
       ))}
     </main>

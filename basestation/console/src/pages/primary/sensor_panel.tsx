@@ -6,8 +6,13 @@
 import { Value } from "../../view/value";
 
 const kSensors = [
-  ["gnss0", "GNSS 0"], ["gnss1", "GNSS 1"], ["imu0", "IMU 0"], ["imu1", "IMU 1"],
-  ["lidar", "LiDAR"], ["camera", "camera"], ["radar", "radar"],
+  ["gnss0", "GNSS 0"],
+  ["gnss1", "GNSS 1"],
+  ["imu0", "IMU 0"],
+  ["imu1", "IMU 1"],
+  ["lidar", "LiDAR"],
+  ["camera", "camera"],
+  ["radar", "radar"],
 ] as const;
 
 export function SensorPanel() {
@@ -25,9 +30,15 @@ export function SensorPanel() {
         {kSensors.map(([sensor, label]) => (
           <tr key={sensor}>
             <th scope="row">{label}</th>
-            <td><Value path={`sensors.${sensor}_rate`} decimals={1} unit={false} /></td>
-            <td><Value path={`sensors.${sensor}_gap`} decimals={0} unit={false} /></td>
-            <td><Value path={`sensors.${sensor}_latency`} decimals={0} unit={false} /></td>
+            <td>
+              <Value path={`sensors.${sensor}_rate`} decimals={1} unit={false} />
+            </td>
+            <td>
+              <Value path={`sensors.${sensor}_gap`} decimals={0} unit={false} />
+            </td>
+            <td>
+              <Value path={`sensors.${sensor}_latency`} decimals={0} unit={false} />
+            </td>
           </tr>
         ))}
       </tbody>

@@ -24,11 +24,16 @@ export function SpeedPanel() {
         <Tile label="target" path="track.target_speed" speed unit={false} />
         <Tile label="gear" path="feedback.gear" big />
       </div>
-      <Bar path="ego.vx" label="speed" max={kTopSpeedMps} asked="track.target_speed"
+      <Bar
+        path="ego.vx"
+        label="speed"
+        max={kTopSpeedMps}
+        asked="track.target_speed"
         ticks={[
           { path: "flags.round_target_speed", label: "round speed of race control" },
           { path: "planner.operator_limit", label: "limit of the operator" },
-        ]} />
+        ]}
+      />
       <div class="gauges">
         <Line label="rpm" path="engine.speed" unit={false} />
         <Bar path="engine.speed" label="engine speed" max={kTopRpm} />
@@ -36,12 +41,30 @@ export function SpeedPanel() {
         <Bar path="feedback.throttle" label="throttle" max={1} asked="command.throttle" />
         <Line label="brake" path="feedback.brake_front" decimals={0} />
         <Bar path="feedback.brake_front" label="brake" max={kMostBrakeKpa} asked="command.brake" />
-        <Line label="steer" path="feedback.steering" scale={57.29578} decimals={1} unit={"\u00b0"} />
-        <Bar path="feedback.steering" label="steering" min={-kMostSteeringRad}
-          max={kMostSteeringRad} asked="command.steering" centred />
+        <Line
+          label="steer"
+          path="feedback.steering"
+          scale={57.29578}
+          decimals={1}
+          unit={"\u00b0"}
+        />
+        <Bar
+          path="feedback.steering"
+          label="steering"
+          min={-kMostSteeringRad}
+          max={kMostSteeringRad}
+          asked="command.steering"
+          centred
+        />
         <Line label="CTE" path="dynamics.lateral_error" />
-        <Bar path="dynamics.lateral_error" label="cross-track error" min={-2.5} max={2.5}
-          ticks={kOffTrack} centred />
+        <Bar
+          path="dynamics.lateral_error"
+          label="cross-track error"
+          min={-2.5}
+          max={2.5}
+          ticks={kOffTrack}
+          centred
+        />
       </div>
       <div class="tiles four">
         <Tile label="long. acc." path="dynamics.forward" decimals={1} />

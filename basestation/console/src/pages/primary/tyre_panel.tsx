@@ -28,8 +28,12 @@ function Tyre({ wheel, name }: { wheel: string; name: string }) {
           <Value path={`tread.outer_${wheel}`} decimals={0} unit={"\u00b0"} />
         </span>
       </span>
-      <Bar path={`tyres.temperature_${wheel}`} label={`temperature ${name}`} max={kHottestC}
-        ticks={[{ path: "derived.tyre_gate", label: "needed for the commanded speed" }]} />
+      <Bar
+        path={`tyres.temperature_${wheel}`}
+        label={`temperature ${name}`}
+        max={kHottestC}
+        ticks={[{ path: "derived.tyre_gate", label: "needed for the commanded speed" }]}
+      />
     </div>
   );
 }
@@ -37,7 +41,9 @@ function Tyre({ wheel, name }: { wheel: string; name: string }) {
 export function TyrePanel() {
   return (
     <div class="tyre-body">
-      {kWheels.map(([wheel, name]) => <Tyre key={wheel} wheel={wheel} name={name} />)}
+      {kWheels.map(([wheel, name]) => (
+        <Tyre key={wheel} wheel={wheel} name={name} />
+      ))}
       <div class="tiles three">
         <Tile label="coldest" path="derived.tyre_min" decimals={0} />
         <Tile label="gate" path="derived.tyre_gate" decimals={0} />

@@ -56,16 +56,38 @@ export function TelemetryPage() {
   return (
     <main class="page telemetry">
       <div class="tools">
-        <input type="search" placeholder="filter by path" value={query} spellcheck={false}
-          aria-label="filter fields" onInput={(e) => { setQuery(e.currentTarget.value); setAt(0); }} />
-        <span class="count" role="status">{shown.length} of {all.length} fields</span>
+        <input
+          type="search"
+          placeholder="filter by path"
+          value={query}
+          spellcheck={false}
+          aria-label="filter fields"
+          onInput={(e) => {
+            setQuery(e.currentTarget.value);
+            setAt(0);
+          }}
+        />
+        <span class="count" role="status">
+          {shown.length} of {all.length} fields
+        </span>
       </div>
       <div class="field-head" aria-hidden="true">
-        <span>field</span><span>value</span><span>age against period</span><span>rate</span>
-        <span>least 60 s</span><span>most 60 s</span><span>group every</span>
+        <span>field</span>
+        <span>value</span>
+        <span>age against period</span>
+        <span>rate</span>
+        <span>least 60 s</span>
+        <span>most 60 s</span>
+        <span>group every</span>
       </div>
-      <div class="field-box" ref={box} role="grid" tabIndex={0} aria-label="all fields"
-        aria-rowcount={shown.length} aria-activedescendant={`field-${shown[at]?.id}`}
+      <div
+        class="field-box"
+        ref={box}
+        role="grid"
+        tabIndex={0}
+        aria-label="all fields"
+        aria-rowcount={shown.length}
+        aria-activedescendant={`field-${shown[at]?.id}`}
         onScroll={(e) => setTop(e.currentTarget.scrollTop)}
         onKeyDown={(e) => {
           const page = Math.floor(height / kRowPx) - 1;
@@ -76,11 +98,21 @@ export function TelemetryPage() {
           else if (e.key === "Enter" && shown[at]) plot(shown[at].path);
           else return;
           e.preventDefault();
-        }}>
-        <div class="field-rows" role="presentation" style={{ height: `${shown.length * kRowPx}px` }}>
+        }}
+      >
+        <div
+          class="field-rows"
+          role="presentation"
+          style={{ height: `${shown.length * kRowPx}px` }}
+        >
           {rows.map((field, i) => (
-            <FieldRow key={field.id} field={field} row={first + i} selected={first + i === at}
-              onOpen={() => plot(field.path)} />
+            <FieldRow
+              key={field.id}
+              field={field}
+              row={first + i}
+              selected={first + i === at}
+              onOpen={() => plot(field.path)}
+            />
           ))}
         </div>
       </div>

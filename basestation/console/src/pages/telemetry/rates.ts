@@ -30,8 +30,11 @@ export class RateTable {
 export const rateTable = new RateTable();
 
 /** Least and most of a field over the rows after `fromMs`; null where it never was known. */
-export function extremes(history: History, slot: number, fromMs: number):
-  { least: number; most: number } | null {
+export function extremes(
+  history: History,
+  slot: number,
+  fromMs: number,
+): { least: number; most: number } | null {
   let [least, most] = [Infinity, -Infinity];
   for (let n = Math.max(history.find(fromMs), 0); n < history.size; ++n) {
     const row = history.index(n);

@@ -38,7 +38,8 @@ export function FieldRow({ field, row, selected, onOpen }: FieldRowProps) {
       const hz = rateTable.rate(slot);
       rate.textContent = Number.isFinite(hz) ? `${hz.toFixed(hz < 10 ? 1 : 0)} Hz` : kDash;
       const span = field.labels?.length
-        ? null : extremes(session.history, slot, shownMs() - kSpanMs);
+        ? null
+        : extremes(session.history, slot, shownMs() - kSpanMs);
       least.textContent = span ? valueText(field, span.least) : kDash;
       most.textContent = span ? valueText(field, span.most) : kDash;
     },
@@ -46,17 +47,40 @@ export function FieldRow({ field, row, selected, onOpen }: FieldRowProps) {
     [slot, field],
   );
   return (
-    <div class="field-row" ref={root} id={`field-${field.id}`} role="row" aria-rowindex={row + 1}
-      aria-selected={selected} data-selected={selected} draggable
+    <div
+      class="field-row"
+      ref={root}
+      id={`field-${field.id}`}
+      role="row"
+      aria-rowindex={row + 1}
+      aria-selected={selected}
+      data-selected={selected}
+      draggable
       style={{ top: `${row * kRowPx}px` }}
-      onDragStart={(e) => e.dataTransfer?.setData("text/plain", field.path)} onClick={onOpen}>
-      <span role="gridcell" class="path"><b>{field.group}</b>.{field.name}</span>
-      <span role="gridcell"><Value path={field.path} /></span>
-      <span role="gridcell" class="age-bar"><i /></span>
-      <span role="gridcell" class="number">{kDash}</span>
-      <span role="gridcell" class="number">{kDash}</span>
-      <span role="gridcell" class="number">{kDash}</span>
-      <span role="gridcell" class="number">{field.period_ms} ms</span>
+      onDragStart={(e) => e.dataTransfer?.setData("text/plain", field.path)}
+      onClick={onOpen}
+    >
+      <span role="gridcell" class="path">
+        <b>{field.group}</b>.{field.name}
+      </span>
+      <span role="gridcell">
+        <Value path={field.path} />
+      </span>
+      <span role="gridcell" class="age-bar">
+        <i />
+      </span>
+      <span role="gridcell" class="number">
+        {kDash}
+      </span>
+      <span role="gridcell" class="number">
+        {kDash}
+      </span>
+      <span role="gridcell" class="number">
+        {kDash}
+      </span>
+      <span role="gridcell" class="number">
+        {field.period_ms} ms
+      </span>
     </div>
   );
 }

@@ -26,34 +26,58 @@ afterEach(async () => {
 });
 
 /** Fields of the car that are drawn as if they were known, on a page on which none should be. */
-const carAlive = () => [...document.querySelectorAll(".value[data-path]")]
-  .filter((e) => !/^(link|derived|base|radio)\./.test(e.dataset.path))
-  .filter((e) => ["fresh", "late"].includes(e.dataset.quality) ||
-    !["none", undefined].includes(e.dataset.judgement))
-  .map((e) => `${e.dataset.path} ${e.dataset.quality} ${e.dataset.judgement}`);
+const carAlive = () =>
+  [...document.querySelectorAll(".value[data-path]")]
+    .filter((e) => !/^(link|derived|base|radio)\./.test(e.dataset.path))
+    .filter(
+      (e) =>
+        ["fresh", "late"].includes(e.dataset.quality) ||
+        !["none", undefined].includes(e.dataset.judgement),
+    )
+    .map(
+      (e) => `${e.dataset.path} ${e.dataset.quality} ${e.dataset.judgement}`,
+    );
 
 test("the live car, its mode and its link are shown, every page without a fault", async () => {
   const { page, faults } = await open(browser, address);
-  await until(page, "50.5 m/s in mph", () =>
-    document.querySelector('[data-path="ego.vx"] .digits').textContent === "113");
+  await until(
+    page,
+    "50.5 m/s in mph",
+    () =>
+      document.querySelector('[data-path="ego.vx"] .digits').textContent ===
+      "113",
+  );
   await until(page, "the link's state", () =>
-    /GOOD|DEGRADED/.test(document.querySelector(".link-tile .word").textContent));
+    /GOOD|DEGRADED/.test(
+      document.querySelector(".link-tile .word").textContent,
+    ),
+  );
   assert.notEqual(await page.textContent(".mode-word strong"), "NO BASE");
   for (const name of kPages) {
     await page.evaluate((hash) => (location.hash = hash), `#/${name}`);
     await page.waitForTimeout(400);
   }
   assert.deepEqual(faults, []);
-  const counters = await page.evaluate(() => globalThis.pitwall.session.counters);
+  const counters = await page.evaluate(
+    () => globalThis.pitwall.session.counters,
+  );
   assert.equal(counters.badFrames, 0);
   assert.equal(counters.badTexts, 0);
-  assert.equal(await page.evaluate(() => globalThis.pitwall.session.fields.value.unknownIds), 0);
+  assert.equal(
+    await page.evaluate(
+      () => globalThis.pitwall.session.fields.value.unknownIds,
+    ),
+    0,
+  );
 });
 
 test("the track of the base is drawn", async () => {
   const { page } = await open(browser, address);
-  await until(page, "the track's name", () =>
-    document.querySelector(".map-caption").textContent === "LVMS");
+  await until(
+    page,
+    "the track's name",
+    () => document.querySelector(".map-caption").textContent === "LVMS",
+  );
 });
 
 test("the car is killed: every field of it stale, none coloured, on every page", async () => {
@@ -70,8 +94,10 @@ test("the car is killed: every field of it stale, none coloured, on every page",
   await page.evaluate(() => (location.hash = "#/primary"));
   await until(page, "the last speed, struck", () => {
     const value = document.querySelector('.primary [data-path="ego.vx"]');
-    return value?.dataset.quality === "stale" &&
-      value.querySelector(".digits").textContent === "113";
+    return (
+      value?.dataset.quality === "stale" &&
+      value.querySelector(".digits").textContent === "113"
+    );
   });
   assert.match(await page.textContent(".link-tile .word"), /LOST/);
 });
@@ -80,37 +106,49 @@ test("a stop reaches the car, and the console says what the car says", async () 
   const { page } = await open(browser, address);
   await page.keyboard.press("Escape");
   await page.keyboard.press("Escape");
-  await until(page, "the car's own word", () =>
-    document.querySelector(".outcome").textContent === "car: controlled stop");
+  await until(
+    page,
+    "the car's own word",
+    () =>
+      document.querySelector(".outcome").textContent === "car: controlled stop",
+  );
   assert.match(programs.carSaid, /stop 1/);
 });
 
 test("a command climbs its ladder, or its gates say why not", async () => {
   const { page } = await open(browser, address, { hash: "#/commands" });
   await page.click("text=Take authority");
-  await until(page, "the authority", () =>
-    document.querySelector(".holder").dataset.mine === "true");
+  await until(
+    page,
+    "the authority",
+    () => document.querySelector(".holder").dataset.mine === "true",
+  );
   await page.selectOption('select[aria-label="command"]', "speed limit");
   await page.fill('input[aria-label="argument"]', "120");
   await page.click(".stage button[type=submit]");
   await until(page, "gates", () => document.querySelector(".staged .gate"));
   // Nothing is known of this car's flags and tyres: such a car gets no speed.
-  assert.ok(await page.locator('.gate[data-ok="false"]').count() > 0);
+  assert.ok((await page.locator('.gate[data-ok="false"]').count()) > 0);
   assert.equal(await page.isDisabled("button.send"), true);
   await page.click(".staged >> text=Cancel");
   await page.selectOption('select[aria-label="command"]', "send parameters");
   await page.selectOption('select[aria-label="argument"]', "1");
   await page.click(".stage button[type=submit]");
   await until(page, "a way to send", () =>
-    document.querySelector(".staged button.send:not(:disabled)"));
+    document.querySelector(".staged button.send:not(:disabled)"),
+  );
   const box = await page.locator(".staged button.send").first().boundingBox();
   await page.mouse.move(box.x + 20, box.y + 20);
   await page.mouse.down();
   await page.waitForTimeout(1200);
   await page.mouse.up();
-  await until(page, "applied by the car", () => [...document.querySelectorAll(".ladder > li")]
-    .some((li) => li.textContent.includes("send parameters") &&
-      li.querySelector(".rungs li:nth-child(5)").dataset.reached === "true"));
+  await until(page, "applied by the car", () =>
+    [...document.querySelectorAll(".ladder > li")].some(
+      (li) =>
+        li.textContent.includes("send parameters") &&
+        li.querySelector(".rungs li:nth-child(5)").dataset.reached === "true",
+    ),
+  );
   assert.match(programs.carSaid, /command send parameters 1/);
 });
 
@@ -121,11 +159,27 @@ test("the base is killed and started again: the console finds it, a layout is ke
   await page.waitForTimeout(400);
   await programs.kill("base");
   await until(page, "NO BASE", () =>
-    document.querySelector(".link-tile .word").textContent.startsWith("NO BASE"));
+    document
+      .querySelector(".link-tile .word")
+      .textContent.startsWith("NO BASE"),
+  );
   await programs.startBase();
-  await until(page, "fresh values", () =>
-    document.querySelector('[data-path="ego.vx"]').dataset.quality === "fresh", undefined, 20_000);
+  await until(
+    page,
+    "fresh values",
+    () =>
+      document.querySelector('[data-path="ego.vx"]').dataset.quality ===
+      "fresh",
+    undefined,
+    20_000,
+  );
   await page.reload();
-  await until(page, "the layout", () => [...document.querySelectorAll(".primary .panel")]
-    .findIndex((p) => p.classList.contains("panel-fuel")) === 2);
+  await until(
+    page,
+    "the layout",
+    () =>
+      [...document.querySelectorAll(".primary .panel")].findIndex((p) =>
+        p.classList.contains("panel-fuel"),
+      ) === 2,
+  );
 });
