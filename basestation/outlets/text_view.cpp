@@ -198,7 +198,8 @@ void add_receiver(const Said& said, std::size_t unit, std::vector<TextLine>& lin
               {"satellites " + said.word(of(field("gnss0.satellites"))),
                "  type " + said.word(of(field("gnss0.type"))),
                "  sigma " + said.word(of(field("gnss0.sigma"))),
-               "  corrections " + said.word(of(field("gnss0.differential_age"))) + " old"},
+               "  corrections " + said.word(of(field("gnss0.differential_age"))) + " old",
+               "  position " + said.word(of(field("gnss0.position_age"))) + " old"},
               lines, Tone::kPlain);
   }
   constexpr FieldIndex kTraffic = telemetry::fields_of(Group::kReceivers).first;

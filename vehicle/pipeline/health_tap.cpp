@@ -184,7 +184,8 @@ void put_receiver(const TapInputs& in, std::size_t unit, Snapshot& snapshot) {
   at(field("gnss0.velocity_verdict")) = verdict_of(state, Source::kVelocity, unit);
   at(field("gnss0.heading_verdict")) = verdict_of(state, Source::kHeading, unit);
   at(field("gnss0.attitude_verdict")) = verdict_of(state, Source::kAttitude, unit);
-  snapshot.at(group) = std::min(position->at, in.now);
+  // The verdicts are of now: who fell silent is told to be, with the age of what it said last.
+  snapshot.at(group) = in.now;
 }
 
 void put_traffic(const TapInputs& in, Snapshot& snapshot) {

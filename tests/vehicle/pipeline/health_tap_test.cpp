@@ -148,5 +148,22 @@ TEST(HealthTap, APositionFromTheFutureIsShownAsOfNow) {
   EXPECT_EQ(snapshot.values[field("gnss0.position_age")], 0.0);
 }
 
+// Else the last verdict before the silence would stay at the pit wall.
+TEST(HealthTap, OfAReceiverThatFellSilentTheVerdictIsOfNow) {
+  const auto car = full_car();
+  TickLog log = full_log();
+  const Instant later = kNow + seconds(10);
+  log.note({.now = later, .can = {}, .sensors = {}, .requests = {}}, {}, 1200.0);
+  using localization::Source;
+  car->localization.streams[static_cast<std::size_t>(Source::kPosition)][1].verdict =
+      localization::Gate::kSilent;
+  const auto snapshot =
+      tap({.setup = setup(), .car = *car, .out = {}, .log = log, .rim = {}, .now = later});
+  EXPECT_EQ(snapshot.at(Group::kGnss1), later);
+  EXPECT_EQ(snapshot.values[field("gnss1.position_verdict")],
+            static_cast<double>(localization::Gate::kSilent));
+  EXPECT_NEAR(snapshot.values[field("gnss1.position_age")], 10.03, 1e-9);
+}
+
 }  // namespace
 }  // namespace pitwall::pipeline
