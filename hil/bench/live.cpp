@@ -13,6 +13,7 @@
 #include "basestation/intake/operator_words.hpp"
 #include "hil/bench/car_monitor.hpp"
 #include "hil/bench/car_summary.hpp"
+#include "hil/bench/held_path.hpp"
 #include "hil/bench/machine.hpp"
 #include "hil/bench/receiver_port.hpp"
 #include "hil/bench/run_record.hpp"
@@ -185,6 +186,9 @@ class Live {
   void judge(Instant now) {
     const double offset_m = setup_.params.planning.line.offset_m;
     const Air& air = parts_.radio.air();
+    const CarReport& car = parts_.monitor.report();
+    const double off_m = held_path_.off_path_m(
+        parts_.rig.truth(), cross_track_m(parts_.rig, offset_m), car.mode, car.silent, now);
     parts_.grader.observe(
         now, observe({.rig = parts_.rig,
                       .car = parts_.monitor.report(),
@@ -192,7 +196,8 @@ class Live {
                       .frames_lost = not_taken_ + parts_.bus.counters().rx_dropped_queue,
                       .radio_gap = air.silence(now).value_or(Duration{}),
                       .radio_gap_max = air.longest_silence(now),
-                      .radio_limit = radio_limit_of(setup_.params)}));
+                      .radio_limit = radio_limit_of(setup_.params),
+                      .off_path_m = off_m}));
     grading::add(result_.cross_track, parts_.rig.truth().speed_mps,
                  cross_track_m(parts_.rig, offset_m));
     result_.speed_max_mps = std::max(result_.speed_max_mps, parts_.rig.truth().speed_mps);
@@ -324,6 +329,7 @@ class Live {
   std::size_t said_ = 0;                         // of the operator's words
   std::size_t deeds_told_ = 0, steps_told_ = 0;  // of the cast, of the machine
   RunResult result_;
+  HeldPath held_path_{setup_};
 };
 
 std::vector<std::uint16_t> receiver_ports(const LivePlan& plan) {
@@ -338,6 +344,8 @@ Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
                                      const pipeline::Setup& setup, const LivePlan& plan) {
   if (auto problem = refused_by(BenchMode::kLive, scenario.faults))
     return Unexpected{*std::move(problem)};
+  if (scenario.receivers)
+    return Unexpected{Problem{"receivers", "live, the car's own file says what its receivers are"}};
   for (const scenario::OperatorWord& word : scenario.operator_words)
     if (const auto fit = intake::check_words(word.text); !fit) return Unexpected{fit.error()};
   auto faults = plan_faults(scenario.faults, scenario.seed);

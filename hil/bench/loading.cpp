@@ -43,6 +43,8 @@ Result<Loaded, Problem> load(const std::string& scenario_file, const std::string
   }
   auto setup = pipeline::prepare(car->params, *track);
   if (!setup) return Unexpected{setup.error()};
+  for (std::size_t unit = 0; scenario->receivers && unit < scenario->receivers->size(); ++unit)
+    setup->params.receivers[unit].kind = (*scenario->receivers)[unit];
   if (scenario->bus == scenario::BusRevision::kProtected) {
     setup->params.inbound.also = revision::protected_rows();
     setup->params.identity.also = revision::protected_rows();

@@ -53,6 +53,11 @@ constexpr std::array kBusRevisions = {
     Named<BusRevision>{"v14_protected", BusRevision::kProtected},
 };
 
+constexpr std::array kReceiverKinds = {
+    Named<world::ReceiverKind>{"novatel_oem7", world::ReceiverKind::kNovatelOem7},
+    Named<world::ReceiverKind>{"vectornav", world::ReceiverKind::kVectorNav},
+};
+
 constexpr std::array kExpectKinds = {
     Named<ExpectKind>{"always", ExpectKind::kAlways},
     Named<ExpectKind>{"never", ExpectKind::kNever},
@@ -63,16 +68,21 @@ constexpr std::array kExpectKinds = {
 constexpr double kLongest_s = 36'000.0;  // ten hours: the longest soak
 
 template <class T, std::size_t N>
-T one_of(yaml::StrictMap& map, const char* key, const std::array<Named<T>, N>& table,
-         std::string_view fallback = {}) {
-  const std::string word =
-      fallback.empty() ? map.text(key) : map.text_or(key, std::string(fallback));
+T one_of(const yaml::StrictMap& map, const char* key, const std::string& word,
+         const std::array<Named<T>, N>& table) {
   std::string legal;
   for (const Named<T>& row : table) {
     if (row.name == word) return row.value;
     legal += (legal.empty() ? "" : ", ") + std::string(row.name);
   }
   map.fail(key, "\"" + word + "\" is not one of: " + legal);
+}
+
+template <class T, std::size_t N>
+T one_of(yaml::StrictMap& map, const char* key, const std::array<Named<T>, N>& table,
+         std::string_view fallback = {}) {
+  return one_of(map, key,
+                fallback.empty() ? map.text(key) : map.text_or(key, std::string(fallback)), table);
 }
 
 template <class T, std::size_t N>
@@ -93,6 +103,14 @@ Start read_start(yaml::StrictMap map) {
   start.speed_mps = map.number_or("speed_mps", 0.0, 0.0, 90.0);
   map.finish();
   return start;
+}
+
+std::array<world::ReceiverKind, world::kGnssUnits> read_receivers(yaml::StrictMap& map) {
+  const auto words = map.texts("receivers", world::kGnssUnits, world::kGnssUnits);
+  std::array<world::ReceiverKind, world::kGnssUnits> kinds{};
+  for (std::size_t unit = 0; unit < kinds.size(); ++unit)
+    kinds[unit] = one_of(map, "receivers", words[unit], kReceiverKinds);
+  return kinds;
 }
 
 Tyres read_tyres(yaml::StrictMap map) {
@@ -215,6 +233,7 @@ Scenario read_root(yaml::StrictMap& map) {
   scenario.track_file = map.text("track");
   scenario.car_file = map.text("car");
   scenario.bus = one_of(map, "bus", kBusRevisions, "v14");
+  if (map.has("receivers")) scenario.receivers = read_receivers(map);
   if (auto start = map.optional_map("start")) scenario.start = read_start(*start);
   if (auto tyres = map.optional_map("tyres")) scenario.tyres = read_tyres(*tyres);
   if (map.has("plant")) scenario.plant_file = map.text("plant");

@@ -7,7 +7,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,7 @@
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/world/race_control.hpp"
+#include "vehicle/world/receiver_params.hpp"
 
 namespace pitwall::scenario {
 
@@ -81,6 +84,8 @@ struct Scenario {
   std::uint64_t seed = 0;
   Duration duration{};
   std::string track_file, car_file;  // as written: relative to the working folder
+  // Of the car, instead of what its file says; lockstep only.
+  std::optional<std::array<world::ReceiverKind, world::kGnssUnits>> receivers;
   BusRevision bus = BusRevision::kV14;
   Start start;
   Tyres tyres;

@@ -54,6 +54,12 @@ TEST(Live, WhatTheBenchDoesNotKnowIsRefusedBeforeTheBusIsOpened) {
   const auto fault = run_live(wrong, lap().setup, trap.plan());
   ASSERT_FALSE(fault);
   EXPECT_EQ(fault.error().place, "x.yaml:3:1");
+
+  wrong = lap().scenario;
+  wrong.receivers.emplace();
+  const auto receivers = run_live(wrong, lap().setup, trap.plan());
+  ASSERT_FALSE(receivers);
+  EXPECT_EQ(receivers.error().place, "receivers");
   EXPECT_TRUE(trap.untouched());
 }
 

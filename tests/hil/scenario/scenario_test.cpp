@@ -233,6 +233,21 @@ TEST(Scenario, TheBusIsThatOfTheCarUnlessItIsNamed) {
   EXPECT_EQ(to_string(wrong.error()).rfind("bus.yaml:", 0), 0u);
 }
 
+TEST(Scenario, TheReceiversAreThoseOfTheCarUnlessTheyAreNamed) {
+  using enum world::ReceiverKind;
+  EXPECT_FALSE(read_scenario(kGood, "good.yaml")->receivers);
+  const auto mixed = read_scenario(kGood + "receivers: [novatel_oem7, vectornav]\n", "r.yaml");
+  ASSERT_TRUE(mixed) << to_string(mixed.error());
+  ASSERT_TRUE(mixed->receivers);
+  EXPECT_EQ(*mixed->receivers, (std::array{kNovatelOem7, kVectorNav}));
+  for (const char* wrong : {"[novatel_oem7]", "[vectornav, vectornav, vectornav]", "vectornav",
+                            "[novatel_oem7, septentrio]"}) {
+    const auto read = read_scenario(kGood + "receivers: " + wrong + "\n", "r.yaml");
+    ASSERT_FALSE(read) << wrong;
+    EXPECT_EQ(to_string(read.error()).rfind("r.yaml:", 0), 0u) << to_string(read.error());
+  }
+}
+
 TEST(Names, EveryFlagHasAName) {
   for (int i = 0; i <= static_cast<int>(world::TrackFlag::kUnknown); ++i)
     EXPECT_STRNE(name_of(static_cast<world::TrackFlag>(i)), "?");

@@ -92,6 +92,8 @@ ScoredRun run_scored(const RunPlan& plan) {
   static const Loaded lap = loaded();
   pipeline::Setup setup = lap.setup;
   setup.params.localization.filter.kind = FilterKind::kSpatial;
+  setup.params.localization.off = plan.off;
+  if (plan.vectornav) setup.params.receivers[1].kind = world::ReceiverKind::kVectorNav;
   const auto shadow = std::make_unique<Shadow>(setup);
   ScoredRun run;
   LockstepOptions options;

@@ -17,6 +17,7 @@
 #include "hil/scenario/scenario.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/autonomy/localization/filter.hpp"
+#include "vehicle/world/monitor.hpp"
 
 namespace pitwall::bench {
 
@@ -26,6 +27,8 @@ struct RunPlan {
   std::uint64_t seed = 1;
   std::vector<scenario::Fault> faults;
   double until_s = 70.0;
+  bool vectornav = false;   // unit 1 is a VN-310
+  world::MonitorSet off{};  // of localization, as a control of the test itself
 };
 
 // One tick of one filter. `error` is estimate less truth.
