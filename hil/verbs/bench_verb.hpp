@@ -2,7 +2,7 @@
 //   ekf        what the filter of localization costs the car; gates in bench_ekf.hpp
 //   gateway    27,000 frames/s and every lost frame reported; options in bench_gateway.hpp
 //   laps       three ovals, nominal and perturbed; gates in hil/laps/lap_table.hpp
-//   lockstep   how much faster than real time the closed loop runs; gate: at least 20 times
+//   lockstep   how much faster than real time the closed loop runs; gate: at least 50 times
 //   plant      what a step of the modelled car costs; gates in bench_plant.hpp
 //   radio      our radio protocol beside others over one emulated link; bench_radio.hpp
 //   replay     timing of replays beside canplayer and python-can; options in bench_replay.hpp

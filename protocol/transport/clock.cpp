@@ -21,6 +21,7 @@ std::int64_t read_clock(clockid_t which) {
 Instant monotonic_now() { return {read_clock(CLOCK_MONOTONIC)}; }
 
 UtcTime utc_now() { return {read_clock(CLOCK_REALTIME)}; }
+Duration thread_time() { return {read_clock(CLOCK_THREAD_CPUTIME_ID)}; }
 
 void sleep_until(Instant deadline) {
   if (deadline.ns <= 0) return;

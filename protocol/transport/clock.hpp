@@ -1,5 +1,6 @@
 // The only place that knows what time it is. Everybody else is told.
-//   out    Instant on CLOCK_MONOTONIC, UtcTime on CLOCK_REALTIME, sleeps to absolute deadlines
+//   out    Instant on CLOCK_MONOTONIC, UtcTime on CLOCK_REALTIME, time spent by a thread, sleeps to
+//          absolute deadlines
 //   units  int64 nanoseconds
 //   errors none: a clock that fails is our own mistake (CHECK)
 // SPDX-License-Identifier: Apache-2.0
@@ -13,6 +14,8 @@ namespace pitwall::transport {
 
 Instant monotonic_now();
 UtcTime utc_now();
+// What this thread has had of a processor: what its work costs, whoever else wants the machine.
+Duration thread_time();
 
 // Returns at or after the deadline; at once if it has passed. Never earlier, whatever signals come.
 void sleep_until(Instant deadline);

@@ -9,7 +9,7 @@
 namespace pitwall::verbs {
 namespace {
 
-TEST(LockstepSpeed, IsScenarioTimeOverWallTime) {
+TEST(LockstepSpeed, IsScenarioTimeOverProcessorTime) {
   const std::string root = PITWALL_SOURCE_DIR;
   auto loaded = bench::load(root + "/" + kBenchScenario, root);
   ASSERT_TRUE(loaded) << to_string(loaded.error());

@@ -15,6 +15,15 @@ TEST(Clock, MonotonicTimeNeverGoesBack) {
   }
 }
 
+TEST(Clock, AThreadThatSleepsSpendsNothing) {
+  const Duration before = thread_time();
+  const Instant from = monotonic_now();
+  sleep_until(from + milliseconds(200));
+  EXPECT_LT(thread_time() - before, milliseconds(100));
+  while (thread_time() - before < milliseconds(120)) continue;
+  EXPECT_GE(monotonic_now() - from, milliseconds(200));
+}
+
 TEST(Clock, SleepNeverEndsEarlyAndThePastIsNoWait) {
   for (int i = 1; i <= 20; ++i) {
     const Instant deadline = monotonic_now() + microseconds(137 * i);
