@@ -5,10 +5,13 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "protocol/gnss/novatel_codec.hpp"
 #include "protocol/telemetry/state_packet.hpp"
 #include "protocol/transport/can_socket.hpp"
 #include "protocol/transport/clock.hpp"
@@ -16,6 +19,8 @@
 #include "protocol/transport/process.hpp"
 #include "protocol/transport/udp_socket.hpp"
 #include "tests/support/comes_true.hpp"
+#include "tests/support/pty.hpp"
+#include "tests/support/tcp_server.hpp"
 
 namespace pitwall {
 namespace {
@@ -64,12 +69,23 @@ class VehicleOnUnixBus : public ::testing::Test {
         << said();
     return out;
   }
-  Process start_vehicle() {
-    return spawn({program("PITWALL_VEHICLE_PROGRAM", "/build/release/vehicle/pitwall-vehicle"),
-                  "--car", kRoot + "/vehicle/config/cars/av21.yaml", "--track",
-                  kRoot + "/vehicle/config/tracks/lvms.yaml", "--can", bus(), "--gnss",
-                  "23511,23512", "--local-report", std::to_string(report_->local().port),
-                  "--summary", folder_->path() + "/summary.json", "--simulation", "--no-base"});
+  Process start_vehicle(const std::vector<std::string>& receivers = {"--gnss", "23511,23512"}) {
+    std::vector<std::string> argv{
+        program("PITWALL_VEHICLE_PROGRAM", "/build/release/vehicle/pitwall-vehicle"),
+        "--car",
+        kRoot + "/vehicle/config/cars/av21.yaml",
+        "--track",
+        kRoot + "/vehicle/config/tracks/lvms.yaml",
+        "--can",
+        bus(),
+        "--local-report",
+        std::to_string(report_->local().port),
+        "--summary",
+        folder_->path() + "/summary.json",
+        "--simulation",
+        "--no-base"};
+    argv.insert(argv.end(), receivers.begin(), receivers.end());
+    return spawn(argv);
   }
 
   // The next packet of the car for which the condition holds.
@@ -121,6 +137,58 @@ TEST_F(VehicleOnUnixBus, SeesItsHubDieAndSpeaksToTheNextOne) {
   EXPECT_EQ(hub->wait().code, 0);
   EXPECT_NE(said().find("frames relayed"), std::string::npos) << said();
   EXPECT_FALSE(std::filesystem::exists(folder_->path() + "/bus"));
+}
+
+// The words between the first two backquotes of the README that begin with --receiver.
+std::string example_of_receivers() {
+  const std::string readme = transport::read_file(kRoot + "/README.md").value_or("");
+  const std::size_t begin = readme.find("`--receiver ") + 1;
+  return readme.substr(begin, readme.find('`', begin) - begin);
+}
+
+std::string with(std::string text, const std::string& what, const std::string& instead) {
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << "the README's example has no " << what << ": " << text;
+  return at == std::string::npos ? text : text.replace(at, what.size(), instead);
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream in(text);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+std::vector<std::uint8_t> position_log(std::uint8_t satellites) {
+  gnss::NovatelHeader header;
+  header.week = 2190, header.milliseconds = 1'000;
+  gnss::BestPos position{.solution_status = 0, .position_type = 50};
+  position.latitude_deg = 36.27, position.longitude_deg = -115.01, position.height_m = 594.0;
+  position.satellites_tracked = position.satellites_used = satellites;
+  std::vector<std::uint8_t> log(gnss::kMaxEncodedBytes);
+  log.resize(gnss::encode(header, position, log));
+  return log;
+}
+
+// The README's own example: only its address and its device are those of this test.
+TEST_F(VehicleOnUnixBus, HearsOneReceiverOverTcpAndTheOtherOverASerialLine) {
+  support::TcpServer tcp;
+  const support::Pty serial;
+  std::string example = example_of_receivers();
+  example = with(example, "192.168.1.10:3001", "127.0.0.1:" + std::to_string(tcp.port()));
+  example = with(example, "/dev/ttyS0", serial.path());
+  Process hub = start_hub();
+  Process vehicle = start_vehicle(words_of(example));
+  tcp.accept();
+  ASSERT_TRUE(controller_is(kUnknown)) << said();  // it runs, so its serial line is open
+  EXPECT_TRUE(report_says([&](const telemetry::Values& v) {
+    tcp.say(position_log(17));
+    serial.say(position_log(11));
+    return v[field("gnss0.satellites")] == 17 && v[field("gnss1.satellites")] == 11;
+  })) << said();
+  vehicle.kill(SIGTERM);
+  EXPECT_EQ(vehicle.wait().code, 0) << said();
+  const auto summary = transport::read_file(folder_->path() + "/summary.json");
+  ASSERT_TRUE(summary);
+  EXPECT_NE(summary->find("serial:" + serial.path() + ":460800"), std::string::npos) << *summary;
 }
 
 TEST_F(VehicleOnUnixBus, WithoutAHubTheCarDoesNotStartAndSaysWhere) {

@@ -2,8 +2,6 @@
 #include "vehicle/io/receiver_port.hpp"
 
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 
 #include <array>
 
@@ -12,12 +10,10 @@
 #include "protocol/yaml/strict_map.hpp"
 #include "tests/support/allocation_guard.hpp"
 #include "tests/support/pty.hpp"
+#include "tests/support/tcp_server.hpp"
 
 namespace pitwall::io {
 namespace {
-
-using transport::FileDescriptor;
-using transport::posix_call;
 
 struct Message {
   std::array<std::uint8_t, gnss::kMaxEncodedBytes> data{};
@@ -89,24 +85,12 @@ TEST(ReceiverPort, HearsASerialLine) {
 }
 
 TEST(ReceiverPort, HearsAConnection) {
-  const FileDescriptor listener(
-      posix_call([] { return socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0); }));
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(transport::kLoopbackIp);
-  auto* generic = reinterpret_cast<sockaddr*>(&address);
-  socklen_t length = sizeof address;
-  ASSERT_EQ(::bind(listener.get(), generic, sizeof address), 0);
-  ASSERT_EQ(::listen(listener.get(), 1), 0);
-  ASSERT_EQ(getsockname(listener.get(), generic, &length), 0);
-  ReceiverPort port = open(transport::TcpAddress{.port = ntohs(address.sin_port)});
+  support::TcpServer server;
+  ReceiverPort port = open(transport::TcpAddress{.port = server.port()});
   world::SensorInput none;
   port.read(none, transport::monotonic_now());
-  const FileDescriptor other(
-      posix_call([&] { return ::accept(listener.get(), nullptr, nullptr); }));
-  hears_three(port, [&](std::span<const std::uint8_t> bytes) {
-    EXPECT_EQ(::send(other.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL), std::ssize(bytes));
-  });
+  server.accept();
+  hears_three(port, [&](std::span<const std::uint8_t> bytes) { server.say(bytes); });
 }
 
 TEST(ReceiverPort, TakesNothingFromTheHeap) {
