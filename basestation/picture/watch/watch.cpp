@@ -70,7 +70,12 @@ alarms::Situations Watch::situations(const Picture& picture, Instant now) const 
 }
 
 FieldView Watch::view(const Picture& picture, FieldId field, Instant now) const {
-  return is_base(field) ? views_[index_of(base_field(field))] : picture.view(field, now);
+  if (!is_base(field)) return picture.view(field, now);
+  FieldView view = views_[index_of(base_field(field))];
+  if (newest_step_ && view.quality != Quality::kNever) {
+    view.age = view.age + std::max(now - Instant{*newest_step_ * kGrid.ns}, Duration{});
+  }
+  return view;
 }
 
 }  // namespace pitwall::picture
