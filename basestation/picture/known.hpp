@@ -7,7 +7,7 @@
 #include <array>
 #include <optional>
 
-#include "basestation/picture/base_field.hpp"
+#include "basestation/picture/own_field.hpp"
 #include "basestation/picture/picture.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "basestation/picture/base_field.hpp"
+#include "basestation/picture/own_field.hpp"
 #include "basestation/picture/picture.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/units.hpp"

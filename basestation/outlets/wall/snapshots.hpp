@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "basestation/outlets/web/frame.hpp"
-#include "basestation/picture/base_field.hpp"
+#include "basestation/picture/own_field.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::outlets::wall {

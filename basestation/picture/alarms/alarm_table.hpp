@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-#include "basestation/picture/base_field.hpp"
+#include "basestation/picture/own_field.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 

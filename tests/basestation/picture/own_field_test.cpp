@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "basestation/picture/base_field.hpp"
+#include "basestation/picture/own_field.hpp"
 
 #include <gtest/gtest.h>
 
