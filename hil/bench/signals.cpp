@@ -109,6 +109,7 @@ SignalValues observe(const SignalSources& from) {
   set(v, Signal::kStation, road.s_m);
   set(v, Signal::kOffset, road.n_m);
   set(v, Signal::kAbsCrossTrack, std::abs(cross_track_m(from.rig, from.line_offset_m)));
+  set(v, Signal::kOffPath, from.off_path_m);
   set(v, Signal::kWallGap, wall_gap_m(from.rig));
   set(v, Signal::kContact, road.contact ? 1.0 : 0.0);
   set(v, Signal::kFrictionUse, truth.friction_use);

@@ -58,9 +58,10 @@ enum class Signal : std::uint8_t {
   kRadioGap,        // since the newest datagram of the base that reached the car was sent
   kRadioGapMax,     // the longest of the run
   // 1: the car stopped for its base station, but the air has no gap as long as the car's limit
-  kRadioStopUnexplained
+  kRadioStopUnexplained,
+  kOffPath  // truth against the path that holds: the line, and in a stop the path of the stop
 };
-inline constexpr std::size_t kSignals = 33;
+inline constexpr std::size_t kSignals = 34;
 
 inline constexpr std::array<std::string_view, kSignals> kSignalNames{"speed_mps",
                                                                      "station_m",
@@ -94,7 +95,8 @@ inline constexpr std::array<std::string_view, kSignals> kSignalNames{"speed_mps"
                                                                      "operator_limit_mps",
                                                                      "radio_gap_s",
                                                                      "radio_gap_max_s",
-                                                                     "radio_stop_unexplained"};
+                                                                     "radio_stop_unexplained",
+                                                                     "off_path_m"};
 
 // What the car says of itself. Unset until it has said something; silent: it has spoken before and
 // no longer does, so nothing is known, which meets no condition.
@@ -117,6 +119,7 @@ struct SignalSources {
   std::uint64_t frames_lost = 0;
   Duration radio_gap{}, radio_gap_max{};  // by the air's own record
   Duration radio_limit{};                 // of the car: it stops after a longer gap
+  double off_path_m = kUnset;             // HeldPath
 };
 
 // The gap after which the car stops, as its file has it.
