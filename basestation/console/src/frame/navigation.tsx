@@ -4,6 +4,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import * as session from "../store/session";
 import { nextTheme, theme } from "../theme/theme";
+import { nextSpeedUnit, speedUnit } from "../view/speed_unit";
 import { needsEyes } from "../view/alarm_order";
 import { helpShown } from "./keys";
 import { kPages, page, showPage } from "./pages";
@@ -25,6 +26,10 @@ export function Navigation() {
         </button>
       ))}
       <span class="spacer" />
+      <button type="button" class="small" onClick={nextSpeedUnit} title="next unit of speed">
+        <kbd>U</kbd>
+        <span>{speedUnit.value.name}</span>
+      </button>
       <button type="button" class="small" onClick={nextTheme} title="next theme">
         <kbd>T</kbd>
         <span>{theme.value}</span>

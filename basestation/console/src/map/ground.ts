@@ -97,7 +97,7 @@ export function drawGround(pen: Pen, course: Course, into: Projection, colours: 
   pen.textBaseline = "middle";
   pen.lineWidth = colours.stroke;
   across(pen, course, 0, into, 4);
-  label(pen, course, 0, "S/F", into);
+  label(pen, course, 0, "S/F", into, true);
   pen.lineWidth = 1;
   track.sectors.forEach((s, i) => {
     across(pen, course, s, into, 2);

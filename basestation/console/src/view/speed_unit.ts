@@ -15,9 +15,26 @@ export const kSpeedUnits: readonly SpeedUnit[] = [
   { name: "m/s", perMps: 1 },
 ];
 
-export const speedUnit = signal<SpeedUnit>(kSpeedUnits[0]);
+const kKept = "pitwall.speed_unit";
+
+/** Storage may be refused: then the choice lasts as long as the page. */
+function kept(): SpeedUnit {
+  try {
+    const name = localStorage.getItem(kKept);
+    return kSpeedUnits.find((unit) => unit.name === name) ?? kSpeedUnits[0];
+  } catch {
+    return kSpeedUnits[0];
+  }
+}
+
+export const speedUnit = signal<SpeedUnit>(kept());
 
 export function nextSpeedUnit(): void {
   const at = kSpeedUnits.indexOf(speedUnit.value);
   speedUnit.value = kSpeedUnits[(at + 1) % kSpeedUnits.length];
+  try {
+    localStorage.setItem(kKept, speedUnit.value.name);
+  } catch {
+    // The choice then lasts as long as the page.
+  }
 }
