@@ -23,100 +23,109 @@ constexpr Limit at_most(double warning, double bad) {
 constexpr Limit at_least(double warning, double bad) {
   return {.warning_low = warning, .bad_low = bad};
 }
-constexpr Limit between(double low, double high) {
-  return {.warning_low = low, .warning_high = high};
-}
 constexpr Limit among(std::initializer_list<unsigned> warning,
                       std::initializer_list<unsigned> bad) {
   return {.warning_values = values(warning), .bad_values = values(bad)};
 }
 
 // A wheel with air, a warm tyre, an engine that is cooled and oiled: what a pit wall calls good.
-const std::vector<DefaultLimit>& default_limits() {
-  static const std::vector<DefaultLimit> kTable = [] {
-    constexpr double kTyreHot_c = 120.0, kTyreVeryHot_c = 140.0, kOilLow_kpa = 200.0,
-                     kOilOut_kpa = 100.0;
-    std::vector<DefaultLimit> table{
-        {field_id("mode.mode"), among({6}, {3, 4})},
-        {field_id("mode.stop_latch"), among({1}, {2})},
-        {field_id("mode.arming"), among({2}, {3, 4, 5})},
-        {field_id("mode.quiet"), among({1}, {})},
-        {field_id("flags.conflict"), among({}, {1})},
-        {field_id("flags.heartbeat_age"), at_most(1.0, 5.0)},
-        {field_id("uplink.link_age"), at_most(0.5, 2.0)},
-        {field_id("uplink.schema_agrees"), among({}, {0})},
-        {field_id("ego.position_sigma"), at_most(0.1, 0.5)},
-        {field_id("ego.validity"), among({2}, {0, 3})},
-        {field_id("dynamics.lateral_error"),
-         {.warning_low = -1.25, .warning_high = 1.25, .bad_low = -2.0, .bad_high = 2.0}},
-        {field_id("engine.coolant"), at_most(105.0, 115.0)},
-        {field_id("engine.oil_pressure"), at_least(kOilLow_kpa, kOilOut_kpa)},
-        {field_id("engine.fuel_pressure"), at_least(250.0, 150.0)},
-        {field_id("powertrain.oil"), at_most(130.0, 145.0)},
-        {field_id("powertrain.transmission"), at_most(130.0, 145.0)},
-        {field_id("electric.battery"), at_least(12.5, 12.0)},
-        {field_id("steering_unit.temperature"), at_most(80.0, 95.0)},
-        {field_id("steering_unit.error"), {.bad_high = 0.0}},
-        {field_id("computer.processor"), at_most(0.8, 0.95)},
-        {field_id("computer.temperature"), at_most(80.0, 92.0)},
-        {field_id("computer.step_time_max"), at_most(5'000.0, 9'000.0)},
-        {field_id("bus.controller"), among({2}, {3, 4, 5})},
-        {field_id("bus.identity"), among({}, {2})},
-        {field_id("radio.base"), among({3}, {4})},
-        {field_id("radio.rung"), among({1, 2}, {3, 4})},
-        {field_id("radio.round_trip"), at_most(100.0, 150.0)},
-        {field_id("link.state"), among({2}, {3})},
-        {field_id("link.down_loss"), at_most(0.05, 0.10)},
-        {field_id("link.up_loss"), at_most(0.05, 0.10)},
-        {field_id("link.rtt_ms"), at_most(100.0, 150.0)},
-        {field_id("link.stale_groups"), at_most(0.0, 3.0)},
-        {field_id("derived.stop"), among({1}, {2})},
-        {field_id("derived.watchdogs_late"), {.warning_high = 0.0}},
-        {field_id("derived.watchdogs_lost"), {.bad_high = 0.0}},
-        {field_id("derived.gnss_good"), at_least(2.0, 1.0)},
-        {field_id("derived.correction_age"), at_most(5.0, 15.0)},
-        {field_id("derived.correction_conflict"), among({}, {1})},
-        {field_id("derived.slip"), at_most(0.05, 0.08)},
-        {field_id("derived.tyre_margin"), at_least(5.0, 0.0)},
-        {field_id("derived.tyre_pressure_min"), at_least(120.0, 100.0)},
-        {field_id("derived.cross_track"), at_most(1.25, 2.0)},
-        {field_id("derived.sensor_rate_share"), at_least(0.8, 0.5)},
-        {field_id("derived.sensor_gap_ms"), at_most(250.0, 500.0)},
-        {field_id("derived.sensor_latency_share"), at_most(1.0, 2.0)},
-        {field_id("derived.flag_conflict"), among({}, {1})},
-        {field_id("derived.round_speed_conflict"), among({}, {1})},
-        {field_id("derived.fuel_laps"), at_least(3.0, 1.0)},
-        {field_id("derived.fuel_attempts"), at_least(2.0, 1.0)},
-        {field_id("derived.fuel_state"), among({2}, {3})},
-        {field_id("base.disk_minutes"), at_least(60.0, 10.0)},
-        {field_id("base.clock_offset_ms"), at_most(2.0, 5.0)},
-        {field_id("base.joystick_lost"), among({}, {1})},
-        {field_id("base.authority_lost"), among({1}, {})},
-        {field_id("base.schema_differs"), among({}, {1})},
-    };
-    for (const char* const wheel : {"front_left", "front_right", "rear_left", "rear_right"}) {
-      const auto path = [wheel](const char* name) { return std::string{name} + wheel; };
-      table.push_back(
-          {*find_field(path("tyres.temperature_")), at_most(kTyreHot_c, kTyreVeryHot_c)});
-      table.push_back({*find_field(path("tyres.pressure_")), at_least(120.0, 100.0)});
+constexpr auto kCarLimits = std::to_array<DefaultLimit>({
+    {field_id("mode.mode"), among({6}, {3, 4})},
+    {field_id("mode.stop_latch"), among({1}, {2})},
+    {field_id("mode.arming"), among({2}, {3, 4, 5})},
+    {field_id("mode.quiet"), among({1}, {})},
+    {field_id("flags.conflict"), among({}, {1})},
+    {field_id("flags.heartbeat_age"), at_most(1.0, 5.0)},
+    {field_id("uplink.link_age"), at_most(0.5, 2.0)},
+    {field_id("uplink.schema_agrees"), among({}, {0})},
+    {field_id("ego.position_sigma"), at_most(0.1, 0.5)},
+    {field_id("ego.validity"), among({2}, {0, 3})},
+    {field_id("dynamics.lateral_error"),
+     {.warning_low = -1.25, .warning_high = 1.25, .bad_low = -2.0, .bad_high = 2.0}},
+    {field_id("engine.coolant"), at_most(105.0, 115.0)},
+    {field_id("engine.oil_pressure"), at_least(200.0, 100.0)},
+    {field_id("engine.fuel_pressure"), at_least(250.0, 150.0)},
+    {field_id("powertrain.oil"), at_most(130.0, 145.0)},
+    {field_id("powertrain.transmission"), at_most(130.0, 145.0)},
+    {field_id("electric.battery"), at_least(12.5, 12.0)},
+    {field_id("steering_unit.temperature"), at_most(80.0, 95.0)},
+    {field_id("steering_unit.error"), {.bad_high = 0.0}},
+    {field_id("computer.processor"), at_most(0.8, 0.95)},
+    {field_id("computer.temperature"), at_most(80.0, 92.0)},
+    {field_id("computer.step_time_max"), at_most(5'000.0, 9'000.0)},
+    {field_id("bus.controller"), among({2}, {3, 4, 5})},
+    {field_id("bus.identity"), among({}, {2})},
+    {field_id("radio.base"), among({3}, {4})},
+    {field_id("radio.rung"), among({1, 2}, {3, 4})},
+    {field_id("radio.round_trip"), at_most(100.0, 150.0)},
+});
+
+constexpr auto kOwnLimits = std::to_array<DefaultLimit>({
+    {field_id("link.state"), among({2}, {3})},
+    {field_id("link.down_loss"), at_most(0.05, 0.10)},
+    {field_id("link.up_loss"), at_most(0.05, 0.10)},
+    {field_id("link.rtt_ms"), at_most(100.0, 150.0)},
+    {field_id("link.stale_groups"), at_most(0.0, 3.0)},
+    {field_id("derived.stop"), among({1}, {2})},
+    {field_id("derived.watchdogs_late"), {.warning_high = 0.0}},
+    {field_id("derived.watchdogs_lost"), {.bad_high = 0.0}},
+    {field_id("derived.gnss_good"), at_least(2.0, 1.0)},
+    {field_id("derived.correction_age"), at_most(5.0, 15.0)},
+    {field_id("derived.correction_conflict"), among({}, {1})},
+    {field_id("derived.slip"), at_most(0.05, 0.08)},
+    {field_id("derived.tyre_margin"), at_least(5.0, 0.0)},
+    {field_id("derived.tyre_pressure_min"), at_least(120.0, 100.0)},
+    {field_id("derived.cross_track"), at_most(1.25, 2.0)},
+    {field_id("derived.sensor_rate_share"), at_least(0.8, 0.5)},
+    {field_id("derived.sensor_gap_ms"), at_most(250.0, 500.0)},
+    {field_id("derived.sensor_latency_share"), at_most(1.0, 2.0)},
+    {field_id("derived.flag_conflict"), among({}, {1})},
+    {field_id("derived.round_speed_conflict"), among({}, {1})},
+    {field_id("derived.fuel_laps"), at_least(3.0, 1.0)},
+    {field_id("derived.fuel_attempts"), at_least(2.0, 1.0)},
+    {field_id("derived.fuel_state"), among({2}, {3})},
+    {field_id("base.disk_minutes"), at_least(60.0, 10.0)},
+    {field_id("base.clock_offset_ms"), at_most(2.0, 5.0)},
+    {field_id("base.joystick_lost"), among({}, {1})},
+    {field_id("base.authority_lost"), among({1}, {})},
+    {field_id("base.schema_differs"), among({}, {1})},
+});
+
+struct NamedLimit {
+  const char* name;
+  Limit limit;
+};
+constexpr auto kEachWheel = std::to_array<NamedLimit>({
+    {"tyres.temperature_", at_most(120.0, 140.0)},
+    {"tyres.pressure_", at_least(120.0, 100.0)},
+});
+constexpr auto kEachReceiver = std::to_array<NamedLimit>({
+    {".status", {.bad_high = 0.0}},
+    {".sigma", at_most(0.1, 0.5)},
+    {".satellites", at_least(8.0, 5.0)},
+    {".differential_age", at_most(5.0, 15.0)},
+    {".position_age", at_most(0.2, 0.5)},
+});
+
+std::vector<DefaultLimit> default_limits() {
+  std::vector<DefaultLimit> table{kCarLimits.begin(), kCarLimits.end()};
+  table.insert(table.end(), kOwnLimits.begin(), kOwnLimits.end());
+  for (const char* const wheel : {"front_left", "front_right", "rear_left", "rear_right"}) {
+    for (const NamedLimit& row : kEachWheel) {
+      table.push_back({find_field(row.name + std::string{wheel}).value(), row.limit});
     }
-    for (telemetry::FieldIndex i = 0; i < telemetry::kFieldCount; ++i) {
-      if (telemetry::kFields[i].group == telemetry::Group::kStreams) {
-        table.push_back({id_of(i), among({3}, {4})});
-      }
+  }
+  for (const char* const unit : {"gnss0", "gnss1"}) {
+    for (const NamedLimit& row : kEachReceiver) {
+      table.push_back({find_field(unit + std::string{row.name}).value(), row.limit});
     }
-    for (const char* const unit : {"gnss0", "gnss1"}) {
-      const auto path = [unit](const char* name) { return std::string{unit} + name; };
-      table.push_back({*find_field(path(".status")), {.bad_high = 0.0}});
-      table.push_back({*find_field(path(".sigma")), at_most(0.1, 0.5)});
-      table.push_back({*find_field(path(".satellites")), at_least(8.0, 5.0)});
-      table.push_back({*find_field(path(".differential_age")), at_most(5.0, 15.0)});
-      table.push_back({*find_field(path(".position_age")), at_most(0.2, 0.5)});
-      table.push_back({*find_field("sensors." + path("_rate")), between(16.0, 30.0)});
+  }
+  for (telemetry::FieldIndex i = 0; i < telemetry::kFieldCount; ++i) {
+    if (telemetry::kFields[i].group == telemetry::Group::kStreams) {
+      table.push_back({id_of(i), among({3}, {4})});
     }
-    return table;
-  }();
-  return kTable;
+  }
+  return table;
 }
 
 bool in_order(double low, double high) {

@@ -1,4 +1,4 @@
-// An oval: two straights along x, two half circles, counter-clockwise, from the middle of a straight.
+// An oval: two straights along x and two half circles, driven to the left from mid-straight.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

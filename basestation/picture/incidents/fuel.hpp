@@ -2,9 +2,9 @@
 // with fuel for one, and lost its place.
 //   in     litres in the tank, litres used and lap number as they come; the plan of the race
 //   out    litres per lap, laps left, whole attempts that still leave fuel to come home
-//   law    a lap counts when the car drove it whole: from one change of the lap number to the next,
-//          with fuel burnt. Judged by the thirstiest of the last kLaps, or by the plan's guess until
-//          there is one: never more laps than the truth has
+//   law    a lap counts when the car drove it whole, from one change of the lap number to the next,
+//          with fuel burnt. Judged by the thirstiest of the last kLaps; by the plan's guess until
+//          there is one
 //          filling the tank begins anew, and forgets no lap
 //   errors a level that is no number changes nothing
 // SPDX-License-Identifier: Apache-2.0

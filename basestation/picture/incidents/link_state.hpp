@@ -1,9 +1,10 @@
 // How the way from the car is: good, degraded or lost, by evidence and not by feeling.
 //   in     the newest authentic packet, loss and round trip of the last seconds
 //   out    state, and since when
-//   law    lost: no packet for kLostAfter. Degraded: loss of the last seconds above kLossMax, either
-//          way, or a round trip above kRoundTripMax. From degraded to good only after kGoodFor of
-//          neither; from lost with the first packet to degraded. A car that was never heard is none
+//   law    lost: no packet for kLostAfter. Degraded: loss of the last seconds above kLossMax in one
+//          direction, or a round trip above kRoundTripMax. From degraded to good only
+//          after kGoodFor of neither; from lost with the first packet to degraded. A car that was
+//          never heard has none of these
 //   units  loss 0 .. 1
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
