@@ -1,7 +1,7 @@
 // How much faster than real time the lockstep bench runs a scenario on this machine.
 //   in     a loaded scenario; whether the event log is written as well (to nowhere)
-//   out    scenario time over the processor time of the one thread that runs it: on a machine that is
-//          idle the same as wall time, on another one still its speed
+//   out    scenario time over the processor time of the one thread that runs it: on an idle machine
+//          the same as wall time, on another one still its speed
 //   errors Problem of the run
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

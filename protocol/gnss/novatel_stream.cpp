@@ -65,8 +65,8 @@ bool is_text_sync(std::uint8_t byte) { return byte == kAsciiLong || byte == kAsc
 
 bool is_printable(std::uint8_t byte) { return byte >= ' ' && byte <= '~'; }
 
-// The receiver writes lower case; what passes its logs on may write upper. Not both in one checksum:
-// no one writes that.
+// The receiver writes lower case; what passes its logs on may write upper. Nobody writes both in
+// one checksum.
 std::optional<std::uint32_t> hex_digit(std::uint8_t byte) {
   if (byte >= '0' && byte <= '9') return static_cast<std::uint32_t>(byte - '0');
   if (byte >= 'a' && byte <= 'f') return static_cast<std::uint32_t>(byte - 'a') + 10U;

@@ -1,4 +1,4 @@
-// Gate: with a VN-310 as unit 1 the bounds are those of two NovAtels. Alone, the other one without a
+// Gate: with a VN-310 as unit 1 the bounds are those of two NovAtels. Alone, the other without a
 // solution, it holds that of one bad unit.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>

@@ -62,6 +62,16 @@ inline void hear_car(world::VehicleSignals& s) {
   hear(s.tyre_pressure_kpa, world::PerWheel{{151, 152, 153, 154}}, 20);
 }
 
+// How often, of the last second.
+inline void hear_sensors(safety::WatchdogOutput& watchdog) {
+  const auto figures = [&](safety::Stream stream, double rate_hz, int gap_ms, int latency_ms) {
+    auto& row = watchdog.rows[static_cast<std::size_t>(stream)];
+    row.rate_hz = rate_hz, row.gap = milliseconds(gap_ms), row.latency = milliseconds(latency_ms);
+  };
+  figures(safety::Stream::kGnss1Position, 20, 50, 30);
+  figures(safety::Stream::kImu0, 100, 10, 4);
+}
+
 inline Outputs full() {
   Outputs out;
   hear_car(out.heard.signals);
@@ -108,12 +118,7 @@ inline Outputs full() {
     auto& row = out.watchdog.rows[i];
     row = {static_cast<safety::Stream>(i), static_cast<safety::Health>(i % 5), milliseconds(5)};
   }
-  const auto figures = [&out](safety::Stream stream, double rate_hz, int gap_ms, int latency_ms) {
-    auto& row = out.watchdog.rows[static_cast<std::size_t>(stream)];
-    row.rate_hz = rate_hz, row.gap = milliseconds(gap_ms), row.latency = milliseconds(latency_ms);
-  };
-  figures(safety::Stream::kGnss1Position, 20, 50, 30);
-  figures(safety::Stream::kImu0, 100, 10, 4);
+  hear_sensors(out.watchdog);
   out.heard.race_control.conflict = true;
   out.chosen.causes.add(safety::Cause::kOperatorEmergency);
   out.chosen.causes.add(safety::Cause::kRadioLost);
