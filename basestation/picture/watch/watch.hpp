@@ -45,7 +45,8 @@ class Watch {
   void advance(const Picture& picture, Instant now);
   std::uint64_t steps_left_out() const { return left_out_; }
 
-  // After advance() to the time of the change.
+  // After advance() to the time of the change. A packet came; the figures say it, too, but seldom.
+  void heard(Instant at) { known_.link.heard = at; }
   void link(const LinkFigures& figures) { known_.link = figures; }
   void base(const BaseFigures& figures) { known_.base = figures; }
   void expect(const Expectations& expected) { known_.expected = expected; }
