@@ -86,17 +86,33 @@ describe("columns of a chart", () => {
     );
   });
 
+  const remembered = (timeS: number[], value: number[], quality: number[]) => ({
+    timeS: new Float64Array(timeS),
+    value: new Float32Array(value),
+    quality: new Uint8Array(quality),
+  });
+
   test("what the base remembers stands in front, its stale points as gaps", () => {
     const after = { timeS: [10, 11], values: [[5, 6]] };
-    const earlier = {
-      timeS: new Float64Array([7, 8, 9, 10.5]),
-      value: new Float32Array([1, 2, 3, 4]),
-      quality: new Uint8Array([0, 2, 0, 0]),
-    };
-    expect(withEarlier(after, earlier, 7.5)).toEqual({
+    const earlier = remembered([7, 8, 9, 10.5], [1, 2, 3, 4], [0, 2, 0, 0]);
+    expect(withEarlier(after, [earlier], 7.5)).toEqual({
       timeS: [8, 9, 10, 11],
       values: [[null, 3, 5, 6]],
     });
+  });
+
+  test("two fields of other rates share one axis, each holding its last point", () => {
+    const after = { timeS: [10], values: [[5], [50]] };
+    const fast = remembered([8, 8.5, 9], [1, 2, 3], [0, 0, 0]);
+    const slow = remembered([8.2], [20], [0]);
+    expect(withEarlier(after, [fast, slow], 0)).toEqual({
+      timeS: [8, 8.2, 8.5, 9, 10],
+      values: [
+        [1, 1, 2, 3, 5],
+        [null, 20, 20, 20, 50],
+      ],
+    });
+    expect(withEarlier(after, [null, null], 0)).toEqual(after);
   });
 });
 

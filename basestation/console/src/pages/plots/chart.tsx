@@ -93,8 +93,9 @@ function dataOf(spec: ChartSpec, fromMs: number, toMs: number, points: number): 
   const store = session.fields.value;
   const slots = spec.fields.map((path) => store.slot(path));
   const own = columns(session.history, slots, fromMs, toMs, points);
-  const earlier = spec.fields.length === 1 ? earlierOf(spec.fields[0]) : null;
-  return earlier ? withEarlier(own, earlier, fromMs / 1000) : own;
+  const oldest = session.history.oldestMs();
+  if (fromMs > oldest) return own;
+  return withEarlier(own, spec.fields.map(earlierOf), fromMs / 1000);
 }
 
 /** The values under the cursor, or the newest ones, into the chart's head. */

@@ -63,6 +63,7 @@ export function drawMarks(plot: uPlot): void {
   if (min == null || max == null) return;
   const x = (atS: number) => plot.valToPos(Math.min(Math.max(atS, min), max), "x", true);
   pen.save();
+  pen.setLineDash([]);
   pen.strokeStyle = colours().line;
   pen.lineWidth = 1;
   for (const span of unknownSpans(plot.data[0], plot.data[1] ?? [])) {

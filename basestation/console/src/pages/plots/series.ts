@@ -75,20 +75,43 @@ export function columns(
   return out;
 }
 
-/** Points of the base's own memory in front of ours, for a chart of one field. */
-export function withEarlier(after: Columns, earlier: Earlier, fromS: number): Columns {
-  const until = after.timeS[0] ?? Infinity;
-  const timeS: number[] = [];
-  const value: Column = [];
-  for (let i = 0; i < earlier.timeS.length && earlier.timeS[i] < until; ++i) {
-    if (earlier.timeS[i] < fromS) continue;
-    timeS.push(earlier.timeS[i]);
-    value.push(shown(earlier.value[i], earlier.quality[i]));
+/** The value of a remembered field at a moment: its last point before, unless that is too old. */
+class Follower {
+  private at = 0;
+
+  constructor(private readonly points: Earlier | null) {}
+
+  value(timeS: number): number | null {
+    const { points } = this;
+    if (points === null) return null;
+    while (this.at + 1 < points.timeS.length && points.timeS[this.at + 1] <= timeS) ++this.at;
+    const age = timeS - (points.timeS[this.at] ?? Infinity);
+    if (!(age >= 0 && age * 1000 <= kEarlierGapMs)) return null;
+    return shown(points.value[this.at], points.quality[this.at]);
   }
+}
+
+/** What the base remembers of the fields, in front of our own rows. */
+export function withEarlier(
+  after: Columns,
+  earlier: readonly (Earlier | null)[],
+  fromS: number,
+): Columns {
+  const until = after.timeS[0] ?? Infinity;
+  const moments = new Set<number>();
+  for (const points of earlier) {
+    for (const at of points?.timeS ?? []) if (at >= fromS && at < until) moments.add(at);
+  }
+  const timeS = [...moments].sort((a, b) => a - b);
+  const followers = earlier.map((points) => new Follower(points));
+  const values = followers.map((follower) => timeS.map((at) => follower.value(at)));
   const last = timeS.at(-1);
   if (last !== undefined && (until - last) * 1000 > kEarlierGapMs) {
     timeS.push(last + 0.001);
-    value.push(null);
+    for (const column of values) column.push(null);
   }
-  return { timeS: [...timeS, ...after.timeS], values: [[...value, ...after.values[0]]] };
+  return {
+    timeS: [...timeS, ...after.timeS],
+    values: values.map((column, i) => [...column, ...after.values[i]]),
+  };
 }
