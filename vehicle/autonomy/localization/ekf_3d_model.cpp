@@ -83,8 +83,8 @@ Observation wheel_speed(const SpatialBelief& b, const SpatialParams& p, const Me
   Observation o;
   o.size = 1;
   o.residual[0] = m.a - ahead.dot(v);
-  o.variance[0] =
-      square(said(m.sigma_a, p.wheel_sigma_mps)) + square(p.wheel_sigma_per_speed * m.a);
+  o.variance[0] = square(said(m.sigma_a, p.wheel_sigma_mps)) +
+                  square(said(m.sigma_b, p.wheel_sigma_per_speed) * m.a);
   o.jacobian.block<1, 3>(0, kDv) = ahead.transpose();
   o.jacobian.block<1, 3>(0, kPhi) = ahead.cross(v).transpose();
   return o;

@@ -11,6 +11,7 @@ namespace pitwall::localization {
 namespace {
 
 using Residual = std::array<double, 3>;
+constexpr double kNisBeyondChance = 120.0;  // of up to three degrees of freedom
 constexpr double kReported = 3.0;  // sigmas that two units may differ by beside their limit
 
 double from_north(double clockwise_rad) { return wrap_pi(0.5 * std::numbers::pi - clockwise_rad); }
@@ -117,8 +118,8 @@ bool conclude(const Intake& in, const Evidence& e, const Sample& sample, const M
   if (fuse(in, e.source, m) || !in.state.started) return true;
   // The filter itself refused what had passed: a jump that only it can see.
   Stream& stream = in.stream(e.source, sample.unit);
-  if (stream.verdict == Gate::kOutlier && !in.params.off.has(world::Monitor::kInnovation))
-    stream.seen.add(world::Monitor::kInnovation);
+  const Verdict& told = in.out.verdicts[in.out.verdicts.size() - 1];
+  if (told.gate == Gate::kOutlier) see_jump(in, stream, told.nis > kNisBeyondChance);
   stream.trust.refuse(in.params.checks);
   return true;
 }

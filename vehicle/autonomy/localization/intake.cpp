@@ -9,7 +9,14 @@
 namespace pitwall::localization {
 namespace {
 
-constexpr double kLately = 2.0;  // gaps: longer ago a source is not in use any more
+constexpr double kLately = 2.0;        // gaps: longer ago a source is not in use any more
+constexpr double kBeyondChance = 2.0;  // gates away: 8 sigmas or more
+constexpr std::uint8_t kJumpsInRow = 2;
+
+// Farther from what is predicted than its gate and chance together allow.
+bool beyond_chance(const Evidence& e) {
+  return e.residual > kBeyondChance * std::fmax(e.jump_min, e.jump_sigma_max);
+}
 
 }  // namespace
 
@@ -23,7 +30,9 @@ void tell(const Intake& in, Source source, std::uint8_t unit, Instant at, Gate g
   if (source == Source::kWheelSpeed) {
     in.state.wheels.verdict = gate;
   } else {
-    in.stream(source, unit).verdict = gate;
+    Stream& stream = in.stream(source, unit);
+    stream.verdict = gate;
+    if (gate == Gate::kAccepted || gate == Gate::kStandby) stream.jumps_in_row = 0;
   }
   Tally& tally = in.state.tally[static_cast<std::size_t>(source)][unit];
   ++tally.by_gate[static_cast<std::size_t>(gate)];
@@ -85,6 +94,13 @@ void complete(const Intake& in, const Stream& stream, const Content& content, In
   if (const Moment* moment = in.state.trail.newest()) e.speed_mps = moment->speed_mps;
 }
 
+void see_jump(const Intake& in, Stream& stream, bool beyond_chance) {
+  if (in.params.off.has(world::Monitor::kInnovation)) return;
+  if (stream.jumps_in_row < kJumpsInRow) ++stream.jumps_in_row;
+  if (beyond_chance || stream.jumps_in_row == kJumpsInRow)
+    stream.seen.add(world::Monitor::kInnovation);
+}
+
 Gate admit(const Intake& in, const Evidence& evidence, std::uint8_t unit, const Content& content,
            Instant at) {
   const CheckParams& checks = in.params.checks;
@@ -92,6 +108,10 @@ Gate admit(const Intake& in, const Evidence& evidence, std::uint8_t unit, const 
   if (!evidence.known_unit) return judged.gate;
   Stream& stream = in.stream(evidence.source, unit);
   stream.seen = judged.seen;
+  if (judged.seen.has(world::Monitor::kInnovation)) {
+    stream.seen.bits &= ~(1U << static_cast<unsigned>(world::Monitor::kInnovation));
+    see_jump(in, stream, beyond_chance(evidence));
+  }
   stream.trust.hear(std::max(checks.rate_window_s, kLately * gap_max_s(checks, evidence.source)),
                     in.now);
   const bool lies_about_time = judged.gate == Gate::kFromTheFuture ||

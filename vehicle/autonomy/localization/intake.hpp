@@ -14,7 +14,7 @@ namespace pitwall::localization {
 
 struct Intake {
   const Params& params;
-  const FilterParams& filter;  // of params, its gates as localization.cpp has them
+  const FilterParams& filter;  // of params, or without gates for the bench
   const Datum& datum;
   const Surroundings& around;
   world::SensorUse use;
@@ -46,6 +46,10 @@ bool other_in_use(const Intake& in, Source source, std::size_t unit);
 // Stamps, contents and speed: what a stream knows of its sample before it is judged.
 void complete(const Intake& in, const Stream& stream, const Content& content, Instant at,
               Evidence& evidence);
+// A sample of this stream was refused as a jump: kInnovation sees it at once where it is beyond
+// chance, else with the second one in a row. A gate refuses a good sample about once an hour; two
+// of one stream in a row are no chance.
+void see_jump(const Intake& in, Stream& stream, bool beyond_chance);
 // Judges, remembers and decides on trust: kAccepted, kProbation or the reason against it.
 Gate admit(const Intake& in, const Evidence& evidence, std::uint8_t unit, const Content& content,
            Instant at);

@@ -20,17 +20,12 @@ constexpr double kCourseSigma_rad = 0.05;
 constexpr double kTurnMax_rad_per_s = 0.3;  // fastest turn assumed while a seed heading ages
 constexpr Duration kOverslept = milliseconds(25);
 constexpr double kOpenGate = 1e30;
-// The table judges jumps first. The filter's own gate is the last resort: a clock that moves by a
-// millisecond moves both receivers by centimetres, which is many of their sigmas and no jump.
-constexpr double kLastResort = 20.0;
-
 double combined(double a, double b) { return std::sqrt(a * a + b * b); }
 
 // The gates of the filter itself belong to kInnovation as well.
-FilterParams with_gates(FilterParams params, bool gated) {
-  const double factor = gated ? kLastResort : kOpenGate;
-  for (double& gate : params.planar.gate_nis) gate *= factor;
-  for (double& gate : params.spatial.gate_nis) gate *= factor;
+FilterParams without_gates(FilterParams params) {
+  params.planar.gate_nis.fill(kOpenGate);
+  params.spatial.gate_nis.fill(kOpenGate);
   return params;
 }
 
@@ -236,8 +231,8 @@ Output step(const Params& params, const Datum& datum, State& state,
             const Surroundings& surroundings, world::SensorUse use, Instant now) {
   Output out;
   const bool gated = !params.off.has(Monitor::kInnovation);
-  const FilterParams filter = with_gates(params.filter, gated);
-  const Intake in{params, filter, datum, surroundings, use, now, state, out};
+  const FilterParams open = gated ? FilterParams{} : without_gates(params.filter);
+  const Intake in{params, gated ? params.filter : open, datum, surroundings, use, now, state, out};
   state.wheels.seen = {};
   take_all(in, sensors, signals);
   watch_streams(in);

@@ -28,6 +28,7 @@
 #include "vehicle/autonomy/localization/checks/drift_watch.hpp"
 #include "vehicle/autonomy/localization/checks/imu_watch.hpp"
 #include "vehicle/autonomy/localization/checks/verdict.hpp"
+#include "vehicle/autonomy/localization/checks/wheel_scale.hpp"
 #include "vehicle/autonomy/localization/checks/wheel_watch.hpp"
 #include "vehicle/autonomy/localization/datum.hpp"
 #include "vehicle/autonomy/localization/filter.hpp"
@@ -51,10 +52,11 @@ struct Surroundings {
 // The rear wheels' account of the car.
 struct WheelState {
   WheelWatch watch;
+  WheelScale scale;
   bool heard = false;
-  Instant at{};  // of the newest report
-  double speed_mps = kUnset;
-  double accel_mps2 = 0.0;  // low-passed: the longitudinal force when no IMU says it
+  Instant at{};               // of the newest report
+  double speed_mps = kUnset;  // without the error of the wheels' scale
+  double accel_mps2 = 0.0;    // low-passed: the longitudinal force when no IMU says it
   Gate verdict = Gate::kUnknown;
   world::MonitorSet seen{};
 };

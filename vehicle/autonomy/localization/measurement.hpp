@@ -26,7 +26,7 @@ enum class Kind : std::uint8_t {
   kVelocity,  // a, b, c: east, north, up [m/s] of the antenna at `arm`; c may be unset
   kHeading,   // a: azimuth of the antenna baseline less direction_rad, which is the baseline's own
               // direction in Body: the yaw, where the car is level
-  kWheelSpeed,  // a: forward speed by the rear wheels [m/s]
+  kWheelSpeed,  // a: forward speed by the rear wheels [m/s]; sigma_b: of its scale, a share
   kSlip,        // the rear axle slips as its tyres do: lateral speed by a model, no numbers
   kRoad,        // road: the car stands on it and moves along it
   kAttitude     // a, b, c: roll, pitch, yaw [rad] by a receiver's own inertial solution; c may be

@@ -60,6 +60,11 @@ void use_steering_model(const Intake& in, const world::VehicleSignals& car, Inst
   (void)insert(in.state.filter, in.filter, m);
 }
 
+double unknown_scale(const FilterParams& p) {
+  return p.kind == FilterKind::kPlanar ? p.planar.wheel_sigma_per_speed
+                                       : p.spatial.wheel_sigma_per_speed;
+}
+
 void follow_speed(WheelState& wheels, double speed_mps, Instant at) {
   const double since_s = (at - wheels.at).seconds();
   if (wheels.heard && std::isfinite(wheels.speed_mps) && since_s > 0.0) {
@@ -71,14 +76,19 @@ void follow_speed(WheelState& wheels, double speed_mps, Instant at) {
   wheels.speed_mps = speed_mps;
 }
 
+// The car's speed by receivers at the last tick, where they say it.
+double by_receivers_mps(const Intake& in) {
+  const Moment* moment = in.state.trail.newest();
+  const bool measured = in_use(in, Source::kVelocity, 0) || in_use(in, Source::kVelocity, 1);
+  return moment && measured ? moment->speed_mps : kUnset;
+}
+
 WheelSpeed judge_wheels(const Intake& in, const world::PerWheel& reported) {
   WheelFacts facts;
   facts.speed_mps = reported;
-  if (const Moment* moment = in.state.trail.newest()) {
+  if (const Moment* moment = in.state.trail.newest())
     facts.yaw_rate_rad_per_s = moment->rate_rad_per_s[2];
-    const bool measured = in_use(in, Source::kVelocity, 0) || in_use(in, Source::kVelocity, 1);
-    if (measured) facts.by_receivers_mps = moment->speed_mps;
-  }
+  facts.by_receivers_mps = by_receivers_mps(in);
   const bool watched = !in.params.off.has(Monitor::kWheelAgreement);
   return watch_wheels(in.params.checks, in.state.wheels.watch, facts, watched, in.now);
 }
@@ -132,11 +142,17 @@ void take_wheels(const Intake& in, const world::VehicleSignals& car) {
     wheels.speed_mps = kUnset;
     return tell(in, Source::kWheelSpeed, 0, report.at, gate);
   }
-  follow_speed(wheels, judged.speed_mps, report.at);
+  const CheckParams& checks = in.params.checks;
+  const double since_s = wheels.heard ? (report.at - wheels.at).seconds() : 0.0;
+  learn(checks, wheels.scale, judged.speed_mps, by_receivers_mps(in), wheels.accel_mps2, since_s);
+  follow_speed(wheels, without_scale(checks, wheels.scale, judged.speed_mps), report.at);
   wheels.at = report.at;
   wheels.heard = true;
   const bool fused = fuse(in, Source::kWheelSpeed,
-                          {.kind = Kind::kWheelSpeed, .at = report.at, .a = judged.speed_mps});
+                          {.kind = Kind::kWheelSpeed,
+                           .at = report.at,
+                           .a = wheels.speed_mps,
+                           .sigma_b = scale_sigma(checks, wheels.scale, unknown_scale(in.filter))});
   (void)fused;  // told
   if (!in.state.started) return;
   use_steering_model(in, car, report.at);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <type_traits>
 
 #include "protocol/vocabulary/time.hpp"
@@ -18,6 +19,7 @@ struct Stream {
   Gate verdict = Gate::kUnknown;  // on its newest sample; kSilent when nothing comes
   world::MonitorSet seen{};       // with it
   Trust trust;
+  std::uint8_t jumps_in_row = 0;
   StampWatch stamps;
   Instant stamped_at{};  // when a stamp was used last, on the car's clock
   bool has_content = false;

@@ -54,7 +54,7 @@ inline SpatialParams recommended_spatial() {
           .gyro_scale_start = 0.002,
           .accel_scale_start = 0.002,
           .gate_nis = {20.0, 25.0, 30.0},
-          .reacquire_s = 1.0,
+          .reacquire_s = 0.2,
           .position_wander_share = 0.949,
           .position_wander_s = 30.0,
           .position_wander_together = 0.6,

@@ -56,6 +56,10 @@ struct CheckParams {
   double wheel_spread_mps = 0.8, wheel_spread_per_speed = 0.04;
   double wheel_speed_max_mps = 1.5, wheel_speed_max_per_speed = 0.1;
   double half_track_m = 0.82;
+  // How much slower the wheels read, as their tyres grow with speed.
+  double wheel_growth_s2_per_m2 = 3.8e-6, wheel_growth_from_mps = 30.0;
+  double wheel_scale_memory_s = 10.0;  // over which the rest of it is learned
+  double wheel_scale_sigma = 0.004;    // share of the speed: of what is left then
   // Trust.
   double distrust_samples = 3.0;       // refused in a row
   double readmit_after_s = 1.0;        // consistent without a break
@@ -108,6 +112,10 @@ inline constexpr auto kCheckRanges = std::to_array<CheckRange>({
     {"wheel_speed_max_mps", &CheckParams::wheel_speed_max_mps, 0.1, 10.0},
     {"wheel_speed_max_per_speed", &CheckParams::wheel_speed_max_per_speed, 0.0, 0.5},
     {"half_track_m", &CheckParams::half_track_m, 0.3, 1.5},
+    {"wheel_growth_s2_per_m2", &CheckParams::wheel_growth_s2_per_m2, 0.0, 2e-5},
+    {"wheel_growth_from_mps", &CheckParams::wheel_growth_from_mps, 0.0, 60.0},
+    {"wheel_scale_memory_s", &CheckParams::wheel_scale_memory_s, 1.0, 120.0},
+    {"wheel_scale_sigma", &CheckParams::wheel_scale_sigma, 0.0005, 0.05},
     {"distrust_samples", &CheckParams::distrust_samples, 1.0, 50.0},
     {"readmit_after_s", &CheckParams::readmit_after_s, 0.0, 30.0},
     {"readmit_alone_after_s", &CheckParams::readmit_alone_after_s, 0.0, 5.0},
