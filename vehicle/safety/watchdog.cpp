@@ -42,12 +42,15 @@ void note(StreamHistory& history, Duration gap, Duration latency, Instant now) {
   history.latency[slot] = std::max(history.latency[slot], latency);
 }
 
-// `delayed`: between true and heard.
-void seen(WatchdogState& state, Stream stream, Instant when, Duration delayed, Instant now) {
+// `delayed`: between true and heard. The car's own sleep is no gap of the stream.
+void seen(WatchdogState& state, Stream stream, Instant when, Duration delayed, Duration slept,
+          Instant now) {
   const std::size_t i = at(stream);
   if (state.ever[i] && when <= state.last[i]) return;
   if (!state.ever[i]) state.history[i].began = now;
-  note(state.history[i], state.ever[i] ? when - state.last[i] : Duration{}, delayed, now);
+  const Duration own = std::max(state.pardoned[i], slept);
+  const Duration gap = state.ever[i] ? when - state.last[i] - own : Duration{};
+  note(state.history[i], std::max(gap, Duration{}), delayed, now);
   state.last[i] = when;
   state.pardoned[i] = {};
   state.ever[i] = true;
@@ -74,6 +77,13 @@ void pardon(WatchdogState& state, Instant now, Duration slept) {
   }
 }
 
+// What the car makes itself was not made while it slept: it counts as just often enough.
+void credit(StreamHistory& history, const RateLimit& rate, Duration slept, Instant now) {
+  const double missed = std::ceil(rate.warning_hz * slept.seconds());
+  constexpr double kMost = 1'000.0;
+  history.samples[slot_of(now)] += static_cast<std::uint16_t>(std::clamp(missed, 0.0, kMost));
+}
+
 // With a receiver that counts its satellites, enough of them.
 bool is_solved(const world::GnssPosition& p) {
   constexpr std::uint8_t kSatellitesLeast = 4;
@@ -88,7 +98,7 @@ struct Ear {
   Duration slept;
 
   void hears(Stream stream, Instant when) const {
-    seen(state, stream, when, now - when - slept, now);
+    seen(state, stream, when, now - when - slept, slept, now);
   }
   template <class T>
   void hears(Stream stream, const world::Heard<T>& signal) const {
@@ -206,7 +216,11 @@ WatchdogOutput watch(const WatchdogParams& params, WatchdogState& state,
 
   // A stamp from the future keeps nothing alive.
   for (Instant& last : state.last) last = std::min(last, now);
-  if (overslept) pardon(state, now, slept);
+  if (overslept) {
+    pardon(state, now, slept);
+    credit(state.history[at(Stream::kPlanner)], params.limits[at(Stream::kPlanner)].rate,
+           std::min(slept, kPardonMax), now);
+  }
   state.watched_at = now;
   WatchdogOutput out;
   for (std::size_t i = 0; i < kStreams; ++i) {
