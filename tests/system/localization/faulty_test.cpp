@@ -59,18 +59,34 @@ TEST(OneUnitBad, DriftsAway) {
   expect_rides_through({"drifts 0.1 m/s", "gnss_position_drift", 0.1});
 }
 
-// Nothing of the satellites, all of the inertial units.
-void expect_bridges(double out_s, double limit_m) {
+// What the test would see if nobody judged: the same step, and the checks that refuse it are off.
+TEST(OneUnitBad, IsSeenWhereNobodyRefusesIt) {
+  const double until_s = kFault_s + kBad_s;
+  world::MonitorSet off;
+  off.add(world::Monitor::kInnovation);
+  off.add(world::Monitor::kUnitAgreement);
+  const ScoredRun run =
+      run_scored({.seed = 1,
+                  .faults = {fault("gnss_position_jump_left", 0, kFault_s, kBad_s, 0.3)},
+                  .until_s = until_s,
+                  .vectornav = false,
+                  .off = off});
+  print_both("0.3 m to the left, no checks", run, kFault_s, until_s);
+  EXPECT_GT(errors_of(run.spatial, kFault_s, until_s).position_max_m, 0.10);
+}
+
+// `kind` says what is missing: satellites alone, or the inertial units as well.
+void expect_bridges(const char* kind, double out_s, double limit_m) {
   for (std::uint64_t seed = 1; seed <= seeds(2); ++seed) {
     // At two places: into the turn, and out of it.
     for (const double from_s : {kFault_s, kFault_s + 7.0}) {
       const double back_s = from_s + out_s, until_s = back_s + 5.0;
-      const ScoredRun run = run_scored({.seed = seed,
-                                        .faults = {fault("gnss_no_solution", 0, from_s, out_s),
-                                                   fault("gnss_no_solution", 1, from_s, out_s)},
-                                        .until_s = until_s});
-      const std::string what = "both out " + std::to_string(static_cast<int>(out_s)) + " s from " +
-                               std::to_string(static_cast<int>(from_s)) + " s, seed " +
+      const ScoredRun run =
+          run_scored({.seed = seed,
+                      .faults = {fault(kind, 0, from_s, out_s), fault(kind, 1, from_s, out_s)},
+                      .until_s = until_s});
+      const std::string what = std::string(kind) + ' ' + std::to_string(static_cast<int>(out_s)) +
+                               " s from " + std::to_string(static_cast<int>(from_s)) + " s, seed " +
                                std::to_string(seed);
       print_both(what, run, from_s, back_s);
       print_both("  back", run, back_s, until_s);
@@ -82,10 +98,19 @@ void expect_bridges(double out_s, double limit_m) {
 
 TEST(BothOut, ForTwoSeconds) {
   print_header();
-  expect_bridges(2.0, 0.5);
+  expect_bridges("gnss_no_solution", 2.0, 0.5);
 }
 
-TEST(BothOut, ForFiveSeconds) { expect_bridges(5.0, 1.5); }
+TEST(BothOut, ForFiveSeconds) { expect_bridges("gnss_no_solution", 5.0, 1.5); }
+
+// Without IMU: wheels, steering and the road are all that is left. The car stops by its own rule;
+// how far it knows the way is what is scored; the limits are what it does, not what one wishes.
+TEST(BothSilent, ForTwoSeconds) {
+  print_header();
+  expect_bridges("gnss_unit_outage", 2.0, 2.0);
+}
+
+TEST(BothSilent, ForFiveSeconds) { expect_bridges("gnss_unit_outage", 5.0, 8.0); }
 
 }  // namespace
 }  // namespace pitwall::bench
