@@ -124,7 +124,7 @@ CtEvents events_of(const HandshakeParams& params, const HandshakeInputs& in) {
   const bool roll = drives && in.sys == SysState::kDriving && (green || yellow) && !halt;
   CtEvents events{};
   events[at(CtEvent::kEmergency)] = in.mode == Mode::kEmergencyStop || in.operator_emergency ||
-                                    in.vehicle == VehicleFlag::kPurpleEmergency;
+                                    in.vehicle == VehicleFlag::kPurpleEmergency || in.engine_off;
   events[at(CtEvent::kStop)] = stops || halt;
   events[at(CtEvent::kShutdown)] = (in.operator_shutdown || kill) && stands;
   events[at(CtEvent::kRed)] = in.track == TrackFlag::kRed;

@@ -21,7 +21,7 @@ namespace pitwall::gateway {
 
 // In the order of priority.
 enum class CtEvent : std::uint8_t {
-  kEmergency,      // mode emergency stop, purple flag, operator's emergency stop
+  kEmergency,      // mode emergency stop, purple flag, operator's emergency stop, engine off
   kStop,           // mode controlled stop or halted; red, stop, engine-kill or unknown flag
   kShutdown,       // operator asks to shut the engine, or engine-kill flag; at standstill only
   kRed,            // track flag red: at start-up the sign that race control is there
@@ -55,6 +55,7 @@ struct HandshakeInputs {
   world::Mode mode = world::Mode::kDisarmed;
   double speed_mps = kUnset;  // unset: not known to stand
   bool operator_shutdown = false, operator_emergency = false;
+  bool engine_off = false;  // the throttle does not close in a stop: at any speed
 };
 
 CtEvents events_of(const HandshakeParams& params, const HandshakeInputs& inputs);

@@ -280,6 +280,7 @@ void read_safety(yaml::StrictMap map, CarParams& params) {
   read_supervisor(supervisor, params.supervisor);
   params.supervisor.steering_ratio = params.outbound.steering_ratio;
   read_gate(map.map("gate"), params.gate);
+  params.supervisor.gate = params.gate;
   read_bus_guard(map.map("bus_guard"), params.bus_guard);
   check_slews(supervisor, params);
 }

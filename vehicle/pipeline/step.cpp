@@ -98,7 +98,8 @@ world::CtState handshake(const Setup& setup, Car& car, const Outputs& out, const
                              .mode = out.chosen.mode,
                              .speed_mps = out.chosen.speed_mps,
                              .operator_shutdown = false,
-                             .operator_emergency = out.requests.emergency_stop},
+                             .operator_emergency = out.requests.emergency_stop,
+                             .engine_off = out.chosen.engine_off},
                             in.now);
 }
 
@@ -150,7 +151,8 @@ void say(const Setup& setup, Car& car, const Inputs& in, Outputs& out) {
                              .armed = out.chosen.actuate,
                              .speed_mps = out.chosen.speed_mps,
                              .command_at = out.chosen.command.at,
-                             .now = in.now},
+                             .now = in.now,
+                             .engine_off = out.chosen.engine_off},
                             spoken.frames.span());
   car.gate_refused = out.passed.refused_now;
 }

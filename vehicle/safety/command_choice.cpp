@@ -122,6 +122,16 @@ double within_grip(const Tick& t, double brake_kpa) {
   return std::min(brake_kpa, std::fmax(grip_kpa, falling_kpa));
 }
 
+// What the gate would refuse at this speed, less a step of the field. An actuator that does not
+// follow drives the demand without end; refused, the drive-by-wire would take the brake itself.
+double within_gate(const Tick& t, double road_wheel_rad) {
+  constexpr double kStep_deg = 1.0;
+  const GateParams& gate = t.params.gate;
+  const double limit_deg = gate.stop_steer_share * steer_limit_deg(gate, t.speed_mps) - kStep_deg;
+  const double limit_rad = from_deg(limit_deg) / t.params.steering_ratio;
+  return std::clamp(road_wheel_rad, -limit_rad, limit_rad);
+}
+
 // A change of source is no jump; in a stop the throttle never rises.
 ActuatorCommand limit(const Tick& t, const ActuatorCommand& wanted) {
   const SupervisorParams& p = t.params;
@@ -141,6 +151,8 @@ ActuatorCommand limit(const Tick& t, const ActuatorCommand& wanted) {
     out.gear = next_gear(t, wanted.gear);
   }
   if (t.state.mode == Mode::kCoast) out.throttle_fraction = 0.0;
+  if (stops(t.state.mode) || t.state.mode == Mode::kCoast)
+    out.road_wheel_rad = within_gate(t, out.road_wheel_rad);
   if (t.state.mode == Mode::kControlledStop) out.brake_kpa = within_grip(t, out.brake_kpa);
   if (out.brake_kpa > kBrakeTouched_kpa) out.throttle_fraction = 0.0;
   return out;

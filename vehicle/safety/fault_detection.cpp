@@ -68,13 +68,14 @@ void drive_by_wire(Finder& f) {
   if (misc.heard) {
     const SysState sys = misc.value.sys_state;
     const auto value = static_cast<double>(sys);
-    f.add(Cause::kSysEmergencyShutdown, sys == SysState::kEmergencyShutdown, value);
+    f.add(Cause::kSysEmergencyShutdown, sys == SysState::kEmergencyShutdown && !f.in.engine_off,
+          value);
     f.add(Cause::kCriticalLimits, sys == SysState::kCriticalLimitsExceeded, value);
   }
   if (!f.in.signals.diagnostics.heard) return;
   const auto& d = f.in.signals.diagnostics.value;
   f.add(Cause::kSystemFailure, d.system_failure);
-  f.add(Cause::kEmergencyBrake, d.emergency_brake);
+  f.add(Cause::kEmergencyBrake, d.emergency_brake && !f.in.engine_off);
   f.add(Cause::kSteeringCommsLost, d.steer_comms_lost);
   f.add(Cause::kMotecCommsLost, d.motec_comms_lost);
   f.add(Cause::kBrakeOutOfSpec, d.front_brake_out_of_spec || d.rear_brake_out_of_spec);

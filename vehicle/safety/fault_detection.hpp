@@ -87,6 +87,7 @@ struct FaultInputs {
   bool driving = false;       // control is expected to give commands
   bool moves = false;         // a mode in which the car may roll: driving, coasting, stopping
   bool radio_fades = false;   // a rung of the radio's ladder has gone
+  bool engine_off = false;    // we told the drive-by-wire to shut down
   const world::SensorInput* sensors = nullptr;  // of this tick; none: no clock is watched
   world::ComputerHealth computer{};
   // What the actuators were told last; unset while nothing was.

@@ -16,6 +16,7 @@ using world::Mode;
 // The smallest step of a field: what rounding alone may add to a slew.
 constexpr double kSteerStep_deg = 0.5, kBrakeStep_kpa = 1.0, kThrottleStep_percent = 0.01;
 constexpr double kCtStateLast = 12.0, kCtStateDefault = 255.0;
+constexpr double kControlledShutdown = 11.0, kEmergencyShutdown = 12.0;
 constexpr double kTractionSwitchLast = 4.0;  // the most aggressive of the database's 0..4
 
 struct Gated {
@@ -182,12 +183,21 @@ Verdict judge_gear(Bench& b, const can::Frame& frame) {
   return Verdict::kPass;
 }
 
-Verdict judge_report(const can::Frame& frame) {
+bool engine_may_stop(const Bench& b, double ct_state) {
+  const GateContext& c = b.context;
+  if (!c.armed || b.stands() || c.speed_mps <= b.params.standing_mps) return true;  // unset: false
+  if (ct_state != kEmergencyShutdown) return false;
+  return c.mode == Mode::kEmergencyStop || (c.mode == Mode::kControlledStop && c.engine_off);
+}
+
+Verdict judge_report(const Bench& b, const can::Frame& frame) {
   av21::CtReport m;
   if (!av21::decode(frame, m)) return Verdict::kWrongLength;
   const bool listed =
       (m.ct_state >= 1.0 && m.ct_state <= kCtStateLast) || m.ct_state == kCtStateDefault;
-  return listed ? Verdict::kPass : Verdict::kOutOfRange;
+  if (!listed) return Verdict::kOutOfRange;
+  const bool shuts = m.ct_state == kControlledShutdown || m.ct_state == kEmergencyShutdown;
+  return !shuts || engine_may_stop(b, m.ct_state) ? Verdict::kPass : Verdict::kEngineOff;
 }
 
 Verdict judge_switches(const can::Frame& frame) {
@@ -209,7 +219,7 @@ Verdict judge_value(Bench& b, const can::Frame& frame, std::uint8_t length) {
     case av21::GearShiftCmd::kId:
       return judge_gear(b, frame);
     case av21::CtReport::kId:
-      return judge_report(frame);
+      return judge_report(b, frame);
     case av21::DashSwitchesCmd::kId:
       return judge_switches(frame);
     default:  // acknowledgements, accelerations

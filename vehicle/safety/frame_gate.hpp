@@ -8,6 +8,10 @@
 //   units  as in the CAN database: degrees at the motor, %, kPa, gears
 //   errors frames beyond kMaxFrames are refused as kTooMany
 //
+// The engine goes off at standstill only: a ct_report with state 11 passes while the car stands or is
+// not armed, one with 12 in an emergency stop too, and in a controlled stop whose throttle does not
+// close.
+//
 // Disarmed, only these pass: 1404 ct_report, 1405 ct_report_2, 1406 dash_switches_cmd, 1450
 // ct_vehicle_acc_feedback. Brake frames are judged before the others, wherever they stand: where
 // throttle and brake contradict each other it is the throttle that is refused.
@@ -60,9 +64,10 @@ enum class Verdict : std::uint8_t {
   kThrottleForbidden,  // throttle in a mode that does not drive
   kThrottleRises,      // in a stop
   kThrottleWithBrake,  // both above their thresholds
-  kBrakeReleased       // at standstill
+  kBrakeReleased,      // at standstill
+  kEngineOff           // while the car moves
 };
-inline constexpr std::size_t kVerdicts = 17;
+inline constexpr std::size_t kVerdicts = 18;
 
 constexpr const char* text_of(Verdict verdict) {
   constexpr std::array<const char*, kVerdicts> kTexts{"pass",
@@ -81,7 +86,8 @@ constexpr const char* text_of(Verdict verdict) {
                                                       "throttle forbidden",
                                                       "throttle rises",
                                                       "throttle with brake",
-                                                      "brake released"};
+                                                      "brake released",
+                                                      "engine off while moving"};
   return kTexts[static_cast<std::size_t>(verdict)];
 }
 
@@ -135,6 +141,7 @@ struct GateContext {
   double speed_mps = kUnset;  // by the wheels; unset is judged as the highest speed
   Instant command_at{};       // when the command behind the actuator frames was computed
   Instant now{};
+  bool engine_off = false;  // the throttle does not close in a stop
 };
 
 // Instants of the last frames of one id that passed.

@@ -184,6 +184,7 @@ void enter(const Tick& t, Mode to, bool nobody_obeys) {
   if (to == Mode::kStandby || to == Mode::kDriving) {
     s.safe_stop = {};
     s.safe_stop_engaged = false;
+    s.engine_off = false;
     s.coasts = {};
   }
   // What lasted too long is what stopped the car.
@@ -191,6 +192,15 @@ void enter(const Tick& t, Mode to, bool nobody_obeys) {
     s.log.first = s.coasts;
   s.mode = to;
   s.mode_since = t.now;
+}
+
+// A stop tells the throttle to close. Where it stays open the brakes fight the engine, and lose in
+// the low gears.
+bool pushes_on(const Tick& t, const FaultOutput& found) {
+  const SupervisorState& s = t.state;
+  const auto& throttle = t.in.signals.throttle_fraction;
+  return stops(s.mode) && found.causes.has(Cause::kThrottleStrays) && s.last_known &&
+         throttle.value > s.last.throttle_fraction + t.params.faults.following.throttle.tolerance;
 }
 
 Follow follow_of(Mode mode) {
@@ -237,6 +247,7 @@ SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& stat
                                     .driving = follows_the_drive(state.mode),
                                     .moves = follows_the_drive(state.mode) || stops(state.mode),
                                     .radio_fades = inputs.radio.rung != RadioRung::kFull,
+                                    .engine_off = state.engine_off,
                                     .sensors = inputs.sensors,
                                     .computer = inputs.computer,
                                     .told = state.last_known ? state.last : ActuatorCommand{},
@@ -248,6 +259,7 @@ SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& stat
   const Mode before = state.mode;
   const Mode to = next(before, events_of(tick, found, standstill));
   if (to != before) enter(tick, to, found.nobody_obeys);
+  state.engine_off = state.engine_off || pushes_on(tick, found);
 
   SupervisorOutput out;
   const Chosen chosen = choose(tick);
@@ -270,6 +282,7 @@ SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& stat
   out.actuate = state.mode != Mode::kDisarmed;
   out.speed_mps = speed_mps;
   out.standstill = standstill;
+  out.engine_off = state.engine_off;
   out.seen = found.seen;
   return out;
 }

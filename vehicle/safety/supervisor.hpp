@@ -18,6 +18,9 @@
 //          has been held since the start of a process whose predecessor ended while armed. A spent
 //          request counts for nothing: it must be withdrawn and given anew, as after every stop,
 //          after a base station lost at standstill and after a dead bus
+//   engine off at standstill only, but for one case: a throttle that stays open in a stop, at any
+//          speed. The drive-by-wire is then told to shut down as in an emergency (CT 12): the
+//          engine is off, the gear is out, steering and brake go on obeying
 //   source mission, row 4 (system executive); mode_table.hpp for the transitions
 //
 //           fault                   stands for 0.5 s           reset
@@ -37,6 +40,7 @@
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/safety/fault_detection.hpp"
 #include "vehicle/safety/fault_log.hpp"
+#include "vehicle/safety/frame_gate.hpp"
 #include "vehicle/safety/mode_table.hpp"
 #include "vehicle/safety/radio_ladder.hpp"
 #include "vehicle/safety/safe_stop.hpp"
@@ -51,6 +55,7 @@ struct SupervisorParams {
   FaultParams faults;
   SafeStopParams safe_stop;
   double steering_ratio = 19.5;                   // as in gateway::OutboundParams; [10, 25]
+  GateParams gate;                                // what a stop's own commands have to pass
   Duration standstill_dwell = milliseconds(500);  // [0.1, 5] s
   double standstill_mps = 0.3;                    // [0.1, 1]
   // Slew of the chosen command, so that a change of its source is no jump; below the gate's limits.
@@ -114,6 +119,7 @@ struct SupervisorState {
   bool reset_was = false;
   bool standing = false;
   Instant standing_since{};
+  bool engine_off = false;    // until the car is armed again
   bool arm_used = false;      // an arm request arms once; cleared when it is withdrawn
   bool arm_released = false;  // no request was held at least once since the start
   Arming arming = Arming::kNotAsked;
@@ -136,6 +142,7 @@ struct SupervisorOutput {
   bool actuate = false;       // armed: outbound sends actuator frames and the gate lets them pass
   double speed_mps = kUnset;  // by the wheels
   bool standstill = false;
+  bool engine_off = false;   // the throttle does not close in a stop
   bool limited = false;      // the slew limits changed the command
   world::MonitorSet seen{};  // monitors that see something wrong now
 };

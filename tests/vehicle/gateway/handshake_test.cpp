@@ -81,14 +81,32 @@ TEST(Handshake, AWholeDayFromPowerOnToShutdown) {
   EXPECT_EQ(desk.wait(seconds(5)), CtState::kControlledShutdown);
 }
 
+// Whatever is asked while the car moves: only what an emergency or an open throttle asks.
+TEST(Handshake, NothingElseTurnsTheEngineOffWhileTheCarMoves) {
+  Desk desk;
+  desk.state = {CtState::kNominalRace, desk.now};
+  for (const Mode mode : {Mode::kDriving, Mode::kCoast, Mode::kControlledStop}) {
+    for (const double v : {1.01, 20.0, 65.0, kUnset}) {
+      desk.inputs = {.sys = SysState::kDriving,
+                     .track = TrackFlag::kRed,
+                     .vehicle = VehicleFlag::kEngineKill,
+                     .mode = mode,
+                     .speed_mps = v,
+                     .operator_shutdown = true};
+      EXPECT_EQ(desk.wait(seconds(2)), CtState::kCoordinatedStop) << v;
+    }
+  }
+}
+
 TEST(Handshake, EveryEmergencyFromEveryStateAndThereItStays) {
   for (const CtState from : kStates) {
-    for (int kind = 0; kind < 3; ++kind) {
+    for (int kind = 0; kind < 4; ++kind) {
       Desk desk;
       desk.state = {from, desk.now};
       if (kind == 0) desk.inputs.mode = Mode::kEmergencyStop;
       if (kind == 1) desk.inputs.operator_emergency = true;
       if (kind == 2) desk.inputs.vehicle = VehicleFlag::kPurpleEmergency;
+      if (kind == 3) desk.inputs.engine_off = true;
       EXPECT_EQ(desk.wait(milliseconds(10)), CtState::kEmergencyShutdown);
       desk.inputs = {.sys = SysState::kDriving,
                      .track = TrackFlag::kGreen,

@@ -53,5 +53,59 @@ TEST(CommandChoice, AControlledStopBrakesWithinTheGripAtEverySpeed) {
   }
 }
 
+// A steering that does not follow drives the demand without end; what the gate refuses, the
+// drive-by-wire takes for a dead computer.
+TEST(CommandChoice, AStopSteersWithinWhatTheGateLetsPassAtEverySpeed) {
+  for (const double v : {5.0, 20.0, 40.0, 60.0, 75.0, 95.0}) {
+    for (const double side : {-1.0, 1.0}) {
+      Drive d;
+      d.race();
+      d.car.requests.stop = true;
+      d.car.control.throttle_fraction = 0.0;
+      d.car.control.road_wheel_rad = side;
+      double most_deg = 0.0;
+      for (int tick = 0; tick < 200; ++tick) {
+        d.speed_mps = v;
+        d.car.ego.vx_mps = v;
+        d.tick();
+        ASSERT_EQ(d.out.mode, Mode::kControlledStop);
+        most_deg = std::abs(to_deg(d.out.command.road_wheel_rad)) * d.params.steering_ratio;
+        const GateParams& gate = d.params.gate;
+        ASSERT_LT(most_deg, gate.stop_steer_share * steer_limit_deg(gate, v)) << v;
+      }
+      EXPECT_GT(most_deg, 0.9 * d.params.gate.stop_steer_share * steer_limit_deg({}, v)) << v;
+    }
+  }
+}
+
+// The engine goes off at any speed where, and only where, a stop's throttle stays open.
+TEST(CommandChoice, AThrottleThatStaysOpenInAStopTurnsTheEngineOff) {
+  for (const bool stuck : {false, true}) {
+    for (const double v : {8.0, 30.0, 65.0}) {
+      Drive d;
+      d.race();
+      d.speed_mps = d.car.ego.vx_mps = v;
+      d.car.control.throttle_fraction = 0.6;
+      d.car.control.brake_kpa = 0.0;
+      const auto tick = [&](double throttle) {
+        d.speed_mps = v;
+        d.car.signals.throttle_fraction = {throttle, d.now + milliseconds(10), true};
+        d.tick();
+      };
+      for (int i = 0; i < 100; ++i) tick(d.out.command.throttle_fraction);
+      EXPECT_EQ(d.out.mode, Mode::kDriving) << safety::text_of(d.out.cause);
+      EXPECT_FALSE(d.out.engine_off) << "nothing is wrong";
+      d.car.requests.stop = true;
+      d.car.control.throttle_fraction = 0.0;
+      int ticks = 0;
+      for (; ticks < 100 && !d.out.engine_off; ++ticks)
+        tick(stuck ? 0.6 : d.out.command.throttle_fraction);
+      EXPECT_EQ(d.out.mode, Mode::kControlledStop);
+      EXPECT_EQ(d.out.engine_off, stuck) << v;
+      EXPECT_LT(ticks, stuck ? 60 : 101) << "within 0.6 s";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pitwall::safety

@@ -184,5 +184,28 @@ TEST(FrameGateModes, CoastingHasNoThrottleHoweverLittleAndHoweverMuchItWas) {
   }
 }
 
+// Every mode, speed, order and CT state: the engine goes off where the car stands, or nobody is
+// armed, in an emergency, and where a stop's throttle stays open.
+TEST(FrameGateModes, TheEngineGoesOffAtStandstillOnly) {
+  for (const Mode mode : kAllModes) {
+    for (const double v : {0.0, 1.0, 1.01, 30.0, 80.0, kUnset}) {
+      for (const bool engine_off : {false, true}) {
+        for (const int ct : {9, 10, 11, 12}) {
+          Gate g;
+          g.context.mode = mode;
+          g.context.speed_mps = v;
+          g.context.engine_off = engine_off;
+          const bool stands = v <= 1.0 || mode == Mode::kStandby || mode == Mode::kHalted;
+          const bool must = ct == 12 && (mode == Mode::kEmergencyStop ||
+                                         (mode == Mode::kControlledStop && engine_off));
+          const bool may = ct < 11 || stands || mode == Mode::kDisarmed || must;
+          EXPECT_EQ(g.one(report(ct)), may ? Verdict::kPass : Verdict::kEngineOff)
+              << static_cast<int>(mode) << ' ' << v << ' ' << engine_off << ' ' << ct;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pitwall::safety

@@ -175,7 +175,7 @@ TEST(FrameGate, EveryRefusalIsCountedUnderItsOwnReason) {
   g.context.mode = Mode::kHalted;
   g.all({throttle(1, 2), brake(100, 1)});
   g.context.mode = Mode::kControlledStop;
-  g.all({throttle(3, 2)});
+  g.all({throttle(3, 2), report(11, 3)});
   g.context.command_at = g.context.now + nanoseconds(1);
   g.all({steer(0, 0)});
   g.context.armed = false;
@@ -241,7 +241,7 @@ TEST(FrameGate, EveryVerdictHasItsOwnText) {
   std::vector<std::string> texts;
   for (std::size_t v = 0; v < kVerdicts; ++v) texts.emplace_back(text_of(static_cast<Verdict>(v)));
   EXPECT_EQ(texts.front(), "pass");
-  EXPECT_EQ(texts.back(), "brake released");
+  EXPECT_EQ(texts.back(), "engine off while moving");
   for (const std::string& text : texts) EXPECT_FALSE(text.empty());
   std::sort(texts.begin(), texts.end());
   EXPECT_EQ(std::unique(texts.begin(), texts.end()), texts.end());
