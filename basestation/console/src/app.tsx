@@ -12,6 +12,7 @@ import { finderShown, helpShown } from "./frame/keys";
 import { Navigation } from "./frame/navigation";
 import { page } from "./frame/pages";
 import type { PageName } from "./frame/pages";
+import { ReplayBar } from "./frame/replay_bar";
 import { StopRail } from "./frame/stop_rail";
 import { TopBar } from "./frame/top_bar";
 import { AlarmsPage } from "./pages/alarms/page";
@@ -47,7 +48,7 @@ export function App() {
       <Body />
       <StopRail />
       <AlarmLine />
-      <DvrBar />
+      {mode === "REPLAY" ? <ReplayBar /> : <DvrBar />}
       {helpShown.value && <Help />}
       {finderShown.value && <Finder />}
     </div>

@@ -183,3 +183,54 @@ test("in which world we are cannot be mistaken", async () => {
   }
   assert.equal(seen.size, 4, [...seen].join("\n"));
 });
+
+test("a replay is moved by its own bar and keys, and a jump forgets what came before", async () => {
+  double.hello.mode = "REPLAY";
+  const playing = {
+    type: "playback",
+    begin_ms: 0,
+    end_ms: 600_000,
+    now_ms: 100_000,
+    speed: 1,
+  };
+  double.greetings = [
+    { ...playing, jumps: 0 },
+    {
+      type: "audit",
+      time_ms: 1,
+      who: "console 16",
+      what: "speed limit",
+      result: "sent",
+    },
+  ];
+  const { page } = await open(browser, address);
+  const asked = () => double.received.filter((m) => m.type === "playback");
+  await page.keyboard.press(" ");
+  await page.keyboard.press("ArrowLeft");
+  await page.keyboard.press("+");
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("Control+Shift+E");
+  await page.waitForTimeout(200);
+  assert.deepEqual(asked(), [
+    { type: "playback", speed: 0 },
+    { type: "playback", to_ms: 99_000 },
+    { type: "playback", speed: 2 },
+  ]);
+  assert.deepEqual(
+    double.received.filter((m) => m.type === "stop"),
+    [],
+    "nothing is stopped in a replay",
+  );
+  await until(
+    page,
+    "the audit line",
+    () => globalThis.pitwall.session.audit.value.length === 1,
+  );
+  double.say({ ...playing, now_ms: 99_000, jumps: 1 });
+  await until(
+    page,
+    "all forgotten",
+    () => globalThis.pitwall.session.audit.value.length === 0,
+  );
+});

@@ -9,7 +9,7 @@ import { send, stop } from "../store/uplink";
 import { nextTheme } from "../theme/theme";
 import { inOrder, loudest, needsEyes } from "../view/alarm_order";
 import { nextSpeedUnit } from "../view/speed_unit";
-import * as timeline from "../view/timeline";
+import * as transport from "../view/transport";
 import { kPages, showPage } from "./pages";
 
 export const kDoubleEscapeMs = 600;
@@ -46,18 +46,18 @@ export const kKeys: Record<string, Key> = {
   A: { keys: "Shift+A", does: "acknowledge all alarms shown", run: acknowledgeAll },
   s: { keys: "S", does: "shelve the selected alarm", run: () => showPage("alarms") },
   "/": { keys: "/", does: "find a field and plot it", run: () => (finderShown.value = true) },
-  " ": { keys: "Space", does: "pause the view or play it", run: timeline.togglePlay },
+  " ": { keys: "Space", does: "pause the view or play it", run: transport.togglePlay },
   ArrowLeft: {
     keys: "\u2190 \u2192",
     does: "1 s back or forward, with Shift 10 s",
-    run: (e) => timeline.step(e.shiftKey ? -10_000 : -1000),
+    run: (e) => transport.step(e.shiftKey ? -10_000 : -1000),
   },
-  ArrowRight: { keys: "", does: "", run: (e) => timeline.step(e.shiftKey ? 10_000 : 1000) },
-  ",": { keys: ", .", does: "one snapshot back or forward", run: () => timeline.stepRow(-1) },
-  ".": { keys: "", does: "", run: () => timeline.stepRow(1) },
-  "+": { keys: "+ \u2212", does: "play faster or slower", run: () => timeline.changeSpeed(true) },
-  "-": { keys: "", does: "", run: () => timeline.changeSpeed(false) },
-  l: { keys: "L", does: "back to live", run: timeline.backToLive },
+  ArrowRight: { keys: "", does: "", run: (e) => transport.step(e.shiftKey ? 10_000 : 1000) },
+  ",": { keys: ", .", does: "one snapshot back or forward", run: () => transport.stepRow(-1) },
+  ".": { keys: "", does: "", run: () => transport.stepRow(1) },
+  "+": { keys: "+ \u2212", does: "play faster or slower", run: () => transport.changeSpeed(true) },
+  "-": { keys: "", does: "", run: () => transport.changeSpeed(false) },
+  l: { keys: "L", does: "back to live", run: transport.toEnd },
   m: { keys: "M", does: "mark this moment in the recording", run: () => mark() },
   t: { keys: "T", does: "next theme: dark, light, sun", run: nextTheme },
   u: { keys: "U", does: "next unit of speed", run: nextSpeedUnit },

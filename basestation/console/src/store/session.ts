@@ -27,6 +27,7 @@ export const carEvents = signal<readonly Wire.CarEvent[]>([]);
 export const link = signal<Wire.Link | null>(null);
 export const notices = signal<readonly Wire.Notice[]>([]);
 export const fuel = signal<Wire.Fuel | null>(null);
+export const playback = signal<Wire.Playback | null>(null);
 export const track = signal<Wire.Track | null>(null);
 export const lastError = signal<{ place: string; what: string; at: number } | null>(null);
 
@@ -100,6 +101,20 @@ function climb(known: readonly Wire.CommandStep[], step: Wire.CommandStep): Wire
   return [...known.filter((s) => s.ticket !== step.ticket), merged].slice(-kKeptLines);
 }
 
+/** After a jump of a replay the base tells everything again: what was known belongs to elsewhere. */
+function forget(): void {
+  history = new History(fields.value.info.length);
+  fields.value = new Fields(fields.value.info);
+  alarmEvents.value = ladder.value = audit.value = carEvents.value = [];
+  notices.value = [];
+}
+
+function takePlayback(message: Wire.Playback): void {
+  const before = playback.value;
+  if (before && before.jumps !== message.jumps) forget();
+  playback.value = message;
+}
+
 type Texts = Record<string, (message: never) => void>;
 
 const kTexts: Texts = {
@@ -118,6 +133,7 @@ const kTexts: Texts = {
   notice: (m: Wire.Notice) =>
     (notices.value = [...notices.value.filter((n) => n.id !== m.id), m].slice(-20)),
   fuel: (m: Wire.Fuel) => (fuel.value = m),
+  playback: takePlayback,
   pong: () => {},
   layout: () => {},
   error: (m: { place: string; what: string }) =>

@@ -168,6 +168,15 @@ export interface Fuel {
   text: string;
 }
 
+/** A replay: where the base is in its recording. Each jump forgets what came before it. */
+export interface Playback {
+  begin_ms: number;
+  end_ms: number;
+  now_ms: number;
+  speed: number;
+  jumps: number;
+}
+
 export interface Track {
   name: string;
   length_m: number;

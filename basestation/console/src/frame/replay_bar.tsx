@@ -1,0 +1,44 @@
+/**
+ * The recorder's bar of a replay: where in the file the base is, how fast it plays, and jumps.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import * as session from "../store/session";
+import { clockText, durationText } from "../view/format";
+import { changeSpeed, seekFile, step, togglePlay } from "../view/transport";
+
+export function ReplayBar() {
+  const playback = session.playback.value;
+  if (!playback) return <footer class="dvr-bar">The base has not said yet what it plays.</footer>;
+  const { begin_ms, end_ms, now_ms, speed } = playback;
+  return (
+    <footer class="dvr-bar" data-held="true">
+      <button type="button" onClick={togglePlay} aria-label={speed === 0 ? "play" : "pause"}>
+        <i class={speed === 0 ? "glyph play" : "glyph pause"} aria-hidden="true" />
+      </button>
+      <button type="button" onClick={() => step(-10_000)} title="10 seconds back">
+        &minus;10 s
+      </button>
+      <input
+        type="range"
+        min={begin_ms}
+        max={end_ms}
+        step={10}
+        value={String(now_ms)}
+        aria-label="moment of the recording"
+        aria-valuetext={durationText(now_ms - begin_ms)}
+        onChange={(e) => seekFile(Number(e.currentTarget.value))}
+      />
+      <button type="button" onClick={() => changeSpeed(false)} aria-label="slower">
+        &minus;
+      </button>
+      <span class="speed">{speed === 0 ? "paused" : `${speed}\u00d7`}</span>
+      <button type="button" onClick={() => changeSpeed(true)} aria-label="faster">
+        +
+      </button>
+      <output class="behind">
+        {durationText(now_ms - begin_ms)} / {durationText(end_ms - begin_ms)}
+      </output>
+      <span class="file-clock">{clockText(session.clock.utcMs(now_ms))} UTC</span>
+    </footer>
+  );
+}
