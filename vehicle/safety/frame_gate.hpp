@@ -8,9 +8,9 @@
 //   units  as in the CAN database: degrees at the motor, %, kPa, gears
 //   errors frames beyond kMaxFrames are refused as kTooMany
 //
-// The engine goes off at standstill only: a ct_report with state 11 passes while the car stands or is
-// not armed, one with 12 in an emergency stop too, and in a controlled stop whose throttle does not
-// close.
+// The engine goes off at standstill only: a ct_report with state 11 passes while the car stands or
+// is not armed, one with 12 in an emergency stop too, and in a controlled stop whose throttle does
+// not close.
 //
 // Disarmed, only these pass: 1404 ct_report, 1405 ct_report_2, 1406 dash_switches_cmd, 1450
 // ct_vehicle_acc_feedback. Brake frames are judged before the others, wherever they stand: where
