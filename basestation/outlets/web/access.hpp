@@ -36,14 +36,14 @@ class Tokens {
 };
 
 struct AccessRules {
-  Tokens tokens;
+  Tokens tokens{};
   Role default_role = Role::kViewer;
-  std::vector<std::string> names;  // of this machine, beside addresses and localhost
+  std::vector<std::string> names{};  // of this machine, beside addresses and localhost
 };
 
 // Of a request: the values of its headers, empty where it has none.
 struct Visitor {
-  std::string_view host, origin, token;
+  std::string_view host{}, origin{}, token{};
 };
 
 enum class Refused : std::uint8_t { kHost, kOrigin, kToken };

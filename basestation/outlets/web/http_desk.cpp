@@ -10,13 +10,21 @@
 namespace pitwall::outlets::web {
 namespace {
 
-constexpr unsigned kOk = 200, kBad = 400, kNoToken = 401, kForbidden = 403, kNotFound = 404,
-                   kNoMethod = 405, kTooLarge = 413, kNoRoom = 507;
+constexpr unsigned kOk = 200, kNoContent = 204, kBad = 400, kNoToken = 401, kForbidden = 403,
+                   kNotFound = 404, kNoMethod = 405, kTooLarge = 413, kNoRoom = 507;
 constexpr std::string_view kJson = "application/json", kBearer = "Bearer ",
                            kLayouts = "/api/layouts/";
 
 std::shared_ptr<const std::string> shared(std::string text) {
   return std::make_shared<const std::string>(std::move(text));
+}
+
+// There might be one, and there is none: no reason for a browser to complain.
+HttpAnswer nothing() {
+  HttpAnswer answer;
+  answer.status = kNoContent;
+  answer.cache = "no-store";
+  return answer;
 }
 
 std::string policy_for(std::string_view host) {
@@ -106,6 +114,7 @@ HttpAnswer HttpDesk::serve(const HttpQuestion& question, std::string_view path,
   }
   const auto document = documents_.find(path);
   if (document == documents_.end()) return file(question, path);
+  if (document->second->empty()) return nothing();
   HttpAnswer answer;
   answer.type = kJson;
   answer.body = document->second;
@@ -148,10 +157,10 @@ HttpAnswer HttpDesk::layout(const HttpQuestion& question, std::string_view name,
     answer.body = kept->second;
     return answer;
   }
-  if (config_.layouts.empty()) return refusal(kNotFound, "no such layout");
+  if (config_.layouts.empty()) return nothing();
   auto text =
       transport::read_file(config_.layouts + "/" + std::string{name} + ".json", kLayoutBytes);
-  if (!text) return refusal(kNotFound, "no such layout");
+  if (!text) return nothing();
   answer.body = shared(*std::move(text));
   return answer;
 }

@@ -6,7 +6,7 @@
 //          text that says why
 //   bound  kLayoutsMax layouts of kLayoutBytes; the folder keeps them, without one they last as
 //          long as the base runs
-//   errors 400 no layout, 401 token, 403 origin, host or role, 404, 405, 413, 507 no room
+//   errors 204 a layout that nobody has stored, a document that is empty; 400 no layout, 401 token, 403 origin, host or role, 404, 405, 413, 507 no room
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -24,10 +24,10 @@
 namespace pitwall::outlets::web {
 
 struct HttpQuestion {
-  std::string_view method, target;
-  std::string_view host, origin, authorization, accept_encoding;
+  std::string_view method{}, target{};
+  std::string_view host{}, origin{}, authorization{}, accept_encoding{};
   bool upgrade = false;  // asks for a WebSocket
-  std::string_view body;
+  std::string_view body{};
 };
 
 struct HttpAnswer {
@@ -42,10 +42,10 @@ struct HttpAnswer {
 };
 
 struct HttpConfig {
-  AccessRules access;
-  std::filesystem::path console;
-  std::map<std::string, std::string, std::less<>> documents;  // by path, JSON
-  std::string layouts;                                        // a folder; empty: in memory
+  AccessRules access{};
+  std::filesystem::path console{};
+  std::map<std::string, std::string, std::less<>> documents{};  // by path: JSON or nothing
+  std::string layouts{};                                        // a folder; empty: in memory
 };
 
 class HttpDesk {

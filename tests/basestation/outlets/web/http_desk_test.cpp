@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/outlets/web/http_desk.hpp"
+
+#include <gtest/gtest.h>
+
+#include "protocol/transport/file.hpp"
+
+namespace pitwall::outlets::web {
+namespace {
+
+constexpr const char *kOperator = "8f2c41d09b7a4d51", *kViewer = "77aa0c1be04f43f2";
+
+HttpConfig config(std::string layouts = {}) {
+  const std::string file =
+      std::string{"operator "} + kOperator + " Anna\nviewer " + kViewer + " G\n";
+  return {.access = {.tokens = *Tokens::parse(file, "tokens")},
+          .console = "/nowhere",
+          .documents = {{"/api/track", "{}"}},
+          .layouts = std::move(layouts)};
+}
+
+HttpQuestion get(std::string_view target) {
+  return {.method = "GET", .target = target, .host = "localhost:8080"};
+}
+HttpQuestion put(std::string_view target, std::string_view body) {
+  return {.method = "PUT", .target = target, .host = "localhost:8080", .body = body};
+}
+
+TEST(HttpDesk, AConsoleThatIsNotBuiltIsSaid) {
+  HttpDesk desk(config());
+  const HttpAnswer answer = desk.answer(get("/"));
+  EXPECT_EQ(answer.status, 200u);
+  EXPECT_NE(answer.body->find("--console-dir"), std::string::npos);
+  EXPECT_NE(answer.policy.find("default-src 'self'"), std::string::npos);
+  EXPECT_EQ(answer.policy.find("unsafe"), std::string::npos);
+}
+
+TEST(HttpDesk, WhatIsNotThereOrNotAllowedIsRefusedWithALine) {
+  HttpDesk desk(config());
+  EXPECT_EQ(desk.answer(get("/nothing")).status, 404u);
+  EXPECT_EQ(desk.answer(get("/api/layouts/none")).status, 204u);
+  EXPECT_EQ(desk.answer(get("/api/layouts/../keys")).status, 404u);
+  EXPECT_EQ(desk.answer(put("/api/track", "{}")).status, 405u);
+  EXPECT_EQ(desk.answer(get("/ws")).status, 400u) << "no upgrade";
+  HttpQuestion foreign = get("/api/track");
+  foreign.origin = "http://evil.com";
+  EXPECT_EQ(desk.answer(foreign).status, 403u);
+  EXPECT_EQ(desk.answer(get("/api/track?token=0000000000000000")).status, 401u);
+  EXPECT_EQ(desk.answer(get("/nothing")).body->back(), '\n');
+}
+
+TEST(HttpDesk, TheSocketIsGivenToWhoMayHaveIt) {
+  HttpDesk desk(config());
+  HttpQuestion question = get("/ws");
+  question.upgrade = true;
+  EXPECT_EQ(desk.answer(question).visitor->role, Role::kViewer);
+  const std::string target = std::string{"/ws?x=1&token="} + kOperator;
+  question.target = target;
+  EXPECT_EQ(desk.answer(question).visitor->name, "Anna");
+}
+
+TEST(HttpDesk, LayoutsAreKeptByOperators) {
+  const auto folder = transport::TemporaryFolder::create("layouts");
+  ASSERT_TRUE(folder);
+  HttpDesk desk(config(folder->path()));
+  const std::string as = std::string{"?token="};
+  EXPECT_EQ(desk.answer(put("/api/layouts/mine", "{}")).status, 403u);
+  EXPECT_EQ(desk.answer(put("/api/layouts/mine" + as + kViewer, "{}")).status, 403u);
+  HttpQuestion question = put("/api/layouts/mine", R"({"a": 1})");
+  const std::string bearer = std::string{"Bearer "} + kOperator;
+  question.authorization = bearer;
+  EXPECT_EQ(desk.answer(question).status, 200u);
+  EXPECT_EQ(*desk.answer(get("/api/layouts/mine")).body, R"({"a": 1})");
+  HttpDesk later(config(folder->path()));
+  EXPECT_EQ(*later.answer(get("/api/layouts/mine")).body, R"({"a": 1})") << "after a restart";
+}
+
+TEST(HttpDesk, WhatIsNoLayoutIsNotKept) {
+  HttpDesk desk(config());
+  const std::string bearer = std::string{"Bearer "} + kOperator;
+  const auto status = [&](const std::string& name, const std::string& body) {
+    const std::string target = "/api/layouts/" + name;
+    HttpQuestion question = put(target, body);
+    question.authorization = bearer;
+    return desk.answer(question).status;
+  };
+  EXPECT_EQ(status("a", "{"), 400u);
+  EXPECT_EQ(status("a", "[]"), 400u);
+  EXPECT_EQ(status("a", std::string(100, '[')), 400u);
+  EXPECT_EQ(status("a", "{\"x\": \"" + std::string(HttpDesk::kLayoutBytes, 'x') + "\"}"), 413u);
+  EXPECT_EQ(status(std::string(41, 'a'), "{}"), 404u);
+  for (std::size_t i = 0; i < HttpDesk::kLayoutsMax; ++i) {
+    EXPECT_EQ(status("n" + std::to_string(i), "{}"), 200u);
+  }
+  EXPECT_EQ(status("one_more", "{}"), 507u);
+}
+
+TEST(HttpDesk, AHostThatIsNoneDoesNotGetIntoThePolicy) {
+  HttpDesk desk(config());
+  HttpQuestion question = get("/");
+  question.host = "localhost; script-src *";
+  EXPECT_EQ(desk.answer(question).policy.find("script-src"), std::string::npos);
+}
+
+TEST(HttpDesk, QueryValues) {
+  EXPECT_EQ(query_value("/ws?token=a&b=c", "token"), "a");
+  EXPECT_EQ(query_value("/ws?xtoken=a&token=d", "token"), "d");
+  EXPECT_EQ(query_value("/ws?token", "token"), "");
+  EXPECT_EQ(query_value("/ws", "token"), "");
+}
+
+}  // namespace
+}  // namespace pitwall::outlets::web

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/outlets/web/web_server.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "protocol/transport/clock.hpp"
+#include "protocol/transport/readiness.hpp"
+#include "tests/basestation/outlets/web/browser.hpp"
+
+namespace pitwall::outlets::web {
+namespace {
+
+constexpr Duration kPatience = seconds(20);
+
+SharedMessage text(std::string text) {
+  return std::make_shared<const Message>(Message{.text = std::move(text)});
+}
+SharedMessage picture(std::uint32_t sequence, std::size_t bytes = 3'000) {
+  Frame frame{.sequence = sequence};
+  frame.entries.resize(bytes);
+  return std::make_shared<const Message>(Message{.frame = std::move(frame)});
+}
+
+class Server : public testing::Test {
+ protected:
+  void SetUp() override {
+    HttpConfig config;
+    config.documents.emplace("/api/track", "{\"name\": \"X\"}");
+    config.console = "/nowhere";
+    auto started = WebServer::start({}, std::move(config));
+    ASSERT_TRUE(started) << to_string(started.error());
+    server_ = *std::move(started);
+    port_ = server_->local().port;
+  }
+  // The next of that kind; others on the way are taken.
+  std::optional<ClientNews> wait_for(ClientNews::Kind kind) {
+    const Instant end = transport::monotonic_now() + kPatience;
+    while (transport::monotonic_now() < end) {
+      while (auto news = server_->next_news()) {
+        if (news->kind == kind) return news;
+      }
+      const int fd = server_->fd();
+      transport::wait_readable({&fd, 1}, end);
+    }
+    return std::nullopt;
+  }
+  ClientId join(Browser& browser) {
+    EXPECT_EQ(browser.open(port_), 101u);
+    const auto news = wait_for(ClientNews::Kind::kJoined);
+    EXPECT_TRUE(news);
+    return news ? news->client : ClientId{0};
+  }
+  static ClientSet only(ClientId client) { return ClientSet{}.set(client); }
+
+  std::unique_ptr<WebServer> server_;
+  std::uint16_t port_ = 0;
+};
+
+TEST_F(Server, TextsAndFramesGoBothWays) {
+  Browser browser;
+  const ClientId client = join(browser);
+  EXPECT_GE(client, kFirstClient);
+  browser.say("{\"type\": \"x\"}");
+  EXPECT_EQ(wait_for(ClientNews::Kind::kSaid)->text, "{\"type\": \"x\"}");
+  server_->send(only(client), text("hello"));
+  server_->send(only(client), picture(7, 8));
+  EXPECT_EQ(browser.hear()->bytes, "hello");
+  const auto frame = browser.hear();
+  ASSERT_TRUE(frame);
+  EXPECT_FALSE(frame->text);
+  EXPECT_EQ(frame->bytes.size(), kFrameHeader + 8);
+  EXPECT_EQ(frame->bytes[8], 7);
+}
+
+TEST_F(Server, OneThatLeavesIsToldAndItsNumberIsNotSoonAnothers) {
+  ClientId first = 0;
+  {
+    Browser browser;
+    first = join(browser);
+  }
+  EXPECT_EQ(wait_for(ClientNews::Kind::kLeft)->client, first);
+  Browser next;
+  EXPECT_NE(join(next), first);
+}
+
+TEST_F(Server, AForeignPageOrAWrongTokenGetsNoSocket) {
+  const auto asked = [&](const std::string& target, const std::string& host,
+                         const std::string& fields) {
+    return bare(port_, "GET " + target + " HTTP/1.1\r\nHost: " + host + "\r\n" + fields +
+                           "Upgrade: websocket\r\nConnection: Upgrade\r\n"
+                           "Sec-WebSocket-Version: 13\r\n"
+                           "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n")
+        .substr(0, std::string_view{"HTTP/1.1 403"}.size());
+  };
+  const std::string own = "127.0.0.1:" + std::to_string(port_);
+  EXPECT_EQ(asked("/ws", own, "Origin: http://evil.com\r\n"), "HTTP/1.1 403");
+  EXPECT_EQ(asked("/ws", "evil.com", "Origin: http://evil.com\r\n"), "HTTP/1.1 403");
+  EXPECT_EQ(asked("/ws?token=0123456789abcdef", own, ""), "HTTP/1.1 401");
+  EXPECT_EQ(asked("/socket", own, ""), "HTTP/1.1 404");
+  EXPECT_EQ(asked("/ws", own, "Origin: http://" + own + "\r\n"), "HTTP/1.1 101");
+  Browser foreign;
+  EXPECT_NE(foreign.open(port_, "/ws", {{"Origin", "http://evil.com"}}), 101u);
+}
+
+TEST_F(Server, ATextThatIsTooLongClosesItsSocketOnly) {
+  Browser good, bad;
+  const ClientId kept = join(good);
+  join(bad);
+  bad.say(std::string(kTextMax + 1, 'x'));
+  while (bad.hear()) {
+  }
+  EXPECT_EQ(bad.close_code(), 1009u);
+  server_->send(only(kept), text("still here"));
+  EXPECT_EQ(good.hear()->bytes, "still here");
+}
+
+TEST_F(Server, ATextThatIsNoUtf8ClosesItsSocket) {
+  Browser browser;
+  join(browser);
+  browser.say("\xFF\xFE");
+  EXPECT_FALSE(browser.hear());
+  EXPECT_EQ(browser.close_code(), 1007u);
+}
+
+TEST_F(Server, BytesAreToldAsSuch) {
+  Browser browser;
+  join(browser);
+  browser.say_bytes("abc");
+  EXPECT_TRUE(wait_for(ClientNews::Kind::kBinary));
+}
+
+TEST_F(Server, AClientThatDoesNotReadLosesItsOwnOldestAndSeesHowMuch) {
+  Browser slow, quick;
+  ASSERT_EQ(slow.open(port_, "/ws", {}, 4'096), 101u);
+  const ClientId stopped = wait_for(ClientNews::Kind::kJoined)->client;
+  const ClientId reading = join(quick);
+  constexpr std::uint32_t kFrames = 2'000;
+  for (std::uint32_t i = 1; i <= kFrames; ++i) {
+    server_->send(only(stopped).set(reading), picture(i));
+    const auto heard = quick.hear();
+    ASSERT_TRUE(heard);
+    ASSERT_EQ(heard->bytes[12], 0) << "the one that reads loses nothing";
+  }
+  server_->send(only(stopped), text("end"));
+  std::uint32_t frames = 0, dropped = 0;
+  while (const auto heard = slow.hear()) {
+    if (heard->text) break;
+    ++frames;
+    dropped = static_cast<std::uint8_t>(heard->bytes[12]) +
+              256U * static_cast<std::uint8_t>(heard->bytes[13]);
+  }
+  EXPECT_GT(dropped, 0u);
+  EXPECT_EQ(frames + dropped, kFrames);
+  EXPECT_EQ(server_->counters().pictures_dropped, dropped);
+}
+
+TEST_F(Server, AClientThatLeavesTooMuchUnreadIsClosed) {
+  Browser slow;
+  ASSERT_EQ(slow.open(port_, "/ws", {}, 4'096), 101u);
+  const ClientId stopped = wait_for(ClientNews::Kind::kJoined)->client;
+  const auto long_text = text(std::string(256 * 1'024, 'x'));
+  for (int i = 0; i < 40; ++i) server_->send(only(stopped), long_text);
+  EXPECT_TRUE(wait_for(ClientNews::Kind::kLeft));
+  EXPECT_EQ(server_->counters().closed_unread, 1u);
+}
+
+TEST_F(Server, WhoSaysMoreThanIsHandledIsReadNoFurther) {
+  Browser browser;
+  join(browser);
+  for (int i = 0; i < 100; ++i) browser.say(std::to_string(i));
+  int said = 0;
+  while (said < 100 && wait_for(ClientNews::Kind::kSaid)) ++said;
+  EXPECT_EQ(said, 100) << "nothing is lost";
+}
+
+TEST_F(Server, MalformedHttpIsRefusedWithALine) {
+  EXPECT_TRUE(bare(port_, "NONSENSE\r\n\r\n").starts_with("HTTP/1.1 400"));
+  EXPECT_TRUE(bare(port_, "GET / HTTP/9.9\r\n\r\n").starts_with("HTTP/1.1 400"));
+  const std::string host = "Host: 127.0.0.1\r\n";
+  EXPECT_TRUE(
+      bare(port_, "GET / HTTP/1.1\r\n" + host + "X: " + std::string(20'000, 'x') + "\r\n\r\n")
+          .starts_with("HTTP/1.1 431"));
+  EXPECT_TRUE(
+      bare(port_, "PUT /api/layouts/a HTTP/1.1\r\n" + host + "Content-Length: 999999999\r\n\r\n")
+          .starts_with("HTTP/1.1 413"));
+  EXPECT_TRUE(bare(port_, "GET /../../etc/passwd HTTP/1.1\r\n" + host + "\r\n")
+                  .starts_with("HTTP/1.1 404"));
+  EXPECT_TRUE(
+      bare(port_, "DELETE /api/track HTTP/1.1\r\n" + host + "\r\n").starts_with("HTTP/1.1 405"));
+  const std::string good = bare(port_, "GET /api/track HTTP/1.1\r\n" + host + "\r\n");
+  EXPECT_TRUE(good.starts_with("HTTP/1.1 200"));
+  EXPECT_TRUE(good.ends_with("{\"name\": \"X\"}"));
+  const std::string head = bare(port_, "HEAD /api/track HTTP/1.1\r\n" + host + "\r\n");
+  EXPECT_TRUE(head.ends_with("\r\n\r\n"));
+  EXPECT_NE(head.find("Content-Length: 13"), std::string::npos);
+}
+
+TEST_F(Server, RandomBytesDoNoHarm) {
+  std::mt19937 random(3);
+  Browser browser;
+  const ClientId client = join(browser);
+  for (int round = 0; round < 60; ++round) {
+    std::string bytes(random() % 600, ' ');
+    for (char& c : bytes) c = static_cast<char>(random() % 256);
+    bare(port_, bytes);
+    const std::string key =
+        "GET /ws HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\n"
+        "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+        "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
+    bare(port_, key + bytes);
+  }
+  server_->send(only(client), text("still here"));
+  EXPECT_EQ(browser.hear()->bytes, "still here");
+  EXPECT_EQ(server_->counters().faults, 0u);
+}
+
+TEST(WebServer, AnAddressThatIsTakenIsAProblem) {
+  auto first = WebServer::start({}, {});
+  ASSERT_TRUE(first);
+  const auto second = WebServer::start((*first)->local(), {});
+  ASSERT_FALSE(second);
+  EXPECT_NE(second.error().what.find("in use"), std::string::npos) << second.error().what;
+}
+
+TEST(WebServer, EndsWithConsolesConnected) {
+  auto server = WebServer::start({}, {});
+  ASSERT_TRUE(server);
+  Browser browser;
+  EXPECT_EQ(browser.open((*server)->local().port), 101u);
+  server->reset();
+  EXPECT_FALSE(browser.hear());
+}
+
+}  // namespace
+}  // namespace pitwall::outlets::web
