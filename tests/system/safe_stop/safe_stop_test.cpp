@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <tuple>
 
+#include "hil/plant/tyre_thermal.hpp"
 #include "tests/system/safe_stop/stop_run.hpp"
 
 namespace pitwall::testing {
@@ -46,6 +47,18 @@ TEST_P(SafeStopFrom, EndsOnTrackWithinTheEllipseOnItsPath) {
 
 INSTANTIATE_TEST_SUITE_P(Turns, SafeStopFrom,
                          ::testing::Combine(kPlaces, ::testing::Values(kWarm_c, kCold_c)));
+
+// Why the cold stops begin below 68 m/s: in the 20 degrees the same corner at the same speed needs
+// the same forces, of which cold tyres have less; they are above their share before any brake.
+TEST(SafeStop, ColdTyresAreBeyondTheirShareAt68BeforeAnyBrake) {
+  plant::TyreThermal tyres;
+  tyres.cold_grip_loss = kColdLoss;
+  const double left = plant::thermal_grip(tyres, kCold_c) / plant::thermal_grip(tyres, kWarm_c);
+  const StopFigures warm = shown({.station_m = 700.0});
+  std::printf("at %.1f m/s without brake: use %.2f warm, %.2f cold\n", warm.from_mps,
+              warm.use_before, warm.use_before / left);
+  EXPECT_GT(warm.use_before / left, kUseMax);
+}
 
 // The same places with all the brake there is: else the tests above would prove nothing. With 54 %
 // of the brakes' torque in front, as the AV-21 has it, and 37 to 43 % of what the tyres can do, the

@@ -24,7 +24,6 @@ using bench::Rig;
 constexpr double kFrontStretch_m = 2250.0, kBackStretch_m = 1250.0, kFirstEnd_m = 1100.0;
 constexpr double kEnd_s = 110.0;
 constexpr double kBreaks_s = 4.0;   // after the begin of the stop
-constexpr double kColdLoss = 0.35;  // of the modelled friction at 25 C
 constexpr double kFrontLeft = 0.5;  // of the front brakes' torque, where they are weak
 constexpr double kTick_s = 0.01;
 constexpr std::size_t kSmooth = 20;  // ticks: 0.2 s

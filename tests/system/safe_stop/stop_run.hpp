@@ -16,6 +16,8 @@
 
 namespace pitwall::testing {
 
+inline constexpr double kColdLoss = 0.35;  // of the modelled friction at 25 C
+
 enum class Breakage : std::uint8_t {
   kNothing,
   kFullBrake,           // the stop is planned and followed without any limit
