@@ -50,8 +50,7 @@ const kVisions = [
   ],
 ];
 
-const times = (matrix, v) =>
-  matrix.map((row) => row.reduce((sum, m, i) => sum + m * v[i], 0));
+const times = (matrix, v) => matrix.map((row) => row.reduce((sum, m, i) => sum + m * v[i], 0));
 const clamp = (v) => Math.min(Math.max(v, 0), 1);
 
 function lab(rgb) {
@@ -63,8 +62,7 @@ function lab(rgb) {
     ],
     rgb,
   );
-  const f = (t) =>
-    t > 216 / 24389 ? Math.cbrt(t) : ((24389 / 27) * t + 16) / 116;
+  const f = (t) => (t > 216 / 24389 ? Math.cbrt(t) : ((24389 / 27) * t + 16) / 116);
   const [fx, fy, fz] = [f(x / 0.95047), f(y), f(z / 1.08883)];
   return [116 * fy - 16, 500 * (fx - fy), 200 * (fy - fz)];
 }
@@ -72,9 +70,7 @@ function lab(rgb) {
 /** The least distance of two colours over all kinds of colour vision. */
 export function cvdDistance(a, b) {
   const distances = kVisions.map((vision) => {
-    const [p, q] = [a, b].map((colour) =>
-      lab(times(vision, colour.map(linear)).map(clamp)),
-    );
+    const [p, q] = [a, b].map((colour) => lab(times(vision, colour.map(linear)).map(clamp)));
     return Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
   });
   return Math.min(...distances);

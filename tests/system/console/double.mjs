@@ -55,9 +55,7 @@ const kFirstBaseField = 16_384;
 
 /** The catalogue as a base would serve it: the registry out of the real program, and its own. */
 export function catalogue(program = process.env.PITWALL_BASE ?? kProgram) {
-  const registry = JSON.parse(
-    execFileSync(program, ["export", "json"], { maxBuffer: 1 << 24 }),
-  );
+  const registry = JSON.parse(execFileSync(program, ["export", "json"], { maxBuffer: 1 << 24 }));
   const fields = [];
   let id = 0;
   for (const group of registry.groups) {
@@ -125,9 +123,7 @@ export class Double {
 
   constructor(known = catalogue()) {
     this.catalogue = known;
-    this.streams = known.fields
-      .filter((f) => f.group === "streams")
-      .map((f) => f.path);
+    this.streams = known.fields.filter((f) => f.group === "streams").map((f) => f.path);
     this.started = performance.now();
     this.silentSince = NaN;
     this.sequence = 0;
@@ -136,9 +132,7 @@ export class Double {
 
   /** Starts on a port of its own (or the given one) and resolves with its address. */
   async listen(port = 0) {
-    this.server = createServer((request, response) =>
-      this.serve(request, response),
-    );
+    this.server = createServer((request, response) => this.serve(request, response));
     this.sockets = new WebSocketServer({ server: this.server, path: "/ws" });
     this.sockets.on("connection", (socket) => this.greet(socket));
     await new Promise((done) => this.server.listen(port, "127.0.0.1", done));
@@ -163,8 +157,7 @@ export class Double {
   }
 
   say(message) {
-    for (const socket of this.sockets.clients)
-      socket.send(JSON.stringify(message));
+    for (const socket of this.sockets.clients) socket.send(JSON.stringify(message));
   }
 
   set(path, value, judgement = 0, quality = wire.kFresh) {
@@ -173,10 +166,7 @@ export class Double {
 
   entries() {
     const silentMs = this.carAlive ? 0 : this.nowMs() - this.silentSince;
-    const values = valuesAt(
-      (this.nowMs() - silentMs) / 1000 - 80,
-      this.streams,
-    );
+    const values = valuesAt((this.nowMs() - silentMs) / 1000 - 80, this.streams);
     return this.catalogue.fields.map((field) => {
       const own = this.overrides.get(field.path);
       const value = own?.value ?? values[field.path];
@@ -188,11 +178,9 @@ export class Double {
           value: NaN,
         };
       }
-      const age =
-        silentMs + (own?.quality === wire.kStale ? 6 * field.period_ms : 20);
+      const age = silentMs + (own?.quality === wire.kStale ? 6 * field.period_ms : 20);
       const quality = own?.quality || this.qualityAt(age, field.period_ms);
-      const judged =
-        own?.judgement || (field.group === "streams" ? wire.kGood : 0);
+      const judged = own?.judgement || (field.group === "streams" ? wire.kGood : 0);
       return {
         id: field.id,
         value,
@@ -204,8 +192,7 @@ export class Double {
 
   /** FRESH up to 1.5 periods, LATE up to 5, STALE after that or after 2 s. */
   qualityAt(ageMs, periodMs) {
-    if (ageMs > Math.min(5 * periodMs, Math.max(2000, 1.5 * periodMs)))
-      return wire.kStale;
+    if (ageMs > Math.min(5 * periodMs, Math.max(2000, 1.5 * periodMs))) return wire.kStale;
     return ageMs > 1.5 * periodMs ? wire.kLate : wire.kFresh;
   }
 
@@ -241,9 +228,7 @@ export class Double {
         value: 60 + Math.sin(i / 4),
         quality: wire.kFresh,
       }));
-      socket.send(
-        wire.history(message.field, points, { timeMs: this.nowMs() }),
-      );
+      socket.send(wire.history(message.field, points, { timeMs: this.nowMs() }));
     }
     this.answers?.(message, (answer) => this.say(answer));
   }
@@ -257,16 +242,11 @@ export class Double {
     };
     if (path === "/api/catalogue") return json(this.catalogue);
     if (path === "/api/track") return json(kTrack);
-    if (path.startsWith("/api/layouts/"))
-      return this.serveLayout(request, response, path);
-    const file =
-      path === "/" ? "index.html" : normalize(path).replace(/^[/.]+/, "");
+    if (path.startsWith("/api/layouts/")) return this.serveLayout(request, response, path);
+    const file = path === "/" ? "index.html" : normalize(path).replace(/^[/.]+/, "");
     try {
       const bytes = await readFile(join(kDist, file));
-      response.setHeader(
-        "Content-Type",
-        kTypes[extname(file)] ?? "application/octet-stream",
-      );
+      response.setHeader("Content-Type", kTypes[extname(file)] ?? "application/octet-stream");
       response.end(bytes);
     } catch {
       response.writeHead(404).end("not found\n");

@@ -99,8 +99,7 @@ function motion(t, speed) {
     "command.gear": 6,
     "command.actuate": 1,
     "command.limited": 0,
-    "feedback.steering":
-      (turning ? 0.0135 : 0.001 * swing) + 0.0004 * Math.sin(t * 9),
+    "feedback.steering": (turning ? 0.0135 : 0.001 * swing) + 0.0004 * Math.sin(t * 9),
     "feedback.throttle": 0.6 + 0.05 * Math.sin(t * 1.7 - 0.2),
     "feedback.gear": 6,
     "feedback.brake_front": 0,
@@ -122,8 +121,7 @@ function rivals(t, speed) {
   ].forEach(([identity, gap, offset], i) => {
     const group = `opponent_${i + 1}.`;
     values[`${group}identity`] = identity;
-    values[`${group}station`] =
-      (speed * t + gap + 6 * Math.sin(t / 5) + kLengthM) % kLengthM;
+    values[`${group}station`] = (speed * t + gap + 6 * Math.sin(t / 5) + kLengthM) % kLengthM;
     values[`${group}offset`] = offset;
     values[`${group}speed`] = speed + 1.2 * Math.cos(t / 5);
     values[`${group}age`] = 0.05;

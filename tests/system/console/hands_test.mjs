@@ -28,21 +28,12 @@ afterEach(async () => {
 const kHarmless = ["history", "mark", "ack", "ping"];
 const commands = () =>
   double.received.filter(
-    (m) =>
-      !kHarmless.includes(m.type) &&
-      !(m.type === "authority" && m.do === "renew"),
+    (m) => !kHarmless.includes(m.type) && !(m.type === "authority" && m.do === "renew"),
   );
 
 test("no single key sends a command", async () => {
   const { page } = await open(browser, address);
-  for (const name of [
-    "primary",
-    "plots",
-    "telemetry",
-    "link",
-    "commands",
-    "alarms",
-  ]) {
+  for (const name of ["primary", "plots", "telemetry", "link", "commands", "alarms"]) {
     await page.evaluate((hash) => (location.hash = hash), `#/${name}`);
     for (let code = 32; code < 127; ++code) {
       await page.keyboard.press(String.fromCharCode(code));
@@ -86,9 +77,7 @@ test("Escape twice within 600 ms is a controlled stop, later it is none", async 
 test("stops work from inside a text field, a dialog and a held view", async () => {
   const { page } = await open(browser, address);
   await page.keyboard.press(" ");
-  await until(page, "held", () =>
-    document.querySelector('.frame[data-held="true"]'),
-  );
+  await until(page, "held", () => document.querySelector('.frame[data-held="true"]'));
   await page.keyboard.press("/");
   await page.keyboard.type("ego");
   await page.keyboard.press("Control+Shift+E");
@@ -125,11 +114,7 @@ test("the emergency button acts after 400 ms, not on a tap", async () => {
 test("a stop without a base says that it was not sent", async () => {
   const { page } = await open(browser, address);
   await double.close();
-  await until(
-    page,
-    "no connection",
-    () => !globalThis.pitwall.session.connected.value,
-  );
+  await until(page, "no connection", () => !globalThis.pitwall.session.connected.value);
   await page.click("button.stop.controlled");
   await until(page, "NOT SENT", () =>
     document.querySelector(".outcome").textContent.startsWith("NOT SENT"),
@@ -157,19 +142,14 @@ test("stage, gates, hold: the keyboard alone, from any page", async () => {
       step: "gated",
       times_ms: { staged: 1, gated: 2 },
       text: "",
-      gates: [
-        { name: "tyres", ok: true, value: 81, age_ms: 100, text: "warm" },
-      ],
+      gates: [{ name: "tyres", ok: true, value: 81, age_ms: 100, text: "warm" }],
     });
   };
   const { page } = await open(browser, address, { ownClock: true });
   await page.keyboard.press("5");
   const reach = async (selector) => {
     for (let n = 0; n < 80; ++n) {
-      if (
-        await page.evaluate((s) => document.activeElement?.matches(s), selector)
-      )
-        return;
+      if (await page.evaluate((s) => document.activeElement?.matches(s), selector)) return;
       await page.keyboard.press("Tab");
     }
     assert.fail(`Tab does not reach ${selector}`);
@@ -180,15 +160,10 @@ test("stage, gates, hold: the keyboard alone, from any page", async () => {
   await page.keyboard.press("Control+A");
   await page.keyboard.type("120");
   await page.keyboard.press("Enter");
-  await until(page, "the gates", () =>
-    document.querySelector(".gate[data-ok=true]"),
-  );
+  await until(page, "the gates", () => document.querySelector(".gate[data-ok=true]"));
   const staged = commands().find((m) => m.type === "stage");
   assert.equal(staged.name, "speed limit");
-  assert.ok(
-    Math.abs(staged.argument - 53.645) < 0.01,
-    `${staged.argument} m/s of 120 mph`,
-  );
+  assert.ok(Math.abs(staged.argument - 53.645) < 0.01, `${staged.argument} m/s of 120 mph`);
   await reach("button.send");
   await page.clock.pauseAt((await page.evaluate(() => Date.now())) + 2000);
   await page.keyboard.down("Enter");
@@ -265,17 +240,11 @@ test("pause, scrub and back to live concern the view alone", async () => {
   assert.equal(await station(), held, "the view stands still");
   assert.ok((await lap()) > before, "the record runs on");
   await page.keyboard.press("l");
-  await until(
-    page,
-    "live",
-    () => document.querySelector(".behind").textContent === "LIVE",
-  );
+  await until(page, "live", () => document.querySelector(".behind").textContent === "LIVE");
   await until(
     page,
     "the present",
-    (past) =>
-      document.querySelector('[data-path="ego.x"] .digits').textContent !==
-      past,
+    (past) => document.querySelector('[data-path="ego.x"] .digits').textContent !== past,
     held,
   );
 });

@@ -51,41 +51,29 @@ test("a field that was never heard is an en dash, a zero is a zero", async () =>
     page,
     "an en dash",
     () =>
-      document.querySelector('[data-path="uplink.stop_reason"] .digits')
-        ?.textContent === "\u2013",
+      document.querySelector('[data-path="uplink.stop_reason"] .digits')?.textContent === "\u2013",
   );
   await page.fill("input[type=search]", "feedback.brake_front");
   await until(
     page,
     "a zero",
-    () =>
-      document.querySelector('[data-path="feedback.brake_front"] .digits')
-        ?.textContent === "0",
+    () => document.querySelector('[data-path="feedback.brake_front"] .digits')?.textContent === "0",
   );
 });
 
 test("the car falls silent: every value stale, none coloured, each keeps its digits", async () => {
-  for (const path of [
-    "derived.slip",
-    "tyres.temperature_front_left",
-    "sensors.lidar_rate",
-  ]) {
+  for (const path of ["derived.slip", "tyres.temperature_front_left", "sensors.lidar_rate"]) {
     double.set(path, 0.5, path.startsWith("derived") ? kBad : kWarning);
   }
   const { page } = await open(browser, address);
-  await until(page, "colours", () =>
-    document.querySelector('[data-judgement="bad"]'),
-  );
+  await until(page, "colours", () => document.querySelector('[data-judgement="bad"]'));
   const before = await page.textContent('[data-path="derived.slip"] .digits');
   double.silence();
   for (let n = 0; n < 100 && (await page.evaluate(alive)).length > 0; ++n) {
     await page.waitForTimeout(100);
   }
   assert.deepEqual(await page.evaluate(alive), []);
-  assert.equal(
-    await page.textContent('[data-path="derived.slip"] .digits'),
-    before,
-  );
+  assert.equal(await page.textContent('[data-path="derived.slip"] .digits'), before);
   const drawn = await page.evaluate(() => {
     const digits = document.querySelector('[data-path="ego.vx"] .digits');
     const style = getComputedStyle(digits);
@@ -105,10 +93,7 @@ test("the base dies: within 600 ms nothing looks alive, and a new one is found a
   await until(
     page,
     "NO BASE",
-    () =>
-      document
-        .querySelector(".link-tile .word")
-        .textContent.startsWith("NO BASE"),
+    () => document.querySelector(".link-tile .word").textContent.startsWith("NO BASE"),
     undefined,
     2000,
   );
@@ -122,23 +107,14 @@ test("the base dies: within 600 ms nothing looks alive, and a new one is found a
   double = new Double();
   await double.listen(port);
   const from = Date.now();
-  await until(page, "fresh values again", () =>
-    document.querySelector('[data-quality="fresh"]'),
-  );
+  await until(page, "fresh values again", () => document.querySelector('[data-quality="fresh"]'));
   assert.ok(Date.now() - from < 2500, `back after ${Date.now() - from} ms`);
 });
 
 test("frames and texts that are none are counted and change nothing", async () => {
   const { page, faults } = await open(browser, address);
   for (const socket of double.sockets.clients) {
-    for (const text of [
-      "",
-      "{",
-      "null",
-      "[]",
-      '{"type":"constructor"}',
-      '{"type":7}',
-    ]) {
+    for (const text of ["", "{", "null", "[]", '{"type":"constructor"}', '{"type":7}']) {
       socket.send(text);
     }
     socket.send(Buffer.from([9, 9, 9]));
@@ -157,17 +133,9 @@ test("in which world we are cannot be mistaken", async () => {
   for (const mode of ["REAL", "HIL", "REPLAY", "NONE"]) {
     double.hello.mode = mode;
     const { page, context } = await open(browser, address);
-    await until(
-      page,
-      "mode",
-      (m) => document.querySelector(".frame").dataset.mode === m,
-      mode,
-    );
+    await until(page, "mode", (m) => document.querySelector(".frame").dataset.mode === m, mode);
     const look = await page.evaluate(() => {
-      const border = getComputedStyle(
-        document.querySelector(".frame"),
-        "::after",
-      );
+      const border = getComputedStyle(document.querySelector(".frame"), "::after");
       const word = document.querySelector(".mode-word");
       return [
         word.textContent,
@@ -222,15 +190,7 @@ test("a replay is moved by its own bar and keys, and a jump forgets what came be
     [],
     "nothing is stopped in a replay",
   );
-  await until(
-    page,
-    "the audit line",
-    () => globalThis.pitwall.session.audit.value.length === 1,
-  );
+  await until(page, "the audit line", () => globalThis.pitwall.session.audit.value.length === 1);
   double.say({ ...playing, now_ms: 99_000, jumps: 1 });
-  await until(
-    page,
-    "all forgotten",
-    () => globalThis.pitwall.session.audit.value.length === 0,
-  );
+  await until(page, "all forgotten", () => globalThis.pitwall.session.audit.value.length === 0);
 });

@@ -38,30 +38,17 @@ after(async () => {
 const cutOff = () => {
   const found = [];
   const seen = (e) => e.getClientRects().length > 0;
-  for (const e of document.querySelectorAll(
-    ".primary, .primary .panel, .primary .column, body",
-  )) {
-    if (
-      e.scrollHeight > e.clientHeight + 1 ||
-      e.scrollWidth > e.clientWidth + 1
-    ) {
+  for (const e of document.querySelectorAll(".primary, .primary .panel, .primary .column, body")) {
+    if (e.scrollHeight > e.clientHeight + 1 || e.scrollWidth > e.clientWidth + 1) {
       found.push(
         `${e.className || e.tagName} ${e.scrollWidth}x${e.scrollHeight} in ` +
           `${e.clientWidth}x${e.clientHeight}`,
       );
     }
   }
-  for (const e of document.querySelectorAll(
-    ".primary .digits, .top-bar .digits, .top-bar .word",
-  )) {
-    if (
-      seen(e) &&
-      e.scrollWidth > e.clientWidth + 1 &&
-      getComputedStyle(e).display !== "inline"
-    ) {
-      found.push(
-        `digits cut: ${e.textContent} (${e.parentElement.dataset.path ?? "frame"})`,
-      );
+  for (const e of document.querySelectorAll(".primary .digits, .top-bar .digits, .top-bar .word")) {
+    if (seen(e) && e.scrollWidth > e.clientWidth + 1 && getComputedStyle(e).display !== "inline") {
+      found.push(`digits cut: ${e.textContent} (${e.parentElement.dataset.path ?? "frame"})`);
     }
   }
   const panels = [...document.querySelectorAll(".primary .panel")].map((e) => [
@@ -80,15 +67,10 @@ const cutOff = () => {
       }
     }),
   );
-  for (const e of document.querySelectorAll(
-    ".primary .value, .primary .label",
-  )) {
+  for (const e of document.querySelectorAll(".primary .value, .primary .label")) {
     const panel = e.closest(".panel").getBoundingClientRect();
     const box = e.getBoundingClientRect();
-    if (
-      seen(e) &&
-      (box.bottom > panel.bottom + 1 || box.right > panel.right + 1)
-    ) {
+    if (seen(e) && (box.bottom > panel.bottom + 1 || box.right > panel.right + 1)) {
       found.push(`out of its panel: ${e.textContent}`);
     }
   }
@@ -111,11 +93,7 @@ test("targets are large enough on every page", async () => {
     await page.waitForTimeout(300);
     const small = await page.evaluate(
       ([touch, command]) =>
-        [
-          ...document.querySelectorAll(
-            "button, select, input:not([type=range])",
-          ),
-        ]
+        [...document.querySelectorAll("button, select, input:not([type=range])")]
           .filter((e) => e.getClientRects().length > 0)
           .map((e) => [
             e,
@@ -124,14 +102,10 @@ test("targets are large enough on every page", async () => {
           ])
           .filter(
             ([e, box, least]) =>
-              box.height <
-                (e.closest(".alarm-line, .chart") ? 32 : least) - 0.5 ||
+              box.height < (e.closest(".alarm-line, .chart") ? 32 : least) - 0.5 ||
               box.width < touch - 0.5,
           )
-          .map(
-            ([e, box]) =>
-              `${e.textContent || e.ariaLabel} ${box.width}x${box.height}`,
-          ),
+          .map(([e, box]) => `${e.textContent || e.ariaLabel} ${box.width}x${box.height}`),
       [kTouchPx, kCommandPx],
     );
     assert.deepEqual(small, [], name);
@@ -172,21 +146,14 @@ const texts = () => {
     for (let at = e; at; at = at.parentElement) {
       const { backgroundColor, backgroundImage } = getComputedStyle(at);
       if (backgroundImage !== "none") return null;
-      if (!/^rgba.*, 0\)$|transparent/.test(backgroundColor))
-        return backgroundColor;
+      if (!/^rgba.*, 0\)$|transparent/.test(backgroundColor)) return backgroundColor;
     }
     return "rgb(255, 255, 255)";
   };
   const found = new Map();
   for (const e of document.querySelectorAll("#console *")) {
-    const own = [...e.childNodes].some(
-      (n) => n.nodeType === 3 && n.textContent.trim() !== "",
-    );
-    if (
-      !own ||
-      e.getClientRects().length === 0 ||
-      e.closest(".heard-only, [disabled], option")
-    )
+    const own = [...e.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim() !== "");
+    if (!own || e.getClientRects().length === 0 || e.closest(".heard-only, [disabled], option"))
       continue;
     const style = getComputedStyle(e);
     if (style.visibility === "hidden") continue;
@@ -226,10 +193,7 @@ test("text has its contrast: 7 to 1, status words 4.5 to 1", async () => {
           ratio: contrast(parseColour(t.ink), parseColour(t.ground)),
         }))
         .filter((t) => t.ratio < (t.status ? kStatusContrast : kTextContrast))
-        .map(
-          (t) =>
-            `${t.ratio.toFixed(2)} ${t.where} "${t.example}" ${t.ink} on ${t.ground}`,
-        );
+        .map((t) => `${t.ratio.toFixed(2)} ${t.where} "${t.example}" ${t.ink} on ${t.ground}`);
       assert.deepEqual(weak, [], `${name} in ${theme}`);
     }
     await context.close();
@@ -241,8 +205,7 @@ test("good, warning and bad as drawn stay apart for every colour vision", async 
     const { page, context } = await open(browser, address, { theme });
     await page.waitForTimeout(500);
     const drawn = await page.evaluate(() => {
-      const fill = (selector) =>
-        getComputedStyle(document.querySelector(selector)).backgroundColor;
+      const fill = (selector) => getComputedStyle(document.querySelector(selector)).backgroundColor;
       return {
         good: fill('.watchdogs .value[data-judgement="good"] .mark'),
         warning: fill('.watchdogs .value[data-judgement="warning"]'),

@@ -11,7 +11,4 @@ const require = createRequire(`${kRoot}basestation/console/package.json`);
 
 export const { chromium } = require("playwright-core");
 export const { WebSocketServer, WebSocket } = require("ws");
-export const kAxe = readFileSync(
-  require.resolve("axe-core/axe.min.js"),
-  "utf8",
-);
+export const kAxe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");

@@ -8,25 +8,17 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { kRoot } from "./packages.mjs";
 
-const kBase =
-  process.env.PITWALL_BASE ??
-  join(kRoot, "build/release/basestation/pitwall-base");
+const kBase = process.env.PITWALL_BASE ?? join(kRoot, "build/release/basestation/pitwall-base");
 const kCar =
-  process.env.PITWALL_CAR ??
-  join(kRoot, "build/release/tests/system/basestation/radio_car");
+  process.env.PITWALL_CAR ?? join(kRoot, "build/release/tests/system/basestation/radio_car");
 const kPatienceMs = 20_000;
 
 /** Resolves with the match of `pattern` in what the process says on stderr. */
 function said(process, patterns) {
   return new Promise((resolve, reject) => {
     let text = "";
-    const timer = setTimeout(
-      () => reject(new Error(`said only: ${text}`)),
-      kPatienceMs,
-    );
-    process.on("exit", (code) =>
-      reject(new Error(`ended with ${code}: ${text}`)),
-    );
+    const timer = setTimeout(() => reject(new Error(`said only: ${text}`)), kPatienceMs);
+    process.on("exit", (code) => reject(new Error(`ended with ${code}: ${text}`)));
     process.stderr.on("data", (part) => {
       text += part;
       const found = patterns.map((pattern) => pattern.exec(text));
@@ -85,11 +77,9 @@ export class Programs {
   }
 
   startCar(seconds = 120) {
-    this.car = spawn(
-      kCar,
-      [join(this.folder, "keys/car.keys"), this.radio, String(seconds)],
-      { stdio: ["ignore", "pipe", "inherit"] },
-    );
+    this.car = spawn(kCar, [join(this.folder, "keys/car.keys"), this.radio, String(seconds)], {
+      stdio: ["ignore", "pipe", "inherit"],
+    });
     this.car.stdout.on("data", (part) => (this.carSaid += part));
   }
 

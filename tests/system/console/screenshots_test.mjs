@@ -7,14 +7,7 @@ import assert from "node:assert/strict";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { Double } from "./double.mjs";
-import {
-  kPages,
-  kScreenshots,
-  kSizes,
-  kThemes,
-  launch,
-  open,
-} from "./stage.mjs";
+import { kPages, kScreenshots, kSizes, kThemes, launch, open } from "./stage.mjs";
 import { greetings, troubles } from "./story.mjs";
 
 let browser;
@@ -60,4 +53,31 @@ test("the primary page at each size", async () => {
     assert.deepEqual(faults, []);
     await context.close();
   }
+});
+
+test("the primary page in each world, held in the past, and with a silent car", async () => {
+  const shoot = (page, name) => page.screenshot({ path: join(kScreenshots, `world_${name}.png`) });
+  const size = [1280, 800];
+  for (const mode of ["REAL", "REPLAY", "NONE"]) {
+    double.hello.mode = mode;
+    const { page, context } = await open(browser, address, { size });
+    await page.waitForTimeout(1200);
+    await shoot(page, mode.toLowerCase());
+    await context.close();
+  }
+  double.hello.mode = "HIL";
+  const { page, context } = await open(browser, address, { size });
+  await page.waitForTimeout(2500);
+  await page.keyboard.press("ArrowLeft");
+  await page.waitForTimeout(500);
+  await shoot(page, "held");
+  await page.keyboard.press("l");
+  await page.keyboard.press("?");
+  await page.waitForTimeout(300);
+  await shoot(page, "keys");
+  await page.keyboard.press("?");
+  double.silence();
+  await page.waitForTimeout(4000);
+  await shoot(page, "silent");
+  await context.close();
 });

@@ -9,14 +9,7 @@ import { chromium, kRoot } from "./packages.mjs";
 
 const kChromium = process.env.PITWALL_CHROMIUM || "/usr/bin/chromium";
 export const kScreenshots = join(kRoot, "build/console/screenshots");
-export const kPages = [
-  "primary",
-  "plots",
-  "telemetry",
-  "link",
-  "commands",
-  "alarms",
-];
+export const kPages = ["primary", "plots", "telemetry", "link", "commands", "alarms"];
 export const kThemes = ["dark", "light", "sun"];
 export const kSizes = [
   [1920, 1080],
@@ -25,8 +18,7 @@ export const kSizes = [
 ];
 
 export async function launch() {
-  if (!existsSync(kChromium))
-    throw new Error(`no Chromium at ${kChromium} (./pitwall setup)`);
+  if (!existsSync(kChromium)) throw new Error(`no Chromium at ${kChromium} (./pitwall setup)`);
   mkdirSync(kScreenshots, { recursive: true });
   return chromium.launch({
     executablePath: kChromium,
@@ -36,12 +28,7 @@ export async function launch() {
 
 /** A page on `address`, live: resolves when the first values are drawn. */
 export async function open(browser, address, options = {}) {
-  const {
-    size = [1920, 1080],
-    theme = "dark",
-    hash = "",
-    ownClock = false,
-  } = options;
+  const { size = [1920, 1080], theme = "dark", hash = "", ownClock = false } = options;
   const context = await browser.newContext({
     viewport: { width: size[0], height: size[1] },
   });
@@ -49,27 +36,20 @@ export async function open(browser, address, options = {}) {
   if (ownClock) await page.clock.install();
   const faults = [];
   page.on("console", (message) => {
-    if (message.type() === "error" || message.type() === "warning")
-      faults.push(message.text());
+    if (message.type() === "error" || message.type() === "warning") faults.push(message.text());
   });
   page.on("pageerror", (error) => faults.push(String(error)));
   page.on("request", (request) => {
-    if (
-      !request.url().startsWith(address) &&
-      !request.url().startsWith("blob:")
-    ) {
+    if (!request.url().startsWith(address) && !request.url().startsWith("blob:")) {
       faults.push(`request elsewhere: ${request.url()}`);
     }
   });
   await page.addInitScript((name) => {
-    if (!sessionStorage.getItem("themed"))
-      localStorage.setItem("pitwall.theme", name);
+    if (!sessionStorage.getItem("themed")) localStorage.setItem("pitwall.theme", name);
     sessionStorage.setItem("themed", "1");
   }, theme);
   await page.goto(`${address}/${hash}`);
-  await page.waitForFunction(() =>
-    document.querySelector('.value[data-quality="fresh"]'),
-  );
+  await page.waitForFunction(() => document.querySelector('.value[data-quality="fresh"]'));
   return { page, faults, context };
 }
 

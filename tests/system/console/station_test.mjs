@@ -34,23 +34,17 @@ const carAlive = () =>
         ["fresh", "late"].includes(e.dataset.quality) ||
         !["none", undefined].includes(e.dataset.judgement),
     )
-    .map(
-      (e) => `${e.dataset.path} ${e.dataset.quality} ${e.dataset.judgement}`,
-    );
+    .map((e) => `${e.dataset.path} ${e.dataset.quality} ${e.dataset.judgement}`);
 
 test("the live car, its mode and its link are shown, every page without a fault", async () => {
   const { page, faults } = await open(browser, address);
   await until(
     page,
     "50.5 m/s in mph",
-    () =>
-      document.querySelector('[data-path="ego.vx"] .digits').textContent ===
-      "113",
+    () => document.querySelector('[data-path="ego.vx"] .digits').textContent === "113",
   );
   await until(page, "the link's state", () =>
-    /GOOD|DEGRADED/.test(
-      document.querySelector(".link-tile .word").textContent,
-    ),
+    /GOOD|DEGRADED/.test(document.querySelector(".link-tile .word").textContent),
   );
   assert.notEqual(await page.textContent(".mode-word strong"), "NO BASE");
   for (const name of kPages) {
@@ -58,17 +52,10 @@ test("the live car, its mode and its link are shown, every page without a fault"
     await page.waitForTimeout(400);
   }
   assert.deepEqual(faults, []);
-  const counters = await page.evaluate(
-    () => globalThis.pitwall.session.counters,
-  );
+  const counters = await page.evaluate(() => globalThis.pitwall.session.counters);
   assert.equal(counters.badFrames, 0);
   assert.equal(counters.badTexts, 0);
-  assert.equal(
-    await page.evaluate(
-      () => globalThis.pitwall.session.fields.value.unknownIds,
-    ),
-    0,
-  );
+  assert.equal(await page.evaluate(() => globalThis.pitwall.session.fields.value.unknownIds), 0);
 });
 
 test("the track of the base is drawn", async () => {
@@ -95,8 +82,7 @@ test("the car is killed: every field of it stale, none coloured, on every page",
   await until(page, "the last speed, struck", () => {
     const value = document.querySelector('.primary [data-path="ego.vx"]');
     return (
-      value?.dataset.quality === "stale" &&
-      value.querySelector(".digits").textContent === "113"
+      value?.dataset.quality === "stale" && value.querySelector(".digits").textContent === "113"
     );
   });
   assert.match(await page.textContent(".link-tile .word"), /LOST/);
@@ -109,8 +95,7 @@ test("a stop reaches the car, and the console says what the car says", async () 
   await until(
     page,
     "the car's own word",
-    () =>
-      document.querySelector(".outcome").textContent === "car: controlled stop",
+    () => document.querySelector(".outcome").textContent === "car: controlled stop",
   );
   assert.match(programs.carSaid, /stop 1/);
 });
@@ -159,17 +144,13 @@ test("the base is killed and started again: the console finds it, a layout is ke
   await page.waitForTimeout(400);
   await programs.kill("base");
   await until(page, "NO BASE", () =>
-    document
-      .querySelector(".link-tile .word")
-      .textContent.startsWith("NO BASE"),
+    document.querySelector(".link-tile .word").textContent.startsWith("NO BASE"),
   );
   await programs.startBase();
   await until(
     page,
     "fresh values",
-    () =>
-      document.querySelector('[data-path="ego.vx"]').dataset.quality ===
-      "fresh",
+    () => document.querySelector('[data-path="ego.vx"]').dataset.quality === "fresh",
     undefined,
     20_000,
   );

@@ -37,22 +37,12 @@ export function alarms(now) {
         "Warm-up laps.",
         { since_ms: now - 31_000, count: 3 },
       ),
-      alarm(
-        3,
-        "medium",
-        "acked",
-        "RTK corrections 6.2 s old",
-        "Slow; check the modem.",
-        { since_ms: now - 95_000 },
-      ),
-      alarm(
-        4,
-        "low",
-        "rtn_unack",
-        "Recorder disk below 30 minutes",
-        "Change the disk.",
-        { since_ms: now - 240_000 },
-      ),
+      alarm(3, "medium", "acked", "RTK corrections 6.2 s old", "Slow; check the modem.", {
+        since_ms: now - 95_000,
+      }),
+      alarm(4, "low", "rtn_unack", "Recorder disk below 30 minutes", "Change the disk.", {
+        since_ms: now - 240_000,
+      }),
     ],
     shelved: [
       alarm(5, "low", "acked", "Camera rate 71 % of nominal", "Terminate?", {

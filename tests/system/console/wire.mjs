@@ -39,10 +39,7 @@ function head(bytes, { kind, car, flags, count, sequence, dropped, timeMs }) {
 }
 
 /** A snapshot of entries `{id, status, age, value}`. */
-export function snapshot(
-  entries,
-  { car = 7, flags = 2, sequence = 0, dropped = 0, timeMs },
-) {
+export function snapshot(entries, { car = 7, flags = 2, sequence = 0, dropped = 0, timeMs }) {
   const bytes = new ArrayBuffer(24 + 8 * entries.length);
   const view = head(bytes, {
     kind: 1,
