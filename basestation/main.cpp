@@ -7,7 +7,6 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,9 +16,15 @@
 #include "basestation/intake/key_pair.hpp"
 #include "basestation/intake/operator_script.hpp"
 #include "basestation/intake/station.hpp"
+#include "basestation/outlets/joystick_feed.hpp"
+#include "basestation/outlets/recorder/journal.hpp"
+#include "basestation/outlets/recorder/segment_folder.hpp"
 #include "basestation/outlets/summary.hpp"
 #include "basestation/outlets/terminal.hpp"
 #include "basestation/outlets/wall/catalogue_text.hpp"
+#include "basestation/outlets/wall/data_files.hpp"
+#include "basestation/outlets/wall/recording.hpp"
+#include "basestation/outlets/wall/replay_wall.hpp"
 #include "basestation/outlets/wall/track_document.hpp"
 #include "basestation/outlets/wall/wall.hpp"
 #include "basestation/outlets/web/web_server.hpp"
@@ -54,6 +59,8 @@ struct Arguments {
   std::vector<std::string> web_names;
   int car = 0;
   std::string car_name;
+  std::string record_folder, replay_folder, joystick, joystick_axes;
+  std::vector<std::string> recover_files;
 };
 
 std::string kinds() {
@@ -81,6 +88,19 @@ void describe_web(CLI::App& app, Arguments& a) {
   app.add_option("--car-name", a.car_name, "The car's name");
 }
 
+void describe_recording(CLI::App& app, Arguments& a) {
+  app.add_option("--record", a.record_folder,
+                 "Keep everything in this folder; what is there of the last hour is known again");
+  app.add_option("--replay", a.replay_folder,
+                 "Show a recording to consoles instead of a car; needs --web, has no radio");
+  app.add_option("--joystick", a.joystick, "Input device of the operator's joystick");
+  app.add_option("--joystick-axes", a.joystick_axes,
+                 "lift=AXIS:RELEASED:PRESSED,brake=AXIS:RELEASED:PRESSED,enable=KEY");
+  CLI::App* const recover =
+      app.add_subcommand("recover", "Make recordings whole that a killed base left");
+  recover->add_option("FILE", a.recover_files, "Segments of a recording")->required();
+}
+
 void describe(CLI::App& app, Arguments& a) {
   app.add_option("--keys", a.keys, "The base's keys, as keygen makes them");
   app.add_option("--listen", a.listen, "UDP address of a radio; twice for two")
@@ -105,6 +125,7 @@ void describe(CLI::App& app, Arguments& a) {
       ->capture_default_str();
   app.add_option("--json", a.json_path, "Write a summary of the run to this file");
   describe_web(app, a);
+  describe_recording(app, a);
   CLI::App* const keygen = app.add_subcommand("keygen", "Make the keys of a car and its base");
   keygen->add_option("--out", a.keygen_folder, "Folder for car.keys and base.keys")->required();
   CLI::App* const exporting =
@@ -151,6 +172,7 @@ struct Plan {
   telemetry::ConduitConfig config;
   web::HttpConfig http;
   wall::WallConfig wall;
+  intake::JoystickMapping joystick;
 };
 
 Result<std::vector<transport::UdpAddress>, Problem> addresses_of(const Arguments& arguments) {
@@ -173,23 +195,8 @@ Result<std::vector<transport::UdpAddress>, Problem> addresses_of(const Arguments
   return addresses;
 }
 
-// A folder beside the program, or of the tree that it was built from.
-std::filesystem::path data_folder(const char* beside, const char* in_tree) {
-  std::error_code none;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", none);
-  const auto folder = program.parent_path() / beside;
-  if (!none && std::filesystem::is_directory(folder, none)) return folder;
-  return std::filesystem::path{PITWALL_SOURCE_DIR} / in_tree;
-}
-
-std::string track_file(const std::string& track) {
-  if (track.find('/') != std::string::npos || track.ends_with(".yaml")) return track;
-  return data_folder("tracks", "vehicle/config/tracks") / (track + ".yaml");
-}
-
 Result<bool, Problem> plan_web(const Arguments& a, Plan& plan) {
-  plan.http.console = a.console_folder.empty() ? data_folder("console", "build/console/dist")
-                                               : std::filesystem::path{a.console_folder};
+  plan.http.console = wall::console_folder(a.console_folder);
   plan.http.layouts = a.layouts_folder;
   web::AccessRules& access = plan.http.access;
   access.names = a.web_names;
@@ -207,10 +214,11 @@ Result<bool, Problem> plan_web(const Arguments& a, Plan& plan) {
     if (!watch) return Unexpected{watch.error()};
     plan.wall.watch = *std::move(watch);
   }
+  plan.http.documents["/api/track"] = {};
   if (!a.track.empty()) {
-    auto track = wall::read_track(track_file(a.track));
+    auto track = wall::read_track(wall::track_file(a.track));
     if (!track) return Unexpected{track.error()};
-    plan.http.documents.emplace("/api/track", std::move(track->json));
+    plan.http.documents["/api/track"] = std::move(track->json);
     plan.wall.watch.course = std::move(track->course);
   }
   plan.wall.car = a.car;
@@ -250,11 +258,47 @@ Result<Plan, Problem> plan_of(const Arguments& arguments) {
     if (!script) return Unexpected{script.error()};
     plan.script = *std::move(script);
   }
+  const auto axes = intake::JoystickMapping::parse(arguments.joystick_axes);
+  if (!axes) return Unexpected{axes.error()};
+  plan.joystick = *axes;
   if (arguments.web_port) {
     const auto planned = plan_web(arguments, plan);
     if (!planned) return Unexpected{planned.error()};
   }
   return plan;
+}
+
+int recover(const std::vector<std::string>& files) {
+  int code = kDone;
+  for (const std::string& file : files) {
+    const auto line = recorder::recover_file(file);
+    code = line ? complain(code, *line) : complain(kFailed, line.error());
+  }
+  return code;
+}
+
+Result<std::unique_ptr<web::WebServer>, Problem> start_web(const Arguments& a, Plan& plan) {
+  auto server = web::WebServer::start({.ip = a.network ? transport::kAnyIp : transport::kLoopbackIp,
+                                       .port = static_cast<std::uint16_t>(*a.web_port)},
+                                      std::move(plan.http));
+  if (server) complain(kDone, "console at http://" + to_string((*server)->local()));
+  return server;
+}
+
+int play(const Arguments& arguments) {
+  if (!arguments.web_port) return complain(kMistake, "--replay needs --web PORT");
+  Plan plan;
+  const auto planned = plan_web(arguments, plan);
+  if (!planned) return complain(kMistake, planned.error());
+  auto player = replay::Player::open(arguments.replay_folder);
+  if (!player) return complain(kMistake, player.error());
+  for (const std::string& problem : player->problems()) complain(kDone, problem);
+  const transport::FileDescriptor stop = stop_signals();
+  auto server = start_web(arguments, plan);
+  if (!server) return complain(kFailed, server.error());
+  wall::ReplayWall consoles{std::move(plan.wall), *std::move(player), **server};
+  wall::run_replay(consoles, (*server)->fd(), stop.get(), from_seconds(arguments.duration_s));
+  return kDone;
 }
 
 int run(const Arguments& arguments, Plan& plan) {
@@ -277,19 +321,35 @@ int run(const Arguments& arguments, Plan& plan) {
   complain(kDone, said);
   telemetry::SystemRandomness randomness;
   const auto station = std::make_unique<intake::Station>(plan.config, randomness);
+  std::unique_ptr<recorder::Recorder> recording;  // outlives who tells it
+  std::optional<recorder::Journal> journal;
+  std::optional<outlets::JoystickFeed> joystick;
   std::unique_ptr<web::WebServer> server;
   std::unique_ptr<wall::Wall> consoles;
   std::vector<outlets::Outlet*> others;
   if (arguments.web_port) {
-    auto started =
-        web::WebServer::start({.ip = arguments.network ? transport::kAnyIp : transport::kLoopbackIp,
-                               .port = static_cast<std::uint16_t>(*arguments.web_port)},
-                              std::move(plan.http));
+    auto started = start_web(arguments, plan);
     if (!started) return complain(kFailed, started.error());
     server = *std::move(started);
     consoles = std::make_unique<wall::Wall>(std::move(plan.wall), *station, *server);
     others.push_back(consoles.get());
-    complain(kDone, "console at http://" + to_string(server->local()));
+  }
+  if (!arguments.record_folder.empty()) {
+    auto started = wall::start_recording(
+        arguments.record_folder,
+        recorder::run_metadata(arguments.car, arguments.car_name, arguments.judgement_file),
+        consoles.get(), [](const std::string& line) { complain(kDone, line); });
+    if (!started) return complain(kFailed, started.error());
+    recording = *std::move(started);
+    journal.emplace(*recording, !consoles);
+    others.push_back(&*journal);
+  }
+  if (!arguments.joystick.empty()) {
+    auto opened = outlets::JoystickFeed::open(arguments.joystick, plan.joystick);
+    if (!opened) return complain(kFailed, opened.error());
+    joystick.emplace(*std::move(opened));
+    if (recording) joystick->tell(recorder::teller_of_joystick(*recording));
+    others.push_back(&*joystick);
   }
   outlets::run_terminal({.radio = radio,
                          .words = words.empty() ? nullptr : &words.front(),
@@ -331,6 +391,8 @@ int main(int argc, char** argv) {
   if (!std::isfinite(arguments.duration_s) || !std::isfinite(arguments.refresh_hz)) {
     return complain(kMistake, "--duration and --refresh are numbers");
   }
+  if (!arguments.recover_files.empty()) return recover(arguments.recover_files);
+  if (!arguments.replay_folder.empty()) return play(arguments);
   auto plan = plan_of(arguments);
   if (!plan) return complain(kMistake, plan.error());
   return run(arguments, *plan);

@@ -109,4 +109,17 @@ void Journal::tell_link(const intake::Station& station, Instant now) {
                      .str());
 }
 
+std::function<void(const telemetry::JoystickSample&, Instant)> teller_of_joystick(
+    Recorder& recorder) {
+  return [&recorder](const telemetry::JoystickSample& sample, Instant at) {
+    recorder.text(Topic::kJoystick, at,
+                  json::Object{}
+                      .text("type", "joystick")
+                      .number("time_ms", ms(at))
+                      .number("throttle_cap", sample.throttle_cap)
+                      .number("brake", sample.brake)
+                      .str());
+  };
+}
+
 }  // namespace pitwall::recorder

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -43,5 +44,9 @@ class Journal : public outlets::Outlet {
   std::map<telemetry::CommandId, std::string> steps_;  // the last that was told
   Instant link_at_{}, figures_at_{};
 };
+
+// The operator's hand, as a JoystickFeed tells it.
+std::function<void(const telemetry::JoystickSample&, Instant)> teller_of_joystick(
+    Recorder& recorder);
 
 }  // namespace pitwall::recorder

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "basestation/outlets/recorder/recorder.hpp"
 
+#include <array>
+#include <cstdio>
 #include <utility>
 
 #include "protocol/json/json_text.hpp"
+#include "protocol/recording/sha256.hpp"
+#include "protocol/telemetry/registry/schema.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 
@@ -31,6 +35,25 @@ ClockMap clock_now() {
   std::string boot = transport::read_file(kBootId).value_or("unknown");
   while (!boot.empty() && boot.back() == '\n') boot.pop_back();
   return {.utc_minus_base = transport::realtime_minus_monotonic(), .boot = boot};
+}
+
+recording::Metadata run_metadata(int car, const std::string& name,
+                                 const std::string& judgement_file) {
+  std::array<char, 20> schema{};
+  std::snprintf(schema.data(), schema.size(), "%016llx",
+                static_cast<unsigned long long>(telemetry::kSchemaHash));
+  recording::Metadata run{{"program", "pitwall-base"},
+                          {"revision", PITWALL_REVISION},
+                          {"car", std::to_string(car)},
+                          {"name", name},
+                          {"schema", schema.data()}};
+  const auto judgement = transport::read_file(judgement_file);
+  if (judgement) {
+    recording::Sha256 hash;
+    hash.update(as_bytes(*judgement));
+    run.emplace_back("judgement_sha256", recording::to_hex(hash.digest()));
+  }
+  return run;
 }
 
 double RecorderFigures::minutes_left() const {

@@ -63,6 +63,9 @@ class Recorder {
   std::thread writer_;
 };
 
+// What each segment says of who wrote it. The file of limits and alarms goes in as its hash.
+recording::Metadata run_metadata(int car, const std::string& name,
+                                 const std::string& judgement_file);
 // The clock of this process and machine.
 ClockMap clock_now();
 // {"type":"recorder",...}

@@ -126,6 +126,12 @@ void ConsoleRoom::tell_error(ClientId client, const Problem& problem) {
 
 void ConsoleRoom::tell_all(std::string text) { send(present_, std::move(text)); }
 
+void ConsoleRoom::forget() {
+  states_.clear();
+  lines_.clear();
+  snapshots_.want_full();
+}
+
 void ConsoleRoom::identify(const BaseIdentity& identity, Instant now) {
   if (identity == identity_) return;
   identity_ = identity;

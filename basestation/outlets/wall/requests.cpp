@@ -170,11 +170,19 @@ Request ping(Reader& read) {
   return AskPing{read.number("at", -kForever_ms, kForever_ms)};
 }
 
+Request playback(Reader& read) {
+  constexpr double kSpeedMax = 20.0, kForever_ms = 1e15;
+  AskPlayback ask;
+  if (read.has("speed")) ask.speed = read.number("speed", -kSpeedMax, kSpeedMax);
+  if (read.has("to_ms")) ask.to_ms = read.number("to_ms", -kForever_ms, kForever_ms);
+  return ask;
+}
+
 struct Kind {
   std::string_view name;
   Request (*read)(Reader&);
 };
-constexpr std::array<Kind, 14> kKinds{
+constexpr std::array<Kind, 15> kKinds{
     {{"history", history},
      {"ping", ping},
      {"mark", mark},
@@ -188,7 +196,8 @@ constexpr std::array<Kind, 14> kKinds{
      {"stage", stage},
      {"send", send},
      {"cancel", cancel},
-     {"notice", notice}}};
+     {"notice", notice},
+     {"playback", playback}}};
 
 }  // namespace
 
@@ -207,9 +216,9 @@ Result<Request, Problem> parse_request(std::string_view text) {
 }
 
 Role role_for(const Request& request) {
-  const bool looks = std::holds_alternative<AskHistory>(request) ||
-                     std::holds_alternative<AskPing>(request) ||
-                     std::holds_alternative<AskMark>(request);
+  const bool looks =
+      std::holds_alternative<AskHistory>(request) || std::holds_alternative<AskPing>(request) ||
+      std::holds_alternative<AskMark>(request) || std::holds_alternative<AskPlayback>(request);
   return looks ? Role::kViewer : Role::kOperator;
 }
 

@@ -73,10 +73,15 @@ struct AskNotice {
 struct AskPing {
   double at = 0.0;
 };
+// Of a replay only.
+struct AskPlayback {
+  std::optional<double> speed;  // recorded seconds per second; 0: pause; backwards below
+  std::optional<double> to_ms;  // on the clock of time_ns
+};
 
-using Request =
-    std::variant<AskHistory, AskPing, AskMark, AskAcknowledge, AskShelve, AskUnshelve, AskReset,
-                 AskStop, AskReleaseStop, AskAuthority, AskStage, AskSend, AskCancel, AskNotice>;
+using Request = std::variant<AskHistory, AskPing, AskMark, AskAcknowledge, AskShelve, AskUnshelve,
+                             AskReset, AskStop, AskReleaseStop, AskAuthority, AskStage, AskSend,
+                             AskCancel, AskNotice, AskPlayback>;
 
 Result<Request, Problem> parse_request(std::string_view text);
 Role role_for(const Request& request);

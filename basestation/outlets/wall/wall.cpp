@@ -53,6 +53,11 @@ void Wall::packet(const intake::Station& station, const telemetry::Arrival& arri
   room_.heard();
 }
 
+void Wall::remember(const telemetry::Snapshot& state, telemetry::GroupSet groups) {
+  picture_.update(state, groups);
+  trends_.note(state, groups);
+}
+
 Instant Wall::due() const { return std::min(room_.due(), measured_ + kLinkEvery); }
 
 void Wall::serve(intake::Station& station, Instant now) {
@@ -182,6 +187,7 @@ struct Wall::Doing {
     return wall.desk_.send(ask.ticket, by, wall.override_of(ask), wall.gate_inputs(now), radio());
   }
   Done operator()(const AskCancel& ask) const { return wall.desk_.cancel(ask.ticket, by, now); }
+  Done operator()(const AskPlayback&) const { return refused("playback", "this is no replay"); }
   Done operator()(const AskNotice& ask) const {
     alarms::Notices& notices = wall.watch_.notices();
     return ask.send ? notices.send(ask.id, by.name) : notices.dismiss(ask.id, by.name);

@@ -45,6 +45,9 @@ class Wall : public Outlet, private Eyes {
   Instant due() const override;
   int fd() const override { return server_.fd(); }
 
+  // What was known before this process began: picture, trends and logs, no alarms.
+  void remember(const telemetry::Snapshot& state, telemetry::GroupSet groups);
+
   ConsoleRoom& room() { return room_; }
   picture::Watch& watch() { return watch_; }
   const picture::Trends& trends() const { return trends_; }

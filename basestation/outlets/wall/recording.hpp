@@ -1,0 +1,23 @@
+// A base that records: what a killed one left is made whole and known again, then everything is
+// kept, with the very texts that consoles get where there are any.
+//   in     the folder, what the segments say of the run; the wall, nullptr: no consoles
+//   out    the recorder; lines for a person, by `say`
+//   errors Problem where the folder cannot be made or written
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "basestation/outlets/recorder/recorder.hpp"
+#include "basestation/outlets/wall/wall.hpp"
+
+namespace pitwall::outlets::wall {
+
+// The recorder outlives the wall.
+Result<std::unique_ptr<recorder::Recorder>, Problem> start_recording(
+    const std::string& folder, recording::Metadata run, Wall* wall,
+    const std::function<void(const std::string&)>& say);
+
+}  // namespace pitwall::outlets::wall

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/outlets/wall/replay_wall.hpp"
+
+#include <array>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "basestation/outlets/wall/catalogue_text.hpp"
+#include "protocol/json/json_text.hpp"
+#include "protocol/transport/clock.hpp"
+#include "protocol/transport/readiness.hpp"
+
+namespace pitwall::outlets::wall {
+namespace {
+
+constexpr double kNanosecondsPerMillisecond = 1e6;
+constexpr Duration kTurn = milliseconds(40);  // 25 pictures a second at most
+
+double ms(Instant at) { return static_cast<double>(at.ns) / kNanosecondsPerMillisecond; }
+
+}  // namespace
+
+ReplayWall::ReplayWall(WallConfig config, replay::Player player, web::WebServer& server)
+    : config_(std::move(config)),
+      player_(std::move(player)),
+      server_(server),
+      room_(catalogue_text([this](picture::FieldId id) -> const picture::Limit& {
+        return config_.watch.limits.of(id);
+      })) {
+  restart(player_.begin());
+  jumps_ = 0;
+  room_.identify({.car = config_.car, .name = config_.name, .mode = "REPLAY", .alarm_config = {}},
+                 player_.now());
+}
+
+void ReplayWall::serve(Duration passed) {
+  hear();
+  player_.advance(passed, *this);
+  watch_->advance(picture_, player_.now());
+  picture::LinkFigures figures;
+  figures.heard = heard_;
+  watch_->link(figures);
+  tell(passed);
+  room_.serve(*this, UtcTime{player_.clock().to_file(player_.now()).ns}, player_.now());
+  for (Sending& sending : room_.take()) server_.send(sending.to, std::move(sending.message));
+}
+
+void ReplayWall::hear() {
+  while (const auto news = server_.next_news()) {
+    switch (news->kind) {
+      case web::ClientNews::Kind::kJoined:
+        room_.joined(news->client, news->who, player_.now());
+        break;
+      case web::ClientNews::Kind::kLeft:
+        room_.left(news->client);
+        break;
+      case web::ClientNews::Kind::kSaid:
+        if (const auto request = room_.said(news->client, news->text, *this, player_.now())) {
+          obey(news->client, *request);
+        }
+        break;
+      case web::ClientNews::Kind::kBinary:
+        room_.said_binary(news->client);
+        break;
+    }
+  }
+}
+
+void ReplayWall::obey(web::ClientId client, const Request& request) {
+  const auto* const ask = std::get_if<AskPlayback>(&request);
+  if (ask == nullptr) return room_.tell_error(client, {"replay", "a recording takes no commands"});
+  if (ask->speed) player_.set_speed(*ask->speed);
+  if (ask->to_ms) {
+    const auto to_ns = static_cast<std::int64_t>(*ask->to_ms * kNanosecondsPerMillisecond);
+    player_.jump(Instant{to_ns}, *this);
+  }
+  untold_ = kTellEvery;
+}
+
+void ReplayWall::tell(Duration passed) {
+  untold_ = untold_ + passed;
+  if (untold_ < kTellEvery) return;
+  untold_ = {};
+  room_.tell_state("playback", playback_text(), player_.now());
+}
+
+std::string ReplayWall::playback_text() const {
+  return json::Object{}
+      .text("type", "playback")
+      .number("begin_ms", ms(player_.begin()))
+      .number("end_ms", ms(player_.end()))
+      .number("now_ms", ms(player_.now()))
+      .number("speed", player_.ended() && player_.speed() > 0.0 ? 0.0 : player_.speed())
+      .number("jumps", jumps_)
+      .str();
+}
+
+picture::FieldView ReplayWall::view(picture::FieldId id, Instant now) const {
+  return watch_->view(picture_, id, now);
+}
+
+picture::Judgement ReplayWall::judge(picture::FieldId id, const picture::FieldView& v) const {
+  return watch_->judge(id, v);
+}
+
+std::vector<picture::TrendPoint> ReplayWall::past(picture::FieldId id, Instant from, Instant to,
+                                                  std::size_t points) const {
+  if (picture::is_base(id)) return {};
+  return trends_->range(id, from, to, points);
+}
+
+void ReplayWall::state(const telemetry::Snapshot& state, telemetry::GroupSet groups,
+                       Instant received) {
+  watch_->advance(picture_, received);
+  picture_.update(state, groups);
+  trends_->note(state, groups);
+  heard_ = received;
+  room_.heard();
+}
+
+void ReplayWall::text(recorder::Topic topic, Instant at, std::string_view json) {
+  using enum recorder::Topic;
+  const std::string_view type = recorder::name_of(topic);
+  switch (topic) {
+    case kHello:  // the mode is REPLAY
+    case kRecorder:
+    case kJoystick:
+      return;
+    case kAlarms:
+    case kAuthority:
+    case kLink:
+    case kFuel:
+      return room_.tell_state(type, std::string{json}, at);
+    default:
+      return room_.tell_line(type, std::string{json}, at);
+  }
+}
+
+void ReplayWall::restart(Instant) {
+  picture_ = {};
+  trends_.emplace();
+  watch_.emplace(config_.watch);
+  heard_.reset();
+  room_.forget();
+  ++jumps_;
+}
+
+void run_replay(ReplayWall& wall, int server, int stop, Duration duration) {
+  const Instant begun = transport::monotonic_now();
+  const std::array<int, 2> watched{stop, server};
+  for (Instant last = begun;;) {
+    const std::uint32_t ready = transport::wait_readable(watched, last + kTurn);
+    const Instant now = transport::monotonic_now();
+    wall.serve(now - last);
+    last = now;
+    if ((ready & 1U) != 0 || (duration.ns > 0 && now >= begun + duration)) return;
+  }
+}
+
+}  // namespace pitwall::outlets::wall

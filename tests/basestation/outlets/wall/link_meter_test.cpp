@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/outlets/wall/link_meter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace pitwall::outlets::wall {
+namespace {
+
+constexpr Instant kStart{seconds(500).ns};
+
+// 50 a second, of which each tenth is lost until 10 s, none afterwards.
+LinkMeter after(int seconds_run) {
+  LinkMeter meter;
+  LinkCount count;
+  for (int i = 0; i <= seconds_run * 10; ++i) {
+    meter.note(count, kStart + i * LinkMeter::kEvery);
+    count.packets += 5;
+    count.paths[0].received += 5;
+    count.paths[0].up_bytes += 125;  // 10 kbit/s
+    if (i < 100 && i % 2 == 0) ++count.missing, ++count.paths[0].lost;
+  }
+  return meter;
+}
+
+TEST(LinkMeter, LossIsThatOfItsWindow) {
+  const LinkMeter meter = after(12);
+  EXPECT_EQ(meter.loss(seconds(1)), 0.0);
+  EXPECT_NEAR(meter.loss(seconds(5)), 15.0 / 265.0, 0.01);
+  EXPECT_NEAR(meter.loss(seconds(30)), 50.0 / 650.0, 0.01) << "as long as there is";
+  EXPECT_EQ(meter.path(0, seconds(1)).loss, 0.0);
+  EXPECT_NEAR(meter.path(0, seconds(5)).up_kbit_s, 10.0, 1e-9);
+}
+
+TEST(LinkMeter, NothingSentIsNoLoss) {
+  LinkMeter meter;
+  EXPECT_TRUE(std::isnan(meter.loss(seconds(1))));
+  meter.note({}, kStart);
+  meter.note({}, kStart + seconds(1));
+  EXPECT_TRUE(std::isnan(meter.loss(seconds(1))));
+}
+
+TEST(LinkMeter, ANewSessionBeginsAnew) {
+  LinkMeter meter = after(12);
+  meter.note({.packets = 1}, kStart + seconds(20));
+  meter.note({.packets = 10}, kStart + seconds(21));
+  EXPECT_EQ(meter.loss(seconds(30)), 0.0);
+}
+
+TEST(LinkMeter, AGroupTakesWhatItsBitsAndItsRateMake) {
+  LinkMeter meter;
+  telemetry::GroupSet groups;
+  groups.add(telemetry::Group::kEgo);
+  for (int i = 0; i < 200; ++i) meter.packet(groups, kStart + milliseconds(20) * i);
+  EXPECT_NEAR(meter.group_kbit_s(telemetry::Group::kEgo),
+              0.05 * static_cast<double>(telemetry::group_bits(telemetry::Group::kEgo)), 1e-9);
+  EXPECT_EQ(meter.group_kbit_s(telemetry::Group::kFuel), 0.0);
+}
+
+}  // namespace
+}  // namespace pitwall::outlets::wall

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/outlets/wall/requests.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace pitwall::outlets::wall {
+namespace {
+
+template <class Ask>
+Ask read(const std::string& text) {
+  const auto request = parse_request(text);
+  EXPECT_TRUE(request) << text << " " << (request ? "" : to_string(request.error()));
+  const Ask* const ask = request ? std::get_if<Ask>(&*request) : nullptr;
+  EXPECT_NE(ask, nullptr) << text;
+  return ask != nullptr ? *ask : Ask{};
+}
+
+std::string refused(const std::string& text) {
+  const auto request = parse_request(text);
+  EXPECT_FALSE(request) << text;
+  return request ? "" : request.error().place;
+}
+
+TEST(Requests, AreReadAsTheProtocolHasThem) {
+  const auto history =
+      read<AskHistory>(R"({"type":"history","field":16384,"from_s":60,"to_s":0.5,"points":500})");
+  EXPECT_EQ(history.field, 16384);
+  EXPECT_EQ(history.to_s, 0.5);
+  EXPECT_EQ(history.points, 500u);
+  EXPECT_EQ(read<AskAcknowledge>(R"({"type":"ack","all":[1,2]})").alarms.size(), 2u);
+  EXPECT_EQ(read<AskAcknowledge>(R"({"type":"ack","alarm":7})").alarms[0], 7u);
+  EXPECT_EQ(read<AskShelve>(R"({"type":"shelve","alarm":7,"minutes":5,"reason":"x"})").minutes, 5);
+  EXPECT_EQ(read<AskStop>(R"({"type":"stop","kind":"emergency"})").level,
+            telemetry::StopLevel::kEmergency);
+  EXPECT_EQ(read<AskAuthority>(R"({"type":"authority","do":"grant","to":17})").to, 17);
+  EXPECT_EQ(read<AskStage>(R"({"type":"stage","name":"speed limit","argument":30})").argument, 30);
+  const auto send = read<AskSend>(
+      R"({"type":"send","ticket":3,"override":{"reason":"dry","token":"8f2c41d09b7a4d51"}})");
+  EXPECT_TRUE(send.overrides);
+  EXPECT_EQ(send.reason, "dry");
+  EXPECT_FALSE(read<AskSend>(R"({"type":"send","ticket":3,"override":null})").overrides);
+  EXPECT_TRUE(read<AskNotice>(R"({"type":"notice","id":1,"do":"send"})").send);
+  read<AskReleaseStop>(R"({"type":"release_stop"})");
+  read<AskCancel>(R"({"type":"cancel","ticket":1})");
+  read<AskMark>(R"({"type":"mark","text":"here"})");
+  EXPECT_EQ(read<AskPing>(R"({"type":"ping","at":1795309899172.4458})").at, 1795309899172.4458);
+}
+
+TEST(Requests, AMistakeIsNamedByItsMember) {
+  EXPECT_EQ(refused("{"), "text:byte 1");
+  EXPECT_EQ(refused("[]"), "type");
+  EXPECT_EQ(refused(R"({"type":"fly"})"), "type");
+  EXPECT_EQ(refused(R"({"type":"stop"})"), "stop.kind");
+  EXPECT_EQ(refused(R"({"type":"stop","kind":"gently"})"), "stop.kind");
+  EXPECT_EQ(refused(R"({"type":"history","field":1.5,"from_s":1,"to_s":0,"points":1})"),
+            "history.field");
+  EXPECT_EQ(refused(R"({"type":"history","field":1,"from_s":1,"to_s":2,"points":1})"),
+            "history.to_s");
+  EXPECT_EQ(refused(R"({"type":"history","field":1,"from_s":1,"to_s":0,"points":20001})"),
+            "history.points");
+  EXPECT_EQ(refused(R"({"type":"history","field":-1,"from_s":1,"to_s":0,"points":1})"),
+            "history.field");
+  EXPECT_EQ(refused(R"({"type":"shelve","alarm":7,"minutes":11,"reason":"x"})"), "shelve.minutes");
+  EXPECT_EQ(refused(R"({"type":"shelve","alarm":7,"minutes":1,"reason":""})"), "shelve.reason");
+  EXPECT_EQ(refused(R"({"type":"ack","all":[1,"2"]})"), "ack.all");
+  EXPECT_EQ(refused(R"({"type":"stage","name":"arm","argument":"1"})"), "stage.argument");
+  EXPECT_EQ(refused(R"({"type":"stage","name":"arm","argument":1e300})"), "stage.argument");
+  EXPECT_EQ(refused(R"({"type":"authority","do":"take","to":999})"), "authority.to");
+  EXPECT_EQ(refused(R"({"type":"send","ticket":1,"override":{"reason":""}})"),
+            "send.override.reason");
+}
+
+TEST(Requests, OnlyLookingTakesNoOperator) {
+  EXPECT_EQ(role_for(AskHistory{}), Role::kViewer);
+  EXPECT_EQ(role_for(AskPing{}), Role::kViewer);
+  EXPECT_EQ(role_for(AskMark{}), Role::kViewer);
+  EXPECT_EQ(role_for(AskStop{}), Role::kOperator);
+  EXPECT_EQ(role_for(AskAuthority{}), Role::kOperator);
+  EXPECT_EQ(role_for(AskNotice{}), Role::kOperator);
+}
+
+// Whatever comes, there is an answer; what was changed by one byte is rarely still a request.
+TEST(Requests, DamagedTextsAreAnswered) {
+  std::mt19937 random(11);
+  const std::string good = R"({"type":"history","field":3,"from_s":60,"to_s":0,"points":500})";
+  for (int round = 0; round < 20'000; ++round) {
+    std::string text = good;
+    for (auto changes = 1 + random() % 3; changes > 0; --changes) {
+      text[random() % text.size()] = static_cast<char>(random() % 256);
+    }
+    if (random() % 4 == 0) text.resize(random() % text.size());
+    const auto request = parse_request(text);
+    if (!request) {
+      EXPECT_FALSE(request.error().what.empty());
+    } else if (const auto* ask = std::get_if<AskHistory>(&*request)) {
+      EXPECT_LE(ask->points, kPointsMax);
+      EXPECT_LE(ask->to_s, ask->from_s);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pitwall::outlets::wall

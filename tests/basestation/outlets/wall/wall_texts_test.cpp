@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/outlets/wall/wall_texts.hpp"
+
+#include <gtest/gtest.h>
+
+#include "protocol/json/json_value.hpp"
+#include "protocol/telemetry/delivery/event_content.hpp"
+#include "tests/basestation/radio_rig.hpp"
+
+namespace pitwall::outlets::wall {
+namespace {
+
+constexpr Instant kNow{seconds(500).ns};
+
+json::JsonValue read(const std::string& text) {
+  const auto value = json::JsonValue::parse(text, "text");
+  EXPECT_TRUE(value) << text;
+  return value ? *value : json::JsonValue{};
+}
+
+TEST(WallTexts, ATicketHasItsGatesItsStepsAndItsReason) {
+  command::Ticket ticket;
+  ticket.id = 4;
+  ticket.command = {.type = telemetry::CommandType::kSpeedLimit, .argument = 40.0, .issuer = 16};
+  ticket.by = {.console = 16, .name = "Anna"};
+  ticket.step = command::Step::kGated;
+  ticket.at[0] = kNow;
+  ticket.gates.push_back({.kind = command::GateKind::kTyres,
+                          .ok = false,
+                          .value = 29.0,
+                          .age = milliseconds(120),
+                          .known = true,
+                          .text = "cold"});
+  ticket.gates.push_back({.kind = command::GateKind::kFuel, .text = "never heard"});
+  const auto said = read(ticket_text(ticket));
+  EXPECT_EQ(said.text("type"), "command");
+  EXPECT_EQ(said.text("name"), "speed limit");
+  EXPECT_EQ(said.text("step"), "gated");
+  EXPECT_EQ(said.items("gates")[0].number("age_ms"), 120.0);
+  EXPECT_EQ(said.items("gates")[1].find("age_ms")->text(), "");
+  EXPECT_EQ(said.find("times_ms")->number("staged"), 500'000.0);
+  EXPECT_EQ(said.find("override")->is_object(), false);
+}
+
+TEST(WallTexts, AuthorityIsNobodysOrSomebodysWithAnEnd) {
+  telemetry::AuthorityDesk desk;
+  command::Audit audit;
+  command::AuthorityTalk talk(desk, audit);
+  EXPECT_EQ(read(authority_text(talk, desk, kNow)).number("holder"), 0.0);
+  ASSERT_TRUE(talk.take({.console = 16, .name = "Anna"}, kNow));
+  ASSERT_TRUE(talk.request({.console = 17, .name = "Bo"}, kNow));
+  const auto said = read(authority_text(talk, desk, kNow + seconds(1)));
+  EXPECT_EQ(said.text("holder_name"), "Anna");
+  EXPECT_NEAR(said.number("expires_ms"), 503'000.0, 1.0);
+  EXPECT_EQ(said.find("request")->text("name"), "Bo");
+  EXPECT_EQ(said.find("request")->number("until_ms"), 505'000.0);
+}
+
+TEST(WallTexts, AnEventOfTheCarIsAText) {
+  const auto said = read(event_text(telemetry::make_event(telemetry::TextEvent{"a\xFF\"b"}, kNow)));
+  EXPECT_EQ(said.text("type"), "event");
+  EXPECT_NE(said.text("text").find("a\xEF\xBF\xBD\"b"), std::string::npos);
+  EXPECT_EQ(said.text("severity"), "info");
+  const auto fault =
+      telemetry::make_event(telemetry::FaultEvent{.cause = 3, .begins = true, .value = 1}, kNow);
+  EXPECT_EQ(read(event_text(fault)).text("severity"), "warning");
+}
+
+TEST(WallTexts, AlarmsFuelAuditNoticesAndMarks) {
+  const alarms::Engine engine;
+  const auto list = read(alarms_text(engine));
+  EXPECT_TRUE(list.items("active").empty());
+  EXPECT_FALSE(list.find("kpi")->flag("flood"));
+  EXPECT_EQ(read(alarm_event_text({.number = 1, .at = kNow, .key = "x", .by = {}, .reason = {}}))
+                .text("key"),
+            "x");
+  EXPECT_EQ(read(audit_text({.number = 1, .at = kNow, .who = "Anna", .what = "y", .result = "z"}))
+                .text("who"),
+            "Anna");
+  EXPECT_EQ(read(fuel_text({})).text("text"), "unknown");
+  EXPECT_EQ(read(mark_text("here", "Anna", kNow)).number("time_ms"), 500'000.0);
+  const auto notice =
+      read(notice_text({.id = 1, .at = kNow, .text = "t", .evidence = "e", .by = ""}));
+  EXPECT_EQ(notice.text("kind"), "degraded");
+  EXPECT_EQ(notice.text("state"), "draft");
+}
+
+TEST(WallTexts, TheLinkHasBothDirectionsAndEveryGroupOfTheCar) {
+  RadioRig rig;
+  rig.set(telemetry::field("mode.mode"), 2.0);
+  LinkMeter meter;
+  for (int i = 0; i < 20; ++i) {
+    rig.run(milliseconds(100));
+    const auto report = rig.station->report(rig.now);
+    meter.note(count_of(report, rig.station->rate().packets(), rig.station->lost_packets()),
+               rig.now);
+  }
+  const auto report = rig.station->report(rig.now);
+  const auto said = read(link_text({.report = report,
+                                    .meter = meter,
+                                    .picture = rig.station->picture(),
+                                    .state = picture::LinkState::kGood,
+                                    .since = kNow,
+                                    .paths = 1},
+                                   rig.now));
+  EXPECT_EQ(said.text("state"), "good");
+  ASSERT_EQ(said.items("paths").size(), 2u);
+  const auto& down = said.items("paths")[0].items("windows");
+  ASSERT_EQ(down.size(), 3u);
+  EXPECT_EQ(down[0].number("loss"), 0.0);
+  EXPECT_NEAR(down[0].number("rtt_ms"), 20.0, 3.0);
+  EXPECT_GT(said.items("paths")[1].items("windows")[0].number("kbit_s"), 1.0);
+  EXPECT_EQ(said.items("groups").size(), telemetry::groups_of(telemetry::Direction::kDown).count());
+}
+
+}  // namespace
+}  // namespace pitwall::outlets::wall
