@@ -33,23 +33,24 @@ function arrow(pen: Pen, pose: Pose, into: Projection, size = 1): void {
   pen.restore();
 }
 
+function inkOf(judgement: Judgement, colours: Palette): string {
+  if (judgement === Judgement.bad) return colours.bad;
+  return judgement === Judgement.warning ? colours.warning : colours.ego;
+}
+
 export function drawTrail(
   pen: Pen,
   points: readonly TrailPoint[],
   into: Projection,
   colours: Palette,
+  stale: boolean,
 ): void {
   pen.lineWidth = colours.stroke * 1.5;
   pen.lineJoin = "round";
   for (let i = 1; i < points.length; ++i) {
     const [a, b] = [points[i - 1], points[i]];
     const [p, q] = [into.toPixel(a.x, a.y), into.toPixel(b.x, b.y)];
-    pen.strokeStyle =
-      b.judgement === Judgement.bad
-        ? colours.bad
-        : b.judgement === Judgement.warning
-          ? colours.warning
-          : colours.ego;
+    pen.strokeStyle = stale ? colours.stale : inkOf(b.judgement, colours);
     pen.globalAlpha =
       (b.judgement >= Judgement.warning ? 1 : 0.75) * (0.15 + 0.85 * (i / points.length));
     pen.beginPath();

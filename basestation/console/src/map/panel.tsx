@@ -66,11 +66,11 @@ function paintMap(canvas: HTMLCanvasElement, ground: Ground, course: Course | nu
   const palette = colours();
   ground.under(pen, course, palette);
   const into = ground.projection;
-  drawTrail(pen, trail(store), into, palette);
+  const car = own(store);
+  drawTrail(pen, trail(store), into, palette, car === null || car.quality >= Quality.stale);
   const hollow = ghost(store);
   if (hollow) drawGhost(pen, hollow, into, palette);
   if (course) drawRivals(pen, rivals(store, course), into, palette);
-  const car = own(store);
   if (car) drawOwn(pen, car, into, palette);
 }
 

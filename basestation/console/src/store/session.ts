@@ -101,7 +101,7 @@ function climb(known: readonly Wire.CommandStep[], step: Wire.CommandStep): Wire
   return [...known.filter((s) => s.ticket !== step.ticket), merged].slice(-kKeptLines);
 }
 
-/** After a jump of a replay the base tells everything again: what was known belongs to elsewhere. */
+/** After a jump of a replay the base tells everything again: what was known lies elsewhere. */
 function forget(): void {
   history = new History(fields.value.info.length);
   fields.value = new Fields(fields.value.info);
