@@ -150,8 +150,8 @@ bool within(double s_m, double from_m, double to_m) {
 std::string pit_text(const Track& track, const std::vector<CoursePoint>& line) {
   if (!track.pit) return "[]";
   // From the entry on: the lane may lie across the start line.
-  const auto first = static_cast<std::size_t>(track.pit->from_s_m / track.length_m *
-                                              static_cast<double>(line.size()));
+  const auto first = static_cast<std::size_t>(1.0 + track.pit->from_s_m / track.length_m *
+                                                        static_cast<double>(line.size()));
   Array pit;
   for (std::size_t i = 0; i < line.size(); i += kDrawEvery) {
     const CoursePoint& point = line[(first + i) % line.size()];

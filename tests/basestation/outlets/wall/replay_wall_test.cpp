@@ -5,6 +5,7 @@
 
 #include "basestation/outlets/wall/memory.hpp"
 #include "basestation/outlets/wall/recording.hpp"
+#include "basestation/replay/read_back.hpp"
 #include "protocol/transport/file.hpp"
 #include "tests/basestation/radio_rig.hpp"
 #include "tests/basestation/replay/race.hpp"
