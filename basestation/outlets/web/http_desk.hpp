@@ -6,7 +6,8 @@
 //          text that says why
 //   bound  kLayoutsMax layouts of kLayoutBytes; the folder keeps them, without one they last as
 //          long as the base runs
-//   errors 204 a layout that nobody has stored, a document that is empty; 400 no layout, 401 token, 403 origin, host or role, 404, 405, 413, 507 no room
+//   errors 204 nobody has stored that layout, or there is no such document here; 400 no layout, 401
+//          token, 403 origin, host or role, 404, 405, 413, 507 no room
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
