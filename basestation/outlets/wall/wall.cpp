@@ -47,6 +47,7 @@ Wall::Wall(WallConfig config, intake::Station& station, web::WebServer& server)
 void Wall::packet(const intake::Station& station, const telemetry::Arrival& arrival) {
   const telemetry::Snapshot& state = station.endpoint().state();
   watch_.advance(picture_, arrival.received);
+  watch_.heard(arrival.received);
   picture_.update(state, arrival.groups);
   trends_.note(state, arrival.groups);
   meter_.packet(arrival.groups, arrival.received);
