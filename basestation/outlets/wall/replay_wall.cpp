@@ -38,9 +38,6 @@ void ReplayWall::serve(Duration passed) {
   hear();
   player_.advance(passed, *this);
   watch_->advance(picture_, player_.now());
-  picture::LinkFigures figures;
-  figures.heard = heard_;
-  watch_->link(figures);
   tell(passed);
   room_.serve(*this, UtcTime{player_.clock().to_file(player_.now()).ns}, player_.now());
   for (Sending& sending : room_.take()) server_.send(sending.to, std::move(sending.message));
@@ -113,6 +110,7 @@ std::vector<picture::TrendPoint> ReplayWall::past(picture::FieldId id, Instant f
 void ReplayWall::state(const telemetry::Snapshot& state, telemetry::GroupSet groups,
                        Instant received) {
   watch_->advance(picture_, received);
+  watch_->heard(received);
   picture_.update(state, groups);
   trends_->note(state, groups);
   heard_ = received;
