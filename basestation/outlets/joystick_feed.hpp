@@ -2,7 +2,7 @@
 //   in     an input device (/dev/input/event*), or any descriptor that yields struct input_event
 //   out    samples to the radio's sender, each with the time at which it was read
 //   law    a device that is gone gives nothing: the car's own dead man ends what it said. It is
-//          opened again each second, and then nothing of before counts: the key must be pressed anew
+//          opened again each second, and then nothing of before counts: the key is pressed anew
 //   errors open(): Problem where there is no such device at the start; later it is waited for
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -3,7 +3,7 @@
 //             float64, NaN where it was not known; log time is the reception, publish time the
 //             sample
 //             /base/TYPE, "json": the very text that consoles get
-//             /base/picture, "cdr": all that was known at a moment, so that a reader can begin there
+//             /base/picture, "cdr": all that was known at a moment: a reader can begin there
 //             /radio/down, /radio/up: datagrams as they were on the air, encrypted
 //   clock     stamps in the file are UTC: an Instant of the base plus the ClockMap of the file,
 //             which stands in its metadata, so that an Instant comes back exactly

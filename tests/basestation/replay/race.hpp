@@ -1,4 +1,4 @@
-// A race as a live base hears it, recorded to a folder, and what a listener of it knows at any time.
+// A race as a live base hears it, recorded to a folder, and what a listener knows at any time.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

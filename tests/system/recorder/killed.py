@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A base that records is killed and starts again; its recording is replayed: killed.py BASE CAR TREE"""
 """A base that records is killed, starts again, and is replayed: killed.py BASE CAR TREE"""
+# SPDX-License-Identifier: Apache-2.0
 import json
 import re
 import signal

@@ -133,10 +133,9 @@ Killed killed_after(Duration run, const std::string& folder) {
 
 TEST(Recorder, KilledAtAnyMomentItHasLostLessThanASecond) {
   std::mt19937 random{20261122};
-  std::uniform_int_distribution<int> run_ms{700, 1'700};
   for (int i = 0; i < 4; ++i) {
     const auto folder = transport::TemporaryFolder::create("pitwall_killed");
-    const Duration run = milliseconds(run_ms(random));
+    const Duration run = milliseconds(700 + static_cast<std::int64_t>(random() % 1'000));
     const Killed killed = killed_after(run, folder->path());
     EXPECT_LT(killed.lost_ns, seconds(1).ns) << run.milliseconds() << " ms";
     EXPECT_GT(killed.messages, 0U) << run.milliseconds() << " ms";
