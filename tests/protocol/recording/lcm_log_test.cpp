@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "tests/protocol/recording/mcap_samples.hpp"
@@ -85,6 +89,30 @@ TEST(LcmLog, BehindDamageItGoesOn) {
     EXPECT_GE(events, kEvents - 2) << at;
     EXPECT_LE(events, kEvents + 1) << at;
   }
+}
+
+TEST(LcmLog, ThePlayerOfLcmPlaysIt) {
+  if (std::system("command -v lcm-logplayer >/dev/null") != 0) {
+    GTEST_SKIP() << "lcm-logplayer is not installed (./pitwall setup)";
+  }
+  const auto file = logged();
+  const std::string in = ::testing::TempDir() + "pitwall_in.lcm";
+  const std::string out = ::testing::TempDir() + "pitwall_out.lcm";
+  std::ofstream{in, std::ios::binary}.write(reinterpret_cast<const char*>(file.data()),
+                                            static_cast<std::streamsize>(file.size()));
+  // It publishes into a file of its own making instead of to a network.
+  const std::string url = "--lcm-url='file://" + out + "?mode=w'";
+  ASSERT_EQ(std::system(("lcm-logplayer " + url + " -s 100 " + in + " >/dev/null").c_str()), 0);
+  std::ifstream stream{out, std::ios::binary};
+  const std::vector<char> raw{std::istreambuf_iterator<char>{stream}, {}};
+  const std::vector<std::uint8_t> played(raw.begin(), raw.end());
+  LcmLogReader reader{played};
+  std::int64_t i = 0;
+  for (; const auto event = reader.next(); ++i) {
+    EXPECT_EQ(event->channel, channel_of(i));
+    EXPECT_TRUE(std::ranges::equal(event->data, data_of(i)));
+  }
+  EXPECT_EQ(i, kEvents);
 }
 
 TEST(LcmLog, EveryRefusalIsCountedByItsReason) {
