@@ -34,6 +34,7 @@ constexpr Duration kBaseStop = seconds(5);
 struct DemoOptions {
   bool headless = false;
   double duration_s = 180.0;
+  int web_port = 8080;  // of the console; 0: any that is free
   std::string json_file, folder = "out/demo";
   std::string scenario = "hil/scenarios/lvms_flying_lap.yaml";
 };
@@ -49,7 +50,10 @@ Result<transport::Process, Problem> start_base(const DemoOptions& options) {
   std::vector<std::string> words{program,    "--text",
                                  "--listen", "127.0.0.1:" + std::to_string(kBasePort),
                                  "--keys",   options.folder + "/keys/base.keys",
-                                 "--json",   options.folder + "/base.json"};
+                                 "--json",   options.folder + "/base.json",
+                                 "--web",    std::to_string(options.web_port),
+                                 "--track",  "lvms",
+                                 "--record", options.folder + "/recording"};
   if (!options.headless) return transport::Process::spawn({.argv = words});
   words.emplace_back("--plain");
   words.insert(words.begin(), {"sh", "-c", "out=$1; shift; exec \"$@\" > \"$out\"", "sh",
@@ -143,6 +147,9 @@ int demo(const DemoOptions& options) {
       "SIMULATION: %s for %.0f s in real time. The car, the bench and the base station are\n"
       "separate processes; the tyres start at working temperature.\n",
       options.scenario.c_str(), options.duration_s);
+  if (options.web_port != 0) {
+    std::printf("The operator's console: http://localhost:%d\n", options.web_port);
+  }
   std::fflush(stdout);
   auto base = start_base(options);
   if (!base) return refuse(base.error());
@@ -162,6 +169,9 @@ int demo_verb(std::span<const std::string> args) {
   app.add_flag("--headless", options.headless, "no live screen in this terminal");
   app.add_option("--duration", options.duration_s, "seconds")->check(CLI::Range(1.0, 36'000.0));
   app.add_option("--json", options.json_file, "write the figures here");
+  app.add_option("--web", options.web_port, "TCP port of the console on this machine; 0: any")
+      ->check(CLI::Range(0, 65'535))
+      ->capture_default_str();
   app.add_option("--out", options.folder, "folder for logs");
   app.add_option("--scenario", options.scenario, "scenario file");
   if (const auto code = ended_by(app, args)) return *code;

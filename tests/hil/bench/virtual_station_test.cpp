@@ -64,7 +64,7 @@ class Radio {
           {.id = command.id, .answer = world::CommandAnswer::kApplied, .at = now}));
     }
     ++car_->ticks;
-    station_->tell(*car_, *in_, *out_);
+    station_->tell(*car_, *in_, *out_, {});
   }
 
   scenario::Scenario scenario_ = lap().scenario;

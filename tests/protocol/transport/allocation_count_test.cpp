@@ -14,6 +14,11 @@ namespace {
 // Kept where the compiler cannot see that nobody reads it.
 void* volatile kept = nullptr;
 
+void* keep(void* block) {
+  kept = block;  // so that no allocation is optimised away
+  return block;
+}
+
 class AllocationCount : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -23,10 +28,10 @@ class AllocationCount : public ::testing::Test {
 
 TEST_F(AllocationCount, EveryWayToTheHeapCounts) {
   EXPECT_EQ(allocations_of([] {}), 0u);
-  EXPECT_EQ(allocations_of([] { std::free(kept = std::malloc(10)); }), 1u);
-  EXPECT_EQ(allocations_of([] { std::free(kept = std::calloc(3, 10)); }), 1u);
-  EXPECT_EQ(allocations_of([] { std::free(kept = std::realloc(nullptr, 10)); }), 1u);
-  EXPECT_EQ(allocations_of([] { std::free(kept = std::aligned_alloc(64, 64)); }), 1u);
+  EXPECT_EQ(allocations_of([] { std::free(keep(std::malloc(10))); }), 1u);
+  EXPECT_EQ(allocations_of([] { std::free(keep(std::calloc(3, 10))); }), 1u);
+  EXPECT_EQ(allocations_of([] { std::free(keep(std::realloc(nullptr, 10))); }), 1u);
+  EXPECT_EQ(allocations_of([] { std::free(keep(std::aligned_alloc(64, 64))); }), 1u);
   EXPECT_EQ(allocations_of([] {
               auto* number = new int(3);
               kept = number;
@@ -40,7 +45,7 @@ TEST_F(AllocationCount, WhatAnotherThreadTakesIsItsOwn) {
   std::size_t others = 0;
   std::thread other([&] {
     others = allocations_of([] {
-      for (int i = 0; i < 1'000; ++i) std::free(kept = std::malloc(8));
+      for (int i = 0; i < 1'000; ++i) std::free(keep(std::malloc(8)));
     });
   });
   const std::size_t here = allocations_of([&] { other.join(); });

@@ -72,6 +72,22 @@ inline void hear_sensors(safety::WatchdogOutput& watchdog) {
   figures(safety::Stream::kImu0, 100, 10, 4);
 }
 
+inline void be_somewhere(Outputs& out) {
+  out.ego = {.at = ago_ms(21),
+             .validity = world::Validity::kDeadReckoning,
+             .x_m = -310.5,
+             .y_m = 220.25,
+             .yaw_rad = 1.5,
+             .vx_mps = 60.5,
+             .vy_mps = -0.75,
+             .yaw_rate_rad_per_s = 0.375,
+             .ax_mps2 = 1,
+             .ay_mps2 = 2,
+             .position_sigma_m = 0.125,
+             .yaw_sigma_rad = 3};
+  out.place = {.s_m = 1500.5, .n_m = -1.25};
+}
+
 inline Outputs full() {
   Outputs out;
   hear_car(out.heard.signals);
@@ -92,19 +108,7 @@ inline Outputs full() {
   out.heard.bus.link.controller = world::ControllerState::kPassive;
   out.heard.bus.link.lost_in_socket = 4;
   out.heard.bus.link.lost_in_interface = 5;
-  out.ego = {.at = ago_ms(21),
-             .validity = world::Validity::kDeadReckoning,
-             .x_m = -310.5,
-             .y_m = 220.25,
-             .yaw_rad = 1.5,
-             .vx_mps = 60.5,
-             .vy_mps = -0.75,
-             .yaw_rate_rad_per_s = 0.375,
-             .ax_mps2 = 1,
-             .ay_mps2 = 2,
-             .position_sigma_m = 0.125,
-             .yaw_sigma_rad = 3};
-  out.place = {.s_m = 1500.5, .n_m = -1.25};
+  be_somewhere(out);
   out.steered.target_speed_mps = 64.5;
   out.chosen.mode = world::Mode::kControlledStop;
   out.chosen.cause = safety::Cause::kImuLost;
