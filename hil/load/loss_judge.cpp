@@ -32,6 +32,10 @@ class Judge {
     for (std::size_t i = 0; i < times_reported_.size(); ++i) {
       const Omission& omission = traffic_.omissions()[i];
       if (!expected(omission.stream)) continue;
+      if (times_reported_[i] == 0 && is_hidden(omission.stream, evidence_.omitted_at[i])) {
+        ++out_.hidden;
+        continue;
+      }
       ++out_.omitted;
       if (times_reported_[i] > 0) continue;
       ++out_.missed;
@@ -111,6 +115,14 @@ class Judge {
     const Duration slack = can::slack_of(traffic_.streams()[stream].row);
     const auto next = std::lower_bound(arrived.begin(), arrived.end(), due - period_of(stream) / 2);
     return next == arrived.end() || *next > due + slack - kStampError;
+  }
+
+  bool is_hidden(std::size_t stream, Instant omitted_at) const {
+    const can::MessageRow& row = traffic_.streams()[stream].row;
+    const std::vector<Instant>& arrived = evidence_.arrivals[stream];
+    const auto next = std::lower_bound(arrived.begin(), arrived.end(), omitted_at);
+    if (row.has_counter || next == arrived.begin() || next == arrived.end()) return false;
+    return *next - *(next - 1) <= row.period + can::slack_of(row) + kStampError;
   }
 
   const Traffic& traffic_;

@@ -10,6 +10,9 @@
 // arrived from half a period before it was due until its slack had passed: then the machine that
 // runs the bench was late, and the receiver told the truth (late_on_bus). After the end of the
 // traffic every message is silent.
+//
+// An omission that nobody can know is `hidden`, and not expected: the message has no counter, and
+// the frame before was so late that the next one came within its slack.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -37,6 +40,7 @@ struct LossEvidence {
 struct LossJudgement {
   std::size_t omitted = 0, reported = 0, in_time = 0;
   std::size_t missed = 0, twice = 0, false_reports = 0;
+  std::size_t hidden = 0;  // not among `omitted`
   std::size_t late_on_bus = 0, after_end = 0;
   Duration worst{};                     // of the reported ones, due to noticed
   std::vector<std::string> complaints;  // the first few, in words

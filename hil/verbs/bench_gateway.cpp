@@ -119,8 +119,8 @@ void judge_losses(Gates& gates, const char* who, const load::LossJudgement& judg
   gates.equal("false reports" + by, judgement.false_reports, 0);
   std::printf(
       "          slowest %.1f ms; %zu reports of frames that were late on the bus, %zu of "
-      "the silence at the end\n",
-      judgement.worst.milliseconds(), judgement.late_on_bus, judgement.after_end);
+      "the silence at the end; %zu left out that no gap betrayed\n",
+      judgement.worst.milliseconds(), judgement.late_on_bus, judgement.after_end, judgement.hidden);
   for (const std::string& complaint : judgement.complaints)
     std::printf("          %s\n", complaint.c_str());
 }
@@ -146,6 +146,7 @@ std::string json_of(const load::LossJudgement& judgement) {
          ",\"false\":" + std::to_string(judgement.false_reports) +
          ",\"late_on_bus\":" + std::to_string(judgement.late_on_bus) +
          ",\"after_end\":" + std::to_string(judgement.after_end) +
+         ",\"hidden\":" + std::to_string(judgement.hidden) +
          ",\"slowest_ms\":" + std::to_string(judgement.worst.milliseconds()) + "}";
 }
 

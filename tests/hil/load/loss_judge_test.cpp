@@ -71,6 +71,32 @@ TEST(LossJudge, EachReportThatIsMissingIsMissed) {
   }
 }
 
+// Each omission once: the frame before it comes later and later until the gap around it is one that
+// frames without a loss may have. A counter tells the loss all the same.
+TEST(LossJudge, AnOmissionThatNoGapBetraysIsHiddenUnlessACounterTells) {
+  std::size_t hidden = 0, told = 0;
+  for (std::size_t gone = 0; gone < 60; ++gone) {
+    PerfectRun run;
+    const std::size_t stream = run.traffic.omissions()[gone].stream;
+    const can::MessageRow& row = run.traffic.streams()[stream].row;
+    std::vector<Instant>& arrived = run.arrivals[stream];
+    const auto next = std::lower_bound(arrived.begin(), arrived.end(), run.omitted_at[gone]);
+    if (next == arrived.begin() || next == arrived.end()) continue;
+    run.reports.erase(run.reports.begin() + static_cast<std::ptrdiff_t>(gone));
+    const Instant latest = *next - row.period - can::slack_of(row);
+    *(next - 1) = latest - milliseconds(1);
+    EXPECT_EQ(run.judged().missed, 1u) << gone;
+    *(next - 1) = latest;
+    const LossJudgement judged = run.judged();
+    EXPECT_EQ(judged.missed, row.has_counter ? 1u : 0u) << gone;
+    EXPECT_EQ(judged.hidden, row.has_counter ? 0u : 1u) << gone;
+    EXPECT_EQ(judged.omitted + judged.hidden, 60u);
+    ++(row.has_counter ? told : hidden);
+  }
+  EXPECT_GT(hidden, 10u);
+  EXPECT_GT(told, 10u);
+}
+
 TEST(LossJudge, ASecondReportOfTheSameFrameIsTwice) {
   for (std::size_t again = 0; again < 60; ++again) {
     PerfectRun run;
