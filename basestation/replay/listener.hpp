@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "basestation/outlets/recorder/channels.hpp"
+#include "protocol/recorder/channels.hpp"
 #include "protocol/telemetry/registry/snapshot.hpp"
 #include "protocol/vocabulary/time.hpp"
 

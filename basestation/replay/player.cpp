@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "basestation/outlets/recorder/segment_folder.hpp"
+#include "protocol/recorder/segment_folder.hpp"
 #include "protocol/transport/file.hpp"
 
 namespace pitwall::replay {

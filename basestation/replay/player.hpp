@@ -18,9 +18,9 @@
 #include <string>
 #include <vector>
 
-#include "basestation/outlets/recorder/channels.hpp"
 #include "basestation/replay/listener.hpp"
 #include "basestation/replay/segment_reader.hpp"
+#include "protocol/recorder/channels.hpp"
 #include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::replay {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string_view>
 
-#include "basestation/outlets/recorder/segment_folder.hpp"
 #include "basestation/replay/segment_reader.hpp"
+#include "protocol/recorder/segment_folder.hpp"
 #include "protocol/transport/file.hpp"
 
 namespace pitwall::replay {

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "basestation/outlets/recorder/channels.hpp"
 #include "basestation/replay/listener.hpp"
+#include "protocol/recorder/channels.hpp"
 
 namespace pitwall::replay {
 

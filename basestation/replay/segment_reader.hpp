@@ -12,8 +12,8 @@
 #include <optional>
 #include <span>
 
-#include "basestation/outlets/recorder/channels.hpp"
 #include "basestation/replay/listener.hpp"
+#include "protocol/recorder/channels.hpp"
 #include "protocol/recording/mcap_reader.hpp"
 
 namespace pitwall::replay {

@@ -83,6 +83,7 @@ const std::vector<Part> kParts{
      {"protocol/telemetry", "protocol/vocabulary", "protocol/bits"},
      {"sodium"}},
     {"protocol/recording", kShared, {}},
+    {"protocol/recorder", {"protocol"}, rim_and({})},
     {"protocol/ros", kShared, {}},
     {"protocol/gnss", kShared, {}},
     {"protocol/transport", {"protocol/vocabulary", "protocol/can/frame.hpp"}, rim_and({})},

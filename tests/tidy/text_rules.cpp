@@ -20,9 +20,16 @@ struct Ban {
 };
 
 const Names kClockFolders{"protocol/transport", "tests/benchmarks"};
-const Names kRim{"protocol/transport",  "vehicle/io", "basestation/intake",
-                 "basestation/outlets", "hil/bench",  "hil/guest",
-                 "hil/sweep",           "tests",      "main.cpp"};
+const Names kRim{"protocol/transport",
+                 "protocol/recorder",
+                 "vehicle/io",
+                 "basestation/intake",
+                 "basestation/outlets",
+                 "hil/bench",
+                 "hil/guest",
+                 "hil/sweep",
+                 "tests",
+                 "main.cpp"};
 const Names kPrinting{"hil/verbs",
                       "protocol/transport",
                       "vehicle/io",

@@ -17,7 +17,7 @@
 
 #include "basestation/intake/station.hpp"
 #include "basestation/outlets/outlet.hpp"
-#include "basestation/outlets/recorder/recorder.hpp"
+#include "protocol/recorder/recorder.hpp"
 
 namespace pitwall::recorder {
 

@@ -3,9 +3,9 @@
 
 #include <cstdio>
 
-#include "basestation/outlets/recorder/segment_folder.hpp"
 #include "basestation/outlets/wall/memory.hpp"
 #include "basestation/replay/read_back.hpp"
+#include "protocol/recorder/segment_folder.hpp"
 #include "protocol/transport/clock.hpp"
 
 namespace pitwall::outlets::wall {

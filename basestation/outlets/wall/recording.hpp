@@ -10,8 +10,8 @@
 #include <memory>
 #include <string>
 
-#include "basestation/outlets/recorder/recorder.hpp"
 #include "basestation/outlets/wall/wall.hpp"
+#include "protocol/recorder/recorder.hpp"
 
 namespace pitwall::outlets::wall {
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "basestation/outlets/recorder/file_disk.hpp"
-#include "basestation/outlets/recorder/segment_chain.hpp"
 #include "basestation/picture/picture.hpp"
 #include "basestation/replay/listener.hpp"
+#include "protocol/recorder/file_disk.hpp"
+#include "protocol/recorder/segment_chain.hpp"
 
 namespace pitwall::replay::testing {
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "basestation/outlets/recorder/segment_folder.hpp"
+#include "protocol/recorder/segment_folder.hpp"
 #include "protocol/transport/file.hpp"
 #include "tests/basestation/replay/race.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <map>
 
-#include "basestation/outlets/recorder/segment_folder.hpp"
+#include "protocol/recorder/segment_folder.hpp"
 #include "protocol/recording/mcap_reader.hpp"
 #include "protocol/telemetry/delivery/event_content.hpp"
 #include "protocol/transport/file.hpp"

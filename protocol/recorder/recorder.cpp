@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "basestation/outlets/recorder/recorder.hpp"
+#include "protocol/recorder/recorder.hpp"
 
 #include <array>
 #include <cstdio>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "basestation/outlets/recorder/segment_chain.hpp"
+#include "protocol/recorder/segment_chain.hpp"
 
 #include <algorithm>
 #include <array>

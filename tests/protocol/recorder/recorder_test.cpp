@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "basestation/outlets/recorder/recorder.hpp"
+#include "protocol/recorder/recorder.hpp"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -13,7 +13,7 @@
 #include <new>
 #include <random>
 
-#include "basestation/outlets/recorder/segment_folder.hpp"
+#include "protocol/recorder/segment_folder.hpp"
 #include "protocol/recording/mcap_reader.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"

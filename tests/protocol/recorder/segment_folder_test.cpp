@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "basestation/outlets/recorder/segment_folder.hpp"
+#include "protocol/recorder/segment_folder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <filesystem>
 
-#include "basestation/outlets/recorder/file_disk.hpp"
+#include "protocol/recorder/file_disk.hpp"
 #include "protocol/recording/mcap_reader.hpp"
 #include "protocol/transport/file.hpp"
 

@@ -18,8 +18,8 @@
 #include <optional>
 #include <string>
 
-#include "basestation/outlets/recorder/channels.hpp"
-#include "basestation/outlets/recorder/record_queue.hpp"
+#include "protocol/recorder/channels.hpp"
+#include "protocol/recorder/record_queue.hpp"
 #include "protocol/recording/mcap_writer.hpp"
 #include "protocol/vocabulary/result.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "basestation/outlets/recorder/file_disk.hpp"
+#include "protocol/recorder/file_disk.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "basestation/outlets/recorder/record_queue.hpp"
+#include "protocol/recorder/record_queue.hpp"
 
 #include <gtest/gtest.h>
 

@@ -15,7 +15,7 @@
 #include <string>
 #include <thread>
 
-#include "basestation/outlets/recorder/segment_chain.hpp"
+#include "protocol/recorder/segment_chain.hpp"
 #include "protocol/transport/file.hpp"
 
 namespace pitwall::recorder {

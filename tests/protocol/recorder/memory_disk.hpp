@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "basestation/outlets/recorder/segment_chain.hpp"
+#include "protocol/recorder/segment_chain.hpp"
 
 namespace pitwall::recorder {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "basestation/outlets/recorder/channels.hpp"
+#include "protocol/recorder/channels.hpp"
 
 #include <gtest/gtest.h>
 

@@ -17,8 +17,8 @@
 #include <string_view>
 #include <thread>
 
-#include "basestation/outlets/recorder/file_disk.hpp"
-#include "basestation/outlets/recorder/segment_chain.hpp"
+#include "protocol/recorder/file_disk.hpp"
+#include "protocol/recorder/segment_chain.hpp"
 #include "protocol/telemetry/registry/snapshot.hpp"
 
 namespace pitwall::recorder {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "basestation/outlets/recorder/segment_folder.hpp"
+#include "protocol/recorder/segment_folder.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -11,7 +11,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "basestation/outlets/recorder/file_disk.hpp"
+#include "protocol/recorder/file_disk.hpp"
 #include "protocol/recording/mcap_recovery.hpp"
 #include "protocol/transport/file.hpp"
 

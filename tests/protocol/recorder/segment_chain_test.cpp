@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "basestation/outlets/recorder/segment_chain.hpp"
+#include "protocol/recorder/segment_chain.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "protocol/recording/mcap_reader.hpp"
-#include "tests/basestation/outlets/recorder/memory_disk.hpp"
+#include "tests/protocol/recorder/memory_disk.hpp"
 
 namespace pitwall::recorder {
 namespace {
