@@ -39,6 +39,7 @@ struct CarEndpoint::Parts {
   void make_packet(const PacketPlan& plan, Instant now);
   void add_what_waits(BodyWriter& body, Instant now);
   bool something_waits() const { return events.waiting() > 0 || !bulk.idle(); }
+  Waits waits() const { return something_waits() ? Waits::kContent : Waits::kNothing; }
 
   Randomness* randomness;
   Conduit conduit;
@@ -125,7 +126,7 @@ void CarEndpoint::feed(std::span<const std::uint8_t> datagram, PathId path, Addr
 std::optional<Outgoing> CarEndpoint::poll(const Snapshot& snapshot, Instant now) {
   for (;;) {
     if (const auto out = parts_->conduit.take(now)) return out;
-    const auto plan = parts_->conduit.plan(now, parts_->something_waits());
+    const auto plan = parts_->conduit.plan(now, parts_->waits());
     if (!plan) return {};
     parts_->snapshot = snapshot;
     parts_->make_packet(*plan, now);

@@ -184,16 +184,16 @@ void Conduit::exchange(Instant now) {
   }
 }
 
-std::optional<PacketPlan> Conduit::plan(Instant now, bool something_waits) {
+std::optional<PacketPlan> Conduit::plan(Instant now, Waits waits) {
   if (next_plan_ < plans_.size()) return plans_[next_plan_++];
   stats_.advance(now);
-  const Slots::Turn turn = slots_.turn(now);
-  const bool between = turn == Slots::Turn::kBetween;
-  const bool waits = something_waits || on_trial() || in_doubt(now);
-  const bool wanted = turn == Slots::Turn::kOnSlot || (between && waits);
-  const bool made = wanted && association_.ready() && lay_out(between, now);
+  const bool at_once = waits == Waits::kStop && association_.ready();
+  const Slots::Turn turn = slots_.turn(now, at_once);
+  const bool worth = waits != Waits::kNothing || on_trial() || in_doubt(now);
+  const bool wanted = turn == Slots::Turn::kBetween ? worth : turn != Slots::Turn::kNobody;
+  const bool made = wanted && association_.ready() && lay_out(turn, now);
   slots_.done(turn, made, now);
-  due_ = slots_.due(now);
+  due_ = slots_.due(now, at_once && !made);
   if (!made) return {};
   return plans_[next_plan_++];
 }
@@ -209,7 +209,7 @@ bool Conduit::on_trial() const {
 bool Conduit::in_doubt(Instant now) const { return now - acked_at_ > kDoubt; }
 
 // Which packets go now, and on which paths. False: no path has room.
-bool Conduit::lay_out(bool between, Instant now) {
+bool Conduit::lay_out(Slots::Turn turn, Instant now) {
   plans_.clear();
   next_plan_ = 0;
   for (PathId path = 0; path < paths_; ++path) {
@@ -217,8 +217,9 @@ bool Conduit::lay_out(bool between, Instant now) {
     way.adapt(now);
     if (slots_.count() % kLossEvery == 0) way.loss = stats_.figures(path, now).loss;
   }
-  const PathChoice choice{association_, lanes(), policy_, in_doubt(now)};
-  plans_ = choice.plans(between, now);
+  const bool at_once = turn == Slots::Turn::kAtOnce;
+  const PathChoice choice{association_, lanes(), policy_, in_doubt(now), at_once};
+  plans_ = choice.plans(turn != Slots::Turn::kOnSlot, now);
   return !plans_.empty();
 }
 

@@ -3,7 +3,8 @@
 //   in     datagrams of each path; bodies to send
 //   out    opened bodies, each once; datagrams for each path, within its budget
 //   law    a packet each kSlot, and one half a slot later where something waits; what the budget
-//          has no room for is skipped, never queued. One sequence number is one plaintext: copies
+//          has no room for is skipped, never queued. A stop has a packet at once, on every path that
+//          has room, or as soon as one has: out of the same budget. One sequence number is one plaintext: copies
 //          for several paths are the same bytes
 //          a packet of another session than the one in use changes nothing
 //   errors counted by Association, BodyError and the modules below
@@ -40,6 +41,9 @@ struct ConduitConfig {
   const SchemaClaim* schema = nullptr;  // none: of the registry. Outlives the end
 };
 
+// For a packet between slots.
+enum class Waits : std::uint8_t { kNothing, kContent, kStop };
+
 struct Outgoing {
   PathId path = 0;
   Address to;
@@ -73,7 +77,7 @@ class Conduit {
 
   // Sending: take() until none, then plan(); with a plan begin(), fill, send(), and again.
   std::optional<Outgoing> take(Instant now);
-  std::optional<PacketPlan> plan(Instant now, bool something_waits);
+  std::optional<PacketPlan> plan(Instant now, Waits waits);
   // For a packet whose safety groups take `state` bytes and whose records want `records`.
   PacketRoom room_for(const PacketPlan& plan, std::size_t state, std::size_t records,
                       Instant now) const;
@@ -119,7 +123,7 @@ class Conduit {
   void note_duplicate(std::uint64_t sequence, std::size_t size, PathId path, Instant at);
   bool note_session(bool& peer_restarted, Instant at);
   void exchange(Instant now);
-  bool lay_out(bool between, Instant now);
+  bool lay_out(Slots::Turn turn, Instant now);
   bool on_trial() const;
   bool in_doubt(Instant now) const;
   std::size_t path_records_size(const PacketPlan& plan) const;

@@ -28,7 +28,7 @@ FixedVector<PacketPlan, kPaths> PathChoice::plans(bool between, Instant now) con
   const auto second = static_cast<std::uint8_t>(paths & ~first);
   FixedVector<PacketPlan, kPaths> plans;
   if (first != 0) CHECK(plans.push(plan(first, {.between = between}, now)));
-  if (second == 0 || (best && between)) return plans;
+  if (second == 0 || (best && between && !at_once)) return plans;
   CHECK(plans.push(plan(second, {.only_safety = best, .between = between}, now)));
   return plans;
 }
@@ -67,7 +67,7 @@ bool PathChoice::has_room(PathId path, bool between, Instant now) const {
   const PathBudget& budget = lanes[path].budget;
   constexpr std::size_t kLeast = kAround + kLeastBody;
   const bool ample = budget.room_beside(kLeast, now) >= kLeast + kLeastBetween;
-  const bool enough = !between || association.on_trial(path) || in_doubt;
+  const bool enough = !between || association.on_trial(path) || in_doubt || at_once;
   const bool room = ample || (enough && budget.room_for_safety(now) >= kLeast);
   return room && (association.proved(path).known() || trial_room(path) > 0);
 }

@@ -47,7 +47,8 @@ struct PathChoice {
   const Association& association;
   std::span<const PathLane> lanes;
   PathPolicy policy;
-  bool in_doubt;  // what leaves may be lost: a packet between slots is worth its price
+  bool in_doubt;         // what leaves may be lost: a packet between slots is worth its price
+  bool at_once = false;  // so is one with a stop; on every path, whatever the policy
 
   FixedVector<PacketPlan, kPaths> plans(bool between, Instant now) const;
 

@@ -9,9 +9,10 @@ constexpr Duration kAskAgain = milliseconds(1);
 
 }  // namespace
 
-Slots::Turn Slots::turn(Instant now) {
+Slots::Turn Slots::turn(Instant now, bool at_once) {
   if (advance(now)) stage_ = Stage::kDue;
   if (stage_ == Stage::kDue) return Turn::kOnSlot;
+  if (at_once) return Turn::kAtOnce;
   return stage_ == Stage::kBetween && now + kSlotEarly >= half() ? Turn::kBetween : Turn::kNobody;
 }
 
@@ -31,14 +32,15 @@ bool Slots::advance(Instant now) {
 }
 
 void Slots::done(Turn turn, bool made, Instant now) {
-  if (turn == Turn::kBetween && made) stage_ = Stage::kOver;
+  const bool beside = turn == Turn::kBetween || turn == Turn::kAtOnce;
+  if (beside && made) stage_ = Stage::kOver;
   if (turn != Turn::kOnSlot || (!made && now + kAskAgain < half())) return;
   if (!made) ++skipped_;
   stage_ = Stage::kBetween;
 }
 
-Instant Slots::due(Instant now) const {
-  if (!slot_ || stage_ == Stage::kDue) return now + kAskAgain;
+Instant Slots::due(Instant now, bool at_once) const {
+  if (!slot_ || stage_ == Stage::kDue || at_once) return now + kAskAgain;
   if (stage_ == Stage::kOver) return *slot_ + kSlot;
   return now < half() ? half() : now + kAskAgain;
 }

@@ -1,11 +1,14 @@
-// When packets are made: one each kSlot, and one half a slot later where something waits.
+// When packets are made: one each kSlot, one half a slot later where something waits, and one at any
+// time for what cannot wait: a stop.
 //
 //   |---- slot ----|---- slot ----|        the grid stands still: a poll that comes late moves
 //   state   between state   between        none of the slots after it
 //
-//   in     the time of each poll; whether a packet was made
+//   in     the time of each poll; whether something cannot wait; whether a packet was made
 //   out    whose turn it is; when to ask again
 //   law    a slot that found no room within its first half is skipped and counted, never queued
+//          what cannot wait is asked for at each poll until it was made; it takes the place of the
+//          packet between
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,11 +25,12 @@ inline constexpr Duration kSlotEarly = milliseconds(2);
 
 class Slots {
  public:
-  enum class Turn : std::uint8_t { kNobody, kOnSlot, kBetween };
+  enum class Turn : std::uint8_t { kNobody, kOnSlot, kBetween, kAtOnce };
 
-  Turn turn(Instant now);
+  Turn turn(Instant now, bool at_once = false);
   void done(Turn turn, bool made, Instant now);
-  Instant due(Instant now) const;  // nothing is anybody's turn before
+  // Nothing is anybody's turn before.
+  Instant due(Instant now, bool at_once = false) const;
 
   std::uint64_t count() const { return count_; }
   std::uint64_t skipped() const { return skipped_; }

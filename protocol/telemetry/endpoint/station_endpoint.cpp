@@ -19,6 +19,10 @@ struct StationEndpoint::Parts {
   void take_groups(const Heard& heard, Arrival& arrival);
   void take(const Record& record, const Received& received);
   void note_release();
+  // A stop that no packet has said yet.
+  bool stop_waits() const {
+    return stop.state().level != StopLevel::kNone && stop.state() != stop_said;
+  }
   Snapshot sample(Instant now) const;
   void make_packet(const PacketPlan& plan, Instant now);
 
@@ -28,6 +32,7 @@ struct StationEndpoint::Parts {
   std::array<std::uint64_t, kGroups> sequence_of{};  // of the packet that brought the group
   GroupSet mapped;  // groups whose time was told by compared clocks
   StopDesk stop;
+  StopState stop_said, stop_asked;  // by the newest packet; when it was last tried to make one
   AuthorityDesk authority;
   JoystickSender joystick;
   CommandDesk desk;
@@ -133,7 +138,9 @@ std::optional<Arrival> StationEndpoint::feed(std::span<const std::uint8_t> datag
 std::optional<Outgoing> StationEndpoint::poll(Instant now) {
   for (;;) {
     if (const auto out = parts_->conduit.take(now)) return out;
-    const auto plan = parts_->conduit.plan(now, false);
+    parts_->stop_asked = parts_->stop.state();
+    const Waits waits = parts_->stop_waits() ? Waits::kStop : Waits::kNothing;
+    const auto plan = parts_->conduit.plan(now, waits);
     if (!plan) return {};
     parts_->make_packet(*plan, now);
   }
@@ -153,6 +160,7 @@ Snapshot StationEndpoint::Parts::sample(Instant now) const {
 
 void StationEndpoint::Parts::make_packet(const PacketPlan& plan, Instant now) {
   const Snapshot snapshot = sample(now);
+  stop_said = stop.state();
   const std::size_t wants = desk.wanted() + events.wanted();
   const std::size_t safe = lane.choose(snapshot, conduit.peer_knows(), conduit.round_trip(), now);
   const PacketRoom room = conduit.room_for(plan, safe, wants, now);
@@ -174,7 +182,10 @@ void StationEndpoint::Parts::make_packet(const PacketPlan& plan, Instant now) {
   lane.sent(conduit.send(body, plan, safety, now), snapshot, now);
 }
 
-Instant StationEndpoint::due() const { return parts_->conduit.due(); }
+Instant StationEndpoint::due() const {
+  const bool untried = parts_->stop_waits() && parts_->stop_asked != parts_->stop.state();
+  return untried ? Instant{} : parts_->conduit.due();
+}
 
 const Snapshot& StationEndpoint::state() const { return parts_->state; }
 bool StationEndpoint::clock_known() const { return parts_->conduit.clock().known(); }

@@ -3,6 +3,8 @@
 //   out    datagrams; the newest value of every field with the time of its sample; events, bulk;
 //          how far each command came
 //   law    a value never goes back in time: of two samples of a group the newer one is kept
+//          a stop leaves with the next poll(), as soon as the budget has room for a packet; due() is
+//          past until then
 //   errors counters in report()
 //   cost   no allocation after construction
 // SPDX-License-Identifier: Apache-2.0

@@ -34,6 +34,9 @@ class Car {
                                         bool in_doubt = false) const {
     return PathChoice{*association, lanes, policy, in_doubt}.plans(between, now);
   }
+  FixedVector<PacketPlan, kPaths> plans_at_once(PathPolicy policy, Instant now) const {
+    return PathChoice{*association, lanes, policy, false, true}.plans(true, now);
+  }
   // Leaves so little that not even a small packet goes.
   void exhaust(PathId path, Instant now) {
     lanes[path].spend(lanes[path].budget.room_for_safety(now),
@@ -83,6 +86,19 @@ TEST(PathChoice, BestHasSafetyOnBothAndTheRestOnTheBetter) {
   ASSERT_EQ(plans.size(), 1U);
   EXPECT_EQ(plans[0].paths, bit_of(0));
   EXPECT_TRUE(plans[0].between);
+}
+
+// As when nothing may be arriving: little room is enough, and no policy keeps it to one path.
+TEST(PathChoice, AStopGoesOnEveryPath) {
+  for (const PathPolicy policy : {PathPolicy::kDuplicate, PathPolicy::kBest}) {
+    const Car car;
+    std::uint8_t paths = 0;
+    for (const PacketPlan& plan : car.plans_at_once(policy, at_ms(0))) {
+      EXPECT_TRUE(plan.between);
+      paths |= plan.paths;
+    }
+    EXPECT_EQ(paths, bit_of(0) | bit_of(1));
+  }
 }
 
 TEST(PathChoice, APathWithoutRoomHasNoPlan) {

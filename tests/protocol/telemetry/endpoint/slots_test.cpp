@@ -68,6 +68,24 @@ TEST(Slots, WhatWasNotPolledIsSkipped) {
   EXPECT_EQ(slots.skipped(), 49U);
 }
 
+// At any time of the slot, once; the grid and the packets on it stay where they are.
+TEST(Slots, WhatCannotWaitGoesAtAnyTime) {
+  for (std::int64_t pressed = 1; pressed < 18; ++pressed) {
+    Slots slots;
+    slots.done(slots.turn(at_ms(0)), true, at_ms(0));
+    if (pressed > 10) slots.done(slots.turn(at_ms(10)), true, at_ms(10));
+    for (int asked = 0; asked < 3; ++asked) {  // the budget has no room
+      ASSERT_EQ(slots.turn(at_ms(pressed), true), Turn::kAtOnce) << pressed;
+      slots.done(Turn::kAtOnce, false, at_ms(pressed));
+      EXPECT_LE(slots.due(at_ms(pressed), true), at_ms(pressed + 1));
+    }
+    slots.done(Turn::kAtOnce, true, at_ms(pressed));
+    EXPECT_EQ(slots.turn(at_ms(17)), Turn::kNobody) << "in the place of the one between";
+    EXPECT_EQ(slots.turn(at_ms(20), true), Turn::kOnSlot);
+    EXPECT_EQ(slots.skipped(), 0U);
+  }
+}
+
 TEST(Slots, NothingIsDueBeforeDue) {
   std::mt19937_64 random(2);
   Slots slots;

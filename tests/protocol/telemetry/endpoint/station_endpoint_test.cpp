@@ -65,6 +65,74 @@ TEST(StationEndpoint, AfterARestartOfTheCarItsOldStateIsNotShown) {
   EXPECT_GE(pair.base->state().at(Group::kMode), pair.now - milliseconds(100));
 }
 
+// Counts what leaves the base, and holds it against the packets of its budget.
+struct Departures {
+  explicit Departures(EndpointPair& of) : pair(of) {
+    pair.gate = [this](const WireDatagram& datagram) {
+      if (!datagram.down) at.push_back(pair.now);
+      return true;
+    };
+  }
+  void expect_lawful() const {
+    constexpr std::size_t kInTenth = 11;  // of 100 a second
+    for (std::size_t i = kInTenth; i < at.size(); ++i) {
+      EXPECT_GT(at[i] - at[i - kInTenth], milliseconds(99)) << "more than the budget has";
+    }
+  }
+  EndpointPair& pair;
+  std::vector<Instant> at;
+};
+
+// With any phase to the slots of the base. What is left of the wait is the budget's: it spaces its
+// packets, by half of 10 ms at least.
+TEST(StationEndpoint, AStopDoesNotWaitForItsSlot) {
+  for (const std::uint8_t paths : {std::uint8_t{1}, std::uint8_t{2}}) {
+    for (std::int64_t phase = 0; phase < 20; ++phase) {
+      EndpointPair pair(paths, 3);
+      pair.run(seconds(1) + milliseconds(phase));
+      Departures left(pair);
+      pair.base->stop().demand(StopLevel::kEmergency, StopReason::kOperator);
+      EXPECT_LE(pair.base->due(), pair.now) << "the loop must not sleep over it";
+      const Instant pressed = pair.now;
+      pair.run(milliseconds(6));
+      ASSERT_GE(left.at.size(), paths) << "phase " << phase;
+      EXPECT_LE(left.at[paths - 1U] - pressed, milliseconds(5)) << "phase " << phase;
+      pair.run(milliseconds(20));
+      EXPECT_EQ(pair.car->view(pair.now).stop, StopLevel::kEmergency);
+    }
+  }
+}
+
+// The worst operator: each press is another stop, and each packet of it comes from the budget.
+TEST(StationEndpoint, StopsComeOutOfTheBudget) {
+  EndpointPair pair;
+  pair.run(seconds(1));
+  Departures left(pair);
+  StopDesk& desk = pair.base->stop();
+  for (std::uint32_t n = 0; n < 200; ++n) {
+    desk.demand(StopLevel::kControlled, StopReason::kOperator);
+    desk.demand(StopLevel::kEmergency, StopReason::kOperator);
+    pair.run(milliseconds(static_cast<std::int64_t>(n * 7 % 13)));
+    desk.release_asked(CommandId{n});
+    desk.released(CommandId{n});
+  }
+  left.expect_lawful();
+  EXPECT_GT(left.at.size(), 60U);
+}
+
+// Nobody listens: no packet, and no loop that spins for one.
+TEST(StationEndpoint, AStopBeforeTheCarIsThereWaitsInPeace) {
+  EndpointPair pair;
+  pair.gate = [](const WireDatagram&) { return false; };
+  pair.run(milliseconds(200));
+  pair.base->stop().demand(StopLevel::kControlled, StopReason::kOperator);
+  EXPECT_FALSE(pair.base->poll(pair.now));
+  EXPECT_GE(pair.base->due(), pair.now + milliseconds(1));
+  pair.gate = [](const WireDatagram&) { return true; };
+  pair.run(seconds(1));
+  EXPECT_EQ(pair.car->view(pair.now).stop, StopLevel::kControlled);
+}
+
 TEST(StationEndpoint, OneTruthAboutACommandAtBothEnds) {
   EndpointPair pair;
   pair.run(seconds(1));
