@@ -6,8 +6,9 @@
 import fc from "fast-check";
 import { describe, expect, test } from "vitest";
 import { BaseClock, kSilenceMs } from "../src/store/station_clock";
-import { Fields, kNothing } from "../src/store/fields";
+import { Fields } from "../src/store/fields";
 import { History } from "../src/store/history";
+import { kNothing } from "../src/store/reading";
 import type { FieldInfo } from "../src/wire/messages";
 import { Judgement, Quality } from "../src/wire/status";
 

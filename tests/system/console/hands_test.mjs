@@ -4,37 +4,22 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
-import { afterEach, after, before, beforeEach, test } from "node:test";
-import { Double } from "./double.mjs";
-import { launch, open, until } from "./stage.mjs";
+import { test } from "node:test";
+import { doubleStage, hold, kPages, show, until } from "./stage.mjs";
 import { greetings } from "./story.mjs";
 
-let browser;
-let double;
-let address;
-
-before(async () => (browser = await launch()));
-after(async () => browser?.close());
-beforeEach(async () => {
-  double = new Double();
-  double.greetings = greetings(double);
-  address = await double.listen();
-});
-afterEach(async () => {
-  for (const context of browser.contexts()) await context.close();
-  await double.close();
-});
+const stage = doubleStage((double) => (stage.double.greetings = greetings(double)));
 
 const kHarmless = ["history", "mark", "ack", "ping"];
 const commands = () =>
-  double.received.filter(
+  stage.double.received.filter(
     (m) => !kHarmless.includes(m.type) && !(m.type === "authority" && m.do === "renew"),
   );
 
 test("no single key sends a command", async () => {
-  const { page } = await open(browser, address);
-  for (const name of ["primary", "plots", "telemetry", "link", "commands", "alarms"]) {
-    await page.evaluate((hash) => (location.hash = hash), `#/${name}`);
+  const { page } = await stage.open();
+  for (const name of kPages) {
+    await show(page, name);
     for (let code = 32; code < 127; ++code) {
       await page.keyboard.press(String.fromCharCode(code));
       await page.evaluate((hash) => {
@@ -49,7 +34,7 @@ test("no single key sends a command", async () => {
 
 /** A page whose clock stands still until the test moves it on. */
 async function stopped(options) {
-  const { page } = await open(browser, address, { ...options, ownClock: true });
+  const { page } = await stage.open({ ...options, ownClock: true });
   await page.clock.pauseAt((await page.evaluate(() => Date.now())) + 2000);
   return page;
 }
@@ -75,7 +60,7 @@ test("Escape twice within 600 ms is a controlled stop, later it is none", async 
 });
 
 test("stops work from inside a text field, a dialog and a held view", async () => {
-  const { page } = await open(browser, address);
+  const { page } = await stage.open();
   await page.keyboard.press(" ");
   await until(page, "held", () => document.querySelector('.frame[data-held="true"]'));
   await page.keyboard.press("/");
@@ -112,26 +97,26 @@ test("the emergency button acts after 400 ms, not on a tap", async () => {
 });
 
 test("a stop without a base says that it was not sent", async () => {
-  const { page } = await open(browser, address);
-  await double.close();
+  const { page } = await stage.open();
+  await stage.double.close();
   await until(page, "no connection", () => !globalThis.pitwall.session.connected.value);
   await page.click("button.stop.controlled");
   await until(page, "NOT SENT", () =>
     document.querySelector(".outcome").textContent.startsWith("NOT SENT"),
   );
-  await double.listen();
+  await stage.double.listen();
 });
 
 test("a viewer cannot stop, and is told so", async () => {
-  double.hello.role = "viewer";
-  const { page } = await open(browser, address);
+  stage.double.hello.role = "viewer";
+  const { page } = await stage.open();
   assert.equal(await page.isDisabled("button.stop.controlled"), true);
   assert.match(await page.textContent(".stop-rail"), /viewer/);
 });
 
 test("stage, gates, hold: the keyboard alone, from any page", async () => {
-  double.greetings = double.greetings.filter((m) => m.type !== "command");
-  double.answers = (message, say) => {
+  stage.double.greetings = stage.double.greetings.filter((m) => m.type !== "command");
+  stage.double.answers = (message, say) => {
     if (message.type !== "stage") return;
     say({
       type: "command",
@@ -145,7 +130,7 @@ test("stage, gates, hold: the keyboard alone, from any page", async () => {
       gates: [{ name: "tyres", ok: true, value: 81, age_ms: 100, text: "warm" }],
     });
   };
-  const { page } = await open(browser, address, { ownClock: true });
+  const { page } = await stage.open({ ownClock: true });
   await page.keyboard.press("5");
   const reach = async (selector) => {
     for (let n = 0; n < 80; ++n) {
@@ -179,17 +164,13 @@ test("stage, gates, hold: the keyboard alone, from any page", async () => {
 });
 
 test("a gate that refuses needs a reason and a second person", async () => {
-  const { page } = await open(browser, address, { hash: "#/commands" });
+  const { page } = await stage.open({ hash: "#/commands" });
   assert.equal(await page.locator('.gate[data-ok="false"]').count(), 3);
   assert.equal(await page.isDisabled("button.send"), true);
   await page.fill(".override input:not([type])", "test run");
   assert.equal(await page.isDisabled("button.send"), true);
   await page.fill(".override input[type=password]", "secret");
-  const box = await page.locator("button.send").boundingBox();
-  await page.mouse.move(box.x + 20, box.y + 20);
-  await page.mouse.down();
-  await page.waitForTimeout(900);
-  await page.mouse.up();
+  await hold(page, "button.send", 900);
   assert.deepEqual(commands().at(-1), {
     type: "send",
     ticket: 41,
@@ -198,7 +179,7 @@ test("a gate that refuses needs a reason and a second person", async () => {
 });
 
 test("keys find a field, plot it and acknowledge an alarm", async () => {
-  const { page } = await open(browser, address);
+  const { page } = await stage.open();
   await page.keyboard.press("/");
   await page.keyboard.type("oil_pres");
   await page.keyboard.press("Enter");
@@ -212,16 +193,16 @@ test("keys find a field, plot it and acknowledge an alarm", async () => {
   await page.keyboard.press("a");
   await page.waitForTimeout(100);
   assert.deepEqual(
-    double.received.filter((m) => m.type === "ack"),
+    stage.double.received.filter((m) => m.type === "ack"),
     [{ type: "ack", alarm: 1 }],
   );
   await page.keyboard.press("A");
   await page.waitForTimeout(100);
-  assert.deepEqual(double.received.at(-1), { type: "ack", all: [1, 2, 4] });
+  assert.deepEqual(stage.double.received.at(-1), { type: "ack", all: [1, 2, 4] });
 });
 
 test("pause, scrub and back to live concern the view alone", async () => {
-  const { page } = await open(browser, address, { hash: "#/telemetry" });
+  const { page } = await stage.open({ hash: "#/telemetry" });
   await page.waitForTimeout(2500);
   const lap = () =>
     page.evaluate(() => {

@@ -4,25 +4,12 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
-import { afterEach, before, beforeEach, after, test } from "node:test";
+import { test } from "node:test";
 import { Double } from "./double.mjs";
-import { kPages, launch, open, until } from "./stage.mjs";
+import { doubleStage, kPages, show, until } from "./stage.mjs";
 import { kBad, kWarning } from "./wire.mjs";
 
-let browser;
-let double;
-let address;
-
-before(async () => (browser = await launch()));
-after(async () => browser?.close());
-beforeEach(async () => {
-  double = new Double();
-  address = await double.listen();
-});
-afterEach(async () => {
-  for (const context of browser.contexts()) await context.close();
-  await double.close();
-});
+const stage = doubleStage();
 
 /** Values drawn with a colour, or as if they were fresh: there must be none when all is silent. */
 const alive = () =>
@@ -36,7 +23,7 @@ const alive = () =>
     .map((e) => e.dataset.path ?? e.getAttribute("aria-label"));
 
 test("live values within a second of loading", async () => {
-  const { page } = await open(browser, address);
+  const { page } = await stage.open();
   const ms = await page.evaluate(() => performance.now());
   const drawn = await page.textContent('[data-path="ego.vx"] .digits');
   assert.match(drawn, /^1[34]\d$/, "62 m/s in mph");
@@ -45,7 +32,7 @@ test("live values within a second of loading", async () => {
 });
 
 test("a field that was never heard is an en dash, a zero is a zero", async () => {
-  const { page } = await open(browser, address, { hash: "#/telemetry" });
+  const { page } = await stage.open({ hash: "#/telemetry" });
   await page.fill("input[type=search]", "uplink.stop_reason");
   await until(
     page,
@@ -63,12 +50,12 @@ test("a field that was never heard is an en dash, a zero is a zero", async () =>
 
 test("the car falls silent: every value stale, none coloured, each keeps its digits", async () => {
   for (const path of ["derived.slip", "tyres.temperature_front_left", "sensors.lidar_rate"]) {
-    double.set(path, 0.5, path.startsWith("derived") ? kBad : kWarning);
+    stage.double.set(path, 0.5, path.startsWith("derived") ? kBad : kWarning);
   }
-  const { page } = await open(browser, address);
+  const { page } = await stage.open();
   await until(page, "colours", () => document.querySelector('[data-judgement="bad"]'));
   const before = await page.textContent('[data-path="derived.slip"] .digits');
-  double.silence();
+  stage.double.silence();
   for (let n = 0; n < 100 && (await page.evaluate(alive)).length > 0; ++n) {
     await page.waitForTimeout(100);
   }
@@ -87,9 +74,9 @@ test("the car falls silent: every value stale, none coloured, each keeps its dig
 });
 
 test("the base dies: within 600 ms nothing looks alive, and a new one is found again", async () => {
-  const { page } = await open(browser, address);
-  const port = Number(new URL(address).port);
-  await double.close();
+  const { page } = await stage.open();
+  const port = Number(new URL(stage.address).port);
+  await stage.double.close();
   await until(
     page,
     "NO BASE",
@@ -98,22 +85,22 @@ test("the base dies: within 600 ms nothing looks alive, and a new one is found a
     2000,
   );
   for (const name of kPages) {
-    await page.evaluate((hash) => (location.hash = hash), `#/${name}`);
+    await show(page, name);
     await page.waitForTimeout(400);
     assert.deepEqual(await page.evaluate(alive), [], `page ${name}`);
   }
   const silence = await page.textContent(".link-tile .word");
   assert.match(silence, /\d/, "says for how long");
-  double = new Double();
-  await double.listen(port);
+  stage.double = new Double();
+  await stage.double.listen(port);
   const from = Date.now();
   await until(page, "fresh values again", () => document.querySelector('[data-quality="fresh"]'));
   assert.ok(Date.now() - from < 2500, `back after ${Date.now() - from} ms`);
 });
 
 test("frames and texts that are none are counted and change nothing", async () => {
-  const { page, faults } = await open(browser, address);
-  for (const socket of double.sockets.clients) {
+  const { page, faults } = await stage.open();
+  for (const socket of stage.double.sockets.clients) {
     for (const text of ["", "{", "null", "[]", '{"type":"constructor"}', '{"type":7}']) {
       socket.send(text);
     }
@@ -131,8 +118,8 @@ test("frames and texts that are none are counted and change nothing", async () =
 test("in which world we are cannot be mistaken", async () => {
   const seen = new Set();
   for (const mode of ["REAL", "HIL", "REPLAY", "NONE"]) {
-    double.hello.mode = mode;
-    const { page, context } = await open(browser, address);
+    stage.double.hello.mode = mode;
+    const { page, context } = await stage.open();
     await until(page, "mode", (m) => document.querySelector(".frame").dataset.mode === m, mode);
     const look = await page.evaluate(() => {
       const border = getComputedStyle(document.querySelector(".frame"), "::after");
@@ -153,7 +140,7 @@ test("in which world we are cannot be mistaken", async () => {
 });
 
 test("a replay is moved by its own bar and keys, and a jump forgets what came before", async () => {
-  double.hello.mode = "REPLAY";
+  stage.double.hello.mode = "REPLAY";
   const playing = {
     type: "playback",
     begin_ms: 0,
@@ -161,7 +148,7 @@ test("a replay is moved by its own bar and keys, and a jump forgets what came be
     now_ms: 100_000,
     speed: 1,
   };
-  double.greetings = [
+  stage.double.greetings = [
     { ...playing, jumps: 0 },
     {
       type: "audit",
@@ -171,8 +158,8 @@ test("a replay is moved by its own bar and keys, and a jump forgets what came be
       result: "sent",
     },
   ];
-  const { page } = await open(browser, address);
-  const asked = () => double.received.filter((m) => m.type === "playback");
+  const { page } = await stage.open();
+  const asked = () => stage.double.received.filter((m) => m.type === "playback");
   await page.keyboard.press(" ");
   await page.keyboard.press("ArrowLeft");
   await page.keyboard.press("+");
@@ -186,11 +173,11 @@ test("a replay is moved by its own bar and keys, and a jump forgets what came be
     { type: "playback", speed: 2 },
   ]);
   assert.deepEqual(
-    double.received.filter((m) => m.type === "stop"),
+    stage.double.received.filter((m) => m.type === "stop"),
     [],
     "nothing is stopped in a replay",
   );
   await until(page, "the audit line", () => globalThis.pitwall.session.audit.value.length === 1);
-  double.say({ ...playing, now_ms: 99_000, jumps: 1 });
+  stage.double.say({ ...playing, now_ms: 99_000, jumps: 1 });
   await until(page, "all forgotten", () => globalThis.pitwall.session.audit.value.length === 0);
 });

@@ -1,11 +1,15 @@
 /**
- * A browser for the tests: real headless Chromium, one page on a base, with every console error and
- * every request elsewhere kept.
+ * The stage of the tests: one real headless Chromium for a file of them, pages on a base with every
+ * console error and every request elsewhere kept, and before each test a base: the double, or the
+ * real one with a car's end of the radio. What a test opened is closed behind it.
  */
 // SPDX-License-Identifier: Apache-2.0
 import { existsSync, mkdirSync } from "node:fs";
+import { after, afterEach, before, beforeEach } from "node:test";
 import { join } from "node:path";
+import { Double } from "./double.mjs";
 import { chromium, kRoot } from "./packages.mjs";
+import { Programs } from "./programs.mjs";
 
 const kChromium = process.env.PITWALL_CHROMIUM || "/usr/bin/chromium";
 export const kScreenshots = join(kRoot, "build/console/screenshots");
@@ -28,7 +32,7 @@ export async function launch() {
 
 /** A page on `address`, live: resolves when the first values are drawn. */
 export async function open(browser, address, options = {}) {
-  const { size = [1920, 1080], theme = "dark", hash = "", ownClock = false } = options;
+  const { size = [1280, 800], theme = "dark", hash = "", ownClock = false } = options;
   const context = await browser.newContext({
     viewport: { width: size[0], height: size[1] },
   });
@@ -63,4 +67,63 @@ export async function until(page, what, test, argument, timeoutMs = 5000) {
   } catch {
     throw new Error(`waited ${timeoutMs} ms in vain for: ${what}`);
   }
+}
+
+/** Goes to a page of the console that is open already. */
+export const show = (page, name) => page.evaluate((hash) => (location.hash = hash), `#/${name}`);
+
+/** Presses the mouse on an element for so long. */
+export async function hold(page, selector, ms) {
+  const element = page.locator(selector).first();
+  await element.scrollIntoViewIfNeeded();
+  await element.hover();
+  await page.mouse.down();
+  await page.waitForTimeout(ms);
+  await page.mouse.up();
+}
+
+/** One browser for all tests of a file; `open` opens the console of the test's base in it. */
+function browserStage() {
+  const stage = {
+    browser: undefined,
+    address: undefined,
+    open: (options) => open(stage.browser, stage.address, options),
+  };
+  before(async () => (stage.browser = await launch()));
+  after(async () => stage.browser?.close());
+  return stage;
+}
+
+async function closePages(stage) {
+  await Promise.all(stage.browser.contexts().map((context) => context.close()));
+}
+
+/** A double for each test, `prepare`d before anybody connects. */
+export function doubleStage(prepare = () => {}) {
+  const stage = browserStage();
+  beforeEach(async () => {
+    stage.double = new Double();
+    prepare(stage.double);
+    stage.address = await stage.double.listen();
+  });
+  afterEach(async () => {
+    await closePages(stage);
+    await stage.double.close();
+  });
+  return stage;
+}
+
+/** The real base for each test, with a car's end of the radio unless it is told not to. */
+export function baseStage({ car = true, flags = () => [] } = {}) {
+  const stage = browserStage();
+  beforeEach(async () => {
+    stage.programs = new Programs();
+    stage.address = await stage.programs.startBase(...flags(stage.programs));
+    if (car) stage.programs.startCar();
+  });
+  afterEach(async () => {
+    await closePages(stage);
+    await stage.programs.close();
+  });
+  return stage;
 }

@@ -5,25 +5,10 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
-import { after, afterEach, before, beforeEach, test } from "node:test";
-import { Programs } from "./programs.mjs";
-import { kPages, launch, open, until } from "./stage.mjs";
+import { test } from "node:test";
+import { baseStage, hold, kPages, show, until } from "./stage.mjs";
 
-let browser;
-let programs;
-let address;
-
-before(async () => (browser = await launch()));
-after(async () => browser?.close());
-beforeEach(async () => {
-  programs = new Programs();
-  address = await programs.startBase();
-  programs.startCar();
-});
-afterEach(async () => {
-  for (const context of browser.contexts()) await context.close();
-  await programs.close();
-});
+const stage = baseStage();
 
 /** Fields of the car that are drawn as if they were known, on a page on which none should be. */
 const carAlive = () =>
@@ -37,7 +22,7 @@ const carAlive = () =>
     .map((e) => `${e.dataset.path} ${e.dataset.quality} ${e.dataset.judgement}`);
 
 test("the live car, its mode and its link are shown, every page without a fault", async () => {
-  const { page, faults } = await open(browser, address);
+  const { page, faults } = await stage.open();
   await until(
     page,
     "50.5 m/s in mph",
@@ -48,7 +33,7 @@ test("the live car, its mode and its link are shown, every page without a fault"
   );
   assert.notEqual(await page.textContent(".mode-word strong"), "NO BASE");
   for (const name of kPages) {
-    await page.evaluate((hash) => (location.hash = hash), `#/${name}`);
+    await show(page, name);
     await page.waitForTimeout(400);
   }
   assert.deepEqual(faults, []);
@@ -59,7 +44,7 @@ test("the live car, its mode and its link are shown, every page without a fault"
 });
 
 test("the track of the base is drawn", async () => {
-  const { page } = await open(browser, address);
+  const { page } = await stage.open();
   await until(
     page,
     "the track's name",
@@ -68,17 +53,17 @@ test("the track of the base is drawn", async () => {
 });
 
 test("the car is killed: every field of it stale, none coloured, on every page", async () => {
-  const { page } = await open(browser, address);
-  await programs.kill("car");
+  const { page } = await stage.open();
+  await stage.programs.kill("car");
   for (let n = 0; n < 150 && (await page.evaluate(carAlive)).length > 0; ++n) {
     await page.waitForTimeout(100);
   }
   for (const name of kPages) {
-    await page.evaluate((hash) => (location.hash = hash), `#/${name}`);
+    await show(page, name);
     await page.waitForTimeout(400);
     assert.deepEqual(await page.evaluate(carAlive), [], name);
   }
-  await page.evaluate(() => (location.hash = "#/primary"));
+  await show(page, "primary");
   await until(page, "the last speed, struck", () => {
     const value = document.querySelector('.primary [data-path="ego.vx"]');
     return (
@@ -89,7 +74,7 @@ test("the car is killed: every field of it stale, none coloured, on every page",
 });
 
 test("a stop reaches the car, and the console says what the car says", async () => {
-  const { page } = await open(browser, address);
+  const { page } = await stage.open();
   await page.keyboard.press("Escape");
   await page.keyboard.press("Escape");
   await until(
@@ -97,11 +82,11 @@ test("a stop reaches the car, and the console says what the car says", async () 
     "the car's own word",
     () => document.querySelector(".outcome").textContent === "car: controlled stop",
   );
-  assert.match(programs.carSaid, /stop 1/);
+  assert.match(stage.programs.carSaid, /stop 1/);
 });
 
 test("a command climbs its ladder, or its gates say why not", async () => {
-  const { page } = await open(browser, address, { hash: "#/commands" });
+  const { page } = await stage.open({ hash: "#/commands" });
   await page.click("text=Take authority");
   await until(
     page,
@@ -122,11 +107,7 @@ test("a command climbs its ladder, or its gates say why not", async () => {
   await until(page, "a way to send", () =>
     document.querySelector(".staged button.send:not(:disabled)"),
   );
-  const box = await page.locator(".staged button.send").first().boundingBox();
-  await page.mouse.move(box.x + 20, box.y + 20);
-  await page.mouse.down();
-  await page.waitForTimeout(1200);
-  await page.mouse.up();
+  await hold(page, ".staged button.send", 1200);
   await until(page, "applied by the car", () =>
     [...document.querySelectorAll(".ladder > li")].some(
       (li) =>
@@ -134,19 +115,19 @@ test("a command climbs its ladder, or its gates say why not", async () => {
         li.querySelector(".rungs li:nth-child(5)").dataset.reached === "true",
     ),
   );
-  assert.match(programs.carSaid, /command send parameters 1/);
+  assert.match(stage.programs.carSaid, /command send parameters 1/);
 });
 
 test("the base is killed and started again: the console finds it, a layout is kept", async () => {
-  const { page } = await open(browser, address);
+  const { page } = await stage.open();
   await page.focus(".panel-fuel");
   await page.keyboard.press("Alt+ArrowUp");
   await page.waitForTimeout(400);
-  await programs.kill("base");
+  await stage.programs.kill("base");
   await until(page, "NO BASE", () =>
     document.querySelector(".link-tile .word").textContent.startsWith("NO BASE"),
   );
-  await programs.startBase();
+  await stage.programs.startBase();
   await until(
     page,
     "fresh values",

@@ -7,33 +7,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import { ageMs } from "../wire/age";
 import type { FieldInfo } from "../wire/messages";
-import {
-  Judgement,
-  Quality,
-  judgementOf,
-  kNeverStatus,
-  qualityOf,
-  saysUnknown,
-} from "../wire/status";
+import { Judgement, Quality, kNeverStatus } from "../wire/status";
+import { kNothing, readInto } from "./reading";
+import type { Reading } from "./reading";
 
 const kIds = 65536;
-
-/** One value as it is to be drawn. */
-export interface Reading {
-  value: number;
-  quality: Quality;
-  judgement: Judgement;
-  unknown: boolean;
-  ageMs: number;
-}
-
-export const kNothing: Readonly<Reading> = {
-  value: NaN,
-  quality: Quality.never,
-  judgement: Judgement.none,
-  unknown: false,
-  ageMs: Infinity,
-};
 
 export class Fields {
   readonly info: readonly FieldInfo[];
@@ -91,14 +69,12 @@ export class Fields {
   /** Fills `out` with the newest value of a slot as it is at the base's time `nowMs`. */
   read(slot: number, nowMs: number, silent: boolean, out: Reading): Reading {
     if (slot < 0) return Object.assign(out, kNothing);
-    const status = this.status[slot];
-    out.value = this.value[slot];
-    out.quality = qualityOf(status);
-    out.judgement = judgementOf(status);
-    out.unknown = saysUnknown(status);
-    out.ageMs = this.ageMs[slot] + Math.max(0, nowMs - this.entryMs[slot]);
-    if (silent && out.quality < Quality.stale) out.quality = Quality.stale;
-    if (out.quality >= Quality.stale) out.judgement = Judgement.none;
+    const ageMs = this.ageMs[slot] + Math.max(0, nowMs - this.entryMs[slot]);
+    readInto(out, this.value[slot], this.status[slot], ageMs);
+    if (silent && out.quality < Quality.stale) {
+      out.quality = Quality.stale;
+      out.judgement = Judgement.none;
+    }
     return out;
   }
 }

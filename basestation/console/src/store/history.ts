@@ -4,16 +4,10 @@
  * once, on the catalogue, and never grows.
  */
 // SPDX-License-Identifier: Apache-2.0
-import {
-  Judgement,
-  Quality,
-  judgementOf,
-  kNeverStatus,
-  qualityOf,
-  saysUnknown,
-} from "../wire/status";
-import type { Fields, Reading } from "./fields";
-import { kNothing } from "./fields";
+import { kNeverStatus } from "../wire/status";
+import type { Fields } from "./fields";
+import { kNothing, readInto } from "./reading";
+import type { Reading } from "./reading";
 
 /** 10 minutes at 25 frames a second. */
 export const kRows = 15_000;
@@ -80,11 +74,7 @@ export class History {
     if (slot < 0 || n < 0 || n >= this.size) return Object.assign(out, kNothing);
     const row = this.index(n);
     const status = this.status[slot][row];
-    out.value = this.value[slot][row];
-    out.quality = qualityOf(status);
-    out.judgement = out.quality >= Quality.stale ? Judgement.none : judgementOf(status);
-    out.unknown = saysUnknown(status);
-    out.ageMs = status === kNeverStatus ? Infinity : this.age[slot][row];
-    return out;
+    const ageMs = status === kNeverStatus ? Infinity : this.age[slot][row];
+    return readInto(out, this.value[slot][row], status, ageMs);
   }
 }

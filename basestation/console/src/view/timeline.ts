@@ -4,8 +4,8 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import { computed, signal } from "@preact/signals";
-import type { Reading } from "../store/fields";
-import { kNothing } from "../store/fields";
+import type { Reading } from "../store/reading";
+import { kNothing } from "../store/reading";
 import * as session from "../store/session";
 
 /** Base time shown, null while live. */

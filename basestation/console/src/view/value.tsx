@@ -6,7 +6,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useRef } from "preact/hooks";
 import * as session from "../store/session";
-import type { Reading } from "../store/fields";
+import type { Reading } from "../store/reading";
 import type { FieldInfo } from "../wire/messages";
 import { Quality, kJudgementNames, kQualityNames } from "../wire/status";
 import { ageText, kDash, unitText, valueText } from "./format";

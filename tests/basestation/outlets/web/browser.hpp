@@ -69,6 +69,14 @@ class Browser {
   boost::beast::websocket::stream<boost::asio::ip::tcp::socket> stream_{io_};
 };
 
+// What a browser says to open a WebSocket.
+inline std::string opening(const std::string& target = "/ws", const std::string& host = "127.0.0.1",
+                           const std::string& fields = {}) {
+  return "GET " + target + " HTTP/1.1\r\nHost: " + host + "\r\n" + fields +
+         "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+         "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
+}
+
 // Says these bytes and gives what comes back until the end.
 inline std::string bare(std::uint16_t port, const std::string& bytes, bool hang_up = true) {
   boost::asio::io_context io;

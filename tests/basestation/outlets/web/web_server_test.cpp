@@ -4,62 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <random>
-#include <vector>
+#include <string>
 
-#include "protocol/transport/clock.hpp"
-#include "protocol/transport/readiness.hpp"
-#include "tests/basestation/outlets/web/browser.hpp"
+#include "tests/basestation/outlets/web/server_fixture.hpp"
 
 namespace pitwall::outlets::web {
 namespace {
 
-constexpr Duration kPatience = seconds(20);
-
-SharedMessage text(std::string text) {
-  return std::make_shared<const Message>(Message{.text = std::move(text)});
-}
-SharedMessage picture(std::uint32_t sequence, std::size_t bytes = 3'000) {
-  Frame frame{.sequence = sequence};
-  frame.entries.resize(bytes);
-  return std::make_shared<const Message>(Message{.frame = std::move(frame)});
-}
-
-class Server : public testing::Test {
- protected:
-  void SetUp() override {
-    HttpConfig config;
-    config.documents.emplace("/api/track", "{\"name\": \"X\"}");
-    config.console = "/nowhere";
-    auto started = WebServer::start({}, std::move(config));
-    ASSERT_TRUE(started) << to_string(started.error());
-    server_ = *std::move(started);
-    port_ = server_->local().port;
-  }
-  // The next of that kind; others on the way are taken.
-  std::optional<ClientNews> wait_for(ClientNews::Kind kind) {
-    const Instant end = transport::monotonic_now() + kPatience;
-    while (transport::monotonic_now() < end) {
-      while (auto news = server_->next_news()) {
-        if (news->kind == kind) return news;
-      }
-      const int fd = server_->fd();
-      transport::wait_readable({&fd, 1}, end);
-    }
-    return std::nullopt;
-  }
-  ClientId join(Browser& browser) {
-    EXPECT_EQ(browser.open(port_), 101u);
-    const auto news = wait_for(ClientNews::Kind::kJoined);
-    EXPECT_TRUE(news);
-    return news ? news->client : ClientId{0};
-  }
-  static ClientSet only(ClientId client) { return ClientSet{}.set(client); }
-
-  std::unique_ptr<WebServer> server_;
-  std::uint16_t port_ = 0;
-};
-
-TEST_F(Server, TextsAndFramesGoBothWays) {
+TEST_F(WebServerTest, TextsAndFramesGoBothWays) {
   Browser browser;
   const ClientId client = join(browser);
   EXPECT_GE(client, kFirstClient);
@@ -75,7 +27,7 @@ TEST_F(Server, TextsAndFramesGoBothWays) {
   EXPECT_EQ(frame->bytes[8], 7);
 }
 
-TEST_F(Server, OneThatLeavesIsToldAndItsNumberIsNotSoonAnothers) {
+TEST_F(WebServerTest, OneThatLeavesIsToldAndItsNumberIsNotSoonAnothers) {
   ClientId first = 0;
   {
     Browser browser;
@@ -86,13 +38,10 @@ TEST_F(Server, OneThatLeavesIsToldAndItsNumberIsNotSoonAnothers) {
   EXPECT_NE(join(next), first);
 }
 
-TEST_F(Server, AForeignPageOrAWrongTokenGetsNoSocket) {
+TEST_F(WebServerTest, AForeignPageOrAWrongTokenGetsNoSocket) {
   const auto asked = [&](const std::string& target, const std::string& host,
                          const std::string& fields) {
-    return bare(port_, "GET " + target + " HTTP/1.1\r\nHost: " + host + "\r\n" + fields +
-                           "Upgrade: websocket\r\nConnection: Upgrade\r\n"
-                           "Sec-WebSocket-Version: 13\r\n"
-                           "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n")
+    return bare(port_, opening(target, host, fields))
         .substr(0, std::string_view{"HTTP/1.1 403"}.size());
   };
   const std::string own = "127.0.0.1:" + std::to_string(port_);
@@ -105,7 +54,7 @@ TEST_F(Server, AForeignPageOrAWrongTokenGetsNoSocket) {
   EXPECT_NE(foreign.open(port_, "/ws", {{"Origin", "http://evil.com"}}), 101u);
 }
 
-TEST_F(Server, ATextThatIsTooLongClosesItsSocketOnly) {
+TEST_F(WebServerTest, ATextThatIsTooLongClosesItsSocketOnly) {
   Browser good, bad;
   const ClientId kept = join(good);
   join(bad);
@@ -117,7 +66,7 @@ TEST_F(Server, ATextThatIsTooLongClosesItsSocketOnly) {
   EXPECT_EQ(good.hear()->bytes, "still here");
 }
 
-TEST_F(Server, ATextThatIsNoUtf8ClosesItsSocket) {
+TEST_F(WebServerTest, ATextThatIsNoUtf8ClosesItsSocket) {
   Browser browser;
   join(browser);
   browser.say("\xFF\xFE");
@@ -125,14 +74,14 @@ TEST_F(Server, ATextThatIsNoUtf8ClosesItsSocket) {
   EXPECT_EQ(browser.close_code(), 1007u);
 }
 
-TEST_F(Server, BytesAreToldAsSuch) {
+TEST_F(WebServerTest, BytesAreToldAsSuch) {
   Browser browser;
   join(browser);
   browser.say_bytes("abc");
   EXPECT_TRUE(wait_for(ClientNews::Kind::kBinary));
 }
 
-TEST_F(Server, AClientThatDoesNotReadLosesItsOwnOldestAndSeesHowMuch) {
+TEST_F(WebServerTest, AClientThatDoesNotReadLosesItsOwnOldestAndSeesHowMuch) {
   Browser slow, quick;
   ASSERT_EQ(slow.open(port_, "/ws", {}, 4'096), 101u);
   const ClientId stopped = wait_for(ClientNews::Kind::kJoined)->client;
@@ -157,7 +106,7 @@ TEST_F(Server, AClientThatDoesNotReadLosesItsOwnOldestAndSeesHowMuch) {
   EXPECT_EQ(server_->counters().pictures_dropped, dropped);
 }
 
-TEST_F(Server, AClientThatLeavesTooMuchUnreadIsClosed) {
+TEST_F(WebServerTest, AClientThatLeavesTooMuchUnreadIsClosed) {
   Browser slow;
   ASSERT_EQ(slow.open(port_, "/ws", {}, 4'096), 101u);
   const ClientId stopped = wait_for(ClientNews::Kind::kJoined)->client;
@@ -167,7 +116,7 @@ TEST_F(Server, AClientThatLeavesTooMuchUnreadIsClosed) {
   EXPECT_EQ(server_->counters().closed_unread, 1u);
 }
 
-TEST_F(Server, WhoSaysMoreThanIsHandledIsReadNoFurther) {
+TEST_F(WebServerTest, WhoSaysMoreThanIsHandledIsReadNoFurther) {
   Browser browser;
   join(browser);
   for (int i = 0; i < 100; ++i) browser.say(std::to_string(i));
@@ -176,7 +125,7 @@ TEST_F(Server, WhoSaysMoreThanIsHandledIsReadNoFurther) {
   EXPECT_EQ(said, 100) << "nothing is lost";
 }
 
-TEST_F(Server, MalformedHttpIsRefusedWithALine) {
+TEST_F(WebServerTest, MalformedHttpIsRefusedWithALine) {
   EXPECT_TRUE(bare(port_, "NONSENSE\r\n\r\n").starts_with("HTTP/1.1 400"));
   EXPECT_TRUE(bare(port_, "GET / HTTP/9.9\r\n\r\n").starts_with("HTTP/1.1 400"));
   const std::string host = "Host: 127.0.0.1\r\n";
@@ -198,7 +147,7 @@ TEST_F(Server, MalformedHttpIsRefusedWithALine) {
   EXPECT_NE(head.find("Content-Length: 13"), std::string::npos);
 }
 
-TEST_F(Server, RandomBytesDoNoHarm) {
+TEST_F(WebServerTest, RandomBytesDoNoHarm) {
   std::mt19937 random(3);
   Browser browser;
   const ClientId client = join(browser);
@@ -206,18 +155,14 @@ TEST_F(Server, RandomBytesDoNoHarm) {
     std::string bytes(random() % 600, ' ');
     for (char& c : bytes) c = static_cast<char>(random() % 256);
     bare(port_, bytes);
-    const std::string key =
-        "GET /ws HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\n"
-        "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-        "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
-    bare(port_, key + bytes);
+    bare(port_, opening() + bytes);
   }
   server_->send(only(client), text("still here"));
   EXPECT_EQ(browser.hear()->bytes, "still here");
   EXPECT_EQ(server_->counters().faults, 0u);
 }
 
-TEST(WebServer, AnAddressThatIsTakenIsAProblem) {
+TEST(WebServerStart, AnAddressThatIsTakenIsAProblem) {
   auto first = WebServer::start({}, {});
   ASSERT_TRUE(first);
   const auto second = WebServer::start((*first)->local(), {});
@@ -225,7 +170,7 @@ TEST(WebServer, AnAddressThatIsTakenIsAProblem) {
   EXPECT_NE(second.error().what.find("in use"), std::string::npos) << second.error().what;
 }
 
-TEST(WebServer, EndsWithConsolesConnected) {
+TEST(WebServerStart, EndsWithConsolesConnected) {
   auto server = WebServer::start({}, {});
   ASSERT_TRUE(server);
   Browser browser;

@@ -10,6 +10,7 @@ import { acknowledge, acknowledgeAll, selectedAlarm } from "../../frame/keys";
 import { AgeSince } from "../../view/age_since";
 import { inOrder, needsEyes } from "../../view/alarm_order";
 import { clockText } from "../../view/format";
+import { TableHead } from "../../view/table_head";
 import type { Alarm } from "../../wire/messages";
 
 /** In a flood only the first alarm of each cause and the high ones help. */
@@ -142,14 +143,7 @@ function HistoryTable() {
     <section class="panel grows" aria-label="history" tabIndex={0}>
       <h2>History</h2>
       <table class="readings wide log">
-        <thead>
-          <tr>
-            <th scope="col">UTC</th>
-            <th scope="col">alarm</th>
-            <th scope="col">change</th>
-            <th scope="col">by</th>
-          </tr>
-        </thead>
+        <TableHead names={["UTC", "alarm", "change", "by"]} />
         <tbody>
           {events.map((event, i) => (
             <tr key={`${event.time_ms} ${event.key} ${i}`}>

@@ -4,6 +4,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import * as session from "../../store/session";
 import { clockText } from "../../view/format";
+import { TableHead } from "../../view/table_head";
 
 const kShown = 100;
 
@@ -38,14 +39,7 @@ export function AuditPanel() {
         </button>
       </h2>
       <table class="readings wide log">
-        <thead>
-          <tr>
-            <th scope="col">UTC</th>
-            <th scope="col">who</th>
-            <th scope="col">what</th>
-            <th scope="col">result</th>
-          </tr>
-        </thead>
+        <TableHead names={["UTC", "who", "what", "result"]} />
         <tbody>
           {lines.map((line, i) => (
             <tr key={`${line.time_ms} ${i}`}>

@@ -7,6 +7,7 @@ import * as session from "../../store/session";
 import { isOperator, send } from "../../store/uplink";
 import { AgeSince } from "../../view/age_since";
 import { ageText, kDash } from "../../view/format";
+import { TableHead } from "../../view/table_head";
 import { Line } from "../../view/value";
 import type { LinkPath, LinkWindow, Notice } from "../../wire/messages";
 
@@ -46,19 +47,19 @@ function Paths() {
     <section class="panel" aria-label="paths" tabIndex={0}>
       <h2>Paths</h2>
       <table class="readings wide">
-        <thead>
-          <tr>
-            <th scope="col">path</th>
-            <th scope="col">over</th>
-            <th scope="col">loss %</th>
-            <th scope="col">round trip ms</th>
-            <th scope="col">jitter ms</th>
-            <th scope="col">reorder %</th>
-            <th scope="col">twice %</th>
-            <th scope="col">kbit/s</th>
-            <th scope="col">cap</th>
-          </tr>
-        </thead>
+        <TableHead
+          names={[
+            "path",
+            "over",
+            "loss %",
+            "round trip ms",
+            "jitter ms",
+            "reorder %",
+            "twice %",
+            "kbit/s",
+            "cap",
+          ]}
+        />
         <tbody>
           {paths.map((path) => (
             <PathRows path={path} key={`${path.path} ${path.direction}`} />
@@ -80,15 +81,7 @@ function Groups() {
         Groups down <span class="sum">{total.toFixed(1)} kbit/s</span>
       </h2>
       <table class="readings wide">
-        <thead>
-          <tr>
-            <th scope="col">group</th>
-            <th scope="col">kbit/s</th>
-            <th scope="col" aria-label="share" />
-            <th scope="col">age</th>
-            <th scope="col">wanted</th>
-          </tr>
-        </thead>
+        <TableHead names={["group", "kbit/s", { spoken: "share" }, "age", "wanted"]} />
         <tbody>
           {groups.map((group) => (
             <tr key={group.group} data-over={group.age_ms > 2 * group.target_ms}>

@@ -3,6 +3,7 @@
  * say.
  */
 // SPDX-License-Identifier: Apache-2.0
+import { TableHead } from "../../view/table_head";
 import { Value } from "../../view/value";
 import type { ValueProps } from "../../view/value";
 import { solutionStatus, solutionType } from "../../view/novatel_names";
@@ -22,13 +23,7 @@ const kRows: readonly Row[] = [
 export function GnssPanel() {
   return (
     <table class="readings">
-      <thead>
-        <tr>
-          <th scope="col" />
-          <th scope="col">unit 0</th>
-          <th scope="col">unit 1</th>
-        </tr>
-      </thead>
+      <TableHead names={[{ spoken: "figure" }, "unit 0", "unit 1"]} />
       <tbody>
         {kRows.map(([label, field, props]) => (
           <tr key={field}>

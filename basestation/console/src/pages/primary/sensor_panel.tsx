@@ -3,6 +3,7 @@
  * pause for half a second.
  */
 // SPDX-License-Identifier: Apache-2.0
+import { TableHead } from "../../view/table_head";
 import { Value } from "../../view/value";
 
 const kSensors = [
@@ -18,14 +19,7 @@ const kSensors = [
 export function SensorPanel() {
   return (
     <table class="readings">
-      <thead>
-        <tr>
-          <th scope="col">sensor</th>
-          <th scope="col">rate Hz</th>
-          <th scope="col">gap ms</th>
-          <th scope="col">latency ms</th>
-        </tr>
-      </thead>
+      <TableHead names={["sensor", "rate Hz", "gap ms", "latency ms"]} />
       <tbody>
         {kSensors.map(([sensor, label]) => (
           <tr key={sensor}>
