@@ -40,11 +40,12 @@ async function fetchTrack(): Promise<void> {
 }
 
 async function fetchLayouts(): Promise<void> {
-  const [primary, plots] = await Promise.all([fetchLayout("primary"), fetchLayout("plots")]);
-  const readPrimary = readPrimaryLayout(primary);
-  if (readPrimary) primaryLayout.value = readPrimary;
-  const readPlots = readPlotLayout(plots);
-  if (readPlots) plotLayout.value = readPlots;
+  const [primary, plots] = await Promise.all([
+    fetchLayout("primary", readPrimaryLayout),
+    fetchLayout("plots", readPlotLayout),
+  ]);
+  if (primary) primaryLayout.value = primary;
+  if (plots) plotLayout.value = plots;
 }
 
 setTheme(theme.value);

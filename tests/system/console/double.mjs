@@ -107,6 +107,8 @@ export class Double {
   overrides = new Map();
   /** False: the car is silent, ages grow, every field becomes stale in its time. */
   carAlive = true;
+  /** What the consoles are told that they lost. */
+  dropped = 0;
   layouts = new Map();
   hello = {
     type: "hello",
@@ -199,6 +201,7 @@ export class Double {
   tick() {
     const frame = wire.snapshot(this.entries(), {
       sequence: ++this.sequence,
+      dropped: this.dropped,
       timeMs: this.nowMs(),
     });
     for (const socket of this.sockets.clients) socket.send(frame);

@@ -5,7 +5,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { doubleStage, hold, kPages, show, until } from "./stage.mjs";
+import { doubleStage, hold, kPages, reach, show, until } from "./stage.mjs";
 import { greetings } from "./story.mjs";
 
 const stage = doubleStage((double) => (stage.double.greetings = greetings(double)));
@@ -132,16 +132,9 @@ test("stage, gates, hold: the keyboard alone, from any page", async () => {
   };
   const { page } = await stage.open({ ownClock: true });
   await page.keyboard.press("5");
-  const reach = async (selector) => {
-    for (let n = 0; n < 80; ++n) {
-      if (await page.evaluate((s) => document.activeElement?.matches(s), selector)) return;
-      await page.keyboard.press("Tab");
-    }
-    assert.fail(`Tab does not reach ${selector}`);
-  };
-  await reach('select[aria-label="command"]');
+  await reach(page, 'select[aria-label="command"]');
   await page.keyboard.type("speed");
-  await reach('input[aria-label="argument"]');
+  await reach(page, 'input[aria-label="argument"]');
   await page.keyboard.press("Control+A");
   await page.keyboard.type("120");
   await page.keyboard.press("Enter");
@@ -149,7 +142,7 @@ test("stage, gates, hold: the keyboard alone, from any page", async () => {
   const staged = commands().find((m) => m.type === "stage");
   assert.equal(staged.name, "speed limit");
   assert.ok(Math.abs(staged.argument - 53.645) < 0.01, `${staged.argument} m/s of 120 mph`);
-  await reach("button.send");
+  await reach(page, "button.send");
   await page.clock.pauseAt((await page.evaluate(() => Date.now())) + 2000);
   await page.keyboard.down("Enter");
   await page.clock.runFor(580);

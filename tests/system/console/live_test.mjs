@@ -98,7 +98,7 @@ test("the base dies: within 600 ms nothing looks alive, and a new one is found a
   assert.ok(Date.now() - from < 2500, `back after ${Date.now() - from} ms`);
 });
 
-test("frames and texts that are none are counted and change nothing", async () => {
+test("what cannot be used is counted and changes nothing; what was lost is shown", async () => {
   const { page, faults } = await stage.open();
   for (const socket of stage.double.sockets.clients) {
     for (const text of ["", "{", "null", "[]", '{"type":"constructor"}', '{"type":7}']) {
@@ -112,6 +112,10 @@ test("frames and texts that are none are counted and change nothing", async () =
     return counters.badFrames === 2 && counters.badTexts === 6;
   });
   assert.equal(await page.textContent(".mode-word strong"), "HIL 7");
+  stage.double.dropped = 37;
+  await until(page, "what it lost", () =>
+    document.querySelector(".clocks .detail").textContent.endsWith("37 lost"),
+  );
   assert.deepEqual(faults, []);
 });
 

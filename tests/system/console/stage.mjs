@@ -72,6 +72,15 @@ export async function until(page, what, test, argument, timeoutMs = 5000) {
 /** Goes to a page of the console that is open already. */
 export const show = (page, name) => page.evaluate((hash) => (location.hash = hash), `#/${name}`);
 
+/** Tabs on until the focus is on an element; fails where Tab never comes there. */
+export async function reach(page, selector) {
+  for (let n = 0; n < 120; ++n) {
+    if (await page.evaluate((s) => document.activeElement?.matches(s), selector)) return;
+    await page.keyboard.press("Tab");
+  }
+  throw new Error(`Tab does not reach ${selector}`);
+}
+
 /** Presses the mouse on an element for so long. */
 export async function hold(page, selector, ms) {
   const element = page.locator(selector).first();

@@ -3,6 +3,7 @@
  * it. A high one is spoken at once, others when the screen reader has a pause.
  */
 // SPDX-License-Identifier: Apache-2.0
+import { useEffect } from "preact/hooks";
 import * as session from "../store/session";
 import { inOrder, loudest, needsEyes } from "../view/alarm_order";
 import { acknowledge } from "./keys";
@@ -10,22 +11,36 @@ import { isOperator } from "../store/uplink";
 import { showPage } from "./pages";
 import { AgeSince } from "../view/age_since";
 
+const kErrorShownMs = 20_000;
+
+/** What the base last refused this console, for a while; the audit log keeps it. */
+function Refused() {
+  const error = session.lastError.value;
+  useEffect(() => {
+    if (!error) return;
+    const timer = setTimeout(() => {
+      if (session.lastError.value === error) session.lastError.value = null;
+    }, kErrorShownMs);
+    return () => clearTimeout(timer);
+  }, [error]);
+  return error ? (
+    <span class="refused">
+      refused: {error.what} ({error.place})
+    </span>
+  ) : null;
+}
+
 export function AlarmLine() {
   const active = session.alarms.value?.active ?? [];
   const first = loudest(active);
   const others = inOrder(active).filter(needsEyes).length - 1;
-  const error = session.lastError.value;
   if (!first) {
     return (
       <div class="alarm-line" data-priority="none" role="status" aria-live="polite">
         <span class="text">
           {active.length > 0 ? `${active.length} alarms, all acknowledged` : "no alarms"}
         </span>
-        {error && (
-          <span class="refused">
-            refused: {error.what} ({error.place})
-          </span>
-        )}
+        <Refused />
       </div>
     );
   }
@@ -45,6 +60,7 @@ export function AlarmLine() {
       </span>
       <span class="response">{first.response}</span>
       <AgeSince sinceMs={first.since_ms} />
+      <Refused />
       {others > 0 && (
         <button type="button" onClick={() => showPage("alarms")}>
           +{others} more

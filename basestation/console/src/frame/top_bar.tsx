@@ -88,7 +88,9 @@ function Clocks() {
       const [detail, time] = root.current?.children ?? [];
       if (!time) return;
       time.textContent = isSilent() ? kDash : clockText(session.clock.utcMs(liveMs()));
-      detail.textContent = `UTC \u00b7 draws in ${lastPaintMs.toFixed(1)} ms`;
+      const { dropped } = session.counters;
+      const lost = dropped > 0 ? ` \u00b7 ${dropped} lost` : "";
+      detail.textContent = `UTC \u00b7 draws in ${lastPaintMs.toFixed(1)} ms${lost}`;
     },
     kDigitsHz,
     [],

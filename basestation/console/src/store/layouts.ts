@@ -11,18 +11,26 @@ const place = (name: string): string => `api/layouts/${encodeURIComponent(name)}
 /** The token with which this page was opened, for a base that asks for one. */
 export const token = (): string | null => new URLSearchParams(location.search).get("token");
 
-export async function fetchLayout(name: string): Promise<unknown> {
+const say = (name: string, what: string): void => {
+  lastError.value = { place: `layout ${name}`, what, at: performance.now() };
+};
+
+/** The kept layout as `read` understands it; null where nobody kept one or it is none. */
+export async function fetchLayout<T>(
+  name: string,
+  read: (json: unknown) => T | null,
+): Promise<T | null> {
   try {
     const answer = await fetch(place(name));
-    return answer.status === 200 ? await answer.json() : null;
-  } catch {
+    if (answer.status === 204) return null;
+    const layout = answer.ok ? read(await answer.json()) : null;
+    if (layout === null) say(name, "the kept one is no layout; the usual one is shown");
+    return layout;
+  } catch (error) {
+    if (error instanceof SyntaxError) say(name, "the kept one is no JSON; the usual one is shown");
     return null;
   }
 }
-
-const say = (what: string): void => {
-  lastError.value = { place: "layout", what, at: performance.now() };
-};
 
 export async function storeLayout(name: string, layout: unknown): Promise<void> {
   if (!isOperator.value) return;
@@ -36,8 +44,8 @@ export async function storeLayout(name: string, layout: unknown): Promise<void> 
       },
       body: JSON.stringify(layout),
     });
-    if (!answer.ok) say((await answer.text()).trim() || `status ${answer.status}`);
+    if (!answer.ok) say(name, (await answer.text()).trim() || `status ${answer.status}`);
   } catch {
-    say("no base: kept on this page only");
+    say(name, "no base: kept on this page only");
   }
 }

@@ -1,0 +1,57 @@
+/**
+ * A console without a screen: a WebSocket of its own on the base, what it was told kept by type,
+ * its frames counted. It renews nothing by itself, and stops reading where the test wants it to.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import { WebSocket } from "./packages.mjs";
+
+const kPatienceMs = 10_000;
+
+export class Client {
+  /** Texts in order, the newest of each type, and the newest frame's header. */
+  texts = [];
+  newest = {};
+  frames = 0;
+  dropped = 0;
+
+  static async open(address) {
+    const client = new Client();
+    client.socket = new WebSocket(`${address.replace("http", "ws")}/ws`);
+    client.socket.on("message", (data, isBinary) => client.take(data, isBinary));
+    await client.until("hello", () => client.newest.hello);
+    return client;
+  }
+
+  take(data, isBinary) {
+    if (isBinary) {
+      ++this.frames;
+      this.dropped = data.readUInt32LE(12);
+      return;
+    }
+    const text = JSON.parse(String(data));
+    this.texts.push(text);
+    this.newest[text.type] = text;
+  }
+
+  say(message) {
+    this.socket.send(JSON.stringify(message));
+  }
+
+  count(type) {
+    return this.texts.filter((text) => text.type === type).length;
+  }
+
+  /** Resolves with what `test` gives once that is true. */
+  async until(what, test) {
+    for (const end = Date.now() + kPatienceMs; Date.now() < end;) {
+      const found = test();
+      if (found) return found;
+      await new Promise((done) => setTimeout(done, 10));
+    }
+    throw new Error(`waited ${kPatienceMs} ms in vain for: ${what}`);
+  }
+
+  close() {
+    this.socket.terminate();
+  }
+}

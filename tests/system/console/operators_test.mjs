@@ -1,0 +1,143 @@
+/**
+ * Several consoles on the real base: the authority goes from one to another and each sees the same,
+ * a holder that falls silent loses it, one that does not read hurts nobody but itself, and the
+ * whole job is done by the keyboard alone.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import { Client } from "./client.mjs";
+import { baseStage, reach, until } from "./stage.mjs";
+
+const kToken = "second-person-0123456789";
+
+const stage = baseStage({
+  flags: ({ folder }) => {
+    const tokens = join(folder, "tokens");
+    writeFileSync(tokens, `operator ${kToken} Second\n`, { mode: 0o600 });
+    return ["--web-tokens", tokens];
+  },
+});
+
+const holds = (mine) => document.querySelector(".holder").dataset.mine === String(mine);
+const epochOf = (page) => page.evaluate(() => globalThis.pitwall.session.authority.value.epoch);
+const button = (page, text) => page.locator(`.commands-page button:has-text("${text}")`);
+
+test("the authority is asked for and granted, and both consoles see who has it", async () => {
+  const hash = "#/commands";
+  const { page: first } = await stage.open({ hash });
+  const { page: second } = await stage.open({ hash });
+  await button(first, "Take authority").click();
+  await until(first, "its own", holds, true);
+  const name = await first.evaluate(
+    () => `console ${globalThis.pitwall.session.hello.value.client}`,
+  );
+  await until(
+    second,
+    "the other's name",
+    (wanted) => document.querySelector(".holder .word").textContent.toLowerCase() === wanted,
+    name,
+  );
+  const before = await epochOf(second);
+  assert.equal(await second.isDisabled(".stage button[type=submit]"), true);
+  await button(second, "Ask for authority").click();
+  await until(first, "who asks", () => document.querySelector(".request"));
+  assert.equal(await button(second, "Asked, waiting").count(), 1);
+  await button(first, "Refuse").click();
+  await until(second, "refused", () => !document.body.textContent.includes("Asked, waiting"));
+  assert.equal(await first.evaluate(holds, true), true);
+  await button(second, "Ask for authority").click();
+  await button(first, "Grant").click();
+  await until(second, "its own", holds, true);
+  await until(first, "lost", holds, false);
+  assert.ok((await epochOf(second)) > before, "a new epoch");
+  assert.equal(await epochOf(first), await epochOf(second));
+  assert.equal(await first.isDisabled(".stage button[type=submit]"), true);
+});
+
+test("a holder that falls silent loses it; its ticket sends nothing, its stop does", async () => {
+  const silent = await Client.open(stage.address);
+  silent.say({ type: "authority", do: "take" });
+  await silent.until(
+    "authority",
+    () => silent.newest.authority?.holder === silent.newest.hello.client,
+  );
+  silent.say({ type: "stage", name: "speed limit", argument: 30 });
+  const { ticket } = await silent.until("a ticket", () => silent.newest.command);
+  const { page } = await stage.open({ hash: "#/commands" });
+  await button(page, "Take authority").click();
+  await until(page, "its own", holds, true);
+  silent.say({ type: "send", ticket });
+  await silent.until("refused", () => silent.newest.error);
+  silent.say({ type: "stop", kind: "controlled" });
+  await until(page, "the stop", () =>
+    document.querySelector(".outcome").textContent.includes("stop"),
+  );
+  await silent.until("the car's word", () => stage.programs.carSaid.includes("stop 1"));
+  assert.doesNotMatch(stage.programs.carSaid, /command/);
+  silent.close();
+});
+
+test("a console that does not read loses its own pictures and learns how many", async () => {
+  const { page } = await stage.open();
+  const slow = await Client.open(stage.address);
+  slow.socket.pause();
+  const kPings = 12_000;
+  const at = Date.now();
+  for (let n = 0; n < kPings; ++n) slow.say({ type: "ping", at });
+  await page.waitForTimeout(4000);
+  const { frames, dropped } = await page.evaluate(() => globalThis.pitwall.session.counters);
+  assert.equal(dropped, 0, "the other console loses nothing");
+  await until(page, "it goes on", (n) => globalThis.pitwall.session.counters.frames > n, frames);
+  slow.socket.resume();
+  await slow.until("every answer", () => slow.count("pong") === kPings);
+  await slow.until("what it lost", () => slow.dropped > 0);
+  slow.close();
+});
+
+test("the keyboard alone: find, plot, stage, override, send, stop, acknowledge", async () => {
+  const { page } = await stage.open();
+  const said = () => stage.programs.carSaid;
+  const type = async (selector, text) => {
+    await reach(page, selector);
+    await page.keyboard.press("Control+A");
+    await page.keyboard.type(text);
+  };
+  await page.keyboard.press("/");
+  await page.keyboard.type("tyres pressure_rear");
+  await page.keyboard.press("Enter");
+  await until(page, "the plot", () =>
+    document.querySelector('[aria-label="chart tyres.pressure_rear_left"] canvas'),
+  );
+  await page.keyboard.press("5");
+  await reach(page, ".commands-page button");
+  await page.keyboard.press("Enter");
+  await until(page, "the authority", holds, true);
+  await type('select[aria-label="command"]', "speed");
+  await type('input[aria-label="argument"]', "120");
+  await page.keyboard.press("Enter");
+  await until(page, "a gate that refuses", () => document.querySelector('.gate[data-ok="false"]'));
+  await type(".override input:not([type])", "keyboard run");
+  await type(".override input[type=password]", kToken);
+  await reach(page, "button.send:not(:disabled)");
+  assert.doesNotMatch(said(), /command|stop/, "nothing went to the car yet");
+  await page.keyboard.down("Enter");
+  await page.waitForTimeout(800);
+  await page.keyboard.up("Enter");
+  await until(page, "applied", () =>
+    document.querySelector('.ladder .rungs li:nth-child(5)[data-reached="true"]'),
+  );
+  assert.match(said(), /command speed limit 53\.6/);
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("Escape");
+  await until(
+    page,
+    "the car's own word",
+    () => document.querySelector(".outcome").textContent === "car: controlled stop",
+  );
+  await until(page, "an alarm", () => document.querySelector(".alarm-line button kbd"));
+  await page.keyboard.press("a");
+  await until(page, "acknowledged", () => !document.querySelector(".alarm-line button kbd"));
+});
