@@ -184,7 +184,8 @@ class Judge {
     const FieldView attempts = see(BaseField::kFuelAttempts);
     add(GateKind::kFuel, attempts, attempts.value >= 1.0,
         number(see(BaseField::kFuelLaps).value, "laps") +
-            ", attempts: " + number(attempts.value, ""));
+            ", attempts: " + number(attempts.value, "") +
+            (see(BaseField::kFuelEstimated).value > 0.0 ? "(estimate)" : ""));
   }
 
   void alarms() {

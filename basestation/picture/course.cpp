@@ -76,6 +76,13 @@ CoursePose Course::at(double s_m, double offset_m) const {
           .yaw_rad = wrap_pi(yaw)};
 }
 
+bool Course::in_pit(double s_m, double offset_m) const {
+  if (!pit_) return false;
+  const double length_m = wrapped(pit_->to_s_m - pit_->from_s_m);
+  return wrapped(s_m - pit_->from_s_m) <= length_m &&
+         std::abs(offset_m - pit_->offset_m) < std::abs(offset_m);
+}
+
 double Course::to_corner_m(double s_m) const {
   double nearest_m = std::numeric_limits<double>::infinity();
   for (const CornerWindow& corner : corners_) {

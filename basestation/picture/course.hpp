@@ -1,6 +1,6 @@
 // The track as the base needs it: where a station is, where the corners are.
 //   in     points along the reference line, stations rising from 0; the line is closed
-//   out    pose at a station; corner windows; time and place of the next one
+//   out    pose at a station; corner windows; the place of the next one; who is in the pit lane
 //   frames Map, as the car tells its position; offset left positive
 //   errors make(): Problem for fewer than 4 points, stations that do not rise, no numbers
 //   law    a corner window is a stretch whose curvature is at least kCornerCurvature; gaps shorter
@@ -27,6 +27,11 @@ struct CornerWindow {
   double from_s_m = kUnset, to_s_m = kUnset;
 };
 
+// Beside the line, offset left positive; from, to as of a corner.
+struct PitLane {
+  double from_s_m = kUnset, to_s_m = kUnset, offset_m = kUnset;
+};
+
 class Course {
  public:
   static constexpr double kCornerCurvature = 1.0 / 500.0;  // an oval's turns: 150 .. 300 m
@@ -36,6 +41,9 @@ class Course {
 
   double length_m() const { return length_m_; }
   const std::vector<CornerWindow>& corners() const { return corners_; }
+  void set_pit(const PitLane& pit) { pit_ = pit; }
+  // Between entry and exit, and nearer to the lane than to the line.
+  bool in_pit(double s_m, double offset_m) const;
   CoursePose at(double s_m, double offset_m) const;  // s is wrapped
   // Going forward from s: 0 inside a corner; infinity where there is none.
   double to_corner_m(double s_m) const;
@@ -47,6 +55,7 @@ class Course {
   std::vector<CoursePoint> points_;
   double length_m_ = kUnset;
   std::vector<CornerWindow> corners_;
+  std::optional<PitLane> pit_;
 };
 
 }  // namespace pitwall::picture

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 
 #include "basestation/picture/own_field.hpp"
@@ -24,16 +25,20 @@ struct LinkFigures {
 
 struct BaseFigures {
   double disk_minutes = kUnset;     // that the recorder can still write
+  double recording = kUnset;        // as kRecordingStates
+  double recorder_lost = kUnset, recorder_kbyte_s = kUnset;
   double clock_offset_ms = kUnset;  // of the base against UTC, where something compares them
   bool joystick_lost = false;       // was in use, gives no samples now
   bool authority_lost = false;      // expired without being dropped or handed over
   bool schema_differs = false;      // car and base disagree on the safety groups
 };
 
-// What the pit wall expects, as its people said.
+// What the pit wall's people said.
 struct Expectations {
   double round_speed_mps = kUnset;  // of the bracket that was announced
   double track_flag = kUnset;       // that the base relays, as telemetry::kTrackFlags
+  double fuel_loaded_l = kUnset;    // in the tank when it was entered
+  std::uint64_t fuel_entries = 0;   // each counts, also of the same litres
 };
 
 struct Known {

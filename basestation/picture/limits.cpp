@@ -85,6 +85,8 @@ constexpr auto kOwnLimits = std::to_array<DefaultLimit>({
     {field_id("derived.fuel_attempts"), at_least(2.0, 1.0)},
     {field_id("derived.fuel_state"), among({2}, {3})},
     {field_id("base.disk_minutes"), at_least(60.0, 10.0)},
+    {field_id("base.recording"), among({}, {2})},
+    {field_id("base.recorder_lost"), {.warning_high = 0.0}},
     {field_id("base.clock_offset_ms"), at_most(2.0, 5.0)},
     {field_id("base.joystick_lost"), among({}, {1})},
     {field_id("base.authority_lost"), among({1}, {})},

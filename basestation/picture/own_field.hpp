@@ -66,13 +66,20 @@ enum class BaseField : std::uint8_t {
   kGhostY,
   kGhostYaw,
   kGhostRadius,
+  kFuelLevel,
+  kFuelEstimated,
+  kRoundSpeedExpected,
+  kInPit,
   kDiskMinutes,
+  kRecording,
+  kRecorderLost,
+  kRecorderRate,
   kClockOffset,
   kJoystickLost,
   kAuthorityLost,
   kSchemaDiffers
 };
-inline constexpr std::size_t kBaseFields = 48;
+inline constexpr std::size_t kBaseFields = 55;
 
 struct BaseRow {
   BaseField field;
@@ -83,6 +90,7 @@ struct BaseRow {
 inline constexpr Duration kBasePeriod = milliseconds(100);  // they are made anew more often
 
 inline constexpr std::string_view kLinkStates = "none|good|degraded|lost";
+inline constexpr std::string_view kRecordingStates = "off|on|disk takes nothing";
 inline constexpr std::string_view kFuelStates = "unknown|enough|no attempt left|home now";
 
 inline constexpr auto kBaseTable = [] {
@@ -133,7 +141,14 @@ inline constexpr auto kBaseTable = [] {
       {kGhostY, "derived", "ghost_y", "m", -kMetres, kMetres, 0.1},
       {kGhostYaw, "derived", "ghost_yaw", "rad", -3.1416, 3.1416, 0.001},
       {kGhostRadius, "derived", "ghost_radius", "m", 0, kMetres, 0.1},
+      {kFuelLevel, "derived", "fuel_level", "l", 0, 200, 0.1},  // measured, else reckoned
+      {kFuelEstimated, "derived", "fuel_estimated", "", 0, 1, 1, kNoYes},
+      {kRoundSpeedExpected, "derived", "round_speed_expected", "m/s", 0, 102, 0.1},  // announced
+      {kInPit, "derived", "in_pit", "", 0, 1, 1, kNoYes},
       {kDiskMinutes, "base", "disk_minutes", "min", 0, kLong_ms, 1},
+      {kRecording, "base", "recording", "", 0, 2, 1, kRecordingStates},
+      {kRecorderLost, "base", "recorder_lost", "", 0, 1e15, 1},  // records, since the start
+      {kRecorderRate, "base", "recorder_kbyte_s", "kB/s", 0, 1e6, 0.1},
       {kClockOffset, "base", "clock_offset_ms", "ms", -kLong_ms, kLong_ms, 0.1},
       {kJoystickLost, "base", "joystick_lost", "", 0, 1, 1, kNoYes},
       {kAuthorityLost, "base", "authority_lost", "", 0, 1, 1, kNoYes},

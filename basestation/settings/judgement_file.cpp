@@ -105,9 +105,15 @@ std::vector<yaml::StrictMap> list(yaml::StrictMap& root, const char* key) {
   return root.has(key) ? root.maps(key) : std::vector<yaml::StrictMap>{};
 }
 
-picture::WatchConfig config_of(yaml::StrictMap& root) {
-  picture::WatchConfig config;
+Judgement config_of(yaml::StrictMap& root) {
+  constexpr int kRevisionMax = 1'000'000'000;
+  constexpr double kUpMax_kbit = 100'000.0;
+  Judgement config;
   (void)root.integer("version", 1, 1);
+  config.revision = static_cast<std::uint64_t>(root.integer_or("revision", 0, 0, kRevisionMax));
+  if (auto radio = root.optional_map("radio")) {
+    config.up_kbit_s = radio->number("up_kbit_s", 1.0, kUpMax_kbit);
+  }
   if (auto fuel = root.optional_map("fuel")) config.derive.fuel = fuel_of(*fuel);
   if (auto gate = root.optional_map("tyre_gate")) config.derive.tyres = gate_of(*gate);
   for (yaml::StrictMap& map : list(root, "alarms")) {
@@ -180,24 +186,26 @@ std::string row(const char* key, const std::array<double, N>& numbers) {
 
 }  // namespace
 
-Result<picture::WatchConfig, Problem> read_judgement_text(std::string_view text,
-                                                          const std::string& name) {
+Result<Judgement, Problem> read_judgement_text(std::string_view text, const std::string& name) {
   const auto document = yaml::load_text(text, name);
   if (!document) return Unexpected{document.error()};
   return yaml::read(*document, config_of);
 }
 
-Result<picture::WatchConfig, Problem> read_judgement_file(const std::filesystem::path& path) {
+Result<Judgement, Problem> read_judgement_file(const std::filesystem::path& path) {
   const auto document = yaml::load_file(path);
   if (!document) return Unexpected{document.error()};
   return yaml::read(*document, config_of);
 }
 
 std::string judgement_text(const picture::DeriveParams& params, const picture::Limits& limits,
-                           const alarms::AlarmSettings& alarms) {
+                           const alarms::AlarmSettings& alarms, std::uint64_t revision,
+                           double up_kbit_s) {
   const picture::FuelPlan& fuel = params.fuel;
   std::string out =
-      "version: 1\nfuel: {attempt_laps: " + text_of(fuel.attempt_laps) +
+      "version: 1\nrevision: " + std::to_string(revision) + "\n" +
+      (std::isnan(up_kbit_s) ? "" : "radio: {up_kbit_s: " + text_of(up_kbit_s) + "}\n") +
+      "fuel: {attempt_laps: " + text_of(fuel.attempt_laps) +
       ", home_laps: " + text_of(fuel.home_laps) + ", reserve_l: " + text_of(fuel.reserve_l) +
       ", guess_l_per_lap: " + text_of(fuel.guess_l_per_lap) + "}\ntyre_gate:\n" +
       row("speed_mps", params.tyres.speed_mps) + row("temperature_c", params.tyres.temperature_c);

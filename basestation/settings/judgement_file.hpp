@@ -12,9 +12,12 @@
 //   limits:
 //     - {field: tyres.pressure_rear_left, warning_low: 150, author: A. Saba, reason: new tyres}
 //   fuel: {attempt_laps: 2, home_laps: 1, reserve_l: 2, guess_l_per_lap: 2.2}
+//   revision: 12                      counts the changes
+//   radio: {up_kbit_s: 128}           as the operators have lowered it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -25,10 +28,15 @@
 namespace pitwall::settings {
 
 // The course is not in it.
-Result<picture::WatchConfig, Problem> read_judgement_file(const std::filesystem::path& path);
-Result<picture::WatchConfig, Problem> read_judgement_text(std::string_view text,
-                                                          const std::string& name);
+struct Judgement : picture::WatchConfig {
+  std::uint64_t revision = 0;
+  double up_kbit_s = kUnset;
+};
+
+Result<Judgement, Problem> read_judgement_file(const std::filesystem::path& path);
+Result<Judgement, Problem> read_judgement_text(std::string_view text, const std::string& name);
 std::string judgement_text(const picture::DeriveParams& params, const picture::Limits& limits,
-                           const alarms::AlarmSettings& alarms);
+                           const alarms::AlarmSettings& alarms, std::uint64_t revision = 0,
+                           double up_kbit_s = kUnset);
 
 }  // namespace pitwall::settings

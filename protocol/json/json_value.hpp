@@ -28,6 +28,7 @@ class JsonValue {
 
   // Of an object; the first one of that name. Anything else has no members.
   const JsonValue* find(std::string_view key) const;
+  bool is_null() const { return std::holds_alternative<std::monostate>(value_); }
   bool is_object() const { return std::holds_alternative<Members>(value_); }
 
   std::string text(std::string_view key) const;

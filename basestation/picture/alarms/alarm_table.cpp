@@ -18,7 +18,7 @@ constexpr Situations kAnywhere = in({});
 constexpr Situations kHeard = in({Situation::kLinkLost});  // of the car, as long as it is heard
 constexpr Situations kArmed = in({Situation::kLinkLost, Situation::kDisarmed});
 constexpr Situations kDriving =
-    in({Situation::kLinkLost, Situation::kDisarmed, Situation::kStanding});
+    in({Situation::kLinkLost, Situation::kDisarmed, Situation::kStanding, Situation::kInPit});
 constexpr Situations kRunning = in({Situation::kLinkLost, Situation::kEngineOff});
 
 constexpr Duration kAtOnce{}, kBlink = milliseconds(100), kShort = milliseconds(500);

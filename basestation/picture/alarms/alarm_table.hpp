@@ -32,9 +32,10 @@ enum class Situation : std::uint8_t {
   kLinkLost,   // nothing is known: the link's own alarm stands for all
   kDisarmed,   // nobody drives
   kEngineOff,  // pressures and temperatures of an engine that does not run
-  kStanding
+  kStanding,
+  kInPit  // off every line, on tyres that people change
 };
-inline constexpr std::size_t kSituations = 4;
+inline constexpr std::size_t kSituations = 5;
 struct Situations {
   std::uint8_t bits = 0;
 

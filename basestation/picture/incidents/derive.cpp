@@ -66,6 +66,9 @@ void derive_link(const Pass& pass, const Known& known, const Books& books) {
   pass.put(kLoss30s, link.loss_30s);
   pass.put(kPacketRate, link.packets_hz);
   pass.put(kDiskMinutes, known.base.disk_minutes);
+  pass.put(kRecording, known.base.recording);
+  pass.put(kRecorderLost, known.base.recorder_lost);
+  pass.put(kRecorderRate, known.base.recorder_kbyte_s);
   pass.put(kClockOffset, std::abs(known.base.clock_offset_ms));
   pass.put(kJoystickLost, yes(known.base.joystick_lost));
   pass.put(kAuthorityLost, yes(known.base.authority_lost));
@@ -222,17 +225,22 @@ void derive_flags(const Pass& pass, const Expectations& expected) {
                               .pit_wall_mps = expected.round_speed_mps,
                               .car_target_mps = pass.usable(kTarget)};
   pass.put(BaseField::kRaceControlSpeed, round_mps, {kRound});
+  pass.put(BaseField::kRoundSpeedExpected, expected.round_speed_mps);
   pass.put(BaseField::kRoundSpeedConflict,
            std::isnan(round_mps) ? kUnset : (round_speed_conflict(speeds) ? 1.0 : 0.0), {kRound});
 }
 
 void derive_fuel(const Pass& pass, const Books& books, const FuelPlan& plan) {
-  constexpr FieldIndex kLevel = field("fuel.level");
-  const FuelLeft left = books.fuel.left(plan);
+  const FuelLeft left = books.fuel_left(plan);
+  const FieldIndex source =
+      left.estimated ? field("powertrain.throttle_position") : field("fuel.level");
   pass.put(BaseField::kFuelPerLap, left.per_lap_l);
-  pass.put(BaseField::kFuelLaps, left.laps, {kLevel});
-  pass.put(BaseField::kFuelAttempts, left.attempts, {kLevel});
-  pass.put(BaseField::kFuelState, static_cast<double>(left.state), {kLevel});
+  pass.put(BaseField::kFuelLevel, left.level_l, {source});
+  pass.put(BaseField::kFuelEstimated,
+           std::isnan(left.level_l) ? kUnset : (left.estimated ? 1.0 : 0.0));
+  pass.put(BaseField::kFuelLaps, left.laps, {source});
+  pass.put(BaseField::kFuelAttempts, left.attempts, {source});
+  pass.put(BaseField::kFuelState, static_cast<double>(left.state), {source});
 }
 
 void derive_place(const Pass& pass, const Course* course) {
@@ -248,6 +256,10 @@ void derive_place(const Pass& pass, const Course* course) {
   const bool ahead = course != nullptr && !std::isnan(last.station_m) && last.speed_mps > 0.0;
   const double corner_in_s = ahead ? course->to_corner_m(last.station_m) / last.speed_mps : kUnset;
   pass.put(BaseField::kCornerIn, corner_in_s, {kStation, kSpeed});
+  const bool placed = course != nullptr && !std::isnan(last.station_m + last.offset_m);
+  pass.put(BaseField::kInPit,
+           placed ? (course->in_pit(last.station_m, last.offset_m) ? 1.0 : 0.0) : kUnset,
+           {kStation});
   const auto ghost = ghost_of(last, pass.see(kX).age, course).value_or(Ghost{});
   pass.put(BaseField::kGhostX, ghost.x_m);
   pass.put(BaseField::kGhostY, ghost.y_m);
@@ -257,21 +269,47 @@ void derive_place(const Pass& pass, const Course* course) {
 
 }  // namespace
 
+bool Books::sampled_anew(const Picture& picture, Group group, Instant now, Instant& newest) {
+  const FieldView view = picture.group(group, now);
+  if (view.quality == Quality::kNever || now - view.age <= newest) return false;
+  newest = now - view.age;
+  return true;
+}
+
+// By the car's own level where it tells one, else by what was loaded and burnt.
+void Books::step_fuel(const Picture& picture, const Expectations& said, Instant now) {
+  const auto value = [&](FieldIndex index) { return picture.view(index, now).value; };
+  const double level_l = value(field("fuel.level")), lap = value(field("track.lap"));
+  fuel_measured_ = fuel_measured_ || !std::isnan(level_l);
+  bool reckoned = said.fuel_entries != fuel_entries_;
+  if (reckoned) estimate_.loaded(said.fuel_loaded_l);
+  fuel_entries_ = said.fuel_entries;
+  if (sampled_anew(picture, Group::kPowertrain, now, engine_at_)) {
+    estimate_.heard({.speed_rpm = value(field("engine.speed")),
+                     .throttle = value(field("powertrain.throttle_position")),
+                     .running = value(field("engine.running")) > 0.0},
+                    engine_at_);
+    reckoned = true;
+  }
+  if (sampled_anew(picture, Group::kFuel, now, fuel_at_)) {
+    fuel.heard(level_l, value(field("fuel.used")), lap);
+  }
+  if (!fuel_measured_ && reckoned) fuel.heard(estimate_.level_l(), estimate_.used_l(), lap);
+}
+
+FuelLeft Books::fuel_left(const FuelPlan& plan) const {
+  FuelLeft left = fuel.left(plan);
+  left.estimated = !fuel_measured_ && !std::isnan(left.level_l);
+  return left;
+}
+
 void Books::step(const Picture& picture, const Known& known, Instant now) {
   link.step(known.link, now);
-  const auto sampled_anew = [&](Group group, Instant& newest) {
-    const FieldView view = picture.group(group, now);
-    if (view.quality == Quality::kNever || now - view.age <= newest) return false;
-    newest = now - view.age;
-    return true;
-  };
+  step_fuel(picture, known.expected, now);
   const auto value = [&](FieldIndex index) { return picture.view(index, now).value; };
-  if (sampled_anew(Group::kFuel, fuel_at_)) {
-    fuel.heard(value(field("fuel.level")), value(field("fuel.used")), value(field("track.lap")));
-  }
   constexpr std::array kGroups{Group::kGnss0, Group::kGnss1};
   for (std::size_t unit = 0; unit < kReceivers.size(); ++unit) {
-    if (!sampled_anew(kGroups[unit], gnss_at_[unit])) continue;
+    if (!sampled_anew(picture, kGroups[unit], now, gnss_at_[unit])) continue;
     corrections.heard(unit, value(kReceivers[unit].correction_age),
                       value(kReceivers[unit].satellites), gnss_at_[unit]);
   }

@@ -10,6 +10,7 @@
 #include "basestation/picture/course.hpp"
 #include "basestation/picture/incidents/corrections.hpp"
 #include "basestation/picture/incidents/fuel.hpp"
+#include "basestation/picture/incidents/fuel_estimate.hpp"
 #include "basestation/picture/incidents/link_state.hpp"
 #include "basestation/picture/incidents/tyre_gate.hpp"
 #include "basestation/picture/known.hpp"
@@ -29,9 +30,16 @@ struct Books {
 
   // Once for each new sample of the groups they follow, and once each step of the grid.
   void step(const Picture& picture, const Known& known, Instant now);
+  FuelLeft fuel_left(const FuelPlan& plan) const;
 
  private:
-  Instant fuel_at_ = telemetry::kNeverSampled;
+  void step_fuel(const Picture& picture, const Expectations& said, Instant now);
+  bool sampled_anew(const Picture& picture, telemetry::Group group, Instant now, Instant& newest);
+
+  FuelEstimate estimate_;
+  std::uint64_t fuel_entries_ = 0;
+  bool fuel_measured_ = false;
+  Instant fuel_at_ = telemetry::kNeverSampled, engine_at_ = telemetry::kNeverSampled;
   std::array<Instant, CorrectionWatch::kUnits> gnss_at_{telemetry::kNeverSampled,
                                                         telemetry::kNeverSampled};
 };

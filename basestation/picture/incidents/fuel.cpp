@@ -30,7 +30,7 @@ void FuelBook::heard(double level_l, double used_l, double lap) {
 }
 
 FuelLeft FuelBook::left(const FuelPlan& plan) const {
-  FuelLeft left{.measured = laps_ > 0};
+  FuelLeft left{.level_l = level_l_, .measured = laps_ > 0};
   const auto known = static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(laps_, kLaps));
   left.per_lap_l = left.measured ? *std::max_element(burnt_l_.begin(), burnt_l_.begin() + known)
                                  : plan.guess_l_per_lap;

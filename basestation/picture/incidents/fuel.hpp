@@ -28,9 +28,10 @@ struct FuelPlan {
 enum class FuelState : std::uint8_t { kUnknown, kEnough, kNoAttempt, kHomeNow };
 
 struct FuelLeft {
-  double per_lap_l = kUnset, laps = kUnset, attempts = kUnset;
+  double level_l = kUnset, per_lap_l = kUnset, laps = kUnset, attempts = kUnset;
   FuelState state = FuelState::kUnknown;
-  bool measured = false;  // else by the plan's guess
+  bool measured = false;   // else by the plan's guess
+  bool estimated = false;  // the level is reckoned, not measured
 };
 
 class FuelBook {

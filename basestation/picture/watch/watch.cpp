@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 namespace pitwall::picture {
 namespace {
@@ -36,6 +37,51 @@ void Watch::advance(const Picture& picture, Instant now) {
   }
 }
 
+// Who takes an input, by its kind.
+struct Watch::Taking {
+  Watch& watch;
+  Instant at;
+
+  Result<bool, Problem> operator()(const LinkFigures& figures) const {
+    watch.link(figures);
+    return true;
+  }
+  Result<bool, Problem> operator()(const BaseFigures& figures) const {
+    watch.base(figures);
+    return true;
+  }
+  Result<bool, Problem> operator()(const Expectations& expected) const {
+    watch.expect(expected);
+    return true;
+  }
+  Result<bool, Problem> operator()(const AlarmAct& act) const {
+    alarms::Engine& engine = watch.engine_;
+    switch (act.kind) {
+      case AlarmAct::Kind::kAcknowledge:
+        return engine.acknowledge(act.alarm, act.by, at);
+      case AlarmAct::Kind::kShelve:
+        return engine.shelve(act.alarm, act.length, act.by, act.reason, at);
+      case AlarmAct::Kind::kUnshelve:
+        return engine.unshelve(act.alarm, act.by, at);
+      case AlarmAct::Kind::kReset:
+        return engine.reset(act.alarm, act.by, at);
+    }
+    return true;
+  }
+  Result<bool, Problem> operator()(const NoticeAct& act) const {
+    alarms::Notices& notices = watch.notices_;
+    return act.send ? notices.send(act.notice, act.by) : notices.dismiss(act.notice, act.by);
+  }
+  Result<bool, Problem> operator()(const LimitEdit& edit) const { return watch.edit(edit); }
+  Result<bool, Problem> operator()(const alarms::AlarmEdit& edit) const {
+    return watch.engine_.edit(edit);
+  }
+};
+
+Result<bool, Problem> Watch::take(const WatchInput& input, Instant at) {
+  return std::visit(Taking{*this, at}, input);
+}
+
 void Watch::step(const Picture& picture, Instant now) {
   books_.step(picture, known_, now);
   derive(params_, picture, known_, books_, course_ ? &*course_ : nullptr, now, views_);
@@ -66,6 +112,7 @@ alarms::Situations Watch::situations(const Picture& picture, Instant now) const 
   so.set(kDisarmed, value(field("mode.mode")) == kDisarmedMode);
   so.set(kEngineOff, !(value(field("engine.running")) > 0.0));
   so.set(kStanding, std::abs(value(field("ego.vx"))) < kStanding_mps);
+  so.set(kInPit, views_[index_of(BaseField::kInPit)].value > 0.0);
   return so;
 }
 

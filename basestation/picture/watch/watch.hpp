@@ -23,6 +23,7 @@
 #include "basestation/picture/known.hpp"
 #include "basestation/picture/limits.hpp"
 #include "basestation/picture/picture.hpp"
+#include "basestation/picture/watch/input.hpp"
 
 namespace pitwall::picture {
 
@@ -45,7 +46,9 @@ class Watch {
   void advance(const Picture& picture, Instant now);
   std::uint64_t steps_left_out() const { return left_out_; }
 
-  // After advance() to the time of the change. A packet came; the figures say it, too, but seldom.
+  // After advance() to the time of the change. Any input, as a value: what a recording keeps.
+  Result<bool, Problem> take(const WatchInput& input, Instant at);
+  // A packet came; the figures say it, too, but seldom.
   void heard(Instant at) { known_.link.heard = at; }
   void link(const LinkFigures& figures) { known_.link = figures; }
   void base(const BaseFigures& figures) { known_.base = figures; }
@@ -61,7 +64,7 @@ class Watch {
   const std::optional<Course>& course() const { return course_; }
   LinkState link_state() const { return books_.link.state(); }
   Instant link_since() const { return books_.link.since(); }
-  FuelLeft fuel() const { return books_.fuel.left(params_.fuel); }
+  FuelLeft fuel() const { return books_.fuel_left(params_.fuel); }
   const DeriveParams& params() const { return params_; }  // as the file has them
   const TyreGate& tyre_gate() const { return params_.tyres; }
 
@@ -70,6 +73,8 @@ class Watch {
   Judgement judge(FieldId field, const FieldView& view) const { return limits_.judge(field, view); }
 
  private:
+  struct Taking;
+
   void step(const Picture& picture, Instant now);
   alarms::Situations situations(const Picture& picture, Instant now) const;
 

@@ -79,5 +79,21 @@ TEST(Course, BadPointsAreRefused) {
   EXPECT_FALSE(make([](auto& points, double&) { points[0].s_m = -1.0; }));
 }
 
+// The lane lies across the start line, as that of most ovals.
+TEST(Course, ThePitLaneIsBesideTheLineNotOnIt) {
+  const Oval oval;
+  Course course = oval.course();
+  EXPECT_FALSE(course.in_pit(0.0, 20.0)) << "no lane is known";
+  course.set_pit({.from_s_m = oval.length_m() - 200.0, .to_s_m = 200.0, .offset_m = 20.0});
+  for (const double s : {oval.length_m() - 199.0, 0.0, 199.0, oval.length_m() + 10.0}) {
+    EXPECT_TRUE(course.in_pit(s, 20.0)) << s;
+    EXPECT_TRUE(course.in_pit(s, 11.0)) << s;
+    EXPECT_FALSE(course.in_pit(s, 9.0)) << s << ": nearer to the line";
+    EXPECT_FALSE(course.in_pit(s, -20.0)) << s;
+  }
+  EXPECT_FALSE(course.in_pit(201.0, 20.0));
+  EXPECT_FALSE(course.in_pit(oval.length_m() - 201.0, 20.0));
+}
+
 }  // namespace
 }  // namespace pitwall::picture

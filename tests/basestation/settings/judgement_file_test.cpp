@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace pitwall::settings {
 namespace {
 
@@ -50,6 +52,18 @@ TEST(JudgementFile, WritingIsTheInverseOfReading) {
     EXPECT_EQ(picture::judge(again->limits.of(id), 11.6),
               picture::judge(first->limits.of(id), 11.6));
   }
+}
+
+TEST(JudgementFile, RevisionAndBudgetAreKept) {
+  const auto first = read_judgement_text("version: 1\n", "wall.yaml");
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->revision, 0u);
+  EXPECT_TRUE(std::isnan(first->up_kbit_s));
+  const auto again = read_judgement_text(
+      judgement_text(first->derive, first->limits, first->alarms, 12, 128.5), "written.yaml");
+  ASSERT_TRUE(again) << to_string(again.error());
+  EXPECT_EQ(again->revision, 12u);
+  EXPECT_EQ(again->up_kbit_s, 128.5);
 }
 
 TEST(JudgementFile, AnEmptyOneIsTheDefaults) {

@@ -28,7 +28,7 @@ struct Radio {
 using enum LinkState;
 using States = std::vector<LinkState>;
 
-TEST(LinkState, SilenceOfHalfASecondIsLost) {
+TEST(LinkState, SilenceIsLost) {
   Radio radio;
   radio.run(seconds(1), true);
   const Instant last = *radio.figures.heard;

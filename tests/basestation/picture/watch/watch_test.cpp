@@ -96,6 +96,47 @@ TEST(Watch, FuelForNoAttemptIsSeenBeforeItBegins) {
   EXPECT_TRUE(wall.alarm("fuel_home_now"));
 }
 
+// A car without a level: reckoned from what was loaded, and the same alarm comes of it.
+TEST(Watch, FuelIsReckonedWhereTheCarDoesNotTellIt) {
+  RaceWall wall;
+  wall.set(field("fuel.level"), kUnset);
+  wall.set(field("engine.speed"), 6'000.0);
+  wall.set(field("powertrain.throttle_position"), 0.8);
+  wall.run(seconds(2));
+  EXPECT_TRUE(std::isnan(value(wall, BaseField::kFuelAttempts)));
+  wall.watch.expect({.fuel_loaded_l = 40.0, .fuel_entries = 1});
+  wall.run(seconds(1));
+  EXPECT_NEAR(value(wall, BaseField::kFuelLevel), 40.0, 0.2);
+  EXPECT_EQ(value(wall, BaseField::kFuelEstimated), 1.0);
+  EXPECT_GE(value(wall, BaseField::kFuelAttempts), 1.0);
+  while (value(wall, BaseField::kFuelLevel) > 5.0) wall.run(seconds(5));
+  EXPECT_TRUE(wall.alarm("fuel_no_attempt"));
+  wall.watch.expect({.fuel_loaded_l = 40.0, .fuel_entries = 2});
+  wall.run(seconds(4));
+  EXPECT_FALSE(wall.alarm("fuel_no_attempt"));
+  wall.set(field("fuel.level"), 12.0);  // a measurement holds from its first on
+  wall.run(seconds(4));
+  EXPECT_EQ(value(wall, BaseField::kFuelEstimated), 0.0);
+  EXPECT_EQ(value(wall, BaseField::kFuelLevel), 12.0);
+}
+
+TEST(Watch, InThePitLaneNoAlarmIsMadeOfTyresAndLine) {
+  picture::WatchConfig config = RaceWall::with_track();
+  config.course->set_pit({.from_s_m = 0.0, .to_s_m = 100.0, .offset_m = 20.0});
+  RaceWall wall{std::move(config)};
+  wall.tyres(29.0);
+  wall.set(field("track.offset"), 20.0);
+  wall.set(field("dynamics.lateral_error"), 3.0);
+  wall.run(seconds(3));
+  EXPECT_EQ(value(wall, BaseField::kInPit), 1.0);
+  EXPECT_FALSE(wall.alarm("tyres_cold"));
+  EXPECT_FALSE(wall.alarm("off_line_far"));
+  wall.set(field("track.offset"), 2.0);  // it leaves, as cold and as far off
+  wall.run(seconds(3));
+  EXPECT_TRUE(wall.alarm("tyres_cold"));
+  EXPECT_TRUE(wall.alarm("off_line_far"));
+}
+
 // Corrections that two users take from each other, and a tunnel that takes both receivers' sky.
 TEST(Watch, SharedCorrectionsAreSeenATunnelIsNot) {
   for (const bool tunnel : {false, true}) {
