@@ -13,6 +13,7 @@ import { Navigation } from "./frame/navigation";
 import { page } from "./frame/pages";
 import type { PageName } from "./frame/pages";
 import { ReplayBar } from "./frame/replay_bar";
+import { ShelveDialog, shelving } from "./frame/shelve";
 import { StopRail } from "./frame/stop_rail";
 import { TopBar } from "./frame/top_bar";
 import { AlarmsPage } from "./pages/alarms/page";
@@ -51,6 +52,7 @@ export function App() {
       {mode === "REPLAY" ? <ReplayBar /> : <DvrBar />}
       {helpShown.value && <Help />}
       {finderShown.value && <Finder />}
+      {shelving.value !== null && <ShelveDialog key={shelving.value} />}
     </div>
   );
 }

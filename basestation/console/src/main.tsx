@@ -19,6 +19,7 @@ import "./theme/alarms.css";
 import "./theme/narrow.css";
 import { App } from "./app";
 import { listenToKeys } from "./frame/keys";
+import { listenToAlarms, sounded } from "./frame/tones";
 import { forgetEarlier } from "./pages/plots/backfill";
 import { plotLayout, readPlotLayout } from "./pages/plots/layout";
 import { primaryLayout, readPrimaryLayout } from "./pages/primary/layout";
@@ -53,6 +54,7 @@ listenToKeys();
 render(<App />, document.getElementById("console")!);
 startPainting();
 keepAuthority();
+listenToAlarms();
 
 const bearer = token();
 const scheme = location.protocol === "https:" ? "wss:" : "ws:";
@@ -70,4 +72,4 @@ effect(() => {
   if (heldMs.value === null || speed.value === 0) repaint();
 });
 // The console as a test or a curious engineer may look into it.
-Object.assign(window, { pitwall: { session } });
+Object.assign(window, { pitwall: { session, sounded } });

@@ -9,6 +9,7 @@ import { inOrder, loudest, needsEyes } from "../view/alarm_order";
 import { acknowledge } from "./keys";
 import { isOperator } from "../store/uplink";
 import { showPage } from "./pages";
+import { SoundButton } from "./sound_button";
 import { AgeSince } from "../view/age_since";
 
 const kErrorShownMs = 20_000;
@@ -61,6 +62,7 @@ export function AlarmLine() {
       <span class="response">{first.response}</span>
       <AgeSince sinceMs={first.since_ms} />
       <Refused />
+      <SoundButton />
       {others > 0 && (
         <button type="button" onClick={() => showPage("alarms")}>
           +{others} more

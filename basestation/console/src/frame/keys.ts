@@ -5,12 +5,13 @@
 // SPDX-License-Identifier: Apache-2.0
 import { signal } from "@preact/signals";
 import * as session from "../store/session";
-import { send, stop } from "../store/uplink";
+import { isOperator, send, stop } from "../store/uplink";
 import { nextTheme } from "../theme/theme";
 import { inOrder, loudest, needsEyes } from "../view/alarm_order";
 import { nextSpeedUnit } from "../view/speed_unit";
 import * as transport from "../view/transport";
 import { kPages, showPage } from "./pages";
+import { shelving } from "./shelve";
 
 export const kDoubleEscapeMs = 600;
 
@@ -34,6 +35,12 @@ export function acknowledgeAll(): void {
   if (seen.length > 0) send({ type: "ack", all: seen.map((alarm) => alarm.id) });
 }
 
+function shelveSelected(): void {
+  const active = session.alarms.value?.active ?? [];
+  const chosen = active.find((alarm) => alarm.id === selectedAlarm.value) ?? loudest(active);
+  if (chosen && isOperator.value) shelving.value = chosen.id;
+}
+
 interface Key {
   keys: string;
   does: string;
@@ -44,7 +51,7 @@ interface Key {
 export const kKeys: Record<string, Key> = {
   a: { keys: "A", does: "acknowledge the selected alarm", run: acknowledgeSelected },
   A: { keys: "Shift+A", does: "acknowledge all alarms shown", run: acknowledgeAll },
-  s: { keys: "S", does: "shelve the selected alarm", run: () => showPage("alarms") },
+  s: { keys: "S", does: "shelve the selected alarm", run: shelveSelected },
   "/": { keys: "/", does: "find a field and plot it", run: () => (finderShown.value = true) },
   " ": { keys: "Space", does: "pause the view or play it", run: transport.togglePlay },
   ArrowLeft: {
@@ -90,6 +97,7 @@ function escape(): void {
   lastEscapeMs = now;
   helpShown.value = false;
   finderShown.value = false;
+  shelving.value = null;
 }
 
 function pressed(event: KeyboardEvent): void {

@@ -62,6 +62,7 @@ function Holder() {
   const authority = session.authority.value;
   const hello = session.hello.value;
   const mine = authority && hello && authority.holder === hello.client;
+  const request = authority?.request;
   const name =
     !authority || !authority.holder
       ? "nobody"
@@ -73,9 +74,10 @@ function Holder() {
       type="button"
       class="top-tile holder"
       data-mine={Boolean(mine)}
+      data-asked={Boolean(request)}
       onClick={() => showPage("commands")}
     >
-      <span class="label">Authority</span>
+      <span class="label">{request ? `asked by ${request.name}` : "Authority"}</span>
       <span class="word">{name}</span>
     </button>
   );
@@ -118,6 +120,9 @@ export function TopBar() {
         <span class="label">Round</span>
         <span class="pair">
           <Value path="flags.round_target_speed" speed live hz={kEachFrame} />
+          <span class="of" title="as it was announced to us">
+            <Value path="derived.round_speed_expected" speed unit={false} live hz={kEachFrame} />
+          </span>
           <span class="of" title="limit set by the operator">
             <Value path="planner.operator_limit" speed unit={false} live hz={kEachFrame} />
           </span>

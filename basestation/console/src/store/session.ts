@@ -27,6 +27,8 @@ export const carEvents = signal<readonly Wire.CarEvent[]>([]);
 export const link = signal<Wire.Link | null>(null);
 export const notices = signal<readonly Wire.Notice[]>([]);
 export const fuel = signal<Wire.Fuel | null>(null);
+export const expected = signal<Wire.Expected | null>(null);
+export const settings = signal<Wire.Settings | null>(null);
 export const playback = signal<Wire.Playback | null>(null);
 export const track = signal<Wire.Track | null>(null);
 export const lastError = signal<{ place: string; what: string; at: number } | null>(null);
@@ -49,7 +51,10 @@ export function takeCatalogue(catalogue: Wire.Catalogue): void {
     known.length === catalogue.fields.length &&
     known.every((f, i) => f.id === catalogue.fields[i].id && f.path === catalogue.fields[i].path);
   commands.value = catalogue.commands;
-  if (same) return;
+  if (same) {
+    known.forEach((f, i) => (f.limits = catalogue.fields[i].limits));
+    return;
+  }
   history = new History(catalogue.fields.length);
   fields.value = new Fields(catalogue.fields);
 }
@@ -133,6 +138,8 @@ const kTexts: Texts = {
   notice: (m: Wire.Notice) =>
     (notices.value = [...notices.value.filter((n) => n.id !== m.id), m].slice(-20)),
   fuel: (m: Wire.Fuel) => (fuel.value = m),
+  expected: (m: Wire.Expected) => (expected.value = m),
+  settings: (m: Wire.Settings) => (settings.value = m),
   playback: takePlayback,
   pong: () => {},
   layout: () => {},

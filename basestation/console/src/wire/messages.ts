@@ -162,10 +162,44 @@ export interface Notice {
 }
 
 export interface Fuel {
+  level?: number | null;
+  estimated?: boolean;
   laps: number | null;
   attempts: number | null;
   per_lap: number | null;
   text: string;
+}
+
+/** What people said that no figure of the car says. */
+export interface Expected {
+  round_speed_mps: number | null;
+  round_speed_by: string;
+  fuel_loaded_l: number | null;
+  fuel_by: string;
+  fuel_ms: number | null;
+}
+
+export interface AlarmSetting {
+  key: string;
+  text: string;
+  path: string;
+  unit: string;
+  side: "above" | "below";
+  priority: "high" | "medium" | "low";
+  limit: number;
+  deadband: number;
+  on_s: number;
+  off_s: number;
+  by: string | null;
+}
+
+export interface Settings {
+  revision: number;
+  kept: boolean;
+  up_kbit_s: number | null;
+  up_least_kbit_s: number;
+  up_most_kbit_s: number;
+  alarms: AlarmSetting[];
 }
 
 /** A replay: where the base is in its recording. Each jump forgets what came before it. */

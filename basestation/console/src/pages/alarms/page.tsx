@@ -3,15 +3,16 @@
  * how the rate stands against what a person can follow.
  */
 // SPDX-License-Identifier: Apache-2.0
-import { useState } from "preact/hooks";
 import * as session from "../../store/session";
 import { isOperator, send } from "../../store/uplink";
 import { acknowledge, acknowledgeAll, selectedAlarm } from "../../frame/keys";
+import { shelving } from "../../frame/shelve";
 import { AgeSince } from "../../view/age_since";
 import { inOrder, needsEyes } from "../../view/alarm_order";
 import { clockText } from "../../view/format";
 import { TableHead } from "../../view/table_head";
 import type { Alarm } from "../../wire/messages";
+import { SettingsPanel } from "./settings";
 
 /** In a flood only the first alarm of each cause and the high ones help. */
 const kRateWanted = 1;
@@ -23,42 +24,7 @@ const kStates = {
   latched: "latched",
 } as const;
 
-function ShelveForm({ alarm, onDone }: { alarm: Alarm; onDone: () => void }) {
-  const [reason, setReason] = useState("");
-  const [minutes, setMinutes] = useState(5);
-  return (
-    <form
-      class="shelve"
-      onSubmit={(e) => {
-        e.preventDefault();
-        send({ type: "shelve", alarm: alarm.id, minutes, reason });
-        onDone();
-      }}
-    >
-      <label>
-        reason
-        <input required value={reason} onInput={(e) => setReason(e.currentTarget.value)} />
-      </label>
-      <label>
-        minutes
-        <input
-          type="number"
-          min={1}
-          max={10}
-          value={minutes}
-          onInput={(e) => setMinutes(Number(e.currentTarget.value))}
-        />
-      </label>
-      <button type="submit">Shelve</button>
-      <button type="button" onClick={onDone}>
-        Cancel
-      </button>
-    </form>
-  );
-}
-
 function ActiveRow({ alarm }: { alarm: Alarm }) {
-  const [shelving, setShelving] = useState(false);
   const selected = selectedAlarm.value === alarm.id;
   return (
     <li
@@ -93,12 +59,11 @@ function ActiveRow({ alarm }: { alarm: Alarm }) {
               Reset
             </button>
           )}
-          <button type="button" onClick={() => setShelving(!shelving)}>
+          <button type="button" onClick={() => (shelving.value = alarm.id)}>
             Shelve
           </button>
         </span>
       )}
-      {shelving && <ShelveForm alarm={alarm} onDone={() => setShelving(false)} />}
     </li>
   );
 }
@@ -195,6 +160,7 @@ export function AlarmsPage() {
       <div class="column">
         <Quiet title="Shelved" alarms={alarms?.shelved ?? []} shelf />
         <Quiet title="Suppressed" alarms={alarms?.suppressed ?? []} shelf={false} />
+        <SettingsPanel />
         <HistoryTable />
       </div>
     </main>

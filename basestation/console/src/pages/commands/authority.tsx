@@ -16,6 +16,8 @@ export function AuthorityPanel() {
   const hello = session.hello.value;
   const held = Boolean(authority?.holder);
   const request = authority?.request ?? null;
+  const asker =
+    request?.by === hello?.client ? "This console" : request?.name || `Console ${request?.by}`;
   return (
     <section class="panel" aria-label="authority" tabIndex={0}>
       <h2>Authority</h2>
@@ -51,6 +53,9 @@ export function AuthorityPanel() {
         </div>
       ) : (
         <p class="empty">This console is a viewer.</p>
+      )}
+      {!isHolder.value && request && (
+        <p role="status">{asker} asks; granted where nobody refuses.</p>
       )}
       {isHolder.value && request && (
         <div class="request" role="alert">

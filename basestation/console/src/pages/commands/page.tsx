@@ -7,6 +7,7 @@ import * as session from "../../store/session";
 import { AuditPanel } from "./audit";
 import { AuthorityPanel } from "./authority";
 import { LadderPanel } from "./ladder";
+import { SaidPanel } from "./said";
 import { StagePanel } from "./stage";
 
 export function CommandsPage() {
@@ -26,6 +27,7 @@ export function CommandsPage() {
     <main class="page commands-page">
       <div class="column">
         <AuthorityPanel />
+        <SaidPanel />
         <StagePanel />
       </div>
       <div class="column">

@@ -9,6 +9,7 @@ import { AgeSince } from "../../view/age_since";
 import { ageText, kDash } from "../../view/format";
 import { TableHead } from "../../view/table_head";
 import { Line } from "../../view/value";
+import { BudgetPanel } from "./budget";
 import type { LinkPath, LinkWindow, Notice } from "../../wire/messages";
 
 type WindowOf = LinkWindow & { seconds: number };
@@ -173,6 +174,7 @@ export function LinkPage() {
         <Notices />
       </div>
       <div class="column">
+        <BudgetPanel />
         <Groups />
       </div>
     </main>

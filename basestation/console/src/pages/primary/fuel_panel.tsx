@@ -9,17 +9,28 @@ import { Tile } from "../../view/value";
 const kTankLitres = 45;
 
 export function FuelPanel() {
-  const text = session.fuel.value?.text;
+  const fuel = session.fuel.value;
+  const estimated = fuel?.estimated ?? false;
+  const text = fuel && (fuel.text !== "unknown" ? fuel.text : "unknown: enter what is in the tank");
   return (
     <div class="fuel-body">
       <div class="tiles four">
         <Tile label="attempts" path="derived.fuel_attempts" decimals={0} big />
         <Tile label="laps" path="derived.fuel_laps" decimals={1} big />
-        <Tile label="level" path="fuel.level" decimals={1} />
+        <Tile
+          label={estimated ? "level, ESTIMATE" : "level"}
+          path="derived.fuel_level"
+          decimals={1}
+        />
         <Tile label="per lap" path="derived.fuel_per_lap" decimals={2} />
       </div>
-      <Bar path="fuel.level" label="fuel level" max={kTankLitres} />
-      {text && <p class="note">{text}</p>}
+      <Bar path="derived.fuel_level" label="fuel level" max={kTankLitres} />
+      {text && (
+        <p class="note">
+          {estimated && <b>ESTIMATE </b>}
+          {text}
+        </p>
+      )}
     </div>
   );
 }
