@@ -14,6 +14,7 @@
 #include "protocol/transport/realtime.hpp"
 #include "vehicle/gateway/bus_identity.hpp"
 #include "vehicle/io/arguments.hpp"
+#include "vehicle/io/black_box.hpp"
 #include "vehicle/io/computer_watch.hpp"
 #include "vehicle/io/guarded.hpp"
 #include "vehicle/io/local_report.hpp"
@@ -65,6 +66,7 @@ struct Parts {
   io::Guarded guarded;
   std::optional<io::Radio> radio;  // none: no base station is watched
   io::LocalReport report;
+  io::BlackBox box;
   std::unique_ptr<io::ComputerWatch> computer;  // none: the kernel gave no event file
 };
 
@@ -107,6 +109,7 @@ class Drive {
     const pipeline::Outputs out = pipeline::step(setup_, *car_, in);
     parts_.guarded.tell(setup_, *car_, out, out.requests.reset, now);
     parts_.rim.write(out.passed.frames.span(), now);
+    parts_.box.can(heard.can, out.passed.frames.span(), now);
     if (out.bus_guard.restart_now) parts_.rim.restart_bus();
     tally_.add(transport::monotonic_now() - now, tick.missed);
     last_ = now;
@@ -134,7 +137,8 @@ class Drive {
   void speak(const pipeline::Outputs& out, Instant now) {
     const bool radio_due = parts_.radio && parts_.radio->due(now);
     const bool report_due = parts_.report.on() && car_->ticks % kReportEvery == 0;
-    if (!radio_due && !report_due) return;
+    const bool record_due = parts_.box.state_due(car_->ticks);
+    if (!radio_due && !report_due && !record_due) return;
     pipeline::RimCounters counters;
     counters.frames_sent = parts_.rim.can().sent;
     counters.tx_drops = parts_.rim.tx_drops();
@@ -149,6 +153,7 @@ class Drive {
     const telemetry::Snapshot snapshot = pipeline::tap(
         {.setup = setup_, .car = *car_, .out = out, .log = *log_, .rim = counters, .now = now});
     if (report_due) parts_.report.send(snapshot, now);
+    if (record_due) parts_.box.state(snapshot, now);
     if (!radio_due) return;
     parts_.radio->speak(snapshot, now);
     tell_schema(now);
@@ -187,8 +192,9 @@ class Drive {
                                       parts_.radio->paths())
                      : "{}";
     const auto written = transport::write_file(
-        args_.summary_file, io::summary_json(tally_, frames_, bus_, losses_, radio,
-                                             io::receivers_json(parts_.rim.receivers())));
+        args_.summary_file,
+        io::summary_json(tally_, frames_, bus_, losses_, radio,
+                         io::receivers_json(parts_.rim.receivers()), parts_.box.json()));
     return written ? 0 : (refuse(written.error()), kExitFailed);
   }
 
@@ -223,8 +229,10 @@ Result<Parts, Problem> open_parts(const io::Arguments& args, const pipeline::Set
       io::LocalReport::open(args.local_report, args.simulation ? telemetry::Source::kSimulation
                                                                : telemetry::Source::kCar);
   if (!report) return Unexpected{report.error()};
-  return Parts{*std::move(rim), *std::move(guarded), std::move(radio), *std::move(report),
-               io::ComputerWatch::start()};
+  auto box = io::BlackBox::open(args.record_folder, args.car_file, args.track_file);
+  if (!box) return Unexpected{box.error()};
+  return Parts{*std::move(rim),    *std::move(guarded), std::move(radio),
+               *std::move(report), *std::move(box),     io::ComputerWatch::start()};
 }
 
 void introduce(const io::Arguments& args, const pipeline::Setup& setup, Parts& parts) {

@@ -20,12 +20,13 @@ constexpr std::size_t kHistory = 1'000;
 // Texts that say how things are, of which the newest is enough; the others are lines of a history.
 bool is_standing(recorder::Topic topic) {
   using enum recorder::Topic;
-  return topic == kHello || topic == kAlarms || topic == kAuthority || topic == kFuel;
+  return topic == kHello || topic == kAlarms || topic == kAuthority || topic == kFuel ||
+         topic == kJudge || topic == kExpected || topic == kSettings;
 }
 // So often that the next one comes soon after any jump.
 bool is_frequent(recorder::Topic topic) {
   using enum recorder::Topic;
-  return topic == kLink || topic == kJoystick || topic == kRecorder;
+  return topic == kLink || topic == kJoystick || topic == kRecorder || topic == kInput;
 }
 
 std::span<const std::uint8_t> as_bytes(std::string_view text) {

@@ -119,6 +119,7 @@ Result<CarSummary, Problem> read_car_summary(const std::string& path) {
     for (yaml::StrictMap& row : map.maps("losses")) car.losses.push_back(loss_of(row));
     read_radio(map.map("radio"), car);
     for (yaml::StrictMap& row : map.maps("receivers")) car.receivers.push_back(receiver_of(row));
+    car.recorder = counts_of(map.map("recorder"));
     car.refused_by_kind = counts_of(map.map("refused_by_kind"));
     car.gate_verdicts = counts_of(map.map("gate_verdicts"));
     car.step_p50_us = map.number("step_p50_us", 0.0, 1e9);

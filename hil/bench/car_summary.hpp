@@ -46,6 +46,7 @@ struct CarSummary {
   Counts radio, radio_refused, radio_commands;
   std::vector<Counts> radio_paths;
   std::vector<CarReceiver> receivers;
+  Counts recorder;  // of its own recording; empty where it had none
   std::vector<CarMessage> messages;
   std::vector<world::LossReport> losses;  // the first of loss_reports
   double step_p50_us = kUnset, step_p99_us = kUnset, step_max_us = kUnset;

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "protocol/recorder/can_record.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::recorder {
@@ -99,7 +100,10 @@ std::vector<recording::Channel> channels() {
   }
   all.push_back(picture_channel());
   for (const char* topic : {"/radio/down", "/radio/up"}) all.push_back({topic, "pitwall", {}, {}});
-  CHECK(all.size() == kUpChannel + 1U);
+  for (const char* topic : {"/can/in", "/can/out"}) {
+    all.push_back(recording::cdr_channel<CanRecord>(topic));
+  }
+  CHECK(all.size() == kCanOutChannel + 1U);
   return all;
 }
 

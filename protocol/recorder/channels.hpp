@@ -1,10 +1,11 @@
-// What a recording of the base station is made of: its channels, and the bytes of a sample.
+// What a recording of base or car is made of: its channels, and the bytes of a sample.
 //   channels  /car/GROUP for each group of the registry, "cdr" with a ROS 2 schema: every field a
 //             float64, NaN where it was not known; log time is the reception, publish time the
 //             sample
 //             /base/TYPE, "json": the very text that consoles get
 //             /base/picture, "cdr": all that was known at a moment: a reader can begin there
 //             /radio/down, /radio/up: datagrams as they were on the air, encrypted
+//             /can/in, /can/out: frames of the car's bus, "cdr", as can_record.hpp has them
 //   clock     stamps in the file are UTC: an Instant of the base plus the ClockMap of the file,
 //             which stands in its metadata, so that an Instant comes back exactly
 //   law       fields are found by their names, which each channel carries: a file of another
@@ -42,11 +43,16 @@ enum class Topic : std::uint8_t {
   kFuel,
   kMark,
   kJoystick,
-  kRecorder
+  kRecorder,
+  kJudge,  // what judges, and
+  kInput,  // what it is told beside states
+  kExpected,
+  kSettings
 };
-inline constexpr std::array<std::string_view, 13> kTopicNames{
-    "hello", "command", "alarms", "alarm_event", "authority", "audit",   "event",
-    "link",  "notice",  "fuel",   "mark",        "joystick",  "recorder"};
+inline constexpr std::array<std::string_view, 17> kTopicNames{
+    "hello",    "command", "alarms", "alarm_event", "authority", "audit",
+    "event",    "link",    "notice", "fuel",        "mark",      "joystick",
+    "recorder", "judge",   "input",  "expected",    "settings"};
 inline constexpr std::size_t kTopics = kTopicNames.size();
 constexpr std::string_view name_of(Topic topic) {
   return kTopicNames[static_cast<std::size_t>(topic)];
@@ -62,6 +68,7 @@ constexpr std::uint16_t channel_of(Topic topic) {
 }
 inline constexpr auto kPictureChannel = static_cast<std::uint16_t>(telemetry::kGroups + kTopics);
 inline constexpr std::uint16_t kDownChannel = kPictureChannel + 1, kUpChannel = kDownChannel + 1;
+inline constexpr std::uint16_t kCanInChannel = kUpChannel + 1, kCanOutChannel = kCanInChannel + 1;
 std::vector<recording::Channel> channels();
 
 struct ClockMap {
@@ -72,7 +79,7 @@ struct ClockMap {
   Instant to_base(Instant file) const { return file - utc_minus_base; }
 };
 void append(recording::Metadata& run, const ClockMap& clock);
-std::optional<ClockMap> clock_of(const recording::Metadata& run);  // none: no file of a base
+std::optional<ClockMap> clock_of(const recording::Metadata& run);  // none: no file of ours
 
 inline constexpr std::size_t kCdrHeader = 4;
 inline constexpr std::size_t kLargestGroup = [] {

@@ -15,8 +15,9 @@
 #include <string>
 #include <thread>
 
-#include "protocol/recorder/segment_chain.hpp"
+#include "protocol/recorder/disk.hpp"
 #include "protocol/transport/file.hpp"
+#include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::recorder {
 

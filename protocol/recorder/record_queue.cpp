@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocol/recorder/record_queue.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 
@@ -28,7 +29,22 @@ std::optional<Record> Batch::next() {
   return record;
 }
 
-RecordQueue::RecordQueue(std::size_t bytes) : capacity_(bytes) { filling_.reserve(capacity_); }
+RecordQueue::RecordQueue(std::size_t bytes) : ring_(bytes) {}
+
+void RecordQueue::copy_in(std::uint64_t at, const void* from, std::size_t bytes) {
+  if (bytes == 0) return;
+  const std::size_t place = at % ring_.size();
+  const std::size_t first = std::min(bytes, ring_.size() - place);
+  std::memcpy(ring_.data() + place, from, first);
+  std::memcpy(ring_.data(), static_cast<const std::uint8_t*>(from) + first, bytes - first);
+}
+
+void RecordQueue::copy_out(std::uint64_t at, std::span<std::uint8_t> to) const {
+  const std::size_t place = at % ring_.size();
+  const std::size_t first = std::min(to.size(), ring_.size() - place);
+  std::copy_n(ring_.begin() + static_cast<std::ptrdiff_t>(place), first, to.begin());
+  std::copy_n(ring_.begin(), to.size() - first, to.begin() + static_cast<std::ptrdiff_t>(first));
+}
 
 bool RecordQueue::push(const Record& record) {
   const Head head{.logged_ns = record.logged.ns,
@@ -36,42 +52,40 @@ bool RecordQueue::push(const Record& record) {
                   .bytes = record.data.size(),
                   .channel = record.channel};
   const std::size_t bytes = sizeof head + record.data.size();
-  const std::lock_guard lock{mutex_};
-  if (closed_ || filling_.size() + bytes > capacity_) {
-    ++dropped_;
+  const std::uint64_t at = pushed_.load(std::memory_order_relaxed);
+  const std::uint64_t waiting = at - taken_.load(std::memory_order_acquire);
+  if (refuses_ || waiting + bytes > ring_.size()) {
+    dropped_.store(dropped_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
     return false;
   }
-  const std::size_t at = filling_.size();
-  filling_.resize(at + bytes);
-  std::memcpy(filling_.data() + at, &head, sizeof head);
-  if (!record.data.empty()) {
-    std::memcpy(filling_.data() + at + sizeof head, record.data.data(), record.data.size());
-  }
-  // Else the writer comes by itself: no system call for each record.
-  if (filling_.size() > capacity_ / 2 && at <= capacity_ / 2) much_.notify_one();
+  copy_in(at, &head, sizeof head);
+  copy_in(at + sizeof head, record.data.data(), record.data.size());
+  pushed_.store(at + bytes, std::memory_order_release);
   return true;
 }
 
 bool RecordQueue::take_all(Batch& batch, Duration wait) {
-  batch.bytes_.clear();
-  batch.bytes_.reserve(capacity_);
+  bool last = false;
+  {
+    std::unique_lock lock{mutex_};
+    ends_.wait_for(lock, std::chrono::nanoseconds{wait.ns}, [this] { return closed_; });
+    last = closed_;
+  }
+  const std::uint64_t from = taken_.load(std::memory_order_relaxed);
+  const std::uint64_t to = pushed_.load(std::memory_order_acquire);
   batch.at_ = 0;
-  std::unique_lock lock{mutex_};
-  much_.wait_for(lock, std::chrono::nanoseconds{wait.ns},
-                 [this] { return closed_ || filling_.size() > capacity_ / 2; });
-  std::swap(batch.bytes_, filling_);
-  return !closed_;
+  batch.bytes_.reserve(ring_.size());
+  batch.bytes_.resize(to - from);
+  copy_out(from, batch.bytes_);
+  taken_.store(to, std::memory_order_release);
+  return !last;
 }
 
 void RecordQueue::close() {
+  refuses_ = true;
   const std::lock_guard lock{mutex_};
   closed_ = true;
-  much_.notify_one();
-}
-
-std::uint64_t RecordQueue::dropped() const {
-  const std::lock_guard lock{mutex_};
-  return dropped_;
+  ends_.notify_one();
 }
 
 }  // namespace pitwall::recorder

@@ -1,12 +1,15 @@
-// Records on their way from the intake to the thread that writes them: bounded, and the intake
-// never waits for the disk.
-//   in     push() by the intake                 out    take_all() by the writing thread
+// Records on their way from a loop to the thread that writes them: bounded, and the loop never
+// waits: neither for the disk nor for the other thread.
+//   in     push() by one thread                 out    take_all() by one other
 //   law    in order; what does not fit is dropped and counted, the newest first
+//          push() is wait-free: copies and two atomic accesses, no lock, no system call, no
+//          allocation; all memory is touched at construction
 //   errors none besides
-//   cost   push(): one copy under a lock that is held for copies and swaps only; no allocation
+//   cost   push(): one copy                     take_all(): one copy of all, and a sleep
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
@@ -20,7 +23,7 @@ namespace pitwall::recorder {
 
 struct Record {
   std::uint16_t channel = 0;
-  Instant logged{}, published{};  // on the base's clock
+  Instant logged{}, published{};  // on the clock of who records
   std::span<const std::uint8_t> data;
 };
 
@@ -40,19 +43,26 @@ class RecordQueue {
   explicit RecordQueue(std::size_t bytes);
 
   bool push(const Record& record);
-  // Waits at most so long, shorter when there is much or close() was called. False: closed, and
-  // the batch is the last.
+  // After so long, sooner when close() was called. False: closed, and the batch is the last.
   bool take_all(Batch& batch, Duration wait);
-  void close();
-  std::uint64_t dropped() const;
+  void close();  // by the thread that pushes
+  std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
 
  private:
-  const std::size_t capacity_;
-  mutable std::mutex mutex_;
-  std::condition_variable much_;
-  std::vector<std::uint8_t> filling_;
-  std::uint64_t dropped_ = 0;
+  static constexpr std::size_t kCacheLine = 64;
+
+  void copy_in(std::uint64_t at, const void* from, std::size_t bytes);
+  void copy_out(std::uint64_t at, std::span<std::uint8_t> to) const;
+
+  std::vector<std::uint8_t> ring_;
+  // Bytes pushed and taken since the beginning; each is written by one thread only.
+  alignas(kCacheLine) std::atomic<std::uint64_t> pushed_ = 0;
+  alignas(kCacheLine) std::atomic<std::uint64_t> taken_ = 0;
+  alignas(kCacheLine) std::atomic<std::uint64_t> dropped_ = 0;
+  std::mutex mutex_;  // of closed_, which the taker sleeps on
+  std::condition_variable ends_;
   bool closed_ = false;
+  bool refuses_ = false;  // as the pushing thread knows it
 };
 
 }  // namespace pitwall::recorder

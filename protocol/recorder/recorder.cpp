@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "protocol/json/json_text.hpp"
+#include "protocol/recorder/can_record.hpp"
 #include "protocol/recording/sha256.hpp"
 #include "protocol/telemetry/registry/schema.hpp"
 #include "protocol/transport/clock.hpp"
@@ -37,23 +38,21 @@ ClockMap clock_now() {
   return {.utc_minus_base = transport::realtime_minus_monotonic(), .boot = boot};
 }
 
-recording::Metadata run_metadata(int car, const std::string& name,
-                                 const std::string& judgement_file) {
+recording::Metadata program_metadata(const std::string& program) {
   std::array<char, 20> schema{};
   std::snprintf(schema.data(), schema.size(), "%016llx",
                 static_cast<unsigned long long>(telemetry::kSchemaHash));
-  recording::Metadata run{{"program", "pitwall-base"},
-                          {"revision", PITWALL_REVISION},
-                          {"car", std::to_string(car)},
-                          {"name", name},
-                          {"schema", schema.data()}};
-  const auto judgement = transport::read_file(judgement_file);
-  if (judgement) {
-    recording::Sha256 hash;
-    hash.update(as_bytes(*judgement));
-    run.emplace_back("judgement_sha256", recording::to_hex(hash.digest()));
-  }
-  return run;
+  return {{"program", program}, {"revision", PITWALL_REVISION}, {"schema", schema.data()}};
+}
+
+void append_file(recording::Metadata& run, const std::string& key, const std::string& path) {
+  if (path.empty()) return;
+  run.emplace_back(key + "_file", path);
+  const auto text = transport::read_file(path);
+  if (!text) return;
+  recording::Sha256 hash;
+  hash.update(as_bytes(*text));
+  run.emplace_back(key + "_sha256", recording::to_hex(hash.digest()));
 }
 
 double RecorderFigures::minutes_left() const {
@@ -72,7 +71,8 @@ Recorder::Recorder(const std::string& folder, recording::Metadata run, ClockMap 
     : clock_(std::move(clock)),
       started_(transport::monotonic_now()),
       disk_(folder),
-      chain_(disk_, params_of(std::move(run), clock_)),
+      lcm_disk_(folder),
+      chain_(disk_, params_of(std::move(run), clock_), &lcm_disk_),
       writer_([this] { write_all(); }) {}
 
 Recorder::~Recorder() {
@@ -115,6 +115,14 @@ void Recorder::write_all() {
   }
 }
 
+void Recorder::can(bool out, Instant at, const can::Frame& frame) {
+  CanBytes bytes;
+  queue_.push({.channel = out ? kCanOutChannel : kCanInChannel,
+               .logged = at,
+               .published = at,
+               .data = encode(frame, bytes)});
+}
+
 RecorderFigures Recorder::figures() const {
   RecorderFigures figures;
   {
@@ -127,7 +135,7 @@ RecorderFigures Recorder::figures() const {
   figures.longest_sync = disk_.longest_sync();
   figures.free_bytes = disk_.free_bytes();
   const double run_s = (transport::monotonic_now() - started_).seconds();
-  if (run_s > 1.0) figures.bytes_per_s = static_cast<double>(figures.chain.bytes) / run_s;
+  if (run_s > 1.0) figures.bytes_per_s = static_cast<double>(figures.bytes()) / run_s;
   return figures;
 }
 
@@ -140,6 +148,8 @@ std::string json_of(const RecorderFigures& figures, Instant now) {
       .number("records", figures.chain.records)
       .number("dropped", figures.dropped)
       .number("lost", figures.chain.lost)
+      .number("lcm_events", figures.chain.lcm.events)
+      .number("lcm_lost", figures.chain.lcm.lost)
       .number("interruptions", figures.chain.interruptions)
       .text("problem", figures.chain.problem)
       .number("bytes_per_s", figures.bytes_per_s)

@@ -1,7 +1,8 @@
-// Keeps everything that comes in and goes out, in a folder of MCAP segments.
+// Keeps everything that comes in and goes out, in a folder of MCAP segments and LCM event logs.
 //   in     states, events, texts, datagrams, as they happen, each with its time
 //   out    files as segment_chain.hpp has them; figures
-//   law    no call waits for the disk: a thread writes, another has it synchronized every second.
+//   law    no call waits, for the disk or for another thread: see record_queue.hpp; all calls but
+//          figures() are by one thread. A thread writes, others have it synchronized every second.
 //          A base that is killed loses less than the last second
 //   bound  kQueueBytes wait at most; what is over is dropped and counted
 //   errors start(): Problem where the folder cannot be made or written. Later: figures(); a full
@@ -17,6 +18,7 @@
 #include <string_view>
 #include <thread>
 
+#include "protocol/can/frame.hpp"
 #include "protocol/recorder/file_disk.hpp"
 #include "protocol/recorder/segment_chain.hpp"
 #include "protocol/telemetry/registry/snapshot.hpp"
@@ -34,6 +36,7 @@ struct RecorderFigures {
   double bytes_per_s = 0.0;     // since the start
   double minutes_left() const;  // NaN: not known
   std::uint64_t lost() const { return chain.lost + dropped; }
+  std::uint64_t bytes() const { return chain.bytes + chain.lcm.bytes; }
 };
 
 class Recorder {
@@ -46,6 +49,7 @@ class Recorder {
   void state(const telemetry::Snapshot& state, telemetry::GroupSet groups, Instant received);
   void text(Topic topic, Instant at, std::string_view json);
   void datagram(bool down, Instant at, std::span<const std::uint8_t> bytes);
+  void can(bool out, Instant at, const can::Frame& frame);
   RecorderFigures figures() const;
   const ClockMap& clock() const { return clock_; }
 
@@ -55,7 +59,7 @@ class Recorder {
 
   ClockMap clock_;
   Instant started_;
-  FileDisk disk_;
+  FileDisk disk_, lcm_disk_;
   SegmentChain chain_;
   RecordQueue queue_{kQueueBytes};
   mutable std::mutex mutex_;
@@ -63,9 +67,10 @@ class Recorder {
   std::thread writer_;
 };
 
-// What each segment says of who wrote it. The file of limits and alarms goes in as its hash.
-recording::Metadata run_metadata(int car, const std::string& name,
-                                 const std::string& judgement_file);
+// What each segment says of who wrote it: program, revision, schema; and of a file that it was
+// started with: its name and its hash, where it can be read.
+recording::Metadata program_metadata(const std::string& program);
+void append_file(recording::Metadata& run, const std::string& key, const std::string& path);
 // The clock of this process and machine.
 ClockMap clock_now();
 // {"type":"recorder",...}

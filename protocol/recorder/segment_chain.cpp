@@ -17,8 +17,10 @@ bool is_group(std::uint16_t channel) { return channel < telemetry::kGroups; }
 
 }  // namespace
 
-SegmentChain::SegmentChain(Disk& disk, ChainParams params)
-    : disk_(disk), params_(std::move(params)) {}
+SegmentChain::SegmentChain(Disk& disk, ChainParams params, Disk* lcm)
+    : disk_(disk), params_(std::move(params)) {
+  if (lcm != nullptr) lcm_.emplace(*lcm, params_.clock);
+}
 
 SegmentChain::~SegmentChain() { close(); }
 
@@ -37,14 +39,23 @@ void SegmentChain::keep(const Record& record) {
     return;
   }
   if (record.logged >= picture_at_) put_picture(record.logged);
-  if (writer_ && !put(record)) fail(disk_.problem());
+  if (!writer_) return;
+  if (!put(record)) return fail(disk_.problem());
+  if (lcm_) lcm_->take(record);
 }
 
 void SegmentChain::turn(Instant now) {
   now_ = now;
   if (!writer_ || now < flush_at_) return;
   flush_at_ = now + params_.chunk;
-  if (!flush()) fail(disk_.problem());
+  if (!flush()) return fail(disk_.problem());
+  if (lcm_) lcm_->flush();
+}
+
+ChainFigures SegmentChain::figures() const {
+  ChainFigures figures = figures_;
+  if (lcm_) figures.lcm = lcm_->figures();
+  return figures;
 }
 
 void SegmentChain::close() {
@@ -58,8 +69,9 @@ bool SegmentChain::open(Instant stamp) {
     retry_at_ = now_ + params_.retry;
     return false;
   }
-  const std::string name = segment_name(UtcTime{params_.clock.to_file(stamp).ns});
-  if (const auto problem = disk_.begin(name)) {
+  const std::string name = name_of_segment(UtcTime{params_.clock.to_file(stamp).ns});
+  const std::string file = name + ".mcap";
+  if (const auto problem = disk_.begin(file)) {
     fail(to_string(*problem));
     return false;
   }
@@ -76,22 +88,23 @@ bool SegmentChain::open(Instant stamp) {
   flush_at_ = now_ + params_.chunk;
   put_picture(stamp);
   if (!writer_) return false;
+  if (lcm_) lcm_->begin(name);
   ++number_;
   ++figures_.segments;
-  figures_.segment = name;
+  figures_.segment = file;
   figures_.recording = true;
   return true;
 }
 
-// NAME_20261122T003000.250Z_00012.mcap: in order of time, and of number where clocks are set back.
-std::string SegmentChain::segment_name(UtcTime at) const {
+// NAME_20261122T003000.250Z_00012: in order of time, and of number where clocks are set back.
+std::string SegmentChain::name_of_segment(UtcTime at) const {
   namespace chrono = std::chrono;
   const chrono::sys_time<chrono::nanoseconds> time{chrono::nanoseconds{at.ns}};
   const auto day = chrono::floor<chrono::days>(time);
   const chrono::year_month_day date{day};
   const chrono::hh_mm_ss clock{chrono::floor<chrono::milliseconds>(time - day)};
   std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "_%04d%02u%02uT%02d%02d%02d.%03dZ_%05u.mcap",
+  std::snprintf(text.data(), text.size(), "_%04d%02u%02uT%02d%02d%02d.%03dZ_%05u",
                 static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
                 static_cast<unsigned>(date.day()), static_cast<int>(clock.hours().count()),
                 static_cast<int>(clock.minutes().count()),
@@ -112,12 +125,14 @@ void SegmentChain::fail(std::string problem) {
   waiting_ = 0;
   writer_.reset();
   disk_.end(has_chunk_);
+  if (lcm_) lcm_->end(has_chunk_);
 }
 
 void SegmentChain::end_segment() {
   if (!flush() || !writer_->close()) return fail(disk_.problem());
   writer_.reset();
   disk_.end(true);
+  if (lcm_) lcm_->end(true);
 }
 
 bool SegmentChain::flush() {

@@ -2,6 +2,7 @@
 //   in     records, the time now; a Disk
 //   out    segments as MCAP, each whole in itself: metadata, channels, then the picture as it was
 //          known; again every kPictureEvery, so that a reader can begin there
+//          where there is a disk for it, an LCM event log beside each, under the same name
 //   law    a chunk is handed to the disk after half a second of stamps or of time, whichever is
 //          first, or at 1 MiB: a process that is killed loses less than a second
 //          a segment ends when stamps have gone on by its length. When the disk fails, the segment
@@ -19,22 +20,13 @@
 #include <string>
 
 #include "protocol/recorder/channels.hpp"
+#include "protocol/recorder/disk.hpp"
+#include "protocol/recorder/lcm_twin.hpp"
 #include "protocol/recorder/record_queue.hpp"
 #include "protocol/recording/mcap_writer.hpp"
 #include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::recorder {
-
-// Where segments go to: one is open at a time.
-class Disk {
- public:
-  virtual ~Disk() = default;
-  virtual std::optional<Problem> begin(const std::string& name) = 0;  // a new file
-  virtual bool append(std::span<const std::uint8_t> bytes) = 0;
-  virtual void end(bool keep) = 0;
-  virtual std::string problem() const = 0;  // of the last append that failed
-  virtual std::uint64_t free_bytes() const = 0;
-};
 
 struct ChainParams {
   Duration segment = seconds(60), chunk = milliseconds(500), picture = seconds(10);
@@ -42,7 +34,7 @@ struct ChainParams {
   std::uint64_t room_to_resume = std::uint64_t{8} << 20U;  // bytes that must be free
   recording::Metadata run{};
   ClockMap clock{};
-  std::string name = "pitwall";  // of the files: NAME_UTC_NUMBER.mcap
+  std::string name = "pitwall";  // of the files: NAME_UTC_NUMBER.mcap and .lcm
 };
 
 struct ChainFigures {
@@ -52,17 +44,19 @@ struct ChainFigures {
   std::uint64_t interruptions = 0;  // times that the disk failed
   bool recording = false;
   std::string segment, problem;  // the newest
+  LcmFigures lcm;                // of the logs beside the segments
 };
 
 class SegmentChain {
  public:
-  SegmentChain(Disk& disk, ChainParams params);
+  // `lcm`: takes an LCM event log beside each segment; nullptr: none.
+  SegmentChain(Disk& disk, ChainParams params, Disk* lcm = nullptr);
   ~SegmentChain();  // closes the open segment
 
   void take(const Record& record, Instant now);
   void turn(Instant now);  // at least every 100 ms
   void close();
-  const ChainFigures& figures() const { return figures_; }
+  ChainFigures figures() const;
 
  private:
   void keep(const Record& record);
@@ -71,7 +65,7 @@ class SegmentChain {
   void end_segment();
   bool flush();
   void reached_disk(std::uint64_t still_waiting);
-  std::string segment_name(UtcTime at) const;
+  std::string name_of_segment(UtcTime at) const;
   void put_picture(Instant stamp);
   bool put(const Record& record);
 
@@ -80,6 +74,7 @@ class SegmentChain {
   ChainFigures figures_;
   Known known_;  // sample times as in the file
   std::unique_ptr<recording::McapWriter> writer_;
+  std::optional<LcmTwin> lcm_;
   std::uint64_t waiting_ = 0;  // records of the open chunk
   std::uint64_t number_ = 0;
   std::optional<Instant> retry_at_;  // the disk has failed

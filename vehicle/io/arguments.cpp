@@ -29,6 +29,8 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
                  "tell programs on this machine the car's state, unsealed: a port on 127.0.0.1")
       ->check(CLI::Range(1, kPortMax));
   app.add_option("--summary", args.summary_file, "write counters and timing here at the end");
+  app.add_option("--record", args.record_folder,
+                 "keep state and bus frames in this folder: MCAP, and an LCM log beside it");
   app.add_option("--guardian", args.guardian,
                  "name of the record shared with pitwall-guardian (a file in /dev/shm, or a path)");
   app.add_flag("--simulation", args.simulation, "say in the telemetry that this is a simulation");

@@ -63,9 +63,10 @@ struct FrameTotals {
 };
 
 // One JSON object; `bus` as of the last tick, `radio` as radio_json() writes it, `receivers` as
-// receivers_json() does.
+// receivers_json() does, `recorder` as BlackBox does.
 std::string summary_json(const StepTally& tally, const FrameTotals& frames,
                          const world::BusHealth& bus, const LossTally& losses,
-                         const std::string& radio = "{}", const std::string& receivers = "[]");
+                         const std::string& radio = "{}", const std::string& receivers = "[]",
+                         const std::string& recorder = "{}");
 
 }  // namespace pitwall::io

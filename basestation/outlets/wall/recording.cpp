@@ -21,6 +21,15 @@ std::string told(const replay::ReadBack& back, Duration took) {
 
 }  // namespace
 
+recording::Metadata run_metadata(int car, const std::string& name,
+                                 const std::string& judgement_file) {
+  recording::Metadata run = recorder::program_metadata("pitwall-base");
+  run.emplace_back("car", std::to_string(car));
+  run.emplace_back("name", name);
+  recorder::append_file(run, "judgement", judgement_file);
+  return run;
+}
+
 Result<std::unique_ptr<recorder::Recorder>, Problem> start_recording(
     const std::string& folder, recording::Metadata run, Wall* wall,
     const std::function<void(const std::string&)>& say) {

@@ -15,6 +15,10 @@
 
 namespace pitwall::outlets::wall {
 
+// Of the base that runs. The file of limits and alarms goes in as its hash.
+recording::Metadata run_metadata(int car, const std::string& name,
+                                 const std::string& judgement_file);
+
 // The recorder outlives the wall.
 Result<std::unique_ptr<recorder::Recorder>, Problem> start_recording(
     const std::string& folder, recording::Metadata run, Wall* wall,

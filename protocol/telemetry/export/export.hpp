@@ -4,6 +4,7 @@
 //          json       catalogue of groups, fields and commands for consoles and tools
 //          markdown   the page to read
 //          lua        dissector for Wireshark
+//          lcm        types for lcm-gen, as the LCM logs have them
 //   errors none for a kind that there is not
 //   cost   allocates; not for the 100 Hz path
 // SPDX-License-Identifier: Apache-2.0
@@ -16,8 +17,8 @@
 
 namespace pitwall::telemetry {
 
-inline constexpr std::array<std::string_view, 5> kExportKinds{"schema", "golden", "json",
-                                                              "markdown", "lua"};
+inline constexpr std::array<std::string_view, 6> kExportKinds{"schema",   "golden", "json",
+                                                              "markdown", "lua",    "lcm"};
 
 std::optional<std::string> export_text(std::string_view kind);
 

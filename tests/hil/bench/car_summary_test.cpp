@@ -134,9 +134,11 @@ TEST_F(CarSummaryFile, ItsReceiversAreReadAsTheCarHadThem) {
     ports.push_back(*std::move(port));
   }
   const std::string text =
-      io::summary_json({}, some_totals(), some_health(), {}, "{}", io::receivers_json(ports));
+      io::summary_json({}, some_totals(), some_health(), {}, "{}", io::receivers_json(ports),
+                       R"({"records": 5, "dropped": 2})");
   const auto car = read_car_summary(write(text));
   ASSERT_TRUE(car) << to_string(car.error()) << text;
+  EXPECT_EQ(car->recorder, (CarSummary::Counts{{"records", 5}, {"dropped", 2}}));
   ASSERT_EQ(car->receivers.size(), 2u);
   EXPECT_EQ(car->receivers[0].kind, "novatel_oem7");
   EXPECT_EQ(car->receivers[1].kind, "vectornav");

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "protocol/recorder/file_disk.hpp"
+#include "protocol/recorder/segment_chain.hpp"
 #include "protocol/recording/mcap_reader.hpp"
 #include "protocol/transport/file.hpp"
 

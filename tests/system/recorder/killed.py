@@ -10,6 +10,8 @@ import tempfile
 import urllib.request
 from pathlib import Path
 
+import lcm_oracle
+
 BASE, CAR, TREE = sys.argv[1:4]
 ORACLES = Path(TREE) / "tests/support/oracles"
 
@@ -77,6 +79,11 @@ def main():
     expect(again.returncode == 0, f"exit code {again.returncode}: {errors}")
     expect(len(segments(folder)) == 2, "a new segment beside the old one")
     read_by_oracle(segments(folder))
+    logs = [path.with_suffix(".lcm") for path in segments(folder)]
+    expect(all(log.exists() for log in logs), "an LCM log beside each segment")
+    decoded = lcm_oracle.check(BASE, logs, folder)
+    if decoded:
+        expect(decoded[0] > 500 and {"/car/ego", "/base/link"} <= decoded[1], f"LCM: {decoded}")
 
     bytes_of_cut = cut.read_bytes()
     cut.write_bytes(bytes_of_cut[:len(bytes_of_cut) * 2 // 3])

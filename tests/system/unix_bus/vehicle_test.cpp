@@ -6,12 +6,17 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iterator>
+#include <map>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "protocol/gnss/novatel_codec.hpp"
+#include "protocol/recorder/segment_folder.hpp"
+#include "protocol/recording/lcm_log.hpp"
+#include "protocol/recording/mcap_reader.hpp"
 #include "protocol/telemetry/state_packet.hpp"
 #include "protocol/transport/can_socket.hpp"
 #include "protocol/transport/clock.hpp"
@@ -31,6 +36,10 @@ using transport::Process;
 
 const std::string kRoot = PITWALL_SOURCE_DIR;
 constexpr double kUnknown = 0, kDown = 5;  // codes of bus.controller
+
+std::span<const std::uint8_t> as_bytes(std::string_view text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
 
 std::string program(const char* name, const char* fallback) {
   const char* path = std::getenv(name);
@@ -82,6 +91,8 @@ class VehicleOnUnixBus : public ::testing::Test {
         std::to_string(report_->local().port),
         "--summary",
         folder_->path() + "/summary.json",
+        "--record",
+        folder_->path() + "/recording",
         "--simulation",
         "--no-base"};
     argv.insert(argv.end(), receivers.begin(), receivers.end());
@@ -104,6 +115,30 @@ class VehicleOnUnixBus : public ::testing::Test {
   bool controller_is(double state) {
     return report_says(
         [state](const telemetry::Values& v) { return v[field("bus.controller")] == state; });
+  }
+
+  // The car's own recording: whole, with what it said and how it was, and its LCM log beside it.
+  void expect_recorded() {
+    const auto paths = recorder::segments_of(folder_->path() + "/recording");
+    ASSERT_TRUE(paths) << to_string(paths.error());
+    ASSERT_EQ(paths->size(), 1U);
+    std::map<std::string, std::uint64_t> messages;
+    const auto file = transport::read_file(paths->front());
+    recording::McapReader reader{as_bytes(*file)};
+    std::uint64_t all = 0;
+    while (const auto message = reader.next()) {
+      ++messages[reader.channels().at(message->channel).topic];
+      ++all;
+    }
+    EXPECT_EQ(reader.end(), recording::McapEnd::kComplete);
+    EXPECT_GT(messages["/can/out"], 0U);
+    EXPECT_GT(messages["/car/bus"], 0U);
+    const auto log =
+        transport::read_file(paths->front().substr(0, paths->front().size() - 5) + ".lcm");
+    ASSERT_TRUE(log) << to_string(log.error());
+    recording::LcmLogReader events{as_bytes(*log)};
+    while (events.next()) continue;
+    EXPECT_EQ(events.events() + messages["/base/picture"], all);
   }
 
   std::optional<transport::TemporaryFolder> folder_;
@@ -133,6 +168,7 @@ TEST_F(VehicleOnUnixBus, SeesItsHubDieAndSpeaksToTheNextOne) {
   vehicle.kill(SIGTERM);
   EXPECT_EQ(vehicle.wait().code, 0) << said();
   EXPECT_TRUE(std::filesystem::exists(folder_->path() + "/summary.json"));
+  expect_recorded();
   hub->kill(SIGTERM);
   EXPECT_EQ(hub->wait().code, 0);
   EXPECT_NE(said().find("frames relayed"), std::string::npos) << said();

@@ -1,0 +1,40 @@
+// A CAN frame as a record: /can/in and /can/out of the car.
+//   cost   no allocation
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <tuple>
+#include <type_traits>
+
+#include "protocol/can/frame.hpp"
+#include "protocol/recording/cdr_struct.hpp"
+
+namespace pitwall::recorder {
+
+struct CanRecord {
+  std::uint32_t id = 0;  // without flag bits
+  bool extended = false, remote = false, fd = false;
+  recording::CdrBytes<can::kMaxDataBytes> data;
+};
+constexpr recording::CdrName cdr_name(std::type_identity<CanRecord>) { return "CarCanFrame"; }
+constexpr auto cdr_fields(std::type_identity<CanRecord>) {
+  using recording::CdrField;
+  return std::tuple{CdrField{"id", &CanRecord::id}, CdrField{"extended", &CanRecord::extended},
+                    CdrField{"remote", &CanRecord::remote}, CdrField{"fd", &CanRecord::fd},
+                    CdrField{"data", &CanRecord::data}};
+}
+using CanBytes = std::array<std::uint8_t, recording::cdr_bytes_max<CanRecord>()>;
+
+inline std::span<const std::uint8_t> encode(const can::Frame& frame, CanBytes& bytes) {
+  CanRecord record{.id = frame.id,
+                   .extended = frame.extended,
+                   .remote = frame.remote,
+                   .fd = frame.fd,
+                   .data = {}};
+  for (const std::uint8_t byte : frame.payload()) CHECK(record.data.push(byte));
+  return recording::to_cdr(record, bytes);
+}
+
+}  // namespace pitwall::recorder

@@ -1,0 +1,25 @@
+// Where the files of a recording go to: one is open at a time.
+//   errors Problem where a file cannot be begun; append(): false, and problem() tells why
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::recorder {
+
+class Disk {
+ public:
+  virtual ~Disk() = default;
+  virtual std::optional<Problem> begin(const std::string& name) = 0;  // a new file
+  virtual bool append(std::span<const std::uint8_t> bytes) = 0;
+  virtual void end(bool keep) = 0;
+  virtual std::string problem() const = 0;  // of the last append that failed
+  virtual std::uint64_t free_bytes() const = 0;
+};
+
+}  // namespace pitwall::recorder

@@ -1,0 +1,57 @@
+// The LCM event log beside a segment: the same records under the same name, for LCM's own tools.
+//   in     the records of an open segment
+//   out    NAME.lcm: an event for each record, its channel named as in the segment, its time that
+//          of the reception. Types: `pitwall-base export lcm`. The picture of all that is known is
+//          left out: its values are in the groups
+//   law    the segment does not depend on it: where the disk takes no more, this log ends as it is,
+//          with whole events, and the next segment begins a new one
+//   errors figures()
+//   cost   no allocation at a record once its buffers have grown
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "protocol/recorder/channels.hpp"
+#include "protocol/recorder/disk.hpp"
+#include "protocol/recorder/record_queue.hpp"
+#include "protocol/recording/lcm_log.hpp"
+
+namespace pitwall::recorder {
+
+struct LcmFigures {
+  std::uint64_t events = 0, bytes = 0;
+  std::uint64_t lost = 0;  // events that the disk did not take
+};
+
+class LcmTwin {
+ public:
+  LcmTwin(Disk& disk, const ClockMap& clock);
+
+  void begin(const std::string& name);  // without .lcm
+  void take(const Record& record);
+  void flush();
+  void end(bool keep);
+  const LcmFigures& figures() const { return figures_; }
+
+ private:
+  struct Kind {
+    std::string topic;
+    std::uint64_t fingerprint = 0;
+  };
+
+  void encode(const Record& record);
+
+  Disk& disk_;
+  Instant utc_of_zero_{};  // of the clock of the records
+  std::vector<Kind> kinds_;
+  std::optional<recording::LcmLogWriter> log_;
+  std::vector<std::uint8_t> event_, waiting_;
+  std::uint64_t waiting_events_ = 0;
+  LcmFigures figures_;
+};
+
+}  // namespace pitwall::recorder

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/io/black_box.hpp"
+
+#include "protocol/telemetry/registry/group_row.hpp"
+#include "vehicle/io/json_counts.hpp"
+
+namespace pitwall::io {
+
+Result<BlackBox, Problem> BlackBox::open(const std::string& folder, const std::string& car_file,
+                                         const std::string& track_file) {
+  BlackBox box;
+  if (folder.empty()) return box;
+  recording::Metadata run = recorder::program_metadata("pitwall-vehicle");
+  recorder::append_file(run, "car", car_file);
+  recorder::append_file(run, "track", track_file);
+  auto started = recorder::Recorder::start(folder, std::move(run));
+  if (!started) return Unexpected{started.error()};
+  box.recorder_ = *std::move(started);
+  return box;
+}
+
+void BlackBox::can(std::span<const can::ReceivedFrame> heard, std::span<const can::Frame> said,
+                   Instant now) {
+  if (!on()) return;
+  for (const can::ReceivedFrame& frame : heard) recorder_->can(false, frame.at, frame.frame);
+  for (const can::Frame& frame : said) recorder_->can(true, now, frame);
+}
+
+void BlackBox::state(const telemetry::Snapshot& state, Instant now) {
+  recorder_->state(state, telemetry::groups_of(telemetry::Direction::kDown), now);
+}
+
+std::string BlackBox::json() const {
+  JsonCounts out;
+  if (!on()) return out.object();
+  const recorder::RecorderFigures figures = recorder_->figures();
+  out.add("records", figures.chain.records);
+  out.add("dropped", figures.dropped);
+  out.add("lost", figures.chain.lost);
+  out.add("interruptions", figures.chain.interruptions);
+  out.add("segments", figures.chain.segments);
+  out.add("lcm_events", figures.chain.lcm.events);
+  out.add("lcm_lost", figures.chain.lcm.lost);
+  out.add("bytes", figures.bytes());
+  return out.object();
+}
+
+}  // namespace pitwall::io

@@ -1,0 +1,45 @@
+// The car's own recording: its state at 50 Hz and every frame of its bus, in the base's format.
+//   in     a folder; what is heard and said in each tick, the newest snapshot
+//   out    segments of a minute with an LCM log beside each, as protocol/recorder makes them;
+//          counters for the summary
+//   law    can() and state() belong to the 100 Hz loop: they copy into a bounded queue and neither
+//          wait nor allocate. What does not fit is dropped and counted; a disk that is slow, full
+//          or gone does not touch the loop
+//   errors open(): Problem where the folder cannot be made or written; afterwards figures only
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "protocol/can/frame.hpp"
+#include "protocol/recorder/recorder.hpp"
+#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::io {
+
+class BlackBox {
+ public:
+  static constexpr std::uint64_t kStateEvery = 2;  // ticks
+
+  // An empty folder: it is off. `car_file` and `track_file` are named in the recording.
+  static Result<BlackBox, Problem> open(const std::string& folder, const std::string& car_file,
+                                        const std::string& track_file);
+
+  bool on() const { return recorder_ != nullptr; }
+  bool state_due(std::uint64_t tick) const { return on() && tick % kStateEvery == 0; }
+  void can(std::span<const can::ReceivedFrame> heard, std::span<const can::Frame> said,
+           Instant now);
+  void state(const telemetry::Snapshot& state, Instant now);
+  // Counters; not for the loop.
+  std::string json() const;
+
+ private:
+  std::unique_ptr<recorder::Recorder> recorder_;
+};
+
+}  // namespace pitwall::io
