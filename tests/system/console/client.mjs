@@ -14,8 +14,7 @@ export class Client {
   frames = 0;
   dropped = 0;
 
-  static async open(address) {
-    const client = new Client();
+  static async open(address, client = new Client()) {
     client.socket = new WebSocket(`${address.replace("http", "ws")}/ws`);
     client.socket.on("message", (data, isBinary) => client.take(data, isBinary));
     await client.until("hello", () => client.newest.hello);

@@ -1,0 +1,128 @@
+/**
+ * How fast the base station is, from the radio's socket to the operator's eye and back, with eight
+ * consoles on a car that says all it can. Real processes and a real browser in real time: other
+ * work on the machine shows in the figures.
+ *
+ *   node bench_console.mjs [--json FILE]   exit code 1 when a gate is missed
+ *
+ * PITWALL_BASE and PITWALL_CAR name the programs.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import { execFileSync } from "node:child_process";
+import { join } from "node:path";
+import { kRoot } from "../../system/console/packages.mjs";
+import { judged } from "./gates.mjs";
+import { pixelFigures } from "./pixels.mjs";
+import { Rig, Viewer, delays, eventually, now, pause, quantile } from "./rig.mjs";
+
+const kClients = 8;
+const kSettleMs = 3000;
+const kListenMs = 30_000;
+const kStops = 100;
+const kSilences = 5;
+const kPerSecond = 1000;
+
+/** Packet to WebSocket, and the base's share of a core meanwhile. */
+async function listen(gates, rig, viewers) {
+  await pause(kSettleMs);
+  const first = rig.left.length;
+  const busy = rig.busyMs();
+  const entries = viewers.reduce((sum, viewer) => sum + viewer.entries, 0);
+  const from = now();
+  await pause(kListenMs);
+  const share = (rig.busyMs() - busy) / (now() - from);
+  const told = viewers.reduce((sum, viewer) => sum + viewer.entries, 0) - entries;
+  const left = rig.left.slice(first, -2);
+  const late = viewers.flatMap((viewer) => delays(left, viewer.seen));
+  gates.say(
+    "changed values told to each console",
+    (told / kClients / kListenMs) * kPerSecond,
+    "/s",
+  );
+  gates.say("packet to WebSocket, p50", quantile(late, 0.5), "ms");
+  gates.ask("packet to WebSocket, p99", quantile(late, 0.99), 8, "ms");
+  gates.ask(`base with ${kClients} consoles`, share * 100, 10, "% of a core");
+}
+
+/** From what the console says to the datagram at the car, at any time within a slot. */
+async function stop(gates, rig, operator) {
+  operator.say({ type: "authority", do: "take" });
+  const renewing = setInterval(() => operator.say({ type: "authority", do: "renew" }), kPerSecond);
+  const took = [];
+  for (let n = 0; n < kStops; ++n) {
+    await pause(100 + 40 * Math.random());
+    const before = rig.stops.length;
+    const pressed = now();
+    operator.say({ type: "stop", kind: "emergency" });
+    await eventually("a stop at the car", () => rig.stops.length > before);
+    took.push(rig.stops[before].at - pressed);
+    await pause(60);
+    await eventually("its release", () => {
+      operator.say({ type: "release_stop" });
+      return pause(40).then(() => rig.stops.at(-1).level === 0);
+    });
+  }
+  clearInterval(renewing);
+  gates.say(`${kStops} emergency stops, console to car, p50`, quantile(took, 0.5), "ms");
+  gates.ask("emergency stop, console to car, p99", quantile(took, 0.99), 10, "ms");
+}
+
+/** From the last packet of a car that falls silent. */
+async function silence(gates, rig, viewer) {
+  const took = [];
+  for (let n = 0; n < kSilences; ++n) {
+    await eventually("a live link", () => /good|degraded/.test(viewer.linkStates.at(-1)?.state));
+    await pause(kPerSecond + 100 * Math.random());
+    const asked = now();
+    rig.programs.car.kill("SIGSTOP");
+    const lost = await eventually("the loss", () =>
+      viewer.linkStates.find(({ state, at }) => state === "lost" && at > asked),
+    );
+    took.push(lost.at - rig.newest.at);
+    rig.programs.car.kill("SIGCONT");
+    await pause(kPerSecond);
+  }
+  gates.ask("link loss told to consoles, worst", Math.max(...took), 500, "ms");
+}
+
+/** What a browser loads, gzipped; the build's own account of it. */
+function bundle(gates) {
+  const said = execFileSync(process.execPath, [join(kRoot, "basestation/console/size.mjs")], {
+    encoding: "utf8",
+  });
+  gates.ask(
+    "bundle, gzipped",
+    Number(/(\d+) bytes gzipped in all/.exec(said)[1]) / 1024,
+    120,
+    "KB",
+  );
+}
+
+async function pixels(gates, rig) {
+  const figures = await pixelFigures(rig);
+  gates.say("packet to pixel, critical field, p50", quantile(figures.drawn, 0.5), "ms");
+  gates.ask("packet to pixel, critical field, p95", quantile(figures.drawn, 0.95), 100, "ms");
+  gates.ask("packet to pixel, critical field, worst", Math.max(...figures.drawn), 200, "ms");
+  gates.ask("link loss on the screen, worst", Math.max(...figures.lost), 500, "ms");
+}
+
+async function measure(gates) {
+  const rig = new Rig();
+  try {
+    await rig.start(600);
+    console.log(`${kClients} consoles on ${rig.fields.length} fields`);
+    const viewers = await Promise.all(
+      Array.from({ length: kClients }, () => Viewer.open(rig.address, new Viewer(rig))),
+    );
+    await listen(gates, rig, viewers);
+    await stop(gates, rig, viewers[0]);
+    await silence(gates, rig, viewers[0]);
+    for (const viewer of viewers) viewer.close();
+    await pixels(gates, rig);
+    bundle(gates);
+  } finally {
+    await rig.close();
+  }
+}
+
+await judged("console", measure);

@@ -1,0 +1,73 @@
+/**
+ * From the car's packet to the pixel, in a real browser on the real base: the page notes when a
+ * number is in the document and the frame after that begins.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import { launch, open } from "../../system/console/stage.mjs";
+import { delays, eventually, kNumberPath, now, pause } from "./rig.mjs";
+
+const kWatchMs = 20_000;
+const kSettleMs = 3000;
+const kSilences = 3;
+
+/** In the page: notes each text of `selector` with the time of the frame that shows it. */
+function watch([name, selector]) {
+  const element = document.querySelector(selector);
+  globalThis[name] = [];
+  new MutationObserver(() => {
+    const text = element.textContent;
+    requestAnimationFrame(() => globalThis[name].push({ text, at: performance.now() }));
+  }).observe(element, { childList: true, characterData: true, subtree: true });
+}
+
+/** What the page's clock is behind ours: of many questions the one that was answered soonest. */
+async function clockOffset(page) {
+  let best = { took: Infinity };
+  for (let n = 0; n < 30; ++n) {
+    const asked = now();
+    const theirs = await page.evaluate(() => performance.now());
+    const took = now() - asked;
+    if (took < best.took) best = { took, offset: asked + took / 2 - theirs };
+  }
+  return best.offset;
+}
+
+/** `drawn`: ms of each number; `lost`: ms from the last packet until the page says LOST. */
+export async function pixelFigures(rig) {
+  const browser = await launch();
+  try {
+    const { page } = await open(browser, rig.address, { size: [1920, 1080] });
+    await pause(kSettleMs);
+    await page.evaluate(watch, ["drawn", `[data-path="${kNumberPath}"] .digits`]);
+    await page.evaluate(watch, ["links", ".link-tile .word"]);
+    const offset = await clockOffset(page);
+    const seen = async (name) =>
+      (await page.evaluate((of) => globalThis[of], name)).map(({ text, at }) => ({
+        text,
+        number: Number(text),
+        at: at + offset,
+      }));
+    await pause(100);
+    const first = rig.left.length;
+    await pause(kWatchMs);
+    const left = rig.left.slice(first, -5);
+    const drawn = delays(left, await seen("drawn"));
+    const lost = [];
+    for (let n = 0; n < kSilences; ++n) {
+      await eventually("a live link", async () =>
+        /GOOD|DEGRADED/.test(await page.textContent(".link-tile .word")),
+      );
+      await pause(1000 + 100 * Math.random());
+      const asked = now();
+      rig.programs.car.kill("SIGSTOP");
+      await pause(1500);
+      const shown = (await seen("links")).find(({ text, at }) => /LOST/.test(text) && at > asked);
+      lost.push((shown?.at ?? Infinity) - rig.newest.at);
+      rig.programs.car.kill("SIGCONT");
+      await pause(1000);
+    }
+    return { drawn, lost };
+  } finally {
+    await browser.close();
+  }
+}

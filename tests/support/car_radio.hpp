@@ -1,0 +1,85 @@
+// A car's end of the radio with real sockets, for programs that stand in for a car: wiring only.
+//   in     words KEYS ADDRESS SECONDS [ADDRESS2], as the programs' command lines have them
+//   out    the endpoint, fed with what came; its packets sent
+//   errors open(): Problem with the file or the address
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "basestation/intake/key_pair.hpp"
+#include "protocol/telemetry/endpoint/car_endpoint.hpp"
+#include "protocol/transport/clock.hpp"
+#include "protocol/transport/readiness.hpp"
+#include "protocol/transport/udp_socket.hpp"
+
+namespace pitwall::testing {
+
+class CarRadio {
+ public:
+  static Result<CarRadio, Problem> open(std::span<const std::string> words,
+                                        const telemetry::BudgetParams& budget = {}) {
+    const auto keys = intake::read_keys(words[0], telemetry::Role::kCar);
+    if (!keys) return Unexpected{keys.error()};
+    telemetry::ConduitConfig config;
+    config.association.keys = *keys;
+    config.budget.fill(budget);
+    CarRadio radio;
+    for (const std::size_t at : {std::size_t{1}, std::size_t{3}}) {
+      if (at >= words.size()) continue;
+      const auto address = transport::parse_udp_address(words[at]);
+      auto socket = transport::UdpSocket::bind({});
+      if (!address) return Unexpected{address.error()};
+      if (!socket) return Unexpected{socket.error()};
+      config.association.peer[radio.sockets_.size()] = {.ip = address->ip, .port = address->port};
+      radio.sockets_.push_back(*std::move(socket));
+    }
+    config.association.paths = static_cast<std::uint8_t>(radio.sockets_.size());
+    radio.end_ = std::make_unique<telemetry::CarEndpoint>(config, *radio.randomness_);
+    return radio;
+  }
+
+  telemetry::CarEndpoint& end() { return *end_; }
+
+  // Waits for this time and hears what comes until then; `heard`: after each datagram, with the
+  // time at which the kernel had it.
+  void listen(Instant until, const std::function<void(Instant)>& heard = {}) {
+    std::vector<int> watched;
+    for (const auto& socket : sockets_) watched.push_back(socket.fd());
+    do {
+      transport::wait_readable(watched, until);
+      for (std::size_t path = 0; path < sockets_.size(); ++path) {
+        const std::size_t n = sockets_[path].receive(batch_);
+        for (std::size_t i = 0; i < n; ++i) {
+          end_->feed(batch_[i].payload(), static_cast<telemetry::PathId>(path),
+                     {.ip = batch_[i].from.ip, .port = batch_[i].from.port}, batch_[i].at);
+          if (heard) heard(batch_[i].at);
+        }
+      }
+    } while (transport::monotonic_now() < until);
+  }
+
+  // All packets that are due now; how many.
+  std::size_t send(const telemetry::Snapshot& snapshot) {
+    std::size_t sent = 0;
+    while (const auto out = end_->poll(snapshot, transport::monotonic_now())) {
+      sockets_[out->path].send_to({.ip = out->to.ip, .port = out->to.port}, out->bytes);
+      ++sent;
+    }
+    return sent;
+  }
+
+ private:
+  std::unique_ptr<telemetry::SystemRandomness> randomness_ =
+      std::make_unique<telemetry::SystemRandomness>();
+  std::unique_ptr<telemetry::CarEndpoint> end_;
+  std::vector<transport::UdpSocket> sockets_;
+  std::vector<transport::UdpDatagram> batch_ = std::vector<transport::UdpDatagram>(32);
+};
+
+}  // namespace pitwall::testing
