@@ -113,8 +113,10 @@ test("what cannot be used is counted and changes nothing; what was lost is shown
   });
   assert.equal(await page.textContent(".mode-word strong"), "HIL 7");
   stage.double.dropped = 37;
-  await until(page, "what it lost", () =>
-    document.querySelector(".clocks .detail").textContent.endsWith("37 lost"),
+  await until(
+    page,
+    "what it lost",
+    () => document.querySelector(".clocks .lost").innerText === "37 lost",
   );
   assert.deepEqual(faults, []);
 });

@@ -25,7 +25,7 @@ const kWords: Record<string, string> = {
 function ModeWord() {
   const hello = session.hello.value;
   const mode = hello?.mode ?? "NONE";
-  const car = hello && mode !== "NONE" ? ` ${hello.car}` : "";
+  const car = hello?.car && mode !== "NONE" ? ` ${hello.car}` : "";
   return (
     <div class="mode-word" role="status">
       <strong>{hello ? kWords[mode] + car : "NO BASE"}</strong>
@@ -89,17 +89,24 @@ function Clocks() {
     () => {
       const [detail, time] = root.current?.children ?? [];
       if (!time) return;
-      time.textContent = isSilent() ? kDash : clockText(session.clock.utcMs(liveMs()));
+      const [draws, lost] = detail.children;
       const { dropped } = session.counters;
-      const lost = dropped > 0 ? ` \u00b7 ${dropped} lost` : "";
-      detail.textContent = `UTC \u00b7 draws in ${lastPaintMs.toFixed(1)} ms${lost}`;
+      time.textContent = isSilent() ? kDash : clockText(session.clock.utcMs(liveMs()));
+      draws.textContent = `UTC \u00b7 draws in ${lastPaintMs.toFixed(1)} ms`;
+      lost.textContent = dropped > 0 ? `${dropped} lost` : "";
     },
     kDigitsHz,
     [],
   );
   return (
     <div class="top-tile clocks" ref={root}>
-      <span class="detail" />
+      <span class="detail">
+        <span class="draws" />
+        <span
+          class="lost"
+          title="pictures that the base dropped because this console did not read"
+        />
+      </span>
       <span class="word">{kDash}</span>
     </div>
   );
@@ -120,10 +127,10 @@ export function TopBar() {
         <span class="label">Round</span>
         <span class="pair">
           <Value path="flags.round_target_speed" speed live hz={kEachFrame} />
-          <span class="of" title="as it was announced to us">
+          <span class="of announced" title="as it was announced to us">
             <Value path="derived.round_speed_expected" speed unit={false} live hz={kEachFrame} />
           </span>
-          <span class="of" title="limit set by the operator">
+          <span class="of limit" title="limit set by the operator">
             <Value path="planner.operator_limit" speed unit={false} live hz={kEachFrame} />
           </span>
         </span>

@@ -49,7 +49,7 @@ function moments(): { atS: number; colour: string; letter: string }[] {
   return [
     ...session.alarmEvents.value
       .filter((event) => event.to === "unack")
-      .map((event) => ({ atS: event.time_ms / 1000, colour: palette.warning, letter: "A" })),
+      .map((event) => ({ atS: event.time_ms / 1000, colour: palette.dim, letter: "A" })),
     ...session.ladder.value
       .filter((step) => step.times_ms?.sent !== undefined)
       .map((step) => ({ atS: step.times_ms!.sent / 1000, colour: palette.text, letter: "C" })),

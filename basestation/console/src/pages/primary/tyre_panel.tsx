@@ -4,7 +4,9 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import { Bar } from "../../view/bar";
+import { unitText, valueText } from "../../view/format";
 import { Tile, Value } from "../../view/value";
+import type { TextOf } from "../../view/value";
 
 const kWheels = [
   ["front_left", "FL"],
@@ -14,6 +16,11 @@ const kWheels = [
 ] as const;
 
 const kHottestC = 130;
+/** What the gate asks for at a speed that any tyre may go. */
+const kNoGateC = -40;
+
+const gateText: TextOf = (value, info) =>
+  value <= kNoGateC ? "none" : `${valueText(info, value, 0)} ${unitText(info.unit)}`;
 
 function Tyre({ wheel, name }: { wheel: string; name: string }) {
   return (
@@ -46,7 +53,7 @@ export function TyrePanel() {
       ))}
       <div class="tiles three">
         <Tile label="coldest" path="derived.tyre_min" decimals={0} />
-        <Tile label="gate" path="derived.tyre_gate" decimals={0} />
+        <Tile label="gate" path="derived.tyre_gate" text={gateText} unit={false} />
         <Tile label="slip rear" path="derived.slip" scale={100} decimals={1} unit="%" />
       </div>
     </div>
