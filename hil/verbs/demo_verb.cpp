@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/verbs/demo_verb.hpp"
 
+#include <netinet/in.h>
+#include <sys/socket.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
@@ -29,7 +32,8 @@ namespace fs = std::filesystem;
 constexpr std::uint16_t kBasePort = 23'431;  // the base station listens here
 constexpr std::uint16_t kUplinkPort = 23'531, kGuestUplinkPort = 23'532;
 constexpr std::uint16_t kGuestRadioPort = 23'429;  // the bench sends the car's telemetry here
-constexpr Duration kBaseStop = seconds(5);
+constexpr Duration kBaseStop = seconds(5), kBaseStart = seconds(20), kBaseLook = milliseconds(20);
+constexpr std::uint32_t kLoopback = 0x7F00'0001U;
 
 struct DemoOptions {
   bool headless = false;
@@ -59,6 +63,37 @@ Result<transport::Process, Problem> start_base(const DemoOptions& options) {
   words.insert(words.begin(), {"sh", "-c", "out=$1; shift; exec \"$@\" > \"$out\"", "sh",
                                options.folder + "/base_screen.txt"});
   return transport::Process::spawn({.argv = words});
+}
+
+// Whether a program on this machine takes connections at this port.
+bool is_served(int port) {
+  using transport::posix_call;
+  const transport::FileDescriptor socket{
+      posix_call([] { return ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0); })};
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  address.sin_addr.s_addr = htonl(kLoopback);
+  const auto* const to = static_cast<const sockaddr*>(static_cast<const void*>(&address));
+  return posix_call([&] { return ::connect(socket.get(), to, sizeof address); }).ok();
+}
+
+// Nothing else starts before the base serves its console, or without it.
+Result<transport::Process, Problem> start_serving_base(const DemoOptions& options) {
+  const std::string place = "--web " + std::to_string(options.web_port);
+  if (options.web_port != 0 && is_served(options.web_port)) {
+    return Unexpected{Problem{place, "another program serves this port; end it or take another"}};
+  }
+  auto base = start_base(options);
+  if (!base) return base;
+  const Instant end = transport::monotonic_now() + kBaseStart;
+  while (transport::monotonic_now() < end) {
+    if (base->wait_until(transport::monotonic_now() + kBaseLook)) {
+      return Unexpected{Problem{"pitwall-base", "did not start; it has said above why"}};
+    }
+    if (options.web_port == 0 || is_served(options.web_port)) return base;
+  }
+  return Unexpected{Problem{place, "the base station serves no console"}};
 }
 
 int run_live(const DemoOptions& options) {
@@ -143,6 +178,8 @@ int demo(const DemoOptions& options) {
   if (error) return refuse({options.folder, error.message()});
   if (const auto made = bench::make_run_keys(options.folder + "/keys"); !made)
     return refuse(made.error());
+  auto base = start_serving_base(options);
+  if (!base) return refuse(base.error());
   std::printf(
       "SIMULATION: %s for %.0f s in real time. The car, the bench and the base station are\n"
       "separate processes; the tyres start at working temperature.\n",
@@ -151,8 +188,6 @@ int demo(const DemoOptions& options) {
     std::printf("The operator's console: http://localhost:%d\n", options.web_port);
   }
   std::fflush(stdout);
-  auto base = start_base(options);
-  if (!base) return refuse(base.error());
   const int code = run_live(options);
   base->kill(SIGTERM);
   if (!base->wait_until(transport::monotonic_now() + kBaseStop))

@@ -198,6 +198,11 @@ Result<std::unique_ptr<WebServer>, Problem> WebServer::start(transport::UdpAddre
   std::unique_ptr<Engine> engine;
   try {
     engine = std::make_unique<Engine>(endpoint, std::move(config));
+  } catch (const boost::system::system_error& failed) {
+    const bool taken = failed.code() == boost::system::errc::address_in_use;
+    return Unexpected{Problem{"--web " + to_string(listen),
+                              taken ? "another program serves this port; end it or take another one"
+                                    : failed.code().message()}};
   } catch (const std::exception& failed) {
     return Unexpected{Problem{"--web " + to_string(listen), failed.what()}};
   }

@@ -3,13 +3,35 @@
 #include "hil/verbs/demo_verb.hpp"
 
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 
+#include <string>
+#include <utility>
+
+#include "protocol/transport/posix_call.hpp"
 #include "tests/hil/verbs/program_run.hpp"
 
 namespace pitwall::verbs {
 namespace {
 
 class DemoVerb : public ProgramRun {};
+
+// A program that serves some port of this machine.
+std::pair<transport::FileDescriptor, int> another_program() {
+  using transport::posix_call;
+  transport::FileDescriptor socket{posix_call([] { return ::socket(AF_INET, SOCK_STREAM, 0); })};
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  void* const raw = &address;
+  EXPECT_TRUE(posix_call([&] { return ::bind(socket.get(), static_cast<sockaddr*>(raw), size); }));
+  EXPECT_TRUE(posix_call([&] { return ::listen(socket.get(), 4); }));
+  EXPECT_TRUE(
+      posix_call([&] { return ::getsockname(socket.get(), static_cast<sockaddr*>(raw), &size); }));
+  return {std::move(socket), ntohs(address.sin_port)};
+}
 
 TEST_F(DemoVerb, WrongUsageIsTold) {
   expect_refusal({"demo", "--no-such-flag"}, "--no-such-flag");
@@ -32,6 +54,13 @@ TEST_F(DemoVerb, ABadScenarioIsToldWithItsPlaceAndNothingIsStarted) {
   expect_refusal({"demo", "--scenario", path("none.yaml"), "--out", path("demo")},
                  path("none.yaml"));
   EXPECT_FALSE(exists("demo"));
+}
+
+TEST_F(DemoVerb, APortThatAnotherProgramServesIsToldBeforeTheCarStarts) {
+  const auto [socket, port] = another_program();
+  expect_refusal({"demo", "--headless", "--web", std::to_string(port), "--out", path("demo")},
+                 "--web " + std::to_string(port) + ": error: another program serves this port");
+  EXPECT_FALSE(exists("demo/candump.log"));
 }
 
 TEST_F(DemoVerb, AFolderThatCannotBeMadeIsTold) {

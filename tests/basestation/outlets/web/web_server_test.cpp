@@ -167,7 +167,8 @@ TEST(WebServerStart, AnAddressThatIsTakenIsAProblem) {
   ASSERT_TRUE(first);
   const auto second = WebServer::start((*first)->local(), {});
   ASSERT_FALSE(second);
-  EXPECT_NE(second.error().what.find("in use"), std::string::npos) << second.error().what;
+  EXPECT_EQ(second.error().what, "another program serves this port; end it or take another one");
+  EXPECT_EQ(second.error().place, "--web " + to_string((*first)->local()));
 }
 
 TEST(WebServerStart, EndsWithConsolesConnected) {
