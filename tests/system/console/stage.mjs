@@ -7,11 +7,14 @@
 import { existsSync, mkdirSync } from "node:fs";
 import { after, afterEach, before, beforeEach } from "node:test";
 import { join } from "node:path";
+import { setTimeout as sleep } from "node:timers/promises";
 import { Double } from "./double.mjs";
 import { chromium, kRoot } from "./packages.mjs";
 import { Programs } from "./programs.mjs";
 
 const kChromium = process.env.PITWALL_CHROMIUM || "/usr/bin/chromium";
+/** A browser that does not end is killed with the test's process. */
+const kCloseMs = 10_000;
 export const kScreenshots = join(kRoot, "build/console/screenshots");
 export const kPages = ["primary", "plots", "telemetry", "link", "commands", "alarms"];
 export const kThemes = ["dark", "light", "sun"];
@@ -99,7 +102,7 @@ function browserStage() {
     open: (options) => open(stage.browser, stage.address, options),
   };
   before(async () => (stage.browser = await launch()));
-  after(async () => stage.browser?.close());
+  after(() => Promise.race([stage.browser?.close(), sleep(kCloseMs, undefined, { ref: false })]));
   return stage;
 }
 
