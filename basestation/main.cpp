@@ -3,14 +3,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <sys/signalfd.h>
 
-#include <CLI/CLI.hpp>
-#include <cmath>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "basestation/intake/key_pair.hpp"
@@ -22,11 +23,13 @@
 #include "basestation/outlets/terminal.hpp"
 #include "basestation/outlets/wall/catalogue_text.hpp"
 #include "basestation/outlets/wall/data_files.hpp"
+#include "basestation/outlets/wall/judge_again.hpp"
 #include "basestation/outlets/wall/recording.hpp"
 #include "basestation/outlets/wall/replay_wall.hpp"
 #include "basestation/outlets/wall/track_document.hpp"
 #include "basestation/outlets/wall/wall.hpp"
 #include "basestation/outlets/web/web_server.hpp"
+#include "basestation/settings/arguments.hpp"
 #include "basestation/settings/judgement_file.hpp"
 #include "protocol/recorder/segment_folder.hpp"
 #include "protocol/telemetry/export/export.hpp"
@@ -44,94 +47,9 @@ namespace web = outlets::web;
 constexpr int kDone = 0, kFailed = 1, kMistake = 2;  // exit codes
 constexpr std::uint16_t kDefaultPort = 23'431;
 constexpr std::uint32_t kLoopbackNet = 127U << 24U, kNetMask = 0xFF00'0000U;
-constexpr double kMaxDuration_s = 1e6, kMinRefresh_hz = 0.1, kMaxRefresh_hz = 100.0;
-constexpr double kBytesPerKbit = 125.0, kMinBudget_kbit = 64.0, kMaxBudget_kbit = 100'000.0;
+constexpr double kBytesPerKbit = 125.0;
 
-struct Arguments {
-  std::vector<std::string> listen;
-  std::string keys, command_file, json_path;
-  int operator_port = 0;
-  bool text = false, plain = false, all = false, network = false, signed_only = false;
-  double duration_s = 0.0, refresh_hz = 10.0, budget_kbit = 256.0;
-  std::string keygen_folder, export_kind;
-  std::optional<int> web_port;
-  std::string console_folder, track, tokens_file, default_role, layouts_folder, judgement_file;
-  std::vector<std::string> web_names;
-  int car = 0;
-  std::string car_name;
-  std::string record_folder, replay_folder, joystick, joystick_axes;
-  std::vector<std::string> recover_files;
-};
-
-std::string kinds() {
-  std::string text;
-  for (const std::string_view kind : telemetry::kExportKinds) {
-    text += (text.empty() ? "" : ", ") + std::string{kind};
-  }
-  return text;
-}
-
-void describe_web(CLI::App& app, Arguments& a) {
-  app.add_option("--web", a.web_port, "Serve the console at this TCP port; 0: any that is free")
-      ->check(CLI::Range(0, 65'535));
-  app.add_option("--console-dir", a.console_folder, "The console's built files");
-  app.add_option("--track", a.track, "Name or file of the track that consoles show");
-  app.add_option("--web-tokens", a.tokens_file, "Who may come in: lines ROLE TOKEN NAME");
-  app.add_option("--default-role", a.default_role,
-                 "Of a console without a token; operator on loopback, viewer with --network")
-      ->check(CLI::IsMember({"viewer", "operator"}));
-  app.add_option("--web-name", a.web_names, "A name under which browsers reach this machine")
-      ->take_all();
-  app.add_option("--layouts", a.layouts_folder, "Folder that keeps the consoles' layouts");
-  app.add_option("--judgement", a.judgement_file, "File of limits and alarms that were changed");
-  app.add_option("--car", a.car, "The car's number")->check(CLI::Range(0, 255));
-  app.add_option("--car-name", a.car_name, "The car's name");
-}
-
-void describe_recording(CLI::App& app, Arguments& a) {
-  app.add_option("--record", a.record_folder,
-                 "Keep everything in this folder; what is there of the last hour is known again");
-  app.add_option("--replay", a.replay_folder,
-                 "Show a recording to consoles instead of a car; needs --web, has no radio");
-  app.add_option("--joystick", a.joystick, "Input device of the operator's joystick");
-  app.add_option("--joystick-axes", a.joystick_axes,
-                 "lift=AXIS:RELEASED:PRESSED,brake=AXIS:RELEASED:PRESSED,enable=KEY");
-  CLI::App* const recover =
-      app.add_subcommand("recover", "Make recordings whole that a killed base left");
-  recover->add_option("FILE", a.recover_files, "Segments of a recording")->required();
-}
-
-void describe(CLI::App& app, Arguments& a) {
-  app.add_option("--keys", a.keys, "The base's keys, as keygen makes them");
-  app.add_option("--listen", a.listen, "UDP address of a radio; twice for two")
-      ->expected(1)
-      ->take_all();
-  app.add_flag("--network", a.network, "Allow --listen to be reached by other machines");
-  app.add_flag("--signed", a.signed_only, "Authenticated but readable packets; the car must agree");
-  app.add_option("--budget", a.budget_kbit, "kbit/s that may go up each radio")
-      ->check(CLI::Range(kMinBudget_kbit, kMaxBudget_kbit))
-      ->capture_default_str();
-  app.add_option("--command", a.command_file, "What the operator says: lines AT_SECONDS WORDS");
-  app.add_option("--operator-port", a.operator_port,
-                 "Loopback UDP port for the operator's words, a line each")
-      ->check(CLI::Range(1, 65'535));
-  app.add_flag("--text", a.text, "Show the picture as text on the terminal");
-  app.add_flag("--all", a.all, "Show every group");
-  app.add_flag("--plain", a.plain, "No colours, one screen after the other");
-  app.add_option("--duration", a.duration_s, "Stop after this many seconds")
-      ->check(CLI::Range(0.0, kMaxDuration_s));
-  app.add_option("--refresh", a.refresh_hz, "Screens per second")
-      ->check(CLI::Range(kMinRefresh_hz, kMaxRefresh_hz))
-      ->capture_default_str();
-  app.add_option("--json", a.json_path, "Write a summary of the run to this file");
-  describe_web(app, a);
-  describe_recording(app, a);
-  CLI::App* const keygen = app.add_subcommand("keygen", "Make the keys of a car and its base");
-  keygen->add_option("--out", a.keygen_folder, "Folder for car.keys and base.keys")->required();
-  CLI::App* const exporting =
-      app.add_subcommand("export", "Print what the radio says, as " + kinds());
-  exporting->add_option("KIND", a.export_kind, kinds())->required();
-}
+using settings::Arguments;
 
 int complain(int code, const std::string& what) {
   std::fprintf(stderr, "pitwall-base: %s\n", what.c_str());
@@ -161,7 +79,7 @@ int make_keys(const std::string& folder) {
 
 int print_export(const std::string& kind) {
   const auto text = telemetry::export_text(kind);
-  if (!text) return complain(kMistake, "export " + kind + ": one of " + kinds());
+  if (!text) return complain(kMistake, "export " + kind + ": one of " + settings::export_kinds());
   return std::fwrite(text->data(), 1, text->size(), stdout) == text->size() ? kDone : kFailed;
 }
 
@@ -195,6 +113,21 @@ Result<std::vector<transport::UdpAddress>, Problem> addresses_of(const Arguments
   return addresses;
 }
 
+// A file that is not there yet is made with the first change.
+Result<settings::Judgement, Problem> judgement_of(const std::string& path) {
+  if (std::filesystem::exists(path)) return settings::read_judgement_file(path);
+  complain(kDone, path + ": not there; limits and alarms as they came, changes go into it");
+  return settings::Judgement{};
+}
+
+command::SettingsDesk::Save saver(const std::string& path) {
+  return [path](const command::SettingsDesk::Wanted& wanted) {
+    return transport::write_file(
+        path, settings::judgement_text(wanted.derive, wanted.limits, wanted.alarms, wanted.revision,
+                                       wanted.up_kbit_s));
+  };
+}
+
 Result<bool, Problem> plan_web(const Arguments& a, Plan& plan) {
   plan.http.console = wall::console_folder(a.console_folder);
   plan.http.layouts = a.layouts_folder;
@@ -210,9 +143,12 @@ Result<bool, Problem> plan_web(const Arguments& a, Plan& plan) {
     access.tokens = *std::move(tokens);
   }
   if (!a.judgement_file.empty()) {
-    auto watch = settings::read_judgement_file(a.judgement_file);
-    if (!watch) return Unexpected{watch.error()};
-    plan.wall.watch = *std::move(watch);
+    auto judged = judgement_of(a.judgement_file);
+    if (!judged) return Unexpected{judged.error()};
+    plan.wall.revision = judged->revision;
+    plan.wall.up_kbit_s = std::min(judged->up_kbit_s, a.budget_kbit);  // unset stays unset
+    plan.wall.watch = *std::move(judged);
+    plan.wall.save = saver(a.judgement_file);
   }
   plan.http.documents["/api/track"] = {};
   if (!a.track.empty()) {
@@ -266,6 +202,19 @@ Result<Plan, Problem> plan_of(const Arguments& arguments) {
     if (!planned) return Unexpected{planned.error()};
   }
   return plan;
+}
+
+int judge(const std::string& folder) {
+  std::vector<std::string> problems;
+  const auto judged = wall::judge_again(folder, problems);
+  for (const std::string& problem : problems) complain(kDone, problem);
+  if (!judged) return complain(kMistake, judged.error());
+  for (const std::string& difference : judged->differences()) complain(kDone, difference);
+  std::printf("%llu lists and %llu lines of alarms judged again, %llu differ\n",
+              static_cast<unsigned long long>(judged->lists()),
+              static_cast<unsigned long long>(judged->lines()),
+              static_cast<unsigned long long>(judged->different()));
+  return judged->different() == 0 ? kDone : kFailed;
 }
 
 int recover(const std::vector<std::string>& files) {
@@ -337,7 +286,7 @@ int run(const Arguments& arguments, Plan& plan) {
   if (!arguments.record_folder.empty()) {
     auto started = wall::start_recording(
         arguments.record_folder,
-        recorder::run_metadata(arguments.car, arguments.car_name, arguments.judgement_file),
+        wall::run_metadata(arguments.car, arguments.car_name, arguments.judgement_file),
         consoles.get(), [](const std::string& line) { complain(kDone, line); });
     if (!started) return complain(kFailed, started.error());
     recording = *std::move(started);
@@ -350,6 +299,7 @@ int run(const Arguments& arguments, Plan& plan) {
     joystick.emplace(*std::move(opened));
     if (recording) joystick->tell(recorder::teller_of_joystick(*recording));
     others.push_back(&*joystick);
+    if (consoles) consoles->watch_joystick([&](Instant now) { return joystick->lost(now); });
   }
   outlets::run_terminal({.radio = radio,
                          .words = words.empty() ? nullptr : &words.front(),
@@ -375,23 +325,15 @@ int run(const Arguments& arguments, Plan& plan) {
 
 int main(int argc, char** argv) {
   using namespace pitwall;
-  CLI::App app{"Shows what the car says over the radio, and tells it what the operator wants",
-               "pitwall-base"};
-  Arguments arguments;
-  describe(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& mistake) {
-    return complain(kMistake, mistake.what());
+  const auto parsed = settings::parse_arguments(argc, argv);
+  if (const auto* const leave = std::get_if<settings::Leave>(&parsed)) {
+    return leave->said.empty() ? leave->code : complain(leave->code, leave->said);
   }
+  const auto& arguments = std::get<settings::Arguments>(parsed);
   if (!arguments.keygen_folder.empty()) return make_keys(arguments.keygen_folder);
   if (!arguments.export_kind.empty()) return print_export(arguments.export_kind);
-  if (!std::isfinite(arguments.duration_s) || !std::isfinite(arguments.refresh_hz)) {
-    return complain(kMistake, "--duration and --refresh are numbers");
-  }
   if (!arguments.recover_files.empty()) return recover(arguments.recover_files);
+  if (!arguments.judge_folder.empty()) return judge(arguments.judge_folder);
   if (!arguments.replay_folder.empty()) return play(arguments);
   auto plan = plan_of(arguments);
   if (!plan) return complain(kMistake, plan.error());

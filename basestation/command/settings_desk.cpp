@@ -55,7 +55,7 @@ Done SettingsDesk::change(const Said& said, alarms::AlarmEdit edit) {
   alarms::AlarmSettings wanted = watch_->alarms().settings();
   auto done = wanted.edit(edit);
   if (done) done = save(watch_->limits(), wanted, budget_.now);
-  if (done) done = watch_->alarms().edit(edit);
+  if (done) done = watch_->edit(edit);
   return note(said, what, std::move(done));
 }
 

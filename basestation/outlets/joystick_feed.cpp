@@ -45,6 +45,7 @@ void JoystickFeed::serve(intake::Station& station, Instant now) {
     const auto got = transport::read_now(device_.get(), bytes);
     if (const auto sample = reports_.feed(std::span{bytes}.first(got.bytes))) {
       station.endpoint().joystick().sample(*sample, now);
+      sampled_ = now;
       if (told_) told_(*sample, now);
     }
     if (got.ended) return lose(now);
@@ -55,6 +56,7 @@ void JoystickFeed::serve(intake::Station& station, Instant now) {
 void JoystickFeed::lose(Instant now) {
   present_ = false;
   reports_.forget();
+  sampled_.reset();
   retry_at_ = now + kRetry;
   const transport::FileDescriptor silent{
       posix_call([] { return ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK); })};

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "basestation/intake/joystick_reports.hpp"
@@ -32,6 +33,11 @@ class JoystickFeed : public Outlet {
   int fd() const override { return device_.get(); }
 
   bool present() const { return present_; }
+  // The device is gone, or its key is held and it says nothing: the car has let go of it.
+  bool lost(Instant now) const {
+    return !present_ ||
+           (reports_.enabled() && sampled_ && now - *sampled_ > telemetry::kJoystickDead);
+  }
   const intake::JoystickReports& reports() const { return reports_; }
   void tell(Told told) { told_ = std::move(told); }  // for the recorder
 
@@ -48,6 +54,7 @@ class JoystickFeed : public Outlet {
   intake::JoystickReports reports_;
   bool present_ = true;
   Instant retry_at_{};
+  std::optional<Instant> sampled_;
   Told told_;
 };
 

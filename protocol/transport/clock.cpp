@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocol/transport/clock.hpp"
 
+#include <sys/timex.h>
+
+#include <algorithm>
+#include <cstdlib>
 #include <ctime>
 
 #include "protocol/transport/posix_call.hpp"
@@ -21,6 +25,16 @@ std::int64_t read_clock(clockid_t which) {
 Instant monotonic_now() { return {read_clock(CLOCK_MONOTONIC)}; }
 
 UtcTime utc_now() { return {read_clock(CLOCK_REALTIME)}; }
+
+std::optional<Duration> utc_error() {
+  timex state{};
+  const auto outcome = posix_call([&] { return ::adjtimex(&state); });
+  if (!outcome.ok() || (state.status & STA_UNSYNC) != 0) return std::nullopt;
+  const Duration unit = (state.status & STA_NANO) != 0 ? Duration{1} : microseconds(1);
+  return std::max(Duration{unit.ns * std::abs(std::int64_t{state.offset})},
+                  microseconds(state.esterror));
+}
+
 Duration thread_time() { return {read_clock(CLOCK_THREAD_CPUTIME_ID)}; }
 
 void sleep_until(Instant deadline) {

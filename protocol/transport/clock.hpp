@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "protocol/vocabulary/time.hpp"
 
@@ -14,6 +15,9 @@ namespace pitwall::transport {
 
 Instant monotonic_now();
 UtcTime utc_now();
+// How far the calendar may be off, by the service that keeps it: the larger of what it still
+// corrects and of its own estimate. None: nothing compares this clock with another.
+std::optional<Duration> utc_error();
 // What this thread has had of a processor: what its work costs, whoever else wants the machine.
 Duration thread_time();
 

@@ -119,7 +119,7 @@ const std::vector<Part> kParts{
      {}},
     {"basestation/settings",
      {"basestation/picture", "protocol/telemetry", "protocol/yaml", "protocol/vocabulary"},
-     {"files"}},
+     {"files", "cli"}},
     {"basestation/replay", {"basestation", "protocol"}, {}},
     {"hil", kBench, {"eigen"}},
     {"hil/scenario", kBench, {"yaml"}},

@@ -126,6 +126,11 @@ void ConsoleRoom::tell_error(ClientId client, const Problem& problem) {
 
 void ConsoleRoom::tell_all(std::string text) { send(present_, std::move(text)); }
 
+void ConsoleRoom::tell_catalogue(std::string catalogue) {
+  catalogue_ = std::move(catalogue);
+  send(present_, catalogue_);
+}
+
 void ConsoleRoom::forget() {
   states_.clear();
   lines_.clear();

@@ -69,6 +69,7 @@ class ConsoleRoom {
   void tell_line(std::string_view type, std::string text, Instant now);
   void tell_error(ClientId client, const Problem& problem);
   void tell_all(std::string text);  // told once and not kept
+  void tell_catalogue(std::string catalogue);
   // A replay has jumped: nothing that was told holds any more, and all are told anew.
   void forget();
   void identify(const BaseIdentity& identity, Instant now);

@@ -2,6 +2,7 @@
 #include "basestation/outlets/wall/link_meter.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pitwall::outlets::wall {
 namespace {
@@ -35,9 +36,9 @@ LinkCount count_of(const telemetry::LinkReport& report, std::uint64_t packets,
   return count;
 }
 
-void LinkMeter::note(const LinkCount& count, Instant now) {
+void LinkMeter::note(const LinkCount& count, Instant now, double round_trip_ms) {
   if (!samples_.empty() && ran_back(count, samples_.back().count)) samples_.clear();
-  samples_.push_back({now, count});
+  samples_.push_back({now, count, round_trip_ms});
   while (samples_.size() > 2 && now - samples_[1].at >= kLongest) samples_.pop_front();
 }
 
@@ -58,6 +59,24 @@ const LinkMeter::Sample* LinkMeter::before(Duration window) const {
   const Instant from = samples_.back().at - window;
   const auto later = std::ranges::find_if(samples_, [&](const Sample& s) { return s.at > from; });
   return later == samples_.begin() ? &samples_.front() : &*std::prev(later);
+}
+
+void LinkMeter::note_use(std::size_t path, double heard_kbit_s, double use) {
+  constexpr double kLeastUse = 0.05, kFollow = 0.05;  // below it the share is too coarse
+  if (!(use >= kLeastUse && heard_kbit_s > 0.0)) return;
+  double& cap = caps_kbit_s_[path];
+  const double seen = heard_kbit_s / use;
+  cap = std::isnan(cap) ? seen : cap + kFollow * (seen - cap);
+}
+
+double LinkMeter::round_trip_ms(Duration window) const {
+  double longest_ms = kUnset;
+  if (samples_.empty()) return longest_ms;
+  const Instant from = samples_.back().at - window;
+  for (const Sample& sample : samples_) {
+    if (sample.at > from) longest_ms = std::fmax(longest_ms, sample.round_trip_ms);
+  }
+  return longest_ms;
 }
 
 double LinkMeter::loss(Duration window) const {

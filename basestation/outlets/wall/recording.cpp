@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "basestation/outlets/wall/judge_text.hpp"
 #include "basestation/outlets/wall/memory.hpp"
 #include "basestation/replay/read_back.hpp"
 #include "protocol/recorder/segment_folder.hpp"
@@ -17,6 +18,50 @@ std::string told(const replay::ReadBack& back, Duration took) {
                 static_cast<unsigned long long>(back.messages), (back.last - back.first).seconds(),
                 took.milliseconds());
   return text;
+}
+
+// How the recorder is, looked at once a second.
+class RecorderWatch {
+ public:
+  explicit RecorderWatch(const recorder::Recorder& recorder) : recorder_(&recorder) {}
+
+  void operator()(picture::BaseFigures& base, Instant now) {
+    if (now >= due_) {
+      figures_ = recorder_->figures();
+      due_ = now + kEvery;
+    }
+    const bool works = figures_.chain.recording || figures_.chain.problem.empty();
+    base.recording = works ? kRecords : kDiskTakesNothing;
+    base.disk_minutes = works ? figures_.minutes_left() : 0.0;
+    base.recorder_lost = static_cast<double>(figures_.lost());
+    base.recorder_kbyte_s = figures_.bytes_per_s / kBytesPerKilobyte;
+  }
+
+ private:
+  static constexpr Duration kEvery = seconds(1);
+  static constexpr double kRecords = 1.0, kDiskTakesNothing = 2.0;  // kRecordingStates
+  static constexpr double kBytesPerKilobyte = 1e3;
+
+  const recorder::Recorder* recorder_;
+  recorder::RecorderFigures figures_;
+  Instant due_{};
+};
+
+// What is told to consoles, and what the judge is told: all that decides the list of alarms.
+void record(Wall& wall, recorder::Recorder& to, Instant now) {
+  using recorder::Topic;
+  wall.room().record_with([&to](std::string_view type, std::string_view json, Instant at) {
+    if (const auto topic = recorder::topic_named(type)) to.text(*topic, at, json);
+  });
+  const picture::Watch& watch = wall.watch();
+  to.text(Topic::kJudge, now, judge_text(watch, true, now));
+  wall.watch().tell_inputs([&to, &watch](const picture::WatchInput& input, Instant at) {
+    to.text(Topic::kInput, at, input_text(input, at));
+    const bool edit = std::holds_alternative<picture::LimitEdit>(input) ||
+                      std::holds_alternative<alarms::AlarmEdit>(input);
+    if (edit) to.text(Topic::kJudge, at, judge_text(watch, false, at));
+  });
+  wall.watch_recorder(RecorderWatch{to});
 }
 
 }  // namespace
@@ -42,10 +87,7 @@ Result<std::unique_ptr<recorder::Recorder>, Problem> start_recording(
       replay::read_back(folder, (*recorder)->clock(), begun, replay::kHistorySpan, memory);
   for (const std::string& problem : back.problems) say(problem);
   if (back.messages != 0) say(told(back, transport::monotonic_now() - begun));
-  wall->room().record_with(
-      [to = recorder->get()](std::string_view type, std::string_view json, Instant at) {
-        if (const auto topic = recorder::topic_named(type)) to->text(*topic, at, json);
-      });
+  record(*wall, **recorder, begun);
   return recorder;
 }
 

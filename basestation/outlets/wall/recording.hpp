@@ -1,7 +1,8 @@
 // A base that records: what a killed one left is made whole and known again, then everything is
 // kept, with the very texts that consoles get where there are any.
 //   in     the folder, what the segments say of the run; the wall, nullptr: no consoles
-//   out    the recorder; lines for a person, by `say`
+//   out    the recorder; lines for a person, by `say`; fields of the base that tell how it records
+//   law    what the judge is told beside states is recorded, too: judge_again() gives the same list
 //   errors Problem where the folder cannot be made or written
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

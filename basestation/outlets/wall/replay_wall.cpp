@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "basestation/outlets/wall/catalogue_text.hpp"
+#include "basestation/outlets/wall/judge_text.hpp"
 #include "protocol/json/json_text.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/readiness.hpp"
@@ -109,6 +110,7 @@ std::vector<picture::TrendPoint> ReplayWall::past(picture::FieldId id, Instant f
 
 void ReplayWall::state(const telemetry::Snapshot& state, telemetry::GroupSet groups,
                        Instant received) {
+  unsettled_ = false;
   watch_->advance(picture_, received);
   watch_->heard(received);
   picture_.update(state, groups);
@@ -125,20 +127,44 @@ void ReplayWall::text(recorder::Topic topic, Instant at, std::string_view json) 
     case kRecorder:
     case kJoystick:
       return;
+    case kJudge:
+      return settle(json);
+    case kInput:
+      return tell_judge(at, json);
     case kAlarms:
     case kAuthority:
     case kLink:
     case kFuel:
+    case kExpected:
+    case kSettings:
       return room_.tell_state(type, std::string{json}, at);
     default:
       return room_.tell_line(type, std::string{json}, at);
   }
 }
 
+// With the limits that were in force then, on the course that is known now.
+void ReplayWall::settle(std::string_view json) {
+  auto settings = read_judge_text(json);
+  // A change within a process comes as an input besides, and forgets nothing.
+  if (!settings || !(settings->begins || unsettled_)) return;
+  unsettled_ = false;
+  settings->config.course = config_.watch.course;
+  watch_.emplace(std::move(settings->config));
+}
+
+void ReplayWall::tell_judge(Instant at, std::string_view json) {
+  const auto input = read_input_text(json, at);
+  if (!input) return;
+  watch_->advance(picture_, at);
+  static_cast<void>(watch_->take(*input));
+}
+
 void ReplayWall::restart(Instant) {
   picture_ = {};
   trends_.emplace();
   watch_.emplace(config_.watch);
+  unsettled_ = true;
   heard_.reset();
   room_.forget();
   ++jumps_;

@@ -40,6 +40,8 @@ class ReplayWall : private Eyes, private replay::Listener {
   void text(recorder::Topic topic, Instant at, std::string_view json) override;
   void restart(Instant to) override;
 
+  void settle(std::string_view json);
+  void tell_judge(Instant at, std::string_view json);
   void hear();
   void obey(web::ClientId client, const Request& request);
   void tell(Duration passed);
@@ -52,6 +54,7 @@ class ReplayWall : private Eyes, private replay::Listener {
   std::optional<picture::Trends> trends_;
   std::optional<picture::Watch> watch_;
   ConsoleRoom room_;
+  bool unsettled_ = true;  // since the jump nothing was judged
   std::optional<Instant> heard_;
   std::uint64_t jumps_ = 0;
   Duration untold_ = kTellEvery;  // since the playback was told

@@ -55,6 +55,11 @@ class Reader {
     return words[0].second;
   }
   bool has(const char* key) const { return value_.find(key) != nullptr; }
+  // Not there, or null.
+  bool is_null(const char* key) const {
+    const JsonValue* const found = value_.find(key);
+    return found == nullptr || found->is_null();
+  }
   const JsonValue& value() const { return value_; }
   void wrong(const std::string& key, const std::string& what) {
     if (!problem_) problem_ = Problem{key, what};
@@ -178,11 +183,65 @@ Request playback(Reader& read) {
   return ask;
 }
 
+Request expect(Reader& read) {
+  constexpr double kSpeedMax_mps = 120.0;
+  AskExpect ask;
+  if (!read.is_null("round_speed"))
+    ask.round_speed_mps = read.number("round_speed", 0.0, kSpeedMax_mps);
+  return ask;
+}
+
+Request fuel_loaded(Reader& read) {
+  constexpr double kTankMax_l = 200.0;
+  return AskFuelLoaded{read.number("litres", 0.0, kTankMax_l)};
+}
+
+constexpr double kAny = 1e9, kDelayMax_s = 600.0;
+
+Request edit_alarm(Reader& read) {
+  using enum alarms::Priority;
+  constexpr std::array<std::pair<std::string_view, alarms::Priority>, 3> kPriorities{
+      {{"low", kLow}, {"medium", kMedium}, {"high", kHigh}}};
+  AskEditAlarm ask;
+  ask.edit.key = read.text("key", 1, kLineMax);
+  ask.edit.setting = {.priority = read.word("priority", kPriorities),
+                      .limit = read.number("limit", -kAny, kAny),
+                      .deadband = read.number("deadband", 0.0, kAny),
+                      .on_delay = from_seconds(read.number("on_s", 0.0, kDelayMax_s)),
+                      .off_delay = from_seconds(read.number("off_s", 0.0, kDelayMax_s))};
+  ask.reason = read.text("reason", 1, kLineMax);
+  return ask;
+}
+
+Request edit_limit(Reader& read) {
+  AskEditLimit ask;
+  const auto field = picture::find_field(read.text("field", 1, kLineMax));
+  if (!field) read.wrong("field", "no such field");
+  ask.edit.field = field.value_or(0);
+  const auto bound = [&](const char* key) {
+    return read.is_null(key) ? kUnset : read.number(key, -kAny, kAny);
+  };
+  ask.edit.limit = {.warning_low = bound("warning_low"),
+                    .warning_high = bound("warning_high"),
+                    .bad_low = bound("bad_low"),
+                    .bad_high = bound("bad_high")};
+  ask.reason = read.text("reason", 1, kLineMax);
+  return ask;
+}
+
+Request edit_budget(Reader& read) {
+  constexpr double kUpMax_kbit = 100'000.0;
+  AskEditBudget ask;
+  ask.up_kbit_s = read.number("up_kbit_s", 1.0, kUpMax_kbit);
+  ask.reason = read.text("reason", 1, kLineMax);
+  return ask;
+}
+
 struct Kind {
   std::string_view name;
   Request (*read)(Reader&);
 };
-constexpr std::array<Kind, 15> kKinds{
+constexpr std::array<Kind, 20> kKinds{
     {{"history", history},
      {"ping", ping},
      {"mark", mark},
@@ -197,7 +256,12 @@ constexpr std::array<Kind, 15> kKinds{
      {"send", send},
      {"cancel", cancel},
      {"notice", notice},
-     {"playback", playback}}};
+     {"playback", playback},
+     {"expect", expect},
+     {"fuel_loaded", fuel_loaded},
+     {"edit_alarm", edit_alarm},
+     {"edit_limit", edit_limit},
+     {"edit_budget", edit_budget}}};
 
 }  // namespace
 

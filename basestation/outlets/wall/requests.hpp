@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "basestation/outlets/web/client.hpp"
+#include "basestation/picture/alarms/alarm_table.hpp"
+#include "basestation/picture/limits.hpp"
 #include "protocol/telemetry/command/stop_latch.hpp"
 #include "protocol/vocabulary/result.hpp"
 
@@ -73,15 +75,35 @@ struct AskNotice {
 struct AskPing {
   double at = 0.0;
 };
+// The round speed that race control announced; none: it was taken back.
+struct AskExpect {
+  std::optional<double> round_speed_mps;
+};
+struct AskFuelLoaded {
+  double litres = 0.0;  // in the tank now
+};
+struct AskEditAlarm {
+  alarms::AlarmEdit edit;  // without author and reason
+  std::string reason;
+};
+struct AskEditLimit {
+  picture::LimitEdit edit;  // bounds only
+  std::string reason;
+};
+struct AskEditBudget {
+  double up_kbit_s = 0.0;
+  std::string reason;
+};
 // Of a replay only.
 struct AskPlayback {
   std::optional<double> speed;  // recorded seconds per second; 0: pause; backwards below
   std::optional<double> to_ms;  // on the clock of time_ns
 };
 
-using Request = std::variant<AskHistory, AskPing, AskMark, AskAcknowledge, AskShelve, AskUnshelve,
-                             AskReset, AskStop, AskReleaseStop, AskAuthority, AskStage, AskSend,
-                             AskCancel, AskNotice, AskPlayback>;
+using Request =
+    std::variant<AskHistory, AskPing, AskMark, AskAcknowledge, AskShelve, AskUnshelve, AskReset,
+                 AskStop, AskReleaseStop, AskAuthority, AskStage, AskSend, AskCancel, AskNotice,
+                 AskPlayback, AskExpect, AskFuelLoaded, AskEditAlarm, AskEditLimit, AskEditBudget>;
 
 Result<Request, Problem> parse_request(std::string_view text);
 Role role_for(const Request& request);

@@ -206,6 +206,7 @@ Result<TrackDocument, Problem> read_track(const std::string& path) {
   const std::vector<CoursePoint> line = closed_line(*track);
   auto course = picture::Course::make(line, track->length_m);
   if (!course) return Unexpected{Problem{path, course.error().what}};
+  if (const auto& pit = track->pit) course->set_pit({pit->from_s_m, pit->to_s_m, pit->offset_m});
   TrackDocument made;
   made.json = json_of(*track, line, course->corners());
   made.course = *std::move(course);

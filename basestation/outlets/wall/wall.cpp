@@ -8,7 +8,10 @@
 #include <variant>
 
 #include "basestation/outlets/wall/catalogue_text.hpp"
+#include "basestation/outlets/wall/errands.hpp"
+#include "basestation/outlets/wall/settings_text.hpp"
 #include "basestation/outlets/wall/wall_texts.hpp"
+#include "protocol/telemetry/packet/header.hpp"
 #include "protocol/transport/clock.hpp"
 
 namespace pitwall::outlets::wall {
@@ -16,9 +19,8 @@ namespace {
 
 using telemetry::field;
 
-constexpr Unexpected<Problem> refused(std::string place, std::string what) {
-  return Unexpected{Problem{std::move(place), std::move(what)}};
-}
+constexpr double kNotRecording = 0.0;  // of picture::kRecordingStates
+constexpr std::array kBudgetUse{field("radio.budget_use_0"), field("radio.budget_use_1")};
 
 const char* mode_of(intake::Station::Source source) {
   switch (source) {
@@ -40,14 +42,25 @@ Wall::Wall(WallConfig config, intake::Station& station, web::WebServer& server)
       watch_(config_.watch),
       talk_(station.endpoint().authority(), audit_),
       desk_(config_.gates, audit_),
-      room_(catalogue_text([this](picture::FieldId id) -> const picture::Limit& {
-        return watch_.limits().of(id);
-      })) {}
+      settings_(watch_, audit_, config_.revision,
+                {.most = config_.up_cap_kbit_s,
+                 .now = std::isnan(config_.up_kbit_s) ? config_.up_cap_kbit_s : config_.up_kbit_s},
+                config_.save),
+      room_(catalogue()) {}
+
+std::string Wall::catalogue() const {
+  return catalogue_text(
+      [this](picture::FieldId id) -> const picture::Limit& { return watch_.limits().of(id); });
+}
 
 void Wall::packet(const intake::Station& station, const telemetry::Arrival& arrival) {
   const telemetry::Snapshot& state = station.endpoint().state();
   watch_.advance(picture_, arrival.received);
-  watch_.heard(arrival.received);
+  if (arrival.groups.count() == 0) {
+    static_cast<void>(watch_.take(picture::Heard{arrival.received}));
+  } else {
+    watch_.heard(arrival.received);
+  }
   picture_.update(state, arrival.groups);
   trends_.note(state, arrival.groups);
   meter_.packet(arrival.groups, arrival.received);
@@ -63,9 +76,12 @@ Instant Wall::due() const { return std::min(room_.due(), measured_ + kLinkEvery)
 
 void Wall::serve(intake::Station& station, Instant now) {
   hear(station, now);
-  if (now - measured_ >= kLinkEvery) measure(station, now);
   watch_.advance(picture_, now);
+  const bool news = watch_.link_state() != link_told_;
+  if (news || now - measured_ >= kLinkEvery) measure(station, now);
+  if (news) room_.heard();
   talk_.advance(now);
+  set_budget(station);
   desk_.follow(picture_, station.endpoint(), now);
   tell(station, now);
   room_.serve(*this, transport::utc_now(), now);
@@ -94,118 +110,26 @@ void Wall::hear(intake::Station& station, Instant now) {
   }
 }
 
-command::GateInputs Wall::gate_inputs(Instant now) const {
-  return {.picture = picture_, .watch = watch_, .holder = talk_.holder(now), .now = now};
-}
-
-std::optional<command::Override> Wall::override_of(const AskSend& ask) const {
-  if (!ask.overrides) return std::nullopt;
-  command::Override overriding;
-  overriding.reason = ask.reason;
-  // A second person is known by a token of an operator; nobody else is one.
-  const auto who = config_.tokens.find(ask.token);
-  if (who && who->role == web::Role::kOperator) overriding.second.name = who->name;
-  return overriding;
-}
-
-using Done = Result<bool, Problem>;
-
-struct Wall::Doing {
-  Wall& wall;
-  intake::Station& station;
-  command::Person by;
-  Instant now;
-
-  telemetry::StationEndpoint& radio() const { return station.endpoint(); }
-  bool holds() const { return wall.talk_.holder(now) == by.console; }
-  alarms::Engine& alarms() const {
-    wall.watch_.advance(wall.picture_, now);
-    return wall.watch_.alarms();
-  }
-
-  Done operator()(const AskHistory&) const { return true; }  // the room's own
-  Done operator()(const AskPing&) const { return true; }
-  Done operator()(const AskMark& ask) const {
-    wall.room_.tell_line("mark", mark_text(ask.text, by.name, now), now);
-    return true;
-  }
-  Done operator()(const AskAcknowledge& ask) const {
-    Done done = true;
-    for (const std::uint32_t id : ask.alarms) {
-      auto one = alarms().acknowledge(id, by.name, now);
-      if (!one) done = std::move(one);
-    }
-    return done;
-  }
-  Done operator()(const AskShelve& ask) const {
-    constexpr double kSecondsPerMinute = 60.0;
-    return alarms().shelve(ask.alarm, from_seconds(ask.minutes * kSecondsPerMinute), by.name,
-                           ask.reason, now);
-  }
-  Done operator()(const AskUnshelve& ask) const {
-    return alarms().unshelve(ask.alarm, by.name, now);
-  }
-  Done operator()(const AskReset& ask) const { return alarms().reset(ask.alarm, by.name, now); }
-  Done operator()(const AskStop& ask) const {
-    wall.desk_.stop(ask.level, telemetry::StopReason::kOperator, by, now, radio());
-    return true;
-  }
-  Done operator()(const AskReleaseStop&) const {
-    if (!holds()) return refused("release_stop", "you do not hold the authority");
-    const double challenge = radio().state().values[field("mode.stop_challenge")];
-    if (!(challenge > 0.0)) return refused("release_stop", "the car says of no latched stop");
-    const auto ticket = wall.desk_.stage(by, telemetry::CommandType::kReleaseStop, challenge,
-                                         wall.gate_inputs(now));
-    if (!ticket) return Unexpected{ticket.error()};
-    return wall.desk_.send(*ticket, by, std::nullopt, wall.gate_inputs(now), radio());
-  }
-  Done operator()(const AskAuthority& ask) const {
-    switch (ask.claim) {
-      case Claim::kTake:
-        return wall.talk_.take(by, now);
-      case Claim::kRenew:
-        return wall.talk_.renew(by, now);
-      case Claim::kDrop:
-        return wall.talk_.drop(by, now);
-      case Claim::kRequest:
-        return wall.talk_.request(by, now);
-      case Claim::kGrant:
-        return wall.talk_.grant(by, now);
-      case Claim::kRefuse:
-        return wall.talk_.refuse(by, now);
-    }
-    return true;
-  }
-  Done operator()(const AskStage& ask) const {
-    for (const telemetry::CommandRow& row : telemetry::kCommandTable) {
-      if (row.name != ask.name) continue;
-      const auto ticket = wall.desk_.stage(by, row.type, ask.argument, wall.gate_inputs(now));
-      return ticket ? Done{true} : Done{Unexpected{ticket.error()}};
-    }
-    return refused("stage.name", "no such command");
-  }
-  Done operator()(const AskSend& ask) const {
-    return wall.desk_.send(ask.ticket, by, wall.override_of(ask), wall.gate_inputs(now), radio());
-  }
-  Done operator()(const AskCancel& ask) const { return wall.desk_.cancel(ask.ticket, by, now); }
-  Done operator()(const AskPlayback&) const { return refused("playback", "this is no replay"); }
-  Done operator()(const AskNotice& ask) const {
-    alarms::Notices& notices = wall.watch_.notices();
-    return ask.send ? notices.send(ask.id, by.name) : notices.dismiss(ask.id, by.name);
-  }
-};
-
 void Wall::do_now(intake::Station& station, web::ClientId client, const Request& request,
                   Instant now) {
-  const auto done = std::visit(
-      Doing{.wall = *this, .station = station, .by = room_.person(client), .now = now}, request);
+  const ErrandParts parts{.picture = picture_,
+                          .watch = watch_,
+                          .audit = audit_,
+                          .talk = talk_,
+                          .desk = desk_,
+                          .settings = settings_,
+                          .said = said_,
+                          .room = room_,
+                          .tokens = config_.tokens};
+  const auto done = carry_out(request, parts, station, room_.person(client), now);
   if (!done) room_.tell_error(client, done.error());
 }
 
 void Wall::measure(intake::Station& station, Instant now) {
   measured_ = now;
   const telemetry::LinkReport report = station.report(now);
-  meter_.note(count_of(report, station.rate().packets(), station.lost_packets()), now);
+  meter_.note(count_of(report, station.rate().packets(), station.lost_packets()), now,
+              report.round_trip ? report.round_trip->milliseconds() : kUnset);
   const telemetry::PathFigures& heard = report.paths[0].heard;
   const picture::FieldView up_loss = picture_.view(field("radio.loss_0"), now);
   picture::LinkFigures figures;
@@ -220,16 +144,24 @@ void Wall::measure(intake::Station& station, Instant now) {
   constexpr double kBytesPerKbit = 125.0;
   figures.down_kbit_s = 0.0;
   figures.up_kbit_s = 0.0;
+  figures.down_cap_kbit_s = 0.0;
+  const double overhead_kbit_s =  // the car's budget counts IP and UDP, the link's figures do not
+      figures.packets_hz * telemetry::kIpUdpOverhead / kBytesPerKbit;
   for (std::size_t path = 0; path < station.paths(); ++path) {
-    figures.down_kbit_s += report.paths[path].heard.rate_bytes_per_s / kBytesPerKbit;
+    const telemetry::PathFigures& down = report.paths[path].heard;
+    const double down_kbit_s = down.rate_bytes_per_s / kBytesPerKbit;
+    const picture::FieldView use = picture_.view(kBudgetUse[path], now);
+    if (picture::usable(use)) {
+      meter_.note_use(path, (down_kbit_s + overhead_kbit_s) / (1.0 - down.loss), use.value);
+    }
+    figures.down_kbit_s += down_kbit_s;
+    figures.down_cap_kbit_s += meter_.down_cap_kbit_s(path);
     figures.up_kbit_s += meter_.path(path, seconds(5)).up_kbit_s;
   }
   watch_.advance(picture_, now);
   watch_.link(figures);
-  picture::BaseFigures base;
-  base.authority_lost = talk_.lost();
-  base.schema_differs = report.established && !station.endpoint().schema_agrees();
-  watch_.base(base);
+  watch_.base(own_figures(station, report, now));
+  relay_flag(station);
 
   std::array<double, picture::kBaseFields> values{};
   for (const picture::BaseRow& row : picture::kBaseTable) {
@@ -238,8 +170,9 @@ void Wall::measure(intake::Station& station, Instant now) {
     values[picture::index_of(row.field)] = old ? kUnset : seen.value;
   }
   own_trends_.note(now, values);
-  if (now - told_link_ < kTellLinkEvery) return;
+  if (watch_.link_state() == link_told_ && now - told_link_ < kTellLinkEvery) return;
   told_link_ = now;
+  link_told_ = watch_.link_state();
   room_.tell_state("link",
                    link_text({.report = report,
                               .meter = meter_,
@@ -247,16 +180,47 @@ void Wall::measure(intake::Station& station, Instant now) {
                               .state = watch_.link_state(),
                               .since = watch_.link_since(),
                               .paths = station.paths(),
-                              .up_cap_kbit_s = config_.up_cap_kbit_s},
+                              .up_cap_kbit_s = settings_.budget().now},
                              now),
                    now);
+}
+
+picture::BaseFigures Wall::own_figures(const intake::Station& station,
+                                       const telemetry::LinkReport& report, Instant now) const {
+  picture::BaseFigures base;
+  base.authority_lost = talk_.lost();
+  base.schema_differs = report.established && !station.endpoint().schema_agrees();
+  base.joystick_lost = joystick_lost_ && joystick_lost_(now);
+  if (const auto error = transport::utc_error()) base.clock_offset_ms = error->milliseconds();
+  base.recording = kNotRecording;
+  if (recorder_figures_) recorder_figures_(base, now);
+  return base;
+}
+
+// The flag that the car has taken from us, for conflicts with race control's.
+void Wall::relay_flag(const intake::Station& station) {
+  const auto* const flag = station.endpoint().newest(telemetry::CommandType::kTrackFlag);
+  if (flag == nullptr || flag->fate != telemetry::Outcome::kApplied) return;
+  const double relayed = flag->command.argument > 0.0 ? flag->command.argument : kUnset;
+  double& known = said_.expected.track_flag;
+  if (relayed == known || (std::isnan(relayed) && std::isnan(known))) return;
+  known = relayed;
+  watch_.expect(said_.expected);
+}
+
+void Wall::set_budget(intake::Station& station) {
+  const command::UpBudget& budget = settings_.budget();
+  if (std::isnan(budget.now) || budget.now == budget_set_) return;
+  budget_set_ = budget.now;
+  station.endpoint().set_budget_share(budget.now / budget.most);
 }
 
 void Wall::tell(intake::Station& station, Instant now) {
   room_.identify({.car = config_.car,
                   .name = config_.name,
                   .mode = mode_of(station.source()),
-                  .alarm_config = watch_.alarms().settings().version_text()},
+                  .alarm_config = std::to_string(settings_.revision()) + "-" +
+                                  watch_.alarms().settings().version_text()},
                  now);
   tell_alarms(now);
   tell_desk(station, now);
@@ -266,7 +230,19 @@ void Wall::tell(intake::Station& station, Instant now) {
     fuel_told_ = fuel;
     room_.tell_state("fuel", std::move(fuel), now);
   }
+  tell_settings(now);
   states_told_ = true;
+}
+
+void Wall::tell_settings(Instant now) {
+  if (!states_told_ || said_.revision != said_told_) {
+    said_told_ = said_.revision;
+    room_.tell_state("expected", expected_text(said_), now);
+  }
+  if (states_told_ && settings_.revision() == settings_told_) return;
+  settings_told_ = settings_.revision();
+  if (states_told_) room_.tell_catalogue(catalogue());
+  room_.tell_state("settings", settings_text(settings_, watch_.alarms().settings()), now);
 }
 
 void Wall::tell_alarms(Instant now) {

@@ -2,12 +2,14 @@
 //   in     packets and figures of the station; what consoles say, by the server
 //   out    messages to the server; stops, authority and commands to the station's endpoint
 //   law    ages, qualities, judgements, alarms and gates are the base's: consoles show them
+//          another state of the link is told in the turn of the loop in which it is found
 //          a stop is said to the endpoint in the turn of the loop in which it was heard, before
 //          anything is told to anybody
 //   cost   serve(): some tens of microseconds, a frame with all fields about 50
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,9 +18,11 @@
 #include "basestation/command/audit.hpp"
 #include "basestation/command/authority_talk.hpp"
 #include "basestation/command/desk.hpp"
+#include "basestation/command/settings_desk.hpp"
 #include "basestation/intake/station.hpp"
 #include "basestation/outlets/outlet.hpp"
 #include "basestation/outlets/wall/console_room.hpp"
+#include "basestation/outlets/wall/errands.hpp"
 #include "basestation/outlets/wall/link_meter.hpp"
 #include "basestation/outlets/web/access.hpp"
 #include "basestation/outlets/web/web_server.hpp"
@@ -31,6 +35,9 @@ struct WallConfig {
   int car = 0;
   std::string name;
   double up_cap_kbit_s = kUnset;  // of each path
+  double up_kbit_s = kUnset;      // as operators have lowered it; unset: the cap
+  std::uint64_t revision = 0;     // of the settings
+  command::SettingsDesk::Save save{};
   picture::WatchConfig watch{};
   command::GateParams gates{};
   web::Tokens tokens{};  // of the second person of an override
@@ -47,6 +54,13 @@ class Wall : public Outlet, private Eyes {
 
   // What was known before this process began: picture, trends and logs, no alarms.
   void remember(const telemetry::Snapshot& state, telemetry::GroupSet groups);
+
+  // Who fills in how the recorder is; asked ten times a second.
+  void watch_recorder(std::function<void(picture::BaseFigures&, Instant)> fill) {
+    recorder_figures_ = std::move(fill);
+  }
+  // Whether the hand that was in use is silent; asked for ten times a second.
+  void watch_joystick(std::function<bool(Instant)> lost) { joystick_lost_ = std::move(lost); }
 
   ConsoleRoom& room() { return room_; }
   picture::Watch& watch() { return watch_; }
@@ -67,11 +81,12 @@ class Wall : public Outlet, private Eyes {
   void tell_alarms(Instant now);
   void tell_desk(intake::Station& station, Instant now);
   void tell_events(intake::Station& station, Instant now);
-  command::GateInputs gate_inputs(Instant now) const;
-  std::optional<command::Override> override_of(const AskSend& ask) const;
-
-  // What a console asks for, carried out; the problem that it is told.
-  struct Doing;
+  void tell_settings(Instant now);
+  std::string catalogue() const;
+  picture::BaseFigures own_figures(const intake::Station& station,
+                                   const telemetry::LinkReport& report, Instant now) const;
+  void relay_flag(const intake::Station& station);
+  void set_budget(intake::Station& station);
 
   WallConfig config_;
   web::WebServer& server_;
@@ -83,11 +98,18 @@ class Wall : public Outlet, private Eyes {
   command::Audit audit_;
   command::AuthorityTalk talk_;
   command::Desk desk_;
+  command::SettingsDesk settings_;
+  PeopleSaid said_;
+  std::function<bool(Instant)> joystick_lost_;
+  std::function<void(picture::BaseFigures&, Instant)> recorder_figures_;
+  double budget_set_ = kUnset;
   ConsoleRoom room_;
   Instant measured_{}, told_link_{};
+  picture::LinkState link_told_ = picture::LinkState::kNone;
   // What consoles have been told of.
   std::uint64_t alarms_told_ = 0, alarm_events_told_ = 0, notices_told_ = 0;
   std::uint64_t audit_told_ = 0, authority_told_ = 0, events_told_ = 0;
+  std::uint64_t said_told_ = 0, settings_told_ = 0;
   bool states_told_ = false;
   Instant authority_said_{};
   std::string fuel_told_;

@@ -90,15 +90,13 @@ std::string down_windows(const LinkSaid& said, std::size_t path) {
     const PathWindow window = said.meter.path(path, seconds(length_s));
     Object object;
     object.number("seconds", length_s).number("loss", window.loss);
-    object.json("rtt_ms", said.report.round_trip
-                              ? json::number(said.report.round_trip->milliseconds())
-                              : "null");
+    object.number("rtt_ms", said.meter.round_trip_ms(seconds(length_s)));
     object.number("jitter_ms", heard.jitter.milliseconds());
     object.number("reorder", window.late).number("duplicate", window.duplicate);
     constexpr double kBytesPerKbit = 125.0;
     object.number("kbit_s",
                   length_s == kOwnWindow_s ? heard.rate_bytes_per_s / kBytesPerKbit : kUnset);
-    windows.json(object.json("cap_kbit_s", "null").str());
+    windows.json(object.number("cap_kbit_s", said.meter.down_cap_kbit_s(path)).str());
   }
   return windows.str();
 }
@@ -112,9 +110,7 @@ std::string up_windows(const LinkSaid& said, std::size_t path, Instant now) {
     windows.json(Object{}
                      .number("seconds", length_s)
                      .number("loss", known ? loss.value : kUnset)
-                     .json("rtt_ms", said.report.round_trip
-                                         ? json::number(said.report.round_trip->milliseconds())
-                                         : "null")
+                     .number("rtt_ms", said.meter.round_trip_ms(seconds(length_s)))
                      .number("kbit_s", said.meter.path(path, seconds(length_s)).up_kbit_s)
                      .number("cap_kbit_s", said.up_cap_kbit_s)
                      .str());
@@ -247,7 +243,9 @@ std::string fuel_text(const picture::FuelLeft& fuel) {
       .number("laps", fuel.laps)
       .number("attempts", fuel.attempts)
       .number("per_lap", fuel.per_lap_l)
+      .number("level", fuel.level_l)
       .flag("measured", fuel.measured)
+      .flag("estimated", fuel.estimated)
       .text("text", label)
       .str();
 }

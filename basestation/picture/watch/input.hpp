@@ -14,13 +14,18 @@
 
 namespace pitwall::picture {
 
+// A packet that told nothing new came.
+struct Heard {
+  Instant at{};
+};
+
 // What a person does with an alarm of the list.
 struct AlarmAct {
   enum class Kind : std::uint8_t { kAcknowledge, kShelve, kUnshelve, kReset };
   Kind kind = Kind::kAcknowledge;
   alarms::AlarmId alarm = 0;
   Duration length{};  // shelved for so long
-  std::string by, reason;
+  std::string by{}, reason{};
 
   bool operator==(const AlarmAct&) const = default;
 };
@@ -29,12 +34,12 @@ struct AlarmAct {
 struct NoticeAct {
   std::uint32_t notice = 0;
   bool send = false;  // else it is dismissed
-  std::string by;
+  std::string by{};
 
   bool operator==(const NoticeAct&) const = default;
 };
 
-using WatchInput = std::variant<LinkFigures, BaseFigures, Expectations, AlarmAct, NoticeAct,
+using WatchInput = std::variant<Heard, LinkFigures, BaseFigures, Expectations, AlarmAct, NoticeAct,
                                 LimitEdit, alarms::AlarmEdit>;
 
 }  // namespace pitwall::picture

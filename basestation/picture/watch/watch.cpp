@@ -25,6 +25,7 @@ Watch::Watch(WatchConfig config)
       readings_(alarms::alarm_count()) {}
 
 void Watch::advance(const Picture& picture, Instant now) {
+  now_ = std::max(now_, now);
   const std::int64_t newest = step_before(now);
   std::int64_t next = newest_step_ ? *newest_step_ + 1 : newest;
   if (newest - next >= kStepsAtOnce) {
@@ -42,16 +43,20 @@ struct Watch::Taking {
   Watch& watch;
   Instant at;
 
+  Result<bool, Problem> operator()(const Heard& heard) const {
+    watch.heard(heard.at);
+    return true;
+  }
   Result<bool, Problem> operator()(const LinkFigures& figures) const {
-    watch.link(figures);
+    watch.known_.link = figures;
     return true;
   }
   Result<bool, Problem> operator()(const BaseFigures& figures) const {
-    watch.base(figures);
+    watch.known_.base = figures;
     return true;
   }
   Result<bool, Problem> operator()(const Expectations& expected) const {
-    watch.expect(expected);
+    watch.known_.expected = expected;
     return true;
   }
   Result<bool, Problem> operator()(const AlarmAct& act) const {
@@ -72,14 +77,16 @@ struct Watch::Taking {
     alarms::Notices& notices = watch.notices_;
     return act.send ? notices.send(act.notice, act.by) : notices.dismiss(act.notice, act.by);
   }
-  Result<bool, Problem> operator()(const LimitEdit& edit) const { return watch.edit(edit); }
+  Result<bool, Problem> operator()(const LimitEdit& edit) const { return watch.limits_.edit(edit); }
   Result<bool, Problem> operator()(const alarms::AlarmEdit& edit) const {
     return watch.engine_.edit(edit);
   }
 };
 
-Result<bool, Problem> Watch::take(const WatchInput& input, Instant at) {
-  return std::visit(Taking{*this, at}, input);
+Result<bool, Problem> Watch::take(const WatchInput& input) {
+  auto taken = std::visit(Taking{*this, now_}, input);
+  if (told_) told_(input, now_);
+  return taken;
 }
 
 void Watch::step(const Picture& picture, Instant now) {

@@ -13,6 +13,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -46,16 +48,19 @@ class Watch {
   void advance(const Picture& picture, Instant now);
   std::uint64_t steps_left_out() const { return left_out_; }
 
-  // After advance() to the time of the change. Any input, as a value: what a recording keeps.
-  Result<bool, Problem> take(const WatchInput& input, Instant at);
-  // A packet came; the figures say it, too, but seldom.
+  // After advance() to the time of the change, which is then that of the input.
+  Result<bool, Problem> take(const WatchInput& input);
+  void link(const LinkFigures& figures) { static_cast<void>(take(figures)); }
+  void base(const BaseFigures& figures) { static_cast<void>(take(figures)); }
+  void expect(const Expectations& expected) { static_cast<void>(take(expected)); }
+  Result<bool, Problem> edit(const LimitEdit& edit) { return take(edit); }
+  Result<bool, Problem> edit(const alarms::AlarmEdit& edit) { return take(edit); }
+  // A packet with states came; the figures of the link say it, too, but seldom.
   void heard(Instant at) { known_.link.heard = at; }
-  void link(const LinkFigures& figures) { known_.link = figures; }
-  void base(const BaseFigures& figures) { known_.base = figures; }
-  void expect(const Expectations& expected) { known_.expected = expected; }
-  Result<bool, Problem> edit(const LimitEdit& edit) { return limits_.edit(edit); }
-  alarms::Engine& alarms() { return engine_; }
-  alarms::Notices& notices() { return notices_; }
+  // Who is told every input when it was taken: a recording.
+  void tell_inputs(std::function<void(const WatchInput&, Instant)> told) {
+    told_ = std::move(told);
+  }
 
   const alarms::Engine& alarms() const { return engine_; }
   const alarms::Notices& notices() const { return notices_; }
@@ -89,6 +94,8 @@ class Watch {
   std::vector<alarms::Reading> readings_;  // kept for its storage
   std::optional<std::int64_t> newest_step_;
   std::uint64_t left_out_ = 0;
+  Instant now_{};  // of the newest advance()
+  std::function<void(const WatchInput&, Instant)> told_;
 };
 
 }  // namespace pitwall::picture

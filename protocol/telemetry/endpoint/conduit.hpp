@@ -3,9 +3,9 @@
 //   in     datagrams of each path; bodies to send
 //   out    opened bodies, each once; datagrams for each path, within its budget
 //   law    a packet each kSlot, and one half a slot later where something waits; what the budget
-//          has no room for is skipped, never queued. A stop has a packet at once, on every path that
-//          has room, or as soon as one has: out of the same budget. One sequence number is one plaintext: copies
-//          for several paths are the same bytes
+//          has no room for is skipped, never queued. A stop has a packet at once, on every path
+//          that has room, or as soon as one has: out of the same budget
+//          one sequence number is one plaintext: copies for several paths are the same bytes
 //          a packet of another session than the one in use changes nothing
 //   errors counted by Association, BodyError and the modules below
 //   cost   no allocation after construction
@@ -108,6 +108,10 @@ class Conduit {
     stats_.place(station_m, lap_length_m, now);
   }
   void report(LinkReport& out, Instant now) const;
+  // Of each path's rate, (0, 1].
+  void cap(double share) {
+    for (PathLane& lane : lanes()) lane.cap = share;
+  }
 
  private:
   // What was heard lately, for the other path's copy of it.

@@ -18,7 +18,7 @@ PathLane::PathLane(const BudgetParams& params)
       rate(params.bytes_per_s, params.safety_bytes_per_s) {}
 
 void PathLane::adapt(Instant now) {
-  factor = rate.factor(now);
+  factor = std::min(rate.factor(now), cap);
   budget.scale(factor, now);
 }
 

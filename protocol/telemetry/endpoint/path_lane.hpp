@@ -28,6 +28,7 @@ class PathLane {
 
   PathBudget budget;
   RateControl rate;
+  double cap = 1.0;                    // of the rate, as its people want it, (0, 1]
   double factor = 1.0;                 // of the rate, by adapt()
   double loss = 0.0;                   // of what came lately by this path
   Instant heard_at{};                  // the last arrival by it

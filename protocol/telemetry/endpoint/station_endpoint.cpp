@@ -211,6 +211,10 @@ StopDesk& StationEndpoint::stop() { return parts_->stop; }
 const StopDesk& StationEndpoint::stop() const { return parts_->stop; }
 AuthorityDesk& StationEndpoint::authority() { return parts_->authority; }
 const AuthorityDesk& StationEndpoint::authority() const { return parts_->authority; }
+void StationEndpoint::set_budget_share(double share) {
+  CHECK(share > 0.0 && share <= 1.0);
+  parts_->conduit.cap(share);
+}
 JoystickSender& StationEndpoint::joystick() { return parts_->joystick; }
 std::optional<Event> StationEndpoint::next_event() { return parts_->events.next(); }
 

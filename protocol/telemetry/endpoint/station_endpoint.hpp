@@ -3,8 +3,8 @@
 //   out    datagrams; the newest value of every field with the time of its sample; events, bulk;
 //          how far each command came
 //   law    a value never goes back in time: of two samples of a group the newer one is kept
-//          a stop leaves with the next poll(), as soon as the budget has room for a packet; due() is
-//          past until then
+//          a stop leaves with the next poll(), as soon as the budget has room for a packet; due()
+//          is past until it was tried
 //   errors counters in report()
 //   cost   no allocation after construction
 // SPDX-License-Identifier: Apache-2.0
@@ -63,6 +63,8 @@ class StationEndpoint {
   AuthorityDesk& authority();
   const AuthorityDesk& authority() const;
   JoystickSender& joystick();
+  // Of each path's rate, (0, 1]: what its people want to spend at most. Safety's share stays.
+  void set_budget_share(double share);
   std::optional<Event> next_event();
   std::optional<BulkReceiver::Object> next_bulk();
 

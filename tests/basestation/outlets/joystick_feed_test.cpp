@@ -60,6 +60,24 @@ TEST(JoystickFeed, TheCarHearsTheHandAndNothingElse) {
   EXPECT_NEAR(sample->brake, 0.2, 0.01);
 }
 
+// Lost is the hand that is meant to speak and does not, and the device that is gone.
+TEST(JoystickFeed, AHandThatLetsGoIsNotLostOneThatFreezesIs) {
+  Bench bench;
+  EXPECT_FALSE(bench.feed->lost(bench.rig.now));
+  bench.hold(seconds(1));
+  EXPECT_FALSE(bench.feed->lost(bench.rig.now));
+  bench.run(telemetry::kJoystickDead + milliseconds(30));
+  EXPECT_TRUE(bench.feed->lost(bench.rig.now));
+  bench.hold(milliseconds(100));
+  EXPECT_FALSE(bench.feed->lost(bench.rig.now));
+  bench.say(InputBytes{}.key(310, 0).report());
+  bench.run(seconds(1));
+  EXPECT_FALSE(bench.feed->lost(bench.rig.now));
+  bench.hand = {};
+  bench.run(milliseconds(10));
+  EXPECT_TRUE(bench.feed->lost(bench.rig.now));
+}
+
 TEST(JoystickFeed, AHandThatFreezesIsDeadAfter200Milliseconds) {
   Bench bench;
   bench.hold(seconds(1));

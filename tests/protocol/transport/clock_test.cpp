@@ -100,5 +100,13 @@ TEST(Ticker, NextReturnsAtItsDeadline) {
   }
 }
 
+// A machine that nobody keeps in time says so; one that is kept is off by less than a second.
+TEST(Clock, TheCalendarsErrorIsSmallOrUnknown) {
+  const auto error = utc_error();
+  if (!error) GTEST_SKIP() << "no time service keeps this machine's clock";
+  EXPECT_GE(*error, Duration{});
+  EXPECT_LT(*error, seconds(1));
+}
+
 }  // namespace
 }  // namespace pitwall::transport

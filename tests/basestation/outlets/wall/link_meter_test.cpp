@@ -33,6 +33,27 @@ TEST(LinkMeter, LossIsThatOfItsWindow) {
   EXPECT_NEAR(meter.path(0, seconds(5)).up_kbit_s, 10.0, 1e-9);
 }
 
+TEST(LinkMeter, TheLongestRoundTripOfTheWindowCounts) {
+  LinkMeter meter;
+  EXPECT_TRUE(std::isnan(meter.round_trip_ms(seconds(30))));
+  for (int i = 0; i < 100; ++i) {
+    meter.note({}, kStart + i * LinkMeter::kEvery, i == 60 ? 80.0 : 20.0);
+  }
+  EXPECT_EQ(meter.round_trip_ms(seconds(1)), 20.0);
+  EXPECT_EQ(meter.round_trip_ms(seconds(5)), 80.0);
+}
+
+// A car that calls what comes a quarter of what it may: four times that is its cap.
+TEST(LinkMeter, TheCapIsWhatComesOverItsShare) {
+  LinkMeter meter;
+  EXPECT_TRUE(std::isnan(meter.down_cap_kbit_s(0)));
+  meter.note_use(0, 10.0, 0.01);
+  EXPECT_TRUE(std::isnan(meter.down_cap_kbit_s(0))) << "too small a share to tell";
+  for (int i = 0; i < 200; ++i) meter.note_use(0, i % 2 == 0 ? 240.0 : 260.0, 0.25);
+  EXPECT_NEAR(meter.down_cap_kbit_s(0), 1'000.0, 25.0);
+  EXPECT_TRUE(std::isnan(meter.down_cap_kbit_s(1)));
+}
+
 TEST(LinkMeter, NothingSentIsNoLoss) {
   LinkMeter meter;
   EXPECT_TRUE(std::isnan(meter.loss(seconds(1))));

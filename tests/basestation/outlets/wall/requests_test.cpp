@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace pitwall::outlets::wall {
@@ -48,6 +49,31 @@ TEST(Requests, AreReadAsTheProtocolHasThem) {
   EXPECT_EQ(read<AskPing>(R"({"type":"ping","at":1795309899172.4458})").at, 1795309899172.4458);
 }
 
+TEST(Requests, WhatPeopleSetIsReadWhole) {
+  EXPECT_EQ(read<AskExpect>(R"({"type":"expect","round_speed":51.4})").round_speed_mps, 51.4);
+  EXPECT_FALSE(read<AskExpect>(R"({"type":"expect","round_speed":null})").round_speed_mps);
+  EXPECT_EQ(read<AskFuelLoaded>(R"({"type":"fuel_loaded","litres":40})").litres, 40.0);
+  const auto alarm = read<AskEditAlarm>(
+      R"({"type":"edit_alarm","key":"wheel_slip","priority":"high","limit":0.1,"deadband":0.02,)"
+      R"("on_s":0.2,"off_s":1,"reason":"new tyres"})");
+  EXPECT_EQ(alarm.edit.setting.on_delay, milliseconds(200));
+  EXPECT_EQ(alarm.reason, "new tyres");
+  const auto limit = read<AskEditLimit>(
+      R"({"type":"edit_limit","field":"electric.battery","bad_low":11,"warning_low":null,)"
+      R"("reason":"old one"})");
+  EXPECT_EQ(limit.edit.limit.bad_low, 11.0);
+  EXPECT_TRUE(std::isnan(limit.edit.limit.warning_low));
+  EXPECT_EQ(read<AskEditBudget>(R"({"type":"edit_budget","up_kbit_s":128,"reason":"x"})").up_kbit_s,
+            128.0);
+  EXPECT_EQ(refused(R"({"type":"expect","round_speed":-1})"), "expect.round_speed");
+  EXPECT_EQ(refused(R"({"type":"expect","round_speed":"115"})"), "expect.round_speed");
+  EXPECT_EQ(refused(R"({"type":"fuel_loaded"})"), "fuel_loaded.litres");
+  EXPECT_EQ(refused(R"({"type":"edit_limit","field":"ego.z","reason":"x"})"), "edit_limit.field");
+  EXPECT_EQ(refused(R"({"type":"edit_limit","field":"electric.battery","bad_low":"1"})"),
+            "edit_limit.bad_low");
+  EXPECT_EQ(refused(R"({"type":"edit_budget","up_kbit_s":128,"reason":""})"), "edit_budget.reason");
+}
+
 TEST(Requests, AMistakeIsNamedByItsMember) {
   EXPECT_EQ(refused("{"), "text:byte 1");
   EXPECT_EQ(refused("[]"), "type");
@@ -79,6 +105,8 @@ TEST(Requests, OnlyLookingTakesNoOperator) {
   EXPECT_EQ(role_for(AskStop{}), Role::kOperator);
   EXPECT_EQ(role_for(AskAuthority{}), Role::kOperator);
   EXPECT_EQ(role_for(AskNotice{}), Role::kOperator);
+  EXPECT_EQ(role_for(AskFuelLoaded{}), Role::kOperator);
+  EXPECT_EQ(role_for(AskEditLimit{}), Role::kOperator);
 }
 
 // Whatever comes, there is an answer; what was changed by one byte is rarely still a request.

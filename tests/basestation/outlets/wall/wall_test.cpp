@@ -127,6 +127,43 @@ TEST_F(PitWall, ACommandGoesThroughTheDesk) {
             "stage.name");
 }
 
+TEST_F(PitWall, WhatTheHolderSetsIsToldToAll) {
+  run(seconds(1));
+  Browser browser;
+  join(browser);
+  ask(browser, R"({"type":"authority","do":"take"})", "authority");
+  browser.say(R"({"type":"fuel_loaded","litres":40})");
+  json::JsonValue told =
+      ask(browser,
+          R"({"type":"edit_limit","field":"electric.battery","bad_low":11,"reason":"old one"})",
+          "expected");
+  while (!(told.number("fuel_loaded_l") == 40.0)) told = hear(browser, "expected");
+  while (!(told.number("revision") == 1.0)) told = hear(browser, "settings");
+  EXPECT_FALSE(told.flag("kept")) << "there is no file";
+  EXPECT_EQ(wall_->watch().limits().of(picture::field_id("electric.battery")).bad_low, 11.0);
+  EXPECT_EQ(
+      ask(browser, R"({"type":"edit_budget","up_kbit_s":100,"reason":"x"})", "error").text("place"),
+      "budget")
+      << "no budget was given at the start: there is none to lower";
+}
+
+// The hand on the joystick falls silent: medium, and gone when it speaks again.
+TEST_F(PitWall, ASilentJoystickIsAnAlarm) {
+  bool silent = false;
+  wall_->watch_joystick([&](Instant) { return silent; });
+  run(seconds(1));
+  const auto alarm = [&] {
+    return wall_->watch().alarms().state(*alarms::find_alarm("joystick_lost"));
+  };
+  EXPECT_EQ(alarm(), alarms::State::kNormal);
+  silent = true;
+  run(milliseconds(300));
+  EXPECT_EQ(alarm(), alarms::State::kUnack);
+  silent = false;
+  run(seconds(2));
+  EXPECT_EQ(alarm(), alarms::State::kReturnedUnack);
+}
+
 TEST_F(PitWall, ALinkThatIsLostIsShownWithinHalfASecondAndRaisesOneAlarm) {
   run(seconds(3));
   Browser browser;

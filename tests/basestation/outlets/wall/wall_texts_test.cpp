@@ -93,7 +93,7 @@ TEST(WallTexts, TheLinkHasBothDirectionsAndEveryGroupOfTheCar) {
     rig.run(milliseconds(100));
     const auto report = rig.station->report(rig.now);
     meter.note(count_of(report, rig.station->rate().packets(), rig.station->lost_packets()),
-               rig.now);
+               rig.now, report.round_trip ? report.round_trip->milliseconds() : kUnset);
   }
   const auto report = rig.station->report(rig.now);
   const auto said = read(link_text({.report = report,

@@ -169,7 +169,7 @@ TEST(Watch, ALostLinkIsOneAlarmAGhostAndOneMessage) {
   wall.run(seconds(5));
   ASSERT_TRUE(wall.alarm("tyres_cold"));
   wall.packets = false;
-  wall.run(milliseconds(480));
+  wall.run(milliseconds(380));
   EXPECT_FALSE(wall.alarm("link_lost"));
   wall.run(milliseconds(60));
   ASSERT_EQ(wall.watch.alarms().active().size(), 1U);
@@ -245,10 +245,14 @@ struct Script {
       case 5:
         return wall.set(field("gnss1.sigma"), event.value / 100.0);
       case 6:
-        (void)wall.watch.alarms().acknowledge(id, "Ada", wall.now);
+        (void)wall.watch.take(AlarmAct{.alarm = id, .by = "Ada"});
         return;
       case 7:
-        (void)wall.watch.alarms().shelve(id, seconds(20), "Ada", "r", wall.now);
+        (void)wall.watch.take(AlarmAct{.kind = AlarmAct::Kind::kShelve,
+                                       .alarm = id,
+                                       .length = seconds(20),
+                                       .by = "Ada",
+                                       .reason = "r"});
         return;
       default:
         wall.set(field("mode.stop_latch"), event.value > 80 ? 1.0 : 0.0);

@@ -47,5 +47,28 @@ TEST(PathLane, AQueueThatGrowsTakesTheRateBackButNotSafetys) {
   }
 }
 
+// Half the rate is spent where half may be, by who takes all there is; safety keeps its own.
+TEST(PathLane, ACapIsKeptAndSafetyIsNotCapped) {
+  const auto spent = [](double cap) {
+    PathLane lane{BudgetParams{}};
+    lane.cap = cap;
+    for (std::int64_t ms = 0; ms < 10'000; ms += 10) {
+      lane.adapt(at_ms(ms));
+      const std::size_t room = lane.budget.room_for_all(at_ms(ms));
+      if (room > 0) lane.spend(room, 0, at_ms(ms));
+    }
+    return static_cast<double>(lane.budget.counters().bytes);
+  };
+  EXPECT_LT(spent(0.5), 0.6 * spent(1.0));
+  PathLane lane{BudgetParams{}};
+  lane.cap = 0.05;
+  for (std::int64_t ms = 2'000; ms < 4'000; ms += 20) {
+    lane.adapt(at_ms(ms));
+    if (ms < 3'000) continue;  // the share fills
+    ASSERT_TRUE(lane.fits(60, 60, at_ms(ms)));
+    lane.spend(60, 60, at_ms(ms));
+  }
+}
+
 }  // namespace
 }  // namespace pitwall::telemetry

@@ -1,0 +1,19 @@
+// What people have set and said, as the texts `settings` and `expected` of PROTOCOL.md.
+//   in     the desk of settings, the alarms in force; what people said
+//   out    one JSON object each
+//   units  seconds for delays, else as the field of the alarm has them
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "basestation/command/settings_desk.hpp"
+#include "basestation/outlets/wall/errands.hpp"
+#include "basestation/picture/alarms/alarm_table.hpp"
+
+namespace pitwall::outlets::wall {
+
+std::string settings_text(const command::SettingsDesk& desk, const alarms::AlarmSettings& alarms);
+std::string expected_text(const PeopleSaid& said);
+
+}  // namespace pitwall::outlets::wall

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/settings/arguments.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <string_view>
+
+#include "protocol/telemetry/export/export.hpp"
+
+namespace pitwall::settings {
+namespace {
+
+constexpr double kMaxDuration_s = 1e6, kMinRefresh_hz = 0.1, kMaxRefresh_hz = 100.0;
+constexpr int kMistake = 2;  // exit code
+
+void describe_web(CLI::App& app, Arguments& a) {
+  app.add_option("--web", a.web_port, "Serve the console at this TCP port; 0: any that is free")
+      ->check(CLI::Range(0, 65'535));
+  app.add_option("--console-dir", a.console_folder, "The console's built files");
+  app.add_option("--track", a.track, "Name or file of the track that consoles show");
+  app.add_option("--web-tokens", a.tokens_file, "Who may come in: lines ROLE TOKEN NAME");
+  app.add_option("--default-role", a.default_role,
+                 "Of a console without a token; operator on loopback, viewer with --network")
+      ->check(CLI::IsMember({"viewer", "operator"}));
+  app.add_option("--web-name", a.web_names, "A name under which browsers reach this machine")
+      ->take_all();
+  app.add_option("--layouts", a.layouts_folder, "Folder that keeps the consoles' layouts");
+  app.add_option("--judgement", a.judgement_file, "File of limits and alarms that were changed");
+  app.add_option("--car", a.car, "The car's number")->check(CLI::Range(0, 255));
+  app.add_option("--car-name", a.car_name, "The car's name");
+}
+
+void describe_recording(CLI::App& app, Arguments& a) {
+  app.add_option("--record", a.record_folder,
+                 "Keep everything in this folder; what is there of the last hour is known again");
+  app.add_option("--replay", a.replay_folder,
+                 "Show a recording to consoles instead of a car; needs --web, has no radio");
+  app.add_option("--joystick", a.joystick, "Input device of the operator's joystick");
+  app.add_option("--joystick-axes", a.joystick_axes,
+                 "lift=AXIS:RELEASED:PRESSED,brake=AXIS:RELEASED:PRESSED,enable=KEY");
+  CLI::App* const recover =
+      app.add_subcommand("recover", "Make recordings whole that a killed base left");
+  recover->add_option("FILE", a.recover_files, "Segments of a recording")->required();
+  CLI::App* const judge = app.add_subcommand(
+      "judge", "Judge a recording again and compare its alarms with those that were told");
+  judge->add_option("FOLDER", a.judge_folder, "A recording")->required();
+}
+
+void describe(CLI::App& app, Arguments& a) {
+  app.add_option("--keys", a.keys, "The base's keys, as keygen makes them");
+  app.add_option("--listen", a.listen, "UDP address of a radio; twice for two")
+      ->expected(1)
+      ->take_all();
+  app.add_flag("--network", a.network, "Allow --listen to be reached by other machines");
+  app.add_flag("--signed", a.signed_only, "Authenticated but readable packets; the car must agree");
+  app.add_option("--budget", a.budget_kbit, "kbit/s that may go up each radio")
+      ->check(CLI::Range(kMinBudget_kbit, kMaxBudget_kbit))
+      ->capture_default_str();
+  app.add_option("--command", a.command_file, "What the operator says: lines AT_SECONDS WORDS");
+  app.add_option("--operator-port", a.operator_port,
+                 "Loopback UDP port for the operator's words, a line each")
+      ->check(CLI::Range(1, 65'535));
+  app.add_flag("--text", a.text, "Show the picture as text on the terminal");
+  app.add_flag("--all", a.all, "Show every group");
+  app.add_flag("--plain", a.plain, "No colours, one screen after the other");
+  app.add_option("--duration", a.duration_s, "Stop after this many seconds")
+      ->check(CLI::Range(0.0, kMaxDuration_s));
+  app.add_option("--refresh", a.refresh_hz, "Screens per second")
+      ->check(CLI::Range(kMinRefresh_hz, kMaxRefresh_hz))
+      ->capture_default_str();
+  app.add_option("--json", a.json_path, "Write a summary of the run to this file");
+  describe_web(app, a);
+  describe_recording(app, a);
+  CLI::App* const keygen = app.add_subcommand("keygen", "Make the keys of a car and its base");
+  keygen->add_option("--out", a.keygen_folder, "Folder for car.keys and base.keys")->required();
+  CLI::App* const exporting =
+      app.add_subcommand("export", "Print what the radio says, as " + export_kinds());
+  exporting->add_option("KIND", a.export_kind, export_kinds())->required();
+}
+
+}  // namespace
+
+std::string export_kinds() {
+  std::string text;
+  for (const std::string_view kind : telemetry::kExportKinds) {
+    text += (text.empty() ? "" : ", ") + std::string{kind};
+  }
+  return text;
+}
+
+std::variant<Arguments, Leave> parse_arguments(int argc, const char* const* argv) {
+  CLI::App app{"Shows what the car says over the radio, and tells it what the operator wants",
+               "pitwall-base"};
+  Arguments arguments;
+  describe(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    return Leave{.code = app.exit(help), .said = {}};
+  } catch (const CLI::ParseError& mistake) {
+    return Leave{.code = kMistake, .said = mistake.what()};
+  }
+  if (!std::isfinite(arguments.duration_s) || !std::isfinite(arguments.refresh_hz)) {
+    return Leave{.code = kMistake, .said = "--duration and --refresh are numbers"};
+  }
+  return arguments;
+}
+
+}  // namespace pitwall::settings

@@ -1,0 +1,44 @@
+// The command line of pitwall-base.
+//   in     its words
+//   out    what is asked for; what needs no file and no socket to be found wrong is found here
+//   errors an exit code and a line for the terminal
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace pitwall::settings {
+
+struct Arguments {
+  std::vector<std::string> listen;
+  std::string keys, command_file, json_path;
+  int operator_port = 0;
+  bool text = false, plain = false, all = false, network = false, signed_only = false;
+  double duration_s = 0.0, refresh_hz = 10.0, budget_kbit = 256.0;
+  std::string keygen_folder, export_kind;
+  std::optional<int> web_port;
+  std::string console_folder, track, tokens_file, default_role, layouts_folder, judgement_file;
+  std::vector<std::string> web_names;
+  int car = 0;
+  std::string car_name;
+  std::string record_folder, replay_folder, joystick, joystick_axes;
+  std::vector<std::string> recover_files;
+  std::string judge_folder;
+};
+
+inline constexpr double kMinBudget_kbit = 64.0, kMaxBudget_kbit = 100'000.0;
+
+// "json, msg, ...": of `export`.
+std::string export_kinds();
+
+// To end with this exit code; what is to be said, if anything.
+struct Leave {
+  int code = 0;
+  std::string said;
+};
+std::variant<Arguments, Leave> parse_arguments(int argc, const char* const* argv);
+
+}  // namespace pitwall::settings

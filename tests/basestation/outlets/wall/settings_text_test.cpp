@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/outlets/wall/settings_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "protocol/json/json_value.hpp"
+
+namespace pitwall::outlets::wall {
+namespace {
+
+json::JsonValue read(const std::string& text) { return *json::JsonValue::parse(text, "text"); }
+
+TEST(SettingsText, EveryAlarmHasWhatAnEditorNeeds) {
+  picture::Watch watch;
+  command::Audit audit;
+  command::SettingsDesk desk{watch, audit, 3, {.most = 256.0, .now = 128.0}, {}};
+  ASSERT_TRUE(
+      watch.edit({.key = "coolant_hot",
+                  .setting = {.priority = alarms::Priority::kHigh, .limit = 105.0, .deadband = 2.0},
+                  .author = "Ada",
+                  .reason = "hot day"}));
+  const auto told = read(settings_text(desk, watch.alarms().settings()));
+  EXPECT_EQ(told.number("revision"), 3.0);
+  EXPECT_FALSE(told.flag("kept"));
+  EXPECT_EQ(told.number("up_kbit_s"), 128.0);
+  EXPECT_EQ(told.number("up_most_kbit_s"), 256.0);
+  ASSERT_EQ(told.items("alarms").size(), alarms::alarm_count());
+  for (const auto& alarm : told.items("alarms")) {
+    const auto index = alarms::find_alarm(alarm.text("key"));
+    ASSERT_TRUE(index);
+    const alarms::AlarmSetting& set = watch.alarms().settings().of(*index);
+    EXPECT_EQ(alarm.number("limit"), set.limit);
+    EXPECT_EQ(alarm.number("on_s"), set.on_delay.seconds());
+    EXPECT_EQ(alarm.text("priority"), alarms::text_of(set.priority));
+    EXPECT_TRUE(picture::find_field(alarm.text("path")));
+    EXPECT_EQ(alarm.text("by"), alarm.text("key") == "coolant_hot" ? "Ada" : "");
+  }
+}
+
+TEST(SettingsText, WhatNobodySaidIsNull) {
+  const auto nothing = read(expected_text({}));
+  EXPECT_TRUE(std::isnan(nothing.number("round_speed_mps")));
+  EXPECT_TRUE(std::isnan(nothing.number("fuel_ms")));
+  PeopleSaid said;
+  said.expected.round_speed_mps = 51.4;
+  said.expected.fuel_loaded_l = 40.0;
+  said.fuel_by = "Ada";
+  said.fuel_at = Instant{seconds(2).ns};
+  const auto told = read(expected_text(said));
+  EXPECT_EQ(told.number("round_speed_mps"), 51.4);
+  EXPECT_EQ(told.number("fuel_ms"), 2'000.0);
+  EXPECT_EQ(told.text("fuel_by"), "Ada");
+}
+
+}  // namespace
+}  // namespace pitwall::outlets::wall
