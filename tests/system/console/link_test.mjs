@@ -1,0 +1,79 @@
+/**
+ * Three seconds without radio, as the emulated air makes them between a car and the real base: the
+ * page says LOST, drafts one message that the link is bad and one that it is good again, in words
+ * that race control can use.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { once } from "node:events";
+import { after, before, test } from "node:test";
+import { join } from "node:path";
+import { kRoot } from "./packages.mjs";
+import { Programs } from "./programs.mjs";
+import { launch, open, until } from "./stage.mjs";
+
+const kLink =
+  process.env.PITWALL_LINK ?? join(kRoot, "build/release/tests/system/console/radio_link");
+const kSilentAfterS = 8;
+const kSilentForS = 3;
+const kLengthS = 60;
+
+let browser;
+let programs;
+let link;
+
+before(async () => {
+  browser = await launch();
+  programs = new Programs();
+});
+after(async () => {
+  link?.kill("SIGKILL");
+  await programs.close();
+  await browser.close();
+});
+
+test("three seconds without radio are one draft, and its end another", async () => {
+  const address = await programs.startBase();
+  const port = programs.radio.split(":")[1];
+  link = spawn(kLink, [port, kSilentAfterS, kSilentForS, kLengthS].map(String));
+  const [said] = await once(link.stdout, "data");
+  programs.radio = `127.0.0.1:${Number(said)}`;
+  programs.startCar(kLengthS);
+  const { page, faults } = await open(browser, address, { hash: "#/link" });
+  const word = (text) =>
+    until(
+      page,
+      text,
+      (t) => document.querySelector(".link-tile .word").textContent.startsWith(t),
+      text,
+      15_000,
+    );
+  await word("GOOD");
+  await word("LOST");
+  await word("GOOD");
+  const drafts = () =>
+    page.evaluate(() =>
+      [...document.querySelectorAll(".notice")].map((notice) =>
+        [...notice.querySelectorAll("h3, p")].map((e) => e.textContent),
+      ),
+    );
+  // A busy machine delays packets, too, which the base tells before or after.
+  const isLoss = ([, text]) => /is lost/.test(text);
+  const later = async () => (await drafts()).slice((await drafts()).findIndex(isLoss) + 1);
+  for (let n = 0; n < 100 && (await later()).length === 0; ++n) await page.waitForTimeout(100);
+  const losses = (await drafts()).filter(isLoss);
+  assert.equal(losses.length, 1);
+  const [[degraded, bad, was]] = losses;
+  const [[restored, good, had]] = await later();
+  assert.deepEqual([degraded, restored], ["degraded", "restored"]);
+  assert.equal(
+    bad,
+    "Radio to our car is lost. Car, when last heard: driving. If the silence lasts it makes a " +
+      "controlled stop by itself.",
+  );
+  assert.match(was, /^silence 0\.\d\d s, loss \d+ %, round trip \d+ ms$/);
+  assert.match(good, /^Radio to our car is good again after \d+\.\d s\. Car: driving\.$/);
+  assert.match(had, /^was lost; longest silence [34]\.\d\d s, worst loss \d+ %, longest round /);
+  assert.deepEqual(faults, []);
+});
