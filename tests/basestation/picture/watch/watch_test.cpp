@@ -176,7 +176,7 @@ TEST(Watch, ALostLinkIsOneAlarmAGhostAndOneMessage) {
   EXPECT_EQ(wall.watch.alarms().active().front().key, "link_lost");
   wall.run(seconds(3));
   EXPECT_EQ(wall.watch.alarms().active().size(), 1U);
-  EXPECT_NEAR(value(wall, BaseField::kGhostX), 20.0 + 50.0 * 3.53, 3.0);
+  EXPECT_NEAR(value(wall, BaseField::kGhostX), 20.0 + 50.0 * 3.43, 3.0);
   EXPECT_GT(value(wall, BaseField::kGhostRadius), 20.0);
   wall.run(seconds(7));
   EXPECT_TRUE(std::isnan(value(wall, BaseField::kGhostX)));
