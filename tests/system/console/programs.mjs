@@ -11,6 +11,7 @@ import { kRoot } from "./packages.mjs";
 const kBase = process.env.PITWALL_BASE ?? join(kRoot, "build/release/basestation/pitwall-base");
 const kCar =
   process.env.PITWALL_CAR ?? join(kRoot, "build/release/tests/system/basestation/radio_car");
+const kConsole = join(kRoot, "build/console/dist");
 const kPatienceMs = 20_000;
 
 /** Resolves with the match of `pattern` in what the process says on stderr. */
@@ -61,7 +62,7 @@ export class Programs {
         "--layouts",
         join(this.folder, "layouts"),
         "--console-dir",
-        join(kRoot, "build/console/dist"),
+        kConsole,
         ...flags,
       ],
       { stdio: ["ignore", "pipe", "pipe"] },
@@ -74,6 +75,16 @@ export class Programs {
     this.radio = radio;
     this.port = Number(new URL(address).port);
     return address;
+  }
+
+  /** Starts a base that plays a recording; resolves with the address of its console. */
+  async startReplay(recording) {
+    this.base = spawn(
+      kBase,
+      ["--replay", recording, "--web", "0", "--track", "lvms", "--console-dir", kConsole],
+      { stdio: ["ignore", "ignore", "pipe"] },
+    );
+    return (await said(this.base, [/console at (http:\/\/[\d.]+:\d+)\s/]))[0];
   }
 
   startCar(seconds = 120) {

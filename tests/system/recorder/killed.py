@@ -4,9 +4,11 @@
 import json
 import re
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
+import time
 import urllib.request
 from pathlib import Path
 
@@ -14,6 +16,7 @@ import lcm_oracle
 
 BASE, CAR, TREE = sys.argv[1:4]
 ORACLES = Path(TREE) / "tests/support/oracles"
+KILLED_AFTER_S = (0.3, 1.1, 2.0)  # of three processes, one after the other
 
 
 def expect(condition, what):
@@ -39,6 +42,37 @@ def drive(folder, address, length_s):
     subprocess.run(words, check=True, capture_output=True, timeout=60)
 
 
+def newest_on_disk(path):
+    """Seconds since 1970 of the newest message in a whole chunk, as in https://mcap.dev/spec."""
+    data, at, newest = path.read_bytes(), 8, 0
+    while at + 9 <= len(data):
+        opcode, length = struct.unpack_from("<BQ", data, at)
+        at += 9
+        if at + length > len(data):
+            break
+        if opcode == 6:
+            newest = max(newest, struct.unpack_from("<Q", data, at + 8)[0])
+        at += length
+    return newest / 1e9
+
+
+def lost_by_a_kill(folder, after_s):
+    """A base is killed while its car speaks: seconds between what is kept and the kill."""
+    base = start(folder, "--record", str(folder / "rec"))
+    address = address_of(base)
+    began = time.time()
+    car = subprocess.Popen([CAR, str(folder / "keys/car.keys"), address, "4"],
+                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    time.sleep(after_s)
+    killed = time.time()
+    base.send_signal(signal.SIGKILL)
+    base.communicate()
+    car.kill()
+    car.wait()
+    newest = max(map(newest_on_disk, segments(folder)), default=0)
+    return killed - max(newest, began)
+
+
 def segments(folder):
     return sorted((folder / "rec").glob("*.mcap"))
 
@@ -60,12 +94,10 @@ def main():
     subprocess.run([BASE, "keygen", "--out", str(folder / "keys")], check=True, capture_output=True)
     record = ["--record", str(folder / "rec")]
 
-    base = start(folder, *record)
-    drive(folder, address_of(base), 2)
-    base.send_signal(signal.SIGKILL)
-    base.communicate()
-    expect(len(segments(folder)) == 1, "one segment was begun")
-    cut = segments(folder)[0]
+    lost = [lost_by_a_kill(folder, after_s) for after_s in KILLED_AFTER_S]
+    expect(max(lost) <= 1.0, f"a kill loses {lost} s of the recording")
+    before = len(segments(folder))
+    cut = segments(folder)[-1]
 
     again = start(folder, *record, "--web", "0")
     address = address_of(again)
@@ -77,13 +109,17 @@ def main():
     again.send_signal(signal.SIGTERM)
     _, errors = again.communicate(timeout=30)
     expect(again.returncode == 0, f"exit code {again.returncode}: {errors}")
-    expect(len(segments(folder)) == 2, "a new segment beside the old one")
+    expect(len(segments(folder)) == before + 1, "a new segment beside the old ones")
     read_by_oracle(segments(folder))
     logs = [path.with_suffix(".lcm") for path in segments(folder)]
     expect(all(log.exists() for log in logs), "an LCM log beside each segment")
     decoded = lcm_oracle.check(BASE, logs, folder)
     if decoded:
         expect(decoded[0] > 500 and {"/car/ego", "/base/link"} <= decoded[1], f"LCM: {decoded}")
+
+    judged = subprocess.run([BASE, "judge", str(folder / "rec")], capture_output=True, text=True)
+    expect(judged.returncode == 0 and " 0 differ" in judged.stdout,
+           f"the same alarms from the files: {judged}")
 
     bytes_of_cut = cut.read_bytes()
     cut.write_bytes(bytes_of_cut[:len(bytes_of_cut) * 2 // 3])
@@ -111,7 +147,7 @@ def main():
                              capture_output=True, text=True)
     expect(nothing.returncode == 2 and "no recording" in nothing.stderr, nothing.stderr)
     subprocess.run(["rm", "-r", str(folder)], check=True)
-    print("killed, recovered, known again, replayed")
+    print(f"killed, recovered, known again, replayed; lost {max(lost):.2f} s at most")
 
 
 main()

@@ -1,0 +1,96 @@
+/**
+ * What the console shows of a recording is what it showed live: the same car, recorded by the real
+ * base and played by another process of it, read at the same moments of the log.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { join } from "node:path";
+import { test } from "node:test";
+import { baseStage, until } from "./stage.mjs";
+
+const stage = baseStage({ flags: (programs) => ["--record", join(programs.folder, "recording")] });
+
+/** Every field as the page has it, and the base's time of the newest frame. */
+const fieldsNow = () => {
+  const { info, value, status, entryMs } = globalThis.pitwall.session.fields.value;
+  const rows = info.map((field, slot) => [field.path, [value[slot], status[slot]]]);
+  return { atMs: Math.max(...entryMs), rows: Object.fromEntries(rows) };
+};
+
+/** The words and digits of the page, by field. */
+const drawnNow = () =>
+  Object.fromEntries(
+    [...document.querySelectorAll(".value[data-path]")].map((e) => [
+      e.dataset.path,
+      [e.querySelector(".digits")?.textContent, e.dataset.quality, e.dataset.judgement],
+    ]),
+  );
+
+/** What differs between two maps of fields. */
+const different = (live, again) =>
+  Object.keys(live)
+    .filter((path) => live[path].some((part, i) => !Object.is(part, again[path]?.[i])))
+    .map((path) => `${path}: ${live[path]} live, ${again[path]} again`);
+
+async function seek(page, atMs) {
+  await page.evaluate((to) => {
+    const socket = new WebSocket(`ws://${location.host}/ws`);
+    socket.onopen = () => socket.send(JSON.stringify({ type: "playback", speed: 0, to_ms: to }));
+  }, atMs);
+  await until(
+    page,
+    "the replay at that time",
+    (to) => {
+      const { playback, fields } = globalThis.pitwall.session;
+      const newest = Math.max(...fields.value.entryMs);
+      return Math.abs(playback.value?.now_ms - to) < 0.01 && Math.abs(newest - to) < 0.01;
+    },
+    atMs,
+  );
+}
+
+test("the same moment of the log has the same fields, live and from the file", async () => {
+  const { page } = await stage.open();
+  await until(page, "a link", () =>
+    /GOOD|DEGRADED/.test(document.querySelector(".link-tile .word").textContent),
+  );
+  const moments = [];
+  for (let n = 0; n < 3; ++n) {
+    await page.waitForTimeout(300);
+    moments.push(await page.evaluate(fieldsNow));
+  }
+  await stage.programs.kill("car");
+  await until(page, "a lost link", () =>
+    /LOST/.test(document.querySelector(".link-tile .word").textContent),
+  );
+  await page.waitForTimeout(2500); // everything is stale, and drawn so
+  const lost = await page.evaluate(fieldsNow);
+  const drawn = await page.evaluate(drawnNow);
+  const alarms = await page.evaluate(() =>
+    globalThis.pitwall.session.alarms.value.active.map(({ key, state }) => [key, state]),
+  );
+  await page.waitForTimeout(600); // on the disk
+  await stage.programs.kill("base");
+
+  const address = await stage.programs.startReplay(join(stage.programs.folder, "recording"));
+  await page.goto(`${address}/`);
+  await until(page, "the replay", () => globalThis.pitwall?.session.playback.value);
+  for (const { atMs, rows } of moments) {
+    await seek(page, atMs);
+    const again = await page.evaluate(fieldsNow);
+    assert.deepEqual(different(rows, again.rows), [], `at ${atMs} ms`);
+  }
+  await seek(page, lost.atMs);
+  assert.deepEqual(different(lost.rows, (await page.evaluate(fieldsNow)).rows), []);
+  let left = ["not drawn"];
+  for (let n = 0; n < 50 && left.length > 0; ++n) {
+    await page.waitForTimeout(100); // the digits are drawn four times a second
+    left = different(drawn, await page.evaluate(drawnNow));
+  }
+  assert.deepEqual(left, []);
+  const alarmsAgain = await page.evaluate(() =>
+    globalThis.pitwall.session.alarms.value.active.map(({ key, state }) => [key, state]),
+  );
+  assert.deepEqual(alarmsAgain, alarms);
+  assert.ok(alarms.length > 0, "the lost link is an alarm");
+});
