@@ -2,11 +2,15 @@
 #include "basestation/outlets/wall/recording.hpp"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 
 #include "protocol/recorder/segment_folder.hpp"
+#include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "tests/basestation/radio_rig.hpp"
 #include "tests/basestation/replay/race.hpp"
+#include "tests/support/comes_true.hpp"
 
 namespace pitwall::outlets::wall {
 namespace {
@@ -35,6 +39,40 @@ TEST(Recording, WhatConsolesAreToldIsKept) {
     recorded += *transport::read_file(path);
   }
   EXPECT_NE(recorded.find("the mark"), std::string::npos);
+}
+
+// Files of this process may have no more than so many bytes, as long as it lives.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes) {
+    ::signal(SIGXFSZ, SIG_IGN);
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit small{.rlim_cur = bytes, .rlim_max = before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~SmallDisk() { ::setrlimit(RLIMIT_FSIZE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+TEST(Recording, ADiskThatTakesNothingShowsAndStopsNothing) {
+  const auto folder = transport::TemporaryFolder::create("pitwall_wall");
+  Base base;
+  const auto figures = [&] {
+    base.wall.serve(*base.rig.station, transport::monotonic_now());
+    return base.wall.watch().known().base;
+  };
+  EXPECT_EQ(figures().recording, 0.0);  // off
+  auto recorder = start_recording(folder->path(), {}, &base.wall, [](const std::string&) {});
+  ASSERT_TRUE(recorder);
+  transport::sleep_until(transport::monotonic_now() + milliseconds(110));  // measured again
+  EXPECT_EQ(figures().recording, 1.0);
+  const SmallDisk small{4'096};
+  EXPECT_TRUE(pitwall::testing::comes_true([&] { return figures().recording == 2.0; }));
+  EXPECT_EQ(figures().disk_minutes, 0.0);
+  EXPECT_GT(figures().recorder_lost, 0.0);
+  base.wall.room().record_with({});
 }
 
 TEST(Recording, AFolderThatCannotBeIsRefused) {
