@@ -1,11 +1,12 @@
 /**
  * Several consoles on the real base: the authority goes from one to another and each sees the same,
- * a holder that falls silent loses it, one that does not read hurts nobody but itself, and the
- * whole job is done by the keyboard alone.
+ * a holder that falls silent loses it, one that does not read hurts nobody but itself, a joystick
+ * that falls silent is told of, and the whole job is done by the keyboard alone.
  */
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
-import { writeFileSync } from "node:fs";
+import { execFileSync } from "node:child_process";
+import { closeSync, openSync, writeFileSync, writeSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { Client } from "./client.mjs";
@@ -13,11 +14,34 @@ import { baseStage, reach, until } from "./stage.mjs";
 
 const kToken = "second-person-0123456789";
 
+/** Reports of a joystick as the kernel writes them: both axes and the enabling key, held. */
+function joystickReport() {
+  const events = [
+    [3, 2, 0], // EV_ABS: lift
+    [3, 5, 128], // EV_ABS: brake
+    [1, 310, 1], // EV_KEY: enabled
+    [0, 0, 0], // EV_SYN
+  ];
+  const bytes = Buffer.alloc(24 * events.length);
+  events.forEach(([type, code, value], i) => {
+    bytes.writeUInt16LE(type, 24 * i + 16);
+    bytes.writeUInt16LE(code, 24 * i + 18);
+    bytes.writeInt32LE(value, 24 * i + 20);
+  });
+  return bytes;
+}
+
+/** A pipe in the place of the joystick, our end of it open. */
+let joystick;
+
 const stage = baseStage({
   flags: ({ folder }) => {
     const tokens = join(folder, "tokens");
     writeFileSync(tokens, `operator ${kToken} Second\n`, { mode: 0o600 });
-    return ["--web-tokens", tokens];
+    const device = join(folder, "joystick");
+    execFileSync("mkfifo", [device]);
+    joystick = openSync(device, "r+");
+    return ["--web-tokens", tokens, "--joystick", device];
   },
 });
 
@@ -140,4 +164,24 @@ test("the keyboard alone: find, plot, stage, override, send, stop, acknowledge",
   await until(page, "an alarm", () => document.querySelector(".alarm-line button kbd"));
   await page.keyboard.press("a");
   await until(page, "acknowledged", () => !document.querySelector(".alarm-line button kbd"));
+});
+
+test("a joystick that freezes or is unplugged is an alarm at once", async () => {
+  const { page } = await stage.open();
+  const silent = (state) =>
+    globalThis.pitwall.session.alarms.value?.active.find((a) => a.key === "joystick_lost")
+      ?.state === state;
+  const hand = setInterval(() => writeSync(joystick, joystickReport()), 20).unref();
+  await page.waitForTimeout(500);
+  assert.equal(await page.evaluate(silent, "unack"), false, "it speaks");
+  clearInterval(hand);
+  await until(page, "the alarm of a frozen hand", silent, "unack");
+  await until(page, "its line", () =>
+    document.querySelector(".alarm-line").textContent.includes("joystick is silent"),
+  );
+  const again = setInterval(() => writeSync(joystick, joystickReport()), 20).unref();
+  await until(page, "gone, not seen", silent, "rtn_unack");
+  clearInterval(again);
+  closeSync(joystick);
+  await until(page, "the alarm of an unplugged one", silent, "unack");
 });
