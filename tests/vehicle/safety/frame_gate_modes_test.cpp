@@ -207,5 +207,15 @@ TEST(FrameGateModes, TheEngineGoesOffAtStandstillOnly) {
   }
 }
 
+// Nobody has to say that the throttle is well: who says nothing gets no engine-off while moving.
+TEST(FrameGateModes, UnlessToldTheEngineStaysOnInAControlledStop) {
+  Gate g;
+  const GateContext unsaid;
+  g.context.engine_off = unsaid.engine_off;
+  g.context.mode = Mode::kControlledStop;
+  g.context.speed_mps = 30.0;
+  EXPECT_EQ(g.one(report(12)), Verdict::kEngineOff);
+}
+
 }  // namespace
 }  // namespace pitwall::safety
