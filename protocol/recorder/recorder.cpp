@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "protocol/json/json_text.hpp"
-#include "protocol/recording/sha256.hpp"
+#include "protocol/bits/sha256.hpp"
 #include "protocol/telemetry/registry/schema.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
@@ -49,9 +49,9 @@ recording::Metadata run_metadata(int car, const std::string& name,
                           {"schema", schema.data()}};
   const auto judgement = transport::read_file(judgement_file);
   if (judgement) {
-    recording::Sha256 hash;
+    bits::Sha256 hash;
     hash.update(as_bytes(*judgement));
-    run.emplace_back("judgement_sha256", recording::to_hex(hash.digest()));
+    run.emplace_back("judgement_sha256", bits::to_hex(hash.digest()));
   }
   return run;
 }
