@@ -145,6 +145,6 @@ void RunRecord::verdict(Instant at, const grading::Verdict& verdict) {
 
 bool RunRecord::close() { return log_.close(); }
 
-std::string RunRecord::digest() const { return recording::to_hex(log_.digest()); }
+std::string RunRecord::digest() const { return bits::to_hex(log_.digest()); }
 
 }  // namespace pitwall::bench

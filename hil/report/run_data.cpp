@@ -9,7 +9,7 @@
 #include "hil/bus/frame_length.hpp"
 #include "hil/report/text.hpp"
 #include "protocol/json/json_value.hpp"
-#include "protocol/recording/sha256.hpp"
+#include "protocol/bits/sha256.hpp"
 
 namespace pitwall::report {
 namespace {
@@ -239,9 +239,9 @@ RunData read_run(std::span<const std::uint8_t> log, const std::string& log_name)
   sort_by_time(run.losses);
   sort_by_time(run.events);
   run.health.bytes = log.size();
-  recording::Sha256 hash;
+  bits::Sha256 hash;
   hash.update(log);
-  run.digest = recording::to_hex(hash.digest());
+  run.digest = bits::to_hex(hash.digest());
   judge_log(run, log_name);
   return run;
 }

@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <utility>
 
+#include "protocol/bits/sha256.hpp"
 #include "protocol/json/json_text.hpp"
 #include "protocol/recorder/can_record.hpp"
-#include "protocol/recording/sha256.hpp"
 #include "protocol/telemetry/registry/schema.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
@@ -50,9 +50,9 @@ void append_file(recording::Metadata& run, const std::string& key, const std::st
   run.emplace_back(key + "_file", path);
   const auto text = transport::read_file(path);
   if (!text) return;
-  recording::Sha256 hash;
+  bits::Sha256 hash;
   hash.update(as_bytes(*text));
-  run.emplace_back(key + "_sha256", recording::to_hex(hash.digest()));
+  run.emplace_back(key + "_sha256", bits::to_hex(hash.digest()));
 }
 
 double RecorderFigures::minutes_left() const {

@@ -75,7 +75,7 @@ bool EventLog::close() {
   return writer_->close();
 }
 
-Sha256::Digest EventLog::digest() const { return hash_.digest(); }
+bits::Sha256::Digest EventLog::digest() const { return hash_.digest(); }
 
 McapCounters EventLog::counters() const { return writer_ ? writer_->counters() : McapCounters{}; }
 

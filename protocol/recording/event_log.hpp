@@ -21,7 +21,7 @@
 
 #include "protocol/recording/cdr_struct.hpp"
 #include "protocol/recording/mcap_writer.hpp"
-#include "protocol/recording/sha256.hpp"
+#include "protocol/bits/sha256.hpp"
 
 namespace pitwall::recording {
 
@@ -62,7 +62,7 @@ class EventLog {
   bool close();
 
   // Of all bytes that the sink has kept so far.
-  Sha256::Digest digest() const;
+  bits::Sha256::Digest digest() const;
   McapCounters counters() const;
 
  private:
@@ -70,7 +70,7 @@ class EventLog {
   Sink sink_;
   McapLimits limits_;
   std::vector<Channel> channels_;
-  Sha256 hash_;
+  bits::Sha256 hash_;
   std::vector<std::uint8_t> event_;
   std::unique_ptr<McapWriter> writer_;
 };

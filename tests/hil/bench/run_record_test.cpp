@@ -30,9 +30,9 @@ std::map<std::string, std::size_t> messages_of(recording::McapReader& reader) {
 }
 
 std::string sha256_of(const Bytes& bytes) {
-  recording::Sha256 hash;
+  bits::Sha256 hash;
   hash.update(bytes);
-  return recording::to_hex(hash.digest());
+  return bits::to_hex(hash.digest());
 }
 
 TEST(RunRecord, HoldsEveryTickAndEveryFrameOfARun) {

@@ -30,7 +30,7 @@ Recorded record(std::uint32_t seed) {
   EXPECT_TRUE(log.flush());
   EXPECT_TRUE(log.close());
   EXPECT_EQ(log.counters().messages, 33U);
-  run.digest = to_hex(log.digest());
+  run.digest = bits::to_hex(log.digest());
   return run;
 }
 
@@ -60,9 +60,9 @@ TEST(EventLog, SamplesAndEventsComeBack) {
 
 TEST(EventLog, TheDigestIsThatOfTheFileAndNamesTheRun) {
   const Recorded run = record(1);
-  Sha256 hash;
+  bits::Sha256 hash;
   hash.update(run.file.bytes);
-  EXPECT_EQ(run.digest, to_hex(hash.digest()));
+  EXPECT_EQ(run.digest, bits::to_hex(hash.digest()));
   EXPECT_EQ(run.digest, record(1).digest);
   EXPECT_NE(run.digest, record(2).digest);
 }
@@ -90,7 +90,7 @@ TEST(EventLog, ADeadSinkIsCountedAndNotHashed) {
   EXPECT_FALSE(log.event(Instant{}, "flag", "red"));
   EXPECT_FALSE(log.close());
   EXPECT_EQ(log.counters().refused_sink, 1U);
-  EXPECT_EQ(to_hex(log.digest()), to_hex(Sha256{}.digest()));
+  EXPECT_EQ(bits::to_hex(log.digest()), bits::to_hex(bits::Sha256{}.digest()));
 }
 
 }  // namespace

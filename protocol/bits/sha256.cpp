@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocol/recording/sha256.hpp"
+#include "protocol/bits/sha256.hpp"
 
 #include <algorithm>
 #include <bit>
 
-namespace pitwall::recording {
+namespace pitwall::bits {
 namespace {
 
 constexpr std::size_t kRounds = 64;
@@ -95,4 +95,4 @@ std::string to_hex(const Sha256::Digest& digest) {
   return hex;
 }
 
-}  // namespace pitwall::recording
+}  // namespace pitwall::bits

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocol/recording/sha256.hpp"
+#include "protocol/bits/sha256.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace pitwall::recording {
+namespace pitwall::bits {
 namespace {
 
 std::vector<std::uint8_t> bytes_of(std::string_view text) { return {text.begin(), text.end()}; }
@@ -63,4 +63,4 @@ TEST(Sha256, PiecesGiveWhatTheWholeGivesAndAskingChangesNothing) {
 }
 
 }  // namespace
-}  // namespace pitwall::recording
+}  // namespace pitwall::bits

@@ -1,4 +1,4 @@
-// SHA-256, streaming: the name of an event log, to compare two runs by.
+// SHA-256, streaming: the name of a file or of a type, to compare two by.
 //   in     bytes in pieces of any size            out    32 bytes, or 64 hexadecimal digits
 //   cost   O(bytes), no allocation but in hex()
 //   source FIPS 180-4, sections 4.1.2, 5 and 6.2
@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-namespace pitwall::recording {
+namespace pitwall::bits {
 
 class Sha256 {
  public:
@@ -33,4 +33,4 @@ class Sha256 {
 
 std::string to_hex(const Sha256::Digest& digest);
 
-}  // namespace pitwall::recording
+}  // namespace pitwall::bits

@@ -1,0 +1,164 @@
+// The bytes of a ROS 2 message: plain CDR of XCDR version 1 behind its header of four bytes, as
+// DDS carries them, and as Foxglove and MCAP do under the encoding `cdr`.
+//
+//     00 01 00 00   little endian; what follows is aligned to its own size, counted from here on
+//     string        u32 length with the NUL, characters, NUL
+//     sequence      u32 count, elements         fixed array: elements
+//     no fields     one zero byte
+//   in     a message (protocol/ros/message.hpp), or bytes from anywhere, of either byte order
+//   out    bytes, appended; or the message
+//   errors encode: none. decode: a Problem with the field's name for another representation, an
+//          end inside of a field, a length beyond the end, a string without NUL, a bool beyond 1,
+//          more than three bytes behind the end (the padding of RTPS)
+//   cost   O(bytes); numbers in one piece; a length allocates at most what the bytes can hold
+//   source OMG DDS-XTypes 1.3 section 7.4.1 (XCDR1), OMG DDSI-RTPS 2.5 section 10.2
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include <span>
+
+#include "protocol/ros/message.hpp"
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::ros {
+
+inline constexpr std::size_t kCdrHeader = 4;
+
+class CdrWriter {
+ public:
+  // Appends behind what `out` holds; alignment counts from the header that this writes.
+  explicit CdrWriter(std::vector<std::uint8_t>& out);
+
+  template <class T>
+  void put(const T& value) {
+    if constexpr (Message<T>) {
+      put_message(value);
+    } else if constexpr (Sequence<T>) {
+      put(static_cast<std::uint32_t>(value.size()));
+      put_all(value);
+    } else if constexpr (FixedArray<T>) {
+      put_all(value);
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      put_text(value);
+    } else if constexpr (std::is_same_v<T, bool>) {
+      out_.push_back(value ? 1 : 0);
+    } else {
+      static_assert(Number<T>);
+      put_numbers(&value, 1, sizeof(T));
+    }
+  }
+
+ private:
+  template <class M>
+  void put_message(const M& message) {
+    if constexpr (std::tuple_size_v<decltype(M::members())> == 0) out_.push_back(0);
+    for_each_field<M>([&](const auto& field) { put(message.*field.member); });
+  }
+  template <class Items>
+  void put_all(const Items& items) {
+    using Item = typename Items::value_type;
+    if constexpr (Number<Item>) {
+      if (!items.empty()) put_numbers(items.data(), items.size(), sizeof(Item));
+    } else {
+      for (const auto& item : items) put(item);
+    }
+  }
+  void put_text(std::string_view text);
+  void put_numbers(const void* numbers, std::size_t count, std::size_t bytes_each);
+
+  std::vector<std::uint8_t>& out_;
+  std::size_t begins_;
+};
+
+class CdrReader {
+ public:
+  explicit CdrReader(std::span<const std::uint8_t> bytes);
+
+  template <class T>
+  void take(T& value) {
+    if constexpr (Message<T>) {
+      take_message(value);
+    } else if constexpr (Sequence<T>) {
+      value.resize(take_count(least_bytes<typename T::value_type>()));
+      take_all(value);
+    } else if constexpr (FixedArray<T>) {
+      take_all(value);
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      value = take_text();
+    } else if constexpr (std::is_same_v<T, bool>) {
+      value = take_flag();
+    } else {
+      static_assert(Number<T>);
+      take_numbers(&value, 1, sizeof(T));
+    }
+  }
+
+  // Nothing but padding may follow.
+  void finish();
+  void refuse(std::string why);
+  bool ok() const { return !problem_; }
+  const Problem& problem() const { return *problem_; }
+
+ private:
+  // An element never takes less, whatever its alignment.
+  template <class T>
+  static constexpr std::size_t least_bytes() {
+    if constexpr (Number<T>) return sizeof(T);
+    return 1;
+  }
+  template <class M>
+  void take_message(M& message) {
+    if constexpr (std::tuple_size_v<decltype(M::members())> == 0) (void)take_flag();
+    for_each_field<M>([&](const auto& field) {
+      const std::string_view outer = field_;
+      field_ = field.name;
+      take(message.*field.member);
+      if (ok()) field_ = outer;
+    });
+  }
+  template <class Items>
+  void take_all(Items& items) {
+    using Item = typename Items::value_type;
+    if constexpr (Number<Item>) {
+      if (!items.empty()) take_numbers(items.data(), items.size(), sizeof(Item));
+    } else if constexpr (std::is_same_v<Item, bool>) {
+      for (std::size_t i = 0; i < items.size(); ++i) items[i] = take_flag();
+    } else {
+      for (Item& item : items) {
+        if (!ok()) return;
+        take(item);
+      }
+    }
+  }
+  bool has(std::size_t bytes);
+  bool align(std::size_t bytes);
+  std::size_t take_count(std::size_t least_each);
+  std::string take_text();
+  bool take_flag();
+  void take_numbers(void* numbers, std::size_t count, std::size_t bytes_each);
+
+  std::span<const std::uint8_t> bytes_;  // behind the header
+  std::size_t at_ = 0;
+  bool swapped_ = false;
+  std::string_view field_;
+  std::optional<Problem> problem_;
+};
+
+template <Message M>
+void encode(const M& message, std::vector<std::uint8_t>& out) {
+  CdrWriter{out}.put(message);
+}
+
+template <Message M>
+Result<M, Problem> decode(std::span<const std::uint8_t> bytes) {
+  CdrReader reader{bytes};
+  M message;
+  if (reader.ok()) reader.take(message);
+  reader.finish();
+  if (!reader.ok()) return Unexpected{reader.problem()};
+  return message;
+}
+
+}  // namespace pitwall::ros
