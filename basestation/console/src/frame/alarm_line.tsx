@@ -42,6 +42,7 @@ export function AlarmLine() {
           {active.length > 0 ? `${active.length} alarms, all acknowledged` : "no alarms"}
         </span>
         <Refused />
+        <SoundButton />
       </div>
     );
   }
