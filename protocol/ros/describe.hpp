@@ -99,7 +99,7 @@ template <Message M>
 void describe_into(TypeDescription& all, StructDescription& out) {
   out.name = M::kType;
   if constexpr (HasConstants<M>)
-    for (const Constant& constant : M::constants()) out.constants.push_back(constant);
+    for (const Constant& constant : M::kConstants) out.constants.push_back(constant);
   for_each_field<M>([&]<class T>(const Field<M, T>& field) {
     FieldDescription described;
     described.name = field.name;

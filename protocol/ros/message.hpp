@@ -54,7 +54,7 @@ concept Message = requires {
 
 template <class M>
 concept HasConstants = requires {
-  M::constants();
+  M::kConstants;
 };
 
 template <class T>

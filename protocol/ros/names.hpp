@@ -2,7 +2,7 @@
 //     /vehicle/odom           rt/vehicle/odom
 //     nav_msgs/msg/Odometry   nav_msgs::msg::dds_::Odometry_
 //   errors a Problem for a topic that ROS 2 would refuse, with the reason
-//   source ros2/rmw_fastrtps: namespace_prefix.cpp, demangle.cpp; ros2/rmw: validate_full_topic_name
+//   source ros2/rmw_fastrtps: namespace_prefix.cpp, demangle.cpp; rmw: validate_full_topic_name
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

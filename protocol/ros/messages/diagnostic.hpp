@@ -26,10 +26,9 @@ struct DiagnosticStatus {
   std::vector<KeyValue> values;
 
   static constexpr std::string_view kType = "diagnostic_msgs/msg/DiagnosticStatus";
-  static constexpr auto constants() {
-    return std::array{Constant{"byte", "OK", "0"}, Constant{"byte", "WARN", "1"},
-                      Constant{"byte", "ERROR", "2"}, Constant{"byte", "STALE", "3"}};
-  }
+  static constexpr std::array kConstants{Constant{"byte", "OK", "0"}, Constant{"byte", "WARN", "1"},
+                                         Constant{"byte", "ERROR", "2"},
+                                         Constant{"byte", "STALE", "3"}};
   static constexpr auto members() {
     return std::tuple{field("level", &DiagnosticStatus::level),
                       field("name", &DiagnosticStatus::name),

@@ -15,14 +15,12 @@ struct NavSatStatus {
   std::uint16_t service = 0;
 
   static constexpr std::string_view kType = "sensor_msgs/msg/NavSatStatus";
-  static constexpr auto constants() {
-    return std::array{
-        Constant{"int8", "STATUS_UNKNOWN", "-2"},   Constant{"int8", "STATUS_NO_FIX", "-1"},
-        Constant{"int8", "STATUS_FIX", "0"},        Constant{"int8", "STATUS_SBAS_FIX", "1"},
-        Constant{"int8", "STATUS_GBAS_FIX", "2"},   Constant{"uint16", "SERVICE_UNKNOWN", "0"},
-        Constant{"uint16", "SERVICE_GPS", "1"},     Constant{"uint16", "SERVICE_GLONASS", "2"},
-        Constant{"uint16", "SERVICE_COMPASS", "4"}, Constant{"uint16", "SERVICE_GALILEO", "8"}};
-  }
+  static constexpr std::array kConstants{
+      Constant{"int8", "STATUS_UNKNOWN", "-2"},   Constant{"int8", "STATUS_NO_FIX", "-1"},
+      Constant{"int8", "STATUS_FIX", "0"},        Constant{"int8", "STATUS_SBAS_FIX", "1"},
+      Constant{"int8", "STATUS_GBAS_FIX", "2"},   Constant{"uint16", "SERVICE_UNKNOWN", "0"},
+      Constant{"uint16", "SERVICE_GPS", "1"},     Constant{"uint16", "SERVICE_GLONASS", "2"},
+      Constant{"uint16", "SERVICE_COMPASS", "4"}, Constant{"uint16", "SERVICE_GALILEO", "8"}};
   static constexpr auto members() {
     return std::tuple{field("status", &NavSatStatus::status),
                       field("service", &NavSatStatus::service)};
@@ -39,12 +37,10 @@ struct NavSatFix {
   std::uint8_t position_covariance_type = 0;
 
   static constexpr std::string_view kType = "sensor_msgs/msg/NavSatFix";
-  static constexpr auto constants() {
-    return std::array{Constant{"uint8", "COVARIANCE_TYPE_UNKNOWN", "0"},
-                      Constant{"uint8", "COVARIANCE_TYPE_APPROXIMATED", "1"},
-                      Constant{"uint8", "COVARIANCE_TYPE_DIAGONAL_KNOWN", "2"},
-                      Constant{"uint8", "COVARIANCE_TYPE_KNOWN", "3"}};
-  }
+  static constexpr std::array kConstants{Constant{"uint8", "COVARIANCE_TYPE_UNKNOWN", "0"},
+                                         Constant{"uint8", "COVARIANCE_TYPE_APPROXIMATED", "1"},
+                                         Constant{"uint8", "COVARIANCE_TYPE_DIAGONAL_KNOWN", "2"},
+                                         Constant{"uint8", "COVARIANCE_TYPE_KNOWN", "3"}};
   static constexpr auto members() {
     return std::tuple{field("header", &NavSatFix::header),
                       field("status", &NavSatFix::status),
@@ -119,12 +115,11 @@ struct PointField {
   std::uint32_t count = 0;
 
   static constexpr std::string_view kType = "sensor_msgs/msg/PointField";
-  static constexpr auto constants() {
-    return std::array{Constant{"uint8", "INT8", "1"},    Constant{"uint8", "UINT8", "2"},
-                      Constant{"uint8", "INT16", "3"},   Constant{"uint8", "UINT16", "4"},
-                      Constant{"uint8", "INT32", "5"},   Constant{"uint8", "UINT32", "6"},
-                      Constant{"uint8", "FLOAT32", "7"}, Constant{"uint8", "FLOAT64", "8"}};
-  }
+  static constexpr std::array kConstants{
+      Constant{"uint8", "INT8", "1"},    Constant{"uint8", "UINT8", "2"},
+      Constant{"uint8", "INT16", "3"},   Constant{"uint8", "UINT16", "4"},
+      Constant{"uint8", "INT32", "5"},   Constant{"uint8", "UINT32", "6"},
+      Constant{"uint8", "FLOAT32", "7"}, Constant{"uint8", "FLOAT64", "8"}};
   static constexpr auto members() {
     return std::tuple{field("name", &PointField::name), field("offset", &PointField::offset),
                       field("datatype", &PointField::datatype), field("count", &PointField::count)};

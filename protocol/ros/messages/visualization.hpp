@@ -52,17 +52,15 @@ struct Marker {
   bool mesh_use_embedded_materials = false;
 
   static constexpr std::string_view kType = "visualization_msgs/msg/Marker";
-  static constexpr auto constants() {
-    return std::array{
-        Constant{"int32", "ARROW", "0"},          Constant{"int32", "CUBE", "1"},
-        Constant{"int32", "SPHERE", "2"},         Constant{"int32", "CYLINDER", "3"},
-        Constant{"int32", "LINE_STRIP", "4"},     Constant{"int32", "LINE_LIST", "5"},
-        Constant{"int32", "CUBE_LIST", "6"},      Constant{"int32", "SPHERE_LIST", "7"},
-        Constant{"int32", "POINTS", "8"},         Constant{"int32", "TEXT_VIEW_FACING", "9"},
-        Constant{"int32", "MESH_RESOURCE", "10"}, Constant{"int32", "TRIANGLE_LIST", "11"},
-        Constant{"int32", "ARROW_STRIP", "12"},   Constant{"int32", "ADD", "0"},
-        Constant{"int32", "DELETE", "2"},         Constant{"int32", "DELETEALL", "3"}};
-  }
+  static constexpr std::array kConstants{
+      Constant{"int32", "ARROW", "0"},          Constant{"int32", "CUBE", "1"},
+      Constant{"int32", "SPHERE", "2"},         Constant{"int32", "CYLINDER", "3"},
+      Constant{"int32", "LINE_STRIP", "4"},     Constant{"int32", "LINE_LIST", "5"},
+      Constant{"int32", "CUBE_LIST", "6"},      Constant{"int32", "SPHERE_LIST", "7"},
+      Constant{"int32", "POINTS", "8"},         Constant{"int32", "TEXT_VIEW_FACING", "9"},
+      Constant{"int32", "MESH_RESOURCE", "10"}, Constant{"int32", "TRIANGLE_LIST", "11"},
+      Constant{"int32", "ARROW_STRIP", "12"},   Constant{"int32", "ADD", "0"},
+      Constant{"int32", "DELETE", "2"},         Constant{"int32", "DELETEALL", "3"}};
   static constexpr auto members() {
     return std::tuple{field("header", &Marker::header),
                       field("ns", &Marker::ns),
