@@ -32,7 +32,7 @@ TEST_F(BenchVerb, CodeWordsAndFileSayTheSame) {
   EXPECT_LE(p99_us, map.number("max_us", 0.0, 1e9));
   EXPECT_GT(p50_us, 0.0);
   const bool held = map.flag("held");
-  EXPECT_EQ(held, p99_us < 100.0);
+  EXPECT_EQ(held, p50_us < 100.0 && p99_us < 1'200.0);
   EXPECT_EQ(said.code, held ? 0 : 1);
   EXPECT_NE(said.out.find(held ? "held" : "MISSED"), std::string::npos);
 }
