@@ -24,8 +24,8 @@ struct LinkFigures {
 };
 
 struct BaseFigures {
-  double disk_minutes = kUnset;     // that the recorder can still write
-  double recording = kUnset;        // as kRecordingStates
+  double disk_minutes = kUnset;  // that the recorder can still write
+  double recording = kUnset;     // as kRecordingStates
   double recorder_lost = kUnset, recorder_kbyte_s = kUnset;
   double clock_offset_ms = kUnset;  // of the base against UTC, where something compares them
   bool joystick_lost = false;       // was in use, gives no samples now

@@ -8,8 +8,8 @@
 
 #include "hil/bus/frame_length.hpp"
 #include "hil/report/text.hpp"
-#include "protocol/json/json_value.hpp"
 #include "protocol/bits/sha256.hpp"
+#include "protocol/json/json_value.hpp"
 
 namespace pitwall::report {
 namespace {

@@ -27,7 +27,7 @@ namespace {
 
 constexpr double kLeastTimesRealTime = 50.0;
 constexpr int kRuns = 5;
-constexpr double kStepLimit_us = 100.0;         // half of the steps
+constexpr double kStepLimit_us = 100.0;        // half of the steps
 constexpr double kBusyStepLimit_us = 1'200.0;  // p99: those that plan, or redo late measurements
 
 struct StepFigures {

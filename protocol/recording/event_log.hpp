@@ -19,9 +19,9 @@
 #include <string_view>
 #include <vector>
 
+#include "protocol/bits/sha256.hpp"
 #include "protocol/recording/cdr_struct.hpp"
 #include "protocol/recording/mcap_writer.hpp"
-#include "protocol/bits/sha256.hpp"
 
 namespace pitwall::recording {
 
