@@ -185,13 +185,14 @@ test("keys find a field, plot it and acknowledge an alarm", async () => {
   );
   await page.keyboard.press("a");
   await page.waitForTimeout(100);
-  assert.deepEqual(
-    stage.double.received.filter((m) => m.type === "ack"),
-    [{ type: "ack", alarm: 1 }],
-  );
+  const acks = () => stage.double.received.filter((m) => m.type === "ack");
+  assert.deepEqual(acks(), [{ type: "ack", alarm: 1 }]);
   await page.keyboard.press("A");
   await page.waitForTimeout(100);
-  assert.deepEqual(stage.double.received.at(-1), { type: "ack", all: [1, 2, 4] });
+  assert.deepEqual(acks(), [
+    { type: "ack", alarm: 1 },
+    { type: "ack", all: [1, 2, 4] },
+  ]);
 });
 
 test("pause, scrub and back to live concern the view alone", async () => {
