@@ -4,8 +4,8 @@
 //   out    opened bodies, each once; datagrams for each path, within its budget
 //   law    a packet each kSlot, and one half a slot later where something waits; what the budget
 //          has no room for is skipped, never queued. A stop has a packet at once, on every path
-//          that has room, or as soon as one has: out of the same budget
-//          one sequence number is one plaintext: copies for several paths are the same bytes
+//          that has room, or as soon as one has: out of the same budget. One sequence number is one
+//          plaintext: copies for several paths are the same bytes
 //          a packet of another session than the one in use changes nothing
 //   errors counted by Association, BodyError and the modules below
 //   cost   no allocation after construction
