@@ -9,6 +9,7 @@ import { DvrBar } from "./frame/dvr_bar";
 import { Finder } from "./frame/finder";
 import { Help } from "./frame/help";
 import { finderShown, helpShown } from "./frame/keys";
+import { later } from "./frame/later";
 import { Navigation } from "./frame/navigation";
 import { page } from "./frame/pages";
 import type { PageName } from "./frame/pages";
@@ -19,15 +20,15 @@ import { TopBar } from "./frame/top_bar";
 import { AlarmsPage } from "./pages/alarms/page";
 import { CommandsPage } from "./pages/commands/page";
 import { LinkPage } from "./pages/link/page";
-import { PlotsPage } from "./pages/plots/page";
 import { PrimaryPage } from "./pages/primary/page";
 import { TelemetryPage } from "./pages/telemetry/page";
 import * as session from "./store/session";
 import { isLive } from "./view/timeline";
 
+/** What one must be able to do at once is in the first load; the rest follows by itself. */
 const kBodies: Record<PageName, FunctionComponent> = {
   primary: PrimaryPage,
-  plots: PlotsPage,
+  plots: later(() => import("./pages/plots/page").then((it) => it.PlotsPage)),
   telemetry: TelemetryPage,
   link: LinkPage,
   commands: CommandsPage,

@@ -4,7 +4,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { effect } from "@preact/signals";
 import { render } from "preact";
-import "uplot/dist/uPlot.min.css";
 import "./theme/fonts.css";
 import "./theme/palette.css";
 import "./theme/frame.css";
@@ -19,6 +18,7 @@ import "./theme/alarms.css";
 import "./theme/narrow.css";
 import { App } from "./app";
 import { listenToKeys } from "./frame/keys";
+import { fetchLaterPages } from "./frame/later";
 import { listenToAlarms, sounded } from "./frame/tones";
 import { forgetEarlier } from "./pages/plots/backfill";
 import { plotLayout, readPlotLayout } from "./pages/plots/layout";
@@ -66,6 +66,7 @@ effect(() => {
   if (!session.connected.value) return;
   forgetEarlier();
   void fetchTrack();
+  void fetchLaterPages();
 });
 // A jump in time is seen at once, not at the next turn of each painter.
 effect(() => {

@@ -187,3 +187,35 @@ test("a replay is moved by its own bar and keys, and a jump forgets what came be
   stage.double.say({ ...playing, now_ms: 99_000, jumps: 1 });
   await until(page, "all forgotten", () => globalThis.pitwall.session.audit.value.length === 0);
 });
+
+const kLaterScript = /\/assets\/page-.*\.js$/;
+const fetchedLater = () =>
+  performance.getEntriesByType("resource").some((e) => /assets\/page-.*\.js$/.test(e.name));
+
+test("pages outside the first load are there before they are shown, and without a base", async () => {
+  const { page } = await stage.open();
+  await until(page, "the page that nobody asked for", fetchedLater);
+  await page.waitForLoadState("networkidle");
+  await stage.double.close();
+  await until(page, "no base", () => !globalThis.pitwall.session.connected.value);
+  await show(page, "plots");
+  await until(page, "charts", () => document.querySelectorAll(".chart canvas").length > 3);
+  await stage.double.listen(Number(new URL(stage.address).port)); // for the next to close
+});
+
+test("a page that did not come is asked for again", async () => {
+  const context = await stage.browser.newContext();
+  const page = await context.newPage();
+  let refused = 0;
+  await page.route(kLaterScript, (route) => (refused++ < 2 ? route.abort() : route.continue()));
+  await page.goto(`${stage.address}/#/plots`);
+  await until(page, "what is missing", () =>
+    document.querySelector(".page .empty")?.textContent.includes("has not come"),
+  );
+  for (let n = 0; n < 3 && (await page.locator(".chart").count()) === 0; ++n) {
+    await show(page, "primary");
+    await show(page, "plots");
+    await page.waitForTimeout(300);
+  }
+  await until(page, "charts", () => document.querySelectorAll(".chart canvas").length > 3);
+});

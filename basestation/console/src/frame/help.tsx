@@ -34,7 +34,7 @@ export function Help() {
             </tr>
             <tr>
               <th scope="row">
-                <kbd>1 &hellip; {kPages.length}</kbd>
+                <kbd>1 &hellip; {kPages.at(-1)?.key}</kbd>
               </th>
               <td>{kPages.map((page) => page.title).join(", ")}</td>
             </tr>

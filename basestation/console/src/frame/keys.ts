@@ -113,9 +113,9 @@ function pressed(event: KeyboardEvent): void {
   if (event.ctrlKey || event.metaKey || event.altKey || takesText(event.target)) return;
   const moves = event.key === " " || event.key.startsWith("Arrow");
   if (moves && takesKeys(event.target)) return;
-  const number = Number(event.key);
-  if (event.key !== " " && kPages[number - 1]) {
-    showPage(kPages[number - 1].name);
+  const opened = kPages.find((page) => String(page.key) === event.key);
+  if (opened) {
+    showPage(opened.name);
     return;
   }
   const key = Object.hasOwn(kKeys, event.key) ? kKeys[event.key] : undefined;

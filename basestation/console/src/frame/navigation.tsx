@@ -13,14 +13,14 @@ export function Navigation() {
   const unseen = (session.alarms.value?.active ?? []).filter(needsEyes).length;
   return (
     <nav class="navigation" aria-label="pages">
-      {kPages.map(({ name, title }, i) => (
+      {kPages.map(({ key, name, title }) => (
         <button
           type="button"
           key={name}
           aria-current={page.value === name ? "page" : undefined}
           onClick={() => showPage(name)}
         >
-          <kbd>{i + 1}</kbd>
+          <kbd>{key}</kbd>
           <span>{title}</span>
           {name === "alarms" && unseen > 0 && <b class="badge">{unseen}</b>}
         </button>

@@ -6,12 +6,12 @@
 import { signal } from "@preact/signals";
 
 export const kPages = [
-  { name: "primary", title: "Primary" },
-  { name: "plots", title: "Plots" },
-  { name: "telemetry", title: "Telemetry" },
-  { name: "link", title: "Link" },
-  { name: "commands", title: "Commands" },
-  { name: "alarms", title: "Alarms" },
+  { key: 1, name: "primary", title: "Primary" },
+  { key: 2, name: "plots", title: "Plots" },
+  { key: 3, name: "telemetry", title: "Telemetry" },
+  { key: 4, name: "link", title: "Link" },
+  { key: 5, name: "commands", title: "Commands" },
+  { key: 6, name: "alarms", title: "Alarms" },
 ] as const;
 
 export type PageName = (typeof kPages)[number]["name"];

@@ -4,6 +4,7 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import uPlot from "uplot";
+import "uplot/dist/uPlot.min.css";
 import { useEffect, useRef } from "preact/hooks";
 import * as session from "../../store/session";
 import { colours, theme } from "../../theme/theme";
