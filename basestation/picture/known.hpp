@@ -27,10 +27,11 @@ struct BaseFigures {
   double disk_minutes = kUnset;  // that the recorder can still write
   double recording = kUnset;     // as kRecordingStates
   double recorder_lost = kUnset, recorder_kbyte_s = kUnset;
-  double clock_offset_ms = kUnset;  // of the base against UTC, where something compares them
-  bool joystick_lost = false;       // was in use, gives no samples now
-  bool authority_lost = false;      // expired without being dropped or handed over
-  bool schema_differs = false;      // car and base disagree on the safety groups
+  double clock_offset_ms = kUnset;   // of the base against UTC, where something compares them
+  bool joystick_lost = false;        // was in use, gives no samples now
+  bool authority_lost = false;       // expired without being dropped or handed over
+  bool schema_differs = false;       // car and base disagree on the safety groups
+  bool settings_unreadable = false;  // there is a file of limits and alarms, and it is none
 };
 
 // What the pit wall's people said.

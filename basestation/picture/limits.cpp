@@ -91,6 +91,7 @@ constexpr auto kOwnLimits = std::to_array<DefaultLimit>({
     {field_id("base.joystick_lost"), among({}, {1})},
     {field_id("base.authority_lost"), among({1}, {})},
     {field_id("base.schema_differs"), among({}, {1})},
+    {field_id("base.settings_unreadable"), among({1}, {})},
 });
 
 struct NamedLimit {

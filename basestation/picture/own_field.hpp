@@ -77,9 +77,10 @@ enum class BaseField : std::uint8_t {
   kClockOffset,
   kJoystickLost,
   kAuthorityLost,
-  kSchemaDiffers
+  kSchemaDiffers,
+  kSettingsUnreadable
 };
-inline constexpr std::size_t kBaseFields = 55;
+inline constexpr std::size_t kBaseFields = 56;
 
 struct BaseRow {
   BaseField field;
@@ -153,6 +154,7 @@ inline constexpr auto kBaseTable = [] {
       {kJoystickLost, "base", "joystick_lost", "", 0, 1, 1, kNoYes},
       {kAuthorityLost, "base", "authority_lost", "", 0, 1, 1, kNoYes},
       {kSchemaDiffers, "base", "schema_differs", "", 0, 1, 1, kNoYes},
+      {kSettingsUnreadable, "base", "settings_unreadable", "", 0, 1, 1, kNoYes},
   });
 }();
 static_assert(kBaseTable.size() == kBaseFields);

@@ -130,6 +130,12 @@ constexpr auto kAlarmTable = [] {
        kAnywhere},
       {"joystick_lost", "The joystick is silent", "Plug it in, or end its use", kMedium,
        field_id("base.joystick_lost"), kAbove, kYes, 0.0, kAtOnce, kSecond, false, kAnywhere},
+      {"settings_unreadable", "Settings file unreadable: built-in limits in force",
+       "Its line is told in the audit log. Mend it and start again, or change a setting: a new "
+       "file "
+       "is written, the broken one kept beside",
+       kMedium, field_id("base.settings_unreadable"), kAbove, kYes, 0.0, kAtOnce, kAtOnce, false,
+       kAnywhere},
       {"clock_offset", "The base's clock is off", "Look at the time service", kLow,
        field_id("base.clock_offset_ms"), kAbove, 5.0, 1.0, kLong, kLong, false, kAnywhere},
       {"disk_full", "The recorder's disk is nearly full", "Make room, or change the disk", kMedium,

@@ -73,6 +73,7 @@ void derive_link(const Pass& pass, const Known& known, const Books& books) {
   pass.put(kJoystickLost, yes(known.base.joystick_lost));
   pass.put(kAuthorityLost, yes(known.base.authority_lost));
   pass.put(kSchemaDiffers, yes(known.base.schema_differs));
+  pass.put(kSettingsUnreadable, yes(known.base.settings_unreadable));
 }
 
 // An opponent that is no longer seen is no fault of the link.
