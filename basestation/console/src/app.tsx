@@ -33,6 +33,7 @@ const kBodies: Record<PageName, FunctionComponent> = {
   link: LinkPage,
   commands: CommandsPage,
   alarms: AlarmsPage,
+  replay: later(() => import("./pages/replay/page").then((it) => it.ReplayPage)),
 };
 
 export function App() {

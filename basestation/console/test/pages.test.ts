@@ -7,6 +7,7 @@ import fc from "fast-check";
 import { describe, expect, test } from "vitest";
 import { isPending, rung } from "../src/pages/commands/steps";
 import { columns, kGapMs, withEarlier } from "../src/pages/plots/series";
+import { verdictOf } from "../src/pages/replay/verdict";
 import { readPlotLayout } from "../src/pages/plots/layout";
 import { kDefaultLayout, moved, readPrimaryLayout } from "../src/pages/primary/layout";
 import { Fields } from "../src/store/fields";
@@ -211,5 +212,20 @@ describe("numbers", () => {
     expect(valueText({ ...info, labels: ["no", "yes"] }, 7)).toBe("7");
     expect(valueText({ ...info, unit: "bits", labels: ["a", "b", "c"] }, 5)).toBe("a, c");
     expect(valueText(info, NaN)).toBe("\u2013");
+  });
+});
+
+describe("the check list", () => {
+  const row = (go: boolean) => ({ name: "link", go, known: true, age_ms: 20, text: "good" });
+  const list = (go: boolean, checks: boolean[]) => ({ time_ms: 1000, go, checks: checks.map(row) });
+  test("is a go only where the base says so of everything, and lately", () => {
+    expect(verdictOf(list(true, [true, true]), 2000, false)).toBe("go");
+    expect(verdictOf(list(false, [true, true]), 2000, false)).toBe("no-go");
+    expect(verdictOf(list(true, [true, false]), 2000, false)).toBe("no-go");
+    expect(verdictOf(list(true, []), 2000, false)).toBe("no-go");
+    expect(verdictOf(list(true, [true]), 4001, false)).toBe("unknown");
+    expect(verdictOf(list(true, [true]), 2000, true)).toBe("unknown");
+    expect(verdictOf(list(true, [true]), NaN, false)).toBe("unknown");
+    expect(verdictOf(null, 2000, false)).toBe("unknown");
   });
 });

@@ -52,6 +52,7 @@ const kBaseFields = {
   },
 };
 const kFirstBaseField = 16_384;
+const kFramesPerSecond = 25;
 
 /** The catalogue as a base would serve it: the registry out of the real program, and its own. */
 export function catalogue(program = process.env.PITWALL_BASE ?? kProgram) {
@@ -107,6 +108,9 @@ export class Double {
   overrides = new Map();
   /** False: the car is silent, ages grow, every field becomes stale in its time. */
   carAlive = true;
+  /** What it says once a second of the check list, and what it has recorded; null: nothing. */
+  checklist = null;
+  recordings = null;
   /** What the consoles are told that they lost. */
   dropped = 0;
   layouts = new Map();
@@ -205,6 +209,9 @@ export class Double {
       timeMs: this.nowMs(),
     });
     for (const socket of this.sockets.clients) socket.send(frame);
+    if (this.checklist && this.sequence % kFramesPerSecond === 0) {
+      this.say(this.checklist(this.nowMs()));
+    }
     for (const listener of this.frameListeners) listener(this.nowMs());
   }
 
@@ -245,6 +252,8 @@ export class Double {
     };
     if (path === "/api/catalogue") return json(this.catalogue);
     if (path === "/api/track") return json(kTrack);
+    if (path === "/api/recordings" && this.recordings) return json(this.recordings);
+    if (path === "/api/recordings") return response.writeHead(204).end();
     if (path.startsWith("/api/layouts/")) return this.serveLayout(request, response, path);
     const file = path === "/" ? "index.html" : normalize(path).replace(/^[/.]+/, "");
     try {
@@ -274,7 +283,8 @@ export class Double {
 
 if (process.argv[1] === new URL(import.meta.url).pathname) {
   const double = new Double();
-  const { greetings } = await import("./story.mjs");
+  const { checklist, greetings, kRecordings } = await import("./story.mjs");
   double.greetings = greetings(double);
+  Object.assign(double, { checklist, recordings: kRecordings });
   console.log(await double.listen(Number(process.argv[2] ?? 8090)));
 }

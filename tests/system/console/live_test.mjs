@@ -7,6 +7,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Double } from "./double.mjs";
 import { doubleStage, kPages, show, until } from "./stage.mjs";
+import { checklist, kRecordings } from "./story.mjs";
 import { kBad, kWarning } from "./wire.mjs";
 
 const stage = doubleStage();
@@ -218,4 +219,54 @@ test("a page that did not come is asked for again", async () => {
     await page.waitForTimeout(300);
   }
   await until(page, "charts", () => document.querySelectorAll(".chart canvas").length > 3);
+});
+
+test("the check list is the base's own; an old one, and one of a silent base, is not known", async () => {
+  let said = { ...checklist(0), go: false };
+  stage.double.checklist = (now) => ({ ...said, time_ms: now });
+  const { page } = await stage.open({ hash: "#/replay" });
+  const verdict = (wanted) => document.querySelector(".checklist output")?.textContent === wanted;
+  await until(page, "no-go", verdict, "NO-GO");
+  const rows = () =>
+    [...document.querySelectorAll(".check")].map((e) => [
+      e.querySelector(".name").textContent,
+      e.dataset.verdict,
+    ]);
+  const wanted = said.checks.map((c) => [c.name, c.go ? "go" : "no-go"]);
+  assert.deepEqual(await page.evaluate(rows), wanted);
+  assert.match(await page.textContent(".check:nth-child(9) .age"), /^(8|9)\.\d s$/);
+  // Every item a go, and yet the base says no: the page does not know better.
+  said = { ...said, checks: said.checks.map((c) => ({ ...c, go: true })) };
+  await until(
+    page,
+    "rows",
+    () => document.querySelectorAll('[data-verdict="go"].check').length === 12,
+  );
+  assert.equal(await page.evaluate(verdict, "NO-GO"), true);
+  said.go = true;
+  await until(page, "go", verdict, "GO");
+  stage.double.checklist = null;
+  await until(page, "an old list", verdict, "NOT KNOWN");
+  assert.equal(await page.locator('.check[data-verdict="unknown"]').count(), 12);
+  stage.double.checklist = (now) => ({ ...said, time_ms: now });
+  await until(page, "go again", verdict, "GO");
+  await stage.double.close();
+  await until(page, "a silent base", verdict, "NOT KNOWN");
+  await stage.double.listen(Number(new URL(stage.address).port)); // for the next to close
+});
+
+test("recordings are listed, and what plays one is told", async () => {
+  stage.double.recordings = kRecordings;
+  const { page, faults } = await stage.open({ hash: "#/replay" });
+  await until(
+    page,
+    "the list",
+    () => document.querySelectorAll(".recordings tbody tr").length === 4,
+  );
+  await page.click('.recordings button:has-text("warm_up")');
+  const line = await page.inputValue(".command-line input");
+  assert.equal(line, kRecordings.recordings[2].command);
+  await page.click('.recordings button:has-text("copied")');
+  assert.equal(await page.locator(".command-line").count(), 0, "nothing to play");
+  assert.deepEqual(faults, []);
 });

@@ -12,7 +12,7 @@ import { test } from "node:test";
 import { cvdDistance, contrast, parseColour } from "./colour.mjs";
 import { kAxe } from "./packages.mjs";
 import { doubleStage, kPages, kScreenshots, kSizes, kThemes, show } from "./stage.mjs";
-import { greetings, troubles } from "./story.mjs";
+import { checklist, greetings, kRecordings, troubles } from "./story.mjs";
 
 const kTouchPx = 44;
 const kCommandPx = 64;
@@ -22,6 +22,7 @@ const kLeastDistance = 20;
 
 const stage = doubleStage((double) => {
   double.greetings = greetings(double);
+  Object.assign(double, { checklist, recordings: kRecordings });
   troubles(double);
 });
 

@@ -16,7 +16,7 @@ const kChromium = process.env.PITWALL_CHROMIUM || "/usr/bin/chromium";
 /** A browser that does not end is killed with the test's process. */
 const kCloseMs = 10_000;
 export const kScreenshots = join(kRoot, "build/console/screenshots");
-export const kPages = ["primary", "plots", "telemetry", "link", "commands", "alarms"];
+export const kPages = ["primary", "plots", "telemetry", "link", "commands", "alarms", "replay"];
 export const kThemes = ["dark", "light", "sun"];
 export const kSizes = [
   [1920, 1080],

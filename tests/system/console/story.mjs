@@ -273,3 +273,63 @@ export function troubles(double) {
   double.set("electric.battery", 13.8, 0, kStale);
   double.set("dynamics.lateral_error", -1.38, kWarning);
 }
+
+const check = (name, go, text, ageMs = 40, known = true) => ({
+  name,
+  go,
+  known,
+  age_ms: ageMs,
+  text,
+});
+
+/** The list before a run: two items hold the car back, one of them because nothing is known. */
+export const checklist = (now) => ({
+  type: "checklist",
+  time_ms: now,
+  go: false,
+  checks: [
+    check("link", true, "good, 1.2 % lost", 20),
+    check("software", true, "car and base agree on the packets", 180),
+    check("clocks", true, "base 0.4 ms from UTC at the most"),
+    check("disk", true, "recording on, room for 412.0 min"),
+    check("limits and alarms", true, "version 3-3f2a, of the file", 0),
+    check("authority", true, "held by console 16", 0),
+    check("joystick", true, "connected, released", 0),
+    check("RTK corrections", false, "somebody else uses the login, corrections 6.2 s old", 90),
+    check("tyres", false, "too old: 8.4 s; softest 149.0 kPa, coldest 74.0 \u00b0C", 8400, false),
+    check("fuel", true, "14.9 laps, 6.0 attempts", 220),
+    check("stop", true, "none", 60),
+    check("alarms", true, "0 high", 0),
+  ],
+});
+
+const recording = (name, segments, hour, more = {}) => ({
+  name,
+  folder: `/srv/pitwall/recordings/${name}`,
+  car: "7",
+  car_name: "Caracara",
+  segments,
+  bytes: 3_900_000 * segments,
+  first_utc_ms: Date.UTC(2026, 0, 9, hour, 2, 10),
+  last_utc_ms: Date.UTC(2026, 0, 9, hour, 1 + segments, 10),
+  running: false,
+  problem: "",
+  command: `pitwall-base --replay /srv/pitwall/recordings/${name} --web 0 --track lvms`,
+  ...more,
+});
+
+export const kRecordings = {
+  root: "/srv/pitwall/recordings",
+  left_out: 0,
+  problem: "",
+  recordings: [
+    recording("passing_round_3", 12, 19, { running: true }),
+    recording("passing_round_2", 34, 18),
+    recording("warm_up", 21, 16),
+    recording("copied", 0, 15, {
+      problem: "no segment in it",
+      first_utc_ms: null,
+      last_utc_ms: null,
+    }),
+  ],
+};

@@ -12,6 +12,7 @@ export const kPages = [
   { key: 4, name: "link", title: "Link" },
   { key: 5, name: "commands", title: "Commands" },
   { key: 6, name: "alarms", title: "Alarms" },
+  { key: 9, name: "replay", title: "Pre-run" },
 ] as const;
 
 export type PageName = (typeof kPages)[number]["name"];

@@ -6,6 +6,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { signal } from "@preact/signals";
 import type * as Wire from "../wire/messages";
+import type { Checklist } from "../wire/pit";
 import { Kind, readHead, readHistory, readSnapshot } from "../wire/frame";
 import type { History as HistoryAnswer } from "../wire/frame";
 import { BaseClock } from "./station_clock";
@@ -29,6 +30,7 @@ export const notices = signal<readonly Wire.Notice[]>([]);
 export const fuel = signal<Wire.Fuel | null>(null);
 export const expected = signal<Wire.Expected | null>(null);
 export const settings = signal<Wire.Settings | null>(null);
+export const checklist = signal<Checklist | null>(null);
 export const playback = signal<Wire.Playback | null>(null);
 export const track = signal<Wire.Track | null>(null);
 export const lastError = signal<{ place: string; what: string; at: number } | null>(null);
@@ -140,6 +142,7 @@ const kTexts: Texts = {
   fuel: (m: Wire.Fuel) => (fuel.value = m),
   expected: (m: Wire.Expected) => (expected.value = m),
   settings: (m: Wire.Settings) => (settings.value = m),
+  checklist: (m: Checklist) => (checklist.value = m),
   playback: takePlayback,
   pong: () => {},
   layout: () => {},
