@@ -61,7 +61,7 @@ void append_text(std::string& out, const StructDescription& type) {
     out += f.type == TypeId::kNested ? short_name(f.nested) : std::string(msg_name_of(f.type));
     if (f.many == Many::kFixed) out += "[" + std::to_string(f.count) + "]";
     if (f.many == Many::kAny) out += "[]";
-    out += " " + f.name + "\n";
+    out += " " + f.name + (f.comment.empty() ? "" : "  # " + f.comment) + "\n";
   }
 }
 
@@ -84,6 +84,12 @@ void append_json(std::string& out, const StructDescription& type) {
 }
 
 }  // namespace
+
+std::string file_text(const StructDescription& type) {
+  std::string out;
+  append_text(out, type);
+  return out;
+}
 
 std::string message_text(const TypeDescription& type) {
   std::string out;

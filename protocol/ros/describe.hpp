@@ -2,7 +2,8 @@
 // inside, as rosidl describes them; from that the .msg text and the type hash.
 //   in     a message (protocol/ros/message.hpp), or fields listed at run time
 //   out    TypeDescription; text of encoding `ros2msg`; hash "RIHS01_" and 64 hexadecimal digits
-//   law    the hash depends on names, types and order of the fields, and on nothing else
+//   law    the hash depends on names, types and order of the fields, and on nothing else:
+//          constants and comments are text
 //   source ros2/rosidl: type_description_interfaces, rosidl_generator_type_description (RIHS01);
 //          MCAP and Foxglove: schema encoding "ros2msg"
 // SPDX-License-Identifier: Apache-2.0
@@ -40,6 +41,7 @@ struct FieldDescription {
   Many many = Many::kOne;
   std::uint64_t count = 0;  // of a fixed array
   std::string nested{};     // "std_msgs/msg/Header"; empty unless kNested
+  std::string comment{};    // behind the field in the text, one line
 };
 
 struct StructDescription {
@@ -115,6 +117,8 @@ TypeDescription describe() {
   return all;
 }
 
+// The .msg file of one message alone.
+std::string file_text(const StructDescription& type);
 // The .msg file, and behind it each message inside, as `ros2msg`.
 std::string message_text(const TypeDescription& type);
 std::string type_hash(const TypeDescription& type);

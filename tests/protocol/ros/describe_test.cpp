@@ -3,16 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "protocol/ros/cdr.hpp"
 #include "tests/protocol/ros/sample_messages.hpp"
-#include "tests/support/oracle_node.hpp"
+#include "tests/support/ros_oracle.hpp"
 
 namespace pitwall::ros {
 namespace {
-
-using pitwall::testing::kOracles;
 
 template <class M>
 std::string hash_of() {
@@ -67,6 +63,15 @@ TEST(RosTypeHash, ChangesWithEveryNameTypeAndOrderAndWithNothingElse) {
   EXPECT_NE(type_hash(other), hash);
 }
 
+TEST(RosMessageText, ACommentStandsBehindItsFieldAndTheHashDoesNotSeeIt) {
+  TypeDescription header = describe<Header>();
+  const std::string hash = type_hash(header);
+  header.type.fields[1].comment = "of REP 105";
+  EXPECT_EQ(file_text(header.type),
+            "builtin_interfaces/Time stamp\nstring frame_id  # of REP 105\n");
+  EXPECT_EQ(type_hash(header), hash);
+}
+
 TEST(RosMessageText, OfAMessageWithOthersInside) {
   EXPECT_EQ(message_text(describe<Header>()),
             "builtin_interfaces/Time stamp\n"
@@ -80,32 +85,20 @@ TEST(RosMessageText, OfAMessageWithOthersInside) {
 // Foxglove's libraries read our text, find in it what ROS 2 Jazzy has, and decode our bytes.
 TEST(RosMessageText, FoxglovesReadersFindTheMessagesOfRosAndOurValues) {
   NEEDS_ORACLES();
-  const auto file = std::filesystem::temp_directory_path() /
-                    ("pitwall-ros-" + std::to_string(getpid()) + ".jsonl");
   testing::Random random{3};
-  std::size_t messages = 0;
-  {
-    std::ofstream out{file};
-    testing::for_each_message([&]<class M>() {
-      for (int i = 0; i < 5; ++i, ++messages) {
-        M message;
-        testing::fill(random, message);
-        std::vector<std::uint8_t> bytes;
-        encode(message, bytes);
-        std::string text = message_text(describe<M>()), said;
-        for (std::size_t at = 0; (at = text.find('\n', at)) != text.npos; at += 2)
-          text.replace(at, 1, "\\n");
-        testing::append_json(said, message);
-        out << R"({"type":")" << M::kType << R"(","text":")" << text << R"(","bytes":")";
-        for (const std::uint8_t byte : bytes)
-          out << "0123456789abcdef"[byte / 16] << "0123456789abcdef"[byte % 16];
-        out << R"(","said":)" << said << "}\n";
-      }
-    });
-  }
-  EXPECT_EQ(pitwall::testing::node("check_ros.mjs", "'" + file.string() + "'"),
-            std::to_string(messages) + " messages agree\n");
-  std::filesystem::remove(file);
+  pitwall::testing::RosOracle oracle;
+  testing::for_each_message([&]<class M>() {
+    for (int i = 0; i < 5; ++i) {
+      M message;
+      testing::fill(random, message);
+      std::vector<std::uint8_t> bytes;
+      encode(message, bytes);
+      std::string said;
+      testing::append_json(said, message);
+      oracle.add(M::kType, message_text(describe<M>()), bytes, said);
+    }
+  });
+  oracle.expect_agreement();
 }
 
 }  // namespace
