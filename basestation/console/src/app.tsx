@@ -1,10 +1,12 @@
 /**
  * The whole console: the fixed frame and the page in it. The frame's border says in which world we
  * are: none for the real car, dashed blue for the bench, hatched for a replay, amber for the past.
+ * Another car has other elements: a press that has begun on one car does not end on another.
  */
 // SPDX-License-Identifier: Apache-2.0
 import type { FunctionComponent } from "preact";
 import { AlarmLine } from "./frame/alarm_line";
+import { CarTabs } from "./frame/car_tabs";
 import { DvrBar } from "./frame/dvr_bar";
 import { Finder } from "./frame/finder";
 import { Help } from "./frame/help";
@@ -39,18 +41,21 @@ const kBodies: Record<PageName, FunctionComponent> = {
 export function App() {
   const Body = kBodies[page.value];
   const mode = session.hello.value?.mode ?? "NONE";
+  const { number } = session.shownCar.value;
   return (
     <div
       class="frame"
       data-mode={mode}
       data-held={!isLive.value}
       data-connected={session.connected.value}
+      data-several={session.hasSeveral.value}
     >
-      <TopBar />
+      {session.hasSeveral.value && <CarTabs />}
+      <TopBar key={`bar${number}`} />
       <Navigation />
-      <Body />
-      <StopRail />
-      <AlarmLine />
+      <Body key={`page${number}`} />
+      <StopRail key={`stops${number}`} />
+      <AlarmLine key={`alarms${number}`} />
       {mode === "REPLAY" ? <ReplayBar /> : <DvrBar />}
       {helpShown.value && <Help />}
       {finderShown.value && <Finder />}

@@ -9,6 +9,7 @@ import "./theme/palette.css";
 import "./theme/frame.css";
 import "./theme/top_bar.css";
 import "./theme/stops.css";
+import "./theme/car_tabs.css";
 import "./theme/foot.css";
 import "./theme/values.css";
 import "./theme/primary.css";
@@ -17,26 +18,29 @@ import "./theme/tables.css";
 import "./theme/alarms.css";
 import "./theme/narrow.css";
 import { App } from "./app";
-import { listenToKeys } from "./frame/keys";
+import { listenToKeys, selectedAlarm } from "./frame/keys";
 import { fetchLaterPages } from "./frame/later";
+import { shelving } from "./frame/shelve";
 import { listenToAlarms, sounded } from "./frame/tones";
 import { forgetEarlier } from "./pages/plots/backfill";
 import { plotLayout, readPlotLayout } from "./pages/plots/layout";
 import { primaryLayout, readPrimaryLayout } from "./pages/primary/layout";
-import { fetchLayout, token } from "./store/layouts";
+import { lookForCars, openCars, placeOf } from "./store/cars";
+import { fetchLayout } from "./store/layouts";
 import * as session from "./store/session";
-import { keepAuthority, openUplink } from "./store/uplink";
+import { keepAuthority } from "./store/uplink";
 import { setTheme, theme } from "./theme/theme";
 import { repaint, startPainting } from "./view/painting";
 import { heldMs, speed } from "./view/timeline";
 import type { Track } from "./wire/messages";
 
 async function fetchTrack(): Promise<void> {
+  const car = session.shownCar.value;
   try {
-    const answer = await fetch("api/track");
-    session.track.value = answer.status === 200 ? ((await answer.json()) as Track) : null;
+    const answer = await fetch(placeOf("api/track", car));
+    car.track.value = answer.status === 200 ? ((await answer.json()) as Track) : null;
   } catch {
-    session.track.value = null;
+    car.track.value = null;
   }
 }
 
@@ -56,17 +60,23 @@ startPainting();
 keepAuthority();
 listenToAlarms();
 
-const bearer = token();
-const scheme = location.protocol === "https:" ? "wss:" : "ws:";
-openUplink(`${scheme}//${location.host}/ws${bearer ? `?token=${encodeURIComponent(bearer)}` : ""}`);
+openCars();
 void fetchLayouts();
 
-// A base that was started anew may know another track and has forgotten our questions.
+// A base that was started anew may know other cars and another track, and has forgotten our
+// questions; another car has another past.
 effect(() => {
   if (!session.connected.value) return;
   forgetEarlier();
+  void lookForCars();
   void fetchTrack();
   void fetchLaterPages();
+});
+// What was chosen among one car's alarms is nothing of another's.
+effect(() => {
+  if (!session.shownCar.value) return;
+  shelving.value = null;
+  selectedAlarm.value = null;
 });
 // A jump in time is seen at once, not at the next turn of each painter.
 effect(() => {

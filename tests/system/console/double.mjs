@@ -252,6 +252,7 @@ export class Double {
     };
     if (path === "/api/catalogue") return json(this.catalogue);
     if (path === "/api/track") return json(kTrack);
+    if (path === "/api/cars") return json({ cars: [{ number: this.hello.car, name: "" }] });
     if (path === "/api/recordings" && this.recordings) return json(this.recordings);
     if (path === "/api/recordings") return response.writeHead(204).end();
     if (path.startsWith("/api/layouts/")) return this.serveLayout(request, response, path);

@@ -5,6 +5,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { signal } from "@preact/signals";
 import * as session from "../store/session";
+import { showNextCar } from "../store/cars";
 import { isOperator, send, stop } from "../store/uplink";
 import { nextTheme } from "../theme/theme";
 import { inOrder, loudest, needsEyes } from "../view/alarm_order";
@@ -68,6 +69,7 @@ export const kKeys: Record<string, Key> = {
   m: { keys: "M", does: "mark this moment in the recording", run: () => mark() },
   t: { keys: "T", does: "next theme: dark, light, sun", run: nextTheme },
   u: { keys: "U", does: "next unit of speed", run: nextSpeedUnit },
+  c: { keys: "C", does: "show the next car, where there are several", run: () => showNextCar() },
   "?": {
     keys: "?",
     does: "show or hide this list",

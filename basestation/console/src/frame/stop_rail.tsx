@@ -1,11 +1,13 @@
 /**
  * The right edge, on every page: a controlled stop at one press, an emergency stop held for 400 ms.
- * A replay has no such rail, because there is nothing to stop.
+ * A replay has no such rail, because there is nothing to stop. Where the base has several cars the
+ * buttons say which one they stop: the one that is shown.
  */
 // SPDX-License-Identifier: Apache-2.0
 import { useRef } from "preact/hooks";
 import * as session from "../store/session";
 import { isOperator, lastStop, stop } from "../store/uplink";
+import { CarChip } from "./car_tabs";
 import { HoldButton } from "../view/hold_button";
 import { kEachFrame, usePainter } from "../view/painting";
 import { readLive } from "../view/timeline";
@@ -49,15 +51,18 @@ export function StopRail() {
     );
   }
   const barred = !isOperator.value;
+  const { number } = session.shownCar.value;
+  const whose = session.hasSeveral.value ? ` ${number}` : "";
   return (
-    <aside class="stop-rail" aria-label="stop the car">
+    <aside class="stop-rail" aria-label={whose ? `stop car${whose}` : "stop the car"}>
+      {whose && <CarChip car={session.shownCar.value} />}
       <button
         type="button"
         class="stop controlled"
         disabled={barred}
         onClick={() => stop("controlled")}
       >
-        <strong>STOP</strong>
+        <strong>STOP{whose}</strong>
         <span>controlled</span>
         <kbd>Esc Esc</kbd>
       </button>
@@ -67,10 +72,10 @@ export function StopRail() {
         holdMs={kEmergencyHoldMs}
         class="stop emergency"
         disabled={barred}
-        label="emergency stop, hold"
+        label={whose ? `emergency stop of car${whose}, hold` : "emergency stop, hold"}
         onHeld={() => stop("emergency")}
       >
-        <strong>E&#8209;STOP</strong>
+        <strong>E&#8209;STOP{whose}</strong>
         <span>hold</span>
         <kbd>Ctrl Shift E</kbd>
       </HoldButton>

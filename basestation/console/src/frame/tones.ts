@@ -1,10 +1,12 @@
 /**
- * A tone for each alarm that comes, by its priority, and again while a high one is not seen. Off
+ * A tone for each alarm that comes, by its priority, and again while a high one is not seen, of
+ * every car, whichever is shown. Off
  * until somebody switches it on, as browsers want it; silenced for a minute at most, and said so in
  * the recording.
  */
 // SPDX-License-Identifier: Apache-2.0
 import { effect, signal } from "@preact/signals";
+import type { CarSession } from "../store/car_session";
 import * as session from "../store/session";
 import { send } from "../store/uplink";
 import { kPriorities, needsEyes } from "../view/alarm_order";
@@ -61,16 +63,23 @@ export function pressSound(): void {
   sound.value = "on";
 }
 
+const activeOf = (car: CarSession): readonly Alarm[] => car.alarms.value?.active ?? [];
+
 export function listenToAlarms(): void {
-  let known = new Set<number>();
-  const active = () => session.alarms.value?.active ?? [];
+  const known = new Map<CarSession, ReadonlySet<number>>();
   effect(() => {
-    const priority = newcomer(known, active());
-    known = new Set(active().map((alarm) => alarm.id));
-    if (priority && sound.value === "on") play(priority);
+    const fresh = session.cars.value.map((car) => {
+      const priority = newcomer(known.get(car) ?? new Set(), activeOf(car));
+      known.set(car, new Set(activeOf(car).map((alarm) => alarm.id)));
+      return priority;
+    });
+    const loudest = kPriorities.find((priority) => fresh.includes(priority));
+    if (loudest && sound.value === "on") play(loudest);
   });
   setInterval(() => {
-    const waits = active().some((alarm) => alarm.priority === "high" && alarm.state === "unack");
+    const waits = session.cars.value
+      .flatMap(activeOf)
+      .some((alarm) => alarm.priority === "high" && alarm.state === "unack");
     if (waits && sound.value === "on") play("high");
   }, kAgainMs);
 }
