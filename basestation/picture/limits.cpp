@@ -80,6 +80,7 @@ constexpr auto kOwnLimits = std::to_array<DefaultLimit>({
     {field_id("derived.sensor_gap_ms"), at_most(250.0, 500.0)},
     {field_id("derived.sensor_latency_share"), at_most(1.0, 2.0)},
     {field_id("derived.flag_conflict"), among({}, {1})},
+    {field_id("derived.role_conflict"), among({}, {1})},
     {field_id("derived.round_speed_conflict"), among({}, {1})},
     {field_id("derived.fuel_laps"), at_least(3.0, 1.0)},
     {field_id("derived.fuel_attempts"), at_least(2.0, 1.0)},

@@ -78,9 +78,19 @@ enum class BaseField : std::uint8_t {
   kJoystickLost,
   kAuthorityLost,
   kSchemaDiffers,
-  kSettingsUnreadable
+  kSettingsUnreadable,
+  kFlagRelayed,
+  kRole,
+  kRoleConflict,
+  kAttempt,
+  kAttemptState,
+  kAttemptLaps,
+  kAttemptLapsLeft,
+  kGapAhead,
+  kGapBehind,
+  kGapClosing
 };
-inline constexpr std::size_t kBaseFields = 56;
+inline constexpr std::size_t kBaseFields = 66;
 
 struct BaseRow {
   BaseField field;
@@ -93,6 +103,8 @@ inline constexpr Duration kBasePeriod = milliseconds(100);  // they are made ane
 inline constexpr std::string_view kLinkStates = "none|good|degraded|lost";
 inline constexpr std::string_view kRecordingStates = "off|on|disk takes nothing";
 inline constexpr std::string_view kFuelStates = "unknown|enough|no attempt left|home now";
+
+inline constexpr std::string_view kAttemptStates = "none|running|laps used up|PASSED|ended";
 
 inline constexpr auto kBaseTable = [] {
   using enum BaseField;
@@ -155,6 +167,16 @@ inline constexpr auto kBaseTable = [] {
       {kAuthorityLost, "base", "authority_lost", "", 0, 1, 1, kNoYes},
       {kSchemaDiffers, "base", "schema_differs", "", 0, 1, 1, kNoYes},
       {kSettingsUnreadable, "base", "settings_unreadable", "", 0, 1, 1, kNoYes},
+      {kFlagRelayed, "derived", "flag_relayed", "", 0, 14, 1, telemetry::kTrackFlags},  // by us
+      {kRole, "derived", "role", "", 0, 2, 1, telemetry::kRoles},  // as race control shows it
+      {kRoleConflict, "derived", "role_conflict", "", 0, 1, 1, kNoYes},
+      {kAttempt, "derived", "attempt", "", 0, 1'000, 1},  // number; of the passing competition
+      {kAttemptState, "derived", "attempt_state", "", 0, 4, 1, kAttemptStates},
+      {kAttemptLaps, "derived", "attempt_laps", "", 0, 1'000, 0.01},  // driven in it
+      {kAttemptLapsLeft, "derived", "attempt_laps_left", "", 0, 100, 0.01},
+      {kGapAhead, "derived", "gap_ahead", "m", 0, 13'000, 0.1},  // bumper to bumper
+      {kGapBehind, "derived", "gap_behind", "m", 0, 13'000, 0.1},
+      {kGapClosing, "derived", "gap_closing", "m/s", -102, 102, 0.1},  // to the nearer of both
   });
 }();
 static_assert(kBaseTable.size() == kBaseFields);

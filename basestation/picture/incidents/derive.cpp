@@ -8,6 +8,8 @@
 
 #include "basestation/picture/incidents/flags.hpp"
 #include "basestation/picture/incidents/ghost.hpp"
+#include "basestation/picture/incidents/pass.hpp"
+#include "basestation/picture/incidents/race_fields.hpp"
 #include "basestation/picture/incidents/sensors.hpp"
 #include "basestation/picture/incidents/slip.hpp"
 
@@ -21,33 +23,6 @@ using telemetry::Group;
 // Values of enumerations, as telemetry/registry/labels.hpp has them.
 constexpr double kModeControlledStop = 3.0, kModeEmergency = 4.0;
 constexpr double kStreamLate = 3.0, kStreamLost = 4.0;
-
-// One pass over the picture at one moment.
-struct Pass {
-  const Picture& picture;
-  Instant now;
-  BaseViews& views;
-
-  FieldView see(FieldIndex index) const { return picture.view(index, now); }
-  double value(FieldIndex index) const { return see(index).value; }
-  // Kept as it was last told, or unset once it is stale.
-  double usable(FieldIndex index) const {
-    const FieldView view = see(index);
-    return picture::usable(view) ? view.value : kUnset;
-  }
-  // A value that was made of these: as old as the oldest of those that there are.
-  void put(BaseField at, double value, std::initializer_list<FieldIndex> made_of) const {
-    FieldView made{.value = value, .age = {}, .quality = Quality::kFresh};
-    for (const FieldIndex index : made_of) {
-      const FieldView one = see(index);
-      if (one.quality == Quality::kNever) continue;
-      made.age = std::max(made.age, one.age);
-      made.quality = std::max(made.quality, one.quality);
-    }
-    views[index_of(at)] = std::isnan(value) ? FieldView{} : made;
-  }
-  void put(BaseField at, double value) const { put(at, value, {}); }
-};
 
 void derive_link(const Pass& pass, const Known& known, const Books& books) {
   using enum BaseField;
@@ -328,6 +303,7 @@ void derive(const DeriveParams& params, const Picture& picture, const Known& kno
   derive_tyres(pass, params.tyres);
   derive_sensors(pass);
   derive_flags(pass, known.expected);
+  derive_race(pass, known, books, params.fuel, course);
   derive_fuel(pass, books, params.fuel);
   derive_place(pass, course);
 }

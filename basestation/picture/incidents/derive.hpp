@@ -8,6 +8,7 @@
 #pragma once
 
 #include "basestation/picture/course.hpp"
+#include "basestation/picture/incidents/attempt.hpp"
 #include "basestation/picture/incidents/corrections.hpp"
 #include "basestation/picture/incidents/fuel.hpp"
 #include "basestation/picture/incidents/fuel_estimate.hpp"
@@ -27,9 +28,12 @@ struct Books {
   FuelBook fuel;
   CorrectionWatch corrections;
   LinkWatch link;
+  AttemptBook attempts;
 
   // Once for each new sample of the groups they follow, and once each step of the grid.
   void step(const Picture& picture, const Known& known, Instant now);
+  // Once each step of the grid; without a course whole laps are counted and gaps are not known.
+  void step_race(const Picture& picture, const FuelPlan& plan, const Course* course, Instant now);
   FuelLeft fuel_left(const FuelPlan& plan) const;
 
  private:

@@ -90,8 +90,10 @@ Result<bool, Problem> Watch::take(const WatchInput& input) {
 }
 
 void Watch::step(const Picture& picture, Instant now) {
+  const Course* const course = course_ ? &*course_ : nullptr;
   books_.step(picture, known_, now);
-  derive(params_, picture, known_, books_, course_ ? &*course_ : nullptr, now, views_);
+  books_.step_race(picture, params_.fuel, course, now);
+  derive(params_, picture, known_, books_, course, now, views_);
   for (alarms::AlarmIndex i = 0; i < readings_.size(); ++i) {
     const FieldView seen = view(picture, alarms::alarm_row(i).field, now);
     readings_[i] = {.value = seen.value, .usable = usable(seen) && !std::isnan(seen.value)};
