@@ -5,10 +5,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import fc from "fast-check";
 import { describe, expect, test } from "vitest";
+import { meaningOf } from "../src/pages/alarms/settings";
 import { isPending, rung } from "../src/pages/commands/steps";
 import { columns, kGapMs, withEarlier } from "../src/pages/plots/series";
 import { verdictOf } from "../src/pages/replay/verdict";
-import { readPlotLayout } from "../src/pages/plots/layout";
+import { kStepM, lapColumns } from "../src/pages/plots/laps";
+import { lapsBeside, readPlotLayout } from "../src/pages/plots/layout";
 import { kDefaultLayout, moved, readPrimaryLayout } from "../src/pages/primary/layout";
 import { Fields } from "../src/store/fields";
 import { History } from "../src/store/history";
@@ -215,6 +217,19 @@ describe("numbers", () => {
   });
 });
 
+describe("the value of an enumeration", () => {
+  test("is bad before it is a warning, and good in no set", () => {
+    const limits = { warning_values: [1, 3], bad_values: [3, 4] };
+    expect([0, 1, 3, 4].map((v) => meaningOf(limits, v))).toEqual([
+      "good",
+      "warning",
+      "bad",
+      "bad",
+    ]);
+    expect(meaningOf({}, 1)).toBe("good");
+  });
+});
+
 describe("the check list", () => {
   const row = (go: boolean) => ({ name: "link", go, known: true, age_ms: 20, text: "good" });
   const list = (go: boolean, checks: boolean[]) => ({ time_ms: 1000, go, checks: checks.map(row) });
@@ -227,5 +242,78 @@ describe("the check list", () => {
     expect(verdictOf(list(true, [true]), 2000, true)).toBe("unknown");
     expect(verdictOf(list(true, [true]), NaN, false)).toBe("unknown");
     expect(verdictOf(null, 2000, false)).toBe("unknown");
+  });
+});
+
+describe("laps over each other", () => {
+  const kLengthM = 1000;
+  const path = (id: number, name: string) => ({ ...info, id, path: `t.${name}` });
+  /** A car at 50 m/s, a row every 40 ms; `value` of the lap and the station. */
+  function driven(
+    seconds: number,
+    value: (lap: number, station: number) => number,
+    quality: (ms: number) => Quality = () => Quality.fresh,
+  ): History {
+    const fields = new Fields([path(1, "station"), path(2, "lap"), path(3, "value")]);
+    const history = new History(3, 4096);
+    for (let ms = 0; ms <= 1000 * seconds; ms += 40) {
+      const way = 0.05 * ms;
+      const [lap, station] = [Math.floor(way / kLengthM), way % kLengthM];
+      [station, lap + 7, value(lap, station)].forEach((v, i) =>
+        fields.write(i + 1, quality(ms), 0, v, ms),
+      );
+      history.append(fields, ms);
+    }
+    return history;
+  }
+  const slots = { station: 0, lap: 1 };
+  const over = (history: History, most: number, endMs = 1e9) =>
+    lapColumns(history, slots, [2], kLengthM, endMs, most);
+
+  test("a place of the track is the same row in every lap", () => {
+    const { stationM, laps, values } = over(
+      driven(50, (lap, station) => 100 * lap + station / 10),
+      3,
+    );
+    expect(laps.map((lap) => lap.number)).toEqual([9, 8, 7]);
+    expect(stationM.length).toBe(kLengthM / kStepM + 1);
+    const [now, before, first] = values[0];
+    for (let i = 1; i < 99; ++i) {
+      expect(now[i]).toBeCloseTo(200 + stationM[i] / 10, 3);
+      expect(before[i]! - first[i]!).toBeCloseTo(100, 3);
+    }
+    // The lap that is being driven ends where the car is, at 500 m.
+    expect(now[102]).toBeNull();
+    expect(before[150]).toBeCloseTo(175, 3);
+  });
+
+  test("only so many laps, up to the moment shown", () => {
+    const history = driven(90, (lap) => lap);
+    expect(over(history, 2).laps.map((lap) => lap.number)).toEqual([11, 10]);
+    expect(over(history, 2, 30_000).laps.map((lap) => lap.number)).toEqual([8, 7]);
+  });
+
+  test("what was stale or not heard is a gap, and no line across it", () => {
+    const silent = (ms: number) => (ms > 4000 && ms < 8000 ? Quality.stale : Quality.fresh);
+    const [column] = over(
+      driven(15, () => 1, silent),
+      1,
+    ).values[0];
+    expect(column[30]).toBe(1);
+    expect(column.slice(42, 79).every((v) => v === null)).toBe(true);
+    expect(column[100]).toBe(1);
+  });
+
+  test("a car without a station has no laps, one without a count has", () => {
+    const history = driven(50, (lap) => lap);
+    const none = lapColumns(history, { station: -1, lap: 1 }, [2], kLengthM, 1e9, 3);
+    expect(none.laps).toEqual([]);
+    const uncounted = lapColumns(history, { station: 0, lap: -1 }, [2], kLengthM, 1e9, 3);
+    expect(uncounted.laps.map((lap) => lap.number)).toEqual([NaN, NaN, NaN]);
+    expect(lapColumns(history, slots, [-1], kLengthM, 1e9, 1).values[0][0][5]).toBeNull();
+  });
+
+  test("as many laps beside each other as colours can tell", () => {
+    expect([0, 1, 2, 3, 4, 6].map(lapsBeside)).toEqual([3, 3, 3, 2, 1, 1]);
   });
 });

@@ -4,9 +4,10 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
+import { join } from "node:path";
 import { test } from "node:test";
 import { Double } from "./double.mjs";
-import { doubleStage, kPages, show, until } from "./stage.mjs";
+import { doubleStage, kPages, kScreenshots, show, until } from "./stage.mjs";
 import { checklist, kRecordings } from "./story.mjs";
 import { kBad, kWarning } from "./wire.mjs";
 
@@ -268,5 +269,37 @@ test("recordings are listed, and what plays one is told", async () => {
   assert.equal(line, kRecordings.recordings[2].command);
   await page.click('.recordings button:has-text("copied")');
   assert.equal(await page.locator(".command-line").count(), 0, "nothing to play");
+  assert.deepEqual(faults, []);
+});
+
+test("laps lie over each other by distance", async () => {
+  const { page, faults } = await stage.open({ hash: "#/plots" });
+  await until(page, "charts", () => document.querySelectorAll(".chart canvas").length === 6);
+  const select = page.locator('.plots label:has-text("over") select');
+  await select.selectOption("distance");
+  const lines = () =>
+    [...document.querySelectorAll('[aria-label="chart speed"] .read-outs li')].map((e) => [
+      e.querySelector(".name").textContent,
+      /\d/.test(e.querySelector(".digits").textContent),
+    ]);
+  await until(page, "this lap's value", () =>
+    /\d/.test(document.querySelector('[aria-label="chart speed"] .digits').textContent),
+  );
+  // Two fields leave room for three laps each; this console has seen one.
+  assert.deepEqual(await page.evaluate(lines), [
+    ["ego.vx", true],
+    ["lap \u22121", false],
+    ["lap \u22122", false],
+    ["track.target_speed", true],
+    ["lap \u22121", false],
+    ["lap \u22122", false],
+  ]);
+  await page.screenshot({ path: join(kScreenshots, "plots_laps.png") });
+  await select.selectOption("time");
+  await until(
+    page,
+    "two lines",
+    () => document.querySelectorAll('[aria-label="chart speed"] .read-outs li').length === 2,
+  );
   assert.deepEqual(faults, []);
 });

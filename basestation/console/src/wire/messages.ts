@@ -24,6 +24,9 @@ export interface Limits {
   warning_high?: number;
   bad_low?: number;
   bad_high?: number;
+  /** Values of an enumeration; not there: none. */
+  warning_values?: number[];
+  bad_values?: number[];
 }
 
 export interface FieldInfo {
@@ -196,6 +199,8 @@ export interface AlarmSetting {
 export interface Settings {
   revision: number;
   kept: boolean;
+  /** Not empty: the file of settings was unreadable, what is built in holds. */
+  problem: string;
   up_kbit_s: number | null;
   up_least_kbit_s: number;
   up_most_kbit_s: number;

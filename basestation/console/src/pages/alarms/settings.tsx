@@ -9,10 +9,11 @@ import { isHolder, send } from "../../store/uplink";
 import { kPriorities } from "../../view/alarm_order";
 import { NumberEntry, Review } from "../../view/entry";
 import { kDash, unitText } from "../../view/format";
-import type { AlarmSetting, FieldInfo } from "../../wire/messages";
+import type { AlarmSetting, FieldInfo, Limits } from "../../wire/messages";
 
 const kBounds = ["warning_low", "warning_high", "bad_low", "bad_high"] as const;
 const kNumbers = ["limit", "deadband", "on_s", "off_s"] as const;
+const kMeanings = ["good", "warning", "bad"] as const;
 const kFieldMark = "field ";
 
 type Edited = Record<string, string>;
@@ -28,6 +29,12 @@ export function changes(before: object, edited: Edited): string[] {
   return Object.keys(edited)
     .filter((key) => edited[key] !== shown(known[key]))
     .map((key) => `${wordFor(key)}: ${shown(known[key]) || kDash} \u2192 ${edited[key] || kDash}`);
+}
+
+/** Of a value of an enumeration, by the sets in force. */
+export function meaningOf(limits: Limits, value: number): (typeof kMeanings)[number] {
+  if (limits.bad_values?.includes(value)) return "bad";
+  return limits.warning_values?.includes(value) ? "warning" : "good";
 }
 
 const numberOf = (text: string): number | null => (text === "" ? null : Number(text));
@@ -72,6 +79,44 @@ function AlarmEditor({ alarm }: { alarm: AlarmSetting }) {
   );
 }
 
+/** What each value of an enumeration means. */
+function ValueSetEditor({ info }: { info: FieldInfo }) {
+  const [edited, setEdited] = useState<Edited>({});
+  const names = info.labels ?? [];
+  const before = Object.fromEntries(
+    names.map((name, value) => [name, meaningOf(info.limits ?? {}, value)]),
+  );
+  const at = (name: string) => edited[name] ?? before[name];
+  const among = (meaning: string) =>
+    names.map((name, value) => (at(name) === meaning ? value : -1)).filter((v) => v >= 0);
+  const apply = (reason: string) => {
+    const bounds = Object.fromEntries(kBounds.map((key) => [key, info.limits?.[key] ?? null]));
+    const sets = { warning_values: among("warning"), bad_values: among("bad") };
+    send({ type: "edit_limit", field: info.path, ...bounds, ...sets, reason });
+    setEdited({});
+  };
+  return (
+    <>
+      <div class="entry">
+        {names.map((name) => (
+          <label key={name}>
+            {name}
+            <select
+              value={at(name)}
+              onChange={(e) => setEdited({ ...edited, [name]: e.currentTarget.value })}
+            >
+              {kMeanings.map((meaning) => (
+                <option key={meaning}>{meaning}</option>
+              ))}
+            </select>
+          </label>
+        ))}
+      </div>
+      <Review changes={changes(before, edited)} onApply={apply} />
+    </>
+  );
+}
+
 function LimitEditor({ info }: { info: FieldInfo }) {
   const limits = info.limits ?? {};
   const [edited, setEdited] = useState<Edited>({});
@@ -105,13 +150,19 @@ export function SettingsPanel() {
   const alarms = settings?.alarms ?? [];
   const alarm = alarms.find((a) => a.key === chosen);
   const field = session.fields.value.info.find((f) => kFieldMark + f.path === chosen);
-  const plain = session.fields.value.info.filter((f) => !f.labels?.length);
+  // Bits have no single value that could be good or bad.
+  const judged = session.fields.value.info.filter((f) => f.unit !== "bits");
   return (
     <section class="panel settings" aria-label="limits and alarms" tabIndex={0}>
       <h2>
         Limits <span class="sum">revision {settings?.revision ?? kDash}</span>
         {settings && !settings.kept && <span class="sum">not kept: no file</span>}
       </h2>
+      {settings?.problem && (
+        <p class="sum" role="status">
+          {settings.problem}
+        </p>
+      )}
       {!isHolder.value && <p class="empty">Who holds the authority changes them here.</p>}
       {isHolder.value && (
         <select
@@ -128,7 +179,7 @@ export function SettingsPanel() {
             ))}
           </optgroup>
           <optgroup label="fields">
-            {plain.map((f) => (
+            {judged.map((f) => (
               <option value={kFieldMark + f.path} key={f.path}>
                 {f.path}
               </option>
@@ -137,7 +188,12 @@ export function SettingsPanel() {
         </select>
       )}
       {isHolder.value && alarm && <AlarmEditor alarm={alarm} key={alarm.key} />}
-      {isHolder.value && field && <LimitEditor info={field} key={field.path} />}
+      {isHolder.value && field && !field.labels?.length && (
+        <LimitEditor info={field} key={field.path} />
+      )}
+      {isHolder.value && field && !!field.labels?.length && (
+        <ValueSetEditor info={field} key={field.path} />
+      )}
     </section>
   );
 }

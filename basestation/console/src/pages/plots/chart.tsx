@@ -1,92 +1,57 @@
 /**
- * One chart: lines with gaps where nothing was known, a cursor shared by all charts that reads
- * values while the data runs on, alarms and commands as marks on the time axis.
+ * One chart: lines with gaps where nothing was known, over time or lap over lap by distance, and a
+ * cursor shared by all charts that reads values while the data runs on.
  */
 // SPDX-License-Identifier: Apache-2.0
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { useEffect, useRef } from "preact/hooks";
 import * as session from "../../store/session";
-import { colours, theme } from "../../theme/theme";
-import { decimalsOf, fixed, kDash, unitText, valueText } from "../../view/format";
-import { kPlotsHz, addPainter } from "../../view/painting";
+import { theme } from "../../theme/theme";
+import { kDash, unitText, valueText } from "../../view/format";
+import { kDigitsHz, kPlotsHz, addPainter } from "../../view/painting";
 import { shownMs } from "../../view/timeline";
 import { finderShown } from "../../frame/keys";
 import { earlierOf } from "./backfill";
-import { drawMarks } from "./marks";
+import { optionsOf } from "./drawing";
 import { plotTarget } from "./finder_target";
-import { removeChart } from "./layout";
-import type { ChartSpec } from "./layout";
+import { lapColumns } from "./laps";
+import { lapsBeside, removeChart } from "./layout";
+import type { ChartSpec, PlotAxis } from "./layout";
 import { columns, withEarlier } from "./series";
-import type { Columns } from "./series";
+import type { Column, Columns } from "./series";
 
-const kSync = "plots";
-const kDashes = [[], [8, 4], [2, 3], [8, 3, 2, 3], [12, 6], [4, 6]];
-
-function axes(): uPlot.Axis[] {
-  const { dim, line } = colours();
-  const font = "12px Barlow, sans-serif";
-  const grid = { stroke: line, width: 1 };
-  const ticks = { stroke: line, width: 1, size: 4 };
-  return [
-    {
-      stroke: dim,
-      font,
-      grid,
-      ticks,
-      size: 26,
-      space: 70,
-      splits: (_, __, min, max, step) => backFrom(max, min, step),
-      values: (_, splits) => splits.map((s) => agoText(s)),
-    },
-    {
-      stroke: dim,
-      font,
-      grid,
-      ticks,
-      size: 52,
-      space: 34,
-      values: (_, splits, __, ___, step) => splits.map((v) => fixed(v, decimalsOf(step))),
-    },
-  ];
+/** A line of a chart: a field over time, or over one of its newest laps. */
+interface Line {
+  path: string;
+  /** Laps before the newest one. */
+  back: number;
 }
 
-/** Ticks at whole steps before the moment shown, so that they stand still while the data runs. */
-function backFrom(max: number, min: number, step: number): number[] {
-  const splits: number[] = [];
-  for (let at = max; at >= min; at -= step) splits.unshift(at);
-  return splits;
+function linesOf(spec: ChartSpec, axis: PlotAxis): Line[] {
+  const laps = axis === "time" ? 1 : lapsBeside(spec.fields.length);
+  return spec.fields.flatMap((path) => Array.from({ length: laps }, (_, back) => ({ path, back })));
 }
 
-function agoText(atS: number): string {
-  const ago = atS - shownMs() / 1000;
-  return Math.abs(ago) < 0.05 ? "0" : `\u2212${Math.abs(ago).toFixed(Math.abs(ago) < 10 ? 1 : 0)}`;
-}
+/** The newest lap has the field's name, the others follow it. */
+const nameOf = ({ path, back }: Line): string => (back === 0 ? path : `lap \u2212${back}`);
 
-function options(spec: ChartSpec, box: HTMLElement): uPlot.Options {
-  const palette = colours();
+/** The lines over the newest laps: as many columns as the chart has lines, empty where no lap is. */
+function dataOfLaps(spec: ChartSpec, lengthM: number): { stationM: number[]; values: Column[] } {
+  const store = session.fields.value;
+  const most = lapsBeside(spec.fields.length);
+  const { stationM, values } = lapColumns(
+    session.history,
+    { station: store.slot("track.station"), lap: store.slot("track.lap") },
+    spec.fields.map((path) => store.slot(path)),
+    lengthM,
+    shownMs(),
+    most,
+  );
+  const none = stationM.map(() => null);
   return {
-    width: Math.max(box.clientWidth, 50),
-    height: Math.max(box.clientHeight, 50),
-    legend: { show: false },
-    cursor: {
-      sync: { key: kSync, setSeries: false },
-      points: { size: 7 },
-      drag: { x: false, y: false },
-    },
-    scales: { x: { time: false, auto: false } },
-    axes: axes(),
-    series: [
-      {},
-      ...spec.fields.map((_, i) => ({
-        stroke: palette.series[i % palette.series.length],
-        width: palette.stroke,
-        dash: kDashes[i % kDashes.length],
-        points: { show: false },
-        spanGaps: false,
-      })),
-    ],
-    hooks: { draw: [(plot) => drawMarks(plot)] },
+    stationM,
+    values: values.flatMap((laps) => Array.from({ length: most }, (_, i) => laps[i] ?? none)),
   };
 }
 
@@ -99,18 +64,23 @@ function dataOf(spec: ChartSpec, fromMs: number, toMs: number, points: number): 
   return withEarlier(own, spec.fields.map(earlierOf), fromMs / 1000);
 }
 
+/** Where nothing is pointed at: the newest moment, or the place where the car is in its lap. */
+function newest(plot: uPlot, axis: PlotAxis): number {
+  const first = plot.data[1] ?? [];
+  let at = plot.data[0].length - 1;
+  while (axis === "distance" && at > 0 && first[at] === null) --at;
+  return at;
+}
+
 /** The values under the cursor, or the newest ones, into the chart's head. */
-function readOut(plot: uPlot, spec: ChartSpec, head: HTMLElement): void {
+function readOut(plot: uPlot, lines: readonly Line[], axis: PlotAxis, head: HTMLElement): void {
   const store = session.fields.value;
-  const last = plot.data[0].length - 1;
-  const at = plot.cursor.idx ?? last;
-  spec.fields.forEach((path, i) => {
+  const at = plot.cursor.idx ?? newest(plot, axis);
+  lines.forEach(({ path, back }, i) => {
     const info = store.info[store.slot(path)];
     const value = at >= 0 ? plot.data[i + 1]?.[at] : null;
-    const text =
-      info && typeof value === "number"
-        ? `${valueText(info, value)} ${unitText(info.unit)}`
-        : kDash;
+    const unit = info && back === 0 ? ` ${unitText(info.unit)}` : "";
+    const text = info && typeof value === "number" ? valueText(info, value) + unit : kDash;
     const cell = head.children[i]?.lastElementChild;
     if (cell && cell.textContent !== text) cell.textContent = text;
   });
@@ -120,38 +90,55 @@ export interface ChartProps {
   spec: ChartSpec;
   index: number;
   windowS: number;
+  axis: PlotAxis;
 }
 
-export function Chart({ spec, index, windowS }: ChartProps) {
+/** What is under the lines now, and which part of the axis is in sight. */
+function drawNow(plot: uPlot, spec: ChartSpec, axis: PlotAxis, windowS: number): void {
+  const to = shownMs();
+  if (axis === "distance") {
+    const lengthM = session.track.value?.length_m ?? 0;
+    const { stationM, values } = dataOfLaps(spec, lengthM);
+    plot.batch(() => {
+      plot.setData([stationM, ...values] as uPlot.AlignedData, false);
+      plot.setScale("x", { min: 0, max: Math.max(lengthM, 1) });
+    });
+    return;
+  }
+  const { timeS, values } = dataOf(spec, to - windowS * 1000, to, 2 * plot.width);
+  plot.batch(() => {
+    plot.setData([timeS, ...values] as uPlot.AlignedData, false);
+    plot.setScale("x", { min: to / 1000 - windowS, max: to / 1000 });
+  });
+}
+
+export function Chart({ spec, index, windowS, axis }: ChartProps) {
   const box = useRef<HTMLDivElement>(null);
   const head = useRef<HTMLUListElement>(null);
   const grounds = theme.value;
   const store = session.fields.value;
+  const lines = linesOf(spec, axis);
 
   useEffect(() => {
     if (!box.current) return;
     const element = box.current;
-    const plot = new uPlot(options(spec, element), [[], ...spec.fields.map(() => [])], element);
+    const empty = [[], ...lines.map(() => [])] as uPlot.AlignedData;
+    const plot = new uPlot(optionsOf(axis, lines.length, element), empty, element);
     const paint = () => {
       if (!element.isConnected || element.clientWidth === 0) return;
       if (plot.width !== element.clientWidth || plot.height !== element.clientHeight) {
         plot.setSize({ width: element.clientWidth, height: element.clientHeight });
       }
-      const to = shownMs();
-      if (!Number.isFinite(to)) return;
-      const { timeS, values } = dataOf(spec, to - windowS * 1000, to, element.clientWidth * 2);
-      plot.batch(() => {
-        plot.setData([timeS, ...values] as uPlot.AlignedData, false);
-        plot.setScale("x", { min: to / 1000 - windowS, max: to / 1000 });
-      });
-      if (head.current) readOut(plot, spec, head.current);
+      if (!Number.isFinite(shownMs())) return;
+      drawNow(plot, spec, axis, windowS);
+      if (head.current) readOut(plot, lines, axis, head.current);
     };
-    const stop = addPainter(paint, kPlotsHz);
+    const stop = addPainter(paint, axis === "time" ? kPlotsHz : kDigitsHz);
     return () => {
       stop();
       plot.destroy();
     };
-  }, [spec, windowS, grounds, store]);
+  }, [spec, windowS, axis, grounds, store]);
 
   return (
     <section
@@ -168,10 +155,10 @@ export function Chart({ spec, index, windowS }: ChartProps) {
       <header>
         <h2>{spec.title}</h2>
         <ul class="read-outs" ref={head}>
-          {spec.fields.map((path, i) => (
-            <li key={path} class={`series-${i + 1}`}>
+          {lines.map((line, i) => (
+            <li key={`${line.path} ${line.back}`} class={`series-${i + 1}`}>
               <i class="swatch" aria-hidden="true" />
-              <span class="name">{path}</span>
+              <span class="name">{nameOf(line)}</span>
               <span class="digits">{kDash}</span>
             </li>
           ))}

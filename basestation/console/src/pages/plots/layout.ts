@@ -10,15 +10,25 @@ export interface ChartSpec {
   fields: string[];
 }
 
+/** Time before the moment shown, or metres along the lap with the newest laps over each other. */
+export type PlotAxis = "time" | "distance";
+
 export interface PlotLayout {
   version: 1;
   window_s: number;
+  /** Not there: time. */
+  axis?: PlotAxis;
   charts: ChartSpec[];
 }
 
 export const kMostCharts = 24;
 export const kMostFields = 6;
+export const kMostLaps = 3;
 export const kWindowsS = [10, 30, 60, 120, 300, 600] as const;
+
+/** How many laps of each field a chart shows beside each other: as many as colours can tell. */
+export const lapsBeside = (fields: number): number =>
+  Math.max(1, Math.min(kMostLaps, Math.floor(kMostFields / Math.max(fields, 1))));
 
 const wheels = (group: string, what: string): string[] =>
   ["front_left", "front_right", "rear_left", "rear_right"].map((w) => `${group}.${what}${w}`);
@@ -84,13 +94,15 @@ export function readPlotLayout(json: unknown): PlotLayout | null {
   const from = json as Partial<PlotLayout> | null;
   if (!Array.isArray(from?.charts) || typeof from.window_s !== "number") return null;
   if (!(from.window_s >= 1 && from.window_s <= 600)) return null;
+  const axis = from.axis ?? "time";
+  if (axis !== "time" && axis !== "distance") return null;
   const charts: ChartSpec[] = [];
   for (const chart of from.charts.slice(0, kMostCharts)) {
     if (typeof chart?.title !== "string" || !Array.isArray(chart.fields)) return null;
     const fields = chart.fields.filter((f): f is string => typeof f === "string");
     charts.push({ title: chart.title, fields: fields.slice(0, kMostFields) });
   }
-  return { version: 1, window_s: from.window_s, charts };
+  return { version: 1, window_s: from.window_s, axis, charts };
 }
 
 export function changeLayout(to: PlotLayout): void {

@@ -15,6 +15,7 @@ const columnsFor = (charts: number): number =>
 
 export function PlotsPage() {
   const layout = plotLayout.value;
+  const axis = layout.axis ?? "time";
   const ready = session.fields.value.info.length > 0;
   useEffect(() => {
     if (ready) layout.charts.forEach((chart) => chart.fields.forEach(requestEarlier));
@@ -27,14 +28,27 @@ export function PlotsPage() {
             type="button"
             key={name}
             aria-pressed={layout.charts === kPresets[name].charts}
-            onClick={() => changeLayout({ ...kPresets[name], window_s: layout.window_s })}
+            onClick={() => changeLayout({ ...kPresets[name], window_s: layout.window_s, axis })}
           >
             {name}
           </button>
         ))}
         <label>
+          over
+          <select
+            value={axis}
+            onChange={(e) =>
+              changeLayout({ ...layout, axis: e.currentTarget.value as typeof axis })
+            }
+          >
+            <option value="time">time</option>
+            <option value="distance">distance, lap by lap</option>
+          </select>
+        </label>
+        <label>
           window
           <select
+            disabled={axis === "distance"}
             value={String(layout.window_s)}
             onChange={(e) => changeLayout({ ...layout, window_s: Number(e.currentTarget.value) })}
           >
@@ -48,6 +62,9 @@ export function PlotsPage() {
         <button type="button" onClick={() => (finderShown.value = true)}>
           Add field <kbd>/</kbd>
         </button>
+        {axis === "distance" && !session.track.value && (
+          <span class="sum">Without a track there is no distance.</span>
+        )}
       </div>
       <div
         class="charts"
@@ -56,7 +73,13 @@ export function PlotsPage() {
         }}
       >
         {layout.charts.map((spec, i) => (
-          <Chart spec={spec} index={i} windowS={layout.window_s} key={spec.title + spec.fields} />
+          <Chart
+            spec={spec}
+            index={i}
+            windowS={layout.window_s}
+            axis={axis}
+            key={spec.title + spec.fields}
+          />
         ))}
         {layout.charts.length === 0 && <p class="empty">Press / to add a field.</p>}
       </div>
