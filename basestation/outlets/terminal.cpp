@@ -19,46 +19,51 @@ constexpr Instant kForever{INT64_MAX};
 constexpr int kMaxRounds = 64;  // a flood must not keep screen and stop signal waiting
 constexpr std::size_t kMaxLines = transport::kMaxWatched;
 
-class Loop {
+// One car's part of each turn.
+class Line {
  public:
-  Loop(const Lines& lines, const TerminalOptions& options, intake::Station& station,
-       std::FILE* terminal)
-      : lines_(lines), options_(options), station_(station), terminal_(terminal) {
-    CHECK(watched_.push(lines.stop));
-    for (const transport::UdpSocket& socket : lines.radio) CHECK(watched_.push(socket.fd()));
-    if (lines.words != nullptr) CHECK(watched_.push(lines.words->fd()));
-    for (const Outlet* const outlet : lines.outlets) CHECK(watched_.push(outlet->fd()));
+  explicit Line(const Lines& lines) : lines_(lines), station_(*lines.station) {}
+
+  template <class Watched>
+  void watch(Watched& watched) const {
+    for (const transport::UdpSocket& socket : lines_.radio) CHECK(watched.push(socket.fd()));
+    if (lines_.words != nullptr) CHECK(watched.push(lines_.words->fd()));
+    for (const Outlet* const outlet : lines_.outlets) {
+      if (outlet->fd() >= 0) CHECK(watched.push(outlet->fd()));
+    }
   }
 
-  void run() {
-    const Instant start = transport::monotonic_now();
-    const Instant end = options_.duration.ns > 0 ? start + options_.duration : kForever;
-    next_screen_ = options_.text ? start : kForever;
-    bool stopped = false;
-    while (!stopped) {
-      const Instant due =
-          std::min({next_screen_, station_.due(), script_due(), outlets_due(), end});
-      const std::uint32_t ready = transport::wait_readable(watched_.span(), due);
-      drain();
-      hear_words();
-      const Instant now = transport::monotonic_now();
-      say_script(now);
-      for (Outlet* const outlet : lines_.outlets) outlet->serve(station_, now);
-      send(now);
-      show_if_due(now);
-      stopped = (ready & 1U) != 0 || now >= end;
-    }
-    if (options_.text) show(transport::monotonic_now());
+  Instant due() const {
+    Instant due = std::min(station_.due(), script_due());
+    for (const Outlet* const outlet : lines_.outlets) due = std::min(due, outlet->due());
+    return due;
   }
+
+  void listen(std::span<transport::UdpDatagram> batch) {
+    drain(batch);
+    hear_words(batch);
+  }
+
+  void serve(Instant now) {
+    say_script(now);
+    for (Outlet* const outlet : lines_.outlets) outlet->serve(station_, now);
+    send(now);
+  }
+
+  std::string screen(Instant now, const ViewOptions& options) {
+    station_.advance(now);
+    return text_view(station_, now, options);
+  }
+  const std::string& title() const { return lines_.title; }
 
  private:
   // Each datagram is taken and answered before the next: a reply is kept until then only.
-  void drain() {
+  void drain(std::span<transport::UdpDatagram> batch) {
     for (std::size_t path = 0; path < lines_.radio.size(); ++path) {
       for (int round = 0; round < kMaxRounds; ++round) {
-        const std::size_t n = lines_.radio[path].receive(batch_);
-        for (std::size_t i = 0; i < n; ++i) take(batch_[i], static_cast<telemetry::PathId>(path));
-        if (n < batch_.size()) break;
+        const std::size_t n = lines_.radio[path].receive(batch);
+        for (std::size_t i = 0; i < n; ++i) take(batch[i], static_cast<telemetry::PathId>(path));
+        if (n < batch.size()) break;
       }
     }
   }
@@ -78,19 +83,13 @@ class Loop {
     }
   }
 
-  void hear_words() {
+  void hear_words(std::span<transport::UdpDatagram> batch) {
     if (lines_.words == nullptr) return;
-    const std::size_t n = lines_.words->receive(batch_);
+    const std::size_t n = lines_.words->receive(batch);
     for (std::size_t i = 0; i < n; ++i) {
-      const auto bytes = batch_[i].payload();
-      say({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, batch_[i].at);
+      const auto bytes = batch[i].payload();
+      say({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, batch[i].at);
     }
-  }
-
-  Instant outlets_due() const {
-    Instant due = kForever;
-    for (const Outlet* const outlet : lines_.outlets) due = std::min(due, outlet->due());
-    return due;
   }
 
   Instant script_due() const {
@@ -109,6 +108,37 @@ class Loop {
     if (!obeyed) std::fprintf(stderr, "pitwall-base: %s\n", to_string(obeyed.error()).c_str());
   }
 
+  Lines lines_;
+  intake::Station& station_;
+};
+
+class Loop {
+ public:
+  Loop(std::span<const Lines> cars, const TerminalOptions& options, int stop, std::FILE* terminal)
+      : cars_(cars.begin(), cars.end()), options_(options), terminal_(terminal) {
+    CHECK(watched_.push(stop));
+    for (const Line& car : cars_) car.watch(watched_);
+  }
+
+  void run() {
+    const Instant start = transport::monotonic_now();
+    const Instant end = options_.duration.ns > 0 ? start + options_.duration : kForever;
+    next_screen_ = options_.text ? start : kForever;
+    bool stopped = false;
+    while (!stopped) {
+      Instant due = std::min(next_screen_, end);
+      for (const Line& car : cars_) due = std::min(due, car.due());
+      const std::uint32_t ready = transport::wait_readable(watched_.span(), due);
+      for (Line& car : cars_) car.listen(batch_);
+      const Instant now = transport::monotonic_now();
+      for (Line& car : cars_) car.serve(now);
+      show_if_due(now);
+      stopped = (ready & 1U) != 0 || now >= end;
+    }
+    if (options_.text) show(transport::monotonic_now());
+  }
+
+ private:
   void show_if_due(Instant now) {
     if (now < next_screen_) return;
     show(now);
@@ -116,16 +146,19 @@ class Loop {
   }
 
   void show(Instant now) {
-    station_.advance(now);
-    const std::string screen =
-        text_view(station_, now, {.ansi = !options_.plain, .all = options_.all});
+    std::string screen;
+    for (Line& car : cars_) {
+      screen += car.screen(now, {.ansi = !options_.plain,
+                                 .all = options_.all,
+                                 .below = !screen.empty(),
+                                 .title = cars_.size() > 1 ? car.title() : std::string{}});
+    }
     std::fwrite(screen.data(), 1, screen.size(), terminal_);
     std::fflush(terminal_);
   }
 
-  Lines lines_;
+  std::vector<Line> cars_;
   TerminalOptions options_;
-  intake::Station& station_;
   std::FILE* terminal_;
   FixedVector<int, kMaxLines> watched_;
   std::vector<transport::UdpDatagram> batch_ =
@@ -135,9 +168,9 @@ class Loop {
 
 }  // namespace
 
-void run_terminal(const Lines& lines, const TerminalOptions& options, intake::Station& station,
+void run_terminal(std::span<const Lines> cars, const TerminalOptions& options, int stop,
                   std::FILE* terminal) {
-  Loop(lines, options, station, terminal).run();
+  Loop(cars, options, stop, terminal).run();
 }
 
 }  // namespace pitwall::outlets

@@ -269,7 +269,9 @@ std::optional<TextLine> stop_line(const picture::Picture& picture, Instant now) 
 
 std::string text_view(const intake::Station& station, Instant now, const ViewOptions& options) {
   const std::string end = options.ansi ? std::string{kClearLine} + "\n" : "\n";
-  std::vector<TextLine> lines = link_lines(station, now);
+  std::vector<TextLine> lines;
+  if (!options.title.empty()) lines.push_back({options.title, Tone::kInverse});
+  for (TextLine& line : link_lines(station, now)) lines.push_back(std::move(line));
   if (auto bus = bus_line(station.picture(), now)) lines.push_back(*std::move(bus));
   if (auto stop = stop_line(station.picture(), now)) lines.push_back(*std::move(stop));
   add_watchdogs(station.picture(), now, lines);
@@ -278,7 +280,7 @@ std::string text_view(const intake::Station& station, Instant now, const ViewOpt
   for (TextLine& line : group_lines(station.picture(), now, options.all)) {
     lines.push_back(std::move(line));
   }
-  std::string screen = options.ansi ? kHome : "";
+  std::string screen = options.ansi && !options.below ? kHome : "";
   for (const TextLine& line : lines) screen += styled(line, options.ansi) + end;
   if (options.ansi) screen += kClearRest;
   return screen;

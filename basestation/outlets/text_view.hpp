@@ -15,8 +15,10 @@
 namespace pitwall::outlets {
 
 struct ViewOptions {
-  bool ansi = false;  // colours, and the cursor home at the start
-  bool all = false;   // also the groups of health and statistics
+  bool ansi = false;    // colours, and the cursor home at the start
+  bool all = false;     // also the groups of health and statistics
+  bool below = false;   // under another car's: the cursor stays where it is
+  std::string title{};  // a line of its own above all, where there is one
 };
 
 std::string text_view(const intake::Station& station, Instant now, const ViewOptions& options);

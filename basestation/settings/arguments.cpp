@@ -30,6 +30,20 @@ void describe_web(CLI::App& app, Arguments& a) {
   app.add_option("--car-name", a.car_name, "The car's name");
 }
 
+void describe_tools(CLI::App& app, Arguments& a) {
+  app.add_option("--foxglove", a.foxglove_port,
+                 "Serve Foxglove's WebSocket at this TCP port, read only; 0: any that is free. "
+                 "Of several cars the next has the next port")
+      ->check(CLI::Range(0, 65'535));
+  app.add_option("--foxglove-origin", a.foxglove_origins,
+                 "A page that may attach there beside those of this machine: "
+                 "https://app.foxglove.dev")
+      ->take_all();
+  app.add_option("--lcm", a.lcm_url,
+                 "Publish by LCM; udpm://239.255.76.67:7667?ttl=0 without a URL")
+      ->expected(0, 1);
+}
+
 void describe_recording(CLI::App& app, Arguments& a) {
   app.add_option("--record", a.record_folder,
                  "Keep everything in this folder; what is there of the last hour is known again");
@@ -70,7 +84,15 @@ void describe(CLI::App& app, Arguments& a) {
       ->capture_default_str();
   app.add_option("--json", a.json_path, "Write a summary of the run to this file");
   describe_web(app, a);
+  describe_tools(app, a);
   describe_recording(app, a);
+  auto* const cars =
+      app.add_option("--cars", a.cars_file, "File of the cars, where there are several");
+  for (const char* const of_one_car :
+       {"--keys", "--listen", "--car", "--car-name", "--record", "--judgement", "--joystick",
+        "--joystick-axes", "--command", "--operator-port", "--json", "--replay"}) {
+    cars->excludes(of_one_car);
+  }
   CLI::App* const keygen = app.add_subcommand("keygen", "Make the keys of a car and its base");
   keygen->add_option("--out", a.keygen_folder, "Folder for car.keys and base.keys")->required();
   CLI::App* const exporting =

@@ -14,12 +14,15 @@ namespace pitwall::settings {
 
 struct Arguments {
   std::vector<std::string> listen;
-  std::string keys, command_file, json_path;
+  std::string cars_file, keys, command_file, json_path;
   int operator_port = 0;
   bool text = false, plain = false, all = false, network = false, signed_only = false;
   double duration_s = 0.0, refresh_hz = 10.0, budget_kbit = 256.0;
   std::string keygen_folder, export_kind;
   std::optional<int> web_port;
+  std::optional<std::string> lcm_url;
+  std::optional<int> foxglove_port;
+  std::vector<std::string> foxglove_origins;
   std::string console_folder, track, tokens_file, default_role, layouts_folder, judgement_file;
   std::vector<std::string> web_names;
   int car = 0;

@@ -2,6 +2,7 @@
 #include "basestation/outlets/web/access.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 namespace pitwall::outlets::web {
@@ -66,6 +67,25 @@ bool own_host(const AccessRules& rules, std::string_view host) {
          std::ranges::any_of(rules.names, [&](const auto& own) { return lower(own) == name; });
 }
 
+// A page that was loaded from this machine: from a file, or from a server that listens here.
+bool is_local_page(std::string_view origin) {
+  if (origin == "file://") return true;
+  constexpr std::array<std::string_view, 2> kSchemes{"http://", "https://"};
+  for (const std::string_view scheme : kSchemes) {
+    if (!origin.starts_with(scheme)) continue;
+    const std::string name = name_of(origin.substr(scheme.size()));
+    return name == "localhost" || name == "[::1]" || (is_address(name) && name.starts_with("127."));
+  }
+  return false;
+}
+
+bool admits_origin(const AccessRules& rules, const Visitor& visitor) {
+  const std::string origin = lower(visitor.origin);
+  return origin.empty() || origin == "http://" + lower(visitor.host) ||
+         (rules.local_pages && is_local_page(origin)) ||
+         std::ranges::any_of(rules.origins, [&](const auto& own) { return lower(own) == origin; });
+}
+
 }  // namespace
 
 Result<Tokens, Problem> Tokens::parse(std::string_view text, const std::string& name) {
@@ -114,9 +134,7 @@ std::string_view text_of(Refused refused) {
 
 Result<Identity, Refused> admit(const AccessRules& rules, const Visitor& visitor) {
   if (!own_host(rules, visitor.host)) return Unexpected{Refused::kHost};
-  if (!visitor.origin.empty() && lower(visitor.origin) != "http://" + lower(visitor.host)) {
-    return Unexpected{Refused::kOrigin};
-  }
+  if (!admits_origin(rules, visitor)) return Unexpected{Refused::kOrigin};
   if (visitor.token.empty()) return Identity{.role = rules.default_role, .name = {}};
   auto who = rules.tokens.find(visitor.token);
   if (!who) return Unexpected{Refused::kToken};

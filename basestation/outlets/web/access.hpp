@@ -3,7 +3,8 @@
 //   out    a role and a name; or a refusal
 //   law    a page of somebody else cannot speak to the base: an Origin that is not the base's own
 //          is refused; so is a Host that is neither an address, nor localhost, nor a name that was
-//          given: otherwise a name that points here would make a foreign page the base's own
+//          given: otherwise a name that points here would make a foreign page the base's own.
+//          A tool that is a page of its own may be let in by its origin
 //          the time that a comparison takes does not tell how much of a token was right
 //   errors parse(): Problem with file and line
 //
@@ -39,6 +40,9 @@ struct AccessRules {
   Tokens tokens{};
   Role default_role = Role::kViewer;
   std::vector<std::string> names{};  // of this machine, beside addresses and localhost
+  // Of pages that may speak to this base beside its own: "https://app.foxglove.dev".
+  std::vector<std::string> origins{};
+  bool local_pages = false;  // also those of files and of servers on the machine itself
 };
 
 // Of a request: the values of its headers, empty where it has none.

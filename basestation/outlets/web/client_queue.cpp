@@ -7,20 +7,28 @@
 namespace pitwall::outlets::web {
 
 bool ClientQueue::push(SharedMessage message) {
+  const std::size_t bytes = message->bytes();
   if (message->picture()) {
-    if (pictures_ == kPictures) {
-      const auto oldest =
-          std::ranges::find_if(waiting_, [](const auto& m) { return m->picture(); });
-      waiting_.erase(oldest);
-      --pictures_;
-      ++dropped_;
+    while (pictures_ > 0 &&
+           (pictures_ == limits_.pictures || picture_bytes_ + bytes > limits_.picture_bytes)) {
+      drop_oldest_picture();
     }
     ++pictures_;
+    picture_bytes_ += bytes;
   } else {
-    unread_ += message->bytes();
+    unread_ += bytes;
   }
   waiting_.push_back(std::move(message));
-  return unread_ <= kUnreadMax;
+  return unread_ <= limits_.unread_bytes;
+}
+
+void ClientQueue::drop_oldest_picture() {
+  const auto oldest = std::ranges::find_if(waiting_, [](const auto& m) { return m->picture(); });
+  picture_bytes_ -= (*oldest)->bytes();
+  if ((*oldest)->binary) lost_tags_.push_back((*oldest)->binary->tag);
+  waiting_.erase(oldest);
+  --pictures_;
+  ++dropped_;
 }
 
 SharedMessage ClientQueue::pop() {
@@ -29,6 +37,7 @@ SharedMessage ClientQueue::pop() {
   waiting_.pop_front();
   if (message->picture()) {
     --pictures_;
+    picture_bytes_ -= message->bytes();
   } else {
     unread_ -= message->bytes();
   }

@@ -2,6 +2,7 @@
 #include "basestation/outlets/web/http_desk.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <utility>
 
 #include "protocol/json/json_value.hpp"
@@ -12,8 +13,7 @@ namespace {
 
 constexpr unsigned kOk = 200, kNoContent = 204, kBad = 400, kNoToken = 401, kForbidden = 403,
                    kNotFound = 404, kNoMethod = 405, kTooLarge = 413, kNoRoom = 507;
-constexpr std::string_view kJson = "application/json", kBearer = "Bearer ",
-                           kLayouts = "/api/layouts/";
+constexpr std::string_view kBearer = "Bearer ", kLayouts = "/api/layouts/";
 
 std::shared_ptr<const std::string> shared(std::string text) {
   return std::make_shared<const std::string>(std::move(text));
@@ -82,7 +82,36 @@ std::string_view query_value(std::string_view target, std::string_view name) {
 }
 
 HttpDesk::HttpDesk(HttpConfig config) : config_(std::move(config)), files_(config_.console) {
-  for (auto& [path, text] : config_.documents) documents_.emplace(path, shared(std::move(text)));
+  for (auto& [path, text] : config_.documents) show(path, {std::move(text), kJsonType});
+  for (ServedCar& car : config_.cars) {
+    Kept& kept = of_cars_.emplace_back();
+    for (auto& [path, text] : car.documents) kept[path] = {.text = shared(std::move(text))};
+  }
+}
+
+void HttpDesk::show(const std::string& path, Shown document) {
+  documents_[path] = {.text = shared(std::move(document.text)), .type = document.type};
+}
+
+// Nothing: a number that is none, or of no car here.
+std::optional<std::size_t> HttpDesk::car_of(std::string_view target) const {
+  if (target.find("?car=") == target.npos && target.find("&car=") == target.npos) return 0;
+  const std::string_view asked = query_value(target, "car");
+  int number = -1;
+  const auto read = std::from_chars(asked.data(), asked.data() + asked.size(), number);
+  if (read.ec != std::errc{} || read.ptr != asked.data() + asked.size()) return std::nullopt;
+  const auto found = std::ranges::find(config_.cars, number, &ServedCar::number);
+  if (found == config_.cars.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - config_.cars.begin());
+}
+
+const HttpDesk::Document* HttpDesk::document(std::string_view path, std::size_t car) const {
+  if (car < of_cars_.size()) {
+    const auto own = of_cars_[car].find(path);
+    if (own != of_cars_[car].end()) return &own->second;
+  }
+  const auto common = documents_.find(path);
+  return common == documents_.end() ? nullptr : &common->second;
 }
 
 HttpAnswer HttpDesk::answer(const HttpQuestion& question) {
@@ -98,12 +127,40 @@ HttpAnswer HttpDesk::answer(const HttpQuestion& question) {
   return answer;
 }
 
+// The first of those offered that is ours.
+HttpAnswer HttpDesk::open_foreign(const HttpQuestion& question, std::string_view path,
+                                  const Identity& who) const {
+  if (path != "/") return refusal(kNotFound, "the WebSocket is at /");
+  if (!question.upgrade) return refusal(kBad, "this port is a WebSocket");
+  std::string_view rest = question.subprotocols;
+  while (!rest.empty()) {
+    std::string_view offered = rest.substr(0, rest.find(','));
+    rest.remove_prefix(std::min(rest.size(), offered.size() + 1));
+    offered.remove_prefix(std::min(offered.find_first_not_of(" \t"), offered.size()));
+    offered = offered.substr(0, offered.find_last_not_of(" \t") + 1);
+    const auto ours = std::ranges::find(config_.subprotocols, offered);
+    if (ours == config_.subprotocols.end()) continue;
+    HttpAnswer answer;
+    answer.visitor = who;
+    answer.subprotocol = *ours;
+    return answer;
+  }
+  std::string known;
+  for (const std::string_view name : config_.subprotocols) known += " " + std::string{name};
+  return refusal(kBad, "this WebSocket speaks" + known);
+}
+
 HttpAnswer HttpDesk::serve(const HttpQuestion& question, std::string_view path,
                            const Identity& who) {
+  if (!config_.subprotocols.empty()) return open_foreign(question, path, who);
+  const bool of_a_car = path == "/ws" || path.starts_with("/api/");
+  const auto car = of_a_car ? car_of(question.target) : 0;
+  if (!car) return refusal(kNotFound, "no car of that number here");
   if (path == "/ws") {
     if (!question.upgrade) return refusal(kBad, "/ws is a WebSocket");
     HttpAnswer answer;
     answer.visitor = who;
+    answer.car = *car;
     return answer;
   }
   if (path.starts_with(kLayouts)) return layout(question, path.substr(kLayouts.size()), who);
@@ -112,12 +169,20 @@ HttpAnswer HttpDesk::serve(const HttpQuestion& question, std::string_view path,
     answer.allow = "GET, HEAD";
     return answer;
   }
-  const auto document = documents_.find(path);
-  if (document == documents_.end()) return file(question, path);
-  if (document->second->empty()) return nothing();
+  if (const auto maker = config_.made.find(path); maker != config_.made.end()) {
+    Shown made = maker->second();
+    HttpAnswer answer;
+    answer.type = made.type;
+    answer.cache = "no-store";
+    answer.body = shared(std::move(made.text));
+    return answer;
+  }
+  const Document* const known = document(path, *car);
+  if (known == nullptr) return file(question, path);
+  if (known->text->empty()) return nothing();
   HttpAnswer answer;
-  answer.type = kJson;
-  answer.body = document->second;
+  answer.type = known->type;
+  answer.body = known->text;
   return answer;
 }
 
@@ -151,7 +216,7 @@ HttpAnswer HttpDesk::layout(const HttpQuestion& question, std::string_view name,
     return answer;
   }
   HttpAnswer answer;
-  answer.type = kJson;
+  answer.type = kJsonType;
   answer.cache = "no-store";
   if (const auto kept = layouts_.find(name); kept != layouts_.end()) {
     answer.body = kept->second;

@@ -12,6 +12,7 @@
 #include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <deque>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -47,7 +48,8 @@ struct WebServer::Engine {
 
   void run();
   void accept();
-  void tell(ClientNews news);
+  void tell(std::size_t car, ClientNews news);
+  void call();
   void deliver();
   ClientId free_number();
   template <class Change>
@@ -60,13 +62,18 @@ struct WebServer::Engine {
     ClientSet to;
     SharedMessage message;  // null: a request of these clients was handled
   };
+  struct Door {
+    std::deque<ClientNews> news;
+    transport::FileDescriptor bell;  // never changes
+  };
   mutable std::mutex lock;
-  std::deque<ClientNews> news;  // these four under the lock
+  std::array<Door, kCars> doors;  // by car; from here on under the lock
   std::vector<Post> posts;
+  std::map<std::string, Shown> shown;  // not yet at the desk
   bool post_under_way = false;
   WebCounters counters;
+  std::map<std::pair<ClientId, std::uint32_t>, std::uint64_t> drops;  // by client and tag
 
-  transport::FileDescriptor bell;
   std::size_t connections = 0;  // the rest belongs to the web thread
   ClientId newest = kLastClient;
   // After what the sessions in its handlers refer to, so that it goes before.
@@ -80,12 +87,15 @@ struct WebServer::Engine {
 // One console. Lives while an operation of it is under way or the engine has it.
 class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
  public:
-  Socket(Engine& engine, beast::tcp_stream&& stream, ClientId client, Identity who)
+  Socket(Engine& engine, beast::tcp_stream&& stream, ClientId client, HttpAnswer answer)
       : engine_(engine),
         stream_(std::move(stream)),
         timer_(engine.io),
         client_(client),
-        who_(std::move(who)) {}
+        who_(*std::move(answer.visitor)),
+        car_(answer.car),
+        subprotocol_(answer.subprotocol),
+        queue_(engine.desk.queue_limits()) {}
   ~Socket() { --engine_.connections; }
 
   void accept(const http::request<http::string_body>& request) {
@@ -93,10 +103,17 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
     stream_.set_option(websocket::stream_base::timeout{kHttpPatience, kSilence, true});
     stream_.read_message_max(kTextMax);
     stream_.auto_fragment(false);
+    if (!subprotocol_.empty()) {
+      stream_.set_option(websocket::stream_base::decorator(
+          [name = subprotocol_](websocket::response_type& response) {
+            response.set(http::field::sec_websocket_protocol, std::string{name});
+          }));
+    }
     stream_.async_accept(request, [self = shared_from_this()](error_code failed) {
       if (failed) return self->gone();
       self->engine_.count([](WebCounters& c) { ++c.joined; });
       self->engine_.tell(
+          self->car_,
           {.kind = ClientNews::Kind::kJoined, .client = self->client_, .who = self->who_});
       self->joined_ = true;
       self->read();
@@ -108,7 +125,12 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
     const std::uint32_t before = queue_.dropped();
     const bool room = queue_.push(message);
     const std::uint32_t dropped = queue_.dropped() - before;
-    if (dropped > 0) engine_.count([&](WebCounters& c) { c.pictures_dropped += dropped; });
+    if (dropped > 0) {
+      engine_.count([&](WebCounters& c) {
+        c.pictures_dropped += dropped;
+        for (const std::uint32_t tag : queue_.take_lost_tags()) ++engine_.drops[{client_, tag}];
+      });
+    }
     if (!room) {
       engine_.count([](WebCounters& c) { ++c.closed_unread; });
       return close(websocket::close_code::try_again_later);
@@ -156,9 +178,9 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
     ClientNews news{
         .kind = stream_.got_text() ? ClientNews::Kind::kSaid : ClientNews::Kind::kBinary,
         .client = client_};
-    if (stream_.got_text()) news.text = beast::buffers_to_string(heard_.data());
+    news.text = beast::buffers_to_string(heard_.data());
     heard_.consume(heard_.size());
-    engine_.tell(std::move(news));
+    engine_.tell(car_, std::move(news));
   }
 
   void write() {
@@ -174,7 +196,13 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
       });
       self->write();
     };
-    stream_.text(!current_->frame);
+    stream_.text(!current_->frame && !current_->binary);
+    if (const auto& bytes = current_->binary) {
+      const std::array<asio::const_buffer, 2> parts{
+          asio::buffer(bytes->head.data(), bytes->head_bytes),
+          bytes->body ? asio::buffer(*bytes->body) : asio::const_buffer{}};
+      return stream_.async_write(parts, std::move(done));
+    }
     if (!current_->frame) return stream_.async_write(asio::buffer(current_->text), std::move(done));
     header_ = header_of(*current_->frame, queue_.dropped());
     const std::array<asio::const_buffer, 2> parts{asio::buffer(header_),
@@ -189,7 +217,7 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
     engine_.sockets[client_].reset();
     if (!joined_) return;
     engine_.count([](WebCounters& c) { ++c.left; });
-    engine_.tell({.kind = ClientNews::Kind::kLeft, .client = client_});
+    engine_.tell(car_, {.kind = ClientNews::Kind::kLeft, .client = client_});
   }
 
   Engine& engine_;
@@ -197,6 +225,8 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
   asio::steady_timer timer_;
   ClientId client_;
   Identity who_;
+  std::size_t car_;  // that it came to
+  std::string_view subprotocol_;
   beast::flat_buffer heard_;
   ClientQueue queue_;
   SharedMessage current_;

@@ -55,12 +55,13 @@ class WebServer::Engine::HttpSession : public std::enable_shared_from_this<HttpS
                                 .origin = view(request[http::field::origin]),
                                 .authorization = view(request[http::field::authorization]),
                                 .accept_encoding = view(request[http::field::accept_encoding]),
+                                .subprotocols = view(request[http::field::sec_websocket_protocol]),
                                 .upgrade = websocket::is_upgrade(request),
                                 .body = request.body()};
     HttpAnswer answer = engine_.desk.answer(question);
     if (answer.visitor) {
       if (const ClientId client = engine_.free_number(); client != 0) {
-        return upgrade(client, *std::move(answer.visitor));
+        return upgrade(client, std::move(answer));
       }
       answer = refusal(503, "all places for consoles are taken");
     }
@@ -69,9 +70,9 @@ class WebServer::Engine::HttpSession : public std::enable_shared_from_this<HttpS
           request.method() == http::verb::head);
   }
 
-  void upgrade(ClientId client, Identity who) {
+  void upgrade(ClientId client, HttpAnswer answer) {
     handed_on_ = true;
-    auto socket = std::make_shared<Socket>(engine_, std::move(stream_), client, std::move(who));
+    auto socket = std::make_shared<Socket>(engine_, std::move(stream_), client, std::move(answer));
     engine_.sockets[client] = socket;
     socket->accept(parser_->get());
   }
@@ -150,25 +151,35 @@ void WebServer::Engine::accept() {
   });
 }
 
-void WebServer::Engine::tell(ClientNews item) {
+void WebServer::Engine::tell(std::size_t car, ClientNews item) {
+  Door& door = doors[car];
   {
     const std::lock_guard hold(lock);
     // kUnhandled bounds what is said; joining and leaving is bounded by kConnections.
-    if (news.size() < kNewsMax || item.kind == ClientNews::Kind::kLeft) {
-      news.push_back(std::move(item));
+    if (door.news.size() < kNewsMax || item.kind == ClientNews::Kind::kLeft) {
+      door.news.push_back(std::move(item));
     }
   }
   const std::uint64_t one = 1;
-  (void)transport::posix_call([&] { return ::write(bell.get(), &one, sizeof one); });
+  (void)transport::posix_call([&] { return ::write(door.bell.get(), &one, sizeof one); });
+}
+
+// Under the lock: the web thread takes what waits for it.
+void WebServer::Engine::call() {
+  if (std::exchange(post_under_way, true)) return;
+  asio::post(io, [this] { deliver(); });
 }
 
 void WebServer::Engine::deliver() {
   std::vector<Post> due;
+  std::map<std::string, Shown> fresh;
   {
     const std::lock_guard hold(lock);
     due.swap(posts);
+    fresh.swap(shown);
     post_under_way = false;
   }
+  for (auto& [path, document] : fresh) desk.show(path, std::move(document));
   for (const Post& post : due) {
     for (std::size_t client = kFirstClient; client <= kLastClient; ++client) {
       if (!post.to.test(client)) continue;
@@ -195,6 +206,9 @@ ClientId WebServer::Engine::free_number() {
 Result<std::unique_ptr<WebServer>, Problem> WebServer::start(transport::UdpAddress listen,
                                                              HttpConfig config) {
   const Tcp::endpoint endpoint{asio::ip::address_v4{listen.ip}, listen.port};
+  if (config.cars.size() > kCars) {
+    return Unexpected{Problem{"--web", "at most " + std::to_string(kCars) + " cars"}};
+  }
   std::unique_ptr<Engine> engine;
   try {
     engine = std::make_unique<Engine>(endpoint, std::move(config));
@@ -206,8 +220,10 @@ Result<std::unique_ptr<WebServer>, Problem> WebServer::start(transport::UdpAddre
   } catch (const std::exception& failed) {
     return Unexpected{Problem{"--web " + to_string(listen), failed.what()}};
   }
-  engine->bell = transport::FileDescriptor{
-      transport::posix_call([] { return ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK); })};
+  for (Engine::Door& door : engine->doors) {
+    door.bell = transport::FileDescriptor{
+        transport::posix_call([] { return ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK); })};
+  }
   engine->accept();
   engine->thread = std::thread([raw = engine.get()] { raw->run(); });
   return std::unique_ptr<WebServer>{new WebServer(std::move(engine))};
@@ -226,20 +242,21 @@ transport::UdpAddress WebServer::local() const {
   return {.ip = at.address().to_v4().to_uint(), .port = at.port()};
 }
 
-int WebServer::fd() const { return engine_->bell.get(); }
+int WebServer::fd(std::size_t car) const { return engine_->doors[car].bell.get(); }
 
-std::optional<ClientNews> WebServer::next_news() {
+std::optional<ClientNews> WebServer::next_news(std::size_t car) {
+  Engine::Door& door = engine_->doors[car];
   std::optional<ClientNews> item;
   {
     const std::lock_guard hold(engine_->lock);
-    if (engine_->news.empty()) {
+    if (door.news.empty()) {
       // Under the lock: what is told from now on rings again.
       std::uint64_t rung = 0;
-      (void)transport::posix_call([&] { return ::read(engine_->bell.get(), &rung, sizeof rung); });
+      (void)transport::posix_call([&] { return ::read(door.bell.get(), &rung, sizeof rung); });
       return item;
     }
-    item = std::move(engine_->news.front());
-    engine_->news.pop_front();
+    item = std::move(door.news.front());
+    door.news.pop_front();
   }
   if (item->kind == ClientNews::Kind::kSaid || item->kind == ClientNews::Kind::kBinary) {
     send(ClientSet{}.set(item->client), nullptr);
@@ -255,8 +272,22 @@ void WebServer::send(const ClientSet& to, SharedMessage message) {
     return;
   }
   engine_->posts.push_back({to, std::move(message)});
-  if (std::exchange(engine_->post_under_way, true)) return;
-  asio::post(engine_->io, [raw = engine_.get()] { raw->deliver(); });
+  engine_->call();
+}
+
+void WebServer::show(const std::string& path, Shown document) {
+  const std::lock_guard hold(engine_->lock);
+  engine_->shown.insert_or_assign(path, std::move(document));
+  engine_->call();
+}
+
+std::vector<Drop> WebServer::take_drops() {
+  const std::lock_guard hold(engine_->lock);
+  std::vector<Drop> taken;
+  for (const auto& [key, count] : std::exchange(engine_->drops, {})) {
+    taken.push_back({.client = key.first, .tag = key.second, .count = count});
+  }
+  return taken;
 }
 
 WebCounters WebServer::counters() const {

@@ -1,13 +1,15 @@
 // The sockets of the console: HTTP and WebSocket on a thread of its own, so that no browser ever
 // delays what comes from the car.
-//   in     messages for clients; documents
+//   in     messages for clients; documents, those of the start and those of the moment
 //   out    who joined, who left, what they said
 //   law    between this thread and the caller's stand two bounded queues; neither side waits for
 //          the other. A client whose requests are not handled yet is not read on: its own sending
 //          stops. A client that does not read: client_queue.hpp
+//          a console belongs to the car it came to, until it leaves: what it says is told to that
+//          car's reader only
 //          malformed HTTP is answered 400, 413 or 431 and closed; a text that is no UTF-8, too long
 //          or broken framing closes that socket with the code of RFC 6455; the others go on
-//   bound  kConnections in all, consoles 16 to 254 of them
+//   bound  kCars cars; kConnections in all, consoles 16 to 254 of them
 //   errors start(): Problem with the address as place; afterwards counters
 //   source RFC 9112, RFC 6455, by Boost.Beast
 // SPDX-License-Identifier: Apache-2.0
@@ -34,7 +36,14 @@ struct ClientNews {
   Kind kind = Kind::kJoined;
   ClientId client = 0;
   Identity who{};      // kJoined
-  std::string text{};  // kSaid
+  std::string text{};  // kSaid, kBinary
+};
+
+// Bytes that a client lost because it did not read.
+struct Drop {
+  ClientId client = 0;
+  std::uint32_t tag = 0;
+  std::uint64_t count = 0;
 };
 
 struct WebCounters {
@@ -52,6 +61,7 @@ class WebServer {
  public:
   static constexpr std::size_t kConnections = 300;
   static constexpr std::size_t kUnhandled = 16;  // requests of one client under way
+  static constexpr std::size_t kCars = 4;
 
   static Result<std::unique_ptr<WebServer>, Problem> start(transport::UdpAddress listen,
                                                            HttpConfig config);
@@ -60,10 +70,15 @@ class WebServer {
   WebServer& operator=(const WebServer&) = delete;
 
   transport::UdpAddress local() const;
-  int fd() const;  // readable while news wait
-  std::optional<ClientNews> next_news();
+  // Of the consoles of one car, in the order of HttpConfig::cars: readable while news wait.
+  int fd(std::size_t car = 0) const;
+  std::optional<ClientNews> next_news(std::size_t car = 0);
+  // A document that replaces the one of this path, from now on.
+  void show(const std::string& path, Shown document);
   void send(const ClientSet& to, SharedMessage message);
   WebCounters counters() const;
+  // What tagged bytes were lost since this was asked for last.
+  std::vector<Drop> take_drops();
 
  private:
   struct Engine;

@@ -39,9 +39,12 @@ class Terminal : public testing::Test {
     for (const int fd : stop_) ::close(fd);
   }
   std::string run(const TerminalOptions& options) {
-    run_terminal(
-        {.radio = {&*radio_.front(), 1}, .words = &*words_, .script = &script_, .stop = stop_[0]},
-        options, *station_, file_);
+    const Lines car{.station = station_.get(),
+                    .title = "car 7",
+                    .radio = {&*radio_.front(), 1},
+                    .words = &*words_,
+                    .script = &script_};
+    run_terminal({&car, 1}, options, stop_[0], file_);
     return contents(file_);
   }
   // A car that speaks from another thread until the loop has ended.

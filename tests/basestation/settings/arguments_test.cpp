@@ -40,7 +40,10 @@ TEST(Arguments, MistakesAreTheCallersExitCode) {
                                                 {"--refresh", "0"},
                                                 {"--duration", "nan"},
                                                 {"--default-role", "king"},
-                                                {"--car", "256"}}) {
+                                                {"--car", "256"},
+                                                {"--cars", "c", "--keys", "k"},
+                                                {"--record", "r", "--cars", "c"},
+                                                {"--cars", "c", "--replay", "r"}}) {
     const auto parsed = parse(words);
     const auto* const leave = std::get_if<Leave>(&parsed);
     ASSERT_NE(leave, nullptr) << words.front();

@@ -55,6 +55,27 @@ TEST(Access, ANameThatPointsHereDoesNotMakeAForeignPageOurs) {
   }
 }
 
+TEST(Access, AToolsPageIsLetInByItsOriginOrFromThisMachine) {
+  AccessRules own = rules();
+  const auto comes = [&own](std::string_view origin) {
+    return admit(own, {.host = "127.0.0.1:8765", .origin = origin}).has_value();
+  };
+  EXPECT_FALSE(comes("https://app.foxglove.dev"));
+  own.origins = {"https://app.foxglove.dev"};
+  EXPECT_TRUE(comes("https://APP.foxglove.dev"));
+  EXPECT_FALSE(comes("https://app.foxglove.dev.evil.com"));
+  EXPECT_FALSE(comes("http://localhost:8080"));
+  own.local_pages = true;
+  for (const char* origin : {"http://localhost:8080", "https://localhost", "http://127.0.0.1:1",
+                             "http://[::1]:3000", "file://"}) {
+    EXPECT_TRUE(comes(origin)) << origin;
+  }
+  for (const char* origin : {"http://localhost.evil.com", "http://127.0.0.1.evil.com", "null",
+                             "http://10.1.2.3", "ftp://localhost", "http://"}) {
+    EXPECT_FALSE(comes(origin)) << origin;
+  }
+}
+
 TEST(Access, AMistakeInTheFileIsNamedByItsLine) {
   const auto place = [](const std::string& line) {
     const auto tokens = Tokens::parse("# one\n" + line, "tokens");

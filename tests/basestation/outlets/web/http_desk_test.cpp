@@ -49,6 +49,41 @@ TEST(HttpDesk, WhatIsNotThereOrNotAllowedIsRefusedWithALine) {
   EXPECT_EQ(desk.answer(get("/nothing")).body->back(), '\n');
 }
 
+TEST(HttpDesk, ADocumentThatIsMadeIsMadeForEachWhoAsks) {
+  HttpConfig with = config();
+  int asked = 0;
+  with.made["/metrics"] = [&asked] { return Shown{std::to_string(++asked), "text/x"}; };
+  HttpDesk desk(std::move(with));
+  EXPECT_EQ(*desk.answer(get("/metrics")).body, "1");
+  const HttpAnswer again = desk.answer(get("/metrics"));
+  EXPECT_EQ(*again.body, "2");
+  EXPECT_EQ(again.type, "text/x");
+  EXPECT_EQ(again.cache, "no-store");
+  EXPECT_EQ(desk.answer(put("/metrics", "x")).status, 405u);
+}
+
+TEST(HttpDesk, APortOfAnotherProtocolIsThatOnly) {
+  HttpConfig foreign = config();
+  foreign.subprotocols = {"a.v1", "b.v1"};
+  HttpDesk desk(std::move(foreign));
+  const auto open = [&desk](std::string_view target, std::string_view offered, bool upgrade) {
+    HttpQuestion question = get(target);
+    question.subprotocols = offered;
+    question.upgrade = upgrade;
+    return desk.answer(question);
+  };
+  EXPECT_EQ(open("/", "b.v1", true).subprotocol, "b.v1");
+  EXPECT_EQ(open("/?token=" + std::string{kViewer}, "x,\tb.v1 , a.v1", true).subprotocol, "b.v1");
+  EXPECT_TRUE(open("/", "a.v1", true).visitor);
+  for (const char* offered : {"", "c.v1", "a.v1x", ",", " , "}) {
+    EXPECT_EQ(open("/", offered, true).status, 400u) << offered;
+    EXPECT_FALSE(open("/", offered, true).visitor);
+  }
+  EXPECT_EQ(open("/", "a.v1", false).status, 400u) << "no upgrade";
+  EXPECT_EQ(open("/ws", "a.v1", true).status, 404u);
+  EXPECT_EQ(open("/api/track", "", false).status, 404u);
+}
+
 TEST(HttpDesk, TheSocketIsGivenToWhoMayHaveIt) {
   HttpDesk desk(config());
   HttpQuestion question = get("/ws");
@@ -57,6 +92,40 @@ TEST(HttpDesk, TheSocketIsGivenToWhoMayHaveIt) {
   const std::string target = std::string{"/ws?x=1&token="} + kOperator;
   question.target = target;
   EXPECT_EQ(desk.answer(question).visitor->name, "Anna");
+}
+
+TEST(HttpDesk, EachCarHasItsOwnDocumentsAndNoneIsGivenAnothers) {
+  HttpConfig both = config();
+  both.cars = {{.number = 7, .documents = {{"/api/track", "[7]"}}},
+               {.number = 0, .documents = {{"/api/track", "[0]"}, {"/api/x", ""}}}};
+  HttpDesk desk(std::move(both));
+  EXPECT_EQ(*desk.answer(get("/api/track")).body, "[7]") << "the first";
+  EXPECT_EQ(*desk.answer(get("/api/track?car=7")).body, "[7]");
+  EXPECT_EQ(*desk.answer(get("/api/track?x=1&car=0")).body, "[0]");
+  EXPECT_EQ(desk.answer(get("/api/x?car=0")).status, 204u);
+  EXPECT_EQ(desk.answer(get("/api/x?car=7")).status, 404u);
+  for (const char* const nobody : {"8", "", "7x", "-7", "+7", "07777777777777", "%37"}) {
+    const std::string target = std::string{"/api/track?car="} + nobody;
+    EXPECT_EQ(desk.answer(get(target)).status, 404u) << nobody;
+    const std::string socket = std::string{"/ws?car="} + nobody;
+    HttpQuestion question = get(socket);
+    question.upgrade = true;
+    const HttpAnswer answer = desk.answer(question);
+    EXPECT_EQ(answer.status, 404u) << nobody;
+    EXPECT_FALSE(answer.visitor) << nobody;
+  }
+  HttpQuestion question = get("/ws?car=0");
+  question.upgrade = true;
+  EXPECT_EQ(desk.answer(question).car, 1u);
+}
+
+TEST(HttpDesk, WhatIsShownReplacesWhatWasBefore) {
+  HttpDesk desk(config());
+  desk.show("/api/cars", {"[1]", kJsonType});
+  desk.show("/api/cars", {"[2]", kJsonType});
+  const HttpAnswer answer = desk.answer(get("/api/cars"));
+  EXPECT_EQ(*answer.body, "[2]");
+  EXPECT_EQ(answer.type, "application/json");
 }
 
 TEST(HttpDesk, LayoutsAreKeptByOperators) {

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "tests/basestation/outlets/web/server_fixture.hpp"
 
@@ -36,6 +38,49 @@ TEST_F(WebServerTest, OneThatLeavesIsToldAndItsNumberIsNotSoonAnothers) {
   EXPECT_EQ(wait_for(ClientNews::Kind::kLeft)->client, first);
   Browser next;
   EXPECT_NE(join(next), first);
+}
+
+TEST_F(WebServerTest, AConsoleIsOfTheCarItCameTo) {
+  auto started = WebServer::start({}, {.cars = {{.number = 7}, {.number = 8}}});
+  ASSERT_TRUE(started);
+  WebServer& server = **started;
+  const std::uint16_t port = server.local().port;
+  Browser first, second, nobody;
+  EXPECT_EQ(second.open(port, "/ws?car=8"), 101u);
+  EXPECT_EQ(first.open(port, "/ws"), 101u);
+  EXPECT_NE(nobody.open(port, "/ws?car=9"), 101u);
+  second.say("{\"type\": \"stop\"}");
+  std::array<std::vector<ClientNews>, 2> heard;
+  const Instant end = transport::monotonic_now() + seconds(20);
+  while ((heard[0].empty() || heard[1].size() < 2) && transport::monotonic_now() < end) {
+    const std::array<int, 2> fds{server.fd(0), server.fd(1)};
+    transport::wait_readable(fds, end);
+    for (std::size_t car = 0; car < heard.size(); ++car) {
+      while (auto news = server.next_news(car)) heard[car].push_back(*std::move(news));
+    }
+  }
+  ASSERT_EQ(heard[0].size(), 1u);
+  ASSERT_EQ(heard[1].size(), 2u);
+  EXPECT_NE(heard[0][0].client, heard[1][0].client) << "one numbering for all";
+  EXPECT_EQ(heard[1][1].kind, ClientNews::Kind::kSaid);
+  EXPECT_EQ(heard[1][1].client, heard[1][0].client);
+}
+
+TEST_F(WebServerTest, MoreCarsThanItHasPlacesForAreRefused) {
+  HttpConfig config;
+  for (int number = 0; number <= static_cast<int>(WebServer::kCars); ++number) {
+    config.cars.push_back({.number = number});
+  }
+  EXPECT_FALSE(WebServer::start({}, std::move(config)));
+}
+
+TEST_F(WebServerTest, ADocumentOfTheMomentIsThereSoon) {
+  server_->show("/api/cars", {"[7]", kJsonType});
+  const std::string own = "127.0.0.1:" + std::to_string(port_);
+  const std::string asking =
+      "GET /api/cars HTTP/1.1\r\nHost: " + own + "\r\nConnection: close\r\n\r\n";
+  const Instant end = transport::monotonic_now() + seconds(20);
+  while (!bare(port_, asking).ends_with("[7]")) ASSERT_LT(transport::monotonic_now(), end);
 }
 
 TEST_F(WebServerTest, AForeignPageOrAWrongTokenGetsNoSocket) {
@@ -78,7 +123,49 @@ TEST_F(WebServerTest, BytesAreToldAsSuch) {
   Browser browser;
   join(browser);
   browser.say_bytes("abc");
-  EXPECT_TRUE(wait_for(ClientNews::Kind::kBinary));
+  EXPECT_EQ(wait_for(ClientNews::Kind::kBinary)->text, "abc");
+}
+
+SharedMessage bytes(std::uint32_t tag, std::size_t size) {
+  Bytes bytes{.head = {1, 2}, .head_bytes = 2, .tag = tag};
+  bytes.body = std::make_shared<const std::vector<std::uint8_t>>(size, std::uint8_t{7});
+  return std::make_shared<const Message>(Message{.binary = std::move(bytes)});
+}
+
+TEST_F(WebServerTest, BytesGoOutBehindTheirHeadAndWhatIsLostIsKnownByItsTag) {
+  Browser slow;
+  ASSERT_EQ(slow.open(port_, "/ws", {}, 4'096), 101u);
+  const ClientId client = wait_for(ClientNews::Kind::kJoined)->client;
+  constexpr std::uint64_t kSent = 400;
+  for (std::uint64_t i = 0; i < kSent; ++i) server_->send(only(client), bytes(5, 10'000));
+  server_->send(only(client), text("end"));
+  std::uint64_t heard = 0;
+  while (const auto message = slow.hear()) {
+    if (message->text) break;
+    EXPECT_EQ(message->bytes.substr(0, 3), std::string("\1\2\7"));
+    ++heard;
+  }
+  const auto drops = server_->take_drops();
+  ASSERT_EQ(drops.size(), 1U);
+  EXPECT_EQ(drops[0].client, client);
+  EXPECT_EQ(drops[0].tag, 5U);
+  EXPECT_EQ(drops[0].count + heard, kSent);
+  EXPECT_TRUE(server_->take_drops().empty());
+}
+
+TEST(WebServerOfAnotherProtocol, TheSubprotocolIsNegotiated) {
+  HttpConfig config;
+  config.subprotocols = {"a.v1", "b.v1"};
+  const auto server = WebServer::start({}, std::move(config));
+  ASSERT_TRUE(server);
+  const std::uint16_t port = (*server)->local().port;
+  const std::string answer =
+      bare(port, opening("/", "127.0.0.1", "Sec-WebSocket-Protocol: x, b.v1\r\n"));
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 101")) << answer;
+  EXPECT_NE(answer.find("Sec-WebSocket-Protocol: b.v1\r\n"), std::string::npos) << answer;
+  EXPECT_TRUE(bare(port, opening("/")).starts_with("HTTP/1.1 400"));
+  EXPECT_TRUE(bare(port, opening("/", "127.0.0.1", "Sec-WebSocket-Protocol: c\r\n"))
+                  .starts_with("HTTP/1.1 400"));
 }
 
 TEST_F(WebServerTest, AClientThatDoesNotReadLosesItsOwnOldestAndSeesHowMuch) {

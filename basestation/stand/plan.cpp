@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/stand/plan.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "basestation/intake/key_pair.hpp"
+#include "basestation/outlets/wall/catalogue_text.hpp"
+#include "basestation/outlets/wall/data_files.hpp"
+#include "basestation/outlets/wall/judgement_store.hpp"
+#include "basestation/outlets/wall/track_document.hpp"
+#include "basestation/stand/roster.hpp"
+#include "protocol/transport/file.hpp"
+
+namespace pitwall::stand {
+namespace {
+
+namespace wall = outlets::wall;
+namespace web = outlets::web;
+using settings::Arguments;
+
+constexpr std::uint16_t kDefaultPort = 23'431;
+constexpr std::uint32_t kLoopbackNet = 127U << 24U, kNetMask = 0xFF00'0000U;
+constexpr double kBytesPerKbit = 125.0;
+
+Result<std::vector<transport::UdpAddress>, Problem> addresses_of(const Arguments& arguments) {
+  std::vector<std::string> wanted = arguments.listen;
+  if (wanted.empty()) wanted.push_back(to_string(transport::UdpAddress{.port = kDefaultPort}));
+  if (wanted.size() > telemetry::kPaths) {
+    return Unexpected{Problem{"--listen", "at most two radios"}};
+  }
+  std::vector<transport::UdpAddress> addresses;
+  for (const std::string& text : wanted) {
+    const auto address = transport::parse_udp_address(text);
+    if (!address) return Unexpected{Problem{"--listen", to_string(address.error())}};
+    if ((address->ip & kNetMask) != kLoopbackNet && !arguments.network) {
+      return Unexpected{Problem{"--listen " + text,
+                                "open to other machines; add --network if "
+                                "that is meant"}};
+    }
+    addresses.push_back(*address);
+  }
+  return addresses;
+}
+
+Result<bool, Problem> plan_access(const Arguments& a, web::AccessRules& access) {
+  access.names = a.web_names;
+  const bool trusted = a.default_role.empty() ? !a.network : a.default_role == "operator";
+  access.default_role = trusted ? web::Role::kOperator : web::Role::kViewer;
+  if (a.tokens_file.empty()) return true;
+  const auto text = transport::read_private_file(a.tokens_file);
+  if (!text) return Unexpected{text.error()};
+  auto tokens = web::Tokens::parse(*text, a.tokens_file);
+  if (!tokens) return Unexpected{tokens.error()};
+  access.tokens = *std::move(tokens);
+  return true;
+}
+
+Result<bool, Problem> plan_web(const Arguments& a, Plan& plan, const Say& say) {
+  plan.http.console = wall::console_folder(a.console_folder);
+  plan.http.layouts = a.layouts_folder;
+  const auto access = plan_access(a, plan.http.access);
+  if (!access) return access;
+  if (!a.judgement_file.empty()) {
+    auto store = std::make_shared<wall::JudgementStore>(a.judgement_file);
+    if (!store->said().empty()) say(store->said());
+    wall::use_judgement(plan.wall, std::move(store), a.budget_kbit);
+  }
+  plan.http.documents["/api/track"] = {};
+  if (!a.track.empty()) {
+    auto track = wall::read_track(wall::track_file(a.track));
+    if (!track) return Unexpected{track.error()};
+    plan.http.documents["/api/track"] = std::move(track->json);
+    plan.wall.watch.course = std::move(track->course);
+  }
+  plan.wall.car = a.car;
+  plan.wall.name = a.car_name;
+  plan.wall.up_cap_kbit_s = a.budget_kbit;
+  plan.wall.tokens = plan.http.access.tokens;
+  const auto& limits = plan.wall.watch.limits;
+  plan.http.documents.emplace(
+      "/api/catalogue", wall::catalogue_text([&](picture::FieldId id) -> const picture::Limit& {
+        return limits.of(id);
+      }));
+  return true;
+}
+
+Result<bool, Problem> plan_radio(const Arguments& arguments, Plan& plan) {
+  auto listen = addresses_of(arguments);
+  if (!listen) return Unexpected{listen.error()};
+  plan.listen = *std::move(listen);
+  if (arguments.keys.empty()) {
+    return Unexpected{Problem{"--keys", "needed; pitwall-base keygen --out FOLDER makes them"}};
+  }
+  const auto keys = intake::read_keys(arguments.keys, telemetry::Role::kBase);
+  if (!keys) return Unexpected{keys.error()};
+  plan.config.association.keys = *keys;
+  plan.config.association.greeting.signed_only = arguments.signed_only;
+  plan.config.association.paths = static_cast<std::uint8_t>(plan.listen.size());
+  for (telemetry::BudgetParams& budget : plan.config.budget) {
+    budget.bytes_per_s = arguments.budget_kbit * kBytesPerKbit;
+    const auto made = telemetry::PathBudget::make(budget);
+    if (!made) return Unexpected{Problem{"--budget", made.error().what}};
+  }
+  return true;
+}
+
+Result<bool, Problem> plan_hands(const Arguments& arguments, Plan& plan) {
+  if (!arguments.command_file.empty()) {
+    const auto text = transport::read_file(arguments.command_file);
+    if (!text) return Unexpected{text.error()};
+    auto script = intake::OperatorScript::parse(*text, arguments.command_file);
+    if (!script) return Unexpected{script.error()};
+    plan.script = *std::move(script);
+  }
+  const auto axes = intake::JoystickMapping::parse(arguments.joystick_axes);
+  if (!axes) return Unexpected{axes.error()};
+  plan.joystick = *axes;
+  return true;
+}
+
+std::string told(const Arguments& car) { return "car " + std::to_string(car.car); }
+
+}  // namespace
+
+Result<Plan, Problem> plan_of(const Arguments& arguments, const Say& say) {
+  Plan plan{.arguments = arguments};
+  auto planned = plan_radio(arguments, plan);
+  if (planned) planned = plan_hands(arguments, plan);
+  if (planned && arguments.web_port) planned = plan_web(arguments, plan, say);
+  if (!planned) return Unexpected{planned.error()};
+  return plan;
+}
+
+Result<std::vector<Plan>, Problem> plans_of(std::span<const Arguments> cars, const Say& say) {
+  std::vector<Plan> plans;
+  for (const Arguments& car : cars) {
+    auto plan = plan_of(car, [&](const std::string& line) {
+      say(cars.size() > 1 ? told(car) + ": " + line : line);
+    });
+    if (!plan) {
+      if (cars.size() == 1) return Unexpected{plan.error()};
+      return Unexpected{Problem{told(car) + ": " + plan.error().place, plan.error().what}};
+    }
+    for (const Plan& other : plans) {
+      const telemetry::KeyFile &one = other.config.association.keys,
+                               &two = plan->config.association.keys;
+      if (one.own.public_key == two.own.public_key || one.peer == two.peer) {
+        return Unexpected{Problem{told(car) + ": " + car.keys,
+                                  "these are keys of " + told(other.arguments) + ", too"}};
+      }
+    }
+    plan->wall.place = plans.size();
+    plans.push_back(*std::move(plan));
+  }
+  return plans;
+}
+
+Result<Plan, Problem> plan_of_replay(const Arguments& arguments, const Say& say) {
+  Plan plan{.arguments = arguments};
+  const auto planned = plan_web(arguments, plan, say);
+  if (!planned) return Unexpected{planned.error()};
+  return plan;
+}
+
+web::HttpConfig served(std::span<Plan> plans) {
+  web::HttpConfig http;
+  std::vector<CarSight> sights;
+  for (Plan& plan : plans) {
+    if (sights.empty()) {
+      http.access = plan.http.access;
+      http.console = plan.http.console;
+      http.layouts = plan.http.layouts;
+    }
+    http.cars.push_back(
+        {.number = plan.arguments.car, .documents = std::move(plan.http.documents)});
+    const bool replayed = !plan.arguments.replay_folder.empty();
+    sights.push_back({.number = plan.arguments.car,
+                      .name = plan.arguments.car_name,
+                      .mode = replayed ? "REPLAY" : "NONE"});
+  }
+  http.documents.emplace(kRosterPath, roster_text(sights));
+  return http;
+}
+
+}  // namespace pitwall::stand

@@ -1,0 +1,46 @@
+// What the stand of one car needs, read from its command line and found wrong before it begins.
+//   in     command lines; the files that they name; `say`: lines for a person
+//   out    a Plan for each car; the web server's part of them all
+//   errors Problem with the option as place; two cars that have the same keys: what one of them
+//          says would be taken for the other
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "basestation/intake/joystick_reports.hpp"
+#include "basestation/intake/operator_script.hpp"
+#include "basestation/outlets/wall/wall.hpp"
+#include "basestation/outlets/web/http_desk.hpp"
+#include "basestation/settings/arguments.hpp"
+#include "protocol/telemetry/endpoint/conduit.hpp"
+#include "protocol/transport/udp_socket.hpp"
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::stand {
+
+using Say = std::function<void(const std::string&)>;
+
+struct Plan {
+  settings::Arguments arguments;
+  std::vector<transport::UdpAddress> listen{};
+  intake::OperatorScript script{};
+  telemetry::ConduitConfig config{};
+  outlets::web::HttpConfig http{};  // documents: those of this car
+  outlets::wall::WallConfig wall{};
+  intake::JoystickMapping joystick{};
+};
+
+Result<Plan, Problem> plan_of(const settings::Arguments& arguments, const Say& say);
+Result<std::vector<Plan>, Problem> plans_of(std::span<const settings::Arguments> cars,
+                                            const Say& say);
+// Of a replay: no radio, no keys.
+Result<Plan, Problem> plan_of_replay(const settings::Arguments& arguments, const Say& say);
+
+// One server for all of them; each has its documents under its number.
+outlets::web::HttpConfig served(std::span<Plan> plans);
+
+}  // namespace pitwall::stand
