@@ -41,6 +41,9 @@ struct Verdict {
   std::optional<Duration> delay;  // detects: from the fault to the first tick that sees it
 };
 
+// Of an expectation while the run goes on: nothing seen yet, held so far, failed for good.
+enum class Standing : std::uint8_t { kOpen, kHolds, kFailed };
+
 class Grader {
  public:
   static Result<Grader, Problem> create(std::vector<Expectation> expectations,
@@ -48,6 +51,7 @@ class Grader {
 
   void observe(Instant now, std::span<const double> values);
   std::vector<Verdict> finish() const;
+  std::vector<Standing> standings() const;  // in order; what finish() would make of kOpen is open
 
  private:
   struct Track {
@@ -67,6 +71,7 @@ class Grader {
   void observe_within(const Expectation& e, Track& t, Instant now, double value);
   void observe_after(const Expectation& e, Track& t, Instant now, double value, bool rises);
   static Verdict verdict(const Expectation& e, const Track& t);
+  static Standing standing(const Expectation& e, const Track& t);
 
   std::vector<Expectation> expectations_;
   std::vector<Track> tracks_;

@@ -31,7 +31,8 @@ struct Pit {
 };
 struct Track {
   std::string name;
-  double length_m = 0.0, latitude_deg = 0.0, longitude_deg = 0.0;
+  double length_m = 0.0;
+  TrackDatum datum;
   CoursePoint start;
   std::vector<Knot> knots;
   std::optional<Pit> pit;
@@ -61,9 +62,9 @@ Track read(yaml::StrictMap& map) {
   track.name = map.text("name");
   track.length_m = map.number("length_m", kLengthMin_m, kLengthMax_m);
   yaml::StrictMap datum = map.map("datum");
-  track.latitude_deg = datum.number("latitude_deg", -90.0, 90.0);
-  track.longitude_deg = datum.number("longitude_deg", -180.0, 180.0);
-  datum.number_or("height_m", 0.0, -kFar_m, kFar_m);  // the drawing is flat
+  track.datum.latitude_deg = datum.number("latitude_deg", -90.0, 90.0);
+  track.datum.longitude_deg = datum.number("longitude_deg", -180.0, 180.0);
+  track.datum.height_m = datum.number_or("height_m", 0.0, -kFar_m, kFar_m);  // the drawing is flat
   yaml::StrictMap start = map.map("start");
   track.start = {.s_m = 0.0,
                  .x_m = start.number("x_m", -kFar_m, kFar_m),
@@ -183,8 +184,8 @@ std::string json_of(const Track& track, const std::vector<CoursePoint>& line,
       .text("name", track.name)
       .number("length_m", track.length_m)
       .json("datum", Object{}
-                         .number("latitude_deg", track.latitude_deg)
-                         .number("longitude_deg", track.longitude_deg)
+                         .number("latitude_deg", track.datum.latitude_deg)
+                         .number("longitude_deg", track.datum.longitude_deg)
                          .str())
       .json("centre", centre.str())
       .json("left", left.str())
@@ -208,6 +209,7 @@ Result<TrackDocument, Problem> read_track(const std::string& path) {
   if (!course) return Unexpected{Problem{path, course.error().what}};
   if (const auto& pit = track->pit) course->set_pit({pit->from_s_m, pit->to_s_m, pit->offset_m});
   TrackDocument made;
+  made.datum = track->datum;
   made.json = json_of(*track, line, course->corners());
   made.course = *std::move(course);
   return made;

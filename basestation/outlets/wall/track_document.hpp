@@ -14,11 +14,18 @@
 
 #include "basestation/picture/course.hpp"
 #include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/units.hpp"
 
 namespace pitwall::outlets::wall {
 
+// Where Map has its origin: WGS 84, height above the ellipsoid.
+struct TrackDatum {
+  double latitude_deg = kUnset, longitude_deg = kUnset, height_m = kUnset;
+};
+
 struct TrackDocument {
   std::string json;
+  TrackDatum datum;
   std::optional<picture::Course> course;
 };
 

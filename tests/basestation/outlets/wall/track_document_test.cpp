@@ -34,6 +34,9 @@ TEST_P(Track, LiesWhereTheCarsOwnMapHasIt) {
   ASSERT_TRUE(described);
   const auto car = world::TrackMap::build(*described);
   ASSERT_TRUE(car);
+  EXPECT_EQ(track->datum.latitude_deg, described->datum_latitude_deg);
+  EXPECT_EQ(track->datum.longitude_deg, described->datum_longitude_deg);
+  EXPECT_EQ(track->datum.height_m, described->datum_height_m);
   const auto drawn = json::JsonValue::parse(track->json, "track");
   ASSERT_TRUE(drawn);
   double worst_m = 0.0;
