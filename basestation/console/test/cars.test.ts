@@ -9,6 +9,15 @@ import { askedCar, placeOf, readCars, showNextCar } from "../src/store/cars";
 import * as session from "../src/store/session";
 import { isHolder, keepAuthority, lastStop, send, stop } from "../src/store/uplink";
 import { newcomer } from "../src/frame/tones";
+import {
+  compared,
+  comparedNumber,
+  dataOfTime,
+  linesOf,
+  nameOf,
+  valueAt,
+} from "../src/pages/plots/lines";
+import { History } from "../src/store/history";
 import type { Alarm } from "../src/wire/messages";
 
 /** What each socket was told, by its address. */
@@ -149,5 +158,68 @@ describe("the car that is not shown", () => {
   test("keeps the numbers of its alarms apart", () => {
     expect(newcomer(new Set([3]), [alarm(3)])).toBeNull();
     expect(newcomer(new Set(), [alarm(3)])).toBe("high");
+  });
+});
+
+describe("another car in the same chart", () => {
+  const spec = { title: "speed", fields: ["ego.vx", "ego.vy"] };
+  const info = spec.fields.map((path, id) => ({
+    id,
+    path,
+    group: "ego",
+    name: path.slice(4),
+    unit: "m/s",
+    kind: "real",
+    min: 0,
+    max: 1,
+    resolution: 0.1,
+    period_ms: 100,
+  }));
+  /** Rows of a car that has the speed `vx` at these moments. */
+  const drive = (car: CarSession, vx: number, timesMs: readonly number[]) => {
+    car.takeCatalogue({ fields: info, commands: [] });
+    car.history.value = new History(2, 64);
+    for (const at of timesMs) {
+      car.fields.value.write(0, 0, 0, vx, at);
+      car.fields.value.write(1, 0, 0, -vx, at);
+      car.history.value.append(car.fields.value, at);
+    }
+  };
+
+  beforeEach(() => {
+    comparedNumber.value = null;
+    drive(blue, 50, [1000, 1040, 1080]);
+    drive(red, 60, [1010, 1050]);
+  });
+
+  test("has a line of its own beside each field", () => {
+    expect(linesOf(spec, "time").map(nameOf)).toEqual(["ego.vx", "ego.vy"]);
+    comparedNumber.value = 8;
+    const names = ["ego.vx", "car 8", "ego.vy", "car 8"];
+    expect(linesOf(spec, "time").map(nameOf)).toEqual(names);
+    expect(linesOf(spec, "distance").map(nameOf)).toEqual(names);
+  });
+
+  test("stands on the same axis, and neither makes gaps in the other", () => {
+    comparedNumber.value = 8;
+    const [timeS, own, other, , otherVy] = dataOfTime(spec, 1000, 1080, 1000);
+    expect(timeS).toEqual([1, 1.01, 1.04, 1.05, 1.08]);
+    expect(own).toEqual([50, undefined, 50, undefined, 50]);
+    expect(other).toEqual([undefined, 60, undefined, 60, undefined]);
+    expect(otherVy?.[1]).toBe(-60);
+    expect(valueAt(own, 3)).toBe(50);
+    expect(valueAt(other, 0)).toBeNull();
+    expect(valueAt([50, null, undefined], 2)).toBeNull();
+  });
+
+  test("is never the one that is shown, and none that is not here", () => {
+    comparedNumber.value = 7;
+    expect(compared.value).toBeNull();
+    comparedNumber.value = 9;
+    expect(compared.value).toBeNull();
+    comparedNumber.value = 8;
+    session.showCar(red);
+    expect(compared.value).toBeNull();
+    expect(dataOfTime(spec, 1000, 1080, 1000)[0]).toEqual([1.01, 1.05]);
   });
 });

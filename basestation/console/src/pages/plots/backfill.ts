@@ -3,8 +3,8 @@
  * field is plotted.
  */
 // SPDX-License-Identifier: Apache-2.0
+import type { CarSession } from "../../store/car_session";
 import * as session from "../../store/session";
-import { send } from "../../store/uplink";
 import type { Earlier } from "./series";
 
 const kBackS = 600;
@@ -12,14 +12,18 @@ const kPoints = 3000;
 
 const answers = new Map<string, Earlier | null>();
 
-export const earlierOf = (path: string): Earlier | null => answers.get(path) ?? null;
+const keyOf = (path: string, car: CarSession): string => `${car.number} ${path}`;
 
-export function requestEarlier(path: string): void {
-  if (answers.has(path)) return;
-  const store = session.fields.value;
+export const earlierOf = (path: string, car: CarSession): Earlier | null =>
+  answers.get(keyOf(path, car)) ?? null;
+
+export function requestEarlier(path: string, car = session.shownCar.value): void {
+  const key = keyOf(path, car);
+  if (answers.has(key)) return;
+  const store = car.fields.value;
   const info = store.info[store.slot(path)];
   if (!info) return;
-  const sent = send({
+  const sent = car.send({
     type: "history",
     field: info.id,
     from_s: kBackS,
@@ -27,8 +31,8 @@ export function requestEarlier(path: string): void {
     points: kPoints,
   });
   if (!sent) return;
-  answers.set(path, null);
-  session.awaitHistory(info.id, (answer) => answers.set(path, answer));
+  answers.set(key, null);
+  car.awaitHistory(info.id, (answer) => answers.set(key, answer));
 }
 
 /** A new connection or catalogue: what was answered belongs to another base. */

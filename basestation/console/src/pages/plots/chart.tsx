@@ -12,57 +12,12 @@ import { kDash, unitText, valueText } from "../../view/format";
 import { kDigitsHz, kPlotsHz, addPainter } from "../../view/painting";
 import { shownMs } from "../../view/timeline";
 import { finderShown } from "../../frame/keys";
-import { earlierOf } from "./backfill";
 import { optionsOf } from "./drawing";
 import { plotTarget } from "./finder_target";
-import { lapColumns } from "./laps";
-import { lapsBeside, removeChart } from "./layout";
+import { removeChart } from "./layout";
 import type { ChartSpec, PlotAxis } from "./layout";
-import { columns, withEarlier } from "./series";
-import type { Column, Columns } from "./series";
-
-/** A line of a chart: a field over time, or over one of its newest laps. */
-interface Line {
-  path: string;
-  /** Laps before the newest one. */
-  back: number;
-}
-
-function linesOf(spec: ChartSpec, axis: PlotAxis): Line[] {
-  const laps = axis === "time" ? 1 : lapsBeside(spec.fields.length);
-  return spec.fields.flatMap((path) => Array.from({ length: laps }, (_, back) => ({ path, back })));
-}
-
-/** The newest lap has the field's name, the others follow it. */
-const nameOf = ({ path, back }: Line): string => (back === 0 ? path : `lap \u2212${back}`);
-
-/** The lines over the newest laps: as many columns as the chart has lines, empty where no lap is. */
-function dataOfLaps(spec: ChartSpec, lengthM: number): { stationM: number[]; values: Column[] } {
-  const store = session.fields.value;
-  const most = lapsBeside(spec.fields.length);
-  const { stationM, values } = lapColumns(
-    session.history,
-    { station: store.slot("track.station"), lap: store.slot("track.lap") },
-    spec.fields.map((path) => store.slot(path)),
-    lengthM,
-    shownMs(),
-    most,
-  );
-  const none = stationM.map(() => null);
-  return {
-    stationM,
-    values: values.flatMap((laps) => Array.from({ length: most }, (_, i) => laps[i] ?? none)),
-  };
-}
-
-function dataOf(spec: ChartSpec, fromMs: number, toMs: number, points: number): Columns {
-  const store = session.fields.value;
-  const slots = spec.fields.map((path) => store.slot(path));
-  const own = columns(session.history, slots, fromMs, toMs, points);
-  const oldest = session.history.oldestMs();
-  if (fromMs > oldest) return own;
-  return withEarlier(own, spec.fields.map(earlierOf), fromMs / 1000);
-}
+import { compared, dataOfLaps, dataOfTime, linesOf, nameOf, valueAt } from "./lines";
+import type { Line } from "./lines";
 
 /** Where nothing is pointed at: the newest moment, or the place where the car is in its lap. */
 function newest(plot: uPlot, axis: PlotAxis): number {
@@ -74,12 +29,12 @@ function newest(plot: uPlot, axis: PlotAxis): number {
 
 /** The values under the cursor, or the newest ones, into the chart's head. */
 function readOut(plot: uPlot, lines: readonly Line[], axis: PlotAxis, head: HTMLElement): void {
-  const store = session.fields.value;
   const at = plot.cursor.idx ?? newest(plot, axis);
-  lines.forEach(({ path, back }, i) => {
+  lines.forEach(({ path, back, car, other }, i) => {
+    const store = car.fields.value;
     const info = store.info[store.slot(path)];
-    const value = at >= 0 ? plot.data[i + 1]?.[at] : null;
-    const unit = info && back === 0 ? ` ${unitText(info.unit)}` : "";
+    const value = at >= 0 ? valueAt(plot.data[i + 1] ?? [], at) : null;
+    const unit = info && back === 0 && !other ? ` ${unitText(info.unit)}` : "";
     const text = info && typeof value === "number" ? valueText(info, value) + unit : kDash;
     const cell = head.children[i]?.lastElementChild;
     if (cell && cell.textContent !== text) cell.textContent = text;
@@ -98,16 +53,16 @@ function drawNow(plot: uPlot, spec: ChartSpec, axis: PlotAxis, windowS: number):
   const to = shownMs();
   if (axis === "distance") {
     const lengthM = session.track.value?.length_m ?? 0;
-    const { stationM, values } = dataOfLaps(spec, lengthM);
+    const data = dataOfLaps(spec, lengthM);
     plot.batch(() => {
-      plot.setData([stationM, ...values] as uPlot.AlignedData, false);
+      plot.setData(data as uPlot.AlignedData, false);
       plot.setScale("x", { min: 0, max: Math.max(lengthM, 1) });
     });
     return;
   }
-  const { timeS, values } = dataOf(spec, to - windowS * 1000, to, 2 * plot.width);
+  const data = dataOfTime(spec, to - windowS * 1000, to, 2 * plot.width);
   plot.batch(() => {
-    plot.setData([timeS, ...values] as uPlot.AlignedData, false);
+    plot.setData(data as uPlot.AlignedData, false);
     plot.setScale("x", { min: to / 1000 - windowS, max: to / 1000 });
   });
 }
@@ -123,7 +78,7 @@ export function Chart({ spec, index, windowS, axis }: ChartProps) {
     if (!box.current) return;
     const element = box.current;
     const empty = [[], ...lines.map(() => [])] as uPlot.AlignedData;
-    const plot = new uPlot(optionsOf(axis, lines.length, element), empty, element);
+    const plot = new uPlot(optionsOf(axis, lines, element), empty, element);
     const paint = () => {
       if (!element.isConnected || element.clientWidth === 0) return;
       if (plot.width !== element.clientWidth || plot.height !== element.clientHeight) {
@@ -138,7 +93,7 @@ export function Chart({ spec, index, windowS, axis }: ChartProps) {
       stop();
       plot.destroy();
     };
-  }, [spec, windowS, axis, grounds, store]);
+  }, [spec, windowS, axis, grounds, store, compared.value]);
 
   return (
     <section
@@ -156,7 +111,10 @@ export function Chart({ spec, index, windowS, axis }: ChartProps) {
         <h2>{spec.title}</h2>
         <ul class="read-outs" ref={head}>
           {lines.map((line, i) => (
-            <li key={`${line.path} ${line.back}`} class={`series-${i + 1}`}>
+            <li
+              key={`${line.path} ${line.back} ${line.car.number}`}
+              class={`series-${(compared.value ? line.field : i) + 1}${line.other ? " other-car" : ""}`}
+            >
               <i class="swatch" aria-hidden="true" />
               <span class="name">{nameOf(line)}</span>
               <span class="digits">{kDash}</span>

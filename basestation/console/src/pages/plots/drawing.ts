@@ -9,10 +9,13 @@ import { colours } from "../../theme/theme";
 import { decimalsOf, fixed } from "../../view/format";
 import { shownMs } from "../../view/timeline";
 import type { PlotAxis } from "./layout";
+import { compared } from "./lines";
+import type { Line } from "./lines";
 import { drawMarks } from "./marks";
 
 const kSync = "plots";
 const kDashes = [[], [8, 4], [2, 3], [8, 3, 2, 3], [12, 6], [4, 6]];
+const kOtherDash = [1, 4];
 const kFont = "12px Barlow, sans-serif";
 
 /** Ticks at whole steps before the moment shown, so that they stand still while the data runs. */
@@ -84,9 +87,20 @@ function drawCorners(plot: uPlot): void {
   pen.restore();
 }
 
-/** Of a chart with so many lines in a box. */
-export function optionsOf(axis: PlotAxis, lines: number, box: HTMLElement): uPlot.Options {
+/** A field has a colour and a dash; of another car the same colour, dotted. */
+function looksOf(line: Line, i: number): uPlot.Series {
   const palette = colours();
+  return {
+    stroke: palette.series[i % palette.series.length],
+    width: palette.stroke,
+    dash: line.other ? kOtherDash : kDashes[i % kDashes.length],
+    points: { show: false },
+    spanGaps: false,
+  };
+}
+
+/** Of a chart with these lines in a box. */
+export function optionsOf(axis: PlotAxis, lines: readonly Line[], box: HTMLElement): uPlot.Options {
   return {
     width: Math.max(box.clientWidth, 50),
     height: Math.max(box.clientHeight, 50),
@@ -98,16 +112,7 @@ export function optionsOf(axis: PlotAxis, lines: number, box: HTMLElement): uPlo
     },
     scales: { x: { time: false, auto: false } },
     axes: axes(axis),
-    series: [
-      {},
-      ...Array.from({ length: lines }, (_, i) => ({
-        stroke: palette.series[i % palette.series.length],
-        width: palette.stroke,
-        dash: kDashes[i % kDashes.length],
-        points: { show: false },
-        spanGaps: false,
-      })),
-    ],
+    series: [{}, ...lines.map((line, i) => looksOf(line, compared.value ? line.field : i))],
     hooks:
       axis === "time"
         ? { draw: [(plot) => drawMarks(plot)] }

@@ -9,17 +9,46 @@ import { finderShown } from "../../frame/keys";
 import { Chart } from "./chart";
 import { requestEarlier } from "./backfill";
 import { changeLayout, kPresets, kWindowsS, plotLayout } from "./layout";
+import { compared, comparedNumber } from "./lines";
 
 const columnsFor = (charts: number): number =>
   charts <= 1 ? 1 : charts <= 8 ? 2 : charts <= 15 ? 3 : 4;
 
+/** The same fields of another car of this base, in the same charts. */
+function CompareWith() {
+  const others = session.cars.value.filter((car) => car !== session.shownCar.value);
+  return (
+    <label>
+      beside car
+      <select
+        value={String(compared.value?.number ?? "")}
+        onChange={(e) => {
+          const { value } = e.currentTarget;
+          comparedNumber.value = value === "" ? null : Number(value);
+        }}
+      >
+        <option value="">none</option>
+        {others.map(({ number }) => (
+          <option value={String(number)} key={number}>
+            {number}
+          </option>
+        ))}
+      </select>
+    </label>
+  );
+}
+
 export function PlotsPage() {
   const layout = plotLayout.value;
   const axis = layout.axis ?? "time";
+  const other = compared.value;
   const ready = session.fields.value.info.length > 0;
   useEffect(() => {
-    if (ready) layout.charts.forEach((chart) => chart.fields.forEach(requestEarlier));
-  }, [layout, ready]);
+    if (!ready) return;
+    const paths = layout.charts.flatMap((chart) => chart.fields);
+    paths.forEach((path) => requestEarlier(path));
+    if (other) paths.forEach((path) => requestEarlier(path, other));
+  }, [layout, ready, other]);
   return (
     <main class="page plots">
       <div class="tools" role="toolbar" aria-label="plots">
@@ -62,6 +91,7 @@ export function PlotsPage() {
         <button type="button" onClick={() => (finderShown.value = true)}>
           Add field <kbd>/</kbd>
         </button>
+        {session.hasSeveral.value && <CompareWith />}
         {axis === "distance" && !session.track.value && (
           <span class="sum">Without a track there is no distance.</span>
         )}
