@@ -36,10 +36,27 @@ std::string difference(const alarms::AlarmSetting& from, const alarms::AlarmSett
          moved("off_s", from.off_delay.seconds(), to.off_delay.seconds());
 }
 
+// "3 4", "none".
+std::string members(std::uint64_t set) {
+  std::string text;
+  for (unsigned value = 0; set != 0; ++value, set >>= 1U) {
+    if ((set & 1U) != 0) text += (text.empty() ? "" : " ") + std::to_string(value);
+  }
+  return text.empty() ? "none" : text;
+}
+
+std::string moved(const char* name, std::uint64_t from, std::uint64_t to) {
+  if (from == to) return {};
+  return std::string{" "} + name + " " + members(from) + " -> " + members(to);
+}
+
 std::string difference(const picture::Limit& from, const picture::Limit& to) {
   return moved("warning_low", from.warning_low, to.warning_low) +
          moved("warning_high", from.warning_high, to.warning_high) +
-         moved("bad_low", from.bad_low, to.bad_low) + moved("bad_high", from.bad_high, to.bad_high);
+         moved("bad_low", from.bad_low, to.bad_low) +
+         moved("bad_high", from.bad_high, to.bad_high) +
+         moved("warning_values", from.warning_values, to.warning_values) +
+         moved("bad_values", from.bad_values, to.bad_values);
 }
 
 }  // namespace
@@ -67,10 +84,7 @@ Done SettingsDesk::change(const Said& said, picture::LimitEdit edit) {
     return note(said, what, may);
   }
   if (picture::is_field(edit.field)) {
-    const picture::Limit& now = watch_->limits().of(edit.field);
-    edit.limit.warning_values = now.warning_values;
-    edit.limit.bad_values = now.bad_values;
-    what += difference(now, edit.limit);
+    what += difference(watch_->limits().of(edit.field), edit.limit);
   }
   picture::Limits wanted = watch_->limits();
   auto done = wanted.edit(edit);

@@ -54,7 +54,6 @@ class SettingsDesk {
 
   // The watch is at the time of the change: see Watch::advance().
   Result<bool, Problem> change(const Said& said, alarms::AlarmEdit edit);
-  // Sets of values stay as they are.
   Result<bool, Problem> change(const Said& said, picture::LimitEdit edit);
   Result<bool, Problem> change_budget(const Said& said, double up_kbit_s);
 

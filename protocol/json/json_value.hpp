@@ -30,6 +30,7 @@ class JsonValue {
   const JsonValue* find(std::string_view key) const;
   bool is_null() const { return std::holds_alternative<std::monostate>(value_); }
   bool is_object() const { return std::holds_alternative<Members>(value_); }
+  bool is_list() const { return std::holds_alternative<Items>(value_); }
 
   std::string text(std::string_view key) const;
   double number(std::string_view key) const;  // NaN where there is none, or null

@@ -15,6 +15,8 @@ using json::Array;
 using json::Object;
 using telemetry::FieldKind;
 
+constexpr unsigned kSetValues = 64;  // bit k is the value k
+
 std::string labels_text(std::string_view labels) {
   Array list;
   for (std::size_t i = 0; !telemetry::label_at(labels, i).empty(); ++i) {
@@ -32,7 +34,16 @@ std::string limits_text(const picture::Limit& limit) {
   add("warning_high", limit.warning_high);
   add("bad_low", limit.bad_low);
   add("bad_high", limit.bad_high);
-  return limit.bounded() ? object.str() : "null";
+  const auto add_set = [&](std::string_view name, std::uint64_t set) {
+    Array values;
+    for (unsigned value = 0; value < kSetValues; ++value) {
+      if ((set >> value & 1U) != 0) values.json(json::integer(value));
+    }
+    if (set != 0) object.json(name, values.str());
+  };
+  add_set("warning_values", limit.warning_values);
+  add_set("bad_values", limit.bad_values);
+  return limit.any() ? object.str() : "null";
 }
 
 std::string_view text_of(FieldKind kind) {

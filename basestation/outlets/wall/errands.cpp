@@ -175,7 +175,11 @@ struct Doing {
     return wall.settings.change(because(ask.reason), ask.edit);
   }
   Done operator()(const AskEditLimit& ask) const {
-    return wall.settings.change(because(ask.reason), ask.edit);
+    picture::LimitEdit edit = ask.edit;
+    const picture::Limit& now = wall.watch.limits().of(edit.field);
+    edit.limit.warning_values = ask.warning_values.value_or(now.warning_values);
+    edit.limit.bad_values = ask.bad_values.value_or(now.bad_values);
+    return wall.settings.change(because(ask.reason), std::move(edit));
   }
   Done operator()(const AskEditBudget& ask) const {
     return wall.settings.change_budget(because(ask.reason), ask.up_kbit_s);

@@ -213,6 +213,21 @@ Request edit_alarm(Reader& read) {
   return ask;
 }
 
+// A set of values of an enumeration; none where it is not said.
+std::optional<std::uint64_t> value_set(Reader& read, const char* key) {
+  constexpr double kLast = 63.0;
+  if (read.is_null(key)) return std::nullopt;
+  if (!read.value().find(key)->is_list()) read.wrong(key, "a list of values");
+  std::uint64_t set = 0;
+  for (const JsonValue& item : read.value().items(key)) {
+    const double value = item.number();
+    const bool good = value >= 0.0 && value <= kLast && value == std::floor(value);
+    if (!good) read.wrong(key, "whole numbers from 0 to 63");
+    if (good) set |= std::uint64_t{1} << static_cast<unsigned>(value);
+  }
+  return set;
+}
+
 Request edit_limit(Reader& read) {
   AskEditLimit ask;
   const auto field = picture::find_field(read.text("field", 1, kLineMax));
@@ -225,6 +240,8 @@ Request edit_limit(Reader& read) {
                     .warning_high = bound("warning_high"),
                     .bad_low = bound("bad_low"),
                     .bad_high = bound("bad_high")};
+  ask.warning_values = value_set(read, "warning_values");
+  ask.bad_values = value_set(read, "bad_values");
   ask.reason = read.text("reason", 1, kLineMax);
   return ask;
 }

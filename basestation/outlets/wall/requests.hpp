@@ -87,7 +87,8 @@ struct AskEditAlarm {
   std::string reason;
 };
 struct AskEditLimit {
-  picture::LimitEdit edit;  // bounds only
+  picture::LimitEdit edit;                                  // bounds only
+  std::optional<std::uint64_t> warning_values, bad_values;  // none: as they are
   std::string reason;
 };
 struct AskEditBudget {

@@ -36,9 +36,15 @@ struct Rig {
     return {.by = kAda, .holds_authority = holds, .reason = std::move(reason), .at = {}};
   }
   alarms::AlarmEdit slip_at(double limit) const {
-    alarms::AlarmEdit edit{.key = "wheel_slip", .setting = alarms::default_setting(slip())};
+    alarms::AlarmEdit edit{.key = "wheel_slip",
+                           .setting = alarms::default_setting(slip()),
+                           .author = {},
+                           .reason = {}};
     edit.setting.limit = limit;
     return edit;
+  }
+  static picture::LimitEdit limit_of(picture::FieldId field, const picture::Limit& limit = {}) {
+    return {.field = field, .limit = limit, .author = {}, .reason = {}};
   }
   double slip_limit() const { return watch.alarms().settings().of(slip()).limit; }
 };
@@ -81,11 +87,11 @@ TEST(SettingsDesk, WhatIsRefusedChangesNothing) {
   auto unknown = rig.slip_at(0.1);
   unknown.key = "nonsense";
   refused(rig.desk.change(Rig::said(), unknown), "no such alarm");
-  refused(rig.desk.change(Rig::said(), picture::LimitEdit{.field = 16'000}), "");
-  picture::LimitEdit crossed{.field = kBattery, .limit = {.warning_low = 10.0, .bad_low = 12.0}};
-  refused(rig.desk.change(Rig::said(), crossed), "");
+  refused(rig.desk.change(Rig::said(), Rig::limit_of(16'000)), "");
+  const picture::Limit crossed{.warning_low = 10.0, .bad_low = 12.0};
+  refused(rig.desk.change(Rig::said(), Rig::limit_of(kBattery, crossed)), "");
   refused(rig.desk.change_budget(Rig::said(false), 128.0), "authority");
-  for (const double wrong : {63.9, 256.1, -1.0, kUnset, INFINITY}) {
+  for (const double wrong : {63.9, 256.1, -1.0, kUnset, double{INFINITY}}) {
     refused(rig.desk.change_budget(Rig::said(), wrong), "from 64 to 256 kbit/s");
   }
   rig.disk_takes_it = false;
@@ -93,15 +99,23 @@ TEST(SettingsDesk, WhatIsRefusedChangesNothing) {
   refused(rig.desk.change_budget(Rig::said(), 128.0), "disk full");
 }
 
-TEST(SettingsDesk, LimitsKeepTheirSetsOfValues) {
+TEST(SettingsDesk, SetsOfValuesAreChangedAndNoted) {
   Rig rig;
   constexpr picture::FieldId kMode = picture::field_id("mode.mode");
-  const picture::Limit before = rig.watch.limits().of(kMode);
-  ASSERT_NE(before.bad_values, 0u);
-  ASSERT_TRUE(rig.desk.change(Rig::said(), picture::LimitEdit{.field = kMode}));
-  EXPECT_EQ(rig.watch.limits().of(kMode).bad_values, before.bad_values);
-  ASSERT_TRUE(rig.desk.change(Rig::said(),
-                              picture::LimitEdit{.field = kBattery, .limit = {.bad_low = 11.0}}));
+  picture::Limit limit = rig.watch.limits().of(kMode);
+  ASSERT_EQ(limit.bad_values, 1U << 3 | 1U << 4);
+  limit.bad_values = 1U << 3;
+  limit.warning_values = 0;
+  ASSERT_TRUE(rig.desk.change(Rig::said(), Rig::limit_of(kMode, limit)));
+  EXPECT_EQ(rig.watch.limits().of(kMode).bad_values, limit.bad_values);
+  EXPECT_EQ(rig.watch.limits().of(kMode).warning_values, 0U);
+  EXPECT_EQ(rig.audit.lines().back().what,
+            "limits of mode.mode warning_values 6 -> none bad_values 3 4 -> 3 (new tyres)");
+}
+
+TEST(SettingsDesk, ABoundThatIsNotSaidIsNone) {
+  Rig rig;
+  ASSERT_TRUE(rig.desk.change(Rig::said(), Rig::limit_of(kBattery, {.bad_low = 11.0})));
   EXPECT_EQ(rig.watch.limits().of(kBattery).bad_low, 11.0);
   EXPECT_TRUE(std::isnan(rig.watch.limits().of(kBattery).warning_low));
 }

@@ -79,6 +79,13 @@ test("limits and the budget are reviewed, held, kept in the file and counted", a
   await page.fill(`${panel} label:has-text("warning low") input`, "1");
   await apply(page, panel, "a mistake");
   await until(page, "refused", () => document.querySelector(".refused"));
+  await page.selectOption(`${panel} select >> nth=0`, "field mode.mode");
+  const stopping = `${panel} label:has-text("controlled stop") select`;
+  assert.equal(await page.inputValue(stopping), "bad");
+  await page.selectOption(stopping, "warning");
+  assert.match(await page.textContent(`${panel} .review li`), /controlled stop: bad \u2192 warning/);
+  await apply(page, panel, "a planned stop");
+  await until(page, "revision 3", () => document.body.textContent.includes("revision 3"));
   await show(page, "link");
   await page.fill('[aria-label="kbit/s up each radio"]', "100");
   await apply(page, '[aria-label="budget"]', "shared radio");
@@ -87,7 +94,9 @@ test("limits and the budget are reviewed, held, kept in the file and counted", a
   );
   const kept = readFileSync(file, "utf8");
   for (const line of [
-    "revision: 3",
+    "revision: 4",
+    "warning_values: [3, 6]",
+    "a planned stop",
     "up_kbit_s: 100",
     "limit: 0.11",
     "bad_low: 10.5",

@@ -63,6 +63,17 @@ TEST(Requests, WhatPeopleSetIsReadWhole) {
       R"("reason":"old one"})");
   EXPECT_EQ(limit.edit.limit.bad_low, 11.0);
   EXPECT_TRUE(std::isnan(limit.edit.limit.warning_low));
+  EXPECT_FALSE(limit.warning_values || limit.bad_values);
+  const auto sets = read<AskEditLimit>(
+      R"({"type":"edit_limit","field":"mode.mode","warning_values":[],"bad_values":[3,4,63],)"
+      R"("reason":"x"})");
+  EXPECT_EQ(sets.warning_values, 0U);
+  EXPECT_EQ(sets.bad_values, std::uint64_t{1} << 63 | 1U << 4 | 1U << 3);
+  for (const std::string set : {R"("3")", "3", "{}", "true", "[64]", "[-1]", "[0.5]", R"(["3"])"}) {
+    EXPECT_EQ(refused(R"({"type":"edit_limit","field":"mode.mode","bad_values":)" + set + "}"),
+              "edit_limit.bad_values")
+        << set;
+  }
   EXPECT_EQ(read<AskEditBudget>(R"({"type":"edit_budget","up_kbit_s":128,"reason":"x"})").up_kbit_s,
             128.0);
   EXPECT_EQ(refused(R"({"type":"expect","round_speed":-1})"), "expect.round_speed");

@@ -141,6 +141,13 @@ TEST_F(PitWall, WhatTheHolderSetsIsToldToAll) {
   while (!(told.number("revision") == 1.0)) told = hear(browser, "settings");
   EXPECT_FALSE(told.flag("kept")) << "there is no file";
   EXPECT_EQ(wall_->watch().limits().of(picture::field_id("electric.battery")).bad_low, 11.0);
+  // A set of values; the other one stays as it was.
+  constexpr picture::FieldId kMode = picture::field_id("mode.mode");
+  const picture::Limit before = wall_->watch().limits().of(kMode);
+  browser.say(R"({"type":"edit_limit","field":"mode.mode","bad_values":[3],"reason":"x"})");
+  while (!(told.number("revision") == 2.0)) told = hear(browser, "settings");
+  EXPECT_EQ(wall_->watch().limits().of(kMode).bad_values, 1U << 3);
+  EXPECT_EQ(wall_->watch().limits().of(kMode).warning_values, before.warning_values);
   EXPECT_EQ(
       ask(browser, R"({"type":"edit_budget","up_kbit_s":100,"reason":"x"})", "error").text("place"),
       "budget")

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/command/checklist.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace pitwall::command {
+namespace {
+
+using picture::BaseField;
+using picture::FieldView;
+using telemetry::field;
+
+std::string number(double value, const char* unit) {
+  if (std::isnan(value)) return std::string{"no "} + unit;
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.1f %s", value, unit);
+  return text.data();
+}
+
+std::string label(std::string_view labels, double value) {
+  if (!(value >= 0.0)) return "unknown";
+  return std::string{telemetry::label_at(labels, static_cast<std::size_t>(value))};
+}
+
+FieldView own(double value) {  // of the base itself: always known
+  return {.value = value, .age = {}, .quality = picture::Quality::kFresh};
+}
+
+bool known(const FieldView& seen) { return picture::usable(seen) && !std::isnan(seen.value); }
+
+// Who looks at everything once.
+class Look {
+ public:
+  explicit Look(const CheckInputs& in) : in_(in) {}
+
+  std::vector<Check> all() {
+    link();
+    software();
+    clocks();
+    disk();
+    settings();
+    authority();
+    joystick();
+    corrections();
+    tyres();
+    fuel();
+    stop();
+    alarms();
+    return std::move(checks_);
+  }
+
+ private:
+  FieldView see(telemetry::FieldIndex index) const { return in_.picture.view(index, in_.now); }
+  FieldView see(BaseField base) const {
+    return in_.watch.view(in_.picture, picture::id_of(base), in_.now);
+  }
+  // Known, and neither a warning nor bad by the limits in force.
+  bool good(BaseField base) const {
+    const FieldView seen = see(base);
+    const picture::Judgement judged = in_.watch.judge(picture::id_of(base), seen);
+    return known(seen) && judged != picture::Judgement::kWarning &&
+           judged != picture::Judgement::kBad;
+  }
+
+  // `go` counts only where all of `seen` is known and not stale; the age is that of the oldest.
+  void add(CheckKind kind, std::initializer_list<FieldView> seen, bool go, std::string text) {
+    Check check{.kind = kind, .known = true, .text = std::move(text)};
+    bool never = false;
+    for (const FieldView& one : seen) {
+      check.known = check.known && known(one);
+      never = never || one.quality == picture::Quality::kNever || std::isnan(one.value);
+      check.age = std::max(check.age, one.age);
+    }
+    if (!check.known) {
+      check.text = (never ? "not known" : "too old: " + number(check.age.seconds(), "s")) +
+                   std::string{"; "} + check.text;
+    }
+    check.go = check.known && go;
+    checks_.push_back(std::move(check));
+  }
+
+  void link() {
+    const picture::LinkState state = in_.watch.link_state();
+    FieldView seen = own(static_cast<double>(state));
+    const FieldView silence = see(BaseField::kLinkSilence);
+    if (known(silence)) seen.age = milliseconds(static_cast<std::int64_t>(silence.value));
+    const FieldView loss = see(BaseField::kDownLoss);
+    add(CheckKind::kLink, {seen}, state == picture::LinkState::kGood,
+        label(picture::kLinkStates, seen.value) +
+            (known(loss) ? ", " + number(100.0 * loss.value, "% lost") : ""));
+  }
+
+  void software() {
+    const FieldView car = see(field("uplink.schema_agrees"));
+    const FieldView base = see(BaseField::kSchemaDiffers);
+    const bool agree = car.value == 1.0 && base.value == 0.0;
+    add(CheckKind::kSoftware, {car, base}, agree,
+        agree ? "car and base agree on the packets" : "car and base differ on the packets");
+  }
+
+  void clocks() {
+    const FieldView offset = see(BaseField::kClockOffset);
+    add(CheckKind::kClocks, {offset}, good(BaseField::kClockOffset),
+        "base " + number(offset.value, "ms") + " from UTC at the most");
+  }
+
+  void disk() {
+    const FieldView recording = see(BaseField::kRecording);
+    const FieldView minutes = see(BaseField::kDiskMinutes);
+    constexpr double kOn = 1.0;  // of picture::kRecordingStates
+    const std::string state = "recording " + label(picture::kRecordingStates, recording.value);
+    if (recording.value != kOn) return add(CheckKind::kDisk, {recording}, false, state);
+    add(CheckKind::kDisk, {recording, minutes}, good(BaseField::kDiskMinutes),
+        state + ", room for " + number(minutes.value, "min"));
+  }
+
+  void settings() {
+    const SettingsState& is = in_.settings;
+    const char* const file = !is.readable ? ", the file is unreadable: built-in limits"
+                             : is.kept    ? ", of the file"
+                                          : ", no file keeps them";
+    add(CheckKind::kSettings, {own(0.0)}, is.kept && is.readable, "version " + is.version + file);
+  }
+
+  void authority() {
+    add(CheckKind::kAuthority, {own(in_.holder)}, in_.holder != 0,
+        in_.holder == 0 ? "nobody holds it" : "held by " + in_.holder_name);
+  }
+
+  void joystick() {
+    constexpr std::array<const char*, 4> kTexts{"none connected", "connected, released",
+                                                "a hand is on it", "silent or unplugged"};
+    const auto state = static_cast<std::size_t>(in_.joystick);
+    add(CheckKind::kJoystick, {own(static_cast<double>(state))},
+        in_.joystick == JoystickState::kNone || in_.joystick == JoystickState::kReleased,
+        kTexts.at(state));
+  }
+
+  void corrections() {
+    const FieldView conflict = see(BaseField::kCorrectionConflict);
+    const FieldView age = see(BaseField::kCorrectionAge);
+    add(CheckKind::kCorrections, {conflict, age},
+        conflict.value == 0.0 && good(BaseField::kCorrectionAge),
+        (conflict.value > 0.0 ? "somebody else uses the login, " : "one login, ") +
+            std::string{"corrections "} + number(age.value, "s") + " old");
+  }
+
+  void tyres() {
+    const FieldView pressure = see(BaseField::kTyrePressureMin);
+    const FieldView coldest = see(BaseField::kTyreMin);
+    add(CheckKind::kTyres, {pressure, coldest}, good(BaseField::kTyrePressureMin),
+        "softest " + number(pressure.value, "kPa") + ", coldest " +
+            number(coldest.value, "\u00b0C"));
+  }
+
+  void fuel() {
+    const FieldView attempts = see(BaseField::kFuelAttempts);
+    const bool estimated = see(BaseField::kFuelEstimated).value > 0.0;
+    add(CheckKind::kFuel, {attempts}, attempts.value >= 1.0,
+        number(see(BaseField::kFuelLaps).value, "laps") + ", " +
+            number(attempts.value, "attempts") + (estimated ? " (estimate)" : ""));
+  }
+
+  void stop() {
+    const FieldView seen = see(BaseField::kStop);
+    add(CheckKind::kStop, {seen}, seen.value == 0.0, label(telemetry::kStopLevels, seen.value));
+  }
+
+  void alarms() {
+    const auto high = in_.watch.alarms().count(alarms::Priority::kHigh);
+    add(CheckKind::kAlarms, {own(0.0)}, high == 0, std::to_string(high) + " high");
+  }
+
+  const CheckInputs& in_;
+  std::vector<Check> checks_;
+};
+
+}  // namespace
+
+std::string_view text_of(CheckKind kind) {
+  constexpr std::array<std::string_view, kChecks> kTexts{
+      "link",      "software", "clocks",          "disk",  "limits and alarms",
+      "authority", "joystick", "RTK corrections", "tyres", "fuel",
+      "stop",      "alarms"};
+  return kTexts.at(static_cast<std::size_t>(kind));
+}
+
+std::vector<Check> checks_of(const CheckInputs& inputs) { return Look{inputs}.all(); }
+
+bool all_go(const std::vector<Check>& checks) {
+  return !checks.empty() && std::ranges::all_of(checks, &Check::go);
+}
+
+}  // namespace pitwall::command
