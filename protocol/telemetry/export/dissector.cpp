@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "protocol/telemetry/export/dissector_cipher.hpp"
 #include "protocol/telemetry/export/dissector_code.hpp"
 #include "protocol/telemetry/packet/body.hpp"
 #include "protocol/telemetry/registry/schema_text.hpp"
@@ -60,7 +61,7 @@ std::string groups_lua(Direction direction) {
 std::string dissector_lua() {
   return std::string{kDissectorHead} + constants() + ages() + "local DOWN = {\n" +
          groups_lua(Direction::kDown) + "}\nlocal UP = {\n" + groups_lua(Direction::kUp) + "}\n" +
-         std::string{kDissectorCode};
+         std::string{kDissectorCipher} + std::string{kDissectorCode};
 }
 
 }  // namespace pitwall::telemetry

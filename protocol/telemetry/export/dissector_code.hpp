@@ -70,6 +70,7 @@ for _, groups in ipairs({DOWN, UP}) do
 end
 pitwall.fields = all
 pitwall.prefs.base_port = Pref.uint("Port of the base", BASE_PORT, "what goes to it is the car's")
+pitwall.prefs.key_log = Pref.string("Key log", "", "file of pitwall-base --key-log")
 
 -- The bytes that hold these bits of the part of the packet.
 local function covering(part, at, bits)
@@ -191,10 +192,18 @@ function pitwall.dissector(buffer, info, root)
   end
   tree:add(f.tag, buffer(buffer:len() - TAG, TAG))
   if rest == TAG then return buffer:len() end
-  local body = buffer(HEADER, rest - TAG)
+  local body = buffer(HEADER, rest - TAG):tvb()
   if kind ~= SIGNED then
-    tree:add(f.sealed, body)
-  elseif not show_body(tree, body:tvb(), down and DOWN or UP) then
+    local plain = open_sealed(pitwall.prefs.key_log, buffer():raw(), buffer(1, 2):le_uint(),
+      math.floor(first / 2) % 2, buffer(3, 4):le_uint())
+    if not plain then
+      tree:add(f.sealed, buffer(HEADER, rest - TAG))
+      return buffer:len()
+    end
+    tree:append_text(", opened by the key log")
+    body = ByteArray.new(plain, true):tvb("Opened")
+  end
+  if not show_body(tree, body, down and DOWN or UP) then
     tree:add_proto_expert_info(e_short)
   end
   return buffer:len()

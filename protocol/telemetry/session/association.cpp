@@ -355,11 +355,15 @@ Association::Session Association::make_session(const NoiseKk& noise, std::uint16
                                                const ExchangePayload& payload, Instant now) const {
   const NoiseKk::Keys keys = noise.split();
   const bool car = config_.keys.role == Role::kCar;
+  const Key& own = car ? keys.from_initiator : keys.from_responder;
+  const Key& theirs = car ? keys.from_responder : keys.from_initiator;
+  if (config_.key_log && config_.keys.bench) {
+    config_.key_log(key_log_lines(payload.number, own) + key_log_lines(own_number, theirs));
+  }
   return {.own_number = own_number,
           .peer_number = payload.number,
-          .sealer =
-              Sealer(car ? keys.from_initiator : keys.from_responder, config_.first_sequence, now),
-          .opener = Opener(car ? keys.from_responder : keys.from_initiator, now),
+          .sealer = Sealer(own, config_.first_sequence, now),
+          .opener = Opener(theirs, now),
           .peer = payload.greeting};
 }
 

@@ -33,6 +33,7 @@
 #include "protocol/telemetry/packet/header.hpp"
 #include "protocol/telemetry/session/address.hpp"
 #include "protocol/telemetry/session/exchange.hpp"
+#include "protocol/telemetry/session/key_log.hpp"
 #include "protocol/telemetry/session/keys.hpp"
 #include "protocol/telemetry/session/knock_guard.hpp"
 #include "protocol/telemetry/session/noise_kk.hpp"
@@ -62,6 +63,7 @@ struct AssociationConfig {
   std::array<Address, kPaths> peer{};
   std::uint8_t paths = 1;
   std::uint64_t first_sequence = 1;  // tests begin close to where 32 bits wrap
+  KeyLog key_log{};                  // none on a real car: see key_log.hpp
 };
 
 struct AssociationCounters {

@@ -45,10 +45,11 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-enum class Line : std::uint8_t { kRole, kPublic, kSecret, kPeer };
-constexpr std::array<std::string_view, 4> kLineNames{"role", "public", "secret", "peer"};
+enum class Line : std::uint8_t { kRole, kPublic, kSecret, kPeer, kUse };
+constexpr std::array<std::string_view, 5> kLineNames{"role", "public", "secret", "peer", "use"};
+constexpr std::string_view kBenchUse = "bench";
 
-// The four lines of a file, each once; values are checked by the caller.
+// The lines of a file, each once, the last if it has one; values are checked by the caller.
 struct Lines {
   std::array<std::string_view, kLineNames.size()> value{};
   std::array<int, kLineNames.size()> number{};
@@ -74,7 +75,7 @@ Result<Lines, Problem> split(std::string_view text, const std::string& place) {
     std::size_t which = 0;
     while (which < kLineNames.size() && kLineNames[which] != name) ++which;
     if (colon == std::string_view::npos || which == kLineNames.size()) {
-      return Unexpected{Problem{here, "not one of role:, public:, secret:, peer:"}};
+      return Unexpected{Problem{here, "not one of role:, public:, secret:, peer:, use:"}};
     }
     if (lines.number[which] != 0) {
       return Unexpected{Problem{here, "a second " + std::string(name) + ":"}};
@@ -82,7 +83,7 @@ Result<Lines, Problem> split(std::string_view text, const std::string& place) {
     lines.value[which] = trimmed(line.substr(colon + 1));
     lines.number[which] = number;
   }
-  for (std::size_t i = 0; i < kLineNames.size(); ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(Line::kUse); ++i) {
     if (lines.number[i] == 0) {
       return Unexpected{Problem{place, "has no line " + std::string(kLineNames[i]) + ":"}};
     }
@@ -120,7 +121,8 @@ std::string text_of(const KeyFile& keys) {
   text += car ? "car" : "base";
   text += "\npublic: " + text_of(keys.own.public_key) + "\nsecret: ";
   append_hex(text, keys.own.secret_key.bytes);
-  return text + "\npeer: " + text_of(keys.peer) + "\n";
+  text += "\npeer: " + text_of(keys.peer) + "\n";
+  return keys.bench ? text + "use: " + std::string{kBenchUse} + "\n" : text;
 }
 
 Result<KeyFile, Problem> parse_key_file(std::string_view text, const std::string& place) {
@@ -146,6 +148,10 @@ Result<KeyFile, Problem> parse_key_file(std::string_view text, const std::string
   }
   if (keys.peer == keys.own.public_key) {
     return Unexpected{Problem{lines->place(place, Line::kPeer), "is the own key"}};
+  }
+  keys.bench = (*lines)[Line::kUse] == kBenchUse;
+  if (!keys.bench && !(*lines)[Line::kUse].empty()) {
+    return Unexpected{Problem{lines->place(place, Line::kUse), "use: bench, or no such line"}};
   }
   return keys;
 }

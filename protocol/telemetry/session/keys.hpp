@@ -6,6 +6,7 @@
 //            public: HEX          own
 //            secret: HEX          own
 //            peer: HEX            the other end's public key
+//            use: bench           only where the bench made it for a run: worth nothing later
 //   errors Problem with the place; a secret is never part of a message or a log
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -40,6 +41,7 @@ struct KeyFile {
   Role role = Role::kCar;
   Identity own;
   PublicKey peer{};
+  bool bench = false;  // of one run of the bench: what it opens may be laid open
 };
 std::string text_of(const KeyFile& keys);
 Result<KeyFile, Problem> parse_key_file(std::string_view text, const std::string& place);

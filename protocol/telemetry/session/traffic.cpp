@@ -8,14 +8,14 @@
 
 namespace pitwall::telemetry {
 
-namespace {
-
 Key next_phase(const Key& key) {
   constexpr std::string_view kPurpose = "pitwall key phase";
   std::array<std::uint8_t, kPurpose.size()> purpose{};
   std::copy(kPurpose.begin(), kPurpose.end(), purpose.begin());
   return derive(key, purpose);
 }
+
+namespace {
 
 constexpr bool bit_of(std::uint64_t phase) { return phase % 2 != 0; }
 

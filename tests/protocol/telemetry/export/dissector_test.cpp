@@ -18,6 +18,7 @@
 #include "protocol/telemetry/little_endian.hpp"
 #include "protocol/telemetry/packet/body.hpp"
 #include "protocol/telemetry/registry/schema_text.hpp"
+#include "protocol/telemetry/session/key_log.hpp"
 #include "protocol/telemetry/session/traffic.hpp"
 
 namespace pitwall::telemetry {
@@ -111,13 +112,16 @@ std::string capture_of(const std::vector<Sent>& packets) {
   return out;
 }
 
-std::string tshark(const std::vector<Sent>& packets, const std::string& arguments) {
+std::string tshark(const std::vector<Sent>& packets, const std::string& arguments,
+                   const std::string& key_log = {}) {
   std::string folder = (std::filesystem::path{testing::TempDir()} / "dissectorXXXXXX").string();
   EXPECT_NE(mkdtemp(folder.data()), nullptr);
   std::ofstream{folder + "/pitwall.lua"} << dissector_lua();
   std::ofstream{folder + "/radio.pcap", std::ios::binary} << capture_of(packets);
-  const std::string command = "HOME=" + folder + " tshark -X lua_script:" + folder +
-                              "/pitwall.lua -r " + folder + "/radio.pcap " + arguments + " 2>&1";
+  std::ofstream{folder + "/keys.log"} << key_log;
+  const std::string command = "HOME=" + folder + " tshark -o pitwall.key_log:" + folder +
+                              "/keys.log -X lua_script:" + folder + "/pitwall.lua -r " + folder +
+                              "/radio.pcap " + arguments + " 2>&1";
   FILE* const pipe = popen(command.c_str(), "r");
   std::string text;
   std::array<char, 4'096> piece{};
@@ -131,10 +135,11 @@ std::string tshark(const std::vector<Sent>& packets, const std::string& argument
 
 // One row of cells for each packet, without what tshark says about itself.
 std::vector<std::vector<std::string>> fields_of_packets(const std::vector<Sent>& packets,
-                                                        const std::vector<std::string>& names) {
+                                                        const std::vector<std::string>& names,
+                                                        const std::string& key_log = {}) {
   std::string arguments = "-T fields -E separator='|'";
   for (const std::string& name : names) arguments += " -e " + name;
-  std::istringstream in{tshark(packets, arguments)};
+  std::istringstream in{tshark(packets, arguments, key_log)};
   std::vector<std::vector<std::string>> rows;
   for (std::string line; std::getline(in, line);) {
     if (line.find('|') == std::string::npos) continue;
@@ -248,6 +253,47 @@ TEST(Dissector, OfASealedPacketOnlyTheClearPartIsShown) {
   EXPECT_EQ(rows[0][1], "77");
   EXPECT_EQ(rows[0][2].size(), 2 * written.bytes.size());
   EXPECT_EQ(rows[0][3], "");
+}
+
+// Bodies of every length modulo a block of either cipher, in two phases of the key.
+TEST(Dissector, AKeyLogOpensWhatItsKeysHaveSealedAndNothingElse) {
+  NEEDS_TSHARK();
+  constexpr std::uint16_t kReceiver = 0x1234;
+  Key key;
+  for (std::size_t i = 0; i < key.bytes.size(); ++i) {
+    key.bytes[i] = static_cast<std::uint8_t>(0xFF - 37 * i);
+  }
+  Sealer sealer{key, 77, kNow, {.packets = 100}};
+  std::vector<Sent> packets;
+  std::vector<std::size_t> lengths;
+  for (std::size_t extra = 0; extra < 150; ++extra) {
+    std::array<std::uint8_t, kMaxBody> buffer{};
+    BodyWriter writer{buffer, buffer.size(), Direction::kDown};
+    writer.begin(kNow, 1);
+    writer.add_record(RecordType::kBulk, std::vector<std::uint8_t>(extra, 0xA5));
+    Packet packet(kHeaderSize + writer.bytes().size() + kTagSize);
+    sealer.seal(Kind::kSealed, kReceiver, writer.bytes(), kNow, packet);
+    packets.push_back({packet, Direction::kDown});
+  }
+  packets.push_back(packets.front());
+  packets.back().packet.back() ^= 1;  // its tag
+  packets.push_back(packets.front());
+  packets.back().packet[kHeaderSize] ^= 1;
+  const std::vector<std::string> names{"pitwall.kind", "pitwall.record", "pitwall.record.payload",
+                                       "pitwall.sealed"};
+  const auto rows = fields_of_packets(packets, names, "no key\n" + key_log_lines(kReceiver, key));
+  ASSERT_EQ(rows.size(), packets.size());
+  for (std::size_t extra = 0; extra < 150; ++extra) {
+    std::string payload;
+    for (std::size_t i = 0; i < extra; ++i) payload += "a5";
+    EXPECT_EQ(rows[extra], (std::vector<std::string>{"3", "6", payload, ""})) << extra;
+  }
+  for (std::size_t forged = 150; forged < rows.size(); ++forged) {
+    EXPECT_EQ(rows[forged][1], "");
+    EXPECT_NE(rows[forged][3], "");
+  }
+  const auto stranger = fields_of_packets(packets, names, key_log_lines(kReceiver, Key{}));
+  for (const auto& row : stranger) EXPECT_EQ(row[1], "");
 }
 
 // Cut, changed and foreign packets: a mark where something is wrong, and never an error of Lua.

@@ -12,13 +12,16 @@ namespace {
 
 TEST(KeyFile, ReadsWhatItWrites) {
   const KeyPair pair = make_pair(4);
-  for (const KeyFile& keys : {pair.car, pair.base}) {
+  KeyFile of_the_bench = pair.car;
+  of_the_bench.bench = true;
+  for (const KeyFile& keys : {pair.car, pair.base, of_the_bench}) {
     const auto read = parse_key_file(text_of(keys), "k");
     ASSERT_TRUE(read) << to_string(read.error());
     EXPECT_EQ(read->role, keys.role);
     EXPECT_EQ(read->own.public_key, keys.own.public_key);
     EXPECT_EQ(read->own.secret_key.bytes, keys.own.secret_key.bytes);
     EXPECT_EQ(read->peer, keys.peer);
+    EXPECT_EQ(read->bench, keys.bench);
   }
   EXPECT_NE(text_of(pair.car).find("\nrole: car\n"), std::string::npos);
 }
@@ -37,7 +40,7 @@ TEST(KeyFile, EveryMistakeIsNamedWithItsPlaceAndShowsNoSecret) {
       {"", "k", "has no line role:"},
       {changed("role: base", "role: pit"), "k:2", "role: car or base"},
       {changed("role: base", "role: base\nrole: base"), "k:3", "a second role:"},
-      {changed("peer", "friend"), "k:5", "not one of role:, public:, secret:, peer:"},
+      {changed("peer", "friend"), "k:5", "not one of role:, public:, secret:, peer:, use:"},
       {changed("secret: ", "secret: 0"), "k:4", "a key is 64 hexadecimal digits"},
       {changed("secret: " + secret.substr(0, 1), "secret: x"), "k:4",
        "a key is 64 hexadecimal digits"},
@@ -45,7 +48,8 @@ TEST(KeyFile, EveryMistakeIsNamedWithItsPlaceAndShowsNoSecret) {
        "does not belong to secret:"},
       {changed(text_of(pair.base.peer), text_of(pair.base.own.public_key)), "k:5",
        "is the own key"},
-      {good + "something else\n", "k:6", "not one of role:, public:, secret:, peer:"},
+      {good + "something else\n", "k:6", "not one of role:, public:, secret:, peer:, use:"},
+      {good + "use: race\n", "k:6", "use: bench, or no such line"},
   };
   for (const auto& c : cases) {
     const auto read = parse_key_file(c.text, "k");
