@@ -56,7 +56,7 @@ export const kTrack = {
   centre: ring(0).map(([x, y], i) => [x, y, 5 * i]),
   left: ring(kLeftM),
   right: ring(-kRightM),
-  lines: [{ name: "race line", points: ring(2) }],
+  lines: [],
   pit: ring(24).filter((_, i) => i < (kStraightM - 40) / 5),
   corners: [
     { name: "T1-2", from_s: kStraightM, to_s: kStraightM + kTurnM },
@@ -216,6 +216,7 @@ export function valuesAt(t, streams) {
     "planner.role": 2,
     "planner.primitive": 1,
     "planner.operator_limit": 65,
+    "planner.line_offset": 2,
     ...motion(t, speed),
     ...rivals(t, speed),
     ...body(t),

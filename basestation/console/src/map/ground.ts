@@ -61,6 +61,31 @@ function label(
   pen.fillText(text, x, y);
 }
 
+/** The line that the car says it drives: so far to the left of the track's own. */
+export function drawLine(
+  pen: Pen,
+  course: Course,
+  offset: number,
+  into: Projection,
+  colours: Palette,
+): void {
+  const kStepM = 10;
+  const points: number[][] = [];
+  for (let s = 0; s < course.length; s += kStepM) {
+    const { x, y } = course.place(s, offset);
+    points.push([x, y]);
+  }
+  pen.save();
+  pen.strokeStyle = colours.ego;
+  pen.globalAlpha = 0.6;
+  pen.lineWidth = colours.stroke * 0.6;
+  pen.setLineDash([2, 4]);
+  pen.beginPath();
+  trace(pen, points, into, true);
+  pen.stroke();
+  pen.restore();
+}
+
 export function drawGround(pen: Pen, course: Course, into: Projection, colours: Palette): void {
   const track: Track = course.track;
   pen.beginPath();

@@ -14,8 +14,8 @@ import { Quality } from "../wire/status";
 import { drawGhost, drawOwn, drawRivals, drawTrail } from "./cars";
 import { Course, fit } from "./course";
 import type { Projection } from "./course";
-import { drawGround } from "./ground";
-import { ghost, own, rivals, trail } from "./scene";
+import { drawGround, drawLine } from "./ground";
+import { ghost, lineOffset, own, rivals, trail } from "./scene";
 import { drawStrip } from "./strip";
 
 const kMargin = 34;
@@ -66,6 +66,8 @@ function paintMap(canvas: HTMLCanvasElement, ground: Ground, course: Course | nu
   const palette = colours();
   ground.under(pen, course, palette);
   const into = ground.projection;
+  const line = lineOffset(store);
+  if (course && line !== null) drawLine(pen, course, line, into, palette);
   const car = own(store);
   drawTrail(pen, trail(store), into, palette, car === null || car.quality >= Quality.stale);
   const hollow = ghost(store);
@@ -89,6 +91,7 @@ function paintStrip(canvas: HTMLCanvasElement, course: Course): void {
       station: station.value,
       offset: readPath("track.offset").value || 0,
       stale: station.quality >= Quality.stale,
+      line: lineOffset(session.fields.value),
       rivals: rivals(session.fields.value, course),
     },
     colours(),

@@ -47,6 +47,12 @@ export function own(store: Fields): Own | null {
   return { x: x.value, y: y.value, yaw: yaw.value || 0, quality: x.quality };
 }
 
+/** Where the car wants to drive, metres left of the centre; null where it has not said lately. */
+export function lineOffset(store: Fields): number | null {
+  const { value, quality } = valueOf(store, "planner.line_offset");
+  return quality < Quality.stale && Number.isFinite(value) ? value : null;
+}
+
 export function ghost(store: Fields): Ghost | null {
   const x = valueOf(store, "derived.ghost_x");
   const y = valueOf(store, "derived.ghost_y");

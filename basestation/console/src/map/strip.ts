@@ -20,6 +20,8 @@ export interface StripState {
   station: number;
   offset: number;
   stale: boolean;
+  /** Offset of the line that the car drives, null where it has not said. */
+  line: number | null;
   rivals: readonly Rival[];
 }
 
@@ -68,6 +70,16 @@ export function drawStrip(
     pen.beginPath();
     for (const [px, py] of wall) pen.lineTo(px, py);
     pen.stroke();
+  }
+  if (state.line !== null) {
+    pen.save();
+    pen.strokeStyle = colours.ego;
+    pen.setLineDash([2, 4]);
+    pen.beginPath();
+    pen.moveTo(0, y(state.line));
+    pen.lineTo(width, y(state.line));
+    pen.stroke();
+    pen.restore();
   }
   pen.fillStyle = colours.dim;
   rungs(pen, x, state.station, height);
