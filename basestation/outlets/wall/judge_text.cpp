@@ -46,10 +46,11 @@ constexpr auto kBaseNumbers = std::to_array<Members<BaseFigures, double>>(
      {"recorder_lost", &BaseFigures::recorder_lost},
      {"recorder_kbyte_s", &BaseFigures::recorder_kbyte_s},
      {"recording", &BaseFigures::recording}});
-constexpr auto kBaseFlags =
-    std::to_array<Members<BaseFigures, bool>>({{"joystick_lost", &BaseFigures::joystick_lost},
-                                               {"authority_lost", &BaseFigures::authority_lost},
-                                               {"schema_differs", &BaseFigures::schema_differs}});
+constexpr auto kBaseFlags = std::to_array<Members<BaseFigures, bool>>(
+    {{"joystick_lost", &BaseFigures::joystick_lost},
+     {"authority_lost", &BaseFigures::authority_lost},
+     {"schema_differs", &BaseFigures::schema_differs},
+     {"settings_unreadable", &BaseFigures::settings_unreadable}});
 constexpr auto kExpected = std::to_array<Members<Expectations, double>>(
     {{"round_speed_mps", &Expectations::round_speed_mps},
      {"track_flag", &Expectations::track_flag},

@@ -88,6 +88,7 @@ Result<std::unique_ptr<recorder::Recorder>, Problem> start_recording(
   for (const std::string& problem : back.problems) say(problem);
   if (back.messages != 0) say(told(back, transport::monotonic_now() - begun));
   record(*wall, **recorder, begun);
+  if (const auto recalled = memory.recall().result(begun)) wall->recall(*recalled, begun);
   return recorder;
 }
 

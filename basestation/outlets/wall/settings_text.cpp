@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "basestation/outlets/wall/judgement_store.hpp"
 #include "protocol/json/json_text.hpp"
 
 namespace pitwall::outlets::wall {
@@ -44,13 +45,15 @@ std::string alarm_text(const alarms::AlarmSettings& alarms, alarms::AlarmIndex i
 
 }  // namespace
 
-std::string settings_text(const command::SettingsDesk& desk, const alarms::AlarmSettings& alarms) {
+std::string settings_text(const command::SettingsDesk& desk, const alarms::AlarmSettings& alarms,
+                          const std::optional<Problem>& unreadable) {
   Array list;
   for (alarms::AlarmIndex i = 0; i < alarms::alarm_count(); ++i) list.json(alarm_text(alarms, i));
   return Object{}
       .text("type", "settings")
       .number("revision", desk.revision())
       .flag("kept", desk.kept())
+      .text("problem", unreadable ? unreadable_text(*unreadable) : "")
       .number("up_kbit_s", desk.budget().now)
       .number("up_least_kbit_s", desk.budget().least)
       .number("up_most_kbit_s", desk.budget().most)
@@ -58,8 +61,11 @@ std::string settings_text(const command::SettingsDesk& desk, const alarms::Alarm
       .str();
 }
 
-std::string expected_text(const PeopleSaid& said) {
+std::string expected_text(const PeopleSaid& said, double fuel_left_l, Instant now) {
   constexpr double kNanosecondsPerMillisecond = 1e6;
+  const auto ms = [](Instant at) {
+    return static_cast<double>(at.ns) / kNanosecondsPerMillisecond;
+  };
   const bool loaded = !std::isnan(said.expected.fuel_loaded_l);
   return Object{}
       .text("type", "expected")
@@ -67,8 +73,10 @@ std::string expected_text(const PeopleSaid& said) {
       .text("round_speed_by", said.round_speed_by)
       .number("fuel_loaded_l", said.expected.fuel_loaded_l)
       .text("fuel_by", said.fuel_by)
-      .number("fuel_ms",
-              loaded ? static_cast<double>(said.fuel_at.ns) / kNanosecondsPerMillisecond : kUnset)
+      .number("fuel_ms", loaded ? ms(said.fuel_at) : kUnset)
+      .number("fuel_left_l", loaded ? fuel_left_l : kUnset)
+      .number("track_flag", said.expected.track_flag)
+      .number("time_ms", ms(now))
       .str();
 }
 

@@ -5,6 +5,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "basestation/command/settings_desk.hpp"
@@ -13,7 +14,10 @@
 
 namespace pitwall::outlets::wall {
 
-std::string settings_text(const command::SettingsDesk& desk, const alarms::AlarmSettings& alarms);
-std::string expected_text(const PeopleSaid& said);
+// `unreadable`: the file that should have been read, as long as it is the old one.
+std::string settings_text(const command::SettingsDesk& desk, const alarms::AlarmSettings& alarms,
+                          const std::optional<Problem>& unreadable = {});
+// `fuel_left_l`: of what was filled in, as it is reckoned now.
+std::string expected_text(const PeopleSaid& said, double fuel_left_l, Instant now);
 
 }  // namespace pitwall::outlets::wall

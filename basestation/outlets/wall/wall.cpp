@@ -22,6 +22,8 @@ using telemetry::field;
 constexpr double kNotRecording = 0.0;  // of picture::kRecordingStates
 constexpr std::array kBudgetUse{field("radio.budget_use_0"), field("radio.budget_use_1")};
 
+}  // namespace
+
 const char* mode_of(intake::Station::Source source) {
   switch (source) {
     case intake::Station::Source::kNone:
@@ -34,7 +36,23 @@ const char* mode_of(intake::Station::Source source) {
   return "NONE";
 }
 
+namespace {
+
+command::SettingsDesk::Save saver_of(const std::shared_ptr<JudgementStore>& store) {
+  if (!store) return {};
+  return [store](const command::SettingsDesk::Wanted& wanted) { return store->save(wanted); };
+}
+
 }  // namespace
+
+void use_judgement(WallConfig& config, std::shared_ptr<JudgementStore> store,
+                   double up_cap_kbit_s) {
+  const settings::Judgement& judged = store->judgement();
+  config.revision = judged.revision;
+  config.up_kbit_s = std::min(judged.up_kbit_s, up_cap_kbit_s);  // unset stays unset
+  config.watch = judged;
+  config.store = std::move(store);
+}
 
 Wall::Wall(WallConfig config, intake::Station& station, web::WebServer& server)
     : config_(std::move(config)),
@@ -45,8 +63,16 @@ Wall::Wall(WallConfig config, intake::Station& station, web::WebServer& server)
       settings_(watch_, audit_, config_.revision,
                 {.most = config_.up_cap_kbit_s,
                  .now = std::isnan(config_.up_kbit_s) ? config_.up_cap_kbit_s : config_.up_kbit_s},
-                config_.save),
-      room_(catalogue()) {}
+                saver_of(config_.store)),
+      room_(catalogue()) {
+  if (const auto problem = settings_problem()) {
+    audit_.add(transport::monotonic_now(), "base", unreadable_text(*problem), "not read");
+  }
+}
+
+std::optional<Problem> Wall::settings_problem() const {
+  return config_.store ? config_.store->unreadable() : std::nullopt;
+}
 
 std::string Wall::catalogue() const {
   return catalogue_text(
@@ -72,6 +98,15 @@ void Wall::remember(const telemetry::Snapshot& state, telemetry::GroupSet groups
   trends_.note(state, groups);
 }
 
+void Wall::recall(const Recalled& recalled, Instant now) {
+  said_ = recalled.said;
+  ++said_.revision;
+  picture::Expectations known = said_.expected;
+  known.fuel_loaded_l = recalled.fuel_left_l;  // the rest is burnt
+  watch_.advance(picture_, now);
+  watch_.expect(known);
+}
+
 Instant Wall::due() const { return std::min(room_.due(), measured_ + kLinkEvery); }
 
 void Wall::serve(intake::Station& station, Instant now) {
@@ -89,7 +124,7 @@ void Wall::serve(intake::Station& station, Instant now) {
 }
 
 void Wall::hear(intake::Station& station, Instant now) {
-  while (const auto news = server_.next_news()) {
+  while (const auto news = server_.next_news(config_.place)) {
     switch (news->kind) {
       case web::ClientNews::Kind::kJoined:
         room_.joined(news->client, news->who, now);
@@ -190,6 +225,7 @@ picture::BaseFigures Wall::own_figures(const intake::Station& station,
   picture::BaseFigures base;
   base.authority_lost = talk_.lost();
   base.schema_differs = report.established && !station.endpoint().schema_agrees();
+  base.settings_unreadable = settings_problem().has_value();
   base.joystick_lost = joystick_lost_ && joystick_lost_(now);
   if (const auto error = transport::utc_error()) base.clock_offset_ms = error->milliseconds();
   base.recording = kNotRecording;
@@ -234,15 +270,26 @@ void Wall::tell(intake::Station& station, Instant now) {
   states_told_ = true;
 }
 
+// Of what was filled in: as the judge was told where it has not reckoned with it yet.
+double Wall::fuel_left_l(Instant now) const {
+  const double level_l = watch_.fuel().level_l;
+  const bool reckoned = now - said_.fuel_at >= seconds(1) && !std::isnan(level_l);
+  return reckoned ? level_l : watch_.known().expected.fuel_loaded_l;
+}
+
+// Again and again what people said: so the newest part of a recording has it, and the fuel left.
 void Wall::tell_settings(Instant now) {
-  if (!states_told_ || said_.revision != said_told_) {
+  const bool again = said_.revision != 0 && now - said_at_ >= kTellSaidEvery;
+  if (!states_told_ || said_.revision != said_told_ || again) {
     said_told_ = said_.revision;
-    room_.tell_state("expected", expected_text(said_), now);
+    said_at_ = now;
+    room_.tell_state("expected", expected_text(said_, fuel_left_l(now), now), now);
   }
   if (states_told_ && settings_.revision() == settings_told_) return;
   settings_told_ = settings_.revision();
   if (states_told_) room_.tell_catalogue(catalogue());
-  room_.tell_state("settings", settings_text(settings_, watch_.alarms().settings()), now);
+  room_.tell_state("settings",
+                   settings_text(settings_, watch_.alarms().settings(), settings_problem()), now);
 }
 
 void Wall::tell_alarms(Instant now) {

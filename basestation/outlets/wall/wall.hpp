@@ -23,7 +23,9 @@
 #include "basestation/outlets/outlet.hpp"
 #include "basestation/outlets/wall/console_room.hpp"
 #include "basestation/outlets/wall/errands.hpp"
+#include "basestation/outlets/wall/judgement_store.hpp"
 #include "basestation/outlets/wall/link_meter.hpp"
+#include "basestation/outlets/wall/recall.hpp"
 #include "basestation/outlets/web/access.hpp"
 #include "basestation/outlets/web/web_server.hpp"
 #include "basestation/picture/trends.hpp"
@@ -34,14 +36,22 @@ namespace pitwall::outlets::wall {
 struct WallConfig {
   int car = 0;
   std::string name;
+  std::size_t place = 0;          // among the cars of the server
   double up_cap_kbit_s = kUnset;  // of each path
   double up_kbit_s = kUnset;      // as operators have lowered it; unset: the cap
   std::uint64_t revision = 0;     // of the settings
-  command::SettingsDesk::Save save{};
+  // nullptr: changes are not kept
+  std::shared_ptr<JudgementStore> store{};
   picture::WatchConfig watch{};
   command::GateParams gates{};
   web::Tokens tokens{};  // of the second person of an override
 };
+
+// The settings of the file, and where changes go. The course is not in it and comes afterwards.
+void use_judgement(WallConfig& config, std::shared_ptr<JudgementStore> store, double up_cap_kbit_s);
+
+// As consoles are told it.
+const char* mode_of(intake::Station::Source source);
 
 class Wall : public Outlet, private Eyes {
  public:
@@ -50,10 +60,12 @@ class Wall : public Outlet, private Eyes {
   void packet(const intake::Station& station, const telemetry::Arrival& arrival) override;
   void serve(intake::Station& station, Instant now) override;
   Instant due() const override;
-  int fd() const override { return server_.fd(); }
+  int fd() const override { return server_.fd(config_.place); }
 
   // What was known before this process began: picture, trends and logs, no alarms.
   void remember(const telemetry::Snapshot& state, telemetry::GroupSet groups);
+  // What people had entered then, in force again; judged from `now` on.
+  void recall(const Recalled& recalled, Instant now);
 
   // Who fills in how the recorder is; asked ten times a second.
   void watch_recorder(std::function<void(picture::BaseFigures&, Instant)> fill) {
@@ -67,7 +79,8 @@ class Wall : public Outlet, private Eyes {
   const picture::Trends& trends() const { return trends_; }
 
  private:
-  static constexpr Duration kLinkEvery = milliseconds(100), kTellLinkEvery = milliseconds(500);
+  static constexpr Duration kLinkEvery = milliseconds(100), kTellLinkEvery = milliseconds(500),
+                            kTellSaidEvery = seconds(60);
 
   picture::FieldView view(picture::FieldId field, Instant now) const override;
   picture::Judgement judge(picture::FieldId field, const picture::FieldView& v) const override;
@@ -82,7 +95,9 @@ class Wall : public Outlet, private Eyes {
   void tell_desk(intake::Station& station, Instant now);
   void tell_events(intake::Station& station, Instant now);
   void tell_settings(Instant now);
+  double fuel_left_l(Instant now) const;
   std::string catalogue() const;
+  std::optional<Problem> settings_problem() const;
   picture::BaseFigures own_figures(const intake::Station& station,
                                    const telemetry::LinkReport& report, Instant now) const;
   void relay_flag(const intake::Station& station);
@@ -111,7 +126,7 @@ class Wall : public Outlet, private Eyes {
   std::uint64_t audit_told_ = 0, authority_told_ = 0, events_told_ = 0;
   std::uint64_t said_told_ = 0, settings_told_ = 0;
   bool states_told_ = false;
-  Instant authority_said_{};
+  Instant authority_said_{}, said_at_{};
   std::string fuel_told_;
   std::vector<alarms::Notice> notices_said_;
 };

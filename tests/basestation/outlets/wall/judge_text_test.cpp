@@ -51,7 +51,8 @@ TEST(JudgeText, FiguresComeBackToTheBit) {
                             .clock_offset_ms = numbers.next(),
                             .joystick_lost = i % 2 == 0,
                             .authority_lost = i % 3 == 0,
-                            .schema_differs = i % 5 == 0});
+                            .schema_differs = i % 5 == 0,
+                            .settings_unreadable = i % 7 == 0});
     expect_back(Expectations{.round_speed_mps = numbers.next(), .track_flag = numbers.next()});
   }
 }

@@ -40,7 +40,7 @@ TEST(SettingsText, EveryAlarmHasWhatAnEditorNeeds) {
 }
 
 TEST(SettingsText, WhatNobodySaidIsNull) {
-  const auto nothing = read(expected_text({}));
+  const auto nothing = read(expected_text({}, kUnset, {}));
   EXPECT_TRUE(std::isnan(nothing.number("round_speed_mps")));
   EXPECT_TRUE(std::isnan(nothing.number("fuel_ms")));
   PeopleSaid said;
@@ -48,10 +48,12 @@ TEST(SettingsText, WhatNobodySaidIsNull) {
   said.expected.fuel_loaded_l = 40.0;
   said.fuel_by = "Ada";
   said.fuel_at = Instant{seconds(2).ns};
-  const auto told = read(expected_text(said));
+  const auto told = read(expected_text(said, 38.5, Instant{seconds(3).ns}));
   EXPECT_EQ(told.number("round_speed_mps"), 51.4);
   EXPECT_EQ(told.number("fuel_ms"), 2'000.0);
   EXPECT_EQ(told.text("fuel_by"), "Ada");
+  EXPECT_EQ(told.number("fuel_left_l"), 38.5);
+  EXPECT_EQ(told.number("time_ms"), 3'000.0);
 }
 
 }  // namespace
