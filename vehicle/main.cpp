@@ -17,6 +17,7 @@
 #include "vehicle/io/black_box.hpp"
 #include "vehicle/io/computer_watch.hpp"
 #include "vehicle/io/guarded.hpp"
+#include "vehicle/io/ingress/sensor_ingress.hpp"
 #include "vehicle/io/local_report.hpp"
 #include "vehicle/io/radio.hpp"
 #include "vehicle/io/radio_summary.hpp"
@@ -68,6 +69,7 @@ struct Parts {
   io::LocalReport report;
   io::BlackBox box;
   std::unique_ptr<io::ComputerWatch> computer;  // none: the kernel gave no event file
+  std::unique_ptr<io::SensorIngress> sensors;   // none: no sensor comes over ROS 2 topics
 };
 
 class Drive {
@@ -91,8 +93,8 @@ class Drive {
 
  private:
   void tick(const transport::Tick& tick) {
-    const io::Rim::Heard heard = parts_.rim.read();
-    if (parts_.radio) parts_.radio->listen();
+    const io::Rim::Heard heard = parts_.rim.read(parts_.box);
+    if (parts_.radio) parts_.radio->listen(parts_.box);
     const Instant now = transport::monotonic_now();
     pipeline::Inputs in{.now = now,
                         .dt = now - last_,
@@ -149,13 +151,14 @@ class Drive {
     for (std::size_t unit = 0; unit < counters.receivers.size(); ++unit)
       counters.receivers[unit] = parts_.rim.receivers()[unit].traffic();
     show_computer(counters);
+    if (parts_.sensors) show_sensors(counters, now);
     if (parts_.radio) desk_.show(parts_.radio->endpoint(), counters, now);
     const telemetry::Snapshot snapshot = pipeline::tap(
         {.setup = setup_, .car = *car_, .out = out, .log = *log_, .rim = counters, .now = now});
     if (report_due) parts_.report.send(snapshot, now);
     if (record_due) parts_.box.state(snapshot, now);
     if (!radio_due) return;
-    parts_.radio->speak(snapshot, now);
+    parts_.radio->speak(snapshot, now, parts_.box);
     tell_schema(now);
   }
 
@@ -169,6 +172,16 @@ class Drive {
     counters.processor_share = health.processor_share;
     counters.memory_mib = health.memory_mib;
     counters.temperature_c = health.temperature_c;
+  }
+
+  void show_sensors(pipeline::RimCounters& counters, Instant now) const {
+    const auto stream = [&](const char* name) {
+      const io::ArrivalFigures figures = parts_.sensors->figures(name, now);
+      return pipeline::RimCounters::Stream{figures.rate_hz, figures.gap_ms, figures.latency_ms};
+    };
+    counters.lidar = stream("lidar");
+    counters.camera = stream("camera");
+    counters.radar = stream("radar");
   }
 
   void tell_schema(Instant now) {
@@ -191,10 +204,12 @@ class Drive {
         parts_.radio ? io::radio_json(parts_.radio->endpoint().report(transport::monotonic_now()),
                                       parts_.radio->paths())
                      : "{}";
+    const std::string sensors =
+        parts_.sensors ? parts_.sensors->json(transport::monotonic_now()) : "[]";
     const auto written = transport::write_file(
         args_.summary_file,
         io::summary_json(tally_, frames_, bus_, losses_, radio,
-                         io::receivers_json(parts_.rim.receivers()), parts_.box.json()));
+                         io::receivers_json(parts_.rim.receivers()), parts_.box.json(), sensors));
     return written ? 0 : (refuse(written.error()), kExitFailed);
   }
 
@@ -214,6 +229,13 @@ class Drive {
   Instant last_;
 };
 
+Result<std::unique_ptr<io::SensorIngress>, Problem> open_sensors(const io::Arguments& args) {
+  if (args.sensors_file.empty()) return std::unique_ptr<io::SensorIngress>{};
+  const auto file = io::read_sensor_file(args.sensors_file);
+  if (!file) return Unexpected{file.error()};
+  return io::SensorIngress::start(*file);
+}
+
 Result<Parts, Problem> open_parts(const io::Arguments& args, const pipeline::Setup& setup) {
   auto rim = io::Rim::open(args, setup.params.receivers);
   if (!rim) return Unexpected{rim.error()};
@@ -231,8 +253,10 @@ Result<Parts, Problem> open_parts(const io::Arguments& args, const pipeline::Set
   if (!report) return Unexpected{report.error()};
   auto box = io::BlackBox::open(args.record_folder, args.car_file, args.track_file);
   if (!box) return Unexpected{box.error()};
-  return Parts{*std::move(rim),    *std::move(guarded), std::move(radio),
-               *std::move(report), *std::move(box),     io::ComputerWatch::start()};
+  auto sensors = open_sensors(args);
+  if (!sensors) return Unexpected{sensors.error()};
+  return Parts{*std::move(rim), *std::move(guarded),        std::move(radio),   *std::move(report),
+               *std::move(box), io::ComputerWatch::start(), *std::move(sensors)};
 }
 
 void introduce(const io::Arguments& args, const pipeline::Setup& setup, Parts& parts) {

@@ -18,6 +18,7 @@ void push_bounded(std::deque<Item>& log, const Item& item) {
 
 bool Station::take(std::span<const std::uint8_t> datagram, telemetry::PathId path,
                    telemetry::Address from, Instant received) {
+  if (overhearing_) overhearing_(true, path, from, received, datagram);
   const auto arrival = endpoint_.feed(datagram, path, from, received);
   if (!arrival) return false;
   arrival_ = arrival;
@@ -32,6 +33,12 @@ bool Station::take(std::span<const std::uint8_t> datagram, telemetry::PathId pat
   }
   collect();
   return true;
+}
+
+std::optional<telemetry::Outgoing> Station::poll(Instant now) {
+  const auto out = endpoint_.poll(now);
+  if (out && overhearing_) overhearing_(false, out->path, out->to, now, out->bytes);
+  return out;
 }
 
 void Station::count(const telemetry::Arrival& arrival) {

@@ -11,10 +11,12 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "basestation/intake/age_book.hpp"
 #include "basestation/intake/operator_words.hpp"
@@ -44,8 +46,13 @@ class Station {
             Instant received);
   // What the datagram brought that was taken last; none before.
   const std::optional<telemetry::Arrival>& arrival() const { return arrival_; }
-  std::optional<telemetry::Outgoing> poll(Instant now) { return endpoint_.poll(now); }
+  std::optional<telemetry::Outgoing> poll(Instant now);
   Instant due() const { return endpoint_.due(); }
+  // Who is told every datagram, as it came (also what is refused) or went. `down`: from the car.
+  using Overhearing =
+      std::function<void(bool down, telemetry::PathId path, telemetry::Address other, Instant at,
+                         std::span<const std::uint8_t> bytes)>;
+  void overhear(Overhearing told) { overhearing_ = std::move(told); }
   // Lets the figures grow older; before they are read.
   void advance(Instant now) { ages_.advance(now); }
 
@@ -78,6 +85,7 @@ class Station {
 
   telemetry::StationEndpoint endpoint_;
   std::uint8_t paths_;
+  Overhearing overhearing_;
   std::optional<telemetry::Arrival> arrival_;
   picture::Picture picture_;
   PacketRate rate_;

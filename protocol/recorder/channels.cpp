@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "protocol/recorder/can_record.hpp"
+#include "protocol/recorder/raw_record.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::recorder {
@@ -99,11 +100,15 @@ std::vector<recording::Channel> channels() {
                    {}});
   }
   all.push_back(picture_channel());
-  for (const char* topic : {"/radio/down", "/radio/up"}) all.push_back({topic, "pitwall", {}, {}});
+  for (const char* topic : {"/radio/down", "/radio/up"}) {
+    all.push_back(
+        {topic, kDatagramEncoding, {}, {{"layout", "version, path, port, address, data"}}});
+  }
   for (const char* topic : {"/can/in", "/can/out"}) {
     all.push_back(recording::cdr_channel<CanRecord>(topic));
   }
-  CHECK(all.size() == kCanOutChannel + 1U);
+  for (const char* topic : {"/gnss/0", "/gnss/1"}) all.push_back({topic, kStreamEncoding, {}, {}});
+  CHECK(all.size() == kReceiverChannel + kReceivers);
   return all;
 }
 

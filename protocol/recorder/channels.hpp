@@ -4,7 +4,8 @@
 //             sample
 //             /base/TYPE, "json": the very text that consoles get
 //             /base/picture, "cdr": all that was known at a moment: a reader can begin there
-//             /radio/down, /radio/up: datagrams as they were on the air, encrypted
+//             /radio/down, /radio/up, /gnss/0, /gnss/1: bytes as they came and went, as
+//             raw_record.hpp has them
 //             /can/in, /can/out: frames of the car's bus, "cdr", as can_record.hpp has them
 //   clock     stamps in the file are UTC: an Instant of the base plus the ClockMap of the file,
 //             which stands in its metadata, so that an Instant comes back exactly
@@ -69,6 +70,8 @@ constexpr std::uint16_t channel_of(Topic topic) {
 inline constexpr auto kPictureChannel = static_cast<std::uint16_t>(telemetry::kGroups + kTopics);
 inline constexpr std::uint16_t kDownChannel = kPictureChannel + 1, kUpChannel = kDownChannel + 1;
 inline constexpr std::uint16_t kCanInChannel = kUpChannel + 1, kCanOutChannel = kCanInChannel + 1;
+inline constexpr std::uint16_t kReceiverChannel = kCanOutChannel + 1;  // of unit 0; 1 is the next
+inline constexpr std::size_t kReceivers = 2;
 std::vector<recording::Channel> channels();
 
 struct ClockMap {

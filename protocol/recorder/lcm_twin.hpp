@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "protocol/recorder/channels.hpp"
 #include "protocol/recorder/disk.hpp"
+#include "protocol/recorder/lcm_encoder.hpp"
 #include "protocol/recorder/record_queue.hpp"
 #include "protocol/recording/lcm_log.hpp"
 
@@ -38,16 +38,8 @@ class LcmTwin {
   const LcmFigures& figures() const { return figures_; }
 
  private:
-  struct Kind {
-    std::string topic;
-    std::uint64_t fingerprint = 0;
-  };
-
-  void encode(const Record& record);
-
   Disk& disk_;
-  Instant utc_of_zero_{};  // of the clock of the records
-  std::vector<Kind> kinds_;
+  LcmEncoder encoder_;
   std::optional<recording::LcmLogWriter> log_;
   std::vector<std::uint8_t> event_, waiting_;
   std::uint64_t waiting_events_ = 0;

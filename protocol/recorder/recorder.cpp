@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocol/recorder/recorder.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "protocol/telemetry/registry/schema.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
+#include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::recorder {
 namespace {
@@ -97,9 +99,27 @@ void Recorder::text(Topic topic, Instant at, std::string_view json) {
       {.channel = channel_of(topic), .logged = at, .published = at, .data = as_bytes(json)});
 }
 
-void Recorder::datagram(bool down, Instant at, std::span<const std::uint8_t> bytes) {
-  queue_.push(
-      {.channel = down ? kDownChannel : kUpChannel, .logged = at, .published = at, .data = bytes});
+void Recorder::datagram(bool down, Instant at, const AirDatagram& datagram) {
+  DatagramBytes bytes;
+  raw(down ? kDownChannel : kUpChannel, at, encode(datagram, bytes));
+}
+
+void Recorder::receiver(std::size_t unit, Instant at, std::span<const std::uint8_t> bytes) {
+  CHECK(unit < kReceivers);
+  raw(static_cast<std::uint16_t>(kReceiverChannel + unit), at, bytes);
+}
+
+void Recorder::raw(std::uint16_t channel, Instant at, std::span<const std::uint8_t> bytes) {
+  const double grown = std::max(0.0, (at - raw_at_).seconds()) * kRawBytesPerSecond;
+  raw_room_bytes_ = std::min(kRawBurstBytes, raw_room_bytes_ + grown);
+  raw_at_ = std::max(raw_at_, at);
+  const auto size = static_cast<double>(bytes.size());
+  if (size > raw_room_bytes_) {
+    left_out_.fetch_add(1, std::memory_order_relaxed);
+    return;
+  }
+  raw_room_bytes_ -= size;
+  queue_.push({.channel = channel, .logged = at, .published = at, .data = bytes});
 }
 
 void Recorder::write_all() {
@@ -130,6 +150,7 @@ RecorderFigures Recorder::figures() const {
     figures.chain = told_;
   }
   figures.dropped = queue_.dropped();
+  figures.left_out = left_out_.load(std::memory_order_relaxed);
   figures.syncs = disk_.syncs();
   figures.failed_syncs = disk_.failed_syncs();
   figures.longest_sync = disk_.longest_sync();
@@ -147,6 +168,7 @@ std::string json_of(const RecorderFigures& figures, Instant now) {
       .text("segment", figures.chain.segment)
       .number("records", figures.chain.records)
       .number("dropped", figures.dropped)
+      .number("left_out", figures.left_out)
       .number("lost", figures.chain.lost)
       .number("lcm_events", figures.chain.lcm.events)
       .number("lcm_lost", figures.chain.lcm.lost)

@@ -20,6 +20,7 @@
 
 #include "protocol/can/frame.hpp"
 #include "protocol/recorder/file_disk.hpp"
+#include "protocol/recorder/raw_record.hpp"
 #include "protocol/recorder/segment_chain.hpp"
 #include "protocol/telemetry/registry/snapshot.hpp"
 
@@ -29,13 +30,14 @@ inline constexpr std::size_t kQueueBytes = std::size_t{4} << 20;  // some ten se
 
 struct RecorderFigures {
   ChainFigures chain;
-  std::uint64_t dropped = 0;  // records that did not fit into the queue
+  std::uint64_t dropped = 0;   // records that did not fit into the queue
+  std::uint64_t left_out = 0;  // raw bytes over their budget
   std::uint64_t syncs = 0, failed_syncs = 0;
   Duration longest_sync{};
   std::uint64_t free_bytes = 0;
   double bytes_per_s = 0.0;     // since the start
   double minutes_left() const;  // NaN: not known
-  std::uint64_t lost() const { return chain.lost + dropped; }
+  std::uint64_t lost() const { return chain.lost + dropped + left_out; }
   std::uint64_t bytes() const { return chain.bytes + chain.lcm.bytes; }
 };
 
@@ -48,7 +50,11 @@ class Recorder {
 
   void state(const telemetry::Snapshot& state, telemetry::GroupSet groups, Instant received);
   void text(Topic topic, Instant at, std::string_view json);
-  void datagram(bool down, Instant at, std::span<const std::uint8_t> bytes);
+  // Raw bytes come by a budget of their own, so that a flood on the air leaves room on the disk and
+  // in the queue for everything else; what is over is left out and counted.
+  static constexpr double kRawBytesPerSecond = 1e6, kRawBurstBytes = 2e6;
+  void datagram(bool down, Instant at, const AirDatagram& datagram);
+  void receiver(std::size_t unit, Instant at, std::span<const std::uint8_t> bytes);
   void can(bool out, Instant at, const can::Frame& frame);
   RecorderFigures figures() const;
   const ClockMap& clock() const { return clock_; }
@@ -56,12 +62,16 @@ class Recorder {
  private:
   Recorder(const std::string& folder, recording::Metadata run, ClockMap clock);
   void write_all();
+  void raw(std::uint16_t channel, Instant at, std::span<const std::uint8_t> bytes);
 
   ClockMap clock_;
   Instant started_;
   FileDisk disk_, lcm_disk_;
   SegmentChain chain_;
   RecordQueue queue_{kQueueBytes};
+  double raw_room_bytes_ = kRawBurstBytes;
+  Instant raw_at_{};
+  std::atomic<std::uint64_t> left_out_ = 0;
   mutable std::mutex mutex_;
   ChainFigures told_;  // as of the last turn of the writer
   std::thread writer_;

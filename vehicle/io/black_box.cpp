@@ -30,12 +30,21 @@ void BlackBox::state(const telemetry::Snapshot& state, Instant now) {
   recorder_->state(state, telemetry::groups_of(telemetry::Direction::kDown), now);
 }
 
+void BlackBox::radio(bool down, Instant at, const recorder::AirDatagram& datagram) {
+  if (on()) recorder_->datagram(down, at, datagram);
+}
+
+void BlackBox::receiver(std::size_t unit, Instant at, std::span<const std::uint8_t> bytes) {
+  if (on() && !bytes.empty()) recorder_->receiver(unit, at, bytes);
+}
+
 std::string BlackBox::json() const {
   JsonCounts out;
   if (!on()) return out.object();
   const recorder::RecorderFigures figures = recorder_->figures();
   out.add("records", figures.chain.records);
   out.add("dropped", figures.dropped);
+  out.add("left_out", figures.left_out);
   out.add("lost", figures.chain.lost);
   out.add("interruptions", figures.chain.interruptions);
   out.add("segments", figures.chain.segments);

@@ -1,10 +1,11 @@
-// The car's own recording: its state at 50 Hz and every frame of its bus, in the base's format.
+// The car's own recording: its state at 50 Hz, every frame of its bus, every datagram of its radio
+// and every byte of its receivers, in the base's format.
 //   in     a folder; what is heard and said in each tick, the newest snapshot
 //   out    segments of a minute with an LCM log beside each, as protocol/recorder makes them;
 //          counters for the summary
-//   law    can() and state() belong to the 100 Hz loop: they copy into a bounded queue and neither
-//          wait nor allocate. What does not fit is dropped and counted; a disk that is slow, full
-//          or gone does not touch the loop
+//   law    all calls but open() and json() belong to the 100 Hz loop: they copy into a bounded queue
+//          and neither wait nor allocate. What does not fit is dropped and counted; a disk that is
+//          slow, full or gone does not touch the loop
 //   errors open(): Problem where the folder cannot be made or written; afterwards figures only
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -35,6 +36,9 @@ class BlackBox {
   void can(std::span<const can::ReceivedFrame> heard, std::span<const can::Frame> said,
            Instant now);
   void state(const telemetry::Snapshot& state, Instant now);
+  // `down`: from the car to its base.
+  void radio(bool down, Instant at, const recorder::AirDatagram& datagram);
+  void receiver(std::size_t unit, Instant at, std::span<const std::uint8_t> bytes);
   // Counters; not for the loop.
   std::string json() const;
 

@@ -19,6 +19,11 @@ constexpr std::size_t kMaxKeyFile = 4'096;
 telemetry::Address address_of(UdpAddress a) { return {.ip = a.ip, .port = a.port}; }
 UdpAddress address_of(telemetry::Address a) { return {.ip = a.ip, .port = a.port}; }
 
+recorder::AirDatagram on_air(telemetry::PathId path, UdpAddress other,
+                             std::span<const std::uint8_t> bytes) {
+  return {.path = path, .ip = other.ip, .port = other.port, .bytes = bytes};
+}
+
 Result<telemetry::KeyFile, Problem> read_keys(const std::string& path) {
   const auto text = transport::read_private_file(path, kMaxKeyFile);
   if (!text) return Unexpected{text.error()};
@@ -74,20 +79,25 @@ Radio::Radio(const telemetry::ConduitConfig& config, std::vector<UdpSocket> path
       paths_(std::move(paths)),
       inbox_(UdpSocket::kBatch) {}
 
-void Radio::listen() {
+void Radio::listen(BlackBox& box) {
   for (std::size_t path = 0; path < paths_.size(); ++path)
     for (std::size_t taken = 0, count = inbox_.size();
          count == inbox_.size() && taken < kReadsPerTick; taken += count) {
       count = paths_[path].receive(inbox_);
-      for (const transport::UdpDatagram& datagram : std::span(inbox_).first(count))
-        endpoint_.feed(datagram.payload(), static_cast<telemetry::PathId>(path),
-                       address_of(datagram.from), datagram.at);
+      for (const transport::UdpDatagram& datagram : std::span(inbox_).first(count)) {
+        const auto number = static_cast<telemetry::PathId>(path);
+        box.radio(false, datagram.at, on_air(number, datagram.from, datagram.payload()));
+        endpoint_.feed(datagram.payload(), number, address_of(datagram.from), datagram.at);
+      }
     }
 }
 
-void Radio::speak(const telemetry::Snapshot& snapshot, Instant now) {
-  while (const auto out = endpoint_.poll(snapshot, now))
-    paths_[out->path].send_to(address_of(out->to), out->bytes);
+void Radio::speak(const telemetry::Snapshot& snapshot, Instant now, BlackBox& box) {
+  while (const auto out = endpoint_.poll(snapshot, now)) {
+    const UdpAddress to = address_of(out->to);
+    paths_[out->path].send_to(to, out->bytes);
+    box.radio(true, now, on_air(out->path, to, out->bytes));
+  }
 }
 
 }  // namespace pitwall::io

@@ -20,6 +20,7 @@
 #include "protocol/transport/udp_socket.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
+#include "vehicle/io/black_box.hpp"
 #include "vehicle/pipeline/setup.hpp"
 
 namespace pitwall::io {
@@ -37,9 +38,10 @@ class Radio {
   static Result<Radio, Problem> open(const RadioArguments& args,
                                      const pipeline::RadioParams& params, bool real_car);
 
-  void listen();
+  // The box is told every datagram.
+  void listen(BlackBox& box);
   bool due(Instant now) const { return endpoint_.due() <= now + kEarly; }
-  void speak(const telemetry::Snapshot& snapshot, Instant now);
+  void speak(const telemetry::Snapshot& snapshot, Instant now, BlackBox& box);
 
   telemetry::CarEndpoint& endpoint() { return endpoint_; }
   const telemetry::CarEndpoint& endpoint() const { return endpoint_; }

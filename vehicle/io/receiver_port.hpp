@@ -9,6 +9,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,7 +31,9 @@ class ReceiverPort {
   static Result<ReceiverPort, Problem> open(const ReceiverLink& link, std::uint8_t unit,
                                             const world::ReceiverParams& params);
 
-  void read(world::SensorInput& out, Instant now);
+  // `told` hears every byte as it was read, before it is judged.
+  using Overhearing = std::function<void(Instant at, std::span<const std::uint8_t> bytes)>;
+  void read(world::SensorInput& out, Instant now, const Overhearing& told = {});
 
   std::optional<Instant> byte_at() const { return byte_at_; }
   receivers::Counters counters() const { return receiver_.counters(); }
@@ -44,8 +47,10 @@ class ReceiverPort {
   ReceiverPort(const ReceiverLink& link, Source source, std::uint8_t unit,
                const world::ReceiverParams& params)
       : link_(link), kind_(params.kind), source_(std::move(source)), receiver_(unit, params) {}
-  void read(transport::UdpSocket& socket, world::SensorInput& out, Instant now);
-  void read(transport::StreamLink& stream, world::SensorInput& out, Instant now);
+  void read(transport::UdpSocket& socket, world::SensorInput& out, Instant now,
+            const Overhearing& told);
+  void read(transport::StreamLink& stream, world::SensorInput& out, Instant now,
+            const Overhearing& told);
 
   ReceiverLink link_;
   world::ReceiverKind kind_;

@@ -31,7 +31,7 @@ Result<Rim, Problem> Rim::open(const Arguments& args, const world::Receivers& re
   return Rim{*std::move(can), *std::move(watch), *std::move(ports)};
 }
 
-Rim::Heard Rim::read() {
+Rim::Heard Rim::read(BlackBox& box) {
   Heard heard;
   const std::size_t count = can_.receive(frames_);
   const Instant now = transport::monotonic_now();
@@ -39,7 +39,10 @@ Rim::Heard Rim::read() {
   heard.link = link_;
   heard.can = std::span<const can::ReceivedFrame>(frames_).first(count);
   for (std::size_t unit = 0; unit < receivers_.size(); ++unit) {
-    receivers_[unit].read(heard.sensors, now);
+    receivers_[unit].read(heard.sensors, now,
+                          [&box, unit](Instant at, std::span<const std::uint8_t> bytes) {
+                            box.receiver(unit, at, bytes);
+                          });
     heard.gnss_byte_at[unit] = receivers_[unit].byte_at();
   }
   return heard;

@@ -18,6 +18,7 @@
 #include "protocol/transport/can_socket.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "vehicle/io/arguments.hpp"
+#include "vehicle/io/black_box.hpp"
 #include "vehicle/io/bus_watch.hpp"
 #include "vehicle/io/link_observer.hpp"
 #include "vehicle/io/receiver_port.hpp"
@@ -36,7 +37,8 @@ class Rim {
     world::LinkObservation link;
     std::array<std::optional<Instant>, world::kGnssUnits> gnss_byte_at;  // newest, if any
   };
-  Heard read();
+  // The box is told every byte of the receivers.
+  Heard read(BlackBox& box);
   // Frames of this tick, in order of urgency. What cannot go out in time is dropped and counted; on
   // a listen-only interface that is all of it.
   void write(std::span<const can::Frame> frames, Instant now);

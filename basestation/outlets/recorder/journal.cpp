@@ -109,6 +109,13 @@ void Journal::tell_link(const intake::Station& station, Instant now) {
                      .str());
 }
 
+intake::Station::Overhearing teller_of_datagrams(Recorder& recorder) {
+  return [&recorder](bool down, telemetry::PathId path, telemetry::Address other, Instant at,
+                     std::span<const std::uint8_t> bytes) {
+    recorder.datagram(down, at, {.path = path, .ip = other.ip, .port = other.port, .bytes = bytes});
+  };
+}
+
 std::function<void(const telemetry::JoystickSample&, Instant)> teller_of_joystick(
     Recorder& recorder) {
   return [&recorder](const telemetry::JoystickSample& sample, Instant at) {

@@ -45,6 +45,9 @@ class Journal : public outlets::Outlet {
   Instant link_at_{}, figures_at_{};
 };
 
+// Datagrams of both directions, as a Station tells them.
+intake::Station::Overhearing teller_of_datagrams(Recorder& recorder);
+
 // The operator's hand, as a JoystickFeed tells it.
 std::function<void(const telemetry::JoystickSample&, Instant)> teller_of_joystick(
     Recorder& recorder);

@@ -49,7 +49,12 @@ LcmType lcm_type(Group group) {
 
 LcmType lcm_text_type() { return {"text_t", {utime(), {"string", "json"}}}; }
 
-LcmType lcm_datagram_type() { return {"datagram_t", {utime(), size(), data()}}; }
+LcmType lcm_datagram_type() {
+  return {"datagram_t",
+          {utime(), {"int16_t", "path"}, {"int32_t", "ip"}, {"int32_t", "port"}, size(), data()}};
+}
+
+LcmType lcm_bytes_type() { return {"bytes_t", {utime(), size(), data()}}; }
 
 LcmType lcm_can_type() {
   return {"can_frame_t",
@@ -80,7 +85,7 @@ std::string lcm_types_text() {
       "// Made from the registry by `pitwall-base export lcm`.\npackage pitwall;\n\n";
   for (const GroupRow& row : kGroupTable) text += text_of(lcm_type(row.group)) + "\n";
   return text + text_of(lcm_text_type()) + "\n" + text_of(lcm_datagram_type()) + "\n" +
-         text_of(lcm_can_type());
+         text_of(lcm_bytes_type()) + "\n" + text_of(lcm_can_type());
 }
 
 }  // namespace pitwall::telemetry

@@ -31,7 +31,8 @@ struct LcmType {
 
 LcmType lcm_type(Group group);
 LcmType lcm_text_type();      // utime, json
-LcmType lcm_datagram_type();  // utime, size, data
+LcmType lcm_datagram_type();  // utime, path, address and port of the other end, size, data
+LcmType lcm_bytes_type();     // utime, size, data: what a receiver said
 LcmType lcm_can_type();       // utime, id, extended, remote, fd, size, data
 
 std::uint64_t lcm_fingerprint(const LcmType& type);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <string>
 
 #include "protocol/telemetry/delivery/event_content.hpp"
@@ -29,6 +31,28 @@ TEST(Station, ShowsWhatTheCarSaysWithItsTrueAge) {
   const AgeHistogram& ages = rig.station->ages().of(Group::kEgo);
   EXPECT_GE(ages.quantile(0.5), RadioRig::kDelay);
   EXPECT_LE(ages.quantile(0.99), milliseconds(60));
+}
+
+TEST(Station, IsOverheardInBothDirectionsWhateverComes) {
+  RadioRig rig;
+  std::uint64_t down = 0, up = 0, noise = 0;
+  const std::array<std::uint8_t, 3> nonsense{1, 2, 3};
+  rig.station->overhear([&](bool from_car, telemetry::PathId, telemetry::Address other, Instant at,
+                            std::span<const std::uint8_t> bytes) {
+    EXPECT_LE(at, rig.now);
+    if (from_car && std::ranges::equal(bytes, nonsense)) {
+      EXPECT_EQ(other.port, 9);
+      ++noise;
+      return;
+    }
+    ++(from_car ? down : up);
+  });
+  rig.set(kX, 1.0);
+  rig.run(seconds(1));
+  EXPECT_GE(down, rig.station->rate().packets());
+  EXPECT_GT(up, 3u);
+  rig.station->take(nonsense, 0, {.ip = 1, .port = 9}, rig.now);
+  EXPECT_EQ(noise, 1u) << "what is not authentic, too";
 }
 
 TEST(Station, TellsASimulationFromACar) {

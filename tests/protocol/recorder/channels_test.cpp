@@ -27,6 +27,9 @@ TEST(Channels, EveryGroupAndTopicHasItsPlaceAndNoTwoShareAName) {
   EXPECT_EQ(all[channel_of(telemetry::Group::kEgo)].topic, "/car/ego");
   EXPECT_EQ(all[channel_of(Topic::kAudit)].topic, "/base/audit");
   EXPECT_EQ(all[kPictureChannel].topic, "/base/picture");
+  EXPECT_EQ(all[kUpChannel].topic, "/radio/up");
+  EXPECT_EQ(all[kUpChannel].message_encoding, "x-pitwall-datagram");
+  EXPECT_EQ(all[kReceiverChannel + 1].topic, "/gnss/1");
   for (const std::string_view name : kTopicNames) EXPECT_EQ(name_of(*topic_named(name)), name);
   EXPECT_FALSE(topic_named("nothing"));
 }

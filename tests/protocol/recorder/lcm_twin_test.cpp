@@ -7,6 +7,7 @@
 #include <string>
 
 #include "protocol/recorder/can_record.hpp"
+#include "protocol/recorder/raw_record.hpp"
 #include "protocol/recorder/segment_chain.hpp"
 #include "protocol/recording/mcap_reader.hpp"
 #include "protocol/telemetry/export/lcm_schema.hpp"
@@ -105,7 +106,9 @@ TEST(LcmTwin, TextsDatagramsAndFramesHaveTheirLength) {
   Source source;
   const std::vector<std::uint8_t> text{'{', '}'};
   source.give(channel_of(Topic::kMark), text);
-  source.give(kDownChannel, text);
+  DatagramBytes air{};
+  source.give(kDownChannel, encode(AirDatagram{.path = 1, .bytes = text}, air));
+  source.give(kReceiverChannel, text);
   CanBytes bytes{};
   source.give(kCanInChannel, encode(can::Frame{.id = 5, .length = 3}, bytes));
   source.chain.close();
@@ -115,6 +118,7 @@ TEST(LcmTwin, TextsDatagramsAndFramesHaveTheirLength) {
   EXPECT_EQ(mark->channel, "/base/mark");
   EXPECT_EQ(mark->data.size(), kHead + 4 + 2 + 1);
   EXPECT_EQ(mark->data.back(), 0);
+  EXPECT_EQ(reader.next()->data.size(), kHead + 2 + 4 + 4 + 4 + 2);
   EXPECT_EQ(reader.next()->data.size(), kHead + 4 + 2);
   const auto frame = reader.next();
   EXPECT_EQ(frame->channel, "/can/in");

@@ -47,7 +47,8 @@ TEST(Recorder, TheOracleReadsEverythingThatWasGiven) {
     for (int i = 0; i < 100; ++i) {
       const Instant at = now + milliseconds(20) * i;
       (*recorder)->state(sampled_at(at - milliseconds(5)), all_groups(), at);
-      (*recorder)->datagram(true, at, as_bytes("bytes of the air"));
+      (*recorder)->datagram(true, at, {.path = 1, .bytes = as_bytes("bytes of the air")});
+      (*recorder)->receiver(1, at, as_bytes("bytes of a receiver"));
     }
     (*recorder)->text(Topic::kMark, now + seconds(1), R"({"type":"mark","text":"here"})");
   }
@@ -55,7 +56,7 @@ TEST(Recorder, TheOracleReadsEverythingThatWasGiven) {
   ASSERT_TRUE(paths);
   ASSERT_EQ(paths->size(), 1U);
   const std::string line = pitwall::testing::node("check_mcap.mjs", "'" + paths->front() + "'");
-  const std::uint64_t messages = 100 * (all_groups().count() + 1) + 1 + 1;  // mark, one picture
+  const std::uint64_t messages = 100 * (all_groups().count() + 2) + 1 + 1;  // mark, one picture
   EXPECT_EQ(line.substr(0, line.find(' ')), std::to_string(messages)) << line;
   EXPECT_NE(line.find("/base/mark,/base/picture,/car/brakes"), std::string::npos) << line;
 }
@@ -73,6 +74,38 @@ TEST(Recorder, FiguresTellWhatBecameOfTheRecords) {
   EXPECT_GT(figures.free_bytes, 0U);
   const std::string text = json_of(figures, Instant{seconds(2).ns});
   EXPECT_NE(text.find(R"("time_ms": 2000)"), std::string::npos) << text;
+}
+
+// A second of a flood: as much as the budget has is kept, and the state that comes after it.
+TEST(Recorder, AFloodOfDatagramsLeavesRoomForTheRest) {
+  const auto folder = transport::TemporaryFolder::create("pitwall_recorder");
+  const Instant now = transport::monotonic_now();
+  const std::vector<std::uint8_t> large(1'000, 7);
+  constexpr std::uint64_t kFlood = 10'000;
+  RecorderFigures figures;
+  {
+    auto recorder = Recorder::start(folder->path(), {});
+    ASSERT_TRUE(recorder);
+    for (std::int64_t i = 0; i < std::int64_t{kFlood}; ++i) {
+      (*recorder)->datagram(true, now + microseconds(100) * i, {.bytes = large});
+    }
+    (*recorder)->state(sampled_at(now), all_groups(), now + seconds(1));
+    figures = (*recorder)->figures();
+  }
+  EXPECT_EQ(figures.dropped, 0U) << "the queue had room";
+  EXPECT_NEAR(static_cast<double>(kFlood - figures.left_out), 3e6 / 1'008.0, 2.0);
+  EXPECT_EQ(figures.lost(), figures.left_out);
+  std::uint64_t datagrams = 0, states = 0;
+  for (const auto paths = segments_of(folder->path()); const auto& path : *paths) {
+    const auto file = transport::read_file(path);
+    recording::McapReader reader{as_bytes(*file)};
+    while (const auto message = reader.next()) {
+      datagrams += message->channel == kDownChannel ? 1 : 0;
+      states += message->channel == channel_of(telemetry::Group::kEgo) ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(datagrams, kFlood - figures.left_out);
+  EXPECT_EQ(states, 1U);
 }
 
 TEST(Recorder, AFolderThatCannotBeIsRefused) {

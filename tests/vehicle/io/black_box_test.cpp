@@ -28,12 +28,16 @@ struct Ticks {
                                         {.frame = {.id = 0x12, .length = 4}, .at = {}}};
   std::vector<can::Frame> said{{.id = 0x21, .length = 8}};
   telemetry::Snapshot state;
+  std::vector<std::uint8_t> air = std::vector<std::uint8_t>(200, 0x5A);
 
   void turn(BlackBox& box, std::uint64_t tick, Instant now) {
     for (can::ReceivedFrame& frame : heard) frame.at = now - milliseconds(1);
     state.sampled_at.fill(now);
     state.values.at.fill(static_cast<double>(tick));
     box.can(heard, said, now);
+    box.radio(true, now, {.path = 1, .bytes = air});
+    box.radio(false, now, {.bytes = air});
+    box.receiver(tick % 2, now, air);
     if (box.state_due(tick)) box.state(state, now);
   }
 };
@@ -77,6 +81,10 @@ TEST(BlackBox, KeepsEveryFrameAndTheStateAndItsTurnsAllocateNothing) {
   EXPECT_EQ(kept.messages["/can/in"], 2 * kTicks);
   EXPECT_EQ(kept.messages["/can/out"], kTicks);
   EXPECT_EQ(kept.messages["/car/ego"], kTicks / BlackBox::kStateEvery);
+  EXPECT_EQ(kept.messages["/radio/down"], kTicks);
+  EXPECT_EQ(kept.messages["/radio/up"], kTicks);
+  EXPECT_EQ(kept.messages["/gnss/0"], kTicks / 2);
+  EXPECT_EQ(kept.messages["/gnss/1"], kTicks / 2);
   std::uint64_t messages = 0;
   for (const auto& [topic, count] : kept.messages) messages += topic == "/base/picture" ? 0 : count;
   EXPECT_EQ(kept.events, messages);

@@ -4,11 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "protocol/recorder/raw_record.hpp"
+#include "protocol/recorder/segment_folder.hpp"
+#include "protocol/recording/mcap_reader.hpp"
 #include "protocol/telemetry/endpoint/station_endpoint.hpp"
 #include "protocol/telemetry/session/keys.hpp"
 #include "protocol/transport/clock.hpp"
@@ -95,21 +99,45 @@ telemetry::Snapshot driving_at(double speed_mps, Instant now) {
   return snapshot;
 }
 
+// Datagrams that a black box has kept, by path.
+struct Heard {
+  std::array<std::uint64_t, telemetry::kPaths> down{}, up{};
+};
+Heard heard_by(const std::string& folder) {
+  Heard heard;
+  const auto paths = recorder::segments_of(folder);
+  EXPECT_TRUE(paths);
+  for (const std::string& path : *paths) {
+    const auto file = transport::read_file(path);
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(file->data());
+    recording::McapReader reader{{bytes, file->size()}};
+    while (const auto message = reader.next()) {
+      const std::string& topic = reader.channels().at(message->channel).topic;
+      if (!topic.starts_with("/radio/")) continue;
+      const auto datagram = recorder::decode_datagram(message->data);
+      EXPECT_TRUE(datagram && !datagram->bytes.empty() && datagram->port != 0);
+      if (datagram) ++(topic == "/radio/down" ? heard.down : heard.up).at(datagram->path);
+    }
+  }
+  return heard;
+}
+
 // Ticks of the car and the base until it holds; what the car's ticks took from the heap.
 struct Ticked {
   bool held = false;
   std::size_t allocations = 0;
 };
 
-Ticked tick_until(Radio& radio, Base& base, const std::function<bool()>& condition) {
+Ticked tick_until(Radio& radio, Base& base, const std::function<bool()>& condition,
+                  BlackBox box = *BlackBox::open("", "", "")) {
   Ticked out;
   const Instant limit = transport::monotonic_now() + kPatience;
   while (!(out.held = condition()) && transport::monotonic_now() < limit) {
     base.serve();
     out.allocations += testing::allocations_of([&] {
-      radio.listen();
+      radio.listen(box);
       const Instant now = transport::monotonic_now();
-      if (radio.due(now)) radio.speak(driving_at(61.5, now), now);
+      if (radio.due(now)) radio.speak(driving_at(61.5, now), now, box);
     });
     transport::sleep_until(transport::monotonic_now() + milliseconds(2));
   }
@@ -123,18 +151,27 @@ TEST_F(CarRadio, SpeaksAndHearsOverOnePathAndOverTwo) {
     ASSERT_TRUE(radio) << to_string(radio.error());
     base.endpoint().stop().demand(telemetry::StopLevel::kControlled,
                                   telemetry::StopReason::kOperator);
-    const Ticked ticked = tick_until(*radio, base, [&] {
-      const auto view = radio->endpoint().view(transport::monotonic_now());
-      return view.stop == telemetry::StopLevel::kControlled && view.alive_at &&
-             base.endpoint().state().values[telemetry::field("ego.vx")] > 0.0;
-    });
+    const Ticked ticked = tick_until(
+        *radio, base,
+        [&] {
+          const auto view = radio->endpoint().view(transport::monotonic_now());
+          return view.stop == telemetry::StopLevel::kControlled && view.alive_at &&
+                 base.endpoint().state().values[telemetry::field("ego.vx")] > 0.0;
+        },
+        *BlackBox::open(folder_->path() + "/box" + std::to_string(paths), "", ""));
     EXPECT_TRUE(ticked.held) << paths;
     EXPECT_TRUE(radio->endpoint().schema_agrees());
     EXPECT_NEAR(base.endpoint().state().values[telemetry::field("ego.vx")], 61.5, 0.05);
     for (std::size_t path = 0; path < paths; ++path)
       EXPECT_GT(radio->counters(path).sent, 0u) << path;
     if (testing::kAllocationsCounted) {
-      EXPECT_EQ(ticked.allocations, 0u);
+      EXPECT_EQ(ticked.allocations, 0u) << "with a black box that records";
+    }
+    // What the sockets say, the black box has, by path.
+    const Heard heard = heard_by(folder_->path() + "/box" + std::to_string(paths));
+    for (std::size_t path = 0; path < paths; ++path) {
+      EXPECT_EQ(heard.down.at(path), radio->counters(path).sent) << path;
+      EXPECT_EQ(heard.up.at(path), radio->counters(path).received) << path;
     }
   }
 }

@@ -42,11 +42,20 @@ template <class Say>
 void hears_three(ReceiverPort& port, Say&& say) {
   EXPECT_FALSE(port.byte_at());
   world::SensorInput out;
-  for (std::uint32_t k = 0; k < 3; ++k) say(some_heading(1'000 * (k + 1)).span());
+  std::vector<std::uint8_t> said, overheard;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const Message message = some_heading(1'000 * (k + 1));
+    said.insert(said.end(), message.span().begin(), message.span().end());
+    say(message.span());
+  }
   const Instant limit = transport::monotonic_now() + seconds(10);
-  while (out.headings.size() < 3 && transport::monotonic_now() < limit)
-    port.read(out, transport::monotonic_now());
+  while (out.headings.size() < 3 && transport::monotonic_now() < limit) {
+    port.read(out, transport::monotonic_now(), [&](Instant, std::span<const std::uint8_t> bytes) {
+      overheard.insert(overheard.end(), bytes.begin(), bytes.end());
+    });
+  }
   ASSERT_EQ(out.headings.size(), 3U);
+  EXPECT_EQ(overheard, said) << "every byte, in order";
   EXPECT_EQ(out.headings[2].unit, 1);
   ASSERT_TRUE(port.byte_at());
   EXPECT_LE(*port.byte_at(), transport::monotonic_now());

@@ -21,6 +21,7 @@ TEST(Journal, KeepsEventsCommandsAndTheLinkAsTheyHappen) {
     ASSERT_TRUE(recorder);
     Journal journal{**recorder, true};
     RadioRig rig{{.real_car = false}};
+    rig.station->overhear(teller_of_datagrams(**recorder));
     rig.set(telemetry::fields_of(telemetry::Group::kEgo).first, 30.0);
     for (int i = 0; i < 100; ++i) {
       if (i == 50) {
@@ -43,6 +44,8 @@ TEST(Journal, KeepsEventsCommandsAndTheLinkAsTheyHappen) {
   EXPECT_EQ(messages["/base/link"], 4);
   EXPECT_EQ(messages["/base/recorder"], 2);
   EXPECT_GE(messages["/base/hello"], 1);
+  EXPECT_GE(messages["/radio/down"], 30);
+  EXPECT_GE(messages["/radio/up"], 5);
   EXPECT_NE(texts.find("engine is warm"), std::string::npos);
   EXPECT_NE(texts.find(R"("mode": "HIL")"), std::string::npos);
 }

@@ -34,7 +34,8 @@ TEST(LcmSchema, LcmGenTakesThemAndHasTheSameFingerprints) {
   const std::string call = "lcm-gen --python --ppath " + folder.string() + " " +
                            (folder / "pitwall.lcm").string() + " >/dev/null";
   ASSERT_EQ(std::system(call.c_str()), 0);
-  std::vector<LcmType> types{lcm_text_type(), lcm_datagram_type(), lcm_can_type()};
+  std::vector<LcmType> types{lcm_text_type(), lcm_datagram_type(), lcm_bytes_type(),
+                             lcm_can_type()};
   for (const GroupRow& row : kGroupTable) types.push_back(lcm_type(row.group));
   for (const LcmType& type : types) {
     EXPECT_EQ(fingerprint_by_lcm(folder, type.name), lcm_fingerprint(type)) << type.name;

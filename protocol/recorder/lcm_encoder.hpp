@@ -1,0 +1,40 @@
+// The LCM messages of records: the same channels, types and bytes in an event log and on the wire.
+//   in     a record of channels.hpp; who keeps the clock map keeps the file's or the process's
+//   out    the name of its channel; the bytes of its message, most significant first: fingerprint,
+//          utime of the sample in microseconds since 1970, members. Types: `pitwall-base export lcm`
+//   law    the picture of all that is known has no LCM message: its values are in the groups
+//   errors has() tells; a record of no channel must not be encoded
+//   cost   no allocation once the buffer has grown
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "protocol/recorder/channels.hpp"
+#include "protocol/recorder/record_queue.hpp"
+
+namespace pitwall::recorder {
+
+class LcmEncoder {
+ public:
+  explicit LcmEncoder(const ClockMap& clock);
+
+  bool has(std::uint16_t channel) const;
+  const std::string& topic(std::uint16_t channel) const { return kinds_[channel].topic; }
+  UtcTime utc(Instant at) const { return UtcTime{utc_of_zero_.ns + at.ns}; }
+  // `out` is replaced.
+  void encode(const Record& record, std::vector<std::uint8_t>& out) const;
+
+ private:
+  struct Kind {
+    std::string topic;
+    std::uint64_t fingerprint = 0;
+  };
+
+  Instant utc_of_zero_{};  // of the clock of the records
+  std::vector<Kind> kinds_;
+};
+
+}  // namespace pitwall::recorder

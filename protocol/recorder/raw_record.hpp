@@ -1,0 +1,60 @@
+// Bytes as they were on the air and on a receiver's line, as records of a recording.
+//   /radio/down, /radio/up  message encoding "x-pitwall-datagram", one message for each datagram,
+//                           as it came (also what is not authentic) or went; encrypted as it is:
+//                             u8  version, 1
+//                             u8  path of the radio, from 0
+//                             u16 port, u32 IPv4 address of the other end
+//                             then the datagram. Numbers least significant byte first
+//   /gnss/0, /gnss/1        message encoding "x-pitwall-stream": what one read of the receiver gave,
+//                           as it was. Over UDP that is a datagram; else the bytes of all messages,
+//                           one after the other, are the receiver's
+//   errors  bytes that are no datagram of this version give nothing
+//   cost    no allocation
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace pitwall::recorder {
+
+inline constexpr const char* kDatagramEncoding = "x-pitwall-datagram";
+inline constexpr const char* kStreamEncoding = "x-pitwall-stream";
+inline constexpr std::size_t kDatagramHead = 8, kDatagramMax = 2'048;
+inline constexpr std::uint8_t kDatagramVersion = 1;
+
+struct AirDatagram {
+  std::uint8_t path = 0;
+  std::uint32_t ip = 0;  // of the other end
+  std::uint16_t port = 0;
+  std::span<const std::uint8_t> bytes;
+};
+using DatagramBytes = std::array<std::uint8_t, kDatagramHead + kDatagramMax>;
+
+// What is longer than any datagram of the radio is cut there.
+inline std::span<const std::uint8_t> encode(const AirDatagram& datagram, DatagramBytes& bytes) {
+  const std::size_t length = std::min(datagram.bytes.size(), kDatagramMax);
+  bytes[0] = kDatagramVersion;
+  bytes[1] = datagram.path;
+  for (unsigned i = 0; i < 2; ++i) {
+    bytes[2 + i] = static_cast<std::uint8_t>(datagram.port >> (8 * i));
+  }
+  for (unsigned i = 0; i < 4; ++i) bytes[4 + i] = static_cast<std::uint8_t>(datagram.ip >> (8 * i));
+  std::ranges::copy(datagram.bytes.first(length), bytes.begin() + kDatagramHead);
+  return std::span{bytes}.first(kDatagramHead + length);
+}
+
+inline std::optional<AirDatagram> decode_datagram(std::span<const std::uint8_t> record) {
+  if (record.size() < kDatagramHead || record[0] != kDatagramVersion) return std::nullopt;
+  AirDatagram datagram{.path = record[1], .bytes = record.subspan(kDatagramHead)};
+  for (unsigned i = 0; i < 2; ++i) {
+    datagram.port = static_cast<std::uint16_t>(datagram.port | record[2 + i] << (8 * i));
+  }
+  for (unsigned i = 0; i < 4; ++i) datagram.ip |= std::uint32_t{record[4 + i]} << (8 * i);
+  return datagram;
+}
+
+}  // namespace pitwall::recorder
