@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/outlets/lcm/lcm_outlet.hpp"
+
+#include <utility>
+
+#include "protocol/transport/readiness.hpp"
+
+namespace pitwall::outlets::lcm {
+namespace {
+
+constexpr Instant kForever{std::numeric_limits<std::int64_t>::max()};
+
+}  // namespace
+
+Result<std::unique_ptr<LcmOutlet>, Problem> LcmOutlet::start(const LcmUrl& url,
+                                                             const recorder::ClockMap& clock,
+                                                             std::string prefix) {
+  auto link = LcmLink::open(url);
+  if (!link) return Unexpected{link.error()};
+  const auto shared = std::make_shared<LcmLink>(*std::move(link));
+  return std::make_unique<LcmOutlet>(
+      [shared](const std::string& channel, std::span<const std::uint8_t> message) {
+        return shared->publish(channel, message);
+      },
+      clock, std::move(prefix));
+}
+
+LcmOutlet::LcmOutlet(Publish publish, const recorder::ClockMap& clock, std::string prefix)
+    : publish_(std::move(publish)), encoder_(clock) {
+  for (std::size_t i = 0; i < feed::kSightChannel; ++i) {
+    names_.push_back(prefix + encoder_.topic(static_cast<std::uint16_t>(i)));
+  }
+  thread_ = std::thread{[this] { run(); }};
+}
+
+LcmOutlet::~LcmOutlet() {
+  feed_.close();
+  thread_.join();
+}
+
+void LcmOutlet::packet(const intake::Station& station, const telemetry::Arrival& arrival) {
+  feed_.sample(station.endpoint().state(), arrival.groups, arrival.received);
+}
+
+void LcmOutlet::run() {
+  const int fd = feed_.fd();
+  for (bool more = true; more;) {
+    transport::wait_readable({&fd, 1}, kForever);
+    more = !feed_.closed();
+    for (const feed::Item& item : feed_.take()) {
+      if (const auto* const sample = std::get_if<std::unique_ptr<const feed::Sample>>(&item)) {
+        tell(**sample);
+      } else if (const auto* const told = std::get_if<feed::Told>(&item)) {
+        tell(*told);
+      }
+    }
+  }
+}
+
+void LcmOutlet::tell(const feed::Sample& sample) {
+  for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
+    if (!sample.groups.has(row.group) || !sample.state.ever(row.group)) continue;
+    const recorder::GroupBytes bytes = recorder::encode(row.group, sample.state.values);
+    send({.channel = recorder::channel_of(row.group),
+          .logged = sample.received,
+          .published = sample.state.at(row.group),
+          .data = bytes.span()});
+  }
+}
+
+void LcmOutlet::tell(const feed::Told& told) {
+  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(told.json.data());
+  send({.channel = recorder::channel_of(told.topic),
+        .logged = told.at,
+        .published = told.at,
+        .data = {bytes, told.json.size()}});
+}
+
+void LcmOutlet::send(const recorder::Record& record) {
+  encoder_.encode(record, message_);
+  ++(publish_(names_[record.channel], message_) ? sent_ : failed_);
+}
+
+std::optional<OutletFigures> LcmOutlet::figures() const {
+  OutletFigures figures{.outlet = "lcm", .sent = sent_, .failed = failed_};
+  const feed::ChannelCounts drops = feed_.drops();
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    if (drops[i] != 0) figures.dropped.emplace_back(names_[i], drops[i]);
+  }
+  return figures;
+}
+
+}  // namespace pitwall::outlets::lcm
