@@ -1,0 +1,29 @@
+// Where the stands of all cars leave what /metrics is made of, and where whoever answers a request
+// makes it.
+//   law    under the lock is a copy only: a scrape does not keep a stand waiting
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "basestation/outlets/metrics/metrics_text.hpp"
+
+namespace pitwall::outlets::metrics {
+
+class Board {
+ public:
+  void put(std::size_t place, CarSight sight);
+  void put(const web::WebCounters& web);
+  std::string text() const;
+
+ private:
+  mutable std::mutex lock_;
+  std::vector<CarSight> cars_;  // these under the lock
+  std::optional<web::WebCounters> web_;
+};
+
+}  // namespace pitwall::outlets::metrics
