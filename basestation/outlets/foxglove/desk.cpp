@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/outlets/foxglove/desk.hpp"
+
+#include <utility>
+
+#include "protocol/transport/clock.hpp"
+
+namespace pitwall::outlets::foxglove {
+
+Result<std::unique_ptr<Desk>, Problem> Desk::start(DeskConfig config) {
+  web::HttpConfig http;
+  http.access = config.access;
+  http.access.local_pages = true;
+  http.subprotocols.assign(kSubprotocols.begin(), kSubprotocols.end());
+  http.queue = {.pictures = kMessages, .picture_bytes = kMessageBytes};
+  auto server = web::WebServer::start(config.listen, std::move(http));
+  if (!server) return Unexpected{Problem{"--foxglove", server.error().what}};
+  return std::unique_ptr<Desk>{new Desk{std::move(config), *std::move(server)}};
+}
+
+Desk::Desk(DeskConfig config, std::unique_ptr<web::WebServer> server)
+    : server_(std::move(server)),
+      sources_(std::move(config.view), std::move(config.clock)),
+      room_({.name = std::move(config.name),
+             .session = std::to_string(transport::utc_now().ns),
+             .playback = config.playback},
+            sources_.channels()),
+      sink_([this](std::size_t channel, UtcTime at, std::span<const std::uint8_t> body) {
+        room_.message(channel, at, body);
+      }) {
+  sources_.statics(transport::monotonic_now(), sink_);
+}
+
+std::vector<PlaybackControl> Desk::hear() {
+  std::vector<PlaybackControl> asked;
+  while (const auto news = server_->next_news()) {
+    std::optional<PlaybackControl> control;
+    switch (news->kind) {
+      case web::ClientNews::Kind::kJoined:
+        room_.joined(news->client);
+        break;
+      case web::ClientNews::Kind::kLeft:
+        room_.left(news->client);
+        break;
+      case web::ClientNews::Kind::kSaid:
+        control = room_.said(news->client, news->text);
+        break;
+      case web::ClientNews::Kind::kBinary: {
+        const auto* const bytes = reinterpret_cast<const std::uint8_t*>(news->text.data());
+        control = room_.said_bytes(news->client, {bytes, news->text.size()});
+        break;
+      }
+    }
+    if (control) asked.push_back(*std::move(control));
+  }
+  return asked;
+}
+
+void Desk::take(const feed::Item& item) {
+  if (const auto* const sample = std::get_if<std::unique_ptr<const feed::Sample>>(&item)) {
+    take(**sample);
+  } else if (const auto* const told = std::get_if<feed::Told>(&item)) {
+    take(*told);
+  } else if (room_.anybody()) {
+    sources_.take(*std::get<std::unique_ptr<const feed::Sight>>(item), sink_);
+  }
+}
+
+void Desk::take(const feed::Sample& sample) {
+  if (room_.anybody()) sources_.take(sample, sink_);
+}
+
+void Desk::forget(Instant now) {
+  room_.forget();
+  sources_.statics(now, sink_);
+}
+
+void Desk::turn(Instant now, Instant shown) {
+  if (now >= due()) {
+    time_told_ = now;
+    room_.time(utc(shown));
+  }
+  if (now - losses_told_ >= kLossEvery) {
+    losses_told_ = now;
+    room_.lost(server_->take_drops());
+  }
+  for (Sending& sending : room_.take()) server_->send(sending.to, std::move(sending.message));
+}
+
+OutletFigures Desk::figures() const {
+  OutletFigures figures = room_.figures();
+  const web::WebCounters web = server_->counters();
+  figures.sent = web.messages_sent;
+  figures.failed = web.posts_dropped;
+  figures.refused.emplace_back("http", web.refused_http);
+  figures.refused.emplace_back("malformed http", web.bad_http);
+  figures.refused.emplace_back("left too much unread", web.closed_unread);
+  return figures;
+}
+
+}  // namespace pitwall::outlets::foxglove

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/outlets/foxglove/foxglove_outlet.hpp"
+
+#include <array>
+#include <utility>
+
+#include "protocol/transport/clock.hpp"
+#include "protocol/transport/readiness.hpp"
+
+namespace pitwall::outlets::foxglove {
+
+Result<std::unique_ptr<FoxgloveOutlet>, Problem> FoxgloveOutlet::start(DeskConfig config,
+                                                                       Look look) {
+  auto desk = Desk::start(std::move(config));
+  if (!desk) return Unexpected{desk.error()};
+  return std::unique_ptr<FoxgloveOutlet>{new FoxgloveOutlet{*std::move(desk), std::move(look)}};
+}
+
+FoxgloveOutlet::FoxgloveOutlet(std::unique_ptr<Desk> desk, Look look)
+    : desk_(std::move(desk)),
+      look_(std::move(look)),
+      figures_(desk_->figures()),
+      thread_([this] { run(); }) {}
+
+FoxgloveOutlet::~FoxgloveOutlet() {
+  feed_.close();
+  thread_.join();
+}
+
+void FoxgloveOutlet::packet(const intake::Station& station, const telemetry::Arrival& arrival) {
+  feed_.sample(station.endpoint().state(), arrival.groups, arrival.received);
+}
+
+void FoxgloveOutlet::serve(intake::Station&, Instant now) {
+  if (now < due()) return;
+  looked_ = now;
+  auto sight = std::make_unique<feed::Sight>();
+  sight->at = now;
+  look_(*sight, now);
+  feed_.sight(std::move(sight));
+}
+
+void FoxgloveOutlet::run() {
+  const std::array<int, 2> watched{feed_.fd(), desk_->fd()};
+  while (!feed_.closed()) {
+    transport::wait_readable(watched, desk_->due());
+    desk_->hear();
+    for (const feed::Item& item : feed_.take()) desk_->take(item);
+    const Instant now = transport::monotonic_now();
+    desk_->turn(now, now);
+    const std::lock_guard hold(lock_);
+    figures_ = desk_->figures();
+  }
+}
+
+std::optional<OutletFigures> FoxgloveOutlet::figures() const {
+  OutletFigures figures;
+  {
+    const std::lock_guard hold(lock_);
+    figures = figures_;
+  }
+  // What this thread did not keep up with, whoever was there.
+  const feed::ChannelCounts drops = feed_.drops();
+  for (std::size_t i = 0; i < drops.size(); ++i) {
+    if (drops[i] != 0) figures.dropped.emplace_back("feed:" + names_[i], drops[i]);
+  }
+  return figures;
+}
+
+}  // namespace pitwall::outlets::foxglove

@@ -1,0 +1,57 @@
+// Foxglove, Lichtblick and PlotJuggler look at a live car: a Desk on a thread of its own.
+//   in     packets, the texts that consoles get, what the base itself finds
+//   out    messages to clients
+//   law    behind a Feed: whatever this thread or a client does costs the loop nothing
+//   errors start(): as the desk. figures(): what the feed or clients lost, what was refused
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <string_view>
+#include <thread>
+
+#include "basestation/outlets/feed/feed.hpp"
+#include "basestation/outlets/foxglove/desk.hpp"
+#include "basestation/outlets/outlet.hpp"
+
+namespace pitwall::outlets::foxglove {
+
+class FoxgloveOutlet : public Outlet {
+ public:
+  static constexpr Duration kLookEvery = milliseconds(100);
+  // Fills in what the base itself finds.
+  using Look = std::function<void(ros_view::BaseSight&, Instant)>;
+
+  static Result<std::unique_ptr<FoxgloveOutlet>, Problem> start(DeskConfig config, Look look = {});
+  ~FoxgloveOutlet() override;
+
+  transport::UdpAddress local() const { return desk_->local(); }
+  void packet(const intake::Station& station, const telemetry::Arrival& arrival) override;
+  void serve(intake::Station& station, Instant now) override;
+  Instant due() const override { return look_ ? looked_ + kLookEvery : kNever; }
+  void text(recorder::Topic topic, Instant at, std::string_view json) {
+    feed_.text(topic, at, json);
+  }
+  std::optional<OutletFigures> figures() const override;
+  feed::Feed& feed() { return feed_; }
+
+ private:
+  static constexpr Instant kNever{std::numeric_limits<std::int64_t>::max()};
+
+  FoxgloveOutlet(std::unique_ptr<Desk> desk, Look look);
+  void run();
+
+  std::unique_ptr<Desk> desk_;  // the thread's own
+  Look look_;
+  Instant looked_{};
+  feed::Feed feed_;
+  const std::vector<std::string> names_ = feed::channel_names();
+  mutable std::mutex lock_;
+  OutletFigures figures_;  // under the lock
+  std::thread thread_;
+};
+
+}  // namespace pitwall::outlets::foxglove

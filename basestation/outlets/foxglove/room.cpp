@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/outlets/foxglove/room.hpp"
+
+#include <algorithm>
+#include <memory>
+
+namespace pitwall::outlets::foxglove {
+namespace {
+
+using web::ClientId;
+using web::ClientSet;
+
+ClientSet only(ClientId client) { return ClientSet{}.set(client); }
+
+}  // namespace
+
+Room::Room(ServerInfo info, std::vector<ChannelRow> channels)
+    : info_(std::move(info)), channels_(std::move(channels)), subscribers_(channels_.size()) {
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    channels_[i].id = static_cast<std::uint32_t>(i);
+  }
+}
+
+void Room::send(const ClientSet& to, std::string text) {
+  if (to.none()) return;
+  out_.push_back({to, std::make_shared<const web::Message>(web::Message{.text = std::move(text)})});
+}
+
+void Room::joined(ClientId client) {
+  present_.set(client);
+  send(only(client), server_info_text(info_));
+  send(only(client), advertise_text(channels_));
+}
+
+void Room::left(ClientId client) {
+  present_.reset(client);
+  for (auto& subscribers : subscribers_) subscribers.erase(client);
+}
+
+std::optional<PlaybackControl> Room::said(ClientId client, std::string_view text) {
+  return carry_out(client, parse_text(text));
+}
+
+std::optional<PlaybackControl> Room::said_bytes(ClientId client,
+                                                std::span<const std::uint8_t> bytes) {
+  return carry_out(client, parse_binary(bytes));
+}
+
+std::optional<PlaybackControl> Room::carry_out(ClientId client, Result<Request, Problem> request) {
+  if (!present_.test(client)) return std::nullopt;
+  if (!request) {
+    refuse(client, "malformed", to_string(request.error()));
+    return std::nullopt;
+  }
+  if (const auto* const ask = std::get_if<Subscribe>(&*request)) subscribe(client, *ask);
+  if (const auto* const ask = std::get_if<Unsubscribe>(&*request)) unsubscribe(client, *ask);
+  if (const auto* const ask = std::get_if<Refusable>(&*request)) {
+    refuse(client, ask->capability,
+           "this server is read only: it has no " + std::string{ask->capability} +
+               "; use the console");
+  }
+  auto* const control = std::get_if<PlaybackControl>(&*request);
+  if (control == nullptr) return std::nullopt;
+  if (info_.playback) return std::move(*control);
+  refuse(client, "playbackControl", "a live car cannot be wound");
+  return std::nullopt;
+}
+
+void Room::subscribe(ClientId client, const Subscribe& ask) {
+  for (const auto& [id, channel] : ask.wanted) {
+    const auto named = [channel = channel] { return "channel " + std::to_string(channel); };
+    if (channel >= channels_.size()) {
+      refuse(client, "subscribe", "there is no " + named());
+      continue;
+    }
+    const bool taken = std::ranges::any_of(subscribers_, [&](const auto& subscribers) {
+      const auto found = subscribers.find(client);
+      return found != subscribers.end() && found->second == id;
+    });
+    if (taken || !subscribers_[channel].try_emplace(client, id).second) {
+      refuse(client, "subscribe",
+             taken ? "that subscription id is in use" : named() + " is subscribed already");
+      continue;
+    }
+    if (const auto newest = newest_.find(channel); newest != newest_.end()) {
+      send(client, channel, newest->second);
+    }
+  }
+}
+
+void Room::unsubscribe(ClientId client, const Unsubscribe& ask) {
+  for (const std::uint32_t id : ask.ids) {
+    std::size_t gone = 0;
+    for (auto& subscribers : subscribers_) {
+      const auto found = subscribers.find(client);
+      if (found == subscribers.end() || found->second != id) continue;
+      subscribers.erase(found);
+      ++gone;
+    }
+    if (gone == 0) refuse(client, "unsubscribe", "no subscription " + std::to_string(id));
+  }
+}
+
+void Room::refuse(ClientId client, std::string_view kind, std::string_view why) {
+  const auto known = refused_.try_emplace(std::string{kind}).first;
+  ++known->second;
+  tell(client, Level::kError, why);
+}
+
+void Room::tell(ClientId client, Level level, std::string_view message) {
+  send(only(client), status_text(level, message));
+}
+
+bool Room::wanted(std::size_t channel) const {
+  return !subscribers_[channel].empty() || channels_[channel].latched;
+}
+
+void Room::message(std::size_t channel, UtcTime at, std::span<const std::uint8_t> body) {
+  if (!wanted(channel)) return;
+  const Newest newest{
+      .at = at,
+      .body = std::make_shared<const std::vector<std::uint8_t>>(body.begin(), body.end())};
+  if (channels_[channel].latched) newest_.insert_or_assign(channel, newest);
+  for (const auto& [client, id] : subscribers_[channel]) send(client, channel, newest);
+}
+
+void Room::send(ClientId client, std::size_t channel, const Newest& newest) {
+  web::Bytes bytes{.head_bytes = kMessageHeader,
+                   .body = newest.body,
+                   .tag = kFirstTag + static_cast<std::uint32_t>(channel)};
+  std::ranges::copy(message_header(subscribers_[channel].at(client), newest.at),
+                    bytes.head.begin());
+  out_.push_back({only(client),
+                  std::make_shared<const web::Message>(web::Message{.binary = std::move(bytes)})});
+}
+
+void Room::time(UtcTime at) {
+  if (present_.none()) return;
+  web::Bytes bytes{.body = std::make_shared<const std::vector<std::uint8_t>>(time_bytes(at)),
+                   .tag = kTimeTag};
+  out_.push_back(
+      {present_, std::make_shared<const web::Message>(web::Message{.binary = std::move(bytes)})});
+}
+
+void Room::playback(const PlaybackState& state) {
+  if (present_.none()) return;
+  web::Bytes bytes{.body =
+                       std::make_shared<const std::vector<std::uint8_t>>(playback_bytes(state))};
+  out_.push_back(
+      {present_, std::make_shared<const web::Message>(web::Message{.binary = std::move(bytes)})});
+}
+
+std::string Room::topic_of_tag(std::uint32_t tag) const {
+  const std::size_t channel = tag - kFirstTag;
+  return tag >= kFirstTag && channel < channels_.size() ? channels_[channel].topic : "time";
+}
+
+void Room::lost(std::span<const web::Drop> drops) {
+  std::map<ClientId, std::string> told;
+  for (const web::Drop& drop : drops) {
+    const std::string topic = topic_of_tag(drop.tag);
+    lost_[topic] += drop.count;
+    std::string& text = told[drop.client];
+    text += (text.empty() ? "" : ", ") + topic + " " + std::to_string(drop.count);
+  }
+  for (const auto& [client, text] : told) {
+    if (!present_.test(client)) continue;
+    tell(client, Level::kWarning, "lost because this client does not read fast enough: " + text);
+  }
+}
+
+OutletFigures Room::figures() const {
+  OutletFigures figures{.outlet = "foxglove", .clients = present_.count()};
+  figures.dropped.assign(lost_.begin(), lost_.end());
+  figures.refused.assign(refused_.begin(), refused_.end());
+  return figures;
+}
+
+}  // namespace pitwall::outlets::foxglove

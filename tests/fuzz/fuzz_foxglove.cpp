@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a Foxglove client may say, as text or as bytes: nothing breaks, and whatever it was, the
+// room says no more to it than it was asked, and nothing to anybody else.
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "basestation/outlets/foxglove/room.hpp"
+#include "protocol/vocabulary/check.hpp"
+
+namespace {
+
+using namespace pitwall::outlets::foxglove;
+
+constexpr pitwall::outlets::web::ClientId kClient = 16, kOther = 17;
+constexpr std::size_t kMostAnswers = 64 * 1'024;
+
+Room room_of_two() {
+  Room room{{.name = "fuzz", .session = "s"}, {{.topic = "/a"}, {.topic = "/b", .latched = true}}};
+  room.joined(kClient);
+  room.joined(kOther);
+  room.message(1, {}, {});
+  room.take();
+  return room;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const Room kFresh = room_of_two();
+  Room room = kFresh;
+  CHECK(!room.said(kClient, {reinterpret_cast<const char*>(data), size}));
+  CHECK(!room.said_bytes(kClient, {data, size}));
+  std::size_t answers = 0;
+  for (const Sending& sending : room.take()) {
+    CHECK(!sending.to.test(kOther));
+    ++answers;
+  }
+  CHECK(answers <= kMostAnswers);
+  return 0;
+}
