@@ -22,6 +22,10 @@ void ConsoleRoom::send(const ClientSet& to, std::string text) {
   out_.push_back({to, std::make_shared<const Message>(Message{.text = std::move(text)})});
 }
 
+void ConsoleRoom::record(std::string_view type, std::string_view text, Instant now) const {
+  for (const Sink& sink : sinks_) sink(type, text, now);
+}
+
 std::string ConsoleRoom::hello(ClientId client, Instant now) const {
   const UtcTime utc{utc_.ns + (now - utc_at_).ns};
   return Object{}
@@ -104,13 +108,13 @@ void ConsoleRoom::tell_history(ClientId client, const AskHistory& ask, const Eye
 }
 
 void ConsoleRoom::tell_state(std::string_view type, std::string text, Instant now) {
-  if (sink_) sink_(type, text, now);
+  record(type, text, now);
   states_.insert_or_assign(std::string{type}, text);
   send(present_, std::move(text));
 }
 
 void ConsoleRoom::tell_line(std::string_view type, std::string text, Instant now) {
-  if (sink_) sink_(type, text, now);
+  record(type, text, now);
   std::deque<std::string>& log = lines_[std::string{type}];
   log.push_back(text);
   if (log.size() > kLines) log.pop_front();
@@ -144,7 +148,7 @@ void ConsoleRoom::identify(const BaseIdentity& identity, Instant now) {
     if (!present_.test(client)) continue;
     send(only(static_cast<ClientId>(client)), hello(static_cast<ClientId>(client), now));
   }
-  if (sink_) sink_("hello", hello(0, now), now);
+  record("hello", hello(0, now), now);
 }
 
 void ConsoleRoom::serve(const Eyes& eyes, UtcTime utc, Instant now) {

@@ -52,7 +52,7 @@ struct RoomCounters {
 class ConsoleRoom {
  public:
   static constexpr std::size_t kLines = 200;
-  // Every text that all consoles are told: for the recorder.
+  // Every text that all consoles are told: for the recorder, and for tools that attach.
   using Sink = std::function<void(std::string_view type, std::string_view text, Instant at)>;
 
   explicit ConsoleRoom(std::string catalogue) : catalogue_(std::move(catalogue)) {}
@@ -83,10 +83,11 @@ class ConsoleRoom {
   std::optional<Role> role(ClientId client) const;
   std::size_t clients() const { return present_.count(); }
   const RoomCounters& counters() const { return counters_; }
-  void record_with(Sink sink) { sink_ = std::move(sink); }
+  void record_with(Sink sink) { sinks_.push_back(std::move(sink)); }  // each is told
 
  private:
   void send(const ClientSet& to, std::string text);
+  void record(std::string_view type, std::string_view text, Instant now) const;
   std::string hello(ClientId client, Instant now) const;
   void tell_history(ClientId client, const AskHistory& ask, const Eyes& eyes, Instant now);
 
@@ -101,7 +102,7 @@ class ConsoleRoom {
   std::map<std::string, std::deque<std::string>, std::less<>> lines_;
   std::vector<Sending> out_;
   RoomCounters counters_;
-  Sink sink_;
+  std::vector<Sink> sinks_;
 };
 
 }  // namespace pitwall::outlets::wall

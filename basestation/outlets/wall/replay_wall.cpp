@@ -68,11 +68,14 @@ void ReplayWall::hear() {
 void ReplayWall::obey(web::ClientId client, const Request& request) {
   const auto* const ask = std::get_if<AskPlayback>(&request);
   if (ask == nullptr) return room_.tell_error(client, {"replay", "a recording takes no commands"});
-  if (ask->speed) player_.set_speed(*ask->speed);
-  if (ask->to_ms) {
-    const auto to_ns = static_cast<std::int64_t>(*ask->to_ms * kNanosecondsPerMillisecond);
-    player_.jump(Instant{to_ns}, *this);
-  }
+  std::optional<Instant> to;
+  if (ask->to_ms) to = Instant{static_cast<std::int64_t>(*ask->to_ms * kNanosecondsPerMillisecond)};
+  wind(ask->speed.value_or(player_.speed()), to);
+}
+
+void ReplayWall::wind(double speed, std::optional<Instant> to) {
+  player_.set_speed(speed);
+  if (to) player_.jump(*to, *this);
   untold_ = kTellEvery;
 }
 
@@ -110,6 +113,7 @@ std::vector<picture::TrendPoint> ReplayWall::past(picture::FieldId id, Instant f
 
 void ReplayWall::state(const telemetry::Snapshot& state, telemetry::GroupSet groups,
                        Instant received) {
+  for (replay::Listener* const other : others_) other->state(state, groups, received);
   unsettled_ = false;
   watch_->advance(picture_, received);
   watch_->heard(received);
@@ -121,6 +125,7 @@ void ReplayWall::state(const telemetry::Snapshot& state, telemetry::GroupSet gro
 
 void ReplayWall::text(recorder::Topic topic, Instant at, std::string_view json) {
   using enum recorder::Topic;
+  for (replay::Listener* const other : others_) other->text(topic, at, json);
   const std::string_view type = recorder::name_of(topic);
   switch (topic) {
     case kHello:  // the mode is REPLAY
@@ -160,7 +165,8 @@ void ReplayWall::tell_judge(Instant at, std::string_view json) {
   static_cast<void>(watch_->take(*input));
 }
 
-void ReplayWall::restart(Instant) {
+void ReplayWall::restart(Instant to) {
+  for (replay::Listener* const other : others_) other->restart(to);
   picture_ = {};
   trends_.emplace();
   watch_.emplace(config_.watch);
@@ -170,13 +176,15 @@ void ReplayWall::restart(Instant) {
   ++jumps_;
 }
 
-void run_replay(ReplayWall& wall, int server, int stop, Duration duration) {
+void run_replay(ReplayWall& wall, int server, int stop, Duration duration,
+                const std::function<void(Instant now)>& also) {
   const Instant begun = transport::monotonic_now();
   const std::array<int, 2> watched{stop, server};
   for (Instant last = begun;;) {
     const std::uint32_t ready = transport::wait_readable(watched, last + kTurn);
     const Instant now = transport::monotonic_now();
     wall.serve(now - last);
+    if (also) also(now);
     last = now;
     if ((ready & 1U) != 0 || (duration.ns > 0 && now >= begun + duration)) return;
   }

@@ -1,13 +1,14 @@
 // The pit wall of a recording: consoles see it as they saw the race. There is no station and no
 // endpoint in it: nothing that a console says can leave it.
 //   in     a Player; what consoles say; how much time has passed
-//   out    messages to the server; the recorded texts as they were
+//   out    messages to the server; the recorded texts as they were; the same to a tool that attaches
 //   law    every console sees the same moment; whoever may look may play, pause and jump
 //          ages, judgements and derived values are computed as of the recording's time
 //   errors commands, stops, authority and alarms are refused with a reason
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ class ReplayWall : private Eyes, private replay::Listener {
   ReplayWall(WallConfig config, replay::Player player, web::WebServer& server);
 
   void serve(Duration passed);
+  // Who is told what the consoles are told; who winds for a tool.
+  void tell_also(replay::Listener& listener) { others_.push_back(&listener); }
+  void wind(double speed, std::optional<Instant> to);
   const replay::Player& player() const { return player_; }
 
  private:
@@ -58,9 +62,12 @@ class ReplayWall : private Eyes, private replay::Listener {
   std::optional<Instant> heard_;
   std::uint64_t jumps_ = 0;
   Duration untold_ = kTellEvery;  // since the playback was told
+  std::vector<replay::Listener*> others_;
 };
 
-// Serves it until the descriptor is readable or, where it is not zero, the duration is over.
-void run_replay(ReplayWall& wall, int server, int stop, Duration duration);
+// Serves it until the descriptor is readable or, where it is not zero, the duration is over. `also`
+// is done in every turn.
+void run_replay(ReplayWall& wall, int server, int stop, Duration duration,
+                const std::function<void(Instant now)>& also = {});
 
 }  // namespace pitwall::outlets::wall

@@ -103,5 +103,14 @@ TEST_F(Room, TheRecorderGetsTheVeryTexts) {
   EXPECT_EQ(kept, (std::vector<std::string>{"audit{1}", "fuel{2}"}));
 }
 
+TEST_F(Room, EachWhoRecordsIsTold) {
+  int first = 0, second = 0;
+  room_.record_with([&](std::string_view, std::string_view, Instant) { ++first; });
+  room_.record_with([&](std::string_view, std::string_view, Instant) { ++second; });
+  room_.tell_line("audit", "{1}", kNow);
+  EXPECT_EQ(first, 1);
+  EXPECT_EQ(second, 1);
+}
+
 }  // namespace
 }  // namespace pitwall::outlets::wall

@@ -28,5 +28,31 @@ TEST(ReplayWall, GoesOnWithTheTimeThatPasses) {
   EXPECT_TRUE(wall.player().ended());
 }
 
+struct Other : replay::Listener {
+  int states = 0, texts = 0, restarts = 0;
+  void state(const telemetry::Snapshot&, telemetry::GroupSet, Instant) override { ++states; }
+  void text(recorder::Topic, Instant, std::string_view) override { ++texts; }
+  void restart(Instant) override { ++restarts; }
+};
+
+TEST(ReplayWall, AToolIsToldTheSameAndMayWind) {
+  const auto folder = transport::TemporaryFolder::create("pitwall_wall");
+  replay::testing::record_race(folder->path(), seconds(6));
+  const auto web = server();
+  ReplayWall wall{{}, *replay::Player::open(folder->path()), *web};
+  Other other;
+  wall.tell_also(other);
+  for (int i = 0; i < 50; ++i) wall.serve(milliseconds(40));
+  EXPECT_GT(other.states, 50);
+  EXPECT_EQ(other.restarts, 0);
+  wall.wind(0.0, replay::testing::kRaceStart + seconds(1));
+  EXPECT_EQ(other.restarts, 1);
+  wall.serve(seconds(1));
+  EXPECT_EQ(wall.player().now(), replay::testing::kRaceStart + seconds(1)) << "it pauses there";
+  wall.wind(2.0, std::nullopt);
+  wall.serve(seconds(1));
+  EXPECT_EQ(wall.player().now(), replay::testing::kRaceStart + seconds(3));
+}
+
 }  // namespace
 }  // namespace pitwall::outlets::wall
