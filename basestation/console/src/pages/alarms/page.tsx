@@ -114,7 +114,7 @@ function HistoryTable() {
             <tr key={`${event.time_ms} ${event.key} ${i}`}>
               <td>{clockText(session.clock.utcMs(event.time_ms))}</td>
               <th scope="row">{event.key}</th>
-              <td>
+              <td class="change">
                 {event.from} &rarr; {event.to}
               </td>
               <td>

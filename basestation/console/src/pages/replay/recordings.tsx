@@ -56,6 +56,12 @@ function Command({ text }: { text: string }) {
   );
 }
 
+/** From the begin of the first segment to that of the last. */
+function spanText({ first_utc_ms, last_utc_ms }: Recording): string {
+  if (first_utc_ms === null || last_utc_ms === null) return kDash;
+  return `${clockText(first_utc_ms)} \u2013 ${clockText(last_utc_ms)}`;
+}
+
 function state(recording: Recording): string {
   if (recording.problem) return recording.problem;
   return recording.running ? "being recorded" : "";
@@ -91,9 +97,7 @@ export function RecordingsPanel() {
       )}
       {list !== null && list.recordings.length > 0 && (
         <table class="readings wide log">
-          <TableHead
-            names={["recording", "car", "UTC", "last minute from", "segments", "size", "state"]}
-          />
+          <TableHead names={["recording", "car", "UTC", "size", "state"]} />
           <tbody>
             {list.recordings.map((recording) => (
               <tr key={recording.folder} data-selected={recording.folder === chosen}>
@@ -110,11 +114,15 @@ export function RecordingsPanel() {
                   {recording.car} {recording.car_name}
                 </td>
                 <td>
-                  {dayText(recording.first_utc_ms)} {clockText(recording.first_utc_ms ?? NaN)}
+                  {spanText(recording)}
+                  <br />
+                  <span class="begun">{dayText(recording.first_utc_ms)}</span>
                 </td>
-                <td>{clockText(recording.last_utc_ms ?? NaN)}</td>
-                <td>{recording.segments}</td>
-                <td>{sizeText(recording.bytes)}</td>
+                <td>
+                  {sizeText(recording.bytes)}
+                  <br />
+                  <span class="begun">{recording.segments} segments</span>
+                </td>
                 <td>{state(recording)}</td>
               </tr>
             ))}
