@@ -22,6 +22,7 @@ struct Ban {
 const Names kClockFolders{"protocol/transport", "tests/benchmarks"};
 const Names kRim{"protocol/transport",
                  "protocol/recorder",
+                 "protocol/dds",
                  "vehicle/io",
                  "basestation/intake",
                  "basestation/outlets",
