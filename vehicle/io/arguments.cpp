@@ -31,6 +31,8 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   app.add_option("--summary", args.summary_file, "write counters and timing here at the end");
   app.add_option("--record", args.record_folder,
                  "keep state and bus frames in this folder: MCAP, and an LCM log beside it");
+  app.add_option("--sensors", args.sensors_file,
+                 "sensors that come over ROS 2 topics: file of topics, types and expected rates");
   app.add_option("--guardian", args.guardian,
                  "name of the record shared with pitwall-guardian (a file in /dev/shm, or a path)");
   app.add_flag("--simulation", args.simulation, "say in the telemetry that this is a simulation");

@@ -23,6 +23,7 @@ struct Arguments {
   std::uint16_t local_report = 0;                     // port on loopback; 0: nobody is told
   std::string summary_file;                           // empty: none
   std::string record_folder;                          // of the car's own recording; empty: none
+  std::string sensors_file;                           // of sensors over ROS 2 topics; empty: none
   std::string guardian;     // name of the record shared with the guardian; empty: there is none
   bool simulation = false;  // marks the telemetry; decides nothing
   bool no_base = false;     // no base station: none is needed to arm, none is missed (benches)

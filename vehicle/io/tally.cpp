@@ -186,7 +186,7 @@ std::string link_json(const world::LinkObservation& link) {
 std::string summary_json(const StepTally& tally, const FrameTotals& frames,
                          const world::BusHealth& bus, const LossTally& losses,
                          const std::string& radio, const std::string& receivers,
-                         const std::string& recorder) {
+                         const std::string& recorder, const std::string& sensors) {
   JsonCounts out;
   out.add("ticks", tally.steps());
   out.add("missed_deadlines", tally.missed_deadlines());
@@ -208,6 +208,7 @@ std::string summary_json(const StepTally& tally, const FrameTotals& frames,
          ",\n \"messages\": " + messages_json(bus) +
          ",\n \"losses\": " + losses_json(losses.listed()) + ",\n \"radio\": " + radio +
          ",\n \"receivers\": " + receivers + ",\n \"recorder\": " + recorder +
+         ",\n \"sensors\": " + sensors +
          ",\n \"step_p50_us\": " + std::to_string(tally.quantile_us(0.5)) +
          ", \"step_p99_us\": " + std::to_string(tally.quantile_us(0.99)) +
          ", \"step_max_us\": " + std::to_string(tally.max_us()) + "}\n";

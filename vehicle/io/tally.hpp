@@ -67,6 +67,6 @@ struct FrameTotals {
 std::string summary_json(const StepTally& tally, const FrameTotals& frames,
                          const world::BusHealth& bus, const LossTally& losses,
                          const std::string& radio = "{}", const std::string& receivers = "[]",
-                         const std::string& recorder = "{}");
+                         const std::string& recorder = "{}", const std::string& sensors = "[]");
 
 }  // namespace pitwall::io

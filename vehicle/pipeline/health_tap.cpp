@@ -155,6 +155,16 @@ void put_sensors(const TapInputs& in, Snapshot& snapshot) {
     snapshot.values[row.rate + 2] = figures.latency.milliseconds();
     snapshot.at(Group::kSensors) = in.now;
   }
+  const auto put = [&](FieldIndex rate, const RimCounters::Stream& stream) {
+    if (std::isnan(stream.rate_hz)) return;
+    snapshot.values[rate] = stream.rate_hz;
+    snapshot.values[rate + 1] = stream.gap_ms;
+    snapshot.values[rate + 2] = stream.latency_ms;
+    snapshot.at(Group::kSensors) = in.now;
+  };
+  put(field("sensors.lidar_rate"), in.rim.lidar);
+  put(field("sensors.camera_rate"), in.rim.camera);
+  put(field("sensors.radar_rate"), in.rim.radar);
 }
 
 void put_receiver(const TapInputs& in, std::size_t unit, Snapshot& snapshot) {

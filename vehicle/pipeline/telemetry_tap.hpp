@@ -6,8 +6,8 @@
 //   law    a field that the car does not know is NaN; a group never sampled has no time, and the
 //          radio never sends it
 //   unset  what no part of this car tells yet: suspension, tread, fuel, steering_unit and brakes
-//          (the gateway does not decode those messages); opponents; lidar, camera and radar of
-//          sensors; torque, oil and traction of powertrain; line, target_gap and cost of planner
+//          (the gateway does not decode those messages); opponents; torque, oil and traction of
+//          powertrain; line, target_gap and cost of planner
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -37,6 +37,11 @@ struct RimCounters {
   };
   std::array<Path, 2> paths{};
   std::array<world::ReceiverTraffic, world::kGnssUnits> receivers{};
+  // How samples for perception come; unset: none ever did.
+  struct Stream {
+    double rate_hz = kUnset, gap_ms = kUnset, latency_ms = kUnset;
+  };
+  Stream lidar{}, camera{}, radar{};
   // What the base said last, as the car's end of the radio keeps it; unset fields: nothing yet.
   struct Uplink {
     bool known = false;                                   // there is a radio

@@ -59,11 +59,13 @@ TEST(Arguments, TheLeastHaveDefaults) {
 TEST(Arguments, EveryOptionArrives) {
   const Parsed p =
       parse(with(kLeast, {"--radio", "10.0.0.5:99", "--radio", "10.0.1.5:98", "--local-report",
-                          "23436", "--summary", "s.json", "--simulation", "--arm", "--no-base"}));
+                          "23436", "--summary", "s.json", "--simulation", "--arm", "--no-base",
+                          "--sensors", "sensors.yaml"}));
   ASSERT_FALSE(p.refused()) << p.err;
   EXPECT_EQ(p.args().radio, (Words{"10.0.0.5:99", "10.0.1.5:98"}));
   EXPECT_EQ(p.args().local_report, 23436);
   EXPECT_EQ(p.args().summary_file, "s.json");
+  EXPECT_EQ(p.args().sensors_file, "sensors.yaml");
   EXPECT_TRUE(p.args().simulation);
   EXPECT_TRUE(p.args().arm);
   EXPECT_TRUE(p.args().no_base);
@@ -75,7 +77,7 @@ TEST(Arguments, HelpIsNoError) {
   EXPECT_EQ(p.code(), 0);
   for (const char* option :
        {"--car", "--track", "--can", "--gnss", "--receiver", "--radio", "--keys", "--local-report",
-        "--summary", "--simulation", "--arm", "--no-base"})
+        "--summary", "--sensors", "--simulation", "--arm", "--no-base"})
     EXPECT_NE(p.out.find(option), std::string::npos) << option;
 }
 

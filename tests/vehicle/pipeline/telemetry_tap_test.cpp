@@ -34,8 +34,6 @@ bool is_nobodys(std::size_t i) {
       "planner.line",   "planner.target_gap",      "planner.cost"};
   const telemetry::FieldRow& row = telemetry::kFields[i];
   return kNobodys.contains(row.group) || kUnknown.contains(name_of(i)) ||
-         name_of(i).starts_with("sensors.lidar") || name_of(i).starts_with("sensors.camera") ||
-         name_of(i).starts_with("sensors.radar") ||
          telemetry::row_of(row.group).direction == telemetry::Direction::kUp;
 }
 

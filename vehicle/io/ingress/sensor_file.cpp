@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/io/ingress/sensor_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "protocol/ros/names.hpp"
+#include "protocol/yaml/strict_map.hpp"
+
+namespace pitwall::io {
+namespace {
+
+constexpr double kRateMin_hz = 0.1, kRateMax_hz = 2'000.0;
+constexpr std::array<std::string_view, 4> kTypes{"PointCloud2", "Image", "NavSatFix", "Imu"};
+
+SensorRow read_row(yaml::StrictMap& map) {
+  SensorRow row{.name = map.text("name"), .topic = map.text("topic")};
+  const auto name_is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  if (row.name.empty() || !std::ranges::all_of(row.name, name_is_plain))
+    map.fail("name", "small letters, digits and '_'");
+  if (const auto topic = ros::dds_topic(row.topic); !topic) map.fail("topic", topic.error().what);
+  const std::string type = map.text("type");
+  const auto found = std::ranges::find(kTypes, type);
+  if (found == kTypes.end()) map.fail("type", "one of PointCloud2, Image, NavSatFix, Imu");
+  row.type = static_cast<SensorType>(found - kTypes.begin());
+  row.rate_hz = map.number("rate_hz", kRateMin_hz, kRateMax_hz);
+  return row;
+}
+
+SensorFile read(yaml::StrictMap& map) {
+  SensorFile file;
+  file.domain.domain = static_cast<int>(map.integer_or("domain", 0, 0, dds::kDomainMax));
+  file.domain.interface = map.text_or("interface", file.domain.interface);
+  if (map.has("peers")) file.domain.peers = map.texts("peers", 0, kSensorsMax);
+  for (yaml::StrictMap& row : map.maps("sensors")) {
+    const SensorRow sensor = read_row(row);
+    for (const SensorRow& other : file.sensors) {
+      if (other.name == sensor.name) row.fail("name", "is there twice");
+      if (other.topic == sensor.topic) row.fail("topic", "is there twice");
+    }
+    file.sensors.push_back(sensor);
+  }
+  if (file.sensors.empty() || file.sensors.size() > kSensorsMax)
+    map.fail("sensors", "1 to " + std::to_string(kSensorsMax));
+  return file;
+}
+
+}  // namespace
+
+Result<SensorFile, Problem> read_sensor_file(const std::string& path) {
+  const auto document = yaml::load_file(path);
+  if (!document) return Unexpected{document.error()};
+  return yaml::read(*document, [](yaml::StrictMap& map) { return read(map); });
+}
+
+}  // namespace pitwall::io

@@ -1,0 +1,39 @@
+// Which sensors come over ROS 2 topics, as a team writes it down:
+//
+//     domain: 0                       # ROS_DOMAIN_ID
+//     interface: 192.168.10.5         # of this machine; 127.0.0.1 where it is left out
+//     peers: [192.168.10.7]           # where multicast does not reach; may be left out
+//     sensors:
+//       - {name: lidar, topic: /luminar_front/points, type: PointCloud2, rate_hz: 20}
+//
+//   law    names are unique, topics are; `lidar`, `camera` and `radar` are told to the pit wall
+//   errors Problem with file, line and column
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "protocol/dds/domain.hpp"
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::io {
+
+enum class SensorType : std::uint8_t { kPointCloud2, kImage, kNavSatFix, kImu };
+
+struct SensorRow {
+  std::string name, topic;
+  SensorType type = SensorType::kPointCloud2;
+  double rate_hz = 0.0;  // that is expected
+};
+
+struct SensorFile {
+  dds::DomainConfig domain;
+  std::vector<SensorRow> sensors;
+};
+
+inline constexpr std::size_t kSensorsMax = 16;
+
+Result<SensorFile, Problem> read_sensor_file(const std::string& path);
+
+}  // namespace pitwall::io

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/io/ingress/sensor_ingress.hpp"
+
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+
+#include "protocol/ros/cdr.hpp"
+#include "protocol/ros/describe.hpp"
+#include "protocol/ros/names.hpp"
+#include "protocol/transport/clock.hpp"
+
+namespace pitwall::io {
+namespace {
+
+// As sensor drivers send: what is late is not worth sending again.
+constexpr dds::Quality kSensorData{.reliable = false, .latched = false, .depth = 5};
+
+Duration age_of(const ros::Header& header, UtcTime now) {
+  return Duration{now.ns - header.stamp.sec * kNanosecondsPerSecond -
+                  static_cast<std::int64_t>(header.stamp.nanosec)};
+}
+
+std::string number(double value) {
+  if (std::isnan(value)) return "null";
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3f", value);
+  return text.data();
+}
+
+// Bytes of one value, by PointField's datatype.
+std::uint64_t bytes_of(std::uint8_t datatype) {
+  constexpr std::array<std::uint8_t, 9> kBytes{0, 1, 1, 2, 2, 4, 4, 4, 8};
+  return datatype < kBytes.size() ? kBytes[datatype] : 0;
+}
+
+}  // namespace
+
+const char* contradiction_of(const ros::PointCloud2& cloud) {
+  const std::uint64_t row = std::uint64_t{cloud.point_step} * cloud.width;
+  if (row > cloud.row_step) return "points are longer than their row";
+  if (std::uint64_t{cloud.row_step} * cloud.height != cloud.data.size())
+    return "rows are not as long as the data";
+  for (const ros::PointField& field : cloud.fields) {
+    const std::uint64_t bytes = bytes_of(field.datatype) * field.count;
+    if (bytes == 0) return "a field has no such type";
+    if (field.offset + bytes > cloud.point_step) return "a field lies beyond its point";
+  }
+  return nullptr;
+}
+
+const char* contradiction_of(const ros::Image& image) {
+  if (image.step < image.width) return "a row is shorter than its pixels";
+  if (std::uint64_t{image.step} * image.height != image.data.size())
+    return "rows are not as long as the data";
+  return nullptr;
+}
+
+const char* contradiction_of(const ros::NavSatFix& fix) {
+  const bool solved = fix.status.status >= 0;
+  if (solved && !(std::abs(fix.latitude) <= 90.0 && std::abs(fix.longitude) <= 180.0))
+    return "a place that is not on the Earth";
+  return nullptr;
+}
+
+const char* contradiction_of(const ros::Imu& imu) {
+  const auto finite = [](const ros::Vector3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  };
+  if (imu.angular_velocity_covariance[0] != -1.0 && !finite(imu.angular_velocity))
+    return "a rate that is no number";
+  if (imu.linear_acceleration_covariance[0] != -1.0 && !finite(imu.linear_acceleration))
+    return "an acceleration that is no number";
+  return nullptr;
+}
+
+struct SensorIngress::Sensor {
+  template <class M>
+  void hear(Mailbox<M>& mailbox, dds::Bytes cdr) {
+    auto message = ros::decode<M>(cdr);
+    if (!message || contradiction_of(*message) != nullptr) {
+      ++refused;
+      return;
+    }
+    const Duration age = age_of(message->header, transport::utc_now());
+    const bool ours = age <= kStampApart && -age <= kStampApart;
+    if (!ours) ++bad_stamps;
+    mailbox.next() = *std::move(message);
+    mailbox.put();
+    arrivals.note(transport::monotonic_now(), ours ? std::optional{age} : std::nullopt);
+  }
+
+  template <class M>
+  Result<bool, Problem> open() {
+    auto& mailbox = mailboxes.emplace<Mailbox<M>>();
+    const dds::TopicType topic{*ros::dds_topic(row.topic), ros::dds_type(M::kType),
+                               ros::type_hash(ros::describe<M>())};
+    return domain->read_from(topic, kSensorData,
+                             [this, &mailbox](dds::Bytes cdr) { hear(mailbox, cdr); });
+  }
+
+  Result<bool, Problem> open_by_type() {
+    switch (row.type) {
+      case SensorType::kPointCloud2:
+        return open<ros::PointCloud2>();
+      case SensorType::kImage:
+        return open<ros::Image>();
+      case SensorType::kNavSatFix:
+        return open<ros::NavSatFix>();
+      case SensorType::kImu:
+        return open<ros::Imu>();
+    }
+    CHECK(false);
+  }
+
+  SensorRow row;
+  Arrivals arrivals;
+  std::variant<std::monostate, Mailbox<ros::PointCloud2>, Mailbox<ros::Image>,
+               Mailbox<ros::NavSatFix>, Mailbox<ros::Imu>>
+      mailboxes;
+  std::atomic<std::uint64_t> refused{0}, bad_stamps{0};
+  std::unique_ptr<dds::Domain> domain;  // last: its threads use all of the above
+};
+
+SensorIngress::~SensorIngress() = default;
+
+Result<std::unique_ptr<SensorIngress>, Problem> SensorIngress::start(const SensorFile& file) {
+  std::unique_ptr<SensorIngress> ingress{new SensorIngress};
+  for (const SensorRow& row : file.sensors) {
+    auto sensor = std::make_unique<Sensor>();
+    sensor->row = row;
+    auto domain = dds::Domain::join(file.domain);
+    if (!domain) return Unexpected{domain.error()};
+    sensor->domain = *std::move(domain);
+    const auto opened = sensor->open_by_type();
+    if (!opened) return Unexpected{opened.error()};
+    ingress->sensors_.push_back(std::move(sensor));
+  }
+  return ingress;
+}
+
+const SensorRow& SensorIngress::row(std::size_t i) const { return sensors_[i]->row; }
+
+ArrivalFigures SensorIngress::figures(std::size_t i, Instant now) const {
+  return sensors_[i]->arrivals.newest(now);
+}
+
+ArrivalFigures SensorIngress::figures(const std::string& name, Instant now) const {
+  for (const auto& sensor : sensors_)
+    if (sensor->row.name == name) return sensor->arrivals.newest(now);
+  return {};
+}
+
+SensorCounts SensorIngress::counts(std::size_t i) const {
+  const Sensor& sensor = *sensors_[i];
+  const std::uint64_t overwritten = std::visit(
+      [](const auto& mailbox) -> std::uint64_t {
+        if constexpr (requires { mailbox.overwritten(); }) return mailbox.overwritten();
+        return 0;
+      },
+      sensor.mailboxes);
+  return {.samples = sensor.arrivals.count(),
+          .overwritten = overwritten,
+          .refused = sensor.refused,
+          .foreign_types = sensor.domain->figures().foreign_types,
+          .bad_stamps = sensor.bad_stamps};
+}
+
+template <class M>
+const M* SensorIngress::take(std::size_t i) {
+  auto* const mailbox = std::get_if<Mailbox<M>>(&sensors_[i]->mailboxes);
+  return mailbox == nullptr ? nullptr : mailbox->take();
+}
+template const ros::PointCloud2* SensorIngress::take(std::size_t);
+template const ros::Image* SensorIngress::take(std::size_t);
+template const ros::NavSatFix* SensorIngress::take(std::size_t);
+template const ros::Imu* SensorIngress::take(std::size_t);
+
+std::string SensorIngress::json(Instant now) const {
+  std::string text;
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {
+    const ArrivalFigures f = figures(i, now);
+    const SensorCounts c = counts(i);
+    text += (i == 0 ? "" : ", ") + ("{\"name\": \"" + row(i).name) +
+            "\", \"expected_hz\": " + number(row(i).rate_hz) +
+            ", \"rate_hz\": " + number(f.rate_hz) + ", \"gap_ms\": " + number(f.gap_ms) +
+            ", \"latency_ms\": " + number(f.latency_ms) +
+            ", \"samples\": " + std::to_string(c.samples) +
+            ", \"overwritten\": " + std::to_string(c.overwritten) +
+            ", \"refused\": " + std::to_string(c.refused) +
+            ", \"foreign_types\": " + std::to_string(c.foreign_types) +
+            ", \"bad_stamps\": " + std::to_string(c.bad_stamps) + "}";
+  }
+  return "[" + text + "]";
+}
+
+}  // namespace pitwall::io

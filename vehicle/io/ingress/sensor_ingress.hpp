@@ -1,0 +1,66 @@
+// Sensors that speak ROS 2, for perception: the newest sample of each, and how it comes.
+//   in     topics of a sensor file, over DDS
+//   out    newest sample of each sensor by type; rate, gap, latency, drops, refusals
+//   law    each sensor has its own DDS participant, with sockets and threads of its own: none waits
+//          for another, and nothing of it runs in the 100 Hz loop, which takes from mailboxes and
+//          atomic figures without waiting
+//          what is not a whole, well-formed message of the type is refused, counted, and never
+//          seen by anybody
+//   units  latency: from header.stamp to arrival, both in UTC
+//   errors start(): Problem with the sensor. Later: counters
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "protocol/ros/messages/sensor.hpp"
+#include "vehicle/io/ingress/arrivals.hpp"
+#include "vehicle/io/ingress/mailbox.hpp"
+#include "vehicle/io/ingress/sensor_file.hpp"
+
+namespace pitwall::io {
+
+struct SensorCounts {
+  std::uint64_t samples = 0;
+  std::uint64_t overwritten = 0;    // that nobody took before the next
+  std::uint64_t refused = 0;        // cut, no CDR, or numbers that contradict each other
+  std::uint64_t foreign_types = 0;  // writers of the topic with another type
+  std::uint64_t bad_stamps = 0;     // more than kStampApart from this clock
+};
+
+// None: the sizes in it agree with each other.
+const char* contradiction_of(const ros::PointCloud2& cloud);
+const char* contradiction_of(const ros::Image& image);
+const char* contradiction_of(const ros::NavSatFix& fix);
+const char* contradiction_of(const ros::Imu& imu);
+
+class SensorIngress {
+ public:
+  static constexpr Duration kStampApart = seconds(10);
+
+  static Result<std::unique_ptr<SensorIngress>, Problem> start(const SensorFile& file);
+  ~SensorIngress();
+
+  std::size_t size() const { return sensors_.size(); }
+  const SensorRow& row(std::size_t i) const;
+  ArrivalFigures figures(std::size_t i, Instant now) const;
+  // Of the sensor with this name; unset where there is none.
+  ArrivalFigures figures(const std::string& name, Instant now) const;
+  SensorCounts counts(std::size_t i) const;
+  // The newest that was not taken yet; nullptr: none, or the sensor is of another type.
+  template <class M>
+  const M* take(std::size_t i);
+  std::string json(Instant now) const;  // a list, for the summary of a run
+
+  struct Sensor;
+
+ private:
+  SensorIngress() = default;
+  std::vector<std::unique_ptr<Sensor>> sensors_;
+};
+
+}  // namespace pitwall::io
