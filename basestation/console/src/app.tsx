@@ -35,6 +35,8 @@ const kBodies: Record<PageName, FunctionComponent> = {
   link: LinkPage,
   commands: CommandsPage,
   alarms: AlarmsPage,
+  race: later(() => import("./pages/race/page").then((it) => it.RacePage)),
+  hil: later(() => import("./pages/hil/page").then((it) => it.HilPage)),
   replay: later(() => import("./pages/replay/page").then((it) => it.ReplayPage)),
 };
 

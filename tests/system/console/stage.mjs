@@ -16,7 +16,17 @@ const kChromium = process.env.PITWALL_CHROMIUM || "/usr/bin/chromium";
 /** A browser that does not end is killed with the test's process. */
 const kCloseMs = 10_000;
 export const kScreenshots = join(kRoot, "build/console/screenshots");
-export const kPages = ["primary", "plots", "telemetry", "link", "commands", "alarms", "replay"];
+export const kPages = [
+  "primary",
+  "plots",
+  "telemetry",
+  "link",
+  "commands",
+  "alarms",
+  "race",
+  "hil",
+  "replay",
+];
 export const kThemes = ["dark", "light", "sun"];
 export const kSizes = [
   [1920, 1080],
@@ -35,7 +45,7 @@ export async function launch() {
 
 /** A page on `address`, live: resolves when the first values are drawn. */
 export async function open(browser, address, options = {}) {
-  const { size = [1280, 800], theme = "dark", hash = "", ownClock = false } = options;
+  const { size = [1280, 800], theme = "dark", hash = "", ownClock = false, ready } = options;
   const context = await browser.newContext({
     viewport: { width: size[0], height: size[1] },
   });
@@ -56,7 +66,7 @@ export async function open(browser, address, options = {}) {
     sessionStorage.setItem("themed", "1");
   }, theme);
   await page.goto(`${address}/${hash}`);
-  await page.waitForFunction(() => document.querySelector('.value[data-quality="fresh"]'));
+  await page.waitForSelector(ready ?? '.value[data-quality="fresh"]', { state: "attached" });
   return { page, faults, context };
 }
 

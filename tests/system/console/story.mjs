@@ -202,6 +202,119 @@ export function link(now) {
   };
 }
 
+const error = (from_mps, to_mps, samples, mean_m, best, mean) => ({
+  from_mps,
+  to_mps,
+  samples,
+  mean_m: samples ? mean_m : null,
+  max_m: samples ? 2.4 * mean_m : null,
+  paper_best_m: best,
+  paper_mean_m: mean,
+  beats: !samples ? null : mean_m <= best ? "best" : mean_m <= mean ? "mean" : "neither",
+});
+
+/** A bench desk in the middle of a run with a fault under way and a gate that has failed. */
+export function bench() {
+  const scenario = (id, description, more = {}) => ({
+    type: "scenario",
+    id,
+    name: id,
+    description,
+    duration_s: 84,
+    seed: 19,
+    lockstep: true,
+    live: true,
+    faults: [],
+    expect: ["always wall_gap_m > 0.5"],
+    problem: null,
+    ...more,
+  });
+  const expect = [
+    "within 28 s: speed_mps > 55, from 10 s",
+    "always wall_gap_m > 0.5",
+    "never side_slip_deg > 5",
+    "within 26 s: speed_mps < 0.3, from 50 s",
+  ];
+  const of = (type, line) => ({ type: `bench_${type}`, desk: "desk 1", of: line });
+  return [
+    { type: "bench", up: true, problem: null, malformed: 0, may_start: true, why_not: null },
+    of("list", [
+      scenario("faults/gnss_rtk_lost", "Corrections end for ten seconds.", {
+        faults: ["gnss_rtk_lost"],
+      }),
+      scenario("ims_flying_lap", "A flying lap of Indianapolis."),
+      scenario("red_flag_stop", "Red at full speed in a corner: a planned stop."),
+      scenario("spoilt", "", { problem: "spoilt.yaml:4:7: error: not a number", duration_s: null }),
+      scenario("wheel_speeds_lost", "Wheel speeds end at speed.", { lockstep: false }),
+    ]),
+    of("run", {
+      type: "run",
+      run: 4,
+      state: "running",
+      scenario: "red_flag_stop",
+      name: "red_flag_stop",
+      seed: 77,
+      mode: "live",
+      by: "console 16",
+      stopped_by: null,
+      why: null,
+      report: "out/desk/4/report.html",
+      junit: "out/desk/4/junit.xml",
+      log: "out/desk/4/events.mcap",
+    }),
+    of("plan", {
+      type: "plan",
+      run: 4,
+      mode: "live",
+      duration_s: 84,
+      faults: [
+        { what: "gnss_rtk_lost unit 1", at_s: 20, lasts_s: 12 },
+        { what: "radio_loss 0.4", at_s: 48, lasts_s: 20 },
+        { what: "tyres_cold 29", at_s: 70, lasts_s: 0 },
+      ],
+      flags: [
+        { what: "red", at_s: 0.5, track: "red" },
+        { what: "green 147 mph", at_s: 10, track: "green" },
+        { what: "red", at_s: 50, track: "red" },
+      ],
+      operator: [{ what: "limit 60", at_s: 40 }],
+      expect,
+    }),
+    ...[
+      [0.5, "flag", "red"],
+      [10, "flag", "green 147 mph"],
+      [10.02, "mode", "driving"],
+      [20, "fault_begins", "gnss_rtk_lost unit 1"],
+      [32, "fault_ends", "gnss_rtk_lost unit 1"],
+      [46.3, "lap", "1"],
+      [48, "fault_begins", "radio_loss 0.4"],
+      [50, "flag", "red"],
+    ].map(([t_s, kind, text]) => of("event", { type: "event", run: 4, t_s, kind, text })),
+    of("at", {
+      type: "at",
+      run: 4,
+      t_s: 53.5,
+      speed_mps: 41.3,
+      mode: "driving",
+      flag: "red",
+      laps: 1,
+      last_lap_s: 42.18,
+      best_lap_s: 42.18,
+      wall_gap_m: 1.31,
+      contact: false,
+      overall: error(undefined, undefined, 4_210, 0.281, 0.244, 0.372),
+      cross_track: [
+        error(60, null, 1_830, 0.412, 0.54, 0.689),
+        error(55, 60, 420, 0.611, 0.457, 0.832),
+        error(50, 55, 300, 0.702, 0.479, 0.653),
+        error(45, 50, 0, 0, 0.412, 0.519),
+      ],
+      expect: ["holds", "holds", "failed", "open"],
+      reactions: [{ to: "red", at_s: 50, speed_mps: 65.1, reaction_ms: 120, stop_m: null }],
+    }),
+  ];
+}
+
 /** What a console hears on connecting, after hello and catalogue. */
 export function greetings(double) {
   const now = double.nowMs();
@@ -213,6 +326,7 @@ export function greetings(double) {
     "alarm RTK corrections acknowledged",
   ];
   return [
+    ...bench(),
     {
       type: "authority",
       holder: 16,
@@ -272,6 +386,24 @@ export function troubles(double) {
   double.set("fuel.level", 31.2, 0, kLate);
   double.set("electric.battery", 13.8, 0, kStale);
   double.set("dynamics.lateral_error", -1.38, kWarning);
+  double.set("flags.track", 5);
+  double.set("flags.vehicle", 10);
+  double.set("flags.track_acted_on", 4);
+  double.set("flags.vehicle_acted_on", 10);
+  double.set("derived.flag_conflict", 1, kBad);
+  double.set("derived.round_speed_conflict", 0);
+  double.set("derived.race_control_speed", 55.9);
+  double.set("derived.round_speed_expected", 51.4);
+  double.set("derived.fuel_state", 1);
+  double.set("derived.role", 2);
+  double.set("derived.role_conflict", 0);
+  double.set("derived.attempt", 3);
+  double.set("derived.attempt_state", 1);
+  double.set("derived.attempt_laps", 1.37);
+  double.set("derived.attempt_laps_left", 0.63);
+  double.set("derived.gap_ahead", 18.4, 0, kStale);
+  double.set("derived.gap_behind", 44.1);
+  double.set("derived.gap_closing", 2.2);
 }
 
 const check = (name, go, text, ageMs = 40, known = true) => ({

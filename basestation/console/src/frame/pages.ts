@@ -12,6 +12,8 @@ export const kPages = [
   { key: 4, name: "link", title: "Link" },
   { key: 5, name: "commands", title: "Commands" },
   { key: 6, name: "alarms", title: "Alarms" },
+  { key: 7, name: "race", title: "Race" },
+  { key: 8, name: "hil", title: "HIL" },
   { key: 9, name: "replay", title: "Pre-run" },
 ] as const;
 

@@ -11,6 +11,7 @@ import type { Checklist } from "../wire/pit";
 import { Kind, readHead, readHistory, readSnapshot } from "../wire/frame";
 import type { History as HistoryAnswer } from "../wire/frame";
 import { BaseSocket } from "../wire/socket";
+import { Bench } from "./bench";
 import { BaseClock } from "./station_clock";
 import { Fields } from "./fields";
 import { History } from "./history";
@@ -63,6 +64,7 @@ export class CarSession {
   readonly checklist = signal<Checklist | null>(null);
   readonly playback = signal<Wire.Playback | null>(null);
   readonly track = signal<Wire.Track | null>(null);
+  readonly bench = new Bench();
   readonly lastError = signal<{ place: string; what: string; at: number } | null>(null);
   readonly lastStop = signal<LastStop | null>(null);
 
@@ -203,6 +205,7 @@ export class CarSession {
       if (before && before.jumps !== m.jumps) this.forget();
       this.playback.value = m;
     },
+    ...this.bench.texts,
     pong: () => {},
     layout: () => {},
     error: (m: { place: string; what: string }) =>

@@ -126,7 +126,7 @@ function NoticeCard({ notice }: { notice: Notice }) {
   );
 }
 
-function Notices() {
+export function Notices() {
   const notices = session.notices.value;
   return (
     <section class="panel" aria-label="messages to race control" tabIndex={0}>

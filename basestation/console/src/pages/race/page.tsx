@@ -1,0 +1,148 @@
+/**
+ * The race: flags and round speed as each side has them, roles, attempts and gaps of the passing
+ * competition, fuel, and what race control is to be told. Every judgement is the base's; what is
+ * stale keeps its age and loses its colour.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import type { ComponentChildren } from "preact";
+import { Flag } from "../../frame/flag_tile";
+import { Bar } from "../../view/bar";
+import { Line, Tile } from "../../view/value";
+import { Notices } from "../link/page";
+import { FuelPanel } from "../primary/fuel_panel";
+import "./race.css";
+
+/** Of an attempt, and the lead that makes it a pass: as the base reckons with them. */
+const kAttemptLaps = 2;
+const kPassGapM = 30;
+const kGapShownM = 120;
+
+function FlagRow({ source, children }: { source: string; children: ComponentChildren }) {
+  return (
+    <div class="flag-row" role="group" aria-label={source}>
+      <span class="source">{source}</span>
+      {children}
+    </div>
+  );
+}
+
+function FlagsPanel() {
+  return (
+    <section class="panel" aria-label="flags" tabIndex={0}>
+      <h2>Flags</h2>
+      <FlagRow source="race control, over CAN">
+        <Flag path="flags.track" label="track" />
+        <Flag path="flags.vehicle" label="vehicle" />
+      </FlagRow>
+      <FlagRow source="pit wall, over the base link">
+        <Flag path="derived.flag_relayed" label="track" />
+      </FlagRow>
+      <FlagRow source="what the car acts on">
+        <Flag path="flags.track_acted_on" label="track" />
+        <Flag path="flags.vehicle_acted_on" label="vehicle" />
+      </FlagRow>
+      <div class="lines two">
+        <Line label="conflict of the three" path="derived.flag_conflict" />
+        <Line label="race control's encodings differ" path="flags.conflict" />
+        <Line label="heartbeat of race control" path="flags.heartbeat_age" decimals={1} />
+        <Line label="link age in the car" path="uplink.link_age" decimals={2} />
+      </div>
+    </section>
+  );
+}
+
+function SpeedPanel() {
+  return (
+    <section class="panel" aria-label="round speed" tabIndex={0}>
+      <h2>Round speed</h2>
+      <div class="tiles four">
+        <Tile label="race control" path="derived.race_control_speed" speed big />
+        <Tile label="announced, ours" path="derived.round_speed_expected" speed big />
+        <Tile label="car's target" path="track.target_speed" speed big />
+        <Tile label="car" path="ego.vx" speed big />
+      </div>
+      <div class="lines two">
+        <Line label="conflict" path="derived.round_speed_conflict" />
+        <Line label="operator's limit" path="planner.operator_limit" speed />
+      </div>
+    </section>
+  );
+}
+
+function AttemptPanel() {
+  return (
+    <section class="panel" aria-label="attempt" tabIndex={0}>
+      <h2>Attempt</h2>
+      <div class="tiles three words">
+        <Tile label="role" path="derived.role" big />
+        <Tile label="attempt" path="derived.attempt" decimals={0} big />
+        <Tile label="state" path="derived.attempt_state" big />
+      </div>
+      <div class="tiles three">
+        <Tile label="laps driven" path="derived.attempt_laps" decimals={2} big />
+        <Tile label="laps left" path="derived.attempt_laps_left" decimals={2} big />
+        <Tile label="lap" path="track.lap" decimals={0} big />
+      </div>
+      <Bar path="derived.attempt_laps" label="laps of the attempt" max={kAttemptLaps} />
+      <div class="lines two">
+        <Line label="role that the car plans by" path="planner.role" />
+        <Line label="conflict of the roles" path="derived.role_conflict" />
+        <Line label="manoeuvre" path="planner.primitive" />
+        <Line label="last lap" path="track.last_lap_time" decimals={2} />
+      </div>
+    </section>
+  );
+}
+
+function GapPanel() {
+  const ticks = [{ at: kPassGapM, label: `${kPassGapM} m` }];
+  return (
+    <section class="panel" aria-label="gap" tabIndex={0}>
+      <h2>
+        Gap <span class="sum">bumper to bumper; {kPassGapM} m ahead is a pass</span>
+      </h2>
+      <div class="tiles three">
+        <Tile label="to who is ahead" path="derived.gap_ahead" decimals={1} big />
+        <Tile label="to who is behind" path="derived.gap_behind" decimals={1} big />
+        <Tile label="closing" path="derived.gap_closing" speed decimals={1} big />
+      </div>
+      <div class="gaps">
+        <span class="label">ahead</span>
+        <Bar path="derived.gap_ahead" label="gap ahead" max={kGapShownM} ticks={ticks} />
+        <span class="label">behind</span>
+        <Bar path="derived.gap_behind" label="gap behind" max={kGapShownM} ticks={ticks} />
+      </div>
+      <div class="lines two">
+        <Line label="nearest opponent" path="opponent_1.identity" />
+        <Line label="seen before" path="opponent_1.age" decimals={2} />
+        <Line label="its speed" path="opponent_1.speed" speed />
+        <Line label="its offset" path="opponent_1.offset" decimals={1} />
+      </div>
+    </section>
+  );
+}
+
+export function RacePage() {
+  return (
+    <main class="page race-page">
+      <div class="column">
+        <FlagsPanel />
+        <SpeedPanel />
+      </div>
+      <div class="column">
+        <AttemptPanel />
+        <GapPanel />
+      </div>
+      <div class="column">
+        <section class="panel" aria-label="fuel plan" tabIndex={0}>
+          <h2>Fuel plan</h2>
+          <FuelPanel />
+          <div class="lines">
+            <Line label="state" path="derived.fuel_state" />
+          </div>
+        </section>
+        <Notices />
+      </div>
+    </main>
+  );
+}

@@ -1,0 +1,126 @@
+/**
+ * What the base passes on of a bench desk: each text is `{type, desk, of}` with the desk's own line
+ * in `of`, as hil/desk/PROTOCOL.md names its members. All of it is simulation.
+ */
+// SPDX-License-Identifier: Apache-2.0
+
+/** The link to the desk, judged by the base. */
+export interface BenchLink {
+  up: boolean;
+  problem: string | null;
+  malformed: number;
+  may_start: boolean;
+  why_not: string | null;
+}
+
+export interface BenchScenario {
+  id: string;
+  name: string;
+  description: string;
+  duration_s: number | null;
+  seed: number;
+  lockstep: boolean;
+  live: boolean;
+  faults: string[];
+  expect: string[];
+  problem: string | null;
+}
+
+export type BenchState = "running" | "passed" | "failed" | "unusable" | "crashed" | "stopped";
+export type BenchMode = "lockstep" | "live";
+
+export interface BenchRun {
+  run: number;
+  state: BenchState;
+  scenario: string;
+  name: string;
+  seed: number;
+  mode: BenchMode;
+  by: string;
+  stopped_by: string | null;
+  why: string | null;
+  report: string | null;
+  junit: string | null;
+  log: string | null;
+}
+
+export interface Planned {
+  what: string;
+  at_s: number;
+  lasts_s?: number;
+  track?: string;
+}
+
+export interface BenchPlan {
+  run: number;
+  duration_s: number;
+  mode: BenchMode;
+  faults: Planned[];
+  flags: Planned[];
+  operator: Planned[];
+  expect: string[];
+}
+
+export interface BenchEvent {
+  run: number;
+  t_s: number;
+  kind: string;
+  text: string;
+}
+
+export interface TrackError {
+  from_mps?: number;
+  to_mps?: number | null;
+  samples: number;
+  mean_m: number | null;
+  max_m: number | null;
+  paper_best_m: number;
+  paper_mean_m: number;
+  beats: "best" | "mean" | "neither" | null;
+}
+
+export type Standing = "open" | "holds" | "failed";
+
+export interface Reaction {
+  to: string;
+  at_s: number;
+  speed_mps: number | null;
+  reaction_ms: number | null;
+  stop_m: number | null;
+}
+
+export interface BenchAt {
+  run: number;
+  t_s: number;
+  speed_mps: number | null;
+  mode: string;
+  flag: string;
+  laps: number;
+  last_lap_s: number | null;
+  best_lap_s: number | null;
+  wall_gap_m: number | null;
+  contact: boolean;
+  overall: TrackError;
+  cross_track: TrackError[];
+  expect: Standing[];
+  reactions: Reaction[];
+}
+
+export interface BenchVerdict {
+  name: string;
+  text?: string;
+  pass: boolean;
+  reason?: string;
+}
+
+export interface BenchResult {
+  run: number;
+  passed: boolean;
+  timely: boolean;
+  reactions: Reaction[];
+}
+
+export interface OfDesk<T> {
+  desk: string;
+  of: T;
+}
