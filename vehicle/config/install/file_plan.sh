@@ -21,12 +21,48 @@ committed=0
 may_be_ours() {
   [[ $1 != *..* ]] || return 1
   case $1 in
-    /opt/pitwall/* | /etc/pitwall/* | /etc/systemd/system/pitwall-* | \
+    /opt/pitwall/* | /usr/local/bin/pitwall-base | /usr/lib/*/wireshark/plugins/pitwall.lua | \
+      /etc/pitwall/* | /etc/systemd/system/pitwall-* | \
       /etc/systemd/system/*.wants/* | /etc/systemd/network/70-pitwall-* | \
       /etc/sysusers.d/pitwall.conf | /etc/sysctl.d/05-pitwall.conf | \
       /etc/security/limits.d/70-pitwall.conf | /etc/modules-load.d/pitwall.conf) return 0 ;;
     *) return 1 ;;
   esac
+}
+
+# Who may not write to this machine is told before anything is read.
+may_change() {
+  [[ -n $target ]] || ((dry_run || EUID == 0)) ||
+    fail 'this machine can be changed by root only: sudo, or --root DIR for a tree of your own'
+}
+
+scratch=''
+begin_plan() {
+  trap on_exit EXIT
+  trap 'exit 130' INT
+  trap 'exit 143' TERM HUP
+  scratch=$(mktemp -d)
+  load_manifest
+}
+
+on_exit() {
+  local code=$?
+  set +e
+  trap - EXIT
+  if ((!dry_run && !committed)) && ((${#done_paths[@]} + ${#made_folders[@]} > 0)); then
+    put_back
+    printf 'pitwall: error: install: it failed on the way; everything is as it was\n' >&2
+    code=1
+  fi
+  [[ -z $scratch ]] || rm -rf -- "$scratch"
+  exit "$code"
+}
+
+say_manifest() {
+  local action=create
+  [[ ! -f $target$manifest ]] || action=replace
+  changes || action=keep
+  printf '%-8s %s %s 0644 (what is installed, with checksums)' "$action" "$manifest" "$(owner)"
 }
 
 load_manifest() {

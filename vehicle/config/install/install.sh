@@ -246,13 +246,6 @@ say_next() {
 
 # --- the two ways ----------------------------------------------------------------------------
 
-say_manifest() {
-  local action=create
-  [[ ! -f $target$manifest ]] || action=replace
-  changes || action=keep
-  printf '%-8s %s %s 0644 (what is installed, with checksums)' "$action" "$manifest" "$(owner)"
-}
-
 install_car() {
   local program manifest_line
   check_config
@@ -299,34 +292,15 @@ check_config() {
   note "the car process, as built now, refuses its files: ${said%%$'\n'*}"
 }
 
-scratch=''
-on_exit() {
-  local code=$?
-  set +e
-  trap - EXIT
-  if ((!dry_run && !committed)) && ((${#done_paths[@]} + ${#made_folders[@]} > 0)); then
-    put_back
-    printf 'pitwall: error: install: it failed on the way; everything is as it was\n' >&2
-    code=1
-  fi
-  [[ -z $scratch ]] || rm -rf -- "$scratch"
-  exit "$code"
-}
-
 [[ ${1:-} == --help || ${1:-} == -h ]] && { usage; exit 0; }
-[[ ${1:-} == car ]] || refuse "install needs what to install: car, got '${1:-}'"
+[[ ${1:-} == car ]] || refuse "install needs what to install: car or base, got '${1:-}'"
 shift
 parse "$@"
-[[ -n $target ]] || ((dry_run || EUID == 0)) ||
-  fail 'this machine can be changed by root only: sudo, or --root DIR for a tree of your own'
+may_change
 [[ -n $target || $dry_run == 1 || -d /run/systemd/system ]] ||
   fail 'this machine was not started by systemd; --root DIR installs into a tree'
 check_file --car "$car"
 check_file --track "$track"
-trap on_exit EXIT
-trap 'exit 130' INT
-trap 'exit 143' TERM HUP
-scratch=$(mktemp -d)
-load_manifest
+begin_plan
 if ((uninstall)); then uninstall_car; else install_car; fi
 say_next
