@@ -19,7 +19,7 @@ export function AuthorityPanel() {
   const asker =
     request?.by === hello?.client ? "This console" : request?.name || `Console ${request?.by}`;
   return (
-    <section class="panel" aria-label="authority" tabIndex={0}>
+    <section class="panel authority" aria-label="authority" tabIndex={0}>
       <h2>Authority</h2>
       <p class="who">
         {held

@@ -27,8 +27,8 @@ export function CommandsPage() {
     <main class="page commands-page">
       <div class="column">
         <AuthorityPanel />
-        <SaidPanel />
         <StagePanel />
+        <SaidPanel />
       </div>
       <div class="column">
         <LadderPanel />
