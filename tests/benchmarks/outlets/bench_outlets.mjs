@@ -1,0 +1,143 @@
+/**
+ * Whether tools that attach cost the console anything: packet to WebSocket, lost packets and the
+ * base's share of a core, with every outlet on and one reader stopped, against the same base without
+ * outlets, in turns within one run. Real processes in real time: other work on the machine shows in
+ * the figures.
+ *
+ *   multicast.sh node bench_outlets.mjs [--json FILE]   exit code 1 when a gate is missed
+ *
+ * PITWALL_BASE and PITWALL_CAR name the programs.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import { execFileSync, spawn } from "node:child_process";
+import { once } from "node:events";
+import { createServer } from "node:net";
+import { createInterface } from "node:readline";
+import { fileURLToPath } from "node:url";
+import { judged } from "../console/gates.mjs";
+import { Rig, Viewer, delays, eventually, now, pause, quantile } from "../console/rig.mjs";
+
+const kRounds = 3;
+const kClients = 4;
+const kSettleMs = 3000;
+const kListenMs = 15_000;
+const kReader = fileURLToPath(new URL("reader.mjs", import.meta.url));
+
+async function freePort() {
+  const server = createServer().listen(0, "127.0.0.1");
+  await once(server, "listening");
+  const { port } = server.address();
+  await new Promise((done) => server.close(done));
+  return port;
+}
+
+/** A Foxglove client in a process of its own. */
+async function reader(port) {
+  const process_ = spawn(process.execPath, [kReader, `ws://127.0.0.1:${port}`], {
+    stdio: ["pipe", "pipe", "inherit"],
+  });
+  const lines = createInterface({ input: process_.stdout })[Symbol.asyncIterator]();
+  await lines.next();
+  return {
+    process: process_,
+    async had() {
+      process_.stdin.write("\n");
+      return (await lines.next()).value.match(/\d+/g).map(Number);
+    },
+  };
+}
+
+/** The outlets that this base has. */
+function outletFlags(port) {
+  const help = execFileSync(process.env.PITWALL_BASE, ["--help"], { encoding: "utf8" });
+  const flags = ["--foxglove", String(port), "--lcm"];
+  if (/^\s+--ros\b/m.test(help)) flags.push("--ros");
+  return flags;
+}
+
+/** The sum of the samples of a metric. */
+async function metric(rig, name) {
+  const text = await (await fetch(`${rig.address}/metrics`)).text();
+  return text
+    .split("\n")
+    .filter((line) => line.startsWith(`${name}{`) || line.startsWith(`${name} `))
+    .reduce((sum, line) => sum + Number(line.split(" ").at(-1)), 0);
+}
+
+async function attach(port) {
+  const reads = await reader(port);
+  const stopped = await reader(port);
+  stopped.process.kill("SIGSTOP");
+  return { reads, stopped };
+}
+
+/** One base: what its consoles saw in a while, and what it cost. */
+async function listen(withOutlets) {
+  const rig = new Rig();
+  const port = withOutlets ? await freePort() : 0;
+  let tools;
+  try {
+    await rig.start(600, ...(withOutlets ? outletFlags(port) : []));
+    const viewers = await Promise.all(
+      Array.from({ length: kClients }, () => Viewer.open(rig.address, new Viewer(rig))),
+    );
+    await eventually("the car", () => rig.left.length > 10);
+    if (withOutlets) tools = await attach(port);
+    await pause(kSettleMs);
+    const first = rig.left.length;
+    const busy = rig.busyMs();
+    const lost = await metric(rig, "pitwall_packets_lost_total");
+    const had = tools ? (await tools.reads.had())[0] : 0;
+    const from = now();
+    await pause(kListenMs);
+    const lasted = now() - from;
+    const late = viewers.flatMap((viewer) => delays(rig.left.slice(first, -2), viewer.seen));
+    const figures = {
+      late,
+      share: (rig.busyMs() - busy) / lasted,
+      lost: (await metric(rig, "pitwall_packets_lost_total")) - lost,
+      dropped: viewers.reduce((sum, viewer) => sum + viewer.dropped, 0),
+      posts: await metric(rig, "pitwall_web_posts_dropped_total"),
+    };
+    if (tools) {
+      const [all, losses] = await tools.reads.had();
+      figures.read = ((all - had) / lasted) * 1000;
+      figures.losses = losses;
+      figures.stopped = await metric(rig, "pitwall_outlet_dropped_total");
+    }
+    for (const viewer of viewers) viewer.close();
+    return figures;
+  } finally {
+    for (const tool of Object.values(tools ?? {})) tool.process.kill("SIGKILL");
+    await rig.close();
+  }
+}
+
+const sum = (rounds, name) => rounds.reduce((total, round) => total + round[name], 0);
+const mean = (rounds, name) => sum(rounds, name) / rounds.length;
+const lateOf = (rounds, share) => quantile(rounds.flatMap(({ late }) => late), share);
+
+async function measure(gates) {
+  const without = [];
+  const all = [];
+  for (let round = 0; round < kRounds; ++round) {
+    without.push(await listen(false));
+    all.push(await listen(true));
+  }
+  console.log(`${kClients} consoles; outlets: ${outletFlags(0).join(" ")}; one reader stopped`);
+  const alone = lateOf(without, 0.99);
+  gates.say("packet to WebSocket, p50, without outlets", lateOf(without, 0.5), "ms");
+  gates.say("packet to WebSocket, p50, with all", lateOf(all, 0.5), "ms");
+  gates.say("packet to WebSocket, p99, without outlets", alone, "ms");
+  gates.ask("packet to WebSocket, p99, with all", lateOf(all, 0.99), 8, "ms");
+  gates.ask("the same, against without", lateOf(all, 0.99), Math.max(1.5 * alone, alone + 1), "ms");
+  gates.say("base, without outlets", mean(without, "share") * 100, "% of a core");
+  gates.say("base, with all", mean(all, "share") * 100, "% of a core");
+  gates.ask("packets lost at the intake, with all", sum(all, "lost"), 0, "");
+  gates.ask("pictures lost by consoles, with all", sum(all, "dropped") + sum(all, "posts"), 0, "");
+  gates.say("messages to the Foxglove client that reads", mean(all, "read"), "/s");
+  gates.ask("losses told to it", sum(all, "losses"), 0, "");
+  gates.say("messages lost by the one that is stopped", mean(all, "stopped"), "");
+}
+
+await judged("outlets", measure);
