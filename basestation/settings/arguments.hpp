@@ -24,6 +24,7 @@ struct Arguments {
   std::optional<int> foxglove_port;
   std::vector<std::string> foxglove_origins;
   std::string console_folder, track, tokens_file, default_role, layouts_folder, judgement_file;
+  std::string bench;  // socket of a bench desk
   std::vector<std::string> web_names;
   int car = 0;
   std::string car_name;

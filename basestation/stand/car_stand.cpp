@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "basestation/outlets/bench/bench_link.hpp"
 #include "basestation/outlets/summary.hpp"
 #include "basestation/outlets/wall/recording.hpp"
 #include "protocol/transport/clock.hpp"
@@ -66,6 +67,11 @@ Result<bool, Problem> CarStand::begin(outlets::web::WebServer* server, const Say
   if (server != nullptr) {
     wall_ = std::make_unique<outlets::wall::Wall>(std::move(plan_.wall), *station_, *server);
     outlets_.push_back(wall_.get());
+    if (!plan_.arguments.bench.empty()) {
+      auto bench = std::make_unique<outlets::bench::BenchLink>(plan_.arguments.bench);
+      wall_->attach(*bench);
+      attach(std::move(bench));
+    }
   }
   const auto begun = begin_recording(say);
   return begun ? begin_joystick() : begun;

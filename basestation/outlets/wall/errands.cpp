@@ -176,13 +176,22 @@ struct Doing {
   }
   Done operator()(const AskEditLimit& ask) const {
     picture::LimitEdit edit = ask.edit;
-    const picture::Limit& now = wall.watch.limits().of(edit.field);
-    edit.limit.warning_values = ask.warning_values.value_or(now.warning_values);
-    edit.limit.bad_values = ask.bad_values.value_or(now.bad_values);
+    const picture::Limit& present = wall.watch.limits().of(edit.field);
+    edit.limit.warning_values = ask.warning_values.value_or(present.warning_values);
+    edit.limit.bad_values = ask.bad_values.value_or(present.bad_values);
     return wall.settings.change(because(ask.reason), std::move(edit));
   }
   Done operator()(const AskEditBudget& ask) const {
     return wall.settings.change_budget(because(ask.reason), ask.up_kbit_s);
+  }
+  // The bench is no car: it takes an operator, and no authority.
+  Done operator()(const AskBench& ask) const {
+    Done asked = wall.bench != nullptr
+                     ? wall.bench->ask(ask.wish, by.console, by.name)
+                     : Done{refused("bench", "this base knows of no bench desk (--bench)")};
+    wall.audit.add(now, by.name, text_of(ask.wish),
+                   asked ? "sent" : "refused: " + asked.error().what);
+    return asked;
   }
 };
 

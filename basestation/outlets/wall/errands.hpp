@@ -13,6 +13,7 @@
 #include "basestation/command/desk.hpp"
 #include "basestation/command/settings_desk.hpp"
 #include "basestation/intake/station.hpp"
+#include "basestation/outlets/bench/bench_link.hpp"
 #include "basestation/outlets/wall/console_room.hpp"
 #include "basestation/outlets/web/access.hpp"
 #include "basestation/picture/watch/watch.hpp"
@@ -37,6 +38,7 @@ struct ErrandParts {
   PeopleSaid& said;
   ConsoleRoom& room;
   const web::Tokens& tokens;  // of the second person of an override
+  bench::BenchLink* bench = nullptr;
 };
 
 Result<bool, Problem> carry_out(const Request& request, const ErrandParts& parts,

@@ -254,11 +254,26 @@ Request edit_budget(Reader& read) {
   return ask;
 }
 
+Request bench_wish(Reader& read) {
+  constexpr std::array<std::pair<std::string_view, bool>, 2> kDoings{
+      {{"start", true}, {"stop", false}}};
+  constexpr std::array<std::pair<std::string_view, bool>, 2> kModes{
+      {{"lockstep", false}, {"live", true}}};
+  constexpr std::uint64_t kSeedMax = 1'000'000'000;
+  constexpr std::size_t kScenarioMax = 200;
+  bench::BenchWish wish{.start = read.word("do", kDoings), .scenario = {}, .seed = {}};
+  if (!wish.start) return AskBench{wish};
+  wish.scenario = read.text("scenario", 1, kScenarioMax);
+  wish.live = read.word("mode", kModes);
+  if (!read.is_null("seed")) wish.seed = read.whole<std::uint64_t>("seed", 0, kSeedMax);
+  return AskBench{std::move(wish)};
+}
+
 struct Kind {
   std::string_view name;
   Request (*read)(Reader&);
 };
-constexpr std::array<Kind, 20> kKinds{
+constexpr std::array<Kind, 21> kKinds{
     {{"history", history},
      {"ping", ping},
      {"mark", mark},
@@ -278,7 +293,8 @@ constexpr std::array<Kind, 20> kKinds{
      {"fuel_loaded", fuel_loaded},
      {"edit_alarm", edit_alarm},
      {"edit_limit", edit_limit},
-     {"edit_budget", edit_budget}}};
+     {"edit_budget", edit_budget},
+     {"bench", bench_wish}}};
 
 }  // namespace
 

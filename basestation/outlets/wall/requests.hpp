@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "basestation/outlets/bench/bench_link.hpp"
 #include "basestation/outlets/web/client.hpp"
 #include "basestation/picture/alarms/alarm_table.hpp"
 #include "basestation/picture/limits.hpp"
@@ -95,16 +96,19 @@ struct AskEditBudget {
   double up_kbit_s = 0.0;
   std::string reason;
 };
+struct AskBench {
+  bench::BenchWish wish;
+};
 // Of a replay only.
 struct AskPlayback {
   std::optional<double> speed;  // recorded seconds per second; 0: pause; backwards below
   std::optional<double> to_ms;  // on the clock of time_ns
 };
 
-using Request =
-    std::variant<AskHistory, AskPing, AskMark, AskAcknowledge, AskShelve, AskUnshelve, AskReset,
-                 AskStop, AskReleaseStop, AskAuthority, AskStage, AskSend, AskCancel, AskNotice,
-                 AskPlayback, AskExpect, AskFuelLoaded, AskEditAlarm, AskEditLimit, AskEditBudget>;
+using Request = std::variant<AskHistory, AskPing, AskMark, AskAcknowledge, AskShelve, AskUnshelve,
+                             AskReset, AskStop, AskReleaseStop, AskAuthority, AskStage, AskSend,
+                             AskCancel, AskNotice, AskPlayback, AskExpect, AskFuelLoaded,
+                             AskEditAlarm, AskEditLimit, AskEditBudget, AskBench>;
 
 Result<Request, Problem> parse_request(std::string_view text);
 Role role_for(const Request& request);

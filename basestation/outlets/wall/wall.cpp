@@ -155,9 +155,25 @@ void Wall::do_now(intake::Station& station, web::ClientId client, const Request&
                           .settings = settings_,
                           .said = said_,
                           .room = room_,
-                          .tokens = config_.tokens};
+                          .tokens = config_.tokens,
+                          .bench = bench_};
   const auto done = carry_out(request, parts, station, room_.person(client), now);
   if (!done) room_.tell_error(client, done.error());
+}
+
+void Wall::attach(bench::BenchLink& bench) {
+  bench_ = &bench;
+  bench.tell_to({.tell =
+                     [this](const bench::Told& told, Instant now) {
+                       if (told.line) return room_.tell_line(told.type, told.text, now);
+                       room_.tell_state(told.type, told.text, now);
+                     },
+                 .refused =
+                     [this](std::uint8_t client, const Problem& problem, Instant now) {
+                       audit_.add(now, room_.person(client).name, "bench",
+                                  "refused: " + problem.what);
+                       room_.tell_error(client, problem);
+                     }});
 }
 
 void Wall::measure(intake::Station& station, Instant now) {

@@ -74,6 +74,9 @@ class Wall : public Outlet, private Eyes {
   // Whether the hand that was in use is silent; asked for ten times a second.
   void watch_joystick(std::function<bool(Instant)> lost) { joystick_lost_ = std::move(lost); }
 
+  // Whose scenarios and runs consoles see, and start; it lives as long as the wall.
+  void attach(bench::BenchLink& bench);
+
   ConsoleRoom& room() { return room_; }
   picture::Watch& watch() { return watch_; }
   const picture::Trends& trends() const { return trends_; }
@@ -117,6 +120,7 @@ class Wall : public Outlet, private Eyes {
   PeopleSaid said_;
   std::function<bool(Instant)> joystick_lost_;
   std::function<void(picture::BaseFigures&, Instant)> recorder_figures_;
+  bench::BenchLink* bench_ = nullptr;
   double budget_set_ = kUnset;
   ConsoleRoom room_;
   Instant measured_{}, told_link_{};

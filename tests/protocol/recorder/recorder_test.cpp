@@ -100,8 +100,8 @@ TEST(Recorder, AFloodOfDatagramsLeavesRoomForTheRest) {
     const auto file = transport::read_file(path);
     recording::McapReader reader{as_bytes(*file)};
     while (const auto message = reader.next()) {
-      datagrams += message->channel == kDownChannel ? 1 : 0;
-      states += message->channel == channel_of(telemetry::Group::kEgo) ? 1 : 0;
+      datagrams += message->channel == kDownChannel ? 1U : 0U;
+      states += message->channel == channel_of(telemetry::Group::kEgo) ? 1U : 0U;
     }
   }
   EXPECT_EQ(datagrams, kFlood - figures.left_out);

@@ -20,7 +20,10 @@ constexpr Instant kStart{seconds(100).ns};
 std::string record(const std::string& folder, const std::string& name, std::size_t cut) {
   {
     FileDisk disk{folder};
-    SegmentChain chain{disk, {.clock = {.utc_minus_base = seconds(1'000)}, .name = name}};
+    ChainParams params;
+    params.clock.utc_minus_base = seconds(1'000);
+    params.name = name;
+    SegmentChain chain{disk, params};
     for (Instant at = kStart; at < kStart + seconds(2); at += milliseconds(20)) {
       const std::array<std::uint8_t, 2> text{'{', '}'};
       chain.take({.channel = channel_of(Topic::kMark), .logged = at, .published = at, .data = text},

@@ -103,6 +103,19 @@ TEST(Errands, WhatIsNotThereIsRefusedWithItsPlace) {
   EXPECT_FALSE(bench.ask(AskCancel{.ticket = 9}));
 }
 
+// Also without a desk: who wanted to start what is in the audit log.
+TEST(Errands, AWishForTheBenchLeavesALine) {
+  Bench bench;
+  const AskBench start{{.start = true, .scenario = "red", .seed = 7}};
+  const auto refused = bench.ask(start);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().place, "bench");
+  ASSERT_EQ(bench.audit.count(), 1U);
+  EXPECT_EQ(bench.audit.lines().back().who, "Ada");
+  EXPECT_EQ(bench.audit.lines().back().what, "bench: start red, lockstep, seed 7");
+  EXPECT_TRUE(bench.audit.lines().back().result.starts_with("refused: "));
+}
+
 // The two consoles of a pit wall: asked, refused, asked again, granted; the epoch tells the car.
 TEST(Errands, TwoConsolesHandTheAuthorityOver) {
   Bench bench;

@@ -85,6 +85,27 @@ TEST(Requests, WhatPeopleSetIsReadWhole) {
   EXPECT_EQ(refused(R"({"type":"edit_budget","up_kbit_s":128,"reason":""})"), "edit_budget.reason");
 }
 
+TEST(Requests, AWishForTheBench) {
+  const auto start = read<AskBench>(
+      R"({"type":"bench","do":"start","scenario":"faults/x","mode":"live","seed":7})");
+  EXPECT_TRUE(start.wish.start);
+  EXPECT_EQ(start.wish.scenario, "faults/x");
+  EXPECT_TRUE(start.wish.live);
+  EXPECT_EQ(start.wish.seed, 7U);
+  EXPECT_FALSE(read<AskBench>(R"({"type":"bench","do":"start","scenario":"x","mode":"lockstep",
+    "seed":null})")
+                   .wish.seed);
+  EXPECT_FALSE(read<AskBench>(R"({"type":"bench","do":"stop"})").wish.start);
+  EXPECT_EQ(refused(R"({"type":"bench"})"), "bench.do");
+  EXPECT_EQ(refused(R"({"type":"bench","do":"start","mode":"live"})"), "bench.scenario");
+  EXPECT_EQ(refused(R"({"type":"bench","do":"start","scenario":"x"})"), "bench.mode");
+  for (const char* seed : {"-1", "1.5", "\"7\"", "1000000001"})
+    EXPECT_EQ(refused(std::string{R"({"type":"bench","do":"start","scenario":"x","mode":"live",)"} +
+                      "\"seed\":" + seed + "}"),
+              "bench.seed");
+  EXPECT_EQ(role_for(AskBench{}), Role::kOperator);
+}
+
 TEST(Requests, AMistakeIsNamedByItsMember) {
   EXPECT_EQ(refused("{"), "text:byte 1");
   EXPECT_EQ(refused("[]"), "type");
