@@ -21,6 +21,13 @@ const kListenMs = 30_000;
 const kStops = 100;
 const kSilences = 5;
 const kPerSecond = 1000;
+/** Of the car; and how often all of them come in. Consoles are shown 25 pictures a second of it. */
+const kFields = 300;
+const kRate = 50;
+const kPictures = 25;
+/** Pictures in which nothing of a field is new, as the two rates are not in step. */
+const kInStep = 0.98;
+const kLookBackS = 10;
 
 /** Packet to WebSocket, and the base's share of a core meanwhile. */
 async function listen(gates, rig, viewers) {
@@ -34,14 +41,33 @@ async function listen(gates, rig, viewers) {
   const told = viewers.reduce((sum, viewer) => sum + viewer.entries, 0) - entries;
   const left = rig.left.slice(first, -2);
   const late = viewers.flatMap((viewer) => delays(left, viewer.seen));
-  gates.say(
-    "changed values told to each console",
+  gates.need(
+    `changed values told to each console at ${kPictures} Hz`,
     (told / kClients / kListenMs) * kPerSecond,
+    kFields * kPictures * kInStep,
     "/s",
   );
   gates.say("packet to WebSocket, p50", quantile(late, 0.5), "ms");
   gates.ask("packet to WebSocket, p99", quantile(late, 0.99), 8, "ms");
   gates.ask(`base with ${kClients} consoles`, share * 100, 10, "% of a core");
+}
+
+/** What came in of the car, by the base's own history of each field: each change counts. */
+async function arrivals(gates, rig, viewer) {
+  const ids = rig.fields.filter(({ path }) => !/^(link|derived|base)\./.test(path));
+  viewer.histories.clear();
+  for (const { id } of ids) {
+    const ask = { type: "history", field: id, from_s: kLookBackS + 1, to_s: 1, points: 20_000 };
+    viewer.say(ask);
+  }
+  await eventually("every history", () => viewer.histories.size === ids.length, 20_000);
+  const changes = [...viewer.histories.values()].map(
+    (values) => values.filter((value, i) => Math.abs(value - values[i - 1]) > 0).length,
+  );
+  const steady = changes.filter((count) => count > 0.9 * kLookBackS * kRate);
+  const sum = changes.reduce((all, count) => all + count, 0);
+  gates.need("fields of the car that change in every packet", steady.length, kFields, "");
+  gates.need("changed values that come in", sum / kLookBackS, kFields * kRate, "/s");
 }
 
 /** From what the console says to the datagram at the car, at any time within a slot. */
@@ -115,6 +141,7 @@ async function measure(gates) {
       Array.from({ length: kClients }, () => Viewer.open(rig.address, new Viewer(rig))),
     );
     await listen(gates, rig, viewers);
+    await arrivals(gates, rig, viewers[0]);
     await stop(gates, rig, viewers[0]);
     await silence(gates, rig, viewers[0]);
     for (const viewer of viewers) viewer.close();

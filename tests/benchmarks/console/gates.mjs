@@ -1,6 +1,6 @@
 /**
  * The table of a measurement: figures, and which of them have a limit. The exit code is 1 when one
- * is above its limit, 2 for a wrong command line; --json FILE writes the table.
+ * misses its limit, 2 for a wrong command line; --json FILE writes the table.
  */
 // SPDX-License-Identifier: Apache-2.0
 import { writeFileSync } from "node:fs";
@@ -17,15 +17,20 @@ export class Gates {
     this.#print(held ? "held" : "MISSED", name, figure, `${unit}, limit ${limit}`);
   }
 
+  /** A figure that is at least so much. */
+  need(name, figure, least, unit) {
+    const held = figure >= least;
+    this.rows.push({ name, figure: thousandths(figure), least, unit, held });
+    this.#print(held ? "held" : "MISSED", name, figure, `${unit}, at least ${least}`);
+  }
+
   say(name, figure, unit) {
     this.rows.push({ name, figure: thousandths(figure), unit });
     this.#print("", name, figure, unit);
   }
 
   #print(verdict, name, figure, unit) {
-    console.log(
-      `  ${verdict.padEnd(7)}${name.padEnd(46)}${figure.toFixed(1).padStart(9)} ${unit}`,
-    );
+    console.log(`  ${verdict.padEnd(7)}${name.padEnd(46)}${figure.toFixed(1).padStart(9)} ${unit}`);
   }
 
   get held() {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A car's end of the radio that tells times: measured_car KEYS ADDRESS SECONDS. All of its fields
-// move with each sample; the round's speed is a number in mph that counts from 10 to 189 and round
-// again, another one each 60 to 77 ms. Prints, with times of the monotonic clock in ns:
+// but mode and stop change with each packet. The round's speed is a number in mph that counts from
+// 10 to 189 and round again, another one each 60 to 77 ms. Prints, with times of the monotonic clock
+// in ns:
 //   packet NUMBER TIME   a packet with this number leaves
 //   stop LEVEL TIME      a datagram brought another level of stop; 0: the stop was released
 #include <cmath>
@@ -40,7 +41,10 @@ class Car {
         radio_.end().decide(due->id, telemetry::Outcome::kApplied, tick);
       }
       const Instant leaves = transport::monotonic_now();
-      if (radio_.send(snapshot_) > 0) say("packet", number_, leaves);
+      if (radio_.send(snapshot_) > 0) {
+        say("packet", number_, leaves);
+        ++packets_;
+      }
       std::fflush(stdout);
     }
   }
@@ -56,13 +60,21 @@ class Car {
     stop_ = level;
   }
 
+  // Another value than in the packet before, of every field that may have one: numbers go up and
+  // down about the middle of their range, whole ones between their two least values.
+  double value_of(telemetry::FieldIndex i) const {
+    const telemetry::FieldRow& row = telemetry::kFields[i];
+    if (row.kind() != telemetry::FieldKind::kReal) {
+      return row.min + static_cast<double>((packets_ + i) % 2);
+    }
+    const double wave = 0.05 * std::sin(static_cast<double>(packets_ + 7 * i) * 0.05);
+    const double swing = (packets_ + i) % 2 == 0 ? 0.03 : -0.03;
+    return row.min + (row.max - row.min) * (0.5 + wave + swing);
+  }
+
   void sample(Instant now) {
-    ++samples_;
     for (telemetry::FieldIndex i = 0; i < telemetry::kFieldCount; ++i) {
-      const telemetry::FieldRow& row = telemetry::kFields[i];
-      const bool real = row.kind() == telemetry::FieldKind::kReal;
-      const double wave = std::sin(static_cast<double>(samples_ + 7 * i) * 0.05);
-      snapshot_.values[i] = real ? row.min + (row.max - row.min) * (0.5 + 0.1 * wave) : row.min;
+      snapshot_.values[i] = value_of(i);
     }
     if (now >= next_) {
       number_ = kFirstNumber + (number_ - kFirstNumber + 1) % kNumbers;
@@ -72,8 +84,8 @@ class Car {
     const auto operators = radio_.end().view(now);
     snapshot_.values[field("flags.round_target_speed")] = number_ / kMphPerMps;
     // It creeps: the base lets no stop go while a car drives.
-    snapshot_.values[field("ego.vx")] = 0.25 + 0.2 * std::sin(static_cast<double>(samples_) * 0.05);
-    snapshot_.values[field("radio.loss_0")] = 0.0;
+    snapshot_.values[field("ego.vx")] = packets_ % 2 == 0 ? 0.2 : 0.4;
+    snapshot_.values[field("radio.loss_0")] = packets_ % 2 == 0 ? 0.0 : 0.01;
     snapshot_.values[field("mode.mode")] = 2;
     snapshot_.values[field("mode.stop_challenge")] = operators.stop_challenge;
     snapshot_.values[field("mode.stop_latch")] = static_cast<double>(operators.stop);
@@ -84,7 +96,7 @@ class Car {
   telemetry::Snapshot snapshot_;
   telemetry::StopLevel stop_ = telemetry::StopLevel::kNone;
   std::mt19937 random_{1};
-  std::uint64_t samples_ = 0;
+  std::uint64_t packets_ = 0;
   int number_ = kFirstNumber;
   Instant next_{};
 };

@@ -15,6 +15,7 @@ export const kMphPerMps = 2.2369362920544;
 const kNumbers = 180;
 const kFrameHeader = 24;
 const kEntry = 8;
+const kPoint = 16;
 
 export const now = () => Number(process.hrtime.bigint()) / 1e6;
 export const pause = (ms) => new Promise((done) => setTimeout(done, ms));
@@ -93,6 +94,8 @@ export class Viewer extends Client {
   seen = [];
   entries = 0;
   linkStates = [];
+  /** Of each field that was asked for: its values, oldest first. */
+  histories = new Map();
 
   constructor(rig) {
     super();
@@ -102,6 +105,7 @@ export class Viewer extends Client {
   take(bytes, isBinary) {
     const at = now();
     super.take(bytes, isBinary);
+    if (isBinary && bytes[0] === 2) this.#keepHistory(bytes);
     if (!isBinary || bytes[0] !== 1) return;
     const count = bytes.readUInt16LE(4);
     this.entries += count;
@@ -114,6 +118,14 @@ export class Viewer extends Client {
         this.linkStates.push({ state: this.rig.linkState.labels[value], at });
       }
     }
+  }
+
+  #keepHistory(bytes) {
+    const values = [];
+    for (let at = kFrameHeader + kEntry; at < bytes.length; at += kPoint) {
+      values.push(bytes.readFloatLE(at + 8));
+    }
+    this.histories.set(bytes.readUInt16LE(kFrameHeader), values);
   }
 }
 
