@@ -1,8 +1,8 @@
 /**
  * Whether tools that attach cost the console anything: packet to WebSocket, lost packets and the
- * base's share of a core, with every outlet on and one reader stopped, against the same base without
- * outlets, in turns within one run. Real processes in real time: other work on the machine shows in
- * the figures.
+ * base's share of a core, with every outlet on and one reader stopped, against the same base
+ * without outlets, in turns within one run. Real processes in real time: other work on the machine
+ * shows in the figures.
  *
  *   multicast.sh node bench_outlets.mjs [--json FILE]   exit code 1 when a gate is missed
  *
