@@ -14,8 +14,9 @@ export class Client {
   frames = 0;
   dropped = 0;
 
-  static async open(address, client = new Client()) {
-    client.socket = new WebSocket(`${address.replace("http", "ws")}/ws`);
+  /** `query`: which car, for example "?car=8". */
+  static async open(address, client = new Client(), query = "") {
+    client.socket = new WebSocket(`${address.replace("http", "ws")}/ws${query}`);
     client.socket.on("message", (data, isBinary) => client.take(data, isBinary));
     await client.until("hello", () => client.newest.hello);
     return client;

@@ -132,6 +132,8 @@ export class Double {
   /** What the consoles are told that they lost. */
   dropped = 0;
   layouts = new Map();
+  /** What /api/cars says; empty: a base of one car that says nothing of it. */
+  cars = [];
   hello = {
     type: "hello",
     version: 1,
@@ -158,7 +160,7 @@ export class Double {
   async listen(port = 0) {
     this.server = createServer((request, response) => this.serve(request, response));
     this.sockets = new WebSocketServer({ server: this.server, path: "/ws" });
-    this.sockets.on("connection", (socket) => this.greet(socket));
+    this.sockets.on("connection", (socket, request) => this.greet(socket, request));
     await new Promise((done) => this.server.listen(port, "127.0.0.1", done));
     this.timer = setInterval(() => this.tick(), 40);
     return `http://127.0.0.1:${this.server.address().port}`;
@@ -233,10 +235,14 @@ export class Double {
     for (const listener of this.frameListeners) listener(this.nowMs());
   }
 
-  greet(socket) {
+  /** Every car of the double drives the same drive. */
+  greet(socket, request) {
+    const asked = new URL(request.url, "http://localhost").searchParams.get("car");
+    const car = this.cars.find(({ number }) => String(number) === asked) ?? this.cars[0];
     const texts = [
       {
         ...this.hello,
+        ...(car ? { car: car.number, name: car.name } : {}),
         time_ns: this.nowMs() * 1e6,
         utc_ms: Date.UTC(2026, 0, 9, 19, 4, 12),
       },
@@ -270,7 +276,7 @@ export class Double {
     };
     if (path === "/api/catalogue") return json(this.catalogue);
     if (path === "/api/track") return json(kTrack);
-    if (path === "/api/cars") return json({ cars: [{ number: this.hello.car, name: "" }] });
+    if (path === "/api/cars") return json({ cars: this.cars });
     if (path === "/api/recordings" && this.recordings) return json(this.recordings);
     if (path === "/api/recordings") return response.writeHead(204).end();
     if (path.startsWith("/api/layouts/")) return this.serveLayout(request, response, path);

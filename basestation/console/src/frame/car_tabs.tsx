@@ -90,6 +90,7 @@ function Tab({ car }: { car: CarSession }) {
     <button
       type="button"
       class="car-tab"
+      data-place={placeOf(car)}
       data-car={car.number}
       data-alarmed={alarmed}
       aria-current={car === session.shownCar.value ? "true" : undefined}
