@@ -44,13 +44,32 @@ void describe_tools(CLI::App& app, Arguments& a) {
   app.add_option("--lcm", a.lcm_url,
                  "Publish by LCM; udpm://239.255.76.67:7667?ttl=0 without a URL")
       ->expected(0, 1);
+  constexpr int kDomainMax = 101;  // of ROS_DOMAIN_ID, as ports allow
+  app.add_flag("--ros", a.ros, "Be a node of ROS 2 that publishes what the car says");
+  app.add_option("--ros-domain", a.ros_domain, "ROS_DOMAIN_ID")
+      ->check(CLI::Range(0, kDomainMax))
+      ->capture_default_str();
+  app.add_option("--ros-distro", a.ros_distribution, "Who reads: humble, iron or jazzy")
+      ->check(CLI::IsMember({"humble", "iron", "jazzy"}))
+      ->capture_default_str();
+  app.add_option("--ros-interface", a.ros_interface,
+                 "Address of this machine in the network of the readers; others than loopback "
+                 "need --network")
+      ->check(CLI::ValidIPV4)
+      ->capture_default_str();
+  app.add_option("--ros-peer", a.ros_peers, "Address of a reader where multicast does not reach")
+      ->check(CLI::ValidIPV4)
+      ->take_all();
 }
 
 void describe_recording(CLI::App& app, Arguments& a) {
   app.add_option("--record", a.record_folder,
                  "Keep everything in this folder; what is there of the last hour is known again");
   app.add_option("--replay", a.replay_folder,
-                 "Show a recording to consoles instead of a car; needs --web, has no radio");
+                 "Show a recording to consoles instead of a car; needs --web, has no radio")
+      ->excludes("--ros");
+  app.add_option("--recordings", a.recordings_folder,
+                 "Folder of the recordings that consoles list; without it, that of --record");
   app.add_option("--joystick", a.joystick, "Input device of the operator's joystick");
   app.add_option("--joystick-axes", a.joystick_axes,
                  "lift=AXIS:RELEASED:PRESSED,brake=AXIS:RELEASED:PRESSED,enable=KEY");
@@ -67,6 +86,8 @@ void describe(CLI::App& app, Arguments& a) {
   app.add_option("--listen", a.listen, "UDP address of a radio; twice for two")
       ->expected(1)
       ->take_all();
+  app.add_option("--key-log", a.key_log,
+                 "On the bench: file for the keys of the radio's sessions, which Wireshark reads");
   app.add_flag("--network", a.network, "Allow --listen to be reached by other machines");
   app.add_flag("--signed", a.signed_only, "Authenticated but readable packets; the car must agree");
   app.add_option("--budget", a.budget_kbit, "kbit/s that may go up each radio")
@@ -100,6 +121,8 @@ void describe(CLI::App& app, Arguments& a) {
   CLI::App* const exporting =
       app.add_subcommand("export", "Print what the radio says, as " + export_kinds());
   exporting->add_option("KIND", a.export_kind, export_kinds())->required();
+  exporting->add_option("--out", a.export_folder,
+                        "Folder for the package pitwall_msgs of kind ros");
 }
 
 }  // namespace
@@ -107,9 +130,9 @@ void describe(CLI::App& app, Arguments& a) {
 std::string export_kinds() {
   std::string text;
   for (const std::string_view kind : telemetry::kExportKinds) {
-    text += (text.empty() ? "" : ", ") + std::string{kind};
+    text += std::string{kind} + ", ";
   }
-  return text;
+  return text + "ros";
 }
 
 std::variant<Arguments, Leave> parse_arguments(int argc, const char* const* argv) {

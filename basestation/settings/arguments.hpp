@@ -18,17 +18,22 @@ struct Arguments {
   int operator_port = 0;
   bool text = false, plain = false, all = false, network = false, signed_only = false;
   double duration_s = 0.0, refresh_hz = 10.0, budget_kbit = 256.0;
-  std::string keygen_folder, export_kind;
+  std::string keygen_folder, export_kind, export_folder;
   std::optional<int> web_port;
   std::optional<std::string> lcm_url;
   std::optional<int> foxglove_port;
   std::vector<std::string> foxglove_origins;
+  bool ros = false;
+  int ros_domain = 0;
+  std::string ros_distribution = "jazzy", ros_interface = "127.0.0.1";
+  std::vector<std::string> ros_peers;
+  std::string key_log;  // of a base on the bench
   std::string console_folder, track, tokens_file, default_role, layouts_folder, judgement_file;
   std::string bench;  // socket of a bench desk
   std::vector<std::string> web_names;
   int car = 0;
   std::string car_name;
-  std::string record_folder, replay_folder, joystick, joystick_axes;
+  std::string record_folder, replay_folder, recordings_folder, joystick, joystick_axes;
   std::vector<std::string> recover_files;
   std::string judge_folder;
 };

@@ -98,8 +98,14 @@ Result<bool, Problem> CarStand::begin_joystick() {
   joystick_.emplace(*std::move(opened));
   if (recording_) joystick_->tell(recorder::teller_of_joystick(*recording_));
   outlets_.push_back(&*joystick_);
-  if (wall_) wall_->watch_joystick([this](Instant now) { return joystick_->lost(now); });
+  if (wall_) wall_->watch_joystick([this](Instant now) { return joystick_state(now); });
   return true;
+}
+
+command::JoystickState CarStand::joystick_state(Instant now) const {
+  using enum command::JoystickState;
+  if (joystick_->lost(now)) return kLost;
+  return joystick_->reports().enabled() ? kInUse : kReleased;
 }
 
 void CarStand::attach(std::unique_ptr<outlets::Outlet> outlet) {

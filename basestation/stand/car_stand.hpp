@@ -54,6 +54,7 @@ class CarStand {
   Result<bool, Problem> open_sockets();
   Result<bool, Problem> begin_recording(const Say& say);
   Result<bool, Problem> begin_joystick();
+  command::JoystickState joystick_state(Instant now) const;
 
   Plan plan_;
   telemetry::SystemRandomness randomness_;

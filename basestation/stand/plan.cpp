@@ -4,10 +4,12 @@
 #include <memory>
 #include <utility>
 
+#include "basestation/intake/key_log_file.hpp"
 #include "basestation/intake/key_pair.hpp"
 #include "basestation/outlets/wall/catalogue_text.hpp"
 #include "basestation/outlets/wall/data_files.hpp"
 #include "basestation/outlets/wall/judgement_store.hpp"
+#include "basestation/outlets/wall/recording_list.hpp"
 #include "basestation/outlets/wall/track_document.hpp"
 #include "basestation/stand/roster.hpp"
 #include "protocol/transport/file.hpp"
@@ -95,6 +97,11 @@ Result<bool, Problem> plan_radio(const Arguments& arguments, Plan& plan) {
   const auto keys = intake::read_keys(arguments.keys, telemetry::Role::kBase);
   if (!keys) return Unexpected{keys.error()};
   plan.config.association.keys = *keys;
+  if (!arguments.key_log.empty()) {
+    auto log = intake::key_log_to(arguments.key_log, *keys);
+    if (!log) return Unexpected{log.error()};
+    plan.config.association.key_log = *std::move(log);
+  }
   plan.config.association.greeting.signed_only = arguments.signed_only;
   plan.config.association.paths = static_cast<std::uint8_t>(plan.listen.size());
   for (telemetry::BudgetParams& budget : plan.config.budget) {
@@ -180,6 +187,7 @@ web::HttpConfig served(std::span<Plan> plans) {
                       .mode = replayed ? "REPLAY" : "NONE"});
   }
   http.documents.emplace(kRosterPath, roster_text(sights));
+  http.documents.emplace(outlets::wall::kRecordingsPath, "");  // shown when it has been looked at
   return http;
 }
 

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "basestation/outlets/wall/catalogue_text.hpp"
+#include "basestation/outlets/wall/checklist_text.hpp"
 #include "basestation/outlets/wall/errands.hpp"
 #include "basestation/outlets/wall/settings_text.hpp"
 #include "basestation/outlets/wall/wall_texts.hpp"
@@ -22,6 +23,11 @@ using telemetry::field;
 constexpr double kNotRecording = 0.0;  // of picture::kRecordingStates
 constexpr std::array kBudgetUse{field("radio.budget_use_0"), field("radio.budget_use_1")};
 
+command::SettingsDesk::Save saver_of(const std::shared_ptr<JudgementStore>& store) {
+  if (!store) return {};
+  return [store](const command::SettingsDesk::Wanted& wanted) { return store->save(wanted); };
+}
+
 }  // namespace
 
 const char* mode_of(intake::Station::Source source) {
@@ -35,15 +41,6 @@ const char* mode_of(intake::Station::Source source) {
   }
   return "NONE";
 }
-
-namespace {
-
-command::SettingsDesk::Save saver_of(const std::shared_ptr<JudgementStore>& store) {
-  if (!store) return {};
-  return [store](const command::SettingsDesk::Wanted& wanted) { return store->save(wanted); };
-}
-
-}  // namespace
 
 void use_judgement(WallConfig& config, std::shared_ptr<JudgementStore> store,
                    double up_cap_kbit_s) {
@@ -242,7 +239,7 @@ picture::BaseFigures Wall::own_figures(const intake::Station& station,
   base.authority_lost = talk_.lost();
   base.schema_differs = report.established && !station.endpoint().schema_agrees();
   base.settings_unreadable = settings_problem().has_value();
-  base.joystick_lost = joystick_lost_ && joystick_lost_(now);
+  base.joystick_lost = joystick_ && joystick_(now) == command::JoystickState::kLost;
   if (const auto error = transport::utc_error()) base.clock_offset_ms = error->milliseconds();
   base.recording = kNotRecording;
   if (recorder_figures_) recorder_figures_(base, now);
@@ -271,8 +268,7 @@ void Wall::tell(intake::Station& station, Instant now) {
   room_.identify({.car = config_.car,
                   .name = config_.name,
                   .mode = mode_of(station.source()),
-                  .alarm_config = std::to_string(settings_.revision()) + "-" +
-                                  watch_.alarms().settings().version_text()},
+                  .alarm_config = settings_version()},
                  now);
   tell_alarms(now);
   tell_desk(station, now);
@@ -283,7 +279,28 @@ void Wall::tell(intake::Station& station, Instant now) {
     room_.tell_state("fuel", std::move(fuel), now);
   }
   tell_settings(now);
+  tell_checks(now);
   states_told_ = true;
+}
+
+std::string Wall::settings_version() const {
+  return std::to_string(settings_.revision()) + "-" + watch_.alarms().settings().version_text();
+}
+
+void Wall::tell_checks(Instant now) {
+  if (states_told_ && now - told_checks_ < kTellChecksEvery) return;
+  told_checks_ = now;
+  const auto checks = command::checks_of(
+      {.picture = picture_,
+       .watch = watch_,
+       .holder = talk_.holder(now),
+       .holder_name = talk_.holder_person().name,
+       .settings = {.version = settings_version(),
+                    .kept = settings_.kept(),
+                    .readable = !settings_problem()},
+       .joystick = joystick_ ? joystick_(now) : command::JoystickState::kNone,
+       .now = now});
+  room_.tell_state("checklist", checklist_text(checks, now), now);
 }
 
 // Of what was filled in: as the judge was told where it has not reckoned with it yet.

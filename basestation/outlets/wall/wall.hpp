@@ -17,6 +17,7 @@
 
 #include "basestation/command/audit.hpp"
 #include "basestation/command/authority_talk.hpp"
+#include "basestation/command/checklist.hpp"
 #include "basestation/command/desk.hpp"
 #include "basestation/command/settings_desk.hpp"
 #include "basestation/intake/station.hpp"
@@ -71,17 +72,23 @@ class Wall : public Outlet, private Eyes {
   void watch_recorder(std::function<void(picture::BaseFigures&, Instant)> fill) {
     recorder_figures_ = std::move(fill);
   }
-  // Whether the hand that was in use is silent; asked for ten times a second.
-  void watch_joystick(std::function<bool(Instant)> lost) { joystick_lost_ = std::move(lost); }
+  // What the joystick does; asked for ten times a second.
+  void watch_joystick(std::function<command::JoystickState(Instant)> state) {
+    joystick_ = std::move(state);
+  }
 
   // Whose scenarios and runs consoles see, and start; it lives as long as the wall.
   void attach(bench::BenchLink& bench);
 
   ConsoleRoom& room() { return room_; }
   picture::Watch& watch() { return watch_; }
+  const picture::Watch& watch() const { return watch_; }
+  // A field of the car or of the base, as consoles see it.
+  picture::FieldView seen(picture::FieldId field, Instant now) const { return view(field, now); }
   const picture::Trends& trends() const { return trends_; }
 
  private:
+  static constexpr Duration kTellChecksEvery = seconds(1);
   static constexpr Duration kLinkEvery = milliseconds(100), kTellLinkEvery = milliseconds(500),
                             kTellSaidEvery = seconds(60);
 
@@ -98,8 +105,10 @@ class Wall : public Outlet, private Eyes {
   void tell_desk(intake::Station& station, Instant now);
   void tell_events(intake::Station& station, Instant now);
   void tell_settings(Instant now);
+  void tell_checks(Instant now);
   double fuel_left_l(Instant now) const;
   std::string catalogue() const;
+  std::string settings_version() const;
   std::optional<Problem> settings_problem() const;
   picture::BaseFigures own_figures(const intake::Station& station,
                                    const telemetry::LinkReport& report, Instant now) const;
@@ -118,12 +127,12 @@ class Wall : public Outlet, private Eyes {
   command::Desk desk_;
   command::SettingsDesk settings_;
   PeopleSaid said_;
-  std::function<bool(Instant)> joystick_lost_;
+  std::function<command::JoystickState(Instant)> joystick_;
   std::function<void(picture::BaseFigures&, Instant)> recorder_figures_;
   bench::BenchLink* bench_ = nullptr;
   double budget_set_ = kUnset;
   ConsoleRoom room_;
-  Instant measured_{}, told_link_{};
+  Instant measured_{}, told_link_{}, told_checks_{};
   picture::LinkState link_told_ = picture::LinkState::kNone;
   // What consoles have been told of.
   std::uint64_t alarms_told_ = 0, alarm_events_told_ = 0, notices_told_ = 0;

@@ -157,7 +157,9 @@ TEST_F(PitWall, WhatTheHolderSetsIsToldToAll) {
 // The hand on the joystick falls silent: medium, and gone when it speaks again.
 TEST_F(PitWall, ASilentJoystickIsAnAlarm) {
   bool silent = false;
-  wall_->watch_joystick([&](Instant) { return silent; });
+  wall_->watch_joystick([&](Instant) {
+    return silent ? command::JoystickState::kLost : command::JoystickState::kReleased;
+  });
   run(seconds(1));
   const auto alarm = [&] {
     return wall_->watch().alarms().state(*alarms::find_alarm("joystick_lost"));

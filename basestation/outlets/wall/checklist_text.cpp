@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/outlets/wall/checklist_text.hpp"
+
+#include "protocol/json/json_text.hpp"
+
+namespace pitwall::outlets::wall {
+
+std::string checklist_text(const std::vector<command::Check>& checks, Instant now) {
+  constexpr double kNanosecondsPerMillisecond = 1e6;
+  json::Array list;
+  for (const command::Check& check : checks) {
+    list.json(json::Object{}
+                  .text("name", command::text_of(check.kind))
+                  .flag("go", check.go)
+                  .flag("known", check.known)
+                  .number("age_ms", check.age.milliseconds())
+                  .text("text", check.text)
+                  .str());
+  }
+  return json::Object{}
+      .text("type", "checklist")
+      .number("time_ms", static_cast<double>(now.ns) / kNanosecondsPerMillisecond)
+      .flag("go", command::all_go(checks))
+      .json("checks", list.str())
+      .str();
+}
+
+}  // namespace pitwall::outlets::wall
