@@ -290,16 +290,16 @@ std::string Wall::settings_version() const {
 void Wall::tell_checks(Instant now) {
   if (states_told_ && now - told_checks_ < kTellChecksEvery) return;
   told_checks_ = now;
-  const auto checks = command::checks_of(
-      {.picture = picture_,
-       .watch = watch_,
-       .holder = talk_.holder(now),
-       .holder_name = talk_.holder_person().name,
-       .settings = {.version = settings_version(),
-                    .kept = settings_.kept(),
-                    .readable = !settings_problem()},
-       .joystick = joystick_ ? joystick_(now) : command::JoystickState::kNone,
-       .now = now});
+  const auto checks =
+      command::checks_of({.picture = picture_,
+                          .watch = watch_,
+                          .holder = talk_.holder(now),
+                          .holder_name = talk_.holder_person().name,
+                          .settings = {.version = settings_version(),
+                                       .kept = settings_.kept(),
+                                       .readable = !settings_problem()},
+                          .joystick = joystick_ ? joystick_(now) : command::JoystickState::kNone,
+                          .now = now});
   room_.tell_state("checklist", checklist_text(checks, now), now);
 }
 
