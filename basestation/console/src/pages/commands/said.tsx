@@ -38,7 +38,7 @@ export function SaidPanel() {
         </b>
       </p>
       {isHolder.value && (
-        <>
+        <div class="said">
           <form
             class="entry"
             onSubmit={(e) => {
@@ -74,7 +74,7 @@ export function SaidPanel() {
             />
             <button type="submit">In the tank</button>
           </form>
-        </>
+        </div>
       )}
     </section>
   );
