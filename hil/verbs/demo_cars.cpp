@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/verbs/demo_cars.hpp"
+
+#include <array>
+
+#include "hil/bench/live_plan.hpp"
+
+namespace pitwall::verbs {
+namespace {
+
+constexpr std::uint16_t kBasePort = 23'431, kUplinkPort = 23'531, kGuestUplinkPort = 23'532;
+constexpr std::uint16_t kRadioPort = 23'429;
+constexpr int kFirstNumber = 7;
+constexpr std::array<const char*, kDemoCarsMax> kNames{"Alpha", "Bravo", "Charlie", "Delta"};
+
+}  // namespace
+
+std::string DemoCar::line_ports() const {
+  return std::to_string(uplink_port) + ":" + std::to_string(base_port) + ":" +
+         std::to_string(radio_port) + ":" + std::to_string(guest_uplink_port);
+}
+
+std::vector<DemoCar> demo_cars(int count, const std::string& folder) {
+  std::vector<DemoCar> cars;
+  for (int bay = 0; bay < count; ++bay) {
+    const auto own = [bay](std::uint16_t port) {
+      return static_cast<std::uint16_t>(port + bay * bench::kBayPorts);
+    };
+    const int number = kFirstNumber + bay;
+    cars.push_back({.number = number,
+                    .name = kNames.at(static_cast<std::size_t>(bay)),
+                    .bay = bay,
+                    .folder = count == 1 ? folder : folder + "/car_" + std::to_string(number),
+                    .base_port = own(kBasePort),
+                    .uplink_port = own(kUplinkPort),
+                    .guest_uplink_port = own(kGuestUplinkPort),
+                    .radio_port = own(kRadioPort)});
+  }
+  return cars;
+}
+
+std::string cars_text(std::span<const DemoCar> cars) {
+  std::string text = "# The cars of this demo, for pitwall-base --cars.\ncars:\n";
+  for (const DemoCar& car : cars) {
+    const std::string place = "car_" + std::to_string(car.number);
+    text += "  - number: " + std::to_string(car.number) + "\n    name: " + car.name +
+            "\n    keys: " + place +
+            "/keys/base.keys\n    listen: [\"127.0.0.1:" + std::to_string(car.base_port) +
+            "\"]\n    record: " + place + "/recording\n    judgement: " + place +
+            "/judgement.yaml\n    json: " + place + "/base.json\n";
+  }
+  return text;
+}
+
+}  // namespace pitwall::verbs

@@ -1,0 +1,37 @@
+// The cars of a demo: each a bench of its own, all at one base.
+//   in     how many; the demo's folder
+//   out    numbers, names, folders and ports; the base's file of cars
+//   law    no two have a folder, a port or a name of memory in common, so that they can run at once
+//          on one machine; the first of one car has what a demo of one car always had
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace pitwall::verbs {
+
+inline constexpr int kDemoCarsMax = 4;
+
+struct DemoCar {
+  int number = 0;
+  std::string name{};
+  int bay = 0;  // its place among the benches of this machine
+  std::string folder{};
+  std::uint16_t base_port = 0;          // where the base hears it
+  std::uint16_t uplink_port = 0;        // from where the base's words go to it, on this machine
+  std::uint16_t guest_uplink_port = 0;  // and where they come, at the bench
+  std::uint16_t radio_port = 0;         // the bench sends the car's telemetry here
+
+  // As `bus exec --line-udp` has them.
+  std::string line_ports() const;
+  std::string interface() const { return "vcan" + std::to_string(bay); }
+};
+
+std::vector<DemoCar> demo_cars(int count, const std::string& folder);
+// Beside the cars' folders.
+std::string cars_text(std::span<const DemoCar> cars);
+
+}  // namespace pitwall::verbs

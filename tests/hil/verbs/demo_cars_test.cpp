@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/verbs/demo_cars.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "protocol/yaml/strict_map.hpp"
+
+namespace pitwall::verbs {
+namespace {
+
+TEST(DemoCars, OneIsWhereADemoAlwaysWas) {
+  const auto cars = demo_cars(1, "out/demo");
+  ASSERT_EQ(cars.size(), 1u);
+  EXPECT_EQ(cars[0].folder, "out/demo");
+  EXPECT_EQ(cars[0].interface(), "vcan0");
+  EXPECT_EQ(cars[0].line_ports(), "23531:23431:23429:23532");
+}
+
+TEST(DemoCars, NoTwoHaveAnythingInCommon) {
+  std::set<std::string> taken;
+  std::size_t claimed = 0;
+  const auto claim = [&](const std::string& what) {
+    taken.insert(what);
+    ++claimed;
+  };
+  for (const DemoCar& car : demo_cars(kDemoCarsMax, "out/demo")) {
+    for (const int port : {car.base_port, car.uplink_port, car.guest_uplink_port, car.radio_port}) {
+      claim(std::to_string(port));
+    }
+    claim(car.folder);
+    claim(car.name);
+    claim("number " + std::to_string(car.number));
+    claim(car.interface());
+  }
+  EXPECT_EQ(taken.size(), claimed);
+}
+
+TEST(DemoCars, TheBasesFileNamesEachWithItsOwn) {
+  const auto cars = demo_cars(2, "out/demo");
+  const auto document = yaml::load_text(cars_text(cars), "cars.yaml");
+  ASSERT_TRUE(document) << to_string(document.error());
+  auto rows = document->root().maps("cars");
+  ASSERT_EQ(rows.size(), 2u);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string place = "car_" + std::to_string(cars[i].number);
+    EXPECT_EQ(rows[i].integer("number", 0, 255), cars[i].number);
+    EXPECT_EQ("out/demo/" + place, cars[i].folder);
+    for (const char* const key : {"keys", "record", "judgement", "json"}) {
+      EXPECT_EQ(rows[i].text(key).find(place + "/"), 0u) << key;
+    }
+    EXPECT_NE(rows[i].texts("listen", 1, 2)[0].find(std::to_string(cars[i].base_port)),
+              std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace pitwall::verbs
