@@ -40,7 +40,7 @@ class CdrWriter {
       put_all(value);
     } else if constexpr (FixedArray<T>) {
       put_all(value);
-    } else if constexpr (std::is_same_v<T, std::string>) {
+    } else if constexpr (Text<T>) {
       put_text(value);
     } else if constexpr (std::is_same_v<T, bool>) {
       out_.push_back(value ? 1 : 0);
@@ -85,8 +85,11 @@ class CdrReader {
       take_all(value);
     } else if constexpr (FixedArray<T>) {
       take_all(value);
-    } else if constexpr (std::is_same_v<T, std::string>) {
+    } else if constexpr (Text<T>) {
       value = take_text();
+      if constexpr (BoundedText<T>) {
+        if (value.size() > T::kBound) refuse("a string of " + std::to_string(value.size()));
+      }
     } else if constexpr (std::is_same_v<T, bool>) {
       value = take_flag();
     } else {

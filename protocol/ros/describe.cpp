@@ -39,6 +39,7 @@ std::string_view msg_name_of(TypeId type) {
     case TypeId::kByte:
       return "byte";
     case TypeId::kString:
+    case TypeId::kBoundedString:
       return "string";
     case TypeId::kNested:
       break;
@@ -59,6 +60,7 @@ void append_text(std::string& out, const StructDescription& type) {
     out += std::string(c.type) + " " + std::string(c.name) + "=" + std::string(c.value) + "\n";
   for (const FieldDescription& f : type.fields) {
     out += f.type == TypeId::kNested ? short_name(f.nested) : std::string(msg_name_of(f.type));
+    if (f.bound > 0) out += "<=" + std::to_string(f.bound);
     if (f.many == Many::kFixed) out += "[" + std::to_string(f.count) + "]";
     if (f.many == Many::kAny) out += "[]";
     out += " " + f.name + (f.comment.empty() ? "" : "  # " + f.comment) + "\n";
@@ -77,8 +79,8 @@ void append_json(std::string& out, const StructDescription& type) {
     if (&f != fields.data()) out += ", ";
     const auto id = static_cast<unsigned>(f.type) + static_cast<unsigned>(f.many);
     out += R"({"name": ")" + f.name + R"(", "type": {"type_id": )" + std::to_string(id) +
-           R"(, "capacity": )" + std::to_string(f.count) +
-           R"(, "string_capacity": 0, "nested_type_name": ")" + f.nested + R"("}})";
+           R"(, "capacity": )" + std::to_string(f.count) + R"(, "string_capacity": )" +
+           std::to_string(f.bound) + R"(, "nested_type_name": ")" + f.nested + R"("}})";
   }
   out += "]}";
 }

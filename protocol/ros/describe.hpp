@@ -30,7 +30,8 @@ enum class TypeId : std::uint8_t {
   kDouble = 11,
   kBool = 15,
   kByte = 16,
-  kString = 17
+  kString = 17,
+  kBoundedString = 21
 };
 
 enum class Many : std::uint8_t { kOne = 0, kFixed = 48, kAny = 144 };
@@ -41,6 +42,7 @@ struct FieldDescription {
   Many many = Many::kOne;
   std::uint64_t count = 0;  // of a fixed array
   std::string nested{};     // "std_msgs/msg/Header"; empty unless kNested
+  std::size_t bound = 0;    // of a string that has one
   std::string comment{};    // behind the field in the text, one line
 };
 
@@ -70,6 +72,7 @@ constexpr TypeId type_id_of() {
   if constexpr (std::is_same_v<T, float>) return TypeId::kFloat;
   if constexpr (std::is_same_v<T, double>) return TypeId::kDouble;
   if constexpr (std::is_same_v<T, std::string>) return TypeId::kString;
+  if constexpr (BoundedText<T>) return TypeId::kBoundedString;
   return TypeId::kNested;
 }
 
@@ -87,6 +90,7 @@ void describe_field(TypeDescription& all, FieldDescription& out) {
     describe_field<typename T::value_type>(all, out);
   } else {
     out.type = type_id_of<T>();
+    if constexpr (BoundedText<T>) out.bound = T::kBound;
     if constexpr (Message<T>) {
       out.nested = T::kType;
       const auto [known, added] = all.referenced.try_emplace(out.nested);

@@ -10,8 +10,9 @@
 //       }
 //     };
 //
-//   law    fields stand in the order of the .msg file; a field is a number, bool, Byte, string,
-//          another message, or a std::array (fixed) or std::vector (any length) of these
+//   law    fields stand in the order of the .msg file; a field is a number, bool, Byte, string
+//          (with a bound or without), another message, or a std::array (fixed) or std::vector (any
+//          length) of these
 //   source rosidl, the .msg files of ROS 2 Humble to Jazzy
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -29,6 +30,20 @@ namespace pitwall::ros {
 
 // `byte` of a .msg file: the octet of an IDL, and another type than `uint8`.
 enum class Byte : std::uint8_t {};
+
+// `string<=N` of a .msg file.
+template <std::size_t N>
+struct BoundedString : std::string {
+  static constexpr std::size_t kBound = N;
+  using std::string::operator=;
+};
+
+template <class T>
+concept Text = std::is_base_of_v<std::string, T>;
+template <class T>
+concept BoundedText = Text<T> && requires {
+  T::kBound;
+};
 
 template <class M, class T>
 struct Field {

@@ -40,8 +40,8 @@ Geodetic Ground::at(double x_m, double y_m, double z_m) const {
   const double across_m = std::hypot(x, y);
   // Bowring's parametric latitude, once: enough for heights of the ground.
   const double parametric = std::atan2(
-      kAxis_m * z * (1.0 + kSecondEccentricity2 * kPolarAxis_m / std::hypot(across_m, z)),
-      kPolarAxis_m * across_m);
+      kPolarAxis_m * z * (1.0 + kSecondEccentricity2 * kPolarAxis_m / std::hypot(across_m, z)),
+      kAxis_m * across_m);
   const double latitude_rad =
       std::atan2(z + kSecondEccentricity2 * kPolarAxis_m * std::pow(std::sin(parametric), 3),
                  across_m - kEccentricity2 * kAxis_m * std::pow(std::cos(parametric), 3));

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "basestation/outlets/ros_view/package.hpp"
 
+#include <filesystem>
+#include <system_error>
+
 #include "basestation/outlets/ros_view/group_message.hpp"
+#include "protocol/transport/file.hpp"
 
 namespace pitwall::outlets::ros_view {
 namespace {
@@ -56,6 +60,19 @@ std::vector<PackageFile> package_files() {
   list += kCMakeTail;
   files.push_back({"CMakeLists.txt", std::move(list)});
   return files;
+}
+
+Result<std::size_t, Problem> write_package(const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code failed;
+  fs::create_directories(fs::path{folder} / "msg", failed);
+  if (failed) return Unexpected{Problem{folder, failed.message()}};
+  const std::vector<PackageFile> files = package_files();
+  for (const PackageFile& file : files) {
+    const auto written = transport::write_file((fs::path{folder} / file.path).string(), file.text);
+    if (!written) return Unexpected{written.error()};
+  }
+  return files.size();
 }
 
 }  // namespace pitwall::outlets::ros_view

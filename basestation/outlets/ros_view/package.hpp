@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "protocol/vocabulary/result.hpp"
+
 namespace pitwall::outlets::ros_view {
 
 struct PackageFile {
@@ -15,5 +17,9 @@ struct PackageFile {
 };
 
 std::vector<PackageFile> package_files();
+
+// Into a folder, which is made; what lies there under the same names is replaced. The number of
+// files, or a Problem with the path.
+Result<std::size_t, Problem> write_package(const std::string& folder);
 
 }  // namespace pitwall::outlets::ros_view

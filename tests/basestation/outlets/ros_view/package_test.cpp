@@ -2,8 +2,12 @@
 #include "basestation/outlets/ros_view/package.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
 
 #include "basestation/outlets/ros_view/group_message.hpp"
 
@@ -40,6 +44,21 @@ TEST(RosPackage, NamesItsNeeds) {
         "<buildtool_depend>rosidl_default_generators</buildtool_depend>"})
     EXPECT_NE(xml.find(part), xml.npos) << part;
   EXPECT_NE(text_of(files, "CMakeLists.txt").find("DEPENDENCIES std_msgs"), std::string::npos);
+}
+
+TEST(RosPackage, LiesInItsFolderAsItWasMade) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("pitwall-msgs-" + std::to_string(getpid()));
+  const auto written = write_package(folder.string());
+  ASSERT_TRUE(written) << to_string(written.error());
+  EXPECT_EQ(*written, package_files().size());
+  for (const PackageFile& file : package_files()) {
+    std::ostringstream text;
+    text << std::ifstream{folder / file.path}.rdbuf();
+    EXPECT_EQ(text.str(), file.text) << file.path;
+  }
+  std::filesystem::remove_all(folder);
+  EXPECT_FALSE(write_package("/proc/no/such/place"));
 }
 
 }  // namespace

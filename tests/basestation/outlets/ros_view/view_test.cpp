@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <regex>
 #include <set>
 
 #include "basestation/outlets/ros_view/group_message.hpp"
@@ -132,8 +133,7 @@ TEST(RosView, FoxglovesReadersDecodeEachStandardMessage) {
       ASSERT_TRUE(message) << topic.name;
       std::string said;
       ros::testing::append_json(said, *message);
-      for (std::size_t at = 0; (at = said.find("nan", at)) != said.npos; at += 5)
-        said.replace(at, 3, "\"NaN\"");
+      said = std::regex_replace(said, std::regex{R"(([:,\[])-?nan)"}, "$1\"NaN\"");
       oracle.add(topic.type, topic.schema, bytes, said);
       types.insert(topic.type);
     });
