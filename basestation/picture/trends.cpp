@@ -160,9 +160,9 @@ std::vector<TrendPoint> TrendTable::range(std::size_t column, Instant from, Inst
   return thinned(all, points);
 }
 
-std::size_t TrendTable::bytes() const {
+std::size_t TrendTable::filled_bytes() const {
   const auto of = [](const Ring& ring) {
-    return ring.time_ns.capacity() * sizeof(std::int64_t) + ring.values.capacity() * sizeof(float);
+    return ring.time_ns.size() * sizeof(std::int64_t) + ring.values.size() * sizeof(float);
   };
   return of(fine_) + of(coarse_);
 }
@@ -189,9 +189,9 @@ std::vector<TrendPoint> Trends::range(telemetry::FieldIndex field, Instant from,
       field - telemetry::fields_of(row.group).first, from, to, points, row.target_age());
 }
 
-std::size_t Trends::bytes() const {
+std::size_t Trends::filled_bytes() const {
   std::size_t sum = 0;
-  for (const TrendTable& table : groups_) sum += table.bytes();
+  for (const TrendTable& table : groups_) sum += table.filled_bytes();
   return sum;
 }
 

@@ -42,7 +42,7 @@ class TrendTable {
   bool note(Instant sampled, std::span<const double> values);
   std::vector<TrendPoint> range(std::size_t column, Instant from, Instant to, std::size_t points,
                                 Duration target_age) const;
-  std::size_t bytes() const;
+  std::size_t filled_bytes() const;  // by values; a vector may have room for twice as many
 
  private:
   static constexpr auto kCoarseRows = static_cast<std::size_t>(kCoarseLength / kBucket);
@@ -77,7 +77,7 @@ class Trends {
   void note(const telemetry::Snapshot& state, telemetry::GroupSet groups);
   std::vector<TrendPoint> range(telemetry::FieldIndex field, Instant from, Instant to,
                                 std::size_t points) const;
-  std::size_t bytes() const;
+  std::size_t filled_bytes() const;  // by values; a vector may have room for twice as many
 
  private:
   std::vector<TrendTable> groups_;

@@ -70,7 +70,10 @@ CarSight sight_of(const intake::Station& station, const Stand& stand, Instant no
   look_at_numbers(station, stand, now, sight);
   look_at_ages(station, now, sight);
   look_at_link(station, now, sight);
-  if (stand.wall != nullptr) look_at_alarms(*stand.wall, sight);
+  if (stand.wall != nullptr) {
+    look_at_alarms(*stand.wall, sight);
+    sight.history_bytes = stand.wall->history_bytes();
+  }
   for (const Outlet* const outlet : stand.outlets) {
     if (auto figures = outlet->figures()) sight.outlets.push_back(*std::move(figures));
   }

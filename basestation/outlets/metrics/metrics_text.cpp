@@ -118,6 +118,8 @@ std::string metrics_text(std::span<const CarSight> cars,
     out.add(Kind::kGauge, "pitwall_car_info",
             "always 1; which car it is, and whether it is REAL, a simulation (HIL) or none (NONE)",
             {{"car", car}, {"name", sight.name}, {"mode", sight.mode}}, 1.0);
+    out.add(Kind::kGauge, "pitwall_history_bytes", "values that the base keeps of the last hour",
+            {{"car", car}}, number(sight.history_bytes));
     add_counts(sight, car, out);
     add_alarms(sight, car, out);
     for (const OutletFigures& figures : sight.outlets) add_outlet(figures, car, out);

@@ -35,6 +35,7 @@ constexpr picture::FieldId id_at(std::size_t place) {
 struct CarSight {
   int car = 0;
   std::string name, mode;
+  std::uint64_t history_bytes = 0;             // of plots that look back
   std::array<double, kNumbers> numbers = [] {  // NaN: not known now
     std::array<double, kNumbers> unset{};
     unset.fill(kUnset);

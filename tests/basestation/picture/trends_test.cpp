@@ -64,7 +64,7 @@ TEST(Trends, WhatIsOlderThanTenMinutesKeepsItsSpikes) {
 TEST(Trends, MemoryIsBoundedHoweverLongItRuns) {
   const TrendTable two_hours = wave(360'000, 0);
   const std::size_t most = TrendTable::kFineRows * 12 + 7'200 * 16;
-  EXPECT_LE(two_hours.bytes(), 2 * most);  // a vector may hold twice what it needs
+  EXPECT_LE(two_hours.filled_bytes(), most);
   const auto points = two_hours.range(0, kStart, kStart + seconds(7'200), 20'000, kTarget);
   EXPECT_NEAR(points.front().time_s, 1'000.0 + 3'600.0, 1.0) << "the last hour";
 }

@@ -84,6 +84,12 @@ export class Rig {
     return Number(/^VmRSS:\s+(\d+) kB$/m.exec(status)[1]) / 1024;
   }
 
+  /** What the base keeps of the last hour, in MB. */
+  async historyMb() {
+    const text = await (await fetch(`${this.address}/metrics`)).text();
+    return Number(/^pitwall_history_bytes\{[^}]*\} (\S+)$/m.exec(text)[1]) / (1024 * 1024);
+  }
+
   close() {
     return this.programs.close();
   }

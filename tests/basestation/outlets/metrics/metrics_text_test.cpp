@@ -13,7 +13,7 @@ namespace pitwall::outlets::metrics {
 namespace {
 
 CarSight sight() {
-  CarSight sight{.car = 7, .name = "Seven \"7\"", .mode = "HIL"};
+  CarSight sight{.car = 7, .name = "Seven \"7\"", .mode = "HIL", .history_bytes = 4096};
   for (std::size_t place = 0; place < kNumbers; ++place) sight.numbers[place] = 0.5;
   sight.numbers[telemetry::field("ego.vx")] = 50.5;
   sight.numbers[telemetry::field("ego.y")] = kUnset;
@@ -47,6 +47,7 @@ TEST(MetricsText, NumbersAreToldInBaseUnitsWithTheirPlaceInTheRegistry) {
   EXPECT_TRUE(has(text, R"(pitwall_field_seconds{car="7",group="link",field="rtt_ms"} 5e-04)"));
   EXPECT_TRUE(has(text, R"(pitwall_group_age_seconds{car="7",group="ego"} 0.02)"));
   EXPECT_TRUE(has(text, R"(pitwall_alarms{car="7",priority="high"} 2)"));
+  EXPECT_TRUE(has(text, R"(pitwall_history_bytes{car="7"} 4096)"));
   EXPECT_TRUE(has(text, R"(pitwall_packets_total{car="7"} 1234)"));
   EXPECT_TRUE(has(text, R"(pitwall_datagrams_refused_total{car="7",why="bad tag"} 3)"));
   EXPECT_TRUE(
@@ -65,6 +66,7 @@ TEST(MetricsText, TwoCarsShareTheirFamilies) {
   CarSight other = sight();
   other.car = 8;
   const std::string text = text_of({sight(), other});
+  EXPECT_TRUE(has(text, R"(pitwall_history_bytes{car="7"} 4096)"));
   EXPECT_TRUE(has(text, R"(pitwall_packets_total{car="8"} 1234)"));
   const std::string head = "# TYPE pitwall_packets_total";
   EXPECT_EQ(text.find(head), text.rfind(head));
