@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "basestation/outlets/dds/ros_outlet.hpp"
 #include "basestation/outlets/foxglove/foxglove_outlet.hpp"
 #include "basestation/outlets/lcm/lcm_outlet.hpp"
 #include "basestation/outlets/metrics/metrics_outlet.hpp"
@@ -44,6 +45,25 @@ Result<std::unique_ptr<lcm::LcmOutlet>, Problem> lcm_of(const Arguments& a, std:
         Problem{"--lcm " + url->text(), "reaches other machines; add --network if that is meant"}};
   }
   return lcm::LcmOutlet::start(*url, recorder::clock_now(), space_of(a, cars));
+}
+
+Result<std::unique_ptr<outlets::Outlet>, Problem> ros_of(const Arguments& a, std::size_t cars,
+                                                         const outlets::wall::Wall* wall) {
+  if (!a.ros_interface.starts_with("127.") && !a.network) {
+    return Unexpected{Problem{"--ros-interface " + a.ros_interface,
+                              "reaches other machines; add --network if that is meant"}};
+  }
+  const auto distribution = outlets::dds::distribution_named(a.ros_distribution);
+  if (!distribution) return Unexpected{distribution.error()};
+  auto view = view_of(a, cars);
+  if (!view) return Unexpected{view.error()};
+  outlets::dds::RosConfig config{
+      .domain = {.domain = a.ros_domain, .interface = a.ros_interface, .peers = a.ros_peers},
+      .distribution = *distribution,
+      .view = *std::move(view)};
+  if (cars > 1) config.node += "_car" + std::to_string(a.car);
+  if (wall != nullptr) config.look = look_of(*wall);
+  return outlets::dds::start(std::move(config));
 }
 
 foxglove::DeskConfig desk_of(const Arguments& a, std::size_t car, ros_view::ViewConfig view) {
@@ -118,6 +138,12 @@ Result<bool, Problem> attach_tools(CarStand& stand, const ToolPlace& place, cons
     if (!started) return Unexpected{started.error()};
     say_where((*started)->local(), say);
     attach(*std::move(started));
+  }
+  if (a.ros) {
+    auto started = ros_of(a, place.cars, stand.wall());
+    if (!started) return Unexpected{started.error()};
+    told.push_back(started->get());
+    stand.attach(*std::move(started));
   }
   if (place.board == nullptr) return true;
   stand.attach(std::make_unique<metrics::MetricsOutlet>(

@@ -62,5 +62,34 @@ TEST(Arguments, HelpIsNoMistake) {
   EXPECT_TRUE(leave->said.empty());
 }
 
+TEST(Arguments, OfRosHaveDefaultsAndBounds) {
+  const auto plain = parse({"--ros"});
+  const auto* const a = std::get_if<Arguments>(&plain);
+  ASSERT_NE(a, nullptr);
+  EXPECT_TRUE(a->ros);
+  EXPECT_EQ(a->ros_domain, 0);
+  EXPECT_EQ(a->ros_distribution, "jazzy");
+  EXPECT_EQ(a->ros_interface, "127.0.0.1") << "nobody else is reached without being asked for";
+  const auto all = parse({"--ros", "--ros-domain", "42", "--ros-distro", "humble",
+                          "--ros-interface", "10.0.0.5", "--ros-peer", "10.0.0.7"});
+  const auto* const b = std::get_if<Arguments>(&all);
+  ASSERT_NE(b, nullptr);
+  EXPECT_EQ(b->ros_domain, 42);
+  EXPECT_EQ(b->ros_distribution, "humble");
+  EXPECT_EQ(b->ros_interface, "10.0.0.5");
+  EXPECT_EQ(b->ros_peers, std::vector<std::string>{"10.0.0.7"});
+  for (const std::vector<const char*>& wrong : {std::vector{"--ros-domain", "102"},
+                                                {"--ros-distro", "noetic"},
+                                                {"--ros-interface", "wlan0"},
+                                                {"--ros-peer", "car7"},
+                                                {"--ros", "--replay", "folder"}})
+    EXPECT_TRUE(std::holds_alternative<Leave>(parse(wrong))) << wrong[0];
+  const auto package = parse({"export", "ros", "--out", "folder"});
+  ASSERT_TRUE(std::holds_alternative<Arguments>(package));
+  EXPECT_EQ(std::get<Arguments>(package).export_kind, "ros");
+  EXPECT_EQ(std::get<Arguments>(package).export_folder, "folder");
+  EXPECT_TRUE(export_kinds().ends_with(", ros"));
+}
+
 }  // namespace
 }  // namespace pitwall::settings
