@@ -41,7 +41,10 @@ export function Flag({ path, label }: { path: string; label: string }) {
       element.dataset.flag = known && word ? flagColour(word) : "none";
       const [, , digits, age] = element.children;
       const text = reading.quality === Quality.never ? kDash : (word ?? kDash);
-      if (digits.textContent !== text) digits.textContent = text;
+      if (digits.textContent !== text) {
+        digits.textContent = text;
+        element.dataset.words = text.includes(" ") ? "several" : "one";
+      }
       const old = reading.quality === Quality.late || reading.quality === Quality.stale;
       const ageNow = old ? ageText(reading.ageMs) : "";
       if (age.textContent !== ageNow) age.textContent = ageNow;
