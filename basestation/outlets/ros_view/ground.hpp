@@ -1,8 +1,8 @@
 // Map on the Earth: where its points lie by latitude and longitude, and how the frame `map` stands
 // in the frame `earth`.
 //   in     the datum of a track, at which Map has its origin: WGS 84, height above the ellipsoid
-//   frames Map: x east, y north, z up (REP 103). earth: REP 105, geocentric, x to longitude 0 on the
-//          equator, z to the north pole
+//   frames Map: x east, y north, z up (REP 103); earth: REP 105, geocentric, x to longitude 0 at
+//          the equator, z to the north pole
 //   cost   some trigonometry
 //   source NGA.STND.0036 (WGS 84); Bowring 1985, the accuracy of geodetic latitude and height
 //          equations: below a micrometre near the ground

@@ -59,7 +59,7 @@ TEST(CarMessages, WhereTheCarDoesNotKnowWhereItIsNothingIsSent) {
   EXPECT_FALSE(kSay.imu(Snapshot{}));
 }
 
-// tf2 and RViz refuse a pose that holds NaN, so the plane stands in for it, and the variance says so.
+// tf2 and RViz refuse a pose that holds NaN, so the plane stands in for it, and the variance tells.
 TEST(CarMessages, AnUnknownHeightIsThatOfThePlaneWithAVarianceThatSaysSo) {
   Snapshot state = some_state();
   for (const auto f : {field("localization.height"), field("localization.sigma_height"),
