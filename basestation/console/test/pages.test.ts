@@ -3,6 +3,7 @@
  * the order of alarms.
  */
 // SPDX-License-Identifier: Apache-2.0
+import { readFileSync, readdirSync } from "node:fs";
 import fc from "fast-check";
 import { describe, expect, test } from "vitest";
 import { meaningOf } from "../src/pages/alarms/settings";
@@ -316,4 +317,21 @@ describe("laps over each other", () => {
   test("as many laps beside each other as colours can tell", () => {
     expect([0, 1, 2, 3, 4, 6].map(lapsBeside)).toEqual([3, 3, 3, 2, 1, 1]);
   });
+});
+
+test("the style sheet of a page that comes later speaks of that page alone", () => {
+  const pages = new URL("../src/pages/", import.meta.url);
+  const sheets = readdirSync(pages, { recursive: true, encoding: "utf8" }).filter((name) =>
+    name.endsWith(".css"),
+  );
+  expect(sheets.length).toBeGreaterThan(0);
+  for (const sheet of sheets) {
+    const text = readFileSync(new URL(sheet, pages), "utf8").replace(/\/\*[^]*?\*\//g, "");
+    const selectors = [...text.matchAll(/([^{}]+)\{/g)]
+      .flatMap(([, list]) => list.split(/,(?![^(]*\))/))
+      .map((selector) => selector.trim())
+      .filter((selector) => !selector.startsWith("@"));
+    const root = `.${sheet.split("/")[0]}-page`;
+    expect(selectors.filter((selector) => !selector.startsWith(root))).toEqual([]);
+  }
 });
