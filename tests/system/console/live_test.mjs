@@ -194,7 +194,7 @@ const kLaterScript = /\/assets\/page-.*\.js$/;
 const fetchedLater = () =>
   performance.getEntriesByType("resource").some((e) => /assets\/page-.*\.js$/.test(e.name));
 
-test("pages outside the first load are there before they are shown, and without a base", async () => {
+test("pages outside the first load are there before they are shown, without a base", async () => {
   const { page } = await stage.open();
   await until(page, "the page that nobody asked for", fetchedLater);
   await page.waitForLoadState("networkidle");
@@ -222,7 +222,7 @@ test("a page that did not come is asked for again", async () => {
   await until(page, "charts", () => document.querySelectorAll(".chart canvas").length > 3);
 });
 
-test("the check list is the base's own; an old one, and one of a silent base, is not known", async () => {
+test("the check list is the base's own; an old one, or a silent base's, is not known", async () => {
   let said = { ...checklist(0), go: false };
   stage.double.checklist = (now) => ({ ...said, time_ms: now });
   const { page } = await stage.open({ hash: "#/replay" });

@@ -83,7 +83,7 @@ test("limits and the budget are reviewed, held, kept in the file and counted", a
   const stopping = `${panel} label:has-text("controlled stop") select`;
   assert.equal(await page.inputValue(stopping), "bad");
   await page.selectOption(stopping, "warning");
-  assert.match(await page.textContent(`${panel} .review li`), /controlled stop: bad \u2192 warning/);
+  assert.match(await page.textContent(`${panel} .review li`), /stop: bad \u2192 warning/);
   await apply(page, panel, "a planned stop");
   await until(page, "revision 3", () => document.body.textContent.includes("revision 3"));
   await show(page, "link");

@@ -6,6 +6,10 @@
 import { signal } from "@preact/signals";
 import type { FunctionComponent } from "preact";
 
+const kFailed =
+  "This page has not come from the base. It is asked for again when the base answers; a base " +
+  "that was built anew needs this window to be loaded again.";
+
 type Load = () => Promise<FunctionComponent>;
 
 /** Those that are not here yet. */
@@ -35,10 +39,7 @@ export function later(load: Load): FunctionComponent {
     return (
       <main class="page">
         <p class="empty" role="status">
-          {failed.value
-            ? "This page has not come from the base. It is asked for again when the base answers; a " +
-              "base that was built anew needs this window to be loaded again."
-            : "This page is on its way."}
+          {failed.value ? kFailed : "This page is on its way."}
         </p>
       </main>
     );

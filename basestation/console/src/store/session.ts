@@ -10,7 +10,7 @@ import { CarSession, kKeptLines } from "./car_session";
 
 export { kKeptLines };
 
-/** In the order of the base. Never empty: before the base has answered there is one of no number. */
+/** In the order of the base. Never empty: before it has answered there is one of no number. */
 export const cars = signal<readonly CarSession[]>([new CarSession()]);
 const chosen = signal<CarSession>(cars.value[0]);
 export const shownCar = computed(() =>

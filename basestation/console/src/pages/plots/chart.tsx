@@ -41,6 +41,10 @@ function readOut(plot: uPlot, lines: readonly Line[], axis: PlotAxis, head: HTML
   });
 }
 
+/** Beside another car a field keeps its colour in both. */
+const classOf = (line: Line, i: number): string =>
+  `series-${(compared.value ? line.field : i) + 1}${line.other ? " other-car" : ""}`;
+
 export interface ChartProps {
   spec: ChartSpec;
   index: number;
@@ -111,10 +115,7 @@ export function Chart({ spec, index, windowS, axis }: ChartProps) {
         <h2>{spec.title}</h2>
         <ul class="read-outs" ref={head}>
           {lines.map((line, i) => (
-            <li
-              key={`${line.path} ${line.back} ${line.car.number}`}
-              class={`series-${(compared.value ? line.field : i) + 1}${line.other ? " other-car" : ""}`}
-            >
+            <li key={`${line.path} ${line.back} ${line.car.number}`} class={classOf(line, i)}>
               <i class="swatch" aria-hidden="true" />
               <span class="name">{nameOf(line)}</span>
               <span class="digits">{kDash}</span>

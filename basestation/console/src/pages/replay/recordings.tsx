@@ -67,6 +67,38 @@ function state(recording: Recording): string {
   return recording.running ? "being recorded" : "";
 }
 
+interface RowProps {
+  recording: Recording;
+  chosen: boolean;
+  onChosen: () => void;
+}
+
+function Row({ recording, chosen, onChosen }: RowProps) {
+  return (
+    <tr data-selected={chosen}>
+      <th scope="row">
+        <button type="button" aria-pressed={chosen} onClick={onChosen}>
+          {recording.name}
+        </button>
+      </th>
+      <td>
+        {recording.car} {recording.car_name}
+      </td>
+      <td>
+        {spanText(recording)}
+        <br />
+        <span class="begun">{dayText(recording.first_utc_ms)}</span>
+      </td>
+      <td>
+        {sizeText(recording.bytes)}
+        <br />
+        <span class="begun">{recording.segments} segments</span>
+      </td>
+      <td>{state(recording)}</td>
+    </tr>
+  );
+}
+
 export function RecordingsPanel() {
   const [known, setKnown] = useState<Recordings | string>("");
   const [chosen, setChosen] = useState("");
@@ -100,31 +132,12 @@ export function RecordingsPanel() {
           <TableHead names={["recording", "car", "UTC", "size", "state"]} />
           <tbody>
             {list.recordings.map((recording) => (
-              <tr key={recording.folder} data-selected={recording.folder === chosen}>
-                <th scope="row">
-                  <button
-                    type="button"
-                    aria-pressed={recording.folder === chosen}
-                    onClick={() => setChosen(recording.folder)}
-                  >
-                    {recording.name}
-                  </button>
-                </th>
-                <td>
-                  {recording.car} {recording.car_name}
-                </td>
-                <td>
-                  {spanText(recording)}
-                  <br />
-                  <span class="begun">{dayText(recording.first_utc_ms)}</span>
-                </td>
-                <td>
-                  {sizeText(recording.bytes)}
-                  <br />
-                  <span class="begun">{recording.segments} segments</span>
-                </td>
-                <td>{state(recording)}</td>
-              </tr>
+              <Row
+                recording={recording}
+                chosen={recording.folder === chosen}
+                onChosen={() => setChosen(recording.folder)}
+                key={recording.folder}
+              />
             ))}
           </tbody>
         </table>
