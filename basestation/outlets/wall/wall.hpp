@@ -86,6 +86,7 @@ class Wall : public Outlet, private Eyes {
   // A field of the car or of the base, as consoles see it.
   picture::FieldView seen(picture::FieldId field, Instant now) const { return view(field, now); }
   const picture::Trends& trends() const { return trends_; }
+  std::size_t history_bytes() const { return trends_.filled_bytes() + own_trends_.filled_bytes(); }
 
  private:
   static constexpr Duration kTellChecksEvery = seconds(1);
