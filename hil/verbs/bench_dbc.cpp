@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/verbs/bench_dbc.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -263,9 +262,9 @@ std::string json_of(const Figures& f) {
 
 int bench_dbc(std::span<const std::string> args) {
   std::string json_file;
-  CLI::App app{"pitwall-hil bench dbc: reading CAN databases and decoding frames"};
-  app.add_option("--json", json_file, "write the figures here");
-  if (const auto code = ended_by(app, args)) return *code;
+  CommandLine app{"pitwall-hil bench dbc: reading CAN databases and decoding frames"};
+  app.option("--json", json_file, "write the figures here");
+  if (const auto code = app.ended_by(args)) return *code;
   const auto text = transport::read_file(kDatabase, can::kMaxDbcBytes);
   if (!text) return refuse(text.error());
   const auto database = can::parse_dbc(*text, kDatabase);

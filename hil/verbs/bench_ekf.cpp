@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/verbs/bench_ekf.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -237,9 +236,9 @@ std::string json_of(const Figures& f) {
 
 int bench_ekf(std::span<const std::string> args) {
   std::string json_file;
-  CLI::App app{"pitwall-hil bench ekf: what the filter of localization costs the car"};
-  app.add_option("--json", json_file, "write the figures here");
-  if (const auto code = ended_by(app, args)) return *code;
+  CommandLine app{"pitwall-hil bench ekf: what the filter of localization costs the car"};
+  app.option("--json", json_file, "write the figures here");
+  if (const auto code = app.ended_by(args)) return *code;
   const auto figures = measure();
   if (!figures) return refuse(figures.error());
   print(*figures);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/verbs/bench_gateway.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -239,19 +238,18 @@ int run_where_can_is(const Options& options) {
 
 int bench_gateway(std::span<const std::string> args) {
   Options options;
-  CLI::App app{"pitwall-hil bench gateway: 27,000 frames/s, and every lost frame reported"};
-  app.add_option("--seconds", options.seconds, "of traffic, for each experiment")
-      ->check(CLI::Range(5, 3'600));
-  app.add_option("--omissions", options.omissions, "single frames to leave out")
-      ->check(CLI::Range(0, 10'000));
-  app.add_option("--seed", options.seed, "of what is left out")->check(CLI::Range(0, 1'000'000));
-  app.add_option("--json", options.json_file, "write the figures here");
-  app.add_option("--interface", options.interface, "CAN interface");
-  app.add_flag("--here", options.here, "the interface exists here already");
-  auto* start = app.add_option("--start", options.start_ns, "send only, from this instant on");
-  app.add_option("--figures", options.figures_file, "of the sender")->needs(start);
-  if (const auto code = ended_by(app, args)) return *code;
-  if (start->count() > 0) {
+  CommandLine app{"pitwall-hil bench gateway: 27,000 frames/s, and every lost frame reported"};
+  app.option("--seconds", options.seconds, "of traffic, for each experiment").range(5, 3'600);
+  app.option("--omissions", options.omissions, "single frames to leave out").range(0, 10'000);
+  app.option("--seed", options.seed, "of what is left out").range(0, 1'000'000);
+  app.option("--json", options.json_file, "write the figures here");
+  app.option("--interface", options.interface, "CAN interface");
+  app.flag("--here", options.here, "the interface exists here already");
+  const VerbOption start =
+      app.option("--start", options.start_ns, "send only, from this instant on");
+  app.option("--figures", options.figures_file, "of the sender").needs(start);
+  if (const auto code = app.ended_by(args)) return *code;
+  if (start.given()) {
     const auto sent = bench::send_traffic(options.interface, traffic_of(options),
                                           {options.start_ns}, options.figures_file);
     return sent ? kExitPass : refuse(sent.error());

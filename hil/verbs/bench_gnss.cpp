@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/verbs/bench_gnss.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -263,9 +262,9 @@ std::string json_of(const std::vector<Row>& rows, bool held) {
 
 int bench_gnss(std::span<const std::string> args) {
   std::string json_file;
-  CLI::App app{"pitwall-hil bench gnss: what two satellite receivers cost the car"};
-  app.add_option("--json", json_file, "write the figures here");
-  if (const auto code = ended_by(app, args)) return *code;
+  CommandLine app{"pitwall-hil bench gnss: what two satellite receivers cost the car"};
+  app.option("--json", json_file, "write the figures here");
+  if (const auto code = app.ended_by(args)) return *code;
   const std::vector<Row> rows = measure_all();
   const bool held = std::all_of(rows.begin(), rows.end(), [](const Row& r) { return r.held(); });
   std::printf(

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/verbs/bench_laps.hpp"
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
 #include <utility>
@@ -77,12 +76,11 @@ Result<std::vector<laps::LapRow>, Problem> drive(const std::vector<Job>& jobs) {
 
 int bench_laps(std::span<const std::string> args) {
   std::string track_file, only, json_file;
-  CLI::App app{"pitwall-hil bench laps: three ovals, nominal and perturbed"};
-  app.add_option("--track", track_file, "another track (YAML) instead of the three");
-  app.add_option("--only", only,
-                 "only perturbations whose name contains this, and the nominal one");
-  app.add_option("--json", json_file, "write the rows here");
-  if (const auto code = ended_by(app, args)) return *code;
+  CommandLine app{"pitwall-hil bench laps: three ovals, nominal and perturbed"};
+  app.option("--track", track_file, "another track (YAML) instead of the three");
+  app.option("--only", only, "only perturbations whose name contains this, and the nominal one");
+  app.option("--json", json_file, "write the rows here");
+  if (const auto code = app.ended_by(args)) return *code;
   const auto tracks = track_file.empty() ? shipped() : custom(track_file);
   if (!tracks) return refuse(tracks.error());
   std::vector<Job> jobs;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/verbs/bench_plant.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -161,9 +160,9 @@ std::string json_of(const Figures& f) {
 
 int bench_plant(std::span<const std::string> args) {
   std::string json_file;
-  CLI::App app{"pitwall-hil bench plant: what the modelled car costs"};
-  app.add_option("--json", json_file, "write the figures here");
-  if (const auto code = ended_by(app, args)) return *code;
+  CommandLine app{"pitwall-hil bench plant: what the modelled car costs"};
+  app.option("--json", json_file, "write the figures here");
+  if (const auto code = app.ended_by(args)) return *code;
   const auto figures = measure();
   if (!figures) return refuse(figures.error());
   print(*figures);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/verbs/bench_radio.hpp"
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -160,17 +159,17 @@ Result<bool, Problem> write_json(const Options& options, const std::vector<Conte
 int bench_radio(std::span<const std::string> args) {
   Options options;
   options.peers = fs::path(own_program()).parent_path().parent_path() / "tests/benchmarks/peers";
-  CLI::App app{"pitwall-hil bench radio: protocols side by side over one emulated radio"};
-  app.add_option("--seconds", options.seconds, "of each case and contestant, after 4 s")
-      ->check(CLI::Range(1, 3'600));
-  app.add_option("--seed", options.seed, "of the fades");
-  app.add_option("--trace", options.trace_file, "recorded fades instead (CSV from_s,to_s[,loss])");
-  app.add_option("--write-trace", options.write_trace_file, "write the fades here");
-  app.add_option("--only", options.only, "contestants whose name contains this");
-  app.add_option("--case", options.only_case, "light, overload, fades, \"overload and fades\"");
-  app.add_option("--peers", options.peers, "folder of the contestants' programs");
-  app.add_option("--json", options.json_file, "write the figures here");
-  if (const auto code = ended_by(app, args)) return *code;
+  CommandLine app{"pitwall-hil bench radio: protocols side by side over one emulated radio"};
+  app.option("--seconds", options.seconds, "of each case and contestant, after 4 s")
+      .range(1, 3'600);
+  app.option("--seed", options.seed, "of the fades");
+  app.option("--trace", options.trace_file, "recorded fades instead (CSV from_s,to_s[,loss])");
+  app.option("--write-trace", options.write_trace_file, "write the fades here");
+  app.option("--only", options.only, "contestants whose name contains this");
+  app.option("--case", options.only_case, "light, overload, fades, \"overload and fades\"");
+  app.option("--peers", options.peers, "folder of the contestants' programs");
+  app.option("--json", options.json_file, "write the figures here");
+  if (const auto code = app.ended_by(args)) return *code;
   const auto fades = fades_of(options);
   if (!fades) return refuse(fades.error());
   if (!options.write_trace_file.empty()) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/verbs/bench_replay.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <vector>
@@ -137,17 +136,16 @@ int match_where_can_is(const BenchOptions& options) {
 
 int bench_replay(std::span<const std::string> args) {
   BenchOptions options;
-  CLI::App app{"pitwall-hil bench replay: replay timing beside canplayer and python-can"};
-  app.add_option("--log", options.log_file, "candump log to play");
-  app.add_option("--length", options.length_s, "seconds of the default log")
-      ->check(CLI::Range(1.0, kMaxLength_s));
-  app.add_option("--runs", options.runs, "of each player")->check(CLI::Range(1, 100));
-  app.add_option("--interface", options.interface, "CAN interface");
-  app.add_option("--json", options.json_file, "write the figures here");
-  app.add_flag("--here", options.here, "the interface exists here already")->group("");
-  app.add_option("--folder", options.folder, "for what is written on the way")->group("");
-  app.add_option("--host-load", options.host_load, "to be reported")->group("");
-  if (const auto code = ended_by(app, args)) return *code;
+  CommandLine app{"pitwall-hil bench replay: replay timing beside canplayer and python-can"};
+  app.option("--log", options.log_file, "candump log to play");
+  app.option("--length", options.length_s, "seconds of the default log").range(1.0, kMaxLength_s);
+  app.option("--runs", options.runs, "of each player").range(1, 100);
+  app.option("--interface", options.interface, "CAN interface");
+  app.option("--json", options.json_file, "write the figures here");
+  app.flag("--here", options.here, "the interface exists here already").hidden();
+  app.option("--folder", options.folder, "for what is written on the way").hidden();
+  app.option("--host-load", options.host_load, "to be reported").hidden();
+  if (const auto code = app.ended_by(args)) return *code;
   return options.here ? match_here(options) : match_where_can_is(options);
 }
 

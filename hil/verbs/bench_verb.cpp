@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/verbs/bench_verb.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <vector>
@@ -125,12 +124,11 @@ int bench_verb(std::span<const std::string> args) {
   if (!args.empty() && args.front() == "laps") return bench_laps(args.subspan(1));
   if (!args.empty() && args.front() == "radio") return bench_radio(args.subspan(1));
   std::string name, json_file;
-  CLI::App app{"pitwall-hil bench: benchmarks with gates"};
-  app.add_option("name", name,
-                 "dbc, ekf, gateway, gnss, laps, lockstep, plant, radio, replay or step")
-      ->required();
-  app.add_option("--json", json_file, "write the figures here");
-  if (const auto code = ended_by(app, args)) return *code;
+  CommandLine app{"pitwall-hil bench: benchmarks with gates"};
+  app.option("name", name, "dbc, ekf, gateway, gnss, laps, lockstep, plant, radio, replay or step")
+      .required();
+  app.option("--json", json_file, "write the figures here");
+  if (const auto code = app.ended_by(args)) return *code;
   if (name == "lockstep") return bench_lockstep(json_file);
   if (name == "step") return bench_step(json_file);
   return refuse(

@@ -1,12 +1,13 @@
-// The words of a verb, read by its CLI11 app.
-//   in     the app with its options, the words after the verb
+// The words of a verb: which options it has, what they stand for, and the reading of them. CLI11
+// does the work behind this header, which costs a file that includes it nothing.
+//   in     the verb's options with the variables that they fill; the words after the verb
 //   out    nothing where the verb shall go on; else the exit code with which it is over: help was
 //          asked for and given, or the words are wrong and it has been said why
 //   errors the exit code
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,16 +15,58 @@
 
 #include "hil/verbs/exit_code.hpp"
 
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
 namespace pitwall::verbs {
 
-inline std::optional<int> ended_by(CLI::App& app, std::span<const std::string> args) {
-  try {
-    std::vector<std::string> reversed(args.rbegin(), args.rend());  // as CLI11 wants them
-    app.parse(reversed);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kExitPass : kExitUnusable;
-  }
-  return std::nullopt;
-}
+// One option, as its command line made it; valid as long as that is.
+class VerbOption {
+ public:
+  explicit VerbOption(CLI::Option& option) : option_(&option) {}
+
+  VerbOption& required();
+  VerbOption& range(int least, int most);
+  VerbOption& range(double least, double most);
+  VerbOption& words(int count);  // as many as one use of the option takes
+  VerbOption& with_commas();     // between these words
+  VerbOption& needs(const VerbOption& other);
+  VerbOption& excludes(const VerbOption& other);
+  VerbOption& hidden();         // from the help
+  VerbOption& shows_default();  // in the help
+  bool given() const;           // among the words that were read
+
+ private:
+  CLI::Option* option_;
+};
+
+class CommandLine {
+ public:
+  explicit CommandLine(const std::string& what, const std::string& program = {});
+  ~CommandLine();
+  CommandLine(CommandLine&&) noexcept;
+  CommandLine& operator=(CommandLine&&) = delete;
+  CommandLine(const CommandLine&) = delete;
+  CommandLine& operator=(const CommandLine&) = delete;
+
+  // Value is any type that a verb asks for: text, a list of texts, a number. An option without
+  // leading dashes is known by its place among the words.
+  template <typename Value>
+  VerbOption option(const std::string& name, Value& value, const std::string& help);
+  VerbOption flag(const std::string& name, bool& value, const std::string& help);
+  // Of these exactly one has to be said.
+  CommandLine one_of(const std::string& name, const std::string& help);
+
+  bool said() const;  // this part, after the words have been read
+  std::optional<int> ended_by(std::span<const std::string> args);
+
+ private:
+  explicit CommandLine(CLI::App& part);
+
+  std::unique_ptr<CLI::App> own_;  // none: a part of another
+  CLI::App* app_;
+};
 
 }  // namespace pitwall::verbs

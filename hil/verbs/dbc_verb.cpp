@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/verbs/dbc_verb.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
@@ -164,24 +163,23 @@ int diff(const DbcOptions& options) {
 
 int dbc_verb(std::span<const std::string> args) {
   DbcOptions options;
-  CLI::App app{"pitwall-hil dbc: CAN databases, checked, shown and compared"};
-  app.require_subcommand(1);
-  CLI::App* const checks = app.add_subcommand(
+  CommandLine app{"pitwall-hil dbc: CAN databases, checked, shown and compared"};
+  CommandLine checks = app.one_of(
       "check", "errors, warnings and notes; exit 0 readable, 1 warnings with --strict, 2 refused");
-  checks->add_option("FILE", options.files, "databases")->required();
-  checks->add_flag("--strict", options.strict, "a warning is a failure");
-  checks->add_option("--json", options.json_file, "write the findings here");
-  CLI::App* const shows = app.add_subcommand("show", "tables of messages and signals");
-  shows->add_option("FILE", options.one, "database")->required();
-  shows->add_option("MESSAGE", options.message, "name or id (1303, 0x517); default: all");
-  CLI::App* const diffs =
-      app.add_subcommand("diff", "what changed, worst first; exit 0 same, 1 different, 2 refused");
-  diffs->add_option("ONE", options.one, "database")->required();
-  diffs->add_option("OTHER", options.other, "another revision")->required();
-  diffs->add_option("--json", options.json_file, "write the differences here");
-  if (const auto code = ended_by(app, args)) return *code;
-  if (*checks) return check(options);
-  return *shows ? show(options) : diff(options);
+  checks.option("FILE", options.files, "databases").required();
+  checks.flag("--strict", options.strict, "a warning is a failure");
+  checks.option("--json", options.json_file, "write the findings here");
+  CommandLine shows = app.one_of("show", "tables of messages and signals");
+  shows.option("FILE", options.one, "database").required();
+  shows.option("MESSAGE", options.message, "name or id (1303, 0x517); default: all");
+  CommandLine diffs =
+      app.one_of("diff", "what changed, worst first; exit 0 same, 1 different, 2 refused");
+  diffs.option("ONE", options.one, "database").required();
+  diffs.option("OTHER", options.other, "another revision").required();
+  diffs.option("--json", options.json_file, "write the differences here");
+  if (const auto code = app.ended_by(args)) return *code;
+  if (checks.said()) return check(options);
+  return shows.said() ? show(options) : diff(options);
 }
 
 }  // namespace pitwall::verbs

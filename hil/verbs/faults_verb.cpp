@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/verbs/faults_verb.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -141,13 +140,13 @@ Result<int, Problem> judge(const Options& options) {
 
 int faults_verb(std::span<const std::string> args) {
   Options options;
-  CLI::App app{"pitwall-hil faults: every fault of the catalogue, and who noticed it how fast"};
-  app.add_option("--folder", options.folder, "of the scenarios; default " + options.folder);
-  app.add_option("--only", options.only, "only scenarios whose name contains this");
-  app.add_option("--without", options.without, "switch this monitor off; may be given again");
-  app.add_flag("--prove", options.prove, "switch each monitor off once: something must fail");
-  app.add_option("--json", options.json_file, "write the matrix here");
-  if (const auto code = ended_by(app, args)) return *code;
+  CommandLine app{"pitwall-hil faults: every fault of the catalogue, and who noticed it how fast"};
+  app.option("--folder", options.folder, "of the scenarios; default " + options.folder);
+  app.option("--only", options.only, "only scenarios whose name contains this");
+  app.option("--without", options.without, "switch this monitor off; may be given again");
+  app.flag("--prove", options.prove, "switch each monitor off once: something must fail");
+  app.option("--json", options.json_file, "write the matrix here");
+  if (const auto code = app.ended_by(args)) return *code;
   const auto code = judge(options);
   return code ? *code : refuse(code.error());
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/verbs/radio_verb.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
@@ -150,15 +149,14 @@ void flood(Table& table, const Options& options) {
 }  // namespace
 
 int radio_verb(std::span<const std::string> args) {
-  CLI::App app{"the radio's promises at length, in virtual time", "pitwall-hil radio"};
+  CommandLine app{"the radio's promises at length, in virtual time", "pitwall-hil radio"};
   Options options;
-  CLI::App* gates = app.add_subcommand("gates", "all of them");
-  gates->add_option("--hours", options.hours, "share of the whole: 1 is an hour of link")
-      ->check(CLI::Range(0.001, 100.0));
-  gates->add_option("--seed", options.seed, "of links and forgers");
-  gates->add_option("--json", options.json_file, "the table as JSON");
-  app.require_subcommand(1);
-  if (const auto over = ended_by(app, args)) return *over;
+  CommandLine gates = app.one_of("gates", "all of them");
+  gates.option("--hours", options.hours, "share of the whole: 1 is an hour of link")
+      .range(0.001, 100.0);
+  gates.option("--seed", options.seed, "of links and forgers");
+  gates.option("--json", options.json_file, "the table as JSON");
+  if (const auto over = app.ended_by(args)) return *over;
 
   Table table;
   const auto say = [](const std::string& line) {

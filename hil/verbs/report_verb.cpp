@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/verbs/report_verb.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 
@@ -97,13 +96,13 @@ std::optional<Problem> prepare_report(const std::string& folder) {
 
 int report_verb(std::span<const std::string> args) {
   ReportFiles files;
-  CLI::App app{"pitwall-hil report: the page and the JUnit file of a run"};
-  app.add_option("log", files.log, "event log of the run (MCAP)")->required();
-  app.add_option("--out", files.html, "the page (HTML)")->required();
-  app.add_option("--result", files.result, "result of the same run (JSON)");
-  app.add_option("--junit", files.junit, "write the verdicts as JUnit XML");
-  app.add_option("--track", files.track, "track file, instead of the one that the log names");
-  if (const auto code = ended_by(app, args)) return *code;
+  CommandLine app{"pitwall-hil report: the page and the JUnit file of a run"};
+  app.option("log", files.log, "event log of the run (MCAP)").required();
+  app.option("--out", files.html, "the page (HTML)").required();
+  app.option("--result", files.result, "result of the same run (JSON)");
+  app.option("--junit", files.junit, "write the verdicts as JUnit XML");
+  app.option("--track", files.track, "track file, instead of the one that the log names");
+  if (const auto code = app.ended_by(args)) return *code;
   return write_report(files, std::nullopt);
 }
 

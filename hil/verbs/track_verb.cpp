@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/verbs/track_verb.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -128,39 +127,37 @@ int picture(const TrackOptions& options) {
   return kExitPass;
 }
 
-void add_fit_options(CLI::App& verb, TrackOptions& options) {
-  verb.add_option("--name", options.fit.name, "of the track; default: the file's");
-  verb.add_option("--smooth", options.fit.smoothing_m,
-                  "detail of the line that is shorter goes, m; default 30")
-      ->check(CLI::Range(2.0, 200.0));
-  verb.add_option("--knots", options.fit.knot_spacing_m, "step of the track file, m; default 5")
-      ->check(CLI::Range(1.0, 50.0));
-  verb.add_option("--datum", options.datum,
-                  "LAT,LON,HEIGHT of the CSV's origin: degrees, degrees, m")
-      ->delimiter(',')
-      ->expected(3);
+void add_fit_options(CommandLine& verb, TrackOptions& options) {
+  verb.option("--name", options.fit.name, "of the track; default: the file's");
+  verb.option("--smooth", options.fit.smoothing_m,
+              "detail of the line that is shorter goes, m; default 30")
+      .range(2.0, 200.0);
+  verb.option("--knots", options.fit.knot_spacing_m, "step of the track file, m; default 5")
+      .range(1.0, 50.0);
+  verb.option("--datum", options.datum, "LAT,LON,HEIGHT of the CSV's origin: degrees, degrees, m")
+      .with_commas()
+      .words(3);
 }
 
 }  // namespace
 
 int track_verb(std::span<const std::string> args) {
   TrackOptions options;
-  CLI::App app{"pitwall-hil track: any team's track, read, checked and looked at"};
-  app.require_subcommand(1);
-  CLI::App* const checks =
-      app.add_subcommand("check", "length, closure, curvature, widths, banking, what is odd");
-  checks->add_option("FILE", options.file, "track file (.yaml) or CSV")->required();
-  checks->add_option("--json", options.json_file, "write the figures here");
-  CLI::App* const imports = app.add_subcommand("import", "a track file of a CSV");
-  imports->add_option("CSV", options.file, "x_m,y_m,w_tr_right_m,w_tr_left_m and more")->required();
-  imports->add_option("--out", options.out, "the track file (.yaml)")->required();
-  CLI::App* const pictures = app.add_subcommand("picture", "the track from above, as SVG");
-  pictures->add_option("FILE", options.file, "track file (.yaml) or CSV")->required();
-  pictures->add_option("--out", options.out, "the picture (.svg)")->required();
-  for (CLI::App* verb : {checks, imports, pictures}) add_fit_options(*verb, options);
-  if (const auto code = ended_by(app, args)) return *code;
-  if (*checks) return check(options);
-  return *imports ? import_to(options) : picture(options);
+  CommandLine app{"pitwall-hil track: any team's track, read, checked and looked at"};
+  CommandLine checks =
+      app.one_of("check", "length, closure, curvature, widths, banking, what is odd");
+  checks.option("FILE", options.file, "track file (.yaml) or CSV").required();
+  checks.option("--json", options.json_file, "write the figures here");
+  CommandLine imports = app.one_of("import", "a track file of a CSV");
+  imports.option("CSV", options.file, "x_m,y_m,w_tr_right_m,w_tr_left_m and more").required();
+  imports.option("--out", options.out, "the track file (.yaml)").required();
+  CommandLine pictures = app.one_of("picture", "the track from above, as SVG");
+  pictures.option("FILE", options.file, "track file (.yaml) or CSV").required();
+  pictures.option("--out", options.out, "the picture (.svg)").required();
+  for (CommandLine* verb : {&checks, &imports, &pictures}) add_fit_options(*verb, options);
+  if (const auto code = app.ended_by(args)) return *code;
+  if (checks.said()) return check(options);
+  return imports.said() ? import_to(options) : picture(options);
 }
 
 }  // namespace pitwall::verbs

@@ -6,31 +6,66 @@
 namespace pitwall::verbs {
 namespace {
 
-std::optional<int> code_of(const std::vector<std::string>& args, std::string& word, int& number) {
-  CLI::App app{"test"};
-  app.add_option("word", word)->required();
-  app.add_option("--number", number)->check(CLI::Range(1, 9));
-  return ended_by(app, args);
+struct Said {
+  std::string word;
+  int number = 0;
+  std::vector<double> place;
+  bool loud = false, has_number = false;
+  std::optional<int> code;
+};
+
+Said read(const std::vector<std::string>& args) {
+  Said said;
+  CommandLine line{"test"};
+  line.option("word", said.word, "a word").required();
+  const VerbOption number = line.option("--number", said.number, "1 to 9").range(1, 9);
+  line.option("--place", said.place, "two numbers").with_commas().words(2).needs(number);
+  line.flag("--loud", said.loud, "not with --number").excludes(number);
+  said.code = line.ended_by(args);
+  said.has_number = number.given();
+  return said;
 }
 
 TEST(CommandLine, WordsAreReadInTheirOrder) {
-  std::string word;
-  int number = 0;
-  EXPECT_FALSE(code_of({"one", "--number", "7"}, word, number));
-  EXPECT_EQ(word, "one");
-  EXPECT_EQ(number, 7);
+  const Said said = read({"one", "--number", "7", "--place", "1.5,-2"});
+  EXPECT_FALSE(said.code);
+  EXPECT_EQ(said.word, "one");
+  EXPECT_EQ(said.number, 7);
+  EXPECT_TRUE(said.has_number);
+  EXPECT_EQ(said.place, (std::vector{1.5, -2.0}));
+  EXPECT_FALSE(read({"one"}).has_number);
 }
 
 TEST(CommandLine, HelpPassesAndWrongWordsAreUnusable) {
-  std::string word;
-  int number = 0;
-  EXPECT_EQ(code_of({"--help"}, word, number), kExitPass);
+  EXPECT_EQ(read({"--help"}).code, kExitPass);
   for (const std::vector<std::string>& wrong : {std::vector<std::string>{},
                                                 {"one", "two"},
                                                 {"one", "--number"},
                                                 {"one", "--number", "10"},
+                                                {"one", "--number", "7.5"},
+                                                {"one", "--place", "1,2"},
+                                                {"one", "--number", "7", "--place", "1"},
+                                                {"one", "--number", "7", "--loud"},
                                                 {"one", "--unknown"}})
-    EXPECT_EQ(code_of(wrong, word, number), kExitUnusable);
+    EXPECT_EQ(read(wrong).code, kExitUnusable) << ::testing::PrintToString(wrong);
+}
+
+TEST(CommandLine, ExactlyOneOfThePartsIsSaid) {
+  const auto said = [](const std::vector<std::string>& args) {
+    std::string file;
+    CommandLine line{"test"};
+    CommandLine show = line.one_of("show", "a file");
+    show.option("FILE", file, "to be shown").required();
+    const CommandLine list = line.one_of("list", "all files");
+    const auto code = line.ended_by(args);
+    if (code) return std::to_string(*code);
+    return (show.said() ? "show " + file : "") + (list.said() ? "list" : "");
+  };
+  EXPECT_EQ(said({"show", "a"}), "show a");
+  EXPECT_EQ(said({"list"}), "list");
+  for (const std::vector<std::string>& wrong :
+       {std::vector<std::string>{}, {"show"}, {"list", "a"}, {"other"}})
+    EXPECT_EQ(said(wrong), std::to_string(kExitUnusable));
 }
 
 }  // namespace
