@@ -11,6 +11,7 @@ namespace pitwall::settings {
 namespace {
 
 constexpr int kNumberMax = 255, kPortMax = 65'535;
+constexpr std::string_view kAnyPort = ":0";  // one that is free: never another car's
 
 // What no two cars may have.
 using Taken = std::set<std::pair<std::string, std::string>>;
@@ -28,7 +29,10 @@ class CarReader {
     car.keys = own_file("keys");
     if (car.keys.empty()) map_.fail("keys", "each car has its own");
     if (map_.has("listen")) car.listen = map_.texts("listen", 1, 2);
-    for (const std::string& address : car.listen) claim("listen", address);
+    if (car.listen.empty()) claim("listen", "the usual address");
+    for (const std::string& address : car.listen) {
+      if (!address.ends_with(kAnyPort)) claim("listen", address);
+    }
     if (map_.has("track")) car.track = track();
     car.record_folder = own_file("record");
     car.judgement_file = own_file("judgement");

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -133,6 +135,25 @@ TEST_F(Terminal, StopsWhenItIsTold) {
 TEST_F(Terminal, SaysNothingBeforeACarWasHeard) {
   run({.duration = milliseconds(250)});
   EXPECT_EQ(radio_.front()->counters().sent, 0U);
+}
+
+TEST_F(Terminal, SeveralCarsStandBelowEachOtherOnOneScreen) {
+  telemetry::ConduitConfig config;
+  config.association.keys = intake::make_key_pair(randomness_).base;
+  intake::Station second{config, randomness_};
+  const std::array<Lines, 2> cars{Lines{.station = station_.get(), .title = "CAR 7"},
+                                  Lines{.station = &second, .title = "CAR 8"}};
+  run_terminal(cars, {.text = true, .duration = milliseconds(1)}, stop_[0], file_);
+  const std::string screens = contents(file_);
+  const auto count = [&](std::string_view what) {
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = screens.find(what, at)) != std::string::npos; ++at) ++count;
+    return count;
+  };
+  EXPECT_GE(count("CAR 7"), 1U);
+  EXPECT_EQ(count("CAR 7"), count("CAR 8"));
+  EXPECT_EQ(count("\x1b[H"), count("CAR 7")) << "the cursor goes home once for both";
+  EXPECT_LT(screens.find("CAR 7"), screens.find("CAR 8"));
 }
 
 TEST_F(Terminal, RefreshesTheScreen) {

@@ -103,6 +103,14 @@ TEST(CarsFile, NoTwoCarsShareAnything) {
   }
 }
 
+TEST(CarsFile, TwoMayListenAtAnyPortThatIsFree) {
+  EXPECT_TRUE(
+      read("cars:\n  - {number: 1, keys: a, listen: [\"127.0.0.1:0\"]}\n"
+           "  - {number: 2, keys: b, listen: [\"127.0.0.1:0\"]}\n"));
+  EXPECT_FALSE(read("cars:\n  - {number: 1, keys: a}\n  - {number: 2, keys: b}\n"))
+      << "the same usual address";
+}
+
 TEST(CarsFile, MistakesAreToldWithTheirPlace) {
   const std::string two = kTwo;
   for (const std::string& text :

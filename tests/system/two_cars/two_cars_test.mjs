@@ -108,6 +108,10 @@ test("an address with a car opens that car, and one of no car here the first", a
   const second = await open(browser, address, { hash: "?car=8#/link" });
   assert.equal(await second.page.evaluate(shown), 8);
   await second.context.close();
+  const nobody = await open(browser, address, { hash: "?car=9#/link" });
+  assert.equal(await nobody.page.evaluate(shown), 7);
+  assert.doesNotMatch(nobody.page.url(), /car=9/);
+  await nobody.context.close();
 });
 
 test("authority over one car is none over the other", async () => {

@@ -70,8 +70,8 @@ let known = "";
 function beginAnew(): void {
   const address = new URL(location.href);
   address.searchParams.delete("car");
-  location.replace(address);
-  location.reload();
+  if (address.href === location.href) location.reload();
+  else location.replace(address);
 }
 
 /** What has begun for one car goes on as its session; the others get theirs. */
