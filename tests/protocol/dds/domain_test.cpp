@@ -81,7 +81,7 @@ TEST(DdsDomain, WhatIsLatchedIsKeptForWhoComesLater) {
   Heard heard;
   ASSERT_TRUE((*there)->read_from(kTopic, {.latched = true, .depth = 1}, heard.take()));
   ASSERT_TRUE(heard.waits_for(1));
-  EXPECT_EQ(heard.all(), std::vector{sample_of(16)}) << "the newest alone";
+  EXPECT_EQ(heard.all(), (std::vector<Sample>{sample_of(16)})) << "the newest alone";
 }
 
 TEST(DdsDomain, AnotherTypeOrAnotherQualityIsNotConnectedAndIsCounted) {

@@ -1,0 +1,101 @@
+// What a third party sees on the wire: tshark's dissector of RTPS knows nothing of us.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "basestation/outlets/dds/ros_outlet.hpp"
+#include "tests/basestation/outlets/ros_view/some_state.hpp"
+#include "tests/system/dds/cyclone_peer.hpp"
+
+namespace pitwall::outlets::dds {
+namespace {
+
+// Lines of a program that looks on, until it ends.
+class Onlooker {
+ public:
+  explicit Onlooker(const std::string& command) : pipe_(popen(command.c_str(), "r")) {}
+  ~Onlooker() {
+    if (pipe_ != nullptr) pclose(pipe_);
+  }
+  Onlooker(const Onlooker&) = delete;
+  Onlooker& operator=(const Onlooker&) = delete;
+
+  bool next(std::string& line) {
+    std::array<char, 16'384> buffer{};
+    if (pipe_ == nullptr || std::fgets(buffer.data(), buffer.size(), pipe_) == nullptr)
+      return false;
+    line = buffer.data();
+    while (line.ends_with('\n')) line.pop_back();
+    return true;
+  }
+
+ private:
+  std::FILE* pipe_;
+};
+
+std::string hex(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    out += "0123456789abcdef"[static_cast<unsigned char>(c) / 16];
+    out += "0123456789abcdef"[static_cast<unsigned char>(c) % 16];
+  }
+  return out;
+}
+
+// One datagram may tell of several endpoints.
+std::vector<std::string> split(const std::string& text, char between) {
+  std::vector<std::string> parts{""};
+  for (const char c : text) {
+    if (c == between) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+TEST(Wire, TsharkSeesTopicsTypesHashesAndTheEnclave) {
+  Onlooker tshark{
+      "exec timeout 60 tshark -i lo -l -f udp -T fields -e rtps.param.topicName "
+      "-e rtps.param.typeName -e rtps.param.userData 2>&1"};
+  std::string line;
+  while (tshark.next(line) && line.find("Capturing on") == line.npos) {
+  }
+  ASSERT_NE(line.find("Capturing on"), line.npos) << line;
+  RosConfig config{.domain = {.domain = 51}};
+  config.view.course = ros_view::testing::circle();
+  const ros_view::View view{config.view};
+  auto outlet = start(std::move(config));
+  ASSERT_TRUE(outlet) << to_string(outlet.error());
+  const pitwall::testing::CyclonePeer peer{51};  // to whom all is told
+  std::map<std::string, std::string> types, hashes;
+  bool enclave = false;
+  while ((types.size() <= view.topics().size() || !enclave) && tshark.next(line)) {
+    const std::vector<std::string> columns = split(line, '\t');
+    if (columns.size() < 3) continue;
+    enclave = enclave || (columns[0].empty() && columns[2] == hex("enclave=/;"));
+    const auto topics = split(columns[0], ','), names = split(columns[1], ','),
+               data = split(columns[2], ',');
+    for (std::size_t i = 0; i < std::min({topics.size(), names.size(), data.size()}); ++i) {
+      if (topics[i].empty()) continue;
+      types[topics[i]] = names[i];
+      hashes[topics[i]] = data[i];
+    }
+  }
+  EXPECT_TRUE(enclave);
+  EXPECT_EQ(types["ros_discovery_info"], "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_");
+  EXPECT_EQ(types["rt/vehicle/odom"], "nav_msgs::msg::dds_::Odometry_");
+  EXPECT_EQ(types["rt/base/tyres"], "pitwall_msgs::msg::dds_::Tyres_");
+  for (const ros_view::Topic& topic : view.topics())
+    EXPECT_EQ(hashes["rt" + topic.name], hex("typehash=" + topic.hash + ";")) << topic.name;
+}
+
+}  // namespace
+}  // namespace pitwall::outlets::dds
