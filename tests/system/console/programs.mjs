@@ -8,7 +8,8 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { kRoot } from "./packages.mjs";
 
-const kBase = process.env.PITWALL_BASE ?? join(kRoot, "build/release/basestation/pitwall-base");
+export const kBase =
+  process.env.PITWALL_BASE ?? join(kRoot, "build/release/basestation/pitwall-base");
 const kCar =
   process.env.PITWALL_CAR ?? join(kRoot, "build/release/tests/system/basestation/radio_car");
 const kConsole = join(kRoot, "build/console/dist");
@@ -40,6 +41,8 @@ export class Programs {
   folder = mkdtempSync(join(tmpdir(), "pitwall-console-"));
   /** What the car said: "stop LEVEL", "command NAME ARGUMENT". */
   carSaid = "";
+  /** What the newest base said on stderr. */
+  baseSaid = "";
 
   constructor() {
     mkdirSync(join(this.folder, "layouts"));
@@ -68,6 +71,8 @@ export class Programs {
       { stdio: ["ignore", "pipe", "pipe"] },
     );
     this.base.stdout.resume();
+    this.baseSaid = "";
+    this.base.stderr.on("data", (part) => (this.baseSaid += part));
     const [address, radio] = await said(this.base, [
       /console at (http:\/\/[\d.]+:\d+)\s/,
       /listening at ([\d.]+:\d+)\s/,
