@@ -85,7 +85,7 @@ def read_by_oracle(paths):
     checked = subprocess.run([node, ORACLES / "check_mcap.mjs", *paths],
                              check=True, capture_output=True, text=True).stdout.splitlines()
     expect(len(checked) == len(paths), f"a line for each file: {checked}")
-    for topic in ("/base/link", "/base/picture", "/car/ego"):
+    for topic in ("/base/link", "/base/picture", "/car/ego", "/radio/down", "/radio/up"):
         expect(any(topic in line for line in checked), f"{topic} is in {checked}")
 
 
@@ -115,7 +115,8 @@ def main():
     expect(all(log.exists() for log in logs), "an LCM log beside each segment")
     decoded = lcm_oracle.check(BASE, logs, folder)
     if decoded:
-        expect(decoded[0] > 500 and {"/car/ego", "/base/link"} <= decoded[1], f"LCM: {decoded}")
+        wanted = {"/car/ego", "/base/link", "/radio/down", "/radio/up"}
+        expect(decoded[0] > 500 and wanted <= decoded[1], f"LCM: {decoded}")
 
     judged = subprocess.run([BASE, "judge", str(folder / "rec")], capture_output=True, text=True)
     expect(judged.returncode == 0 and " 0 differ" in judged.stdout,

@@ -8,6 +8,7 @@ import subprocess
 import sys
 
 SYNC = 0xEDA1DA01
+TYPES = {"base": "text_t", "radio": "datagram_t", "gnss": "bytes_t", "can": "can_frame_t"}
 
 
 def events_of(path):
@@ -56,10 +57,14 @@ def check(base, logs, folder):
         if played != [(channel, data) for _, channel, data in events]:
             sys.exit(f"FAILED: lcm-logplayer plays {len(played)} of {len(events)} events of {log}")
         for utime, channel, data in events:
-            name = channel.split("/")[2] + "_t" if channel.startswith("/car/") else "text_t"
+            _, kind, rest = channel.split("/")
+            name = rest + "_t" if kind == "car" else TYPES[kind]
             message = getattr(types, name).decode(data)
             if not -1e6 < message.utime - utime < 1e6:
                 sys.exit(f"FAILED: {channel} of {utime} was sampled at {message.utime}")
+            if name == "datagram_t" and not (message.path == 0 and message.port > 0
+                                             and len(message.data) == message.size > 0):
+                sys.exit(f"FAILED: no datagram of one radio: {message.path}, {message.port}")
             if name == "ego_t" and not (math.isnan(message.vx) or abs(message.vx) < 150):
                 sys.exit(f"FAILED: a speed of {message.vx}")
             channels.add(channel)
