@@ -174,6 +174,8 @@ void ReplayWall::restart(Instant to) {
   heard_.reset();
   room_.forget();
   ++jumps_;
+  // Before anything is told anew: who hears of the jump afterwards would forget that, too.
+  room_.tell_state("playback", playback_text(), to);
 }
 
 void run_replay(ReplayWall& wall, int server, int stop, Duration duration,

@@ -6,13 +6,15 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { closeSync, openSync, writeFileSync, writeSync } from "node:fs";
+import { closeSync, openSync, readFileSync, writeFileSync, writeSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { Client } from "./client.mjs";
-import { baseStage, reach, until } from "./stage.mjs";
+import { baseStage, launchApart, open, reach, until } from "./stage.mjs";
 
 const kToken = "second-person-0123456789";
+const kGrowthKb = 16_384;
+const kFramesWatched = 100;
 
 /** Reports of a joystick as the kernel writes them: both axes and the enabling key, held. */
 function joystickReport() {
@@ -119,6 +121,57 @@ test("a console that does not read loses its own pictures and learns how many", 
   await slow.until("every answer", () => slow.count("pong") === kPings);
   await slow.until("what it lost", () => slow.dropped > 0);
   slow.close();
+});
+
+/** Kilobytes of memory that the base holds. */
+const heldBy = ({ pid }) =>
+  Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${pid}/status`, "utf8"))[1]);
+
+test("a browser that is stopped loses its own pictures, and nobody else notices", async () => {
+  const apart = await launchApart();
+  try {
+    const { page } = await stage.open();
+    const { page: stopped } = await open(apart.browser, stage.address);
+    const counters = () => globalThis.pitwall.session.counters;
+    const lost = () => document.querySelector(".top-bar").textContent.match(/(\d+) lost/)?.[1];
+    let held = heldBy(stage.programs.base);
+    const marker = await Client.open(stage.address);
+    // As much as it takes until the buffers between the two are full: every console is told marks.
+    for (let marks = 1500; marks <= 6000 && !(await stopped.evaluate(lost)); marks *= 2) {
+      const before = (await page.evaluate(counters)).frames;
+      apart.stop();
+      for (let n = 0; n < marks; ++n) marker.say({ type: "mark", text: "m".repeat(450) });
+      await until(
+        page,
+        "the other console going on",
+        (n) => globalThis.pitwall.session.counters.frames >= n,
+        before + kFramesWatched,
+        60_000,
+      );
+      assert.ok(heldBy(stage.programs.base) - held < kGrowthKb, "the base holds no pictures back");
+      apart.go();
+      const { frames: known } = await stopped.evaluate(counters);
+      await until(
+        stopped,
+        "pictures again",
+        (n) => globalThis.pitwall.session.counters.frames > n,
+        known,
+      );
+      await stopped.waitForTimeout(1500); // what waited is drawn
+      held = Math.max(held, heldBy(stage.programs.base));
+    }
+    assert.ok(Number(await stopped.evaluate(lost)) > 0, "it says how many it lost");
+    assert.equal((await page.evaluate(counters)).dropped, 0, "the other console lost nothing");
+    assert.equal(await page.evaluate(lost), undefined);
+    await until(
+      stopped,
+      "fresh again",
+      () => document.querySelector('[data-path="ego.vx"]').dataset.quality === "fresh",
+    );
+  } finally {
+    apart.go();
+    await apart.close();
+  }
 });
 
 test("the keyboard alone: find, plot, stage, override, send, stop, acknowledge", async () => {

@@ -6,7 +6,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { test } from "node:test";
-import { baseStage, until } from "./stage.mjs";
+import { baseStage, show, until } from "./stage.mjs";
 
 const stage = baseStage({ flags: (programs) => ["--record", join(programs.folder, "recording")] });
 
@@ -93,4 +93,58 @@ test("the same moment of the log has the same fields, live and from the file", a
   );
   assert.deepEqual(alarmsAgain, alarms);
   assert.ok(alarms.length > 0, "the lost link is an alarm");
+});
+
+test("before a run: the base's check list, and the recording that it makes", async () => {
+  const { page, faults } = await stage.open({ hash: "#/commands" });
+  const verdict = ([name, wanted]) =>
+    [...document.querySelectorAll(".check")].some(
+      (e) => e.querySelector(".name").textContent === name && e.dataset.verdict === wanted,
+    );
+  await show(page, "replay");
+  await until(page, "twelve items", () => document.querySelectorAll(".check").length === 12);
+  await until(page, "nobody commands", verdict, ["authority", "no-go"]);
+  await until(page, "it records", verdict, ["disk", "go"], 20_000);
+  await until(page, "the car never told its tyres", verdict, ["tyres", "no-go"]);
+  await show(page, "commands");
+  await page.click("text=Take authority");
+  await show(page, "replay");
+  await until(page, "somebody commands", verdict, ["authority", "go"]);
+  await until(
+    page,
+    "the recording",
+    () => document.querySelector(".recordings tbody")?.textContent.includes("being recorded"),
+    undefined,
+    20_000,
+  );
+  await page.click(".recordings tbody button");
+  const folder = join(stage.programs.folder, "recording");
+  assert.equal(
+    await page.inputValue(".command-line input"),
+    `pitwall-base --replay ${folder} --web 0 --track lvms`,
+  );
+  await stage.programs.kill("car");
+  await until(page, "a lost link", verdict, ["link", "no-go"]);
+  assert.deepEqual(faults, []);
+
+  await page.waitForTimeout(600); // on the disk
+  await stage.programs.kill("base");
+  const address = await stage.programs.startReplay(folder);
+  await page.goto(`${address}/#/replay`);
+  await until(page, "the moments", () => document.querySelector(".moments"));
+  assert.equal(await page.locator(".checklist").count(), 0, "no car, nothing to check");
+  await until(page, "the replay", () => globalThis.pitwall.session.playback.value);
+  const end = await page.evaluate(() => globalThis.pitwall.session.playback.value.end_ms);
+  await seek(page, end);
+  const people = '.moments li:has-text("authority") button';
+  await until(page, "what people did", () =>
+    document.querySelector(".moments ol").textContent.includes("authority"),
+  );
+  await page.locator(people).first().click();
+  await until(
+    page,
+    "the moment before it",
+    (last) => globalThis.pitwall.session.playback.value.now_ms < last,
+    end,
+  );
 });

@@ -4,7 +4,7 @@
  * real one with a car's end of the radio. What a test opened is closed behind it.
  */
 // SPDX-License-Identifier: Apache-2.0
-import { existsSync, mkdirSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync } from "node:fs";
 import { after, afterEach, before, beforeEach } from "node:test";
 import { join } from "node:path";
 import { setTimeout as sleep } from "node:timers/promises";
@@ -41,6 +41,32 @@ export async function launch() {
     executablePath: kChromium,
     args: process.getuid() === 0 ? ["--no-sandbox"] : [],
   });
+}
+
+/** All processes that this one has started, and theirs. */
+function descendants(pid) {
+  const children = readFileSync(`/proc/${pid}/task/${pid}/children`, "utf8").split(" ");
+  return children
+    .filter(Boolean)
+    .flatMap((child) => [Number(child), ...descendants(Number(child))]);
+}
+
+/** A browser of its own, every process of which can be stopped as a whole and go on. */
+export async function launchApart() {
+  const server = await chromium.launchServer({
+    executablePath: kChromium,
+    args: process.getuid() === 0 ? ["--no-sandbox"] : [],
+  });
+  const { pid } = server.process();
+  const signal = (name) => {
+    for (const each of [pid, ...descendants(pid)]) process.kill(each, name);
+  };
+  return {
+    browser: await chromium.connect(server.wsEndpoint()),
+    stop: () => signal("SIGSTOP"),
+    go: () => signal("SIGCONT"),
+    close: () => server.kill(),
+  };
 }
 
 /** A page on `address`, live: resolves when the first values are drawn. */

@@ -207,6 +207,7 @@ export class CarSession {
     },
     ...this.bench.texts,
     pong: () => {},
+    mark: () => {},
     layout: () => {},
     error: (m: { place: string; what: string }) =>
       (this.lastError.value = { place: m.place, what: m.what, at: performance.now() }),
