@@ -191,7 +191,7 @@ class Live {
         parts_.rig.truth(), cross_track_m(parts_.rig, offset_m), car.mode, car.silent, now);
     parts_.grader.observe(
         now, observe({.rig = parts_.rig,
-                      .car = parts_.monitor.report(),
+                      .car = car,
                       .line_offset_m = offset_m,
                       .frames_lost = not_taken_ + parts_.bus.counters().rx_dropped_queue,
                       .radio_gap = air.silence(now).value_or(Duration{}),
@@ -203,6 +203,7 @@ class Live {
     result_.speed_max_mps = std::max(result_.speed_max_mps, parts_.rig.truth().speed_mps);
     follow(result_.outcome, whereabouts(parts_.rig, offset_m, now));
     if (record_) record_->truth(parts_.rig, now, cross_track_m(parts_.rig, offset_m));
+    if (plan_.follow) plan_.follow({now, parts_.rig, car.mode, parts_.grader, result_});
   }
 
   void settle(Duration span) {

@@ -53,6 +53,20 @@ Words base_command(const LivePlan& plan) {
 
 }  // namespace
 
+LivePlan in_bay(LivePlan plan, int bay) {
+  if (bay == 0) return plan;
+  const auto shift = [bay](std::uint16_t& port) {
+    port = static_cast<std::uint16_t>(port + bay * kBayPorts);
+  };
+  for (std::uint16_t* const port :
+       {&plan.gnss_port, &plan.guardian_gnss_port, &plan.base_port, &plan.second_base_port,
+        &plan.operator_port, &plan.report_port, &plan.radio[0].listen, &plan.radio[1].listen}) {
+    shift(*port);
+  }
+  plan.guardian_name += "-" + std::to_string(bay);
+  return plan;
+}
+
 std::array<Member, kRoles> members_of(const LivePlan& plan) {
   std::array<Member, kRoles> members;
   const auto play = [&](Role role, const Words& first, const Words& again) {

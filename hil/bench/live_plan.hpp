@@ -2,6 +2,7 @@
 //   in     LivePlan
 //   out    argv per role, for the start and for a start after a kill. Only the first start of the
 //          car is armed
+//          the same in another bay of this machine
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "hil/bench/cast.hpp"
+#include "hil/bench/progress.hpp"
 #include "hil/bench/radio_path.hpp"
 #include "hil/scenario/radio_section.hpp"
 #include "protocol/recording/mcap_writer.hpp"
@@ -43,6 +45,7 @@ struct LivePlan {
   std::string keys{};         // folder of car.keys and base.keys
   bool candump = false;       // record the bus with can-utils' candump
   recording::Sink log{};
+  Follow follow{};  // called after every tick, once it was judged
 
   bool attached() const { return vehicle.empty(); }
   // There is a base station for the car to hear: ours, or somebody's beyond `onward`.
@@ -54,5 +57,10 @@ struct LivePlan {
 };
 
 std::array<Member, kRoles> members_of(const LivePlan& plan);
+
+// Several benches on one machine: each has a bay, and with it ports and shared memory of its own.
+inline constexpr int kBayPorts = 200;  // from one bay to the next
+inline constexpr int kBaysMax = 4;
+LivePlan in_bay(LivePlan plan, int bay);
 
 }  // namespace pitwall::bench

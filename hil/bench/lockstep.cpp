@@ -75,6 +75,12 @@ class Lockstep {
       out_->seen = {};
     judge(*out_, now);
     note_changes(*out_, now);
+    if (options_.follow)
+      options_.follow({.now = now,
+                       .rig = rig_,
+                       .mode = static_cast<double>(out_->chosen.mode),
+                       .grader = grader_,
+                       .result = result_});
     out_->chosen.mode_changed = false;
     if (options_.watch) options_.watch(*out_, rig_, now);
   }

@@ -16,6 +16,7 @@
 #include <functional>
 
 #include "hil/bench/guardian_node.hpp"
+#include "hil/bench/progress.hpp"
 #include "hil/bench/result.hpp"
 #include "hil/bench/rig.hpp"
 #include "hil/scenario/scenario.hpp"
@@ -35,6 +36,7 @@ struct LockstepOptions {
   // Called after every tick of the car, e.g. by a test that watches for something.
   // While its process is stopped or dead, with its last outputs.
   std::function<void(const pipeline::Outputs&, const Rig&, Instant)> watch = {};
+  Follow follow = {};  // called after every tick of the car, once it was judged
   // Called with what the car sends to the pit wall, when it sends.
   std::function<void(const telemetry::Snapshot&, Instant)> watch_telemetry = {};
   // The guardian is there where the scenario stops or kills a process; here: in any case.

@@ -102,5 +102,27 @@ TEST(LivePlan, SummariesGoToTheDiskThatFillsUp) {
             "out/x/disk/vehicle.json");
 }
 
+TEST(LivePlan, BaysOfOneMachineShareNoPortAndNoMemory) {
+  LivePlan first = plan();
+  first.guardian = {"guardian"};
+  first.base = {"base"};
+  first.paths = 2;
+  first.has_operator = true;
+  std::vector<std::string> taken;
+  for (int bay = 0; bay < kBaysMax; ++bay) {
+    const LivePlan p = in_bay(first, bay);
+    taken.push_back(p.guardian_name);
+    for (const int port :
+         {int{p.gnss_port}, p.gnss_port + 1, int{p.guardian_gnss_port}, p.guardian_gnss_port + 1,
+          int{p.base_port}, int{p.second_base_port}, int{p.operator_port}, int{p.report_port},
+          int{p.radio[0].listen}, int{p.radio[1].listen}}) {
+      taken.push_back(std::to_string(port));
+    }
+  }
+  std::ranges::sort(taken);
+  EXPECT_EQ(std::ranges::adjacent_find(taken), taken.end());
+  EXPECT_EQ(in_bay(first, 0).report_port, first.report_port);
+}
+
 }  // namespace
 }  // namespace pitwall::bench

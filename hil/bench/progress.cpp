@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/progress.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "hil/bench/signals.hpp"
+#include "protocol/json/json_text.hpp"
+#include "protocol/telemetry/registry/labels.hpp"
+
+namespace pitwall::bench {
+namespace {
+
+using json::Array;
+using json::Object;
+
+constexpr double kControlledStop = 3.0, kEmergencyStop = 4.0, kCoast = 6.0;  // of kModes
+
+double seconds_of(Instant at) { return (at - Instant{}).seconds(); }
+
+// Which flag binds the car more, in the car's own order.
+int restriction_of(world::TrackFlag flag) {
+  constexpr std::array kRestriction{2, 6, 5, 3, 1, 0, 4, 7};
+  return kRestriction.at(static_cast<std::size_t>(flag));
+}
+int restriction_of(world::VehicleFlag flag) {
+  using enum world::VehicleFlag;
+  switch (flag) {
+    case kBlackPitIn:
+      return 4;
+    case kStop:
+    case kEngineKill:
+    case kPurpleEmergency:
+    case kUnknown:
+      return 7;
+    default:
+      return 0;
+  }
+}
+
+std::string mode_text(double mode) {
+  if (!(mode >= 0.0)) return {};
+  return std::string{telemetry::label_at(telemetry::kModes, static_cast<std::size_t>(mode))};
+}
+
+std::string number_text(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%g", value);
+  return text.data();
+}
+
+std::string fault_text(const scenario::Fault& fault) {
+  std::string text = fault.kind;
+  if (fault.unit != 0) text += " unit " + std::to_string(fault.unit);
+  if (fault.can_id != 0) text += " id " + std::to_string(fault.can_id);
+  if (!std::isnan(fault.value)) text += " " + number_text(fault.value);
+  return text;
+}
+
+std::string flags_text(const race::Flags& flags, double round_mph) {
+  std::string text = scenario::name_of(flags.track);
+  if (flags.vehicle != world::VehicleFlag::kNone)
+    text += std::string{" + "} + scenario::name_of(flags.vehicle);
+  if (round_mph > 0.0) text += " " + number_text(round_mph) + " mph";
+  return text;
+}
+
+// Which of the paper's figures the mean error keeps within.
+std::string beats_text(const grading::ErrorStatistics& seen, double best_m, double mean_m) {
+  if (seen.samples == 0) return "null";
+  const double error_m = seen.mean_m();
+  return json::quoted(error_m <= best_m ? "best" : error_m <= mean_m ? "mean" : "neither");
+}
+
+std::string brackets_text(const grading::CrossTrack& cross_track) {
+  Array rows;
+  for (std::size_t i = 0; i < grading::kBrackets.size(); ++i) {
+    const grading::ErrorStatistics& seen = cross_track.by_bracket[i];
+    const grading::Bracket& bracket = grading::kBrackets[i];
+    rows.json(Object{}
+                  .number("from_mps", bracket.from_mps)
+                  .number("to_mps", bracket.to_mps > 1e6 ? kUnset : bracket.to_mps)
+                  .number("paper_best_m", bracket.paper_best_m)
+                  .number("paper_mean_m", bracket.paper_mean_m)
+                  .number("samples", seen.samples)
+                  .number("mean_m", seen.mean_m())
+                  .number("max_m", seen.samples == 0 ? kUnset : seen.max_m)
+                  .json("beats", beats_text(seen, bracket.paper_best_m, bracket.paper_mean_m))
+                  .str());
+  }
+  return rows.str();
+}
+
+std::string overall_text(const grading::ErrorStatistics& overall) {
+  return Object{}
+      .number("paper_best_m", grading::kPaperBestOverall_m)
+      .number("paper_mean_m", grading::kPaperMeanOverall_m)
+      .number("samples", overall.samples)
+      .number("mean_m", overall.mean_m())
+      .number("max_m", overall.samples == 0 ? kUnset : overall.max_m)
+      .json("beats",
+            beats_text(overall, grading::kPaperBestOverall_m, grading::kPaperMeanOverall_m))
+      .str();
+}
+
+std::string standings_text(const std::vector<grading::Standing>& standings) {
+  constexpr std::array kWords{"open", "holds", "failed"};
+  Array words;
+  for (const grading::Standing standing : standings)
+    words.json(json::quoted(kWords.at(static_cast<std::size_t>(standing))));
+  return words.str();
+}
+
+std::string reactions_text(const grading::ReactionBook& book) {
+  Array rows;
+  for (const grading::Reaction& one : book.reactions()) {
+    rows.json(Object{}
+                  .text("to", one.to)
+                  .number("at_s", seconds_of(one.at))
+                  .number("speed_mps", one.speed_mps)
+                  .number("reaction_ms", one.reaction ? one.reaction->milliseconds() : kUnset)
+                  .number("stop_m", one.stop_m.value_or(kUnset))
+                  .str());
+  }
+  return rows.str();
+}
+
+grading::ReactionTick tick_of(const RunView& run, const race::Flags& flags) {
+  const plant::Truth& truth = run.rig.truth();
+  const bool by_vehicle = restriction_of(flags.vehicle) > restriction_of(flags.track);
+  const bool stops =
+      run.mode == kControlledStop || run.mode == kEmergencyStop || run.mode == kCoast;
+  return {.at = run.now,
+          .restriction = std::max(restriction_of(flags.track), restriction_of(flags.vehicle)),
+          .flag = by_vehicle ? scenario::name_of(flags.vehicle) : scenario::name_of(flags.track),
+          .stop = stops ? telemetry::label_at(telemetry::kModes, static_cast<std::size_t>(run.mode))
+                        : std::string_view{},
+          .speed_mps = truth.speed_mps,
+          .throttle = truth.throttle_fraction,
+          .brake_kpa = truth.brake_front_kpa};
+}
+
+}  // namespace
+
+Progress::Progress(const scenario::Scenario& scenario, std::string_view mode, Say say)
+    : scenario_(scenario), say_(std::move(say)) {
+  plan_events();
+  say_plan(mode);
+}
+
+void Progress::plan_events() {
+  const Instant end = Instant{} + scenario_.duration;
+  for (const scenario::Fault& fault : scenario_.faults) {
+    planned_.push_back({Instant{} + fault.at, "fault_begins", fault_text(fault)});
+    const Instant over = Instant{} + fault.at + fault.lasts;
+    if (fault.lasts.ns > 0 && over <= end)
+      planned_.push_back({over, "fault_ends", fault_text(fault)});
+  }
+  for (const scenario::OperatorWord& word : scenario_.operator_words)
+    planned_.push_back({Instant{} + word.at, "operator", word.text});
+  std::ranges::stable_sort(planned_, {}, &Planned::at);
+}
+
+void Progress::say_plan(std::string_view mode) {
+  Array faults, flags, words, expected;
+  for (const scenario::Fault& fault : scenario_.faults)
+    faults.json(Object{}
+                    .text("what", fault_text(fault))
+                    .number("at_s", fault.at.seconds())
+                    .number("lasts_s", fault.lasts.seconds())
+                    .str());
+  for (const scenario::FlagChange& change : scenario_.race_control)
+    flags.json(
+        Object{}
+            .text("what", flags_text({change.track, change.vehicle}, change.round_target_speed_mph))
+            .text("track", scenario::name_of(change.track))
+            .number("at_s", change.at.seconds())
+            .str());
+  for (const scenario::OperatorWord& word : scenario_.operator_words)
+    words.json(Object{}.text("what", word.text).number("at_s", word.at.seconds()).str());
+  if (const auto expectations = expectations_of(scenario_))
+    for (const grading::Expectation& one : *expectations)
+      expected.json(json::quoted(grading::to_string(one)));
+  say_(Object{}
+           .text("type", "plan")
+           .text("scenario", scenario_.name)
+           .number("seed", scenario_.seed)
+           .text("mode", mode)
+           .number("duration_s", scenario_.duration.seconds())
+           .json("faults", faults.str())
+           .json("flags", flags.str())
+           .json("operator", words.str())
+           .json("expect", expected.str())
+           .str());
+}
+
+void Progress::observe(const RunView& run) {
+  note_changes(run);
+  reactions_.observe(tick_of(run, flags_));
+  if (run.now < due_) return;
+  due_ = run.now + kEvery;
+  say_state(run);
+}
+
+void Progress::note_changes(const RunView& run) {
+  for (; next_planned_ < planned_.size() && planned_[next_planned_].at <= run.now; ++next_planned_)
+    say_event(planned_[next_planned_].at, planned_[next_planned_].kind,
+              planned_[next_planned_].text);
+  if (!(run.rig.flags() == flags_)) {
+    flags_ = run.rig.flags();
+    say_event(run.now, "flag", flags_text(flags_, run.rig.round_target_speed_mph()));
+  }
+  if (run.mode != mode_ && !std::isnan(run.mode)) {
+    mode_ = run.mode;
+    say_event(run.now, "mode", mode_text(mode_));
+  }
+  if (run.rig.laps().finished != laps_) {
+    laps_ = run.rig.laps().finished;
+    say_event(run.now, "lap", std::to_string(laps_));
+  }
+  for (; deeds_told_ < run.result.done.size(); ++deeds_told_)
+    say_event(run.result.done[deeds_told_].at, "done", run.result.done[deeds_told_].what);
+}
+
+void Progress::say_state(const RunView& run) {
+  const Laps& laps = run.rig.laps();
+  const auto& nearest = run.result.outcome.nearest;
+  say_(Object{}
+           .text("type", "at")
+           .number("t_s", seconds_of(run.now))
+           .number("speed_mps", run.rig.truth().speed_mps)
+           .text("mode", mode_text(run.mode))
+           .text("flag", scenario::name_of(run.rig.flags().track))
+           .number("laps", laps.finished)
+           .number("last_lap_s", laps.last_s)
+           .number("best_lap_s", laps.best_flying_s)
+           .number("wall_gap_m", nearest ? nearest->wall_gap_m : kUnset)
+           .flag("contact", run.result.outcome.last && run.result.outcome.last->contact)
+           .json("overall", overall_text(run.result.cross_track.overall))
+           .json("cross_track", brackets_text(run.result.cross_track))
+           .json("expect", standings_text(run.grader.standings()))
+           .json("reactions", reactions_text(reactions_))
+           .number("reactions_left_out", reactions_.left_out())
+           .number("events_left_out", events_ > kEventsMax ? events_ - kEventsMax : 0)
+           .str());
+}
+
+void Progress::say_event(Instant at, std::string_view kind, const std::string& text) {
+  if (++events_ > kEventsMax) return;
+  say_(Object{}
+           .text("type", "event")
+           .number("t_s", seconds_of(at))
+           .text("kind", kind)
+           .text("text", text)
+           .str());
+}
+
+void Progress::ended(const RunResult& result) {
+  say_(Object{}
+           .text("type", "result")
+           .flag("passed", result.passed())
+           .flag("timely", result.timely())
+           .json("reactions", reactions_text(reactions_))
+           .json("result", to_json(result))
+           .str());
+}
+
+void Progress::failed(const Problem& problem) {
+  say_(Object{}.text("type", "failure").text("what", to_string(problem)).str());
+}
+
+}  // namespace pitwall::bench

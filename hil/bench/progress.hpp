@@ -1,0 +1,77 @@
+// What a run tells of itself while it goes on: one JSON object per line, for whoever watches it.
+//   plan    once, before the first tick: scenario, seed, duration, what is planned, what is expected
+//   at      every kEvery of scenario time: speed, mode, flag, laps, cross-track error by bracket,
+//           how each expectation stands, reactions
+//   event   as it happens: a fault begins or ends, a flag, a mode, a lap, a deed to a process
+//   result  once, at the end: the whole RunResult; or failure, with the reason
+//   in      the run at each tick, in the order of time; its result or the problem that ended it
+//   law     the lines of a lockstep run are the same for the same scenario, build and seed, but for
+//           the wall time of the result. A value that nobody knows is null
+//   bound   kEventsMax events; the line after them says how many were left out
+//   units   as the names say; times in seconds of scenario time
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hil/bench/result.hpp"
+#include "hil/bench/rig.hpp"
+#include "hil/grading/grader.hpp"
+#include "hil/grading/reaction.hpp"
+#include "hil/scenario/scenario.hpp"
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::bench {
+
+// A run at one of its ticks.
+struct RunView {
+  Instant now{};
+  const Rig& rig;
+  double mode = kUnset;  // of the car's supervisor
+  const grading::Grader& grader;
+  const RunResult& result;  // as far as it has come
+};
+using Follow = std::function<void(const RunView&)>;
+
+class Progress {
+ public:
+  using Say = std::function<void(const std::string& line)>;
+  static constexpr Duration kEvery = milliseconds(500);
+  static constexpr std::size_t kEventsMax = 2'000;
+
+  Progress(const scenario::Scenario& scenario, std::string_view mode, Say say);
+
+  void observe(const RunView& run);
+  void ended(const RunResult& result);
+  void failed(const Problem& problem);
+
+ private:
+  struct Planned {
+    Instant at{};
+    std::string_view kind;
+    std::string text;
+  };
+
+  void plan_events();
+  void say_plan(std::string_view mode);
+  void say_state(const RunView& run);
+  void say_event(Instant at, std::string_view kind, const std::string& text);
+  void note_changes(const RunView& run);
+
+  scenario::Scenario scenario_;
+  Say say_;
+  grading::ReactionBook reactions_;
+  std::vector<Planned> planned_;  // in the order of time
+  std::size_t next_planned_ = 0, deeds_told_ = 0, events_ = 0;
+  Instant due_{};
+  race::Flags flags_;
+  double mode_ = kUnset;
+  std::uint32_t laps_ = 0;
+};
+
+}  // namespace pitwall::bench

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/progress.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "hil/bench/lockstep.hpp"
+#include "protocol/json/json_value.hpp"
+#include "tests/hil/bench/flying_lap.hpp"
+
+namespace pitwall::bench {
+namespace {
+
+using json::JsonValue;
+
+JsonValue parsed(const std::string& line) {
+  auto value = JsonValue::parse(line, "line");
+  EXPECT_TRUE(value) << line;
+  return value ? *std::move(value) : JsonValue{};
+}
+
+// Twelve seconds of a drive in which a receiver is lost for a while and red is shown.
+scenario::Scenario short_drive() {
+  scenario::Scenario scenario = lap().scenario;
+  scenario.duration = seconds(12);
+  scenario.faults = {
+      {.kind = "gnss_unit_outage", .at = seconds(2), .lasts = seconds(3), .place = {}}};
+  scenario.race_control = {
+      {.at = {}, .track = world::TrackFlag::kGreen, .round_target_speed_mph = 100.0},
+      {.at = seconds(6), .track = world::TrackFlag::kRed}};
+  scenario.start.speed_mps = lap().scenario.start.speed_mps;
+  return scenario;
+}
+
+std::vector<std::string> lines_of(const scenario::Scenario& scenario) {
+  std::vector<std::string> lines;
+  Progress progress{scenario, "lockstep", [&](const std::string& line) { lines.push_back(line); }};
+  auto run = run_lockstep(scenario, lap().setup,
+                          {.follow = [&](const RunView& at) { progress.observe(at); }});
+  if (!run) {
+    ADD_FAILURE() << to_string(run.error());
+    return {};
+  }
+  progress.ended(*run);
+  return lines;
+}
+
+const std::vector<std::string>& told() {
+  static const std::vector<std::string> lines = lines_of(short_drive());
+  return lines;
+}
+
+std::vector<JsonValue> of_type(const std::string& type) {
+  std::vector<JsonValue> found;
+  for (const std::string& line : told()) {
+    JsonValue value = parsed(line);
+    if (value.text("type") == type) found.push_back(std::move(value));
+  }
+  return found;
+}
+
+TEST(Progress, EachLineIsOneObjectOfAKindThatIsDocumented) {
+  std::map<std::string, int> kinds;
+  for (const std::string& line : told()) {
+    EXPECT_EQ(line.find('\n'), std::string::npos);
+    ++kinds[parsed(line).text("type")];
+  }
+  EXPECT_EQ(kinds["plan"], 1);
+  EXPECT_EQ(kinds["result"], 1);
+  EXPECT_EQ(kinds["at"], 25);  // each half second of twelve, and the first
+  EXPECT_EQ(static_cast<int>(told().size()), 27 + kinds["event"]);
+}
+
+TEST(Progress, ThePlanSaysWhatWillHappen) {
+  const JsonValue plan = parsed(told().front());
+  EXPECT_EQ(plan.text("type"), "plan");
+  EXPECT_EQ(plan.number("duration_s"), 12.0);
+  ASSERT_EQ(plan.items("faults").size(), 1U);
+  EXPECT_EQ(plan.items("faults")[0].text("what"), "gnss_unit_outage");
+  EXPECT_EQ(plan.items("faults")[0].number("lasts_s"), 3.0);
+  EXPECT_EQ(plan.items("flags").size(), 2U);
+  EXPECT_EQ(plan.items("expect").size(), lap().scenario.expect.size());
+}
+
+TEST(Progress, EventsComeWhenTheyHappen) {
+  std::map<std::string, double> when;
+  for (const JsonValue& event : of_type("event"))
+    when.emplace(event.text("kind") + " " + event.text("text"), event.number("t_s"));
+  EXPECT_EQ(when["fault_begins gnss_unit_outage"], 2.0);
+  EXPECT_EQ(when["fault_ends gnss_unit_outage"], 5.0);
+  EXPECT_NEAR(when["flag red"], 6.0, 0.02);
+}
+
+TEST(Progress, TheReactionToRedIsMeasured) {
+  const JsonValue last = of_type("at").back();
+  ASSERT_FALSE(last.items("reactions").empty());
+  const JsonValue& red = last.items("reactions").back();
+  EXPECT_EQ(red.text("to"), "red");
+  // Race control speaks each 100 ms and the car steps each 10.
+  EXPECT_GT(red.number("reaction_ms"), 0.0);
+  EXPECT_LT(red.number("reaction_ms"), 1'500.0);
+  EXPECT_EQ(last.items("expect").size(), lap().scenario.expect.size());
+}
+
+TEST(Progress, TheSameSeedTellsTheSameButForTheWallTime) {
+  const std::vector<std::string> again = lines_of(short_drive());
+  ASSERT_EQ(again.size(), told().size());
+  for (std::size_t i = 0; i + 1 < again.size(); ++i) EXPECT_EQ(again[i], told()[i]);
+}
+
+TEST(Progress, AFailureIsALine) {
+  std::vector<std::string> lines;
+  Progress progress{short_drive(), "live", [&](const std::string& line) { lines.push_back(line); }};
+  progress.failed({"vcan0", "no frame of the car"});
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(parsed(lines[1]).text("type"), "failure");
+  EXPECT_EQ(parsed(lines[1]).text("what"), "vcan0: error: no frame of the car");
+}
+
+// What nobody can read any more is counted instead of told.
+TEST(Progress, EventsHaveABound) {
+  scenario::Scenario scenario = short_drive();
+  scenario.faults.clear();
+  for (std::size_t i = 0; i < Progress::kEventsMax + 10; ++i)
+    scenario.operator_words.push_back({seconds(1), "limit 30"});
+  std::size_t events = 0, left_out = 0;
+  Progress progress{scenario, "lockstep", [&](const std::string& line) {
+                      const JsonValue value = parsed(line);
+                      if (value.text("type") == "event") ++events;
+                      if (value.text("type") == "at")
+                        left_out = static_cast<std::size_t>(value.number("events_left_out"));
+                    }};
+  scenario.operator_words.clear();
+  scenario.duration = seconds(2);
+  ASSERT_TRUE(run_lockstep(scenario, lap().setup,
+                           {.follow = [&](const RunView& at) { progress.observe(at); }}));
+  EXPECT_EQ(events, Progress::kEventsMax);
+  EXPECT_GE(left_out, 10U);
+}
+
+}  // namespace
+}  // namespace pitwall::bench
