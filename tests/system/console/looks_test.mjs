@@ -136,6 +136,7 @@ const texts = () => {
       e.closest(
         '[data-judgement="warning"], [data-judgement="bad"], .count, ' +
           ".alarm-line, .alarm .state, .gate, .fallen, .stop, .mode-word, .flood, .behind, " +
+          '.verdict, [data-standing="failed"], ' +
           '[data-quality="stale"], [data-quality="never"]',
       ) !== null;
     const key = `${style.color} on ${ground} ${status}`;
