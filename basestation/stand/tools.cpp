@@ -76,6 +76,7 @@ foxglove::DeskConfig desk_of(const Arguments& a, std::size_t car, ros_view::View
   config.name =
       "Pitwall car " + std::to_string(a.car) + (a.car_name.empty() ? "" : " ") + a.car_name;
   config.view = std::move(view);
+  config.clock = recorder::clock_now();
   return config;
 }
 

@@ -1,11 +1,12 @@
 // Foxglove's own client on a Foxglove WebSocket server: foxglove_client.mjs live|replay ADDRESS.
 // Ends with 1 and says why where something is not as the protocol has it.
 // SPDX-License-Identifier: Apache-2.0
-import { FoxgloveClient } from "@foxglove/ws-protocol";
+import library from "@foxglove/ws-protocol";
 import { parse } from "@foxglove/rosmsg";
 import { MessageReader } from "@foxglove/rosmsg2-serialization";
 import { WebSocket } from "ws";
 
+const { FoxgloveClient } = library;
 const kPatienceMs = 15_000;
 const kProtocols = ["foxglove.websocket.v1", "foxglove.sdk.v1"];
 const [mode, address] = process.argv.slice(2);

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Foxglove, LCM and Prometheus attach to a real base: tools.py BASE CAR TREE"""
 # SPDX-License-Identifier: Apache-2.0
+import atexit
 import json
 import os
 import re
@@ -23,6 +24,20 @@ GROUP, PORT = "239.255.76.67", 7667
 RUN_S = 40  # the car's, longer than what attaches
 
 
+STARTED = []
+
+
+@atexit.register
+def end_all():
+    for process in STARTED:
+        process.kill()
+
+
+def start(words, **pipes):
+    STARTED.append(subprocess.Popen(words, **{"stdout": subprocess.DEVNULL, **pipes}))
+    return STARTED[-1]
+
+
 def expect(condition, what):
     if not condition:
         sys.exit(f"FAILED: {what}")
@@ -32,8 +47,7 @@ class Base:
     """A pitwall-base, with the addresses that it says."""
 
     def __init__(self, *flags):
-        self.process = subprocess.Popen([BASE, *flags], stdout=subprocess.DEVNULL,
-                                        stderr=subprocess.PIPE, text=True)
+        self.process = start([BASE, *flags], stderr=subprocess.PIPE, text=True)
         self.said, self.at = "", {}
         names = {"radio": r"listening at ([\d.:]+)", "web": r"console at (http://[\d.:]+)",
                  "foxglove": r"Foxglove at (ws://[\d.:]+)"}
@@ -56,10 +70,10 @@ class Base:
         expect(self.process.returncode == 0, f"exit code {self.process.returncode}: {errors}")
 
 
-def value(metrics, name, **labels):
+def value(metrics, metric, /, **labels):
     """Of the only sample with these labels; None: there is none."""
     for line in metrics.splitlines():
-        found = re.fullmatch(rf"{name}(?:{{(.*)}})? (\S+)", line)
+        found = re.fullmatch(rf"{metric}(?:{{(.*)}})? (\S+)", line)
         if not found:
             continue
         told = dict(re.findall(r'(\w+)="((?:[^"\\]|\\.)*)"', found.group(1) or ""))
@@ -185,13 +199,11 @@ def main():
     subprocess.run([BASE, "keygen", "--out", str(folder / "keys")], check=True, capture_output=True)
     mistakes_are_named(folder)
     log = folder / "lcm.log"
-    logger = subprocess.Popen(["lcm-logger", "--quiet", "--lcm-url", f"udpm://{GROUP}:{PORT}?ttl=0",
-                               str(log)], stdout=subprocess.DEVNULL)
+    logger = start(["lcm-logger", "--quiet", f"--lcm-url=udpm://{GROUP}:{PORT}?ttl=0", str(log)])
     base = Base("--keys", str(folder / "keys/base.keys"), "--listen", "127.0.0.1:0", "--web", "0",
                 "--foxglove", "0", "--lcm", "--track", "lvms", "--car", "7", "--car-name", "Seven",
                 "--record", str(folder / "rec"))
-    car = subprocess.Popen([CAR, str(folder / "keys/car.keys"), base.at["radio"], str(RUN_S)],
-                           stdout=subprocess.DEVNULL)
+    car = start([CAR, str(folder / "keys/car.keys"), base.at["radio"], str(RUN_S)])
     lines = prometheus_reads_it(base)
     told = foxglove("live", base)
     what_foxglove_did_is_counted(base)
