@@ -13,6 +13,7 @@
 #include "hil/verbs/bench_verb.hpp"
 #include "hil/verbs/dbc_verb.hpp"
 #include "hil/verbs/demo_verb.hpp"
+#include "hil/verbs/desk_verb.hpp"
 #include "hil/verbs/exit_code.hpp"
 #include "hil/verbs/faults_verb.hpp"
 #include "hil/verbs/radio_verb.hpp"
@@ -32,6 +33,8 @@ constexpr std::array kVerbs{
     Verb{"run", "run SCENARIO in lockstep or live (--live)", verbs::run_verb},
     Verb{"demo", "the whole system: car, bench and base station on real SocketCAN",
          verbs::demo_verb},
+    Verb{"desk", "starts scenarios for who asks at a socket, and tells how they go",
+         verbs::desk_verb},
     Verb{"report", "the page of a run (HTML, JUnit) from its event log", verbs::report_verb},
     Verb{"replay", "replay a candump log onto a CAN interface", replay::replay_verb},
     Verb{"dbc", "CAN databases: check, show, diff", verbs::dbc_verb},

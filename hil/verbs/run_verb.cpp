@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/verbs/run_verb.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -69,14 +68,15 @@ std::string late_text(const bench::RealTime& time) {
   return text;
 }
 
-Result<bench::RunResult, Problem> lockstep(const RunOptions& options, const bench::Loaded& loaded) {
+Result<bench::RunResult, Problem> lockstep(const RunOptions& options, const bench::Loaded& loaded,
+                                           const bench::Follow& follow) {
   const auto log = sink_to(options.log_file);
   if (!log) return Unexpected{log.error()};
   const Instant begun = transport::monotonic_now();
   // Without a file the log is still made: its digest names the run.
   const recording::Sink sink =
       *log ? *log : recording::Sink{[](std::span<const std::uint8_t>) { return true; }};
-  auto result = bench::run_lockstep(loaded.scenario, loaded.setup, {.log = sink});
+  auto result = bench::run_lockstep(loaded.scenario, loaded.setup, {.log = sink, .follow = follow});
   if (result) result->wall_s = (transport::monotonic_now() - begun).seconds();
   return result;
 }
@@ -128,11 +128,12 @@ std::optional<Problem> copy_out(const std::string& from, const std::string& to) 
   return error ? std::optional{Problem{from, error.message()}} : std::nullopt;
 }
 
-Result<bench::RunResult, Problem> live(const RunOptions& options, const bench::Loaded& loaded) {
+Result<bench::RunResult, Problem> live(const RunOptions& options, const bench::Loaded& loaded,
+                                       const bench::Follow& follow) {
   std::error_code error;
   fs::create_directories(options.folder, error);
   if (error) return Unexpected{Problem{options.folder, error.message()}};
-  bench::LivePlan plan = plan_of(options, loaded.scenario);
+  bench::LivePlan plan = bench::in_bay(plan_of(options, loaded.scenario), options.bay);
   if (options.keys.empty() && plan.has_base() && !plan.attached())
     if (const auto made = bench::make_run_keys(plan.keys); !made) return Unexpected{made.error()};
   std::string log_file = options.log_file;
@@ -144,6 +145,7 @@ Result<bench::RunResult, Problem> live(const RunOptions& options, const bench::L
   auto log = sink_to(log_file);
   if (!log) return Unexpected{log.error()};
   plan.log = *std::move(log);
+  plan.follow = follow;
   auto result = bench::run_live(loaded.scenario, loaded.setup, plan);
   if (!result) return Unexpected{result.error()};
   if (!plan.disk.empty() && !options.log_file.empty())
@@ -176,8 +178,10 @@ std::vector<std::string> live_command(const RunOptions& options) {
     command.push_back(flag);
     command.push_back(value);
   };
+  if (options.bay != 0) add("--bay", std::to_string(options.bay));
   add("--keys", options.keys);
   add("--report", options.report_folder);
+  add("--progress", options.progress_file);
   if (options.report_folder.empty()) {
     add("--log", options.log_file);
     add("--json", options.json_file);
@@ -191,6 +195,27 @@ std::vector<std::string> live_command(const RunOptions& options) {
 
 namespace {
 
+Result<bench::RunResult, Problem> drive(const RunOptions& options, const bench::Loaded& loaded,
+                                        const bench::Follow& follow) {
+  return options.live ? live(options, loaded, follow) : lockstep(options, loaded, follow);
+}
+
+// A line that the disk does not take is lost; the run goes on.
+Result<bench::RunResult, Problem> followed(const RunOptions& options, const bench::Loaded& loaded) {
+  if (options.progress_file.empty()) return drive(options, loaded, {});
+  auto file = transport::AppendWriter::open(options.progress_file,
+                                            transport::AppendWriter::Start::kTruncate);
+  if (!file) return Unexpected{file.error()};
+  bench::Progress progress{loaded.scenario, options.live ? "live" : "lockstep",
+                           [&](const std::string& line) { file->write(line + "\n"); }};
+  auto result = drive(options, loaded, [&](const bench::RunView& run) { progress.observe(run); });
+  if (result)
+    progress.ended(*result);
+  else
+    progress.failed(result.error());
+  return result;
+}
+
 // The exit code; the files that were asked for are written. What failed on a machine that did not
 // keep up has not been judged.
 Result<int, Problem> run_once(const RunOptions& options) {
@@ -198,7 +223,7 @@ Result<int, Problem> run_once(const RunOptions& options) {
   if (!loaded) return Unexpected{loaded.error()};
   if (options.duration) loaded->scenario.duration = *options.duration;
   if (options.seed) loaded->scenario.seed = *options.seed;
-  const auto result = options.live ? live(options, *loaded) : lockstep(options, *loaded);
+  const auto result = followed(options, *loaded);
   if (!result) return Unexpected{result.error()};
   if (!options.quiet) std::printf("%s", bench::to_text(*result).c_str());
   std::fflush(stdout);
@@ -247,41 +272,45 @@ int run_verb(std::span<const std::string> args) {
   RunOptions options;
   double duration_s = 0.0;
   std::uint64_t seed = 0;
-  CLI::App app{"pitwall-hil run: one scenario in the bench"};
-  app.add_option("scenario", options.scenario, "scenario file")->required();
-  app.add_flag("--live", options.live, "real SocketCAN, real car process, real time");
-  app.add_flag("--here", options.here, "live: the interface exists here already");
-  app.add_flag("--attach", options.attach, "live: the car runs already; only with --here")
-      ->needs("--here");
-  app.add_flag("--no-guardian", options.no_guardian, "live: the car alone");
-  app.add_option("--interface", options.interface, "live: CAN interface");
-  auto* log = app.add_option("--log", options.log_file, "write the event log (MCAP)");
-  auto* json = app.add_option("--json", options.json_file, "write the result as JSON");
-  app.add_option("--report", options.report_folder,
-                 "write event log, result, page and JUnit file into this folder")
-      ->excludes(log)
-      ->excludes(json);
-  app.add_option("--out", options.folder,
-                 "live: folder for the car's summary and the candump; default " + options.folder);
-  app.add_flag("--candump", options.candump, "live: record the bus with candump");
-  app.add_option("--radio-port", options.radio_port,
-                 "live: pass the car's datagrams on to this port");
-  app.add_option("--uplink-port", options.uplink_port, "live: answers of the base come here");
-  app.add_option("--keys", options.keys,
-                 "live: folder of car.keys and base.keys; default: new ones for this run");
-  const auto* duration = app.add_option("--duration", duration_s, "seconds, instead of the file's")
-                             ->check(CLI::Range(0.1, 36'000.0));
-  auto* live = app.get_option("--live");
-  app.add_option("--hours", options.hours, "lockstep: with one seed after the other, so long")
-      ->check(CLI::Range(0.001, 1'000.0))
-      ->excludes(log)
-      ->excludes(json)
-      ->excludes(live);
-  const auto* with_seed =
-      app.add_option("--seed", seed, "instead of the file's")->check(CLI::Range(0, 1'000'000'000));
-  if (const auto code = ended_by(app, args)) return *code;
-  if (duration->count() > 0) options.duration = from_seconds(duration_s);
-  if (with_seed->count() > 0) options.seed = seed;
+  CommandLine app{"pitwall-hil run: one scenario in the bench"};
+  app.option("scenario", options.scenario, "scenario file").required();
+  const VerbOption live =
+      app.flag("--live", options.live, "real SocketCAN, real car process, real time");
+  const VerbOption here =
+      app.flag("--here", options.here, "live: the interface exists here already");
+  app.flag("--attach", options.attach, "live: the car runs already; only with --here").needs(here);
+  app.flag("--no-guardian", options.no_guardian, "live: the car alone");
+  app.option("--interface", options.interface, "live: CAN interface");
+  const VerbOption log = app.option("--log", options.log_file, "write the event log (MCAP)");
+  const VerbOption json = app.option("--json", options.json_file, "write the result as JSON");
+  app.option("--report", options.report_folder,
+             "write event log, result, page and JUnit file into this folder")
+      .excludes(log)
+      .excludes(json);
+  app.option("--out", options.folder,
+             "live: folder for the car's summary and the candump; default " + options.folder);
+  app.flag("--candump", options.candump, "live: record the bus with candump");
+  app.option("--radio-port", options.radio_port, "live: pass the car's datagrams on to this port");
+  app.option("--uplink-port", options.uplink_port, "live: answers of the base come here");
+  app.option("--bay", options.bay, "live: of the benches that run on this machine at once")
+      .range(0, bench::kBaysMax - 1);
+  app.option("--keys", options.keys,
+             "live: folder of car.keys and base.keys; default: new ones for this run");
+  const VerbOption duration =
+      app.option("--duration", duration_s, "seconds, instead of the file's").range(0.1, 36'000.0);
+  const VerbOption progress =
+      app.option("--progress", options.progress_file, "write a line of JSON for each half second");
+  app.option("--hours", options.hours, "lockstep: with one seed after the other, so long")
+      .range(0.001, 1'000.0)
+      .excludes(log)
+      .excludes(json)
+      .excludes(progress)
+      .excludes(live);
+  const VerbOption with_seed =
+      app.option("--seed", seed, "instead of the file's").range(0, 1'000'000'000);
+  if (const auto code = app.ended_by(args)) return *code;
+  if (duration.given()) options.duration = from_seconds(duration_s);
+  if (with_seed.given()) options.seed = seed;
   if (!options.report_folder.empty()) {
     if (const auto problem = prepare_report(options.report_folder)) return refuse(*problem);
     options.log_file = report_files(options.report_folder).log;

@@ -8,6 +8,7 @@
 //   --hours H         lockstep: again and again, each time with the next seed, until so many hours
 //                     have been driven or one failed
 //   --report FOLDER   both of these and their page and JUnit file: report.html, junit.xml
+//   --progress FILE   one JSON line after the other while the run goes on: hil/bench/progress.hpp
 //   --out FOLDER      live: summary of the car, candump of the bus
 //   out    exit code 0 passed, 1 an expectation failed, 2 bad input or bench failure
 // SPDX-License-Identifier: Apache-2.0
@@ -26,6 +27,7 @@ namespace pitwall::verbs {
 struct RunOptions {
   std::string scenario, log_file, json_file, folder = "out/run";
   std::string report_folder;          // empty: no report
+  std::string progress_file;          // lines while it goes on; empty: none
   std::optional<Duration> duration;   // instead of the scenario's
   std::optional<std::uint64_t> seed;  // likewise
   double hours = 0.0;                 // 0: once
@@ -33,6 +35,7 @@ struct RunOptions {
   bool attach = false;       // live: the car is not ours, it runs already
   bool no_guardian = false;  // live: the car alone, although the guardian's program is there
   std::string interface = "vcan0";
+  int bay = 0;                    // live: of the benches that run on this machine at once
   std::uint16_t radio_port = 0;   // live: where the bench passes the car's telemetry on
   std::uint16_t uplink_port = 0;  // live: where answers of the base come; 0: any port
   std::string keys;               // live: folder of the run's keys; empty: new ones

@@ -114,6 +114,18 @@ TEST_F(RunVerb, SeedAndDurationAreThoseOfTheLine) {
   EXPECT_NE(digest({"--duration", "62"}), plain);
 }
 
+TEST_F(RunVerb, ProgressIsLinesFromThePlanToTheResult) {
+  const Said said = run({"run", kShort, "--progress", path("p.jsonl")});
+  EXPECT_EQ(said.code, 0);
+  const std::string lines = text_of("p.jsonl");
+  EXPECT_TRUE(lines.starts_with("{\"type\": \"plan\"")) << lines.substr(0, 80);
+  EXPECT_TRUE(lines.ends_with("\n"));
+  const std::string last = lines.substr(lines.rfind('\n', lines.size() - 2) + 1);
+  EXPECT_TRUE(last.starts_with("{\"type\": \"result\", \"passed\": true")) << last.substr(0, 80);
+  expect_refusal({"run", kShort, "--progress", path("no/such/p.jsonl")}, "no/such");
+  expect_refusal({"run", kShort, "--progress", path("p.jsonl"), "--hours", "1"}, "--hours");
+}
+
 TEST(LiveCommand, SaysAllThatTheRunWasTold) {
   RunOptions options;
   options.scenario = "s.yaml";
@@ -146,6 +158,12 @@ TEST(LiveCommand, SaysAllThatTheRunWasTold) {
   EXPECT_EQ(std::stod(value("--duration")), 1.5);
   EXPECT_EQ(value("--seed"), "42");
   EXPECT_EQ(value("--radio-port"), "999");
+  EXPECT_FALSE(has("--progress"));
+  options.progress_file = "p.jsonl";
+  const std::vector<std::string> told = live_command(options);
+  const auto progress = std::find(told.begin(), told.end(), "--progress");
+  ASSERT_NE(progress, told.end());
+  EXPECT_EQ(*(progress + 1), "p.jsonl");
 }
 
 }  // namespace

@@ -148,7 +148,7 @@ TEST(BenchBook, ARefusalIsHandedOnOnce) {
   reading.says(R"({"type": "error", "place": "start", "what": "no"})");
   const auto refusal = reading.book.refusal();
   ASSERT_TRUE(refusal);
-  EXPECT_EQ(to_string(*refusal), "bench.start: no");
+  EXPECT_EQ(to_string(*refusal), "bench.start: error: no");
   EXPECT_FALSE(reading.book.refusal());
 }
 

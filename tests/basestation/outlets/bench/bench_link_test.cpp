@@ -89,7 +89,7 @@ TEST(BenchLink, AWishGoesToTheDeskAndItsRefusalToWhoAsked) {
   both.desk->send(R"({"type": "error", "place": "scenario", "what": "no such scenario"})");
   both.pass(seconds(1));
   ASSERT_EQ(both.refused.size(), 1U);
-  EXPECT_EQ(both.refused[0], std::pair(17, std::string{"bench.scenario: no such scenario"}));
+  EXPECT_EQ(both.refused[0], std::pair(17, std::string{"bench.scenario: error: no such scenario"}));
 }
 
 // Whoever drives a real car starts no simulation beside it; one that runs can be ended.
