@@ -76,7 +76,8 @@ TEST(FoxgloveOutlet, WhatIsRefusedIsToldAndCounted) {
   viewer.bytes(2);
   viewer.bytes(2);  // figures are told after each turn
   std::uint64_t published = 0, malformed = 0;
-  for (const auto& [what, count] : served->figures()->refused) {
+  const OutletFigures figures = *served->figures();
+  for (const auto& [what, count] : figures.refused) {
     if (what == "clientPublish") published = count;
     if (what == "malformed") malformed = count;
   }
