@@ -108,6 +108,7 @@ export class Programs {
   async close() {
     await this.kill("car");
     await this.kill("base");
+    for (const name of this.others ?? []) await this.kill(name);
     rmSync(this.folder, { recursive: true, force: true });
   }
 }
