@@ -1,7 +1,8 @@
 // The LCM messages of records: the same channels, types and bytes in an event log and on the wire.
 //   in     a record of channels.hpp; who keeps the clock map keeps the file's or the process's
 //   out    the name of its channel; the bytes of its message, most significant first: fingerprint,
-//          utime of the sample in microseconds since 1970, members. Types: `pitwall-base export lcm`
+//          utime of the sample in microseconds since 1970, members. Types:
+//          `pitwall-base export lcm`
 //   law    the picture of all that is known has no LCM message: its values are in the groups
 //   errors has() tells; a record of no channel must not be encoded
 //   cost   no allocation once the buffer has grown

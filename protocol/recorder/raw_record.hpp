@@ -5,9 +5,9 @@
 //                             u8  path of the radio, from 0
 //                             u16 port, u32 IPv4 address of the other end
 //                             then the datagram. Numbers least significant byte first
-//   /gnss/0, /gnss/1        message encoding "x-pitwall-stream": what one read of the receiver gave,
-//                           as it was. Over UDP that is a datagram; else the bytes of all messages,
-//                           one after the other, are the receiver's
+//   /gnss/0, /gnss/1        message encoding "x-pitwall-stream": what one read of the receiver
+//                           gave, as it was. Over UDP that is a datagram; else the bytes of all
+//                           messages, one after the other, are the receiver's
 //   errors  bytes that are no datagram of this version give nothing
 //   cost    no allocation
 // SPDX-License-Identifier: Apache-2.0

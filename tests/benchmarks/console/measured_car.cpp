@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A car's end of the radio that tells times: measured_car KEYS ADDRESS SECONDS. All of its fields
 // but mode and stop change with each packet. The round's speed is a number in mph that counts from
-// 10 to 189 and round again, another one each 60 to 77 ms. Prints, with times of the monotonic clock
-// in ns:
+// 10 to 189 and round again, another one each 60 to 77 ms. Prints, with times of the monotonic
+// clock in ns:
 //   packet NUMBER TIME   a packet with this number leaves
 //   stop LEVEL TIME      a datagram brought another level of stop; 0: the stop was released
 #include <cmath>
