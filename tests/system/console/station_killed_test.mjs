@@ -1,0 +1,153 @@
+/**
+ * The real base is killed while it records a car that drives: the unmodified car program on a bus
+ * over a Unix socket, with its black box. By its own recording the car goes down the ladder of its
+ * radio and stops; the base has lost less than a second, and started again it shows the same race
+ * with its history. Real time: alone on the machine.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { openSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, test } from "node:test";
+import { setTimeout as sleep } from "node:timers/promises";
+import { Client } from "./client.mjs";
+import { events, samples } from "./lcm_log.mjs";
+import { kRoot } from "./packages.mjs";
+import { Programs } from "./programs.mjs";
+
+const kBench = process.env.PITWALL_HIL ?? join(kRoot, "build/release/hil/pitwall-hil");
+const kVehicle =
+  process.env.PITWALL_VEHICLE ?? join(kRoot, "build/release/vehicle/pitwall-vehicle");
+const kFastMps = 15;
+const kPatienceMs = 60_000;
+const kDeadMs = 6000;
+/** Of radio.rung: ages of the link, as vehicle/config/cars/av21.yaml has them; and slack. */
+const kRungsMs = [0, 200, 500, 1000, 3000];
+const kSlackMs = 250;
+const kDriving = 2;
+const kControlledStop = 3;
+const kEmergencyStop = 4;
+
+const programs = new Programs();
+const others = [];
+after(async () => {
+  for (const other of others) other.kill("SIGKILL");
+  await programs.close();
+});
+
+function start(program, ...words) {
+  const said = openSync(join(programs.folder, "said"), "a");
+  const started = spawn(program, words, { cwd: kRoot, stdio: ["ignore", said, said] });
+  others.push(started);
+  return started;
+}
+
+const ended = (process) => new Promise((done) => process.once("exit", done));
+const screen = () => readFileSync(join(programs.folder, "said"), "utf8");
+
+/** Puts the car on its bus, with the bench's plant behind it. */
+async function startCar() {
+  const bus = `unix:${join(programs.folder, "bus")}`;
+  start(kBench, "bus", "hub", bus);
+  await sleep(500);
+  const config = (name) => join(kRoot, "vehicle/config", name);
+  const car = start(
+    kVehicle,
+    ...["--car", config("cars/av21.yaml"), "--track", config("tracks/lvms.yaml"), "--can", bus],
+    ...["--gnss", "23501,23502", "--radio", programs.radio, "--local-report", "23436"],
+    ...["--keys", join(programs.folder, "keys/car.keys"), "--simulation", "--arm"],
+    ...["--record", join(programs.folder, "box")],
+  );
+  const out = ["--out", join(programs.folder, "out"), "--duration", "120"];
+  const live = ["--live", "--here", "--attach", "--interface", bus];
+  start(kBench, "run", "hil/scenarios/launch.yaml", ...live, ...out);
+  return car;
+}
+
+/** Values of one field that the base has, oldest first: [{s, value}] before now. */
+async function history(client, path) {
+  const { id } = client.newest.catalogue.fields.find((field) => field.path === path);
+  const told = new Promise((done) => {
+    const hear = (data, isBinary) => {
+      if (!isBinary || data[0] !== 2 || data.readUInt16LE(24) !== id) return;
+      client.socket.off("message", hear);
+      done(data);
+    };
+    client.socket.on("message", hear);
+  });
+  client.say({ type: "history", field: id, from_s: 60, to_s: 0, points: 20_000 });
+  const data = await told;
+  const now = Number(data.readBigUInt64LE(16)) / 1e9;
+  const points = [];
+  for (let at = 32; at < data.length; at += 16) {
+    points.push({ s: now - data.readDoubleLE(at), value: data.readFloatLE(at + 8) });
+  }
+  return points;
+}
+
+async function until(what, patienceMs, test) {
+  for (const end = Date.now() + patienceMs; Date.now() < end; await sleep(50)) {
+    if (await test()) return;
+  }
+  throw new Error(`waited ${patienceMs} ms in vain for ${what}\n${screen()}`);
+}
+
+test("a base that is killed: the car's ladder, the recording, the race again", async () => {
+  const recording = join(programs.folder, "recording");
+  const first = await Client.open(await programs.startBase("--record", recording));
+  const paths = (await first.until("a catalogue", () => first.newest.catalogue)).fields
+    .filter(({ path }) => !/^(link|derived|base)\./.test(path))
+    .map(({ path }) => path);
+  const car = await startCar();
+  let speed = NaN;
+  await until("a car that drives", kPatienceMs, async () => {
+    speed = (await history(first, "ego.vx")).at(-1)?.value;
+    return speed > kFastMps;
+  });
+  first.close();
+  const killedMs = Date.now();
+  await programs.kill("base");
+
+  const newest = Math.max(...events(recording).map(({ ms }) => ms));
+  assert.ok(killedMs - newest < 1000, `${killedMs - newest} ms of the recording are lost`);
+
+  await sleep(kDeadMs);
+  const again = await Client.open(await programs.startBase("--record", recording));
+  await until("the same car", 10_000, () => again.newest.hello.mode === "HIL");
+  await sleep(2000);
+  const points = await history(again, "ego.vx");
+  again.close();
+  const deadS = (Date.now() - killedMs) / 1000;
+  const before = points.filter(({ s }) => s > deadS);
+  const after = points.filter(({ s }) => s < deadS - kDeadMs / 1000);
+  assert.ok(
+    before.some(({ value }) => value > kFastMps - 1),
+    "how fast it was before the kill",
+  );
+  assert.ok(before.length > 200 && after.length > 20, `${before.length}, ${after.length} points`);
+  assert.ok(after.at(-1).value < speed, "it brakes");
+  assert.match(programs.baseSaid, /known again: \d+ messages/);
+
+  car.kill("SIGTERM");
+  await ended(car);
+  const own = events(join(programs.folder, "box"));
+  const heard = own.filter(({ channel, ms }) => channel === "/radio/up" && ms < killedMs + 500);
+  const last = heard.at(-1).ms;
+  const rungs = samples(own, paths, "radio.rung").filter(({ ms }) => ms > last);
+  kRungsMs.forEach((limit, rung) => {
+    const reached = rungs.find(({ value }) => value >= rung)?.ms - last;
+    assert.ok(
+      reached >= limit - kSlackMs / 5 && reached <= limit + kSlackMs,
+      `rung ${rung} was reached ${reached} ms after the last datagram, not ${limit}`,
+    );
+  });
+  const modes = samples(own, paths, "mode.mode");
+  const at = (ms) => modes.findLast((sample) => sample.ms <= ms).value;
+  assert.equal(at(last), kDriving);
+  assert.equal(at(last + kRungsMs[3]), kDriving, "a fade is driven through");
+  assert.equal(at(last + kRungsMs[4] + kSlackMs), kControlledStop);
+  assert.ok(!modes.some(({ value }) => value === kEmergencyStop));
+  const stopped = modes.filter(({ ms }) => ms > last + kRungsMs[4] + kSlackMs);
+  assert.ok(!stopped.some(({ value }) => value === kDriving), "back, a base moves nobody");
+});
