@@ -119,7 +119,9 @@ TEST(FoxgloveProtocol, AnythingElseIsRefusedWithAReason) {
         R"({"op":"unsubscribe","subscriptionIds":["a"]})"}) {
     const auto ask = parse_text(text);
     EXPECT_FALSE(ask) << text;
-    if (!ask) EXPECT_LT(to_string(ask.error()).size(), 200U);
+    if (!ask) {
+      EXPECT_LT(to_string(ask.error()).size(), 200U);
+    }
   }
   EXPECT_FALSE(parse_text(R"({"op":")" + std::string(10'000, 'x') + "\"}"));
   EXPECT_FALSE(binary({}));
