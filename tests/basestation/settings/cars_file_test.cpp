@@ -2,8 +2,10 @@
 #include "basestation/settings/cars_file.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
-#include "protocol/transport/file.hpp"
+#include <filesystem>
+#include <fstream>
 
 namespace pitwall::settings {
 namespace {
@@ -74,16 +76,18 @@ TEST(CarsFile, WithoutAFileTheCommandLineIsTheCar) {
 }
 
 TEST(CarsFile, IsReadFromItsFolder) {
-  const auto folder = transport::TemporaryFolder::create("cars");
-  ASSERT_TRUE(folder);
+  const std::filesystem::path folder =
+      std::filesystem::path{testing::TempDir()} / ("cars_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
   Arguments whole;
-  whole.cars_file = folder->path() + "/cars.yaml";
+  whole.cars_file = folder / "cars.yaml";
   EXPECT_FALSE(cars_of(whole)) << "there is none";
-  ASSERT_TRUE(transport::write_file(whole.cars_file, kTwo));
+  std::ofstream{whole.cars_file} << kTwo;
   const auto cars = cars_of(whole);
   ASSERT_TRUE(cars) << to_string(cars.error());
-  EXPECT_EQ(cars->back().keys, folder->path() + "/keys/8/base.keys");
+  EXPECT_EQ(cars->back().keys, (folder / "keys/8/base.keys").string());
   EXPECT_TRUE(cars->back().cars_file.empty());
+  std::filesystem::remove_all(folder);
 }
 
 TEST(CarsFile, NoTwoCarsShareAnything) {
