@@ -1,5 +1,5 @@
 // What a run tells of itself while it goes on: one JSON object per line, for whoever watches it.
-//   plan    once, before the first tick: scenario, seed, duration, what is planned, what is expected
+//   plan    once, before the first tick: scenario, seed, duration, what is planned and expected
 //   at      every kEvery of scenario time: speed, mode, flag, laps, cross-track error by bracket,
 //           how each expectation stands, reactions
 //   event   as it happens: a fault begins or ends, a flag, a mode, a lap, a deed to a process

@@ -5,7 +5,7 @@
 //   law    nobody waits: what the other end does not take is queued, up to kQueueMax_bytes; who
 //          reads slower than that is hung up on
 //          a line longer than kLineMax_bytes is skipped to its end, and counted
-//   listener  the path is its owner's only (0600); a socket that nobody serves any more is replaced,
+//   listener  the path is its owner's only (0600); a socket that nobody serves is replaced,
 //          one that is served, and whatever is no socket, is refused and left alone
 //   errors Problem with the path as place; afterwards closed() and counters
 // SPDX-License-Identifier: Apache-2.0

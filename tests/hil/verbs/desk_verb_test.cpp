@@ -37,8 +37,8 @@ TEST_F(DeskVerb, ARunIsStartedFollowedAndJudged) {
     client = transport::LineSocket::connect(path("s"));
   }
   ASSERT_TRUE(client) << to_string(client.error());
-  client->send(
-      R"({"do": "start", "scenario": "launch_and_stop", "mode": "lockstep", "seed": 5, "by": "test"})");
+  client->send(R"({"do": "start", "scenario": "launch_and_stop", "mode": "lockstep",)"
+               R"("seed": 5, "by": "test"})");
   std::string state;
   std::size_t scenarios = 0, states = 0, plans = 0;
   while (transport::monotonic_now() < limit && (state.empty() || state == "running")) {

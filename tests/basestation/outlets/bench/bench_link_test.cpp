@@ -13,7 +13,8 @@ namespace {
 using json::JsonValue;
 
 constexpr const char* kHello =
-    R"({"type": "hello", "protocol": 1, "desk": "d", "simulation": true, "scenarios": 0, "unreadable": 0})";
+    R"({"type": "hello", "protocol": 1, "desk": "d", "simulation": true,)"
+    R"("scenarios": 0, "unreadable": 0})";
 
 // A link, and a desk that says what the test wants; time is the test's.
 struct Both {
@@ -116,8 +117,8 @@ TEST(BenchLink, NonsenseOfADeskIsCountedAndItGoesOn) {
     both.desk->flush();
     both.pass(BenchLink::kLook);
   }
-  both.desk->send(
-      R"({"type": "run", "run": 1, "seed": 1, "state": "running", "scenario": "a", "name": "a", "mode": "live"})");
+  both.desk->send(R"({"type": "run", "run": 1, "seed": 1, "state": "running", "scenario": "a",)"
+                  R"("name": "a", "mode": "live"})");
   both.pass(seconds(1));
   EXPECT_EQ(both.state().number("malformed"), 2.0);
   EXPECT_EQ(both.link.book().counters().taken, 2U);
@@ -126,14 +127,14 @@ TEST(BenchLink, NonsenseOfADeskIsCountedAndItGoesOn) {
 TEST(BenchLink, AFastRunIsToldFiveTimesASecond) {
   Both both;
   both.open();
-  both.desk->send(
-      R"({"type": "run", "run": 1, "seed": 1, "state": "running", "scenario": "a", "name": "a", "mode": "lockstep"})");
+  both.desk->send(R"({"type": "run", "run": 1, "seed": 1, "state": "running", "scenario": "a",)"
+                  R"("name": "a", "mode": "lockstep"})");
   both.pass(seconds(1));
   both.told.clear();
   for (int i = 0; i < 20; ++i) {
     for (int k = 0; k < 10; ++k)
-      both.desk->send(
-          R"({"run": 1, "type": "at", "t_s": 1, "cross_track": [], "expect": [], "reactions": []})");
+      both.desk->send(R"({"run": 1, "type": "at", "t_s": 1, "cross_track": [],)"
+                      R"("expect": [], "reactions": []})");
     both.pass(BenchLink::kLook);
   }
   EXPECT_LE(both.told.size(), 6U);
