@@ -2,8 +2,8 @@
 //   in     what a recording says; how its playback stands
 //   out    messages to clients; asked(): speed and time that a client wants
 //   law    every client and every console sees the same moment
-//          a state of the playback is told when it changed, once a second, and as the answer to each
-//          request
+//          a state of the playback is told when it changed, once a second, and as the answer to
+//          each request
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -4,8 +4,8 @@
 //   out    messages with whom they are for; what is asked of a recording's playback
 //   law    read only: what would change anything is refused with a status that says why, and is
 //          counted; nothing that a client says reaches anybody else
-//          a client has one subscription of a channel; of a latched channel it is told the newest at
-//          once. Who loses messages because it does not read is told which topics, once a second
+//          a client has one subscription of a channel; of a latched channel it is told the newest
+//          at once. Who loses messages because it does not read is told which topics, once a second
 //   bound  subscriptions: a client's are no more than there are channels
 //   errors of what clients say: told to them, and counted by their kind
 //   cost   message(): a header for each subscriber, the body once

@@ -1,6 +1,6 @@
 // Lines {type, text, bytes, said}: the text must be the message of ROS 2 Jazzy, and the bytes must
-// say under that text what `said` says. A message of pitwall_msgs is ours alone: only what it refers
-// to is compared with ROS 2.
+// say under that text what `said` says. A message of pitwall_msgs is ours alone: only what it
+// refers to is compared with ROS 2.
 // SPDX-License-Identifier: Apache-2.0
 import { readFileSync } from "node:fs";
 import { isDeepStrictEqual } from "node:util";

@@ -106,7 +106,8 @@ def lcm(bench, _):
 
 
 def prometheus(bench, _):
-    expect("\npitwall_car_info{" in (bench.folder / "metrics.txt").read_text(), "metrics of the car")
+    told = (bench.folder / "metrics.txt").read_text()
+    expect("\npitwall_car_info{" in told, "metrics of the car")
 
 
 def wireshark(bench, said):

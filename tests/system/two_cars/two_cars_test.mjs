@@ -253,7 +253,7 @@ test("one car's radio dies: its page is stale, the other's untouched", async () 
   assert.notEqual(await page.evaluate(speedOf), "fresh");
 });
 
-test("each has its own recording and its own summary, and refused what was not its own", async () => {
+test("each has its own recording and summary, and refused what was not its own", async () => {
   assert.deepEqual(faults, []);
   const summaries = await programs.summaries();
   assert.ok(summaries[7].packets > 100, `${summaries[7].packets}`);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`./pitwall install base` into a folder: install_base_test.py SOURCE BUILD [TEST]..."""
+"""`./pitwall install base` into a folder: install_station_test.py SOURCE BUILD [TEST]..."""
 # SPDX-License-Identifier: Apache-2.0
 import http.client
 import re
@@ -10,7 +10,7 @@ import unittest
 from pathlib import Path
 
 SOURCE, BUILD = Path(sys.argv[1]), Path(sys.argv[2])
-INSTALLER = SOURCE / "basestation/settings/install/install_base.sh"
+INSTALLER = SOURCE / "basestation/settings/install/install_station.sh"
 PROGRAM = "opt/pitwall/bin/pitwall-base"
 DISSECTOR = "usr/lib/x86_64-linux-gnu/wireshark/plugins/pitwall.lua"
 PATIENCE_S = 60
@@ -33,8 +33,8 @@ class Installation(unittest.TestCase):
         return {str(path.relative_to(self.root)) for path in self.root.rglob("*")}
 
     def test_a_wrong_command_line_is_refused_by_name_and_changes_nothing(self):
-        for wrong in [("--wireshark", "/tmp"), ("--wireshark",), ("--root", "/"), ("--build", "/no"),
-                      ("--can", "can0"), ("extra",)]:
+        for wrong in [("--wireshark", "/tmp"), ("--wireshark",), ("--root", "/"),
+                      ("--build", "/no"), ("--can", "can0"), ("extra",)]:
             with self.subTest(wrong=wrong):
                 self.assertIn(wrong[0], self.install(*wrong, expect=2))
         self.assertEqual(self.found(), set())
@@ -59,7 +59,8 @@ class Installation(unittest.TestCase):
     def test_the_dissector_goes_where_it_is_told_or_nowhere(self):
         self.assertNotIn("pitwall.lua", self.install("--dry-run", "--no-wireshark"))
         elsewhere = "/usr/lib/aarch64-linux-gnu/wireshark/plugins"
-        self.assertIn(f"{elsewhere}/pitwall.lua", self.install("--dry-run", "--wireshark", elsewhere))
+        plan = self.install("--dry-run", "--wireshark", elsewhere)
+        self.assertIn(f"{elsewhere}/pitwall.lua", plan)
 
     def test_what_was_installed_works_without_the_tree(self):
         self.install()

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# install_base.sh base [OPTION]...: puts the base station on a machine of the pit wall (Debian 12) or
-# takes it off: program, console, tracks, and the radio's dissector where Wireshark looks for it
+# install_station.sh base [OPTION]...: puts the base station on a machine of the pit wall (Debian
+# 12) or takes it off: program, console, tracks, and the radio's dissector where Wireshark looks for it
 #   in     built programs and console
 #   out    one line per change: ACTION PATH OWNER MODE; actions create replace keep remove enable
 #          note next. With --dry-run the same lines, and nothing is changed
@@ -123,7 +123,7 @@ uninstall_base() {
 }
 
 [[ ${1:-} == --help || ${1:-} == -h ]] && { usage; exit 0; }
-[[ ${1:-} == base ]] || refuse "install_base.sh installs base, got '${1:-}'"
+[[ ${1:-} == base ]] || refuse "install_station.sh installs base, got '${1:-}'"
 shift
 parse "$@"
 may_change
