@@ -69,9 +69,8 @@ TEST(FoxgloveProtocol, BinaryMessagesAreLittleEndian) {
 }
 
 TEST(FoxgloveProtocol, SubscriptionsAreRead) {
-  const auto ask = parse_text(
-      R"({"op":"subscribe","subscriptions":[{"id":0,"channelId":5},)"
-      R"({"id":4294967295,"channelId":1}]})");
+  const auto ask = parse_text(R"({"op":"subscribe","subscriptions":[{"id":0,"channelId":5},)"
+                              R"({"id":4294967295,"channelId":1}]})");
   ASSERT_TRUE(ask);
   const auto& wanted = std::get<Subscribe>(*ask).wanted;
   ASSERT_EQ(wanted.size(), 2U);
