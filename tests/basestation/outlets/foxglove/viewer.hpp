@@ -26,7 +26,8 @@ class Viewer {
   std::map<std::string, int> channels() {
     info_ = text("serverInfo");
     std::map<std::string, int> ids;
-    for (const auto& row : text("advertise").items("channels")) {
+    const json::JsonValue told = text("advertise");
+    for (const auto& row : told.items("channels")) {
       ids[row.text("topic")] = static_cast<int>(row.number("id"));
     }
     return ids;
