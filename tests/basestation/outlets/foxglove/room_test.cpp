@@ -122,7 +122,7 @@ TEST_F(FoxgloveRoom, WhoPublishesOrSetsIsRefusedAndNobodyElseHearsOfIt) {
   for (const Sending& sending : room_.take()) {
     EXPECT_TRUE(sending.to.test(kAnna));
     EXPECT_EQ(sending.to.count(), 1U);
-    EXPECT_NE(sending.message->text.find(R"("level":2)"), std::string::npos)
+    EXPECT_NE(sending.message->text.find(R"("level": 2)"), std::string::npos)
         << sending.message->text;
   }
   EXPECT_EQ(refused("clientPublish"), 2U);

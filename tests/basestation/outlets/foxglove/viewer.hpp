@@ -15,7 +15,7 @@ namespace pitwall::outlets::foxglove {
 
 class Viewer {
  public:
-  // Whether the socket was opened; else the status of the refusal.
+  // 101: the socket was opened.
   unsigned open(std::uint16_t port, const std::string& protocol = "foxglove.sdk.v1",
                 const std::string& origin = {}) {
     web::Browser::Fields fields{{"Sec-WebSocket-Protocol", protocol}};
