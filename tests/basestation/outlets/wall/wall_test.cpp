@@ -144,8 +144,9 @@ TEST_F(PitWall, WhatTheHolderSetsIsToldToAll) {
   // A set of values; the other one stays as it was.
   constexpr picture::FieldId kMode = picture::field_id("mode.mode");
   const picture::Limit before = wall_->watch().limits().of(kMode);
-  browser.say(R"({"type":"edit_limit","field":"mode.mode","bad_values":[3],"reason":"x"})");
-  while (!(told.number("revision") == 2.0)) told = hear(browser, "settings");
+  told = ask(browser, R"({"type":"edit_limit","field":"mode.mode","bad_values":[3],"reason":"x"})",
+             "settings");
+  EXPECT_EQ(told.number("revision"), 2.0);
   EXPECT_EQ(wall_->watch().limits().of(kMode).bad_values, 1U << 3);
   EXPECT_EQ(wall_->watch().limits().of(kMode).warning_values, before.warning_values);
   EXPECT_EQ(
