@@ -141,14 +141,15 @@ TEST_F(Terminal, SeveralCarsStandBelowEachOtherOnOneScreen) {
   telemetry::ConduitConfig config;
   config.association.keys = intake::make_key_pair(randomness_).base;
   intake::Station second{config, randomness_};
-  const std::array<Lines, 2> cars{Lines{.station = station_.get(), .title = "CAR 7"},
-                                  Lines{.station = &second, .title = "CAR 8"}};
+  std::array<Lines, 2> cars;
+  cars[0].station = station_.get(), cars[0].title = "CAR 7";
+  cars[1].station = &second, cars[1].title = "CAR 8";
   run_terminal(cars, {.text = true, .duration = milliseconds(1)}, stop_[0], file_);
   const std::string screens = contents(file_);
   const auto count = [&](std::string_view what) {
-    std::size_t count = 0;
-    for (std::size_t at = 0; (at = screens.find(what, at)) != std::string::npos; ++at) ++count;
-    return count;
+    std::size_t times = 0;
+    for (std::size_t at = 0; (at = screens.find(what, at)) != std::string::npos; ++at) ++times;
+    return times;
   };
   EXPECT_GE(count("CAR 7"), 1U);
   EXPECT_EQ(count("CAR 7"), count("CAR 8"));

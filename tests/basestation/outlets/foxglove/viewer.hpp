@@ -9,7 +9,7 @@
 #include <string>
 
 #include "protocol/json/json_value.hpp"
-#include "tests/basestation/outlets/web/browser.hpp"
+#include "tests/support/browser.hpp"
 
 namespace pitwall::outlets::foxglove {
 

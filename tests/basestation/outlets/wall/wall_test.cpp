@@ -8,7 +8,7 @@
 #include <map>
 
 #include "protocol/json/json_value.hpp"
-#include "tests/basestation/outlets/web/browser.hpp"
+#include "tests/support/browser.hpp"
 #include "tests/basestation/radio_rig.hpp"
 
 namespace pitwall::outlets::wall {

@@ -12,7 +12,7 @@
 #include "basestation/outlets/web/web_server.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/readiness.hpp"
-#include "tests/basestation/outlets/web/browser.hpp"
+#include "tests/support/browser.hpp"
 
 namespace pitwall::outlets::web {
 
