@@ -167,7 +167,7 @@ inline constexpr auto kBaseTable = [] {
       {kAuthorityLost, "base", "authority_lost", "", 0, 1, 1, kNoYes},
       {kSchemaDiffers, "base", "schema_differs", "", 0, 1, 1, kNoYes},
       {kSettingsUnreadable, "base", "settings_unreadable", "", 0, 1, 1, kNoYes},
-      {kFlagRelayed, "derived", "flag_relayed", "", 0, 14, 1, telemetry::kTrackFlags},  // by us
+      {kFlagRelayed, "derived", "flag_relayed", "", 0, 7, 1, telemetry::kTrackFlags},  // by us
       {kRole, "derived", "role", "", 0, 2, 1, telemetry::kRoles},  // as race control shows it
       {kRoleConflict, "derived", "role_conflict", "", 0, 1, 1, kNoYes},
       {kAttempt, "derived", "attempt", "", 0, 1'000, 1},  // number; of the passing competition
