@@ -39,7 +39,8 @@ TEST(SensorIngress, ACloudWhoseSizesDisagreeIsRefused) {
 }
 
 TEST(SensorIngress, AnImageWhoseSizesDisagreeIsRefused) {
-  ros::Image image{.header = {}, .height = 4, .width = 6, .encoding = "mono8", .step = 8};
+  ros::Image image;
+  image.height = 4, image.width = 6, image.encoding = "mono8", image.step = 8;
   image.data.resize(32);
   EXPECT_EQ(contradiction_of(image), nullptr);
   image.data.resize(31);
