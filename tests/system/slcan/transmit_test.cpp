@@ -12,6 +12,7 @@
 #include "protocol/transport/can_interface.hpp"
 #include "protocol/transport/clock.hpp"
 #include "tests/system/slcan/scripted_controller.hpp"
+#include "vehicle/io/black_box.hpp"
 #include "vehicle/io/rim.hpp"
 #include "vehicle/safety/bus_guard.hpp"
 
@@ -70,7 +71,7 @@ class Transmit : public ::testing::Test {
   safety::BusGuardOutput tick(bool may_restart) {
     next_ = std::max(next_ + kTick, transport::monotonic_now());
     transport::sleep_until(next_);
-    const auto heard = rim_->read();
+    const auto heard = rim_->read(box_);
     link_ = heard.link;
     const Instant now = transport::monotonic_now();
     const auto out = safety::guard(params_, guard_, link_, false, now);
@@ -89,6 +90,7 @@ class Transmit : public ::testing::Test {
   }
 
   std::unique_ptr<ScriptedController> controller_;
+  io::BlackBox box_;  // off
   std::optional<io::Rim> rim_;
   safety::BusGuardParams params_;
   safety::BusGuardState guard_;
