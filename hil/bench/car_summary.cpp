@@ -12,6 +12,7 @@ namespace pitwall::bench {
 namespace {
 
 constexpr std::int64_t kMostCounted = std::numeric_limits<std::int64_t>::max();
+constexpr double kMostOfAFigure = 1e12;
 
 CarSummary::Counts counts_of(yaml::StrictMap map) {
   CarSummary::Counts counts;
@@ -88,6 +89,20 @@ CarReceiver receiver_of(yaml::StrictMap map) {
   return receiver;
 }
 
+// Rates and latencies are of the end of the drive, when nothing comes any more: not kept.
+CarSensor sensor_of(yaml::StrictMap& map) {
+  CarSensor sensor{.name = map.text("name"), .counts = {}};
+  for (const std::string& name : map.keys()) {
+    if (name == "name") continue;
+    if (name.ends_with("_hz") || name.ends_with("_ms")) {
+      map.number(name, 0.0, kMostOfAFigure);
+    } else {
+      sensor.counts.emplace_back(name, count_of(map, name.c_str()));
+    }
+  }
+  return sensor;
+}
+
 }  // namespace
 
 Result<CarSummary, Problem> read_car_summary(const std::string& path) {
@@ -120,6 +135,7 @@ Result<CarSummary, Problem> read_car_summary(const std::string& path) {
     read_radio(map.map("radio"), car);
     for (yaml::StrictMap& row : map.maps("receivers")) car.receivers.push_back(receiver_of(row));
     car.recorder = counts_of(map.map("recorder"));
+    for (yaml::StrictMap& row : map.maps("sensors")) car.sensors.push_back(sensor_of(row));
     car.refused_by_kind = counts_of(map.map("refused_by_kind"));
     car.gate_verdicts = counts_of(map.map("gate_verdicts"));
     car.step_p50_us = map.number("step_p50_us", 0.0, 1e9);

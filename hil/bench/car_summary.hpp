@@ -31,6 +31,12 @@ struct CarReceiver {
   std::vector<std::pair<std::string, std::uint64_t>> counts;
 };
 
+// One of its sensors that come over ROS 2 topics: samples, and what was refused or overwritten.
+struct CarSensor {
+  std::string name;
+  std::vector<std::pair<std::string, std::uint64_t>> counts;
+};
+
 struct CarSummary {
   using Counts = std::vector<std::pair<std::string, std::uint64_t>>;
 
@@ -46,6 +52,7 @@ struct CarSummary {
   Counts radio, radio_refused, radio_commands;
   std::vector<Counts> radio_paths;
   std::vector<CarReceiver> receivers;
+  std::vector<CarSensor> sensors;
   Counts recorder;  // of its own recording; empty where it had none
   std::vector<CarMessage> messages;
   std::vector<world::LossReport> losses;  // the first of loss_reports

@@ -135,10 +135,14 @@ TEST_F(CarSummaryFile, ItsReceiversAreReadAsTheCarHadThem) {
   }
   const std::string text =
       io::summary_json({}, some_totals(), some_health(), {}, "{}", io::receivers_json(ports),
-                       R"({"records": 5, "dropped": 2})");
+                       R"({"records": 5, "dropped": 2})",
+                       R"([{"name": "lidar_front", "expected_hz": 20.000, "samples": 7}])");
   const auto car = read_car_summary(write(text));
   ASSERT_TRUE(car) << to_string(car.error()) << text;
   EXPECT_EQ(car->recorder, (CarSummary::Counts{{"records", 5}, {"dropped", 2}}));
+  ASSERT_EQ(car->sensors.size(), 1u);
+  EXPECT_EQ(car->sensors[0].name, "lidar_front");
+  EXPECT_EQ(car->sensors[0].counts, (CarSummary::Counts{{"samples", 7}}));
   ASSERT_EQ(car->receivers.size(), 2u);
   EXPECT_EQ(car->receivers[0].kind, "novatel_oem7");
   EXPECT_EQ(car->receivers[1].kind, "vectornav");

@@ -22,16 +22,18 @@ JsonValue parsed(const std::string& line) {
   return value ? *std::move(value) : JsonValue{};
 }
 
-// Twelve seconds of a drive in which a receiver is lost for a while and red is shown.
+// Twenty seconds: the engine is started, the car drives off, and red is shown. A receiver is lost
+// for a while.
 scenario::Scenario short_drive() {
   scenario::Scenario scenario = lap().scenario;
-  scenario.duration = seconds(12);
+  scenario.duration = seconds(20);
   scenario.faults = {
       {.kind = "gnss_unit_outage", .at = seconds(2), .lasts = seconds(3), .place = {}}};
   scenario.race_control = {
-      {.at = {}, .track = world::TrackFlag::kGreen, .round_target_speed_mph = 100.0},
-      {.at = seconds(6), .track = world::TrackFlag::kRed}};
-  scenario.start.speed_mps = lap().scenario.start.speed_mps;
+      {.at = milliseconds(500), .track = world::TrackFlag::kRed},
+      {.at = seconds(4), .track = world::TrackFlag::kOrange},
+      {.at = seconds(9), .track = world::TrackFlag::kYellow, .round_target_speed_mph = 60.0},
+      {.at = seconds(14), .track = world::TrackFlag::kRed}};
   return scenario;
 }
 
@@ -70,18 +72,18 @@ TEST(Progress, EachLineIsOneObjectOfAKindThatIsDocumented) {
   }
   EXPECT_EQ(kinds["plan"], 1);
   EXPECT_EQ(kinds["result"], 1);
-  EXPECT_EQ(kinds["at"], 25);  // each half second of twelve, and the first
-  EXPECT_EQ(static_cast<int>(told().size()), 27 + kinds["event"]);
+  EXPECT_EQ(kinds["at"], 41);  // each half second of twenty, and the first
+  EXPECT_EQ(static_cast<int>(told().size()), 43 + kinds["event"]);
 }
 
 TEST(Progress, ThePlanSaysWhatWillHappen) {
   const JsonValue plan = parsed(told().front());
   EXPECT_EQ(plan.text("type"), "plan");
-  EXPECT_EQ(plan.number("duration_s"), 12.0);
+  EXPECT_EQ(plan.number("duration_s"), 20.0);
   ASSERT_EQ(plan.items("faults").size(), 1U);
   EXPECT_EQ(plan.items("faults")[0].text("what"), "gnss_unit_outage");
   EXPECT_EQ(plan.items("faults")[0].number("lasts_s"), 3.0);
-  EXPECT_EQ(plan.items("flags").size(), 2U);
+  EXPECT_EQ(plan.items("flags").size(), 4U);
   EXPECT_EQ(plan.items("expect").size(), lap().scenario.expect.size());
 }
 
@@ -91,7 +93,7 @@ TEST(Progress, EventsComeWhenTheyHappen) {
     when.emplace(event.text("kind") + " " + event.text("text"), event.number("t_s"));
   EXPECT_EQ(when["fault_begins gnss_unit_outage"], 2.0);
   EXPECT_EQ(when["fault_ends gnss_unit_outage"], 5.0);
-  EXPECT_NEAR(when["flag red"], 6.0, 0.02);
+  EXPECT_NEAR(when["flag orange"], 4.0, 0.02);
 }
 
 TEST(Progress, TheReactionToRedIsMeasured) {

@@ -21,10 +21,11 @@ Duration age_of(const ros::Header& header, UtcTime now) {
                   static_cast<std::int64_t>(header.stamp.nanosec)};
 }
 
-std::string number(double value) {
-  if (std::isnan(value)) return "null";
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3f", value);
+// Left out where it is not known.
+std::string figure(const char* name, double value) {
+  if (std::isnan(value)) return {};
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), ", \"%s\": %.3f", name, value);
   return text.data();
 }
 
@@ -181,10 +182,9 @@ std::string SensorIngress::json(Instant now) const {
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
     const ArrivalFigures f = figures(i, now);
     const SensorCounts c = counts(i);
-    text += (i == 0 ? "" : ", ") + ("{\"name\": \"" + row(i).name) +
-            "\", \"expected_hz\": " + number(row(i).rate_hz) +
-            ", \"rate_hz\": " + number(f.rate_hz) + ", \"gap_ms\": " + number(f.gap_ms) +
-            ", \"latency_ms\": " + number(f.latency_ms) +
+    text += (i == 0 ? "" : ", ") + ("{\"name\": \"" + row(i).name) + "\"" +
+            figure("expected_hz", row(i).rate_hz) + figure("rate_hz", f.rate_hz) +
+            figure("gap_ms", f.gap_ms) + figure("latency_ms", f.latency_ms) +
             ", \"samples\": " + std::to_string(c.samples) +
             ", \"overwritten\": " + std::to_string(c.overwritten) +
             ", \"refused\": " + std::to_string(c.refused) +
