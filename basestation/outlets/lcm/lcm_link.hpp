@@ -3,8 +3,8 @@
 //   in     where to: udpm://ADDRESS:PORT?ttl=N; channel and message
 //   law    a ttl of 0 stays on this machine, which is what a URL without one means
 //   errors parse(): a Problem for another provider, no multicast address, no port, a ttl beyond
-//          255. open(): a Problem where the library finds no way there. publish(): false, the network
-//          did not take it
+//          255. open(): a Problem where the library finds no way there. publish(): false, the
+//          network did not take it
 //   source LCM 1.3.1: lcm.h, lcm_udpm.c
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

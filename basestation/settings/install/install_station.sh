@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # install_station.sh base [OPTION]...: puts the base station on a machine of the pit wall (Debian
-# 12) or takes it off: program, console, tracks, and the radio's dissector where Wireshark looks for it
+# 12) or takes it off: program, console, tracks, and the radio's dissector where Wireshark looks
+# for it
 #   in     built programs and console
 #   out    one line per change: ACTION PATH OWNER MODE; actions create replace keep remove enable
 #          note next. With --dry-run the same lines, and nothing is changed

@@ -8,8 +8,8 @@
 #include <map>
 
 #include "protocol/json/json_value.hpp"
-#include "tests/support/browser.hpp"
 #include "tests/basestation/radio_rig.hpp"
+#include "tests/support/browser.hpp"
 
 namespace pitwall::outlets::wall {
 namespace {
