@@ -8,7 +8,8 @@ import { useRef } from "preact/hooks";
 import type { CarSession } from "../store/car_session";
 import { showCar } from "../store/cars";
 import * as session from "../store/session";
-import { countOf, kPriorities, needsEyes } from "../view/alarm_order";
+import { AlarmMarks } from "../view/alarm_marks";
+import { needsEyes } from "../view/alarm_order";
 import { ageText, kDash } from "../view/format";
 import { kDigitsHz, usePainter } from "../view/painting";
 
@@ -58,25 +59,9 @@ function LinkWord({ car }: { car: CarSession }) {
 }
 
 function Counts({ car }: { car: CarSession }) {
-  const active = car.alarms.value?.active ?? [];
   return (
     <span class="tab-counts">
-      {kPriorities.map((priority) => {
-        const count = countOf(active, priority);
-        const unseen = active.some((a) => a.priority === priority && needsEyes(a));
-        return (
-          <span
-            key={priority}
-            class={`count ${priority}`}
-            data-some={count > 0}
-            data-unseen={unseen}
-          >
-            <i class="mark" aria-hidden="true" />
-            {count}
-            <span class="heard-only"> {priority} alarms</span>
-          </span>
-        );
-      })}
+      <AlarmMarks active={car.alarms.value?.active ?? []} />
     </span>
   );
 }

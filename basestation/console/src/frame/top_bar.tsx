@@ -5,7 +5,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useRef } from "preact/hooks";
 import * as session from "../store/session";
-import { countOf, kPriorities, needsEyes } from "../view/alarm_order";
+import { AlarmMarks } from "../view/alarm_marks";
 import { clockText, kDash } from "../view/format";
 import { kDigitsHz, kEachFrame, lastPaintMs, usePainter } from "../view/painting";
 import { nextSpeedUnit } from "../view/speed_unit";
@@ -35,25 +35,9 @@ function ModeWord() {
 }
 
 function AlarmCounts() {
-  const active = session.alarms.value?.active ?? [];
   return (
     <button type="button" class="alarm-counts" onClick={() => showPage("alarms")} title="alarms">
-      {kPriorities.map((priority) => {
-        const count = countOf(active, priority);
-        const unseen = active.some((a) => a.priority === priority && needsEyes(a));
-        return (
-          <span
-            key={priority}
-            class={`count ${priority}`}
-            data-some={count > 0}
-            data-unseen={unseen}
-          >
-            <i class="mark" aria-hidden="true" />
-            {count}
-            <span class="heard-only"> {priority} alarms</span>
-          </span>
-        );
-      })}
+      <AlarmMarks active={session.alarms.value?.active ?? []} />
     </button>
   );
 }
