@@ -27,6 +27,13 @@ Result<RadioPath, Problem> RadioPath::open(std::span<const RadioPorts> ports, Ai
 RadioPath::RadioPath(std::vector<Lane> lanes, Air air)
     : lanes_(std::move(lanes)), air_(std::move(air)), datagrams_(UdpSocket::kBatch) {}
 
+RadioPorts RadioPath::ports(std::size_t path) const {
+  const Lane& lane = lanes_.at(path);
+  return {.listen = lane.to_car.local().port,
+          .onward = lane.onward,
+          .uplink = lane.to_base.local().port};
+}
+
 void RadioPath::serve(Instant now) {
   for (std::size_t i = 0; i < lanes_.size(); ++i) {
     pick_up(lanes_[i], static_cast<PathId>(i), now);

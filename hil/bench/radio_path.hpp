@@ -27,7 +27,7 @@
 namespace pitwall::bench {
 
 struct RadioPorts {
-  std::uint16_t listen = 0;  // where the car sends to
+  std::uint16_t listen = 0;  // where the car sends to; 0: the kernel chooses
   std::uint16_t onward = 0;  // where the bench passes it on; 0: nowhere
   std::uint16_t uplink = 0;  // where the base's answers come; 0: the kernel chooses
 };
@@ -48,6 +48,7 @@ class RadioPath {
   Air& air() { return air_; }
   const Air& air() const { return air_; }
   const RadioCounters& counters() const { return counters_; }
+  RadioPorts ports(std::size_t path) const;  // as bound
 
  private:
   struct Lane {

@@ -13,14 +13,25 @@ constexpr std::uint16_t kRadioPort = 23'429;
 constexpr int kFirstNumber = 7;
 constexpr std::array<const char*, kDemoCarsMax> kNames{"Alpha", "Bravo", "Charlie", "Delta"};
 
+constexpr unsigned kCoresForEach = 2;
+
 }  // namespace
+
+DemoBus bus_for(int cars, unsigned cores) {
+  const bool enough = cores >= kCoresForEach * static_cast<unsigned>(cars);
+  return cars == 1 || enough ? DemoBus::kVcan : DemoBus::kSocket;
+}
+
+std::string DemoCar::interface() const {
+  return bus == DemoBus::kVcan ? "vcan" + std::to_string(bay) : "unix:" + folder + "/bus";
+}
 
 std::string DemoCar::line_ports() const {
   return std::to_string(uplink_port) + ":" + std::to_string(base_port) + ":" +
          std::to_string(radio_port) + ":" + std::to_string(guest_uplink_port);
 }
 
-std::vector<DemoCar> demo_cars(int count, const std::string& folder) {
+std::vector<DemoCar> demo_cars(int count, const std::string& folder, DemoBus bus) {
   std::vector<DemoCar> cars;
   for (int bay = 0; bay < count; ++bay) {
     const auto own = [bay](std::uint16_t port) {
@@ -31,6 +42,7 @@ std::vector<DemoCar> demo_cars(int count, const std::string& folder) {
                     .name = kNames.at(static_cast<std::size_t>(bay)),
                     .bay = bay,
                     .folder = count == 1 ? folder : folder + "/car_" + std::to_string(number),
+                    .bus = bus,
                     .base_port = own(kBasePort),
                     .uplink_port = own(kUplinkPort),
                     .guest_uplink_port = own(kGuestUplinkPort),

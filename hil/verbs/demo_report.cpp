@@ -64,9 +64,12 @@ std::string to_text(const CarReport& report) {
       "p50 %.1f ms, p99 %.1f ms\n",
       static_cast<long long>(base.packets), base.rate_hz, static_cast<long long>(base.lost),
       static_cast<long long>(base.refused), base.age_p50_ms, base.age_p99_ms);
-  return line +
-         ("candump recorded " + std::to_string(report.dumped) + " frames: " + report.car.folder +
-          "/candump.log\nevent log: " + report.car.folder + "/events.mcap\n");
+  std::string text = line;
+  if (report.car.bus == DemoBus::kVcan) {
+    text += "candump recorded " + std::to_string(report.dumped) + " frames: " + report.car.folder +
+            "/candump.log\n";
+  }
+  return text + "event log: " + report.car.folder + "/events.mcap\n";
 }
 
 std::string to_json(const CarReport& report) {

@@ -8,14 +8,17 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "hil/bench/loading.hpp"
 #include "hil/bench/run_keys.hpp"
 #include "hil/guest/bus_verb.hpp"
+#include "hil/guest/own_hub.hpp"
 #include "hil/verbs/command_line.hpp"
 #include "hil/verbs/demo_cars.hpp"
 #include "hil/verbs/demo_report.hpp"
@@ -107,7 +110,7 @@ Result<transport::Process, Problem> start_serving_base(const DemoOptions& option
   return Unexpected{Problem{place, "the base station serves no console"}};
 }
 
-// The words after `bus` that run a car's bench where a CAN interface is.
+// What runs a car's bench where its bus is.
 std::vector<std::string> bench_words(const DemoOptions& options, const DemoCar& car) {
   RunOptions run;
   run.scenario = options.scenario;
@@ -117,11 +120,17 @@ std::vector<std::string> bench_words(const DemoOptions& options, const DemoCar& 
   run.duration = from_seconds(options.duration_s);
   run.interface = car.interface();
   run.bay = car.bay;
+  run.keys = car.folder + "/keys";
+  if (car.bus == DemoBus::kSocket) {  // on this machine: no line into a guest
+    run.radio_port = car.base_port;
+    run.uplink_port = car.uplink_port;
+    return live_command(run);
+  }
   run.radio_port = car.radio_port;
   run.uplink_port = car.guest_uplink_port;
-  run.keys = car.folder + "/keys";
   run.candump = true;
   std::vector<std::string> exec{
+      own_program(), "bus",
       "exec",        "--auto",
       "--interface", run.interface,
       "--line-udp",  car.line_ports(),
@@ -135,12 +144,14 @@ std::vector<std::string> bench_words(const DemoOptions& options, const DemoCar& 
 // code of each.
 Result<std::vector<int>, Problem> run_several(const DemoOptions& options,
                                               std::span<const DemoCar> cars) {
+  std::vector<std::optional<guest::OwnHub>> hubs;  // outlive the benches
   std::vector<transport::Process> benches;
   for (const DemoCar& car : cars) {
-    std::vector<std::string> words{own_program(), "bus"};
-    for (std::string& word : bench_words(options, car)) words.push_back(std::move(word));
-    auto bench =
-        transport::Process::spawn({.argv = said_into(car.folder + "/run.txt", std::move(words))});
+    auto hub = guest::OwnHub::start(own_program(), car.interface());
+    if (!hub) return Unexpected{hub.error()};
+    hubs.push_back(*std::move(hub));
+    auto bench = transport::Process::spawn(
+        {.argv = said_into(car.folder + "/run.txt", bench_words(options, car))});
     if (!bench) return Unexpected{bench.error()};
     benches.push_back(*std::move(bench));
   }
@@ -152,7 +163,8 @@ Result<std::vector<int>, Problem> run_several(const DemoOptions& options,
 Result<std::vector<int>, Problem> run_live(const DemoOptions& options,
                                            std::span<const DemoCar> cars) {
   if (cars.size() > 1) return run_several(options, cars);
-  return std::vector{guest::bus_verb(bench_words(options, cars.front()))};
+  const std::vector<std::string> words = bench_words(options, cars.front());
+  return std::vector{guest::bus_verb(std::span(words).subspan(2))};  // after the program and `bus`
 }
 
 // One that could not run, or was not judged, outweighs one that failed.
@@ -208,7 +220,8 @@ Result<bool, Problem> prepare(const DemoOptions& options, std::span<const DemoCa
 
 int demo(const DemoOptions& options) {
   if (const auto loaded = bench::load(options.scenario, ""); !loaded) return refuse(loaded.error());
-  const std::vector<DemoCar> cars = demo_cars(options.cars, options.folder);
+  const DemoBus bus = bus_for(options.cars, std::thread::hardware_concurrency());
+  const std::vector<DemoCar> cars = demo_cars(options.cars, options.folder, bus);
   if (const auto ready = prepare(options, cars); !ready) return refuse(ready.error());
   auto base = start_serving_base(options, cars);
   if (!base) return refuse(base.error());
@@ -217,6 +230,11 @@ int demo(const DemoOptions& options) {
       "separate processes; the tyres start at working temperature.\n",
       options.scenario.c_str(), options.duration_s);
   if (cars.size() > 1) std::printf("%zu cars, each with a bench of its own.\n", cars.size());
+  if (bus == DemoBus::kSocket) {
+    std::printf(
+        "Their buses are Unix sockets, not SocketCAN: this machine has %u cores for them.\n",
+        std::thread::hardware_concurrency());
+  }
   if (options.web_port != 0) {
     std::printf("The operator's console: http://localhost:%d\n", options.web_port);
   }

@@ -27,8 +27,6 @@ UdpSocket socket() {
   return *std::move(bound);
 }
 
-std::uint16_t free_port() { return socket().local().port; }
-
 Bytes take(UdpSocket& from) {
   const int watched[] = {from.fd()};
   transport::wait_readable(watched, transport::monotonic_now() + kPatience);
@@ -44,14 +42,16 @@ struct Ends {
   explicit Ends(const std::vector<scenario::RadioPath>& radio = {},
                 std::vector<faults::BenchFault> faults = {})
       : air(radio, std::move(faults), 3) {
+    std::vector<RadioPorts> wanted;
     for (std::size_t i = 0; i < air.paths(); ++i) {
       bases.push_back(socket());
       cars.push_back(socket());
-      ports.push_back({free_port(), bases.back().local().port, free_port()});
+      wanted.push_back({.listen = 0, .onward = bases.back().local().port, .uplink = 0});
     }
-    auto opened = RadioPath::open(ports, std::move(air));
+    auto opened = RadioPath::open(wanted, std::move(air));
     EXPECT_TRUE(opened);
     path.emplace(*std::move(opened));
+    for (std::size_t i = 0; i < wanted.size(); ++i) ports.push_back(path->ports(i));
   }
 
   // Until the path has counted one more of something.

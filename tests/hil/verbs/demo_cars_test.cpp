@@ -11,21 +11,23 @@ namespace pitwall::verbs {
 namespace {
 
 TEST(DemoCars, OneIsWhereADemoAlwaysWas) {
-  const auto cars = demo_cars(1, "out/demo");
+  const auto cars = demo_cars(1, "out/demo", DemoBus::kVcan);
   ASSERT_EQ(cars.size(), 1u);
   EXPECT_EQ(cars[0].folder, "out/demo");
   EXPECT_EQ(cars[0].interface(), "vcan0");
   EXPECT_EQ(cars[0].line_ports(), "23531:23431:23429:23532");
 }
 
-TEST(DemoCars, NoTwoHaveAnythingInCommon) {
+class DemoBuses : public testing::TestWithParam<DemoBus> {};
+
+TEST_P(DemoBuses, NoTwoHaveAnythingInCommon) {
   std::set<std::string> taken;
   std::size_t claimed = 0;
   const auto claim = [&](const std::string& what) {
     taken.insert(what);
     ++claimed;
   };
-  for (const DemoCar& car : demo_cars(kDemoCarsMax, "out/demo")) {
+  for (const DemoCar& car : demo_cars(kDemoCarsMax, "out/demo", GetParam())) {
     for (const int port : {car.base_port, car.uplink_port, car.guest_uplink_port, car.radio_port}) {
       claim(std::to_string(port));
     }
@@ -37,8 +39,19 @@ TEST(DemoCars, NoTwoHaveAnythingInCommon) {
   EXPECT_EQ(taken.size(), claimed);
 }
 
+INSTANTIATE_TEST_SUITE_P(Both, DemoBuses, testing::Values(DemoBus::kVcan, DemoBus::kSocket));
+
+TEST(DemoCars, SeveralTakeSocketsWhereAGuestForEachWouldFallBehind) {
+  EXPECT_EQ(bus_for(1, 1), DemoBus::kVcan);
+  EXPECT_EQ(bus_for(2, 2), DemoBus::kSocket);
+  EXPECT_EQ(bus_for(2, 3), DemoBus::kSocket);
+  EXPECT_EQ(bus_for(2, 4), DemoBus::kVcan);
+  EXPECT_EQ(bus_for(2, 0), DemoBus::kSocket) << "a machine that does not tell";
+  EXPECT_EQ(demo_cars(2, "out/demo", DemoBus::kSocket)[1].interface(), "unix:out/demo/car_8/bus");
+}
+
 TEST(DemoCars, TheBasesFileNamesEachWithItsOwn) {
-  const auto cars = demo_cars(2, "out/demo");
+  const auto cars = demo_cars(2, "out/demo", DemoBus::kVcan);
   const auto document = yaml::load_text(cars_text(cars), "cars.yaml");
   ASSERT_TRUE(document) << to_string(document.error());
   auto rows = document->root().maps("cars");

@@ -45,6 +45,9 @@ TEST_F(DemoReport, ACarThatWasNotHeardOrFailedDidNotHold) {
   EXPECT_FALSE(read_report(car_, 1)->held());
   leave("candump.log", "");
   EXPECT_FALSE(read_report(car_, 0)->held());
+  car_.bus = DemoBus::kSocket;
+  EXPECT_TRUE(read_report(car_, 0)->held()) << "candump hears SocketCAN only";
+  EXPECT_EQ(to_text(*read_report(car_, 0)).find("candump"), std::string::npos);
   leave("candump.log", "a\n");
   leave("base.json", R"({"packets": 0, "lost": 0, "refused": 0, "rate_hz": 0})");
   EXPECT_FALSE(read_report(car_, 0)->held());
