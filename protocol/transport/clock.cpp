@@ -49,15 +49,19 @@ void sleep_until(Instant deadline) {
 
 Duration realtime_minus_monotonic() {
   constexpr int kAttempts = 3;  // one of them is hardly ever interrupted
+  constexpr Duration kTight = microseconds(2);
   Duration best{};
   Duration tightest{INT64_MAX};
-  for (int i = 0; i < kAttempts; ++i) {
-    const Instant before = monotonic_now();
+  Instant before = monotonic_now();
+  for (int i = 0; i < kAttempts && tightest > kTight; ++i) {
     const UtcTime utc = utc_now();
-    const Duration width = monotonic_now() - before;
-    if (width >= tightest) continue;
-    tightest = width;
-    best = {utc.ns - (before.ns + width.ns / 2)};
+    const Instant after = monotonic_now();
+    const Duration width = after - before;
+    if (width < tightest) {
+      tightest = width;
+      best = {utc.ns - (before.ns + width.ns / 2)};
+    }
+    before = after;
   }
   return best;
 }

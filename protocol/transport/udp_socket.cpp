@@ -153,7 +153,7 @@ bool UdpSocket::transmit(const sockaddr_in* to, std::span<const std::uint8_t> by
 
 std::size_t UdpSocket::receive(std::span<UdpDatagram> datagrams) {
   const ArrivalWindow window{.empty_at = empty_at_, .now = monotonic_now()};
-  const Duration offset = realtime_minus_monotonic();
+  std::optional<Duration> offset;  // of what has a stamp: it takes many looks at the clocks
   std::size_t taken = 0;
   bool more = true;
   while (taken < datagrams.size() && more) more = receive_batch(datagrams, taken, offset, window);
@@ -161,8 +161,8 @@ std::size_t UdpSocket::receive(std::span<UdpDatagram> datagrams) {
   return taken;
 }
 
-bool UdpSocket::receive_batch(std::span<UdpDatagram> datagrams, std::size_t& taken, Duration offset,
-                              const ArrivalWindow& window) {
+bool UdpSocket::receive_batch(std::span<UdpDatagram> datagrams, std::size_t& taken,
+                              std::optional<Duration>& offset, const ArrivalWindow& window) {
   Batch batch;
   const auto into = datagrams.subspan(taken, std::min(datagrams.size() - taken, kBatch));
   batch.prepare(into);
@@ -179,6 +179,7 @@ bool UdpSocket::receive_batch(std::span<UdpDatagram> datagrams, std::size_t& tak
     return false;
   }
   const auto count = static_cast<std::size_t>(got.value);
+  if (!offset) offset = realtime_minus_monotonic();
   for (std::size_t i = 0; i < count; ++i) {
     msghdr& header = batch.messages[i].msg_hdr;
     const ControlData extra = read_control(header);
@@ -191,7 +192,7 @@ bool UdpSocket::receive_batch(std::span<UdpDatagram> datagrams, std::size_t& tak
     if (&out != &into[i]) out.data = into[i].data;  // closes the gap that a dropped one left
     out.length = batch.messages[i].msg_len;
     out.from = from_kernel(batch.senders[i]);
-    const Instant at = to_instant(extra.stamp, offset);
+    const Instant at = to_instant(extra.stamp, *offset);
     out.at = extra.stamp.ns != 0 && window.holds(at) ? at : window.now;
     ++counters_.received;
     ++taken;

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -82,8 +83,8 @@ class UdpSocket {
  private:
   explicit UdpSocket(FileDescriptor fd) : fd_(std::move(fd)) {}
   bool transmit(const sockaddr_in* to, std::span<const std::uint8_t> bytes);
-  bool receive_batch(std::span<UdpDatagram> datagrams, std::size_t& taken, Duration offset,
-                     const ArrivalWindow& window);
+  bool receive_batch(std::span<UdpDatagram> datagrams, std::size_t& taken,
+                     std::optional<Duration>& offset, const ArrivalWindow& window);
 
   FileDescriptor fd_;
   UdpAddress local_;
