@@ -259,6 +259,11 @@ Result<Scenario, Problem> read_scenario(const std::string& text, const std::stri
   return yaml::read(*document, [](yaml::StrictMap& map) { return read_root(map); });
 }
 
+bool is_shown_by(const Expectation& e, Duration end) {
+  const bool at_once = e.kind == ExpectKind::kWithin || e.kind == ExpectKind::kDetects;
+  return e.from < end && (!at_once || e.until <= end);
+}
+
 const char* name_of(world::TrackFlag flag) { return word_of(kTrackFlags, flag); }
 const char* name_of(world::VehicleFlag flag) { return word_of(kVehicleFlags, flag); }
 const char* name_of(BusRevision revision) { return word_of(kBusRevisions, revision); }

@@ -118,6 +118,7 @@ std::vector<std::string> bench_words(const DemoOptions& options, const DemoCar& 
   run.log_file = car.folder + "/events.mcap";
   run.json_file = car.folder + "/run.json";
   run.duration = from_seconds(options.duration_s);
+  run.cut = true;
   run.interface = car.interface();
   run.bay = car.bay;
   run.keys = car.folder + "/keys";

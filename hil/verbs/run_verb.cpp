@@ -190,6 +190,7 @@ std::vector<std::string> live_command(const RunOptions& options) {
   if (options.seed) add("--seed", std::to_string(*options.seed));
   if (options.candump) command.emplace_back("--candump");
   if (options.no_guardian) command.emplace_back("--no-guardian");
+  if (options.cut) command.emplace_back("--cut");
   return command;
 }
 
@@ -216,12 +217,28 @@ Result<bench::RunResult, Problem> followed(const RunOptions& options, const benc
   return result;
 }
 
+// Each expectation that the run is too short for is told and left out.
+Result<bool, Problem> cut(scenario::Scenario& scenario) {
+  const Duration end = scenario.duration;
+  std::erase_if(scenario.expect, [&](const scenario::Expectation& expectation) {
+    if (is_shown_by(expectation, end)) return false;
+    std::printf("not judged, the run is cut at %.1f s: %s: %s\n", end.seconds(),
+                expectation.place.c_str(), expectation.signal.c_str());
+    return true;
+  });
+  if (!scenario.expect.empty()) return true;
+  return Unexpected{Problem{"--duration", "ends before there is anything to judge"}};
+}
+
 // The exit code; the files that were asked for are written. What failed on a machine that did not
 // keep up has not been judged.
 Result<int, Problem> run_once(const RunOptions& options) {
   auto loaded = bench::load(options.scenario, "");
   if (!loaded) return Unexpected{loaded.error()};
   if (options.duration) loaded->scenario.duration = *options.duration;
+  if (options.cut) {
+    if (const auto left = cut(loaded->scenario); !left) return Unexpected{left.error()};
+  }
   if (options.seed) loaded->scenario.seed = *options.seed;
   const auto result = followed(options, *loaded);
   if (!result) return Unexpected{result.error()};
@@ -300,6 +317,8 @@ int run_verb(std::span<const std::string> args) {
       app.option("--duration", duration_s, "seconds, instead of the file's").range(0.1, 36'000.0);
   const VerbOption progress =
       app.option("--progress", options.progress_file, "write a line of JSON for each half second");
+  app.flag("--cut", options.cut, "expectations of a time that --duration cuts away are not judged")
+      .needs(duration);
   app.option("--hours", options.hours, "lockstep: with one seed after the other, so long")
       .range(0.001, 1'000.0)
       .excludes(log)

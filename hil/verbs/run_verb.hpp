@@ -32,6 +32,7 @@ struct RunOptions {
   std::optional<std::uint64_t> seed;  // likewise
   double hours = 0.0;                 // 0: once
   bool live = false, here = false, candump = false, quiet = false;
+  bool cut = false;          // what a shorter duration takes from the scenario is not judged
   bool attach = false;       // live: the car is not ours, it runs already
   bool no_guardian = false;  // live: the car alone, although the guardian's program is there
   std::string interface = "vcan0";

@@ -248,6 +248,22 @@ TEST(Scenario, TheReceiversAreThoseOfTheCarUnlessTheyAreNamed) {
   }
 }
 
+TEST(Expectation, OfATimeThatIsCutAwayIsNotShown) {
+  using enum ExpectKind;
+  for (const ExpectKind kind : {kAlways, kNever, kWithin, kDetects}) {
+    const bool at_once = kind == kWithin || kind == kDetects;
+    Expectation e;
+    e.kind = kind;
+    e.from = seconds(10);
+    e.until = seconds(15);
+    EXPECT_TRUE(is_shown_by(e, seconds(15)));
+    EXPECT_EQ(is_shown_by(e, seconds(14)), !at_once);
+    EXPECT_FALSE(is_shown_by(e, seconds(10)));
+    e.until = {};
+    EXPECT_TRUE(is_shown_by(e, seconds(11))) << "to the end, whenever that is";
+  }
+}
+
 TEST(Names, EveryFlagHasAName) {
   for (int i = 0; i <= static_cast<int>(world::TrackFlag::kUnknown); ++i)
     EXPECT_STRNE(name_of(static_cast<world::TrackFlag>(i)), "?");

@@ -98,6 +98,15 @@ TEST_F(RunVerb, ARunThatEndsTooEarlyToShowAnythingDoesNotPass) {
   EXPECT_EQ(said.out.find("verdict: PASS"), std::string::npos);
 }
 
+TEST_F(RunVerb, OfARunThatIsCutTheRestIsNotJudgedAndTold) {
+  const Said said = run({"run", kShort, "--duration", "5", "--cut"});
+  EXPECT_EQ(said.code, 0) << said.out << said.err;
+  EXPECT_NE(said.out.find("not judged, the run is cut at 5.0 s: " + std::string(kShort)),
+            std::string::npos);
+  EXPECT_NE(said.out.find("verdict: PASS"), std::string::npos);
+  expect_refusal({"run", kShort, "--cut"}, "--duration");
+}
+
 TEST_F(RunVerb, SeedAndDurationAreThoseOfTheLine) {
   const auto digest = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words{"run", "hil/scenarios/lvms_flying_lap.yaml", "--json",
