@@ -79,8 +79,8 @@ struct Expectation {
   std::string place;
 };
 
-// Whether a run that is ended at `end`, before its time, can show what is expected: always and never
-// where their window has begun, within and detects where it has ended.
+// Whether a run that is ended at `end`, before its time, can show what is expected: always and
+// never where their window has begun, within and detects where it has ended.
 bool is_shown_by(const Expectation& expectation, Duration end);
 
 struct Scenario {

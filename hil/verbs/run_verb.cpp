@@ -285,6 +285,28 @@ int run_scenario(const RunOptions& options) {
   return write_report(report_files(options.report_folder), std::nullopt);
 }
 
+namespace {
+
+int run_where_the_bus_is(const RunOptions& options) {
+  if (!options.live || options.here) return run_scenario(options);
+
+  // Bad input is told before a machine is booted for it.
+  if (const auto loaded = bench::load(options.scenario, ""); !loaded)
+    return report_failure(options, loaded.error());
+  if (transport::is_unix_bus(options.interface)) {  // needs no guest, only a hub
+    const auto hub = guest::OwnHub::start(own_program(), options.interface);
+    return hub ? run_scenario(options) : refuse(hub.error());
+  }
+  std::vector<std::string> exec{"exec", "--auto", "--interface", options.interface, "--"};
+  for (std::string& word : live_command(options)) exec.push_back(std::move(word));
+  const int code = guest::bus_verb(exec);
+  if (!options.report_folder.empty() && !fs::exists(report_files(options.report_folder).html))
+    return report_failure(options, {options.scenario, "the guest ended without a report"});
+  return code;
+}
+
+}  // namespace
+
 int run_verb(std::span<const std::string> args) {
   RunOptions options;
   double duration_s = 0.0;
@@ -340,21 +362,7 @@ int run_verb(std::span<const std::string> args) {
                  options.interface.c_str());
     options.candump = false;
   }
-  if (!options.live || options.here) return run_scenario(options);
-
-  // Bad input is told before a machine is booted for it.
-  if (const auto loaded = bench::load(options.scenario, ""); !loaded)
-    return report_failure(options, loaded.error());
-  if (transport::is_unix_bus(options.interface)) {  // needs no guest, only a hub
-    const auto hub = guest::OwnHub::start(own_program(), options.interface);
-    return hub ? run_scenario(options) : refuse(hub.error());
-  }
-  std::vector<std::string> exec{"exec", "--auto", "--interface", options.interface, "--"};
-  for (std::string& word : live_command(options)) exec.push_back(std::move(word));
-  const int code = guest::bus_verb(exec);
-  if (!options.report_folder.empty() && !fs::exists(report_files(options.report_folder).html))
-    return report_failure(options, {options.scenario, "the guest ended without a report"});
-  return code;
+  return run_where_the_bus_is(options);
 }
 
 }  // namespace pitwall::verbs

@@ -23,12 +23,14 @@ namespace pitwall::testing {
 class CarRadio {
  public:
   static Result<CarRadio, Problem> open(std::span<const std::string> words,
-                                        const telemetry::BudgetParams& budget = {}) {
+                                        const telemetry::BudgetParams& budget = {},
+                                        double early_share = telemetry::StateLane::kEarlyShare) {
     const auto keys = intake::read_keys(words[0], telemetry::Role::kCar);
     if (!keys) return Unexpected{keys.error()};
     telemetry::ConduitConfig config;
     config.association.keys = *keys;
     config.budget.fill(budget);
+    config.early_share = early_share;
     CarRadio radio;
     for (const std::size_t at : {std::size_t{1}, std::size_t{3}}) {
       if (at >= words.size()) continue;

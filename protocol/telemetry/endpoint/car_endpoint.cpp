@@ -21,6 +21,7 @@ struct CarEndpoint::Parts {
         conduit(config, Direction::kDown, source),
         schema_text(conduit.claim().safety_text.empty() ? safety_text()
                                                         : std::string(conduit.claim().safety_text)),
+        lane(Direction::kDown, config.early_share),
         ledger(conduit.own().boot) {
     draw();
   }
@@ -44,7 +45,7 @@ struct CarEndpoint::Parts {
   Randomness* randomness;
   Conduit conduit;
   std::string schema_text;  // of the safety groups, made once
-  StateLane lane{Direction::kDown};
+  StateLane lane;
   Snapshot snapshot;
   StopLatch latch;
   std::uint16_t drawn_for = 0;

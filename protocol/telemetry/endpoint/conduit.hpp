@@ -23,6 +23,7 @@
 #include "protocol/telemetry/endpoint/path_receipts.hpp"
 #include "protocol/telemetry/endpoint/schema_talk.hpp"
 #include "protocol/telemetry/endpoint/slots.hpp"
+#include "protocol/telemetry/endpoint/state_lane.hpp"
 #include "protocol/telemetry/flow/acks.hpp"
 #include "protocol/telemetry/flow/clock_sync.hpp"
 #include "protocol/telemetry/flow/link_stats.hpp"
@@ -38,7 +39,8 @@ struct ConduitConfig {
   AssociationConfig association;  // greeting: boot 0 is drawn, schema hashes 0 are the registry's
   std::array<BudgetParams, kPaths> budget{};
   PathPolicy policy = PathPolicy::kDuplicate;
-  const SchemaClaim* schema = nullptr;  // none: of the registry. Outlives the end
+  double early_share = StateLane::kEarlyShare;  // of a packet, for what is not yet due
+  const SchemaClaim* schema = nullptr;          // none: of the registry. Outlives the end
 };
 
 // For a packet between slots.

@@ -12,10 +12,6 @@ std::size_t size_of(GroupSet groups, Direction direction) {
   return groups.empty() ? 0 : state_bytes(groups, direction);
 }
 
-// Of a packet with nothing better to carry: what slow groups get before they are due. It makes each
-// packet later by as much of a slot at most.
-constexpr std::size_t kEarlyShare = 10;
-
 std::size_t fast_size(Direction direction) {
   GroupSet fast;
   for (const GroupRow& row : kGroupTable) {
@@ -26,8 +22,13 @@ std::size_t fast_size(Direction direction) {
 
 }  // namespace
 
-StateLane::StateLane(Direction direction)
-    : direction_(direction), fast_size_(fast_size(direction)), scheduler_(direction) {}
+StateLane::StateLane(Direction direction, double early_share)
+    : direction_(direction),
+      early_share_(early_share),
+      fast_size_(fast_size(direction)),
+      scheduler_(direction) {
+  CHECK(early_share >= 0.0 && early_share <= 1.0);
+}
 
 // Motion goes before its time once in a slot, where that leaves a third of the packet to what
 // waits; between slots only where nothing waits. There a packet has safety and motion alone, so
@@ -60,7 +61,7 @@ std::size_t StateLane::choose(const Snapshot& snapshot, GroupSet known, Duration
 // nearer to it the sooner.
 void StateLane::add_early(Scheduler::Order& wanted, Writing how, std::size_t room) const {
   if (how.only_safety || how.between || how.something_waits || 3 * fast_size_ > 2 * room) return;
-  std::size_t bits = room / kEarlyShare * 8;
+  auto bits = static_cast<std::size_t>(static_cast<double>(8 * room) * early_share_);
   for (const Group group : order_) {
     const std::size_t size = kAgeCodeBits + group_bits(group);
     if (late_.has(group) || row_of(group).priority <= Class::kMotion || size > bits) continue;

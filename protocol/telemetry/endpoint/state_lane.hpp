@@ -1,5 +1,5 @@
 // State of one direction on its way into packets: safety groups first and always, then by the
-// scheduler, as far as there is room; what is not yet due fills a tenth of a packet that has room.
+// scheduler, as far as there is room; what is not yet due fills a share of a packet that has room.
 //   in     the newest snapshot at the moment when a packet is made
 //   out    groups in the packet; what of it is safety's
 //   cost   no allocation
@@ -18,7 +18,11 @@ namespace pitwall::telemetry {
 
 class StateLane {
  public:
-  explicit StateLane(Direction direction);
+  // Of a packet with nothing better to carry: what slow groups get before they are due. It makes
+  // each packet later by as much of a slot at most.
+  static constexpr double kEarlyShare = 0.1;
+
+  explicit StateLane(Direction direction, double early_share = kEarlyShare);
 
   // What the next packet shall have. Returns the bytes of it that are safety's: the share of the
   // budget that is asked for must be the one that is used.
@@ -45,6 +49,7 @@ class StateLane {
   void add_early(Scheduler::Order& wanted, Writing how, std::size_t room) const;
 
   Direction direction_;
+  double early_share_;
   std::size_t fast_size_;  // of safety and motion
   Scheduler scheduler_;
   CodecCounters codec_;

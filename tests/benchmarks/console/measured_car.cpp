@@ -26,6 +26,8 @@ constexpr std::int64_t kLeastPause_us = 60'000, kMorePause_us = 17'000;
 // Room for everything in each slot: the base shall have all that the car can say.
 constexpr telemetry::BudgetParams kAmple{.bytes_per_s = 125'000.0};
 
+constexpr double kAllInEachSlot = 1.0;  // also what is not yet due
+
 class Car {
  public:
   explicit Car(testing::CarRadio radio) : radio_(std::move(radio)) {}
@@ -107,7 +109,7 @@ class Car {
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.size() != 3) return 2;
-  auto radio = pitwall::testing::CarRadio::open(words, pitwall::kAmple);
+  auto radio = pitwall::testing::CarRadio::open(words, pitwall::kAmple, pitwall::kAllInEachSlot);
   if (!radio) {
     std::fprintf(stderr, "%s\n", to_string(radio.error()).c_str());
     return 1;

@@ -44,7 +44,8 @@ class Car {
     return packet;
   }
 
-  StateLane lane{Direction::kDown};
+  explicit Car(double early_share = StateLane::kEarlyShare) : lane(Direction::kDown, early_share) {}
+  StateLane lane;
 
  private:
   std::array<std::uint8_t, kMaxBody> buffer_{};
@@ -96,6 +97,13 @@ TEST(StateLane, WhatIsNotDueTakesATenthOfAPacket) {
   for (const GroupRow& row : kGroupTable) {
     if (row.priority < Class::kHealth || !down.has(row.group)) continue;
     EXPECT_GT(idle.lane.figures(row.group).chosen, waiting.lane.figures(row.group).chosen);
+  }
+}
+
+TEST(StateLane, AWholeShareTellsAllInEachSlot) {
+  Car car{1.0};
+  for (std::int64_t i = 0; i < 20; ++i) {
+    EXPECT_EQ(car.packet(20 * i, kMaxBody, {}).groups, groups_of(Direction::kDown)) << i;
   }
 }
 
