@@ -4,6 +4,7 @@
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <unistd.h>
 
 #include "protocol/transport/posix_call.hpp"
 
@@ -34,6 +35,11 @@ void release_realtime() {
   constexpr int kOrdinary = SCHED_OTHER | SCHED_RESET_ON_FORK;  // only root may take the flag back
   static_cast<void>(posix_call([&] { return sched_setscheduler(0, kOrdinary, &ordinary); }));
   static_cast<void>(posix_call([] { return munlockall(); }));
+}
+
+void give_way() {
+  constexpr int kNicer = 10;
+  static_cast<void>(nice(kNicer));  // of this thread alone on Linux; never refused upwards
 }
 
 std::string to_string(const RealtimeReport& report) {

@@ -2,6 +2,7 @@
 #include "basestation/outlets/dds/ros_outlet.hpp"
 
 #include <atomic>
+#include <future>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -15,6 +16,7 @@
 #include "protocol/ros/names.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/readiness.hpp"
+#include "protocol/transport/realtime.hpp"
 
 namespace pitwall::outlets::dds {
 namespace {
@@ -124,6 +126,7 @@ class RosOutlet : public Outlet {
   }
 
   void serve_readers() {
+    transport::give_way();
     const ros_view::Sink sink = [this](const ros_view::Message& message) { write(message); };
     view_.statics(transport::monotonic_now(), transport::realtime_minus_monotonic(), sink);
     Instant look_at = transport::monotonic_now();
@@ -197,7 +200,11 @@ Result<Distribution, Problem> distribution_named(const std::string& name) {
 }
 
 Result<std::unique_ptr<Outlet>, Problem> start(RosConfig config) {
-  auto domain = Domain::join(config.domain);
+  // Fast DDS starts threads of its own, which take after the one that starts them.
+  auto domain = std::async(std::launch::async, [&] {
+                  transport::give_way();
+                  return Domain::join(config.domain);
+                }).get();
   if (!domain) return Unexpected{domain.error()};
   auto outlet = std::make_unique<RosOutlet>(std::move(config), *std::move(domain));
   const auto opened = outlet->open();

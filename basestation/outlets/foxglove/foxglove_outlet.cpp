@@ -6,6 +6,7 @@
 
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/readiness.hpp"
+#include "protocol/transport/realtime.hpp"
 
 namespace pitwall::outlets::foxglove {
 
@@ -41,6 +42,7 @@ void FoxgloveOutlet::serve(intake::Station&, Instant now) {
 }
 
 void FoxgloveOutlet::run() {
+  transport::give_way();
   const std::array<int, 2> watched{feed_.fd(), desk_->fd()};
   while (!feed_.closed()) {
     transport::wait_readable(watched, desk_->due());

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "protocol/transport/readiness.hpp"
+#include "protocol/transport/realtime.hpp"
 
 namespace pitwall::outlets::lcm {
 namespace {
@@ -43,6 +44,7 @@ void LcmOutlet::packet(const intake::Station& station, const telemetry::Arrival&
 }
 
 void LcmOutlet::run() {
+  transport::give_way();
   const int fd = feed_.fd();
   for (bool more = true; more;) {
     transport::wait_readable({&fd, 1}, kForever);

@@ -14,6 +14,7 @@
 #include "protocol/recorder/channels.hpp"
 #include "protocol/recorder/file_disk.hpp"
 #include "protocol/recording/mcap_reader.hpp"
+#include "protocol/transport/realtime.hpp"
 
 namespace pitwall::outlets::wall {
 namespace {
@@ -196,6 +197,7 @@ RecordingList::~RecordingList() {
 }
 
 void RecordingList::look_again_and_again() {
+  transport::give_way();
   std::unique_lock lock{mutex_};
   while (!ends_) {
     lock.unlock();

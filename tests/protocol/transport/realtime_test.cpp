@@ -4,8 +4,12 @@
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include <algorithm>
+#include <thread>
 
 namespace pitwall::transport {
 namespace {
@@ -31,6 +35,19 @@ TEST(Realtime, AChildIsAnOrdinaryProcess) {
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), SCHED_OTHER);
   release_realtime();
+}
+
+TEST(Realtime, AThreadGivesWayAloneAndWithWhatItStarts) {
+  const int before = getpriority(PRIO_PROCESS, 0);
+  int own = 0, started = 0;
+  std::thread([&] {
+    give_way();
+    own = getpriority(PRIO_PROCESS, 0);
+    std::thread([&] { started = getpriority(PRIO_PROCESS, 0); }).join();
+  }).join();
+  EXPECT_EQ(own, std::min(before + 10, 19));
+  EXPECT_EQ(started, own);
+  EXPECT_EQ(getpriority(PRIO_PROCESS, 0), before);
 }
 
 TEST(Realtime, AnImpossiblePriorityIsRefusedWithItsReason) {
