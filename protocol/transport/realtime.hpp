@@ -20,8 +20,8 @@ struct RealtimeReport {
 RealtimeReport request_realtime(int priority);
 // Back to an ordinary thread: what it may take again lies unlocked and time-shared.
 void release_realtime();
-// For a thread whose work may wait: it, and threads that it starts, run after the ordinary ones where
-// they want the same processor.
+// For a thread whose work may wait: it, and threads that it starts, run after the ordinary ones
+// where they want the same processor.
 void give_way();
 // Only the memory lock.
 bool lock_memory();

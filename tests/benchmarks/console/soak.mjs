@@ -85,7 +85,15 @@ const frames = (page, ms) =>
     ms,
   );
 
+/** Of alarms, people and the car: a list is bounded, and grows until it is full. */
+const lines = (page) =>
+  page.evaluate(() => {
+    const { alarmEvents, audit, carEvents } = globalThis.pitwall.session;
+    return alarmEvents.value.length + audit.value.length + carEvents.value.length;
+  });
+
 async function watchMemory(gates, rig, page, devtools) {
+  gates.say("lines that the page keeps, at first", await lines(page), "");
   const heap = [];
   const resident = [];
   const busy = rig.busyMs();
@@ -97,6 +105,8 @@ async function watchMemory(gates, rig, page, devtools) {
   }
   gates.say("base, share of a core", ((rig.busyMs() - busy) / (now() - from)) * 100, "%");
   gates.say("a frame with 24 charts, p95", quantile(await frames(page, 10_000), 0.95), "ms");
+  gates.say("lines that the page keeps, at last", await lines(page), "");
+  console.log(`heap, MB: ${heap.map(({ value }) => value.toFixed(2)).join(" ")}`);
   const grows = slope(heap) * 60 * kMinuteMs;
   if (kJudged) gates.ask("heap of the page grows by", grows, 1, "MB/h");
   else gates.say("heap of the page grows by, history not full", grows, "MB/h");

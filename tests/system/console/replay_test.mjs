@@ -32,7 +32,7 @@ const different = (live, again) =>
     .filter((path) => live[path].some((part, i) => !Object.is(part, again[path]?.[i])))
     .map((path) => `${path}: ${live[path]} live, ${again[path]} again`);
 
-async function seek(page, atMs) {
+async function jump(page, atMs) {
   await page.evaluate((to) => {
     const socket = new WebSocket(`ws://${location.host}/ws`);
     socket.onopen = () => socket.send(JSON.stringify({ type: "playback", speed: 0, to_ms: to }));
@@ -40,6 +40,17 @@ async function seek(page, atMs) {
   await until(
     page,
     "the replay at that time",
+    (to) => Math.abs(globalThis.pitwall.session.playback.value?.now_ms - to) < 0.01,
+    atMs,
+  );
+}
+
+/** To the time of a sample. */
+async function seek(page, atMs) {
+  await jump(page, atMs);
+  await until(
+    page,
+    "its values",
     (to) => {
       const { playback, fields } = globalThis.pitwall.session;
       const newest = Math.max(...fields.value.entryMs);
@@ -147,4 +158,27 @@ test("before a run: the base's check list, and the recording that it makes", asy
     (last) => globalThis.pitwall.session.playback.value.now_ms < last,
     end,
   );
+
+  const { begin, jumps } = await page.evaluate(() => {
+    const { begin_ms, jumps } = globalThis.pitwall.session.playback.value;
+    return { begin: begin_ms, jumps };
+  });
+  const [from, to] = [begin + 0.3 * (end - begin), begin + 0.6 * (end - begin)];
+  const loop = page.locator('.dvr-bar button[title*="again and again"]');
+  for (const moment of [from, to]) {
+    await jump(page, moment);
+    await loop.click();
+  }
+  await page.locator('.dvr-bar button[aria-label="play"]').click();
+  await until(
+    page,
+    "two turns",
+    (most) => globalThis.pitwall.session.playback.value.jumps > most,
+    jumps + 2 + 2, // of them two to set the marks
+  );
+  const now = await page.evaluate(() => globalThis.pitwall.session.playback.value.now_ms);
+  assert.ok(now >= from - 1 && now < to + 1000, `${now} is within ${from} to ${to}`);
+  assert.equal(await loop.getAttribute("aria-pressed"), "true");
+  await loop.click();
+  assert.equal(await loop.getAttribute("aria-pressed"), "false");
 });

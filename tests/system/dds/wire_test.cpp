@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdio>
 #include <map>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "basestation/outlets/dds/ros_outlet.hpp"
+#include "protocol/transport/clock.hpp"
 #include "tests/basestation/outlets/ros_view/some_state.hpp"
 #include "tests/system/dds/cyclone_peer.hpp"
 
@@ -61,6 +64,29 @@ std::vector<std::string> split(const std::string& text, char between) {
   return parts;
 }
 
+// Peers that join one after the other, each told of all topics: tshark says that it captures a
+// little before it does.
+class Newcomers {
+ public:
+  ~Newcomers() {
+    ends_ = true;
+    thread_.join();
+  }
+
+ private:
+  void join_again_and_again() {
+    while (!ends_) {
+      const pitwall::testing::CyclonePeer peer{51};
+      for (int n = 0; n < 30 && !ends_; ++n) {
+        transport::sleep_until(transport::monotonic_now() + milliseconds(100));
+      }
+    }
+  }
+
+  std::atomic<bool> ends_ = false;
+  std::thread thread_{[this] { join_again_and_again(); }};
+};
+
 TEST(Wire, TsharkSeesTopicsTypesHashesAndTheEnclave) {
   Onlooker tshark{
       "exec timeout 60 tshark -i lo -l -f udp -T fields -e rtps.param.topicName "
@@ -74,7 +100,7 @@ TEST(Wire, TsharkSeesTopicsTypesHashesAndTheEnclave) {
   const ros_view::View view{config.view};
   auto outlet = start(std::move(config));
   ASSERT_TRUE(outlet) << to_string(outlet.error());
-  const pitwall::testing::CyclonePeer peer{51};  // to whom all is told
+  const Newcomers newcomers;  // to whom all is told
   std::map<std::string, std::string> types, hashes;
   bool enclave = false;
   while ((types.size() <= view.topics().size() || !enclave) && tshark.next(line)) {

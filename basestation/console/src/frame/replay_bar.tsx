@@ -2,9 +2,33 @@
  * The recorder's bar of a replay: where in the file the base is, how fast it plays, and jumps.
  */
 // SPDX-License-Identifier: Apache-2.0
+import { useEffect } from "preact/hooks";
 import * as session from "../store/session";
 import { clockText, durationText } from "../view/format";
+import { follow, loop, setMark } from "../view/loop";
 import { changeSpeed, seekFile, step, togglePlay } from "../view/transport";
+
+/** Sets A, then B, then ends the loop; says which of it comes next. */
+function LoopButton({ beginMs }: { beginMs: number }) {
+  useEffect(follow, []);
+  const now = loop.value;
+  const at = (ms: number) => durationText(ms - beginMs);
+  const words = !now
+    ? "Loop from A"
+    : now.toMs === null
+      ? `A ${at(now.fromMs)}, set B`
+      : `${at(now.fromMs)} \u2013 ${at(now.toMs)}, end`;
+  return (
+    <button
+      type="button"
+      onClick={setMark}
+      aria-pressed={now?.toMs != null}
+      title="plays a piece of the recording again and again"
+    >
+      {words}
+    </button>
+  );
+}
 
 export function ReplayBar() {
   const playback = session.playback.value;
@@ -35,6 +59,7 @@ export function ReplayBar() {
       <button type="button" onClick={() => changeSpeed(true)} aria-label="faster">
         +
       </button>
+      <LoopButton beginMs={begin_ms} />
       <output class="behind">
         {durationText(now_ms - begin_ms)} / {durationText(end_ms - begin_ms)}
       </output>
