@@ -1,0 +1,38 @@
+# Shortens what ctest prints: no line for a start, no row of dots. What failed is printed once more
+# before the summary, for who sees only the end of a log, and what passed only when it was run again
+# is named.
+# SPDX-License-Identifier: Apache-2.0
+
+# Lines until the next test belong to the one that failed.
+/^ +Start +[0-9]+: / { failing = ""; next }
+
+/^ *([0-9]+\/[0-9]+ +)?Test +#[0-9]+: / {
+  gsub(/ \.\.\.\.*/, " ...")
+  sub(/  # GetParam\(\) = .* \.\.\./, " ...")
+  failing = ""
+  match($0, /#[0-9]+/)
+  number = substr($0, RSTART, RLENGTH)
+  if ($0 !~ /(Passed|Skipped|\(Disabled\)) +[0-9.]+ sec/) {
+    failing = number
+    if (!(number in said)) order[tests++] = number
+    said[number] = said[number] $0 "\n"
+  } else if (number in said) {
+    again[number] = $0
+  }
+  print
+  fflush()
+  next
+}
+
+# The summary begins.
+/^[0-9]+% tests passed/ {
+  for (i = 0; i < tests; ++i) if (!(order[i] in again)) printf "-- once more: %s\n", said[order[i]]
+  for (i = 0; i < tests; ++i)
+    if (order[i] in again) printf "-- only the second time: %s\n", again[order[i]]
+  failing = ""
+}
+
+{
+  if (failing != "" && ++lines[failing] <= 400) said[failing] = said[failing] $0 "\n"
+  print
+}
