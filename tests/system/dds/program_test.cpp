@@ -4,10 +4,12 @@
 #include <peer.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "protocol/transport/process.hpp"
@@ -63,6 +65,42 @@ TEST_F(BaseProgram, IsANodeThatTellsItsTrackBeforeAnyCarIsThere) {
     for (const Endpoint& reader : peer.others(false))  // but our own
       EXPECT_EQ(reader.topic, "rt/raceline") << "it listens to nobody";
   }
+  base->kill(SIGINT);
+  EXPECT_TRUE(base->wait().success());
+}
+
+TEST_F(BaseProgram, TwoCarsHaveTopicsOfTheirOwn) {
+  std::ofstream file{in_folder("cars.yaml")};
+  file << "cars:\n";
+  for (const char* const car : {"7", "8"}) {
+    output_of(program_ + " keygen --out " + in_folder(car));
+    file << "  - {number: " << car << ", keys: " << car << "/base.keys, listen: ['127.0.0.1:0']}\n";
+  }
+  file.close();
+  auto base =
+      transport::Process::spawn({.argv = {program_, "--cars", in_folder("cars.yaml"), "--track",
+                                          "lvms", "--ros", "--ros-domain", "53"}});
+  ASSERT_TRUE(base) << to_string(base.error());
+  std::multiset<std::string> of_each, of_both;  // topics; those that are named once for all
+  {
+    CyclonePeer peer{53};
+    const auto sort = [&] {
+      of_each.clear(), of_both.clear();
+      for (const Endpoint& writer : peer.others(true)) {
+        const bool own =
+            writer.topic.starts_with("rt/car7/") || writer.topic.starts_with("rt/car8/");
+        if (own) of_each.insert(writer.topic.substr(std::string{"rt/car7/"}.size()));
+        if (!own) of_both.insert(writer.topic);
+      }
+      return of_both.size() == 6 && of_each.contains("raceline") &&
+             of_each.contains("diagnostics") &&
+             std::ranges::all_of(of_each, [&](auto& topic) { return of_each.count(topic) == 2; });
+    };
+    EXPECT_TRUE(comes(sort)) << of_each.size() << ", " << of_both.size();
+  }
+  EXPECT_EQ(of_both,
+            (std::multiset<std::string>{"ros_discovery_info", "ros_discovery_info", "rt/tf",
+                                        "rt/tf", "rt/tf_static", "rt/tf_static"}));
   base->kill(SIGINT);
   EXPECT_TRUE(base->wait().success());
 }

@@ -288,13 +288,16 @@ TEST(RosPeers, AReaderThatStopsCostsNobodyElseAnything) {
   const auto odom = peer.reader(peer_Odometry_desc, "nav_msgs::msg::dds_::Odometry_",
                                 "rt/vehicle/odom", {.depth = 1'000});
   ASSERT_TRUE(base.turns_until([&] { return base.figures().clients == 2; }));
-  std::size_t got = 0;
+  std::size_t got = 0, turns = 0;
   EXPECT_TRUE(base.turns_until([&] {
+    ++turns;
     while (CyclonePeer::take<peer_Odometry>(odom)) ++got;
     return got >= 200;
   })) << got;
   EXPECT_EQ(base.figures().failed, 0U);
-  EXPECT_TRUE(base.figures().dropped.empty());
+  // A writer that waited for the stopped one would be five turns late each time; what a busy
+  // machine passes over by itself is little.
+  for (const auto& [topic, count] : base.figures().dropped) EXPECT_LE(count, turns / 5) << topic;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdio>
 #include <map>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -87,9 +88,30 @@ class Newcomers {
   std::thread thread_{[this] { join_again_and_again(); }};
 };
 
+// What an onlooker has heard of each topic so far; of a participant, its enclave.
+struct Heard {
+  std::map<std::string, std::set<std::string>> types, hashes;
+  bool enclave = false;
+
+  void take(const std::string& line) {
+    const std::vector<std::string> columns = split(line, '\t');
+    if (columns.size() < 3) return;
+    enclave = enclave || (columns[0].empty() && columns[2] == hex("enclave=/;"));
+    const auto topics = split(columns[0], ','), names = split(columns[1], ','),
+               data = split(columns[2], ',');
+    // Where a datagram tells of endpoints with and without data, nobody knows whose it is.
+    if (topics[0].empty() || topics.size() != names.size() || topics.size() != data.size()) return;
+    for (std::size_t i = 0; i < topics.size(); ++i) {
+      types[topics[i]].insert(names[i]);
+      hashes[topics[i]].insert(data[i]);
+    }
+  }
+};
+
 TEST(Wire, TsharkSeesTopicsTypesHashesAndTheEnclave) {
+  using Names = std::set<std::string>;
   Onlooker tshark{
-      "exec timeout 60 tshark -i lo -l -f udp -T fields -e rtps.param.topicName "
+      "exec timeout 120 tshark -i lo -l -f udp -T fields -e rtps.param.topicName "
       "-e rtps.param.typeName -e rtps.param.userData 2>&1"};
   std::string line;
   while (tshark.next(line) && line.find("Capturing on") == line.npos) {
@@ -101,26 +123,18 @@ TEST(Wire, TsharkSeesTopicsTypesHashesAndTheEnclave) {
   auto outlet = start(std::move(config));
   ASSERT_TRUE(outlet) << to_string(outlet.error());
   const Newcomers newcomers;  // to whom all is told
-  std::map<std::string, std::string> types, hashes;
-  bool enclave = false;
-  while ((types.size() <= view.topics().size() || !enclave) && tshark.next(line)) {
-    const std::vector<std::string> columns = split(line, '\t');
-    if (columns.size() < 3) continue;
-    enclave = enclave || (columns[0].empty() && columns[2] == hex("enclave=/;"));
-    const auto topics = split(columns[0], ','), names = split(columns[1], ','),
-               data = split(columns[2], ',');
-    for (std::size_t i = 0; i < std::min({topics.size(), names.size(), data.size()}); ++i) {
-      if (topics[i].empty()) continue;
-      types[topics[i]] = names[i];
-      hashes[topics[i]] = data[i];
-    }
-  }
-  EXPECT_TRUE(enclave);
-  EXPECT_EQ(types["ros_discovery_info"], "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_");
-  EXPECT_EQ(types["rt/vehicle/odom"], "nav_msgs::msg::dds_::Odometry_");
-  EXPECT_EQ(types["rt/base/tyres"], "pitwall_msgs::msg::dds_::Tyres_");
+  Heard heard;
+  const std::size_t all = view.topics().size() + 1;  // and ros_discovery_info
+  while ((heard.types.size() < all || !heard.enclave) && tshark.next(line)) heard.take(line);
+  EXPECT_TRUE(heard.enclave);
+  EXPECT_EQ(heard.types.size(), all);
+  EXPECT_EQ(heard.types["ros_discovery_info"],
+            Names{"rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_"});
+  EXPECT_EQ(heard.types["rt/vehicle/odom"], Names{"nav_msgs::msg::dds_::Odometry_"});
+  EXPECT_EQ(heard.types["rt/base/tyres"], Names{"pitwall_msgs::msg::dds_::Tyres_"});
   for (const ros_view::Topic& topic : view.topics())
-    EXPECT_EQ(hashes["rt" + topic.name], hex("typehash=" + topic.hash + ";")) << topic.name;
+    EXPECT_EQ(heard.hashes["rt" + topic.name], Names{hex("typehash=" + topic.hash + ";")})
+        << topic.name;
 }
 
 }  // namespace
