@@ -80,8 +80,8 @@ foxglove::DeskConfig desk_of(const Arguments& a, std::size_t car, ros_view::View
   return config;
 }
 
-void say_where(const transport::UdpAddress& address, const Say& say) {
-  say("Foxglove at ws://" + to_string(address));
+void say_where(const transport::UdpAddress& address, const std::string& whose, const Say& say) {
+  say(whose + "Foxglove at ws://" + to_string(address));
 }
 
 }  // namespace
@@ -137,7 +137,8 @@ Result<bool, Problem> attach_tools(CarStand& stand, const ToolPlace& place, cons
     auto started =
         foxglove::FoxgloveOutlet::start(desk_of(a, place.car, *std::move(view)), std::move(look));
     if (!started) return Unexpected{started.error()};
-    say_where((*started)->local(), say);
+    say_where((*started)->local(),
+              place.cars > 1 ? "car " + std::to_string(a.car) + ": " : std::string{}, say);
     attach(*std::move(started));
   }
   if (a.ros) {
@@ -163,7 +164,7 @@ Result<std::unique_ptr<foxglove::FoxgloveReplay>, Problem> foxglove_of_replay(
   auto view = view_of(a, 1);
   if (!view) return Unexpected{view.error()};
   auto started = foxglove::FoxgloveReplay::start(desk_of(a, 0, *std::move(view)), player);
-  if (started) say_where((*started)->local(), say);
+  if (started) say_where((*started)->local(), "", say);
   return started;
 }
 

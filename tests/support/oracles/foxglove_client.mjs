@@ -1,4 +1,6 @@
-// Foxglove's own client on a Foxglove WebSocket server: foxglove_client.mjs live|replay ADDRESS.
+// Foxglove's own client on a Foxglove WebSocket server: foxglove_client.mjs live|replay ADDRESS, or
+// of one of several cars, whose topics begin with SPACE and which is that fast:
+// foxglove_client.mjs space ADDRESS SPACE SPEED.
 // Ends with 1 and says why where something is not as the protocol has it.
 // SPDX-License-Identifier: Apache-2.0
 import library from "@foxglove/ws-protocol";
@@ -9,7 +11,7 @@ import { WebSocket } from "ws";
 const { FoxgloveClient } = library;
 const kPatienceMs = 15_000;
 const kProtocols = ["foxglove.websocket.v1", "foxglove.sdk.v1"];
-const [mode, address] = process.argv.slice(2);
+const [mode, address, space, speed] = process.argv.slice(2);
 
 function expect(condition, what) {
   if (condition) return;
@@ -220,5 +222,19 @@ async function replay() {
   console.log(`${viewer.states.length} states of the playback`);
 }
 
-await (mode === "replay" ? replay() : live());
+async function ofOneCar() {
+  const viewer = await Viewer.open(kProtocols[1]);
+  const transforms = ["/tf", "/tf_static"]; // of all cars, as ROS has it
+  for (const { topic } of viewer.channels) {
+    expect(topic.startsWith(`${space}/`) || transforms.includes(topic), `${topic} is of ${space}`);
+  }
+  viewer.subscribe();
+  const { value: ego } = await until("its state", () => viewer.messages.get(`${space}/car/ego`));
+  expect(Math.abs(ego.vx - Number(speed)) < 0.1, `a speed of ${ego.vx}`);
+  const link = await until("its link", () => viewer.messages.get(`${space}/base/values/link`));
+  const frame = link.value.header.frame_id;
+  expect(frame === `${space.slice(1)}/base_link`, `the frame ${frame}`);
+}
+
+await { live, replay, space: ofOneCar }[mode]();
 process.exit(0);

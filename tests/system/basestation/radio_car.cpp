@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A car's end of the radio as a process, with recognisable values: radio_car KEYS ADDRESS SECONDS
 // [ADDRESS2]. Prints what the base wanted of it: "stop LEVEL", "command NAME ARGUMENT", and at the
-// end "sessions N".
+// end "sessions N". PITWALL_CAR_SPEED_MPS: its speed, where two are to be told apart.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,11 @@ using telemetry::Group;
 
 constexpr Duration kTick = milliseconds(10);
 constexpr double kGreen = 4.0, kAttacker = 10.0;  // flags as race control shows them
+
+double speed_of_this_one() {
+  const char* const asked = std::getenv("PITWALL_CAR_SPEED_MPS");
+  return asked == nullptr ? 50.5 : std::stod(asked);
+}
 
 class Car {
  public:
@@ -44,8 +50,8 @@ class Car {
     values[field("mode.stop_challenge")] = radio_.end().view(now).stop_challenge;
     values[field("mode.stop_latch")] = static_cast<double>(radio_.end().view(now).stop);
     values[field("ego.x")] = 12.5;
-    values[field("ego.vx")] = 50.5;
-    values[field("track.station")] = std::min(50.5 * time_s, 12'000.0);
+    values[field("ego.vx")] = speed_mps_;
+    values[field("track.station")] = std::min(speed_mps_ * time_s, 12'000.0);
     values[field("tyres.pressure_rear_left")] = 152.5;
     values[field("flags.track")] = values[field("flags.track_acted_on")] = kGreen;
     values[field("flags.vehicle")] = values[field("flags.vehicle_acted_on")] = kAttacker;
@@ -70,6 +76,7 @@ class Car {
     std::fflush(stdout);
   }
 
+  const double speed_mps_ = speed_of_this_one();
   testing::CarRadio radio_;
   telemetry::Snapshot snapshot_;
   telemetry::StopLevel stop_ = telemetry::StopLevel::kNone;

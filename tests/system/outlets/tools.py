@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """Foxglove, LCM and Prometheus attach to a real base: tools.py BASE CAR TREE"""
 # SPDX-License-Identifier: Apache-2.0
-import atexit
 import json
 import os
 import re
@@ -12,92 +11,13 @@ import subprocess
 import sys
 import tempfile
 import time
-import urllib.request
 from pathlib import Path
 
-BASE, CAR, TREE = sys.argv[1], sys.argv[2], Path(sys.argv[3])
+from attached import (BASE, LCM_GROUP, LCM_PORT, TREE, Base, expect, foxglove, keys_in, start_car,
+                      start_lcm_logger, until, value)
+
 sys.path.insert(0, str(TREE / "tests/system/recorder"))
 import lcm_oracle  # noqa: E402
-
-ORACLES = TREE / "tests/support/oracles"
-GROUP, PORT = "239.255.76.67", 7667
-RUN_S = 40  # the car's, longer than what attaches
-
-
-STARTED = []
-
-
-@atexit.register
-def end_all():
-    for process in STARTED:
-        process.kill()
-
-
-def start(words, **pipes):
-    STARTED.append(subprocess.Popen(words, **{"stdout": subprocess.DEVNULL, **pipes}))
-    return STARTED[-1]
-
-
-def expect(condition, what):
-    if not condition:
-        sys.exit(f"FAILED: {what}")
-
-
-class Base:
-    """A pitwall-base, with the addresses that it says."""
-
-    def __init__(self, *flags):
-        self.process = start([BASE, *flags], stderr=subprocess.PIPE, text=True)
-        self.said, self.at = "", {}
-        names = {"radio": r"listening at ([\d.:]+)", "web": r"console at (http://[\d.:]+)",
-                 "foxglove": r"Foxglove at (ws://[\d.:]+)"}
-        while "foxglove" not in self.at or "web" not in self.at:
-            line = self.process.stderr.readline()
-            expect(line, f"the addresses are said: {self.said}")
-            self.said += line
-            for name, pattern in names.items():
-                if found := re.search(pattern, self.said):
-                    self.at[name] = found.group(1)
-
-    def metrics(self):
-        with urllib.request.urlopen(self.at["web"] + "/metrics", timeout=10) as answer:
-            expect(answer.headers["Content-Type"].startswith("text/plain; version=0.0.4"), "type")
-            return answer.read().decode()
-
-    def end(self):
-        self.process.send_signal(signal.SIGTERM)
-        _, errors = self.process.communicate(timeout=30)
-        expect(self.process.returncode == 0, f"exit code {self.process.returncode}: {errors}")
-
-
-def value(metrics, metric, /, **labels):
-    """Of the only sample with these labels; None: there is none."""
-    for line in metrics.splitlines():
-        found = re.fullmatch(rf"{metric}(?:{{(.*)}})? (\S+)", line)
-        if not found:
-            continue
-        told = dict(re.findall(r'(\w+)="((?:[^"\\]|\\.)*)"', found.group(1) or ""))
-        if labels.items() <= told.items():
-            return float(found.group(2))
-    return None
-
-
-def foxglove(mode, base):
-    node = ORACLES / "node_modules/.bin/node"
-    expect(node.exists(), "the npm packages of the tests are installed (./pitwall setup)")
-    done = subprocess.run([node, ORACLES / "foxglove_client.mjs", mode, base.at["foxglove"]],
-                          capture_output=True, text=True, timeout=90)
-    expect(done.returncode == 0, f"Foxglove's client, {mode}: {done.stdout}{done.stderr}")
-    return done.stdout.strip()
-
-
-def until(what, find, patience_s=15):
-    end = time.monotonic() + patience_s
-    while time.monotonic() < end:
-        if found := find():
-            return found
-        time.sleep(0.1)
-    return expect(False, f"waited in vain for {what}")
 
 
 def prometheus_reads_it(base):
@@ -139,7 +59,7 @@ def sockets_of(process):
 
 
 def an_lcm_flood_is_not_even_heard(base):
-    expect(PORT not in sockets_of(base.process), "nothing of the base listens to LCM")
+    expect(LCM_PORT not in sockets_of(base.process), "nothing of the base listens to LCM")
     before = base.metrics()
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as flood:
         for number in range(20_000):
@@ -147,7 +67,7 @@ def an_lcm_flood_is_not_even_heard(base):
                 packet = os.urandom(number % 900)
             else:
                 packet = struct.pack(">4sI", b"LC02", number) + b"/car/command\0" + bytes(64)
-            flood.sendto(packet, (GROUP, PORT))
+            flood.sendto(packet, (LCM_GROUP, LCM_PORT))
     packets = value(before, "pitwall_packets_total")
     after = until("packets of the car after the flood", lambda: (
         lambda text: text if value(text, "pitwall_packets_total") > packets + 50 else None)(
@@ -187,7 +107,7 @@ def lcm_decodes_it(log, folder):
 def mistakes_are_named(folder):
     keys = ["--keys", str(folder / "keys/base.keys"), "--listen", "127.0.0.1:0", "--duration", "5"]
     for flags, what in ((["--lcm", "file:///tmp/x"], "udpm://"),
-                        (["--lcm", f"udpm://{GROUP}:{PORT}?ttl=1"], "--network"),
+                        (["--lcm", f"udpm://{LCM_GROUP}:{LCM_PORT}?ttl=1"], "--network"),
                         (["--lcm", "udpm://127.0.0.1:7667"], "multicast"),
                         (["--foxglove", "99999"], "--foxglove")):
         done = subprocess.run([BASE, *keys, *flags], capture_output=True, text=True, timeout=20)
@@ -196,16 +116,16 @@ def mistakes_are_named(folder):
 
 def main():
     folder = Path(tempfile.mkdtemp(prefix="pitwall_tools_"))
-    subprocess.run([BASE, "keygen", "--out", str(folder / "keys")], check=True, capture_output=True)
+    base_keys, car_keys = keys_in(folder / "keys")
     mistakes_are_named(folder)
     log = folder / "lcm.log"
-    logger = start(["lcm-logger", "--quiet", f"--lcm-url=udpm://{GROUP}:{PORT}?ttl=0", str(log)])
-    base = Base("--keys", str(folder / "keys/base.keys"), "--listen", "127.0.0.1:0", "--web", "0",
+    logger = start_lcm_logger(log)
+    base = Base("--keys", base_keys, "--listen", "127.0.0.1:0", "--web", "0",
                 "--foxglove", "0", "--lcm", "--track", "lvms", "--car", "7", "--car-name", "Seven",
                 "--record", str(folder / "rec"))
-    car = start([CAR, str(folder / "keys/car.keys"), base.at["radio"], str(RUN_S)])
+    car = start_car(car_keys, base.at["radio"])
     lines = prometheus_reads_it(base)
-    told = foxglove("live", base)
+    told = foxglove("live", base.at["foxglove"])
     what_foxglove_did_is_counted(base)
     an_lcm_flood_is_not_even_heard(base)
     until("the flood in the logger", lambda: log.exists() and log.stat().st_size > 100_000)
@@ -216,7 +136,7 @@ def main():
     logger.wait(timeout=20)
     events = lcm_decodes_it(log, folder)
     again = Base("--replay", str(folder / "rec"), "--web", "0", "--foxglove", "0")
-    wound = foxglove("replay", again)
+    wound = foxglove("replay", again.at["foxglove"])
     again.end()
     subprocess.run(["rm", "-r", str(folder)], check=True)
     print(f"{lines} lines of metrics; Foxglove: {told}, {wound}; LCM: {events} messages")
