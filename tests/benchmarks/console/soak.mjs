@@ -23,6 +23,8 @@ const kFillMs = Math.min(11, kMinutes * 0.4) * kMinuteMs;
 const kSleepMs = Math.min(5, kMinutes * 0.2) * kMinuteMs;
 const kWatchMs = kMinutes * kMinuteMs - kFillMs - kSleepMs;
 const kSamples = 30;
+const kReadings = 5;
+const kBetweenMs = 700;
 const kCharts = 24;
 const kBytesPerMb = 1024 * 1024;
 // Of a quarter of an hour, beside the base's hour of history, which has a bound of its own. What
@@ -58,11 +60,19 @@ async function stoppedConsole(rig) {
   return console;
 }
 
-/** Heap and buffers of the page in MB, after a collection. */
+/**
+ * Heap and buffers of the page in MB, after a collection: the least of some readings, as a picture
+ * that has just come in is nothing that the page keeps.
+ */
 async function heapMb(devtools) {
-  await devtools.send("HeapProfiler.collectGarbage");
-  const heap = await devtools.send("Runtime.getHeapUsage");
-  return (heap.usedSize + (heap.backingStorageSize ?? 0)) / kBytesPerMb;
+  const readings = [];
+  for (let n = 0; n < kReadings; ++n) {
+    if (n > 0) await pause(kBetweenMs);
+    await devtools.send("HeapProfiler.collectGarbage");
+    const heap = await devtools.send("Runtime.getHeapUsage");
+    readings.push((heap.usedSize + (heap.backingStorageSize ?? 0)) / kBytesPerMb);
+  }
+  return Math.min(...readings);
 }
 
 /** How many frames the page drew in this time, and the longest that most of them took. */
@@ -99,7 +109,7 @@ async function watchMemory(gates, rig, page, devtools) {
   const busy = rig.busyMs();
   const from = now();
   for (let n = 0; n < kSamples; ++n) {
-    await pause(kWatchMs / kSamples);
+    await pause(kWatchMs / kSamples - (kReadings - 1) * kBetweenMs);
     heap.push({ at: now(), value: await heapMb(devtools) });
     resident.push({ all: rig.residentMb(), history: await rig.historyMb() });
   }

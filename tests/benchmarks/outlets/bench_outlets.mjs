@@ -15,12 +15,13 @@ import { createServer } from "node:net";
 import { createInterface } from "node:readline";
 import { fileURLToPath } from "node:url";
 import { judged } from "../console/gates.mjs";
-import { Rig, Viewer, delays, eventually, now, pause, quantile } from "../console/rig.mjs";
+import { Quiet } from "../console/quiet.mjs";
+import { Rig, Viewer, eventually, now, pause, quantile } from "../console/rig.mjs";
 
 const kRounds = 3;
 const kClients = 4;
 const kSettleMs = 3000;
-const kListenMs = 15_000;
+const kWindows = 5;
 const kReader = fileURLToPath(new URL("reader.mjs", import.meta.url));
 
 async function freePort() {
@@ -84,16 +85,16 @@ async function listen(withOutlets) {
     if (withOutlets) tools = await attach(port);
     await pause(kSettleMs);
     const first = rig.left.length;
-    const busy = rig.busyMs();
     const lost = await metric(rig, "pitwall_packets_lost_total");
     const had = tools ? (await tools.reads.had())[0] : 0;
     const from = now();
-    await pause(kListenMs);
+    const quiet = await Quiet.watch(kWindows, () => rig.busyMs());
     const lasted = now() - from;
-    const late = viewers.flatMap((viewer) => delays(rig.left.slice(first, -2), viewer.seen));
+    const left = rig.left.slice(first, -2);
     const figures = {
-      late,
-      share: (rig.busyMs() - busy) / lasted,
+      late: viewers.flatMap((viewer) => quiet.delays(left, viewer.seen)),
+      share: quiet.share,
+      disturbed: quiet.disturbed,
       lost: (await metric(rig, "pitwall_packets_lost_total")) - lost,
       dropped: viewers.reduce((sum, viewer) => sum + viewer.dropped, 0),
       posts: await metric(rig, "pitwall_web_posts_dropped_total"),
@@ -114,7 +115,11 @@ async function listen(withOutlets) {
 
 const sum = (rounds, name) => rounds.reduce((total, round) => total + round[name], 0);
 const mean = (rounds, name) => sum(rounds, name) / rounds.length;
-const lateOf = (rounds, share) => quantile(rounds.flatMap(({ late }) => late), share);
+const lateOf = (rounds, share) =>
+  quantile(
+    rounds.flatMap(({ late }) => late),
+    share,
+  );
 
 async function measure(gates) {
   const without = [];
@@ -125,6 +130,12 @@ async function measure(gates) {
   }
   console.log(`${kClients} consoles; outlets: ${outletFlags(0).join(" ")}; one reader stopped`);
   const alone = lateOf(without, 0.99);
+  const disturbed = sum([...without, ...all], "disturbed");
+  gates.say(
+    `windows passed over, the host being busy, for ${2 * kRounds * kWindows}`,
+    disturbed,
+    "",
+  );
   gates.say("packet to WebSocket, p50, without outlets", lateOf(without, 0.5), "ms");
   gates.say("packet to WebSocket, p50, with all", lateOf(all, 0.5), "ms");
   gates.say("packet to WebSocket, p99, without outlets", alone, "ms");
