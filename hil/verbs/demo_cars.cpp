@@ -2,6 +2,7 @@
 #include "hil/verbs/demo_cars.hpp"
 
 #include <array>
+#include <filesystem>
 
 #include "hil/bench/live_plan.hpp"
 
@@ -49,6 +50,18 @@ std::vector<DemoCar> demo_cars(int count, const std::string& folder, DemoBus bus
                     .radio_port = own(kRadioPort)});
   }
   return cars;
+}
+
+Result<bool, Problem> set_recording_aside(const DemoCar& car) {
+  namespace fs = std::filesystem;
+  const fs::path recording = fs::path{car.folder} / "recording",
+                 before = fs::path{car.folder} / "recording_before";
+  std::error_code error;
+  if (!fs::exists(recording, error)) return true;
+  fs::remove_all(before, error);
+  if (!error) fs::rename(recording, before, error);
+  if (error) return Unexpected{Problem{recording.string(), error.message()}};
+  return true;
 }
 
 std::string cars_text(std::span<const DemoCar> cars) {

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "protocol/vocabulary/result.hpp"
+
 namespace pitwall::verbs {
 
 inline constexpr int kDemoCarsMax = 4;
@@ -39,6 +41,9 @@ struct DemoCar {
 };
 
 std::vector<DemoCar> demo_cars(int count, const std::string& folder, DemoBus bus);
+// A base knows its car again from its recording, and a demo's car has no past: what the demo before
+// recorded lies in `recording_before` afterwards, in place of what was there.
+Result<bool, Problem> set_recording_aside(const DemoCar& car);
 // Beside the cars' folders.
 std::string cars_text(std::span<const DemoCar> cars);
 

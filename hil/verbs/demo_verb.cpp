@@ -212,6 +212,7 @@ Result<bool, Problem> prepare(const DemoOptions& options, std::span<const DemoCa
     std::error_code error;
     fs::create_directories(car.folder, error);
     if (error) return Unexpected{Problem{car.folder, error.message()}};
+    if (auto aside = set_recording_aside(car); !aside) return aside;
     auto made = bench::make_run_keys(car.folder + "/keys");
     if (!made) return made;
   }

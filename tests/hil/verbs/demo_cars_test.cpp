@@ -2,7 +2,10 @@
 #include "hil/verbs/demo_cars.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "protocol/yaml/strict_map.hpp"
@@ -48,6 +51,26 @@ TEST(DemoCars, SeveralTakeSocketsWhereAGuestForEachWouldFallBehind) {
   EXPECT_EQ(bus_for(2, 4), DemoBus::kVcan);
   EXPECT_EQ(bus_for(2, 0), DemoBus::kSocket) << "a machine that does not tell";
   EXPECT_EQ(demo_cars(2, "out/demo", DemoBus::kSocket)[1].interface(), "unix:out/demo/car_8/bus");
+}
+
+TEST(DemoCars, TheRecordingOfTheDemoBeforeIsKeptAside) {
+  namespace fs = std::filesystem;
+  const fs::path folder =
+      fs::temp_directory_path() / ("pitwall-demo-cars-" + std::to_string(getpid()));
+  fs::create_directory(folder);
+  const DemoCar car = demo_cars(1, folder.string(), DemoBus::kVcan).front();
+  const fs::path recording = fs::path{car.folder} / "recording",
+                 before = fs::path{car.folder} / "recording_before";
+  ASSERT_TRUE(set_recording_aside(car)) << "there was no demo yet";
+  for (const char* const segment : {"first.mcap", "second.mcap"}) {
+    fs::create_directory(recording);
+    std::ofstream{recording / segment} << "bytes";
+    ASSERT_TRUE(set_recording_aside(car));
+    EXPECT_FALSE(fs::exists(recording));
+    EXPECT_TRUE(fs::exists(before / segment));
+  }
+  EXPECT_FALSE(fs::exists(before / "first.mcap")) << "one demo is kept, not all";
+  fs::remove_all(folder);
 }
 
 TEST(DemoCars, TheBasesFileNamesEachWithItsOwn) {
