@@ -79,11 +79,12 @@ Result<bool, Problem> plan_web(const Arguments& a, Plan& plan, const Say& say) {
   plan.wall.name = a.car_name;
   plan.wall.up_cap_kbit_s = a.budget_kbit;
   plan.wall.tokens = plan.http.access.tokens;
-  const auto& limits = plan.wall.watch.limits;
-  plan.http.documents.emplace(
-      "/api/catalogue", wall::catalogue_text([&](picture::FieldId id) -> const picture::Limit& {
-        return limits.of(id);
-      }));
+  const picture::WatchConfig& watch = plan.wall.watch;
+  const auto limit_of = [&](picture::FieldId id) -> const picture::Limit& {
+    return watch.limits.of(id);
+  };
+  plan.http.documents.emplace("/api/catalogue",
+                              wall::catalogue_text(limit_of, watch.derive.fuel.attempt_laps));
   return true;
 }
 

@@ -177,7 +177,7 @@ describe("another car in the same chart", () => {
   }));
   /** Rows of a car that has the speed `vx` at these moments. */
   const drive = (car: CarSession, vx: number, timesMs: readonly number[]) => {
-    car.takeCatalogue({ fields: info, commands: [] });
+    car.takeCatalogue({ fields: info, commands: [], race: { attempt_laps: 2, pass_gap_m: 30 } });
     car.history.value = new History(2, 64);
     for (const at of timesMs) {
       car.fields.value.write(0, 0, 0, vx, at);

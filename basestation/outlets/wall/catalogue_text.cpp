@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "basestation/outlets/wall/snapshots.hpp"
+#include "basestation/picture/incidents/attempt.hpp"
 #include "protocol/json/json_text.hpp"
 #include "protocol/telemetry/command/command_table.hpp"
 
@@ -120,7 +121,7 @@ std::string command_text(const telemetry::CommandRow& row) {
 
 }  // namespace
 
-std::string catalogue_text(const LimitOf& limit_of) {
+std::string catalogue_text(const LimitOf& limit_of, double attempt_laps) {
   Array fields, commands;
   for (const picture::FieldId id : told_fields()) fields.json(field_text(id, limit_of(id)));
   for (const telemetry::CommandRow& row : telemetry::kCommandTable)
@@ -129,6 +130,10 @@ std::string catalogue_text(const LimitOf& limit_of) {
       .text("type", "catalogue")
       .json("fields", fields.str())
       .json("commands", commands.str())
+      .json("race", Object{}
+                        .number("attempt_laps", attempt_laps)
+                        .number("pass_gap_m", picture::kPassGap_m)
+                        .str())
       .str();
 }
 

@@ -1,5 +1,5 @@
 // The list of all fields and commands as the console reads it: see PROTOCOL.md.
-//   in     the registry, the base's own fields, the limits in force
+//   in     the registry, the base's own fields, the limits in force, the laps of an attempt
 //   out    one JSON object, type "catalogue"
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -13,6 +13,6 @@ namespace pitwall::outlets::wall {
 
 using LimitOf = std::function<const picture::Limit&(picture::FieldId)>;
 
-std::string catalogue_text(const LimitOf& limit_of);
+std::string catalogue_text(const LimitOf& limit_of, double attempt_laps);
 
 }  // namespace pitwall::outlets::wall

@@ -26,9 +26,9 @@ ReplayWall::ReplayWall(WallConfig config, replay::Player player, web::WebServer&
     : config_(std::move(config)),
       player_(std::move(player)),
       server_(server),
-      room_(catalogue_text([this](picture::FieldId id) -> const picture::Limit& {
-        return config_.watch.limits.of(id);
-      })) {
+      room_(catalogue_text([this](picture::FieldId id)
+                               -> const picture::Limit& { return config_.watch.limits.of(id); },
+                           config_.watch.derive.fuel.attempt_laps)) {
   restart(player_.begin());
   jumps_ = 0;
   room_.identify({.car = config_.car, .name = config_.name, .mode = "REPLAY", .alarm_config = {}},

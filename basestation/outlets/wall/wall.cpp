@@ -73,7 +73,8 @@ std::optional<Problem> Wall::settings_problem() const {
 
 std::string Wall::catalogue() const {
   return catalogue_text(
-      [this](picture::FieldId id) -> const picture::Limit& { return watch_.limits().of(id); });
+      [this](picture::FieldId id) -> const picture::Limit& { return watch_.limits().of(id); },
+      watch_.params().fuel.attempt_laps);
 }
 
 void Wall::packet(const intake::Station& station, const telemetry::Arrival& arrival) {

@@ -116,7 +116,7 @@ export function catalogue(program = process.env.PITWALL_BASE ?? kProgram) {
       });
     }
   }
-  return { fields, commands: registry.commands };
+  return { fields, commands: registry.commands, race: { attempt_laps: 2, pass_gap_m: 30 } };
 }
 
 export class Double {

@@ -58,6 +58,7 @@ export class CarSession {
   readonly carEvents = signal<readonly Wire.CarEvent[]>([]);
   readonly link = signal<Wire.Link | null>(null);
   readonly notices = signal<readonly Wire.Notice[]>([]);
+  readonly race = signal<Wire.RaceRules | null>(null);
   readonly fuel = signal<Wire.Fuel | null>(null);
   readonly expected = signal<Wire.Expected | null>(null);
   readonly settings = signal<Wire.Settings | null>(null);
@@ -115,6 +116,7 @@ export class CarSession {
       known.length === catalogue.fields.length &&
       known.every((f, i) => f.id === catalogue.fields[i].id && f.path === catalogue.fields[i].path);
     this.commands.value = catalogue.commands;
+    this.race.value = catalogue.race;
     if (same) {
       known.forEach((f, i) => (f.limits = catalogue.fields[i].limits));
       return;

@@ -46,6 +46,7 @@ export const audit = new OfShown((car) => car.audit);
 export const carEvents = new OfShown((car) => car.carEvents);
 export const link = new OfShown((car) => car.link);
 export const notices = new OfShown((car) => car.notices);
+export const race = new OfShown((car) => car.race);
 export const fuel = new OfShown((car) => car.fuel);
 export const expected = new OfShown((car) => car.expected);
 export const settings = new OfShown((car) => car.settings);

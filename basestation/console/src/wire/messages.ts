@@ -55,9 +55,16 @@ export interface CommandInfo {
   needs_authority: boolean;
 }
 
+/** What the passing competition counts with. */
+export interface RaceRules {
+  attempt_laps: number;
+  pass_gap_m: number;
+}
+
 export interface Catalogue {
   fields: FieldInfo[];
   commands: CommandInfo[];
+  race: RaceRules;
 }
 
 export interface Alarm {

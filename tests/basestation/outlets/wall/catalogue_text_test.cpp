@@ -15,7 +15,8 @@ namespace {
 TEST(Catalogue, HasEveryFieldOnceWithItsLimits) {
   const picture::Limits limits;
   const auto catalogue = json::JsonValue::parse(
-      catalogue_text([&](picture::FieldId id) -> const picture::Limit& { return limits.of(id); }),
+      catalogue_text([&](picture::FieldId id) -> const picture::Limit& { return limits.of(id); },
+                     3),
       "catalogue");
   ASSERT_TRUE(catalogue);
   EXPECT_EQ(catalogue->text("type"), "catalogue");
@@ -35,6 +36,8 @@ TEST(Catalogue, HasEveryFieldOnceWithItsLimits) {
   EXPECT_TRUE(paths.contains("ego.x") && paths.contains("link.state"));
   EXPECT_FALSE(paths.contains("stop.level")) << "what goes up is no field of the car";
   EXPECT_EQ(catalogue->items("commands").size(), telemetry::kCommandTypes);
+  EXPECT_EQ(catalogue->find("race")->number("attempt_laps"), 3);
+  EXPECT_EQ(catalogue->find("race")->number("pass_gap_m"), 30);
 }
 
 }  // namespace

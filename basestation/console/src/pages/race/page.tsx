@@ -6,15 +6,13 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { ComponentChildren } from "preact";
 import { Flag } from "../../frame/flag_tile";
+import { race } from "../../store/session";
 import { Bar } from "../../view/bar";
 import { Line, Tile } from "../../view/value";
 import { Notices } from "../link/page";
 import { FuelPanel } from "../primary/fuel_panel";
 import "./race.css";
 
-/** Of an attempt, and the lead that makes it a pass: as the base reckons with them. */
-const kAttemptLaps = 2;
-const kPassGapM = 30;
 const kGapShownM = 120;
 
 function FlagRow({ source, children }: { source: string; children: ComponentChildren }) {
@@ -70,6 +68,7 @@ function SpeedPanel() {
 }
 
 function AttemptPanel() {
+  const rules = race.value;
   return (
     <section class="panel" aria-label="attempt" tabIndex={0}>
       <h2>Attempt</h2>
@@ -83,7 +82,9 @@ function AttemptPanel() {
         <Tile label="laps left" path="derived.attempt_laps_left" decimals={2} big />
         <Tile label="lap" path="track.lap" decimals={0} big />
       </div>
-      <Bar path="derived.attempt_laps" label="laps of the attempt" max={kAttemptLaps} />
+      {rules && (
+        <Bar path="derived.attempt_laps" label="laps of the attempt" max={rules.attempt_laps} />
+      )}
       <div class="lines two">
         <Line label="role that the car plans by" path="planner.role" />
         <Line label="conflict of the roles" path="derived.role_conflict" />
@@ -95,11 +96,15 @@ function AttemptPanel() {
 }
 
 function GapPanel() {
-  const ticks = [{ at: kPassGapM, label: `${kPassGapM} m` }];
+  const passM = race.value?.pass_gap_m;
+  const ticks = passM === undefined ? [] : [{ at: passM, label: `${passM} m` }];
   return (
     <section class="panel" aria-label="gap" tabIndex={0}>
       <h2>
-        Gap <span class="sum">bumper to bumper; {kPassGapM} m ahead is a pass</span>
+        Gap{" "}
+        <span class="sum">
+          bumper to bumper{passM !== undefined && `; ${passM} m ahead is a pass`}
+        </span>
       </h2>
       <div class="tiles three">
         <Tile label="to who is ahead" path="derived.gap_ahead" decimals={1} big />
