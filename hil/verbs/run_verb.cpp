@@ -23,12 +23,16 @@
 #include "hil/verbs/report_verb.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
+#include "protocol/transport/udp_socket.hpp"
 #include "protocol/transport/unix_bus.hpp"
 
 namespace pitwall::verbs {
 namespace {
 
 namespace fs = std::filesystem;
+
+// The bench's ends of a line out of a guest; without a guest they are ports of this machine.
+constexpr std::uint16_t kLineRadioPort = 23'427, kLineUplinkPort = 23'428;
 
 // A sink that appends to the file; an empty name gives an empty sink.
 Result<recording::Sink, Problem> sink_to(const std::string& path) {
@@ -285,6 +289,28 @@ int run_scenario(const RunOptions& options) {
   return write_report(report_files(options.report_folder), std::nullopt);
 }
 
+Result<std::vector<std::string>, Problem> exec_words(const RunOptions& options) {
+  std::vector<std::string> words{"exec", "--auto", "--interface", options.interface};
+  RunOptions inside = options;
+  if (options.radio_port != 0) {
+    std::uint16_t uplink_port = options.uplink_port;
+    if (uplink_port == 0) {  // the guest's end needs a port to be answered at
+      const auto any = transport::UdpSocket::bind({});
+      if (!any) return Unexpected{any.error()};
+      uplink_port = any->local().port;
+    }
+    inside.radio_port = kLineRadioPort;
+    inside.uplink_port = kLineUplinkPort;
+    words.insert(words.end(),
+                 {"--line-udp",
+                  std::to_string(uplink_port) + ":" + std::to_string(options.radio_port) + ":" +
+                      std::to_string(kLineRadioPort) + ":" + std::to_string(kLineUplinkPort)});
+  }
+  words.emplace_back("--");
+  for (std::string& word : live_command(inside)) words.push_back(std::move(word));
+  return words;
+}
+
 namespace {
 
 int run_where_the_bus_is(const RunOptions& options) {
@@ -297,9 +323,9 @@ int run_where_the_bus_is(const RunOptions& options) {
     const auto hub = guest::OwnHub::start(own_program(), options.interface);
     return hub ? run_scenario(options) : refuse(hub.error());
   }
-  std::vector<std::string> exec{"exec", "--auto", "--interface", options.interface, "--"};
-  for (std::string& word : live_command(options)) exec.push_back(std::move(word));
-  const int code = guest::bus_verb(exec);
+  const auto exec = exec_words(options);
+  if (!exec) return refuse(exec.error());
+  const int code = guest::bus_verb(*exec);
   if (!options.report_folder.empty() && !fs::exists(report_files(options.report_folder).html))
     return report_failure(options, {options.scenario, "the guest ended without a report"});
   return code;

@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::verbs {
@@ -49,5 +50,8 @@ int run_verb(std::span<const std::string> args);
 std::string own_program();
 // The command that runs a scenario live where the interface already exists.
 std::vector<std::string> live_command(const RunOptions& options);
+// The words of `pitwall-hil bus` that run it in a guest, or here where there is CAN. The radio's
+// ports stay those of this machine: a base that runs on it hears the car and is heard.
+Result<std::vector<std::string>, Problem> exec_words(const RunOptions& options);
 
 }  // namespace pitwall::verbs

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "hil/guest/line_relay.hpp"
 #include "protocol/yaml/strict_map.hpp"
 #include "tests/hil/verbs/program_run.hpp"
 
@@ -173,6 +174,36 @@ TEST(LiveCommand, SaysAllThatTheRunWasTold) {
   const auto progress = std::find(told.begin(), told.end(), "--progress");
   ASSERT_NE(progress, told.end());
   EXPECT_EQ(*(progress + 1), "p.jsonl");
+}
+
+// Behind the line the bench has ports of its own; on this machine they are those of the base.
+TEST(ExecWords, LeadTheRadioOutOfTheGuest) {
+  RunOptions options;
+  options.scenario = "s.yaml";
+  options.interface = "vcan7";
+  const auto without = exec_words(options);
+  ASSERT_TRUE(without);
+  EXPECT_EQ(std::ranges::count(*without, "--line-udp"), 0);
+  options.radio_port = 23'431;
+  options.uplink_port = 23'500;
+  const auto with = exec_words(options);
+  ASSERT_TRUE(with);
+  const auto after = [&](const std::string& flag) {
+    const auto at = std::ranges::find(*with, flag);
+    return at == with->end() ? "" : *(at + 1);
+  };
+  const auto line = guest::parse_line_ports(after("--line-udp"));
+  ASSERT_TRUE(line);
+  EXPECT_EQ(line->host_listen, 23'500);
+  EXPECT_EQ(line->host_destination, 23'431);
+  EXPECT_EQ(after("--radio-port"), std::to_string(line->guest_listen));
+  EXPECT_EQ(after("--uplink-port"), std::to_string(line->guest_destination));
+  EXPECT_EQ(after("--interface"), "vcan7");
+  EXPECT_EQ(after("--"), own_program());
+  options.uplink_port = 0;  // any
+  const auto any = exec_words(options);
+  ASSERT_TRUE(any);
+  EXPECT_NE((*any)[5].substr(0, 2), "0:");
 }
 
 }  // namespace

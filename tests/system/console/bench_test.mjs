@@ -4,64 +4,24 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
-import { cpSync, existsSync, mkdirSync } from "node:fs";
+import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { kRoot } from "./packages.mjs";
+import { benchPage, socketOf, startDesk, stateIs } from "./desk.mjs";
 import { baseStage, show, until } from "./stage.mjs";
 
-const kBench = process.env.PITWALL_HIL ?? join(kRoot, "build/release/hil/pitwall-hil");
 const kRunMs = 120_000;
-let socket = "";
-let folder = "";
 
 const stage = baseStage({
   car: false,
   flags: (programs) => {
-    folder = programs.folder;
-    socket = join(folder, "desk");
     startDesk(programs);
-    return ["--bench", socket];
+    return ["--bench", socketOf(programs)];
   },
 });
 
-/** As `desk` of the test's programs, so that it ends with them. */
-function startDesk(programs) {
-  const scenarios = join(folder, "scenarios");
-  mkdirSync(scenarios, { recursive: true });
-  for (const name of ["launch_and_stop.yaml", "red_flag_stop.yaml"]) {
-    cpSync(join(kRoot, "hil/scenarios", name), join(scenarios, name));
-  }
-  programs.desk = spawn(
-    kBench,
-    ["desk", "--socket", socket, "--scenarios", scenarios, "--runs", join(folder, "runs")],
-    { cwd: kRoot, stdio: ["ignore", "ignore", "inherit"] },
-  );
-  programs.others = ["desk"];
-}
-
-const stateIs = (page, state, ms) =>
-  until(
-    page,
-    `a run that is ${state}`,
-    (wanted) => document.querySelector(".verdict")?.dataset.state === wanted,
-    state,
-    ms,
-  );
-
-async function benchPage() {
-  const opened = await stage.open({ hash: "#/hil", ready: ".scenarios li" });
-  await until(
-    opened.page,
-    "two scenarios",
-    () => document.querySelectorAll(".scenarios li").length === 2,
-  );
-  return opened;
-}
-
 test("a scenario is found, started with a seed and seen through to its verdict", async () => {
-  const { page, faults } = await benchPage();
+  const { page, faults } = await benchPage(stage);
   await page.fill(".chooser .filter", "red flag");
   await until(page, "one", () => document.querySelectorAll(".scenarios li").length === 1);
   assert.match(await page.textContent(".details"), /Red at full speed in a corner/);
@@ -74,7 +34,7 @@ test("a scenario is found, started with a seed and seen through to its verdict",
   assert.match(text, /simulation/);
   assert.match(text, /seed 77/);
   assert.match(text, /junit\.xml/);
-  assert.ok(existsSync(join(folder, "runs/1/junit.xml")), "the JUnit file is there");
+  assert.ok(existsSync(join(stage.programs.folder, "runs/1/junit.xml")), "the JUnit file is there");
   // What is shown is what the run told: each expectation holds, red has a reaction and a stop.
   const standings = await page.$$eval(".expectations li", (all) =>
     all.map((e) => e.dataset.standing),
@@ -88,7 +48,7 @@ test("a scenario is found, started with a seed and seen through to its verdict",
   assert.ok(Number(red[4]) > 50, `stop distance ${red[4]} m`);
   assert.equal(await page.locator('.lanes li[data-kind="flag"]').count(), 5);
   // Who comes later sees the same.
-  const second = await benchPage();
+  const second = await benchPage(stage);
   await stateIs(second.page, "passed");
   await show(page, "commands");
   await until(page, "the audit", () =>
@@ -98,7 +58,7 @@ test("a scenario is found, started with a seed and seen through to its verdict",
 });
 
 test("a run is stopped, and a desk that dies is shown until there is one again", async () => {
-  const { page, faults } = await benchPage();
+  const { page, faults } = await benchPage(stage);
   await page.fill(".chooser .filter", "red flag");
   await page.click(".starter button");
   await stateIs(page, "running", 20_000);
