@@ -112,11 +112,9 @@ class Listing {
     }
   }
 
-  void add_outlets() {
-    const bool lost =
-        std::ranges::any_of(base_.outlets, [](const auto& o) { return o.second > 0; });
-    ros::DiagnosticStatus& status = push("outlets", lost ? Level::kWarn : Level::kOk,
-                                         lost ? "some messages were dropped" : "nothing dropped");
+  void add_outlets(bool loses) {
+    ros::DiagnosticStatus& status = push("outlets", loses ? Level::kWarn : Level::kOk,
+                                         loses ? "messages are lost" : "nothing lost lately");
     for (const auto& [name, count] : base_.outlets)
       status.values.push_back({name, std::to_string(count)});
   }
@@ -169,7 +167,7 @@ class Listing {
 }  // namespace
 
 std::vector<ros::DiagnosticStatus> diagnostics(const Snapshot& state, const BaseSight& base,
-                                               const std::string& hardware) {
+                                               const std::string& hardware, bool loses) {
   Listing listing{state, base, hardware};
   listing.add_car();
   listing.add_watchdogs();
@@ -177,7 +175,7 @@ std::vector<ros::DiagnosticStatus> diagnostics(const Snapshot& state, const Base
   listing.add_receivers();
   listing.add_link();
   listing.add_alarms();
-  listing.add_outlets();
+  listing.add_outlets(loses);
   return std::move(listing.all_);
 }
 

@@ -39,7 +39,9 @@ struct BaseSight {
   std::vector<std::pair<std::string, std::uint64_t>> outlets{};
 };
 
+// `loses`: an outlet has lost something lately; its counts only ever grow.
 std::vector<ros::DiagnosticStatus> diagnostics(const telemetry::Snapshot& state,
-                                               const BaseSight& base, const std::string& hardware);
+                                               const BaseSight& base, const std::string& hardware,
+                                               bool loses = false);
 
 }  // namespace pitwall::outlets::ros_view

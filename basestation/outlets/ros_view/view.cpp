@@ -123,9 +123,18 @@ void View::base(const BaseSight& sight, Duration utc_minus_base, const Sink& sin
   look_at_health(sight, utc_minus_base, sink);
 }
 
+bool View::loses(const BaseSight& sight) {
+  std::uint64_t lost = 0;
+  for (const auto& [name, count] : sight.outlets) lost += count;
+  if (lost > lost_) lost_at_ = sight.at;
+  lost_ = lost;
+  return lost_at_ && sight.at - *lost_at_ < kLossShown;
+}
+
 void View::look_at_health(const BaseSight& sight, Duration utc_minus_base, const Sink& sink) {
-  ros::DiagnosticArray health{.header = CarMessages{frames_, utc_minus_base}.header(sight.at, ""),
-                              .status = diagnostics(newest_, sight, config_.hardware)};
+  ros::DiagnosticArray health{
+      .header = CarMessages{frames_, utc_minus_base}.header(sight.at, ""),
+      .status = diagnostics(newest_, sight, config_.hardware, loses(sight))};
   std::vector<Level> levels;
   for (const ros::DiagnosticStatus& status : health.status)
     levels.push_back(static_cast<Level>(status.level));

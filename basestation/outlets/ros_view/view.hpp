@@ -4,7 +4,8 @@
 //   out    topics with types, texts and hashes; messages as CDR, each with the time of its sample
 //   law    a message is made of a group that is new, and of no other: nothing is repeated. Which
 //          numbers are absent, and how that is said: car_messages.hpp, group_message.hpp
-//          diagnostics once a second, at once when a level changes
+//          diagnostics once a second, at once when a level changes; a loss of an outlet is told for
+//          kLossShown after its count has grown
 //   cost   a state with all its groups: some tens of microseconds
 //
 //   /vehicle/odom /vehicle/fix /imu /gnss/{top,bottom}/fix /diagnostics /opponents /raceline
@@ -52,6 +53,8 @@ struct ViewConfig {
 
 class View {
  public:
+  static constexpr Duration kLossShown = seconds(10);
+
   explicit View(ViewConfig config);
 
   const std::vector<Topic>& topics() const { return topics_; }
@@ -86,6 +89,7 @@ class View {
   void put_group(std::size_t place, Instant at, Duration utc_minus_base,
                  std::span<const double> values, const Sink& sink);
   void look_at_health(const BaseSight& sight, Duration utc_minus_base, const Sink& sink);
+  bool loses(const BaseSight& sight);
 
   ViewConfig config_;
   Frames frames_;
@@ -95,6 +99,8 @@ class View {
   std::vector<std::uint8_t> bytes_;  // of the message that is told
   std::vector<Level> levels_;        // of the diagnostics that were told last
   Instant health_told_{};
+  std::uint64_t lost_ = 0;  // by all outlets
+  std::optional<Instant> lost_at_{};
 };
 
 }  // namespace pitwall::outlets::ros_view

@@ -79,10 +79,13 @@ TEST(RosDiagnostics, AlarmsFaultsLinkAndDropsAreInIt) {
   EXPECT_EQ(find(diagnostics(state, base, ""), "radio"), nullptr) << "nobody judges the link here";
   base.values[picture::index_of(picture::BaseField::kLinkState)] = 2;
   EXPECT_EQ(level_of(state, "radio", base), Level::kWarn);
-  base.outlets.emplace_back("ros: /tf dropped", 0);
-  EXPECT_EQ(level_of(state, "outlets", base), Level::kOk);
-  base.outlets[0].second = 3;
-  EXPECT_EQ(level_of(state, "outlets", base), Level::kWarn);
+  base.outlets.emplace_back("ros: /tf dropped", 3);
+  EXPECT_EQ(level_of(state, "outlets", base), Level::kOk) << "long ago";
+  const auto losing = diagnostics(state, base, "", true);
+  const auto* const outlets = find(losing, "outlets");
+  ASSERT_NE(outlets, nullptr);
+  EXPECT_EQ(static_cast<Level>(outlets->level), Level::kWarn);
+  EXPECT_EQ(outlets->values.at(0).value, "3");
 }
 
 TEST(RosDiagnostics, NamesBearTheCar) {

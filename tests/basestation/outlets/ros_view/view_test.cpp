@@ -118,6 +118,29 @@ TEST(RosView, DiagnosticsComeOnceASecondAndAtOnceWhenALevelChanges) {
   EXPECT_EQ(count(milliseconds(1'200)), 3U);
 }
 
+TEST(RosView, ALossIsToldForAWhileAndNotForEver) {
+  View view{whole_config()};
+  BaseSight sight = some_sight();
+  sight.outlets = {{"lcm /car/ego", 5}};
+  const auto outlets_at = [&](Duration after) {
+    sight.at = kNow + after;
+    auto level = Level::kStale;
+    view.base(sight, kUtc, [&](const Message& message) {
+      if (view.topics()[message.topic].name != "/diagnostics") return;
+      const auto health = ros::decode<ros::DiagnosticArray>(message.cdr);
+      ASSERT_TRUE(health);
+      for (const auto& status : health->status)
+        if (status.name.ends_with("outlets")) level = static_cast<Level>(status.level);
+    });
+    return level;
+  };
+  EXPECT_EQ(outlets_at({}), Level::kWarn);
+  EXPECT_EQ(outlets_at(View::kLossShown - seconds(1)), Level::kWarn);
+  EXPECT_EQ(outlets_at(View::kLossShown), Level::kOk) << "a level that changed is told at once";
+  ++sight.outlets[0].second;
+  EXPECT_EQ(outlets_at(View::kLossShown + seconds(1)), Level::kWarn);
+}
+
 // The names that ROS 2 has for what we tell, and what is in it, by Foxglove's readers.
 TEST(RosView, FoxglovesReadersDecodeEachStandardMessage) {
   NEEDS_ORACLES();
