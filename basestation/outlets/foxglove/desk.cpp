@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "basestation/outlets/foxglove/thresholds.hpp"
 #include "protocol/transport/clock.hpp"
 
 namespace pitwall::outlets::foxglove {
@@ -68,6 +69,11 @@ void Desk::take(const feed::Item& item) {
 
 void Desk::take(const feed::Sample& sample) {
   if (room_.anybody()) sources_.take(sample, sink_);
+}
+
+void Desk::take(const feed::Told& told) {
+  sources_.take(told, sink_);
+  if (told.topic == recorder::Topic::kSettings) room_.parameters(thresholds_of(told.json));
 }
 
 void Desk::forget(Instant now) {

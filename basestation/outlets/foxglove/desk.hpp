@@ -41,7 +41,7 @@ class Desk {
   std::vector<PlaybackControl> hear();
   void take(const feed::Item& item);
   void take(const feed::Sample& sample);
-  void take(const feed::Told& told) { sources_.take(told, sink_); }
+  void take(const feed::Told& told);
   void playback(const PlaybackState& state) { room_.playback(state); }
   // A recording has jumped.
   void forget(Instant now);

@@ -92,18 +92,18 @@ Result<Request, Problem> unsubscribe_of(const JsonValue& value) {
   return Request{ask};
 }
 
+std::vector<std::string> names_of(const JsonValue& value) {
+  std::vector<std::string> names;
+  for (const JsonValue& item : value.items("parameterNames")) names.push_back(item.text());
+  return names;
+}
+
 struct RefusableOp {
   std::string_view op, capability;
 };
-constexpr std::array kRefusable{RefusableOp{"advertise", "clientPublish"},
-                                RefusableOp{"unadvertise", "clientPublish"},
-                                RefusableOp{"getParameters", "parameters"},
-                                RefusableOp{"setParameters", "parameters"},
-                                RefusableOp{"subscribeParameterUpdates", "parametersSubscribe"},
-                                RefusableOp{"unsubscribeParameterUpdates", "parametersSubscribe"},
-                                RefusableOp{"subscribeConnectionGraph", "connectionGraph"},
-                                RefusableOp{"unsubscribeConnectionGraph", "connectionGraph"},
-                                RefusableOp{"fetchAsset", "assets"}};
+constexpr std::array kRefusable{
+    RefusableOp{"advertise", "clientPublish"}, RefusableOp{"unadvertise", "clientPublish"},
+    RefusableOp{"setParameters", "setParameters"}, RefusableOp{"fetchAsset", "assets"}};
 
 Result<Request, Problem> playback_of(std::span<const std::uint8_t> bytes) {
   Reader reader{bytes};
@@ -130,7 +130,8 @@ Result<Request, Problem> playback_of(std::span<const std::uint8_t> bytes) {
 
 std::string server_info_text(const ServerInfo& info) {
   json::Array capabilities;
-  capabilities.json(R"("time")");
+  for (const char* const can : {"time", "parameters", "parametersSubscribe", "connectionGraph"})
+    capabilities.json(json::quoted(can));
   if (info.playback) capabilities.json(R"("playbackControl")");
   json::Object text;
   text.text("op", "serverInfo")
@@ -167,6 +168,39 @@ std::string status_text(Level level, std::string_view message) {
       .str();
 }
 
+std::string parameters_text(std::span<const Parameter> parameters, const std::string& request) {
+  json::Array rows;
+  for (const Parameter& parameter : parameters) {
+    rows.json(json::Object{}
+                  .text("name", parameter.name)
+                  .number("value", parameter.value)
+                  .text("type", "float64")
+                  .str());
+  }
+  json::Object text;
+  text.text("op", "parameterValues").json("parameters", rows.str());
+  if (!request.empty()) text.text("id", request);
+  return text.str();
+}
+
+std::string graph_text(std::span<const ChannelRow> channels, std::string_view publisher) {
+  json::Array topics;
+  for (const ChannelRow& row : channels) {
+    topics.json(json::Object{}
+                    .text("name", row.topic)
+                    .json("publisherIds", json::Array{}.json(json::quoted(publisher)).str())
+                    .str());
+  }
+  return json::Object{}
+      .text("op", "connectionGraphUpdate")
+      .json("publishedTopics", topics.str())
+      .json("subscribedTopics", "[]")
+      .json("advertisedServices", "[]")
+      .json("removedTopics", "[]")
+      .json("removedServices", "[]")
+      .str();
+}
+
 std::array<std::uint8_t, kMessageHeader> message_header(std::uint32_t subscription, UtcTime at) {
   std::array<std::uint8_t, kMessageHeader> header{};
   header[0] = static_cast<std::uint8_t>(ServerOp::kMessageData);
@@ -198,6 +232,13 @@ Result<Request, Problem> parse_text(std::string_view text) {
   const std::string op = value->text("op");
   if (op == "subscribe") return subscribe_of(*value);
   if (op == "unsubscribe") return unsubscribe_of(*value);
+  if (op == "getParameters") return Request{GetParameters{names_of(*value), value->text("id")}};
+  for (const bool ends : {false, true}) {
+    const std::string subscribe = ends ? "unsubscribe" : "subscribe";
+    if (op == subscribe + "ParameterUpdates")
+      return Request{WatchParameters{names_of(*value), ends}};
+    if (op == subscribe + "ConnectionGraph") return Request{WatchGraph{ends}};
+  }
   for (const RefusableOp& row : kRefusable) {
     if (row.op == op) return Request{Refusable{row.capability}};
   }

@@ -36,6 +36,14 @@ struct ChannelRow {
   bool latched = false;  // who subscribes is told the newest at once
 };
 
+// A number that clients may read, and nobody can set here.
+struct Parameter {
+  std::string name;
+  double value = 0.0;
+
+  friend bool operator==(const Parameter&, const Parameter&) = default;
+};
+
 struct TimeRange {
   UtcTime begin{}, end{};
 };
@@ -59,6 +67,10 @@ struct PlaybackState {
 std::string server_info_text(const ServerInfo& info);
 std::string advertise_text(std::span<const ChannelRow> channels);
 std::string status_text(Level level, std::string_view message);
+// `request`: that this answers; empty: a change that nobody asked for.
+std::string parameters_text(std::span<const Parameter> parameters, const std::string& request);
+// All topics are published by `publisher`, and nothing is listened to.
+std::string graph_text(std::span<const ChannelRow> channels, std::string_view publisher);
 
 inline constexpr std::size_t kMessageHeader = 13;
 std::array<std::uint8_t, kMessageHeader> message_header(std::uint32_t subscription, UtcTime at);
@@ -80,11 +92,23 @@ struct PlaybackControl {
   std::optional<UtcTime> seek{};
   std::string request;
 };
+struct GetParameters {
+  std::vector<std::string> names;  // none: all
+  std::string request;
+};
+struct WatchParameters {
+  std::vector<std::string> names;  // none: all
+  bool ends = false;
+};
+struct WatchGraph {
+  bool ends = false;
+};
 // What no server of ours does: the capability that it would need.
 struct Refusable {
   std::string_view capability;
 };
-using Request = std::variant<Subscribe, Unsubscribe, PlaybackControl, Refusable>;
+using Request = std::variant<Subscribe, Unsubscribe, PlaybackControl, GetParameters,
+                             WatchParameters, WatchGraph, Refusable>;
 
 Result<Request, Problem> parse_text(std::string_view text);
 Result<Request, Problem> parse_binary(std::span<const std::uint8_t> bytes);

@@ -35,6 +35,8 @@ void Room::joined(ClientId client) {
 void Room::left(ClientId client) {
   present_.reset(client);
   for (auto& subscribers : subscribers_) subscribers.erase(client);
+  for (auto& [name, parameter] : parameters_) parameter.watchers.reset(client);
+  watch_all_.reset(client);
 }
 
 std::optional<PlaybackControl> Room::said(ClientId client, std::string_view text) {
@@ -54,6 +56,9 @@ std::optional<PlaybackControl> Room::carry_out(ClientId client, Result<Request, 
   }
   if (const auto* const ask = std::get_if<Subscribe>(&*request)) subscribe(client, *ask);
   if (const auto* const ask = std::get_if<Unsubscribe>(&*request)) unsubscribe(client, *ask);
+  if (const auto* const ask = std::get_if<GetParameters>(&*request)) tell_parameters(client, *ask);
+  if (const auto* const ask = std::get_if<WatchParameters>(&*request)) watch(client, *ask);
+  if (const auto* const ask = std::get_if<WatchGraph>(&*request)) watch(client, *ask);
   if (const auto* const ask = std::get_if<Refusable>(&*request)) {
     refuse(client, ask->capability,
            "this server is read only: it has no " + std::string{ask->capability} +
@@ -99,6 +104,46 @@ void Room::unsubscribe(ClientId client, const Unsubscribe& ask) {
     }
     if (gone == 0) refuse(client, "unsubscribe", "no subscription " + std::to_string(id));
   }
+}
+
+void Room::tell_parameters(ClientId client, const GetParameters& ask) {
+  std::vector<Parameter> told;
+  for (const auto& [name, parameter] : parameters_) {
+    const bool wanted = ask.names.empty() || std::ranges::count(ask.names, name) > 0;
+    if (wanted) told.push_back({name, parameter.value});
+  }
+  send(only(client), parameters_text(told, ask.request));
+}
+
+void Room::watch(ClientId client, const WatchParameters& ask) {
+  if (ask.names.empty()) watch_all_.set(client, !ask.ends);
+  for (auto& [name, parameter] : parameters_) {
+    const bool meant = ask.names.empty() ? ask.ends : std::ranges::count(ask.names, name) > 0;
+    if (meant) parameter.watchers.set(client, !ask.ends);
+  }
+}
+
+// The graph does not change, so who watches it is told once.
+void Room::watch(ClientId client, const WatchGraph& ask) {
+  if (!ask.ends) send(only(client), graph_text(channels_, info_.name));
+}
+
+void Room::parameters(std::vector<Parameter> parameters) {
+  std::map<ClientId, std::vector<Parameter>> told;
+  std::map<std::string, Readable> now;
+  for (Parameter& parameter : parameters) {
+    const auto before = parameters_.find(parameter.name);
+    Readable readable{.value = parameter.value, .watchers = {}};
+    if (before != parameters_.end()) readable.watchers = before->second.watchers;
+    if (before == parameters_.end() || before->second.value != parameter.value) {
+      const ClientSet watchers = readable.watchers | watch_all_;
+      for (std::size_t client = 0; client < watchers.size(); ++client)
+        if (watchers.test(client)) told[static_cast<ClientId>(client)].push_back(parameter);
+    }
+    now.insert_or_assign(std::move(parameter.name), readable);
+  }
+  parameters_ = std::move(now);
+  for (const auto& [client, changed] : told) send(only(client), parameters_text(changed, ""));
 }
 
 void Room::refuse(ClientId client, std::string_view kind, std::string_view why) {

@@ -1,6 +1,7 @@
 // All Foxglove clients of a base, without any socket: who is there, what each has subscribed, what
 // each asks.
-//   in     who joined, left and said what; messages of the channels; what clients lost; time
+//   in     who joined, left and said what; messages of the channels; what clients lost; time;
+//          thresholds, which clients may read
 //   out    messages with whom they are for; what is asked of a recording's playback
 //   law    read only: what would change anything is refused with a status that says why, and is
 //          counted; nothing that a client says reaches anybody else
@@ -49,6 +50,8 @@ class Room {
   void message(std::size_t channel, UtcTime at, std::span<const std::uint8_t> body);
   void time(UtcTime at);
   void playback(const PlaybackState& state);
+  // In place of those before; who watches one that is another now is told.
+  void parameters(std::vector<Parameter> parameters);
   void tell(web::ClientId client, Level level, std::string_view message);
   void lost(std::span<const web::Drop> drops);
   // A recording has jumped: what was latched holds no more.
@@ -70,6 +73,9 @@ class Room {
   std::optional<PlaybackControl> carry_out(web::ClientId client, Result<Request, Problem> request);
   void subscribe(web::ClientId client, const Subscribe& ask);
   void unsubscribe(web::ClientId client, const Unsubscribe& ask);
+  void tell_parameters(web::ClientId client, const GetParameters& ask);
+  void watch(web::ClientId client, const WatchParameters& ask);
+  void watch(web::ClientId client, const WatchGraph& ask);
   void refuse(web::ClientId client, std::string_view kind, std::string_view why);
   void send(const web::ClientSet& to, std::string text);
   void send(web::ClientId client, std::size_t channel, const Newest& newest);
@@ -80,6 +86,12 @@ class Room {
   web::ClientSet present_;
   std::vector<std::map<web::ClientId, std::uint32_t>> subscribers_;  // by channel: the id for each
   std::map<std::size_t, Newest> newest_;                             // of latched channels
+  struct Readable {
+    double value = 0.0;
+    web::ClientSet watchers;
+  };
+  std::map<std::string, Readable> parameters_;  // by name
+  web::ClientSet watch_all_;                    // parameters, those to come too
   std::map<std::string, std::uint64_t, std::less<>> refused_, lost_;
   std::vector<Sending> out_;
 };

@@ -131,13 +131,31 @@ async function whatTheCarSays(viewer) {
   expect(viewer.messages.get("/base/hello").value.mode === "HIL", "it is told as a simulation");
 }
 
+async function thresholdsAreRead(viewer) {
+  const { client } = viewer;
+  let answer;
+  client.on("parameterValues", (told) => (answer = told));
+  client.getParameters([], "all");
+  const { id, parameters } = await until("parameters", () => answer);
+  expect(id === "all" && parameters.length > 50, `${parameters.length} parameters for ${id}`);
+  const numbers = parameters.every(
+    ({ name, value }) => name.startsWith("/alarms/") && Number.isFinite(value),
+  );
+  expect(numbers, "each is a number of an alarm");
+  let graph;
+  client.on("connectionGraphUpdate", (told) => (graph = told));
+  client.subscribeConnectionGraph();
+  const { publishedTopics } = await until("the graph", () => graph);
+  expect(publishedTopics.length === viewer.channels.length, "the graph has every channel");
+}
+
 async function whoPublishesIsRefused(viewer) {
   const { client } = viewer;
   const id = client.advertise({ topic: "/cmd", encoding: "json", schemaName: "cmd" });
   client.sendMessage(id, Buffer.from('{"speed":99}'));
   await viewer.refusal(/read only.*clientPublish/);
   client.setParameters([{ name: "limit", value: 1 }], "x");
-  await viewer.refusal(/no parameters/);
+  await viewer.refusal(/no setParameters/);
   const data = new DataView(new ArrayBuffer(2));
   client.sendServiceCallRequest({ serviceId: 1, callId: 1, encoding: "json", data });
   await viewer.refusal(/no services/);
@@ -177,8 +195,10 @@ async function live() {
   }
   const older = await Viewer.open(kProtocols[0]);
   const viewer = await Viewer.open(kProtocols[1]);
-  expect(viewer.info.capabilities.join() === "time", `capabilities ${viewer.info.capabilities}`);
+  const can = "time,parameters,parametersSubscribe,connectionGraph";
+  expect(viewer.info.capabilities.join() === can, `capabilities ${viewer.info.capabilities}`);
   await whatTheCarSays(viewer);
+  await thresholdsAreRead(viewer);
   await whoPublishesIsRefused(viewer);
   await nonsenseIsRefused(older);
   console.log(`${viewer.channels.length} channels, ${viewer.messages.size} with messages`);

@@ -43,8 +43,8 @@ def what_foxglove_did_is_counted(base):
     metrics = until("the refusals", lambda: (
         lambda text: text if value(text, "pitwall_outlet_refused_total", outlet="foxglove",
                                    what="clientPublish") else None)(base.metrics()))
-    for what, least in (("clientPublish", 2), ("parameters", 1), ("services", 1), ("subscribe", 1),
-                        ("playbackControl", 1), ("malformed", 200), ("http", 2)):
+    for what, least in (("clientPublish", 2), ("setParameters", 1), ("services", 1),
+                        ("subscribe", 1), ("playbackControl", 1), ("malformed", 200), ("http", 2)):
         count = value(metrics, "pitwall_outlet_refused_total", outlet="foxglove", what=what)
         expect(count and count >= least, f"{count} {what} refused")
     expect(value(metrics, "pitwall_commands_total") == 0, "nothing became a command")

@@ -28,12 +28,14 @@ TEST(FoxgloveProtocol, AServerSaysWhatItCanAndOfARecordingFromWhenToWhen) {
   const auto live = json_of(server_info_text({.name = "car \"7\"", .session = "s"}));
   EXPECT_EQ(live.text("op"), "serverInfo");
   EXPECT_EQ(live.text("name"), "car \"7\"");
-  ASSERT_EQ(live.items("capabilities").size(), 1U);
-  EXPECT_EQ(live.items("capabilities")[0].text(), "time");
+  std::vector<std::string> can;
+  for (const auto& one : live.items("capabilities")) can.push_back(one.text());
+  EXPECT_EQ(can, (std::vector<std::string>{"time", "parameters", "parametersSubscribe",
+                                           "connectionGraph"}));
   EXPECT_EQ(live.find("dataStartTime"), nullptr);
   const auto replay = json_of(server_info_text(
       {.name = "", .session = "", .playback = TimeRange{UtcTime{1'500'000'000}, UtcTime{2}}}));
-  EXPECT_EQ(replay.items("capabilities")[1].text(), "playbackControl");
+  EXPECT_EQ(replay.items("capabilities").back().text(), "playbackControl");
   EXPECT_EQ(replay.find("dataStartTime")->number("sec"), 1.0);
   EXPECT_EQ(replay.find("dataStartTime")->number("nsec"), 5e8);
   EXPECT_EQ(replay.find("dataEndTime")->number("nsec"), 2.0);
@@ -82,9 +84,7 @@ TEST(FoxgloveProtocol, SubscriptionsAreRead) {
 
 TEST(FoxgloveProtocol, WhatWouldChangeAnythingIsNamedByItsCapability) {
   for (const auto& [op, capability] : {std::pair{"advertise", "clientPublish"},
-                                       {"setParameters", "parameters"},
-                                       {"getParameters", "parameters"},
-                                       {"subscribeConnectionGraph", "connectionGraph"},
+                                       {"setParameters", "setParameters"},
                                        {"fetchAsset", "assets"}}) {
     const auto ask = parse_text(std::string{R"({"op":")"} + op + "\"}");
     ASSERT_TRUE(ask) << op;
@@ -92,6 +92,37 @@ TEST(FoxgloveProtocol, WhatWouldChangeAnythingIsNamedByItsCapability) {
   }
   EXPECT_EQ(std::get<Refusable>(*binary({1, 0, 0, 0, 0, 'x'})).capability, "clientPublish");
   EXPECT_EQ(std::get<Refusable>(*binary({2})).capability, "services");
+}
+
+TEST(FoxgloveProtocol, ParametersAreAskedForAndTold) {
+  const auto ask = parse_text(R"({"op":"getParameters","parameterNames":["/a"],"id":"7"})");
+  ASSERT_TRUE(ask);
+  EXPECT_EQ(std::get<GetParameters>(*ask).names, std::vector<std::string>{"/a"});
+  EXPECT_EQ(std::get<GetParameters>(*ask).request, "7");
+  const auto watch = parse_text(R"({"op":"subscribeParameterUpdates","parameterNames":[]})");
+  EXPECT_FALSE(std::get<WatchParameters>(*watch).ends);
+  const auto ends = parse_text(R"({"op":"unsubscribeParameterUpdates","parameterNames":["/b"]})");
+  EXPECT_TRUE(std::get<WatchParameters>(*ends).ends);
+  EXPECT_EQ(std::get<WatchParameters>(*ends).names, std::vector<std::string>{"/b"});
+  const std::vector<Parameter> parameters{{"/a", 2.5}};
+  const auto told = json_of(parameters_text(parameters, "7"));
+  EXPECT_EQ(told.text("op"), "parameterValues");
+  EXPECT_EQ(told.text("id"), "7");
+  EXPECT_EQ(told.items("parameters").at(0).text("name"), "/a");
+  EXPECT_EQ(told.items("parameters").at(0).number("value"), 2.5);
+  EXPECT_EQ(json_of(parameters_text(parameters, "")).find("id"), nullptr);
+}
+
+TEST(FoxgloveProtocol, TheGraphHasEveryTopicAndNobodyWhoListens) {
+  EXPECT_FALSE(std::get<WatchGraph>(*parse_text(R"({"op":"subscribeConnectionGraph"})")).ends);
+  EXPECT_TRUE(std::get<WatchGraph>(*parse_text(R"({"op":"unsubscribeConnectionGraph"})")).ends);
+  const std::vector<ChannelRow> rows{{.id = 0, .topic = "/a"}, {.id = 1, .topic = "/b"}};
+  const auto graph = json_of(graph_text(rows, "car 7"));
+  EXPECT_EQ(graph.text("op"), "connectionGraphUpdate");
+  ASSERT_EQ(graph.items("publishedTopics").size(), 2U);
+  EXPECT_EQ(graph.items("publishedTopics")[1].text("name"), "/b");
+  EXPECT_EQ(graph.items("publishedTopics")[1].items("publisherIds").at(0).text(), "car 7");
+  EXPECT_TRUE(graph.items("subscribedTopics").empty());
 }
 
 TEST(FoxgloveProtocol, PlaybackIsControlled) {

@@ -127,8 +127,48 @@ TEST_F(FoxgloveRoom, WhoPublishesOrSetsIsRefusedAndNobodyElseHearsOfIt) {
   }
   EXPECT_EQ(refused("clientPublish"), 2U);
   EXPECT_EQ(refused("services"), 1U);
-  EXPECT_EQ(refused("parameters"), 1U);
+  EXPECT_EQ(refused("setParameters"), 1U);
   EXPECT_EQ(refused("playbackControl"), 1U);
+}
+
+TEST_F(FoxgloveRoom, ThresholdsAreReadAndWatched) {
+  // Name, value and request of each parameter that a client was told.
+  const auto told = [&](web::ClientId client) {
+    std::string all;
+    for (const Sending& sending : room_.take()) {
+      if (!sending.to.test(client) || sending.message->text.empty()) continue;
+      const auto value = json::JsonValue::parse(sending.message->text, "text");
+      for (const auto& row : value->items("parameters"))
+        all += row.text("name") + "=" + std::to_string(static_cast<int>(row.number("value"))) +
+               value->text("id") + " ";
+    }
+    return all;
+  };
+  room_.said(kAnna, R"({"op":"subscribeParameterUpdates","parameterNames":[]})");
+  room_.parameters({{"/a", 1}, {"/b", 2}});
+  EXPECT_EQ(told(kAnna), "/a=1 /b=2 ") << "all means those to come, too";
+  room_.said(kBert, R"({"op":"getParameters","parameterNames":["/b","/none"],"id":"!"})");
+  EXPECT_EQ(told(kBert), "/b=2! ");
+  room_.said(kBert, R"({"op":"subscribeParameterUpdates","parameterNames":["/b"]})");
+  room_.parameters({{"/a", 1}, {"/b", 3}});
+  EXPECT_EQ(told(kBert), "/b=3 ");
+  room_.parameters({{"/a", 5}, {"/b", 3}});
+  EXPECT_EQ(told(kBert), "") << "not asked for";
+  room_.said(kAnna, R"({"op":"unsubscribeParameterUpdates","parameterNames":[]})");
+  room_.left(kBert);
+  room_.parameters({{"/a", 6}, {"/b", 6}});
+  EXPECT_EQ(told(kAnna), "");
+  room_.said(kAnna, R"({"op":"getParameters","parameterNames":[]})");
+  EXPECT_EQ(told(kAnna), "/a=6 /b=6 ");
+}
+
+TEST_F(FoxgloveRoom, TheGraphIsToldToWhoAsks) {
+  room_.said(kAnna, R"({"op":"subscribeConnectionGraph"})");
+  room_.said(kAnna, R"({"op":"unsubscribeConnectionGraph"})");
+  const auto out = room_.take();
+  ASSERT_EQ(out.size(), 1U);
+  EXPECT_TRUE(out[0].to.test(kAnna));
+  EXPECT_NE(out[0].message->text.find("/latched"), std::string::npos);
 }
 
 TEST_F(FoxgloveRoom, WhoLosesMessagesIsToldOfWhichTopicsAndHowMany) {
