@@ -98,6 +98,9 @@ Result<transport::Process, Problem> start_serving_base(const DemoOptions& option
   if (options.web_port != 0 && is_served(options.web_port)) {
     return Unexpected{Problem{place, "another program serves this port; end it or take another"}};
   }
+  // Not before: it could be that of a demo that runs.
+  for (const DemoCar& car : cars)
+    if (auto aside = set_recording_aside(car); !aside) return Unexpected{aside.error()};
   auto base = start_base(options, cars);
   if (!base) return base;
   const Instant end = transport::monotonic_now() + kBaseStart;
@@ -212,7 +215,6 @@ Result<bool, Problem> prepare(const DemoOptions& options, std::span<const DemoCa
     std::error_code error;
     fs::create_directories(car.folder, error);
     if (error) return Unexpected{Problem{car.folder, error.message()}};
-    if (auto aside = set_recording_aside(car); !aside) return aside;
     auto made = bench::make_run_keys(car.folder + "/keys");
     if (!made) return made;
   }
