@@ -8,6 +8,8 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { baseStage, show, until } from "./stage.mjs";
 
+/** Of the recording that is played again and again, however long that is. */
+const kPieceMs = 1000;
 const stage = baseStage({ flags: (programs) => ["--record", join(programs.folder, "recording")] });
 
 /** Every field as the page has it, and the base's time of the newest frame. */
@@ -163,7 +165,9 @@ test("before a run: the base's check list, and the recording that it makes", asy
     const { begin_ms, jumps } = globalThis.pitwall.session.playback.value;
     return { begin: begin_ms, jumps };
   });
-  const [from, to] = [begin + 0.3 * (end - begin), begin + 0.6 * (end - begin)];
+  const from = begin + 0.3 * (end - begin);
+  const to = from + kPieceMs;
+  assert.ok(to < end, "the recording is longer than the piece");
   const loop = page.locator('.dvr-bar button[title*="again and again"]');
   for (const moment of [from, to]) {
     await jump(page, moment);
