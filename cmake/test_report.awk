@@ -28,7 +28,7 @@
 /^[0-9]+% tests passed/ {
   for (i = 0; i < tests; ++i) if (!(order[i] in again)) printf "-- once more: %s\n", said[order[i]]
   for (i = 0; i < tests; ++i)
-    if (order[i] in again) printf "-- only the second time: %s\n", again[order[i]]
+    if (order[i] in again) printf "-- only when run again: %s\n", again[order[i]]
   failing = ""
 }
 
