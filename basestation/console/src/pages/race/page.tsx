@@ -55,7 +55,7 @@ function SpeedPanel() {
       <h2>Round speed</h2>
       <div class="tiles four">
         <Tile label="race control" path="derived.race_control_speed" speed big />
-        <Tile label="announced, ours" path="derived.round_speed_expected" speed big />
+        <Tile label="announced" path="derived.round_speed_expected" speed big />
         <Tile label="car's target" path="track.target_speed" speed big />
         <Tile label="car" path="ego.vx" speed big />
       </div>
