@@ -60,6 +60,7 @@ std::string real_time_json(const RealTime& t) {
          ",\"wake_late_max_us\":" + number(t.wake_late_max_us) +
          ",\"caught_up_wakes\":" + std::to_string(t.caught_up_wakes) +
          ",\"behind_max_ms\":" + number(t.behind_max.milliseconds()) +
+         ",\"stolen_ms\":" + number(t.stolen_ms) +
          ",\"wake_late_bin_us\":" + number(RealTime::kWakeBin_us) + ",\"wake_late\":[" + bins +
          "],\"step_p50_us\":" + number(t.step_p50_us) +
          ",\"step_p99_us\":" + number(t.step_p99_us) + ",\"step_max_us\":" + number(t.step_max_us) +

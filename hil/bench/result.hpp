@@ -32,6 +32,7 @@ struct RealTime {
   std::uint64_t caught_up_wakes = 0;     // began more than one wake-up late
   Duration behind_max{};                 // farthest behind its clock, whoever was to blame
   Instant behind_at{};                   // when that was, on the scenario's clock
+  double stolen_ms = kUnset;             // of all processors' time, by the virtual machine's host
   std::vector<std::uint64_t> wake_late;  // the last bin holds all later ones
   double step_p50_us = kUnset, step_p99_us = kUnset, step_max_us = kUnset;  // of the car
   std::uint64_t missed_deadlines = 0;                                       // of the car

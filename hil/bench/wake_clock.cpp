@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "protocol/transport/clock.hpp"
+#include "protocol/transport/virtual_machine.hpp"
 
 namespace pitwall::bench {
 
@@ -12,7 +13,10 @@ WakeClock::WakeClock(Duration period, Duration longest) : period_(period) {
   report_.wake_late.assign(RealTime::kWakeBins, 0);
 }
 
-void WakeClock::start() { start_ = transport::monotonic_now(); }
+void WakeClock::start() {
+  stolen_at_start_ = transport::stolen_time();
+  start_ = transport::monotonic_now();
+}
 
 void WakeClock::sleep_until(Instant now) {
   const Instant deadline = start_ + (now - Instant{});
@@ -38,6 +42,8 @@ void WakeClock::note(Duration behind, Instant now) {
 }
 
 RealTime WakeClock::report() {
+  const auto stolen = transport::stolen_time();
+  if (stolen && stolen_at_start_) report_.stolen_ms = (*stolen - *stolen_at_start_).milliseconds();
   if (late_us_.empty()) return report_;
   std::sort(late_us_.begin(), late_us_.end());
   const auto quantile = [this](double q) {

@@ -1,10 +1,11 @@
 // Wakes the live bench at whole multiples of a period since the start, and says how punctual that
 // was. A late wake-up is caught up at once and counted; no multiple is left out.
-//   out    RealTime: lateness of the wake-ups that were slept for
+//   out    RealTime: lateness of the wake-ups that were slept for, and what the host took meanwhile
 //   cost   one sleep per period; memory for every lateness is reserved at construction
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "hil/bench/result.hpp"
@@ -27,6 +28,7 @@ class WakeClock {
 
   Duration period_;
   Instant start_{};
+  std::optional<Duration> stolen_at_start_;
   std::vector<float> late_us_;
   RealTime report_;
 };

@@ -170,6 +170,7 @@ std::optional<bench::RealTime> real_time_of(const JsonValue* json) {
   bench::RealTime t{.wake_late_p50_us = json->number("wake_late_p50_us"),
                     .wake_late_p99_us = json->number("wake_late_p99_us"),
                     .wake_late_max_us = json->number("wake_late_max_us"),
+                    .stolen_ms = json->number("stolen_ms"),
                     .wake_late = {},
                     .step_p50_us = json->number("step_p50_us"),
                     .step_p99_us = json->number("step_p99_us"),

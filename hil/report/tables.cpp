@@ -168,6 +168,13 @@ std::string message_table(const RunData& run) {
   return out;
 }
 
+// Nothing where there is nothing to blame on it.
+std::string stolen(const bench::RealTime& t) {
+  if (!(t.stolen_ms > 0.0)) return {};
+  return " The host of this virtual machine took " + number(t.stolen_ms, 0) +
+         " ms of its processors' time.";
+}
+
 std::string real_time_charts(const RunData& run) {
   if (run.facts.mode == "lockstep")
     return absent("wake", "Lateness of the bench", "time is virtual in lockstep");
@@ -177,7 +184,7 @@ std::string real_time_charts(const RunData& run) {
   std::string out = "<p>Bench: wake-ups late by " + number(t.wake_late_p50_us, 0) + " us (p50), " +
                     number(t.wake_late_p99_us, 0) + " us (p99), " + number(t.wake_late_max_us, 0) +
                     " us at most; " + std::to_string(t.caught_up_wakes) +
-                    " began more than one wake-up late. Car: a step took " +
+                    " began more than one wake-up late." + stolen(t) + " Car: a step took " +
                     number(t.step_p50_us, 0) + " us (p50), " + number(t.step_p99_us, 0) +
                     " us (p99), " + number(t.step_max_us, 0) + " us at most; " +
                     std::to_string(t.missed_deadlines) + " deadlines missed.</p>\n";

@@ -27,6 +27,7 @@
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
+#include "protocol/transport/virtual_machine.hpp"
 
 namespace pitwall::verbs {
 namespace {
@@ -227,6 +228,7 @@ int demo(const DemoOptions& options) {
   const DemoBus bus = bus_for(options.cars, std::thread::hardware_concurrency());
   const std::vector<DemoCar> cars = demo_cars(options.cars, options.folder, bus);
   if (const auto ready = prepare(options, cars); !ready) return refuse(ready.error());
+  const transport::KeepAwake awake;
   auto base = start_serving_base(options, cars);
   if (!base) return refuse(base.error());
   std::printf(

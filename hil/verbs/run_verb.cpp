@@ -21,10 +21,12 @@
 #include "hil/verbs/command_line.hpp"
 #include "hil/verbs/exit_code.hpp"
 #include "hil/verbs/report_verb.hpp"
+#include "hil/verbs/timing_text.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/udp_socket.hpp"
 #include "protocol/transport/unix_bus.hpp"
+#include "protocol/transport/virtual_machine.hpp"
 
 namespace pitwall::verbs {
 namespace {
@@ -42,34 +44,6 @@ Result<recording::Sink, Problem> sink_to(const std::string& path) {
   const auto shared = std::make_shared<transport::AppendWriter>(*std::move(file));
   return recording::Sink{
       [shared](std::span<const std::uint8_t> bytes) { return shared->write(bytes); }};
-}
-
-std::string timing_text(const bench::LiveResult& live) {
-  char text[320];
-  const bench::RealTime& time = *live.run.real_time;
-  std::snprintf(
-      text, sizeof text,
-      "bench wake-up late by p50 %.0f us, p99 %.0f us, max %.0f us; %llu wake-ups caught up, at "
-      "most %.0f ms behind; %llu reports of the car; radio: %llu datagrams of the car, %llu "
-      "arrived, %llu of the base, %llu arrived\n",
-      time.wake_late_p50_us, time.wake_late_p99_us, time.wake_late_max_us,
-      static_cast<unsigned long long>(time.caught_up_wakes), time.behind_max.milliseconds(),
-      static_cast<unsigned long long>(live.reports),
-      static_cast<unsigned long long>(live.radio.from_car),
-      static_cast<unsigned long long>(live.radio.to_base),
-      static_cast<unsigned long long>(live.radio.from_base),
-      static_cast<unsigned long long>(live.radio.to_car));
-  return text;
-}
-
-std::string late_text(const bench::RealTime& time) {
-  char text[160];
-  std::snprintf(
-      text, sizeof text,
-      "the machine did not keep up: at %.2f s the bench was %.0f ms behind its clock, and "
-      "the car had no bus for as long",
-      (time.behind_at - Instant{}).seconds(), time.behind_max.milliseconds());
-  return text;
 }
 
 Result<bench::RunResult, Problem> lockstep(const RunOptions& options, const bench::Loaded& loaded,
@@ -154,7 +128,8 @@ Result<bench::RunResult, Problem> live(const RunOptions& options, const bench::L
   if (!result) return Unexpected{result.error()};
   if (!plan.disk.empty() && !options.log_file.empty())
     if (auto problem = copy_out(log_file, options.log_file)) return Unexpected{*problem};
-  if (!options.quiet) std::printf("%s", timing_text(*result).c_str());
+  if (!options.quiet)
+    std::printf("%s%s", timing_text(*result).c_str(), stolen_text(*result->run.real_time).c_str());
   if (!result->run.timely()) result->run.remarks.push_back(late_text(*result->run.real_time));
   return result->run;
 }
@@ -314,6 +289,7 @@ Result<std::vector<std::string>, Problem> exec_words(const RunOptions& options) 
 namespace {
 
 int run_where_the_bus_is(const RunOptions& options) {
+  const transport::KeepAwake awake{options.live && transport::is_virtual_machine()};
   if (!options.live || options.here) return run_scenario(options);
 
   // Bad input is told before a machine is booted for it.

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "protocol/transport/clock.hpp"
+#include "protocol/transport/virtual_machine.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -41,6 +42,17 @@ TEST(WakeClock, ALateOneIsCaughtUpAtOnceAndCounted) {
   EXPECT_EQ(std::accumulate(report.wake_late.begin(), report.wake_late.end(), 0ULL), 0u);
   EXPECT_GE(report.behind_max, 4 * kPeriod) << "the first of them was due so long ago";
   EXPECT_GE(report.behind_at, Instant{} + kPeriod);
+}
+
+TEST(WakeClock, TellsWhatTheHostOfTheMachineTook) {
+  WakeClock clock(kPeriod, 10 * kPeriod);
+  const auto before = transport::stolen_time();
+  ASSERT_TRUE(before);
+  clock.start();
+  clock.sleep_until(Instant{} + kPeriod);
+  const RealTime report = clock.report();
+  EXPECT_GE(report.stolen_ms, 0.0);
+  EXPECT_LE(report.stolen_ms, (*transport::stolen_time() - *before).milliseconds());
 }
 
 TEST(RealTime, ARunThatFellFarBehindItsClockIsNotTimely) {

@@ -71,6 +71,9 @@ TEST(RealTime, IsForALiveRunThatMeasuredIt) {
   EXPECT_EQ(count(html, "data-plot=\"wake\""), 1u);
   EXPECT_EQ(count(html, "class=\"mark\""), 2u) << "two bins hold something";
   EXPECT_EQ(count(html, "61 us (p50)"), 1u);
+  EXPECT_EQ(count(html, "The host"), 0u);
+  times.stolen_ms = 1230.0;
+  EXPECT_EQ(count(real_time_charts(live), "took 1230 ms of its processors' time"), 1u);
 }
 
 TEST(Events, AreListedAndTheRestIsCounted) {

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/verbs/timing_text.hpp"
+
+#include <cstdio>
+
+namespace pitwall::verbs {
+
+std::string timing_text(const bench::LiveResult& live) {
+  char text[320];
+  const bench::RealTime& time = *live.run.real_time;
+  std::snprintf(
+      text, sizeof text,
+      "bench wake-up late by p50 %.0f us, p99 %.0f us, max %.0f us; %llu wake-ups caught up, at "
+      "most %.0f ms behind; %llu reports of the car; radio: %llu datagrams of the car, %llu "
+      "arrived, %llu of the base, %llu arrived\n",
+      time.wake_late_p50_us, time.wake_late_p99_us, time.wake_late_max_us,
+      static_cast<unsigned long long>(time.caught_up_wakes), time.behind_max.milliseconds(),
+      static_cast<unsigned long long>(live.reports),
+      static_cast<unsigned long long>(live.radio.from_car),
+      static_cast<unsigned long long>(live.radio.to_base),
+      static_cast<unsigned long long>(live.radio.from_base),
+      static_cast<unsigned long long>(live.radio.to_car));
+  return text;
+}
+
+std::string stolen_text(const bench::RealTime& time) {
+  if (!(time.stolen_ms > 0.0)) return {};
+  char text[120];
+  std::snprintf(text, sizeof text,
+                "the host of this virtual machine took %.0f ms of its processors' time\n",
+                time.stolen_ms);
+  return text;
+}
+
+std::string late_text(const bench::RealTime& time) {
+  char text[160];
+  std::snprintf(
+      text, sizeof text,
+      "the machine did not keep up: at %.2f s the bench was %.0f ms behind its clock, and "
+      "the car had no bus for as long",
+      (time.behind_at - Instant{}).seconds(), time.behind_max.milliseconds());
+  return text;
+}
+
+}  // namespace pitwall::verbs

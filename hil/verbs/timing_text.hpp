@@ -1,0 +1,19 @@
+// How punctual a live run was, in words.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "hil/bench/live.hpp"
+#include "hil/bench/result.hpp"
+
+namespace pitwall::verbs {
+
+std::string timing_text(const bench::LiveResult& live);
+// What the host of a virtual machine took; empty where it took nothing, and in a guest, whose bench
+// cannot know it.
+std::string stolen_text(const bench::RealTime& time);
+// Why the run has judged nothing.
+std::string late_text(const bench::RealTime& time);
+
+}  // namespace pitwall::verbs

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/transport/virtual_machine.hpp"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+
+#include "protocol/transport/file.hpp"
+#include "protocol/transport/posix_call.hpp"
+
+namespace pitwall::transport {
+namespace {
+
+constexpr int kStolenColumn = 8;  // after "cpu": user nice system idle iowait irq softirq steal
+constexpr Duration kStep = milliseconds(10);  // USER_HZ is 100 on every architecture we build for
+
+// The line that begins with these words, without them; empty if there is none.
+std::string_view line_of(std::string_view text, std::string_view begin) {
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    if (line.starts_with(begin)) return line.substr(begin.size());
+    text.remove_prefix(std::min(text.size(), line.size() + 1));
+  }
+  return {};
+}
+
+std::string_view take_word(std::string_view& line) {
+  line.remove_prefix(std::min(line.find_first_not_of(" \t:"), line.size()));
+  const std::string_view word = line.substr(0, line.find(' '));
+  line.remove_prefix(word.size());
+  return word;
+}
+
+// Only this thread on only this processor; false where it may not be.
+bool settle_on(std::size_t processor) {
+  cpu_set_t one;
+  CPU_ZERO(&one);
+  CPU_SET(processor, &one);
+  const sched_param none{};
+  return posix_call([&] { return sched_setaffinity(0, sizeof one, &one); }).ok() &&
+         posix_call([&] { return sched_setscheduler(0, SCHED_IDLE, &none); }).ok();
+}
+
+void turn_round(std::size_t processor, const std::atomic<bool>& over) {
+  if (!settle_on(processor)) return;  // at an ordinary priority it would take what others need
+  while (!over.load(std::memory_order_relaxed)) {
+  }
+}
+
+}  // namespace
+
+bool is_virtual_machine(std::string_view cpuinfo) {
+  if (cpuinfo.find("User Mode Linux") != std::string_view::npos) return false;
+  std::string_view flags = line_of(cpuinfo, "flags");
+  for (std::string_view word = take_word(flags); !word.empty(); word = take_word(flags))
+    if (word == "hypervisor") return true;
+  return false;
+}
+
+bool is_virtual_machine() {
+  const auto text = read_file("/proc/cpuinfo");
+  return text && is_virtual_machine(*text);
+}
+
+std::optional<Duration> stolen_time(std::string_view stat) {
+  std::string_view line = line_of(stat, "cpu ");
+  std::string_view word;
+  for (int column = 0; column < kStolenColumn; ++column) word = take_word(line);
+  std::int64_t steps = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), steps);
+  if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
+  return steps * kStep;
+}
+
+std::optional<Duration> stolen_time() {
+  const auto text = read_file("/proc/stat");
+  return text ? stolen_time(*text) : std::nullopt;
+}
+
+KeepAwake::KeepAwake(bool needed) {
+  cpu_set_t ours;
+  if (!needed || !posix_call([&] { return sched_getaffinity(0, sizeof ours, &ours); }).ok()) return;
+  for (std::size_t processor = 0; processor < CPU_SETSIZE; ++processor)
+    if (CPU_ISSET(processor, &ours))
+      threads_.emplace_back([this, processor] { turn_round(processor, over_); });
+}
+
+KeepAwake::~KeepAwake() {
+  over_.store(true, std::memory_order_relaxed);
+  for (std::thread& thread : threads_) thread.join();
+}
+
+}  // namespace pitwall::transport
