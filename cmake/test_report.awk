@@ -1,6 +1,7 @@
 # Shortens what ctest prints: no line for a start, no row of dots. What failed is printed once more
-# before the summary, for who sees only the end of a log, and what passed only when it was run again
-# is named.
+# before the summary, for who sees only the end of a log; what passed only when it was run again is
+# named, and what was skipped, with the reason that it gave (-v whole=LastTest.log, complete when ctest
+# has ended: so long the summary waits).
 # SPDX-License-Identifier: Apache-2.0
 
 # Lines until the next test belong to the one that failed.
@@ -26,13 +27,28 @@
 
 # The summary begins.
 /^[0-9]+% tests passed/ {
+  summary = 1
   for (i = 0; i < tests; ++i) if (!(order[i] in again)) printf "-- once more: %s\n", said[order[i]]
   for (i = 0; i < tests; ++i)
     if (order[i] in again) printf "-- only when run again: %s\n", again[order[i]]
   failing = ""
 }
 
+summary {
+  held = held $0 "\n"
+  next
+}
+
 {
   if (failing != "" && ++lines[failing] <= 400) said[failing] = said[failing] $0 "\n"
   print
+}
+
+END {
+  while (whole != "" && (getline line < whole) > 0) {
+    if (line ~ /^[0-9]+\/[0-9]+ Test: /) name = substr(line, index(line, ": ") + 2)
+    if (giving) printf "-- skipped: %s: %s\n", name, line
+    giving = line ~ /^[^ ]+:[0-9]+: Skipped$/
+  }
+  printf "%s", held
 }
