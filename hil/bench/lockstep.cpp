@@ -55,6 +55,9 @@ class Lockstep {
     for (Instant now{}; now - Instant{} <= scenario_.duration; now += tick) {
       step_computer(now);
       for (Instant at = now + kRigStep; at <= now + tick; at += kRigStep) step_rig(at);
+      if (!options_.over || !options_.over(view(now))) continue;
+      length_ = now - Instant{};
+      break;
     }
     return finish();
   }
@@ -75,14 +78,17 @@ class Lockstep {
       out_->seen = {};
     judge(*out_, now);
     note_changes(*out_, now);
-    if (options_.follow)
-      options_.follow({.now = now,
-                       .rig = rig_,
-                       .mode = static_cast<double>(out_->chosen.mode),
-                       .grader = grader_,
-                       .result = result_});
+    if (options_.follow) options_.follow(view(now));
     out_->chosen.mode_changed = false;
     if (options_.watch) options_.watch(*out_, rig_, now);
+  }
+
+  RunView view(Instant now) const {
+    return {.now = now,
+            .rig = rig_,
+            .mode = static_cast<double>(out_->chosen.mode),
+            .grader = grader_,
+            .result = result_};
   }
 
   void step_car(Instant now) {
@@ -227,7 +233,7 @@ class Lockstep {
   RunResult finish() {
     result_.scenario = scenario_.name;
     result_.mode = "lockstep";
-    result_.simulated_s = scenario_.duration.seconds();
+    result_.simulated_s = length_.seconds();
     result_.verdicts = grader_.finish();
     result_.laps = rig_.laps();
     for (const std::string& refusal : base_.refusals())
@@ -236,7 +242,7 @@ class Lockstep {
     result_.traffic.bus_load = bus_.load();
     if (record_) {
       for (const grading::Verdict& verdict : result_.verdicts)
-        record_->verdict(Instant{} + scenario_.duration, verdict);
+        record_->verdict(Instant{} + length_, verdict);
       record_->close();
       result_.digest = record_->digest();
     }
@@ -261,6 +267,7 @@ class Lockstep {
   Instant stepped_at_;
   std::optional<RunRecord> record_;
   RunResult result_;
+  Duration length_ = scenario_.duration;
   HeldPath held_path_{setup_};
   world::TrackFlag flag_ = world::TrackFlag::kNone;
   std::uint32_t laps_ = 0;

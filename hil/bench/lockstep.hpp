@@ -37,6 +37,8 @@ struct LockstepOptions {
   // While its process is stopped or dead, with its last outputs.
   std::function<void(const pipeline::Outputs&, const Rig&, Instant)> watch = {};
   Follow follow = {};  // called after every tick of the car, once it was judged
+  // Asked at the end of every tick; true ends the run there, as if it had never been longer.
+  std::function<bool(const RunView&)> over = {};
   // Called with what the car sends to the pit wall, when it sends.
   std::function<void(const telemetry::Snapshot&, Instant)> watch_telemetry = {};
   // The guardian is there where the scenario stops or kills a process; here: in any case.

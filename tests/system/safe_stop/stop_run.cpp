@@ -259,6 +259,7 @@ StopFigures run_stop(const StopCase& stop) {
   options.watch = [&](const pipeline::Outputs& out, const Rig& rig, Instant now) {
     run.watch(out, rig, now);
   };
+  options.over = [&](const bench::RunView&) { return run.figures.stood || run.figures.contact; };
   const auto result = bench::run_lockstep(scenario_of(stop), setup(), options);
   if (!result) ADD_FAILURE() << to_string(result.error());
   run.figures.planned_jerk_mps3 = jerk_of(run.figures.planned);
