@@ -4,21 +4,14 @@
  * counts what was taken: `steal` in /proc/stat, see proc(5); on a machine of one's own it is 0.
  */
 // SPDX-License-Identifier: Apache-2.0
-import { readFileSync } from "node:fs";
+import { takenMs } from "../../support/machine.mjs";
 import { delays, now, pause } from "./rig.mjs";
 
 const kWindowMs = 3000;
 /** More of a window than this, and it does not count. */
 const kTakenMs = 20;
-const kMsPerTick = 10;
 /** Windows that are watched for each that is wanted, before we give up. */
 const kPatience = 8;
-const kStealColumn = 8;
-
-function takenMs() {
-  const ticks = readFileSync("/proc/stat", "utf8").split("\n")[0].split(/ +/);
-  return Number(ticks[kStealColumn]) * kMsPerTick;
-}
 
 const sum = (numbers) => numbers.reduce((total, number) => total + number, 0);
 

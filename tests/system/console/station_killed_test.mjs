@@ -11,6 +11,7 @@ import { openSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import { setTimeout as sleep } from "node:timers/promises";
+import { Machine } from "../../support/machine.mjs";
 import { Client } from "./client.mjs";
 import { events, samples } from "./lcm_log.mjs";
 import { kRoot } from "./packages.mjs";
@@ -33,6 +34,7 @@ const kControlledStop = 3;
 const kEmergencyStop = 4;
 
 const programs = new Programs();
+const machine = new Machine();
 const others = [];
 after(async () => {
   for (const other of others) other.kill("SIGKILL");
@@ -66,6 +68,22 @@ async function startCar() {
   const live = ["--live", "--here", "--attach", "--interface", bus];
   start(kBench, "run", "hil/scenarios/launch.yaml", ...live, ...out);
   return car;
+}
+
+/** What the car made of itself, from its own recording: a line for each change of its mode. */
+function storyOf(own, paths, zeroMs) {
+  const story = [machine.told];
+  const fields = paths.filter((path) => path.startsWith("mode.") || path.startsWith("uplink."));
+  const columns = fields.map((path) => samples(own, paths, path));
+  let before = NaN;
+  samples(own, paths, "mode.mode").forEach(({ ms, value }) => {
+    if (value === before) return;
+    before = value;
+    const then = columns.map((column) => column.findLast((sample) => sample.ms <= ms)?.value);
+    const values = fields.map((path, n) => `${path} ${then[n]}`).join(", ");
+    story.push(`${((ms - zeroMs) / 1000).toFixed(2)} s after the last datagram: ${values}`);
+  });
+  return story.join("\n");
 }
 
 /** Values of one field that the base has, oldest first: [{s, value}] before now. */
@@ -110,6 +128,7 @@ test("a base that is killed: the car's ladder, the recording, the race again", a
       return speed > kFastMps;
     });
   } catch (error) {
+    error.message += `\n${machine.told}`;
     for (const path of paths.filter((name) => kWhyItStands.test(name))) {
       error.message += `\n${path}: ${(await history(first, path)).at(-1)?.value}`;
     }
@@ -145,20 +164,21 @@ test("a base that is killed: the car's ladder, the recording, the race again", a
   const own = events(join(programs.folder, "box"));
   const heard = own.filter(({ channel, ms }) => channel === "/radio/up" && ms < killedMs + 500);
   const last = heard.at(-1).ms;
+  const story = storyOf(own, paths, last);
   const rungs = samples(own, paths, "radio.rung").filter(({ ms }) => ms > last);
   kRungsMs.forEach((limit, rung) => {
     const reached = rungs.find(({ value }) => value >= rung)?.ms - last;
     assert.ok(
       reached >= limit - kSlackMs / 5 && reached <= limit + kSlackMs,
-      `rung ${rung} was reached ${reached} ms after the last datagram, not ${limit}`,
+      `rung ${rung} was reached ${reached} ms after the last datagram, not ${limit}\n${story}`,
     );
   });
   const modes = samples(own, paths, "mode.mode");
   const at = (ms) => modes.findLast((sample) => sample.ms <= ms).value;
-  assert.equal(at(last), kDriving);
-  assert.equal(at(last + kRungsMs[3]), kDriving, "a fade is driven through");
-  assert.equal(at(last + kRungsMs[4] + kSlackMs), kControlledStop);
-  assert.ok(!modes.some(({ value }) => value === kEmergencyStop));
+  assert.equal(at(last), kDriving, story);
+  assert.equal(at(last + kRungsMs[3]), kDriving, `a fade is driven through\n${story}`);
+  assert.equal(at(last + kRungsMs[4] + kSlackMs), kControlledStop, story);
+  assert.ok(!modes.some(({ value }) => value === kEmergencyStop), story);
   const stopped = modes.filter(({ ms }) => ms > last + kRungsMs[4] + kSlackMs);
   assert.ok(!stopped.some(({ value }) => value === kDriving), "back, a base moves nobody");
 });
