@@ -54,13 +54,12 @@ async function fetchLayouts(): Promise<void> {
 }
 
 setTheme(theme.value);
+openCars(); // what they say is on its way while the first frame is drawn
 listenToKeys();
 render(<App />, document.getElementById("console")!);
 startPainting();
 keepAuthority();
 listenToAlarms();
-
-openCars();
 void fetchLayouts();
 
 // A base that was started anew may know other cars and another track, and has forgotten our
