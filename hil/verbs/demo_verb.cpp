@@ -27,6 +27,7 @@
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
+#include "protocol/transport/realtime.hpp"
 #include "protocol/transport/virtual_machine.hpp"
 
 namespace pitwall::verbs {
@@ -152,6 +153,8 @@ Result<std::vector<int>, Problem> run_several(const DemoOptions& options,
   std::vector<std::optional<guest::OwnHub>> hubs;  // outlive the benches
   std::vector<transport::Process> benches;
   for (const DemoCar& car : cars) {
+    // A car's processor is that of its whole world.
+    const transport::OnOneProcessor pinned{hubs.size()};
     auto hub = guest::OwnHub::start(own_program(), car.interface());
     if (!hub) return Unexpected{hub.error()};
     hubs.push_back(*std::move(hub));
@@ -238,7 +241,8 @@ int demo(const DemoOptions& options) {
   if (cars.size() > 1) std::printf("%zu cars, each with a bench of its own.\n", cars.size());
   if (bus == DemoBus::kSocket) {
     std::printf(
-        "Their buses are Unix sockets, not SocketCAN: this machine has %u cores for them.\n",
+        "Their buses are Unix sockets, not SocketCAN, and each has one core with its bench: this\n"
+        "machine has %u.\n",
         std::thread::hardware_concurrency());
   }
   if (options.web_port != 0) {

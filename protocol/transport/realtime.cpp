@@ -51,4 +51,22 @@ std::string to_string(const RealtimeReport& report) {
          say(report.fifo, report.fifo_error);
 }
 
+OnOneProcessor::OnOneProcessor(std::size_t n) {
+  if (!posix_call([&] { return sched_getaffinity(0, sizeof before_, &before_); }).ok()) return;
+  n %= static_cast<std::size_t>(CPU_COUNT(&before_));
+  for (std::size_t processor = 0; processor < CPU_SETSIZE; ++processor) {
+    if (!CPU_ISSET(processor, &before_) || n-- != 0) continue;
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(processor, &one);
+    static_cast<void>(posix_call([&] { return sched_setaffinity(0, sizeof one, &one); }));
+    return;
+  }
+}
+
+OnOneProcessor::~OnOneProcessor() {
+  if (CPU_COUNT(&before_) == 0) return;
+  static_cast<void>(posix_call([&] { return sched_setaffinity(0, sizeof before_, &before_); }));
+}
+
 }  // namespace pitwall::transport

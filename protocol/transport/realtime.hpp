@@ -6,6 +6,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <sched.h>
+
+#include <cstddef>
 #include <string>
 
 namespace pitwall::transport {
@@ -26,5 +29,19 @@ void give_way();
 // Only the memory lock.
 bool lock_memory();
 std::string to_string(const RealtimeReport& report);
+
+// While it lives the calling thread has one processor, the n-th of those that it may use, counted
+// round; so have, for good, the threads and processes that it starts meanwhile. What stops that
+// processor stops them all alike: none of them can take another for dead.
+class OnOneProcessor {
+ public:
+  explicit OnOneProcessor(std::size_t n);
+  ~OnOneProcessor();
+  OnOneProcessor(const OnOneProcessor&) = delete;
+  OnOneProcessor& operator=(const OnOneProcessor&) = delete;
+
+ private:
+  cpu_set_t before_{};
+};
 
 }  // namespace pitwall::transport

@@ -50,6 +50,33 @@ TEST(Realtime, AThreadGivesWayAloneAndWithWhatItStarts) {
   EXPECT_EQ(getpriority(PRIO_PROCESS, 0), before);
 }
 
+cpu_set_t processors() {
+  cpu_set_t out;
+  EXPECT_EQ(sched_getaffinity(0, sizeof out, &out), 0);
+  return out;
+}
+
+TEST(Realtime, OnOneProcessorWithWhatItStarts) {
+  const cpu_set_t before = processors();
+  const auto count = static_cast<std::size_t>(CPU_COUNT(&before));
+  cpu_set_t all;
+  CPU_ZERO(&all);
+  for (std::size_t n = 0; n < count; ++n) {
+    cpu_set_t own, started;
+    {
+      const OnOneProcessor pinned{n + count};  // counted round
+      own = processors();
+      std::thread([&] { started = processors(); }).join();
+    }
+    EXPECT_EQ(CPU_COUNT(&own), 1);
+    EXPECT_TRUE(CPU_EQUAL(&own, &started));
+    CPU_OR(&all, &all, &own);
+    const cpu_set_t after = processors();
+    EXPECT_TRUE(CPU_EQUAL(&after, &before));
+  }
+  EXPECT_TRUE(CPU_EQUAL(&all, &before)) << "each of them once";
+}
+
 TEST(Realtime, AnImpossiblePriorityIsRefusedWithItsReason) {
   const auto report = request_realtime(100);
   EXPECT_FALSE(report.fifo);
