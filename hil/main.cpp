@@ -10,7 +10,6 @@
 
 #include "hil/guest/bus_verb.hpp"
 #include "hil/replay/replay_verb.hpp"
-#include "hil/verbs/awake_verb.hpp"
 #include "hil/verbs/bench_verb.hpp"
 #include "hil/verbs/dbc_verb.hpp"
 #include "hil/verbs/demo_verb.hpp"
@@ -44,8 +43,6 @@ constexpr std::array kVerbs{
          verbs::faults_verb},
     Verb{"track", "tracks: check, import from a CSV, picture", verbs::track_verb},
     Verb{"radio", "the radio's promises at length, in virtual time", verbs::radio_verb},
-    Verb{"awake", "runs a command while no processor of this virtual machine sleeps",
-         verbs::awake_verb},
     Verb{"bench", "benchmarks with gates; --help names them", verbs::bench_verb},
 };
 

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocol/transport/virtual_machine.hpp"
 
+#include <fcntl.h>
 #include <sched.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
+#include <csignal>
 #include <cstddef>
 #include <cstdint>
 
@@ -34,19 +39,21 @@ std::string_view take_word(std::string_view& line) {
   return word;
 }
 
-// Only this thread on only this processor; false where it may not be.
-bool settle_on(std::size_t processor) {
+// A child of a process with threads may only call what a signal handler may: no memory, no locks.
+[[noreturn]] void turn_round(std::size_t processor, pid_t parent) {
   cpu_set_t one;
   CPU_ZERO(&one);
   CPU_SET(processor, &one);
   const sched_param none{};
-  return posix_call([&] { return sched_setaffinity(0, sizeof one, &one); }).ok() &&
-         posix_call([&] { return sched_setscheduler(0, SCHED_IDLE, &none); }).ok();
-}
-
-void turn_round(std::size_t processor, const std::atomic<bool>& over) {
-  if (!settle_on(processor)) return;  // at an ordinary priority it would take what others need
-  while (!over.load(std::memory_order_relaxed)) {
+  const bool settled = prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && getppid() == parent &&
+                       setsid() >= 0 && sched_setaffinity(0, sizeof one, &one) == 0 &&
+                       sched_setscheduler(0, SCHED_IDLE, &none) == 0;
+  if (!settled) _exit(1);  // at an ordinary priority it would take what others need
+  close_range(0, ~0U, 0);
+  const int share = open("/proc/self/autogroup", O_WRONLY | O_CLOEXEC);
+  constexpr std::string_view kLeast = "19";
+  if (share >= 0) static_cast<void>(!write(share, kLeast.data(), kLeast.size()));
+  while (true) {
   }
 }
 
@@ -83,14 +90,20 @@ std::optional<Duration> stolen_time() {
 KeepAwake::KeepAwake(bool needed) {
   cpu_set_t ours;
   if (!needed || !posix_call([&] { return sched_getaffinity(0, sizeof ours, &ours); }).ok()) return;
-  for (std::size_t processor = 0; processor < CPU_SETSIZE; ++processor)
-    if (CPU_ISSET(processor, &ours))
-      threads_.emplace_back([this, processor] { turn_round(processor, over_); });
+  const pid_t parent = getpid();
+  for (std::size_t processor = 0; processor < CPU_SETSIZE; ++processor) {
+    if (!CPU_ISSET(processor, &ours)) continue;
+    const auto child = posix_call([] { return fork(); });
+    if (child.ok() && child.value == 0) turn_round(processor, parent);
+    if (child.ok()) processes_.push_back(static_cast<pid_t>(child.value));
+  }
 }
 
 KeepAwake::~KeepAwake() {
-  over_.store(true, std::memory_order_relaxed);
-  for (std::thread& thread : threads_) thread.join();
+  for (const pid_t process : processes_) {
+    static_cast<void>(posix_call([&] { return kill(process, SIGKILL); }));
+    static_cast<void>(posix_call([&] { return waitpid(process, nullptr, 0); }));
+  }
 }
 
 }  // namespace pitwall::transport

@@ -9,10 +9,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
+#include <sys/types.h>
+
 #include <optional>
+#include <span>
 #include <string_view>
-#include <thread>
 #include <vector>
 
 #include "protocol/vocabulary/time.hpp"
@@ -28,8 +29,9 @@ bool is_virtual_machine();
 std::optional<Duration> stolen_time(std::string_view stat);
 std::optional<Duration> stolen_time();
 
-// While it lives, no processor of a virtual machine sleeps: a thread on each that this process may
-// use turns round and gives way to everything else (SCHED_IDLE). Elsewhere it does nothing.
+// While it lives, no processor of a virtual machine sleeps: a process on each that this one may use
+// turns round, of the lowest priority in a session of the lowest share (SCHED_IDLE holds within a
+// session alone, see sched(7) on autogroups). Elsewhere it does nothing.
 class KeepAwake {
  public:
   KeepAwake() : KeepAwake(is_virtual_machine()) {}
@@ -38,11 +40,10 @@ class KeepAwake {
   KeepAwake(const KeepAwake&) = delete;
   KeepAwake& operator=(const KeepAwake&) = delete;
 
-  std::size_t processors() const { return threads_.size(); }  // that are kept awake
+  std::span<const pid_t> processes() const { return processes_; }
 
  private:
-  std::vector<std::thread> threads_;
-  std::atomic<bool> over_{false};
+  std::vector<pid_t> processes_;
 };
 
 }  // namespace pitwall::transport

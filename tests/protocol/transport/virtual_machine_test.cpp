@@ -3,12 +3,16 @@
 
 #include <gtest/gtest.h>
 #include <sched.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
-#include <filesystem>
-#include <set>
+#include <array>
+#include <csignal>
 #include <string>
+#include <vector>
 
-#include "protocol/transport/clock.hpp"
+#include "protocol/transport/file.hpp"
+#include "tests/support/comes_true.hpp"
 
 namespace pitwall::transport {
 namespace {
@@ -38,43 +42,63 @@ TEST(VirtualMachine, TheKernelOfTheTestsCountsIt) {
   EXPECT_GE(*stolen_time(), *before);
 }
 
-// Threads of this process that run when nothing else wants to.
-std::set<std::string> idle_threads() {
-  std::set<std::string> out;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task")) {
-    const std::string id = entry.path().filename();
-    if (sched_getscheduler(std::stoi(id)) == SCHED_IDLE) out.insert(id);
-  }
-  return out;
+bool exists(pid_t process) { return kill(process, 0) == 0; }
+
+// Idle, and with the least share among sessions where the kernel has shares of sessions.
+bool gives_way(pid_t process) {
+  const auto share = read_file("/proc/" + std::to_string(process) + "/autogroup");
+  return sched_getscheduler(process) == SCHED_IDLE &&
+         (!share || share->empty() || share->find("nice 19") != std::string::npos);
 }
 
-TEST(KeepAwake, OneThreadOnEachProcessorThatGivesWayToAll) {
-  cpu_set_t ours;
+TEST(KeepAwake, OneProcessOnEachProcessorThatGivesWayToAll) {
+  cpu_set_t ours, covered;
   ASSERT_EQ(sched_getaffinity(0, sizeof ours, &ours), 0);
-  const auto processors = static_cast<std::size_t>(CPU_COUNT(&ours));
+  CPU_ZERO(&covered);
+  std::vector<pid_t> processes;
   {
     const KeepAwake awake{true};
-    EXPECT_EQ(awake.processors(), processors);
-    const Instant patience = monotonic_now() + seconds(20);
-    while (idle_threads().size() < processors && monotonic_now() < patience) sched_yield();
-    const std::set<std::string> threads = idle_threads();
-    ASSERT_EQ(threads.size(), processors);
-    cpu_set_t covered;
-    CPU_ZERO(&covered);
-    for (const std::string& id : threads) {
+    processes.assign(awake.processes().begin(), awake.processes().end());
+    ASSERT_EQ(processes.size(), static_cast<std::size_t>(CPU_COUNT(&ours)));
+    for (const pid_t process : processes) {
+      EXPECT_TRUE(testing::comes_true([&] { return gives_way(process); }));
       cpu_set_t its;
-      ASSERT_EQ(sched_getaffinity(std::stoi(id), sizeof its, &its), 0);
+      ASSERT_EQ(sched_getaffinity(process, sizeof its, &its), 0);
       EXPECT_EQ(CPU_COUNT(&its), 1);
       CPU_OR(&covered, &covered, &its);
     }
     EXPECT_TRUE(CPU_EQUAL(&covered, &ours));
   }
-  EXPECT_TRUE(idle_threads().empty()) << "it ends with its owner";
+  for (const pid_t process : processes) EXPECT_FALSE(exists(process)) << "it ends with its owner";
+}
+
+TEST(KeepAwake, EndsWithAnOwnerThatIsKilled) {
+  std::array<int, 2> pipe_ends{};
+  ASSERT_EQ(pipe(pipe_ends.data()), 0);
+  const pid_t owner = fork();
+  ASSERT_GE(owner, 0);
+  if (owner == 0) {
+    const KeepAwake awake{true};
+    const pid_t first = awake.processes().front();
+    if (write(pipe_ends[1], &first, sizeof first) != sizeof first) _exit(1);
+    while (true) pause();
+  }
+  pid_t process = 0;
+  ASSERT_EQ(read(pipe_ends[0], &process, sizeof process), static_cast<ssize_t>(sizeof process));
+  EXPECT_TRUE(testing::comes_true([&] { return gives_way(process); }));
+  ASSERT_EQ(kill(owner, SIGKILL), 0);
+  ASSERT_EQ(waitpid(owner, nullptr, 0), owner);
+  const auto is_gone = [&] {  // or a corpse that nobody has buried yet
+    const auto stat = read_file("/proc/" + std::to_string(process) + "/stat");
+    return !stat || stat->find(") Z ") != std::string::npos;
+  };
+  EXPECT_TRUE(testing::comes_true(is_gone));
+  for (const int end : pipe_ends) close(end);
 }
 
 TEST(KeepAwake, NothingWhereItIsNotNeeded) {
-  EXPECT_EQ(KeepAwake{false}.processors(), 0u);
-  EXPECT_EQ(KeepAwake{}.processors() > 0, is_virtual_machine());
+  EXPECT_EQ(KeepAwake{false}.processes().size(), 0u);
+  EXPECT_EQ(KeepAwake{}.processes().empty(), !is_virtual_machine());
 }
 
 }  // namespace
