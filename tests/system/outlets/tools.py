@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from contextlib import suppress
 from pathlib import Path
 
 from attached import (BASE, LCM_GROUP, LCM_PORT, TREE, Base, expect, foxglove, keys_in, start_car,
@@ -52,7 +53,10 @@ def what_foxglove_did_is_counted(base):
 
 def sockets_of(process):
     """Local ports of the UDP sockets of a process."""
-    descriptors = [str(fd.readlink()) for fd in Path(f"/proc/{process.pid}/fd").iterdir()]
+    descriptors = []
+    for descriptor in Path(f"/proc/{process.pid}/fd").iterdir():
+        with suppress(FileNotFoundError):  # closed since it was listed
+            descriptors.append(str(descriptor.readlink()))
     inodes = {m.group(1) for d in descriptors if (m := re.match(r"socket:\[(\d+)\]", d))}
     rows = [line.split() for line in Path("/proc/net/udp").read_text().splitlines()[1:]]
     return {int(row[1].split(":")[1], 16) for row in rows if row[9] in inodes}
