@@ -70,6 +70,7 @@ TEST(Lockstep, ARunThatIsEndedIsAShorterOne) {
   ASSERT_TRUE(ended && shorter);
   EXPECT_EQ(to_json(*ended), to_json(*shorter));
 }
+
 TEST(Lockstep, AStepNeverAllocates) {
   if (!testing::kAllocationsCounted) GTEST_SKIP() << "the sanitizer has a heap of its own";
   scenario::Scenario part = lap().scenario;

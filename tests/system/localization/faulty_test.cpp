@@ -77,7 +77,7 @@ TEST(OneUnitBad, IsSeenWhereNobodyRefusesIt) {
 
 // `kind` says what is missing: satellites alone, or the inertial units as well.
 void expect_bridges(const char* kind, double out_s, double limit_m) {
-  for (std::uint64_t seed = 1; seed <= seeds(1); ++seed) {
+  for (std::uint64_t seed = 1; seed <= seeds(2); ++seed) {
     // At two places: into the turn, and out of it.
     for (const double from_s : {kFault_s, kFault_s + 7.0}) {
       const double back_s = from_s + out_s, until_s = back_s + 5.0;
