@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/guest/guest.hpp"
 
-#include <sched.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
@@ -11,6 +9,7 @@
 #include <system_error>
 
 #include "protocol/transport/readiness.hpp"
+#include "protocol/transport/realtime.hpp"
 
 extern char** environ;
 
@@ -52,20 +51,6 @@ std::vector<std::string> guest_environment(const std::vector<std::string>& addit
   for (char** entry = environ; *entry != nullptr; ++entry) out.emplace_back(*entry);
   out.insert(out.end(), additions.begin(), additions.end());
   return out;
-}
-
-// User-mode Linux changes between its kernel and its processes at every system call. Where the host
-// spreads these over processors, waking the other one each time makes a call four times as slow
-// (measured: 75 us, and 17 us on one), so the guest stays on one.
-std::vector<std::string> on_one_processor(std::vector<std::string> command) {
-  cpu_set_t allowed;
-  if (sched_getaffinity(0, sizeof allowed, &allowed) != 0 || !is_in_path("taskset")) return command;
-  for (std::size_t cpu = CPU_SETSIZE; cpu-- > 0;) {
-    if (!CPU_ISSET(cpu, &allowed)) continue;
-    command.insert(command.begin(), {"taskset", "--cpu-list", std::to_string(cpu)});
-    break;
-  }
-  return command;
 }
 
 bool forward(transport::FileDescriptor& from, std::FILE* to) {
@@ -141,11 +126,15 @@ Result<bool, Problem> Guest::start(const GuestPlan& plan, int line_end) {
   constexpr int kLine = 3, kOutput = 4, kErrors = 5;
   const auto fd = [](int n) { return "fd:" + std::to_string(n); };
   const std::string memory = std::to_string(affordable_memory_mib(plan.memory_mib));
+  // User-mode Linux changes between its kernel and its processes at every system call. Where the
+  // host spreads these over processors, waking the other one each time makes a call four times as
+  // slow (measured: 75 us, and 17 us on one), so the guest stays on the last.
+  std::optional<transport::OnOneProcessor> pinned{-1};
   auto machine = transport::Process::spawn(
-      {.argv = on_one_processor({kProgram, "mem=" + memory + "M", "rootfstype=hostfs", "hostfs=/",
-                                 "rw", "init=" + init, "uml_dir=" + folder + "/uml", "con=null",
-                                 "con0=null,fd:1", "ssl=null", "ssl0=" + fd(kLine),
-                                 "ssl1=null," + fd(kOutput), "ssl2=null," + fd(kErrors), "quiet"}),
+      {.argv = {kProgram, "mem=" + memory + "M", "rootfstype=hostfs", "hostfs=/", "rw",
+                "init=" + init, "uml_dir=" + folder + "/uml", "con=null", "con0=null,fd:1",
+                "ssl=null", "ssl0=" + fd(kLine), "ssl1=null," + fd(kOutput),
+                "ssl2=null," + fd(kErrors), "quiet"},
        .descriptors = {{null->fd(), 0},
                        {console->fd(), 1},
                        {console->fd(), 2},
@@ -153,6 +142,7 @@ Result<bool, Problem> Guest::start(const GuestPlan& plan, int line_end) {
                        {output->second.get(), kOutput},
                        {errors->second.get(), kErrors}},
        .own_group = true});
+  pinned.reset();
   if (!machine) return Unexpected{machine.error()};
   machine_.process = *std::move(machine);
   output_ = std::move(output->first);

@@ -154,7 +154,7 @@ Result<std::vector<int>, Problem> run_several(const DemoOptions& options,
   std::vector<transport::Process> benches;
   for (const DemoCar& car : cars) {
     // A car's processor is that of its whole world.
-    const transport::OnOneProcessor pinned{hubs.size()};
+    const transport::OnOneProcessor pinned{static_cast<int>(hubs.size())};
     auto hub = guest::OwnHub::start(own_program(), car.interface());
     if (!hub) return Unexpected{hub.error()};
     hubs.push_back(*std::move(hub));

@@ -51,9 +51,10 @@ std::string to_string(const RealtimeReport& report) {
          say(report.fifo, report.fifo_error);
 }
 
-OnOneProcessor::OnOneProcessor(std::size_t n) {
+OnOneProcessor::OnOneProcessor(int n) {
   if (!posix_call([&] { return sched_getaffinity(0, sizeof before_, &before_); }).ok()) return;
-  n %= static_cast<std::size_t>(CPU_COUNT(&before_));
+  const int count = CPU_COUNT(&before_);
+  n = (n % count + count) % count;
   for (std::size_t processor = 0; processor < CPU_SETSIZE; ++processor) {
     if (!CPU_ISSET(processor, &before_) || n-- != 0) continue;
     cpu_set_t one;

@@ -8,7 +8,6 @@
 
 #include <sched.h>
 
-#include <cstddef>
 #include <string>
 
 namespace pitwall::transport {
@@ -31,11 +30,11 @@ bool lock_memory();
 std::string to_string(const RealtimeReport& report);
 
 // While it lives the calling thread has one processor, the n-th of those that it may use, counted
-// round; so have, for good, the threads and processes that it starts meanwhile. What stops that
-// processor stops them all alike: none of them can take another for dead.
+// round (-1 is the last); so have, for good, the threads and processes that it starts meanwhile.
+// What stops that processor stops them all alike: none of them can take another for dead.
 class OnOneProcessor {
  public:
-  explicit OnOneProcessor(std::size_t n);
+  explicit OnOneProcessor(int n);
   ~OnOneProcessor();
   OnOneProcessor(const OnOneProcessor&) = delete;
   OnOneProcessor& operator=(const OnOneProcessor&) = delete;

@@ -58,10 +58,10 @@ cpu_set_t processors() {
 
 TEST(Realtime, OnOneProcessorWithWhatItStarts) {
   const cpu_set_t before = processors();
-  const auto count = static_cast<std::size_t>(CPU_COUNT(&before));
+  const int count = CPU_COUNT(&before);
   cpu_set_t all;
   CPU_ZERO(&all);
-  for (std::size_t n = 0; n < count; ++n) {
+  for (int n = 0; n < count; ++n) {
     cpu_set_t own, started;
     {
       const OnOneProcessor pinned{n + count};  // counted round
@@ -75,6 +75,12 @@ TEST(Realtime, OnOneProcessorWithWhatItStarts) {
     EXPECT_TRUE(CPU_EQUAL(&after, &before));
   }
   EXPECT_TRUE(CPU_EQUAL(&all, &before)) << "each of them once";
+  const auto is_of = [](int n) {
+    const OnOneProcessor pinned{n};
+    return processors();
+  };
+  const cpu_set_t last = is_of(count - 1), from_the_end = is_of(-1);
+  EXPECT_TRUE(CPU_EQUAL(&last, &from_the_end));
 }
 
 TEST(Realtime, AnImpossiblePriorityIsRefusedWithItsReason) {
