@@ -1,7 +1,7 @@
 # Shortens what ctest prints: no line for a start, no row of dots. What failed is printed once more
 # before the summary, for who sees only the end of a log; what passed only when it was run again is
-# named, and what was skipped, with the reason that it gave (-v whole=LastTest.log, complete when ctest
-# has ended: so long the summary waits).
+# named, and what was skipped, with the reason that it gave, and what a test of real time had to say of
+# the machine's host (-v whole=LastTest.log, complete when ctest has ended: so long the summary waits).
 # SPDX-License-Identifier: Apache-2.0
 
 # Lines until the next test belong to the one that failed.
@@ -48,6 +48,7 @@ END {
   while (whole != "" && (getline line < whole) > 0) {
     if (line ~ /^[0-9]+\/[0-9]+ Test: /) name = substr(line, index(line, ": ") + 2)
     if (giving) printf "-- skipped: %s: %s\n", name, line
+    if (line ~ /^in_real_time: /) printf "-- %s: %s\n", name, line
     giving = line ~ /^[^ ]+:[0-9]+: Skipped$/
   }
   printf "%s", held
