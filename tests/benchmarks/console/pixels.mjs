@@ -4,9 +4,10 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import { launch, open } from "../../system/console/stage.mjs";
-import { delays, eventually, kNumberPath, now, pause } from "./rig.mjs";
+import { Quiet, leftAlone } from "./quiet.mjs";
+import { eventually, kNumberPath, now, pause } from "./rig.mjs";
 
-const kWatchMs = 20_000;
+const kWindows = 7;
 const kSettleMs = 3000;
 const kSilences = 3;
 
@@ -32,7 +33,26 @@ async function clockOffset(page) {
   return best.offset;
 }
 
-/** `drawn`: ms of each number; `lost`: ms from the last packet until the page says LOST. */
+/** ms from the last packet of a car that falls silent until the page says LOST. */
+async function silence(rig, page, seen) {
+  await eventually("a live link", async () =>
+    /GOOD|DEGRADED/.test(await page.textContent(".link-tile .word")),
+  );
+  await pause(1000 + 100 * Math.random());
+  const asked = now();
+  rig.programs.car.kill("SIGSTOP");
+  await pause(1500);
+  const shown = (await seen("links")).find(({ text, at }) => /LOST/.test(text) && at > asked);
+  const lost = (shown?.at ?? Infinity) - rig.newest.at;
+  rig.programs.car.kill("SIGCONT");
+  await pause(1000);
+  return lost;
+}
+
+/**
+ * `drawn`: ms of each number in windows, `lost`: ms of each silence that the host left alone;
+ * `disturbed`: how many windows and silences it did not.
+ */
 export async function pixelFigures(rig) {
   const browser = await launch();
   try {
@@ -49,24 +69,11 @@ export async function pixelFigures(rig) {
       }));
     await pause(100);
     const first = rig.left.length;
-    await pause(kWatchMs);
-    const left = rig.left.slice(first, -5);
-    const drawn = delays(left, await seen("drawn"));
-    const lost = [];
-    for (let n = 0; n < kSilences; ++n) {
-      await eventually("a live link", async () =>
-        /GOOD|DEGRADED/.test(await page.textContent(".link-tile .word")),
-      );
-      await pause(1000 + 100 * Math.random());
-      const asked = now();
-      rig.programs.car.kill("SIGSTOP");
-      await pause(1500);
-      const shown = (await seen("links")).find(({ text, at }) => /LOST/.test(text) && at > asked);
-      lost.push((shown?.at ?? Infinity) - rig.newest.at);
-      rig.programs.car.kill("SIGCONT");
-      await pause(1000);
-    }
-    return { drawn, lost };
+    const quiet = await Quiet.watch(kWindows, () => 0);
+    await pause(500);
+    const drawn = quiet.delays(rig.left.slice(first), await seen("drawn"));
+    const lost = await leftAlone("losses of the link", kSilences, () => silence(rig, page, seen));
+    return { drawn, lost: lost.results, disturbed: quiet.disturbed + lost.disturbed };
   } finally {
     await browser.close();
   }

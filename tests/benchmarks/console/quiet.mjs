@@ -10,10 +10,34 @@ import { delays, now, pause } from "./rig.mjs";
 const kWindowMs = 3000;
 /** More of a window than this, and it does not count. */
 const kTakenMs = 20;
-/** Windows that are watched for each that is wanted, before we give up. */
+/** What is watched for each that is wanted, before we give up; and at least. */
 const kPatience = 8;
+const kLeastPatience = 40;
+
+/** The same for a single happening, which is shorter: one tick of the kernel's count. */
+const kTakenFromOneMs = 10;
 
 const sum = (numbers) => numbers.reduce((total, number) => total + number, 0);
+
+/**
+ * What `happen()` gave in `wanted` times that the host left alone, and how many it did not.
+ * `what`: names them where there are too few.
+ */
+export async function leftAlone(what, wanted, happen) {
+  const results = [];
+  let disturbed = 0;
+  while (results.length < wanted) {
+    if (results.length + disturbed >= Math.max(kPatience * wanted, kLeastPatience)) {
+      const tried = results.length + disturbed;
+      throw new Error(`the host left ${results.length} of ${tried} alone, ${what}: no figures`);
+    }
+    const taken = takenMs();
+    const result = await happen();
+    if (takenMs() - taken > kTakenFromOneMs) disturbed += 1;
+    else results.push(result);
+  }
+  return { results, disturbed };
+}
 
 /** Of `wanted` windows without disturbance. `probe()`: a count in ms that goes up. */
 export class Quiet {
