@@ -16,7 +16,7 @@
 namespace pitwall::testing {
 namespace {
 
-constexpr Duration kNoNewTryAfter = seconds(200);
+constexpr Duration kNoNewTryAfter = seconds(120);
 constexpr Duration kQuiet = seconds(3), kPatience = seconds(45);
 constexpr Duration kLook = milliseconds(100);
 constexpr int kFailed = 1, kNotJudged = 77;
