@@ -61,12 +61,14 @@ transport::FileDescriptor stop_signals() {
       transport::posix_call([&] { return ::signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK); })};
 }
 
-int make_keys(const std::string& folder) {
+int make_keys(const std::string& folder, bool bench) {
   telemetry::SystemRandomness randomness;
-  const auto written = intake::write_key_pair(folder, intake::make_key_pair(randomness));
+  const auto written = intake::write_key_pair(folder, intake::make_key_pair(randomness, bench));
   if (!written) return complain(kFailed, written.error());
-  std::printf("%s/%s and %s/%s: secret, one for each end\n", folder.c_str(), intake::kCarKeys,
-              folder.c_str(), intake::kBaseKeys);
+  std::printf("%s/%s and %s/%s: %s\n", folder.c_str(), intake::kCarKeys, folder.c_str(),
+              intake::kBaseKeys,
+              bench ? "KEYS OF A BENCH: sessions may be logged, a real car refuses them"
+                    : "secret, one for each end");
   return kDone;
 }
 
@@ -240,7 +242,9 @@ int main(int argc, char** argv) {
     return leave->said.empty() ? leave->code : complain(leave->code, leave->said);
   }
   const auto& arguments = std::get<settings::Arguments>(parsed);
-  if (!arguments.keygen_folder.empty()) return make_keys(arguments.keygen_folder);
+  if (!arguments.keygen_folder.empty()) {
+    return make_keys(arguments.keygen_folder, arguments.keygen_bench);
+  }
   if (arguments.export_kind == "ros") return write_ros_package(arguments.export_folder);
   if (!arguments.export_kind.empty()) return print_export(arguments.export_kind);
   if (!arguments.recover_files.empty()) return recover(arguments.recover_files);

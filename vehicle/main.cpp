@@ -1,5 +1,6 @@
 // pitwall-vehicle: the on-car process. Wires the pipeline to the outside and turns it at 100 Hz.
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -22,6 +23,7 @@
 #include "vehicle/io/radio.hpp"
 #include "vehicle/io/radio_summary.hpp"
 #include "vehicle/io/rim.hpp"
+#include "vehicle/io/station_addresses.hpp"
 #include "vehicle/io/tally.hpp"
 #include "vehicle/parameters/car_file.hpp"
 #include "vehicle/parameters/track_file.hpp"
@@ -37,6 +39,10 @@ constexpr int kExitFailed = 1, kExitUsage = 2;
 constexpr int kPriority = 80;
 constexpr std::uint64_t kReportEvery = 2;  // ticks: 50 Hz
 constexpr Duration kSchemaPeriod = seconds(1);
+constexpr Duration kAnswerAfter = milliseconds(1'500);
+constexpr const char* kNoAnswer =
+    "no answer from the base station: it does not run, its address is another, the key files are "
+    "not one pair, or only one end is set to signed packets";
 
 int refuse(const Problem& problem) {
   std::fprintf(stderr, "%s\n", to_string(problem).c_str());
@@ -118,6 +124,7 @@ class Drive {
     log_->note(in, out, setup_.track.length_m());
     note(out);
     if (parts_.radio) desk_.take(parts_.radio->endpoint(), setup_, *car_, out, now);
+    if (parts_.radio) tell_radio(now);
     speak(out, transport::monotonic_now());
   }
 
@@ -193,6 +200,23 @@ class Drive {
     say("not armed: the base station understands the radio otherwise and lists what differs");
   }
 
+  // For the operator at the car, who may have no base to look at: attacks and key errors that the
+  // car sees, and a base that never answers.
+  void tell_radio(Instant now) {
+    for (const telemetry::ThreatChange& change : desk_.threats()) {
+      std::array<char, telemetry::kThreatLine> text{};
+      const std::string_view line = telemetry::write_line(change, false, text);
+      std::fprintf(stderr, "pitwall-vehicle: %.*s\n", static_cast<int>(line.size()), line.data());
+      parts_.box.event(line, change.at);
+    }
+    if (!first_tick_) first_tick_ = now;
+    if (silence_told_ || now - *first_tick_ < kAnswerAfter) return;
+    silence_told_ = true;
+    if (parts_.radio->endpoint().report(now).sessions > 0) return;
+    std::fprintf(stderr, "pitwall-vehicle: radio: %s\n", kNoAnswer);
+    parts_.box.event(kNoAnswer, now);
+  }
+
   int leave_summary() {
     parts_.rim.poll_drops();
     if (args_.summary_file.empty()) return 0;
@@ -224,7 +248,8 @@ class Drive {
   io::LossTally losses_;
   world::BusHealth bus_;
   safety::Arming arming_ = safety::Arming::kNotAsked;
-  bool schema_told_ = false;
+  bool schema_told_ = false, silence_told_ = false;
+  std::optional<Instant> first_tick_;
   Instant schema_looked_at_;
   Instant last_;
 };
@@ -237,16 +262,16 @@ Result<std::unique_ptr<io::SensorIngress>, Problem> open_sensors(const io::Argum
 }
 
 Result<Parts, Problem> open_parts(const io::Arguments& args, const pipeline::Setup& setup) {
-  auto rim = io::Rim::open(args, setup.params.receivers);
-  if (!rim) return Unexpected{rim.error()};
-  auto guarded = io::Guarded::open(args.guardian, args.arm);
-  if (!guarded) return Unexpected{guarded.error()};
-  std::optional<io::Radio> radio;
+  std::optional<io::Radio> radio;  // first: wrong keys are refused before a bus is touched
   if (!args.keys.empty()) {
     auto opened = io::Radio::open({args.radio, args.keys}, setup.params.radio, !args.simulation);
     if (!opened) return Unexpected{opened.error()};
     radio = *std::move(opened);
   }
+  auto rim = io::Rim::open(args, setup.params.receivers);
+  if (!rim) return Unexpected{rim.error()};
+  auto guarded = io::Guarded::open(args.guardian, args.arm);
+  if (!guarded) return Unexpected{guarded.error()};
   auto report =
       io::LocalReport::open(args.local_report, args.simulation ? telemetry::Source::kSimulation
                                                                : telemetry::Source::kCar);
@@ -263,7 +288,8 @@ void introduce(const io::Arguments& args, const pipeline::Setup& setup, Parts& p
   const auto realtime = transport::request_realtime(kPriority);
   say(setup.track.name() + " on " + args.can_interface + ", " + gateway::database_text() + ", " +
       transport::to_string(realtime) + (args.simulation ? ", SIMULATION" : "") +
-      (args.no_base ? ", NO BASE STATION WATCHED" : ""));
+      (args.no_base ? ", NO BASE STATION WATCHED" : "") +
+      (parts.radio && parts.radio->bench_keys() ? ", KEYS OF A BENCH" : ""));
   if (parts.rim.listen_only())
     say(args.can_interface + ": LISTEN-ONLY: stays disarmed and sends nothing");
   if (parts.guarded.barred()) say(args.guardian + ": NOT ARMED: " + io::kBarredText);
@@ -279,7 +305,10 @@ int run(int argc, const char* const* argv) {
   if (!car_text) return refuse(car_text.error());
   const auto setup = set_up(args, *car_text);
   if (!setup) return refuse(setup.error());
-  if (args.check) return 0;
+  if (args.check) {
+    const auto stations = io::parse_station_addresses(args.radio);
+    return stations ? 0 : refuse(stations.error());
+  }
   auto parts = open_parts(args, *setup);
   if (!parts) return refuse(parts.error());
   introduce(args, *setup, *parts);

@@ -12,7 +12,9 @@ namespace pitwall::intake {
 Result<telemetry::KeyLog, Problem> key_log_to(const std::string& path,
                                               const telemetry::KeyFile& keys) {
   if (!keys.bench) {
-    return Unexpected{Problem{"--key-log", "only with keys that a run of the bench made"}};
+    return Unexpected{Problem{"--key-log",
+                              "these keys are no pair for the bench, expected one of "
+                              "`pitwall-base keygen --bench --out FOLDER`"}};
   }
   if (!std::filesystem::exists(path)) {
     const auto made = transport::write_private_file(path, "");

@@ -1,7 +1,7 @@
 // The file to which a base on the bench tells the keys of its sessions, for Wireshark.
 //   in     path, readable by its owner only; the keys that the base was given
 //   out    what appends each session's lines to it
-//   errors Problem with the option: keys that no run of the bench made, or a file that is not ours
+//   errors Problem with the option: keys that are not for the bench; with a file that is not ours
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

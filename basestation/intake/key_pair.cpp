@@ -12,21 +12,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kKeyFileMax = 4'096;
+// A new folder is its owner's alone, whatever the umask.
+Result<bool, Problem> make_folder(const std::string& folder) {
+  std::error_code error;
+  const bool made = fs::create_directories(folder, error);
+  if (made && !error) fs::permissions(folder, fs::perms::owner_all, error);
+  if (error) return Unexpected{Problem{folder, error.message()}};
+  return true;
+}
 
 }  // namespace
 
-KeyPair make_key_pair(telemetry::Randomness& randomness) {
+KeyPair make_key_pair(telemetry::Randomness& randomness, bool bench) {
   const telemetry::Identity car = telemetry::make_identity(randomness);
   const telemetry::Identity base = telemetry::make_identity(randomness);
-  return {.car = {.role = telemetry::Role::kCar, .own = car, .peer = base.public_key},
-          .base = {.role = telemetry::Role::kBase, .own = base, .peer = car.public_key}};
+  return {
+      .car = {.role = telemetry::Role::kCar, .own = car, .peer = base.public_key, .bench = bench},
+      .base = {
+          .role = telemetry::Role::kBase, .own = base, .peer = car.public_key, .bench = bench}};
 }
 
 Result<bool, Problem> write_key_pair(const std::string& folder, const KeyPair& pair) {
+  if (auto made = make_folder(folder); !made) return made;
   std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) return Unexpected{Problem{folder, error.message()}};
   const std::string car = (fs::path(folder) / kCarKeys).string();
   const std::string base = (fs::path(folder) / kBaseKeys).string();
   for (const std::string& path : {car, base}) {
@@ -43,16 +51,9 @@ Result<bool, Problem> write_key_pair(const std::string& folder, const KeyPair& p
 }
 
 Result<telemetry::KeyFile, Problem> read_keys(const std::string& path, telemetry::Role role) {
-  const auto text = transport::read_private_file(path, kKeyFileMax);
+  const auto text = transport::read_private_file(path, telemetry::kMaxKeyFileBytes);
   if (!text) return Unexpected{text.error()};
-  auto keys = telemetry::parse_key_file(*text, path);
-  if (!keys) return keys;
-  if (keys->role != role) {
-    const bool car = keys->role == telemetry::Role::kCar;
-    return Unexpected{Problem{path, car ? "these are the car's keys, not the base's"
-                                        : "these are the base's keys, not the car's"}};
-  }
-  return keys;
+  return telemetry::parse_key_file(*text, path, {.role = role});
 }
 
 }  // namespace pitwall::intake

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "protocol/telemetry/delivery/event_content.hpp"
+
 namespace pitwall::intake {
 
 namespace {
@@ -38,7 +40,18 @@ bool Station::take(std::span<const std::uint8_t> datagram, telemetry::PathId pat
 std::optional<telemetry::Outgoing> Station::poll(Instant now) {
   const auto out = endpoint_.poll(now);
   if (out && overhearing_) overhearing_(false, out->path, out->to, now, out->bytes);
+  while (const auto change = endpoint_.next_threat()) note(*change);
   return out;
+}
+
+// The base's own event, among those of the car.
+void Station::note(const telemetry::ThreatChange& change) {
+  const telemetry::ThreatEvent content{.threat = static_cast<std::uint8_t>(change.threat),
+                                       .begins = change.begins,
+                                       .seen_by_base = true,
+                                       .most_per_s = change.most_per_s};
+  push_bounded(events_, telemetry::make_event(content, change.at));
+  ++events_heard_;
 }
 
 void Station::count(const telemetry::Arrival& arrival) {

@@ -69,6 +69,7 @@ class Station {
   telemetry::StationEndpoint& endpoint() { return endpoint_; }
 
   const std::deque<telemetry::CommandProgress>& commands() const { return commands_; }
+  // Of the car, and the attacks and key errors that the base itself sees.
   const std::deque<telemetry::Event>& events() const { return events_; }
   std::uint64_t commands_given() const { return commands_given_; }
   std::uint64_t events_heard() const { return events_heard_; }
@@ -80,6 +81,7 @@ class Station {
   double loss() const;  // of those that were sent, 0 .. 1
 
  private:
+  void note(const telemetry::ThreatChange& change);
   void count(const telemetry::Arrival& arrival);
   void collect();
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "basestation/outlets/log_text.hpp"
+#include "basestation/picture/own_field.hpp"
 
 namespace pitwall::outlets {
 namespace {
@@ -221,6 +222,24 @@ std::string place_line(const intake::Station& station) {
   return text;
 }
 
+// Attacks and key errors that are there now, and which end sees them.
+void add_threats(const intake::Station& station, const LinkReport& report, Instant now,
+                 std::vector<TextLine>& lines) {
+  const picture::FieldView told = station.picture().view(field("radio.threats"), now);
+  const telemetry::ThreatSet by_car =
+      telemetry::threats_of(picture::usable(told) ? told.value : kUnset);
+  for (std::size_t i = 0; i < telemetry::kThreats; ++i) {
+    const auto threat = static_cast<telemetry::Threat>(i);
+    const std::size_t seen =
+        (report.threats.has(threat) ? 1U : 0U) + (by_car.has(threat) ? 2U : 0U);
+    if (seen == 0) continue;
+    lines.push_back({say("attack    seen %s: %s",
+                         std::string{telemetry::label_at(picture::kSeenBy, seen)}.c_str(),
+                         std::string{telemetry::describe(threat)}.c_str()),
+                     Tone::kAlarm});
+  }
+}
+
 // Whether both ends mean the same by the same bits.
 void add_schema(const intake::Station& station, std::vector<TextLine>& lines) {
   if (!station.endpoint().peer() || station.endpoint().schema_agrees()) return;
@@ -248,6 +267,7 @@ std::vector<TextLine> link_lines(const intake::Station& station, Instant now) {
   }
   lines.push_back({ages_line(station)});
   lines.push_back({refused_line(report)});
+  add_threats(station, report, now, lines);
   if (std::string places = place_line(station); !places.empty()) {
     lines.push_back({std::move(places)});
   }

@@ -2,6 +2,7 @@
 #include "basestation/outlets/log_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <variant>
@@ -10,6 +11,7 @@
 #include "protocol/telemetry/command/command_table.hpp"
 #include "protocol/telemetry/delivery/event_content.hpp"
 #include "protocol/telemetry/registry/labels.hpp"
+#include "protocol/telemetry/session/link_threats.hpp"
 
 namespace pitwall::outlets {
 namespace {
@@ -69,6 +71,13 @@ struct EventText {
     std::replace_if(
         text.begin(), text.end(), [](char c) { return c < kFirst || c > kLast; }, '?');
     return text;
+  }
+  std::string operator()(const telemetry::ThreatEvent& e) const {
+    if (e.threat >= telemetry::kThreats) return "radio: an attack that this base does not know";
+    std::array<char, telemetry::kThreatLine> text{};
+    const auto threat = static_cast<telemetry::Threat>(e.threat);
+    return std::string{
+        telemetry::write_line({threat, e.begins, e.most_per_s, {}}, e.seen_by_base, text)};
   }
 };
 

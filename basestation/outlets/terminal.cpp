@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "basestation/outlets/log_text.hpp"
 #include "basestation/outlets/text_view.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/readiness.hpp"
@@ -48,6 +49,19 @@ class Line {
     say_script(now);
     for (Outlet* const outlet : lines_.outlets) outlet->serve(station_, now);
     send(now);
+  }
+
+  // For the log of a base without a screen.
+  void tell_threats() {
+    const auto& events = station_.events();
+    const std::uint64_t fresh =
+        std::min<std::uint64_t>(station_.events_heard() - events_told_, events.size());
+    events_told_ = station_.events_heard();
+    for (std::size_t i = events.size() - fresh; i < events.size(); ++i) {
+      if (events[i].kind != telemetry::EventKind::kThreat) continue;
+      std::fprintf(stderr, "pitwall-base: %s: %s\n", lines_.title.c_str(),
+                   event_text(events[i]).c_str());
+    }
   }
 
   std::string screen(Instant now, const ViewOptions& options) {
@@ -110,6 +124,7 @@ class Line {
 
   Lines lines_;
   intake::Station& station_;
+  std::uint64_t events_told_ = 0;
 };
 
 class Loop {
@@ -133,6 +148,7 @@ class Loop {
       const Instant now = transport::monotonic_now();
       for (Line& car : cars_) car.serve(now);
       show_if_due(now);
+      if (!options_.text) tell_threats();
       stopped = (ready & 1U) != 0 || now >= end;
     }
     if (options_.text) show(transport::monotonic_now());
@@ -143,6 +159,10 @@ class Loop {
     if (now < next_screen_) return;
     show(now);
     next_screen_ = now + options_.refresh;
+  }
+
+  void tell_threats() {
+    for (Line& car : cars_) car.tell_threats();
   }
 
   void show(Instant now) {

@@ -9,7 +9,8 @@
 //          seconds of a script count from its car's first packet
 //          cars share the loop and nothing else: a flood on the sockets of one is cut after
 //          kMaxRounds, and the others have their turn
-//   errors words that are not understood: on the screen, in the summary, and on standard error
+//   errors words that are not understood: on the screen, in the summary, and on standard error;
+//          attacks and key errors on the radio: on the screen, without one on standard error
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -21,6 +21,7 @@ struct LinkFigures {
   double round_trip_ms = kUnset, jitter_ms = kUnset;
   double loss_1s = kUnset, loss_30s = kUnset, packets_hz = kUnset;
   double down_kbit_s = kUnset, down_cap_kbit_s = kUnset, up_kbit_s = kUnset;
+  double threats = kUnset;  // that the base sees: bits of telemetry::ThreatSet
 };
 
 struct BaseFigures {

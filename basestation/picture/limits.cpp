@@ -93,6 +93,12 @@ constexpr auto kOwnLimits = std::to_array<DefaultLimit>({
     {field_id("base.authority_lost"), among({1}, {})},
     {field_id("base.schema_differs"), among({}, {1})},
     {field_id("base.settings_unreadable"), among({1}, {})},
+    {field_id("link.wrong_key"), among({1, 2, 3}, {})},
+    {field_id("link.mode_mismatch"), among({1, 2, 3}, {})},
+    {field_id("link.refused_at_rate"), among({1, 2, 3}, {})},
+    {field_id("link.second_peer"), among({}, {1, 2, 3})},
+    {field_id("link.replayed_openings"), among({1, 2, 3}, {})},
+    {field_id("link.relay"), among({1, 2, 3}, {})},
 });
 
 struct NamedLimit {

@@ -88,9 +88,15 @@ enum class BaseField : std::uint8_t {
   kAttemptLapsLeft,
   kGapAhead,
   kGapBehind,
-  kGapClosing
+  kGapClosing,
+  kWrongKey,
+  kModeMismatch,
+  kRefusedAtRate,
+  kSecondPeer,
+  kReplayedOpenings,
+  kRelay
 };
-inline constexpr std::size_t kBaseFields = 66;
+inline constexpr std::size_t kBaseFields = 72;
 
 struct BaseRow {
   BaseField field;
@@ -105,6 +111,8 @@ inline constexpr std::string_view kRecordingStates = "off|on|disk takes nothing"
 inline constexpr std::string_view kFuelStates = "unknown|enough|no attempt left|home now";
 
 inline constexpr std::string_view kAttemptStates = "none|running|laps used up|PASSED|ended";
+// Which end of the radio sees an attack or a key error.
+inline constexpr std::string_view kSeenBy = "no|by the base|by the car|by both";
 
 inline constexpr auto kBaseTable = [] {
   using enum BaseField;
@@ -177,6 +185,13 @@ inline constexpr auto kBaseTable = [] {
       {kGapAhead, "derived", "gap_ahead", "m", 0, 13'000, 0.1},  // bumper to bumper
       {kGapBehind, "derived", "gap_behind", "m", 0, 13'000, 0.1},
       {kGapClosing, "derived", "gap_closing", "m/s", -102, 102, 0.1},  // to the nearer of both
+      // In the order of telemetry::Threat.
+      {kWrongKey, "link", "wrong_key", "", 0, 3, 1, kSeenBy},
+      {kModeMismatch, "link", "mode_mismatch", "", 0, 3, 1, kSeenBy},
+      {kRefusedAtRate, "link", "refused_at_rate", "", 0, 3, 1, kSeenBy},
+      {kSecondPeer, "link", "second_peer", "", 0, 3, 1, kSeenBy},
+      {kReplayedOpenings, "link", "replayed_openings", "", 0, 3, 1, kSeenBy},
+      {kRelay, "link", "relay", "", 0, 3, 1, kSeenBy},
   });
 }();
 static_assert(kBaseTable.size() == kBaseFields);

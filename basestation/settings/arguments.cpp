@@ -87,7 +87,12 @@ void describe(CLI::App& app, Arguments& a) {
       ->expected(1)
       ->take_all();
   app.add_option("--key-log", a.key_log,
-                 "On the bench: file for the keys of the radio's sessions, which Wireshark reads");
+                 "File for the keys of the radio's sessions, which Wireshark reads; only with keys "
+                 "of keygen --bench");
+  app.add_option("--stamp-file", a.stamp_file,
+                 "File that keeps the newest stamp of the car's key exchange, by which a base that "
+                 "starts again refuses recorded ones; without it, beside the keys: base.stamp. "
+                 "none: nothing is kept");
   app.add_flag("--network", a.network, "Allow --listen to be reached by other machines");
   app.add_flag("--signed", a.signed_only, "Authenticated but readable packets; the car must agree");
   app.add_option("--budget", a.budget_kbit, "kbit/s that may go up each radio")
@@ -112,12 +117,15 @@ void describe(CLI::App& app, Arguments& a) {
   auto* const cars =
       app.add_option("--cars", a.cars_file, "File of the cars, where there are several");
   for (const char* const of_one_car :
-       {"--keys", "--listen", "--car", "--car-name", "--record", "--judgement", "--joystick",
-        "--joystick-axes", "--command", "--operator-port", "--json", "--replay"}) {
+       {"--keys", "--stamp-file", "--listen", "--car", "--car-name", "--record", "--judgement",
+        "--joystick", "--joystick-axes", "--command", "--operator-port", "--json", "--replay"}) {
     cars->excludes(of_one_car);
   }
   CLI::App* const keygen = app.add_subcommand("keygen", "Make the keys of a car and its base");
   keygen->add_option("--out", a.keygen_folder, "Folder for car.keys and base.keys")->required();
+  keygen->add_flag(
+      "--bench", a.keygen_bench,
+      "Keys of a bench: sessions may be logged for Wireshark; a real car refuses them");
   CLI::App* const exporting =
       app.add_subcommand("export", "Print what the radio says, as " + export_kinds());
   exporting->add_option("KIND", a.export_kind, export_kinds())->required();

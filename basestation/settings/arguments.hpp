@@ -19,6 +19,7 @@ struct Arguments {
   bool text = false, plain = false, all = false, network = false, signed_only = false;
   double duration_s = 0.0, refresh_hz = 10.0, budget_kbit = 256.0;
   std::string keygen_folder, export_kind, export_folder;
+  bool keygen_bench = false;
   std::optional<int> web_port;
   std::optional<std::string> lcm_url;
   std::optional<int> foxglove_port;
@@ -27,7 +28,8 @@ struct Arguments {
   int ros_domain = 0;
   std::string ros_distribution = "jazzy", ros_interface = "127.0.0.1";
   std::vector<std::string> ros_peers;
-  std::string key_log;  // of a base on the bench
+  std::string key_log;     // of a base on the bench
+  std::string stamp_file;  // empty: beside the keys
   std::string console_folder, track, tokens_file, default_role, layouts_folder, judgement_file;
   std::string bench;  // socket of a bench desk
   std::vector<std::string> web_names;
@@ -38,6 +40,7 @@ struct Arguments {
   std::string judge_folder;
 };
 
+inline constexpr const char* kNoStampFile = "none";
 inline constexpr double kMinBudget_kbit = 64.0, kMaxBudget_kbit = 100'000.0;
 
 // "json, msg, ...": of `export`.

@@ -28,6 +28,7 @@ class CarReader {
     car.car_name = map_.text_or("name", "");
     car.keys = own_file("keys");
     if (car.keys.empty()) map_.fail("keys", "each car has its own");
+    car.stamp_file = stamp_file();
     if (map_.has("listen")) car.listen = map_.texts("listen", 1, 2);
     if (car.listen.empty()) claim("listen", "the usual address");
     for (const std::string& address : car.listen) {
@@ -59,6 +60,11 @@ class CarReader {
     std::string path = file(key);
     if (!path.empty()) claim(key, path);
     return path;
+  }
+
+  std::string stamp_file() {
+    if (map_.text_or("stamp_file", "") == kNoStampFile) return kNoStampFile;
+    return own_file("stamp_file");
   }
 
   std::string track() {

@@ -10,6 +10,7 @@
 //     - number: 7                     0..255, shown everywhere
 //       name: Blue                    what people call it (optional, as all that follows keys)
 //       keys: keys/7/base.keys        files are beside this one, unless they start with /
+//       stamp_file: state/7.stamp     as --stamp-file, or none
 //       listen: [0.0.0.0:23431]       one or two radios
 //       track: lvms                   name, or file with a / in it
 //       record: recordings/7

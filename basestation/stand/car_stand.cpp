@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "basestation/intake/stamp_file.hpp"
 #include "basestation/outlets/bench/bench_link.hpp"
 #include "basestation/outlets/summary.hpp"
 #include "basestation/outlets/wall/recording.hpp"
@@ -25,6 +26,27 @@ std::string word_of(picture::LinkState state) {
   }
   return {};
 }
+
+// Keeps the car's newest stamp in its file.
+class StampKeeper : public outlets::Outlet {
+ public:
+  StampKeeper(const std::string& path, telemetry::Stamp known, Say say)
+      : file_(path, known), say_(std::move(say)) {}
+
+  void packet(const intake::Station& /*station*/, const telemetry::Arrival& /*arrival*/) override {}
+  void serve(intake::Station& station, Instant /*now*/) override {
+    file_.keep(station.endpoint().newest_stamp());
+    if (const auto problem = file_.take_problem()) {
+      say_("stamp file not written: " + to_string(*problem) +
+           "; a base that starts again begins without it");
+    }
+  }
+  Instant due() const override { return {INT64_MAX}; }
+
+ private:
+  intake::StampFile file_;
+  Say say_;
+};
 
 }  // namespace
 
@@ -72,6 +94,10 @@ Result<bool, Problem> CarStand::begin(outlets::web::WebServer* server, const Say
       wall_->attach(*bench);
       attach(std::move(bench));
     }
+  }
+  if (!plan_.stamp_file.empty()) {
+    attach(std::make_unique<StampKeeper>(plan_.stamp_file, plan_.config.association.newest_stamp,
+                                         say));
   }
   const auto begun = begin_recording(say);
   return begun ? begin_joystick() : begun;

@@ -6,6 +6,7 @@
 
 #include "basestation/intake/key_log_file.hpp"
 #include "basestation/intake/key_pair.hpp"
+#include "basestation/intake/stamp_file.hpp"
 #include "basestation/outlets/wall/catalogue_text.hpp"
 #include "basestation/outlets/wall/data_files.hpp"
 #include "basestation/outlets/wall/judgement_store.hpp"
@@ -88,7 +89,20 @@ Result<bool, Problem> plan_web(const Arguments& a, Plan& plan, const Say& say) {
   return true;
 }
 
-Result<bool, Problem> plan_radio(const Arguments& arguments, Plan& plan) {
+void plan_stamps(const Arguments& arguments, Plan& plan, const Say& say) {
+  if (arguments.stamp_file == settings::kNoStampFile) return;
+  plan.stamp_file =
+      arguments.stamp_file.empty() ? intake::stamp_file_of(arguments.keys) : arguments.stamp_file;
+  const auto newest = intake::read_stamp(plan.stamp_file);
+  if (newest) {
+    plan.config.association.newest_stamp = *newest;
+  } else {
+    say("stamp file unreadable: " + to_string(newest.error()) +
+        "; begins without it, and the car's next session writes it anew");
+  }
+}
+
+Result<bool, Problem> plan_radio(const Arguments& arguments, Plan& plan, const Say& say) {
   auto listen = addresses_of(arguments);
   if (!listen) return Unexpected{listen.error()};
   plan.listen = *std::move(listen);
@@ -98,6 +112,11 @@ Result<bool, Problem> plan_radio(const Arguments& arguments, Plan& plan) {
   const auto keys = intake::read_keys(arguments.keys, telemetry::Role::kBase);
   if (!keys) return Unexpected{keys.error()};
   plan.config.association.keys = *keys;
+  plan_stamps(arguments, plan, say);
+  if (keys->bench) {
+    say(arguments.keys + ": KEYS OF A BENCH: sessions may be logged" +
+        (arguments.key_log.empty() ? "" : ", and are: " + arguments.key_log));
+  }
   if (!arguments.key_log.empty()) {
     auto log = intake::key_log_to(arguments.key_log, *keys);
     if (!log) return Unexpected{log.error()};
@@ -133,7 +152,7 @@ std::string told(const Arguments& car) { return "car " + std::to_string(car.car)
 
 Result<Plan, Problem> plan_of(const Arguments& arguments, const Say& say) {
   Plan plan{.arguments = arguments};
-  auto planned = plan_radio(arguments, plan);
+  auto planned = plan_radio(arguments, plan, say);
   if (planned) planned = plan_hands(arguments, plan);
   if (planned && arguments.web_port) planned = plan_web(arguments, plan, say);
   if (!planned) return Unexpected{planned.error()};
@@ -156,6 +175,10 @@ Result<std::vector<Plan>, Problem> plans_of(std::span<const Arguments> cars, con
       if (one.own.public_key == two.own.public_key || one.peer == two.peer) {
         return Unexpected{Problem{told(car) + ": " + car.keys,
                                   "these are keys of " + told(other.arguments) + ", too"}};
+      }
+      if (!plan->stamp_file.empty() && plan->stamp_file == other.stamp_file) {
+        return Unexpected{Problem{told(car) + ": " + plan->stamp_file,
+                                  "this is the stamp file of " + told(other.arguments) + ", too"}};
       }
     }
     plan->wall.place = plans.size();

@@ -2,7 +2,8 @@
 //   in     command lines; the files that they name; `say`: lines for a person
 //   out    a Plan for each car; the web server's part of them all
 //   errors Problem with the option as place; two cars that have the same keys: what one of them
-//          says would be taken for the other
+//          says would be taken for the other; or the same stamp file
+//          a stamp file that cannot be read is told: the car is served without it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -29,6 +30,7 @@ struct Plan {
   std::vector<transport::UdpAddress> listen{};
   intake::OperatorScript script{};
   telemetry::ConduitConfig config{};
+  std::string stamp_file{};         // empty: none
   outlets::web::HttpConfig http{};  // documents: those of this car
   outlets::wall::WallConfig wall{};
   intake::JoystickMapping joystick{};

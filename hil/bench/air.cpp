@@ -39,7 +39,7 @@ bool Air::is_off(Way way, Instant at) const {
          (way == Way::kUp && active(BenchFaultKind::kBaseStationSilent, at).has_value());
 }
 
-void Air::offer(Way way, PathId path, std::span<const std::uint8_t> bytes, Instant now) {
+void Air::offer(Way way, PathId path, const Payload& payload, Instant now) {
   if (path >= lanes_.size()) return;
   const auto w = static_cast<std::size_t>(way);
   Lane& here = lane(way, path);
@@ -50,7 +50,7 @@ void Air::offer(Way way, PathId path, std::span<const std::uint8_t> bytes, Insta
   } else if (dice < active(BenchFaultKind::kRadioLoss, now).value_or(0.0)) {
     ++counters_.lost[w];
   } else {
-    here.emulator.offer(bytes, now);
+    here.emulator.offer(payload.bytes, now, payload.tag);
   }
 }
 

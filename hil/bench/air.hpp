@@ -29,6 +29,11 @@ namespace pitwall::bench {
 enum class Way : std::uint8_t { kDown, kUp };  // to the base, to the car
 inline constexpr std::size_t kWays = 2;
 
+struct Payload {
+  std::span<const std::uint8_t> bytes;
+  std::uint64_t tag = 0;  // arrives with them: link::Datagram::tag
+};
+
 struct AirCounters {
   std::array<std::uint64_t, kWays> offered{}, delivered{}, switched_off{}, lost{};
 };
@@ -40,7 +45,7 @@ class Air {
       std::uint64_t seed);
 
   std::uint8_t paths() const { return static_cast<std::uint8_t>(lanes_.size()); }
-  void offer(Way way, telemetry::PathId path, std::span<const std::uint8_t> bytes, Instant now);
+  void offer(Way way, telemetry::PathId path, const Payload& payload, Instant now);
   // The next that has arrived by now.
   std::optional<link::Datagram> take(Way way, telemetry::PathId path, Instant now);
   void place(double station_m);  // of the car: for loss by place

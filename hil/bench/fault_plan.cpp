@@ -160,11 +160,16 @@ Result<faults::FrameFault, Problem> frame_fault(const scenario::Fault& row, Fram
   }
 }
 
+// Of where the base station is: the live bench has one address.
+bool is_station_fault(BenchFaultKind kind) {
+  return kind == BenchFaultKind::kBaseMoved || kind == BenchFaultKind::kBaseReplaced;
+}
+
 // The rest needs a machine.
 bool in_lockstep(BenchFaultKind kind) {
   return kind == BenchFaultKind::kComputerPaused || kind == BenchFaultKind::kComputerKilled ||
          kind == BenchFaultKind::kGuardianKilled || kind == BenchFaultKind::kBaseKilled ||
-         kind == BenchFaultKind::kBasePaused;
+         kind == BenchFaultKind::kBasePaused || is_station_fault(kind);
 }
 
 }  // namespace
@@ -181,7 +186,7 @@ bool is_process_fault(BenchFaultKind kind) {
     case BenchFaultKind::kLogDiskFull:
       return true;
     default:
-      return false;
+      return is_station_fault(kind);
   }
 }
 
@@ -205,6 +210,7 @@ bool carried_out(BenchFaultKind kind, BenchMode mode) {
   if (is_bus_fault(kind) || is_clock_fault(kind)) return mode == BenchMode::kLockstep;
   if (!is_process_fault(kind))
     return in_the_rig(kind) || is_radio_fault(kind) || is_byte_fault(kind);
+  if (is_station_fault(kind)) return mode == BenchMode::kLockstep;
   return mode == BenchMode::kLive || in_lockstep(kind);
 }
 

@@ -45,11 +45,11 @@ void RadioPath::pick_up(Lane& lane, PathId path, Instant now) {
   for (const auto& datagram : std::span(datagrams_).first(lane.to_car.receive(datagrams_))) {
     ++counters_.from_car;
     lane.car = datagram.from;
-    air_.offer(Way::kDown, path, datagram.payload(), now);
+    air_.offer(Way::kDown, path, {datagram.payload()}, now);
   }
   for (const auto& datagram : std::span(datagrams_).first(lane.to_base.receive(datagrams_))) {
     ++counters_.from_base;
-    air_.offer(Way::kUp, path, datagram.payload(), now);
+    air_.offer(Way::kUp, path, {datagram.payload()}, now);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "basestation/intake/operator_words.hpp"
 #include "protocol/telemetry/delivery/path_object.hpp"
+#include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -15,11 +16,15 @@ using telemetry::Address;
 using telemetry::PathId;
 
 constexpr std::uint32_t kHere = 0x7F000001;
-constexpr std::uint16_t kBasePort = 23'431;
+constexpr std::uint16_t kBasePort = 23'431, kSparePort = 23'441, kMovedPort = 23'451;
 constexpr Duration kEarly = milliseconds(2);  // as vehicle/io/radio.hpp
 
 std::uint8_t paths_of(const scenario::Scenario& scenario) {
   return static_cast<std::uint8_t>(std::max<std::size_t>(1, scenario.radio.size()));
+}
+
+Address on_path(std::uint16_t port, PathId path) {
+  return {kHere, static_cast<std::uint16_t>(port + path)};
 }
 
 }  // namespace
@@ -37,7 +42,7 @@ telemetry::ConduitConfig conduit_of(const pipeline::RadioParams& params,
                         .packets_per_s = path.packets_per_s,
                         .safety_bytes_per_s = path.safety_bytes_per_s};
     if (keys.role == telemetry::Role::kCar)
-      config.association.peer[i] = {kHere, static_cast<std::uint16_t>(kBasePort + i)};
+      config.association.peer[i] = on_path(kBasePort, static_cast<PathId>(i));
   }
   return config;
 }
@@ -65,22 +70,49 @@ bool VirtualStation::active(BenchFaultKind kind, Instant at) const {
   });
 }
 
+bool VirtualStation::has(BenchFaultKind kind) const {
+  return std::ranges::find(processes_, kind, &faults::BenchFault::kind) != processes_.end();
+}
+
+telemetry::ConduitConfig VirtualStation::config(const telemetry::KeyFile& keys) const {
+  telemetry::ConduitConfig config = conduit_of(setup_.params.radio, keys, paths_of(scenario_));
+  if (keys.role == telemetry::Role::kBase) {
+    config.association.newest_stamp = newest_stamp_;
+  } else if (has(BenchFaultKind::kBaseReplaced)) {
+    for (PathId path = 0; path < config.association.paths; ++path)
+      CHECK(config.association.spare[path].push(on_path(kSparePort, path)));
+  }
+  return config;
+}
+
 void VirtualStation::restart_car() {
-  car_.emplace(conduit_of(setup_.params.radio, car_keys_, paths_of(scenario_)), randomness_);
+  car_.emplace(config(car_keys_), randomness_);
   desk_.emplace();
   log_ = {};
   to_car_.clear();
   car_port_ = static_cast<std::uint16_t>(car_port_ + telemetry::kPaths);
 }
 
-void VirtualStation::start_base() {
-  base_.emplace(conduit_of(setup_.params.radio, base_keys_, paths_of(scenario_)), randomness_);
+void VirtualStation::start_base() { base_.emplace(config(base_keys_), randomness_); }
+
+void VirtualStation::stop_base() {
+  if (base_) newest_stamp_ = base_->newest_stamp();
+  base_.reset();
+  to_base_.clear();
+}
+
+Address VirtualStation::base_address(PathId path, Instant at) const {
+  if (spare_) return on_path(kSparePort, path);
+  return on_path(active(BenchFaultKind::kBaseMoved, at) ? kMovedPort : kBasePort, path);
 }
 
 void VirtualStation::advance(Instant at) {
-  if (active(BenchFaultKind::kBaseKilled, at)) {
-    base_.reset();
-    to_base_.clear();
+  if (active(BenchFaultKind::kBaseReplaced, at)) {
+    stop_base();
+    newest_stamp_ = 0;
+    spare_ = true;
+  } else if (active(BenchFaultKind::kBaseKilled, at)) {
+    stop_base();
   } else if (!base_) {
     start_base();
   }
@@ -89,17 +121,21 @@ void VirtualStation::advance(Instant at) {
   collect(Way::kUp, to_car_, at);
 }
 
-// What nobody waits for is lost, as it is with a port that nobody has opened.
+// What nobody waits for is lost, as it is with a port that nobody has opened. The tag is the port
+// of the base that a datagram comes from or goes to.
 void VirtualStation::collect(Way way, std::deque<Waiting>& queue, Instant at) {
-  for (PathId path = 0; path < air_.paths(); ++path)
+  for (PathId path = 0; path < air_.paths(); ++path) {
+    const std::uint64_t here = base_address(path, at).port;
     while (auto datagram = air_.take(way, path, at))
-      if (way == Way::kUp || base_) queue.push_back({path, *std::move(datagram)});
+      if (way == Way::kUp || (base_ && datagram->tag == here))
+        queue.push_back({path, *std::move(datagram)});
+  }
 }
 
 void VirtualStation::serve_base(Instant at) {
   const auto answer = [&] {
     while (const auto out = base_->poll(base_time(at)))
-      air_.offer(Way::kUp, out->path, out->bytes, at);
+      air_.offer(Way::kUp, out->path, {out->bytes, base_address(out->path, at).port}, at);
   };
   for (const Waiting& came : std::exchange(to_base_, {})) {
     base_->feed(came.datagram.bytes, came.path,
@@ -130,7 +166,7 @@ void VirtualStation::say_words(Instant at) {
 void VirtualStation::hear(pipeline::Inputs& in) {
   for (const Waiting& came : std::exchange(to_car_, {}))
     car_->feed(came.datagram.bytes, came.path,
-               {kHere, static_cast<std::uint16_t>(kBasePort + came.path)}, came.datagram.arrives);
+               {kHere, static_cast<std::uint16_t>(came.datagram.tag)}, came.datagram.arrives);
   desk_->fill(*car_, in);
 }
 
@@ -147,7 +183,7 @@ std::optional<telemetry::Snapshot> VirtualStation::tell(
   const telemetry::Snapshot snapshot = pipeline::tap(
       {.setup = setup_, .car = car, .out = out, .log = log_, .rim = figures, .now = in.now});
   while (const auto datagram = car_->poll(snapshot, in.now))
-    air_.offer(Way::kDown, datagram->path, datagram->bytes, in.now);
+    air_.offer(Way::kDown, datagram->path, {datagram->bytes, datagram->to.port}, in.now);
   return snapshot;
 }
 

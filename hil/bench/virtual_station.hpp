@@ -4,8 +4,11 @@
 //   in     scenario, Setup, faults; time; Inputs before and Outputs after each tick of the car
 //   out    Inputs as the rim of the real car fills them; the base's picture
 //   law    one seed, one run. base_killed: the base is gone, and begins as another run at the
-//          fault's end. base_paused: it hears nothing and says nothing; what came meanwhile waits
-//          for it. A car that is stopped likewise. The base's clock is not the car's
+//          fault's end; it knows the newest stamp of its car. base_replaced: the one that begins is
+//          a spare one, at the second address that the car was told, which knows nothing.
+//          base_moved: the base is at an address that the car was not told; what goes to another
+//          is lost. base_paused: it hears nothing and says nothing; what came meanwhile waits for
+//          it. A car that is stopped likewise. The base's clock is not the car's
 //   errors what the operator said in vain is in refusals()
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -74,7 +77,11 @@ class VirtualStation {
   };
 
   bool active(faults::BenchFaultKind kind, Instant at) const;
+  bool has(faults::BenchFaultKind kind) const;
+  telemetry::ConduitConfig config(const telemetry::KeyFile& keys) const;
   void start_base();
+  void stop_base();
+  telemetry::Address base_address(telemetry::PathId path, Instant at) const;
   void collect(Way way, std::deque<Waiting>& queue, Instant at);
   void serve_base(Instant at);
   void say_words(Instant at);
@@ -91,6 +98,8 @@ class VirtualStation {
   pipeline::TickLog log_;
   std::deque<Waiting> to_car_, to_base_;
   std::uint16_t car_port_ = 40'000;
+  telemetry::Stamp newest_stamp_ = 0;  // as the base's file has it
+  bool spare_ = false;                 // the base that there is, or comes next
   std::size_t said_ = 0;
   std::vector<std::string> refusals_;
   std::vector<telemetry::CommandId> commands_;

@@ -95,6 +95,8 @@ constexpr std::array<BenchFaultRow, kBenchFaultKinds> kBenchFaults{{
     {Kind::kGnssBytesDamaged, "gnss_bytes_damaged", Part::kGnss,
      "share of the messages that are damaged"},
     {Kind::kGpsTimeStep, "gps_time_step", Part::kClock, "seconds by which all receivers step"},
+    {Kind::kBaseMoved, "base_moved", Part::kRadio, ""},
+    {Kind::kBaseReplaced, "base_replaced", Part::kRadio, ""},
 }};
 
 const BenchFaultRow& row_of(BenchFaultKind kind) {

@@ -2,7 +2,9 @@
 // file names them; what acts on each is the part in `acts_on`.
 //   units  of `value`: as the row says; 0 where the kind needs none
 //   law    a process that is killed for a duration is started again at its end (never armed); one
-//          killed without a duration stays dead; one that is paused goes on at the end
+//          killed without a duration stays dead; one that is paused goes on at the end. A base that
+//          is replaced dies, and at the end a spare one begins at the second address of the car's
+//          list. A base that moves is elsewhere until the end, at an address of no list
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -92,7 +94,9 @@ enum class BenchFaultKind : std::uint8_t {
   kBusTransmitter,
   kTransmitStall,
   kGnssBytesDamaged,
-  kGpsTimeStep
+  kGpsTimeStep,
+  kBaseMoved,
+  kBaseReplaced
 };
 
 enum class BenchPart : std::uint8_t {
@@ -126,7 +130,7 @@ struct BenchFault {
   std::uint64_t seed = 1;
 };
 
-inline constexpr std::size_t kBenchFaultKinds = 77;
+inline constexpr std::size_t kBenchFaultKinds = 79;
 extern const std::array<BenchFaultRow, kBenchFaultKinds> kBenchFaults;
 
 const BenchFaultRow& row_of(BenchFaultKind kind);

@@ -1,7 +1,7 @@
-// How old what the base shows is, by group, as an onlooker sees it each millisecond; and whether
-// the base ever says that a value is younger than it is.
-//   in     each millisecond the time of the sample that stands there for each group, and the age
-//          that the base tells
+// Age of what the base shows, each millisecond, in true time: of each group, and of the whole
+// vehicle state.
+//   in     each millisecond the age of each group that the base has, and of the oldest of the
+//          groups of the vehicle state (its hundred signals together) once the base has all
 //   out    quantiles, whole run or since the last reset
 //   units  true time; bins of 1 ms up to kBins, the last holds all above
 // SPDX-License-Identifier: Apache-2.0
@@ -23,10 +23,12 @@ class AgeMeter {
 
   AgeMeter() { reset(); }
   void reset();
-  void look(telemetry::Group group, Duration age);
+  void look(telemetry::Group group, Duration age) { add(ages_[telemetry::index_of(group)], age); }
+  void look_at_state(Duration oldest) { add(state_, oldest); }
 
   // Least age that at least this share of the looks did not exceed; zero without looks.
-  Duration quantile(telemetry::Group group, double q) const;
+  Duration quantile(telemetry::Group group, double q) const { return quantile(of(group), q); }
+  Duration state_quantile(double q) const { return quantile(state_, q); }
   Duration worst(telemetry::Group group) const { return of(group).worst; }
   std::uint64_t looks(telemetry::Group group) const { return of(group).looks; }
 
@@ -36,9 +38,12 @@ class AgeMeter {
     std::uint64_t looks = 0;
     Duration worst{};
   };
+  static void add(Ages& ages, Duration age);
+  static Duration quantile(const Ages& ages, double q);
   const Ages& of(telemetry::Group group) const { return ages_[telemetry::index_of(group)]; }
 
   std::array<Ages, telemetry::kGroups> ages_;
+  Ages state_;
 };
 
 }  // namespace pitwall::radio

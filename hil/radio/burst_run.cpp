@@ -58,6 +58,11 @@ AgeQuantiles ages_of(const VirtualRadio& radio, Class priority) {
   return oldest;
 }
 
+AgeQuantiles state_ages_of(const VirtualRadio& radio) {
+  const AgeMeter& ages = radio.ages();
+  return {ages.state_quantile(0.5), ages.state_quantile(0.99), ages.state_quantile(0.999)};
+}
+
 // Something tiny on all paths, without a budget and without a queue.
 AgeQuantiles oracle_of(const BurstCase& c) {
   const RadioSetup setup = setup_of(c);

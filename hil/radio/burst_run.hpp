@@ -50,5 +50,7 @@ AgeQuantiles oracle_of(const BurstCase& c);
 std::string to_string(const BurstCase& c, const BurstRun& run);
 // Of the oldest group of a class.
 AgeQuantiles ages_of(const VirtualRadio& radio, telemetry::Class priority);
+// Of the oldest group of the vehicle state, millisecond by millisecond.
+AgeQuantiles state_ages_of(const VirtualRadio& radio);
 
 }  // namespace pitwall::radio

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/radio/virtual_radio.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "protocol/telemetry/packet/header.hpp"
+#include "protocol/telemetry/registry/vehicle_state.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::radio {
@@ -58,6 +60,7 @@ VirtualRadio::VirtualRadio(const RadioSetup& setup)
   base_keys_ = {.role = Role::kBase, .own = make_identity(randomness_), .peer = {}};
   car_keys_.peer = base_keys_.own.public_key;
   base_keys_.peer = car_keys_.own.public_key;
+  if (setup.chance != 0) randomness_ = SeededRandomness(~setup.chance);
   for (PathId path = 0; path < kPaths; ++path) {
     car_side_.address[path] = on_path(kCarAddress, path);
     base_side_.address[path] = on_path(kBaseAddress, path);
@@ -75,7 +78,15 @@ ConduitConfig VirtualRadio::config(bool car) const {
   config.association.keys = car ? car_keys_ : base_keys_;
   config.association.greeting.signed_only = setup_.signed_only;
   config.schema = car ? setup_.schema_of_car : setup_.schema_of_base;
-  if (car) config.association.peer = base_side_.address;
+  if (car) {
+    for (PathId path = 0; path < kPaths; ++path) {
+      config.association.peer[path] = on_path(kBaseAddress, path);
+      if (setup_.spare[path].known()) {
+        CHECK(config.association.spare[path].push(setup_.spare[path]));
+      }
+    }
+    config.association.to_utc = setup_.to_utc;
+  }
   config.association.paths = setup_.paths;
   config.association.first_sequence = setup_.first_sequence;
   config.budget = car ? setup_.budget_down : setup_.budget_up;
@@ -91,7 +102,9 @@ void VirtualRadio::restart_car(Duration away) {
 
 void VirtualRadio::restart_base(Duration away) {
   base_side_.there = now_ + away;
-  station_ = std::make_unique<StationEndpoint>(config(false), randomness_);
+  ConduitConfig base = config(false);
+  if (station_ && setup_.stamps_kept) base.association.newest_stamp = station_->newest_stamp();
+  station_ = std::make_unique<StationEndpoint>(base, randomness_);
   sample_at_base_.fill(-1);
 }
 
@@ -121,13 +134,22 @@ void VirtualRadio::deliver() {
   }
 }
 
+// At the end that it went to, which is there.
+bool VirtualRadio::arrives(const link::Datagram& datagram, bool down, PathId path) {
+  const Side& side = down ? base_side_ : car_side_;
+  const auto port = static_cast<std::uint16_t>(datagram.tag & 0xFFFF);
+  if (port == side.address[path].port) return now_ >= side.there;
+  if (stray_) stray_(down, path, port, datagram.bytes);
+  return false;
+}
+
 void VirtualRadio::take_at_car(const link::Datagram& datagram, PathId path) {
-  if ((datagram.tag & 0xFFFF) != car_side_.address[path].port || now_ < car_side_.there) return;
+  if (!arrives(datagram, false, path)) return;
   car_->feed(datagram.bytes, path, source_of(datagram.tag), car_now());
 }
 
 void VirtualRadio::take_at_base(const link::Datagram& datagram, PathId path) {
-  if ((datagram.tag & 0xFFFF) != base_side_.address[path].port || now_ < base_side_.there) return;
+  if (!arrives(datagram, true, path)) return;
   const auto arrival = station_->feed(datagram.bytes, path, source_of(datagram.tag), base_now());
   if (arrival) judge(datagram.bytes, *arrival);
 }
@@ -242,6 +264,11 @@ void VirtualRadio::look() {
     const std::int64_t sample = sample_at_base_[index_of(row.group)];
     if (sample >= 0) ages_.look(row.group, now_ - (Instant{} + kStep * sample));
   }
+  std::int64_t oldest = sample_;
+  for (const Group group : kVehicleStateGroups) {
+    oldest = std::min(oldest, sample_at_base_[index_of(group)]);
+  }
+  if (oldest >= 0) ages_.look_at_state(now_ - (Instant{} + kStep * oldest));
 }
 
 }  // namespace pitwall::radio

@@ -39,9 +39,13 @@ struct RadioSetup {
   Duration clock_offset{};       // the base's clock minus the car's
   double clock_drift_ppm = 0.0;  // of the base's clock
   std::uint64_t seed = 1;
-  Duration tick_jitter{};  // each tick of the car comes late by 0 .. this, drawn
+  std::uint64_t chance = 0;  // another run with the same keys and links
+  Duration tick_jitter{};    // each tick of the car comes late by 0 .. this, drawn
   bool signed_only = false;
   std::uint64_t first_sequence = 1;
+  bool stamps_kept = true;  // a base that restarts knows the newest opening of before
+  Duration to_utc{};        // what the car's clock lacks to the calendar
+  std::array<telemetry::Address, telemetry::kPaths> spare{};  // where else the car looks for a base
   // What they say that their registries are; none: what it is. Outlive the radio.
   const telemetry::SchemaClaim* schema_of_car = nullptr;
   const telemetry::SchemaClaim* schema_of_base = nullptr;
@@ -82,10 +86,12 @@ class VirtualRadio {
   link::LinkEmulator& down(telemetry::PathId path) { return *down_[path]; }
   link::LinkEmulator& up(telemetry::PathId path) { return *up_[path]; }
 
-  // A new process: nothing is remembered but the keys. It is there after `away`; until then nobody
-  // hears or speaks.
+  // A new process: nothing is remembered but the keys and, at the base, the newest stamp. It is
+  // there after `away`; until then nobody hears or speaks.
   void restart_car(Duration away = {});
   void restart_base(Duration away = {});
+  // Of its next start.
+  void set_clock_of_car(Duration to_utc) { setup_.to_utc = to_utc; }
   // From now on nothing passes in this direction; or again.
   void cut(telemetry::PathId path, bool down, bool up);
   // The base sees this source from now on (another port of a NAT); the old one is dead.
@@ -94,6 +100,10 @@ class VirtualRadio {
   // Sees each datagram before the link does; false swallows it.
   using Tap = std::function<bool(bool down, telemetry::PathId, std::span<const std::uint8_t>)>;
   void tap(Tap tap) { tap_ = std::move(tap); }
+  // Hears what arrives where no end is: for who listens there.
+  using Stray = std::function<void(bool down, telemetry::PathId, std::uint16_t port,
+                                   std::span<const std::uint8_t>)>;
+  void listen(Stray stray) { stray_ = std::move(stray); }
   // Somebody else's datagram at an end.
   void inject(bool at_base, telemetry::PathId path, telemetry::Address from,
               std::span<const std::uint8_t> bytes);
@@ -146,6 +156,7 @@ class VirtualRadio {
   void judge(std::span<const std::uint8_t> datagram, const telemetry::Arrival& arrival);
   void judge_values(telemetry::Group group, std::int64_t sample);
   void look();
+  bool arrives(const link::Datagram& datagram, bool down, telemetry::PathId path);
 
   RadioSetup setup_;
   telemetry::SeededRandomness randomness_;
@@ -163,6 +174,7 @@ class VirtualRadio {
   std::vector<Sent> sent_;
   std::array<std::int64_t, telemetry::kGroups> sample_at_base_{};
   Tap tap_;
+  Stray stray_;
   AgeMeter ages_;
   Falsehoods falsehoods_;
   std::uint64_t arrivals_ = 0;

@@ -112,8 +112,12 @@ Result<bench::RunResult, Problem> live(const RunOptions& options, const bench::L
   fs::create_directories(options.folder, error);
   if (error) return Unexpected{Problem{options.folder, error.message()}};
   bench::LivePlan plan = bench::in_bay(plan_of(options, loaded.scenario), options.bay);
-  if (options.keys.empty() && plan.has_base() && !plan.attached())
-    if (const auto made = bench::make_run_keys(plan.keys); !made) return Unexpected{made.error()};
+  std::optional<bench::RunKeys> keys;  // as long as the run
+  if (plan.has_base() && !(plan.attached() && options.keys.empty())) {
+    auto made = bench::keys_of_run(plan, options.keys);
+    if (!made) return Unexpected{made.error()};
+    plan.keys = keys.emplace(*std::move(made)).folder;
+  }
   std::string log_file = options.log_file;
   if (!plan.disk.empty()) {
     if (const auto mounted = bench::mount_disk(plan.disk); !mounted)

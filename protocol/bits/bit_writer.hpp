@@ -6,9 +6,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
+#include <type_traits>
 
 #include "protocol/vocabulary/check.hpp"
 
@@ -41,16 +44,25 @@ class BitWriter {
   constexpr std::size_t bytes() const { return (at_ + 7) / 8; }
 
  private:
+  static constexpr std::size_t kWord = sizeof(std::uint32_t);
+
   constexpr void put(std::uint64_t value, unsigned bits) {
     const auto begun = static_cast<unsigned>(at_ % 8);
     const std::size_t first = at_ / 8, bytes = (begun + bits + 7) / 8;
     if (bits == 0) return;
     if (begun != 0) value |= std::uint64_t{buffer_[first]} >> (8 - begun) << bits;
     value <<= 8 * bytes - begun - bits;
+    at_ += bits;
+    if (!std::is_constant_evaluated() && bytes == kWord) return put_word(value, first);
     for (std::size_t i = bytes; i > 0; --i, value >>= 8U) {
       buffer_[first + i - 1] = static_cast<std::uint8_t>(value);
     }
-    at_ += bits;
+  }
+  // Four bytes without a loop.
+  void put_word(std::uint64_t value, std::size_t first) {
+    auto word = static_cast<std::uint32_t>(value);
+    if constexpr (std::endian::native == std::endian::little) word = __builtin_bswap32(word);
+    std::memcpy(buffer_.data() + first, &word, kWord);
   }
 
   std::span<std::uint8_t> buffer_;

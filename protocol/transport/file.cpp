@@ -10,6 +10,8 @@
 #include <system_error>
 #include <vector>
 
+#include "protocol/transport/private_access.hpp"
+
 namespace pitwall::transport {
 namespace {
 
@@ -66,20 +68,14 @@ Result<std::string, Problem> read_file(const std::string& path, std::size_t max_
 }
 
 Result<std::string, Problem> read_private_file(const std::string& path, std::size_t max_bytes) {
-  const auto opened = open_file(path, O_RDONLY | O_NONBLOCK);  // a pipe must not hold the start up
-  const FileDescriptor fd(opened);
-  if (!fd.valid()) return refuse(path, opened);
-  struct stat about {};
-  const auto asked = posix_call([&] { return fstat(fd.get(), &about); });
-  if (!asked.ok()) return refuse(path, asked);
-  if (!S_ISREG(about.st_mode)) return Unexpected{Problem{path, "is no file"}};
-  if ((about.st_mode & S_IRWXO) != 0)
-    return Unexpected{Problem{path, "others may open it: chmod o-rwx, and make new keys"}};
-  return read_all(fd, path, max_bytes);
+  const auto fd = open_private(path);
+  if (!fd) return Unexpected{fd.error()};
+  return read_all(*fd, path, max_bytes);
 }
 
 Result<bool, Problem> write_private_file(const std::string& path, std::string_view contents) {
   constexpr unsigned kOwnerOnly = 0600;
+  if (auto problem = check_folder_of(path)) return Unexpected{*std::move(problem)};
   const auto opened = open_file(path, O_WRONLY | O_CREAT | O_EXCL, kOwnerOnly);
   const FileDescriptor fd(opened);
   if (!fd.valid()) return refuse(path, opened);
@@ -146,9 +142,10 @@ bool AppendWriter::sync() {
   return false;
 }
 
-Result<TemporaryFolder, Problem> TemporaryFolder::create(std::string_view prefix) {
+Result<TemporaryFolder, Problem> TemporaryFolder::create(std::string_view prefix,
+                                                         std::string parent) {
   const char* chosen = std::getenv("TMPDIR");
-  const std::string parent = chosen != nullptr && *chosen != '\0' ? chosen : "/tmp";
+  if (parent.empty()) parent = chosen != nullptr && *chosen != '\0' ? chosen : "/tmp";
   std::string path = parent + "/" + std::string(prefix) + "XXXXXX";
   const auto made = posix_call([&] { return mkdtemp(path.data()) == nullptr ? -1 : 0; });
   if (!made.ok()) return refuse(parent, made);

@@ -25,10 +25,11 @@ Result<std::string, Problem> read_file(const std::string& path,
 Result<bool, Problem> write_file(const std::string& path, std::string_view contents,
                                  unsigned permissions = 0644);
 
-// A file that holds a secret: refused if others than its owner and group may read or change it.
+// A file that holds a secret: refused if others may read, change or replace it, see
+// private_access.hpp.
 Result<std::string, Problem> read_private_file(const std::string& path,
                                                std::size_t max_bytes = kMaxFileBytes);
-// A new one, for its owner only; what exists already is refused, never replaced.
+// A new one, for its owner only; refused where it exists already or others may replace it.
 Result<bool, Problem> write_private_file(const std::string& path, std::string_view contents);
 
 // The whole text to an open descriptor (1 and 2 are standard output and errors).
@@ -61,10 +62,11 @@ class AppendWriter {
   AppendCounters counters_;
 };
 
-// A new private folder in $TMPDIR or /tmp; removed with all it holds at the end of its life.
+// A new private folder in `parent`, or in $TMPDIR or /tmp; removed with all it holds at the end of
+// its life.
 class TemporaryFolder {
  public:
-  static Result<TemporaryFolder, Problem> create(std::string_view prefix);
+  static Result<TemporaryFolder, Problem> create(std::string_view prefix, std::string parent = {});
   TemporaryFolder(TemporaryFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
   TemporaryFolder& operator=(TemporaryFolder&&) = delete;
   ~TemporaryFolder();

@@ -22,6 +22,7 @@ template <class T, class E>
 class [[nodiscard]] Result {
  public:
   Result(T value) : side_(std::in_place_index<0>, std::move(value)) {}  // NOLINT
+  explicit Result(std::in_place_t) : side_(std::in_place_index<0>) {}   // T{}, made in its place
   Result(Unexpected<E> reason)
       : side_(std::in_place_index<1>, std::move(reason.error)) {}  // NOLINT
 

@@ -38,7 +38,7 @@ class Adversary {
 
   void run() {
     while (at_ < script_.size()) {
-      act(byte() % 16);
+      act(byte() % 17);
       look();
     }
   }
@@ -77,6 +77,8 @@ class Adversary {
         return release();
       case 14:
         return splice();
+      case 15:
+        return move(byte());
       default:
         return from_elsewhere();
     }
@@ -167,6 +169,14 @@ class Adversary {
       released_.clear();
     }
   }
+  // One end of one path is seen from another address, or from its first one again.
+  void move(std::uint8_t which) {
+    const auto path = static_cast<PathId>(which >> 1U & 1U);
+    const bool base = (which & 1U) != 0;
+    const Address home = base ? base_home_[path] : car_home_[path];
+    const Address there{home.ip + (which >> 2U & 3U), home.port};
+    base ? radio_.move_base(path, there) : radio_.move_car(path, there);
+  }
   void jump() {
     steps(1);
     radio_.pause(milliseconds(byte() * 40));
@@ -226,6 +236,8 @@ class Adversary {
   std::size_t at_ = 0;
   std::array<std::array<std::deque<Bytes>, kPaths>, 2> under_way_;
   VirtualRadio radio_;
+  std::array<Address, kPaths> car_home_{radio_.car_address(0), radio_.car_address(1)},
+      base_home_{radio_.base_address(0), radio_.base_address(1)};
   std::map<std::pair<std::uint64_t, CommandId>, Instant> issued_;
   std::set<std::uint16_t> released_;
   std::uint64_t base_run_ = 0;

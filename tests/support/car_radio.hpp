@@ -29,6 +29,7 @@ class CarRadio {
     if (!keys) return Unexpected{keys.error()};
     telemetry::ConduitConfig config;
     config.association.keys = *keys;
+    config.association.to_utc = transport::realtime_minus_monotonic();
     config.budget.fill(budget);
     config.early_share = early_share;
     CarRadio radio;

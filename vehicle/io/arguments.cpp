@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "protocol/telemetry/packet/body.hpp"
+#include "protocol/telemetry/session/association.hpp"
 #include "vehicle/io/receiver_options.hpp"
 
 namespace pitwall::io {
@@ -20,7 +21,10 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   app.add_option("--can", args.can_interface, "CAN interface, e.g. can0")->required();
   const ReceiverOptions receivers{app};
   app.add_option("--radio", args.radio,
-                 "where the base station is reached, ADDRESS:PORT; once more for a second path")
+                 "where the base station is reached, ADDRESS:PORT[,ADDRESS:PORT...]: the first is "
+                 "preferred, at the others (at most " +
+                     std::to_string(telemetry::kSpares) +
+                     ") are spare ones; once more for a second path")
       ->expected(1, static_cast<int>(telemetry::kPaths))
       ->capture_default_str();
   app.add_option("--keys", args.keys,
@@ -38,7 +42,8 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   app.add_flag("--simulation", args.simulation, "say in the telemetry that this is a simulation");
   app.add_flag("--no-base", args.no_base,
                "no base station is watched: none is needed to arm, none is missed (bench)");
-  app.add_flag("--check", args.check, "only read the car and track files; touch no bus");
+  app.add_flag("--check", args.check,
+               "only judge the car and track files and --radio; touch no bus");
   app.add_flag("--arm", args.arm, "armed from the start (bench)");
   try {
     app.parse(argc, argv);

@@ -18,7 +18,7 @@ struct Arguments {
   std::string car_file, track_file;
   std::string can_interface;
   ReceiverLinks receivers;                            // where the bytes of each come in
-  std::vector<std::string> radio{"127.0.0.1:23431"};  // where the base is reached, by path
+  std::vector<std::string> radio{"127.0.0.1:23431"};  // by path: see station_addresses.hpp
   std::string keys;                                   // file of the car's keys
   std::uint16_t local_report = 0;                     // port on loopback; 0: nobody is told
   std::string summary_file;                           // empty: none

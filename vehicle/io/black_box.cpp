@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vehicle/io/black_box.hpp"
 
+#include <array>
+#include <cstdio>
+
 #include "protocol/telemetry/registry/group_row.hpp"
+#include "protocol/vocabulary/check.hpp"
 #include "vehicle/io/json_counts.hpp"
 
 namespace pitwall::io {
@@ -36,6 +40,18 @@ void BlackBox::radio(bool down, Instant at, const recorder::AirDatagram& datagra
 
 void BlackBox::receiver(std::size_t unit, Instant at, std::span<const std::uint8_t> bytes) {
   if (on() && !bytes.empty()) recorder_->receiver(unit, at, bytes);
+}
+
+void BlackBox::event(std::string_view text, Instant at) {
+  if (!on()) return;
+  constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
+  std::array<char, 256> json{};
+  const int size =
+      std::snprintf(json.data(), json.size(), R"({"type":"event","time_ms":%lld,"text":"%.*s"})",
+                    static_cast<long long>(at.ns / kNanosecondsPerMillisecond),
+                    static_cast<int>(text.size()), text.data());
+  CHECK(size > 0 && static_cast<std::size_t>(size) < json.size());
+  recorder_->text(recorder::Topic::kEvent, at, {json.data(), static_cast<std::size_t>(size)});
 }
 
 std::string BlackBox::json() const {

@@ -14,6 +14,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "protocol/can/frame.hpp"
 #include "protocol/recorder/recorder.hpp"
@@ -38,6 +39,7 @@ class BlackBox {
   void state(const telemetry::Snapshot& state, Instant now);
   // `down`: from the car to its base.
   void radio(bool down, Instant at, const recorder::AirDatagram& datagram);
+  void event(std::string_view text, Instant at);  // plain ASCII without quotes
   void receiver(std::size_t unit, Instant at, std::span<const std::uint8_t> bytes);
   // Counters; not for the loop.
   std::string json() const;

@@ -5,7 +5,10 @@
 #include <utility>
 
 #include "protocol/telemetry/session/keys.hpp"
+#include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
+#include "protocol/vocabulary/check.hpp"
+#include "vehicle/io/station_addresses.hpp"
 
 namespace pitwall::io {
 namespace {
@@ -14,7 +17,6 @@ using transport::UdpAddress;
 using transport::UdpSocket;
 
 constexpr std::uint8_t kExpedited = 46;  // RFC 3246: every packet holds safety's part
-constexpr std::size_t kMaxKeyFile = 4'096;
 
 telemetry::Address address_of(UdpAddress a) { return {.ip = a.ip, .port = a.port}; }
 UdpAddress address_of(telemetry::Address a) { return {.ip = a.ip, .port = a.port}; }
@@ -24,44 +26,46 @@ recorder::AirDatagram on_air(telemetry::PathId path, UdpAddress other,
   return {.path = path, .ip = other.ip, .port = other.port, .bytes = bytes};
 }
 
-Result<telemetry::KeyFile, Problem> read_keys(const std::string& path) {
-  const auto text = transport::read_private_file(path, kMaxKeyFile);
+Result<telemetry::KeyFile, Problem> read_keys(const std::string& path, bool real_car) {
+  const auto text = transport::read_private_file(path, telemetry::kMaxKeyFileBytes);
   if (!text) return Unexpected{text.error()};
-  auto keys = telemetry::parse_key_file(*text, path);
-  if (!keys) return keys;
-  if (keys->role != telemetry::Role::kCar)
-    return Unexpected{Problem{path, "these are the keys of a base station, not of a car"}};
-  return keys;
+  return telemetry::parse_key_file(*text, path,
+                                   {.role = telemetry::Role::kCar, .real_car = real_car});
 }
 
 Result<UdpSocket, Problem> open_socket(UdpAddress base) {
-  return UdpSocket::bind(
-      {.ip = base.ip == transport::kLoopbackIp ? transport::kLoopbackIp : transport::kAnyIp},
-      {.dscp = kExpedited});
+  return UdpSocket::bind({.ip = is_loopback(base) ? transport::kLoopbackIp : transport::kAnyIp},
+                         {.dscp = kExpedited});
+}
+
+void set_addresses(telemetry::AssociationConfig& config, std::size_t path,
+                   const StationAddresses& addresses) {
+  config.peer[path] = address_of(addresses.front());
+  for (const UdpAddress& spare : std::span(addresses).subspan(1)) {
+    CHECK(config.spare[path].push(address_of(spare)));
+  }
 }
 
 }  // namespace
 
 Result<Radio, Problem> Radio::open(const RadioArguments& args, const pipeline::RadioParams& params,
                                    bool real_car) {
-  auto keys = read_keys(args.key_file);
+  auto keys = read_keys(args.key_file, real_car);
   if (!keys) return Unexpected{keys.error()};
-  if (args.bases.empty() || args.bases.size() > telemetry::kPaths)
-    return Unexpected{Problem{"--radio", "one path or two"}};
+  const auto stations = parse_station_addresses(args.stations);
+  if (!stations) return Unexpected{stations.error()};
   telemetry::ConduitConfig config;
   config.association.keys = *std::move(keys);
   config.association.greeting.signed_only = params.signed_only;
   config.association.greeting.real_car = real_car;
-  config.association.paths = static_cast<std::uint8_t>(args.bases.size());
+  config.association.to_utc = transport::realtime_minus_monotonic();
+  config.association.paths = static_cast<std::uint8_t>(stations->size());
   std::vector<UdpSocket> paths;
-  for (std::size_t i = 0; i < args.bases.size(); ++i) {
-    const auto base = transport::parse_udp_address(args.bases[i]);
-    if (!base) return Unexpected{base.error()};
-    if (base->port == 0) return Unexpected{Problem{args.bases[i], "the base has no port"}};
-    auto socket = open_socket(*base);
+  for (std::size_t i = 0; i < stations->size(); ++i) {
+    auto socket = open_socket((*stations)[i].front());
     if (!socket) return Unexpected{socket.error()};
     paths.push_back(*std::move(socket));
-    config.association.peer[i] = address_of(*base);
+    set_addresses(config.association, i, (*stations)[i]);
     const pipeline::RadioPathParams path =
         i < params.paths.size() ? params.paths[i] : pipeline::RadioPathParams{};
     config.budget[i] = {.bytes_per_s = path.bytes_per_s,
@@ -77,7 +81,8 @@ Radio::Radio(const telemetry::ConduitConfig& config, std::vector<UdpSocket> path
     : randomness_(std::make_unique<telemetry::SystemRandomness>()),
       endpoint_(config, *randomness_),
       paths_(std::move(paths)),
-      inbox_(UdpSocket::kBatch) {}
+      inbox_(UdpSocket::kBatch),
+      bench_keys_(config.association.keys.bench) {}
 
 void Radio::listen(BlackBox& box) {
   for (std::size_t path = 0; path < paths_.size(); ++path)

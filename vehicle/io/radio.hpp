@@ -1,7 +1,7 @@
 // The car's radio as the process has it: one UDP socket for each path, and the protocol's endpoint
 // behind them. listen() before the step, speak() after it.
-//   in     arguments (addresses of the base by path, key file), budgets of the car file; the newest
-//          snapshot
+//   in     arguments (addresses of base stations by path, key file), budgets of the car file; the
+//          calendar, once in open(), for the stamps of the key exchange; the newest snapshot
 //   out    datagrams, marked as expedited forwarding; the endpoint, for the pipeline's RadioDesk
 //   errors open(): Problem with the address, the key file or the budget as place; afterwards
 //          counters only
@@ -26,7 +26,7 @@
 namespace pitwall::io {
 
 struct RadioArguments {
-  std::vector<std::string> bases;  // ADDRESS:PORT by path
+  std::vector<std::string> stations;  // by path, see station_addresses.hpp
   std::string key_file;
 };
 
@@ -34,7 +34,7 @@ class Radio {
  public:
   static constexpr std::size_t kReadsPerTick = 512;
 
-  // `real_car`: false is shown as a simulation.
+  // `real_car`: false is shown as a simulation, and takes keys of a bench too.
   static Result<Radio, Problem> open(const RadioArguments& args,
                                      const pipeline::RadioParams& params, bool real_car);
 
@@ -46,6 +46,7 @@ class Radio {
   telemetry::CarEndpoint& endpoint() { return endpoint_; }
   const telemetry::CarEndpoint& endpoint() const { return endpoint_; }
   const transport::UdpCounters& counters(std::size_t path) const { return paths_[path].counters(); }
+  bool bench_keys() const { return bench_keys_; }
   std::size_t paths() const { return paths_.size(); }
   transport::UdpAddress local(std::size_t path) const { return paths_[path].local(); }
 
@@ -59,6 +60,7 @@ class Radio {
   telemetry::CarEndpoint endpoint_;
   std::vector<transport::UdpSocket> paths_;
   std::vector<transport::UdpDatagram> inbox_;
+  bool bench_keys_ = false;
 };
 
 }  // namespace pitwall::io

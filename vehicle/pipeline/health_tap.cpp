@@ -271,6 +271,7 @@ void put_radio(const TapInputs& in, Snapshot& snapshot) {
   v[field("radio.heartbeats_refused")] = number(in.rim.heartbeats_refused);
   v[field("radio.base_runs")] = number(in.rim.base_runs);
   v[field("radio.slots_skipped")] = number(in.rim.slots_skipped);
+  v[field("radio.threats")] = in.rim.threats;
   v[field("radio.loss_0")] = in.rim.paths[0].loss;
   v[field("radio.loss_1")] = in.rim.paths[1].loss;
   v[field("radio.delay_0")] = in.rim.paths[0].delay_p99_ms;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "protocol/telemetry/delivery/event_content.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::pipeline {
@@ -77,6 +78,7 @@ void count(const telemetry::LinkReport& report, RimCounters& figures) {
   for (const std::uint64_t n : report.bad_bodies) figures.heartbeats_refused += n;
   figures.base_runs = report.sessions;
   figures.slots_skipped = report.slots_skipped;
+  figures.threats = report.threats.bits;
   figures.round_trip_ms = report.round_trip ? report.round_trip->milliseconds() : kUnset;
   for (std::size_t path = 0; path < figures.paths.size() && path < report.paths.size(); ++path) {
     const telemetry::PathReport& from = report.paths[path];
@@ -117,6 +119,7 @@ void RadioDesk::show(const telemetry::CarEndpoint& radio, RimCounters& figures, 
   figures.heartbeats_refused = counted_.heartbeats_refused;
   figures.base_runs = counted_.base_runs;
   figures.slots_skipped = counted_.slots_skipped;
+  figures.threats = counted_.threats;
   figures.round_trip_ms = counted_.round_trip_ms;
   figures.paths = counted_.paths;
   const telemetry::OperatorView view = radio.view(now);
@@ -158,7 +161,22 @@ void RadioDesk::take(telemetry::CarEndpoint& radio, const Setup& setup, const Ca
   if (std::isfinite(out.place.s_m)) radio.place(out.place.s_m, setup.track.length_m(), now);
   for (const telemetry::Event& event : events_.look(car, out, now))
     if (!radio.log(event)) ++events_refused_;
+  take_threats(radio);
   show_path(radio, car, now);
+}
+
+void RadioDesk::take_threats(telemetry::CarEndpoint& radio) {
+  threats_.clear();
+  while (!threats_.full()) {
+    const auto change = radio.next_threat();
+    if (!change) return;
+    const telemetry::ThreatEvent content{.threat = static_cast<std::uint8_t>(change->threat),
+                                         .begins = change->begins,
+                                         .seen_by_base = false,
+                                         .most_per_s = change->most_per_s};
+    if (!radio.log(telemetry::make_event(content, change->at))) ++events_refused_;
+    static_cast<void>(threats_.push(*change));
+  }
 }
 
 // The one that is followed: the drive trajectory, or that of a stop.

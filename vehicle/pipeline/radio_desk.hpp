@@ -2,7 +2,8 @@
 // what became of it and what happened goes back. The same in the car and in the bench.
 //   in     the endpoint; Inputs before the step, Outputs after it; the car file as text
 //   out    Inputs: wishes, commands, when the base was alive, whether the car may be armed.
-//          Endpoint: fate of each command, standstill, place, events, the path that the car means
+//          Endpoint: fate of each command, standstill, place, events (also of attacks and key
+//          errors that the car's end of the radio sees), the path that the car means
 //          to drive (each kPathPeriod) and, when asked for, its parameters
 //   law    a command is decided once: by the pipeline, or here where the pipeline has no part in it
 //          (end of the run: at standstill only; parameters). Ends that do not agree on the safety
@@ -13,6 +14,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "protocol/telemetry/delivery/path_object.hpp"
@@ -43,15 +45,20 @@ class RadioDesk {
   // What telemetry shows of the radio; its statistics anew each kFiguresPeriod.
   void show(const telemetry::CarEndpoint& radio, RimCounters& figures, Instant now);
 
+  // Attacks and key errors that began or were over in the newest take().
+  std::span<const telemetry::ThreatChange> threats() const { return threats_.span(); }
+
   bool end_asked() const { return end_asked_; }  // the operator ended the run
   std::uint64_t events_missed() const { return events_.missed() + events_refused_; }
 
  private:
   void admit(telemetry::CarEndpoint& radio, const telemetry::DueCommand& due, Instant now);
+  void take_threats(telemetry::CarEndpoint& radio);
   void show_path(telemetry::CarEndpoint& radio, const Car& car, Instant now);
 
   std::string_view parameters_;
   FixedVector<world::OperatorCommand, world::kOperatorCommandsMax> commands_;
+  FixedVector<telemetry::ThreatChange, telemetry::kThreats> threats_;
   EventTap events_;
   bool stands_ = false, end_asked_ = false;
   std::uint64_t events_refused_ = 0;

@@ -30,6 +30,7 @@ struct RimCounters {
   double processor_share = kUnset, memory_mib = kUnset, temperature_c = kUnset;
   // Of the radio: packets of the base that were accepted and that were not, sessions.
   std::uint64_t heartbeats = 0, heartbeats_refused = 0, base_runs = 0, slots_skipped = 0;
+  double threats = kUnset;  // that the car sees: bits of telemetry::ThreatSet
   double round_trip_ms = kUnset;
   struct Path {
     double loss = kUnset, delay_p99_ms = kUnset;  // of what comes

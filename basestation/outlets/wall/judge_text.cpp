@@ -39,7 +39,8 @@ constexpr auto kLink =
                                                  {"packets_hz", &LinkFigures::packets_hz},
                                                  {"down_kbit_s", &LinkFigures::down_kbit_s},
                                                  {"down_cap_kbit_s", &LinkFigures::down_cap_kbit_s},
-                                                 {"up_kbit_s", &LinkFigures::up_kbit_s}});
+                                                 {"up_kbit_s", &LinkFigures::up_kbit_s},
+                                                 {"threats", &LinkFigures::threats}});
 constexpr auto kBaseNumbers = std::to_array<Members<BaseFigures, double>>(
     {{"disk_minutes", &BaseFigures::disk_minutes},
      {"clock_offset_ms", &BaseFigures::clock_offset_ms},

@@ -190,6 +190,7 @@ void Wall::measure(intake::Station& station, Instant now) {
   if (report.round_trip) figures.round_trip_ms = report.round_trip->milliseconds();
   figures.jitter_ms = heard.jitter.milliseconds();
   figures.packets_hz = station.rate().rate_hz(now);
+  figures.threats = report.threats.bits;
   constexpr double kBytesPerKbit = 125.0;
   figures.down_kbit_s = 0.0;
   figures.up_kbit_s = 0.0;

@@ -77,7 +77,9 @@ std::string override_text(const command::Override& overriding) {
 std::string_view severity_of(const telemetry::Event& event) {
   const auto content = telemetry::content_of(event);
   const auto* fault = content ? std::get_if<telemetry::FaultEvent>(&*content) : nullptr;
-  return fault != nullptr && fault->begins ? "warning" : "info";
+  const auto* threat = content ? std::get_if<telemetry::ThreatEvent>(&*content) : nullptr;
+  const bool warns = (fault != nullptr && fault->begins) || (threat != nullptr && threat->begins);
+  return warns ? "warning" : "info";
 }
 
 constexpr std::array kWindows_s{1, 5, 30};

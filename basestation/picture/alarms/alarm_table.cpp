@@ -4,10 +4,14 @@
 #include <charconv>
 #include <cmath>
 
+#include "protocol/telemetry/session/link_threats.hpp"
+
 namespace pitwall::alarms {
 namespace {
 
 using picture::field_id;
+using telemetry::describe;
+using telemetry::Threat;
 
 constexpr Situations in(std::initializer_list<Situation> list) {
   Situations set;
@@ -36,6 +40,31 @@ constexpr auto kAlarmTable = [] {
       {"link_degraded", "The radio is degraded",
        "Send the notice to race control with its figures. No call: the car drives on", kMedium,
        field_id("link.state"), kAbove, 1.5, 0.0, kAtOnce, kAtOnce, false, kAnywhere, "link_lost"},
+      // Whoever sends can raise these, so none is high but the one that takes our keys:
+      // a high alarm bars commands.
+      {"second_peer", describe(Threat::kSecondPeer),
+       "Switch the other one off: a spare base, a car on the bench. If it is not ours, the keys "
+       "are stolen: new key files at both ends before the car drives",
+       kHigh, field_id("link.second_peer"), kAbove, kYes, 0.0, kAtOnce, kLong, false, kAnywhere},
+      {"wrong_key", describe(Threat::kWrongKey),
+       "No link: copy both key files of one keygen again. Link good: find the sender in the "
+       "recording",
+       kMedium, field_id("link.wrong_key"), kAbove, kYes, 0.0, kAtOnce, kLong, false, kAnywhere},
+      {"mode_mismatch", describe(Threat::kModeMismatch),
+       "Set signed_only in the car file and --signed at the base alike; start that end again",
+       kMedium, field_id("link.mode_mismatch"), kAbove, kYes, 0.0, kAtOnce, kLong, false,
+       kAnywhere},
+      {"replayed_openings", describe(Threat::kReplayedOpenings),
+       "Find the sender in the recording; tell race control. Stops pass all the same", kMedium,
+       field_id("link.replayed_openings"), kAbove, kYes, 0.0, kAtOnce, kLong, false, kAnywhere},
+      {"relay", describe(Threat::kRelay),
+       "Look for a loop between our radios. If there is none, tell race control; stop the car if "
+       "the link gets worse",
+       kMedium, field_id("link.relay"), kAbove, kYes, 0.0, kAtOnce, kLong, false, kAnywhere},
+      {"refused_at_rate", describe(Threat::kRefusedAtRate),
+       "Find the sender in the recording and block it at the router. Nothing of it has an effect",
+       kMedium, field_id("link.refused_at_rate"), kAbove, kYes, 0.0, kAtOnce, kLong, false,
+       kAnywhere},
       {"emergency_stop", "Emergency stop",
        "Tell race control. Nobody near the car before it is released at standstill", kHigh,
        field_id("derived.stop"), kAbove, 1.5, 0.0, kAtOnce, kAtOnce, true, kHeard},

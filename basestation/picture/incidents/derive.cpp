@@ -12,6 +12,7 @@
 #include "basestation/picture/incidents/race_fields.hpp"
 #include "basestation/picture/incidents/sensors.hpp"
 #include "basestation/picture/incidents/slip.hpp"
+#include "protocol/telemetry/session/link_threats.hpp"
 
 namespace pitwall::picture {
 namespace {
@@ -49,6 +50,21 @@ void derive_link(const Pass& pass, const Known& known, const Books& books) {
   pass.put(kAuthorityLost, yes(known.base.authority_lost));
   pass.put(kSchemaDiffers, yes(known.base.schema_differs));
   pass.put(kSettingsUnreadable, yes(known.base.settings_unreadable));
+}
+
+// What the base sees of attacks is known without a car; what the car sees, as long as it tells.
+void derive_threats(const Pass& pass, const LinkFigures& link) {
+  constexpr std::size_t kFirst = index_of(BaseField::kWrongKey);
+  static_assert(index_of(BaseField::kRelay) - kFirst ==
+                static_cast<std::size_t>(telemetry::Threat::kRelay));
+  const double by_car = pass.usable(field("radio.threats"));
+  const bool known = !std::isnan(link.threats) || !std::isnan(by_car);
+  for (std::size_t i = 0; i < telemetry::kThreats; ++i) {
+    const auto threat = static_cast<telemetry::Threat>(i);
+    const double seen = (telemetry::threats_of(link.threats).has(threat) ? 1.0 : 0.0) +
+                        (telemetry::threats_of(by_car).has(threat) ? 2.0 : 0.0);
+    pass.put(static_cast<BaseField>(kFirst + i), known ? seen : kUnset);
+  }
 }
 
 // An opponent that is no longer seen is no fault of the link.
@@ -295,6 +311,7 @@ void derive(const DeriveParams& params, const Picture& picture, const Known& kno
             const Books& books, const Course* course, Instant now, BaseViews& views) {
   const Pass pass{.picture = picture, .now = now, .views = views};
   derive_link(pass, known, books);
+  derive_threats(pass, known.link);
   derive_ages(pass);
   derive_watchdogs(pass);
   derive_stop(pass);

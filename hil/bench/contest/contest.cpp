@@ -67,16 +67,17 @@ Result<bool, Problem> await(transport::Process& process, const std::string& name
 }
 
 // Times since the start of the link.
-Result<std::vector<StateArrival>, Problem> arrivals_in(const std::string& file,
-                                                       const std::string& name, Instant begin) {
+Result<Arrivals, Problem> arrivals_in(const std::string& file, const std::string& name,
+                                      Instant begin) {
   const auto text = transport::read_file(file);
   if (!text) return Unexpected{text.error()};
   auto arrivals = read_arrivals(*text, name);
   if (!arrivals) return arrivals;
-  for (StateArrival& arrival : *arrivals) {
+  for (StateArrival& arrival : arrivals->states) {
     arrival.made = Instant{} + (arrival.made - begin);
     arrival.at = Instant{} + (arrival.at - begin);
   }
+  for (BulkArrival& arrival : arrivals->bulk) arrival.at = Instant{} + (arrival.at - begin);
   return arrivals;
 }
 
@@ -106,6 +107,18 @@ std::optional<StateArrival> arrival_of(std::string_view line) {
   return arrival;
 }
 
+std::optional<BulkArrival> bulk_of(std::string_view line) {
+  constexpr std::string_view kBulk = "bulk ";
+  BulkArrival arrival;
+  if (!line.starts_with(kBulk)) return std::nullopt;
+  const char* const end = line.data() + line.size();
+  const auto [at_end, at_error] = std::from_chars(line.data() + kBulk.size(), end, arrival.at.ns);
+  if (at_error != std::errc{} || at_end == end || *at_end != ' ') return std::nullopt;
+  const auto [bytes_end, bytes_error] = std::from_chars(at_end + 1, end, arrival.bytes);
+  if (bytes_error != std::errc{} || bytes_end != end) return std::nullopt;
+  return arrival;
+}
+
 std::vector<std::vector<StateArrival>> by_stream(std::vector<StateArrival> arrivals) {
   std::vector<std::vector<StateArrival>> streams;
   for (StateArrival& arrival : arrivals) {
@@ -126,56 +139,73 @@ double late_p99_ms(std::vector<Duration> late) {
 
 }  // namespace
 
-Result<std::vector<StateArrival>, Problem> read_arrivals(std::string_view text,
-                                                         const std::string& name) {
-  std::vector<StateArrival> arrivals;
-  while (!text.empty()) {
+Result<Arrivals, Problem> read_arrivals(std::string_view text, const std::string& name) {
+  Arrivals arrivals;
+  for (std::size_t line = 1; !text.empty(); ++line) {
     const std::size_t end = text.find('\n');
-    auto arrival = arrival_of(text.substr(0, end));
-    if (end == std::string_view::npos || !arrival)
-      return Unexpected{Problem{name + ":" + std::to_string(arrivals.size() + 1),
-                                "expected MADE_NS ARRIVED_NS [STREAM]"}};
-    arrivals.push_back(*std::move(arrival));
+    auto state = arrival_of(text.substr(0, end));
+    const auto bulk = bulk_of(text.substr(0, end));
+    if (end == std::string_view::npos || (!state && !bulk))
+      return Unexpected{Problem{name + ":" + std::to_string(line),
+                                "expected MADE_NS ARRIVED_NS [STREAM] or bulk ARRIVED_NS BYTES"}};
+    if (state) arrivals.states.push_back(*std::move(state));
+    if (bulk) arrivals.bulk.push_back(*bulk);
     text.remove_prefix(end + 1);
   }
-  std::ranges::stable_sort(arrivals, {}, &StateArrival::at);
+  std::ranges::stable_sort(arrivals.states, {}, &StateArrival::at);
   return arrivals;
 }
 
-ContestRow judge(const std::vector<StateArrival>& arrivals, const LinkTally& tally,
-                 const ContestPlan& plan) {
+ContestRow judge(const Arrivals& arrivals, const LinkTally& tally, const ContestPlan& plan) {
   const Instant from = Instant{} + plan.warm_up, to = from + plan.length;
+  const auto judged = [&](Instant at) { return at >= from && at < to; };
   link::AgeSamples ages(from, to);
-  for (const StateArrival& arrival : arrivals) ages.arrived(arrival.made, arrival.at);
+  for (const StateArrival& arrival : arrivals.states) ages.arrived(arrival.made, arrival.at);
   ages.finish();
-  link::RateWindow down(kRateWindow), up(kRateWindow);
+  std::size_t bulk_bytes = 0;
+  for (const BulkArrival& arrival : arrivals.bulk) {
+    if (judged(arrival.at)) bulk_bytes += arrival.bytes;
+  }
+  link::RateWindow down(kRateWindow), up(kRateWindow), down_long(kLongWindow);
   const auto add = [&](link::RateWindow& window, const DirectionTally& direction) {
     for (const OfferedPacket& packet : direction.offered)
-      if (packet.at >= from && packet.at < to) window.sent(packet.bytes, packet.at);
+      if (judged(packet.at)) window.sent(packet.bytes, packet.at);
   };
   add(down, tally.down);
+  add(down_long, tally.down);
   add(up, tally.up);
   return {.contestant = {},
-          .stream = arrivals.empty() ? "" : arrivals.front().stream,
+          .stream = arrivals.states.empty() ? "" : arrivals.states.front().stream,
           .of_case = {},
           .age_p50_ms = ages.quantile_ms(0.5),
           .age_p99_ms = ages.quantile_ms(0.99),
           .age_max_ms = ages.max_ms(),
           .offered_kbps = kbps(static_cast<double>(down.bytes()), plan.length),
-          .worst_window_kbps = kbps(static_cast<double>(down.worst_bytes()), kRateWindow),
           .up_kbps = kbps(static_cast<double>(up.bytes()), plan.length),
-          .states = arrivals.size(),
+          .worst_window_kbps = kbps(static_cast<double>(down.worst_bytes()), kRateWindow),
+          .worst_second_kbps = kbps(static_cast<double>(down_long.worst_bytes()), kLongWindow),
+          .bulk_kbps = kbps(static_cast<double>(bulk_bytes), plan.length),
+          .states = arrivals.states.size(),
           .looks_without = ages.unknown(),
           .link_late_p99_ms = late_p99_ms(tally.down.late)};
 }
 
+link::LinkParams link_of(const ContestCase& of_case, const ContestPlan& plan) {
+  link::LinkParams link = plan.link;
+  if (of_case.fades) link.trace = shifted(plan.fades, plan.warm_up);
+  if (of_case.queue > Duration{}) {
+    link.queue_bytes = static_cast<std::size_t>(link.rate_bytes_per_s * of_case.queue.seconds());
+  }
+  return link;
+}
+
 ContestRow best_possible(const ContestCase& of_case, const ContestPlan& plan) {
-  const link::LinkTrace fades =
-      of_case.fades ? shifted(plan.fades, plan.warm_up) : link::LinkTrace{};
-  std::vector<StateArrival> arrivals;
+  const link::LinkTrace fades = link_of(of_case, plan).trace;
+  Arrivals arrivals;
   const Instant end = Instant{} + plan.warm_up + plan.length;
   for (Instant at{}; at < end; at += link::kLook)
-    if (link::loss_over_time(fades, at) == 0.0) arrivals.push_back({at, at + plan.link.delay});
+    if (link::loss_over_time(fades, at) == 0.0)
+      arrivals.states.push_back({at, at + plan.link.delay});
   ContestRow row = judge(arrivals, {}, plan);
   row.contestant = "the channel's floor";
   row.of_case = of_case.name;
@@ -189,9 +219,7 @@ Result<std::vector<ContestRow>, Problem> run_contest(const Contestant& contestan
   if (!networks) return Unexpected{networks.error()};
   const auto folder = transport::TemporaryFolder::create("pitwall-contest");
   if (!folder) return Unexpected{folder.error()};
-  link::LinkParams params = plan.link;
-  if (of_case.fades) params.trace = shifted(plan.fades, plan.warm_up);
-
+  const link::LinkParams params = link_of(of_case, plan);
   const Instant begin = transport::monotonic_now(), end = begin + plan.warm_up + plan.length;
   TunLink radio(networks->car, networks->base, params, params, plan.seed, begin);
   const auto run = [&](const transport::TunNetwork& network, const char* role) {
@@ -210,8 +238,8 @@ Result<std::vector<ContestRow>, Problem> run_contest(const Contestant& contestan
   if (!arrivals) return Unexpected{arrivals.error()};
 
   std::vector<ContestRow> rows;
-  for (const auto& stream : by_stream(*std::move(arrivals))) {
-    ContestRow row = judge(stream, tally, plan);
+  for (auto& stream : by_stream(std::move(arrivals->states))) {
+    ContestRow row = judge({std::move(stream), arrivals->bulk}, tally, plan);
     row.contestant = contestant.name;
     row.of_case = of_case.name;
     rows.push_back(std::move(row));

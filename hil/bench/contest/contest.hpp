@@ -4,9 +4,10 @@
 //            PROGRAM car|base END_NS BULK [MODE]
 //          which sends (car) or receives (base) until its monotonic clock shows END_NS; BULK is 1
 //          where 4 kB go at 20 Hz beside the state. The base prints "MADE_NS ARRIVED_NS [STREAM]"
-//          for each state that came; both clocks are the machine's. Streams are judged apart
+//          for each state that came, and "bulk ARRIVED_NS BYTES"; both clocks are the machine's.
+//          Streams are judged apart
 //   out    how old the newest state at the base is, looked at each millisecond; what was offered to
-//          the link, and its worst window
+//          the link, and its worst windows; how much bulk came
 //   law    the fades begin after the warm-up, in which the contestants find each other, and are the
 //          same for each contestant under one seed. Only what comes after the warm-up is judged
 //   errors Problem that says which program failed and how
@@ -26,17 +27,19 @@
 
 namespace pitwall::bench {
 
-inline constexpr Duration kRateWindow = milliseconds(100);
+inline constexpr Duration kRateWindow = milliseconds(100), kLongWindow = seconds(1);
 
 struct Contestant {
   std::string name;
   std::string program;
-  std::string mode;  // empty: none
+  std::string mode;    // empty: none
+  bool tuned = false;  // for the link and the bulk: runs in the cases with bulk only
 };
 
 struct ContestCase {
   std::string_view name;
   bool bulk = false, fades = false;
+  Duration queue{};  // of the link at its rate; zero: as the plan has it
 };
 
 struct ContestPlan {
@@ -49,7 +52,9 @@ struct ContestPlan {
 struct ContestRow {
   std::string contestant, stream, of_case;
   double age_p50_ms = 0.0, age_p99_ms = 0.0, age_max_ms = 0.0;
-  double offered_kbps = 0.0, worst_window_kbps = 0.0, up_kbps = 0.0;
+  double offered_kbps = 0.0, up_kbps = 0.0;
+  double worst_window_kbps = 0.0, worst_second_kbps = 0.0;
+  double bulk_kbps = 0.0;         // that came
   std::size_t states = 0;         // that came
   std::size_t looks_without = 0;  // before the first came
   double link_late_p99_ms = 0.0;  // of the emulator's deliveries: what the machine added
@@ -60,6 +65,9 @@ Result<std::vector<ContestRow>, Problem> run_contest(const Contestant& contestan
                                                      const ContestCase& of_case,
                                                      const ContestPlan& plan);
 
+// Of each direction, from the start of the run.
+link::LinkParams link_of(const ContestCase& of_case, const ContestPlan& plan);
+
 // The floor that the channel sets: a value each millisecond, each as small as nothing, lost only in
 // fades. No sender can be younger.
 ContestRow best_possible(const ContestCase& of_case, const ContestPlan& plan);
@@ -69,11 +77,18 @@ struct StateArrival {
   Instant made{}, at{};
   std::string stream{};
 };
-Result<std::vector<StateArrival>, Problem> read_arrivals(std::string_view text,
-                                                         const std::string& name);
+struct BulkArrival {
+  Instant at{};
+  std::size_t bytes = 0;
+};
+struct Arrivals {
+  std::vector<StateArrival> states;
+  std::vector<BulkArrival> bulk;
+};
+Result<Arrivals, Problem> read_arrivals(std::string_view text, const std::string& name);
 
-// Pure: from what came of one stream and what was offered. Times since the start of the link.
-ContestRow judge(const std::vector<StateArrival>& arrivals, const LinkTally& tally,
-                 const ContestPlan& plan);
+// Pure: from what came of one stream, of bulk, and what was offered. Times since the start of the
+// link.
+ContestRow judge(const Arrivals& arrivals, const LinkTally& tally, const ContestPlan& plan);
 
 }  // namespace pitwall::bench

@@ -12,7 +12,7 @@ namespace pitwall::telemetry {
 namespace {
 
 // Of each kind; kText has any length.
-constexpr std::array<std::size_t, kEventKinds> kLengths{4, 6, 3, 3, 1, 6, 1, 0};
+constexpr std::array<std::size_t, kEventKinds> kLengths{4, 6, 3, 3, 1, 6, 1, 0, 7};
 
 template <class T>
 void append(Event& event, T value) {
@@ -47,12 +47,19 @@ struct Writer {
     for (const char letter : c.text.substr(0, kEventPayload))
       append(event, static_cast<std::uint8_t>(letter));
   }
+  void operator()(const ThreatEvent& c) const {
+    append(event, c.threat);
+    append(event, static_cast<std::uint8_t>(c.begins));
+    append(event, static_cast<std::uint8_t>(c.seen_by_base));
+    append(event, c.most_per_s);
+  }
 };
 
 // In the order of EventContent.
 constexpr std::array<EventKind, kEventKinds> kKindOfContent{
-    EventKind::kLost,   EventKind::kFault, EventKind::kModeChange, EventKind::kFlagChange,
-    EventKind::kArming, EventKind::kLap,   EventKind::kRestart,    EventKind::kText};
+    EventKind::kLost,       EventKind::kFault,  EventKind::kModeChange,
+    EventKind::kFlagChange, EventKind::kArming, EventKind::kLap,
+    EventKind::kRestart,    EventKind::kText,   EventKind::kThreat};
 static_assert(std::variant_size_v<EventContent> == kEventKinds);
 
 float float_at(std::span<const std::uint8_t> bytes, std::size_t at) {
@@ -93,6 +100,9 @@ std::optional<EventContent> content_of(const Event& event) {
       return RestartEvent{bytes[0]};
     case EventKind::kText:
       return TextEvent{{reinterpret_cast<const char*>(bytes.data()), bytes.size()}};
+    case EventKind::kThreat:
+      if (bytes[1] > 1 || bytes[2] > 1) return std::nullopt;
+      return ThreatEvent{bytes[0], bytes[1] == 1, bytes[2] == 1, load<std::uint32_t>(bytes, 3)};
   }
   return std::nullopt;
 }

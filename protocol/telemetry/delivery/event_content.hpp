@@ -54,9 +54,16 @@ struct TextEvent {
   std::string_view text;  // content_of(): lives as long as the event; longer ones are cut
   bool operator==(const TextEvent&) const = default;
 };
+struct ThreatEvent {
+  std::uint8_t threat = 0;  // as in the registry's labels of radio.threats
+  bool begins = true;
+  bool seen_by_base = false;     // else by the car
+  std::uint32_t most_per_s = 0;  // datagrams, until now
+  bool operator==(const ThreatEvent&) const = default;
+};
 
 using EventContent = std::variant<LostEvents, FaultEvent, ModeEvent, FlagEvent, ArmingEvent,
-                                  LapEvent, RestartEvent, TextEvent>;
+                                  LapEvent, RestartEvent, TextEvent, ThreatEvent>;
 
 Event make_event(const EventContent& content, Instant at);
 std::optional<EventContent> content_of(const Event& event);

@@ -34,9 +34,10 @@ enum class EventKind : std::uint8_t {
   kArming,      // u8
   kLap,         // number u16, time f32 s
   kRestart,     // of a part: u8
-  kText         // UTF-8
+  kText,        // UTF-8
+  kThreat       // which u8, begins 1 / ends 0 u8, seen by the base 1 / the car 0 u8, most per s u32
 };
-inline constexpr std::size_t kEventKinds = 8;
+inline constexpr std::size_t kEventKinds = 9;
 
 struct Event {
   EventKind kind = EventKind::kText;

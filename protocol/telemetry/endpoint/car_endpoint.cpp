@@ -126,7 +126,7 @@ void CarEndpoint::feed(std::span<const std::uint8_t> datagram, PathId path, Addr
 
 std::optional<Outgoing> CarEndpoint::poll(const Snapshot& snapshot, Instant now) {
   for (;;) {
-    if (const auto out = parts_->conduit.take(now)) return out;
+    if (const auto out = parts_->conduit.take(now, parts_->waits())) return out;
     const auto plan = parts_->conduit.plan(now, parts_->waits());
     if (!plan) return {};
     parts_->snapshot = snapshot;
@@ -135,7 +135,8 @@ std::optional<Outgoing> CarEndpoint::poll(const Snapshot& snapshot, Instant now)
 }
 
 void CarEndpoint::Parts::make_packet(const PacketPlan& plan, Instant now) {
-  const std::size_t safe = lane.choose(snapshot, conduit.peer_knows(), conduit.round_trip(), now);
+  const std::size_t safe =
+      lane.choose(snapshot, conduit.peer_knows(), {conduit.round_trip(), plan.rate}, now);
   const PacketRoom room = conduit.room_for(plan, safe, ledger.wanted(), now);
   BodyWriter body = conduit.begin(plan, room.whole, now);
   const std::size_t fixed = body.bytes().size();
@@ -196,6 +197,8 @@ void CarEndpoint::place(double station_m, double lap_length_m, Instant now) {
 }
 
 bool CarEndpoint::schema_agrees() const { return parts_->conduit.schema_agrees(); }
+
+std::optional<ThreatChange> CarEndpoint::next_threat() { return parts_->conduit.next_threat(); }
 
 LinkReport CarEndpoint::report(Instant now) const {
   const Parts& p = *parts_;

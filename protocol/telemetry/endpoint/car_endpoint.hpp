@@ -63,6 +63,8 @@ class CarEndpoint {
   // first session. The base says which differ: StationEndpoint::schema_difference().
   bool schema_agrees() const;
   LinkReport report(Instant now) const;
+  // Attacks and key errors that this end saw begin or end, as of the newest poll(); each once.
+  std::optional<ThreatChange> next_threat();
 
  private:
   struct Parts;

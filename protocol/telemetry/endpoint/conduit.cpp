@@ -37,6 +37,7 @@ AssociationConfig complete(AssociationConfig config, const SchemaClaim& claim,
 Conduit::Conduit(const ConduitConfig& config, Direction sends, Randomness& randomness)
     : own_(),
       association_(complete(config.association, claim_of(config), randomness, own_), randomness),
+      threats_(config.association.keys.role, config.association.paths),
       claim_(&claim_of(config)),
       schema_(*claim_, sends),
       sends_(sends),
@@ -157,29 +158,37 @@ void Conduit::note_duplicate(std::uint64_t sequence, std::size_t size, PathId pa
   stats_.delay(path, clock_.one_way(peer_sent, at), at);
 }
 
-std::optional<Outgoing> Conduit::take(Instant now) {
+std::optional<Outgoing> Conduit::take(Instant now, Waits waits) {
+  threats_.step(association_.counters(), now);
   if (next_out_ == out_.size()) {
     out_.clear();
     next_out_ = 0;
-    exchange(now);
+    // While a stop waits, no reply spends what it needs; without a session it waits for a reply.
+    // What a packet that is planned needs is not spent either.
+    const bool stop_waits = waits == Waits::kStop && association_.ready();
+    if (!stop_waits && next_plan_ == plans_.size()) exchange(now);
   }
   if (next_out_ == out_.size()) return {};
   return out_[next_out_++];
 }
 
-// Messages of the key exchange and hints; the budget's like all else.
+// Messages of the key exchange and hints; the budget's like all else. The car's openings are how it
+// comes back, hence safety's, and beside a session they take the place of no slot's packet; what a
+// base replies to whoever knocks is not.
 void Conduit::exchange(Instant now) {
+  if (sends_ == Direction::kDown && association_.ready() && !slots_.is_between(now)) return;
   for (PathId path = 0; path < paths_; ++path) {
     const std::size_t size = association_.poll_size(path, now);
     if (size == 0) continue;
     PathLane& way = ways_[path];
-    if (!way.fits(size, size, now)) {
+    const std::size_t safety = sends_ == Direction::kDown ? size : 0;
+    if (!way.fits(size, safety, now)) {
       way.budget.note_refused();
       continue;
     }
     const auto sent = association_.poll(path, now, exchange_bytes_[path]);
     if (!sent || sent->bytes.empty()) continue;
-    way.spend(sent->bytes.size(), sent->bytes.size(), now);
+    way.spend(sent->bytes.size(), std::min(safety, sent->bytes.size()), now);
     CHECK(out_.push({path, sent->to, sent->bytes}));
   }
 }
@@ -331,6 +340,7 @@ void Conduit::report(LinkReport& out, Instant now) const {
   out.established = association_.ready();
   out.sessions = association_.session();
   out.association = association_.counters();
+  out.threats = threats_.active();
   out.bad_bodies = bad_bodies_;
   out.slots = slots_.count();
   out.slots_skipped = slots_.skipped();

@@ -7,6 +7,8 @@
 //          that has room, or as soon as one has: out of the same budget. One sequence number is one
 //          plaintext: copies for several paths are the same bytes
 //          a packet of another session than the one in use changes nothing
+//          a base's replies to openings and lost sessions have no part of safety's share, and wait
+//          while a stop does
 //   errors counted by Association, BodyError and the modules below
 //   cost   no allocation after construction
 // SPDX-License-Identifier: Apache-2.0
@@ -30,6 +32,7 @@
 #include "protocol/telemetry/packet/body.hpp"
 #include "protocol/telemetry/packet/received.hpp"
 #include "protocol/telemetry/session/association.hpp"
+#include "protocol/telemetry/session/link_threats.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/time.hpp"
 
@@ -78,7 +81,7 @@ class Conduit {
   Fed feed(std::span<const std::uint8_t> datagram, PathId path, Address from, Instant at);
 
   // Sending: take() until none, then plan(); with a plan begin(), fill, send(), and again.
-  std::optional<Outgoing> take(Instant now);
+  std::optional<Outgoing> take(Instant now, Waits waits);
   std::optional<PacketPlan> plan(Instant now, Waits waits);
   // For a packet whose safety groups take `state` bytes and whose records want `records`.
   PacketRoom room_for(const PacketPlan& plan, std::size_t state, std::size_t records,
@@ -99,6 +102,7 @@ class Conduit {
   const ClockSync& clock() const { return clock_; }
   const LinkStats& stats() const { return stats_; }
   bool ready() const { return association_.ready(); }
+  Stamp newest_stamp() const { return association_.newest_stamp(); }
   Duration round_trip() const;  // a guess of kSlot * 3 until it is known
   bool schema_agrees() const;
   const SchemaClaim& claim() const { return *claim_; }
@@ -110,6 +114,8 @@ class Conduit {
     stats_.place(station_m, lap_length_m, now);
   }
   void report(LinkReport& out, Instant now) const;
+  // Attacks and key errors that began or are over, as of the newest take(); each once.
+  std::optional<ThreatChange> next_threat() { return threats_.next_change(); }
   // Of each path's rate, (0, 1].
   void cap(double share) {
     for (PathLane& lane : lanes()) lane.cap = share;
@@ -140,6 +146,7 @@ class Conduit {
 
   Greeting own_;
   Association association_;
+  ThreatMonitor threats_;
   const SchemaClaim* claim_;
   SchemaTalk schema_;
   Direction sends_;

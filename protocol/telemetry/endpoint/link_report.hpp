@@ -14,6 +14,7 @@
 #include "protocol/telemetry/flow/scheduler.hpp"
 #include "protocol/telemetry/packet/body.hpp"
 #include "protocol/telemetry/session/association.hpp"
+#include "protocol/telemetry/session/link_threats.hpp"
 
 namespace pitwall::telemetry {
 
@@ -32,6 +33,7 @@ struct LinkReport {
   std::uint64_t sessions = 0;
   std::array<PathReport, kPaths> paths{};
   AssociationCounters association;
+  ThreatSet threats;  // that this end sees
   std::array<std::uint64_t, kBodyErrors> bad_bodies{};
   std::uint64_t bad_records = 0;
   std::uint64_t slots = 0, slots_skipped = 0;

@@ -40,6 +40,8 @@ PacketPlan PathChoice::plan(std::uint8_t paths, Kind kind, Instant now) const {
                   .between = kind.between};
   for (PathId path = 0; path < lanes.size(); ++path) {
     if (!has(paths, path)) continue;
+    const double rate = lanes[path].budget.present_rate();
+    plan.rate = plan.rate > 0.0 ? std::min(plan.rate, rate) : rate;
     const bool proved = association.proved(path).known();
     const std::size_t trial = kind.between && proved ? 0 : trial_room(path);
     if (trial > 0 && paths == bit_of(path)) {

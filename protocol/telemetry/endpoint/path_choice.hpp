@@ -41,6 +41,7 @@ struct PacketPlan {
   bool between = false;         // half a slot later
   bool trial = false;           // to the address that has yet to prove itself
   std::size_t most = kMaxBody;  // that may go there
+  double rate = 0.0;            // bytes per second, at present, of the narrowest of its paths
 };
 
 struct PathChoice {

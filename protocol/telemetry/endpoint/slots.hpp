@@ -32,6 +32,12 @@ class Slots {
   // Nothing is anybody's turn before.
   Instant due(Instant now, bool at_once = false) const;
 
+  // The slot has had its packet, and half of it is over.
+  bool is_between(Instant now) const {
+    return slot_ && stage_ != Stage::kDue && now + kSlotEarly >= half() &&
+           now + kSlotEarly < *slot_ + kSlot;
+  }
+
   std::uint64_t count() const { return count_; }
   std::uint64_t skipped() const { return skipped_; }
 

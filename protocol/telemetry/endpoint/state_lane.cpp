@@ -3,10 +3,18 @@
 
 #include <algorithm>
 
+#include "protocol/telemetry/endpoint/slots.hpp"
 #include "protocol/telemetry/registry/schema.hpp"
 
 namespace pitwall::telemetry {
 namespace {
+
+constexpr double kStateShare = 0.5;  // of the present rate, before bulk
+// Of a packet, whatever is in it.
+constexpr std::size_t kPacketOverhead =
+    kIpUdpOverhead + kHeaderSize + kTagSize + kBodyFixed + kAckSize;
+
+bool is_slow(Group group) { return row_of(group).priority > Class::kMotion; }
 
 std::size_t size_of(GroupSet groups, Direction direction) {
   return groups.empty() ? 0 : state_bytes(groups, direction);
@@ -43,13 +51,31 @@ bool StateLane::takes(Group group, Writing how, std::size_t room) const {
   return motion || !how.between || how.something_waits;
 }
 
-std::size_t StateLane::choose(const Snapshot& snapshot, GroupSet known, Duration round_trip,
-                              Instant now) {
+Duration StateLane::refresh_period(GroupSet groups, double bytes_per_s) const {
+  GroupSet fast, slow;
+  for (const GroupRow& row : kGroupTable) {
+    if (groups.has(row.group)) (is_slow(row.group) ? slow : fast).add(row.group);
+  }
+  const double bits = static_cast<double>(kAgeCodeBits * slow.count() + bits_of(slow));
+  const auto each_slot = static_cast<double>(kPacketOverhead + size_of(fast, direction_));
+  const double left = kStateShare * bytes_per_s - each_slot / kSlot.seconds();
+  return left >= 1.0 ? from_seconds(bits / 8.0 / left) : Scheduler::kNoPeriod;
+}
+
+std::size_t StateLane::choose(const Snapshot& snapshot, GroupSet known, Path path, Instant now) {
+  GroupSet sampled;
+  for (const GroupRow& row : kGroupTable) {
+    if (known.has(row.group) && snapshot.ever(row.group)) sampled.add(row.group);
+  }
+  const Duration period = refresh_period(sampled, path.bytes_per_s);
+  const auto order = [&](bool fill) {
+    return scheduler_.order(snapshot, path.round_trip, now, {.period = period, .fill = fill});
+  };
   late_ = {};
-  for (const Group group : scheduler_.order(snapshot, round_trip, now)) late_.add(group);
+  for (const Group group : order(false)) late_.add(group);
   order_.clear();
   GroupSet safety;
-  for (const Group group : scheduler_.order(snapshot, round_trip, now, true)) {
+  for (const Group group : order(true)) {
     if (!known.has(group)) continue;
     CHECK(order_.push(group));
     if (row_of(group).priority == Class::kSafety) safety.add(group);
@@ -64,7 +90,7 @@ void StateLane::add_early(Scheduler::Order& wanted, Writing how, std::size_t roo
   auto bits = static_cast<std::size_t>(static_cast<double>(8 * room) * early_share_);
   for (const Group group : order_) {
     const std::size_t size = kAgeCodeBits + group_bits(group);
-    if (late_.has(group) || row_of(group).priority <= Class::kMotion || size > bits) continue;
+    if (late_.has(group) || !is_slow(group) || size > bits) continue;
     bits -= size;
     CHECK(wanted.push(group));
   }

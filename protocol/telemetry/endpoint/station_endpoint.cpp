@@ -137,9 +137,9 @@ std::optional<Arrival> StationEndpoint::feed(std::span<const std::uint8_t> datag
 
 std::optional<Outgoing> StationEndpoint::poll(Instant now) {
   for (;;) {
-    if (const auto out = parts_->conduit.take(now)) return out;
-    parts_->stop_asked = parts_->stop.state();
     const Waits waits = parts_->stop_waits() ? Waits::kStop : Waits::kNothing;
+    if (const auto out = parts_->conduit.take(now, waits)) return out;
+    parts_->stop_asked = parts_->stop.state();
     const auto plan = parts_->conduit.plan(now, waits);
     if (!plan) return {};
     parts_->make_packet(*plan, now);
@@ -162,7 +162,8 @@ void StationEndpoint::Parts::make_packet(const PacketPlan& plan, Instant now) {
   const Snapshot snapshot = sample(now);
   stop_said = stop.state();
   const std::size_t wants = desk.wanted() + events.wanted();
-  const std::size_t safe = lane.choose(snapshot, conduit.peer_knows(), conduit.round_trip(), now);
+  const std::size_t safe =
+      lane.choose(snapshot, conduit.peer_knows(), {conduit.round_trip(), plan.rate}, now);
   const PacketRoom room = conduit.room_for(plan, safe, wants, now);
   BodyWriter body = conduit.begin(plan, room.whole, now);
   const std::size_t fixed = body.bytes().size();
@@ -236,6 +237,8 @@ double StationEndpoint::loss_at(std::size_t bin) const {
   return parts_->conduit.stats().loss_at(bin);
 }
 
+Stamp StationEndpoint::newest_stamp() const { return parts_->conduit.newest_stamp(); }
+
 bool StationEndpoint::schema_agrees() const { return parts_->conduit.schema_agrees(); }
 std::string StationEndpoint::schema_difference() const {
   const Parts& p = *parts_;
@@ -245,6 +248,8 @@ std::string StationEndpoint::schema_difference() const {
   const std::string_view own = p.conduit.claim().safety_text;
   return difference(own.empty() ? safety_text() : own, theirs);
 }
+
+std::optional<ThreatChange> StationEndpoint::next_threat() { return parts_->conduit.next_threat(); }
 
 LinkReport StationEndpoint::report(Instant now) const {
   const Parts& p = *parts_;

@@ -70,6 +70,8 @@ class StationEndpoint {
 
   // What the car told of itself when the session began; none before.
   const std::optional<Greeting>& peer() const;
+  // The greatest stamp of the car's openings, for the next start: AssociationConfig::newest_stamp.
+  Stamp newest_stamp() const;
   // Where the car is, for loss by track position: see LinkStats.
   void place(double station_m, double lap_length_m, Instant now);
   double loss_at(std::size_t bin) const;
@@ -78,6 +80,8 @@ class StationEndpoint {
   // One line for each difference of the safety groups; empty where there is none.
   std::string schema_difference() const;
   LinkReport report(Instant now) const;
+  // Attacks and key errors that this end saw begin or end, as of the newest poll(); each once.
+  std::optional<ThreatChange> next_threat();
 
  private:
   struct Parts;

@@ -16,7 +16,7 @@ inline constexpr std::string_view kDissectorHead = R"(-- Pitwall telemetry, made
 )";
 
 inline constexpr std::string_view kDissectorCode = R"lua(
-local KINDS = {[0] = "opening", "answer", "cookie", "sealed", "signed", "unknown session"}
+local KINDS = {[0] = "opening", "answer", "newer stamp", "sealed", "signed", "unknown session"}
 local RECORDS = {"command", "command result", "command result ack", "event", "event ack", "bulk",
   "bulk ack", "schema", "schema group", "path probe", "path proof", "path receipt"}
 

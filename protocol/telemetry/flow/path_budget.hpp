@@ -63,6 +63,8 @@ class PathBudget {
   void note_refused() { ++counters_.refused; }
   // Of the rate: what rate control leaves of it, (0, 1]; safety's share is never scaled.
   void scale(double factor, Instant now);
+  // Bytes per second that come at present: the rate as it is scaled, less a largest packet.
+  double present_rate() const { return static_cast<double>(scaled_rate_); }
   // The earliest time at which a packet of this payload may go as all else; kNever: too large.
   Instant due(std::size_t payload, Instant now) const;
 

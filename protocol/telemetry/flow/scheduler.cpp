@@ -15,6 +15,24 @@ namespace {
 constexpr Duration kAckWait = milliseconds(25), kSilence = milliseconds(45);
 constexpr Duration kUnknownAge = seconds(3'600);  // of what the other end never had
 
+enum class Rank : std::uint8_t { kDue, kMotion, kPeriod, kFill };
+struct Candidate {
+  Group group;
+  Rank rank;
+  double value;  // the highest first
+
+  bool operator<(const Candidate& other) const {
+    if (rank != other.rank) return rank < other.rank;
+    return value != other.value ? value > other.value : group < other.group;
+  }
+};
+
+double index_at(const GroupRow& row, Duration age) {
+  const double target_s = row.target_age.seconds();
+  const double late = std::max(0.0, age.seconds() - target_s / 2) / target_s;
+  return row.weight * late * late / std::sqrt(static_cast<double>(group_bits(row.group)));
+}
+
 }  // namespace
 
 Scheduler::Scheduler(Direction direction) : direction_(direction) { forget(); }
@@ -39,45 +57,32 @@ Instant Scheduler::known_sample(Group group, Duration round_trip, Instant now) c
   return under_way ? std::max(acked, last_sample_[g]) : acked;
 }
 
-double Scheduler::index(Group group, const Snapshot& snapshot, Duration round_trip,
-                        Instant now) const {
-  const Instant known = known_sample(group, round_trip, now);
-  if (snapshot.at(group) <= known) return 0.0;
-  const GroupRow& row = row_of(group);
-  const double target_s = row.target_age.seconds();
-  const double age_s = (known == kNeverSampled ? kUnknownAge : now - known).seconds();
-  const double late = std::max(0.0, age_s - target_s / 2) / target_s;
-  return row.weight * late * late / std::sqrt(static_cast<double>(group_bits(group)));
-}
-
 Scheduler::Order Scheduler::order(const Snapshot& snapshot, Duration round_trip, Instant now,
-                                  bool fill) const {
-  struct Candidate {
-    Group group;
-    double value;
-  };
+                                  Early early) const {
   Order order;
-  FixedVector<Candidate, kGroups> due;
+  FixedVector<Candidate, kGroups> candidates;
   for (const GroupRow& row : kGroupTable) {
     if (row.direction != direction_ || !snapshot.ever(row.group)) continue;
     if (row.priority == Class::kSafety) {
       CHECK(order.push(row.group));
       continue;
     }
-    double value = index(row.group, snapshot, round_trip, now);
-    if (value <= 0.0) {
-      if (!fill || snapshot.at(row.group) <= figures(row.group).acked_sample) continue;
-      // Below all that are due: the nearer to being due, the sooner.
-      const Instant known = known_sample(row.group, round_trip, now);
-      const Duration age = known == kNeverSampled ? kUnknownAge : now - known;
-      value = -1.0 / (1.0 + age.seconds() / row.target_age.seconds());
+    const Instant known = known_sample(row.group, round_trip, now);
+    const Duration age = known == kNeverSampled ? kUnknownAge : now - known;
+    const bool is_motion = row.priority == Class::kMotion;
+    const bool newer = snapshot.at(row.group) > known;
+    const bool doubtful = snapshot.at(row.group) > figures(row.group).acked_sample;
+    if (const double index = index_at(row, age); newer && index > 0.0) {
+      CHECK(candidates.push({row.group, Rank::kDue, index}));
+    } else if (newer && !is_motion && age >= early.period) {
+      CHECK(candidates.push({row.group, Rank::kPeriod, age.seconds()}));
+    } else if (early.fill && doubtful) {
+      const double nearness = age.seconds() / row.target_age.seconds();
+      CHECK(candidates.push({row.group, is_motion ? Rank::kMotion : Rank::kFill, nearness}));
     }
-    CHECK(due.push({row.group, value}));
   }
-  std::sort(due.begin(), due.end(), [](const Candidate& a, const Candidate& b) {
-    return a.value != b.value ? a.value > b.value : a.group < b.group;
-  });
-  for (const Candidate& c : due) CHECK(order.push(c.group));
+  std::sort(candidates.begin(), candidates.end());
+  for (const Candidate& c : candidates) CHECK(order.push(c.group));
   return order;
 }
 

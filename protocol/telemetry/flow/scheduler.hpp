@@ -1,9 +1,11 @@
-// Which groups go into the next packet: safety always, then by age of what the other end is known
-// to have.
-//   law    index_g = w_g * (max(0, age_g - T_g / 2) / T_g)^2 / sqrt(bits_g); age_g since the sample
-//          that was acknowledged, or is under way for less than a round trip and the wait of an
-//          acknowledgement to be written. Ages grow without bound, so no group starves. A sample
-//          that the other end has is not offered again
+// Order of the groups for the next packet: safety always, then by age of what the other end is
+// known to have.
+//   invariants  index_g = w_g * (max(0, age_g - T_g / 2) / T_g)^2 / sqrt(bits_g); age_g since the
+//          sample that was acknowledged, or is under way for less than a round trip and the wait
+//          of an acknowledgement to be written. Ages grow without bound, so no group starves. A
+//          sample that the other end has is not offered again
+//          behind the groups with an index above zero go those that are as old as the period that
+//          the caller gives, the oldest first
 //          while nothing comes back that was sent since, what is under way counts as lost: after a
 //          fade the first packet that arrives has what is oldest
 //   in     snapshots, what was written into which packet, which packets were acknowledged
@@ -34,9 +36,17 @@ class Scheduler {
   explicit Scheduler(Direction direction);
 
   using Order = FixedVector<Group, kGroups>;
-  // Sampled groups: those of class kSafety first, then by falling index; index zero not at all
-  // unless `fill` (room to spare costs nothing).
-  Order order(const Snapshot& snapshot, Duration round_trip, Instant now, bool fill = false) const;
+  static constexpr Duration kNoPeriod{INT64_MAX};
+  // Groups with index zero.
+  struct Early {
+    Duration period = kNoPeriod;  // offered at this age
+    bool fill = false;            // all others, too: the nearer to being due, the sooner
+  };
+  // Sampled groups: those of class kSafety first, then by falling index, then the early ones.
+  Order order(const Snapshot& snapshot, Duration round_trip, Instant now, Early early) const;
+  Order order(const Snapshot& snapshot, Duration round_trip, Instant now) const {
+    return order(snapshot, round_trip, now, Early{});
+  }
 
   void sent(std::uint64_t sequence, GroupSet written, GroupSet wanted, const Snapshot& snapshot,
             Instant now);
@@ -58,7 +68,6 @@ class Scheduler {
   };
 
   Instant known_sample(Group group, Duration round_trip, Instant now) const;
-  double index(Group group, const Snapshot& snapshot, Duration round_trip, Instant now) const;
 
   Direction direction_;
   std::array<GroupFigures, kGroups> figures_{};

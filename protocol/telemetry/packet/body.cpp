@@ -81,34 +81,42 @@ GroupSet BodyWriter::add_groups(const Snapshot& snapshot, std::span<const Group>
   }
   if (set.empty()) return set;
   buffer_[kFlagsAt] |= kHasGroups;
-  write_set(set);
-  write_values(set, snapshot, now, counters);
+  write_values(write_set(set).span(), snapshot, now, counters);
   return set;
 }
 
-void BodyWriter::write_set(GroupSet set) {
+// The groups of the set in the order of the layout.
+FixedVector<Group, kGroups> BodyWriter::write_set(GroupSet set) {
+  FixedVector<Group, kGroups> groups;
   std::uint64_t present = 0;
   for (std::size_t k = 0; k < layout_->size(); ++k) {
     const auto& own = (*layout_)[k].own;
-    if (own && set.has(*own)) present |= std::uint64_t{1} << k;
+    if (!own || !set.has(*own)) continue;
+    present |= std::uint64_t{1} << k;
+    CHECK(groups.push(*own));
   }
   for (std::size_t i = 0; i < set_size(*layout_); ++i) {
     buffer_[at_++] = static_cast<std::uint8_t>(present >> (8 * i));
   }
+  return groups;
 }
 
-void BodyWriter::write_values(GroupSet set, const Snapshot& snapshot, Instant now,
+void BodyWriter::write_values(std::span<const Group> groups, const Snapshot& snapshot, Instant now,
                               CodecCounters& counters) {
   bits::BitWriter out(buffer_.subspan(at_, room_left()));
-  for (const GroupPlace& place : *layout_) {
-    if (!place.own || !set.has(*place.own)) continue;
-    const bool ever = snapshot.ever(*place.own);
-    out.write(ever ? age_code(now - snapshot.at(*place.own)) : kNeverCode, kAgeCodeBits);
-  }
-  for (const GroupPlace& place : *layout_) {
-    if (!place.own || !set.has(*place.own)) continue;
-    encode_group(*place.own, snapshot.values, out, counters);
-  }
+  FieldWriter fields(out);
+  Instant last = kNeverSampled;  // most groups are of one moment
+  std::uint8_t code = kNeverCode;
+  fields.write([&](auto&& put) {
+    for (const Group group : groups) {
+      const Instant at = snapshot.at(group);
+      if (at != last) code = snapshot.ever(group) ? age_code(now - at) : kNeverCode;
+      last = at;
+      put(code, kAgeCodeBits);
+    }
+  });
+  for (const Group group : groups) encode_group(group, snapshot.values, fields, counters);
+  fields.finish();
   out.align();
   CHECK(out.ok());
   at_ += out.bytes();
@@ -201,9 +209,24 @@ const GroupPlace& first_place(const Layout& sender, std::uint64_t left) {
 }
 constexpr std::uint64_t without_first(std::uint64_t left) { return left & (left - 1); }
 
-void skip(bits::BitReader& in, std::size_t bits) {
-  for (; bits > bits::kMaxFieldBits; bits -= bits::kMaxFieldBits) in.read(bits::kMaxFieldBits);
-  in.read(static_cast<unsigned>(bits));
+template <class Take>
+bool read_ages(Take&& take, const Layout& sender, std::uint64_t set, Body& body) {
+  for (auto left = set; left != 0; left = without_first(left)) {
+    const auto age = static_cast<std::uint8_t>(take(kAgeCodeBits));
+    const auto& own = first_place(sender, left).own;
+    if (!own) continue;
+    body.groups.add(*own);
+    body.age_codes[index_of(*own)] = age;
+  }
+  return true;
+}
+
+template <class Take>
+bool skip(Take&& take, std::size_t bits) {
+  constexpr unsigned kMost = 32;
+  for (; bits > kMost; bits -= kMost) take(kMost);
+  take(static_cast<unsigned>(bits));
+  return true;
 }
 
 Verdict read_values(Rest& rest, const Layout& sender, std::uint64_t set, Body& body) {
@@ -214,18 +237,13 @@ Verdict read_values(Rest& rest, const Layout& sender, std::uint64_t set, Body& b
   const std::size_t size = (bits + 7) / 8;
   if (!rest.has(size)) return BodyError::kTooShort;
   bits::BitReader in(rest.take(size));
-  for (auto left = set; left != 0; left = without_first(left)) {
-    const auto age = static_cast<std::uint8_t>(in.read(kAgeCodeBits));
-    const auto& own = first_place(sender, left).own;
-    if (!own) continue;
-    body.groups.add(*own);
-    body.age_codes[index_of(*own)] = age;
-  }
+  FieldReader fields(in, bits);
+  fields.read([&](auto&& take) { return read_ages(take, sender, set, body); });
   for (auto left = set; left != 0; left = without_first(left)) {
     const GroupPlace& place = first_place(sender, left);
     if (!place.own) {
-      skip(in, place.bits);
-    } else if (!decode_group(*place.own, in, body.values)) {
+      fields.read([&](auto&& take) { return skip(take, place.bits); });
+    } else if (!decode_group(*place.own, fields, body.values)) {
       return BodyError::kBadValue;
     }
   }
@@ -270,9 +288,11 @@ Verdict read_body(Rest rest, const Layout& sender, Body& body) {
 }  // namespace
 
 Result<Body, BodyError> parse_body(std::span<const std::uint8_t> bytes, const Layout& sender) {
-  if (bytes.size() > kMaxBody) return Unexpected{BodyError::kTooLong};
-  Result<Body, BodyError> result{Body{}};
-  if (const Verdict bad = read_body(Rest{bytes}, sender, *result)) return Unexpected{*bad};
+  // One object from here to the caller: a body is 4 kB.
+  Result<Body, BodyError> result{std::in_place};
+  const Verdict bad = bytes.size() > kMaxBody ? BodyError::kTooLong
+                                              : read_body(Rest{bytes}, sender, result.value());
+  if (bad) result = Unexpected{*bad};
   return result;
 }
 

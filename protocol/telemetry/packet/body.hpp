@@ -87,8 +87,9 @@ class BodyWriter {
   static std::size_t record_size(std::size_t payload) { return payload + (payload < 0xF0 ? 2 : 3); }
 
  private:
-  void write_set(GroupSet set);
-  void write_values(GroupSet set, const Snapshot& snapshot, Instant now, CodecCounters& counters);
+  FixedVector<Group, kGroups> write_set(GroupSet set);
+  void write_values(std::span<const Group> groups, const Snapshot& snapshot, Instant now,
+                    CodecCounters& counters);
 
   std::span<std::uint8_t> buffer_;
   std::size_t room_ = 0, held_back_ = 0, at_ = 0, records_ = 0;

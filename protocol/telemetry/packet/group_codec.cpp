@@ -11,6 +11,7 @@ namespace {
 // A row as the codec needs it.
 struct FieldCode {
   double min, resolution;
+  double per_unit;    // steps
   std::int64_t last;  // code of the last value
   unsigned bits;
   std::uint64_t unset;
@@ -19,56 +20,11 @@ constexpr auto kCodes = [] {
   std::array<FieldCode, kFieldCount> codes{};
   for (FieldIndex i = 0; i < kFieldCount; ++i) {
     const bits::Quantized q = kFields[i].quantized();
-    codes[i] = {q.min(), q.resolution(), static_cast<std::int64_t>(q.count()) - 1, q.bits(),
-                q.no_value()};
+    const auto last = static_cast<std::int64_t>(q.count()) - 1;
+    codes[i] = {q.min(), q.resolution(), 1.0 / q.resolution(), last, q.bits(), q.no_value()};
   }
   return codes;
 }();
-
-constexpr unsigned kWord = 32;  // no field is wider; two fit into a register
-
-// Fields gathered into words: a writer takes 32 bits at once sooner than a few at a time.
-class Packer {
- public:
-  explicit Packer(bits::BitWriter& out) : out_(out) {}
-  void put(std::uint64_t value, unsigned bits) {
-    word_ = word_ << bits | value;
-    filled_ += bits;
-    if (filled_ < kWord) return;
-    filled_ -= kWord;
-    out_.write(word_ >> filled_ & 0xFFFF'FFFFU, kWord);
-  }
-  bool finish() { return out_.write(word_ & ((std::uint64_t{1} << filled_) - 1), filled_); }
-
- private:
-  bits::BitWriter& out_;
-  std::uint64_t word_ = 0;
-  unsigned filled_ = 0;  // < kWord between two fields
-};
-
-// The other way round; `total`: all bits that may be taken.
-class Unpacker {
- public:
-  Unpacker(bits::BitReader& in, std::size_t total) : in_(in), left_(total) {}
-  std::uint64_t take(unsigned bits) {
-    if (filled_ < bits) refill();
-    filled_ -= bits;
-    return word_ >> filled_ & ((std::uint64_t{1} << bits) - 1);
-  }
-
- private:
-  void refill() {
-    const auto more = static_cast<unsigned>(std::min<std::size_t>(left_, kWord));
-    word_ = word_ << more | in_.read(more);
-    filled_ += more;
-    left_ -= more;
-  }
-
-  bits::BitReader& in_;
-  std::uint64_t word_ = 0;
-  unsigned filled_ = 0;
-  std::size_t left_;
-};
 
 // A value that has no code inside the range: unset, infinite, or held at an end.
 std::uint64_t code_outside(FieldIndex i, double value, CodecCounters& counters) {
@@ -83,17 +39,11 @@ std::uint64_t code_outside(FieldIndex i, double value, CodecCounters& counters) 
 
 std::uint64_t code_of(FieldIndex i, double value, CodecCounters& counters) {
   const FieldCode& code = kCodes[i];
-  const double steps = (value - code.min) / code.resolution;
+  const double steps = (value - code.min) * code.per_unit;
   const bool inside = steps >= 0.0 && steps <= static_cast<double>(code.last);
   if (!inside) return code_outside(i, value, counters);
   return static_cast<std::uint64_t>(static_cast<std::int64_t>(steps + 0.5));
 }
-
-constexpr std::size_t kMostFields = [] {
-  std::size_t most = 0;
-  for (const FieldSpan& span : kGroupFields) most = std::max(most, span.count);
-  return most;
-}();
 
 // Dense where fast groups live (a tick of 10 ms, a slot of 20 ms), about threefold above.
 constexpr std::array kAges{milliseconds(0),  milliseconds(2),  milliseconds(4),   milliseconds(6),
@@ -105,34 +55,45 @@ static_assert(std::is_sorted(kAges.begin(), kAges.end()));
 
 }  // namespace
 
+void encode_group(Group group, const Values& values, FieldWriter& out, CodecCounters& counters) {
+  const auto [first, count] = fields_of(group);
+  out.write([&, first = first, end = first + count](auto&& put) {
+    for (FieldIndex i = first; i < end; ++i) put(code_of(i, values[i], counters), kCodes[i].bits);
+  });
+}
+
+bool decode_group(Group group, FieldReader& in, Values& values) {
+  const auto [first, count] = fields_of(group);
+  const bool good = in.read([&, i = first, end = first + count](auto&& take) mutable {
+    for (; i < end; ++i) {
+      const FieldCode& code = kCodes[i];
+      const std::uint64_t step = take(code.bits);
+      const auto number = static_cast<std::int64_t>(step);
+      if (number <= code.last) {
+        values[i] = code.min + static_cast<double>(number) * code.resolution;
+      } else if (step == code.unset) {
+        values[i] = kUnset;
+      } else {
+        return false;
+      }
+    }
+    return true;
+  });
+  if (!good) std::fill_n(values.at.begin() + static_cast<std::ptrdiff_t>(first), count, kUnset);
+  return good;
+}
+
 bool encode_group(Group group, const Values& values, bits::BitWriter& out,
                   CodecCounters& counters) {
-  const auto [first, count] = fields_of(group);
-  Packer packer{out};
-  for (FieldIndex i = first; i < first + count; ++i)
-    packer.put(code_of(i, values[i], counters), kCodes[i].bits);
-  return packer.finish();
+  FieldWriter writer{out};
+  encode_group(group, values, writer, counters);
+  return writer.finish();
 }
 
 bool decode_group(Group group, bits::BitReader& in, Values& values) {
-  const auto [first, count] = fields_of(group);
   if (in.bits_left() < group_bits(group)) return false;
-  std::array<double, kMostFields> decoded;
-  Unpacker unpacker{in, group_bits(group)};
-  for (FieldIndex i = 0; i < count; ++i) {
-    const FieldCode& code = kCodes[first + i];
-    const std::uint64_t step = unpacker.take(code.bits);
-    const auto number = static_cast<std::int64_t>(step);
-    if (number <= code.last) {
-      decoded[i] = code.min + static_cast<double>(number) * code.resolution;
-    } else if (step == code.unset) {
-      decoded[i] = kUnset;
-    } else {
-      return false;
-    }
-  }
-  std::copy_n(decoded.begin(), count, values.at.begin() + static_cast<std::ptrdiff_t>(first));
-  return true;
+  FieldReader reader{in, group_bits(group)};
+  return decode_group(group, reader, values);
 }
 
 std::uint8_t age_code(Duration age) {

@@ -15,19 +15,19 @@
 
 namespace pitwall::telemetry {
 
-inline constexpr std::uint8_t kProtocolVersion = 2;
+inline constexpr std::uint8_t kProtocolVersion = 3;
 inline constexpr std::size_t kHeaderSize = 7, kTagSize = 16;
 inline constexpr std::size_t kMaxDatagram = 1'200;  // UDP payload; never an IP fragment
 inline constexpr std::size_t kIpUdpOverhead = 28;   // IPv4 and UDP, counted in every budget
 inline constexpr std::size_t kMaxBody = kMaxDatagram - kHeaderSize - kTagSize;
 
 enum class Kind : std::uint8_t {
-  kOpening,  // first message of the key exchange
-  kAnswer,   // second
-  kCookie,   // "prove your address first"
-  kSealed,   // data, encrypted
-  kSigned,   // data, readable, authenticated
-  kUnknown   // "I have no session of that number"; a hint, proves nothing
+  kOpening,     // first message of the key exchange
+  kAnswer,      // second
+  kNewerStamp,  // "an opening must have a greater stamp than this"
+  kSealed,      // data, encrypted
+  kSigned,      // data, readable, authenticated
+  kUnknown      // "I have no session of that number"; a hint, proves nothing
 };
 inline constexpr std::size_t kKinds = 6;
 

@@ -70,6 +70,9 @@ inline constexpr std::string_view kStopCauses =
     "no good position|planning a beat late|control a beat late|"
     "race control: flags unknown or contradictory|computer missed ticks|computer busy|"
     "a clock stepped|clock too fast or slow|GNSS: one unit is bad";
+// Bits of a set of attacks and key errors, in the order of telemetry::Threat.
+inline constexpr std::string_view kThreatNames =
+    "wrong key|sealed against signed|refused at rate|second peer|replayed openings|relay";
 
 // What is left of "a|b|c" without the first so many names.
 constexpr std::string_view labels_from(std::string_view labels, std::size_t first) {

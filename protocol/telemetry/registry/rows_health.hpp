@@ -124,6 +124,7 @@ inline constexpr auto kHealthRows = [] {
       share(kRadio, "budget_use_0"),  // of what leaves by path 0
       share(kRadio, "budget_use_1"),
       count(kRadio, "slots_skipped"),
+      {kRadio, "threats", FieldRow::kBitSet, 0, 126, 1, kThreatNames},  // as the car sees them
   });
 }();
 

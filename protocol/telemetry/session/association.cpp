@@ -2,28 +2,28 @@
 #include "protocol/telemetry/session/association.hpp"
 
 #include <algorithm>
-#include <string_view>
 
 #include "protocol/telemetry/little_endian.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::telemetry {
-
 namespace {
 
-// Binds an exchange to this protocol and its version.
-constexpr std::array<std::uint8_t, 15> kPrologue = [] {
-  constexpr std::string_view kText = "pitwall radio ";
-  std::array<std::uint8_t, kText.size() + 1> bytes{};
-  std::copy(kText.begin(), kText.end(), bytes.begin());
-  bytes.back() = kProtocolVersion;
-  return bytes;
-}();
+// Another process with the peer's keys is one while the peer was heard so lately.
+constexpr Duration kPeerHeard = seconds(1);
+
+SessionTerms terms_of(const AssociationConfig& config) {
+  return {config.keys, config.first_sequence, config.key_log};
+}
 
 }  // namespace
 
 Association::Association(const AssociationConfig& config, Randomness& randomness)
-    : config_(config), randomness_(&randomness), standing_(config.keys.own, config.keys.peer) {
+    : config_(config),
+      randomness_(&randomness),
+      standing_(config.keys.own, config.keys.peer),
+      initiator_(terms_of(config_), config.greeting, standing_, config.to_utc, randomness),
+      responder_(terms_of(config_), config.greeting, standing_, config.newest_stamp, randomness) {
   CHECK(config.paths >= 1 && config.paths <= kPaths);
   for (std::size_t i = 0; i < config.paths; ++i) {
     if (config.peer[i].known()) paths_[i].addresses.prove(config.peer[i]);
@@ -44,8 +44,8 @@ std::optional<Opened> Association::feed(Bytes datagram, PathId path, Address fro
     case Kind::kAnswer:
       take_answer(*header, datagram, now);
       return std::nullopt;
-    case Kind::kCookie:
-      take_cookie(datagram, now);
+    case Kind::kNewerStamp:
+      take_newer_stamp(datagram, now);
       return std::nullopt;
     case Kind::kUnknown:
       take_hint(*header, datagram, now);
@@ -63,87 +63,132 @@ std::optional<Opened> Association::open_data(const Header& header, Bytes datagra
                                              Address from, Instant now,
                                              std::span<std::uint8_t> plain) {
   if (datagram.size() < kHeaderSize + kTagSize) return refuse(Refusal::kHeader), std::nullopt;
-  const bool in_use = current_ && current_->own_number == header.receiver;
-  Pending* const pending = in_use ? nullptr : pending_of(header.receiver);
-  if (!in_use && pending == nullptr) {
+  auto* const pending = responder_.pending(header.receiver, now);
+  Opener* const opener = opener_of(header.receiver, pending, now);
+  if (opener == nullptr) {
     refuse(Refusal::kNoSession);
     hint(header, datagram, path, from, now);
     return std::nullopt;
   }
   if (header.kind != data_kind()) return refuse(Refusal::kWrongMode), std::nullopt;
-  Session& session = in_use ? *current_ : pending->session;
-  const std::uint64_t phases = session.opener.phases();
-  const Opener::Opening opening = session.opener.open(header, datagram, now, plain);
-  counters_.phases += session.opener.phases() - phases;
+  const std::uint64_t phases = opener->phases();
+  Opener::Opening opening = opener->open(header, datagram, now, plain);
+  counters_.phases += opener->phases() - phases;
   if (opening.verdict == Opener::Verdict::kForged) return refuse(Refusal::kForged), std::nullopt;
   if (opening.verdict == Opener::Verdict::kTooOld) return refuse(Refusal::kReplayed), std::nullopt;
   if (opening.verdict == Opener::Verdict::kDuplicate) {
     refuse(Refusal::kReplayed);
     ++counters_.duplicates;
-    if (!in_use) return std::nullopt;
-    last_duplicate_ = opening.number;
-    const bool copy = opening.number > paths_[path].newest;
-    if (copy) heard(opening.number, datagram.size(), path, from);
+    if (pending == nullptr) take_duplicate(opening.number, datagram, path, from, now);
     return std::nullopt;
   }
-  if (pending != nullptr) confirm(*pending, path, from);
-  return accept(opening, datagram, path, from, plain);
+  if (pending != nullptr && !confirm(*pending, path, from, now)) return std::nullopt;
+  const bool present_keys = current_->own_number == header.receiver;
+  if (former_ && present_keys && !former_->until) former_->until = now + kOldSessionKept;
+  return accept(opening, datagram, path, from, now, plain);
+}
+
+Opener* Association::opener_of(std::uint16_t number, Responder::Pending* pending, Instant now) {
+  if (current_ && current_->own_number == number) return &current_->opener;
+  const bool kept = former_ && (!former_->until || now < *former_->until);
+  if (kept && former_->own_number == number) return &former_->opener;
+  return pending == nullptr ? nullptr : &pending->session.opener;
 }
 
 std::optional<Opened> Association::accept(const Opener::Opening& opening, Bytes datagram,
-                                          PathId path, Address from,
+                                          PathId path, Address from, Instant now,
                                           std::span<std::uint8_t> plain) {
-  attempt_.reset();  // the other end lives and has our keys
-  hinted_ = false;
-  attempt_life_ = kFirstAttempt;
-  heard(opening.number, datagram.size(), path, from);
+  hinted_ = false;  // the other end lives and has our keys
+  // A late packet with the keys before is not newer than what came with the present ones.
+  const std::uint64_t newest = current_->opener.window().newest();
+  const bool news = opening.newest && opening.number >= newest;
+  heard(opening.number, datagram.size(), path, from, now);
   ++counters_.opened;
   const bool first = unheard_;
   unheard_ = false;
   return Opened{.body = plain.first(datagram.size() - kHeaderSize - kTagSize),
                 .sequence = opening.number,
-                .newest = opening.newest,
+                .newest = news,
                 .new_session = first,
                 .session = sessions_};
 }
 
-void Association::heard(std::uint64_t number, std::size_t size, PathId path, Address from) {
+void Association::take_duplicate(std::uint64_t number, Bytes datagram, PathId path, Address from,
+                                 Instant now) {
+  last_duplicate_ = number;
+  const Path& state = paths_[path];
+  if (number > state.newest) return heard(number, datagram.size(), path, from, now);
+  const Path::Sender& first = state.senders[number % state.senders.size()];
+  if (first.number == number && from != first.from) ++counters_.relayed;
+  if (from != state.addresses.proved()) return;
+  paths_[path].addresses.heard({.from = from, .number = number}, now, *randomness_);
+}
+
+void Association::heard(std::uint64_t number, std::size_t size, PathId path, Address from,
+                        Instant now) {
   Path& state = paths_[path];
-  state.addresses.heard(from, size, number > state.newest, *randomness_);
-  state.newest = std::max(state.newest, number);
+  const bool newest = number > state.newest;
+  state.addresses.heard({.from = from, .size = size, .number = number, .newest = newest}, now,
+                        *randomness_);
+  if (!newest) return;
+  state.newest = number;
+  state.senders[number % state.senders.size()] = {number, from};
+  state.heard = now;
 }
 
-Association::Pending* Association::pending_of(std::uint16_t number) {
-  for (auto& pending : pending_) {
-    if (pending && pending->session.own_number == number) return &*pending;
+// False where the peer in use lives, and where it should renew a session that is no longer in use.
+bool Association::confirm(Responder::Pending& pending, PathId path, Address from, Instant now) {
+  const Session session = pending.session;
+  const bool renews = pending.renews != 0;
+  const bool reaches = pending.answered[path] == from;
+  const bool fits = !renews || (current_ && current_->own_number == pending.renews);
+  const bool other = current_ && session.peer.boot != peer_->boot;
+  if (other && now - current_->opener.heard() < kTakeOver) {
+    return ++counters_.second_peers, false;
   }
-  return nullptr;
-}
-
-void Association::confirm(Pending& pending, PathId path, Address from) {
+  responder_.confirmed(pending);
+  if (!fits) return refuse(Refusal::kNoSession), false;
+  begin_session(session, renews, now);
   // The keys came to who was sent the answer: its address is proved.
-  if (pending.answered[path] == from) paths_[path].addresses.prove(from);
-  begin_session(pending.session);
-  for (auto& other : pending_) other.reset();
+  if (reaches && (!renews || silent(path, now))) paths_[path].addresses.prove(from);
+  return true;
 }
 
-void Association::begin_session(const Session& session) {
+void Association::begin_session(const Session& session, bool renews, Instant now) {
+  const std::uint64_t next = renews ? current_->sealer.next() : 0;
+  former_.reset();
+  if (renews) {
+    former_.emplace(
+        Former{.own_number = current_->own_number, .opener = current_->opener, .until = {}});
+  }
   current_ = session;
+  keys_since_ = now;
+  hinted_ = false;
+  ++counters_.exchanges;
+  if (renews) {
+    current_->sealer.go_on_from(next);
+    ++counters_.renewals;
+    return;
+  }
   peer_ = session.peer;
   ++sessions_;
-  ++counters_.exchanges;
   unheard_ = true;
-  for (Path& path : paths_) path.newest = 0;
+  for (Path& path : paths_) {
+    path.newest = 0;
+    path.senders = {};
+    path.heard = now;
+  }
 }
 
 // A base that lost its keys tells the car so; never more bytes than it was sent.
 void Association::hint(const Header& header, Bytes datagram, PathId path, Address from,
                        Instant now) {
-  if (config_.keys.role != Role::kBase || datagram.size() < kUnknownSize) return;
-  if (!hints_.take(now)) return;
+  const auto& waits = paths_[path].hint;
+  if (car() || datagram.size() < kUnknownSize || (waits && waits->to == from)) return;
+  if (!hints_.take(from, now)) return;
   Reply reply{.to = from};
   reply.size = standing_.write_unknown(header, reply.bytes);
-  paths_[path].note = reply;
+  paths_[path].hint = reply;
   ++counters_.hints;
 }
 
@@ -163,112 +208,42 @@ std::optional<Association::Sealed> Association::seal(Bytes body, Instant now,
 // ---- the base's side of the exchange
 
 void Association::take_opening(Bytes datagram, PathId path, Address from, Instant now) {
-  if (config_.keys.role != Role::kBase || !standing_.usable() ||
-      !standing_.opening_fits(datagram)) {
-    return refuse(Refusal::kBadExchange);
-  }
-  if (repeats_known(datagram, path, from)) return;
-  switch (guard_.judge(datagram, path, from, now, *randomness_)) {
-    case KnockGuard::Answer::kNothing:
-      return refuse(Refusal::kTooManyKnocks);
-    case KnockGuard::Answer::kAskCookie: {
-      refuse(Refusal::kCookieWanted);
-      StandingKeys::CookieNonce nonce{};
-      randomness_->fill(nonce);
-      Reply reply{.to = from};
-      reply.size = standing_.write_cookie(guard_.cookie_for(path, from), nonce,
-                                          ephemeral_part(datagram), reply.bytes);
-      paths_[path].note = reply;
-      return;
-    }
-    case KnockGuard::Answer::kLetIn:
-      return answer(datagram, path, from, now);
-  }
+  if (car()) return refuse(Refusal::kBadExchange);
+  if (const auto refusal = responder_.take(datagram, path, from, now)) return refuse(*refusal);
+  answer_openings(now);
 }
 
-// One that waits for its first packet is answered as before; any other was worked on already.
-bool Association::repeats_known(Bytes datagram, PathId path, Address from) {
-  const Bytes e = ephemeral_part(datagram);
-  for (auto& pending : pending_) {
-    if (!pending || !same(e, ephemeral_part(pending->opening))) continue;
-    Reply reply{.size = kAnswerSize, .to = from};
-    std::copy(pending->answer.begin(), pending->answer.end(), reply.bytes.begin());
-    paths_[path].answer = reply;
-    pending->answered[path] = from;
-    return true;
-  }
-  const bool known = std::any_of(recent_.begin(), recent_.end(),
-                                 [&](const PublicKey& other) { return same(e, other); });
-  if (known) refuse(Refusal::kOldExchange);
-  return known;
-}
-
-void Association::answer(Bytes datagram, PathId path, Address from, Instant now) {
-  NoiseKk noise(NoiseKk::Side::kResponder, config_.keys.own, config_.keys.peer, kPrologue);
-  std::array<std::uint8_t, kPayloadSize> bytes{};
-  if (!noise.read(noise_part(datagram), bytes)) return refuse(Refusal::kBadExchange);
-  const Bytes e = ephemeral_part(datagram);
-  std::copy(e.begin(), e.end(), recent_[recent_next_].begin());
-  recent_next_ = (recent_next_ + 1) % kRecentOpenings;
-  const ExchangePayload payload = payload_of(bytes);
-  if (payload.greeting.signed_only != config_.greeting.signed_only) {
-    return refuse(Refusal::kWrongMode);
-  }
-  const std::uint16_t number = fresh_number();
-  AnswerBytes message{};
-  write_header({.kind = Kind::kAnswer, .receiver = payload.number}, message);
-  const auto own = bytes_of({.number = number, .greeting = config_.greeting});
-  if (!noise.write(fresh_key(), own, std::span{message}.subspan(kHeaderSize, kNoiseMessage))) {
-    return refuse(Refusal::kBadExchange);
-  }
-  standing_.tag_answer(message, e);
-  auto& place = room_for_pending();
-  place.emplace(Pending{.opening = {},
-                        .answer = message,
-                        .session = make_session(noise, number, payload, now),
-                        .age_rank = ++pending_rank_});
-  std::copy(datagram.begin(), datagram.end(), place->opening.begin());
-  repeats_known(datagram, path, from);  // sends it
-}
-
-std::optional<Association::Pending>& Association::room_for_pending() {
-  return *std::min_element(pending_.begin(), pending_.end(), [](const auto& a, const auto& b) {
-    return (a ? a->age_rank : 0) < (b ? b->age_rank : 0);
-  });
+void Association::answer_openings(Instant now) {
+  const auto worked = responder_.work(fresh_number(), in_use(), now);
+  if (worked.refusal) refuse(*worked.refusal);
+  const bool peer_lives = current_ && now - current_->opener.heard() < kPeerHeard;
+  if (worked.boot != 0 && peer_lives && worked.boot != peer_->boot) ++counters_.second_peers;
 }
 
 // ---- the car's side of the exchange
 
 void Association::take_answer(const Header& header, Bytes datagram, Instant now) {
-  if (!attempt_ || header.receiver != attempt_->number) return refuse(Refusal::kOldExchange);
-  if (!standing_.answer_fits(datagram, ephemeral_part(attempt_->opening))) {
-    return refuse(Refusal::kBadExchange);
+  if (!car()) return refuse(Refusal::kBadExchange);
+  auto agreed = initiator_.take_answer(header, datagram, in_use(), now);
+  if (!agreed) {
+    if (initiator_.is_second_answer(header, datagram)) ++counters_.second_peers;
+    return refuse(agreed.error());
   }
-  NoiseKk noise = attempt_->noise;
-  std::array<std::uint8_t, kPayloadSize> bytes{};
-  if (!noise.read(noise_part(datagram), bytes)) return refuse(Refusal::kBadExchange);
-  const ExchangePayload payload = payload_of(bytes);
-  if (payload.greeting.signed_only != config_.greeting.signed_only) {
-    return refuse(Refusal::kWrongMode);
-  }
-  begin_session(make_session(noise, attempt_->number, payload, now));
-  attempt_.reset();
-  hinted_ = false;
+  begin_session(agreed->session, agreed->renews, now);
+  PathAddresses& addresses = paths_[agreed->path].addresses;
+  if (addresses.proved() == agreed->reached) return;
+  addresses.prove(agreed->reached);
+  ++counters_.roams;
 }
 
-void Association::take_cookie(Bytes datagram, Instant now) {
-  if (!attempt_) return refuse(Refusal::kOldExchange);
-  const auto cookie = standing_.read_cookie(datagram, ephemeral_part(attempt_->opening));
-  if (!cookie) return refuse(Refusal::kBadExchange);
-  if (*cookie == cookie_) return;  // it is shown already
-  cookie_ = *cookie;
-  standing_.tag_opening(attempt_->opening, cookie_);
-  for (Path& path : paths_) path.next_opening = now;
+void Association::take_newer_stamp(Bytes datagram, Instant now) {
+  if (!car()) return refuse(Refusal::kBadExchange);
+  if (const auto refusal = initiator_.take_newer_stamp(datagram)) return refuse(*refusal);
+  for (Path& path : paths_) path.next_opening = std::min(path.next_opening, now);
 }
 
 void Association::take_hint(const Header& header, Bytes datagram, Instant now) {
-  if (config_.keys.role != Role::kCar || !current_) return refuse(Refusal::kForeignBoot);
-  if (header.receiver != current_->peer_number ||
+  if (!car() || !current_ || header.receiver != current_->peer_number ||
       !current_->sealer.sent_lately(header.sequence_low) ||
       now - current_->opener.heard() < kSilenceHints || !standing_.unknown_fits(datagram)) {
     return refuse(Refusal::kForeignBoot);
@@ -277,62 +252,97 @@ void Association::take_hint(const Header& header, Bytes datagram, Instant now) {
   hinted_ = true;
 }
 
-bool Association::opening_wanted(Instant now) const {
-  if (config_.keys.role != Role::kCar || !standing_.usable()) return false;
-  return !current_ || hinted_ || now - current_->opener.heard() >= kSilenceOpens;
+bool Association::silent(PathId path, Instant now) const {
+  const auto& heard = paths_[path].heard;
+  return heard && now - *heard >= kSilenceOpens;
+}
+
+bool Association::all_silent(Instant now) const {
+  for (PathId path = 0; path < config_.paths; ++path) {
+    if (!silent(path, now)) return false;
+  }
+  return true;
+}
+
+// Beside keys that may still be good each opening takes the place of a packet.
+Duration Association::retry(std::size_t targets, Instant now) const {
+  if (targets > 1 && all_silent(now)) return kSearch;
+  if (!current_ || hinted_) return kRetry;
+  return kTurnTime / static_cast<std::int64_t>(targets);
+}
+
+bool Association::opening_wanted(PathId path, Instant now) const {
+  if (!car() || !standing_.usable()) return false;
+  return !current_ || hinted_ || now - keys_since_ >= kRenewAfter || silent(path, now);
 }
 
 bool Association::opening_due(PathId path, Instant now) const {
   const Path& state = paths_[path];
-  if (!state.addresses.proved().known()) return false;
-  return opening_wanted(now) && (!attempt_ || now >= state.next_opening);
+  return state.addresses.proved().known() && opening_wanted(path, now) && now >= state.next_opening;
 }
 
-void Association::begin_attempt(Instant now) {
-  if (attempt_) ++counters_.exchanges_failed;
-  const std::uint16_t number = fresh_number();
-  attempt_.emplace(Attempt{
-      .noise = NoiseKk(NoiseKk::Side::kInitiator, config_.keys.own, config_.keys.peer, kPrologue),
-      .opening = {},
-      .number = number,
-      .since = now,
-      .life = attempt_life_});
-  attempt_life_ = std::min(2 * attempt_life_, kLongestAttempt);
-  auto& opening = attempt_->opening;
-  write_header({.kind = Kind::kOpening}, opening);
-  const auto own = bytes_of({.number = number, .greeting = config_.greeting});
-  CHECK(attempt_->noise.write(fresh_key(), own,
-                              std::span{opening}.subspan(kHeaderSize, kNoiseMessage)));
-  standing_.tag_opening(opening, cookie_);
-  for (Path& path : paths_) path.next_opening = now;
+// The proved one alone while it answers; then the configured ones, too.
+Association::Targets Association::opening_targets(PathId path, Instant now) const {
+  Targets targets;
+  const auto add = [&](Address address) {
+    const bool there = std::find(targets.begin(), targets.end(), address) != targets.end();
+    if (address.known() && !there) CHECK(targets.push(address));
+  };
+  add(paths_[path].addresses.proved());
+  if (!silent(path, now)) return targets;
+  add(config_.peer[path]);
+  for (const Address spare : config_.spare[path]) add(spare);
+  return targets;
+}
+
+Association::Due Association::open(PathId path, Instant now, std::span<std::uint8_t> out) {
+  Path& state = paths_[path];
+  if (!state.heard) state.heard = now;
+  const Targets targets = opening_targets(path, now);
+  const Address to = targets[state.turn++ % targets.size()];
+  const std::uint16_t number =
+      initiator_.attempt_over(now) ? fresh_number() : initiator_.number().value();
+  const Bytes opening = initiator_.opening(path, to, number, in_use(), now);
+  counters_.exchanges_failed = initiator_.failed();
+  std::copy(opening.begin(), opening.end(), out.begin());
+  state.next_opening = now + retry(targets.size(), now);
+  return Due{.bytes = out.first(opening.size()), .to = to};
 }
 
 // ---- both
 
+template <class Self>
+auto Association::replies(Self& self, PathId path) {
+  auto* const answer = &self.responder_.answer(path);
+  auto* const hint = &self.paths_[path].hint;
+  auto* const stamp = &self.responder_.newer_stamp(path);
+  return self.paths_[path].hint_first ? std::array{hint, answer, stamp}
+                                      : std::array{answer, stamp, hint};
+}
+
 std::size_t Association::poll_size(PathId path, Instant now) const {
   CHECK(path < config_.paths);
-  const Path& state = paths_[path];
-  if (state.answer) return state.answer->size;
-  if (state.note) return state.note->size;
+  if (responder_.wants_work(path, now)) return kAnswerSize;
+  for (const auto* const reply : replies(*this, path)) {
+    if (*reply) return (*reply)->size;
+  }
   return opening_due(path, now) ? kOpeningSize : 0;
 }
 
 std::optional<Association::Due> Association::poll(PathId path, Instant now,
                                                   std::span<std::uint8_t> out) {
   CHECK(path < config_.paths && out.size() >= kMaxExchangeSize);
-  Path& state = paths_[path];
-  for (std::optional<Reply>* const reply : {&state.answer, &state.note}) {
+  answer_openings(now);
+  for (auto* const reply : replies(*this, path)) {
     if (!*reply) continue;
     std::copy_n((*reply)->bytes.begin(), (*reply)->size, out.begin());
     const Due due{.bytes = out.first((*reply)->size), .to = (*reply)->to};
+    paths_[path].hint_first = reply != &paths_[path].hint;
     reply->reset();
     return due;
   }
   if (!opening_due(path, now)) return std::nullopt;
-  if (!attempt_ || now - attempt_->since >= attempt_->life) begin_attempt(now);
-  std::copy(attempt_->opening.begin(), attempt_->opening.end(), out.begin());
-  state.next_opening = now + kRetry;
-  return Due{.bytes = out.first(kOpeningSize), .to = state.addresses.proved()};
+  return open(path, now, out);
 }
 
 FixedVector<Address, 2> Association::targets(PathId path, std::size_t size) const {
@@ -347,24 +357,8 @@ std::optional<std::uint64_t> Association::probe(PathId path) const {
   return paths_[path].addresses.token();
 }
 
-void Association::take_proof(PathId path, Address from, std::uint64_t token, Instant) {
-  if (paths_[path].addresses.take_proof(from, token)) ++counters_.roams;
-}
-
-Association::Session Association::make_session(const NoiseKk& noise, std::uint16_t own_number,
-                                               const ExchangePayload& payload, Instant now) const {
-  const NoiseKk::Keys keys = noise.split();
-  const bool car = config_.keys.role == Role::kCar;
-  const Key& own = car ? keys.from_initiator : keys.from_responder;
-  const Key& theirs = car ? keys.from_responder : keys.from_initiator;
-  if (config_.key_log && config_.keys.bench) {
-    config_.key_log(key_log_lines(payload.number, own) + key_log_lines(own_number, theirs));
-  }
-  return {.own_number = own_number,
-          .peer_number = payload.number,
-          .sealer = Sealer(own, config_.first_sequence, now),
-          .opener = Opener(theirs, now),
-          .peer = payload.greeting};
+void Association::take_proof(PathId path, Address from, std::uint64_t token, Instant now) {
+  if (paths_[path].addresses.take_proof(from, token, now)) ++counters_.roams;
 }
 
 Kind Association::data_kind() const {
@@ -378,15 +372,10 @@ std::uint16_t Association::fresh_number() {
     randomness_->fill(bytes);
     const auto number = load<std::uint16_t>(bytes, 0);
     const bool taken = (current_ && current_->own_number == number) ||
-                       pending_of(number) != nullptr || (attempt_ && attempt_->number == number);
+                       (former_ && former_->own_number == number) ||
+                       responder_.has_pending(number) || initiator_.number() == number;
     if (number != 0 && !taken) return number;
   }
-}
-
-Key Association::fresh_key() {
-  Key key;
-  randomness_->fill(key.bytes);
-  return key;
 }
 
 void Association::refuse(Refusal refusal) {

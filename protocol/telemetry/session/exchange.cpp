@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocol/telemetry/session/exchange.hpp"
 
-#include <sodium.h>
-
 #include <algorithm>
 #include <string_view>
 
@@ -13,11 +11,10 @@ namespace pitwall::telemetry {
 
 namespace {
 
-constexpr std::size_t kBootAt = 2, kSafetyAt = 10, kWholeAt = 18, kFlagsAt = 26;
+constexpr std::size_t kContinuesAt = 2, kBootAt = 4, kSafetyAt = 12, kWholeAt = 20, kFlagsAt = 28;
 constexpr unsigned kSignedFlag = 1, kRealCarFlag = 2;
 static_assert(kFlagsAt + 1 == kPayloadSize);
-static_assert(kCookieNonceSize == crypto_aead_xchacha20poly1305_ietf_NPUBBYTES);
-constexpr std::size_t kTagAt = kHeaderSize + kNoiseMessage;
+constexpr std::size_t kStampAt = kHeaderSize + kNoiseMessage, kTagAt = kStampAt + kStampSize;
 
 Key purpose_key(const Key& shared, std::string_view purpose) {
   std::array<std::uint8_t, 32> bytes{};
@@ -31,6 +28,7 @@ Key purpose_key(const Key& shared, std::string_view purpose) {
 std::array<std::uint8_t, kPayloadSize> bytes_of(const ExchangePayload& payload) {
   std::array<std::uint8_t, kPayloadSize> bytes{};
   store<std::uint16_t>(bytes, 0, payload.number);
+  store<std::uint16_t>(bytes, kContinuesAt, payload.continues);
   store<std::uint64_t>(bytes, kBootAt, payload.greeting.boot);
   store<std::uint64_t>(bytes, kSafetyAt, payload.greeting.safety_schema);
   store<std::uint64_t>(bytes, kWholeAt, payload.greeting.whole_schema);
@@ -41,6 +39,7 @@ std::array<std::uint8_t, kPayloadSize> bytes_of(const ExchangePayload& payload) 
 
 ExchangePayload payload_of(std::span<const std::uint8_t, kPayloadSize> bytes) {
   return {.number = load<std::uint16_t>(bytes, 0),
+          .continues = load<std::uint16_t>(bytes, kContinuesAt),
           .greeting = {.boot = load<std::uint64_t>(bytes, kBootAt),
                        .safety_schema = load<std::uint64_t>(bytes, kSafetyAt),
                        .whole_schema = load<std::uint64_t>(bytes, kWholeAt),
@@ -53,26 +52,29 @@ StandingKeys::StandingKeys(const Identity& own, const PublicKey& peer) {
   Key shared;
   usable_ = agree(own.secret_key, peer, shared);
   knock_ = purpose_key(shared, "pitwall knock");
-  cookie_ = purpose_key(shared, "pitwall cookie");
+  newer_stamp_ = purpose_key(shared, "pitwall newer stamp");
   unknown_ = purpose_key(shared, "pitwall unknown session");
 }
 
-void StandingKeys::tag_opening(std::span<std::uint8_t> opening, const Cookie& cookie) const {
+Stamp stamp_of(Bytes message) { return load<Stamp>(message, kStampAt); }
+
+void StandingKeys::tag_opening(std::span<std::uint8_t> opening, Stamp stamp) const {
   CHECK(opening.size() == kOpeningSize);
+  store<Stamp>(opening, kStampAt, stamp);
   const Tag tag = keyed_tag(knock_, {opening.first(kTagAt)});
   std::copy(tag.begin(), tag.end(), opening.begin() + kTagAt);
-  std::copy(cookie.begin(), cookie.end(), opening.end() - kCookieSize);
 }
 
-void StandingKeys::tag_answer(std::span<std::uint8_t> answer, Bytes opening_e) const {
+void StandingKeys::tag_answer(std::span<std::uint8_t> answer, Stamp stamp, Bytes opening_e) const {
   CHECK(answer.size() == kAnswerSize);
+  store<Stamp>(answer, kStampAt, stamp);
   const Tag tag = keyed_tag(knock_, {answer.first(kTagAt), opening_e});
   std::copy(tag.begin(), tag.end(), answer.begin() + kTagAt);
 }
 
 bool StandingKeys::opening_fits(Bytes opening) const {
   return opening.size() == kOpeningSize &&
-         same(keyed_tag(knock_, {opening.first(kTagAt)}), opening.subspan(kTagAt, kTagSize));
+         same(keyed_tag(knock_, {opening.first(kTagAt)}), opening.subspan(kTagAt));
 }
 
 bool StandingKeys::answer_fits(Bytes answer, Bytes opening_e) const {
@@ -80,27 +82,24 @@ bool StandingKeys::answer_fits(Bytes answer, Bytes opening_e) const {
          same(keyed_tag(knock_, {answer.first(kTagAt), opening_e}), answer.subspan(kTagAt));
 }
 
-std::size_t StandingKeys::write_cookie(const Cookie& cookie, const CookieNonce& nonce,
-                                       Bytes opening_e, std::span<std::uint8_t> out) const {
-  CHECK(out.size() >= kCookieReplySize);
-  write_header({.kind = Kind::kCookie}, out);
-  std::copy(nonce.begin(), nonce.end(), out.begin() + kHeaderSize);
-  crypto_aead_xchacha20poly1305_ietf_encrypt(
-      out.data() + kHeaderSize + kCookieNonceSize, nullptr, cookie.data(), cookie.size(),
-      opening_e.data(), opening_e.size(), nullptr, nonce.data(), cookie_.data());
-  return kCookieReplySize;
+std::size_t StandingKeys::write_newer_stamp(Stamp stamp, Bytes opening_e,
+                                            std::span<std::uint8_t> out) const {
+  CHECK(out.size() >= kNewerStampSize);
+  constexpr std::size_t kEnd = kHeaderSize + kStampSize;
+  write_header({.kind = Kind::kNewerStamp}, out);
+  store<Stamp>(out, kHeaderSize, stamp);
+  const Tag tag = keyed_tag(newer_stamp_, {out.first(kEnd), opening_e});
+  std::copy(tag.begin(), tag.end(), out.begin() + kEnd);
+  return kNewerStampSize;
 }
 
-std::optional<Cookie> StandingKeys::read_cookie(Bytes datagram, Bytes opening_e) const {
-  if (datagram.size() != kCookieReplySize) return std::nullopt;
-  Cookie cookie{};
-  const Bytes sealed = datagram.subspan(kHeaderSize + kCookieNonceSize);
-  if (crypto_aead_xchacha20poly1305_ietf_decrypt(
-          cookie.data(), nullptr, nullptr, sealed.data(), sealed.size(), opening_e.data(),
-          opening_e.size(), datagram.data() + kHeaderSize, cookie_.data()) != 0) {
+std::optional<Stamp> StandingKeys::read_newer_stamp(Bytes datagram, Bytes opening_e) const {
+  constexpr std::size_t kEnd = kHeaderSize + kStampSize;
+  if (datagram.size() != kNewerStampSize) return std::nullopt;
+  if (!same(keyed_tag(newer_stamp_, {datagram.first(kEnd), opening_e}), datagram.subspan(kEnd))) {
     return std::nullopt;
   }
-  return cookie;
+  return load<Stamp>(datagram, kHeaderSize);
 }
 
 std::size_t StandingKeys::write_unknown(const Header& refused, std::span<std::uint8_t> out) const {

@@ -1,26 +1,32 @@
 // The messages of the key exchange as bytes, and the tags in front of it: who does not know the
 // shared secret of the two long-term keys costs the other end one hash, not three agreements.
-//   wire   opening  header, e 32, sealed payload 27 + 16, knock tag 16, cookie 16 (zeros: none)
-//          answer   header, e 32, sealed payload 27 + 16, knock tag 16
-//          cookie   header, nonce 24, sealed cookie 16 + 16
-//          unknown  header (receiver and number of the packet that had no session), tag 16
-//          payload  sender's number of the session u16, boot u64, safety schema u64, whole schema
-//                   u64, flags u8 (1: signed only, 2: a real car)
-//   law    no reply is longer than what it replies to
-//          an answer's tag holds the opening's e, so that an answer of another exchange is refused
-//          before any agreement; a cookie opens only with the e of the opening that asked for it
-//   errors none: the size was not right, or a tag
+//   wire   opening      header, e 32, sealed payload 29 + 16, stamp u64, knock tag 16
+//          answer       as the opening that it answers, with the stamp of that one
+//          newer stamp  header, stamp u64 that an opening must exceed, tag 16
+//          unknown      header (receiver and number of the packet that had no session), tag 16
+//          payload      sender's number of the session u16, receiver's number of the session that
+//                       goes on with new keys u16 (0: none does), boot u64, safety schema u64,
+//                       whole schema u64, flags u8 (1: signed only, 2: a real car)
+//   invariants
+//          no reply is longer than what it replies to
+//          an answer's tag holds the opening's e and stamp, so that an answer of another exchange
+//          is refused before any key agreement, and says which of several openings arrived
+//          the tag of "newer stamp" holds the e of the opening that it refuses
+//   errors false or none: the size was not right, or a tag
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "protocol/telemetry/packet/header.hpp"
 #include "protocol/telemetry/session/cipher.hpp"
 #include "protocol/telemetry/session/noise_kk.hpp"
+#include "protocol/telemetry/session/stamp.hpp"
 
 namespace pitwall::telemetry {
 
@@ -36,23 +42,31 @@ struct Greeting {
 };
 
 struct ExchangePayload {
-  std::uint16_t number = 0;  // by which the sender will know packets of the session
+  std::uint16_t number = 0;     // by which the sender will know packets of the session
+  std::uint16_t continues = 0;  // by which the receiver knows the session that gets new keys
   Greeting greeting;
 };
 
-inline constexpr std::size_t kPayloadSize = 27, kCookieSize = 16, kCookieNonceSize = 24;
+// Binds an exchange to this protocol and its version.
+inline constexpr auto kPrologue = [] {
+  constexpr std::string_view kText = "pitwall radio ";
+  std::array<std::uint8_t, kText.size() + 1> bytes{};
+  std::copy(kText.begin(), kText.end(), bytes.begin());
+  bytes.back() = kProtocolVersion;
+  return bytes;
+}();
+
+inline constexpr std::size_t kPayloadSize = 29, kStampSize = sizeof(Stamp);
 inline constexpr std::size_t kNoiseMessage = kPayloadSize + kNoiseOverhead;
-inline constexpr std::size_t kAnswerSize = kHeaderSize + kNoiseMessage + kTagSize;
-inline constexpr std::size_t kOpeningSize = kAnswerSize + kCookieSize;
-inline constexpr std::size_t kCookieReplySize =
-    kHeaderSize + kCookieNonceSize + kCookieSize + kTagSize;
+inline constexpr std::size_t kOpeningSize = kHeaderSize + kNoiseMessage + kStampSize + kTagSize;
+inline constexpr std::size_t kAnswerSize = kOpeningSize;
+inline constexpr std::size_t kNewerStampSize = kHeaderSize + kStampSize + kTagSize;
 inline constexpr std::size_t kUnknownSize = kHeaderSize + kTagSize;
 inline constexpr std::size_t kMaxExchangeSize = 192;  // more than any of them
 static_assert(kOpeningSize <= kMaxExchangeSize);
-static_assert(kAnswerSize <= kOpeningSize && kCookieReplySize <= kOpeningSize);
+static_assert(kAnswerSize <= kOpeningSize && kNewerStampSize <= kOpeningSize);
 static_assert(kUnknownSize <= kHeaderSize + kTagSize);  // the shortest data packet
 
-using Cookie = std::array<std::uint8_t, kCookieSize>;
 using OpeningBytes = std::array<std::uint8_t, kOpeningSize>;
 using AnswerBytes = std::array<std::uint8_t, kAnswerSize>;
 
@@ -67,28 +81,27 @@ class StandingKeys {
   // A peer's key that gives no secret: nothing is ever exchanged with it.
   bool usable() const { return usable_; }
 
-  // Completes a message whose header and noise part are written. An answer's tag holds `opening_e`.
-  void tag_opening(std::span<std::uint8_t> opening, const Cookie& cookie) const;
-  void tag_answer(std::span<std::uint8_t> answer, Bytes opening_e) const;
+  // Completes a message whose header and noise part are written. An answer's tag holds `opening_e`
+  // and the stamp of the opening.
+  void tag_opening(std::span<std::uint8_t> opening, Stamp stamp) const;
+  void tag_answer(std::span<std::uint8_t> answer, Stamp stamp, Bytes opening_e) const;
   bool opening_fits(Bytes opening) const;
   bool answer_fits(Bytes answer, Bytes opening_e) const;
 
-  using CookieNonce = std::array<std::uint8_t, kCookieNonceSize>;
-  std::size_t write_cookie(const Cookie& cookie, const CookieNonce& nonce, Bytes opening_e,
-                           std::span<std::uint8_t> out) const;
-  std::optional<Cookie> read_cookie(Bytes datagram, Bytes opening_e) const;
+  std::size_t write_newer_stamp(Stamp stamp, Bytes opening_e, std::span<std::uint8_t> out) const;
+  std::optional<Stamp> read_newer_stamp(Bytes datagram, Bytes opening_e) const;
 
   std::size_t write_unknown(const Header& refused, std::span<std::uint8_t> out) const;
   bool unknown_fits(Bytes datagram) const;
 
  private:
   bool usable_ = false;
-  Key knock_, cookie_, unknown_;
+  Key knock_, newer_stamp_, unknown_;
 };
 
 // Parts of an opening or answer.
 inline Bytes noise_part(Bytes message) { return message.subspan(kHeaderSize, kNoiseMessage); }
 inline Bytes ephemeral_part(Bytes message) { return message.subspan(kHeaderSize, kKeySize); }
-inline Bytes cookie_part(Bytes opening) { return opening.last(kCookieSize); }
+Stamp stamp_of(Bytes message);
 
 }  // namespace pitwall::telemetry

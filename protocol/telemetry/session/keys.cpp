@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "protocol/telemetry/session/cipher.hpp"
 
@@ -91,6 +92,31 @@ Result<Lines, Problem> split(std::string_view text, const std::string& place) {
   return lines;
 }
 
+constexpr std::array<std::string_view, 2> kRoleNames{"car", "base"};
+std::string_view name_of(Role role) { return kRoleNames[static_cast<std::size_t>(role)]; }
+
+std::string wrong_role_text(Role found) {
+  return found == Role::kCar ? "these are the car's keys, expected the base's: give base.keys"
+                             : "these are the base's keys, expected the car's: give car.keys";
+}
+
+constexpr std::string_view kBenchAtRealCar =
+    "keys of a bench, whose sessions may be logged, expected a pair for a real car: make one with "
+    "`pitwall-base keygen` without --bench (or start the car with --simulation)";
+
+// Why no session can be made with the peer, if so. Bit 255 of a key means nothing (RFC 7748).
+std::optional<std::string> peer_problem(const KeyFile& keys) {
+  constexpr const char* kRemedy =
+      ", expected the public: of the other end's file: make both with `pitwall-base keygen`";
+  constexpr std::uint8_t kUsedBits = 0x7F;
+  PublicKey peer = keys.peer;
+  peer.back() &= kUsedBits;
+  if (peer == keys.own.public_key) return std::string{"is the own key"} + kRemedy;
+  Key shared;
+  if (agree(keys.own.secret_key, keys.peer, shared)) return std::nullopt;
+  return "gives no shared secret (all zero, or another point of low order)" + std::string{kRemedy};
+}
+
 }  // namespace
 
 Identity make_identity(Randomness& randomness) {
@@ -114,45 +140,46 @@ Result<PublicKey, Problem> parse_public_key(std::string_view text, const std::st
 }
 
 std::string text_of(const KeyFile& keys) {
-  const bool car = keys.role == Role::kCar;
   std::string text = "# Keys of the ";
-  text += car ? "car" : "base station";
+  text += keys.role == Role::kCar ? "car" : "base station";
   text += " for the radio. Whoever has this file can speak in its name: keep it secret.\nrole: ";
-  text += car ? "car" : "base";
+  text += name_of(keys.role);
   text += "\npublic: " + text_of(keys.own.public_key) + "\nsecret: ";
   append_hex(text, keys.own.secret_key.bytes);
   text += "\npeer: " + text_of(keys.peer) + "\n";
   return keys.bench ? text + "use: " + std::string{kBenchUse} + "\n" : text;
 }
 
-Result<KeyFile, Problem> parse_key_file(std::string_view text, const std::string& place) {
+Result<KeyFile, Problem> parse_key_file(std::string_view text, const std::string& place,
+                                        KeyUser user) {
   prepare_sodium();
   const auto lines = split(text, place);
   if (!lines) return Unexpected{lines.error()};
+  const auto wrong = [&](Line line, std::string what) {
+    return Unexpected{Problem{lines->place(place, line), std::move(what)}};
+  };
   const std::string_view role = (*lines)[Line::kRole];
-  if (role != "car" && role != "base") {
-    return Unexpected{Problem{lines->place(place, Line::kRole), "role: car or base"}};
-  }
+  if (role != kRoleNames[0] && role != kRoleNames[1])
+    return wrong(Line::kRole, "role: car or base");
+  const Role found = role == name_of(Role::kCar) ? Role::kCar : Role::kBase;
+  if (found != user.role) return wrong(Line::kRole, wrong_role_text(found));
   const auto own = parse_public_key((*lines)[Line::kPublic], lines->place(place, Line::kPublic));
   if (!own) return Unexpected{own.error()};
   const auto peer = parse_public_key((*lines)[Line::kPeer], lines->place(place, Line::kPeer));
   if (!peer) return Unexpected{peer.error()};
-  KeyFile keys{.role = role == "car" ? Role::kCar : Role::kBase, .own = {}, .peer = *peer};
+  KeyFile keys{.role = found, .own = {}, .peer = *peer};
   keys.own.public_key = *own;
   if (!parse_hex((*lines)[Line::kSecret], keys.own.secret_key.bytes)) {
-    return Unexpected{
-        Problem{lines->place(place, Line::kSecret), "a key is 64 hexadecimal digits"}};
+    return wrong(Line::kSecret, "a key is 64 hexadecimal digits");
   }
   if (public_of(keys.own.secret_key) != keys.own.public_key) {
-    return Unexpected{Problem{lines->place(place, Line::kPublic), "does not belong to secret:"}};
+    return wrong(Line::kPublic, "does not belong to secret:");
   }
-  if (keys.peer == keys.own.public_key) {
-    return Unexpected{Problem{lines->place(place, Line::kPeer), "is the own key"}};
-  }
-  keys.bench = (*lines)[Line::kUse] == kBenchUse;
-  if (!keys.bench && !(*lines)[Line::kUse].empty()) {
-    return Unexpected{Problem{lines->place(place, Line::kUse), "use: bench, or no such line"}};
-  }
+  if (auto problem = peer_problem(keys)) return wrong(Line::kPeer, *std::move(problem));
+  const std::string_view use = (*lines)[Line::kUse];
+  keys.bench = use == kBenchUse;
+  if (!keys.bench && !use.empty()) return wrong(Line::kUse, "use: bench, or no such line");
+  if (keys.bench && user.real_car) return wrong(Line::kUse, std::string{kBenchAtRealCar});
   return keys;
 }
 

@@ -6,8 +6,11 @@
 //            public: HEX          own
 //            secret: HEX          own
 //            peer: HEX            the other end's public key
-//            use: bench           only where the bench made it for a run: worth nothing later
-//   errors Problem with the place; a secret is never part of a message or a log
+//            use: bench           only in a pair for the bench: its sessions may be logged
+//   errors Problem with file and line: what is not as written above, keys of the other role, a
+//          peer that is the own key or gives no shared secret, a bench's keys at a real car; a
+//          secret is never part of a message or a log
+//   source RFC 7748 section 6.1 (points of low order)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -41,9 +44,17 @@ struct KeyFile {
   Role role = Role::kCar;
   Identity own;
   PublicKey peer{};
-  bool bench = false;  // of one run of the bench: what it opens may be laid open
+  bool bench = false;  // of a pair for the bench: its sessions may be logged, no real car takes it
+};
+inline constexpr std::size_t kMaxKeyFileBytes = 4'096;
+
+// Who reads a file.
+struct KeyUser {
+  Role role = Role::kCar;
+  bool real_car = false;
 };
 std::string text_of(const KeyFile& keys);
-Result<KeyFile, Problem> parse_key_file(std::string_view text, const std::string& place);
+Result<KeyFile, Problem> parse_key_file(std::string_view text, const std::string& place,
+                                        KeyUser user);
 
 }  // namespace pitwall::telemetry

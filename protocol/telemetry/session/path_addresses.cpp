@@ -11,23 +11,29 @@ void PathAddresses::prove(Address at) {
   trial_.reset();
 }
 
-void PathAddresses::heard(Address from, std::size_t size, bool newest, Randomness& randomness) {
-  if (trial_ && trial_->address == from) {
-    trial_->received += size;
+void PathAddresses::heard(const Arrival& arrival, Instant now, Randomness& randomness) {
+  if (trial_ && trial_->address == arrival.from) {
+    trial_->received += arrival.size;
     return;
   }
-  if (!newest) return;
-  if (from == proved_) {
-    trial_.reset();  // it is where it was
+  if (arrival.from == proved_) {
+    if (!trial_ || arrival.number < trial_->first) return;  // only late
+    if (arrival.newest) return trial_.reset();              // it is where it was
+    trial_->opposed = now;
     return;
   }
+  if (!arrival.newest) return;
   std::array<std::uint8_t, sizeof(std::uint64_t)> token{};
   randomness.fill(token);
-  trial_ = Trial{.address = from, .token = load<std::uint64_t>(token, 0), .received = size};
+  trial_ = Trial{.address = arrival.from,
+                 .token = load<std::uint64_t>(token, 0),
+                 .received = arrival.size,
+                 .first = arrival.number};
 }
 
-bool PathAddresses::take_proof(Address from, std::uint64_t token) {
+bool PathAddresses::take_proof(Address from, std::uint64_t token, Instant now) {
   if (!trial_ || trial_->address != from || trial_->token != token) return false;
+  if (trial_->opposed && now - *trial_->opposed < kInUse) return false;
   prove(from);
   return true;
 }

@@ -12,8 +12,8 @@ const char* text_of(Refusal refusal) {
       "had before or too old",
       "forged",
       "key exchange with another key",
-      "repeats a key exchange",
-      "key exchange without the cookie asked for",
+      "answers no key exchange under way",
+      "key exchange with an old stamp",
       "more key exchanges than are answered",
       "sealed where signed was agreed, or the other way",
       "about a session that is not in use"};

@@ -13,8 +13,8 @@ enum class Refusal : std::uint8_t {
   kReplayed,       // had before, or older than the window
   kForged,         // the tag does not fit
   kBadExchange,    // an opening or answer that is not of the provisioned key
-  kOldExchange,    // answers an opening that is not under way, or repeats one
-  kCookieWanted,   // an opening without the cookie while too many knock
+  kOldExchange,    // answers an opening that is not under way
+  kOldStamp,       // an opening whose stamp is not newer than one had before: a replay
   kTooManyKnocks,  // beyond what is even answered
   kWrongMode,      // sealed where signed was agreed, or the other way
   kForeignBoot     // hints and the like that do not concern us

@@ -69,7 +69,8 @@ void Sealer::advance(Instant now) {
   phase_since_ = now;
 }
 
-Opener::Opener(const Key& key, Instant now) : key_(key), heard_(now) {}
+Opener::Opener(const Key& key, Instant now, const ReplayWindow& window)
+    : key_(key), heard_(now), window_(window) {}
 
 Opener::Opening Opener::open(const Header& header, Bytes datagram, Instant now,
                              std::span<std::uint8_t> plain) {

@@ -50,6 +50,9 @@ class Sealer {
   bool sent_lately(std::uint32_t number_low) const {
     return static_cast<std::uint32_t>(next_ - 1) - number_low < kReplayWindow;
   }
+  std::uint64_t next() const { return next_; }
+  // The numbers of another session go on here; before the first packet.
+  void go_on_from(std::uint64_t next) { next_ = phase_first_ = next; }
   std::uint64_t phases() const { return phase_; }
 
  private:
@@ -72,7 +75,8 @@ constexpr std::uint64_t whole_number(std::uint32_t low, std::uint64_t near) {
 
 class Opener {
  public:
-  explicit Opener(const Key& key, Instant now);
+  // `window`: of the session whose numbers go on here.
+  Opener(const Key& key, Instant now, const ReplayWindow& window = {});
 
   enum class Verdict : std::uint8_t { kNew, kDuplicate, kTooOld, kForged };
   struct Opening {
@@ -85,6 +89,7 @@ class Opener {
 
   Instant heard() const { return heard_; }  // the last authentic packet; else the beginning
   std::uint64_t phases() const { return phase_; }
+  const ReplayWindow& window() const { return window_; }
 
  private:
   bool opens(const Header& header, Bytes datagram, std::uint64_t number, Instant now,

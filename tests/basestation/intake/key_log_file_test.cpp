@@ -21,6 +21,7 @@ TEST(KeyLogFile, KeysOfARealCarAreNeverLaidOpen) {
   const auto refused = key_log_to(folder->path() + "/keys", {});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().place, "--key-log");
+  EXPECT_NE(refused.error().what.find("keygen --bench"), std::string::npos);
   EXPECT_FALSE(transport::read_file(folder->path() + "/keys"));
 }
 

@@ -54,11 +54,35 @@ TEST(KeyPair, EachEndTakesItsOwnFileOnly) {
   ASSERT_TRUE(write_key_pair(f.path, f.pair));
   const auto swapped = read_keys(f.car, Role::kBase);
   ASSERT_FALSE(swapped);
-  EXPECT_EQ(swapped.error().what, "these are the car's keys, not the base's");
+  EXPECT_EQ(swapped.error().what, "these are the car's keys, expected the base's: give base.keys");
   EXPECT_FALSE(read_keys(f.base, Role::kCar));
   EXPECT_FALSE(read_keys(f.path + "/none", Role::kCar));
   ASSERT_EQ(::chmod(f.car.c_str(), 0644), 0);
   EXPECT_FALSE(read_keys(f.car, Role::kCar)) << "others can read it";
+}
+
+TEST(KeyPair, OfABenchSaysSoAtBothEnds) {
+  Folder f;
+  EXPECT_FALSE(f.pair.car.bench || f.pair.base.bench) << "only where it is asked for";
+  ASSERT_TRUE(write_key_pair(f.path, make_key_pair(f.randomness, true)));
+  const auto car = read_keys(f.car, Role::kCar), base = read_keys(f.base, Role::kBase);
+  ASSERT_TRUE(car && base);
+  EXPECT_TRUE(car->bench && base->bench);
+}
+
+TEST(KeyPair, LiesInAFolderThatNobodyElseMayWrite) {
+  Folder f;
+  const mode_t before = ::umask(0);
+  EXPECT_TRUE(write_key_pair(f.path, f.pair));
+  ::umask(before);
+  EXPECT_TRUE(read_keys(f.car, Role::kCar)) << "whatever the umask was";
+  Folder open;
+  ASSERT_EQ(::mkdir(open.path.c_str(), 0700), 0);
+  ASSERT_EQ(::chmod(open.path.c_str(), 0777), 0);
+  const auto refused = write_key_pair(open.path, open.pair);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().place, open.path);
+  EXPECT_FALSE(transport::read_file(open.car)) << "and nothing is begun";
 }
 
 }  // namespace

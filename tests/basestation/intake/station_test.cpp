@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <variant>
 
 #include "protocol/telemetry/delivery/event_content.hpp"
 #include "tests/basestation/radio_rig.hpp"
@@ -53,6 +54,26 @@ TEST(Station, IsOverheardInBothDirectionsWhateverComes) {
   EXPECT_GT(up, 3u);
   rig.station->take(nonsense, 0, {.ip = 1, .port = 9}, rig.now);
   EXPECT_EQ(noise, 1u) << "what is not authentic, too";
+}
+
+// Without a session, so without a word of the car.
+TEST(Station, ACarWithAnotherKeyIsAnEventOfTheBase) {
+  RadioRig rig;
+  const KeyPair others = make_key_pair(rig.randomness);
+  rig.keys.car = others.car;
+  rig.restart_car();
+  rig.set(kX, 1.0);
+  rig.run(seconds(2));
+  EXPECT_EQ(rig.station->source(), Station::Source::kNone);
+  EXPECT_TRUE(rig.station->report(rig.now).threats.has(telemetry::Threat::kWrongKey));
+  rig.run(seconds(60));
+  ASSERT_EQ(rig.station->events().size(), 1U) << "however long it knocks";
+  EXPECT_EQ(rig.station->events_heard(), 1U);
+  const auto content = telemetry::content_of(rig.station->events().front());
+  ASSERT_TRUE(content);
+  const auto& event = std::get<telemetry::ThreatEvent>(*content);
+  EXPECT_EQ(event.threat, static_cast<std::uint8_t>(telemetry::Threat::kWrongKey));
+  EXPECT_TRUE(event.begins && event.seen_by_base);
 }
 
 TEST(Station, TellsASimulationFromACar) {

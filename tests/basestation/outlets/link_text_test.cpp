@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "tests/basestation/radio_rig.hpp"
 
@@ -46,6 +47,27 @@ TEST(LinkText, HasOnePathOrTwo) {
     EXPECT_TRUE(says(rig, "clocks known to +-")) << text_of(rig);
     EXPECT_TRUE(says(rig, "127.0.0.1:40001 proved")) << text_of(rig);
     EXPECT_TRUE(says(rig, "refused   0")) << text_of(rig);
+  }
+}
+
+TEST(LinkText, SaysWhichEndSeesAnAttack) {
+  RadioRig rig;
+  rig.set(field("ego.x"), 1.0);
+  rig.set(field("radio.threats"), 0.0);
+  rig.run(seconds(2));
+  EXPECT_FALSE(says(rig, "attack ")) << text_of(rig);
+  rig.set(field("radio.threats"), 32.0);
+  rig.run(seconds(1));
+  EXPECT_TRUE(says(rig, "attack    seen by the car: Packets come a second time, from another"))
+      << text_of(rig);
+  const std::vector<std::uint8_t> noise(30, 0xFF);
+  for (int i = 0; i < 200; ++i) rig.station->take(noise, 0, {.ip = 9, .port = 9}, rig.now);
+  rig.run(milliseconds(200));
+  EXPECT_TRUE(says(rig, "attack    seen by the base: Forged or foreign datagrams")) << text_of(rig);
+  EXPECT_TRUE(says(rig, "ago   radio, seen by the base: Forged or foreign")) << text_of(rig);
+  for (const TextLine& line : link_lines(*rig.station, rig.now)) {
+    EXPECT_LE(line.text.size(), kScreenColumns) << line.text;
+    EXPECT_EQ(line.tone == Tone::kAlarm, line.text.starts_with("attack")) << line.text;
   }
 }
 

@@ -51,6 +51,13 @@ TEST(LogText, EventsAreSentences) {
   EXPECT_EQ(said(telemetry::LostEvents{.count = 7}),
             "7 events were lost: the car's queue was full");
   EXPECT_EQ(said(telemetry::FlagEvent{.from = 0, .to = 1}), "track flag: none -> RED");
+  EXPECT_EQ(said(telemetry::ThreatEvent{.threat = 4, .seen_by_base = true}),
+            "radio, seen by the base: Recorded openings of key exchanges are replayed");
+  EXPECT_EQ(
+      said(telemetry::ThreatEvent{.threat = 0, .begins = false, .most_per_s = 10}),
+      "radio, seen by the car: over, at most 10/s: Key exchange messages do not fit our keys");
+  EXPECT_EQ(said(telemetry::ThreatEvent{.threat = 200}),
+            "radio: an attack that this base does not know");
 }
 
 TEST(LogText, TextFromTheAirIsShownWithoutControlCharacters) {

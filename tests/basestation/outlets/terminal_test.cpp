@@ -126,6 +126,22 @@ TEST_F(Terminal, StopsByItselfAndIsSilentUnlessAsked) {
   EXPECT_EQ(station_->rate().packets(), 0U);
 }
 
+// A base without a screen has its log; a flood is one line of it.
+TEST_F(Terminal, AttacksAreALineOnStandardErrorWhereThereIsNoScreen) {
+  const std::vector<std::uint8_t> noise(30, 0xFF);
+  for (const bool text : {false, true}) {
+    station_ = std::make_unique<intake::Station>(
+        telemetry::ConduitConfig{.association = {.keys = keys_.base}}, randomness_);
+    for (int i = 0; i < 150; ++i) car_socket_->send_to(radio_.front()->local(), noise);
+    ::testing::internal::CaptureStderr();
+    run({.text = text, .plain = true, .duration = milliseconds(300)});
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(),
+              text ? ""
+                   : "pitwall-base: car 7: radio, seen by the base: Forged or foreign datagrams "
+                     "come at rate; all are refused\n");
+  }
+}
+
 TEST_F(Terminal, StopsWhenItIsTold) {
   ASSERT_EQ(::write(stop_[1], "x", 1), 1);
   EXPECT_NE(run({.text = true, .plain = true}).find("waiting for the first packet"),

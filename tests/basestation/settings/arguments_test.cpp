@@ -14,7 +14,7 @@ std::variant<Arguments, Leave> parse(std::vector<const char*> words) {
 TEST(Arguments, WhatIsAskedForIsHad) {
   const auto parsed =
       parse({"--keys", "k", "--listen", "127.0.0.1:1", "127.0.0.1:2", "--web", "0", "--budget",
-             "128", "--judgement", "wall.yaml", "--joystick", "/dev/x"});
+             "128", "--judgement", "wall.yaml", "--joystick", "/dev/x", "--stamp-file", "s"});
   const auto* const arguments = std::get_if<Arguments>(&parsed);
   ASSERT_NE(arguments, nullptr);
   EXPECT_EQ(arguments->listen.size(), 2u);
@@ -22,6 +22,7 @@ TEST(Arguments, WhatIsAskedForIsHad) {
   EXPECT_EQ(arguments->budget_kbit, 128.0);
   EXPECT_EQ(arguments->judgement_file, "wall.yaml");
   EXPECT_EQ(arguments->joystick, "/dev/x");
+  EXPECT_EQ(arguments->stamp_file, "s");
 }
 
 TEST(Arguments, NothingIsNothing) {
@@ -30,6 +31,19 @@ TEST(Arguments, NothingIsNothing) {
   ASSERT_NE(arguments, nullptr);
   EXPECT_FALSE(arguments->web_port);
   EXPECT_TRUE(arguments->keys.empty());
+  EXPECT_TRUE(arguments->stamp_file.empty());
+}
+
+TEST(Arguments, KeysAreForABenchOnlyWhereThatIsAskedFor) {
+  for (const bool bench : {false, true}) {
+    std::vector<const char*> words{"keygen", "--out", "keys"};
+    if (bench) words.push_back("--bench");
+    const auto parsed = parse(words);
+    const auto* const arguments = std::get_if<Arguments>(&parsed);
+    ASSERT_NE(arguments, nullptr);
+    EXPECT_EQ(arguments->keygen_folder, "keys");
+    EXPECT_EQ(arguments->keygen_bench, bench);
+  }
 }
 
 TEST(Arguments, MistakesAreTheCallersExitCode) {
@@ -42,6 +56,7 @@ TEST(Arguments, MistakesAreTheCallersExitCode) {
                                                 {"--default-role", "king"},
                                                 {"--car", "256"},
                                                 {"--cars", "c", "--keys", "k"},
+                                                {"--cars", "c", "--stamp-file", "s"},
                                                 {"--record", "r", "--cars", "c"},
                                                 {"--cars", "c", "--replay", "r"}}) {
     const auto parsed = parse(words);

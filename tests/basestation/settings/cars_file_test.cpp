@@ -14,6 +14,7 @@ constexpr const char* kTwo = R"(cars:
   - number: 7
     name: Blue
     keys: keys/7/base.keys
+    stamp_file: state/7.stamp
     listen: ["127.0.0.1:23431", "127.0.0.1:23432"]
     track: tracks/own.yaml
     record: /var/7
@@ -48,6 +49,7 @@ TEST(CarsFile, EachCarHasTheCommandLineWithItsOwnWordsInIt) {
   EXPECT_EQ(first.car, 7);
   EXPECT_EQ(first.car_name, "Blue");
   EXPECT_EQ(first.keys, "race/keys/7/base.keys") << "beside the file";
+  EXPECT_EQ(first.stamp_file, "race/state/7.stamp");
   EXPECT_EQ(first.listen.size(), 2u);
   EXPECT_EQ(first.track, "race/tracks/own.yaml");
   EXPECT_EQ(first.record_folder, "/var/7");
@@ -62,6 +64,7 @@ TEST(CarsFile, EachCarHasTheCommandLineWithItsOwnWordsInIt) {
   EXPECT_EQ(second.budget_kbit, 300.0);
   EXPECT_TRUE(second.signed_only);
   EXPECT_FALSE(first.signed_only);
+  EXPECT_TRUE(second.stamp_file.empty()) << "beside its keys";
   EXPECT_TRUE(second.record_folder.empty());
   EXPECT_TRUE(second.joystick.empty());
 }
@@ -97,6 +100,7 @@ TEST(CarsFile, NoTwoCarsShareAnything) {
            {"keys/8/base.keys", "keys/8/../7/base.keys"},
            {"23441", "23432"},
            {"signed: true", "record: /var/7"},
+           {"signed: true", "stamp_file: ./state/7.stamp"},
            {"signed: true", "judgement: ./seven.yaml"},
            {"signed: true", "joystick: /dev/input/event3"},
            {"signed: true", "operator_port: 23437"}}) {
@@ -105,6 +109,15 @@ TEST(CarsFile, NoTwoCarsShareAnything) {
     EXPECT_NE(cars.error().what.find("another car has it"), std::string::npos) << with;
     EXPECT_EQ(cars.error().place.find("cars.yaml:1"), 0u) << cars.error().place;
   }
+}
+
+TEST(CarsFile, CarsMayKeepNoStamps) {
+  const auto cars = read(
+      "cars:\n  - {number: 1, keys: a, stamp_file: none}\n"
+      "  - {number: 2, keys: b, stamp_file: none, listen: [\"127.0.0.1:0\"]}\n");
+  ASSERT_TRUE(cars) << to_string(cars.error());
+  EXPECT_EQ(cars->front().stamp_file, kNoStampFile);
+  EXPECT_EQ(cars->back().stamp_file, kNoStampFile);
 }
 
 TEST(CarsFile, TwoMayListenAtAnyPortThatIsFree) {

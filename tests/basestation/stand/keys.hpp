@@ -13,11 +13,12 @@
 namespace pitwall::stand {
 
 // The path of the base's.
-inline std::string made_keys(const transport::TemporaryFolder& folder, const std::string& name) {
+inline std::string made_keys(const transport::TemporaryFolder& folder, const std::string& name,
+                             bool bench = false) {
   telemetry::SystemRandomness randomness;
   const std::string place = folder.path() + "/" + name;
   std::filesystem::create_directories(place);
-  EXPECT_TRUE(intake::write_key_pair(place, intake::make_key_pair(randomness)));
+  EXPECT_TRUE(intake::write_key_pair(place, intake::make_key_pair(randomness, bench)));
   return place + "/" + intake::kBaseKeys;
 }
 

@@ -57,6 +57,50 @@ TEST_F(Plans, CarsWithTheSameKeysAreRefused) {
   EXPECT_NE(plans.error().what.find("car 7"), std::string::npos);
 }
 
+TEST_F(Plans, EachCarHasItsStampFileBesideItsKeysOrWhereItIsAskedFor) {
+  settings::Arguments first = car(7), second = car(8), third = car(9);
+  second.stamp_file = folder_->path() + "/eight";
+  third.stamp_file = "none";
+  ASSERT_TRUE(transport::write_file(folder_->path() + "/7/base.stamp", "stamp: 71\n", 0600));
+  ASSERT_TRUE(transport::write_file(folder_->path() + "/eight", "stamp: 81\n", 0600));
+  ASSERT_TRUE(transport::write_file(folder_->path() + "/9/base.stamp", "stamp: 91\n", 0600));
+  const auto plans = planned({first, second, third});
+  ASSERT_TRUE(plans) << to_string(plans.error());
+  EXPECT_EQ((*plans)[0].stamp_file, folder_->path() + "/7/base.stamp");
+  EXPECT_EQ((*plans)[0].config.association.newest_stamp, 71U);
+  EXPECT_EQ((*plans)[1].stamp_file, second.stamp_file);
+  EXPECT_EQ((*plans)[1].config.association.newest_stamp, 81U);
+  EXPECT_EQ((*plans)[2].stamp_file, "");
+  EXPECT_EQ((*plans)[2].config.association.newest_stamp, 0U);
+  EXPECT_TRUE(said_.empty());
+}
+
+TEST_F(Plans, AStampFileThatCannotBeReadIsToldAndStopsNothing) {
+  ASSERT_TRUE(planned({car(7)})) << "one that is not there is none yet";
+  EXPECT_TRUE(said_.empty());
+  settings::Arguments arguments = car(8);
+  const std::string path = folder_->path() + "/8/base.stamp";
+  ASSERT_TRUE(transport::write_file(path, "stamp: 8", 0600));
+  const auto plans = planned({arguments});
+  ASSERT_TRUE(plans) << to_string(plans.error());
+  EXPECT_EQ(plans->front().config.association.newest_stamp, 0U);
+  EXPECT_EQ(plans->front().stamp_file, path) << "it is written anew";
+  ASSERT_EQ(said_.size(), 1U);
+  EXPECT_EQ(said_[0].find("stamp file unreadable: " + path + ":1: error: is cut short"), 0U)
+      << said_[0];
+}
+
+TEST_F(Plans, TwoCarsWithOneStampFileAreRefused) {
+  settings::Arguments first = car(7), second = car(8);
+  first.stamp_file = second.stamp_file = folder_->path() + "/shared";
+  const auto plans = planned({first, second});
+  ASSERT_FALSE(plans);
+  EXPECT_EQ(to_string(plans.error()),
+            "car 8: " + second.stamp_file + ": error: this is the stamp file of car 7, too");
+  first.stamp_file = second.stamp_file = "none";
+  EXPECT_TRUE(planned({first, second}));
+}
+
 TEST_F(Plans, AMistakeNamesTheCarWhereThereAreSeveral) {
   settings::Arguments first = car(7), second = car(8);
   second.listen = {"0.0.0.0:23431"};
@@ -87,6 +131,23 @@ TEST_F(Plans, WhatIsMissingIsTold) {
     EXPECT_NE(to_string(plan.error()).find(place), std::string::npos) << to_string(plan.error());
     said_.emplace_back();
   }
+}
+
+TEST_F(Plans, KeysOfABenchAreSaidAndOnlyTheirSessionsAreLogged) {
+  settings::Arguments arguments = car(7);
+  EXPECT_TRUE(planned({arguments}));
+  EXPECT_EQ(said_.size(), 0u);
+  arguments.key_log = folder_->path() + "/keys.log";
+  const auto refused = planned({arguments});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().place, "--key-log");
+  arguments.keys = made_keys(*folder_, "bench", true);
+  const auto plans = planned({arguments});
+  ASSERT_TRUE(plans) << to_string(plans.error());
+  EXPECT_TRUE(plans->front().config.association.key_log);
+  ASSERT_EQ(said_.size(), 1u);
+  EXPECT_NE(said_[0].find("KEYS OF A BENCH"), std::string::npos) << said_[0];
+  EXPECT_NE(said_[0].find(arguments.key_log), std::string::npos) << said_[0];
 }
 
 TEST_F(Plans, AReplayNeedsNoRadioAndSaysThatItIsOne) {

@@ -62,7 +62,9 @@ struct Measured {
 };
 
 Contestant ours();
-Contestant ours_sealed();
+// The same as one datagram of our session: header, encrypted values, tag. The body of `plain` is at
+// most telemetry::kMaxBody bytes.
+Contestant sealed(const Contestant& plain, const std::string& name);
 std::vector<Contestant> protobuf();
 Contestant lcm();
 inline constexpr std::size_t kLcmHeader = 8 + sizeof("STATE");  // LCM UDP multicast protocol, short
@@ -72,7 +74,7 @@ Contestant cap_n_proto();
 Contestant json();
 // Over loopback to a reader of another process; none: it could not be measured.
 std::optional<Measured> cyclone(const std::vector<Values>& trace);
-// By node-mavlink; empty: it is not installed.
+// Sizes by node-mavlink, no times (it is JavaScript); empty: it is not installed.
 std::vector<Measured> mavlink(const std::vector<Values>& trace);
 
 }  // namespace pitwall::codec

@@ -1,4 +1,5 @@
-// Cyclone DDS with its defaults: KEEP_LAST 1, best effort or reliable (MODE "reliable").
+// Cyclone DDS with its defaults: KEEP_LAST 1, best effort or reliable (MODE "reliable"); MODE
+// "paced": best effort, bulk in pieces.
 // SPDX-License-Identifier: Apache-2.0
 #include <dds/dds.h>
 
@@ -46,12 +47,16 @@ void drive(const Topics& topics, const Call& call) {
       made(dds_create_writer(topics.participant, topics.state, topics.quality, nullptr));
   const dds_entity_t bulk_writer =
       made(dds_create_writer(topics.participant, topics.bulk, topics.quality, nullptr));
-  std::vector<std::uint8_t> bytes(kBulkBytes, 'b');
+  // RTPS header, timestamp and DATA around a sample, IP and UDP; as bench codec counts them.
+  constexpr std::size_t kAround = 56 + 28, kStateBytes = 388 + kAround;
+  const BulkPlan plan =
+      call.mode == "paced" ? paced(kStatePeriod, kStateBytes, kAround + 4) : BulkPlan{};
+  std::vector<std::uint8_t> bytes(plan.bytes, 'b');
   contest_Bulk bulk{};
   bulk.data._buffer = bytes.data();
-  bulk.data._length = bulk.data._maximum = kBulkBytes;
+  bulk.data._length = bulk.data._maximum = static_cast<std::uint32_t>(plan.bytes);
   send_until_end(
-      call, kStatePeriod,
+      call, kStatePeriod, plan,
       [&](Instant now) {
         const VehicleState state = state_at(now);
         contest_VehicleState message{};
@@ -89,7 +94,7 @@ void listen(const Topics& topics, const Call& call) {
   while (transport::monotonic_now() < call.end) {
     dds_waitset_wait(waitset, nullptr, 0, DDS_MSECS(50));
     take<contest_VehicleState>(state_reader, [](const auto& m) { note_arrival(m.made_ns); });
-    take<contest_Bulk>(bulk_reader, [](const auto&) {});
+    take<contest_Bulk>(bulk_reader, [](const auto& m) { note_bulk(m.data._length); });
   }
 }
 

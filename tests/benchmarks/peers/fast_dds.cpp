@@ -1,5 +1,7 @@
 // Fast DDS over UDP: KEEP_LAST 1, asynchronous, best effort or reliable (MODE "reliable"); the rest
-// as it comes. Types written by hand on fastcdr, as fastddsgen would write them.
+// as it comes. MODE "controlled": best effort, both writers on one flow controller of the tuned
+// share of the link, state before bulk; messages small enough to go one after the other. Types
+// written by hand on fastcdr, as fastddsgen would write them.
 // SPDX-License-Identifier: Apache-2.0
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>
@@ -84,12 +86,40 @@ struct Domain {
   dds::Topic* bulk;
 };
 
+constexpr const char* kControlled = "controlled";
+constexpr const char* kController = "radio";
+constexpr std::uint32_t kControlledMessage = 640;  // an RTPS message with state takes 502
+
+// What both writers send in a period, with RTPS headers; IP and UDP take 28 bytes of a message.
+// One period for each state: in a longer one bulk uses up what the next state needs.
+std::shared_ptr<eprosima::fastdds::rtps::FlowControllerDescriptor> controller() {
+  constexpr Duration kPeriod = kStatePeriod;
+  constexpr int kIpUdp = 28;
+  auto controller = std::make_shared<eprosima::fastdds::rtps::FlowControllerDescriptor>();
+  controller->name = kController;
+  controller->scheduler = eprosima::fastdds::rtps::FlowControllerSchedulerPolicy::HIGH_PRIORITY;
+  controller->period_ms = static_cast<std::uint64_t>(kPeriod / milliseconds(1));
+  controller->max_bytes_per_period =
+      static_cast<std::int32_t>(kLinkBytes_per_s * kTunedShare * kPeriod.seconds()) - kIpUdp;
+  return controller;
+}
+
+// -10 goes first, 10 last.
+void set_priority(dds::DataWriterQos& quality, const char* priority) {
+  quality.publish_mode().flow_controller_name = kController;
+  quality.properties().properties().emplace_back("fastdds.sfc.priority", priority);
+}
+
 // UDP alone: shared memory would pass the radio by, because both ends are on one machine here.
-Domain join() {
+Domain join(const Call& call) {
   dds::DomainParticipantQos quality = dds::PARTICIPANT_QOS_DEFAULT;
   quality.transport().use_builtin_transports = false;
-  quality.transport().user_transports.push_back(
-      std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>());
+  const auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+  if (call.mode == kControlled) {
+    udp->maxMessageSize = kControlledMessage;
+    quality.flow_controllers().push_back(controller());
+  }
+  quality.transport().user_transports.push_back(udp);
   auto* participant = dds::DomainParticipantFactory::get_instance()->create_participant(0, quality);
   if (participant == nullptr) std::exit(1);
   dds::TypeSupport state(new Type<VehicleState>("VehicleState", 400));
@@ -111,11 +141,17 @@ void drive(const Domain& domain, const Call& call) {
   quality.history().depth = 1;
   quality.publish_mode().kind = dds::ASYNCHRONOUS_PUBLISH_MODE;
   auto* publisher = domain.participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
+  dds::DataWriterQos bulk_quality = quality;
+  if (call.mode == kControlled) {
+    set_priority(quality, "-10");
+    set_priority(bulk_quality, "10");
+  }
   auto* state_writer = publisher->create_datawriter(domain.state, quality);
-  auto* bulk_writer = publisher->create_datawriter(domain.bulk, quality);
+  auto* bulk_writer = publisher->create_datawriter(domain.bulk, bulk_quality);
+  if (state_writer == nullptr || bulk_writer == nullptr) std::exit(1);
   Bulk bulk{std::vector<std::uint8_t>(kBulkBytes, 'b')};
   send_until_end(
-      call, kStatePeriod,
+      call, kStatePeriod, {},
       [&](Instant now) {
         VehicleState state = state_at(now);
         state_writer->write(&state);
@@ -138,8 +174,8 @@ class BulkListener : public dds::DataReaderListener {
   void on_data_available(dds::DataReader* reader) override {
     Bulk bulk;
     dds::SampleInfo info;
-    while (reader->take_next_sample(&bulk, &info) == ReturnCode_t::RETCODE_OK) {
-    }
+    while (reader->take_next_sample(&bulk, &info) == ReturnCode_t::RETCODE_OK)
+      if (info.valid_data) note_bulk(bulk.data.size());
   }
 };
 
@@ -163,7 +199,7 @@ void listen(const Domain& domain, const Call& call) {
 
 int main(int argc, char** argv) {
   const auto call = pitwall::peers::call_of(argc, argv);
-  const pitwall::peers::Domain domain = pitwall::peers::join();
+  const pitwall::peers::Domain domain = pitwall::peers::join(call);
   call.car ? pitwall::peers::drive(domain, call) : pitwall::peers::listen(domain, call);
   domain.participant->delete_contained_entities();
   eprosima::fastdds::dds::DomainParticipantFactory::get_instance()->delete_participant(

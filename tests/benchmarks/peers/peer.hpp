@@ -1,7 +1,7 @@
 // What the programs of `bench radio` have in common: their command line, their clock, the state
 // that they send, and what the base says of it. See hil/bench/contest/contest.hpp.
 //   in     car|base END_NS BULK [MODE]
-//   out    the base prints "MADE_NS ARRIVED_NS" for each state
+//   out    the base prints "MADE_NS ARRIVED_NS" for each state, "bulk ARRIVED_NS BYTES" for bulk
 //   units  ns of CLOCK_MONOTONIC
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -21,6 +21,8 @@ namespace pitwall::peers {
 inline constexpr std::size_t kFloats = 84, kIntegers = 10, kFlags = 6;
 inline constexpr std::size_t kBulkBytes = 4'000;
 inline constexpr Duration kStatePeriod = milliseconds(20), kBulkPeriod = milliseconds(50);
+// What a tuned contestant is told of the link, and how much of it it uses.
+inline constexpr double kLinkBytes_per_s = 32'000.0, kTunedShare = 0.95;
 
 struct Call {
   bool car = false;
@@ -63,12 +65,29 @@ inline VehicleState state_at(Instant now) {
   return state;
 }
 
+// When bulk goes: by default as it comes.
+struct BulkPlan {
+  std::size_t bytes = kBulkBytes;  // at once
+  Duration period = kBulkPeriod, offset = milliseconds(7);
+};
+
+// MODE "paced": bulk in pieces, each half a period behind a state, of what state leaves of the
+// tuned share of the link.
+//   in   bytes of a period's state and of a piece's headers, with IP and UDP
+inline BulkPlan paced(Duration state_period, std::size_t state, std::size_t headers) {
+  const double all = kLinkBytes_per_s * kTunedShare * state_period.seconds();
+  const double left = all - static_cast<double>(state + headers);
+  return {.bytes = left > 1.0 ? static_cast<std::size_t>(left) : 1,
+          .period = state_period,
+          .offset = state_period / 2};
+}
+
 // Every period of each until the end; what is late is done at once and not made up for.
 template <class SendState, class SendBulk>
-void send_until_end(const Call& call, Duration state_period, SendState&& send_state,
-                    SendBulk&& send_bulk) {
+void send_until_end(const Call& call, Duration state_period, const BulkPlan& bulk,
+                    SendState&& send_state, SendBulk&& send_bulk) {
   const Instant begin = transport::monotonic_now();
-  Instant state_due = begin, bulk_due = begin + milliseconds(7);
+  Instant state_due = begin, bulk_due = begin + bulk.offset;
   while (true) {
     const Instant due = call.bulk && bulk_due < state_due ? bulk_due : state_due;
     if (due >= call.end) break;
@@ -79,7 +98,7 @@ void send_until_end(const Call& call, Duration state_period, SendState&& send_st
       state_due = transport::next_tick(state_due, state_period, now).deadline;
     } else {
       send_bulk(now);
-      bulk_due = transport::next_tick(bulk_due, kBulkPeriod, now).deadline;
+      bulk_due = transport::next_tick(bulk_due, bulk.period, now).deadline;
     }
   }
 }
@@ -88,6 +107,10 @@ void send_until_end(const Call& call, Duration state_period, SendState&& send_st
 inline void note_arrival(std::int64_t made_ns, const char* stream = "") {
   std::printf("%lld %lld%s\n", static_cast<long long>(made_ns),
               static_cast<long long>(transport::monotonic_now().ns), stream);
+}
+
+inline void note_bulk(std::size_t bytes) {
+  std::printf("bulk %lld %zu\n", static_cast<long long>(transport::monotonic_now().ns), bytes);
 }
 
 }  // namespace pitwall::peers

@@ -2,7 +2,8 @@
 // and polls at 100 Hz, as the vehicle's loop does: the hundred signals and the safety groups. What
 // the base has is told by class: the oldest of the safety groups, of the motion groups, and of all
 // hundred signals. Times are those of the samples: every value tells the tick of its sample, so
-// nothing here relies on what the protocol says of ages.
+// nothing here relies on what the protocol says of ages. Bulk is counted by pieces: an object that
+// is replaced before it is whole never comes whole.
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
@@ -138,12 +139,31 @@ class Onlooker {
   std::array<Instant, kGroups> taken_{};
 };
 
+// Bytes of bulk that came since the call before, each piece once, whole objects or not.
+class BulkCount {
+ public:
+  void tell(const StationEndpoint& station, Instant now) {
+    if (now < next_) return;
+    next_ = now + kEvery;
+    const BulkCounters counters = station.report(now).bulk;
+    const std::uint64_t pieces = counters.pieces - counters.repeated;
+    if (pieces > told_) note_bulk((pieces - told_) * kBulkPiece);
+    told_ = pieces;
+  }
+
+ private:
+  static constexpr Duration kEvery = milliseconds(100);
+  Instant next_{};
+  std::uint64_t told_ = 0;
+};
+
 void listen(const Call& call) {
   SystemRandomness randomness;
   StationEndpoint station(config_of(false), randomness);
   transport::UdpSocket socket = open_socket(kBase);
   std::vector<transport::UdpDatagram> batch(transport::UdpSocket::kBatch);
   Onlooker onlooker;
+  BulkCount bulk;
   while (transport::monotonic_now() < call.end) {
     const std::array watched{socket.fd()};
     transport::wait_readable(watched, std::min(call.end, station.due()));
@@ -157,6 +177,7 @@ void listen(const Call& call) {
     while (const auto out = station.poll(transport::monotonic_now())) send(socket, *out);
     while (station.next_bulk()) {
     }
+    bulk.tell(station, transport::monotonic_now());
   }
 }
 

@@ -29,10 +29,11 @@ Arrivals send_for(Air& air, Way way, std::int64_t for_ms, telemetry::PathId path
   for (std::int64_t ms = 0; ms < for_ms; ++ms) {
     if (ms % 10 == 0) {
       const Bytes bytes{static_cast<std::uint8_t>(ms / 10)};
-      air.offer(way, path, bytes, at_ms(ms));
+      air.offer(way, path, {bytes, bytes[0] + 1'000U}, at_ms(ms));
     }
     while (const auto datagram = air.take(way, path, at_ms(ms))) {
       out.numbers.push_back(datagram->bytes.at(0));
+      EXPECT_EQ(datagram->tag, datagram->bytes.at(0) + 1'000U);
       out.at_ms.push_back(ms);
     }
   }
@@ -91,7 +92,7 @@ TEST(Air, LosesTheShareThatTheFaultSays) {
   Air air({}, {fault(BenchFaultKind::kRadioLoss, 0, 100'000'000, 0.3)}, 5);
   std::size_t came = 0;
   for (int i = 0; i < 20'000; ++i) {
-    air.offer(Way::kDown, 0, Bytes{1}, at_ms(i));
+    air.offer(Way::kDown, 0, {Bytes{1}}, at_ms(i));
     if (air.take(Way::kDown, 0, at_ms(i))) ++came;
   }
   EXPECT_NEAR(static_cast<double>(came) / 20'000, 0.7, 0.02);
@@ -109,7 +110,7 @@ TEST(Air, PathsFadeApartAndDirectionsTogether) {
   EXPECT_NE(down.at_ms, send_for(air, Way::kDown, 60'000, 1).at_ms);
   EXPECT_NEAR(static_cast<double>(down.at_ms.size()) / 6'000, 0.7, 0.05);
   // No such path: no harm.
-  air.offer(Way::kUp, 2, Bytes{1}, at_ms(60'000));
+  air.offer(Way::kUp, 2, {Bytes{1}}, at_ms(60'000));
   EXPECT_FALSE(air.take(Way::kUp, 2, at_ms(60'000)));
 }
 

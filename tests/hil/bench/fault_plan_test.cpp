@@ -105,6 +105,11 @@ TEST(FaultPlan, WhatABenchCannotCarryOutItRefusesByPlaceAndName) {
     }
   EXPECT_TRUE(carried_out(faults::BenchFaultKind::kBaseKilled, BenchMode::kLockstep));
   EXPECT_FALSE(carried_out(faults::BenchFaultKind::kClockStep, BenchMode::kLockstep));
+  for (const auto kind :
+       {faults::BenchFaultKind::kBaseMoved, faults::BenchFaultKind::kBaseReplaced}) {
+    EXPECT_TRUE(carried_out(kind, BenchMode::kLockstep));
+    EXPECT_FALSE(carried_out(kind, BenchMode::kLive)) << "its base has one address";
+  }
 }
 
 TEST(FaultPlan, AShareOfTheTimeIsBetweenNothingAndAll) {

@@ -77,6 +77,12 @@ class Radio {
   std::int64_t ms_ = 0;
 };
 
+// Age of the car's mode as the base has it.
+Duration age_at_base(Radio& radio, std::int64_t ms) {
+  const telemetry::StationEndpoint& base = *radio.station().base();
+  return radio.station().base_time(at_ms(ms)) - base.state().at(telemetry::Group::kMode);
+}
+
 scenario::OperatorWord say(std::int64_t ms, const std::string& text) {
   return {milliseconds(ms), text};
 }
@@ -162,6 +168,85 @@ TEST(VirtualStation, AStopReachesThePipelineAndHoldsOverARestartOfTheBase) {
   EXPECT_EQ(radio.inputs().wishes.stop, world::StopWish::kEmergency);
   radio.run_to(5'000);
   EXPECT_EQ(radio.inputs().wishes.stop, world::StopWish::kEmergency);
+}
+
+TEST(VirtualStation, ABaseThatMovesIsFollowedThereAndBack) {
+  Radio radio(
+      {{.kind = BenchFaultKind::kBaseMoved, .start = at_ms(2'000), .duration = seconds(3)}});
+  for (std::int64_t ms = 500; ms <= 8'000; ms += 100) {
+    ASSERT_TRUE(radio.run_to(ms)) << ms;
+    EXPECT_LT(at_ms(ms) - *radio.alive_at(), milliseconds(300)) << ms;
+    EXPECT_LT(age_at_base(radio, ms), milliseconds(300)) << ms;
+  }
+  const auto report = radio.station().car().report(at_ms(8'000));
+  EXPECT_EQ(report.association.roams, 2U);
+  EXPECT_EQ(report.sessions, 1U);
+}
+
+TEST(VirtualStation, ASpareBaseTakesOverWithinTwoSecondsOfItsStart) {
+  for (const std::int64_t away_ms : {100, 1'000, 5'000, 60'000}) {
+    Radio radio(
+        {{.kind = BenchFaultKind::kBaseMoved, .start = at_ms(2'000), .duration = seconds(9)},
+         {.kind = BenchFaultKind::kBaseReplaced,
+          .start = at_ms(4'000),
+          .duration = milliseconds(away_ms)}});
+    const std::int64_t there_ms = 4'000 + away_ms;
+    radio.run_to(there_ms - 1);
+    EXPECT_EQ(radio.station().base(), nullptr);
+    const auto roams = radio.station().car().report(at_ms(there_ms)).association.roams;
+    radio.run_to(there_ms + 2'000);
+    EXPECT_GT(*radio.alive_at(), at_ms(there_ms)) << away_ms;
+    EXPECT_LT(age_at_base(radio, there_ms + 2'000), milliseconds(100)) << away_ms;
+    const auto report = radio.station().car().report(at_ms(there_ms + 2'000));
+    EXPECT_EQ(report.association.roams, roams + 1) << away_ms;
+    EXPECT_EQ(report.sessions, 2U) << away_ms;
+  }
+}
+
+// What the car has latched is the car's, what an operator may do is the base's.
+TEST(VirtualStation, AtASpareBaseTheStopHoldsAndTheAuthorityIsTakenAnew) {
+  Radio radio(
+      {{.kind = BenchFaultKind::kBaseReplaced, .start = at_ms(3'000), .duration = seconds(1)}},
+      {say(1'000, "take 1"), say(1'500, "stop controlled"), say(7'000, "command speed_limit 20"),
+       say(7'100, "take 1"), say(8'000, "release")});
+  radio.run_to(6'900);
+  EXPECT_TRUE(radio.station().refusals().empty());
+  EXPECT_EQ(radio.inputs().wishes.stop, world::StopWish::kControlled);
+  radio.run_to(7'900);
+  EXPECT_TRUE(radio.heard.empty());
+  ASSERT_EQ(radio.station().commands().size(), 1U);
+  EXPECT_EQ(radio.station().base()->progress(radio.station().commands()[0])->fate,
+            Outcome::kNoAuthority)
+      << "nobody has the authority";
+  EXPECT_EQ(radio.inputs().wishes.stop, world::StopWish::kControlled);
+  radio.run_to(9'000);
+  EXPECT_EQ(radio.inputs().wishes.stop, world::StopWish::kNone);
+  EXPECT_TRUE(radio.station().refusals().empty());
+}
+
+TEST(VirtualStation, ABaseThatBeginsAgainKnowsTheNewestStampAndASpareOneDoesNot) {
+  for (const auto kind : {BenchFaultKind::kBaseKilled, BenchFaultKind::kBaseReplaced}) {
+    Radio radio({{.kind = kind, .start = at_ms(2'000), .duration = seconds(1)}});
+    radio.run_to(1'999);
+    const telemetry::Stamp before = radio.station().base()->newest_stamp();
+    EXPECT_GT(before, 0U);
+    radio.run_to(2'999);
+    EXPECT_EQ(radio.station().base(), nullptr);
+    radio.run_to(3'000);  // and nothing was heard yet
+    EXPECT_EQ(radio.station().base()->newest_stamp(),
+              kind == BenchFaultKind::kBaseKilled ? before : 0U);
+    radio.run_to(5'000);
+    const telemetry::Stamp after = radio.station().base()->newest_stamp();
+    EXPECT_GT(after, before);
+    radio.station().restart_car();
+    radio.run_to(7'000);  // a car looks for a second at the first address alone
+    EXPECT_GT(radio.station().base()->newest_stamp(), after) << "nor does a car go back";
+    EXPECT_EQ(radio.station()
+                  .base()
+                  ->report(radio.station().base_time(at_ms(7'000)))
+                  .association.refused[static_cast<std::size_t>(telemetry::Refusal::kOldStamp)],
+              0U);
+  }
 }
 
 TEST(VirtualStation, AJoystickLivesOnlyWhileItSpeaks) {

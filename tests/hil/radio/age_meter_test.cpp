@@ -26,10 +26,20 @@ TEST(AgeMeter, WhatIsOlderThanAllBinsIsInTheLastAndItsWorstIsExact) {
   EXPECT_EQ(meter.worst(Group::kEgo), seconds(60));
 }
 
+TEST(AgeMeter, TheWholeStateHasAgesOfItsOwn) {
+  AgeMeter meter;
+  for (int ms = 0; ms < 100; ++ms) meter.look_at_state(milliseconds(ms));
+  EXPECT_EQ(meter.state_quantile(0.5), milliseconds(50));
+  EXPECT_EQ(meter.state_quantile(1.0), milliseconds(100));
+  EXPECT_EQ(meter.looks(Group::kEgo), 0u);
+}
+
 TEST(AgeMeter, ResetForgets) {
   AgeMeter meter;
   meter.look(Group::kEgo, seconds(1));
+  meter.look_at_state(seconds(1));
   meter.reset();
+  EXPECT_EQ(meter.state_quantile(1.0), Duration{});
   EXPECT_EQ(meter.looks(Group::kEgo), 0u);
   EXPECT_EQ(meter.worst(Group::kEgo), Duration{});
 }

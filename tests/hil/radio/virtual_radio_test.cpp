@@ -29,6 +29,19 @@ TEST(VirtualRadio, ACleanLinkShowsWhatTheCarHasAndHowOldItIs) {
   EXPECT_LE(radio.ages().quantile(Group::kEgo, 0.99), milliseconds(50));
 }
 
+// All of the vehicle state at once is as old as its oldest group: never younger than any of them.
+TEST(VirtualRadio, TheWholeStateIsAsOldAsItsOldestGroup) {
+  VirtualRadio radio(clean(milliseconds(15)));
+  radio.run(seconds(5));
+  radio.reset_ages();
+  radio.run(seconds(10));
+  for (const Group group : {Group::kEgo, Group::kTyres, Group::kTread, Group::kBrakes}) {
+    EXPECT_GE(radio.ages().state_quantile(0.5), radio.ages().quantile(group, 0.5));
+    EXPECT_GE(radio.ages().state_quantile(1.0), radio.ages().quantile(group, 1.0));
+  }
+  EXPECT_LE(radio.ages().state_quantile(1.0), milliseconds(200));
+}
+
 TEST(VirtualRadio, OneSeedIsOneRun) {
   RadioSetup setup = clean(milliseconds(15));
   setup.down[0].loss = setup.up[0].loss = 0.3;

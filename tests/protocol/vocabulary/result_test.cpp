@@ -27,6 +27,17 @@ TEST(Result, MovesAValueThatCannotBeCopied) {
   EXPECT_EQ(*taken, 3);
 }
 
+// A large value is made where it stays.
+TEST(Result, MakesAValueInItsPlace) {
+  struct Pinned {
+    Pinned() = default;
+    Pinned(const Pinned&) = delete;
+    int value = 7;
+  };
+  const Result<Pinned, Problem> made{std::in_place};
+  EXPECT_EQ(made->value, 7);
+}
+
 TEST(ResultDeathTest, TheWrongSideIsOurOwnMistake) {
   EXPECT_DEATH(static_cast<void>(parse_digit('x').value()), "CHECK failed");
   EXPECT_DEATH(static_cast<void>(parse_digit('1').error()), "CHECK failed");

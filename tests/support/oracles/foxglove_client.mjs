@@ -1,6 +1,7 @@
 // Foxglove's own client on a Foxglove WebSocket server: foxglove_client.mjs live|replay ADDRESS, or
 // of one of several cars, whose topics begin with SPACE and which is that fast:
-// foxglove_client.mjs space ADDRESS SPACE SPEED.
+// foxglove_client.mjs space ADDRESS SPACE SPEED; or of a car of the bench, whatever it does:
+// foxglove_client.mjs bench ADDRESS.
 // Ends with 1 and says why where something is not as the protocol has it.
 // SPDX-License-Identifier: Apache-2.0
 import library from "@foxglove/ws-protocol";
@@ -256,5 +257,14 @@ async function ofOneCar() {
   expect(frame === `${space.slice(1)}/base_link`, `the frame ${frame}`);
 }
 
-await { live, replay, space: ofOneCar }[mode]();
+async function ofTheBench() {
+  const viewer = await Viewer.open(kProtocols[1]);
+  viewer.subscribe();
+  const { value: ego } = await until("its state", () => viewer.messages.get("/car/ego"));
+  expect(Number.isFinite(ego.vx), `a speed of ${ego.vx}`);
+  const { value: hello } = await until("the base", () => viewer.messages.get("/base/hello"));
+  expect(hello.mode === "HIL", `it is told as a simulation, not ${hello.mode}`);
+}
+
+await { live, replay, space: ofOneCar, bench: ofTheBench }[mode]();
 process.exit(0);

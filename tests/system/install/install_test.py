@@ -78,6 +78,10 @@ class Installation(unittest.TestCase):
                  ("--can", "vcan0"), ("--can", "can0;reboot"), ("--can", "--arm"),
                  ("--radio", "10.0.0.1"), ("--radio", "10.0.0.256:1"), ("--radio", "base:23431"),
                  ("--radio", "10.0.0.1:0"), ("--radio", "10.0.0.1:65536"), ("--radio", ":1"),
+                 ("--radio", "10.0.0.1:1,"), ("--radio", "10.0.0.1:1, 10.0.0.2:1"),
+                 ("--radio", "10.0.0.1:1,10.0.0.2"), ("--radio", "10.0.0.1:65536,10.0.0.2:1"),
+                 ("--radio", ",".join(f"10.0.0.{i}:1" for i in range(5))),
+                 ("--radio", "10.0.0.1:1,10.0.0.1:1"), ("--radio", "10.0.0.1:1,127.0.0.1:1"),
                  ("--gnss", "23501"), ("--gnss", "23501,23501"), ("--gnss", "1,65536"),
                  ("--gnss", "0,1"), ("--gnss", "1,2,3"), ("--guardian-gnss", "5,5"),
                  ("--receiver", "udp:23501"), ("--receiver", "2=udp:23501"),
@@ -188,6 +192,15 @@ class Installation(unittest.TestCase):
         program, *arguments = self.command_of(UNIT)
         self.run_installer(*arguments, "--check", program=program)
 
+    def test_spare_stations_reach_the_car_process_as_one_argument(self):
+        stations = "10.42.0.1:23431,10.42.0.2:23431"
+        self.install("--radio", stations, "--keys", self.make_keys() / "car.keys")
+        program, *arguments = self.command_of(UNIT)
+        self.assertEqual(arguments[arguments.index("--radio") + 1], stations)
+        self.run_installer(*arguments, "--check", program=program)
+        again = self.install("--radio", stations).stdout
+        self.assertNotIn("telemetry stays on this machine", again)
+
     # --- the keys of the radio
 
     def make_keys(self):
@@ -227,6 +240,14 @@ class Installation(unittest.TestCase):
     def test_the_keys_of_the_pit_wall_are_not_the_cars(self):
         said = self.install("--keys", self.make_keys() / "base.keys", expect=2).stderr
         self.assertIn("role: car", said)
+        self.assertEqual(snapshot(self.root), {})
+
+    def test_keys_of_a_bench_are_for_no_car(self):
+        folder = Path(tempfile.mkdtemp(dir=self.root.parent))
+        self.run_installer("keygen", "--bench", "--out", folder / "keys",
+                           program=BUILD / "basestation/pitwall-base")
+        said = self.install("--keys", folder / "keys/car.keys", expect=2).stderr
+        self.assertIn("for a bench", said)
         self.assertEqual(snapshot(self.root), {})
 
     def test_the_guardian_accepts_its_unit_and_shares_the_record_of_the_car_process(self):

@@ -1,10 +1,10 @@
-// Safety does not wait behind bulk: however much more is offered than the link carries, the state
-// at the base is as young as the air allows.
+// Age of the state at the base, however much more bulk is offered than the link carries.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "hil/radio/budget_run.hpp"
 #include "hil/radio/burst_run.hpp"
 #include "hil/radio/offered_load.hpp"
 #include "hil/radio/virtual_radio.hpp"
@@ -63,13 +63,105 @@ TEST_P(Overload, SafetyStaysYoung) {
   EXPECT_EQ(radio.falsehoods().never_sampled, 0U);
 }
 
+// Bytes of bulk per second that came to the base, each piece counted once.
+double bulk_rate(const VirtualRadio& radio, const telemetry::BulkCounters& before,
+                 Duration length) {
+  const telemetry::BulkCounters now = radio.base_report().bulk;
+  const auto pieces = static_cast<double>(now.pieces - now.repeated) -
+                      static_cast<double>(before.pieces - before.repeated);
+  return pieces * telemetry::kBulkPiece / length.seconds();
+}
+
+struct StateRun {
+  AgeQuantiles state, safety;
+  double bulk_rate = 0.0;
+};
+
+StateRun run_state(const RadioSetup& setup, double multiple, const char* what) {
+  constexpr Duration kLength = seconds(120);
+  VirtualRadio radio(setup);
+  OfferedLoad load(setup.budget_down[0].bytes_per_s, multiple);
+  load.run(radio, seconds(5));
+  radio.reset_ages();
+  radio.record_departures(true);
+  const telemetry::BulkCounters before = radio.base_report().bulk;
+  load.run(radio, kLength);
+  const StateRun run{state_ages_of(radio), ages_of(radio, Class::kSafety),
+                     bulk_rate(radio, before, kLength)};
+  print(what, multiple, run.state);
+  print("safety", multiple, run.safety);
+  std::printf("bulk: %.0f bytes per second\n", run.bulk_rate);
+  for (telemetry::PathId path = 0; path < setup.paths; ++path) {
+    EXPECT_TRUE(judge(radio.departures(true, path), setup.budget_down[path], what).holds());
+  }
+  EXPECT_EQ(radio.falsehoods().all(), 0U);
+  return run;
+}
+
+// 256 kbit/s. All hundred signals together; bulk still has a third of the rate.
+TEST_P(Overload, TheWholeStateStaysYoung) {
+  for (const std::uint8_t paths : {std::uint8_t{1}, std::uint8_t{2}}) {
+    const StateRun run = run_state(setup_of(clean_link(), paths), GetParam(), "state");
+    EXPECT_LE(run.state.p50, milliseconds(120));
+    EXPECT_LE(run.state.p99, milliseconds(200));
+    EXPECT_LE(run.safety.p50, milliseconds(40));
+    EXPECT_LE(run.safety.p99, milliseconds(60));
+    if (GetParam() >= 1.0) {
+      EXPECT_GE(run.bulk_rate, kRate / 3.0);
+    }
+  }
+}
+
+// One packet in ten is lost: the same bounds.
+TEST(OverloadOfALossyLink, TheWholeStateStaysYoung) {
+  const StateRun run = run_state(lossy(0.1, 1), 3.0, "lossy");
+  EXPECT_LE(run.state.p50, milliseconds(120));
+  EXPECT_LE(run.state.p99, milliseconds(200));
+}
+
+RadioSetup setup_at(double kbit_per_s) {
+  const double rate = kbit_per_s * 125.0;
+  RadioSetup setup = setup_of(clean_link(rate));
+  for (auto& budget : setup.budget_down) budget.bytes_per_s = rate;
+  for (auto& budget : setup.budget_up) budget.bytes_per_s = rate;
+  return setup;
+}
+
+TEST(OverloadOfAnyLink, BulkHasAThirdOfAWideLink) {
+  for (const double kbit_per_s : {256.0, 512.0, 1'024.0}) {
+    const StateRun run = run_state(setup_at(kbit_per_s), 3.0, "state");
+    EXPECT_GE(run.bulk_rate, kbit_per_s * 125.0 / 3.0) << kbit_per_s;
+    EXPECT_LE(run.state.p99, milliseconds(200)) << kbit_per_s;
+  }
+}
+
+// Half of 128 kbit/s is less than safety and motion take: slow groups go at half of their target
+// age and not before, as if there were no other groups.
+TEST(OverloadOfAnyLink, ANarrowLinkKeepsTheTargetAges) {
+  constexpr Duration kLength = seconds(60);
+  for (const double kbit_per_s : {64.0, 128.0}) {
+    VirtualRadio radio(setup_at(kbit_per_s));
+    OfferedLoad load(kbit_per_s * 125.0, 3.0);
+    load.run(radio, seconds(5));
+    const telemetry::LinkReport before = radio.car_report();
+    load.run(radio, kLength);
+    const telemetry::LinkReport after = radio.car_report();
+    for (const GroupRow& row : kGroupTable) {
+      if (row.direction != Direction::kDown || row.priority <= Class::kMotion) continue;
+      const std::size_t g = telemetry::index_of(row.group);
+      const std::uint64_t sent = after.groups[g].chosen - before.groups[g].chosen;
+      EXPECT_LE(sent, static_cast<std::uint64_t>(2 * kLength.ns / row.target_age.ns) + 1)
+          << row.name << ' ' << kbit_per_s;
+      EXPECT_GT(sent, 10U) << row.name << ' ' << kbit_per_s;
+    }
+  }
+}
+
 // On any link: a slot to wait, the largest packet before it and its own on the air, and the way.
 TEST(OverloadOfAnyLink, SafetyWaitsForTwoPacketsAtMost) {
   for (const double kbit_per_s : {64.0, 128.0, 512.0, 1'024.0}) {
     const double rate = kbit_per_s * 125.0;
-    RadioSetup setup = setup_of(clean_link(rate));
-    for (auto& budget : setup.budget_down) budget.bytes_per_s = rate;
-    for (auto& budget : setup.budget_up) budget.bytes_per_s = rate;
+    const RadioSetup setup = setup_at(kbit_per_s);
     VirtualRadio radio(setup);
     OfferedLoad load(rate, 3.0);
     load.run(radio, seconds(5));

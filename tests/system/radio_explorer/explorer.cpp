@@ -35,9 +35,10 @@ World walk(World world, const Way& way) {
 
 }  // namespace
 
-Explored explore(const Budget& budget, Planted planted, std::size_t depth, std::size_t worlds_max) {
+Explored explore(const Budget& budget, Planted planted, std::size_t depth, std::size_t worlds_max,
+                 PlantedRoam roam) {
   CHECK(depth <= kDepthMax);
-  const World start(budget, planted);
+  const World start(budget, planted, roam);
   std::unordered_set<Seen, HashOfSeen> seen;
   std::vector<Way> frontier{Way{}}, next;
   Explored out;

@@ -29,6 +29,7 @@ struct Explored {
   std::optional<Breach> breach;
 };
 
-Explored explore(const Budget& budget, Planted planted, std::size_t depth, std::size_t worlds_max);
+Explored explore(const Budget& budget, Planted planted, std::size_t depth, std::size_t worlds_max,
+                 PlantedRoam roam = PlantedRoam::kNone);
 
 }  // namespace pitwall::explorer

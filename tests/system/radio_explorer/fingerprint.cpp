@@ -50,6 +50,17 @@ void Fingerprint::add(const CommandLedgerOf<4>& ledger) {
   add(ledger.newest_);
 }
 
+void Fingerprint::add(const PathAddresses& addresses) {
+  add(std::uint64_t{addresses.proved_.ip} << 16U | addresses.proved_.port);
+  add(addresses.trial_ ? 1U : 0U);
+  if (!addresses.trial_) return;
+  const auto& trial = *addresses.trial_;
+  add(std::uint64_t{trial.address.ip} << 16U | trial.address.port);
+  add(trial.token);
+  add(trial.first);
+  add(trial.opposed);
+}
+
 void Fingerprint::add(const AuthorityDesk& desk) {
   add(std::uint64_t{desk.holder_} << 32U | std::uint64_t{desk.epoch_} << 16U | desk.renewal_);
   add(desk.renewed_);

@@ -1,5 +1,6 @@
-// Gate: every order of issue, press, release, handover, expiry, loss, doubling, reordering and
-// restart of both ends, within the budgets below, keeps the laws of commands, stop and authority.
+// Gate: every order of issue, press, release, handover, expiry, loss, doubling, reordering, moves
+// of the base, a relay and restarts of both ends, within the budgets below, keeps the laws of
+// commands, stop, authority and addresses.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -27,6 +28,11 @@ constexpr Budget kStopsAndRestarts{
     .presses = 2, .releases = 1, .up = 3, .down = 2, .base_restarts = 1, .car_restarts = 1};
 constexpr Budget kAuthority{.issues = 1, .changes = 2, .up = 2, .doubles = 1, .waits = 3};
 
+constexpr Budget kRoaming{.up = 4, .down = 2, .waits = 1, .moves = 2, .relays = 2};
+constexpr Budget kReturns{
+    .presses = 1, .up = 2, .down = 1, .waits = 2, .base_restarts = 1, .moves = 1, .relays = 1};
+constexpr Budget kCommandsRoaming{.issues = 1, .up = 2, .down = 2, .waits = 2, .moves = 1};
+
 constexpr Budget kTogether{.issues = 1,
                            .presses = 1,
                            .releases = 1,
@@ -50,11 +56,15 @@ TEST(RadioExplorer, RestartsOfEitherEndApplyNothingTwice) { expect_lawful(kResta
 TEST(RadioExplorer, AStopEndsByItsReleaseOnly) { expect_lawful(kStops, 12); }
 TEST(RadioExplorer, AStopOutlivesRestarts) { expect_lawful(kStopsAndRestarts, 12); }
 TEST(RadioExplorer, OneHolderAndNoEffectAfterItsExpiry) { expect_lawful(kAuthority, 12); }
+TEST(RadioExplorer, ABaseThatMovesIsFollowedAndARelayIsNot) { expect_lawful(kRoaming, 12); }
+TEST(RadioExplorer, AStopOutlivesMovesAndASpareBase) { expect_lawful(kReturns, 12); }
+TEST(RadioExplorer, CommandsHaveOneFateWhereverTheBaseIs) { expect_lawful(kCommandsRoaming, 12); }
 TEST(RadioExplorer, AllOfItTogether) { expect_lawful(kTogether, 12); }
 
 // The explorer itself: faults that it must find.
-void expect_found(Planted planted, const Budget& budget, Broken broken) {
-  const Explored found = explore(budget, planted, kAll, kWorldsMax);
+void expect_found(Planted planted, const Budget& budget, Broken broken,
+                  PlantedRoam roam = PlantedRoam::kNone) {
+  const Explored found = explore(budget, planted, kAll, kWorldsMax, roam);
   ASSERT_TRUE(found.breach) << found.worlds << " worlds";
   EXPECT_EQ(found.breach->what, broken) << text_of(*found.breach);
 }
@@ -76,6 +86,13 @@ TEST(RadioExplorer, FindsAReleaseThatUndoesALaterPress) {
 }
 TEST(RadioExplorer, FindsALedgerThatAsksNobodysAuthority) {
   expect_found(Planted::kAnyConsole, kAuthority, Broken::kAppliedWithoutAuthority);
+}
+TEST(RadioExplorer, FindsACarThatNeverLooksWhereItWasTold) {
+  expect_found(Planted::kNone, kReturns, Broken::kBaseNotFound, PlantedRoam::kNoReturn);
+}
+TEST(RadioExplorer, FindsACarThatBelievesTheNewestPacket) {
+  expect_found(Planted::kNone, kRoaming, Broken::kWrongAddressBelieved,
+               PlantedRoam::kBelievesNewest);
 }
 
 }  // namespace

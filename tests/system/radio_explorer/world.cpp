@@ -44,8 +44,8 @@ void fill(Bytes& bytes, std::span<const std::uint8_t> from) {
 
 }  // namespace
 
-World::World(const Budget& budget, Planted planted)
-    : left_(budget), planted_(planted), desk_(kRunBoots + 1), ledger_(kCarBoots + 1) {
+World::World(const Budget& budget, Planted planted, PlantedRoam roam)
+    : left_(budget), planted_(planted), desk_(kRunBoots + 1), ledger_(kCarBoots + 1), where_(roam) {
   desk_.meets(kCarBoots + boot_, now_);
   authority_.take(kA, now_);
   note_holders();
@@ -97,6 +97,12 @@ bool World::can(Action action) const {
       return left_.base_restarts > 0 && run_ + 1 < kRunsMax;
     case kRestartCar:
       return left_.car_restarts > 0;
+    case kBaseMoves:
+      return left_.moves > 0;
+    case kCarProbes:
+      return left_.down > 0 && !down_.full() && where_.on_trial();
+    case kRelayUp0:
+      return left_.relays > 0 && !up_.empty();
   }
   return false;
 }
@@ -111,9 +117,12 @@ Broken World::act(Action action) {
     by_operator(action);
   } else if (action < Action::kHandOut) {
     broken = by_air(action);
-  } else {
+  } else if (action < Action::kBaseMoves) {
     broken = by_car_or_fate(action);
+  } else {
+    broken = by_roaming(action);
   }
+  if (broken == Broken::kNothing && !where_.found()) broken = Broken::kBaseNotFound;
   note_holders();
   if (broken != Broken::kNothing) return broken;
   return judge(boot_ == boot_before ? before : StopLevel::kNone,
@@ -147,7 +156,7 @@ Broken World::by_air(Action action) {
   if (action == kBaseSends) {
     base_sends();
   } else if (action == kCarSends) {
-    car_sends();
+    car_sends(false);
   } else if (action < kDoubleUp0) {
     const std::size_t at = index_of(action, kDeliverUp0);
     const UpPacket packet = up_[at];
@@ -177,8 +186,7 @@ Broken World::by_car_or_fate(Action action) {
     case Action::kApply:
       return apply();
     case Action::kWait:
-      --left_.waits;
-      now_ += kWaited;
+      wait();
       break;
     case Action::kRestartBase:
       restart_base();
@@ -187,6 +195,29 @@ Broken World::by_car_or_fate(Action action) {
       restart_car();
   }
   return Broken::kNothing;
+}
+
+Broken World::by_roaming(Action action) {
+  switch (action) {
+    case Action::kBaseMoves:
+      --left_.moves;
+      where_.base_moves();
+      break;
+    case Action::kCarProbes:
+      car_sends(true);
+      break;
+    default:
+      --left_.relays;
+      return deliver_up(UpPacket{up_[0]}, true);
+  }
+  return Broken::kNothing;
+}
+
+// In silence the car opens anew, where the base was proved and where it was told.
+void World::wait() {
+  --left_.waits;
+  now_ += kWaited;
+  if (where_.wait() && run_met_ != run_) meet(run_);
 }
 
 void World::issue(HolderId by) {
@@ -227,6 +258,7 @@ void World::base_sends() {
   packet.run = run_;
   packet.boot = boot_met_;
   packet.sent = now_;
+  packet.route = where_.base_sends();
   packet.stop = stop_.state();
   packet.presses = truth_.presses;
   telemetry::Values said;
@@ -243,10 +275,11 @@ void World::base_sends() {
   CHECK(up_.push(packet));
 }
 
-void World::car_sends() {
+void World::car_sends(bool to_trial) {
   --left_.down;
   if (run_met_ == 0) meet(run_);  // it opened a session before it could send
   DownPacket packet;
+  packet.route = where_.car_sends(to_trial);
   packet.run = run_met_;
   packet.boot = boot_;
   packet.challenge = latch_.challenge();
@@ -289,9 +322,12 @@ void World::hear_state(const UpPacket& packet) {
   truth_.presses_heard = std::max(truth_.presses_heard, packet.presses);
 }
 
-Broken World::deliver_up(const UpPacket& packet) {
+Broken World::deliver_up(const UpPacket& packet, bool relayed) {
   // Keys of a run of the car that is no more, or of a session before the one in use, open nothing.
   if (packet.boot != boot_ || packet.run < run_met_) return Broken::kNothing;
+  if (!where_.car_hears(packet.route, relayed ? kRelay : packet.route.from, now_)) {
+    return Broken::kWrongAddressBelieved;
+  }
   const std::uint64_t run_word = kRunBoots + packet.run;
   if (planted_ == Planted::kForgetfulLedger && packet.run == run_met_) {
     ledger_ = telemetry::CommandLedgerOf<4>{kCarBoots + boot_};
@@ -312,6 +348,7 @@ Broken World::deliver_up(const UpPacket& packet) {
 }
 
 Broken World::deliver_down(const DownPacket& packet) {
+  if (!where_.base_hears(packet.route)) return Broken::kNothing;
   if (packet.run != run_ || packet.boot < boot_met_) return Broken::kNothing;
   boot_met_ = packet.boot;
   desk_.meets(kCarBoots + packet.boot, now_);
@@ -406,6 +443,7 @@ Broken World::note_applied(const telemetry::DueCommand& due, Truth::OfCommand& t
 
 void World::restart_base() {
   --left_.base_restarts;
+  where_.base_restarts();
   ++run_;
   desk_ = telemetry::CommandDeskOf<4>{kRunBoots + run_};
   boot_met_ = boot_;
@@ -419,6 +457,7 @@ void World::restart_base() {
 
 void World::restart_car() {
   --left_.car_restarts;
+  where_.car_restarts();
   ++boot_;
   ledger_ = telemetry::CommandLedgerOf<4>{kCarBoots + boot_};
   view_ = {};
@@ -455,8 +494,9 @@ telemetry::Fingerprint World::fingerprint() const {
   const Budget& l = left_;
   for (const std::uint8_t n :
        {l.issues, l.presses, l.releases, l.changes, l.up, l.down, l.doubles, l.waits,
-        l.base_restarts, l.car_restarts, run_, boot_, run_met_, boot_met_})
+        l.base_restarts, l.car_restarts, l.moves, l.relays, run_, boot_, run_met_, boot_met_})
     print.add(n);
+  where_.fingerprint(print);
   print.add(now_);
   print.add(desk_);
   print.add(authority_);
@@ -498,6 +538,8 @@ void World::fingerprint_truth(telemetry::Fingerprint& print) const {
     telemetry::Fingerprint one;
     one.add(std::uint64_t{packet.run} << 8U | packet.boot);
     one.add(packet.sent);
+    one.add(std::uint64_t{packet.route.from.port} << 8U | packet.route.number);
+    one.add(packet.route.proof.value_or(0));
     one.add(static_cast<std::uint64_t>(packet.stop.level) << 8U | packet.stop.epoch);
     one.add(packet.presses);
     for (const double v : {packet.holder, packet.epoch, packet.renewal})
@@ -510,54 +552,13 @@ void World::fingerprint_truth(telemetry::Fingerprint& print) const {
     telemetry::Fingerprint one;
     one.add(std::uint64_t{packet.run} << 8U | packet.boot);
     one.add(packet.challenge);
+    one.add(std::uint64_t{packet.route.to.ip} << 16U | packet.route.to.port);
+    one.add(packet.route.probe.value_or(0));
     for (const std::uint8_t byte : packet.body) one.add(byte);
     join(one);
   }
   print.add(air.a);
   print.add(air.b);
-}
-
-const char* text_of(Action action) {
-  constexpr std::array<const char*, kActions> kTexts{"A commands",
-                                                     "B commands",
-                                                     "stop is pressed",
-                                                     "release is given",
-                                                     "A takes authority",
-                                                     "authority changes",
-                                                     "authority is renewed",
-                                                     "base sends",
-                                                     "car sends",
-                                                     "car hears packet 1",
-                                                     "car hears packet 2",
-                                                     "car hears packet 3",
-                                                     "car hears a copy of packet 1",
-                                                     "car hears a copy of packet 2",
-                                                     "car hears a copy of packet 3",
-                                                     "packet 1 is lost",
-                                                     "packet 2 is lost",
-                                                     "base hears packet 1",
-                                                     "base hears packet 2",
-                                                     "packet 1 of the car is lost",
-                                                     "command goes to the consumer",
-                                                     "consumer applies",
-                                                     "time passes",
-                                                     "base restarts",
-                                                     "car restarts"};
-  return kTexts[static_cast<std::size_t>(action)];
-}
-
-const char* text_of(Broken broken) {
-  constexpr std::array kTexts{"nothing",
-                              "a command was applied twice",
-                              "a command was applied after its time",
-                              "a command was applied without authority",
-                              "an older command was applied after a newer one",
-                              "the base was told a wrong fate",
-                              "the car takes somebody for the holder who is not",
-                              "the stop went by itself",
-                              "a press that was heard is not latched",
-                              "a press was forgotten at the base"};
-  return kTexts[static_cast<std::size_t>(broken)];
 }
 
 }  // namespace pitwall::explorer

@@ -18,6 +18,7 @@
 #include "protocol/telemetry/command/command_ledger.hpp"
 #include "protocol/telemetry/command/stop_latch.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
+#include "tests/system/radio_explorer/whereabouts.hpp"
 
 namespace pitwall::telemetry {
 
@@ -32,6 +33,7 @@ struct Fingerprint {
   void add(const CommandLedgerOf<4>& ledger);
   void add(const AuthorityDesk& desk);
   void add(const AuthorityView& view);
+  void add(const PathAddresses& addresses);
   void add(const StopDesk& desk);
   void add(const StopLatch& latch);
 };
@@ -72,15 +74,18 @@ enum class Action : std::uint8_t {
   kApply,    // by the consumer
   kWait,     // 1.1 s
   kRestartBase,
-  kRestartCar
+  kRestartCar,
+  kBaseMoves,  // to its other address, or back
+  kCarProbes,  // as kCarSends, to the address on trial
+  kRelayUp0,   // a relay delivers a copy from his own address before the packet arrives
 };
-inline constexpr std::size_t kActions = 25;
+inline constexpr std::size_t kActions = 28;
 const char* text_of(Action action);
 
 // How often each may happen; what is left is part of the world.
 struct Budget {
   std::uint8_t issues = 0, presses = 0, releases = 0, changes = 0, up = 0, down = 0, doubles = 0,
-               waits = 0, base_restarts = 0, car_restarts = 0;
+               waits = 0, base_restarts = 0, car_restarts = 0, moves = 0, relays = 0;
 };
 
 // Faults that a test plants, to see that they are found.
@@ -105,13 +110,16 @@ enum class Broken : std::uint8_t {
   kHolderIsOld,
   kStopWentByItself,
   kPressIgnored,
-  kPressForgottenAtBase
+  kPressForgottenAtBase,
+  kWrongAddressBelieved,
+  kBaseNotFound
 };
 const char* text_of(Broken broken);
 
 struct UpPacket {
   std::uint8_t run = 0, boot = 0;  // the session's
   Instant sent{};
+  UpRoute route;
   telemetry::StopState stop;
   std::uint8_t presses = 0;  // before it was sent
   double holder = 0, epoch = 0, renewal = 0, renewal_age = 0;
@@ -119,6 +127,7 @@ struct UpPacket {
 };
 struct DownPacket {
   std::uint8_t run = 0, boot = 0;
+  DownRoute route;
   std::uint16_t challenge = 0;
   FixedVector<std::uint8_t, 72> body;
 };
@@ -145,7 +154,7 @@ struct Truth {
 
 class World {
  public:
-  World(const Budget& budget, Planted planted);
+  World(const Budget& budget, Planted planted, PlantedRoam roam = PlantedRoam::kNone);
 
   bool can(Action action) const;
   Broken act(Action action);  // CHECKs that it can
@@ -160,8 +169,10 @@ class World {
   void release();
   void note_holders();
   void base_sends();
-  void car_sends();
-  Broken deliver_up(const UpPacket& packet);
+  void car_sends(bool to_trial);
+  Broken deliver_up(const UpPacket& packet, bool relayed = false);
+  Broken by_roaming(Action action);
+  void wait();
   void meet(std::uint8_t run);
   void hear_state(const UpPacket& packet);
   Broken deliver_down(const DownPacket& packet);
@@ -193,6 +204,7 @@ class World {
   std::optional<telemetry::DueCommand> in_hand_;
   std::uint8_t run_in_hand_ = 0;  // of the base that gave it
 
+  Whereabouts where_;
   FixedVector<UpPacket, 3> up_;
   FixedVector<DownPacket, 2> down_;
   Truth truth_;

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Runs the lines of the README's "Attach your tools": attach_test.py BASE CAR TREE BUILD
+"""Runs the lines of the README's "Attach your tools": attach_test.py TREE BUILD
 
-Each line is run as it stands, in a folder with keys of the bench, beside a car that speaks; a line
-that starts a base goes on while the others run. `sudo ./pitwall install base` installs into a tree
-of the test's own. Then the tool of each paragraph is asked what it saw.
+Each line runs as it stands, in a folder that looks like a checkout. A line that starts a base or a
+car goes on while the others run, and each tool has both anew. Two commands are the test's own:
+`sudo` asks nobody, and `./pitwall install base` installs into a tree of the test's own, whose
+programs are then on the path. Then the tool of each paragraph is asked what it saw.
 """
 # SPDX-License-Identifier: Apache-2.0
 import os
@@ -14,14 +15,15 @@ import sys
 import tempfile
 from pathlib import Path
 
-BASE, CAR, TREE, BUILD = sys.argv[1], sys.argv[2], Path(sys.argv[3]), sys.argv[4]
+TREE, BUILD = Path(sys.argv[1]), Path(sys.argv[2])
 sys.path.insert(0, str(TREE / "tests/system/recorder"))
 import lcm_oracle  # noqa: E402
 
 ORACLES = TREE / "tests/support/oracles"
-INSTALLER = "basestation/settings/install/install_station.sh"  # what the launcher calls
+INSTALLER = TREE / "basestation/settings/install/install_station.sh"  # what the launcher calls
+GOES_ON = re.compile(r"pitwall-base --keys|build/release/hil/pitwall-hil run")
 LINES_AT_MOST = 3
-CAR_S, PATIENCE_S, LOGGER_S = 120, 60, 3
+PATIENCE_S, LOGGER_S, END_S = 60, 3, 10
 
 
 def expect(condition, what):
@@ -29,66 +31,95 @@ def expect(condition, what):
         sys.exit(f"FAILED: {what}")
 
 
-def paragraphs():
-    """The tools of the README with their lines."""
+def lines_of(text):
+    """The lines of code, as they stand; one that goes on in the next is one."""
+    code = "\n".join(re.findall(r"(?m)^    (.*)$", text))
+    return re.split(r"(?<!\\)\n", code) if code else []
+
+
+def attach_section():
+    """The lines before the first tool, and the tools with theirs."""
     text = (TREE / "README.md").read_text()
     section = re.search(r"\n## Attach your tools\n(.*?)(?=\n## )", text, re.S)
     expect(section, "the README has a section Attach your tools")
-    tools = {}
-    for name, rest in re.findall(r"\n\*\*(.+?)\*\*(.*?)(?=\n\*\*|\Z)", section[1], re.S):
-        tools[name] = re.findall(r"(?m)^    (\S.*?)(?:\s+#.*)?$", rest)
-    return tools
+    first, *rest = re.split(r"\n\*\*(.+?)\*\*", section[1])
+    tools = {name: lines_of(paragraph) for name, paragraph in zip(rest[::2], rest[1::2])}
+    return lines_of(first), tools
 
 
-class Bench:
-    """A folder with keys, a car that speaks, and what runs beside it."""
+def write_program(path, text):
+    path.write_text(f"#!/bin/sh\n{text}\n")
+    path.chmod(0o755)
+
+
+class Checkout:
+    """A folder that looks like a checkout with a build, and what runs in it."""
 
     def __init__(self, folder):
-        self.folder, self.background = folder, []
-        (folder / "bin").mkdir()
-        (folder / "bin/pitwall-base").symlink_to(BASE)
-        (folder / "root").mkdir()
+        self.folder, self.root, self.running = folder, folder / "machine", []
+        for entry in TREE.iterdir():
+            if entry.name not in ("build", "out", "pitwall"):
+                (folder / entry.name).symlink_to(entry)
+        (folder / "build").mkdir()
+        (folder / "build/release").symlink_to(BUILD)
+        for name in ("machine", "bin"):
+            (folder / name).mkdir()
+        write_program(folder / "bin/sudo", 'exec "$@"')
+        write_program(folder / "pitwall",
+                      f'[ "$*" = "install base" ] || exit 2\n'
+                      f'exec "{INSTALLER}" base --root "{self.root}" --build "{BUILD}"')
+        installed = self.root / "opt/pitwall/bin"  # a link in /usr/local/bin leads there
         self.environment = {**os.environ, "HOME": str(folder),
-                            "PATH": f"{folder / 'bin'}:{os.environ['PATH']}"}
-        subprocess.run([BASE, "keygen", "--out", folder / "keys"], check=True, capture_output=True)
-        for keys in ("car.keys", "base.keys"):
-            with (folder / "keys" / keys).open("a") as file:
-                file.write("use: bench\n")
-
-    def start_car(self):
-        self.background.append(subprocess.Popen(
-            [CAR, self.folder / "keys/car.keys", "127.0.0.1:23431", str(CAR_S)],
-            stdout=subprocess.DEVNULL))
+                            "PATH": f"{installed}:{folder / 'bin'}:{os.environ['PATH']}"}
+        plugins = folder / ".local/lib/wireshark/plugins"
+        plugins.mkdir(parents=True)
+        self.plugin = plugins / "pitwall.lua"
 
     def start(self, line):
-        process = subprocess.Popen(["exec " + line], shell=True, cwd=self.folder, text=True,
-                                   env=self.environment, stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.PIPE)
-        self.background.append(process)
-        said = ""
-        while "listening at" not in said:
-            more = process.stderr.readline()
-            expect(more, f"{line}: {said}")
-            said += more
+        said = self.folder / f"said{len(self.running)}.txt"
+        with said.open("w") as file:
+            process = subprocess.Popen(["bash", "-c", "exec " + line], cwd=self.folder, stdout=file,
+                                       stderr=subprocess.STDOUT, env=self.environment,
+                                       start_new_session=True)
+        self.running.append((process, line, said))
+        if line.startswith("pitwall-base"):
+            while "listening at" not in said.read_text():
+                expect(process.poll() is None, f"{line}: {said.read_text()}")
 
     def run(self, line):
-        if line.startswith("sudo ./pitwall install base"):
-            line = f"{TREE}/{INSTALLER} base --root root --build {BUILD}"
-        if line.startswith("lcm-logger"):
-            line = f"timeout --preserve-status --signal INT {LOGGER_S} {line}"
+        if line.startswith("lcm-logger"):  # who logs ends it by hand
+            # --foreground: otherwise the signal comes twice, once through the group, and the second
+            # may find the pipe to which the logger tells the first one closed.
+            line = f"timeout --foreground --preserve-status --signal INT {LOGGER_S} {line}"
         done = subprocess.run(["bash", "-o", "pipefail", "-c", line], cwd=self.folder, text=True,
                               capture_output=True, env=self.environment, timeout=PATIENCE_S)
         expect(done.returncode == 0, f"{line}: exit {done.returncode}: {done.stdout}{done.stderr}")
         return done.stdout
 
+    def install(self, lines):
+        """What is done once."""
+        for line in lines:
+            self.run(line)
+        link = self.root / "usr/local/bin/pitwall-base"
+        expect(os.readlink(link) == "/opt/pitwall/bin/pitwall-base", "the base is on the path")
+        self.plugin.symlink_to(next(self.root.rglob("wireshark/plugins/pitwall.lua")))
+
+    def check_running(self):
+        for process, line, said in self.running:
+            expect(process.poll() is None, f"{line}: ended: {said.read_text()}")
+
     def stop(self):
-        for process in self.background:
-            process.send_signal(signal.SIGKILL)
-            process.communicate()
-        self.background = []
+        for process, _, _ in self.running:
+            process.send_signal(signal.SIGTERM)
+        for process, _, _ in self.running:
+            try:
+                process.wait(END_S)
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, signal.SIGKILL)
+        self.running = []
 
 
-def ros_2(bench, _):
+def ros_2(checkout, _):
     # Another maker's participant, which comes now, makes ours tell its topics; a third looks on.
     looking = subprocess.Popen(
         ["tshark", "-i", "lo", "-a", "duration:8", "-Y", "rtps.param.topicName", "-T", "fields",
@@ -100,59 +131,61 @@ def ros_2(bench, _):
         subprocess.run(["timeout", "3", "ddsperf", "sub"], stdout=subprocess.DEVNULL)
     topics, _ = looking.communicate()
     expect("rt/vehicle/odom" in topics and "nav_msgs::msg::dds_::Odometry_" in topics, topics)
-    expect((bench.folder / "pitwall_msgs/package.xml").exists(), "a package for colcon")
+    expect((checkout.folder / "pitwall_msgs/package.xml").exists(), "a package for colcon")
 
 
-def foxglove(_bench, _):
+def foxglove(_checkout, _):
     client = subprocess.run([ORACLES / "node_modules/.bin/node", ORACLES / "foxglove_client.mjs",
-                             "live", "ws://127.0.0.1:8765"], capture_output=True, text=True)
+                             "bench", "ws://127.0.0.1:8765"], capture_output=True, text=True)
     expect(client.returncode == 0, client.stdout + client.stderr)
 
 
-def lcm(bench, _):
-    expect((bench.folder / "pitwall").is_dir(), "lcm-gen made the types")
-    channels = {channel for _, channel, _ in lcm_oracle.events_of(bench.folder / "race.log")}
+def lcm(checkout, _):
+    expect(list(checkout.folder.glob("types/pitwall/*.py")), "lcm-gen made the types")
+    channels = {channel for _, channel, _ in lcm_oracle.events_of(checkout.folder / "race.log")}
     expect("/car/ego" in channels, f"channels {channels}")
 
 
-def prometheus(bench, _):
-    told = (bench.folder / "metrics.txt").read_text()
+def prometheus(checkout, _):
+    told = (checkout.folder / "metrics.txt").read_text()
     expect("\npitwall_car_info{" in told, "metrics of the car")
 
 
-def wireshark(bench, said):
-    expect(list((bench.folder / "root").rglob("wireshark/plugins/pitwall.lua")), "the dissector")
-    expect("opened by the key log" in said[-1] and "vx" in said[-1], said[-1][:2_000])
+def wireshark(_checkout, said):
+    opened = said[-1].count("opened by the key log")
+    expect(opened > 100 and "vx" in said[-1], f"{opened} packets opened: {said[-1][:2_000]}")
 
 
 TOOLS = {"ROS 2": ros_2, "Foxglove": foxglove, "LCM": lcm, "Prometheus": prometheus,
          "Wireshark": wireshark}
 
 
+def attach(checkout, name, cars, lines):
+    try:
+        said = []
+        for line in cars + lines:
+            if GOES_ON.match(line):
+                checkout.start(line)
+            else:
+                said.append(checkout.run(line))
+        TOOLS[name](checkout, said)
+        checkout.check_running()
+    finally:
+        checkout.stop()
+    print(f"{name}: {len(lines)} lines run", flush=True)
+
+
 def main():
-    tools = paragraphs()
+    first, tools = attach_section()
     expect(set(tools) == set(TOOLS), f"tools of the README: {set(tools)}")
-    for name, lines in tools.items():
-        expect(0 < len(lines) <= LINES_AT_MOST, f"{name} has {len(lines)} lines")
-        with tempfile.TemporaryDirectory(prefix="pitwall_attach_") as folder:
-            bench = Bench(Path(folder))
-            try:
-                said = []
-                for line in lines:
-                    if line.startswith("pitwall-base --keys"):
-                        bench.start(line)
-                        bench.start_car()
-                    else:
-                        said.append(bench.run(line))
-                    plugin = next((bench.folder / "root").rglob("pitwall.lua"), None)
-                    if plugin and not (bench.folder / ".local").exists():
-                        home = bench.folder / ".local/lib/wireshark/plugins"
-                        home.mkdir(parents=True)
-                        (home / "pitwall.lua").symlink_to(plugin)
-                TOOLS[name](bench, said)
-            finally:
-                bench.stop()
-        print(f"{name}: {len(lines)} lines run")
+    cars = [line for line in first if GOES_ON.match(line)]
+    expect(len(cars) == 1, f"one line starts a car: {first}")
+    with tempfile.TemporaryDirectory(prefix="pitwall_attach_") as folder:
+        checkout = Checkout(Path(folder))
+        checkout.install([line for line in first if line not in cars])
+        for name, lines in tools.items():
+            expect(0 < len(lines) <= LINES_AT_MOST, f"{name} has {len(lines)} lines")
+            attach(checkout, name, cars, lines)
 
 
 main()

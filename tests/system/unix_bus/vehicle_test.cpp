@@ -17,6 +17,8 @@
 #include "protocol/recorder/segment_folder.hpp"
 #include "protocol/recording/lcm_log.hpp"
 #include "protocol/recording/mcap_reader.hpp"
+#include "protocol/telemetry/session/keys.hpp"
+#include "protocol/telemetry/session/randomness.hpp"
 #include "protocol/telemetry/state_packet.hpp"
 #include "protocol/transport/can_socket.hpp"
 #include "protocol/transport/clock.hpp"
@@ -78,7 +80,8 @@ class VehicleOnUnixBus : public ::testing::Test {
         << said();
     return out;
   }
-  Process start_vehicle(const std::vector<std::string>& receivers = {"--gnss", "23511,23512"}) {
+  Process start_vehicle(const std::vector<std::string>& receivers = {"--gnss", "23511,23512"},
+                        const std::vector<std::string>& base = {"--no-base"}) {
     std::vector<std::string> argv{
         program("PITWALL_VEHICLE_PROGRAM", "/build/release/vehicle/pitwall-vehicle"),
         "--car",
@@ -93,9 +96,9 @@ class VehicleOnUnixBus : public ::testing::Test {
         folder_->path() + "/summary.json",
         "--record",
         folder_->path() + "/recording",
-        "--simulation",
-        "--no-base"};
-    argv.insert(argv.end(), receivers.begin(), receivers.end());
+        "--simulation"};
+    for (const auto* const more : {&receivers, &base})
+      argv.insert(argv.end(), more->begin(), more->end());
     return spawn(argv);
   }
 
@@ -115,6 +118,25 @@ class VehicleOnUnixBus : public ::testing::Test {
   bool controller_is(double state) {
     return report_says(
         [state](const telemetry::Values& v) { return v[field("bus.controller")] == state; });
+  }
+
+  // How often the car's standard error has this.
+  std::size_t times_said(std::string_view what) const {
+    const std::string all = said();
+    std::size_t times = 0;
+    for (std::size_t at = 0; (at = all.find(what, at)) != std::string::npos; ++at) ++times;
+    return times;
+  }
+  std::uint64_t recorded(const std::string& topic) const {
+    const auto paths = recorder::segments_of(folder_->path() + "/recording");
+    std::uint64_t messages = 0;
+    for (const std::string& path : *paths) {
+      const auto file = transport::read_file(path);
+      recording::McapReader reader{as_bytes(*file)};
+      while (const auto message = reader.next())
+        messages += reader.channels().at(message->channel).topic == topic ? 1U : 0U;
+    }
+    return messages;
   }
 
   // The car's own recording: whole, with what it said and how it was, and its LCM log beside it.
@@ -173,6 +195,46 @@ TEST_F(VehicleOnUnixBus, SeesItsHubDieAndSpeaksToTheNextOne) {
   EXPECT_EQ(hub->wait().code, 0);
   EXPECT_NE(said().find("frames relayed"), std::string::npos) << said();
   EXPECT_FALSE(std::filesystem::exists(folder_->path() + "/bus"));
+}
+
+// Keys of another pair than the base's: to the car a base that never answers. Who then floods it
+// is one line, not fifty thousand.
+TEST_F(VehicleOnUnixBus, TellsAtItsOwnTerminalOfASilentBaseAndOfAFlood) {
+  telemetry::SeededRandomness randomness(3);
+  telemetry::KeyFile keys;
+  keys.own = telemetry::make_identity(randomness);
+  keys.peer = telemetry::make_identity(randomness).public_key;
+  const std::string key_file = folder_->path() + "/car.keys";
+  ASSERT_TRUE(transport::write_private_file(key_file, telemetry::text_of(keys)));
+  auto base = transport::UdpSocket::bind({.ip = transport::kLoopbackIp, .port = 0});
+  ASSERT_TRUE(base) << to_string(base.error());
+  Process hub = start_hub();
+  Process vehicle = start_vehicle({"--gnss", "23511,23512"},
+                                  {"--radio", to_string(base->local()), "--keys", key_file});
+  std::vector<transport::UdpDatagram> datagrams(8);
+  ASSERT_TRUE(comes_true([&] { return base->receive(datagrams) > 0; })) << said();
+  const transport::UdpAddress car = datagrams[0].from;
+  const Instant opened = transport::monotonic_now();
+  EXPECT_TRUE(comes_true([&] { return times_said("no answer from the base station") > 0; }))
+      << said();
+  EXPECT_LE(transport::monotonic_now() - opened, seconds(2));
+  const std::vector<std::uint8_t> noise(60, 0xFF);
+  const Instant flooded = transport::monotonic_now();
+  const auto flood = [&] {
+    for (int i = 0; i < 50; ++i) base->send_to(car, noise);
+    return times_said("radio, seen by the car: Forged or foreign datagrams") > 0;
+  };
+  EXPECT_TRUE(comes_true(flood)) << said();
+  EXPECT_LE(transport::monotonic_now() - flooded, seconds(2));
+  EXPECT_TRUE(report_says([&](const telemetry::Values& v) {
+    flood();
+    return v[field("radio.threats")] == 4.0;
+  })) << said();
+  vehicle.kill(SIGTERM);
+  EXPECT_EQ(vehicle.wait().code, 0) << said();
+  EXPECT_EQ(times_said("no answer from the base station"), 1U);
+  EXPECT_EQ(times_said("radio, seen by the car"), 1U);
+  EXPECT_EQ(recorded("/base/event"), 2U);
 }
 
 // The words between the first two backquotes of the README that begin with --receiver.

@@ -58,11 +58,11 @@ TEST(Arguments, TheLeastHaveDefaults) {
 
 TEST(Arguments, EveryOptionArrives) {
   const Parsed p =
-      parse(with(kLeast, {"--radio", "10.0.0.5:99", "--radio", "10.0.1.5:98", "--local-report",
-                          "23436", "--summary", "s.json", "--simulation", "--arm", "--no-base",
-                          "--sensors", "sensors.yaml"}));
+      parse(with(kLeast, {"--radio", "10.0.0.5:99,10.0.0.6:99", "--radio", "10.0.1.5:98",
+                          "--local-report", "23436", "--summary", "s.json", "--simulation", "--arm",
+                          "--no-base", "--sensors", "sensors.yaml"}));
   ASSERT_FALSE(p.refused()) << p.err;
-  EXPECT_EQ(p.args().radio, (Words{"10.0.0.5:99", "10.0.1.5:98"}));
+  EXPECT_EQ(p.args().radio, (Words{"10.0.0.5:99,10.0.0.6:99", "10.0.1.5:98"}));
   EXPECT_EQ(p.args().local_report, 23436);
   EXPECT_EQ(p.args().summary_file, "s.json");
   EXPECT_EQ(p.args().sensors_file, "sensors.yaml");

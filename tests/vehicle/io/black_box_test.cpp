@@ -39,6 +39,7 @@ struct Ticks {
     box.radio(false, now, {.bytes = air});
     box.receiver(tick % 2, now, air);
     if (box.state_due(tick)) box.state(state, now);
+    if (tick % 100 == 0) box.event("radio, seen by the car: something", now);
   }
 };
 
@@ -84,6 +85,7 @@ TEST(BlackBox, KeepsEveryFrameAndTheStateAndItsTurnsAllocateNothing) {
   EXPECT_EQ(kept.messages["/radio/down"], kTicks);
   EXPECT_EQ(kept.messages["/radio/up"], kTicks);
   EXPECT_EQ(kept.messages["/gnss/0"], kTicks / 2);
+  EXPECT_EQ(kept.messages["/base/event"], kTicks / 100);
   EXPECT_EQ(kept.messages["/gnss/1"], kTicks / 2);
   std::uint64_t messages = 0;
   for (const auto& [topic, count] : kept.messages) messages += topic == "/base/picture" ? 0 : count;

@@ -57,9 +57,10 @@ class CarRadio : public ::testing::Test {
 // A base station with a socket for each path.
 class Base {
  public:
-  Base(const KeyFile& keys, std::size_t paths) {
+  Base(const KeyFile& keys, std::size_t paths, telemetry::Stamp newest = 0) {
     telemetry::ConduitConfig config;
     config.association.keys = keys;
+    config.association.newest_stamp = newest;
     config.association.paths = static_cast<std::uint8_t>(paths);
     endpoint_.emplace(config, randomness_);
     for (std::size_t i = 0; i < paths; ++i) sockets_.push_back(*UdpSocket::bind({}));
@@ -200,23 +201,81 @@ TEST_F(CarRadio, TakesNothingFromTheHeapUnderAFlood) {
               }).held);
 }
 
+telemetry::Stamp utc_stamp() { return static_cast<telemetry::Stamp>(transport::utc_now().ns); }
+
+TEST_F(CarRadio, StampsItsOpeningsByTheCalendar) {
+  Base base(base_keys_, 1);
+  const telemetry::Stamp before = utc_stamp();
+  auto radio = Radio::open({base.addresses(), keys()}, {}, false);
+  ASSERT_TRUE(radio) << to_string(radio.error());
+  ASSERT_TRUE(
+      tick_until(*radio, base, [&] { return base.endpoint().report({}).sessions > 0; }).held);
+  EXPECT_GE(base.endpoint().newest_stamp(), before);
+  EXPECT_LE(base.endpoint().newest_stamp(), utc_stamp());
+}
+
+// The clock of the car went back, or the base's memory is of a year to come.
+TEST_F(CarRadio, ExceedsTheStampThatItsBaseRemembers) {
+  const telemetry::Stamp far = utc_stamp() + static_cast<telemetry::Stamp>(seconds(40'000'000).ns);
+  Base base(base_keys_, 1, far);
+  auto radio = Radio::open({base.addresses(), keys()}, {}, false);
+  ASSERT_TRUE(radio) << to_string(radio.error());
+  EXPECT_TRUE(
+      tick_until(*radio, base, [&] { return base.endpoint().report({}).sessions > 0; }).held);
+  EXPECT_GT(base.endpoint().newest_stamp(), far);
+}
+
+TEST_F(CarRadio, FindsTheSpareBaseWhenThePreferredOneIsGone) {
+  std::optional<Base> preferred{std::in_place, base_keys_, 1U};
+  Base spare(base_keys_, 1);
+  const std::string list = preferred->addresses()[0] + "," + spare.addresses()[0];
+  auto radio = Radio::open({{list}, keys()}, {}, false);
+  ASSERT_TRUE(radio) << to_string(radio.error());
+  const auto is_heard = [&](Base& base) {
+    return base.endpoint().state().values[telemetry::field("ego.vx")] > 0.0;
+  };
+  ASSERT_TRUE(tick_until(*radio, *preferred, [&] { return is_heard(*preferred); }).held);
+  spare.serve();
+  EXPECT_EQ(spare.endpoint().report({}).association.received, 0U) << "nothing goes there before";
+  preferred.reset();
+  const Ticked ticked = tick_until(*radio, spare, [&] { return is_heard(spare); });
+  EXPECT_TRUE(ticked.held);
+  EXPECT_EQ(radio->endpoint().report(transport::monotonic_now()).association.roams, 1U);
+  if (testing::kAllocationsCounted) {
+    EXPECT_EQ(ticked.allocations, 0u);
+  }
+}
+
 TEST_F(CarRadio, KeysThatAreNoneAreRefusedWithTheirPlace) {
   const std::vector<std::string> there{"127.0.0.1:23431"};
   EXPECT_NE(refusal({there, folder_->path() + "/missing"}).find("/missing"), std::string::npos);
   EXPECT_NE(refusal({there, file("noise", "hello")}).find("/noise"), std::string::npos);
   EXPECT_NE(
-      refusal({there, file("base.keys", telemetry::text_of(base_keys_))}).find("base station"),
+      refusal({there, file("base.keys", telemetry::text_of(base_keys_))}).find("the base's keys"),
       std::string::npos);
   const std::string open = folder_->path() + "/open.keys";
   ASSERT_TRUE(transport::write_file(open, telemetry::text_of(car_keys_), 0644));
   EXPECT_NE(refusal({there, open}).find("chmod"), std::string::npos);
 }
 
+TEST_F(CarRadio, KeysOfABenchAreForASimulationOnly) {
+  const std::vector<std::string> there{"127.0.0.1:23431"};
+  EXPECT_TRUE(Radio::open({there, keys()}, {}, true));
+  car_keys_.bench = true;
+  const auto simulation = Radio::open({there, keys()}, {}, false);
+  ASSERT_TRUE(simulation) << to_string(simulation.error());
+  EXPECT_TRUE(simulation->bench_keys());
+  const auto real = Radio::open({there, keys()}, {}, true);
+  ASSERT_FALSE(real);
+  EXPECT_NE(to_string(real.error()).find("car.keys:6: error: keys of a bench"), std::string::npos)
+      << to_string(real.error());
+}
+
 TEST_F(CarRadio, AddressesThatAreNoneAreRefused) {
   for (const char* radio :
        {"", "nowhere", "256.0.0.1:5", "127.0.0.1:", "127.0.0.1:70000", "127.0.0.1:-1",
-        "localhost:23431", "127.0.0.1:23431x", ":", "127.0.0.1:0"})
-    EXPECT_NE(refusal({{radio}, keys()}).find(radio), std::string::npos) << radio;
+        "localhost:23431", "127.0.0.1:23431x", ":", "127.0.0.1:0", "127.0.0.1:1,127.0.0.1:1"})
+    EXPECT_NE(refusal({{radio}, keys()}).find("--radio "), std::string::npos) << radio;
   EXPECT_NE(refusal({{}, keys()}).find("--radio"), std::string::npos);
 }
 

@@ -38,6 +38,7 @@ const std::vector<Row> kExpected{
     {field("radio.base_runs"), 2},
     {field("radio.rung"), 3},
     {field("radio.slots_skipped"), 6},
+    {field("radio.threats"), 34},
     {field("radio.loss_0"), 0.25},
     {field("radio.loss_1"), 0.125},
     {field("radio.delay_0"), 40},

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "protocol/telemetry/delivery/event_content.hpp"
 #include "protocol/telemetry/endpoint/station_endpoint.hpp"
 #include "protocol/telemetry/session/keys.hpp"
 #include "tests/support/allocation_guard.hpp"
@@ -67,7 +69,8 @@ class Desk : public ::testing::Test {
       if (object->kind == telemetry::BulkKind::kParameters)
         parameters_.assign(object->bytes.begin(), object->bytes.end());
     }
-    while (base_radio_->next_event()) ++events_;
+    for (const telemetry::ThreatChange& change : desk_.threats()) threats_.push_back(change);
+    while (const auto event = base_radio_->next_event()) ++events_, event_ = *event;
   }
   Outcome fate_of(CommandType type, double argument) {
     EXPECT_TRUE(base_radio_->authority().take(1, now_));
@@ -98,6 +101,8 @@ class Desk : public ::testing::Test {
   std::optional<telemetry::Path> path_;
   std::string parameters_;
   int events_ = 0;
+  telemetry::Event event_;
+  std::vector<telemetry::ThreatChange> threats_;
 };
 
 TEST_F(Desk, TheBaseIsAliveAndEndsThatAgreeMayArm) {
@@ -187,6 +192,35 @@ TEST_F(Desk, WhatHappenedReachesTheBase) {
   run(milliseconds(500));
   EXPECT_EQ(events_, 1);
   EXPECT_EQ(desk_.events_missed(), 0u);
+}
+
+TEST_F(Desk, AnAttackOnTheCarReachesItsOwnLogTheBaseAndTheTelemetry) {
+  run(seconds(1));
+  EXPECT_EQ(shown_.threats, 0.0);
+  const std::vector<std::uint8_t> noise(30, 0xFF);
+  for (int i = 0; i < 1'000; ++i) {  // 50,000/s for 2 s
+    for (int k = 0; k < 500; ++k) car_radio_->feed(noise, 0, {9, 9}, now_);
+    tick();
+    now_ = now_ + milliseconds(10);
+    EXPECT_TRUE(i < 20 || shown_.threats == 4.0) << i;  // from 0.2 s on
+  }
+  constexpr auto kRate = telemetry::Threat::kRefusedAtRate;
+  ASSERT_EQ(threats_.size(), 1U);
+  EXPECT_EQ(threats_[0].threat, kRate);
+  EXPECT_TRUE(threats_[0].begins);
+  EXPECT_EQ(events_, 1);
+  const auto content = telemetry::content_of(event_);
+  ASSERT_TRUE(content);
+  auto told = std::get<telemetry::ThreatEvent>(*content);
+  EXPECT_EQ(told.threat, static_cast<std::uint8_t>(kRate));
+  EXPECT_TRUE(told.begins && !told.seen_by_base);
+  run(seconds(15));
+  ASSERT_EQ(threats_.size(), 2U);
+  EXPECT_EQ(events_, 2);
+  told = std::get<telemetry::ThreatEvent>(*telemetry::content_of(event_));
+  EXPECT_FALSE(told.begins);
+  EXPECT_NEAR(told.most_per_s, 50'000.0, 100.0);
+  EXPECT_EQ(shown_.threats, 0.0);
 }
 
 TEST_F(Desk, NothingIsAllocated) {

@@ -252,6 +252,7 @@ inline constexpr RimCounters kRim{
     .heartbeats_refused = 9,
     .base_runs = 2,
     .slots_skipped = 6,
+    .threats = 34,
     .round_trip_ms = 12.5,
     .paths = {{{0.25, 40, 0.5}, {0.125, 44, 0.75}}},
     .receivers = {{{601, 602, 603, 604, 605, 606, 607}, {701, 702, 703, 704, 705, 706, 707}}},

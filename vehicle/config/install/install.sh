@@ -25,7 +25,9 @@ usage: ./pitwall install car [OPTION]...
   --listen-only          the controller hears and sends nothing: for the first look at a car
   --car FILE             car file (default vehicle/config/cars/av21.yaml)
   --track FILE           track file (default vehicle/config/tracks/lvms.yaml)
-  --radio ADDRESS:PORT   where telemetry goes, an IPv4 address (default 127.0.0.1:23431)
+  --radio ADDRESS:PORT[,ADDRESS:PORT...]
+                         where the base station is reached, IPv4 addresses: the first is preferred,
+                         at the others are spare ones (default 127.0.0.1:23431)
   --keys FILE            the car's keys for the radio, as `pitwall-base keygen` writes them; goes to
                          /etc/pitwall/car.keys, readable by root only
   --gnss P0,P1           UDP ports of the two GNSS receivers (default 23501,23502)

@@ -35,15 +35,24 @@ check_can() {
 byte='(25[0-5]|2[0-4][0-9]|1?[0-9]?[0-9])'
 address="($byte\\.){3}$byte" port='[1-9][0-9]{0,4}'
 
+# Its form; which addresses go together, the car process knows (check_config).
 check_radio() {
-  if [[ ! $1 =~ ^$address:$port$ ]] || ((${1##*:} > 65535)); then
-    refuse "--radio needs ADDRESS:PORT with an IPv4 address and a port 1..65535, got '$1'"
+  local station stations
+  IFS=, read -ra stations <<<"$1"
+  if [[ ! $1 =~ ^$address:$port(,$address:$port){0,3}$ ]]; then
+    refuse '--radio needs ADDRESS:PORT[,ADDRESS:PORT...], four at most, with IPv4 addresses and' \
+      "ports 1..65535, got '$1'"
   fi
+  for station in "${stations[@]}"; do
+    ((${station##*:} <= 65535)) || refuse "--radio needs ports 1..65535, got '$station'"
+  done
 }
 
 check_keys() {
   [[ -f $1 && -r $1 ]] || refuse "--keys: no readable file '$1'"
   grep -qx 'role: car' "$1" || refuse "--keys: '$1' does not say 'role: car'"
+  ! grep -q '^[[:blank:]]*use:' "$1" ||
+    refuse "--keys: '$1' is for a bench: make a pair with 'pitwall-base keygen' without --bench"
 }
 
 check_gnss() { # OPTION VALUE

@@ -38,12 +38,13 @@ TEST(JudgeText, FiguresComeBackToTheBit) {
     if (i % 5 == 0) link.heard.reset();
     for (double* value : {&link.down_loss, &link.up_loss, &link.round_trip_ms, &link.jitter_ms,
                           &link.loss_1s, &link.loss_30s, &link.packets_hz, &link.down_kbit_s,
-                          &link.down_cap_kbit_s, &link.up_kbit_s}) {
+                          &link.down_cap_kbit_s, &link.up_kbit_s, &link.threats}) {
       *value = numbers.next();
     }
     expect_back(link);
     const auto back = read_input_text(input_text(link, kNow), kNow);
     EXPECT_EQ(std::get<LinkFigures>(*back).heard, link.heard);
+    EXPECT_EQ(std::isnan(std::get<LinkFigures>(*back).threats), std::isnan(link.threats));
     expect_back(BaseFigures{.disk_minutes = numbers.next(),
                             .recording = numbers.next(),
                             .recorder_lost = numbers.next(),

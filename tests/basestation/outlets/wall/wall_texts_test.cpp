@@ -64,6 +64,10 @@ TEST(WallTexts, AnEventOfTheCarIsAText) {
   const auto fault =
       telemetry::make_event(telemetry::FaultEvent{.cause = 3, .begins = true, .value = 1}, kNow);
   EXPECT_EQ(read(event_text(fault)).text("severity"), "warning");
+  for (const bool begins : {true, false}) {
+    const auto threat = telemetry::make_event(telemetry::ThreatEvent{.begins = begins}, kNow);
+    EXPECT_EQ(read(event_text(threat)).text("severity"), begins ? "warning" : "info");
+  }
 }
 
 TEST(WallTexts, AlarmsFuelAuditNoticesAndMarks) {

@@ -70,6 +70,24 @@ TEST(Derive, AnOldInputMakesAnOldValue) {
   EXPECT_EQ(margin.age, seconds(5));
 }
 
+TEST(Derive, AttacksSayWhichEndSeesThem) {
+  Rig rig;
+  const auto seen = [&](Instant now) { return rig.of(BaseField::kReplayedOpenings, now); };
+  rig.known.link.threats = 0.0;  // a base that no car was heard at
+  EXPECT_EQ(seen(kStart).value, 0.0);
+  rig.known.link.threats = 16.0;
+  EXPECT_EQ(seen(kStart).value, 1.0);
+  EXPECT_EQ(rig.views[index_of(BaseField::kRelay)].value, 0.0);
+  rig.told.tell(field("radio.threats"), 48.0, kStart);
+  EXPECT_EQ(seen(kStart).value, 3.0);
+  EXPECT_EQ(rig.views[index_of(BaseField::kRelay)].value, 2.0);
+  rig.known.link.threats = 0.0;
+  EXPECT_EQ(seen(kStart).value, 2.0);
+  // A car that is not heard any more says nothing of now.
+  EXPECT_EQ(seen(kStart + seconds(10)).value, 0.0);
+  EXPECT_EQ(seen(kStart + seconds(10)).quality, Quality::kFresh);
+}
+
 TEST(Derive, ReceiversSideBySide) {
   Rig rig;
   rig.receiver(false, 0, 0.02, 1);

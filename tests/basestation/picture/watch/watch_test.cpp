@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -72,6 +73,45 @@ TEST(Watch, AWrongRoundSpeedIsSeenBeforeGreen) {
   wall.set(field("flags.round_target_speed"), from_mph(115));
   wall.run(seconds(3));
   EXPECT_FALSE(wall.alarm("round_speed_conflict"));
+}
+
+// Each with the bit that an end sets, without a delay of its own.
+TEST(Watch, AttacksAndKeyErrorsAreAlarmsWhicheverEndSeesThem) {
+  constexpr std::array kAlarms{"wrong_key",   "mode_mismatch",     "refused_at_rate",
+                               "second_peer", "replayed_openings", "relay"};
+  for (const bool by_car : {false, true}) {
+    for (std::size_t i = 0; i < kAlarms.size(); ++i) {
+      RaceWall wall;
+      wall.link.threats = 0.0;
+      wall.run(seconds(1));
+      const double bit = static_cast<double>(1U << i);
+      if (by_car) {
+        wall.set(field("radio.threats"), bit);
+      } else {
+        wall.link.threats = bit;
+      }
+      wall.run(milliseconds(200));
+      for (const char* const key : kAlarms) EXPECT_EQ(wall.alarm(key), key == kAlarms[i]) << key;
+      // A minute of it is one alarm.
+      wall.run(seconds(60));
+      EXPECT_EQ(wall.watch.alarms().events(), 1U);
+    }
+  }
+}
+
+// A wrong key: there is no session, and never was.
+TEST(Watch, AKeyErrorNeedsNoCar) {
+  Picture nothing;
+  Watch watch;
+  const Instant start{seconds(100).ns};
+  watch.advance(nothing, start);
+  LinkFigures link;
+  link.threats = 1.0;
+  watch.link(link);
+  watch.advance(nothing, start + milliseconds(100));
+  ASSERT_EQ(watch.alarms().active().size(), 1U);
+  EXPECT_EQ(watch.alarms().active()[0].key, "wrong_key");
+  EXPECT_FALSE(watch.alarms().active()[0].response.empty());
 }
 
 TEST(Watch, FuelForNoAttemptIsSeenBeforeItBegins) {

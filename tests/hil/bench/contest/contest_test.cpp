@@ -22,30 +22,37 @@ ContestPlan short_plan() {
 }
 
 TEST(Contest, ReadsWhatTheBasePrintsInOrderOfArrival) {
-  const auto arrivals = read_arrivals("5 20 fast\n7 30\n6 25 all of it\n", "peer");
+  const auto arrivals = read_arrivals("5 20 fast\n7 30\nbulk 28 4000\n6 25 all of it\n", "peer");
   ASSERT_TRUE(arrivals) << to_string(arrivals.error());
-  ASSERT_EQ(arrivals->size(), 3U);
-  EXPECT_EQ((*arrivals)[1].made.ns, 6);
-  EXPECT_EQ((*arrivals)[1].stream, "all of it");
-  EXPECT_EQ((*arrivals)[2].at.ns, 30);
-  EXPECT_EQ((*arrivals)[2].stream, "");
-  EXPECT_TRUE(read_arrivals("", "peer")->empty());
+  const auto& states = arrivals->states;
+  ASSERT_EQ(states.size(), 3U);
+  EXPECT_EQ(states[1].made.ns, 6);
+  EXPECT_EQ(states[1].stream, "all of it");
+  EXPECT_EQ(states[2].at.ns, 30);
+  EXPECT_EQ(states[2].stream, "");
+  ASSERT_EQ(arrivals->bulk.size(), 1U);
+  EXPECT_EQ(arrivals->bulk[0].at.ns, 28);
+  EXPECT_EQ(arrivals->bulk[0].bytes, 4'000U);
+  EXPECT_TRUE(read_arrivals("", "peer")->states.empty());
 }
 
 TEST(Contest, SaysWhichLineIsNone) {
   for (const char* bad :
-       {"1 2\nhello\n", "1 2\n3 4", "1 2\n3\n", "1 2\n3 4 \n", "1 2\n3 4x\n", "1 2\n3 x\n"}) {
+       {"1 2\nhello\n", "1 2\n3 4", "1 2\n3\n", "1 2\n3 4 \n", "1 2\n3 4x\n", "1 2\n3 x\n",
+        "1 2\nbulk 3\n", "1 2\nbulk 3 4 5\n", "1 2\nbulk 3 4", "1 2\nbulk x 4\n"}) {
     const auto arrivals = read_arrivals(bad, "peer");
     ASSERT_FALSE(arrivals) << bad;
-    EXPECT_EQ(to_string(arrivals.error()), "peer:2: error: expected MADE_NS ARRIVED_NS [STREAM]");
+    EXPECT_EQ(to_string(arrivals.error()),
+              "peer:2: error: expected MADE_NS ARRIVED_NS [STREAM] or bulk ARRIVED_NS BYTES");
   }
 }
 
 TEST(Contest, OnlyWhatComesAfterTheWarmUpIsJudged) {
-  std::vector<StateArrival> arrivals;
+  Arrivals arrivals;
   LinkTally tally;
   for (std::int64_t ms = 0; ms < 1'500; ms += 20) {
-    arrivals.push_back({at_ms(ms), at_ms(ms + 15)});
+    arrivals.states.push_back({at_ms(ms), at_ms(ms + 15)});
+    arrivals.bulk.push_back({at_ms(ms), ms < 500 ? 5'000U : 50U});
     tally.down.offered.push_back({at_ms(ms), ms < 500 ? 10'000U : 100U});
     tally.up.offered.push_back({at_ms(ms), 10U});
   }
@@ -54,8 +61,22 @@ TEST(Contest, OnlyWhatComesAfterTheWarmUpIsJudged) {
   EXPECT_NEAR(row.age_max_ms, 34.0, 1.0);
   EXPECT_NEAR(row.offered_kbps, 50 * 100 * 8e-3, 1e-9);
   EXPECT_NEAR(row.worst_window_kbps, 5 * 100 * 8e-2, 1e-9);
+  EXPECT_NEAR(row.worst_second_kbps, 50 * 100 * 8e-3, 1e-9);
+  EXPECT_NEAR(row.bulk_kbps, 50 * 50 * 8e-3, 1e-9);
   EXPECT_NEAR(row.up_kbps, 50 * 10 * 8e-3, 1e-9);
   EXPECT_EQ(row.looks_without, 0U);
+}
+
+// A case has the plan's link, with its own queue; fades begin at the end of the warm-up.
+TEST(Contest, ACaseMayHaveAQueueOfItsOwn) {
+  ContestPlan plan = short_plan();
+  plan.fades.outages = {{at_ms(100), at_ms(300), 1.0}};
+  EXPECT_EQ(link_of({"light"}, plan).queue_bytes, plan.link.queue_bytes);
+  EXPECT_TRUE(link_of({"light"}, plan).trace.outages.empty());
+  EXPECT_EQ(link_of({"short", true, false, milliseconds(64)}, plan).queue_bytes, 2'048U);
+  const auto faded = link_of({"fades", false, true}, plan).trace.outages;
+  ASSERT_EQ(faded.size(), 1U);
+  EXPECT_EQ(faded[0].from, at_ms(600));
 }
 
 TEST(Contest, NobodyIsYoungerThanTheChannelAllows) {

@@ -10,10 +10,15 @@ namespace pitwall::telemetry {
 namespace {
 
 std::vector<EventContent> one_of_each() {
-  return {LostEvents{0x01020304}, FaultEvent{31, false, 3.25F},
-          ModeEvent{2, 3, 31},    FlagEvent{FlagKind::kVehicle, 4, 5},
-          ArmingEvent{5},         LapEvent{12, 37.125F},
-          RestartEvent{1},        TextEvent{"pit stop"}};
+  return {LostEvents{0x01020304},
+          FaultEvent{31, false, 3.25F},
+          ModeEvent{2, 3, 31},
+          FlagEvent{FlagKind::kVehicle, 4, 5},
+          ArmingEvent{5},
+          LapEvent{12, 37.125F},
+          RestartEvent{1},
+          TextEvent{"pit stop"},
+          ThreatEvent{4, false, true, 49'870}};
 }
 
 TEST(EventContent, ComesBackAsItWasMade) {
@@ -37,6 +42,7 @@ TEST(EventContent, IsTheBytesThatTheHeaderOfEventsNames) {
   EXPECT_EQ(bytes(ModeEvent{2, 3, 31}), (Bytes{2, 3, 31}));
   EXPECT_EQ(bytes(FlagEvent{FlagKind::kTrack, 4, 1}), (Bytes{0, 4, 1}));
   EXPECT_EQ(bytes(LapEvent{258, 2.0F}), (Bytes{2, 1, 0, 0, 0, 0x40}));
+  EXPECT_EQ(bytes(ThreatEvent{5, true, false, 0x01020304}), (Bytes{5, 1, 0, 4, 3, 2, 1}));
 }
 
 TEST(EventContent, OfAnotherLengthIsNone) {
@@ -56,6 +62,11 @@ TEST(EventContent, AFlagThatIsNeitherIsNone) {
   flag.payload[0] = 2;
   EXPECT_EQ(content_of(fault), std::nullopt);
   EXPECT_EQ(content_of(flag), std::nullopt);
+  for (const std::size_t at : {1U, 2U}) {
+    Event threat = make_event(ThreatEvent{}, {});
+    threat.payload[at] = 2;
+    EXPECT_EQ(content_of(threat), std::nullopt);
+  }
   fault.kind = static_cast<EventKind>(kEventKinds);
   EXPECT_EQ(content_of(fault), std::nullopt);
 }

@@ -59,6 +59,20 @@ TEST(PathChoice, OnePathHasOnePlan) {
   EXPECT_EQ(plans[0].safety_room + kAround, car.lanes[0].budget.room_for_safety(at_ms(0)));
 }
 
+// A packet for both has the rate of the slower one, as it is at present.
+TEST(PathChoice, APlanHasTheRateOfItsNarrowestPath) {
+  Car car;
+  const double whole = car.lanes[0].budget.present_rate();
+  EXPECT_EQ(car.plans(PathPolicy::kDuplicate, at_ms(0))[0].rate, whole);
+  car.lanes[1].budget.scale(0.5, at_ms(0));
+  EXPECT_NEAR(car.plans(PathPolicy::kDuplicate, at_ms(0))[0].rate, whole / 2, 1.0);
+  const auto best = car.plans(PathPolicy::kBest, at_ms(0));
+  ASSERT_EQ(best.size(), 2U);
+  for (const PacketPlan& plan : best) {
+    EXPECT_NEAR(plan.rate, plan.paths == bit_of(0) ? whole : whole / 2, 1.0);
+  }
+}
+
 TEST(PathChoice, DuplicateIsOnePacketOnBoth) {
   const Car car;
   const auto plans = car.plans(PathPolicy::kDuplicate, at_ms(0));

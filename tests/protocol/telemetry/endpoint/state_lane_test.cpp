@@ -27,13 +27,13 @@ class Car {
   };
 
   Packet packet(std::int64_t ms, std::size_t room, StateLane::Writing how,
-                GroupSet known = groups_of(Direction::kDown)) {
+                GroupSet known = groups_of(Direction::kDown), double bytes_per_s = 0.0) {
     const Instant now = at_ms(ms);
     const Snapshot snapshot = all_sampled(now);
     BodyWriter body(buffer_, room, Direction::kDown);
     body.begin(now, 1);
     Packet packet;
-    packet.asked_of_share = lane.choose(snapshot, known, kRoundTrip, now);
+    packet.asked_of_share = lane.choose(snapshot, known, {kRoundTrip, bytes_per_s}, now);
     packet.safety_bytes = lane.write(body, snapshot, how, now);
     lane.sent(++sequence_, snapshot, now);
     if (sequence_ > 3) lane.acked(sequence_ - 3);
@@ -112,6 +112,56 @@ TEST(StateLane, ANarrowPacketHasOnlyWhatIsDue) {
   Car car;
   for (std::int64_t i = 0; i < 100; ++i) (void)car.packet(20 * i, 150, {});
   EXPECT_LE(car.lane.figures(Group::kEngine).chosen, 12U);
+}
+
+constexpr double kNarrow = 16'000.0, kWide = 32'000.0;  // 128 and 256 kbit/s
+
+TEST(StateLane, TheRefreshPeriodLeavesHalfOfTheRateToBulk) {
+  const StateLane lane(Direction::kDown);
+  const GroupSet all = groups_of(Direction::kDown);
+  for (const double rate : {0.0, 8'000.0, kNarrow}) {
+    EXPECT_EQ(lane.refresh_period(all, rate), Scheduler::kNoPeriod) << rate;
+  }
+  const Duration wide = lane.refresh_period(all, kWide);
+  EXPECT_GT(wide, milliseconds(20));
+  EXPECT_LT(wide, milliseconds(60));
+  EXPECT_GT(lane.refresh_period(all, 0.8 * kWide), wide);
+  EXPECT_LT(lane.refresh_period(all, 4 * kWide), milliseconds(10));
+  // Whoever has less to tell tells it more often.
+  GroupSet few = groups_of(Direction::kDown, Class::kSafety);
+  few.add(Group::kTyres);
+  EXPECT_LT(lane.refresh_period(few, kWide), milliseconds(1));
+  EXPECT_EQ(StateLane(Direction::kUp).refresh_period(groups_of(Direction::kUp), kWide), Duration{});
+}
+
+// Slow groups go once in a period, before bulk; in a second they are half of the rate with all
+// else that the packets have.
+TEST(StateLane, SlowGroupsGoBeforeBulkOnAWideLink) {
+  const GroupSet down = groups_of(Direction::kDown);
+  Car car;
+  std::size_t bytes = 0;
+  constexpr std::int64_t kSlots = 500;
+  for (std::int64_t i = 0; i < kSlots; ++i) {
+    bytes += car.packet(20 * i, 300, {.something_waits = true}, down, kWide).bytes;
+  }
+  for (const GroupRow& row : kGroupTable) {
+    if (!down.has(row.group) || row.priority <= Class::kMotion) continue;
+    EXPECT_GE(car.lane.figures(row.group).chosen, kSlots / 4U) << row.name;
+  }
+  constexpr std::size_t kAround = kIpUdpOverhead + kHeaderSize + kTagSize + kAckSize;
+  const double used = static_cast<double>(bytes + kSlots * kAround) / (kSlots * 0.02);
+  EXPECT_LT(used, kWide / 2);
+}
+
+TEST(StateLane, ANarrowLinkHasTheTargetAgesAlone) {
+  const GroupSet down = groups_of(Direction::kDown);
+  Car narrow, without;
+  for (std::int64_t i = 0; i < 500; ++i) {
+    const StateLane::Writing how{.between = i % 2 == 1, .something_waits = i % 5 != 0};
+    ASSERT_EQ(narrow.packet(10 * i, 150, how, down, kNarrow).groups,
+              without.packet(10 * i, 150, how, down).groups)
+        << i;
+  }
 }
 
 TEST(StateLane, OnlySafetyIsOnlySafety) {

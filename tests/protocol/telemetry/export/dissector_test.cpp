@@ -201,7 +201,7 @@ TEST_P(EachDirection, HeadAcknowledgementAgesAndRecordsAreShown) {
        "pitwall.sequence", "pitwall.tx_time", "pitwall.paths", "pitwall.ack.newest",
        "pitwall.ack.mask", "pitwall.ack.hold", "pitwall.record", "_ws.col.Protocol"});
   ASSERT_EQ(rows.size(), 1U);
-  EXPECT_EQ(rows[0], (std::vector<std::string>{"2", "4", "0", "0x1234", "77", "1000", "0x02", "513",
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"3", "4", "0", "0x1234", "77", "1000", "0x02", "513",
                                                "0x80000001", "7", "3,6", "PITWALL"}));
 }
 

@@ -61,10 +61,10 @@ TEST(Scheduler, SafetyComesFirstAndAlways) {
 
 TEST(Scheduler, WhatWasNeverSampledIsNotOffered) {
   const Scheduler scheduler(Direction::kDown);
-  EXPECT_TRUE(scheduler.order(Snapshot{}, kRoundTrip, at_ms(100), true).empty());
+  EXPECT_TRUE(scheduler.order(Snapshot{}, kRoundTrip, at_ms(100), {.fill = true}).empty());
   Snapshot snapshot;
   snapshot.at(Group::kEgo) = at_ms(90);
-  const auto order = scheduler.order(snapshot, kRoundTrip, at_ms(100), true);
+  const auto order = scheduler.order(snapshot, kRoundTrip, at_ms(100), {.fill = true});
   ASSERT_EQ(order.size(), 1U);
   EXPECT_EQ(order[0], Group::kEgo);
 }
@@ -73,15 +73,15 @@ TEST(Scheduler, WhatTheOtherEndHasIsNotOfferedAgain) {
   Scheduler scheduler(Direction::kDown);
   const Snapshot snapshot = all_sampled(at_ms(0));
   GroupSet all;
-  for (const Group g : scheduler.order(snapshot, kRoundTrip, at_ms(0), true)) all.add(g);
+  for (const Group g : scheduler.order(snapshot, kRoundTrip, at_ms(0), {.fill = true})) all.add(g);
   scheduler.sent(1, all, all, snapshot, at_ms(0));
   // Under way: not due, but worth spare room.
   EXPECT_EQ(scheduler.order(snapshot, kRoundTrip, at_ms(20)).size(),
             safety_groups(Direction::kDown));
-  EXPECT_GT(scheduler.order(snapshot, kRoundTrip, at_ms(20), true).size(),
+  EXPECT_GT(scheduler.order(snapshot, kRoundTrip, at_ms(20), {.fill = true}).size(),
             safety_groups(Direction::kDown));
   scheduler.acked(1);
-  EXPECT_EQ(scheduler.order(snapshot, kRoundTrip, at_ms(10'000), true).size(),
+  EXPECT_EQ(scheduler.order(snapshot, kRoundTrip, at_ms(10'000), {.fill = true}).size(),
             safety_groups(Direction::kDown));
 }
 
@@ -135,6 +135,36 @@ TEST(Scheduler, OrdersByTheIndex) {
     scheduler.sent(i, written, written, snapshot, now);
     history.push_back({i, now, written, now - milliseconds(3), false});
   }
+}
+
+// With a period: what has it, motion excepted, behind what is due and before all else, the oldest
+// first.
+TEST(Scheduler, SlowGroupsOfThePeriodComeBeforeTheRest) {
+  Scheduler scheduler(Direction::kDown);
+  const auto send = [&](std::uint64_t sequence, std::int64_t ms, GroupSet groups) {
+    scheduler.sent(sequence, groups, groups, all_sampled(at_ms(ms)), at_ms(ms));
+    scheduler.acked(sequence);
+  };
+  GroupSet fuel, tread;
+  fuel.add(Group::kFuel);
+  tread.add(Group::kTread);
+  send(1, 0, groups_of(Direction::kDown));
+  send(2, 20, tread);
+  send(3, 40, fuel);
+  const Snapshot snapshot = all_sampled(at_ms(70));
+  const auto order =
+      scheduler.order(snapshot, kRoundTrip, at_ms(70), {.period = milliseconds(50), .fill = true});
+  const auto place = [&](Group group) {
+    return std::find(order.begin(), order.end(), group) - order.begin();
+  };
+  ASSERT_EQ(order.size(), groups_of(Direction::kDown).count());
+  EXPECT_LT(place(Group::kEgo), place(Group::kTyres));      // due by its target of 100 ms
+  EXPECT_LT(place(Group::kPlanner), place(Group::kTyres));  // motion
+  EXPECT_LT(place(Group::kTyres), place(Group::kTread));    // 70 ms old, 50 ms old
+  EXPECT_LT(place(Group::kTread), place(Group::kFuel));     // 30 ms old: the rest
+  EXPECT_EQ(place(Group::kFuel), static_cast<std::ptrdiff_t>(order.size()) - 1);
+  const auto without = scheduler.order(snapshot, kRoundTrip, at_ms(70));
+  EXPECT_EQ(std::find(without.begin(), without.end(), Group::kTyres), without.end());
 }
 
 // A link with a serial slot of a few bits and loss: who is served, and how old does it get?
@@ -263,7 +293,8 @@ TEST(Scheduler, TakesNothingFromTheHeap) {
     for (std::uint64_t i = 1; i < 100; ++i) {
       const Snapshot snapshot = all_sampled(at_ms(static_cast<std::int64_t>(i) * 20));
       GroupSet written;
-      for (const Group g : scheduler.order(snapshot, kRoundTrip, snapshot.at(Group::kEgo), true)) {
+      for (const Group g :
+           scheduler.order(snapshot, kRoundTrip, snapshot.at(Group::kEgo), {.fill = true})) {
         written.add(g);
       }
       scheduler.sent(i, written, written, snapshot, snapshot.at(Group::kEgo));

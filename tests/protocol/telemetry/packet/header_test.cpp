@@ -12,7 +12,7 @@
 namespace pitwall::telemetry {
 namespace {
 
-constexpr std::array<std::uint8_t, kHeaderSize> kSome{0x4C, 0x34, 0x12, 0x78, 0x56, 0x34, 0x12};
+constexpr std::array<std::uint8_t, kHeaderSize> kSome{0x6C, 0x34, 0x12, 0x78, 0x56, 0x34, 0x12};
 
 HeaderError error_of(std::span<const std::uint8_t> datagram) {
   return parse_header(datagram).error();
@@ -25,7 +25,7 @@ TEST(Header, IsTheBytesThatItsContractDraws) {
       out);
   EXPECT_EQ(out, kSome);
   write_header({.kind = Kind::kOpening, .key_phase = true, .receiver = 0, .sequence_low = 0}, out);
-  EXPECT_EQ(out[0], 0x42);
+  EXPECT_EQ(out[0], 0x62);
 }
 
 TEST(Header, EveryFirstByteIsRefusedOrWrittenAgainAsItWas) {
@@ -47,9 +47,9 @@ TEST(Header, EveryErrorHasItsCauseAndItsText) {
   auto bytes = kSome;
   bytes[0] = 0x2C;
   EXPECT_EQ(error_of(bytes), HeaderError::kOtherVersion);
-  bytes[0] = 0x58;
+  bytes[0] = 0x78;
   EXPECT_EQ(error_of(bytes), HeaderError::kBadKind);
-  bytes[0] = 0x4D;
+  bytes[0] = 0x6D;
   EXPECT_EQ(error_of(bytes), HeaderError::kBadReserved);
   for (std::size_t size = 0; size < kHeaderSize; ++size) {
     EXPECT_EQ(error_of(std::span(kSome).first(size)), HeaderError::kTooShort);

@@ -48,9 +48,13 @@ TEST(Association, ALostMessageOfTheExchangeIsSentAgainEachRetry) {
   const auto lost = rig.base->poll(rig.now);
   ASSERT_TRUE(lost);
   rig.base->feed(opening->first, kCarAddress, rig.now);
+  EXPECT_FALSE(rig.base->poll(rig.now)) << "a copy has no answer";
+  const auto next = rig.car->poll(rig.now + seconds(20) + kRetry);
+  ASSERT_TRUE(next);
+  rig.base->feed(next->first, kCarAddress, rig.now);
   const auto again = rig.base->poll(rig.now);
   ASSERT_TRUE(again);
-  EXPECT_EQ(lost->first, again->first) << "one opening has one answer";
+  EXPECT_TRUE(same(noise_part(lost->first), noise_part(again->first))) << "one attempt, one answer";
   rig.car->feed(again->first, kBaseAddress, rig.now);
   EXPECT_TRUE((*rig.car)->ready());
 }
@@ -101,6 +105,10 @@ TEST(Association, ACarThatRestartedIsBackAfterOneExchange) {
   const Datagram old = rig.car->seal(5, rig.now);
   exchange(restarted, *rig.base, rig.now);
   EXPECT_TRUE(rig.base->feed(old, kCarAddress, rig.now)) << "until the new one speaks";
+  EXPECT_FALSE(rig.base->feed(restarted.seal(6, rig.now), kCarAddress, rig.now))
+      << "while the other one is heard it may be a second car";
+  EXPECT_GE((*rig.base)->counters().second_peers, 1U);
+  rig.now += kTakeOver;
   const auto opened = rig.base->feed(restarted.seal(6, rig.now), kCarAddress, rig.now);
   ASSERT_TRUE(opened && opened->new_session);
   EXPECT_EQ((*rig.base)->session(), 2U);
@@ -151,8 +159,8 @@ TEST(Association, AHintMovesNothingWhileTheSessionWorks) {
   for (std::size_t bit = 0; bit < 8 * hint->first.size(); ++bit) {
     Datagram forged = hint->first;
     forged[bit / 8] = static_cast<std::uint8_t>(forged[bit / 8] ^ 1U << bit % 8);
-    rig.car->feed(forged, kBaseAddress, later + seconds(1));
-    ASSERT_FALSE(rig.car->poll(later + seconds(1))) << "bit " << bit;
+    rig.car->feed(forged, kBaseAddress, later + milliseconds(500));
+    ASSERT_FALSE(rig.car->poll(later + milliseconds(500))) << "bit " << bit;
   }
 }
 
@@ -201,8 +209,13 @@ TEST(Association, SignedModeIsAgreedOnOrThereIsNoSession) {
   End sealed_base(rig.keys.base, 5);
   End car(rig.keys.car, 6, {.signed_only = true});
   sealed_base.feed(car.poll(rig.now)->first, kCarAddress, rig.now);
-  EXPECT_FALSE(sealed_base.poll(rig.now));
   EXPECT_EQ(sealed_base.refused(Refusal::kWrongMode), 1U);
+  const auto answer = sealed_base.poll(rig.now);
+  ASSERT_TRUE(answer) << "the car is told why";
+  car.feed(answer->first, kBaseAddress, rig.now);
+  EXPECT_EQ(car.refused(Refusal::kWrongMode), 1U);
+  EXPECT_FALSE(car->ready());
+  EXPECT_FALSE(sealed_base.feed(car.seal(1, rig.now), kCarAddress, rig.now));
 }
 
 // mavlink CVE-2020-10283: an attacker makes the ends fall back to unsigned packets.
@@ -215,24 +228,6 @@ TEST(Association, APacketOfTheOtherModeIsRefusedWhateverItsTag) {
   write_header(header, datagram);
   EXPECT_FALSE(rig.base->feed(datagram, kCarAddress, rig.now));
   EXPECT_EQ(rig.base->refused(Refusal::kWrongMode), 1U);
-}
-
-TEST(Association, WhileManyKnockTheCarProvesItsAddressAndComesIn) {
-  Rig rig;
-  for (std::uint64_t i = 0; i < 30; ++i) {  // openings of the right key, replayed from elsewhere
-    End noise(rig.keys.car, 1'000 + i);
-    rig.base->feed(noise.poll(rig.now)->first, kElsewhere, rig.now);
-  }
-  EXPECT_GT(rig.base->refused(Refusal::kCookieWanted), 0U);
-  while (rig.base->poll(rig.now)) continue;
-  const auto opening = rig.car->poll(rig.now);
-  rig.base->feed(opening->first, kCarAddress, rig.now);
-  const auto cookie = rig.base->poll(rig.now);
-  ASSERT_TRUE(cookie);
-  EXPECT_EQ(parse_header(cookie->first)->kind, Kind::kCookie);
-  EXPECT_LE(cookie->first.size(), opening->first.size());
-  rig.car->feed(cookie->first, kBaseAddress, rig.now);
-  establish(*rig.car, *rig.base, rig.now);
 }
 
 TEST(Association, ANewAddressGetsThreeTimesWhatItSentUntilItProvesItself) {

@@ -114,6 +114,7 @@ TEST_P(Attacks, AnOldSession) {
   for (int i = 0; i < mutations(); ++i) old.push_back(next());
   End restarted(rig.keys.car, 77, {.signed_only = GetParam(), .paths = 2});
   exchange(restarted, *rig.base, rig.now);
+  rig.now += kTakeOver;
   const Datagram fresh = restarted.seal(1, rig.now);
   ASSERT_TRUE(rig.base->feed(fresh, kCarAddress, rig.now));
   const auto number = load<std::uint16_t>(fresh, 1);

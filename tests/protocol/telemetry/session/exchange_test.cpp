@@ -22,6 +22,7 @@ struct Ends {
 TEST(Exchange, APayloadReadsAsItWasWritten) {
   for (const bool signed_only : {false, true}) {
     const ExchangePayload payload{.number = 0xBEEF,
+                                  .continues = 0xF00D,
                                   .greeting = {.boot = 0x0123456789ABCDEF,
                                                .safety_schema = 42,
                                                .whole_schema = ~0ULL,
@@ -29,43 +30,53 @@ TEST(Exchange, APayloadReadsAsItWasWritten) {
                                                .real_car = !signed_only}};
     const ExchangePayload read = payload_of(bytes_of(payload));
     EXPECT_EQ(read.number, payload.number);
+    EXPECT_EQ(read.continues, payload.continues);
     EXPECT_EQ(read.greeting, payload.greeting);
   }
 }
 
-TEST(Exchange, ATaggedOpeningFitsWithAnyCookieAndNoOtherChange) {
+TEST(Exchange, ATaggedOpeningFitsAsItIsAndWithNoChangeOfItsStampEither) {
   Ends e;
-  e.car.tag_opening(e.opening, Cookie{1});
+  e.car.tag_opening(e.opening, 0x0123456789ABCDEF);
   EXPECT_TRUE(e.base.opening_fits(e.opening));
+  EXPECT_EQ(stamp_of(e.opening), 0x0123456789ABCDEFU);
   for (std::size_t bit = 0; bit < 8 * e.opening.size(); ++bit) {
     OpeningBytes changed = e.opening;
     changed[bit / 8] = static_cast<std::uint8_t>(changed[bit / 8] ^ 1U << bit % 8);
-    EXPECT_EQ(e.base.opening_fits(changed), bit / 8 >= kOpeningSize - kCookieSize) << bit;
+    EXPECT_FALSE(e.base.opening_fits(changed)) << bit;
   }
   EXPECT_FALSE(e.base.opening_fits(Bytes{e.opening}.first(kOpeningSize - 1)));
 }
 
-TEST(Exchange, AnAnswerFitsItsOwnOpeningOnly) {
+TEST(Exchange, AnAnswerFitsItsOwnOpeningOnlyAndSaysWhichOfThemArrived) {
   Ends e;
   AnswerBytes answer{};
-  e.base.tag_answer(answer, ephemeral_part(e.opening));
+  e.base.tag_answer(answer, 77, ephemeral_part(e.opening));
   EXPECT_TRUE(e.car.answer_fits(answer, ephemeral_part(e.opening)));
+  EXPECT_EQ(stamp_of(answer), 77U);
+  AnswerBytes other = answer;
+  other[kAnswerSize - kTagSize - 1] ^= 1;  // of its stamp
+  EXPECT_FALSE(e.car.answer_fits(other, ephemeral_part(e.opening)));
   e.opening[kHeaderSize] ^= 1;
   EXPECT_FALSE(e.car.answer_fits(answer, ephemeral_part(e.opening)));
 }
 
-TEST(Exchange, ACookieIsReadByWhoAskedForIt) {
+TEST(Exchange, AStampToExceedIsReadByTheOpeningThatItRefuses) {
   Ends e;
-  const Cookie cookie{1, 2, 3};
-  const std::size_t size = e.base.write_cookie(cookie, {}, ephemeral_part(e.opening), e.out);
-  EXPECT_EQ(size, kCookieReplySize);
+  const std::size_t size = e.base.write_newer_stamp(123, ephemeral_part(e.opening), e.out);
+  EXPECT_EQ(size, kNewerStampSize);
   const Bytes reply{e.out.data(), size};
-  EXPECT_EQ(e.car.read_cookie(reply, ephemeral_part(e.opening)), cookie);
+  EXPECT_EQ(parse_header(reply)->kind, Kind::kNewerStamp);
+  EXPECT_EQ(e.car.read_newer_stamp(reply, ephemeral_part(e.opening)), Stamp{123});
+  EXPECT_FALSE(e.car.read_newer_stamp(reply.first(size - 1), ephemeral_part(e.opening)));
   const KeyPair others = make_pair(4);
   const StandingKeys stranger{others.car.own, others.car.peer};
-  EXPECT_FALSE(stranger.read_cookie(reply, ephemeral_part(e.opening)));
+  EXPECT_FALSE(stranger.read_newer_stamp(reply, ephemeral_part(e.opening)));
+  e.out[kHeaderSize] ^= 1;
+  EXPECT_FALSE(e.car.read_newer_stamp(reply, ephemeral_part(e.opening)));
+  e.out[kHeaderSize] ^= 1;
   e.opening[kHeaderSize] ^= 1;
-  EXPECT_FALSE(e.car.read_cookie(reply, ephemeral_part(e.opening)));
+  EXPECT_FALSE(e.car.read_newer_stamp(reply, ephemeral_part(e.opening)));
 }
 
 TEST(Exchange, AHintNamesThePacketThatWasRefused) {

@@ -42,11 +42,17 @@ TEST(KeyLog, HasALineForEachPhaseThatAnEndMayMeet) {
 }
 
 // What both ends tell is the same, each other's direction included; with it a packet is opened.
-class KeysTold : public ::testing::TestWithParam<bool> {};
+struct Told {
+  bool bench_keys, real_car;
+};
+class KeysTold : public ::testing::TestWithParam<Told> {};
 
+// A base does not log the session of a real car either, whatever its own file says.
 TEST_P(KeysTold, OnlyWithKeysOfTheBench) {
   KeyPair pair = make_pair(5);
-  pair.car.bench = pair.base.bench = GetParam();
+  pair.car.bench = GetParam().bench_keys && !GetParam().real_car;
+  pair.base.bench = GetParam().bench_keys;
+  const bool logged = GetParam().bench_keys && !GetParam().real_car;
   std::map<std::string, int> told;  // line, by how many ends
   const auto hear = [&](const std::string& text) {
     std::istringstream in{text};
@@ -54,11 +60,11 @@ TEST_P(KeysTold, OnlyWithKeysOfTheBench) {
   };
   SeededRandomness car_chance(1), base_chance(2);
   const Greeting greeting{.boot = 1, .safety_schema = 1, .whole_schema = 2};
-  Association car({.keys = pair.car,
-                   .greeting = greeting,
-                   .peer = {kBaseAddress, kBaseAddress},
-                   .key_log = hear},
-                  car_chance);
+  Greeting of_car = greeting;
+  of_car.real_car = GetParam().real_car;
+  Association car(
+      {.keys = pair.car, .greeting = of_car, .peer = {kBaseAddress, kBaseAddress}, .key_log = hear},
+      car_chance);
   Association base({.keys = pair.base, .greeting = greeting, .key_log = hear}, base_chance);
   std::array<std::uint8_t, kMaxDatagram> out{}, plain{};
   const Instant now{seconds(1).ns};
@@ -69,11 +75,13 @@ TEST_P(KeysTold, OnlyWithKeysOfTheBench) {
   ASSERT_TRUE(answer);
   EXPECT_FALSE(car.feed(answer->bytes, 0, kBaseAddress, now, plain));
   ASSERT_TRUE(car.ready());
-  EXPECT_EQ(told.size(), GetParam() ? 2 * (std::size_t{kMaxPhasesUnheard} + 1) : 0);
+  EXPECT_EQ(told.size(), logged ? 2 * (std::size_t{kMaxPhasesUnheard} + 1) : 0);
   for (const auto& [line, ends] : told) EXPECT_EQ(ends, 2) << line;
 }
 
-INSTANTIATE_TEST_SUITE_P(BenchAndCar, KeysTold, ::testing::Bool());
+INSTANTIATE_TEST_SUITE_P(BenchAndCar, KeysTold,
+                         ::testing::Values(Told{false, false}, Told{true, false},
+                                           Told{true, true}));
 
 }  // namespace
 }  // namespace pitwall::telemetry::testing

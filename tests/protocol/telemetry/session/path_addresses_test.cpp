@@ -14,7 +14,15 @@ struct Road {
   PathAddresses addresses;
   SeededRandomness randomness{1};
 
-  void heard(Address from, bool newest = true) { addresses.heard(from, 100, newest, randomness); }
+  Instant now{seconds(1).ns};
+  std::uint64_t number = 0;
+
+  void heard(Address from, bool newest = true) {
+    if (newest) ++number;
+    addresses.heard({.from = from, .size = 100, .number = number, .newest = newest}, now,
+                    randomness);
+  }
+  bool proves(Address from, std::uint64_t token) { return addresses.take_proof(from, token, now); }
   bool serves(Address address, std::size_t size = 1) const {
     const auto targets = addresses.targets(size);
     return std::find(targets.begin(), targets.end(), address) != targets.end();
@@ -43,12 +51,12 @@ TEST(PathAddresses, TheOldOneIsServedUntilTheNewOneProvedItself) {
   EXPECT_TRUE(road.serves(kOld) && road.serves(kNew));
   const auto token = road.addresses.token();
   ASSERT_TRUE(token);
-  EXPECT_FALSE(road.addresses.take_proof(kOld, *token));
-  EXPECT_FALSE(road.addresses.take_proof(kThird, *token));
-  EXPECT_FALSE(road.addresses.take_proof(kNew, *token ^ 1));
-  EXPECT_TRUE(road.addresses.take_proof(kNew, *token));
+  EXPECT_FALSE(road.proves(kOld, *token));
+  EXPECT_FALSE(road.proves(kThird, *token));
+  EXPECT_FALSE(road.proves(kNew, *token ^ 1));
+  EXPECT_TRUE(road.proves(kNew, *token));
   EXPECT_TRUE(!road.serves(kOld) && road.serves(kNew, 1'000'000));
-  EXPECT_FALSE(road.addresses.take_proof(kNew, *token)) << "once";
+  EXPECT_FALSE(road.proves(kNew, *token)) << "once";
 }
 
 TEST(PathAddresses, WhatIsNotTheNewestBeginsNoTrial) {
@@ -62,10 +70,43 @@ TEST(PathAddresses, APeerThatIsWhereItWasEndsTheTrial) {
   Road road;
   road.addresses.prove(kOld);
   road.heard(kNew);
+  --road.number;
   road.heard(kOld, false);
   EXPECT_TRUE(road.addresses.token()) << "that packet was only late";
+  ++road.number;
   road.heard(kOld);
   EXPECT_FALSE(road.addresses.token());
+}
+
+// Who forwards each packet a little faster than its own way sends nothing of his own.
+TEST(PathAddresses, ARelayIsNotProvedWhileThePeerItselfIsHeard) {
+  Road road;
+  road.addresses.prove(kOld);
+  for (int i = 0; i < 50; ++i) {
+    road.heard(kNew);
+    road.now += milliseconds(1);
+    road.heard(kOld, false);  // the same packet by its own way
+    const auto token = road.addresses.token();
+    ASSERT_TRUE(token);
+    ASSERT_FALSE(road.proves(kNew, *token));
+    ASSERT_TRUE(road.serves(kOld) && road.serves(kNew)) << "both, until one is silent";
+    road.now += milliseconds(19);
+  }
+  const auto token = road.addresses.token();
+  road.heard(kNew);
+  road.now += PathAddresses::kInUse - milliseconds(19);
+  EXPECT_TRUE(road.proves(kNew, *token))
+      << "a peer that did move is believed when the old is silent";
+}
+
+TEST(PathAddresses, APacketOfBeforeTheMoveThatComesLateOpposesNothing) {
+  Road road;
+  road.addresses.prove(kOld);
+  road.number = 7;
+  road.heard(kNew);
+  road.number = 6;
+  road.heard(kOld, false);
+  EXPECT_TRUE(road.proves(kNew, *road.addresses.token()));
 }
 
 TEST(PathAddresses, EachTrialHasItsOwnToken) {
@@ -75,7 +116,7 @@ TEST(PathAddresses, EachTrialHasItsOwnToken) {
   const auto first = road.addresses.token();
   road.heard(kThird);
   EXPECT_NE(road.addresses.token(), first);
-  EXPECT_FALSE(road.addresses.take_proof(kThird, *first));
+  EXPECT_FALSE(road.proves(kThird, *first));
 }
 
 }  // namespace

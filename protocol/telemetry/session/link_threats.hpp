@@ -1,0 +1,138 @@
+// Attacks and key errors on the radio as one end sees them: detectors over the counters of its
+// association.
+//   in     the counters, from zero on; the time, at least once each kThreatSample
+//   out    the set of threats that are active, and each change of it once, for logs and events
+//   invariants
+//          a threat becomes active at the sample at which its count of the last kThreatWindow
+//          reaches its limit, so an attack that is faster than that limit is seen in less time. It
+//          stays active until the count was below half of the limit for kThreatHold
+//          limits lie above what a network that loses, copies and reorders, a restart of either end
+//          and a change of address bring about. While a session is young or its peer is silent,
+//          packets of the session before and repeated openings are expected: then they count less
+//          at most one change of each threat is told in kThreatHold, whatever the rate of datagrams
+//   errors none
+//   cost   step(): a comparison, each kThreatSample less than a microsecond; no allocation
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "protocol/telemetry/session/association.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::telemetry {
+
+enum class Threat : std::uint8_t {
+  kWrongKey,          // key exchange messages of another key, or forged
+  kModeMismatch,      // sealed where this end is set to signed, or the other way
+  kRefusedAtRate,     // datagrams that are none of the peer's, or had before
+  kSecondPeer,        // another process with the keys of the peer
+  kReplayedOpenings,  // recorded openings of key exchanges
+  kRelay              // authentic packets come a second time, from another address
+};
+inline constexpr std::size_t kThreats = 6;
+std::string_view text_of(Threat threat);  // as kThreatNames of the registry has it
+// What is wrong, as a sentence without its end: for alarms, events and logs.
+constexpr std::string_view describe(Threat threat) {
+  constexpr std::array<std::string_view, kThreats> kTexts{
+      "Key exchange messages do not fit our keys",
+      "One end is set to sealed packets, the other to signed ones",
+      "Forged or foreign datagrams come at rate; all are refused",
+      "A second process has the keys of the other end",
+      "Recorded openings of key exchanges are replayed",
+      "Packets come a second time, from another address: a relay"};
+  return kTexts[static_cast<std::size_t>(threat)];
+}
+
+// One bit each in the order of Threat.
+struct ThreatSet {
+  std::uint8_t bits = 0;
+
+  constexpr bool has(Threat threat) const { return (bits >> static_cast<unsigned>(threat) & 1U); }
+  constexpr void set(Threat threat, bool on) {
+    const auto bit = static_cast<std::uint8_t>(1U << static_cast<unsigned>(threat));
+    bits = static_cast<std::uint8_t>(on ? bits | bit : bits & ~bit);
+  }
+  constexpr bool empty() const { return bits == 0; }
+  constexpr bool operator==(const ThreatSet&) const = default;
+};
+
+// Of a field of the registry: none where it is not known.
+constexpr ThreatSet threats_of(double field) {
+  constexpr double kMost = 255.0;
+  return {field >= 0.0 && field <= kMost ? static_cast<std::uint8_t>(field) : std::uint8_t{0}};
+}
+
+struct ThreatChange {
+  Threat threat = Threat::kWrongKey;
+  bool begins = true;
+  std::uint32_t most_per_s = 0;  // until now, mean of kThreatWindow
+  Instant at{};                  // when it became active or was over
+};
+
+// "radio, seen by the car: WHAT" or "radio, seen by the car: over, at most 60/s: WHAT".
+inline constexpr std::size_t kThreatLine = 160;
+std::string_view write_line(const ThreatChange& change, bool seen_by_base,
+                            std::span<char, kThreatLine> out);
+
+inline constexpr Duration kThreatSample = milliseconds(100), kThreatWindow = seconds(2);
+inline constexpr Duration kThreatHold = seconds(10);
+// A session is settled when it is so old and was heard in the last kThreatHeard.
+inline constexpr Duration kThreatSettled = seconds(10), kThreatHeard = milliseconds(300);
+
+class ThreatMonitor {
+ public:
+  // Of this end; `paths`: of its association, 1 or 2.
+  ThreatMonitor(Role role, std::uint8_t paths) : role_(role), paths_(paths) {}
+
+  void step(const AssociationCounters& counters, Instant now);
+  ThreatSet active() const { return active_; }
+  // The next change that may be told as of the newest step; none: nothing new.
+  std::optional<ThreatChange> next_change();
+
+ private:
+  // What the detectors need of the counters.
+  struct Sample {
+    std::array<std::uint64_t, kThreats> seen{};  // kRefusedAtRate: what no honest network sends
+    std::uint64_t stray = 0;  // refused, but expected after a restart and of a network that copies
+    std::uint64_t copies = 0, opened = 0;
+
+    std::uint64_t peers() const { return seen[static_cast<std::size_t>(Threat::kSecondPeer)]; }
+  };
+  struct State {
+    Instant last{};   // count was at least half of the limit
+    Instant since{};  // active, or over
+    std::uint32_t most_per_s = 0;
+    bool told = false;
+    std::optional<Instant> told_at{};
+  };
+  static constexpr std::size_t kSamples = 20;
+  static_assert(kThreatSample * static_cast<std::int64_t>(kSamples) == kThreatWindow);
+
+  static Sample sample_of(const AssociationCounters& counters);
+  const Sample& before(Duration ago) const;  // kThreatSample to kThreatWindow
+  bool heard(const Sample& counted) const;
+  bool settled(const Sample& counted, Instant now) const;
+  bool second_peer(const Sample& counted, Instant now) const;
+  std::uint64_t count_of(Threat threat, const Sample& counted, Instant now) const;
+  void judge(Threat threat, std::uint64_t count, std::uint64_t limit);
+
+  Role role_;
+  std::uint8_t paths_;
+  std::array<Sample, kSamples> samples_{};  // a ring, oldest at next_
+  std::size_t next_ = 0;
+  std::optional<Instant> sampled_;
+  std::uint64_t exchanges_ = 0, peers_before_ = 0;  // second peers before the newest exchange
+  std::optional<Instant> taken_;                    // the newest exchange came after a second peer
+  Instant exchanged_{};
+  ThreatSet active_;
+  std::array<State, kThreats> states_{};
+  Instant now_{};
+};
+
+}  // namespace pitwall::telemetry

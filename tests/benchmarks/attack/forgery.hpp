@@ -1,0 +1,50 @@
+// Forged datagrams, made of recorded ones by the shapes of Shape in turn.
+//   in     what was recorded; which end is the target
+//   out    one datagram for each call. None is what its target was ever sent
+//   errors none; without a recording only the shapes that need none
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <random>
+#include <span>
+
+#include "tests/benchmarks/attack/recording.hpp"
+
+namespace pitwall::attack {
+
+enum class Shape : std::uint8_t {
+  kFlipped,       // some bits
+  kCut,           // its beginning only
+  kLonger,        // bytes behind it
+  kSpliced,       // header of one, the rest of another
+  kReflected,     // sent back to its sender
+  kOtherKind,     // of the same bytes
+  kOtherSession,  // another receiver number
+  kRandom,        // bytes
+  kEmpty,         // no byte
+  kOversized      // more bytes than any packet has
+};
+inline constexpr unsigned kShapes = 10;
+
+class Forger {
+ public:
+  explicit Forger(std::uint64_t seed) : random_(seed) {}
+
+  // `for_base`: the victim; otherwise the car.
+  const Bytes& next(std::span<const Recorded> recorded, bool for_base);
+
+ private:
+  std::size_t below(std::size_t bound) { return static_cast<std::size_t>(random_() % bound); }
+  const Recorded* draw(std::span<const Recorded> recorded, bool from_car);
+  void make(Shape shape, const Recorded& from, const Recorded& other);
+  void flip();
+  void fill(std::size_t size);
+
+  std::mt19937_64 random_;
+  std::array<unsigned, 2> turns_{};  // for the car, for the base
+  Bytes made_;
+};
+
+}  // namespace pitwall::attack

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/system/radio_explorer/whereabouts.hpp"
+
+#include <algorithm>
+
+#include "tests/system/radio_explorer/world.hpp"
+
+namespace pitwall::explorer {
+
+using telemetry::Address;
+using telemetry::PathAddresses;
+
+namespace {
+
+std::size_t index_of(Address address) { return address == kHome ? 0 : address == kAway ? 1 : 2; }
+
+}  // namespace
+
+Whereabouts::Whereabouts(PlantedRoam planted) : planted_(planted) { base_seen_.prove(kHome); }
+
+UpRoute Whereabouts::base_sends() {
+  const UpRoute route{.from = base_at_, .number = ++sent_, .proof = owed_};
+  owed_.reset();
+  return route;
+}
+
+DownRoute Whereabouts::car_sends(bool to_trial) const {
+  if (!to_trial) return {.to = base_seen_.proved(), .probe = {}};
+  return {.to = base_seen_.targets(1).back(), .probe = base_seen_.token()};
+}
+
+bool Whereabouts::car_hears(const UpRoute& route, Address from, Instant now) {
+  heard_ = true;
+  searched_ = false;
+  const bool newest = route.number > newest_;
+  newest_ = std::max(newest_, route.number);
+  const auto token = base_seen_.token();
+  const Address proved = base_seen_.proved();
+  base_seen_.heard({.from = from, .size = 1'000, .number = route.number, .newest = newest}, now,
+                   randomness_);
+  if (base_seen_.token() && base_seen_.token() != token) {
+    ++trials_;
+    trial_first_ = route.number;
+  }
+  if (planted_ == PlantedRoam::kBelievesNewest && newest) base_seen_.prove(from);
+  if (route.proof) (void)base_seen_.take_proof(from, *route.proof, now);
+  if (from == proved && from != kRelay) {
+    newest_of_base_ = std::max(newest_of_base_, route.number);
+    base_heard_ = now;
+  }
+  const bool base_lives =
+      base_heard_ && now - *base_heard_ < PathAddresses::kInUse && newest_of_base_ >= trial_first_;
+  const Address now_proved = base_seen_.proved();
+  if (now_proved == proved) return true;
+  return reached_[index_of(now_proved)] && !(now_proved == kRelay && base_lives);
+}
+
+bool Whereabouts::base_hears(const DownRoute& route) {
+  if (route.to != kRelay && route.to != base_at_) return false;  // the relay forwards it
+  if (route.probe) owed_ = route.probe, reached_[index_of(route.to)] = true;
+  return true;
+}
+
+void Whereabouts::base_restarts() {
+  base_at_ = kHome;  // a spare one, where the car was told
+  owed_.reset();
+  sent_ = newest_ = newest_of_base_ = 0;
+  searched_ = false;
+}
+
+void Whereabouts::car_restarts() {
+  base_seen_ = {};
+  base_seen_.prove(kHome);
+  owed_.reset();
+  newest_ = newest_of_base_ = 0;
+  reached_ = {true, false, false};
+  base_heard_.reset();
+  heard_ = true;
+  searched_ = false;
+}
+
+void Whereabouts::base_moves() {
+  base_at_ = base_at_ == kHome ? kAway : kHome;
+  searched_ = false;
+}
+
+bool Whereabouts::wait() {
+  searched_ = !heard_;
+  heard_ = false;
+  if (!searched_) return false;
+  const bool home = base_at_ == kHome && planted_ != PlantedRoam::kNoReturn;
+  if (!home && base_seen_.proved() != base_at_) return false;
+  if (base_seen_.proved() != base_at_) base_seen_.prove(base_at_);
+  return true;
+}
+
+bool Whereabouts::found() const {
+  return !searched_ || base_at_ != kHome || base_seen_.proved() == kHome;
+}
+
+void Whereabouts::fingerprint(telemetry::Fingerprint& print) const {
+  print.add(std::uint64_t{base_at_.port} << 32U | std::uint64_t{trials_} << 24U |
+            std::uint64_t{sent_} << 16U | std::uint64_t{newest_} << 8U | newest_of_base_);
+  print.add(std::uint64_t{trial_first_} << 8U | (reached_[1] ? 2U : 0U) | (reached_[2] ? 1U : 0U));
+  print.add(owed_.value_or(0));
+  print.add(base_heard_);
+  print.add((heard_ ? 2U : 0U) | (searched_ ? 1U : 0U));
+  print.add(base_seen_);
+}
+
+}  // namespace pitwall::explorer

@@ -1,0 +1,28 @@
+// Addresses at which the car looks for its base station, by radio path: what --radio says.
+//   in     one text for each path, "ADDRESS:PORT[,ADDRESS:PORT...]", the preferred address first,
+//          then those of spare base stations
+//   out    the addresses in that order
+//   errors Problem with --radio and the address or list as place: no path or too many, no IPv4
+//          address, no port, too many of one path, one that is named twice, and loopback beside
+//          other addresses of a path: one socket does not reach both
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "protocol/transport/udp_socket.hpp"
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::io {
+
+using StationAddresses = std::vector<transport::UdpAddress>;
+
+Result<std::vector<StationAddresses>, Problem> parse_station_addresses(
+    std::span<const std::string> paths);
+
+// Of this machine.
+bool is_loopback(transport::UdpAddress address);
+
+}  // namespace pitwall::io
