@@ -7,6 +7,16 @@ import { WebSocket } from "./packages.mjs";
 
 const kPatienceMs = 10_000;
 
+/** Resolves with what `test` returns once that is something; fails with what it waited for. */
+export async function eventually(what, test) {
+  for (const end = Date.now() + kPatienceMs; Date.now() < end;) {
+    const found = test();
+    if (found) return found;
+    await new Promise((done) => setTimeout(done, 10));
+  }
+  throw new Error(`waited ${kPatienceMs} ms in vain for: ${what}`);
+}
+
 export class Client {
   /** Texts in order, the newest of each type, and the newest frame's header. */
   texts = [];
@@ -42,14 +52,7 @@ export class Client {
   }
 
   /** Resolves with what `test` gives once that is true. */
-  async until(what, test) {
-    for (const end = Date.now() + kPatienceMs; Date.now() < end;) {
-      const found = test();
-      if (found) return found;
-      await new Promise((done) => setTimeout(done, 10));
-    }
-    throw new Error(`waited ${kPatienceMs} ms in vain for: ${what}`);
-  }
+  until = eventually;
 
   close() {
     this.socket.terminate();

@@ -7,7 +7,7 @@ import assert from "node:assert/strict";
 import { join } from "node:path";
 import { test } from "node:test";
 import { Double } from "./double.mjs";
-import { doubleStage, kPages, kScreenshots, show, until } from "./stage.mjs";
+import { doubleStage, escapeTwice, kPages, kScreenshots, show, until } from "./stage.mjs";
 import { checklist, kRecordings } from "./story.mjs";
 import { kBad, kWarning } from "./wire.mjs";
 
@@ -171,8 +171,7 @@ test("a replay is moved by its own bar and keys, and a jump forgets what came be
   await page.keyboard.press(" ");
   await page.keyboard.press("ArrowLeft");
   await page.keyboard.press("+");
-  await page.keyboard.press("Escape");
-  await page.keyboard.press("Escape");
+  await escapeTwice(page);
   await page.keyboard.press("Control+Shift+E");
   await page.waitForTimeout(200);
   assert.deepEqual(asked(), [

@@ -10,7 +10,7 @@ import { closeSync, openSync, readFileSync, writeFileSync, writeSync } from "nod
 import { join } from "node:path";
 import { test } from "node:test";
 import { Client } from "./client.mjs";
-import { baseStage, launchApart, open, reach, until } from "./stage.mjs";
+import { baseStage, escapeTwice, launchApart, open, reach, until } from "./stage.mjs";
 
 const kToken = "second-person-0123456789";
 const kGrowthKb = 16_384;
@@ -101,7 +101,7 @@ test("a holder that falls silent loses it; its ticket sends nothing, its stop do
   await until(page, "the stop", () =>
     document.querySelector(".outcome").textContent.includes("stop"),
   );
-  await silent.until("the car's word", () => stage.programs.carSaid.includes("stop 1"));
+  await stage.programs.carHas("stop 1");
   assert.doesNotMatch(stage.programs.carSaid, /command/);
   silent.close();
 });
@@ -174,9 +174,18 @@ test("a browser that is stopped loses its own pictures, and nobody else notices"
   }
 });
 
+const alarmsToSee = () =>
+  globalThis.pitwall.session.alarms.value.active
+    .filter((alarm) => ["unack", "rtn_unack", "latched"].includes(alarm.state))
+    .map((alarm) => alarm.id);
+const anySeenTo = (ids) => {
+  const { active } = globalThis.pitwall.session.alarms.value;
+  const states = new Map(active.map((alarm) => [alarm.id, alarm.state]));
+  return ids.some((id) => !["unack", "rtn_unack", "latched"].includes(states.get(id)));
+};
+
 test("the keyboard alone: find, plot, stage, override, send, stop, acknowledge", async () => {
   const { page } = await stage.open();
-  const said = () => stage.programs.carSaid;
   const type = async (selector, text) => {
     await reach(page, selector);
     await page.keyboard.press("Control+A");
@@ -199,23 +208,26 @@ test("the keyboard alone: find, plot, stage, override, send, stop, acknowledge",
   await type(".override input:not([type])", "keyboard run");
   await type(".override input[type=password]", kToken);
   await reach(page, "button.send:not(:disabled)");
-  assert.doesNotMatch(said(), /command|stop/, "nothing went to the car yet");
+  assert.doesNotMatch(stage.programs.carSaid, /command|stop/, "nothing went to the car yet");
   await page.keyboard.down("Enter");
   await page.waitForTimeout(800);
   await page.keyboard.up("Enter");
   await until(page, "applied", () =>
     document.querySelector('.ladder .rungs li:nth-child(5)[data-reached="true"]'),
   );
-  assert.match(said(), /command speed limit 53\.6/);
-  await page.keyboard.press("Escape");
-  await page.keyboard.press("Escape");
+  await stage.programs.carHas("command speed limit 53.6");
+  await escapeTwice(page);
   await until(
     page,
     "the car's own word",
     () => document.querySelector(".outcome").textContent === "car: controlled stop",
   );
   await until(page, "an alarm", () => document.querySelector(".alarm-line button kbd"));
-  await page.keyboard.press("a");
+  // On a busy machine the link may have raised one too; each press sees to the loudest.
+  for (let left; (left = await page.evaluate(alarmsToSee)).length > 0;) {
+    await page.keyboard.press("a");
+    await until(page, "one acknowledged", anySeenTo, left);
+  }
   await until(page, "acknowledged", () => !document.querySelector(".alarm-line button kbd"));
 });
 

@@ -6,6 +6,7 @@ import { execFileSync, spawn } from "node:child_process";
 import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { eventually } from "./client.mjs";
 import { kRoot } from "./packages.mjs";
 
 export const kBase =
@@ -92,11 +93,16 @@ export class Programs {
     return (await said(this.base, [/console at (http:\/\/[\d.]+:\d+)\s/]))[0];
   }
 
-  startCar(seconds = 120) {
-    this.car = spawn(kCar, [join(this.folder, "keys/car.keys"), this.radio, String(seconds)], {
+  startCar(seconds = 120, keys = "keys/car.keys") {
+    this.car = spawn(kCar, [join(this.folder, keys), this.radio, String(seconds)], {
       stdio: ["ignore", "pipe", "inherit"],
     });
     this.car.stdout.on("data", (part) => (this.carSaid += part));
+  }
+
+  /** Resolves when the car has said so: its pipe may be behind what a page shows. */
+  carHas(said) {
+    return eventually(`the car's word ${said}`, () => this.carSaid.includes(said));
   }
 
   async kill(name) {

@@ -120,6 +120,15 @@ export async function reach(page, selector) {
   throw new Error(`Tab does not reach ${selector}`);
 }
 
+/** Escape twice, sent together: however slow the machine, they are one person's two quick presses. */
+export async function escapeTwice(page) {
+  const devtools = await page.context().newCDPSession(page);
+  const key = { key: "Escape", code: "Escape", windowsVirtualKeyCode: 27 };
+  const press = (type) => devtools.send("Input.dispatchKeyEvent", { type, ...key });
+  await Promise.all(["keyDown", "keyUp", "keyDown", "keyUp"].map(press));
+  await devtools.detach();
+}
+
 /** Presses the mouse on an element for so long. */
 export async function hold(page, selector, ms) {
   const element = page.locator(selector).first();

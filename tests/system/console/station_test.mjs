@@ -8,7 +8,7 @@ import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { baseStage, hold, kPages, show, until } from "./stage.mjs";
+import { baseStage, escapeTwice, hold, kPages, show, until } from "./stage.mjs";
 
 const kBareDocumentMs = 150;
 
@@ -139,14 +139,13 @@ test("the car is killed: every field of it stale, none coloured, on every page",
 
 test("a stop reaches the car, and the console says what the car says", async () => {
   const { page } = await stage.open();
-  await page.keyboard.press("Escape");
-  await page.keyboard.press("Escape");
+  await escapeTwice(page);
   await until(
     page,
     "the car's own word",
     () => document.querySelector(".outcome").textContent === "car: controlled stop",
   );
-  assert.match(stage.programs.carSaid, /stop 1/);
+  await stage.programs.carHas("stop 1");
 });
 
 test("a command climbs its ladder, or its gates say why not", async () => {
@@ -179,7 +178,7 @@ test("a command climbs its ladder, or its gates say why not", async () => {
         li.querySelector(".rungs li:nth-child(5)").dataset.reached === "true",
     ),
   );
-  assert.match(stage.programs.carSaid, /command send parameters 1/);
+  await stage.programs.carHas("command send parameters 1");
 });
 
 test("the base is killed and started again: the console finds it, a layout is kept", async () => {
