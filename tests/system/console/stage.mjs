@@ -120,7 +120,7 @@ export async function reach(page, selector) {
   throw new Error(`Tab does not reach ${selector}`);
 }
 
-/** Escape twice, sent together: however slow the machine, they are one person's two quick presses. */
+/** Escape twice, sent together: however slow the machine, one person's two quick presses. */
 export async function escapeTwice(page) {
   const devtools = await page.context().newCDPSession(page);
   const key = { key: "Escape", code: "Escape", windowsVirtualKeyCode: 27 };
