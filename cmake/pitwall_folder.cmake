@@ -1,10 +1,11 @@
 # One small library per folder.
 #
-#   pitwall_folder(DEPS <folder or library>...)
+#   pitwall_folder(DEPS <folder or library>... [ALONE <file>...])
 #
 # called from a/b/CMakeLists.txt makes the library pitwall_a_b of every .cpp in that folder but
 # main.cpp (header-only folders become INTERFACE libraries). A dependency that is a folder of this
 # tree is written as its path, e.g. protocol/can; anything else is passed to the linker as it is.
+# ALONE: files that are not compiled together with others, see pitwall_unity.cmake.
 # Where the folder has a main.cpp, pitwall_program(NAME) makes the program of it.
 
 function(pitwall_target_name out path)
@@ -24,7 +25,7 @@ function(pitwall_resolve_dependencies out)
 endfunction()
 
 function(pitwall_folder)
-  cmake_parse_arguments(ARG "" "" "DEPS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "DEPS;ALONE" ${ARGN})
   file(RELATIVE_PATH path "${CMAKE_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}")
   pitwall_target_name(name "${path}")
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
@@ -34,6 +35,7 @@ function(pitwall_folder)
     add_library(${name} STATIC ${sources})
     target_link_libraries(${name} PUBLIC pitwall_options ${dependencies})
     pitwall_precompiled(${name})
+    pitwall_unity(${name} ${ARG_ALONE})
   else()
     add_library(${name} INTERFACE)
     target_link_libraries(${name} INTERFACE pitwall_options ${dependencies})

@@ -28,15 +28,4 @@ function(pitwall_precompiled target)
   endif()
 endfunction()
 
-# Of a release only the tests themselves are not optimised in full: that takes most of the time of
-# building them, and what they test is built as it is delivered.
-set(PITWALL_TEST_OPTIONS "$<$<CONFIG:Release>:-Og>")
-
-function(pitwall_precompiled_test target)
-  target_compile_options(${target} PRIVATE ${PITWALL_TEST_OPTIONS})
-  if(PITWALL_PRECOMPILED)
-    target_precompile_headers(${target} REUSE_FROM pitwall_test_headers)
-  endif()
-endfunction()
-
 pitwall_make_precompiled(pitwall_standard_headers ${PITWALL_STANDARD_HEADERS})

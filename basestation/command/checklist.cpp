@@ -7,24 +7,14 @@
 #include <cstdio>
 #include <utility>
 
+#include "basestation/command/value_text.hpp"
+
 namespace pitwall::command {
 namespace {
 
 using picture::BaseField;
 using picture::FieldView;
 using telemetry::field;
-
-std::string number(double value, const char* unit) {
-  if (std::isnan(value)) return std::string{"no "} + unit;
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.1f %s", value, unit);
-  return text.data();
-}
-
-std::string label(std::string_view labels, double value) {
-  if (!(value >= 0.0)) return "unknown";
-  return std::string{telemetry::label_at(labels, static_cast<std::size_t>(value))};
-}
 
 FieldView own(double value) {  // of the base itself: always known
   return {.value = value, .age = {}, .quality = picture::Quality::kFresh};

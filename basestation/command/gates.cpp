@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "basestation/command/value_text.hpp"
 #include "basestation/picture/incidents/flags.hpp"
 #include "basestation/picture/incidents/tyre_gate.hpp"
 
@@ -21,16 +22,6 @@ using telemetry::field;
 constexpr double kYellow = 3.0, kGreen = 4.0, kWavingGreen = 5.0;
 constexpr std::array kVehicleFlagsThatAllow{0.0, 2.0, 9.0, 10.0};  // none, blue, the two roles
 constexpr double kAttacker = 2.0;
-
-std::string number(double value, const char* unit) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.1f %s", value, unit);
-  return text.data();
-}
-
-std::string label(std::string_view labels, double value) {
-  return std::string{telemetry::label_at(labels, static_cast<std::size_t>(value))};
-}
 
 // The judge of one command at one moment.
 class Judge {

@@ -11,7 +11,7 @@ namespace {
 
 using Done = Result<bool, Problem>;
 
-std::string number(double value) {
+std::string in_figures(double value) {
   if (std::isnan(value)) return "none";
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%g", value);
@@ -21,7 +21,7 @@ std::string number(double value) {
 // " limit 0.08 -> 0.1" where it changes.
 std::string moved(const char* name, double from, double to) {
   if (from == to || (std::isnan(from) && std::isnan(to))) return {};
-  return std::string{" "} + name + " " + number(from) + " -> " + number(to);
+  return std::string{" "} + name + " " + in_figures(from) + " -> " + in_figures(to);
 }
 
 std::string difference(const alarms::AlarmSetting& from, const alarms::AlarmSetting& to) {
@@ -98,8 +98,8 @@ Done SettingsDesk::change_budget(const Said& said, double up_kbit_s) {
   if (const auto may = allowed(said, "budget"); !may) return note(said, what, may);
   if (!(up_kbit_s >= budget_.least && up_kbit_s <= budget_.most)) {
     return note(said, what,
-                Unexpected{Problem{"budget", "from " + number(budget_.least) + " to " +
-                                                 number(budget_.most) + " kbit/s"}});
+                Unexpected{Problem{"budget", "from " + in_figures(budget_.least) + " to " +
+                                                 in_figures(budget_.most) + " kbit/s"}});
   }
   auto done = save(watch_->limits(), watch_->alarms().settings(), up_kbit_s);
   if (done) budget_.now = up_kbit_s;

@@ -5,7 +5,6 @@
 #include <sys/eventfd.h>
 
 #include <array>
-#include <limits>
 
 #include "protocol/transport/readiness.hpp"
 
@@ -16,7 +15,6 @@ using transport::posix_call;
 
 constexpr std::size_t kReadBytes = 24 * 64;
 constexpr int kMaxReads = 16;  // a device that floods must not keep the loop
-constexpr Instant kForever{std::numeric_limits<std::int64_t>::max()};
 
 transport::PosixOutcome open_device(const std::string& path) {
   return posix_call([&] { return ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC); });
@@ -36,7 +34,7 @@ JoystickFeed JoystickFeed::of(transport::FileDescriptor device,
   return JoystickFeed{{}, std::move(device), mapping};
 }
 
-Instant JoystickFeed::due() const { return present_ || path_.empty() ? kForever : retry_at_; }
+Instant JoystickFeed::due() const { return present_ || path_.empty() ? Instant::max() : retry_at_; }
 
 void JoystickFeed::serve(intake::Station& station, Instant now) {
   if (!present_) return look_again(now);

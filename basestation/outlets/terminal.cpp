@@ -16,7 +16,6 @@
 namespace pitwall::outlets {
 namespace {
 
-constexpr Instant kForever{INT64_MAX};
 constexpr int kMaxRounds = 64;  // a flood must not keep screen and stop signal waiting
 constexpr std::size_t kMaxLines = transport::kMaxWatched;
 
@@ -107,9 +106,9 @@ class Line {
   }
 
   Instant script_due() const {
-    if (lines_.script == nullptr || !station_.rate().ever()) return kForever;
+    if (lines_.script == nullptr || !station_.rate().ever()) return Instant::max();
     const auto due = lines_.script->due();
-    return due ? station_.rate().first() + *due : kForever;
+    return due ? station_.rate().first() + *due : Instant::max();
   }
 
   void say_script(Instant now) {
@@ -137,8 +136,8 @@ class Loop {
 
   void run() {
     const Instant start = transport::monotonic_now();
-    const Instant end = options_.duration.ns > 0 ? start + options_.duration : kForever;
-    next_screen_ = options_.text ? start : kForever;
+    const Instant end = options_.duration.ns > 0 ? start + options_.duration : Instant::max();
+    next_screen_ = options_.text ? start : Instant::max();
     bool stopped = false;
     while (!stopped) {
       Instant due = std::min(next_screen_, end);
@@ -183,7 +182,7 @@ class Loop {
   FixedVector<int, kMaxLines> watched_;
   std::vector<transport::UdpDatagram> batch_ =
       std::vector<transport::UdpDatagram>(transport::UdpSocket::kBatch);
-  Instant next_screen_ = kForever;
+  Instant next_screen_ = Instant::max();
 };
 
 }  // namespace

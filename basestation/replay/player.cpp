@@ -8,6 +8,7 @@
 
 #include "protocol/recorder/segment_folder.hpp"
 #include "protocol/transport/file.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::replay {
 namespace {
@@ -27,10 +28,6 @@ bool is_standing(recorder::Topic topic) {
 bool is_frequent(recorder::Topic topic) {
   using enum recorder::Topic;
   return topic == kLink || topic == kJoystick || topic == kRecorder || topic == kInput;
-}
-
-std::span<const std::uint8_t> as_bytes(std::string_view text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
 class TextCollector : public Listener {

@@ -8,13 +8,10 @@
 #include "basestation/replay/segment_reader.hpp"
 #include "protocol/recorder/segment_folder.hpp"
 #include "protocol/transport/file.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::replay {
 namespace {
-
-std::span<const std::uint8_t> as_bytes(std::string_view text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
 
 // The clock by which times of the file become times of this boot.
 std::optional<recorder::ClockMap> clock_for(std::span<const std::uint8_t> file,

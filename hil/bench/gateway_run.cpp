@@ -17,8 +17,8 @@ namespace {
 
 // The car (80) before the sender, the sender before those who look on.
 constexpr int kSenderPriority = 70, kListenerPriority = 60;
-constexpr Duration kWake = milliseconds(10);
-constexpr Duration kStartLimit = seconds(15), kStopLimit = seconds(5);
+constexpr Duration kListenLook = milliseconds(10);
+constexpr Duration kGuestStartLimit = seconds(15), kStopLimit = seconds(5);
 constexpr Duration kLead = seconds(2);              // for the sender to start
 constexpr Duration kSilence = milliseconds(1'600);  // longer than any period and its slack
 constexpr Duration kPause = milliseconds(300);      // of the receiver with the small queue
@@ -51,11 +51,11 @@ class Experiment {
     auto vehicle = transport::Process::spawn({.argv = argv});
     if (!vehicle) return vehicle.error();
     vehicle_.emplace(*std::move(vehicle));
-    const Instant limit = transport::monotonic_now() + kStartLimit;
+    const Instant limit = transport::monotonic_now() + kGuestStartLimit;
     while (transport::monotonic_now() < limit && !vehicle_->poll()) {
       listener_.poll();
       if (listener_.counts().others > 0) return std::nullopt;
-      transport::sleep_until(transport::monotonic_now() + kWake);
+      transport::sleep_until(transport::monotonic_now() + kListenLook);
     }
     return Problem{plan_.vehicle.front(), "no frame of the car on " + plan_.interface};
   }
@@ -78,7 +78,7 @@ class Experiment {
   }
 
   void listen_until(Instant end) {
-    for (Instant due = transport::monotonic_now() + kWake; due < end; due += kWake) {
+    for (Instant due = transport::monotonic_now() + kListenLook; due < end; due += kListenLook) {
       transport::sleep_until(due);
       const Instant now = transport::monotonic_now();
       if (now >= start_) late_us_.push_back(static_cast<double>((now - due).ns) * 1e-3);

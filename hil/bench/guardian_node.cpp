@@ -9,7 +9,7 @@ namespace {
 
 using faults::BenchFaultKind;
 
-constexpr std::size_t kInboxFrames = 4096;
+constexpr std::size_t kHeardFrames = 4096;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ GuardianNode::GuardianNode(const pipeline::CarParams& params,
       present_(present || !processes_.empty()),
       state_(std::make_unique<guardian::State>()),
       told_(std::make_unique<pipeline::Told>()) {
-  inbox_.reserve(kInboxFrames);
+  inbox_.reserve(kHeardFrames);
 }
 
 bool GuardianNode::active(BenchFaultKind kind, Instant now) const {
@@ -44,7 +44,7 @@ bool GuardianNode::car_restarts(Instant now) {
 }
 
 void GuardianNode::hear(const can::ReceivedFrame& received) {
-  if (present_ && inbox_.size() < kInboxFrames) inbox_.push_back(received);
+  if (present_ && inbox_.size() < kHeardFrames) inbox_.push_back(received);
 }
 
 std::span<const can::Frame> GuardianNode::step(const world::SensorInput& samples, Instant now) {

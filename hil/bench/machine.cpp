@@ -21,10 +21,6 @@ using transport::posix_call;
 
 constexpr const char* kDiskOptions = "size=8m,mode=0755";
 
-Unexpected<Problem> refuse(const std::string& place, const std::string& what) {
-  return Unexpected{Problem{place, what}};
-}
-
 Result<bool, Problem> step_clock(Duration by) {
   const std::int64_t to_ns = transport::utc_now().ns + by.ns;
   timespec to{};

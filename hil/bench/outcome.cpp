@@ -9,8 +9,6 @@ namespace {
 
 constexpr double kStands_mps = 0.3;
 
-double seconds_of(Instant at) { return (at - Instant{}).seconds(); }
-
 }  // namespace
 
 void follow(Outcome& outcome, const Whereabouts& now) {
@@ -24,8 +22,8 @@ std::string to_text(const Outcome& outcome) {
   const Whereabouts& last = *outcome.last;
   char text[200];
   if (last.contact) {
-    std::snprintf(text, sizeof text, "the car hit a wall at %.2f s, at %.1f m/s",
-                  seconds_of(last.at), last.speed_mps);
+    std::snprintf(text, sizeof text, "the car hit a wall at %.2f s, at %.1f m/s", last.at.seconds(),
+                  last.speed_mps);
     return text;
   }
   const Whereabouts& nearest = *outcome.nearest;
@@ -34,7 +32,7 @@ std::string to_text(const Outcome& outcome) {
     std::snprintf(speed, sizeof speed, "drives %.1f m/s", last.speed_mps);
   std::snprintf(text, sizeof text,
                 "at the end the car %s, %.2f m from its line; nearest to a wall %.2f m, at %.2f s",
-                speed, std::abs(last.cross_track_m), nearest.wall_gap_m, seconds_of(nearest.at));
+                speed, std::abs(last.cross_track_m), nearest.wall_gap_m, nearest.at.seconds());
   return text;
 }
 

@@ -19,8 +19,6 @@ using json::Object;
 
 constexpr double kControlledStop = 3.0, kEmergencyStop = 4.0, kCoast = 6.0;  // of kModes
 
-double seconds_of(Instant at) { return (at - Instant{}).seconds(); }
-
 // Which flag binds the car more, in the car's own order.
 int restriction_of(world::TrackFlag flag) {
   constexpr std::array kRestriction{2, 6, 5, 3, 1, 0, 4, 7};
@@ -119,7 +117,7 @@ std::string reactions_text(const grading::ReactionBook& book) {
   for (const grading::Reaction& one : book.reactions()) {
     rows.json(Object{}
                   .text("to", one.to)
-                  .number("at_s", seconds_of(one.at))
+                  .number("at_s", one.at.seconds())
                   .number("speed_mps", one.speed_mps)
                   .number("reaction_ms", one.reaction ? one.reaction->milliseconds() : kUnset)
                   .number("stop_m", one.stop_m.value_or(kUnset))
@@ -230,7 +228,7 @@ void Progress::say_state(const RunView& run) {
   const auto& nearest = run.result.outcome.nearest;
   say_(Object{}
            .text("type", "at")
-           .number("t_s", seconds_of(run.now))
+           .number("t_s", run.now.seconds())
            .number("speed_mps", run.rig.truth().speed_mps)
            .text("mode", mode_text(run.mode))
            .text("flag", scenario::name_of(run.rig.flags().track))
@@ -252,7 +250,7 @@ void Progress::say_event(Instant at, std::string_view kind, const std::string& t
   if (++events_ > kEventsMax) return;
   say_(Object{}
            .text("type", "event")
-           .number("t_s", seconds_of(at))
+           .number("t_s", at.seconds())
            .text("kind", kind)
            .text("text", text)
            .str());

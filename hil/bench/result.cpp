@@ -70,9 +70,8 @@ std::string real_time_json(const RealTime& t) {
 std::string done_json(const std::vector<Done>& done) {
   std::string out = "[";
   for (std::size_t i = 0; i < done.size(); ++i)
-    out += (i == 0 ? "" : ",") + std::string("{\"at_s\":") +
-           number((done[i].at - Instant{}).seconds()) + ",\"what\":" + in_quotes(done[i].what) +
-           "}";
+    out += (i == 0 ? "" : ",") + std::string("{\"at_s\":") + number(done[i].at.seconds()) +
+           ",\"what\":" + in_quotes(done[i].what) + "}";
   return out + "]";
 }
 
@@ -117,7 +116,7 @@ std::string to_text(const RunResult& r) {
       static_cast<unsigned long long>(r.bus_losses));
   if (!r.refused_to_arm.empty()) out += "car refused to arm: " + r.refused_to_arm + "\n";
   for (const Done& done : r.done)
-    out += format("at %.3f s: ", (done.at - Instant{}).seconds()) + done.what + "\n";
+    out += format("at %.3f s: ", done.at.seconds()) + done.what + "\n";
   for (const std::string& remark : r.remarks) out += "note: " + remark + "\n";
   for (const grading::Verdict& verdict : r.verdicts)
     out += (verdict.pass ? "PASS  " : "FAIL  ") + verdict.text +
@@ -130,8 +129,7 @@ std::string to_text(const RunResult& r) {
 
 std::string to_json(const Outcome& outcome) {
   const auto place = [](const Whereabouts& w) {
-    return "{\"at_s\":" + number((w.at - Instant{}).seconds()) +
-           ",\"speed_mps\":" + number(w.speed_mps) +
+    return "{\"at_s\":" + number(w.at.seconds()) + ",\"speed_mps\":" + number(w.speed_mps) +
            ",\"cross_track_m\":" + number(w.cross_track_m) +
            ",\"wall_gap_m\":" + number(w.wall_gap_m) + "}";
   };

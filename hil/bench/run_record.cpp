@@ -132,7 +132,7 @@ void RunRecord::loss(const world::LossReport& loss) {
               LossSample{.id = loss.id,
                          .detector = static_cast<std::uint8_t>(loss.detector),
                          .frames = loss.frames,
-                         .due_s = (loss.due - Instant{}).seconds()});
+                         .due_s = loss.due.seconds()});
 }
 
 void RunRecord::event(Instant at, std::string_view name, std::string_view text) {

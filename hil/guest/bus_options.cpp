@@ -4,13 +4,14 @@
 #include <charconv>
 #include <cmath>
 
+#include "hil/guest/init_script.hpp"
 #include "protocol/transport/unix_bus.hpp"
 
 namespace pitwall::guest {
 namespace {
 
 constexpr double kLongestTimeout_s = 86'400.0;
-constexpr int kLeastMemory_mib = 96, kMostMemory_mib = 16'384;
+constexpr int kMostMemory_mib = 16'384;
 constexpr std::uint32_t kBitrateLeast = 5'000, kBitrateMost = 1'000'000;  // classic CAN, bit/s
 constexpr std::uint32_t kRestartMost_ms = 60'000, kQueueMost_frames = 10'000;
 

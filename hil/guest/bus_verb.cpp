@@ -20,7 +20,6 @@ namespace pitwall::guest {
 namespace {
 
 constexpr Duration kLongestWait = seconds(1);
-constexpr Instant kNever{INT64_MAX};
 constexpr int kHubPriority = 85;
 constexpr int kLinePriority = 70;  // above the bench, below the car
 constexpr const char* kGuestLine = "/dev/ttyS0";
@@ -106,7 +105,7 @@ int bus_exec(std::span<const std::string> args) {
   auto stop = transport::StopSignal::install();
   if (!stop) return refuse(stop.error(), kExitUsage);
   const Instant deadline =
-      options->timeout ? transport::monotonic_now() + *options->timeout : kNever;
+      options->timeout ? transport::monotonic_now() + *options->timeout : Instant::max();
   if (options->place != BusPlace::kGuest) {
     const auto problem = bring_up(options->interfaces);
     if (!problem) return run_native(*options, *stop, deadline);
@@ -197,7 +196,8 @@ int bus_hub(std::span<const std::string> args) {
   const auto realtime = transport::request_realtime(kHubPriority);
   std::fprintf(stderr, "pitwall-hil bus hub: serves %s, %s\n", options->bus.c_str(),
                transport::to_string(realtime).c_str());
-  const Instant end = options->length ? transport::monotonic_now() + *options->length : kNever;
+  const Instant end =
+      options->length ? transport::monotonic_now() + *options->length : Instant::max();
   while (!stop->raised() && transport::monotonic_now() < end)
     (*hub)->serve(wake_before(end), stop->fd());
   std::printf("pitwall-hil bus hub: %s: %s\n", options->bus.c_str(),

@@ -21,7 +21,6 @@ namespace fs = std::filesystem;
 constexpr const char* kProgram = "linux.uml";
 constexpr const char* kModules = "/usr/lib/uml/modules";
 constexpr const char* kMemoryFolder = "/dev/shm";  // where the guest's memory lives, as a file
-constexpr int kLeastMemory_mib = 96;               // below, the guest's own kernel is short of it
 constexpr std::size_t kForwardBytes = 16 * 1024;
 
 bool is_in_path(const std::string& program) {

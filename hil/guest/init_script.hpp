@@ -13,6 +13,8 @@
 
 namespace pitwall::guest {
 
+inline constexpr int kLeastMemory_mib = 96;  // below, the guest's own kernel is short of it
+
 struct GuestPlan {
   std::vector<std::string> command{};      // runs as root in the same folder; sees our files
   std::vector<std::string> environment{};  // "NAME=value", on top of ours

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "protocol/vocabulary/check.hpp"
 
@@ -11,7 +10,6 @@ namespace pitwall::link {
 namespace {
 
 constexpr std::uint64_t kStream = 0;  // of the seed; the emulator's other effects have others
-constexpr Instant kNever{std::numeric_limits<std::int64_t>::max()};
 
 }  // namespace
 
@@ -20,7 +18,7 @@ FadeProcess::FadeProcess(const Fades& fades, std::uint64_t seed)
   CHECK(mean_good_ >= Duration{} && mean_bad_ >= Duration{});
   if (mean_bad_ == Duration{} || mean_good_ == Duration{}) {
     bad_ = mean_bad_ > Duration{};  // without good times the fade never ends
-    until_ = kNever;
+    until_ = Instant::max();
     return;
   }
   bad_ = random_.uniform() < fades.share_bad();

@@ -53,7 +53,7 @@ class Judge {
   void complain(const char* what, std::uint32_t id, Instant at) {
     if (out_.complaints.size() == kComplaintsMax) return;
     out_.complaints.push_back(std::string(what) + ": id " + std::to_string(id) + " due at " +
-                              std::to_string((at - Instant{}).seconds()) + " s");
+                              std::to_string(at.seconds()) + " s");
   }
 
   void take(const can::LossReport& report) {

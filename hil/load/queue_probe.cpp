@@ -9,11 +9,11 @@ namespace pitwall::load {
 namespace {
 
 constexpr int kBufferBytes = 192 << 10;  // 512 frames: 20 ms of the traffic
-constexpr std::size_t kRead = 1'024;
+constexpr std::size_t kProbeRead = 1'024;
 
 }  // namespace
 
-QueueProbe::QueueProbe(transport::CanSocket bus) : bus_(std::move(bus)), frames_(kRead) {}
+QueueProbe::QueueProbe(transport::CanSocket bus) : bus_(std::move(bus)), frames_(kProbeRead) {}
 
 Result<QueueProbe, Problem> QueueProbe::open(const std::string& interface) {
   auto bus = transport::CanSocket::open(interface, {.filters = {{kNumberedId, kNumberedMask}},

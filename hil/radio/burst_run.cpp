@@ -20,11 +20,11 @@ using telemetry::PathId;
 namespace {
 
 constexpr double kRate = 32'000.0;  // 256 kbit/s
-constexpr Duration kWay = milliseconds(15), kWarmUp = seconds(5), kOracleEvery = milliseconds(2);
+constexpr Duration kOneWay = milliseconds(15), kWarmUp = seconds(5), kOracleEvery = milliseconds(2);
 
 RadioSetup setup_of(const BurstCase& c) {
   RadioSetup setup;
-  setup.down.fill(link::bursty(c.loss, c.fade, kRate, kWay));
+  setup.down.fill(link::bursty(c.loss, c.fade, kRate, kOneWay));
   setup.up = setup.down;
   setup.paths = c.paths;
   setup.seed = c.seed;

@@ -21,7 +21,7 @@ constexpr int kExitRefused = 2;
 constexpr int kPriority = 50;                  // SCHED_FIFO, above everything of a desktop
 constexpr Duration kRunUp = milliseconds(20);  // from the last preparation to the first frame
 constexpr std::int64_t kMaxLate_ms = 3'600'000;
-constexpr double kMaxSeconds = 1e7;
+constexpr double kLongest_s = 1e7;
 constexpr Duration kLongestReplay = seconds(100LL * 366 * 24 * 3'600);  // what int64 holds, thrice
 constexpr int kOutput = 1, kErrors = 2;                                 // descriptors
 constexpr unsigned kMaxPasses = 1'000'000;
@@ -72,7 +72,7 @@ bool take_late(ReplayOptions& out, const std::string& value) {
 
 bool take_seconds(Duration& out, const std::string& value) {
   double s = 0.0;
-  if (!parse_number(value, s) || !(s >= 0.0 && s <= kMaxSeconds)) return false;
+  if (!parse_number(value, s) || !(s >= 0.0 && s <= kLongest_s)) return false;
   out = from_seconds(s);
   return true;
 }

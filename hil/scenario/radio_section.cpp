@@ -7,7 +7,7 @@
 namespace pitwall::scenario {
 namespace {
 
-constexpr double kLongest_s = 36'000.0, kSlowest_ms = 10'000.0, kFastest_kbit = 1e6;
+constexpr double kSlowest_ms = 10'000.0, kFastest_kbit = 1e6;
 constexpr double kMaxFadeLoss = 0.95;
 constexpr double kBitsPerByte = 8.0, kKilo = 1e3;
 constexpr std::int64_t kMaxQueue = 1 << 24, kMaxSeed = 1'000'000'000;

@@ -20,6 +20,8 @@
 
 namespace pitwall::scenario {
 
+inline constexpr double kLongest_s = 36'000.0;  // ten hours: the longest soak
+
 inline constexpr std::size_t kMaxPaths = 2;
 
 struct RadioPath {

@@ -65,8 +65,6 @@ constexpr std::array kExpectKinds = {
     Named<ExpectKind>{"detects", ExpectKind::kDetects},
 };
 
-constexpr double kLongest_s = 36'000.0;  // ten hours: the longest soak
-
 template <class T, std::size_t N>
 T one_of(const yaml::StrictMap& map, const char* key, const std::string& word,
          const std::array<Named<T>, N>& table) {

@@ -2,6 +2,7 @@
 #include "hil/verbs/bench_laps.hpp"
 
 #include <array>
+#include <atomic>
 #include <cstdio>
 #include <utility>
 #include <vector>

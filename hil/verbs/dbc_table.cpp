@@ -17,7 +17,7 @@ constexpr std::size_t kColumns = 7;
 constexpr std::size_t kMostTextColumns = 60;  // of an unused section
 using Row = std::array<std::string, kColumns>;
 
-std::string number(double v) {
+std::string shortest(double v) {
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), v).ptr;
   return {text.data(), end};
@@ -63,15 +63,16 @@ std::string presence(const Message& m, const Signal& s) {
 
 Row row_of(const Message& m, const Signal& s) {
   const can::SignalLayout& l = s.layout;
-  const std::string range = l.min < l.max ? "[" + number(l.min) + "|" + number(l.max) + "]" : "-";
+  const std::string range =
+      l.min < l.max ? "[" + shortest(l.min) + "|" + shortest(l.max) + "]" : "-";
   const std::string offset = l.offset == 0.0  ? ""
-                             : l.offset > 0.0 ? " +" + number(l.offset)
-                                              : " " + number(l.offset);
+                             : l.offset > 0.0 ? " +" + shortest(l.offset)
+                                              : " " + shortest(l.offset);
   return {"  " + s.name,
           std::to_string(l.start) + "|" + std::to_string(l.length) +
               (l.order == can::ByteOrder::kIntel ? " Intel" : " Motorola"),
           kind_of(l),
-          "x" + number(l.scale) + offset,
+          "x" + shortest(l.scale) + offset,
           range,
           s.unit,
           presence(m, s)};
@@ -89,7 +90,7 @@ std::string heading_of(const Message& m) {
   std::string out = m.name + "  id " + std::to_string(m.id) + " (" + hex(m.id) +
                     (m.extended ? ", extended" : "") + ")  " + std::to_string(m.length) + " bytes" +
                     (m.fd ? " CAN FD" : "") + "  ";
-  out += m.period == Duration{} ? "period not given" : number(m.period.seconds() * 1e3) + " ms";
+  out += m.period == Duration{} ? "period not given" : shortest(m.period.seconds() * 1e3) + " ms";
   out += "  from " + m.sender;
   for (const std::string& name : m.other_senders) out += ", " + name;
   return out + "\n";

@@ -22,9 +22,9 @@ namespace fs = std::filesystem;
 using matrix::FaultRow;
 using world::Monitor;
 
-constexpr unsigned kWorkers = 2;
+constexpr unsigned kFaultsWorkers = 2;
 
-struct Job {
+struct FaultsJob {
   const bench::Loaded* loaded;
   world::MonitorSet off;
 };
@@ -49,9 +49,9 @@ Result<std::vector<bench::Loaded>, Problem> load_all(const std::string& folder,
   return all;
 }
 
-Result<std::vector<FaultRow>, Problem> run(const std::vector<Job>& jobs) {
+Result<std::vector<FaultRow>, Problem> run(const std::vector<FaultsJob>& jobs) {
   std::vector<Result<FaultRow, Problem>> results(jobs.size(), FaultRow{});
-  sweep::in_parallel(jobs.size(), kWorkers, [&](std::size_t i) {
+  sweep::in_parallel(jobs.size(), kFaultsWorkers, [&](std::size_t i) {
     results[i] = matrix::run_fault(*jobs[i].loaded, jobs[i].off);
   });
   std::vector<FaultRow> rows;
@@ -65,7 +65,7 @@ Result<std::vector<FaultRow>, Problem> run(const std::vector<Job>& jobs) {
 // A monitor that no scenario asks has an empty proof.
 Result<std::vector<matrix::Proof>, Problem> prove(const std::vector<bench::Loaded>& all) {
   std::vector<matrix::Proof> proofs(world::kMonitors);
-  std::vector<Job> jobs;
+  std::vector<FaultsJob> jobs;
   std::vector<std::size_t> of_monitor;
   for (std::size_t m = 0; m < world::kMonitors; ++m) {
     proofs[m].monitor = static_cast<Monitor>(m);
@@ -98,19 +98,19 @@ Result<world::MonitorSet, Problem> monitors_named(const std::vector<std::string>
   return off;
 }
 
-struct Options {
+struct FaultsOptions {
   std::string folder = "hil/scenarios/faults", only, json_file;
   std::vector<std::string> without;
   bool prove = false;
 };
 
-Result<int, Problem> judge(const Options& options) {
+Result<int, Problem> judge(const FaultsOptions& options) {
   const auto off = monitors_named(options.without);
   if (!off) return Unexpected{off.error()};
   const auto all = load_all(options.folder, options.only);
   if (!all) return Unexpected{all.error()};
   const Instant begun = transport::monotonic_now();
-  std::vector<Job> jobs;
+  std::vector<FaultsJob> jobs;
   for (const bench::Loaded& loaded : *all) jobs.push_back({&loaded, *off});
   const auto rows = run(jobs);
   if (!rows) return Unexpected{rows.error()};
@@ -139,7 +139,7 @@ Result<int, Problem> judge(const Options& options) {
 }  // namespace
 
 int faults_verb(std::span<const std::string> args) {
-  Options options;
+  FaultsOptions options;
   CommandLine app{"pitwall-hil faults: every fault of the catalogue, and who noticed it how fast"};
   app.option("--folder", options.folder, "of the scenarios; default " + options.folder);
   app.option("--only", options.only, "only scenarios whose name contains this");

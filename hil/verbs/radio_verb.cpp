@@ -27,7 +27,7 @@ constexpr Duration kWay = milliseconds(15), kMeanGap = milliseconds(150);
 constexpr std::uint64_t kCommands = 100'000, kStops = 100'000, kForgeries = 1'000'000;
 constexpr std::size_t kFloodEachMs = 200, kForgeriesEachMs = 50;
 
-struct Options {
+struct RadioOptions {
   double hours = 1.0;
   std::uint64_t seed = 1;
   std::string json_file;
@@ -82,7 +82,7 @@ void gate_commands(Table& table, const std::string& what, RadioSetup setup, std:
   table.none(what + ": values or ages that were false", radio.falsehoods().all());
 }
 
-void all_commands(Table& table, const Options& options) {
+void all_commands(Table& table, const RadioOptions& options) {
   const auto share = [&](double of) {
     return static_cast<std::uint64_t>(static_cast<double>(kCommands) * options.hours * of);
   };
@@ -93,7 +93,7 @@ void all_commands(Table& table, const Options& options) {
   gate_commands(table, "50 % of 120 ms, two", setup_of(fades, 2, options.seed), share(0.2), 270.0);
 }
 
-void all_stops(Table& table, const Options& options) {
+void all_stops(Table& table, const RadioOptions& options) {
   const auto trials = static_cast<std::uint64_t>(static_cast<double>(kStops) * options.hours);
   VirtualRadio radio(lossy(0.5, 1, options.seed));
   const radio::StopFigures f = radio::run_stops(radio, trials);
@@ -103,7 +103,7 @@ void all_stops(Table& table, const Options& options) {
   table.none("stop: not released within 10 s", f.not_released);
 }
 
-void forgeries(Table& table, const Options& options) {
+void forgeries(Table& table, const RadioOptions& options) {
   const auto count = static_cast<std::uint64_t>(static_cast<double>(kForgeries) * options.hours);
   VirtualRadio radio(lossy(0.0, 1, options.seed));
   const radio::ForgeryFigures f = radio::run_forgeries(radio, count, kForgeriesEachMs);
@@ -134,7 +134,7 @@ Flooded run_flood(std::size_t each_ms, Duration length, std::uint64_t seed) {
   return {radio.ages().quantile(Group::kMode, 0.99).milliseconds(), cpu_s};
 }
 
-void flood(Table& table, const Options& options) {
+void flood(Table& table, const RadioOptions& options) {
   const Duration length = seconds(60);
   const Flooded calm = run_flood(0, length, options.seed);
   const Flooded flooded = run_flood(kFloodEachMs, length, options.seed);
@@ -150,7 +150,7 @@ void flood(Table& table, const Options& options) {
 
 int radio_verb(std::span<const std::string> args) {
   CommandLine app{"the radio's promises at length, in virtual time", "pitwall-hil radio"};
-  Options options;
+  RadioOptions options;
   CommandLine gates = app.one_of("gates", "all of them");
   gates.option("--hours", options.hours, "share of the whole: 1 is an hour of link")
       .range(0.001, 100.0);

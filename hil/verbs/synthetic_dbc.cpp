@@ -8,7 +8,7 @@
 namespace pitwall::verbs {
 namespace {
 
-constexpr std::uint64_t kSeed = 800;
+constexpr std::uint64_t kSyntheticSeed = 800;
 constexpr unsigned kNodes = 24;
 constexpr unsigned kStandardIds = 500;  // the messages behind have 29-bit ids
 constexpr std::array<const char*, 6> kUnits{"km/h", "degC", "kPa", "%", "rpm", ""};
@@ -103,7 +103,7 @@ class Writer {
     }
   }
 
-  faults::Random random_{kSeed};
+  faults::Random random_{kSyntheticSeed};
   std::uint64_t count_ = 0;
   std::string key_, messages_, details_;
 };

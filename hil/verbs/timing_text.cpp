@@ -38,7 +38,7 @@ std::string late_text(const bench::RealTime& time) {
       text, sizeof text,
       "the machine did not keep up: at %.2f s the bench was %.0f ms behind its clock, and "
       "the car had no bus for as long",
-      (time.behind_at - Instant{}).seconds(), time.behind_max.milliseconds());
+      time.behind_at.seconds(), time.behind_max.milliseconds());
   return text;
 }
 

@@ -11,7 +11,6 @@ namespace pitwall::can {
 namespace {
 
 constexpr std::size_t kMaxRanges = 1024;  // of one signal; real files have a few
-constexpr std::int64_t kAnyInteger = std::numeric_limits<std::int64_t>::max();
 
 class Details {
  public:

@@ -19,6 +19,7 @@
 namespace pitwall::can {
 
 inline constexpr std::uint32_t kExtendedBit = 0x80000000;
+inline constexpr std::string_view kNobody = "Vector__XXX";  // the receiver of what nobody receives
 // VECTOR__INDEPENDENT_SIG_MSG: where editors park signals that belong to no message.
 inline constexpr std::uint32_t kIndependentSignals = 0xC0000000;
 

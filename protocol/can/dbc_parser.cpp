@@ -14,9 +14,6 @@
 namespace pitwall::can {
 namespace {
 
-constexpr std::int64_t kAnyInteger = std::numeric_limits<std::int64_t>::max();
-constexpr std::string_view kNobody = "Vector__XXX";
-
 // Read here or in dbc_details.
 constexpr std::array<std::string_view, 15> kRead{
     "VERSION", "NS_",         "BS_",  "BU_", "BO_",          "SG_",         "VAL_TABLE_", "BA_DEF_",

@@ -8,13 +8,14 @@
 #include <set>
 #include <string_view>
 
+#include "protocol/can/dbc_draft.hpp"
+
 namespace pitwall::can {
 namespace {
 
-constexpr std::string_view kNobody = "Vector__XXX";
 constexpr std::size_t kMostNames = 4;  // that are listed before "and 3 more"
 // Of the field, for ranges that were rounded when they were written down.
-constexpr double kRangeSlack = 1e-6;
+constexpr double kRoundingSlack = 1e-6;
 
 std::string number(double v) {
   std::array<char, 32> text{};
@@ -57,12 +58,12 @@ void judge_range(const Signal& s, std::vector<std::string>& out) {
   if (!(l.min < l.max)) return;
   const Limits field = limits_of_field(s);
   const bool is_float = l.number == Number::kFloat32 || l.number == Number::kFloat64;
-  const double slack = kRangeSlack * (is_float ? field.high : std::abs(l.scale)) +
-                       kRangeSlack * kRangeSlack * std::max(std::abs(l.min), std::abs(l.max));
+  const double slack = kRoundingSlack * (is_float ? field.high : std::abs(l.scale)) +
+                       kRoundingSlack * kRoundingSlack * std::max(std::abs(l.min), std::abs(l.max));
   const std::string holds = "[" + number(field.low) + "|" + number(field.high) + "]";
   const bool is_empty = !is_float &&
-                        std::floor((l.max - l.offset) / l.scale + kRangeSlack) <
-                            std::ceil((l.min - l.offset) / l.scale - kRangeSlack) &&
+                        std::floor((l.max - l.offset) / l.scale + kRoundingSlack) <
+                            std::ceil((l.min - l.offset) / l.scale - kRoundingSlack) &&
                         l.scale > 0.0;
   if (l.min > field.high + slack || l.max < field.low - slack || is_empty) {
     out.push_back("signal " + s.name + ": no value that its " + std::to_string(l.length) +

@@ -6,12 +6,15 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 
 #include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::can {
+
+inline constexpr std::int64_t kAnyInteger = std::numeric_limits<std::int64_t>::max();
 
 class DbcScanner {
  public:

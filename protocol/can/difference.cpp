@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMostValues = 4;  // that one line lists
 
-std::string number(double v) {
+std::string shortest(double v) {
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), v).ptr;
   return {text.data(), end};
@@ -191,7 +191,7 @@ void Comparison::compare_frame(const Message& a, const Message& b) {
     add(Change::kFrame, b, b.fd ? now_was("CAN FD", "classic") : now_was("classic", "CAN FD"));
   }
   const auto period = [](Duration d) {
-    return d == Duration{} ? std::string{"not given"} : number(d.seconds() * 1e3) + " ms";
+    return d == Duration{} ? std::string{"not given"} : shortest(d.seconds() * 1e3) + " ms";
   };
   if (a.period != b.period) {
     add(Change::kTiming, b, ": its period" + now_was(period(b.period), period(a.period)));
@@ -257,7 +257,7 @@ void Comparison::one_sided(const Message& a, std::vector<const Signal*> gone, co
 void Comparison::compare(const Message& a, const Signal& x, const Message& b, const Signal& y) {
   compare_reading(a, x, b, y);
   const auto range = [](const SignalLayout& l) {
-    return l.min < l.max ? "[" + number(l.min) + "|" + number(l.max) + "]" : "not given";
+    return l.min < l.max ? "[" + shortest(l.min) + "|" + shortest(l.max) + "]" : "not given";
   };
   if (range(x.layout) != range(y.layout)) {
     add(Change::kRange, b, ": the range of " + y.name + now_was(range(y.layout), range(x.layout)));
@@ -284,10 +284,10 @@ void Comparison::compare_reading(const Message& a, const Signal& x, const Messag
   if (l.order != k.order) how.push_back(now_was(name_of(k.order), name_of(l.order)));
   if (l.number != k.number) how.push_back(now_was(name_of(k.number), name_of(l.number)));
   if (l.scale != k.scale) {
-    how.push_back(" has the scale " + number(k.scale) + ", had " + number(l.scale));
+    how.push_back(" has the scale " + shortest(k.scale) + ", had " + shortest(l.scale));
   }
   if (l.offset != k.offset) {
-    how.push_back(" has the offset " + number(k.offset) + ", had " + number(l.offset));
+    how.push_back(" has the offset " + shortest(k.offset) + ", had " + shortest(l.offset));
   }
   const std::string was = presence(a, x), now = presence(b, y);
   if (was != now) how.push_back(" is now present " + now + ", was " + was);

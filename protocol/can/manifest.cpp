@@ -10,7 +10,7 @@
 namespace pitwall::can {
 namespace {
 
-constexpr double kMaxPeriod_ms = 3'600'000.0;
+constexpr double kSlowestPeriod_ms = 3'600'000.0;
 constexpr double kMaxSlew_per_s = 1e12;
 constexpr std::uint8_t kMaxCounterBits = 16;
 
@@ -94,8 +94,8 @@ ManifestMessage message(const std::string& name, yaml::StrictMap map) {
   m.direction = choice(map, "direction", kDirections);
   m.safety = choice(map, "safety", kClasses);
   m.required = map.flag_or("required", true);
-  m.period = from_seconds(map.number("period_ms", 0.1, kMaxPeriod_ms) * 1e-3);
-  m.timeout = from_seconds(map.number("timeout_ms", 0.1, 10 * kMaxPeriod_ms) * 1e-3);
+  m.period = from_seconds(map.number("period_ms", 0.1, kSlowestPeriod_ms) * 1e-3);
+  m.timeout = from_seconds(map.number("timeout_ms", 0.1, 10 * kSlowestPeriod_ms) * 1e-3);
   if (m.timeout <= m.period) map.fail("timeout_ms", "must be longer than the period");
   m.counter = map.text_or("counter", "");
   m.counter_place = map.place("counter");

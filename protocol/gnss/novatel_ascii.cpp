@@ -15,7 +15,7 @@
 namespace pitwall::gnss {
 namespace {
 
-constexpr std::uint8_t kResponseBit = 0x80;
+constexpr std::uint8_t kResponse = 0x80;
 constexpr int kHexBase = 16;
 
 // The fields between commas; a comma between quotes separates nothing.
@@ -144,7 +144,7 @@ bool read_idle(std::string_view text, std::uint8_t& idle_time) {
 // Takes the format letter off: A is a log, R a response.
 bool read_name(std::string_view text, NovatelHeader& h) {
   if (text.size() < 2 || (text.back() != 'A' && text.back() != 'R')) return false;
-  if (text.back() == 'R') h.message_type = kResponseBit;
+  if (text.back() == 'R') h.message_type = kResponse;
   text.remove_suffix(1);
   h.id = log_id(text).value_or(0);
   return true;
@@ -178,7 +178,7 @@ class TextWriter {
   std::size_t size_ = 0;
 };
 
-struct FieldWriter {
+struct TextFieldWriter {
   TextWriter& out;
   bool first = true;
 
@@ -306,7 +306,7 @@ std::size_t encode_ascii(NovatelHeader header, const NovatelMessage& message,
         header.id = m.kId;
         header.short_form = m.kShort;
         write_header(text, header);
-        FieldWriter writer{text};
+        TextFieldWriter writer{text};
         visit_fields(m, writer);
       },
       message);

@@ -67,6 +67,7 @@ constexpr std::uint16_t channel_of(telemetry::Group group) {
 constexpr std::uint16_t channel_of(Topic topic) {
   return static_cast<std::uint16_t>(telemetry::kGroups + static_cast<std::size_t>(topic));
 }
+constexpr bool is_group(std::uint16_t channel) { return channel < telemetry::kGroups; }
 inline constexpr auto kPictureChannel = static_cast<std::uint16_t>(telemetry::kGroups + kTopics);
 inline constexpr std::uint16_t kDownChannel = kPictureChannel + 1, kUpChannel = kDownChannel + 1;
 inline constexpr std::uint16_t kCanInChannel = kUpChannel + 1, kCanOutChannel = kCanInChannel + 1;

@@ -50,7 +50,6 @@ void put_datagram(std::vector<std::uint8_t>& out, std::span<const std::uint8_t> 
   put_bytes(out, datagram.bytes);
 }
 
-bool is_group(std::uint16_t channel) { return channel < telemetry::kGroups; }
 bool is_text(std::uint16_t channel) {
   return channel >= telemetry::kGroups && channel < telemetry::kGroups + kTopics;
 }

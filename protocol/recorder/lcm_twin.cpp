@@ -6,10 +6,6 @@ namespace {
 
 constexpr std::size_t kRoom = std::size_t{1} << 20;
 
-void put_bytes(std::vector<std::uint8_t>& out, std::span<const std::uint8_t> bytes) {
-  out.insert(out.end(), bytes.begin(), bytes.end());
-}
-
 }  // namespace
 
 LcmTwin::LcmTwin(Disk& disk, const ClockMap& clock) : disk_(disk), encoder_(clock) {
@@ -19,7 +15,7 @@ LcmTwin::LcmTwin(Disk& disk, const ClockMap& clock) : disk_(disk), encoder_(cloc
 void LcmTwin::begin(const std::string& name) {
   if (disk_.begin(name + ".lcm")) return;
   log_.emplace([this](std::span<const std::uint8_t> event) {
-    put_bytes(waiting_, event);
+    waiting_.insert(waiting_.end(), event.begin(), event.end());
     return true;
   });
 }

@@ -12,6 +12,7 @@
 #include "protocol/telemetry/registry/schema.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::recorder {
@@ -26,10 +27,6 @@ ChainParams params_of(recording::Metadata run, const ClockMap& clock) {
   params.run = std::move(run);
   params.clock = clock;
   return params;
-}
-
-std::span<const std::uint8_t> as_bytes(std::string_view text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
 }  // namespace

@@ -13,8 +13,6 @@ namespace {
 constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
 constexpr std::size_t kChunksReserved = 256;  // of a minute in half seconds, and full ones
 
-bool is_group(std::uint16_t channel) { return channel < telemetry::kGroups; }
-
 }  // namespace
 
 SegmentChain::SegmentChain(Disk& disk, ChainParams params, Disk* lcm)

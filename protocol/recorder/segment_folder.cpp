@@ -14,13 +14,10 @@
 #include "protocol/recorder/file_disk.hpp"
 #include "protocol/recording/mcap_recovery.hpp"
 #include "protocol/transport/file.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::recorder {
 namespace {
-
-std::span<const std::uint8_t> as_bytes(std::string_view text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
 
 bool ends_with_magic(const std::string& path) {
   using transport::posix_call;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "protocol/transport/private_access.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::transport {
 namespace {
@@ -35,10 +36,6 @@ PosixOutcome write_all(int fd, std::span<const std::uint8_t> bytes) {
     done += static_cast<std::size_t>(out.value);
   }
   return {.value = static_cast<std::int64_t>(done), .error = 0};
-}
-
-std::span<const std::uint8_t> as_bytes(std::string_view text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
 // To the end of an open file.
@@ -74,7 +71,6 @@ Result<std::string, Problem> read_private_file(const std::string& path, std::siz
 }
 
 Result<bool, Problem> write_private_file(const std::string& path, std::string_view contents) {
-  constexpr unsigned kOwnerOnly = 0600;
   if (auto problem = check_folder_of(path)) return Unexpected{*std::move(problem)};
   const auto opened = open_file(path, O_WRONLY | O_CREAT | O_EXCL, kOwnerOnly);
   const FileDescriptor fd(opened);

@@ -8,12 +8,13 @@
 #include <array>
 #include <utility>
 
+#include "protocol/transport/private_access.hpp"
+
 namespace pitwall::transport {
 namespace {
 
-constexpr int kBacklog = 8;
-constexpr mode_t kOwnerOnly = 0600;
-constexpr std::size_t kReadBytes = 16 * 1024;
+constexpr int kLineBacklog = 8;
+constexpr std::size_t kLineBytes = 16 * 1024;
 constexpr std::size_t kReadsAtOnce = 16;  // a flood does not hold up its reader
 
 Result<sockaddr_un, Problem> address_of(const std::string& path) {
@@ -65,7 +66,7 @@ Result<LineSocket, Problem> LineSocket::connect(const std::string& path) {
 std::vector<std::string> LineSocket::receive() {
   std::vector<std::string> lines;
   flush();
-  std::array<char, kReadBytes> bytes{};
+  std::array<char, kLineBytes> bytes{};
   for (std::size_t i = 0; i < kReadsAtOnce && !closed(); ++i) {
     const auto got =
         posix_call([&] { return ::recv(connection_.get(), bytes.data(), bytes.size(), 0); });
@@ -132,7 +133,7 @@ Result<LineListener, Problem> LineListener::open(const std::string& path) {
   const auto bound =
       posix_call([&] { return ::bind(fd.get(), generic(*address), sizeof *address); });
   if (!bound.ok()) return refuse("cannot be made: " + bound.reason());
-  const auto listening = posix_call([&] { return ::listen(fd.get(), kBacklog); });
+  const auto listening = posix_call([&] { return ::listen(fd.get(), kLineBacklog); });
   if (!listening.ok()) return refuse("cannot listen: " + listening.reason());
   return LineListener{path, std::move(fd)};
 }

@@ -18,6 +18,8 @@
 
 namespace pitwall::transport {
 
+inline constexpr unsigned kOwnerOnly = 0600;
+
 // As stat() has them.
 struct AccessRights {
   unsigned owner = 0, mode = 0;

@@ -13,6 +13,7 @@
 #include <filesystem>
 
 #include "protocol/transport/clock.hpp"
+#include "protocol/transport/private_access.hpp"
 #include "protocol/transport/unix_bus.hpp"
 
 namespace pitwall::transport {
@@ -20,7 +21,6 @@ namespace {
 
 constexpr std::size_t kBatch = 64;
 constexpr int kBacklog = 64;
-constexpr mode_t kOwnerOnly = 0600;
 constexpr Duration kFolderWait = seconds(2), kFolderLook = milliseconds(5);
 constexpr Duration kAcceptPause = milliseconds(100);
 // Room for the stamp and for nothing else: a descriptor that a client passes finds no place.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -49,6 +50,10 @@ struct Problem {
   std::string place;
   std::string what;
 };
+
+inline Unexpected<Problem> refuse(std::string_view place, std::string_view what) {
+  return Unexpected{Problem{std::string{place}, std::string{what}}};
+}
 
 inline std::string to_string(const Problem& p) { return p.place + ": error: " + p.what; }
 

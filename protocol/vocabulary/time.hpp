@@ -11,6 +11,7 @@
 namespace pitwall {
 
 inline constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+inline constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
 
 struct Duration {
   std::int64_t ns = 0;
@@ -41,6 +42,10 @@ constexpr Duration from_seconds(double s) {
 struct Instant {
   std::int64_t ns = 0;
 
+  // Of what does not come: the deadline of who waits without end.
+  static constexpr Instant max() { return {INT64_MAX}; }
+  constexpr double seconds() const { return static_cast<double>(ns) * 1e-9; }
+  constexpr double milliseconds() const { return static_cast<double>(ns) * 1e-6; }
   constexpr auto operator<=>(const Instant&) const = default;
 };
 
@@ -57,6 +62,7 @@ constexpr Instant& operator+=(Instant& a, Duration d) {
 struct UtcTime {
   std::int64_t ns = 0;
 
+  constexpr double milliseconds() const { return static_cast<double>(ns) * 1e-6; }
   constexpr auto operator<=>(const UtcTime&) const = default;
 };
 

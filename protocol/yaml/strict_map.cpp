@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -329,16 +330,16 @@ Result<Document, Problem> load_text(std::string_view text, const std::string& na
   }
 }
 
-Result<Document, Problem> load_file(const std::filesystem::path& path) {
+Result<Document, Problem> load_file(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
-    return Unexpected{Problem{path.string(), "is a directory"}};
+    return Unexpected{Problem{path, "is a directory"}};
   }
   std::ifstream file(path, std::ios::binary);
-  if (!file) return Unexpected{Problem{path.string(), "cannot open the file"}};
+  if (!file) return Unexpected{Problem{path, "cannot open the file"}};
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (file.bad()) return Unexpected{Problem{path.string(), "cannot read the file"}};
-  return load_text(text, path.string());
+  if (file.bad()) return Unexpected{Problem{path, "cannot read the file"}};
+  return load_text(text, path);
 }
 
 }  // namespace pitwall::yaml

@@ -12,7 +12,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -94,7 +93,7 @@ class Document {
   std::shared_ptr<const Content> content_;
 };
 
-Result<Document, Problem> load_file(const std::filesystem::path& path);
+Result<Document, Problem> load_file(const std::string& path);
 Result<Document, Problem> load_text(std::string_view text, const std::string& name);
 
 // fn(StrictMap&) -> T, then finish() of the root; an InputError on the way becomes the Problem.

@@ -5,15 +5,16 @@
 #include <boost/asio/connect.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/write.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
-#include <boost/beast/websocket.hpp>
+#include <boost/beast/core/buffers_to_string.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/websocket/stream.hpp>
 
 namespace pitwall::outlets::web {
 
 struct Browser::Stream {
+  static constexpr bool kCompressed = false;  // no permessage-deflate
   boost::asio::io_context io;
-  boost::beast::websocket::stream<boost::asio::ip::tcp::socket> socket{io};
+  boost::beast::websocket::stream<boost::asio::ip::tcp::socket, kCompressed> socket{io};
 };
 
 Browser::Browser() : stream_(std::make_unique<Stream>()) {}

@@ -135,6 +135,27 @@ const std::vector<Part> kParts{
     {"tests", {"protocol", "vehicle", "basestation", "hil"}, {"*"}},
 };
 
+// Who includes such a header pays for it with seconds, and a header makes all its readers pay.
+struct HeavyLibrary {
+  std::string_view name;
+  Names headers;  // of the product that may include it: read by files that need it anyway
+};
+
+const std::vector<HeavyLibrary> kHeavyLibraries{
+    {"eigen",
+     {"vehicle/autonomy/control/bicycle_model.hpp", "vehicle/autonomy/control/riccati.hpp",
+      "vehicle/autonomy/localization/ekf_model.hpp",
+      "vehicle/autonomy/localization/ekf_3d_errors.hpp",
+      "vehicle/autonomy/localization/ekf_3d_model.hpp",
+      "vehicle/autonomy/localization/rotation.hpp"}},
+    {"boost", {"basestation/outlets/web/web_engine.hpp"}},
+    {"cli", {}},
+    {"dds", {}},
+    {"yaml", {}},
+    {"pcl", {}},
+    {"opencv", {}},
+};
+
 // A main.cpp wires: its whole top-level folder and the protocol, and the system.
 Part part_of_main(const std::string& path) {
   const std::string_view top = std::string_view{path}.substr(0, path.find('/'));
@@ -185,6 +206,16 @@ bool may_use(const Part& part, std::string_view library) {
          std::ranges::find(part.libraries, library) != part.libraries.end();
 }
 
+// What makes an include heavy: its library, or the table's header that brings a library in.
+const HeavyLibrary* heavy_library_of(std::string_view target) {
+  const std::string_view name = library_of(target);
+  const auto found = std::ranges::find_if(kHeavyLibraries, [&](const HeavyLibrary& library) {
+    return library.name == name ||
+           std::ranges::find(library.headers, target) != library.headers.end();
+  });
+  return found == kHeavyLibraries.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 std::vector<Include> includes_of(const SourceFile& file) {
@@ -225,6 +256,20 @@ std::vector<Finding> check_include_table(const SourceFile& file) {
     }
   }
   if (part.path.empty()) findings.push_back({file.path, 0, "the include table has no such part"});
+  return findings;
+}
+
+std::vector<Finding> check_heavy_headers(const SourceFile& file) {
+  std::vector<Finding> findings;
+  if (!is_header(file) || is_test(file)) return findings;
+  for (const Include& include : includes_of(file)) {
+    const HeavyLibrary* const library = heavy_library_of(include.target);
+    if (library == nullptr) continue;
+    if (std::ranges::find(library->headers, file.path) != library->headers.end()) continue;
+    findings.push_back({file.path, include.line,
+                        include.target + " takes seconds to compile (" +
+                            std::string{library->name} + "): include it in a .cpp"});
+  }
   return findings;
 }
 

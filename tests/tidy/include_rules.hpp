@@ -19,6 +19,9 @@ std::vector<Include> includes_of(const SourceFile& file);
 
 // Project headers and libraries that a part may not include.
 std::vector<Finding> check_include_table(const SourceFile& file);
+// Libraries whose headers take seconds to compile: of the product a .cpp may include them, and the
+// few headers that a table names as the inside of such files: these are heavy then, too.
+std::vector<Finding> check_heavy_headers(const SourceFile& file);
 // x.cpp includes x.hpp first, where there is one (`has_header`).
 std::vector<Finding> check_own_header_first(const SourceFile& file, bool has_header);
 

@@ -10,12 +10,12 @@ bool passes(const std::string& path, const std::string& include) {
   return check_include_table(make_source(path, "#include " + include + "\n")).empty();
 }
 
-struct Case {
+struct IncludeCase {
   std::string path, include;
 };
 
 TEST(IncludeTable, WhatTheDesignAllowsPasses) {
-  const std::vector<Case> cases{
+  const std::vector<IncludeCase> cases{
       {"protocol/vocabulary/time.hpp", "<compare>"},
       {"protocol/can/decode.cpp", "\"protocol/bits/crc.hpp\""},
       {"protocol/can/manifest.cpp", "\"protocol/yaml/document.hpp\""},
@@ -42,11 +42,11 @@ TEST(IncludeTable, WhatTheDesignAllowsPasses) {
       {"tests/hil/x_test.cpp", "\"vehicle/safety/supervisor.hpp\""},
       {"tests/hil/x_test.cpp", "<gtest/gtest.h>"},
   };
-  for (const Case& c : cases) EXPECT_TRUE(passes(c.path, c.include)) << c.path << c.include;
+  for (const IncludeCase& c : cases) EXPECT_TRUE(passes(c.path, c.include)) << c.path << c.include;
 }
 
 TEST(IncludeTable, WhatTheDesignForbidsIsFound) {
-  const std::vector<Case> cases{
+  const std::vector<IncludeCase> cases{
       {"protocol/vocabulary/time.hpp", "\"protocol/can/frame.hpp\""},
       {"protocol/can/decode.cpp", "\"protocol/telemetry/registry/registry.hpp\""},
       {"protocol/telemetry/packet.cpp", "<sodium.h>"},
@@ -78,7 +78,42 @@ TEST(IncludeTable, WhatTheDesignForbidsIsFound) {
       {"hil/plant/tyre.cpp", "\"car.hpp\""},
       {"nowhere/x.cpp", "<vector>"},
   };
-  for (const Case& c : cases) EXPECT_FALSE(passes(c.path, c.include)) << c.path << c.include;
+  for (const IncludeCase& c : cases) EXPECT_FALSE(passes(c.path, c.include)) << c.path << c.include;
+}
+
+bool is_light(const std::string& path, const std::string& include) {
+  return check_heavy_headers(make_source(path, "#include " + include + "\n")).empty();
+}
+
+TEST(HeavyHeaders, AreIncludedByNoHeaderButTheOnesInTheTable) {
+  const std::vector<IncludeCase> cases{
+      {"vehicle/autonomy/planning/plan.hpp", "<Eigen/Core>"},
+      {"basestation/outlets/web/web_server.hpp", "<boost/asio/post.hpp>"},
+      {"vehicle/io/receiver_options.hpp", "<CLI/CLI.hpp>"},
+      {"protocol/dds/domain.hpp", "<fastdds/dds/topic/Topic.hpp>"},
+      {"protocol/yaml/strict_map.hpp", "<yaml-cpp/yaml.h>"},
+      {"vehicle/autonomy/perception/cloud.hpp", "<pcl/point_cloud.h>"},
+      {"vehicle/autonomy/perception/image.hpp", "<opencv2/core.hpp>"},
+      // By way of a header that may.
+      {"vehicle/autonomy/localization/filter.hpp",
+       "\"vehicle/autonomy/localization/ekf_3d_errors.hpp\""},
+  };
+  for (const IncludeCase& c : cases)
+    EXPECT_FALSE(is_light(c.path, c.include)) << c.path << c.include;
+}
+
+TEST(HeavyHeaders, AreFreeToACppToATestAndToTheTable) {
+  const std::vector<IncludeCase> cases{
+      {"vehicle/autonomy/planning/plan.cpp", "<Eigen/Core>"},
+      {"tests/vehicle/autonomy/control/carex.hpp", "<Eigen/Core>"},
+      {"vehicle/autonomy/localization/rotation.hpp", "<Eigen/Geometry>"},
+      {"vehicle/autonomy/localization/ekf_3d_model.hpp",
+       "\"vehicle/autonomy/localization/ekf_3d_errors.hpp\""},
+      {"vehicle/autonomy/localization/filter.hpp", "\"vehicle/autonomy/localization/ekf_3d.hpp\""},
+      {"vehicle/autonomy/localization/datum.hpp", "<GeographicLib/LocalCartesian.hpp>"},
+  };
+  for (const IncludeCase& c : cases)
+    EXPECT_TRUE(is_light(c.path, c.include)) << c.path << c.include;
 }
 
 TEST(IncludeTable, AnIncludeInACommentIsNone) {

@@ -9,8 +9,6 @@
 namespace pitwall::tidy {
 namespace {
 
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-
 // A text with a place in it; blank() moves on and leaves a space, keep() moves on.
 class Blanker {
  public:

@@ -4,12 +4,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cctype>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace pitwall::tidy {
+
+inline bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 struct SourceFile {
   std::string path;  // from the root, with '/'

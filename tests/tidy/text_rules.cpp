@@ -20,17 +20,17 @@ struct Ban {
 };
 
 const Names kClockFolders{"protocol/transport", "tests/benchmarks"};
-const Names kRim{"protocol/transport",
-                 "protocol/recorder",
-                 "protocol/dds",
-                 "vehicle/io",
-                 "basestation/intake",
-                 "basestation/outlets",
-                 "hil/bench",
-                 "hil/guest",
-                 "hil/sweep",
-                 "tests",
-                 "main.cpp"};
+const Names kRimFolders{"protocol/transport",
+                        "protocol/recorder",
+                        "protocol/dds",
+                        "vehicle/io",
+                        "basestation/intake",
+                        "basestation/outlets",
+                        "hil/bench",
+                        "hil/guest",
+                        "hil/sweep",
+                        "tests",
+                        "main.cpp"};
 const Names kPrinting{"hil/verbs",
                       "protocol/transport",
                       "vehicle/io",
@@ -51,10 +51,10 @@ const std::vector<Ban> kBans{
     {"clock_gettime", kClockFolders, "take an Instant argument"},
     {"gettimeofday", kClockFolders, "take a UtcTime argument"},
     {"std::time(", kClockFolders, "take a UtcTime argument"},
-    {"std::thread", kRim, "pure code has one thread; threads live at the rim"},
-    {"std::jthread", kRim, "pure code has one thread; threads live at the rim"},
-    {"std::async", kRim, "pure code has one thread; threads live at the rim"},
-    {"std::mutex", kRim, "pure code has one thread; threads live at the rim"},
+    {"std::thread", kRimFolders, "pure code has one thread; threads live at the rim"},
+    {"std::jthread", kRimFolders, "pure code has one thread; threads live at the rim"},
+    {"std::async", kRimFolders, "pure code has one thread; threads live at the rim"},
+    {"std::mutex", kRimFolders, "pure code has one thread; threads live at the rim"},
     {"rand(", kNowhere, "the seeded generator of the bench"},
     {"srand(", kNowhere, "the seeded generator of the bench"},
     {"random_device", kNowhere, "a seed that is an argument"},
@@ -81,14 +81,12 @@ const std::vector<Ban> kBans{
     {"this_thread::sleep_until", {"protocol/transport"}, "the clock's wait"},
     {"assert(", kNowhere, "CHECK, which is armed in every build"},
     {"M_PI", kNowhere, "std::numbers::pi"},
-    {"getenv(", kRim, "an argument of the program"},
-    {"std::exit(", kRim, "return the error"},
+    {"getenv(", kRimFolders, "an argument of the program"},
+    {"std::exit(", kRimFolders, "return the error"},
     {"strtok(", kNowhere, "std::string_view"},
     {"atof(", kNowhere, "std::from_chars"},
     {"atoi(", kNowhere, "std::from_chars"},
 };
-
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 bool is_allowed(const std::string& path, const Names& places) {
   return std::ranges::any_of(places, [&](std::string_view place) {

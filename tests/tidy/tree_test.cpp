@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "tests/tidy/hidden_names.hpp"
 #include "tests/tidy/include_rules.hpp"
 #include "tests/tidy/shape_rules.hpp"
 #include "tests/tidy/source_tree.hpp"
@@ -44,6 +45,7 @@ TEST(Tree, IsThere) {  // or every rule below would pass for want of files
 }
 
 TEST(Tree, IncludesOnlyWhatTheTableAllows) { EXPECT_EQ(findings_of(check_include_table), ""); }
+TEST(Tree, HeavyHeadersStayInFewFiles) { EXPECT_EQ(findings_of(check_heavy_headers), ""); }
 TEST(Tree, LinesAreShort) { EXPECT_EQ(findings_of(check_line_length), ""); }
 TEST(Tree, BannedCallsAreReplaced) { EXPECT_EQ(findings_of(check_bans), ""); }
 TEST(Tree, HeadersUseNoNamespace) { EXPECT_EQ(findings_of(check_using_namespace), ""); }
@@ -53,6 +55,7 @@ TEST(Tree, OpensWithContractAndLicence) { EXPECT_EQ(findings_of(check_opening), 
 TEST(Tree, FilesAreSmall) { EXPECT_EQ(findings_of(check_file_size), ""); }
 TEST(Tree, FunctionsAreSmall) { EXPECT_EQ(findings_of(check_function_size), ""); }
 TEST(Tree, FileNamesAreNouns) { EXPECT_EQ(findings_of(check_file_name), ""); }
+TEST(Tree, NoFileHidesAFunctionOfAHeader) { EXPECT_EQ(report(check_hidden_names(tree())), ""); }
 TEST(Tree, EveryFileHasItsTest) { EXPECT_EQ(report(check_mirrored_tests(tree())), ""); }
 
 TEST(Tree, OwnHeaderComesFirst) {

@@ -12,7 +12,7 @@ namespace pitwall::gateway {
 namespace {
 
 using can::av21::kMessages;
-constexpr std::size_t kNotFound = kMessages.size();
+constexpr std::size_t kNoRow = kMessages.size();
 
 std::size_t row_index(std::uint32_t id) {
   std::size_t low = 0, high = kMessages.size();
@@ -23,7 +23,7 @@ std::size_t row_index(std::uint32_t id) {
     else
       high = middle;
   }
-  return low < kMessages.size() && kMessages[low].id == id ? low : kNotFound;
+  return low < kMessages.size() && kMessages[low].id == id ? low : kNoRow;
 }
 
 using world::Monitor;
@@ -146,7 +146,7 @@ void receive(const InboundParams& params, InboundState& state, const can::Receiv
   }
   if (receive_also(params, state, received)) return;
   const std::size_t index = row_index(frame.id);
-  if (index == kNotFound) {
+  if (index == kNoRow) {
     refuses(params, state, Monitor::kFrameShape);
     ++state.refused.unknown_id;
     return;

@@ -9,7 +9,6 @@
 
 namespace pitwall::io {
 
-inline constexpr int kExitUsage = 2;
 inline constexpr int kPortMax = 65'535;
 
 std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) {

@@ -6,12 +6,6 @@
 #include "vehicle/io/receiver_options.hpp"
 
 namespace pitwall::io {
-namespace {
-
-constexpr int kExitUsage = 2;
-
-}  // namespace
-
 std::variant<GuardianArguments, int> parse_guardian_arguments(int argc, const char* const* argv) {
   GuardianArguments args;
   CLI::App app{"pitwall-guardian: stops the car when its process falls silent"};

@@ -11,10 +11,6 @@ namespace {
 constexpr std::string_view kForms =
     "not udp:[ADDRESS:]PORT, tcp:ADDRESS:PORT or serial:/dev/DEVICE[:BAUD]";
 
-Unexpected<Problem> refuse(std::string_view text, std::string_view what) {
-  return Unexpected{Problem{std::string(text), std::string(what)}};
-}
-
 bool take_front(std::string_view& text, std::string_view front) {
   if (!text.starts_with(front)) return false;
   text.remove_prefix(front.size());

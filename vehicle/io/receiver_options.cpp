@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vehicle/io/receiver_options.hpp"
 
+#include <CLI/CLI.hpp>
+
 namespace pitwall::io {
 namespace {
 

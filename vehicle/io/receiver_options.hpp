@@ -4,14 +4,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "vehicle/io/receiver_link.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace pitwall::io {
+
+inline constexpr int kExitUsage = 2;  // the command line is wrong
 
 class ReceiverOptions {
  public:

@@ -97,10 +97,6 @@ void take_up(Pair<Value>& pair) {
   if (read_newest(pair, own) && own.sequence > pair.newest) pair.newest = own.sequence;
 }
 
-Unexpected<Problem> refuse(const std::string& path, const std::string& what) {
-  return Unexpected{Problem{path, what}};
-}
-
 }  // namespace
 
 struct SharedStop::Layout {

@@ -15,17 +15,18 @@ constexpr std::size_t kMostOfAPath = 1 + telemetry::kSpares;
 constexpr unsigned kFirstByte = 24;
 constexpr std::uint32_t kLoopbackNet = 127;  // 127.0.0.0/8, RFC 1122 3.2.1.3
 
-Unexpected<Problem> refuse(std::string_view place, const std::string& what) {
+Unexpected<Problem> refuse_radio(std::string_view place, const std::string& what) {
   return Unexpected{Problem{"--radio " + std::string{place}, what}};
 }
 
 Result<UdpAddress, Problem> parse_address(std::string_view text) {
   if (text.find(':') == std::string_view::npos) {
-    return refuse(text, "has no port, expected ADDRESS:PORT with an IPv4 address");
+    return refuse_radio(text, "has no port, expected ADDRESS:PORT with an IPv4 address");
   }
   const auto address = transport::parse_udp_address(text);
-  if (!address) return refuse(text, address.error().what + ", expected ADDRESS:PORT");
-  if (address->port == 0) return refuse(text, "the base station has no port, expected 1 to 65535");
+  if (!address) return refuse_radio(text, address.error().what + ", expected ADDRESS:PORT");
+  if (address->port == 0)
+    return refuse_radio(text, "the base station has no port, expected 1 to 65535");
   return address;
 }
 
@@ -40,13 +41,14 @@ Result<StationAddresses, Problem> parse_list(const std::string& list) {
     rest.remove_prefix(comma + 1);
   }
   if (addresses.size() > kMostOfAPath) {
-    return refuse(list, std::to_string(addresses.size()) + " addresses, expected one to " +
-                            std::to_string(kMostOfAPath) + " of a path");
+    return refuse_radio(list, std::to_string(addresses.size()) + " addresses, expected one to " +
+                                  std::to_string(kMostOfAPath) + " of a path");
   }
   if (std::ranges::any_of(addresses, is_loopback) && !std::ranges::all_of(addresses, is_loopback)) {
-    return refuse(list,
-                  "loopback beside an address of another machine, expected all on this machine or "
-                  "none: one socket does not reach both");
+    return refuse_radio(
+        list,
+        "loopback beside an address of another machine, expected all on this machine or "
+        "none: one socket does not reach both");
   }
   return addresses;
 }
@@ -68,7 +70,7 @@ Result<std::vector<StationAddresses>, Problem> parse_station_addresses(
     if (!addresses) return Unexpected{addresses.error()};
     for (const UdpAddress& address : *addresses) {
       if (std::ranges::find(seen, address) != seen.end()) {
-        return refuse(to_string(address), "is named twice, expected each address once");
+        return refuse_radio(to_string(address), "is named twice, expected each address once");
       }
       seen.push_back(address);
     }

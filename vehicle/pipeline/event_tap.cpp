@@ -9,7 +9,7 @@ namespace pitwall::pipeline {
 namespace {
 
 template <class E>
-std::uint8_t number_of(E value) {
+std::uint8_t byte_of(E value) {
   return static_cast<std::uint8_t>(value);
 }
 
@@ -21,14 +21,14 @@ const TickEvents& EventTap::look(const Car& car, const Outputs& out, Instant now
   events_.clear();
   look_at_faults(car.supervisor.log, out.chosen.causes, now);
   if (out.chosen.mode != mode_) {
-    add(make_event(telemetry::ModeEvent{number_of(mode_), number_of(out.chosen.mode),
-                                        number_of(out.chosen.cause)},
-                   now));
+    add(make_event(
+        telemetry::ModeEvent{byte_of(mode_), byte_of(out.chosen.mode), byte_of(out.chosen.cause)},
+        now));
     mode_ = out.chosen.mode;
   }
   if (out.chosen.arming != arming_) {
     arming_ = out.chosen.arming;
-    add(make_event(telemetry::ArmingEvent{number_of(arming_)}, now));
+    add(make_event(telemetry::ArmingEvent{byte_of(arming_)}, now));
   }
   look_at_flags(out.heard.race_control, now);
   return events_;
@@ -40,7 +40,7 @@ void EventTap::look_at_faults(const safety::FaultLog& log, safety::CauseSet caus
   const std::size_t listed = fresh > log.size() ? log.size() : static_cast<std::size_t>(fresh);
   for (std::size_t i = log.size() - listed; i < log.size(); ++i) {
     const safety::FaultEntry& fault = log.entry(i);
-    add(make_event(telemetry::FaultEvent{number_of(fault.cause), true, value_of(fault.value)},
+    add(make_event(telemetry::FaultEvent{byte_of(fault.cause), true, value_of(fault.value)},
                    fault.at));
     told_.add(fault.cause);
   }
@@ -48,7 +48,7 @@ void EventTap::look_at_faults(const safety::FaultLog& log, safety::CauseSet caus
   const safety::CauseSet ended = told_.without(causes);
   for (std::size_t i = 1; i < safety::kCauses && !ended.empty(); ++i)
     if (const auto cause = static_cast<safety::Cause>(i); ended.has(cause))
-      add(make_event(telemetry::FaultEvent{number_of(cause), false, 0.0F}, now));
+      add(make_event(telemetry::FaultEvent{byte_of(cause), false, 0.0F}, now));
   told_ = told_.without(ended);
 }
 
@@ -56,7 +56,7 @@ void EventTap::look_at_flags(const world::RaceControl& race, Instant now) {
   if (!race.ever_heard) return;
   const auto flag = [&](telemetry::FlagKind which, auto& was, auto is) {
     if (is == was) return;
-    add(make_event(telemetry::FlagEvent{which, number_of(was), number_of(is)}, now));
+    add(make_event(telemetry::FlagEvent{which, byte_of(was), byte_of(is)}, now));
     was = is;
   };
   flag(telemetry::FlagKind::kTrack, track_, race.track);

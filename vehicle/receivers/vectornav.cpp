@@ -31,7 +31,7 @@ std::uint32_t type_of(std::uint8_t fix) {
   }
 }
 
-std::uint32_t status_of(std::uint32_t type) {
+std::uint32_t solution_status(std::uint32_t type) {
   return type == world::kPositionNone ? kInsufficientObservations : world::kSolutionComputed;
 }
 
@@ -120,7 +120,7 @@ void VectorNav::use_position(const gnss::VectorNavSolution& s, gnss::GpsTime val
     return static_cast<void>(++writer_.counters().out_of_range);
   const std::uint32_t type = type_of(s.fix);
   writer_.write(Stream::kPosition, valid, arrival,
-                world::GnssPosition{.solution_status = status_of(type),
+                world::GnssPosition{.solution_status = solution_status(type),
                                     .position_type = type,
                                     .latitude_deg = s.latitude_deg,
                                     .longitude_deg = s.longitude_deg,
@@ -141,7 +141,7 @@ void VectorNav::use_velocity(const gnss::VectorNavSolution& s, gnss::GpsTime val
     return static_cast<void>(++writer_.counters().out_of_range);
   const std::uint32_t type = type_of(s.fix);
   writer_.write(Stream::kVelocity, valid, arrival,
-                world::GnssVelocity{.solution_status = status_of(type),
+                world::GnssVelocity{.solution_status = solution_status(type),
                                     .velocity_type = type,
                                     .horizontal_mps = horizontal_mps,
                                     .track_over_ground_rad = track_rad,

@@ -14,13 +14,13 @@ using world::ActuatorCommand;
 using world::Mode;
 using world::Validity;
 
-constexpr double kTickMax_s = 0.1;          // a longer pause does not open the slew limits
+constexpr double kSlewTickMax_s = 0.1;      // a longer pause does not open the slew limits
 constexpr double kBrakeTouched_kpa = 50.0;  // with this much brake the throttle yields
 
 double tyres_c(const Tick& t) { return world::coldest_c(t.in.signals.tyre_temperature_c, t.now); }
 
 double ramp_dt_s(const Tick& t) {
-  return std::clamp((t.now - t.state.last_chosen).seconds(), 0.0, kTickMax_s);
+  return std::clamp((t.now - t.state.last_chosen).seconds(), 0.0, kSlewTickMax_s);
 }
 
 // At standstill: the brake is held and the steering stays where it is.

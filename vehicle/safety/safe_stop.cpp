@@ -11,7 +11,7 @@ using world::ActuatorCommand;
 using world::Trajectory;
 using world::TrajectoryPoint;
 
-constexpr double kTickMax_s = 0.1;  // a longer pause does not jump along the path
+constexpr double kAdvanceMax_s = 0.1;  // a longer pause does not jump along the path
 
 double finite_or(double value, double fallback) { return std::isfinite(value) ? value : fallback; }
 
@@ -75,7 +75,7 @@ double decel_of(const SafeStopParams& params, const SafeStopInputs& in, const Wa
   return std::clamp(-w.accel_mps2, params.decel_min_mps2, params.decel_max_mps2);
 }
 
-bool is_located(const world::EgoState& ego) {
+bool has_pose(const world::EgoState& ego) {
   return (ego.validity == world::Validity::kGood ||
           ego.validity == world::Validity::kDeadReckoning) &&
          std::isfinite(ego.x_m + ego.y_m + ego.yaw_rad + ego.vx_mps + ego.vy_mps);
@@ -145,9 +145,9 @@ ActuatorCommand open_loop(const SafeStopParams& params, SafeStopState& state,
 
 ActuatorCommand stop_along(const SafeStopParams& params, SafeStopState& state,
                            const SafeStopInputs& in, Instant now) {
-  const bool located = is_located(in.ego) && in.stop.points.size() >= 2;
+  const bool located = has_pose(in.ego) && in.stop.points.size() >= 2;
   if (!state.active || (state.located && !located)) state = begin(params, in, state.following, now);
-  const double dt_s = std::clamp((now - state.last).seconds(), 0.0, kTickMax_s);
+  const double dt_s = std::clamp((now - state.last).seconds(), 0.0, kAdvanceMax_s);
   state.last = now;
   advance(params, state, in.speed_mps, dt_s);
   if (located && !state.located) start_following(in, state);

@@ -33,21 +33,17 @@ const std::array<Shape, 8>& shapes() {
   return kShapes;
 }
 
-Unexpected<Problem> wrong(std::string_view place, std::string what) {
-  return Unexpected{Problem{std::string{place}, std::move(what)}};
-}
-
 Result<bool, Problem> fits(const JsonValue& value) {
   const std::string type = value.text("type");
   const auto shape = std::ranges::find(shapes(), std::string_view{type}, &Shape::type);
-  if (shape == shapes().end()) return wrong("type", "none that is known");
+  if (shape == shapes().end()) return refuse("type", "none that is known");
   for (const std::string_view member : shape->numbers)
-    if (!std::isfinite(value.number(member))) return wrong(member, "a number");
+    if (!std::isfinite(value.number(member))) return refuse(member, "a number");
   for (const std::string_view member : shape->texts)
-    if (value.text(member).empty()) return wrong(member, "a text");
+    if (value.text(member).empty()) return refuse(member, "a text");
   for (const std::string_view member : shape->lists) {
     const JsonValue* const found = value.find(member);
-    if (found == nullptr || !found->is_list()) return wrong(member, "a list");
+    if (found == nullptr || !found->is_list()) return refuse(member, "a list");
   }
   return true;
 }
@@ -76,21 +72,21 @@ Result<bool, Problem> BenchBook::keep(const JsonValue& value, std::string_view l
     refusal_ = Problem{"bench." + value.text("place"), value.text("what")};
     return true;
   }
-  if (desk_.empty()) return wrong("type", "the desk has not said hello");
+  if (desk_.empty()) return refuse("type", "the desk has not said hello");
   if (type == "scenario") return keep_scenario(line);
   if (type == "run") return keep_run(value, line);
-  if (value.number("run") != run_) return wrong("run", "another one than the newest");
+  if (value.number("run") != run_) return refuse("run", "another one than the newest");
   if (type == "event") return keep_event(value, line);
   tell("bench_" + type, line);
   return true;
 }
 
 Result<bool, Problem> BenchBook::keep_hello(const JsonValue& value) {
-  if (value.number("protocol") != kProtocol) return wrong("protocol", "not version 1");
-  if (!value.flag("simulation")) return wrong("simulation", "true");
+  if (value.number("protocol") != kProtocol) return refuse("protocol", "not version 1");
+  if (!value.flag("simulation")) return refuse("simulation", "true");
   const double count = value.number("scenarios");
   if (!(count >= 0.0 && count <= static_cast<double>(kMaxScenarios)) || count != std::floor(count))
-    return wrong("scenarios", "a whole number up to " + std::to_string(kMaxScenarios));
+    return refuse("scenarios", "a whole number up to " + std::to_string(kMaxScenarios));
   if (value.text("desk") != desk_) {
     desk_ = value.text("desk");
     run_ = 0.0;
@@ -104,8 +100,9 @@ Result<bool, Problem> BenchBook::keep_hello(const JsonValue& value) {
 }
 
 Result<bool, Problem> BenchBook::keep_scenario(std::string_view line) {
-  if (scenarios_ >= announced_) return wrong("scenario", "more than were announced");
-  if (list_.size() + line.size() > kListMax_bytes) return wrong("scenario", "the list is too long");
+  if (scenarios_ >= announced_) return refuse("scenario", "more than were announced");
+  if (list_.size() + line.size() > kListMax_bytes)
+    return refuse("scenario", "the list is too long");
   if (!list_.empty()) list_ += ", ";
   list_ += line;
   complete_ = ++scenarios_ == announced_;
@@ -125,12 +122,12 @@ Result<bool, Problem> BenchBook::keep_run(const JsonValue& value, std::string_vi
 }
 
 Result<bool, Problem> BenchBook::keep_event(const JsonValue& value, std::string_view line) {
-  if (value.find("text") == nullptr) return wrong("text", "a text");
+  if (value.find("text") == nullptr) return refuse("text", "a text");
   if (events_again_ < events_) {
     ++events_again_;
     return true;
   }
-  if (events_ >= kEventsMax) return wrong("event", "more than a run has");
+  if (events_ >= kEventsMax) return refuse("event", "more than a run has");
   events_again_ = ++events_;
   tell("bench_event", line, true);
   return true;

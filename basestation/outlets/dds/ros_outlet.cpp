@@ -28,7 +28,6 @@ using ros_view::BaseSight;
 
 constexpr Duration kLookEvery = milliseconds(100);
 constexpr int kTfDepth = 100, kUsualDepth = 10, kLatchedDepth = 1;
-constexpr Instant kForever{INT64_MAX};
 
 pitwall::dds::Quality quality_of(const ros_view::Topic& topic) {
   if (topic.latched) return {.reliable = true, .latched = true, .depth = kLatchedDepth};

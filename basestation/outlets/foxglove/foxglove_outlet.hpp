@@ -7,7 +7,6 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <memory>
 #include <mutex>
 #include <string_view>
@@ -31,7 +30,7 @@ class FoxgloveOutlet : public Outlet {
   transport::UdpAddress local() const { return desk_->local(); }
   void packet(const intake::Station& station, const telemetry::Arrival& arrival) override;
   void serve(intake::Station& station, Instant now) override;
-  Instant due() const override { return look_ ? looked_ + kLookEvery : kNever; }
+  Instant due() const override { return look_ ? looked_ + kLookEvery : Instant::max(); }
   void text(recorder::Topic topic, Instant at, std::string_view json) {
     feed_.text(topic, at, json);
   }
@@ -39,8 +38,6 @@ class FoxgloveOutlet : public Outlet {
   feed::Feed& feed() { return feed_; }
 
  private:
-  static constexpr Instant kNever{std::numeric_limits<std::int64_t>::max()};
-
   FoxgloveOutlet(std::unique_ptr<Desk> desk, Look look);
   void run();
 

@@ -7,11 +7,7 @@
 #include "protocol/transport/realtime.hpp"
 
 namespace pitwall::outlets::lcm {
-namespace {
-
-constexpr Instant kForever{std::numeric_limits<std::int64_t>::max()};
-
-}  // namespace
+namespace {}  // namespace
 
 Result<std::unique_ptr<LcmOutlet>, Problem> LcmOutlet::start(const LcmUrl& url,
                                                              const recorder::ClockMap& clock,
@@ -47,7 +43,7 @@ void LcmOutlet::run() {
   transport::give_way();
   const int fd = feed_.fd();
   for (bool more = true; more;) {
-    transport::wait_readable({&fd, 1}, kForever);
+    transport::wait_readable({&fd, 1}, Instant::max());
     more = !feed_.closed();
     for (const feed::Item& item : feed_.take()) {
       if (const auto* const sample = std::get_if<std::unique_ptr<const feed::Sample>>(&item)) {

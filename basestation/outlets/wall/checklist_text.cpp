@@ -6,7 +6,6 @@
 namespace pitwall::outlets::wall {
 
 std::string checklist_text(const std::vector<command::Check>& checks, Instant now) {
-  constexpr double kNanosecondsPerMillisecond = 1e6;
   json::Array list;
   for (const command::Check& check : checks) {
     list.json(json::Object{}
@@ -19,7 +18,7 @@ std::string checklist_text(const std::vector<command::Check>& checks, Instant no
   }
   return json::Object{}
       .text("type", "checklist")
-      .number("time_ms", static_cast<double>(now.ns) / kNanosecondsPerMillisecond)
+      .number("time_ms", now.milliseconds())
       .flag("go", command::all_go(checks))
       .json("checks", list.str())
       .str();

@@ -17,10 +17,6 @@ using Done = Result<bool, Problem>;
 
 constexpr const char* kNotHolding = "you do not hold the authority";
 
-Unexpected<Problem> refused(std::string place, std::string what) {
-  return Unexpected{Problem{std::move(place), std::move(what)}};
-}
-
 std::string number(double value, const char* unit) {
   std::array<char, 48> text{};
   std::snprintf(text.data(), text.size(), "%.1f %s", value, unit);
@@ -58,7 +54,7 @@ struct Doing {
   Done say(const char* place, const std::string& what) const {
     if (!holds()) {
       wall.audit.add(now, by.name, what, std::string{"refused: "} + kNotHolding);
-      return refused(place, kNotHolding);
+      return refuse(place, kNotHolding);
     }
     wall.audit.add(now, by.name, what, "done");
     return true;
@@ -109,9 +105,9 @@ struct Doing {
     return true;
   }
   Done operator()(const AskReleaseStop&) const {
-    if (!holds()) return refused("release_stop", kNotHolding);
+    if (!holds()) return refuse("release_stop", kNotHolding);
     const double challenge = radio().state().values[field("mode.stop_challenge")];
-    if (!(challenge > 0.0)) return refused("release_stop", "the car says of no latched stop");
+    if (!(challenge > 0.0)) return refuse("release_stop", "the car says of no latched stop");
     const auto ticket =
         wall.desk.stage(by, telemetry::CommandType::kReleaseStop, challenge, gate_inputs());
     if (!ticket) return Unexpected{ticket.error()};
@@ -140,13 +136,13 @@ struct Doing {
       const auto ticket = wall.desk.stage(by, row.type, ask.argument, gate_inputs());
       return ticket ? Done{true} : Done{Unexpected{ticket.error()}};
     }
-    return refused("stage.name", "no such command");
+    return refuse("stage.name", "no such command");
   }
   Done operator()(const AskSend& ask) const {
     return wall.desk.send(ask.ticket, by, override_of(ask), gate_inputs(), radio());
   }
   Done operator()(const AskCancel& ask) const { return wall.desk.cancel(ask.ticket, by, now); }
-  Done operator()(const AskPlayback&) const { return refused("playback", "this is no replay"); }
+  Done operator()(const AskPlayback&) const { return refuse("playback", "this is no replay"); }
   Done operator()(const AskNotice& ask) const {
     return judge(picture::NoticeAct{.notice = ask.id, .send = ask.send, .by = by.name});
   }
@@ -188,7 +184,7 @@ struct Doing {
   Done operator()(const AskBench& ask) const {
     Done asked = wall.bench != nullptr
                      ? wall.bench->ask(ask.wish, by.console, by.name)
-                     : Done{refused("bench", "this base knows of no bench desk (--bench)")};
+                     : Done{refuse("bench", "this base knows of no bench desk (--bench)")};
     wall.audit.add(now, by.name, text_of(ask.wish),
                    asked ? "sent" : "refused: " + asked.error().what);
     return asked;

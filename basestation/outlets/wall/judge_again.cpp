@@ -9,16 +9,9 @@
 #include "protocol/recorder/segment_folder.hpp"
 #include "protocol/recording/mcap_reader.hpp"
 #include "protocol/transport/file.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::outlets::wall {
-namespace {
-
-std::span<const std::uint8_t> as_bytes(std::string_view text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
-
-}  // namespace
-
 void JudgeAgain::state(const telemetry::Snapshot& state, telemetry::GroupSet groups,
                        Instant received) {
   if (watch_) {

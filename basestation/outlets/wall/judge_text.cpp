@@ -24,8 +24,6 @@ using picture::LinkFigures;
 using picture::NoticeAct;
 using picture::WatchInput;
 
-constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
-
 template <class Struct, class Member>
 using Members = std::pair<std::string_view, Member Struct::*>;
 
@@ -150,7 +148,7 @@ struct Writer {
 
 Object begun(const char* type, Instant now) {
   Object out;
-  out.text("type", type).number("time_ms", now.ns / kNanosecondsPerMillisecond);
+  out.text("type", type).number("time_ms", (now - Instant{}) / milliseconds(1));
   return out;
 }
 

@@ -11,8 +11,6 @@ namespace {
 
 using telemetry::field;
 
-constexpr double kNanosecondsPerMillisecond = 1e6;
-
 // Times in a text are those of the clock that it was told on: only differences count.
 Instant entered_at(const json::JsonValue& text, Instant told) {
   const double age_ms = text.number("time_ms") - text.number("fuel_ms");

@@ -22,7 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kHeadBytes = 64 * 1'024;  // in front of the first chunk: what the run was
-constexpr double kNanosecondsPerMillisecond = 1e6;
 
 std::optional<int> digits(std::string_view text, std::size_t at, std::size_t count) {
   int value = 0;
@@ -83,7 +82,7 @@ std::optional<Recording> look_into(const fs::path& folder) {
 
 std::string line(const Recording& recording, std::string_view track) {
   const auto ms = [](const std::optional<UtcTime>& at) {
-    return at ? json::number(static_cast<double>(at->ns) / kNanosecondsPerMillisecond) : "null";
+    return at ? json::number(at->milliseconds()) : "null";
   };
   return json::Object{}
       .text("name", recording.name)

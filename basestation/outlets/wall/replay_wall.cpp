@@ -15,10 +15,7 @@
 namespace pitwall::outlets::wall {
 namespace {
 
-constexpr double kNanosecondsPerMillisecond = 1e6;
 constexpr Duration kTurn = milliseconds(40);  // 25 pictures a second at most
-
-double ms(Instant at) { return static_cast<double>(at.ns) / kNanosecondsPerMillisecond; }
 
 }  // namespace
 
@@ -89,9 +86,9 @@ void ReplayWall::tell(Duration passed) {
 std::string ReplayWall::playback_text() const {
   return json::Object{}
       .text("type", "playback")
-      .number("begin_ms", ms(player_.begin()))
-      .number("end_ms", ms(player_.end()))
-      .number("now_ms", ms(player_.now()))
+      .number("begin_ms", player_.begin().milliseconds())
+      .number("end_ms", player_.end().milliseconds())
+      .number("now_ms", player_.now().milliseconds())
       .number("speed", player_.ended() && player_.speed() > 0.0 ? 0.0 : player_.speed())
       .number("jumps", jumps_)
       .str();

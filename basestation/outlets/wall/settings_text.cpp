@@ -62,10 +62,6 @@ std::string settings_text(const command::SettingsDesk& desk, const alarms::Alarm
 }
 
 std::string expected_text(const PeopleSaid& said, double fuel_left_l, Instant now) {
-  constexpr double kNanosecondsPerMillisecond = 1e6;
-  const auto ms = [](Instant at) {
-    return static_cast<double>(at.ns) / kNanosecondsPerMillisecond;
-  };
   const bool loaded = !std::isnan(said.expected.fuel_loaded_l);
   return Object{}
       .text("type", "expected")
@@ -73,10 +69,10 @@ std::string expected_text(const PeopleSaid& said, double fuel_left_l, Instant no
       .text("round_speed_by", said.round_speed_by)
       .number("fuel_loaded_l", said.expected.fuel_loaded_l)
       .text("fuel_by", said.fuel_by)
-      .number("fuel_ms", loaded ? ms(said.fuel_at) : kUnset)
+      .number("fuel_ms", loaded ? said.fuel_at.milliseconds() : kUnset)
       .number("fuel_left_l", loaded ? fuel_left_l : kUnset)
       .number("track_flag", said.expected.track_flag)
-      .number("time_ms", ms(now))
+      .number("time_ms", now.milliseconds())
       .str();
 }
 

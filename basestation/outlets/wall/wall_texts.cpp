@@ -15,9 +15,8 @@ namespace {
 using json::Array;
 using json::Object;
 
-double ms(Instant at) { return static_cast<double>(at.ns) * 1e-6; }
 std::string ms_or_null(const std::optional<Instant>& at) {
-  return at ? json::number(ms(*at)) : "null";
+  return at ? json::number(at->milliseconds()) : "null";
 }
 std::string text_or_null(const std::string& text) {
   return text.empty() ? "null" : json::quoted(text);
@@ -31,7 +30,7 @@ std::string listed_text(const alarms::ListedAlarm& alarm) {
       .text("response", alarm.response)
       .text("priority", alarms::text_of(alarm.priority))
       .text("state", alarms::text_of(alarm.state))
-      .number("since_ms", ms(alarm.since))
+      .number("since_ms", alarm.since.milliseconds())
       .number("value", alarm.value)
       .number("count", alarm.count)
       .flag("first_up", alarm.first_up)
@@ -64,7 +63,7 @@ std::string times_text(const command::Ticket& ticket) {
   Object times;
   for (std::size_t i = 0; i < command::kSteps; ++i) {
     if (ticket.at[i]) {
-      times.number(command::text_of(static_cast<command::Step>(i)), ms(*ticket.at[i]));
+      times.number(command::text_of(static_cast<command::Step>(i)), ticket.at[i]->milliseconds());
     }
   }
   return times.str();
@@ -159,7 +158,7 @@ std::string alarms_text(const alarms::Engine& engine) {
 std::string alarm_event_text(const alarms::AlarmEvent& event) {
   return Object{}
       .text("type", "alarm_event")
-      .number("time_ms", ms(event.at))
+      .number("time_ms", event.at.milliseconds())
       .number("id", event.id)
       .text("key", event.key)
       .text("from", alarms::text_of(event.from))
@@ -183,11 +182,12 @@ std::string authority_text(const command::AuthorityTalk& talk, const telemetry::
       .number("holder", holder)
       .json("holder_name", held ? json::quoted(talk.holder_person().name) : "null")
       .number("epoch", values[telemetry::field("authority.epoch")])
-      .json("expires_ms", held && !std::isnan(renewed_ms) ? json::number(ms(now + left)) : "null")
+      .json("expires_ms",
+            held && !std::isnan(renewed_ms) ? json::number((now + left).milliseconds()) : "null")
       .json("request", waiting ? Object{}
                                      .number("by", waiting->by.console)
                                      .text("name", waiting->by.name)
-                                     .number("until_ms", ms(waiting->until))
+                                     .number("until_ms", waiting->until.milliseconds())
                                      .str()
                                : "null")
       .str();
@@ -216,7 +216,7 @@ std::string audit_text(const command::AuditLine& line) {
   return Object{}
       .text("type", "audit")
       .number("number", line.number)
-      .number("time_ms", ms(line.at))
+      .number("time_ms", line.at.milliseconds())
       .text("who", line.who)
       .text("what", line.what)
       .text("result", line.result)
@@ -229,7 +229,7 @@ std::string notice_text(const alarms::Notice& notice) {
       .text("type", "notice")
       .number("id", notice.id)
       .text("kind", alarms::text_of(notice.kind))
-      .number("time_ms", ms(notice.at))
+      .number("time_ms", notice.at.milliseconds())
       .text("text", notice.text)
       .text("evidence", notice.evidence)
       .text("state", kFates[static_cast<std::size_t>(notice.fate)])
@@ -255,7 +255,7 @@ std::string fuel_text(const picture::FuelLeft& fuel) {
 std::string event_text(const telemetry::Event& event) {
   return Object{}
       .text("type", "event")
-      .number("time_ms", ms(event.at))
+      .number("time_ms", event.at.milliseconds())
       .text("text", outlets::event_text(event))
       .text("severity", severity_of(event))
       .str();
@@ -264,7 +264,7 @@ std::string event_text(const telemetry::Event& event) {
 std::string mark_text(const std::string& text, const std::string& by, Instant now) {
   return Object{}
       .text("type", "mark")
-      .number("time_ms", ms(now))
+      .number("time_ms", now.milliseconds())
       .text("text", text)
       .text("by", by)
       .str();
@@ -287,7 +287,7 @@ std::string link_text(const LinkSaid& said, Instant now) {
   return Object{}
       .text("type", "link")
       .text("state", text_of(said.state))
-      .number("since_ms", ms(said.since))
+      .number("since_ms", said.since.milliseconds())
       .json("paths", paths.str())
       .json("groups", groups_text(said, now))
       .str();

@@ -5,11 +5,15 @@
 #pragma once
 
 #include <array>
+#include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
-#include <boost/beast/websocket.hpp>
+#include <boost/beast/core/buffers_to_string.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/message.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/beast/websocket/stream.hpp>
 #include <chrono>
 #include <deque>
 #include <map>
@@ -35,7 +39,8 @@ inline constexpr auto kHttpPatience = std::chrono::seconds(15);
 inline constexpr auto kSilence = std::chrono::seconds(60);  // of a socket, pings unanswered
 inline constexpr auto kClosing = std::chrono::seconds(2);
 inline constexpr int kSendBuffer = 64 * 1'024;  // what waits is to wait where it can be dropped
-inline constexpr std::size_t kPostsMax = 4'096, kNewsMax = 8'192;
+inline constexpr bool kCompressed = false;      // no permessage-deflate
+inline constexpr std::size_t kNewsMax = 8'192;
 
 inline std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 
@@ -197,17 +202,18 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
       self->write();
     };
     stream_.text(!current_->frame && !current_->binary);
+    stream_.async_write(parts_of_current(), std::move(done));
+  }
+
+  // Two of every message, so that one kind of write serves all; empty ones write nothing.
+  std::array<asio::const_buffer, 2> parts_of_current() {
     if (const auto& bytes = current_->binary) {
-      const std::array<asio::const_buffer, 2> parts{
-          asio::buffer(bytes->head.data(), bytes->head_bytes),
-          bytes->body ? asio::buffer(*bytes->body) : asio::const_buffer{}};
-      return stream_.async_write(parts, std::move(done));
+      return {asio::buffer(bytes->head.data(), bytes->head_bytes),
+              bytes->body ? asio::buffer(*bytes->body) : asio::const_buffer{}};
     }
-    if (!current_->frame) return stream_.async_write(asio::buffer(current_->text), std::move(done));
+    if (!current_->frame) return {asio::buffer(current_->text), asio::const_buffer{}};
     header_ = header_of(*current_->frame, queue_.dropped());
-    const std::array<asio::const_buffer, 2> parts{asio::buffer(header_),
-                                                  asio::buffer(current_->frame->entries)};
-    stream_.async_write(parts, std::move(done));
+    return {asio::buffer(header_), asio::buffer(current_->frame->entries)};
   }
 
   void gone() {
@@ -221,7 +227,7 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
   }
 
   Engine& engine_;
-  websocket::stream<beast::tcp_stream> stream_;
+  websocket::stream<beast::tcp_stream, kCompressed> stream_;
   asio::steady_timer timer_;
   ClientId client_;
   Identity who_;

@@ -5,6 +5,10 @@
 #include <unistd.h>
 
 #include <boost/asio/post.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/serializer.hpp>
 #include <exception>
 #include <optional>
 
@@ -95,16 +99,25 @@ class WebServer::Engine::HttpSession : public std::enable_shared_from_this<HttpS
     response_.content_length(answer.body ? answer.body->size() : 0);
     if (answer.body && !only_head) response_.body() = *answer.body;
     stream_.expires_after(kHttpPatience);
-    serializer_.emplace(response_);
-    auto done = [self = shared_from_this(), keep_alive](error_code failed, std::size_t) {
-      if (failed || !keep_alive) return self->shut();
-      self->read();
-    };
-    if (only_head) {
-      http::async_write_header(stream_, *serializer_, std::move(done));
-    } else {
-      http::async_write(stream_, *serializer_, std::move(done));
-    }
+    head_ = head_of(response_);
+    const std::array<asio::const_buffer, 2> parts{asio::buffer(head_),
+                                                  asio::buffer(response_.body())};
+    asio::async_write(stream_, parts,
+                      [self = shared_from_this(), keep_alive](error_code failed, std::size_t) {
+                        if (failed || !keep_alive) return self->shut();
+                        self->read();
+                      });
+  }
+
+  // As text, so that one kind of write serves all answers.
+  static std::string head_of(http::response<http::string_body>& response) {
+    http::response_serializer<http::string_body> serializer{response};
+    serializer.split(true);
+    std::string head;
+    error_code never;
+    serializer.next(
+        never, [&head](error_code&, const auto& parts) { head = beast::buffers_to_string(parts); });
+    return head;
   }
 
   void shut() {
@@ -117,7 +130,7 @@ class WebServer::Engine::HttpSession : public std::enable_shared_from_this<HttpS
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
   http::response<http::string_body> response_;
-  std::optional<http::response_serializer<http::string_body>> serializer_;
+  std::string head_;
   bool handed_on_ = false;
 };
 

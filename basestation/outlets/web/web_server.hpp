@@ -62,6 +62,7 @@ class WebServer {
   static constexpr std::size_t kConnections = 300;
   static constexpr std::size_t kUnhandled = 16;  // requests of one client under way
   static constexpr std::size_t kCars = 4;
+  static constexpr std::size_t kPostsMax = 4'096;  // messages that wait for the web thread
 
   static Result<std::unique_ptr<WebServer>, Problem> start(transport::UdpAddress listen,
                                                            HttpConfig config);

@@ -12,7 +12,7 @@ namespace {
 constexpr FieldIndex kActive = field("joystick.active"), kNumber = field("joystick.sample"),
                      kAge = field("joystick.sample_age"), kCap = field("joystick.throttle_cap"),
                      kBrake = field("joystick.brake");
-constexpr auto kNumbers = static_cast<std::uint32_t>(kFields[kNumber].quantized().count());
+constexpr auto kSamples = static_cast<std::uint32_t>(kFields[kNumber].quantized().count());
 constexpr std::int64_t kMillisecond = 1'000'000;
 static_assert(kFields[kAge].resolution == 1.0 &&
               kFields[kAge].max >= kJoystickOldAtSending.milliseconds() + 1.0);
@@ -22,7 +22,7 @@ static_assert(kFields[kAge].resolution == 1.0 &&
 void JoystickSender::sample(const JoystickSample& sample, Instant at) {
   if (std::isnan(sample.throttle_cap) || std::isnan(sample.brake)) return;
   newest_ = {std::clamp(sample.throttle_cap, 0.0, 1.0), std::clamp(sample.brake, 0.0, 1.0)};
-  number_ = static_cast<std::uint16_t>((number_ + 1U) % kNumbers);
+  number_ = static_cast<std::uint16_t>((number_ + 1U) % kSamples);
   at_ = at;
 }
 
@@ -46,7 +46,7 @@ void JoystickReceiver::heard(const Values& values, const Received& received) {
     return;
   }
   const auto number = static_cast<std::uint16_t>(values[kNumber]);
-  if (alive(received.at) && !is_newer(number, number_, kNumbers)) {
+  if (alive(received.at) && !is_newer(number, number_, kSamples)) {
     ++counters_.repeated;
     return;
   }

@@ -8,9 +8,9 @@
 namespace pitwall::telemetry {
 namespace {
 
-constexpr FieldIndex kLevel = field("stop.level"), kEpoch = field("stop.epoch"),
+constexpr FieldIndex kLevel = field("stop.level"), kStopEpoch = field("stop.epoch"),
                      kReason = field("stop.reason");
-static_assert(kFields[kEpoch].quantized().count() == kStopEpochs);
+static_assert(kFields[kStopEpoch].quantized().count() == kStopEpochs);
 constexpr std::uint16_t kChallenges = 65'534;
 constexpr auto kLastReason = static_cast<double>(StopReason::kTest);
 
@@ -22,12 +22,12 @@ constexpr std::uint8_t after(std::uint8_t epoch) {
 
 void put(const StopState& state, Values& values) {
   values[kLevel] = static_cast<double>(state.level);
-  values[kEpoch] = state.epoch;
+  values[kStopEpoch] = state.epoch;
   values[kReason] = static_cast<double>(state.reason);
 }
 
 std::optional<StopState> stop_state_of(const Values& values) {
-  const double level = values[kLevel], epoch = values[kEpoch], reason = values[kReason];
+  const double level = values[kLevel], epoch = values[kStopEpoch], reason = values[kReason];
   const bool whole = level >= 0 && level <= static_cast<double>(StopLevel::kEmergency) &&
                      epoch >= 0 && epoch < kStopEpochs;
   if (!whole) return std::nullopt;

@@ -11,7 +11,7 @@ namespace pitwall::telemetry {
 
 namespace {
 
-constexpr std::size_t kKindAt = 2, kTotalAt = 3, kFirstAt = 6, kBulkFixed = 8;
+constexpr std::size_t kObjectKindAt = 2, kTotalAt = 3, kFirstAt = 6, kBulkFixed = 8;
 constexpr std::size_t kMissingAt = 3, kAckFixed = 5;
 static_assert(kBulkPieces <= 0xFFFF && kBulkObject <= 0xFF'FFFF);
 
@@ -32,10 +32,10 @@ struct Run {
 };
 
 std::optional<Run> read_run(std::span<const std::uint8_t> record) {
-  if (record.size() <= kBulkFixed || record[kKindAt] >= kBulkKinds) return std::nullopt;
+  if (record.size() <= kBulkFixed || record[kObjectKindAt] >= kBulkKinds) return std::nullopt;
   Run run;
   run.object = load<std::uint16_t>(record, 0);
-  run.kind = record[kKindAt];
+  run.kind = record[kObjectKindAt];
   run.total = load<std::uint16_t>(record, kTotalAt) | std::size_t{record[kTotalAt + 2]} << 16U;
   run.first = load<std::uint16_t>(record, kFirstAt);
   run.bytes = record.subspan(kBulkFixed);
@@ -67,10 +67,10 @@ struct Arrivals {
 
 std::optional<Arrivals> read_arrivals(std::span<const std::uint8_t> record) {
   if (record.size() < kAckFixed || record.size() > kAckFixed + kBulkWindow / 8) return std::nullopt;
-  if (record[kKindAt] >= kBulkKinds) return std::nullopt;
+  if (record[kObjectKindAt] >= kBulkKinds) return std::nullopt;
   if (record.size() > kAckFixed && record.back() == 0) return std::nullopt;
   return Arrivals{.object = load<std::uint16_t>(record, 0),
-                  .kind = record[kKindAt],
+                  .kind = record[kObjectKindAt],
                   .missing = load<std::uint16_t>(record, kMissingAt),
                   .bitmap = record.subspan(kAckFixed)};
 }
@@ -153,7 +153,7 @@ bool BulkSender::write(BodyWriter& body, std::size_t kind, std::size_t first,
   const Slot& slot = slots_[kind];
   std::array<std::uint8_t, kMaxBody> record;
   store<std::uint16_t>(record, 0, slot.object);
-  record[kKindAt] = static_cast<std::uint8_t>(kind);
+  record[kObjectKindAt] = static_cast<std::uint8_t>(kind);
   store<std::uint16_t>(record, kTotalAt, static_cast<std::uint16_t>(slot.bytes));
   record[kTotalAt + 2] = static_cast<std::uint8_t>(slot.bytes >> 16U);
   store<std::uint16_t>(record, kFirstAt, static_cast<std::uint16_t>(first));
@@ -307,7 +307,7 @@ bool BulkReceiver::acknowledge(BodyWriter& body, std::size_t kind) {
   const Slot& slot = slots_[kind];
   std::array<std::uint8_t, kAckFixed + kBulkWindow / 8> record{};
   store<std::uint16_t>(record, 0, slot.object);
-  record[kKindAt] = static_cast<std::uint8_t>(kind);
+  record[kObjectKindAt] = static_cast<std::uint8_t>(kind);
   store<std::uint16_t>(record, kMissingAt, static_cast<std::uint16_t>(slot.missing));
   std::size_t size = kAckFixed;
   const auto have = came(kind);

@@ -5,16 +5,9 @@
 
 #include "protocol/telemetry/endpoint/state_lane.hpp"
 #include "protocol/telemetry/registry/schema_listing.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::telemetry {
-namespace {
-
-std::span<const std::uint8_t> as_bytes(std::string_view text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
-
-}  // namespace
-
 struct CarEndpoint::Parts {
   Parts(const ConduitConfig& config, Randomness& source)
       : randomness(&source),

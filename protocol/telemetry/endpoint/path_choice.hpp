@@ -30,7 +30,6 @@ enum class PathPolicy : std::uint8_t {
 inline constexpr std::size_t kAround = kHeaderSize + kTagSize;
 inline constexpr std::size_t kTokenSize = 8;  // of kPathProbe and kPathProof
 
-constexpr std::uint8_t bit_of(PathId path) { return static_cast<std::uint8_t>(1U << path); }
 constexpr bool has(std::uint8_t paths, PathId path) { return (paths & bit_of(path)) != 0; }
 
 // A packet that may be made now.

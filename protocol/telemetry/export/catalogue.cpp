@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "protocol/telemetry/registry/schema.hpp"
+#include "protocol/telemetry/registry/schema_text.hpp"
 
 namespace pitwall::telemetry {
 namespace {
@@ -23,8 +24,6 @@ static_assert([] {
     if (!plain(row.name) || !plain(row.unit) || !plain(row.labels)) return false;
   return true;
 }());
-
-std::string quoted(std::string_view text) { return '"' + std::string{text} + '"'; }
 
 std::string hex64(std::uint64_t value) {
   std::string text;

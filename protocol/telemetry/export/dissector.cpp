@@ -11,8 +11,6 @@
 namespace pitwall::telemetry {
 namespace {
 
-std::string quoted(std::string_view text) { return '"' + std::string{text} + '"'; }
-
 std::string assign(std::string_view name, std::size_t value) {
   return "local " + std::string{name} + " = " + std::to_string(value) + "\n";
 }

@@ -17,8 +17,6 @@ constexpr Duration kPlaceEvery = milliseconds(50);
 constexpr double kJitterShare = 1.0 / 16.0;  // RFC 3550, 6.4.1
 constexpr std::uint8_t kAllPaths = (1U << kPaths) - 1U;
 
-std::uint8_t bit_of(PathId path) { return static_cast<std::uint8_t>(1U << path); }
-
 }  // namespace
 
 LinkStats::Tenth& LinkStats::tenth(PathBook& book, Instant at) {

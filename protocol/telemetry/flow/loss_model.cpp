@@ -10,7 +10,7 @@ namespace pitwall::telemetry {
 namespace {
 
 constexpr std::uint64_t kLeastLost = 20;
-constexpr double kSigmas = 5.0;  // of the covariance that chance alone would show
+constexpr double kLossSigmas = 5.0;  // of the covariance that chance alone would show
 
 }  // namespace
 
@@ -43,7 +43,7 @@ std::optional<LossModel::Fit> LossModel::fit(Duration between_packets) const {
   const auto n = static_cast<double>(packets_);
   const double came = 1.0 - static_cast<double>(lost_) / n;
   const double near = covariance(1), far = covariance(kLag);
-  if (near <= kSigmas * came * (1.0 - came) / std::sqrt(n) || far >= near) return std::nullopt;
+  if (near <= kLossSigmas * came * (1.0 - came) / std::sqrt(n) || far >= near) return std::nullopt;
   // Bursts that end before kLag packets have passed leave nothing there but chance.
   const double least = near * 1e-3;
   const double decay = std::pow(std::max(far, least) / near, 1.0 / (kLag - 1));

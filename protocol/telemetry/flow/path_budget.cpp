@@ -142,7 +142,7 @@ void PathBudget::scale(double factor, Instant now) {
 Instant PathBudget::due(std::size_t payload, Instant now) const {
   begin(now);
   const std::int64_t wanted = (static_cast<std::int64_t>(payload) + kOverhead) * kByte;
-  if (wanted > full_.rest) return kNever;
+  if (wanted > full_.rest) return Instant::max();
   const Instant spaced_at = std::max(now, next_packet_ - early_);
   const Levels l = levels(now);
   std::int64_t missing = wanted - l.rest;

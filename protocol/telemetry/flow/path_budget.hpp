@@ -46,7 +46,6 @@ class PathBudget {
   // A message of the key exchange must always fit beside the share.
   static constexpr std::size_t kLeastLargest = 192;
   // What never comes by waiting: later than any clock.
-  static constexpr Instant kNever{INT64_MAX};
 
   static Result<PathBudget, Problem> make(const BudgetParams& params);
 
@@ -65,7 +64,8 @@ class PathBudget {
   void scale(double factor, Instant now);
   // Bytes per second that come at present: the rate as it is scaled, less a largest packet.
   double present_rate() const { return static_cast<double>(scaled_rate_); }
-  // The earliest time at which a packet of this payload may go as all else; kNever: too large.
+  // The earliest time at which a packet of this payload may go as all else; Instant::max() if it
+  // is too large.
   Instant due(std::size_t payload, Instant now) const;
 
   std::size_t largest_payload() const { return static_cast<std::size_t>(largest_payload_); }

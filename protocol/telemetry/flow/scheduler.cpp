@@ -12,7 +12,7 @@ namespace {
 
 // Both ends send once in 20 ms. So long a packet waits for its acknowledgement to be written; and
 // with what the sender waits for its own next slot, after so long it should have been.
-constexpr Duration kAckWait = milliseconds(25), kSilence = milliseconds(45);
+constexpr Duration kAckWait = milliseconds(25), kAckSilence = milliseconds(45);
 constexpr Duration kUnknownAge = seconds(3'600);  // of what the other end never had
 
 enum class Rank : std::uint8_t { kDue, kMotion, kPeriod, kFill };
@@ -46,7 +46,7 @@ void Scheduler::forget() {
 }
 
 bool Scheduler::silent(Duration round_trip, Instant now) const {
-  return newest_ > newest_acked_ && now > oldest_doubtful_ + round_trip + kSilence;
+  return newest_ > newest_acked_ && now > oldest_doubtful_ + round_trip + kAckSilence;
 }
 
 Instant Scheduler::known_sample(Group group, Duration round_trip, Instant now) const {

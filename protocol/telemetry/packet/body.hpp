@@ -30,6 +30,7 @@ namespace pitwall::telemetry {
 
 inline constexpr std::size_t kPaths = 2;
 using PathId = std::uint8_t;  // 0 .. kPaths - 1
+constexpr std::uint8_t bit_of(PathId path) { return static_cast<std::uint8_t>(1U << path); }
 inline constexpr std::size_t kMaxRecords = 48;
 inline constexpr std::size_t kBodyFixed = 4, kAckSize = 8;
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "protocol/telemetry/registry/schema_listing.hpp"
+#include "protocol/telemetry/registry/schema_text.hpp"
 
 namespace pitwall::telemetry {
 namespace {
@@ -36,8 +37,6 @@ const Row* named(const std::vector<Row>& rows, const std::string& name) {
       std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.name == name; });
   return found == rows.end() ? nullptr : &*found;
 }
-
-std::string quoted(const std::string& text) { return "\"" + text + "\""; }
 
 // Is `longer` what `shorter` becomes by one more label at `at`?
 bool one_more(const std::vector<std::string>& shorter, std::vector<std::string> longer,

@@ -18,6 +18,9 @@
 
 namespace pitwall::telemetry {
 
+// Of the registry, whose texts have nothing to escape.
+inline std::string quoted(std::string_view text) { return '"' + std::string{text} + '"'; }
+
 // A number of a row in as few characters as say it: six decimals at most.
 class Decimal {
  public:

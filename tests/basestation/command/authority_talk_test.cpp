@@ -6,12 +6,12 @@
 #include <random>
 #include <vector>
 
+#include "tests/basestation/command/people.hpp"
+
 namespace pitwall::command {
 namespace {
 
-const Person kAda{17, "Ada"}, kBob{18, "Bob"}, kEve{19, "Eve"};
-
-struct Pit {
+struct AuthorityPit {
   telemetry::AuthorityDesk desk;
   Audit audit;
   AuthorityTalk talk{desk, audit};
@@ -29,7 +29,7 @@ struct Pit {
 };
 
 TEST(AuthorityTalk, AFreeOneIsTakenAtOnce) {
-  Pit pit;
+  AuthorityPit pit;
   EXPECT_TRUE(pit.talk.take(kAda, pit.now));
   EXPECT_FALSE(pit.talk.take(kBob, pit.now));
   EXPECT_EQ(pit.talk.holder(pit.now), kAda.console);
@@ -38,7 +38,7 @@ TEST(AuthorityTalk, AFreeOneIsTakenAtOnce) {
 }
 
 TEST(AuthorityTalk, SilenceGrantsAfterFiveSeconds) {
-  Pit pit;
+  AuthorityPit pit;
   ASSERT_TRUE(pit.talk.take(kAda, pit.now));
   ASSERT_TRUE(pit.talk.request(kBob, pit.now));
   pit.run(milliseconds(4'900), &kAda);
@@ -50,7 +50,7 @@ TEST(AuthorityTalk, SilenceGrantsAfterFiveSeconds) {
 }
 
 TEST(AuthorityTalk, GrantedAtOnceRefusedForGood) {
-  Pit pit;
+  AuthorityPit pit;
   ASSERT_TRUE(pit.talk.take(kAda, pit.now));
   EXPECT_FALSE(pit.talk.grant(kAda, pit.now));  // nobody asks
   ASSERT_TRUE(pit.talk.request(kBob, pit.now));
@@ -65,7 +65,7 @@ TEST(AuthorityTalk, GrantedAtOnceRefusedForGood) {
 }
 
 TEST(AuthorityTalk, OneAsksAtATimeAndAskingTwiceGainsNoTime) {
-  Pit pit;
+  AuthorityPit pit;
   ASSERT_TRUE(pit.talk.take(kAda, pit.now));
   EXPECT_FALSE(pit.talk.request(kAda, pit.now));
   ASSERT_TRUE(pit.talk.request(kBob, pit.now));
@@ -77,7 +77,7 @@ TEST(AuthorityTalk, OneAsksAtATimeAndAskingTwiceGainsNoTime) {
 }
 
 TEST(AuthorityTalk, AFrozenHolderGivesWayWhenItExpires) {
-  Pit pit;
+  AuthorityPit pit;
   ASSERT_TRUE(pit.talk.take(kAda, pit.now));
   ASSERT_TRUE(pit.talk.request(kBob, pit.now));
   pit.run(milliseconds(3'100));  // Ada's console stands still
@@ -85,7 +85,7 @@ TEST(AuthorityTalk, AFrozenHolderGivesWayWhenItExpires) {
 }
 
 TEST(AuthorityTalk, ExpiryIsALossADropIsNot) {
-  Pit pit;
+  AuthorityPit pit;
   ASSERT_TRUE(pit.talk.take(kAda, pit.now));
   pit.run(seconds(4));
   EXPECT_TRUE(pit.talk.lost());
@@ -99,7 +99,7 @@ TEST(AuthorityTalk, ExpiryIsALossADropIsNot) {
 }
 
 TEST(AuthorityTalk, WhoDropsGivesToTheOneWhoWaits) {
-  Pit pit;
+  AuthorityPit pit;
   ASSERT_TRUE(pit.talk.take(kAda, pit.now));
   ASSERT_TRUE(pit.talk.request(kBob, pit.now));
   ASSERT_TRUE(pit.talk.drop(kAda, pit.now));
@@ -107,7 +107,7 @@ TEST(AuthorityTalk, WhoDropsGivesToTheOneWhoWaits) {
 }
 
 TEST(AuthorityTalk, AConsoleThatLeftAsksNoMore) {
-  Pit pit;
+  AuthorityPit pit;
   ASSERT_TRUE(pit.talk.take(kAda, pit.now));
   ASSERT_TRUE(pit.talk.request(kBob, pit.now));
   pit.talk.left(kBob, pit.now);
@@ -120,7 +120,7 @@ TEST(AuthorityTalk, AnyOrderOfActs) {
   const std::vector<Person> people{kAda, kBob, kEve};
   for (unsigned seed = 0; seed < 40; ++seed) {
     std::mt19937 random{seed};
-    Pit pit;
+    AuthorityPit pit;
     for (int i = 0; i < 300; ++i) {
       const Person& who = people[random() % people.size()];
       switch (random() % 8) {

@@ -13,14 +13,14 @@ namespace {
 using telemetry::field;
 
 // A healthy car in its pit, everything told, and somebody at the console.
-struct Pit {
+struct ChecklistPit {
   RaceWall wall;
   picture::BaseFigures base{.disk_minutes = 400.0, .recording = 1.0, .clock_offset_ms = 0.4};
   telemetry::HolderId holder = 16;
   SettingsState settings{.version = "3-3f2a", .kept = true};
   JoystickState joystick = JoystickState::kReleased;
 
-  Pit() {
+  ChecklistPit() {
     wall.set(field("uplink.schema_agrees"), 1.0);
     for (const auto wheel :
          {field("tyres.pressure_front_left"), field("tyres.pressure_front_right"),
@@ -44,10 +44,10 @@ struct Pit {
   }
 };
 
-using Kinds = std::vector<CheckKind>;
+using CheckKinds = std::vector<CheckKind>;
 
-Kinds no_go(const std::vector<Check>& checks) {
-  Kinds kinds;
+CheckKinds no_go(const std::vector<Check>& checks) {
+  CheckKinds kinds;
   for (const Check& check : checks) {
     if (!check.go) kinds.push_back(check.kind);
   }
@@ -59,9 +59,9 @@ std::string text(const std::vector<Check>& checks, CheckKind kind) {
 }
 
 TEST(Checklist, AHealthyCarMayGo) {
-  Pit pit;
+  ChecklistPit pit;
   const auto checks = pit.checks();
-  EXPECT_EQ(no_go(checks), Kinds{});
+  EXPECT_EQ(no_go(checks), CheckKinds{});
   EXPECT_TRUE(all_go(checks));
   ASSERT_EQ(checks.size(), kChecks);
   for (std::size_t i = 0; i < kChecks; ++i) {
@@ -89,7 +89,7 @@ TEST(Checklist, NothingIsAGoThatWasNeverHeard) {
 }
 
 TEST(Checklist, WhatTheCarSaidLongAgoIsNoGo) {
-  Pit pit;
+  ChecklistPit pit;
   ASSERT_TRUE(all_go(pit.checks()));
   pit.wall.packets = false;
   pit.wall.run(seconds(8));
@@ -105,25 +105,27 @@ TEST(Checklist, WhatTheCarSaidLongAgoIsNoGo) {
 }
 
 TEST(Checklist, EachItemAloneHoldsTheCarBack) {
-  const std::vector<std::pair<CheckKind, std::function<void(Pit&)>>> wrongs{
-      {CheckKind::kSoftware, [](Pit& pit) { pit.base.schema_differs = true; }},
-      {CheckKind::kSoftware, [](Pit& pit) { pit.wall.set(field("uplink.schema_agrees"), 0.0); }},
-      {CheckKind::kClocks, [](Pit& pit) { pit.base.clock_offset_ms = 7.0; }},
-      {CheckKind::kClocks, [](Pit& pit) { pit.base.clock_offset_ms = kUnset; }},
-      {CheckKind::kDisk, [](Pit& pit) { pit.base.recording = 0.0; }},
-      {CheckKind::kDisk, [](Pit& pit) { pit.base.recording = 2.0; }},
-      {CheckKind::kDisk, [](Pit& pit) { pit.base.disk_minutes = 30.0; }},
-      {CheckKind::kSettings, [](Pit& pit) { pit.settings.kept = false; }},
-      {CheckKind::kSettings, [](Pit& pit) { pit.settings.readable = false; }},
-      {CheckKind::kAuthority, [](Pit& pit) { pit.holder = 0; }},
-      {CheckKind::kJoystick, [](Pit& pit) { pit.joystick = JoystickState::kInUse; }},
-      {CheckKind::kJoystick, [](Pit& pit) { pit.joystick = JoystickState::kLost; }},
-      {CheckKind::kTyres, [](Pit& pit) { pit.wall.set(field("tyres.pressure_rear_left"), 90.0); }},
-      {CheckKind::kFuel, [](Pit& pit) { pit.wall.set(field("fuel.level"), 5.0); }},
-      {CheckKind::kStop, [](Pit& pit) { pit.wall.set(field("mode.stop_latch"), 1.0); }},
+  const std::vector<std::pair<CheckKind, std::function<void(ChecklistPit&)>>> wrongs{
+      {CheckKind::kSoftware, [](ChecklistPit& pit) { pit.base.schema_differs = true; }},
+      {CheckKind::kSoftware,
+       [](ChecklistPit& pit) { pit.wall.set(field("uplink.schema_agrees"), 0.0); }},
+      {CheckKind::kClocks, [](ChecklistPit& pit) { pit.base.clock_offset_ms = 7.0; }},
+      {CheckKind::kClocks, [](ChecklistPit& pit) { pit.base.clock_offset_ms = kUnset; }},
+      {CheckKind::kDisk, [](ChecklistPit& pit) { pit.base.recording = 0.0; }},
+      {CheckKind::kDisk, [](ChecklistPit& pit) { pit.base.recording = 2.0; }},
+      {CheckKind::kDisk, [](ChecklistPit& pit) { pit.base.disk_minutes = 30.0; }},
+      {CheckKind::kSettings, [](ChecklistPit& pit) { pit.settings.kept = false; }},
+      {CheckKind::kSettings, [](ChecklistPit& pit) { pit.settings.readable = false; }},
+      {CheckKind::kAuthority, [](ChecklistPit& pit) { pit.holder = 0; }},
+      {CheckKind::kJoystick, [](ChecklistPit& pit) { pit.joystick = JoystickState::kInUse; }},
+      {CheckKind::kJoystick, [](ChecklistPit& pit) { pit.joystick = JoystickState::kLost; }},
+      {CheckKind::kTyres,
+       [](ChecklistPit& pit) { pit.wall.set(field("tyres.pressure_rear_left"), 90.0); }},
+      {CheckKind::kFuel, [](ChecklistPit& pit) { pit.wall.set(field("fuel.level"), 5.0); }},
+      {CheckKind::kStop, [](ChecklistPit& pit) { pit.wall.set(field("mode.stop_latch"), 1.0); }},
   };
   for (const auto& [kind, wrong] : wrongs) {
-    Pit pit;
+    ChecklistPit pit;
     wrong(pit);
     const auto checks = pit.checks();
     const Check& check = checks.at(static_cast<std::size_t>(kind));
@@ -136,14 +138,14 @@ TEST(Checklist, EachItemAloneHoldsTheCarBack) {
 }
 
 TEST(Checklist, NoJoystickIsNoReasonToStay) {
-  Pit pit;
+  ChecklistPit pit;
   pit.joystick = JoystickState::kNone;
   EXPECT_TRUE(all_go(pit.checks()));
 }
 
 // Two users of one RTK login: both receivers lose the corrections again and again.
 TEST(Checklist, ASecondUserOfTheLoginIsSeen) {
-  Pit pit;
+  ChecklistPit pit;
   ASSERT_TRUE(all_go(pit.checks()));
   for (int i = 0; i < 4; ++i) {
     for (const double age_s : {1.0, 8.0, 1.0}) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/basestation/command/people.hpp"
 #include "tests/basestation/race_wall.hpp"
 #include "tests/basestation/radio_rig.hpp"
 
@@ -13,16 +14,14 @@ using telemetry::CommandType;
 using telemetry::field;
 using telemetry::Outcome;
 
-const Person kAda{17, "Ada"}, kBob{18, "Bob"};
-
 // A healthy race in front of the desk, and behind it a real radio with a car's end.
-struct Pit {
+struct CommandPit {
   RaceWall wall;
   RadioRig radio;
   Audit audit;
   Desk desk{{}, audit};
 
-  Pit() {
+  CommandPit() {
     wall.run(seconds(5));
     radio.set(field("mode.mode"), 2.0);
     radio.run(seconds(2));
@@ -52,7 +51,7 @@ struct Pit {
 };
 
 TEST(Desk, ACommandClimbsTheLadderOfTheRealRadio) {
-  Pit pit;
+  CommandPit pit;
   const TicketId id = pit.stage(54.0);
   EXPECT_EQ(pit.step(id), Step::kStaged);
   ASSERT_TRUE(pit.send(id));
@@ -80,7 +79,7 @@ TEST(Desk, ACommandClimbsTheLadderOfTheRealRadio) {
 }
 
 TEST(Desk, TheCarsRefusalIsShownInItsWords) {
-  Pit pit;
+  CommandPit pit;
   const TicketId id = pit.stage(54.0);
   ASSERT_TRUE(pit.send(id));
   pit.run(milliseconds(300));
@@ -92,7 +91,7 @@ TEST(Desk, TheCarsRefusalIsShownInItsWords) {
 }
 
 TEST(Desk, GatesAreJudgedAnewWhenItIsSent) {
-  Pit pit;
+  CommandPit pit;
   const TicketId id = pit.stage(54.0);
   EXPECT_TRUE(all_pass(pit.desk.ticket(id)->gates));
   pit.wall.tyres(29.0);
@@ -107,7 +106,7 @@ TEST(Desk, GatesAreJudgedAnewWhenItIsSent) {
 }
 
 TEST(Desk, AnOverrideWantsAReasonAndASecondPerson) {
-  Pit pit;
+  CommandPit pit;
   pit.wall.tyres(29.0);
   pit.wall.run(seconds(1));
   const TicketId id = pit.stage(54.0);
@@ -128,7 +127,7 @@ TEST(Desk, AnOverrideWantsAReasonAndASecondPerson) {
 }
 
 TEST(Desk, TheWayToTheCarCannotBeOverridden) {
-  Pit pit;
+  CommandPit pit;
   pit.wall.packets = false;
   pit.wall.run(seconds(2));
   const TicketId id = pit.stage(40.0);
@@ -140,7 +139,7 @@ TEST(Desk, TheWayToTheCarCannotBeOverridden) {
 }
 
 TEST(Desk, ATicketIsSentOnceAndExpires) {
-  Pit pit;
+  CommandPit pit;
   const TicketId sent = pit.stage(54.0), left = pit.stage(53.0), cancelled = pit.stage(52.0);
   ASSERT_TRUE(pit.send(sent));
   EXPECT_FALSE(pit.send(sent));
@@ -155,7 +154,7 @@ TEST(Desk, ATicketIsSentOnceAndExpires) {
 }
 
 TEST(Desk, OutOfRangeIsNoTicket) {
-  Pit pit;
+  CommandPit pit;
   for (const double argument : {-1.0, 121.0, kUnset}) {
     EXPECT_FALSE(pit.desk.stage(kAda, CommandType::kSpeedLimit, argument, pit.inputs()));
   }
@@ -164,7 +163,7 @@ TEST(Desk, OutOfRangeIsNoTicket) {
 }
 
 TEST(Desk, AStopWantsNothing) {
-  Pit pit;
+  CommandPit pit;
   pit.endpoint().authority().drop(kAda.console, pit.radio.now);
   pit.wall.packets = false;
   pit.wall.run(seconds(5));
@@ -176,7 +175,7 @@ TEST(Desk, AStopWantsNothing) {
 }
 
 TEST(Desk, ChangedTicketsAreTakenOnce) {
-  Pit pit;
+  CommandPit pit;
   const TicketId a = pit.stage(54.0), b = pit.stage(53.0);
   ASSERT_EQ(pit.desk.take_changed().size(), 2U);
   EXPECT_TRUE(pit.desk.take_changed().empty());
@@ -188,7 +187,7 @@ TEST(Desk, ChangedTicketsAreTakenOnce) {
 }
 
 TEST(Desk, KeepsTheNewestTickets) {
-  Pit pit;
+  CommandPit pit;
   for (std::size_t i = 0; i < Desk::kKept + 5; ++i) pit.stage(50.0);
   EXPECT_EQ(pit.desk.tickets().size(), Desk::kKept);
   EXPECT_EQ(pit.desk.ticket(5), nullptr);

@@ -16,7 +16,7 @@ using telemetry::field;
 
 constexpr telemetry::HolderId kConsole = 17;
 
-struct Pit {
+struct GatePit {
   RaceWall wall;
   telemetry::HolderId holder = kConsole;
 
@@ -50,42 +50,42 @@ struct Pit {
   }
 };
 
-using Kinds = std::vector<GateKind>;
+using GateKinds = std::vector<GateKind>;
 
 TEST(Gates, AWarmCarOnAStraightMayGoFourFaster) {
-  Pit pit;
+  GatePit pit;
   pit.wall.run(seconds(5));
-  EXPECT_EQ(pit.closed(54.0), Kinds{});
+  EXPECT_EQ(pit.closed(54.0), GateKinds{});
   EXPECT_TRUE(pit.speed(55.0));
-  EXPECT_EQ(pit.closed(55.2), Kinds{GateKind::kStep});
+  EXPECT_EQ(pit.closed(55.2), GateKinds{GateKind::kStep});
 }
 
 // Saba et al.: at 140 mph, tyres of 29 degC, 20 mph more were asked, and a corner came.
 TEST(Gates, ThePapersSpinIsRefused) {
-  Pit pit;
+  GatePit pit;
   pit.drive_at(from_mph(140));
   pit.wall.tyres(29.0);
   pit.wall.set(field("track.station"), 200.0);  // 100 m before the turn: 1.6 s
   pit.wall.run(seconds(5));
-  const Kinds closed = pit.closed(from_mph(160));
+  const GateKinds closed = pit.closed(from_mph(160));
   for (const GateKind kind : {GateKind::kTyres, GateKind::kStep, GateKind::kCorner}) {
     EXPECT_EQ(std::count(closed.begin(), closed.end(), kind), 1) << text_of(kind);
   }
   // Each of the three alone refuses it.
   pit.wall.tyres(85.0);
   pit.wall.run(seconds(10));
-  EXPECT_EQ(pit.closed(from_mph(140) + 4.0), Kinds{GateKind::kCorner});
+  EXPECT_EQ(pit.closed(from_mph(140) + 4.0), GateKinds{GateKind::kCorner});
   pit.wall.set(field("track.station"), 10.0);
   pit.wall.run(seconds(1));
-  EXPECT_EQ(pit.closed(from_mph(140) + 4.0), Kinds{});
-  EXPECT_EQ(pit.closed(from_mph(160)), Kinds{GateKind::kStep});
+  EXPECT_EQ(pit.closed(from_mph(140) + 4.0), GateKinds{});
+  EXPECT_EQ(pit.closed(from_mph(160)), GateKinds{GateKind::kStep});
   pit.wall.tyres(29.0);
   pit.wall.run(milliseconds(500));
-  EXPECT_EQ(pit.closed(from_mph(140) + 4.0), Kinds{GateKind::kTyres});
+  EXPECT_EQ(pit.closed(from_mph(140) + 4.0), GateKinds{GateKind::kTyres});
 }
 
 TEST(Gates, AGateShowsItsValueAndItsAge) {
-  Pit pit;
+  GatePit pit;
   pit.wall.tyres(29.0);
   pit.wall.run(seconds(1));
   const Gate gate = pit.gate(GateKind::kTyres, 54.0);
@@ -97,7 +97,7 @@ TEST(Gates, AGateShowsItsValueAndItsAge) {
 }
 
 TEST(Gates, WhatIsStaleHasNotPassed) {
-  Pit pit;
+  GatePit pit;
   pit.wall.run(seconds(5));
   ASSERT_TRUE(pit.speed(54.0));
   struct Case {
@@ -123,7 +123,7 @@ TEST(Gates, WhatIsStaleHasNotPassed) {
 }
 
 TEST(Gates, SlowerPassesWhateverElseIs) {
-  Pit pit;
+  GatePit pit;
   pit.wall.tyres(-10.0);
   pit.wall.set(field("flags.track_acted_on"), 7.0);
   pit.wall.set(field("fuel.level"), 0.0);
@@ -150,7 +150,7 @@ TEST(Gates, FasterIsNeverEasier) {
     return from + (to - from) * static_cast<double>(random() % 1'000) / 1'000.0;
   };
   for (int i = 0; i < 30; ++i) {
-    Pit pit;
+    GatePit pit;
     pit.drive_at(draw(20, 70));
     pit.wall.tyres(draw(10, 100));
     pit.wall.set(field("track.station"), draw(0, 2'400));
@@ -167,35 +167,35 @@ TEST(Gates, FasterIsNeverEasier) {
 }
 
 TEST(Gates, AHighAlarmOrALatchedStopBarsMore) {
-  Pit pit;
+  GatePit pit;
   pit.wall.set(field("mode.stop_latch"), 1.0);
   pit.wall.run(seconds(1));
-  EXPECT_EQ(pit.closed(54.0), (Kinds{GateKind::kStop, GateKind::kAlarms}));
+  EXPECT_EQ(pit.closed(54.0), (GateKinds{GateKind::kStop, GateKind::kAlarms}));
   EXPECT_FALSE(can_be_overridden(GateKind::kStop));
 }
 
 TEST(Gates, YellowAllowsTheCautionSpeed) {
-  Pit pit;
+  GatePit pit;
   pit.drive_at(18.0);
   pit.wall.set(field("flags.track"), 3.0);
   pit.wall.set(field("flags.track_acted_on"), 3.0);
   pit.wall.run(seconds(5));
   EXPECT_TRUE(pit.speed(22.0));
-  EXPECT_EQ(pit.closed(22.5), Kinds{GateKind::kFlag});
+  EXPECT_EQ(pit.closed(22.5), GateKinds{GateKind::kFlag});
 }
 
 TEST(Gates, OnlyTheHolderCommands) {
-  Pit pit;
+  GatePit pit;
   pit.wall.run(seconds(5));
   for (const auto other : {telemetry::HolderId{0}, telemetry::HolderId{18}}) {
     pit.holder = other;
-    EXPECT_EQ(pit.closed(40.0), Kinds{GateKind::kAuthority});
+    EXPECT_EQ(pit.closed(40.0), GateKinds{GateKind::kAuthority});
     EXPECT_TRUE(pit.passes(CommandType::kSendParameters, 1.0));  // needs none
   }
 }
 
 TEST(Gates, ALessRestrictiveFlagNeedsRaceControl) {
-  Pit pit;
+  GatePit pit;
   pit.wall.set(field("flags.track"), 3.0);
   pit.wall.set(field("flags.track_acted_on"), 3.0);
   pit.wall.run(seconds(5));
@@ -207,7 +207,7 @@ TEST(Gates, ALessRestrictiveFlagNeedsRaceControl) {
 }
 
 TEST(Gates, AReleaseWantsACarThatStands) {
-  Pit pit;
+  GatePit pit;
   pit.wall.run(seconds(2));
   EXPECT_FALSE(pit.passes(CommandType::kReleaseStop, 77.0));
   pit.drive_at(0.0);

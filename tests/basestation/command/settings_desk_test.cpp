@@ -5,10 +5,11 @@
 
 #include <cmath>
 
+#include "tests/basestation/command/people.hpp"
+
 namespace pitwall::command {
 namespace {
 
-const Person kAda{.console = 1, .name = "Ada"};
 constexpr picture::FieldId kBattery = picture::field_id("electric.battery");
 
 struct Rig {

@@ -29,7 +29,7 @@ bool comes_true(const std::function<bool()>& condition) {
   return true;
 }
 
-class StampFiles : public testing::Test {
+class StampFiles : public ::testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(folder_); }
   std::string path() const { return folder_->path() + "/base.stamp"; }

@@ -27,7 +27,7 @@ std::string contents(std::FILE* file) {
   return text;
 }
 
-class Terminal : public testing::Test {
+class Terminal : public ::testing::Test {
  protected:
   void SetUp() override {
     ASSERT_TRUE(radio_.front() && car_socket_ && words_ && file_ != nullptr);

@@ -5,6 +5,7 @@
 
 #include "protocol/recorder/segment_folder.hpp"
 #include "protocol/transport/file.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 #include "tests/basestation/replay/race.hpp"
 
 namespace pitwall::replay {
@@ -18,10 +19,6 @@ std::string one_segment() {
   const auto folder = transport::TemporaryFolder::create("pitwall_segment");
   testing::record_race(folder->path(), seconds(15));
   return *transport::read_file(recorder::segments_of(folder->path())->front());
-}
-
-std::span<const std::uint8_t> as_bytes(const std::string& text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
 TEST(SegmentReader, TimesAreThoseOfTheBaseThatRecorded) {

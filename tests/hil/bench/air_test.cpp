@@ -5,14 +5,14 @@
 
 #include <vector>
 
+#include "tests/support/instants.hpp"
+
 namespace pitwall::bench {
 namespace {
 
 using faults::BenchFault;
 using faults::BenchFaultKind;
 using Bytes = std::vector<std::uint8_t>;
-
-constexpr Instant at_ms(std::int64_t ms) { return Instant{} + milliseconds(ms); }
 
 BenchFault fault(BenchFaultKind kind, std::int64_t from_ms, std::int64_t for_ms, double value = 0) {
   return {.kind = kind, .start = at_ms(from_ms), .duration = milliseconds(for_ms), .value = value};

@@ -8,13 +8,12 @@
 #include <vector>
 
 #include "protocol/transport/clock.hpp"
+#include "tests/hil/bench/patience.hpp"
 
 namespace pitwall::bench {
 namespace {
 
 using transport::UdpSocket;
-
-constexpr Duration kPatience = seconds(5);  // of a loaded machine; nothing is measured with it
 
 struct Monitored : ::testing::Test {
   Result<CarMonitor, Problem> opened = CarMonitor::open(0);

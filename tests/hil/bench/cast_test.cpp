@@ -6,13 +6,11 @@
 
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
+#include "tests/hil/bench/patience.hpp"
+#include "tests/support/instants.hpp"
 
 namespace pitwall::bench {
 namespace {
-
-constexpr Duration kPatience = seconds(20);  // of a loaded machine
-
-Instant at(double seconds) { return Instant{} + from_seconds(seconds); }
 
 Member shell(const std::string& script, const std::string& restart = {}) {
   return {.command = {"/bin/sh", "-c", script},
@@ -66,21 +64,21 @@ TEST(Cast, OneThatWasKilledIsNotMissedAndComesBackByTheOtherCommand) {
   const Notebook notes;
   Cast cast{car_only(shell("echo armed >> " + notes.path + "; exec sleep 1000",
                            "echo again >> " + notes.path + "; exec sleep 1000")),
-            {{.at = at(1.0), .act = Act::kKill}, {.at = at(2.0), .act = Act::kStart}}};
+            {{.at = at_s(1.0), .act = Act::kKill}, {.at = at_s(2.0), .act = Act::kStart}}};
   ASSERT_FALSE(cast.start());
   ASSERT_TRUE(notes.comes_to_hold("armed"));
-  EXPECT_FALSE(cast.advance(at(0.999)));
+  EXPECT_FALSE(cast.advance(at_s(0.999)));
   EXPECT_FALSE(cast.was_killed(Role::kCar));
-  EXPECT_FALSE(cast.advance(at(1.25)));
+  EXPECT_FALSE(cast.advance(at_s(1.25)));
   EXPECT_TRUE(cast.was_killed(Role::kCar));
   EXPECT_FALSE(cast.missing());
   EXPECT_EQ(notes.text(), "armed\n");
-  EXPECT_FALSE(cast.advance(at(2.0)));
+  EXPECT_FALSE(cast.advance(at_s(2.0)));
   EXPECT_TRUE(notes.comes_to_hold("again"));
   EXPECT_FALSE(cast.missing());
   EXPECT_EQ(notes.text(), "armed\nagain\n");
   ASSERT_EQ(cast.done().size(), 2u);
-  EXPECT_EQ(cast.done()[0].at, at(1.25)) << "when it was done, not when it was due";
+  EXPECT_EQ(cast.done()[0].at, at_s(1.25)) << "when it was done, not when it was due";
   EXPECT_EQ(cast.done()[0].what, "car killed (SIGKILL)");
   EXPECT_EQ(cast.done()[1].what, "car started again, not armed");
   EXPECT_FALSE(cast.finish(kPatience, nap));
@@ -90,11 +88,11 @@ TEST(Cast, APausedOneStandsStillAndIsStillToldToEnd) {
   const Notebook notes;
   Cast cast{car_only(shell("trap 'exit 0' TERM; echo $$ > " + notes.path +
                            "; while :; do sleep 0.01; done")),
-            {{.at = at(1.0), .act = Act::kPause}}};
+            {{.at = at_s(1.0), .act = Act::kPause}}};
   ASSERT_FALSE(cast.start());
   ASSERT_TRUE(notes.comes_to_hold("\n"));
   const std::string pid = notes.text().substr(0, notes.text().find('\n'));
-  EXPECT_FALSE(cast.advance(at(1.0)));
+  EXPECT_FALSE(cast.advance(at_s(1.0)));
   const Instant limit = transport::monotonic_now() + kPatience;
   while (state_of(pid) != 'T' && transport::monotonic_now() < limit) nap();
   EXPECT_EQ(state_of(pid), 'T');
@@ -104,9 +102,9 @@ TEST(Cast, APausedOneStandsStillAndIsStillToldToEnd) {
 }
 
 TEST(Cast, AKilledOneIsNotOneThatEndedWell) {
-  Cast cast{car_only(shell("exec sleep 1000")), {{.at = at(1.0), .act = Act::kKill}}};
+  Cast cast{car_only(shell("exec sleep 1000")), {{.at = at_s(1.0), .act = Act::kKill}}};
   ASSERT_FALSE(cast.start());
-  EXPECT_FALSE(cast.advance(at(5.0)));
+  EXPECT_FALSE(cast.advance(at_s(5.0)));
   EXPECT_FALSE(cast.finish(kPatience, nap));
   EXPECT_FALSE(cast.ended_well(Role::kCar));
 }
@@ -126,7 +124,7 @@ TEST(Cast, OneThatDoesNotWantToEndIsAnError) {
 TEST(Cast, AFaultAboutSomebodyWhoIsNotThereIsRefused) {
   const Notebook notes;
   Cast cast{car_only(shell("echo started > " + notes.path)),
-            {{.at = at(1.0), .role = Role::kGuardian, .act = Act::kKill}}};
+            {{.at = at_s(1.0), .role = Role::kGuardian, .act = Act::kKill}}};
   const auto problem = cast.start();
   ASSERT_TRUE(problem);
   EXPECT_EQ(problem->place, "guardian");

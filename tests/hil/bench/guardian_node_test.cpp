@@ -6,16 +6,15 @@
 #include <cmath>
 
 #include "tests/hil/bench/flying_lap.hpp"
+#include "tests/support/instants.hpp"
 
 namespace pitwall::bench {
 namespace {
 
 using faults::BenchFaultKind;
 
-Instant at(double s) { return Instant{} + from_seconds(s); }
-
 faults::BenchFault of(BenchFaultKind kind, double from_s, double until_s) {
-  return {.kind = kind, .start = at(from_s), .duration = from_seconds(until_s - from_s)};
+  return {.kind = kind, .start = at_s(from_s), .duration = from_seconds(until_s - from_s)};
 }
 
 GuardianNode node(std::vector<faults::BenchFault> processes, bool present = false) {
@@ -31,8 +30,8 @@ TEST(GuardianNode, IsThereWhereAProcessIsBrokenOrWhenAskedFor) {
 TEST(GuardianNode, AComputerThatIsPausedGoesOnAndIsNoNewOne) {
   GuardianNode n = node({of(BenchFaultKind::kComputerPaused, 1, 2)});
   for (const double t : {0.9, 1.0, 1.99, 2.0}) {
-    EXPECT_EQ(n.car_runs(at(t)), t < 1.0 || t >= 2.0) << t;
-    EXPECT_FALSE(n.car_restarts(at(t))) << t;
+    EXPECT_EQ(n.car_runs(at_s(t)), t < 1.0 || t >= 2.0) << t;
+    EXPECT_FALSE(n.car_restarts(at_s(t))) << t;
   }
   EXPECT_TRUE(n.armed_from_the_start());
 }
@@ -41,7 +40,7 @@ TEST(GuardianNode, AComputerThatWasKilledForATimeIsANewOneAndNotArmed) {
   GuardianNode n = node({of(BenchFaultKind::kComputerKilled, 1, 2)});
   int restarts = 0;
   for (double t = 0.0; t < 3.0; t += 0.01) {
-    const bool restarted = n.car_restarts(at(t));
+    const bool restarted = n.car_restarts(at_s(t));
     restarts += restarted ? 1 : 0;
     EXPECT_TRUE(!restarted || std::abs(t - 2.0) < 0.011) << t;
   }
@@ -52,10 +51,10 @@ TEST(GuardianNode, AComputerThatWasKilledForATimeIsANewOneAndNotArmed) {
 TEST(GuardianNode, ADeadGuardianLeavesItsLastWordBehind) {
   GuardianNode n = node({of(BenchFaultKind::kGuardianKilled, 1, 9)});
   const world::SensorInput none;
-  EXPECT_TRUE(n.step(none, at(0.5)).empty());
-  EXPECT_EQ(n.status().at, at(0.5));
-  EXPECT_TRUE(n.step(none, at(1.5)).empty());
-  EXPECT_FALSE(n.view(at(1.5)).drives);
+  EXPECT_TRUE(n.step(none, at_s(0.5)).empty());
+  EXPECT_EQ(n.status().at, at_s(0.5));
+  EXPECT_TRUE(n.step(none, at_s(1.5)).empty());
+  EXPECT_FALSE(n.view(at_s(1.5)).drives);
 }
 
 }  // namespace

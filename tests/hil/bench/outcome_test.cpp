@@ -7,11 +7,10 @@
 
 #include "hil/bench/result.hpp"
 #include "protocol/yaml/strict_map.hpp"
+#include "tests/support/instants.hpp"
 
 namespace pitwall::bench {
 namespace {
-
-Instant at(double s) { return Instant{} + from_seconds(s); }
 
 TEST(Outcome, OfNothingIsNothing) {
   EXPECT_EQ(to_text(Outcome{}), "");
@@ -24,24 +23,24 @@ TEST(Outcome, KeepsTheEndAndTheNearestOfAnyDrive) {
   for (int i = 0; i < 500; ++i) {
     const double t_s = 0.1 * i, gap_m = 3.0 + 2.0 * std::sin(0.37 * i) * std::cos(0.011 * i);
     if (gap_m < nearest_m) nearest_m = gap_m, nearest_s = t_s;
-    follow(outcome, {.at = at(t_s),
+    follow(outcome, {.at = at_s(t_s),
                      .speed_mps = 60.0 - 0.12 * i,
                      .cross_track_m = -0.01 * i,
                      .wall_gap_m = gap_m});
   }
-  EXPECT_EQ(outcome.last->at, at(49.9));
+  EXPECT_EQ(outcome.last->at, at_s(49.9));
   EXPECT_EQ(outcome.nearest->wall_gap_m, nearest_m);
-  EXPECT_EQ(outcome.nearest->at, at(nearest_s));
+  EXPECT_EQ(outcome.nearest->at, at_s(nearest_s));
   EXPECT_NE(to_text(outcome).find("the car stands, 4.99 m from its line"), std::string::npos)
       << to_text(outcome);
 }
 
 TEST(Outcome, NothingAfterAContactCounts) {
   Outcome outcome;
-  follow(outcome, {.at = at(1), .speed_mps = 60, .cross_track_m = 0, .wall_gap_m = 2});
+  follow(outcome, {.at = at_s(1), .speed_mps = 60, .cross_track_m = 0, .wall_gap_m = 2});
   follow(outcome,
-         {.at = at(2), .speed_mps = 40, .cross_track_m = 7, .wall_gap_m = -0.1, .contact = true});
-  follow(outcome, {.at = at(3), .speed_mps = 0, .cross_track_m = 0, .wall_gap_m = 5});
+         {.at = at_s(2), .speed_mps = 40, .cross_track_m = 7, .wall_gap_m = -0.1, .contact = true});
+  follow(outcome, {.at = at_s(3), .speed_mps = 0, .cross_track_m = 0, .wall_gap_m = 5});
   EXPECT_EQ(to_text(outcome), "the car hit a wall at 2.00 s, at 40.0 m/s");
   const auto document = yaml::load_text(to_json(outcome), "outcome.json");
   ASSERT_TRUE(document) << to_string(document.error());

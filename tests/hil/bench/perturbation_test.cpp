@@ -6,15 +6,14 @@
 #include <cmath>
 
 #include "hil/bench/lockstep.hpp"
-#include "tests/hil/bench/flying_lap.hpp"
+#include "tests/hil/bench/standing.hpp"
 
 namespace pitwall::bench {
 namespace {
 
-scenario::Scenario standing() {
-  scenario::Scenario s = lap().scenario;
-  s.faults.clear();
-  s.start.s_m = 600.0;  // in a banked turn
+scenario::Scenario standing_in_a_turn() {
+  scenario::Scenario s = standing();
+  s.start.s_m = 600.0;  // banked
   return s;
 }
 
@@ -22,14 +21,6 @@ Rig rig_of(const scenario::Scenario& s) {
   auto rig = Rig::build(s, lap().setup.track);
   if (!rig) ADD_FAILURE() << to_string(rig.error());
   return *std::move(rig);
-}
-
-scenario::Fault fault(std::string kind, double value = kUnset) {
-  return {.kind = std::move(kind),
-          .at = seconds(1),
-          .lasts = seconds(1),
-          .value = value,
-          .place = "test"};
 }
 
 template <class Look>
@@ -68,7 +59,7 @@ TEST(RigPerturbation, NeutralOnesChangeNoByteOfTheRunAndOthersDo) {
 }
 
 TEST(RigPerturbation, TheCarLeansMoreThanItsMapSays) {
-  scenario::Scenario s = standing();
+  scenario::Scenario s = standing_in_a_turn();
   s.perturb.bank_error_rad = from_deg(1.5);
   Rig rig = rig_of(s);
   const double map_rad = lap().setup.track.at(s.start.s_m).bank_rad;
@@ -84,7 +75,7 @@ TEST(RigPerturbation, TheCarLeansMoreThanItsMapSays) {
 }
 
 TEST(RigPerturbation, MassAndPlantAreThoseOfTheScenario) {
-  scenario::Scenario s = standing();
+  scenario::Scenario s = standing_in_a_turn();
   s.perturb.mass_kg = 100.0;
   s.plant.chassis.mass_kg = 700.0;
   Rig rig = rig_of(s);
@@ -97,10 +88,9 @@ TEST(RigPerturbation, MassAndPlantAreThoseOfTheScenario) {
 TEST(RigPerturbation, FrictionComposesWithTheFaultOfGrip) {
   // On a bank the standing car uses tan(bank) / mu of what its tyres can; the plant bounds that.
   const auto use_of = [](double friction, double fault_grip) {
-    scenario::Scenario s = standing();
+    scenario::Scenario s = standing_in_a_turn();
     s.perturb.friction = friction;
-    s.faults = {fault("low_grip", fault_grip)};
-    s.faults[0].at = Duration{};
+    s.faults = {fault_at(Duration{}, "low_grip", fault_grip)};
     Rig rig = rig_of(s);
     each_step(rig, milliseconds(800), [](Instant) {});
     return rig.truth().friction_use;
@@ -111,8 +101,8 @@ TEST(RigPerturbation, FrictionComposesWithTheFaultOfGrip) {
 }
 
 TEST(RigFaults, ColdTyresAreHeldAtTheirTemperatureAndThenWarmUp) {
-  scenario::Scenario s = standing();
-  s.faults = {fault("cold_tyres", 15.0)};
+  scenario::Scenario s = standing_in_a_turn();
+  s.faults = {fault_at(seconds(1), "cold_tyres", 15.0)};
   Rig rig = rig_of(s);
   each_step(rig, seconds(3), [&](Instant at) {
     const double tyre_c = rig.truth().tyre_c[0];
@@ -129,8 +119,7 @@ TEST(RigFaults, ColdTyresAreHeldAtTheirTemperatureAndThenWarmUp) {
 TEST(RigFaults, AnEmptyTankStopsTheEngineForGood) {
   scenario::Scenario s = lap().scenario;
   s.duration = seconds(24);
-  s.faults = {fault("fuel_out")};
-  s.faults[0].at = seconds(20);
+  s.faults = {fault_at(seconds(20), "fuel_out")};
   LockstepOptions options;
   int ran = 0, stood = 0;
   options.watch = [&](const pipeline::Outputs&, const Rig& rig, Instant at) {
@@ -146,8 +135,8 @@ TEST(RigFaults, AnEmptyTankStopsTheEngineForGood) {
 
 TEST(RigFaults, ABiasedGyroIsWrongByTheBiasInItsUnitOnly) {
   const auto rates = [](double bias, int unit) {
-    scenario::Scenario s = standing();
-    s.faults = {fault("imu_bias", bias)};
+    scenario::Scenario s = standing_in_a_turn();
+    s.faults = {fault_at(seconds(1), "imu_bias", bias)};
     s.faults[0].unit = 1;
     Rig rig = rig_of(s);
     std::vector<std::pair<Instant, double>> heard;
@@ -168,8 +157,8 @@ TEST(RigFaults, ABiasedGyroIsWrongByTheBiasInItsUnitOnly) {
 }
 
 TEST(RigFaults, LostWheelSpeedsTakeTheirReportAndNoOther) {
-  scenario::Scenario s = standing();
-  s.faults = {fault("wheel_speed_loss")};
+  scenario::Scenario s = standing_in_a_turn();
+  s.faults = {fault_at(seconds(1), "wheel_speed_loss")};
   Rig rig = rig_of(s);
   std::array<int, 3> wheels{}, steering{};  // by second
   each_step(rig, milliseconds(2999), [&](Instant at) {

@@ -11,14 +11,14 @@
 
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/readiness.hpp"
+#include "tests/hil/bench/patience.hpp"
+#include "tests/support/instants.hpp"
 
 namespace pitwall::bench {
 namespace {
 
 using transport::UdpSocket;
 using Bytes = std::vector<std::uint8_t>;
-
-constexpr Duration kPatience = seconds(5);  // of a loaded machine; nothing is measured with it
 
 // A socket of the test: base or car.
 UdpSocket socket() {
@@ -34,8 +34,6 @@ Bytes take(UdpSocket& from) {
   if (from.receive(got) == 0) return {};
   return {got[0].payload().begin(), got[0].payload().end()};
 }
-
-constexpr Instant at_ms(std::int64_t ms) { return Instant{} + milliseconds(ms); }
 
 // A path, or two; the base and the car of each are sockets of the test.
 struct Ends {

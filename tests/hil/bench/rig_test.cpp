@@ -5,7 +5,7 @@
 
 #include <map>
 
-#include "tests/hil/bench/flying_lap.hpp"
+#include "tests/hil/bench/standing.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -17,20 +17,6 @@ struct Heard {
   std::map<std::pair<std::string, int>, std::vector<Instant>> samples;  // (kind, unit) -> validity
   std::vector<double> speed_mps;
 };
-
-scenario::Scenario standing() {
-  scenario::Scenario s = lap().scenario;
-  s.faults.clear();
-  return s;
-}
-
-scenario::Fault fault(std::string kind, double value = kUnset) {
-  return {.kind = std::move(kind),
-          .at = seconds(2),
-          .lasts = seconds(1),
-          .value = value,
-          .place = "test"};
-}
 
 // Nobody commands anything: the car stands with its brake on.
 Heard listen(const scenario::Scenario& scenario, Duration span) {
@@ -78,7 +64,7 @@ TEST(Rig, WhatCannotBeBuiltIsRefused) {
     EXPECT_FALSE(Rig::build(s, lap().setup.track)) << n_m;
   }
   s = standing();
-  s.faults = {fault("earthquake")};
+  s.faults = {fault_at(seconds(2), "earthquake")};
   const auto rig = Rig::build(s, lap().setup.track);
   ASSERT_FALSE(rig);
   EXPECT_EQ(rig.error().place, "test");
@@ -126,7 +112,7 @@ TEST(Rig, AFaultOutsideItsTimeChangesNothing) {
   const Heard without = listen(standing(), seconds(4));
   for (const auto& kind : faults::kBenchFaults) {
     scenario::Scenario s = standing();
-    s.faults = {fault(std::string(kind.name), kind.value.empty() ? kUnset : 0.5)};
+    s.faults = {fault_at(seconds(2), std::string(kind.name), kind.value.empty() ? kUnset : 0.5)};
     if (!plan_faults(s.faults, 1)) continue;  // not in this bench
     const Heard with = listen(s, seconds(2) - kRigStep);
     ASSERT_LE(with.frames.size(), without.frames.size());
@@ -139,7 +125,7 @@ TEST(Rig, AFaultOutsideItsTimeChangesNothing) {
 
 TEST(Rig, ASilentBusIsSilentForItsTime) {
   scenario::Scenario s = standing();
-  s.faults = {fault("bus_silent")};
+  s.faults = {fault_at(seconds(2), "bus_silent")};
   const Heard heard = listen(s, seconds(4));
   EXPECT_EQ(count(heard, 1300, milliseconds(1999), milliseconds(2999)), 0u);
   EXPECT_EQ(count(heard, 1200, milliseconds(1999), milliseconds(2999)), 0u);
@@ -151,7 +137,7 @@ TEST(Rig, ASilentBusIsSilentForItsTime) {
 
 TEST(Rig, SilentRaceControlLeavesTheOthersAlone) {
   scenario::Scenario s = standing();
-  s.faults = {fault("race_control_silent")};
+  s.faults = {fault_at(seconds(2), "race_control_silent")};
   const Heard heard = listen(s, seconds(4));
   EXPECT_EQ(count(heard, 1200, seconds(2), milliseconds(2999)), 0u);
   EXPECT_EQ(count(heard, 1300, seconds(2), seconds(3)), 200u);
@@ -162,7 +148,7 @@ TEST(Rig, AnOutageTakesItsUnitOnlyAndDisturbsNoOtherSample) {
   const Heard without = listen(standing(), seconds(4));
   for (int unit = 0; unit < 2; ++unit) {
     scenario::Scenario s = standing();
-    s.faults = {fault("gnss_unit_outage")};
+    s.faults = {fault_at(seconds(2), "gnss_unit_outage")};
     s.faults[0].unit = static_cast<std::uint32_t>(unit);
     const Heard with = listen(s, seconds(4));
     for (const char* kind : {"position", "velocity", "imu"}) {
@@ -175,7 +161,7 @@ TEST(Rig, AnOutageTakesItsUnitOnlyAndDisturbsNoOtherSample) {
 
 TEST(Rig, ADelayedFrameKeepsItsSender) {
   scenario::Scenario s = standing();
-  s.faults = {fault("delay", 0.1)};
+  s.faults = {fault_at(seconds(2), "delay", 0.1)};
   const Heard heard = listen(s, seconds(4));
   std::size_t late = 0;
   for (const auto& [at, outgoing] : heard.frames) {
@@ -189,7 +175,7 @@ TEST(Rig, ADelayedFrameKeepsItsSender) {
 
 TEST(Rig, FrameFaultsReachTheFramesOfTheirId) {
   scenario::Scenario s = standing();
-  s.faults = {fault("drop_all")};
+  s.faults = {fault_at(seconds(2), "drop_all")};
   s.faults[0].can_id = 1303;
   const Heard heard = listen(s, seconds(4));
   EXPECT_EQ(count(heard, 1303, milliseconds(1999), milliseconds(2999)), 0u);

@@ -11,9 +11,7 @@
 namespace pitwall::bench {
 namespace {
 
-using telemetry::Role;
-
-telemetry::KeyFile read(const std::string& path, Role role) {
+telemetry::KeyFile read(const std::string& path, telemetry::Role role) {
   auto keys = intake::read_keys(path, role);
   EXPECT_TRUE(keys) << (keys ? "" : to_string(keys.error()));
   return *std::move(keys);
@@ -26,8 +24,8 @@ TEST(RunKeys, AreAPairThatFitsAndNewEachTime) {
   for (int run = 0; run < 2; ++run) {
     const auto made = make_run_keys(keys);
     ASSERT_TRUE(made) << to_string(made.error());
-    const auto car = read(keys + "/car.keys", Role::kCar);
-    const auto base = read(keys + "/base.keys", Role::kBase);
+    const auto car = read(keys + "/car.keys", telemetry::Role::kCar);
+    const auto base = read(keys + "/base.keys", telemetry::Role::kBase);
     EXPECT_TRUE(car.bench && base.bench);
     EXPECT_EQ(car.peer, base.own.public_key);
     EXPECT_EQ(base.peer, car.own.public_key);
@@ -44,7 +42,7 @@ TEST(RunKeys, AFolderThatCannotBeMadeIsAProblemThatNamesIt) {
   EXPECT_NE(made.error().place.find("/file/keys"), std::string::npos);
 }
 
-class KeysOfARun : public testing::Test {
+class KeysOfARun : public ::testing::Test {
  protected:
   KeysOfARun() {
     plan_.folder = folder_.path() + "/run";
@@ -63,8 +61,8 @@ TEST_F(KeysOfARun, AreNewWhereNoneWereGiven) {
   const auto keys = keys_of_run(plan_, "");
   ASSERT_TRUE(keys) << to_string(keys.error());
   EXPECT_EQ(keys->folder, plan_.folder + "/keys");
-  EXPECT_EQ(read(keys->folder + "/car.keys", Role::kCar).peer,
-            read(keys->folder + "/base.keys", Role::kBase).own.public_key);
+  EXPECT_EQ(read(keys->folder + "/car.keys", telemetry::Role::kCar).peer,
+            read(keys->folder + "/base.keys", telemetry::Role::kBase).own.public_key);
 }
 
 TEST_F(KeysOfARun, AreTakenWhereTheyLie) {
@@ -88,12 +86,12 @@ TEST_F(KeysOfARun, OfAnotherUserAreCopiedIntoMemory) {
     EXPECT_NE(path, given_);
     EXPECT_EQ(transport::read_file(given_ + "/car.keys").value_or("1"),
               transport::read_private_file(path + "/car.keys").value_or("2"));
-    EXPECT_EQ(read(path + "/base.keys", Role::kBase).peer,
-              read(path + "/car.keys", Role::kCar).own.public_key);
+    EXPECT_EQ(read(path + "/base.keys", telemetry::Role::kBase).peer,
+              read(path + "/car.keys", telemetry::Role::kCar).own.public_key);
     const auto fresh = keys_of_run(plan_, "");
     ASSERT_TRUE(fresh) << to_string(fresh.error());
-    EXPECT_NE(read(fresh->folder + "/car.keys", Role::kCar).peer,
-              read(path + "/car.keys", Role::kCar).peer);
+    EXPECT_NE(read(fresh->folder + "/car.keys", telemetry::Role::kCar).peer,
+              read(path + "/car.keys", telemetry::Role::kCar).peer);
   }
   EXPECT_FALSE(std::filesystem::exists(path));
   std::filesystem::remove(given_ + "/base.keys");

@@ -11,15 +11,13 @@
 
 #include "protocol/telemetry/delivery/event_content.hpp"
 #include "tests/hil/bench/flying_lap.hpp"
+#include "tests/support/instants.hpp"
 
 namespace pitwall::bench {
 namespace {
 
 using faults::BenchFault;
 using faults::BenchFaultKind;
-using telemetry::Outcome;
-
-constexpr Instant at_ms(std::int64_t ms) { return Instant{} + milliseconds(ms); }
 
 // A car that stands, with nothing but its radio.
 class Radio {
@@ -147,7 +145,7 @@ TEST(VirtualStation, ACommandIsAppliedOnceAndItsFateIsKnown) {
   for (const telemetry::CommandId id : radio.station().commands()) {
     const auto* progress = radio.station().base()->progress(id);
     ASSERT_NE(progress, nullptr);
-    EXPECT_EQ(progress->fate, Outcome::kApplied);
+    EXPECT_EQ(progress->fate, telemetry::Outcome::kApplied);
   }
 }
 
@@ -216,7 +214,7 @@ TEST(VirtualStation, AtASpareBaseTheStopHoldsAndTheAuthorityIsTakenAnew) {
   EXPECT_TRUE(radio.heard.empty());
   ASSERT_EQ(radio.station().commands().size(), 1U);
   EXPECT_EQ(radio.station().base()->progress(radio.station().commands()[0])->fate,
-            Outcome::kNoAuthority)
+            telemetry::Outcome::kNoAuthority)
       << "nobody has the authority";
   EXPECT_EQ(radio.inputs().wishes.stop, world::StopWish::kControlled);
   radio.run_to(9'000);

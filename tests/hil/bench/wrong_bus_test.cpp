@@ -13,11 +13,11 @@
 namespace pitwall::bench {
 namespace {
 
-struct Case {
+struct WrongBus {
   const char* scenario;
   const char* sentence;
 };
-const Case kCases[] = {
+const WrongBus kCases[] = {
     {"wrong_bus_v9",
      "CAN id 1250 marelli_report_1: not heard for 3.5 s, every 500 ms in database CAN1-INDY-V14"},
     {"wrong_bus_v12", "CAN id 1000: 8 bytes on the bus, no such message in database CAN1-INDY-V14"},
@@ -32,7 +32,7 @@ Loaded loaded_scenario(const std::string& name) {
 }
 
 TEST(WrongBus, TheCarSendsNoCommandAndSaysWhy) {
-  for (const Case& row : kCases) {
+  for (const WrongBus& row : kCases) {
     const Loaded loaded = loaded_scenario(row.scenario);
     std::string log;
     LockstepOptions options;
@@ -68,7 +68,7 @@ TEST(WrongBus, TheCarSendsNoCommandAndSaysWhy) {
 
 // The test of the tests: on its own bus the same car arms, and the same expectations fail.
 TEST(WrongBus, OnItsOwnBusTheSameCarArms) {
-  for (const Case& row : kCases) {
+  for (const WrongBus& row : kCases) {
     Loaded loaded = loaded_scenario(row.scenario);
     loaded.scenario.bus = scenario::BusRevision::kV14;
     Instant armed{};

@@ -8,20 +8,12 @@
 
 #include "hil/bus/frame_length.hpp"
 #include "hil/bus/memory_bus.hpp"
+#include "tests/hil/bus/half_megabit.hpp"
 
 namespace pitwall::bus {
 namespace {
 
-constexpr Duration kBit = nanoseconds(2000);  // 500 kbit/s
 constexpr Instant kStart = Instant{} + seconds(1);
-
-can::Frame frame_of(std::uint32_t id, std::uint8_t length = 8) {
-  can::Frame f;
-  f.id = id;
-  f.length = length;
-  std::fill_n(f.data.begin(), length, 0x5A);
-  return f;
-}
 
 std::size_t heard_by(std::uint8_t port, MemoryBus& bus, Instant now) {
   const auto all = bus.advance(now);

@@ -5,17 +5,13 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
 #include <string>
 #include <vector>
 
+#include "tests/hil/bus/random_words.hpp"
+
 namespace pitwall::bus {
 namespace {
-
-struct Rng {
-  std::mt19937 engine;
-  std::uint32_t operator()() { return static_cast<std::uint32_t>(engine()); }
-};
 
 std::string binary(std::uint32_t value, int bits) {
   std::string text;
@@ -57,7 +53,7 @@ std::string header_and_data(const can::Frame& f) {
   return bits;
 }
 
-can::Frame random_frame(Rng& rng) {
+can::Frame random_frame(RandomWords& rng) {
   can::Frame f;
   f.extended = rng() % 4 == 0;
   f.id = rng() & (f.extended ? can::kMaxExtendedId : can::kMaxStandardId);
@@ -69,7 +65,7 @@ can::Frame random_frame(Rng& rng) {
 }
 
 TEST(FrameLength, EqualsTheFrameWrittenOutBitByBit) {
-  Rng rng{std::mt19937{1}};
+  RandomWords rng{std::mt19937{1}};
   for (int i = 0; i < 20'000; ++i) {
     const can::Frame f = random_frame(rng);
     const std::string bits = header_and_data(f);
@@ -83,7 +79,7 @@ TEST(FrameLength, EqualsTheFrameWrittenOutBitByBit) {
 }
 
 TEST(FrameLength, LiesBetweenTheUnstuffedAndTheWorstCase) {
-  Rng rng{std::mt19937{2}};
+  RandomWords rng{std::mt19937{2}};
   for (int i = 0; i < 50'000; ++i) {
     const can::Frame f = random_frame(rng);
     const std::uint32_t least = (f.extended ? 67U : 47U) + 8U * f.length;
@@ -118,7 +114,7 @@ TEST(ArbitrationKey, OrdersAsTheWiredAndOfTheBitsDoes) {
     return f.extended ? binary(f.id >> 18, 11) + "11" + binary(f.id & 0x3FFFF, 18) + r
                       : binary(f.id, 11) + r + "0" + std::string(19, '0');
   };
-  Rng rng{std::mt19937{3}};
+  RandomWords rng{std::mt19937{3}};
   for (int i = 0; i < 20'000; ++i) {
     can::Frame a = random_frame(rng), b = random_frame(rng);
     if (rng() % 2 == 0) b.id = b.extended ? (a.id << 18) & can::kMaxExtendedId : a.id & 0x7FF;

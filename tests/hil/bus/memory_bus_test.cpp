@@ -4,33 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <random>
 #include <vector>
 
 #include "hil/bus/frame_length.hpp"
+#include "tests/hil/bus/half_megabit.hpp"
+#include "tests/hil/bus/random_words.hpp"
 
 namespace pitwall::bus {
 namespace {
-
-constexpr Duration kBit = nanoseconds(2000);  // 500 kbit/s
-
-can::Frame frame_of(std::uint32_t id, std::uint8_t length = 8, std::uint8_t fill = 0x5A) {
-  can::Frame f;
-  f.id = id;
-  f.length = length;
-  std::fill_n(f.data.begin(), length, fill);
-  return f;
-}
 
 std::vector<Delivery> advance(MemoryBus& bus, Instant now) {
   const auto heard = bus.advance(now);
   return {heard.begin(), heard.end()};
 }
-
-struct Rng {
-  std::mt19937 engine;
-  std::uint32_t operator()() { return static_cast<std::uint32_t>(engine()); }
-};
 
 struct Heard {
   std::uint8_t to, from;
@@ -113,7 +99,7 @@ struct Offer {
 };
 
 std::vector<Offer> random_traffic(std::uint32_t seed, int frames, int gap_us) {
-  Rng rng{std::mt19937{seed}};
+  RandomWords rng{std::mt19937{seed}};
   std::vector<Offer> offers;
   Instant at{};
   for (int i = 0; i < frames; ++i) {
@@ -167,7 +153,7 @@ TEST(MemoryBus, EveryOfferIsAccountedForAndNothingOverlaps) {
 }
 
 TEST(MemoryBus, TheHighestPriorityWaitsAtMostForOneFrame) {
-  Rng rng{std::mt19937{11}};
+  RandomWords rng{std::mt19937{11}};
   MemoryBus bus{{.ports = 2}};
   const can::Frame urgent = frame_of(0x000, 4, 0xA5);
   const Duration bound = kBit * (55 + 80 + frame_length(urgent).bits);

@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "protocol/can/av21.hpp"
+#include "tests/hil/faults/av21_frames.hpp"
 
 namespace pitwall::faults {
 namespace {
@@ -17,18 +17,8 @@ namespace av21 = can::av21;
 constexpr Instant kStart = Instant{} + seconds(1);
 
 can::Frame steering(double deg, double counter) {
-  can::Frame f;
-  can::EncodeCounters ignored;
-  const av21::SteeringReport m{.steering_motor_ang_avg_fdbk = deg,
-                               .steering_motor_fdbk_counter = counter};
-  EXPECT_TRUE(av21::encode(m, f, ignored));
-  return f;
-}
-
-av21::SteeringReport decoded(const can::Frame& f) {
-  av21::SteeringReport m;
-  EXPECT_TRUE(av21::decode(f, m));
-  return m;
+  return frame_of(av21::SteeringReport{.steering_motor_ang_avg_fdbk = deg,
+                                       .steering_motor_fdbk_counter = counter});
 }
 
 FrameFault fault_of(FrameFaultKind kind) {
@@ -200,7 +190,7 @@ TEST(FrameFault, FlipsExactlySoManyBitsOfThePayload) {
 TEST(FrameFault, AStuckCounterKeepsTheValueLive) {
   const auto out = run(fault_of(FrameFaultKind::kStuckCounter));
   for (int i = 100; i < 200; ++i) {
-    const auto m = decoded(out[static_cast<std::size_t>(i)][0].frame);
+    const auto m = decoded<av21::SteeringReport>(out[static_cast<std::size_t>(i)][0].frame);
     ASSERT_EQ(m.steering_motor_fdbk_counter, 100.0);
     ASSERT_EQ(m.steering_motor_ang_avg_fdbk, 0.5 * (i % 200));
   }
@@ -211,7 +201,7 @@ TEST(FrameFault, ACounterJumpIsAheadByItsCountModuloTheField) {
   fault.count = 200;
   const auto out = run(fault);
   for (int i = 100; i < 200; ++i) {
-    const auto m = decoded(out[static_cast<std::size_t>(i)][0].frame);
+    const auto m = decoded<av21::SteeringReport>(out[static_cast<std::size_t>(i)][0].frame);
     ASSERT_EQ(m.steering_motor_fdbk_counter, (i + 200) % 256);
     ASSERT_EQ(m.steering_motor_ang_avg_fdbk, 0.5 * (i % 200));
   }
@@ -220,7 +210,7 @@ TEST(FrameFault, ACounterJumpIsAheadByItsCountModuloTheField) {
 TEST(FrameFault, AFrozenValueHasALiveCounter) {
   const auto out = run(fault_of(FrameFaultKind::kFrozenValue));
   for (int i = 100; i < 200; ++i) {
-    const auto m = decoded(out[static_cast<std::size_t>(i)][0].frame);
+    const auto m = decoded<av21::SteeringReport>(out[static_cast<std::size_t>(i)][0].frame);
     ASSERT_EQ(m.steering_motor_fdbk_counter, i);
     ASSERT_EQ(m.steering_motor_ang_avg_fdbk, 50.0);
   }
@@ -281,7 +271,7 @@ TEST(FrameFault, FaultsActInTheOrderOfTheList) {
   const auto out = run({twice, freeze}, b);
   EXPECT_EQ(out[150].size(), 2U);
   for (const TimedFrame& t : out[150])
-    EXPECT_EQ(decoded(t.frame).steering_motor_fdbk_counter, 100.0);
+    EXPECT_EQ(decoded<av21::SteeringReport>(t.frame).steering_motor_fdbk_counter, 100.0);
 }
 
 TEST(FrameFault, CopiesBeyondTheBoundAreCounted) {

@@ -3,26 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include "protocol/can/av21.hpp"
+#include "tests/hil/faults/av21_frames.hpp"
 
 namespace pitwall::faults {
 namespace {
 
 namespace av21 = can::av21;
-
-template <class M>
-can::Frame frame_of(const M& message) {
-  can::Frame frame;
-  can::EncodeCounters counters;
-  EXPECT_TRUE(av21::encode(message, frame, counters));
-  return frame;
-}
-template <class M>
-M decoded(const can::Frame& frame) {
-  M message;
-  EXPECT_TRUE(av21::decode(frame, message));
-  return message;
-}
 
 av21::WheelSpeedReport wheels() {
   av21::WheelSpeedReport m;

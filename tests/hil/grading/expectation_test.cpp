@@ -4,14 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "protocol/vocabulary/units.hpp"
+#include "tests/hil/grading/infinity.hpp"
 
 namespace pitwall::grading {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Op kAllOps[] = {Op::kLess,         Op::kLessEqual, Op::kGreater,
                           Op::kGreaterEqual, Op::kEqual,     Op::kNotEqual};
 

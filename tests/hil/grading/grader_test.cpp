@@ -9,13 +9,14 @@
 #include <random>
 
 #include "protocol/vocabulary/units.hpp"
+#include "tests/hil/grading/infinity.hpp"
 #include "tests/support/allocation_guard.hpp"
+#include "tests/support/instants.hpp"
 
 namespace pitwall::grading {
 namespace {
 
 const std::vector<std::string> kNames{"x", "y"};
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Expectation expect(Kind kind, Condition condition) {
   Expectation e;
@@ -43,8 +44,6 @@ Verdict judge(
   }
   return grader.finish().at(0);
 }
-
-Instant at_s(double t_s) { return Instant{} + from_seconds(t_s); }
 
 Expectation detection(Duration limit) {
   Expectation e = expect(Kind::kDetects, {"x", Op::kEqual, 1.0});

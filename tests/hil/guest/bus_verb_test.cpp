@@ -16,9 +16,9 @@ int bus(const std::vector<std::string>& words) { return bus_verb(words); }
 
 TEST(BusVerb, CheckAnswersWithItsExitCode) {
   const bool works = transport::CanSocket::supported() || !guest_obstacle();
-  testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStdout();
   EXPECT_EQ(bus({"check"}), works ? 0 : 2);
-  const std::string said = testing::internal::GetCapturedStdout();
+  const std::string said = ::testing::internal::GetCapturedStdout();
   EXPECT_EQ(said.starts_with("CAN: native"), transport::CanSocket::supported()) << said;
 }
 
@@ -32,16 +32,16 @@ TEST(BusVerb, WrongUsageIsTwoAndSaysWhy) {
                                                 {"line"},
                                                 {"line", "1"},
                                                 {"line", "x", "1"}}) {
-    testing::internal::CaptureStderr();
+    ::testing::internal::CaptureStderr();
     EXPECT_EQ(bus(words), 2);
-    EXPECT_NE(testing::internal::GetCapturedStderr().find("error: "), std::string::npos);
+    EXPECT_NE(::testing::internal::GetCapturedStderr().find("error: "), std::string::npos);
   }
 }
 
 TEST(BusVerb, HelpNamesEveryVerb) {
-  testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStdout();
   EXPECT_EQ(bus({"--help"}), 0);
-  const std::string said = testing::internal::GetCapturedStdout();
+  const std::string said = ::testing::internal::GetCapturedStdout();
   for (const char* verb :
        {"check", "up", "status", "down", "hub", "exec", "--line-udp", "--timeout", "--bitrate",
         "--restart-ms", "--listen-only", "--txqueuelen"})

@@ -5,13 +5,11 @@
 
 #include <set>
 
-#include "hil/bench/loading.hpp"
 #include "hil/laps/lap_table.hpp"
+#include "tests/hil/laps/shipped_scenario.hpp"
 
 namespace pitwall::laps {
 namespace {
-
-const std::string kRoot = PITWALL_SOURCE_DIR;
 
 // Every delay, factor and error that a scenario may set.
 std::array<double, 10> values_of(const scenario::Perturbations& p) {
@@ -39,16 +37,15 @@ TEST(LapPlan, ChangesOneThingAtATimeAndLeavesNoneOut) {
 }
 
 TEST(LapPlan, GivesAnyTrackTimeForItsLaps) {
-  const auto like = bench::load(kRoot + "/hil/scenarios/lvms_flying_lap.yaml", kRoot);
-  const auto on = bench::load(kRoot + "/hil/scenarios/ims_flying_lap.yaml", kRoot);
-  ASSERT_TRUE(like && on);
-  const auto s = flying_laps_of(like->scenario, on->setup, "x.yaml");
+  const bench::Loaded like = shipped_scenario("lvms_flying_lap");
+  const bench::Loaded on = shipped_scenario("ims_flying_lap");
+  const auto s = flying_laps_of(like.scenario, on.setup, "x.yaml");
   EXPECT_EQ(s.track_file, "x.yaml");
-  EXPECT_NEAR(s.start.s_m, on->setup.track.length_m() - 200.0, 1e-9);
+  EXPECT_NEAR(s.start.s_m, on.setup.track.length_m() - 200.0, 1e-9);
   EXPECT_EQ(s.race_control.back().track, world::TrackFlag::kRed);
   EXPECT_LT(s.race_control.back().at, s.duration);
   // Three laps at the round speed, and no more than it takes to walk one.
-  EXPECT_GT(s.duration.seconds(), 3.0 * on->setup.track.length_m() / from_mph(147.0));
+  EXPECT_GT(s.duration.seconds(), 3.0 * on.setup.track.length_m() / from_mph(147.0));
   EXPECT_LT(s.duration.seconds(), 600.0);
   EXPECT_TRUE(s.expect.empty());
 }

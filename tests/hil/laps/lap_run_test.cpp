@@ -3,19 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include "hil/bench/loading.hpp"
+#include "tests/hil/laps/shipped_scenario.hpp"
 
 namespace pitwall::laps {
 namespace {
 
-const std::string kRoot = PITWALL_SOURCE_DIR;
-
 const bench::Loaded& texas() {
-  static const bench::Loaded loaded = [] {
-    auto read = bench::load(kRoot + "/hil/scenarios/tms_flying_lap.yaml", kRoot);
-    if (!read) ADD_FAILURE() << to_string(read.error());
-    return *std::move(read);
-  }();
+  static const bench::Loaded loaded = shipped_scenario("tms_flying_lap");
   return loaded;
 }
 

@@ -8,11 +8,10 @@
 #include <vector>
 
 #include "hil/sensors/noise.hpp"
+#include "tests/support/instants.hpp"
 
 namespace pitwall::link {
 namespace {
-
-constexpr Instant at_ms(std::int64_t ms) { return Instant{} + milliseconds(ms); }
 
 TEST(AgeSamples, AnEvenSenderIsBetweenItsDelayAndOnePeriodMore) {
   AgeSamples ages(at_ms(1'000), at_ms(11'000));

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "hil/link/trace.hpp"
@@ -13,7 +12,6 @@
 namespace pitwall::link {
 namespace {
 
-constexpr Instant kEnd{std::numeric_limits<std::int64_t>::max()};
 constexpr std::size_t kOverhead = 28;  // IPv4 and UDP without options
 
 struct Sent {
@@ -38,7 +36,7 @@ std::vector<Sent> send_evenly(LinkEmulator& link, Duration period, Duration leng
     link.offer(bytes, at, sent.size() - 1);
     collect(at);
   }
-  collect(kEnd);
+  collect(Instant::max());
   return sent;
 }
 
@@ -154,7 +152,7 @@ TEST(LinkEmulator, ADatagramFadesWhileItIsOnTheAirNotWhileItWaits) {
   const std::vector<std::uint8_t> bytes(100 - kOverhead);  // 100 ms on the air
   for (std::uint64_t i = 0; i < 4; ++i) link.offer(bytes, Instant{}, i);
   std::vector<std::uint64_t> came;
-  while (const auto datagram = link.take(kEnd)) came.push_back(datagram->tag);
+  while (const auto datagram = link.take(Instant::max())) came.push_back(datagram->tag);
   EXPECT_EQ(came, (std::vector<std::uint64_t>{0, 2, 3}));
   EXPECT_EQ(link.counters().faded, 1U);
 }

@@ -14,18 +14,14 @@
 #include "hil/plant/plant.hpp"
 #include "hil/plant/powertrain.hpp"
 #include "hil/plant/tyre.hpp"
+#include "tests/hil/plant/rolling_car.hpp"
+#include "tests/hil/plant/step.hpp"
 
 namespace pitwall::plant {
 namespace {
 
-constexpr double kStep_s = 0.001;
-
 using Entries = std::array<double, sizeof(Motion) / sizeof(double)>;
 Entries entries(const Motion& m) { return std::bit_cast<Entries>(m); }
-
-State at(double speed_mps, std::uint8_t gear, const Params& p = {}) {
-  return rolling(p, standing(p, 0.0, 0.0, 0.0), speed_mps, gear);
-}
 
 struct Dice {
   faults::Random random;
@@ -87,7 +83,7 @@ TEST(Invariants, LeftAndRightAreMirroredExactly) {
   p.aero.side_arm_m = -0.3;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     Dice dice(seed);
-    State left = at(dice(0.0, 70.0), 3, p), right = left;
+    State left = rolling_car(dice(0.0, 70.0), 3, p), right = left;
     Actuation a{.gear = 3, .ignition = true};
     Surface road;
     for (int i = 0; i < 3000; ++i) {
@@ -182,7 +178,7 @@ TEST(Invariants, CoastingNeverGainsEnergy) {
   int stopped = 0;
   for (std::uint64_t seed = 0; seed < 36; ++seed) {
     Dice dice(seed);
-    State s = at(seed % 3 == 0 ? dice(1.0, 10.0) : dice(10.0, 85.0), 0);
+    State s = rolling_car(seed % 3 == 0 ? dice(1.0, 10.0) : dice(10.0, 85.0), 0);
     s.motion.vy_mps = std::max(0.0, dice(-6.0, 6.0));
     const Actuation a{.steering_motor_rad = dice(-1.0, 1.0) * dice(0.0, 4.0),
                       .brake_kpa = std::max(0.0, dice(-3000.0, 6000.0))};
@@ -204,7 +200,7 @@ TEST(Invariants, CoastingInGearNeverGainsEnergy) {
       const double speed_mps = engine_rad_per_s * p.rear.radius_m /
                                (p.drivetrain.final_drive * p.drivetrain.gear[gear - 1U]);
       const Actuation a{.steering_motor_rad = 0.5, .gear = gear, .ignition = true};
-      const Grown grown = coast(p, at(speed_mps, gear), a, {.bank_rad = bank_rad}, 1500);
+      const Grown grown = coast(p, rolling_car(speed_mps, gear), a, {.bank_rad = bank_rad}, 1500);
       EXPECT_LE(grown.moving_j, 0.0) << int{gear} << " " << bank_rad;
     }
 }
@@ -216,7 +212,7 @@ TEST(Invariants, LoadsCarryWeightDownforceAndBanking) {
   const Params p;
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     Dice dice(seed);
-    State s = at(dice(0.0, 85.0), 5);
+    State s = rolling_car(dice(0.0, 85.0), 5);
     s.motion.yaw_rate_rad_per_s = dice(-0.4, 0.4);
     s.motion.yaw_rad = dice(-3.0, 3.0);
     s.motion.load_ax_mps2 = dice(-40.0, 30.0);  // far beyond what lifts wheels
@@ -246,7 +242,7 @@ TEST(Invariants, LoadsCarryPitchAndRoll) {
   const Chassis& c = p.chassis;
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
     Dice dice(seed);
-    State s = at(dice(0.0, 85.0), 5);
+    State s = rolling_car(dice(0.0, 85.0), 5);
     const Wheels level = observe(p, s, {}).load_n;
     s.motion.load_ax_mps2 = dice(-15.0, 8.0);
     s.motion.load_ay_mps2 = dice(-14.0, 14.0);
@@ -282,7 +278,8 @@ TEST(Invariants, RungeKuttaConvergesWithOrderFour) {
       const auto after = [&](int steps) {
         Params fine = p;
         fine.substep_s = kSpan_s / steps;
-        return step(fine, at(speed_mps, 0), {.steering_motor_rad = 0.6, .brake_kpa = brake_kpa},
+        return step(fine, rolling_car(speed_mps, 0),
+                    {.steering_motor_rad = 0.6, .brake_kpa = brake_kpa},
                     {.bank_rad = 0.2, .wind_north_mps = 5.0}, kSpan_s);
       };
       const State exact = after(12'800);
@@ -302,7 +299,7 @@ TEST(Invariants, RemainsFiniteWhateverIsAskedOfIt) {
   p.engine.throttle_delay_s = 0.1, p.brakes.delay_s = 0.2, p.drivetrain.shift_delay_s = 0.3;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     Dice dice(seed);
-    State s = at(70.0, 6, p);
+    State s = rolling_car(70.0, 6, p);
     for (int i = 0; i < 8'000; ++i) {
       const std::array<double, 4> wild{1e300, -1e300, std::nan(""), dice(-4.0, 4.0)};
       const auto any = [&] { return wild[static_cast<std::size_t>(dice(0.0, 3.999))]; };

@@ -12,11 +12,12 @@
 #include "hil/plant/plant.hpp"
 #include "hil/plant/tyre.hpp"
 #include "protocol/vocabulary/units.hpp"
+#include "tests/hil/plant/step.hpp"
 
 namespace pitwall::plant {
 namespace {
 
-constexpr double kStep_s = 0.001, kFast_mps = 40.0, kSlow_mps = 5.0;
+constexpr double kFast_mps = 40.0, kSlow_mps = 5.0;
 constexpr double kSteering_rad = 0.35;  // at the motor: 1 degree at the wheels
 constexpr double kKick_rad_per_s = 0.02;
 

@@ -8,11 +8,11 @@
 #include <numbers>
 #include <vector>
 
+#include "tests/hil/plant/rolling_car.hpp"
+#include "tests/hil/plant/step.hpp"
+
 namespace pitwall::plant {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-constexpr double kStep_s = 0.001;
 
 Actuation drive(double motor_rad, double throttle, double brake_kpa, std::uint8_t gear) {
   return {.steering_motor_rad = motor_rad,
@@ -20,10 +20,6 @@ Actuation drive(double motor_rad, double throttle, double brake_kpa, std::uint8_
           .brake_kpa = brake_kpa,
           .gear = gear,
           .ignition = true};
-}
-
-State at(double speed_mps, std::uint8_t gear, const Params& p = {}) {
-  return rolling(p, standing(p, 0.0, 0.0, 0.0), speed_mps, gear);
 }
 
 State run(const Params& p, State s, const Actuation& a, const Surface& road, double duration_s) {
@@ -34,7 +30,7 @@ State run(const Params& p, State s, const Actuation& a, const Surface& road, dou
 
 TEST(Plant, OneLongStepIsManyShortOnes) {
   const Params p;
-  const State s = at(30.0, 3);
+  const State s = rolling_car(30.0, 3);
   State many = s;
   for (int i = 0; i < 10; ++i) many = step(p, many, drive(0.4, 0.2, 0.0, 3), {}, 0.001);
   const State one = step(p, s, drive(0.4, 0.2, 0.0, 3), {}, 0.010);
@@ -78,7 +74,7 @@ TEST(Plant, BrakesToACompleteStopFromAnySpeed) {
     for (const double brake_kpa : {300.0, 1500.0, 6000.0})
       for (const double motor_rad : {0.0, 0.8}) {
         const Actuation stop = drive(speed_mps < 30.0 ? motor_rad : 0.0, 0.0, brake_kpa, 0);
-        State s = at(speed_mps, 0);
+        State s = rolling_car(speed_mps, 0);
         for (int i = 0; i < 90'000 && std::hypot(s.motion.vx_mps, s.motion.vy_mps) > 1e-9; ++i)
           s = step(p, s, stop, {}, kStep_s);
         EXPECT_LT(std::hypot(s.motion.vx_mps, s.motion.vy_mps), 1e-6)
@@ -94,7 +90,7 @@ TEST(Plant, SteadyTurnBalancesLateralForces) {
   for (const double bank_deg : {0.0, 20.0}) {
     const Surface road{.bank_rad = from_deg(bank_deg)};
     // Held near 45 m/s by a proportional throttle.
-    State s = at(45.0, 4);
+    State s = rolling_car(45.0, 4);
     for (int i = 0; i < 20'000; ++i)
       s = step(p, s, drive(0.30, 0.25 + 0.3 * (45.0 - s.motion.vx_mps), 0.0, 4), road, kStep_s);
     const Truth t = observe(p, s, road);
@@ -105,7 +101,7 @@ TEST(Plant, SteadyTurnBalancesLateralForces) {
     // Heading turns with the path: a closed circle in the map.
     const double radius_m = t.speed_mps / t.heading_rate_rad_per_s;
     const State lap = run(p, s, drive(0.30, 0.25 + 0.3 * (45.0 - s.motion.vx_mps), 0.0, 4), road,
-                          2.0 * kPi / t.heading_rate_rad_per_s);
+                          2.0 * std::numbers::pi / t.heading_rate_rad_per_s);
     EXPECT_LT(std::hypot(lap.motion.x_m - s.motion.x_m, lap.motion.y_m - s.motion.y_m),
               0.02 * radius_m);
     // Neither far under- nor oversteering: near the kinematic curvature of the map.
@@ -118,7 +114,8 @@ TEST(Plant, SteadyTurnBalancesLateralForces) {
 // left when the left side is lower.
 TEST(Plant, GravityPullsToTheLowerSide) {
   const Params p;
-  const State s = run(p, at(30.0, 3), drive(0.0, 0.1, 0.0, 3), {.bank_rad = from_deg(10.0)}, 1.0);
+  const State s =
+      run(p, rolling_car(30.0, 3), drive(0.0, 0.1, 0.0, 3), {.bank_rad = from_deg(10.0)}, 1.0);
   EXPECT_GT(s.motion.y_m, 0.05);
 }
 
@@ -126,7 +123,7 @@ TEST(Plant, GravityPullsToTheLowerSide) {
 TEST(Plant, AccelerometerFeelsWhatChangesTheVelocity) {
   const Params p;
   const Surface road{.bank_rad = 0.3};
-  State s = run(p, at(40.0, 3), drive(0.5, 0.6, 0.0, 3), road, 0.3);
+  State s = run(p, rolling_car(40.0, 3), drive(0.5, 0.6, 0.0, 3), road, 0.3);
   for (int i = 0; i < 200; ++i) {
     const State before = s, mid = step(p, before, drive(0.5, 0.6, 0.0, 3), road, kStep_s);
     s = step(p, mid, drive(0.5, 0.6, 0.0, 3), road, kStep_s);
@@ -158,7 +155,7 @@ TEST(Plant, StandingOnABankFeelsGravityOnly) {
 // ---- Actuators.
 TEST(Plant, SteeringHasDelayLagRateAndResolution) {
   const Params p;
-  State s = at(20.0, 2);
+  State s = rolling_car(20.0, 2);
   const double command_rad = from_deg(20.2);  // shall be taken as 20.0
   double before_rad = 0.0, fastest = 0.0;
   for (int i = 0; i < 1000; ++i) {
@@ -175,7 +172,7 @@ TEST(Plant, SteeringHasDelayLagRateAndResolution) {
 
 TEST(Plant, BrakesAndThrottleLag) {
   const Params p;
-  const State s = run(p, at(60.0, 4), drive(0.0, 1.0, 2000.0, 4), {}, 0.1);
+  const State s = run(p, rolling_car(60.0, 4), drive(0.0, 1.0, 2000.0, 4), {}, 0.1);
   EXPECT_NEAR(s.motion.brake_front_kpa, 2000.0 * (1.0 - std::exp(-1.0)), 1.0);
   EXPECT_NEAR(s.motion.throttle_fraction, 1.0 - std::exp(-2.0), 1e-3);
 }
@@ -186,7 +183,7 @@ struct Answered {
 };
 
 Answered answers_of(const Params& p) {
-  State s = at(40.0, 3, p);
+  State s = rolling_car(40.0, 3, p);
   Answered seen;
   for (int i = 0; i < 900; ++i) {
     s = step(p, s, drive(0.0, 0.5, 2000.0, 4), {}, kStep_s);
@@ -215,7 +212,7 @@ TEST(Plant, ActuatorsAnswerAfterTheirDelayAndNotBefore) {
 TEST(Plant, ADelayedGearBoxKeepsTheGearThatItRollsIn) {
   Params p;
   p.drivetrain.shift_delay_s = 0.4;
-  State s = at(40.0, 3, p);
+  State s = rolling_car(40.0, 3, p);
   for (int i = 0; i < 1000; ++i) {
     s = step(p, s, drive(0.0, 0.2, 0.0, 3), {}, kStep_s);
     ASSERT_EQ(s.gear, 3);
@@ -226,7 +223,7 @@ TEST(Plant, ADelayedGearBoxKeepsTheGearThatItRollsIn) {
 TEST(Plant, WindPushesTheCarItsWay) {
   const Params p;
   const auto after = [&](double east_mps, double north_mps) {
-    return run(p, at(50.0, 0), drive(0.0, 0.0, 0.0, 0),
+    return run(p, rolling_car(50.0, 0), drive(0.0, 0.0, 0.0, 0),
                {.wind_east_mps = east_mps, .wind_north_mps = north_mps}, 2.0);
   };
   const State still = after(0.0, 0.0);
@@ -238,9 +235,9 @@ TEST(Plant, WindPushesTheCarItsWay) {
 
 TEST(Plant, AnEmptyTankLeavesALighterCarThatCoasts) {
   const Params p;
-  State s = at(50.0, 4);
+  State s = rolling_car(50.0, 4);
   empty_tank(p, s);
-  const Truth dry = observe(p, s, {}), full = observe(p, at(50.0, 4), {});
+  const Truth dry = observe(p, s, {}), full = observe(p, rolling_car(50.0, 4), {});
   EXPECT_EQ(dry.fuel_kg, 0.0);
   EXPECT_EQ(full.fuel_kg, p.fuel.start_kg);
   const auto sum = [](const Wheels& w) { return w[0] + w[1] + w[2] + w[3]; };
@@ -249,15 +246,15 @@ TEST(Plant, AnEmptyTankLeavesALighterCarThatCoasts) {
   EXPECT_FALSE(s.engine_running);
   EXPECT_LT(s.motion.vx_mps, 48.0);
   // The lighter car feels the same drag more.
-  State empty = at(70.0, 0);
+  State empty = rolling_car(70.0, 0);
   empty_tank(p, empty);
   EXPECT_LT(observe(p, empty, {}).specific_force_mps2[0],
-            observe(p, at(70.0, 0), {}).specific_force_mps2[0]);
+            observe(p, rolling_car(70.0, 0), {}).specific_force_mps2[0]);
 }
 
 TEST(Plant, ALapBurnsLessThanAKilogram) {
   const Params p;
-  State s = at(58.0, 6);
+  State s = rolling_car(58.0, 6);
   for (int i = 0; i < 40'000; ++i)
     s = step(p, s, drive(0.0, 0.5 + 0.1 * (58.0 - s.motion.vx_mps), 0.0, 6), {}, kStep_s);
   EXPECT_GT(s.fuel_used_kg, 0.25);
@@ -270,7 +267,7 @@ TEST(Plant, AFaultTakesPowerOrBrakesAway) {
   weak.engine.power = 0.5;
   weak.brakes.front_remaining = 0.0;
   const auto speed = [](const Params& p, const Actuation& a) {
-    return run(p, at(40.0, 3, p), a, {}, 2.0).motion.vx_mps;
+    return run(p, rolling_car(40.0, 3, p), a, {}, 2.0).motion.vx_mps;
   };
   EXPECT_LT(speed(weak, drive(0.0, 1.0, 0.0, 3)), speed(whole, drive(0.0, 1.0, 0.0, 3)) - 3.0);
   EXPECT_GT(speed(weak, drive(0.0, 0.0, 1500.0, 0)),
@@ -284,7 +281,7 @@ struct Sprint {
 
 Sprint full_throttle() {
   const Params p;
-  State s = at(0.0, 1);
+  State s = rolling_car(0.0, 1);
   Sprint result;
   std::uint8_t gear = 1;
   for (int i = 0; i < 90'000; ++i) {
@@ -310,7 +307,7 @@ world::TrackMap ring(bool with_pit) {
   world::TrackDescription d;
   d.name = "ring";
   constexpr double kRadius_m = 200.0;
-  d.length_m = 2.0 * kPi * kRadius_m;
+  d.length_m = 2.0 * std::numbers::pi * kRadius_m;
   d.datum_latitude_deg = 36.0, d.datum_longitude_deg = -115.0, d.datum_height_m = 0.0;
   for (int i = 0; i < 8; ++i)
     d.knots.push_back(
@@ -337,7 +334,8 @@ TEST(Road, GapsAreThoseOfTheNearestCorner) {
     EXPECT_NEAR(r.wall_gap_left_m, 6.0 - n_m - 0.5 * p.chassis.width_m, 1e-6);
     EXPECT_NEAR(r.wall_gap_right_m, 9.0 + n_m - 0.5 * p.chassis.width_m, 1e-6);
     EXPECT_FALSE(r.contact);
-    const Road across = road_at(p, map, standing(p, point.x_m, point.y_m, point.yaw_rad + kPi / 2));
+    const Road across =
+        road_at(p, map, standing(p, point.x_m, point.y_m, point.yaw_rad + std::numbers::pi / 2));
     EXPECT_LT(across.wall_gap_left_m, r.wall_gap_left_m);
   }
   const auto outside = map.offset(300.0, -8.5);

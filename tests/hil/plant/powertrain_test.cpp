@@ -7,24 +7,19 @@
 
 #include "hil/plant/dynamics.hpp"
 #include "hil/plant/engine.hpp"
+#include "tests/hil/plant/rolling_car.hpp"
+#include "tests/hil/plant/step.hpp"
 
 namespace pitwall::plant {
 namespace {
-
-constexpr double kStep_s = 0.001;
 
 Actuation ask(std::uint8_t gear, double throttle = 0.0) {
   return {.throttle_fraction = throttle, .gear = gear, .ignition = true};
 }
 
-State moving(double speed_mps, std::uint8_t gear) {
-  const Params p;
-  return rolling(p, standing(p, 0, 0, 0), speed_mps, gear);
-}
-
 TEST(Gearbox, ShiftCutsTorqueThenLocksOut) {
   const Params p;
-  State s = moving(40.0, 3);
+  State s = rolling_car(40.0, 3);
   std::array<int, 5> milliseconds_in{};
   for (int i = 0; i < 1000; ++i) {
     advance_powertrain(p, ask(4), kStep_s, s);
@@ -43,7 +38,7 @@ TEST(Gearbox, ShiftCutsTorqueThenLocksOut) {
 
 TEST(Gearbox, GoesOneStepAtATime) {
   const Params p;
-  State s = moving(30.0, 2);
+  State s = rolling_car(30.0, 2);
   std::uint8_t before = s.gear;
   for (int i = 0; i < 5000; ++i) {
     advance_powertrain(p, ask(200), kStep_s, s);
@@ -55,7 +50,7 @@ TEST(Gearbox, GoesOneStepAtATime) {
 
 TEST(Gearbox, RefusesADownshiftThatWouldOverrev) {
   const Params p;
-  State s = moving(75.0, 6);
+  State s = rolling_car(75.0, 6);
   for (int i = 0; i < 3000; ++i) {
     advance_powertrain(p, ask(1), kStep_s, s);
     const double rpm = to_rpm(s.motion.wheel_rad_per_s[2] * p.drivetrain.final_drive *
@@ -67,9 +62,9 @@ TEST(Gearbox, RefusesADownshiftThatWouldOverrev) {
 
 TEST(Gearbox, RatiosAreThoseOfTheCar) {
   const Params p;
-  EXPECT_NEAR(total_ratio(p.drivetrain, moving(40.0, 1)), 8.75, 0.001);
-  EXPECT_NEAR(total_ratio(p.drivetrain, moving(40.0, 6)), 2.667, 0.001);
-  EXPECT_EQ(total_ratio(p.drivetrain, moving(40.0, 0)), 0.0);
+  EXPECT_NEAR(total_ratio(p.drivetrain, rolling_car(40.0, 1)), 8.75, 0.001);
+  EXPECT_NEAR(total_ratio(p.drivetrain, rolling_car(40.0, 6)), 2.667, 0.001);
+  EXPECT_EQ(total_ratio(p.drivetrain, rolling_car(40.0, 0)), 0.0);
 }
 
 TEST(Engine, StartsWhenCrankedAndStopsWithTheIgnition) {
@@ -126,7 +121,7 @@ TEST(Engine, BurnsItsFuelAndStopsWithAnEmptyTank) {
 
 TEST(Clutch, SlipsBelowLaunchSpeedAndPullsOnlyForward) {
   const Params p;
-  State s = moving(3.0, 1);
+  State s = rolling_car(3.0, 1);
   s.motion.throttle_fraction = 0.8;
   const Clutch slipping = clutch_of(p, s, s.motion);
   EXPECT_FALSE(slipping.engaged);
@@ -134,7 +129,7 @@ TEST(Clutch, SlipsBelowLaunchSpeedAndPullsOnlyForward) {
   EXPECT_GT(slipping.crank_torque_nm, 100.0);
   s.motion.throttle_fraction = 0.0;
   EXPECT_EQ(clutch_of(p, s, s.motion).crank_torque_nm, 0.0);
-  const State fast = moving(40.0, 3);
+  const State fast = rolling_car(40.0, 3);
   const Clutch coasting = clutch_of(p, fast, fast.motion);
   EXPECT_TRUE(coasting.engaged);
   EXPECT_LT(coasting.crank_torque_nm, 0.0);

@@ -17,7 +17,7 @@
 namespace pitwall::plant {
 namespace {
 
-constexpr double kSlow_mps = 5.0;
+constexpr double kUnderWay_mps = 5.0;
 constexpr int kStepsPerRow = 40;  // 25 Hz
 
 struct Row {
@@ -53,7 +53,7 @@ Score replay(const std::vector<Row>& rows) {
   State s = rolling(p, standing(p, 0, 0, 0), rows.front().speed_mps, 0);
   double mean = 0.0, count = 0.0;
   for (const Row& row : rows)
-    if (row.speed_mps > kSlow_mps) mean += row.yaw_rate_rad_per_s, count += 1.0;
+    if (row.speed_mps > kUnderWay_mps) mean += row.yaw_rate_rad_per_s, count += 1.0;
   mean /= count;
   Score score;
   for (const Row& row : rows) {
@@ -62,7 +62,7 @@ Score replay(const std::vector<Row>& rows) {
       s = step(p, s, {.steering_motor_rad = s.motion.steering_motor_rad, .ignition = true}, {},
                0.001);
     }
-    if (row.speed_mps <= kSlow_mps) continue;
+    if (row.speed_mps <= kUnderWay_mps) continue;
     const double kinematic = row.speed_mps * std::tan(row.road_wheel_rad) / wheelbase_m;
     score.plant_error += std::pow(s.motion.yaw_rate_rad_per_s - row.yaw_rate_rad_per_s, 2);
     score.kinematic_error += std::pow(kinematic - row.yaw_rate_rad_per_s, 2);

@@ -13,19 +13,18 @@
 
 #include "hil/faults/random.hpp"
 #include "hil/plant/dynamics.hpp"
+#include "tests/hil/plant/step.hpp"
 
 namespace pitwall::plant {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kStep_s = 0.001;
 constexpr double kHeight_m = 0.28;
 
 world::TrackMap ring(double lowest_rad, double highest_rad) {
   world::TrackDescription d;
   d.name = "ring";
   constexpr double kRadius_m = 200.0;
-  d.length_m = 2.0 * kPi * kRadius_m;
+  d.length_m = 2.0 * std::numbers::pi * kRadius_m;
   d.datum_latitude_deg = 36.0, d.datum_longitude_deg = -115.0, d.datum_height_m = 0.0;
   for (int i = 0; i < 16; ++i)
     d.knots.push_back(
@@ -79,7 +78,7 @@ TEST(RoadSurface, IsSteeperByTheErrorOfTheMap) {
 TEST(RoadSurface, ACarThatPointsUpTheBankClimbs) {
   const auto map = ring(0.2, 0.2);
   const RoadSurface ground(map, 0.0, kHeight_m);
-  const State up = placed(map, 100.0, 0.0, -kPi / 2.0);  // the left side is lower
+  const State up = placed(map, 100.0, 0.0, -std::numbers::pi / 2.0);  // the left side is lower
   const Surface lie = ground.at(road_at({}, map, up), up.motion);
   EXPECT_NEAR(lie.climb_rad, 0.2, 1e-9);
   EXPECT_NEAR(lie.bank_rad, 0.0, 1e-9);
@@ -98,7 +97,8 @@ TEST(RoadSurface, RatesAreThoseOfTheLieAlongTheMotion) {
   const auto dice = [&](double low, double high) { return low + (high - low) * random.uniform(); };
   constexpr double kHalf_s = 1e-5;
   for (int i = 0; i < 500; ++i) {
-    State s = placed(map, dice(0.0, map.length_m()), dice(-6.0, 6.0), dice(-kPi, kPi));
+    State s = placed(map, dice(0.0, map.length_m()), dice(-6.0, 6.0),
+                     dice(-std::numbers::pi, std::numbers::pi));
     s.motion.vx_mps = dice(-10.0, 80.0), s.motion.vy_mps = dice(-10.0, 10.0);
     s.motion.yaw_rate_rad_per_s = dice(-2.0, 2.0);
     const Surface lie = ground.at(road_at({}, map, s), s.motion);

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "hil/plant/plant.hpp"
+#include "tests/hil/plant_file/name_of.hpp"
 
 namespace pitwall::plant_file {
 namespace {
@@ -16,8 +17,6 @@ namespace {
 using plant::Params;
 using Numbers = std::array<double, sizeof(Params) / sizeof(double)>;
 static_assert(sizeof(Numbers) == sizeof(Params), "the parameters are numbers and nothing else");
-
-std::string name_of(const Entry& e) { return std::string(e.section) + "." + std::string(e.key); }
 
 // A parameter that somebody adds must get an entry, or a place in this list with its reason.
 TEST(Entries, EveryParameterHasExactlyOne) {

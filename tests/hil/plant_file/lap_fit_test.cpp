@@ -7,11 +7,12 @@
 #include <cmath>
 
 #include "hil/sensors/noise.hpp"
+#include "tests/hil/plant_file/drive_period.hpp"
 
 namespace pitwall::plant_file {
 namespace {
 
-constexpr double kPeriod_s = 0.04, kWheelbase_m = 2.971;
+constexpr double kWheelbase_m = 2.971;
 
 double steered_rad(double t_s) {
   return 0.05 * std::sin(0.35 * t_s) + 0.04 * std::sin(0.13 * t_s + 1.0);
@@ -33,15 +34,15 @@ std::vector<DriveSample> steady_drive(const SteeringFit& truth, std::size_t coun
   return samples;
 }
 
-plant::SingleTrackParams car() { return plant::single_track_of({}); }
+plant::SingleTrackParams built_in_car() { return plant::single_track_of({}); }
 
 TEST(LapFit, InASteadyTurnTheModelIsTheLawOfUndersteer) {
   for (const double understeer : {-0.0005, 0.0, 0.002, 0.006})
     for (const double speed_mps : {12.0, 25.0, 35.0}) {
       const std::vector<DriveSample> samples(150, {speed_mps, 0.01, 0.0});
       const Drive drive{samples, kPeriod_s};
-      const auto rates =
-          yaw_rates(drive, car(), {.offset_rad = 0.002, .understeer_rad_per_mps2 = understeer});
+      const auto rates = yaw_rates(drive, built_in_car(),
+                                   {.offset_rad = 0.002, .understeer_rad_per_mps2 = understeer});
       const double law = speed_mps * 0.012 / (kWheelbase_m + understeer * speed_mps * speed_mps);
       EXPECT_NEAR(rates.back(), law, 1e-3 * law) << understeer << " " << speed_mps;
     }
@@ -57,14 +58,14 @@ TEST(LapFit, FindsTheNumbersThatMadeADrive) {
         .understeer_rad_per_mps2 = 0.0005}}) {
     const auto samples = steady_drive(truth, 4000, 0.005);
     const Drive drive{samples, kPeriod_s};
-    const auto fit = fitted(drive, {0, samples.size()}, car(), {.delay_s = 0.2});
+    const auto fit = fitted(drive, {0, samples.size()}, built_in_car(), {.delay_s = 0.2});
     ASSERT_TRUE(fit) << to_string(fit.error());
     EXPECT_NEAR(fit->offset_rad, truth.offset_rad, 2e-4);
     EXPECT_NEAR(fit->ratio, truth.ratio, 0.01);
     EXPECT_NEAR(fit->understeer_rad_per_mps2, truth.understeer_rad_per_mps2, 1.5e-4);
     // The car of the fit takes a moment of its own to turn in; the law does not.
     EXPECT_NEAR(fit->delay_s, truth.delay_s, 0.1);
-    EXPECT_GT(explained(drive, {0, samples.size()}, yaw_rates(drive, car(), *fit)), 0.99);
+    EXPECT_GT(explained(drive, {0, samples.size()}, yaw_rates(drive, built_in_car(), *fit)), 0.99);
   }
 }
 
@@ -72,10 +73,10 @@ TEST(LapFit, AFitOfItsOwnDriveIsExact) {
   const SteeringFit truth{
       .offset_rad = 0.003, .ratio = 0.97, .delay_s = 0.25, .understeer_rad_per_mps2 = 0.001};
   auto samples = steady_drive(truth, 2500);
-  const auto rates = yaw_rates({samples, kPeriod_s}, car(), truth);
+  const auto rates = yaw_rates({samples, kPeriod_s}, built_in_car(), truth);
   for (std::size_t i = 0; i < samples.size(); ++i) samples[i].yaw_rate_rad_per_s = rates[i];
   const Drive drive{samples, kPeriod_s};
-  const auto fit = fitted(drive, {500, 2500}, car(), {.delay_s = 0.15});
+  const auto fit = fitted(drive, {500, 2500}, built_in_car(), {.delay_s = 0.15});
   ASSERT_TRUE(fit);
   EXPECT_NEAR(fit->offset_rad, truth.offset_rad, 1e-5);
   EXPECT_NEAR(fit->ratio, truth.ratio, 1e-3);
@@ -100,11 +101,11 @@ TEST(LapFit, ExplainedIsOneForTheTruthZeroForTheMeanAndLessForWorse) {
 
 TEST(LapFit, ADriveThatSaysNothingIsRefused) {
   const auto few = steady_drive({}, 50);
-  EXPECT_FALSE(fitted({few, kPeriod_s}, {0, few.size()}, car(), {}));
+  EXPECT_FALSE(fitted({few, kPeriod_s}, {0, few.size()}, built_in_car(), {}));
   const std::vector<DriveSample> slow(500, {3.0, 0.1, 0.0});
-  EXPECT_FALSE(fitted({slow, kPeriod_s}, {0, slow.size()}, car(), {}));
+  EXPECT_FALSE(fitted({slow, kPeriod_s}, {0, slow.size()}, built_in_car(), {}));
   const std::vector<DriveSample> straight(500, {20.0, 0.0, 0.0});
-  EXPECT_FALSE(fitted({straight, kPeriod_s}, {0, straight.size()}, car(), {}));
+  EXPECT_FALSE(fitted({straight, kPeriod_s}, {0, straight.size()}, built_in_car(), {}));
 }
 
 }  // namespace

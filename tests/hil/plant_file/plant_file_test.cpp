@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hil/faults/random.hpp"
-#include "hil/plant_file/entries.hpp"
+#include "tests/hil/plant_file/name_of.hpp"
 #include "tests/hil/plant_file/shipped.hpp"
 
 namespace pitwall::plant_file {
@@ -16,8 +16,6 @@ namespace {
 
 using testing::refusal;
 using testing::shipped;
-
-std::string name_of(const Entry& e) { return std::string(e.section) + "." + std::string(e.key); }
 
 PlantFile read(const std::string& text) {
   auto plant = read_plant(text, "plant.yaml");

@@ -11,13 +11,13 @@
 #include "hil/plant/plant.hpp"
 #include "hil/plant_file/lap_fit.hpp"
 #include "hil/plant_file/plant_file.hpp"
+#include "tests/hil/plant_file/drive_period.hpp"
 #include "tests/hil/plant_file/shipped.hpp"
 #include "tests/support/public_data.hpp"
 
 namespace pitwall::plant_file {
 namespace {
 
-constexpr double kPeriod_s = 0.04;
 constexpr SteeringFit kStart{.delay_s = 0.3, .understeer_rad_per_mps2 = 0.001};
 
 const std::vector<DriveSample>& samples() {
@@ -44,7 +44,7 @@ std::array<Halves, 2> both_ways() {
            {"second half fitted, first scored", {middle, all}, {0, middle}}}};
 }
 
-plant::Params car() {
+plant::Params shipped_car() {
   auto file = read_plant(testing::shipped(), "av21.yaml");
   if (!file) ADD_FAILURE() << to_string(file.error());
   return file->params;
@@ -54,13 +54,13 @@ const SteeringFit& fit_of(const Halves& halves) {
   static std::map<std::size_t, SteeringFit> fits;
   const auto known = fits.find(halves.fit.first);
   if (known != fits.end()) return known->second;
-  const auto fit = fitted(drive(), halves.fit, plant::single_track_of(car()), kStart);
+  const auto fit = fitted(drive(), halves.fit, plant::single_track_of(shipped_car()), kStart);
   if (!fit) ADD_FAILURE() << to_string(fit.error());
   return fits[halves.fit.first] = *fit;
 }
 
 std::vector<double> kinematic() {
-  const plant::Params p = car();
+  const plant::Params p = shipped_car();
   std::vector<double> rates;
   for (const DriveSample& s : samples())
     rates.push_back(s.speed_mps * std::tan(s.wheel_rad) /
@@ -70,7 +70,7 @@ std::vector<double> kinematic() {
 
 // The double track with the imposed speed and steering; what it does outside `window` is left out.
 std::vector<double> double_track(const SteeringFit& fit, Window window) {
-  plant::Params p = car();
+  plant::Params p = shipped_car();
   p.steering.delay_s = 0.0;
   plant::State s = plant::standing(p, 0, 0, 0);
   s = plant::rolling(p, s, samples()[window.first].speed_mps, 0);
@@ -111,7 +111,7 @@ TEST_F(RecordedLaps, TheSingleTrackFollowsTheHalfItWasNotFittedTo) {
   EXPECT_NEAR(bare, 0.926, 0.005) << "what others measured of this recording";
   for (const Halves& halves : both_ways()) {
     const SteeringFit& fit = fit_of(halves);
-    const auto rates = yaw_rates(drive(), plant::single_track_of(car()), fit);
+    const auto rates = yaw_rates(drive(), plant::single_track_of(shipped_car()), fit);
     const double own = explained(drive(), halves.fit, rates);
     const double other = explained(drive(), halves.score, rates);
     std::printf(
@@ -136,7 +136,7 @@ TEST_F(RecordedLaps, TheDoubleTrackFollowsWithTheSteeringOfTheOtherHalf) {
 
 // Most of what a kinematic model misses is the time by which the recorded steering leads.
 TEST_F(RecordedLaps, WithNothingFittedButTheTimeTheCarOfTheFileFollowsToo) {
-  const plant::SingleTrackParams single = plant::single_track_of(car());
+  const plant::SingleTrackParams single = plant::single_track_of(shipped_car());
   const SteeringFit late{.delay_s = 0.3, .understeer_rad_per_mps2 = understeer_of(single)};
   const double share = explained(drive(), {0, samples().size()}, yaw_rates(drive(), single, late));
   std::printf("plant file, 0.3 s late, nothing fitted, whole drive: R2 %.4f\n", share);

@@ -11,12 +11,11 @@
 #include "hil/bench/run_record.hpp"
 #include "hil/report/run_data.hpp"
 #include "protocol/recording/event_log.hpp"
+#include "tests/support/instants.hpp"
 
 namespace pitwall::report {
 
 using Bytes = std::vector<std::uint8_t>;
-
-inline Instant at_s(double t_s) { return Instant{} + from_seconds(t_s); }
 
 struct LogOrder {
   std::string scenario = "some_run", mode = "lockstep";

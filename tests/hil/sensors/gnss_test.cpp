@@ -12,8 +12,6 @@
 namespace pitwall::sensors {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Params quick_wander(Params p) {  // so that a run holds many correlation times
   for (UnitParams& u : p.unit) u.noise.position.correlation_s = 1.0;
   return p;
@@ -87,7 +85,7 @@ TEST(Gnss, HeadingIsTheBetterTheLongerItsBaseline) {
   for (const int unit : {0, 1}) {
     std::vector<double> error;
     for (const auto& s : of_unit(log.headings, unit))
-      error.push_back(wrap_pi(s.heading_rad - kPi / 2.0 +
+      error.push_back(wrap_pi(s.heading_rad - std::numbers::pi / 2.0 +
                               p.unit[static_cast<std::size_t>(unit)].baseline_yaw_rad));
     const double expected = 0.0028 / p.unit[static_cast<std::size_t>(unit)].baseline_m;
     EXPECT_NEAR(moments(error).sigma, expected, 0.05 * expected);

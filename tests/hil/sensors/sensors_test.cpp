@@ -15,8 +15,6 @@
 namespace pitwall::sensors {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 TEST(Sensors, ComeAtTheirRatesWithTheirLatency) {
   const Params p = quiet();
   const Log log = run(p, standing_at(0, 0, 0), 10'000);
@@ -122,7 +120,7 @@ TEST(Sensors, VelocityIsThatOfTheAntennaFromNorthClockwise) {
   t.map_vx_mps = 30.0, t.map_vy_mps = -30.0, t.map_vz_mps = 1.5;
   auto s = of_unit(run(p, t, 200).velocities, 0).front();
   EXPECT_NEAR(s.horizontal_mps, 30.0 * std::sqrt(2.0), 1e-9);
-  EXPECT_NEAR(s.track_over_ground_rad, 0.75 * kPi, 1e-12);  // south-east
+  EXPECT_NEAR(s.track_over_ground_rad, 0.75 * std::numbers::pi, 1e-12);  // south-east
   EXPECT_NEAR(s.vertical_mps, 1.5, 1e-12);
   // Turning on the spot, an antenna in front moves to the left: north for a car that looks east.
   p.unit[0].antenna = {2.0, 0.0, 0.0};
@@ -137,15 +135,15 @@ TEST(Sensors, VelocityIsThatOfTheAntennaFromNorthClockwise) {
 
 TEST(Sensors, HeadingIsThatOfTheBaselineFromNorthClockwise) {
   Params p = quiet();
-  p.unit[0].baseline_yaw_rad = 0.0, p.unit[1].baseline_yaw_rad = kPi / 2.0;
+  p.unit[0].baseline_yaw_rad = 0.0, p.unit[1].baseline_yaw_rad = std::numbers::pi / 2.0;
   for (const double yaw_rad : {-3.0, -1.0, 0.0, 0.5, 3.1}) {
     const Log log = run(p, standing_at(0, 0, yaw_rad, 0.3), 1200);
-    const double car_rad = kPi / 2.0 - yaw_rad;
+    const double car_rad = std::numbers::pi / 2.0 - yaw_rad;
     const auto a = of_unit(log.headings, 0).front(), b = of_unit(log.headings, 1).front();
     EXPECT_NEAR(wrap_pi(a.heading_rad - car_rad), 0.0, 1e-12);
-    EXPECT_NEAR(wrap_pi(b.heading_rad - (car_rad - kPi / 2.0)), 0.0, 1e-12);
+    EXPECT_NEAR(wrap_pi(b.heading_rad - (car_rad - std::numbers::pi / 2.0)), 0.0, 1e-12);
     EXPECT_GE(a.heading_rad, 0.0);
-    EXPECT_LT(a.heading_rad, 2.0 * kPi);
+    EXPECT_LT(a.heading_rad, 2.0 * std::numbers::pi);
     EXPECT_NEAR(a.baseline_m, p.unit[0].baseline_m, 1e-12);
   }
 }
@@ -159,7 +157,7 @@ TEST(Sensors, TheInertialSolutionIsTheAttitudeOnceTheCarHasMoved) {
   EXPECT_EQ(s.status, world::InsStatus::kGood);
   EXPECT_NEAR(s.roll_rad, -0.3, 1e-12);
   EXPECT_NEAR(s.pitch_rad, 0.02, 1e-12);
-  EXPECT_NEAR(wrap_pi(s.heading_rad - (kPi / 2.0 - 0.5)), 0.0, 1e-12);
+  EXPECT_NEAR(wrap_pi(s.heading_rad - (std::numbers::pi / 2.0 - 0.5)), 0.0, 1e-12);
 }
 
 TEST(Sensors, ImuRepeatsTheTruthWhenItHasNoErrorAndNoArm) {

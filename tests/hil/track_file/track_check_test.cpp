@@ -10,18 +10,18 @@
 namespace pitwall::track_file {
 namespace {
 
-constexpr double kRadius_m = 100.0;
-const double kLength_m = 2.0 * std::numbers::pi * kRadius_m;
+constexpr double kCircleRadius_m = 100.0;
+const double kCircleLength_m = 2.0 * std::numbers::pi * kCircleRadius_m;
 
 // A circle, left-hand, with a knot every 10 m or so.
 world::TrackDescription circle() {
   world::TrackDescription d;
   d.name = "circle";
-  d.length_m = kLength_m;
+  d.length_m = kCircleLength_m;
   d.datum_latitude_deg = d.datum_longitude_deg = d.datum_height_m = 0.0;
   for (int i = 0; i < 63; ++i)
-    d.knots.push_back({.s_m = kLength_m * i / 63,
-                       .curvature_per_m = 1.0 / kRadius_m,
+    d.knots.push_back({.s_m = kCircleLength_m * i / 63,
+                       .curvature_per_m = 1.0 / kCircleRadius_m,
                        .bank_rad = from_deg(10.0),
                        .width_left_m = 6.0,
                        .width_right_m = 7.0});
@@ -36,12 +36,12 @@ TrackReport report(const world::TrackDescription& d) {
 
 TEST(TrackCheck, MeasuresACircle) {
   const TrackReport r = report(circle());
-  EXPECT_NEAR(r.length_m, kLength_m, 1e-9);
+  EXPECT_NEAR(r.length_m, kCircleLength_m, 1e-9);
   EXPECT_NEAR(r.turned_rad, 2.0 * std::numbers::pi, 1e-6);
   EXPECT_LT(r.closure_m, 1e-3);
   EXPECT_NEAR(r.correction_share, 0.0, 1e-9);
-  EXPECT_NEAR(r.curvature_max.value, 1.0 / kRadius_m, 1e-9);
-  EXPECT_NEAR(r.inner_room.value, kRadius_m - 6.0, 1e-3);
+  EXPECT_NEAR(r.curvature_max.value, 1.0 / kCircleRadius_m, 1e-9);
+  EXPECT_NEAR(r.inner_room.value, kCircleRadius_m - 6.0, 1e-3);
   EXPECT_NEAR(r.width_min.value, 13.0, 1e-9);
   EXPECT_NEAR(r.wall_nearest.value, 6.0, 1e-9);
   EXPECT_NEAR(to_deg(r.bank_max.value), 10.0, 1e-9);
@@ -115,7 +115,7 @@ TEST(TrackCheck, JsonCanBeRead) {
   const auto read = yaml::load_text(to_json(report(d)), "report.json");
   ASSERT_TRUE(read) << to_string(read.error());
   yaml::StrictMap root = read->root();
-  EXPECT_NEAR(root.number("length_m", 0.0, 1e6), kLength_m, 1e-3);
+  EXPECT_NEAR(root.number("length_m", 0.0, 1e6), kCircleLength_m, 1e-3);
   EXPECT_NEAR(root.map("wall_nearest_m").number("value", 0.0, 10.0), 1.0, 0.5);
 }
 

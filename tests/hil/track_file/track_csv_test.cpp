@@ -57,7 +57,7 @@ TEST(TrackCsv, ReadsStationsAndCurvature) {
   EXPECT_NEAR(csv->rows[0].height_m, 610.0, 1e-12);
 }
 
-struct Refusal {
+struct RefusedRow {
   const char *header, *row;
   std::size_t count;
   const char *place, *reason;
@@ -66,34 +66,34 @@ struct Refusal {
 TEST(TrackCsv, RefusesWithTheLine) {
   constexpr const char* kGood = "x_m,y_m,w_tr_right_m,w_tr_left_m";
   const std::array refusals{
-      Refusal{"", "", 0, "t.csv:1", "no header"},
-      Refusal{"", "@,2,3,4", 30, "t.csv:2", "numbers before a header"},
-      Refusal{"x_m,y_m,breite", "@,2,3", 30, "t.csv:1", "unknown column \"breite\""},
-      Refusal{"x_m,y_m,x_ref_m", "@,2,3", 30, "t.csv:1", "says the same as"},
-      Refusal{"x_m,y_m,w_tr_right_m", "@,2,3", 30, "t.csv:1", "no walls"},
-      Refusal{"x_m,w_tr_right_m,w_tr_left_m", "@,2,3", 30, "t.csv:1", "no line"},
-      Refusal{kGood, "@,2,3,4", kRowsMin - 1, "t.csv:20", "19 points"},
-      Refusal{kGood, "@,2,3,4", kRowsMax + 1, "t.csv:20002", "more than 20000"},
-      Refusal{kGood, "@,2,3", 30, "t.csv:2", "3 fields, the header has 4"},
-      Refusal{kGood, "@,2,3,4,5", 30, "t.csv:2", "5 fields, the header has 4"},
-      Refusal{kGood, "@,nan,3,4", 30, "t.csv:2", "no finite number"},
-      Refusal{kGood, "@,inf,3,4", 30, "t.csv:2", "no finite number"},
-      Refusal{kGood, "@,1e999,3,4", 30, "t.csv:2", "no finite number"},
-      Refusal{kGood, "@,2 m,3,4", 30, "t.csv:2", "y_m: \"2 m\" is no finite number"},
-      Refusal{kGood, "@,,3,4", 30, "t.csv:2", "no finite number"},
-      Refusal{kGood, "@,2,0,4", 30, "t.csv:2", "a width is not positive"},
-      Refusal{kGood, "@,2,3,-4", 30, "t.csv:2", "a width is not positive"},
-      Refusal{kGood, "@,2,3,900", 30, "t.csv:2", "beyond 200 m"},
-      Refusal{kGood, "1,2,3,4", 30, "t.csv:3", "the same place as line 2"},
-      Refusal{kGood, "677@,4000000,3,4", 30, "t.csv:2", "subtract the place of the datum"},
-      Refusal{"s_m,curvature_per_m,w_tr_right_m,w_tr_left_m", "5,0,3,4", 30, "t.csv:3",
-              "does not increase from line 2"},
-      Refusal{"s_m,curvature_per_m,w_tr_right_m,w_tr_left_m", "-@,0,3,4", 30, "t.csv:3",
-              "does not increase"},
-      Refusal{"x_m,y_m,w_tr_right_m,w_tr_left_m,bank_deg", "@,2,3,4,60", 30, "t.csv:2",
-              "beyond 45 degrees"},
+      RefusedRow{"", "", 0, "t.csv:1", "no header"},
+      RefusedRow{"", "@,2,3,4", 30, "t.csv:2", "numbers before a header"},
+      RefusedRow{"x_m,y_m,breite", "@,2,3", 30, "t.csv:1", "unknown column \"breite\""},
+      RefusedRow{"x_m,y_m,x_ref_m", "@,2,3", 30, "t.csv:1", "says the same as"},
+      RefusedRow{"x_m,y_m,w_tr_right_m", "@,2,3", 30, "t.csv:1", "no walls"},
+      RefusedRow{"x_m,w_tr_right_m,w_tr_left_m", "@,2,3", 30, "t.csv:1", "no line"},
+      RefusedRow{kGood, "@,2,3,4", kRowsMin - 1, "t.csv:20", "19 points"},
+      RefusedRow{kGood, "@,2,3,4", kRowsMax + 1, "t.csv:20002", "more than 20000"},
+      RefusedRow{kGood, "@,2,3", 30, "t.csv:2", "3 fields, the header has 4"},
+      RefusedRow{kGood, "@,2,3,4,5", 30, "t.csv:2", "5 fields, the header has 4"},
+      RefusedRow{kGood, "@,nan,3,4", 30, "t.csv:2", "no finite number"},
+      RefusedRow{kGood, "@,inf,3,4", 30, "t.csv:2", "no finite number"},
+      RefusedRow{kGood, "@,1e999,3,4", 30, "t.csv:2", "no finite number"},
+      RefusedRow{kGood, "@,2 m,3,4", 30, "t.csv:2", "y_m: \"2 m\" is no finite number"},
+      RefusedRow{kGood, "@,,3,4", 30, "t.csv:2", "no finite number"},
+      RefusedRow{kGood, "@,2,0,4", 30, "t.csv:2", "a width is not positive"},
+      RefusedRow{kGood, "@,2,3,-4", 30, "t.csv:2", "a width is not positive"},
+      RefusedRow{kGood, "@,2,3,900", 30, "t.csv:2", "beyond 200 m"},
+      RefusedRow{kGood, "1,2,3,4", 30, "t.csv:3", "the same place as line 2"},
+      RefusedRow{kGood, "677@,4000000,3,4", 30, "t.csv:2", "subtract the place of the datum"},
+      RefusedRow{"s_m,curvature_per_m,w_tr_right_m,w_tr_left_m", "5,0,3,4", 30, "t.csv:3",
+                 "does not increase from line 2"},
+      RefusedRow{"s_m,curvature_per_m,w_tr_right_m,w_tr_left_m", "-@,0,3,4", 30, "t.csv:3",
+                 "does not increase"},
+      RefusedRow{"x_m,y_m,w_tr_right_m,w_tr_left_m,bank_deg", "@,2,3,4,60", 30, "t.csv:2",
+                 "beyond 45 degrees"},
   };
-  for (const Refusal& r : refusals) {
+  for (const RefusedRow& r : refusals) {
     const auto csv = read_track_csv(std::string(r.header) + "\n" + rows(r.row, r.count), "t.csv");
     ASSERT_FALSE(csv) << r.reason;
     EXPECT_EQ(csv.error().place, r.place) << to_string(csv.error());

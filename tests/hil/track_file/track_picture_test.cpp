@@ -4,23 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <regex>
-#include <sstream>
 
-#include "vehicle/parameters/track_file.hpp"
+#include "tests/hil/track_file/shipped_track.hpp"
 
 namespace pitwall::track_file {
 namespace {
-
-world::TrackDescription shipped(const std::string& name) {
-  std::ifstream file(std::string(PITWALL_SOURCE_DIR) + "/vehicle/config/tracks/" + name);
-  std::stringstream text;
-  text << file.rdbuf();
-  const auto read = parameters::read_track(text.str(), name);
-  if (!read) throw std::runtime_error(to_string(read.error()));
-  return *read;
-}
 
 std::string picture(const world::TrackDescription& d) {
   const auto map = world::TrackMap::build(d);
@@ -36,7 +25,7 @@ std::size_t count(const std::string& text, const std::string& what) {
 
 TEST(TrackPicture, ShowsEveryPart) {
   for (const char* name : {"lvms.yaml", "ims.yaml", "tms.yaml"}) {
-    const auto d = shipped(name);
+    const auto d = shipped_track(name);
     const std::string svg = picture(d);
     EXPECT_EQ(svg.rfind("<svg ", 0), 0u);
     EXPECT_NE(svg.find("</svg>"), std::string::npos);
@@ -55,7 +44,7 @@ TEST(TrackPicture, ShowsEveryPart) {
 
 // Every number pair of every polygon lies inside of the picture.
 TEST(TrackPicture, FitsItsFrame) {
-  auto d = shipped("lvms.yaml");
+  auto d = shipped_track("lvms.yaml");
   for (const double turned_rad : {0.0, 1.0, 2.5}) {
     d.start_yaw_rad += turned_rad;
     d.start_x_m += 4000.0;
@@ -75,7 +64,7 @@ TEST(TrackPicture, FitsItsFrame) {
 
 TEST(TrackPicture, NorthIsUpAndEastIsRight) {
   // TMS starts going east along its southern side: the arrow points right, in the lower half.
-  const std::string svg = picture(shipped("tms.yaml"));
+  const std::string svg = picture(shipped_track("tms.yaml"));
   static const std::regex kArrow{
       R"(class="direction" d="M([0-9.]+),([0-9.]+) L([0-9.]+),([0-9.]+))"};
   std::smatch m;
@@ -86,7 +75,7 @@ TEST(TrackPicture, NorthIsUpAndEastIsRight) {
 }
 
 TEST(TrackPicture, ANameIsNoMarkup) {
-  auto d = shipped("tms.yaml");
+  auto d = shipped_track("tms.yaml");
   d.name = "<script>alert(1)</script> & more";
   const std::string svg = picture(d);
   EXPECT_EQ(svg.find("<script"), std::string::npos);

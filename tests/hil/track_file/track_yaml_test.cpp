@@ -3,26 +3,15 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
-
+#include "tests/hil/track_file/shipped_track.hpp"
 #include "vehicle/parameters/track_file.hpp"
 
 namespace pitwall::track_file {
 namespace {
 
-world::TrackDescription shipped(const std::string& name) {
-  std::ifstream file(std::string(PITWALL_SOURCE_DIR) + "/vehicle/config/tracks/" + name);
-  std::stringstream text;
-  text << file.rdbuf();
-  const auto read = parameters::read_track(text.str(), name);
-  if (!read) throw std::runtime_error(to_string(read.error()));
-  return *read;
-}
-
 TEST(TrackYaml, IsReadAsWhatWasWritten) {
   for (const char* name : {"lvms.yaml", "ims.yaml", "tms.yaml"}) {
-    const auto d = shipped(name);
+    const auto d = shipped_track(name);
     const auto back = parameters::read_track(to_yaml(d, {"a remark"}), "back.yaml");
     ASSERT_TRUE(back) << to_string(back.error());
     EXPECT_EQ(back->name, d.name);
@@ -43,7 +32,7 @@ TEST(TrackYaml, IsReadAsWhatWasWritten) {
 }
 
 TEST(TrackYaml, ANameAndARemarkCannotBecomeKeys) {
-  auto d = shipped("tms.yaml");
+  auto d = shipped_track("tms.yaml");
   d.name = "a \"b\": \\ # c\nlength_m: 1";
   const auto back = parameters::read_track(to_yaml(d, {"remark\nname: other"}), "back.yaml");
   ASSERT_TRUE(back) << to_string(back.error());

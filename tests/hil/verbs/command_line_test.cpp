@@ -6,7 +6,7 @@
 namespace pitwall::verbs {
 namespace {
 
-struct Said {
+struct ParsedWords {
   std::string word;
   int number = 0;
   std::vector<double> place;
@@ -14,8 +14,8 @@ struct Said {
   std::optional<int> code;
 };
 
-Said read(const std::vector<std::string>& args) {
-  Said said;
+ParsedWords read(const std::vector<std::string>& args) {
+  ParsedWords said;
   CommandLine line{"test"};
   line.option("word", said.word, "a word").required();
   const VerbOption number = line.option("--number", said.number, "1 to 9").range(1, 9);
@@ -27,7 +27,7 @@ Said read(const std::vector<std::string>& args) {
 }
 
 TEST(CommandLine, WordsAreReadInTheirOrder) {
-  const Said said = read({"one", "--number", "7", "--place", "1.5,-2"});
+  const ParsedWords said = read({"one", "--number", "7", "--place", "1.5,-2"});
   EXPECT_FALSE(said.code);
   EXPECT_EQ(said.word, "one");
   EXPECT_EQ(said.number, 7);

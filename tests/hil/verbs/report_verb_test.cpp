@@ -8,7 +8,7 @@
 namespace pitwall::verbs {
 namespace {
 
-const std::string kShort = "tests/system/report/short_fault.yaml";
+const std::string kShortFault = "tests/system/report/short_fault.yaml";
 
 class ReportVerb : public ProgramRun {
  protected:
@@ -26,11 +26,11 @@ TEST_F(ReportVerb, WrongUsageIsTold) {
   expect_refusal({"report"}, "log");
   expect_refusal({"report", "a.mcap"}, "--out");
   expect_refusal({"report", "a.mcap", "--out", path("x.html"), "--format", "pdf"}, "--format");
-  expect_refusal({"run", kShort, "--report", path("r"), "--log", path("l")}, "--log");
+  expect_refusal({"run", kShortFault, "--report", path("r"), "--log", path("l")}, "--log");
 }
 
 TEST_F(ReportVerb, ARunThatPassesLeavesItsFilesAndAgainTheSamePage) {
-  EXPECT_EQ(run({"run", kShort, "--report", folder()}).code, 0);
+  EXPECT_EQ(run({"run", kShortFault, "--report", folder()}).code, 0);
   ASSERT_TRUE(whole());
   EXPECT_TRUE(page_says("PASS"));
   const Said again = run({"report", folder() + "/events.mcap", "--result", folder() + "/run.json",
@@ -41,7 +41,7 @@ TEST_F(ReportVerb, ARunThatPassesLeavesItsFilesAndAgainTheSamePage) {
 }
 
 TEST_F(ReportVerb, AFailedExpectationIsOne) {
-  const std::string text = transport::read_file(PITWALL_SOURCE_DIR "/" + kShort).value_or("");
+  const std::string text = transport::read_file(PITWALL_SOURCE_DIR "/" + kShortFault).value_or("");
   std::string spoilt_text = text;
   spoilt_text.replace(text.find("value: 200"), 10, "value: 1  ");
   ASSERT_TRUE(transport::write_file(path("fails.yaml"), spoilt_text));
@@ -72,7 +72,7 @@ TEST_F(ReportVerb, AMissingOrDamagedLogIsTwoAndSaidInBothFiles) {
 TEST_F(ReportVerb, WhatCannotBeWrittenIsTwo) {
   ASSERT_TRUE(transport::write_file(path("file"), "no folder"));
   const std::string below = path("file") + "/report";
-  expect_refusal({"run", kShort, "--report", below}, below);
+  expect_refusal({"run", kShortFault, "--report", below}, below);
   EXPECT_EQ(run({"report", path("none.mcap"), "--out", below + "/x.html"}).code, 2);
   EXPECT_EQ(
       run({"report", path("none.mcap"), "--out", path("x.html"), "--track", "none.yaml"}).code, 2);

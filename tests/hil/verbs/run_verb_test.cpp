@@ -12,22 +12,22 @@
 namespace pitwall::verbs {
 namespace {
 
-const std::string kShort = "hil/scenarios/launch_and_stop.yaml";
+const std::string kLaunchAndStop = "hil/scenarios/launch_and_stop.yaml";
 
 class RunVerb : public ProgramRun {};
 
 TEST_F(RunVerb, WrongUsageIsTold) {
   expect_refusal({}, "pitwall-hil VERB");
-  expect_refusal({"rum", kShort}, "unknown verb \"rum\"");
+  expect_refusal({"rum", kLaunchAndStop}, "unknown verb \"rum\"");
   expect_refusal({"run"}, "scenario");
-  expect_refusal({"run", kShort, "--no-such-flag"}, "--no-such-flag");
-  expect_refusal({"run", kShort, "second.yaml"}, "second.yaml");
-  expect_refusal({"run", kShort, "--duration", "soon"}, "soon");
-  expect_refusal({"run", kShort, "--duration", "-1"}, "--duration");
-  expect_refusal({"run", kShort, "--duration"}, "--duration");
-  expect_refusal({"run", kShort, "--seed", "-1"}, "--seed");
-  expect_refusal({"run", kShort, "--radio-port", "70000"}, "--radio-port");
-  expect_refusal({"run", kShort, "--radio-port", "-1"}, "--radio-port");
+  expect_refusal({"run", kLaunchAndStop, "--no-such-flag"}, "--no-such-flag");
+  expect_refusal({"run", kLaunchAndStop, "second.yaml"}, "second.yaml");
+  expect_refusal({"run", kLaunchAndStop, "--duration", "soon"}, "soon");
+  expect_refusal({"run", kLaunchAndStop, "--duration", "-1"}, "--duration");
+  expect_refusal({"run", kLaunchAndStop, "--duration"}, "--duration");
+  expect_refusal({"run", kLaunchAndStop, "--seed", "-1"}, "--seed");
+  expect_refusal({"run", kLaunchAndStop, "--radio-port", "70000"}, "--radio-port");
+  expect_refusal({"run", kLaunchAndStop, "--radio-port", "-1"}, "--radio-port");
 }
 
 TEST_F(RunVerb, HelpIsNoError) {
@@ -61,14 +61,14 @@ TEST_F(RunVerb, WhatTheBenchDoesNotKnowIsToldWithItsPlace) {
 }
 
 TEST_F(RunVerb, AFileThatCannotBeWrittenIsAFailureOfTheBench) {
-  expect_refusal({"run", kShort, "--log", path("no/such/folder/l.mcap")}, "no/such/folder");
-  const Said said = run({"run", kShort, "--json", path("no/such/folder/r.json")});
+  expect_refusal({"run", kLaunchAndStop, "--log", path("no/such/folder/l.mcap")}, "no/such/folder");
+  const Said said = run({"run", kLaunchAndStop, "--json", path("no/such/folder/r.json")});
   EXPECT_EQ(said.code, 2);
   EXPECT_NE(said.err.find("no/such/folder"), std::string::npos);
 }
 
 TEST_F(RunVerb, APassIsZero) {
-  const Said said = run({"run", kShort, "--json", path("r.json"), "--log", path("l.mcap")});
+  const Said said = run({"run", kLaunchAndStop, "--json", path("r.json"), "--log", path("l.mcap")});
   EXPECT_EQ(said.code, 0) << said.out << said.err;
   EXPECT_NE(said.out.find("verdict: PASS"), std::string::npos);
   EXPECT_NE(said.out.find("SIMULATION"), std::string::npos);
@@ -94,18 +94,18 @@ TEST_F(RunVerb, AFailedExpectationIsOne) {
 }
 
 TEST_F(RunVerb, ARunThatEndsTooEarlyToShowAnythingDoesNotPass) {
-  const Said said = run({"run", kShort, "--duration", "5"});
+  const Said said = run({"run", kLaunchAndStop, "--duration", "5"});
   EXPECT_NE(said.code, 0);
   EXPECT_EQ(said.out.find("verdict: PASS"), std::string::npos);
 }
 
 TEST_F(RunVerb, OfARunThatIsCutTheRestIsNotJudgedAndTold) {
-  const Said said = run({"run", kShort, "--duration", "5", "--cut"});
+  const Said said = run({"run", kLaunchAndStop, "--duration", "5", "--cut"});
   EXPECT_EQ(said.code, 0) << said.out << said.err;
-  EXPECT_NE(said.out.find("not judged, the run is cut at 5.0 s: " + std::string(kShort)),
+  EXPECT_NE(said.out.find("not judged, the run is cut at 5.0 s: " + std::string(kLaunchAndStop)),
             std::string::npos);
   EXPECT_NE(said.out.find("verdict: PASS"), std::string::npos);
-  expect_refusal({"run", kShort, "--cut"}, "--duration");
+  expect_refusal({"run", kLaunchAndStop, "--cut"}, "--duration");
 }
 
 TEST_F(RunVerb, SeedAndDurationAreThoseOfTheLine) {
@@ -125,15 +125,15 @@ TEST_F(RunVerb, SeedAndDurationAreThoseOfTheLine) {
 }
 
 TEST_F(RunVerb, ProgressIsLinesFromThePlanToTheResult) {
-  const Said said = run({"run", kShort, "--progress", path("p.jsonl")});
+  const Said said = run({"run", kLaunchAndStop, "--progress", path("p.jsonl")});
   EXPECT_EQ(said.code, 0);
   const std::string lines = text_of("p.jsonl");
   EXPECT_TRUE(lines.starts_with("{\"type\": \"plan\"")) << lines.substr(0, 80);
   EXPECT_TRUE(lines.ends_with("\n"));
   const std::string last = lines.substr(lines.rfind('\n', lines.size() - 2) + 1);
   EXPECT_TRUE(last.starts_with("{\"type\": \"result\", \"passed\": true")) << last.substr(0, 80);
-  expect_refusal({"run", kShort, "--progress", path("no/such/p.jsonl")}, "no/such");
-  expect_refusal({"run", kShort, "--progress", path("p.jsonl"), "--hours", "1"}, "--hours");
+  expect_refusal({"run", kLaunchAndStop, "--progress", path("no/such/p.jsonl")}, "no/such");
+  expect_refusal({"run", kLaunchAndStop, "--progress", path("p.jsonl"), "--hours", "1"}, "--hours");
 }
 
 TEST(LiveCommand, SaysAllThatTheRunWasTold) {

@@ -163,7 +163,7 @@ void expect_same_layout(const Database& d, const std::string& line) {
   EXPECT_EQ(l.offset, offset) << line;
 }
 
-struct Tally {
+struct OracleTally {
   std::uint64_t frames = 0, values = 0, mismatches = 0;
   std::map<std::string, std::uint64_t> refused;  // by message and reason
 };
@@ -177,7 +177,7 @@ bool is_same(double ours, double theirs, const Signal& s) {
 using NameIndex = std::unordered_map<std::string_view, std::size_t>;
 
 void expect_same_values(const Message& m, const NameIndex& names, const Sample& sample,
-                        std::string_view line, Tally& tally) {
+                        std::string_view line, OracleTally& tally) {
   std::size_t present = 0;
   for (std::size_t at = 1; at < line.size();) {
     const std::size_t equals = line.find('=', at);
@@ -205,7 +205,7 @@ void expect_same_values(const Message& m, const NameIndex& names, const Sample& 
 
 // Few messages at a time, so that the frames of a large file need little memory.
 void compare(const std::filesystem::path& path, const Database& d, std::span<const Message> part,
-             Tally& tally) {
+             OracleTally& tally) {
   Noise noise{fingerprint(d) + part.front().id};
   const std::uint64_t payloads = oracle_payloads(kPayloadsPerMessage);
   std::vector<Sample> samples;
@@ -249,12 +249,12 @@ TEST(CanmatrixOracle, SameLayoutsAndValues) {
       std::max<std::uint64_t>(1, kFramesAtOnce / oracle_payloads(kPayloadsPerMessage));
   auto files = public_files();
   files.push_back(kOwnDbc);
-  Tally all;
+  OracleTally all;
   for (const auto& path : files) {
     if (is_broken(path)) continue;  // refused by us, on purpose
     const Database d = load(path);
     const std::span<const Message> messages{d.messages};
-    Tally tally;
+    OracleTally tally;
     for (std::size_t i = 0; i < messages.size(); i += at_once) {
       compare(path, d, messages.subspan(i, std::min(at_once, messages.size() - i)), tally);
     }

@@ -8,18 +8,16 @@
 namespace pitwall::can {
 namespace {
 
-const std::string kSignal = " SG_ a : 0|8@1+ (1,0) [0|0] \"\" A\n";
-
-Database with(const std::string& more) { return parsed(dbc_with(kSignal + more)); }
+Database database_with(const std::string& more) { return parsed(dbc_with(kSignal + more)); }
 
 std::string remark_of(const std::string& more) {
-  const Database d = with(more);
+  const Database d = database_with(more);
   return d.remarks.size() == 1 ? d.remarks[0].place + ": " + d.remarks[0].what
                                : std::to_string(d.remarks.size()) + " remarks";
 }
 
 TEST(DbcDetails, CommentsOfEverything) {
-  const Database d = with(
+  const Database d = database_with(
       "CM_ \"of the file\";\nCM_ BU_ A \"of the node\";\nCM_ BO_ 100 \"of the message\";\n"
       "CM_ SG_ 100 a \"of the signal\r\nin two lines\";\nCM_ EV_ x \"of a variable\";\n");
   EXPECT_EQ(d.comment, "of the file");
@@ -47,7 +45,7 @@ TEST(DbcDetails, MayComeBeforeTheirMessage) {
 }
 
 TEST(DbcDetails, NamesOfValuesByTableOrInPlace) {
-  const Database d = with("VAL_TABLE_ T -1 \"below\" 2.0 \"two\" ;\nVAL_ 100 a T ;\n");
+  const Database d = database_with("VAL_TABLE_ T -1 \"below\" 2.0 \"two\" ;\nVAL_ 100 a T ;\n");
   ASSERT_EQ(d.tables.size(), 1U);
   EXPECT_EQ(d.tables[0].name, "T");
   EXPECT_EQ(d.messages[0].signals[0].values, (std::vector<ValueName>{{-1, "below"}, {2, "two"}}));
@@ -57,12 +55,12 @@ TEST(DbcDetails, NamesOfValuesByTableOrInPlace) {
             "t.dbc:9:1: the name \"x\" is not given to a whole number");
   EXPECT_EQ(remark_of("VAL_ 100 a 1 \"x\" ;\nVAL_ 100 a 2 \"y\" ;\n"),
             "t.dbc:10:1: signal a has a second VAL_");
-  EXPECT_TRUE(with("VAL_ 100 a ;\n").messages[0].signals[0].values.empty());
+  EXPECT_TRUE(database_with("VAL_ 100 a ;\n").messages[0].signals[0].values.empty());
 }
 
 TEST(DbcDetails, AttributesOfEverythingWithTheirDefaults) {
   using enum AttributeOwner;
-  const Database d = with(
+  const Database d = database_with(
       "BA_DEF_ \"N\" INT 0 10;\nBA_DEF_ BU_ \"U\" STRING ;\nBA_DEF_ BO_ \"M\" FLOAT 0.5 1e3;\n"
       "BA_DEF_ SG_ \"S\" ENUM \"x\",\"y\",\"z\";\nBA_DEF_ EV_ \"E\" HEX 0 255;\n"
       "BA_DEF_DEF_ \"N\" 3;\nBA_DEF_DEF_ \"U\" \"nobody\";\nBA_DEF_DEF_ \"S\" \"y\";\n"

@@ -82,6 +82,9 @@ inline std::string dbc_with(const std::string& signals, int length = 8) {
          " A\n" + signals + "\n";
 }
 
+// A signal for it.
+inline const std::string kSignal = " SG_ a : 0|8@1+ (1,0) [0|0] \"\" A\n";
+
 inline std::string complaint(const std::string& text) {
   const auto parsed = parse_dbc(text, "t.dbc");
   return parsed ? "" : to_string(parsed.error());

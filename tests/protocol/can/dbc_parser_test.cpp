@@ -8,8 +8,6 @@
 namespace pitwall::can {
 namespace {
 
-const std::string kSignal = " SG_ a : 0|8@1+ (1,0) [0|0] \"\" A\n";
-
 TEST(DbcParser, ReadsWhatOurOwnFileSays) {
   const Database d = load(kOwnDbc);
   const Message* const m = d.find("misc_report");

@@ -51,15 +51,16 @@ struct Sender {
   std::string counter_name;
 };
 
-struct Tally {
+struct IntegrityTally {
   int flipped = 0;
   int good = 0, wrong = 0, other = 0;
   std::vector<std::int64_t> lost;
 };
 
 // `sends` of one message, three in a hundred flipped and as many lost.
-Tally suffer(Sender& sender, MessageMonitor& monitor, LossLog& log, Noise& noise, int sends) {
-  Tally tally;
+IntegrityTally suffer(Sender& sender, MessageMonitor& monitor, LossLog& log, Noise& noise,
+                      int sends) {
+  IntegrityTally tally;
   const bool is_protected = sender.row->protection.profile != Protection::kNone;
   const Duration period = sender.row->period;
   for (int i = 0; i < sends; ++i) {
@@ -95,7 +96,7 @@ void expect_the_truth(const Bus& bus, int sends) {
                   .counter_name = bus.manifest.find(row.name)->counter};
     MessageMonitor monitor;
     LossLog log;
-    const Tally tally = suffer(sender, monitor, log, noise, sends);
+    const IntegrityTally tally = suffer(sender, monitor, log, noise, sends);
     EXPECT_EQ(tally.wrong, tally.flipped) << row.name;
     EXPECT_EQ(tally.other, 0) << row.name;
     EXPECT_EQ(tally.good + tally.wrong, sends - static_cast<int>(tally.lost.size())) << row.name;

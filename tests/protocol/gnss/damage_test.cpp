@@ -11,12 +11,11 @@
 #include "protocol/gnss/novatel_ascii.hpp"
 #include "protocol/gnss/novatel_stream.hpp"
 #include "protocol/gnss/vectornav_stream.hpp"
+#include "tests/protocol/gnss/bytes.hpp"
 #include "tests/protocol/gnss/random_messages.hpp"
 
 namespace pitwall::gnss {
 namespace {
-
-using Bytes = std::vector<std::uint8_t>;
 
 std::uint64_t logs_to_flip() {
   constexpr std::uint64_t kQuick = 100'000;

@@ -10,28 +10,25 @@
 
 #include "protocol/bits/crc.hpp"
 #include "protocol/gnss/novatel_stream.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 #include "tests/protocol/gnss/random_messages.hpp"
 
 namespace pitwall::gnss {
 namespace {
 
-std::span<const std::uint8_t> bytes_of(const std::string& text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
-
-struct Heard {
+struct HeardSentence {
   NovatelHeader header;
   std::optional<NovatelMessage> message;
   std::optional<DecodeError> refusal;
 };
 
-std::vector<Heard> hear(const std::string& text) {
-  std::vector<Heard> all;
+std::vector<HeardSentence> sentences_of(const std::string& text) {
+  std::vector<HeardSentence> all;
   NovatelStream stream;
-  stream.feed(bytes_of(text), [&](const NovatelFrame& frame) {
+  stream.feed(as_bytes(text), [&](const NovatelFrame& frame) {
     EXPECT_TRUE(frame.ascii);
     const auto decoded = decode(frame);
-    Heard heard{.header = frame.header, .message = {}, .refusal = {}};
+    HeardSentence heard{.header = frame.header, .message = {}, .refusal = {}};
     if (decoded) {
       heard.message = *decoded;
     } else {
@@ -44,7 +41,7 @@ std::vector<Heard> hear(const std::string& text) {
 
 template <class Message>
 std::pair<NovatelHeader, Message> only(const std::string& sentence) {
-  const auto heard = hear(sentence + "\r\n");
+  const auto heard = sentences_of(sentence + "\r\n");
   EXPECT_EQ(heard.size(), 1U) << sentence;
   if (heard.size() != 1 || !heard[0].message) {
     ADD_FAILURE() << "refused: " << sentence;
@@ -325,7 +322,7 @@ TEST(NovatelAscii, TimeStatusAndUtm) {
 
 std::string with_crc(const std::string& between) {
   std::array<char, 9> crc{};
-  std::snprintf(crc.data(), crc.size(), "%08x", bits::crc32_novatel(bytes_of(between)));
+  std::snprintf(crc.data(), crc.size(), "%08x", bits::crc32_novatel(as_bytes(between)));
   return "#" + between + "*" + crc.data() + "\r\n";
 }
 
@@ -334,7 +331,7 @@ constexpr const char* kHeader =
 
 TEST(NovatelAscii, WhatCannotBeReadIsRefusedWithItsReason) {
   const auto refusal = [](const std::string& fields) {
-    const auto heard = hear(with_crc(kHeader + fields));
+    const auto heard = sentences_of(with_crc(kHeader + fields));
     EXPECT_EQ(heard.size(), 1U) << fields;
     return heard.empty() ? std::nullopt : heard[0].refusal;
   };
@@ -356,7 +353,7 @@ TEST(NovatelAscii, WhatCannotBeReadIsRefusedWithItsReason) {
 
 TEST(NovatelAscii, AHeaderThatIsNoneIsNoLog) {
   const std::string fields = "SOL_COMPUTED,SINGLE,0,1,2.5,90,0.5,0";
-  EXPECT_EQ(hear(with_crc(kHeader + fields)).size(), 1U);
+  EXPECT_EQ(sentences_of(with_crc(kHeader + fields)).size(), 1U);
   for (const char* header : {"BESTVELA,COM1,0,73.5,FINESTEERING,2076,112838.000,00000000,000e;",
                              "BESTVELA,COM1,0,73.5,FINESTEERING,2076,112838.000,00000000,000e,1,2;",
                              "BESTVEL,COM1,0,73.5,FINESTEERING,2076,112838.000,00000000,000e,1;",
@@ -364,14 +361,14 @@ TEST(NovatelAscii, AHeaderThatIsNoneIsNoLog) {
                              "BESTVELA,COM1,0,73.5,FINE_STEERING,2076,112838.000,00000000,000e,1;",
                              "BESTVELA,COM1,0,73.5,FINESTEERING,20760,612838.000,00000000,000e,1;",
                              "BESTVELA,2076,112838.000;", "A;", "BESTVELA"}) {
-    EXPECT_TRUE(hear(with_crc(header + fields)).empty()) << header;
+    EXPECT_TRUE(sentences_of(with_crc(header + fields)).empty()) << header;
   }
 }
 
 TEST(NovatelAscii, ResponsesAndLogsThatWeDoNotKnow) {
   const std::string rest = ",COM1,0,73.5,FINESTEERING,2076,112838.000,00000000,000e,1;OK";
-  EXPECT_EQ(hear(with_crc("BESTVELR" + rest))[0].refusal, DecodeError::kResponse);
-  EXPECT_EQ(hear(with_crc("PSRDOP2A" + rest))[0].refusal, DecodeError::kUnknownId);
+  EXPECT_EQ(sentences_of(with_crc("BESTVELR" + rest))[0].refusal, DecodeError::kResponse);
+  EXPECT_EQ(sentences_of(with_crc("PSRDOP2A" + rest))[0].refusal, DecodeError::kUnknownId);
 }
 
 TEST(NovatelAscii, WhatIsWrittenReadsBackTheSame) {
@@ -381,7 +378,7 @@ TEST(NovatelAscii, WhatIsWrittenReadsBackTheSame) {
     const NovatelMessage message = random_message(static_cast<std::size_t>(i) % kLogs, random);
     const NovatelHeader header = random_header(random);
     const std::size_t n = encode_ascii(header, message, out);
-    const auto heard = hear({out.begin(), out.begin() + static_cast<std::ptrdiff_t>(n)});
+    const auto heard = sentences_of({out.begin(), out.begin() + static_cast<std::ptrdiff_t>(n)});
     ASSERT_EQ(heard.size(), 1U) << i;
     EXPECT_EQ(heard[0].header, as_sent(header, message)) << i;
     ASSERT_TRUE(heard[0].message) << text(*heard[0].refusal);

@@ -8,11 +8,10 @@
 #include <vector>
 
 #include "protocol/gnss/novatel_ascii.hpp"
+#include "tests/protocol/gnss/bytes.hpp"
 
 namespace pitwall::gnss {
 namespace {
-
-using Bytes = std::vector<std::uint8_t>;
 
 // A small generator of our own, so that a failure names a seed and repeats everywhere.
 struct Random {
@@ -45,8 +44,6 @@ Bytes ascii_of(std::uint32_t ms) {
       ms % 2 == 0 ? encode_ascii(header, time, out) : encode_ascii(header, raw, out);
   return {out.begin(), out.begin() + static_cast<std::ptrdiff_t>(n)};
 }
-
-void append(Bytes& to, const Bytes& more) { to.insert(to.end(), more.begin(), more.end()); }
 
 std::vector<std::uint32_t> times_in(NovatelStream& stream, const Bytes& bytes, std::size_t piece) {
   std::vector<std::uint32_t> times;

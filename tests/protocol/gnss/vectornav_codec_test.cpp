@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "protocol/gnss/vectornav_stream.hpp"
+#include "tests/protocol/gnss/bytes.hpp"
 #include "tests/protocol/gnss/random_messages.hpp"
 
 namespace pitwall::gnss {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
 using Heard = std::vector<Result<VectorNavMessage, DecodeError>>;
 
 Heard hear(const Bytes& bytes) {

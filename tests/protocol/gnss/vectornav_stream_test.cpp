@@ -5,12 +5,11 @@
 
 #include <vector>
 
+#include "tests/protocol/gnss/bytes.hpp"
 #include "tests/protocol/gnss/random_messages.hpp"
 
 namespace pitwall::gnss {
 namespace {
-
-using Bytes = std::vector<std::uint8_t>;
 
 const std::array<VectorNavOutput, 2> kOutputs{VectorNavOutput{}
                                                   .with(vectornav::kTimeGps)
@@ -22,15 +21,13 @@ const std::array<VectorNavOutput, 2> kOutputs{VectorNavOutput{}
                                                   .with(vectornav::kGnssFix)
                                                   .with(vectornav::kGnssStatus)};
 
-Bytes message_of(std::uint64_t time, std::mt19937_64& random) {
+Bytes message_at(std::uint64_t time, std::mt19937_64& random) {
   VectorNavMessage message = random_vectornav(kOutputs[time % 2], random);
   message.time_gps_ns = time;
   Bytes bytes(kMaxVectorNavBytes);
   bytes.resize(encode(message, bytes));
   return bytes;
 }
-
-void append(Bytes& to, const Bytes& more) { to.insert(to.end(), more.begin(), more.end()); }
 
 std::vector<std::uint64_t> times_in(VectorNavStream& stream, const Bytes& bytes,
                                     std::size_t piece) {
@@ -52,7 +49,7 @@ Bytes among_garbage(std::uint64_t messages, std::mt19937_64& random) {
   Bytes bytes;
   for (std::uint64_t i = 0; i < messages; ++i) {
     for (std::uint64_t k = random() % 40; k > 0; --k) bytes.push_back(kAlphabet[random() % 6]);
-    const Bytes message = message_of(i, random);
+    const Bytes message = message_at(i, random);
     const auto part = static_cast<std::ptrdiff_t>(random() % message.size());
     if (random() % 3 == 0) append(bytes, {message.begin(), message.begin() + part});
     append(bytes, message);
@@ -82,7 +79,7 @@ TEST(VectorNavStream, FindsEveryMessageAmongGarbageHoweverTheBytesAreCut) {
 
 TEST(VectorNavStream, AFlippedBitCostsItsOwnMessageOnly) {
   std::mt19937_64 random{3};
-  const Bytes first = message_of(1, random), second = message_of(2, random);
+  const Bytes first = message_at(1, random), second = message_at(2, random);
   for (std::size_t bit = 0; bit < first.size() * 8; ++bit) {
     Bytes bytes = first;
     bytes[bit / 8] = static_cast<std::uint8_t>(bytes[bit / 8] ^ (1U << (bit % 8)));
@@ -111,8 +108,8 @@ TEST(VectorNavStream, CountsHowOftenItWasAstray) {
 
 TEST(VectorNavStream, CountsWhatNobodyAskedFor) {
   std::mt19937_64 random{4};
-  Bytes bytes = message_of(0, random);
-  append(bytes, message_of(1, random));
+  Bytes bytes = message_at(0, random);
+  append(bytes, message_at(1, random));
   VectorNavStream stream{std::span{kOutputs}.first(1)};
   EXPECT_EQ(times_in(stream, bytes, 9), std::vector<std::uint64_t>{0});
   EXPECT_GE(stream.counters().unexpected, 1U);
@@ -123,7 +120,7 @@ TEST(VectorNavStream, CountsWhatNobodyAskedFor) {
 
 TEST(VectorNavStream, CountsDamage) {
   std::mt19937_64 random{5};
-  Bytes bytes = message_of(1, random);
+  Bytes bytes = message_at(1, random);
   bytes[20] ^= 1U;
   VectorNavStream stream{kOutputs};
   EXPECT_TRUE(times_in(stream, bytes, bytes.size()).empty());

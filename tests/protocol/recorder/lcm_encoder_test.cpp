@@ -4,11 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "protocol/telemetry/export/lcm_schema.hpp"
+#include "tests/protocol/recorder/recorded_time.hpp"
 
 namespace pitwall::recorder {
 namespace {
-
-const ClockMap kClock{.utc_minus_base = seconds(1'700'000'000), .boot = "b"};
 
 TEST(LcmEncoder, EveryChannelButThePictureHasAMessageUnderItsOwnName) {
   const LcmEncoder encoder{kClock};

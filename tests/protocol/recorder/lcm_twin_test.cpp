@@ -12,15 +12,12 @@
 #include "protocol/recording/mcap_reader.hpp"
 #include "protocol/telemetry/export/lcm_schema.hpp"
 #include "tests/protocol/recorder/memory_disk.hpp"
+#include "tests/protocol/recorder/recorded_time.hpp"
 
 namespace pitwall::recorder {
 namespace {
 
 using telemetry::Group;
-
-constexpr Instant kStart{seconds(100).ns};
-constexpr Duration kTick = milliseconds(20);
-const ClockMap kClock{.utc_minus_base = seconds(1'700'000'000), .boot = "b"};
 
 std::uint64_t number_at(std::span<const std::uint8_t> data, std::size_t place) {
   std::uint64_t value = 0;
@@ -28,7 +25,7 @@ std::uint64_t number_at(std::span<const std::uint8_t> data, std::size_t place) {
   return value;
 }
 
-struct Source {
+struct TwinSource {
   MemoryDisk disk, lcm_disk;
   SegmentChain chain{disk, {.clock = kClock}, &lcm_disk};
   Instant now = kStart;
@@ -61,7 +58,7 @@ std::uint64_t events_of(const MemoryDisk& disk) {
 }
 
 TEST(LcmTwin, EverySegmentHasItsLogUnderTheSameNameWithTheSameRecords) {
-  Source source;
+  TwinSource source;
   source.run(seconds(130));
   source.chain.close();
   ASSERT_EQ(source.disk.files.size(), 3U);
@@ -85,7 +82,7 @@ TEST(LcmTwin, EverySegmentHasItsLogUnderTheSameNameWithTheSameRecords) {
 }
 
 TEST(LcmTwin, AGroupIsItsFingerprintItsSampleTimeAndItsFields) {
-  Source source;
+  TwinSource source;
   source.run(kTick);
   source.chain.close();
   recording::LcmLogReader reader{source.lcm_disk.files.begin()->second};
@@ -103,7 +100,7 @@ TEST(LcmTwin, AGroupIsItsFingerprintItsSampleTimeAndItsFields) {
 }
 
 TEST(LcmTwin, TextsDatagramsAndFramesHaveTheirLength) {
-  Source source;
+  TwinSource source;
   const std::vector<std::uint8_t> text{'{', '}'};
   source.give(channel_of(Topic::kMark), text);
   DatagramBytes air{};
@@ -126,7 +123,7 @@ TEST(LcmTwin, TextsDatagramsAndFramesHaveTheirLength) {
 }
 
 TEST(LcmTwin, WhereItsDiskIsFullTheSegmentGoesOnAndTheNextOneHasALogAgain) {
-  Source source;
+  TwinSource source;
   source.run(seconds(10));
   source.lcm_disk.capacity = source.lcm_disk.used() + 5'000;
   source.run(seconds(30));
@@ -143,7 +140,7 @@ TEST(LcmTwin, WhereItsDiskIsFullTheSegmentGoesOnAndTheNextOneHasALogAgain) {
 }
 
 TEST(LcmTwin, ASegmentThatIsGivenUpTakesItsLogWithIt) {
-  Source source;
+  TwinSource source;
   source.disk.capacity = 1'000;
   source.run(seconds(2));
   EXPECT_TRUE(source.disk.files.empty());

@@ -17,14 +17,11 @@
 #include "protocol/recording/mcap_reader.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 #include "tests/support/oracle_node.hpp"
 
 namespace pitwall::recorder {
 namespace {
-
-std::span<const std::uint8_t> as_bytes(std::string_view text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
 
 telemetry::GroupSet all_groups() { return telemetry::groups_of(telemetry::Direction::kDown); }
 

@@ -7,23 +7,20 @@
 
 #include "protocol/recording/mcap_reader.hpp"
 #include "tests/protocol/recorder/memory_disk.hpp"
+#include "tests/protocol/recorder/recorded_time.hpp"
 
 namespace pitwall::recorder {
 namespace {
 
-constexpr Instant kStart{seconds(100).ns};
-constexpr Duration kTick = milliseconds(20);
-
-struct Source {
+struct ChainSource {
   MemoryDisk disk;
-  ChainParams params{.run = {{"mode", "HIL"}},
-                     .clock = {.utc_minus_base = seconds(1'700'000'000), .boot = "b"}};
+  ChainParams params{.run = {{"mode", "HIL"}}, .clock = kClock};
   SegmentChain chain;
   Instant now = kStart;
   telemetry::Values values;
   std::uint64_t given = 0;
 
-  Source() : chain(disk, params) {}
+  ChainSource() : chain(disk, params) {}
 
   void run(Duration length) {
     for (const Instant end = now + length; now < end; now += kTick) {
@@ -58,7 +55,7 @@ Seen look(std::span<const std::uint8_t> file, Seen seen = {}) {
 }
 
 TEST(SegmentChain, SegmentsOfAMinuteHoldEveryRecordOnceAndBeginWithAPicture) {
-  Source source;
+  ChainSource source;
   source.run(seconds(150));
   source.chain.close();
   ASSERT_EQ(source.disk.files.size(), 3U);
@@ -82,7 +79,7 @@ TEST(SegmentChain, SegmentsOfAMinuteHoldEveryRecordOnceAndBeginWithAPicture) {
 }
 
 TEST(SegmentChain, NamesTellTheTimeAndSortInIt) {
-  Source source;
+  ChainSource source;
   source.run(seconds(70));
   std::vector<std::string> names;
   for (const auto& [name, bytes] : source.disk.files) names.push_back(name);
@@ -91,7 +88,7 @@ TEST(SegmentChain, NamesTellTheTimeAndSortInIt) {
 }
 
 TEST(SegmentChain, AtAnyMomentLessThanASecondIsNotOnTheDisk) {
-  Source source;
+  ChainSource source;
   for (int i = 0; i < 200; ++i) {
     source.run(milliseconds(60));
     const Seen seen = look(source.disk.files.begin()->second);
@@ -101,7 +98,7 @@ TEST(SegmentChain, AtAnyMomentLessThanASecondIsNotOnTheDisk) {
 }
 
 TEST(SegmentChain, AFullDiskStopsNothingAndTheRecordingGoesOnWhenThereIsRoom) {
-  Source source;
+  ChainSource source;
   source.run(seconds(5));
   source.disk.capacity = source.disk.used() + 10'000;
   source.run(seconds(30));
@@ -122,7 +119,7 @@ TEST(SegmentChain, AFullDiskStopsNothingAndTheRecordingGoesOnWhenThereIsRoom) {
 }
 
 TEST(SegmentChain, AfterAGapThePictureStillHoldsWhatWasKnown) {
-  Source source;
+  ChainSource source;
   source.disk.capacity = 1'000;  // full from the start
   source.run(seconds(3));
   EXPECT_TRUE(source.disk.files.empty());

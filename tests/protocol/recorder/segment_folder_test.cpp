@@ -10,11 +10,10 @@
 #include "protocol/recorder/segment_chain.hpp"
 #include "protocol/recording/mcap_reader.hpp"
 #include "protocol/transport/file.hpp"
+#include "tests/protocol/recorder/recorded_time.hpp"
 
 namespace pitwall::recorder {
 namespace {
-
-constexpr Instant kStart{seconds(100).ns};
 
 // A segment of two seconds; `cut`: bytes that its end lacks.
 std::string record(const std::string& folder, const std::string& name, std::size_t cut) {
@@ -24,7 +23,7 @@ std::string record(const std::string& folder, const std::string& name, std::size
     params.clock.utc_minus_base = seconds(1'000);
     params.name = name;
     SegmentChain chain{disk, params};
-    for (Instant at = kStart; at < kStart + seconds(2); at += milliseconds(20)) {
+    for (Instant at = kStart; at < kStart + seconds(2); at += kTick) {
       const std::array<std::uint8_t, 2> text{'{', '}'};
       chain.take({.channel = channel_of(Topic::kMark), .logged = at, .published = at, .data = text},
                  at);

@@ -14,17 +14,17 @@
 namespace pitwall::recording {
 namespace {
 
-constexpr std::uint32_t kMessages = 240;
+constexpr std::uint32_t kRunMessages = 240;
 const Metadata kRun{{"car", "7"}, {"mode", "HIL"}};
 
-std::vector<std::uint8_t> recorded() {
+std::vector<std::uint8_t> recorded_run() {
   testing::MemoryFile file;
   McapWriter writer{
       {{"/a", "raw", {}, {}}, {"/b", "json", {"B", "jsonschema", "{}"}, {{"k", "v"}}}},
       kRun,
       file.sink(),
       {.messages_per_chunk = 24}};
-  for (std::uint32_t i = 0; i < kMessages; ++i) {
+  for (std::uint32_t i = 0; i < kRunMessages; ++i) {
     const std::vector<std::uint8_t> data(1 + i % 13, static_cast<std::uint8_t>(i));
     EXPECT_TRUE(writer.write({static_cast<std::uint16_t>(i % 2)}, Instant{seconds(1).ns + i},
                              Instant{i}, data));
@@ -62,17 +62,17 @@ std::vector<Kept> messages_of(std::span<const std::uint8_t> file, bool whole) {
 // Where the last chunks and all that follows them begin.
 std::size_t begin_of_last_chunks(std::span<const std::uint8_t> file, std::uint32_t chunks) {
   McapReader reader{file};
-  for (std::uint32_t i = 0; i + 24 * chunks < kMessages; ++i) EXPECT_TRUE(reader.next());
+  for (std::uint32_t i = 0; i + 24 * chunks < kRunMessages; ++i) EXPECT_TRUE(reader.next());
   const auto next = reader.next();
   return static_cast<std::size_t>(next->data.data() - file.data());
 }
 
 TEST(McapRecovery, AWholeFileKeepsEveryMessageAsItStood) {
-  const auto file = recorded();
+  const auto file = recorded_run();
   const auto recovery = recover_mcap(file, "a.mcap");
   ASSERT_TRUE(recovery);
   EXPECT_TRUE(recovery->was_whole());
-  EXPECT_EQ(recovery->kept, kMessages);
+  EXPECT_EQ(recovery->kept, kRunMessages);
   EXPECT_EQ(messages_of(recovery->file, true), messages_of(file, true));
   McapReader reader{recovery->file};
   while (reader.next()) continue;
@@ -81,7 +81,7 @@ TEST(McapRecovery, AWholeFileKeepsEveryMessageAsItStood) {
 }
 
 TEST(McapRecovery, CutAtAnyByteOfTheLastTwoChunksKeepsEveryWholeMessage) {
-  const auto file = recorded();
+  const auto file = recorded_run();
   const auto all = messages_of(file, true);
   for (std::size_t length = begin_of_last_chunks(file, 2); length < file.size(); ++length) {
     const auto cut = std::span{file}.first(length);
@@ -90,7 +90,7 @@ TEST(McapRecovery, CutAtAnyByteOfTheLastTwoChunksKeepsEveryWholeMessage) {
     ASSERT_TRUE(recovery) << length;
     const auto kept = messages_of(recovery->file, true);
     EXPECT_EQ(kept, there) << length;
-    EXPECT_GE(kept.size(), kMessages - 2 * 24U) << length;
+    EXPECT_GE(kept.size(), kRunMessages - 2 * 24U) << length;
     EXPECT_TRUE(std::equal(kept.begin(), kept.end(), all.begin())) << length;
     EXPECT_EQ(recovery->kept, kept.size());
     EXPECT_FALSE(recovery->was_whole());
@@ -99,7 +99,7 @@ TEST(McapRecovery, CutAtAnyByteOfTheLastTwoChunksKeepsEveryWholeMessage) {
 }
 
 TEST(McapRecovery, CutInFrontOfTheFirstMessageGivesAnEmptyFile) {
-  const auto file = recorded();
+  const auto file = recorded_run();
   for (std::size_t length = 0; length < 200; ++length) {
     const auto recovery = recover_mcap(std::span{file}.first(length), "head.mcap");
     ASSERT_EQ(recovery.has_value(), length >= kMcapMagic.size()) << length;
@@ -112,9 +112,9 @@ TEST(McapRecovery, CutInFrontOfTheFirstMessageGivesAnEmptyFile) {
 }
 
 TEST(McapRecovery, AWrongByteAnywhereLosesNoMoreThanItsPlace) {
-  const auto file = recorded();
+  const auto file = recorded_run();
   const auto all = messages_of(file, true);
-  std::size_t fewest = kMessages;
+  std::size_t fewest = kRunMessages;
   const std::size_t first = begin_of_last_chunks(file, 2);
   for (std::size_t at = first; at < file.size(); at += 2) {
     auto damaged = file;
@@ -126,15 +126,15 @@ TEST(McapRecovery, AWrongByteAnywhereLosesNoMoreThanItsPlace) {
       EXPECT_NE(std::ranges::find(all, message), all.end()) << at;
     }
     fewest = std::min(fewest, kept.size());
-    if (kept.size() < kMessages) {
+    if (kept.size() < kRunMessages) {
       EXPECT_FALSE(recovery->lossless()) << at;
     }
   }
-  EXPECT_GE(fewest, kMessages - 2 * 24U);
+  EXPECT_GE(fewest, kRunMessages - 2 * 24U);
 }
 
 TEST(McapRecovery, OfAChunkWithoutChecksumOnlyMessagesOfItsTimeAreKept) {
-  auto file = recorded();
+  auto file = recorded_run();
   McapReader reader{file};
   std::size_t last = 0;
   while (const auto m = reader.next())
@@ -143,15 +143,15 @@ TEST(McapRecovery, OfAChunkWithoutChecksumOnlyMessagesOfItsTimeAreKept) {
   file[last - 100] ^= 0xFFU;  // something in the chunk before it
   const auto recovery = recover_mcap(file, "x.mcap");
   ASSERT_TRUE(recovery);
-  EXPECT_GT(recovery->kept, kMessages - 24U);
+  EXPECT_GT(recovery->kept, kRunMessages - 24U);
   for (const Kept& m : messages_of(recovery->file, true)) {
     EXPECT_GE(m.logged_ns, static_cast<std::uint64_t>(seconds(1).ns));
-    EXPECT_LT(m.logged_ns, static_cast<std::uint64_t>(seconds(1).ns) + kMessages);
+    EXPECT_LT(m.logged_ns, static_cast<std::uint64_t>(seconds(1).ns) + kRunMessages);
   }
 }
 
 TEST(McapRecovery, TellsAPersonWhatBecameOfTheFile) {
-  const auto file = recorded();
+  const auto file = recorded_run();
   EXPECT_EQ(to_string(*recover_mcap(file, "")),
             "240 messages kept (0.000000 s); the file was whole");
   const auto cut = recover_mcap(std::span{file}.first(begin_of_last_chunks(file, 1)), "");
@@ -162,7 +162,7 @@ TEST(McapRecovery, TellsAPersonWhatBecameOfTheFile) {
 
 TEST(McapRecovery, TheOracleReadsWhatIsRecovered) {
   NEEDS_ORACLES();
-  const auto file = recorded();
+  const auto file = recorded_run();
   const std::filesystem::path folder = std::filesystem::path{::testing::TempDir()} / "pitwall_cut";
   std::filesystem::create_directories(folder);
   std::string arguments, expected;

@@ -9,12 +9,12 @@
 namespace pitwall::telemetry {
 namespace {
 
-using Bytes = std::array<std::uint8_t, 12>;
+using Buffer = std::array<std::uint8_t, 12>;
 
 template <class T>
 void expect_round_trip(T value) {
-  for (std::size_t at = 0; at + sizeof(T) <= Bytes{}.size(); ++at) {
-    Bytes bytes;
+  for (std::size_t at = 0; at + sizeof(T) <= Buffer{}.size(); ++at) {
+    Buffer bytes;
     bytes.fill(0xA5);
     store(std::span<std::uint8_t>{bytes}, at, value);
     EXPECT_EQ(load<T>(bytes, at), value);

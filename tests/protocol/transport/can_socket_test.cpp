@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "tests/protocol/transport/any_frame.hpp"
 #include "tests/support/allocation_guard.hpp"
 #include "tests/support/unix_bus_bench.hpp"
 
@@ -37,19 +38,6 @@ class CanSocketOnUnixBus : public testing::UnixBusBench {
     return out;
   }
 };
-
-can::Frame any_frame(std::mt19937_64& random) {
-  constexpr std::uint8_t kFdLengths[] = {0, 8, 12, 16, 20, 24, 32, 48, 64};
-  can::Frame f;
-  f.extended = random() % 3 == 0;
-  f.fd = random() % 4 == 0;
-  f.remote = !f.fd && random() % 8 == 0;
-  f.id = static_cast<std::uint32_t>(random() % 64);
-  f.length = f.fd ? kFdLengths[random() % 9] : static_cast<std::uint8_t>(random() % 9);
-  if (!f.remote)
-    for (std::size_t i = 0; i < f.length; ++i) f.data[i] = static_cast<std::uint8_t>(random());
-  return f;
-}
 
 TEST_F(CanSocketOnUnixBus, EveryKindOfFrameArrivesOnceInOrderAndStamped) {
   CanSocket sender = open(), reader = open();

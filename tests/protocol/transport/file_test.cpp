@@ -8,7 +8,7 @@
 namespace pitwall::transport {
 namespace {
 
-class Files : public testing::Test {
+class Files : public ::testing::Test {
  protected:
   std::string path(const std::string& name) const { return folder_.path() + "/" + name; }
   TemporaryFolder folder_ = *TemporaryFolder::create("pitwall-file-");

@@ -67,7 +67,7 @@ TEST(PrivateAccess, InAFolderNobodyElseMayReplaceIt) {
             "chmod go-w f");
 }
 
-class PrivateFile : public testing::Test {
+class PrivateFile : public ::testing::Test {
  protected:
   PrivateFile() { EXPECT_TRUE(write_private_file(key_, "secret")); }
   std::string refusal(const std::string& path) const {

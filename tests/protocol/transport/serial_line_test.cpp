@@ -10,13 +10,10 @@
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/readiness.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::transport {
 namespace {
-
-std::span<const std::uint8_t> bytes(const std::string& text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
 
 std::string receive(SerialLine& line) {
   for (int i = 0; i < 500; ++i) {
@@ -42,12 +39,12 @@ TEST(SerialLine, DatagramsGoBothWays) {
   auto [a, b] = connected();
   for (const std::size_t n : {0UL, 1UL, 150UL, kMaxLineDatagramBytes}) {
     const std::string text(n, static_cast<char>(n % 251));
-    ASSERT_TRUE(a.send(bytes(text)));
+    ASSERT_TRUE(a.send(as_bytes(text)));
     EXPECT_EQ(receive(b), text);
-    ASSERT_TRUE(b.send(bytes(text)));
+    ASSERT_TRUE(b.send(as_bytes(text)));
     EXPECT_EQ(receive(a), text);
   }
-  EXPECT_FALSE(a.send(bytes(std::string(kMaxLineDatagramBytes + 1, 'x'))));
+  EXPECT_FALSE(a.send(as_bytes(std::string(kMaxLineDatagramBytes + 1, 'x'))));
   EXPECT_EQ(a.counters().tx_refused, 1U);
 }
 
@@ -55,7 +52,7 @@ TEST(SerialLine, ASlowReaderCostsWholeDatagramsAndTheyAreCounted) {
   auto [a, b] = connected();
   std::uint64_t accepted = 0;
   const std::string text(1'000, 'x');
-  for (int i = 0; i < 2'000; ++i) accepted += a.send(bytes(text)) ? 1U : 0U;
+  for (int i = 0; i < 2'000; ++i) accepted += a.send(as_bytes(text)) ? 1U : 0U;
   ASSERT_LT(accepted, 2'000U);
   EXPECT_EQ(a.counters().tx_overflow, 2'000U - accepted);
   std::uint64_t received = 0;
@@ -76,7 +73,7 @@ TEST(SerialLine, TheOtherEndGoneIsNoticedNotFatal) {
   auto a = SerialLine::adopt(std::move(ends->first));
   ASSERT_TRUE(a.has_value());
   ends->second.reset();
-  for (int i = 0; i < 3; ++i) static_cast<void>(a->send(bytes("into the void")));  // no SIGPIPE
+  for (int i = 0; i < 3; ++i) static_cast<void>(a->send(as_bytes("into the void")));  // no SIGPIPE
   EXPECT_FALSE(a->receive().has_value());
   EXPECT_TRUE(a->closed());
 }
@@ -93,9 +90,9 @@ TEST(SerialLine, ATtyIsRawInBothDirections) {
   ASSERT_TRUE(other.has_value());
   std::string every_byte;  // flow control, line ends and interrupts of a tty among them
   for (int i = 0; i < 256; ++i) every_byte += static_cast<char>(i);
-  ASSERT_TRUE(other->send(bytes(every_byte)));
+  ASSERT_TRUE(other->send(as_bytes(every_byte)));
   EXPECT_EQ(receive(*tty), every_byte);
-  ASSERT_TRUE(tty->send(bytes(every_byte)));
+  ASSERT_TRUE(tty->send(as_bytes(every_byte)));
   EXPECT_EQ(receive(*other), every_byte);
 }
 

@@ -11,13 +11,10 @@
 
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/readiness.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::transport {
 namespace {
-
-std::span<const std::uint8_t> bytes(const std::string& text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
 
 std::vector<UdpDatagram> collect(UdpSocket& socket, std::size_t count) {
   std::vector<UdpDatagram> all(count + 1);
@@ -50,7 +47,7 @@ TEST(UdpSocket, DatagramsArriveWholeInOrderWithSenderAndTime) {
   std::vector<std::string> sent;
   for (std::size_t i = 0; i < 100; ++i) {
     sent.push_back(std::string(i * 20, static_cast<char>(i)));
-    ASSERT_TRUE(a->send_to(b->local(), bytes(sent.back())));
+    ASSERT_TRUE(a->send_to(b->local(), as_bytes(sent.back())));
   }
   const auto received = collect(*b, sent.size());
   ASSERT_EQ(received.size(), sent.size());
@@ -69,9 +66,9 @@ TEST(UdpSocket, TooLongIsCountedAndTheNextOnesCloseTheGap) {
   auto a = UdpSocket::bind({});
   auto b = UdpSocket::bind({});
   ASSERT_TRUE(a && b);
-  ASSERT_TRUE(a->send_to(b->local(), bytes("first")));
-  ASSERT_TRUE(a->send_to(b->local(), bytes(std::string(kMaxDatagramBytes + 1, 'x'))));
-  ASSERT_TRUE(a->send_to(b->local(), bytes(std::string(kMaxDatagramBytes, 'y'))));
+  ASSERT_TRUE(a->send_to(b->local(), as_bytes("first")));
+  ASSERT_TRUE(a->send_to(b->local(), as_bytes(std::string(kMaxDatagramBytes + 1, 'x'))));
+  ASSERT_TRUE(a->send_to(b->local(), as_bytes(std::string(kMaxDatagramBytes, 'y'))));
   const auto received = collect(*b, 2);
   ASSERT_EQ(received.size(), 2U);
   EXPECT_EQ(received[0].payload()[0], 'f');
@@ -86,12 +83,12 @@ TEST(UdpSocket, AConnectedSocketHearsOnlyItsPeer) {
   auto stranger = UdpSocket::bind({});
   ASSERT_TRUE(a && b && stranger);
   ASSERT_TRUE(b->connect(a->local()));
-  ASSERT_TRUE(stranger->send_to(b->local(), bytes("intruder")));
-  ASSERT_TRUE(a->send_to(b->local(), bytes("friend")));
+  ASSERT_TRUE(stranger->send_to(b->local(), as_bytes("intruder")));
+  ASSERT_TRUE(a->send_to(b->local(), as_bytes("friend")));
   const auto received = collect(*b, 1);
   ASSERT_EQ(received.size(), 1U);
   EXPECT_EQ(received[0].length, 6U);
-  ASSERT_TRUE(b->send(bytes("answer")));
+  ASSERT_TRUE(b->send(as_bytes("answer")));
   EXPECT_EQ(collect(*a, 1).size(), 1U);
 }
 
@@ -102,7 +99,7 @@ TEST(UdpSocket, NobodyAtTheOtherEndIsCountedAndSendingGoesOn) {
   const UdpAddress nobody = gone->local();
   gone = UdpSocket::bind({});
   ASSERT_TRUE(a->connect(nobody));
-  for (int i = 0; i < 10; ++i) EXPECT_TRUE(a->send(bytes("hello")));
+  for (int i = 0; i < 10; ++i) EXPECT_TRUE(a->send(as_bytes("hello")));
   std::vector<UdpDatagram> none(4);
   EXPECT_EQ(a->receive(none), 0U);
   EXPECT_GT(a->counters().rx_refused, 0U);

@@ -12,7 +12,7 @@
 namespace pitwall::bench {
 namespace {
 
-constexpr double kUnderWay_s = 9.0, kUntil_s = 28.0;  // of launch_and_stop: armed, and red again
+constexpr double kUnderWay_s = 9.0, kRedAgain_s = 28.0;  // of launch_and_stop: armed, and red again
 
 struct Launch {
   Instant position_at{};  // when the newest one that was taken in was true
@@ -49,7 +49,7 @@ TEST(Launch, NobodyCoastsAndNoPositionIsRefused) {
   for (std::uint64_t seed = 1; seed <= std::max<std::uint64_t>(12, seeds(12)); ++seed) {
     scenario::Scenario s = read->scenario;
     s.seed = seed;
-    s.duration = from_seconds(kUntil_s);
+    s.duration = from_seconds(kRedAgain_s);
     Launch launch;
     LockstepOptions options;
     options.watch = [&](const pipeline::Outputs& out, const Rig&, Instant now) {

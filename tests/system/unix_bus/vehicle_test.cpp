@@ -25,6 +25,7 @@
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
 #include "protocol/transport/udp_socket.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 #include "tests/support/comes_true.hpp"
 #include "tests/support/pty.hpp"
 #include "tests/support/tcp_server.hpp"
@@ -38,10 +39,6 @@ using transport::Process;
 
 const std::string kRoot = PITWALL_SOURCE_DIR;
 constexpr double kUnknown = 0, kDown = 5;  // codes of bus.controller
-
-std::span<const std::uint8_t> as_bytes(std::string_view text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
 
 std::string program(const char* name, const char* fallback) {
   const char* path = std::getenv(name);

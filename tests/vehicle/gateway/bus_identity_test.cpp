@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/support/allocation_guard.hpp"
+#include "tests/support/tick.hpp"
 #include "tests/vehicle/gateway/traffic.hpp"
 
 namespace pitwall::gateway {
@@ -20,9 +21,7 @@ using world::BusIdentity;
 using world::IdentityDifference;
 using world::IdentityVerdict;
 
-constexpr Duration kTick = milliseconds(10);
-
-struct Sender {
+struct GridSender {
   std::uint32_t id = 0;
   std::uint8_t length = 0;
   Duration period{}, phase{};
@@ -30,8 +29,8 @@ struct Sender {
 };
 
 // A bus on which every sender keeps its grid; what the grid says may come late, or not at all.
-struct Bus {
-  std::vector<Sender> senders;
+struct GridBus {
+  std::vector<GridSender> senders;
   Random random{1};
   Duration late_most{};     // each frame comes late by up to this
   double loss = 0.0;        // share of frames that never come
@@ -39,7 +38,7 @@ struct Bus {
   std::vector<std::pair<Instant, can::Frame>> waiting;
 
   std::vector<can::ReceivedFrame> tick(Instant now) {
-    for (const Sender& sender : senders) {
+    for (const GridSender& sender : senders) {
       const std::int64_t first = std::max<std::int64_t>(0, (now - kTick - sender.phase).ns);
       for (std::int64_t i = first / sender.period.ns;; ++i) {
         const Instant due = Instant{} + sender.phase + sender.period * i;
@@ -63,7 +62,7 @@ struct Bus {
     return out;
   }
 
-  static can::Frame frame_of(const Sender& sender) {
+  static can::Frame frame_of(const GridSender& sender) {
     can::Frame frame;
     frame.id = sender.id;
     frame.length = sender.length;
@@ -75,8 +74,8 @@ struct Bus {
 };
 
 // Every message of the car at its period, each with a phase of its own.
-Bus right_bus(std::uint64_t seed) {
-  Bus bus{.senders = {}, .random = {seed}, .waiting = {}};
+GridBus right_bus(std::uint64_t seed) {
+  GridBus bus{.senders = {}, .random = {seed}, .waiting = {}};
   for (const can::MessageRow& row : kMessages) {
     if (row.direction != can::Direction::kFromCar || !row.required) continue;
     const auto phase = bus.random.below(static_cast<std::uint64_t>(row.period.ns));
@@ -97,14 +96,14 @@ struct Car {
   Instant now{};
   BusIdentity last;
 
-  void listen(Bus& bus, Duration time) {
+  void listen(GridBus& bus, Duration time) {
     for (const Instant end = now + time; now < end;) {
       now += kTick;
       last = identify(params, state, bus.tick(now), armed, now);
     }
   }
   // How long until this verdict, at most `limit`.
-  std::optional<Duration> until(IdentityVerdict verdict, Bus& bus, Duration limit) {
+  std::optional<Duration> until(IdentityVerdict verdict, GridBus& bus, Duration limit) {
     for (const Instant begin = now; now - begin < limit;) {
       listen(bus, kTick);
       if (last.verdict == verdict) return now - begin;
@@ -120,14 +119,14 @@ std::vector<const can::MessageRow*> required() {
   return out;
 }
 
-Sender& sender_of(Bus& bus, std::uint32_t id) {
-  return *std::ranges::find(bus.senders, id, &Sender::id);
+GridSender& sender_of(GridBus& bus, std::uint32_t id) {
+  return *std::ranges::find(bus.senders, id, &GridSender::id);
 }
 
 // Law 1: a right bus is known within two of its slowest periods, whatever the phases.
 TEST(BusIdentity, ARightBusIsKnownAsSoonAsItsSlowestPeriodAllows) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    Bus bus = right_bus(seed);
+    GridBus bus = right_bus(seed);
     Car car;
     const auto time = car.until(IdentityVerdict::kRight, bus, seconds(5));
     ASSERT_TRUE(time) << seed << ": " << sentence(car.last);
@@ -142,7 +141,7 @@ TEST(BusIdentity, ARightBusIsKnownAsSoonAsItsSlowestPeriodAllows) {
 // Law 2: late and lost frames delay the verdict; they never turn it round.
 TEST(BusIdentity, ARightBusThatIsLateOrLossyIsNeverWrong) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
-    Bus bus = right_bus(seed);
+    GridBus bus = right_bus(seed);
     bus.late_most = milliseconds(static_cast<std::int64_t>(bus.random.below(150)));
     bus.loss = bus.random.between(0.0, 0.02);
     Car car;
@@ -158,7 +157,7 @@ TEST(BusIdentity, ARightBusThatIsLateOrLossyIsNeverWrong) {
 }
 
 TEST(BusIdentity, AStallOfTwoSecondsIsNoOtherBus) {
-  Bus bus = right_bus(3);
+  GridBus bus = right_bus(3);
   bus.silent_until = seconds(2);
   Car car;
   ASSERT_TRUE(car.until(IdentityVerdict::kRight, bus, seconds(6))) << sentence(car.last);
@@ -171,7 +170,7 @@ TEST(BusIdentity, AStallOfTwoSecondsIsNoOtherBus) {
 
 // Race control sends its flags also when they change.
 TEST(BusIdentity, ExtraFramesOfAChangeAreNoOtherPeriod) {
-  Bus bus = right_bus(4);
+  GridBus bus = right_bus(4);
   for (const std::uint32_t id : {1200u, 1250u})
     bus.senders.push_back({.id = id, .length = 8, .period = seconds(1), .phase = milliseconds(3)});
   Car car;
@@ -184,24 +183,25 @@ TEST(BusIdentity, ExtraFramesOfAChangeAreNoOtherPeriod) {
 struct Mutation {
   const char* name;
   IdentityDifference difference;
-  void (*apply)(Sender&);
+  void (*apply)(GridSender&);
 };
 const Mutation kMutations[] = {
-    {"longer", IdentityDifference::kWrongLength, [](Sender& s) { ++s.length; }},
-    {"shorter", IdentityDifference::kWrongLength, [](Sender& s) { --s.length; }},
-    {"remote", IdentityDifference::kWrongFormat, [](Sender& s) { s.remote = true; }},
-    {"extended", IdentityDifference::kWrongFormat, [](Sender& s) { s.extended = true; }},
-    {"fd", IdentityDifference::kWrongFormat, [](Sender& s) { s.fd = true; }},
-    {"missing", IdentityDifference::kNotHeard, [](Sender& s) { s.period = seconds(1'000'000); }},
-    {"slower", IdentityDifference::kWrongPeriod, [](Sender& s) { s.period = s.period * 3; }},
-    {"faster", IdentityDifference::kWrongPeriod, [](Sender& s) { s.period = s.period / 3; }},
+    {"longer", IdentityDifference::kWrongLength, [](GridSender& s) { ++s.length; }},
+    {"shorter", IdentityDifference::kWrongLength, [](GridSender& s) { --s.length; }},
+    {"remote", IdentityDifference::kWrongFormat, [](GridSender& s) { s.remote = true; }},
+    {"extended", IdentityDifference::kWrongFormat, [](GridSender& s) { s.extended = true; }},
+    {"fd", IdentityDifference::kWrongFormat, [](GridSender& s) { s.fd = true; }},
+    {"missing", IdentityDifference::kNotHeard,
+     [](GridSender& s) { s.period = seconds(1'000'000); }},
+    {"slower", IdentityDifference::kWrongPeriod, [](GridSender& s) { s.period = s.period * 3; }},
+    {"faster", IdentityDifference::kWrongPeriod, [](GridSender& s) { s.period = s.period / 3; }},
 };
 
 TEST(BusIdentity, EveryMutationOfOneMessageIsNamed) {
   for (const can::MessageRow* row : required()) {
     for (const Mutation& mutation : kMutations) {
-      Bus bus = right_bus(row->id);
-      Sender& sender = sender_of(bus, row->id);
+      GridBus bus = right_bus(row->id);
+      GridSender& sender = sender_of(bus, row->id);
       mutation.apply(sender);
       if (sender.period > seconds(100)) sender.phase = sender.period - seconds(1);
       Car car;
@@ -221,7 +221,7 @@ TEST(BusIdentity, AnUnknownIdIsNamedAndOfSeveralTheSmallest) {
   for (int i = 0; i < 100; ++i) {
     const auto id = static_cast<std::uint32_t>(random.below(2048));
     if (std::ranges::find(kMessages, id, &can::MessageRow::id) != kMessages.end()) continue;
-    Bus bus = right_bus(random.next());
+    GridBus bus = right_bus(random.next());
     bus.senders.push_back({.id = 2047, .length = 8, .period = milliseconds(10), .phase = {}});
     bus.senders.push_back({.id = id, .length = 3, .period = milliseconds(700), .phase = {}});
     Car car;
@@ -233,7 +233,7 @@ TEST(BusIdentity, AnUnknownIdIsNamedAndOfSeveralTheSmallest) {
 }
 
 TEST(BusIdentity, ProofIsNamedBeforeAbsenceAndSmallerIdsFirst) {
-  Bus bus = right_bus(6);
+  GridBus bus = right_bus(6);
   sender_of(bus, 1250).period = seconds(1'000'000);
   sender_of(bus, 1250).phase = seconds(900'000);
   ++sender_of(bus, 1312).length;
@@ -252,7 +252,7 @@ TEST(BusIdentity, ProofIsNamedBeforeAbsenceAndSmallerIdsFirst) {
 
 // What is optional may be absent, but not different.
 TEST(BusIdentity, AnOptionalMessageMayBeSilentButNotWrong) {
-  Bus bus = right_bus(7);
+  GridBus bus = right_bus(7);
   bus.senders.push_back({.id = 226, .length = 8, .period = milliseconds(200), .phase = {}});
   Car car;
   ASSERT_TRUE(car.until(IdentityVerdict::kRight, bus, seconds(3)));
@@ -266,7 +266,7 @@ TEST(BusIdentity, AnOptionalMessageMayBeSilentButNotWrong) {
 
 // Our own ids are no evidence: gateway/inbound latches them.
 TEST(BusIdentity, OurOwnIdsAreNotOfTheBus) {
-  Bus bus = right_bus(8);
+  GridBus bus = right_bus(8);
   bus.senders.push_back({.id = 1402, .length = 2, .period = milliseconds(10), .phase = {}});
   Car car;
   EXPECT_TRUE(car.until(IdentityVerdict::kRight, bus, seconds(3)));
@@ -274,15 +274,15 @@ TEST(BusIdentity, OurOwnIdsAreNotOfTheBus) {
 
 // Law 4: while armed the verdict stands, whatever comes or does not come.
 TEST(BusIdentity, WhileArmedTheVerdictStands) {
-  Bus bus = right_bus(9);
+  GridBus bus = right_bus(9);
   Car car;
   ASSERT_TRUE(car.until(IdentityVerdict::kRight, bus, seconds(3)));
   car.armed = true;
-  Bus noise = right_bus(10);
-  for (Sender& sender : noise.senders) sender.length = static_cast<std::uint8_t>(sender.id % 9);
+  GridBus noise = right_bus(10);
+  for (GridSender& sender : noise.senders) sender.length = static_cast<std::uint8_t>(sender.id % 9);
   noise.senders.push_back({.id = 999, .length = 8, .period = milliseconds(20), .phase = {}});
-  Bus silence;
-  for (Bus* other : {&noise, &silence}) {
+  GridBus silence;
+  for (GridBus* other : {&noise, &silence}) {
     for (int i = 0; i < 2000; ++i) {
       car.listen(*other, kTick);
       ASSERT_EQ(car.last.verdict, IdentityVerdict::kRight);
@@ -290,7 +290,7 @@ TEST(BusIdentity, WhileArmedTheVerdictStands) {
   }
   // Disarmed again, an hour of driving is no silence.
   car.armed = false;
-  Bus again = right_bus(11);
+  GridBus again = right_bus(11);
   for (int i = 0; i < 1000; ++i) {
     car.listen(again, kTick);
     ASSERT_EQ(car.last.verdict, IdentityVerdict::kRight) << sentence(car.last);
@@ -299,10 +299,10 @@ TEST(BusIdentity, WhileArmedTheVerdictStands) {
 
 // Law 5: a disarmed car hears a wrong frame at once and forgives it after a whole clean window.
 TEST(BusIdentity, ADisarmedCarHearsAWrongFrameAndHeals) {
-  Bus bus = right_bus(12);
+  GridBus bus = right_bus(12);
   Car car;
   ASSERT_TRUE(car.until(IdentityVerdict::kRight, bus, seconds(3)));
-  can::ReceivedFrame stray{Bus::frame_of({.id = 1000, .length = 8}), car.now};
+  can::ReceivedFrame stray{GridBus::frame_of({.id = 1000, .length = 8}), car.now};
   car.last = identify(car.params, car.state, {&stray, 1}, false, car.now);
   EXPECT_EQ(car.last.verdict, IdentityVerdict::kWrong);
   EXPECT_EQ(car.last.id, 1000u);
@@ -313,7 +313,7 @@ TEST(BusIdentity, ADisarmedCarHearsAWrongFrameAndHeals) {
 }
 
 TEST(BusIdentity, ABusThatSpeaksLaterIsKnownThen) {
-  Bus silence, bus = right_bus(13);
+  GridBus silence, bus = right_bus(13);
   Car car;
   car.listen(silence, seconds(5));
   EXPECT_EQ(car.last.verdict, IdentityVerdict::kWrong);
@@ -353,7 +353,7 @@ TEST(BusIdentity, EverySentenceSaysWhatDiffers) {
 
 TEST(BusIdentity, AllocatesNothing) {
   if (!pitwall::testing::kAllocationsCounted) GTEST_SKIP() << "the sanitizer has its own heap";
-  Bus bus = right_bus(14);
+  GridBus bus = right_bus(14);
   ++sender_of(bus, 1303).length;
   bus.senders.push_back({.id = 5, .length = 8, .period = milliseconds(10), .phase = {}});
   Car car;

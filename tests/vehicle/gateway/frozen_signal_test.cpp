@@ -6,10 +6,10 @@
 #include <cmath>
 #include <functional>
 
+#include "tests/support/tick.hpp"
+
 namespace pitwall::gateway {
 namespace {
-
-constexpr Duration kTick = milliseconds(10);
 
 struct Moment {
   double speed_mps = 60.0, steering_rad = 0.0, command_rad = 0.0, brake_kpa = 0.0;

@@ -20,7 +20,7 @@ using world::Liveness;
 using world::TrackFlag;
 using world::VehicleFlag;
 
-struct Receiver {
+struct InboundReceiver {
   InboundParams params;
   InboundState state;
 
@@ -39,7 +39,7 @@ const world::MessageHealth& health_of(const world::BusHealth& bus, std::uint32_t
 }
 
 TEST(Inbound, HealthyTrafficIsAppliedInSi) {
-  Receiver car;
+  InboundReceiver car;
   InboundOutput out;
   for (std::int64_t tick = 0; tick < 100; ++tick) {
     const Instant at = at_ms(10 * tick);
@@ -63,7 +63,7 @@ TEST(Inbound, OnlyListedIdsOfTheCarInTheirOwnLengthAreRead) {
     for (const can::MessageRow& candidate : av21::kMessages)
       if (candidate.id == id) row = &candidate;
     for (std::uint8_t length = 0; length <= 8; ++length) {
-      Receiver car;
+      InboundReceiver car;
       can::Frame frame;
       frame.id = id;
       frame.length = length;
@@ -82,7 +82,7 @@ TEST(Inbound, OnlyListedIdsOfTheCarInTheirOwnLengthAreRead) {
 TEST(Inbound, RemoteFdAndExtendedAliasesAreRefused) {
   for (const can::MessageRow& row : av21::kMessages) {
     for (int kind = 0; kind < 3; ++kind) {
-      Receiver car;
+      InboundReceiver car;
       can::Frame frame = empty_frame(row);
       frame.extended = kind == 0;
       frame.remote = kind == 1;
@@ -96,7 +96,7 @@ TEST(Inbound, RemoteFdAndExtendedAliasesAreRefused) {
 }
 
 TEST(Inbound, AnotherNodeWithOurIdLatches) {
-  Receiver car;
+  InboundReceiver car;
   for (const can::MessageRow& row : av21::kMessages)
     if (row.direction == can::Direction::kToCar) car.hear(empty_frame(row), at_ms(1));
   const InboundOutput out = car.listen(at_ms(100000));
@@ -106,7 +106,7 @@ TEST(Inbound, AnotherNodeWithOurIdLatches) {
 
 TEST(Inbound, EveryConventionOfWrappingIsClean) {
   for (const int modulus : {8, 10, 100, 256}) {
-    Receiver car;
+    InboundReceiver car;
     InboundOutput out;
     for (std::int64_t i = 0; i < 600; ++i)
       out = car.hear(steering(5.0, static_cast<std::uint8_t>(i % modulus)), at_ms(10 * i));
@@ -116,7 +116,7 @@ TEST(Inbound, EveryConventionOfWrappingIsClean) {
 }
 
 TEST(Inbound, ARepeatedCounterIsNeverApplied) {
-  Receiver car;
+  InboundReceiver car;
   car.hear(steering(5.0, 7), at_ms(0));
   for (std::int64_t i = 1; i <= 50; ++i) {
     const InboundOutput out = car.hear(steering(6.0, 7), at_ms(10 * i));
@@ -129,7 +129,7 @@ TEST(Inbound, ARepeatedCounterIsNeverApplied) {
 }
 
 TEST(Inbound, AJumpingCounterFillsTheBucketAndAGoodOneEmptiesIt) {
-  Receiver car;
+  InboundReceiver car;
   std::int64_t tick = 0;
   std::uint8_t counter = 1;
   const auto send = [&](int step) {
@@ -159,7 +159,7 @@ TEST(Inbound, LivenessFollowsAgeAndOnlyAppliedFramesCount) {
   const can::MessageRow& row =
       *std::find_if(av21::kMessages.begin(), av21::kMessages.end(),
                     [](const can::MessageRow& r) { return r.id == av21::WheelSpeedReport::kId; });
-  Receiver car;
+  InboundReceiver car;
   const auto at = [&](Duration age) {
     return health_of(car.listen(Instant{} + age).bus, row.id).liveness;
   };
@@ -183,7 +183,7 @@ double limit_per_s(std::uint32_t id, std::string_view signal) {
 }
 
 TEST(Inbound, RandomTrafficNeverAppliesAnImplausibleValue) {
-  Receiver car;
+  InboundReceiver car;
   Random random{20260101};
   std::uint64_t sent = 0;
   InboundOutput before = car.listen(Instant{});
@@ -244,7 +244,7 @@ TEST(Inbound, RandomTrafficNeverAppliesAnImplausibleValue) {
 }
 
 TEST(Inbound, AWrongFirstValueDoesNotLockOutTheTruth) {
-  Receiver car;
+  InboundReceiver car;
   car.hear(steering(290.0, 0), at_ms(0));
   std::int64_t tick = 1;
   while (car.state.refused.implausible_slew < 1 || car.state.frames_applied < 2) {
@@ -256,7 +256,7 @@ TEST(Inbound, AWrongFirstValueDoesNotLockOutTheTruth) {
 }
 
 TEST(Inbound, AFlagIsTakenEvenWithAStuckHeartbeatButLivenessIsNot) {
-  Receiver car;
+  InboundReceiver car;
   car.hear(summary({.heartbeat = 3, .track = 4}), at_ms(0));
   const InboundOutput out = car.hear(summary({.heartbeat = 3, .track = 1}), at_ms(500));
   EXPECT_EQ(out.race_control.track, TrackFlag::kRed);
@@ -267,7 +267,7 @@ TEST(Inbound, AFlagIsTakenEvenWithAStuckHeartbeatButLivenessIsNot) {
 }
 
 TEST(Inbound, MarelliIsAliveWhileItsReceiverHearsTheBase) {
-  Receiver car;
+  InboundReceiver car;
   car.params.flag_encoding = world::FlagEncoding::kMarelli;
   car.hear(marelli({.track = 1}), at_ms(0));
   car.hear(marelli({.track = 1}), at_ms(500));
@@ -281,7 +281,7 @@ TEST(Inbound, TheSecondEncodingCanOnlyRestrict) {
     const bool mylaps_leads = main == world::FlagEncoding::kMyLaps;
     for (int m = 0; m < 16; ++m) {
       for (int v = 0; v < 256; ++v) {
-        Receiver car;
+        InboundReceiver car;
         car.params.flag_encoding = main;
         const auto raw = static_cast<std::uint8_t>(v);
         const auto nibble = static_cast<std::uint8_t>(m);
@@ -312,7 +312,7 @@ TEST(Inbound, TheSecondEncodingCanOnlyRestrict) {
 }
 
 TEST(Inbound, TheLowerOfTwoRoundSpeedsHoldsAndZeroIsNoTarget) {
-  Receiver car;
+  InboundReceiver car;
   auto rc = car.hear(summary({.track = 4, .speed_mph = 0}), at_ms(0)).race_control;
   EXPECT_TRUE(std::isnan(rc.round_target_speed_mps));
   rc = car.hear(summary({.heartbeat = 1, .track = 4, .speed_mph = 100}), at_ms(1)).race_control;
@@ -324,7 +324,7 @@ TEST(Inbound, TheLowerOfTwoRoundSpeedsHoldsAndZeroIsNoTarget) {
 }
 
 TEST(Inbound, TheStateIsAValueAndTakesNothingFromTheHeap) {
-  Receiver car;
+  InboundReceiver car;
   Random random{7};
   std::vector<ReceivedFrame> frames;
   for (int i = 0; i < 500; ++i) {

@@ -8,6 +8,7 @@
 
 #include "protocol/can/signal.hpp"
 #include "tests/support/allocation_guard.hpp"
+#include "tests/support/tick.hpp"
 #include "tests/vehicle/gateway/traffic.hpp"
 #include "vehicle/gateway/inbound.hpp"
 
@@ -20,13 +21,12 @@ using can::ReceivedFrame;
 using world::LossDetector;
 using world::LossReport;
 
-constexpr Duration kTick = milliseconds(10);
 constexpr Duration kLimit = milliseconds(100);
 
 // Every message of the car in its period on a 1 ms grid, each delayed as on a real bus.
-class Bus {
+class CarBus {
  public:
-  explicit Bus(std::uint64_t seed) : random_{seed} {}
+  explicit CarBus(std::uint64_t seed) : random_{seed} {}
 
   // (id, index) of frames that never arrive.
   std::map<std::pair<std::uint32_t, std::int64_t>, Instant> left_out;
@@ -72,7 +72,7 @@ struct Heard {
   InboundState state;
 };
 
-Heard listen(Bus& bus, Duration length, Instant silent_from = {INT64_MAX}) {
+Heard listen(CarBus& bus, Duration length, Instant silent_from = {INT64_MAX}) {
   Heard heard;
   const InboundParams params;
   for (Instant now = Instant{} + kTick; now - Instant{} <= length; now += kTick) {
@@ -87,7 +87,7 @@ Heard listen(Bus& bus, Duration length, Instant silent_from = {INT64_MAX}) {
 
 TEST(Losses, NoneOnAHealthyBus) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    Bus bus{seed};
+    CarBus bus{seed};
     const Heard heard = listen(bus, seconds(20));
     EXPECT_TRUE(heard.reports.empty()) << "seed " << seed << " id " << heard.reports[0].id;
     EXPECT_EQ(heard.last.bus.frames_lost, 0u);
@@ -96,7 +96,7 @@ TEST(Losses, NoneOnAHealthyBus) {
 }
 
 TEST(Losses, EveryRowTellsHowItsMessageIs) {
-  Bus bus{1};
+  CarBus bus{1};
   const Heard heard = listen(bus, seconds(20));
   std::size_t rows = 0;
   for (const MessageRow& row : av21::kMessages) {
@@ -117,7 +117,7 @@ TEST(Losses, EveryRowTellsHowItsMessageIs) {
 
 TEST(Losses, EachSingleLossIsReportedOnceWithItsIdInTime) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    Bus bus{seed};
+    CarBus bus{seed};
     Random random{seed};
     for (const MessageRow& row : av21::kMessages) {
       if (row.direction != can::Direction::kFromCar) continue;
@@ -140,7 +140,7 @@ TEST(Losses, EachSingleLossIsReportedOnceWithItsIdInTime) {
 }
 
 TEST(Losses, TheLastFrameOfAllIsReportedThoughNothingFollows) {
-  Bus bus{1};
+  CarBus bus{1};
   const Instant silent = Instant{} + seconds(5);
   const Heard heard = listen(bus, seconds(6), silent);
   for (const MessageRow& row : av21::kMessages) {
@@ -194,7 +194,7 @@ TEST(Losses, WhatTheInterfaceLosesIsReportedWhenItRises) {
 }
 
 TEST(Losses, WhatDoesNotFitTheListOfATickIsCounted) {
-  Bus bus{1};
+  CarBus bus{1};
   const InboundParams params;
   InboundState state;
   const auto frames = bus.frames(Instant{}, Instant{} + seconds(3));

@@ -20,7 +20,7 @@ using world::MonitorSet;
 
 constexpr std::uint32_t kOwnId = 1402;
 
-struct Receiver {
+struct MonitoredReceiver {
   InboundParams params;
   InboundState state;
   std::int64_t tick = 0;
@@ -50,7 +50,7 @@ MonitorSet only(Monitor monitor) {
 struct Case {
   Monitor monitor;
   const char* name;
-  std::function<InboundOutput(Receiver&)> wrong;
+  std::function<InboundOutput(MonitoredReceiver&)> wrong;
   std::uint64_t world::FrameRefusals::*refusal;
 };
 
@@ -65,34 +65,34 @@ can::Frame extended(can::Frame frame) {
 
 const std::vector<Case> kCases{
     {Monitor::kCounter, "a repeated counter",
-     [](Receiver& r) {
+     [](MonitoredReceiver& r) {
        return r.hear({wheels(144.0), steering(5.0, static_cast<std::uint8_t>(r.counter - 1))});
      },
      &world::FrameRefusals::stuck_counter},
     {Monitor::kFrameShape, "a short frame",
-     [](Receiver& r) {
+     [](MonitoredReceiver& r) {
        return r.hear({shortened(wheels(144.0)), steering(5.0, r.counter++)});
      },
      &world::FrameRefusals::wrong_length},
     {Monitor::kFrameShape, "a 29 bit identifier",
-     [](Receiver& r) {
+     [](MonitoredReceiver& r) {
        return r.hear({extended(wheels(144.0)), steering(5.0, r.counter++)});
      },
      &world::FrameRefusals::remote_or_error},
     {Monitor::kDecodedRange, "a wheel that leaps",
-     [](Receiver& r) {
+     [](MonitoredReceiver& r) {
        return r.hear({wheels(330.0), steering(5.0, r.counter++)});
      },
      &world::FrameRefusals::implausible_slew},
     {Monitor::kDecodedRange, "an angle beyond all range",
-     [](Receiver& r) {
+     [](MonitoredReceiver& r) {
        return r.hear({wheels(144.0), steering(500.0, r.counter++)});
      },
      &world::FrameRefusals::out_of_range}};
 
 TEST(GatewayMonitors, EachSeesItsFaultInTheTickOfTheFrameAndNothingElseDoes) {
   for (const Case& c : kCases) {
-    Receiver car;
+    MonitoredReceiver car;
     car.warm_up();
     const InboundOutput out = c.wrong(car);
     EXPECT_EQ(out.seen, only(c.monitor)) << c.name;
@@ -102,7 +102,7 @@ TEST(GatewayMonitors, EachSeesItsFaultInTheTickOfTheFrameAndNothingElseDoes) {
 
 TEST(GatewayMonitors, OneThatIsOffSeesAndRefusesNothing) {
   for (const Case& c : kCases) {
-    Receiver car;
+    MonitoredReceiver car;
     car.params.off = only(c.monitor);
     car.warm_up();
     const InboundOutput out = c.wrong(car);
@@ -113,7 +113,7 @@ TEST(GatewayMonitors, OneThatIsOffSeesAndRefusesNothing) {
 
 TEST(GatewayMonitors, AnUnknownIdentifierIsSeen) {
   for (const bool off : {false, true}) {
-    Receiver car;
+    MonitoredReceiver car;
     if (off) car.params.off = only(Monitor::kFrameShape);
     car.warm_up();
     can::Frame stranger = wheels(144.0);
@@ -126,7 +126,7 @@ TEST(GatewayMonitors, AnUnknownIdentifierIsSeen) {
 
 TEST(GatewayMonitors, OurOwnVoiceFromAnotherNode) {
   for (const bool off : {false, true}) {
-    Receiver car;
+    MonitoredReceiver car;
     if (off) car.params.off = only(Monitor::kOwnId);
     car.warm_up();
     can::Frame own;
@@ -141,7 +141,7 @@ TEST(GatewayMonitors, OurOwnVoiceFromAnotherNode) {
 
 TEST(GatewayMonitors, AMessageThatStopsIsSeenWithinTwoAndAHalfPeriods) {
   for (const bool off : {false, true}) {
-    Receiver car;
+    MonitoredReceiver car;
     if (off) car.params.off = only(Monitor::kMessageAge);
     car.warm_up();
     int ticks = 0;
@@ -156,7 +156,7 @@ TEST(GatewayMonitors, AChecksumIsJudgedBesideTheDatabase) {
   static constexpr std::array kRows{can::integrity_bench::kMessages[3]};
   ASSERT_NE(kRows[0].protection.profile, can::Protection::kNone);
   for (const bool off : {false, true}) {
-    Receiver car;
+    MonitoredReceiver car;
     car.params.also = kRows;
     if (off) car.params.off = only(Monitor::kChecksum);
     can::ProtectState sender;
@@ -180,7 +180,7 @@ TEST(GatewayMonitors, AChecksumIsJudgedBesideTheDatabase) {
 
 TEST(GatewayMonitors, AFrozenReportIsSeenThroughTheWholeGateway) {
   for (const bool off : {false, true}) {
-    Receiver car;
+    MonitoredReceiver car;
     if (off) car.params.off = only(Monitor::kFrozenSignal);
     car.warm_up();
     bool seen = false;

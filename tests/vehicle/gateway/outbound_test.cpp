@@ -13,13 +13,13 @@ namespace {
 
 using namespace testing;
 
-struct Sender {
+struct CommandSender {
   OutboundParams params;
   OutboundState state;
   OutboundInputs inputs;
   Instant now{};
 
-  Sender() {
+  CommandSender() {
     inputs.command = {
         .at = {}, .road_wheel_rad = 0.02, .throttle_fraction = 0.3, .brake_kpa = 0.0, .gear = 3};
     inputs.actuate = true;
@@ -44,7 +44,7 @@ M message_in(const OutboundOutput& out) {
 
 TEST(Outbound, WhatIsSentIsWhatWasCommandedWithinTheField) {
   Random random{5};
-  Sender car;
+  CommandSender car;
   for (int i = 0; i < 2000; ++i) {
     auto& c = car.inputs.command;
     c.road_wheel_rad = random.between(-0.2, 0.2);
@@ -67,7 +67,7 @@ TEST(Outbound, WhatIsSentIsWhatWasCommandedWithinTheField) {
 }
 
 TEST(Outbound, EveryCounterChangesOnEveryFrame) {
-  Sender car;
+  CommandSender car;
   std::map<std::uint32_t, double> last;
   const auto check = [&](std::uint32_t id, double counter) {
     const auto found = last.find(id);
@@ -92,7 +92,7 @@ TEST(Outbound, EveryCounterChangesOnEveryFrame) {
 
 TEST(Outbound, EachMessageKeepsItsPeriodUnderJitter) {
   Random random{9};
-  Sender car;
+  CommandSender car;
   std::map<std::uint32_t, int> sent;
   const int ticks = 3000;
   for (int i = 0; i < ticks; ++i) {
@@ -109,7 +109,7 @@ TEST(Outbound, EachMessageKeepsItsPeriodUnderJitter) {
 }
 
 TEST(Outbound, APauseIsNotCaughtUpWithABurst) {
-  Sender car;
+  CommandSender car;
   for (int i = 0; i < 30; ++i) car.tick();
   car.now += seconds(5);
   std::size_t frames = 0;
@@ -121,7 +121,7 @@ TEST(Outbound, APauseIsNotCaughtUpWithABurst) {
 }
 
 TEST(Outbound, DisarmedSendsNoActuatorFrame) {
-  Sender car;
+  CommandSender car;
   car.inputs.actuate = false;
   car.inputs.command = {};
   for (int i = 0; i < 50; ++i) {
@@ -133,7 +133,7 @@ TEST(Outbound, DisarmedSendsNoActuatorFrame) {
 
 TEST(Outbound, ANumberThatIsNotFiniteGivesNoFrameAndIsCounted) {
   for (const double bad : {kUnset, HUGE_VAL, -HUGE_VAL}) {
-    Sender car;
+    CommandSender car;
     car.inputs.command.road_wheel_rad = bad;
     car.inputs.command.brake_kpa = bad;
     const OutboundOutput out = car.tick();
@@ -147,7 +147,7 @@ TEST(Outbound, ANumberThatIsNotFiniteGivesNoFrameAndIsCounted) {
 
 TEST(Outbound, FlagsAreEchoedInTheMessageOfTheirEncoding) {
   for (const auto lead : {world::FlagEncoding::kMyLaps, world::FlagEncoding::kMarelli}) {
-    Sender car;
+    CommandSender car;
     auto& rc = car.inputs.acted_on;
     rc.encoding = lead;
     rc.raw_track = 4;

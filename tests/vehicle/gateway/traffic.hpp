@@ -11,6 +11,7 @@
 #include "protocol/can/encode.hpp"
 #include "protocol/can/frame.hpp"
 #include "protocol/vocabulary/time.hpp"
+#include "tests/support/instants.hpp"
 
 namespace pitwall::gateway::testing {
 
@@ -39,8 +40,6 @@ can::Frame frame_of(const M& message) {
   EXPECT_EQ(counters.saturated, 0u) << M::kName;
   return frame;
 }
-
-inline Instant at_ms(std::int64_t ms) { return Instant{} + milliseconds(ms); }
 
 inline can::Frame wheels(double kmph) {
   av21::WheelSpeedReport m;

@@ -8,8 +8,8 @@
 namespace pitwall::guardian {
 namespace {
 
-constexpr double kSpeed_mps = 60.0, kRadius_m = 250.0, kBank_rad = 0.2;
-constexpr double kHeadingRate = kSpeed_mps / kRadius_m;
+constexpr double kCircleSpeed_mps = 60.0, kCircleRadius_m = 250.0, kBank_rad = 0.2;
+constexpr double kHeadingRate = kCircleSpeed_mps / kCircleRadius_m;
 const double kRate = kHeadingRate * std::cos(kBank_rad);  // about body z
 const Geodetic kDatum{36.0, -115.0, 600.0};
 constexpr Duration kStep = milliseconds(5);
@@ -26,8 +26,8 @@ struct Circle {
     params.rear_slip_rad_per_mps2 = 0.0;
     for (ReceiverMounting& unit : params.units) unit = {};
   }
-  double x_m() const { return kRadius_m * std::sin(angle_rad); }
-  double y_m() const { return kRadius_m * (1.0 - std::cos(angle_rad)); }
+  double x_m() const { return kCircleRadius_m * std::sin(angle_rad); }
+  double y_m() const { return kCircleRadius_m * (1.0 - std::cos(angle_rad)); }
 
   world::SensorInput gyros(double bias0, double bias1) const {
     world::SensorInput in;
@@ -63,7 +63,7 @@ struct Circle {
                   .x_m = x_m(),
                   .y_m = y_m(),
                   .yaw_rad = wrap_pi(angle_rad),
-                  .vx_mps = kSpeed_mps,
+                  .vx_mps = kCircleSpeed_mps,
                   .vy_mps = 0.0,
                   .yaw_rate_rad_per_s = kRate});
     }
@@ -74,8 +74,8 @@ struct Circle {
   }
   void alone(const world::SensorInput& in, double motor_rad = kUnset) {
     listen(state, in);
-    reckon(params, state, {.speed_mps = kSpeed_mps, .steering_motor_rad = motor_rad}, in, kDatum,
-           kBank_rad, now);
+    reckon(params, state, {.speed_mps = kCircleSpeed_mps, .steering_motor_rad = motor_rad}, in,
+           kDatum, kBank_rad, now);
   }
   double error_m() const { return std::hypot(state.pose.x_m - x_m(), state.pose.y_m - y_m()); }
 };
@@ -113,7 +113,7 @@ TEST(Reckoning, OfTwoGyroscopesThatDifferTheOneCountsThatTheSteeringAgreesWith) 
     const double fall = kGravity_mps2 * std::sin(kBank_rad);
     const double k = c.params.understeer_rad_per_mps2;
     const double road_rad =
-        c.params.wheelbase_m * kRate / kSpeed_mps + k * (kSpeed_mps * kRate - fall);
+        c.params.wheelbase_m * kRate / kCircleSpeed_mps + k * (kCircleSpeed_mps * kRate - fall);
     for (int i = 0; i < 400; ++i) {
       c.step();
       c.alone(c.gyros(first_lies ? 0.3 : 0.0, first_lies ? 0.0 : 0.3),
@@ -127,8 +127,8 @@ TEST(Reckoning, WithoutAGyroscopeTheSteeringSaysHowItTurns) {
   Circle c;
   c.with_car(0.0, 0.0, 100);
   const double fall = kGravity_mps2 * std::sin(kBank_rad);
-  const double road_rad = c.params.wheelbase_m * kRate / kSpeed_mps +
-                          c.params.understeer_rad_per_mps2 * (kSpeed_mps * kRate - fall);
+  const double road_rad = c.params.wheelbase_m * kRate / kCircleSpeed_mps +
+                          c.params.understeer_rad_per_mps2 * (kCircleSpeed_mps * kRate - fall);
   for (int i = 0; i < 1000; ++i) {
     c.step();
     c.alone({}, road_rad * c.params.steering_ratio);

@@ -12,20 +12,20 @@
 namespace pitwall::guardian {
 namespace {
 
-constexpr double kRadius_m = 200.0, kSpeed_mps = 40.0;
+constexpr double kRingRadius_m = 200.0, kRingSpeed_mps = 40.0;
 
 // A circle of 200 m, walls 6 m to the left and 5 m to the right.
 const world::TrackMap& ring() {
   static const world::TrackMap map = [] {
     world::TrackDescription d;
     d.name = "ring";
-    d.length_m = 2.0 * std::numbers::pi * kRadius_m;
+    d.length_m = 2.0 * std::numbers::pi * kRingRadius_m;
     d.datum_latitude_deg = 36.0;
     d.datum_longitude_deg = -115.0;
     d.datum_height_m = 600.0;
     for (int i = 0; i < 8; ++i)
       d.knots.push_back({.s_m = d.length_m * i / 8.0,
-                         .curvature_per_m = 1.0 / kRadius_m,
+                         .curvature_per_m = 1.0 / kRingRadius_m,
                          .bank_rad = 0.1,
                          .width_left_m = 6.0,
                          .width_right_m = 5.0});
@@ -40,14 +40,14 @@ world::Trajectory stop_at(double s_m, double n_m) {
   world::Trajectory stop;
   for (std::size_t i = 0; i < 100; ++i) {
     const double along_m = 2.5 * static_cast<double>(i);
-    const double stretch = 1.0 - n_m / kRadius_m;
+    const double stretch = 1.0 - n_m / kRingRadius_m;
     const world::TrackPoint p = ring().offset(s_m + along_m / stretch, n_m);
-    const double v2 = kSpeed_mps * kSpeed_mps - 2.0 * 4.0 * along_m;
+    const double v2 = kRingSpeed_mps * kRingSpeed_mps - 2.0 * 4.0 * along_m;
     EXPECT_TRUE(stop.points.push({.s_m = along_m,
                                   .x_m = p.x_m,
                                   .y_m = p.y_m,
                                   .yaw_rad = p.yaw_rad,
-                                  .curvature_per_m = 1.0 / (kRadius_m - n_m),
+                                  .curvature_per_m = 1.0 / (kRingRadius_m - n_m),
                                   .bank_rad = 0.1,
                                   .speed_mps = std::sqrt(std::max(0.0, v2)),
                                   .accel_mps2 = v2 > 0.0 ? -4.0 : 0.0}));
@@ -60,7 +60,7 @@ world::EgoState ego_at(const world::Trajectory& stop) {
           .x_m = stop.points[0].x_m,
           .y_m = stop.points[0].y_m,
           .yaw_rad = stop.points[0].yaw_rad,
-          .vx_mps = kSpeed_mps};
+          .vx_mps = kRingSpeed_mps};
 }
 
 StopVerdict verdict(const world::Trajectory& stop, const world::EgoState& ego) {

@@ -20,7 +20,7 @@ struct Parsed {
   const Arguments& args() const { return std::get<Arguments>(result); }
 };
 
-Parsed parse(const Words& words) {
+Parsed parse_vehicle(const Words& words) {
   std::vector<const char*> argv{"pitwall-vehicle"};
   for (const std::string& word : words) argv.push_back(word.c_str());
   ::testing::internal::CaptureStdout();
@@ -39,7 +39,7 @@ Words with(Words words, const Words& more) {
 }
 
 TEST(Arguments, TheLeastHaveDefaults) {
-  const Parsed p = parse(kLeast);
+  const Parsed p = parse_vehicle(kLeast);
   ASSERT_FALSE(p.refused()) << p.err;
   EXPECT_EQ(p.args().car_file, "a.yaml");
   EXPECT_EQ(p.args().track_file, "b.yaml");
@@ -58,9 +58,9 @@ TEST(Arguments, TheLeastHaveDefaults) {
 
 TEST(Arguments, EveryOptionArrives) {
   const Parsed p =
-      parse(with(kLeast, {"--radio", "10.0.0.5:99,10.0.0.6:99", "--radio", "10.0.1.5:98",
-                          "--local-report", "23436", "--summary", "s.json", "--simulation", "--arm",
-                          "--no-base", "--sensors", "sensors.yaml"}));
+      parse_vehicle(with(kLeast, {"--radio", "10.0.0.5:99,10.0.0.6:99", "--radio", "10.0.1.5:98",
+                                  "--local-report", "23436", "--summary", "s.json", "--simulation",
+                                  "--arm", "--no-base", "--sensors", "sensors.yaml"}));
   ASSERT_FALSE(p.refused()) << p.err;
   EXPECT_EQ(p.args().radio, (Words{"10.0.0.5:99,10.0.0.6:99", "10.0.1.5:98"}));
   EXPECT_EQ(p.args().local_report, 23436);
@@ -72,7 +72,7 @@ TEST(Arguments, EveryOptionArrives) {
 }
 
 TEST(Arguments, HelpIsNoError) {
-  const Parsed p = parse({"--help"});
+  const Parsed p = parse_vehicle({"--help"});
   ASSERT_TRUE(p.refused());
   EXPECT_EQ(p.code(), 0);
   for (const char* option :
@@ -86,7 +86,7 @@ TEST(Arguments, EachOfTheLeastIsNeeded) {
     Words words = kLeast;
     words.erase(words.begin() + static_cast<std::ptrdiff_t>(i),
                 words.begin() + static_cast<std::ptrdiff_t>(i) + 2);
-    const Parsed p = parse(words);
+    const Parsed p = parse_vehicle(words);
     ASSERT_TRUE(p.refused()) << kLeast[i];
     EXPECT_EQ(p.code(), 2);
     EXPECT_NE(p.err.find(kLeast[i]), std::string::npos) << p.err;
@@ -97,13 +97,13 @@ TEST(Arguments, EachOfTheLeastIsNeeded) {
 TEST(Arguments, WithoutKeysOnlyABenchStarts) {
   Words words = kLeast;
   words.erase(words.begin() + 6, words.begin() + 8);
-  const Parsed p = parse(words);
+  const Parsed p = parse_vehicle(words);
   ASSERT_TRUE(p.refused());
   EXPECT_EQ(p.code(), 2);
   EXPECT_NE(p.err.find("--keys"), std::string::npos) << p.err;
   EXPECT_NE(p.err.find("pitwall-base keygen"), std::string::npos) << p.err;
-  EXPECT_FALSE(parse(with(words, {"--no-base"})).refused());
-  EXPECT_FALSE(parse(with(words, {"--check"})).refused());
+  EXPECT_FALSE(parse_vehicle(with(words, {"--no-base"})).refused());
+  EXPECT_FALSE(parse_vehicle(with(words, {"--check"})).refused());
 }
 
 TEST(Arguments, WrongUsageIsCodeTwoAndSaysWhy) {
@@ -119,7 +119,7 @@ TEST(Arguments, WrongUsageIsCodeTwoAndSaysWhy) {
       with(kLeast, {"--arm=maybe"}),
   };
   for (const Words& words : wrong) {
-    const Parsed p = parse(words);
+    const Parsed p = parse_vehicle(words);
     ASSERT_TRUE(p.refused()) << (words.empty() ? "nothing" : words.back());
     EXPECT_EQ(p.code(), 2);
     EXPECT_FALSE(p.err.empty());
@@ -129,8 +129,8 @@ TEST(Arguments, WrongUsageIsCodeTwoAndSaysWhy) {
 TEST(Arguments, EachReceiverMayHaveALinkOfItsOwn) {
   Words words = kLeast;
   words.resize(8);
-  const Parsed p = parse(with(words, {"--receiver", "1=serial:/dev/ttyUSB0:921600", "--receiver",
-                                      "0=tcp:192.168.7.2:3001"}));
+  const Parsed p = parse_vehicle(with(words, {"--receiver", "1=serial:/dev/ttyUSB0:921600",
+                                              "--receiver", "0=tcp:192.168.7.2:3001"}));
   ASSERT_FALSE(p.refused()) << p.err;
   EXPECT_EQ(to_string(p.args().receivers[0]), "tcp:192.168.7.2:3001");
   EXPECT_EQ(to_string(p.args().receivers[1]), "serial:/dev/ttyUSB0:921600");
@@ -153,7 +153,7 @@ TEST(Arguments, ALinkThatMakesNoSenseIsNamedWithItsOption) {
       {{"--receiver", "0=serial:ttyS0", "--receiver", "1=udp:2"}, "/dev/ttyS0"},
       {{"--gnss", "1,2", "--receiver", "0=udp:3"}, "already"}};
   for (const auto& [more, said] : wrong) {
-    const Parsed p = parse(with(words, more));
+    const Parsed p = parse_vehicle(with(words, more));
     ASSERT_TRUE(p.refused()) << more.back();
     EXPECT_EQ(p.code(), 2);
     EXPECT_NE(p.err.find("--receiver"), std::string::npos) << p.err;
@@ -166,7 +166,7 @@ TEST(Arguments, PortsAreTwoNumbersOfTheRightSize) {
                             "0,23502", "23501,0", "23501,23501", ",", "", "1.5,2"}) {
     Words words = kLeast;
     words.back() = ports;
-    const Parsed p = parse(words);
+    const Parsed p = parse_vehicle(words);
     ASSERT_TRUE(p.refused()) << ports;
     EXPECT_EQ(p.code(), 2) << ports;
     EXPECT_FALSE(p.err.empty()) << ports;

@@ -11,17 +11,14 @@
 #include "protocol/recording/mcap_reader.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 #include "tests/support/allocation_guard.hpp"
+#include "tests/support/tick.hpp"
 
 namespace pitwall::io {
 namespace {
 
 constexpr std::uint64_t kTicks = 300;
-constexpr Duration kTick = milliseconds(10);
-
-std::span<const std::uint8_t> as_bytes(std::string_view text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
 
 struct Ticks {
   std::vector<can::ReceivedFrame> heard{{.frame = {.id = 0x11, .length = 8}, .at = {}},

@@ -11,7 +11,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-std::variant<GuardianArguments, int> parse(const Words& words) {
+std::variant<GuardianArguments, int> parse_guardian(const Words& words) {
   std::vector<const char*> argv{"pitwall-guardian"};
   for (const std::string& word : words) argv.push_back(word.c_str());
   ::testing::internal::CaptureStdout();
@@ -26,7 +26,7 @@ const Words kAll{"--car",  "a.yaml",      "--can",     "can0",   "--guardian",  
                  "--gnss", "23503,23504", "--summary", "s.json", "--simulation"};
 
 TEST(GuardianArguments, EveryOptionArrives) {
-  const auto parsed = parse(kAll);
+  const auto parsed = parse_guardian(kAll);
   ASSERT_TRUE(std::holds_alternative<GuardianArguments>(parsed));
   const auto& args = std::get<GuardianArguments>(parsed);
   EXPECT_EQ(args.car_file, "a.yaml");
@@ -43,7 +43,7 @@ TEST(GuardianArguments, WhatItCannotDoWithoutIsRequired) {
     Words words = kAll;
     words.erase(words.begin() + static_cast<std::ptrdiff_t>(missing),
                 words.begin() + static_cast<std::ptrdiff_t>(missing) + 2);
-    const auto parsed = parse(words);
+    const auto parsed = parse_guardian(words);
     ASSERT_TRUE(std::holds_alternative<int>(parsed)) << kAll[missing];
     EXPECT_EQ(std::get<int>(parsed), 2);
   }
@@ -52,7 +52,7 @@ TEST(GuardianArguments, WhatItCannotDoWithoutIsRequired) {
 TEST(GuardianArguments, OnePortForTwoReceiversIsRefused) {
   Words words = kAll;
   words[7] = "23503,23503";
-  EXPECT_TRUE(std::holds_alternative<int>(parse(words)));
+  EXPECT_TRUE(std::holds_alternative<int>(parse_guardian(words)));
 }
 
 }  // namespace

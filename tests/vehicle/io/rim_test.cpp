@@ -16,13 +16,13 @@ Arguments somewhere() {
   return args;
 }
 
-std::string refusal(const Arguments& args) {
+std::string rim_refusal(const Arguments& args) {
   const auto rim = Rim::open(args);
   return rim ? std::string{} : to_string(rim.error());
 }
 
 TEST(Rim, RefusesAnInterfaceThatIsNotThere) {
-  const std::string why = refusal(somewhere());
+  const std::string why = rim_refusal(somewhere());
   EXPECT_EQ(why.rfind("pwnone0", 0), 0u) << why;
 }
 
@@ -30,7 +30,7 @@ TEST(Rim, RefusesNamesThatNoInterfaceCanHave) {
   for (const char* name : {"", "a name that is much too long for an interface", "can0/..", " "}) {
     Arguments args = somewhere();
     args.can_interface = name;
-    EXPECT_FALSE(refusal(args).empty()) << name;
+    EXPECT_FALSE(rim_refusal(args).empty()) << name;
   }
 }
 

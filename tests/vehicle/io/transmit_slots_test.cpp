@@ -9,6 +9,7 @@
 #include <map>
 #include <vector>
 
+#include "tests/support/tick.hpp"
 #include "tests/vehicle/safety/situation.hpp"
 
 namespace pitwall::io {
@@ -16,7 +17,6 @@ namespace {
 
 using safety::testing::Random;
 
-constexpr Duration kTick = milliseconds(10);
 constexpr Instant kStart{seconds(1).ns};
 constexpr std::uint32_t kFrameBytes = 768;
 

@@ -14,9 +14,12 @@
 #include <vector>
 
 #include "tests/support/public_data.hpp"
+#include "tests/vehicle/parameters/mutation.hpp"
 
 namespace pitwall::parameters {
 namespace {
+
+using testing::with;
 
 std::string text_of(const std::filesystem::path& path) {
   std::ifstream file(path);
@@ -35,12 +38,6 @@ world::TrackMap lvms() {
   auto map = world::TrackMap::build(*description);
   if (!map) throw std::runtime_error(to_string(map.error()));
   return *std::move(map);
-}
-
-std::string with(std::string text, const std::string& what, const std::string& by) {
-  const auto at = text.find(what);
-  if (at == std::string::npos) throw std::runtime_error("not in the file: " + what);
-  return text.replace(at, what.size(), by);
 }
 
 TEST(TrackFile, EveryTrackThatShipsIsBuilt) {

@@ -10,6 +10,7 @@
 
 #include "protocol/telemetry/delivery/event_content.hpp"
 #include "tests/support/allocation_guard.hpp"
+#include "tests/vehicle/pipeline/tapped_car.hpp"
 
 namespace pitwall::pipeline {
 namespace {
@@ -20,8 +21,7 @@ using telemetry::FaultEvent;
 using telemetry::FlagEvent;
 using telemetry::FlagKind;
 using telemetry::LapEvent;
-
-constexpr Instant kNow{100'000'000'000};
+using testing::kNow;
 
 class Events : public ::testing::Test {
  protected:
@@ -104,7 +104,7 @@ TEST_F(Events, ALapHasItsTimeWhereItsBeginningWasSeen) {
 TEST_F(Events, NothingIsAllocated) {
   raise(Cause::kRadioLost, 3.5);
   out_->chosen.mode = world::Mode::kStandby;
-  EXPECT_EQ(testing::allocations_of([&] { tap_.look(*car_, *out_, kNow); }), 0u);
+  EXPECT_EQ(pitwall::testing::allocations_of([&] { tap_.look(*car_, *out_, kNow); }), 0u);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 using namespace testing;  // NOLINT: the fixture of this test
 using telemetry::Group;
 
-const std::vector<Row> kExpected{
+const std::vector<Row> kHealthRows{
     {field("bus.frames_applied"), 1001},
     {field("bus.frames_refused"), 37},
     {field("bus.frames_sent"), 2002},
@@ -121,7 +121,7 @@ const std::vector<Row> kExpected{
     {field("faults.last_age"), 4},
 };
 
-TEST(HealthTap, EachFieldSaysWhatTheTickSays) { expect(kExpected); }
+TEST(HealthTap, EachFieldSaysWhatTheTickSays) { expect(kHealthRows); }
 
 TEST(HealthTap, EveryStreamOfTheWatchdogIsInItsPlace) {
   const Outputs out = full();

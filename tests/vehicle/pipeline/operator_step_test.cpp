@@ -22,7 +22,7 @@ using world::OperatorCommand;
 using world::OperatorCommandKind;
 
 // A healthy car at standstill, told what to do by radio alone.
-struct Told {
+struct ToldCar {
   testing::StandingCar source;
   std::unique_ptr<Car> car = std::make_unique<Car>();
   world::OperatorWishes wishes;
@@ -55,7 +55,7 @@ struct Told {
 };
 
 TEST(OperatorStep, ArmsDrivesStopsAndArmsAgainByRadioAlone) {
-  Told t;
+  ToldCar t;
   t.run(seconds(3));
   EXPECT_EQ(t.mode(), Mode::kDisarmed);
   EXPECT_EQ(t.say(OperatorCommandKind::kArm, 1.0), CommandAnswer::kApplied);
@@ -78,7 +78,7 @@ TEST(OperatorStep, ArmsDrivesStopsAndArmsAgainByRadioAlone) {
 }
 
 TEST(OperatorStep, ALatchedStopBarsArming) {
-  Told t;
+  ToldCar t;
   t.wishes.stop = world::StopWish::kEmergency;
   t.run(seconds(3));
   EXPECT_EQ(t.say(OperatorCommandKind::kArm, 1.0), CommandAnswer::kRefused);
@@ -88,7 +88,7 @@ TEST(OperatorStep, ALatchedStopBarsArming) {
 }
 
 TEST(OperatorStep, TheBasesRedHoldsACarThatRaceControlWavesOff) {
-  Told t;
+  ToldCar t;
   t.run(seconds(3));
   EXPECT_EQ(t.say(OperatorCommandKind::kTrackFlag, 1.0), CommandAnswer::kApplied);
   EXPECT_EQ(t.say(OperatorCommandKind::kArm, 1.0), CommandAnswer::kApplied);
@@ -102,7 +102,7 @@ TEST(OperatorStep, TheBasesRedHoldsACarThatRaceControlWavesOff) {
 }
 
 TEST(OperatorStep, TheSpeedLimitReachesThePlan) {
-  Told t;
+  ToldCar t;
   t.run(seconds(3));
   EXPECT_EQ(t.say(OperatorCommandKind::kSpeedLimit, 7.5), CommandAnswer::kApplied);
   t.run(milliseconds(100));
@@ -113,7 +113,7 @@ TEST(OperatorStep, TheSpeedLimitReachesThePlan) {
 
 // In the very tick in which the command comes, until the next set is ordered; and told.
 TEST(OperatorStep, AnExcludedReceiverIsNotBelievedFromThisTickOn) {
-  Told t;
+  ToldCar t;
   t.run(seconds(3));
   const auto gates_of_unit_0 = [&] {
     std::vector<localization::Gate> gates;
@@ -147,7 +147,7 @@ TEST(OperatorStep, AnExcludedReceiverIsNotBelievedFromThisTickOn) {
 }
 
 TEST(OperatorStep, AJoystickLowersTheThrottleUntilItsSampleIsOld) {
-  Told t;
+  ToldCar t;
   t.run(seconds(3));
   t.say(OperatorCommandKind::kArm, 1.0);
   t.run(seconds(2));
@@ -166,7 +166,7 @@ TEST(OperatorStep, AJoystickLowersTheThrottleUntilItsSampleIsOld) {
 // the frame gate.
 TEST(OperatorStep, WhateverIsSaidIsAnsweredOnceWithoutTheHeapOrTheGate) {
   testing::Random random{7};
-  Told t;
+  ToldCar t;
   std::vector<int> answered(100'000);
   std::vector<OperatorCommand> commands;
   for (int i = 0; i < 2'000; ++i) {

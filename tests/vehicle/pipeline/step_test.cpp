@@ -41,14 +41,14 @@ bool is_located(const world::EgoState& ego) {
   return ego.validity == world::Validity::kGood || ego.validity == world::Validity::kDeadReckoning;
 }
 
-using Source = std::function<Heard(Instant)>;
+using HeardSource = std::function<Heard(Instant)>;
 
 Outputs tick(Car& car, const Heard& heard, Instant now) {
   return step(setup(), car, heard.inputs(now));
 }
 
 // Runs and shows every tick to `watch`.
-void run(Car& car, Duration span, const Source& source,
+void run(Car& car, Duration span, const HeardSource& source,
          const std::function<void(const Outputs&)>& watch) {
   for (Instant now = kStart; now < kStart + span; now += kTick) {
     watch(tick(car, source(now), now));
@@ -58,7 +58,7 @@ void run(Car& car, Duration span, const Source& source,
 
 Heard nothing(Instant) { return {}; }
 
-Source noise(std::uint64_t seed) {
+HeardSource noise(std::uint64_t seed) {
   auto random = std::make_shared<Random>(Random{seed});
   return [random](Instant now) {
     Heard heard;
@@ -228,7 +228,7 @@ TEST(Step, WithNoiseAndRandomRequestsOnlyAnArmedCarSpeaksToActuators) {
   const auto car = new_car();
   Random random{7};
   StandingCar healthy;
-  const Source garbage = noise(8);
+  const HeardSource garbage = noise(8);
   safety::OperatorRequests requests;
   std::size_t armed = 0;
   run(
@@ -388,7 +388,7 @@ TEST(Step, ACopyGoesOnAsTheOriginal) {
 TEST(Step, TakesNothingFromTheHeap) {
   if (!pitwall::testing::kAllocationsCounted) GTEST_SKIP() << "not counted in this build";
   const auto inputs = mixed_inputs(500);
-  const Source garbage = noise(3);
+  const HeardSource garbage = noise(3);
   const auto car = new_car(), noisy = new_car();
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const Instant now = kStart + kTick * static_cast<std::int64_t>(i);

@@ -37,7 +37,7 @@ bool is_nobodys(std::size_t i) {
          telemetry::row_of(row.group).direction == telemetry::Direction::kUp;
 }
 
-const std::vector<Row> kExpected{
+const std::vector<Row> kTelemetryRows{
     {field("mode.mode"), 3},
     {field("mode.ct_state"), 10},
     {field("mode.sys_state"), 9},
@@ -129,7 +129,7 @@ const std::vector<Row> kExpected{
     {field("planner.age"), 0.072},
 };
 
-TEST(TelemetryTap, EachFieldSaysWhatTheTickSays) { expect(kExpected); }
+TEST(TelemetryTap, EachFieldSaysWhatTheTickSays) { expect(kTelemetryRows); }
 
 // Here every signal was heard: what is unset is what the header of the tap lists.
 TEST(TelemetryTap, NothingButTheListedFieldsIsUnset) {

@@ -8,12 +8,12 @@
 namespace pitwall::pipeline {
 namespace {
 
-constexpr Instant kStart{1'000'000'000};
+constexpr Instant kLogStart{1'000'000'000};
 constexpr double kLength_m = 2'000.0;
 
 struct Driver {
   LapClock clock;
-  Instant now = kStart;
+  Instant now = kLogStart;
   double driven_m = 0.0;
 
   void drive(double metres, double speed_mps) {
@@ -40,7 +40,7 @@ TEST(LapClock, TimesWholeLapsFromLineToLineBetweenTheTicks) {
 
 TEST(LapClock, ACarThatGoesBackAcrossTheLineOrJumpsTimesNoLap) {
   LapClock clock;
-  Instant now = kStart;
+  Instant now = kLogStart;
   const auto at = [&](double station_m) {
     clock.advance(station_m, kLength_m, now += milliseconds(10));
   };
@@ -61,16 +61,16 @@ TEST(LapClock, ACarThatGoesBackAcrossTheLineOrJumpsTimesNoLap) {
 TEST(TickLog, KeepsTheNewestOfEachUnitAndIgnoresUnitsThatThereAreNot) {
   TickLog log;
   world::SensorInput sensors;
-  (void)sensors.positions.push({.unit = 1, .at = kStart, .satellites = 9});
-  (void)sensors.positions.push({.unit = 1, .at = kStart, .satellites = 11});
-  (void)sensors.positions.push({.unit = 2, .at = kStart, .satellites = 99});
-  (void)sensors.imu.push({.unit = 200, .at = kStart});
-  log.note({.now = kStart, .can = {}, .sensors = sensors, .requests = {}}, {}, kLength_m);
+  (void)sensors.positions.push({.unit = 1, .at = kLogStart, .satellites = 9});
+  (void)sensors.positions.push({.unit = 1, .at = kLogStart, .satellites = 11});
+  (void)sensors.positions.push({.unit = 2, .at = kLogStart, .satellites = 99});
+  (void)sensors.imu.push({.unit = 200, .at = kLogStart});
+  log.note({.now = kLogStart, .can = {}, .sensors = sensors, .requests = {}}, {}, kLength_m);
   EXPECT_FALSE(log.position(0).has_value());
   ASSERT_TRUE(log.position(1).has_value());
   EXPECT_EQ(log.position(1)->satellites, 11);
   EXPECT_FALSE(log.imu().has_value());
-  EXPECT_EQ(log.at(), kStart);
+  EXPECT_EQ(log.at(), kLogStart);
 }
 
 }  // namespace

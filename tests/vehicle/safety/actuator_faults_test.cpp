@@ -54,12 +54,12 @@ struct Axle {
   }
 };
 
-struct Case {
+struct ActuatorCase {
   Cause cause;
   Monitor monitor;
   std::function<void(Axle&)> spoil;
 };
-const std::array<Case, 5> kCases{{
+const std::array<ActuatorCase, 5> kActuatorCases{{
     {Cause::kSteeringStrays, Monitor::kSteeringFollows,
      [](Axle& a) { a.steering_off_rad = -0.06; }},
     {Cause::kBrakeStrays, Monitor::kBrakeFollows, [](Axle& a) { a.front_kept = 0.7; }},
@@ -69,7 +69,7 @@ const std::array<Case, 5> kCases{{
 }};
 
 TEST(ActuatorFaults, EachIsItsOwnCauseWithinItsDeadlineAndItsMonitorSeesIt) {
-  for (const Case& c : kCases) {
+  for (const ActuatorCase& c : kActuatorCases) {
     for (const bool off : {false, true}) {
       Axle a;
       if (off) a.params.off.add(c.monitor);
@@ -91,7 +91,7 @@ TEST(ActuatorFaults, WhatTheDriveByWireDoesByItselfIsNoFaultOfTheActuators) {
       [](Axle& a) { a.car.signals.diagnostics.value.emergency_brake = true; },
       [](Axle& a) { a.car.signals.diagnostics.value.computer_heartbeat_lost = true; }};
   for (const auto& excuse : excuses)
-    for (const Case& c : kCases) {
+    for (const ActuatorCase& c : kActuatorCases) {
       Axle a;
       excuse(a);
       c.spoil(a);

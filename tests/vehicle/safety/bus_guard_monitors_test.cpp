@@ -12,11 +12,11 @@ using world::LinkObservation;
 using world::Monitor;
 using world::MonitorSet;
 
-constexpr Instant kNow{seconds(1).ns};
+constexpr Instant kGuardTime{seconds(1).ns};
 
 MonitorSet seen_by(const BusGuardParams& params, const LinkObservation& link) {
   BusGuardState state;
-  return guard(params, state, link, false, kNow).seen;
+  return guard(params, state, link, false, kGuardTime).seen;
 }
 
 MonitorSet only(Monitor monitor) {
@@ -39,10 +39,10 @@ TEST(BusGuardMonitors, EachStateOfTheControllerButActive) {
 TEST(BusGuardMonitors, AnErrorFrameIsNewsOnce) {
   BusGuardState state;
   LinkObservation link{.controller = ControllerState::kActive};
-  EXPECT_TRUE(guard({}, state, link, false, kNow).seen.empty());
+  EXPECT_TRUE(guard({}, state, link, false, kGuardTime).seen.empty());
   link.error_frames = 1;
-  EXPECT_EQ(guard({}, state, link, false, kNow).seen, only(Monitor::kControllerState));
-  EXPECT_TRUE(guard({}, state, link, false, kNow).seen.empty());
+  EXPECT_EQ(guard({}, state, link, false, kGuardTime).seen, only(Monitor::kControllerState));
+  EXPECT_TRUE(guard({}, state, link, false, kGuardTime).seen.empty());
 }
 
 TEST(BusGuardMonitors, LoadAndStallHaveTheirLimits) {
@@ -60,7 +60,7 @@ TEST(BusGuardMonitors, OneThatIsOffSeesAndRestartsNothing) {
     BusGuardState state;
     int count = 0;
     for (int tick = 0; tick < 100; ++tick) {
-      const auto out = guard(params, state, link, false, kNow + milliseconds(10) * tick);
+      const auto out = guard(params, state, link, false, kGuardTime + milliseconds(10) * tick);
       count += out.restart_now ? 1 : 0;
     }
     return count;

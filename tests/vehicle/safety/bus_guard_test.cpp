@@ -7,6 +7,7 @@
 #include <cstring>
 #include <vector>
 
+#include "tests/support/tick.hpp"
 #include "tests/vehicle/safety/situation.hpp"
 
 namespace pitwall::safety {
@@ -16,7 +17,6 @@ using testing::Random;
 using world::ControllerState;
 using world::LinkObservation;
 
-constexpr Duration kTick = milliseconds(10);
 constexpr Instant kStart{seconds(1).ns};
 
 const LinkObservation kHealthy{.controller = ControllerState::kActive};

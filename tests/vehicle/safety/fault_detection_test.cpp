@@ -55,14 +55,14 @@ struct Doctor {
 
 void down(Doctor& d, Stream a) { d.car.stream(a).health = Health::kBad; }
 
-struct Case {
+struct FaultCase {
   Cause cause;
   std::function<void(Doctor&)> spoil;
   int ticks = 1;
   Cause before = Cause::kNone;  // in the ticks before
 };
 
-const std::vector<Case> kCases{
+const std::vector<FaultCase> kFaultCases{
     {Cause::kOperatorEmergency, [](Doctor& d) { d.car.requests.emergency_stop = true; }},
     {Cause::kPurpleFlag,
      [](Doctor& d) { d.car.race_control.vehicle = VehicleFlag::kPurpleEmergency; }},
@@ -156,7 +156,7 @@ TEST(FaultDetection, AHealthyCarHasNoCause) {
 
 TEST(FaultDetection, EachFaultIsItsOwnCauseAndNoOtherAndGoesWithIt) {
   std::vector<bool> covered(kCauses, false);
-  for (const Case& c : kCases) {
+  for (const FaultCase& c : kFaultCases) {
     Doctor d;
     const Situation healthy = d.car;
     EXPECT_TRUE(d.examine().causes.empty());
@@ -239,7 +239,7 @@ TEST(FaultDetection, AMonitorReportsWhatItFindsAndFindsNothingWhenItIsOff) {
       {Cause::kComputerMemory, Monitor::kTiming},
       {Cause::kComputerHot, Monitor::kTiming}};
   for (const auto& [cause, monitor] : monitors)
-    for (const Case& c : kCases) {
+    for (const FaultCase& c : kFaultCases) {
       if (c.cause != cause) continue;
       for (const bool off : {false, true}) {
         Doctor d;

@@ -8,14 +8,13 @@
 #include <deque>
 #include <functional>
 
+#include "tests/support/tick.hpp"
 #include "tests/vehicle/safety/situation.hpp"
 
 namespace pitwall::safety {
 namespace {
 
 using testing::Random;
-
-constexpr Duration kTick = milliseconds(10);
 
 // An actuator with a delay, a lag and a fault; its feedback is as old as a frame may be.
 struct Actuator {

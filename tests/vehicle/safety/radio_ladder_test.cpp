@@ -9,7 +9,7 @@ namespace pitwall::safety {
 namespace {
 
 constexpr RadioLadderParams kParams{};
-const Instant kNow{seconds(100).ns};
+const Instant kLadderTime{seconds(100).ns};
 
 StreamRow link(Duration age) {
   const Health health = age > seconds(3)   ? Health::kBad
@@ -21,7 +21,7 @@ StreamRow link(Duration age) {
 TEST(RadioLadder, EachRungBeginsAfterItsLimitAndNotBefore) {
   const auto rung = [](Duration age) {
     RadioLadderState state;
-    return descend(kParams, state, link(age), {}, kNow).rung;
+    return descend(kParams, state, link(age), {}, kLadderTime).rung;
   };
   const Duration step = nanoseconds(1);
   EXPECT_EQ(rung({}), RadioRung::kFull);
@@ -40,13 +40,13 @@ TEST(RadioLadder, WithoutARadioItDrivesOnOnlyWhereTheMissionAllowsIt) {
   stays.no_comm_drives = false;
   for (const Duration age : {milliseconds(500), milliseconds(1'001), milliseconds(3'001)}) {
     RadioLadderState state;
-    const auto drives = descend(kParams, state, link(age), {}, kNow);
+    const auto drives = descend(kParams, state, link(age), {}, kLadderTime);
     EXPECT_EQ(drives.stop, age > seconds(3));
     EXPECT_EQ(std::isnan(drives.speed_limit_mps), age < seconds(1));
     if (age > seconds(1)) {
       EXPECT_EQ(drives.speed_limit_mps, kParams.no_comm_speed_mps);
     }
-    const auto stops = descend(stays, state, link(age), {}, kNow);
+    const auto stops = descend(stays, state, link(age), {}, kLadderTime);
     EXPECT_EQ(stops.stop, age > seconds(1));
     EXPECT_TRUE(std::isnan(stops.speed_limit_mps));
   }
@@ -54,11 +54,11 @@ TEST(RadioLadder, WithoutARadioItDrivesOnOnlyWhereTheMissionAllowsIt) {
 
 TEST(RadioLadder, ABaseThatWasNeverHeardLimitsNothingAndALinkThatNobodyWatchesIsWhole) {
   RadioLadderState state;
-  const auto never = descend(kParams, state, {Stream::kRadio, Health::kNever, {}}, {}, kNow);
+  const auto never = descend(kParams, state, {Stream::kRadio, Health::kNever, {}}, {}, kLadderTime);
   EXPECT_EQ(never.rung, RadioRung::kStop);
   EXPECT_TRUE(std::isnan(never.speed_limit_mps));
   const auto unwatched =
-      descend(kParams, state, {Stream::kRadio, Health::kUnwatched, seconds(9)}, {}, kNow);
+      descend(kParams, state, {Stream::kRadio, Health::kUnwatched, seconds(9)}, {}, kLadderTime);
   EXPECT_EQ(unwatched.rung, RadioRung::kFull);
   EXPECT_FALSE(unwatched.stop);
 }
@@ -67,10 +67,10 @@ TEST(RadioLadder, ABaseThatWasNeverHeardLimitsNothingAndALinkThatNobodyWatchesIs
 // than the joystick said before it should be.
 TEST(RadioLadder, AJoystickThatFallsSilentIsHandedBackEvenly) {
   RadioLadderState state;
-  const world::Joystick joystick{.throttle_cap = 0.2, .brake = 0.8, .at = kNow};
+  const world::Joystick joystick{.throttle_cap = 0.2, .brake = 0.8, .at = kLadderTime};
   double cap = 0.0, brake = 1.0;
   for (int ms = 0; ms <= 700; ++ms) {
-    const Instant now = kNow + milliseconds(ms);
+    const Instant now = kLadderTime + milliseconds(ms);
     const auto sample = ms == 0 ? std::optional{joystick} : std::nullopt;
     const auto out = descend(kParams, state, link(milliseconds(ms)), sample, now);
     if (ms <= 200) {
@@ -94,9 +94,9 @@ TEST(RadioLadder, AJoystickThatFallsSilentIsHandedBackEvenly) {
 // The device is gone, the link is alive: the sample's age decides, not the link's.
 TEST(RadioLadder, ALiveLinkKeepsNoOldSample) {
   RadioLadderState state;
-  const world::Joystick joystick{.throttle_cap = 0.0, .brake = 1.0, .at = kNow};
+  const world::Joystick joystick{.throttle_cap = 0.0, .brake = 1.0, .at = kLadderTime};
   for (const auto& sample : {std::optional{joystick}, std::optional<world::Joystick>{}}) {
-    const auto out = descend(kParams, state, link({}), sample, kNow + milliseconds(600));
+    const auto out = descend(kParams, state, link({}), sample, kLadderTime + milliseconds(600));
     EXPECT_EQ(out.rung, RadioRung::kFull);
     EXPECT_EQ(out.throttle_cap, 1.0);
     EXPECT_EQ(out.brake, 0.0);
@@ -105,10 +105,10 @@ TEST(RadioLadder, ALiveLinkKeepsNoOldSample) {
 
 TEST(RadioLadder, ASampleFromTheFutureOrOutOfRangeMakesNothingFaster) {
   RadioLadderState state;
-  const world::Joystick future{.throttle_cap = 0.0, .brake = 1.0, .at = kNow + seconds(1)};
-  EXPECT_EQ(descend(kParams, state, link({}), future, kNow).brake, 0.0);
-  const world::Joystick wild{.throttle_cap = 7.0, .brake = -3.0, .at = kNow};
-  const auto out = descend(kParams, state, link({}), wild, kNow);
+  const world::Joystick future{.throttle_cap = 0.0, .brake = 1.0, .at = kLadderTime + seconds(1)};
+  EXPECT_EQ(descend(kParams, state, link({}), future, kLadderTime).brake, 0.0);
+  const world::Joystick wild{.throttle_cap = 7.0, .brake = -3.0, .at = kLadderTime};
+  const auto out = descend(kParams, state, link({}), wild, kLadderTime);
   EXPECT_EQ(out.throttle_cap, 1.0);
   EXPECT_EQ(out.brake, 0.0);
 }

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "tests/support/tick.hpp"
+
 namespace pitwall::safety {
 namespace {
 
@@ -39,7 +41,6 @@ struct Bicycle {
   Instant now{seconds(10).ns};
 
   void drive(const world::Trajectory& path) {
-    constexpr Duration kTick = milliseconds(10);
     for (int i = 0; i < 3000; ++i) {
       now += kTick;
       const double before = state.command.road_wheel_rad;

@@ -12,7 +12,7 @@
 
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
-#include "vehicle/autonomy/control/bicycle_model.hpp"
+#include "vehicle/autonomy/control/bicycle_params.hpp"
 #include "vehicle/autonomy/control/gear.hpp"
 #include "vehicle/autonomy/control/lateral.hpp"
 #include "vehicle/autonomy/control/longitudinal.hpp"

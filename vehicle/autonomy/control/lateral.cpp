@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "vehicle/autonomy/control/bicycle_model.hpp"
 #include "vehicle/autonomy/control/preview.hpp"
 #include "vehicle/autonomy/control/riccati.hpp"
 

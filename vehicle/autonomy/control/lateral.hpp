@@ -19,7 +19,7 @@
 
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/units.hpp"
-#include "vehicle/autonomy/control/bicycle_model.hpp"
+#include "vehicle/autonomy/control/bicycle_params.hpp"
 #include "vehicle/world/ego_state.hpp"
 #include "vehicle/world/trajectory.hpp"
 

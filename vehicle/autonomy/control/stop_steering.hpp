@@ -21,7 +21,7 @@
 
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
-#include "vehicle/autonomy/control/bicycle_model.hpp"
+#include "vehicle/autonomy/control/bicycle_params.hpp"
 #include "vehicle/autonomy/control/lateral.hpp"
 
 namespace pitwall::control {

@@ -5,13 +5,11 @@
 #include <cmath>
 
 #include "protocol/vocabulary/check.hpp"
+#include "vehicle/autonomy/localization/ekf_model.hpp"
+#include "vehicle/autonomy/localization/integration_step.hpp"
 
 namespace pitwall::localization {
 namespace {
-
-constexpr double kStepMax_s = 0.02;  // of one integration step; longer gaps are divided
-constexpr double kGapMax_s = 1.0;    // longer gaps are not integrated but widen the belief
-constexpr double kGapSigma_m = 100.0;
 
 using MeanMap = Eigen::Map<Vector6>;
 using CovarianceMap = Eigen::Map<Matrix6>;

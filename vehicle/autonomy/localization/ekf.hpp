@@ -1,5 +1,5 @@
-// The extended Kalman filter of the car in the plane of the road: motion, measurement models and
-// their Jacobians. Pure arithmetic; what is measured when is the business of filter_window.
+// The extended Kalman filter of the car in the plane of the road. Pure arithmetic (its models and
+// their Jacobians: ekf_model.hpp); what is measured when is the business of filter_window.
 //   state  x, y [m], yaw [rad] in Map; vx, vy [m/s] of the centre of gravity in Body, in the plane
 //          of the road; bias of the yaw gyro [rad/s]
 //   law    with r = gyro - bias and the road banked by phi (left side lower):
@@ -11,7 +11,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 
@@ -23,8 +22,6 @@ namespace pitwall::localization {
 
 inline constexpr int kStates = 6;
 enum StateIndex : int { kX, kY, kYaw, kVx, kVy, kBias };
-using Vector6 = Eigen::Matrix<double, kStates, 1>;
-using Matrix6 = Eigen::Matrix<double, kStates, kStates>;
 
 struct Motion {  // what the IMU says, held until it says something else
   double yaw_rate_rad_per_s = 0.0;
@@ -47,16 +44,6 @@ struct Belief {
   std::array<double, kStates * kStates> covariance{};
   Motion motion;
 };
-
-struct Predicted {
-  int size = 0;  // 1 or 2
-  Eigen::Vector2d value = Eigen::Vector2d::Zero();
-  Eigen::Matrix<double, 2, kStates> jacobian = Eigen::Matrix<double, 2, kStates>::Zero();
-};
-
-Vector6 motion_rate(const Vector6& x, const Motion& motion);
-Matrix6 motion_jacobian(const Vector6& x, const Motion& motion);  // of motion_rate
-Predicted predict_measurement(const Vector6& x, const Measurement& m, const Motion& motion);
 
 void advance(Belief& belief, const MotionNoise& noise, Instant to);
 // gate_nis[size - 1] is the limit for that size; the covariance update is Joseph's form.

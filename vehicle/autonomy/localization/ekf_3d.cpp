@@ -5,23 +5,20 @@
 #include <cmath>
 #include <type_traits>
 
+#include "vehicle/autonomy/localization/ekf_3d_errors.hpp"
+#include "vehicle/autonomy/localization/integration_step.hpp"
 #include "vehicle/autonomy/localization/rotation.hpp"
 
 namespace pitwall::localization {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
-using CovarianceMap = Eigen::Map<ErrorMatrix>;
 
 static_assert(std::is_trivially_copyable_v<SpatialBelief>);
 
-constexpr double kStepMax_s = 0.02;  // of one integration step; longer gaps are divided
-constexpr double kGapMax_s = 1.0;    // longer gaps are not integrated but widen the belief
-constexpr double kGapSigma_m = 100.0, kGapSigma_mps = 30.0;
+constexpr double kGapSigma_mps = 30.0;
 constexpr double kImuGapMax_s = 0.05;  // from here the car may have done anything in between
 constexpr double kBlindGyro_rad_per_sqrt_s = 0.05, kBlindAccel_mps_per_sqrt_s = 3.0;
-
-double square(double x) { return x * x; }
 
 void set_attitude(SpatialBelief& b, const Eigen::Quaterniond& q) {
   const Eigen::Quaterniond unit = q.normalized();
@@ -131,7 +128,7 @@ Blocks blocks_of(const SpatialBelief& b, const Drive& middle, double dt_s) {
 }
 
 // P = F P F^T, block by block: first the rows, then the columns.
-void transform(CovarianceMap& p, const Blocks& f, double dt_s, double keep) {
+void transform(ErrorMatrixMap& p, const Blocks& f, double dt_s, double keep) {
   p.middleRows<3>(kDp) += dt_s * p.middleRows<3>(kDv) + f.p_phi * p.middleRows<3>(kPhi) +
                           f.p_ba * p.middleRows<3>(kDba) + f.p_a * p.row(kDa);
   p.middleRows<3>(kDv) += f.v_phi * p.middleRows<3>(kPhi) + f.v_bg * p.middleRows<3>(kDbg) +
@@ -151,7 +148,7 @@ void transform(CovarianceMap& p, const Blocks& f, double dt_s, double keep) {
 }
 
 // Both receivers see the same sky: a part of what they stray is common.
-void add_wander(CovarianceMap& p, double variance, double together) {
+void add_wander(ErrorMatrixMap& p, double variance, double together) {
   p.diagonal().segment<6>(kDw).array() += variance;
   for (int i = kDw; i < kDw + 3; ++i) {
     p(i, i + 3) += together * variance;
@@ -161,7 +158,7 @@ void add_wander(CovarianceMap& p, double variance, double together) {
 
 void predict(SpatialBelief& b, const SpatialParams& params, const Drive& middle, bool blind,
              double dt_s) {
-  CovarianceMap p(b.covariance.data());
+  ErrorMatrixMap p(b.covariance.data());
   const double keep = std::exp(-dt_s / params.position_wander_s);
   transform(p, blocks_of(b, middle, dt_s), dt_s, keep);
   make_symmetric(b);
@@ -181,7 +178,7 @@ void predict(SpatialBelief& b, const SpatialParams& params, const Drive& middle,
 void heed_unit(SpatialBelief& b, const SpatialParams& p, std::uint8_t unit) {
   if (b.last_imu_unit == unit) return;
   b.last_imu_unit = unit;
-  CovarianceMap cov(b.covariance.data());
+  ErrorMatrixMap cov(b.covariance.data());
   const auto forget = [&cov](int at, int count, double sigma) {
     cov.middleRows(at, count).setZero();
     cov.middleCols(at, count).setZero();
@@ -210,13 +207,13 @@ Vector3d force_of(const SpatialBelief& b, const Drive& d) {
 }
 
 void make_symmetric(SpatialBelief& b) {
-  CovarianceMap p(b.covariance.data());
+  ErrorMatrixMap p(b.covariance.data());
   for (int j = 1; j < kErrors; ++j)
     for (int i = 0; i < j; ++i) p(j, i) = p(i, j) = 0.5 * (p(i, j) + p(j, i));
 }
 
 void widen(SpatialBelief& b, ErrorIndex at, const Vector3d& sigma) {
-  CovarianceMap(b.covariance.data()).diagonal().segment<3>(at) += sigma.cwiseAbs2();
+  ErrorMatrixMap(b.covariance.data()).diagonal().segment<3>(at) += sigma.cwiseAbs2();
 }
 
 void integrate(SpatialBelief& b, const Drive& middle, double dt_s) {

@@ -1,6 +1,7 @@
 // The spatial error-state extended Kalman filter: position, attitude, velocity, biases of gyro and
 // accelerometer, driven by the IMU, and what wanders slowly beside them: the error of each
-// receiver's position, the scales of the yaw gyro and of the lateral accelerometer.
+// receiver's position, the scales of the yaw gyro and of the lateral accelerometer. As vectors and
+// matrices: ekf_3d_errors.hpp.
 //   state  p [m] and v [m/s] of the centre of gravity in Map, q Body to Map, bg [rad/s], ba
 //          [m/s^2], w_u per receiver: its wandering position error as a share of the sigma that it
 //          reports, s and a: relative errors of the yaw rate and the lateral force
@@ -20,8 +21,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 
@@ -41,8 +40,6 @@ enum ErrorIndex : int {
   kDs = 21,
   kDa = 22
 };
-using ErrorVector = Eigen::Matrix<double, kErrors, 1>;
-using ErrorMatrix = Eigen::Matrix<double, kErrors, kErrors>;
 
 struct SpatialParams {
   // Spectral densities: sigma grows with the square root of time.
@@ -129,37 +126,9 @@ struct SpatialBelief {
   std::array<Instant, kModels> model_at{};
 };
 
-inline Eigen::Map<const Eigen::Vector3d> as_vector(const std::array<double, 3>& a) {
-  return Eigen::Map<const Eigen::Vector3d>(a.data());
-}
-inline Eigen::Map<Eigen::Vector3d> as_vector(std::array<double, 3>& a) {
-  return Eigen::Map<Eigen::Vector3d>(a.data());
-}
-inline Eigen::Vector3d as_vector(const LeverArm& arm) { return {arm.x_m, arm.y_m, arm.z_m}; }
-
-// Body to Map.
-inline Eigen::Quaterniond quaternion_of(const SpatialBelief& b) {
-  return {b.attitude[0], b.attitude[1], b.attitude[2], b.attitude[3]};
-}
-
-// What the IMU says less what is believed of its errors; Body.
-Eigen::Vector3d rate_of(const SpatialBelief& b, const Drive& drive);
-Eigen::Vector3d force_of(const SpatialBelief& b, const Drive& drive);
-
 // Takes the belief to `to`, along the IMU as far as it is known.
 void advance(SpatialBelief& b, const SpatialParams& p, Instant to, const Measurement* next_imu);
 // Takes a kImu in, at its instant.
 void hear_imu(SpatialBelief& b, const SpatialParams& p, const Measurement& m);
-
-// The pieces of advance(), one step of constant drive: what becomes of the mean, and of its errors.
-void integrate(SpatialBelief& b, const Drive& middle, double dt_s);
-ErrorMatrix transition(const SpatialBelief& b, const Drive& middle, double dt_s, double wander_s);
-
-// Puts an error into the mean.
-void inject(SpatialBelief& b, const ErrorVector& error);
-// Takes confidence in three errors away.
-void widen(SpatialBelief& b, ErrorIndex at, const Eigen::Vector3d& sigma);
-// Removes what rounding leaves between the halves of the covariance.
-void make_symmetric(SpatialBelief& b);
 
 }  // namespace pitwall::localization

@@ -18,7 +18,6 @@ constexpr double kHeightOverPlane = 2.0;  // how much worse a height is, where n
 
 Matrix3d attitude(const SpatialBelief& b) { return quaternion_of(b).toRotationMatrix(); }
 Vector3d rate(const SpatialBelief& b) { return rate_of(b, b.now); }
-double square(double x) { return x * x; }
 
 // Said by the sensor, or else what is assumed.
 double said(double sigma, double otherwise) { return std::isfinite(sigma) ? sigma : otherwise; }

@@ -11,7 +11,7 @@
 
 #include <Eigen/Core>
 
-#include "vehicle/autonomy/localization/ekf_3d.hpp"
+#include "vehicle/autonomy/localization/ekf_3d_errors.hpp"
 #include "vehicle/autonomy/localization/measurement.hpp"
 
 namespace pitwall::localization {

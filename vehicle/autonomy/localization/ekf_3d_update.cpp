@@ -13,7 +13,6 @@ namespace pitwall::localization {
 namespace {
 
 using Eigen::Vector3d;
-using CovarianceMap = Eigen::Map<ErrorMatrix>;
 
 constexpr double kNewSigma = 1.5;          // a sigma that changes more has another kind of error
 constexpr std::uint32_t kStreakLeast = 4;  // refusals that make a streak
@@ -25,7 +24,7 @@ Innovation correct(SpatialBelief& b, const Observation& o, double gate_nis, doub
   using VectorN = Eigen::Matrix<double, N, 1>;
   using MatrixN = Eigen::Matrix<double, N, N>;
   using Tall = Eigen::Matrix<double, kErrors, N>;
-  CovarianceMap p(b.covariance.data());
+  ErrorMatrixMap p(b.covariance.data());
   const VectorN residual = o.residual.head<N>(), variance = stretch * o.variance.head<N>();
   const Eigen::Matrix<double, N, kErrors> h = o.jacobian.topRows<N>();
   const Tall ph = p * h.transpose();
@@ -134,7 +133,7 @@ void heed_sigma(SpatialBelief& b, const Measurement& m) {
   known_m = sigma_m;
   if (same) return;
   const int at = kDw + 3 * m.unit;
-  CovarianceMap p(b.covariance.data());
+  ErrorMatrixMap p(b.covariance.data());
   p.middleRows<3>(at).setZero();
   p.middleCols<3>(at).setZero();
   p.diagonal().segment<3>(at).setOnes();

@@ -7,7 +7,7 @@
 namespace pitwall::localization {
 namespace {
 
-constexpr double kSlowSpeed_mps = 5.0, kSlowSlipSigma_mps = 0.1;  // no side slip to speak of
+constexpr double kNoSlipSpeed_mps = 5.0, kNoSlipSigma_mps = 0.1;  // no side slip to speak of
 
 double at_least(double sigma, double floor) {
   return std::isfinite(sigma) ? std::hypot(sigma, floor) : floor;
@@ -15,14 +15,14 @@ double at_least(double sigma, double floor) {
 
 std::optional<Measurement> by_tyres(const PlanarBelief& b, const PlanarParams& p, Measurement m) {
   const double vx = b.belief.mean[kVx];
-  const bool slow = std::abs(vx) < kSlowSpeed_mps;
+  const bool slow = std::abs(vx) < kNoSlipSpeed_mps;
   const bool velocity_lives =
       b.velocity_heard && m.at - b.velocity_at <= from_seconds(p.slip_after_s);
   if (velocity_lives && !slow) return std::nullopt;
   const double rate = b.belief.motion.yaw_rate_rad_per_s - b.belief.mean[kBias];
   const double slip_rad = slow ? 0.0 : p.rear_slip_rad_per_mps2 * b.belief.motion.fy_mps2;
   m.a = p.cg_to_rear_m * rate - vx * slip_rad;
-  m.sigma_a = slow ? kSlowSlipSigma_mps : p.slip_sigma_mps;
+  m.sigma_a = slow ? kNoSlipSigma_mps : p.slip_sigma_mps;
   return m;
 }
 

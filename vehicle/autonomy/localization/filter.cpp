@@ -22,7 +22,6 @@ constexpr double kStartReach_m = 5.0;  // of the arm from which a wrong heading 
 constexpr double kStartWider = 3.0;    // the seed's own position is taken in again as a measurement
 
 std::array<double, 3> array(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-double square(double x) { return x * x; }
 double root(double x) { return std::sqrt(std::max(x, 0.0)); }
 double or_else(double x, double otherwise) { return std::isfinite(x) ? x : otherwise; }
 

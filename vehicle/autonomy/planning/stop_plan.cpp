@@ -46,7 +46,7 @@ Slowing slow_down(const RoadAhead& road, double speed_mps, const StopLimits& lim
   return out;
 }
 
-const LinePoint& nearest(const Line& line, double s_m) {
+const LinePoint& closest(const Line& line, double s_m) {
   const auto i = static_cast<std::size_t>(line.wrap(s_m) / line.spacing_m + 0.5);
   return line.points[i % line.points.size()];
 }
@@ -69,14 +69,14 @@ double choose_decel(const Line& line, const RoadAhead& road, const StopFrom& fro
   if (best.stands >= kRoadPoints) return 1.0;
   const double shortest_m = std::max(distance_m(best.stands), kRoadStep_m);
   double best_share = 1.0;
-  double best_cost = cost_of(nearest(line, from.s_m + shortest_m), 1.0);
+  double best_cost = cost_of(closest(line, from.s_m + shortest_m), 1.0);
   for (const double share : kDecelShares) {
     if (share == 1.0) continue;
     const Slowing s =
         slow_down(road, from.speed_mps, softened(limits, share), params.low_speed_mps);
     const double length_m = distance_m(s.stands);
     if (s.stands >= kRoadPoints || length_m > params.stretch_max * shortest_m) break;
-    const double cost = cost_of(nearest(line, from.s_m + length_m), length_m / shortest_m);
+    const double cost = cost_of(closest(line, from.s_m + length_m), length_m / shortest_m);
     if (cost < best_cost) best_cost = cost, best_share = share, best = s;
   }
   return best_share;
@@ -109,7 +109,7 @@ bool is_possible(const Line& line, const StopPath& path, const StopFrom& from,
       std::min(slowing.stands + static_cast<std::size_t>(kBeyond_m / kRoadStep_m), kRoadPoints);
   for (std::size_t i = 0; i < end; ++i) {
     const double s_m = from.s_m + distance_m(i);
-    const LinePoint& p = nearest(line, s_m);
+    const LinePoint& p = closest(line, s_m);
     const Offset with = offset_at(line, path, s_m), without = offset_at(line, straight_on, s_m);
     if (!is_clear(p, params.clearance_m, without.n_m, with.n_m)) return false;
     if (!is_carried(limits, p, without, with, slowing.speed2[i])) return false;
@@ -135,7 +135,7 @@ RoadAhead road_ahead(const Line& line, const StopPath& path, double s_m) {
   RoadAhead road;
   for (std::size_t i = 0; i < kRoadPoints; ++i) {
     const double at_m = s_m + distance_m(i);
-    const LinePoint& p = nearest(line, at_m);
+    const LinePoint& p = closest(line, at_m);
     road.at[i] = {curvature_beside(p.curvature_per_m, offset_at(line, path, at_m)), p.bank_rad};
   }
   return road;
@@ -152,7 +152,7 @@ StopPath choose_stop(const Line& line, const StopFrom& from, const StopLimits& l
   path.decel_share = choose_decel(line, road, from, limits, params, slowing);
   const double stop_s_m = from.s_m + distance_m(std::min(slowing.stands, kRoadPoints - 1));
   const double down_m =
-      way_down_m(nearest(line, stop_s_m), offset_at(line, path, stop_s_m).n_m, params.clearance_m);
+      way_down_m(closest(line, stop_s_m), offset_at(line, path, stop_s_m).n_m, params.clearance_m);
   const double low_m = distance_m(slowing.low);
   const StopLimits softer = softened(limits, path.decel_share);
   for (const double share : kChangeShares) {

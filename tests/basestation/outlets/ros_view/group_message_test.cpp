@@ -86,7 +86,7 @@ TEST(GroupMessage, TheTextHasUnitsAndTheNamesOfChoices) {
 // Foxglove's reader finds in our bytes what was put in, NaN included, by the text alone.
 TEST(GroupMessage, FoxglovesReaderDecodesEachOfThem) {
   NEEDS_ORACLES();
-  testing::RosOracle oracle;
+  pitwall::testing::RosOracle oracle;
   for (const GroupMessage& message : group_messages()) {
     ros::Header header{.stamp = {.sec = 12, .nanosec = 345}, .frame_id = "map"};
     std::vector<double> values;

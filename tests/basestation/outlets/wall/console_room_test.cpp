@@ -5,14 +5,14 @@
 
 #include "protocol/json/json_value.hpp"
 #include "tests/basestation/outlets/wall/looking.hpp"
+#include "tests/basestation/outlets/wall/now.hpp"
 
 namespace pitwall::outlets::wall {
 namespace {
 
-constexpr Instant kNow{seconds(500).ns};
 constexpr ClientId kAnna = 16, kGarage = 17;
 
-class Room : public testing::Test {
+class Room : public ::testing::Test {
  protected:
   void SetUp() override {
     room_.joined(kAnna, {.role = Role::kOperator, .name = "Anna"}, kNow);

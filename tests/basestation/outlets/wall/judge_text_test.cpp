@@ -9,17 +9,23 @@
 namespace pitwall::outlets::wall {
 namespace {
 
-using namespace picture;
+using picture::AlarmAct;
+using picture::BaseFigures;
+using picture::Expectations;
+using picture::LimitEdit;
+using picture::LinkFigures;
+using picture::NoticeAct;
+using picture::WatchInput;
 
-constexpr Instant kNow{seconds(12'345).ns + 678'901'234};
+constexpr Instant kOddTime{seconds(12'345).ns + 678'901'234};
 
 // A text read back gives an input whose text is the same, so every member comes back to the bit.
 void expect_back(const WatchInput& input) {
-  const std::string text = input_text(input, kNow);
-  const auto back = read_input_text(text, kNow);
+  const std::string text = input_text(input, kOddTime);
+  const auto back = read_input_text(text, kOddTime);
   ASSERT_TRUE(back) << text;
   EXPECT_EQ(back->index(), input.index()) << text;
-  EXPECT_EQ(input_text(*back, kNow), text);
+  EXPECT_EQ(input_text(*back, kOddTime), text);
 }
 
 // Any double, now and then none.
@@ -34,7 +40,8 @@ struct Numbers {
 TEST(JudgeText, FiguresComeBackToTheBit) {
   Numbers numbers;
   for (int i = 0; i < 200; ++i) {
-    LinkFigures link{.heard = kNow - Duration{static_cast<std::int64_t>(numbers.random() >> 20U)}};
+    LinkFigures link{.heard =
+                         kOddTime - Duration{static_cast<std::int64_t>(numbers.random() >> 20U)}};
     if (i % 5 == 0) link.heard.reset();
     for (double* value : {&link.down_loss, &link.up_loss, &link.round_trip_ms, &link.jitter_ms,
                           &link.loss_1s, &link.loss_30s, &link.packets_hz, &link.down_kbit_s,
@@ -42,7 +49,7 @@ TEST(JudgeText, FiguresComeBackToTheBit) {
       *value = numbers.next();
     }
     expect_back(link);
-    const auto back = read_input_text(input_text(link, kNow), kNow);
+    const auto back = read_input_text(input_text(link, kOddTime), kOddTime);
     EXPECT_EQ(std::get<LinkFigures>(*back).heard, link.heard);
     EXPECT_EQ(std::isnan(std::get<LinkFigures>(*back).threats), std::isnan(link.threats));
     expect_back(BaseFigures{.disk_minutes = numbers.next(),
@@ -64,22 +71,22 @@ TEST(JudgeText, ActsComeBack) {
                      .length = seconds(300),
                      .by = "A \"quoted\" name\n",
                      .reason = "known"};
-  EXPECT_EQ(std::get<AlarmAct>(*read_input_text(input_text(act, kNow), kNow)), act);
+  EXPECT_EQ(std::get<AlarmAct>(*read_input_text(input_text(act, kOddTime), kOddTime)), act);
   const NoticeAct notice{.notice = 7, .send = true, .by = "B"};
-  EXPECT_EQ(std::get<NoticeAct>(*read_input_text(input_text(notice, kNow), kNow)), notice);
+  EXPECT_EQ(std::get<NoticeAct>(*read_input_text(input_text(notice, kOddTime), kOddTime)), notice);
   for (const auto kind :
        {AlarmAct::Kind::kAcknowledge, AlarmAct::Kind::kUnshelve, AlarmAct::Kind::kReset}) {
     const AlarmAct other{.kind = kind, .alarm = 3, .by = "C", .reason = {}};
-    EXPECT_EQ(std::get<AlarmAct>(*read_input_text(input_text(other, kNow), kNow)), other);
+    EXPECT_EQ(std::get<AlarmAct>(*read_input_text(input_text(other, kOddTime), kOddTime)), other);
   }
 }
 
 TEST(JudgeText, EditsComeBack) {
-  const LimitEdit limit{.field = field_id("flags.track"),
+  const LimitEdit limit{.field = picture::field_id("flags.track"),
                         .limit = {.warning_low = 0.1, .bad_values = ~std::uint64_t{0}},
                         .author = "A",
                         .reason = "short track"};
-  const auto back = std::get<LimitEdit>(*read_input_text(input_text(limit, kNow), kNow));
+  const auto back = std::get<LimitEdit>(*read_input_text(input_text(limit, kOddTime), kOddTime));
   EXPECT_EQ(back.field, limit.field);
   EXPECT_EQ(back.author, limit.author);
   EXPECT_EQ(back.limit.bad_values, limit.limit.bad_values);
@@ -93,13 +100,13 @@ TEST(JudgeText, EditsComeBack) {
                                 .author = "A",
                                 .reason = ""};
   const auto alarm_back =
-      std::get<alarms::AlarmEdit>(*read_input_text(input_text(alarm, kNow), kNow));
+      std::get<alarms::AlarmEdit>(*read_input_text(input_text(alarm, kOddTime), kOddTime));
   EXPECT_EQ(alarm_back.key, alarm.key);
   EXPECT_EQ(alarm_back.setting, alarm.setting);
 }
 
 TEST(JudgeText, SettingsInForceComeBack) {
-  Watch watch;
+  picture::Watch watch;
   alarms::AlarmSetting setting = alarms::default_setting(0);
   setting.limit = 0.7;
   setting.priority = alarms::Priority::kHigh;
@@ -107,17 +114,17 @@ TEST(JudgeText, SettingsInForceComeBack) {
                                            .setting = setting,
                                            .author = "A",
                                            .reason = "test"}));
-  const auto back = read_judge_text(judge_text(watch, true, kNow));
+  const auto back = read_judge_text(judge_text(watch, true, kOddTime));
   ASSERT_TRUE(back) << to_string(back.error());
   EXPECT_TRUE(back->begins);
   EXPECT_EQ(back->config.alarms.version(), watch.alarms().settings().version());
-  EXPECT_FALSE(read_judge_text(judge_text(watch, false, kNow))->begins);
+  EXPECT_FALSE(read_judge_text(judge_text(watch, false, kOddTime))->begins);
 }
 
 TEST(JudgeText, WhatIsNoInputIsRefused) {
   for (const char* text : {"", "{", "[]", "{}", R"({"what": "nothing"})",
                            R"({"what": "limit", "field": "no.such"})"}) {
-    EXPECT_FALSE(read_input_text(text, kNow)) << text;
+    EXPECT_FALSE(read_input_text(text, kOddTime)) << text;
   }
   EXPECT_FALSE(read_judge_text(R"({"settings": "version: 2"})"));
 }

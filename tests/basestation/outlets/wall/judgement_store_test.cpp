@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kBroken = "version: 1\nalarms:\n  - {alarm: wheel_slip, limit: far}\n";
 
-class JudgementStoreTest : public testing::Test {
+class JudgementStoreTest : public ::testing::Test {
  protected:
   JudgementStoreTest() : folder_(*transport::TemporaryFolder::create("pitwall_judgement")) {}
 

@@ -5,17 +5,17 @@
 
 #include <cmath>
 
+#include "tests/basestation/outlets/wall/now.hpp"
+
 namespace pitwall::outlets::wall {
 namespace {
-
-constexpr Instant kStart{seconds(500).ns};
 
 // 50 a second, of which each tenth is lost until 10 s, none afterwards.
 LinkMeter after(int seconds_run) {
   LinkMeter meter;
   LinkCount count;
   for (int i = 0; i <= seconds_run * 10; ++i) {
-    meter.note(count, kStart + i * LinkMeter::kEvery);
+    meter.note(count, kNow + i * LinkMeter::kEvery);
     count.packets += 5;
     count.paths[0].received += 5;
     count.paths[0].up_bytes += 125;  // 10 kbit/s
@@ -37,7 +37,7 @@ TEST(LinkMeter, TheLongestRoundTripOfTheWindowCounts) {
   LinkMeter meter;
   EXPECT_TRUE(std::isnan(meter.round_trip_ms(seconds(30))));
   for (int i = 0; i < 100; ++i) {
-    meter.note({}, kStart + i * LinkMeter::kEvery, i == 60 ? 80.0 : 20.0);
+    meter.note({}, kNow + i * LinkMeter::kEvery, i == 60 ? 80.0 : 20.0);
   }
   EXPECT_EQ(meter.round_trip_ms(seconds(1)), 20.0);
   EXPECT_EQ(meter.round_trip_ms(seconds(5)), 80.0);
@@ -57,15 +57,15 @@ TEST(LinkMeter, TheCapIsWhatComesOverItsShare) {
 TEST(LinkMeter, NothingSentIsNoLoss) {
   LinkMeter meter;
   EXPECT_TRUE(std::isnan(meter.loss(seconds(1))));
-  meter.note({}, kStart);
-  meter.note({}, kStart + seconds(1));
+  meter.note({}, kNow);
+  meter.note({}, kNow + seconds(1));
   EXPECT_TRUE(std::isnan(meter.loss(seconds(1))));
 }
 
 TEST(LinkMeter, ANewSessionBeginsAnew) {
   LinkMeter meter = after(12);
-  meter.note({.packets = 1}, kStart + seconds(20));
-  meter.note({.packets = 10}, kStart + seconds(21));
+  meter.note({.packets = 1}, kNow + seconds(20));
+  meter.note({.packets = 10}, kNow + seconds(21));
   EXPECT_EQ(meter.loss(seconds(30)), 0.0);
 }
 
@@ -73,7 +73,7 @@ TEST(LinkMeter, AGroupTakesWhatItsBitsAndItsRateMake) {
   LinkMeter meter;
   telemetry::GroupSet groups;
   groups.add(telemetry::Group::kEgo);
-  for (int i = 0; i < 200; ++i) meter.packet(groups, kStart + milliseconds(20) * i);
+  for (int i = 0; i < 200; ++i) meter.packet(groups, kNow + milliseconds(20) * i);
   EXPECT_NEAR(meter.group_kbit_s(telemetry::Group::kEgo),
               0.05 * static_cast<double>(telemetry::group_bits(telemetry::Group::kEgo)), 1e-9);
   EXPECT_EQ(meter.group_kbit_s(telemetry::Group::kFuel), 0.0);

@@ -6,22 +6,15 @@
 #include "basestation/outlets/wall/settings_text.hpp"
 #include "basestation/replay/read_back.hpp"
 #include "protocol/transport/file.hpp"
-#include "tests/basestation/radio_rig.hpp"
+#include "tests/basestation/outlets/wall/station_wall.hpp"
 #include "tests/basestation/replay/race.hpp"
 
 namespace pitwall::outlets::wall {
 namespace {
 
-struct Base {
-  RadioRig rig;
-  std::unique_ptr<web::WebServer> web =
-      *web::WebServer::start({.ip = transport::kLoopbackIp, .port = 0}, {});
-  Wall wall{{}, *rig.station, *web};
-};
-
 TEST(Memory, AWallThatStartsAgainRemembersFieldsAndTrends) {
   const auto folder = transport::TemporaryFolder::create("pitwall_wall");
-  Base base;
+  StationWall base;
   replay::testing::record_race(folder->path(), seconds(6));
   Memory memory{base.wall};
   const Instant now = replay::testing::kRaceStart + seconds(7);
@@ -35,7 +28,7 @@ TEST(Memory, AWallThatStartsAgainRemembersFieldsAndTrends) {
 
 TEST(Memory, WhatPeopleEnteredHoldsAgain) {
   const auto folder = transport::TemporaryFolder::create("pitwall_wall");
-  Base base;
+  StationWall base;
   {
     replay::testing::Recording recording{folder->path()};
     PeopleSaid said;

@@ -8,26 +8,19 @@
 #include "protocol/recorder/segment_folder.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
-#include "tests/basestation/radio_rig.hpp"
+#include "tests/basestation/outlets/wall/station_wall.hpp"
 #include "tests/basestation/replay/race.hpp"
 #include "tests/support/comes_true.hpp"
 
 namespace pitwall::outlets::wall {
 namespace {
 
-struct Base {
-  RadioRig rig;
-  std::unique_ptr<web::WebServer> web =
-      *web::WebServer::start({.ip = transport::kLoopbackIp, .port = 0}, {});
-  Wall wall{{}, *rig.station, *web};
-};
-
 TEST(Recording, WhatConsolesAreToldIsKept) {
   const auto folder = transport::TemporaryFolder::create("pitwall_wall");
   std::vector<std::string> said;
   std::string recorded;
   {
-    Base base;
+    StationWall base;
     auto recorder = start_recording(folder->path(), {}, &base.wall,
                                     [&](const std::string& line) { said.push_back(line); });
     ASSERT_TRUE(recorder);
@@ -58,7 +51,7 @@ class SmallDisk {
 
 TEST(Recording, ADiskThatTakesNothingShowsAndStopsNothing) {
   const auto folder = transport::TemporaryFolder::create("pitwall_wall");
-  Base base;
+  StationWall base;
   const auto figures = [&] {
     base.wall.serve(*base.rig.station, transport::monotonic_now());
     return base.wall.watch().known().base;

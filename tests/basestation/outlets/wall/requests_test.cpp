@@ -10,7 +10,7 @@ namespace pitwall::outlets::wall {
 namespace {
 
 template <class Ask>
-Ask read(const std::string& text) {
+Ask parsed(const std::string& text) {
   const auto request = parse_request(text);
   EXPECT_TRUE(request) << text << " " << (request ? "" : to_string(request.error()));
   const Ask* const ask = request ? std::get_if<Ask>(&*request) : nullptr;
@@ -26,45 +26,47 @@ std::string refused(const std::string& text) {
 
 TEST(Requests, AreReadAsTheProtocolHasThem) {
   const auto history =
-      read<AskHistory>(R"({"type":"history","field":16384,"from_s":60,"to_s":0.5,"points":500})");
+      parsed<AskHistory>(R"({"type":"history","field":16384,"from_s":60,"to_s":0.5,"points":500})");
   EXPECT_EQ(history.field, 16384);
   EXPECT_EQ(history.to_s, 0.5);
   EXPECT_EQ(history.points, 500u);
-  EXPECT_EQ(read<AskAcknowledge>(R"({"type":"ack","all":[1,2]})").alarms.size(), 2u);
-  EXPECT_EQ(read<AskAcknowledge>(R"({"type":"ack","alarm":7})").alarms[0], 7u);
-  EXPECT_EQ(read<AskShelve>(R"({"type":"shelve","alarm":7,"minutes":5,"reason":"x"})").minutes, 5);
-  EXPECT_EQ(read<AskStop>(R"({"type":"stop","kind":"emergency"})").level,
+  EXPECT_EQ(parsed<AskAcknowledge>(R"({"type":"ack","all":[1,2]})").alarms.size(), 2u);
+  EXPECT_EQ(parsed<AskAcknowledge>(R"({"type":"ack","alarm":7})").alarms[0], 7u);
+  EXPECT_EQ(parsed<AskShelve>(R"({"type":"shelve","alarm":7,"minutes":5,"reason":"x"})").minutes,
+            5);
+  EXPECT_EQ(parsed<AskStop>(R"({"type":"stop","kind":"emergency"})").level,
             telemetry::StopLevel::kEmergency);
-  EXPECT_EQ(read<AskAuthority>(R"({"type":"authority","do":"grant","to":17})").to, 17);
-  EXPECT_EQ(read<AskStage>(R"({"type":"stage","name":"speed limit","argument":30})").argument, 30);
-  const auto send = read<AskSend>(
+  EXPECT_EQ(parsed<AskAuthority>(R"({"type":"authority","do":"grant","to":17})").to, 17);
+  EXPECT_EQ(parsed<AskStage>(R"({"type":"stage","name":"speed limit","argument":30})").argument,
+            30);
+  const auto send = parsed<AskSend>(
       R"({"type":"send","ticket":3,"override":{"reason":"dry","token":"8f2c41d09b7a4d51"}})");
   EXPECT_TRUE(send.overrides);
   EXPECT_EQ(send.reason, "dry");
-  EXPECT_FALSE(read<AskSend>(R"({"type":"send","ticket":3,"override":null})").overrides);
-  EXPECT_TRUE(read<AskNotice>(R"({"type":"notice","id":1,"do":"send"})").send);
-  read<AskReleaseStop>(R"({"type":"release_stop"})");
-  read<AskCancel>(R"({"type":"cancel","ticket":1})");
-  read<AskMark>(R"({"type":"mark","text":"here"})");
-  EXPECT_EQ(read<AskPing>(R"({"type":"ping","at":1795309899172.4458})").at, 1795309899172.4458);
+  EXPECT_FALSE(parsed<AskSend>(R"({"type":"send","ticket":3,"override":null})").overrides);
+  EXPECT_TRUE(parsed<AskNotice>(R"({"type":"notice","id":1,"do":"send"})").send);
+  parsed<AskReleaseStop>(R"({"type":"release_stop"})");
+  parsed<AskCancel>(R"({"type":"cancel","ticket":1})");
+  parsed<AskMark>(R"({"type":"mark","text":"here"})");
+  EXPECT_EQ(parsed<AskPing>(R"({"type":"ping","at":1795309899172.4458})").at, 1795309899172.4458);
 }
 
 TEST(Requests, WhatPeopleSetIsReadWhole) {
-  EXPECT_EQ(read<AskExpect>(R"({"type":"expect","round_speed":51.4})").round_speed_mps, 51.4);
-  EXPECT_FALSE(read<AskExpect>(R"({"type":"expect","round_speed":null})").round_speed_mps);
-  EXPECT_EQ(read<AskFuelLoaded>(R"({"type":"fuel_loaded","litres":40})").litres, 40.0);
-  const auto alarm = read<AskEditAlarm>(
+  EXPECT_EQ(parsed<AskExpect>(R"({"type":"expect","round_speed":51.4})").round_speed_mps, 51.4);
+  EXPECT_FALSE(parsed<AskExpect>(R"({"type":"expect","round_speed":null})").round_speed_mps);
+  EXPECT_EQ(parsed<AskFuelLoaded>(R"({"type":"fuel_loaded","litres":40})").litres, 40.0);
+  const auto alarm = parsed<AskEditAlarm>(
       R"({"type":"edit_alarm","key":"wheel_slip","priority":"high","limit":0.1,"deadband":0.02,)"
       R"("on_s":0.2,"off_s":1,"reason":"new tyres"})");
   EXPECT_EQ(alarm.edit.setting.on_delay, milliseconds(200));
   EXPECT_EQ(alarm.reason, "new tyres");
-  const auto limit = read<AskEditLimit>(
+  const auto limit = parsed<AskEditLimit>(
       R"({"type":"edit_limit","field":"electric.battery","bad_low":11,"warning_low":null,)"
       R"("reason":"old one"})");
   EXPECT_EQ(limit.edit.limit.bad_low, 11.0);
   EXPECT_TRUE(std::isnan(limit.edit.limit.warning_low));
   EXPECT_FALSE(limit.warning_values || limit.bad_values);
-  const auto sets = read<AskEditLimit>(
+  const auto sets = parsed<AskEditLimit>(
       R"({"type":"edit_limit","field":"mode.mode","warning_values":[],"bad_values":[3,4,63],)"
       R"("reason":"x"})");
   EXPECT_EQ(sets.warning_values, 0U);
@@ -74,8 +76,9 @@ TEST(Requests, WhatPeopleSetIsReadWhole) {
               "edit_limit.bad_values")
         << set;
   }
-  EXPECT_EQ(read<AskEditBudget>(R"({"type":"edit_budget","up_kbit_s":128,"reason":"x"})").up_kbit_s,
-            128.0);
+  EXPECT_EQ(
+      parsed<AskEditBudget>(R"({"type":"edit_budget","up_kbit_s":128,"reason":"x"})").up_kbit_s,
+      128.0);
   EXPECT_EQ(refused(R"({"type":"expect","round_speed":-1})"), "expect.round_speed");
   EXPECT_EQ(refused(R"({"type":"expect","round_speed":"115"})"), "expect.round_speed");
   EXPECT_EQ(refused(R"({"type":"fuel_loaded"})"), "fuel_loaded.litres");
@@ -86,16 +89,16 @@ TEST(Requests, WhatPeopleSetIsReadWhole) {
 }
 
 TEST(Requests, AWishForTheBench) {
-  const auto start = read<AskBench>(
+  const auto start = parsed<AskBench>(
       R"({"type":"bench","do":"start","scenario":"faults/x","mode":"live","seed":7})");
   EXPECT_TRUE(start.wish.start);
   EXPECT_EQ(start.wish.scenario, "faults/x");
   EXPECT_TRUE(start.wish.live);
   EXPECT_EQ(start.wish.seed, 7U);
-  EXPECT_FALSE(read<AskBench>(R"({"type":"bench","do":"start","scenario":"x","mode":"lockstep",
+  EXPECT_FALSE(parsed<AskBench>(R"({"type":"bench","do":"start","scenario":"x","mode":"lockstep",
     "seed":null})")
                    .wish.seed);
-  EXPECT_FALSE(read<AskBench>(R"({"type":"bench","do":"stop"})").wish.start);
+  EXPECT_FALSE(parsed<AskBench>(R"({"type":"bench","do":"stop"})").wish.start);
   EXPECT_EQ(refused(R"({"type":"bench"})"), "bench.do");
   EXPECT_EQ(refused(R"({"type":"bench","do":"start","mode":"live"})"), "bench.scenario");
   EXPECT_EQ(refused(R"({"type":"bench","do":"start","scenario":"x"})"), "bench.mode");

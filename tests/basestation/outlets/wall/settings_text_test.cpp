@@ -5,12 +5,10 @@
 
 #include <cmath>
 
-#include "protocol/json/json_value.hpp"
+#include "tests/basestation/outlets/wall/json_of.hpp"
 
 namespace pitwall::outlets::wall {
 namespace {
-
-json::JsonValue read(const std::string& text) { return *json::JsonValue::parse(text, "text"); }
 
 TEST(SettingsText, EveryAlarmHasWhatAnEditorNeeds) {
   picture::Watch watch;
@@ -21,7 +19,7 @@ TEST(SettingsText, EveryAlarmHasWhatAnEditorNeeds) {
                   .setting = {.priority = alarms::Priority::kHigh, .limit = 105.0, .deadband = 2.0},
                   .author = "Ada",
                   .reason = "hot day"}));
-  const auto told = read(settings_text(desk, watch.alarms().settings()));
+  const auto told = json_of(settings_text(desk, watch.alarms().settings()));
   EXPECT_EQ(told.number("revision"), 3.0);
   EXPECT_FALSE(told.flag("kept"));
   EXPECT_EQ(told.number("up_kbit_s"), 128.0);
@@ -40,7 +38,7 @@ TEST(SettingsText, EveryAlarmHasWhatAnEditorNeeds) {
 }
 
 TEST(SettingsText, WhatNobodySaidIsNull) {
-  const auto nothing = read(expected_text({}, kUnset, {}));
+  const auto nothing = json_of(expected_text({}, kUnset, {}));
   EXPECT_TRUE(std::isnan(nothing.number("round_speed_mps")));
   EXPECT_TRUE(std::isnan(nothing.number("fuel_ms")));
   PeopleSaid said;
@@ -48,7 +46,7 @@ TEST(SettingsText, WhatNobodySaidIsNull) {
   said.expected.fuel_loaded_l = 40.0;
   said.fuel_by = "Ada";
   said.fuel_at = Instant{seconds(2).ns};
-  const auto told = read(expected_text(said, 38.5, Instant{seconds(3).ns}));
+  const auto told = json_of(expected_text(said, 38.5, Instant{seconds(3).ns}));
   EXPECT_EQ(told.number("round_speed_mps"), 51.4);
   EXPECT_EQ(told.number("fuel_ms"), 2'000.0);
   EXPECT_EQ(told.text("fuel_by"), "Ada");

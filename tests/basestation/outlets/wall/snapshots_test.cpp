@@ -6,18 +6,17 @@
 #include <map>
 
 #include "tests/basestation/outlets/wall/looking.hpp"
+#include "tests/basestation/outlets/wall/now.hpp"
 
 namespace pitwall::outlets::wall {
 namespace {
 
 using telemetry::field;
 
-constexpr Instant kStart{seconds(500).ns};
-
 TEST(Snapshots, TheFirstIsWhole) {
   Looking eyes;
   Snapshots snapshots;
-  const auto frame = snapshots.make(eyes, kStart);
+  const auto frame = snapshots.make(eyes, kNow);
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->count, told_fields().size());
   EXPECT_EQ(frame->flags & web::kFullPicture, web::kFullPicture);
@@ -29,7 +28,7 @@ TEST(Snapshots, PacketsOfFiftyASecondMakeTwentyFiveFramesEachAtItsPacket) {
   Snapshots snapshots;
   int frames = 0;
   for (int tick = 0; tick < 10'000; ++tick) {  // ms
-    const Instant now = kStart + milliseconds(tick);
+    const Instant now = kNow + milliseconds(tick);
     const bool packet = tick % 20 == 7;
     if (packet) {
       eyes.show(field("ego.x"), tick, now);
@@ -45,28 +44,28 @@ TEST(Snapshots, PacketsOfFiftyASecondMakeTwentyFiveFramesEachAtItsPacket) {
 
 TEST(Snapshots, WithoutPacketsValuesAreSeenToGrowOld) {
   Looking eyes;
-  eyes.show(field("ego.x"), 1.0, kStart);
+  eyes.show(field("ego.x"), 1.0, kNow);
   Snapshots snapshots;
   int frames = 0;
   for (int tick = 0; tick < 1'000; ++tick) {
-    if (snapshots.make(eyes, kStart + milliseconds(tick))) ++frames;
+    if (snapshots.make(eyes, kNow + milliseconds(tick))) ++frames;
   }
   EXPECT_NEAR(frames, 20, 2);
 }
 
 TEST(Snapshots, ASafetyValueIsToldAtOnceAndItsAgeIsNot) {
   Looking eyes;
-  eyes.show(field("mode.mode"), 2.0, kStart);
-  eyes.show(field("uplink.link_age"), 0.1, kStart);
+  eyes.show(field("mode.mode"), 2.0, kNow);
+  eyes.show(field("uplink.link_age"), 0.1, kNow);
   Snapshots snapshots;
-  ASSERT_TRUE(snapshots.make(eyes, kStart));
-  eyes.show(field("mode.mode"), 2.0, kStart + milliseconds(5));
-  eyes.show(field("uplink.link_age"), 0.2, kStart + milliseconds(5));
+  ASSERT_TRUE(snapshots.make(eyes, kNow));
+  eyes.show(field("mode.mode"), 2.0, kNow + milliseconds(5));
+  eyes.show(field("uplink.link_age"), 0.2, kNow + milliseconds(5));
   snapshots.heard();
-  EXPECT_FALSE(snapshots.make(eyes, kStart + milliseconds(5)));
-  eyes.show(field("mode.mode"), 3.0, kStart + milliseconds(6));
+  EXPECT_FALSE(snapshots.make(eyes, kNow + milliseconds(5)));
+  eyes.show(field("mode.mode"), 3.0, kNow + milliseconds(6));
   snapshots.heard();
-  const auto frame = snapshots.make(eyes, kStart + milliseconds(6));
+  const auto frame = snapshots.make(eyes, kNow + milliseconds(6));
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->flags, web::kAtOnce);
   EXPECT_EQ(frame->entries[0], field("mode.mode"));
@@ -84,7 +83,7 @@ TEST(Snapshots, WhatIsToldAddsUpToTheWholePicture) {
     }
   };
   for (int round = 0; round < 200; ++round) {
-    const Instant now = kStart + milliseconds(40) * round;
+    const Instant now = kNow + milliseconds(40) * round;
     eyes.show(field("ego.x"), round / 3, now);
     if (round % 7 == 0) eyes.show(field("tyres.pressure_rear_left"), round, now);
     snapshots.heard();

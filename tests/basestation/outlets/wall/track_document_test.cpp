@@ -21,7 +21,7 @@ double between(const json::JsonValue& a, const json::JsonValue& b) {
   return std::hypot(at(a, 0) - at(b, 0), at(a, 1) - at(b, 1));
 }
 
-class Track : public testing::TestWithParam<const char*> {
+class Track : public ::testing::TestWithParam<const char*> {
  protected:
   std::string path_ =
       std::string{PITWALL_SOURCE_DIR} + "/vehicle/config/tracks/" + GetParam() + ".yaml";
@@ -64,7 +64,7 @@ TEST_P(Track, IsClosedWithWallsBesideEachPointAndCorners) {
   EXPECT_NEAR(track->course->length_m(), drawn->number("length_m"), 1e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Track, testing::Values("lvms", "ims", "tms"));
+INSTANTIATE_TEST_SUITE_P(All, Track, ::testing::Values("lvms", "ims", "tms"));
 
 TEST(TrackFile, AMistakeIsNamedByItsPlace) {
   const auto folder = transport::TemporaryFolder::create("track");

@@ -17,7 +17,7 @@ namespace {
 using telemetry::field;
 using web::Browser;
 
-class PitWall : public testing::Test {
+class PitWall : public ::testing::Test {
  protected:
   void SetUp() override {
     auto started = web::WebServer::start({}, {.access = {.default_role = web::Role::kOperator}});

@@ -3,20 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include "protocol/json/json_value.hpp"
 #include "protocol/telemetry/delivery/event_content.hpp"
+#include "tests/basestation/outlets/wall/json_of.hpp"
+#include "tests/basestation/outlets/wall/now.hpp"
 #include "tests/basestation/radio_rig.hpp"
 
 namespace pitwall::outlets::wall {
 namespace {
-
-constexpr Instant kNow{seconds(500).ns};
-
-json::JsonValue read(const std::string& text) {
-  const auto value = json::JsonValue::parse(text, "text");
-  EXPECT_TRUE(value) << text;
-  return value ? *value : json::JsonValue{};
-}
 
 TEST(WallTexts, ATicketHasItsGatesItsStepsAndItsReason) {
   command::Ticket ticket;
@@ -32,7 +25,7 @@ TEST(WallTexts, ATicketHasItsGatesItsStepsAndItsReason) {
                           .known = true,
                           .text = "cold"});
   ticket.gates.push_back({.kind = command::GateKind::kFuel, .text = "never heard"});
-  const auto said = read(ticket_text(ticket));
+  const auto said = json_of(ticket_text(ticket));
   EXPECT_EQ(said.text("type"), "command");
   EXPECT_EQ(said.text("name"), "speed limit");
   EXPECT_EQ(said.text("step"), "gated");
@@ -46,10 +39,10 @@ TEST(WallTexts, AuthorityIsNobodysOrSomebodysWithAnEnd) {
   telemetry::AuthorityDesk desk;
   command::Audit audit;
   command::AuthorityTalk talk(desk, audit);
-  EXPECT_EQ(read(authority_text(talk, desk, kNow)).number("holder"), 0.0);
+  EXPECT_EQ(json_of(authority_text(talk, desk, kNow)).number("holder"), 0.0);
   ASSERT_TRUE(talk.take({.console = 16, .name = "Anna"}, kNow));
   ASSERT_TRUE(talk.request({.console = 17, .name = "Bo"}, kNow));
-  const auto said = read(authority_text(talk, desk, kNow + seconds(1)));
+  const auto said = json_of(authority_text(talk, desk, kNow + seconds(1)));
   EXPECT_EQ(said.text("holder_name"), "Anna");
   EXPECT_NEAR(said.number("expires_ms"), 503'000.0, 1.0);
   EXPECT_EQ(said.find("request")->text("name"), "Bo");
@@ -57,34 +50,36 @@ TEST(WallTexts, AuthorityIsNobodysOrSomebodysWithAnEnd) {
 }
 
 TEST(WallTexts, AnEventOfTheCarIsAText) {
-  const auto said = read(event_text(telemetry::make_event(telemetry::TextEvent{"a\xFF\"b"}, kNow)));
+  const auto said =
+      json_of(event_text(telemetry::make_event(telemetry::TextEvent{"a\xFF\"b"}, kNow)));
   EXPECT_EQ(said.text("type"), "event");
   EXPECT_NE(said.text("text").find("\"b"), std::string::npos) << said.text("text");
   EXPECT_EQ(said.text("severity"), "info");
   const auto fault =
       telemetry::make_event(telemetry::FaultEvent{.cause = 3, .begins = true, .value = 1}, kNow);
-  EXPECT_EQ(read(event_text(fault)).text("severity"), "warning");
+  EXPECT_EQ(json_of(event_text(fault)).text("severity"), "warning");
   for (const bool begins : {true, false}) {
     const auto threat = telemetry::make_event(telemetry::ThreatEvent{.begins = begins}, kNow);
-    EXPECT_EQ(read(event_text(threat)).text("severity"), begins ? "warning" : "info");
+    EXPECT_EQ(json_of(event_text(threat)).text("severity"), begins ? "warning" : "info");
   }
 }
 
 TEST(WallTexts, AlarmsFuelAuditNoticesAndMarks) {
   const alarms::Engine engine;
-  const auto list = read(alarms_text(engine));
+  const auto list = json_of(alarms_text(engine));
   EXPECT_TRUE(list.items("active").empty());
   EXPECT_FALSE(list.find("kpi")->flag("flood"));
-  EXPECT_EQ(read(alarm_event_text({.number = 1, .at = kNow, .key = "x", .by = {}, .reason = {}}))
+  EXPECT_EQ(json_of(alarm_event_text({.number = 1, .at = kNow, .key = "x", .by = {}, .reason = {}}))
                 .text("key"),
             "x");
-  EXPECT_EQ(read(audit_text({.number = 1, .at = kNow, .who = "Anna", .what = "y", .result = "z"}))
-                .text("who"),
-            "Anna");
-  EXPECT_EQ(read(fuel_text({})).text("text"), "unknown");
-  EXPECT_EQ(read(mark_text("here", "Anna", kNow)).number("time_ms"), 500'000.0);
+  EXPECT_EQ(
+      json_of(audit_text({.number = 1, .at = kNow, .who = "Anna", .what = "y", .result = "z"}))
+          .text("who"),
+      "Anna");
+  EXPECT_EQ(json_of(fuel_text({})).text("text"), "unknown");
+  EXPECT_EQ(json_of(mark_text("here", "Anna", kNow)).number("time_ms"), 500'000.0);
   const auto notice =
-      read(notice_text({.id = 1, .at = kNow, .text = "t", .evidence = "e", .by = ""}));
+      json_of(notice_text({.id = 1, .at = kNow, .text = "t", .evidence = "e", .by = ""}));
   EXPECT_EQ(notice.text("kind"), "degraded");
   EXPECT_EQ(notice.text("state"), "draft");
 }
@@ -100,13 +95,13 @@ TEST(WallTexts, TheLinkHasBothDirectionsAndEveryGroupOfTheCar) {
                rig.now, report.round_trip ? report.round_trip->milliseconds() : kUnset);
   }
   const auto report = rig.station->report(rig.now);
-  const auto said = read(link_text({.report = report,
-                                    .meter = meter,
-                                    .picture = rig.station->picture(),
-                                    .state = picture::LinkState::kGood,
-                                    .since = kNow,
-                                    .paths = 1},
-                                   rig.now));
+  const auto said = json_of(link_text({.report = report,
+                                       .meter = meter,
+                                       .picture = rig.station->picture(),
+                                       .state = picture::LinkState::kGood,
+                                       .since = kNow,
+                                       .paths = 1},
+                                      rig.now));
   EXPECT_EQ(said.text("state"), "good");
   ASSERT_EQ(said.items("paths").size(), 2u);
   const auto& down = said.items("paths")[0].items("windows");

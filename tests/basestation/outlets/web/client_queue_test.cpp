@@ -3,20 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/basestation/outlets/web/server_fixture.hpp"
+
 namespace pitwall::outlets::web {
 namespace {
-
-SharedMessage picture(std::uint32_t number) {
-  return std::make_shared<const Message>(Message{.frame = Frame{.sequence = number}});
-}
-SharedMessage text(const std::string& text) {
-  return std::make_shared<const Message>(Message{.text = text});
-}
 
 TEST(ClientQueue, KeepsTheOrder) {
   ClientQueue queue;
   EXPECT_TRUE(queue.push(text("a")));
-  EXPECT_TRUE(queue.push(picture(1)));
+  EXPECT_TRUE(queue.push(picture(1, 0)));
   EXPECT_TRUE(queue.push(text("b")));
   EXPECT_EQ(queue.pop()->text, "a");
   EXPECT_EQ(queue.pop()->frame->sequence, 1u);
@@ -27,7 +22,7 @@ TEST(ClientQueue, KeepsTheOrder) {
 TEST(ClientQueue, OneThatDoesNotReadLosesItsOldestPicturesAndNoText) {
   ClientQueue queue;
   EXPECT_TRUE(queue.push(text("first")));
-  for (std::uint32_t i = 0; i < 1'000; ++i) EXPECT_TRUE(queue.push(picture(i)));
+  for (std::uint32_t i = 0; i < 1'000; ++i) EXPECT_TRUE(queue.push(picture(i, 0)));
   EXPECT_TRUE(queue.push(text("last")));
   EXPECT_EQ(queue.dropped(), 1'000 - QueueLimits{}.pictures);
   EXPECT_EQ(queue.pop()->text, "first");
@@ -38,7 +33,7 @@ TEST(ClientQueue, OneThatDoesNotReadLosesItsOldestPicturesAndNoText) {
   EXPECT_TRUE(queue.empty());
 }
 
-Message bytes(std::uint32_t tag, std::size_t size) {
+Message tagged_bytes(std::uint32_t tag, std::size_t size) {
   Bytes bytes{.tag = tag};
   bytes.body = std::make_shared<const std::vector<std::uint8_t>>(size);
   return Message{.binary = std::move(bytes)};
@@ -49,7 +44,7 @@ SharedMessage shared(Message message) {
 
 TEST(ClientQueue, TaggedBytesAreLostOldestFirstAndByTheirTag) {
   ClientQueue queue{{.pictures = 3}};
-  for (std::uint32_t tag = 1; tag <= 5; ++tag) queue.push(shared(bytes(tag, 10)));
+  for (std::uint32_t tag = 1; tag <= 5; ++tag) queue.push(shared(tagged_bytes(tag, 10)));
   EXPECT_EQ(queue.take_lost_tags(), (std::vector<std::uint32_t>{1, 2}));
   EXPECT_TRUE(queue.take_lost_tags().empty());
   EXPECT_EQ(queue.pop()->binary->tag, 3u);
@@ -58,17 +53,18 @@ TEST(ClientQueue, TaggedBytesAreLostOldestFirstAndByTheirTag) {
 
 TEST(ClientQueue, TheyAreBoundedByTheirBytesTooButOneAloneIsKept) {
   ClientQueue queue{{.pictures = 100, .picture_bytes = 1'000}};
-  for (std::uint32_t tag = 1; tag <= 5; ++tag) queue.push(shared(bytes(tag, 400)));
+  for (std::uint32_t tag = 1; tag <= 5; ++tag) queue.push(shared(tagged_bytes(tag, 400)));
   EXPECT_EQ(queue.take_lost_tags(), (std::vector<std::uint32_t>{1, 2, 3}));
-  queue.push(shared(bytes(9, 5'000)));
+  queue.push(shared(tagged_bytes(9, 5'000)));
   EXPECT_EQ(queue.pop()->binary->tag, 9u);
   EXPECT_TRUE(queue.empty());
 }
 
 TEST(ClientQueue, BytesWithoutATagAreNeverLost) {
   ClientQueue queue{{.pictures = 1, .unread_bytes = 1'000}};
-  for (int i = 0; i < 10; ++i) EXPECT_TRUE(queue.push(shared(bytes(0, 100))));
-  EXPECT_FALSE(queue.push(shared(bytes(0, 100)))) << "but end the client that leaves them unread";
+  for (int i = 0; i < 10; ++i) EXPECT_TRUE(queue.push(shared(tagged_bytes(0, 100))));
+  EXPECT_FALSE(queue.push(shared(tagged_bytes(0, 100))))
+      << "but end the client that leaves them unread";
   EXPECT_EQ(queue.dropped(), 0u);
 }
 

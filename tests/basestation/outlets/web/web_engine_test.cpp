@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "basestation/outlets/web/web_engine.hpp"
-
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -49,7 +47,7 @@ TEST_F(WebEngine, WhenAllPlacesAreTakenTheNextIsRefusedUntilOneIsFree) {
 TEST_F(WebEngine, WhatWasSentArrivesOrIsCounted) {
   Browser browser;
   const ClientId client = join(browser);
-  constexpr std::uint32_t kFrames = 20 * kPostsMax;
+  constexpr std::uint32_t kFrames = 20 * WebServer::kPostsMax;
   for (std::uint32_t i = 1; i <= kFrames; ++i) server_->send(only(client), picture(i, 8));
   std::uint64_t heard = 0;
   const auto accounted = [&] {

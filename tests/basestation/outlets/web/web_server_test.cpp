@@ -126,7 +126,7 @@ TEST_F(WebServerTest, BytesAreToldAsSuch) {
   EXPECT_EQ(wait_for(ClientNews::Kind::kBinary)->text, "abc");
 }
 
-SharedMessage bytes(std::uint32_t tag, std::size_t size) {
+SharedMessage headed_bytes(std::uint32_t tag, std::size_t size) {
   Bytes bytes{.head = {1, 2}, .head_bytes = 2, .tag = tag};
   bytes.body = std::make_shared<const std::vector<std::uint8_t>>(size, std::uint8_t{7});
   return std::make_shared<const Message>(Message{.binary = std::move(bytes)});
@@ -137,7 +137,7 @@ TEST_F(WebServerTest, BytesGoOutBehindTheirHeadAndWhatIsLostIsKnownByItsTag) {
   ASSERT_EQ(slow.open(port_, "/ws", {}, 4'096), 101u);
   const ClientId client = wait_for(ClientNews::Kind::kJoined)->client;
   constexpr std::uint64_t kSent = 400;
-  for (std::uint64_t i = 0; i < kSent; ++i) server_->send(only(client), bytes(5, 10'000));
+  for (std::uint64_t i = 0; i < kSent; ++i) server_->send(only(client), headed_bytes(5, 10'000));
   server_->send(only(client), text("end"));
   std::uint64_t heard = 0;
   while (const auto message = slow.hear()) {

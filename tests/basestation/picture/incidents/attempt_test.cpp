@@ -5,11 +5,13 @@
 
 #include <cmath>
 
+#include "tests/basestation/picture/incidents/lap.hpp"
+#include "tests/basestation/picture/incidents/track_flags.hpp"
+
 namespace pitwall::picture {
 namespace {
 
-constexpr double kGreen = 4, kWaving = 5, kYellow = 3, kNothing = 0, kUnknownFlag = 7;
-constexpr double kDefender = 9, kAttacker = 10, kLap_m = 2'400.0, kAttemptLaps = 2.0;
+constexpr double kNothing = 0, kDefender = 9, kAttacker = 10, kAttemptLaps = 2.0;
 constexpr Duration kTick = milliseconds(100);
 
 // A car at 60 m/s, heard ten times a second.

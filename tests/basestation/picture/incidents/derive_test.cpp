@@ -10,7 +10,7 @@ namespace {
 
 using telemetry::field;
 
-struct Rig {
+struct DeriveRig {
   ToldPicture told;
   Known known;
   Books books;
@@ -39,7 +39,7 @@ struct Rig {
 };
 
 TEST(Derive, OfNothingIsNothing) {
-  Rig rig;
+  DeriveRig rig;
   rig.of(BaseField::kSlip, kStart);
   for (const BaseRow& row : kBaseTable) {
     const FieldView& view = rig.views[index_of(row.field)];
@@ -51,7 +51,7 @@ TEST(Derive, OfNothingIsNothing) {
 }
 
 TEST(Derive, TheColdestTyreCountsAndAllMustBeKnown) {
-  Rig rig;
+  DeriveRig rig;
   rig.told.tell(field("tyres.temperature_front_left"), 80, kStart);
   EXPECT_EQ(rig.of(BaseField::kTyreMin, kStart).quality, Quality::kNever);
   rig.tyres(80, 70, 29, 75);
@@ -61,7 +61,7 @@ TEST(Derive, TheColdestTyreCountsAndAllMustBeKnown) {
 }
 
 TEST(Derive, AnOldInputMakesAnOldValue) {
-  Rig rig;
+  DeriveRig rig;
   rig.tyres(80, 80, 80, 80);
   const Instant later = kStart + seconds(5);
   rig.told.tell(field("track.target_speed"), 40.0, later);
@@ -71,7 +71,7 @@ TEST(Derive, AnOldInputMakesAnOldValue) {
 }
 
 TEST(Derive, AttacksSayWhichEndSeesThem) {
-  Rig rig;
+  DeriveRig rig;
   const auto seen = [&](Instant now) { return rig.of(BaseField::kReplayedOpenings, now); };
   rig.known.link.threats = 0.0;  // a base that no car was heard at
   EXPECT_EQ(seen(kStart).value, 0.0);
@@ -89,7 +89,7 @@ TEST(Derive, AttacksSayWhichEndSeesThem) {
 }
 
 TEST(Derive, ReceiversSideBySide) {
-  Rig rig;
+  DeriveRig rig;
   rig.receiver(false, 0, 0.02, 1);
   EXPECT_EQ(rig.of(BaseField::kGnssGood, kStart).value, 1.0);  // a car with one
   rig.receiver(true, 0, 0.02, 10);                             // stands by
@@ -103,7 +103,7 @@ TEST(Derive, ReceiversSideBySide) {
 }
 
 TEST(Derive, StopIsTheHigherOfModeAndLatch) {
-  Rig rig;
+  DeriveRig rig;
   for (double latch = 0; latch <= 2; ++latch) {
     for (double mode = 0; mode <= 6; ++mode) {
       rig.told.tell(field("mode.stop_latch"), latch, kStart);
@@ -115,7 +115,7 @@ TEST(Derive, StopIsTheHigherOfModeAndLatch) {
 }
 
 TEST(Derive, WatchdogsAreCountedByTheirState) {
-  Rig rig;
+  DeriveRig rig;
   rig.told.tell(field("streams.imu0"), 2, kStart);
   rig.told.tell(field("streams.imu1"), 3, kStart);
   rig.told.tell(field("streams.brake"), 4, kStart);
@@ -125,7 +125,7 @@ TEST(Derive, WatchdogsAreCountedByTheirState) {
 }
 
 TEST(Derive, GroupsThatGrowOldAreCountedButNoOpponents) {
-  Rig rig;
+  DeriveRig rig;
   rig.told.tell(field("ego.x"), 1, kStart);
   rig.told.tell(field("opponent_1.speed"), 1, kStart);
   rig.told.tell(field("mode.mode"), 2, kStart + seconds(9));

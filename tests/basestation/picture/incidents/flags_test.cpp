@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/basestation/picture/incidents/track_flags.hpp"
+
 namespace pitwall::picture {
 namespace {
-
-constexpr double kRed = 1, kYellow = 3, kGreen = 4, kUnknown = 7;
 
 TEST(Flags, AllThatAgreeAreNoConflict) {
   for (double flag = 0; flag <= 7; ++flag) {
@@ -39,7 +39,7 @@ TEST(Flags, WhoSaysNothingContradictsNobody) {
 TEST(Flags, RestrictionIsAnOrder) {
   EXPECT_GT(restriction_of_track_flag(kRed), restriction_of_track_flag(kYellow));
   EXPECT_GT(restriction_of_track_flag(kYellow), restriction_of_track_flag(kGreen));
-  for (const double nonsense : {kUnknown, -1.0, 99.0, kUnset}) {
+  for (const double nonsense : {kUnknownFlag, -1.0, 99.0, kUnset}) {
     EXPECT_GT(restriction_of_track_flag(nonsense), restriction_of_track_flag(kRed));
   }
 }

@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 
+#include "tests/basestation/picture/incidents/lap.hpp"
+
 namespace pitwall::picture {
 namespace {
-
-constexpr double kLap_m = 2'400.0;
 
 Gaps to(double station_m, double own_m = 1'000.0) {
   const std::array others{Runner{station_m, 50.0}};

@@ -10,7 +10,7 @@ namespace {
 
 using telemetry::field;
 
-struct Rig {
+struct RaceRig {
   ToldPicture told;
   Known known;
   Books books;
@@ -31,7 +31,7 @@ Course oval() {
 }
 
 TEST(RaceFields, GapsAreToOpponentsThatAreKnownNow) {
-  Rig rig;
+  RaceRig rig;
   const Course course = oval();
   const auto gap = [&](BaseField which, Instant now) { return rig.of(which, now, &course); };
   EXPECT_EQ(gap(BaseField::kGapAhead, kStart).quality, Quality::kNever);
@@ -52,7 +52,7 @@ TEST(RaceFields, GapsAreToOpponentsThatAreKnownNow) {
 }
 
 TEST(RaceFields, ARoleThatTheCarDoesNotActOnIsAConflict) {
-  Rig rig;
+  RaceRig rig;
   constexpr double kAttackerFlag = 10, kDefends = 1, kAttacks = 2;
   rig.told.tell(field("flags.vehicle"), kAttackerFlag, kStart);
   EXPECT_EQ(rig.of(BaseField::kRole, kStart).value, kAttacks);
@@ -64,7 +64,7 @@ TEST(RaceFields, ARoleThatTheCarDoesNotActOnIsAConflict) {
 }
 
 TEST(RaceFields, TheAttemptGrowsOldWithTheFlagsItIsCountedBy) {
-  Rig rig;
+  RaceRig rig;
   rig.told.tell(field("flags.track"), 5.0, kStart);
   rig.told.tell(field("flags.vehicle"), 10.0, kStart);
   rig.told.tell(field("track.lap"), 4.0, kStart);

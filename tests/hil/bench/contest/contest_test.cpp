@@ -6,11 +6,10 @@
 #include <string>
 
 #include "protocol/transport/file.hpp"
+#include "tests/support/instants.hpp"
 
 namespace pitwall::bench {
 namespace {
-
-constexpr Instant at_ms(std::int64_t ms) { return Instant{} + milliseconds(ms); }
 
 ContestPlan short_plan() {
   ContestPlan plan;

@@ -10,11 +10,6 @@ namespace {
 
 using testing::TwoEnds;
 
-std::optional<Outcome> fate(const TwoEnds& rig, CommandId id) {
-  const CommandProgress* progress = rig.desk.progress(id);
-  return progress == nullptr ? std::nullopt : progress->fate;
-}
-
 TEST(CommandDesk, ABaseThatLearnsOfTheRestartDecidesWhatWasOpen) {
   TwoEnds rig({.seed = 7});
   rig.run(seconds(1));

@@ -14,11 +14,6 @@ using testing::kOperator;
 using testing::Story;
 using testing::TwoEnds;
 
-std::optional<Outcome> fate(const TwoEnds& rig, CommandId id) {
-  const CommandProgress* progress = rig.desk.progress(id);
-  return progress == nullptr ? std::nullopt : progress->fate;
-}
-
 // A peer repeated a command in five packets, fifty milliseconds, and forgot it: a fade of a tenth
 // of a second swallowed one in five.
 TEST(CommandLedger, ACommandOutlivesAFadeOfAnyLengthUnlikeFiveRepeats) {

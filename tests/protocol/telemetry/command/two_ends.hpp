@@ -264,4 +264,10 @@ class TwoEnds {
   std::mt19937_64 random_;
 };
 
+// What became of the command; empty while nothing did.
+inline std::optional<Outcome> fate(const TwoEnds& rig, CommandId id) {
+  const CommandProgress* progress = rig.desk.progress(id);
+  return progress == nullptr ? std::nullopt : progress->fate;
+}
+
 }  // namespace pitwall::telemetry::testing

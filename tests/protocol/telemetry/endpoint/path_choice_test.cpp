@@ -6,17 +6,17 @@
 #include <memory>
 #include <vector>
 
+#include "tests/support/instants.hpp"
+
 namespace pitwall::telemetry {
 namespace {
 
 constexpr Address kBase[] = {{0x0A000002, 5'000}, {0x0A000002, 5'001}};
 
-Instant at_ms(std::int64_t ms) { return Instant{} + milliseconds(ms); }
-
 // A car of two paths that knows where the base is.
-class Car {
+class CarOfPaths {
  public:
-  explicit Car(std::uint8_t paths = 2) : random_(1) {
+  explicit CarOfPaths(std::uint8_t paths = 2) : random_(1) {
     AssociationConfig config;
     config.keys = {.role = Role::kCar, .own = make_identity(random_), .peer = {}};
     config.keys.peer = make_identity(random_).public_key;
@@ -51,7 +51,7 @@ class Car {
 };
 
 TEST(PathChoice, OnePathHasOnePlan) {
-  const Car car(1);
+  const CarOfPaths car(1);
   const auto plans = car.plans(PathPolicy::kDuplicate, at_ms(0));
   ASSERT_EQ(plans.size(), 1U);
   EXPECT_EQ(plans[0].paths, bit_of(0));
@@ -61,7 +61,7 @@ TEST(PathChoice, OnePathHasOnePlan) {
 
 // A packet for both has the rate of the slower one, as it is at present.
 TEST(PathChoice, APlanHasTheRateOfItsNarrowestPath) {
-  Car car;
+  CarOfPaths car;
   const double whole = car.lanes[0].budget.present_rate();
   EXPECT_EQ(car.plans(PathPolicy::kDuplicate, at_ms(0))[0].rate, whole);
   car.lanes[1].budget.scale(0.5, at_ms(0));
@@ -74,14 +74,14 @@ TEST(PathChoice, APlanHasTheRateOfItsNarrowestPath) {
 }
 
 TEST(PathChoice, DuplicateIsOnePacketOnBoth) {
-  const Car car;
+  const CarOfPaths car;
   const auto plans = car.plans(PathPolicy::kDuplicate, at_ms(0));
   ASSERT_EQ(plans.size(), 1U);
   EXPECT_EQ(plans[0].paths, bit_of(0) | bit_of(1));
 }
 
 TEST(PathChoice, BestHasSafetyOnBothAndTheRestOnTheBetter) {
-  Car car;
+  CarOfPaths car;
   car.lanes[0].loss = 0.3;
   car.lanes[1].loss = 0.1;
   auto plans = car.plans(PathPolicy::kBest, at_ms(0));
@@ -105,7 +105,7 @@ TEST(PathChoice, BestHasSafetyOnBothAndTheRestOnTheBetter) {
 // As when nothing may be arriving: little room is enough, and no policy keeps it to one path.
 TEST(PathChoice, AStopGoesOnEveryPath) {
   for (const PathPolicy policy : {PathPolicy::kDuplicate, PathPolicy::kBest}) {
-    const Car car;
+    const CarOfPaths car;
     std::uint8_t paths = 0;
     for (const PacketPlan& plan : car.plans_at_once(policy, at_ms(0))) {
       EXPECT_TRUE(plan.between);
@@ -117,7 +117,7 @@ TEST(PathChoice, AStopGoesOnEveryPath) {
 
 TEST(PathChoice, APathWithoutRoomHasNoPlan) {
   for (const PathPolicy policy : {PathPolicy::kDuplicate, PathPolicy::kBest}) {
-    Car car;
+    CarOfPaths car;
     car.exhaust(0, at_ms(0));
     auto plans = car.plans(policy, at_ms(1));
     ASSERT_EQ(plans.size(), 1U);
@@ -129,7 +129,7 @@ TEST(PathChoice, APathWithoutRoomHasNoPlan) {
 }
 
 TEST(PathChoice, MuchLessRoomIsAPacketOfItsOwn) {
-  Car car;
+  CarOfPaths car;
   const std::size_t much = car.lanes[1].budget.room_beside(60, at_ms(0));
   car.lanes[1].spend(much, 60, at_ms(0));
   const auto plans = car.plans(PathPolicy::kDuplicate, at_ms(6));
@@ -141,7 +141,7 @@ TEST(PathChoice, MuchLessRoomIsAPacketOfItsOwn) {
 
 // Room for itself and little more: worth its price only where what left may be lost.
 TEST(PathChoice, BetweenSlotsAPacketMustCarryMoreThanItself) {
-  Car car(1);
+  CarOfPaths car(1);
   car.lanes[0].spend(car.lanes[0].budget.room_beside(60, at_ms(0)), 60, at_ms(0));
   const Instant now = at_ms(5);
   const std::size_t room = car.lanes[0].budget.room_for_safety(now);

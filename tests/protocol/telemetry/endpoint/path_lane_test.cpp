@@ -4,11 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "protocol/telemetry/packet/header.hpp"
+#include "tests/support/instants.hpp"
 
 namespace pitwall::telemetry {
 namespace {
-
-Instant at_ms(std::int64_t ms) { return Instant{} + milliseconds(ms); }
 
 TEST(PathLane, UseIsTheShareOfTheRateInTheLastSecond) {
   PathLane lane{BudgetParams{}};

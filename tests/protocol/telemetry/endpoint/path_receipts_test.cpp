@@ -6,10 +6,10 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/instants.hpp"
+
 namespace pitwall::telemetry {
 namespace {
-
-Instant at_ms(std::int64_t ms) { return Instant{} + milliseconds(ms); }
 
 std::vector<PathLane> two_lanes() { return {PathLane{BudgetParams{}}, PathLane{BudgetParams{}}}; }
 

@@ -7,13 +7,14 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/instants.hpp"
+
 namespace pitwall::telemetry {
 namespace {
 
 using Turn = Slots::Turn;
 
 Instant at_us(std::int64_t us) { return Instant{} + microseconds(us); }
-Instant at_ms(std::int64_t ms) { return Instant{} + milliseconds(ms); }
 
 TEST(Slots, OneOnTheSlotAndOneBetween) {
   Slots slots;

@@ -4,13 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "protocol/telemetry/registry/schema.hpp"
+#include "tests/support/instants.hpp"
 
 namespace pitwall::telemetry {
 namespace {
 
 constexpr Duration kRoundTrip = milliseconds(50);
-
-Instant at_ms(std::int64_t ms) { return Instant{} + milliseconds(ms); }
 
 Snapshot all_sampled(Instant at) {
   Snapshot snapshot;
@@ -19,7 +18,7 @@ Snapshot all_sampled(Instant at) {
 }
 
 // A car's lane that makes packets one after the other, each acknowledged a round trip later.
-class Car {
+class CarLane {
  public:
   struct Packet {
     GroupSet groups;
@@ -44,7 +43,8 @@ class Car {
     return packet;
   }
 
-  explicit Car(double early_share = StateLane::kEarlyShare) : lane(Direction::kDown, early_share) {}
+  explicit CarLane(double early_share = StateLane::kEarlyShare)
+      : lane(Direction::kDown, early_share) {}
   StateLane lane;
 
  private:
@@ -68,7 +68,7 @@ bool none_above(GroupSet groups, Class priority) {
 }
 
 TEST(StateLane, ASlotWithoutOthersHasSafetyAndMotion) {
-  Car car;
+  CarLane car;
   for (std::int64_t i = 0; i < 100; ++i) {
     const auto packet = car.packet(20 * i, 550, {});
     ASSERT_TRUE(all_of_class(packet.groups, Class::kSafety)) << i;
@@ -85,7 +85,7 @@ TEST(StateLane, ASlotWithoutOthersHasSafetyAndMotion) {
 TEST(StateLane, WhatIsNotDueTakesATenthOfAPacket) {
   constexpr std::size_t kRoom = 550;
   const GroupSet down = groups_of(Direction::kDown);
-  Car idle, waiting;
+  CarLane idle, waiting;
   std::size_t grown = 0;
   for (std::int64_t i = 0; i < 200; ++i) {
     const std::size_t early = idle.packet(20 * i, kRoom, {}).bytes;
@@ -101,7 +101,7 @@ TEST(StateLane, WhatIsNotDueTakesATenthOfAPacket) {
 }
 
 TEST(StateLane, AWholeShareTellsAllInEachSlot) {
-  Car car{1.0};
+  CarLane car{1.0};
   for (std::int64_t i = 0; i < 20; ++i) {
     EXPECT_EQ(car.packet(20 * i, kMaxBody, {}).groups, groups_of(Direction::kDown)) << i;
   }
@@ -109,7 +109,7 @@ TEST(StateLane, AWholeShareTellsAllInEachSlot) {
 
 // A link with hardly more room than safety and motion need has none to spare.
 TEST(StateLane, ANarrowPacketHasOnlyWhatIsDue) {
-  Car car;
+  CarLane car;
   for (std::int64_t i = 0; i < 100; ++i) (void)car.packet(20 * i, 150, {});
   EXPECT_LE(car.lane.figures(Group::kEngine).chosen, 12U);
 }
@@ -138,7 +138,7 @@ TEST(StateLane, TheRefreshPeriodLeavesHalfOfTheRateToBulk) {
 // else that the packets have.
 TEST(StateLane, SlowGroupsGoBeforeBulkOnAWideLink) {
   const GroupSet down = groups_of(Direction::kDown);
-  Car car;
+  CarLane car;
   std::size_t bytes = 0;
   constexpr std::int64_t kSlots = 500;
   for (std::int64_t i = 0; i < kSlots; ++i) {
@@ -155,7 +155,7 @@ TEST(StateLane, SlowGroupsGoBeforeBulkOnAWideLink) {
 
 TEST(StateLane, ANarrowLinkHasTheTargetAgesAlone) {
   const GroupSet down = groups_of(Direction::kDown);
-  Car narrow, without;
+  CarLane narrow, without;
   for (std::int64_t i = 0; i < 500; ++i) {
     const StateLane::Writing how{.between = i % 2 == 1, .something_waits = i % 5 != 0};
     ASSERT_EQ(narrow.packet(10 * i, 150, how, down, kNarrow).groups,
@@ -165,7 +165,7 @@ TEST(StateLane, ANarrowLinkHasTheTargetAgesAlone) {
 }
 
 TEST(StateLane, OnlySafetyIsOnlySafety) {
-  Car car;
+  CarLane car;
   for (std::int64_t i = 0; i < 20; ++i) {
     const auto packet = car.packet(20 * i, 550, {.only_safety = true});
     ASSERT_TRUE(none_above(packet.groups, Class::kSafety));
@@ -174,7 +174,7 @@ TEST(StateLane, OnlySafetyIsOnlySafety) {
 }
 
 TEST(StateLane, BetweenSlotsNothingSlow) {
-  Car car;
+  CarLane car;
   for (std::int64_t i = 0; i < 50; ++i) {
     const auto packet = car.packet(2'000 + 20 * i, 250, {.between = true});
     ASSERT_TRUE(none_above(packet.groups, Class::kMotion));
@@ -189,7 +189,7 @@ TEST(StateLane, LeavesAThirdToWhatWaits) {
     if (row.direction == Direction::kDown && row.priority <= Class::kMotion) fast.add(row.group);
   }
   const std::size_t size = state_bytes(fast, Direction::kDown);
-  Car roomy, narrow;
+  CarLane roomy, narrow;
   for (std::int64_t i = 0; i < 50; ++i) {
     const auto wide = roomy.packet(20 * i, 3 * size, {.something_waits = true});
     ASSERT_TRUE(all_of_class(wide.groups, Class::kMotion));
@@ -201,7 +201,7 @@ TEST(StateLane, LeavesAThirdToWhatWaits) {
 }
 
 TEST(StateLane, WhatTheOtherEndDoesNotKnowIsNotSent) {
-  Car car;
+  CarLane car;
   GroupSet known = groups_of(Direction::kDown);
   known.remove(Group::kEgo);
   known.remove(Group::kFlags);
@@ -214,7 +214,7 @@ TEST(StateLane, WhatTheOtherEndDoesNotKnowIsNotSent) {
 }
 
 TEST(StateLane, ANewSessionBeginsWithAll) {
-  Car car;
+  CarLane car;
   for (std::int64_t i = 0; i < 50; ++i) (void)car.packet(20 * i, 800, {});
   car.lane.forget();
   const auto packet = car.packet(1'001, 800, {});

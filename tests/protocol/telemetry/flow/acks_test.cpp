@@ -10,13 +10,13 @@
 #include <type_traits>
 #include <vector>
 
+#include "tests/support/instants.hpp"
+
 namespace pitwall::telemetry {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<ReceiptBook>);
 static_assert(std::is_trivially_copyable_v<SentBook>);
-
-Instant at_ms(std::int64_t ms) { return Instant{} + milliseconds(ms); }
 
 TEST(ReceiptBook, NamesExactlyWhatCameOfTheLast33) {
   std::mt19937_64 random(1);

@@ -19,7 +19,7 @@ static_assert(std::is_trivially_copyable_v<LinkStats>);
 
 constexpr std::uint8_t kFirst = 0b01, kBoth = 0b11;
 
-struct Arrival {
+struct PacketArrival {
   Instant at{};
   std::uint64_t sequence = 0;
   PathId path = 0;
@@ -29,10 +29,10 @@ Instant slot(std::uint64_t i) {
   return Instant{} + milliseconds(20) * static_cast<std::int64_t>(i);
 }
 
-void feed(LinkStats& stats, std::vector<Arrival> arrivals, std::uint8_t mask) {
+void feed(LinkStats& stats, std::vector<PacketArrival> arrivals, std::uint8_t mask) {
   std::stable_sort(arrivals.begin(), arrivals.end(),
-                   [](const Arrival& a, const Arrival& b) { return a.at < b.at; });
-  for (const Arrival& a : arrivals) {
+                   [](const PacketArrival& a, const PacketArrival& b) { return a.at < b.at; });
+  for (const PacketArrival& a : arrivals) {
     stats.advance(a.at);
     stats.received(a.sequence, mask, a.path, 100, a.at);
   }
@@ -43,7 +43,7 @@ void feed(LinkStats& stats, std::vector<Arrival> arrivals, std::uint8_t mask) {
 TEST(LinkStats, EightyPercentLossWhileAllIsFine) {
   std::mt19937_64 random(1);
   const std::uint64_t start = (std::uint64_t{1} << 32) - 1'000;
-  std::vector<Arrival> arrivals;
+  std::vector<PacketArrival> arrivals;
   const std::uint64_t count = 5'000;
   for (std::uint64_t i = 0; i < count; ++i) {
     const auto late = milliseconds(static_cast<std::int64_t>(random() % 300));
@@ -68,7 +68,7 @@ TEST(LinkStats, EightyPercentLossWhileAllIsFine) {
 TEST(LinkStats, CountsWhatWasLostOnEachPathAndOnBoth) {
   std::mt19937_64 random(2);
   const auto chance = [&] { return testing::draw_uniform(random); };
-  std::vector<Arrival> arrivals;
+  std::vector<PacketArrival> arrivals;
   std::array<std::uint64_t, 2> lost{};
   std::uint64_t both = 0;
   const std::uint64_t count = 20'000;

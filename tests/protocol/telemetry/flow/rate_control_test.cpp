@@ -7,6 +7,7 @@
 #include <random>
 #include <type_traits>
 
+#include "tests/protocol/telemetry/flow/slot.hpp"
 #include "tests/support/draw.hpp"
 
 namespace pitwall::telemetry {
@@ -15,7 +16,6 @@ namespace {
 static_assert(std::is_trivially_copyable_v<RateControl>);
 
 constexpr double kBudget = 32'000.0, kFloor = 4'400.0;
-constexpr Duration kSlot = milliseconds(20);
 
 // A sender that uses all that it is left, a serial air with a queue before it, and random loss
 // after it. Delays as the acknowledgements tell them.

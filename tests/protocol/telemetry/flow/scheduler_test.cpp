@@ -10,18 +10,18 @@
 #include <type_traits>
 #include <vector>
 
+#include "tests/protocol/telemetry/flow/slot.hpp"
 #include "tests/support/allocation_guard.hpp"
 #include "tests/support/draw.hpp"
+#include "tests/support/instants.hpp"
 
 namespace pitwall::telemetry {
 namespace {
 
 static_assert(std::is_trivially_copyable_v<Scheduler>);
 
-constexpr Duration kSlot = milliseconds(20), kRoundTrip = milliseconds(50);
+constexpr Duration kRoundTrip = milliseconds(50);
 constexpr Duration kAckWait = milliseconds(25);  // as the scheduler has it
-
-Instant at_ms(std::int64_t ms) { return Instant{} + milliseconds(ms); }
 
 Snapshot all_sampled(Instant at) {
   Snapshot snapshot;

@@ -17,7 +17,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 constexpr std::array kDirections{Direction::kDown, Direction::kUp};
-constexpr Instant kNow{3'000'000'000'000};
+constexpr Instant kBodyTime{3'000'000'000'000};
 
 std::vector<Group> groups_in(Direction direction) {
   std::vector<Group> all;
@@ -47,14 +47,14 @@ class RandomBody {
           row.min + (static_cast<double>(below(12'001)) / 1e4 - 0.1) * (row.max - row.min);
     }
     for (Instant& at : snapshot.sampled_at) {
-      if (below(8) != 0) at = kNow - microseconds(static_cast<std::int64_t>(below(3'000'000)));
+      if (below(8) != 0) at = kBodyTime - microseconds(static_cast<std::int64_t>(below(3'000'000)));
     }
     return snapshot;
   }
   Bytes bytes(Direction direction, std::size_t records) {
     Bytes buffer(kMaxBody, 0xEE);
     BodyWriter writer(buffer, kMaxBody, direction);
-    writer.begin(kNow, static_cast<std::uint8_t>(below(1U << kPaths)));
+    writer.begin(kBodyTime, static_cast<std::uint8_t>(below(1U << kPaths)));
     if (below(2) == 0) {
       const auto newest = static_cast<std::uint16_t>(random_());
       const auto mask = static_cast<std::uint32_t>(random_());
@@ -64,7 +64,7 @@ class RandomBody {
     shuffle(wanted);
     wanted.resize(below(wanted.size() + 1));
     CodecCounters counters;
-    writer.add_groups(snapshot(), wanted, kNow, counters);
+    writer.add_groups(snapshot(), wanted, kBodyTime, counters);
     for (std::size_t i = 0; i < records; ++i) {
       Bytes payload(below(i == 0 ? 400 : 40));
       for (std::uint8_t& byte : payload) byte = static_cast<std::uint8_t>(random_());
@@ -172,9 +172,9 @@ TEST(BodyWriter, WritesTheGroupsThatFitInTheOrderThatIsAsked) {
     random.shuffle(wanted);
     Bytes buffer(kMaxBody, 0);
     BodyWriter writer(buffer, room, Direction::kDown);
-    writer.begin(kNow, 1);
+    writer.begin(kBodyTime, 1);
     CodecCounters counters;
-    const GroupSet set = writer.add_groups(snapshot, wanted, kNow, counters);
+    const GroupSet set = writer.add_groups(snapshot, wanted, kBodyTime, counters);
     EXPECT_LE(writer.bytes().size(), room);
     std::size_t bits = 0;
     for (const Group group : wanted) {
@@ -191,14 +191,14 @@ TEST(BodyWriter, WritesTheGroupsThatFitInTheOrderThatIsAsked) {
 TEST(BodyWriter, RefusesWhatHasNoRoom) {
   Bytes buffer(kMaxBody, 0);
   BodyWriter writer(buffer, kBodyFixed + kAckSize - 1, Direction::kUp);
-  writer.begin(kNow, 1);
+  writer.begin(kBodyTime, 1);
   EXPECT_FALSE(writer.add_ack({}));
   EXPECT_FALSE(writer.add_record(RecordType::kEvent, Bytes(6)));
   EXPECT_TRUE(writer.add_record(RecordType::kEvent, Bytes(5)));
   EXPECT_EQ(writer.room_left(), 0U);
 
   BodyWriter many(buffer, kMaxBody, Direction::kUp);
-  many.begin(kNow, 1);
+  many.begin(kBodyTime, 1);
   for (std::size_t i = 0; i < kMaxRecords; ++i) {
     EXPECT_TRUE(many.add_record(RecordType::kEvent, {}));
   }
@@ -210,42 +210,42 @@ TEST(BodyWriter, WritesAGroupThatIsAskedForTwiceOnce) {
   const std::array wanted{Group::kStop, Group::kStop};
   Bytes buffer(kMaxBody, 0);
   BodyWriter writer(buffer, kMaxBody, Direction::kUp);
-  writer.begin(kNow, 1);
+  writer.begin(kBodyTime, 1);
   CodecCounters counters;
-  writer.add_groups({}, wanted, kNow, counters);
+  writer.add_groups({}, wanted, kBodyTime, counters);
   EXPECT_TRUE(agrees({writer.bytes().begin(), writer.bytes().end()}, Direction::kUp));
 }
 
-BodyError error_of(const Bytes& bytes, Direction direction = Direction::kDown) {
+BodyError body_error(const Bytes& bytes, Direction direction = Direction::kDown) {
   return parse_body(bytes, direction).error();
 }
 
 TEST(Body, EveryErrorHasItsCauseAndItsText) {
-  EXPECT_EQ(error_of({0, 0, 0}), BodyError::kTooShort);
-  EXPECT_EQ(error_of({0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}), BodyError::kTooShort);
-  EXPECT_EQ(error_of({0, 0, 0, 0x10}), BodyError::kBadFlags);
+  EXPECT_EQ(body_error({0, 0, 0}), BodyError::kTooShort);
+  EXPECT_EQ(body_error({0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}), BodyError::kTooShort);
+  EXPECT_EQ(body_error({0, 0, 0, 0x10}), BodyError::kBadFlags);
   for (const Direction direction : kDirections) {
     const std::size_t groups = groups_in(direction).size();
     Bytes with_set(kBodyFixed + set_size(direction), 0);
     with_set[kBodyFixed - 1] = 2;
-    EXPECT_EQ(error_of(with_set, direction), BodyError::kBadGroups);
+    EXPECT_EQ(body_error(with_set, direction), BodyError::kBadGroups);
     with_set[kBodyFixed] = 1;
-    EXPECT_EQ(error_of(with_set, direction), BodyError::kTooShort);
-    EXPECT_EQ(error_of({0, 0, 0, 2}, direction), BodyError::kTooShort);
+    EXPECT_EQ(body_error(with_set, direction), BodyError::kTooShort);
+    EXPECT_EQ(body_error({0, 0, 0, 2}, direction), BodyError::kTooShort);
     if (groups % 8 == 0) continue;
     with_set.back() = static_cast<std::uint8_t>(with_set.back() | 1U << (groups % 8));
-    EXPECT_EQ(error_of(with_set, direction), BodyError::kBadGroups);
+    EXPECT_EQ(body_error(with_set, direction), BodyError::kBadGroups);
   }
-  EXPECT_EQ(error_of({0, 0, 0, 0, 0, 0}), BodyError::kBadRecord);
-  EXPECT_EQ(error_of({0, 0, 0, 0, kRecordTypeMax + 1, 0}), BodyError::kBadRecord);
-  EXPECT_EQ(error_of({0, 0, 0, 0, 1}), BodyError::kBadRecord);
-  EXPECT_EQ(error_of({0, 0, 0, 0, 1, 2, 0}), BodyError::kBadRecord);
-  EXPECT_EQ(error_of({0, 0, 0, 0, 1, 0xF0}), BodyError::kBadRecord);
-  EXPECT_EQ(error_of({0, 0, 0, 0, 1, 0xF0, 0xEF}), BodyError::kBadRecord);
+  EXPECT_EQ(body_error({0, 0, 0, 0, 0, 0}), BodyError::kBadRecord);
+  EXPECT_EQ(body_error({0, 0, 0, 0, kRecordTypeMax + 1, 0}), BodyError::kBadRecord);
+  EXPECT_EQ(body_error({0, 0, 0, 0, 1}), BodyError::kBadRecord);
+  EXPECT_EQ(body_error({0, 0, 0, 0, 1, 2, 0}), BodyError::kBadRecord);
+  EXPECT_EQ(body_error({0, 0, 0, 0, 1, 0xF0}), BodyError::kBadRecord);
+  EXPECT_EQ(body_error({0, 0, 0, 0, 1, 0xF0, 0xEF}), BodyError::kBadRecord);
   Bytes many(kBodyFixed, 0);
   for (std::size_t i = 0; i <= kMaxRecords; ++i) many.insert(many.end(), {1, 0});
-  EXPECT_EQ(error_of(many), BodyError::kTooManyRecords);
-  EXPECT_EQ(error_of(Bytes(kMaxBody + 1, 0)), BodyError::kTooLong);
+  EXPECT_EQ(body_error(many), BodyError::kTooManyRecords);
+  EXPECT_EQ(body_error(Bytes(kMaxBody + 1, 0)), BodyError::kTooLong);
   for (std::size_t e = 0; e < kBodyErrors; ++e) {
     EXPECT_FALSE(std::string(text_of(static_cast<BodyError>(e))).empty());
   }
@@ -257,9 +257,9 @@ TEST(Body, BitsThatNoValueMakesAndPaddingThatIsNotZeroAreRefused) {
   for (const GroupRow& row : kGroupTable) {
     Bytes buffer(kMaxBody, 0);
     BodyWriter writer(buffer, kMaxBody, row.direction);
-    writer.begin(kNow, 1);
+    writer.begin(kBodyTime, 1);
     CodecCounters counters;
-    writer.add_groups({}, {&row.group, 1}, kNow, counters);
+    writer.add_groups({}, {&row.group, 1}, kBodyTime, counters);
     const Bytes bytes(writer.bytes().begin(), writer.bytes().end());
     // WHEN any bit of it is another
     for (std::size_t bit = 8 * kBodyFixed; bit < 8 * bytes.size(); ++bit) {
@@ -282,10 +282,10 @@ TEST(Body, TenBytesOfFFAsALengthAreRefusedAndTheNextPacketIsRead) {
   const Bytes good = random.bytes(Direction::kDown, 2);
   Bytes bad{0, 0, 0, 0};
   bad.insert(bad.end(), 10, 0xFF);
-  EXPECT_EQ(error_of(bad), BodyError::kBadRecord);
+  EXPECT_EQ(body_error(bad), BodyError::kBadRecord);
   bad = {0, 0, 0, 0, 1};
   bad.insert(bad.end(), 10, 0xFF);
-  EXPECT_EQ(error_of(bad), BodyError::kBadRecord);
+  EXPECT_EQ(body_error(bad), BodyError::kBadRecord);
   EXPECT_TRUE(agrees(good, Direction::kDown));
 }
 
@@ -308,13 +308,13 @@ TEST(Body, WhatABufferHoldsBehindTheDatagramIsNeverRead) {
 // A peer published its old buffer again for a packet of one byte, and re-armed its watchdog by it.
 TEST(Body, APacketOfOneByteIsRefusedAndGivesNoValues) {
   for (unsigned byte = 0; byte < 256; ++byte) {
-    EXPECT_EQ(error_of({static_cast<std::uint8_t>(byte)}), BodyError::kTooShort);
+    EXPECT_EQ(body_error({static_cast<std::uint8_t>(byte)}), BodyError::kTooShort);
   }
 }
 
 TEST(Body, NoBytesAndTheMostThatUdpCarriesAreRefused) {
-  EXPECT_EQ(error_of({}), BodyError::kTooShort);
-  EXPECT_EQ(error_of(Bytes(65'507, 0)), BodyError::kTooLong);
+  EXPECT_EQ(body_error({}), BodyError::kTooShort);
+  EXPECT_EQ(body_error(Bytes(65'507, 0)), BodyError::kTooLong);
 }
 
 TEST(Body, AllocatesNothing) {
@@ -326,9 +326,9 @@ TEST(Body, AllocatesNothing) {
   bool read = false;
   const auto count = testing::allocations_of([&] {
     BodyWriter writer(buffer, kMaxBody, Direction::kDown);
-    writer.begin(kNow, 3);
+    writer.begin(kBodyTime, 3);
     CodecCounters counters;
-    writer.add_groups(snapshot, wanted, kNow, counters);
+    writer.add_groups(snapshot, wanted, kBodyTime, counters);
     writer.add_record(RecordType::kEvent, std::span(buffer).first(20));
     read = parse_body(writer.bytes(), Direction::kDown).has_value();
   });

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<std::uint8_t, kHeaderSize> kSome{0x6C, 0x34, 0x12, 0x78, 0x56, 0x34, 0x12};
 
-HeaderError error_of(std::span<const std::uint8_t> datagram) {
+HeaderError header_error(std::span<const std::uint8_t> datagram) {
   return parse_header(datagram).error();
 }
 
@@ -46,13 +46,13 @@ TEST(Header, EveryFirstByteIsRefusedOrWrittenAgainAsItWas) {
 TEST(Header, EveryErrorHasItsCauseAndItsText) {
   auto bytes = kSome;
   bytes[0] = 0x2C;
-  EXPECT_EQ(error_of(bytes), HeaderError::kOtherVersion);
+  EXPECT_EQ(header_error(bytes), HeaderError::kOtherVersion);
   bytes[0] = 0x78;
-  EXPECT_EQ(error_of(bytes), HeaderError::kBadKind);
+  EXPECT_EQ(header_error(bytes), HeaderError::kBadKind);
   bytes[0] = 0x6D;
-  EXPECT_EQ(error_of(bytes), HeaderError::kBadReserved);
+  EXPECT_EQ(header_error(bytes), HeaderError::kBadReserved);
   for (std::size_t size = 0; size < kHeaderSize; ++size) {
-    EXPECT_EQ(error_of(std::span(kSome).first(size)), HeaderError::kTooShort);
+    EXPECT_EQ(header_error(std::span(kSome).first(size)), HeaderError::kTooShort);
   }
   for (std::size_t e = 0; e < kHeaderErrors; ++e) {
     EXPECT_FALSE(std::string(text_of(static_cast<HeaderError>(e))).empty());
@@ -65,14 +65,14 @@ TEST(Header, ADatagramLongerThanAnyOfOursIsRefusedWhole) {
   for (const std::size_t size : {kMaxDatagram + 1, std::size_t{2'048}, std::size_t{65'507}}) {
     std::vector<std::uint8_t> bytes(size, 0);
     std::copy(kSome.begin(), kSome.end(), bytes.begin());
-    EXPECT_EQ(error_of(bytes), HeaderError::kTooLong);
+    EXPECT_EQ(header_error(bytes), HeaderError::kTooLong);
   }
   std::vector<std::uint8_t> bytes(kMaxDatagram, 0);
   std::copy(kSome.begin(), kSome.end(), bytes.begin());
   EXPECT_TRUE(parse_header(bytes));
 }
 
-TEST(Header, ADatagramOfNoBytesIsTooShort) { EXPECT_EQ(error_of({}), HeaderError::kTooShort); }
+TEST(Header, ADatagramOfNoBytesIsTooShort) { EXPECT_EQ(header_error({}), HeaderError::kTooShort); }
 
 TEST(Header, AllocatesNothing) {
   if (!testing::kAllocationsCounted) GTEST_SKIP() << "not counted under AddressSanitizer";

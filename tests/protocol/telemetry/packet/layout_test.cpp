@@ -13,7 +13,7 @@
 namespace pitwall::telemetry {
 namespace {
 
-constexpr Instant kNow{5'000'000'000};
+constexpr Instant kSampleTime{5'000'000'000};
 
 Snapshot filled() {
   Snapshot snapshot;
@@ -21,7 +21,7 @@ Snapshot filled() {
     const FieldRow& row = kFields[i];
     snapshot.values[i] = row.min + row.resolution * static_cast<double>(i % 2);
   }
-  snapshot.sampled_at.fill(kNow);
+  snapshot.sampled_at.fill(kSampleTime);
   return snapshot;
 }
 
@@ -42,9 +42,9 @@ std::vector<std::uint8_t> packet_of(const Layout& sender) {
     if (place.own) wanted.push_back(*place.own);
   std::vector<std::uint8_t> buffer(kMaxBody);
   BodyWriter writer(buffer, kMaxBody, sender);
-  writer.begin(kNow, 1);
+  writer.begin(kSampleTime, 1);
   CodecCounters counters;
-  writer.add_groups(filled(), wanted, kNow, counters);
+  writer.add_groups(filled(), wanted, kSampleTime, counters);
   EXPECT_TRUE(writer.add_record(RecordType::kEvent, std::array<std::uint8_t, 3>{1, 2, 3}));
   return {writer.bytes().begin(), writer.bytes().end()};
 }
@@ -112,9 +112,9 @@ TEST(Layout, ASenderWithoutAGroupDoesNotWriteIt) {
   const Layout sender = of(senders);
   std::vector<std::uint8_t> buffer(kMaxBody);
   BodyWriter writer(buffer, kMaxBody, sender);
-  writer.begin(kNow, 1);
+  writer.begin(kSampleTime, 1);
   CodecCounters counters;
-  EXPECT_TRUE(writer.add_groups(filled(), {&lacking, 1}, kNow, counters).empty());
+  EXPECT_TRUE(writer.add_groups(filled(), {&lacking, 1}, kSampleTime, counters).empty());
 }
 
 TEST(Layout, AGroupOfAnySizeThatIsUnknownIsSkippedOrTooShort) {

@@ -11,6 +11,7 @@
 
 #include "protocol/telemetry/registry/schema.hpp"
 #include "protocol/telemetry/registry/schema_listing.hpp"
+#include "tests/protocol/telemetry/registry/hash_of.hpp"
 
 namespace pitwall::telemetry {
 namespace {
@@ -26,12 +27,6 @@ std::string joined(const std::vector<std::string>& lines) {
   std::string text;
   for (const std::string& line : lines) text += line + "\n";
   return text;
-}
-
-std::uint64_t hash_of(const std::string& text) {
-  SchemaHash hash;
-  hash(text);
-  return hash.value();
 }
 
 // The text with one part of it replaced; the part must be there once.

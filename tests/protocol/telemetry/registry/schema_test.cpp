@@ -7,15 +7,10 @@
 #include <string>
 
 #include "protocol/telemetry/registry/schema_listing.hpp"
+#include "tests/protocol/telemetry/registry/hash_of.hpp"
 
 namespace pitwall::telemetry {
 namespace {
-
-std::uint64_t hash_of(std::string_view text) {
-  SchemaHash hash;
-  hash(text);
-  return hash.value();
-}
 
 // http://www.isthe.com/chongo/tech/comp/fnv/
 TEST(SchemaHash, IsFnv1aOf64Bits) {

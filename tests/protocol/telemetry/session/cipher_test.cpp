@@ -10,30 +10,19 @@
 #include <string_view>
 #include <vector>
 
+#include "protocol/vocabulary/bytes.hpp"
+#include "tests/protocol/telemetry/session/hex_of.hpp"
+
 namespace pitwall::telemetry {
 namespace {
-
-Bytes bytes(std::string_view text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
-
-std::string hex_of(Bytes of) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string hex;
-  for (const std::uint8_t byte : of) {
-    hex += kDigits[byte / 16];
-    hex += kDigits[byte % 16];
-  }
-  return hex;
-}
 
 // RFC 7693, appendix A.
 TEST(Cipher, HashesAsInTheStandard) {
   constexpr std::string_view kAbc =
       "ba80a53f981c4d0d6a2797b69f12f6e94c212f14685ac4b74b12bb6fdbffa2d1"
       "7d87c5392aab792dc252d5de4533cc9518d38aa8dbf1925ab92386edd4009923";
-  EXPECT_EQ(hex_of(hash_of({bytes("abc")}).span()), kAbc);
-  EXPECT_EQ(hex_of(hash_of({bytes("a"), bytes(""), bytes("bc")}).span()), kAbc);
+  EXPECT_EQ(hex_of(hash_of({as_bytes("abc")}).span()), kAbc);
+  EXPECT_EQ(hex_of(hash_of({as_bytes("a"), as_bytes(""), as_bytes("bc")}).span()), kAbc);
 }
 
 // RFC 7748, 6.1.
@@ -59,20 +48,20 @@ TEST(Cipher, OpensWhatItSealedAndNothingElse) {
   const Key key(PublicKey{1}), other(PublicKey{2});
   const std::vector<std::uint8_t> plain(50, 7);
   std::vector<std::uint8_t> sealed(plain.size() + kTagSize), opened(plain.size());
-  aead_seal(key, 9, bytes("clear"), plain, sealed);
-  EXPECT_TRUE(aead_open(key, 9, bytes("clear"), sealed, opened));
+  aead_seal(key, 9, as_bytes("clear"), plain, sealed);
+  EXPECT_TRUE(aead_open(key, 9, as_bytes("clear"), sealed, opened));
   EXPECT_EQ(opened, plain);
-  EXPECT_FALSE(aead_open(key, 10, bytes("clear"), sealed, opened));
-  EXPECT_FALSE(aead_open(key, 9, bytes("other"), sealed, opened));
-  EXPECT_FALSE(aead_open(other, 9, bytes("clear"), sealed, opened));
+  EXPECT_FALSE(aead_open(key, 10, as_bytes("clear"), sealed, opened));
+  EXPECT_FALSE(aead_open(key, 9, as_bytes("other"), sealed, opened));
+  EXPECT_FALSE(aead_open(other, 9, as_bytes("clear"), sealed, opened));
 }
 
 TEST(Cipher, DerivedKeysDifferByPurpose) {
   const Key key(PublicKey{1});
-  EXPECT_EQ(derive(key, bytes("a")).bytes, derive(key, bytes("a")).bytes);
-  EXPECT_NE(derive(key, bytes("a")).bytes, derive(key, bytes("b")).bytes);
-  EXPECT_NE(derive(key, bytes("a")).bytes, key.bytes);
-  EXPECT_NE(keyed_tag(key, {bytes("a")}), keyed_tag(key, {bytes("b")}));
+  EXPECT_EQ(derive(key, as_bytes("a")).bytes, derive(key, as_bytes("a")).bytes);
+  EXPECT_NE(derive(key, as_bytes("a")).bytes, derive(key, as_bytes("b")).bytes);
+  EXPECT_NE(derive(key, as_bytes("a")).bytes, key.bytes);
+  EXPECT_NE(keyed_tag(key, {as_bytes("a")}), keyed_tag(key, {as_bytes("b")}));
 }
 
 TEST(Secret, IsOverwrittenWhenItEnds) {

@@ -296,7 +296,7 @@ TEST_F(Threats, ItEndsTenSecondsAfterTheLast) {
 }
 
 TEST_F(Threats, NothingIsAllocated) {
-  const std::uint64_t allocations = testing::allocations_of([this] {
+  const std::uint64_t allocations = pitwall::testing::allocations_of([this] {
     for (int i = 0; i < 1'000; ++i) {
       now_ = now_ + kTick;
       refused(Refusal::kForged) += 1'000;

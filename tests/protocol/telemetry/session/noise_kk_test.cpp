@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/protocol/telemetry/session/hex_of.hpp"
+
 namespace pitwall::telemetry {
 namespace {
 
@@ -18,16 +20,6 @@ std::vector<std::uint8_t> bytes_of_hex(std::string_view hex) {
         static_cast<std::uint8_t>(std::stoi(std::string(hex.substr(i, 2)), nullptr, 16)));
   }
   return bytes;
-}
-
-std::string hex_of(Bytes bytes) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string hex;
-  for (const std::uint8_t byte : bytes) {
-    hex += kDigits[byte / 16];
-    hex += kDigits[byte % 16];
-  }
-  return hex;
 }
 
 Key key_of_hex(std::string_view hex) {
@@ -65,7 +57,7 @@ constexpr Message kAnswer{"4d757272617920526f746862617264",
 constexpr std::string_view kTranscript =
     "449b8bddaf3d2f8999318d213d1db80a90d373bac67ce7aafcc444fc895414a9"
     "7e82fb7797b2ae85f29199856789e9b8aef2a58faa828267ba4f2b09d89692d3";
-constexpr std::string_view kPrologue = "50726f6c6f677565313233";  // Prologue123
+constexpr std::string_view kVectorPrologue = "50726f6c6f677565313233";  // Prologue123
 // The same keys and payloads with another prologue.
 constexpr std::string_view kOtherPrologue = "4a6f686e2047616c74";  // John Galt
 constexpr std::string_view kOtherTranscript =
@@ -75,7 +67,7 @@ constexpr std::string_view kOtherTranscript =
 struct Parties {
   Identity initiator = identity_of_hex(kInitiatorStatic);
   Identity responder = identity_of_hex(kResponderStatic);
-  std::vector<std::uint8_t> prologue = bytes_of_hex(kPrologue);
+  std::vector<std::uint8_t> prologue = bytes_of_hex(kVectorPrologue);
   NoiseKk a{NoiseKk::Side::kInitiator, initiator, responder.public_key, prologue};
   NoiseKk b{NoiseKk::Side::kResponder, responder, initiator.public_key, prologue};
 };

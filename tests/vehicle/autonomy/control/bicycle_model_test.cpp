@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-
 #include "tests/vehicle/autonomy/control/single_track.hpp"
 
 namespace pitwall::control {

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cstdint>
 
+#include "tests/support/eigenvalues.hpp"
 #include "tests/support/public_data.hpp"
 #include "tests/vehicle/autonomy/control/carex.hpp"
 
@@ -28,7 +28,7 @@ MatrixXd random_matrix(std::uint64_t& state, Eigen::Index rows, Eigen::Index col
 }
 
 double largest_real_part(const MatrixXd& m) {
-  return Eigen::EigenSolver<MatrixXd>(m, false).eigenvalues().real().maxCoeff();
+  return pitwall::testing::largest_real_part(pitwall::testing::numbers_of(m));
 }
 
 // The laws of a stabilising solution.
@@ -61,7 +61,7 @@ TEST(Riccati, RandomSystemsObeyTheLaws) {
       const auto x = solve(p);
       ASSERT_TRUE(x) << n << ' ' << i;
       expect_stabilising(p, *x, std::to_string(n));
-      EXPECT_GE(Eigen::SelfAdjointEigenSolver<MatrixXd>(*x).eigenvalues().minCoeff(),
+      EXPECT_GE(pitwall::testing::smallest_eigenvalue(pitwall::testing::numbers_of(*x)),
                 -1e-9 * x->norm());
     }
   }

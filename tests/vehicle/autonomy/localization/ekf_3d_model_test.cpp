@@ -14,8 +14,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-const SpatialParams kParams = testing::recommended_spatial();
-
 std::vector<SpatialBelief> beliefs() {
   std::vector<SpatialBelief> all;
   for (const Angles& a : {Angles{0.3, -0.02, -0.35}, Angles{-3.0, 0.05, 0.1}, Angles{1.6, 0, 0}}) {
@@ -60,17 +58,25 @@ std::vector<Model> models() {
                          .direction_rad = 0.4};
   using B = SpatialBelief;
   return {
-      [](const B& b) { return antenna_position(b, kParams, of(Kind::kPosition, 0, 9, -19, 2)); },
       [](const B& b) {
-        return antenna_position(b, kParams, of(Kind::kPosition, 1, 9, -19, kUnset));
+        return antenna_position(b, testing::kSpatialParams, of(Kind::kPosition, 0, 9, -19, 2));
       },
-      [](const B& b) { return antenna_velocity(b, kParams, of(Kind::kVelocity, 1, 30, 40, 1)); },
-      [](const B& b) { return baseline_heading(b, kParams, of(Kind::kHeading, 1, 1.0, 0, 0)); },
-      [](const B& b) { return wheel_speed(b, kParams, of(Kind::kWheelSpeed, 0, 60, 0, 0)); },
-      [](const B& b) { return rear_slip(b, kParams); },
-      [](const B& b) { return road_tilt(b, kParams, road); },
-      [](const B& b) { return road_height(b, kParams, road); },
-      [](const B& b) { return road_normal(b, kParams, road); },
+      [](const B& b) {
+        return antenna_position(b, testing::kSpatialParams, of(Kind::kPosition, 1, 9, -19, kUnset));
+      },
+      [](const B& b) {
+        return antenna_velocity(b, testing::kSpatialParams, of(Kind::kVelocity, 1, 30, 40, 1));
+      },
+      [](const B& b) {
+        return baseline_heading(b, testing::kSpatialParams, of(Kind::kHeading, 1, 1.0, 0, 0));
+      },
+      [](const B& b) {
+        return wheel_speed(b, testing::kSpatialParams, of(Kind::kWheelSpeed, 0, 60, 0, 0));
+      },
+      [](const B& b) { return rear_slip(b, testing::kSpatialParams); },
+      [](const B& b) { return road_tilt(b, testing::kSpatialParams, road); },
+      [](const B& b) { return road_height(b, testing::kSpatialParams, road); },
+      [](const B& b) { return road_normal(b, testing::kSpatialParams, road); },
   };
 }
 
@@ -105,10 +111,10 @@ TEST(Ekf3dModel, AReceiversAttitudeShowsTheErrorItself) {
     inject(truth, error);
     const Angles a = angles_of(quaternion_of(truth).toRotationMatrix());
     Measurement m = of(Kind::kAttitude, 0, a.roll_rad, a.pitch_rad, a.yaw_rad);
-    const Observation o = receiver_attitude(b, kParams, m);
+    const Observation o = receiver_attitude(b, testing::kSpatialParams, m);
     EXPECT_LT((o.residual - o.jacobian * error).norm(), 1e-7);
     m.c = kUnset;
-    EXPECT_EQ(receiver_attitude(b, kParams, m).size, 2);
+    EXPECT_EQ(receiver_attitude(b, testing::kSpatialParams, m).size, 2);
   }
 }
 
@@ -126,9 +132,9 @@ TEST(Ekf3dModel, TheTruthLeavesNoResidual) {
     as_vector(b.now.force_mps2) = oval.force(t);
     const Road road = oval.road(t);
     EXPECT_LT((normal_of(road) - testing::Oval::up(road)).norm(), 1e-12);
-    EXPECT_LT(road_tilt(b, kParams, road).residual.norm(), 1e-9);
-    EXPECT_LT(road_height(b, kParams, road).residual.norm(), 1e-9);
-    EXPECT_LT(road_normal(b, kParams, road).residual.norm(), 1e-6);
+    EXPECT_LT(road_tilt(b, testing::kSpatialParams, road).residual.norm(), 1e-9);
+    EXPECT_LT(road_height(b, testing::kSpatialParams, road).residual.norm(), 1e-9);
+    EXPECT_LT(road_normal(b, testing::kSpatialParams, road).residual.norm(), 1e-6);
     const Vector3d arm(1.3, -0.5, 0.7);
     constexpr double kStep_s = 5e-4;
     const auto antenna = [&](double at) -> Vector3d {
@@ -136,11 +142,13 @@ TEST(Ekf3dModel, TheTruthLeavesNoResidual) {
     };
     const Vector3d v = (antenna(t + kStep_s) - antenna(t - kStep_s)) / (2.0 * kStep_s);
     EXPECT_LT(
-        antenna_velocity(b, kParams, of(Kind::kVelocity, 0, v.x(), v.y(), v.z())).residual.norm(),
+        antenna_velocity(b, testing::kSpatialParams, of(Kind::kVelocity, 0, v.x(), v.y(), v.z()))
+            .residual.norm(),
         1e-4);
-    EXPECT_LT(wheel_speed(b, kParams, of(Kind::kWheelSpeed, 0, oval.forward_mps(t), 0, 0))
-                  .residual.norm(),
-              1e-9);
+    EXPECT_LT(
+        wheel_speed(b, testing::kSpatialParams, of(Kind::kWheelSpeed, 0, oval.forward_mps(t), 0, 0))
+            .residual.norm(),
+        1e-9);
   }
 }
 
@@ -148,24 +156,27 @@ TEST(Ekf3dModel, TyresSlipByTheirForceButNotAtWalkingPace) {
   SpatialBelief b;
   b.velocity_mps = {60.0, 0.0, 0.0};
   b.now = {{0.0, 0.0, 0.3}, {0.0, 18.0, 9.8}};
-  EXPECT_NEAR(rear_slip(b, kParams).residual[0], 1.247 * 0.3 - 60.0 * 0.0014 * 18.0, 1e-12);
+  EXPECT_NEAR(rear_slip(b, testing::kSpatialParams).residual[0], 1.247 * 0.3 - 60.0 * 0.0014 * 18.0,
+              1e-12);
   b.velocity_mps = {4.0, 0.0, 0.0};
-  EXPECT_NEAR(rear_slip(b, kParams).residual[0], 1.247 * 0.3, 1e-12);
+  EXPECT_NEAR(rear_slip(b, testing::kSpatialParams).residual[0], 1.247 * 0.3, 1e-12);
 }
 
 TEST(Ekf3dModel, SigmasAreTheReceiversWhereItSaysThem) {
   const SpatialBelief b;
   Measurement m = of(Kind::kVelocity, 0, 0, 0, 0);
-  EXPECT_NEAR(antenna_velocity(b, kParams, m).variance[0], 1e-4, 1e-15);
+  EXPECT_NEAR(antenna_velocity(b, testing::kSpatialParams, m).variance[0], 1e-4, 1e-15);
   m.sigma_a = m.sigma_b = m.sigma_c = kUnset;
-  EXPECT_NEAR(antenna_velocity(b, kParams, m).variance[0], std::pow(kParams.velocity_sigma_mps, 2),
-              1e-15);
-  EXPECT_NEAR(antenna_velocity(b, kParams, m).variance[2],
-              std::pow(kParams.vertical_velocity_sigma_mps, 2), 1e-15);
+  EXPECT_NEAR(antenna_velocity(b, testing::kSpatialParams, m).variance[0],
+              std::pow(testing::kSpatialParams.velocity_sigma_mps, 2), 1e-15);
+  EXPECT_NEAR(antenna_velocity(b, testing::kSpatialParams, m).variance[2],
+              std::pow(testing::kSpatialParams.vertical_velocity_sigma_mps, 2), 1e-15);
   // White and wandering part together are what the receiver says, and the floor.
-  const Observation o = antenna_position(b, kParams, of(Kind::kPosition, 1, 0, 0, 0));
+  const Observation o =
+      antenna_position(b, testing::kSpatialParams, of(Kind::kPosition, 1, 0, 0, 0));
   const double wandering = std::pow(o.jacobian(0, kDw + 3), 2);
-  EXPECT_NEAR(o.variance[0] + wandering, 1e-4 + std::pow(kParams.position_sigma_floor_m, 2), 1e-12);
+  EXPECT_NEAR(o.variance[0] + wandering,
+              1e-4 + std::pow(testing::kSpatialParams.position_sigma_floor_m, 2), 1e-12);
   EXPECT_EQ(o.jacobian(0, kDw), 0.0);  // of the other receiver
 }
 

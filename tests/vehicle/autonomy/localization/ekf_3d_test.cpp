@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "tests/vehicle/autonomy/localization/oval.hpp"
+#include "vehicle/autonomy/localization/ekf_3d_errors.hpp"
 #include "vehicle/autonomy/localization/rotation.hpp"
 
 namespace pitwall::localization {

@@ -3,18 +3,17 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "tests/support/eigenvalues.hpp"
 #include "tests/vehicle/autonomy/localization/oval.hpp"
+#include "vehicle/autonomy/localization/ekf_3d_errors.hpp"
 
 namespace pitwall::localization {
 namespace {
 
 using testing::Oval;
 using testing::OvalDrive;
-
-const SpatialParams kParams = testing::recommended_spatial();
 
 SpatialBelief sure(double sigma) {
   SpatialBelief b;
@@ -64,7 +63,7 @@ TEST(Ekf3dUpdate, CovarianceStaysSymmetricAndPositive) {
     // Scaled to ones on the diagonal: the numbers are of very different units.
     const ErrorVector scale = c.diagonal().cwiseSqrt().cwiseInverse();
     const ErrorMatrix unit = scale.asDiagonal() * c * scale.asDiagonal();
-    ASSERT_GT(Eigen::SelfAdjointEigenSolver<ErrorMatrix>(unit).eigenvalues().minCoeff(), 0.0) << n;
+    ASSERT_GT(pitwall::testing::smallest_eigenvalue(pitwall::testing::numbers_of(unit)), 0.0) << n;
   }
   EXPECT_GT(n, 20'000);
 }
@@ -73,7 +72,8 @@ TEST(Ekf3dUpdate, GateRefusesAndLeavesTheBeliefAlone) {
   for (const double off : {0.05, 0.20, kUnset}) {
     SpatialBelief b = sure(0.01);
     const SpatialBelief before = b;
-    const Innovation i = SpatialModel::fold(b, kParams, position_at(off, 0.0, b.at), nullptr);
+    const Innovation i =
+        SpatialModel::fold(b, testing::kSpatialParams, position_at(off, 0.0, b.at), nullptr);
     EXPECT_EQ(i.size, 3);
     EXPECT_EQ(i.accepted, off == 0.05) << off;
     EXPECT_EQ(b.position_m == before.position_m, !i.accepted);
@@ -89,12 +89,13 @@ TEST(Ekf3dUpdate, RefusedForLongTheyAreBelieved) {
   for (std::int64_t i = 1; i < 60; ++i) {
     const Instant at{i * 50'000'000};
     b.last_imu_at = at;  // it goes on saying that the car stands
-    const Innovation one = SpatialModel::fold(b, kParams, position_at(2.0, -1.0, at), nullptr);
+    const Innovation one =
+        SpatialModel::fold(b, testing::kSpatialParams, position_at(2.0, -1.0, at), nullptr);
     if (one.accepted) break;
     refused_for_s = (at - Instant{}).seconds();
     EXPECT_LT(std::hypot(b.position_m[0], b.position_m[1]), 0.1);
   }
-  EXPECT_NEAR(refused_for_s, kParams.reacquire_s, 0.11);
+  EXPECT_NEAR(refused_for_s, testing::kSpatialParams.reacquire_s, 0.11);
   EXPECT_NEAR(b.position_m[0], 2.0, 0.3);
   EXPECT_NEAR(b.position_m[1], -1.0, 0.3);
 }
@@ -108,8 +109,8 @@ TEST(Ekf3dUpdate, OneThatFitsKeepsTheOtherOut) {
     b.last_imu_at = at;
     Measurement bad = position_at(2.0, 0.0, at), good = position_at(0.0, 0.0, at);
     good.unit = 1;
-    EXPECT_FALSE(SpatialModel::fold(b, kParams, bad, nullptr).accepted);
-    EXPECT_TRUE(SpatialModel::fold(b, kParams, good, nullptr).accepted);
+    EXPECT_FALSE(SpatialModel::fold(b, testing::kSpatialParams, bad, nullptr).accepted);
+    EXPECT_TRUE(SpatialModel::fold(b, testing::kSpatialParams, good, nullptr).accepted);
   }
   EXPECT_LT(std::abs(b.position_m[0]), 0.05);
 }
@@ -120,16 +121,17 @@ TEST(Ekf3dUpdate, AModelIsWorthItsTimeNotItsNumber) {
     SpatialBelief b = sure(0.3);
     for (std::int64_t ms = every_ms; ms <= 2000; ms += every_ms) {
       b.last_imu_at = Instant{ms * 1'000'000};
-      (void)SpatialModel::fold(
-          b, kParams, {.kind = Kind::kWheelSpeed, .at = b.last_imu_at, .a = 30.0}, nullptr);
+      (void)SpatialModel::fold(b, testing::kSpatialParams,
+                               {.kind = Kind::kWheelSpeed, .at = b.last_imu_at, .a = 30.0},
+                               nullptr);
     }
-    advance(b, kParams, Instant{} + seconds(2), nullptr);
+    advance(b, testing::kSpatialParams, Instant{} + seconds(2), nullptr);
     return sigma_of(b, kDv);
   };
   SpatialBelief without = sure(0.3);
   for (std::int64_t ms = 50; ms <= 2000; ms += 50) {
     without.last_imu_at = Instant{ms * 1'000'000};
-    advance(without, kParams, without.last_imu_at, nullptr);
+    advance(without, testing::kSpatialParams, without.last_imu_at, nullptr);
   }
   EXPECT_NEAR(sigma_after(10), sigma_after(50), 0.01 * sigma_after(50));
   EXPECT_LT(sigma_after(10), 0.8 * sigma_of(without, kDv));
@@ -141,10 +143,10 @@ TEST(Ekf3dUpdate, AReceiverThatChangesItsSigmaHasAnotherError) {
   b.unit_sigma_m = {0.01, 0.01};
   SpatialBelief worse = b;
   Measurement m = position_at(0.0, 0.0, b.at);
-  (void)SpatialModel::fold(b, kParams, m, nullptr);
+  (void)SpatialModel::fold(b, testing::kSpatialParams, m, nullptr);
   EXPECT_LT(sigma_of(b, kDw), 0.011);  // as sure as it was
   m.sigma_a = m.sigma_b = 0.15;
-  (void)SpatialModel::fold(worse, kParams, m, nullptr);
+  (void)SpatialModel::fold(worse, testing::kSpatialParams, m, nullptr);
   EXPECT_GT(sigma_of(worse, kDw), 0.3);  // what was known is forgotten, this one says a little
   EXPECT_EQ(sigma_of(worse, kDw + 3), sigma_of(b, kDw + 3));  // not so the other
 }
@@ -152,7 +154,7 @@ TEST(Ekf3dUpdate, AReceiverThatChangesItsSigmaHasAnotherError) {
 TEST(Ekf3dUpdate, WideningTakesConfidenceAway) {
   SpatialBelief b = sure(0.01);
   Measurement m{.kind = Kind::kWiden, .at = b.at, .sigma_a = 3.0, .sigma_b = 4.0};
-  (void)SpatialModel::fold(b, kParams, m, nullptr);
+  (void)SpatialModel::fold(b, testing::kSpatialParams, m, nullptr);
   EXPECT_NEAR(sigma_of(b, 0), 3.0, 1e-4);
   EXPECT_NEAR(sigma_of(b, 1), 4.0, 1e-4);
   EXPECT_NEAR(sigma_of(b, 2), 0.01, 1e-12);

@@ -8,7 +8,7 @@
 namespace pitwall::localization {
 namespace {
 
-const PlanarParams kParams = testing::recommended_planar();
+const PlanarParams kPlanarParams = testing::recommended_planar();
 
 PlanarBelief at_speed(double vx_mps) {
   PlanarBelief b;
@@ -18,7 +18,7 @@ PlanarBelief at_speed(double vx_mps) {
 }
 
 Innovation fold(PlanarBelief& b, const Measurement& m) {
-  return PlanarModel::fold(b, kParams, m, nullptr);
+  return PlanarModel::fold(b, kPlanarParams, m, nullptr);
 }
 
 TEST(EkfPlanar, DrivesByTheImuAndTheBankOfTheRoad) {
@@ -42,14 +42,15 @@ TEST(EkfPlanar, GivesEachSensorItsSigma) {
     return std::sqrt(1.0 / (1.0 / left - 4.0));
   };
   Measurement p{.kind = Kind::kPosition, .a = 0, .b = 0, .sigma_a = 0.03, .sigma_b = 0.03};
-  EXPECT_NEAR(sigma_after(p, kX), std::hypot(0.03, kParams.position_sigma_floor_m), 1e-9);
+  EXPECT_NEAR(sigma_after(p, kX), std::hypot(0.03, kPlanarParams.position_sigma_floor_m), 1e-9);
   Measurement v{.kind = Kind::kVelocity, .a = 50, .b = 0, .sigma_a = 9.0};  // its own is not asked
-  EXPECT_NEAR(sigma_after(v, kVx), kParams.velocity_sigma_mps, 1e-3);
+  EXPECT_NEAR(sigma_after(v, kVx), kPlanarParams.velocity_sigma_mps, 1e-3);
   Measurement h{.kind = Kind::kHeading, .a = 0};  // says nothing of its sigma
-  EXPECT_NEAR(sigma_after(h, kYaw), kParams.heading_sigma_floor_rad, 1e-9);
+  EXPECT_NEAR(sigma_after(h, kYaw), kPlanarParams.heading_sigma_floor_rad, 1e-9);
   Measurement w{.kind = Kind::kWheelSpeed, .a = 50};
   EXPECT_NEAR(sigma_after(w, kVx),
-              std::hypot(kParams.wheel_sigma_mps, 50 * kParams.wheel_sigma_per_speed), 1e-6);
+              std::hypot(kPlanarParams.wheel_sigma_mps, 50 * kPlanarParams.wheel_sigma_per_speed),
+              1e-6);
 }
 
 TEST(EkfPlanar, TheTyreModelStandsInForAVelocityThatIsMissing) {

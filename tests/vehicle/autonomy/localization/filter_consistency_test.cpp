@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "tests/vehicle/autonomy/localization/oval.hpp"
+#include "vehicle/autonomy/localization/ekf_3d_errors.hpp"
 #include "vehicle/autonomy/localization/filter.hpp"
 #include "vehicle/autonomy/localization/rotation.hpp"
 
@@ -19,7 +20,7 @@ using testing::Oval;
 using testing::OvalDrive;
 
 constexpr int kSeeds = 20;
-constexpr double kFor_s = 30.0;
+constexpr double kDrive_s = 30.0;
 constexpr std::int64_t kEvery_ms = 4000, kFrom_ms = 10'000;
 
 using Vector9 = Eigen::Matrix<double, 9, 1>;
@@ -58,11 +59,11 @@ std::vector<Sums> sums_over_seeds() {
   std::vector<Sums> sums;
   for (int seed = 1; seed <= kSeeds; ++seed) {
     OvalDrive drive(oval, static_cast<std::uint64_t>(seed));
-    const auto all = drive.run(kFor_s);
+    const auto all = drive.run(kDrive_s);
     auto state = std::make_unique<FilterState>();
     start(*state, p, drive.seed());
     std::size_t next = 0, row = 0;
-    for (std::int64_t ms = kFrom_ms; ms < static_cast<std::int64_t>(kFor_s * 1e3);
+    for (std::int64_t ms = kFrom_ms; ms < static_cast<std::int64_t>(kDrive_s * 1e3);
          ms += kEvery_ms) {
       for (; next < all.size() && all[next].at_ms <= ms; ++next)
         (void)insert(*state, p, all[next].measurement);

@@ -75,6 +75,7 @@ inline SpatialParams recommended_spatial() {
           .cg_height_m = 0.28,
           .attitude_sigma_floor_rad = 0.01};
 }
+inline const SpatialParams kSpatialParams = recommended_spatial();
 
 inline FilterParams recommended_filter(FilterKind kind = FilterKind::kSpatial) {
   return {.kind = kind,

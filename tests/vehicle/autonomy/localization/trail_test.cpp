@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
+#include "tests/vehicle/autonomy/localization/course_geometry.hpp"
 #include "tests/vehicle/autonomy/localization/drive.hpp"
 
 namespace pitwall::localization {
@@ -15,7 +17,7 @@ using testing::Course;
 
 Estimate estimate_of(const Course& course, double t_s) {
   const world::EgoState e = course.at(t_s);
-  const Eigen::Vector3d w = course.rate(t_s);
+  const Eigen::Vector3d w = rate(course, t_s);
   Estimate out;
   out.at = Instant{std::llround(t_s * 1e9)};
   out.position_m = {e.x_m, e.y_m, e.z_m};
@@ -56,7 +58,7 @@ TEST(Trail, AnAntennaIsWhereTheCarCarriesIt) {
       const double t = ms * 1e-3, h = 1e-4;
       const LeverArm arm{0.758, -0.497, 0.109};
       const auto path = [&](double s) -> Eigen::Vector3d {
-        return course.place(s) + course.attitude(s) * Eigen::Vector3d{arm.x_m, arm.y_m, arm.z_m};
+        return place(course, s) + attitude(course, s) * Eigen::Vector3d{arm.x_m, arm.y_m, arm.z_m};
       };
       const Eigen::Vector3d at = path(t), speed = (path(t + h) - path(t - h)) / (2 * h);
       const auto lever = moment->arm_m(arm), velocity = moment->antenna_mps(arm);
@@ -75,7 +77,7 @@ TEST(Trail, ABaselineAcrossABankedCarPointsWhereItPoints) {
   const Moment moment = *trail_of(course, 10).newest();
   for (const double direction : {0.0, std::numbers::pi / 2.0, -1.0}) {
     const Eigen::Vector3d line =
-        course.attitude(0.09) * Eigen::Vector3d{std::cos(direction), std::sin(direction), 0.0};
+        attitude(course, 0.09) * Eigen::Vector3d{std::cos(direction), std::sin(direction), 0.0};
     EXPECT_NEAR(wrap_pi(moment.azimuth_rad(direction) - std::atan2(line.y(), line.x())), 0.0, 1e-9);
   }
 }

@@ -17,7 +17,7 @@ using testing::recommended;
 using world::TrackFlag;
 using world::VehicleFlag;
 
-struct Rig {
+struct PlanningRig {
   Params params = recommended();
   world::TrackMap track = testing::stadium();
   Line line = prepare(params, track).value();
@@ -98,7 +98,7 @@ TEST(Planning, MostRestrictiveWins) {
 }
 
 TEST(Planning, SpeedNeverStepsWhateverIsDemanded) {
-  Rig rig;
+  PlanningRig rig;
   double last = 0.0, last_accel = 0.0;
   for (int i = 0; i < 1200; ++i) {
     world::RaceControl rc = green((i / 150) % 2 == 0 ? 60.0 : 30.0);
@@ -115,7 +115,7 @@ TEST(Planning, SpeedNeverStepsWhateverIsDemanded) {
 }
 
 TEST(Planning, TrajectoriesAreDrivableAllRound) {
-  Rig rig;
+  PlanningRig rig;
   rig.speed_mps = 60.0;
   for (int i = 0; i < 800; ++i) {
     const Output out = rig.tick(green(60.0));
@@ -130,7 +130,7 @@ TEST(Planning, TrajectoriesAreDrivableAllRound) {
 }
 
 TEST(Planning, FollowingTheStopBringsTheCarToRest) {
-  Rig rig;
+  PlanningRig rig;
   rig.speed_mps = 65.0;
   for (int i = 0; i < 40; ++i) (void)rig.tick(green(65.0));
   const double promised_m = rig.s_m + rig.tick(green(65.0)).stop_distance_m;
@@ -145,7 +145,7 @@ TEST(Planning, FollowingTheStopBringsTheCarToRest) {
 }
 
 TEST(Planning, ReferenceStaysNearACarThatDoesNotFollow) {
-  Rig rig;
+  PlanningRig rig;
   for (int i = 0; i < 200; ++i) {
     const Output out = rig.tick(green(60.0));
     rig.speed_mps = 0.0, rig.s_m = 0.0;  // it does not start
@@ -156,7 +156,7 @@ TEST(Planning, ReferenceStaysNearACarThatDoesNotFollow) {
 }
 
 TEST(Planning, MergesFromBesideTheLineWithoutAStep) {
-  Rig rig;
+  PlanningRig rig;
   rig.offset_m = -5.0, rig.speed_mps = 20.0;
   double last_m = rig.offset_m;
   for (int i = 0; i < 200; ++i) {
@@ -172,7 +172,7 @@ TEST(Planning, MergesFromBesideTheLineWithoutAStep) {
 }
 
 TEST(Planning, WithoutEgoThereIsNoTrajectory) {
-  Rig rig;
+  PlanningRig rig;
   rig.speed_mps = 30.0;
   (void)rig.tick(green(30.0));
   world::EgoState lost = ego_on(rig.line, rig.s_m, 0.0, 30.0), nan = lost;
@@ -191,7 +191,7 @@ TEST(Planning, WithoutEgoThereIsNoTrajectory) {
 }
 
 TEST(Planning, TheLineLimitsTheSpeed) {
-  Rig rig;
+  PlanningRig rig;
   rig.params.line.speed_max_mps = 25.0;
   rig.line = prepare(rig.params, rig.track).value();
   Output out;
@@ -203,7 +203,7 @@ TEST(Planning, TheLineLimitsTheSpeed) {
 
 TEST(Planning, TakesNothingFromTheHeap) {
   if (!pitwall::testing::kAllocationsCounted) GTEST_SKIP() << "the sanitizer has its own heap";
-  Rig rig;
+  PlanningRig rig;
   rig.offset_m = -4.0, rig.speed_mps = 50.0;
   EXPECT_EQ(pitwall::testing::allocations_of([&] {
               for (int i = 0; i < 20; ++i) (void)rig.tick(green(60.0));

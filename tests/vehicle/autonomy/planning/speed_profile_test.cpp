@@ -11,7 +11,7 @@
 namespace pitwall::planning {
 namespace {
 
-const Params kParams = testing::recommended();
+using testing::kParams;
 
 Line line_of(double radius_m = 200.0) {
   auto line = build_line(testing::stadium(radius_m), kParams.line);

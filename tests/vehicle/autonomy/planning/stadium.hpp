@@ -61,6 +61,7 @@ inline Params recommended() {
   p.merge_from_m = 1.5, p.merge_time_s = 4.0, p.merge_least_m = 60.0;
   return p;
 }
+inline const Params kParams = recommended();
 
 inline world::RaceControl green(double round_speed_mps = kUnset) {
   world::RaceControl rc;

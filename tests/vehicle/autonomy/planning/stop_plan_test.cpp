@@ -17,9 +17,7 @@ namespace {
 
 using testing::ego_on;
 using testing::green;
-using testing::recommended;
-
-const Params kParams = recommended();
+using testing::kParams;
 
 StopLimits limits_on(double tyre_c) {
   return {on_tyres(kParams.line.friction, tyre_c), kParams.stop_grip_share,
@@ -113,13 +111,13 @@ TEST(StopPlan, ColdTyresNeverBrakeHarderAndNoTemperatureIsCold) {
             brake_available_mps2(limits_on(-20.0).friction, at, 0.7));
 }
 
-struct Rig {
+struct StopRig {
   world::TrackMap track = testing::stadium(230.0);
   Line line = prepare(kParams, track).value();
 };
 
 TEST(StopPlan, PathEndsNoHigherKeepsItsClearanceAndNeverSteps) {
-  const Rig rig;
+  const StopRig rig;
   int moved = 0;
   for (double s = 0.0; s < rig.line.length_m; s += 61.0) {
     for (const double v : {15.0, 40.0, 66.0}) {
@@ -155,7 +153,7 @@ TEST(StopPlan, PathEndsNoHigherKeepsItsClearanceAndNeverSteps) {
 }
 
 TEST(StopPlan, ConsecutivePlansAndTheChangeToTheStopAreContinuous) {
-  const Rig rig;
+  const StopRig rig;
   for (const Followed followed : {Followed::kStop, Followed::kEmergency}) {
     State state;
     double s = 300.0, v = 65.0;

@@ -9,7 +9,7 @@
 namespace pitwall::localization {
 namespace {
 
-constexpr double kGapMax_s = 0.5;  // a unit that was away for longer is learned anew
+constexpr double kAwayMax_s = 0.5;  // a unit that was away for longer is learned anew
 
 struct Offset {
   double x_m, y_m;
@@ -51,7 +51,7 @@ void learn(const CheckParams& params, DriftWatch& watch, std::size_t unit, doubl
   const double dt_s = (at - u.at).seconds();
   if (u.known && dt_s <= 0.0) return;
   const Offset offset = less_the_way(watch, x_m, y_m, at);
-  const bool follows = u.known && dt_s <= kGapMax_s;
+  const bool follows = u.known && dt_s <= kAwayMax_s;
   const double share = follows ? std::min(dt_s / params.drift_memory_s, 1.0) : 1.0;
   u.x_m += share * (offset.x_m - u.x_m);
   u.y_m += share * (offset.y_m - u.y_m);

@@ -8,7 +8,7 @@ namespace pitwall::localization {
 namespace {
 
 constexpr double kMeanLag_s = 0.02;
-constexpr double kGapMax_s = 0.1;  // nothing is integrated over more
+constexpr double kIntegrateMax_s = 0.1;  // nothing is integrated over more
 constexpr double kCourseSpanMin_s = 0.09, kCourseSpanMax_s = 0.35, kCourseAgeMax_s = 0.25;
 constexpr double kTogether = 0.5;  // of the limit: hysteresis, and what may be learned
 constexpr std::size_t kRateZ = 2, kForceX = 3, kForceY = 4;
@@ -107,7 +107,7 @@ void note(ImuWatch& watch, const world::ImuSample& sample) {
   ImuWatch::Unit& unit = watch.units[sample.unit];
   const ImuAxes axes = axes_of(sample);
   const double dt_s = (sample.at - unit.at).seconds();
-  const bool follows = unit.heard && dt_s > 0.0 && dt_s <= kGapMax_s;
+  const bool follows = unit.heard && dt_s > 0.0 && dt_s <= kIntegrateMax_s;
   if (unit.heard && dt_s <= 0.0) return;  // a late one has no part in a mean
   const double share = follows ? dt_s / (dt_s + kMeanLag_s) : 1.0;
   for (std::size_t axis = 0; axis < kImuAxes; ++axis)

@@ -11,7 +11,7 @@ namespace pitwall::localization {
 namespace {
 
 // A car on a circle at 60 m/s and a unit that says where it is, 30 ms late, at 20 Hz.
-struct Rig {
+struct DriftRig {
   CheckParams params{};
   DriftWatch watch{};
   int ms = 0;
@@ -47,13 +47,13 @@ TEST(DriftWatch, KnowsNothingOfAUnitThatWasNotHeard) {
 }
 
 TEST(DriftWatch, AUnitThatGoesWithTheCarDoesNotStray) {
-  Rig rig;
+  DriftRig rig;
   rig.run(20.0);
   EXPECT_LT(rig.stray, 0.02);
 }
 
 TEST(DriftWatch, AStepIsSeenAtOnceAndStaysSeenWhileItIsRefused) {
-  Rig rig;
+  DriftRig rig;
   rig.run(10.0);
   rig.error_x_m = 0.3;
   rig.refused = true;
@@ -64,7 +64,7 @@ TEST(DriftWatch, AStepIsSeenAtOnceAndStaysSeenWhileItIsRefused) {
 }
 
 TEST(DriftWatch, ADriftShowsWithinItsMemory) {
-  Rig rig;
+  DriftRig rig;
   rig.run(10.0);
   for (int i = 0; i < 300; ++i) {
     rig.error_x_m += 0.0005;  // 5 cm/s
@@ -75,7 +75,7 @@ TEST(DriftWatch, ADriftShowsWithinItsMemory) {
 }
 
 TEST(DriftWatch, ForgottenMeansUnknown) {
-  Rig rig;
+  DriftRig rig;
   rig.run(1.0);
   forget(rig.watch);
   EXPECT_TRUE(std::isnan(stray_m(rig.watch, 0, 0.0, 0.0, Instant{})));

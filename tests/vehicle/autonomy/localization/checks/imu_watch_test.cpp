@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kRateZ = 2, kForceX = 3, kForceY = 4;
 
 // Two units at 125 Hz, a receiver's course at 20 Hz and 35 ms late, in a steady turn.
-struct Rig {
+struct ImuRig {
   CheckParams params{};
   ImuWatch watch{};
   ImuWitness witness{.speed_mps = 60.0, .accel_mps2 = 0.0};
@@ -57,7 +57,7 @@ struct Rig {
 };
 
 TEST(ImuWatch, TwoThatAgreeAreNotApart) {
-  Rig rig;
+  ImuRig rig;
   rig.error[1][kRateZ] = 0.004;  // an ordinary bias
   for (int i = 0; i < 1000; ++i) {
     rig.tick();
@@ -74,7 +74,7 @@ TEST(ImuWatch, WhoLiesIsBlamedInTime) {
     for (const double sign : {-1.0, 1.0}) {
       for (const auto& [axis, size] :
            {std::pair{kRateZ, 0.05}, {kRateZ, 0.5}, {kForceX, 3.0}, {kForceY, 3.0}}) {
-        Rig rig;
+        ImuRig rig;
         rig.run(5.0);
         rig.error[liar][axis] = sign * size;
         EXPECT_LE(rig.blamed_after_s(), 0.20) << liar << " axis " << axis << " " << sign * size;
@@ -85,7 +85,7 @@ TEST(ImuWatch, WhoLiesIsBlamedInTime) {
 }
 
 TEST(ImuWatch, TheBlameEndsAfterAWhileTogether) {
-  Rig rig;
+  ImuRig rig;
   rig.run(3.0);
   rig.error[0][kRateZ] = 0.1;
   rig.run(0.5);
@@ -100,7 +100,7 @@ TEST(ImuWatch, TheBlameEndsAfterAWhileTogether) {
 }
 
 TEST(ImuWatch, WithoutAWitnessNobodyIsBlamed) {
-  Rig rig;
+  ImuRig rig;
   rig.has_course = false;
   rig.run(3.0);
   rig.error[0][kRateZ] = 0.1;
@@ -109,7 +109,7 @@ TEST(ImuWatch, WithoutAWitnessNobodyIsBlamed) {
 }
 
 TEST(ImuWatch, AtRestAUnitThatTurnsIsBlamed) {
-  Rig rig;
+  ImuRig rig;
   rig.yaw_rate = 0.0;
   rig.has_course = false;
   rig.witness = {.speed_mps = 0.0, .accel_mps2 = 0.0, .stands = true};
@@ -120,7 +120,7 @@ TEST(ImuWatch, AtRestAUnitThatTurnsIsBlamed) {
 }
 
 TEST(ImuWatch, OneThatIsSilentIsNotComparedWith) {
-  Rig rig;
+  ImuRig rig;
   rig.run(3.0);
   rig.silent[1] = true;
   rig.run(0.2);
@@ -131,7 +131,7 @@ TEST(ImuWatch, OneThatIsSilentIsNotComparedWith) {
 }
 
 TEST(ImuWatch, EnteringATurnBlamesNobody) {
-  Rig rig;
+  ImuRig rig;
   rig.yaw_rate = 0.0;
   rig.run(3.0);
   for (int i = 0; i < 200; ++i) {

@@ -7,7 +7,7 @@ namespace pitwall::localization {
 namespace {
 
 // A stream at 20 Hz.
-struct Rig {
+struct TrustRig {
   CheckParams params{};
   Trust trust{};
   Instant now{seconds(5).ns};
@@ -28,12 +28,12 @@ struct Rig {
 };
 
 TEST(Trust, IsThereFromTheStart) {
-  Rig rig;
+  TrustRig rig;
   EXPECT_TRUE(rig.good());
 }
 
 TEST(Trust, SurvivesASingleRefusal) {
-  Rig rig;
+  TrustRig rig;
   ASSERT_TRUE(rig.good());
   for (int i = 0; i < 20; ++i) {
     rig.bad();
@@ -44,7 +44,7 @@ TEST(Trust, SurvivesASingleRefusal) {
 
 TEST(Trust, IsLostByRefusalsInARowAndComesBackAfterAWhileOfConsistency) {
   for (const bool alone : {false, true}) {
-    Rig rig;
+    TrustRig rig;
     rig.alone = alone;
     ASSERT_TRUE(rig.good());
     for (int i = 0; i < 3; ++i) rig.bad();
@@ -58,7 +58,7 @@ TEST(Trust, IsLostByRefusalsInARowAndComesBackAfterAWhileOfConsistency) {
 }
 
 TEST(Trust, EveryRefusalBeginsTheWhileAnew) {
-  Rig rig;
+  TrustRig rig;
   for (int i = 0; i < 3; ++i) rig.bad();
   for (int round = 0; round < 5; ++round) {
     for (int i = 0; i < 15; ++i) EXPECT_FALSE(rig.good());
@@ -67,7 +67,7 @@ TEST(Trust, EveryRefusalBeginsTheWhileAnew) {
 }
 
 TEST(Trust, ALongSilenceEndsIt) {
-  Rig rig;
+  TrustRig rig;
   ASSERT_TRUE(rig.good());
   rig.now += milliseconds(800);
   EXPECT_TRUE(rig.good()) << "a short one does not";

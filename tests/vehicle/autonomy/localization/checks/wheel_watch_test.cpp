@@ -13,7 +13,7 @@ namespace {
 constexpr double kHalfTrack_m = 0.82;
 
 // A car with four wheels, one of which may lie, at 100 Hz.
-struct Rig {
+struct WheelRig {
   CheckParams params{};
   WheelWatch watch{};
   double speed_mps = 50.0, yaw_rate_rad_per_s = 0.0, by_receivers_mps = kUnset;
@@ -36,7 +36,7 @@ struct Rig {
 TEST(WheelWatch, FourGoodWheelsSayTheSpeedOnStraightsAndInTurns) {
   for (const double speed : {0.0, 3.0, 30.0, 80.0}) {
     for (const double turn : {-0.4, 0.0, 0.4}) {
-      Rig rig{.speed_mps = speed, .yaw_rate_rad_per_s = turn};
+      WheelRig rig{.speed_mps = speed, .yaw_rate_rad_per_s = turn};
       const WheelSpeed said = rig.tick();
       EXPECT_NEAR(said.speed_mps, speed, 1e-9) << speed << " " << turn;
       EXPECT_FALSE(said.contradiction);
@@ -49,7 +49,7 @@ TEST(WheelWatch, AnyOneWheelThatLocksSpinsOrIsLostDoesNotEnter) {
   for (const bool with_receivers : {false, true}) {
     for (std::size_t wheel = 0; wheel < world::kCorners; ++wheel) {
       for (const double factor : {0.0, 0.5, 1.3, 3.0, -1.0, kUnset, 1e9}) {
-        Rig rig;
+        WheelRig rig;
         if (with_receivers) rig.by_receivers_mps = rig.speed_mps;
         rig.tick();
         rig.factor[wheel] = factor;
@@ -64,7 +64,7 @@ TEST(WheelWatch, AnyOneWheelThatLocksSpinsOrIsLostDoesNotEnter) {
 }
 
 TEST(WheelWatch, AWheelComesBackAfterAWhileOfAgreement) {
-  Rig rig;
+  WheelRig rig;
   rig.factor[2] = 0.0;
   rig.tick();
   rig.factor[2] = 1.0;
@@ -74,7 +74,7 @@ TEST(WheelWatch, AWheelComesBackAfterAWhileOfAgreement) {
 }
 
 TEST(WheelWatch, FourWheelsThatLockAreContradictedByTheReceivers) {
-  Rig rig{.by_receivers_mps = 50.0};
+  WheelRig rig{.by_receivers_mps = 50.0};
   rig.factor.fill(0.2);
   const WheelSpeed said = rig.tick();
   EXPECT_TRUE(std::isnan(said.speed_mps));
@@ -82,7 +82,7 @@ TEST(WheelWatch, FourWheelsThatLockAreContradictedByTheReceivers) {
 }
 
 TEST(WheelWatch, ASidesLossLeavesTheOther) {
-  Rig rig{.by_receivers_mps = 50.0};
+  WheelRig rig{.by_receivers_mps = 50.0};
   rig.factor[0] = rig.factor[2] = 0.0;
   EXPECT_NEAR(rig.tick().speed_mps, 50.0, 1e-9);
 }
@@ -90,14 +90,14 @@ TEST(WheelWatch, ASidesLossLeavesTheOther) {
 // Slip and scatter of a healthy car: tyre growth of 1.4 %, driven wheels 3 % faster.
 TEST(WheelWatch, OrdinarySlipIsNoContradiction) {
   for (const double speed : {2.0, 20.0, 68.0, 80.0}) {
-    Rig rig{.speed_mps = speed, .by_receivers_mps = speed};
+    WheelRig rig{.speed_mps = speed, .by_receivers_mps = speed};
     rig.factor = {0.986, 0.986, 1.015, 1.02};
     for (int i = 0; i < 100; ++i) EXPECT_FALSE(rig.tick().contradiction) << speed;
   }
 }
 
 TEST(WheelWatch, UnwatchedALockedWheelEnters) {
-  Rig rig;
+  WheelRig rig;
   rig.watched = false;
   rig.factor[3] = 0.0;
   const WheelSpeed said = rig.tick();

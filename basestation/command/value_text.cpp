@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/command/value_text.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "protocol/telemetry/registry/labels.hpp"
+
+namespace pitwall::command {
+
+std::string number(double value, const char* unit) {
+  if (std::isnan(value)) return std::string{"no "} + unit;
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.1f %s", value, unit);
+  return text.data();
+}
+
+std::string label(std::string_view labels, double value) {
+  if (!(value >= 0.0)) return "unknown";
+  return std::string{telemetry::label_at(labels, static_cast<std::size_t>(value))};
+}
+
+}  // namespace pitwall::command

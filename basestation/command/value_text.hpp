@@ -1,0 +1,15 @@
+// The value of a field as gates and checklist say it.
+//   in     a value, NaN where it is not known; its unit, or the labels of its field
+//   out    "12.3 m/s", "no m/s"; a label, "unknown"
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace pitwall::command {
+
+std::string number(double value, const char* unit);
+std::string label(std::string_view labels, double value);
+
+}  // namespace pitwall::command

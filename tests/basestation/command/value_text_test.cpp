@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/command/value_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace pitwall::command {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+TEST(ValueText, SaysANumberWithItsUnitOrThatThereIsNone) {
+  EXPECT_EQ(number(12.34, "m/s"), "12.3 m/s");
+  EXPECT_EQ(number(-0.06, "V"), "-0.1 V");
+  EXPECT_EQ(number(kUnknown, "m/s"), "no m/s");
+}
+
+TEST(ValueText, SaysALabelWhereTheValueHasOne) {
+  EXPECT_EQ(label("red|orange", 1.0), "orange");
+  EXPECT_EQ(label("red|orange", -1.0), "unknown");
+  EXPECT_EQ(label("red|orange", kUnknown), "unknown");
+}
+
+}  // namespace
+}  // namespace pitwall::command

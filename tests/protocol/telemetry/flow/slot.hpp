@@ -1,0 +1,11 @@
+// The time from packet to packet.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::telemetry {
+
+inline constexpr Duration kSlot = milliseconds(20);
+
+}  // namespace pitwall::telemetry
