@@ -18,7 +18,7 @@ namespace {
 // The car (80) before the sender, the sender before those who look on.
 constexpr int kSenderPriority = 70, kListenerPriority = 60;
 constexpr Duration kListenLook = milliseconds(10);
-constexpr Duration kGuestStartLimit = seconds(15), kStopLimit = seconds(5);
+constexpr Duration kGuestStartLimit = seconds(15), kGuestStopLimit = seconds(5);
 constexpr Duration kLead = seconds(2);              // for the sender to start
 constexpr Duration kSilence = milliseconds(1'600);  // longer than any period and its slack
 constexpr Duration kPause = milliseconds(300);      // of the receiver with the small queue
@@ -92,7 +92,7 @@ class Experiment {
   }
 
   std::optional<Problem> stop() {
-    const Instant limit = transport::monotonic_now() + kStopLimit;
+    const Instant limit = transport::monotonic_now() + kGuestStopLimit;
     const auto sent = sender_->wait_until(limit);
     if (!sent || !sent->success()) return Problem{plan_.sender.front(), "the sender failed"};
     vehicle_->kill(SIGTERM);

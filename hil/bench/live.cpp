@@ -13,6 +13,7 @@
 #include "basestation/intake/operator_words.hpp"
 #include "hil/bench/car_monitor.hpp"
 #include "hil/bench/car_summary.hpp"
+#include "hil/bench/contact.hpp"
 #include "hil/bench/held_path.hpp"
 #include "hil/bench/machine.hpp"
 #include "hil/bench/receiver_port.hpp"
@@ -78,6 +79,9 @@ class Live {
       if ((now - Instant{}).ns % kCarry.ns == 0) parts_.radio.serve(now);
       if ((now - Instant{}).ns % kLook.ns != 0) continue;
       if (auto problem = look(now)) return Unexpected{*problem};
+      if (!has_contact(result_.outcome)) continue;
+      length_ = now - Instant{};
+      break;
     }
     return finish();
   }
@@ -212,8 +216,7 @@ class Live {
       read_bus();
       heard_.clear();
       const Instant now = transport::monotonic_now();
-      parts_.radio.serve(
-          std::max(Instant{} + scenario_.duration, Instant{} + (now - clock_.started())));
+      parts_.radio.serve(std::max(Instant{} + length_, Instant{} + (now - clock_.started())));
       parts_.monitor.read(now);
       transport::sleep_until(transport::monotonic_now() + milliseconds(2));
     }
@@ -254,8 +257,9 @@ class Live {
   void fill() {
     result_.scenario = scenario_.name;
     result_.mode = "live";
-    result_.simulated_s = result_.wall_s = scenario_.duration.seconds();
+    result_.simulated_s = result_.wall_s = length_.seconds();
     result_.verdicts = parts_.grader.finish();
+    judge_contact(scenario_, result_);
     result_.laps = parts_.rig.laps();
     result_.real_time = clock_.report();
     result_.traffic.from_car = result_.traffic.bench_received;
@@ -279,7 +283,7 @@ class Live {
     result_.bus_refusals = car.frames_refused;
     if (car.identity == "wrong") result_.refused_to_arm = car.identity_sentence;
     // Not those of the silence after the bench's last frame, which the car counts too.
-    result_.bus_losses = frames_that_never_came(car, clock_.started() + scenario_.duration);
+    result_.bus_losses = frames_that_never_came(car, clock_.started() + length_);
     // One that was started again knows nothing of its first life.
     if (!parts_.cast.was_killed(Role::kCar)) compare_counts(car);
     record_car(car);
@@ -298,7 +302,7 @@ class Live {
 
   void record_car(const CarSummary& car) {
     if (!record_) return;
-    record_->event(Instant{} + scenario_.duration, "identity", car.identity_sentence);
+    record_->event(Instant{} + length_, "identity", car.identity_sentence);
     for (world::LossReport loss : car.losses) {
       loss.noticed = Instant{} + (loss.noticed - clock_.started());
       if (loss.due != Instant{}) loss.due = Instant{} + (loss.due - clock_.started());
@@ -309,7 +313,7 @@ class Live {
   void close_record() {
     if (!record_) return;
     for (const grading::Verdict& verdict : result_.verdicts)
-      record_->verdict(Instant{} + scenario_.duration, verdict);
+      record_->verdict(Instant{} + length_, verdict);
     if (!record_->close())
       result_.remarks.push_back("the event log has no end: its disk took no more, and at least " +
                                 std::to_string(record_->counters().refused_sink) +
@@ -323,6 +327,7 @@ class Live {
   Parts parts_;
   std::optional<transport::Process> candump_;
   std::optional<RunRecord> record_;
+  Duration length_ = scenario_.duration;  // less where a contact ended the run
   std::vector<can::ReceivedFrame> inbox_, heard_;
   std::vector<can::Frame> frames_;
   WakeClock clock_;

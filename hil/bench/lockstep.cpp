@@ -11,6 +11,7 @@
 #include "basestation/intake/operator_words.hpp"
 #include "hil/bench/bus_faults.hpp"
 #include "hil/bench/clock_faults.hpp"
+#include "hil/bench/contact.hpp"
 #include "hil/bench/held_path.hpp"
 #include "hil/bench/receiver_ears.hpp"
 #include "hil/bench/receiver_speech.hpp"
@@ -55,7 +56,8 @@ class Lockstep {
     for (Instant now{}; now - Instant{} <= scenario_.duration; now += tick) {
       step_computer(now);
       for (Instant at = now + kRigStep; at <= now + tick; at += kRigStep) step_rig(at);
-      if (!options_.over || !options_.over(view(now))) continue;
+      const bool over = options_.over && options_.over(view(now));
+      if (!over && !has_contact(result_.outcome)) continue;
       length_ = now - Instant{};
       break;
     }
@@ -235,6 +237,7 @@ class Lockstep {
     result_.mode = "lockstep";
     result_.simulated_s = length_.seconds();
     result_.verdicts = grader_.finish();
+    judge_contact(scenario_, result_);
     result_.laps = rig_.laps();
     for (const std::string& refusal : base_.refusals())
       result_.remarks.push_back("the operator was refused: " + refusal);

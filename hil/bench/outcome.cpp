@@ -12,7 +12,7 @@ constexpr double kStands_mps = 0.3;
 }  // namespace
 
 void follow(Outcome& outcome, const Whereabouts& now) {
-  if (outcome.last && outcome.last->contact) return;
+  if (has_contact(outcome)) return;
   outcome.last = now;
   if (!outcome.nearest || now.wall_gap_m < outcome.nearest->wall_gap_m) outcome.nearest = now;
 }
@@ -22,8 +22,9 @@ std::string to_text(const Outcome& outcome) {
   const Whereabouts& last = *outcome.last;
   char text[200];
   if (last.contact) {
-    std::snprintf(text, sizeof text, "the car hit a wall at %.2f s, at %.1f m/s", last.at.seconds(),
-                  last.speed_mps);
+    std::snprintf(text, sizeof text,
+                  "the car hit the wall on the %s at %.2f s, s %.0f m, at %.1f m/s",
+                  last.left ? "left" : "right", last.at.seconds(), last.s_m, last.speed_mps);
     return text;
   }
   const Whereabouts& nearest = *outcome.nearest;

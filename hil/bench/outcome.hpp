@@ -1,6 +1,6 @@
 // Where the car went: how near it came to a wall, whether it hit one, and where it was at the end.
 //   in     what is true of the car, once per tick, in the order of time
-//   out    Outcome; nothing after a contact is taken in: the plant knows no walls
+//   out    Outcome; nothing after a contact is taken in: a run ends there, the plant knows no walls
 //   units  m/s, m
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -18,6 +18,8 @@ struct Whereabouts {
   double speed_mps = kUnset;
   double cross_track_m = kUnset;  // from the line that the car was told to drive; left is positive
   double wall_gap_m = kUnset;     // of the nearest corner
+  double s_m = kUnset;            // station on the track
+  bool left = false;              // the nearer wall is that on the left
   bool contact = false;           // a corner is in a wall
 };
 
@@ -25,6 +27,8 @@ struct Outcome {
   std::optional<Whereabouts> last;  // at the contact, where there was one
   std::optional<Whereabouts> nearest;
 };
+
+inline bool has_contact(const Outcome& outcome) { return outcome.last && outcome.last->contact; }
 
 void follow(Outcome& outcome, const Whereabouts& now);
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/bench/result.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string_view>
+
+#include "hil/bench/contact.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -90,6 +93,12 @@ bool RunResult::passed() const {
   return true;
 }
 
+bool RunResult::failed_by_contact() const {
+  return std::ranges::any_of(verdicts, [](const grading::Verdict& verdict) {
+    return verdict.name == kContactVerdict && !verdict.pass;
+  });
+}
+
 std::string to_text(const RunResult& r) {
   std::string out = format("SIMULATION %s, %s: %.1f s simulated", r.scenario.c_str(),
                            r.mode.c_str(), r.simulated_s);
@@ -124,6 +133,7 @@ std::string to_text(const RunResult& r) {
            (verdict.delay ? format("  after %.3f s", verdict.delay->seconds()) : std::string()) +
            (verdict.pass ? "" : "  " + verdict.reason) + "\n";
   if (!r.digest.empty()) out += "event log SHA-256 " + r.digest + "\n";
+  if (r.failed_by_contact()) return out + "verdict: CONTACT\n";
   return out + (r.passed() ? "verdict: PASS\n" : "verdict: FAIL\n");
 }
 
@@ -131,7 +141,7 @@ std::string to_json(const Outcome& outcome) {
   const auto place = [](const Whereabouts& w) {
     return "{\"at_s\":" + number(w.at.seconds()) + ",\"speed_mps\":" + number(w.speed_mps) +
            ",\"cross_track_m\":" + number(w.cross_track_m) +
-           ",\"wall_gap_m\":" + number(w.wall_gap_m) + "}";
+           ",\"wall_gap_m\":" + number(w.wall_gap_m) + ",\"s_m\":" + number(w.s_m) + "}";
   };
   if (!outcome.last) return "null";
   return "{\"text\":" + in_quotes(to_text(outcome)) +
@@ -151,6 +161,7 @@ std::string to_json(const grading::Verdict& v) {
 std::string to_json(const RunResult& r) {
   return "{\"scenario\":" + in_quotes(r.scenario) + ",\"mode\":" + in_quotes(r.mode) +
          ",\"simulation\":true,\"passed\":" + (r.passed() ? "true" : "false") +
+         ",\"failed_by_contact\":" + (r.failed_by_contact() ? "true" : "false") +
          ",\"timely\":" + (r.timely() ? "true" : "false") +
          ",\"simulated_s\":" + number(r.simulated_s) + ",\"wall_s\":" + number(r.wall_s) +
          ",\"laps\":{\"finished\":" + std::to_string(r.laps.finished) +

@@ -57,6 +57,8 @@ struct RunResult {
   std::string digest;
 
   bool passed() const;
+  // A contact that the scenario does not name, or a harder one.
+  bool failed_by_contact() const;
   // The bench kept up with its clock. One that stood still for longer than this was a bus without
   // frames for the car, which may then fail for no fault of its own.
   static constexpr Duration kBehindMax = milliseconds(40);

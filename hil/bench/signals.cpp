@@ -98,6 +98,8 @@ Whereabouts whereabouts(const Rig& rig, double line_offset_m, Instant now) {
           .speed_mps = rig.truth().speed_mps,
           .cross_track_m = cross_track_m(rig, line_offset_m),
           .wall_gap_m = wall_gap_m(rig),
+          .s_m = rig.road().s_m,
+          .left = rig.road().wall_gap_left_m < rig.road().wall_gap_right_m,
           .contact = rig.road().contact};
 }
 

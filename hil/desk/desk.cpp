@@ -50,8 +50,16 @@ std::string of_run(std::uint64_t run, std::string_view line) {
 // What the exit code of `pitwall-hil run` means.
 std::string state_of(const Ending& ending) {
   if (ending.signal != 0) return "crashed";
-  if (ending.code == 0) return "passed";
-  return ending.code == 1 ? "failed" : "unusable";
+  switch (ending.code) {
+    case 0:
+      return "passed";
+    case 1:
+      return "failed";
+    case 4:
+      return "contact";
+    default:
+      return "unusable";
+  }
 }
 
 }  // namespace
@@ -171,7 +179,8 @@ std::vector<std::string> Desk::progressed(std::string_view line) {
 std::vector<std::string> Desk::ended(const Ending& ending) {
   run_->ending = ending;
   run_->state = run_->stopped_by.empty() ? state_of(ending) : "stopped";
-  const bool judged = run_->state == "passed" || run_->state == "failed";
+  const bool judged =
+      run_->state == "passed" || run_->state == "failed" || run_->state == "contact";
   if (judged && run_->result.empty()) {
     run_->state = "crashed";
     run_->why = "it ended without a result";

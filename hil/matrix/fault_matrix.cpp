@@ -120,15 +120,14 @@ Result<FaultRow, Problem> run_fault(const bench::Loaded& loaded, world::MonitorS
                .outcome = bench::to_text(result->outcome),
                .failed = {},
                .simulated_s = result->simulated_s};
-  for (std::size_t i = 0; i < result->verdicts.size(); ++i) {
-    const scenario::Expectation& asked = loaded.scenario.expect[i];
-    const grading::Verdict& verdict = result->verdicts[i];
-    if (asked.kind == scenario::ExpectKind::kDetects)
-      row.detections.push_back(detection(asked, verdict));
+  for (const grading::Verdict& verdict : result->verdicts) {
+    const auto asked = std::ranges::find(loaded.scenario.expect, verdict.name,
+                                         &scenario::Expectation::place);  // none: the contact
+    if (asked != loaded.scenario.expect.end() && asked->kind == scenario::ExpectKind::kDetects)
+      row.detections.push_back(detection(*asked, verdict));
     else if (!verdict.pass)
       row.failed.push_back(verdict.text + ": " + verdict.reason);
   }
-  if (result->outcome.last && result->outcome.last->contact) row.failed.emplace_back("a wall");
   return row;
 }
 

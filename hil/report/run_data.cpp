@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "hil/bench/contact.hpp"
 #include "hil/bus/frame_length.hpp"
 #include "hil/report/text.hpp"
 #include "protocol/bits/sha256.hpp"
@@ -224,6 +225,10 @@ double last_of(const std::vector<At<S>>& rows) {
 
 Outcome RunData::outcome() const {
   if (!infrastructure.empty()) return Outcome::kInfrastructure;
+  const bool contact = std::ranges::any_of(verdicts, [](const VerdictRow& verdict) {
+    return verdict.place == bench::kContactVerdict && !verdict.pass;
+  });
+  if (contact) return Outcome::kContact;
   return std::ranges::all_of(verdicts, &VerdictRow::pass) ? Outcome::kPass : Outcome::kFail;
 }
 
@@ -269,6 +274,8 @@ const char* name_of(Outcome outcome) {
       return "FAIL";
     case Outcome::kInfrastructure:
       return "INFRASTRUCTURE";
+    case Outcome::kContact:
+      return "CONTACT";
   }
   return "?";
 }

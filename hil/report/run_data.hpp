@@ -76,7 +76,8 @@ struct LogHealth {
   std::uint64_t undecodable = 0;  // messages that are not what their channel says
 };
 
-enum class Outcome : std::uint8_t { kPass, kFail, kInfrastructure };
+// kContact: the car hit a wall, and the scenario does not name it.
+enum class Outcome : std::uint8_t { kPass, kFail, kInfrastructure, kContact };
 
 struct RunData {
   Facts facts;

@@ -85,7 +85,7 @@ std::string banner(const RunData& run) {
   std::string words =
       all == 0 ? "no expectation was judged" : printed("%zu of %zu expectations held", passed, all);
   if (outcome == Outcome::kInfrastructure) words = "the bench or its log failed; " + words;
-  constexpr const char* kStyles[]{"pass", "fail", "infrastructure"};
+  constexpr const char* kStyles[]{"pass", "fail", "infrastructure", "fail"};
   std::string out = printed("<section class=\"banner %s\" id=\"verdict\"><strong>",
                             kStyles[static_cast<std::size_t>(outcome)]) +
                     name_of(outcome) + "</strong> " + words;

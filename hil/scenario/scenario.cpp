@@ -58,6 +58,8 @@ constexpr std::array kReceiverKinds = {
     Named<world::ReceiverKind>{"vectornav", world::ReceiverKind::kVectorNav},
 };
 
+constexpr double kFastestImpact_mps = 100.0;
+
 constexpr std::array kExpectKinds = {
     Named<ExpectKind>{"always", ExpectKind::kAlways},
     Named<ExpectKind>{"never", ExpectKind::kNever},
@@ -222,6 +224,14 @@ void check_order(yaml::StrictMap& map, const Scenario& scenario) {
     map.fail("race_control", "no entry: race control would be silent");
 }
 
+NamedContact read_contact(yaml::StrictMap& map) {
+  NamedContact contact{.at_most_mps = map.number("at_most_mps", 0.1, kFastestImpact_mps),
+                       .reason = map.text("reason")};
+  if (contact.reason.empty()) map.fail("reason", "does not say why the contact cannot be avoided");
+  map.finish();
+  return contact;
+}
+
 Scenario read_root(yaml::StrictMap& map) {
   Scenario scenario;
   if (map.integer("schema", 0, 1000) != 1) map.fail("schema", "this bench reads schema 1");
@@ -244,6 +254,7 @@ Scenario read_root(yaml::StrictMap& map) {
   read_list(map, "expect", scenario.expect, [&scenario](yaml::StrictMap& entry) {
     return read_expectation(entry, scenario.faults);
   });
+  if (auto contact = map.optional_map("contact")) scenario.contact = read_contact(*contact);
   check_order(map, scenario);
   map.finish();
   return scenario;

@@ -83,6 +83,12 @@ struct Expectation {
 // never where their window has begun, within and detects where it has ended.
 bool is_shown_by(const Expectation& expectation, Duration end);
 
+// A contact with a wall that the scenario cannot avoid: the highest speed of impact, and why.
+struct NamedContact {
+  double at_most_mps = kUnset;
+  std::string reason;
+};
+
 struct Scenario {
   std::string name;
   std::uint64_t seed = 0;
@@ -101,6 +107,7 @@ struct Scenario {
   std::vector<OperatorWord> operator_words;
   std::vector<Fault> faults;
   std::vector<Expectation> expect;
+  std::optional<NamedContact> contact;
 };
 
 inline constexpr std::size_t kMaxListed = 256;  // entries of one list of a scenario

@@ -179,8 +179,9 @@ Result<std::vector<int>, Problem> run_live(const DemoOptions& options,
 int worst(std::span<const int> codes) {
   int worst = kExitPass;
   for (const int code : codes) {
-    if (code != kExitPass && code != kExitFailed) return kExitUnusable;
-    if (code == kExitFailed) worst = kExitFailed;
+    if (code == kExitContact) worst = kExitContact;
+    if (code == kExitFailed && worst == kExitPass) worst = kExitFailed;
+    if (code != kExitPass && code != kExitFailed && code != kExitContact) return kExitUnusable;
   }
   return worst;
 }

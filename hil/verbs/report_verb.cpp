@@ -47,6 +47,8 @@ int exit_code_of(report::Outcome outcome) {
       return kExitPass;
     case report::Outcome::kFail:
       return kExitFailed;
+    case report::Outcome::kContact:
+      return kExitContact;
     case report::Outcome::kInfrastructure:
       return kExitUnusable;
   }

@@ -232,7 +232,8 @@ Result<int, Problem> run_once(const RunOptions& options) {
     if (!written) return Unexpected{written.error()};
   }
   if (result->passed()) return kExitPass;
-  return result->timely() ? kExitFailed : kExitUnusable;
+  if (!result->timely()) return kExitUnusable;
+  return result->failed_by_contact() ? kExitContact : kExitFailed;
 }
 
 // As many runs as fill the hours; the exit code of the first that failed.

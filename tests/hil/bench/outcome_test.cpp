@@ -38,10 +38,15 @@ TEST(Outcome, KeepsTheEndAndTheNearestOfAnyDrive) {
 TEST(Outcome, NothingAfterAContactCounts) {
   Outcome outcome;
   follow(outcome, {.at = at_s(1), .speed_mps = 60, .cross_track_m = 0, .wall_gap_m = 2});
-  follow(outcome,
-         {.at = at_s(2), .speed_mps = 40, .cross_track_m = 7, .wall_gap_m = -0.1, .contact = true});
+  follow(outcome, {.at = at_s(2),
+                   .speed_mps = 40,
+                   .cross_track_m = 7,
+                   .wall_gap_m = -0.1,
+                   .s_m = 1234,
+                   .left = true,
+                   .contact = true});
   follow(outcome, {.at = at_s(3), .speed_mps = 0, .cross_track_m = 0, .wall_gap_m = 5});
-  EXPECT_EQ(to_text(outcome), "the car hit a wall at 2.00 s, at 40.0 m/s");
+  EXPECT_EQ(to_text(outcome), "the car hit the wall on the left at 2.00 s, s 1234 m, at 40.0 m/s");
   const auto document = yaml::load_text(to_json(outcome), "outcome.json");
   ASSERT_TRUE(document) << to_string(document.error());
   yaml::StrictMap map = document->root();

@@ -116,11 +116,9 @@ TEST(Desk, WhatCannotBeStartedIsRefusedWithItsReason) {
 }
 
 TEST(Desk, ExitCodesAreVerdicts) {
-  const std::vector<std::pair<Ending, std::string>> cases{{{.code = 0}, "passed"},
-                                                          {{.code = 1}, "failed"},
-                                                          {{.code = 2}, "unusable"},
-                                                          {{.code = 77}, "unusable"},
-                                                          {{.signal = 11}, "crashed"}};
+  const std::vector<std::pair<Ending, std::string>> cases{
+      {{.code = 0}, "passed"},  {{.code = 1}, "failed"},    {{.code = 2}, "unusable"},
+      {{.code = 4}, "contact"}, {{.code = 77}, "unusable"}, {{.signal = 11}, "crashed"}};
   for (const auto& [ending, state] : cases) {
     Table table;
     table.begin();

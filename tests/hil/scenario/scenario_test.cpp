@@ -58,6 +58,15 @@ struct Wrong {
   const char* place;  // what the message must name
 };
 
+TEST(Scenario, MayNameAContactThatItCannotAvoid) {
+  EXPECT_FALSE(read_scenario(kGood, "short.yaml")->contact);
+  const auto read =
+      read_scenario(kGood + "contact: {at_most_mps: 30.5, reason: nobody steers}\n", "short.yaml");
+  ASSERT_TRUE(read) << to_string(read.error());
+  EXPECT_EQ(read->contact->at_most_mps, 30.5);
+  EXPECT_EQ(read->contact->reason, "nobody steers");
+}
+
 TEST(Scenario, EveryMistakeIsRefusedWithItsPlace) {
   const Wrong cases[] = {
       {"seed: 3", "sede: 3", "seed"},
@@ -72,6 +81,11 @@ TEST(Scenario, EveryMistakeIsRefusedWithItsPlace) {
       {"until_s: 15", "until_s: 0.5", "short.yaml:15"},
       {"kind: always", "kind: sometimes", "short.yaml:14"},
       {"seed: 3", "seed: 3\nseed: 4", "short.yaml:4"},
+      {"seed: 3", "seed: 3\ncontact: {reason: r}", "at_most_mps"},
+      {"seed: 3", "seed: 3\ncontact: {at_most_mps: 30}", "reason"},
+      {"seed: 3", "seed: 3\ncontact: {at_most_mps: 30, reason: \"\"}", "short.yaml:4"},
+      {"seed: 3", "seed: 3\ncontact: {at_most_mps: 0, reason: r}", "short.yaml:4"},
+      {"seed: 3", "seed: 3\ncontact: {at_most_mps: 30, reason: r, wall: left}", "wall"},
   };
   for (const Wrong& wrong : cases) {
     const auto read = read_scenario(replaced(kGood, wrong.from, wrong.to), "short.yaml");

@@ -93,6 +93,25 @@ TEST_F(RunVerb, AFailedExpectationIsOne) {
   EXPECT_FALSE(json->root().flag("passed"));
 }
 
+TEST_F(RunVerb, AWallEndsTheRunAndIsFour) {
+  const std::string unnamed = spoilt("steering_stuck.yaml", "contact:", "#contact:");
+  const Said said = run({"run", unnamed, "--report", path("report")});
+  EXPECT_EQ(said.code, 4) << said.out << said.err;
+  const Said again = run({"run", unnamed, "--json", path("r.json")});
+  EXPECT_NE(again.out.find("verdict: CONTACT"), std::string::npos) << again.out;
+  EXPECT_NE(again.out.find("CONTACT: the car hit the wall on the "), std::string::npos);
+  EXPECT_NE(again.out.find("not judged, the car hit a wall before: "), std::string::npos);
+  const auto json = yaml::load_file(path("r.json"));
+  ASSERT_TRUE(json);
+  EXPECT_FALSE(json->root().flag("passed"));
+  EXPECT_TRUE(json->root().flag("failed_by_contact"));
+  EXPECT_LT(json->root().number("simulated_s", 0, 100), 60.0);
+  EXPECT_NE(text_of("report/report.html").find("CONTACT"), std::string::npos);
+  EXPECT_NE(text_of("report/junit.xml").find("<failure message=\"CONTACT: "), std::string::npos);
+  EXPECT_EQ(run({"run", spoilt("steering_stuck.yaml", "at_most_mps: 60", "at_most_mps: 5")}).code,
+            4);
+}
+
 TEST_F(RunVerb, ARunThatEndsTooEarlyToShowAnythingDoesNotPass) {
   const Said said = run({"run", kLaunchAndStop, "--duration", "5"});
   EXPECT_NE(said.code, 0);

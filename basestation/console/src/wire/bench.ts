@@ -26,7 +26,8 @@ export interface BenchScenario {
   problem: string | null;
 }
 
-export type BenchState = "running" | "passed" | "failed" | "unusable" | "crashed" | "stopped";
+export type BenchState =
+  "running" | "passed" | "failed" | "contact" | "unusable" | "crashed" | "stopped";
 export type BenchMode = "lockstep" | "live";
 
 export interface BenchRun {

@@ -17,6 +17,7 @@ const kVerdicts = {
   running: "RUNNING",
   passed: "PASSED",
   failed: "FAILED",
+  contact: "CONTACT",
   unusable: "NO VERDICT",
   crashed: "CRASHED",
   stopped: "STOPPED",
