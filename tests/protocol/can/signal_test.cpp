@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/protocol/can/dbc_files.hpp"
 
 namespace pitwall::can {
@@ -182,6 +184,38 @@ TEST(Signal, WideAndFloatingFieldsHaveSafeLimits) {
   EXPECT_TRUE(saturated);
   const SignalPlan f64 = plan({.length = 64, .number = Number::kFloat64});
   EXPECT_EQ(physical_of(raw_of(-1.25e-300, f64, saturated), f64), -1.25e-300);
+}
+
+TEST(Signal, SignsAreExtendedAsTheDefinitionSays) {
+  Noise noise{11};
+  for (unsigned length = 1; length <= 64; ++length) {
+    for (int i = 0; i < 100; ++i) {
+      const std::uint64_t raw = noise.next() & mask_of(length);
+      const bool negative = (raw >> (length - 1) & 1U) != 0;
+      const std::uint64_t above = length == 64 ? 0 : ~mask_of(length);
+      EXPECT_EQ(static_cast<std::uint64_t>(sign_extended(raw, length)),
+                negative ? raw | above : raw)
+          << length;
+    }
+  }
+}
+
+// As far as a double has every integer.
+TEST(Signal, AFieldOf64BitsKeepsTheLowestBit) {
+  for (const Number kind : {Number::kUnsigned, Number::kSigned}) {
+    const SignalPlan p = plan({.length = 64, .number = kind});
+    for (int power = 0; power <= 52; ++power) {
+      for (const double sign : {1.0, -1.0}) {
+        if (sign < 0.0 && kind == Number::kUnsigned) continue;
+        const double number = sign * (std::ldexp(1.0, power) + 1.0);
+        bool saturated = false;
+        const std::uint64_t raw = raw_of(number, p, saturated);
+        EXPECT_EQ(raw, static_cast<std::uint64_t>(static_cast<std::int64_t>(number)));
+        EXPECT_EQ(physical_of(raw, p), number);
+        EXPECT_FALSE(saturated);
+      }
+    }
+  }
 }
 
 TEST(Signal, ARangeWithoutAValueIsIgnored) {

@@ -54,8 +54,13 @@ test("the car falls silent: every value stale, none coloured, each keeps its dig
   for (const path of ["derived.slip", "tyres.temperature_front_left", "sensors.lidar_rate"]) {
     stage.double.set(path, 0.5, path.startsWith("derived") ? kBad : kWarning);
   }
+  stage.double.set("mode.stop_latch", 1);
   const { page } = await stage.open();
   await until(page, "colours", () => document.querySelector('[data-judgement="bad"]'));
+  const outcome = () => document.querySelector(".outcome").textContent;
+  await until(page, "a latched stop", () =>
+    document.querySelector(".outcome").textContent.startsWith("car: "),
+  );
   const before = await page.textContent('[data-path="derived.slip"] .digits');
   stage.double.silence();
   for (let n = 0; n < 100 && (await page.evaluate(alive)).length > 0; ++n) {
@@ -73,6 +78,12 @@ test("the car falls silent: every value stale, none coloured, each keeps its dig
   });
   assert.equal(drawn.line, "line-through");
   assert.match(drawn.age, /s$/);
+  assert.equal(await page.evaluate(outcome), "", "an old stop is no stop that is known");
+  const ageless = () =>
+    [...document.querySelectorAll('.value[data-quality="stale"]')]
+      .filter((e) => e.querySelector(".age")?.textContent === "")
+      .map((e) => e.dataset.path);
+  assert.deepEqual(await page.evaluate(ageless), [], "every old value says how old");
 });
 
 test("the base dies: within 600 ms nothing looks alive, and a new one is found again", async () => {

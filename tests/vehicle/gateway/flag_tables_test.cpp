@@ -5,6 +5,7 @@
 
 #include <map>
 #include <set>
+#include <vector>
 
 namespace pitwall::gateway {
 namespace {
@@ -75,6 +76,19 @@ TEST(FlagTables, EveryFlagHasExactlyOneRank) {
   EXPECT_EQ(tracks.size(), static_cast<std::size_t>(TrackFlag::kUnknown) + 1);
   EXPECT_EQ(vehicles.size(), kVehicleByRestriction.size());
   EXPECT_EQ(vehicles.size(), static_cast<std::size_t>(VehicleFlag::kUnknown) + 1);
+}
+
+// By what the car may do: nothing, stand with the engine running, end its race, drive slowly, drive
+// as it was told before, drive fast. What nobody understands allows nothing.
+TEST(FlagTables, ATrackFlagBindsMoreThanThoseThatAllowMore) {
+  using enum TrackFlag;
+  const std::vector<TrackFlag> from_the_strictest{kUnknown, kRed,  kOrange, kChequered,
+                                                  kYellow,  kNone, kGreen,  kWavingGreen};
+  for (std::size_t i = 0; i < from_the_strictest.size(); ++i)
+    for (std::size_t k = i; k < from_the_strictest.size(); ++k)
+      EXPECT_EQ(more_restrictive(from_the_strictest[k], from_the_strictest[i]),
+                from_the_strictest[i])
+          << i << ' ' << k;
 }
 
 TEST(FlagTables, MoreRestrictiveIsCommutativeIdempotentAndOneOfBoth) {

@@ -298,7 +298,13 @@ TEST(Inbound, TheSecondEncodingCanOnlyRestrict) {
         }
         const VehicleFlag vehicle_a = vehicle_meaning(world::FlagEncoding::kMyLaps, nibble);
         const VehicleFlag vehicle_b = vehicle_meaning(world::FlagEncoding::kMarelli, raw);
-        ASSERT_EQ(more_restrictive(rc.vehicle, mylaps_leads ? vehicle_a : vehicle_b), rc.vehicle);
+        const VehicleFlag vehicle_lead = mylaps_leads ? vehicle_a : vehicle_b;
+        const VehicleFlag vehicle_other = mylaps_leads ? vehicle_b : vehicle_a;
+        ASSERT_EQ(more_restrictive(rc.vehicle, vehicle_lead), rc.vehicle);
+        ASSERT_TRUE(rc.vehicle == vehicle_lead || rc.vehicle == vehicle_other);
+        if (vehicle_other != VehicleFlag::kNone) {
+          ASSERT_EQ(more_restrictive(rc.vehicle, vehicle_other), rc.vehicle) << m << ' ' << v;
+        }
         const bool differ =
             (track_a != track_b && track_a != TrackFlag::kNone && track_b != TrackFlag::kNone) ||
             (vehicle_a != vehicle_b && vehicle_a != VehicleFlag::kNone &&

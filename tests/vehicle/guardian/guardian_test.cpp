@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <utility>
 
 #include "tests/vehicle/guardian/straight.hpp"
 
@@ -274,6 +275,23 @@ TEST_F(Guardian, KeepsTheCarTheSecondTimeWithinFiveSeconds) {
   come_back(*car, guardian_drives);
   EXPECT_EQ(car->mode(), Mode::kDriving);
   EXPECT_TRUE(car->state.status.latched);
+}
+
+// A tick of the car that began before it could read that the guardian drives says "speaks" too.
+TEST_F(Guardian, ATickOfTheCarThatCrossesTheTakeOverDoesNotTakeTheCarBack) {
+  silence();
+  while (car->mode() != Mode::kDriving) car->tick();
+  for (const auto& [late, stops] :
+       {std::pair{milliseconds(1), false}, std::pair{milliseconds(19), false},
+        std::pair{milliseconds(21), true}}) {
+    Straight crossing = *car;
+    while (crossing.now - crossing.state.status.drove_from < late) crossing.tick();
+    ++crossing.record.sequence;
+    crossing.record.at = crossing.now;
+    crossing.record.speaks = true;
+    crossing.tick();
+    EXPECT_EQ(drives(crossing.mode()), !stops) << late.milliseconds();
+  }
 }
 
 // The car's process took the guardian for dead, and speaks: it is the guardian that stops.

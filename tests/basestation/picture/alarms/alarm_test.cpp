@@ -154,6 +154,19 @@ TEST(Alarm, SuppressionHidesAndGivesBack) {
   EXPECT_EQ(bench.run(seconds(1)), kReturnedUnack);
 }
 
+TEST(Alarm, ADelayThatRanWhenSuppressionBeganDoesNotRunThroughIt) {
+  for (const bool by_suppression : {true, false}) {
+    Bench bench;
+    EXPECT_EQ(bench.run(milliseconds(50), 11), kNormal);  // half of its on-delay
+    (by_suppression ? bench.suppressed : bench.usable) = by_suppression;
+    EXPECT_EQ(bench.run(seconds(10)), kNormal);
+    bench.suppressed = false;
+    bench.usable = true;
+    EXPECT_EQ(bench.run(milliseconds(100)), kNormal) << "its delay begins anew";
+    EXPECT_EQ(bench.run(milliseconds(20)), kUnack);
+  }
+}
+
 TEST(Alarm, ChatterIsFoldedAndCounted) {
   Bench bench;
   bench.row.off_delay = {};

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
 
 #include "tests/support/eigenvalues.hpp"
@@ -95,6 +96,42 @@ TEST(Riccati, RefusesWithTheReason) {
   // Unstable without an input; an integrator that nobody pays for (undetectable).
   EXPECT_EQ(reason({one, zero, one}), RiccatiFailure::kNoStabilisingSolution);
   EXPECT_EQ(reason({zero, one, zero}), RiccatiFailure::kNoStabilisingSolution);
+}
+
+// Of two states, by rows; out of the collection of Abels and Benner, SLICOT working note 1999-14.
+TEST(Riccati, FindsTheSolutionsThatAreKnown) {
+  struct Example {
+    const char* name;
+    std::array<double, 4> a, g, q, x;
+  };
+  const Example examples[]{
+      {"Laub 1979, example 1", {0, 1, 0, 0}, {0, 0, 0, 1}, {1, 0, 0, 2}, {2, 1, 1, 2}},
+      {"Laub 1979, example 2: neither controllable nor observable",
+       {4, 3, -4.5, -3.5},
+       {1, -1, -1, 1},
+       {9, 6, 6, 4},
+       {21.727922061357855, 14.48528137423857, 14.48528137423857, 9.6568542494923797}},
+      {"Arnold and Laub 1984, example 1: hardly stabilisable",
+       {1, 0, 0, -2},
+       {9.9999999999999998e-13, 0, 0, 0},
+       {1, 1, 1, 1},
+       {2000000000000.5002, 0.33333333333327775, 0.33333333333327775, 0.24999999999997222}},
+      {"Kenney, Laub and Wette 1989, example 2: ill conditioned",
+       {0, 1000000, 0, 0},
+       {0, 0, 0, 1},
+       {1, 0, 0, 1},
+       {0.0014142139159264413, 1, 1, 1414.2139159264414}},
+  };
+  const auto matrix = [](const std::array<double, 4>& rows) -> MatrixXd {
+    return Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(rows.data());
+  };
+  for (const Example& e : examples) {
+    const RiccatiProblem p{matrix(e.a), matrix(e.g), matrix(e.q)};
+    const auto x = solve(p);
+    ASSERT_TRUE(x) << e.name << ": " << to_string(x.error());
+    EXPECT_LT((*x - matrix(e.x)).norm(), 1e-6 * matrix(e.x).norm()) << e.name;
+    EXPECT_LT(relative_residual(p, *x), 1e-13) << e.name;
+  }
 }
 
 TEST(Riccati, SolvesTheBenchmarkCollection) {

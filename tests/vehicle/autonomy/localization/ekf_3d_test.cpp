@@ -83,6 +83,12 @@ TEST(Ekf3d, CovarianceFollowsTheTransition) {
   ErrorMatrix noise = cov - expected;
   EXPECT_NEAR(noise(kPhi, kPhi), std::pow(p.gyro_rad_per_sqrt_s, 2) * kStep_s, 1e-12);
   EXPECT_NEAR(noise(kDv, kDv), std::pow(p.accel_mps_per_sqrt_s, 2) * kStep_s, 1e-12);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(noise(kDbg + axis, kDbg + axis),
+                std::pow(p.gyro_bias_rad_per_s_sqrt_s, 2) * kStep_s, 1e-14);
+    EXPECT_NEAR(noise(kDba + axis, kDba + axis), std::pow(p.accel_bias_mps2_sqrt_s, 2) * kStep_s,
+                1e-14);
+  }
   const double keep = std::exp(-kStep_s / p.position_wander_s);
   EXPECT_NEAR(noise(kDw, kDw), 1.0 - keep * keep, 1e-12);
   EXPECT_NEAR(noise(kDw, kDw + 3), p.position_wander_together * (1.0 - keep * keep), 1e-12);
