@@ -5,121 +5,67 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <map>
-#include <sstream>
-#include <string>
-#include <vector>
 
 #include "hil/plant/plant.hpp"
-#include "tests/support/public_data.hpp"
 
 namespace pitwall::plant {
 namespace {
 
-// ---- The published derivatives. Their input: 0.15 rad/s and 0.63 g.
+// ---- The published derivatives: CommonRoad vehicle models (TU Munich, BSD-3), test_derivatives,
+// for vehicle 2 and the tyre of the Adams handbook, at 0.15 rad/s and 0.63 g.
 constexpr double kPublishedGravity_mps2 = 9.81;
 constexpr SingleTrackInput kPublishedInput{0.15, 0.63 * kPublishedGravity_mps2};
-
-// Numbers of a YAML file of two levels, by "section.key" or "key".
-std::map<std::string, double> numbers_of(const std::filesystem::path& path) {
-  std::map<std::string, double> out;
-  std::ifstream file(path);
-  std::string section;
-  for (std::string line; std::getline(file, line);) {
-    const auto colon = line.find(':');
-    if (line.empty() || line[0] == '#' || colon == std::string::npos) continue;
-    const auto first = line.find_first_not_of(' ');
-    if (line[first] == '#') continue;
-    const std::string key = line.substr(first, colon - first), value = line.substr(colon + 1);
-    if (first == 0) section.clear();
-    if (value.find_first_not_of(" \r") == std::string::npos)
-      section = key + ".";
-    else
-      out[section + key] = std::stod(value);
-  }
-  return out;
-}
-
-// Rows by "model x" and "model f".
-std::map<std::string, std::vector<double>> published_rows() {
-  std::map<std::string, std::vector<double>> rows;
-  std::ifstream file(recordings::folder() / "plant/commonroad_ground_truth_derivatives.txt");
-  for (std::string line; std::getline(file, line);) {
-    std::istringstream fields(line);
-    std::string model, kind;
-    if (line.empty() || line[0] == '#' || !(fields >> model >> kind)) continue;
-    for (double value; fields >> value;) rows[model + " " + kind].push_back(value);
-  }
-  return rows;
-}
-
-SingleTrackParams published_params() {
-  auto car = numbers_of(recordings::folder() / "plant/parameters_vehicle2.yaml");
-  auto tyre = numbers_of(recordings::folder() / "plant/parameters_tire.yaml");
-  // The file names the tyre's coefficients below "tire"; the lateral ones follow a comment.
-  const double friction = tyre.at("tire.p_dy1");
-  const double stiffness = -tyre.at("tire.p_ky1") / friction;
-  return {.front_axle_m = car.at("a"),
-          .rear_axle_m = car.at("b"),
-          .height_m = car.at("h_s"),
-          .mass_kg = car.at("m"),
-          .yaw_inertia_kgm2 = car.at("I_z"),
-          .friction = friction,
-          .gravity_mps2 = kPublishedGravity_mps2,
-          .front_stiffness_per_rad = stiffness,
-          .rear_stiffness_per_rad = stiffness,
-          .limits = {.angle_min_rad = car.at("steering.min"),
-                     .angle_max_rad = car.at("steering.max"),
-                     .angle_rate_min_rad_per_s = car.at("steering.v_min"),
-                     .angle_rate_max_rad_per_s = car.at("steering.v_max"),
-                     .speed_min_mps = car.at("longitudinal.v_min"),
-                     .speed_max_mps = car.at("longitudinal.v_max"),
-                     .accel_max_mps2 = car.at("longitudinal.a_max"),
-                     .switching_mps = car.at("longitudinal.v_switch")}};
-}
+constexpr double kPublishedFriction = 1.0489;   // p_dy1
+constexpr double kPublishedStiffness = -21.92;  // p_ky1
+constexpr SingleTrackParams kPublishedParams{
+    .front_axle_m = 1.1561957064,
+    .rear_axle_m = 1.4227170936,
+    .height_m = 0.61373004,
+    .mass_kg = 1093.2952334674046,
+    .yaw_inertia_kgm2 = 1791.5995300122856,
+    .friction = kPublishedFriction,
+    .gravity_mps2 = kPublishedGravity_mps2,
+    .front_stiffness_per_rad = -kPublishedStiffness / kPublishedFriction,
+    .rear_stiffness_per_rad = -kPublishedStiffness / kPublishedFriction,
+    .limits = {.angle_min_rad = -1.066,
+               .angle_max_rad = 1.066,
+               .angle_rate_min_rad_per_s = -0.4,
+               .angle_rate_max_rad_per_s = 0.4,
+               .speed_min_mps = -13.9,
+               .speed_max_mps = 50.8,
+               .accel_max_mps2 = 11.5,
+               .switching_mps = 7.319}};
 
 void expect_published(double ours, double published, const char* what) {
   EXPECT_NEAR(ours, published, 1e-10 * std::abs(published)) << what;
 }
 
-class Published : public testing::Test {
- protected:
-  void SetUp() override {
-    rows = published_rows();
-    if (rows.empty())
-      GTEST_SKIP() << "no published derivatives in " << recordings::folder() / "plant";
-  }
-  std::map<std::string, std::vector<double>> rows;
-};
-
-TEST_F(Published, DerivativesOfTheKinematicModel) {
-  const std::vector<double>&x = rows.at("ks x"), &f = rows.at("ks f");
-  ASSERT_EQ(x.size(), 5U);
-  ASSERT_EQ(f.size(), 5U);
+TEST(Published, DerivativesOfTheKinematicModel) {
   const KinematicState d =
-      kinematic_derivative(published_params(), {x[0], x[1], x[2], x[3], x[4]}, kPublishedInput);
-  expect_published(d.x_m, f[0], "x");
-  expect_published(d.y_m, f[1], "y");
-  expect_published(d.angle_rad, f[2], "steering angle");
-  expect_published(d.speed_mps, f[3], "speed");
-  expect_published(d.yaw_rad, f[4], "yaw");
+      kinematic_derivative(kPublishedParams,
+                           {3.9579422297936526, 0.0391650102771405, 0.0378491427211811,
+                            16.3546957860883566, 0.0294717351052816},
+                           kPublishedInput);
+  expect_published(d.x_m, 16.3475935934250209, "x");
+  expect_published(d.y_m, 0.4819314886013121, "y");
+  expect_published(d.angle_rad, 0.15, "steering angle");
+  expect_published(d.speed_mps, 5.1464424102339752, "speed");
+  expect_published(d.yaw_rad, 0.2401426578627629, "yaw");
 }
 
-TEST_F(Published, DerivativesOfTheSingleTrackModel) {
-  const std::vector<double>&x = rows.at("st x"), &f = rows.at("st f");
-  ASSERT_EQ(x.size(), 7U);
-  ASSERT_EQ(f.size(), 7U);
-  const SingleTrackState s{x[0], x[1], x[2], x[3], x[4], x[5], x[6]};
-  for (const SingleTrackState& d : {single_track_derivative(published_params(), s, kPublishedInput),
-                                    blended_derivative(published_params(), s, kPublishedInput)}) {
-    expect_published(d.x_m, f[0], "x");
-    expect_published(d.y_m, f[1], "y");
-    expect_published(d.angle_rad, f[2], "steering angle");
-    expect_published(d.speed_mps, f[3], "speed");
-    expect_published(d.yaw_rad, f[4], "yaw");
-    expect_published(d.yaw_rate_rad_per_s, f[5], "yaw rate");
-    expect_published(d.slip_rad, f[6], "slip angle");
+TEST(Published, DerivativesOfTheSingleTrackModel) {
+  const SingleTrackState s{2.0233348142065677,  0.0041907137716636, 0.0197545248559617,
+                           15.7216236334290116, 0.0025857914776859, 0.0529001056654038,
+                           0.0033012170610298};
+  for (const SingleTrackState& d : {single_track_derivative(kPublishedParams, s, kPublishedInput),
+                                    blended_derivative(kPublishedParams, s, kPublishedInput)}) {
+    expect_published(d.x_m, 15.7213512030862397, "x");
+    expect_published(d.y_m, 0.0925527979719355, "y");
+    expect_published(d.angle_rad, 0.15, "steering angle");
+    expect_published(d.speed_mps, 5.3536773276413925, "speed");
+    expect_published(d.yaw_rad, 0.0529001056654038, "yaw");
+    expect_published(d.yaw_rate_rad_per_s, 0.6435589397748606, "yaw rate");
+    expect_published(d.slip_rad, 0.0313297971641291, "slip angle");
   }
 }
 
