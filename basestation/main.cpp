@@ -30,6 +30,7 @@
 #include "basestation/stand/tools.hpp"
 #include "protocol/recorder/segment_folder.hpp"
 #include "protocol/telemetry/export/export.hpp"
+#include "protocol/transport/clock.hpp"
 #include "protocol/transport/posix_call.hpp"
 
 namespace pitwall {
@@ -223,6 +224,7 @@ int run(const Arguments& arguments, std::vector<stand::Plan> plans) {
   const auto recordings = server ? list_recordings(arguments, *server) : nullptr;
   const auto attached = attach_outlets(stands, server.get(), board);
   if (!attached) return complain(kFailed, attached.error());
+  if (const auto taken = transport::take_turns(); !taken) return complain(kFailed, taken.error());
   serve(arguments, stands, stop.get());
   int code = kDone;
   for (const auto& stand : stands) {
@@ -250,6 +252,8 @@ int main(int argc, char** argv) {
   if (!arguments.recover_files.empty()) return recover(arguments.recover_files);
   if (!arguments.judge_folder.empty()) return judge(arguments.judge_folder);
   if (!arguments.replay_folder.empty()) return play(arguments);
+  if (const auto clock = transport::use_clock(arguments.clock); !clock)
+    return complain(kMistake, clock.error());
   const auto cars = settings::cars_of(arguments);
   if (!cars) return complain(kMistake, cars.error());
   auto plans = stand::plans_of(*cars, say);

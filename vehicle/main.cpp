@@ -90,6 +90,8 @@ class Drive {
         log_(std::make_unique<pipeline::TickLog>()) {}
 
   int run(transport::StopSignal& stop) {
+    if (const auto taken = transport::take_turns(); !taken)
+      return refuse(taken.error()), kExitFailed;
     transport::Ticker ticker{setup_.params.rates.tick};
     last_ = transport::monotonic_now() - setup_.params.rates.tick;
     while (!stop.raised() && !desk_.end_asked()) tick(ticker.next());
@@ -288,6 +290,7 @@ void introduce(const io::Arguments& args, const pipeline::Setup& setup, Parts& p
   const auto realtime = transport::request_realtime(kPriority);
   say(setup.track.name() + " on " + args.can_interface + ", " + gateway::database_text() + ", " +
       transport::to_string(realtime) + (args.simulation ? ", SIMULATION" : "") +
+      (args.clock != transport::kWallClock ? ", TIME OF A BENCH" : "") +
       (args.no_base ? ", NO BASE STATION WATCHED" : "") +
       (parts.radio && parts.radio->bench_keys() ? ", KEYS OF A BENCH" : ""));
   if (parts.rim.listen_only())
@@ -299,6 +302,7 @@ int run(int argc, const char* const* argv) {
   const auto parsed = io::parse_arguments(argc, argv);
   if (const int* code = std::get_if<int>(&parsed)) return *code;
   const auto& args = std::get<io::Arguments>(parsed);
+  if (const auto clock = transport::use_clock(args.clock); !clock) return refuse(clock.error());
   auto stop = transport::StopSignal::install();
   if (!stop) return refuse(stop.error());
   const auto car_text = transport::read_file(args.car_file);

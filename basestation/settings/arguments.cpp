@@ -110,6 +110,9 @@ void describe(CLI::App& app, Arguments& a) {
   app.add_option("--refresh", a.refresh_hz, "Screens per second")
       ->check(CLI::Range(kMinRefresh_hz, kMaxRefresh_hz))
       ->capture_default_str();
+  app.add_option("--clock", a.clock,
+                 "wall, or the file in which a bench on this machine keeps its time")
+      ->capture_default_str();
   app.add_option("--json", a.json_path, "Write a summary of the run to this file");
   describe_web(app, a);
   describe_tools(app, a);

@@ -28,6 +28,7 @@ struct Arguments {
   int ros_domain = 0;
   std::string ros_distribution = "jazzy", ros_interface = "127.0.0.1";
   std::vector<std::string> ros_peers;
+  std::string clock = "wall";
   std::string key_log;     // of a base on the bench
   std::string stamp_file;  // empty: beside the keys
   std::string console_folder, track, tokens_file, default_role, layouts_folder, judgement_file;

@@ -53,6 +53,7 @@ struct Parts {
   ReceiverPort receivers;
   Machine machine;
   Cast cast;
+  std::optional<BenchTime> time;  // none: the wall clock
 };
 
 class Live {
@@ -64,13 +65,14 @@ class Live {
         plan_(plan),
         parts_(std::move(parts)),
         inbox_(kReadBatch),
-        clock_(kWake, scenario.duration) {
+        clock_(kWake, scenario.duration, std::move(parts_.time)) {
     heard_.reserve(kReadBatch);
     if (plan.log) record_.emplace(scenario, "live", plan.log);
   }
 
   Result<LiveResult, Problem> run() {
     if (auto problem = start()) return Unexpected{*problem};
+    const Instant begun = transport::wall_now();
     clock_.start();
     for (Instant now = Instant{} + kWake; now - Instant{} <= scenario_.duration; now += kWake) {
       clock_.sleep_until(now);
@@ -83,6 +85,8 @@ class Live {
       length_ = now - Instant{};
       break;
     }
+    clock_.end();
+    result_.wall_s = (transport::wall_now() - begun).seconds();
     return finish();
   }
 
@@ -257,7 +261,7 @@ class Live {
   void fill() {
     result_.scenario = scenario_.name;
     result_.mode = "live";
-    result_.simulated_s = result_.wall_s = length_.seconds();
+    result_.simulated_s = length_.seconds();
     result_.verdicts = parts_.grader.finish();
     judge_contact(scenario_, result_);
     result_.laps = parts_.rig.laps();
@@ -338,12 +342,6 @@ class Live {
   HeldPath held_path_{setup_};
 };
 
-std::vector<std::uint16_t> receiver_ports(const LivePlan& plan) {
-  std::vector<std::uint16_t> ports{plan.gnss_port};
-  if (!plan.guardian.empty()) ports.push_back(plan.guardian_gnss_port);
-  return ports;
-}
-
 }  // namespace
 
 Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
@@ -366,6 +364,8 @@ Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
   if (!grader) return Unexpected{grader.error()};
   auto machine = Machine::take(faults->processes, plan.disk);
   if (!machine) return Unexpected{machine.error()};
+  auto time = BenchTime::of_run(plan.clock, plan.clock_line);
+  if (!time) return Unexpected{time.error()};
   auto bus = CanSocket::open(plan.interface);
   if (!bus) return Unexpected{bus.error()};
   std::vector<RadioPorts> ports(plan.radio.begin(),
@@ -380,7 +380,7 @@ Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
   if (!monitor) return Unexpected{monitor.error()};
   auto desk = transport::UdpSocket::bind({});
   if (!desk) return Unexpected{desk.error()};
-  auto receivers = ReceiverPort::open(receiver_ports(plan),
+  auto receivers = ReceiverPort::open(plan.receiver_ports(),
                                       ReceiverSpeech{setup.params.receivers, faults->bytes});
   if (!receivers) return Unexpected{receivers.error()};
   transport::request_realtime(kPriority);
@@ -389,7 +389,8 @@ Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
               plan,
               {*std::move(rig), *std::move(grader), *std::move(bus), *std::move(radio),
                *std::move(monitor), *std::move(desk), *std::move(receivers), *std::move(machine),
-               Cast{members_of(plan), script_of(faults->processes, Instant{} + scenario.duration)}}}
+               Cast{members_of(plan), script_of(faults->processes, Instant{} + scenario.duration)},
+               *std::move(time)}}
       .run();
 }
 

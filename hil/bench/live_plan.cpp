@@ -19,6 +19,10 @@ Words shared_memory(const LivePlan& plan) {
   return plan.guardian.empty() ? Words{} : Words{"--guardian", plan.guardian_name};
 }
 
+Words clock_of(const LivePlan& plan) {
+  return plan.clock.empty() ? Words{} : Words{"--clock", plan.clock};
+}
+
 std::string here(std::uint16_t port) { return "127.0.0.1:" + std::to_string(port); }
 
 // The car is told when nobody will answer it: else it would wait for its base before it arms.
@@ -32,13 +36,13 @@ Words radio_of_car(const LivePlan& plan) {
 
 Words car_command(const LivePlan& plan) {
   return plan.vehicle + Words{"--can", plan.interface} + receivers(plan.gnss_port) +
-         radio_of_car(plan) + shared_memory(plan) +
+         radio_of_car(plan) + shared_memory(plan) + clock_of(plan) +
          Words{"--local-report", std::to_string(plan.report_port), "--summary",
                plan.summary_of("vehicle"), "--simulation"};
 }
 
 Words guardian_command(const LivePlan& plan) {
-  return plan.guardian + Words{"--can", plan.interface} + shared_memory(plan) +
+  return plan.guardian + Words{"--can", plan.interface} + shared_memory(plan) + clock_of(plan) +
          receivers(plan.guardian_gnss_port) +
          Words{"--summary", plan.summary_of("guardian"), "--simulation"};
 }
@@ -48,7 +52,8 @@ Words base_command(const LivePlan& plan) {
   if (plan.paths > 1) words = words + Words{"--listen", here(plan.second_base_port)};
   if (plan.has_operator)
     words = words + Words{"--operator-port", std::to_string(plan.operator_port)};
-  return words + Words{"--keys", plan.keys + "/base.keys", "--json", plan.folder + "/base.json"};
+  return words + clock_of(plan) +
+         Words{"--keys", plan.keys + "/base.keys", "--json", plan.folder + "/base.json"};
 }
 
 }  // namespace

@@ -30,6 +30,8 @@ struct LivePlan {
   std::vector<std::string> vehicle{}, guardian{}, base{};
   std::string folder{};                       // for the summaries and the candump
   std::string disk{};                         // a full disk of the scenario; empty: none
+  std::string clock{};                        // file of bench time; empty: the wall clock
+  std::string clock_line{};                   // of a guest, to a host that follows it; empty: none
   std::string guardian_name{};                // of the memory that car and guardian share
   std::uint16_t gnss_port = 23'501;           // of unit 0; unit 1 is the next one
   std::uint16_t guardian_gnss_port = 23'503;  // likewise, of the guardian
@@ -48,6 +50,11 @@ struct LivePlan {
   Follow follow{};  // called after every tick, once it was judged
 
   bool attached() const { return vehicle.empty(); }
+  std::vector<std::uint16_t> receiver_ports() const {  // of each unit 0
+    std::vector<std::uint16_t> ports{gnss_port};
+    if (!guardian.empty()) ports.push_back(guardian_gnss_port);
+    return ports;
+  }
   // There is a base station for the car to hear: ours, or somebody's beyond `onward`.
   bool has_base() const { return !base.empty() || radio[0].onward != 0; }
   // Where the car and the guardian leave their summaries: on the disk that fills up, if any.

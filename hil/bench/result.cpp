@@ -54,6 +54,16 @@ std::string verdicts_json(const std::vector<grading::Verdict>& verdicts) {
   return out + "]";
 }
 
+// The longest is told on the scenario's clock.
+std::string waits_json(const std::optional<transport::ClockWaits>& waits) {
+  if (!waits) return "null";
+  return "{\"count\":" + std::to_string(waits->count) +
+         ",\"total_ms\":" + number(waits->total.milliseconds()) +
+         ",\"longest_ms\":" + number(waits->longest.milliseconds()) +
+         ",\"longest_at_s\":" + number(waits->longest_at.seconds()) +
+         ",\"longest_for\":" + in_quotes(waits->longest_for) + "}";
+}
+
 std::string real_time_json(const RealTime& t) {
   std::string bins;
   for (const std::uint64_t count : t.wake_late)
@@ -63,7 +73,7 @@ std::string real_time_json(const RealTime& t) {
          ",\"wake_late_max_us\":" + number(t.wake_late_max_us) +
          ",\"caught_up_wakes\":" + std::to_string(t.caught_up_wakes) +
          ",\"behind_max_ms\":" + number(t.behind_max.milliseconds()) +
-         ",\"stolen_ms\":" + number(t.stolen_ms) +
+         ",\"waits\":" + waits_json(t.waits) + ",\"stolen_ms\":" + number(t.stolen_ms) +
          ",\"wake_late_bin_us\":" + number(RealTime::kWakeBin_us) + ",\"wake_late\":[" + bins +
          "],\"step_p50_us\":" + number(t.step_p50_us) +
          ",\"step_p99_us\":" + number(t.step_p99_us) + ",\"step_max_us\":" + number(t.step_max_us) +

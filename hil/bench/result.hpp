@@ -13,6 +13,7 @@
 #include "hil/bench/rig.hpp"
 #include "hil/grading/cross_track.hpp"
 #include "hil/grading/grader.hpp"
+#include "protocol/transport/bench_clock/clock_waits.hpp"
 
 namespace pitwall::bench {
 
@@ -29,9 +30,10 @@ struct RealTime {
   static constexpr std::size_t kWakeBins = 200;
 
   double wake_late_p50_us = kUnset, wake_late_p99_us = kUnset, wake_late_max_us = kUnset;
-  std::uint64_t caught_up_wakes = 0;     // began more than one wake-up late
-  Duration behind_max{};                 // farthest behind its clock, whoever was to blame
-  Instant behind_at{};                   // when that was, on the scenario's clock
+  std::uint64_t caught_up_wakes = 0;           // began more than one wake-up late
+  Duration behind_max{};                       // farthest behind its clock, whoever was to blame
+  Instant behind_at{};                         // when that was, on the scenario's clock
+  std::optional<transport::ClockWaits> waits;  // of bench time; none: a run by the wall clock
   double stolen_ms = kUnset;             // of all processors' time, by the virtual machine's host
   std::vector<std::uint64_t> wake_late;  // the last bin holds all later ones
   double step_p50_us = kUnset, step_p99_us = kUnset, step_max_us = kUnset;  // of the car

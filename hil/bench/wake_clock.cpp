@@ -7,8 +7,15 @@
 #include "protocol/transport/virtual_machine.hpp"
 
 namespace pitwall::bench {
+namespace {
 
-WakeClock::WakeClock(Duration period, Duration longest) : period_(period) {
+// How often somebody who is held up is looked at again.
+constexpr Duration kLookAgain = microseconds(200);
+
+}  // namespace
+
+WakeClock::WakeClock(Duration period, Duration longest, std::optional<BenchTime> time)
+    : period_(period), time_(std::move(time)) {
   late_us_.reserve(static_cast<std::size_t>(longest / period) + 1);
   report_.wake_late.assign(RealTime::kWakeBins, 0);
 }
@@ -16,17 +23,33 @@ WakeClock::WakeClock(Duration period, Duration longest) : period_(period) {
 void WakeClock::start() {
   stolen_at_start_ = transport::stolen_time();
   start_ = transport::monotonic_now();
+  if (time_) time_->begin();
+}
+
+void WakeClock::end() {
+  if (time_) time_->end();
+}
+
+void WakeClock::wait_until(Instant deadline) {
+  if (!time_) return transport::sleep_until(deadline);
+  while (true) {
+    const bool goes = time_->advance();
+    const Duration left = deadline - transport::monotonic_now();
+    if (left.ns <= 0) return;
+    transport::nap(goes ? left : std::max(left, kLookAgain));
+  }
 }
 
 void WakeClock::sleep_until(Instant now) {
   const Instant deadline = start_ + (now - Instant{});
+  if (time_) time_->advance();
   Instant at = transport::monotonic_now();
   note(at - deadline, now);
   if (at >= deadline) {
     if (at - deadline >= period_) ++report_.caught_up_wakes;
     return;
   }
-  transport::sleep_until(deadline);
+  wait_until(deadline);
   at = transport::monotonic_now();
   note(at - deadline, now);
   const auto late_us = static_cast<float>((at - deadline).ns) * 1e-3F;
@@ -44,6 +67,10 @@ void WakeClock::note(Duration behind, Instant now) {
 RealTime WakeClock::report() {
   const auto stolen = transport::stolen_time();
   if (stolen && stolen_at_start_) report_.stolen_ms = (*stolen - *stolen_at_start_).milliseconds();
+  if (time_) {
+    report_.waits = time_->waits();
+    report_.waits->longest_at = Instant{} + (report_.waits->longest_at - start_);
+  }
   if (late_us_.empty()) return report_;
   std::sort(late_us_.begin(), late_us_.end());
   const auto quantile = [this](double q) {

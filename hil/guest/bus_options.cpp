@@ -52,6 +52,9 @@ std::optional<Problem> take_value(BusExecOptions& out, const std::string& option
     if (!memory_mib || *memory_mib < kLeastMemory_mib || *memory_mib > kMostMemory_mib)
       return Problem{value, "not a memory size in MiB from 96 to 16384"};
     out.memory_mib = *memory_mib;
+  } else if (option == "--clock") {
+    if (value.empty()) return Problem{option, "expected a file"};
+    out.clock = value;
   } else if (option == "--line-udp") {
     const auto ports = parse_line_ports(value);
     if (!ports) return ports.error();

@@ -24,6 +24,7 @@ struct BusExecOptions {
   std::vector<std::string> interfaces{};  // empty: vcan0
   std::optional<Duration> timeout{};
   std::optional<LinePorts> line{};
+  std::string clock{};  // file of bench time that follows that of a guest; empty: none
   int memory_mib = 512;
   std::vector<std::string> command{};
 };

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "hil/guest/bus_options.hpp"
+#include "hil/guest/clock_follower.hpp"
 #include "hil/guest/guest.hpp"
 #include "hil/guest/native_bus.hpp"
 #include "protocol/transport/can_socket.hpp"
@@ -78,6 +79,12 @@ int run_in_guest(const BusExecOptions& options, transport::StopSignal& stop, Ins
     plan.line_command = {own_program(), "bus", "line", std::to_string(options.line->guest_listen),
                          std::to_string(options.line->guest_destination)};
   }
+  std::optional<ClockFollower> follower;
+  if (!options.clock.empty()) {
+    auto opened = ClockFollower::open(options.clock);
+    if (!opened) return refuse(opened.error(), kExitUsage);
+    follower.emplace(*std::move(opened));
+  }
   auto guest = Guest::boot(plan);
   if (!guest) return refuse(guest.error(), kExitGuestFailed);
   while (true) {
@@ -86,14 +93,16 @@ int run_in_guest(const BusExecOptions& options, transport::StopSignal& stop, Ins
     if (transport::monotonic_now() >= deadline) return timed_out(options);
     if (stop.raised()) return 128 + SIGTERM;
     if (relay) relay->serve(guest->line());
+    if (follower) follower->serve(guest->clock());
     const auto [output, errors, machine] = guest->descriptors();
     const int watched[] = {output,
                            errors,
                            machine,
                            stop.fd(),
                            relay ? relay->fd() : -1,
-                           relay ? guest->line().fd() : -1};
-    const bool busy = guest->line().has_unsent();
+                           relay ? guest->line().fd() : -1,
+                           follower ? guest->clock().fd() : -1};
+    const bool busy = guest->line().has_unsent() || (follower && follower->is_waiting());
     transport::wait_readable(
         watched, busy ? transport::monotonic_now() + milliseconds(1) : wake_before(deadline));
   }
@@ -214,7 +223,8 @@ constexpr const char* kUsage =
     "bus down [IFACE]...       remove virtual interfaces\n"
     "bus hub PATH [--seconds S] serve the bus unix:PATH, for machines without CAN\n"
     "bus exec [--auto|--native|--guest] [--interface IFACE]... [--timeout S] [--memory MIB]\n"
-    "         [--line-udp HOST_LISTEN:HOST_DEST:GUEST_LISTEN:GUEST_DEST] -- COMMAND ARG...\n"
+    "         [--line-udp HOST_LISTEN:HOST_DEST:GUEST_LISTEN:GUEST_DEST] [--clock FILE]\n"
+    "         -- COMMAND ARG...\n"
     "                          run COMMAND where CAN is; its output and exit code are ours\n"
     "exit codes of exec: COMMAND's; 2 usage or no CAN, 124 time-out, 125 the guest failed\n";
 

@@ -94,15 +94,19 @@ Result<Guest, Problem> Guest::boot(const GuestPlan& plan) {
   if (!folder) return Unexpected{folder.error()};
   auto ends = transport::stream_pair();
   if (!ends) return Unexpected{ends.error()};
+  auto clock_ends = transport::stream_pair();
+  if (!clock_ends) return Unexpected{clock_ends.error()};
   auto line = transport::SerialLine::adopt(std::move(ends->first));
   if (!line) return Unexpected{line.error()};
-  Guest guest(*std::move(folder), *std::move(line));
-  const auto started = guest.start(plan, ends->second.get());
+  auto clock = transport::SerialLine::adopt(std::move(clock_ends->first));
+  if (!clock) return Unexpected{clock.error()};
+  Guest guest(*std::move(folder), *std::move(line), *std::move(clock));
+  const auto started = guest.start(plan, ends->second.get(), clock_ends->second.get());
   if (!started) return Unexpected{started.error()};
   return guest;
 }
 
-Result<bool, Problem> Guest::start(const GuestPlan& plan, int line_end) {
+Result<bool, Problem> Guest::start(const GuestPlan& plan, int line_end, int clock_end) {
   const std::string& folder = folder_.path();
   std::error_code error;
   const std::string working = fs::current_path(error).string();
@@ -122,7 +126,7 @@ Result<bool, Problem> Guest::start(const GuestPlan& plan, int line_end) {
   if (!errors) return Unexpected{errors.error()};
   if (!life) return Unexpected{life.error()};
 
-  constexpr int kLine = 3, kOutput = 4, kErrors = 5;
+  constexpr int kLine = 3, kOutput = 4, kErrors = 5, kClock = 6;
   const auto fd = [](int n) { return "fd:" + std::to_string(n); };
   const std::string memory = std::to_string(affordable_memory_mib(plan.memory_mib));
   // User-mode Linux changes between its kernel and its processes at every system call. Where the
@@ -133,16 +137,18 @@ Result<bool, Problem> Guest::start(const GuestPlan& plan, int line_end) {
       {.argv = {kProgram, "mem=" + memory + "M", "rootfstype=hostfs", "hostfs=/", "rw",
                 "init=" + init, "uml_dir=" + folder + "/uml", "con=null", "con0=null,fd:1",
                 "ssl=null", "ssl0=" + fd(kLine), "ssl1=null," + fd(kOutput),
-                "ssl2=null," + fd(kErrors), "quiet"},
+                "ssl2=null," + fd(kErrors), "ssl3=" + fd(kClock), "quiet"},
        .descriptors = {{null->fd(), 0},
                        {console->fd(), 1},
                        {console->fd(), 2},
                        {line_end, kLine},
                        {output->second.get(), kOutput},
-                       {errors->second.get(), kErrors}},
+                       {errors->second.get(), kErrors},
+                       {clock_end, kClock}},
        .own_group = true});
   pinned.reset();
   if (!machine) return Unexpected{machine.error()};
+  transport::prefer(machine->pid());  // where it may not, the bench tells what it waited for
   machine_.process = *std::move(machine);
   output_ = std::move(output->first);
   errors_ = std::move(errors->first);

@@ -3,6 +3,7 @@
 //
 //   host  boot() ... serve() serve() ... exit code     | stdout, stderr forwarded as they come
 //   guest      | 2 s |  command  | off                 | line(): datagrams to and from /dev/ttyS0
+//                                                        | clock(): likewise /dev/ttyS3
 //
 //   in     GuestPlan
 //   out    the command's output and exit code
@@ -35,17 +36,18 @@ class Guest {
   // To wait on between calls of serve(): output, errors, end of the guest.
   std::array<int, 3> descriptors() const { return {output_.get(), errors_.get(), machine_.fd()}; }
   transport::SerialLine& line() { return line_; }
+  transport::SerialLine& clock() { return clock_; }
 
  private:
-  Guest(transport::TemporaryFolder folder, transport::SerialLine line)
-      : folder_(std::move(folder)), line_(std::move(line)) {}
-  Result<bool, Problem> start(const GuestPlan& plan, int line_end);
+  Guest(transport::TemporaryFolder folder, transport::SerialLine line, transport::SerialLine clock)
+      : folder_(std::move(folder)), line_(std::move(line)), clock_(std::move(clock)) {}
+  Result<bool, Problem> start(const GuestPlan& plan, int line_end, int clock_end);
   Result<int, Problem> outcome() const;
 
   // Destroyed from the bottom up: the machine first, then the warden that would have killed it had
   // we died, then the pipe that the warden watches, then the files.
   transport::TemporaryFolder folder_;
-  transport::SerialLine line_;
+  transport::SerialLine line_, clock_;
   transport::FileDescriptor output_, errors_, lifeline_;
   std::optional<transport::Process> warden_;
   struct Machine {

@@ -44,7 +44,7 @@ load net/can/can-gw
 load drivers/net/can/slcan/slcan
 load net/sched/sch_netem
 ip link set lo up
-for line in 0 1 2; do stty -F /dev/ttyS$line raw -echo; done
+for line in 0 1 2 3; do stty -F /dev/ttyS$line raw -echo; done
 )sh";
 
 std::string quoted_words(std::span<const std::string> words) {

@@ -166,11 +166,21 @@ void judge_log(RunData& run, const std::string& name) {
     complain("holds no truth of a plant: not the log of a run, or nothing was simulated");
 }
 
+std::optional<transport::ClockWaits> waits_of(const JsonValue* json) {
+  if (json == nullptr || !(json->number("count") >= 0.0)) return std::nullopt;
+  return transport::ClockWaits{.count = static_cast<std::uint64_t>(json->number("count")),
+                               .total = from_seconds(json->number("total_ms") * 1e-3),
+                               .longest = from_seconds(json->number("longest_ms") * 1e-3),
+                               .longest_at = Instant{} + from_seconds(json->number("longest_at_s")),
+                               .longest_for = json->text("longest_for")};
+}
+
 std::optional<bench::RealTime> real_time_of(const JsonValue* json) {
   if (json == nullptr) return std::nullopt;
   bench::RealTime t{.wake_late_p50_us = json->number("wake_late_p50_us"),
                     .wake_late_p99_us = json->number("wake_late_p99_us"),
                     .wake_late_max_us = json->number("wake_late_max_us"),
+                    .waits = waits_of(json->find("waits")),
                     .stolen_ms = json->number("stolen_ms"),
                     .wake_late = {},
                     .step_p50_us = json->number("step_p50_us"),

@@ -175,6 +175,17 @@ std::string stolen(const bench::RealTime& t) {
          " ms of its processors' time.";
 }
 
+std::string stood(const bench::RealTime& t) {
+  if (!t.waits) return " Time was that of the wall clock.";
+  std::string out = " Bench time stood " + std::to_string(t.waits->count) +
+                    " times for the machine, " + number(t.waits->total.seconds(), 2) + " s in all";
+  if (t.waits->count == 0) return out + ".";
+  const std::string& who = t.waits->longest_for;
+  return out + ", at the longest " + number(t.waits->longest.milliseconds(), 0) + " ms at " +
+         number(t.waits->longest_at.seconds(), 2) + " s for " +
+         (who.empty() ? "the bench" : escaped(who)) + ".";
+}
+
 std::string real_time_charts(const RunData& run) {
   if (run.facts.mode == "lockstep")
     return absent("wake", "Lateness of the bench", "time is virtual in lockstep");
@@ -187,7 +198,7 @@ std::string real_time_charts(const RunData& run) {
                     " began more than one wake-up late." + stolen(t) + " Car: a step took " +
                     number(t.step_p50_us, 0) + " us (p50), " + number(t.step_p99_us, 0) +
                     " us (p99), " + number(t.step_max_us, 0) + " us at most; " +
-                    std::to_string(t.missed_deadlines) + " deadlines missed.</p>\n";
+                    std::to_string(t.missed_deadlines) + " deadlines missed." + stood(t) + "</p>\n";
   std::vector<Bar> bars;
   Line heights{{0.0, 0.0}};
   double last_us = bench::RealTime::kWakeBin_us;

@@ -48,6 +48,9 @@ struct DemoOptions {
   std::string scenario = "hil/scenarios/lvms_flying_lap.yaml";
 };
 
+// Several benches have each a time of their own; a base station that hears them all has the wall's.
+std::string clock_file() { return "/dev/shm/pitwall-demo-clock-" + std::to_string(::getpid()); }
+
 std::vector<std::string> base_words(const DemoOptions& options, std::span<const DemoCar> cars) {
   const std::string program =
       (fs::path(own_program()).parent_path().parent_path() / "basestation/pitwall-base").string();
@@ -62,6 +65,7 @@ std::vector<std::string> base_words(const DemoOptions& options, std::span<const 
   const std::vector<std::string> of_several{"--cars", options.folder + "/cars.yaml"};
   const auto& more = cars.size() == 1 ? of_one : of_several;
   words.insert(words.end(), more.begin(), more.end());
+  if (cars.size() == 1) words.insert(words.end(), {"--clock", clock_file()});
   return words;
 }
 
@@ -127,6 +131,7 @@ std::vector<std::string> bench_words(const DemoOptions& options, const DemoCar& 
   run.interface = car.interface();
   run.bay = car.bay;
   run.keys = car.folder + "/keys";
+  if (options.cars == 1) run.clock = clock_file();
   if (car.bus == DemoBus::kSocket) {  // on this machine: no line into a guest
     run.radio_port = car.base_port;
     run.uplink_port = car.uplink_port;
@@ -140,8 +145,9 @@ std::vector<std::string> bench_words(const DemoOptions& options, const DemoCar& 
       "exec",        "--auto",
       "--interface", run.interface,
       "--line-udp",  car.line_ports(),
-      "--timeout",   std::to_string(static_cast<int>(options.duration_s) + kBootSeconds),
-      "--"};
+      "--timeout",   std::to_string(static_cast<int>(options.duration_s) + kBootSeconds)};
+  if (!run.clock.empty()) exec.insert(exec.end(), {"--clock", run.clock});
+  exec.emplace_back("--");
   for (std::string& word : live_command(run)) exec.push_back(std::move(word));
   return exec;
 }
@@ -254,6 +260,8 @@ int demo(const DemoOptions& options) {
   base->kill(SIGTERM);
   if (!base->wait_until(transport::monotonic_now() + kBaseStop))
     return refuse({"pitwall-base", "did not stop"});
+  std::error_code none;  // where the base had the wall clock there is no file
+  fs::remove(clock_file(), none);
   if (!codes) return refuse(codes.error());
   if (cars.size() == 1 && worst(*codes) == kExitUnusable) return kExitUnusable;
   return report(options, cars, *codes);

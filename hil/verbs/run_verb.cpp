@@ -18,6 +18,7 @@
 #include "hil/bench/run_keys.hpp"
 #include "hil/guest/bus_verb.hpp"
 #include "hil/guest/own_hub.hpp"
+#include "hil/verbs/clock_place.hpp"
 #include "hil/verbs/command_line.hpp"
 #include "hil/verbs/exit_code.hpp"
 #include "hil/verbs/report_verb.hpp"
@@ -128,12 +129,20 @@ Result<bench::RunResult, Problem> live(const RunOptions& options, const bench::L
   if (!log) return Unexpected{log.error()};
   plan.log = *std::move(log);
   plan.follow = follow;
+  const ClockPlace clock = clock_place(options.clock, options.attach);
+  plan.clock = clock.file;
+  plan.clock_line = clock.line;
+  if (!clock.file.empty()) {
+    if (const auto used = transport::use_clock(clock.file); !used) return Unexpected{used.error()};
+  }
   auto result = bench::run_live(loaded.scenario, loaded.setup, plan);
+  if (clock.is_own) fs::remove(clock.file, error);
   if (!result) return Unexpected{result.error()};
   if (!plan.disk.empty() && !options.log_file.empty())
     if (auto problem = copy_out(log_file, options.log_file)) return Unexpected{*problem};
   if (!options.quiet)
-    std::printf("%s%s", timing_text(*result).c_str(), stolen_text(*result->run.real_time).c_str());
+    std::printf("%s%s%s", timing_text(*result).c_str(), waits_text(*result->run.real_time).c_str(),
+                stolen_text(*result->run.real_time).c_str());
   if (!result->run.timely()) result->run.remarks.push_back(late_text(*result->run.real_time));
   return result->run;
 }
@@ -163,6 +172,7 @@ std::vector<std::string> live_command(const RunOptions& options) {
   };
   if (options.bay != 0) add("--bay", std::to_string(options.bay));
   add("--keys", options.keys);
+  add("--clock", options.clock);
   add("--report", options.report_folder);
   add("--progress", options.progress_file);
   if (options.report_folder.empty()) {
@@ -271,6 +281,7 @@ int run_scenario(const RunOptions& options) {
 
 Result<std::vector<std::string>, Problem> exec_words(const RunOptions& options) {
   std::vector<std::string> words{"exec", "--auto", "--interface", options.interface};
+  if (is_clock_file(options.clock)) words.insert(words.end(), {"--clock", options.clock});
   RunOptions inside = options;
   if (options.radio_port != 0) {
     std::uint16_t uplink_port = options.uplink_port;
@@ -326,6 +337,9 @@ int run_verb(std::span<const std::string> args) {
       app.flag("--here", options.here, "live: the interface exists here already");
   app.flag("--attach", options.attach, "live: the car runs already; only with --here").needs(here);
   app.flag("--no-guardian", options.no_guardian, "live: the car alone");
+  app.option("--clock", options.clock,
+             "live: bench (its time stands while the machine holds a process up; the default), "
+             "wall, or a FILE to keep bench time in, for a base station with the same --clock");
   app.option("--interface", options.interface, "live: CAN interface");
   const VerbOption log = app.option("--log", options.log_file, "write the event log (MCAP)");
   const VerbOption json = app.option("--json", options.json_file, "write the result as JSON");

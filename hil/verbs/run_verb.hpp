@@ -40,6 +40,7 @@ struct RunOptions {
   int bay = 0;                    // live: of the benches that run on this machine at once
   std::uint16_t radio_port = 0;   // live: where the bench passes the car's telemetry on
   std::uint16_t uplink_port = 0;  // live: where answers of the base come; 0: any port
+  std::string clock;              // live: see clock_place.hpp
   std::string keys;               // live: folder of the run's keys; empty: new ones
 };
 

@@ -23,6 +23,22 @@ std::string timing_text(const bench::LiveResult& live) {
   return text;
 }
 
+std::string waits_text(const bench::RealTime& time) {
+  if (!time.waits) return "time by the wall clock\n";
+  const transport::ClockWaits& waits = *time.waits;
+  char text[240];
+  std::snprintf(text, sizeof text, "bench time stood %llu times for the machine, %.2f s in all",
+                static_cast<unsigned long long>(waits.count), waits.total.seconds());
+  std::string out = text;
+  if (waits.count > 0) {
+    std::snprintf(text, sizeof text, ", at the longest %.0f ms at %.2f s for %s",
+                  waits.longest.milliseconds(), waits.longest_at.seconds(),
+                  waits.longest_for.empty() ? "the bench" : waits.longest_for.c_str());
+    out += text;
+  }
+  return out + "\n";
+}
+
 std::string stolen_text(const bench::RealTime& time) {
   if (!(time.stolen_ms > 0.0)) return {};
   char text[120];

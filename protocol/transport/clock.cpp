@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <ctime>
 
+#include "protocol/transport/bench_clock/bench_clock.hpp"
 #include "protocol/transport/posix_call.hpp"
 #include "protocol/vocabulary/check.hpp"
 
@@ -20,11 +21,46 @@ std::int64_t read_clock(clockid_t which) {
   return t.tv_sec * kNanosecondsPerSecond + t.tv_nsec;
 }
 
+void sleep_on_wall(Instant deadline) {
+  if (deadline.ns <= 0) return;
+  const timespec t{.tv_sec = deadline.ns / kNanosecondsPerSecond,
+                   .tv_nsec = deadline.ns % kNanosecondsPerSecond};
+  const auto outcome =
+      posix_call([&] { return clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr); },
+                 Success::kZeroElseNumber);
+  CHECK(outcome.ok());
+}
+
 }  // namespace
 
-Instant monotonic_now() { return {read_clock(CLOCK_MONOTONIC)}; }
+Result<bool, Problem> use_clock(const std::string& source) {
+  return source == kWallClock ? Result<bool, Problem>{true} : BenchClock::use(source);
+}
 
-UtcTime utc_now() { return {read_clock(CLOCK_REALTIME)}; }
+Result<bool, Problem> take_turns() {
+  BenchClock* const bench = BenchClock::used();
+  if (bench == nullptr || bench->take_turns()) return true;
+  return Unexpected{Problem{"bench time", "so many take turns already that there is no room"}};
+}
+
+Instant monotonic_now() {
+  const BenchClock* const bench = BenchClock::used();
+  return bench == nullptr ? wall_now() : bench->now();
+}
+
+UtcTime utc_now() {
+  const BenchClock* const bench = BenchClock::used();
+  const UtcTime calendar{read_clock(CLOCK_REALTIME)};
+  if (bench == nullptr) return calendar;
+  const Duration stood = wall_now() - bench->now();
+  return {calendar.ns - stood.ns};
+}
+
+Instant to_instant(UtcTime stamp, Duration offset) {
+  const BenchClock* const bench = BenchClock::used();
+  const Instant wall{stamp.ns - offset.ns};
+  return bench == nullptr ? wall : bench->time_of(wall);
+}
 
 std::optional<Duration> utc_error() {
   timex state{};
@@ -38,24 +74,25 @@ std::optional<Duration> utc_error() {
 Duration thread_time() { return {read_clock(CLOCK_THREAD_CPUTIME_ID)}; }
 
 void sleep_until(Instant deadline) {
-  if (deadline.ns <= 0) return;
-  const timespec t{.tv_sec = deadline.ns / kNanosecondsPerSecond,
-                   .tv_nsec = deadline.ns % kNanosecondsPerSecond};
-  const auto outcome =
-      posix_call([&] { return clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr); },
-                 Success::kZeroElseNumber);
-  CHECK(outcome.ok());
+  BenchClock* const bench = BenchClock::used();
+  if (bench == nullptr) return sleep_on_wall(deadline);
+  bench->wait_until(deadline, [](Duration span) {
+    sleep_on_wall(wall_now() + span);
+    return false;
+  });
 }
+
+void nap(Duration span) { sleep_on_wall(wall_now() + span); }
 
 Duration realtime_minus_monotonic() {
   constexpr int kAttempts = 3;  // one of them is hardly ever interrupted
   constexpr Duration kTight = microseconds(2);
   Duration best{};
   Duration tightest{INT64_MAX};
-  Instant before = monotonic_now();
+  Instant before = wall_now();
   for (int i = 0; i < kAttempts && tightest > kTight; ++i) {
-    const UtcTime utc = utc_now();
-    const Instant after = monotonic_now();
+    const UtcTime utc{read_clock(CLOCK_REALTIME)};
+    const Instant after = wall_now();
     const Duration width = after - before;
     if (width < tightest) {
       tightest = width;

@@ -1,19 +1,32 @@
 // The only place that knows what time it is. Everybody else is told.
-//   out    Instant on CLOCK_MONOTONIC, UtcTime on CLOCK_REALTIME, time spent by a thread, sleeps to
-//          absolute deadlines
+//   in     the clock that this program goes by: the wall clock, or that of a bench (bench_clock/)
+//   out    Instant, UtcTime, time spent by a thread, sleeps to absolute deadlines
 //   units  int64 nanoseconds
-//   errors none: a clock that fails is our own mistake (CHECK)
+//   errors use_clock(): Problem with the file of bench time. A clock that fails later is our own
+//          mistake (CHECK)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
+#include "protocol/transport/bench_clock/wall_clock.hpp"
+#include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::transport {
 
+inline constexpr const char* kWallClock = "wall";
+// "wall", which is also what a program goes by that says nothing, or the file in which a bench
+// keeps its time. Before any other thread starts.
+Result<bool, Problem> use_clock(const std::string& source);
+// A bench lets time stand while the calling thread is held up; nothing by the wall clock.
+Result<bool, Problem> take_turns();
+
+// By the clock in use; what only the wall clock can tell is wall_now(), CLOCK_MONOTONIC.
 Instant monotonic_now();
+// CLOCK_REALTIME; under a bench less the time for which the bench stood.
 UtcTime utc_now();
 // How far the calendar may be off, by the service that keeps it: the larger of what it still
 // corrects and of its own estimate. None: nothing compares this clock with another.
@@ -23,11 +36,14 @@ Duration thread_time();
 
 // Returns at or after the deadline; at once if it has passed. Never earlier, whatever signals come.
 void sleep_until(Instant deadline);
+// By the wall clock: for who keeps bench time, and would wait for itself.
+void nap(Duration span);
 
-// What to subtract from a kernel stamp (CLOCK_REALTIME) to get an Instant. Taken between two
-// monotonic readings; the tightest of a few attempts is kept.
+// CLOCK_REALTIME less CLOCK_MONOTONIC. Taken between two monotonic readings; the tightest of a few
+// attempts is kept.
 Duration realtime_minus_monotonic();
-constexpr Instant to_instant(UtcTime stamp, Duration offset) { return {stamp.ns - offset.ns}; }
+// When a kernel stamp (CLOCK_REALTIME) was made, by the clock in use.
+Instant to_instant(UtcTime stamp, Duration offset);
 
 // When something that was read can have arrived: after the socket was last found empty, and before
 // it was read. A kernel stamp outside of that belongs to a calendar that has been stepped since.

@@ -8,7 +8,8 @@
 #include <array>
 #include <ctime>
 
-#include "protocol/transport/clock.hpp"
+#include "protocol/transport/bench_clock/bench_clock.hpp"
+#include "protocol/transport/bench_clock/wall_clock.hpp"
 #include "protocol/transport/posix_call.hpp"
 #include "protocol/vocabulary/check.hpp"
 
@@ -19,12 +20,24 @@ std::uint32_t wait_readable(std::span<const int> descriptors, Instant deadline) 
   std::array<pollfd, kMaxWatched> watched{};
   for (std::size_t i = 0; i < descriptors.size(); ++i)
     watched[i] = {.fd = descriptors[i], .events = POLLIN, .revents = 0};
-  const auto outcome = posix_call([&] {  // the time left is computed again after a signal
-    const std::int64_t left_ns = std::max<std::int64_t>((deadline - monotonic_now()).ns, 0);
-    const timespec timeout{.tv_sec = left_ns / kNanosecondsPerSecond,
-                           .tv_nsec = left_ns % kNanosecondsPerSecond};
-    return ppoll(watched.data(), descriptors.size(), &timeout, nullptr);
-  });
+  const auto wait = [&](auto&& left) {  // computed again after a signal
+    return posix_call([&] {
+      const std::int64_t left_ns = std::max<std::int64_t>(left().ns, 0);
+      const timespec timeout{.tv_sec = left_ns / kNanosecondsPerSecond,
+                             .tv_nsec = left_ns % kNanosecondsPerSecond};
+      return ppoll(watched.data(), descriptors.size(), &timeout, nullptr);
+    });
+  };
+  PosixOutcome outcome;
+  if (BenchClock* const bench = BenchClock::used()) {
+    bench->wait_until(deadline, [&](Duration span) {
+      const Instant end = wall_now() + span;
+      outcome = wait([&] { return end - wall_now(); });
+      return outcome.value != 0;
+    });
+  } else {
+    outcome = wait([&] { return deadline - wall_now(); });
+  }
   std::uint32_t ready = 0;
   if (!outcome.ok()) return ready;
   for (std::size_t i = 0; i < descriptors.size(); ++i)

@@ -4,6 +4,7 @@
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "protocol/transport/posix_call.hpp"
@@ -49,6 +50,13 @@ std::string to_string(const RealtimeReport& report) {
   };
   return "memory lock " + say(report.memory_locked, report.memory_error) + ", SCHED_FIFO " +
          say(report.fifo, report.fifo_error);
+}
+
+bool prefer(pid_t process) {
+  constexpr int kPreferred = -15;
+  return posix_call(
+             [&] { return setpriority(PRIO_PROCESS, static_cast<id_t>(process), kPreferred); })
+      .ok();
 }
 
 OnOneProcessor::OnOneProcessor(int n) {

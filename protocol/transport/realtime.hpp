@@ -7,6 +7,7 @@
 #pragma once
 
 #include <sched.h>
+#include <sys/types.h>
 
 #include <string>
 
@@ -22,6 +23,9 @@ struct RealtimeReport {
 RealtimeReport request_realtime(int priority);
 // Back to an ordinary thread: what it may take again lies unlocked and time-shared.
 void release_realtime();
+// Another process, and what it starts from now on, before ordinary ones that want the same
+// processor. False: not allowed here.
+bool prefer(pid_t process);
 // For a thread whose work may wait: it, and threads that it starts, run after the ordinary ones
 // where they want the same processor.
 void give_way();

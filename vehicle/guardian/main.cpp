@@ -130,6 +130,7 @@ int run(int argc, const char* const* argv) {
   const auto parsed = io::parse_guardian_arguments(argc, argv);
   if (const int* code = std::get_if<int>(&parsed)) return *code;
   const auto& args = std::get<io::GuardianArguments>(parsed);
+  if (const auto clock = transport::use_clock(args.clock); !clock) return refuse(clock.error());
   auto stop = transport::StopSignal::install();
   if (!stop) return refuse(stop.error());
   const auto text = transport::read_file(args.car_file);
@@ -143,6 +144,7 @@ int run(int argc, const char* const* argv) {
   std::fprintf(stderr, "pitwall-guardian: on %s, %s, %s%s\n", args.can_interface.c_str(),
                io::shared_stop_path(args.guardian).c_str(), transport::to_string(realtime).c_str(),
                args.simulation ? ", SIMULATION" : "");
+  if (const auto taken = transport::take_turns(); !taken) return refuse(taken.error());
   const auto state = std::make_unique<guardian::State>();
   const Counts counts = watch_over(pipeline::guardian_params(car->params), *state, *rim, *stop);
   if (args.summary_file.empty()) return 0;

@@ -5,6 +5,7 @@
 
 #include "protocol/telemetry/packet/body.hpp"
 #include "protocol/telemetry/session/association.hpp"
+#include "vehicle/io/clock_option.hpp"
 #include "vehicle/io/receiver_options.hpp"
 
 namespace pitwall::io {
@@ -31,6 +32,7 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   app.add_option("--local-report", args.local_report,
                  "tell programs on this machine the car's state, unsealed: a port on 127.0.0.1")
       ->check(CLI::Range(1, kPortMax));
+  add_clock(app, args.clock);
   app.add_option("--summary", args.summary_file, "write counters and timing here at the end");
   app.add_option("--record", args.record_folder,
                  "keep state and bus frames in this folder: MCAP, and an LCM log beside it");
@@ -46,6 +48,7 @@ std::variant<Arguments, int> parse_arguments(int argc, const char* const* argv) 
   app.add_flag("--arm", args.arm, "armed from the start (bench)");
   try {
     app.parse(argc, argv);
+    check_clock(args.clock, args.simulation);
     if (args.keys.empty() && !args.no_base && !args.check)
       throw CLI::ValidationError(
           "--keys",

@@ -21,6 +21,7 @@ struct Arguments {
   std::vector<std::string> radio{"127.0.0.1:23431"};  // by path: see station_addresses.hpp
   std::string keys;                                   // file of the car's keys
   std::uint16_t local_report = 0;                     // port on loopback; 0: nobody is told
+  std::string clock = "wall";                         // or the file in which a bench keeps time
   std::string summary_file;                           // empty: none
   std::string record_folder;                          // of the car's own recording; empty: none
   std::string sensors_file;                           // of sensors over ROS 2 topics; empty: none

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "vehicle/io/clock_option.hpp"
 #include "vehicle/io/receiver_options.hpp"
 
 namespace pitwall::io {
@@ -16,11 +17,13 @@ std::variant<GuardianArguments, int> parse_guardian_arguments(int argc, const ch
                  "name of the record shared with pitwall-vehicle (a file in /dev/shm, or a path)")
       ->required();
   const ReceiverOptions receivers{app};
+  add_clock(app, args.clock);
   app.add_option("--summary", args.summary_file, "write counters and timing here at the end");
   app.add_flag("--check", args.check, "only read the car file; touch no bus");
   app.add_flag("--simulation", args.simulation, "say that this is a simulation");
   try {
     app.parse(argc, argv);
+    check_clock(args.clock, args.simulation);
     args.receivers = receivers.links();
   } catch (const CLI::ParseError& error) {
     const int code = app.exit(error);

@@ -12,9 +12,10 @@ namespace pitwall::io {
 
 struct GuardianArguments {
   std::string car_file, can_interface, guardian, summary_file;  // no summary if empty
-  ReceiverLinks receivers;                                      // links of its own, not the car's
-  bool check = false;       // read the car file, say what is wrong with it, and stop
-  bool simulation = false;  // said on stderr; decides nothing
+  std::string clock = "wall";  // or the file in which a bench keeps time
+  ReceiverLinks receivers;     // links of its own, not the car's
+  bool check = false;          // read the car file, say what is wrong with it, and stop
+  bool simulation = false;     // said on stderr; decides nothing
 };
 
 // Arguments, or the code to exit with.

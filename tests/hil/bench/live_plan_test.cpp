@@ -124,5 +124,18 @@ TEST(LivePlan, BaysOfOneMachineShareNoPortAndNoMemory) {
   EXPECT_EQ(in_bay(first, 0).report_port, first.report_port);
 }
 
+TEST(LivePlan, AllLiveByTheTimeOfTheBenchOrByTheWallClock) {
+  LivePlan p = plan();
+  p.guardian = {"guardian"};
+  p.base = {"base"};
+  for (const char* const clock : {"", "/dev/shm/time"}) {
+    p.clock = clock;
+    for (const Member& one : members_of(p)) {
+      EXPECT_EQ(after(one.command, "--clock"), clock);
+      EXPECT_EQ(after(one.restart, "--clock"), clock);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pitwall::bench

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "protocol/transport/clock.hpp"
+#include "protocol/transport/file.hpp"
 #include "protocol/transport/virtual_machine.hpp"
 
 namespace pitwall::bench {
@@ -42,6 +43,29 @@ TEST(WakeClock, ALateOneIsCaughtUpAtOnceAndCounted) {
   EXPECT_EQ(std::accumulate(report.wake_late.begin(), report.wake_late.end(), 0ULL), 0u);
   EXPECT_GE(report.behind_max, 4 * kPeriod) << "the first of them was due so long ago";
   EXPECT_GE(report.behind_at, Instant{} + kPeriod);
+}
+
+// In a process of its own: a program has one clock.
+TEST(WakeClock, ByBenchTimeALateWakeUpCostsNone) {
+  const auto folder = transport::TemporaryFolder::create("pitwall-wake-clock-");
+  ASSERT_TRUE(folder);
+  const std::string file = folder->path() + "/clock";
+  const auto run = [&file] {
+    if (!transport::use_clock(file)) return 2;
+    auto time = BenchTime::open(file, "");
+    if (!time) return 3;
+    WakeClock clock(kPeriod, 20 * kPeriod, *std::move(time));
+    clock.start();
+    clock.sleep_until(Instant{} + kPeriod);
+    transport::nap(20 * kPeriod);  // as a machine that had no processor for the bench
+    for (int i = 2; i <= 10; ++i) clock.sleep_until(Instant{} + i * kPeriod);
+    const RealTime report = clock.report();
+    clock.end();
+    if (report.behind_max > 2 * transport::ClockKeeper::kLead) return 4;
+    if (!report.waits || report.waits->longest < 15 * kPeriod) return 5;
+    return report.waits->longest_at - Instant{} <= 3 * kPeriod ? 0 : 6;
+  };
+  EXPECT_EXIT(::_exit(run()), ::testing::ExitedWithCode(0), "");
 }
 
 TEST(WakeClock, TellsWhatTheHostOfTheMachineTook) {

@@ -9,9 +9,9 @@ namespace {
 using Words = std::vector<std::string>;
 
 TEST(BusOptions, EveryOptionIsUnderstood) {
-  const Words words{"--guest",   "--interface", "vcan0",    "--interface", "can_b.1",
-                    "--timeout", "2.5",         "--memory", "256",         "--line-udp",
-                    "1:2:3:4",   "--",          "cmd",      "--guest",     "--"};
+  const Words words{"--guest",    "--interface", "vcan0", "--interface", "can_b.1", "--timeout",
+                    "2.5",        "--memory",    "256",   "--line-udp",  "1:2:3:4", "--clock",
+                    "/dev/shm/t", "--",          "cmd",   "--guest",     "--"};
   const auto options = parse_bus_exec(words);
   ASSERT_TRUE(options.has_value()) << to_string(options.error());
   EXPECT_EQ(options->place, BusPlace::kGuest);
@@ -20,6 +20,7 @@ TEST(BusOptions, EveryOptionIsUnderstood) {
   EXPECT_EQ(options->memory_mib, 256);
   ASSERT_TRUE(options->line.has_value());
   EXPECT_EQ(options->line->guest_destination, 4);
+  EXPECT_EQ(options->clock, "/dev/shm/t");
   EXPECT_EQ(options->command, (Words{"cmd", "--guest", "--"}));  // the rest is the command's own
 }
 
@@ -48,6 +49,7 @@ TEST(BusOptions, WhatDoesNotFitIsNamed) {
       {{"--interface", "$(id)", "--", "true"}, "$(id)"},
       {{"--interface", "-x", "--", "true"}, "-x"},
       {{"--interface", "sixteen_letters_", "--", "true"}, "sixteen_letters_"},
+      {{"--clock", "", "--", "true"}, "--clock"},
       {{"--line-udp", "1:2", "--", "true"}, "1:2"}};
   for (const auto& [words, place] : cases) {
     const auto options = parse_bus_exec(words);

@@ -72,6 +72,16 @@ TEST(RealTime, IsForALiveRunThatMeasuredIt) {
   EXPECT_EQ(count(html, "class=\"mark\""), 2u) << "two bins hold something";
   EXPECT_EQ(count(html, "61 us (p50)"), 1u);
   EXPECT_EQ(count(html, "The host"), 0u);
+  EXPECT_EQ(count(html, "Time was that of the wall clock."), 1u);
+  times.waits = {.count = 2,
+                 .total = milliseconds(90),
+                 .longest = milliseconds(70),
+                 .longest_at = Instant{} + seconds(3),
+                 .longest_for = "<car>"};
+  EXPECT_EQ(count(real_time_charts(live),
+                  "stood 2 times for the machine, 0.09 s in all, at the longest 70 ms at 3.00 s "
+                  "for &lt;car&gt;."),
+            1u);
   times.stolen_ms = 1230.0;
   EXPECT_EQ(count(real_time_charts(live), "took 1230 ms of its processors' time"), 1u);
 }

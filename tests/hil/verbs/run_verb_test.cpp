@@ -195,6 +195,25 @@ TEST(LiveCommand, SaysAllThatTheRunWasTold) {
   EXPECT_EQ(*(progress + 1), "p.jsonl");
 }
 
+TEST(LiveCommand, ATimeThatIsSharedIsKeptOnBothSidesOfTheLine) {
+  RunOptions options;
+  options.scenario = "s.yaml";
+  for (const char* const clock : {"", "bench", "wall", "/dev/shm/t"}) {
+    options.clock = clock;
+    const bool is_file = clock[0] == '/';
+    const auto words = exec_words(options);
+    ASSERT_TRUE(words);
+    const auto command = std::ranges::find(*words, "--");
+    const auto outside = std::find(words->begin(), command, "--clock");
+    EXPECT_EQ(outside != command, is_file) << clock;
+    const auto inside = std::find(command, words->end(), "--clock");
+    ASSERT_EQ(inside != words->end(), clock[0] != 0) << clock;
+    if (clock[0] != 0) {
+      EXPECT_EQ(*(inside + 1), clock);
+    }
+  }
+}
+
 // Behind the line the bench has ports of its own; on this machine they are those of the base.
 TEST(ExecWords, LeadTheRadioOutOfTheGuest) {
   RunOptions options;

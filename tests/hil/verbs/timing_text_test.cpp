@@ -29,5 +29,22 @@ TEST(TimingText, SaysHowLateTheBenchWasAndWhatTheHostTook) {
   EXPECT_NE(late_text(time).find("at 7.89 s the bench was 56 ms behind"), std::string::npos);
 }
 
+TEST(TimingText, SaysForWhomBenchTimeStood) {
+  bench::RealTime time;
+  EXPECT_EQ(waits_text(time), "time by the wall clock\n");
+  transport::ClockWaits& waits = time.waits.emplace();
+  EXPECT_EQ(waits_text(time), "bench time stood 0 times for the machine, 0.00 s in all\n");
+  waits = {.count = 3,
+           .total = milliseconds(2'500),
+           .longest = milliseconds(740),
+           .longest_at = Instant{} + milliseconds(8'120),
+           .longest_for = "pitwall-vehicle"};
+  EXPECT_EQ(waits_text(time),
+            "bench time stood 3 times for the machine, 2.50 s in all, at the longest 740 ms at "
+            "8.12 s for pitwall-vehicle\n");
+  waits.longest_for.clear();
+  EXPECT_NE(waits_text(time).find("for the bench\n"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace pitwall::verbs

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <thread>
 
 namespace pitwall::transport {
@@ -81,6 +82,21 @@ TEST(Realtime, OnOneProcessorWithWhatItStarts) {
   };
   const cpu_set_t last = is_of(count - 1), from_the_end = is_of(-1);
   EXPECT_TRUE(CPU_EQUAL(&last, &from_the_end));
+}
+
+TEST(Realtime, AnotherProcessIsPreferredWhereThatIsAllowed) {
+  const pid_t other = ::fork();
+  if (other == 0) {
+    ::pause();
+    ::_exit(0);
+  }
+  const bool allowed = prefer(other);
+  const int priority = ::getpriority(PRIO_PROCESS, static_cast<id_t>(other));
+  EXPECT_EQ(priority < 0, allowed);
+  EXPECT_EQ(::getpriority(PRIO_PROCESS, 0), allowed ? 0 : priority) << "not this one";
+  ::kill(other, SIGKILL);
+  ::waitpid(other, nullptr, 0);
+  EXPECT_FALSE(prefer(other)) << "gone";
 }
 
 TEST(Realtime, AnImpossiblePriorityIsRefusedWithItsReason) {

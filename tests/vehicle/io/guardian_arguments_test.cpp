@@ -22,8 +22,9 @@ std::variant<GuardianArguments, int> parse_guardian(const Words& words) {
   return parsed;
 }
 
-const Words kAll{"--car",  "a.yaml",      "--can",     "can0",   "--guardian",  "pitwall-can0",
-                 "--gnss", "23503,23504", "--summary", "s.json", "--simulation"};
+const Words kAll{"--car",        "a.yaml",  "--can",       "can0",      "--guardian",
+                 "pitwall-can0", "--gnss",  "23503,23504", "--summary", "s.json",
+                 "--simulation", "--clock", "/dev/shm/t"};
 
 TEST(GuardianArguments, EveryOptionArrives) {
   const auto parsed = parse_guardian(kAll);
@@ -35,6 +36,7 @@ TEST(GuardianArguments, EveryOptionArrives) {
   EXPECT_EQ(to_string(args.receivers[0]), "udp:127.0.0.1:23503");
   EXPECT_EQ(to_string(args.receivers[1]), "udp:127.0.0.1:23504");
   EXPECT_EQ(args.summary_file, "s.json");
+  EXPECT_EQ(args.clock, "/dev/shm/t");
   EXPECT_TRUE(args.simulation);
 }
 

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/bench_time.hpp"
+
+#include <algorithm>
+
+#include "hil/guest/clock_word.hpp"
+
+namespace pitwall::bench {
+
+Result<BenchTime, Problem> BenchTime::open(const std::string& file, const std::string& line) {
+  auto keeper = transport::ClockKeeper::keep(file);
+  if (!keeper) return Unexpected{keeper.error()};
+  if (line.empty()) return BenchTime{*std::move(keeper), std::nullopt};
+  auto opened = transport::SerialLine::open(line);
+  if (!opened) return Unexpected{opened.error()};
+  return BenchTime{*std::move(keeper), *std::move(opened)};
+}
+
+Result<std::optional<BenchTime>, Problem> BenchTime::of_run(const std::string& file,
+                                                            const std::string& line) {
+  if (file.empty()) return std::optional<BenchTime>{};
+  auto time = open(file, line);
+  if (!time) return Unexpected{time.error()};
+  return std::optional<BenchTime>{*std::move(time)};
+}
+
+void BenchTime::begin() {
+  keeper_.begin();
+  followed_ = keeper_.now();
+  tell(followed_);
+}
+
+bool BenchTime::advance() {
+  if (!line_) return keeper_.advance();
+  const Instant now = keeper_.now();
+  if (now - told_ >= kWordEvery) {
+    hear();
+    tell(now);
+  } else if (now - followed_ >= kBehind - kWordEvery) {
+    hear();
+  }
+  return keeper_.advance(followed_ + kBehind);
+}
+
+void BenchTime::end() {
+  keeper_.end();
+  if (line_) tell(Instant::max());
+}
+
+void BenchTime::tell(Instant now) {
+  told_ = now;
+  if (!line_) return;
+  line_->send(guest::to_word(now));
+  line_->flush();
+}
+
+void BenchTime::hear() {
+  while (const auto word = line_->receive())
+    if (const auto followed = guest::from_word(*word)) followed_ = std::max(followed_, *followed);
+}
+
+}  // namespace pitwall::bench

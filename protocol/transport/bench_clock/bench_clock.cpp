@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/transport/bench_clock/bench_clock.hpp"
+
+#include <unistd.h>
+
+#include <optional>
+
+#include "protocol/transport/bench_clock/wall_clock.hpp"
+#include "protocol/vocabulary/check.hpp"
+
+namespace pitwall::transport {
+namespace {
+
+std::optional<BenchClock>& of_this_program() {
+  static std::optional<BenchClock> clock;
+  return clock;
+}
+
+// The slot of the calling thread, free again when it ends.
+struct OwnSlot {
+  ClockSlot* slot = nullptr;
+  ~OwnSlot() {
+    if (slot != nullptr) slot->process.store(0);
+  }
+};
+thread_local OwnSlot own;
+
+}  // namespace
+
+Result<bool, Problem> BenchClock::use(const std::string& path) {
+  CHECK(!of_this_program());
+  auto memory = ClockMemory::open(path);
+  if (!memory) return Unexpected{memory.error()};
+  of_this_program().emplace(*std::move(memory));
+  return true;
+}
+
+BenchClock* BenchClock::used() {
+  auto& clock = of_this_program();
+  return clock ? &*clock : nullptr;
+}
+
+Instant BenchClock::now() const { return bench_now(memory_.page(), wall_now); }
+
+bool BenchClock::take_turns() {
+  if (own.slot != nullptr) return true;
+  for (ClockSlot& slot : memory_.page().slots) {
+    std::int32_t free = 0;
+    if (!slot.process.compare_exchange_strong(free, ::getpid())) continue;
+    slot.thread.store(::gettid());
+    slot.due_ns.store(ClockSlot::kAtWork);
+    slot.turns.fetch_or(1);  // at work
+    own.slot = &slot;
+    return true;
+  }
+  return false;
+}
+
+BenchClock::Wait::Wait(Instant due) {
+  if (own.slot == nullptr) return;
+  own.slot->due_ns.store(due.ns, std::memory_order_relaxed);
+  own.slot->turns.fetch_add(1, std::memory_order_release);
+}
+
+BenchClock::Wait::~Wait() {
+  if (own.slot == nullptr) return;
+  own.slot->due_ns.store(ClockSlot::kAtWork, std::memory_order_relaxed);
+  own.slot->turns.fetch_add(1, std::memory_order_release);
+}
+
+void BenchClock::look_after_bench() {
+  if (memory_.page().horizon_ns.load() == INT64_MAX || memory_.is_locked()) return;
+  memory_.let_go_on(wall_now());
+}
+
+}  // namespace pitwall::transport

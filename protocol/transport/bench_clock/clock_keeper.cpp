@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/transport/bench_clock/clock_keeper.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "protocol/transport/bench_clock/task_state.hpp"
+#include "protocol/transport/bench_clock/wall_clock.hpp"
+
+namespace pitwall::transport {
+
+Result<ClockKeeper, Problem> ClockKeeper::keep(const std::string& path) {
+  auto memory = ClockMemory::open(path);
+  if (!memory) return Unexpected{memory.error()};
+  if (!memory->lock()) return Unexpected{Problem{path, "another bench keeps its time here"}};
+  memory->page().horizon_ns.store(INT64_MAX);
+  return ClockKeeper{*std::move(memory)};
+}
+
+ClockKeeper::~ClockKeeper() {
+  if (memory_.is_open()) end();
+}
+
+Instant ClockKeeper::now() const { return bench_now(memory_.page(), wall_now); }
+
+void ClockKeeper::begin(Duration lead) {
+  lead_ = lead;
+  memory_.page().horizon_ns.store((now() + lead_).ns, std::memory_order_release);
+}
+
+bool ClockKeeper::advance(Instant limit) {
+  const Instant at = now();
+  if (is_held_up(at)) return false;
+  const Instant to = std::min(at + lead_, limit);
+  if (to.ns <= memory_.page().horizon_ns.load()) return to > at;
+  move_horizon(to, wall_now());
+  return true;
+}
+
+void ClockKeeper::move_horizon(Instant to, Instant wall) {
+  ClockPage& page = memory_.page();
+  const std::int64_t horizon_ns = page.horizon_ns.load(), lost_ns = page.lost_ns.load();
+  const Duration waited{wall.ns - lost_ns - horizon_ns};
+  if (waited.ns > 0) {
+    const std::uint64_t made = page.pauses_made.load();
+    ClockPause& pause = page.pauses[made % ClockPage::kPauses];
+    pause.from_ns.store(wall.ns - waited.ns);
+    pause.to_ns.store(wall.ns);
+    page.pauses_made.store(made + 1, std::memory_order_release);
+    page.lost_ns.store(lost_ns + waited.ns, std::memory_order_release);
+    count_wait(waited, {horizon_ns});
+  }
+  blamed_ = 0;
+  page.horizon_ns.store(to.ns, std::memory_order_release);
+}
+
+void ClockKeeper::count_wait(Duration waited, Instant at) {
+  ++waits_.count;
+  waits_.total = waits_.total + waited;
+  if (waited <= waits_.longest) return;
+  waits_.longest = waited;
+  waits_.longest_at = at;
+  waits_.longest_for = blamed_ == 0 ? std::string() : task_name(blamed_);
+}
+
+void ClockKeeper::leap(Instant to) {
+  ClockPage& page = memory_.page();
+  const Instant at = now();
+  if (to <= at) return;
+  page.horizon_ns.store(std::max(page.horizon_ns.load(), to.ns), std::memory_order_release);
+  page.lost_ns.store(wall_now().ns - to.ns, std::memory_order_release);
+}
+
+void ClockKeeper::end() {
+  if (memory_.page().horizon_ns.load() != INT64_MAX) move_horizon(Instant::max(), wall_now());
+}
+
+bool ClockKeeper::is_held_up(Instant now) {
+  for (std::size_t slot = 0; slot < ClockPage::kSlots; ++slot) {
+    if (!holds_up(slot, now)) continue;
+    blamed_ = memory_.page().slots[slot].process.load();
+    return true;
+  }
+  return false;
+}
+
+bool ClockKeeper::holds_up(std::size_t index, Instant now) {
+  ClockSlot& slot = memory_.page().slots[index];
+  const std::int32_t process = slot.process.load(std::memory_order_acquire);
+  if (process == 0 || process == ::getpid()) return false;
+  const std::uint64_t turn = slot.turns.load(std::memory_order_acquire);
+  const Instant due{slot.due_ns.load(std::memory_order_relaxed)};
+  if (now - kGrace <= due) return false;
+  Watch& watch = watches_[index];
+  if (watch.turn != turn) {
+    const bool at_work = turn % 2 != 0;
+    watch = {.turn = turn, .since = at_work ? now - kGrace : due, .used = process_time(process)};
+  }
+  switch (task_state(process, slot.thread.load())) {
+    case TaskState::kGone: {
+      std::int32_t dead = process;
+      slot.process.compare_exchange_strong(dead, 0);
+      return false;
+    }
+    case TaskState::kStopped:
+      return false;
+    case TaskState::kWaits:
+      // A nap that ends soon; else something of its own.
+      if (turn % 2 != 0) return false;
+      break;
+    case TaskState::kRuns:
+      break;
+  }
+  const Duration worked = process_time(process) - watch.used;
+  return now - kGrace - kGrace > watch.since + worked;
+}
+
+}  // namespace pitwall::transport

@@ -1,0 +1,42 @@
+// The file behind a page of bench time, mapped into this process.
+//   in     path of a file in memory (/dev/shm) that all its readers may write; made where missing
+//   out    the page, for the life of the process; whether a bench keeps it
+//   law    a bench holds a lock on the file, which the kernel takes away when it dies
+//   errors Problem with the path: no such folder, not ours, a file of something else
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "protocol/transport/bench_clock/clock_page.hpp"
+#include "protocol/transport/posix_call.hpp"
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::transport {
+
+class ClockMemory {
+ public:
+  static Result<ClockMemory, Problem> open(const std::string& path);
+  ClockMemory(ClockMemory&& other) noexcept
+      : file_(std::move(other.file_)), page_(std::exchange(other.page_, nullptr)) {}
+  ClockMemory& operator=(ClockMemory&&) = delete;
+  ~ClockMemory();
+
+  bool is_open() const { return page_ != nullptr; }
+  ClockPage& page() const { return *page_; }
+  // False: another process keeps it.
+  bool lock();
+  void unlock();
+  bool is_locked() const;  // by another process
+  // After a bench that died without a word: time goes on from where it stands.
+  void let_go_on(Instant wall);
+
+ private:
+  ClockMemory(FileDescriptor file, ClockPage* page) : file_(std::move(file)), page_(page) {}
+
+  FileDescriptor file_;
+  ClockPage* page_ = nullptr;
+};
+
+}  // namespace pitwall::transport

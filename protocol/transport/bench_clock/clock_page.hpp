@@ -1,0 +1,78 @@
+// Bench time as the processes of one machine share it: a page of memory in a file.
+//
+//   bench time = wall clock (CLOCK_MONOTONIC) less what was lost, and never beyond the horizon
+//
+//   in     the bench alone writes lost time and horizon; each program that takes turns its own slot
+//   out    now(), the same for every reader to within the cost of a clock reading
+//   law    it never goes back for a reader, never runs faster than the wall clock, and stands at
+//          the horizon. Nobody's clock before a bench came is the wall clock
+//   units  int64 nanoseconds
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::transport {
+
+// A program's thread whose turn the bench waits for.
+struct ClockSlot {
+  std::atomic<std::int32_t> process{0};  // 0: free
+  std::atomic<std::int32_t> thread{0};
+  static constexpr std::int64_t kAtWork = INT64_MIN;
+  std::atomic<std::int64_t> due_ns{0};  // bench time at which its turn begins
+  std::atomic<std::uint64_t> turns{0};  // even: waits for the next one, odd: is at work
+};
+
+// While the wall clock went from one to the other, bench time stood.
+struct ClockPause {
+  std::atomic<std::int64_t> from_ns{0}, to_ns{0};
+};
+
+struct ClockPage {
+  static constexpr std::uint64_t kMagic = 0x3130'4B43'4F4C'4350;  // "PCLOCK01"
+  static constexpr std::size_t kSlots = 16;
+  static constexpr std::size_t kPauses = 32;  // remembered, for stamps of the kernel
+
+  std::atomic<std::uint64_t> magic{0};
+  std::atomic<std::int64_t> lost_ns{0};
+  std::atomic<std::int64_t> horizon_ns{INT64_MAX};
+  std::atomic<std::uint64_t> pauses_made{0};
+  std::array<ClockPause, kPauses> pauses;
+  std::array<ClockSlot, kSlots> slots;
+};
+static_assert(std::atomic<std::int64_t>::is_always_lock_free);
+static_assert(std::is_standard_layout_v<ClockPage>);
+
+// The horizon is read first and the wall clock last, so that no reader sees time go back: whoever
+// moves the horizon has raised the lost time before.
+template <class ReadWall>
+Instant bench_now(const ClockPage& page, ReadWall&& wall) {
+  const std::int64_t horizon_ns = page.horizon_ns.load(std::memory_order_acquire);
+  const std::int64_t lost_ns = page.lost_ns.load(std::memory_order_acquire);
+  const Instant at = wall();
+  return {at.ns - lost_ns < horizon_ns ? at.ns - lost_ns : horizon_ns};
+}
+
+// What bench time was at a moment of the wall clock, as long as its pauses are remembered.
+inline Instant bench_time_of(const ClockPage& page, Instant wall) {
+  const std::uint64_t made = page.pauses_made.load(std::memory_order_acquire);
+  const std::int64_t horizon_ns = page.horizon_ns.load(std::memory_order_acquire);
+  std::int64_t lost_ns = page.lost_ns.load(std::memory_order_acquire);
+  const std::uint64_t known = made < ClockPage::kPauses ? made : ClockPage::kPauses;
+  for (std::uint64_t back = 0; back < known; ++back) {
+    const ClockPause& pause = page.pauses[(made - 1 - back) % ClockPage::kPauses];
+    const std::int64_t from_ns = pause.from_ns.load(std::memory_order_relaxed);
+    const std::int64_t to_ns = pause.to_ns.load(std::memory_order_relaxed);
+    if (to_ns <= wall.ns) break;
+    lost_ns -= to_ns - (from_ns > wall.ns ? from_ns : wall.ns);
+  }
+  return {wall.ns - lost_ns < horizon_ns ? wall.ns - lost_ns : horizon_ns};
+}
+
+}  // namespace pitwall::transport
