@@ -2,6 +2,7 @@
 # before the summary, for who sees only the end of a log; what passed only when it was run again is
 # named, and what was skipped, with the reason that it gave, and what a test of real time had to say of
 # the machine's host (-v whole=LastTest.log, complete when ctest has ended: so long the summary waits).
+# Exit code 3 where nothing failed but tests of real time that the host let nobody judge.
 # SPDX-License-Identifier: Apache-2.0
 
 # Lines until the next test belong to the one that failed.
@@ -49,7 +50,14 @@ END {
     if (line ~ /^[0-9]+\/[0-9]+ Test: /) name = substr(line, index(line, ": ") + 2)
     if (giving) printf "-- skipped: %s: %s\n", name, line
     if (line ~ /^in_real_time: /) printf "-- %s: %s\n", name, line
+    if (line ~ /^in_real_time: not judged/) ++unjudged
     giving = line ~ /^[^ ]+:[0-9]+: Skipped$/
   }
   printf "%s", held
+  failed = tests
+  for (i = 0; i < tests; ++i) if (order[i] in again) --failed
+  if (failed > 0 && failed == unjudged) {
+    print "not judged: the machine's host left no time for what failed"
+    exit 3
+  }
 }

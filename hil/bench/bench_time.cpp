@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "hil/guest/clock_word.hpp"
+#include "protocol/transport/clock.hpp"
 
 namespace pitwall::bench {
 
@@ -19,6 +20,10 @@ Result<BenchTime, Problem> BenchTime::open(const std::string& file, const std::s
 Result<std::optional<BenchTime>, Problem> BenchTime::of_run(const std::string& file,
                                                             const std::string& line) {
   if (file.empty()) return std::optional<BenchTime>{};
+  if (const auto memory = transport::ClockMemory::open(file); memory && memory->is_locked()) {
+    if (auto taken = transport::take_turns(); !taken) return Unexpected{taken.error()};
+    return std::optional<BenchTime>{};
+  }
   auto time = open(file, line);
   if (!time) return Unexpected{time.error()};
   return std::optional<BenchTime>{*std::move(time)};

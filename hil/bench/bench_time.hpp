@@ -22,7 +22,8 @@ class BenchTime {
 
   // No line: nobody follows it elsewhere.
   static Result<BenchTime, Problem> open(const std::string& file, const std::string& line);
-  // None without a file: the run goes by the wall clock.
+  // None without a file: the run goes by the wall clock. None either where another keeps the
+  // file: then this thread takes turns as everybody does.
   static Result<std::optional<BenchTime>, Problem> of_run(const std::string& file,
                                                           const std::string& line);
 

@@ -33,7 +33,7 @@ class WakeClock {
   void note(Duration behind, Instant now);
 
   Duration period_;
-  Instant start_{};
+  Instant start_{}, wall_start_{};
   std::optional<BenchTime> time_;
   std::optional<Duration> stolen_at_start_;
   std::vector<float> late_us_;

@@ -3,20 +3,23 @@
 
 #include <unistd.h>
 
+#include <string_view>
+
 #include "hil/bench/machine.hpp"
 #include "hil/guest/clock_word.hpp"
 #include "protocol/transport/clock.hpp"
 
 namespace pitwall::verbs {
 
-constexpr const char* kBenchClock = "bench";
+constexpr std::string_view kBenchClock = "bench", kOnHost = "host:";
 
 ClockPlace clock_place(const std::string& clock, bool attached, bool in_guest) {
   if (clock == transport::kWallClock || (clock.empty() && attached)) return {};
-  const bool shared = is_clock_file(clock);
-  if (shared && !in_guest) return {.file = clock, .line = {}, .is_own = false};
+  const bool hosts = clock.starts_with(kOnHost);
+  if (is_clock_file(clock) && !(hosts && in_guest))
+    return {.file = hosts ? clock.substr(kOnHost.size()) : clock, .line = {}, .is_own = false};
   return {.file = "/dev/shm/pitwall-clock-" + std::to_string(::getpid()),
-          .line = shared ? guest::kClockLine : "",
+          .line = hosts ? guest::kClockLine : "",
           .is_own = true};
 }
 
@@ -26,6 +29,10 @@ ClockPlace clock_place(const std::string& clock, bool attached) {
 
 bool is_clock_file(const std::string& clock) {
   return !clock.empty() && clock != kBenchClock && clock != transport::kWallClock;
+}
+
+std::string on_host(const std::string& clock) {
+  return is_clock_file(clock) ? std::string{kOnHost} + clock : clock;
 }
 
 }  // namespace pitwall::verbs

@@ -1,7 +1,8 @@
 // Where the time of a live run is kept, by the option --clock.
 //   in     "bench", "wall", the file in which bench time is kept, for programs on this machine that
-//          were started with it; empty: bench, or wall where a car is attached
-//   out    the file here, and in a guest the line to the host, which the file is out of reach of
+//          were started with it; "host:FILE": likewise on the machine that a guest may be in;
+//          empty: bench, or wall where a car is attached
+//   out    the file here, and in a guest the line to the host, whose file is out of reach
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -17,7 +18,8 @@ struct ClockPlace {
 ClockPlace clock_place(const std::string& clock, bool attached, bool in_guest);
 ClockPlace clock_place(const std::string& clock, bool attached);
 
-// Whether it names a file.
+// Whether it names a file; and the same file as a run in a guest has to name it.
 bool is_clock_file(const std::string& clock);
+std::string on_host(const std::string& clock);
 
 }  // namespace pitwall::verbs

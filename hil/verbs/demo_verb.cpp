@@ -19,11 +19,13 @@
 #include "hil/bench/run_keys.hpp"
 #include "hil/guest/bus_verb.hpp"
 #include "hil/guest/own_hub.hpp"
+#include "hil/verbs/clock_place.hpp"
 #include "hil/verbs/command_line.hpp"
 #include "hil/verbs/demo_cars.hpp"
 #include "hil/verbs/demo_report.hpp"
 #include "hil/verbs/exit_code.hpp"
 #include "hil/verbs/run_verb.hpp"
+#include "protocol/transport/bench_clock/kept_clock.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
@@ -48,7 +50,11 @@ struct DemoOptions {
   std::string scenario = "hil/scenarios/lvms_flying_lap.yaml";
 };
 
-// Several benches have each a time of their own; a base station that hears them all has the wall's.
+// One time for all who are on this machine. A guest keeps its own, which only one can be followed by
+// a base station; where several are, it goes by the wall clock.
+bool is_time_shared(std::span<const DemoCar> cars) {
+  return cars.size() == 1 || cars.front().bus == DemoBus::kSocket;
+}
 std::string clock_file() { return "/dev/shm/pitwall-demo-clock-" + std::to_string(::getpid()); }
 
 std::vector<std::string> base_words(const DemoOptions& options, std::span<const DemoCar> cars) {
@@ -65,7 +71,7 @@ std::vector<std::string> base_words(const DemoOptions& options, std::span<const 
   const std::vector<std::string> of_several{"--cars", options.folder + "/cars.yaml"};
   const auto& more = cars.size() == 1 ? of_one : of_several;
   words.insert(words.end(), more.begin(), more.end());
-  if (cars.size() == 1) words.insert(words.end(), {"--clock", clock_file()});
+  if (is_time_shared(cars)) words.insert(words.end(), {"--clock", clock_file()});
   return words;
 }
 
@@ -131,7 +137,7 @@ std::vector<std::string> bench_words(const DemoOptions& options, const DemoCar& 
   run.interface = car.interface();
   run.bay = car.bay;
   run.keys = car.folder + "/keys";
-  if (options.cars == 1) run.clock = clock_file();
+  if (options.cars == 1 || car.bus == DemoBus::kSocket) run.clock = clock_file();
   if (car.bus == DemoBus::kSocket) {  // on this machine: no line into a guest
     run.radio_port = car.base_port;
     run.uplink_port = car.uplink_port;
@@ -140,13 +146,14 @@ std::vector<std::string> bench_words(const DemoOptions& options, const DemoCar& 
   run.radio_port = car.radio_port;
   run.uplink_port = car.guest_uplink_port;
   run.candump = true;
+  const std::string clock = std::exchange(run.clock, on_host(run.clock));
   std::vector<std::string> exec{
       own_program(), "bus",
       "exec",        "--auto",
       "--interface", run.interface,
       "--line-udp",  car.line_ports(),
       "--timeout",   std::to_string(static_cast<int>(options.duration_s) + kBootSeconds)};
-  if (!run.clock.empty()) exec.insert(exec.end(), {"--clock", run.clock});
+  if (!clock.empty()) exec.insert(exec.end(), {"--clock", clock});
   exec.emplace_back("--");
   for (std::string& word : live_command(run)) exec.push_back(std::move(word));
   return exec;
@@ -156,6 +163,12 @@ std::vector<std::string> bench_words(const DemoOptions& options, const DemoCar& 
 // code of each.
 Result<std::vector<int>, Problem> run_several(const DemoOptions& options,
                                               std::span<const DemoCar> cars) {
+  std::optional<transport::KeptClock> clock;
+  if (is_time_shared(cars)) {
+    auto kept = transport::KeptClock::keep(clock_file());
+    if (!kept) return Unexpected{kept.error()};
+    clock.emplace(*std::move(kept));
+  }
   std::vector<std::optional<guest::OwnHub>> hubs;  // outlive the benches
   std::vector<transport::Process> benches;
   for (const DemoCar& car : cars) {

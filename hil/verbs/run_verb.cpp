@@ -283,6 +283,7 @@ Result<std::vector<std::string>, Problem> exec_words(const RunOptions& options) 
   std::vector<std::string> words{"exec", "--auto", "--interface", options.interface};
   if (is_clock_file(options.clock)) words.insert(words.end(), {"--clock", options.clock});
   RunOptions inside = options;
+  inside.clock = on_host(options.clock);
   if (options.radio_port != 0) {
     std::uint16_t uplink_port = options.uplink_port;
     if (uplink_port == 0) {  // the guest's end needs a port to be answered at

@@ -27,6 +27,11 @@ std::string waits_text(const bench::RealTime& time) {
   if (!time.waits) return "time by the wall clock\n";
   const transport::ClockWaits& waits = *time.waits;
   char text[240];
+  if (waits.count == 0 && waits.total.ns > 0) {
+    std::snprintf(text, sizeof text, "bench time, which another keeps, stood for %.2f s\n",
+                  waits.total.seconds());
+    return text;
+  }
   std::snprintf(text, sizeof text, "bench time stood %llu times for the machine, %.2f s in all",
                 static_cast<unsigned long long>(waits.count), waits.total.seconds());
   std::string out = text;

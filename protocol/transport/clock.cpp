@@ -37,6 +37,8 @@ Result<bool, Problem> use_clock(const std::string& source) {
   return source == kWallClock ? Result<bool, Problem>{true} : BenchClock::use(source);
 }
 
+bool has_bench_time() { return BenchClock::used() != nullptr; }
+
 Result<bool, Problem> take_turns() {
   BenchClock* const bench = BenchClock::used();
   if (bench == nullptr || bench->take_turns()) return true;

@@ -21,6 +21,7 @@ inline constexpr const char* kWallClock = "wall";
 // "wall", which is also what a program goes by that says nothing, or the file in which a bench
 // keeps its time. Before any other thread starts.
 Result<bool, Problem> use_clock(const std::string& source);
+bool has_bench_time();
 // A bench lets time stand while the calling thread is held up; nothing by the wall clock.
 Result<bool, Problem> take_turns();
 

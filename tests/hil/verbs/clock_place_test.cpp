@@ -22,7 +22,9 @@ TEST(ClockPlace, IsAFileOfThisRunOrTheOneThatIsShared) {
   const ClockPlace shared = clock_place("/dev/shm/t", false, false);
   EXPECT_EQ(shared.file, "/dev/shm/t");
   EXPECT_FALSE(shared.is_own) << "the base station may have it yet";
-  const ClockPlace inside = clock_place("/dev/shm/t", false, true);
+  EXPECT_EQ(clock_place("/dev/shm/t", true, true).file, "/dev/shm/t") << "that of the guest";
+  EXPECT_EQ(clock_place("host:/dev/shm/t", false, false).file, "/dev/shm/t") << "no guest is needed";
+  const ClockPlace inside = clock_place("host:/dev/shm/t", false, true);
   EXPECT_NE(inside.file, "/dev/shm/t") << "out of reach";
   EXPECT_TRUE(inside.is_own);
   EXPECT_EQ(inside.line, "/dev/ttyS3");
@@ -32,6 +34,9 @@ TEST(ClockPlace, IsAFileOfThisRunOrTheOneThatIsShared) {
 TEST(ClockPlace, AFileIsWhatIsNoWord) {
   for (const char* const word : {"", "bench", "wall"}) EXPECT_FALSE(is_clock_file(word));
   EXPECT_TRUE(is_clock_file("/dev/shm/t"));
+  EXPECT_EQ(on_host("/dev/shm/t"), "host:/dev/shm/t");
+  EXPECT_EQ(on_host("bench"), "bench");
+  EXPECT_EQ(on_host(""), "");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "hil/guest/line_relay.hpp"
+#include "hil/verbs/clock_place.hpp"
 #include "protocol/yaml/strict_map.hpp"
 #include "tests/hil/verbs/program_run.hpp"
 
@@ -209,7 +210,7 @@ TEST(LiveCommand, ATimeThatIsSharedIsKeptOnBothSidesOfTheLine) {
     const auto inside = std::find(command, words->end(), "--clock");
     ASSERT_EQ(inside != words->end(), clock[0] != 0) << clock;
     if (clock[0] != 0) {
-      EXPECT_EQ(*(inside + 1), clock);
+      EXPECT_EQ(*(inside + 1), on_host(clock));
     }
   }
 }

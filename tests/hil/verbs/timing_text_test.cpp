@@ -34,6 +34,8 @@ TEST(TimingText, SaysForWhomBenchTimeStood) {
   EXPECT_EQ(waits_text(time), "time by the wall clock\n");
   transport::ClockWaits& waits = time.waits.emplace();
   EXPECT_EQ(waits_text(time), "bench time stood 0 times for the machine, 0.00 s in all\n");
+  waits.total = milliseconds(1'230);
+  EXPECT_EQ(waits_text(time), "bench time, which another keeps, stood for 1.23 s\n");
   waits = {.count = 3,
            .total = milliseconds(2'500),
            .longest = milliseconds(740),

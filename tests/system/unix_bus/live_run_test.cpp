@@ -3,11 +3,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <charconv>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -50,17 +48,6 @@ Result<Run, Problem> read_run(const std::string& file) {
   return out;
 }
 
-// How far the bench was behind its clock at worst, as it says itself.
-constexpr int kLate_ms = 10;
-int behind_ms(std::string_view said) {
-  constexpr std::string_view kWords = "caught up, at most ";
-  int behind = 0;
-  if (const std::size_t at = said.find(kWords); at != said.npos) {
-    std::from_chars(said.data() + at + kWords.size(), said.data() + said.size(), behind);
-  }
-  return behind;
-}
-
 TEST(LiveRun, OnItsOwnHubGivesTheVerdictsOfLockstepAndLosesNothing) {
   auto folder = transport::TemporaryFolder::create("pitwall-unix-live-");
   ASSERT_TRUE(folder);
@@ -70,18 +57,10 @@ TEST(LiveRun, OnItsOwnHubGivesTheVerdictsOfLockstepAndLosesNothing) {
   std::system((run + " --json " + f + "/lockstep.json > " + f + "/lockstep.txt 2>&1").c_str());
   const std::string live_run = run + " --live --candump --interface unix:" + f + "/bus --out " + f +
                                "/out --json " + f + "/live.json > " + f + "/live.txt 2>&1";
+  std::system(live_run.c_str());
   const auto lockstep = read_run(f + "/lockstep.json");
-  auto live = read_run(f + "/live.json");
-  // A host that stops this machine for a moment makes the bench late: then once more.
-  for (int tries = 0; tries < 3 && (!live || live->lost > 0 || live->bus_losses > 0); ++tries) {
-    std::system(live_run.c_str());
-    live = read_run(f + "/live.json");
-  }
+  const auto live = read_run(f + "/live.json");
   const std::string said = transport::read_file(f + "/live.txt").value_or("");
-  if (const int behind = behind_ms(said); behind > kLate_ms && !(live && live->lost == 0)) {
-    GTEST_SKIP() << "this machine was stopped for up to " << behind
-                 << " ms in each of three runs, so that none of them is real time";
-  }
   ASSERT_TRUE(lockstep) << to_string(lockstep.error());
   ASSERT_TRUE(live) << to_string(live.error()) << "\n" << said;
   EXPECT_EQ(live->verdicts, lockstep->verdicts) << said;

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/transport/bench_clock/kept_clock.hpp"
+
+#include <gtest/gtest.h>
+
+#include "protocol/transport/clock.hpp"
+#include "tests/protocol/transport/bench_clock/clock_file.hpp"
+
+namespace pitwall::transport {
+namespace {
+
+TEST(KeptClock, GoesOnByItselfUntilItsEnd) {
+  const ClockFile file;
+  auto kept = KeptClock::keep(file.path);
+  ASSERT_TRUE(kept);
+  EXPECT_FALSE(KeptClock::keep(file.path)) << "one to a file";
+  const auto memory = ClockMemory::open(file.path);
+  const auto now = [&] { return bench_now(memory->page(), wall_now); };
+  const Instant from = now(), wall = wall_now();
+  EXPECT_NE(memory->page().horizon_ns.load(), INT64_MAX);
+  nap(milliseconds(100));
+  const Duration went = now() - from, passed = wall_now() - wall;
+  EXPECT_LE(went, passed);
+  const ClockWaits waits = kept->end();
+  EXPECT_GE(went + waits.total + ClockKeeper::kLead, milliseconds(100));
+  EXPECT_EQ(memory->page().horizon_ns.load(), INT64_MAX);
+  EXPECT_EQ(kept->end().count, 0U) << "it has ended";
+}
+
+}  // namespace
+}  // namespace pitwall::transport
