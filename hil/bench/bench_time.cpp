@@ -35,8 +35,8 @@ void BenchTime::begin() {
   tell(followed_);
 }
 
-bool BenchTime::advance() {
-  if (!line_) return keeper_.advance();
+bool BenchTime::advance(Instant limit) {
+  if (!line_) return keeper_.advance(limit);
   const Instant now = keeper_.now();
   if (now - told_ >= kWordEvery) {
     hear();
@@ -44,7 +44,7 @@ bool BenchTime::advance() {
   } else if (now - followed_ >= kBehind - kWordEvery) {
     hear();
   }
-  return keeper_.advance(followed_ + kBehind);
+  return keeper_.advance(std::min(limit, followed_ + kBehind));
 }
 
 void BenchTime::end() {

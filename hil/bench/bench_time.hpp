@@ -28,8 +28,9 @@ class BenchTime {
                                                           const std::string& line);
 
   void begin();
-  // To be called more often than every ClockKeeper::kLead. False: time stands.
-  bool advance();
+  // To be called more often than every ClockKeeper::kLead, and never past `limit`, which is how far
+  // the bench itself has come, and a lead. False: time stands.
+  bool advance(Instant limit = Instant::max());
   void end();
   const transport::ClockWaits& waits() const { return keeper_.waits(); }
 

@@ -34,7 +34,7 @@ void WakeClock::end() {
 void WakeClock::wait_until(Instant deadline) {
   if (!time_) return transport::sleep_until(deadline);
   while (true) {
-    const bool goes = time_->advance();
+    const bool goes = time_->advance(deadline + transport::ClockKeeper::kLead);
     const Duration left = deadline - transport::monotonic_now();
     if (left.ns <= 0) return;
     transport::nap(goes ? left : std::max(left, kLookAgain));
@@ -43,7 +43,7 @@ void WakeClock::wait_until(Instant deadline) {
 
 void WakeClock::sleep_until(Instant now) {
   const Instant deadline = start_ + (now - Instant{});
-  if (time_) time_->advance();
+  if (time_) time_->advance(deadline + transport::ClockKeeper::kLead);
   Instant at = transport::monotonic_now();
   note(at - deadline, now);
   if (at >= deadline) {
