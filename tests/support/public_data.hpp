@@ -1,10 +1,14 @@
-// The public recordings that lie beside the project, never in it. A test that reads one skips with
-// a message where it is missing.
-//   in     PITWALL_SHARED_DATA, else shared/data beside the source tree
+// The public recordings that lie beside the project, never in it: which there are, where each can be
+// had, and the reading of a table.
+//   in      PITWALL_SHARED_DATA, else shared/data beside the source tree
+//   use     a test that needs one stands in a suite Public*, one test for each recording, and begins
+//           with `if (!is_here(kX)) GTEST_SKIP() << how_to_get(kX);`; tests/public_data counts them
+//   docs    docs/public_recordings.md
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -17,6 +21,47 @@ namespace pitwall::recordings {
 inline std::filesystem::path folder() {
   if (const char* named = std::getenv("PITWALL_SHARED_DATA")) return named;
   return std::filesystem::path(PITWALL_SOURCE_DIR) / ".." / "shared" / "data";
+}
+
+struct Recording {
+  const char* path;  // in the folder; a file or a folder
+  const char* from;  // the page where it can be had
+};
+
+inline constexpr Recording kDatabases{
+    "dbc",
+    "https://github.com/PITT-MIT-IAC/raptor-dbw-ros2 (raptor_dbw_can/config) and "
+    "https://github.com/cantools/cantools (tests/files/dbc, in dbc/corner_cases)"};
+// can::fingerprint of CAN1-INDY-V9.dbc, -V12.dbc and -V14.dbc there: every id, name, length and bit
+// layout of 44, 49 and 47 messages.
+inline constexpr std::uint64_t kFingerprintOfV9 = 0xD6C11641CBD19A95;
+inline constexpr std::uint64_t kFingerprintOfV12 = 0xD1F3B80FD9B59B9C;
+inline constexpr std::uint64_t kFingerprintOfV14 = 0x1D5DCDB7DFDFCA5C;
+
+inline constexpr Recording kNovatelLogs{
+    "gnss", "https://github.com/novatel/novatel_oem7_driver (test: align.gps, bestpos.gps)"};
+inline constexpr Recording kDrive{
+    "laps/Putnam_park2023_run4_2.csv.gz",
+    "https://github.com/linklab-uva/deep-dynamics (deep_dynamics/data, then gzip)"};
+inline constexpr Recording kLasVegas{
+    "tracks/traj_ltpl_cl_LVMS_GPS.csv.gz",
+    "https://github.com/TUMFTM/sim_vehicle_dynamics (racetracks, then gzip)"};
+inline constexpr Recording kCandump{"can_logs/icsim-sample-can.log",
+                                    "https://github.com/zombieCraig/ICSim (data/sample-can.log)"};
+
+inline std::filesystem::path path_of(const Recording& recording) {
+  return folder() / recording.path;
+}
+
+inline bool is_here(const Recording& recording) {
+  return std::filesystem::exists(path_of(recording));
+}
+
+// The reason for which a test that needs the recording is skipped.
+inline std::string how_to_get(const Recording& recording) {
+  return "wants the public recording " + std::string(recording.path) + " of " + recording.from +
+         " in the folder that PITWALL_SHARED_DATA names, which is " + folder().string() +
+         " (docs/public_recordings.md)";
 }
 
 // The rows of a gzipped table of numbers, without those that begin with '#'; none if it is missing.

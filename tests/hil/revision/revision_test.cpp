@@ -4,16 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <map>
-#include <set>
 #include <string>
 
 #include "protocol/can/av21.hpp"
 #include "protocol/can/av24.hpp"
-#include "protocol/can/dbc_parser.hpp"
 #include "protocol/can/decode.hpp"
+#include "protocol/can/difference.hpp"
 #include "tests/support/public_data.hpp"
 
 namespace pitwall::revision {
@@ -172,41 +169,50 @@ TEST(Revision, TheAv24SendsItsOwnMessagesAtTheirPeriod) {
   EXPECT_TRUE(made(BusRevision::kV9).due(Instant{} + seconds(1)).empty());
 }
 
-std::string read(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+// Equal to the public files bit for bit; tests/protocol/can computes their fingerprints.
+TEST(Revision, V9V12AndV14AreThePublicFiles) {
+  for (const auto& [which, expected] :
+       {std::pair{BusRevision::kV9, recordings::kFingerprintOfV9},
+        std::pair{BusRevision::kV12, recordings::kFingerprintOfV12},
+        std::pair{BusRevision::kV14, recordings::kFingerprintOfV14}})
+    EXPECT_EQ(can::fingerprint(made(which).database()), expected) << scenario::name_of(which);
 }
 
-// Facts of a message as text, one line for each: what must be equal in two databases.
-std::set<std::string> facts(const can::Message& message) {
-  std::set<std::string> out{message.name + " " + std::to_string(message.length)};
-  for (const can::Signal& s : message.signals) {
-    const can::SignalLayout& l = s.layout;
-    out.insert(s.name + " " + std::to_string(l.start) + "|" + std::to_string(l.length) + "@" +
-               std::to_string(static_cast<int>(l.order)) +
-               std::to_string(static_cast<int>(l.number)) + " " + std::to_string(l.scale) + "," +
-               std::to_string(l.offset));
-  }
+std::string changes(const Revision& from, const Revision& to) {
+  std::string out;
+  for (const can::Difference& d : can::differences(from.database(), to.database()))
+    out += std::string(can::name_of(can::severity_of(d.change))) + " " + d.text + "\n";
   return out;
 }
 
-TEST(Revision, V9AndV12EqualThePublicFiles) {
-  const std::pair<BusRevision, const char*> files[] = {{BusRevision::kV9, "CAN1-INDY-V9.dbc"},
-                                                       {BusRevision::kV12, "CAN1-INDY-V12.dbc"},
-                                                       {BusRevision::kV14, "CAN1-INDY-V14.dbc"}};
-  for (const auto& [which, name] : files) {
-    const auto path = recordings::folder() / "dbc" / name;
-    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is missing";
-    const auto theirs = can::parse_dbc(read(path), name);
-    ASSERT_TRUE(theirs) << to_string(theirs.error());
-    const Revision revision = made(which);
-    const can::Database& ours = revision.database();
-    ASSERT_EQ(ours.messages.size(), theirs->messages.size()) << name;
-    for (const can::Message& message : theirs->messages) {
-      const can::Message* const own = ours.find(message.id);
-      ASSERT_NE(own, nullptr) << name << " " << message.id;
-      EXPECT_EQ(facts(*own), facts(message)) << name;
-    }
+// What the published history of the car's bus says of these three revisions.
+TEST(Revision, DifferAsThePublishedHistoryOfTheBusSays) {
+  const Revision nine = made(BusRevision::kV9), twelve = made(BusRevision::kV12);
+  const Revision fourteen = made(BusRevision::kV14);
+  const std::string older = changes(nine, twelve);
+  for (const char* line :
+       {"misread steering_report (1303): steering_motor_ang_avg_fdbk grew from 10 to 11 bits: what "
+        "one writes as -1 deg the other reads as +511\n",
+        "misread steering_cmd (1402): steering_motor_ang_cmd grew from 10 to 11 bits: what one "
+        "writes as -1 deg the other reads as +511\n",
+        "missing dash_switches_cmd (1405) is new\n",
+        "missing pt_report_3 (1343): torque_wheels is new\n",
+        "misread wheel_potentiometer_data (1311): wheel_potentiometer_FL grew from 8 to 16 bits; "
+        "has "
+        "the scale 0.01, had 0.2: what one writes as 51 mm the other reads as 2.55\n"}) {
+    EXPECT_NE(older.find(line), std::string::npos) << line << older;
+  }
+  const std::string newer = changes(twelve, fourteen);
+  EXPECT_TRUE(newer.starts_with(
+      "misread 1405: dash_switches_cmd has become ct_report_2, another message\n"
+      "misread 1406: ct_vehicle_acc_feedback has become dash_switches_cmd, another message\n"))
+      << newer;
+  for (const char* line :
+       {"missing dash_switches_cmd moved from 1405 to 1406\n",
+        "missing marelli_report_1 moved from 1000 to 1250\n",
+        "missing position_heading (1500) is gone\n",
+        "meaning marelli_report_1 (1250): Marelli_Track_Flag is now called marelli_track_flag\n"}) {
+    EXPECT_NE(newer.find(line), std::string::npos) << line << newer;
   }
 }
 

@@ -139,39 +139,5 @@ TEST(Difference, LimitsTimingAndWords) {
             "meaning M (100): the comment of s changed\nmeaning M (100): the comment changed\n");
 }
 
-// What the published history of the car's bus says of these three revisions.
-TEST(Difference, RevisionsOfTheCarsBus) {
-  const auto folder = recordings::folder() / "dbc";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
-  const Database nine = load(folder / "CAN1-INDY-V9.dbc");
-  const Database twelve = load(folder / "CAN1-INDY-V12.dbc");
-  const Database fourteen = load(folder / "CAN1-INDY-V14.dbc");
-  const std::string older = texts(differences(nine, twelve));
-  for (const char* line :
-       {"misread steering_report (1303): steering_motor_ang_avg_fdbk grew from 10 to 11 bits: what "
-        "one writes as -1 deg the other reads as +511\n",
-        "misread steering_cmd (1402): steering_motor_ang_cmd grew from 10 to 11 bits: what one "
-        "writes as -1 deg the other reads as +511\n",
-        "missing dash_switches_cmd (1405) is new\n",
-        "missing pt_report_3 (1343): torque_wheels is new\n",
-        "misread wheel_potentiometer_data (1311): wheel_potentiometer_FL grew from 8 to 16 bits; "
-        "has "
-        "the scale 0.01, had 0.2: what one writes as 51 the other reads as 2.55\n"}) {
-    EXPECT_NE(older.find(line), std::string::npos) << line << older;
-  }
-  const std::string newer = texts(differences(twelve, fourteen));
-  EXPECT_TRUE(newer.starts_with(
-      "misread 1405: dash_switches_cmd has become ct_report_2, another message\n"
-      "misread 1406: ct_vehicle_acc_feedback has become dash_switches_cmd, another message\n"))
-      << newer;
-  for (const char* line :
-       {"missing dash_switches_cmd moved from 1405 to 1406\n",
-        "missing marelli_report_1 moved from 1000 to 1250\n",
-        "missing position_heading (1500) is gone\n",
-        "meaning marelli_report_1 (1250): Marelli_Track_Flag is now called marelli_track_flag\n"}) {
-    EXPECT_NE(newer.find(line), std::string::npos) << line << newer;
-  }
-}
-
 }  // namespace
 }  // namespace pitwall::can
