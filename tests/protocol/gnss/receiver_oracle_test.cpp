@@ -53,7 +53,7 @@ std::vector<std::string> judged(const std::string& messages) {
 }
 
 TEST(ReceiverOracle, ReadsBothFormsOfEveryNovatelLogAsWeMeanThem) {
-  if (!has_python()) GTEST_SKIP() << "no " << kPython;
+  ASSERT_TRUE(has_python()) << "no " << kPython << " (./pitwall setup)";
   std::mt19937_64 random{93};
   std::string messages;
   constexpr std::size_t kMessages = 3'600;
@@ -95,7 +95,7 @@ struct Printer {
 };
 
 TEST(ReceiverOracle, ReadsVectorNavMessagesAsWeMeanThem) {
-  if (!has_python()) GTEST_SKIP() << "no " << kPython;
+  ASSERT_TRUE(has_python()) << "no " << kPython << " (./pitwall setup)";
   std::mt19937_64 random{310};
   std::string messages;
   std::vector<std::string> expected;

@@ -92,9 +92,8 @@ TEST(LcmLog, BehindDamageItGoesOn) {
 }
 
 TEST(LcmLog, ThePlayerOfLcmPlaysIt) {
-  if (std::system("command -v lcm-logplayer >/dev/null") != 0) {
-    GTEST_SKIP() << "lcm-logplayer is not installed (./pitwall setup)";
-  }
+  ASSERT_EQ(std::system("command -v lcm-logplayer >/dev/null"), 0)
+      << "lcm-logplayer is not installed (./pitwall setup)";
   const auto file = logged();
   const std::string in = ::testing::TempDir() + "pitwall_in.lcm";
   const std::string out = ::testing::TempDir() + "pitwall_out.lcm";

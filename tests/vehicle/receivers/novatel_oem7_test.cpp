@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "protocol/gnss/imu_scale.hpp"
+#include "tests/support/novatel_frames.hpp"
 #include "tests/support/public_data.hpp"
 
 namespace pitwall::receivers {
@@ -155,13 +156,26 @@ TEST(NovatelOem7, AFullListIsCounted) {
   EXPECT_EQ(out.overflows, 10 - out.positions.capacity());
 }
 
-TEST(NovatelOem7, ARecordingOfARealReceiverGivesItsPlaceAndHeading) {
-  const std::filesystem::path folder = recordings::folder() / "gnss";
+TEST(NovatelOem7, MessagesOfRealReceiversGiveTheirPlaceAndHeading) {
   NovatelOem7 input{0, {}};
   world::SensorInput out;
+  for (const std::string_view hex : recordings::kNovatelFrames)
+    input.feed(recordings::bytes_of_hex(hex), {seconds(100).ns}, out);
+  EXPECT_EQ(input.counters().refused.total(), 0U);
+  ASSERT_FALSE(out.positions.empty());
+  EXPECT_NEAR(out.positions[0].latitude_deg, 51.1504, 1e-3);
+  ASSERT_FALSE(out.velocities.empty());
+  ASSERT_FALSE(out.headings.empty());
+  EXPECT_NEAR(to_deg(out.headings[0].heading_rad), 195.231, 1e-3);
+}
+
+TEST(PublicNovatelLogs, AreAcceptedWhole) {
+  using namespace recordings;
+  if (!is_here(kNovatelLogs)) GTEST_SKIP() << how_to_get(kNovatelLogs);
+  world::SensorInput out;
   for (const char* name : {"bestpos.gps", "align.gps"}) {
-    std::ifstream in{folder / name, std::ios::binary};
-    if (!in) GTEST_SKIP() << "no recordings at " << folder;
+    std::ifstream in{path_of(kNovatelLogs) / name, std::ios::binary};
+    ASSERT_TRUE(in) << name;
     const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>{in}, {}};
     NovatelOem7 of_file{0, {}};
     of_file.feed(bytes, {seconds(100).ns}, out);

@@ -31,8 +31,7 @@ constexpr std::uint16_t kCarPort = 40'000;
 bool have_tshark() {
   return std::system("command -v tshark >/dev/null 2>&1") == 0;  // NOLINT: a test
 }
-#define NEEDS_TSHARK() \
-  if (!have_tshark()) GTEST_SKIP() << "tshark is not installed (./pitwall setup)"
+#define NEEDS_TSHARK() ASSERT_TRUE(have_tshark()) << "tshark is not installed (./pitwall setup)"
 
 // ---- Packets, sealed by the session itself
 

@@ -25,9 +25,8 @@ std::uint64_t fingerprint_by_lcm(const std::filesystem::path& folder, const std:
 }
 
 TEST(LcmSchema, LcmGenTakesThemAndHasTheSameFingerprints) {
-  if (std::system("command -v lcm-gen >/dev/null") != 0) {
-    GTEST_SKIP() << "lcm-gen is not installed (./pitwall setup)";
-  }
+  ASSERT_EQ(std::system("command -v lcm-gen >/dev/null"), 0)
+      << "lcm-gen is not installed (./pitwall setup)";
   const std::filesystem::path folder = ::testing::TempDir() + "pitwall_lcm_types";
   std::filesystem::create_directories(folder);
   std::ofstream{folder / "pitwall.lcm"} << lcm_types_text();
