@@ -1,4 +1,4 @@
-// Seven messages of real NovAtel OEM7 receivers as they came over the line: reference figures out of
+// Seven messages of real NovAtel OEM7 receivers as they came over the line: reference figures from
 // the recordings align.gps and bestpos.gps in novatel/novatel_oem7_driver at 0c0e135, test (MIT,
 // Copyright (c) NovAtel Inc.). What the vendor's driver made of them stands with the tests.
 // SPDX-License-Identifier: Apache-2.0

@@ -1,8 +1,9 @@
-// The public recordings that lie beside the project, never in it: which there are, where each can be
-// had, and the reading of a table.
+// The public recordings that lie beside the project, never in it: which there are, where each can
+// be had, and the reading of a table.
 //   in      PITWALL_SHARED_DATA, else shared/data beside the source tree
-//   use     a test that needs one stands in a suite Public*, one test for each recording, and begins
-//           with `if (!is_here(kX)) GTEST_SKIP() << how_to_get(kX);`; tests/public_data counts them
+//   use     a test that needs one stands in a suite Public*, one test for each recording, and
+//           begins with `if (!is_here(kX)) GTEST_SKIP() << how_to_get(kX);`; tests/public_data
+//           counts them
 //   docs    docs/public_recordings.md
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -4,12 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "tests/hil/track_file/csv_text.hpp"
-#include "tests/support/public_data.hpp"
-#include "vehicle/parameters/track_file.hpp"
 
 namespace pitwall::track_file {
 namespace {
@@ -163,66 +159,6 @@ TEST(TrackFit, RefusesWithTheLine) {
     ASSERT_FALSE(fit) << r.reason;
     EXPECT_EQ(fit.error().place.rfind(r.place, 0), 0u) << to_string(fit.error());
     EXPECT_NE(fit.error().what.find(r.reason), std::string::npos) << to_string(fit.error());
-  }
-}
-
-// ---- TUM's published map of Las Vegas, imported, against itself and against our own file.
-
-std::string tum() {
-  const auto path = recordings::folder() / "tracks/traj_ltpl_cl_LVMS_GPS.csv.gz";
-  std::string text;
-  if (!std::filesystem::exists(path)) return text;
-  FILE* pipe = popen(("zcat '" + path.string() + "'").c_str(), "r");
-  if (pipe == nullptr) return text;
-  std::array<char, 4096> part{};
-  for (std::size_t n = 0; (n = std::fread(part.data(), 1, part.size(), pipe)) > 0;)
-    text.append(part.data(), n);
-  pclose(pipe);
-  return text;
-}
-
-TEST(TumLasVegas, ImportsAsWhatItSaysOfItself) {
-  const std::string text = tum();
-  if (text.empty()) GTEST_SKIP() << "the public map of LVMS is not on this machine";
-  const auto fit = fitted(text);
-  ASSERT_TRUE(fit) << to_string(fit.error());
-  const auto map = built(*fit);
-  const auto rows =
-      recordings::gzipped_table(recordings::folder() / "tracks/traj_ltpl_cl_LVMS_GPS.csv.gz", ';');
-  EXPECT_NEAR(map.length_m(), rows.back()[13], 0.5);
-  for (const auto& row : rows) {
-    const auto at = map.project(row[0], row[1]);
-    ASSERT_LT(std::abs(at.n_m), 0.2) << row[13];
-    const auto p = map.at(at.s_m);
-    ASSERT_NEAR(p.curvature_per_m, row[15], 0.05 * 0.0045) << row[13];
-    ASSERT_NEAR(to_deg(p.bank_rad), -to_deg(row[12]), 0.3) << row[13];
-    ASSERT_NEAR(p.width_right_m, row[2], 0.3) << row[13];
-    ASSERT_NEAR(p.width_left_m, row[3], 0.3) << row[13];
-  }
-}
-
-TEST(TumLasVegas, AgreesWithOurOwnFile) {
-  const std::string text = tum();
-  if (text.empty()) GTEST_SKIP() << "the public map of LVMS is not on this machine";
-  const auto fit = fitted(text);
-  ASSERT_TRUE(fit);
-  const auto theirs = built(*fit);
-  std::ifstream file(std::string(PITWALL_SOURCE_DIR) + "/vehicle/config/tracks/lvms.yaml");
-  std::stringstream yaml;
-  yaml << file.rdbuf();
-  const auto description = parameters::read_track(yaml.str(), "lvms.yaml");
-  ASSERT_TRUE(description);
-  const auto ours = world::TrackMap::build(*description);
-  ASSERT_TRUE(ours);
-  EXPECT_NEAR(theirs.length_m(), ours->length_m(), 0.01 * ours->length_m());
-  for (const auto& [from_m, to_m] : {std::pair{360.0, 680.0}, std::pair{680.0, 1080.0},
-                                     std::pair{1430.0, 1750.0}, std::pair{1750.0, 2105.0}}) {
-    double their_turn_rad = 0.0, our_turn_rad = 0.0;
-    for (double s_m = from_m; s_m < to_m; s_m += 1.0) {
-      their_turn_rad += theirs.at(s_m).curvature_per_m;
-      our_turn_rad += ours->at(s_m).curvature_per_m;
-    }
-    EXPECT_NEAR(our_turn_rad / their_turn_rad, 1.0, 0.05) << from_m;
   }
 }
 

@@ -25,10 +25,6 @@ std::string replay_program() {
   return program == nullptr ? "pitwall-hil" : program;
 }
 
-std::string shared_log(const std::string& name) {
-  return (recordings::folder() / "can_logs" / name).lexically_normal().string();
-}
-
 // candump, recording all of vcan0 to a file until it is told to stop.
 class Recorder {
  public:
@@ -110,9 +106,10 @@ std::string as_python_can_reads_it(const std::string& log) {
   return transport::read_file(out).value_or("");
 }
 
-TEST(Replay, ARealLogArrivesCompleteAndInOrder) {
-  const std::string path = shared_log("icsim-sample-can.log");
-  if (!fs::exists(path)) GTEST_SKIP() << "no recording at " << path;
+TEST(PublicCandump, ARealLogArrivesCompleteAndInOrder) {
+  using namespace recordings;
+  if (!is_here(kCandump)) GTEST_SKIP() << how_to_get(kCandump);
+  const std::string path = path_of(kCandump).lexically_normal().string();
   auto folder = transport::TemporaryFolder::create("pitwall-replay-");
   ASSERT_TRUE(folder.has_value());
   const CandumpLog log = read_log(path);

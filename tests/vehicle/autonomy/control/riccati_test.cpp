@@ -4,11 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "tests/support/eigenvalues.hpp"
-#include "tests/support/public_data.hpp"
-#include "tests/vehicle/autonomy/control/carex.hpp"
 
 namespace pitwall::control {
 namespace {
@@ -121,6 +120,11 @@ TEST(Riccati, FindsTheSolutionsThatAreKnown) {
        {0, 0, 0, 1},
        {1, 0, 0, 1},
        {0.0014142139159264413, 1, 1, 1414.2139159264414}},
+      {"Laub 1992: an H-infinity problem with eigenvalues near the imaginary axis",
+       {3, 1, 4, 2},
+       {1, 1, 1, 1},
+       {-11, -5, -5, -2},
+       {2, 1, 1, 1}},
   };
   const auto matrix = [](const std::array<double, 4>& rows) -> MatrixXd {
     return Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(rows.data());
@@ -131,27 +135,70 @@ TEST(Riccati, FindsTheSolutionsThatAreKnown) {
     ASSERT_TRUE(x) << e.name << ": " << to_string(x.error());
     EXPECT_LT((*x - matrix(e.x)).norm(), 1e-6 * matrix(e.x).norm()) << e.name;
     EXPECT_LT(relative_residual(p, *x), 1e-13) << e.name;
+    EXPECT_LT(largest_real_part(p.a - p.g * *x), 1e-7) << e.name;
   }
 }
 
-TEST(Riccati, SolvesTheBenchmarkCollection) {
-  const auto folder = recordings::folder() / "carex";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no benchmark files at " << folder;
-  int solved = 0, exact = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    auto m = testing::read_matrices(entry.path());
-    const RiccatiProblem p{m.at("A"), m.at("G"), m.at("Q")};
-    const auto x = solve(p);
-    ASSERT_TRUE(x) << entry.path() << ": " << to_string(x.error());
-    EXPECT_LT(relative_residual(p, *x), 1e-13) << entry.path();
-    EXPECT_LT(largest_real_part(p.a - p.g * *x), 1e-7) << entry.path();
-    ++solved;
-    if (!m.contains("X")) continue;
-    EXPECT_LT((*x - m["X"]).norm(), 1e-6 * m["X"].norm()) << entry.path();
-    ++exact;
+// Laub 1979, example 5, of the same collection (3.2): circulant, so that the solution is known by
+// its eigenvalues, at any size.
+TEST(Riccati, FindsTheCirculantSolution) {
+  constexpr Eigen::Index n = 64;
+  const double step_rad = 2.0 * std::acos(-1.0) / static_cast<double>(n);
+  MatrixXd a = MatrixXd::Zero(n, n), exact = MatrixXd::Zero(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    a(i, i) = -2.0;
+    a(i, (i + 1) % n) = a(i, (i + n - 1) % n) = 1.0;
   }
-  EXPECT_GE(solved, 8);
-  EXPECT_GE(exact, 3);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const double of_a = -2.0 + 2.0 * std::cos(step_rad * static_cast<double>(k));
+    const double of_x = of_a + std::sqrt(of_a * of_a + 1.0);
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j < n; ++j)
+        exact(i, j) +=
+            of_x * std::cos(step_rad * static_cast<double>(k * (i - j))) / static_cast<double>(n);
+  }
+  const RiccatiProblem p{a, MatrixXd::Identity(n, n), MatrixXd::Identity(n, n)};
+  const auto x = solve(p);
+  ASSERT_TRUE(x) << to_string(x.error());
+  EXPECT_LT((*x - exact).norm(), 1e-6 * exact.norm());
+  EXPECT_LT(relative_residual(p, *x), 1e-13);
+  EXPECT_LT(largest_real_part(p.a - p.g * *x), 0.0);
+}
+
+// Examples 1.4 and 2.7 of the collection, whose solutions nobody has in closed form.
+TEST(Riccati, SolvesTheDistillationColumn) {  // Bhattacharyya and others 1983
+  const double below[]{0.522, 0.522, 0.522, 0.922, 0.922, 0.922, 0.922};
+  const double diagonal[]{-0.991, -1.051, -1.118, -1.548, -1.64, -1.721, -1.823, -1.943};
+  const double above[]{0.529, 0.596, 0.596, 0.718, 0.799, 0.901, 1.021};
+  MatrixXd a = MatrixXd::Zero(8, 8), b(8, 2), q = MatrixXd::Zero(8, 8);
+  a.diagonal() = Eigen::Map<const Eigen::VectorXd>(diagonal, 8);
+  a.diagonal(-1) = Eigen::Map<const Eigen::VectorXd>(below, 7);
+  a.diagonal(1) = Eigen::Map<const Eigen::VectorXd>(above, 7);
+  b << 3.84, -2.88, 4.0, -3.04, 37.6, -2.8, 3.08, -2.32, 2.36, -3.32, 2.88, -3.82, 3.08, -4.12, 3.0,
+      -3.96;
+  b *= 1e-3;
+  q.diagonal() << 1.0, 1.0, 1.0, 1.0, 0.1, 0.1, 0.1, 0.1;
+  q(0, 4) = q(4, 0) = q(2, 5) = q(5, 2) = 0.5;
+  q(0, 7) = q(7, 0) = q(1, 4) = q(4, 1) = 0.1;
+  const RiccatiProblem p{a, b * b.transpose(), q};
+  const auto x = solve(p);
+  ASSERT_TRUE(x) << to_string(x.error());
+  EXPECT_LT(relative_residual(p, *x), 1e-13);
+  EXPECT_LT(largest_real_part(p.a - p.g * *x), 1e-7);
+}
+
+TEST(Riccati, SolvesTheMagneticTapeControl) {  // Chow and Kokotovic 1976
+  RiccatiProblem p{MatrixXd::Zero(4, 4), MatrixXd::Zero(4, 4), MatrixXd::Zero(4, 4)};
+  p.a(0, 1) = 0.4;
+  p.a(1, 2) = 0.345;
+  p.a.row(2) << 0.0, -524'000.0, -465'000.0, 262'000.0;
+  p.a(3, 3) = -1e6;
+  p.g(3, 3) = 1e12;
+  p.q(0, 0) = p.q(2, 2) = 1.0;
+  const auto x = solve(p);
+  ASSERT_TRUE(x) << to_string(x.error());
+  EXPECT_LT(relative_residual(p, *x), 1e-13);
+  EXPECT_LT(largest_real_part(p.a - p.g * *x), 1e-7);
 }
 
 }  // namespace

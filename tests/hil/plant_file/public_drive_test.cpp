@@ -23,7 +23,7 @@ constexpr SteeringFit kStart{.delay_s = 0.3, .understeer_rad_per_mps2 = 0.001};
 const std::vector<DriveSample>& samples() {
   static const std::vector<DriveSample> rows = [] {
     std::vector<DriveSample> read;
-    const auto path = recordings::folder() / "laps/Putnam_park2023_run4_2.csv.gz";
+    const auto path = recordings::path_of(recordings::kDrive);
     for (const std::vector<double>& v : recordings::gzipped_table(path, ','))
       if (v.size() >= 8) read.push_back({v[3], v[6], v[7]});
     return read;
@@ -97,15 +97,7 @@ std::vector<double> double_track(const SteeringFit& fit, Window window) {
   return rates;
 }
 
-class RecordedLaps : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (samples().empty()) GTEST_SKIP() << "the recorded drive is not on this machine";
-    ASSERT_EQ(samples().size(), 11'900u);
-  }
-};
-
-TEST_F(RecordedLaps, TheSingleTrackFollowsTheHalfItWasNotFittedTo) {
+void expect_the_single_track_to_follow_the_other_half() {
   const double bare = explained(drive(), {0, samples().size()}, kinematic());
   std::printf("kinematic, nothing fitted, whole drive: R2 %.4f\n", bare);
   EXPECT_NEAR(bare, 0.926, 0.005) << "what others measured of this recording";
@@ -125,7 +117,7 @@ TEST_F(RecordedLaps, TheSingleTrackFollowsTheHalfItWasNotFittedTo) {
 }
 
 // Its understeer is that of the plant file: only offset, ratio and delay are from the other half.
-TEST_F(RecordedLaps, TheDoubleTrackFollowsWithTheSteeringOfTheOtherHalf) {
+void expect_the_double_track_to_follow_the_other_half() {
   for (const Halves& halves : both_ways()) {
     const double other =
         explained(drive(), halves.score, double_track(fit_of(halves), halves.score));
@@ -135,7 +127,7 @@ TEST_F(RecordedLaps, TheDoubleTrackFollowsWithTheSteeringOfTheOtherHalf) {
 }
 
 // Most of what a kinematic model misses is the time by which the recorded steering leads.
-TEST_F(RecordedLaps, WithNothingFittedButTheTimeTheCarOfTheFileFollowsToo) {
+void expect_the_car_of_the_file_to_follow() {
   const plant::SingleTrackParams single = plant::single_track_of(shipped_car());
   const SteeringFit late{.delay_s = 0.3, .understeer_rad_per_mps2 = understeer_of(single)};
   const double share = explained(drive(), {0, samples().size()}, yaw_rates(drive(), single, late));
@@ -145,7 +137,7 @@ TEST_F(RecordedLaps, WithNothingFittedButTheTimeTheCarOfTheFileFollowsToo) {
 
 // The ratio is within what the file allows. The understeer is not, and has no number of its own in
 // the file: it follows from tyres and loads, and the model has no compliance of the steering.
-TEST_F(RecordedLaps, WhatTheWholeDriveSaysOfTheCarIsPutBesideThePlantFile) {
+void expect_the_plant_file_to_agree_with_the_whole_drive() {
   const auto file = read_plant(testing::shipped(), "av21.yaml");
   ASSERT_TRUE(file);
   const plant::SingleTrackParams single = plant::single_track_of(file->params);
@@ -166,6 +158,16 @@ TEST_F(RecordedLaps, WhatTheWholeDriveSaysOfTheCarIsPutBesideThePlantFile) {
   EXPECT_NEAR(fit->ratio, 1.0, spread) << "the recorded angle is the motor's over the ratio";
   EXPECT_LT(std::abs(fit->offset_rad), 0.002);
   EXPECT_GT(fit->understeer_rad_per_mps2, understeer_of(single));
+}
+
+TEST(PublicDrive, OurModelsTurnAsTheRealCarDid) {
+  if (!recordings::is_here(recordings::kDrive))
+    GTEST_SKIP() << recordings::how_to_get(recordings::kDrive);
+  ASSERT_EQ(samples().size(), 11'900u);
+  expect_the_single_track_to_follow_the_other_half();
+  expect_the_double_track_to_follow_the_other_half();
+  expect_the_car_of_the_file_to_follow();
+  expect_the_plant_file_to_agree_with_the_whole_drive();
 }
 
 }  // namespace

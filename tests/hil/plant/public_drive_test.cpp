@@ -3,12 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <sstream>
 #include <vector>
 
 #include "hil/plant/plant.hpp"
@@ -25,7 +20,7 @@ struct Row {
 };
 
 std::vector<Row> recorded_drive() {
-  const auto path = recordings::folder() / "laps/Putnam_park2023_run4_2.csv.gz";
+  const auto path = recordings::path_of(recordings::kDrive);
   std::vector<Row> rows;
   for (const std::vector<double>& v : recordings::gzipped_table(path, ','))
     if (v.size() >= 8) rows.push_back({v[3], v[6], v[7]});
@@ -71,9 +66,10 @@ Score replay(const std::vector<Row>& rows) {
   return score;
 }
 
-TEST(RecordedDrive, YawRateFollowsTheRealCar) {
+TEST(PublicDrive, YawRateFollowsTheRealCar) {
+  if (!recordings::is_here(recordings::kDrive))
+    GTEST_SKIP() << recordings::how_to_get(recordings::kDrive);
   const auto rows = recorded_drive();
-  if (rows.empty()) GTEST_SKIP() << "the recorded drive is not on this machine";
   ASSERT_GT(rows.size(), 10'000U);
   const Score score = replay(rows);
   const double explained = 1.0 - score.plant_error / score.variance;
