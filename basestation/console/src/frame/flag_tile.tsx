@@ -5,26 +5,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useRef } from "preact/hooks";
 import * as session from "../store/session";
-import { Quality } from "../wire/status";
-import { ageText, kDash } from "../view/format";
+import { kDash } from "../view/format";
 import { kEachFrame, usePainter } from "../view/painting";
+import { flagColour, flagWord, shownAge } from "../view/shown";
 import { readLive } from "../view/timeline";
 import { markReading } from "../view/value";
-
-/** The colour of a flag by a word of its label. */
-const kColours: readonly (readonly [RegExp, string])[] = [
-  [/PURPLE/, "purple"],
-  [/RED|STOP|KILL/, "red"],
-  [/ORANGE/, "orange"],
-  [/YELLOW/, "yellow"],
-  [/GREEN/, "green"],
-  [/CHEQUERED/, "chequered"],
-  [/BLUE/, "blue"],
-  [/BLACK/, "black"],
-];
-
-export const flagColour = (label: string): string =>
-  kColours.find(([word]) => word.test(label))?.[1] ?? "none";
 
 export function Flag({ path, label }: { path: string; label: string }) {
   const root = useRef<HTMLDivElement>(null);
@@ -36,17 +21,15 @@ export function Flag({ path, label }: { path: string; label: string }) {
       if (!element) return;
       const reading = readLive(slot);
       markReading(element, reading);
-      const known = reading.quality < Quality.stale;
       const word = store.info[slot]?.labels?.[reading.value];
-      element.dataset.flag = known && word ? flagColour(word) : "none";
+      element.dataset.flag = flagColour(reading, word);
       const [, , digits, age] = element.children;
-      const text = reading.quality === Quality.never ? kDash : (word ?? kDash);
+      const text = flagWord(reading, word);
       if (digits.textContent !== text) {
         digits.textContent = text;
         element.dataset.words = text.includes(" ") ? "several" : "one";
       }
-      const old = reading.quality === Quality.late || reading.quality === Quality.stale;
-      const ageNow = old ? ageText(reading.ageMs) : "";
+      const ageNow = shownAge(reading);
       if (age.textContent !== ageNow) age.textContent = ageNow;
     },
     kEachFrame,

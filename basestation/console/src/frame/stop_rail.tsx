@@ -10,11 +10,10 @@ import { isOperator, lastStop, stop } from "../store/uplink";
 import { CarChip } from "./car_tabs";
 import { HoldButton } from "../view/hold_button";
 import { kEachFrame, usePainter } from "../view/painting";
+import { stopOutcome } from "../view/shown";
 import { readLive } from "../view/timeline";
-import { Quality } from "../wire/status";
 
 export const kEmergencyHoldMs = 400;
-const kShownMs = 4000;
 
 /** What the car itself says about a stop, and what became of the press. */
 function Outcome() {
@@ -25,15 +24,11 @@ function Outcome() {
     () => {
       if (!root.current) return;
       const reading = readLive(slot);
-      const latched = reading.quality < Quality.stale && reading.value > 0;
-      const last = lastStop.value;
-      const recent = last !== null && performance.now() - last.at < kShownMs;
-      let text = "";
-      if (recent && !last.sent) text = "NOT SENT: no base";
-      else if (latched) text = `car: ${store.info[slot]?.labels?.[reading.value] ?? "stops"}`;
-      else if (recent) text = "sent to the base";
+      const label = store.info[slot]?.labels?.[reading.value];
+      const outcome = stopOutcome(reading, label, lastStop.value, performance.now());
+      const { text } = outcome;
       if (root.current.textContent !== text) root.current.textContent = text;
-      root.current.dataset.failed = String(recent && !last.sent);
+      root.current.dataset.failed = String(outcome.failed);
     },
     kEachFrame,
     [store, slot],

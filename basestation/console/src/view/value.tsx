@@ -9,8 +9,9 @@ import * as session from "../store/session";
 import type { Reading } from "../store/reading";
 import type { FieldInfo } from "../wire/messages";
 import { Quality, kJudgementNames, kQualityNames } from "../wire/status";
-import { ageText, kDash, unitText, valueText } from "./format";
+import { kDash, unitText, valueText } from "./format";
 import { kDigitsHz, usePainter } from "./painting";
+import { shownAge, stateWord } from "./shown";
 import { speedUnit } from "./speed_unit";
 import { read, readLive } from "./timeline";
 
@@ -31,8 +32,6 @@ export interface ValueProps {
   class?: string;
 }
 
-const kWords = ["", "good", "warning", "bad"] as const;
-
 function put(element: Element | null | undefined, text: string): void {
   if (element && element.textContent !== text) element.textContent = text;
 }
@@ -45,12 +44,6 @@ export function markReading(element: HTMLElement, reading: Reading): void {
   if (element.dataset.judgement !== judgement) element.dataset.judgement = judgement;
   const unknown = String(reading.unknown);
   if (element.dataset.unknown !== unknown) element.dataset.unknown = unknown;
-}
-
-function stateWord(reading: Reading): string {
-  if (reading.quality === Quality.never) return "never heard";
-  if (reading.quality === Quality.stale) return "stale";
-  return kWords[reading.judgement];
 }
 
 function digitsText(info: FieldInfo | undefined, reading: Reading, props: ValueProps): string {
@@ -85,12 +78,7 @@ export function Value(props: ValueProps) {
       const [, word, digits, , age] = element.children;
       put(word, stateWord(reading));
       put(digits, digitsText(info, reading, props));
-      put(
-        age,
-        reading.quality === Quality.late || reading.quality === Quality.stale
-          ? ageText(reading.ageMs)
-          : "",
-      );
+      put(age, shownAge(reading));
     },
     props.hz ?? kDigitsHz,
     [slot, info, props.speed, props.decimals, props.scale, unit],
