@@ -1,22 +1,21 @@
 #!/usr/bin/python3
 # Mutation run: makes every small change that the families of operators.py know, each in a copy of
 # its own, and asks the tests. A mutant that they do not notice survives.
-#   in      sources (mutated, compiled), headers (mutated), tests and further sources to link
-#   out     each survivor with its place and its line before and after; counts by family
+#   in      a list of targets (targets.py); ROOT/tests/mutation/equivalent/NAME.txt, the mutants of
+#           each that nobody can tell apart, with the reason (equivalent_list.py)
+#   out     each survivor with its place and its line before and after; counts by file and family
+#   state   a file that remembers what was noticed, so that a run that was interrupted goes on
+#           where it stood; what survived is judged again
 #   exit    0 every mutant was noticed or is on the list of equivalent ones, and the list is true;
 #           1 not so; 2 the command line is wrong, or the tests fail without any mutation
-# A mutated source is linked with test objects that are compiled once; a mutated header means
-# compiling the tests too, one after the other, until one notices. Both work where includes are
-# written from the root of the tree.
 # SPDX-License-Identifier: Apache-2.0
 import argparse
 import collections
 import concurrent.futures
+import hashlib
 import os
 import pathlib
-import shlex
 import shutil
-import subprocess
 import sys
 import tempfile
 import time
@@ -24,11 +23,13 @@ from dataclasses import dataclass
 
 import equivalent_list
 import operators
-from cpp_source import Source
+import targets
+from source_text import Source
+from workshop import (KILLED, MEMORY_BYTES, NOT_COMPILED, SURVIVED, TIMED_OUT, ConsoleWorkshop,
+                      Workshop)  # fmt: skip
 
-KILLED, TIMED_OUT, NOT_COMPILED, SURVIVED = "killed", "timed out", "did not compile", "survived"
-MEMORY_BYTES = 4 << 30  # a mutant that allocates without end must not take the machine along
-PROGRESS_EVERY = 100
+PROGRESS_EVERY_S = 20.0
+COLUMNS = (KILLED, TIMED_OUT, NOT_COMPILED, "equivalent", SURVIVED)
 
 
 @dataclass(frozen=True)
@@ -44,6 +45,10 @@ class Mutant:
     @property
     def key(self):
         return equivalent_list.Key(self.operator, self.path, self.before, self.after)
+
+    @property
+    def digest(self):
+        return hashlib.sha256(f"{self.path}\n{self.text}".encode()).hexdigest()
 
 
 def mutants_of(source, enums):
@@ -61,142 +66,60 @@ def mutants_of(source, enums):
             yield Mutant(name, source.path, line, column, text, before, after)
 
 
-class Workshop:
-    """Compiles and runs; every mutant has a folder of its own, which goes when it is judged."""
+class State:
+    """What was noticed, one line each; nothing is kept without a path."""
 
-    def __init__(self, options, folder):
-        self.options = options
-        self.folder = pathlib.Path(folder)
-        self.limit_s = options.limit_s
-        self.objects = {}
-        self.prefixes = {}  # of each path: the headers that no mutant changes, compiled once
+    def __init__(self, path):
+        self.path = pathlib.Path(path) if path else None
+        self.known = {}
+        if self.path and self.path.is_file():
+            lines = self.path.read_text().splitlines()
+            self.known = dict(line.split(" ", 1) for line in lines if " " in line)
+        elif self.path:
+            self.path.parent.mkdir(parents=True, exist_ok=True)
 
-    def compile(self, path, output, *first, like=None):
-        prefix = self.prefixes.get(like or path, [])
-        command = [
-            *shlex.split(self.options.compile), *prefix, *first, "-c", str(path),
-            "-o", str(output)]  # fmt: skip
-        done = subprocess.run(command, capture_output=True, text=True, cwd=self.options.root)
-        return done.returncode == 0, done.stderr
+    def verdict(self, mutant):
+        return self.known.get(mutant.digest)
 
-    def link(self, objects, program):
-        command = [
-            *shlex.split(self.options.link or self.options.compile), *map(str, objects),
-            *shlex.split(self.options.libraries), "-o", str(program)]  # fmt: skip
-        done = subprocess.run(command, capture_output=True, text=True, cwd=self.options.root)
-        return done.returncode == 0, done.stderr
-
-    def run(self, program, folder):
-        command = ["prlimit", f"--as={MEMORY_BYTES}", "--core=0", str(program)]
-        try:
-            done = subprocess.run(command, cwd=folder, timeout=self.limit_s,
-                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # fmt: skip
-        except subprocess.TimeoutExpired:
-            return TIMED_OUT
-        return SURVIVED if done.returncode == 0 else KILLED
-
-    def precompile(self, name, headers, paths):
-        header = self.folder / f"{name}.hpp"
-        header.write_text("".join(f"#include <{h}>\n" for h in headers))
-        command = [*shlex.split(self.options.compile), "-x", "c++-header", str(header)]
-        done = subprocess.run(command, capture_output=True, text=True, cwd=self.options.root)
-        self.prefixes.update({path: ["-include", str(header)] for path in paths})
-        return done.stderr if done.returncode else ""
-
-    # A tree that somebody edits meanwhile makes mutants that do not compile for no fault of theirs.
-    def still_compiles(self):
-        paths = self.options.source + self.options.test
-        return all(self.compile(path, self.folder / "again.o")[0] for path in paths)
-
-    # Everything that no mutation of a source touches, once; and the tests must pass as they are.
-    def prepare(self, pool):
-        own = self.options
-        message = self.precompile("source", own.precompile, own.source) or self.precompile(
-            "test", own.precompile_test, own.test
-        )
-        if message:
-            return message
-        paths = self.options.source + self.options.test + self.options.support
-        self.objects = {path: self.folder / f"{i}.o" for i, path in enumerate(paths)}
-        jobs = [pool.submit(self.compile, path, self.objects[path]) for path in paths]
-        for job in jobs:
-            good, message = job.result()
-            if not good:
-                return message
-        program = self.folder / "unchanged"
-        good, message = self.link(self.objects.values(), program)
-        if not good:
-            return message
-        began = time.monotonic()
-        if self.run(program, self.folder) != SURVIVED:
-            return "the tests fail without any mutation\n"
-        self.limit_s = min(self.limit_s, 5.0 + 10.0 * (time.monotonic() - began))
-        return ""
-
-    def judge(self, mutant):
-        with tempfile.TemporaryDirectory(dir=self.folder) as name:
-            folder = pathlib.Path(name)
-            changed = folder / mutant.path
-            changed.parent.mkdir(parents=True, exist_ok=True)
-            changed.write_text(mutant.text)
-            if mutant.path in self.options.source:
-                return self.judge_source(mutant, changed, folder)
-            return self.judge_header(folder)
-
-    def judge_source(self, mutant, changed, folder):
-        good, _ = self.compile(changed, folder / "mutant.o", like=mutant.path)
-        if not good:
-            return NOT_COMPILED
-        others = [o for path, o in self.objects.items() if path != mutant.path]
-        good, _ = self.link([folder / "mutant.o", *others], folder / "program")
-        return self.run(folder / "program", folder) if good else NOT_COMPILED
-
-    def judge_header(self, folder):
-        support = [self.objects[path] for path in self.options.support]
-        for i, path in enumerate(self.options.source):
-            good, _ = self.compile(path, folder / f"source{i}.o", "-iquote", str(folder))
-            if not good:
-                return NOT_COMPILED
-            support.append(folder / f"source{i}.o")
-        for path in self.options.test:
-            good, _ = self.compile(path, folder / "test.o", "-iquote", str(folder))
-            if not good:
-                return NOT_COMPILED
-            good, _ = self.link([folder / "test.o", *support], folder / "program")
-            verdict = self.run(folder / "program", folder) if good else NOT_COMPILED
-            if verdict != SURVIVED:
-                return verdict
-        return SURVIVED
+    def keep(self, mutant, verdict):
+        if self.path and verdict != SURVIVED:
+            with self.path.open("a") as file:
+                file.write(f"{mutant.digest} {verdict}\n")
 
 
 def describe(mutant):
     return f"{mutant.path}:{mutant.line}:{mutant.column}: survived\n{mutant.key}\n"
 
 
-def judge_all(workshop, pool, mutants, equivalents):
-    verdicts = {}
-    jobs = {pool.submit(workshop.judge, mutant): mutant for mutant in mutants}
-    for job in concurrent.futures.as_completed(jobs):
-        verdicts[jobs[job]] = job.result()
-        if job.result() == SURVIVED and jobs[job].key not in equivalents:
-            print(describe(jobs[job]), flush=True)
-        if len(verdicts) % PROGRESS_EVERY == 0:
-            print(f"{len(verdicts)} of {len(mutants)}", flush=True)
+def judge_all(workshop, pool, mutants, equivalents, state):
+    verdicts = {m: state.verdict(m) for m in mutants if state.verdict(m)}
+    began = told = time.monotonic()
+    jobs = {pool.submit(workshop.judge, m): m for m in mutants if m not in verdicts}
+    for done, job in enumerate(concurrent.futures.as_completed(jobs), 1):
+        mutant = jobs[job]
+        verdicts[mutant] = job.result()
+        state.keep(mutant, job.result())
+        if job.result() == SURVIVED and mutant.key not in equivalents:
+            print(describe(mutant), flush=True)
+        if time.monotonic() - told > PROGRESS_EVERY_S:
+            told = time.monotonic()
+            left_s = (told - began) / done * (len(jobs) - done)
+            print(f"{len(verdicts)} of {len(mutants)}, {left_s / 60:.1f} min left", flush=True)
     return verdicts
 
 
-def print_table(mutants, verdicts, equivalents):
+def print_table(title, rows_of, mutants, verdicts, equivalents):
     counts = collections.defaultdict(collections.Counter)
-    columns = (KILLED, TIMED_OUT, NOT_COMPILED, "equivalent", SURVIVED)
     for mutant in mutants:
         verdict = verdicts[mutant]
         listed = verdict == SURVIVED and mutant.key in equivalents
-        for row in (mutant.operator, "all"):
+        for row in (rows_of(mutant), "all"):
             counts[row]["equivalent" if listed else verdict] += 1
-    print(f"{'':12}{'mutants':>9}" + "".join(f"{c:>17}" for c in columns))
-    for row in [*operators.FAMILIES, "all"]:
+    width = max(map(len, counts), default=12) + 1
+    print(f"{title:{width}}{'mutants':>9}" + "".join(f"{c:>17}" for c in COLUMNS))
+    for row in [*(r for r in counts if r != "all"), "all"]:
         total = sum(counts[row].values())
-        print(f"{row:12}{total:9}" + "".join(f"{counts[row][c]:17}" for c in columns))
+        print(f"{row:{width}}{total:9}" + "".join(f"{counts[row][c]:17}" for c in COLUMNS))
 
 
 # The list is wrong where an entry names no mutant, or one that the tests notice.
@@ -215,76 +138,84 @@ def stale_entries(verdicts, equivalents):
 def read_options(arguments):
     parser = argparse.ArgumentParser(description="mutation run; see the head of this file")
     parser.add_argument("--root", required=True, help="paths are relative to it")
-    parser.add_argument("--source", action="append", required=True)
-    parser.add_argument("--header", action="append", default=[])
-    parser.add_argument("--test", action="append", required=True)
-    parser.add_argument("--support", action="append", default=[], help="compiled and linked")
-    parser.add_argument("--enums", action="append", default=[], help="read for enumerators only")
-    parser.add_argument("--precompile", action="append", default=[],
-                        help="header of the sources that is not mutated")  # fmt: skip
-    parser.add_argument("--precompile-test", action="append", default=[])
-    parser.add_argument("--compile", required=True, help="compiler and its flags")
+    parser.add_argument("--build", help="build folder with the libraries")
+    parser.add_argument("--targets", required=True, help="the list of targets")
+    parser.add_argument("--equivalent", required=True, help="folder of the equivalent mutants")
+    parser.add_argument("--compile", default="c++", help="compiler and its flags")
     parser.add_argument("--link", default="", help="as --compile where it is not given")
-    parser.add_argument("--libraries", default="")
-    parser.add_argument("--equivalent", help="list of equivalent mutants")
+    parser.add_argument("--state", help="what was noticed before; written")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--limit-s", type=float, default=60.0, help="longest run of the tests")
+    parser.add_argument("--target", action="append", help="only these")
     parser.add_argument("--only", help="FILE or FILE:LINE; the list is then not checked")
     parser.add_argument("--list", action="store_true", help="print the mutants, judge none")
     return parser.parse_args(arguments)
 
 
-def selected(options, root):
+def selected(target, only, root):
     enums = {}
-    for path in options.source + options.header + options.enums:
+    for path in target.mutated + target.enums:
         enums.update(operators.enumerations(Source(path, (root / path).read_text())))
     mutants = []
-    for path in options.source + options.header:
+    for path in target.mutated:
         mutants += mutants_of(Source(path, (root / path).read_text()), enums)
-    if options.only:
-        mutants = [m for m in mutants if options.only in (m.path, f"{m.path}:{m.line}")]
+    if only:
+        mutants = [m for m in mutants if only in (m.path, f"{m.path}:{m.line}")]
     return mutants
 
 
-def report(mutants, verdicts, equivalents, check_list):
+def run_target(target, mutants, options, pool, state):
+    listed = pathlib.Path(options.equivalent) / f"{target.name}.txt"
+    equivalents = equivalent_list.read(listed.read_text() if listed.is_file() else "", str(listed))
+    memory = "/dev/shm" if shutil.disk_usage("/dev/shm").free > MEMORY_BYTES else None
+    with tempfile.TemporaryDirectory(dir=memory, prefix="mutation-") as folder:
+        kind = ConsoleWorkshop if target.is_typescript else Workshop
+        workshop = kind(target, options, folder)
+        problem = workshop.prepare(pool)
+        if problem:
+            raise ValueError(f"target {target.name}: {problem}")
+        print(f"{target.name}: {len(mutants)} mutants", flush=True)
+        verdicts = judge_all(workshop, pool, mutants, equivalents, state)
+        if not workshop.still_compiles():
+            raise ValueError(f"target {target.name}: the tree has changed during the run")
     survivors = [m for m in mutants if verdicts[m] == SURVIVED and m.key not in equivalents]
-    stale = list(stale_entries(verdicts, equivalents)) if check_list else []
+    stale = [] if options.only else list(stale_entries(verdicts, equivalents))
     for entry in stale:
         print(entry)
-    print_table(mutants, verdicts, equivalents)
-    return 1 if survivors or stale else 0
+    return verdicts, equivalents, not survivors and not stale
 
 
 def main(arguments):
     options = read_options(arguments)
     root = pathlib.Path(options.root).resolve()
+    began = time.monotonic()
+    verdicts, equivalents, good = {}, {}, True
     try:
-        mutants = selected(options, root)
-        listed = pathlib.Path(options.equivalent).read_text() if options.equivalent else ""
-        equivalents = equivalent_list.read(listed, options.equivalent)
+        build = pathlib.Path(options.build or root).resolve()
+        chosen = targets.read(options.targets, root, build)
+        chosen = [t for t in chosen if not options.target or t.name in options.target]
+        mutants = {t.name: selected(t, options.only, root) for t in chosen}
+        chosen = [t for t in chosen if mutants[t.name]]
+        if options.list:
+            for mutant in (m for t in chosen for m in mutants[t.name]):
+                print(f"{mutant.path}:{mutant.line}:{mutant.column}\n{mutant.key}\n")
+            return 0
+        if not chosen:
+            raise ValueError("no mutant is chosen")
+        state = State(options.state)
+        with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+            for target in chosen:
+                said, listed, passed = run_target(target, mutants[target.name], options, pool, state)
+                verdicts.update(said)
+                equivalents.update(listed)
+                good = good and passed
     except (OSError, ValueError) as error:
         print(f"mutate.py: {error}", file=sys.stderr)
         return 2
-    if options.list:
-        for mutant in mutants:
-            print(f"{mutant.path}:{mutant.line}:{mutant.column}\n{mutant.key}\n")
-        return 0
-    began = time.monotonic()
-    memory = "/dev/shm" if shutil.disk_usage("/dev/shm").free > MEMORY_BYTES else None
-    with tempfile.TemporaryDirectory(dir=memory, prefix="mutation-") as folder:
-        workshop = Workshop(options, folder)
-        with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-            problem = workshop.prepare(pool)
-            if problem:
-                print(f"mutate.py: {problem}", file=sys.stderr, end="")
-                return 2
-            verdicts = judge_all(workshop, pool, mutants, equivalents)
-        if not workshop.still_compiles():
-            print("mutate.py: the tree has changed during the run", file=sys.stderr)
-            return 2
-    result = report(mutants, verdicts, equivalents, check_list=not options.only)
-    print(f"{len(mutants)} mutants in {time.monotonic() - began:.0f} s")
-    return result
+    print_table("family", lambda m: m.operator, verdicts, verdicts, equivalents)
+    print_table("file", lambda m: m.path, verdicts, verdicts, equivalents)
+    print(f"{len(verdicts)} mutants in {time.monotonic() - began:.0f} s")
+    return 0 if good else 1
 
 
 if __name__ == "__main__":

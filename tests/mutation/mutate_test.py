@@ -14,7 +14,8 @@ sys.dont_write_bytecode = True
 import equivalent_list  # noqa: E402
 import mutate  # noqa: E402
 import operators  # noqa: E402
-from cpp_source import Source  # noqa: E402
+import targets  # noqa: E402
+from source_text import Source  # noqa: E402
 
 TOY = """#include "toy/toy.hpp"
 // A comment with a < b and 7.
@@ -29,12 +30,18 @@ BLIND = TEST % "true"
 GOOD = TEST % "is_low(2) && !is_low(3) && !is_low(4)"
 WITHOUT_BOUNDARY = TEST % "is_low(1) && !is_low(5)"
 ENTRY = "boundary toy/toy.cpp\n- if (value < kLimit) return true;\n+ %s\n= For the test.\n"
+TARGETS = """[toy]
+sources = ["toy/toy.cpp"]
+headers = ["toy/toy.hpp"]
+tests = ["toy/toy_test.cpp"]
+support = []
+"""
 LIVING = "if (value <= kLimit) return true;"
 compiler = "c++"
 
 
-def texts(family, code, enums=None):
-    source = Source("x.cpp", code)
+def texts(family, code, enums=None, path="x.cpp"):
+    source = Source(path, code)
     found = operators.FAMILIES[family](source, enums or {})
     return [code[:start] + other + code[end:] for start, end, other in found]
 
@@ -55,6 +62,10 @@ class Families(unittest.TestCase):
         self.expect("extreme", "x = std::min(a, b); ", "x = std::max(a, b); ")
         self.expect("extreme", "x = std::abs(a); ", "x = (a); ")
         self.expect("index", "x = a[i]; ", "x = a[(i) + 1]; ", "x = a[(i) - 1]; ")
+        self.expect("order", "x{E::kA, E::kB, E::kC}; ", "x{E::kB, E::kA, E::kC}; ",
+                    "x{E::kA, E::kC, E::kB}; ")  # fmt: skip
+        self.expect("enumerator", "using enum E; x = kB; ", "using enum E; x = kA; ",
+                    enums={"E": ["kA", "kB"]})  # fmt: skip
         self.expect("enumerator", "x = E::kB; ", "x = E::kC; ", "x = E::kA; ",
                     enums={"E": ["kA", "kB", "kC"]})  # fmt: skip
 
@@ -73,6 +84,17 @@ class Families(unittest.TestCase):
         self.expect("return", "int f() { return 0; } E g() { return E::kA; } ",
                     enums={"E": ["kA", "kB"]})  # fmt: skip
 
+    def test_typescript(self):
+        code = "const f = (x: number) => { if (x !== /[<1]/g) a ??= `1 < ${x}`; return E.b; }; "
+        self.assertEqual(
+            texts("relational", code, path="x.ts"), [code.replace("!==", "===")])  # fmt: skip
+        self.assertEqual(texts("constant", code, path="x.ts"), [])
+        self.assertEqual(texts("return", code, path="x.ts"), [code.replace("E.b", "undefined")])
+        source = Source("x.ts", "export const enum E {\n  a = 0,\n  b = 1,\n}\n")
+        enums = operators.enumerations(source)
+        self.assertEqual(enums, {"E": ["a", "b"]})
+        self.assertEqual(texts("enumerator", code, enums, "x.ts"), [code.replace("E.b", "E.a")])
+
     def test_ranges(self):
         self.expect("range_end", "for (int i = 0; i < n; ++i) f(i); ",
                     "for (int i = 0 + 1; i < n; ++i) f(i); ",
@@ -89,21 +111,20 @@ class Families(unittest.TestCase):
 
 
 class Runs(unittest.TestCase):
-    def run_on(self, test, listed=""):
+    def run_on(self, test, listed="", more=()):
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
             (root / "toy").mkdir()
             files = {"toy/toy.cpp": TOY, "toy/toy.hpp": HEADER, "toy/toy_test.cpp": test,
-                     "list.txt": listed}  # fmt: skip
+                     "toy.txt": listed, "targets.toml": TARGETS}  # fmt: skip
             for name, text in files.items():
                 (root / name).write_text(text)
             out, error = io.StringIO(), io.StringIO()
             with contextlib.redirect_stdout(out), contextlib.redirect_stderr(error):
                 code = mutate.main(
-                    ["--root", folder, "--source", "toy/toy.cpp", "--header", "toy/toy.hpp",
-                     "--test", "toy/toy_test.cpp",
+                    ["--root", folder, "--targets", str(root / "targets.toml"),
                      "--compile", f"{compiler} -std=c++20 -O0 -w -I.",
-                     "--equivalent", str(root / "list.txt")])  # fmt: skip
+                     "--equivalent", folder, *more])  # fmt: skip
             return code, out.getvalue(), error.getvalue()
 
     def test_a_good_test_kills_every_mutant(self):
@@ -114,7 +135,7 @@ class Runs(unittest.TestCase):
     def test_a_blind_test_lets_every_mutant_live(self):
         code, out, _ = self.run_on(BLIND)
         self.assertEqual(code, 1)
-        self.assertEqual(out.count(": survived"), int(out.split("all ")[1].split()[0]))
+        self.assertEqual(out.count(": survived"), int(out.split("\nall ")[1].split()[0]))
         self.assertIn("toy/toy.cpp:4:13: survived", out)
         self.assertIn("toy/toy.hpp:2:24: survived", out)
 
@@ -139,6 +160,27 @@ class Runs(unittest.TestCase):
         code, _, error = self.run_on(TEST % "false")
         self.assertEqual(code, 2)
         self.assertIn("fail without any mutation", error)
+
+    def test_an_interrupted_run_goes_on_where_it_stood(self):
+        with tempfile.NamedTemporaryFile("r") as state:
+            self.run_on(WITHOUT_BOUNDARY, more=("--state", state.name))
+            noticed = state.read().splitlines()
+            self.assertTrue(noticed and all(" killed" in n or " did" in n for n in noticed))
+            # What was noticed is believed, though this test would notice nothing; the rest is not.
+            code, out, _ = self.run_on(BLIND, more=("--state", state.name))
+        self.assertEqual(code, 1)
+        total = int(out.split("\nall ")[1].split()[0])
+        self.assertEqual(out.count(": survived"), total - len(noticed))
+
+    def test_a_target_that_names_no_file_or_a_strange_key_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "targets.toml"
+            for text in ("[a]\nsources = ['gone.cpp']\ntests = ['gone.cpp']\n",
+                         "[a]\nsources = ['targets.toml']\ntests = ['targets.toml']\nfast = 1\n",
+                         "[a]\nsources = ['targets.toml']\n"):  # fmt: skip
+                path.write_text(text)
+                with self.assertRaises((ValueError, TypeError)):
+                    targets.read(path, path.parent, path.parent)
 
     def test_an_entry_without_a_reason_is_refused(self):
         with self.assertRaises(ValueError):

@@ -4,9 +4,10 @@
 # SPDX-License-Identifier: Apache-2.0
 import re
 
-from cpp_source import NUMBER, OPERATOR, WORD
+from source_text import NUMBER, OPERATOR, WORD
 
-OPPOSITE = {"==": "!=", "!=": "==", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}
+OPPOSITE = {"==": "!=", "!=": "==", "===": "!==", "!==": "===", "<": ">=", ">=": "<", ">": "<=",
+            "<=": ">"}  # fmt: skip
 BOUNDARY = {"<": "<=", "<=": "<", ">": ">=", ">=": ">"}
 ARITHMETIC = {
     "+": "-", "-": "+", "*": "/", "/": "*", "%": "*", "<<": ">>", ">>": "<<", "&": "|", "|": "&",
@@ -78,7 +79,7 @@ def condition(source, _):
         elif token.text == "for" and source.find(i + 2, ";"):
             first = source.find(i + 2, ";") + 1
             last = source.find(first, ";") - 1
-        elif token.text == "?":
+        elif token.text == "?" and source.is_spaced(i):
             first, last = ternary_start(source, i), i - 1
         if first is not None:
             start, end = source.span(first, last)
@@ -115,14 +116,14 @@ def extreme(source, _):
         if token.text in EXTREME:
             yield token.start, token.end, EXTREME[token.text]
         if token.text in ("abs", "fabs"):
-            first = i - 2 if source.is_(i - 1, "::") else i
+            first = i - 2 if source.is_(i - 1, "::", ".") else i
             yield source.tokens[first].start, token.end, ""
 
 
 def is_body(source, brace):
     if brace is None or not source.is_(brace, "{"):
         return False
-    if source.is_(brace - 1, ")", "else", "do", "const", "noexcept", "mutable", "override"):
+    if source.is_(brace - 1, ")", "else", "do", "const", "noexcept", "mutable", "override", "=>"):
         return True
     return source.is_(brace - 1, ";", "{", "}", ":") and is_body(source, source.around[brace])
 
@@ -183,27 +184,73 @@ def statement(source, _):
 
 # `return {};` changes nothing where an empty value is returned already.
 def returned(source, enums):
-    empty = {"{}", "false", "0", "0.0", "nullptr"}
+    nothing = "undefined" if source.is_typescript else "{}"
+    empty = {"{}", "false", "0", "0.0", "nullptr", "undefined"}
     empty |= {f"{enum}::{names[0]}" for enum, names in enums.items() if names}
     for i, token in enumerate(source.tokens):
         if token.text != "return" or source.is_(i + 1, ";"):
             continue
         start, end = source.span(i + 1, source.find(i, ";") - 1)
         if source.text[start:end] not in empty:
-            yield start, end, "{}"
+            yield start, end, nothing
+
+
+# What `using enum NAME` makes known without its name; a name of two enumerations is left alone.
+def bare_enumerators(source, enums):
+    known = {}
+    for i, token in enumerate(source.tokens):
+        if token.text == "enum" and source.is_(i - 1, "using"):
+            last = source.find(i, ";") - 1
+            for name in enums.get(source.tokens[last].text, []):
+                known[name] = None if name in known else enums[source.tokens[last].text]
+    return {name: names for name, names in known.items() if names}
 
 
 # `enums` holds the enumerators of each enumeration, in their order.
 def enumerator(source, enums):
+    bare = bare_enumerators(source, enums)
     for i, token in enumerate(source.tokens):
-        names = enums.get(token.text)
-        if not names or not source.is_(i + 1, "::") or source.tokens[i + 2].text not in names:
+        own, names = token, bare.get(token.text)
+        if names and source.is_(i - 1, "::", "."):
             continue
-        own = source.tokens[i + 2]
+        if not names:
+            names = enums.get(token.text)
+            if not names or not source.is_(i + 1, "::", "."):
+                continue
+            own = source.tokens[i + 2]
+            if own.text not in names:
+                continue
         following = names[(names.index(own.text) + 1) % len(names)]
         for other in dict.fromkeys((following, names[0])):
             if other != own.text:
                 yield own.start, own.end, other
+
+
+# The elements of the list in a brace, as (first token, last token) each.
+def elements(source, brace):
+    first = brace + 1
+    while first < source.partner[brace]:
+        comma = source.find(first, ",")
+        last = (source.partner[brace] if comma is None else comma) - 1
+        if last >= first:
+            yield first, last
+        first = last + 2
+
+
+# Neighbours of a list of qualified names change places: such a list is an order.
+def order(source, _):
+    for brace, token in enumerate(source.tokens):
+        if token.text != "{" or is_body(source, brace):
+            continue
+        listed = list(elements(source, brace))
+        texts = [[t.text for t in source.tokens[a : b + 1]] for a, b in listed]
+        if any(len(t) < 3 or "::" not in t or t[:-1] != texts[0][:-1] for t in texts):
+            continue
+        for (a, b), (c, d) in zip(listed, listed[1:]):
+            start, end = source.span(a, d)
+            one, other = source.span(a, b), source.span(c, d)
+            between = source.text[one[1] : other[0]]
+            yield start, end, source.text[slice(*other)] + between + source.text[slice(*one)]
 
 
 def range_end(source, _):
@@ -238,7 +285,7 @@ FAMILIES = {
     "relational": relational, "boundary": boundary, "arithmetic": arithmetic, "sign": sign,
     "logical": logical, "condition": condition, "constant": constant, "boolean": boolean,
     "extreme": extreme, "statement": statement, "return": returned, "enumerator": enumerator,
-    "range_end": range_end, "index": index,
+    "order": order, "range_end": range_end, "index": index,
 }  # fmt: skip
 
 
@@ -246,7 +293,7 @@ FAMILIES = {
 def enumerations(source):
     found = {}
     for i, token in enumerate(source.tokens):
-        if token.text != "enum" or not source.is_(i + 1, "class"):
+        if token.text != "enum" or not (source.is_(i + 1, "class") or source.is_typescript):
             continue
         opening = source.find(i, "{", ";")
         if not source.is_(opening, "{"):
@@ -256,5 +303,5 @@ def enumerations(source):
             for j in range(opening + 1, source.partner[opening])
             if source.tokens[j].kind == WORD and source.is_(j - 1, "{", ",")
         ]
-        found[source.tokens[i + 2].text] = names
+        found[source.tokens[i + (1 if source.is_typescript else 2)].text] = names
     return found

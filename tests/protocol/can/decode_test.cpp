@@ -82,6 +82,42 @@ TEST(Decode, MultiplexedSignalsArePresentWithTheirSelectorOnly) {
   }
 }
 
+// All signals of a message at once, by whatever short cut, are what each of them is alone.
+TEST(Decode, AllAtOnceIsEachAlone) {
+  const std::string plain = " SG_ a : 4|12@1- (0.5,1) [0|0] \"\" A\n";
+  const std::string multiplexed =
+      " SG_ s M : 0|2@1+ (1,0) [0|0] \"\" A\n SG_ m m1 : 8|8@1+ (1,0) [0|0] \"\" A\n";
+  const std::string ninth = " SG_ z : 60|12@1+ (1,0) [0|0] \"\" A\n";
+  const std::string far = " SG_ y : 448|64@1+ (1,0) [0|0] \"\" A\n";
+  const std::pair<std::string, int> messages[]{{plain, 8},         {plain, 3},
+                                               {plain + ninth, 9}, {plain + far, 64},
+                                               {multiplexed, 8},   {multiplexed + far, 64}};
+  Noise noise{21};
+  for (const auto& [signals, length] : messages) {
+    const Database d = parsed(dbc_with(signals, length));
+    const Message& m = d.messages.at(0);
+    for (int i = 0; i < 100; ++i) {
+      const Frame f = random_frame(m, noise);
+      std::vector<double> values(m.signals.size(), -1.0);
+      ASSERT_TRUE(decode(m, f, values));
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        const Signal& alone = m.signals[k];
+        const double expected = is_present(m, alone, f) ? decode(alone, f) : std::nan("");
+        EXPECT_TRUE(values[k] == expected || (std::isnan(values[k]) && std::isnan(expected)))
+            << alone.name << " of " << length << " bytes";
+      }
+    }
+  }
+}
+
+TEST(Decode, RoomForOtherThanItsSignalsIsOurOwnMistake) {
+  const Database d = parsed(dbc_with(kSignal));
+  std::vector<double> values(2);
+  EXPECT_DEATH(
+      static_cast<void>(decode(d.messages[0], {.id = 100, .length = 8, .data = {}}, values)),
+      "CHECK");
+}
+
 TEST(Decode, FloatingPointSignals) {
   const Database d =
       parsed(dbc_with(" SG_ a : 0|32@1- (1,0) [0|0] \"\" A\n SG_ b : 39|32@0- (2,1) [0|0] \"\" A\n"

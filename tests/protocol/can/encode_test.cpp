@@ -119,5 +119,13 @@ TEST(Encode, LeavesOutWhatTheSelectorLeavesOut) {
   EXPECT_FALSE(encode(d.messages[0], std::vector<double>{kUnset, 9, 1}, out, counters));
 }
 
+TEST(Encode, OtherValuesThanItsSignalsAreOurOwnMistake) {
+  const Database d = parsed(dbc_with(kSignal));
+  const std::vector<double> values(2);
+  Frame frame;
+  EncodeCounters counters;
+  EXPECT_DEATH(static_cast<void>(encode(d.messages[0], values, frame, counters)), "CHECK");
+}
+
 }  // namespace
 }  // namespace pitwall::can

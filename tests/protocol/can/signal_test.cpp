@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 
 #include "tests/protocol/can/dbc_files.hpp"
@@ -64,10 +65,10 @@ TEST(Signal, InsertsWithoutTouchingOtherBits) {
   for (const std::size_t bytes : {8U, 64U}) {
     for_every_layout(bytes, 1, [&](const SignalLayout& s) {
       const FrameBytes before = random_bytes(noise);
-      const std::uint64_t raw = noise.next() & mask_of(s.length);
+      const std::uint64_t raw = noise.next();  // of which no bit beyond the field counts
       FrameBytes after = before;
       insert(plan(s), after, raw);
-      EXPECT_EQ(by_bit(s, after), raw);
+      EXPECT_EQ(by_bit(s, after), raw & mask_of(s.length));
       const BitMap own = occupied_bits(s);
       for (std::size_t i = 0; i < before.size(); ++i) {
         ASSERT_EQ(before[i] & ~own[i], after[i] & ~own[i]) << s.start << "|" << int{s.length};
@@ -92,6 +93,7 @@ TEST(Signal, FitsSaysWhetherAllBitsAreInside) {
       }
     }
   }
+  EXPECT_TRUE(fits({.start = 448, .length = 64}, 64));
   EXPECT_FALSE(fits({.start = 0, .length = 0}, 8));
   EXPECT_FALSE(fits({.start = 0, .length = 65}, 64));
 }
@@ -214,6 +216,57 @@ TEST(Signal, AFieldOf64BitsKeepsTheLowestBit) {
         EXPECT_EQ(physical_of(raw, p), number);
         EXPECT_FALSE(saturated);
       }
+    }
+  }
+}
+
+// Of a layout beyond every frame the bits inside are told, and no others.
+TEST(Signal, BitsBeyondTheLongestFrameAreLeftOut) {
+  for (const ByteOrder order : {ByteOrder::kIntel, ByteOrder::kMotorola}) {
+    const BitMap map =
+        occupied_bits({.start = 8 * kMaxDataBytes - 8, .length = 64, .order = order});
+    unsigned bits = 0;
+    for (const std::uint8_t byte : map) bits += static_cast<unsigned>(std::popcount(byte));
+    EXPECT_EQ(bits, order == ByteOrder::kIntel ? 8U : 1U);
+  }
+}
+
+// A range in physical values allows the raw values whose physical value lies in it, whatever
+// binary makes of tenths.
+TEST(Signal, ARangeAllowsExactlyTheValuesInIt) {
+  Noise noise{15};
+  for (const double scale : {1.0, 0.1, -0.1, 0.3, 0.01, 2.0, -2.0}) {
+    for (const double offset : {0.0, -100.0, 0.7, 10.0}) {
+      for (int i = 0; i < 300; ++i) {
+        const double low = static_cast<double>(noise.below(200));
+        const double high = low + static_cast<double>(noise.below(50));
+        const double ends[]{low * scale + offset, high * scale + offset};
+        const double slack = low == high ? 0.4 * std::abs(scale) : 0.0;
+        const SignalPlan p = plan({.length = 8,
+                                   .scale = scale,
+                                   .offset = offset,
+                                   .min = std::min(ends[0], ends[1]) - slack,
+                                   .max = std::max(ends[0], ends[1]) + slack});
+        ASSERT_EQ(p.raw_min, low) << scale << " " << offset;
+        ASSERT_EQ(p.raw_max, high) << scale << " " << offset;
+      }
+    }
+  }
+  const SignalPlan real = plan(
+      {.length = 32, .number = Number::kFloat32, .scale = 2, .offset = 1, .min = 1.5, .max = 2.5});
+  EXPECT_EQ(real.raw_min, 0.25);
+  EXPECT_EQ(real.raw_max, 0.75);
+}
+
+TEST(Signal, AFloatWithoutARangeTakesBothSigns) {
+  for (const Number kind : {Number::kFloat32, Number::kFloat64}) {
+    const SignalPlan p = plan(
+        {.length = static_cast<std::uint8_t>(kind == Number::kFloat32 ? 32 : 64), .number = kind});
+    for (const double value : {-1e30, -1.0, 0.0, 1.0, 1e30}) {
+      bool saturated = false;
+      EXPECT_FLOAT_EQ(static_cast<float>(physical_of(raw_of(value, p, saturated), p)),
+                      static_cast<float>(value));
+      EXPECT_FALSE(saturated) << value;
     }
   }
 }

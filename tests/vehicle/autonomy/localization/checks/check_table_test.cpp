@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -91,6 +93,7 @@ TEST(CheckTable, WhatNobodySaysIsNoFault) {
   for (std::size_t s = 0; s < kSources; ++s) {
     Evidence e;
     e.source = static_cast<Source>(s);
+    e.other_well = true;
     EXPECT_EQ(judge(e, {}, {}).gate, Gate::kAccepted) << s;
   }
 }
@@ -135,6 +138,66 @@ TEST(CheckTable, TheFormIsAlwaysJudged) {
     c.spoil(e);
     EXPECT_EQ(judge(e, {}, all).gate, c.reason);
   }
+}
+
+// At its limit a number passes, the next one beyond it does not.
+struct Limit {
+  Gate reason;
+  Source source;
+  double Evidence::*number;
+  double at, beyond;
+  void (*prepare)(Evidence& e) = [](Evidence&) {};
+};
+
+const std::vector<Limit>& limits() {
+  using enum Source;
+  using E = Evidence;
+  constexpr double kMore = std::numeric_limits<double>::infinity();
+  static const CheckParams p;
+  static const std::vector<Limit> all{
+      {Gate::kNegativeVariance, kHeading, &E::least_sigma, 0.0, -kMore},
+      {Gate::kFromTheFuture, kImu, &E::age_s, -p.future_max_s, -kMore},
+      {Gate::kTooOld, kPosition, &E::age_s, healthy().window_s, kMore},
+      {Gate::kRanBack, kVelocity, &E::after_newest_s, -p.reorder_max_s, -kMore},
+      {Gate::kRepeated, kAttitude, &E::spacing_s, p.spacing_min_s, -kMore},
+      {Gate::kFrozen, kPosition, &E::speed_mps, p.frozen_speed_min_mps, kMore,
+       [](E& e) { e.same_content = true; }},
+      {Gate::kNotSolved, kPosition, &E::rank, p.position_rank_min, -kMore},
+      {Gate::kTooUncertain, kVelocity, &E::sigma, healthy().sigma_max, kMore},
+      {Gate::kTooUncertain, kPosition, &E::height_sigma_m, p.height_sigma_max_m, kMore},
+      {Gate::kTooUncertain, kPosition, &E::sigma, p.sigma_ratio_max * healthy().other_sigma, kMore},
+      {Gate::kOldCorrections, kPosition, &E::differential_age_s, p.differential_age_max_s, kMore},
+      {Gate::kOldCorrections, kVelocity, &E::solution_age_s, p.solution_age_max_s, kMore},
+      {Gate::kWrongBaseline, kHeading, &E::baseline_error_m, p.baseline_tolerance_m, kMore},
+      {Gate::kWrongBaseline, kHeading, &E::baseline_error_m, -p.baseline_tolerance_m, -kMore},
+      {Gate::kOutlier, kAttitude, &E::residual, healthy().jump_min, kMore},
+      {Gate::kOutlier, kPosition, &E::residual, 0.2, kMore, [](E& e) { e.jump_sigma_max = 0.2; }},
+      {Gate::kDisagrees, kVelocity, &E::apart, healthy().apart_max, kMore,
+       [](E& e) { e.stray = 0.2; }},
+      {Gate::kDisagrees, kHeading, &E::stray, p.worse_factor * healthy().other_stray, kMore,
+       [](E& e) { e.apart = 0.2; }},
+      {Gate::kOffCourse, kHeading, &E::course_error_rad, p.course_max_rad, kMore},
+      {Gate::kOffCourse, kAttitude, &E::course_error_rad, -p.course_max_rad, -kMore}};
+  return all;
+}
+
+TEST(CheckTable, AtItsLimitANumberPassesAndBeyondItNot) {
+  for (const Limit& limit : limits()) {
+    Evidence e = healthy(limit.source);
+    limit.prepare(e);
+    e.*limit.number = limit.at;
+    EXPECT_EQ(judge(e, {}, {}).gate, Gate::kAccepted) << text_of(limit.reason) << " " << limit.at;
+    e.*limit.number = std::nextafter(limit.at, limit.beyond);
+    EXPECT_EQ(judge(e, {}, {}).gate, limit.reason) << limit.at;
+  }
+}
+
+TEST(CheckTable, UnitsThatAreJustNotApartAreNotSeen) {
+  Evidence e = healthy();
+  e.apart = e.apart_max;
+  EXPECT_TRUE(judge(e, {}, {}).seen.empty());
+  e.apart = std::nextafter(e.apart_max, 1.0);
+  EXPECT_TRUE(judge(e, {}, {}).seen.has(Monitor::kUnitAgreement));
 }
 
 TEST(CheckTable, AFaultOfAnotherSourceIsNone) {
