@@ -205,7 +205,8 @@ def main(arguments):
         state = State(options.state)
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
             for target in chosen:
-                said, listed, passed = run_target(target, mutants[target.name], options, pool, state)
+                own = mutants[target.name]
+                said, listed, passed = run_target(target, own, options, pool, state)
                 verdicts.update(said)
                 equivalents.update(listed)
                 good = good and passed

@@ -33,7 +33,6 @@ bool Alarm::update(const AlarmRow& row, const AlarmSetting& setting, const Readi
   suppressed_ = suppressed;
   if (suppressed || !reading.usable) {
     raw_ = counted_ = active_;  // nothing is on its way
-    raw_since_ = now;
     return false;
   }
   value_ = reading.value;

@@ -194,6 +194,101 @@ TEST(Alarm, SlowComingsAreNoChatter) {
   EXPECT_EQ(bench.announced, 10);
 }
 
+TEST(Alarm, ABoundBelowIsTheMirrorImage) {
+  Bench bench;
+  bench.row.side = Side::kBelow;
+  EXPECT_EQ(bench.run(seconds(5), 10.0), kNormal);  // at the limit: not below it
+  EXPECT_EQ(bench.run(seconds(1), 9.9), kUnack);
+  EXPECT_EQ(bench.run(seconds(5), 11.9), kUnack);
+  EXPECT_EQ(bench.run(seconds(1), 12.1), kReturnedUnack);
+}
+
+TEST(Alarm, TheDeadbandHoldsAnAlarmAndMakesNone) {
+  Bench bench;
+  bench.row.on_delay = bench.row.off_delay = {};
+  EXPECT_EQ(bench.run(seconds(1), 9.0), kNormal);
+  EXPECT_EQ(bench.run(seconds(1), 11.0), kUnack);
+  EXPECT_EQ(bench.run(seconds(1), 9.0), kUnack);
+  EXPECT_EQ(bench.announced, 1);
+}
+
+TEST(Alarm, TellsSinceWhenItIsAndItsNewestValue) {
+  Bench bench;
+  bench.run(milliseconds(100), 11);
+  EXPECT_EQ(bench.run(milliseconds(10), 12), kUnack);
+  const Instant came = bench.now;
+  bench.run(seconds(1), 13);
+  EXPECT_EQ(bench.alarm.since(), came);
+  EXPECT_EQ(bench.alarm.value(), 13.0);
+  bench.usable = false;
+  bench.run(seconds(1), 14);
+  EXPECT_EQ(bench.alarm.value(), 13.0);
+}
+
+// However it becomes normal, its comings are counted from there.
+TEST(Alarm, ComingsAreCountedSinceItWasNormal) {
+  const auto count_after = [](auto&& back_to_normal, bool latched) {
+    Bench bench;
+    bench.row.latched = latched;
+    bench.run(seconds(1), 11);
+    EXPECT_EQ(bench.alarm.count(), 1U);
+    bench.run(milliseconds(100), 0);  // shorter than its off-delay: the same coming
+    bench.run(seconds(1), 11);
+    EXPECT_EQ(bench.alarm.count(), 1U);
+    bench.run(seconds(1), 0);
+    bench.run(seconds(1), 11);
+    EXPECT_EQ(bench.alarm.count(), 2U);
+    back_to_normal(bench);
+    EXPECT_EQ(bench.alarm.state(), kNormal);
+    EXPECT_EQ(bench.alarm.count(), 0U);
+    bench.run(seconds(1), 11);
+    return bench.alarm.count();
+  };
+  const auto seen_then_gone = [](Bench& b) { b.alarm.acknowledge(), b.run(seconds(1), 0); };
+  const auto gone_then_seen = [](Bench& b) { b.run(seconds(1), 0), b.alarm.acknowledge(); };
+  const auto by_hand_off_the_shelf = [](Bench& b) {
+    b.alarm.shelve(b.now + seconds(60)), b.run(seconds(1), 0), b.alarm.unshelve();
+  };
+  const auto by_reset = [](Bench& b) {
+    b.run(seconds(1), 0), b.alarm.acknowledge();
+    EXPECT_EQ(b.alarm.count(), 2U) << "latched is not normal";
+    b.alarm.reset();
+  };
+  EXPECT_EQ(count_after(seen_then_gone, false), 1U);
+  EXPECT_EQ(count_after(gone_then_seen, false), 1U);
+  EXPECT_EQ(count_after(by_hand_off_the_shelf, false), 1U);
+  EXPECT_EQ(count_after(by_reset, true), 1U);
+}
+
+TEST(Alarm, AShelfEndsAtItsTimeAndOnlyAShelvedOneIsTakenDown) {
+  Bench bench;
+  EXPECT_FALSE(bench.alarm.unshelve());
+  bench.run(seconds(1), 11);
+  EXPECT_FALSE(bench.alarm.unshelve());
+  EXPECT_EQ(bench.alarm.state(), kUnack) << "what is not on the shelf is not seen by it";
+  ASSERT_TRUE(bench.alarm.shelve(bench.now + seconds(60)));
+  EXPECT_EQ(bench.run(seconds(60) - milliseconds(10)), kShelved);
+  EXPECT_EQ(bench.run(milliseconds(10)), kUnack);
+}
+
+TEST(Alarm, ThreeComingsWithinTheWindowAreChatter) {
+  Bench bench;
+  bench.row.off_delay = {};
+  for (int i = 0; i < 3; ++i) {  // the third ten seconds after the first
+    EXPECT_FALSE(bench.alarm.folded());
+    bench.run(milliseconds(2'500), 11);
+    if (i < 2) bench.run(milliseconds(2'500), 0);
+  }
+  EXPECT_TRUE(bench.alarm.folded());
+}
+
+TEST(Alarm, EveryStateHasItsName) {
+  const std::string_view names[]{"normal",  "unack",   "acked",     "rtn_unack",
+                                 "latched", "shelved", "suppressed"};
+  for (std::size_t i = 0; i < std::size(names); ++i)
+    EXPECT_EQ(text_of(static_cast<State>(i)), names[i]);
+}
+
 // Any order of values, acts, situations and silences: what nobody has seen is never lost, and each
 // state is one that the diagram has.
 TEST(Alarm, NoPathLosesWhatNobodyHasSeen) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <random>
+#include <sstream>
 
 namespace pitwall::alarms {
 namespace {
@@ -160,6 +161,88 @@ TEST(Engine, TheFirstOfAnEpisodeIsMarked) {
   EXPECT_EQ(both.engine.active().front().key, "gnss_both_bad");
 }
 
+TEST(Engine, OneThatComesAgainOrIsSeenKeepsItsPlaceInTheEpisode) {
+  Wall wall;
+  wall.set("battery_low", true);
+  wall.run(seconds(5));
+  wall.set("bus_off", true);
+  wall.run(seconds(5));
+  ASSERT_TRUE(wall.engine.acknowledge(wall.find("battery_low")->id, "Ada", wall.now));
+  EXPECT_TRUE(wall.find("battery_low")->first_up) << "still there";
+  wall.set("battery_low", false);
+  wall.run(seconds(10));
+  EXPECT_FALSE(wall.find("battery_low"));
+  wall.set("battery_low", true);
+  wall.run(seconds(5));
+  EXPECT_FALSE(wall.find("battery_low")->first_up) << "bus_off is older now";
+  // The same for one that an act makes normal.
+  Wall seen_late;
+  seen_late.set("battery_low", true);
+  seen_late.run(seconds(5));
+  seen_late.set("bus_off", true);
+  seen_late.set("battery_low", false);
+  seen_late.run(seconds(10));
+  ASSERT_TRUE(seen_late.engine.acknowledge(seen_late.find("battery_low")->id, "Ada", wall.now));
+  seen_late.set("battery_low", true);
+  seen_late.run(seconds(5));
+  EXPECT_FALSE(seen_late.find("battery_low")->first_up);
+}
+
+// Of those that come in the same look: the most urgent, then the first of the table.
+TEST(Engine, OfTwoAtOnceOneIsTheFirst) {
+  int pairs = 0;
+  for (AlarmIndex a = 0; a < alarm_count(); ++a) {
+    for (AlarmIndex b = a + 1; b < alarm_count(); ++b) {
+      const AlarmRow &one = alarm_row(a), &other = alarm_row(b);
+      if (one.on_delay != other.on_delay) continue;
+      if (one.overruled_by == other.key || other.overruled_by == one.key) continue;
+      Wall wall;
+      wall.set(a, true);
+      wall.set(b, true);
+      wall.run(one.on_delay + milliseconds(20));
+      ASSERT_EQ(wall.engine.active().size(), 2U) << one.key << " " << other.key;
+      const bool is_second = other.priority > one.priority;
+      EXPECT_EQ(wall.find(one.key)->first_up, !is_second) << one.key << " " << other.key;
+      EXPECT_EQ(wall.find(other.key)->first_up, is_second) << one.key << " " << other.key;
+      ++pairs;
+    }
+  }
+  EXPECT_GT(pairs, 20);
+}
+
+TEST(Engine, ANewComingIsNobodysAct) {
+  Wall wall;
+  wall.set("tyres_cold", true);
+  wall.run(seconds(5));
+  const AlarmId id = wall.find("tyres_cold")->id;
+  ASSERT_TRUE(wall.engine.shelve(id, kShelveMax, "Ada", "warm-up", wall.now));
+  EXPECT_EQ(wall.find("tyres_cold")->shelved_until, wall.now + kShelveMax);
+  ASSERT_TRUE(wall.engine.unshelve(id, "Bob", wall.now));
+  EXPECT_EQ(wall.find("tyres_cold")->by, "Bob");
+  EXPECT_EQ(wall.find("tyres_cold")->reason, "");
+  wall.set("tyres_cold", false);
+  wall.run(seconds(20));
+  wall.set("tyres_cold", true);
+  wall.run(seconds(5));
+  EXPECT_GT(wall.find("tyres_cold")->id, id);
+  EXPECT_EQ(wall.find("tyres_cold")->by, "");
+}
+
+TEST(Engine, TheHistoryKeepsTheNewest) {
+  Wall wall;
+  wall.set("tyres_cold", true);
+  wall.run(seconds(5));
+  const AlarmId id = wall.find("tyres_cold")->id;
+  for (std::size_t i = 0; i < Engine::kHistory; ++i) {
+    ASSERT_EQ(wall.engine.history().size(),
+              std::min<std::uint64_t>(wall.engine.events(), Engine::kHistory));
+    ASSERT_EQ(wall.engine.history().back().number, wall.engine.events());
+    ASSERT_TRUE(i % 2 == 0 ? wall.engine.shelve(id, seconds(60), "Ada", "r", wall.now)
+                           : wall.engine.unshelve(id, "Ada", wall.now));
+  }
+  EXPECT_EQ(wall.engine.history().size(), Engine::kHistory);
+}
+
 TEST(Engine, AFloodShowsTheFirstAndTheHighOnly) {
   Wall wall;
   wall.set("battery_low", true);
@@ -266,6 +349,51 @@ TEST(Engine, TheHistoryIsAChain) {
     }
     for (AlarmIndex i = 0; i < alarm_count(); ++i) {
       EXPECT_EQ(storm.wall.engine.state(i), states[alarm_row(i).key]);
+    }
+  }
+}
+
+// All of a list but its values, as a console is told it.
+std::string list_text(const Engine& engine) {
+  std::ostringstream text;
+  for (const auto& list : {engine.active(), engine.shelved(), engine.suppressed()}) {
+    for (const ListedAlarm& a : list)
+      text << a.key << a.id << text_of(a.state) << a.count << a.first_up << a.folded << a.flooded
+           << a.by << a.reason << (a.shelved_until ? a.shelved_until->ns : 0) << "\n";
+    text << "\n";
+  }
+  return text.str();
+}
+
+TEST(Engine, TheListIsInOrderCountedAndNeverChangesUnsaid) {
+  for (unsigned seed = 40; seed < 44; ++seed) {
+    Storm storm{seed};
+    const Engine& engine = storm.wall.engine;
+    std::string before = list_text(engine);
+    std::uint64_t revision = engine.revision();
+    for (int i = 0; i < 200; ++i) {
+      storm.step();
+      const auto lines = engine.active();
+      for (std::size_t n = 1; n < lines.size(); ++n) {
+        const ListedAlarm &a = lines[n - 1], &b = lines[n];
+        ASSERT_TRUE(a.priority > b.priority || (a.priority == b.priority && a.id < b.id)) << n;
+      }
+      ASSERT_EQ(engine.count(), lines.size());
+      for (const Priority p : {Priority::kLow, Priority::kMedium, Priority::kHigh}) {
+        const auto of_it = [&](bool unseen) {
+          return static_cast<std::size_t>(std::ranges::count_if(lines, [&](const ListedAlarm& a) {
+            const bool is_unseen = a.state == State::kUnack || a.state == State::kReturnedUnack;
+            return a.priority == p && (is_unseen || !unseen);
+          }));
+        };
+        ASSERT_EQ(engine.count(p), of_it(false));
+        ASSERT_EQ(engine.unseen(p), of_it(true));
+      }
+      ASSERT_GE(engine.revision(), revision);
+      const std::string now = list_text(engine);
+      ASSERT_TRUE(now == before || engine.revision() > revision) << before << now;
+      before = now;
+      revision = engine.revision();
     }
   }
 }
