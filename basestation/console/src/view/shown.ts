@@ -28,7 +28,7 @@ const kFlagColours: readonly (readonly [RegExp, string])[] = [
 
 export const isKnown = (reading: Reading): boolean => reading.quality < Quality.stale;
 
-/** The age beside the value: of what is late or stale; empty for what is fresh or was never heard. */
+/** The age beside what is late or stale; empty for what is fresh or was never heard. */
 export function shownAge(reading: Reading): string {
   const old = reading.quality === Quality.late || reading.quality === Quality.stale;
   return old ? ageText(reading.ageMs) : "";
