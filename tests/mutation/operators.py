@@ -173,9 +173,17 @@ def begins_statement(source, i):
     return source.is_(opening - 1, "if", "for", "while")
 
 
+# The last `break` of a switch leaves nothing out.
+def ends_switch(source, i):
+    if not (source.is_(i, "break") and source.is_(i + 2, "}")):
+        return False
+    brace = source.around[i]
+    return source.is_(brace - 1, ")") and source.is_(source.partner[brace - 1] - 1, "switch")
+
+
 def statement(source, _):
     for i, token in enumerate(source.tokens):
-        if not begins_statement(source, i):
+        if not begins_statement(source, i) or ends_switch(source, i):
             continue
         whole = token.text in ("if", "for", "while", "continue", "break")
         if whole or is_expression(source, i):

@@ -26,6 +26,20 @@ TEST(AlarmRate, CountsTheLastTenMinutes) {
   }
 }
 
+TEST(AlarmRate, OneIsCountedForTheWindowAndQuietIsZero) {
+  AlarmRate rate;
+  Instant now{seconds(5'000).ns};
+  rate.advance(now);
+  EXPECT_EQ(rate.per_10_min(), 0U);
+  rate.came(now);
+  rate.advance(now + kRateWindow - nanoseconds(1));
+  EXPECT_EQ(rate.per_10_min(), 1U);
+  rate.advance(now + kRateWindow);
+  EXPECT_EQ(rate.per_10_min(), 0U);
+  rate.advance(now + 10 * kRateWindow);
+  EXPECT_EQ(rate.per_10_min(), 0U);
+}
+
 TEST(AlarmRate, AFloodBeginsAboveTenAndIsOverAtFive) {
   AlarmRate rate;
   Instant now{};

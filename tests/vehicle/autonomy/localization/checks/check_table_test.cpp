@@ -200,6 +200,16 @@ TEST(CheckTable, UnitsThatAreJustNotApartAreNotSeen) {
   EXPECT_TRUE(judge(e, {}, {}).seen.has(Monitor::kUnitAgreement));
 }
 
+// Of what cannot be read no number means anything.
+TEST(CheckTable, WhatFailsTheFormIsNotLookedAtAnyFurther) {
+  Evidence e = healthy();
+  e.finite = false;
+  e.residual = 100.0, e.sigma = 100.0, e.age_s = 100.0;
+  const Judged judged = judge(e, {}, {});
+  EXPECT_EQ(judged.gate, Gate::kNotFinite);
+  EXPECT_TRUE(judged.seen.empty());
+}
+
 TEST(CheckTable, AFaultOfAnotherSourceIsNone) {
   Evidence position = healthy();
   position.baseline_error_m = 5.0;
