@@ -89,7 +89,7 @@ void Engine::note(AlarmIndex index, State from, Instant now, std::string_view by
 
 Result<AlarmIndex, Problem> Engine::find(AlarmId id) const {
   for (AlarmIndex i = 0; i < entries_.size(); ++i) {
-    if (id != 0 && entries_[i].id == id && entries_[i].alarm.state() != State::kNormal) return i;
+    if (entries_[i].id == id && entries_[i].alarm.state() != State::kNormal) return i;
   }
   return Unexpected{no(id, "is not in the list any more, or has come anew")};
 }

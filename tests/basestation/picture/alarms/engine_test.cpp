@@ -64,7 +64,15 @@ TEST(Engine, EveryAlarmComesOnItsOwn) {
     wall.set(i, false);
     wall.run(seconds(10));
     EXPECT_EQ(wall.engine.active().front().state, State::kReturnedUnack);
+    EXPECT_TRUE(wall.engine.acknowledge(wall.engine.active().front().id, "Ada", wall.now).value());
+    EXPECT_NE(wall.engine.state(i), State::kReturnedUnack);
   }
+}
+
+TEST(Engine, AReadingOfEachRowIsWantedElseItIsOurOwnMistake) {
+  Wall wall;
+  wall.readings.pop_back();
+  EXPECT_DEATH(wall.run(milliseconds(10)), "CHECK");
 }
 
 TEST(Engine, ALostLinkIsExactlyOneAlarm) {
@@ -106,6 +114,22 @@ TEST(Engine, TheWorseOverrulesTheLesser) {
   EXPECT_EQ(wall.find("off_line")->state, State::kUnack);  // still there, still unseen
 }
 
+TEST(Engine, EachLesserOneIsOverruledByItsWorse) {
+  int pairs = 0;
+  for (AlarmIndex i = 0; i < alarm_count(); ++i) {
+    const auto worse = find_alarm(alarm_row(i).overruled_by);
+    if (!worse) continue;
+    Wall wall;
+    wall.set(*worse, true);
+    wall.run(seconds(10));
+    wall.set(i, true);
+    wall.run(seconds(10));
+    EXPECT_EQ(wall.engine.state(i), State::kNormal) << alarm_row(i).key;
+    ++pairs;
+  }
+  EXPECT_GT(pairs, 3);
+}
+
 TEST(Engine, ActsNameTheOccurrenceAndThePerson) {
   Wall wall;
   wall.set("tyres_cold", true);
@@ -115,7 +139,10 @@ TEST(Engine, ActsNameTheOccurrenceAndThePerson) {
   wall.run(seconds(5));
   wall.set("tyres_cold", true);
   wall.run(seconds(5));
-  EXPECT_FALSE(wall.engine.acknowledge(first, "Ada", wall.now));  // another has come since
+  const auto late = wall.engine.acknowledge(first, "Ada", wall.now);  // another has come since
+  ASSERT_FALSE(late);
+  EXPECT_EQ(to_string(late.error()), "alarm " + std::to_string(first) +
+                                         ": error: is not in the list any more, or has come anew");
   const AlarmId second = wall.find("tyres_cold")->id;
   EXPECT_FALSE(wall.engine.acknowledge(second, "", wall.now));
   EXPECT_FALSE(wall.engine.acknowledge(0, "Ada", wall.now));
@@ -175,17 +202,20 @@ TEST(Engine, OneThatComesAgainOrIsSeenKeepsItsPlaceInTheEpisode) {
   wall.set("battery_low", true);
   wall.run(seconds(5));
   EXPECT_FALSE(wall.find("battery_low")->first_up) << "bus_off is older now";
-  // The same for one that an act makes normal.
+  // The same for one that an act makes normal, and that comes again in the next look.
   Wall seen_late;
-  seen_late.set("battery_low", true);
-  seen_late.run(seconds(5));
+  seen_late.set("relay", true);
+  seen_late.run(seconds(1));
+  EXPECT_TRUE(seen_late.find("relay")->first_up);
   seen_late.set("bus_off", true);
-  seen_late.set("battery_low", false);
-  seen_late.run(seconds(10));
-  ASSERT_TRUE(seen_late.engine.acknowledge(seen_late.find("battery_low")->id, "Ada", wall.now));
-  seen_late.set("battery_low", true);
-  seen_late.run(seconds(5));
-  EXPECT_FALSE(seen_late.find("battery_low")->first_up);
+  seen_late.set("relay", false);
+  seen_late.run(seconds(60));
+  ASSERT_TRUE(seen_late.engine.acknowledge(seen_late.find("relay")->id, "Ada", seen_late.now));
+  ASSERT_FALSE(seen_late.find("relay"));
+  seen_late.set("relay", true);
+  seen_late.run(milliseconds(10));
+  ASSERT_TRUE(seen_late.find("relay"));
+  EXPECT_FALSE(seen_late.find("relay")->first_up);
 }
 
 // Of those that come in the same look: the most urgent, then the first of the table.
@@ -228,6 +258,41 @@ TEST(Engine, ANewComingIsNobodysAct) {
   EXPECT_EQ(wall.find("tyres_cold")->by, "");
 }
 
+TEST(Engine, OneThatComesOnTheShelfIsNotAnnounced) {
+  Wall wall;
+  wall.set("tyres_cold", true);
+  wall.run(seconds(5));
+  const AlarmId id = wall.find("tyres_cold")->id;
+  ASSERT_TRUE(wall.engine.shelve(id, seconds(120), "Ada", "warm-up", wall.now));
+  wall.set("tyres_cold", false);
+  wall.run(seconds(30));
+  wall.set("tyres_cold", true);
+  wall.run(seconds(30));
+  EXPECT_EQ(wall.find("tyres_cold")->id, id);
+  EXPECT_EQ(wall.engine.rate().ever(), 1U);
+  // Nor is the reason of the shelf that of what comes when it is long over.
+  wall.set("tyres_cold", false);
+  wall.run(seconds(120));
+  EXPECT_EQ(wall.find("tyres_cold")->reason, "warm-up");
+  wall.set("tyres_cold", true);
+  wall.run(seconds(5));
+  EXPECT_GT(wall.find("tyres_cold")->id, id);
+  EXPECT_EQ(wall.find("tyres_cold")->reason, "");
+}
+
+TEST(Engine, AnEpisodeBeginsWithItsOwn) {
+  Wall wall;
+  wall.set("gnss_both_bad", true);
+  wall.run(seconds(5));
+  wall.set("gnss_both_bad", false);
+  wall.run(seconds(60));
+  ASSERT_TRUE(wall.engine.acknowledge(wall.find("gnss_both_bad")->id, "Ada", wall.now));
+  ASSERT_EQ(wall.engine.count(), 0U);
+  wall.set("battery_low", true);
+  wall.run(seconds(5));
+  EXPECT_TRUE(wall.find("battery_low")->first_up) << "though a more urgent one came before";
+}
+
 TEST(Engine, TheHistoryKeepsTheNewest) {
   Wall wall;
   wall.set("tyres_cold", true);
@@ -241,6 +306,36 @@ TEST(Engine, TheHistoryKeepsTheNewest) {
                            : wall.engine.unshelve(id, "Ada", wall.now));
   }
   EXPECT_EQ(wall.engine.history().size(), Engine::kHistory);
+}
+
+TEST(Engine, ASettingThatChangesIsARevision) {
+  Wall wall;
+  AlarmEdit edit{.key = std::string(alarm_row(0).key),
+                 .setting = wall.engine.settings().of(0),
+                 .author = "Ada",
+                 .reason = "r"};
+  edit.setting.limit += 1.0;
+  const std::uint64_t before = wall.engine.revision();
+  ASSERT_TRUE(wall.engine.edit(edit));
+  EXPECT_EQ(wall.engine.revision(), before + 1);
+  edit.key = "none";
+  ASSERT_FALSE(wall.engine.edit(edit));
+  EXPECT_EQ(wall.engine.revision(), before + 1);
+}
+
+// Nothing but the time that passes ends it.
+TEST(Engine, TheEndOfAFloodIsARevision) {
+  Wall wall;
+  for (AlarmIndex i = 0; i < alarm_count(); ++i) wall.set(i, true);
+  wall.run(seconds(10));
+  ASSERT_TRUE(wall.engine.rate().flood());
+  while (wall.engine.rate().flood()) {
+    const std::uint64_t before = wall.engine.revision(), events = wall.engine.events();
+    wall.now += seconds(1);
+    wall.engine.step(wall.readings, wall.situations, wall.now);
+    ASSERT_EQ(wall.engine.events(), events);
+    EXPECT_EQ(wall.engine.revision(), before + (wall.engine.rate().flood() ? 0 : 1));
+  }
 }
 
 TEST(Engine, AFloodShowsTheFirstAndTheHighOnly) {
