@@ -1,6 +1,7 @@
 /**
  * The console's unit tests with one source replaced by a mutant of it.
- *   in   PITWALL_MUTATED, the source; PITWALL_MUTANT, the file that is read instead
+ *   in     PITWALL_MUTATED, the source; PITWALL_MUTANT, the file that is read instead
+ *   cache  none of modules: a mutant has the name of its source
  */
 // SPDX-License-Identifier: Apache-2.0
 import { readFileSync } from "node:fs";
@@ -16,5 +17,5 @@ export default {
       load: (id) => (id === mutated ? readFileSync(mutant, "utf8") : undefined),
     },
   ],
-  test: { include: ["test/**/*.test.ts"], environment: "node" },
+  test: { include: ["test/**/*.test.ts"], environment: "node", fsModuleCache: false },
 };

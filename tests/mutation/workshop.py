@@ -162,7 +162,11 @@ class ConsoleWorkshop:
         began = time.monotonic()
         verdict, said = self.run(path, self.root / path)
         self.limit_s = min(self.limit_s, SHORTEST_LIMIT_S + 10.0 * (time.monotonic() - began))
-        return "" if verdict == SURVIVED else "the tests fail: " + said.decode(errors="replace")
+        if verdict != SURVIVED:
+            return "the tests fail: " + said.decode(errors="replace")
+        broken = self.folder / "broken.ts"
+        broken.write_text("throw new Error();")
+        return "" if self.run(path, broken)[0] == KILLED else "the tests do not read the mutant"
 
     def still_compiles(self):
         return self.prepare(None) == ""

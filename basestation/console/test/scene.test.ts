@@ -3,15 +3,16 @@
  * is old; what the base only reckons, and the line, go where nobody knows them any more.
  */
 // SPDX-License-Identifier: Apache-2.0
-import { expect, test } from "vitest";
+import { describe, expect, test } from "vitest";
 import { kTrack } from "../../../tests/system/console/drive.mjs";
 import { Course } from "../src/map/course";
-import { ghost, lineOffset, own, rivals } from "../src/map/scene";
+import { ghost, lineOffset, own, rivals, trail } from "../src/map/scene";
 import { Fields } from "../src/store/fields";
+import { History } from "../src/store/history";
 import * as session from "../src/store/session";
 import { beginFrame } from "../src/view/timeline";
 import type { FieldInfo } from "../src/wire/messages";
-import { Quality } from "../src/wire/status";
+import { Judgement, Quality } from "../src/wire/status";
 
 const kValues: Record<string, number> = {
   "ego.x": 10,
@@ -32,8 +33,8 @@ const kValues: Record<string, number> = {
 const course = new Course(kTrack as never);
 
 /** Everything heard with this quality, in a console that hears its base or not. */
-function heard(quality: Quality, silent = false): Fields {
-  const paths = Object.keys(kValues);
+function heard(quality: Quality, silent = false, values = kValues): Fields {
+  const paths = Object.keys(values);
   const fields = new Fields(
     paths.map((path, id): FieldInfo => {
       const [group, name] = path.split(".");
@@ -41,7 +42,7 @@ function heard(quality: Quality, silent = false): Fields {
       return { id, path, group, name, unit: "", kind: "real", ...range };
     }),
   );
-  paths.forEach((path, id) => fields.write(id, quality, 0, kValues[path], 1000));
+  paths.forEach((path, id) => fields.write(id, quality, 0, values[path], 1000));
   session.fields.value = fields;
   session.clock.heard(1000, 5000);
   beginFrame(silent ? 6000 : 5010, 16);
@@ -71,4 +72,97 @@ test("nothing that was never heard is placed", () => {
   expect(ghost(fields)).toBeNull();
   expect(lineOffset(fields)).toBeNull();
   expect(rivals(fields, course)).toEqual([]);
+});
+
+test("what is not a number is not placed, and an angle that is none points east", () => {
+  for (const broken of ["ego.x", "ego.y"])
+    expect(own(heard(Quality.fresh, false, { ...kValues, [broken]: NaN }))).toBeNull();
+  for (const broken of ["derived.ghost_x", "derived.ghost_y"])
+    expect(ghost(heard(Quality.fresh, false, { ...kValues, [broken]: NaN }))).toBeNull();
+  expect(
+    lineOffset(heard(Quality.fresh, false, { ...kValues, "planner.line_offset": NaN })),
+  ).toBeNull();
+  const turned = {
+    ...kValues,
+    "ego.yaw": NaN,
+    "derived.ghost_yaw": NaN,
+    "derived.ghost_radius": NaN,
+  };
+  const fields = heard(Quality.fresh, false, turned);
+  expect(own(fields)).toMatchObject({ yaw: 0 });
+  expect(ghost(fields)).toMatchObject({ yaw: 0, radius: 0 });
+});
+
+test("up to four rivals are placed beside the centre, those that have an identity and a station", () => {
+  const several: Record<string, number> = { ...kValues };
+  for (const n of [2, 3, 4, 5]) {
+    several[`opponent_${n}.identity`] = n;
+    several[`opponent_${n}.station`] = 100 - 10 * n;
+    several[`opponent_${n}.offset`] = n === 2 ? NaN : n;
+    several[`opponent_${n}.speed`] = 40;
+  }
+  const found = rivals(heard(Quality.fresh, false, several), course);
+  expect(found.map(({ identity }) => identity)).toEqual([7, 2, 3, 4]);
+  expect(found.map(({ station }) => station)).toEqual([140, 80, 70, 60]);
+  expect(found.map(({ offset }) => offset)).toEqual([-1, 0, 3, 4]);
+  expect(found.map(({ gap }) => gap)).toEqual([40, -20, -30, -40]);
+  expect(found.map(({ closing }) => closing)).toEqual([5, -10, -10, -10]);
+  found.forEach((rival) => expect(rival).toMatchObject(course.place(rival.station, rival.offset)));
+  several["opponent_2.identity"] = 0;
+  several["opponent_3.station"] = NaN;
+  const fewer = rivals(heard(Quality.fresh, false, several), course);
+  expect(fewer.map(({ identity }) => identity)).toEqual([7, 4]);
+});
+
+describe("the trail", () => {
+  const field = (id: number, path: string): FieldInfo => {
+    const [group, name] = path.split(".");
+    const range = { min: -1e6, max: 1e6, resolution: 0.1, period_ms: 100 };
+    return { id, path, group, name, unit: "", kind: "real", ...range };
+  };
+  /** `count` rows, 40 ms apart, x their number; every seventh is stale, the error is a warning. */
+  function driven(count: number, paths = ["ego.x", "ego.y", "dynamics.lateral_error"]) {
+    const fields = new Fields(paths.map((path, id) => field(id, path)));
+    const history = new History(paths.length, 4096);
+    session.shownCar.value.history.value = history;
+    for (let n = 0; n < count; ++n) {
+      const quality = n % 7 === 0 ? Quality.stale : Quality.late;
+      paths.forEach((_, id) =>
+        fields.write(id, id === 2 ? Judgement.warning << 2 : quality, 0, id === 1 ? -n : n, 40 * n),
+      );
+      history.append(fields, 40 * n);
+    }
+    session.fields.value = fields;
+    session.clock.heard(40 * (count - 1), 5000);
+    beginFrame(5000, 16);
+    return trail(fields);
+  }
+
+  test("is the way just driven, oldest first, without what was stale", () => {
+    const points = driven(10);
+    expect(points.map(({ x }) => x)).toEqual([1, 2, 3, 4, 5, 6, 8, 9]);
+    expect(points.map(({ y }) => y)).toEqual([-1, -2, -3, -4, -5, -6, -8, -9]);
+    for (const { judgement } of points) expect(judgement).toBe(Judgement.warning);
+  });
+
+  test("goes back twelve seconds in about a hundred points that stay where they are", () => {
+    const earlier = driven(1000);
+    const later = driven(1001);
+    for (const points of [earlier, later]) {
+      expect(points.length).toBeGreaterThan(30);
+      expect(points.length).toBeLessThanOrEqual(101);
+    }
+    expect(earlier.at(0)!.x).toBeGreaterThanOrEqual(999 - 300 - 3);
+    expect(earlier.at(0)!.x).toBeLessThanOrEqual(999 - 300 + 3);
+    const shared = later.filter(({ x }) => earlier.some((point) => point.x === x));
+    expect(shared.length).toBeGreaterThan(later.length - 3);
+  });
+
+  test("has no judgement where the base has no such field, and no way without a place", () => {
+    const [point] = driven(5, ["ego.x", "ego.y"]);
+    expect(point.judgement).toBe(Judgement.none);
+    expect(driven(5, ["ego.x"])).toEqual([]);
+    expect(driven(5, ["ego.y"])).toEqual([]);
+    expect(driven(0)).toEqual([]);
+  });
 });

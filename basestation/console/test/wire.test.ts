@@ -14,7 +14,16 @@ import {
 } from "../../../tests/system/console/wire.mjs";
 import { ageMs, kAgeNever } from "../src/wire/age";
 import { readHead, readHistory, readSnapshot } from "../src/wire/frame";
-import { Judgement, Quality, judgementOf, qualityOf, saysUnknown } from "../src/wire/status";
+import {
+  Judgement,
+  Quality,
+  judgementOf,
+  kJudgementNames,
+  kNeverStatus,
+  kQualityNames,
+  qualityOf,
+  saysUnknown,
+} from "../src/wire/status";
 
 const viewOf = (bytes: Uint8Array) =>
   new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
@@ -24,7 +33,8 @@ describe("age code", () => {
     expect([0, 99, 100, 189, 190, 249, 250, 254].map(ageMs)).toEqual([
       0, 990, 1000, 9900, 10_000, 69_000, 70_000, 310_000,
     ]);
-    expect(ageMs(kAgeNever)).toBe(Infinity);
+    expect(kAgeNever).toBe(255);
+    expect(ageMs(255)).toBe(Infinity);
   });
 
   test("never grows younger with its code", () => {
@@ -44,6 +54,24 @@ describe("age code", () => {
 });
 
 describe("status", () => {
+  test("is the byte of the contract, bit by bit", () => {
+    expect([Quality.fresh, Quality.late, Quality.stale, Quality.never]).toEqual([0, 1, 2, 3]);
+    expect([Judgement.none, Judgement.good, Judgement.warning, Judgement.bad]).toEqual([
+      0, 1, 2, 3,
+    ]);
+    expect(kQualityNames).toEqual(["fresh", "late", "stale", "never"]);
+    expect(kJudgementNames).toEqual(["none", "good", "warning", "bad"]);
+    expect(kNeverStatus).toBe(3);
+    for (let quality = 0; quality < 4; ++quality)
+      for (let judgement = 0; judgement < 8; ++judgement)
+        for (const unknown of [0, 1]) {
+          const byte = quality | (judgement << 2) | (unknown << 5);
+          expect(qualityOf(byte)).toBe(quality);
+          expect(saysUnknown(byte)).toBe(unknown === 1);
+          expect(judgementOf(byte)).toBe(quality < 2 && judgement <= 3 ? judgement : 0);
+        }
+  });
+
   test("a stale or never heard value has no judgement, whatever its byte says", () => {
     for (let byte = 0; byte < 64; ++byte) {
       const judged = judgementOf(byte);
