@@ -48,8 +48,9 @@ double BusFaults::value_of(BenchFaultKind kind, Instant now) const {
 
 void BusFaults::act_on(bus::MemoryBus& bus, Instant now) const {
   if (plan_.empty()) return;
-  const bool stalled = std::ranges::any_of(plan_, [now](const faults::BenchFault& fault) {
-    return fault.kind == BenchFaultKind::kTransmitStall && faults::active(fault, now);
+  const bool stalled = std::ranges::any_of(plan_, [this, now](const faults::BenchFault& fault) {
+    const bool cured = restarted_at_ && *restarted_at_ > fault.start;
+    return fault.kind == BenchFaultKind::kTransmitStall && faults::active(fault, now) && !cured;
   });
   bus.disturb(value_of(BenchFaultKind::kBusErrors, now));
   bus.damage_transmitter(kCar, value_of(BenchFaultKind::kBusTransmitter, now));

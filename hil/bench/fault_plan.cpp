@@ -89,7 +89,8 @@ Result<faults::BenchFault, Problem> bench_fault(const scenario::Fault& row, Benc
                                                 std::uint64_t seed) {
   const faults::BenchFaultRow& of_kind = faults::row_of(kind);
   if (!in_the_rig(kind) && !is_process_fault(kind) && !is_radio_fault(kind) &&
-      !is_bus_fault(kind) && !is_byte_fault(kind) && !is_clock_fault(kind))
+      !is_bus_fault(kind) && !is_byte_fault(kind) && !is_clock_fault(kind) &&
+      !is_module_fault(kind))
     return refuse(row, "fault \"" + row.kind + "\" is in the catalogue but not in this bench");
   if (const char* excess = excess_of(row, of_kind)) return refuse(row, excess);
   if (!of_kind.value.empty() && !is_sensible(kind, row.value))
@@ -204,10 +205,13 @@ bool is_clock_fault(BenchFaultKind kind) {
   return kind == BenchFaultKind::kGpsTimeStep || kind == BenchFaultKind::kClockSkew;
 }
 
+bool is_module_fault(BenchFaultKind kind) { return kind == BenchFaultKind::kPlannerHangs; }
+
 bool is_byte_fault(BenchFaultKind kind) { return kind == BenchFaultKind::kGnssBytesDamaged; }
 
 bool carried_out(BenchFaultKind kind, BenchMode mode) {
-  if (is_bus_fault(kind) || is_clock_fault(kind)) return mode == BenchMode::kLockstep;
+  if (is_bus_fault(kind) || is_clock_fault(kind) || is_module_fault(kind))
+    return mode == BenchMode::kLockstep;
   if (!is_process_fault(kind))
     return in_the_rig(kind) || is_radio_fault(kind) || is_byte_fault(kind);
   if (is_station_fault(kind)) return mode == BenchMode::kLockstep;
@@ -244,12 +248,13 @@ Result<FaultPlan, Problem> plan_faults(const std::vector<scenario::Fault>& rows,
     if (!kind) return refuse(row, "unknown fault \"" + row.kind + "\"");
     auto fault = bench_fault(row, *kind, own_seed);
     if (!fault) return Unexpected{fault.error()};
-    (is_process_fault(*kind) ? plan.processes
-     : is_radio_fault(*kind) ? plan.radio
-     : is_bus_fault(*kind)   ? plan.bus
-     : is_clock_fault(*kind) ? plan.clock
-     : is_byte_fault(*kind)  ? plan.bytes
-                             : plan.models)
+    (is_process_fault(*kind)  ? plan.processes
+     : is_radio_fault(*kind)  ? plan.radio
+     : is_bus_fault(*kind)    ? plan.bus
+     : is_clock_fault(*kind)  ? plan.clock
+     : is_byte_fault(*kind)   ? plan.bytes
+     : is_module_fault(*kind) ? plan.modules
+                              : plan.models)
         .push_back(*fault);
   }
   return plan;

@@ -23,6 +23,7 @@ struct FaultPlan {
   std::vector<faults::BenchFault> radio;      // of the air between car and base
   std::vector<faults::BenchFault> bytes;      // of the receivers, on their way to the car
   std::vector<faults::BenchFault> clock;      // of the car's clock beside GPS time
+  std::vector<faults::BenchFault> modules;    // of the car's own software
   std::vector<faults::BenchFault> bus;        // of the wire and the controllers on it
   std::vector<faults::BenchFault> processes;  // not the rig's: of whoever runs the car
 };
@@ -34,6 +35,7 @@ bool is_process_fault(faults::BenchFaultKind kind);
 bool is_radio_fault(faults::BenchFaultKind kind);
 // Lockstep shifts what the receivers say of the time.
 bool is_clock_fault(faults::BenchFaultKind kind);
+bool is_module_fault(faults::BenchFaultKind kind);
 // Needs a bus that knows bits and error counters: lockstep's.
 bool is_bus_fault(faults::BenchFaultKind kind);
 // Of the receivers' bytes on their way.

@@ -46,7 +46,7 @@ Result<Loaded, Problem> load(const std::string& scenario_file, const std::string
   for (std::size_t unit = 0; scenario->receivers && unit < scenario->receivers->size(); ++unit)
     setup->params.receivers[unit].kind = (*scenario->receivers)[unit];
   if (scenario->bus == scenario::BusRevision::kProtected) {
-    setup->params.inbound.also = revision::protected_rows();
+    setup->params.inbound.also = revision::judged_rows();
     setup->params.identity.also = revision::protected_rows();
   }
   return Loaded{*std::move(scenario), *std::move(setup)};

@@ -39,6 +39,7 @@ class Lockstep {
         base_(scenario, setup, faults),
         bus_faults_(faults.bus),
         clock_faults_(faults.clock),
+        module_faults_(faults.modules),
         speech_(setup.params.receivers, faults.bytes),
         ears_(setup.params.receivers),
         guardian_ears_(setup.params.receivers),
@@ -103,17 +104,31 @@ class Lockstep {
                         .link = link_of_car(bus_),
                         .guardian = guardian_.view(now)};
     base_.hear(in);
+    hang_planner(now);
     out_ = options_.step(setup_, *car_, in);
     const auto told = base_.tell(*car_, in, *out_, ears_.traffic());
     if (told && options_.watch_telemetry) options_.watch_telemetry(*told, now);
     stepped_at_ = now;
-    if (out_->bus_guard.restart_now) bus_.restart(static_cast<std::uint8_t>(Node::kCar), now);
+    if (out_->bus_guard.restart_now) restart_controller(now);
     ears_.clear();
     result_.traffic.car_received += inbox_.size();
     inbox_.clear();
     guardian_.tell(setup_, *car_, *out_, now);
     for (const can::Frame& frame : out_->passed.frames)
       if (bus_.offer(static_cast<std::uint8_t>(Node::kCar), frame, now)) ++result_.traffic.from_car;
+  }
+
+  // A planner that hangs has always just begun: its last plan stays, and grows old.
+  void hang_planner(Instant now) {
+    const bool hangs = std::ranges::any_of(module_faults_, [now](const faults::BenchFault& fault) {
+      return fault.kind == faults::BenchFaultKind::kPlannerHangs && faults::active(fault, now);
+    });
+    if (hangs) car_->plan.at = now;
+  }
+
+  void restart_controller(Instant now) {
+    bus_.restart(static_cast<std::uint8_t>(Node::kCar), now);
+    bus_faults_.car_restarts_controller(now);
   }
 
   void step_guardian(Instant at) {
@@ -260,6 +275,7 @@ class Lockstep {
   VirtualStation base_;
   BusFaults bus_faults_;
   ClockFaults clock_faults_;
+  std::vector<faults::BenchFault> module_faults_;
   ReceiverSpeech speech_;
   ReceiverEars ears_, guardian_ears_;
   const LockstepOptions& options_;

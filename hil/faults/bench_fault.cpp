@@ -97,6 +97,7 @@ constexpr std::array<BenchFaultRow, kBenchFaultKinds> kBenchFaults{{
     {Kind::kGpsTimeStep, "gps_time_step", Part::kClock, "seconds by which all receivers step"},
     {Kind::kBaseMoved, "base_moved", Part::kRadio, ""},
     {Kind::kBaseReplaced, "base_replaced", Part::kRadio, ""},
+    {Kind::kPlannerHangs, "planner_hangs", Part::kComputer, ""},
 }};
 
 const BenchFaultRow& row_of(BenchFaultKind kind) {

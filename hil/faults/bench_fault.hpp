@@ -96,7 +96,8 @@ enum class BenchFaultKind : std::uint8_t {
   kGnssBytesDamaged,
   kGpsTimeStep,
   kBaseMoved,
-  kBaseReplaced
+  kBaseReplaced,
+  kPlannerHangs
 };
 
 enum class BenchPart : std::uint8_t {
@@ -130,7 +131,7 @@ struct BenchFault {
   std::uint64_t seed = 1;
 };
 
-inline constexpr std::size_t kBenchFaultKinds = 79;
+inline constexpr std::size_t kBenchFaultKinds = 80;
 extern const std::array<BenchFaultRow, kBenchFaultKinds> kBenchFaults;
 
 const BenchFaultRow& row_of(BenchFaultKind kind);

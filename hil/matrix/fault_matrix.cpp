@@ -2,25 +2,17 @@
 #include "hil/matrix/fault_matrix.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <cstdio>
 
 #include "hil/bench/lockstep.hpp"
 #include "hil/matrix/catalogue.hpp"
+#include "hil/matrix/text.hpp"
 #include "vehicle/pipeline/monitoring.hpp"
 
 namespace pitwall::matrix {
 namespace {
 
 constexpr std::string_view kSeen = "seen_";
-
-template <class... Args>
-std::string format(const char* pattern, Args... args) {
-  std::array<char, 320> text{};
-  std::snprintf(text.data(), text.size(), pattern, args...);
-  return text.data();
-}
 
 Detection detection(const scenario::Expectation& asked, const grading::Verdict& verdict) {
   const bool monitor = asked.signal.starts_with(kSeen);
@@ -33,27 +25,6 @@ Detection detection(const scenario::Expectation& asked, const grading::Verdict& 
 }
 
 std::string milliseconds_of(Duration d) { return format("%.0f", d.milliseconds()); }
-
-std::string in_quotes(const std::string& words) {
-  std::string out = "\"";
-  for (const char c : words) {
-    const bool plain = c != '"' && c != '\\' && static_cast<unsigned char>(c) >= 0x20;
-    out += plain ? c : ' ';
-  }
-  return out + "\"";
-}
-
-std::string list_of(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
-  return out;
-}
-
-std::string json_list(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : ",") + in_quotes(word);
-  return "[" + out + "]";
-}
 
 std::string json_of(const Detection& d) {
   return "{\"by\":" + in_quotes(d.by) +
@@ -69,12 +40,6 @@ std::string json_of(const FaultRow& row) {
   return "{\"id\":" + in_quotes(row.id) + ",\"scenario\":" + in_quotes(row.scenario) +
          ",\"passed\":" + (row.passed() ? "true" : "false") + ",\"detections\":[" + detections +
          "],\"outcome\":" + in_quotes(row.outcome) + ",\"failed\":" + json_list(row.failed) + "}";
-}
-
-std::string json_of(const Proof& proof) {
-  const auto name = world::kMonitorNames[static_cast<std::size_t>(proof.monitor)];
-  return "{\"monitor\":" + in_quotes(std::string(name)) + ",\"asked\":" + json_list(proof.asked) +
-         ",\"red\":" + json_list(proof.red) + "}";
 }
 
 std::string lines_of(const FaultRow& row) {
@@ -141,14 +106,6 @@ std::vector<std::string> holes(const std::vector<FaultRow>& rows) {
   return out;
 }
 
-bool asks(const scenario::Scenario& scenario, world::Monitor monitor) {
-  const std::string name =
-      std::string(kSeen) + std::string(world::kMonitorNames[static_cast<std::size_t>(monitor)]);
-  return std::ranges::any_of(scenario.expect, [&name](const scenario::Expectation& asked) {
-    return asked.kind == scenario::ExpectKind::kDetects && asked.signal == name;
-  });
-}
-
 std::string to_text(const std::vector<FaultRow>& rows) {
   std::string out =
       format("%-4s %-28s %-24s %6s %6s\n", "", "scenario", "detected by", "ms", "limit");
@@ -159,19 +116,6 @@ std::string to_text(const std::vector<FaultRow>& rows) {
                 static_cast<std::size_t>(passed), rows.size(), kCatalogue.size() - missing.size(),
                 kCatalogue.size());
   if (!missing.empty()) out += "not covered: " + list_of(missing) + "\n";
-  return out;
-}
-
-std::string to_text(const std::vector<Proof>& proofs) {
-  std::string out;
-  for (const Proof& proof : proofs) {
-    const auto name = world::kMonitorNames[static_cast<std::size_t>(proof.monitor)];
-    const std::string red =
-        proof.red.empty()
-            ? "NOTHING turns red" + std::string(proof.asked.empty() ? ": no scenario asks it" : "")
-            : "red: " + list_of(proof.red);
-    out += format("without %-17s ", std::string(name).c_str()) + red + "\n";
-  }
   return out;
 }
 

@@ -1,11 +1,10 @@
 // Which fault is noticed by what, how fast, and where the car ends: the scenarios of faults run one
-// by one, and the matrix of what came out. And the proof that each monitor is needed: without it at
-// least one scenario fails.
+// by one, and the matrix of what came out.
 //   in     loaded scenarios, named "f01_...", each with at least one `detects`
 //   out    rows, holes, a table, JSON
 //   law    a row fails if an expectation of its scenario does, if the car ends in a wall, or if it
-//          detects nothing. A fault of the catalogue without a scenario is a hole, a monitor
-//          that no scenario turns red without is unproven: both are failures
+//          detects nothing. A fault of the catalogue without a scenario is a hole, which
+//          is a failure too
 //   errors Problem of a scenario
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "hil/bench/loading.hpp"
+#include "hil/matrix/proof.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/world/monitor.hpp"
@@ -49,16 +49,7 @@ Result<FaultRow, Problem> run_fault(const bench::Loaded& loaded, world::MonitorS
 // Ids of the catalogue for which there is no row that passed, in its order.
 std::vector<std::string> holes(const std::vector<FaultRow>& rows);
 
-// Whether a scenario asks this monitor.
-bool asks(const scenario::Scenario& scenario, world::Monitor monitor);
-
-struct Proof {
-  world::Monitor monitor{};
-  std::vector<std::string> asked, red;  // scenarios
-};
-
 std::string to_text(const std::vector<FaultRow>& rows);
-std::string to_text(const std::vector<Proof>& proofs);
 std::string to_json(const std::vector<FaultRow>& rows, const std::vector<Proof>& proofs);
 
 }  // namespace pitwall::matrix

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/revision/protected_messages.hpp"
 
+#include "protocol/can/av21.hpp"
 #include "protocol/can/integrity_bench.hpp"
 #include "protocol/vocabulary/check.hpp"
 
@@ -17,6 +18,21 @@ constexpr can::MessageRow row_with(std::uint32_t id) {
 
 constexpr std::array<can::MessageRow, kProtectedMessages> kRows{
     row_with(kIds[0]), row_with(kIds[1]), row_with(kIds[2]), row_with(kIds[3])};
+constexpr std::uint32_t kFlagsId = 1200;  // base_to_car_summary: its last two bytes are free
+
+constexpr can::MessageRow flags_row() {
+  for (can::MessageRow row : can::av21::kMessages) {
+    if (row.id != kFlagsId) continue;
+    row.protection = {.profile = can::Protection::kJ1850, .length = row.length, .crc_byte = 7};
+    return row;
+  }
+  return {};
+}
+static_assert(flags_row().length == 8);
+
+constexpr std::array<can::MessageRow, kProtectedMessages + 1> kJudged{kRows[0], kRows[1], kRows[2],
+                                                                      kRows[3], flags_row()};
+
 static_assert(kRows[0].protection.profile == can::Protection::kJ1850);
 static_assert(kRows[1].protection.profile == can::Protection::kP01);
 static_assert(kRows[2].protection.profile == can::Protection::kP02);
@@ -25,6 +41,16 @@ static_assert(kRows[3].protection.profile == can::Protection::kP05);
 }  // namespace
 
 std::span<const can::MessageRow> protected_rows() { return kRows; }
+
+std::span<const can::MessageRow> judged_rows() { return kJudged; }
+
+can::Frame with_checksum(const can::Frame& frame) {
+  if (frame.id != kFlagsId || frame.extended) return frame;
+  can::Frame out = frame;
+  can::ProtectState uncounted;
+  can::protect(flags_row().protection, uncounted, out);
+  return out;
+}
 
 const can::MessageRow* protected_row(std::uint32_t id) {
   for (const can::MessageRow& row : kRows)

@@ -1,7 +1,9 @@
-// Status messages with counter and checksum, as no car of ours has them: spoken beside those of the
-// car, so that its checks of integrity are asked on its own bus.
-//   in     now
-//   out    the frames that are due, protected; the rows by which they are to be judged
+// What a bus with checksums has, as no car of ours has them, so that its checks of integrity are
+// asked on its own bus: status messages with counter and checksum beside those of the car, and a
+// checksum in the free last byte of race control's flags.
+//   in     now; a frame of the car's own bus
+//   out    the frames that are due, protected; the same frame with its checksum, where it has one;
+//          the rows by which both are to be judged
 //   source protocol/can/dbc/integrity_bench.dbc: SAE J1850 and AUTOSAR profiles 1, 2 and 5
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -20,9 +22,13 @@ namespace pitwall::revision {
 
 inline constexpr std::size_t kProtectedMessages = 4;
 
-// In the order of their ids; valid for ever.
+// Beside those of the car, in the order of their ids; valid for ever.
 std::span<const can::MessageRow> protected_rows();
 const can::MessageRow* protected_row(std::uint32_t id);  // nullptr: none of them
+// Those, and the messages of the car that this bus protects.
+std::span<const can::MessageRow> judged_rows();
+
+can::Frame with_checksum(const can::Frame& frame);
 
 class ProtectedMessages {
  public:

@@ -207,7 +207,7 @@ Revision::Revision(std::shared_ptr<const Dictionary> dictionary)
 Frames Revision::spoken(const can::Frame& frame) {
   Frames out;
   if (dictionary_->same) {
-    CHECK(out.push(frame));
+    CHECK(out.push(also_ ? with_checksum(frame) : frame));
     return out;
   }
   for (const Translation& t : dictionary_->spoken) {

@@ -3,7 +3,8 @@
 //   in     frames as the bench's models exchange them (av21, CAN1-INDY-V14); frames of the bus
 //   out    the same values by name in the layout of the other revision, and back; messages that
 //          only the other revision has, at their period, with values of a healthy car at rest
-//   law    V14 changes nothing, and V14 with protected messages adds those. What the other revision
+//   law    V14 changes nothing, and V14 with protected messages adds those and a checksum to race
+//          control's flags. What the other revision
 //          lacks is not sent; a frame of the bus is heard only if its length is right there and it
 //          says all that the model's message has
 //   units  those of the databases

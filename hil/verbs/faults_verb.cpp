@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "hil/bench/loading.hpp"
 #include "hil/matrix/fault_matrix.hpp"
+#include "hil/matrix/proof.hpp"
 #include "hil/sweep/in_parallel.hpp"
 #include "hil/verbs/command_line.hpp"
 #include "hil/verbs/exit_code.hpp"
@@ -62,27 +64,31 @@ Result<std::vector<FaultRow>, Problem> run(const std::vector<FaultsJob>& jobs) {
   return rows;
 }
 
-// A monitor that no scenario asks has an empty proof.
-Result<std::vector<matrix::Proof>, Problem> prove(const std::vector<bench::Loaded>& all) {
+// What each monitor is needed for, by the scenarios that pass with it.
+Result<std::vector<matrix::Proof>, Problem> prove(const std::vector<bench::Loaded>& all,
+                                                  const std::vector<FaultRow>& rows) {
+  struct ProofJob {
+    const bench::Loaded* loaded;
+    Monitor monitor;
+  };
   std::vector<matrix::Proof> proofs(world::kMonitors);
-  std::vector<FaultsJob> jobs;
-  std::vector<std::size_t> of_monitor;
+  std::vector<ProofJob> jobs;
   for (std::size_t m = 0; m < world::kMonitors; ++m) {
     proofs[m].monitor = static_cast<Monitor>(m);
-    for (const bench::Loaded& loaded : all) {
-      if (!matrix::asks(loaded.scenario, proofs[m].monitor)) continue;
-      world::MonitorSet off;
-      off.add(proofs[m].monitor);
-      jobs.push_back({&loaded, off});
-      of_monitor.push_back(m);
-    }
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (rows[i].passed() && matrix::asks(all[i].scenario, proofs[m].monitor))
+        jobs.push_back({&all[i], proofs[m].monitor});
   }
-  const auto rows = run(jobs);
-  if (!rows) return Unexpected{rows.error()};
-  for (std::size_t i = 0; i < rows->size(); ++i) {
-    matrix::Proof& proof = proofs[of_monitor[i]];
-    proof.asked.push_back((*rows)[i].scenario);
-    if (!(*rows)[i].passed()) proof.red.push_back((*rows)[i].scenario);
+  using Found = Result<std::optional<matrix::Consequence>, Problem>;
+  std::vector<Found> results(jobs.size(), Found{std::nullopt});
+  sweep::in_parallel(jobs.size(), kFaultsWorkers, [&](std::size_t i) {
+    results[i] = matrix::consequence_without(jobs[i].monitor, *jobs[i].loaded);
+  });
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    if (!results[i]) return Unexpected{results[i].error()};
+    matrix::Proof& proof = proofs[static_cast<std::size_t>(jobs[i].monitor)];
+    proof.asked.push_back(jobs[i].loaded->scenario.name);
+    if (*results[i]) proof.failed.push_back(**results[i]);
   }
   return proofs;
 }
@@ -120,9 +126,11 @@ Result<int, Problem> judge(const FaultsOptions& options) {
               (transport::monotonic_now() - begun).seconds());
   std::vector<matrix::Proof> proofs;
   if (options.prove) {
-    auto proven = prove(*all);
+    auto proven = prove(*all, *rows);
     if (!proven) return Unexpected{proven.error()};
     proofs = *std::move(proven);
+    if (!options.only.empty())
+      std::erase_if(proofs, [](const matrix::Proof& proof) { return proof.asked.empty(); });
     std::printf("%s", matrix::to_text(proofs).c_str());
   }
   if (!options.json_file.empty()) {
@@ -130,9 +138,8 @@ Result<int, Problem> judge(const FaultsOptions& options) {
     if (!written) return Unexpected{written.error()};
   }
   const bool whole = options.only.empty() ? matrix::holes(*rows).empty() : true;
-  const bool needed = std::ranges::none_of(proofs, [&options](const matrix::Proof& proof) {
-    return proof.red.empty() && (options.only.empty() || !proof.asked.empty());
-  });
+  const bool needed = std::ranges::all_of(
+      proofs, [](const matrix::Proof& proof) { return matrix::open_point(proof).empty(); });
   return whole && needed && std::ranges::all_of(*rows, &FaultRow::passed) ? kExitPass : kExitFailed;
 }
 
@@ -144,7 +151,8 @@ int faults_verb(std::span<const std::string> args) {
   app.option("--folder", options.folder, "of the scenarios; default " + options.folder);
   app.option("--only", options.only, "only scenarios whose name contains this");
   app.option("--without", options.without, "switch this monitor off; may be given again");
-  app.flag("--prove", options.prove, "switch each monitor off once: something must fail");
+  app.flag("--prove", options.prove,
+           "switch each monitor off once: the car must do something else");
   app.option("--json", options.json_file, "write the matrix here");
   if (const auto code = app.ended_by(args)) return *code;
   const auto code = judge(options);

@@ -104,8 +104,7 @@ can::ReceivedFrame with_length(const can::ReceivedFrame& received, std::uint8_t 
 
 // A frame of a message of the car: rules 4 to 9.
 bool accept(const InboundParams& params, InboundState& state, std::size_t index,
-            const can::ReceivedFrame& received) {
-  const can::MessageRow& row = kMessages[index];
+            const can::MessageRow& row, const can::ReceivedFrame& received) {
   if (!has_length(params, state, row, received.frame)) return false;
   const can::ReceivedFrame whole = with_length(received, row.length);
   if (!is_alive(params, state, row, state.monitors[index], whole)) return false;
@@ -115,18 +114,20 @@ bool accept(const InboundParams& params, InboundState& state, std::size_t index,
   return reading == Reading::kApplied;
 }
 
-// Of the messages beside the database; false: it is none of them.
-bool receive_also(const InboundParams& params, InboundState& state,
+// Among the rows that the bench gives; as many as there are: none of them.
+std::size_t also_index(const InboundParams& params, std::uint32_t id) {
+  std::size_t i = 0;
+  while (i < params.also.size() && params.also[i].id != id) ++i;
+  return i;
+}
+
+// Of a message beside the database.
+void receive_also(const InboundParams& params, InboundState& state, std::size_t also,
                   const can::ReceivedFrame& received) {
-  for (std::size_t i = 0; i < params.also.size(); ++i) {
-    const can::MessageRow& row = params.also[i];
-    if (row.id != received.frame.id) continue;
-    if (!has_length(params, state, row, received.frame)) return true;
-    const can::ReceivedFrame whole = with_length(received, row.length);
-    if (is_alive(params, state, row, state.also[i], whole)) ++state.frames_applied;
-    return true;
-  }
-  return false;
+  const can::MessageRow& row = params.also[also];
+  if (!has_length(params, state, row, received.frame)) return;
+  const can::ReceivedFrame whole = with_length(received, row.length);
+  if (is_alive(params, state, row, state.also[also], whole)) ++state.frames_applied;
 }
 
 void receive_own(const InboundParams& params, InboundState& state, Instant at) {
@@ -144,17 +145,18 @@ void receive(const InboundParams& params, InboundState& state, const can::Receiv
     ++state.refused.remote_or_error;
     return;
   }
-  if (receive_also(params, state, received)) return;
-  const std::size_t index = row_index(frame.id);
+  const std::size_t index = row_index(frame.id), also = also_index(params, frame.id);
+  const bool has_row = also < params.also.size();
+  if (index == kNoRow && has_row) return receive_also(params, state, also, received);
   if (index == kNoRow) {
     refuses(params, state, Monitor::kFrameShape);
     ++state.refused.unknown_id;
     return;
   }
-  const can::MessageRow& row = kMessages[index];
+  const can::MessageRow& row = has_row ? params.also[also] : kMessages[index];
   if (row.direction == can::Direction::kToCar) return receive_own(params, state, received.at);
   MessageTrack& track = state.messages[index];
-  if (!accept(params, state, index, received)) {
+  if (!accept(params, state, index, row, received)) {
     ++track.refused;
     return;
   }

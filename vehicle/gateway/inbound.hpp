@@ -75,8 +75,8 @@ struct InboundParams {
   Span tyre_temperature_c{-40.0, 250.0};   // within [-100, 6453]
   Span tyre_pressure_kpa{-50.0, 500.0};    // gauge; within [-100, 6553]
   std::uint8_t gear_max = 6;               // [1, 8]
-  // Of the bench alone, no car file sets them: monitors that are switched off; messages beside the
-  // database that are judged by rules 4 to 7 and mean nothing.
+  // Of the bench alone, no car file sets them: monitors that are switched off; messages that are
+  // judged by these rows in rules 4 to 7. Those beside the database mean nothing.
   world::MonitorSet off{};
   std::span<const can::MessageRow> also{};  // at most kAlsoMax, in the order of their ids
 };

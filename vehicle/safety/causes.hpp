@@ -150,8 +150,8 @@ inline constexpr std::array<CauseRow, kCauses> kCauseTable = [] {
     {kFlagsDisagree, "race control: flags unknown or contradictory", kTell, kTick},
     {kTicksMissed, "computer missed ticks", kTell, kTick},
     {kProcessorBusy, "computer busy", kTell, ms(1'020)},
-    {kClockStepped, "a clock stepped", kTell, ms(200)},
-    {kClockSkewed, "clock too fast or slow", kTell, seconds(40)},
+    {kClockStepped, "a clock stepped", kTell, ms(200), kBars},
+    {kClockSkewed, "clock too fast or slow", kTell, seconds(40), kBars},
     {kGnssDegraded, "GNSS: one unit is bad", kTell, ms(1'220)},
   }};
   // clang-format on

@@ -1,5 +1,7 @@
 // The car's own clock beside the time that the receivers say: has one of them stepped, does one run
-// too fast or too slow? Reported, and nothing else: nothing that drives looks at a calendar.
+// too fast or too slow? While it drives that is reported, and nothing else: nothing that
+// drives looks at a calendar. While it stands it does not arm: its recordings and its link would
+// carry stamps that nobody can put in order.
 //   in     when a receiver said what (GPS time), now
 //   out    a step, until it has been shown for `show`; the skew, while it is too large
 //   method difference = arrival - GPS time, to which transport can only add. A step against the

@@ -74,6 +74,19 @@ TEST(BusFaults, AStallIsAsLongAsNothingIsSent) {
   EXPECT_EQ(bench.link().tx_stalled, Duration{});
 }
 
+// As where a driver's queue hangs: what cures it is a restart, of a controller that is not bus-off.
+TEST(BusFaults, AStallEndsWithARestartOfTheController) {
+  Bench bench{fault(BenchFaultKind::kTransmitStall)};
+  bench.faults.car_restarts_controller(bench.now);
+  bench.run(milliseconds(120));
+  EXPECT_GE(bench.link().tx_stalled, milliseconds(9)) << "a restart before the fault cures nothing";
+  bench.faults.car_restarts_controller(bench.now);
+  bench.run(milliseconds(10));
+  EXPECT_EQ(bench.link().tx_stalled, Duration{});
+  bench.run(milliseconds(15));
+  EXPECT_EQ(bench.link().tx_stalled, Duration{}) << "and stays cured while the fault lasts";
+}
+
 TEST(BusFaults, ABabblerLeavesNoRoom) {
   Bench bench{fault(BenchFaultKind::kBusBabble, 1.0)};
   bench.run(milliseconds(100));

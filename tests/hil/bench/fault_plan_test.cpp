@@ -45,15 +45,17 @@ TEST(FaultPlan, EveryKindOfTheCatalogueIsPlannedOrRefusedByName) {
       continue;
     }
     ++planned;
-    const auto& here = is_process_fault(kind.kind) ? plan->processes
-                       : is_radio_fault(kind.kind) ? plan->radio
-                       : is_bus_fault(kind.kind)   ? plan->bus
-                       : is_clock_fault(kind.kind) ? plan->clock
-                       : is_byte_fault(kind.kind)  ? plan->bytes
-                                                   : plan->models;
+    const auto& here = is_process_fault(kind.kind)  ? plan->processes
+                       : is_radio_fault(kind.kind)  ? plan->radio
+                       : is_bus_fault(kind.kind)    ? plan->bus
+                       : is_clock_fault(kind.kind)  ? plan->clock
+                       : is_byte_fault(kind.kind)   ? plan->bytes
+                       : is_module_fault(kind.kind) ? plan->modules
+                                                    : plan->models;
     ASSERT_EQ(here.size(), 1u);
     EXPECT_EQ(plan->frames.size() + plan->models.size() + plan->radio.size() + plan->bus.size() +
-                  plan->clock.size() + plan->bytes.size() + plan->processes.size(),
+                  plan->clock.size() + plan->bytes.size() + plan->modules.size() +
+                  plan->processes.size(),
               1u)
         << kind.name;
     EXPECT_EQ(here[0].kind, kind.kind);

@@ -71,15 +71,5 @@ TEST(FaultMatrix, TheTableNamesWhatFails) {
   EXPECT_NE(to_text(rows).find("FAILED: a wall"), std::string::npos);
 }
 
-TEST(FaultMatrix, AMonitorWithoutARedScenarioIsSaidSo) {
-  const std::vector<Proof> proofs{
-      {.monitor = world::Monitor::kCounter, .asked = {"f06_x"}, .red = {"f06_x"}},
-      {.monitor = world::Monitor::kModule, .asked = {}, .red = {}}};
-  const std::string text = to_text(proofs);
-  EXPECT_NE(text.find("without counter"), std::string::npos);
-  EXPECT_NE(text.find("red: f06_x"), std::string::npos);
-  EXPECT_NE(text.find("NOTHING turns red: no scenario asks it"), std::string::npos);
-}
-
 }  // namespace
 }  // namespace pitwall::matrix

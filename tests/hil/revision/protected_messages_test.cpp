@@ -31,6 +31,26 @@ TEST(ProtectedMessages, EveryFrameIsWholeAliveAndInTime) {
   EXPECT_EQ(losses.count, 0u);
 }
 
+TEST(ProtectedMessages, TheFlagsOfRaceControlHaveAChecksumThatFindsAnotherFlag) {
+  can::Frame flags;
+  flags.id = 1200;
+  flags.length = 8;
+  flags.data[0] = 0x41;
+  const can::Frame said = with_checksum(flags);
+  can::Frame other = flags;
+  other.id = 1250;
+  EXPECT_EQ(with_checksum(other), other);
+  for (const can::MessageRow& row : judged_rows()) {
+    if (row.id != flags.id) continue;
+    EXPECT_EQ(can::check(row.protection, said), can::FrameCheck::kOk);
+    can::Frame red = said;
+    red.data[0] = 0x11;
+    EXPECT_EQ(can::check(row.protection, red), can::FrameCheck::kWrongCrc);
+    return;
+  }
+  ADD_FAILURE() << "the flags are not judged";
+}
+
 TEST(ProtectedMessages, AreInOrderAndNoMessagesOfTheCar) {
   const auto rows = protected_rows();
   ASSERT_EQ(rows.size(), kProtectedMessages);

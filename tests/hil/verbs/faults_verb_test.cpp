@@ -27,5 +27,16 @@ TEST_F(FaultsVerb, AMonitorThatIsOffTurnsItsScenarioRed) {
   EXPECT_NE(blind.out.find("MISSED"), std::string::npos) << blind.out;
 }
 
+// A monitor that is only reported fails the verb, with the table of what failed without it.
+TEST_F(FaultsVerb, AProofNeedsMoreThanAReport) {
+  const Said proven = run({"faults", "--prove", "--only", "f08"});
+  EXPECT_EQ(proven.code, 0) << proven.out << proven.err;
+  EXPECT_NE(proven.out.find("counter           f08_counter_stuck"), std::string::npos)
+      << proven.out;
+  const Said reported = run({"faults", "--prove", "--only", "f06"});
+  EXPECT_EQ(reported.code, 1) << reported.out << reported.err;
+  EXPECT_NE(reported.out.find("UNPROVEN: counter"), std::string::npos) << reported.out;
+}
+
 }  // namespace
 }  // namespace pitwall::verbs

@@ -178,6 +178,40 @@ TEST(GatewayMonitors, AChecksumIsJudgedBesideTheDatabase) {
   }
 }
 
+// Where the bus protects a message of the car: a damaged one is not applied, a true one is.
+TEST(GatewayMonitors, AChecksumOfAMessageOfTheCarKeepsAFalseValueOut) {
+  static constexpr auto kRow = [] {
+    for (can::MessageRow row : can::av21::kMessages) {
+      if (row.id != 1200) continue;
+      row.protection = {.profile = can::Protection::kJ1850, .length = 8, .crc_byte = 7};
+      return row;
+    }
+    return can::MessageRow{};
+  }();
+  static constexpr std::array kRows{kRow};
+  const auto flags = [](std::uint8_t track, std::uint8_t heartbeat) {
+    can::Frame frame;
+    frame.id = 1200;
+    frame.length = 8;
+    frame.data[0] = static_cast<std::uint8_t>(track << 4U | heartbeat);
+    can::ProtectState sender;
+    can::protect(kRow.protection, sender, frame);
+    return frame;
+  };
+  for (const bool off : {false, true}) {
+    MonitoredReceiver car;
+    car.params.also = kRows;
+    if (off) car.params.off = only(Monitor::kChecksum);
+    EXPECT_EQ(car.hear({flags(4, 1)}).race_control.track, world::TrackFlag::kGreen);
+    can::Frame damaged = flags(4, 2);
+    damaged.data[0] = 0x12;  // red
+    const InboundOutput out = car.hear({damaged});
+    EXPECT_EQ(out.race_control.track, off ? world::TrackFlag::kRed : world::TrackFlag::kGreen);
+    EXPECT_EQ(out.seen.has(Monitor::kChecksum), !off);
+    EXPECT_EQ(car.hear({flags(3, 3)}).race_control.track, world::TrackFlag::kYellow);
+  }
+}
+
 TEST(GatewayMonitors, AFrozenReportIsSeenThroughTheWholeGateway) {
   for (const bool off : {false, true}) {
     MonitoredReceiver car;
