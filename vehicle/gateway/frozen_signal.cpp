@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kMoving_mps = 5.0;
 constexpr Duration kActuatorLag = milliseconds(100);
+constexpr double kWheelJump_mps = 1.0;         // within a tick: ten times what tyres can do
 constexpr Duration kFresh = milliseconds(50);  // of a speed that bears witness
 // In the order of Watched: rad at the road wheel, kPa, share, m/s, m/s.
 constexpr std::array<double, kWatched> kLimits{0.0015, 300.0, 0.1, 0.3, 1.0};
@@ -25,10 +26,13 @@ world::ActuatorCommand told_then(const FrozenState& state, Instant now) {
   return command;
 }
 
-double mean_mps(const world::VehicleSignals& signals) {
-  double sum = 0.0;
-  for (const double wheel : signals.wheel_speed_mps.value.at) sum += wheel;
-  return sum / static_cast<double>(world::kCorners);
+// The mean of the middle two: one wheel that lies must not bear witness against the powertrain.
+double middle_mps(const world::VehicleSignals& signals) {
+  auto wheels = signals.wheel_speed_mps.value.at;
+  for (const double wheel : wheels)
+    if (!std::isfinite(wheel)) return kUnset;
+  std::ranges::sort(wheels);
+  return (wheels[1] + wheels[2]) / 2.0;
 }
 
 // One number that changes when any wheel does.
@@ -77,12 +81,15 @@ void remember(FrozenState& state, const world::ActuatorCommand& command, bool to
 }
 
 void judge_frozen(FrozenState& state, world::VehicleSignals& signals, Instant now) {
-  const double wheels_mps = mean_mps(signals);
+  const double wheels_mps = middle_mps(signals);
   const double powertrain_mps = signals.powertrain.value.vehicle_speed_mps;
   const world::ActuatorCommand told = told_then(state, now);
   // Of the other speed as well: frozen wheels must not tell that the car stands.
   const bool moving = wheels_mps > kMoving_mps || powertrain_mps > kMoving_mps;
-  const double wheels_fresh = fresh_or_unset(signals.wheel_speed_mps, wheels_mps, now);
+  const bool jumps = std::abs(wheels_mps - state.wheels_mps) > kWheelJump_mps;
+  state.wheels_mps = wheels_mps;
+  const double wheels_fresh =
+      jumps ? kUnset : fresh_or_unset(signals.wheel_speed_mps, wheels_mps, now);
   const double powertrain_fresh = fresh_or_unset(signals.powertrain, powertrain_mps, now);
   Judge judge{state, now, moving};
   judge(Watched::kSteering, signals.steering_motor_rad, signals.steering_motor_rad.value,

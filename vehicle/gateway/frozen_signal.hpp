@@ -6,7 +6,8 @@
 //          witness moved by more than its limit
 //   law    a value that changed is not frozen. Nothing is judged at a standstill (below 5 m/s), of
 //          an actuator that is told nothing, or while the witness rests: a straight line at one
-//          speed freezes nothing
+//          speed freezes nothing. One wheel that lies bears no witness, nor do wheels that jump:
+//          at one speed the powertrain says the same for seconds
 //   limits command: 1.7 deg of the steering motor, 300 kPa, a tenth of the pedal, each as told
 //          0.1 s ago (delay and lag of the actuators); speed: 0.3 m/s for the
 //          wheels, 1 m/s for the powertrain, whose witness scatters
@@ -41,6 +42,7 @@ struct FrozenState {
   std::array<world::ActuatorCommand, kCommands> commands{};  // unset: told nothing
   std::array<Instant, kCommands> told_at{};
   std::size_t next = 0;
+  double wheels_mps = kUnset;  // of the last tick
 
   bool any() const {
     bool found = false;

@@ -130,6 +130,32 @@ TEST(FrozenSignal, NothingIsJudgedAtAStandstillOrOfAnActuatorThatIsToldNothing) 
   EXPECT_TRUE(std::isnan(frozen_at(untold, 3.0)));
 }
 
+// At one speed the powertrain says the same for seconds: a wheel that lies must not accuse it, nor
+// wheels that lied a moment ago.
+TEST(FrozenSignal, WheelsThatLieDoNotAccuseThePowertrainForLong) {
+  for (const int liars : {1, 3}) {
+    FrozenState state;
+    world::VehicleSignals signals;
+    int during = 0, after = 0;
+    for (int i = 0; i < 100; ++i) {
+      const Instant now = Instant{} + seconds(1) + kTick * i;
+      world::PerWheel wheels{{22.0, 22.0, 22.0, 22.0}};
+      const bool lie = i >= 40 && (i < 60 || liars == 1);
+      for (int w = 0; lie && w < liars; ++w) wheels.at[static_cast<std::size_t>(w)] = 0.1 * i;
+      signals.wheel_speed_mps = {wheels, now, true};
+      world::Powertrain powertrain;
+      powertrain.vehicle_speed_mps = 22.0;
+      signals.powertrain = {powertrain, now, true};
+      judge_frozen(state, signals, now);
+      const bool frozen = state.tracks[static_cast<std::size_t>(Watched::kPowertrain)].frozen;
+      during += frozen && i < 60 ? 1 : 0;
+      after += frozen && i >= 60 ? 1 : 0;
+    }
+    EXPECT_EQ(during > 0, liars == 3);
+    EXPECT_EQ(after, 0);
+  }
+}
+
 TEST(FrozenSignal, LockedWheelsAreNotFrozen) {
   const auto moment = [](double t) {
     Moment m;
