@@ -11,6 +11,7 @@
 #include "hil/bench/loading.hpp"
 #include "hil/matrix/fault_matrix.hpp"
 #include "hil/matrix/proof.hpp"
+#include "hil/matrix/speeds.hpp"
 #include "hil/sweep/in_parallel.hpp"
 #include "hil/verbs/command_line.hpp"
 #include "hil/verbs/exit_code.hpp"
@@ -32,7 +33,8 @@ struct FaultsJob {
 };
 
 Result<std::vector<bench::Loaded>, Problem> load_all(const std::string& folder,
-                                                     const std::string& only) {
+                                                     const std::string& only,
+                                                     std::optional<matrix::Speed> speed) {
   std::error_code error;
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(folder, error))
@@ -46,8 +48,14 @@ Result<std::vector<bench::Loaded>, Problem> load_all(const std::string& folder,
   for (const std::string& file : files) {
     auto loaded = bench::load(file, "");
     if (!loaded) return Unexpected{loaded.error()};
+    if (speed) {
+      auto twin = matrix::at_speed(loaded->scenario, *speed);
+      if (!twin) continue;
+      loaded->scenario = *std::move(twin);
+    }
     all.push_back(*std::move(loaded));
   }
+  if (all.empty()) return Unexpected{Problem{"--speed", "the fault does not exist at this speed"}};
   return all;
 }
 
@@ -104,16 +112,28 @@ Result<world::MonitorSet, Problem> monitors_named(const std::vector<std::string>
   return off;
 }
 
+// None: each scenario at the speed at which it is written.
+Result<std::optional<matrix::Speed>, Problem> speed_named(const std::string& name) {
+  if (name.empty()) return std::optional<matrix::Speed>{};
+  const auto found = std::ranges::find(matrix::kSpeedNames, name);
+  if (found == matrix::kSpeedNames.end())
+    return Unexpected{Problem{"--speed", "\"" + name + "\" is not one of: walking yellow racing"}};
+  return std::optional{static_cast<matrix::Speed>(found - matrix::kSpeedNames.begin())};
+}
+
 struct FaultsOptions {
   std::string folder = "hil/scenarios/faults", only, json_file;
   std::vector<std::string> without;
+  std::string speed;
   bool prove = false;
 };
 
 Result<int, Problem> judge(const FaultsOptions& options) {
   const auto off = monitors_named(options.without);
   if (!off) return Unexpected{off.error()};
-  const auto all = load_all(options.folder, options.only);
+  const auto speed = speed_named(options.speed);
+  if (!speed) return Unexpected{speed.error()};
+  const auto all = load_all(options.folder, options.only, *speed);
   if (!all) return Unexpected{all.error()};
   const Instant begun = transport::monotonic_now();
   std::vector<FaultsJob> jobs;
@@ -137,7 +157,8 @@ Result<int, Problem> judge(const FaultsOptions& options) {
     const auto written = transport::write_file(options.json_file, matrix::to_json(*rows, proofs));
     if (!written) return Unexpected{written.error()};
   }
-  const bool whole = options.only.empty() ? matrix::holes(*rows).empty() : true;
+  const bool is_part = !options.only.empty() || *speed;
+  const bool whole = is_part || matrix::holes(*rows).empty();
   const bool needed = std::ranges::all_of(
       proofs, [](const matrix::Proof& proof) { return matrix::open_point(proof).empty(); });
   return whole && needed && std::ranges::all_of(*rows, &FaultRow::passed) ? kExitPass : kExitFailed;
@@ -151,6 +172,7 @@ int faults_verb(std::span<const std::string> args) {
   app.option("--folder", options.folder, "of the scenarios; default " + options.folder);
   app.option("--only", options.only, "only scenarios whose name contains this");
   app.option("--without", options.without, "switch this monitor off; may be given again");
+  app.option("--speed", options.speed, "every fault at this one: walking, yellow or racing");
   app.flag("--prove", options.prove,
            "switch each monitor off once: the car must do something else");
   app.option("--json", options.json_file, "write the matrix here");

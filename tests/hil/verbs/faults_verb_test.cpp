@@ -14,6 +14,7 @@ TEST_F(FaultsVerb, RefusesWhatItCannotUse) {
   expect_refusal({"faults", "--prvoe"}, "prvoe");
   expect_refusal({"faults", "--only", "no_such_scenario"}, "no such scenario");
   expect_refusal({"faults", "--without", "no_such_monitor"}, "no_such_monitor");
+  expect_refusal({"faults", "--speed", "reversing"}, "reversing");
 }
 
 // One scenario: the row, its delay; red once its monitor is off, and only then.
@@ -25,6 +26,14 @@ TEST_F(FaultsVerb, AMonitorThatIsOffTurnsItsScenarioRed) {
   const Said blind = run({"faults", "--only", "f06", "--without", "counter"});
   EXPECT_EQ(blind.code, 1) << blind.out << blind.err;
   EXPECT_NE(blind.out.find("MISSED"), std::string::npos) << blind.out;
+}
+
+TEST_F(FaultsVerb, AFaultIsJudgedAtAnotherSpeed) {
+  const Said walking = run({"faults", "--only", "f06", "--speed", "walking"});
+  EXPECT_EQ(walking.code, 0) << walking.out << walking.err;
+  EXPECT_NE(walking.out.find("f06_frames_twice@walking"), std::string::npos) << walking.out;
+  EXPECT_NE(walking.out.find("drives 3."), std::string::npos) << walking.out;
+  expect_refusal({"faults", "--only", "x_oversteer", "--speed", "walking"}, "does not exist");
 }
 
 // A monitor that is only reported fails the verb, with the table of what failed without it.
