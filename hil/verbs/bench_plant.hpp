@@ -4,11 +4,10 @@
 //   out    microseconds of one step of 1 ms: double track, single track, kinematic; milliseconds
 //          per simulated second; times real time of the whole lockstep bench. Peers stand beside
 //          with the figures that they publish, marked as such: they are not measured here
-//   how    best of many short batches in a banked bend: what the code costs, not what else the
-//          machine does; the median is printed too. The lockstep figure is that of the best run
-//          likewise, but a run is long: it wants a machine that does nothing else
-//   gates  double track <= 5 us a step, lockstep >= 50 times real time: exit code 1 where one is
-//          missed
+//   how    processor time of many short batches in a banked bend, the reference unit in turns with
+//          them (hil/cost/cost_gates.hpp): what the code costs, not what else the machine does
+//   gates  medians, on the reference machine: double track 5 us, lockstep 50 times real
+//          time: exit code 1 where one is missed
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <vector>
 
 #include "hil/bench/loading.hpp"
-#include "hil/bench/lockstep.hpp"
+#include "hil/cost/cost_gates.hpp"
+#include "hil/cost/machine_name.hpp"
 #include "hil/verbs/bench_dbc.hpp"
 #include "hil/verbs/bench_ekf.hpp"
 #include "hil/verbs/bench_gateway.hpp"
@@ -17,99 +19,91 @@
 #include "hil/verbs/bench_replay.hpp"
 #include "hil/verbs/command_line.hpp"
 #include "hil/verbs/exit_code.hpp"
+#include "hil/verbs/filter_times.hpp"
 #include "hil/verbs/lockstep_speed.hpp"
-#include "protocol/transport/clock.hpp"
+#include "hil/verbs/step_times.hpp"
+#include "protocol/json/json_text.hpp"
 #include "protocol/transport/file.hpp"
 
 namespace pitwall::verbs {
 namespace {
 
-constexpr double kLeastTimesRealTime = 50.0;
 constexpr int kRuns = 5;
+// On the reference machine, see hil/cost/cost_gates.hpp.
 constexpr double kStepLimit_us = 100.0;        // half of the steps
 constexpr double kBusyStepLimit_us = 1'200.0;  // p99: those that plan, or redo late measurements
 
-struct StepFigures {
-  double p50_us = 0.0, p99_us = 0.0, max_us = 0.0;
-  std::size_t steps = 0;
-};
-
-// The car's step inside the closed loop, fed with what a lap feeds it.
-Result<StepFigures, Problem> time_steps(const bench::Loaded& loaded) {
-  std::vector<double> took_us;
-  took_us.reserve(
-      static_cast<std::size_t>(loaded.scenario.duration / loaded.setup.params.rates.tick) + 1);
-  bench::LockstepOptions options;
-  options.step = [&took_us](const pipeline::Setup& setup, pipeline::Car& car,
-                            const pipeline::Inputs& in) {
-    const Instant begun = transport::monotonic_now();
-    const pipeline::Outputs out = pipeline::step(setup, car, in);
-    took_us.push_back(static_cast<double>((transport::monotonic_now() - begun).ns) * 1e-3);
-    return out;
-  };
-  const auto result = bench::run_lockstep(loaded.scenario, loaded.setup, options);
-  if (!result) return Unexpected{result.error()};
-  std::sort(took_us.begin(), took_us.end());
-  const auto quantile = [&took_us](double q) {
-    return took_us[static_cast<std::size_t>(q * static_cast<double>(took_us.size() - 1))];
-  };
-  return StepFigures{quantile(0.5), quantile(0.99), took_us.back(), took_us.size()};
+// Prints the verdict; writes `json`, and what all benchmarks say at its end, into a file.
+int end(const cost::CostGates& gates, json::Object json, const std::string& json_file) {
+  const std::string machine = cost::machine_name();
+  std::printf("%s\n%s", machine.c_str(), gates.text().c_str());
+  json.text("machine", machine).json("gates", gates.json()).flag("held", gates.held());
+  if (!json_file.empty()) {
+    const auto written = transport::write_file(json_file, json.str() + "\n");
+    if (!written) return refuse(written.error());
+  }
+  return gates.held() ? kExitPass : kExitFailed;
 }
 
 int bench_step(const std::string& json_file) {
   const auto loaded = bench::load(kBenchScenario, "");
   if (!loaded) return refuse(loaded.error());
-  const auto figures = time_steps(*loaded);
-  if (!figures) return refuse(figures.error());
-  const bool held = figures->p50_us < kStepLimit_us && figures->p99_us < kBusyStepLimit_us;
-  std::printf("pipeline step over %.0f s of LVMS, %zu steps, us\n%8s %8s %8s\n%8.1f %8.1f %8.1f\n",
-              loaded->scenario.duration.seconds(), figures->steps, "p50", "p99", "max",
-              figures->p50_us, figures->p99_us, figures->max_us);
-  std::printf("gate: p50 below %.0f us, p99 below %.0f us: %s\n", kStepLimit_us, kBusyStepLimit_us,
-              held ? "held" : "MISSED");
-  if (!json_file.empty()) {
-    const auto written = transport::write_file(
-        json_file, "{\"bench\":\"step\",\"p50_us\":" + std::to_string(figures->p50_us) +
-                       ",\"p99_us\":" + std::to_string(figures->p99_us) +
-                       ",\"max_us\":" + std::to_string(figures->max_us) +
-                       ",\"held\":" + (held ? "true" : "false") + "}\n");
-    if (!written) return refuse(written.error());
-  }
-  return held ? kExitPass : kExitFailed;
+  const auto times = time_steps(*loaded);
+  if (!times) return refuse(times.error());
+  std::vector<double> took_us;
+  for (const StepTime& step : times->steps) took_us.push_back(step.least_us);
+  const Quantiles step = quantiles_of(std::move(took_us));
+  std::printf(
+      "pipeline step over %.0f s of LVMS, %zu steps, us of processor time, the least of %d runs\n"
+      "%8s %8s %8s %16s\n%8.1f %8.1f %8.1f %16.1f\n",
+      loaded->scenario.duration.seconds(), step.count, kStepRuns, "p50", "p99", "max",
+      "reference unit", step.p50_us, step.p99_us, step.worst_us, times->unit_us);
+  cost::CostGates gates;
+  gates.at_most({"a step, p50", step.p50_us, times->unit_us, kStepLimit_us});
+  gates.at_most({"a step, p99", step.p99_us, times->unit_us, kBusyStepLimit_us});
+  return end(gates,
+             json::Object{}
+                 .text("bench", "step")
+                 .number("p50_us", step.p50_us)
+                 .number("p99_us", step.p99_us)
+                 .number("max_us", step.worst_us),
+             json_file);
+}
+
+void print_runs(const char* name, const std::vector<LockstepCost>& runs) {
+  const auto [least, most] = std::minmax_element(
+      runs.begin(), runs.end(),
+      [](const auto& a, const auto& b) { return a.times_real_time() < b.times_real_time(); });
+  const LockstepCost median = median_of(runs);
+  std::printf("%-22s %8.1f %8.1f %8.1f %16.1f %16.1f\n", name, least->times_real_time(),
+              median.times_real_time(), most->times_real_time(), median.unit_us, median.units());
 }
 
 int bench_lockstep(const std::string& json_file) {
   const auto loaded = bench::load(kBenchScenario, "");
   if (!loaded) return refuse(loaded.error());
-  std::string json =
-      "{\"bench\":\"lockstep\",\"gate_times_real_time\":" + std::to_string(kLeastTimesRealTime);
-  bool held = true;
   std::printf(
-      "lockstep, %.0f s of LVMS, times real time by processor time, %d runs\n%-22s %8s %8s %8s\n",
-      loaded->scenario.duration.seconds(), kRuns, "", "least", "median", "most");
+      "lockstep, %.0f s of LVMS, times real time by processor time, %d runs\n"
+      "%-22s %8s %8s %8s %16s %16s\n",
+      loaded->scenario.duration.seconds(), kRuns, "", "least", "median", "most", "us of one unit",
+      "units a second");
+  cost::CostGates gates;
+  json::Object json;
+  json.text("bench", "lockstep");
   for (const bool with_log : {false, true}) {
-    std::vector<double> speeds;
+    std::vector<LockstepCost> runs;
     for (int i = 0; i < kRuns; ++i) {
-      const auto speed = times_real_time(*loaded, with_log);
-      if (!speed) return refuse(speed.error());
-      speeds.push_back(*speed);
+      const auto run = lockstep_cost(*loaded, with_log);
+      if (!run) return refuse(run.error());
+      runs.push_back(*run);
     }
-    std::sort(speeds.begin(), speeds.end());
-    const double median = speeds[kRuns / 2];
-    std::printf("%-22s %8.1f %8.1f %8.1f\n", with_log ? "with event log" : "without event log",
-                speeds.front(), median, speeds.back());
-    json += std::string(",\"") + (with_log ? "with_log" : "without_log") +
-            "\":" + std::to_string(median);
-    held = held && median >= kLeastTimesRealTime;
+    const char* name = with_log ? "with event log" : "without event log";
+    print_runs(name, runs);
+    const LockstepCost median = median_of(std::move(runs));
+    json.number(with_log ? "with_log" : "without_log", median.times_real_time());
+    gates.at_most(lockstep_gate(median, std::string(" ") + name + ", median"));
   }
-  std::printf("gate: median at least %.0f times real time: %s\n", kLeastTimesRealTime,
-              held ? "held" : "MISSED");
-  if (!json_file.empty()) {
-    const auto written =
-        transport::write_file(json_file, json + ",\"held\":" + (held ? "true" : "false") + "}\n");
-    if (!written) return refuse(written.error());
-  }
-  return held ? kExitPass : kExitFailed;
+  return end(gates, json, json_file);
 }
 
 }  // namespace
@@ -129,6 +123,9 @@ int bench_verb(std::span<const std::string> args) {
       .required();
   app.option("--json", json_file, "write the figures here");
   if (const auto code = app.ended_by(args)) return *code;
+  const std::filesystem::path folder = std::filesystem::path(json_file).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder))
+    return refuse({json_file, "its folder is not there; make it, or name another file"});
   if (name == "lockstep") return bench_lockstep(json_file);
   if (name == "step") return bench_step(json_file);
   return refuse(

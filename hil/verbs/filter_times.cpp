@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "hil/cost/reference_cost.hpp"
 #include "protocol/transport/clock.hpp"
 
 namespace pitwall::verbs {
@@ -17,9 +18,9 @@ constexpr double kOpenGate = 1e30;
 
 template <class Work>
 double took_us(Work work) {
-  const Instant begun = transport::monotonic_now();
+  const Duration before = transport::thread_time();
   work();
-  return 1e-3 * static_cast<double>((transport::monotonic_now() - begun).ns);
+  return cost::microseconds_of(transport::thread_time() - before);
 }
 
 void bring(localization::SpatialBelief& b, const localization::SpatialParams& p,

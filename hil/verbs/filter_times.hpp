@@ -2,8 +2,9 @@
 // of its state: every prediction and every update that its window holds, and a position that comes
 // late.
 //   in     snapshots of a filter that runs, its params
-//   out    microseconds, one value for each call that was timed; every gate is open, so that each
-//          measurement is taken in
+//   out    microseconds of processor time, one value for each call that was timed, the reading of
+//          the clock (half a microsecond) in it; every gate is open, so that each measurement is
+//          taken in
 //   law    a snapshot is copied: the run goes on as if nobody had looked
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
