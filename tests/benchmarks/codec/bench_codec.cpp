@@ -1,7 +1,9 @@
 // `bench codec [--json FILE]`: the vehicle state, 84 real numbers, 10 integers and 6 of yes or no,
 // over a lap in the encodings that teams send it in; sizes and times.
 //   out    a table; exit code 1 when a gate is missed, 2 when a contestant of a gate is not there
-//   units  bytes, means over the trace; "on the wire" is with IPv4 and UDP; ns, best of batches
+//   units  bytes, means over the trace; "on the wire" is with IPv4 and UDP; ns of processor time,
+//          best of batches, and beside them what a reference unit costs (hil/cost), by which
+//          figures of two machines compare
 //   invariants  all bytes are those of the real libraries but JSON's; every frame is read again
 //          and compared before a size counts. Times are of C++ alone, in one process and one run
 //   gates  sizes as in gates_of(); times: our sealed packet (encoded and sealed; opened and
@@ -10,14 +12,17 @@
 //          that ratio is printed and is no gate
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <utility>
 
+#include "hil/cost/machine_name.hpp"
+#include "hil/cost/reference_cost.hpp"
+#include "protocol/json/json_text.hpp"
 #include "protocol/telemetry/packet/header.hpp"
+#include "protocol/transport/clock.hpp"
 #include "tests/benchmarks/codec/contestant.hpp"
 #include "tests/benchmarks/codec/lap.hpp"
 
@@ -71,11 +76,10 @@ std::optional<Timed> measure(const Contestant& contestant, const std::vector<Val
 // One batch, with the values in the cache; the best so far.
 template <class Work>
 void time_batch(std::optional<double>& best_ns, Work&& work) {
-  using Clock = std::chrono::steady_clock;
-  const auto begun = Clock::now();
+  const Duration before = transport::thread_time();
   for (std::size_t i = 0; i < kBatch; ++i) work(i);
-  const std::chrono::duration<double, std::nano> took = Clock::now() - begun;
-  const double each_ns = took.count() / static_cast<double>(kBatch);
+  const Duration took = transport::thread_time() - before;
+  const double each_ns = static_cast<double>(took.ns) / static_cast<double>(kBatch);
   best_ns = std::min(best_ns.value_or(each_ns), each_ns);
 }
 
@@ -103,11 +107,13 @@ class Table {
                      timed});
     return &rows_.back().figures;
   }
-  // The contestants take turns, batch by batch: what else the machine does meets all of them.
-  void measure_times() {
+  // The contestants and the reference unit take turns, batch by batch: what else the machine does
+  // meets all of them.
+  void measure_times(cost::ReferenceCost& reference) {
     std::vector<std::uint8_t> buffer(kLargest);
     Values read;
     for (std::size_t batch = 0; batch < kBatches; ++batch) {
+      reference.take();
       for (auto& [figures, timed] : rows_) {
         if (!timed) continue;
         const Contestant& c = timed->contestant;
@@ -299,12 +305,17 @@ int run(const char* json_file) {
   Table table(trace);
   fill(table);
   if (table.find(kOurs) == nullptr) return kNotThere;
-  table.measure_times();
+  cost::ReferenceCost reference;
+  table.measure_times(reference);
   table.print();
+  const std::string machine = cost::machine_name();
+  std::printf("a reference unit: %.1f us; %s\n", reference.unit_us(), machine.c_str());
   const Gates gates = gates_of(table);
   if (json_file != nullptr) {
     std::ofstream out(json_file);
-    out << "{\"bench\":\"codec\",\"rows\":" << table.json() << ",\"gates\":" << gates.json()
+    out << "{\"bench\":\"codec\",\"machine\":" << json::quoted(machine)
+        << ",\"unit_us\":" << reference.unit_us() << ",\"rows\":" << table.json()
+        << ",\"gates\":" << gates.json()
         << ",\"held\":" << (gates.outcome() == kHeld ? "true" : "false") << "}\n";
     if (!out) {
       std::fprintf(stderr, "%s: cannot be written\n", json_file);
