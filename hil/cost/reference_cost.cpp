@@ -11,16 +11,18 @@ namespace pitwall::cost {
 
 double microseconds_of(Duration duration) { return 1e-3 * static_cast<double>(duration.ns); }
 
-void ReferenceCost::take() {
+double ReferenceCost::take() {
   const Duration begun = transport::thread_time();
   CHECK(std::isfinite(kernel_.run()));
   const Duration warm = transport::thread_time();
   CHECK(std::isfinite(kernel_.run()));
   const Duration took = transport::thread_time() - warm;
-  if (next_ == units_us_.size()) units_us_.push_back(microseconds_of(took));
-  units_us_[next_] = std::min(units_us_[next_], microseconds_of(took));
+  const double unit_us = microseconds_of(took);
+  if (next_ == units_us_.size()) units_us_.push_back(unit_us);
+  units_us_[next_] = std::min(units_us_[next_], unit_us);
   ++next_;
   spent_ = spent_ + (warm - begun) + took;
+  return unit_us;
 }
 
 double ReferenceCost::unit_us() const {

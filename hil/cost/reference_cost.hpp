@@ -21,7 +21,7 @@ double microseconds_of(Duration duration);
 
 class ReferenceCost {
  public:
-  void take();
+  double take();  // the processor time of this one, us
   void again() { next_ = 0; }
   std::size_t count() const { return units_us_.size(); }
   double unit_us() const;  // 0 where none was taken

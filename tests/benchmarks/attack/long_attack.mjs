@@ -39,7 +39,7 @@ const kLinkLimitMs = 20_000;
 const kOvertimeMs = 30_000;
 const kBeforeRestartMs = 1000;
 const kQuietLimitMs = 20_000;
-/** Of a processor, by the host, in one press: it does not count. See console/quiet.mjs. */
+/** Of a processor, by the host, in one press: it does not count. See console/blocks.mjs. */
 const kTakenMs = 10;
 
 const kStopLaterMs = 100;

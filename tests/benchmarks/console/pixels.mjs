@@ -4,12 +4,13 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import { launch, open } from "../../system/console/stage.mjs";
-import { Quiet, leftAlone } from "./quiet.mjs";
+import { happenings, windows, withDelays } from "./blocks.mjs";
 import { eventually, kNumberPath, now, pause } from "./rig.mjs";
 
-const kWindows = 7;
+/** Of each block. */
+const kWindows = 2;
 const kSettleMs = 3000;
-const kSilences = 3;
+const kSilences = 2;
 
 /** In the page: notes each text of `selector` with the time of the frame that shows it. */
 function watch([name, selector]) {
@@ -49,10 +50,7 @@ async function silence(rig, page, seen) {
   return lost;
 }
 
-/**
- * `drawn`: ms of each number in windows, `lost`: ms of each silence that the host left alone;
- * `disturbed`: how many windows and silences it did not.
- */
+/** Blocks, see blocks.mjs. `drawn`: ms of each number in windows, `lost`: ms of each silence. */
 export async function pixelFigures(rig) {
   const browser = await launch();
   try {
@@ -69,11 +67,10 @@ export async function pixelFigures(rig) {
       }));
     await pause(100);
     const first = rig.left.length;
-    const quiet = await Quiet.watch(kWindows, () => 0);
+    const blocks = await windows(kWindows);
     await pause(500);
-    const drawn = quiet.delays(rig.left.slice(first), await seen("drawn"));
-    const lost = await leftAlone("losses of the link", kSilences, () => silence(rig, page, seen));
-    return { drawn, lost: lost.results, disturbed: quiet.disturbed + lost.disturbed };
+    const drawn = withDelays(blocks, rig.left.slice(first), [await seen("drawn")]);
+    return { drawn, lost: await happenings(kSilences, () => silence(rig, page, seen)) };
   } finally {
     await browser.close();
   }

@@ -4,6 +4,7 @@
  * which all processes of one machine have in common.
  */
 // SPDX-License-Identifier: Apache-2.0
+import { spawn } from "node:child_process";
 import { readFileSync, readdirSync } from "node:fs";
 import { createInterface } from "node:readline";
 import { Programs } from "../../system/console/programs.mjs";
@@ -20,7 +21,7 @@ const kPoint = 16;
 export const now = () => Number(process.hrtime.bigint()) / 1e6;
 export const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 
-/** The value below which this share of the sample lies. */
+/** The value below which this share of the sample lies; undefined of none. */
 export function quantile(sample, share) {
   const sorted = [...sample].sort((a, b) => a - b);
   return sorted[Math.min(Math.floor(share * sorted.length), sorted.length - 1)];
@@ -95,6 +96,33 @@ export class Rig {
   }
 }
 
+/** What a reference unit (hil/cost) costs in the meantime: its program, and what that said. */
+export class ReferencePulse {
+  /** {at, times}: how many times what it costs on the reference machine. */
+  beats = [];
+
+  constructor() {
+    this.process = spawn(process.env.PITWALL_PULSE, { stdio: ["ignore", "pipe", "inherit"] });
+    createInterface({ input: this.process.stdout }).on("line", (line) => {
+      const [here, there] = line.split(" ").map(Number);
+      this.beats.push({ at: now(), times: here / there });
+    });
+  }
+
+  /** The median in this time; undefined where there was none. */
+  times(from, to) {
+    const beats = this.beats.filter(({ at }) => at >= from && at < to);
+    return quantile(
+      beats.map(({ times }) => times),
+      0.5,
+    );
+  }
+
+  close() {
+    this.process.kill("SIGKILL");
+  }
+}
+
 /** A console without a browser that notes when each number and each state of the link came. */
 export class Viewer extends Client {
   seen = [];
@@ -135,13 +163,16 @@ export class Viewer extends Client {
   }
 }
 
-/** Resolves with what `find` gives once that is true; fails with `what` when it takes long. */
+/** Something was waited for, and did not come. */
+export class InVain extends Error {}
+
+/** Resolves with what `find` gives once that is true; InVain when it takes long. */
 export async function eventually(what, find, patienceMs = 5000) {
   const end = now() + patienceMs;
   for (;;) {
     const found = await find();
     if (found) return found;
-    if (now() > end) throw new Error(`waited ${patienceMs} ms in vain for: ${what}`);
+    if (now() > end) throw new InVain(`waited ${patienceMs} ms in vain for: ${what}`);
     await pause(5);
   }
 }

