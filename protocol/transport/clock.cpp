@@ -58,6 +58,12 @@ UtcTime utc_now() {
   return {calendar.ns - stood.ns};
 }
 
+std::optional<BenchPause> bench_pause() {
+  const BenchClock* const bench = BenchClock::used();
+  if (bench == nullptr) return std::nullopt;
+  return bench->pause();
+}
+
 Instant to_instant(UtcTime stamp, Duration offset) {
   const BenchClock* const bench = BenchClock::used();
   const Instant wall{stamp.ns - offset.ns};

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "protocol/transport/bench_clock/bench_pause.hpp"
 #include "protocol/transport/bench_clock/wall_clock.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
@@ -32,6 +33,8 @@ UtcTime utc_now();
 // How far the calendar may be off, by the service that keeps it: the larger of what it still
 // corrects and of its own estimate. None: nothing compares this clock with another.
 std::optional<Duration> utc_error();
+// How bench time is behind the wall clock since this program goes by it; none by the wall clock.
+std::optional<BenchPause> bench_pause();
 // What this thread has had of a processor: what its work costs, whoever else wants the machine.
 Duration thread_time();
 

@@ -15,7 +15,7 @@
 
 namespace pitwall::transport {
 
-std::uint32_t wait_readable(std::span<const int> descriptors, Instant deadline) {
+std::uint32_t wait_readable(std::span<const int> descriptors, Instant deadline, Duration longest) {
   CHECK(descriptors.size() <= kMaxWatched);
   std::array<pollfd, kMaxWatched> watched{};
   for (std::size_t i = 0; i < descriptors.size(); ++i)
@@ -29,14 +29,16 @@ std::uint32_t wait_readable(std::span<const int> descriptors, Instant deadline) 
     });
   };
   PosixOutcome outcome;
+  const Instant give_up = longest == kHoweverLong ? Instant::max() : wall_now() + longest;
   if (BenchClock* const bench = BenchClock::used()) {
     bench->wait_until(deadline, [&](Duration span) {
-      const Instant end = wall_now() + span;
+      const Instant at = wall_now();
+      const Instant end = span < give_up - at ? at + span : give_up;
       outcome = wait([&] { return end - wall_now(); });
-      return outcome.value != 0;
+      return outcome.value != 0 || end == give_up;
     });
   } else {
-    outcome = wait([&] { return deadline - wall_now(); });
+    outcome = wait([&] { return std::min(deadline, give_up) - wall_now(); });
   }
   std::uint32_t ready = 0;
   if (!outcome.ok()) return ready;

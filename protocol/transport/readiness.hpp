@@ -1,5 +1,6 @@
 // Waits until one of a few descriptors has something to read, or a deadline passes; and reads it.
-//   in     at most kMaxWatched descriptors; negative ones are ignored
+//   in     at most kMaxWatched descriptors; negative ones are ignored; a deadline of the clock in
+//          use, and the longest wait by the wall clock: while bench time stands no deadline comes
 //   out    bit i set: descriptor i is readable or at its end
 //   errors an unreadable descriptor counts as ended
 // SPDX-License-Identifier: Apache-2.0
@@ -15,7 +16,10 @@ namespace pitwall::transport {
 
 inline constexpr std::size_t kMaxWatched = 32;
 
-std::uint32_t wait_readable(std::span<const int> descriptors, Instant deadline);
+inline constexpr Duration kHoweverLong{INT64_MAX};
+
+std::uint32_t wait_readable(std::span<const int> descriptors, Instant deadline,
+                            Duration longest = kHoweverLong);
 
 struct ReadOutcome {
   std::size_t bytes = 0;

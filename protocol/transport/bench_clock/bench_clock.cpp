@@ -40,7 +40,21 @@ BenchClock* BenchClock::used() {
   return clock ? &*clock : nullptr;
 }
 
+BenchClock::BenchClock(ClockMemory memory)
+    : memory_(std::move(memory)),
+      behind_at_start_ns_(pause_of(memory_.page(), wall_now).total.ns) {}
+
 Instant BenchClock::now() const { return bench_now(memory_.page(), wall_now); }
+
+BenchPause BenchClock::pause() const {
+  const BenchPause seen = pause_of(memory_.page(), wall_now);
+  const std::int64_t stood_ns = seen.total.ns - behind_at_start_ns_;
+  std::int64_t most_ns = stood_ns_.load();
+  while (stood_ns > most_ns && !stood_ns_.compare_exchange_weak(most_ns, stood_ns)) continue;
+  return {.now = seen.now, .total = {std::max(stood_ns, most_ns)}};
+}
+
+Duration BenchClock::stands() const { return pause_of(memory_.page(), wall_now).now; }
 
 bool BenchClock::take_turns() {
   if (own.slot != nullptr) return true;

@@ -9,8 +9,10 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <string>
 
+#include "protocol/transport/bench_clock/bench_pause.hpp"
 #include "protocol/transport/bench_clock/clock_memory.hpp"
 
 namespace pitwall::transport {
@@ -19,9 +21,11 @@ class BenchClock {
  public:
   static Result<bool, Problem> use(const std::string& path);  // once, before other threads start
   static BenchClock* used();                                  // none: this program has the wall's
-  explicit BenchClock(ClockMemory memory) : memory_(std::move(memory)) {}
+  explicit BenchClock(ClockMemory memory);
 
   Instant now() const;
+  // Of this program: what bench time stood before it came does not count. The total never shrinks.
+  BenchPause pause() const;
   Instant time_of(Instant wall) const { return bench_time_of(memory_.page(), wall); }
   // The calling thread takes turns from its next wait on. False: no slot is free.
   bool take_turns();
@@ -42,27 +46,30 @@ class BenchClock {
     Wait& operator=(const Wait&) = delete;
   };
 
+  Duration stands() const;
   void look_after_bench();
 
   ClockMemory memory_;
+  std::int64_t behind_at_start_ns_ = 0;
+  mutable std::atomic<std::int64_t> stood_ns_{0};  // the most that was seen
 };
 
 template <class Nap>
 void BenchClock::wait_until(Instant deadline, Nap&& nap) {
   Instant at = now();
   const Wait wait{std::max(deadline, at)};
-  Duration stands = kNap, stood{};
+  Duration next_nap = kNap, next_look = kLook;
   while (true) {
     const Duration left = deadline - at;
-    const Duration span = left.ns <= 0 ? Duration{} : std::max(left, stands);
+    const Duration span = left.ns <= 0 ? Duration{} : std::max(left, next_nap);
     if (nap(span) || left.ns <= 0) return;
     at = now();
     if (at >= deadline) return;
-    stood = stood + span;
-    stands = std::min(stands + stands, kLongestNap);
-    if (stood < kLook) continue;
+    next_nap = std::min(next_nap + next_nap, kLongestNap);
+    const Duration stood = stands();
+    if (stood < next_look) continue;
     look_after_bench();
-    stood = Duration{};
+    next_look = stood + kLook;
   }
 }
 

@@ -26,6 +26,18 @@ TEST(Readiness, SaysWhichAndWaitsForTheDeadlineOtherwise) {
   EXPECT_EQ(wait_readable(watched, monotonic_now() + seconds(5)), 0b101U);
 }
 
+TEST(Readiness, NeverWaitsLongerThanItIsToldToHoweverFarTheDeadline) {
+  auto quiet = stream_pair();
+  ASSERT_TRUE(quiet);
+  const std::array watched{quiet->first.get()};
+  const Instant start = monotonic_now();
+  EXPECT_EQ(wait_readable(watched, Instant::max(), milliseconds(20)), 0U);
+  EXPECT_GE(monotonic_now() - start, milliseconds(20));
+  EXPECT_EQ(wait_readable(watched, start + milliseconds(60), seconds(60)), 0U);
+  EXPECT_GE(monotonic_now() - start, milliseconds(60));
+  EXPECT_LT(monotonic_now() - start, seconds(30));
+}
+
 TEST(Readiness, ReadsWhatIsThereAndKnowsTheEnd) {
   auto pair = stream_pair();
   ASSERT_TRUE(pair.has_value());

@@ -1,0 +1,43 @@
+// For how long bench time stands, and for how long it has stood in all.
+//
+//   wall clock   0    10    20    30    40
+//   bench time   0    10    10    10    20
+//   now          0     0    10    20     0
+//   total        0     0    10    20    20
+//
+//   in     the page that a bench keeps; the wall clock
+//   out    spans of the wall clock
+//   law    total is what the clock in use is behind the wall clock, so it shrinks where bench time
+//          leaps forward to that of a guest
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+
+#include "protocol/transport/bench_clock/clock_page.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::transport {
+
+struct BenchPause {
+  // From which on people are told: before a console would call its base silent.
+  static constexpr Duration kLong = milliseconds(150);
+
+  Duration now{};    // zero: time goes on
+  Duration total{};  // this pause included
+
+  constexpr bool is_long() const { return now >= kLong; }
+  constexpr bool operator==(const BenchPause&) const = default;
+};
+
+// In the order of bench_now(): a pause that ends meanwhile is not found longer than it was.
+template <class ReadWall>
+BenchPause pause_of(const ClockPage& page, ReadWall&& wall) {
+  const std::int64_t horizon_ns = page.horizon_ns.load(std::memory_order_acquire);
+  const std::int64_t lost_ns = page.lost_ns.load(std::memory_order_acquire);
+  const Instant at = wall();
+  const std::int64_t past_ns = std::max<std::int64_t>(at.ns - lost_ns - horizon_ns, 0);
+  return {.now = {past_ns}, .total = {lost_ns + past_ns}};
+}
+
+}  // namespace pitwall::transport
