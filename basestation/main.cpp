@@ -206,7 +206,7 @@ int run(const Arguments& arguments, std::vector<stand::Plan> plans) {
   web::HttpConfig http = stand::served(plans);
   outlets::metrics::Board board;  // outlives the server
   http.made[stand::kMetricsPath] = [&board] {
-    return web::Shown{board.text(), outlets::metrics::kContentType};
+    return web::Shown{board.text(transport::bench_pause()), outlets::metrics::kContentType};
   };
   std::unique_ptr<web::WebServer> server;  // outlives the stands
   Stands stands;

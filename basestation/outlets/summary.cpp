@@ -261,10 +261,13 @@ void add_logs(const intake::Station& station, Document& document) {
 
 }  // namespace
 
-std::string json_summary(const intake::Station& station, Instant now) {
+std::string json_summary(const intake::Station& station, Instant now,
+                         const std::optional<transport::BenchPause>& pause) {
   const intake::PacketRate& rate = station.rate();
   Document document;
   document.line("source", quoted(source_text(station.source())));
+  document.line("bench_time",
+                pause ? Object{}.add("stood_s", number(pause->total.seconds())).text() : "null");
   document.line("car", quoted(car_text(rate, now)));
   document.line("packets", text_of(rate.packets()));
   document.line("lost", text_of(station.lost_packets()));

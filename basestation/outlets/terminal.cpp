@@ -142,7 +142,7 @@ class Loop {
     while (!stopped) {
       Instant due = std::min(next_screen_, end);
       for (const Line& car : cars_) due = std::min(due, car.due());
-      const std::uint32_t ready = transport::wait_readable(watched_.span(), due);
+      const std::uint32_t ready = transport::wait_readable(watched_.span(), due, longest_wait_);
       for (Line& car : cars_) car.listen(batch_);
       const Instant now = transport::monotonic_now();
       for (Line& car : cars_) car.serve(now);
@@ -155,9 +155,15 @@ class Loop {
 
  private:
   void show_if_due(Instant now) {
-    if (now < next_screen_) return;
+    if (now < next_screen_ && !is_pause_to_be_shown()) return;
     show(now);
     next_screen_ = now + options_.refresh;
+  }
+
+  // While bench time stands no screen comes due by itself.
+  bool is_pause_to_be_shown() const {
+    const auto pause = transport::bench_pause();
+    return options_.text && pause && pause->now >= shown_pause_ + options_.refresh;
   }
 
   void tell_threats() {
@@ -165,12 +171,15 @@ class Loop {
   }
 
   void show(Instant now) {
+    const auto pause = transport::bench_pause();
+    shown_pause_ = pause ? pause->now : Duration{};
     std::string screen;
     for (Line& car : cars_) {
       screen += car.screen(now, {.ansi = !options_.plain,
                                  .all = options_.all,
                                  .below = !screen.empty(),
-                                 .title = cars_.size() > 1 ? car.title() : std::string{}});
+                                 .title = cars_.size() > 1 ? car.title() : std::string{},
+                                 .pause = pause});
     }
     std::fwrite(screen.data(), 1, screen.size(), terminal_);
     std::fflush(terminal_);
@@ -182,7 +191,10 @@ class Loop {
   FixedVector<int, kMaxLines> watched_;
   std::vector<transport::UdpDatagram> batch_ =
       std::vector<transport::UdpDatagram>(transport::UdpSocket::kBatch);
+  // No console and no screen waits for a base that goes by the wall clock.
+  Duration longest_wait_ = transport::bench_pause() ? kLookEvery : transport::kHoweverLong;
   Instant next_screen_ = Instant::max();
+  Duration shown_pause_{};  // how long bench time had stood on the newest screen
 };
 
 }  // namespace

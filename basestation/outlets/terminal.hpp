@@ -7,6 +7,8 @@
 //   law    a terminal that takes no text (Ctrl-S, a full pipe) stops the loop and with it what the
 //          car hears: a base whose screen stands still is no base that somebody watches
 //          seconds of a script count from its car's first packet
+//          while bench time stands the loop still wakes every kLookEvery of the wall clock, so that
+//          consoles and screens say that it stands
 //          cars share the loop and nothing else: a flood on the sockets of one is cut after
 //          kMaxRounds, and the others have their turn
 //   errors words that are not understood: on the screen, in the summary, and on standard error;
@@ -25,6 +27,8 @@
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::outlets {
+
+inline constexpr Duration kLookEvery = milliseconds(50);
 
 struct TerminalOptions {
   bool text = false;    // print screens at all

@@ -133,6 +133,21 @@ std::vector<TextLine> group_lines(const picture::Picture& picture, Instant now, 
   return lines;
 }
 
+// Whose time it is, where it is not the wall clock's.
+TextLine bench_line(const transport::BenchPause& pause) {
+  char text[120];
+  if (pause.is_long()) {
+    std::snprintf(
+        text, sizeof text,
+        "TIME      BENCH WAITS, %.1f s now, %.1f s in all; ages are of the time it stands at",
+        pause.now.seconds(), pause.total.seconds());
+  } else {
+    std::snprintf(text, sizeof text, "TIME      of a bench; it has stood %.1f s in all",
+                  pause.total.seconds());
+  }
+  return {text, Tone::kInverse};
+}
+
 // Whether the car's CAN bus is that of its database; nothing until the car has said so.
 std::optional<TextLine> bus_line(const picture::Picture& picture, Instant now) {
   const auto value = [&](telemetry::FieldIndex field) {
@@ -272,6 +287,10 @@ std::string text_view(const intake::Station& station, Instant now, const ViewOpt
   std::vector<TextLine> lines;
   if (!options.title.empty()) lines.push_back({options.title, Tone::kInverse});
   for (TextLine& line : link_lines(station, now)) lines.push_back(std::move(line));
+  if (options.pause) {
+    const auto below_head = lines.begin() + (options.title.empty() ? 1 : 2);
+    lines.insert(below_head, bench_line(*options.pause));
+  }
   if (auto bus = bus_line(station.picture(), now)) lines.push_back(*std::move(bus));
   if (auto stop = stop_line(station.picture(), now)) lines.push_back(*std::move(stop));
   add_watchdogs(station.picture(), now, lines);

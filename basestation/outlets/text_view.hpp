@@ -7,9 +7,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "basestation/intake/station.hpp"
+#include "protocol/transport/bench_clock/bench_pause.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::outlets {
@@ -19,6 +21,7 @@ struct ViewOptions {
   bool all = false;     // also the groups of health and statistics
   bool below = false;   // under another car's: the cursor stays where it is
   std::string title{};  // a line of its own above all, where there is one
+  std::optional<transport::BenchPause> pause{};  // of the bench whose time it is
 };
 
 std::string text_view(const intake::Station& station, Instant now, const ViewOptions& options);

@@ -152,7 +152,8 @@ Result<bool, Problem> CarStand::write_summary() {
   if (plan_.arguments.json_path.empty()) return true;
   const Instant now = transport::monotonic_now();
   station_->advance(now);
-  return transport::write_file(plan_.arguments.json_path, outlets::json_summary(*station_, now));
+  return transport::write_file(plan_.arguments.json_path,
+                               outlets::json_summary(*station_, now, transport::bench_pause()));
 }
 
 CarSight CarStand::sight() const {

@@ -16,7 +16,7 @@ void Board::put(const web::WebCounters& web) {
   web_ = web;
 }
 
-std::string Board::text() const {
+std::string Board::text(const std::optional<transport::BenchPause>& pause) const {
   std::vector<CarSight> cars;
   std::optional<web::WebCounters> web;
   {
@@ -24,7 +24,7 @@ std::string Board::text() const {
     cars = cars_;
     web = web_;
   }
-  return metrics_text(cars, web);
+  return metrics_text(cars, web, pause);
 }
 
 }  // namespace pitwall::outlets::metrics

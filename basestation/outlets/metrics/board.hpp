@@ -18,7 +18,8 @@ class Board {
  public:
   void put(std::size_t place, CarSight sight);
   void put(const web::WebCounters& web);
-  std::string text() const;
+  // With how bench time stands now, where this base goes by it.
+  std::string text(const std::optional<transport::BenchPause>& pause = {}) const;
 
  private:
   mutable std::mutex lock_;

@@ -110,8 +110,8 @@ void add_web(const web::WebCounters& web, Exposition& out) {
 
 }  // namespace
 
-std::string metrics_text(std::span<const CarSight> cars,
-                         const std::optional<web::WebCounters>& web) {
+std::string metrics_text(std::span<const CarSight> cars, const std::optional<web::WebCounters>& web,
+                         const std::optional<transport::BenchPause>& pause) {
   Exposition out;
   for (const CarSight& sight : cars) {
     const std::string car = std::to_string(sight.car);
@@ -126,6 +126,11 @@ std::string metrics_text(std::span<const CarSight> cars,
     add_fields(sight, car, out);
   }
   if (web) add_web(*web, out);
+  if (pause) {
+    out.add(Kind::kCounter, "pitwall_bench_time_stood_seconds_total",
+            "wall clock for which bench time stood; only of a base that goes by bench time", {},
+            pause->total.seconds());
+  }
   return out.text();
 }
 

@@ -20,6 +20,7 @@
 #include "basestation/outlets/web/web_server.hpp"
 #include "basestation/picture/own_field.hpp"
 #include "protocol/telemetry/registry/registry.hpp"
+#include "protocol/transport/bench_clock/bench_pause.hpp"
 
 namespace pitwall::outlets::metrics {
 
@@ -61,7 +62,7 @@ struct CarSight {
   std::vector<OutletFigures> outlets{};
 };
 
-std::string metrics_text(std::span<const CarSight> cars,
-                         const std::optional<web::WebCounters>& web);
+std::string metrics_text(std::span<const CarSight> cars, const std::optional<web::WebCounters>& web,
+                         const std::optional<transport::BenchPause>& pause = {});
 
 }  // namespace pitwall::outlets::metrics

@@ -117,6 +117,8 @@ void Wall::serve(intake::Station& station, Instant now) {
   set_budget(station);
   desk_.follow(picture_, station.endpoint(), now);
   tell(station, now);
+  if (auto text = pauses_.news(transport::bench_pause(), now))
+    room_.tell_state("bench_time", *std::move(text), now);
   room_.serve(*this, transport::utc_now(), now);
   for (Sending& sending : room_.take()) server_.send(sending.to, std::move(sending.message));
 }

@@ -26,6 +26,7 @@
 #include "basestation/outlets/wall/errands.hpp"
 #include "basestation/outlets/wall/judgement_store.hpp"
 #include "basestation/outlets/wall/link_meter.hpp"
+#include "basestation/outlets/wall/pause_report.hpp"
 #include "basestation/outlets/wall/recall.hpp"
 #include "basestation/outlets/web/access.hpp"
 #include "basestation/outlets/web/web_server.hpp"
@@ -123,6 +124,7 @@ class Wall : public Outlet, private Eyes {
   picture::TrendTable own_trends_{picture::kBaseFields};
   picture::Watch watch_;
   LinkMeter meter_;
+  PauseReport pauses_;
   command::Audit audit_;
   command::AuthorityTalk talk_;
   command::Desk desk_;

@@ -46,6 +46,14 @@ TEST(Summary, SaysWhatWasHeardAndSaid) {
   EXPECT_EQ(std::count(json.begin(), json.end(), '{'), std::count(json.begin(), json.end(), '}'));
 }
 
+TEST(Summary, SaysForHowLongBenchTimeStood) {
+  RadioRig rig;
+  EXPECT_NE(summary(rig).find("\"bench_time\": null,"), std::string::npos);
+  const transport::BenchPause pause{.now = {}, .total = milliseconds(1'250)};
+  EXPECT_NE(json_summary(*rig.station, rig.now, pause).find("\"bench_time\": {\"stood_s\": 1.25},"),
+            std::string::npos);
+}
+
 TEST(Summary, OfNothingIsStillADocument) {
   RadioRig rig;
   const std::string json = summary(rig);

@@ -89,6 +89,19 @@ TEST(TextView, ASimulationIsNeverTakenForACar) {
   EXPECT_FALSE(car.shows("SIMULATION"));
 }
 
+TEST(TextView, TheTimeOfABenchIsNeverTakenForTheWallClocks) {
+  Base base({.real_car = false});
+  base.drive();
+  EXPECT_FALSE(base.shows("TIME"));
+  const transport::BenchPause goes_on{.now = milliseconds(149), .total = milliseconds(3'420)};
+  EXPECT_TRUE(base.shows("no real car\nTIME      of a bench; it has stood 3.4 s in all\n",
+                         {.pause = goes_on}));
+  const transport::BenchPause waits{.now = milliseconds(1'210), .total = milliseconds(4'480)};
+  EXPECT_TRUE(base.shows("TIME      BENCH WAITS, 1.2 s now, 4.5 s in all", {.pause = waits}));
+  EXPECT_TRUE(base.shows("car 7\nPITWALL   *** SIMULATION ***   no real car\nTIME      BENCH WAITS",
+                         {.title = "car 7", .pause = waits}));
+}
+
 TEST(TextView, EveryFieldOfAHeardGroupIsThereWithItsUnitAndItsGroupsAge) {
   Base base;
   for (const telemetry::GroupRow& row : telemetry::kGroupTable) {

@@ -31,8 +31,10 @@ CarSight sight() {
   return sight;
 }
 
+constexpr transport::BenchPause kPause{.now = milliseconds(250), .total = milliseconds(1'250)};
+
 std::string text_of(const std::vector<CarSight>& cars) {
-  return metrics_text(cars, web::WebCounters{.joined = 3, .left = 1});
+  return metrics_text(cars, web::WebCounters{.joined = 3, .left = 1}, kPause);
 }
 
 bool has(const std::string& text, const std::string& line) {
@@ -53,6 +55,11 @@ TEST(MetricsText, NumbersAreToldInBaseUnitsWithTheirPlaceInTheRegistry) {
   EXPECT_TRUE(
       has(text, R"(pitwall_outlet_dropped_total{car="7",outlet="foxglove",topic="/car/ego"} 4)"));
   EXPECT_TRUE(has(text, "pitwall_web_consoles 2"));
+}
+
+TEST(MetricsText, OnlyABaseThatGoesByBenchTimeSaysForHowLongItStood) {
+  EXPECT_TRUE(has(text_of({}), "pitwall_bench_time_stood_seconds_total 1.25"));
+  EXPECT_EQ(metrics_text({}, web::WebCounters{}).find("bench_time"), std::string::npos);
 }
 
 TEST(MetricsText, WhatIsNotKnownNowHasNoSample) {
