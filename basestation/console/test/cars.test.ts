@@ -25,12 +25,14 @@ const sent = new Map<string, string[]>();
 
 class Socket {
   static readonly OPEN = 1;
+  static readonly newest = new Map<string, Socket>();
   readyState = Socket.OPEN;
   onopen?: () => void;
   onmessage?: (event: { data: unknown }) => void;
   onclose?: () => void;
   constructor(private readonly url: string) {
     sent.set(url, []);
+    Socket.newest.set(url, this);
     queueMicrotask(() => this.onopen?.());
   }
   send(text: string): void {
@@ -221,5 +223,24 @@ describe("another car in the same chart", () => {
     session.showCar(red);
     expect(compared.value).toBeNull();
     expect(dataOfTime(spec, 1000, 1080, 1000)[0]).toEqual([1.01, 1.05]);
+  });
+});
+
+describe("the time of a bench", () => {
+  afterEach(() => vi.useRealTimers());
+
+  test("is that of its base, and the next base lives by its own", () => {
+    vi.useFakeTimers(); // the socket would come back
+    expect(session.benchTime.value).toBeNull();
+    blue.takeText(
+      { type: "bench_time", time_ms: 1000, stands_ms: 200, stood_ms: 700 } as never,
+      50,
+    );
+    expect(session.benchTime.value?.stood_ms).toBe(700);
+    expect(session.clock.pauseMs(60)).toBe(210);
+    expect(red.clock.pauseMs(60)).toBeNull();
+    Socket.newest.get("ws://base/ws?car=7")!.onclose?.();
+    expect(session.benchTime.value).toBeNull();
+    expect(session.clock.pauseMs(60)).toBeNull();
   });
 });

@@ -156,6 +156,49 @@ describe("base clock", () => {
     expect(clock.isSilent(50 + kSilenceMs)).toBe(false);
     expect(clock.isSilent(51 + kSilenceMs)).toBe(true);
   });
+
+  test("stands while the base says so, without being silent", () => {
+    const clock = new BaseClock();
+    clock.heard(1000, 50);
+    expect(clock.pauseMs(60)).toBeNull();
+    for (let at = 200; at < 2000; at += 100) clock.stands(1002, at - 52, at);
+    expect(clock.isSilent(1950)).toBe(false);
+    expect(clock.nowMs(1950)).toBe(1002);
+    expect(clock.pauseMs(1950)).toBe(1898);
+  });
+
+  test("goes on with the next frame, and with the word that it does", () => {
+    for (const goOn of [
+      (clock: BaseClock) => clock.heard(1040, 1250),
+      (clock: BaseClock) => clock.stands(1040, 0, 1250),
+      (clock: BaseClock) => clock.stands(1000, 0, 1210),
+    ]) {
+      const clock = new BaseClock();
+      clock.stands(1000, 900, 1200);
+      goOn(clock);
+      expect(clock.pauseMs(1250)).toBeNull();
+      expect(clock.nowMs(1260)).toBe(1050);
+    }
+  });
+
+  test("a frame of the moment at which it stands is no end of the pause", () => {
+    const clock = new BaseClock();
+    clock.stands(1000, 900, 1200);
+    clock.heard(1000.0000001, 1240);
+    expect(clock.pauseMs(1250)).toBe(950);
+    expect(clock.nowMs(1250)).toBeCloseTo(1000);
+  });
+
+  test("a base that falls silent while its time stands is silent, and ages grow again", () => {
+    const clock = new BaseClock();
+    clock.heard(1000, 50);
+    clock.stands(1000, 200, 250);
+    expect(clock.isSilent(250 + kSilenceMs)).toBe(false);
+    const at = 251 + kSilenceMs;
+    expect(clock.isSilent(at)).toBe(true);
+    expect(clock.pauseMs(at)).toBeNull();
+    expect(clock.nowMs(at)).toBe(1501);
+  });
 });
 
 describe("history", () => {

@@ -13,26 +13,8 @@ import { isSilent, liveMs } from "../view/timeline";
 import { Value } from "../view/value";
 import { Flag } from "./flag_tile";
 import { LinkTile } from "./link_tile";
+import { ModeWord } from "./mode_word";
 import { showPage } from "./pages";
-
-const kWords: Record<string, string> = {
-  REAL: "REAL CAR",
-  HIL: "HIL",
-  REPLAY: "REPLAY",
-  NONE: "NO CAR",
-};
-
-function ModeWord() {
-  const hello = session.hello.value;
-  const mode = hello?.mode ?? "NONE";
-  const car = hello?.car && mode !== "NONE" ? ` ${hello.car}` : "";
-  return (
-    <div class="mode-word" role="status">
-      <strong>{hello ? kWords[mode] + car : "NO BASE"}</strong>
-      <span>{hello?.name || "\u00a0"}</span>
-    </div>
-  );
-}
 
 function AlarmCounts() {
   return (
@@ -76,7 +58,8 @@ function Clocks() {
       const [draws, lost] = detail.children;
       const { dropped } = session.counters;
       time.textContent = isSilent() ? kDash : clockText(session.clock.utcMs(liveMs()));
-      draws.textContent = `UTC \u00b7 draws in ${lastPaintMs.toFixed(1)} ms`;
+      const whose = session.benchTime.value ? "bench UTC" : "UTC";
+      draws.textContent = `${whose} \u00b7 draws in ${lastPaintMs.toFixed(1)} ms`;
       lost.textContent = dropped > 0 ? `${dropped} lost` : "";
     },
     kDigitsHz,

@@ -42,7 +42,7 @@ function climb(known: readonly Wire.CommandStep[], step: Wire.CommandStep): Wire
   return [...known.filter((s) => s.ticket !== step.ticket), merged].slice(-kKeptLines);
 }
 
-type Texts = Record<string, (message: never) => void>;
+type Texts = Record<string, (message: never, localMs: number) => void>;
 
 export class CarSession {
   readonly connected = signal(false);
@@ -64,6 +64,8 @@ export class CarSession {
   readonly settings = signal<Wire.Settings | null>(null);
   readonly checklist = signal<Checklist | null>(null);
   readonly playback = signal<Wire.Playback | null>(null);
+  /** Null: this base goes by the wall clock. */
+  readonly benchTime = signal<Wire.BenchTime | null>(null);
   readonly track = signal<Wire.Track | null>(null);
   readonly bench = new Bench();
   readonly lastError = signal<{ place: string; what: string; at: number } | null>(null);
@@ -92,7 +94,7 @@ export class CarSession {
   open(url: string): void {
     this.socket = new BaseSocket(url, {
       opened: () => (this.connected.value = true),
-      closed: () => (this.connected.value = false),
+      closed: () => this.lose(),
       text: (message) => this.takeText(message),
       binary: (view) => this.takeBinary(view, performance.now()),
       unreadable: () => ++this.counters.badTexts,
@@ -155,9 +157,9 @@ export class CarSession {
     this.history.value.append(store, head.timeMs);
   }
 
-  takeText(message: { type: string }): void {
+  takeText(message: { type: string }, localMs = performance.now()): void {
     const take = Object.hasOwn(this.texts, message.type) ? this.texts[message.type] : undefined;
-    if (take) take(message as never);
+    if (take) take(message as never, localMs);
     else ++this.counters.badTexts;
   }
 
@@ -170,6 +172,13 @@ export class CarSession {
 
   dismissNotice(id: number): void {
     this.notices.value = this.notices.value.filter((notice) => notice.id !== id);
+  }
+
+  /** The next base at this address may go by another clock. */
+  private lose(): void {
+    this.connected.value = false;
+    this.benchTime.value = null;
+    this.clock.goesOn();
   }
 
   /** After a jump of a replay the base tells everything again: what was known lies elsewhere. */
@@ -206,6 +215,10 @@ export class CarSession {
       const before = this.playback.value;
       if (before && before.jumps !== m.jumps) this.forget();
       this.playback.value = m;
+    },
+    bench_time: (m: Wire.BenchTime, localMs: number) => {
+      this.benchTime.value = m;
+      this.clock.stands(m.time_ms, m.stands_ms, localMs);
     },
     ...this.bench.texts,
     pong: () => {},

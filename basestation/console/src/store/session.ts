@@ -52,6 +52,7 @@ export const expected = new OfShown((car) => car.expected);
 export const settings = new OfShown((car) => car.settings);
 export const checklist = new OfShown((car) => car.checklist);
 export const playback = new OfShown((car) => car.playback);
+export const benchTime = new OfShown((car) => car.benchTime);
 export const track = new OfShown((car) => car.track);
 export const lastError = new OfShown((car) => car.lastError);
 

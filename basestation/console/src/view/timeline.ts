@@ -19,11 +19,13 @@ export const kSpeeds = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20] as const;
 let row = -1;
 let nowMs = NaN;
 let silent = true;
+let paused: number | null = null;
 
 /** Once per drawn frame: moves a playing view on and fixes what this frame shows. */
 export function beginFrame(localMs: number, elapsedMs: number): void {
   silent = session.clock.isSilent(localMs);
   nowMs = session.clock.nowMs(localMs);
+  paused = session.clock.pauseMs(localMs);
   if (heldMs.value === null) return;
   if (speed.value !== 0) seek(heldMs.value + elapsedMs * speed.value);
   if (heldMs.value !== null) row = session.history.find(heldMs.value);
@@ -34,6 +36,8 @@ export const shownMs = (): number => heldMs.value ?? nowMs;
 export const liveMs = (): number => nowMs;
 /** True where the base has fallen silent: nothing live may look alive. */
 export const isSilent = (): boolean => silent;
+/** For how long bench time stands; null where it goes on. */
+export const pauseMs = (): number | null => paused;
 
 export function seek(toMs: number): void {
   const { history } = session;

@@ -19,6 +19,15 @@ export interface Hello {
   utc_ms: number;
 }
 
+/** Of a base that goes by bench time. */
+export interface BenchTime {
+  time_ms: number;
+  /** For how long bench time stands by the wall clock; 0: it goes on. */
+  stands_ms: number;
+  /** In all, since the base began. */
+  stood_ms: number;
+}
+
 export interface Limits {
   warning_low?: number;
   warning_high?: number;
