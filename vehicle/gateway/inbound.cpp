@@ -35,13 +35,13 @@ bool admit(world::FrameRefusals& refused, can::FrameVerdict verdict) {
       return true;
     case can::FrameVerdict::kStuckCounter:
       ++refused.stuck_counter;
-      return false;
+      break;
     case can::FrameVerdict::kJumpedCounter:
       ++refused.jumped_counter;
-      return false;
+      break;
     case can::FrameVerdict::kWrongChecksum:
       ++refused.wrong_checksum;
-      return false;
+      break;
   }
   return false;
 }

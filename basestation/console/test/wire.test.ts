@@ -68,6 +68,7 @@ describe("status", () => {
           const byte = quality | (judgement << 2) | (unknown << 5);
           expect(qualityOf(byte)).toBe(quality);
           expect(saysUnknown(byte)).toBe(unknown === 1);
+          expect(saysUnknown(byte | 0xc0)).toBe(unknown === 1);
           expect(judgementOf(byte)).toBe(quality < 2 && judgement <= 3 ? judgement : 0);
         }
   });

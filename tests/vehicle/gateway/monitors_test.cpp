@@ -152,6 +152,85 @@ TEST(GatewayMonitors, AMessageThatStopsIsSeenWithinTwoAndAHalfPeriods) {
   }
 }
 
+// Of each message alone: older than two and a half periods, or than its timeout. What was never
+// heard is not late, and what we send is none of it.
+TEST(GatewayMonitors, EachMessageOfTheCarIsLateByItsOwnPeriod) {
+  constexpr Instant kHeard = at_ms(1'000);
+  for (std::size_t i = 0; i < can::av21::kMessages.size(); ++i) {
+    const can::MessageRow& row = can::av21::kMessages[i];
+    const Duration late = row.period * 5 / 2;
+    for (const Duration age : {Duration{}, std::min(late, row.timeout),
+                               std::min(late, row.timeout) + nanoseconds(1), late + row.timeout}) {
+      InboundState state;
+      state.messages[i].last = kHeard;
+      state.messages[i].ever = true;
+      const bool is_late = age > late || age > row.timeout;
+      const InboundOutput out = decode({}, state, {}, kHeard + age);
+      EXPECT_EQ(out.seen.has(Monitor::kMessageAge),
+                is_late && row.direction == can::Direction::kFromCar)
+          << row.id << " after " << age.ns;
+    }
+  }
+}
+
+TEST(GatewayMonitors, AFrameThatIsMissingIsSeenThoughItsMessageIsNotLate) {
+  MonitoredReceiver car;
+  car.warm_up();
+  car.hear({wheels(144.0)});
+  ++car.counter;
+  const InboundOutput out = car.hear({wheels(144.0), steering(5.0, car.counter++)});
+  EXPECT_EQ(out.bus.losses.size(), 1u);
+  EXPECT_TRUE(out.seen.has(Monitor::kMessageAge));
+}
+
+// Whether the frame is refused yet or not, and also where the debt cannot rise any more.
+TEST(GatewayMonitors, EveryBadCounterIsSeen) {
+  MonitoredReceiver car;
+  car.warm_up();
+  const auto sees = [&car](std::uint8_t counter) {
+    return car.hear({wheels(144.0), steering(5.0, counter)}).seen.has(Monitor::kCounter);
+  };
+  car.counter = static_cast<std::uint8_t>(car.counter + 100);
+  EXPECT_TRUE(sees(car.counter)) << "the first that jumps is applied";
+  EXPECT_EQ(car.state.refused.total(), 0u);
+  for (int i = 0; i < 3 * car.params.fault_debt; ++i) EXPECT_TRUE(sees(car.counter)) << i;
+  EXPECT_GT(car.state.refused.stuck_counter, 0u);
+}
+
+TEST(GatewayMonitors, MessagesBesideTheDatabaseAreCountedLikeItsOwn) {
+  static constexpr std::array kRows{can::integrity_bench::kMessages[2],
+                                    can::integrity_bench::kMessages[3]};
+  InboundParams params{.also = kRows};
+  InboundState state;
+  std::array<can::ProtectState, 2> senders;
+  const auto hear = [&](std::size_t row, int ms, auto&& spoil) {
+    can::ReceivedFrame received{.frame = {}, .at = at_ms(ms)};
+    received.frame.id = kRows[row].id;
+    received.frame.length = kRows[row].length;
+    can::protect(kRows[row].protection, senders[row], received.frame);
+    spoil(received.frame);
+    return decode(params, state, {&received, 1}, received.at).bus;
+  };
+  const auto whole = [](can::Frame&) {};
+  EXPECT_EQ(hear(0, 10, whole).frames_applied, 1u);
+  EXPECT_EQ(hear(1, 10, whole).frames_applied, 2u);
+  const auto crc = kRows[1].protection.crc_byte;
+  const world::BusHealth spoilt = hear(1, 20, [&](can::Frame& f) { f.data[crc] ^= 0x55; });
+  EXPECT_EQ(spoilt.frames_applied, 2u);
+  EXPECT_EQ(spoilt.refused.wrong_checksum, 1u);
+  const world::BusHealth shortened = hear(1, 30, [](can::Frame& f) { --f.length; });
+  EXPECT_EQ(shortened.frames_applied, 2u);
+  EXPECT_EQ(shortened.refused.wrong_length, 1u);
+  EXPECT_EQ(shortened.refused.unknown_id, 0u) << "it is known, if not in this length";
+}
+
+TEST(GatewayMonitors, MoreMessagesBesideTheDatabaseThanFitAreOurOwnMistake) {
+  const std::vector<can::MessageRow> rows(kAlsoMax + 1, can::integrity_bench::kMessages[3]);
+  InboundState state;
+  static_cast<void>(decode({.also = std::span{rows}.first(kAlsoMax)}, state, {}, at_ms(1)));
+  EXPECT_DEATH(static_cast<void>(decode({.also = rows}, state, {}, at_ms(1))), "CHECK");
+}
+
 TEST(GatewayMonitors, AChecksumIsJudgedBesideTheDatabase) {
   static constexpr std::array kRows{can::integrity_bench::kMessages[3]};
   ASSERT_NE(kRows[0].protection.profile, can::Protection::kNone);
