@@ -37,6 +37,10 @@ struct Advance {
   LossSign sign = LossSign::kCounter;
 };
 
+std::uint32_t missing_of(const Advance& advance) {
+  return advance.sends > 0 ? advance.sends - 1 : 0;
+}
+
 Advance by_time(std::uint32_t slots) { return {.sends = slots, .sign = LossSign::kPeriod}; }
 
 // Sends since the counter was read last; zero where nothing but time can tell.
@@ -102,7 +106,7 @@ void learn_cycle(MessageMonitor& m, std::uint32_t value, std::uint32_t slots, Lo
 // was late.
 void settle(const MessageRow& row, MessageMonitor& m, const Advance& advance,
             const ReceivedFrame& received, LossLog& losses) {
-  const std::uint32_t missing = advance.sends > 0 ? advance.sends - 1 : 0;
+  const std::uint32_t missing = missing_of(advance);
   if (missing > m.listed) {
     const Duration each = (received.at - m.base) / static_cast<std::int64_t>(advance.sends);
     losses.add({.id = row.id,
@@ -119,8 +123,7 @@ void settle(const MessageRow& row, MessageMonitor& m, const Advance& advance,
 void catch_up(MessageMonitor& m, const Advance& advance, std::uint32_t slots) {
   const bool is_time = advance.sign == LossSign::kPeriod;
   if (slots > 0) {
-    const std::uint32_t missing = advance.sends > 0 ? advance.sends - 1 : 0;
-    m.behind = is_time ? missing : slots - std::min(slots, advance.sends);
+    m.behind = is_time ? missing_of(advance) : slots - std::min(slots, advance.sends);
     m.in_doubt = is_time;
     return;
   }

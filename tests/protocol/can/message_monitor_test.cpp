@@ -299,6 +299,103 @@ TEST_F(MonitorAlone, TheMeanIntervalIsWhatArrives) {
   EXPECT_EQ(monitor.mean_interval, milliseconds(12));
 }
 
+TEST_F(MonitorAlone, TheMeanIntervalFollowsByAnEighthAndSilencesAreNone) {
+  hear(0, 0);
+  hear(10'000, 1);
+  hear(28'000, 2);
+  EXPECT_EQ(monitor.mean_interval, milliseconds(11));
+  hear(28'000, 3);  // two at once
+  EXPECT_EQ(monitor.mean_interval, microseconds(9'625));
+  const Duration before = monitor.mean_interval;
+  hear(20'000, 4);  // stamps that step back
+  EXPECT_EQ(monitor.mean_interval, before);
+  hear(20'000 + 50'001, 9);
+  EXPECT_EQ(monitor.mean_interval, before) << "longer than the timeout";
+  hear(70'001 + 50'000, 14);
+  EXPECT_EQ(monitor.mean_interval, before + (milliseconds(50) - before) / 8) << "the timeout";
+  row.timeout = {};
+  hear(120'001 + 8'000'000, 15);
+  EXPECT_GT(monitor.mean_interval, seconds(1)) << "without a timeout nothing is a silence";
+}
+
+TEST_F(MonitorAlone, TimeIsRoundedToTheNearestPeriodAndUpAtTheHalf) {
+  hear(0, 3);
+  hear(4'999, 3);  // a repetition within half a period is additional
+  watch({&row, 1}, {&monitor, 1}, Instant{} + microseconds(15'001), log);
+  EXPECT_EQ(monitor.lost, 1U);
+  monitor = {};
+  hear(0, 3);
+  hear(5'000, 3);  // and in its own time from there on
+  watch({&row, 1}, {&monitor, 1}, Instant{} + microseconds(15'001), log);
+  EXPECT_EQ(monitor.lost, 0U);
+  row.has_counter = false;
+  for (const auto& [at_us, lost] : {std::pair{14'999, 0U}, std::pair{15'000, 1U}}) {
+    monitor = {};
+    hear(0, 0);
+    hear(at_us, 0);
+    EXPECT_EQ(monitor.lost, lost) << at_us;
+  }
+}
+
+// Steps of the counter against what time allows: to twice of it they are believed, and bad.
+TEST_F(MonitorAlone, ACounterIsBelievedToTwiceWhatTimeAllows) {
+  for (const auto& [steps, lost] : {std::pair{1U, 0U}, {2U, 1U}, {4U, 3U}, {5U, 0U}}) {
+    monitor = {};
+    hear(0, 10);
+    hear(10'000, 10 + steps);
+    EXPECT_EQ(monitor.lost, lost) << steps;
+    EXPECT_EQ(monitor.debt, steps > 1 ? 1 : 0) << steps;
+  }
+}
+
+// Repeated frames were sends or they were not: whichever fits the time.
+TEST_F(MonitorAlone, RepeatedFramesWereSendsWhereThatFitsTheTime) {
+  struct Rest {
+    int repeated;
+    std::int64_t periods;
+    std::uint32_t steps, lost;
+  };
+  for (const Rest& r : {Rest{2, 1, 3, 0}, Rest{2, 3, 4, 1}, Rest{3, 3, 4, 3}, Rest{2, 1, 2, 1},
+                        Rest{2, 1, 4, 1}, Rest{2, 4, 4, 3}}) {
+    monitor = {};
+    std::int64_t t_us = 0;
+    hear(t_us, 30);
+    for (int i = 0; i < r.repeated; ++i) hear(t_us += 10'000, 30);
+    hear(t_us + 10'000 * r.periods, 30 + r.steps);
+    EXPECT_EQ(monitor.lost, r.lost) << r.repeated << " " << r.periods << " " << r.steps;
+  }
+}
+
+TEST_F(MonitorAlone, WithinHalfACycleTheSameValueIsRepeated) {
+  for (const auto& [periods, verdict] :
+       {std::pair{4, FrameVerdict::kStuckCounter}, std::pair{5, FrameVerdict::kGood}}) {
+    monitor = {};
+    hear(0, 2);
+    monitor.cycle = {.top = 7, .bottom = 0, .seen = CounterCycle::kKnown};
+    EXPECT_EQ(hear(10'000 * periods, 2), verdict) << periods;
+  }
+}
+
+TEST_F(MonitorAlone, ACycleThatBeginsAtOneIsLearnedToo) {
+  std::int64_t t_us = 0;
+  for (int round = 0; round < 3; ++round)
+    for (std::uint32_t c = 1; c <= 7; ++c) hear(t_us += 10'000, c);
+  EXPECT_TRUE(monitor.cycle.is_known());
+  EXPECT_EQ(monitor.cycle.bottom, 1U);
+  EXPECT_EQ(monitor.cycle.length(), 7U);
+}
+
+// A sender that is behind may have sent that many more since it began anew.
+TEST_F(MonitorAlone, ARestartIsAJumpWhereTimeDoesNotReachIts) {
+  for (const std::uint32_t restarted_at : {4U, 5U}) {
+    monitor = {};
+    hear(0, 100);
+    hear(20'000, 101);  // one behind
+    hear(50'000, restarted_at);
+    EXPECT_EQ(monitor.debt, restarted_at == 5 ? 1 : 0);
+  }
+}
+
 TEST_F(MonitorAlone, AFullLogCountsWhatItCannotList) {
   std::int64_t t_us = 0;
   for (std::uint32_t i = 0; i < 200; i += 2) hear(t_us += 20'000, i);
