@@ -91,6 +91,8 @@ class Families(unittest.TestCase):
         self.assertEqual(
             texts("relational", code, path="x.ts"), [code.replace("!==", "===")])  # fmt: skip
         self.assertEqual(texts("constant", code, path="x.ts"), [])
+        self.assertEqual(texts("arithmetic", "let a: T | null = b | c; ", path="x.ts"),
+                         ["let a: T | null = b & c; "])  # fmt: skip
         self.assertEqual(texts("return", code, path="x.ts"), [code.replace("E.b", "undefined")])
         source = Source("x.ts", "export const enum E {\n  a = 0,\n  b = 1,\n}\n")
         enums = operators.enumerations(source)

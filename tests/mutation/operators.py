@@ -21,9 +21,16 @@ ASSIGNMENTS = {"=", "+=", "-=", "*=", "/=", "%=", "|=", "&=", "^=", "<<=", ">>="
 INTEGER = re.compile(r"(0[xX][0-9a-fA-F]+|[0-9]+)([uUlLzZ]*)$")
 
 
+# `T | null` is a type, which is gone when the program runs.
+def is_type(source, i):
+    return source.is_typescript and source.is_(i + 1, "null", "undefined")
+
+
 def swapped(source, table):
     for i, token in enumerate(source.tokens):
-        if token.kind == OPERATOR and token.text in table and source.is_spaced(i):
+        if token.kind != OPERATOR or is_type(source, i) and token.text == "|":
+            continue
+        if token.text in table and source.is_spaced(i):
             yield token.start, token.end, table[token.text]
 
 

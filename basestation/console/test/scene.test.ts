@@ -96,13 +96,13 @@ test("what is not a number is not placed, and an angle that is none points east"
 test("up to four rivals are placed beside the centre, those that have an identity and a station", () => {
   const several: Record<string, number> = { ...kValues };
   for (const n of [2, 3, 4, 5]) {
-    several[`opponent_${n}.identity`] = n;
+    several[`opponent_${n}.identity`] = n - 1;
     several[`opponent_${n}.station`] = 100 - 10 * n;
     several[`opponent_${n}.offset`] = n === 2 ? NaN : n;
     several[`opponent_${n}.speed`] = 40;
   }
   const found = rivals(heard(Quality.fresh, false, several), course);
-  expect(found.map(({ identity }) => identity)).toEqual([7, 2, 3, 4]);
+  expect(found.map(({ identity }) => identity)).toEqual([7, 1, 2, 3]);
   expect(found.map(({ station }) => station)).toEqual([140, 80, 70, 60]);
   expect(found.map(({ offset }) => offset)).toEqual([-1, 0, 3, 4]);
   expect(found.map(({ gap }) => gap)).toEqual([40, -20, -30, -40]);
@@ -111,7 +111,7 @@ test("up to four rivals are placed beside the centre, those that have an identit
   several["opponent_2.identity"] = 0;
   several["opponent_3.station"] = NaN;
   const fewer = rivals(heard(Quality.fresh, false, several), course);
-  expect(fewer.map(({ identity }) => identity)).toEqual([7, 4]);
+  expect(fewer.map(({ identity }) => identity)).toEqual([7, 3]);
 });
 
 describe("the trail", () => {
@@ -120,29 +120,43 @@ describe("the trail", () => {
     const range = { min: -1e6, max: 1e6, resolution: 0.1, period_ms: 100 };
     return { id, path, group, name, unit: "", kind: "real", ...range };
   };
-  /** `count` rows, 40 ms apart, x their number; every seventh is stale, the error is a warning. */
-  function driven(count: number, paths = ["ego.x", "ego.y", "dynamics.lateral_error"]) {
+  const kPaths = ["dynamics.lateral_error", "ego.y", "ego.x"];
+  /** `count` rows, x their number; every seventh is stale, the error is a warning. */
+  function driven(count: number, paths = kPaths, stepMs = 40, lateMs = 0) {
     const fields = new Fields(paths.map((path, id) => field(id, path)));
     const history = new History(paths.length, 4096);
     session.shownCar.value.history.value = history;
     for (let n = 0; n < count; ++n) {
-      const quality = n % 7 === 0 ? Quality.stale : Quality.late;
-      paths.forEach((_, id) =>
-        fields.write(id, id === 2 ? Judgement.warning << 2 : quality, 0, id === 1 ? -n : n, 40 * n),
-      );
-      history.append(fields, 40 * n);
+      paths.forEach((path, id) => {
+        const quality = path === "ego.x" && n % 7 === 3 ? Quality.stale : Quality.late;
+        const judgement = path === kPaths[0] ? Judgement.warning : Judgement.none;
+        const value = path === "ego.y" ? -n : n;
+        fields.write(id, quality | (judgement << 2), 0, value, stepMs * n);
+      });
+      history.append(fields, stepMs * n);
     }
     session.fields.value = fields;
-    session.clock.heard(40 * (count - 1), 5000);
-    beginFrame(5000, 16);
+    session.clock.heard(stepMs * (count - 1), 5000);
+    beginFrame(5000 + lateMs, 16);
     return trail(fields);
   }
 
   test("is the way just driven, oldest first, without what was stale", () => {
     const points = driven(10);
-    expect(points.map(({ x }) => x)).toEqual([1, 2, 3, 4, 5, 6, 8, 9]);
-    expect(points.map(({ y }) => y)).toEqual([-1, -2, -3, -4, -5, -6, -8, -9]);
+    expect(points.map(({ x }) => x)).toEqual([0, 1, 2, 4, 5, 6, 7, 8, 9]);
+    expect(points.map(({ y }) => y)).toEqual([-0, -1, -2, -4, -5, -6, -7, -8, -9]);
     for (const { judgement } of points) expect(judgement).toBe(Judgement.warning);
+  });
+
+  test("begins with the row that was shown twelve seconds ago", () => {
+    expect(driven(101, kPaths, 200, 199.5).at(0)!.x).toBe(40);
+    expect(driven(101, kPaths, 200, 200.5).at(0)!.x).toBe(41);
+  });
+
+  test("leaves out rows only where there are two hundred of them", () => {
+    const xs = driven(400, kPaths, 60.5).map(({ x }) => x);
+    expect(xs.at(-1)).toBe(399);
+    expect(xs.at(-2)).toBe(398);
   });
 
   test("goes back twelve seconds in about a hundred points that stay where they are", () => {

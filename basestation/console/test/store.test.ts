@@ -92,6 +92,7 @@ describe("fields", () => {
 
   test("a field is found by its path and by its id, up to the last there can be", () => {
     const fields = new Fields([field(65535, "a.b"), field(0, "a.c")]);
+    expect(fields.info.map(({ path }) => path)).toEqual(["a.b", "a.c"]);
     expect([fields.slot("a.b"), fields.slot("a.c"), fields.slot("a.d")]).toEqual([0, 1, -1]);
     expect([fields.slotOf(65535), fields.slotOf(0), fields.slotOf(1)]).toEqual([0, 1, -1]);
   });

@@ -99,7 +99,6 @@ export function trail(store: Fields): TrailPoint[] {
   const step = Math.max(1, Math.floor((end - begin) / kTrailPoints));
   const points: TrailPoint[] = [];
   for (let n = begin - (begin % step); n <= end; n += step) {
-    if (n < 0) continue;
     const row = history.index(n);
     if ((history.status[x][row] & 3) >= Quality.stale) continue;
     points.push({
