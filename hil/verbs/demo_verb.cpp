@@ -50,8 +50,8 @@ struct DemoOptions {
   std::string scenario = "hil/scenarios/lvms_flying_lap.yaml";
 };
 
-// One time for all who are on this machine. A guest keeps its own, which only one can be followed by
-// a base station; where several are, it goes by the wall clock.
+// One time for all who are on this machine. Each guest keeps its own, and a base station can follow
+// one alone: where there are several, it goes by the wall clock.
 bool is_time_shared(std::span<const DemoCar> cars) {
   return cars.size() == 1 || cars.front().bus == DemoBus::kSocket;
 }

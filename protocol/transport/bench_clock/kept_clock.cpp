@@ -16,9 +16,9 @@ constexpr timespec kLook{.tv_sec = 0, .tv_nsec = 1'000'000};  // half a lead
 void be_urgent() {
   constexpr int kPriority = 90;
   const sched_param parameters{.sched_priority = kPriority};
-  static_cast<void>(posix_call(
-      [&] { return ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &parameters); },
-      Success::kZeroElseNumber));
+  static_cast<void>(
+      posix_call([&] { return ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &parameters); },
+                 Success::kZeroElseNumber));
 }
 
 }  // namespace

@@ -23,7 +23,8 @@ TEST(ClockPlace, IsAFileOfThisRunOrTheOneThatIsShared) {
   EXPECT_EQ(shared.file, "/dev/shm/t");
   EXPECT_FALSE(shared.is_own) << "the base station may have it yet";
   EXPECT_EQ(clock_place("/dev/shm/t", true, true).file, "/dev/shm/t") << "that of the guest";
-  EXPECT_EQ(clock_place("host:/dev/shm/t", false, false).file, "/dev/shm/t") << "no guest is needed";
+  EXPECT_EQ(clock_place("host:/dev/shm/t", false, false).file, "/dev/shm/t")
+      << "no guest is needed";
   const ClockPlace inside = clock_place("host:/dev/shm/t", false, true);
   EXPECT_NE(inside.file, "/dev/shm/t") << "out of reach";
   EXPECT_TRUE(inside.is_own);
