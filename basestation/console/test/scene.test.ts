@@ -173,7 +173,8 @@ describe("the trail", () => {
   });
 
   test("has no judgement where the base has no such field, and no way without a place", () => {
-    const [point] = driven(5, ["ego.x", "ego.y"]);
+    const [point] = driven(5, ["ego.y", "ego.x"]);
+    expect(driven(5, ["ego.x", "ego.y"])).toEqual(driven(5, ["ego.y", "ego.x"]));
     expect(point.judgement).toBe(Judgement.none);
     expect(driven(5, ["ego.x"])).toEqual([]);
     expect(driven(5, ["ego.y"])).toEqual([]);
