@@ -93,7 +93,7 @@ test("what is not a number is not placed, and an angle that is none points east"
   expect(ghost(fields)).toMatchObject({ yaw: 0, radius: 0 });
 });
 
-test("up to four rivals are placed beside the centre, those that have an identity and a station", () => {
+test("up to four rivals are placed, those that have an identity and a station", () => {
   const several: Record<string, number> = { ...kValues };
   for (const n of [2, 3, 4, 5]) {
     several[`opponent_${n}.identity`] = n - 1;
