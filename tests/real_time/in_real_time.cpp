@@ -1,9 +1,9 @@
 // in_real_time COMMAND...: runs a test of real time on a machine whose host may take its processors
 // away, and keeps them awake meanwhile. What fails while the machine was there has failed. What
-// fails while it was not is tried again, when the host has been quiet for some seconds. All tests of
-// a suite together have five minutes for such tries (the file that PITWALL_TRIES_FILE names holds
-// what they took); when these are spent the test is not judged, and the last line says what the host
-// did.
+// fails while it was not is tried again, when the host has been quiet for some seconds. All tests
+// of a suite together have five minutes for such tries (the file that PITWALL_TRIES_FILE names
+// holds what they took); when these are spent the test is not judged, and the last line says what
+// the host did.
 //   exit   that of the command; 1: the command could not be run; 3: not judged
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
