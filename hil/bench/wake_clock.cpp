@@ -34,16 +34,15 @@ void WakeClock::end() {
 void WakeClock::wait_until(Instant deadline) {
   if (!time_) return transport::sleep_until(deadline);
   while (true) {
-    const bool goes = time_->advance(deadline + transport::ClockKeeper::kLead);
     const Duration left = deadline - transport::monotonic_now();
     if (left.ns <= 0) return;
+    const bool goes = time_->advance(deadline + transport::ClockKeeper::kLead);
     transport::nap(goes ? left : std::max(left, kLookAgain));
   }
 }
 
 void WakeClock::sleep_until(Instant now) {
   const Instant deadline = start_ + (now - Instant{});
-  if (time_) time_->advance(deadline + transport::ClockKeeper::kLead);
   Instant at = transport::monotonic_now();
   note(at - deadline, now);
   if (at >= deadline) {
