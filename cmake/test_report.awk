@@ -49,8 +49,8 @@ END {
   while (whole != "" && (getline line < whole) > 0) {
     if (line ~ /^[0-9]+\/[0-9]+ Test: /) name = substr(line, index(line, ": ") + 2)
     if (giving) printf "-- skipped: %s: %s\n", name, line
-    if (line ~ /^in_real_time: /) printf "-- %s: %s\n", name, line
-    if (line ~ /^in_real_time: not judged/) ++unjudged
+    if (line ~ /^by_wall_clock: /) printf "-- %s: %s\n", name, line
+    if (line ~ /^by_wall_clock: not judged/) ++unjudged
     giving = line ~ /^[^ ]+:[0-9]+: Skipped$/
   }
   printf "%s", held

@@ -10,7 +10,6 @@ const kMsPerTick = 10;
 const kStealColumn = 8;
 /** Of the first line of /proc/stat: user, nice, system, irq, softirq. */
 const kBusyColumns = [1, 2, 3, 6, 7];
-const kLookMs = 5;
 
 const sum = (numbers) => numbers.reduce((total, number) => total + number, 0);
 const machineTicks = () =>
@@ -51,27 +50,4 @@ export function machineName() {
   const model = cores[0]?.model ?? "unknown processor";
   const count = `${cores.length} ${cores.length === 1 ? "core" : "cores"}`;
   return `${model}, ${count}, ${type()} ${release()}`;
-}
-
-/** Watches until the process ends. This one, too, waits for a processor: an upper bound. */
-export class Machine {
-  #taken = takenMs();
-  #latestMs = 0;
-
-  constructor() {
-    let due = performance.now() + kLookMs;
-    const timer = setInterval(() => {
-      const now = performance.now();
-      this.#latestMs = Math.max(this.#latestMs, now - due);
-      due = now + kLookMs;
-    }, kLookMs);
-    timer.unref();
-  }
-
-  get told() {
-    return (
-      `machine: its host took ${takenMs() - this.#taken} ms of processor time; ` +
-      `this test itself came up to ${this.#latestMs.toFixed(0)} ms late`
-    );
-  }
 }

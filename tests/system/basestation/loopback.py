@@ -13,6 +13,9 @@ import tempfile
 import time
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).parents[2] / "support"))
+import test_clock  # noqa: E402
+
 BASE, CAR = sys.argv[1:3]
 
 
@@ -23,7 +26,8 @@ def expect(condition, what):
 
 def start(folder, *flags, radios=1):
     listen = ["--listen", "127.0.0.1:0"] * radios
-    process = subprocess.Popen([BASE, "--keys", str(folder / "keys/base.keys"), *listen, *flags],
+    process = subprocess.Popen([BASE, "--keys", str(folder / "keys/base.keys"), *listen, *flags,
+                                *test_clock.FLAGS],
                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     said = process.stderr.readline()
     ports = re.findall(r"127\.0\.0\.1:(\d+)", said)
@@ -112,7 +116,8 @@ def restarts_are_over_after_one_exchange(folder):
     process.communicate()
     summary = folder / "restarted.json"
     again = subprocess.Popen([BASE, "--keys", str(folder / "keys/base.keys"), "--listen", port,
-                              "--json", str(summary)], stderr=subprocess.PIPE, text=True)
+                              "--json", str(summary), *test_clock.FLAGS],
+                             stderr=subprocess.PIPE, text=True)
     again.stderr.readline()
     said, _ = car.communicate(timeout=30)
     finish(again)

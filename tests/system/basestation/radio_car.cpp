@@ -2,7 +2,6 @@
 // A car's end of the radio as a process, with recognisable values: radio_car KEYS ADDRESS SECONDS
 // [ADDRESS2]. Prints what the base wanted of it: "stop LEVEL", "command NAME ARGUMENT", and at the
 // end "sessions N". PITWALL_CAR_SPEED_MPS: its speed, where two are to be told apart.
-// PITWALL_CAR_CLOCK: the file of bench time that it goes by.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -12,6 +11,7 @@
 
 #include "protocol/telemetry/delivery/event_content.hpp"
 #include "tests/support/car_radio.hpp"
+#include "tests/support/test_clock.hpp"
 
 namespace pitwall {
 namespace {
@@ -89,9 +89,7 @@ class Car {
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.size() < 3 || words.size() > 4) return 2;
-  if (const char* const clock = std::getenv("PITWALL_CAR_CLOCK")) {
-    if (!pitwall::transport::use_clock(clock)) return 2;
-  }
+  if (!pitwall::testing::use_test_clock()) return 2;
   auto radio = pitwall::testing::CarRadio::open(words);
   if (!radio) {
     std::fprintf(stderr, "%s\n", to_string(radio.error()).c_str());

@@ -19,6 +19,9 @@ import threading
 import time
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).parents[2] / "support"))
+import test_clock  # noqa: E402
+
 BASE, VEHICLE, HIL, TREE = sys.argv[1], sys.argv[2], sys.argv[3], Path(sys.argv[4])
 PATIENCE_S = 20  # of a loaded machine
 SETTLED_S = 1.5  # a stamp file is written once a second
@@ -73,7 +76,7 @@ class Base:
         self.stamp_file, self.summary = keys / "base.stamp", keys / "summary.json"
         self.process = spawn(
             [BASE, "--keys", keys / "base.keys", "--listen", f"127.0.0.1:{port}", "--json",
-             self.summary, *flags], stderr=subprocess.PIPE, text=True)
+             self.summary, *test_clock.FLAGS, *flags], stderr=subprocess.PIPE, text=True)
         self.said = []
         while "listening at" not in (line := self.process.stderr.readline()):
             expect(line, f"a base at {port} begins: {self.said}")
@@ -101,7 +104,8 @@ class Car:
         self.process = spawn(
             [VEHICLE, "--car", config / "cars/av21.yaml", "--track", config / "tracks/lvms.yaml",
              "--can", f"unix:{bus}", "--gnss", f"{free_port()},{free_port()}", "--radio", stations,
-             "--keys", keys / "car.keys", "--summary", self.summary, "--simulation"],
+             "--keys", keys / "car.keys", "--summary", self.summary, "--simulation",
+             *test_clock.FLAGS],
             stderr=subprocess.PIPE, text=True)
 
     def finish(self):
@@ -168,12 +172,13 @@ def a_base_that_starts_again_knows_replayed_openings(folder):
     base = Base(keys, port)
     relay = Relay(port)
     expect(not base.stamp_file.exists(), "no car, no stamp")
-    before_ns = time.time_ns()
+    before_s = test_clock.calendar_s()
     car = Car(folder, keys, relay.station)
     until("the stamp file is there", lambda: stamp_in(base.stamp_file))
     time.sleep(SETTLED_S)
     stamp, recorded = stamp_in(base.stamp_file), list(relay.openings)
-    expect(before_ns < stamp < time.time_ns(), f"stamps are of the calendar, not {stamp}")
+    expect(before_s < stamp / 1e9 < test_clock.calendar_s(),
+           f"stamps are of the calendar, not {stamp}")
     expect(base.stamp_file.stat().st_mode & 0o777 == 0o600, "for its owner only")
     relay.passes = False
     base.die()
@@ -228,9 +233,9 @@ def a_spare_base_takes_over(folder):
     time.sleep(SETTLED_S)
     first.die()
     spare = Base(spare_keys, spare_port)
-    began = time.monotonic()
+    began = test_clock.monotonic_s()
     until("the spare base has the car", lambda: stamp_in(spare.stamp_file))
-    took_s = time.monotonic() - began
+    took_s = test_clock.monotonic_s() - began
     expect(took_s < TAKE_OVER_S, f"within {TAKE_OVER_S} s, not {took_s:.1f} s")
 
     # The first one is back: the car stays with whom it hears.

@@ -30,7 +30,7 @@ before(async () => {
   programs = new Programs();
   const clock = join(programs.folder, "clock");
   summary = join(programs.folder, "summary.json");
-  process.env.PITWALL_CAR_CLOCK = clock;
+  process.env.PITWALL_TEST_CLOCK = clock;
   keeper = spawn(kKeeper, [clock], { stdio: ["pipe", "pipe", "inherit"] });
   await once(keeper.stdout, "data");
   address = await programs.startBase(

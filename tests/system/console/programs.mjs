@@ -6,6 +6,7 @@ import { execFileSync, spawn } from "node:child_process";
 import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { kClockFlags } from "../../support/test_clock.mjs";
 import { eventually } from "./client.mjs";
 import { kRoot } from "./packages.mjs";
 
@@ -67,6 +68,7 @@ export class Programs {
         join(this.folder, "layouts"),
         "--console-dir",
         kConsole,
+        ...kClockFlags,
         ...flags,
       ],
       { stdio: ["ignore", "pipe", "pipe"] },

@@ -9,6 +9,7 @@
 #include "hil/bench/radio_path.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/readiness.hpp"
+#include "tests/support/test_clock.hpp"
 
 namespace pitwall {
 namespace {
@@ -46,5 +47,5 @@ int run(const std::vector<double>& numbers) {
 int main(int argc, char** argv) {
   std::vector<double> numbers;
   for (int i = 1; i < argc; ++i) numbers.push_back(std::stod(argv[i]));
-  return numbers.size() == 4 ? pitwall::run(numbers) : 2;
+  return numbers.size() == 4 && pitwall::testing::use_test_clock() ? pitwall::run(numbers) : 2;
 }

@@ -2,17 +2,16 @@
  * The real base is killed while it records a car that drives: the unmodified car program on a bus
  * over a Unix socket, with its black box. By its own recording the car goes down the ladder of its
  * radio and stops; the base has lost less than a second, and started again it shows the same race
- * with its history. Real time: alone on the machine.
+ * with its history. All by one bench time, where the test is given one.
  */
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { openSync, readFileSync } from "node:fs";
-import { cpus } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import { setTimeout as sleep } from "node:timers/promises";
-import { Machine } from "../../support/machine.mjs";
+import { kClockFlags, nowMs, pass } from "../../support/test_clock.mjs";
 import { Client } from "./client.mjs";
 import { events, samples } from "./lcm_log.mjs";
 import { kRoot } from "./packages.mjs";
@@ -35,23 +34,16 @@ const kControlledStop = 3;
 const kEmergencyStop = 4;
 const kHalted = 5;
 
-const kProcessor = String(cpus().length - 1);
-
 const programs = new Programs();
-const machine = new Machine();
 const others = [];
 after(async () => {
   for (const other of others) other.kill("SIGKILL");
   await programs.close();
 });
 
-/** All on one processor: what stops it stops car, bus and bench alike, and none seems dead. */
-function start(...words) {
+function start(program, ...words) {
   const said = openSync(join(programs.folder, "said"), "a");
-  const started = spawn("taskset", ["--cpu-list", kProcessor, ...words], {
-    cwd: kRoot,
-    stdio: ["ignore", said, said],
-  });
+  const started = spawn(program, words, { cwd: kRoot, stdio: ["ignore", said, said] });
   others.push(started);
   return started;
 }
@@ -70,17 +62,17 @@ async function startCar() {
     ...["--car", config("cars/av21.yaml"), "--track", config("tracks/lvms.yaml"), "--can", bus],
     ...["--gnss", "23501,23502", "--radio", programs.radio, "--local-report", "23436"],
     ...["--keys", join(programs.folder, "keys/car.keys"), "--simulation", "--arm"],
-    ...["--record", join(programs.folder, "box")],
+    ...["--record", join(programs.folder, "box"), ...kClockFlags],
   );
   const out = ["--out", join(programs.folder, "out"), "--duration", "120"];
-  const live = ["--live", "--here", "--attach", "--interface", bus];
+  const live = ["--live", "--here", "--attach", "--interface", bus, ...kClockFlags];
   start(kBench, "run", "hil/scenarios/launch.yaml", ...live, ...out);
   return car;
 }
 
 /** What the car made of itself, from its own recording: a line for each change of its mode. */
 function storyOf(own, paths, zeroMs) {
-  const story = [machine.told];
+  const story = [];
   const fields = paths.filter((path) => path.startsWith("mode.") || path.startsWith("uplink."));
   const columns = fields.map((path) => samples(own, paths, path));
   let before = NaN;
@@ -138,27 +130,26 @@ test("a base that is killed: the car's ladder, the recording, the race again", a
       return speed > kFastMps;
     });
   } catch (error) {
-    error.message += `\n${machine.told}`;
     for (const path of paths.filter((name) => kWhyItStands.test(name))) {
       error.message += `\n${path}: ${(await history(first, path)).at(-1)?.value}`;
     }
     throw error;
   }
-  await sleep(kMayBeLostMs);
+  await pass(kMayBeLostMs);
   first.close();
-  const killedMs = Date.now();
+  const killedMs = nowMs();
   await programs.kill("base");
 
   const newest = Math.max(...events(recording).map(({ ms }) => ms));
   assert.ok(killedMs - newest < kMayBeLostMs, `${killedMs - newest} ms of the recording are lost`);
 
-  await sleep(kDeadMs);
+  await pass(kDeadMs);
   const again = await Client.open(await programs.startBase("--record", recording));
   await until("the same car", 10_000, () => again.newest.hello.mode === "HIL");
-  await sleep(2000);
+  await pass(2000);
   const points = await history(again, "ego.vx");
   again.close();
-  const deadS = (Date.now() - killedMs) / 1000;
+  const deadS = (nowMs() - killedMs) / 1000;
   const before = points.filter(({ s }) => s > deadS);
   const after = points.filter(({ s }) => s < deadS - kDeadMs / 1000);
   assert.ok(

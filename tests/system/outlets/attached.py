@@ -11,6 +11,9 @@ import time
 import urllib.request
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).parents[2] / "support"))
+import test_clock  # noqa: E402
+
 BASE, CAR, TREE = sys.argv[1], sys.argv[2], Path(sys.argv[3])
 ORACLES = TREE / "tests/support/oracles"
 LCM_GROUP, LCM_PORT = "239.255.76.67", 7667
@@ -42,7 +45,7 @@ class Base:
              "foxglove": r"Foxglove at (ws://[\d.:]+)"}
 
     def __init__(self, *flags, names=None, wanted=("foxglove", "web")):
-        self.process = start([BASE, *flags], stderr=subprocess.PIPE, text=True)
+        self.process = start([BASE, *test_clock.FLAGS, *flags], stderr=subprocess.PIPE, text=True)
         self.said, self.at = "", {}
         while not self.at.keys() >= set(wanted):
             line = self.process.stderr.readline()

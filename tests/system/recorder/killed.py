@@ -12,7 +12,9 @@ import time
 import urllib.request
 from pathlib import Path
 
-import lcm_oracle
+sys.path.insert(0, str(Path(__file__).parents[2] / "support"))
+import lcm_oracle  # noqa: E402
+import test_clock  # noqa: E402
 
 BASE, CAR, TREE = sys.argv[1:4]
 ORACLES = Path(TREE) / "tests/support/oracles"
@@ -26,7 +28,7 @@ def expect(condition, what):
 
 def start(folder, *flags):
     return subprocess.Popen([BASE, "--keys", str(folder / "keys/base.keys"),
-                             "--listen", "127.0.0.1:0", *flags],
+                             "--listen", "127.0.0.1:0", *test_clock.FLAGS, *flags],
                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
@@ -60,11 +62,11 @@ def lost_by_a_kill(folder, after_s):
     """A base is killed while its car speaks: seconds between what is kept and the kill."""
     base = start(folder, "--record", str(folder / "rec"))
     address = address_of(base)
-    began = time.time()
+    began = test_clock.calendar_s()
     car = subprocess.Popen([CAR, str(folder / "keys/car.keys"), address, "4"],
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     time.sleep(after_s)
-    killed = time.time()
+    killed = test_clock.calendar_s()
     base.send_signal(signal.SIGKILL)
     base.communicate()
     car.kill()

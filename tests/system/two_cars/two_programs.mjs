@@ -7,6 +7,7 @@ import { execFileSync, spawn } from "node:child_process";
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { kClockFlags } from "../../support/test_clock.mjs";
 import { kRoot } from "../console/packages.mjs";
 
 const kBase = process.env.PITWALL_BASE ?? join(kRoot, "build/release/basestation/pitwall-base");
@@ -50,6 +51,7 @@ export class TwoPrograms {
       ["--cars", this.file, "--web", "0", "--track", "lvms"].concat([
         "--console-dir",
         join(kRoot, "build/console/dist"),
+        ...kClockFlags,
       ]),
       { stdio: ["ignore", "ignore", "pipe"] },
     );
