@@ -1,6 +1,6 @@
 // by_wall_clock COMMAND...: runs a test that only the wall clock can judge. One that says by its
-// exit code that nothing but time failed (tests/support/in_time.hpp) is run again. All tests of a suite
-// together have five minutes for that (the file that PITWALL_TRIES_FILE names holds what they
+// exit code that nothing but time failed (tests/support/in_time.hpp) is run again. All tests of a
+// suite together have five minutes for that (the file that PITWALL_TRIES_FILE names holds what they
 // took); when these are spent, the test is not judged. Any other failure is one at once.
 //   exit   that of the command; 1: the command could not be run; 3: not judged
 // SPDX-License-Identifier: Apache-2.0
