@@ -16,9 +16,9 @@ namespace {
 
 constexpr Duration kLongest = seconds(1);
 
-// Of live runs: where their radio and their bus are.
+// Of live runs: where their radio, their bus and their time are.
 struct LiveWords {
-  std::string interface = "vcan0", keys;
+  std::string interface = "vcan0", keys, clock;
   std::uint16_t radio_port = 0, uplink_port = 0;
 };
 
@@ -39,6 +39,7 @@ std::vector<std::string> run_command(const LiveWords& words, const desk::Start& 
                                       std::to_string(words.uplink_port)};
   command.insert(command.end(), live.begin(), live.end());
   if (!words.keys.empty()) command.insert(command.end(), {"--keys", words.keys});
+  if (!words.clock.empty()) command.insert(command.end(), {"--clock", words.clock});
   return command;
 }
 
@@ -57,6 +58,8 @@ int desk_verb(std::span<const std::string> args) {
   app.option("--radio-port", words.radio_port, "live runs: the car's datagrams go on to this port");
   app.option("--uplink-port", words.uplink_port, "live runs: answers of the base come here");
   app.option("--keys", words.keys, "live runs: folder of car.keys and base.keys");
+  app.option("--clock", words.clock,
+             "live runs: FILE to keep bench time in, for a base station with the same --clock");
   if (const auto code = app.ended_by(args)) return *code;
   plan.command = [words](const desk::Start& start, const std::string& report,
                          const std::string& progress) {

@@ -76,9 +76,13 @@ test("the same moment of the log has the same fields, live and from the file", a
   await until(page, "a lost link", () =>
     /LOST/.test(document.querySelector(".link-tile .word").textContent),
   );
-  await page.waitForTimeout(2500); // everything is stale, and drawn so
+  let drawn;
+  for (let before; !drawn || different(before, drawn).length > 0;) {
+    before = await page.evaluate(drawnNow);
+    await page.waitForTimeout(2500); // everything is stale, and drawn so
+    drawn = await page.evaluate(drawnNow);
+  }
   const lost = await page.evaluate(fieldsNow);
-  const drawn = await page.evaluate(drawnNow);
   const alarms = await page.evaluate(() =>
     globalThis.pitwall.session.alarms.value.active.map(({ key, state }) => [key, state]),
   );
