@@ -6,6 +6,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { test } from "node:test";
+import { pass } from "../../support/test_clock.mjs";
 import { baseStage, show, until } from "./stage.mjs";
 
 /** Of the recording that is played again and again, however long that is. */
@@ -79,7 +80,8 @@ test("the same moment of the log has the same fields, live and from the file", a
   let drawn;
   for (let before; !drawn || different(before, drawn).length > 0;) {
     before = await page.evaluate(drawnNow);
-    await page.waitForTimeout(2500); // everything is stale, and drawn so
+    await pass(2500); // everything is stale
+    await page.waitForTimeout(1500); // and drawn so
     drawn = await page.evaluate(drawnNow);
   }
   const lost = await page.evaluate(fieldsNow);

@@ -75,6 +75,8 @@ TEST_F(LiveDemo, EveryExpectationHoldsAndNoFrameIsLost) {
   const auto document = yaml::load_file(folder_ / "demo.json");
   ASSERT_TRUE(document) << to_string(document.error());
   const Figures live = read_run(document->root().map("run"));
+  EXPECT_GE(live.verdicts.size(), 6u);
+  for (const auto& [text, pass] : live.verdicts) EXPECT_TRUE(pass) << text;
   EXPECT_EQ(live.lost, 0);
   EXPECT_GT(live.to_car, 40'000);
   EXPECT_GT(live.from_car, 30'000);

@@ -223,13 +223,23 @@ test("one car's radio dies: its page is stale, the other's untouched", async () 
     ["fresh", "late"].includes(document.querySelector('[data-path="ego.vx"]').dataset.quality),
   );
   await page.evaluate(() => {
+    // A page to which nothing comes is right to call it stale: it has no processor, or the base.
+    const kGapMs = 200;
+    const kDrawnAgainMs = 1000;
     globalThis.seen = new Set();
-    const watch = () => {
+    let known = 0;
+    let heardMs = -Infinity;
+    let steadyFromMs = 0;
+    const watch = (nowMs) => {
+      const { frames } = globalThis.pitwall.session.counters;
+      if (nowMs - heardMs > kGapMs) steadyFromMs = nowMs + kDrawnAgainMs;
+      if (frames !== known) heardMs = nowMs;
+      known = frames;
       const { quality } = document.querySelector('[data-path="ego.vx"]').dataset;
-      globalThis.seen.add(quality);
+      if (nowMs > steadyFromMs) globalThis.seen.add(quality);
       requestAnimationFrame(watch);
     };
-    watch();
+    requestAnimationFrame(watch);
   });
   await programs.killCar(7);
   await until(
@@ -239,6 +249,7 @@ test("one car's radio dies: its page is stale, the other's untouched", async () 
     undefined,
     kPatienceMs,
   );
+  await until(page, "a steady view", () => globalThis.seen.size > 0, undefined, kPatienceMs);
   const seen = await page.evaluate(() => [...globalThis.seen]);
   assert.deepEqual(
     seen.filter((quality) => !["fresh", "late"].includes(quality)),

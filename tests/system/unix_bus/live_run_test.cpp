@@ -48,6 +48,13 @@ Result<Run, Problem> read_run(const std::string& file) {
   return out;
 }
 
+std::vector<std::string> failed(const Run& run) {
+  std::vector<std::string> out;
+  for (const auto& [text, pass] : run.verdicts)
+    if (!pass) out.push_back(text);
+  return out;
+}
+
 TEST(LiveRun, OnItsOwnHubGivesTheVerdictsOfLockstepAndLosesNothing) {
   auto folder = transport::TemporaryFolder::create("pitwall-unix-live-");
   ASSERT_TRUE(folder);
@@ -64,6 +71,10 @@ TEST(LiveRun, OnItsOwnHubGivesTheVerdictsOfLockstepAndLosesNothing) {
   ASSERT_TRUE(lockstep) << to_string(lockstep.error());
   ASSERT_TRUE(live) << to_string(live.error()) << "\n" << said;
   EXPECT_EQ(live->verdicts, lockstep->verdicts) << said;
+  EXPECT_EQ(failed(*live),
+            (std::vector<std::string>{"within 17 s speed_mps > 34, from 11 s, to 28 s",
+                                      "within 16 s speed_mps < 0.5, from 28 s, to 44 s"}))
+      << "what the scenario expects later than 15 s, and nothing else";
   EXPECT_GE(live->verdicts.size(), 6u);
   EXPECT_EQ(live->lost, 0) << said;
   EXPECT_EQ(live->bus_losses, 0) << said;

@@ -164,6 +164,8 @@ TEST(Engine, AShelfHasAnEndAndAReason) {
   EXPECT_EQ(wall.find("tyres_cold")->reason, "warm-up");
   wall.run(seconds(59));
   EXPECT_TRUE(wall.engine.active().empty());
+  EXPECT_EQ(wall.engine.shelved().size(), 1U);
+  EXPECT_TRUE(wall.engine.suppressed().empty()) << "by a person, not by the situation";
   wall.run(seconds(2));
   EXPECT_EQ(wall.find("tyres_cold")->state, State::kUnack);
   EXPECT_EQ(wall.engine.history().back().from, State::kShelved);
