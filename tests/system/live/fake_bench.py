@@ -7,6 +7,7 @@ PITWALL_FAKE        what is wrong then: `nothing`; `verdicts`, each fails in the
                     500 are lost in it; `values`, each figure of it is wrong; `blocks`, the program
                     stands for 300 ms when the bench that drives it dies
 """
+import ctypes
 import json
 import os
 import signal
@@ -67,9 +68,14 @@ def block_when_the_bench_dies(process):
     process.send_signal(signal.SIGCONT)
 
 
+def die_with_parent():
+    """A test that kills us means the program: PR_SET_PDEATHSIG of prctl(2)."""
+    ctypes.CDLL(None).prctl(1, signal.SIGKILL)
+
+
 def main():
     before = time.time()
-    with subprocess.Popen([REAL, *sys.argv[1:]]) as process:
+    with subprocess.Popen([REAL, *sys.argv[1:]], preexec_fn=die_with_parent) as process:
         for name in (signal.SIGTERM, signal.SIGINT):
             signal.signal(name, lambda number, _: process.send_signal(number))
         if FAULT == "blocks":
