@@ -178,6 +178,9 @@ def run_target(target, mutants, options, pool, state):
         verdicts = judge_all(workshop, pool, mutants, equivalents, state)
         if not workshop.still_compiles():
             raise ValueError(f"target {target.name}: the tree has changed during the run")
+    compiled = {m.path for m in mutants if verdicts[m] != NOT_COMPILED}
+    for path in sorted({m.path for m in mutants} - compiled if not options.only else ()):
+        raise ValueError(f"target {target.name}: no mutant of {path} compiles")
     survivors = [m for m in mutants if verdicts[m] == SURVIVED and m.key not in equivalents]
     stale = [] if options.only else list(stale_entries(verdicts, equivalents))
     for entry in stale:

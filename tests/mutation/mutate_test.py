@@ -25,6 +25,7 @@ bool is_low(int value) {
 }
 """
 HEADER = "#pragma once\nconstexpr int kLimit = 3;\nbool is_low(int value);\n"
+AROUND = '#pragma once\n#include "toy/toy.hpp"\n'
 TEST = '#include "toy/toy.hpp"\nint main() { return %s ? 0 : 1; }\n'
 BLIND = TEST % "true"
 GOOD = TEST % "is_low(2) && !is_low(3) && !is_low(4)"
@@ -120,7 +121,7 @@ class Runs(unittest.TestCase):
             root = pathlib.Path(folder)
             (root / "toy").mkdir()
             files = {"toy/toy.cpp": TOY, "toy/toy.hpp": HEADER, "toy/toy_test.cpp": test,
-                     "toy.txt": listed, "targets.toml": TARGETS}  # fmt: skip
+                     "toy/around.hpp": AROUND, "toy.txt": listed, "targets.toml": TARGETS}  # fmt: skip
             for name, text in files.items():
                 (root / name).write_text(text)
             out, error = io.StringIO(), io.StringIO()
@@ -142,6 +143,17 @@ class Runs(unittest.TestCase):
         self.assertEqual(out.count(": survived"), int(out.split("\nall ")[1].split()[0]))
         self.assertIn("toy/toy.cpp:4:13: survived", out)
         self.assertIn("toy/toy.hpp:2:24: survived", out)
+
+    def test_a_header_reached_through_another_is_mutated_all_the_same(self):
+        code, out, _ = self.run_on('#include "toy/around.hpp"\n' + BLIND)
+        self.assertEqual(code, 1)
+        self.assertIn("toy/toy.hpp:2:24: survived", out)
+
+    def test_a_file_of_which_no_mutant_compiles_is_an_error(self):
+        held = 'static_assert(kLimit == 3 && sizeof(&is_low) > 0);\n'
+        code, _, error = self.run_on(BLIND.replace("int main", held + "int main"))
+        self.assertEqual(code, 2)
+        self.assertIn("no mutant of toy/toy.hpp compiles", error)
 
     def test_a_survivor_is_named_unless_it_is_listed(self):
         code, out, _ = self.run_on(WITHOUT_BOUNDARY)

@@ -80,9 +80,21 @@ def libraries_of(program, build):
     return [str(build / p) if p.endswith(".a") and not p.startswith("/") else p for p in parts]
 
 
+# Whether a header is one of these, or includes one, however far below.
+def leads_to(header, these, root, seen):
+    if header in these:
+        return True
+    if header in seen or not (root / header).is_file():
+        return False
+    seen.add(header)
+    below = INCLUDE.findall((root / header).read_text())
+    return any(leads_to(name, these, root, seen) for name in below)
+
+
 # The headers of some sources that no mutant changes, to be compiled once.
 def included(paths, mutated, root):
     found = []
     for path in paths:
         found += INCLUDE.findall((root / path).read_text())
-    return [header for header in dict.fromkeys(found) if header not in mutated]
+    wanted = dict.fromkeys(found)
+    return [header for header in wanted if not leads_to(header, mutated, root, set())]
