@@ -83,6 +83,8 @@ class Families(unittest.TestCase):
                     "void f() { if (a) { ++b; } else ; } ")  # fmt: skip
         self.expect("statement", "void f() { switch (a) { case 1: break; default: break; } } ",
                     "void f() { switch (a) { case 1: ; default: break; } } ")  # fmt: skip
+        self.expect("statement", "void f() { CHECK(a == b); g(a); } ",
+                    "void f() { CHECK(a == b); ; } ")  # fmt: skip
         self.expect("return", "int f() { return a + b; } ", "int f() { return {}; } ")
         self.expect("return", "int f() { return 0; } E g() { return E::kA; } ",
                     enums={"E": ["kA", "kB"]})  # fmt: skip
