@@ -14,11 +14,10 @@ std::uint32_t held(std::int64_t sends) {
   return static_cast<std::uint32_t>(std::clamp(sends, std::int64_t{0}, kMaxSends));
 }
 
-// The interval in whole periods, to the nearest. Without a period every frame is the next one.
+// The interval in whole periods, to the nearest; none where stamps went backwards. Without a period
+// every frame is the next one.
 std::uint32_t sends_in(Duration interval, Duration period) {
   if (period.ns <= 0) return 1;
-  if (2 * interval < period) return 0;  // also where stamps went backwards
-  if (2 * interval < 3 * period) return 1;
   return held((interval + period / 2) / period);
 }
 
@@ -177,7 +176,6 @@ FrameVerdict verdict_of(const MonitorRules& rules, MessageMonitor& m, bool is_wh
 
 void report_overdue(const MessageRow& row, MessageMonitor& m, Instant now, LossLog& losses) {
   const Duration beyond = now - m.base - slack_of(row);
-  if (beyond <= row.period) return;
   const std::uint32_t overdue = held((beyond - nanoseconds(1)) / row.period);
   if (overdue <= m.reported) return;
   m.lost += overdue - m.reported;

@@ -5,6 +5,7 @@
 
 #include "protocol/can/av21.hpp"
 #include "tests/protocol/can/bus_story.hpp"
+#include "tests/protocol/can/monitor_alone.hpp"
 
 namespace pitwall::can {
 namespace {
@@ -102,26 +103,6 @@ TEST(MessageMonitor, TheCounterFindsTheTotalsUnderLargeDelays) {
     }
   }
 }
-
-class MonitorAlone : public testing::Test {
- protected:
-  FrameVerdict hear(std::int64_t at_us, std::uint32_t counter) {
-    return judge(row, rules, monitor, {frame_of(row, counter), Instant{} + microseconds(at_us)},
-                 log);
-  }
-  void look(std::int64_t at_ms) {
-    watch({&row, 1}, {&monitor, 1}, Instant{} + milliseconds(at_ms), log);
-  }
-  std::uint32_t reported() const {
-    std::uint32_t frames = 0;
-    for (const LossReport& r : log.listed()) frames += r.frames;
-    return frames;
-  }
-  MessageRow row = row_of({}, true);
-  MonitorRules rules;
-  MessageMonitor monitor;
-  LossLog log;
-};
 
 TEST_F(MonitorAlone, NeverHeardIsNeverOverdue) {
   for (std::int64_t t = 0; t < 1000; t += 10) look(t);
@@ -489,25 +470,6 @@ TEST_F(MonitorAlone, OnlyWrapsWithoutLossOrRestTeachTheCycle) {
   EXPECT_TRUE(monitor.cycle.is_known());
   EXPECT_EQ(monitor.lost, 1U);
 }
-
-class MonitorProtected : public MonitorAlone {
- protected:
-  MonitorProtected() {
-    row.protection = {.profile = Protection::kP01,
-                      .length = 8,
-                      .counter_start = 8,
-                      .counter_bits = 4,
-                      .data_id = 0x123};
-    row.counter_bits = 4;
-  }
-  FrameVerdict hear_protected(std::int64_t at_us, std::uint32_t counter, bool is_damaged = false) {
-    Frame frame = frame_of(row, 0);
-    ProtectState state{counter};
-    protect(row.protection, state, frame);
-    if (is_damaged) frame.data[5] ^= 0x10U;
-    return judge(row, rules, monitor, {frame, Instant{} + microseconds(at_us)}, log);
-  }
-};
 
 TEST_F(MonitorProtected, TheProfileFixesTheCycle) {
   hear_protected(0, 13);
