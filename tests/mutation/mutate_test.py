@@ -123,7 +123,8 @@ class Runs(unittest.TestCase):
             root = pathlib.Path(folder)
             (root / "toy").mkdir()
             files = {"toy/toy.cpp": TOY, "toy/toy.hpp": HEADER, "toy/toy_test.cpp": test,
-                     "toy/around.hpp": AROUND, "toy.txt": listed, "targets.toml": TARGETS}  # fmt: skip
+                     "toy/around.hpp": AROUND, "toy.txt": listed,
+                     "targets.toml": TARGETS}  # fmt: skip
             for name, text in files.items():
                 (root / name).write_text(text)
             out, error = io.StringIO(), io.StringIO()
