@@ -1,8 +1,8 @@
 # Shortens what ctest prints: no line for a start, no row of dots. What failed is printed once more
 # before the summary, for who sees only the end of a log; what passed only when it was run again is
-# named, and what was skipped, with the reason that it gave, and what a test of real time had to say of
-# the machine's host (-v whole=LastTest.log, complete when ctest has ended: so long the summary waits).
-# Exit code 3 where nothing failed but tests of real time that the host let nobody judge.
+# named, and what was skipped, with the reason that it gave, and which test by the wall clock was run
+# again (-v whole=LastTest.log, complete when ctest has ended: so long the summary waits). Exit code 3
+# where nothing failed but such tests that were late to the last.
 # SPDX-License-Identifier: Apache-2.0
 
 # Lines until the next test belong to the one that failed.
@@ -57,7 +57,7 @@ END {
   failed = tests
   for (i = 0; i < tests; ++i) if (order[i] in again) --failed
   if (failed > 0 && failed == unjudged) {
-    print "not judged: the machine's host left no time for what failed"
+    print "not judged: what failed was late by the wall clock, and nothing else"
     exit 3
   }
 }
