@@ -48,13 +48,13 @@ void hear_wheels(State& s, const can::ReceivedFrame& received) {
   const world::PerWheel wheels{{m.wheel_speed_FL * kMpsPerKmh, m.wheel_speed_FR * kMpsPerKmh,
                                 m.wheel_speed_RL * kMpsPerKmh, m.wheel_speed_RR * kMpsPerKmh}};
   for (const double v_mps : wheels.at)
-    if (!(v_mps >= 0.0 && v_mps <= kWheelMax_mps)) return;
+    if (v_mps > kWheelMax_mps) return;
   s.signals.wheel_speed_mps = {wheels, received.at, true};
 }
 
 void hear_steering(State& s, const can::ReceivedFrame& received) {
   av21::SteeringReport m;
-  if (!av21::decode(received.frame, m) || !std::isfinite(m.steering_motor_ang_avg_fdbk)) return;
+  if (!av21::decode(received.frame, m)) return;
   s.signals.steering_motor_rad = {from_deg(m.steering_motor_ang_avg_fdbk), received.at, true};
 }
 
@@ -66,7 +66,7 @@ void hear_bus(Tick& t) {
       t.command_heard |= hear(s.heard, received);
       continue;
     }
-    if (received.at > s.others_at) s.others_at = received.at;
+    s.others_at = std::max(s.others_at, received.at);
     if (id == av21::WheelSpeedReport::kId) hear_wheels(s, received);
     if (id == av21::SteeringReport::kId) hear_steering(s, received);
   }
@@ -267,8 +267,6 @@ world::ActuatorCommand open_loop(const Tick& t) {
   State& s = t.state;
   const safety::SafeStopInputs in{
       .stop = s.record.stop, .last_good = s.following.command, .speed_mps = wheel_speed(t)};
-  const bool begins = !s.open_loop.active;
-  if (begins) s.following.last = t.in.now;
   return safety::stop_along(t.params.following.stop, s.open_loop, in, t.in.now);
 }
 
@@ -281,6 +279,7 @@ world::ActuatorCommand next_command(const Tick& t) {
                                on_path(s.reckoning.pose), t.in.now);
   }
   s.following.command = open_loop(t);
+  s.following.last = t.in.now;  // where feedback comes back, it turns the wheels from here
   return s.following.command;
 }
 

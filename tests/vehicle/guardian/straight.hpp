@@ -45,6 +45,7 @@ class Straight {
   Instant now{seconds(1000).ns};
   CarRecord record;
   bool car_speaks = true, car_publishes = true, bus_lives = true, record_there = true;
+  bool imus_live = true;
   double x_m = 0.0, y_m = 0.0, speed_mps = kSpeed_mps, brake_kpa = 0.0;
   std::uint8_t counter = 0;
   std::uint8_t report_counter = 0;
@@ -70,7 +71,7 @@ class Straight {
       if (bus_lives) report(heard);
     }
     world::SensorInput samples;
-    for (std::uint8_t unit = 0; unit < 2; ++unit)
+    for (std::uint8_t unit = 0; imus_live && unit < 2; ++unit)
       (void)samples.imu.push(
           {.unit = unit, .at = now, .rate_rad_per_s = {0, 0, 0}, .specific_force_mps2 = {0, 0, 9}});
     out = step(
@@ -169,5 +170,14 @@ class Straight {
  public:
   bool keep_stop = false;  // the record's stop stays as it is
 };
+
+// A car that drove for a second, and whose process has been silent for `span`.
+inline Straight silent_for(Duration span) {
+  Straight car;
+  car.drive_for_a_second();
+  car.fall_silent();
+  car.run(span);
+  return car;
+}
 
 }  // namespace pitwall::guardian
