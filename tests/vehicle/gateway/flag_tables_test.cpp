@@ -91,6 +91,26 @@ TEST(FlagTables, ATrackFlagBindsMoreThanThoseThatAllowMore) {
           << i << ' ' << k;
 }
 
+TEST(FlagTables, AVehicleFlagBindsMoreThanThoseThatAllowMore) {
+  using enum VehicleFlag;
+  const std::vector<VehicleFlag> from_the_strictest{
+      kPurpleEmergency,   kEngineKill, kUnknown,   kStop, kOrangeStartEngine,
+      kBlackPitIn,        kChequered,  kYellow,    kBlue, kNone,
+      kDefender,          kAttacker};
+  for (std::size_t i = 0; i < from_the_strictest.size(); ++i)
+    for (std::size_t k = i; k < from_the_strictest.size(); ++k)
+      EXPECT_EQ(more_restrictive(from_the_strictest[k], from_the_strictest[i]),
+                from_the_strictest[i])
+          << i << ' ' << k;
+}
+
+TEST(FlagTables, WhatIsNoFlagAtAllCountsAsTheStrictest) {
+  const auto track = static_cast<TrackFlag>(200);
+  const auto vehicle = static_cast<VehicleFlag>(200);
+  EXPECT_EQ(more_restrictive(track, track), TrackFlag::kUnknown);
+  EXPECT_EQ(more_restrictive(vehicle, vehicle), VehicleFlag::kPurpleEmergency);
+}
+
 TEST(FlagTables, MoreRestrictiveIsCommutativeIdempotentAndOneOfBoth) {
   for (const TrackFlag a : kTrackByRestriction) {
     EXPECT_EQ(more_restrictive(a, a), a);

@@ -186,7 +186,9 @@ TEST(Losses, WhatTheInterfaceLosesIsReportedWhenItRises) {
     for (const LossReport& report : out.bus.losses) {
       EXPECT_EQ(report.id, 0u);
       EXPECT_EQ(report.noticed, at_ms(10 * tick));
-      (report.detector == LossDetector::kSocketQueue ? socket : interface) += report.frames;
+      const bool in_socket = report.detector == LossDetector::kSocketQueue;
+      EXPECT_TRUE(in_socket || report.detector == LossDetector::kInterface);
+      (in_socket ? socket : interface) += report.frames;
     }
   }
   EXPECT_EQ(socket, link.lost_in_socket);
