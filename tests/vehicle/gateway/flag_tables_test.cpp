@@ -94,9 +94,8 @@ TEST(FlagTables, ATrackFlagBindsMoreThanThoseThatAllowMore) {
 TEST(FlagTables, AVehicleFlagBindsMoreThanThoseThatAllowMore) {
   using enum VehicleFlag;
   const std::vector<VehicleFlag> from_the_strictest{
-      kPurpleEmergency,   kEngineKill, kUnknown,   kStop, kOrangeStartEngine,
-      kBlackPitIn,        kChequered,  kYellow,    kBlue, kNone,
-      kDefender,          kAttacker};
+      kPurpleEmergency, kEngineKill, kUnknown, kStop, kOrangeStartEngine, kBlackPitIn,
+      kChequered,       kYellow,     kBlue,    kNone, kDefender,          kAttacker};
   for (std::size_t i = 0; i < from_the_strictest.size(); ++i)
     for (std::size_t k = i; k < from_the_strictest.size(); ++k)
       EXPECT_EQ(more_restrictive(from_the_strictest[k], from_the_strictest[i]),

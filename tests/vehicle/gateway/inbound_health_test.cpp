@@ -54,8 +54,7 @@ TEST(InboundHealth, TheLastFrameIsTheNewestOfAny) {
 TEST(InboundHealth, TheLoadIsThatOfTheFramesHeard) {
   InboundState state;
   InboundOutput out;
-  for (std::int64_t ms = 5; ms < 100; ms += 10)
-    out = hear_at({}, state, wheels(50.0), at_ms(ms));
+  for (std::int64_t ms = 5; ms < 100; ms += 10) out = hear_at({}, state, wheels(50.0), at_ms(ms));
   observe_link(state, out.bus, {}, at_ms(100));
   EXPECT_NEAR(out.bus.link.load, 111.0 / 5000.0, 1e-9);
 }

@@ -125,8 +125,8 @@ TEST(GuardianTakeOver, TheBankingOfThePathCountsFromTheCarsLastWordOn) {
   car->tick();
   ASSERT_EQ(car->mode(), Mode::kDriving);
   const double v_mps = car->state.reckoning.pose.speed_mps;
-  const double slip_mps = v_mps * car->params.reckoning.rear_slip_rad_per_mps2 * kGravity_mps2 *
-                          std::sin(kBank_rad);
+  const double slip_mps =
+      v_mps * car->params.reckoning.rear_slip_rad_per_mps2 * kGravity_mps2 * std::sin(kBank_rad);
   const double down_m = slip_mps * std::cos(kBank_rad) * (car->now - before.at).seconds();
   EXPECT_GT(down_m, 0.005);
   EXPECT_NEAR(car->state.reckoning.pose.y_m - before.y_m, down_m, 1e-9);
@@ -153,7 +153,9 @@ TEST(GuardianSpeed, WheelsAreBelievedForATenthOfASecond) {
     const CarPtr car = silent(kWhileItDrives);
     car->bus_lives = false;
     car->state.signals.wheel_speed_mps = {
-        {{30.0, 30.0, 30.0, 30.0}}, car->now + milliseconds(1) - kOld - nanoseconds(beyond_ns), true};
+        {{30.0, 30.0, 30.0, 30.0}},
+        car->now + milliseconds(1) - kOld - nanoseconds(beyond_ns),
+        true};
     car->tick();
     if (beyond_ns == 0)
       EXPECT_EQ(car->state.reckoning.pose.speed_mps, 30.0);

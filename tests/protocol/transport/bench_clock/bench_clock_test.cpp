@@ -24,12 +24,12 @@ TEST(BenchClock, AWaitLastsUntilBenchTimeHasComeThere) {
   const Instant from = clock.now();
   ClockPage& page = memory->page();
   page.horizon_ns = (from + milliseconds(5)).ns;
+  const Instant wall = wall_now();
   std::thread bench{[&] {
     nap(microseconds(60'000));
     page.lost_ns += wall_now().ns - page.lost_ns.load() - page.horizon_ns.load();
     page.horizon_ns = (from + milliseconds(100)).ns;
   }};
-  const Instant wall = wall_now();
   clock.wait_until(from + milliseconds(10), on_wall);
   EXPECT_GE(clock.now(), from + milliseconds(10));
   EXPECT_GE(wall_now() - wall, milliseconds(60)) << "it stood for as long";

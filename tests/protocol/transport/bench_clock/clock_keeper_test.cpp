@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "protocol/transport/bench_clock/bench_clock.hpp"
+#include "protocol/transport/bench_clock/bench_pause.hpp"
 #include "protocol/transport/clock.hpp"
 #include "tests/protocol/transport/bench_clock/clock_file.hpp"
 
@@ -42,6 +43,15 @@ struct Kept {
     }
     return keeper.now() - from;
   }
+  // Whether it goes that far at all; where it stands it does not within 20 s of the wall clock.
+  bool goes_on(Duration span) {
+    const Instant to = keeper.now() + span, give_up = wall_now() + seconds(20);
+    while (keeper.now() < to && wall_now() < give_up) {
+      keeper.advance();
+      nap(microseconds(200));
+    }
+    return keeper.now() >= to;
+  }
   void until_taken() const {
     while (memory.page().slots[0].process.load() == 0) nap(microseconds(100));
   }
@@ -58,7 +68,7 @@ TEST(ClockKeeper, TimeFollowsTheWallClockWhileEverybodyKeepsUp) {
   const Instant wall = wall_now();
   const Duration went = kept.over(10 * kLong);
   EXPECT_LE(went, wall_now() - wall);
-  EXPECT_GE(went + kept.keeper.waits().total + ClockKeeper::kLead, 10 * kLong)
+  EXPECT_GE(went + pause_of(kept.memory.page(), wall_now).total, 10 * kLong)
       << "what is missing was waited for, and is told";
 }
 
@@ -99,7 +109,7 @@ TEST(ClockKeeper, TimeGoesOnForOneThatIsStoppedAndWaitsForItAgainLater) {
   kept.until_taken();
   car.tell(SIGSTOP);
   nap(microseconds(20'000));
-  EXPECT_GE(kept.over(10 * kLong), 5 * kLong);
+  EXPECT_TRUE(kept.goes_on(5 * kLong));
   const std::uint64_t turns = kept.slot().turns.load();
   car.tell(SIGCONT);
   kept.over(kLong);
@@ -114,7 +124,7 @@ TEST(ClockKeeper, TimeGoesOnForOneThatBlocksByItsOwnDoing) {
     nap_on_wall(10 * kLong);  // at work, and asleep
   });
   kept.until_taken();
-  EXPECT_GE(kept.over(8 * kLong), 5 * kLong);
+  EXPECT_TRUE(kept.goes_on(5 * kLong));
 }
 
 TEST(ClockKeeper, TimeGoesAtThePaceOfOneThatComputes) {
@@ -122,11 +132,7 @@ TEST(ClockKeeper, TimeGoesAtThePaceOfOneThatComputes) {
   kept.keeper.begin();
   Other car = taking_turns(kept.file, [](BenchClock&) { compute(); });
   kept.until_taken();
-  const Duration before = Duration{kept.keeper.now().ns};
-  kept.over(5 * kLong);
-  Instant end = wall_now() + seconds(20);
-  while (kept.keeper.now() - Instant{} < before + 5 * kLong && wall_now() < end) kept.over(kLong);
-  EXPECT_GE(kept.keeper.now() - Instant{}, before + 5 * kLong) << "it has all the time it works";
+  EXPECT_TRUE(kept.goes_on(5 * kLong)) << "it has all the time it works";
 }
 
 TEST(ClockKeeper, TimeGoesOnForOneThatDiedAndItsPlaceIsFree) {
@@ -138,7 +144,7 @@ TEST(ClockKeeper, TimeGoesOnForOneThatDiedAndItsPlaceIsFree) {
     });
     kept.until_taken();
   }
-  EXPECT_GE(kept.over(5 * kLong), 3 * kLong);
+  EXPECT_TRUE(kept.goes_on(3 * kLong));
   EXPECT_EQ(kept.slot().process.load(), 0);
 }
 
@@ -146,10 +152,11 @@ TEST(ClockKeeper, NeverPassesALimitAndLeapsForwardAlone) {
   Kept kept;
   kept.keeper.begin();
   const Instant limit = kept.keeper.now() + milliseconds(10);
-  const Instant end = wall_now() + kLong;
-  while (wall_now() < end) kept.keeper.advance(limit);
-  EXPECT_EQ(kept.keeper.now(), limit);
+  const Instant give_up = wall_now() + seconds(20);
+  while (kept.keeper.now() < limit && wall_now() < give_up) kept.keeper.advance(limit);
+  nap(kLong / 10);
   EXPECT_FALSE(kept.keeper.advance(limit));
+  EXPECT_EQ(kept.keeper.now(), limit);
   kept.keeper.leap(limit + seconds(1));
   EXPECT_GE(kept.keeper.now(), limit + seconds(1));
   const Instant after = kept.keeper.now();

@@ -16,13 +16,12 @@ TEST(KeptClock, GoesOnByItselfUntilItsEnd) {
   EXPECT_FALSE(KeptClock::keep(file.path)) << "one to a file";
   const auto memory = ClockMemory::open(file.path);
   const auto now = [&] { return bench_now(memory->page(), wall_now); };
-  const Instant from = now(), wall = wall_now();
+  const Instant wall = wall_now(), from = now();  // a span of the wall's around one of the bench's
   EXPECT_NE(memory->page().horizon_ns.load(), INT64_MAX);
-  nap(milliseconds(100));
+  while (now() - from < milliseconds(100)) nap(milliseconds(1));
   const Duration went = now() - from, passed = wall_now() - wall;
   EXPECT_LE(went, passed);
-  const ClockWaits waits = kept->end();
-  EXPECT_GE(went + waits.total + ClockKeeper::kLead, milliseconds(100));
+  kept->end();
   EXPECT_EQ(memory->page().horizon_ns.load(), INT64_MAX);
   EXPECT_EQ(kept->end().count, 0U) << "it has ended";
 }
