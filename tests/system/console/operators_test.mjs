@@ -70,7 +70,7 @@ test("the authority is asked for and granted, and both consoles see who has it",
   assert.equal(await second.isDisabled(".stage button[type=submit]"), true);
   await button(second, "Ask for authority").click();
   await until(first, "who asks", () => document.querySelector(".request"));
-  assert.equal(await button(second, "Asked, waiting").count(), 1);
+  await button(second, "Asked, waiting").waitFor();
   await button(first, "Refuse").click();
   await until(second, "refused", () => !document.body.textContent.includes("Asked, waiting"));
   assert.equal(await first.evaluate(holds, true), true);
