@@ -78,12 +78,8 @@ TEST(FlagTables, EveryFlagHasExactlyOneRank) {
   EXPECT_EQ(vehicles.size(), static_cast<std::size_t>(VehicleFlag::kUnknown) + 1);
 }
 
-// By what the car may do: nothing, stand with the engine running, end its race, drive slowly, drive
-// as it was told before, drive fast. What nobody understands allows nothing.
-TEST(FlagTables, ATrackFlagBindsMoreThanThoseThatAllowMore) {
-  using enum TrackFlag;
-  const std::vector<TrackFlag> from_the_strictest{kUnknown, kRed,  kOrange, kChequered,
-                                                  kYellow,  kNone, kGreen,  kWavingGreen};
+template <class Flag>
+void expect_binding_in_order(const std::vector<Flag>& from_the_strictest) {
   for (std::size_t i = 0; i < from_the_strictest.size(); ++i)
     for (std::size_t k = i; k < from_the_strictest.size(); ++k)
       EXPECT_EQ(more_restrictive(from_the_strictest[k], from_the_strictest[i]),
@@ -91,16 +87,19 @@ TEST(FlagTables, ATrackFlagBindsMoreThanThoseThatAllowMore) {
           << i << ' ' << k;
 }
 
+// By what the car may do: nothing, stand with the engine running, end its race, drive slowly, drive
+// as it was told before, drive fast. What nobody understands allows nothing.
+TEST(FlagTables, ATrackFlagBindsMoreThanThoseThatAllowMore) {
+  using enum TrackFlag;
+  expect_binding_in_order<TrackFlag>(
+      {kUnknown, kRed, kOrange, kChequered, kYellow, kNone, kGreen, kWavingGreen});
+}
+
 TEST(FlagTables, AVehicleFlagBindsMoreThanThoseThatAllowMore) {
   using enum VehicleFlag;
-  const std::vector<VehicleFlag> from_the_strictest{
-      kPurpleEmergency, kEngineKill, kUnknown, kStop, kOrangeStartEngine, kBlackPitIn,
-      kChequered,       kYellow,     kBlue,    kNone, kDefender,          kAttacker};
-  for (std::size_t i = 0; i < from_the_strictest.size(); ++i)
-    for (std::size_t k = i; k < from_the_strictest.size(); ++k)
-      EXPECT_EQ(more_restrictive(from_the_strictest[k], from_the_strictest[i]),
-                from_the_strictest[i])
-          << i << ' ' << k;
+  expect_binding_in_order<VehicleFlag>({kPurpleEmergency, kEngineKill, kUnknown, kStop,
+                                        kOrangeStartEngine, kBlackPitIn, kChequered, kYellow, kBlue,
+                                        kNone, kDefender, kAttacker});
 }
 
 TEST(FlagTables, WhatIsNoFlagAtAllCountsAsTheStrictest) {

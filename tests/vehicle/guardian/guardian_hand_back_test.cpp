@@ -12,11 +12,8 @@ namespace {
 
 // It has driven the car for 20 ms; would speak in the next tick.
 struct Driven {
-  Straight car;
+  Straight car = silent_for(milliseconds(50));
   Driven() {
-    car.drive_for_a_second();
-    car.fall_silent();
-    car.run(milliseconds(50));
     EXPECT_EQ(car.mode(), Mode::kDriving);
     EXPECT_EQ(car.now, car.state.status.drove_from + milliseconds(20));
   }
@@ -132,10 +129,7 @@ TEST(GuardianTakeOver, ACarThatNeverSpokeIsNotSilent) {
 }
 
 TEST(GuardianTakeOver, BeginsAnew) {
-  Straight car;
-  car.drive_for_a_second();
-  car.fall_silent();
-  car.run(milliseconds(29));
+  Straight car = silent_for(milliseconds(29));
   car.state.fresh_records = 2;
   car.state.open_loop.active = true;
   car.state.next_speech = car.now + seconds(1);
@@ -149,10 +143,7 @@ TEST(GuardianTakeOver, BeginsAnew) {
 }
 
 TEST(GuardianTakeOver, NeverWithoutAPlaceOfTheCar) {
-  Straight car;
-  car.drive_for_a_second();
-  car.fall_silent();
-  car.run(milliseconds(29));
+  Straight car = silent_for(milliseconds(29));
   car.state.reckoning.begun = false;
   car.tick();
   EXPECT_EQ(car.mode(), Mode::kNothingToDrive);

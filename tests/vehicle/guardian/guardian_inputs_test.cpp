@@ -109,13 +109,8 @@ TEST(GuardianInputs, OnlyWhatOthersSayKeepsTheBusAlive) {
 
 // Of a car that drove for a second: what it takes at the thirtieth millisecond of silence.
 struct Silent {
-  Straight car;
-  Silent() {
-    car.drive_for_a_second();
-    car.fall_silent();
-    car.run(milliseconds(29));
-    EXPECT_EQ(car.mode(), Mode::kWatching);
-  }
+  Straight car = silent_for(milliseconds(29));
+  Silent() { EXPECT_EQ(car.mode(), Mode::kWatching); }
   std::pair<Mode, Cause> act() {
     car.tick();
     return {car.mode(), car.cause()};
