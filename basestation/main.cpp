@@ -1,5 +1,5 @@
-// pitwall-base: the base's end of the radio: shows what the car says, tells it what the operator
-// wants; makes the keys for both. Wiring only.
+// pitwall-base: the base station of one or several cars: radio, console, publishers, operators'
+// commands; makes the keys of car and base. Wiring only.
 // SPDX-License-Identifier: Apache-2.0
 #include <sys/signalfd.h>
 
@@ -13,21 +13,22 @@
 #include <variant>
 #include <vector>
 
-#include "basestation/intake/key_pair.hpp"
-#include "basestation/outlets/metrics/board.hpp"
-#include "basestation/outlets/metrics/exposition.hpp"
-#include "basestation/outlets/ros_view/package.hpp"
-#include "basestation/outlets/terminal.hpp"
-#include "basestation/outlets/wall/judge_again.hpp"
-#include "basestation/outlets/wall/recording_list.hpp"
-#include "basestation/outlets/wall/replay_wall.hpp"
-#include "basestation/outlets/web/web_server.hpp"
+#include "basestation/link/key_pair.hpp"
+#include "basestation/publishers/console/recording_list.hpp"
+#include "basestation/publishers/console/replay_console.hpp"
+#include "basestation/publishers/metrics/board.hpp"
+#include "basestation/publishers/metrics/exposition.hpp"
+#include "basestation/publishers/ros_view/package.hpp"
+#include "basestation/publishers/text/terminal.hpp"
+#include "basestation/publishers/web/web_server.hpp"
+#include "basestation/service/event_loop.hpp"
+#include "basestation/service/recorded/alarm_check.hpp"
+#include "basestation/session/car_session.hpp"
+#include "basestation/session/plan.hpp"
+#include "basestation/session/roster.hpp"
+#include "basestation/session/tools.hpp"
 #include "basestation/settings/arguments.hpp"
 #include "basestation/settings/cars_file.hpp"
-#include "basestation/stand/car_stand.hpp"
-#include "basestation/stand/plan.hpp"
-#include "basestation/stand/roster.hpp"
-#include "basestation/stand/tools.hpp"
 #include "protocol/recorder/segment_folder.hpp"
 #include "protocol/telemetry/export/export.hpp"
 #include "protocol/transport/clock.hpp"
@@ -36,14 +37,14 @@
 namespace pitwall {
 namespace {
 
-namespace wall = outlets::wall;
-namespace web = outlets::web;
+namespace console = publishers::console;
+namespace web = publishers::web;
 
 constexpr int kDone = 0, kFailed = 1, kMistake = 2;  // exit codes
 
+using session::CarSession;
 using settings::Arguments;
-using stand::CarStand;
-using Stands = std::vector<std::unique_ptr<CarStand>>;
+using Sessions = std::vector<std::unique_ptr<CarSession>>;
 
 int complain(int code, const std::string& what) {
   std::fprintf(stderr, "pitwall-base: %s\n", what.c_str());
@@ -64,10 +65,10 @@ transport::FileDescriptor stop_signals() {
 
 int make_keys(const std::string& folder, bool bench) {
   telemetry::SystemRandomness randomness;
-  const auto written = intake::write_key_pair(folder, intake::make_key_pair(randomness, bench));
+  const auto written = link::write_key_pair(folder, link::make_key_pair(randomness, bench));
   if (!written) return complain(kFailed, written.error());
-  std::printf("%s/%s and %s/%s: %s\n", folder.c_str(), intake::kCarKeys, folder.c_str(),
-              intake::kBaseKeys,
+  std::printf("%s/%s and %s/%s: %s\n", folder.c_str(), link::kCarKeys, folder.c_str(),
+              link::kBaseKeys,
               bench ? "KEYS OF A BENCH: sessions may be logged, a real car refuses them"
                     : "secret, one for each end");
   return kDone;
@@ -75,7 +76,7 @@ int make_keys(const std::string& folder, bool bench) {
 
 int write_ros_package(const std::string& folder) {
   if (folder.empty()) return complain(kMistake, "export ros: needs --out FOLDER");
-  const auto written = outlets::ros_view::write_package(folder);
+  const auto written = publishers::ros_view::write_package(folder);
   if (!written) return complain(kFailed, written.error());
   std::printf("%s: %zu files; colcon build in a workspace that has it below src/\n", folder.c_str(),
               *written);
@@ -90,7 +91,7 @@ int print_export(const std::string& kind) {
 
 int judge(const std::string& folder) {
   std::vector<std::string> problems;
-  const auto judged = wall::judge_again(folder, problems);
+  const auto judged = service::check_alarms(folder, problems);
   for (const std::string& problem : problems) complain(kDone, problem);
   if (!judged) return complain(kMistake, judged.error());
   for (const std::string& difference : judged->differences()) complain(kDone, difference);
@@ -122,113 +123,123 @@ Result<std::unique_ptr<web::WebServer>, Problem> start_web(const Arguments& a,
 }
 
 // Which recordings there are to be played, told to consoles as long as it lives.
-std::unique_ptr<wall::RecordingList> list_recordings(const Arguments& a, web::WebServer& server) {
+std::unique_ptr<console::RecordingList> list_recordings(const Arguments& a,
+                                                        web::WebServer& server) {
   std::string folder = a.recordings_folder;
   if (folder.empty()) folder = a.replay_folder.empty() ? a.record_folder : a.replay_folder;
   if (folder.empty()) return nullptr;
-  return std::make_unique<wall::RecordingList>(
+  return std::make_unique<console::RecordingList>(
       std::move(folder), a.track, [&server](std::string text) {
-        server.show(std::string{wall::kRecordingsPath}, {std::move(text), web::kJsonType});
+        server.show(std::string{console::kRecordingsPath}, {std::move(text), web::kJsonType});
       });
 }
 
 int play(const Arguments& arguments) {
   if (!arguments.web_port) return complain(kMistake, "--replay needs --web PORT");
-  auto plan = stand::plan_of_replay(arguments, say);
+  auto plan = session::plan_of_replay(arguments, say);
   if (!plan) return complain(kMistake, plan.error());
   auto player = replay::Player::open(arguments.replay_folder);
   if (!player) return complain(kMistake, player.error());
   for (const std::string& problem : player->problems()) say(problem);
   const transport::FileDescriptor stop = stop_signals();
-  auto server = start_web(arguments, stand::served({&*plan, 1}));
+  auto server = start_web(arguments, session::served({&*plan, 1}));
   if (!server) return complain(kFailed, server.error());
-  auto foxglove = stand::foxglove_of_replay(arguments, *player, say);
+  auto foxglove = session::foxglove_of_replay(arguments, *player, say);
   if (!foxglove) return complain(kFailed, foxglove.error());
   const auto recordings = list_recordings(arguments, **server);
-  wall::ReplayWall consoles{std::move(plan->wall), *std::move(player), **server};
+  console::ReplayConsole consoles{std::move(plan->service), *std::move(player), **server};
   if (*foxglove) consoles.tell_also(**foxglove);
   const auto wind = [&consoles](double speed, std::optional<Instant> to) {
     consoles.wind(speed, to);
   };
-  wall::run_replay(consoles, (*server)->fd(), stop.get(), from_seconds(arguments.duration_s),
-                   [&](Instant now) {
-                     if (*foxglove) (*foxglove)->serve(consoles.player(), wind, now);
-                   });
+  console::run_replay(consoles, (*server)->fd(), stop.get(), from_seconds(arguments.duration_s),
+                      [&](Instant now) {
+                        if (*foxglove) (*foxglove)->serve(consoles.player(), wind, now);
+                      });
   return kDone;
 }
 
 // What else shows or keeps what a car says.
-Result<bool, Problem> attach_outlets(Stands& stands, web::WebServer* server,
-                                     outlets::metrics::Board& board) {
-  for (std::size_t car = 0; car < stands.size(); ++car) {
-    const auto attached = stand::attach_tools(*stands[car],
-                                              {.car = car,
-                                               .cars = stands.size(),
-                                               .board = server != nullptr ? &board : nullptr,
-                                               .server = car == 0 ? server : nullptr},
-                                              say);
+Result<bool, Problem> attach_outlets(Sessions& sessions, web::WebServer* server,
+                                     publishers::metrics::Board& board) {
+  for (std::size_t car = 0; car < sessions.size(); ++car) {
+    const auto attached = session::attach_tools(*sessions[car],
+                                                {.car = car,
+                                                 .cars = sessions.size(),
+                                                 .board = server != nullptr ? &board : nullptr,
+                                                 .server = car == 0 ? server : nullptr},
+                                                say);
     if (!attached) return attached;
   }
-  if (server == nullptr) return true;
-  stands.front()->attach(std::make_unique<stand::Roster>(*server, [&stands] {
-    std::vector<stand::CarSight> sights;
-    for (const auto& stand : stands) sights.push_back(stand->sight());
-    return sights;
-  }));
   return true;
 }
 
-Result<bool, Problem> open_stands(std::vector<stand::Plan> plans, Stands& stands) {
+Result<bool, Problem> open_sessions(std::vector<session::Plan> plans, Sessions& sessions) {
   const bool several = plans.size() > 1;
-  for (stand::Plan& plan : plans) {
-    auto opened = CarStand::open(std::move(plan));
+  for (session::Plan& plan : plans) {
+    auto opened = CarSession::open(std::move(plan));
     if (!opened) return Unexpected{opened.error()};
     say((several ? (*opened)->title() + " " : "") + (*opened)->listening());
-    stands.push_back(*std::move(opened));
+    sessions.push_back(*std::move(opened));
   }
   return true;
 }
 
-void serve(const Arguments& arguments, const Stands& stands, int stop) {
-  std::vector<outlets::Lines> lines;
-  for (const auto& stand : stands) lines.push_back(stand->lines());
-  outlets::run_terminal(lines,
-                        {.text = arguments.text,
-                         .plain = arguments.plain,
-                         .all = arguments.all,
-                         .duration = from_seconds(arguments.duration_s),
-                         .refresh = from_seconds(1.0 / arguments.refresh_hz)},
-                        stop, stdout);
+void serve(const Arguments& arguments, const Sessions& sessions, web::WebServer* server, int stop) {
+  std::vector<service::CarLoop> cars;
+  std::vector<publishers::TerminalCar> shown;
+  for (const auto& car : sessions) {
+    cars.push_back(car->loop());
+    shown.push_back({.service = &car->service(), .title = car->title()});
+  }
+  publishers::Screen screen{shown,
+                            {.plain = arguments.plain,
+                             .all = arguments.all,
+                             .refresh = from_seconds(1.0 / arguments.refresh_hz)},
+                            stdout};
+  publishers::StationLog threats{shown, stderr};
+  std::vector<service::LoopTask*> tasks{&threats};
+  if (arguments.text) tasks = {&screen};
+  std::optional<session::Roster> roster;
+  if (server != nullptr) {
+    roster.emplace(*server, [&sessions] {
+      std::vector<session::CarSight> sights;
+      for (const auto& car : sessions) sights.push_back(car->sight());
+      return sights;
+    });
+    tasks.push_back(&*roster);
+  }
+  service::run_event_loop(cars, tasks, from_seconds(arguments.duration_s), stop);
 }
 
-int run(const Arguments& arguments, std::vector<stand::Plan> plans) {
+int run(const Arguments& arguments, std::vector<session::Plan> plans) {
   const transport::FileDescriptor stop = stop_signals();
-  web::HttpConfig http = stand::served(plans);
-  outlets::metrics::Board board;  // outlives the server
-  http.made[stand::kMetricsPath] = [&board] {
-    return web::Shown{board.text(transport::bench_pause()), outlets::metrics::kContentType};
+  web::HttpConfig http = session::served(plans);
+  publishers::metrics::Board board;  // outlives the server
+  http.made[session::kMetricsPath] = [&board] {
+    return web::Shown{board.text(transport::bench_pause()), publishers::metrics::kContentType};
   };
-  std::unique_ptr<web::WebServer> server;  // outlives the stands
-  Stands stands;
-  const auto opened = open_stands(std::move(plans), stands);
+  std::unique_ptr<web::WebServer> server;  // outlives the sessions
+  Sessions sessions;
+  const auto opened = open_sessions(std::move(plans), sessions);
   if (!opened) return complain(kFailed, opened.error());
   if (arguments.web_port) {
     auto started = start_web(arguments, std::move(http));
     if (!started) return complain(kFailed, started.error());
     server = *std::move(started);
   }
-  for (const auto& stand : stands) {
-    const auto begun = stand->begin(server.get(), say);
+  for (const auto& car : sessions) {
+    const auto begun = car->begin(server.get(), say);
     if (!begun) return complain(kFailed, begun.error());
   }
   const auto recordings = server ? list_recordings(arguments, *server) : nullptr;
-  const auto attached = attach_outlets(stands, server.get(), board);
+  const auto attached = attach_outlets(sessions, server.get(), board);
   if (!attached) return complain(kFailed, attached.error());
   if (const auto taken = transport::take_turns(); !taken) return complain(kFailed, taken.error());
-  serve(arguments, stands, stop.get());
+  serve(arguments, sessions, server.get(), stop.get());
   int code = kDone;
-  for (const auto& stand : stands) {
-    const auto written = stand->write_summary();
+  for (const auto& car : sessions) {
+    const auto written = car->write_summary();
     if (!written) code = complain(kFailed, written.error());
   }
   return code;
@@ -256,7 +267,7 @@ int main(int argc, char** argv) {
     return complain(kMistake, clock.error());
   const auto cars = settings::cars_of(arguments);
   if (!cars) return complain(kMistake, cars.error());
-  auto plans = stand::plans_of(*cars, say);
+  auto plans = session::plans_of(*cars, say);
   if (!plans) return complain(kMistake, plans.error());
   return run(arguments, *std::move(plans));
 }

@@ -12,15 +12,15 @@
 namespace pitwall::command {
 namespace {
 
-using picture::BaseField;
-using picture::FieldView;
+using state::BaseField;
+using state::FieldView;
 using telemetry::field;
 
 FieldView own(double value) {  // of the base itself: always known
-  return {.value = value, .age = {}, .quality = picture::Quality::kFresh};
+  return {.value = value, .age = {}, .quality = state::Quality::kFresh};
 }
 
-bool known(const FieldView& seen) { return picture::usable(seen) && !std::isnan(seen.value); }
+bool known(const FieldView& seen) { return state::usable(seen) && !std::isnan(seen.value); }
 
 // Who looks at everything once.
 class Look {
@@ -44,16 +44,16 @@ class Look {
   }
 
  private:
-  FieldView see(telemetry::FieldIndex index) const { return in_.picture.view(index, in_.now); }
+  FieldView see(telemetry::FieldIndex index) const { return in_.vehicle.view(index, in_.now); }
   FieldView see(BaseField base) const {
-    return in_.watch.view(in_.picture, picture::id_of(base), in_.now);
+    return in_.evaluator.view(in_.vehicle, state::id_of(base), in_.now);
   }
   // Known, and neither a warning nor bad by the limits in force.
   bool good(BaseField base) const {
     const FieldView seen = see(base);
-    const picture::Judgement judged = in_.watch.judge(picture::id_of(base), seen);
-    return known(seen) && judged != picture::Judgement::kWarning &&
-           judged != picture::Judgement::kBad;
+    const alarms::Judgement judged = in_.evaluator.judge(state::id_of(base), seen);
+    return known(seen) && judged != alarms::Judgement::kWarning &&
+           judged != alarms::Judgement::kBad;
   }
 
   // `go` counts only where all of `seen` is known and not stale; the age is that of the oldest.
@@ -62,7 +62,7 @@ class Look {
     bool never = false;
     for (const FieldView& one : seen) {
       check.known = check.known && known(one);
-      never = never || one.quality == picture::Quality::kNever || std::isnan(one.value);
+      never = never || one.quality == state::Quality::kNever || std::isnan(one.value);
       check.age = std::max(check.age, one.age);
     }
     if (!check.known) {
@@ -74,13 +74,13 @@ class Look {
   }
 
   void link() {
-    const picture::LinkState state = in_.watch.link_state();
+    const state::LinkState state = in_.evaluator.link_state();
     FieldView seen = own(static_cast<double>(state));
     const FieldView silence = see(BaseField::kLinkSilence);
     if (known(silence)) seen.age = milliseconds(static_cast<std::int64_t>(silence.value));
     const FieldView loss = see(BaseField::kDownLoss);
-    add(CheckKind::kLink, {seen}, state == picture::LinkState::kGood,
-        label(picture::kLinkStates, seen.value) +
+    add(CheckKind::kLink, {seen}, state == state::LinkState::kGood,
+        label(state::kLinkStates, seen.value) +
             (known(loss) ? ", " + number(100.0 * loss.value, "% lost") : ""));
   }
 
@@ -101,8 +101,8 @@ class Look {
   void disk() {
     const FieldView recording = see(BaseField::kRecording);
     const FieldView minutes = see(BaseField::kDiskMinutes);
-    constexpr double kOn = 1.0;  // of picture::kRecordingStates
-    const std::string state = "recording " + label(picture::kRecordingStates, recording.value);
+    constexpr double kOn = 1.0;  // of state::kRecordingStates
+    const std::string state = "recording " + label(state::kRecordingStates, recording.value);
     if (recording.value != kOn) return add(CheckKind::kDisk, {recording}, false, state);
     add(CheckKind::kDisk, {recording, minutes}, good(BaseField::kDiskMinutes),
         state + ", room for " + number(minutes.value, "min"));
@@ -161,7 +161,7 @@ class Look {
   }
 
   void alarms() {
-    const auto high = in_.watch.alarms().count(alarms::Priority::kHigh);
+    const auto high = in_.evaluator.alarms().count(alarms::Priority::kHigh);
     add(CheckKind::kAlarms, {own(0.0)}, high == 0, std::to_string(high) + " high");
   }
 

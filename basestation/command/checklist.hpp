@@ -1,7 +1,7 @@
 // What is looked at before a car is let out of the pit, each item with its value and how old that
 // is, go or no-go.
-//   in     the picture, the base's own fields, alarms; who holds the authority; how the settings
-//          are kept; what the joystick does
+//   in     the vehicle state, the base's own fields, alarms; who holds the authority; how the
+//          settings are kept; what the joystick does
 //   out    one check for each item, always all of them and in this order
 //   law    what is stale or was never heard is no-go. Nothing here sends anything or holds anything
 //          back: people decide, and gates stand before each command
@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-#include "basestation/picture/watch/watch.hpp"
+#include "basestation/alarms/evaluator.hpp"
 #include "protocol/telemetry/command/command_table.hpp"
 
 namespace pitwall::command {
@@ -55,8 +55,8 @@ struct SettingsState {
 enum class JoystickState : std::uint8_t { kNone, kReleased, kInUse, kLost };
 
 struct CheckInputs {
-  const picture::Picture& picture;
-  const picture::Watch& watch;
+  const state::VehicleState& vehicle;
+  const alarms::Evaluator& evaluator;
   telemetry::HolderId holder = 0;  // of the authority, now
   std::string holder_name{};
   SettingsState settings{};

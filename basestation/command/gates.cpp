@@ -7,14 +7,14 @@
 #include <cstdio>
 
 #include "basestation/command/value_text.hpp"
-#include "basestation/picture/incidents/flags.hpp"
-#include "basestation/picture/incidents/tyre_gate.hpp"
+#include "basestation/state/derived/flags.hpp"
+#include "basestation/state/derived/tyre_gate.hpp"
 
 namespace pitwall::command {
 namespace {
 
-using picture::BaseField;
-using picture::FieldView;
+using state::BaseField;
+using state::FieldView;
 using telemetry::CommandType;
 using telemetry::field;
 
@@ -62,16 +62,16 @@ class Judge {
   }
 
  private:
-  FieldView see(telemetry::FieldIndex index) const { return in_.picture.view(index, in_.now); }
+  FieldView see(telemetry::FieldIndex index) const { return in_.vehicle.view(index, in_.now); }
   FieldView see(BaseField base) const {
-    return in_.watch.view(in_.picture, picture::id_of(base), in_.now);
+    return in_.evaluator.view(in_.vehicle, state::id_of(base), in_.now);
   }
 
   // `ok` counts only where the value is known and not stale.
   void add(GateKind kind, const FieldView& seen, bool ok, std::string text) {
-    const bool known = picture::usable(seen) && !std::isnan(seen.value);
+    const bool known = state::usable(seen) && !std::isnan(seen.value);
     if (!known) {
-      const bool never = seen.quality == picture::Quality::kNever || std::isnan(seen.value);
+      const bool never = seen.quality == state::Quality::kNever || std::isnan(seen.value);
       text = (never ? "never heard" : "too old: " + number(seen.age.seconds(), "s")) +
              std::string{"; "} + text;
     }
@@ -83,20 +83,20 @@ class Judge {
                       .text = std::move(text)});
   }
   static FieldView own(double value) {  // of the base itself: always known
-    return {.value = value, .age = {}, .quality = picture::Quality::kFresh};
+    return {.value = value, .age = {}, .quality = state::Quality::kFresh};
   }
 
   // What the car may drive now; without a limit of ours, what it drives.
   FieldView present_limit() const {
     const FieldView limit = see(field("planner.operator_limit"));
-    return limit.quality == picture::Quality::kNever ? see(field("ego.vx")) : limit;
+    return limit.quality == state::Quality::kNever ? see(field("ego.vx")) : limit;
   }
   // Also by a limit that was told long ago: lowering it must always be possible.
   bool slower() const {
     const double limit_mps = see(field("planner.operator_limit")).value;
     if (!std::isnan(limit_mps)) return command_.argument <= limit_mps;
     const FieldView speed = see(field("ego.vx"));
-    return picture::usable(speed) && command_.argument <= speed.value;
+    return state::usable(speed) && command_.argument <= speed.value;
   }
 
   void faster() {
@@ -110,15 +110,15 @@ class Judge {
   }
 
   void link() {
-    using picture::LinkState;
-    const LinkState state = in_.watch.link_state();
+    using state::LinkState;
+    const LinkState state = in_.evaluator.link_state();
     const bool enough = state == LinkState::kGood || (state == LinkState::kDegraded && harmless());
     FieldView seen = own(static_cast<double>(state));
     const FieldView silence = see(BaseField::kLinkSilence);
-    if (picture::usable(silence)) {
+    if (state::usable(silence)) {
       seen.age = {static_cast<std::int64_t>(silence.value * 1e6)};  // of the newest packet
     }
-    add(GateKind::kLink, seen, enough, "link " + label(picture::kLinkStates, seen.value));
+    add(GateKind::kLink, seen, enough, "link " + label(state::kLinkStates, seen.value));
   }
   bool harmless() const { return command_.type != CommandType::kSpeedLimit || slower(); }
 
@@ -140,7 +140,7 @@ class Judge {
     const bool track_allows = track.value == kGreen || track.value == kWavingGreen ||
                               (track.value == kYellow && slow_enough);
     const bool vehicle_allows =
-        picture::usable(vehicle) &&
+        state::usable(vehicle) &&
         std::find(kVehicleFlagsThatAllow.begin(), kVehicleFlagsThatAllow.end(), vehicle.value) !=
             kVehicleFlagsThatAllow.end();
     add(GateKind::kFlag, track, track_allows && vehicle_allows,
@@ -150,7 +150,7 @@ class Judge {
 
   void tyres() {
     const FieldView coldest = see(BaseField::kTyreMin);
-    const double needed_c = picture::tyre_needed_c(in_.watch.tyre_gate(), command_.argument);
+    const double needed_c = state::tyre_needed_c(in_.evaluator.tyre_gate(), command_.argument);
     add(GateKind::kTyres, coldest, coldest.value >= needed_c,
         number(coldest.value, "degC") + ", " + number(needed_c, "degC") + " needed for " +
             number(command_.argument, "m/s"));
@@ -180,7 +180,7 @@ class Judge {
   }
 
   void alarms() {
-    const auto high = static_cast<double>(in_.watch.alarms().count(alarms::Priority::kHigh));
+    const auto high = static_cast<double>(in_.evaluator.alarms().count(alarms::Priority::kHigh));
     add(GateKind::kAlarms, own(high), high == 0.0, "high alarms: " + number(high, ""));
   }
 
@@ -188,9 +188,9 @@ class Judge {
     const FieldView acted_on = see(field("flags.track_acted_on"));
     const FieldView said = see(field("flags.track"));
     const double wanted = command_.argument;
-    if (picture::restriction_of_track_flag(wanted) >=
-            picture::restriction_of_track_flag(acted_on.value) &&
-        picture::usable(acted_on)) {
+    if (state::restriction_of_track_flag(wanted) >=
+            state::restriction_of_track_flag(acted_on.value) &&
+        state::usable(acted_on)) {
       add(GateKind::kSource, acted_on, true, "not less restrictive than now");
       return;
     }

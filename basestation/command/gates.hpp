@@ -1,5 +1,5 @@
 // What must hold before a command may go to the car, each shown with its value and how old that is.
-//   in     the command, the picture, the base's own fields, alarms, who holds the authority
+//   in     the command, the vehicle state, the base's own fields, alarms, who holds the authority
 //   out    one check for each gate that the command has; it passes when all do
 //   law    what is stale or was never heard has not passed. A command that makes the car slower
 //          than now passes every gate but those of the way to it: link and authority. Stops have no
@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "basestation/picture/watch/watch.hpp"
+#include "basestation/alarms/evaluator.hpp"
 #include "protocol/telemetry/command/command_table.hpp"
 
 namespace pitwall::command {
@@ -54,8 +54,8 @@ struct GateParams {
 };
 
 struct GateInputs {
-  const picture::Picture& picture;
-  const picture::Watch& watch;
+  const state::VehicleState& vehicle;
+  const alarms::Evaluator& evaluator;
   telemetry::HolderId holder = 0;  // of the authority, now
   Instant now{};
 };

@@ -13,7 +13,7 @@ namespace pitwall::replay {
 class Listener {
  public:
   virtual ~Listener() = default;
-  // What of the state is newer, as Picture::update() has it.
+  // What of the state is newer, as VehicleState::update() has it.
   virtual void state(const telemetry::Snapshot& state, telemetry::GroupSet groups,
                      Instant received) = 0;
   virtual void text(recorder::Topic topic, Instant at, std::string_view json) = 0;

@@ -38,21 +38,21 @@ void SegmentReader::step(Listener& listener) {
 
 bool SegmentReader::restore(Instant at, Listener& listener) {
   std::optional<recording::McapReader> then;
-  std::optional<recording::McapMessage> picture;
+  std::optional<recording::McapMessage> vehicle;
   for (; next_ && to_base(next_->logged_ns) <= at; next_ = reader_.next()) {
     const Place& place = place_of(next_->channel);
     if (!place.fields || !place.fields->is_picture()) continue;
     then = reader_;
-    picture = next_;
+    vehicle = next_;
   }
-  if (!picture) {
+  if (!vehicle) {
     reader_ = recording::McapReader{file_};
     next_ = reader_.next();
     return false;
   }
   recorder::Known known;
-  if (!place_of(picture->channel).fields->decode(picture->data, known)) ++unreadable_;
-  tell_picture(known, to_base(picture->logged_ns), listener);
+  if (!place_of(vehicle->channel).fields->decode(vehicle->data, known)) ++unreadable_;
+  tell_picture(known, to_base(vehicle->logged_ns), listener);
   reader_ = *then;
   next_ = reader_.next();
   return true;
@@ -92,16 +92,16 @@ void SegmentReader::tell_state(const Place& place, Listener& listener) {
 
 // A field that its group no longer knew has an older sample than the group: so each group is told
 // once for each of its sample times, the newest last.
-void SegmentReader::tell_picture(const recorder::Known& picture, Instant at, Listener& listener) {
+void SegmentReader::tell_picture(const recorder::Known& vehicle, Instant at, Listener& listener) {
   for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
     const auto [first, count] = telemetry::fields_of(row.group);
     std::set<Instant> times;
     for (auto i = first; i < first + count; ++i) {
-      if (picture.sampled[i] != telemetry::kNeverSampled) times.insert(picture.sampled[i]);
+      if (vehicle.sampled[i] != telemetry::kNeverSampled) times.insert(vehicle.sampled[i]);
     }
     for (const Instant sampled : times) {
       for (auto i = first; i < first + count; ++i) {
-        known_.values[i] = picture.sampled[i] == sampled ? picture.value[i] : kUnset;
+        known_.values[i] = vehicle.sampled[i] == sampled ? vehicle.value[i] : kUnset;
       }
       known_.at(row.group) = clock_.to_base(sampled);
       telemetry::GroupSet groups;

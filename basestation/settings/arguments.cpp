@@ -98,11 +98,13 @@ void describe(CLI::App& app, Arguments& a) {
   app.add_option("--budget", a.budget_kbit, "kbit/s that may go up each radio")
       ->check(CLI::Range(kMinBudget_kbit, kMaxBudget_kbit))
       ->capture_default_str();
-  app.add_option("--command", a.command_file, "What the operator says: lines AT_SECONDS WORDS");
-  app.add_option("--operator-port", a.operator_port,
-                 "Loopback UDP port for the operator's words, a line each")
+  app.add_option("--command", a.command_file, "Script of text commands: lines AT_SECONDS COMMAND");
+  app.add_option("--command-socket", a.command_socket,
+                 "Unix socket file for text commands, a line each; its owner's only");
+  app.add_option("--stop-port", a.stop_port,
+                 "Loopback UDP port that takes stop controlled and stop emergency")
       ->check(CLI::Range(1, 65'535));
-  app.add_flag("--text", a.text, "Show the picture as text on the terminal");
+  app.add_flag("--text", a.text, "Show the vehicle state as text on the terminal");
   app.add_flag("--all", a.all, "Show every group");
   app.add_flag("--plain", a.plain, "No colours, one screen after the other");
   app.add_option("--duration", a.duration_s, "Stop after this many seconds")
@@ -121,7 +123,8 @@ void describe(CLI::App& app, Arguments& a) {
       app.add_option("--cars", a.cars_file, "File of the cars, where there are several");
   for (const char* const of_one_car :
        {"--keys", "--stamp-file", "--listen", "--car", "--car-name", "--record", "--judgement",
-        "--joystick", "--joystick-axes", "--command", "--operator-port", "--json", "--replay"}) {
+        "--joystick", "--joystick-axes", "--command", "--command-socket", "--stop-port", "--json",
+        "--replay"}) {
     cars->excludes(of_one_car);
   }
   CLI::App* const keygen = app.add_subcommand("keygen", "Make the keys of a car and its base");

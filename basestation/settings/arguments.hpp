@@ -15,7 +15,8 @@ namespace pitwall::settings {
 struct Arguments {
   std::vector<std::string> listen;
   std::string cars_file, keys, command_file, json_path;
-  int operator_port = 0;
+  int stop_port = 0;
+  std::string command_socket;
   bool text = false, plain = false, all = false, network = false, signed_only = false;
   double duration_s = 0.0, refresh_hz = 10.0, budget_kbit = 256.0;
   std::string keygen_folder, export_kind, export_folder;

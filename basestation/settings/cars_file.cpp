@@ -42,9 +42,10 @@ class CarReader {
     car.signed_only = map_.flag_or("signed", car.signed_only);
     car.joystick = own_file("joystick");
     car.joystick_axes = map_.text_or("joystick_axes", car.joystick_axes);
-    car.operator_port = static_cast<int>(map_.integer_or("operator_port", 0, 1, kPortMax));
-    if (car.operator_port != 0) claim("operator_port", std::to_string(car.operator_port));
+    car.stop_port = static_cast<int>(map_.integer_or("stop_port", 0, 1, kPortMax));
+    if (car.stop_port != 0) claim("stop_port", std::to_string(car.stop_port));
     car.command_file = file("command");
+    car.command_socket = own_file("command_socket");
     car.json_path = own_file("json");
     return car;
   }

@@ -19,7 +19,8 @@
 //       signed: false
 //       joystick: /dev/input/event3
 //       joystick_axes: lift=2:0:255,brake=5:0:255,enable=304
-//       operator_port: 23437
+//       stop_port: 23437
+//       command_socket: blue.commands
 //       command: words_7.txt
 //       json: summary_7.json
 // SPDX-License-Identifier: Apache-2.0

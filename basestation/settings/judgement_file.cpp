@@ -10,7 +10,7 @@
 namespace pitwall::settings {
 namespace {
 
-using picture::Limit;
+using alarms::Limit;
 
 constexpr double kAny = 1e9, kDelayMax_s = 600.0, kLapsMax = 100.0, kLitresMax = 200.0;
 
@@ -29,10 +29,10 @@ std::uint64_t value_set(yaml::StrictMap& map, const char* key) {
   return set;
 }
 
-picture::LimitEdit limit_of(yaml::StrictMap& map) {
-  picture::LimitEdit edit;
+alarms::LimitEdit limit_of(yaml::StrictMap& map) {
+  alarms::LimitEdit edit;
   const std::string path = map.text("field");
-  const auto id = picture::find_field(path);
+  const auto id = state::find_field(path);
   if (!id) map.fail("field", "no field is called " + path);
   edit.field = *id;
   edit.limit = {.warning_low = bound(map, "warning_low"),
@@ -75,8 +75,8 @@ alarms::AlarmEdit alarm_of(yaml::StrictMap& map) {
   return edit;
 }
 
-picture::FuelPlan fuel_of(yaml::StrictMap& map) {
-  const picture::FuelPlan usual;
+state::FuelPlan fuel_of(yaml::StrictMap& map) {
+  const state::FuelPlan usual;
   return {
       .attempt_laps = map.number_or("attempt_laps", usual.attempt_laps, 1.0, kLapsMax),
       .home_laps = map.number_or("home_laps", usual.home_laps, 0.0, kLapsMax),
@@ -84,10 +84,10 @@ picture::FuelPlan fuel_of(yaml::StrictMap& map) {
       .guess_l_per_lap = map.number_or("guess_l_per_lap", usual.guess_l_per_lap, 0.01, kLitresMax)};
 }
 
-picture::TyreGate gate_of(yaml::StrictMap& map) {
-  constexpr std::size_t kRows = picture::TyreGate::kRows;
+state::TyreGate gate_of(yaml::StrictMap& map) {
+  constexpr std::size_t kRows = state::TyreGate::kRows;
   constexpr double kSpeedMax_mps = 120.0, kColdest_c = -40.0, kHottest_c = 214.0;
-  picture::TyreGate gate;
+  state::TyreGate gate;
   const auto speeds = map.numbers("speed_mps", kRows, kRows, 0.0, kSpeedMax_mps);
   const auto temperatures = map.numbers("temperature_c", kRows, kRows, kColdest_c, kHottest_c);
   for (std::size_t i = 0; i < kRows; ++i) {
@@ -165,12 +165,12 @@ std::string set_text(const char* key, std::uint64_t set) {
   return std::string{", "} + key + ": [" + out + "]";
 }
 
-std::string line(const picture::LimitEdit& edit) {
+std::string line(const alarms::LimitEdit& edit) {
   const auto bound_text = [](const char* key, double value) {
     return std::isnan(value) ? std::string{} : std::string{", "} + key + ": " + text_of(value);
   };
   const Limit& limit = edit.limit;
-  return "  - {field: " + picture::path_of(edit.field) +
+  return "  - {field: " + state::path_of(edit.field) +
          bound_text("warning_low", limit.warning_low) +
          bound_text("warning_high", limit.warning_high) + bound_text("bad_low", limit.bad_low) +
          bound_text("bad_high", limit.bad_high) + set_text("warning_values", limit.warning_values) +
@@ -198,10 +198,10 @@ Result<Judgement, Problem> read_judgement_file(const std::filesystem::path& path
   return yaml::read(*document, config_of);
 }
 
-std::string judgement_text(const picture::DeriveParams& params, const picture::Limits& limits,
+std::string judgement_text(const state::DeriveParams& params, const alarms::Limits& limits,
                            const alarms::AlarmSettings& alarms, std::uint64_t revision,
                            double up_kbit_s) {
-  const picture::FuelPlan& fuel = params.fuel;
+  const state::FuelPlan& fuel = params.fuel;
   std::string out =
       "version: 1\nrevision: " + std::to_string(revision) + "\n" +
       (std::isnan(up_kbit_s) ? "" : "radio: {up_kbit_s: " + text_of(up_kbit_s) + "}\n") +
@@ -212,7 +212,7 @@ std::string judgement_text(const picture::DeriveParams& params, const picture::L
   out += alarms.edits().empty() ? "alarms: []\n" : "alarms:\n";
   for (const alarms::AlarmEdit& edit : alarms.edits()) out += line(edit);
   out += limits.edits().empty() ? "limits: []\n" : "limits:\n";
-  for (const picture::LimitEdit& edit : limits.edits()) out += line(edit);
+  for (const alarms::LimitEdit& edit : limits.edits()) out += line(edit);
   return out;
 }
 

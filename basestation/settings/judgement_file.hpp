@@ -22,20 +22,20 @@
 #include <string>
 #include <string_view>
 
-#include "basestation/picture/watch/watch.hpp"
+#include "basestation/alarms/evaluator.hpp"
 #include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::settings {
 
 // The course is not in it.
-struct Judgement : picture::WatchConfig {
+struct Judgement : alarms::EvaluatorConfig {
   std::uint64_t revision = 0;
   double up_kbit_s = kUnset;
 };
 
 Result<Judgement, Problem> read_judgement_file(const std::filesystem::path& path);
 Result<Judgement, Problem> read_judgement_text(std::string_view text, const std::string& name);
-std::string judgement_text(const picture::DeriveParams& params, const picture::Limits& limits,
+std::string judgement_text(const state::DeriveParams& params, const alarms::Limits& limits,
                            const alarms::AlarmSettings& alarms, std::uint64_t revision = 0,
                            double up_kbit_s = kUnset);
 

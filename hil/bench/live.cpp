@@ -10,12 +10,13 @@
 #include <utility>
 #include <vector>
 
-#include "basestation/intake/operator_words.hpp"
+#include "basestation/inputs/text_command.hpp"
 #include "hil/bench/car_monitor.hpp"
 #include "hil/bench/car_summary.hpp"
 #include "hil/bench/contact.hpp"
 #include "hil/bench/held_path.hpp"
 #include "hil/bench/machine.hpp"
+#include "hil/bench/operator_line.hpp"
 #include "hil/bench/receiver_port.hpp"
 #include "hil/bench/run_record.hpp"
 #include "hil/bench/signals.hpp"
@@ -49,7 +50,6 @@ struct Parts {
   CanSocket bus;
   RadioPath radio;
   CarMonitor monitor;
-  transport::UdpSocket desk;  // where the operator's words leave from
   ReceiverPort receivers;
   Machine machine;
   Cast cast;
@@ -136,8 +136,7 @@ class Live {
     const auto& words = scenario_.operator_words;
     for (; said_ < words.size() && Instant{} + words[said_].at <= now; ++said_) {
       const std::string& text = words[said_].text;
-      parts_.desk.send_to({.port = plan_.operator_port},
-                          {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+      commands_.send(text);
     }
   }
 
@@ -336,7 +335,8 @@ class Live {
   std::vector<can::Frame> frames_;
   WakeClock clock_;
   std::uint64_t not_taken_ = 0;
-  std::size_t said_ = 0;                         // of the operator's words
+  std::size_t said_ = 0;  // of the operator's words
+  OperatorLine commands_{plan_.command_socket()};
   std::size_t deeds_told_ = 0, steps_told_ = 0;  // of the cast, of the machine
   RunResult result_;
   HeldPath held_path_{setup_};
@@ -351,7 +351,8 @@ Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
   if (scenario.receivers)
     return Unexpected{Problem{"receivers", "live, the car's own file says what its receivers are"}};
   for (const scenario::OperatorWord& word : scenario.operator_words)
-    if (const auto fit = intake::check_words(word.text); !fit) return Unexpected{fit.error()};
+    if (const auto fit = inputs::parse_text_command(word.text); !fit)
+      return Unexpected{fit.error()};
   auto faults = plan_faults(scenario.faults, scenario.seed);
   if (!faults) return Unexpected{faults.error()};
   auto rig = Rig::build(scenario, setup.track);
@@ -378,8 +379,6 @@ Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
   if (!radio) return Unexpected{radio.error()};
   auto monitor = CarMonitor::open(plan.report_port);
   if (!monitor) return Unexpected{monitor.error()};
-  auto desk = transport::UdpSocket::bind({});
-  if (!desk) return Unexpected{desk.error()};
   auto receivers = ReceiverPort::open(plan.receiver_ports(),
                                       ReceiverSpeech{setup.params.receivers, faults->bytes});
   if (!receivers) return Unexpected{receivers.error()};
@@ -388,7 +387,7 @@ Result<LiveResult, Problem> run_live(const scenario::Scenario& scenario,
               setup,
               plan,
               {*std::move(rig), *std::move(grader), *std::move(bus), *std::move(radio),
-               *std::move(monitor), *std::move(desk), *std::move(receivers), *std::move(machine),
+               *std::move(monitor), *std::move(receivers), *std::move(machine),
                Cast{members_of(plan), script_of(faults->processes, Instant{} + scenario.duration)},
                *std::move(time)}}
       .run();

@@ -50,8 +50,7 @@ Words guardian_command(const LivePlan& plan) {
 Words base_command(const LivePlan& plan) {
   Words words = plan.base + Words{"--listen", here(plan.base_port)};
   if (plan.paths > 1) words = words + Words{"--listen", here(plan.second_base_port)};
-  if (plan.has_operator)
-    words = words + Words{"--operator-port", std::to_string(plan.operator_port)};
+  if (plan.has_operator) words = words + Words{"--command-socket", plan.command_socket()};
   return words + clock_of(plan) +
          Words{"--keys", plan.keys + "/base.keys", "--json", plan.folder + "/base.json"};
 }
@@ -65,7 +64,7 @@ LivePlan in_bay(LivePlan plan, int bay) {
   };
   for (std::uint16_t* const port :
        {&plan.gnss_port, &plan.guardian_gnss_port, &plan.base_port, &plan.second_base_port,
-        &plan.operator_port, &plan.report_port, &plan.radio[0].listen, &plan.radio[1].listen}) {
+        &plan.report_port, &plan.radio[0].listen, &plan.radio[1].listen}) {
     shift(*port);
   }
   plan.guardian_name += "-" + std::to_string(bay);

@@ -37,7 +37,6 @@ struct LivePlan {
   std::uint16_t guardian_gnss_port = 23'503;  // likewise, of the guardian
   std::uint16_t base_port = 23'433;           // where a base station of our own listens
   std::uint16_t second_base_port = 23'434;    // likewise, for the second path
-  std::uint16_t operator_port = 23'437;       // likewise, for what its operator says
   std::uint16_t report_port = kReportPort;    // where the car tells us its state
   std::array<RadioPorts, scenario::kMaxPaths> radio{
       {{.listen = kRadioListenPort, .onward = 0, .uplink = 0},
@@ -50,6 +49,8 @@ struct LivePlan {
   Follow follow{};  // called after every tick, once it was judged
 
   bool attached() const { return vehicle.empty(); }
+  // Of a base station of our own.
+  std::string command_socket() const { return folder + "/commands"; }
   std::vector<std::uint16_t> receiver_ports() const {  // of each unit 0
     std::vector<std::uint16_t> ports{gnss_port};
     if (!guardian.empty()) ports.push_back(guardian_gnss_port);

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "basestation/intake/operator_words.hpp"
+#include "basestation/inputs/text_command.hpp"
 #include "hil/bench/bus_faults.hpp"
 #include "hil/bench/clock_faults.hpp"
 #include "hil/bench/contact.hpp"
@@ -311,7 +311,8 @@ Result<RunResult, Problem> run_lockstep(const scenario::Scenario& scenario,
   auto faults = plan_faults(scenario.faults, scenario.seed);
   if (!faults) return Unexpected{faults.error()};
   for (const scenario::OperatorWord& word : scenario.operator_words)
-    if (const auto fit = intake::check_words(word.text); !fit) return Unexpected{fit.error()};
+    if (const auto fit = inputs::parse_text_command(word.text); !fit)
+      return Unexpected{fit.error()};
   GuardianNode guardian{setup.params, faults->processes, options.guardian};
   const auto bench = std::make_unique<Lockstep>(
       scenario, setup, *std::move(rig), *std::move(grader), std::move(guardian), *faults, options);

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "basestation/intake/key_pair.hpp"
+#include "basestation/link/key_pair.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -36,12 +36,12 @@ Result<bool, Problem> make_run_keys(const std::string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (!error) fs::permissions(folder, fs::perms::owner_all, error);
-  for (const char* const name : {intake::kCarKeys, intake::kBaseKeys}) {
+  for (const char* const name : {link::kCarKeys, link::kBaseKeys}) {
     if (!error) fs::remove(fs::path(folder) / name, error);
   }
   if (error) return Unexpected{Problem{folder, error.message()}};
   telemetry::SystemRandomness randomness;
-  return intake::write_key_pair(folder, intake::make_key_pair(randomness, true));
+  return link::write_key_pair(folder, link::make_key_pair(randomness, true));
 }
 
 Result<RunKeys, Problem> keys_of_run(const LivePlan& plan, const std::string& given) {
@@ -58,8 +58,8 @@ Result<RunKeys, Problem> keys_of_run(const LivePlan& plan, const std::string& gi
   RunKeys keys{.folder = memory->path(), .memory = *std::move(memory)};
   Result<bool, Problem> done = true;
   if (is_new) done = make_run_keys(keys.folder);
-  if (!is_new && !plan.attached()) done = copy(intake::kCarKeys, given, keys.folder);
-  if (!is_new && !plan.base.empty() && done) done = copy(intake::kBaseKeys, given, keys.folder);
+  if (!is_new && !plan.attached()) done = copy(link::kCarKeys, given, keys.folder);
+  if (!is_new && !plan.base.empty() && done) done = copy(link::kBaseKeys, given, keys.folder);
   if (!done) return Unexpected{done.error()};
   return keys;
 }

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "basestation/intake/operator_words.hpp"
-#include "protocol/telemetry/delivery/path_object.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::bench {
@@ -93,10 +91,16 @@ void VirtualStation::restart_car() {
   car_port_ = static_cast<std::uint16_t>(car_port_ + telemetry::kPaths);
 }
 
-void VirtualStation::start_base() { base_.emplace(config(base_keys_), randomness_); }
+void VirtualStation::start_base() {
+  base_ = std::make_unique<service::CarService>(service::ServiceConfig{}, config(base_keys_),
+                                                randomness_);
+  operator_ = inputs::TextOperator{inputs::kScriptPerson};
+  issued_ = events_received_ = paths_received_ = 0;
+  advanced_ = {};
+}
 
 void VirtualStation::stop_base() {
-  if (base_) newest_stamp_ = base_->newest_stamp();
+  if (base_) newest_stamp_ = base_->link().endpoint().newest_stamp();
   base_.reset();
   to_base_.clear();
 }
@@ -138,29 +142,40 @@ void VirtualStation::serve_base(Instant at) {
       air_.offer(Way::kUp, out->path, {out->bytes, base_address(out->path, at).port}, at);
   };
   for (const Waiting& came : std::exchange(to_base_, {})) {
-    base_->feed(came.datagram.bytes, came.path,
-                {kHere, static_cast<std::uint16_t>(car_port_ + came.path)},
-                base_time(came.datagram.arrives));
+    base_->receive(came.datagram.bytes, came.path,
+                   {kHere, static_cast<std::uint16_t>(car_port_ + came.path)},
+                   base_time(came.datagram.arrives));
     answer();
   }
-  say_words(at);
+  run_text_commands(at);
+  if (at >= advanced_ + kBaseTurn) {
+    advanced_ = at;
+    base_->advance(base_time(at));
+  }
   answer();
-  while (const auto event = base_->next_event()) events_.push_back(*event);
-  while (const auto object = base_->next_bulk())
-    if (object->kind == telemetry::BulkKind::kPath && telemetry::decode_path(object->bytes))
-      ++paths_heard_;
+  collect_news();
 }
 
-void VirtualStation::say_words(Instant at) {
+void VirtualStation::run_text_commands(Instant at) {
   const auto& words = scenario_.operator_words;
   for (; said_ < words.size() && Instant{} + words[said_].at <= at; ++said_) {
-    const auto obeyed = intake::obey(*base_, words[said_].text, base_time(at));
-    if (!obeyed) {
-      refusals_.push_back(to_string(obeyed.error()));
-    } else if (obeyed->command) {
-      commands_.push_back(*obeyed->command);
-    }
+    const auto done = operator_.execute(words[said_].text, base_->requests(), base_time(at));
+    if (!done) refusals_.push_back(words[said_].text + ": " + done.error().what);
   }
+}
+
+void VirtualStation::collect_news() {
+  const command::CommandQueue& queue = base_->requests().queue();
+  for (const command::Ticket& ticket : queue.tickets())
+    if (ticket.number && *ticket.number > issued_) commands_.push_back(*ticket.number);
+  issued_ = queue.issued();
+  const link::Station& radio = base_->link();
+  const auto fresh = static_cast<std::ptrdiff_t>(radio.events_received() - events_received_);
+  events_.insert(events_.end(), radio.events().end() - fresh, radio.events().end());
+  events_received_ = radio.events_received();
+  const std::uint64_t paths =
+      radio.bulk()[static_cast<std::size_t>(telemetry::BulkKind::kPath)].objects;
+  paths_heard_ += paths - std::exchange(paths_received_, paths);
 }
 
 void VirtualStation::hear(pipeline::Inputs& in) {

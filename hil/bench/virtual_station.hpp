@@ -2,7 +2,7 @@
 // and the air of the scenario between them, in virtual time. What the operator says is in the
 // scenario.
 //   in     scenario, Setup, faults; time; Inputs before and Outputs after each tick of the car
-//   out    Inputs as the rim of the real car fills them; the base's picture
+//   out    Inputs as the rim of the real car fills them; the base's service, as the program has it
 //   law    one seed, one run. base_killed: the base is gone, and begins as another run at the
 //          fault's end; it knows the newest stamp of its car. base_replaced: the one that begins is
 //          a spare one, at the second address that the car was told, which knows nothing.
@@ -15,15 +15,17 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "basestation/inputs/text_operator.hpp"
+#include "basestation/service/car_service.hpp"
 #include "hil/bench/air.hpp"
 #include "hil/bench/fault_plan.hpp"
 #include "hil/scenario/scenario.hpp"
 #include "protocol/telemetry/endpoint/car_endpoint.hpp"
-#include "protocol/telemetry/endpoint/station_endpoint.hpp"
 #include "protocol/telemetry/session/keys.hpp"
 #include "protocol/telemetry/session/randomness.hpp"
 #include "protocol/vocabulary/time.hpp"
@@ -60,7 +62,7 @@ class VirtualStation {
   telemetry::CarEndpoint& car() { return *car_; }
   const telemetry::CarEndpoint& car() const { return *car_; }
   // None while it is dead.
-  telemetry::StationEndpoint* base() { return base_ ? &*base_ : nullptr; }
+  service::CarService* base() { return base_.get(); }
   Instant base_time(Instant at) const { return at + kBaseAhead; }
 
   const std::vector<std::string>& refusals() const { return refusals_; }
@@ -70,6 +72,7 @@ class VirtualStation {
 
  private:
   static constexpr Duration kBaseAhead = seconds(12'345);
+  static constexpr Duration kBaseTurn = milliseconds(10);  // of its loop, when nothing is due
 
   struct Waiting {
     telemetry::PathId path = 0;
@@ -84,7 +87,8 @@ class VirtualStation {
   telemetry::Address base_address(telemetry::PathId path, Instant at) const;
   void collect(Way way, std::deque<Waiting>& queue, Instant at);
   void serve_base(Instant at);
-  void say_words(Instant at);
+  void run_text_commands(Instant at);
+  void collect_news();
 
   const scenario::Scenario& scenario_;
   const pipeline::Setup& setup_;
@@ -93,13 +97,16 @@ class VirtualStation {
   Air air_;
   telemetry::KeyFile car_keys_, base_keys_;
   std::optional<telemetry::CarEndpoint> car_;
-  std::optional<telemetry::StationEndpoint> base_;
+  std::unique_ptr<service::CarService> base_;
+  inputs::TextOperator operator_{inputs::kScriptPerson};
+  std::uint64_t issued_ = 0, events_received_ = 0, paths_received_ = 0;  // of this base
   std::optional<pipeline::RadioDesk> desk_;
   pipeline::TickLog log_;
   std::deque<Waiting> to_car_, to_base_;
   std::uint16_t car_port_ = 40'000;
   telemetry::Stamp newest_stamp_ = 0;  // as the base's file has it
   bool spare_ = false;                 // the base that there is, or comes next
+  Instant advanced_{};
   std::size_t said_ = 0;
   std::vector<std::string> refusals_;
   std::vector<telemetry::CommandId> commands_;

@@ -43,7 +43,8 @@ void walk(scenario::Scenario& twin) {
     twin.operator_words.push_back({.at = at, .text = text});
   };
   for (Duration at = seconds(1); at < twin.duration; at = at + kRenew) say(at, "take 1");
-  say(seconds(3), "command speed_limit " + std::to_string(static_cast<int>(kWalking_mps)));
+  say(seconds(3), "command speed_limit " + std::to_string(static_cast<int>(kWalking_mps)) +
+                      " because it drives at a walk");
   std::ranges::stable_sort(twin.operator_words, {}, &scenario::OperatorWord::at);
 }
 

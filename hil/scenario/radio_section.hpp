@@ -2,7 +2,7 @@
 //   radio      a list, one map for each path: rate_kbit, queue_bytes, delay_ms, jitter_ms, loss,
 //              duplicate, corrupt, fade_loss with fade_ms, blackouts (at_s, for_s, every_s), seed.
 //              No section: a radio that takes no time and loses nothing
-//   operator   a list of at_s and say, in the words of basestation/intake/operator_words.hpp; with
+//   operator   a list of at_s and say, in the words of basestation/inputs/text_command.hpp; with
 //              every_s and until_s the same again and again
 //   law        both directions of a path meet the same fades, as on one radio link they do
 //   errors     thrown as yaml::InputError with the place, for read_scenario()

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "basestation/picture/course.hpp"
+#include "basestation/state/course.hpp"
 
 namespace pitwall {
 
@@ -16,7 +16,7 @@ struct Oval {
   double turn_m() const { return std::numbers::pi * radius_m; }
   double length_m() const { return 2.0 * (straight_m + turn_m()); }
 
-  picture::CoursePoint at(double s_m) const {
+  state::CoursePoint at(double s_m) const {
     const double half = straight_m / 2.0;
     const bool far = s_m >= half + turn_m() && s_m < half + turn_m() + straight_m;
     if (s_m < half) return {s_m, s_m, 0.0, 0.0, 0.0};
@@ -33,10 +33,10 @@ struct Oval {
             wrap_pi(angle + (second ? std::numbers::pi : 0.0)), 1.0 / radius_m};
   }
 
-  picture::Course course(double spacing_m = 5.0) const {
-    std::vector<picture::CoursePoint> points;
+  state::Course course(double spacing_m = 5.0) const {
+    std::vector<state::CoursePoint> points;
     for (double s = 0.0; s < length_m() - spacing_m / 2.0; s += spacing_m) points.push_back(at(s));
-    return *picture::Course::make(std::move(points), length_m());
+    return *state::Course::make(std::move(points), length_m());
   }
 };
 

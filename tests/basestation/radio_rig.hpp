@@ -1,5 +1,5 @@
-// A car's end of the radio and a base station, with a link of a fixed delay between them, in
-// virtual time.
+// A car's end of the radio and the service of its base, with a link of a fixed delay between them,
+// in virtual time.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,8 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "basestation/intake/key_pair.hpp"
-#include "basestation/intake/station.hpp"
+#include "basestation/inputs/text_operator.hpp"
+#include "basestation/link/key_pair.hpp"
+#include "basestation/service/car_service.hpp"
 #include "protocol/telemetry/endpoint/car_endpoint.hpp"
 
 namespace pitwall {
@@ -20,6 +21,7 @@ namespace pitwall {
 struct RigOptions {
   std::uint8_t paths = 1;
   bool real_car = true;
+  service::ServiceConfig service{};
 };
 
 struct RadioRig {
@@ -35,11 +37,13 @@ struct RadioRig {
   };
 
   telemetry::SeededRandomness randomness{7};
-  intake::KeyPair keys = intake::make_key_pair(randomness);
+  link::KeyPair keys = link::make_key_pair(randomness);
   RigOptions options;
   Instant now{seconds(50).ns};
   std::unique_ptr<telemetry::CarEndpoint> car;
-  std::unique_ptr<intake::Station> station;
+  std::unique_ptr<service::CarService> base;
+  link::Station* station = nullptr;  // of the base
+  inputs::TextOperator person{inputs::kScriptPerson};
   telemetry::Snapshot snapshot;
   telemetry::GroupSet sampled;  // anew at each tick
   std::deque<Travelling> air;
@@ -68,7 +72,8 @@ struct RadioRig {
     car = std::make_unique<telemetry::CarEndpoint>(config(keys.car), randomness);
   }
   void restart_base() {
-    station = std::make_unique<intake::Station>(config(keys.base), randomness);
+    base = std::make_unique<service::CarService>(options.service, config(keys.base), randomness);
+    station = &base->link();
   }
 
   // From now on the car samples the field's group at each tick, with this value.
@@ -87,7 +92,12 @@ struct RadioRig {
     deliver();
     while (const auto due = car->next_command(now)) told.push_back(*due);
     while (const auto out = car->poll(snapshot, now)) send(true, *out);
+    base->advance(now);
     while (const auto out = station->poll(now)) send(false, *out);
+  }
+  // A text command at the base.
+  Result<bool, Problem> execute(std::string_view line) {
+    return person.execute(line, base->requests(), now);
   }
   void send(bool to_base, const telemetry::Outgoing& out) {
     if (loses(to_base, out.path)) return;
@@ -98,7 +108,7 @@ struct RadioRig {
       const Travelling t = air.front();
       air.pop_front();
       if (t.to_base) {
-        station->take(t.bytes, t.path, kCarAt, now);
+        base->receive(t.bytes, t.path, kCarAt, now);
       } else {
         car->feed(t.bytes, t.path, kBaseAt, now);
       }

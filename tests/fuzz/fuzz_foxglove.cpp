@@ -6,14 +6,14 @@
 #include <span>
 #include <string_view>
 
-#include "basestation/outlets/foxglove/room.hpp"
+#include "basestation/publishers/foxglove/client_registry.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace {
 
-using namespace pitwall::outlets::foxglove;
+using namespace pitwall::publishers::foxglove;
 
-constexpr pitwall::outlets::web::ClientId kClient = 16, kOther = 17;
+constexpr pitwall::publishers::web::ClientId kClient = 16, kOther = 17;
 constexpr std::size_t kMostAnswers = 64 * 1'024;
 
 Room room_of_two() {

@@ -9,7 +9,7 @@
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket/stream.hpp>
 
-namespace pitwall::outlets::web {
+namespace pitwall::publishers::web {
 
 struct Browser::Stream {
   static constexpr bool kCompressed = false;  // no permessage-deflate
@@ -85,4 +85,4 @@ std::string bare(std::uint16_t port, const std::string& bytes, bool hang_up) {
   }
 }
 
-}  // namespace pitwall::outlets::web
+}  // namespace pitwall::publishers::web

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace pitwall::outlets::web {
+namespace pitwall::publishers::web {
 
 class Browser {
  public:
@@ -46,4 +46,4 @@ std::string opening(const std::string& target = "/ws", const std::string& host =
 // Says these bytes and gives what comes back until the end.
 std::string bare(std::uint16_t port, const std::string& bytes, bool hang_up = true);
 
-}  // namespace pitwall::outlets::web
+}  // namespace pitwall::publishers::web

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "basestation/intake/key_pair.hpp"
+#include "basestation/link/key_pair.hpp"
 #include "protocol/telemetry/endpoint/car_endpoint.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/readiness.hpp"
@@ -25,7 +25,7 @@ class CarRadio {
   static Result<CarRadio, Problem> open(std::span<const std::string> words,
                                         const telemetry::BudgetParams& budget = {},
                                         double early_share = telemetry::StateLane::kEarlyShare) {
-    const auto keys = intake::read_keys(words[0], telemetry::Role::kCar);
+    const auto keys = link::read_keys(words[0], telemetry::Role::kCar);
     if (!keys) return Unexpected{keys.error()};
     telemetry::ConduitConfig config;
     config.association.keys = *keys;

@@ -74,7 +74,7 @@ TEST(FileName, ForbiddenWordsAndOtherCases) {
                                 "a/session_manager.hpp", "a/misc.cpp", "a/CamelCase.cpp"}) {
     EXPECT_EQ(check_file_name(make_source(bad, "")).size(), 1U) << bad;
   }
-  for (const std::string good : {"basestation/picture/alarm.hpp", "a/utility_power.hpp",
+  for (const std::string good : {"basestation/alarms/alarm.hpp", "a/utility_power.hpp",
                                  "a/implausible.cpp", "tests/a/b_test.cpp"}) {
     EXPECT_TRUE(check_file_name(make_source(good, "")).empty()) << good;
   }

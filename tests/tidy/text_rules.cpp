@@ -24,24 +24,19 @@ const Names kRimFolders{"protocol/transport",
                         "protocol/recorder",
                         "protocol/dds",
                         "vehicle/io",
-                        "basestation/intake",
-                        "basestation/outlets",
+                        "basestation/link",
+                        "basestation/inputs",
+                        "basestation/publishers",
                         "hil/bench",
                         "hil/guest",
                         "hil/sweep",
                         "tests",
                         "main.cpp"};
-const Names kPrinting{"hil/verbs",
-                      "protocol/transport",
-                      "vehicle/io",
-                      "basestation/intake",
-                      "basestation/outlets",
-                      "hil/bench",
-                      "hil/guest",
-                      "hil/sweep",
-                      "tests",
-                      "main.cpp",
-                      "protocol/vocabulary/check.hpp"};
+const Names kPrinting{"hil/verbs",  "protocol/transport",
+                      "vehicle/io", "basestation/publishers",
+                      "hil/bench",  "hil/guest",
+                      "hil/sweep",  "tests",
+                      "main.cpp",   "protocol/vocabulary/check.hpp"};
 const Names kNowhere{};
 
 const std::vector<Ban> kBans{

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "tests/basestation/race_wall.hpp"
+#include "tests/basestation/healthy_race.hpp"
 
 namespace pitwall::command {
 namespace {
@@ -14,8 +14,8 @@ using telemetry::field;
 
 // A healthy car in its pit, everything told, and somebody at the console.
 struct ChecklistPit {
-  RaceWall wall;
-  picture::BaseFigures base{.disk_minutes = 400.0, .recording = 1.0, .clock_offset_ms = 0.4};
+  HealthyRace wall;
+  state::BaseFigures base{.disk_minutes = 400.0, .recording = 1.0, .clock_offset_ms = 0.4};
   telemetry::HolderId holder = 16;
   SettingsState settings{.version = "3-3f2a", .kept = true};
   JoystickState joystick = JoystickState::kReleased;
@@ -29,13 +29,13 @@ struct ChecklistPit {
     }
   }
   std::vector<Check> checks() {
-    wall.watch.base(base);
+    wall.evaluator.base(base);
     wall.run(seconds(5));
     return now();
   }
   std::vector<Check> now() const {
-    return checks_of({.picture = wall.told.picture,
-                      .watch = wall.watch,
+    return checks_of({.vehicle = wall.told.vehicle,
+                      .evaluator = wall.evaluator,
                       .holder = holder,
                       .holder_name = "console 16",
                       .settings = settings,
@@ -75,10 +75,10 @@ TEST(Checklist, AHealthyCarMayGo) {
 }
 
 TEST(Checklist, NothingIsAGoThatWasNeverHeard) {
-  const RaceWall silent;
-  picture::Picture nothing;
-  const picture::Watch watch;
-  const auto checks = checks_of({.picture = nothing, .watch = watch, .now = silent.now});
+  const HealthyRace silent;
+  state::VehicleState nothing;
+  const alarms::Evaluator evaluator;
+  const auto checks = checks_of({.vehicle = nothing, .evaluator = evaluator, .now = silent.now});
   EXPECT_FALSE(all_go(checks));
   EXPECT_FALSE(all_go({}));
   for (const Check& check : checks) {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-#include "tests/basestation/race_wall.hpp"
+#include "tests/basestation/healthy_race.hpp"
 
 namespace pitwall::command {
 namespace {
@@ -17,12 +17,12 @@ using telemetry::field;
 constexpr telemetry::HolderId kConsole = 17;
 
 struct GatePit {
-  RaceWall wall;
+  HealthyRace wall;
   telemetry::HolderId holder = kConsole;
 
   std::vector<Gate> gates(CommandType type, double argument) {
     return gates_of({.type = type, .argument = argument, .issuer = kConsole}, {},
-                    {wall.told.picture, wall.watch, holder, wall.now});
+                    {wall.told.vehicle, wall.evaluator, holder, wall.now});
   }
   bool passes(CommandType type, double argument) { return all_pass(gates(type, argument)); }
   bool speed(double mps) { return passes(CommandType::kSpeedLimit, mps); }
@@ -131,7 +131,7 @@ TEST(Gates, SlowerPassesWhateverElseIs) {
   pit.wall.set(field("mode.stop_latch"), 1.0);
   pit.wall.link.down_loss = 0.5;
   pit.wall.run(seconds(5));
-  ASSERT_EQ(pit.wall.watch.link_state(), picture::LinkState::kDegraded);
+  ASSERT_EQ(pit.wall.evaluator.link_state(), state::LinkState::kDegraded);
   EXPECT_TRUE(pit.speed(50.0));
   EXPECT_TRUE(pit.speed(0.0));
   EXPECT_FALSE(pit.speed(50.1));

@@ -46,7 +46,7 @@ TEST_F(Replay, PlayedForwardItIsTheLivePictureAtEveryMoment) {
   while (!player_->ended()) {
     player_->advance(milliseconds(730), console);
     race.go_to(player_->now(), live);
-    testing::expect_same(console.picture, live.picture, player_->now());
+    testing::expect_same(console.vehicle, live.vehicle, player_->now());
   }
   EXPECT_EQ(console.texts, live.texts);
   EXPECT_EQ(console.restarts, 0);
@@ -60,7 +60,7 @@ TEST_F(Replay, AfterAJumpAnywhereItIsTheLivePictureOfThatMoment) {
     player_->jump(at, console);
     EXPECT_EQ(player_->now(), at);
     const Console live = live_at(at);
-    testing::expect_same(console.picture, live.picture, at);
+    testing::expect_same(console.vehicle, live.vehicle, at);
     std::vector<std::string> audit;
     for (const std::string& text : live.texts) {
       if (text.starts_with("audit") || text == *(live.texts.end() - 1)) audit.push_back(text);
@@ -68,7 +68,7 @@ TEST_F(Replay, AfterAJumpAnywhereItIsTheLivePictureOfThatMoment) {
     EXPECT_EQ(console.texts, audit) << at_ms;  // all of a log, the newest of a state
     // And it goes on from there.
     player_->advance(milliseconds(500), console);
-    testing::expect_same(console.picture, live_at(player_->now()).picture, player_->now());
+    testing::expect_same(console.vehicle, live_at(player_->now()).vehicle, player_->now());
   }
 }
 
@@ -98,7 +98,7 @@ TEST_F(Replay, BackwardsItIsTheLivePictureToo) {
   player_->set_speed(-2.0);
   for (int i = 0; i < 20; ++i) {
     player_->advance(milliseconds(200), console);
-    testing::expect_same(console.picture, live_at(player_->now()).picture, player_->now());
+    testing::expect_same(console.vehicle, live_at(player_->now()).vehicle, player_->now());
   }
   EXPECT_NEAR((player_->now() - kRaceStart).seconds(), 17.0, 0.2);
   player_->advance(seconds(600), console);
@@ -121,7 +121,7 @@ TEST_F(Replay, ASegmentThatIsCutOrMissingIsPlayedAsFarAsItGoes) {
   Console console;
   player->advance(seconds(60), console);
   EXPECT_EQ(player->now(), kRaceStart + kLength);
-  testing::expect_same(console.picture, live_at(player->now()).picture, player->now());
+  testing::expect_same(console.vehicle, live_at(player->now()).vehicle, player->now());
 }
 
 TEST(Player, AFolderWithoutARecordingIsRefused) {

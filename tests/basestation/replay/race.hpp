@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "basestation/picture/picture.hpp"
 #include "basestation/replay/listener.hpp"
+#include "basestation/state/vehicle_state.hpp"
 #include "protocol/recorder/file_disk.hpp"
 #include "protocol/recorder/segment_chain.hpp"
 
@@ -17,13 +17,13 @@ namespace pitwall::replay::testing {
 
 // A picture and texts, as a console has them.
 struct Console : Listener {
-  picture::Picture picture;
+  state::VehicleState vehicle;
   std::vector<std::string> texts;
   std::vector<Instant> received;
   int restarts = 0;
 
   void state(const telemetry::Snapshot& state, telemetry::GroupSet groups, Instant at) override {
-    picture.update(state, groups);
+    vehicle.update(state, groups);
     received.push_back(at);
   }
   void text(recorder::Topic topic, Instant, std::string_view json) override {
@@ -31,7 +31,7 @@ struct Console : Listener {
   }
   void restart(Instant) override {
     ++restarts;
-    picture = {};
+    vehicle = {};
     texts.clear();
     received.clear();
   }
@@ -113,7 +113,7 @@ inline void record_race(const std::string& folder, Duration length) {
 }
 
 // Every field and group, to the bit, and its age.
-inline void expect_same(const picture::Picture& a, const picture::Picture& b, Instant now) {
+inline void expect_same(const state::VehicleState& a, const state::VehicleState& b, Instant now) {
   for (std::size_t i = 0; i < telemetry::kFieldCount; ++i) {
     const auto x = a.view(i, now), y = b.view(i, now);
     ASSERT_EQ(x.quality, y.quality) << i;

@@ -24,7 +24,7 @@ TEST(ReadBack, ABaseThatStartsAgainKnowsTheRaceAndItsHistory) {
   recorder::ClockMap clock = kRaceClock;
   clock.utc_minus_base = clock.utc_minus_base + seconds(9);
   const ReadBack back = read_back(folder->path(), clock, now, kHistorySpan, console);
-  testing::expect_same(console.picture, live.picture, now);
+  testing::expect_same(console.vehicle, live.vehicle, now);
   EXPECT_EQ(console.texts, live.texts);
   EXPECT_EQ(back.segments, 3U);
   EXPECT_EQ(back.first, kRaceStart);
@@ -39,7 +39,7 @@ TEST(ReadBack, OnlyTheSpanIsTold) {
   Race{}.go_to(kRaceStart + seconds(45), live);
   const ReadBack back = read_back(folder->path(), kRaceClock, now, seconds(10), console);
   EXPECT_EQ(back.segments, 2U);  // from 36 s on, and from 40 s on
-  testing::expect_same(console.picture, live.picture, now);
+  testing::expect_same(console.vehicle, live.vehicle, now);
   EXPECT_GE(back.first, now - seconds(10));
 }
 
@@ -53,7 +53,7 @@ TEST(ReadBack, AfterANewStartOfTheMachineTimesGoByTheCalendar) {
   const ReadBack back =
       read_back(folder->path(), clock, Instant{seconds(30).ns}, kHistorySpan, console);
   EXPECT_EQ(back.last, Instant{-seconds(120).ns});
-  EXPECT_EQ(console.picture.view(0, Instant{seconds(30).ns}).quality, picture::Quality::kStale);
+  EXPECT_EQ(console.vehicle.view(0, Instant{seconds(30).ns}).quality, state::Quality::kStale);
 }
 
 TEST(ReadBack, WhereNothingIsNothingIsTold) {

@@ -42,7 +42,7 @@ TEST(SegmentReader, APictureInTheMiddleSaysAllThatWasKnown) {
   ASSERT_TRUE(reader.restore(at, console));
   Console live;
   testing::Race{}.go_to(at - testing::kPacket, live);
-  testing::expect_same(console.picture, live.picture, at);
+  testing::expect_same(console.vehicle, live.vehicle, at);
 }
 
 TEST(SegmentReader, AnyBytesAreReadWithoutHarm) {

@@ -21,7 +21,7 @@ constexpr const char* kTwo = R"(cars:
     judgement: seven.yaml
     budget_kbit_s: 128
     joystick: /dev/input/event3
-    operator_port: 23437
+    stop_port: 23437
   - number: 8
     keys: keys/8/base.keys
     listen: ["127.0.0.1:23441"]
@@ -56,7 +56,7 @@ TEST(CarsFile, EachCarHasTheCommandLineWithItsOwnWordsInIt) {
   EXPECT_EQ(first.judgement_file, "race/seven.yaml");
   EXPECT_EQ(first.budget_kbit, 128.0);
   EXPECT_EQ(first.joystick, "/dev/input/event3");
-  EXPECT_EQ(first.operator_port, 23'437);
+  EXPECT_EQ(first.stop_port, 23'437);
   EXPECT_EQ(first.web_port, 8080);
   const Arguments& second = cars->back();
   EXPECT_EQ(second.car, 8);
@@ -103,7 +103,7 @@ TEST(CarsFile, NoTwoCarsShareAnything) {
            {"signed: true", "stamp_file: ./state/7.stamp"},
            {"signed: true", "judgement: ./seven.yaml"},
            {"signed: true", "joystick: /dev/input/event3"},
-           {"signed: true", "operator_port: 23437"}}) {
+           {"signed: true", "stop_port: 23437"}}) {
     const auto cars = read(replaced(two, what, with));
     ASSERT_FALSE(cars) << with;
     EXPECT_NE(cars.error().what.find("another car has it"), std::string::npos) << with;
@@ -137,7 +137,7 @@ TEST(CarsFile, MistakesAreToldWithTheirPlace) {
         replaced(two, "budget_kbit_s: 128", "budget_kbit_s: 63"),
         replaced(two, "budget_kbit_s: 128", "budget_kbit_s: .nan"),
         replaced(two, "[\"127.0.0.1:23441\"]", "[]"),
-        replaced(two, "operator_port: 23437", "operator_port: 0")}) {
+        replaced(two, "stop_port: 23437", "stop_port: 0")}) {
     const auto cars = read(text);
     ASSERT_FALSE(cars) << text;
     EXPECT_EQ(cars.error().place.find("cars.yaml"), 0u) << text;

@@ -30,10 +30,10 @@ TEST(JudgementFile, WhatPeopleChangedHolds) {
   EXPECT_EQ(slip.off_delay, alarms::alarm_row(*alarms::find_alarm("wheel_slip")).off_delay);
   EXPECT_EQ(config->alarms.of(*alarms::find_alarm("computer_busy")).priority,
             alarms::Priority::kMedium);
-  EXPECT_EQ(config->limits.of(picture::field_id("electric.battery")).bad_low, 11.5);
-  EXPECT_EQ(config->limits.of(picture::field_id("mode.mode")).warning_values, 0x48U);
+  EXPECT_EQ(config->limits.of(state::field_id("electric.battery")).bad_low, 11.5);
+  EXPECT_EQ(config->limits.of(state::field_id("mode.mode")).warning_values, 0x48U);
   EXPECT_EQ(config->derive.fuel.attempt_laps, 3.0);
-  EXPECT_EQ(config->derive.fuel.home_laps, picture::FuelPlan{}.home_laps);
+  EXPECT_EQ(config->derive.fuel.home_laps, state::FuelPlan{}.home_laps);
   EXPECT_EQ(config->derive.tyres.speed_mps[4], 65.0);
   EXPECT_NE(config->alarms.version(), alarms::AlarmSettings{}.version());
 }
@@ -48,9 +48,8 @@ TEST(JudgementFile, WritingIsTheInverseOfReading) {
   EXPECT_EQ(judgement_text(again->derive, again->limits, again->alarms), text);
   EXPECT_EQ(again->alarms.version(), first->alarms.version());
   EXPECT_EQ(again->alarms.edits().back().author, "Bob \"B\" \\ Ltd: #1");
-  for (picture::FieldId id = 0; id < telemetry::kFieldCount; ++id) {
-    EXPECT_EQ(picture::judge(again->limits.of(id), 11.6),
-              picture::judge(first->limits.of(id), 11.6));
+  for (state::FieldId id = 0; id < telemetry::kFieldCount; ++id) {
+    EXPECT_EQ(alarms::judge(again->limits.of(id), 11.6), alarms::judge(first->limits.of(id), 11.6));
   }
 }
 

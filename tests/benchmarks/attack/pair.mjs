@@ -4,9 +4,9 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import { spawn } from "node:child_process";
-import { createSocket } from "node:dgram";
 import { once } from "node:events";
 import { readFileSync, readdirSync } from "node:fs";
+import { createConnection } from "node:net";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
 import { Client } from "../../system/console/client.mjs";
@@ -25,8 +25,8 @@ export const kDelayMs = 5;
 const kNsPerMs = 1e6;
 const kFrameHeader = 24;
 const kEntry = 8;
-/** The base's words for the stop that the car latched; first the authority, or its renewal. */
-const kRelease = ["take 1", "release"];
+/** Text commands for the stop that the car latched; first the authority, or its renewal. */
+const kRelease = ["take 1", "release because it stands at its box"];
 
 /** One of our own programs: its lines are heard, it ends when its input does. */
 export class Tool {
@@ -123,8 +123,7 @@ export class Pair {
   async prepare(basePort, copies) {
     this.programs.radio = `127.0.0.1:${basePort}`;
     this.bus = `unix:${join(this.programs.folder, "bus")}`;
-    this.words = createSocket("udp4");
-    this.wordsPort = await freePort();
+    this.commandSocket = join(this.programs.folder, "commands");
     this.stand = await new Tool("standing_car", [this.bus], (words) => this.#hear(words)).ready();
     const more = copies === undefined ? [] : [copies];
     this.radio = await new Tool("attack_radio", [basePort, kDelayMs, ...more]).ready();
@@ -137,7 +136,10 @@ export class Pair {
   }
 
   async startBase() {
-    this.address = await this.programs.startBase("--operator-port", String(this.wordsPort));
+    this.address = await this.programs.startBase("--command-socket", this.commandSocket);
+    this.commands = createConnection(this.commandSocket);
+    this.commands.on("error", () => {}); // the base was killed
+    this.commands.resume();
     this.baseSince = now();
     this.consoles.push(await Client.open(this.address, new Console()));
   }
@@ -194,13 +196,13 @@ export class Pair {
   }
 
   /**
-   * True when the car has let go of the stop. By words: a console's release wants a car that knows
-   * where it is.
+   * True when the car has let go of the stop. By text commands: a console's release
+   * wants a car that knows where it is.
    */
   async release(limitMs) {
     for (const end = now() + limitMs; now() < end;) {
       if (this.newest.stop === 0 && now() - this.newest.at < 300) return true;
-      for (const words of kRelease) this.words.send(words, this.wordsPort, "127.0.0.1");
+      for (const line of kRelease) this.commands.write(`${line}\n`);
       await pause(60);
     }
     return false;
@@ -234,7 +236,7 @@ export class Pair {
 
   async close() {
     this.console?.close();
-    this.words?.close();
+    this.commands?.destroy();
     this.radio?.close();
     this.stand?.close();
     await this.programs.close();

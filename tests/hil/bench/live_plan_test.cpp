@@ -87,7 +87,7 @@ TEST(LivePlan, WithABaseTheCarHasKeysAndAPathForEachRadio) {
   EXPECT_EQ(after(base, "--keys"), "out/x/keys/base.keys");
   EXPECT_EQ(std::ranges::count(car, "--radio"), 2);
   EXPECT_EQ(std::ranges::count(base, "--listen"), 2);
-  EXPECT_EQ(after(base, "--operator-port"), std::to_string(p.operator_port));
+  EXPECT_EQ(after(base, "--command-socket"), "out/x/commands");
   EXPECT_EQ(after(car, "--local-report"), std::to_string(p.report_port));
   p.base.clear();
   p.radio[0].onward = 23'429;  // somebody else's base
@@ -112,10 +112,9 @@ TEST(LivePlan, BaysOfOneMachineShareNoPortAndNoMemory) {
   for (int bay = 0; bay < kBaysMax; ++bay) {
     const LivePlan p = in_bay(first, bay);
     taken.push_back(p.guardian_name);
-    for (const int port :
-         {int{p.gnss_port}, p.gnss_port + 1, int{p.guardian_gnss_port}, p.guardian_gnss_port + 1,
-          int{p.base_port}, int{p.second_base_port}, int{p.operator_port}, int{p.report_port},
-          int{p.radio[0].listen}, int{p.radio[1].listen}}) {
+    for (const int port : {int{p.gnss_port}, p.gnss_port + 1, int{p.guardian_gnss_port},
+                           p.guardian_gnss_port + 1, int{p.base_port}, int{p.second_base_port},
+                           int{p.report_port}, int{p.radio[0].listen}, int{p.radio[1].listen}}) {
       taken.push_back(std::to_string(port));
     }
   }

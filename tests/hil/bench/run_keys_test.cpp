@@ -6,13 +6,13 @@
 
 #include <filesystem>
 
-#include "basestation/intake/key_pair.hpp"
+#include "basestation/link/key_pair.hpp"
 
 namespace pitwall::bench {
 namespace {
 
 telemetry::KeyFile read(const std::string& path, telemetry::Role role) {
-  auto keys = intake::read_keys(path, role);
+  auto keys = link::read_keys(path, role);
   EXPECT_TRUE(keys) << (keys ? "" : to_string(keys.error()));
   return *std::move(keys);
 }

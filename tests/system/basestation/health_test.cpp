@@ -6,12 +6,12 @@
 #include <regex>
 #include <string>
 
-#include "basestation/outlets/text_view.hpp"
+#include "basestation/publishers/text/text_view.hpp"
 #include "hil/bench/loading.hpp"
 #include "hil/bench/lockstep.hpp"
 #include "tests/basestation/radio_rig.hpp"
 
-namespace pitwall::outlets {
+namespace pitwall::publishers {
 namespace {
 
 constexpr double kLost_s = 30.0;  // the second receiver's cable
@@ -43,7 +43,7 @@ Screens watch_run() {
     for (; radio.now < now; radio.now += RadioRig::kTick) radio.step();
     radio.station->advance(now);
     const bool before = now - Instant{} < from_seconds(kLost_s);
-    (before ? screens.driving : screens.stopping) = text_view(*radio.station, now, {});
+    (before ? screens.driving : screens.stopping) = text_view(*radio.base, now, {});
   };
   radio.now = Instant{};
   const scenario::Scenario run = cable_cut(*lap);
@@ -90,4 +90,4 @@ TEST(Health, TheConsoleShowsReceiversWatchdogsAndTheReasonOfAStop) {
 }
 
 }  // namespace
-}  // namespace pitwall::outlets
+}  // namespace pitwall::publishers

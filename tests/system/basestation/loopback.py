@@ -67,7 +67,7 @@ def hears_the_car_and_stops_on(stop_signal, folder):
     screens, _ = finish(process, stop_signal)
     heard = json.loads(summary.read_text())
     for key, value in {"source": "simulation", "refused": 0, "sessions": 1,
-                       "words_refused": 0}.items():
+                       "requests_refused": 0}.items():
         expect(heard[key] == value, f"{key} is {heard[key]}, not {value}")
     expect(heard["packets"] >= 40, f"about 100 packets, not {heard['packets']}")
     expect(heard["fields"]["ego.vx"]["value"] == 50.5, "the last value is shown")
@@ -86,15 +86,25 @@ def hears_the_car_and_stops_on(stop_signal, folder):
 def what_the_operator_says_is_done(folder):
     script = folder / "words.txt"
     script.write_text("# what an operator does\n0.3 take 1\n0.5 command speed_limit 30\n"
-                      "0.8 stop emergency\n1.2 take 1\n1.3 release\n")
+                      "0.8 stop emergency\n1.2 take 1\n1.3 release because it stands\n")
     summary = folder / "operator.json"
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    process, addresses = start(folder, "--command", str(script), "--operator-port", str(port),
-                               "--json", str(summary))
+    commands = folder / "commands"
+    process, addresses = start(folder, "--command", str(script), "--stop-port", str(port),
+                               "--command-socket", str(commands), "--json", str(summary))
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as words:
-        words.sendto(b"fly away\n", ("127.0.0.1", port))
+        words.sendto(b"command speed_limit 90\n", ("127.0.0.1", port))
+    expect(stat.S_IMODE(commands.stat().st_mode) == 0o600, "the command socket is its owner's")
+    with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as client:
+        client.settimeout(30)
+        client.connect(str(commands))
+        client.sendall(b"command speed_limit 90\nack all\n")
+        lines = client.makefile()
+        answers = lines.readline(), lines.readline()
+    expect(answers[0].startswith("refused: gate ") and answers[1] == "done\n",
+           f"each line has its answer: {answers}")
     said = drive(folder, addresses, 2.5)
     _, errors = finish(process)
     expect(said.splitlines() == ["command speed limit 30", "stop 2", "stop 0", "sessions 1"],
@@ -103,7 +113,10 @@ def what_the_operator_says_is_done(folder):
     fates = [(c["command"], c["fate"]) for c in heard["commands"]]
     expect(fates[0] == ("speed limit 30 m/s", "applied"), f"commands {fates}")
     expect(len(fates) == 2 and fates[1][1] == "applied", f"the release {fates}")
-    expect(heard["words_refused"] == 1 and "fly away" in errors, "and what it did not understand")
+    expect(heard["requests_refused"] == 2, f"what was refused is counted: {heard}")
+    expect("stop port: command speed_limit 90: refused: only stops" in errors and
+           "command socket: send speed limit 90 m/s: refused: gate " in errors,
+           f"and logged: {errors}")
 
 
 def restarts_are_over_after_one_exchange(folder):

@@ -37,7 +37,7 @@ class Car {
     for (Instant tick = start; tick < start + length; tick += kTick) {
       radio_.listen(tick);
       sample(transport::monotonic_now(), (tick - start).seconds());
-      obey(transport::monotonic_now());
+      execute(transport::monotonic_now());
       radio_.send(snapshot_);
     }
     std::printf("sessions %llu\n", static_cast<unsigned long long>(
@@ -64,7 +64,7 @@ class Car {
     }
   }
 
-  void obey(Instant now) {
+  void execute(Instant now) {
     radio_.end().standstill(true);
     const auto level = radio_.end().view(now).stop;
     if (level != stop_) std::printf("stop %d\n", static_cast<int>(level));

@@ -1,6 +1,6 @@
 // What another DDS gets from the base: names, types, hashes, values; and what it cannot do to it.
 // SPDX-License-Identifier: Apache-2.0
-#include "basestation/outlets/dds/ros_outlet.hpp"
+#include "basestation/publishers/dds/ros_publisher.hpp"
 
 #include <gtest/gtest.h>
 #include <peer.h>
@@ -12,11 +12,11 @@
 
 #include "protocol/transport/process.hpp"
 #include "protocol/transport/udp_socket.hpp"
-#include "tests/basestation/outlets/ros_view/some_state.hpp"
+#include "tests/basestation/publishers/ros_view/some_state.hpp"
 #include "tests/basestation/radio_rig.hpp"
 #include "tests/system/dds/cyclone_peer.hpp"
 
-namespace pitwall::outlets::dds {
+namespace pitwall::publishers::dds {
 namespace {
 
 using pitwall::testing::comes;
@@ -51,8 +51,8 @@ class Base {
     rig_.run(milliseconds(20));
     const telemetry::Arrival all{.groups = telemetry::groups_of(telemetry::Direction::kDown),
                                  .received = rig_.now};
-    outlet_->packet(*rig_.station, all);
-    outlet_->serve(*rig_.station, rig_.now);
+    outlet_->packet(*rig_.base, all);
+    outlet_->publish(*rig_.base, rig_.now);
   }
   bool turns_until(const std::function<bool()>& is_so) {
     return comes([&] {
@@ -60,9 +60,9 @@ class Base {
       return is_so();
     });
   }
-  Outlet& outlet() { return *outlet_; }
-  intake::Station& station() { return *rig_.station; }
-  OutletFigures figures() const { return *outlet_->figures(); }
+  service::Publisher& outlet() { return *outlet_; }
+  service::CarService& service() { return *rig_.base; }
+  service::PublisherFigures figures() const { return *outlet_->figures(); }
   std::uint64_t refused(const std::string& what) const {
     for (const auto& [name, count] : figures().refused)
       if (name == what) return count;
@@ -71,7 +71,7 @@ class Base {
 
  private:
   RadioRig rig_;
-  std::unique_ptr<Outlet> outlet_;
+  std::unique_ptr<service::Publisher> outlet_;
 };
 
 // Takes until something is there.
@@ -225,7 +225,7 @@ TEST(RosPeers, StrangersAreNotConnectedAndAreCounted) {
     return base.refused("foreign_types") >= 2;
   }));
   EXPECT_FALSE(CyclonePeer::take<peer_Other>(wrong));
-  EXPECT_EQ(base.station().commands_given(), 0U);
+  EXPECT_EQ(base.service().requests().queue().issued(), 0U);
   EXPECT_EQ(base.figures().clients, 0U);
 }
 
@@ -259,7 +259,7 @@ TEST(RosPeers, GarbageOnItsPortIsCountedAndTheRestGoesOn) {
     return base.refused("malformed_datagrams") > 0;
   }));
   EXPECT_TRUE(awaited<peer_Odometry>(base, odom));
-  EXPECT_EQ(base.station().commands_given(), 0U);
+  EXPECT_EQ(base.service().requests().queue().issued(), 0U);
 }
 
 constexpr int kStoppedDomain = 49;
@@ -301,4 +301,4 @@ TEST(RosPeers, AReaderThatStopsCostsNobodyElseAnything) {
 }
 
 }  // namespace
-}  // namespace pitwall::outlets::dds
+}  // namespace pitwall::publishers::dds

@@ -12,12 +12,12 @@
 #include <thread>
 #include <vector>
 
-#include "basestation/outlets/dds/ros_outlet.hpp"
+#include "basestation/publishers/dds/ros_publisher.hpp"
 #include "protocol/transport/clock.hpp"
-#include "tests/basestation/outlets/ros_view/some_state.hpp"
+#include "tests/basestation/publishers/ros_view/some_state.hpp"
 #include "tests/system/dds/cyclone_peer.hpp"
 
-namespace pitwall::outlets::dds {
+namespace pitwall::publishers::dds {
 namespace {
 
 // Lines of a program that looks on, until it ends.
@@ -138,4 +138,4 @@ TEST(Wire, TsharkSeesTopicsTypesHashesAndTheEnclave) {
 }
 
 }  // namespace
-}  // namespace pitwall::outlets::dds
+}  // namespace pitwall::publishers::dds

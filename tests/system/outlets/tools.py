@@ -76,7 +76,7 @@ def an_lcm_flood_is_not_even_heard(base):
     after = until("packets of the car after the flood", lambda: (
         lambda text: text if value(text, "pitwall_packets_total") > packets + 50 else None)(
             base.metrics()))
-    for name in ("pitwall_commands_total", "pitwall_words_refused_total",
+    for name in ("pitwall_commands_total", "pitwall_requests_refused_total",
                  "pitwall_packets_lost_total", "pitwall_records_malformed_total",
                  "pitwall_sessions_total"):
         expect(value(before, name) == value(after, name), f"{name} is as before the flood")

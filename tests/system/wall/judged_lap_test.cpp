@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "basestation/picture/watch/watch.hpp"
+#include "basestation/alarms/evaluator.hpp"
 #include "hil/bench/loading.hpp"
 #include "hil/bench/lockstep.hpp"
 
@@ -14,8 +14,8 @@ namespace {
 
 // What the car says, judged as it is said; the way to the base is a perfect one.
 struct JudgedLap {
-  picture::Picture picture;
-  picture::Watch watch;
+  state::VehicleState picture;
+  alarms::Evaluator watch;
   std::set<std::string> alarms;  // that ever came
 
   void run(const std::vector<scenario::Fault>& faults, Duration length) {
@@ -39,7 +39,7 @@ struct JudgedLap {
 };
 
 double coldest(const JudgedLap& lap) {
-  constexpr picture::FieldId kTyreMin = picture::id_of(picture::BaseField::kTyreMin);
+  constexpr state::FieldId kTyreMin = state::id_of(state::BaseField::kTyreMin);
   return lap.watch.view(lap.picture, kTyreMin, Instant{}).value;
 }
 

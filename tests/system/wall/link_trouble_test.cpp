@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "basestation/outlets/wall/wall.hpp"
 #include "hil/link/link_emulator.hpp"
 #include "protocol/json/json_value.hpp"
 #include "tests/basestation/radio_rig.hpp"
@@ -45,10 +44,7 @@ class Pit {
       sound_.emplace_back(sound(), seed + way);
       troubled_.emplace_back(trouble, seed + 2 + way);
     }
-    server_ = outlets::web::WebServer::start({}, {}).value();
-    wall_ = std::make_unique<outlets::wall::Wall>(outlets::wall::WallConfig{.name = {}},
-                                                  *rig_.station, *server_);
-    wall_->room().record_with([this](std::string_view type, std::string_view json, Instant) {
+    rig_.base->messages().subscribe([this](std::string_view type, std::string_view json, Instant) {
       note(std::string{type}, std::string{json});
     });
     rig_.set(field("mode.mode"), 2.0);
@@ -77,14 +73,13 @@ class Pit {
       }
     }
     for (Ways* const from : {&sound_, &troubled_}) deliver(*from);
-    if (rig_.now.ns % kTick.ns == 0) wall_->serve(*rig_.station, rig_.now);
+    if (rig_.now.ns % kTick.ns == 0) rig_.base->advance(rig_.now);
     while (const auto out = rig_.station->poll(rig_.now)) ways[1].offer(out->bytes, rig_.now);
   }
 
   void deliver(Ways& ways) {
     while (const auto datagram = ways[0].take(rig_.now)) {
-      if (!rig_.station->take(datagram->bytes, 0, RadioRig::kCarAt, rig_.now)) continue;
-      wall_->packet(*rig_.station, *rig_.station->arrival());
+      rig_.base->receive(datagram->bytes, 0, RadioRig::kCarAt, rig_.now);
     }
     while (const auto datagram = ways[1].take(rig_.now)) {
       rig_.car->feed(datagram->bytes, 0, RadioRig::kBaseAt, rig_.now);
@@ -112,8 +107,6 @@ class Pit {
   Told told_;
   RadioRig rig_;
   Ways sound_, troubled_;
-  std::unique_ptr<outlets::web::WebServer> server_;
-  std::unique_ptr<outlets::wall::Wall> wall_;
 };
 
 Told told_of(const link::LinkParams& trouble, Duration length, std::uint64_t seed) {

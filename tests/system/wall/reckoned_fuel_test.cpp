@@ -2,7 +2,7 @@
 // The fuel that the base reckons, against the engine of the bench.
 #include <gtest/gtest.h>
 
-#include "basestation/picture/incidents/fuel_estimate.hpp"
+#include "basestation/state/derived/fuel_estimate.hpp"
 #include "hil/plant/engine.hpp"
 
 namespace pitwall {
@@ -17,7 +17,7 @@ TEST(ReckonedFuel, IsWithinATenthOfTheBenchAtSpeed) {
     for (double throttle = 0.65; throttle <= 1.0; throttle += 0.01) {
       const double torque_nm = plant::engine_torque_nm(engine, rpm, throttle);
       const double bench_lps = plant::fuel_flow_kgps(engine, fuel, rpm, torque_nm) / kDensity_kgpl;
-      const double ours_lps = picture::fuel_flow_lps({rpm, throttle, true});
+      const double ours_lps = state::fuel_flow_lps({rpm, throttle, true});
       EXPECT_NEAR(ours_lps / bench_lps, 1.0, 0.1) << rpm << " rpm, throttle " << throttle;
     }
   }

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/alarms/alarm.hpp"
+
+#include <algorithm>
+
+namespace pitwall::alarms {
+
+std::string_view text_of(State state) {
+  constexpr std::array<std::string_view, 7> kTexts{"normal",  "unack",   "acked",     "rtn_unack",
+                                                   "latched", "shelved", "suppressed"};
+  return kTexts.at(static_cast<std::size_t>(state));
+}
+
+State Alarm::state() const {
+  if (shelved_until_) return State::kShelved;
+  if (!active_ && !unseen_ && !held_) return State::kNormal;
+  if (suppressed_) return State::kSuppressed;
+  if (active_) return unseen_ ? State::kUnack : State::kAcked;
+  return unseen_ ? State::kReturnedUnack : State::kLatched;
+}
+
+bool Alarm::broken(const AlarmRow& row, const AlarmSetting& setting, double value) const {
+  const double back = raw_ ? setting.deadband : 0.0;
+  return row.side == Side::kAbove ? value > setting.limit - back : value < setting.limit + back;
+}
+
+bool Alarm::update(const AlarmRow& row, const AlarmSetting& setting, const Reading& reading,
+                   bool suppressed, Instant now) {
+  if (shelved_until_ && now >= *shelved_until_) {
+    shelved_until_.reset();
+    unseen_ = unseen_ || active_;
+  }
+  suppressed_ = suppressed;
+  if (suppressed || !reading.usable) {
+    raw_ = counted_ = active_;  // nothing is on its way
+    return false;
+  }
+  value_ = reading.value;
+  if (const bool is = broken(row, setting, reading.value); is != raw_) {
+    raw_ = is;
+    raw_since_ = now;
+    counted_ = false;
+  }
+  const Duration lasted = now - raw_since_;
+  bool announced = false;
+  if (raw_ && !counted_ && lasted >= setting.on_delay) announced = come(row, now);
+  const Duration quiet = folded_ ? std::max(setting.off_delay, kChatterWindow) : setting.off_delay;
+  if (!raw_ && active_ && lasted >= quiet) go();
+  return announced;
+}
+
+// True: to be announced. A coming within the fold is only counted.
+bool Alarm::come(const AlarmRow& row, Instant now) {
+  counted_ = true;
+  if (active_ && !folded_) return false;  // it had not gone yet: its off-delay still ran
+  ++count_;
+  comings_[comings_ever_++ % kChatterCount] = now;
+  if (active_) return false;
+  active_ = unseen_ = true;
+  held_ = row.latched;
+  since_ = now;
+  const Instant oldest = *std::min_element(comings_.begin(), comings_.end());
+  folded_ = comings_ever_ >= kChatterCount && now - oldest <= kChatterWindow;
+  return true;
+}
+
+void Alarm::go() {
+  active_ = folded_ = false;
+  settle();
+}
+
+void Alarm::settle() {
+  if (!active_ && !unseen_ && !held_) count_ = 0;
+}
+
+bool Alarm::acknowledge() {
+  if (state() != State::kUnack && state() != State::kReturnedUnack) return false;
+  unseen_ = false;
+  settle();
+  return true;
+}
+
+bool Alarm::shelve(Instant until) {
+  switch (state()) {
+    case State::kNormal:
+    case State::kShelved:
+    case State::kSuppressed:
+      return false;
+    default:
+      shelved_until_ = until;
+      return true;
+  }
+}
+
+bool Alarm::unshelve() {
+  if (!shelved_until_) return false;
+  shelved_until_.reset();
+  unseen_ = false;
+  settle();
+  return true;
+}
+
+bool Alarm::reset() {
+  if (state() != State::kLatched) return false;
+  held_ = false;
+  settle();
+  return true;
+}
+
+}  // namespace pitwall::alarms

@@ -1,0 +1,104 @@
+// Every alarm of the pit wall: what it watches, how urgent it is, what to do about it.
+//   law    ISA-18.2: an alarm demands an act; one without a response text does not compile. Each is
+//          a bound on one field (of the car's registry or of the base's own), with deadband, delays
+//          and the states of the car in which it means nothing
+//          one that is overruled by another is not heard while that one is there
+//   units  limit and deadband in the unit of the field
+//   source Saba et al. (incidents), ISA-18.2, EEMUA 191; limits are defaults, settings change them
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "basestation/state/station_field.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::alarms {
+
+enum class Priority : std::uint8_t { kLow, kMedium, kHigh };
+std::string_view text_of(Priority priority);
+
+enum class Side : std::uint8_t { kAbove, kBelow };
+
+// States of the car in which an alarm means nothing.
+enum class Situation : std::uint8_t {
+  kLinkLost,   // nothing is known: the link's own alarm stands for all
+  kDisarmed,   // nobody drives
+  kEngineOff,  // pressures and temperatures of an engine that does not run
+  kStanding,
+  kInPit  // off every line, on tyres that people change
+};
+inline constexpr std::size_t kSituations = 5;
+struct Situations {
+  std::uint8_t bits = 0;
+
+  constexpr bool has(Situation s) const { return (bits >> static_cast<unsigned>(s) & 1U) != 0; }
+  constexpr void set(Situation s, bool on) {
+    const auto bit = static_cast<std::uint8_t>(1U << static_cast<unsigned>(s));
+    bits = static_cast<std::uint8_t>(on ? bits | bit : bits & ~bit);
+  }
+  constexpr bool meets(Situations other) const { return (bits & other.bits) != 0; }
+};
+
+using AlarmIndex = std::size_t;  // place in kAlarmTable
+
+struct AlarmRow {
+  std::string_view key;   // stands in recordings and settings; never used for another
+  std::string_view text;  // what is wrong
+  std::string_view response;
+  Priority priority;
+  state::FieldId field;
+  Side side;
+  double limit, deadband;
+  Duration on_delay, off_delay;
+  bool latched;  // stays until it was acknowledged and reset
+  Situations silent_in;
+  std::string_view overruled_by = {};
+};
+
+// The table in force may differ from the default in these.
+struct AlarmSetting {
+  Priority priority = Priority::kLow;
+  double limit = 0.0, deadband = 0.0;
+  Duration on_delay{}, off_delay{};
+
+  bool operator==(const AlarmSetting&) const = default;
+};
+struct AlarmEdit {
+  std::string key;
+  AlarmSetting setting;
+  std::string author, reason;
+};
+
+std::size_t alarm_count();
+const AlarmRow& alarm_row(AlarmIndex index);
+std::optional<AlarmIndex> find_alarm(std::string_view key);
+AlarmSetting default_setting(AlarmIndex index);
+
+// The settings in force, with who changed them.
+class AlarmSettings {
+ public:
+  AlarmSettings();  // the table
+
+  const AlarmSetting& of(AlarmIndex index) const { return settings_[index]; }
+  // Problem with the key as place: no such alarm, no numbers, a negative deadband or delay, a delay
+  // beyond 10 min, nobody's name, a high alarm that shall be less.
+  Result<bool, Problem> edit(const AlarmEdit& edit);
+  const std::vector<AlarmEdit>& edits() const { return edits_; }
+  // Of everything that decides the list: the same version, the same inputs, the same list.
+  std::uint64_t version() const;
+  std::string version_text() const;  // 16 hexadecimal digits
+
+ private:
+  std::vector<AlarmSetting> settings_;
+  std::vector<AlarmEdit> edits_;
+};
+
+}  // namespace pitwall::alarms

@@ -1,0 +1,125 @@
+// The list of alarms: every alarm of the table, judged together.
+//   in     readings of the fields, the situation of the car, operators' acts, time; the caller
+//          steps it at whole multiples of the grid (watch.hpp), so that nobody's polling shows
+//   out    the list, its history, how it stands against what people can bear
+//   law    the same inputs in the same order give the same list and history
+//          no act and no order of events loses an alarm that nobody has seen: it is in the list,
+//          shelved or suppressed until somebody has acknowledged this very occurrence
+//          link lost suppresses every alarm on the car's values and raises exactly one
+//          flood: more than 10 comings in 10 min, until 5 or fewer; the list then shows the first
+//          of each episode and the high ones. An episode lasts while any alarm is in the list
+//   ids    an occurrence's; an act that names an old one is refused: it was not what is there now
+//   errors acts: Problem with the id as place
+//   cost   no allocation in step() while nothing changes
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "basestation/alarms/alarm.hpp"
+#include "basestation/alarms/alarm_table.hpp"
+#include "basestation/alarms/rate.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::alarms {
+
+using AlarmId = std::uint32_t;  // of an occurrence, from 1
+
+// A line of the list, ready to be shown.
+struct ListedAlarm {
+  AlarmId id = 0;
+  AlarmIndex index = 0;
+  std::string_view key, text, response;
+  Priority priority = Priority::kLow;
+  State state = State::kNormal;
+  Instant since{};
+  double value = kUnset;
+  std::uint32_t count = 0;
+  bool first_up = false, folded = false;
+  bool flooded = false;  // not shown while the list is flooded
+  std::optional<Instant> shelved_until;
+  std::string by, reason;  // of the newest act on it
+};
+
+struct AlarmEvent {
+  std::uint64_t number = 0;  // from 1
+  Instant at{};
+  AlarmId id = 0;
+  std::string_view key;
+  State from = State::kNormal, to = State::kNormal;
+  std::string by, reason;  // empty: by itself
+
+  bool operator==(const AlarmEvent&) const = default;
+};
+
+class Engine {
+ public:
+  static constexpr std::size_t kHistory = 1'000;  // kept; all are counted
+
+  explicit Engine(AlarmSettings settings = {});
+
+  // `readings`: one for each row of the table.
+  void step(const std::vector<Reading>& readings, Situations situations, Instant now);
+
+  Result<bool, Problem> acknowledge(AlarmId id, std::string_view by, Instant now);
+  Result<bool, Problem> shelve(AlarmId id, Duration length, std::string_view by,
+                               std::string_view reason, Instant now);
+  Result<bool, Problem> unshelve(AlarmId id, std::string_view by, Instant now);
+  Result<bool, Problem> reset(AlarmId id, std::string_view by, Instant now);
+  Result<bool, Problem> edit(const AlarmEdit& edit);
+
+  // High first, then in the order of their coming. All but the values in it changes only when
+  // revision() does.
+  std::vector<ListedAlarm> active() const;
+  std::vector<ListedAlarm> shelved() const;
+  std::vector<ListedAlarm> suppressed() const;
+  std::uint64_t revision() const { return revision_; }
+  const std::deque<AlarmEvent>& history() const { return history_; }
+  std::uint64_t events() const { return events_; }
+  std::size_t count() const;  // in the active list
+  std::size_t count(Priority priority) const;
+  std::size_t unseen(Priority priority) const;
+  State state(AlarmIndex index) const { return entries_[index].alarm.state(); }
+  const AlarmRate& rate() const { return rate_; }
+  const AlarmSettings& settings() const { return settings_; }
+
+ private:
+  struct Entry {
+    Alarm alarm;
+    AlarmId id = 0;
+    bool first_up = false;
+    std::string by, reason;
+  };
+  enum class Part : std::uint8_t { kNone, kActive, kShelved, kSuppressed };
+
+  static Part part_of(State state);
+  bool overruled(AlarmIndex index) const;
+  std::vector<ListedAlarm> list(Part part) const;
+  ListedAlarm line(AlarmIndex index) const;
+  struct Said {
+    std::string_view by, reason;
+  };
+  Result<AlarmIndex, Problem> find(AlarmId id) const;
+  void note(AlarmIndex index, State from, Instant now, std::string_view by,
+            std::string_view reason);
+  void mark_first();
+  template <class Act>
+  Result<bool, Problem> act(AlarmId id, const Said& said, Instant now, const Act& act);
+
+  AlarmSettings settings_;
+  std::vector<Entry> entries_;
+  std::vector<std::optional<AlarmIndex>> overruled_by_;
+  std::vector<AlarmIndex> came_;  // in this step
+  std::deque<AlarmEvent> history_;
+  AlarmRate rate_;
+  std::uint64_t revision_ = 0, events_ = 0;
+  AlarmId ids_ = 0;
+};
+
+}  // namespace pitwall::alarms

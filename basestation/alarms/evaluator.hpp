@@ -1,0 +1,104 @@
+// The base's judgement of all that it knows: derived fields, alarms, notices. One object, stepped
+// with time, told what changes; no clock of its own.
+//   in     the vehicle state, figures of link and base, expectations, operators' acts
+//   out    views of every field with a judgement, the list of alarms, drafts for race control
+//   law    it is stepped at whole multiples of kGrid, whatever the caller's rhythm: advance(t)
+//          makes every step up to t with what was known until then. So the same changes at the same
+//          times give the same alarms, however often anybody asked: live, in replay, in a test.
+//          Whoever changes something therefore calls advance() with the time of the change first
+//   errors acts as Engine has them
+//   cost   a step is some microseconds and allocates nothing while no alarm comes or goes
+//
+//   watch.advance(picture, received);  picture.update(snapshot, groups);  watch.link(figures);
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "basestation/alarms/engine.hpp"
+#include "basestation/alarms/evaluator_input.hpp"
+#include "basestation/alarms/limits.hpp"
+#include "basestation/alarms/notices.hpp"
+#include "basestation/state/course.hpp"
+#include "basestation/state/derived/derive.hpp"
+#include "basestation/state/known.hpp"
+#include "basestation/state/vehicle_state.hpp"
+
+namespace pitwall::alarms {
+
+inline constexpr Duration kGrid = milliseconds(10);
+
+struct EvaluatorConfig {
+  state::DeriveParams derive;
+  Limits limits;
+  AlarmSettings alarms;
+  std::optional<state::Course> course;
+};
+
+class Evaluator {
+ public:
+  explicit Evaluator(EvaluatorConfig config = {});
+
+  // Every step of the grid in (newest step, now]; at most kStepsAtOnce, older ones are left out and
+  // counted: a base that slept for an hour does not judge that hour.
+  static constexpr std::int64_t kStepsAtOnce = 60'000;
+  void advance(const state::VehicleState& vehicle, Instant now);
+  std::uint64_t steps_left_out() const { return left_out_; }
+
+  // After advance() to the time of the change, which is then that of the input.
+  Result<bool, Problem> take(const EvaluatorInput& input);
+  void link(const state::LinkFigures& figures) { static_cast<void>(take(figures)); }
+  void base(const state::BaseFigures& figures) { static_cast<void>(take(figures)); }
+  void expect(const state::Expectations& expected) { static_cast<void>(take(expected)); }
+  Result<bool, Problem> edit(const LimitEdit& edit) { return take(edit); }
+  Result<bool, Problem> edit(const AlarmEdit& edit) { return take(edit); }
+  // A packet with states came; the figures of the link say it, too, but seldom.
+  void heard(Instant at) { known_.link.heard = at; }
+  // Who is told every input when it was taken: a recording.
+  void tell_inputs(std::function<void(const EvaluatorInput&, Instant)> told) {
+    told_ = std::move(told);
+  }
+
+  const Engine& alarms() const { return engine_; }
+  const Notices& notices() const { return notices_; }
+  const Limits& limits() const { return limits_; }
+  const state::Known& known() const { return known_; }
+  const std::optional<state::Course>& course() const { return course_; }
+  state::LinkState link_state() const { return books_.link.state(); }
+  Instant link_since() const { return books_.link.since(); }
+  state::FuelLeft fuel() const { return books_.fuel_left(params_.fuel); }
+  const state::DeriveParams& params() const { return params_; }  // as the file has them
+  const state::TyreGate& tyre_gate() const { return params_.tyres; }
+
+  // Of any field, the car's at `now`, the base's own as of the newest step.
+  state::FieldView view(const state::VehicleState& vehicle, state::FieldId field,
+                        Instant now) const;
+  Judgement judge(state::FieldId field, const state::FieldView& view) const {
+    return limits_.judge(field, view);
+  }
+
+ private:
+  struct Taking;
+
+  void step(const state::VehicleState& vehicle, Instant now);
+  Situations situations(const state::VehicleState& vehicle, Instant now) const;
+
+  state::DeriveParams params_;
+  Limits limits_;
+  Engine engine_;
+  std::optional<state::Course> course_;
+  state::Known known_;
+  state::Books books_;
+  Notices notices_;
+  state::BaseViews views_{};
+  std::vector<Reading> readings_;  // kept for its storage
+  std::optional<std::int64_t> newest_step_;
+  std::uint64_t left_out_ = 0;
+  Instant now_{};  // of the newest advance()
+  std::function<void(const EvaluatorInput&, Instant)> told_;
+};
+
+}  // namespace pitwall::alarms

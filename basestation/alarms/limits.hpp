@@ -1,0 +1,59 @@
+// Good, warning or bad: what a value means, by limits that people can change and that name them.
+//   in     a field's value and quality; limits by field, defaults from kDefaultLimits
+//   out    kNone where there is no limit, no value, or the value is stale: an old value has no
+//          colour
+//   law    a value at a limit is still on its good side. Bits and enumerations have sets of values
+//          instead of bounds
+//   errors edit(): Problem for an unknown field, bounds that are no numbers or out of order
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "basestation/state/station_field.hpp"
+#include "basestation/state/vehicle_state.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::alarms {
+
+enum class Judgement : std::uint8_t { kNone, kGood, kWarning, kBad };
+std::string_view text_of(Judgement judgement);
+
+// Bounds that are unset do not count. Sets: bit k is the value k.
+struct Limit {
+  double warning_low = kUnset, warning_high = kUnset;
+  double bad_low = kUnset, bad_high = kUnset;
+  std::uint64_t warning_values = 0, bad_values = 0;
+
+  bool bounded() const;
+  bool any() const { return bounded() || warning_values != 0 || bad_values != 0; }
+  bool operator==(const Limit&) const = default;
+};
+Judgement judge(const Limit& limit, double value);
+
+struct LimitEdit {
+  state::FieldId field = 0;
+  Limit limit;
+  std::string author, reason;
+};
+
+class Limits {
+ public:
+  Limits();  // the defaults
+
+  const Limit& of(state::FieldId field) const;
+  Judgement judge(state::FieldId field, const state::FieldView& view) const;
+  Result<bool, Problem> edit(const LimitEdit& edit);
+  // Newest last; they make the file anew.
+  const std::vector<LimitEdit>& edits() const { return edits_; }
+
+ private:
+  std::vector<Limit> car_, base_;
+  std::vector<LimitEdit> edits_;
+};
+
+}  // namespace pitwall::alarms

@@ -1,0 +1,121 @@
+// The operator's desk: commands on their way from a thought to the car, step by step.
+//
+//   staged -> gated -> sent -> received -> applied
+//                |       |         `-> refused | expired | superseded
+//                `-------`-> refused (gates, or cancelled), expired (nobody sent it)
+//
+//   in     what operators stage, send and cancel; what the vehicle state says; what the car answers
+//   out    tickets with every step and its time; commands issued on the radio's desk; audit lines
+//   law    gates are judged when a command is staged and again when it is sent: what has passed a
+//          minute ago has not passed now. One that did not pass goes only with a reason and by a
+//          second person, and never past a gate that cannot be overridden
+//          a stop needs no ticket, no gate, no authority, and is said at once, again and again
+//          a ticket is sent once; nothing waits for the link to come back
+//   errors Problem with the ticket or the command as place; the audit log has the refusal too
+//   bound  kKept tickets; staged ones expire after kStagedFor
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "basestation/command/audit.hpp"
+#include "basestation/command/gates.hpp"
+#include "basestation/command/person.hpp"
+#include "protocol/telemetry/endpoint/station_endpoint.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::command {
+
+enum class Step : std::uint8_t {
+  kStaged,
+  kGated,
+  kSent,
+  kReceived,
+  kApplied,
+  kRefused,
+  kExpired,
+  kSuperseded
+};
+inline constexpr std::size_t kSteps = 8;
+std::string_view text_of(Step step);
+constexpr bool is_final(Step step) { return step >= Step::kApplied; }
+
+using TicketId = std::uint32_t;  // from 1
+
+// A reason, and the second person who agrees. Who that is the caller has found out by the token.
+struct Override {
+  std::string reason;
+  Person second;
+};
+
+struct Ticket {
+  TicketId id = 0;
+  telemetry::Command command;
+  Person by;
+  Step step = Step::kStaged;
+  std::array<std::optional<Instant>, kSteps> at{};
+  std::vector<Gate> gates;
+  std::optional<Override> overridden;
+  std::optional<telemetry::CommandId> number;          // on the radio
+  std::optional<telemetry::CommandProgress> progress;  // there, as known last
+  std::string text;                                    // why it ended as it did
+  bool echoed = false;                                 // the car's state shows it
+  std::uint64_t revision = 0;                          // of the queue, when it changed last
+};
+
+class CommandQueue {
+ public:
+  static constexpr std::size_t kKept = 200;
+  static constexpr Duration kStagedFor = seconds(30);
+
+  // Where operators are known by tokens an override takes a second person, else a reason.
+  CommandQueue(const GateParams& params, bool second_person, Audit& audit)
+      : params_(params), second_person_(second_person), audit_(&audit) {}
+
+  Result<TicketId, Problem> stage(const Person& by, telemetry::CommandType type, double argument,
+                                  const GateInputs& inputs);
+  Result<bool, Problem> send(TicketId id, const Person& by,
+                             const std::optional<Override>& overriding, const GateInputs& inputs,
+                             telemetry::StationEndpoint& radio);
+  // Staged and sent at once; where a gate holds it back it has ended.
+  Result<bool, Problem> issue(const Person& by, telemetry::CommandType type, double argument,
+                              const std::optional<Override>& overriding, const GateInputs& inputs,
+                              telemetry::StationEndpoint& radio);
+  Result<bool, Problem> cancel(TicketId id, const Person& by, Instant now);
+  void stop(telemetry::StopLevel level, telemetry::StopReason reason, const Person& by, Instant now,
+            telemetry::StationEndpoint& radio);
+
+  // How far the car got; what is staged too long expires. After every packet, and before the
+  // tickets are shown.
+  void follow(const state::VehicleState& vehicle, const telemetry::StationEndpoint& radio,
+              Instant now);
+
+  const std::deque<Ticket>& tickets() const { return tickets_; }
+  const Ticket* ticket(TicketId id) const;
+  std::uint64_t revision() const { return revision_; }  // rises with each change of a ticket
+  std::uint64_t issued() const { return issued_; }      // commands given to the radio
+
+ private:
+  Ticket* find(TicketId id);
+  void reach(Ticket& ticket, Step step, Instant now);
+  Unexpected<Problem> refuse(const Person& by, const std::string& what, std::string why,
+                             Instant now);
+  void end(Ticket& ticket, Step step, std::string text, Instant now);
+  void follow(Ticket& ticket, const telemetry::CommandProgress& progress);
+
+  GateParams params_;
+  bool second_person_;
+  Audit* audit_;
+  std::deque<Ticket> tickets_;
+  std::uint64_t revision_ = 0, issued_ = 0;
+  TicketId newest_ = 0;
+};
+
+}  // namespace pitwall::command

@@ -1,0 +1,78 @@
+// Limits, alarms and the radio's budget, changed while the race runs.
+//   in     a change with its reason, by somebody at a console; whether he holds the authority
+//   out    the change in force; a revision that counts up; lines for the audit log, refusals too
+//   law    written first, then in force: what the disk does not take is refused and not done.
+//          Nobody changes anything without the authority or without a reason
+//          the budget is never more than the base was started with
+//   errors Problem with the alarm, the field or the budget as place
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "basestation/alarms/evaluator.hpp"
+#include "basestation/command/audit.hpp"
+#include "basestation/command/person.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::command {
+
+// kbit/s up each radio.
+struct UpBudget {
+  double least = 64.0, most = kUnset;
+  double now = kUnset;
+};
+
+class SettingsEditor {
+ public:
+  struct Wanted {
+    const state::DeriveParams& derive;
+    const alarms::Limits& limits;
+    const alarms::AlarmSettings& alarms;
+    std::uint64_t revision;
+    double up_kbit_s;
+  };
+  // Keeps it for the next start. Empty: nothing is kept, and consoles are told so.
+  using Save = std::function<Result<bool, Problem>(const Wanted&)>;
+  struct Said {
+    Person by;
+    bool holds_authority = false;
+    std::string reason;
+    Instant at{};
+  };
+
+  SettingsEditor(alarms::Evaluator& evaluator, Audit& audit, std::uint64_t revision,
+                 const UpBudget& budget, Save save)
+      : evaluator_(&evaluator),
+        audit_(&audit),
+        revision_(revision),
+        budget_(budget),
+        save_(std::move(save)) {}
+
+  // The watch is at the time of the change: see Evaluator::advance().
+  Result<bool, Problem> change(const Said& said, alarms::AlarmEdit edit);
+  Result<bool, Problem> change(const Said& said, alarms::LimitEdit edit);
+  Result<bool, Problem> change_budget(const Said& said, double up_kbit_s);
+
+  std::uint64_t revision() const { return revision_; }
+  const UpBudget& budget() const { return budget_; }
+  bool kept() const { return save_ != nullptr; }
+
+ private:
+  Result<bool, Problem> note(const Said& said, const std::string& what,
+                             Result<bool, Problem> result);
+  Result<bool, Problem> allowed(const Said& said, const std::string& place) const;
+  Result<bool, Problem> save(const alarms::Limits& limits, const alarms::AlarmSettings& alarms,
+                             double up_kbit_s);
+
+  alarms::Evaluator* evaluator_;
+  Audit* audit_;
+  std::uint64_t revision_;
+  UpBudget budget_;
+  Save save_;
+};
+
+}  // namespace pitwall::command

@@ -1,0 +1,39 @@
+// A file of what an operator says when: for tests and the bench.
+//   in     lines "AT_SECONDS WORDS", times not falling; "#" and blank lines are comments. Seconds
+//          count from the first packet of the car
+//   out    the words that are due
+//   errors Problem with file and line, before anything is said
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::inputs {
+
+class CommandScript {
+ public:
+  CommandScript() = default;
+  static Result<CommandScript, Problem> parse(std::string_view text, const std::string& place);
+
+  // The next line that is due, each once.
+  std::optional<std::string_view> next(Duration since_start);
+  std::optional<Duration> due() const;  // of the next line; none: all were said
+
+ private:
+  struct Line {
+    Duration at;
+    std::string words;
+  };
+
+  std::vector<Line> lines_;
+  std::size_t said_ = 0;
+};
+
+}  // namespace pitwall::inputs

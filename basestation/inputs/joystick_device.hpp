@@ -1,0 +1,59 @@
+// The joystick of the operator as part of the base's loop: its reports become samples for the car.
+//   in     an input device (/dev/input/event*), or any descriptor that yields struct input_event
+//   out    samples, each with the time at which it was read
+//   law    a device that is gone gives nothing: the car's own dead man ends what it said. It is
+//          opened again each second, and then nothing of before counts: the key is pressed anew
+//   errors open(): Problem where there is no such device at the start; later it is waited for
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "basestation/inputs/joystick_reports.hpp"
+#include "protocol/telemetry/command/joystick.hpp"
+#include "protocol/transport/posix_call.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::inputs {
+
+class JoystickDevice {
+ public:
+  static constexpr Duration kRetry = seconds(1);
+  using Sink = std::function<void(const telemetry::JoystickSample&, Instant)>;
+
+  static Result<JoystickDevice, Problem> open(const std::string& path,
+                                              const JoystickMapping& mapping);
+  // A descriptor that is open already, for example a pipe; it is not opened again.
+  static JoystickDevice of(transport::FileDescriptor device, const JoystickMapping& mapping);
+
+  // What it reports now; a device that is gone is looked for.
+  void read(Instant now, const Sink& sink);
+  Instant due() const;
+  int fd() const { return device_.get(); }
+
+  bool present() const { return present_; }
+  // The device is gone, or its key is held and it says nothing: the car has let go of it.
+  bool lost(Instant now) const {
+    return !present_ ||
+           (reports_.enabled() && sampled_ && now - *sampled_ > telemetry::kJoystickDead);
+  }
+  const JoystickReports& reports() const { return reports_; }
+
+ private:
+  JoystickDevice(std::string path, transport::FileDescriptor device, const JoystickMapping& mapping)
+      : path_(std::move(path)), device_(std::move(device)), reports_(mapping) {}
+  void lose(Instant now);
+  void look_again(Instant now);
+
+  std::string path_;
+  // The same number for ever, for who waits on it: while there is no device, nothing comes of it.
+  transport::FileDescriptor device_;
+  JoystickReports reports_;
+  bool present_ = true;
+  Instant retry_at_{};
+  std::optional<Instant> sampled_;
+};
+
+}  // namespace pitwall::inputs

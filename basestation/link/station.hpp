@@ -1,0 +1,87 @@
+// The base's end of the radio with its figures: ages, rates, losses, events as they come. The same
+// in the program, the bench and the tests.
+//   in     datagrams with path, sender and time
+//   out    datagrams that are due; the newest state, at endpoint().state(); figures, events
+//   errors counted by the endpoint
+//   bound  the newest kLogged events are kept, all are counted
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "basestation/link/age_book.hpp"
+#include "basestation/link/packet_rate.hpp"
+#include "protocol/telemetry/endpoint/station_endpoint.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::link {
+
+struct BulkTally {
+  std::uint64_t objects = 0, bytes = 0;
+  std::optional<Instant> last;
+};
+
+class Station {
+ public:
+  static constexpr std::size_t kLogged = 1'000;
+  // Loss by place is told by sections of this length from the start line.
+  static constexpr double kSection_m = 200.0;
+
+  Station(const telemetry::ConduitConfig& config, telemetry::Randomness& randomness)
+      : endpoint_(config, randomness), paths_(config.association.paths) {}
+
+  // True: an authentic packet of the car that was not had before.
+  bool take(std::span<const std::uint8_t> datagram, telemetry::PathId path, telemetry::Address from,
+            Instant received);
+  // What the datagram brought that was taken last; none before.
+  const std::optional<telemetry::Arrival>& arrival() const { return arrival_; }
+  std::optional<telemetry::Outgoing> poll(Instant now);
+  Instant due() const { return endpoint_.due(); }
+  // Gets every datagram, as it came (also what is refused) or went. `down`: from the car.
+  using Observer = std::function<void(bool down, telemetry::PathId path, telemetry::Address other,
+                                      Instant at, std::span<const std::uint8_t> bytes)>;
+  void observe(Observer observer) { observer_ = std::move(observer); }
+  // Lets the figures grow older; before they are read.
+  void advance(Instant now) { ages_.advance(now); }
+
+  enum class Source : std::uint8_t { kNone, kSimulation, kCar };
+  Source source() const;
+  const PacketRate& rate() const { return rate_; }
+  const AgeBook& ages() const { return ages_; }
+  std::uint8_t paths() const { return paths_; }
+  telemetry::LinkReport report(Instant now) const { return endpoint_.report(now); }
+  const telemetry::StationEndpoint& endpoint() const { return endpoint_; }
+  telemetry::StationEndpoint& endpoint() { return endpoint_; }
+
+  // Of the car, and the attacks and key errors that the base itself sees.
+  const std::deque<telemetry::Event>& events() const { return events_; }
+  std::uint64_t events_received() const { return events_received_; }
+  const std::array<BulkTally, telemetry::kBulkKinds>& bulk() const { return bulk_; }
+  // Numbers of packets that came by no path, of all sessions.
+  std::uint64_t lost_packets() const;
+  double loss() const;  // of those that were sent, 0 .. 1
+
+ private:
+  void note(const telemetry::ThreatChange& change);
+  void count(const telemetry::Arrival& arrival);
+  void collect();
+
+  telemetry::StationEndpoint endpoint_;
+  std::uint8_t paths_;
+  Observer observer_;
+  std::optional<telemetry::Arrival> arrival_;
+  PacketRate rate_;
+  AgeBook ages_;
+  std::deque<telemetry::Event> events_;
+  std::uint64_t events_received_ = 0;
+  std::array<BulkTally, telemetry::kBulkKinds> bulk_{};
+  std::uint64_t numbers_before_ = 0, newest_ = 0, session_ = 0;  // of sessions that are over
+};
+
+}  // namespace pitwall::link

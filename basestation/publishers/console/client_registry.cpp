@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/publishers/console/client_registry.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "protocol/json/json_text.hpp"
+
+namespace pitwall::publishers::console {
+namespace {
+
+using json::Object;
+
+constexpr int kProtocolVersion = 1;
+
+ClientSet only(ClientId client) { return ClientSet{}.set(client); }
+
+}  // namespace
+
+void ClientRegistry::send(const ClientSet& to, std::string text) {
+  if (to.none()) return;
+  out_.push_back({to, std::make_shared<const Message>(Message{.text = std::move(text)})});
+}
+
+std::string ClientRegistry::hello(ClientId client, Instant now) const {
+  const UtcTime utc{utc_.ns + (now - utc_at_).ns};
+  return Object{}
+      .text("type", "hello")
+      .number("version", kProtocolVersion)
+      .number("car", identity_.car)
+      .text("name", identity_.name)
+      .text("mode", identity_.mode)
+      .text("role", text_of(who_[client].role))
+      .number("client", client)
+      .text("alarm_config", identity_.alarm_config)
+      .number("time_ns", now.ns)
+      .number("utc_ms", utc.ns / milliseconds(1).ns)
+      .str();
+}
+
+void ClientRegistry::joined(ClientId client, const Identity& who, Instant now) {
+  present_.set(client);
+  who_[client] = who;
+  if (who.name.empty()) who_[client].name = "console " + std::to_string(client);
+  send(only(client), hello(client, now));
+  send(only(client), catalogue_);
+  for (const auto& [type, text] : messages_.states()) send(only(client), text);
+  for (const auto& [type, log] : messages_.lines()) {
+    for (const std::string& line : log) send(only(client), line);
+  }
+  snapshots_.want_full();
+}
+
+void ClientRegistry::left(ClientId client) {
+  present_.reset(client);
+  who_[client] = {};
+}
+
+std::optional<Role> ClientRegistry::role(ClientId client) const {
+  if (!present_.test(client)) return std::nullopt;
+  return who_[client].role;
+}
+
+command::Person ClientRegistry::person(ClientId client) const {
+  return {.console = client, .name = who_[client].name};
+}
+
+std::optional<Request> ClientRegistry::said(ClientId client, std::string_view text,
+                                            const StateSource& eyes, Instant now) {
+  if (!present_.test(client)) return std::nullopt;
+  auto request = parse_request(text);
+  if (!request) {
+    tell_error(client, request.error());
+    return std::nullopt;
+  }
+  if (role_for(*request) == Role::kOperator && who_[client].role != Role::kOperator) {
+    tell_error(client, {"role", "a viewer looks only"});
+    return std::nullopt;
+  }
+  ++counters_.requests;
+  if (const auto* ask = std::get_if<AskHistory>(&*request)) {
+    tell_history(client, *ask, eyes, now);
+    return std::nullopt;
+  }
+  if (const auto* ask = std::get_if<AskPing>(&*request)) {
+    send(only(client),
+         Object{}.text("type", "pong").number("at", ask->at).number("time_ns", now.ns).str());
+    return std::nullopt;
+  }
+  return *std::move(request);
+}
+
+void ClientRegistry::said_binary(ClientId client) {
+  tell_error(client, {"message", "this base takes texts only"});
+}
+
+void ClientRegistry::tell_history(ClientId client, const AskHistory& ask, const StateSource& eyes,
+                                  Instant now) {
+  if (!state::is_field(ask.field)) return tell_error(client, {"history.field", "no such field"});
+  const auto points = eyes.past(ask.field, now - from_seconds(ask.from_s),
+                                now - from_seconds(ask.to_s), ask.points);
+  out_.push_back({only(client), std::make_shared<const Message>(
+                                    Message{.frame = web::history_frame(ask.field, points, now)})});
+}
+
+void ClientRegistry::tell_error(ClientId client, const Problem& problem) {
+  ++counters_.refused;
+  send(
+      only(client),
+      Object{}.text("type", "error").text("place", problem.place).text("what", problem.what).str());
+}
+
+void ClientRegistry::tell_all(std::string text) { send(present_, std::move(text)); }
+
+void ClientRegistry::tell_catalogue(std::string catalogue) {
+  catalogue_ = std::move(catalogue);
+  send(present_, catalogue_);
+}
+
+void ClientRegistry::identify(const service::CarIdentity& identity, Instant now) {
+  if (identity == identity_) return;
+  identity_ = identity;
+  for (std::size_t client = web::kFirstClient; client <= web::kLastClient; ++client) {
+    if (!present_.test(client)) continue;
+    send(only(static_cast<ClientId>(client)), hello(static_cast<ClientId>(client), now));
+  }
+}
+
+void ClientRegistry::serve(const StateSource& eyes, UtcTime utc, Instant now) {
+  utc_ = utc;
+  utc_at_ = now;
+  auto frame = snapshots_.make(eyes, now);
+  if (!frame || present_.none()) return;
+  frame->car = static_cast<std::uint8_t>(identity_.car);
+  out_.push_back({present_, std::make_shared<const Message>(Message{.frame = *std::move(frame)})});
+}
+
+}  // namespace pitwall::publishers::console

@@ -1,0 +1,91 @@
+// All consoles of a base, without any socket: who is there, what each is told, what each asks.
+//   in     who joined, left and said what; snapshots and messages of the base; time
+//   out    messages with whom they are for; requests that somebody else executes
+//   invariants  who joins is told first who it is, then the catalogue, the newest of every state,
+//          the last lines of logs, and a full frame
+//          a text that is no request, or takes another role, is answered by an error; nothing else
+//          happens
+//   errors of what consoles say: told to them and counted
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "basestation/command/person.hpp"
+#include "basestation/publishers/console/requests.hpp"
+#include "basestation/publishers/console/snapshots.hpp"
+#include "basestation/publishers/web/client.hpp"
+#include "basestation/publishers/web/client_queue.hpp"
+#include "basestation/service/messages/message_log.hpp"
+#include "basestation/service/messages/message_text.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::publishers::console {
+
+using web::ClientSet;
+using web::Identity;
+using web::Message;
+using web::SharedMessage;
+
+struct Sending {
+  ClientSet to;
+  SharedMessage message;
+};
+
+struct RoomCounters {
+  std::uint64_t requests = 0, refused = 0;
+};
+
+class ClientRegistry {
+ public:
+  // The log outlives it.
+  ClientRegistry(std::string catalogue, const service::MessageLog& messages)
+      : catalogue_(std::move(catalogue)), messages_(messages) {}
+
+  void joined(ClientId client, const Identity& who, Instant now);
+  void left(ClientId client);
+  // A request for somebody else to carry out; what the room does itself gives none.
+  std::optional<Request> said(ClientId client, std::string_view text, const StateSource& eyes,
+                              Instant now);
+  void said_binary(ClientId client);
+
+  void tell_error(ClientId client, const Problem& problem);
+  void tell_all(std::string text);
+  void tell_catalogue(std::string catalogue);
+  // A replay has jumped: the next frame is a full one.
+  void want_full() { snapshots_.want_full(); }
+  void identify(const service::CarIdentity& identity, Instant now);
+
+  void heard() { snapshots_.heard(); }
+  void serve(const StateSource& eyes, UtcTime utc, Instant now);
+  Instant due() const { return snapshots_.due(); }
+  std::vector<Sending> take() { return std::exchange(out_, {}); }
+
+  command::Person person(ClientId client) const;
+  std::optional<Role> role(ClientId client) const;
+  std::size_t clients() const { return present_.count(); }
+  const RoomCounters& counters() const { return counters_; }
+
+ private:
+  void send(const ClientSet& to, std::string text);
+  std::string hello(ClientId client, Instant now) const;
+  void tell_history(ClientId client, const AskHistory& ask, const StateSource& eyes, Instant now);
+
+  std::string catalogue_;
+  const service::MessageLog& messages_;
+  service::CarIdentity identity_;
+  UtcTime utc_{};
+  Instant utc_at_{};
+  ClientSet present_;
+  std::array<Identity, 256> who_{};
+  Snapshots snapshots_;
+  std::vector<Sending> out_;
+  RoomCounters counters_;
+};
+
+}  // namespace pitwall::publishers::console

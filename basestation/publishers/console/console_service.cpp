@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/publishers/console/console_service.hpp"
+
+#include <utility>
+#include <variant>
+
+#include "basestation/publishers/console/catalogue_text.hpp"
+#include "protocol/transport/clock.hpp"
+
+namespace pitwall::publishers::console {
+namespace {
+
+std::string catalogue_of(const service::CarService& car) {
+  const alarms::Evaluator& evaluator = car.evaluator();
+  return catalogue_text(
+      [&](state::FieldId id) -> const alarms::Limit& { return evaluator.limits().of(id); },
+      evaluator.params().fuel.attempt_laps);
+}
+
+}  // namespace
+
+ConsoleService::ConsoleService(ConsoleConfig config, service::CarService& car,
+                               web::WebServer& server)
+    : config_(std::move(config)),
+      car_(car),
+      server_(server),
+      clients_(catalogue_of(car), car.messages()),
+      catalogue_of_(car.requests().settings().revision()) {
+  car.messages().subscribe([this](std::string_view type, std::string_view text, Instant) {
+    if (type != "hello") clients_.tell_all(std::string{text});
+  });
+}
+
+void ConsoleService::submit(service::CarService& car, Instant now) {
+  while (const auto news = server_.next_news(config_.place)) {
+    switch (news->kind) {
+      case web::ClientNews::Kind::kJoined:
+        clients_.joined(news->client, news->who, now);
+        break;
+      case web::ClientNews::Kind::kLeft:
+        car.requests().left(clients_.person(news->client), now);
+        clients_.left(news->client);
+        break;
+      case web::ClientNews::Kind::kSaid:
+        if (const auto request = clients_.said(news->client, news->text, *this, now)) {
+          execute(news->client, *request, now);
+        }
+        break;
+      case web::ClientNews::Kind::kBinary:
+        clients_.said_binary(news->client);
+        break;
+    }
+  }
+}
+
+void ConsoleService::execute(web::ClientId client, const Request& request, Instant now) {
+  const command::Person by = clients_.person(client);
+  Result<bool, Problem> done = true;
+  if (const auto* const ask = std::get_if<command::Request>(&request)) {
+    done = car_.execute(*ask, by, now);
+  } else if (const auto* const ask_send = std::get_if<AskSend>(&request)) {
+    done = car_.execute(with_second_person(*ask_send), by, now);
+  } else if (const auto* const ask_mark = std::get_if<AskMark>(&request)) {
+    car_.mark(ask_mark->text, by, now);
+  } else if (const auto* const ask_of_bench = std::get_if<AskBench>(&request)) {
+    done = ask_bench(*ask_of_bench, by, now);
+  } else if (std::holds_alternative<AskPlayback>(request)) {
+    done = Unexpected{Problem{"playback", "this is no replay"}};
+  }
+  if (!done) clients_.tell_error(client, done.error());
+}
+
+command::Request ConsoleService::with_second_person(const AskSend& ask) const {
+  command::SendTicket send{.ticket = ask.ticket};
+  if (!ask.overrides) return send;
+  send.overriding = command::Override{.reason = ask.reason, .second = {}};
+  // A second person is known by a token of an operator; nobody else is one.
+  const auto who = config_.tokens.find(ask.token);
+  if (who && who->role == web::Role::kOperator) send.overriding->second.name = who->name;
+  return send;
+}
+
+// The bench is no car: it takes an operator, and no authority.
+Result<bool, Problem> ConsoleService::ask_bench(const AskBench& ask, const command::Person& by,
+                                                Instant now) {
+  Result<bool, Problem> asked = bench_ != nullptr
+                                    ? bench_->ask(ask.wish, by.console, by.name)
+                                    : Result<bool, Problem>{Unexpected{Problem{
+                                          "bench", "this base knows of no bench desk (--bench)"}}};
+  car_.requests().note(by, text_of(ask.wish), asked ? "sent" : "refused: " + asked.error().what,
+                       now);
+  return asked;
+}
+
+void ConsoleService::attach(bench::BenchLink& bench) {
+  bench_ = &bench;
+  bench.tell_to({.tell =
+                     [this](const bench::Told& told, Instant now) {
+                       service::MessageLog& log = car_.messages();
+                       if (told.line) return log.add_line(told.type, told.text, now);
+                       log.set_state(told.type, told.text, now);
+                     },
+                 .refused =
+                     [this](std::uint8_t client, const Problem& problem, Instant now) {
+                       car_.requests().note(clients_.person(client), "bench",
+                                            "refused: " + problem.what, now);
+                       clients_.tell_error(client, problem);
+                     }});
+}
+
+void ConsoleService::publish(const service::CarService& car, Instant now) {
+  if (car.evaluator().link_state() != link_shown_) clients_.heard();
+  link_shown_ = car.evaluator().link_state();
+  clients_.identify(car.identity(), now);
+  const std::uint64_t revision = car.requests().settings().revision();
+  if (revision != catalogue_of_) clients_.tell_catalogue(catalogue_of(car));
+  catalogue_of_ = revision;
+  if (auto text = pauses_.news(transport::bench_pause(), now))
+    car_.messages().set_state("bench_time", *std::move(text), now);
+  clients_.serve(*this, transport::utc_now(), now);
+  for (Sending& sending : clients_.take()) server_.send(sending.to, std::move(sending.message));
+}
+
+state::FieldView ConsoleService::view(state::FieldId id, Instant now) const {
+  return car_.view(id, now);
+}
+
+alarms::Judgement ConsoleService::judge(state::FieldId id, const state::FieldView& v) const {
+  return car_.evaluator().judge(id, v);
+}
+
+std::vector<state::TrendPoint> ConsoleService::past(state::FieldId id, Instant from, Instant to,
+                                                    std::size_t points) const {
+  return car_.past(id, from, to, points);
+}
+
+}  // namespace pitwall::publishers::console

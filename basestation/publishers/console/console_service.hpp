@@ -1,0 +1,64 @@
+// The console service of one car: what the consoles of browsers get and ask, between the car's
+// service and the web server.
+//   in     messages and snapshots of the service; texts of consoles, by the server
+//   out    messages to the server; requests to the service
+//   invariants  ages, qualities, judgements, alarms and gates are the service's: consoles show them
+//   cost   publish(): some tens of microseconds, a frame with all fields about 50
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "basestation/publishers/bench/bench_link.hpp"
+#include "basestation/publishers/console/client_registry.hpp"
+#include "basestation/publishers/console/pause_report.hpp"
+#include "basestation/publishers/web/access.hpp"
+#include "basestation/publishers/web/web_server.hpp"
+#include "basestation/service/publisher.hpp"
+
+namespace pitwall::publishers::console {
+
+struct ConsoleConfig {
+  std::size_t place = 0;  // among the cars of the server
+  web::Tokens tokens{};   // of the second person of an override
+};
+
+class ConsoleService : public service::Publisher, private StateSource {
+ public:
+  // Both outlive it.
+  ConsoleService(ConsoleConfig config, service::CarService& car, web::WebServer& server);
+
+  void packet(const service::CarService&, const telemetry::Arrival&) override { clients_.heard(); }
+  void submit(service::CarService& car, Instant now) override;
+  void publish(const service::CarService& car, Instant now) override;
+  Instant due() const override { return clients_.due(); }
+  int fd() const override { return server_.fd(config_.place); }
+
+  // Whose scenarios and runs consoles see, and start; it lives as long as the consoles.
+  void attach(bench::BenchLink& bench);
+
+  const ClientRegistry& clients() const { return clients_; }
+
+ private:
+  state::FieldView view(state::FieldId field, Instant now) const override;
+  alarms::Judgement judge(state::FieldId field, const state::FieldView& v) const override;
+  std::vector<state::TrendPoint> past(state::FieldId field, Instant from, Instant to,
+                                      std::size_t points) const override;
+
+  void execute(web::ClientId client, const Request& request, Instant now);
+  Result<bool, Problem> ask_bench(const AskBench& ask, const command::Person& by, Instant now);
+  command::Request with_second_person(const AskSend& ask) const;
+
+  ConsoleConfig config_;
+  service::CarService& car_;
+  web::WebServer& server_;
+  ClientRegistry clients_;
+  PauseReport pauses_;
+  bench::BenchLink* bench_ = nullptr;
+  std::uint64_t catalogue_of_ = 0;  // the revision of the settings that it shows
+  state::LinkState link_shown_ = state::LinkState::kNone;
+};
+
+}  // namespace pitwall::publishers::console

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/publishers/console/replay_console.hpp"
+
+#include <array>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "basestation/publishers/console/catalogue_text.hpp"
+#include "basestation/service/messages/evaluator_text.hpp"
+#include "protocol/json/json_text.hpp"
+#include "protocol/transport/clock.hpp"
+#include "protocol/transport/readiness.hpp"
+
+namespace pitwall::publishers::console {
+namespace {
+
+constexpr Duration kTurn = milliseconds(40);  // 25 pictures a second at most
+
+}  // namespace
+
+ReplayConsole::ReplayConsole(service::ServiceConfig config, replay::Player player,
+                             web::WebServer& server)
+    : config_(std::move(config)),
+      player_(std::move(player)),
+      server_(server),
+      clients_(catalogue_text(
+                   [this](state::FieldId id) -> const alarms::Limit& {
+                     return config_.evaluator.limits.of(id);
+                   },
+                   config_.evaluator.derive.fuel.attempt_laps),
+               messages_) {
+  messages_.subscribe([this](std::string_view, std::string_view text, Instant) {
+    clients_.tell_all(std::string{text});
+  });
+  restart(player_.begin());
+  jumps_ = 0;
+  clients_.identify(
+      {.car = config_.car, .name = config_.name, .mode = "REPLAY", .alarm_config = {}},
+      player_.now());
+}
+
+void ReplayConsole::serve(Duration passed) {
+  hear();
+  player_.advance(passed, *this);
+  evaluator_->advance(vehicle_, player_.now());
+  tell(passed);
+  clients_.serve(*this, UtcTime{player_.clock().to_file(player_.now()).ns}, player_.now());
+  for (Sending& sending : clients_.take()) server_.send(sending.to, std::move(sending.message));
+}
+
+void ReplayConsole::hear() {
+  while (const auto news = server_.next_news()) {
+    switch (news->kind) {
+      case web::ClientNews::Kind::kJoined:
+        clients_.joined(news->client, news->who, player_.now());
+        break;
+      case web::ClientNews::Kind::kLeft:
+        clients_.left(news->client);
+        break;
+      case web::ClientNews::Kind::kSaid:
+        if (const auto request = clients_.said(news->client, news->text, *this, player_.now())) {
+          execute(news->client, *request);
+        }
+        break;
+      case web::ClientNews::Kind::kBinary:
+        clients_.said_binary(news->client);
+        break;
+    }
+  }
+}
+
+void ReplayConsole::execute(web::ClientId client, const Request& request) {
+  const auto* const ask = std::get_if<AskPlayback>(&request);
+  if (ask == nullptr)
+    return clients_.tell_error(client, {"replay", "a recording takes no commands"});
+  std::optional<Instant> to;
+  if (ask->to_ms) to = Instant{static_cast<std::int64_t>(*ask->to_ms * kNanosecondsPerMillisecond)};
+  wind(ask->speed.value_or(player_.speed()), to);
+}
+
+void ReplayConsole::wind(double speed, std::optional<Instant> to) {
+  player_.set_speed(speed);
+  if (to) player_.jump(*to, *this);
+  untold_ = kTellEvery;
+}
+
+void ReplayConsole::tell(Duration passed) {
+  untold_ = untold_ + passed;
+  if (untold_ < kTellEvery) return;
+  untold_ = {};
+  messages_.set_state("playback", playback_text(), player_.now());
+}
+
+std::string ReplayConsole::playback_text() const {
+  return json::Object{}
+      .text("type", "playback")
+      .number("begin_ms", player_.begin().milliseconds())
+      .number("end_ms", player_.end().milliseconds())
+      .number("now_ms", player_.now().milliseconds())
+      .number("speed", player_.ended() && player_.speed() > 0.0 ? 0.0 : player_.speed())
+      .number("jumps", jumps_)
+      .str();
+}
+
+state::FieldView ReplayConsole::view(state::FieldId id, Instant now) const {
+  return evaluator_->view(vehicle_, id, now);
+}
+
+alarms::Judgement ReplayConsole::judge(state::FieldId id, const state::FieldView& v) const {
+  return evaluator_->judge(id, v);
+}
+
+std::vector<state::TrendPoint> ReplayConsole::past(state::FieldId id, Instant from, Instant to,
+                                                   std::size_t points) const {
+  if (state::is_base(id)) return {};
+  return trends_->range(id, from, to, points);
+}
+
+void ReplayConsole::state(const telemetry::Snapshot& state, telemetry::GroupSet groups,
+                          Instant received) {
+  for (replay::Listener* const other : others_) other->state(state, groups, received);
+  unsettled_ = false;
+  evaluator_->advance(vehicle_, received);
+  evaluator_->heard(received);
+  vehicle_.update(state, groups);
+  trends_->note(state, groups);
+  heard_ = received;
+  clients_.heard();
+}
+
+void ReplayConsole::text(recorder::Topic topic, Instant at, std::string_view json) {
+  using enum recorder::Topic;
+  for (replay::Listener* const other : others_) other->text(topic, at, json);
+  const std::string_view type = recorder::name_of(topic);
+  switch (topic) {
+    case kHello:  // the mode is REPLAY
+    case kRecorder:
+    case kJoystick:
+      return;
+    case kJudge:
+      return settle(json);
+    case kInput:
+      return tell_judge(at, json);
+    case kAlarms:
+    case kAuthority:
+    case kLink:
+    case kFuel:
+    case kExpected:
+    case kSettings:
+      return messages_.set_state(type, std::string{json}, at);
+    default:
+      return messages_.add_line(type, std::string{json}, at);
+  }
+}
+
+// With the limits that were in force then, on the course that is known now.
+void ReplayConsole::settle(std::string_view json) {
+  auto settings = service::read_judge_text(json);
+  // A change within a process comes as an input besides, and forgets nothing.
+  if (!settings || !(settings->begins || unsettled_)) return;
+  unsettled_ = false;
+  settings->config.course = config_.evaluator.course;
+  evaluator_.emplace(std::move(settings->config));
+}
+
+void ReplayConsole::tell_judge(Instant at, std::string_view json) {
+  const auto input = service::read_input_text(json, at);
+  if (!input) return;
+  evaluator_->advance(vehicle_, at);
+  static_cast<void>(evaluator_->take(*input));
+}
+
+void ReplayConsole::restart(Instant to) {
+  for (replay::Listener* const other : others_) other->restart(to);
+  vehicle_ = {};
+  trends_.emplace();
+  evaluator_.emplace(config_.evaluator);
+  unsettled_ = true;
+  heard_.reset();
+  messages_.clear();
+  clients_.want_full();
+  ++jumps_;
+  // Before anything is told anew: who hears of the jump afterwards would forget that, too.
+  messages_.set_state("playback", playback_text(), to);
+}
+
+void run_replay(ReplayConsole& wall, int server, int stop, Duration duration,
+                const std::function<void(Instant now)>& also) {
+  const Instant begun = transport::monotonic_now();
+  const std::array<int, 2> watched{stop, server};
+  for (Instant last = begun;;) {
+    const std::uint32_t ready = transport::wait_readable(watched, last + kTurn);
+    const Instant now = transport::monotonic_now();
+    wall.serve(now - last);
+    if (also) also(now);
+    last = now;
+    if ((ready & 1U) != 0 || (duration.ns > 0 && now >= begun + duration)) return;
+  }
+}
+
+}  // namespace pitwall::publishers::console

@@ -1,0 +1,73 @@
+// The pit wall of a recording: consoles see it as they saw the race. There is no station and no
+// endpoint in it: nothing that a console says can leave it.
+//   in     a Player; what consoles say; how much time has passed
+//   out    messages to the server; the recorded texts as they were; the same to tools that attach
+//   law    every console sees the same moment; whoever may look may play, pause and jump
+//          ages, judgements and derived values are computed as of the recording's time
+//   errors commands, stops, authority and alarms are refused with a reason
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "basestation/alarms/evaluator.hpp"
+#include "basestation/publishers/console/client_registry.hpp"
+#include "basestation/publishers/web/web_server.hpp"
+#include "basestation/replay/player.hpp"
+#include "basestation/state/trends.hpp"
+
+namespace pitwall::publishers::console {
+
+class ReplayConsole : private StateSource, private replay::Listener {
+ public:
+  ReplayConsole(service::ServiceConfig config, replay::Player player, web::WebServer& server);
+
+  void serve(Duration passed);
+  // Who is told what the consoles are told; who winds for a tool.
+  void tell_also(replay::Listener& listener) { others_.push_back(&listener); }
+  void wind(double speed, std::optional<Instant> to);
+  const replay::Player& player() const { return player_; }
+
+ private:
+  static constexpr Duration kTellEvery = milliseconds(500);
+
+  state::FieldView view(state::FieldId field, Instant now) const override;
+  alarms::Judgement judge(state::FieldId field, const state::FieldView& v) const override;
+  std::vector<state::TrendPoint> past(state::FieldId field, Instant from, Instant to,
+                                      std::size_t points) const override;
+  void state(const telemetry::Snapshot& state, telemetry::GroupSet groups,
+             Instant received) override;
+  void text(recorder::Topic topic, Instant at, std::string_view json) override;
+  void restart(Instant to) override;
+
+  void settle(std::string_view json);
+  void tell_judge(Instant at, std::string_view json);
+  void hear();
+  void execute(web::ClientId client, const Request& request);
+  void tell(Duration passed);
+  std::string playback_text() const;
+
+  service::ServiceConfig config_;
+  replay::Player player_;
+  web::WebServer& server_;
+  state::VehicleState vehicle_;
+  std::optional<state::Trends> trends_;
+  std::optional<alarms::Evaluator> evaluator_;
+  service::MessageLog messages_;
+  ClientRegistry clients_;
+  bool unsettled_ = true;  // since the jump nothing was judged
+  std::optional<Instant> heard_;
+  std::uint64_t jumps_ = 0;
+  Duration untold_ = kTellEvery;  // since the playback was told
+  std::vector<replay::Listener*> others_;
+};
+
+// Serves it until the descriptor is readable or, where it is not zero, the duration is over. `also`
+// is done in every turn.
+void run_replay(ReplayConsole& wall, int server, int stop, Duration duration,
+                const std::function<void(Instant now)>& also = {});
+
+}  // namespace pitwall::publishers::console

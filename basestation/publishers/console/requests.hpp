@@ -1,0 +1,58 @@
+// What a console asks for, read from its text: see PROTOCOL.md.
+//   in     one JSON text of a client
+//   out    the request with every number in its range; the role that it takes
+//   errors Problem with the member as place; nothing is guessed
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "basestation/command/request.hpp"
+#include "basestation/publishers/bench/bench_link.hpp"
+#include "basestation/publishers/web/client.hpp"
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::publishers::console {
+
+using web::ClientId;
+using web::Role;
+
+inline constexpr std::size_t kPointsMax = 20'000;
+
+struct AskHistory {
+  std::uint16_t field = 0;
+  double from_s = 0.0, to_s = 0.0;  // before now; from is further back
+  std::size_t points = kPointsMax;
+};
+struct AskSend {
+  std::uint32_t ticket = 0;
+  bool overrides = false;
+  std::string reason, token;  // of an override
+};
+struct AskMark {
+  std::string text;
+};
+struct AskPing {
+  double at = 0.0;
+};
+struct AskBench {
+  bench::BenchWish wish;
+};
+// Of a replay only.
+struct AskPlayback {
+  std::optional<double> speed;  // recorded seconds per second; 0: pause; backwards below
+  std::optional<double> to_ms;  // on the clock of time_ns
+};
+
+using Request =
+    std::variant<AskHistory, AskPing, AskMark, AskSend, AskBench, AskPlayback, command::Request>;
+
+Result<Request, Problem> parse_request(std::string_view text);
+Role role_for(const Request& request);
+
+}  // namespace pitwall::publishers::console

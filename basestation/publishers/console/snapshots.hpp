@@ -1,0 +1,64 @@
+// The pictures that consoles get: when one is made, and what is in it.
+//
+//   packet |    |    |    |  (50 a second)
+//   frame  |         |       made when a packet comes, so that what is told is new; kEvery apart
+//   none comes:      |            |      by itself after kAtLatest
+//
+//   in     packets with their groups, views of all fields, time
+//   out    frames: every field each second and when asked for, else those whose entry changed
+//   law    a safety value that changed (a mode, a flag, a stop) is told at once; its age is not
+//          what is told is what was told last to all: a client that lost frames is whole again with
+//          the next full picture
+//   cost   O(fields) a frame
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "basestation/publishers/web/frame.hpp"
+#include "basestation/state/station_field.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::publishers::console {
+
+using web::Entry;
+using web::Frame;
+
+// What consoles see: the live base or a replay.
+class StateSource {
+ public:
+  virtual ~StateSource() = default;
+  virtual state::FieldView view(state::FieldId field, Instant now) const = 0;
+  virtual alarms::Judgement judge(state::FieldId field, const state::FieldView& v) const = 0;
+  virtual std::vector<state::TrendPoint> past(state::FieldId field, Instant from, Instant to,
+                                              std::size_t points) const = 0;
+};
+
+class Snapshots {
+ public:
+  // Two packets of 50 a second, less the jitter of one.
+  static constexpr Duration kEvery = milliseconds(36), kAtLatest = milliseconds(50);
+  static constexpr Duration kFullEvery = seconds(1);
+
+  Snapshots();
+  void heard() { news_ = true; }  // a packet of the car
+  void want_full() { full_wanted_ = true; }
+  // The next frame, where one is due.
+  std::optional<Frame> make(const StateSource& eyes, Instant now);
+  Instant due() const { return last_ + kAtLatest; }
+
+ private:
+  bool safety_changed(const StateSource& eyes, Instant now) const;
+
+  std::vector<state::FieldId> fields_, watched_;
+  std::vector<Entry> told_;  // by place in fields_
+  bool news_ = false, full_wanted_ = true;
+  Instant last_{}, last_full_{};
+  std::uint32_t sequence_ = 0;
+};
+
+// Every field that a console may ask for: those that come down the radio, and the base's own.
+std::vector<state::FieldId> told_fields();
+
+}  // namespace pitwall::publishers::console

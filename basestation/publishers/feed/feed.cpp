@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/publishers/feed/feed.hpp"
+
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <iterator>
+#include <utility>
+
+namespace pitwall::publishers::feed {
+namespace {
+
+std::size_t text_bytes_of(const Item& item) {
+  const auto* const told = std::get_if<Told>(&item);
+  return told == nullptr ? 0 : told->json.size();
+}
+
+}  // namespace
+
+std::vector<std::string> channel_names() {
+  std::vector<std::string> names;
+  for (const recording::Channel& channel : recorder::channels()) {
+    if (names.size() < kSightChannel) names.push_back(channel.topic);
+  }
+  names.emplace_back("/base/values");
+  return names;
+}
+
+Feed::Feed()
+    : bell_(transport::posix_call([] { return ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK); })) {}
+
+void Feed::sample(const telemetry::Snapshot& state, telemetry::GroupSet groups, Instant received) {
+  if (groups.empty()) return;
+  push(std::make_unique<const Sample>(
+      Sample{.state = state, .groups = groups, .received = received}));
+}
+
+void Feed::text(recorder::Topic topic, Instant at, std::string_view json) {
+  push(Told{.topic = topic, .at = at, .json = std::string{json}});
+}
+
+void Feed::sight(std::unique_ptr<const Sight> sight) { push(std::move(sight)); }
+
+void Feed::push(Item item) {
+  bool first = false;
+  {
+    const std::lock_guard hold(lock_);
+    first = waiting_.empty();
+    text_bytes_ += text_bytes_of(item);
+    waiting_.push_back(std::move(item));
+    while (waiting_.size() > kItems || (text_bytes_ > kTextBytes && waiting_.size() > 1)) {
+      drop_oldest();
+    }
+  }
+  if (first) ring();
+}
+
+void Feed::drop_oldest() {
+  const Item& oldest = waiting_.front();
+  if (const auto* const sample = std::get_if<std::unique_ptr<const Sample>>(&oldest)) {
+    for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
+      if ((*sample)->groups.has(row.group)) ++drops_[recorder::channel_of(row.group)];
+    }
+  } else if (const auto* const told = std::get_if<Told>(&oldest)) {
+    ++drops_[recorder::channel_of(told->topic)];
+  } else {
+    ++drops_[kSightChannel];
+  }
+  text_bytes_ -= text_bytes_of(oldest);
+  waiting_.pop_front();
+}
+
+void Feed::ring() const {
+  const std::uint64_t one = 1;
+  (void)transport::posix_call([&] { return ::write(bell_.get(), &one, sizeof one); });
+}
+
+void Feed::close() {
+  {
+    const std::lock_guard hold(lock_);
+    closed_ = true;
+  }
+  ring();
+}
+
+bool Feed::closed() const {
+  const std::lock_guard hold(lock_);
+  return closed_;
+}
+
+std::vector<Item> Feed::take() {
+  const std::lock_guard hold(lock_);
+  // Under the lock: what comes from now on rings again. Once it is closed it stays readable.
+  std::uint64_t rung = 0;
+  if (!closed_) {
+    (void)transport::posix_call([&] { return ::read(bell_.get(), &rung, sizeof rung); });
+  }
+  std::vector<Item> items{std::make_move_iterator(waiting_.begin()),
+                          std::make_move_iterator(waiting_.end())};
+  waiting_.clear();
+  text_bytes_ = 0;
+  return items;
+}
+
+ChannelCounts Feed::drops() const {
+  const std::lock_guard hold(lock_);
+  return drops_;
+}
+
+}  // namespace pitwall::publishers::feed

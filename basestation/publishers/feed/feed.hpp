@@ -1,0 +1,81 @@
+// What the loop of the base hands to an outlet that has a thread of its own: states as they come
+// from the car, texts as consoles get them.
+//   in     samples, texts and what the base itself finds, by the loop
+//   out    all that waits, by the thread
+//   law    neither waits for the other: what is under the lock is a copy or a move. In order; of
+//          more than the bounds allow the oldest goes, and is counted for each channel that it was
+//          of, so that a slow outlet shows the newest and says what it lost
+//   bound  kItems, and kTextBytes of texts
+//   errors drops(), by the channels of protocol/recorder/channels.hpp, and kSightChannel
+//   cost   sample(): one copy of the state, one allocation; a system call when the thread sleeps
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "basestation/publishers/ros_view/diagnostics.hpp"
+#include "protocol/recorder/channels.hpp"
+#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/transport/posix_call.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::publishers::feed {
+
+struct Sample {
+  telemetry::Snapshot state{};
+  telemetry::GroupSet groups{};  // that are newer than before
+  Instant received{};
+};
+struct Told {
+  recorder::Topic topic{};
+  Instant at{};
+  std::string json;
+};
+using Sight = ros_view::BaseSight;
+using Item = std::variant<std::unique_ptr<const Sample>, Told, std::unique_ptr<const Sight>>;
+
+inline constexpr std::size_t kSightChannel = telemetry::kGroups + recorder::kTopics;
+inline constexpr std::size_t kFeedChannels = kSightChannel + 1;
+std::vector<std::string> channel_names();  // of all, in their order
+using ChannelCounts = std::array<std::uint64_t, kFeedChannels>;
+
+class Feed {
+ public:
+  static constexpr std::size_t kItems = 256;  // some five seconds
+  static constexpr std::size_t kTextBytes = 4 * 1'024 * 1'024;
+
+  Feed();
+
+  void sample(const telemetry::Snapshot& state, telemetry::GroupSet groups, Instant received);
+  void text(recorder::Topic topic, Instant at, std::string_view json);
+  void sight(std::unique_ptr<const Sight> sight);
+  void close();  // the thread is to end
+
+  int fd() const { return bell_.get(); }  // readable while something waits, or once it is closed
+  std::vector<Item> take();
+  bool closed() const;
+  ChannelCounts drops() const;
+
+ private:
+  void push(Item item);
+  void drop_oldest();
+  void ring() const;
+
+  transport::FileDescriptor bell_;
+  mutable std::mutex lock_;
+  std::deque<Item> waiting_;  // these under the lock
+  std::size_t text_bytes_ = 0;
+  ChannelCounts drops_{};
+  bool closed_ = false;
+};
+
+}  // namespace pitwall::publishers::feed

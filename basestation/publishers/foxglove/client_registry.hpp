@@ -1,0 +1,100 @@
+// All Foxglove clients of a base, without any socket: who is there, what each has subscribed, what
+// each asks.
+//   in     who joined, left and said what; messages of the channels; what clients lost; time;
+//          thresholds, which clients may read
+//   out    messages with whom they are for; what is asked of a recording's playback
+//   law    read only: what would change anything is refused with a status that says why, and is
+//          counted; nothing that a client says reaches anybody else
+//          a client has one subscription of a channel; of a latched channel it is told the newest
+//          at once. Who loses messages because it does not read is told which topics, once a second
+//   bound  subscriptions: a client's are no more than there are channels
+//   errors of what clients say: told to them, and counted by their kind
+//   cost   message(): a header for each subscriber, the body once
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "basestation/publishers/foxglove/protocol.hpp"
+#include "basestation/publishers/web/web_server.hpp"
+#include "basestation/service/publisher.hpp"
+
+namespace pitwall::publishers::foxglove {
+
+struct Sending {
+  web::ClientSet to;
+  web::SharedMessage message;
+};
+
+class ClientRegistry {
+ public:
+  // The ids of the channels are their places in the list.
+  ClientRegistry(ServerInfo info, std::vector<ChannelRow> channels);
+
+  void joined(web::ClientId client);
+  void left(web::ClientId client);
+  std::optional<PlaybackControl> said(web::ClientId client, std::string_view text);
+  std::optional<PlaybackControl> said_bytes(web::ClientId client,
+                                            std::span<const std::uint8_t> bytes);
+
+  bool wanted(std::size_t channel) const;  // by anybody, or kept for who comes
+  bool anybody() const { return present_.any(); }
+  void message(std::size_t channel, UtcTime at, std::span<const std::uint8_t> body);
+  void time(UtcTime at);
+  void playback(const PlaybackState& state);
+  // In place of those before; who watches one that is another now is told.
+  void parameters(std::vector<Parameter> parameters);
+  void tell(web::ClientId client, Level level, std::string_view message);
+  void lost(std::span<const web::Drop> drops);
+  // A recording has jumped: what was latched holds no more.
+  void forget() { newest_.clear(); }
+
+  std::vector<Sending> take() { return std::exchange(out_, {}); }
+  const std::vector<ChannelRow>& channels() const { return channels_; }
+  // Clients, what was lost by topic, what was refused by kind; not what was sent.
+  service::PublisherFigures figures() const;
+
+ private:
+  static constexpr std::uint32_t kTimeTag = 1, kFirstTag = 2;  // of what clients may lose
+  using Body = std::shared_ptr<const std::vector<std::uint8_t>>;
+  struct Newest {
+    UtcTime at{};
+    Body body;
+  };
+
+  std::optional<PlaybackControl> handle_request(web::ClientId client,
+                                                Result<Request, Problem> request);
+  void subscribe(web::ClientId client, const Subscribe& ask);
+  void unsubscribe(web::ClientId client, const Unsubscribe& ask);
+  void tell_parameters(web::ClientId client, const GetParameters& ask);
+  void watch(web::ClientId client, const WatchParameters& ask);
+  void watch(web::ClientId client, const WatchGraph& ask);
+  void refuse(web::ClientId client, std::string_view kind, std::string_view why);
+  void send(const web::ClientSet& to, std::string text);
+  void send(web::ClientId client, std::size_t channel, const Newest& newest);
+  std::string topic_of_tag(std::uint32_t tag) const;
+
+  ServerInfo info_;
+  std::vector<ChannelRow> channels_;
+  web::ClientSet present_;
+  std::vector<std::map<web::ClientId, std::uint32_t>> subscribers_;  // by channel: the id for each
+  std::map<std::size_t, Newest> newest_;                             // of latched channels
+  struct Readable {
+    double value = 0.0;
+    web::ClientSet watchers;
+  };
+  std::map<std::string, Readable> parameters_;  // by name
+  web::ClientSet watch_all_;                    // parameters, those to come too
+  std::map<std::string, std::uint64_t, std::less<>> refused_, lost_;
+  std::vector<Sending> out_;
+};
+
+}  // namespace pitwall::publishers::foxglove

@@ -1,0 +1,55 @@
+// Foxglove, Lichtblick and PlotJuggler look at a live car: a FoxgloveServer on a thread of its own.
+//   in     packets, the texts that consoles get, what the base itself finds
+//   out    messages to clients
+//   law    behind a Feed: whatever this thread or a client does costs the loop nothing
+//   errors start(): as the desk. figures(): what the feed or clients lost, what was refused
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string_view>
+#include <thread>
+
+#include "basestation/publishers/feed/feed.hpp"
+#include "basestation/publishers/foxglove/foxglove_server.hpp"
+#include "basestation/service/publisher.hpp"
+
+namespace pitwall::publishers::foxglove {
+
+class FoxglovePublisher : public service::Publisher {
+ public:
+  static constexpr Duration kLookEvery = milliseconds(100);
+  // Fills in what the base itself finds.
+  using Look = std::function<void(ros_view::BaseSight&, Instant)>;
+
+  static Result<std::unique_ptr<FoxglovePublisher>, Problem> start(ServerConfig config,
+                                                                   Look look = {});
+  ~FoxglovePublisher() override;
+
+  transport::UdpAddress local() const { return desk_->local(); }
+  void packet(const service::CarService& car, const telemetry::Arrival& arrival) override;
+  void publish(const service::CarService& car, Instant now) override;
+  Instant due() const override { return look_ ? looked_ + kLookEvery : Instant::max(); }
+  void text(recorder::Topic topic, Instant at, std::string_view json) {
+    feed_.text(topic, at, json);
+  }
+  std::optional<service::PublisherFigures> figures() const override;
+  feed::Feed& feed() { return feed_; }
+
+ private:
+  FoxglovePublisher(std::unique_ptr<FoxgloveServer> desk, Look look);
+  void run();
+
+  std::unique_ptr<FoxgloveServer> desk_;  // the thread's own
+  Look look_;
+  Instant looked_{};
+  feed::Feed feed_;
+  const std::vector<std::string> names_ = feed::channel_names();
+  mutable std::mutex lock_;
+  service::PublisherFigures figures_;  // under the lock
+  std::thread thread_;
+};
+
+}  // namespace pitwall::publishers::foxglove

@@ -1,0 +1,63 @@
+// What the car tells, in the messages that every ROS 2 tool knows.
+//   in     the state as the radio has it; times on the base's clock, and what makes UTC of them
+//   out    messages; none where there is nothing to be said
+//   frames map, base_link at the centre of gravity (ISO 8855, REP 103, REP 105)
+//   units  of REP 103; header.stamp is when the car took the sample, in UTC
+//   absent odometry, its transform and the fused fix are not sent without a position, heading or
+//          with one that is lost. A height, roll or pitch that the car does not know is that of the
+//          map's plane, 0, with a variance of kUnknownVariance; any other number that it does not
+//          know is NaN with that variance (Odometry) or with -1 in front of its covariance (Imu).
+//          A receiver without a solution has STATUS_NO_FIX; the radio does not carry what position
+//          each of them reports, so latitude and longitude of /gnss/... are NaN
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "basestation/publishers/ros_view/ground.hpp"
+#include "basestation/state/course.hpp"
+#include "protocol/ros/messages/nav.hpp"
+#include "protocol/ros/messages/sensor.hpp"
+#include "protocol/ros/messages/visualization.hpp"
+#include "protocol/telemetry/registry/snapshot.hpp"
+
+namespace pitwall::publishers::ros_view {
+
+inline constexpr double kUnknownVariance = 1e6;
+inline constexpr double kRacelineStep_m = 5.0;
+inline constexpr std::size_t kOpponents = 4;
+
+struct Frames {
+  std::string map = "map", base = "base_link";
+};
+
+ros::Time ros_time(UtcTime at);
+
+class CarMessages {
+ public:
+  CarMessages(Frames frames, Duration utc_minus_base)
+      : frames_(std::move(frames)), utc_minus_base_(utc_minus_base) {}
+
+  std::optional<ros::Odometry> odometry(const telemetry::Snapshot& state) const;
+  std::optional<ros::TFMessage> transform(const telemetry::Snapshot& state) const;
+  std::optional<ros::NavSatFix> fix(const telemetry::Snapshot& state, const Ground& ground) const;
+  std::optional<ros::Imu> imu(const telemetry::Snapshot& state) const;
+  // Of unit 0 (the receiver on top) or 1.
+  ros::NavSatFix receiver_fix(const telemetry::Snapshot& state, std::size_t unit) const;
+  // A box and a text for each that is known; one that is not any more is deleted.
+  ros::MarkerArray opponents(const telemetry::Snapshot& state, const state::Course& course,
+                             Instant now) const;
+
+  ros::Header header(Instant at, const std::string& frame) const;
+  const Frames& frames() const { return frames_; }
+
+ private:
+  Frames frames_;
+  Duration utc_minus_base_;
+};
+
+// The reference line of the track, closed.
+ros::Path raceline(const state::Course& course, const ros::Header& header);
+
+}  // namespace pitwall::publishers::ros_view

@@ -1,0 +1,106 @@
+// What ROS 2 tools see of a car: which topics there are, and which messages a state becomes. The
+// same for every outlet that speaks ROS 2.
+//   in     states as they come, what the base finds ten times a second, time
+//   out    topics with types, texts and hashes; messages as CDR, each with the time of its sample
+//   law    a message is made of a group that is new, and of no other: nothing is repeated. Which
+//          numbers are absent, and how that is said: car_messages.hpp, group_message.hpp
+//          diagnostics once a second, at once when a level changes; a loss of an outlet is told for
+//          kLossShown after its count has grown
+//   cost   a state with all its groups: some tens of microseconds
+//
+//   /vehicle/odom /vehicle/fix /imu /gnss/{top,bottom}/fix /diagnostics /opponents /raceline
+//   /base/GROUP for each group of pitwall_msgs, all behind the car's space; /tf and /tf_static are
+//   one for all cars, whose frames have a prefix instead
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "basestation/publishers/ros_view/car_messages.hpp"
+#include "basestation/publishers/ros_view/diagnostics.hpp"
+#include "basestation/state/course.hpp"
+#include "protocol/telemetry/registry/snapshot.hpp"
+
+namespace pitwall::publishers::ros_view {
+
+struct Topic {
+  std::string name;      // "/vehicle/odom"
+  std::string type;      // "nav_msgs/msg/Odometry"
+  std::string schema;    // as `ros2msg`
+  std::string hash;      // "RIHS01_..."
+  bool latched = false;  // who comes later gets the newest
+};
+
+struct Message {
+  std::size_t topic = 0;
+  Instant at{};  // of the sample, on the base's clock
+  std::span<const std::uint8_t> cdr;
+};
+using Sink = std::function<void(const Message&)>;
+
+struct ViewConfig {
+  std::string space{};     // "/car7", or nothing
+  std::string hardware{};  // of diagnostics
+  std::optional<state::Course> course{};
+  std::optional<Geodetic> datum{};
+};
+
+class View {
+ public:
+  static constexpr Duration kLossShown = seconds(10);
+
+  explicit View(ViewConfig config);
+
+  const std::vector<Topic>& topics() const { return topics_; }
+
+  // Those that do not change: once, at the start.
+  void statics(Instant now, Duration utc_minus_base, const Sink& sink);
+  void car(const telemetry::Snapshot& state, telemetry::GroupSet fresh, Instant now,
+           Duration utc_minus_base, const Sink& sink);
+  void base(const BaseSight& sight, Duration utc_minus_base, const Sink& sink);
+
+ private:
+  enum Fixed : std::size_t {
+    kOdom,
+    kFix,
+    kImu,
+    kTop,
+    kBottom,
+    kDiagnostics,
+    kOpponentsTopic,
+    kRaceline,
+    kTf,
+    kTfStatic,
+    kFixed
+  };
+
+  template <ros::Message M>
+  void add(std::size_t place, const std::string& name, bool latched);
+  template <class M>
+  void put(std::size_t topic, Instant at, const M& message, const Sink& sink);
+  template <class M>
+  void put_if(std::size_t topic, Instant at, const std::optional<M>& message, const Sink& sink);
+  void put_group(std::size_t place, Instant at, Duration utc_minus_base,
+                 std::span<const double> values, const Sink& sink);
+  void look_at_health(const BaseSight& sight, Duration utc_minus_base, const Sink& sink);
+  bool loses(const BaseSight& sight);
+
+  ViewConfig config_;
+  Frames frames_;
+  std::optional<Ground> ground_;
+  std::vector<Topic> topics_;
+  telemetry::Snapshot newest_;
+  std::vector<std::uint8_t> bytes_;  // of the message that is told
+  std::vector<Level> levels_;        // of the diagnostics that were told last
+  Instant health_told_{};
+  std::uint64_t lost_ = 0;  // by all outlets
+  std::optional<Instant> lost_at_{};
+};
+
+}  // namespace pitwall::publishers::ros_view

@@ -1,0 +1,31 @@
+// Who is connected: the words that the parts of the web server share.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <bitset>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "protocol/telemetry/command/command_table.hpp"
+
+namespace pitwall::publishers::web {
+
+// A console's number is also its number as holder of the authority. Lower ones are left to scripts.
+using ClientId = telemetry::HolderId;
+inline constexpr ClientId kFirstClient = 16, kLastClient = 254;
+using ClientSet = std::bitset<256>;
+inline constexpr std::size_t kTextMax = 64 * 1'024;  // of what a console says
+
+enum class Role : std::uint8_t { kViewer, kOperator };
+constexpr std::string_view text_of(Role role) {
+  return role == Role::kOperator ? "operator" : "viewer";
+}
+
+struct Identity {
+  Role role = Role::kViewer;
+  std::string name;
+};
+
+}  // namespace pitwall::publishers::web

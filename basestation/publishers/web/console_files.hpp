@@ -1,0 +1,49 @@
+// The console's built files, kept in memory: nothing that a request says is ever a path on disk.
+//   in     a folder with index.html and assets/; X.gz beside X is X gzipped
+//   out    by path: bytes, gzipped bytes where that is shorter, type
+//   law    read anew when index.html on disk is another than before, so that a new build shows
+//          without a restart
+//   bound  kFilesMax files of kFileMax bytes; others are left out
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace pitwall::publishers::web {
+
+struct ServedFile {
+  std::shared_ptr<const std::string> bytes;
+  std::shared_ptr<const std::string> gzipped;  // null: not worth it
+  std::string_view type;
+  bool forever = false;  // its name changes with its content
+};
+
+class ConsoleFiles {
+ public:
+  static constexpr std::size_t kFilesMax = 200, kFileMax = 8 * 1'024 * 1'024;
+
+  explicit ConsoleFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  const ServedFile* find(std::string_view path);  // "/" or "/assets/x.js"; null: none
+  const std::filesystem::path& folder() const { return folder_; }
+  bool built() const { return files_.contains("/"); }
+
+ private:
+  void read_if_new();
+  void read(const std::filesystem::path& path, const std::string& name);
+
+  std::filesystem::path folder_;
+  std::map<std::string, ServedFile, std::less<>> files_;
+  std::filesystem::file_time_type read_at_{};
+};
+
+std::string_view type_of(const std::filesystem::path& path);
+std::string gzip(std::string_view bytes);
+
+}  // namespace pitwall::publishers::web

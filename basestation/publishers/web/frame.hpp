@@ -1,0 +1,52 @@
+// Binary frames from base to console: see PROTOCOL.md.
+//   in     fields with value, age, quality, judgement; points of a field's past
+//   out    bytes, little endian; the 24 bytes of the header are made for each client, because each
+//          has lost another number of frames
+//   cost   O(entries)
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "basestation/alarms/limits.hpp"
+#include "basestation/state/trends.hpp"
+#include "basestation/state/vehicle_state.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::publishers::web {
+
+enum class FrameKind : std::uint8_t { kSnapshot = 1, kHistory = 2 };
+inline constexpr std::uint8_t kFrameVersion = 1;
+inline constexpr std::uint8_t kAtOnce = 1, kFullPicture = 2;  // flags
+inline constexpr std::size_t kFrameHeader = 24, kSnapshotEntry = 8, kHistoryPoint = 16;
+
+struct Frame {
+  FrameKind kind = FrameKind::kSnapshot;
+  std::uint8_t car = 0, flags = 0;
+  std::uint16_t count = 0;
+  std::uint32_t sequence = 0;
+  Instant at{};
+  std::vector<std::uint8_t> entries{};
+};
+
+std::array<std::uint8_t, kFrameHeader> header_of(const Frame& frame, std::uint32_t dropped);
+
+// A field as it is told. Two that look alike to a console are equal.
+struct Entry {
+  std::uint16_t field = 0;
+  std::uint8_t status = 0, age = 0;
+  float value = 0.0F;
+
+  bool same(const Entry& other) const;  // bit by bit: a NaN is itself
+};
+std::uint8_t age_code(Duration age);  // 254 and more minutes are 254; never: 255, by entry_of()
+Entry entry_of(std::uint16_t field, const state::FieldView& view, alarms::Judgement judgement);
+
+void append(Frame& frame, const Entry& entry);
+Frame history_frame(std::uint16_t field, std::span<const state::TrendPoint> points, Instant at);
+
+}  // namespace pitwall::publishers::web

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/publishers/web/http_responder.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include "protocol/json/json_value.hpp"
+#include "protocol/transport/file.hpp"
+
+namespace pitwall::publishers::web {
+namespace {
+
+constexpr unsigned kOk = 200, kNoContent = 204, kBad = 400, kNoToken = 401, kForbidden = 403,
+                   kNotFound = 404, kNoMethod = 405, kTooLarge = 413, kNoRoom = 507;
+constexpr std::string_view kBearer = "Bearer ", kLayouts = "/api/layouts/";
+
+std::shared_ptr<const std::string> shared(std::string text) {
+  return std::make_shared<const std::string>(std::move(text));
+}
+
+// There might be one, and there is none: no reason for a browser to complain.
+HttpAnswer nothing() {
+  HttpAnswer answer;
+  answer.status = kNoContent;
+  answer.cache = "no-store";
+  return answer;
+}
+
+std::string policy_for(std::string_view host) {
+  std::string sockets;
+  // Not every browser counts a WebSocket of the same host as 'self'.
+  if (host.find_first_not_of(
+          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-:[]") ==
+          std::string_view::npos &&
+      !host.empty()) {
+    sockets = " ws://" + std::string{host};
+  }
+  return "default-src 'self'; connect-src 'self'" + sockets +
+         "; img-src 'self' data:; object-src 'none'; base-uri 'none'; form-action 'none'; "
+         "frame-ancestors 'none'";
+}
+
+bool is_layout_name(std::string_view name) {
+  return !name.empty() && name.size() <= HttpResponder::kNameMax &&
+         std::ranges::all_of(name, [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                  c == '-' || c == '_';
+         });
+}
+
+constexpr std::string_view kNotBuilt = R"(<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><title>Pitwall: console not built</title></head>
+<body><h1>The console has not been built</h1>
+<p>The base station runs and serves its data, but found no index.html in the folder of the
+console. Build it with <code>./pitwall build</code>, or name its folder with
+<code>--console-dir</code>, and load this page again.</p></body></html>
+)";
+
+}  // namespace
+
+HttpAnswer refusal(unsigned status, std::string_view why) {
+  HttpAnswer answer;
+  answer.status = status;
+  answer.body = shared(std::string{why} + "\n");
+  answer.cache = "no-store";
+  return answer;
+}
+
+std::string_view query_value(std::string_view target, std::string_view name) {
+  const std::size_t mark = target.find('?');
+  std::string_view rest =
+      mark == std::string_view::npos ? std::string_view{} : target.substr(mark + 1);
+  while (!rest.empty()) {
+    const std::string_view pair = rest.substr(0, rest.find('&'));
+    rest.remove_prefix(std::min(rest.size(), pair.size() + 1));
+    if (pair.starts_with(name) && pair.size() > name.size() && pair[name.size()] == '=') {
+      return pair.substr(name.size() + 1);
+    }
+  }
+  return {};
+}
+
+HttpResponder::HttpResponder(HttpConfig config)
+    : config_(std::move(config)), files_(config_.console) {
+  for (auto& [path, text] : config_.documents) show(path, {std::move(text), kJsonType});
+  for (ServedCar& car : config_.cars) {
+    Kept& kept = of_cars_.emplace_back();
+    for (auto& [path, text] : car.documents) kept[path] = {.text = shared(std::move(text))};
+  }
+}
+
+void HttpResponder::show(const std::string& path, Shown document) {
+  documents_[path] = {.text = shared(std::move(document.text)), .type = document.type};
+}
+
+// Nothing: a number that is none, or of no car here.
+std::optional<std::size_t> HttpResponder::car_of(std::string_view target) const {
+  if (target.find("?car=") == target.npos && target.find("&car=") == target.npos) return 0;
+  const std::string_view asked = query_value(target, "car");
+  int number = -1;
+  const auto read = std::from_chars(asked.data(), asked.data() + asked.size(), number);
+  if (read.ec != std::errc{} || read.ptr != asked.data() + asked.size()) return std::nullopt;
+  const auto found = std::ranges::find(config_.cars, number, &ServedCar::number);
+  if (found == config_.cars.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - config_.cars.begin());
+}
+
+const HttpResponder::Document* HttpResponder::document(std::string_view path,
+                                                       std::size_t car) const {
+  if (car < of_cars_.size()) {
+    const auto own = of_cars_[car].find(path);
+    if (own != of_cars_[car].end()) return &own->second;
+  }
+  const auto common = documents_.find(path);
+  return common == documents_.end() ? nullptr : &common->second;
+}
+
+HttpAnswer HttpResponder::answer(const HttpQuestion& question) {
+  const std::string_view token = question.authorization.starts_with(kBearer)
+                                     ? question.authorization.substr(kBearer.size())
+                                     : query_value(question.target, "token");
+  const auto who =
+      admit(config_.access, {.host = question.host, .origin = question.origin, .token = token});
+  HttpAnswer answer =
+      who ? serve(question, question.target.substr(0, question.target.find('?')), *who)
+          : refusal(who.error() == Refused::kToken ? kNoToken : kForbidden, text_of(who.error()));
+  answer.policy = policy_for(question.host);
+  return answer;
+}
+
+// The first of those offered that is ours.
+HttpAnswer HttpResponder::open_foreign(const HttpQuestion& question, std::string_view path,
+                                       const Identity& who) const {
+  if (path != "/") return refusal(kNotFound, "the WebSocket is at /");
+  if (!question.upgrade) return refusal(kBad, "this port is a WebSocket");
+  std::string_view rest = question.subprotocols;
+  while (!rest.empty()) {
+    std::string_view offered = rest.substr(0, rest.find(','));
+    rest.remove_prefix(std::min(rest.size(), offered.size() + 1));
+    offered.remove_prefix(std::min(offered.find_first_not_of(" \t"), offered.size()));
+    offered = offered.substr(0, offered.find_last_not_of(" \t") + 1);
+    const auto ours = std::ranges::find(config_.subprotocols, offered);
+    if (ours == config_.subprotocols.end()) continue;
+    HttpAnswer answer;
+    answer.visitor = who;
+    answer.subprotocol = *ours;
+    return answer;
+  }
+  std::string known;
+  for (const std::string_view name : config_.subprotocols) known += " " + std::string{name};
+  return refusal(kBad, "this WebSocket speaks" + known);
+}
+
+HttpAnswer HttpResponder::serve(const HttpQuestion& question, std::string_view path,
+                                const Identity& who) {
+  if (!config_.subprotocols.empty()) return open_foreign(question, path, who);
+  const bool of_a_car = path == "/ws" || path.starts_with("/api/");
+  const auto car = of_a_car ? car_of(question.target) : 0;
+  if (!car) return refusal(kNotFound, "no car of that number here");
+  if (path == "/ws") {
+    if (!question.upgrade) return refusal(kBad, "/ws is a WebSocket");
+    HttpAnswer answer;
+    answer.visitor = who;
+    answer.car = *car;
+    return answer;
+  }
+  if (path.starts_with(kLayouts)) return layout(question, path.substr(kLayouts.size()), who);
+  if (question.method != "GET" && question.method != "HEAD") {
+    HttpAnswer answer = refusal(kNoMethod, "only GET and HEAD here");
+    answer.allow = "GET, HEAD";
+    return answer;
+  }
+  if (const auto maker = config_.made.find(path); maker != config_.made.end()) {
+    Shown made = maker->second();
+    HttpAnswer answer;
+    answer.type = made.type;
+    answer.cache = "no-store";
+    answer.body = shared(std::move(made.text));
+    return answer;
+  }
+  const Document* const known = document(path, *car);
+  if (known == nullptr) return file(question, path);
+  if (known->text->empty()) return nothing();
+  HttpAnswer answer;
+  answer.type = known->type;
+  answer.body = known->text;
+  return answer;
+}
+
+HttpAnswer HttpResponder::file(const HttpQuestion& question, std::string_view path) {
+  const ServedFile* const file = files_.find(path);
+  HttpAnswer answer;
+  if (file == nullptr) {
+    if (path != "/") return refusal(kNotFound, "nothing of that name here");
+    answer.type = type_of("index.html");
+    answer.body = shared(std::string{kNotBuilt});
+    return answer;
+  }
+  answer.gzipped =
+      file->gzipped != nullptr && question.accept_encoding.find("gzip") != std::string_view::npos;
+  answer.body = answer.gzipped ? file->gzipped : file->bytes;
+  answer.type = file->type;
+  if (file->forever) answer.cache = "public, max-age=31536000, immutable";
+  return answer;
+}
+
+HttpAnswer HttpResponder::layout(const HttpQuestion& question, std::string_view name,
+                                 const Identity& who) {
+  if (!is_layout_name(name)) return refusal(kNotFound, "a layout's name has letters and digits");
+  if (question.method == "PUT") {
+    if (who.role != Role::kOperator) return refusal(kForbidden, "layouts are kept by operators");
+    return put_layout(name, question.body);
+  }
+  if (question.method != "GET") {
+    HttpAnswer answer = refusal(kNoMethod, "only GET and PUT here");
+    answer.allow = "GET, PUT";
+    return answer;
+  }
+  HttpAnswer answer;
+  answer.type = kJsonType;
+  answer.cache = "no-store";
+  if (const auto kept = layouts_.find(name); kept != layouts_.end()) {
+    answer.body = kept->second;
+    return answer;
+  }
+  if (config_.layouts.empty()) return nothing();
+  auto text =
+      transport::read_file(config_.layouts + "/" + std::string{name} + ".json", kLayoutBytes);
+  if (!text) return nothing();
+  answer.body = shared(*std::move(text));
+  return answer;
+}
+
+HttpAnswer HttpResponder::put_layout(std::string_view name, std::string_view body) {
+  if (body.size() > kLayoutBytes) return refusal(kTooLarge, "a layout has at most 256 KiB");
+  const auto value = json::JsonValue::parse(body, "layout");
+  if (!value) return refusal(kBad, to_string(value.error()));
+  if (!value->is_object()) return refusal(kBad, "a layout is an object");
+  if (!layouts_.contains(name) && layouts_.size() >= kLayoutsMax) {
+    return refusal(kNoRoom, "a hundred layouts are kept already");
+  }
+  if (!config_.layouts.empty()) {
+    const auto written =
+        transport::write_file(config_.layouts + "/" + std::string{name} + ".json", body);
+    if (!written) return refusal(kNoRoom, to_string(written.error()));
+  }
+  layouts_.insert_or_assign(std::string{name}, shared(std::string{body}));
+  HttpAnswer answer;
+  answer.status = kOk;
+  answer.body = shared("kept\n");
+  return answer;
+}
+
+}  // namespace pitwall::publishers::web

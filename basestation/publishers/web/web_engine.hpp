@@ -1,0 +1,244 @@
+// The inside of web_server.cpp: what belongs to the web thread, and one console's socket. For that
+// file alone; it brings in Boost.Beast.
+//   law    news, posts and counters are under the lock; all else is the web thread's own
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core/buffers_to_string.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/message.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/beast/websocket/stream.hpp>
+#include <chrono>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "basestation/publishers/web/web_server.hpp"
+
+namespace pitwall::publishers::web {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using boost::system::error_code;
+using Tcp = asio::ip::tcp;
+
+inline constexpr std::size_t kHeaderMax = 16 * 1'024;
+inline constexpr auto kHttpPatience = std::chrono::seconds(15);
+inline constexpr auto kSilence = std::chrono::seconds(60);  // of a socket, pings unanswered
+inline constexpr auto kClosing = std::chrono::seconds(2);
+inline constexpr int kSendBuffer = 64 * 1'024;  // what waits is to wait where it can be dropped
+inline constexpr bool kCompressed = false;      // no permessage-deflate
+inline constexpr std::size_t kNewsMax = 8'192;
+
+inline std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
+
+struct WebServer::Engine {
+  class HttpSession;
+  class Socket;
+
+  Engine(const Tcp::endpoint& endpoint, HttpConfig config)
+      : acceptor(io, endpoint), desk(std::move(config)) {}
+
+  void run();
+  void accept();
+  void tell(std::size_t car, ClientNews news);
+  void call();
+  void deliver();
+  ClientId free_number();
+  template <class Change>
+  void count(const Change& change) {
+    const std::lock_guard hold(lock);
+    change(counters);
+  }
+
+  struct Post {
+    ClientSet to;
+    SharedMessage message;  // null: a request of these clients was handled
+  };
+  struct Door {
+    std::deque<ClientNews> news;
+    transport::FileDescriptor bell;  // never changes
+  };
+  mutable std::mutex lock;
+  std::array<Door, kCars> doors;  // by car; from here on under the lock
+  std::vector<Post> posts;
+  std::map<std::string, Shown> shown;  // not yet at the desk
+  bool post_under_way = false;
+  WebCounters counters;
+  std::map<std::pair<ClientId, std::uint32_t>, std::uint64_t> drops;  // by client and tag
+
+  std::size_t connections = 0;  // the rest belongs to the web thread
+  ClientId newest = kLastClient;
+  // After what the sessions in its handlers refer to, so that it goes before.
+  asio::io_context io{1};
+  Tcp::acceptor acceptor;
+  HttpResponder desk;
+  std::array<std::shared_ptr<Socket>, 256> sockets{};  // by client
+  std::thread thread;
+};
+
+// One console. Lives while an operation of it is under way or the engine has it.
+class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
+ public:
+  Socket(Engine& engine, beast::tcp_stream&& stream, ClientId client, HttpAnswer answer)
+      : engine_(engine),
+        stream_(std::move(stream)),
+        timer_(engine.io),
+        client_(client),
+        who_(*std::move(answer.visitor)),
+        car_(answer.car),
+        subprotocol_(answer.subprotocol),
+        queue_(engine.desk.queue_limits()) {}
+  ~Socket() { --engine_.connections; }
+
+  void accept(const http::request<http::string_body>& request) {
+    beast::get_lowest_layer(stream_).expires_never();
+    stream_.set_option(websocket::stream_base::timeout{kHttpPatience, kSilence, true});
+    stream_.read_message_max(kTextMax);
+    stream_.auto_fragment(false);
+    if (!subprotocol_.empty()) {
+      stream_.set_option(websocket::stream_base::decorator(
+          [name = subprotocol_](websocket::response_type& response) {
+            response.set(http::field::sec_websocket_protocol, std::string{name});
+          }));
+    }
+    stream_.async_accept(request, [self = shared_from_this()](error_code failed) {
+      if (failed) return self->gone();
+      self->engine_.count([](WebCounters& c) { ++c.joined; });
+      self->engine_.tell(
+          self->car_,
+          {.kind = ClientNews::Kind::kJoined, .client = self->client_, .who = self->who_});
+      self->joined_ = true;
+      self->read();
+    });
+  }
+
+  void send(const SharedMessage& message) {
+    if (!joined_ || closing_) return;
+    const std::uint32_t before = queue_.dropped();
+    const bool room = queue_.push(message);
+    const std::uint32_t dropped = queue_.dropped() - before;
+    if (dropped > 0) {
+      engine_.count([&](WebCounters& c) {
+        c.pictures_dropped += dropped;
+        for (const std::uint32_t tag : queue_.take_lost_tags()) ++engine_.drops[{client_, tag}];
+      });
+    }
+    if (!room) {
+      engine_.count([](WebCounters& c) { ++c.closed_unread; });
+      return close(websocket::close_code::try_again_later);
+    }
+    if (!writing_) write();
+  }
+
+  void handled() {
+    if (unhandled_ > 0) --unhandled_;
+    if (!reading_ && joined_ && !closing_) read();
+  }
+
+  void close(websocket::close_code code) {
+    if (closing_) return;
+    closing_ = true;
+    timer_.expires_after(kClosing);
+    timer_.async_wait([self = shared_from_this()](error_code cancelled) {
+      if (!cancelled) self->cut();
+    });
+    stream_.async_close(code, [self = shared_from_this()](error_code) { self->cut(); });
+  }
+
+  void cut() {
+    error_code ignored;
+    beast::get_lowest_layer(stream_).socket().close(ignored);
+    timer_.cancel();
+    gone();
+  }
+
+ private:
+  void read() {
+    if (unhandled_ >= kUnhandled) return;  // handled() goes on
+    reading_ = true;
+    stream_.async_read(heard_, [self = shared_from_this()](error_code failed, std::size_t) {
+      self->reading_ = false;
+      if (failed) return self->gone();
+      self->take();
+      self->read();
+    });
+  }
+
+  void take() {
+    ++unhandled_;
+    engine_.count([](WebCounters& c) { ++c.texts_heard; });
+    ClientNews news{
+        .kind = stream_.got_text() ? ClientNews::Kind::kSaid : ClientNews::Kind::kBinary,
+        .client = client_};
+    news.text = beast::buffers_to_string(heard_.data());
+    heard_.consume(heard_.size());
+    engine_.tell(car_, std::move(news));
+  }
+
+  void write() {
+    current_ = queue_.pop();
+    writing_ = current_ != nullptr;
+    if (!writing_ || closing_) return;
+    auto done = [self = shared_from_this()](error_code failed, std::size_t bytes) {
+      self->writing_ = false;
+      if (failed) return self->gone();
+      self->engine_.count([&](WebCounters& c) {
+        ++c.messages_sent;
+        c.bytes_sent += bytes;
+      });
+      self->write();
+    };
+    stream_.text(!current_->frame && !current_->binary);
+    stream_.async_write(parts_of_current(), std::move(done));
+  }
+
+  // Two of every message, so that one kind of write serves all; empty ones write nothing.
+  std::array<asio::const_buffer, 2> parts_of_current() {
+    if (const auto& bytes = current_->binary) {
+      return {asio::buffer(bytes->head.data(), bytes->head_bytes),
+              bytes->body ? asio::buffer(*bytes->body) : asio::const_buffer{}};
+    }
+    if (!current_->frame) return {asio::buffer(current_->text), asio::const_buffer{}};
+    header_ = header_of(*current_->frame, queue_.dropped());
+    return {asio::buffer(header_), asio::buffer(current_->frame->entries)};
+  }
+
+  void gone() {
+    closing_ = true;
+    if (engine_.sockets[client_].get() != this) return;
+    const auto self = shared_from_this();
+    engine_.sockets[client_].reset();
+    if (!joined_) return;
+    engine_.count([](WebCounters& c) { ++c.left; });
+    engine_.tell(car_, {.kind = ClientNews::Kind::kLeft, .client = client_});
+  }
+
+  Engine& engine_;
+  websocket::stream<beast::tcp_stream, kCompressed> stream_;
+  asio::steady_timer timer_;
+  ClientId client_;
+  Identity who_;
+  std::size_t car_;  // that it came to
+  std::string_view subprotocol_;
+  beast::flat_buffer heard_;
+  ClientQueue queue_;
+  SharedMessage current_;
+  std::array<std::uint8_t, kFrameHeader> header_{};
+  std::size_t unhandled_ = 0;
+  bool joined_ = false, reading_ = false, writing_ = false, closing_ = false;
+};
+
+}  // namespace pitwall::publishers::web

@@ -1,0 +1,90 @@
+// The sockets of the console: HTTP and WebSocket on a thread of its own, so that no browser ever
+// delays what comes from the car.
+//   in     messages for clients; documents, those of the start and those of the moment
+//   out    who joined, who left, what they said
+//   law    between this thread and the caller's stand two bounded queues; neither side waits for
+//          the other. A client whose requests are not handled yet is not read on: its own sending
+//          stops. A client that does not read: client_queue.hpp
+//          a console belongs to the car it came to, until it leaves: what it says is told to that
+//          car's reader only
+//          malformed HTTP is answered 400, 413 or 431 and closed; a text that is no UTF-8, too long
+//          or broken framing closes that socket with the code of RFC 6455; the others go on
+//   bound  kCars cars; kConnections in all, consoles 16 to 254 of them
+//   errors start(): Problem with the address as place; afterwards counters
+//   source RFC 9112, RFC 6455, by Boost.Beast
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "basestation/publishers/web/client.hpp"
+#include "basestation/publishers/web/client_queue.hpp"
+#include "basestation/publishers/web/http_responder.hpp"
+#include "protocol/transport/udp_socket.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::publishers::web {
+
+struct ClientNews {
+  enum class Kind : std::uint8_t { kJoined, kLeft, kSaid, kBinary };
+  Kind kind = Kind::kJoined;
+  ClientId client = 0;
+  Identity who{};      // kJoined
+  std::string text{};  // kSaid, kBinary
+};
+
+// Bytes that a client lost because it did not read.
+struct Drop {
+  ClientId client = 0;
+  std::uint32_t tag = 0;
+  std::uint64_t count = 0;
+};
+
+struct WebCounters {
+  std::uint64_t connections = 0, refused_room = 0;  // more than kConnections at once
+  std::uint64_t bad_http = 0, refused_http = 0;     // malformed; answered 4xx
+  std::uint64_t joined = 0, left = 0;
+  std::uint64_t texts_heard = 0, messages_sent = 0, bytes_sent = 0;
+  std::uint64_t pictures_dropped = 0;  // of clients that did not read, all together
+  std::uint64_t closed_unread = 0;     // that left too much unread
+  std::uint64_t posts_dropped = 0;     // this thread did not keep up with the caller
+  std::uint64_t faults = 0;            // exceptions of the libraries, survived
+};
+
+class WebServer {
+ public:
+  static constexpr std::size_t kConnections = 300;
+  static constexpr std::size_t kUnhandled = 16;  // requests of one client under way
+  static constexpr std::size_t kCars = 4;
+  static constexpr std::size_t kPostsMax = 4'096;  // messages that wait for the web thread
+
+  static Result<std::unique_ptr<WebServer>, Problem> start(transport::UdpAddress listen,
+                                                           HttpConfig config);
+  ~WebServer();
+  WebServer(const WebServer&) = delete;
+  WebServer& operator=(const WebServer&) = delete;
+
+  transport::UdpAddress local() const;
+  // Of the consoles of one car, in the order of HttpConfig::cars: readable while news wait.
+  int fd(std::size_t car = 0) const;
+  std::optional<ClientNews> next_news(std::size_t car = 0);
+  // A document that replaces the one of this path, from now on.
+  void show(const std::string& path, Shown document);
+  void send(const ClientSet& to, SharedMessage message);
+  WebCounters counters() const;
+  // What tagged bytes were lost since this was asked for last.
+  std::vector<Drop> take_drops();
+
+ private:
+  struct Engine;
+  explicit WebServer(std::unique_ptr<Engine> engine);
+  std::unique_ptr<Engine> engine_;
+};
+
+}  // namespace pitwall::publishers::web

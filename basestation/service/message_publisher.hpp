@@ -1,0 +1,62 @@
+// Messages about what has changed in one car's service: alarms, tickets, audit, authority, events,
+// settings, the radio.
+//   in     the service after each advance()
+//   out    messages in its MessageLog
+//   invariants  what did not change is not published again, but: the authority each second while it
+//          is held, the radio twice a second, the checklist once, the entries each minute, so that
+//          the newest part of a recording has them
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "basestation/alarms/notices.hpp"
+#include "basestation/command/command_queue.hpp"
+#include "basestation/link/station.hpp"
+#include "basestation/state/known.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::service {
+
+class CarService;
+class MessageLog;
+
+class MessagePublisher {
+ public:
+  void publish(const CarService& car, MessageLog& to, Instant now);
+  // Due with a new state of the link, else twice a second.
+  void publish_link(const CarService& car, MessageLog& to, Instant now);
+
+ private:
+  static constexpr Duration kChecksEvery = seconds(1), kLinkEvery = milliseconds(500),
+                            kEntriesEvery = seconds(60), kFuelEvery = milliseconds(100);
+
+  void publish_identity(const CarService& car, MessageLog& to, Instant now);
+  void publish_alarms(const CarService& car, MessageLog& to, Instant now);
+  void publish_commands(const CarService& car, MessageLog& to, Instant now);
+  void publish_tickets(const command::CommandQueue& queue, MessageLog& to, Instant now);
+  void publish_fuel(const CarService& car, MessageLog& to, Instant now);
+  void publish_events(const CarService& car, MessageLog& to, Instant now);
+  void publish_settings(const CarService& car, MessageLog& to, Instant now);
+  void publish_checks(const CarService& car, MessageLog& to, Instant now);
+
+  struct Shown {
+    link::Station::Source source = link::Station::Source::kNone;
+    std::uint64_t revision = 0;  // of the settings
+
+    bool operator==(const Shown&) const = default;
+  };
+
+  bool begun_ = false;
+  Shown shown_;
+  std::uint64_t alarms_ = 0, alarm_events_ = 0, notice_revision_ = 0;  // as published last
+  std::uint64_t tickets_ = 0, audit_ = 0, authority_ = 0, events_ = 0, entries_ = 0, settings_ = 0;
+  std::vector<alarms::Notice> notices_;
+  std::string fuel_;
+  Instant authority_at_{}, entries_at_{}, checks_at_{}, link_at_{}, fuel_at_{};
+  state::LinkState link_ = state::LinkState::kNone;
+};
+
+}  // namespace pitwall::service

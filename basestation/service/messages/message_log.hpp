@@ -1,0 +1,47 @@
+// Messages of one car's service: the newest of every state and the last lines of every log, as JSON
+// texts. Consoles, the recorder and other tools get the very same ones.
+//   in     texts with their type and time
+//   out    each to every subscriber at once; those that who comes later has to know
+//   bound  kLines of each log are kept
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::service {
+
+class MessageLog {
+ public:
+  static constexpr std::size_t kLines = 200;
+  using Sink = std::function<void(std::string_view type, std::string_view text, Instant at)>;
+
+  // It lives as long as the log.
+  void subscribe(Sink sink) { sinks_.push_back(std::move(sink)); }
+
+  // Replaces the newest of its type.
+  void set_state(std::string_view type, std::string text, Instant at);
+  void add_line(std::string_view type, std::string text, Instant at);
+  // Given to the subscribers and not kept.
+  void pass(std::string_view type, std::string_view text, Instant at) const;
+  void clear();
+
+  const std::map<std::string, std::string, std::less<>>& states() const { return states_; }
+  const std::map<std::string, std::deque<std::string>, std::less<>>& lines() const {
+    return lines_;
+  }
+
+ private:
+  std::map<std::string, std::string, std::less<>> states_;
+  std::map<std::string, std::deque<std::string>, std::less<>> lines_;
+  std::vector<Sink> sinks_;
+};
+
+}  // namespace pitwall::service

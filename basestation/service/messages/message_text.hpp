@@ -1,0 +1,51 @@
+// What the base tells its consoles, as the texts of PROTOCOL.md.
+//   in     alarms, authority, tickets, audit lines, drafts, fuel, events, figures of the link
+//   out    one JSON object each, with its type
+//   units  milliseconds on the base's clock, as PROTOCOL.md has them
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "basestation/alarms/evaluator.hpp"
+#include "basestation/command/audit.hpp"
+#include "basestation/command/authority_handover.hpp"
+#include "basestation/command/command_queue.hpp"
+#include "basestation/link/link_meter.hpp"
+#include "protocol/telemetry/delivery/events.hpp"
+
+namespace pitwall::service {
+
+// Of car and base, as consoles show it.
+struct CarIdentity {
+  int car = 0;
+  std::string name{}, mode = "NONE", alarm_config{};
+
+  bool operator==(const CarIdentity&) const = default;
+};
+
+// Of car and base, without the client's role.
+std::string hello_text(const CarIdentity& identity, Instant now);
+std::string alarms_text(const alarms::Engine& engine);
+std::string alarm_event_text(const alarms::AlarmEvent& event);
+std::string authority_text(const command::AuthorityHandover& talk,
+                           const telemetry::AuthorityDesk& desk, Instant now);
+std::string ticket_text(const command::Ticket& ticket);
+std::string audit_text(const command::AuditLine& line);
+std::string notice_text(const alarms::Notice& notice);
+std::string fuel_text(const state::FuelLeft& fuel);
+std::string event_text(const telemetry::Event& event);
+std::string mark_text(const std::string& text, const std::string& by, Instant now);
+
+struct LinkSaid {
+  const telemetry::LinkReport& report;
+  const link::LinkMeter& meter;
+  const state::VehicleState& vehicle;
+  state::LinkState state = state::LinkState::kNone;
+  Instant since{};
+  std::uint8_t paths = 1;
+  double up_cap_kbit_s = kUnset;  // of each path
+};
+std::string link_text(const LinkSaid& said, Instant now);
+
+}  // namespace pitwall::service

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/session/roster.hpp"
+
+#include "protocol/json/json_text.hpp"
+
+namespace pitwall::session {
+
+std::string roster_text(const std::vector<CarSight>& cars) {
+  json::Array list;
+  for (const CarSight& car : cars) {
+    json::Object row;
+    row.number("number", car.number).text("name", car.name).text("mode", car.mode);
+    list.json((car.link.empty() ? row.json("link", "null") : row.text("link", car.link)).str());
+  }
+  return json::Object{}.json("cars", list.str()).str();
+}
+
+void Roster::serve(Instant now) {
+  if (now < due_) return;
+  due_ = now + kEvery;
+  std::string text = roster_text(look_());
+  if (text == told_) return;
+  told_ = text;
+  server_.show(kRosterPath, {std::move(text), publishers::web::kJsonType});
+}
+
+}  // namespace pitwall::session

@@ -1,0 +1,47 @@
+// Which cars this base serves: the document /api/cars, from which a console learns what to ask for.
+//   in     number, name, mode and link of each car
+//   out    {"cars": [{"number", "name", "mode", "link"}]}, in the order of their tabs; link is null
+//          where there is none to speak of
+//   law    told anew when one of them changes
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "basestation/publishers/web/web_server.hpp"
+#include "basestation/service/publisher.hpp"
+
+namespace pitwall::session {
+
+inline constexpr const char* kRosterPath = "/api/cars";
+
+struct CarSight {
+  int number = 0;
+  std::string name{}, mode = "NONE", link{};
+};
+
+std::string roster_text(const std::vector<CarSight>& cars);
+
+// Looks twice a second.
+class Roster : public service::LoopTask {
+ public:
+  using Look = std::function<std::vector<CarSight>()>;
+
+  Roster(publishers::web::WebServer& server, Look look) : server_(server), look_(std::move(look)) {}
+
+  void serve(Instant now) override;
+  Instant due() const override { return due_; }
+
+ private:
+  static constexpr Duration kEvery = milliseconds(500);
+
+  publishers::web::WebServer& server_;
+  Look look_;
+  std::string told_;
+  Instant due_{};
+};
+
+}  // namespace pitwall::session

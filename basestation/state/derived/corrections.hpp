@@ -1,0 +1,50 @@
+// Does somebody else use our login for RTK corrections? A caster gives a login to one at a time:
+// two users take the stream from each other every few seconds, and both our receivers lose it at
+// once. It cost the paper's team a day.
+//   in     age of the corrections and number of satellites of both receivers, as they come
+//   out    yes while the last 60 s hold at least three such losses
+//   law    a loss is a stream of corrections that ran for less than kSession and then stopped for
+//          longer than kSilence, in both receivers within kTogether. A receiver that lost its
+//          satellites as well (a tunnel, a bridge), one receiver alone, or a stream that ran for
+//          longer, is no such loss
+//   source Saba et al.; the numbers are ours
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::state {
+
+class CorrectionWatch {
+ public:
+  static constexpr Duration kSilence = seconds(5), kSession = seconds(20), kTogether = seconds(2),
+                            kWindow = seconds(60);
+  static constexpr std::size_t kLosses = 3, kUnits = 2;
+  static constexpr double kSatellites = 5.0;  // fewer: the sky is lost, not the caster
+
+  // A sample of one receiver, true at `at`.
+  void heard(std::size_t unit, double correction_age_s, double satellites, Instant at);
+  bool conflict(Instant now) const;
+
+ private:
+  struct Unit {
+    std::optional<Instant> flows_since;  // the present stream, whose beginning was seen
+    std::optional<Instant> lost;         // its newest loss of this kind, not yet matched
+    std::optional<Instant> sky_lost;
+    bool was_silent = false;
+  };
+  bool sky_lost_near(const Unit& unit, Instant at) const;
+  void lose(std::size_t unit, Instant at);
+
+  std::array<Unit, kUnits> units_{};
+  std::array<Instant, kLosses> losses_{};  // of both, newest last
+  std::uint64_t count_ = 0;
+};
+
+}  // namespace pitwall::state

@@ -1,0 +1,57 @@
+// The base's own fields, made of the car's: one pass over the vehicle state.
+//   in     the vehicle state, what is known beside it, books that remember (fuel, corrections,
+//          link)
+//   out    a view of each base field: as old as the oldest value that it needed, and no better
+//   law    a value that needs a field nobody ever told is never there; one of a stale field is
+//          stale. Judged fields keep their last value like the car's
+//   cost   about forty views of the vehicle state; no allocation
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "basestation/state/course.hpp"
+#include "basestation/state/derived/attempt.hpp"
+#include "basestation/state/derived/corrections.hpp"
+#include "basestation/state/derived/fuel.hpp"
+#include "basestation/state/derived/fuel_estimate.hpp"
+#include "basestation/state/derived/link_state.hpp"
+#include "basestation/state/derived/tyre_gate.hpp"
+#include "basestation/state/known.hpp"
+
+namespace pitwall::state {
+
+struct DeriveParams {
+  TyreGate tyres;
+  FuelPlan fuel;
+};
+
+// What the base remembers of earlier values.
+struct Books {
+  FuelBook fuel;
+  CorrectionWatch corrections;
+  LinkWatch link;
+  AttemptBook attempts;
+
+  // Once for each new sample of the groups they follow, and once each step of the grid.
+  void step(const VehicleState& vehicle, const Known& known, Instant now);
+  // Once each step of the grid; without a course whole laps are counted and gaps are not known.
+  void step_race(const VehicleState& vehicle, const FuelPlan& plan, const Course* course,
+                 Instant now);
+  FuelLeft fuel_left(const FuelPlan& plan) const;
+
+ private:
+  void step_fuel(const VehicleState& vehicle, const Expectations& said, Instant now);
+  bool sampled_anew(const VehicleState& vehicle, telemetry::Group group, Instant now,
+                    Instant& newest);
+
+  FuelEstimate estimate_;
+  std::uint64_t fuel_entries_ = 0;
+  bool fuel_measured_ = false;
+  Instant fuel_at_ = telemetry::kNeverSampled, engine_at_ = telemetry::kNeverSampled;
+  std::array<Instant, CorrectionWatch::kUnits> gnss_at_{telemetry::kNeverSampled,
+                                                        telemetry::kNeverSampled};
+};
+
+void derive(const DeriveParams& params, const VehicleState& vehicle, const Known& known,
+            const Books& books, const Course* course, Instant now, BaseViews& views);
+
+}  // namespace pitwall::state

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/state/derived/flags.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace pitwall::state {
+namespace {
+
+bool differ(double a, double b) { return !std::isnan(a) && !std::isnan(b) && a != b; }
+
+double binding(double a, double b) {
+  if (std::isnan(a)) return b;
+  if (std::isnan(b)) return a;
+  return restriction_of_track_flag(a) >= restriction_of_track_flag(b) ? a : b;
+}
+
+}  // namespace
+
+int restriction_of_track_flag(double flag) {
+  // none, RED, ORANGE, YELLOW, GREEN, WAVING GREEN, CHEQUERED, UNKNOWN: the car's own order
+  constexpr std::array kRestriction{2, 6, 5, 3, 1, 0, 4, 7};
+  if (!(flag >= 0.0 && flag < static_cast<double>(kRestriction.size()))) return kRestriction.back();
+  return kRestriction.at(static_cast<std::size_t>(flag));
+}
+
+bool flag_conflict(const FlagsSaid& said) {
+  if (said.encodings_differ > 0.0) return true;
+  const double should_hold = binding(said.race_control_track, said.pit_wall_track);
+  return differ(said.car_track, should_hold) ||
+         differ(said.race_control_track, said.pit_wall_track) ||
+         differ(said.race_control_vehicle, said.car_vehicle);
+}
+
+bool round_speed_conflict(const RoundSpeedSaid& said) {
+  const double round_mps = said.race_control_mps;
+  if (!(round_mps > 0.0)) return false;  // none was said
+  return std::abs(round_mps - said.pit_wall_mps) > kRoundSpeedTolerance_mps ||
+         said.car_target_mps > round_mps + kRoundSpeedTolerance_mps;
+}
+
+}  // namespace pitwall::state

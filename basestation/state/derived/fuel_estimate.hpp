@@ -1,0 +1,49 @@
+// Fuel in the tank of a car that does not measure it: what was loaded, less what its engine must
+// have burnt. An estimate, good to about a tenth: shown as one, and never instead of a measurement.
+//   in     litres in the tank as a person entered them; engine speed, throttle and whether it runs,
+//          with the time of each sample
+//   out    litres left, litres used since the first sample
+//   law    Willans line: flow = indicated torque x speed / (efficiency x heating value x density),
+//          where indicated torque is that of full throttle times the share of the throttle;
+//          a running engine burns kIdle at least
+//          between two samples close together the mean of both flows holds; over a longer gap the
+//          greater one: what nobody heard was burnt, not saved
+//   units  litres, rpm, throttle 0 .. 1
+//   errors a sample that is no number is none
+//   source L. Guzzella, C. Onder, Introduction to Modeling and Control of Internal Combustion
+//          Engine Systems (2010), 2.5; torque by speed and throttle from the public dyno sheet of
+//          the AV-21's engine, friction added
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::state {
+
+struct EngineSample {
+  double speed_rpm = kUnset, throttle = kUnset;
+  bool running = false;
+};
+double fuel_flow_lps(const EngineSample& sample);
+
+class FuelEstimate {
+ public:
+  static constexpr double kIdle_lph = 3.0;
+  static constexpr Duration kGap = seconds(2);
+
+  void loaded(double litres);
+  void heard(const EngineSample& sample, Instant sampled);
+
+  double level_l() const;  // never below zero; unset where nobody has entered any
+  double used_l() const { return used_l_; }
+
+ private:
+  double loaded_l_ = kUnset, used_when_loaded_l_ = 0.0, used_l_ = 0.0;
+  double flow_lps_ = 0.0;
+  std::optional<Instant> newest_;
+};
+
+}  // namespace pitwall::state

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/state/derived/sensors.hpp"
+
+#include <cmath>
+
+namespace pitwall::state {
+
+SensorHealth health_of(const SensorRow& row, const VehicleState& vehicle, Instant now) {
+  const double rate_hz = vehicle.view(row.rate, now).value;
+  if (std::isnan(rate_hz)) return {};
+  return {.rate_share = rate_hz / row.nominal_hz,
+          .gap_ms = vehicle.view(row.gap, now).value,
+          .latency_share = vehicle.view(row.latency, now).value / row.latency_allowed_ms};
+}
+
+SensorHealth worst_sensor(const VehicleState& vehicle, Instant now) {
+  SensorHealth worst;
+  for (const SensorRow& row : kSensorTable) {
+    const SensorHealth one = health_of(row, vehicle, now);
+    worst.rate_share = std::fmin(worst.rate_share, one.rate_share);  // of what is known
+    worst.gap_ms = std::fmax(worst.gap_ms, one.gap_ms);
+    worst.latency_share = std::fmax(worst.latency_share, one.latency_share);
+  }
+  return worst;
+}
+
+}  // namespace pitwall::state

@@ -1,0 +1,30 @@
+// How warm tyres must be for a speed: a table, not one number, because a cold oval may never warm
+// them to what the highest speed wants.
+//   in     speed [m/s], temperature of the coldest tyre [degC]
+//   out    the least temperature for a speed, the highest speed for a temperature
+//   law    linear between the rows; below the first row nothing is asked, beyond the last its
+//          temperature. Both directions are one relation
+//   source Saba et al.: spin above 62.6 m/s (140 mph) at 29 degC, where 79 degC were needed; the
+//          rows between are ours, at the passing competition's speeds of 80 to 125 mph
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "protocol/vocabulary/units.hpp"
+
+namespace pitwall::state {
+
+inline constexpr double kNoTyreGate_c = -40.0;
+
+struct TyreGate {
+  static constexpr std::size_t kRows = 5;
+  std::array<double, kRows> speed_mps{from_mph(80), from_mph(100), from_mph(115), from_mph(125),
+                                      from_mph(140)};
+  std::array<double, kRows> temperature_c{25.0, 40.0, 50.0, 60.0, 79.0};
+};
+double tyre_needed_c(const TyreGate& gate, double speed_mps);
+double speed_allowed_mps(const TyreGate& gate, double tyre_c);
+
+}  // namespace pitwall::state

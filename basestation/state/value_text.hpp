@@ -1,0 +1,18 @@
+// A field's value as people read it: a label, or a number with the decimals of its resolution.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "protocol/telemetry/registry/field_row.hpp"
+
+namespace pitwall::state {
+
+std::string value_text(const telemetry::FieldRow& row, double value);
+// Names of the first bits that are set, and how many more there are: a line of the screen holds it.
+std::string bits_text(std::string_view labels, std::uint32_t bits);
+std::string path_of(const telemetry::FieldRow& row);  // "ego.x"
+
+}  // namespace pitwall::state

@@ -1,0 +1,66 @@
+// The latest value of every field and how old it is: what all outlets show.
+//   in     the state as the radio has it, and which groups of it are new
+//   out    value, age and quality of each field at any later time
+//   age    since the sample was taken in the car, the way to the base included: never younger than
+//          the truth while the clocks of car and base are compared
+//   unset  a field that the car no longer knows keeps its last value, grows old, and is marked so
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "protocol/telemetry/registry/registry.hpp"
+#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::state {
+
+enum class Quality : std::uint8_t {
+  kFresh,  // up to one and a half times the field's target age
+  kLate,   // up to five times of it, but no longer than 2 s; of the slowest fields twice of it
+  kStale,  // it says nothing of now
+  kNever
+};
+inline constexpr Duration kStaleAfter = seconds(2);
+constexpr Duration fresh_until(Duration target_age) { return 3 * target_age / 2; }
+constexpr Duration stale_after(Duration target_age) {
+  return std::min(5 * target_age, std::max(kStaleAfter, 2 * target_age));
+}
+const char* text_of(Quality quality);
+Quality quality_of(Duration age, Duration target_age);
+
+struct FieldView {
+  double value = kUnset;
+  Duration age{};
+  Quality quality = Quality::kNever;
+  bool unset = false;  // the car says that it does not know: the value is the last known one
+};
+
+// Old enough to be shown with its age, too young to be struck out.
+constexpr bool usable(const FieldView& view) {
+  return view.quality == Quality::kFresh || view.quality == Quality::kLate;
+}
+
+class VehicleState {
+ public:
+  void update(const telemetry::Snapshot& state, telemetry::GroupSet groups);
+
+  FieldView view(telemetry::FieldIndex field, Instant now) const;
+  // Of the group's newest sample; kNever: it was never sampled.
+  FieldView group(telemetry::Group group, Instant now) const;
+  bool ever() const { return ever_; }
+
+ private:
+  struct Latest {
+    double value = kUnset;
+    Instant sampled = telemetry::kNeverSampled;
+  };
+
+  std::array<Latest, telemetry::kFieldCount> latest_{};
+  std::array<Instant, telemetry::kGroups> sampled_ = telemetry::Snapshot{}.sampled_at;
+  bool ever_ = false;
+};
+
+}  // namespace pitwall::state

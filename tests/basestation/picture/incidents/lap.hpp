@@ -1,9 +1,0 @@
-// The length of these tests' track.
-// SPDX-License-Identifier: Apache-2.0
-#pragma once
-
-namespace pitwall::picture {
-
-inline constexpr double kLap_m = 2'400.0;
-
-}  // namespace pitwall::picture

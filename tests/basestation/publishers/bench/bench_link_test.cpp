@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/publishers/bench/bench_link.hpp"
+
+#include <gtest/gtest.h>
+
+#include "protocol/json/json_value.hpp"
+#include "protocol/transport/file.hpp"
+#include "tests/basestation/radio_rig.hpp"
+
+namespace pitwall::publishers::bench {
+namespace {
+
+using json::JsonValue;
+
+constexpr const char* kHello =
+    R"({"type": "hello", "protocol": 1, "desk": "d", "simulation": true,)"
+    R"("scenarios": 0, "unreadable": 0})";
+
+// A link, and a desk that says what the test wants; time is the test's.
+struct Both {
+  transport::TemporaryFolder folder = *transport::TemporaryFolder::create("bench");
+  std::string path = folder.path() + "/desk";
+  RadioRig rig;
+  BenchLink link{path};
+  std::optional<transport::LineListener> listener;
+  std::optional<transport::LineSocket> desk;
+  std::vector<Told> told;
+  std::vector<std::pair<int, std::string>> refused;
+  Instant now{seconds(50).ns};
+
+  Both() {
+    link.tell_to(
+        {.tell = [this](const Told& one, Instant) { told.push_back(one); },
+         .refused = [this](std::uint8_t client, const Problem& problem,
+                           Instant) { refused.emplace_back(client, to_string(problem)); }});
+  }
+  void pass(Duration span) {
+    for (Duration done{}; done < span; done = done + BenchLink::kLook) {
+      now += BenchLink::kLook;
+      link.publish(*rig.base, now);
+    }
+  }
+  void open() {
+    listener.emplace(*transport::LineListener::open(path));
+    pass(seconds(2));
+    desk = listener->accept();
+    ASSERT_TRUE(desk);
+    desk->send(kHello);
+    pass(seconds(1));
+  }
+  JsonValue state() {
+    JsonValue newest;
+    for (const Told& one : told)
+      if (one.type == "bench") newest = *JsonValue::parse(one.text, "state");
+    return newest;
+  }
+};
+
+TEST(BenchLink, AMissingDeskIsShownAndLookedForAgain) {
+  Both both;
+  both.pass(seconds(1));
+  EXPECT_FALSE(both.state().flag("up"));
+  EXPECT_FALSE(both.state().flag("may_start"));
+  EXPECT_EQ(both.state().text("why_not"), "the bench desk is not there");
+  EXPECT_FALSE(both.link.ask({.start = true, .scenario = "a", .seed = {}}, 16, "Ada"));
+  both.open();
+  EXPECT_TRUE(both.state().flag("up"));
+  EXPECT_TRUE(both.state().flag("may_start"));
+  both.desk.reset();
+  both.listener.reset();
+  both.pass(seconds(1));
+  EXPECT_FALSE(both.state().flag("up"));
+  both.open();  // and it is there again
+  EXPECT_TRUE(both.state().flag("up"));
+}
+
+TEST(BenchLink, AWishGoesToTheDeskAndItsRefusalToWhoAsked) {
+  Both both;
+  both.open();
+  ASSERT_TRUE(
+      both.link.ask({.start = true, .scenario = "red \"x\"", .seed = 7, .live = true}, 17, "Ada"));
+  const auto lines = both.desk->receive();
+  ASSERT_EQ(lines.size(), 1U);
+  const JsonValue wish = *JsonValue::parse(lines[0], "wish");
+  EXPECT_EQ(wish.text("do"), "start");
+  EXPECT_EQ(wish.text("scenario"), "red \"x\"");
+  EXPECT_EQ(wish.text("mode"), "live");
+  EXPECT_EQ(wish.number("seed"), 7.0);
+  EXPECT_EQ(wish.text("by"), "Ada");
+  both.desk->send(R"({"type": "error", "place": "scenario", "what": "no such scenario"})");
+  both.pass(seconds(1));
+  ASSERT_EQ(both.refused.size(), 1U);
+  EXPECT_EQ(both.refused[0], std::pair(17, std::string{"bench.scenario: error: no such scenario"}));
+}
+
+// Whoever drives a real car starts no simulation beside it; one that runs can be ended.
+TEST(BenchLink, WithARealCarNothingIsStarted) {
+  Both both;
+  both.open();
+  both.rig.set(telemetry::field("mode.mode"), 2.0);
+  both.rig.run(seconds(1));
+  both.pass(seconds(1));
+  EXPECT_FALSE(both.state().flag("may_start"));
+  const auto asked = both.link.ask({.start = true, .scenario = "a", .seed = {}}, 16, "Ada");
+  ASSERT_FALSE(asked);
+  EXPECT_EQ(asked.error().what, "the connected car is real");
+  EXPECT_TRUE(both.desk->receive().empty());
+  EXPECT_TRUE(both.link.ask({.scenario = {}, .seed = {}}, 16, "Ada"));
+}
+
+TEST(BenchLink, NonsenseOfADeskIsCountedAndItGoesOn) {
+  Both both;
+  both.open();
+  both.desk->send("nonsense");
+  both.desk->send(std::string(transport::LineSocket::kLineMax_bytes + 10, 'x'));
+  for (int i = 0; i < 100; ++i) {
+    both.desk->flush();
+    both.pass(BenchLink::kLook);
+  }
+  both.desk->send(R"({"type": "run", "run": 1, "seed": 1, "state": "running", "scenario": "a",)"
+                  R"("name": "a", "mode": "live"})");
+  both.pass(seconds(1));
+  EXPECT_EQ(both.state().number("malformed"), 2.0);
+  EXPECT_EQ(both.link.book().counters().taken, 2U);
+}
+
+TEST(BenchLink, AFastRunIsToldFiveTimesASecond) {
+  Both both;
+  both.open();
+  both.desk->send(R"({"type": "run", "run": 1, "seed": 1, "state": "running", "scenario": "a",)"
+                  R"("name": "a", "mode": "lockstep"})");
+  both.pass(seconds(1));
+  both.told.clear();
+  for (int i = 0; i < 20; ++i) {
+    for (int k = 0; k < 10; ++k)
+      both.desk->send(R"({"run": 1, "type": "at", "t_s": 1, "cross_track": [],)"
+                      R"("expect": [], "reactions": []})");
+    both.pass(BenchLink::kLook);
+  }
+  EXPECT_LE(both.told.size(), 6U);
+  EXPECT_GE(both.told.size(), 4U);
+}
+
+TEST(BenchLink, AWishReadsAsALineOfTheAudit) {
+  EXPECT_EQ(text_of({.start = true, .scenario = "a/b", .seed = 9, .live = true}),
+            "bench: start a/b, live, seed 9");
+  EXPECT_EQ(text_of({.start = true, .scenario = "a", .seed = {}}), "bench: start a, lockstep");
+  EXPECT_EQ(text_of({.scenario = {}, .seed = {}}), "bench: stop the run");
+}
+
+}  // namespace
+}  // namespace pitwall::publishers::bench

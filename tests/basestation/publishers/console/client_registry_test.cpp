@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/publishers/console/client_registry.hpp"
+
+#include <gtest/gtest.h>
+
+#include "protocol/json/json_value.hpp"
+#include "tests/basestation/publishers/console/looking.hpp"
+#include "tests/basestation/publishers/console/now.hpp"
+
+namespace pitwall::publishers::console {
+namespace {
+
+constexpr ClientId kAnna = 16, kGarage = 17;
+
+class Clients : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    clients_.joined(kAnna, {.role = Role::kOperator, .name = "Anna"}, kNow);
+    clients_.joined(kGarage, {.role = Role::kViewer, .name = {}}, kNow);
+    clients_.take();
+  }
+  // Types of the texts for this client since the last call; "#" for a frame.
+  std::vector<std::string> told(ClientId client) {
+    std::vector<std::string> types;
+    for (const Sending& sending : clients_.take()) {
+      if (!sending.to.test(client)) continue;
+      const auto value = json::JsonValue::parse(sending.message->text, "text");
+      types.push_back(sending.message->frame ? "#" : value ? value->text("type") : "NO JSON");
+    }
+    return types;
+  }
+  std::optional<Request> says(ClientId client, const std::string& text) {
+    return clients_.said(client, text, eyes_, kNow);
+  }
+  using Types = std::vector<std::string>;
+
+  Looking eyes_;
+  service::MessageLog messages_;
+  ClientRegistry clients_{R"({"type": "catalogue"})", messages_};
+};
+
+TEST_F(Clients, WhoJoinsIsToldWhoItIsThenWhatThereIs) {
+  messages_.set_state("link", R"({"type": "link", "n": 1})", kNow);
+  messages_.set_state("link", R"({"type": "link", "n": 2})", kNow);
+  for (int i = 0; i < 300; ++i) messages_.add_line("audit", R"({"type": "audit"})", kNow);
+  clients_.take();
+  clients_.joined(18, {.role = Role::kViewer, .name = {}}, kNow);
+  clients_.serve(eyes_, {}, kNow);
+  const Types types = told(18);
+  ASSERT_EQ(types.size(), 3 + service::MessageLog::kLines + 1);
+  EXPECT_EQ(types[0], "hello");
+  EXPECT_EQ(types[1], "catalogue");
+  EXPECT_EQ(types[2], "link");
+  EXPECT_EQ(types[3], "audit");
+  EXPECT_EQ(types.back(), "#");
+}
+
+TEST_F(Clients, AViewerLooksOnly) {
+  EXPECT_FALSE(says(kGarage, R"({"type":"stop","kind":"emergency"})"));
+  EXPECT_EQ(told(kGarage), Types{"error"});
+  EXPECT_TRUE(says(kAnna, R"({"type":"stop","kind":"emergency"})"));
+  EXPECT_TRUE(says(kGarage, R"({"type":"mark","text":"here"})"));
+}
+
+TEST_F(Clients, AnErrorIsToldToItsConsoleOnly) {
+  EXPECT_FALSE(says(kAnna, "{"));
+  clients_.said_binary(kAnna);
+  const auto sendings = clients_.take();
+  ASSERT_EQ(sendings.size(), 2u);
+  for (const Sending& sending : sendings) EXPECT_EQ(sending.to, web::ClientSet{}.set(kAnna));
+  EXPECT_EQ(clients_.counters().refused, 2u);
+}
+
+TEST_F(Clients, HistoryIsAFrameForWhoAsked) {
+  EXPECT_FALSE(says(kGarage, R"({"type":"history","field":0,"from_s":60,"to_s":0,"points":500})"));
+  EXPECT_EQ(told(kGarage), Types{"#"});
+  says(kGarage, R"({"type":"history","field":9999,"from_s":60,"to_s":0,"points":500})");
+  EXPECT_EQ(told(kGarage), Types{"error"});
+}
+
+TEST_F(Clients, WhoLeftIsToldNothingAndSaysNothing) {
+  clients_.left(kAnna);
+  EXPECT_FALSE(says(kAnna, R"({"type":"stop","kind":"emergency"})"));
+  clients_.tell_all("{}");
+  for (const Sending& sending : clients_.take()) EXPECT_FALSE(sending.to.test(kAnna));
+  EXPECT_FALSE(clients_.role(kAnna));
+  EXPECT_EQ(clients_.clients(), 1u);
+}
+
+TEST_F(Clients, HelloComesAgainWhenTheCarIsMet) {
+  clients_.identify({.car = 7, .name = "x", .mode = "REAL", .alarm_config = "1"}, kNow);
+  EXPECT_EQ(told(kAnna), Types{"hello"});
+  clients_.identify({.car = 7, .name = "x", .mode = "REAL", .alarm_config = "1"}, kNow);
+  EXPECT_EQ(told(kAnna), Types{});
+}
+
+}  // namespace
+}  // namespace pitwall::publishers::console

@@ -1,0 +1,231 @@
+// The whole way without the radio's sockets: a car in virtual time, the wall, a real WebSocket.
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/publishers/console/console_service.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <map>
+
+#include "protocol/json/json_value.hpp"
+#include "tests/basestation/radio_rig.hpp"
+#include "tests/support/browser.hpp"
+
+namespace pitwall::publishers::console {
+namespace {
+
+using telemetry::field;
+using web::Browser;
+
+class Consoles : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto started = web::WebServer::start({}, {.access = {.default_role = web::Role::kOperator}});
+    ASSERT_TRUE(started);
+    server_ = *std::move(started);
+    consoles_ = std::make_unique<ConsoleService>(ConsoleConfig{}, *rig_.base, *server_);
+    rig_.set(field("mode.mode"), 2.0);
+    rig_.set(field("ego.x"), 12.5);
+  }
+  // Virtual time goes on while the consoles' thread works in real time.
+  void run(Duration length) {
+    for (const Instant end = rig_.now + length; rig_.now < end; rig_.now += RadioRig::kTick) {
+      const std::uint64_t before = rig_.station->rate().packets();
+      rig_.step();
+      if (rig_.station->rate().packets() != before) {
+        consoles_->packet(*rig_.base, *rig_.station->arrival());
+      }
+      consoles_->submit(*rig_.base, rig_.now);
+      rig_.base->advance(rig_.now);
+      consoles_->publish(*rig_.base, rig_.now);
+    }
+  }
+  void join(Browser& browser) {
+    ASSERT_EQ(browser.open(server_->local().port), 101u);
+    for (int i = 0; i < 20'000 && consoles_->clients().clients() == 0; ++i) run(milliseconds(1));
+    ASSERT_EQ(consoles_->clients().clients(), 1u);
+  }
+  // What the console does not read yet waits in its socket.
+  json::JsonValue hear(Browser& browser, const std::string& type) {
+    while (const auto heard = browser.hear()) {
+      if (!heard->text) {
+        take(heard->bytes);
+        continue;
+      }
+      const auto value = json::JsonValue::parse(heard->bytes, "text");
+      if (value && value->text("type") == type) return *value;
+    }
+    ADD_FAILURE() << "closed before " << type;
+    return {};
+  }
+  void take(const std::string& frame) {
+    for (std::size_t at = web::kFrameHeader; at + 8 <= frame.size(); at += 8) {
+      std::uint16_t id = 0;
+      float value = 0.0F;
+      std::memcpy(&id, frame.data() + at, sizeof id);
+      std::memcpy(&value, frame.data() + at + 4, sizeof value);
+      values_[id] = value;
+      status_[id] = static_cast<std::uint8_t>(frame[at + 2]);
+    }
+  }
+  // Says it, lets the base act, and gives the next text of this type.
+  json::JsonValue ask(Browser& browser, const std::string& text, const std::string& type) {
+    const std::uint64_t before = server_->counters().texts_heard;
+    browser.say(text);
+    while (server_->counters().texts_heard == before) run(milliseconds(1));
+    run(milliseconds(200));
+    return hear(browser, type);
+  }
+
+  RadioRig rig_{{.service = {.car = 7}}};
+  std::unique_ptr<web::WebServer> server_;
+  std::unique_ptr<ConsoleService> consoles_;
+  std::map<int, float> values_;
+  std::map<int, std::uint8_t> status_;
+};
+
+TEST_F(Consoles, AConsoleSeesTheCarAsSoonAsItJoins) {
+  run(seconds(2));
+  Browser browser;
+  join(browser);
+  run(milliseconds(1'200));
+  const auto hello = hear(browser, "hello");
+  EXPECT_EQ(hello.number("car"), 7.0);
+  EXPECT_EQ(hello.text("mode"), "REAL");
+  EXPECT_EQ(hello.text("role"), "operator");
+  EXPECT_GT(hear(browser, "catalogue").items("fields").size(), 200u);
+  for (int i = 0; i < 3; ++i) hear(browser, "link");  // the last one after the first picture
+  EXPECT_EQ(values_[field("ego.x")], 12.5F);
+  EXPECT_EQ(status_[field("ego.x")] & 3, 0) << "fresh";
+  EXPECT_EQ(status_[field("ego.y")] & 3, 3) << "never";
+  EXPECT_EQ(values_[state::id_of(state::BaseField::kLinkState)], 1.0F) << "good";
+}
+
+TEST_F(Consoles, AStopNeedsNoAuthorityAndIsInTheNextPacket) {
+  run(seconds(1));
+  Browser browser;
+  join(browser);
+  ask(browser, R"({"type":"stop","kind":"emergency"})", "audit");
+  EXPECT_EQ(rig_.car->view(rig_.now).stop, telemetry::StopLevel::kEmergency);
+}
+
+TEST_F(Consoles, ACommandGoesThroughTheDesk) {
+  run(seconds(1));
+  Browser browser;
+  join(browser);
+  const std::string stage = R"({"type":"stage","name":"race line","argument":2})";
+  const auto without = ask(browser, stage, "command");
+  EXPECT_EQ(without.text("step"), "staged") << "a gate has not passed";
+  EXPECT_TRUE(rig_.told.empty());
+  ask(browser, R"({"type":"authority","do":"take"})", "authority");
+  const auto staged = ask(browser, stage, "command");
+  const auto sent = ask(browser,
+                        R"({"type":"send","ticket":)" +
+                            std::to_string(static_cast<int>(staged.number("ticket"))) + "}",
+                        "command");
+  ASSERT_EQ(rig_.told.size(), 1u);
+  EXPECT_EQ(rig_.told[0].command.argument, 2.0);
+  EXPECT_EQ(ask(browser, R"({"type":"stage","name":"fly","argument":2})", "error").text("place"),
+            "stage.name");
+  EXPECT_EQ(ask(browser, R"({"type":"playback","speed":2})", "error").text("place"), "playback");
+}
+
+// Also without a desk: who wanted to start what is in the audit log.
+TEST_F(Consoles, AWishForTheBenchLeavesALine) {
+  run(seconds(1));
+  Browser browser;
+  join(browser);
+  const auto refused =
+      ask(browser, R"({"type":"bench","do":"start","scenario":"red","mode":"lockstep","seed":7})",
+          "error");
+  EXPECT_EQ(refused.text("place"), "bench");
+  const command::AuditLine& line = rig_.base->requests().audit().lines().back();
+  EXPECT_EQ(line.what, "bench: start red, lockstep, seed 7");
+  EXPECT_TRUE(line.result.starts_with("refused: "));
+}
+
+TEST_F(Consoles, WhatTheHolderSetsIsToldToAll) {
+  run(seconds(1));
+  Browser browser;
+  join(browser);
+  ask(browser, R"({"type":"authority","do":"take"})", "authority");
+  browser.say(R"({"type":"fuel_loaded","litres":40})");
+  json::JsonValue told =
+      ask(browser,
+          R"({"type":"edit_limit","field":"electric.battery","bad_low":11,"reason":"old one"})",
+          "expected");
+  while (!(told.number("fuel_loaded_l") == 40.0)) told = hear(browser, "expected");
+  while (!(told.number("revision") == 1.0)) told = hear(browser, "settings");
+  EXPECT_FALSE(told.flag("kept")) << "there is no file";
+  EXPECT_EQ(rig_.base->evaluator().limits().of(state::field_id("electric.battery")).bad_low, 11.0);
+  // A set of values; the other one stays as it was.
+  constexpr state::FieldId kMode = state::field_id("mode.mode");
+  const alarms::Limit before = rig_.base->evaluator().limits().of(kMode);
+  told = ask(browser, R"({"type":"edit_limit","field":"mode.mode","bad_values":[3],"reason":"x"})",
+             "settings");
+  EXPECT_EQ(told.number("revision"), 2.0);
+  EXPECT_EQ(rig_.base->evaluator().limits().of(kMode).bad_values, 1U << 3);
+  EXPECT_EQ(rig_.base->evaluator().limits().of(kMode).warning_values, before.warning_values);
+  EXPECT_EQ(
+      ask(browser, R"({"type":"edit_budget","up_kbit_s":100,"reason":"x"})", "error").text("place"),
+      "budget")
+      << "no budget was given at the start: there is none to lower";
+}
+
+// The hand on the joystick falls silent: medium, and gone when it speaks again.
+TEST_F(Consoles, ASilentJoystickIsAnAlarm) {
+  bool silent = false;
+  rig_.base->watch_joystick([&](Instant) {
+    return silent ? command::JoystickState::kLost : command::JoystickState::kReleased;
+  });
+  run(seconds(1));
+  const auto alarm = [&] {
+    return rig_.base->evaluator().alarms().state(*alarms::find_alarm("joystick_lost"));
+  };
+  EXPECT_EQ(alarm(), alarms::State::kNormal);
+  silent = true;
+  run(milliseconds(300));
+  EXPECT_EQ(alarm(), alarms::State::kUnack);
+  silent = false;
+  run(seconds(2));
+  EXPECT_EQ(alarm(), alarms::State::kReturnedUnack);
+}
+
+TEST_F(Consoles, ALinkThatIsLostIsShownWithinHalfASecondAndRaisesOneAlarm) {
+  run(seconds(3));
+  Browser browser;
+  join(browser);
+  run(milliseconds(100));
+  rig_.loses = [](bool to_base, telemetry::PathId) { return to_base; };
+  run(milliseconds(600));
+  EXPECT_EQ(rig_.base->evaluator().link_state(), state::LinkState::kLost);
+  run(seconds(2));
+  json::JsonValue alarms;
+  do {
+    alarms = hear(browser, "alarms");
+  } while (alarms.items("active").empty());
+  EXPECT_EQ(alarms.items("active").size(), 1u);
+  EXPECT_EQ(alarms.items("active")[0].text("priority"), "high");
+}
+
+TEST_F(Consoles, HistoryLooksBack) {
+  run(seconds(5));
+  Browser browser;
+  join(browser);
+  browser.say(R"({"type":"history","field":)" + std::to_string(field("ego.x")) +
+              R"(,"from_s":60,"to_s":0,"points":1000})");
+  while (server_->counters().texts_heard == 0) run(milliseconds(1));
+  run(milliseconds(5));
+  while (const auto heard = browser.hear()) {
+    if (heard->text || heard->bytes[0] != 2) continue;
+    std::uint32_t points = 0;
+    std::memcpy(&points, heard->bytes.data() + web::kFrameHeader + 4, sizeof points);
+    EXPECT_GT(points, 200u);
+    EXPECT_EQ(heard->bytes.size(), web::kFrameHeader + 8 + points * web::kHistoryPoint);
+    return;
+  }
+  ADD_FAILURE() << "no history";
+}
+
+}  // namespace
+}  // namespace pitwall::publishers::console

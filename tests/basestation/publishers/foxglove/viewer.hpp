@@ -1,0 +1,65 @@
+// A Foxglove client for tests: what it was told, sorted.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "protocol/json/json_value.hpp"
+#include "tests/support/browser.hpp"
+
+namespace pitwall::publishers::foxglove {
+
+class Viewer {
+ public:
+  // 101: the socket was opened.
+  unsigned open(std::uint16_t port, const std::string& protocol = "foxglove.sdk.v1",
+                const std::string& origin = {}) {
+    web::Browser::Fields fields{{"Sec-WebSocket-Protocol", protocol}};
+    if (!origin.empty()) fields.emplace_back("Origin", origin);
+    return browser_.open(port, "/", fields);
+  }
+  // The channels of the advertisement, by their topics. What comes first must be the server's name.
+  std::map<std::string, int> channels() {
+    info_ = text("serverInfo");
+    std::map<std::string, int> ids;
+    const json::JsonValue told = text("advertise");
+    for (const auto& row : told.items("channels")) {
+      ids[row.text("topic")] = static_cast<int>(row.number("id"));
+    }
+    return ids;
+  }
+  const json::JsonValue& info() const { return info_; }
+  void subscribe(int id, int channel) {
+    browser_.say(R"({"op":"subscribe","subscriptions":[{"id":)" + std::to_string(id) +
+                 R"(,"channelId":)" + std::to_string(channel) + "}]}");
+  }
+  // The next text of that op; others and bytes on the way are passed over.
+  json::JsonValue text(const std::string& op) {
+    while (const auto heard = browser_.hear()) {
+      if (!heard->text) continue;
+      const auto value = json::JsonValue::parse(heard->bytes, "text");
+      if (value && value->text("op") == op) return *value;
+    }
+    ADD_FAILURE() << "closed before a " << op;
+    return {};
+  }
+  // The next binary message that begins with this op.
+  std::string bytes(char op) {
+    while (const auto heard = browser_.hear()) {
+      if (!heard->text && heard->bytes.at(0) == op) return heard->bytes;
+    }
+    ADD_FAILURE() << "closed before a binary message";
+    return {};
+  }
+  web::Browser& browser() { return browser_; }
+
+ private:
+  web::Browser browser_;
+  json::JsonValue info_;
+};
+
+}  // namespace pitwall::publishers::foxglove

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/publishers/ros_view/view.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <regex>
+#include <set>
+
+#include "basestation/publishers/ros_view/group_message.hpp"
+#include "protocol/ros/cdr.hpp"
+#include "protocol/ros/names.hpp"
+#include "tests/basestation/publishers/ros_view/some_state.hpp"
+#include "tests/protocol/ros/sample_messages.hpp"
+#include "tests/support/ros_oracle.hpp"
+
+namespace pitwall::publishers::ros_view {
+namespace {
+
+using telemetry::Group;
+using testing::kNow;
+using testing::kUtc;
+using testing::some_state;
+using Told = std::multimap<std::string, std::vector<std::uint8_t>>;
+
+ViewConfig whole_config() {
+  return {.space = "",
+          .hardware = "car 7",
+          .course = testing::circle(),
+          .datum = Geodetic{36.2722, -115.0103, 594.0}};
+}
+
+Sink into(Told& told, const View& view) {
+  return [&told, &view](const Message& message) {
+    told.emplace(view.topics()[message.topic].name,
+                 std::vector<std::uint8_t>{message.cdr.begin(), message.cdr.end()});
+  };
+}
+
+telemetry::GroupSet all_groups() { return telemetry::groups_of(telemetry::Direction::kDown); }
+
+BaseSight some_sight() {
+  BaseSight sight{.at = kNow};
+  sight.values.fill(0.5);
+  return sight;
+}
+
+Told all_told(View& view) {
+  Told told;
+  const Sink sink = into(told, view);
+  view.statics(kNow, kUtc, sink);
+  view.car(some_state(), all_groups(), kNow, kUtc, sink);
+  view.base(some_sight(), kUtc, sink);
+  return told;
+}
+
+TEST(RosView, EveryTopicHasANameThatRosTakesAndIsTold) {
+  View view{whole_config()};
+  const Told told = all_told(view);
+  std::set<std::string> names;
+  for (const Topic& topic : view.topics()) {
+    EXPECT_TRUE(ros::dds_topic(topic.name)) << topic.name;
+    EXPECT_TRUE(names.insert(topic.name).second) << topic.name;
+    EXPECT_TRUE(topic.hash.starts_with("RIHS01_")) << topic.name;
+    EXPECT_EQ(told.count(topic.name), 1U) << topic.name;
+  }
+  EXPECT_EQ(told.size(), view.topics().size());
+}
+
+TEST(RosView, OnlyWhatIsNewIsTold) {
+  View view{whole_config()};
+  Told told;
+  telemetry::GroupSet fresh;
+  fresh.add(Group::kEgo);
+  view.car(some_state(), fresh, kNow, kUtc, into(told, view));
+  std::set<std::string> names;
+  for (const auto& [name, bytes] : told) names.insert(name);
+  EXPECT_EQ(names, (std::set<std::string>{"/vehicle/odom", "/vehicle/fix", "/tf", "/base/ego"}));
+}
+
+TEST(RosView, WithoutATrackThereIsNoRacelineNoOpponentAndNoFusedFix) {
+  View view{{}};
+  const Told told = all_told(view);
+  for (const char* const absent : {"/raceline", "/opponents", "/vehicle/fix", "/tf_static"})
+    EXPECT_EQ(told.count(absent), 0U) << absent;
+}
+
+TEST(RosView, EachOfSeveralCarsHasItsSpaceAndItsFrames) {
+  ViewConfig config = whole_config();
+  config.space = "/car9";
+  View view{std::move(config)};
+  for (const Topic& topic : view.topics())
+    EXPECT_EQ(topic.name.starts_with("/car9/"), !topic.name.starts_with("/tf")) << topic.name;
+  const Told told = all_told(view);
+  const auto tf = ros::decode<ros::TFMessage>(told.find("/tf")->second);
+  ASSERT_TRUE(tf);
+  EXPECT_EQ(tf->transforms.at(0).child_frame_id, "car9/base_link");
+  EXPECT_EQ(tf->transforms.at(0).header.frame_id, "map");
+}
+
+TEST(RosView, DiagnosticsComeOnceASecondAndAtOnceWhenALevelChanges) {
+  View view{whole_config()};
+  Told told;
+  const Sink sink = into(told, view);
+  telemetry::Snapshot state = some_state();
+  view.car(state, all_groups(), kNow, kUtc, sink);
+  BaseSight sight = some_sight();
+  const auto count = [&](Duration after) {
+    sight.at = kNow + after;
+    view.base(sight, kUtc, sink);
+    return told.count("/diagnostics");
+  };
+  EXPECT_EQ(count({}), 1U);
+  EXPECT_EQ(count(milliseconds(100)), 1U);
+  sight.alarms.push_back({"slip", "slip", "lift", "unack", true});
+  EXPECT_EQ(count(milliseconds(200)), 2U);
+  EXPECT_EQ(count(milliseconds(300)), 2U);
+  EXPECT_EQ(count(milliseconds(1'200)), 3U);
+}
+
+TEST(RosView, ALossIsToldForAWhileAndNotForEver) {
+  View view{whole_config()};
+  BaseSight sight = some_sight();
+  sight.outlets = {{"lcm /car/ego", 5}};
+  const auto outlets_at = [&](Duration after) {
+    sight.at = kNow + after;
+    auto level = Level::kStale;
+    view.base(sight, kUtc, [&](const Message& message) {
+      if (view.topics()[message.topic].name != "/diagnostics") return;
+      const auto health = ros::decode<ros::DiagnosticArray>(message.cdr);
+      ASSERT_TRUE(health);
+      for (const auto& status : health->status)
+        if (status.name.ends_with("outlets")) level = static_cast<Level>(status.level);
+    });
+    return level;
+  };
+  EXPECT_EQ(outlets_at({}), Level::kWarn);
+  EXPECT_EQ(outlets_at(View::kLossShown - seconds(1)), Level::kWarn);
+  EXPECT_EQ(outlets_at(View::kLossShown), Level::kOk) << "a level that changed is told at once";
+  ++sight.outlets[0].second;
+  EXPECT_EQ(outlets_at(View::kLossShown + seconds(1)), Level::kWarn);
+}
+
+// The names that ROS 2 has for what we tell, and what is in it, by Foxglove's readers.
+TEST(RosView, FoxglovesReadersDecodeEachStandardMessage) {
+  NEEDS_ORACLES();
+  View view{whole_config()};
+  pitwall::testing::RosOracle oracle;
+  const Told told = all_told(view);
+  std::set<std::string> types;
+  for (const Topic& topic : view.topics()) {
+    ros::testing::for_each_message([&]<class M>() {
+      if (topic.type != M::kType) return;
+      const auto& bytes = told.find(topic.name)->second;
+      const auto message = ros::decode<M>(bytes);
+      ASSERT_TRUE(message) << topic.name;
+      std::string said;
+      ros::testing::append_json(said, *message);
+      said = std::regex_replace(said, std::regex{R"(([:,\[])-?nan)"}, "$1\"NaN\"");
+      oracle.add(topic.type, topic.schema, bytes, said);
+      types.insert(topic.type);
+    });
+  }
+  EXPECT_EQ(types.size(), 7U);
+  oracle.expect_agreement();
+}
+
+}  // namespace
+}  // namespace pitwall::publishers::ros_view

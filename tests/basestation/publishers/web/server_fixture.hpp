@@ -1,0 +1,64 @@
+// A web server for tests, with the news of it and messages for its clients.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "basestation/publishers/web/web_server.hpp"
+#include "protocol/transport/clock.hpp"
+#include "protocol/transport/readiness.hpp"
+#include "tests/support/browser.hpp"
+
+namespace pitwall::publishers::web {
+
+inline SharedMessage text(std::string text) {
+  return std::make_shared<const Message>(Message{.text = std::move(text)});
+}
+inline SharedMessage vehicle(std::uint32_t sequence, std::size_t bytes = 3'000) {
+  Frame frame{.sequence = sequence};
+  frame.entries.resize(bytes);
+  return std::make_shared<const Message>(Message{.frame = std::move(frame)});
+}
+
+class WebServerTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    HttpConfig config;
+    config.documents.emplace("/api/track", "{\"name\": \"X\"}");
+    config.console = "/nowhere";
+    auto started = WebServer::start({}, std::move(config));
+    ASSERT_TRUE(started) << to_string(started.error());
+    server_ = *std::move(started);
+    port_ = server_->local().port;
+  }
+  // The next of that kind; others on the way are taken.
+  std::optional<ClientNews> wait_for(ClientNews::Kind kind) {
+    constexpr Duration kPatience = seconds(20);
+    const Instant end = transport::monotonic_now() + kPatience;
+    while (transport::monotonic_now() < end) {
+      while (auto news = server_->next_news()) {
+        if (news->kind == kind) return news;
+      }
+      const int fd = server_->fd();
+      transport::wait_readable({&fd, 1}, end);
+    }
+    return std::nullopt;
+  }
+  ClientId join(Browser& browser) {
+    EXPECT_EQ(browser.open(port_), 101u);
+    const auto news = wait_for(ClientNews::Kind::kJoined);
+    EXPECT_TRUE(news);
+    return news ? news->client : ClientId{0};
+  }
+  static ClientSet only(ClientId client) { return ClientSet{}.set(client); }
+
+  std::unique_ptr<WebServer> server_;
+  std::uint16_t port_ = 0;
+};
+
+}  // namespace pitwall::publishers::web

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/publishers/web/web_server.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "tests/basestation/publishers/web/server_fixture.hpp"
+
+namespace pitwall::publishers::web {
+namespace {
+
+TEST_F(WebServerTest, TextsAndFramesGoBothWays) {
+  Browser browser;
+  const ClientId client = join(browser);
+  EXPECT_GE(client, kFirstClient);
+  browser.say("{\"type\": \"x\"}");
+  EXPECT_EQ(wait_for(ClientNews::Kind::kSaid)->text, "{\"type\": \"x\"}");
+  server_->send(only(client), text("hello"));
+  server_->send(only(client), vehicle(7, 8));
+  EXPECT_EQ(browser.hear()->bytes, "hello");
+  const auto frame = browser.hear();
+  ASSERT_TRUE(frame);
+  EXPECT_FALSE(frame->text);
+  EXPECT_EQ(frame->bytes.size(), kFrameHeader + 8);
+  EXPECT_EQ(frame->bytes[8], 7);
+}
+
+TEST_F(WebServerTest, OneThatLeavesIsToldAndItsNumberIsNotSoonAnothers) {
+  ClientId first = 0;
+  {
+    Browser browser;
+    first = join(browser);
+  }
+  EXPECT_EQ(wait_for(ClientNews::Kind::kLeft)->client, first);
+  Browser next;
+  EXPECT_NE(join(next), first);
+}
+
+TEST_F(WebServerTest, AConsoleIsOfTheCarItCameTo) {
+  auto started = WebServer::start({}, {.cars = {{.number = 7}, {.number = 8}}});
+  ASSERT_TRUE(started);
+  WebServer& server = **started;
+  const std::uint16_t port = server.local().port;
+  Browser first, second, nobody;
+  EXPECT_EQ(second.open(port, "/ws?car=8"), 101u);
+  EXPECT_EQ(first.open(port, "/ws"), 101u);
+  EXPECT_NE(nobody.open(port, "/ws?car=9"), 101u);
+  second.say("{\"type\": \"stop\"}");
+  std::array<std::vector<ClientNews>, 2> heard;
+  const Instant end = transport::monotonic_now() + seconds(20);
+  while ((heard[0].empty() || heard[1].size() < 2) && transport::monotonic_now() < end) {
+    const std::array<int, 2> fds{server.fd(0), server.fd(1)};
+    transport::wait_readable(fds, end);
+    for (std::size_t car = 0; car < heard.size(); ++car) {
+      while (auto news = server.next_news(car)) heard[car].push_back(*std::move(news));
+    }
+  }
+  ASSERT_EQ(heard[0].size(), 1u);
+  ASSERT_EQ(heard[1].size(), 2u);
+  EXPECT_NE(heard[0][0].client, heard[1][0].client) << "one numbering for all";
+  EXPECT_EQ(heard[1][1].kind, ClientNews::Kind::kSaid);
+  EXPECT_EQ(heard[1][1].client, heard[1][0].client);
+}
+
+TEST_F(WebServerTest, MoreCarsThanItHasPlacesForAreRefused) {
+  HttpConfig config;
+  for (int number = 0; number <= static_cast<int>(WebServer::kCars); ++number) {
+    config.cars.push_back({.number = number});
+  }
+  EXPECT_FALSE(WebServer::start({}, std::move(config)));
+}
+
+TEST_F(WebServerTest, ADocumentOfTheMomentIsThereSoon) {
+  server_->show("/api/cars", {"[7]", kJsonType});
+  const std::string own = "127.0.0.1:" + std::to_string(port_);
+  const std::string asking =
+      "GET /api/cars HTTP/1.1\r\nHost: " + own + "\r\nConnection: close\r\n\r\n";
+  const Instant end = transport::monotonic_now() + seconds(20);
+  while (!bare(port_, asking).ends_with("[7]")) ASSERT_LT(transport::monotonic_now(), end);
+}
+
+TEST_F(WebServerTest, AForeignPageOrAWrongTokenGetsNoSocket) {
+  const auto asked = [&](const std::string& target, const std::string& host,
+                         const std::string& fields) {
+    return bare(port_, opening(target, host, fields))
+        .substr(0, std::string_view{"HTTP/1.1 403"}.size());
+  };
+  const std::string own = "127.0.0.1:" + std::to_string(port_);
+  EXPECT_EQ(asked("/ws", own, "Origin: http://evil.com\r\n"), "HTTP/1.1 403");
+  EXPECT_EQ(asked("/ws", "evil.com", "Origin: http://evil.com\r\n"), "HTTP/1.1 403");
+  EXPECT_EQ(asked("/ws?token=0123456789abcdef", own, ""), "HTTP/1.1 401");
+  EXPECT_EQ(asked("/socket", own, ""), "HTTP/1.1 404");
+  EXPECT_EQ(asked("/ws", own, "Origin: http://" + own + "\r\n"), "HTTP/1.1 101");
+  Browser foreign;
+  EXPECT_NE(foreign.open(port_, "/ws", {{"Origin", "http://evil.com"}}), 101u);
+}
+
+TEST_F(WebServerTest, ATextThatIsTooLongClosesItsSocketOnly) {
+  Browser good, bad;
+  const ClientId kept = join(good);
+  join(bad);
+  bad.say(std::string(kTextMax + 1, 'x'));
+  while (bad.hear()) {
+  }
+  EXPECT_EQ(bad.close_code(), 1009u);
+  server_->send(only(kept), text("still here"));
+  EXPECT_EQ(good.hear()->bytes, "still here");
+}
+
+TEST_F(WebServerTest, ATextThatIsNoUtf8ClosesItsSocket) {
+  Browser browser;
+  join(browser);
+  browser.say("\xFF\xFE");
+  EXPECT_FALSE(browser.hear());
+  EXPECT_EQ(browser.close_code(), 1007u);
+}
+
+TEST_F(WebServerTest, BytesAreToldAsSuch) {
+  Browser browser;
+  join(browser);
+  browser.say_bytes("abc");
+  EXPECT_EQ(wait_for(ClientNews::Kind::kBinary)->text, "abc");
+}
+
+SharedMessage headed_bytes(std::uint32_t tag, std::size_t size) {
+  Bytes bytes{.head = {1, 2}, .head_bytes = 2, .tag = tag};
+  bytes.body = std::make_shared<const std::vector<std::uint8_t>>(size, std::uint8_t{7});
+  return std::make_shared<const Message>(Message{.binary = std::move(bytes)});
+}
+
+TEST_F(WebServerTest, BytesGoOutBehindTheirHeadAndWhatIsLostIsKnownByItsTag) {
+  Browser slow;
+  ASSERT_EQ(slow.open(port_, "/ws", {}, 4'096), 101u);
+  const ClientId client = wait_for(ClientNews::Kind::kJoined)->client;
+  constexpr std::uint64_t kSent = 400;
+  for (std::uint64_t i = 0; i < kSent; ++i) server_->send(only(client), headed_bytes(5, 10'000));
+  server_->send(only(client), text("end"));
+  std::uint64_t heard = 0;
+  while (const auto message = slow.hear()) {
+    if (message->text) break;
+    EXPECT_EQ(message->bytes.substr(0, 3), std::string("\1\2\7"));
+    ++heard;
+  }
+  const auto drops = server_->take_drops();
+  ASSERT_EQ(drops.size(), 1U);
+  EXPECT_EQ(drops[0].client, client);
+  EXPECT_EQ(drops[0].tag, 5U);
+  EXPECT_EQ(drops[0].count + heard, kSent);
+  EXPECT_TRUE(server_->take_drops().empty());
+}
+
+TEST(WebServerOfAnotherProtocol, TheSubprotocolIsNegotiated) {
+  HttpConfig config;
+  config.subprotocols = {"a.v1", "b.v1"};
+  const auto server = WebServer::start({}, std::move(config));
+  ASSERT_TRUE(server);
+  const std::uint16_t port = (*server)->local().port;
+  const std::string answer =
+      bare(port, opening("/", "127.0.0.1", "Sec-WebSocket-Protocol: x, b.v1\r\n"));
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 101")) << answer;
+  EXPECT_NE(answer.find("Sec-WebSocket-Protocol: b.v1\r\n"), std::string::npos) << answer;
+  EXPECT_TRUE(bare(port, opening("/")).starts_with("HTTP/1.1 400"));
+  EXPECT_TRUE(bare(port, opening("/", "127.0.0.1", "Sec-WebSocket-Protocol: c\r\n"))
+                  .starts_with("HTTP/1.1 400"));
+}
+
+TEST_F(WebServerTest, AClientThatDoesNotReadLosesItsOwnOldestAndSeesHowMuch) {
+  Browser slow, quick;
+  ASSERT_EQ(slow.open(port_, "/ws", {}, 4'096), 101u);
+  const ClientId stopped = wait_for(ClientNews::Kind::kJoined)->client;
+  const ClientId reading = join(quick);
+  constexpr std::uint32_t kFrames = 2'000;
+  for (std::uint32_t i = 1; i <= kFrames; ++i) {
+    server_->send(only(stopped).set(reading), vehicle(i));
+    const auto heard = quick.hear();
+    ASSERT_TRUE(heard);
+    ASSERT_EQ(heard->bytes[12], 0) << "the one that reads loses nothing";
+  }
+  server_->send(only(stopped), text("end"));
+  std::uint32_t frames = 0, dropped = 0;
+  while (const auto heard = slow.hear()) {
+    if (heard->text) break;
+    ++frames;
+    dropped = static_cast<std::uint8_t>(heard->bytes[12]) +
+              256U * static_cast<std::uint8_t>(heard->bytes[13]);
+  }
+  EXPECT_GT(dropped, 0u);
+  EXPECT_EQ(frames + dropped, kFrames);
+  EXPECT_EQ(server_->counters().pictures_dropped, dropped);
+}
+
+TEST_F(WebServerTest, AClientThatLeavesTooMuchUnreadIsClosed) {
+  Browser slow;
+  ASSERT_EQ(slow.open(port_, "/ws", {}, 4'096), 101u);
+  const ClientId stopped = wait_for(ClientNews::Kind::kJoined)->client;
+  const auto long_text = text(std::string(256 * 1'024, 'x'));
+  for (int i = 0; i < 40; ++i) server_->send(only(stopped), long_text);
+  EXPECT_TRUE(wait_for(ClientNews::Kind::kLeft));
+  EXPECT_EQ(server_->counters().closed_unread, 1u);
+}
+
+TEST_F(WebServerTest, WhoSaysMoreThanIsHandledIsReadNoFurther) {
+  Browser browser;
+  join(browser);
+  for (int i = 0; i < 100; ++i) browser.say(std::to_string(i));
+  int said = 0;
+  while (said < 100 && wait_for(ClientNews::Kind::kSaid)) ++said;
+  EXPECT_EQ(said, 100) << "nothing is lost";
+}
+
+TEST_F(WebServerTest, MalformedHttpIsRefusedWithALine) {
+  EXPECT_TRUE(bare(port_, "NONSENSE\r\n\r\n").starts_with("HTTP/1.1 400"));
+  EXPECT_TRUE(bare(port_, "GET / HTTP/9.9\r\n\r\n").starts_with("HTTP/1.1 400"));
+  const std::string host = "Host: 127.0.0.1\r\n";
+  EXPECT_TRUE(
+      bare(port_, "GET / HTTP/1.1\r\n" + host + "X: " + std::string(20'000, 'x') + "\r\n\r\n")
+          .starts_with("HTTP/1.1 431"));
+  EXPECT_TRUE(
+      bare(port_, "PUT /api/layouts/a HTTP/1.1\r\n" + host + "Content-Length: 999999999\r\n\r\n")
+          .starts_with("HTTP/1.1 413"));
+  EXPECT_TRUE(bare(port_, "GET /../../etc/passwd HTTP/1.1\r\n" + host + "\r\n")
+                  .starts_with("HTTP/1.1 404"));
+  EXPECT_TRUE(
+      bare(port_, "DELETE /api/track HTTP/1.1\r\n" + host + "\r\n").starts_with("HTTP/1.1 405"));
+  const std::string good = bare(port_, "GET /api/track HTTP/1.1\r\n" + host + "\r\n");
+  EXPECT_TRUE(good.starts_with("HTTP/1.1 200"));
+  EXPECT_TRUE(good.ends_with("{\"name\": \"X\"}"));
+  const std::string head = bare(port_, "HEAD /api/track HTTP/1.1\r\n" + host + "\r\n");
+  EXPECT_TRUE(head.ends_with("\r\n\r\n"));
+  EXPECT_NE(head.find("Content-Length: 13"), std::string::npos);
+}
+
+TEST_F(WebServerTest, RandomBytesDoNoHarm) {
+  std::mt19937 random(3);
+  Browser browser;
+  const ClientId client = join(browser);
+  for (int round = 0; round < 60; ++round) {
+    std::string bytes(random() % 600, ' ');
+    for (char& c : bytes) c = static_cast<char>(random() % 256);
+    bare(port_, bytes);
+    bare(port_, opening() + bytes);
+  }
+  server_->send(only(client), text("still here"));
+  EXPECT_EQ(browser.hear()->bytes, "still here");
+  EXPECT_EQ(server_->counters().faults, 0u);
+}
+
+TEST(WebServerStart, AnAddressThatIsTakenIsAProblem) {
+  auto first = WebServer::start({}, {});
+  ASSERT_TRUE(first);
+  const auto second = WebServer::start((*first)->local(), {});
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().what, "another program serves this port; end it or take another one");
+  EXPECT_EQ(second.error().place, "--web " + to_string((*first)->local()));
+}
+
+TEST(WebServerStart, EndsWithConsolesConnected) {
+  auto server = WebServer::start({}, {});
+  ASSERT_TRUE(server);
+  Browser browser;
+  EXPECT_EQ(browser.open((*server)->local().port), 101u);
+  server->reset();
+  EXPECT_FALSE(browser.hear());
+}
+
+}  // namespace
+}  // namespace pitwall::publishers::web

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/service/car_service.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "tests/basestation/radio_rig.hpp"
+
+namespace pitwall::service {
+namespace {
+
+using telemetry::field;
+
+constexpr command::Person kAda{.console = 16, .name = "Ada"};
+
+struct Pit : RadioRig {
+  explicit Pit(const RigOptions& wanted = {}) : RadioRig(wanted) {
+    set(field("mode.mode"), 2.0);
+    set(field("ego.x"), 12.5);
+    set(field("ego.vx"), 50.0);
+    base->messages().subscribe([this](std::string_view type, std::string_view text, Instant) {
+      ++messages[std::string{type}];
+      newest[std::string{type}] = text;
+    });
+  }
+  alarms::State alarm(std::string_view key) const {
+    return base->evaluator().alarms().state(*alarms::find_alarm(key));
+  }
+
+  std::map<std::string, int> messages;
+  std::map<std::string, std::string> newest;
+};
+
+// Nobody reads it, and it judges, derives and publishes all the same.
+TEST(CarService, JudgesWithoutAnyPublisher) {
+  Pit pit;
+  pit.run(seconds(2));
+  EXPECT_EQ(pit.base->view(state::id_of(field("ego.x")), pit.now).value, 12.5);
+  EXPECT_EQ(pit.base->view(state::id_of(state::BaseField::kLinkState), pit.now).value, 1.0);
+  EXPECT_EQ(pit.alarm("link_lost"), alarms::State::kNormal);
+  pit.loses = [](bool to_base, telemetry::PathId) { return to_base; };
+  pit.run(seconds(1));
+  EXPECT_EQ(pit.alarm("link_lost"), alarms::State::kUnack);
+  ASSERT_TRUE(pit.base->execute(command::AcknowledgeAlarms{.key = "link_lost"}, kAda, pit.now));
+  EXPECT_EQ(pit.alarm("link_lost"), alarms::State::kAcked);
+  pit.loses = [](bool, telemetry::PathId) { return false; };
+  pit.run(seconds(5));
+  EXPECT_EQ(pit.alarm("link_lost"), alarms::State::kNormal);
+  EXPECT_GE(pit.messages["alarm_event"], 3);
+  EXPECT_GE(pit.messages["link"], 10);
+  for (const char* const type :
+       {"hello", "alarms", "authority", "expected", "settings", "checklist", "fuel"}) {
+    EXPECT_GE(pit.messages[type], 1) << type;
+  }
+}
+
+// A gate says the same to whoever asks, and leaves its line.
+TEST(CarService, ACommandPassesTheGatesOfThisMoment) {
+  Pit pit;
+  pit.run(seconds(2));
+  ASSERT_TRUE(pit.base->execute(command::ClaimAuthority{}, kAda, pit.now));
+  pit.run(milliseconds(100));
+  const command::IssueCommand faster{.type = telemetry::CommandType::kSpeedLimit, .argument = 80.0};
+  const auto refused = pit.base->execute(faster, kAda, pit.now);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().what.find("tyres: never heard"), std::string::npos)
+      << refused.error().what;
+  EXPECT_NE(pit.base->requests().audit().lines().back().result.find("refused: gates"),
+            std::string::npos);
+  const command::IssueCommand slower{.type = telemetry::CommandType::kSpeedLimit, .argument = 40.0};
+  ASSERT_TRUE(pit.base->execute(slower, kAda, pit.now));
+  pit.run(milliseconds(200));
+  ASSERT_EQ(pit.told.size(), 1U);
+  EXPECT_NEAR(pit.told[0].command.argument, 40.0, 0.05);
+  EXPECT_GE(pit.messages["command"], 3);
+}
+
+TEST(CarService, AStopIsInTheNextPacketWhoeverSaysIt) {
+  Pit pit;
+  pit.run(seconds(1));
+  ASSERT_TRUE(pit.base->execute(command::Stop{telemetry::StopLevel::kEmergency},
+                                {.console = 200, .name = "nobody"}, pit.now));
+  pit.run(milliseconds(50));
+  EXPECT_EQ(pit.car->view(pit.now).stop, telemetry::StopLevel::kEmergency);
+}
+
+TEST(CarService, TellsWhoItIsAndWhatItKnowsOfTheCar) {
+  Pit pit{{.real_car = false, .service = {.car = 7, .name = "Seven"}}};
+  EXPECT_EQ(pit.base->identity().mode, "NONE");
+  pit.run(seconds(1));
+  const CarIdentity identity = pit.base->identity();
+  EXPECT_EQ(identity.car, 7);
+  EXPECT_EQ(identity.mode, "HIL");
+  EXPECT_NE(pit.newest["hello"].find(R"("mode": "HIL")"), std::string::npos);
+  EXPECT_EQ(
+      pit.base->past(state::id_of(field("ego.x")), pit.now - seconds(1), pit.now, 100).back().value,
+      12.5F);
+}
+
+TEST(CarService, AMarkIsALineForAll) {
+  Pit pit;
+  pit.base->mark("here", kAda, pit.now);
+  EXPECT_NE(pit.newest["mark"].find("here"), std::string::npos);
+  EXPECT_NE(pit.newest["mark"].find("Ada"), std::string::npos);
+}
+
+TEST(CarService, ASilentJoystickIsAnAlarm) {
+  Pit pit;
+  bool silent = false;
+  pit.base->watch_joystick([&](Instant) {
+    return silent ? command::JoystickState::kLost : command::JoystickState::kReleased;
+  });
+  pit.run(seconds(1));
+  EXPECT_EQ(pit.alarm("joystick_lost"), alarms::State::kNormal);
+  silent = true;
+  pit.run(milliseconds(300));
+  EXPECT_EQ(pit.alarm("joystick_lost"), alarms::State::kUnack);
+  silent = false;
+  pit.run(seconds(2));
+  EXPECT_EQ(pit.alarm("joystick_lost"), alarms::State::kReturnedUnack);
+}
+
+}  // namespace
+}  // namespace pitwall::service

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/service/messages/message_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include "protocol/telemetry/delivery/event_content.hpp"
+#include "tests/basestation/publishers/console/json_of.hpp"
+#include "tests/basestation/radio_rig.hpp"
+
+namespace pitwall::service {
+namespace {
+
+using publishers::console::json_of;
+
+constexpr Instant kNow{seconds(500).ns};
+
+TEST(MessageText, ATicketHasItsGatesItsStepsAndItsReason) {
+  command::Ticket ticket;
+  ticket.id = 4;
+  ticket.command = {.type = telemetry::CommandType::kSpeedLimit, .argument = 40.0, .issuer = 16};
+  ticket.by = {.console = 16, .name = "Anna"};
+  ticket.step = command::Step::kGated;
+  ticket.at[0] = kNow;
+  ticket.gates.push_back({.kind = command::GateKind::kTyres,
+                          .ok = false,
+                          .value = 29.0,
+                          .age = milliseconds(120),
+                          .known = true,
+                          .text = "cold"});
+  ticket.gates.push_back({.kind = command::GateKind::kFuel, .text = "never heard"});
+  const auto said = json_of(ticket_text(ticket));
+  EXPECT_EQ(said.text("type"), "command");
+  EXPECT_EQ(said.text("name"), "speed limit");
+  EXPECT_EQ(said.text("step"), "gated");
+  EXPECT_EQ(said.items("gates")[0].number("age_ms"), 120.0);
+  EXPECT_EQ(said.items("gates")[1].find("age_ms")->text(), "");
+  EXPECT_EQ(said.find("times_ms")->number("staged"), 500'000.0);
+  EXPECT_EQ(said.find("override")->is_object(), false);
+}
+
+TEST(MessageText, AuthorityIsNobodysOrSomebodysWithAnEnd) {
+  telemetry::AuthorityDesk desk;
+  command::Audit audit;
+  command::AuthorityHandover talk(desk, audit);
+  EXPECT_EQ(json_of(authority_text(talk, desk, kNow)).number("holder"), 0.0);
+  ASSERT_TRUE(talk.take({.console = 16, .name = "Anna"}, kNow));
+  ASSERT_TRUE(talk.request({.console = 17, .name = "Bo"}, kNow));
+  const auto said = json_of(authority_text(talk, desk, kNow + seconds(1)));
+  EXPECT_EQ(said.text("holder_name"), "Anna");
+  EXPECT_NEAR(said.number("expires_ms"), 503'000.0, 1.0);
+  EXPECT_EQ(said.find("request")->text("name"), "Bo");
+  EXPECT_EQ(said.find("request")->number("until_ms"), 505'000.0);
+}
+
+TEST(MessageText, AnEventOfTheCarIsAText) {
+  const auto said =
+      json_of(event_text(telemetry::make_event(telemetry::TextEvent{"a\xFF\"b"}, kNow)));
+  EXPECT_EQ(said.text("type"), "event");
+  EXPECT_NE(said.text("text").find("\"b"), std::string::npos) << said.text("text");
+  EXPECT_EQ(said.text("severity"), "info");
+  const auto fault =
+      telemetry::make_event(telemetry::FaultEvent{.cause = 3, .begins = true, .value = 1}, kNow);
+  EXPECT_EQ(json_of(event_text(fault)).text("severity"), "warning");
+  for (const bool begins : {true, false}) {
+    const auto threat = telemetry::make_event(telemetry::ThreatEvent{.begins = begins}, kNow);
+    EXPECT_EQ(json_of(event_text(threat)).text("severity"), begins ? "warning" : "info");
+  }
+}
+
+TEST(MessageText, AlarmsFuelAuditNoticesAndMarks) {
+  const alarms::Engine engine;
+  const auto list = json_of(alarms_text(engine));
+  EXPECT_TRUE(list.items("active").empty());
+  EXPECT_FALSE(list.find("kpi")->flag("flood"));
+  EXPECT_EQ(json_of(alarm_event_text({.number = 1, .at = kNow, .key = "x", .by = {}, .reason = {}}))
+                .text("key"),
+            "x");
+  EXPECT_EQ(
+      json_of(audit_text({.number = 1, .at = kNow, .who = "Anna", .what = "y", .result = "z"}))
+          .text("who"),
+      "Anna");
+  EXPECT_EQ(json_of(fuel_text({})).text("text"), "unknown");
+  EXPECT_EQ(json_of(mark_text("here", "Anna", kNow)).number("time_ms"), 500'000.0);
+  const auto notice =
+      json_of(notice_text({.id = 1, .at = kNow, .text = "t", .evidence = "e", .by = ""}));
+  EXPECT_EQ(notice.text("kind"), "degraded");
+  EXPECT_EQ(notice.text("state"), "draft");
+}
+
+TEST(MessageText, TheLinkHasBothDirectionsAndEveryGroupOfTheCar) {
+  RadioRig rig;
+  rig.set(telemetry::field("mode.mode"), 2.0);
+  link::LinkMeter meter;
+  for (int i = 0; i < 20; ++i) {
+    rig.run(milliseconds(100));
+    const auto report = rig.station->report(rig.now);
+    meter.note(link::count_of(report, rig.station->rate().packets(), rig.station->lost_packets()),
+               rig.now, report.round_trip ? report.round_trip->milliseconds() : kUnset);
+  }
+  const auto report = rig.station->report(rig.now);
+  const auto said = json_of(link_text({.report = report,
+                                       .meter = meter,
+                                       .vehicle = rig.base->vehicle(),
+                                       .state = state::LinkState::kGood,
+                                       .since = kNow,
+                                       .paths = 1},
+                                      rig.now));
+  EXPECT_EQ(said.text("state"), "good");
+  ASSERT_EQ(said.items("paths").size(), 2u);
+  const auto& down = said.items("paths")[0].items("windows");
+  ASSERT_EQ(down.size(), 3u);
+  EXPECT_EQ(down[0].number("loss"), 0.0);
+  EXPECT_NEAR(down[0].number("rtt_ms"), 20.0, 3.0);
+  EXPECT_GT(said.items("paths")[1].items("windows")[0].number("kbit_s"), 1.0);
+  EXPECT_EQ(said.items("groups").size(), telemetry::groups_of(telemetry::Direction::kDown).count());
+}
+
+}  // namespace
+}  // namespace pitwall::service

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/service/recorded/restored_entries.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "basestation/service/messages/settings_text.hpp"
+
+namespace pitwall::service {
+namespace {
+
+using telemetry::field;
+
+constexpr Instant kEntered{seconds(500).ns};
+
+command::OperatorEntries entries() {
+  command::OperatorEntries said;
+  said.expected = {.round_speed_mps = 51.4, .track_flag = 4.0, .fuel_loaded_l = 40.0};
+  said.round_speed_by = "Ada";
+  said.fuel_by = "Bob";
+  said.fuel_at = kEntered;
+  return said;
+}
+
+// The engine at full throttle, told ten times a second.
+void drive(EntriesReader& recall, Instant from, Instant to) {
+  telemetry::Snapshot state;
+  state.values[field("engine.speed")] = 5'000.0;
+  state.values[field("powertrain.throttle_position")] = 1.0;
+  state.values[field("engine.running")] = 1.0;
+  telemetry::GroupSet groups;
+  groups.add(telemetry::Group::kPowertrain);
+  for (Instant at = from; at <= to; at += milliseconds(100)) {
+    state.at(telemetry::Group::kPowertrain) = at;
+    recall.state(state, groups);
+  }
+}
+
+constexpr state::EngineSample kFull{.speed_rpm = 5'000.0, .throttle = 1.0, .running = true};
+
+TEST(EntriesReader, NobodyEnteredAnything) {
+  EntriesReader recall;
+  drive(recall, kEntered, kEntered + seconds(10));
+  recall.expected("not a text", kEntered);
+  EXPECT_FALSE(recall.result(kEntered + seconds(10)));
+}
+
+TEST(EntriesReader, EntriesComeBackWithTheirNames) {
+  EntriesReader recall;
+  recall.expected(expected_text(entries(), 40.0, kEntered + seconds(5)), kEntered + seconds(5));
+  const auto back = recall.result(kEntered + seconds(60));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->entries.expected.round_speed_mps, 51.4);
+  EXPECT_EQ(back->entries.expected.track_flag, 4.0);
+  EXPECT_EQ(back->entries.expected.fuel_loaded_l, 40.0);
+  EXPECT_EQ(back->entries.expected.fuel_entries, 1u);
+  EXPECT_EQ(back->entries.round_speed_by, "Ada");
+  EXPECT_EQ(back->entries.fuel_by, "Bob");
+  EXPECT_EQ(back->entries.fuel_at, kEntered);
+  EXPECT_EQ(back->fuel_left_l, 40.0);
+}
+
+// The clock of the recording was another one: what counts is how long ago it was.
+TEST(EntriesReader, TimesAreThoseOfTheClockOfNow) {
+  EntriesReader recall;
+  recall.expected(expected_text(entries(), 40.0, kEntered + seconds(5)), Instant{-seconds(1).ns});
+  EXPECT_EQ(recall.result({})->entries.fuel_at, Instant{-seconds(6).ns});
+}
+
+TEST(EntriesReader, FuelIsReckonedOnThroughTheRecording) {
+  EntriesReader recall;
+  drive(recall, kEntered - seconds(100), kEntered);  // before it was filled in
+  recall.expected(expected_text(entries(), 40.0, kEntered), kEntered);
+  drive(recall, kEntered + milliseconds(100), kEntered + seconds(100));
+  const double flow_lps = state::fuel_flow_lps(kFull);
+  EXPECT_GT(flow_lps, 0.01);
+  EXPECT_NEAR(recall.result(kEntered + seconds(100))->fuel_left_l, 40.0 - 100.0 * flow_lps, 1e-6);
+  // WHEN the newest text says how much was left
+  recall.expected(expected_text(entries(), 30.0, kEntered + seconds(100)), kEntered + seconds(100));
+  drive(recall, kEntered + milliseconds(100'100), kEntered + seconds(110));
+  EXPECT_NEAR(recall.result(kEntered + seconds(110))->fuel_left_l, 30.0 - 10.0 * flow_lps, 1e-6);
+}
+
+TEST(EntriesReader, WhatNobodyHeardWasBurntButNeverMoreThanThereWas) {
+  EntriesReader recall;
+  recall.expected(expected_text(entries(), 40.0, kEntered), kEntered);
+  drive(recall, kEntered, kEntered + seconds(1));
+  const double flow_lps = state::fuel_flow_lps(kFull);
+  EXPECT_NEAR(recall.result(kEntered + seconds(61))->fuel_left_l, 40.0 - 61.0 * flow_lps, 1e-6);
+  EXPECT_EQ(recall.result(kEntered + seconds(100'000))->fuel_left_l, 0.0);
+}
+
+TEST(EntriesReader, WhereNoFuelWasEnteredNoneIsLeft) {
+  command::OperatorEntries said = entries();
+  said.expected.fuel_loaded_l = kUnset;
+  EntriesReader recall;
+  recall.expected(expected_text(said, kUnset, kEntered), kEntered);
+  drive(recall, kEntered, kEntered + seconds(1));
+  const auto back = recall.result(kEntered + seconds(2));
+  EXPECT_TRUE(std::isnan(back->fuel_left_l));
+  EXPECT_EQ(back->entries.expected.fuel_entries, 0u);
+}
+
+}  // namespace
+}  // namespace pitwall::service

@@ -1,0 +1,25 @@
+// Keys of a car and its base in a folder of their own.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "basestation/link/key_pair.hpp"
+#include "protocol/transport/file.hpp"
+
+namespace pitwall::session {
+
+// The path of the base's.
+inline std::string made_keys(const transport::TemporaryFolder& folder, const std::string& name,
+                             bool bench = false) {
+  telemetry::SystemRandomness randomness;
+  const std::string place = folder.path() + "/" + name;
+  std::filesystem::create_directories(place);
+  EXPECT_TRUE(link::write_key_pair(place, link::make_key_pair(randomness, bench)));
+  return place + "/" + link::kBaseKeys;
+}
+
+}  // namespace pitwall::session

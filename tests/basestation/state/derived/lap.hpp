@@ -1,0 +1,9 @@
+// The length of these tests' track.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace pitwall::state {
+
+inline constexpr double kLap_m = 2'400.0;
+
+}  // namespace pitwall::state

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/state/derived/sensors.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/basestation/known_state.hpp"
+
+namespace pitwall::state {
+namespace {
+
+void tell(KnownState& told, const SensorRow& row, double rate, double gap, double latency) {
+  told.tell(row.rate, rate, kStart);
+  told.tell(row.gap, gap, kStart);
+  told.tell(row.latency, latency, kStart);
+}
+
+TEST(Sensors, TheWorstOfEachCounts) {
+  KnownState told;
+  for (const SensorRow& row : kSensorTable) {
+    tell(told, row, row.nominal_hz, 60.0, row.latency_allowed_ms / 2.0);
+  }
+  EXPECT_NEAR(worst_sensor(told.vehicle, kStart).rate_share, 1.0, 1e-12);
+  EXPECT_NEAR(worst_sensor(told.vehicle, kStart).latency_share, 0.5, 1e-12);
+  // The paper's LiDAR under load: 5 Hz instead of 20, gaps above half a second, each frame young.
+  tell(told, kSensorTable[4], 5.0, 520.0, 50.0);
+  const SensorHealth worst = worst_sensor(told.vehicle, kStart);
+  EXPECT_NEAR(worst.rate_share, 0.25, 1e-12);
+  EXPECT_EQ(worst.gap_ms, 520.0);
+  EXPECT_NEAR(worst.latency_share, 0.5, 1e-12);
+}
+
+TEST(Sensors, OneThatNeverCameIsNotJudged) {
+  KnownState told;
+  EXPECT_TRUE(std::isnan(worst_sensor(told.vehicle, kStart).rate_share));
+  tell(told, kSensorTable[0], 20.0, 60.0, 10.0);
+  EXPECT_NEAR(worst_sensor(told.vehicle, kStart).rate_share, 1.0, 1e-12);
+  tell(told, kSensorTable[0], 0.0, 1'000.0, 10.0);  // but one that is silent now is
+  EXPECT_EQ(worst_sensor(told.vehicle, kStart).rate_share, 0.0);
+}
+
+}  // namespace
+}  // namespace pitwall::state

@@ -1,0 +1,9 @@
+// Track flags as a car tells them.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace pitwall::state {
+
+inline constexpr double kRed = 1, kYellow = 3, kGreen = 4, kWaving = 5, kUnknownFlag = 7;
+
+}  // namespace pitwall::state

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/state/value_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include "protocol/telemetry/registry/registry.hpp"
+
+namespace pitwall::state {
+namespace {
+
+using telemetry::field;
+using telemetry::kFields;
+
+TEST(ValueText, NumbersHaveTheDecimalsOfTheirResolution) {
+  EXPECT_EQ(value_text(kFields[field("ego.x")], -12.345), "-12.35");
+  EXPECT_EQ(value_text(kFields[field("engine.speed")], 6'005.0), "6005");
+  EXPECT_EQ(value_text(kFields[field("electric.battery")], 13.8), "13.8");
+  EXPECT_EQ(value_text(kFields[field("ego.yaw")], 1.5), "1.5000");
+}
+
+TEST(ValueText, EnumeratedValuesHaveNamesAndStrangeOnesTheirNumber) {
+  EXPECT_EQ(value_text(kFields[field("mode.mode")], 2.0), "driving");
+  EXPECT_EQ(value_text(kFields[field("flags.track")], 1.0), "RED");
+  EXPECT_EQ(value_text(kFields[field("mode.ct_state")], 255.0), "255");
+}
+
+TEST(ValueText, SetsOfFaultsAreNamedUpToThree) {
+  const telemetry::FieldRow& faults = kFields[field("faults.now")];
+  EXPECT_EQ(value_text(faults, 0.0), "none");
+  EXPECT_EQ(value_text(faults, 0b1001), "operator: emergency stop, drive-by-wire: system failure");
+  EXPECT_EQ(
+      value_text(faults, 0b1'1111),
+      "operator: emergency stop, purple flag, CAN bus dead: the drive-by-wire is silent and 2 "
+      "more");
+  EXPECT_EQ(value_text(kFields[field("electric.diagnostics")], 5.0), "5");
+}
+
+TEST(ValueText, UnsetIsADash) { EXPECT_EQ(value_text(kFields[field("ego.x")], kUnset), "-"); }
+
+TEST(ValueText, PathsAreGroupAndName) { EXPECT_EQ(path_of(kFields[field("ego.vx")]), "ego.vx"); }
+
+}  // namespace
+}  // namespace pitwall::state
