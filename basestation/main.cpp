@@ -115,9 +115,10 @@ void say(const std::string& line) { complain(kDone, line); }
 
 Result<std::unique_ptr<web::WebServer>, Problem> start_web(const Arguments& a,
                                                            web::HttpConfig http) {
-  auto server = web::WebServer::start({.ip = a.network ? transport::kAnyIp : transport::kLoopbackIp,
-                                       .port = static_cast<std::uint16_t>(*a.web_port)},
-                                      std::move(http));
+  const auto address =
+      transport::parse_udp_address(a.web_address + ":" + std::to_string(*a.web_port));
+  if (!address) return Unexpected{address.error()};
+  auto server = web::WebServer::start(*address, std::move(http));
   if (server) say("console at http://" + to_string((*server)->local()));
   return server;
 }

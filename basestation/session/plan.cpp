@@ -47,17 +47,24 @@ Result<std::vector<transport::UdpAddress>, Problem> addresses_of(const Arguments
   return addresses;
 }
 
+bool is_loopback(const std::string& address) { return address.starts_with("127."); }
+
 Result<bool, Problem> plan_access(const Arguments& a, web::AccessRules& access) {
   access.names = a.web_names;
-  const bool trusted = a.default_role.empty() ? !a.network : a.default_role == "operator";
-  access.default_role = trusted ? web::Role::kOperator : web::Role::kViewer;
-  if (a.tokens_file.empty()) return true;
-  const auto text = transport::read_private_file(a.tokens_file);
-  if (!text) return Unexpected{text.error()};
-  auto tokens = web::Tokens::parse(*text, a.tokens_file);
-  if (!tokens) return Unexpected{tokens.error()};
-  access.tokens = *std::move(tokens);
-  return true;
+  access.default_role.reset();
+  const bool local = is_loopback(a.web_address);
+  if (!local && !a.default_role.empty()) {
+    return Unexpected{Problem{"--default-role " + a.default_role,
+                              "on loopback only: elsewhere a token says who may come in"}};
+  }
+  if (!local && a.tokens_file.empty()) {
+    return Unexpected{Problem{"--web-address " + a.web_address,
+                              "reaches other machines; --web-tokens FILE says who may come in"}};
+  }
+  if (a.default_role == "viewer") access.default_role = web::Role::kViewer;
+  if (a.default_role == "operator" || (a.default_role.empty() && a.tokens_file.empty()))
+    access.default_role = web::Role::kOperator;
+  return read_tokens(a.tokens_file, access);
 }
 
 // Limits, alarms and course, by which the car is judged with consoles and without.
@@ -157,6 +164,16 @@ Result<bool, Problem> plan_hands(const Arguments& arguments, Plan& plan) {
 std::string told(const Arguments& car) { return "car " + std::to_string(car.car); }
 
 }  // namespace
+
+Result<bool, Problem> read_tokens(const std::string& file, web::AccessRules& access) {
+  if (file.empty()) return true;
+  const auto text = transport::read_private_file(file);
+  if (!text) return Unexpected{text.error()};
+  auto tokens = web::Tokens::parse(*text, file);
+  if (!tokens) return Unexpected{tokens.error()};
+  access.tokens = *std::move(tokens);
+  return true;
+}
 
 Result<Plan, Problem> plan_of(const Arguments& arguments, const Say& say) {
   Plan plan{.arguments = arguments};

@@ -43,6 +43,9 @@ Result<std::vector<Plan>, Problem> plans_of(std::span<const settings::Arguments>
 // Of a replay: no radio, no keys.
 Result<Plan, Problem> plan_of_replay(const settings::Arguments& arguments, const Say& say);
 
+// Of a file of tokens; without one nothing changes.
+Result<bool, Problem> read_tokens(const std::string& file, publishers::web::AccessRules& access);
+
 // One server for all of them; each has its documents under its number.
 publishers::web::HttpConfig served(std::span<Plan> plans);
 

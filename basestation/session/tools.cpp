@@ -65,11 +65,21 @@ Result<std::unique_ptr<service::Publisher>, Problem> ros_of(const Arguments& a, 
   return publishers::dds::start(std::move(config));
 }
 
-foxglove::ServerConfig desk_of(const Arguments& a, std::size_t car, ros_view::ViewConfig view) {
+Result<foxglove::ServerConfig, Problem> foxglove_of(const Arguments& a, std::size_t car,
+                                                    ros_view::ViewConfig view) {
   const int port = *a.foxglove_port == 0 ? 0 : *a.foxglove_port + static_cast<int>(car);
   foxglove::ServerConfig config;
-  config.listen = {.ip = a.network ? transport::kAnyIp : transport::kLoopbackIp,
-                   .port = static_cast<std::uint16_t>(port <= kPortMax ? port : 0)};
+  const auto address = transport::parse_udp_address(a.foxglove_address + ":" +
+                                                    std::to_string(port <= kPortMax ? port : 0));
+  if (!address) return Unexpected{address.error()};
+  config.listen = *address;
+  if (!a.foxglove_address.starts_with("127.") && a.foxglove_tokens.empty()) {
+    return Unexpected{Problem{"--foxglove-address " + a.foxglove_address,
+                              "reaches other machines; --foxglove-tokens FILE says who may read"}};
+  }
+  if (!a.foxglove_tokens.empty()) config.access.default_role.reset();
+  const auto tokens = read_tokens(a.foxglove_tokens, config.access);
+  if (!tokens) return Unexpected{tokens.error()};
   config.access.names = a.web_names;
   config.access.origins = a.foxglove_origins;
   config.name =
@@ -132,8 +142,9 @@ Result<bool, Problem> attach_tools(CarSession& session, const ToolPlace& place, 
   if (a.foxglove_port) {
     auto view = view_of(a, place.cars);
     if (!view) return Unexpected{view.error()};
-    auto started =
-        foxglove::FoxglovePublisher::start(desk_of(a, place.car, *std::move(view)), look_of(car));
+    auto config = foxglove_of(a, place.car, *std::move(view));
+    if (!config) return Unexpected{config.error()};
+    auto started = foxglove::FoxglovePublisher::start(*std::move(config), look_of(car));
     if (!started) return Unexpected{started.error()};
     say_where((*started)->local(),
               place.cars > 1 ? "car " + std::to_string(a.car) + ": " : std::string{}, say);
@@ -158,7 +169,9 @@ Result<std::unique_ptr<foxglove::FoxgloveReplay>, Problem> foxglove_of_replay(
   if (!a.foxglove_port) return std::unique_ptr<foxglove::FoxgloveReplay>{};
   auto view = view_of(a, 1);
   if (!view) return Unexpected{view.error()};
-  auto started = foxglove::FoxgloveReplay::start(desk_of(a, 0, *std::move(view)), player);
+  auto config = foxglove_of(a, 0, *std::move(view));
+  if (!config) return Unexpected{config.error()};
+  auto started = foxglove::FoxgloveReplay::start(*std::move(config), player);
   if (started) say_where((*started)->local(), "", say);
   return started;
 }

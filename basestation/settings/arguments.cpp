@@ -16,11 +16,18 @@ constexpr int kMistake = 2;  // exit code
 void describe_web(CLI::App& app, Arguments& a) {
   app.add_option("--web", a.web_port, "Serve the console at this TCP port; 0: any that is free")
       ->check(CLI::Range(0, 65'535));
+  app.add_option("--web-address", a.web_address,
+                 "Address of this machine at which consoles are served; others than loopback need "
+                 "--web-tokens. 0.0.0.0: all")
+      ->check(CLI::ValidIPV4)
+      ->capture_default_str();
   app.add_option("--console-dir", a.console_folder, "The console's built files");
   app.add_option("--track", a.track, "Name or file of the track that consoles show");
   app.add_option("--web-tokens", a.tokens_file, "Who may come in: lines ROLE TOKEN NAME");
-  app.add_option("--default-role", a.default_role,
-                 "Of a console without a token; operator on loopback, viewer with --network")
+  app.add_option(
+         "--default-role", a.default_role,
+         "Of a console without a token, on loopback; operator where there is no --web-tokens, "
+         "else nobody comes in without one")
       ->check(CLI::IsMember({"viewer", "operator"}));
   app.add_option("--web-name", a.web_names, "A name under which browsers reach this machine")
       ->take_all();
@@ -37,6 +44,15 @@ void describe_tools(CLI::App& app, Arguments& a) {
                  "Serve Foxglove's WebSocket at this TCP port, read only; 0: any that is free. "
                  "Of several cars the next has the next port")
       ->check(CLI::Range(0, 65'535));
+  app.add_option("--foxglove-address", a.foxglove_address,
+                 "Address of this machine at which Foxglove is served; others than loopback need "
+                 "--foxglove-tokens")
+      ->check(CLI::ValidIPV4)
+      ->capture_default_str();
+  app.add_option(
+      "--foxglove-tokens", a.foxglove_tokens,
+      "Who may read there, at ws://ADDRESS/TOKEN: lines viewer TOKEN NAME; worth nothing "
+      "to the console");
   app.add_option("--foxglove-origin", a.foxglove_origins,
                  "A page that may attach there beside those of this machine: "
                  "https://app.foxglove.dev")
@@ -93,7 +109,9 @@ void describe(CLI::App& app, Arguments& a) {
                  "File that keeps the newest stamp of the car's key exchange, by which a base that "
                  "starts again refuses recorded ones; without it, beside the keys: base.stamp. "
                  "none: nothing is kept");
-  app.add_flag("--network", a.network, "Allow --listen to be reached by other machines");
+  app.add_flag("--network", a.network,
+               "Allow --listen, --lcm and --ros to be reached by other machines; consoles and "
+               "Foxglove have addresses of their own");
   app.add_flag("--signed", a.signed_only, "Authenticated but readable packets; the car must agree");
   app.add_option("--budget", a.budget_kbit, "kbit/s that may go up each radio")
       ->check(CLI::Range(kMinBudget_kbit, kMaxBudget_kbit))

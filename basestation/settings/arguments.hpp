@@ -25,6 +25,7 @@ struct Arguments {
   std::optional<std::string> lcm_url;
   std::optional<int> foxglove_port;
   std::vector<std::string> foxglove_origins;
+  std::string web_address = "127.0.0.1", foxglove_address = "127.0.0.1", foxglove_tokens;
   bool ros = false;
   int ros_domain = 0;
   std::string ros_distribution = "jazzy", ros_interface = "127.0.0.1";

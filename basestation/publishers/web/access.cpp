@@ -127,7 +127,7 @@ std::string_view text_of(Refused refused) {
     case Refused::kOrigin:
       return "a page of another origin may not speak to this base";
     case Refused::kToken:
-      return "no such token";
+      return "this base takes a token, and this is none of its own";
   }
   return "?";
 }
@@ -135,7 +135,8 @@ std::string_view text_of(Refused refused) {
 Result<Identity, Refused> admit(const AccessRules& rules, const Visitor& visitor) {
   if (!own_host(rules, visitor.host)) return Unexpected{Refused::kHost};
   if (!admits_origin(rules, visitor)) return Unexpected{Refused::kOrigin};
-  if (visitor.token.empty()) return Identity{.role = rules.default_role, .name = {}};
+  if (visitor.token.empty() && rules.default_role)
+    return Identity{.role = *rules.default_role, .name = {}};
   auto who = rules.tokens.find(visitor.token);
   if (!who) return Unexpected{Refused::kToken};
   return *std::move(who);

@@ -38,7 +38,7 @@ class Tokens {
 
 struct AccessRules {
   Tokens tokens{};
-  Role default_role = Role::kViewer;
+  std::optional<Role> default_role = Role::kViewer;  // without a token; none: nobody comes in
   std::vector<std::string> names{};  // of this machine, beside addresses and localhost
   // Of pages that may speak to this base beside its own: "https://app.foxglove.dev".
   std::vector<std::string> origins{};

@@ -117,16 +117,38 @@ const HttpResponder::Document* HttpResponder::document(std::string_view path,
 }
 
 HttpAnswer HttpResponder::answer(const HttpQuestion& question) {
-  const std::string_view token = question.authorization.starts_with(kBearer)
-                                     ? question.authorization.substr(kBearer.size())
-                                     : query_value(question.target, "token");
-  const auto who =
+  std::string_view path = question.target.substr(0, question.target.find('?'));
+  const std::string_view token = token_of(question, path);
+  if (token_is_path() && !token.empty()) path = "/";
+  auto who =
       admit(config_.access, {.host = question.host, .origin = question.origin, .token = token});
+  // The page itself tells nobody anything: it has to come before somebody can show a token.
+  const bool of_the_page = !who && who.error() == Refused::kToken && token.empty();
+  if (of_the_page && is_console_file(question, path)) who = Identity{};
   HttpAnswer answer =
-      who ? serve(question, question.target.substr(0, question.target.find('?')), *who)
+      who ? serve(question, path, *who)
           : refusal(who.error() == Refused::kToken ? kNoToken : kForbidden, text_of(who.error()));
   answer.policy = policy_for(question.host);
   return answer;
+}
+
+// Where a port of another protocol takes tokens.
+bool HttpResponder::token_is_path() const {
+  return !config_.subprotocols.empty() && !config_.access.default_role;
+}
+
+// A console's is a header or in the query.
+std::string_view HttpResponder::token_of(const HttpQuestion& question,
+                                         std::string_view path) const {
+  if (token_is_path()) return path.starts_with('/') ? path.substr(1) : path;
+  if (question.authorization.starts_with(kBearer))
+    return question.authorization.substr(kBearer.size());
+  return query_value(question.target, "token");
+}
+
+bool HttpResponder::is_console_file(const HttpQuestion& question, std::string_view path) const {
+  return config_.subprotocols.empty() && !question.upgrade && path != "/ws" &&
+         !path.starts_with("/api/") && !config_.made.contains(path);
 }
 
 // The first of those offered that is ours.

@@ -72,7 +72,8 @@ struct HttpConfig {
   std::string layouts{};          // a folder; empty: in memory
   // Documents that are made when they are asked for, by the thread that answers.
   std::map<std::string, std::function<Shown()>, std::less<>> made{};
-  // Not empty: this is the port of another protocol, a WebSocket at / that speaks one of these.
+  // Not empty: this is the port of another protocol, a WebSocket that speaks one of these, at / or,
+  // with a token, at /TOKEN.
   std::vector<std::string_view> subprotocols{};
   QueueLimits queue{};  // of each client
 };
@@ -98,6 +99,9 @@ class HttpResponder {
   using Kept = std::map<std::string, Document, std::less<>>;
 
   HttpAnswer serve(const HttpQuestion& question, std::string_view path, const Identity& who);
+  bool token_is_path() const;
+  std::string_view token_of(const HttpQuestion& question, std::string_view path) const;
+  bool is_console_file(const HttpQuestion& question, std::string_view path) const;
   HttpAnswer open_foreign(const HttpQuestion& question, std::string_view path,
                           const Identity& who) const;
   std::optional<std::size_t> car_of(std::string_view target) const;

@@ -112,6 +112,42 @@ TEST_F(Plans, AMistakeNamesTheCarWhereThereAreSeveral) {
   EXPECT_EQ(alone.error().place.find("--listen"), 0u) << to_string(alone.error());
 }
 
+// The radio's address says nothing about who may come to the console.
+TEST_F(Plans, OpeningTheRadioOpensNoConsole) {
+  settings::Arguments arguments = car(7);
+  arguments.web_port = 8080;
+  arguments.network = true;
+  arguments.listen = {"0.0.0.0:23431"};
+  auto plans = planned({arguments});
+  ASSERT_TRUE(plans) << to_string(plans.error());
+  EXPECT_EQ((*plans)[0].http.access.default_role, publishers::web::Role::kOperator);
+  arguments.web_address = "0.0.0.0";
+  plans = planned({arguments});
+  ASSERT_FALSE(plans);
+  EXPECT_EQ(plans.error().place, "--web-address 0.0.0.0");
+  arguments.tokens_file = folder_->path() + "/tokens";
+  ASSERT_TRUE(
+      transport::write_file(arguments.tokens_file, "operator 8f2c41d09b7a4d51 Anna\n", 0600));
+  plans = planned({arguments});
+  ASSERT_TRUE(plans) << to_string(plans.error());
+  EXPECT_FALSE((*plans)[0].http.access.default_role);
+  arguments.default_role = "viewer";
+  plans = planned({arguments});
+  ASSERT_FALSE(plans);
+  EXPECT_EQ(plans.error().place, "--default-role viewer");
+}
+
+TEST_F(Plans, AFileOfTokensBindsOnLoopbackTooUnlessARoleIsNamed) {
+  settings::Arguments arguments = car(7);
+  arguments.web_port = 8080;
+  arguments.tokens_file = folder_->path() + "/tokens";
+  ASSERT_TRUE(
+      transport::write_file(arguments.tokens_file, "operator 8f2c41d09b7a4d51 Anna\n", 0600));
+  EXPECT_FALSE((*planned({arguments}))[0].http.access.default_role);
+  arguments.default_role = "viewer";
+  EXPECT_EQ((*planned({arguments}))[0].http.access.default_role, publishers::web::Role::kViewer);
+}
+
 TEST_F(Plans, WhatIsMissingIsTold) {
   for (const auto& [change, place] :
        std::vector<std::pair<void (*)(settings::Arguments&), std::string>>{
@@ -121,7 +157,7 @@ TEST_F(Plans, WhatIsMissingIsTold) {
               a.listen = {"127.0.0.1:1", "127.0.0.1:2", "127.0.0.1:3"};
             },
             "--listen"},
-           {[](settings::Arguments& a) { a.tokens_file = "/nowhere"; }, "/nowhere"},
+           {[](settings::Arguments& a) { a.web_port = 1, a.tokens_file = "/nowhere"; }, "/nowhere"},
            {[](settings::Arguments& a) { a.command_file = "/nowhere"; }, "/nowhere"},
            {[](settings::Arguments& a) { a.track = "/nowhere.yaml"; }, "/nowhere.yaml"}}) {
     settings::Arguments arguments = car(static_cast<int>(said_.size()) + 1);

@@ -87,6 +87,21 @@ TEST_F(SessionTools, AWrongUrlOrOneThatLeavesTheMachineIsRefused) {
   EXPECT_NE(refused("udpm://239.255.76.67:7667?ttl=1").find("--network"), std::string::npos);
 }
 
+TEST_F(SessionTools, FoxgloveOnANetworkTakesTokensOfItsOwn) {
+  arguments_.foxglove_port = 0;
+  arguments_.foxglove_address = "0.0.0.0";
+  begin();
+  const auto refused = attach_tools(*session_, {}, say());
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().place, "--foxglove-address 0.0.0.0");
+  arguments_.foxglove_tokens = folder_->path() + "/readers";
+  ASSERT_TRUE(
+      transport::write_file(arguments_.foxglove_tokens, "viewer 77aa0c1be04f43f2 Garage\n", 0600));
+  begin();
+  const auto attached = attach_tools(*session_, {}, say());
+  EXPECT_TRUE(attached) << to_string(attached.error());
+}
+
 TEST_F(SessionTools, WhatTheBaseFindsIsLookedAt) {
   begin();
   serve_all();

@@ -43,7 +43,7 @@ const stage = baseStage({
     const device = join(folder, "joystick");
     execFileSync("mkfifo", [device]);
     joystick = openSync(device, "r+");
-    return ["--web-tokens", tokens, "--joystick", device];
+    return ["--web-tokens", tokens, "--default-role", "operator", "--joystick", device];
   },
 });
 

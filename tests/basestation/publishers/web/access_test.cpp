@@ -32,6 +32,15 @@ TEST(Access, AWrongTokenIsNoVisitorWithoutOne) {
   }
 }
 
+TEST(Access, WhereTokensBindNobodyComesWithoutOne) {
+  AccessRules bound = rules();
+  bound.default_role.reset();
+  const auto who = admit(bound, {.host = "localhost"});
+  ASSERT_FALSE(who);
+  EXPECT_EQ(who.error(), Refused::kToken);
+  EXPECT_TRUE(admit(bound, {.host = "localhost", .token = "77aa0c1be04f43f2"}));
+}
+
 TEST(Access, OnlyThePageOfTheBaseItselfMaySpeak) {
   EXPECT_TRUE(admit(rules(), {.host = "localhost:80", .origin = "http://localhost:80"}));
   for (const char* origin : {"http://evil.com", "http://localhost:81", "https://localhost:80",

@@ -84,6 +84,47 @@ TEST(HttpResponder, APortOfAnotherProtocolIsThatOnly) {
   EXPECT_EQ(open("/api/track", "", false).status, 404u);
 }
 
+// Without a token there is the page, which shows nothing by itself, and nothing else.
+TEST(HttpResponder, WhereTokensBindOnlyThePageComesWithoutOne) {
+  HttpConfig bound = config();
+  bound.access.default_role.reset();
+  bound.made["/metrics"] = [] { return Shown{"1", "text/x"}; };
+  HttpResponder desk(std::move(bound));
+  EXPECT_EQ(desk.answer(get("/")).status, 200u);
+  EXPECT_EQ(desk.answer(get("/nothing")).status, 404u);
+  for (const char* const path : {"/api/track", "/api/layouts/none", "/metrics", "/ws"})
+    EXPECT_EQ(desk.answer(get(path)).status, 401u) << path;
+  HttpQuestion socket = get("/ws");
+  socket.upgrade = true;
+  EXPECT_FALSE(desk.answer(socket).visitor);
+  HttpQuestion page = get("/");
+  page.upgrade = true;
+  EXPECT_EQ(desk.answer(page).status, 401u);
+  const std::string with = std::string{"/api/track?token="} + kViewer;
+  EXPECT_EQ(desk.answer(get(with)).status, 200u);
+  HttpQuestion foreign = get("/");
+  foreign.origin = "http://evil.com";
+  EXPECT_EQ(desk.answer(foreign).status, 403u) << "nor does a page of somebody else have it";
+}
+
+TEST(HttpResponder, ATokenOfAnotherProtocolsPortIsItsPath) {
+  HttpConfig bound = config();
+  bound.access.default_role.reset();
+  bound.subprotocols = {"foxglove.sdk.v1"};
+  HttpResponder desk(std::move(bound));
+  const auto opens = [&](const std::string& path) {
+    HttpQuestion question = get(path);
+    question.upgrade = true;
+    question.subprotocols = "foxglove.sdk.v1";
+    return desk.answer(question);
+  };
+  EXPECT_TRUE(opens(std::string{"/"} + kViewer).visitor);
+  for (const std::string& path :
+       {std::string{"/"}, std::string{"/0000000000000000"}, std::string{"/?token="} + kViewer}) {
+    EXPECT_EQ(opens(path).status, 401u) << path;
+  }
+}
+
 TEST(HttpResponder, TheSocketIsGivenToWhoMayHaveIt) {
   HttpResponder desk(config());
   HttpQuestion question = get("/ws");
