@@ -118,8 +118,11 @@ Result<std::unique_ptr<web::WebServer>, Problem> start_web(const Arguments& a,
   const auto address =
       transport::parse_udp_address(a.web_address + ":" + std::to_string(*a.web_port));
   if (!address) return Unexpected{address.error()};
+  http.say = say;
   auto server = web::WebServer::start(*address, std::move(http));
-  if (server) say("console at http://" + to_string((*server)->local()));
+  if (server)
+    say("console at " + std::string{a.web_certificate.empty() ? "http://" : "https://"} +
+        to_string((*server)->local()));
   return server;
 }
 

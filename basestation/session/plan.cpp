@@ -10,6 +10,7 @@
 #include "basestation/publishers/console/catalogue_text.hpp"
 #include "basestation/publishers/console/recording_list.hpp"
 #include "basestation/publishers/console/track_document.hpp"
+#include "basestation/publishers/web/tls_files.hpp"
 #include "basestation/service/limits_store.hpp"
 #include "basestation/session/roster.hpp"
 #include "basestation/settings/data_files.hpp"
@@ -64,7 +65,7 @@ Result<bool, Problem> plan_access(const Arguments& a, web::AccessRules& access) 
   if (a.default_role == "viewer") access.default_role = web::Role::kViewer;
   if (a.default_role == "operator" || (a.default_role.empty() && a.tokens_file.empty()))
     access.default_role = web::Role::kOperator;
-  return read_tokens(a.tokens_file, access);
+  return use_tokens(a.tokens_file, access);
 }
 
 // Limits, alarms and course, by which the car is judged with consoles and without.
@@ -88,11 +89,15 @@ Result<bool, Problem> plan_service(const Arguments& a, Plan& plan, const Say& sa
   return true;
 }
 
-Result<bool, Problem> plan_web(const Arguments& a, Plan& plan) {
+Result<bool, Problem> plan_web(const Arguments& a, Plan& plan, const Say& say) {
   plan.http.console = settings::console_folder(a.console_folder);
   plan.http.layouts = a.layouts_folder;
   const auto access = plan_access(a, plan.http.access);
   if (!access) return access;
+  auto tls = tls_of(a, say);
+  if (!tls) return Unexpected{tls.error()};
+  plan.http.tls = *std::move(tls);
+  plan.http.access.encrypted = plan.http.tls != nullptr;
   plan.console.tokens = plan.http.access.tokens;
   plan.service.second_person = !a.tokens_file.empty();
   const alarms::EvaluatorConfig& evaluator = plan.service.evaluator;
@@ -165,14 +170,20 @@ std::string told(const Arguments& car) { return "car " + std::to_string(car.car)
 
 }  // namespace
 
-Result<bool, Problem> read_tokens(const std::string& file, web::AccessRules& access) {
+Result<bool, Problem> use_tokens(const std::string& file, web::AccessRules& access) {
   if (file.empty()) return true;
-  const auto text = transport::read_private_file(file);
-  if (!text) return Unexpected{text.error()};
-  auto tokens = web::Tokens::parse(*text, file);
+  auto tokens = web::TokenBook::open(file);
   if (!tokens) return Unexpected{tokens.error()};
   access.tokens = *std::move(tokens);
   return true;
+}
+
+Result<std::shared_ptr<ssl_ctx_st>, Problem> tls_of(const Arguments& a, const Say& say) {
+  if (a.web_certificate.empty()) return std::shared_ptr<ssl_ctx_st>{};
+  auto tls = web::read_tls_files(a.web_certificate, a.web_key);
+  if (!tls) return Unexpected{tls.error()};
+  if (!tls->warning.empty()) say(tls->warning);
+  return std::move(tls->context);
 }
 
 Result<Plan, Problem> plan_of(const Arguments& arguments, const Say& say) {
@@ -180,7 +191,7 @@ Result<Plan, Problem> plan_of(const Arguments& arguments, const Say& say) {
   auto planned = plan_radio(arguments, plan, say);
   if (planned) planned = plan_hands(arguments, plan);
   if (planned) planned = plan_service(arguments, plan, say);
-  if (planned && arguments.web_port) planned = plan_web(arguments, plan);
+  if (planned && arguments.web_port) planned = plan_web(arguments, plan, say);
   if (!planned) return Unexpected{planned.error()};
   return plan;
 }
@@ -216,7 +227,7 @@ Result<std::vector<Plan>, Problem> plans_of(std::span<const Arguments> cars, con
 Result<Plan, Problem> plan_of_replay(const Arguments& arguments, const Say& say) {
   Plan plan{.arguments = arguments};
   auto planned = plan_service(arguments, plan, say);
-  if (planned) planned = plan_web(arguments, plan);
+  if (planned) planned = plan_web(arguments, plan, say);
   if (!planned) return Unexpected{planned.error()};
   return plan;
 }
@@ -229,6 +240,7 @@ web::HttpConfig served(std::span<Plan> plans) {
       http.access = plan.http.access;
       http.console = plan.http.console;
       http.layouts = plan.http.layouts;
+      http.tls = plan.http.tls;
     }
     http.cars.push_back(
         {.number = plan.arguments.car, .documents = std::move(plan.http.documents)});

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -44,7 +45,10 @@ Result<std::vector<Plan>, Problem> plans_of(std::span<const settings::Arguments>
 Result<Plan, Problem> plan_of_replay(const settings::Arguments& arguments, const Say& say);
 
 // Of a file of tokens; without one nothing changes.
-Result<bool, Problem> read_tokens(const std::string& file, publishers::web::AccessRules& access);
+Result<bool, Problem> use_tokens(const std::string& file, publishers::web::AccessRules& access);
+// Of --web-certificate and --web-key; without them none.
+Result<std::shared_ptr<ssl_ctx_st>, Problem> tls_of(const settings::Arguments& arguments,
+                                                    const Say& say);
 
 // One server for all of them; each has its documents under its number.
 publishers::web::HttpConfig served(std::span<Plan> plans);

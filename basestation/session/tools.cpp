@@ -78,8 +78,12 @@ Result<foxglove::ServerConfig, Problem> foxglove_of(const Arguments& a, std::siz
                               "reaches other machines; --foxglove-tokens FILE says who may read"}};
   }
   if (!a.foxglove_tokens.empty()) config.access.default_role.reset();
-  const auto tokens = read_tokens(a.foxglove_tokens, config.access);
+  const auto tokens = use_tokens(a.foxglove_tokens, config.access);
   if (!tokens) return Unexpected{tokens.error()};
+  auto tls = tls_of(a, [](const std::string&) {});  // the console's service has said it
+  if (!tls) return Unexpected{tls.error()};
+  config.tls = *std::move(tls);
+  config.access.encrypted = config.tls != nullptr;
   config.access.names = a.web_names;
   config.access.origins = a.foxglove_origins;
   config.name =
@@ -89,8 +93,10 @@ Result<foxglove::ServerConfig, Problem> foxglove_of(const Arguments& a, std::siz
   return config;
 }
 
-void say_where(const transport::UdpAddress& address, const std::string& whose, const Say& say) {
-  say(whose + "Foxglove at ws://" + to_string(address));
+void say_where(const Arguments& a, const transport::UdpAddress& address, const std::string& whose,
+               const Say& say) {
+  say(whose + "Foxglove at " + (a.web_certificate.empty() ? "ws://" : "wss://") +
+      to_string(address));
 }
 
 }  // namespace
@@ -146,7 +152,7 @@ Result<bool, Problem> attach_tools(CarSession& session, const ToolPlace& place, 
     if (!config) return Unexpected{config.error()};
     auto started = foxglove::FoxglovePublisher::start(*std::move(config), look_of(car));
     if (!started) return Unexpected{started.error()};
-    say_where((*started)->local(),
+    say_where(a, (*started)->local(),
               place.cars > 1 ? "car " + std::to_string(a.car) + ": " : std::string{}, say);
     attach(*std::move(started));
   }
@@ -172,7 +178,7 @@ Result<std::unique_ptr<foxglove::FoxgloveReplay>, Problem> foxglove_of_replay(
   auto config = foxglove_of(a, 0, *std::move(view));
   if (!config) return Unexpected{config.error()};
   auto started = foxglove::FoxgloveReplay::start(*std::move(config), player);
-  if (started) say_where((*started)->local(), "", say);
+  if (started) say_where(a, (*started)->local(), "", say);
   return started;
 }
 

@@ -31,6 +31,11 @@ void describe_web(CLI::App& app, Arguments& a) {
       ->check(CLI::IsMember({"viewer", "operator"}));
   app.add_option("--web-name", a.web_names, "A name under which browsers reach this machine")
       ->take_all();
+  auto* const certificate =
+      app.add_option("--web-certificate", a.web_certificate,
+                     "Certificate chain in PEM: consoles and Foxglove by TLS 1.2 or 1.3 only");
+  app.add_option("--web-key", a.web_key, "Its key in PEM, for its owner only")->needs(certificate);
+  certificate->needs("--web-key");
   app.add_option("--layouts", a.layouts_folder, "Folder that keeps the consoles' layouts");
   app.add_option("--judgement", a.judgement_file, "File of limits and alarms that were changed");
   app.add_option("--bench", a.bench,

@@ -36,6 +36,7 @@ struct Arguments {
   std::string console_folder, track, tokens_file, default_role, layouts_folder, judgement_file;
   std::string bench;  // socket of a bench desk
   std::vector<std::string> web_names;
+  std::string web_certificate, web_key;  // files; both or neither
   int car = 0;
   std::string car_name;
   std::string record_folder, replay_folder, recordings_folder, joystick, joystick_axes;

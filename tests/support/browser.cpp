@@ -63,6 +63,23 @@ std::optional<Browser::Heard> Browser::hear() {
 
 unsigned Browser::close_code() const { return stream_->socket.reason().code; }
 
+struct Silent::Connection {
+  boost::asio::io_context io;
+  boost::asio::ip::tcp::socket socket{io};
+};
+
+Silent::Silent(std::uint16_t port) : connection_(std::make_unique<Connection>()) {
+  connection_->socket.connect({boost::asio::ip::address_v4::loopback(), port});
+}
+Silent::~Silent() = default;
+
+bool Silent::is_closed() {
+  char byte = 0;
+  boost::system::error_code failed;
+  connection_->socket.read_some(boost::asio::buffer(&byte, 1), failed);
+  return failed == boost::asio::error::eof || failed == boost::asio::error::connection_reset;
+}
+
 std::string opening(const std::string& target, const std::string& host, const std::string& fields) {
   return "GET " + target + " HTTP/1.1\r\nHost: " + host + "\r\n" + fields +
          "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"

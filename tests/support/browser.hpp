@@ -39,6 +39,19 @@ class Browser {
   std::unique_ptr<Stream> stream_;
 };
 
+// A connection on which nobody says anything.
+class Silent {
+ public:
+  explicit Silent(std::uint16_t port);
+  ~Silent();
+  // Waits until the other end has closed it.
+  bool is_closed();
+
+ private:
+  struct Connection;
+  std::unique_ptr<Connection> connection_;
+};
+
 // What a browser says to open a WebSocket.
 std::string opening(const std::string& target = "/ws", const std::string& host = "127.0.0.1",
                     const std::string& fields = {});

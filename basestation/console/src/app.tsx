@@ -12,6 +12,7 @@ import { Finder } from "./frame/finder";
 import { Help } from "./frame/help";
 import { finderShown, helpShown } from "./frame/keys";
 import { later } from "./frame/later";
+import { Login } from "./frame/login";
 import { Navigation } from "./frame/navigation";
 import { page } from "./frame/pages";
 import type { PageName } from "./frame/pages";
@@ -24,6 +25,7 @@ import { CommandsPage } from "./pages/commands/page";
 import { LinkPage } from "./pages/link/page";
 import { PrimaryPage } from "./pages/primary/page";
 import { TelemetryPage } from "./pages/telemetry/page";
+import { loginNeeded } from "./store/login";
 import * as session from "./store/session";
 import { isLive } from "./view/timeline";
 
@@ -41,6 +43,11 @@ const kBodies: Record<PageName, FunctionComponent> = {
 };
 
 export function App() {
+  if (loginNeeded.value) return <Login />;
+  return <Frame />;
+}
+
+function Frame() {
   const Body = kBodies[page.value];
   const mode = session.hello.value?.mode ?? "NONE";
   const { number } = session.shownCar.value;

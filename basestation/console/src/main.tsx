@@ -9,6 +9,7 @@ import "./theme/palette.css";
 import "./theme/frame.css";
 import "./theme/top_bar.css";
 import "./theme/stops.css";
+import "./theme/login.css";
 import "./theme/car_tabs.css";
 import "./theme/foot.css";
 import "./theme/values.css";
@@ -27,12 +28,15 @@ import { plotLayout, readPlotLayout } from "./pages/plots/layout";
 import { primaryLayout, readPrimaryLayout } from "./pages/primary/layout";
 import { lookForCars, openCars, placeOf } from "./store/cars";
 import { fetchLayout } from "./store/layouts";
+import { lookForVisitor } from "./store/login";
 import * as session from "./store/session";
 import { keepAuthority } from "./store/uplink";
 import { setTheme, theme } from "./theme/theme";
 import { repaint, startPainting } from "./view/painting";
 import { heldMs, speed } from "./view/timeline";
 import type { Track } from "./wire/messages";
+
+const kAskAgainMs = 2000;
 
 async function fetchTrack(): Promise<void> {
   const car = session.shownCar.value;
@@ -61,6 +65,9 @@ startPainting();
 keepAuthority();
 listenToAlarms();
 void fetchLayouts();
+// A refused WebSocket does not say why it was refused.
+void lookForVisitor();
+setInterval(() => session.connected.value || void lookForVisitor(), kAskAgainMs);
 
 // A base that was started anew may know other cars and another track, and has forgotten our
 // questions; another car has another past.

@@ -75,7 +75,7 @@ command::Request ConsoleService::with_second_person(const AskSend& ask) const {
   if (!ask.overrides) return send;
   send.overriding = command::Override{.reason = ask.reason, .second = {}};
   // A second person is known by a token of an operator; nobody else is one.
-  const auto who = config_.tokens.find(ask.token);
+  const auto who = config_.tokens->find(ask.token);
   if (who && who->role == web::Role::kOperator) send.overriding->second.name = who->name;
   return send;
 }

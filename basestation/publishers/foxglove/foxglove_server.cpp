@@ -12,6 +12,7 @@ Result<std::unique_ptr<FoxgloveServer>, Problem> FoxgloveServer::start(ServerCon
   web::HttpConfig http;
   http.access = config.access;
   http.access.local_pages = true;
+  http.tls = config.tls;
   http.subprotocols.assign(kSubprotocols.begin(), kSubprotocols.end());
   http.queue = {.pictures = kMessages, .picture_bytes = kMessageBytes};
   auto server = web::WebServer::start(config.listen, std::move(http));

@@ -23,7 +23,8 @@ namespace pitwall::publishers::foxglove {
 struct ServerConfig {
   transport::UdpAddress listen{};  // port 0: any that is free
   web::AccessRules access{};       // who; its pages of this machine are let in besides
-  std::string name{};              // of the server, as clients show it
+  std::shared_ptr<ssl_ctx_st> tls{};
+  std::string name{};  // of the server, as clients show it
   std::optional<TimeRange> playback{};
   ros_view::ViewConfig view{};
   recorder::ClockMap clock{};

@@ -95,6 +95,16 @@ void add_web(const web::WebCounters& web, Exposition& out) {
   count("pitwall_web_connections_total", "connections to the web server", web.connections);
   count("pitwall_web_connections_refused_total", "connections that there was no room for",
         web.refused_room);
+  count("pitwall_web_waiting_closed_total", "silent connections closed for newer ones",
+        web.closed_waiting);
+  count("pitwall_web_places_refused_total", "consoles that there was no place for",
+        web.refused_places);
+  count("pitwall_web_short_refused_total", "clients refused: memory or descriptors ran short",
+        web.refused_short);
+  count("pitwall_web_short_closed_total", "consoles closed: memory ran short", web.closed_short);
+  count("pitwall_web_revoked_total", "clients closed: their token no longer holds",
+        web.closed_revoked);
+  count("pitwall_web_tls_failed_total", "connections that did not become TLS", web.refused_tls);
   count("pitwall_web_malformed_total", "malformed HTTP requests", web.bad_http);
   count("pitwall_web_refused_total", "HTTP requests answered 4xx", web.refused_http);
   count("pitwall_web_requests_total", "messages that consoles sent", web.texts_heard);

@@ -4,10 +4,8 @@
 
 #include <bitset>
 #include <cstddef>
-#include <cstdint>
-#include <string>
-#include <string_view>
 
+#include "basestation/publishers/web/admission/identity.hpp"
 #include "protocol/telemetry/command/command_table.hpp"
 
 namespace pitwall::publishers::web {
@@ -17,15 +15,5 @@ using ClientId = telemetry::HolderId;
 inline constexpr ClientId kFirstClient = 16, kLastClient = 254;
 using ClientSet = std::bitset<256>;
 inline constexpr std::size_t kTextMax = 64 * 1'024;  // of what a console says
-
-enum class Role : std::uint8_t { kViewer, kOperator };
-constexpr std::string_view text_of(Role role) {
-  return role == Role::kOperator ? "operator" : "viewer";
-}
-
-struct Identity {
-  Role role = Role::kViewer;
-  std::string name;
-};
 
 }  // namespace pitwall::publishers::web

@@ -67,6 +67,7 @@ class ClientQueue {
   bool push(SharedMessage message);
   SharedMessage pop();  // null: nothing waits
   bool empty() const { return waiting_.empty(); }
+  std::size_t bytes() const { return picture_bytes_ + unread_; }  // that wait
   std::uint32_t dropped() const { return dropped_; }
   // The tags of what was lost since this was asked for last.
   std::vector<std::uint32_t> take_lost_tags() { return std::exchange(lost_tags_, {}); }

@@ -5,6 +5,8 @@
 #include <charconv>
 #include <utility>
 
+#include "basestation/publishers/web/admission/session_cookie.hpp"
+#include "protocol/json/json_text.hpp"
 #include "protocol/json/json_value.hpp"
 #include "protocol/transport/file.hpp"
 
@@ -13,7 +15,8 @@ namespace {
 
 constexpr unsigned kOk = 200, kNoContent = 204, kBad = 400, kNoToken = 401, kForbidden = 403,
                    kNotFound = 404, kNoMethod = 405, kTooLarge = 413, kNoRoom = 507;
-constexpr std::string_view kBearer = "Bearer ", kLayouts = "/api/layouts/";
+constexpr std::string_view kBearer = "Bearer ", kLayouts = "/api/layouts/",
+                           kSession = "/api/session";
 
 std::shared_ptr<const std::string> shared(std::string text) {
   return std::make_shared<const std::string>(std::move(text));
@@ -34,7 +37,7 @@ std::string policy_for(std::string_view host) {
           "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-:[]") ==
           std::string_view::npos &&
       !host.empty()) {
-    sockets = " ws://" + std::string{host};
+    sockets = " ws://" + std::string{host} + " wss://" + std::string{host};
   }
   return "default-src 'self'; connect-src 'self'" + sockets +
          "; img-src 'self' data:; object-src 'none'; base-uri 'none'; form-action 'none'; "
@@ -120,16 +123,82 @@ HttpAnswer HttpResponder::answer(const HttpQuestion& question) {
   std::string_view path = question.target.substr(0, question.target.find('?'));
   const std::string_view token = token_of(question, path);
   if (token_is_path() && !token.empty()) path = "/";
-  auto who =
-      admit(config_.access, {.host = question.host, .origin = question.origin, .token = token});
+  HttpAnswer answer;
+  auto who = visitor_of(question, token);
   // The page itself tells nobody anything: it has to come before somebody can show a token.
   const bool of_the_page = !who && who.error() == Refused::kToken && token.empty();
-  if (of_the_page && is_console_file(question, path)) who = Identity{};
-  HttpAnswer answer =
-      who ? serve(question, path, *who)
-          : refusal(who.error() == Refused::kToken ? kNoToken : kForbidden, text_of(who.error()));
+  if (!who && who.error() != Refused::kToken) {
+    answer = refusal(kForbidden, text_of(who.error()));
+  } else if (config_.subprotocols.empty() && !query_value(question.target, "token").empty()) {
+    answer = refusal(kBad,
+                     "a token does not belong into an address: log in, or send the header "
+                     "Authorization: Bearer TOKEN");
+  } else if (config_.subprotocols.empty() && path == kSession) {
+    answer = session(question, who);
+  } else if (who || (of_the_page && is_console_file(question, path))) {
+    answer = serve(question, path, who ? *who : Identity{});
+  } else {
+    answer = refusal(kNoToken, text_of(who.error()));
+  }
   answer.policy = policy_for(question.host);
   return answer;
+}
+
+Result<Identity, Refused> HttpResponder::visitor_of(const HttpQuestion& question,
+                                                    std::string_view token) const {
+  return admit(config_.access,
+               {.host = question.host,
+                .origin = question.origin,
+                .token = token,
+                .session = session_of(question.cookie, port_)},
+               config_.utc());
+}
+
+// Who this browser is; logs in and out.
+HttpAnswer HttpResponder::session(const HttpQuestion& question,
+                                  const Result<Identity, Refused>& who) const {
+  if (question.method == "POST") return log_in(question);
+  HttpAnswer answer;
+  answer.cache = "no-store";
+  if (question.method == "DELETE") {
+    answer.status = kNoContent;
+    answer.set_cookie = cookie_for(question, "");
+    return answer;
+  }
+  if (question.method != "GET") {
+    answer = refusal(kNoMethod, "only GET, POST and DELETE here");
+    answer.allow = "GET, POST, DELETE";
+    return answer;
+  }
+  if (!who) return refusal(kNoToken, text_of(who.error()));
+  answer.type = kJsonType;
+  answer.body = shared(json::Object{}
+                           .text("role", text_of(who->role))
+                           .text("name", who->name)
+                           .flag("logged_in", !who->token_id.empty())
+                           .str());
+  return answer;
+}
+
+HttpAnswer HttpResponder::log_in(const HttpQuestion& question) const {
+  const auto asked = json::JsonValue::parse(question.body, "login");
+  const std::string token = asked ? asked->text("token") : std::string{};
+  if (token.empty()) return refusal(kBad, R"(a login is {"token": "..."})");
+  const std::string session =
+      config_.access.tokens->session(token, {config_.utc().ns + kSessionLasts.ns});
+  if (session.empty()) return refusal(kNoToken, text_of(Refused::kToken));
+  HttpAnswer answer;
+  answer.status = kNoContent;
+  answer.cache = "no-store";
+  answer.set_cookie = cookie_for(question, session);
+  return answer;
+}
+
+// A proxy that says TLS for a request that had none makes a cookie that the browser keeps to TLS.
+std::string HttpResponder::cookie_for(const HttpQuestion& question,
+                                      std::string_view session) const {
+  return set_cookie(port_, config_.access.encrypted || question.forwarded_proto == "https",
+                    session);
 }
 
 // Where a port of another protocol takes tokens.
@@ -137,13 +206,11 @@ bool HttpResponder::token_is_path() const {
   return !config_.subprotocols.empty() && !config_.access.default_role;
 }
 
-// A console's is a header or in the query.
 std::string_view HttpResponder::token_of(const HttpQuestion& question,
                                          std::string_view path) const {
   if (token_is_path()) return path.starts_with('/') ? path.substr(1) : path;
-  if (question.authorization.starts_with(kBearer))
-    return question.authorization.substr(kBearer.size());
-  return query_value(question.target, "token");
+  return question.authorization.starts_with(kBearer) ? question.authorization.substr(kBearer.size())
+                                                     : std::string_view{};
 }
 
 bool HttpResponder::is_console_file(const HttpQuestion& question, std::string_view path) const {

@@ -6,6 +6,8 @@
 //          text that says why
 //          ?car=NUMBER names the car that is meant; without it the first is. A number that is not
 //          served here is refused: nobody gets another car than the one he asked for
+//          a token comes in a header, or once in the body of a login, which is answered with a
+//          session's cookie; never in an address, where histories and logs would keep it
 //   bound  kLayoutsMax layouts of kLayoutBytes; the folder keeps them, without one they last as
 //          long as the base runs
 //   errors 204 nobody has stored that layout, or there is no such document here; 400 no layout, 401
@@ -22,10 +24,13 @@
 #include <string_view>
 #include <vector>
 
-#include "basestation/publishers/web/access.hpp"
+#include "basestation/publishers/web/admission/access.hpp"
 #include "basestation/publishers/web/client.hpp"
 #include "basestation/publishers/web/client_queue.hpp"
 #include "basestation/publishers/web/console_files.hpp"
+#include "protocol/transport/clock.hpp"
+
+struct ssl_ctx_st;
 
 namespace pitwall::publishers::web {
 
@@ -33,7 +38,8 @@ struct HttpQuestion {
   std::string_view method{}, target{};
   std::string_view host{}, origin{}, authorization{}, accept_encoding{};
   std::string_view subprotocols{};  // that are offered for a WebSocket: "a, b"
-  bool upgrade = false;             // asks for a WebSocket
+  std::string_view cookie{}, forwarded_proto{};
+  bool upgrade = false;  // asks for a WebSocket
   std::string_view body{};
 };
 
@@ -44,6 +50,7 @@ struct HttpAnswer {
   bool gzipped = false;
   std::string_view cache = "no-cache";
   std::string policy;               // Content-Security-Policy
+  std::string set_cookie;           // of a login
   std::string_view allow;           // of a 405
   std::optional<Identity> visitor;  // set: to be upgraded
   std::size_t car = 0;              // that the visitor comes to, in the order of the cars
@@ -75,7 +82,11 @@ struct HttpConfig {
   // Not empty: this is the port of another protocol, a WebSocket that speaks one of these, at / or,
   // with a token, at /TOKEN.
   std::vector<std::string_view> subprotocols{};
-  QueueLimits queue{};  // of each client
+  QueueLimits queue{};                // of each client
+  std::shared_ptr<ssl_ctx_st> tls{};  // set: TLS and nothing else
+  std::function<UtcTime()> utc = transport::utc_now;
+  // What a person at the base should know; called by the thread that answers.
+  std::function<void(const std::string&)> say = [](const std::string&) {};
 };
 
 inline constexpr std::string_view kJsonType = "application/json";
@@ -88,8 +99,9 @@ class HttpResponder {
   HttpAnswer answer(const HttpQuestion& question);
   // From now on, for every car.
   void show(const std::string& path, Shown document);
-  const AccessRules& access() const { return config_.access; }
-  const QueueLimits& queue_limits() const { return config_.queue; }
+  const HttpConfig& config() const { return config_; }
+  // Of the server that it answers for: part of the cookie's name.
+  void serve_at(std::uint16_t port) { port_ = port; }
 
  private:
   struct Document {
@@ -98,7 +110,11 @@ class HttpResponder {
   };
   using Kept = std::map<std::string, Document, std::less<>>;
 
+  Result<Identity, Refused> visitor_of(const HttpQuestion& question, std::string_view token) const;
   HttpAnswer serve(const HttpQuestion& question, std::string_view path, const Identity& who);
+  HttpAnswer session(const HttpQuestion& question, const Result<Identity, Refused>& who) const;
+  HttpAnswer log_in(const HttpQuestion& question) const;
+  std::string cookie_for(const HttpQuestion& question, std::string_view session) const;
   bool token_is_path() const;
   std::string_view token_of(const HttpQuestion& question, std::string_view path) const;
   bool is_console_file(const HttpQuestion& question, std::string_view path) const;
@@ -111,6 +127,7 @@ class HttpResponder {
   HttpAnswer put_layout(std::string_view name, std::string_view body);
 
   HttpConfig config_;
+  std::uint16_t port_ = 0;
   ConsoleFiles files_;
   Kept documents_;
   std::vector<Kept> of_cars_;

@@ -10,7 +10,6 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <boost/beast/websocket/stream.hpp>
@@ -19,11 +18,16 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "basestation/publishers/web/admission/pace.hpp"
+#include "basestation/publishers/web/admission/waiting_room.hpp"
 #include "basestation/publishers/web/web_server.hpp"
+#include "basestation/publishers/web/wire.hpp"
+#include "protocol/transport/clock.hpp"
 
 namespace pitwall::publishers::web {
 
@@ -36,6 +40,10 @@ using Tcp = asio::ip::tcp;
 
 inline constexpr std::size_t kHeaderMax = 16 * 1'024;
 inline constexpr auto kHttpPatience = std::chrono::seconds(15);
+inline constexpr auto kTending = std::chrono::seconds(1);
+inline constexpr Duration kSayingAgain = seconds(10);  // of the same cause
+// Without a descriptor: until the next try.
+inline constexpr auto kAcceptPause = std::chrono::milliseconds(50);
 inline constexpr auto kSilence = std::chrono::seconds(60);  // of a socket, pings unanswered
 inline constexpr auto kClosing = std::chrono::seconds(2);
 inline constexpr int kSendBuffer = 64 * 1'024;  // what waits is to wait where it can be dropped
@@ -49,14 +57,29 @@ struct WebServer::Engine {
   class Socket;
 
   Engine(const Tcp::endpoint& endpoint, HttpConfig config)
-      : acceptor(io, endpoint), desk(std::move(config)) {}
+      : acceptor(io, endpoint), desk(std::move(config)), tending(io), accepting(io) {
+    desk.serve_at(acceptor.local_endpoint().port());
+    if (desk.config().tls == nullptr) return;
+    SSL_CTX* const tls = desk.config().tls.get();
+    SSL_CTX_up_ref(tls);  // the context gives up one
+    context.emplace(tls);
+  }
 
   void run();
   void accept();
+  void accepted(Tcp::socket socket);
+  // Why this one cannot be served; empty: it can.
+  std::string no_room_for(const Tcp::socket& socket) const;
+  void refuse(std::uint64_t WebCounters::*counter, const std::string& why);
+  // Once a second: tokens that hold no longer, memory that runs short.
+  void tend();
+  void drop_revoked();
+  void drop_largest();
   void tell(std::size_t car, ClientNews news);
   void call();
   void deliver();
-  ClientId free_number();
+  // 0: no place is left for somebody of that role.
+  ClientId free_number(Role role);
   template <class Change>
   void count(const Change& change) {
     const std::lock_guard hold(lock);
@@ -81,10 +104,17 @@ struct WebServer::Engine {
 
   std::size_t connections = 0;  // the rest belongs to the web thread
   ClientId newest = kLastClient;
+  WaitingRoom::Connection newest_connection = 0;
+  WaitingRoom waiting;
+  std::map<WaitingRoom::Connection, std::weak_ptr<HttpSession>> sessions;
+  std::string said;  // of what was refused last, and when
+  std::optional<Instant> said_at;
   // After what the sessions in its handlers refer to, so that it goes before.
   asio::io_context io{1};
   Tcp::acceptor acceptor;
   HttpResponder desk;
+  std::optional<asio::ssl::context> context;
+  asio::steady_timer tending, accepting;
   std::array<std::shared_ptr<Socket>, 256> sockets{};  // by client
   std::thread thread;
 };
@@ -92,15 +122,16 @@ struct WebServer::Engine {
 // One console. Lives while an operation of it is under way or the engine has it.
 class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
  public:
-  Socket(Engine& engine, beast::tcp_stream&& stream, ClientId client, HttpAnswer answer)
+  Socket(Engine& engine, Wire&& stream, ClientId client, HttpAnswer answer)
       : engine_(engine),
         stream_(std::move(stream)),
         timer_(engine.io),
+        rest_(engine.io),
         client_(client),
         who_(*std::move(answer.visitor)),
         car_(answer.car),
         subprotocol_(answer.subprotocol),
-        queue_(engine.desk.queue_limits()) {}
+        queue_(engine.desk.config().queue) {}
   ~Socket() { --engine_.connections; }
 
   void accept(const http::request<http::string_body>& request) {
@@ -158,6 +189,9 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
     stream_.async_close(code, [self = shared_from_this()](error_code) { self->cut(); });
   }
 
+  const Identity& who() const { return who_; }
+  std::size_t unread_bytes() const { return queue_.bytes(); }
+
   void cut() {
     error_code ignored;
     beast::get_lowest_layer(stream_).socket().close(ignored);
@@ -167,8 +201,17 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
 
  private:
   void read() {
-    if (unhandled_ >= kUnhandled) return;  // handled() goes on
+    if (unhandled_ >= kUnhandled || reading_) return;  // handled() goes on
     reading_ = true;
+    const Duration rest = pace_.rest(transport::wall_now());
+    if (rest > Duration{}) {
+      rest_.expires_after(std::chrono::nanoseconds{rest.ns});
+      return rest_.async_wait([self = shared_from_this()](error_code) { self->read_next(); });
+    }
+    read_next();
+  }
+
+  void read_next() {
     stream_.async_read(heard_, [self = shared_from_this()](error_code failed, std::size_t) {
       self->reading_ = false;
       if (failed) return self->gone();
@@ -179,6 +222,7 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
 
   void take() {
     ++unhandled_;
+    pace_.heard(transport::wall_now());
     engine_.count([](WebCounters& c) { ++c.texts_heard; });
     ClientNews news{
         .kind = stream_.got_text() ? ClientNews::Kind::kSaid : ClientNews::Kind::kBinary,
@@ -218,6 +262,7 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
 
   void gone() {
     closing_ = true;
+    rest_.cancel();
     if (engine_.sockets[client_].get() != this) return;
     const auto self = shared_from_this();
     engine_.sockets[client_].reset();
@@ -227,8 +272,9 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
   }
 
   Engine& engine_;
-  websocket::stream<beast::tcp_stream, kCompressed> stream_;
-  asio::steady_timer timer_;
+  websocket::stream<Wire, kCompressed> stream_;
+  asio::steady_timer timer_, rest_;
+  Pace pace_;
   ClientId client_;
   Identity who_;
   std::size_t car_;  // that it came to

@@ -4,135 +4,17 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <boost/asio/post.hpp>
-#include <boost/asio/write.hpp>
-#include <boost/beast/http/parser.hpp>
-#include <boost/beast/http/read.hpp>
-#include <boost/beast/http/serializer.hpp>
 #include <exception>
-#include <optional>
+#include <span>
 
+#include "basestation/publishers/web/admission/room_left.hpp"
+#include "basestation/publishers/web/http_session.hpp"
 #include "basestation/publishers/web/web_engine.hpp"
 #include "protocol/transport/posix_call.hpp"
 
 namespace pitwall::publishers::web {
-
-// One connection while it speaks HTTP.
-class WebServer::Engine::HttpSession : public std::enable_shared_from_this<HttpSession> {
- public:
-  HttpSession(Engine& engine, Tcp::socket&& socket) : engine_(engine), stream_(std::move(socket)) {}
-  ~HttpSession() {
-    if (!handed_on_) --engine_.connections;
-  }
-
-  void read() {
-    parser_.emplace();
-    parser_->body_limit(HttpResponder::kLayoutBytes);
-    parser_->header_limit(kHeaderMax);
-    stream_.expires_after(kHttpPatience);
-    http::async_read(stream_, buffer_, *parser_,
-                     [self = shared_from_this()](error_code failed, std::size_t) {
-                       if (failed) return self->malformed(failed);
-                       self->answer();
-                     });
-  }
-
- private:
-  void malformed(const error_code& failed) {
-    unsigned status = 400;
-    if (failed == http::error::end_of_stream || failed == beast::error::timeout ||
-        failed.category() == boost::system::system_category()) {
-      return shut();
-    }
-    if (failed == http::error::body_limit) status = 413;
-    if (failed == http::error::header_limit) status = 431;
-    engine_.count([](WebCounters& c) { ++c.bad_http; });
-    write(refusal(status, "malformed request: " + failed.message()), false, 11, false);
-  }
-
-  void answer() {
-    const auto& request = parser_->get();
-    const std::string host{view(request[http::field::host])};
-    const HttpQuestion question{.method = view(request.method_string()),
-                                .target = view(request.target()),
-                                .host = host,
-                                .origin = view(request[http::field::origin]),
-                                .authorization = view(request[http::field::authorization]),
-                                .accept_encoding = view(request[http::field::accept_encoding]),
-                                .subprotocols = view(request[http::field::sec_websocket_protocol]),
-                                .upgrade = websocket::is_upgrade(request),
-                                .body = request.body()};
-    HttpAnswer answer = engine_.desk.answer(question);
-    if (answer.visitor) {
-      if (const ClientId client = engine_.free_number(); client != 0) {
-        return upgrade(client, std::move(answer));
-      }
-      answer = refusal(503, "all places for consoles are taken");
-    }
-    if (answer.status >= 400) engine_.count([](WebCounters& c) { ++c.refused_http; });
-    write(std::move(answer), request.keep_alive(), request.version(),
-          request.method() == http::verb::head);
-  }
-
-  void upgrade(ClientId client, HttpAnswer answer) {
-    handed_on_ = true;
-    auto socket = std::make_shared<Socket>(engine_, std::move(stream_), client, std::move(answer));
-    engine_.sockets[client] = socket;
-    socket->accept(parser_->get());
-  }
-
-  void write(HttpAnswer answer, bool keep_alive, unsigned version, bool only_head) {
-    response_ = {};
-    response_.version(version);
-    response_.result(answer.status);
-    response_.set(http::field::server, "pitwall-base");
-    response_.set(http::field::cache_control, std::string{answer.cache});
-    response_.set(http::field::content_type, std::string{answer.type});
-    response_.set("X-Content-Type-Options", "nosniff");
-    response_.set("Referrer-Policy", "no-referrer");
-    response_.set("Cross-Origin-Resource-Policy", "same-origin");
-    if (!answer.policy.empty()) response_.set("Content-Security-Policy", answer.policy);
-    if (!answer.allow.empty()) response_.set(http::field::allow, std::string{answer.allow});
-    if (answer.gzipped) response_.set(http::field::content_encoding, "gzip");
-    response_.set(http::field::vary, "Accept-Encoding");
-    response_.keep_alive(keep_alive);
-    response_.content_length(answer.body ? answer.body->size() : 0);
-    if (answer.body && !only_head) response_.body() = *answer.body;
-    stream_.expires_after(kHttpPatience);
-    head_ = head_of(response_);
-    const std::array<asio::const_buffer, 2> parts{asio::buffer(head_),
-                                                  asio::buffer(response_.body())};
-    asio::async_write(stream_, parts,
-                      [self = shared_from_this(), keep_alive](error_code failed, std::size_t) {
-                        if (failed || !keep_alive) return self->shut();
-                        self->read();
-                      });
-  }
-
-  // As text, so that one kind of write serves all answers.
-  static std::string head_of(http::response<http::string_body>& response) {
-    http::response_serializer<http::string_body> serializer{response};
-    serializer.split(true);
-    std::string head;
-    error_code never;
-    serializer.next(
-        never, [&head](error_code&, const auto& parts) { head = beast::buffers_to_string(parts); });
-    return head;
-  }
-
-  void shut() {
-    error_code ignored;
-    stream_.socket().shutdown(Tcp::socket::shutdown_send, ignored);
-  }
-
-  Engine& engine_;
-  beast::tcp_stream stream_;
-  beast::flat_buffer buffer_;
-  std::optional<http::request_parser<http::string_body>> parser_;
-  http::response<http::string_body> response_;
-  std::string head_;
-  bool handed_on_ = false;
-};
 
 void WebServer::Engine::run() {
   while (true) {
@@ -148,20 +30,89 @@ void WebServer::Engine::run() {
 void WebServer::Engine::accept() {
   acceptor.async_accept([this](error_code failed, Tcp::socket socket) {
     if (failed == asio::error::operation_aborted) return;
-    error_code ignored;
-    if (failed) {
-      // No descriptor is left, for example: another one comes free by itself.
-    } else if (connections >= kConnections) {
-      count([](WebCounters& c) { ++c.refused_room; });
-    } else {
-      ++connections;
-      count([](WebCounters& c) { ++c.connections; });
-      socket.set_option(Tcp::no_delay(true), ignored);
-      socket.set_option(asio::socket_base::send_buffer_size(kSendBuffer), ignored);
-      std::make_shared<HttpSession>(*this, std::move(socket))->read();
+    if (!failed) {
+      accepted(std::move(socket));
+      return accept();
     }
-    accept();
+    refuse(&WebCounters::refused_short, "connections: " + failed.message());
+    accepting.expires_after(kAcceptPause);
+    accepting.async_wait([this](error_code cancelled) {
+      if (!cancelled) accept();
+    });
   });
+}
+
+void WebServer::Engine::accepted(Tcp::socket socket) {
+  if (const std::string why = no_room_for(socket); !why.empty())
+    return refuse(&WebCounters::refused_short, why);
+  if (connections >= kConnections)
+    return refuse(&WebCounters::refused_room,
+                  "connections: all of " + std::to_string(kConnections) + " are taken");
+  ++connections;
+  count([](WebCounters& c) { ++c.connections; });
+  error_code ignored;
+  socket.set_option(Tcp::no_delay(true), ignored);
+  socket.set_option(asio::socket_base::send_buffer_size(kSendBuffer), ignored);
+  const auto from = socket.remote_endpoint(ignored).address();
+  const std::uint32_t address = from.is_v4() ? from.to_v4().to_uint() : 0;
+  Wire wire = context ? Wire{std::move(socket), *context} : Wire{std::move(socket)};
+  const auto number = ++newest_connection;
+  const auto session = std::make_shared<HttpSession>(*this, std::move(wire), number);
+  sessions[number] = session;
+  if (const auto goes = waiting.enter(number, address)) {
+    count([](WebCounters& c) { ++c.closed_waiting; });
+    if (const auto silent = sessions[*goes].lock()) silent->cut();
+  }
+  session->begin();
+}
+
+std::string WebServer::Engine::no_room_for(const Tcp::socket& socket) const {
+  // native_handle() is not const for an asio socket; the number is all that is asked for.
+  const int descriptor = const_cast<Tcp::socket&>(socket).native_handle();
+  std::string why = short_of_descriptors(descriptor);
+  return why.empty() ? short_of_memory(memory_use(), kComingShare) : why;
+}
+
+void WebServer::Engine::refuse(std::uint64_t WebCounters::*counter, const std::string& why) {
+  count([counter](WebCounters& c) { ++(c.*counter); });
+  const Instant now = transport::wall_now();
+  const std::string what = why.substr(0, why.find(':'));
+  if (what == said && said_at && now - *said_at < kSayingAgain) return;
+  said = what;
+  said_at = now;
+  desk.config().say("console refused: " + why);
+}
+
+void WebServer::Engine::tend() {
+  tending.expires_after(kTending);
+  tending.async_wait([this](error_code cancelled) {
+    if (cancelled) return;
+    const auto changed = desk.config().access.tokens->look_again();
+    if (!changed) desk.config().say("tokens unchanged: " + to_string(changed.error()));
+    if (changed && *changed) drop_revoked();
+    if (!short_of_memory(memory_use(), kStayingShare).empty()) drop_largest();
+    tend();
+  });
+}
+
+void WebServer::Engine::drop_revoked() {
+  for (const auto& socket : sockets) {
+    if (socket == nullptr || desk.config().access.tokens->may_stay(socket->who())) continue;
+    count([](WebCounters& c) { ++c.closed_revoked; });
+    desk.config().say("token of " + socket->who().name + " no longer holds: console closed");
+    socket->close(websocket::close_code::policy_error);
+  }
+}
+
+void WebServer::Engine::drop_largest() {
+  std::shared_ptr<Socket> largest;
+  for (const auto& socket : sockets) {
+    if (socket == nullptr || socket->unread_bytes() == 0) continue;
+    if (largest == nullptr || socket->unread_bytes() > largest->unread_bytes()) largest = socket;
+  }
+  if (largest == nullptr) return;
+  count([](WebCounters& c) { ++c.closed_short; });
+  largest->cut();
 }
 
 void WebServer::Engine::tell(std::size_t car, ClientNews item) {
@@ -208,12 +159,15 @@ void WebServer::Engine::deliver() {
 }
 
 // The next after the newest that is free, so that a number is not soon another console's.
-ClientId WebServer::Engine::free_number() {
-  for (int tried = 0; tried <= kLastClient - kFirstClient; ++tried) {
+ClientId WebServer::Engine::free_number(Role role) {
+  const auto is_free = [](const auto& socket) { return socket == nullptr; };
+  const auto places = std::span{sockets}.subspan(kFirstClient, kLastClient - kFirstClient + 1);
+  const auto free = static_cast<std::size_t>(std::ranges::count_if(places, is_free));
+  if (free <= (role == Role::kOperator ? 0 : kReserved)) return 0;
+  do {
     newest = newest >= kLastClient ? kFirstClient : static_cast<ClientId>(newest + 1);
-    if (sockets[newest] == nullptr) return newest;
-  }
-  return 0;
+  } while (sockets[newest] != nullptr);
+  return newest;
 }
 
 Result<std::unique_ptr<WebServer>, Problem> WebServer::start(transport::UdpAddress listen,
@@ -238,6 +192,7 @@ Result<std::unique_ptr<WebServer>, Problem> WebServer::start(transport::UdpAddre
         transport::posix_call([] { return ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK); })};
   }
   engine->accept();
+  engine->tend();
   engine->thread = std::thread([raw = engine.get()] { raw->run(); });
   return std::unique_ptr<WebServer>{new WebServer(std::move(engine))};
 }

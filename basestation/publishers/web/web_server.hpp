@@ -9,7 +9,10 @@
 //          car's reader only
 //          malformed HTTP is answered 400, 413 or 431 and closed; a text that is no UTF-8, too long
 //          or broken framing closes that socket with the code of RFC 6455; the others go on
-//   bound  kCars cars; kConnections in all, consoles 16 to 254 of them
+//          who has shown no token costs no place to who has: connections that are no console wait
+//          in a room of their own, see admission/waiting_room.hpp
+//   bound  kCars cars; kConnections in all, consoles 16 to 254 of them, the last kReserved places
+//          for operators; a client is heard as fast as admission/pace.hpp says
 //   errors start(): Problem with the address as place; afterwards counters
 //   source RFC 9112, RFC 6455, by Boost.Beast
 // SPDX-License-Identifier: Apache-2.0
@@ -48,6 +51,12 @@ struct Drop {
 
 struct WebCounters {
   std::uint64_t connections = 0, refused_room = 0;  // more than kConnections at once
+  std::uint64_t closed_waiting = 0;                 // silent for longest when others came
+  std::uint64_t refused_places = 0;                 // all places of consoles were taken
+  std::uint64_t refused_short = 0;                  // memory or descriptors ran short
+  std::uint64_t closed_short = 0;                   // had left most unread when memory ran short
+  std::uint64_t closed_revoked = 0;                 // their token holds no longer
+  std::uint64_t refused_tls = 0;                    // no TLS at a port of TLS, or another failure
   std::uint64_t bad_http = 0, refused_http = 0;     // malformed; answered 4xx
   std::uint64_t joined = 0, left = 0;
   std::uint64_t texts_heard = 0, messages_sent = 0, bytes_sent = 0;
@@ -59,7 +68,8 @@ struct WebCounters {
 
 class WebServer {
  public:
-  static constexpr std::size_t kConnections = 300;
+  static constexpr std::size_t kConnections = 400;
+  static constexpr std::size_t kReserved = 32;   // of the places for consoles: for operators
   static constexpr std::size_t kUnhandled = 16;  // requests of one client under way
   static constexpr std::size_t kCars = 4;
   static constexpr std::size_t kPostsMax = 4'096;  // messages that wait for the web thread

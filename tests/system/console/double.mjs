@@ -276,6 +276,8 @@ export class Double {
     };
     if (path === "/api/catalogue") return json(this.catalogue);
     if (path === "/api/track") return json(kTrack);
+    if (path === "/api/session")
+      return json({ role: this.role ?? "operator", name: "", logged_in: false });
     if (path === "/api/cars") return json({ cars: this.cars });
     if (path === "/api/recordings" && this.recordings) return json(this.recordings);
     if (path === "/api/recordings") return response.writeHead(204).end();

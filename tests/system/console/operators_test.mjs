@@ -14,6 +14,8 @@ import { baseStage, escapeTwice, launchApart, open, reach, until } from "./stage
 
 const kToken = "second-person-0123456789";
 const kGrowthKb = 16_384;
+/** A client is heard 20 times a second: so many of them to fill buffers within seconds. */
+const kMarkers = 40;
 const kFramesWatched = 100;
 
 /** Reports of a joystick as the kernel writes them: both axes and the enabling key, held. */
@@ -106,21 +108,37 @@ test("a holder that falls silent loses it; its ticket sends nothing, its stop do
   silent.close();
 });
 
+/** Marks of many clients: every console is told each of them. */
+async function markers() {
+  const open = () => Client.open(stage.address);
+  const clients = await Promise.all(Array.from({ length: kMarkers }, open));
+  return {
+    say(marks) {
+      const text = "m".repeat(450);
+      for (let n = 0; n < marks; ++n) clients[n % kMarkers].say({ type: "mark", text });
+    },
+    close() {
+      for (const client of clients) client.close();
+    },
+  };
+}
+
 test("a console that does not read loses its own pictures and learns how many", async () => {
   const { page } = await stage.open();
+  const crowd = await markers();
   const slow = await Client.open(stage.address);
   slow.socket.pause();
-  const kPings = 12_000;
-  const at = Date.now();
-  for (let n = 0; n < kPings; ++n) slow.say({ type: "ping", at });
+  const kMarks = 3000;
+  crowd.say(kMarks);
   await page.waitForTimeout(4000);
   const { frames, dropped } = await page.evaluate(() => globalThis.pitwall.session.counters);
   assert.equal(dropped, 0, "the other console loses nothing");
   await until(page, "it goes on", (n) => globalThis.pitwall.session.counters.frames > n, frames);
   slow.socket.resume();
-  await slow.until("every answer", () => slow.count("pong") === kPings);
+  await slow.until("every mark", () => slow.count("mark") === kMarks);
   await slow.until("what it lost", () => slow.dropped > 0);
   slow.close();
+  crowd.close();
 });
 
 /** Kilobytes of memory that the base holds. */
@@ -135,12 +153,12 @@ test("a browser that is stopped loses its own pictures, and nobody else notices"
     const counters = () => globalThis.pitwall.session.counters;
     const lost = () => document.querySelector(".top-bar").textContent.match(/(\d+) lost/)?.[1];
     let held = heldBy(stage.programs.base);
-    const marker = await Client.open(stage.address);
+    const crowd = await markers();
     // As much as it takes until the buffers between the two are full: every console is told marks.
     for (let marks = 1500; marks <= 6000 && !(await stopped.evaluate(lost)); marks *= 2) {
       const before = (await page.evaluate(counters)).frames;
       apart.stop();
-      for (let n = 0; n < marks; ++n) marker.say({ type: "mark", text: "m".repeat(450) });
+      crowd.say(marks);
       await until(
         page,
         "the other console going on",

@@ -3,6 +3,7 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import { helpShown, kDoubleEscapeMs, kKeys } from "./keys";
+import { LoggedIn } from "./login";
 import { kPages } from "./pages";
 import { kEmergencyHoldMs } from "./stop_rail";
 
@@ -54,6 +55,7 @@ export function Help() {
             </tr>
           </tbody>
         </table>
+        <LoggedIn />
         <button type="button" autofocus onClick={() => (helpShown.value = false)}>
           Close
         </button>

@@ -4,7 +4,6 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import { CarSession } from "./car_session";
-import { token } from "./layouts";
 import * as session from "./session";
 
 export interface CarRow {
@@ -36,8 +35,7 @@ const query = (parameters: Record<string, string | number | null>): string => {
 
 function connect(car: CarSession): void {
   const scheme = location.protocol === "https:" ? "wss:" : "ws:";
-  const asked = query({ car: car.number, token: token() });
-  car.open(`${scheme}//${location.host}/ws${asked}`);
+  car.open(`${scheme}//${location.host}/ws${query({ car: car.number })}`);
 }
 
 /** The place of a document of this car. */

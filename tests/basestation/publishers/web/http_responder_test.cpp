@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "basestation/publishers/web/admission/session_cookie.hpp"
 #include "protocol/transport/file.hpp"
 
 namespace pitwall::publishers::web {
@@ -13,7 +14,7 @@ constexpr const char *kOperator = "8f2c41d09b7a4d51", *kViewer = "77aa0c1be04f43
 HttpConfig config(std::string layouts = {}) {
   const std::string file =
       std::string{"operator "} + kOperator + " Anna\nviewer " + kViewer + " G\n";
-  return {.access = {.tokens = *Tokens::parse(file, "tokens")},
+  return {.access = {.tokens = std::make_shared<TokenBook>(*Tokens::parse(file, "tokens"))},
           .console = "/nowhere",
           .documents = {{"/api/track", "{}"}},
           .layouts = std::move(layouts)};
@@ -22,6 +23,8 @@ HttpConfig config(std::string layouts = {}) {
 HttpQuestion get(std::string_view target) {
   return {.method = "GET", .target = target, .host = "localhost:8080"};
 }
+constexpr const char *kAsOperator = "Bearer 8f2c41d09b7a4d51",
+                     *kAsViewer = "Bearer 77aa0c1be04f43f2";
 HttpQuestion put(std::string_view target, std::string_view body) {
   return {.method = "PUT", .target = target, .host = "localhost:8080", .body = body};
 }
@@ -45,7 +48,9 @@ TEST(HttpResponder, WhatIsNotThereOrNotAllowedIsRefusedWithALine) {
   HttpQuestion foreign = get("/api/track");
   foreign.origin = "http://evil.com";
   EXPECT_EQ(desk.answer(foreign).status, 403u);
-  EXPECT_EQ(desk.answer(get("/api/track?token=0000000000000000")).status, 401u);
+  HttpQuestion wrong = get("/api/track");
+  wrong.authorization = "Bearer 0000000000000000";
+  EXPECT_EQ(desk.answer(wrong).status, 401u);
   EXPECT_EQ(desk.answer(get("/nothing")).body->back(), '\n');
 }
 
@@ -73,7 +78,7 @@ TEST(HttpResponder, APortOfAnotherProtocolIsThatOnly) {
     return desk.answer(question);
   };
   EXPECT_EQ(open("/", "b.v1", true).subprotocol, "b.v1");
-  EXPECT_EQ(open("/?token=" + std::string{kViewer}, "x,\tb.v1 , a.v1", true).subprotocol, "b.v1");
+  EXPECT_EQ(open("/?x=1", "x,\tb.v1 , a.v1", true).subprotocol, "b.v1");
   EXPECT_TRUE(open("/", "a.v1", true).visitor);
   for (const char* offered : {"", "c.v1", "a.v1x", ",", " , "}) {
     EXPECT_EQ(open("/", offered, true).status, 400u) << offered;
@@ -100,8 +105,9 @@ TEST(HttpResponder, WhereTokensBindOnlyThePageComesWithoutOne) {
   HttpQuestion page = get("/");
   page.upgrade = true;
   EXPECT_EQ(desk.answer(page).status, 401u);
-  const std::string with = std::string{"/api/track?token="} + kViewer;
-  EXPECT_EQ(desk.answer(get(with)).status, 200u);
+  HttpQuestion with = get("/api/track");
+  with.authorization = kAsViewer;
+  EXPECT_EQ(desk.answer(with).status, 200u);
   HttpQuestion foreign = get("/");
   foreign.origin = "http://evil.com";
   EXPECT_EQ(desk.answer(foreign).status, 403u) << "nor does a page of somebody else have it";
@@ -130,8 +136,7 @@ TEST(HttpResponder, TheSocketIsGivenToWhoMayHaveIt) {
   HttpQuestion question = get("/ws");
   question.upgrade = true;
   EXPECT_EQ(desk.answer(question).visitor->role, Role::kViewer);
-  const std::string target = std::string{"/ws?x=1&token="} + kOperator;
-  question.target = target;
+  question.authorization = kAsOperator;
   EXPECT_EQ(desk.answer(question).visitor->name, "Anna");
 }
 
@@ -173,12 +178,11 @@ TEST(HttpResponder, LayoutsAreKeptByOperators) {
   const auto folder = transport::TemporaryFolder::create("layouts");
   ASSERT_TRUE(folder);
   HttpResponder desk(config(folder->path()));
-  const std::string as = std::string{"?token="};
   EXPECT_EQ(desk.answer(put("/api/layouts/mine", "{}")).status, 403u);
-  EXPECT_EQ(desk.answer(put("/api/layouts/mine" + as + kViewer, "{}")).status, 403u);
   HttpQuestion question = put("/api/layouts/mine", R"({"a": 1})");
-  const std::string bearer = std::string{"Bearer "} + kOperator;
-  question.authorization = bearer;
+  question.authorization = kAsViewer;
+  EXPECT_EQ(desk.answer(question).status, 403u);
+  question.authorization = kAsOperator;
   EXPECT_EQ(desk.answer(question).status, 200u);
   EXPECT_EQ(*desk.answer(get("/api/layouts/mine")).body, R"({"a": 1})");
   HttpResponder later(config(folder->path()));
@@ -187,11 +191,10 @@ TEST(HttpResponder, LayoutsAreKeptByOperators) {
 
 TEST(HttpResponder, WhatIsNoLayoutIsNotKept) {
   HttpResponder desk(config());
-  const std::string bearer = std::string{"Bearer "} + kOperator;
   const auto status = [&](const std::string& name, const std::string& body) {
     const std::string target = "/api/layouts/" + name;
     HttpQuestion question = put(target, body);
-    question.authorization = bearer;
+    question.authorization = kAsOperator;
     return desk.answer(question).status;
   };
   EXPECT_EQ(status("a", "{"), 400u);
@@ -211,6 +214,86 @@ TEST(HttpResponder, AHostThatIsNoneDoesNotGetIntoThePolicy) {
   HttpQuestion question = get("/");
   question.host = "localhost; script-src *";
   EXPECT_EQ(desk.answer(question).policy.find("script-src"), std::string::npos);
+}
+
+HttpQuestion log_in(std::string_view body) {
+  return {.method = "POST", .target = "/api/session", .host = "localhost:8080", .body = body};
+}
+
+// The cookie as a browser sends it back.
+std::string cookie_of(const HttpAnswer& answer) {
+  return answer.set_cookie.substr(0, answer.set_cookie.find(';'));
+}
+
+TEST(HttpResponder, ALoginGivesACookieThatIsWhoLoggedIn) {
+  HttpConfig bound = config();
+  bound.access.default_role.reset();
+  UtcTime now{1'700'000'000'000'000'000};
+  bound.utc = [&now] { return now; };
+  HttpResponder desk(std::move(bound));
+  desk.serve_at(8080);
+  EXPECT_EQ(desk.answer(get("/api/session")).status, 401u);
+  const HttpAnswer in = desk.answer(log_in(R"({"token": "8f2c41d09b7a4d51"})"));
+  EXPECT_EQ(in.status, 204u);
+  EXPECT_EQ(in.set_cookie.find(kOperator), std::string::npos) << "it does not tell the token";
+  const std::string cookie = cookie_of(in);
+  HttpQuestion question = get("/api/session");
+  question.cookie = cookie;
+  EXPECT_EQ(*desk.answer(question).body,
+            R"({"role": "operator", "name": "Anna", "logged_in": true})");
+  question.target = "/api/track";
+  EXPECT_EQ(desk.answer(question).status, 200u);
+  now.ns += kSessionLasts.ns;
+  EXPECT_EQ(desk.answer(question).status, 401u) << "it ends";
+}
+
+TEST(HttpResponder, ALoginThatIsNoneGivesNone) {
+  HttpResponder desk(config());
+  for (const char* body : {"", "{}", "[]", "{\"token\": 5}", "x", "{\"token\": \"\"}"}) {
+    const HttpAnswer answer = desk.answer(log_in(body));
+    EXPECT_EQ(answer.status, 400u) << body;
+    EXPECT_EQ(answer.set_cookie, "") << body;
+  }
+  const HttpAnswer wrong = desk.answer(log_in(R"({"token": "0000000000000000"})"));
+  EXPECT_EQ(wrong.status, 401u);
+  EXPECT_EQ(wrong.set_cookie, "");
+  HttpQuestion foreign = log_in(R"({"token": "8f2c41d09b7a4d51"})");
+  foreign.origin = "http://evil.com";
+  EXPECT_EQ(desk.answer(foreign).status, 403u);
+  HttpQuestion put_one = log_in("{}");
+  put_one.method = "PUT";
+  EXPECT_EQ(desk.answer(put_one).allow, "GET, POST, DELETE");
+}
+
+TEST(HttpResponder, ALogoutTakesTheCookieAway) {
+  HttpResponder desk(config());
+  HttpQuestion question = log_in("");
+  question.method = "DELETE";
+  EXPECT_NE(desk.answer(question).set_cookie.find("Max-Age=0"), std::string::npos);
+}
+
+TEST(HttpResponder, ACookieGoesOverTlsOnlyWhereThereIsTls) {
+  constexpr const char* kBody = R"({"token": "8f2c41d09b7a4d51"})";
+  HttpResponder plain(config());
+  EXPECT_EQ(plain.answer(log_in(kBody)).set_cookie.find("Secure"), std::string::npos);
+  HttpQuestion through_a_proxy = log_in(kBody);
+  through_a_proxy.forwarded_proto = "https";
+  EXPECT_TRUE(plain.answer(through_a_proxy).set_cookie.ends_with("; Secure"));
+  HttpConfig encrypted = config();
+  encrypted.access.encrypted = true;
+  EXPECT_TRUE(
+      HttpResponder(std::move(encrypted)).answer(log_in(kBody)).set_cookie.ends_with("; Secure"));
+}
+
+TEST(HttpResponder, ATokenInAnAddressIsRefused) {
+  HttpResponder desk(config());
+  for (const char* path : {"/?token=8f2c41d09b7a4d51", "/api/track?car=0&token=8f2c41d09b7a4d51",
+                           "/ws?token=8f2c41d09b7a4d51"}) {
+    HttpQuestion question = get(path);
+    question.upgrade = std::string_view{path}.starts_with("/ws");
+    EXPECT_EQ(desk.answer(question).status, 400u) << path;
+    EXPECT_FALSE(desk.answer(question).visitor);
+  }
 }
 
 TEST(HttpResponder, QueryValues) {

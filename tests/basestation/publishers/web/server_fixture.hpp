@@ -25,12 +25,16 @@ inline SharedMessage vehicle(std::uint32_t sequence, std::size_t bytes = 3'000) 
   return std::make_shared<const Message>(Message{.frame = std::move(frame)});
 }
 
+inline constexpr const char* kOperatorToken = "8f2c41d09b7a4d51";
+
 class WebServerTest : public testing::Test {
  protected:
   void SetUp() override {
     HttpConfig config;
     config.documents.emplace("/api/track", "{\"name\": \"X\"}");
     config.console = "/nowhere";
+    config.access.tokens = std::make_shared<TokenBook>(
+        *Tokens::parse(std::string{"operator "} + kOperatorToken + " Anna\n", "tokens"));
     auto started = WebServer::start({}, std::move(config));
     ASSERT_TRUE(started) << to_string(started.error());
     server_ = *std::move(started);
@@ -49,11 +53,14 @@ class WebServerTest : public testing::Test {
     }
     return std::nullopt;
   }
-  ClientId join(Browser& browser) {
-    EXPECT_EQ(browser.open(port_), 101u);
+  ClientId join(Browser& browser, const Browser::Fields& fields = {}) {
+    EXPECT_EQ(browser.open(port_, "/ws", fields), 101u);
     const auto news = wait_for(ClientNews::Kind::kJoined);
     EXPECT_TRUE(news);
     return news ? news->client : ClientId{0};
+  }
+  ClientId join_as_operator(Browser& browser) {
+    return join(browser, {{"Authorization", std::string{"Bearer "} + kOperatorToken}});
   }
   static ClientSet only(ClientId client) { return ClientSet{}.set(client); }
 

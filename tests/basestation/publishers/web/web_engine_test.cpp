@@ -5,6 +5,8 @@
 #include <set>
 #include <vector>
 
+#include "basestation/publishers/web/admission/pace.hpp"
+#include "basestation/publishers/web/admission/waiting_room.hpp"
 #include "tests/basestation/publishers/web/server_fixture.hpp"
 
 namespace pitwall::publishers::web {
@@ -29,17 +31,48 @@ TEST_F(WebEngine, EveryNumberIsGivenOnceBeforeOneComesAgain) {
   EXPECT_TRUE(given.contains(join(first_again)));
 }
 
+// Viewers leave places for operators.
 TEST_F(WebEngine, WhenAllPlacesAreTakenTheNextIsRefusedUntilOneIsFree) {
   std::vector<std::unique_ptr<Browser>> consoles;
-  for (std::size_t i = 0; i < kPlaces; ++i) {
-    join(*consoles.emplace_back(std::make_unique<Browser>()));
-  }
+  const auto next = [&]() -> Browser& {
+    return *consoles.emplace_back(std::make_unique<Browser>());
+  };
+  while (consoles.size() < kPlaces - WebServer::kReserved) join(next());
   EXPECT_TRUE(bare(port_, opening()).starts_with("HTTP/1.1 503"));
+  while (consoles.size() < kPlaces) join_as_operator(next());
+  const std::string as_operator = std::string{"Authorization: Bearer "} + kOperatorToken + "\r\n";
+  EXPECT_TRUE(bare(port_, opening("/ws", "127.0.0.1", as_operator)).starts_with("HTTP/1.1 503"));
+  EXPECT_EQ(server_->counters().refused_places, 2u);
   consoles.erase(consoles.begin() + 7);
   const auto left = wait_for(ClientNews::Kind::kLeft);
   ASSERT_TRUE(left);
-  Browser next;
-  EXPECT_EQ(join(next), left->client) << "the only number that is free";
+  EXPECT_EQ(join_as_operator(next()), left->client) << "the only number that is free";
+}
+
+// Nobody needs a token to open connections and say nothing.
+TEST_F(WebEngine, WhoSaysNothingCostsNoPlaceToWhoHasAToken) {
+  std::vector<std::unique_ptr<Silent>> silent;
+  for (std::size_t i = 0; i < WaitingRoom::kPerAddress + 20; ++i)
+    silent.push_back(std::make_unique<Silent>(port_));
+  Browser comes;
+  EXPECT_GE(join_as_operator(comes), kFirstClient);
+  EXPECT_TRUE(silent.front()->is_closed()) << "the first that came";
+  EXPECT_GE(server_->counters().closed_waiting, 20u);
+}
+
+// What comes faster waits in the client's own socket, and is heard later.
+TEST_F(WebEngine, OneThatSpeaksTooFastIsHeardAtItsPace) {
+  Browser fast;
+  join(fast);
+  constexpr std::int64_t kMore = 10;
+  for (std::int64_t i = 0; i < Pace::kAtOnce + kMore; ++i) fast.say(std::to_string(i));
+  const Instant begun = transport::monotonic_now();
+  for (std::int64_t i = 0; i < Pace::kAtOnce + kMore; ++i) {
+    const auto said = wait_for(ClientNews::Kind::kSaid);
+    ASSERT_TRUE(said);
+    EXPECT_EQ(said->text, std::to_string(i)) << "in order, and nothing is lost";
+  }
+  EXPECT_GE(transport::monotonic_now() - begun, Pace::kEach * (kMore - 1));
 }
 
 // The caller never waits; what it says faster than the sockets take it is dropped and counted, by

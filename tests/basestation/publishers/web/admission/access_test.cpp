@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "basestation/publishers/web/access.hpp"
+#include "basestation/publishers/web/admission/access.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,14 @@ namespace {
 constexpr const char* kFile =
     "# people\n\noperator 8f2c41d09b7a4d51 Anna B.\r\nviewer 77aa0c1be04f43f2 Garage\n";
 
+constexpr UtcTime kNow{1'700'000'000'000'000'000};
+
+Result<Identity, Refused> admit(const AccessRules& rules, const Visitor& visitor) {
+  return web::admit(rules, visitor, kNow);
+}
+
 AccessRules rules() {
-  return {.tokens = *Tokens::parse(kFile, "tokens"),
+  return {.tokens = std::make_shared<TokenBook>(*Tokens::parse(kFile, "tokens")),
           .default_role = Role::kViewer,
           .names = {"pit.local"}};
 }
@@ -43,7 +49,7 @@ TEST(Access, WhereTokensBindNobodyComesWithoutOne) {
 
 TEST(Access, OnlyThePageOfTheBaseItselfMaySpeak) {
   EXPECT_TRUE(admit(rules(), {.host = "localhost:80", .origin = "http://localhost:80"}));
-  for (const char* origin : {"http://evil.com", "http://localhost:81", "https://localhost:80",
+  for (const char* origin : {"http://evil.com", "http://localhost:81", "https://localhost:81",
                              "null", "http://localhost:80.evil.com"}) {
     const auto who = admit(rules(), {.host = "localhost:80", .origin = origin});
     ASSERT_FALSE(who) << origin;
@@ -85,18 +91,27 @@ TEST(Access, AToolsPageIsLetInByItsOriginOrFromThisMachine) {
   }
 }
 
-TEST(Access, AMistakeInTheFileIsNamedByItsLine) {
-  const auto place = [](const std::string& line) {
-    const auto tokens = Tokens::parse("# one\n" + line, "tokens");
-    EXPECT_FALSE(tokens) << line;
-    return tokens ? "" : tokens.error().place;
-  };
-  for (const char* line :
-       {"chief 8f2c41d09b7a4d51 Anna", "operator short Anna", "operator 8f2c41d09b7a4d51",
-        "operator 8f2c41d09b7a4d5! Anna", "operator"}) {
-    EXPECT_EQ(place(line), "tokens:2") << line;
-  }
-  EXPECT_EQ(place("viewer 8f2c41d09b7a4d51 A\nviewer 8f2c41d09b7a4d51 B"), "tokens:3");
+TEST(Access, ASessionSaysWhoComesAsItsTokenDoes) {
+  const AccessRules bound = rules();
+  const std::string session =
+      bound.tokens->session("8f2c41d09b7a4d51", UtcTime{kNow.ns + seconds(60).ns});
+  const auto who = admit(bound, {.host = "localhost", .session = session});
+  ASSERT_TRUE(who);
+  EXPECT_EQ(who->name, "Anna B.");
+  const auto viewer =
+      admit(bound, {.host = "localhost", .token = "77aa0c1be04f43f2", .session = session});
+  EXPECT_EQ(viewer->name, "Garage") << "a token counts before it";
+  const auto later = web::admit(bound, {.host = "localhost", .session = session},
+                                UtcTime{kNow.ns + seconds(60).ns});
+  EXPECT_EQ(later->name, "") << "one that has ended is as none";
+}
+
+TEST(Access, APageOfTlsOnlySpeaksWhereThereIsTls) {
+  AccessRules own = rules();
+  EXPECT_TRUE(admit(own, {.host = "pit.local", .origin = "http://pit.local"}));
+  own.encrypted = true;
+  EXPECT_FALSE(admit(own, {.host = "pit.local", .origin = "http://pit.local"}));
+  EXPECT_TRUE(admit(own, {.host = "pit.local", .origin = "https://pit.local"}));
 }
 
 }  // namespace

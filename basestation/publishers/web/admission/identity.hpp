@@ -1,0 +1,22 @@
+// Who somebody is to the base, once it knows.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace pitwall::publishers::web {
+
+enum class Role : std::uint8_t { kViewer, kOperator };
+constexpr std::string_view text_of(Role role) {
+  return role == Role::kOperator ? "operator" : "viewer";
+}
+
+struct Identity {
+  Role role = Role::kViewer;
+  std::string name{};
+  std::string token_id{};  // of the token by which it is known, which it does not tell; or empty
+};
+
+}  // namespace pitwall::publishers::web

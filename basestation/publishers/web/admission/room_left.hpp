@@ -1,0 +1,34 @@
+// What the machine leaves to this process: memory and descriptors. Clients are refused before one
+// of them is used up, so that the radio and the stops of those who are there go on.
+//   in     limits and use of the process: RLIMIT_DATA, RLIMIT_AS, RLIMIT_NOFILE, memory.max of its
+//          control group (v2)
+//   out    why nobody more may come in
+//   law    looked up each time: limits change while a program runs
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace pitwall::publishers::web {
+
+// One bound of memory.
+struct MemoryUse {
+  std::string bound{};                  // as its owner knows it: "RLIMIT_DATA"
+  std::uint64_t used = 0, allowed = 0;  // bytes
+};
+
+inline constexpr double kComingShare = 0.85;   // of what is allowed: from here nobody comes in
+inline constexpr double kStayingShare = 0.92;  // from here who left most unread has to go
+inline constexpr int kKeptDescriptors = 16;    // for the radio, recordings, files of the console
+
+// Those that there are, in no order.
+std::vector<MemoryUse> memory_use();
+// "memory: 70 of 80 MB (RLIMIT_DATA)" where more than that share is used; empty: there is room.
+std::string short_of_memory(std::span<const MemoryUse> uses, double share);
+// The descriptor is the newest, so that none lower was free.
+std::string short_of_descriptors(int descriptor);
+
+}  // namespace pitwall::publishers::web

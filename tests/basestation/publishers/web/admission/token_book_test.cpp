@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "basestation/publishers/web/admission/token_book.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "protocol/transport/file.hpp"
+
+namespace pitwall::publishers::web {
+namespace {
+
+constexpr const char *kTokenOfAnna = "8f2c41d09b7a4d51", *kTokenOfGarage = "77aa0c1be04f43f2";
+
+class TokenBookTest : public testing::Test {
+ protected:
+  void write(const std::string& text) { ASSERT_TRUE(transport::write_file(file_, text, 0600)); }
+  transport::TemporaryFolder folder_ = *transport::TemporaryFolder::create("tokens");
+  std::string file_ = folder_.path() + "/tokens";
+};
+
+TEST_F(TokenBookTest, ALineThatIsTakenAwayHoldsNoLonger) {
+  write(std::string{"operator "} + kTokenOfAnna + " Anna\nviewer " + kTokenOfGarage + " Garage\n");
+  const auto book = TokenBook::open(file_);
+  ASSERT_TRUE(book);
+  const auto anna = (*book)->find(kTokenOfAnna);
+  ASSERT_TRUE(anna);
+  EXPECT_FALSE(*(*book)->look_again()) << "nothing has changed";
+  write(std::string{"viewer "} + kTokenOfGarage + " Garage\n");
+  EXPECT_TRUE(*(*book)->look_again());
+  EXPECT_FALSE((*book)->find(kTokenOfAnna));
+  EXPECT_FALSE((*book)->may_stay(*anna));
+  EXPECT_TRUE((*book)->may_stay(*(*book)->find(kTokenOfGarage)));
+  EXPECT_TRUE((*book)->may_stay(Identity{})) << "who came without one";
+}
+
+TEST_F(TokenBookTest, AFileWithAMistakeChangesNothingAndIsToldOnce) {
+  write(std::string{"operator "} + kTokenOfAnna + " Anna\n");
+  const auto book = TokenBook::open(file_);
+  ASSERT_TRUE(book);
+  write("operator short Anna and more than before\n");
+  const auto again = (*book)->look_again();
+  ASSERT_FALSE(again);
+  EXPECT_EQ(again.error().place, file_ + ":1");
+  EXPECT_FALSE(*(*book)->look_again());
+  EXPECT_TRUE((*book)->find(kTokenOfAnna));
+}
+
+TEST_F(TokenBookTest, AFileThatOthersReadIsRefused) {
+  ASSERT_TRUE(transport::write_file(file_, "", 0644));
+  EXPECT_FALSE(TokenBook::open(file_));
+}
+
+}  // namespace
+}  // namespace pitwall::publishers::web
