@@ -74,7 +74,7 @@ struct WebServer::Engine {
   // Once a second: tokens that hold no longer, memory that runs short.
   void tend();
   void drop_revoked();
-  void drop_largest();
+  void drop_largest();  // of viewers
   void tell(std::size_t car, ClientNews news);
   void call();
   void deliver();

@@ -70,7 +70,7 @@ std::string WebServer::Engine::no_room_for(const Tcp::socket& socket) const {
   // native_handle() is not const for an asio socket; the number is all that is asked for.
   const int descriptor = const_cast<Tcp::socket&>(socket).native_handle();
   std::string why = short_of_descriptors(descriptor);
-  return why.empty() ? short_of_memory(memory_use(), kComingShare) : why;
+  return why.empty() ? short_of_memory(memory_use(), kRoomToCome) : why;
 }
 
 void WebServer::Engine::refuse(std::uint64_t WebCounters::*counter, const std::string& why) {
@@ -90,7 +90,7 @@ void WebServer::Engine::tend() {
     const auto changed = desk.config().access.tokens->look_again();
     if (!changed) desk.config().say("tokens unchanged: " + to_string(changed.error()));
     if (changed && *changed) drop_revoked();
-    if (!short_of_memory(memory_use(), kStayingShare).empty()) drop_largest();
+    if (!short_of_memory(memory_use(), kRoomToStay).empty()) drop_largest();
     tend();
   });
 }
@@ -107,7 +107,8 @@ void WebServer::Engine::drop_revoked() {
 void WebServer::Engine::drop_largest() {
   std::shared_ptr<Socket> largest;
   for (const auto& socket : sockets) {
-    if (socket == nullptr || socket->unread_bytes() == 0) continue;
+    if (socket == nullptr || socket->who().role == Role::kOperator) continue;
+    if (socket->unread_bytes() == 0) continue;
     if (largest == nullptr || socket->unread_bytes() > largest->unread_bytes()) largest = socket;
   }
   if (largest == nullptr) return;

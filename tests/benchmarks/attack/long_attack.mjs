@@ -1,11 +1,12 @@
 /**
- * The radio under attack: the real base, the real car at standstill, a radio path between them and
- * an attacker beside it who receives a copy of everything; and the same without an attacker, the
- * twin, at the same time. All on loopback, in real time, alone on the machine.
+ * Radio and consoles under attack: the real base, the real car at standstill, a radio path between
+ * them and an attacker beside it who receives a copy of everything, crowds at the console, and too
+ * little memory, disk and descriptors; and the same without any of it, the twin, at the same time.
+ * All on loopback, in real time, alone on the machine, with mounts of its own.
  *
  *   node long_attack.mjs [--json FILE]   exit code 1 when a gate is missed
  *
- * PITWALL_ATTACK_MINUTES is its length (10), PITWALL_ATTACK_ONLY a regular expression for names of
+ * PITWALL_ATTACK_MINUTES is its length (14), PITWALL_ATTACK_ONLY a regular expression for names of
  * phases; PITWALL_BASE and PITWALL_VEHICLE name the programs, PITWALL_ATTACK_PROGRAMS the folder of
  * the attack's own.
  */
@@ -18,9 +19,9 @@ import { kAlarms, kPhases } from "./phases.mjs";
 import { Rig } from "./rig.mjs";
 import { head, lines } from "./table.mjs";
 
-const kMinutes = Number(process.env.PITWALL_ATTACK_MINUTES ?? 10);
+const kMinutes = Number(process.env.PITWALL_ATTACK_MINUTES ?? 14);
 const kOnly = new RegExp(process.env.PITWALL_ATTACK_ONLY ?? ".");
-const kFullMinutes = 10;
+const kFullMinutes = 14;
 const kFullPresses = 20;
 const kLeastPresses = 4;
 const kPresses = Math.max(
@@ -44,6 +45,9 @@ const kTakenMs = 10;
 
 const kStopLaterMs = 100;
 const kAlarmMs = 2000;
+/** How much later than at the twin an operator who comes is there. */
+const kComesLaterMs = 1000;
+const kComesLimitMs = 10_000;
 const kLinkLaterMs = 2000;
 const kSteadyShare = 0.9;
 const kRateShare = 0.8;
@@ -119,11 +123,18 @@ async function measure(rig, phase) {
   await settle(rig, phase, record);
   for (const pair of rig.pairs) pair.forget();
   record.meters = await Promise.all(rig.pairs.map((pair) => Meter.on(pair)));
+  const before = phase.counts && (await rig.attacked.counts());
   record.begun = await rig.begin(phase);
   await press(rig, phase, record);
-  await waitFor(record.begun + kAlarmMs - now(), () => false);
+  if (phase.crowd) await visit(rig, phase, record);
+  await waitFor(record.begun + (phase.alarm_ms ?? kAlarmMs) - now(), () => false);
   record.attackMs = now() - record.begun;
   record.traffic = await rig.end(phase);
+  // Not before: a base that refuses clients refuses who asks for its counters, too.
+  if (phase.counts) {
+    const after = await rig.attacked.counts();
+    record.refused = after.of(phase.counts) - before.of(phase.counts);
+  }
   for (const meter of record.meters) await meter.end();
   record.linked = await Promise.all(
     record.links.map((pairs) => Promise.all(pairs.map(({ linked }) => linked))),
@@ -132,6 +143,16 @@ async function measure(rig, phase) {
   record.told = record.meters.map((meter) => meter.alarms(record.begun));
   record.events = record.meters.map((meter) => meter.events());
   return record;
+}
+
+/** What a crowd leaves to others, and what the base says of it. */
+async function visit(rig, phase, record) {
+  // Where the machine has nothing left, an operator who comes is refused as everybody.
+  record.comes = phase.limit
+    ? [0, 0]
+    : await Promise.all(rig.pairs.map((pair) => pair.comes(kComesLimitMs)));
+  record.open = rig.attacked.visitors.heard.open ?? 0;
+  record.said = rig.attacked.programs.baseSaid;
 }
 
 /** Answered bytes for each byte of an attacker who proved nothing. */
@@ -163,19 +184,40 @@ function judgeLink(gates, record) {
   }
 }
 
+function judgeCrowd(gates, record) {
+  const { phase, comes, open, said, refused } = record;
+  if (!phase.crowd) return;
+  const later = comes[0] - comes[1];
+  gates.say(`${phase.name}: open at the end`, open, "");
+  if (!phase.limit) {
+    gates.ask(`${phase.name}: an operator comes later than the twin's`, later, kComesLaterMs, "ms");
+  }
+  if (phase.counts) gates.need(`${phase.name}: ${phase.counts}`, refused, 1, "");
+  const all = phase.all_or_said && open >= phase.crowd.count;
+  if (phase.says && !all) {
+    gates.need(`${phase.name}: the cause is said`, Number(phase.says.test(said)), 1, "");
+  }
+}
+
 function judge(gates, record) {
   const { phase, told, figures } = record;
   const [mine, its] = figures;
   const later = mine.stop_p99_ms - its.stop_p99_ms;
   gates.need(`${phase.name}: presses`, mine.stops, kPresses, "");
-  gates.ask(`${phase.name}: stop later than the twin's, p99`, later, kStopLaterMs, "ms");
+  gates.ask(
+    `${phase.name}: stop later than the twin's, p99`,
+    later,
+    phase.later_ms ?? kStopLaterMs,
+    "ms",
+  );
+  judgeCrowd(gates, record);
   judgeLink(gates, record);
   judgeAttack(gates, record);
   for (const key of phase.alarms) {
     const at = told[0].get(key) ?? Infinity;
-    gates.ask(`${phase.name}: alarm ${key}`, at, kAlarmMs, "ms");
+    gates.ask(`${phase.name}: alarm ${key}`, at, phase.alarm_ms ?? kAlarmMs, "ms");
   }
-  if (phase.alarms.length > 0) {
+  if (phase.alarms.length > 0 && !phase.crowd) {
     gates.need(`${phase.name}: events told`, record.events[0].length, 1, "");
   }
   const wrong = [...told[1].keys()].filter((key) => Object.values(kAlarms).includes(key));
@@ -183,7 +225,10 @@ function judge(gates, record) {
   gates.ask(`${phase.name}: links dead before it`, record.healed.length, 0, "");
 }
 
-function judgeMemory(gates, records) {
+/** Of the attacks on the radio: a crowd of consoles takes what the base may use for them. */
+function judgeMemory(gates, all) {
+  const records = all.filter(({ phase }) => !phase.crowd);
+  if (records.length === 0) return;
   const grown = (pair, what) => records.at(-1).figures[pair][what] - records[0].figures[pair][what];
   gates.ask(
     "memory of the base beyond the twin's",

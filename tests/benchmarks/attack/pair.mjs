@@ -4,15 +4,17 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import { spawn } from "node:child_process";
+import { createSocket } from "node:dgram";
 import { once } from "node:events";
-import { readFileSync, readdirSync } from "node:fs";
-import { createConnection } from "node:net";
+import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
+import { fileURLToPath } from "node:url";
 import { Client } from "../../system/console/client.mjs";
 import { kRoot } from "../../system/console/packages.mjs";
 import { Programs } from "../../system/console/programs.mjs";
 import { eventually, now, pause } from "../console/rig.mjs";
+import { smallDisk } from "./limits.mjs";
 
 const kVehicle =
   process.env.PITWALL_VEHICLE ?? join(kRoot, "build/release/vehicle/pitwall-vehicle");
@@ -25,15 +27,21 @@ export const kDelayMs = 5;
 const kNsPerMs = 1e6;
 const kFrameHeader = 24;
 const kEntry = 8;
-/** Text commands for the stop that the car latched; first the authority, or its renewal. */
-const kRelease = ["take 1", "release because it stands at its box"];
+const kOperator = "operator-4f1c9a7be2d05586";
+export const kViewer = "viewer-88f7d1c2a95be340";
+const kCrowd = fileURLToPath(new URL("crowd.mjs", import.meta.url));
+/** Who goes past the gate that wants a car that knows where it is, and why. */
+const kSecond = "second-0c3a5f77e19b42d8";
+const kWhy = "it stands at its box";
+const kStageEachMs = 250;
+const kReleaseName = "release stop";
 
 /** One of our own programs: its lines are heard, it ends when its input does. */
 export class Tool {
   said = "";
 
-  constructor(name, args, hear = () => {}) {
-    this.process = spawn(join(kPrograms, name), args.map(String), {
+  constructor(name, args, hear = () => {}, program = join(kPrograms, name)) {
+    this.process = spawn(program, args.map(String), {
       stdio: ["pipe", "pipe", "inherit"],
     });
     this.lines = [];
@@ -66,22 +74,47 @@ export async function freePort() {
   return port;
 }
 
-/** A console without a browser that notes how long the link was silent. */
+/** A console without a browser that notes how long the link was silent, and lets stops go. */
 export class Console extends Client {
   silences = [];
+  #staged = -Infinity;
 
   take(bytes, isBinary) {
     super.take(bytes, isBinary);
     if (!isBinary || bytes[0] !== 1) return;
-    this.silence ??= this.newest.catalogue?.fields.find(
-      ({ path }) => path === "link.silence_ms",
-    ).id;
+    const fields = this.newest.catalogue?.fields ?? [];
+    this.silence ??= fields.find(({ path }) => path === "link.silence_ms")?.id;
+    this.challengeField ??= fields.find(({ path }) => path === "mode.stop_challenge")?.id;
     const end = kFrameHeader + bytes.readUInt16LE(4) * kEntry;
     for (let entry = kFrameHeader; entry < end; entry += kEntry) {
-      if (bytes.readUInt16LE(entry) !== this.silence) continue;
+      const field = bytes.readUInt16LE(entry);
       const value = bytes.readFloatLE(entry + 4);
-      if (Number.isFinite(value)) this.silences.push({ at: now(), value });
+      if (field === this.challengeField) this.challenge = value;
+      if (field === this.silence && Number.isFinite(value)) {
+        this.silences.push({ at: now(), value });
+      }
     }
+  }
+
+  /** The next step of a release: the authority, the command, its sending past the gate. */
+  letGo() {
+    const { authority, hello, command } = this.newest;
+    if (authority?.holder !== hello.client) return this.#each({ type: "authority", do: "take" });
+    if (!(this.challenge > 0)) return;
+    const open = command?.name === kReleaseName && ["staged", "gated"].includes(command.step);
+    if (open && command.ticket !== this.sent) {
+      this.sent = command.ticket;
+      const override = { reason: kWhy, token: kSecond };
+      return this.say({ type: "send", ticket: command.ticket, override });
+    }
+    this.#each({ type: "stage", name: kReleaseName, argument: this.challenge });
+  }
+
+  /** Not more often than a client is heard. */
+  #each(message) {
+    if (now() < this.#staged + kStageEachMs) return;
+    this.#staged = now();
+    this.say(message);
   }
 }
 
@@ -123,8 +156,12 @@ export class Pair {
   async prepare(basePort, copies) {
     this.programs.radio = `127.0.0.1:${basePort}`;
     this.bus = `unix:${join(this.programs.folder, "bus")}`;
-    this.commandSocket = join(this.programs.folder, "commands");
     this.stand = await new Tool("standing_car", [this.bus], (words) => this.#hear(words)).ready();
+    this.tokens = join(this.programs.folder, "tokens");
+    const lines = `operator ${kOperator} Anna\noperator ${kSecond} Ben\nviewer ${kViewer} Garage\n`;
+    writeFileSync(this.tokens, lines, { mode: 0o600 });
+    this.recording = join(this.programs.folder, "recording");
+    this.unmount = smallDisk(this.recording);
     const more = copies === undefined ? [] : [copies];
     this.radio = await new Tool("attack_radio", [basePort, kDelayMs, ...more]).ready();
   }
@@ -136,12 +173,33 @@ export class Pair {
   }
 
   async startBase() {
-    this.address = await this.programs.startBase("--command-socket", this.commandSocket);
-    this.commands = createConnection(this.commandSocket);
-    this.commands.on("error", () => {}); // the base was killed
-    this.commands.resume();
+    const flags = ["--web-tokens", this.tokens, "--record", this.recording];
+    this.address = await this.programs.startBase(...flags);
     this.baseSince = now();
-    this.consoles.push(await Client.open(this.address, new Console()));
+    this.consoles.push(await Client.open(this.address, new Console(), "", kOperator));
+  }
+
+  /** ms until an operator with a token who comes now is there; the limit where nobody lets him. */
+  async comes(limitMs) {
+    const from = now();
+    for (const end = from + limitMs; now() < end;) {
+      const client = new Client();
+      const opened = await Client.open(this.address, client, "", kOperator).catch(() => undefined);
+      client.socket.terminate();
+      if (opened) return now() - from;
+    }
+    return limitMs;
+  }
+
+  /** A crowd at this base's console; resolves when every one was there. */
+  async crowd({ kind, count }) {
+    const token = kind === "marks" || kind === "viewers" ? [kViewer] : [];
+    const heard = {};
+    const hear = ([word, number]) => (heard[word] = Number(number ?? 1));
+    const words = [kCrowd, kind, count, this.address, ...token];
+    this.visitors = new Tool("crowd", words, hear, process.execPath);
+    this.visitors.heard = heard;
+    await eventually("a crowd", () => heard.begun);
   }
 
   startCar() {
@@ -195,14 +253,11 @@ export class Pair {
     return first ? first.at - pressed : limitMs;
   }
 
-  /**
-   * True when the car has let go of the stop. By text commands: a console's release
-   * wants a car that knows where it is.
-   */
+  /** True when the car has let go of the stop. */
   async release(limitMs) {
     for (const end = now() + limitMs; now() < end;) {
       if (this.newest.stop === 0 && now() - this.newest.at < 300) return true;
-      for (const line of kRelease) this.commands.write(`${line}\n`);
+      this.console.letGo();
       await pause(60);
     }
     return false;
@@ -222,23 +277,27 @@ export class Pair {
 
   /** Packets of the car that the base took, and datagrams that it refused, since it started. */
   async counts() {
-    const text = await (await fetch(`${this.address}/metrics`)).text();
+    const headers = { Authorization: `Bearer ${kViewer}` };
+    const text = await (await fetch(`${this.address}/metrics`, { headers })).text();
     const sum = (name) =>
       text
         .split("\n")
-        .filter((line) => line.startsWith(`${name}{`))
+        .filter((line) => line.startsWith(`${name}{`) || line.startsWith(`${name} `))
         .reduce((total, line) => total + Number(line.split(" ").at(-1)), 0);
     return {
       packets: sum("pitwall_packets_total"),
       refused: sum("pitwall_datagrams_refused_total"),
+      of: sum,
     };
   }
 
   async close() {
+    this.visitors?.close();
     this.console?.close();
-    this.commands?.destroy();
     this.radio?.close();
     this.stand?.close();
+    await this.programs.kill("base");
+    this.unmount?.();
     await this.programs.close();
   }
 }

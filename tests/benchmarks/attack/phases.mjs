@@ -5,6 +5,7 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import { kDelayMs } from "./pair.mjs";
+import { kWebPhases } from "./web_phases.mjs";
 
 /** Keys of the alarms in the base's alarm table. */
 export const kAlarms = {
@@ -146,4 +147,5 @@ export const kPhases = [
     restart: "both",
     alarms: [refused],
   },
+  ...kWebPhases,
 ];

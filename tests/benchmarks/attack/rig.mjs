@@ -7,6 +7,7 @@ import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { kBase } from "../../system/console/programs.mjs";
 import { eventually, now, pause } from "../console/rig.mjs";
+import { kLimits } from "./limits.mjs";
 import { Pair, Tool, freePort, kCarFile, startVehicle } from "./pair.mjs";
 import { kAlarms } from "./phases.mjs";
 
@@ -87,6 +88,7 @@ export class Rig {
 
   /** Begins the attack of a phase; resolves with when its first datagram left. */
   async begin(phase) {
+    if (phase.crowd) return this.#gather(phase);
     if (phase.attack) {
       delete this.heard.begun;
       delete this.heard.ended;
@@ -107,6 +109,15 @@ export class Rig {
     return eventually("the other car's first datagram", () => this.knocked, kPatienceMs);
   }
 
+  /** First the limit, then who comes. */
+  async #gather({ limit, crowd }) {
+    const { programs, recording } = this.attacked;
+    this.giveBack = limit && (await kLimits[limit](programs.base, recording));
+    const begun = now();
+    await this.attacked.crowd(crowd);
+    return begun;
+  }
+
   /** The same attack once more; what it sent so far is forgotten. */
   again(phase) {
     this.attacker.say(phase.attack);
@@ -116,6 +127,10 @@ export class Rig {
   async end(phase) {
     this.rogue?.kill("SIGKILL");
     this.rogue = undefined;
+    this.attacked.visitors?.close();
+    this.attacked.visitors = undefined;
+    this.giveBack?.();
+    this.giveBack = undefined;
     if (!phase.attack) return undefined;
     this.attacker.say("stop");
     const counts = await eventually("the attacker's end", () => this.heard.ended);

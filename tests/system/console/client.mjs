@@ -24,11 +24,16 @@ export class Client {
   frames = 0;
   dropped = 0;
 
-  /** `query`: which car, for example "?car=8". */
-  static async open(address, client = new Client(), query = "") {
-    client.socket = new WebSocket(`${address.replace("http", "ws")}/ws${query}`);
+  /** `query`: which car, for example "?car=8". `token`: of a base that asks for one. */
+  static async open(address, client = new Client(), query = "", token = undefined) {
+    const headers = token ? { Authorization: `Bearer ${token}` } : {};
+    client.socket = new WebSocket(`${address.replace("http", "ws")}/ws${query}`, { headers });
     client.socket.on("message", (data, isBinary) => client.take(data, isBinary));
-    await client.until("hello", () => client.newest.hello);
+    client.socket.on("error", (error) => (client.failed = error));
+    await client.until("hello", () => {
+      if (client.failed) throw client.failed;
+      return client.newest.hello;
+    });
     return client;
   }
 

@@ -20,7 +20,7 @@ export function Login() {
         }}
       >
         <h1>Pitwall</h1>
-        <p>This base asks who comes. Nothing is shown, and nothing is sent, before that.</p>
+        <p>This base asks who you are before it shows a car or takes a stop from here.</p>
         <label>
           your token
           <input

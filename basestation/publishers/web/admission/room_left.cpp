@@ -78,9 +78,9 @@ std::vector<MemoryUse> memory_use() {
   return uses;
 }
 
-std::string short_of_memory(std::span<const MemoryUse> uses, double share) {
+std::string short_of_memory(std::span<const MemoryUse> uses, std::uint64_t room) {
   for (const MemoryUse& use : uses) {
-    if (static_cast<double>(use.used) <= share * static_cast<double>(use.allowed)) continue;
+    if (use.used + room <= use.allowed) continue;
     return "memory: " + std::to_string(use.used / kMegabyte) + " of " +
            std::to_string(use.allowed / kMegabyte) + " MB used (" + use.bound + ")";
   }

@@ -20,14 +20,14 @@ struct MemoryUse {
   std::uint64_t used = 0, allowed = 0;  // bytes
 };
 
-inline constexpr double kComingShare = 0.85;   // of what is allowed: from here nobody comes in
-inline constexpr double kStayingShare = 0.92;  // from here who left most unread has to go
-inline constexpr int kKeptDescriptors = 16;    // for the radio, recordings, files of the console
+inline constexpr std::uint64_t kRoomToCome = 6'000'000;  // bytes: with less left nobody comes in
+inline constexpr std::uint64_t kRoomToStay = 3'000'000;  // who left most unread has to go
+inline constexpr int kKeptDescriptors = 16;  // for the radio, recordings, files of the console
 
 // Those that there are, in no order.
 std::vector<MemoryUse> memory_use();
-// "memory: 70 of 80 MB (RLIMIT_DATA)" where more than that share is used; empty: there is room.
-std::string short_of_memory(std::span<const MemoryUse> uses, double share);
+// "memory: 70 of 80 MB (RLIMIT_DATA)" where less than `room` bytes are left; empty: there is room.
+std::string short_of_memory(std::span<const MemoryUse> uses, std::uint64_t room);
 // The descriptor is the newest, so that none lower was free.
 std::string short_of_descriptors(int descriptor);
 
