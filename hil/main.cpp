@@ -10,13 +10,11 @@
 
 #include "hil/guest/bus_verb.hpp"
 #include "hil/replay/replay_verb.hpp"
-#include "hil/verbs/bench_verb.hpp"
 #include "hil/verbs/dbc_verb.hpp"
 #include "hil/verbs/demo_verb.hpp"
 #include "hil/verbs/desk_verb.hpp"
 #include "hil/verbs/exit_code.hpp"
 #include "hil/verbs/faults_verb.hpp"
-#include "hil/verbs/radio_verb.hpp"
 #include "hil/verbs/report_verb.hpp"
 #include "hil/verbs/run_verb.hpp"
 #include "hil/verbs/track_verb.hpp"
@@ -42,8 +40,6 @@ constexpr std::array kVerbs{
     Verb{"faults", "every fault of the catalogue: who notices it, how fast, and the outcome",
          verbs::faults_verb},
     Verb{"track", "tracks: check, import from a CSV, picture", verbs::track_verb},
-    Verb{"radio", "the radio's promises at length, in virtual time", verbs::radio_verb},
-    Verb{"bench", "benchmarks with gates; --help names them", verbs::bench_verb},
 };
 
 int usage(std::FILE* out, int code) {

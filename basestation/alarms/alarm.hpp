@@ -1,4 +1,4 @@
-// The life of one alarm, after ISA-18.2.
+// Life cycle of one alarm, after ISA-18.2.
 //
 //             comes              ack              goes
 //   NORMAL ----------> UNACK ----------> ACKED ----------> NORMAL
@@ -12,7 +12,8 @@
 //
 //   in     whether its bound is broken, time, acts of operators
 //   out    state, since when, how often
-//   law    only ack() and unshelve() of an operator make an unseen alarm seen. A value that is
+//   invariants
+//          only ack() and unshelve() of an operator make an unseen alarm seen. A value that is
 //          stale changes nothing: no alarm comes or goes by it
 //          delays count from the moment at which the bound was crossed; deadband on the way back
 //          chatter: from the third coming within 10 s on it is folded: counted, not announced anew,

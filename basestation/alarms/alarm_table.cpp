@@ -20,6 +20,7 @@ constexpr Situations in(std::initializer_list<Situation> list) {
 }
 constexpr Situations kAnywhere = in({});
 constexpr Situations kHeard = in({Situation::kLinkLost});  // of the car, as long as it is heard
+constexpr Situations kReceiverInUse = in({Situation::kLinkLost, Situation::kReceiverExcluded});
 constexpr Situations kArmed = in({Situation::kLinkLost, Situation::kDisarmed});
 constexpr Situations kDriving =
     in({Situation::kLinkLost, Situation::kDisarmed, Situation::kStanding, Situation::kInPit});
@@ -35,10 +36,10 @@ constexpr auto kAlarmTable = [] {
   constexpr double kYes = 0.5;
   return std::to_array<AlarmRow>({
       {"link_lost", "No packet from the car",
-       "Send the notice to race control. The car stops by its own rule. Check antenna and radios",
-       kHigh, field_id("link.state"), kAbove, 2.5, 0.0, kAtOnce, kSteady, false, kAnywhere},
+       "Tell race control. The car stops by its own rule. Check antenna and radios", kHigh,
+       field_id("link.state"), kAbove, 2.5, 0.0, kAtOnce, kSteady, false, kAnywhere},
       {"link_degraded", "The radio is degraded",
-       "Send the notice to race control with its figures. No call: the car drives on", kMedium,
+       "Tell race control, with the figures of the notice. No call: the car drives on", kMedium,
        field_id("link.state"), kAbove, 1.5, 0.0, kAtOnce, kAtOnce, false, kAnywhere, "link_lost"},
       // Whoever sends can raise these, so none is high but the one that takes our keys:
       // a high alarm bars commands.
@@ -65,12 +66,23 @@ constexpr auto kAlarmTable = [] {
        "Find the sender in the recording and block it at the router. Nothing of it has an effect",
        kMedium, field_id("link.refused_at_rate"), kAbove, kYes, 0.0, kAtOnce, kLong, false,
        kAnywhere},
-      {"emergency_stop", "Emergency stop",
-       "Tell race control. Nobody near the car before it is released at standstill", kHigh,
-       field_id("derived.stop"), kAbove, 1.5, 0.0, kAtOnce, kAtOnce, true, kHeard},
+      {"emergency_stop",
+       "Emergency stop",
+       "Tell race control. Nobody near the car before it is released at standstill",
+       kHigh,
+       field_id("derived.stop"),
+       kAbove,
+       1.5,
+       0.0,
+       kAtOnce,
+       kAtOnce,
+       true,
+       kAnywhere,
+       {},
+       true},
       {"controlled_stop", "Controlled stop", "Tell race control where the car will stand", kHigh,
-       field_id("derived.stop"), kAbove, kYes, 0.0, kAtOnce, kAtOnce, true, kHeard,
-       "emergency_stop"},
+       field_id("derived.stop"), kAbove, kYes, 0.0, kAtOnce, kAtOnce, true, kAnywhere,
+       "emergency_stop", true},
       {"watchdog_lost", "A watchdog of the car has tripped",
        "Confirm that the car stops; else controlled stop", kHigh,
        field_id("derived.watchdogs_lost"), kAbove, kYes, 0.0, kAtOnce, kSecond, false, kArmed},
@@ -81,7 +93,7 @@ constexpr auto kAlarmTable = [] {
        kHigh, field_id("derived.gnss_good"), kBelow, kYes, 0.0, kBlink, kSecond, false, kHeard},
       {"gnss_one_bad", "One GNSS receiver is bad",
        "Decide whether to drive on with the other; exclude the bad one if it misleads", kMedium,
-       field_id("derived.gnss_good"), kBelow, 1.5, 0.0, kShort, kSteady, false, kHeard,
+       field_id("derived.gnss_good"), kBelow, 1.5, 0.0, kShort, kSteady, false, kReceiverInUse,
        "gnss_both_bad"},
       {"position_lost", "The car does not know where it is", "Confirm that the car stops", kHigh,
        field_id("ego.validity"), kAbove, 2.5, 0.0, kAtOnce, kSecond, false, kArmed},

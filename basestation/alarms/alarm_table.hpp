@@ -1,5 +1,6 @@
-// Every alarm of the pit wall: what it watches, how urgent it is, what to do about it.
-//   law    ISA-18.2: an alarm demands an act; one without a response text does not compile. Each is
+// Table of all alarms of the base station: watched field, priority, response.
+//   invariants
+//          ISA-18.2: an alarm demands an act; one without a response text does not compile. Each is
 //          a bound on one field (of the car's registry or of the base's own), with deadband, delays
 //          and the states of the car in which it means nothing
 //          one that is overruled by another is not heard while that one is there
@@ -33,9 +34,10 @@ enum class Situation : std::uint8_t {
   kDisarmed,   // nobody drives
   kEngineOff,  // pressures and temperatures of an engine that does not run
   kStanding,
-  kInPit  // off every line, on tyres that people change
+  kReceiverExcluded,  // by an operator
+  kInPit              // off every line, on tyres that people change
 };
-inline constexpr std::size_t kSituations = 5;
+inline constexpr std::size_t kSituations = 6;
 struct Situations {
   std::uint8_t bits = 0;
 
@@ -61,6 +63,7 @@ struct AlarmRow {
   bool latched;  // stays until it was acknowledged and reset
   Situations silent_in;
   std::string_view overruled_by = {};
+  bool always_shown = false;  // never shelved
 };
 
 // The table in force may differ from the default in these.

@@ -122,6 +122,8 @@ Result<bool, Problem> Engine::shelve(AlarmId id, Duration length, std::string_vi
     return Unexpected{no(id, "is shelved for 10 minutes at most")};
   }
   if (reason.empty()) return Unexpected{no(id, "is shelved for a reason")};
+  if (const auto index = find(id); index && alarm_row(*index).always_shown)
+    return Unexpected{no(id, "is of a stop: it is never shelved")};
   return act(id, {by, reason}, now, [&](Alarm& alarm) { return alarm.shelve(now + length); });
 }
 

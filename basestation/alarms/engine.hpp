@@ -1,11 +1,13 @@
-// The list of alarms: every alarm of the table, judged together.
+// Alarm list: state of every alarm of the table, updated together.
 //   in     readings of the fields, the situation of the car, operators' acts, time; the caller
 //          steps it at whole multiples of the grid (watch.hpp), so that nobody's polling shows
 //   out    the list, its history, how it stands against what people can bear
-//   law    the same inputs in the same order give the same list and history
+//   invariants
+//          the same inputs in the same order give the same list and history
 //          no act and no order of events loses an alarm that nobody has seen: it is in the list,
 //          shelved or suppressed until somebody has acknowledged this very occurrence
-//          link lost suppresses every alarm on the car's values and raises exactly one
+//          link lost suppresses every alarm on the car's values but those of a stop, and raises
+//          exactly one; a stop is never shelved
 //          flood: more than 10 comings in 10 min, until 5 or fewer; the list then shows the first
 //          of each episode and the high ones. An episode lasts while any alarm is in the list
 //   ids    an occurrence's; an act that names an old one is refused: it was not what is there now

@@ -75,7 +75,8 @@ struct Evaluator::Taking {
   }
   Result<bool, Problem> operator()(const NoticeAction& act) const {
     Notices& notices = evaluator.notices_;
-    return act.send ? notices.send(act.notice, act.by) : notices.dismiss(act.notice, act.by);
+    return notices.decide(act.notice, act.told ? NoticeFate::kTold : NoticeFate::kDismissed,
+                          act.by);
   }
   Result<bool, Problem> operator()(const LimitEdit& edit) const {
     return evaluator.limits_.edit(edit);
@@ -123,6 +124,8 @@ Situations Evaluator::situations(const state::VehicleState& vehicle, Instant now
   so.set(kDisarmed, value(field("mode.mode")) == kDisarmedMode);
   so.set(kEngineOff, !(value(field("engine.running")) > 0.0));
   so.set(kStanding, std::abs(value(field("ego.vx"))) < kStanding_mps);
+  constexpr double kReceivers = 4.0;  // bits below this one, of kExcludableNames
+  so.set(kReceiverExcluded, std::fmod(value(field("localization.excluded")), kReceivers) > 0.0);
   so.set(kInPit, views_[state::index_of(state::BaseField::kInPit)].value > 0.0);
   return so;
 }

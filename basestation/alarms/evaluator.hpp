@@ -2,7 +2,8 @@
 // with time, told what changes; no clock of its own.
 //   in     the vehicle state, figures of link and base, expectations, operators' acts
 //   out    views of every field with a judgement, the list of alarms, drafts for race control
-//   law    it is stepped at whole multiples of kGrid, whatever the caller's rhythm: advance(t)
+//   invariants
+//          it is stepped at whole multiples of kGrid, whatever the caller's rhythm: advance(t)
 //          makes every step up to t with what was known until then. So the same changes at the same
 //          times give the same alarms, however often anybody asked: live, in replay, in a test.
 //          Whoever changes something therefore calls advance() with the time of the change first

@@ -1,8 +1,9 @@
-// Good, warning or bad: what a value means, by limits that people can change and that name them.
+// Limits that rate a value as good, warning or bad; people can change them.
 //   in     a field's value and quality; limits by field, defaults from kDefaultLimits
 //   out    kNone where there is no limit, no value, or the value is stale: an old value has no
 //          colour
-//   law    a value at a limit is still on its good side. Bits and enumerations have sets of values
+//   invariants
+//          a value at a limit is still on its good side. Bits and enumerations have sets of values
 //          instead of bounds
 //   errors edit(): Problem for an unknown field, bounds that are no numbers or out of order
 // SPDX-License-Identifier: Apache-2.0

@@ -123,11 +123,4 @@ Result<bool, Problem> Notices::decide(std::uint32_t id, NoticeFate fate, std::st
   return true;
 }
 
-Result<bool, Problem> Notices::send(std::uint32_t id, std::string_view by) {
-  return decide(id, NoticeFate::kSent, by);
-}
-Result<bool, Problem> Notices::dismiss(std::uint32_t id, std::string_view by) {
-  return decide(id, NoticeFate::kDismissed, by);
-}
-
 }  // namespace pitwall::alarms

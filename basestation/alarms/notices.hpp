@@ -2,7 +2,8 @@
 // control must not slow a rival for a mere delay, and must hear when it is over.
 //   in     the link's state and figures, what the car does
 //   out    drafts; one "degraded" and one "restored" for each time that the link was not good
-//   law    an episode begins when the link leaves "good" and ends when it is good again for
+//   invariants
+//          an episode begins when the link leaves "good" and ends when it is good again for
 //          kSteadyFor; what happens between is in the draft's evidence, not another message
 //   bound  the newest kKept
 // SPDX-License-Identifier: Apache-2.0
@@ -23,7 +24,7 @@ namespace pitwall::alarms {
 
 enum class NoticeKind : std::uint8_t { kDegraded, kRestored };
 std::string_view text_of(NoticeKind kind);
-enum class NoticeFate : std::uint8_t { kDraft, kSent, kDismissed };
+enum class NoticeFate : std::uint8_t { kDraft, kTold, kDismissed };
 
 struct Notice {
   std::uint32_t id = 0;
@@ -49,8 +50,8 @@ class Notices {
   static constexpr Duration kSteadyFor = seconds(2);
 
   void step(const LinkEvidence& link, Instant now);
-  Result<bool, Problem> send(std::uint32_t id, std::string_view by);
-  Result<bool, Problem> dismiss(std::uint32_t id, std::string_view by);
+  // Race control was told by a person, or need not be: nothing is sent from here.
+  Result<bool, Problem> decide(std::uint32_t id, NoticeFate fate, std::string_view by);
 
   const std::deque<Notice>& all() const { return notices_; }
   std::uint64_t revision() const { return revision_; }
@@ -61,7 +62,6 @@ class Notices {
   void tell_degraded(const LinkEvidence& link, bool lost, Instant now);
   void tell_restored(const LinkEvidence& link, Instant now);
   Notice& draft(NoticeKind kind, Instant now);
-  Result<bool, Problem> decide(std::uint32_t id, NoticeFate fate, std::string_view by);
 
   std::deque<Notice> notices_;
   std::uint32_t ids_ = 0;

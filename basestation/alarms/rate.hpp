@@ -1,7 +1,8 @@
-// How many alarms came lately, against what people can bear.
+// Alarm rate of the last minutes against the rate that an operator can handle.
 //   in     the time of each coming
 //   out    comings in the last 10 min; whether the list is flooded
-//   law    flood begins above kFloodAbove in 10 min, and is over at kFloodOver or fewer
+//   invariants
+//          flood begins above kFloodAbove in 10 min, and is over at kFloodOver or fewer
 //   bound  the newest kKept comings are known; more in 10 min count as kKept
 //   source EEMUA 191, ISA-18.2: about one in 10 min can be borne, more than 10 is a flood
 // SPDX-License-Identifier: Apache-2.0

@@ -1,5 +1,4 @@
-// Who did what, when, and what came of it. Every act of an operator leaves a line, a refused one
-// too.
+// Audit log: operator, action, time and outcome. Every action leaves a line, a refused one too.
 //   bound  the newest kKept are kept, all are counted; the recorder has them all
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,7 +1,8 @@
-// How the authority goes from one console to another: asked for, granted, refused.
+// Handover of the authority between consoles: request, grant, refusal.
 //   in     acts of consoles, time
 //   out    the holder, a request that waits; lines for the audit log
-//   law    a free authority is taken at once. A held one is asked for: its holder has kAnswer to
+//   invariants
+//          a free authority is taken at once. A held one is asked for: its holder has kAnswer to
 //          refuse; who says nothing has granted. One request waits at a time; the holder's expiry
 //          grants it at once, his renewals do not refuse it
 //          renewing, dropping and expiry are telemetry::AuthorityDesk's

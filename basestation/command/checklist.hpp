@@ -1,9 +1,9 @@
-// What is looked at before a car is let out of the pit, each item with its value and how old that
-// is, go or no-go.
+// Checklist before a run: each item with its value, its age, and go or no-go.
 //   in     the vehicle state, the base's own fields, alarms; who holds the authority; how the
 //          settings are kept; what the joystick does
 //   out    one check for each item, always all of them and in this order
-//   law    what is stale or was never heard is no-go. Nothing here sends anything or holds anything
+//   invariants
+//          what is stale or was never heard is no-go. Nothing here sends anything or holds anything
 //          back: people decide, and gates stand before each command
 //   units  ages since the value was true where it was measured
 //   source Saba et al.: the RTK login that two teams used, cold tyres, the round that was begun

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "basestation/command/value_text.hpp"
+
 namespace pitwall::command {
 namespace {
 
@@ -15,19 +17,12 @@ using telemetry::Outcome;
 
 std::string words(const telemetry::Command& command) {
   const telemetry::CommandRow& row = telemetry::row_of(command.type);
+  const bool named = !row.labels.empty() && !row.is_set() && row.has(command.argument);
+  if (named) return std::string{row.name} + " " + label(row.labels, command.argument);
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), "%g", command.argument);
   return std::string{row.name} + " " + text.data() + (row.unit.empty() ? "" : " ") +
          std::string{row.unit};
-}
-
-std::string failed(const std::vector<Gate>& gates) {
-  std::string list;
-  for (const Gate& gate : gates) {
-    if (gate.ok) continue;
-    list += (list.empty() ? "" : "; ") + std::string{text_of(gate.kind)} + ": " + gate.text;
-  }
-  return list;
 }
 
 // Why this override does not do; empty where it does.
@@ -39,7 +34,7 @@ std::string objection(const std::vector<Gate>& gates, const std::optional<Overri
     }
   }
   if (all_pass(gates)) return {};
-  if (!overriding) return "gates: " + failed(gates);
+  if (!overriding) return "gates: " + refusals_of(gates);
   if (overriding->reason.empty()) return "an override has a reason";
   if (!second_person) return {};
   const Person& second = overriding->second;
@@ -120,8 +115,12 @@ Result<TicketId, Problem> CommandQueue::stage(const Person& by, CommandType type
                                               const GateInputs& inputs) {
   const telemetry::Command command{.type = type, .argument = argument, .issuer = by.console};
   const telemetry::CommandRow& row = telemetry::row_of(type);
-  if (!(argument >= row.min && argument <= row.max)) {
-    return refuse(by, "stage " + words(command), "out of range", inputs.now);
+  if (!row.has(argument)) {
+    const char* const why = row.labels.empty() ? "out of range" : "no such value";
+    return refuse(by, "stage " + words(command), why, inputs.now);
+  }
+  if (!row.offered) {
+    return refuse(by, "stage " + words(command), "no car carries this out", inputs.now);
   }
   Ticket& ticket = tickets_.emplace_back();
   ticket.id = ++newest_;
@@ -130,7 +129,7 @@ Result<TicketId, Problem> CommandQueue::stage(const Person& by, CommandType type
   reach(ticket, Step::kStaged, inputs.now);
   ticket.gates = gates_of(command, params_, inputs);
   audit_->add(inputs.now, by.name, "stage " + words(command),
-              all_pass(ticket.gates) ? "gates pass" : "gates: " + failed(ticket.gates));
+              all_pass(ticket.gates) ? "gates pass" : "gates: " + refusals_of(ticket.gates));
   if (tickets_.size() > kKept) tickets_.pop_front();
   return newest_;
 }
@@ -160,7 +159,7 @@ Result<bool, Problem> CommandQueue::send(TicketId id, const Person& by,
     ticket->overridden = overriding;
     audit_->add(inputs.now, by.name, "override " + words(ticket->command),
                 (second_person_ ? "with " + overriding->second.name + ": " : std::string{}) +
-                    overriding->reason + " (" + failed(ticket->gates) + ")");
+                    overriding->reason + " (" + refusals_of(ticket->gates) + ")");
   }
   reach(*ticket, Step::kGated, inputs.now);
   ticket->number = radio.issue(ticket->command, inputs.now);
@@ -201,6 +200,7 @@ Result<bool, Problem> CommandQueue::cancel(TicketId id, const Person& by, Instan
 void CommandQueue::stop(telemetry::StopLevel level, telemetry::StopReason reason, const Person& by,
                         Instant now, telemetry::StationEndpoint& radio) {
   radio.stop().demand(level, reason);
+  pressed_ = {.by = by.name, .at = now};
   audit_->add(now, by.name,
               level == telemetry::StopLevel::kEmergency ? "EMERGENCY STOP" : "controlled stop",
               "in every packet from now on");

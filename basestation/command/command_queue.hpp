@@ -1,4 +1,4 @@
-// The operator's desk: commands on their way from a thought to the car, step by step.
+// Staged operator commands and their life cycle: staged, sent, acknowledged, applied.
 //
 //   staged -> gated -> sent -> received -> applied
 //                |       |         `-> refused | expired | superseded
@@ -6,7 +6,8 @@
 //
 //   in     what operators stage, send and cancel; what the vehicle state says; what the car answers
 //   out    tickets with every step and its time; commands issued on the radio's desk; audit lines
-//   law    gates are judged when a command is staged and again when it is sent: what has passed a
+//   invariants
+//          gates are judged when a command is staged and again when it is sent: what has passed a
 //          minute ago has not passed now. One that did not pass goes only with a reason and by a
 //          second person, and never past a gate that cannot be overridden
 //          a stop needs no ticket, no gate, no authority, and is said at once, again and again
@@ -48,6 +49,11 @@ std::string_view text_of(Step step);
 constexpr bool is_final(Step step) { return step >= Step::kApplied; }
 
 using TicketId = std::uint32_t;  // from 1
+
+struct StopPress {
+  std::string by;
+  Instant at{};
+};
 
 // A reason, and the second person who agrees. Who that is the caller has found out by the token.
 struct Override {
@@ -92,6 +98,9 @@ class CommandQueue {
   void stop(telemetry::StopLevel level, telemetry::StopReason reason, const Person& by, Instant now,
             telemetry::StationEndpoint& radio);
 
+  // The newest stop that was pressed here.
+  const std::optional<StopPress>& pressed() const { return pressed_; }
+
   // How far the car got; what is staged too long expires. After every packet, and before the
   // tickets are shown.
   void follow(const state::VehicleState& vehicle, const telemetry::StationEndpoint& radio,
@@ -114,6 +123,7 @@ class CommandQueue {
   bool second_person_;
   Audit* audit_;
   std::deque<Ticket> tickets_;
+  std::optional<StopPress> pressed_;
   std::uint64_t revision_ = 0, issued_ = 0;
   TicketId newest_ = 0;
 };

@@ -67,8 +67,13 @@ class Judge {
     return in_.evaluator.view(in_.vehicle, state::id_of(base), in_.now);
   }
 
+  // What the value is called: by its unit, or by a word of its own.
+  struct Shown {
+    std::string_view unit = {};
+    std::string word = {};
+  };
   // `ok` counts only where the value is known and not stale.
-  void add(GateKind kind, const FieldView& seen, bool ok, std::string text) {
+  void add(GateKind kind, const FieldView& seen, bool ok, Shown shown, std::string text) {
     const bool known = state::usable(seen) && !std::isnan(seen.value);
     if (!known) {
       const bool never = seen.quality == state::Quality::kNever || std::isnan(seen.value);
@@ -78,6 +83,8 @@ class Judge {
     gates_.push_back({.kind = kind,
                       .ok = known && ok,
                       .value = seen.value,
+                      .unit = shown.unit,
+                      .word = std::move(shown.word),
                       .age = seen.age,
                       .known = known,
                       .text = std::move(text)});
@@ -118,19 +125,22 @@ class Judge {
     if (state::usable(silence)) {
       seen.age = {static_cast<std::int64_t>(silence.value * 1e6)};  // of the newest packet
     }
-    add(GateKind::kLink, seen, enough, "link " + label(state::kLinkStates, seen.value));
+    const std::string word = label(state::kLinkStates, seen.value);
+    add(GateKind::kLink, seen, enough, {.word = word}, "link " + word);
   }
   bool harmless() const { return command_.type != CommandType::kSpeedLimit || slower(); }
 
   void authority() {
     add(GateKind::kAuthority, own(in_.holder),
         command_.issuer != 0 && in_.holder == command_.issuer,
+        {.word = in_.holder == 0 ? "nobody" : "console " + std::to_string(in_.holder)},
         in_.holder == 0 ? "nobody holds it" : "held by console " + std::to_string(in_.holder));
   }
 
   void stop() {
     const FieldView seen = see(BaseField::kStop);
-    add(GateKind::kStop, seen, seen.value == 0.0, label(telemetry::kStopLevels, seen.value));
+    const std::string word = label(telemetry::kStopLevels, seen.value);
+    add(GateKind::kStop, seen, seen.value == 0.0, {.word = word}, word);
   }
 
   void flag(double speed_mps) {
@@ -144,6 +154,7 @@ class Judge {
         std::find(kVehicleFlagsThatAllow.begin(), kVehicleFlagsThatAllow.end(), vehicle.value) !=
             kVehicleFlagsThatAllow.end();
     add(GateKind::kFlag, track, track_allows && vehicle_allows,
+        {.word = label(telemetry::kTrackFlags, track.value)},
         "track " + label(telemetry::kTrackFlags, track.value) + ", vehicle " +
             label(telemetry::kVehicleFlags, vehicle.value));
   }
@@ -151,7 +162,7 @@ class Judge {
   void tyres() {
     const FieldView coldest = see(BaseField::kTyreMin);
     const double needed_c = state::tyre_needed_c(in_.evaluator.tyre_gate(), command_.argument);
-    add(GateKind::kTyres, coldest, coldest.value >= needed_c,
+    add(GateKind::kTyres, coldest, coldest.value >= needed_c, {.unit = "degC"},
         number(coldest.value, "degC") + ", " + number(needed_c, "degC") + " needed for " +
             number(command_.argument, "m/s"));
   }
@@ -161,27 +172,35 @@ class Judge {
     const double step_mps = command_.argument - now.value;
     FieldView seen = now;
     seen.value = step_mps;
-    add(GateKind::kStep, seen, step_mps <= params_.step_max_mps,
-        "+" + number(step_mps, "m/s") + ", at most +" + number(params_.step_max_mps, "m/s"));
+    add(GateKind::kStep, seen, step_mps <= params_.step_max_mps, {.unit = "m/s"},
+        (step_mps > 0.0 ? "+" : "") + number(step_mps, "m/s") + ", at most +" +
+            number(params_.step_max_mps, "m/s"));
   }
 
   void corner() {
     const FieldView ahead = see(BaseField::kCornerIn);
-    add(GateKind::kCorner, ahead, ahead.value > params_.corner_ahead.seconds(),
-        ahead.value == 0.0 ? "in a corner" : "a corner in " + number(ahead.value, "s"));
+    add(GateKind::kCorner, ahead, ahead.value > params_.corner_ahead.seconds(), {.unit = "s"},
+        ahead.value == 0.0 ? "in a corner"
+                           : "a corner in " + number(ahead.value, "s") + ", more than " +
+                                 number(params_.corner_ahead.seconds(), "s") + " needed");
   }
 
   void fuel() {
     const FieldView attempts = see(BaseField::kFuelAttempts);
-    add(GateKind::kFuel, attempts, attempts.value >= 1.0,
+    add(GateKind::kFuel, attempts, attempts.value >= 1.0, {.unit = "attempts"},
         number(see(BaseField::kFuelLaps).value, "laps") +
             ", attempts: " + number(attempts.value, "") +
-            (see(BaseField::kFuelEstimated).value > 0.0 ? "(estimate)" : ""));
+            (see(BaseField::kFuelEstimated).value > 0.0 ? " (estimate)" : ""));
   }
 
   void alarms() {
     const auto high = static_cast<double>(in_.evaluator.alarms().count(alarms::Priority::kHigh));
-    add(GateKind::kAlarms, own(high), high == 0.0, "high alarms: " + number(high, ""));
+    std::string list;
+    for (const alarms::ListedAlarm& alarm : in_.evaluator.alarms().active())
+      if (alarm.priority == alarms::Priority::kHigh)
+        list += (list.empty() ? ": " : ", ") + std::string{alarm.text};
+    add(GateKind::kAlarms, own(high), high == 0.0, {.unit = "high alarms"},
+        (high == 0.0 ? std::string{"no high alarm"} : "high alarms") + list);
   }
 
   void source() {
@@ -191,17 +210,19 @@ class Judge {
     if (state::restriction_of_track_flag(wanted) >=
             state::restriction_of_track_flag(acted_on.value) &&
         state::usable(acted_on)) {
-      add(GateKind::kSource, acted_on, true, "not less restrictive than now");
+      add(GateKind::kSource, acted_on, true,
+          {.word = label(telemetry::kTrackFlags, acted_on.value)}, "not less restrictive than now");
       return;
     }
-    add(GateKind::kSource, said, said.value == wanted,
-        "race control shows " + label(telemetry::kTrackFlags, said.value));
+    const std::string word = label(telemetry::kTrackFlags, said.value);
+    add(GateKind::kSource, said, said.value == wanted, {.word = word},
+        "race control shows " + word);
   }
 
   void standing() {
     const FieldView speed = see(field("ego.vx"));
-    add(GateKind::kStanding, speed, std::abs(speed.value) <= params_.standing_mps,
-        number(speed.value, "m/s"));
+    add(GateKind::kStanding, speed, std::abs(speed.value) <= params_.standing_mps, {.unit = "m/s"},
+        number(speed.value, "m/s") + ", at most " + number(params_.standing_mps, "m/s"));
   }
 
   const telemetry::Command& command_;
@@ -226,6 +247,15 @@ bool can_be_overridden(GateKind kind) {
 std::vector<Gate> gates_of(const telemetry::Command& command, const GateParams& params,
                            const GateInputs& inputs) {
   return Judge{command, params, inputs}.all();
+}
+
+std::string refusals_of(const std::vector<Gate>& gates) {
+  std::string list;
+  for (const Gate& gate : gates) {
+    if (gate.ok) continue;
+    list += (list.empty() ? "" : "; ") + std::string{text_of(gate.kind)} + ": " + gate.text;
+  }
+  return list;
 }
 
 bool all_pass(const std::vector<Gate>& gates) {

@@ -1,7 +1,8 @@
-// What must hold before a command may go to the car, each shown with its value and how old that is.
+// Gates of a command: conditions that must hold before it is sent, each with its value and age.
 //   in     the command, the vehicle state, the base's own fields, alarms, who holds the authority
 //   out    one check for each gate that the command has; it passes when all do
-//   law    what is stale or was never heard has not passed. A command that makes the car slower
+//   invariants
+//          what is stale or was never heard has not passed. A command that makes the car slower
 //          than now passes every gate but those of the way to it: link and authority. Stops have no
 //          gate at all and do not come here
 //   units  as each gate's text says; ages since the value was true in the car
@@ -40,7 +41,9 @@ bool can_be_overridden(GateKind kind);
 struct Gate {
   GateKind kind = GateKind::kLink;
   bool ok = false;
-  double value = kUnset;  // that it was judged by
+  double value = kUnset;    // that it was judged by
+  std::string_view unit{};  // of the value
+  std::string word{};       // of a value that has a name, instead of the number
   Duration age{};
   bool known = false;  // heard, and not stale
   std::string text;    // "29 degC, 66 degC needed for 62 m/s"
@@ -63,5 +66,7 @@ struct GateInputs {
 std::vector<Gate> gates_of(const telemetry::Command& command, const GateParams& params,
                            const GateInputs& inputs);
 bool all_pass(const std::vector<Gate>& gates);
+// "tyres: 29.0 degC, ...; step: ...": those that refuse; empty where all pass.
+std::string refusals_of(const std::vector<Gate>& gates);
 
 }  // namespace pitwall::command

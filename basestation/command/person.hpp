@@ -1,4 +1,4 @@
-// Somebody at a console of the base.
+// Operator or viewer at a console of the base station.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

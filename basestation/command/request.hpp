@@ -14,6 +14,7 @@
 #include "basestation/alarms/engine.hpp"
 #include "basestation/alarms/limits.hpp"
 #include "basestation/command/command_queue.hpp"
+#include "basestation/command/stop_episode.hpp"
 #include "protocol/telemetry/command/stop_latch.hpp"
 
 namespace pitwall::command {
@@ -24,6 +25,13 @@ struct Stop {
 };
 struct ReleaseStop {
   std::optional<Override> overriding{};
+};
+
+// A step back to driving after a stop.
+struct Recover {
+  RecoveryStep step = RecoveryStep::kRelease;
+  // Of a release: the latch that who asks has seen; none: whichever there is.
+  std::optional<double> challenge{};
 };
 
 enum class Claim : std::uint8_t { kTake, kRenew, kDrop, kRequest, kGrant, kRefuse };
@@ -73,7 +81,7 @@ struct ResetAlarm {
 };
 struct AnswerNotice {
   std::uint32_t notice = 0;
-  bool send = false;  // else it is dismissed
+  bool told = false;  // race control was told; else it need not be
 };
 
 // The round speed that race control announced; none: it was taken back.
@@ -97,7 +105,7 @@ struct EditBudget {
   std::string reason{};
 };
 
-using Request = std::variant<Stop, ReleaseStop, ClaimAuthority, StageCommand, SendTicket,
+using Request = std::variant<Stop, ReleaseStop, Recover, ClaimAuthority, StageCommand, SendTicket,
                              CancelTicket, IssueCommand, ExcludeSensor, AcknowledgeAlarms,
                              ShelveAlarm, UnshelveAlarm, ResetAlarm, AnswerNotice, ExpectRoundSpeed,
                              ReportFuel, EditAlarm, EditLimit, EditBudget>;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "basestation/command/request_executor.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -14,6 +15,7 @@ using alarms::AlarmAction;
 using telemetry::field;
 using Done = Result<bool, Problem>;
 
+constexpr double kDisarmedMode = 0.0;
 constexpr const char* kNotHolding = "you do not hold the authority";
 
 std::string quantity(double value, const char* unit) {
@@ -94,6 +96,19 @@ struct RequestExecutor::Execution {
                                 .argument = challenge,
                                 .overriding = ask.overriding});
   }
+  Done operator()(const Recover& ask) const {
+    switch (ask.step) {
+      case RecoveryStep::kRelease:
+        return release_seen(ask.challenge);
+      case RecoveryStep::kAcknowledge:
+        return acknowledge_stop();
+      case RecoveryStep::kReset:
+        return reset_stop();
+      case RecoveryStep::kArm:
+        return (*this)(IssueCommand{.type = telemetry::CommandType::kArm, .argument = 1.0});
+    }
+    return true;
+  }
   Done operator()(const ClaimAuthority& ask) const {
     AuthorityHandover& authority = executor.authority_;
     switch (ask.claim) {
@@ -166,7 +181,12 @@ struct RequestExecutor::Execution {
         AlarmAction{.kind = AlarmAction::Kind::kReset, .alarm = id, .by = by.name, .reason = {}});
   }
   Done operator()(const AnswerNotice& ask) const {
-    return judge(alarms::NoticeAction{.notice = ask.notice, .send = ask.send, .by = by.name});
+    auto done = judge(alarms::NoticeAction{.notice = ask.notice, .told = ask.told, .by = by.name});
+    executor.audit_.add(now, by.name, "notice " + std::to_string(ask.notice) + kind_of(ask.notice),
+                        !done      ? "refused: " + done.error().what
+                        : ask.told ? "race control was told"
+                                   : "not needed");
+    return done;
   }
   Done operator()(const ExpectRoundSpeed& ask) const {
     const double speed_mps = ask.speed_mps.value_or(kUnset);
@@ -204,6 +224,39 @@ struct RequestExecutor::Execution {
   }
 
  private:
+  std::string kind_of(std::uint32_t notice) const {
+    for (const alarms::Notice& one : executor.evaluator_.notices().all())
+      if (one.id == notice) return " (" + std::string{alarms::text_of(one.kind)} + ")";
+    return {};
+  }
+  bool is_in(std::string_view key, std::initializer_list<alarms::State> states) const {
+    const alarms::State state = executor.evaluator_.alarms().state(*alarms::find_alarm(key));
+    return std::find(states.begin(), states.end(), state) != states.end();
+  }
+  Done release_seen(std::optional<double> seen) const {
+    const double challenge = executor.radio_.state().values[field("mode.stop_challenge")];
+    if (seen && *seen != challenge && challenge > 0.0)
+      return refuse("release_stop", "another stop was latched since it was looked at");
+    return (*this)(ReleaseStop{});
+  }
+  Done acknowledge_stop() const {
+    Done done{Unexpected{Problem{"acknowledge", "no alarm of a stop waits for it"}}};
+    for (const std::string_view key : kStopAlarms)
+      if (is_in(key, {alarms::State::kUnack, alarms::State::kReturnedUnack}))
+        done = (*this)(AcknowledgeAlarms{.key = std::string{key}});
+    return done;
+  }
+  // The alarms first: a car that was reset is armed, and no alarm of the stop bars that.
+  Done reset_stop() const {
+    if (!holds()) return refuse("reset", kNotHolding);
+    for (const std::string_view key : kStopAlarms) {
+      if (!is_in(key, {alarms::State::kLatched})) continue;
+      if (auto done = (*this)(ResetAlarm{.key = std::string{key}}); !done) return done;
+    }
+    const double mode = executor.vehicle_.view(field("mode.mode"), now).value;
+    if (mode == kDisarmedMode) return true;  // nothing of the car is left to be reset
+    return (*this)(IssueCommand{.type = telemetry::CommandType::kReset, .argument = 1.0});
+  }
   Unexpected<Problem> refuse(const char* place, const char* why) const {
     executor.audit_.add(now, by.name, place, std::string{"refused: "} + why);
     return refusal(place, why);

@@ -1,7 +1,8 @@
-// Limits, alarms and the radio's budget, changed while the race runs.
+// Editor of limits, alarms and the radio budget during a race.
 //   in     a change with its reason, by somebody at a console; whether he holds the authority
 //   out    the change in force; a revision that counts up; lines for the audit log, refusals too
-//   law    written first, then in force: what the disk does not take is refused and not done.
+//   invariants
+//          written first, then in force: what the disk does not take is refused and not done.
 //          Nobody changes anything without the authority or without a reason
 //          the budget is never more than the base was started with
 //   errors Problem with the alarm, the field or the budget as place

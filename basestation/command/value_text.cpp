@@ -10,15 +10,17 @@
 namespace pitwall::command {
 
 std::string number(double value, const char* unit) {
-  if (std::isnan(value)) return std::string{"no "} + unit;
+  if (std::isnan(value)) return "no data";
   std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.1f %s", value, unit);
+  std::snprintf(text.data(), text.size(), "%.1f%s%s", value, *unit == '\0' ? "" : " ", unit);
   return text.data();
 }
 
 std::string label(std::string_view labels, double value) {
-  if (!(value >= 0.0)) return "unknown";
-  return std::string{telemetry::label_at(labels, static_cast<std::size_t>(value))};
+  if (!(value >= 0.0)) return "no data";
+  const auto name = telemetry::label_at(labels, static_cast<std::size_t>(value));
+  return name.empty() ? "no. " + std::to_string(static_cast<std::size_t>(value))
+                      : std::string{name};
 }
 
 }  // namespace pitwall::command

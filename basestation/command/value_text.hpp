@@ -1,6 +1,6 @@
-// The value of a field as gates and checklist say it.
+// Text of a field's value in gates and checklist.
 //   in     a value, NaN where it is not known; its unit, or the labels of its field
-//   out    "12.3 m/s", "no m/s"; a label, "unknown"
+//   out    "12.3 m/s"; a label; "no data"
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

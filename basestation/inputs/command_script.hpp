@@ -1,4 +1,4 @@
-// A file of what an operator says when: for tests and the bench.
+// Script of text commands with their times, for tests and the bench.
 //   in     lines "AT_SECONDS WORDS", times not falling; "#" and blank lines are comments. Seconds
 //          count from the first packet of the car
 //   out    the words that are due

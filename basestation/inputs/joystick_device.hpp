@@ -1,7 +1,8 @@
 // The joystick of the operator as part of the base's loop: its reports become samples for the car.
 //   in     an input device (/dev/input/event*), or any descriptor that yields struct input_event
 //   out    samples, each with the time at which it was read
-//   law    a device that is gone gives nothing: the car's own dead man ends what it said. It is
+//   invariants
+//          a device that is gone gives nothing: the car's own dead man ends what it said. It is
 //          opened again each second, and then nothing of before counts: the key is pressed anew
 //   errors open(): Problem where there is no such device at the start; later it is waited for
 // SPDX-License-Identifier: Apache-2.0

@@ -1,10 +1,10 @@
-// What a joystick says, as the kernel tells it (evdev): reports of axes and keys become samples of
-// the operator's hand.
+// Decoder of joystick reports of the kernel (evdev): axes and keys become joystick samples.
 //   in     bytes of struct input_event, in pieces of any size; which axis and key mean what
 //   out    one sample for each report of the device while the enabling key is held, never one
 //          without a report: a hand that does not speak is no hand, and dies at the sender and in
 //          the car after 100 and 200 ms
-//   law    no sample before both axes have been heard, after events were lost until both are heard
+//   invariants
+//          no sample before both axes have been heard, after events were lost until both are heard
 //          again, without the key, or with a value that is none of the calibrated range
 //   units  axes in steps of the device; a sample 0 .. 1
 //   errors counted by their reason; parse(): Problem with the entry

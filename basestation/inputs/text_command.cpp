@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -56,23 +57,34 @@ std::optional<HolderId> holder_of(std::string_view word) {
   return static_cast<HolderId>(*number);
 }
 
-// "speed_limit" is "speed limit".
+// "speed_limit" is "speed limit", and "waving_green" is "WAVING GREEN".
 bool same_name(std::string_view word, std::string_view name) {
-  return std::equal(word.begin(), word.end(), name.begin(), name.end(),
-                    [](char a, char b) { return a == b || (a == '_' && b == ' '); });
+  constexpr auto lower = [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  };
+  return std::equal(word.begin(), word.end(), name.begin(), name.end(), [lower](char a, char b) {
+    return lower(a) == lower(b) || (a == '_' && b == ' ');
+  });
 }
 
 std::optional<double> argument_of(const telemetry::CommandRow& row, std::string_view word) {
   if (const auto number = number_of<double>(word)) {
-    const bool in_range = *number >= row.min && *number <= row.max;
-    return in_range ? number : std::nullopt;
+    return row.has(*number) ? number : std::nullopt;
   }
-  const bool is_set = row.unit == telemetry::CommandRow::kBitSet;
   for (std::size_t i = 0; !telemetry::label_at(row.labels, i).empty(); ++i) {
-    if (!same_name(word, telemetry::label_at(row.labels, i))) continue;
-    return static_cast<double>(is_set ? std::size_t{1} << i : i);
+    if (!same_name(word, telemetry::label_at(row.labels, i)) || word == row.kNoValue) continue;
+    return static_cast<double>(row.is_set() ? std::size_t{1} << i : i);
   }
   return std::nullopt;
+}
+
+// What a command takes: its names, or a range with its unit.
+std::string expected_argument(const telemetry::CommandRow& row) {
+  if (!row.labels.empty())
+    return (row.is_set() ? "the sum of bits, or one of " : "one of ") + std::string{row.labels};
+  std::array<char, 80> text{};
+  std::snprintf(text.data(), text.size(), "a number from %g to %g", row.min, row.max);
+  return text.data() + (row.unit.empty() ? "" : " " + std::string{row.unit});
 }
 
 Parsed parse_sensor(std::string_view line, const Words& words, bool exclude) {
@@ -106,9 +118,7 @@ Parsed parse_issue(std::string_view line, const Words& words) {
     if (row.type == telemetry::CommandType::kReleaseStop) return wrong(line, "say release");
     const auto argument = argument_of(row, words[2]);
     if (!argument) {
-      return wrong(line, std::string{row.name} + ": a number from " + std::to_string(row.min) +
-                             " to " + std::to_string(row.max) +
-                             (row.labels.empty() ? "" : ", or one of " + std::string{row.labels}));
+      return wrong(line, std::string{row.name} + ": expected " + expected_argument(row));
     }
     return of(command::IssueCommand{
         .type = row.type, .argument = *argument, .overriding = reason_from(line, words, 3)});

@@ -1,4 +1,4 @@
-// An operator who sends text commands: a script, a client of the command socket, the stop port.
+// Source of text commands: a script, a client of the command socket, the stop port.
 //   in     one line; the request executor of the car
 //   out    the request executed in this operator's name; what is answered to it
 //   invariants  a request that was refused by a gate, the authority or the executor is refused here

@@ -1,8 +1,9 @@
-// How old what the base shows was, over the run, as one who looks each millisecond would have seen
-// it: each group on its own, and a class as a look at any of its groups.
+// Age statistics over a run, as sampled each millisecond: each group on its own, and a class as a
+// look at any of its groups.
 //   in     the state after each packet that changed it
 //   out    quantiles by class and by group
-//   law    counting begins with a group's first sample; a group that the car stops sampling grows
+//   invariants
+//          counting begins with a group's first sample; a group that the car stops sampling grows
 //          old like any other
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

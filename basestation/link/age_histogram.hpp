@@ -1,5 +1,5 @@
-// How old the newest information was, over all the time that somebody could look at it: between two
-// packets the age grows evenly, so each interval is spread over the buckets that it crosses.
+// Histogram of the age of the newest value, weighted by time: between two packets the age grows
+// evenly, so each interval is spread over the buckets that it crosses.
 //   in     stretches of time during which the age grew from `from`
 //   out    quantiles, to one millisecond, and the largest age
 //   bound  ages beyond kBuckets milliseconds share the last bucket

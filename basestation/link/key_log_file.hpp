@@ -1,4 +1,4 @@
-// The file to which a base on the bench tells the keys of its sessions, for Wireshark.
+// Key log file of a base on the bench, for Wireshark.
 //   in     path, readable by its owner only; the keys that the base was given
 //   out    what appends each session's lines to it
 //   errors Problem with the option: keys that are not for the bench; with a file that is not ours

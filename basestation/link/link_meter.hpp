@@ -1,8 +1,9 @@
-// How the radio was in the last second, five, thirty: from counters that only rise.
+// Radio figures over the last 1, 5 and 30 s, from counters that only rise.
 //   in     the link's counters, ten times a second; packets with their groups
 //   out    loss, rate, copies, late ones and round trip of a window; what each group takes of the
 //          link; what the car may send down it, reckoned from what comes and how much it calls that
-//   law    loss of a window is what was missing of what was sent in it; with nothing sent it is
+//   invariants
+//          loss of a window is what was missing of what was sent in it; with nothing sent it is
 //          not known. A session that begins anew begins the windows anew
 //   units  shares 0 .. 1, kbit/s
 // SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-// Packets of the car per second, and when the last one came.
+// Rate of the car's packets, and time of the last one.
 //   units  Hz over the last second; over the run
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

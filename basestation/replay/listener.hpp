@@ -1,4 +1,4 @@
-// Who is told what a recording says: the same calls that a live base makes.
+// Interface that a replay calls, with the calls of a live base.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,10 +1,11 @@
-// Plays a recording back as if it were live: the same picture, the same texts, at the pace that is
+// Player of a recording as if it were live: the same picture, the same texts, at the pace that is
 // asked for.
 //   in     a folder of segments; how much time has passed; speed and jumps
 //   out    calls of a Listener; the time of the recording
 //   units  Instants on the clock of the base that recorded, as the first segment has it; speed is
 //          recorded seconds per second, from -20 to 20, slower than 0.1 either way is 0.1; 0: pause
-//   law    played forward, everything is told once and in order. After a jump the Listener knows
+//   invariants
+//          played forward, everything is told once and in order. After a jump the Listener knows
 //          what the live base knew at that time: backwards is a row of jumps
 //          nothing here can send anything: there is no uplink
 //   errors open(): Problem where there is no segment that can be read. Damaged segments are read as

@@ -1,9 +1,10 @@
-// What a base station knew before it was killed: the last of its recording, told again when it
+// Restored state of a base station that was killed: the last of its recording, told again when it
 // starts, so that it goes on with the same race and its history.
 //   in     the folder that it recorded to; its clock; how far back
 //   out    calls of a Listener, oldest first, with times on the clock of now: before the start of
 //          the process, and before zero where the machine was started anew
-//   law    of another boot of the machine times are compared by UTC. What lies behind the present
+//   invariants
+//          of another boot of the machine times are compared by UTC. What lies behind the present
 //          is left out
 //   errors counted; a folder without a recording tells nothing
 // SPDX-License-Identifier: Apache-2.0

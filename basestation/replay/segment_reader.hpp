@@ -1,7 +1,8 @@
 // One segment of a recording as the calls of a Listener, from front to back.
 //   in     the bytes of a file, which must outlive the reader; the clock on which it tells times
 //   out    step(): one message each; where the file has a picture, restore() tells all of it
-//   law    values, groups and times are those that the live base had, to the bit
+//   invariants
+//          values, groups and times are those that the live base had, to the bit
 //   errors a file that is cut or damaged tells what can be read of it; messages that are no sample
 //          of their channel, and texts of no known type, are counted
 // SPDX-License-Identifier: Apache-2.0

@@ -56,7 +56,8 @@ CarService::CarService(ServiceConfig config, const telemetry::ConduitConfig& rad
     : config_(std::move(config)),
       station_(radio, randomness),
       evaluator_(config_.evaluator),
-      requests_(executor_config(config_), station_.endpoint(), vehicle_, evaluator_) {}
+      requests_(executor_config(config_), station_.endpoint(), vehicle_, evaluator_),
+      stop_(config_.gates) {}
 
 std::optional<Problem> CarService::settings_problem() const {
   return config_.store ? config_.store->unreadable() : std::nullopt;
@@ -67,7 +68,8 @@ CarIdentity CarService::identity() const {
           .name = config_.name,
           .mode = mode_text(station_.source()),
           .alarm_config = std::to_string(requests_.settings().revision()) + "-" +
-                          evaluator_.alarms().settings().version_text()};
+                          evaluator_.alarms().settings().version_text(),
+          .second_person = config_.second_person};
 }
 
 bool CarService::receive(std::span<const std::uint8_t> datagram, telemetry::PathId path,
@@ -108,6 +110,14 @@ void CarService::advance(Instant now) {
   evaluator_.advance(vehicle_, now);
   if (evaluator_.link_state() != link_measured_ || now - measured_ >= kMeasureEvery) measure(now);
   requests_.advance(now);
+  if (stop_.is_due(now)) {
+    stop_.advance({.gates = {.vehicle = vehicle_,
+                             .evaluator = evaluator_,
+                             .holder = requests_.authority().holder(now),
+                             .now = now},
+                   .queue = requests_.queue(),
+                   .events = station_.events()});
+  }
   set_budget();
   publisher_.publish(*this, messages_, now);
 }

@@ -22,6 +22,7 @@
 #include "basestation/alarms/evaluator.hpp"
 #include "basestation/command/checklist.hpp"
 #include "basestation/command/request_executor.hpp"
+#include "basestation/command/stop_episode.hpp"
 #include "basestation/link/station.hpp"
 #include "basestation/service/limits_store.hpp"
 #include "basestation/service/link_monitor.hpp"
@@ -101,6 +102,8 @@ class CarService {
   MessageLog& messages() { return messages_; }
   const MessageLog& messages() const { return messages_; }
   CarIdentity identity() const;
+  // None: it is not stopped.
+  const std::optional<command::StoppedCar>& stopped() const { return stop_.now(); }
   std::optional<Problem> settings_problem() const;
   std::vector<command::Check> checks(Instant now) const;
 
@@ -128,6 +131,7 @@ class CarService {
   alarms::Evaluator evaluator_;
   LinkMonitor monitor_;
   command::RequestExecutor requests_;
+  command::StopEpisode stop_;
   MessageLog messages_;
   MessagePublisher publisher_;
   std::function<command::JoystickState(Instant)> joystick_;

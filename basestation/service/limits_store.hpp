@@ -1,7 +1,8 @@
 // The file of limits and alarms over the life of a base: read once, written after each change.
 //   in     its path; what people changed, by the settings desk
 //   out    the settings to begin with; a line for a person where they are not the file's
-//   law    a file that cannot be read stops no base: limits and alarms hold as they came, and the
+//   invariants
+//          a file that cannot be read stops no base: limits and alarms hold as they came, and the
 //          file stays as it is until somebody changes a setting. Then the broken one is kept as
 //          FILE.broken (FILE.broken.2 and so on where that is there), and the new one takes its
 //          place. A file that is not there is made with the first change

@@ -26,6 +26,7 @@ double fuel_left_l(const CarService& car, Instant now) {
 void MessagePublisher::publish(const CarService& car, MessageLog& to, Instant now) {
   publish_identity(car, to, now);
   publish_alarms(car, to, now);
+  publish_stop(car, to, now);
   publish_commands(car, to, now);
   publish_events(car, to, now);
   publish_fuel(car, to, now);
@@ -62,6 +63,15 @@ void MessagePublisher::publish_alarms(const CarService& car, MessageLog& to, Ins
     to.add_line("notice", notice_text(notice), now);
   }
   notices_.assign(notices.all().begin(), notices.all().end());
+}
+
+void MessagePublisher::publish_stop(const CarService& car, MessageLog& to, Instant now) {
+  if (begun_ && now - stop_at_ < kStopEvery) return;
+  stop_at_ = now;
+  std::string text = stop_text(car.stopped());
+  if (text == stop_) return;
+  stop_ = std::move(text);
+  to.set_state("stop_state", stop_, now);
 }
 
 void MessagePublisher::publish_commands(const CarService& car, MessageLog& to, Instant now) {

@@ -31,10 +31,12 @@ class MessagePublisher {
 
  private:
   static constexpr Duration kChecksEvery = seconds(1), kLinkEvery = milliseconds(500),
-                            kEntriesEvery = seconds(60), kFuelEvery = milliseconds(100);
+                            kEntriesEvery = seconds(60), kFuelEvery = milliseconds(100),
+                            kStopEvery = milliseconds(200);
 
   void publish_identity(const CarService& car, MessageLog& to, Instant now);
   void publish_alarms(const CarService& car, MessageLog& to, Instant now);
+  void publish_stop(const CarService& car, MessageLog& to, Instant now);
   void publish_commands(const CarService& car, MessageLog& to, Instant now);
   void publish_tickets(const command::CommandQueue& queue, MessageLog& to, Instant now);
   void publish_fuel(const CarService& car, MessageLog& to, Instant now);
@@ -54,8 +56,8 @@ class MessagePublisher {
   std::uint64_t alarms_ = 0, alarm_events_ = 0, notice_revision_ = 0;  // as published last
   std::uint64_t tickets_ = 0, audit_ = 0, authority_ = 0, events_ = 0, entries_ = 0, settings_ = 0;
   std::vector<alarms::Notice> notices_;
-  std::string fuel_;
-  Instant authority_at_{}, entries_at_{}, checks_at_{}, link_at_{}, fuel_at_{};
+  std::string fuel_, stop_;
+  Instant authority_at_{}, entries_at_{}, checks_at_{}, link_at_{}, fuel_at_{}, stop_at_{};
   state::LinkState link_ = state::LinkState::kNone;
 };
 

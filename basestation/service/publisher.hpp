@@ -1,5 +1,5 @@
-// What the event loop serves beside a car's service: consoles, the recorder, whatever else shows or
-// keeps what comes in. A publisher never waits.
+// Interface of what the event loop serves beside a car's service: consoles, the recorder and other
+// publishers. A publisher never waits.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

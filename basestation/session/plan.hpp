@@ -1,4 +1,4 @@
-// What the stand of one car needs, read from its command line and found wrong before it begins.
+// Plan of one car's session, checked from the command line before it begins.
 //   in     command lines; the files that they name; `say`: lines for a person
 //   out    a Plan for each car; the web server's part of them all
 //   errors Problem with the option as place; two cars that have the same keys: what one of them

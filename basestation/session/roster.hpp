@@ -1,8 +1,10 @@
-// Which cars this base serves: the document /api/cars, from which a console learns what to ask for.
+// List of the cars that this base serves: the document /api/cars, from which a console learns what
+// to ask for.
 //   in     number, name, mode and link of each car
 //   out    {"cars": [{"number", "name", "mode", "link"}]}, in the order of their tabs; link is null
 //          where there is none to speak of
-//   law    told anew when one of them changes
+//   invariants
+//          told anew when one of them changes
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

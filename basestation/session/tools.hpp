@@ -1,7 +1,8 @@
-// What other tools attach to: LCM, Foxglove, Prometheus; for each car its own.
+// Publishers that other tools attach to: LCM, Foxglove, Prometheus; for each car its own.
 //   in     a stand that has begun; the board of /metrics, where there is a web server
 //   out    outlets of the stand; lines for a person, by `say`
-//   law    of several cars each has its own space, /carN, and the next port. Nothing that a tool
+//   invariants
+//          of several cars each has its own space, /carN, and the next port. Nothing that a tool
 //          says reaches a car: no outlet here has a way to the uplink
 //   errors Problem with the option as place
 // SPDX-License-Identifier: Apache-2.0

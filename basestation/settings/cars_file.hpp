@@ -1,7 +1,8 @@
 // The cars that one base serves: one, as the command line describes it, or those of a file.
 //   in     YAML, a mapping for each car
 //   out    the command line of each car: that of the whole base with the car's own words in it
-//   law    cars have nothing in common: number, keys, radio, recording and every other file or
+//   invariants
+//          cars have nothing in common: number, keys, radio, recording and every other file or
 //          device is of one car only
 //   errors Problem with file, line and column: no car or more than kCarsMax, unknown keys, numbers
 //          out of range, what two cars would share

@@ -1,5 +1,5 @@
-// Where the files lie that come with the program: beside it where it is installed, in the tree that
-// it was built from otherwise.
+// Locations of the files that come with the program: beside it where it is installed, in the tree
+// that it was built from otherwise.
 //   errors none: what is not there is told by who reads it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

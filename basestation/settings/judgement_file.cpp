@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "protocol/json/json_text.hpp"
 #include "protocol/yaml/strict_map.hpp"
 
 namespace pitwall::settings {
@@ -127,33 +128,17 @@ Judgement config_of(yaml::StrictMap& root) {
   return config;
 }
 
-// The shortest text that is read as the same number.
-std::string text_of(double value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.begin(), text.end(), value).ptr;
-  return {text.data(), end};
-}
-
-// As a YAML text in double quotes, whatever people are called.
-std::string in_quotes(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += static_cast<unsigned char>(c) < 0x20U ? ' ' : c;
-  }
-  return out + "\"";
-}
-
 std::string signature(const std::string& author, const std::string& reason) {
-  return ", author: " + in_quotes(author) + ", reason: " + in_quotes(reason) + "}\n";
+  // A JSON text is a YAML text in double quotes.
+  return ", author: " + json::quoted(author) + ", reason: " + json::quoted(reason) + "}\n";
 }
 
 std::string line(const alarms::AlarmEdit& edit) {
   const alarms::AlarmSetting& set = edit.setting;
   return "  - {alarm: " + edit.key + ", priority: " + std::string{text_of(set.priority)} +
-         ", limit: " + text_of(set.limit) + ", deadband: " + text_of(set.deadband) +
-         ", on_s: " + text_of(set.on_delay.seconds()) +
-         ", off_s: " + text_of(set.off_delay.seconds()) + signature(edit.author, edit.reason);
+         ", limit: " + json::number(set.limit) + ", deadband: " + json::number(set.deadband) +
+         ", on_s: " + json::number(set.on_delay.seconds()) +
+         ", off_s: " + json::number(set.off_delay.seconds()) + signature(edit.author, edit.reason);
 }
 
 std::string set_text(const char* key, std::uint64_t set) {
@@ -167,7 +152,7 @@ std::string set_text(const char* key, std::uint64_t set) {
 
 std::string line(const alarms::LimitEdit& edit) {
   const auto bound_text = [](const char* key, double value) {
-    return std::isnan(value) ? std::string{} : std::string{", "} + key + ": " + text_of(value);
+    return std::isnan(value) ? std::string{} : std::string{", "} + key + ": " + json::number(value);
   };
   const Limit& limit = edit.limit;
   return "  - {field: " + state::path_of(edit.field) +
@@ -180,7 +165,7 @@ std::string line(const alarms::LimitEdit& edit) {
 template <std::size_t N>
 std::string row(const char* key, const std::array<double, N>& numbers) {
   std::string out = "  " + std::string{key} + ": [";
-  for (std::size_t i = 0; i < N; ++i) out += (i == 0 ? "" : ", ") + text_of(numbers.at(i));
+  for (std::size_t i = 0; i < N; ++i) out += (i == 0 ? "" : ", ") + json::number(numbers.at(i));
   return out + "]\n";
 }
 
@@ -204,10 +189,11 @@ std::string judgement_text(const state::DeriveParams& params, const alarms::Limi
   const state::FuelPlan& fuel = params.fuel;
   std::string out =
       "version: 1\nrevision: " + std::to_string(revision) + "\n" +
-      (std::isnan(up_kbit_s) ? "" : "radio: {up_kbit_s: " + text_of(up_kbit_s) + "}\n") +
-      "fuel: {attempt_laps: " + text_of(fuel.attempt_laps) +
-      ", home_laps: " + text_of(fuel.home_laps) + ", reserve_l: " + text_of(fuel.reserve_l) +
-      ", guess_l_per_lap: " + text_of(fuel.guess_l_per_lap) + "}\ntyre_gate:\n" +
+      (std::isnan(up_kbit_s) ? "" : "radio: {up_kbit_s: " + json::number(up_kbit_s) + "}\n") +
+      "fuel: {attempt_laps: " + json::number(fuel.attempt_laps) +
+      ", home_laps: " + json::number(fuel.home_laps) +
+      ", reserve_l: " + json::number(fuel.reserve_l) +
+      ", guess_l_per_lap: " + json::number(fuel.guess_l_per_lap) + "}\ntyre_gate:\n" +
       row("speed_mps", params.tyres.speed_mps) + row("temperature_c", params.tyres.temperature_c);
   out += alarms.edits().empty() ? "alarms: []\n" : "alarms:\n";
   for (const alarms::AlarmEdit& edit : alarms.edits()) out += line(edit);

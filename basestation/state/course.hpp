@@ -3,7 +3,8 @@
 //   out    pose at a station; corner windows; the place of the next one; who is in the pit lane
 //   frames Map, as the car tells its position; offset left positive
 //   errors make(): Problem for fewer than 4 points, stations that do not rise, no numbers
-//   law    a corner window is a stretch whose curvature is at least kCornerCurvature; gaps shorter
+//   invariants
+//          a corner window is a stretch whose curvature is at least kCornerCurvature; gaps shorter
 //          than kCornerGap_m belong to it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

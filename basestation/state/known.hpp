@@ -1,4 +1,4 @@
-// All that the base judges by, beside the vehicle state: figures of the link, of the base itself,
+// Inputs of the base's judgement beside the vehicle state: figures of the link, of the base itself,
 // and what its people expect. Plain values; whoever has them tells them, with the time of the
 // change.
 //   units  as the names say; kUnset where nobody knows

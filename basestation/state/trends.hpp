@@ -1,7 +1,8 @@
-// What every field was in the last hour: for plots that look back, in bounded memory.
+// History of every field over the last hour: for plots that look back, in bounded memory.
 //   in     samples of a group as they arrive, each once; of several groups or sources
 //   out    points of one field between two times, at most as many as asked for, oldest first
-//   law    of the last kFineRows samples of a group each is kept; before that, for kCoarseLength,
+//   invariants
+//          of the last kFineRows samples of a group each is kept; before that, for kCoarseLength,
 //          the smallest and the largest value of each half second. So no spike is lost by age
 //          where more points are there than asked for, the smallest and the largest of equal spans
 //          are given: no spike is lost by asking for few

@@ -1,4 +1,4 @@
-// A field's value as people read it: a label, or a number with the decimals of its resolution.
+// Text of a field's value: a label, or a number with the decimals of its resolution.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,8 +1,9 @@
-// The air between car and base station: a link emulator for each path and direction, and what the
-// scenario does to the radio. Real time or virtual: it is told the time.
+// Radio channel between car and base station: a link emulator for each path and direction, and what
+// the scenario does to the radio. Real time or virtual: it is told the time.
 //   in     datagrams of one end; faults of the radio; now, of the scenario, never going back
 //   out    those that arrive at the other end; when the car could last hear its base
-//   law    radio_down: nothing passes either way. base_station_silent: nothing reaches the car.
+//   invariants
+//          radio_down: nothing passes either way. base_station_silent: nothing reaches the car.
 //          radio_loss: each datagram is lost with this probability. radio_delay: each comes so much
 //          later, in order (what waits in a queue that is too long)
 //          both directions of a path meet the same fades; two paths meet different ones

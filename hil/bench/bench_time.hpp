@@ -2,7 +2,8 @@
 // run is held up by the machine.
 //   in     the file in which it is kept; in a guest the line to a host that follows it
 //   out    the clock of car, guardian and bench, and over the line of the base station
-//   law    over the line, the host is at most kBehind back
+//   invariants
+//          over the line, the host is at most kBehind back
 //   errors open(): Problem with the file or the line
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,8 +1,9 @@
-// What the scenario does to the bus itself, and how the car's controller sees it.
+// Faults of the CAN bus itself, and the state of the car's controller.
 //   in     the faults of the plan; at each step of the rig the bus and now; a restart that the car
 //          asks for
 //   out    a bus that is disturbed, stalled or babbled on; the car's LinkObservation
-//   law    bus_errors: each bit is seen wrong with probability `value`. bus_transmitter: this share
+//   invariants
+//          bus_errors: each bit is seen wrong with probability `value`. bus_transmitter: this share
 //          of the car's frames is destroyed. transmit_stall: the car's controller sends nothing
 //          until the car restarts it, as where a driver's queue hangs. bus_babble: a stranger sends
 //          identifier 0 so that it fills this share of the bus; at 1 nobody else is heard

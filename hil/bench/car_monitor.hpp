@@ -1,5 +1,5 @@
-// What the car says of itself, for grading: the local report that it sends to a port of this
-// machine. The radio is sealed, and not listened in on.
+// State reported by the car, for grading: the local report that it sends to a port of this machine.
+// The radio is sealed, and not listened in on.
 //   in     datagrams at a socket on loopback
 //   out    the car's latest report; counters
 //   errors open(): Problem with the port; later counters only

@@ -1,4 +1,4 @@
-// What the car process leaves behind when it stops: its --summary file, a JSON object.
+// Summary of the car process when it stops: its --summary file, a JSON object.
 //   errors Problem with the place in the file
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

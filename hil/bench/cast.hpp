@@ -1,8 +1,10 @@
-// The processes of a live run, and what the scenario does to them: kill, stop, go on, start again.
+// Process supervisor of a live run, and the actions of the scenario on its processes: kill, stop,
+// go on, start again.
 //
 //   in     a command per role, the script (process_script.hpp), the scenario's time
 //   out    running processes; a list of what was done to whom, in words
-//   law    started again = the command for a restart, which is never armed; a process that ends
+//   invariants
+//          started again = the command for a restart, which is never armed; a process that ends
 //          although nobody killed it is an error of the run. At the end whoever is stopped goes on,
 //          so that it can be told to end. Who will be started again waits from the beginning on, as
 //          a shell that becomes the program at a word: a fork would hold the run up for long

@@ -1,8 +1,9 @@
-// A car whose clock does not run as the receivers': lockstep has one clock, so it is what the
-// receivers say of the time that is shifted, of all units alike.
+// Clock faults: a car whose clock does not run as the receivers': lockstep has one clock, so it is
+// what the receivers say of the time that is shifted, of all units alike.
 //   in     the faults of the plan; samples as the receivers make them; now
 //   out    the same with other stamps
-//   law    gps_time_step: by `value` seconds while it lasts. clock_skew: the car's clock runs fast
+//   invariants
+//          gps_time_step: by `value` seconds while it lasts. clock_skew: the car's clock runs fast
 //          by `value` parts per million, so GPS time falls back from the start of the fault on
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

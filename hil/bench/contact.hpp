@@ -1,4 +1,4 @@
-// What a contact with a wall makes of a run: it ends there, and so does the judging.
+// End of a run by a contact with a wall.
 //   in     the scenario, which may name a contact that it cannot avoid; a run's verdicts, one for
 //          each expectation of the scenario, and where the car went
 //   out    a verdict `contact` where there was one, or where the scenario names one: it fails

@@ -41,7 +41,7 @@ bool in_the_rig(BenchFaultKind kind) {
   }
 }
 
-Unexpected<Problem> refuse(const scenario::Fault& row, const std::string& what) {
+Unexpected<Problem> refuse_row(const scenario::Fault& row, const std::string& what) {
   return Unexpected{Problem{row.place, what}};
 }
 
@@ -91,10 +91,10 @@ Result<faults::BenchFault, Problem> bench_fault(const scenario::Fault& row, Benc
   if (!in_the_rig(kind) && !is_process_fault(kind) && !is_radio_fault(kind) &&
       !is_bus_fault(kind) && !is_byte_fault(kind) && !is_clock_fault(kind) &&
       !is_module_fault(kind))
-    return refuse(row, "fault \"" + row.kind + "\" is in the catalogue but not in this bench");
-  if (const char* excess = excess_of(row, of_kind)) return refuse(row, excess);
+    return refuse_row(row, "fault \"" + row.kind + "\" is in the catalogue but not in this bench");
+  if (const char* excess = excess_of(row, of_kind)) return refuse_row(row, excess);
   if (!of_kind.value.empty() && !is_sensible(kind, row.value))
-    return refuse(row, "value is missing or makes no sense: " + std::string(of_kind.value));
+    return refuse_row(row, "value is missing or makes no sense: " + std::string(of_kind.value));
   return faults::BenchFault{.kind = kind,
                             .start = Instant{} + row.at,
                             .duration = row.lasts,
@@ -117,8 +117,9 @@ bool is_own(std::uint32_t id) {
 Result<faults::FrameFault, Problem> signal_fault(const scenario::Fault& row,
                                                  faults::FrameFault fault) {
   if (!faults::has_signal(row.can_id, row.unit))
-    return refuse(row, "the bench changes no such signal: can_id and unit name it");
-  if (std::isnan(row.value)) return refuse(row, "value is missing, in the unit of the database");
+    return refuse_row(row, "the bench changes no such signal: can_id and unit name it");
+  if (std::isnan(row.value))
+    return refuse_row(row, "value is missing, in the unit of the database");
   fault.unit = static_cast<std::uint8_t>(row.unit);
   fault.value = row.value;
   return fault;
@@ -130,11 +131,11 @@ Result<faults::FrameFault, Problem> frame_fault(const scenario::Fault& row, Fram
   faults::FrameFault fault{
       .kind = kind, .start = Instant{} + row.at, .duration = row.lasts, .seed = seed};
   const bool of_signal = changes_signal(kind);
-  if (row.unit != 0 && !of_signal) return refuse(row, "this kind has no units");
+  if (row.unit != 0 && !of_signal) return refuse_row(row, "this kind has no units");
   if (row.can_id != 0) fault.id = row.can_id;
   if (of_signal) return signal_fault(row, fault);
   if (kind == FrameFaultKind::kMasquerade && !is_own(row.can_id))
-    return refuse(row, "can_id is no message that the computer alone may send");
+    return refuse_row(row, "can_id is no message that the computer alone may send");
   if (std::isnan(row.value)) return fault;
   switch (kind) {
     case FrameFaultKind::kDrop:
@@ -143,21 +144,23 @@ Result<faults::FrameFault, Problem> frame_fault(const scenario::Fault& row, Fram
     case FrameFaultKind::kUnknownId:
     case FrameFaultKind::kExtendedAlias:
     case FrameFaultKind::kMasquerade:
-      if (row.value < 0.0 || row.value > 1.0) return refuse(row, "value is a probability, 0 to 1");
+      if (row.value < 0.0 || row.value > 1.0)
+        return refuse_row(row, "value is a probability, 0 to 1");
       fault.probability = row.value;
       return fault;
     case FrameFaultKind::kDelay:
-      if (row.value < 0.0 || row.value > 1.0) return refuse(row, "value is a delay in s, 0 to 1");
+      if (row.value < 0.0 || row.value > 1.0)
+        return refuse_row(row, "value is a delay in s, 0 to 1");
       fault.delay = from_seconds(row.value);
       return fault;
     case FrameFaultKind::kBitFlip:
     case FrameFaultKind::kCounterJump:
       if (!(row.value >= 1.0 && row.value <= 64.0) || row.value != std::floor(row.value))
-        return refuse(row, "value is a count, 1 to 64");
+        return refuse_row(row, "value is a count, 1 to 64");
       fault.count = static_cast<std::uint32_t>(row.value);
       return fault;
     default:
-      return refuse(row, "this kind takes no value");
+      return refuse_row(row, "this kind takes no value");
   }
 }
 
@@ -240,12 +243,12 @@ Result<FaultPlan, Problem> plan_faults(const std::vector<scenario::Fault>& rows,
       auto fault = frame_fault(row, *kind, own_seed);
       if (!fault) return Unexpected{fault.error()};
       if (plan.frames.size() == faults::kMaxFrameFaults)
-        return refuse(row, "more faults of frames than the bench can hold");
+        return refuse_row(row, "more faults of frames than the bench can hold");
       plan.frames.push_back(*fault);
       continue;
     }
     const auto kind = faults::bench_fault_kind(row.kind);
-    if (!kind) return refuse(row, "unknown fault \"" + row.kind + "\"");
+    if (!kind) return refuse_row(row, "unknown fault \"" + row.kind + "\"");
     auto fault = bench_fault(row, *kind, own_seed);
     if (!fault) return Unexpected{fault.error()};
     (is_process_fault(*kind)  ? plan.processes

@@ -2,7 +2,8 @@
 // the car: the shared record is a value here, a process that is stopped or killed is not stepped.
 //   in     frames that its port of the bus heard, the receivers' samples, the car's outputs
 //   out    frames for the bus; the car's view of the guardian; which of the processes runs now
-//   law    a computer that is paused goes on with all that waits for it; one that is killed for a
+//   invariants
+//          a computer that is paused goes on with all that waits for it; one that is killed for a
 //          time is started anew at its end and not armed, as in faults/bench_fault.hpp
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,9 +1,11 @@
-// How far the car is from the path that it has to hold: the line that it was told to drive, and
-// from the beginning of a stop the path of that stop, planned here once more by the same planner
-// from where the car truly is. A car that no longer speaks has to stop too: its guardian does.
+// Path-deviation monitor: distance of the car from the path that it has to hold: the line that it
+// was told to drive, and from the beginning of a stop the path of that stop, planned here once more
+// by the same planner from where the car truly is. A car that no longer speaks has to stop too: its
+// guardian does.
 //   in     the truth, the mode that the car says, once per tick
 //   out    metres, not negative
-//   law    the path of a stop stays until the car says that it drives
+//   invariants
+//          the path of a stop stays until the car says that it drives
 //   cost   nothing while the car drives; in a stop one plan in kEvery
 //   errors none
 // SPDX-License-Identifier: Apache-2.0

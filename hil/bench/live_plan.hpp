@@ -1,4 +1,4 @@
-// What a live run is made of: programs, ports, files; and the command of each process.
+// Plan of a live run: programs, ports, files; and the command of each process.
 //   in     LivePlan
 //   out    argv per role, for the start and for a start after a kill. Only the first start of the
 //          car is armed

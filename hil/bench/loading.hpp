@@ -1,5 +1,4 @@
-// From file names to a scenario and a car that is ready to run: the one place where the bench opens
-// its input files.
+// Loader of a scenario and its car: the one place where the bench opens its input files.
 //   errors Problem with file:line:column; nothing is started
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

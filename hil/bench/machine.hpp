@@ -1,9 +1,10 @@
-// What a scenario does to the machine that the run is on: its clock of the day steps, its disk
-// fills up. Only ever in a guest, which nobody else uses and which is thrown away afterwards.
+// Faults of the machine that the run is on: its clock of the day steps, its disk fills up. Only
+// ever in a guest, which nobody else uses and which is thrown away afterwards.
 //
 //   in     process faults (clock_step, log_disk_full), scenario time; for a disk: a folder on it
 //   out    the clock set, the disk full; a list of what was done, in words
-//   law    what has a duration is undone at its end. The full disk is a small file system of its
+//   invariants
+//          what has a duration is undone at its end. The full disk is a small file system of its
 //          own (mount_disk), filled to the last byte
 //   errors Problem: not a guest, not root, no room; nothing has been done then
 // SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-// Where the car went: how near it came to a wall, whether it hit one, and where it was at the end.
+// Outcome of a run for the car: smallest gap to a wall, contact, place at the end.
 //   in     what is true of the car, once per tick, in the order of time
 //   out    Outcome; nothing after a contact is taken in: a run ends there, the plant knows no walls
 //   units  m/s, m

@@ -1,7 +1,8 @@
-// What is done to the processes of a live run, and when, from the faults of its scenario. Pure.
+// Timed actions on the processes of a live run, from the faults of its scenario. Pure.
 //   in     process faults, end of the run
 //   out    deeds in the order of time; of equal instants in the order of the scenario
-//   law    killed for a duration: started again at its end; paused: goes on at its end; slow: in
+//   invariants
+//          killed for a duration: started again at its end; paused: goes on at its end; slow: in
 //          every kSlowPeriod first stopped for the share, then running. What has no duration lasts
 //          until the end of the run
 //   errors none: plan_faults() has judged the values

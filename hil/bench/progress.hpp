@@ -1,11 +1,12 @@
-// What a run tells of itself while it goes on: one JSON object per line, for whoever watches it.
+// Progress messages of a run: one JSON object per line, for whoever watches it.
 //   plan    once, before the first tick: scenario, seed, duration, what is planned and expected
 //   at      every kEvery of scenario time: speed, mode, flag, laps, cross-track error by bracket,
 //           how each expectation stands, reactions
 //   event   as it happens: a fault begins or ends, a flag, a mode, a lap, a deed to a process
 //   result  once, at the end: the whole RunResult; or failure, with the reason
 //   in      the run at each tick, in the order of time; its result or the problem that ended it
-//   law     the lines of a lockstep run are the same for the same scenario, build and seed, but for
+//   invariants
+//           the lines of a lockstep run are the same for the same scenario, build and seed, but for
 //           the wall time of the result. A value that nobody knows is null
 //   bound   kEventsMax events; the line after them says how many were left out
 //   units   as the names say; times in seconds of scenario time

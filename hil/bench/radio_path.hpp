@@ -6,7 +6,8 @@
 //
 //   in     datagrams at two sockets on loopback for each path; now, of the scenario
 //   out    the same on the other side, later, fewer or never; counters
-//   law    what comes from the base goes to where the car's newest datagram of this path came from,
+//   invariants
+//          what comes from the base goes to where the car's newest datagram of this path came from,
 //          also after the car was started again. Before there is one there is nowhere to send to:
 //          counted
 //   errors open(): Problem with the port; later counters only

@@ -1,8 +1,9 @@
-// What one listener of lockstep makes of the receivers' bytes, exactly as the car's process does:
-// its own receivers, and what they gave since it last took it.
+// Receiver decoder of one node in lockstep, exactly as the car's process does: its own receivers,
+// and what they gave since it last took it.
 //   in     bytes of a unit with the instant they arrive
 //   out    samples since the last take(); when the newest byte of each unit came
-//   law    a listener that is not run loses nothing but what its lists do not hold
+//   invariants
+//          a listener that is not run loses nothing but what its lists do not hold
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

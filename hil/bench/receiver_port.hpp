@@ -1,5 +1,5 @@
-// The bench speaking as the car's receivers: the bytes of each, one UDP port each, for the car and
-// for whoever else has receivers of the same kind (the guardian).
+// UDP output of the bench's receivers: the bytes of each, one UDP port each, for the car and for
+// whoever else has receivers of the same kind (the guardian).
 //   in     samples of hil/sensors, `at` in scenario time; now, likewise
 //   out    datagrams to 127.0.0.1:port and port + 1 of every listener
 //   errors open(): Problem; a datagram that was not taken is counted by the socket

@@ -1,5 +1,5 @@
-// What reaches the car's computer of the receivers: the bytes that they would send of the rig's
-// samples, and what the scenario does to those bytes on their way. The same live and in lockstep.
+// Receiver encoder of the bench: the bytes that they would send of the rig's samples, and what the
+// scenario does to those bytes on their way. The same live and in lockstep.
 //   in     kinds of the units, as the car file has them; faults of bytes; samples, now
 //   out    bytes per unit, message by message
 // SPDX-License-Identifier: Apache-2.0

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "hil/bench/contact.hpp"
+#include "protocol/json/json_text.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -20,29 +21,16 @@ std::string format(const char* pattern, Args... args) {
   return text;
 }
 
-std::string in_quotes(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return out + "\"";
-}
-
-// JSON has no NaN and no infinity.
-std::string number(double value) {
-  return std::isfinite(value) ? format("%.9g", value) : std::string("null");
-}
-
 std::string brackets_json(const grading::CrossTrack& cross) {
   std::string out = "[";
   for (std::size_t i = 0; i < grading::kBrackets.size(); ++i) {
     const grading::ErrorStatistics& row = cross.by_bracket[i];
     out += (i == 0 ? "" : ",") + std::string("{\"from_mps\":") +
-           number(grading::kBrackets[i].from_mps) + ",\"samples\":" + std::to_string(row.samples) +
-           ",\"mean_m\":" + number(row.mean_m()) + ",\"max_m\":" + number(row.max_m) +
-           ",\"paper_best_m\":" + number(grading::kBrackets[i].paper_best_m) +
-           ",\"paper_mean_m\":" + number(grading::kBrackets[i].paper_mean_m) + "}";
+           json::number(grading::kBrackets[i].from_mps) +
+           ",\"samples\":" + std::to_string(row.samples) +
+           ",\"mean_m\":" + json::number(row.mean_m()) + ",\"max_m\":" + json::number(row.max_m) +
+           ",\"paper_best_m\":" + json::number(grading::kBrackets[i].paper_best_m) +
+           ",\"paper_mean_m\":" + json::number(grading::kBrackets[i].paper_mean_m) + "}";
   }
   return out + "]";
 }
@@ -58,40 +46,41 @@ std::string verdicts_json(const std::vector<grading::Verdict>& verdicts) {
 std::string waits_json(const std::optional<transport::ClockWaits>& waits) {
   if (!waits) return "null";
   return "{\"count\":" + std::to_string(waits->count) +
-         ",\"total_ms\":" + number(waits->total.milliseconds()) +
-         ",\"longest_ms\":" + number(waits->longest.milliseconds()) +
-         ",\"longest_at_s\":" + number(waits->longest_at.seconds()) +
-         ",\"longest_for\":" + in_quotes(waits->longest_for) + "}";
+         ",\"total_ms\":" + json::number(waits->total.milliseconds()) +
+         ",\"longest_ms\":" + json::number(waits->longest.milliseconds()) +
+         ",\"longest_at_s\":" + json::number(waits->longest_at.seconds()) +
+         ",\"longest_for\":" + json::quoted(waits->longest_for) + "}";
 }
 
 std::string real_time_json(const RealTime& t) {
   std::string bins;
   for (const std::uint64_t count : t.wake_late)
     bins += (bins.empty() ? "" : ",") + std::to_string(count);
-  return "{\"wake_late_p50_us\":" + number(t.wake_late_p50_us) +
-         ",\"wake_late_p99_us\":" + number(t.wake_late_p99_us) +
-         ",\"wake_late_max_us\":" + number(t.wake_late_max_us) +
+  return "{\"wake_late_p50_us\":" + json::number(t.wake_late_p50_us) +
+         ",\"wake_late_p99_us\":" + json::number(t.wake_late_p99_us) +
+         ",\"wake_late_max_us\":" + json::number(t.wake_late_max_us) +
          ",\"caught_up_wakes\":" + std::to_string(t.caught_up_wakes) +
-         ",\"behind_max_ms\":" + number(t.behind_max.milliseconds()) +
-         ",\"waits\":" + waits_json(t.waits) + ",\"stolen_ms\":" + number(t.stolen_ms) +
-         ",\"wake_late_bin_us\":" + number(RealTime::kWakeBin_us) + ",\"wake_late\":[" + bins +
-         "],\"step_p50_us\":" + number(t.step_p50_us) +
-         ",\"step_p99_us\":" + number(t.step_p99_us) + ",\"step_max_us\":" + number(t.step_max_us) +
+         ",\"behind_max_ms\":" + json::number(t.behind_max.milliseconds()) +
+         ",\"waits\":" + waits_json(t.waits) + ",\"stolen_ms\":" + json::number(t.stolen_ms) +
+         ",\"wake_late_bin_us\":" + json::number(RealTime::kWakeBin_us) + ",\"wake_late\":[" +
+         bins + "],\"step_p50_us\":" + json::number(t.step_p50_us) +
+         ",\"step_p99_us\":" + json::number(t.step_p99_us) +
+         ",\"step_max_us\":" + json::number(t.step_max_us) +
          ",\"missed_deadlines\":" + std::to_string(t.missed_deadlines) + "}";
 }
 
 std::string done_json(const std::vector<Done>& done) {
   std::string out = "[";
   for (std::size_t i = 0; i < done.size(); ++i)
-    out += (i == 0 ? "" : ",") + std::string("{\"at_s\":") + number(done[i].at.seconds()) +
-           ",\"what\":" + in_quotes(done[i].what) + "}";
+    out += (i == 0 ? "" : ",") + std::string("{\"at_s\":") + json::number(done[i].at.seconds()) +
+           ",\"what\":" + json::quoted(done[i].what) + "}";
   return out + "]";
 }
 
 std::string remarks_json(const std::vector<std::string>& remarks) {
   std::string out = "[";
   for (std::size_t i = 0; i < remarks.size(); ++i)
-    out += (i == 0 ? "" : ",") + in_quotes(remarks[i]);
+    out += (i == 0 ? "" : ",") + json::quoted(remarks[i]);
   return out + "]";
 }
 
@@ -149,52 +138,58 @@ std::string to_text(const RunResult& r) {
 
 std::string to_json(const Outcome& outcome) {
   const auto place = [](const Whereabouts& w) {
-    return "{\"at_s\":" + number(w.at.seconds()) + ",\"speed_mps\":" + number(w.speed_mps) +
-           ",\"cross_track_m\":" + number(w.cross_track_m) +
-           ",\"wall_gap_m\":" + number(w.wall_gap_m) + ",\"s_m\":" + number(w.s_m) + "}";
+    return "{\"at_s\":" + json::number(w.at.seconds()) +
+           ",\"speed_mps\":" + json::number(w.speed_mps) +
+           ",\"cross_track_m\":" + json::number(w.cross_track_m) +
+           ",\"wall_gap_m\":" + json::number(w.wall_gap_m) + ",\"s_m\":" + json::number(w.s_m) +
+           "}";
   };
   if (!outcome.last) return "null";
-  return "{\"text\":" + in_quotes(to_text(outcome)) +
+  return "{\"text\":" + json::quoted(to_text(outcome)) +
          ",\"contact\":" + std::string(outcome.last->contact ? "true" : "false") +
          ",\"end\":" + place(*outcome.last) + ",\"nearest_wall\":" + place(*outcome.nearest) + "}";
 }
 
 std::string to_json(const grading::Verdict& v) {
   const double first_s = v.first_violation ? (*v.first_violation - Instant{}).seconds() : kUnset;
-  return "{\"text\":" + in_quotes(v.text) + ",\"pass\":" + (v.pass ? "true" : "false") +
-         ",\"margin\":" + number(v.margin) + ",\"first_violation_s\":" + number(first_s) +
-         ",\"time_left_s\":" + number(v.time_left ? v.time_left->seconds() : kUnset) +
-         ",\"delay_s\":" + number(v.delay ? v.delay->seconds() : kUnset) +
-         ",\"place\":" + in_quotes(v.name) + ",\"reason\":" + in_quotes(v.reason) + "}";
+  return "{\"text\":" + json::quoted(v.text) + ",\"pass\":" + (v.pass ? "true" : "false") +
+         ",\"margin\":" + json::number(v.margin) +
+         ",\"first_violation_s\":" + json::number(first_s) +
+         ",\"time_left_s\":" + json::number(v.time_left ? v.time_left->seconds() : kUnset) +
+         ",\"delay_s\":" + json::number(v.delay ? v.delay->seconds() : kUnset) +
+         ",\"place\":" + json::quoted(v.name) + ",\"reason\":" + json::quoted(v.reason) + "}";
 }
 
 std::string to_json(const RunResult& r) {
-  return "{\"scenario\":" + in_quotes(r.scenario) + ",\"mode\":" + in_quotes(r.mode) +
+  return "{\"scenario\":" + json::quoted(r.scenario) + ",\"mode\":" + json::quoted(r.mode) +
          ",\"simulation\":true,\"passed\":" + (r.passed() ? "true" : "false") +
          ",\"failed_by_contact\":" + (r.failed_by_contact() ? "true" : "false") +
          ",\"timely\":" + (r.timely() ? "true" : "false") +
-         ",\"simulated_s\":" + number(r.simulated_s) + ",\"wall_s\":" + number(r.wall_s) +
+         ",\"simulated_s\":" + json::number(r.simulated_s) +
+         ",\"wall_s\":" + json::number(r.wall_s) +
          ",\"laps\":{\"finished\":" + std::to_string(r.laps.finished) +
          ",\"flying\":" + std::to_string(r.laps.flying) +
-         ",\"best_flying_s\":" + number(r.laps.best_flying_s) +
-         ",\"best_flying_mean_mps\":" + number(r.laps.best_flying_mean_mps) + "}" +
-         ",\"speed_max_mps\":" + number(r.speed_max_mps) + ",\"outcome\":" + to_json(r.outcome) +
-         ",\"cross_track_overall_m\":" + number(r.cross_track.overall.mean_m()) +
-         ",\"cross_track_max_m\":" + number(r.cross_track.overall.max_m) +
+         ",\"best_flying_s\":" + json::number(r.laps.best_flying_s) +
+         ",\"best_flying_mean_mps\":" + json::number(r.laps.best_flying_mean_mps) + "}" +
+         ",\"speed_max_mps\":" + json::number(r.speed_max_mps) +
+         ",\"outcome\":" + to_json(r.outcome) +
+         ",\"cross_track_overall_m\":" + json::number(r.cross_track.overall.mean_m()) +
+         ",\"cross_track_max_m\":" + json::number(r.cross_track.overall.max_m) +
          ",\"cross_track\":" + brackets_json(r.cross_track) +
          ",\"can\":{\"to_car\":" + std::to_string(r.traffic.to_car) +
          ",\"from_car\":" + std::to_string(r.traffic.from_car) +
          ",\"car_received\":" + std::to_string(r.traffic.car_received) +
          ",\"bench_received\":" + std::to_string(r.traffic.bench_received) +
          ",\"lost\":" + std::to_string(r.traffic.lost) +
-         ",\"bus_load\":" + number(r.traffic.bus_load) + "}" +
+         ",\"bus_load\":" + json::number(r.traffic.bus_load) + "}" +
          ",\"gate_refusals\":" + std::to_string(r.gate_refusals) +
          ",\"bus_refusals\":" + std::to_string(r.bus_refusals) +
          ",\"bus_losses\":" + std::to_string(r.bus_losses) +
          (r.real_time ? ",\"real_time\":" + real_time_json(*r.real_time) : std::string()) +
          ",\"done\":" + done_json(r.done) + ",\"remarks\":" + remarks_json(r.remarks) +
-         ",\"refused_to_arm\":" + in_quotes(r.refused_to_arm) +
-         ",\"sha256\":" + in_quotes(r.digest) + ",\"verdicts\":" + verdicts_json(r.verdicts) + "}";
+         ",\"refused_to_arm\":" + json::quoted(r.refused_to_arm) +
+         ",\"sha256\":" + json::quoted(r.digest) + ",\"verdicts\":" + verdicts_json(r.verdicts) +
+         "}";
 }
 
 }  // namespace pitwall::bench

@@ -1,4 +1,4 @@
-// What a bench run found: verdicts, cross-track error, laps, traffic, digest of its event log. The
+// Result of a bench run: verdicts, cross-track error, laps, traffic, digest of its event log. The
 // same for lockstep and live runs.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,7 +1,7 @@
-// Everything round the car's computer: plant, drive-by-wire, race control, sensors, timing, faults.
-// Advanced one plant step at a time by whoever owns the clock: the lockstep bench with virtual
-// time, the live bench with the machine's. The plant and its road are those of the scenario, as it
-// perturbs them; the map that the car drives by is not.
+// Simulated world around the car's computer: plant, drive-by-wire, race control, sensors, timing,
+// faults. Advanced one plant step at a time by whoever owns the clock: the lockstep bench with
+// virtual time, the live bench with the machine's. The plant and its road are those of the
+// scenario, as it perturbs them; the map that the car drives by is not.
 //   in     frames that the car's computer sent, now (a whole number of kRigStep since the start)
 //   out    frames for the bus, sensor samples, truth
 //   errors build(): Problem with the place in the scenario; later only counters

@@ -6,7 +6,8 @@
 //            /bus_losses   frames that never came, as the car noticed them
 //            /events       flags, modes, laps, verdicts ("pass", "fail": to_json(Verdict))
 //   metadata run: scenario, seed, mode, duration, database, bus, track file, faults (JSON list)
-//   law      the same scenario, build and seed give the same bytes
+//   invariants
+//            the same scenario, build and seed give the same bytes
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

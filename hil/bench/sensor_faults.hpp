@@ -1,7 +1,8 @@
 // Faults of sensors, as a scenario names them, carried into the sensor models.
 //   in     a fault that is active, now
 //   out    what it does to the unit or the wheel; effects of several rows add up
-//   law    a drift, a convergence, a lock grow from the start of their row
+//   invariants
+//          a drift, a convergence, a lock grow from the start of their row
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// The numbers that a scenario may put conditions on, by name, once per tick. What the car says of
+// Signals that a scenario may put conditions on, by name, once per tick. What the car says of
 // itself comes in lockstep from its outputs and in the live bench from its telemetry; everything
 // else is the bench's own truth. What its monitors see is known in lockstep alone: "seen_counter"
 // and so on, 1 in each tick in which the monitor sees something wrong.

@@ -3,7 +3,8 @@
 // scenario.
 //   in     scenario, Setup, faults; time; Inputs before and Outputs after each tick of the car
 //   out    Inputs as the rim of the real car fills them; the base's service, as the program has it
-//   law    one seed, one run. base_killed: the base is gone, and begins as another run at the
+//   invariants
+//          one seed, one run. base_killed: the base is gone, and begins as another run at the
 //          fault's end; it knows the newest stamp of its car. base_replaced: the one that begins is
 //          a spare one, at the second address that the car was told, which knows nothing.
 //          base_moved: the base is at an address that the car was not told; what goes to another

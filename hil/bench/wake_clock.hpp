@@ -1,5 +1,5 @@
-// Wakes the live bench at whole multiples of a period since the start, and says how punctual that
-// was. A late wake-up is caught up at once and counted; no multiple is left out.
+// Periodic timer of the live bench, with statistics of its lateness. A late wake-up is caught up at
+// once and counted; no multiple is left out.
 //   in     bench time, which is kept from here; none: the wall clock
 //   out    RealTime: lateness of the wake-ups that were slept for, what bench time stood for, and
 //          what the host took meanwhile

@@ -1,7 +1,8 @@
 // The error counters of one CAN controller and the state they put it in.
 //   in     what became of a frame that it sent or heard; the recessive bits while it is bus-off
 //   out    transmit and receive error counter, error state
-//   law    an error while sending: TEC + 8; while hearing: REC + 1. A frame sent: TEC - 1, not
+//   invariants
+//          an error while sending: TEC + 8; while hearing: REC + 1. A frame sent: TEC - 1, not
 //          below 0; heard: REC - 1, from above 127 to 127. Warning from 96, passive from 128,
 //          bus-off from TEC 256, all as soon as either counter is there. One that is bus-off sends
 //          and counts nothing until it is restarted and has seen 128 times 11 recessive bits in a

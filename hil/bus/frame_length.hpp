@@ -1,8 +1,9 @@
-// How long a classic CAN frame is on the wire, bit-exact: the CRC-15 is computed and every stuff
-// bit is counted.
+// Bit-exact length of a classic CAN frame on the wire: the CRC-15 is computed and every stuff bit
+// is counted.
 //   in     a data or remote frame, 11 or 29 bit identifier, not CAN FD (CHECKed)
 //   out    bits from start of frame to the end of the 3 bits of interframe space
-//   law    47 + 8n <= bits <= 55 + 10n for 11 bit identifiers, 67 + 8n .. 80 + 10n for 29 bit
+//   invariants
+//          47 + 8n <= bits <= 55 + 10n for 11 bit identifiers, 67 + 8n .. 80 + 10n for 29 bit
 //   source Bosch CAN 2.0 part B, sections 3.1 (frame), 3.1.1 (CRC), 5 (stuffing)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

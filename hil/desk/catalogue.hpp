@@ -1,9 +1,10 @@
-// Which scenarios there are: every file of a folder and of the folders in it, as a person chooses
-// among them.
+// List of the scenarios: every file of a folder and of the folders in it, as a person chooses among
+// them.
 //   in     the folder
 //   out    one row per file, by its id: the path in the folder without ".yaml". The description is
 //          the comment that the file begins with
-//   law    a file that is no scenario is listed with what is wrong with it; it cannot be started
+//   invariants
+//          a file that is no scenario is listed with what is wrong with it; it cannot be started
 //   bound  kMaxScenarios, in the order of their ids
 //   errors Problem where there is no such folder
 // SPDX-License-Identifier: Apache-2.0

@@ -1,7 +1,8 @@
-// The bench desk at its socket: clients in, runs as child processes, their progress out.
+// Socket of the bench server: clients in, runs as child processes, their progress out.
 //   in     socket path; the command that runs a scenario; the folder for what runs leave
 //   out    PROTOCOL.md
-//   law    a run is a process of its own: one that crashes leaves the desk and its clients alone.
+//   invariants
+//          a run is a process of its own: one that crashes leaves the desk and its clients alone.
 //          It ends with the desk, however that ends
 //          a stop is SIGTERM, and SIGKILL to the whole run after kStopLimit
 //   bound  kMaxClients; who is one too many is told and hung up on

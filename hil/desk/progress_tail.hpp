@@ -1,7 +1,8 @@
-// Reads a file of lines while another process writes it.
+// Reader of a file of lines while another process writes it.
 //   in     its path; the file may not be there yet
 //   out    whole lines, each once, in order
-//   law    a line without an end is no line: it may still be written. One longer than
+//   invariants
+//          a line without an end is no line: it may still be written. One longer than
 //          kLineMax_bytes is skipped and counted
 //   errors a file that is not there has no lines
 // SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-// What a client of the desk asks for, one line of JSON each: PROTOCOL.md.
+// Requests of a client of the bench server, one line of JSON each: PROTOCOL.md.
 //   in     a line
 //   out    the request
 //   errors Problem with the member as place; nothing is guessed

@@ -1,5 +1,5 @@
-// What the drive-by-wire sees of the car (Feedback) and wants from its actuators (Demand). The
-// bench maps both to its plant; this folder knows no plant.
+// Inputs (Feedback) and outputs (Demand) of the drive-by-wire model. The bench maps both to its
+// plant; this folder knows no plant.
 //   units  SI, kPa, C; angles at the steering motor, left positive; per wheel FL FR RL RR
 //   errors NaN means "not given": the report that would carry it is not sent, and that is counted
 // SPDX-License-Identifier: Apache-2.0

@@ -1,7 +1,8 @@
 // The reports of the drive-by-wire: which message is due when, and its bytes.
 //   in     Feedback, the state to report, now
 //   out    the frames that are due
-//   law    message k is due at phase_k + i * period_k on the bench's clock for every integer i;
+//   invariants
+//          message k is due at phase_k + i * period_k on the bench's clock for every integer i;
 //          phases differ, so that no two messages of one period are due at one millisecond
 //   errors a message with a NaN is left out and counted; a signal out of range saturates, counted
 //   source cycle times: the override file of the public AV-24 bridge ("mirrors the race car

@@ -1,7 +1,8 @@
 // Faults that the bench itself carries out in its models: data only, one row per kind. The scenario
 // file names them; what acts on each is the part in `acts_on`.
 //   units  of `value`: as the row says; 0 where the kind needs none
-//   law    a process that is killed for a duration is started again at its end (never armed); one
+//   invariants
+//          a process that is killed for a duration is started again at its end (never armed); one
 //          killed without a duration stays dead; one that is paused goes on at the end. A base that
 //          is replaced dies, and at the end a spare one begins at the second address of the car's
 //          list. A base that moves is elsewhere until the end, at an address of no list

@@ -4,7 +4,8 @@
 //   in     faults of kind gnss_bytes_damaged: unit, time, share of the messages that are damaged;
 //          whole messages, now
 //   out    what arrives in place of the message
-//   law    one seed, one sequence of outcomes; a fault outside its time changes nothing
+//   invariants
+//          one seed, one sequence of outcomes; a fault outside its time changes nothing
 //   cost   no allocation after the construction
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -4,7 +4,8 @@
 //   out    what is put on the bus in its place, each with the instant from which it may be sent
 //          (later than `now` for a delay: keep it in a DelayQueue)
 //   order  faults act in the order of the list, each on what the ones before it left
-//   law    one seed, one sequence of outcomes; a fault outside its time changes nothing
+//   invariants
+//          one seed, one sequence of outcomes; a fault outside its time changes nothing
 //   errors a copy beyond kMaxCopies is dropped and counted
 //   cost   no allocation
 // SPDX-License-Identifier: Apache-2.0

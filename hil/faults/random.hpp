@@ -1,5 +1,6 @@
 // The bench's own random numbers: the same on every machine and at every optimisation level.
-//   law    one seed, one sequence; uniform() lies in [0, 1)
+//   invariants
+//          one seed, one sequence; uniform() lies in [0, 1)
 //   source SplitMix64 (Steele, Lea, Flood 2014)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,9 +1,10 @@
-// Changes what one signal of a report says, and nothing else of the frame.
+// Change of one signal of a report, and nothing else of the frame.
 //   in     a frame; which of the signals of its message that the bench can change, from 0; the
 //          value
 //   out    the frame
 //   units  those of the database (km/h, kPa, %, deg; raw for sys_state)
-//   law    a value beyond what the field holds becomes the field's end; a frame of another message
+//   invariants
+//          a value beyond what the field holds becomes the field's end; a frame of another message
 //          is left as it is
 //   source protocol/can/dbc/av21.dbc
 // SPDX-License-Identifier: Apache-2.0

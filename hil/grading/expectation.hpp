@@ -1,6 +1,7 @@
-// What a scenario expects, as values: conditions on named signals and when they have to hold.
+// Expectations of a scenario as values: conditions on named signals and when they have to hold.
 //   units  of a number: those of its signal; instants since the start of the scenario
-//   law    margin(c, x) >= 0 where c holds for x, <= 0 where not; its size is the distance
+//   invariants
+//          margin(c, x) >= 0 where c holds for x, <= 0 where not; its size is the distance
 //          of x from the limit (for == and !=: from the edge of the tolerance)
 //   errors a value that is NaN meets no condition and no negation of one: margin -infinity
 //   source robustness of temporal logic: Fainekos and Pappas 2009

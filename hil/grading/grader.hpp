@@ -1,4 +1,4 @@
-// Judges a run tick by tick against a list of expectations.
+// Grader of a run, tick by tick, against a list of expectations.
 //   in     create(expectations, names of the signals); observe(now, one value per name)
 //          at each tick, in order of time
 //   out    finish(): one verdict per expectation, in order

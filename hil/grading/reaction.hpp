@@ -1,9 +1,10 @@
-// How fast the car answers a flag or a stop, and how far it drives until it stands.
+// Reaction time to a flag or a stop, and distance until standstill.
 //   in     once per tick, in the order of time: the flag's restriction and name, the stop that the
 //          car is in, speed, throttle, brake
 //   out    one Reaction for each flag that restricts more than the one before, and for each stop
 //          that the car itself begins, while it drives
-//   law    it has answered at the first tick at which the throttle is at most kThrottleShare of
+//   invariants
+//          it has answered at the first tick at which the throttle is at most kThrottleShare of
 //          what it was, or the brake kBrakeRise above it, or the car has begun a stop
 //          it stands below kStands_mps; the distance is the integral of the speed until then. A
 //          later call for less caution ends the count: the car was not to stand any more

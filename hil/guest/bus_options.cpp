@@ -150,6 +150,8 @@ Result<BusHubOptions, Problem> parse_bus_hub(std::span<const std::string> args) 
     if (args[i] == "--seconds" && i + 1 < args.size()) {
       out.length = parse_seconds(args[++i]);
       if (!out.length) return Unexpected{Problem{args[i], "not a time in seconds"}};
+    } else if (args[i] == "--clock" && i + 1 < args.size() && !args[i + 1].empty()) {
+      out.clock = args[++i];
     } else if (args[i].starts_with("--") || !out.bus.empty()) {
       return Unexpected{Problem{args[i], "unknown option, or its value is missing"}};
     } else {

@@ -1,4 +1,4 @@
-// The words after `bus exec`, `bus up` and `bus hub`, understood.
+// Command-line options of `bus exec`, `bus up` and `bus hub`.
 //   in     arguments without the verb itself
 //   out    BusExecOptions, BusUpOptions, BusHubOptions
 //   errors Problem with the word as place
@@ -42,6 +42,7 @@ Result<BusUpOptions, Problem> parse_bus_up(std::span<const std::string> args);
 struct BusHubOptions {
   std::string bus{};  // unix:PATH, whether "unix:" was written or not
   std::optional<Duration> length{};
+  std::string clock = "wall";  // or the file of bench time that waits for the hub, too
 };
 
 Result<BusHubOptions, Problem> parse_bus_hub(std::span<const std::string> args);

@@ -22,6 +22,7 @@ namespace {
 
 constexpr Duration kLongestWait = seconds(1);
 constexpr int kHubPriority = 85;
+constexpr Duration kHubTurn = milliseconds(1);
 constexpr int kLinePriority = 70;  // above the bench, below the car
 constexpr const char* kGuestLine = "/dev/ttyS0";
 
@@ -198,6 +199,8 @@ int bus_line(std::span<const std::string> args) {
 int bus_hub(std::span<const std::string> args) {
   const auto options = parse_bus_hub(args);
   if (!options) return refuse(options.error(), kExitUsage);
+  if (const auto used = transport::use_clock(options->clock); !used)
+    return refuse(used.error(), kExitUsage);
   auto stop = transport::StopSignal::install();
   if (!stop) return refuse(stop.error(), kExitUsage);
   auto hub = transport::UnixCanHub::open(options->bus);
@@ -205,10 +208,15 @@ int bus_hub(std::span<const std::string> args) {
   const auto realtime = transport::request_realtime(kHubPriority);
   std::fprintf(stderr, "pitwall-hil bus hub: serves %s, %s\n", options->bus.c_str(),
                transport::to_string(realtime).c_str());
+  if (const auto taken = transport::take_turns(); !taken) return refuse(taken.error(), kExitUsage);
+  // Bench time waits for who is late for a deadline, not for who is late with a frame.
+  const bool often = transport::has_bench_time();
   const Instant end =
       options->length ? transport::monotonic_now() + *options->length : Instant::max();
-  while (!stop->raised() && transport::monotonic_now() < end)
-    (*hub)->serve(wake_before(end), stop->fd());
+  while (!stop->raised() && transport::monotonic_now() < end) {
+    const Instant turn = transport::monotonic_now() + kHubTurn;
+    (*hub)->serve(often ? std::min(turn, end) : wake_before(end), stop->fd());
+  }
   std::printf("pitwall-hil bus hub: %s: %s\n", options->bus.c_str(),
               transport::to_text((*hub)->counters()).c_str());
   return 0;
@@ -221,7 +229,8 @@ constexpr const char* kUsage =
     "                          set up a real CAN interface (root)\n"
     "bus status IFACE...       state and counters of an interface\n"
     "bus down [IFACE]...       remove virtual interfaces\n"
-    "bus hub PATH [--seconds S] serve the bus unix:PATH, for machines without CAN\n"
+    "bus hub PATH [--seconds S] [--clock FILE]\n"
+    "                          serve the bus unix:PATH, for machines without CAN\n"
     "bus exec [--auto|--native|--guest] [--interface IFACE]... [--timeout S] [--memory MIB]\n"
     "         [--line-udp HOST_LISTEN:HOST_DEST:GUEST_LISTEN:GUEST_DEST] [--clock FILE]\n"
     "         -- COMMAND ARG...\n"

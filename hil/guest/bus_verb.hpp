@@ -7,7 +7,7 @@
 //                             listening only
 //   bus status IFACE...       its state, settings and counters
 //   bus down [IFACE]...       native only: removes virtual ones
-//   bus hub PATH [--seconds S]
+//   bus hub PATH [--seconds S] [--clock FILE]
 //                             serves the bus unix:PATH until SIGTERM, or for S seconds, and prints
 //                             its counters at the end; needs no CAN and no root
 //   bus exec [--guest|--native|--auto] [--interface IFACE]... [--timeout S] [--memory MIB]

@@ -1,5 +1,5 @@
-// What goes over the line between the bench time of a guest and that of its host: an instant, from
-// the guest where its time is, from the host how far that has been followed.
+// Message between the bench time of a guest and that of its host: an instant, from the guest where
+// its time is, from the host how far that has been followed.
 //   units  eight bytes, the lowest first: nanoseconds of the guest's bench time
 //   errors none: what is of another length is nothing
 // SPDX-License-Identifier: Apache-2.0

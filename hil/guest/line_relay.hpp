@@ -1,4 +1,4 @@
-// Carries UDP datagrams between a local port and somewhere else: the guest's serial line, or
+// Relay of UDP datagrams between a local port and somewhere else: the guest's serial line, or
 // another pair of ports where no guest is needed.
 //
 //   host                                   guest

@@ -15,12 +15,15 @@ constexpr Duration kLook = milliseconds(5);
 }  // namespace
 
 Result<std::optional<OwnHub>, Problem> OwnHub::start(const std::string& program,
-                                                     const std::string& bus) {
+                                                     const std::string& bus,
+                                                     const std::string& clock) {
   if (!transport::is_unix_bus(bus)) return std::optional<OwnHub>{};
   const auto address = transport::unix_bus_address(bus);
   if (!address) return Unexpected{address.error()};
   if (transport::hub_serves(*address)) return std::optional<OwnHub>{};
-  auto process = transport::Process::spawn({.argv = {program, "bus", "hub", bus}});
+  transport::ProcessPlan plan{.argv = {program, "bus", "hub", bus}};
+  if (!clock.empty()) plan.argv.insert(plan.argv.end(), {"--clock", clock});
+  auto process = transport::Process::spawn(plan);
   if (!process) return Unexpected{process.error()};
   const Instant limit = transport::monotonic_now() + kStartLimit;
   while (!process->poll() && transport::monotonic_now() < limit) {

@@ -1,7 +1,8 @@
-// How old the newest value is that a receiver has, as one who looks at it each millisecond sees it.
+// Age of the newest value at a receiver, sampled each millisecond.
 //   in     arrivals in order of time: when the value was made, when it came; the time to look at
 //   out    quantiles of the age over all looks; looks before the first arrival count as `unknown`
-//   law    an older value that comes late makes nothing younger
+//   invariants
+//          an older value that comes late makes nothing younger
 //   units  ms, nearest-rank quantiles
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -2,7 +2,8 @@
 // the air does not move them.
 //   in     times, which never go back
 //   out    whether the air is faded then
-//   law    one seed, one trace; the first state is drawn too, so that the trace is stationary from
+//   invariants
+//          one seed, one trace; the first state is drawn too, so that the trace is stationary from
 //          its start at Instant{}
 //   cost   one draw for each change of state that has passed
 //   source Gilbert 1960, Elliott 1963, in continuous time

@@ -2,7 +2,8 @@
 // and what the air does to datagrams. A simulation; virtual time, from Instant{} on.
 //   in     datagrams and when they were offered; where the car is, if loss depends on it
 //   out    datagrams and when they arrive
-//   law    each effect draws from its own seeded stream; fades are drawn over time, not over
+//   invariants
+//          each effect draws from its own seeded stream; fades are drawn over time, not over
 //          datagrams, so that every sender under one seed meets the same fades. What fades, fades
 //          while it is on the air: the moment when its last byte leaves decides. Whatever becomes
 //          of a datagram, it has used its time on the air. offered + duplicated = delivered + each

@@ -1,4 +1,4 @@
-// What a radio link does to datagrams: see link_emulator.hpp.
+// Parameters of the radio link emulator: see link_emulator.hpp.
 //   units  bytes per second, Duration, metres, probabilities 0 .. 1; times count from the start of
 //          the run
 // SPDX-License-Identifier: Apache-2.0

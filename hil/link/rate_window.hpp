@@ -1,7 +1,8 @@
-// The most that was sent in any window of a given length, wherever it begins.
+// Largest amount sent in any window of a given length.
 //   in     packets in order of time
 //   out    the worst window's bytes and packets; totals
-//   law    the window [t, t + length) is closed at its begin: the worst one begins with a packet
+//   invariants
+//          the window [t, t + length) is closed at its begin: the worst one begins with a packet
 //   cost   O(1) for each packet, amortised
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

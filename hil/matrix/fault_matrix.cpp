@@ -7,6 +7,7 @@
 #include "hil/bench/lockstep.hpp"
 #include "hil/matrix/catalogue.hpp"
 #include "hil/matrix/text.hpp"
+#include "protocol/json/json_text.hpp"
 #include "vehicle/pipeline/monitoring.hpp"
 
 namespace pitwall::matrix {
@@ -27,7 +28,7 @@ Detection detection(const scenario::Expectation& asked, const grading::Verdict& 
 std::string milliseconds_of(Duration d) { return format("%.0f", d.milliseconds()); }
 
 std::string json_of(const Detection& d) {
-  return "{\"by\":" + in_quotes(d.by) +
+  return "{\"by\":" + json::quoted(d.by) +
          ",\"delay_s\":" + (d.delay ? format("%.3f", d.delay->seconds()) : "null") +
          ",\"deadline_s\":" + format("%.3f", d.deadline.seconds()) +
          ",\"passed\":" + (d.passed ? "true" : "false") + "}";
@@ -37,9 +38,10 @@ std::string json_of(const FaultRow& row) {
   std::string detections;
   for (const Detection& d : row.detections)
     detections += (detections.empty() ? "" : ",") + json_of(d);
-  return "{\"id\":" + in_quotes(row.id) + ",\"scenario\":" + in_quotes(row.scenario) +
+  return "{\"id\":" + json::quoted(row.id) + ",\"scenario\":" + json::quoted(row.scenario) +
          ",\"passed\":" + (row.passed() ? "true" : "false") + ",\"detections\":[" + detections +
-         "],\"outcome\":" + in_quotes(row.outcome) + ",\"failed\":" + json_list(row.failed) + "}";
+         "],\"outcome\":" + json::quoted(row.outcome) + ",\"failed\":" + json_list(row.failed) +
+         "}";
 }
 
 std::string lines_of(const FaultRow& row) {

@@ -1,8 +1,9 @@
-// Which fault is noticed by what, how fast, and where the car ends: the scenarios of faults run one
-// by one, and the matrix of what came out.
+// Fault coverage: which monitor notices a fault, how fast, and where the car ends: the scenarios of
+// faults run one by one, and the matrix of what came out.
 //   in     loaded scenarios, named "f01_...", each with at least one `detects`
 //   out    rows, holes, a table, JSON
-//   law    a row fails if an expectation of its scenario does, if the car ends in a wall, or if it
+//   invariants
+//          a row fails if an expectation of its scenario does, if the car ends in a wall, or if it
 //          detects nothing. A fault of the catalogue without a scenario is a hole, which
 //          is a failure too
 //   errors Problem of a scenario

@@ -5,6 +5,7 @@
 
 #include "hil/bench/lockstep.hpp"
 #include "hil/matrix/text.hpp"
+#include "protocol/json/json_text.hpp"
 #include "vehicle/pipeline/monitoring.hpp"
 
 namespace pitwall::matrix {
@@ -93,13 +94,13 @@ std::string to_text(const std::vector<Proof>& proofs) {
 std::string json_of(const Proof& proof) {
   std::string failed;
   for (const Consequence& c : proof.failed)
-    failed += (failed.empty() ? "" : ",") + std::string("{\"scenario\":") + in_quotes(c.scenario) +
-              ",\"expectation\":" + in_quotes(c.expectation) +
-              ",\"reason\":" + in_quotes(c.reason) + "}";
+    failed += (failed.empty() ? "" : ",") + std::string("{\"scenario\":") +
+              json::quoted(c.scenario) + ",\"expectation\":" + json::quoted(c.expectation) +
+              ",\"reason\":" + json::quoted(c.reason) + "}";
   const InformsOnly* listed = informs_only(proof.monitor);
-  return "{\"monitor\":" + in_quotes(monitor_name(proof.monitor)) +
+  return "{\"monitor\":" + json::quoted(monitor_name(proof.monitor)) +
          ",\"asked\":" + json_list(proof.asked) + ",\"failed\":[" + failed + "],\"informs_only\":" +
-         (listed != nullptr ? in_quotes(listed->reason) : std::string("null")) + "}";
+         (listed != nullptr ? json::quoted(listed->reason) : std::string("null")) + "}";
 }
 
 }  // namespace pitwall::matrix

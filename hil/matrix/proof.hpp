@@ -1,8 +1,9 @@
-// The proof that each monitor is needed: without it a scenario fails by what the car does, in a run
-// in which nobody asks what the monitors see.
+// Proof that each monitor is needed: without it a scenario fails by what the car does, in a run in
+// which nobody asks what the monitors see.
 //   in     loaded scenarios that pass with every monitor; a monitor
 //   out    per scenario that asks for the monitor, the first expectation that fails without it
-//   law    no `seen_...` counts, of this monitor or another: a fault that is only reported proves
+//   invariants
+//          no `seen_...` counts, of this monitor or another: a fault that is only reported proves
 //          nothing. A contact that the scenario does not name counts
 //   errors Problem of a scenario
 //   cost   a run ends at the first expectation that fails

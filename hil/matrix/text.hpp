@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "protocol/json/json_text.hpp"
+
 namespace pitwall::matrix {
 
 template <class... Args>
@@ -17,16 +19,6 @@ std::string format(const char* pattern, Args... args) {
   return text.data();
 }
 
-// As a JSON string; what JSON would have to escape becomes a blank.
-inline std::string in_quotes(std::string_view words) {
-  std::string out = "\"";
-  for (const char c : words) {
-    const bool plain = c != '"' && c != '\\' && static_cast<unsigned char>(c) >= 0x20;
-    out += plain ? c : ' ';
-  }
-  return out + "\"";
-}
-
 inline std::string list_of(const std::vector<std::string>& words) {
   std::string out;
   for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
@@ -34,9 +26,9 @@ inline std::string list_of(const std::vector<std::string>& words) {
 }
 
 inline std::string json_list(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : ",") + in_quotes(word);
-  return "[" + out + "]";
+  json::Array out;
+  for (const std::string& word : words) out.json(json::quoted(word));
+  return out.str();
 }
 
 }  // namespace pitwall::matrix

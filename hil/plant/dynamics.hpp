@@ -1,4 +1,5 @@
-// Forces on the car in one state and what they do to it: the right-hand side of the plant.
+// Equations of motion: forces on the car in one state and its derivative: the right-hand side of
+// the plant.
 //   in     the continuous state, the discrete state that goes with it, the road, set points of the
 //          actuators (after delay and quantisation)
 //   out    every force and slip, and the derivative of the continuous state

@@ -1,7 +1,8 @@
 // Torque and fuel of the engine from speed and throttle.
 //   in     engine speed, rpm; throttle 0..1
 //   out    net torque at the crankshaft (negative: friction); fuel flow, kg/s
-//   law    torque between the throttles of the dyno sheet is linear in throttle, and the share of
+//   invariants
+//          torque between the throttles of the dyno sheet is linear in throttle, and the share of
 //          the full torque linear in speed; from the lowest throttle of the sheet down to closed it
 //          goes linearly to plain friction. Above the limiter fuel is cut over limiter_width_rpm
 //   fuel   Willans line: (brake torque + friction) x speed / (efficiency x heating value); none in

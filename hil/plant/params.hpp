@@ -1,5 +1,5 @@
-// What the modelled car is made of. Every default is a published figure of the AV-21, or says that
-// it is an estimate; where sources disagree the one that comes from a driven car is taken.
+// Parameters of the modelled car. Every default is a published figure of the AV-21, or says that it
+// is an estimate; where sources disagree the one that comes from a driven car is taken.
 //   sources [A] autonomalabs/autonoma-awsim vehicle and tyre assets (AV-21 simulator)
 //           [T] TUMFTM/mod_vehicle_dynamics_control, driven on the AV-21
 //           [D] linklab-uva/deep-dynamics, fitted to AV-21 laps

@@ -3,7 +3,8 @@
 //   in     a track map, what the true banking is more than the map's; where the car is and how it
 //          moves
 //   out    attitude, height and their rates, as plant::Surface takes them
-//   law    Z(s, n) = -n T + h sqrt(1 + T^2), T(s) = tan(bank). With the heading error e, the slopes
+//   invariants
+//          Z(s, n) = -n T + h sqrt(1 + T^2), T(s) = tan(bank). With the heading error e, the slopes
 //          a = Z_s / (1 - n kappa) and b = Z_n, along and across the car p = a cos e + b sin e and
 //          q = b cos e - a sin e: climb = atan p, tan(bank) = -q cos(climb). Rates by the chain
 //          rule; that of the heading enters its own equation and is solved for

@@ -3,7 +3,8 @@
 // energy and the shape of the law, not that a real tyre follows it.
 //   in     temperature, friction power in the contact patch, speed of the car
 //   out    rate of the temperature, K/s; factor on the friction coefficient, 0..1
-//   law    C dT/dt = heat share x friction power - (cooling at rest + by speed) x (T - ambient)
+//   invariants
+//          C dT/dt = heat share x friction power - (cooling at rest + by speed) x (T - ambient)
 //          grip: 1 from working_c to hot_c; falls linearly by cold_grip_loss down to ambient, and
 //          by hot_grip_loss up to ruined_c; constant beyond both
 //   errors none

@@ -1,8 +1,9 @@
-// Every number that a file may say about the modelled car: its place in the file, its place in
-// plant::Params, what is possible.
+// Table of the parameters of a plant file: its place in the file, its place in plant::Params, what
+// is possible.
 //   units  those of the names
 //   not here  what a fault moves (remaining brakes, power) and the step of the integrator
-//   law    no legal set of values makes one substep of the plant unstable, or a delay, with what a
+//   invariants
+//          no legal set of values makes one substep of the plant unstable, or a delay, with what a
 //          scenario may add to it, longer than the plant's delay lines
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -2,7 +2,8 @@
 // it: its parameters and its map stay those of its files.
 //   in     parameters or road, the perturbations
 //   out    the same, changed; what is neutral changes no bit
-//   law    mass       added with the same radius of gyration and the same centre of gravity: yaw
+//   invariants
+//          mass       added with the same radius of gyration and the same centre of gravity: yaw
 //                     inertia grows in proportion
 //          stiffness  slope of both tyre curves at zero slip times the factor, the peak as high as
 //                     before and at a slip smaller by the factor

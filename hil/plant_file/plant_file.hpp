@@ -1,5 +1,5 @@
-// A modelled car as a person writes it (hil/config/plants/*.yaml): every number with where it comes
-// from and how far it may be off.
+// Plant file (hil/config/plants/*.yaml): every number with where it comes from and how far it may
+// be off.
 //
 //   schema: 1
 //   name: av21

@@ -1,7 +1,8 @@
-// The first judge: laps from the station of a car on the closed track.
+// Lap timer: laps from the station of a car on the closed track.
 //   in     station [m] at each tick, speed, whether the track is green; ticks in order of time
 //   out    a Lap at the tick in which the car crosses the start line forwards
-//   law    lap times of consecutive laps add up to the time between the first and the
+//   invariants
+//          lap times of consecutive laps add up to the time between the first and the
 //          last crossing; rolling back over the line and forth again is not a lap
 //   units  m, s; the crossing instant is interpolated between two ticks
 //   errors a NaN station is skipped; it does not end a lap, but the lap no longer flies

@@ -4,7 +4,8 @@
 //          every frame), 1208 and 1209 (100 ms), 1250 and 1251 (500 ms, 1250 also on a change),
 //          226 and 228 (200 ms)
 //   rate   call every 1 to 5 ms; due times stay on their grid whatever the calls
-//   law    no two consecutive 1200 frames carry the same heartbeat, unless the fault says so
+//   invariants
+//          no two consecutive 1200 frames carry the same heartbeat, unless the fault says so
 //   units  mph as race control speaks; seconds and metres otherwise
 //   errors an unsendable frame (NaN) is left out and counted
 //   source DBC of the AV-21; cycle times of the public AV-24 bridge; sync check: falls when

@@ -1,9 +1,10 @@
-// How much time may be spent waiting busily: a quarter of all time, and not much at once. The
-// kernel stops a real-time thread that is never idle (sched_rt_runtime_us: 50 ms of every second),
-// and on a machine with one processor somebody else wants to live.
+// Budget for busy waiting: a quarter of all time, and not much at once. The kernel stops a
+// real-time thread that is never idle (sched_rt_runtime_us: 50 ms of every second), and on a
+// machine with one processor somebody else wants to live.
 //   in     instants that do not run backwards, what was spent
 //   out    whether there is credit
-//   law    between any two instants no more than kMost and a quarter of the time between them is
+//   invariants
+//          between any two instants no more than kMost and a quarter of the time between them is
 //          spent, but for the last wait that was begun with credit
 //   errors none
 // SPDX-License-Identifier: Apache-2.0

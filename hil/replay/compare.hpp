@@ -1,4 +1,5 @@
-// What arrived on a bus against the log that was played: complete, in order, at which times.
+// Comparison of what arrived on a bus with the log that was played: complete, in order, at which
+// times.
 //   in     frames of the log; frames as a recorder saw them, with the kernel's stamps
 //   out    counts of lost and extra frames, whether the sequence is that of the log, and errors:
 //            lateness   arrival minus (zero + stamp of the log since its first one), where zero is
@@ -6,7 +7,8 @@
 //                       its start-up, or for a delay that is always the same
 //            gap error  |gap between two arrivals - gap between their stamps|, in order of the log
 //   units  microseconds
-//   law    a stamp that goes back counts as the latest one before it, as for the player
+//   invariants
+//          a stamp that goes back counts as the latest one before it, as for the player
 //   errors errors are absent where the sequence is not that of the log: nothing to compare
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

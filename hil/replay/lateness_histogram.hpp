@@ -1,4 +1,4 @@
-// How late frames were, by the microsecond, in a fixed amount of memory.
+// Histogram of the lateness of frames in microseconds, of fixed size.
 //   in     lateness of one frame at a time; what is early counts as on time
 //   out    quantiles (upper edge of a cell), latest and earliest exactly
 //   units  Duration; cells of 1 us up to 20 ms, later ones are kept as a maximum only

@@ -1,6 +1,6 @@
-// Sends a timeline at its due times: sleep to an absolute deadline, then hand every frame that is
-// due within kGroup to its bus in one call. Nothing lies between waking up and sending: no look at
-// a clock, no encoding, no memory that is new.
+// Player of a timeline at its due times: sleep to an absolute deadline, then hand every frame that
+// is due within kGroup to its bus in one call. Nothing lies between waking up and sending: no look
+// at a clock, no encoding, no memory that is new.
 //
 //   due      |a b|  c        |d e f|            a, b and d, e, f: one call each
 //   wake      ^     ^         ^  (what became due during the call goes along with the next one)

@@ -1,4 +1,4 @@
-// What a replay says when it is over, for people and for programs.
+// Summary of a replay as text and as JSON.
 //   in     the report of the player, the timeline that was played, what the kernel granted
 //   out    a few lines of text, or one JSON object
 //   units  microseconds in both

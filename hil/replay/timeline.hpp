@@ -1,4 +1,4 @@
-// What to send when: a log turned into one sequence per bus, ready to hand to a socket.
+// Timeline of a log: one sequence of frames per bus, ready for a socket.
 //   in     CandumpLog, which recorded channel goes to which bus, speed, what to leave out
 //   out    frames of each bus in the order of the log, with due times from the start
 //   units  nanoseconds since the start of a pass

@@ -1,4 +1,4 @@
-// What stands in the place of a plot that cannot be drawn: never an empty frame.
+// Placeholder of a plot that cannot be drawn: never an empty frame.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

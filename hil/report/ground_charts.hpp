@@ -1,5 +1,5 @@
-// Where it happened, and how hard: map of the track, cross-track error over the lap and by speed,
-// g-g diagram.
+// Charts over the track: map of the track, cross-track error over the lap and by speed, g-g
+// diagram.
 //   in     RunData; the track, where it is known: without it the map has no walls
 //   out    HTML: one plot each, or the sentence why there is none
 // SPDX-License-Identifier: Apache-2.0

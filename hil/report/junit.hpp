@@ -2,7 +2,8 @@
 //   in     RunData
 //   out    one <testsuite>; a violated expectation is a <failure> with margin and time, what is
 //          wrong with the bench or its log is an <error> in a case of its own
-//   law    failures + errors == 0 exactly where the outcome is kPass
+//   invariants
+//          failures + errors == 0 exactly where the outcome is kPass
 //   source the JUnit schema of Jenkins and Apache Ant
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

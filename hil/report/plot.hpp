@@ -3,7 +3,8 @@
 //   in     values in the units of the axes; what lies outside an axis is drawn at its edge
 //   out    svg(): an element that needs nothing from outside. Everything that shows data has the
 //          class "mark"; data-* attributes say how pixels become values, for the read-out
-//   law    the same calls give the same bytes
+//   invariants
+//          the same calls give the same bytes
 //   errors NaN makes a gap; nothing fails
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,4 +1,4 @@
-// What a report is made of: the event log of a run, read back, and the figures of its result file.
+// Input of a report: the event log of a run, read back, and the figures of its result file.
 //   in     bytes of an event log (hil/bench/run_record.hpp); text of a result file
 //          (bench::to_json(RunResult)), or none
 //   out    RunData; times are seconds since the start of the run

@@ -1,7 +1,8 @@
-// Numbers on their way to a plot: fewer points that look the same, spans of equal value, load of
-// the bus, intervals between frames.
+// Series of a plot: fewer points that look the same, spans of equal value, load of the bus,
+// intervals between frames.
 //   in     rows of RunData, sorted by time
-//   law    thinned(): keeps the least and the greatest value of every bucket and every gap, so that
+//   invariants
+//          thinned(): keeps the least and the greatest value of every bucket and every gap, so that
 //          no peak is lost; at most 4 points for each bucket
 //   units  seconds, shares of 1
 //   cost   O(points)

@@ -1,5 +1,5 @@
-// What a report says in words and numbers: header, verdicts, figures, timing of every message,
-// events, losses, health of the log.
+// Tables of a report: header, verdicts, figures, timing of every message, events, losses, health of
+// the log.
 //   in     RunData
 //   out    HTML; everything that came from a file is escaped
 // SPDX-License-Identifier: Apache-2.0

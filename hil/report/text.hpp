@@ -3,7 +3,8 @@
 //   out    escaped(): valid UTF-8 without markup. & < > " ' become entities; a line break or a tab
 //          becomes a space; what XML 1.0 forbids, what is no UTF-8 and what turns the direction of
 //          writing becomes U+FFFD
-//   law    escaped() of text without such characters is that text
+//   invariants
+//          escaped() of text without such characters is that text
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

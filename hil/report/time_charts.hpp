@@ -1,5 +1,5 @@
-// What happened when: states as lanes, then speed, cross-track error, wall, controls, load of the
-// bus and tyres, all on one time axis.
+// Charts over time: states as lanes, then speed, cross-track error, wall, controls, load of the bus
+// and tyres, all on one time axis.
 //   in     RunData
 //   out    HTML: one plot per quantity, or the sentence why there is none
 // SPDX-License-Identifier: Apache-2.0

@@ -1,6 +1,6 @@
-// What a bus with checksums has, as no car of ours has them, so that its checks of integrity are
-// asked on its own bus: status messages with counter and checksum beside those of the car, and a
-// checksum in the free last byte of race control's flags.
+// Messages with checksums, which no shipped database has, for tests of the integrity checks on
+// their own bus: status messages with counter and checksum beside those of the car, and a checksum
+// in the free last byte of race control's flags.
 //   in     now; a frame of the car's own bus
 //   out    the frames that are due, protected; the same frame with its checksum, where it has one;
 //          the rows by which both are to be judged

@@ -1,9 +1,10 @@
-// The bus of another revision of the car: what the bench's drive-by-wire and race control mean,
-// said and heard in the words of that revision.
+// CAN variant adapter: the bus of another revision of the car: what the bench's drive-by-wire and
+// race control mean, said and heard in the words of that revision.
 //   in     frames as the bench's models exchange them (av21, CAN1-INDY-V14); frames of the bus
 //   out    the same values by name in the layout of the other revision, and back; messages that
 //          only the other revision has, at their period, with values of a healthy car at rest
-//   law    V14 changes nothing, and V14 with protected messages adds those and a checksum to race
+//   invariants
+//          V14 changes nothing, and V14 with protected messages adds those and a checksum to race
 //          control's flags. What the other revision
 //          lacks is not sent; a frame of the bus is heard only if its length is right there and it
 //          says all that the model's message has

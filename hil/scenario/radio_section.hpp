@@ -4,7 +4,8 @@
 //              No section: a radio that takes no time and loses nothing
 //   operator   a list of at_s and say, in the words of basestation/inputs/text_command.hpp; with
 //              every_s and until_s the same again and again
-//   law        both directions of a path meet the same fades, as on one radio link they do
+//   invariants
+//              both directions of a path meet the same fades, as on one radio link they do
 //   errors     thrown as yaml::InputError with the place, for read_scenario()
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

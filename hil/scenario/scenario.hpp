@@ -1,6 +1,6 @@
-// One bench run as a person writes it: where, which car, what race control says, what breaks, what
-// is expected. Strict YAML: an unknown key, a wrong kind or a value out of range is an error with
-// its line, and nothing is started.
+// Scenario file of one bench run: where, which car, what race control says, what breaks, what is
+// expected. Strict YAML: an unknown key, a wrong kind or a value out of range is an error with its
+// line, and nothing is started.
 //   in     text of a scenario file, its name for messages
 //   out    Scenario; times are seconds of scenario time
 //   errors Problem with file:line:column

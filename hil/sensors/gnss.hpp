@@ -1,7 +1,8 @@
 // One receiver with two antennas: what it makes of the sky and of its inertial unit at an epoch.
 //   in     the truth, what all receivers see wrong alike (Sky), the unit's own errors, its faults
 //   out    samples without unit and time
-//   law    error of a position = wander that both units share + wander of its own + white; all of
+//   invariants
+//          error of a position = wander that both units share + wander of its own + white; all of
 //          them grow with the deviation of the kind of solution. What it reports of it is
 //          that deviation, give or take a tenth, in single precision
 //   frames geodetic WGS 84 at the datum; velocity and heading as BESTVEL and HEADING2 have them

@@ -4,7 +4,8 @@
 //   out    whole messages
 //   frames IMU: Body (x forward, y left, z up) to NovAtel's vehicle frame (x right, y forward, z
 //          up), to VectorNav's body frame (x forward, y right, z down)
-//   law    what a kind of receiver has no field for is not said: NovAtel's BESTVEL no deviation,
+//   invariants
+//          what a kind of receiver has no field for is not said: NovAtel's BESTVEL no deviation,
 //          VectorNav no age of corrections and no heading of an antenna baseline
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,4 +1,4 @@
-// Which stream of random numbers is whose: a sensor never draws from another's.
+// Assignment of random streams to sensors: a sensor never draws from another's.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

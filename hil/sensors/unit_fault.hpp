@@ -1,5 +1,5 @@
-// What a scenario may do to a receiver and its inertial unit; set at any time. Noise is drawn all
-// the same, so that the samples after a fault are those of a run without it.
+// Faults of a receiver and its inertial unit; set at any time. Noise is drawn all the same, so that
+// the samples after a fault are those of a run without it.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,5 +1,5 @@
-// What a receiver with its inertial unit is like: where it sits in the car and how far what it says
-// is from the truth. Every number has its source in README.md beside this file.
+// Parameters of a receiver with its inertial unit: where it sits in the car and how far what it
+// says is from the truth. Every number has its source in README.md beside this file.
 //   units  one standard deviation unless said; per axis
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -2,7 +2,8 @@
 //   in     circumferential speeds of the unloaded tyres (rotation times nominal radius), now
 //   out    what is reported: rotation times the radius that the team set, with the growth of the
 //          tyre, the spread of the radii and the scatter of the sensors
-//   law    a tyre's radius grows with the square of its speed: the report falls short by
+//   invariants
+//          a tyre's radius grows with the square of its speed: the report falls short by
 //          growth (v^2 - calibrated^2). A sensor sees no teeth pass below kSlowest_mps
 //   rate   scatter is drawn anew every 10 ms
 //   source README.md beside this file (fitted to a recorded AV-21 drive)

@@ -2,7 +2,8 @@
 // derivatives are exact.
 //   in     points in order, the last one not the first again; wavelength below which detail goes
 //   out    equal steps of about a metre along the chords, with the direction of travel
-//   law    harmonic k of a curve of length L keeps 1 / (1 + (k cutoff / L)^6) of itself: 98 % at
+//   invariants
+//          harmonic k of a curve of length L keeps 1 / (1 + (k cutoff / L)^6) of itself: 98 % at
 //          twice the cutoff, half at the cutoff, nothing to speak of at half of it. A circle stays
 //          the circle it is
 //   units  m

@@ -1,8 +1,9 @@
-// Where a measured line or one of its walls crosses itself or the other.
+// Crossings of a measured line and its walls.
 //   in     the rows that were kept, in order
 //   out    the later of the two rows and a sentence that names the line of the other; nothing where
 //          all is apart
-//   law    walls lie at their width square to the line through a point's two neighbours. Touching
+//   invariants
+//          walls lie at their width square to the line through a point's two neighbours. Touching
 //          is crossing, but for pieces of one line that share an end. A wall that folds within one
 //          turn need not cross: that is for the fit to see, from the turn's radius
 //   cost   O(rows^2), with boxes first; rows closer than kCrossingStep_m are taken together

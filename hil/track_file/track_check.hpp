@@ -1,8 +1,9 @@
-// What a track is, in figures, and what about it is odd: before a car is let onto it.
+// Check of a track: figures, and what is odd about it: before a car is let onto it.
 //   in     a TrackDescription that world::TrackMap::build() takes (it has refused what is no track:
 //          crossing walls, an inner wall beyond the centre of its turn, an open line)
 //   out    TrackReport; warnings are sentences with their station
-//   law    closure: the built line's end against its start; correction: the largest change of
+//   invariants
+//          closure: the built line's end against its start; correction: the largest change of
 //          curvature by which the table had to be bent to close, as a share of the largest one
 //   units  m, rad, 1/m; stations in m
 // SPDX-License-Identifier: Apache-2.0

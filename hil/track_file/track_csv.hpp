@@ -1,4 +1,4 @@
-// Reads a track as the teams keep it: a CSV with one row per point of a reference line, in the
+// Reader of a track as the teams keep it: a CSV with one row per point of a reference line, in the
 // order of driving, once round. Separator ',' or ';'. The header is a line of names, also behind a
 // '#', as TUM's racetrack-database and its trajectory files have it; other '#' lines are comments.
 //

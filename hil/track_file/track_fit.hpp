@@ -1,8 +1,9 @@
-// From the rows of a CSV to a track file: the reference line made smooth and closed, knots at equal
-// steps, walls where they were measured.
+// Fit of a track file to the rows of a CSV: the reference line made smooth and closed, knots at
+// equal steps, walls where they were measured.
 //   in     rows (x, y or station, curvature; widths; banking), how far to smooth
 //   out    a TrackDescription that world::TrackMap::build() takes, and what was done to the points
-//   law    the smoothed line may lie beside a point: the walls stay where they were, so the widths
+//   invariants
+//          the smoothed line may lie beside a point: the walls stay where they were, so the widths
 //          change by as much. The curvature of a knot is the turn of the line over the step round
 //          it, so the lap turns once round exactly. Between two points a wall is straight, and a
 //          narrow point is never widened. Banking is the mean over the step round a knot, zero

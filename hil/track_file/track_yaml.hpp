@@ -1,7 +1,8 @@
 // A track as its file: what parameters::read_track() reads.
 //   in     a TrackDescription, and lines for the head of the file (a source, a licence)
 //   out    YAML, degrees for banking and headings
-//   law    read_track(to_yaml(d)) is d within 1e-3 m, 1e-9 1/m, 1e-4 degrees
+//   invariants
+//          read_track(to_yaml(d)) is d within 1e-3 m, 1e-9 1/m, 1e-4 degrees
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// Where the time of a live run is kept, by the option --clock.
+// Place of the time of a live run, by the option --clock.
 //   in     "bench", "wall", the file in which bench time is kept, for programs on this machine that
 //          were started with it; "host:FILE": likewise on the machine that a guest may be in;
 //          empty: bench, or wall where a car is attached

@@ -1,5 +1,5 @@
-// The words of a verb: which options it has, what they stand for, and the reading of them. CLI11
-// does the work behind this header, which costs a file that includes it nothing.
+// Command-line options of one subcommand: declaration, validation, help. CLI11 does the work behind
+// this header, which costs a file that includes it nothing.
 //   in     the verb's options with the variables that they fill; the words after the verb
 //   out    nothing where the verb shall go on; else the exit code with which it is over: help was
 //          asked for and given, or the words are wrong and it has been said why

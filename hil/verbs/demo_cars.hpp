@@ -1,7 +1,8 @@
 // The cars of a demo: each a bench of its own, all at one base.
 //   in     how many; the demo's folder; which buses
 //   out    numbers, names, folders, ports and buses; the base's file of cars
-//   law    no two have a folder, a port or a name of memory in common, so that they can run at once
+//   invariants
+//          no two have a folder, a port or a name of memory in common, so that they can run at once
 //          on one machine; the first of one car has what a demo of one car always had
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

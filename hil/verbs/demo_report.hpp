@@ -1,4 +1,4 @@
-// What a demo has shown, car by car: the bench's verdicts, what the base heard, what candump saw.
+// Report of a demo, car by car: the bench's verdicts, what the base heard, what candump saw.
 //   in     a car's folder as its run left it, the exit code of its run
 //   out    lines for a person; JSON for programs; whether all held
 //   errors Problem with the file that is missing or none

@@ -38,7 +38,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr Duration kBaseStop = seconds(5), kBaseStart = seconds(20), kBaseLook = milliseconds(20);
-constexpr int kBootSeconds = 120;  // for the guest, and for what it writes at its end
+// For the guest, and for what it writes at its end; and wall time per second of bench time, which
+// stands often on a slow machine.
+constexpr int kBootSeconds = 120, kSlowest = 8;
 constexpr std::uint32_t kLoopback = 0x7F00'0001U;
 
 struct DemoOptions {
@@ -148,11 +150,16 @@ std::vector<std::string> bench_words(const DemoOptions& options, const DemoCar& 
   run.candump = true;
   const std::string clock = std::exchange(run.clock, on_host(run.clock));
   std::vector<std::string> exec{
-      own_program(), "bus",
-      "exec",        "--auto",
-      "--interface", run.interface,
-      "--line-udp",  car.line_ports(),
-      "--timeout",   std::to_string(static_cast<int>(options.duration_s) + kBootSeconds)};
+      own_program(),
+      "bus",
+      "exec",
+      "--auto",
+      "--interface",
+      run.interface,
+      "--line-udp",
+      car.line_ports(),
+      "--timeout",
+      std::to_string(kSlowest * static_cast<int>(options.duration_s) + kBootSeconds)};
   if (!clock.empty()) exec.insert(exec.end(), {"--clock", clock});
   exec.emplace_back("--");
   for (std::string& word : live_command(run)) exec.push_back(std::move(word));
@@ -164,7 +171,9 @@ std::vector<std::string> bench_words(const DemoOptions& options, const DemoCar& 
 Result<std::vector<int>, Problem> run_several(const DemoOptions& options,
                                               std::span<const DemoCar> cars) {
   std::optional<transport::KeptClock> clock;
+  std::string of_hubs;
   if (is_time_shared(cars)) {
+    of_hubs = clock_file();
     auto kept = transport::KeptClock::keep(clock_file());
     if (!kept) return Unexpected{kept.error()};
     clock.emplace(*std::move(kept));
@@ -174,7 +183,7 @@ Result<std::vector<int>, Problem> run_several(const DemoOptions& options,
   for (const DemoCar& car : cars) {
     // A car's processor is that of its whole world.
     const transport::OnOneProcessor pinned{static_cast<int>(hubs.size())};
-    auto hub = guest::OwnHub::start(own_program(), car.interface());
+    auto hub = guest::OwnHub::start(own_program(), car.interface(), of_hubs);
     if (!hub) return Unexpected{hub.error()};
     hubs.push_back(*std::move(hub));
     auto bench = transport::Process::spawn(

@@ -1,4 +1,4 @@
-// How every verb of pitwall-hil ends, and how it says why.
+// Exit codes of pitwall-hil, and its error output.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

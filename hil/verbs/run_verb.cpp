@@ -313,7 +313,8 @@ int run_where_the_bus_is(const RunOptions& options) {
   if (const auto loaded = bench::load(options.scenario, ""); !loaded)
     return report_failure(options, loaded.error());
   if (transport::is_unix_bus(options.interface)) {  // needs no guest, only a hub
-    const auto hub = guest::OwnHub::start(own_program(), options.interface);
+    const std::string clock = clock_place(options.clock, options.attach).file;
+    const auto hub = guest::OwnHub::start(own_program(), options.interface, clock);
     return hub ? run_scenario(options) : refuse(hub.error());
   }
   const auto exec = exec_words(options);

@@ -1,4 +1,4 @@
-// How punctual a live run was, in words.
+// Text about the timing of a live run.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -5,7 +5,8 @@
 //   out     the frame with counter and checksum; or a judgement of the checksum (what the counter
 //           says about lost frames is message_monitor's)
 //   errors  protect() CHECKs the length, which is the sender's own; check() returns a verdict
-//   law     check(protect(x)) is good. Any one flipped bit is found, and any burst within the data
+//   invariants
+//           check(protect(x)) is good. Any one flipped bit is found, and any burst within the data
 //           no wider than the checksum: the rule must not hide_a_flip(), which a data id can do
 //           where it depends on the counter
 //   cost    no allocation, one table look-up per byte

@@ -2,7 +2,8 @@
 // domain.cpp knows Fast DDS.
 //   in     topics and types by their DDS names, CDR bytes with their header of four
 //   out    samples to whoever reads; samples of whoever writes, on a thread of Fast DDS
-//   law    UDPv4 alone: no shared memory, no data sharing, no type object, XCDR1
+//   invariants
+//          UDPv4 alone: no shared memory, no data sharing, no type object, XCDR1
 //          on the one interface that is named, loopback unless another is meant
 //          nothing here waits for a reader: a writer keeps its newest `depth` samples and no more
 //          a participant has its own sockets and threads: one Domain for each stream that must not

@@ -2,7 +2,8 @@
 // how it is written.
 //   in     the kind and the value of a field, as sent
 //   out    why it is refused, if it is
-//   law    a value is refused or taken as it is; nothing is clamped, wrapped or replaced
+//   invariants
+//          a value is refused or taken as it is; nothing is clamped, wrapped or replaced
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -4,7 +4,8 @@
 //   out    header, values; a whole sentence with CRC and line end
 //   errors DecodeError; a header that is none gives nothing. More fields than we know are allowed
 //          (newer firmware appends), fewer are not.
-//   law    what is written reads back the same: numbers are written with as many digits as they
+//   invariants
+//          what is written reads back the same: numbers are written with as many digits as they
 //          need, values without a name as decimal numbers
 //   source OEM7 Commands and Logs Reference Manual: ASCII, Description of ASCII and Binary Logs
 //          with Short Headers

@@ -1,7 +1,8 @@
 // The fields of every NovAtel log in the order in which they are sent, once, for reading, writing
 // and checking, in binary and in ASCII.
 //   in     a message; a visitor, called as visit(Kind, field...)
-//   law    the sum of the sizes of the fields is the kBytes of the message (RXSTATUS, which says
+//   invariants
+//          the sum of the sizes of the fields is the kBytes of the message (RXSTATUS, which says
 //          itself how many words it has: at most)
 //   source OEM7 Commands and Logs Reference Manual
 // SPDX-License-Identifier: Apache-2.0

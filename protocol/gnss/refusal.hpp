@@ -1,5 +1,6 @@
 // Why a log that arrived whole is not used, and how often that happened.
-//   law    a log is decoded whole or refused with one reason; no value is ever repaired
+//   invariants
+//          a log is decoded whole or refused with one reason; no value is ever repaired
 //   order  where several reasons hold, the one that occurs first in the log
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

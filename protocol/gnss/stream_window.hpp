@@ -1,6 +1,7 @@
 // The bytes of a stream that are not yet decided: fed at the back in pieces of any size, looked at
 // as a whole, taken off at the front; and what is counted of a stream. No allocation.
-//   law    as long as the drain decides whenever kMaxFrame bytes are unread, every byte fits
+//   invariants
+//          as long as the drain decides whenever kMaxFrame bytes are unread, every byte fits
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

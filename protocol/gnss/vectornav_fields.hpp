@@ -2,7 +2,8 @@
 // and writing.
 //   in     a message, a group; a visitor, called as visit(bit, Kind, field...) for every part of
 //          every field and as skip(bit, bytes) for fields that we only step over
-//   law    bits rise; what is not listed has no length that the header tells
+//   invariants
+//          bits rise; what is not listed has no length that the header tells
 //   source VectorNav SDK 0.99, BinaryMeasurementDefinitions.hpp; UM001 v2.22, section 4.3.6
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -3,7 +3,8 @@
 //   frames WGS 84 geodetic; yaw from true north, clockwise; sensor body x forward, y right, z down;
 //          acceleration is the specific force (at rest -g along z)
 //   units  as named; times are nanoseconds of GPS time since 1980-01-06 unless said otherwise
-//   law    a value is there where its bit is set in `fields`; all others are unset
+//   invariants
+//          a value is there where its bit is set in `fields`; all others are unset
 //   source VectorNav binary output protocol: VN-100 User Manual UM001 v2.22, section 4.3 (packet);
 //          VectorNav SDK 0.99, BinaryMeasurementDefinitions.hpp (groups, bits, sizes)
 // SPDX-License-Identifier: Apache-2.0

@@ -1,7 +1,8 @@
 // JSON as text, written piece by piece: for what programs tell each other.
 //   in     names and values; texts in UTF-8, whatever is none of it becomes U+FFFD
 //   out    one line of JSON. A number that is no number is null
-//   law    what is written here is read by JsonValue as the same value
+//   invariants
+//          what is written here is read by JsonValue as the same value
 //   cost   O(bytes)
 //   source RFC 8259; well-formed UTF-8: Unicode 15, table 3-7
 // SPDX-License-Identifier: Apache-2.0

@@ -9,7 +9,8 @@
 //             /can/in, /can/out: frames of the car's bus, "cdr", as can_record.hpp has them
 //   clock     stamps in the file are UTC: an Instant of the base plus the ClockMap of the file,
 //             which stands in its metadata, so that an Instant comes back exactly
-//   law       fields are found by their names, which each channel carries: a file of another
+//   invariants
+//             fields are found by their names, which each channel carries: a file of another
 //             version of the registry gives the fields that both have
 //   errors    bytes that are no sample of their channel give nothing
 //   cost      no allocation in encode() and decode()

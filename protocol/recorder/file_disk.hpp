@@ -1,7 +1,8 @@
 // Segments as files of a folder: what is written is on the disk within a second.
 //   in     a folder, which is made; names and bytes
 //   out    files; a lock on each that is open, so that nobody takes it for an old one
-//   law    appending does not wait for the disk to be written: a thread of its own does, once a
+//   invariants
+//          appending does not wait for the disk to be written: a thread of its own does, once a
 //          second. How long that took is told
 //   errors Problem with the path; syncs that failed are counted
 // SPDX-License-Identifier: Apache-2.0

@@ -3,7 +3,8 @@
 //   out    the name of its channel; the bytes of its message, most significant first: fingerprint,
 //          utime of the sample in microseconds since 1970, members. Types:
 //          `pitwall-base export lcm`
-//   law    the picture of all that is known has no LCM message: its values are in the groups
+//   invariants
+//          the picture of all that is known has no LCM message: its values are in the groups
 //   errors has() tells; a record of no channel must not be encoded
 //   cost   no allocation once the buffer has grown
 // SPDX-License-Identifier: Apache-2.0

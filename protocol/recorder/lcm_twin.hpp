@@ -3,7 +3,8 @@
 //   out    NAME.lcm: an event for each record, its channel named as in the segment, its time that
 //          of the reception. Types: `pitwall-base export lcm`. The picture of all that is known is
 //          left out: its values are in the groups
-//   law    the segment does not depend on it: where the disk takes no more, this log ends as it is,
+//   invariants
+//          the segment does not depend on it: where the disk takes no more, this log ends as it is,
 //          with whole events, and the next segment begins a new one
 //   errors figures()
 //   cost   no allocation at a record once its buffers have grown

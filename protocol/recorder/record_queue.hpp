@@ -1,7 +1,8 @@
 // Records on their way from a loop to the thread that writes them: bounded, and the loop never
 // waits: neither for the disk nor for the other thread.
 //   in     push() by one thread                 out    take_all() by one other
-//   law    in order; what does not fit is dropped and counted, the newest first
+//   invariants
+//          in order; what does not fit is dropped and counted, the newest first
 //          push() is wait-free: copies and two atomic accesses, no lock, no system call, no
 //          allocation; all memory is touched at construction
 //   errors none besides

@@ -1,7 +1,8 @@
 // Keeps everything that comes in and goes out, in a folder of MCAP segments and LCM event logs.
 //   in     states, events, texts, datagrams, as they happen, each with its time
 //   out    files as segment_chain.hpp has them; figures
-//   law    no call waits, for the disk or for another thread: see record_queue.hpp; all calls but
+//   invariants
+//          no call waits, for the disk or for another thread: see record_queue.hpp; all calls but
 //          figures() are by one thread. A thread writes, others have it synchronized every second.
 //          A base that is killed loses less than the last second
 //   bound  kQueueBytes wait at most; what is over is dropped and counted

@@ -3,7 +3,8 @@
 //   out    segments as MCAP, each whole in itself: metadata, channels, then the picture as it was
 //          known; again every kPictureEvery, so that a reader can begin there
 //          where there is a disk for it, an LCM event log beside each, under the same name
-//   law    a chunk is handed to the disk after half a second of stamps or of time, whichever is
+//   invariants
+//          a chunk is handed to the disk after half a second of stamps or of time, whichever is
 //          first, or at 1 MiB: a process that is killed loses less than a second
 //          a segment ends when stamps have gone on by its length. When the disk fails, the segment
 //          ends as it is, records are lost and counted, and a new segment begins when the disk

@@ -1,7 +1,8 @@
 // The segments of a folder: which there are, and those that a killed base left made whole.
 //   in     a folder or files
 //   out    paths in the order of their time; lines that tell what was recovered
-//   law    a file that another process writes is left alone. A file is replaced as a whole, and
+//   invariants
+//          a file that another process writes is left alone. A file is replaced as a whole, and
 //          only by one that holds every message that can be read of it; where bytes in its middle
 //          were damaged, the old file stays beside it as FILE.damaged
 //   errors Problem with the path; one bad file does not stop the others

@@ -2,7 +2,8 @@
 //   wire   for each event, numbers with the most significant byte first: sync word EDA1DA01, event
 //          number i64, time i64 (us since 1970), length of the channel i32, length of the data i32,
 //          then both
-//   law    the writer counts events from 0; the reader hands them out in the order of the file.
+//   invariants
+//          the writer counts events from 0; the reader hands them out in the order of the file.
 //          Behind damage it goes on at the next sync word from which a whole event follows; the
 //          event in front of the damage is lost with it, for what follows it is no sync word
 //   errors writer: a channel that LCM does not carry (none, or over 63 bytes), data over

@@ -3,7 +3,8 @@
 //   in     the bytes that there are
 //   out    the bytes of a whole file with the same channels, messages, stamps, sequences and
 //          metadata, and what was kept and lost
-//   law    messages keep their order; nothing is invented. A whole file of ours gives a file with
+//   invariants
+//          messages keep their order; nothing is invented. A whole file of ours gives a file with
 //          the same messages
 //          the chunk that a cut goes through has no CRC that could be checked: of its whole
 //          messages those are kept that lie in the time that the chunk names

@@ -2,7 +2,8 @@
 // inside, as rosidl describes them; from that the .msg text and the type hash.
 //   in     a message (protocol/ros/message.hpp), or fields listed at run time
 //   out    TypeDescription; text of encoding `ros2msg`; hash "RIHS01_" and 64 hexadecimal digits
-//   law    the hash depends on names, types and order of the fields, and on nothing else:
+//   invariants
+//          the hash depends on names, types and order of the fields, and on nothing else:
 //          constants and comments are text
 //   source ros2/rosidl: type_description_interfaces, rosidl_generator_type_description (RIHS01);
 //          MCAP and Foxglove: schema encoding "ros2msg"

@@ -10,7 +10,8 @@
 //       }
 //     };
 //
-//   law    fields stand in the order of the .msg file; a field is a number, bool, Byte, string
+//   invariants
+//          fields stand in the order of the .msg file; a field is a number, bool, Byte, string
 //          (with a bound or without), another message, or a std::array (fixed) or std::vector (any
 //          length) of these
 //   source rosidl, the .msg files of ROS 2 Humble to Jazzy

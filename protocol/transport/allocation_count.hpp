@@ -1,7 +1,8 @@
 // Counts what a piece of code takes from the heap of its thread: operator new, malloc, Eigen's
 // buffers. For benchmarks and tests; a program that includes it nowhere has glibc's own malloc.
 //   out    how many blocks were taken since the thread began; the difference is what the work took
-//   law    any number of files of a program may include it: its functions are weak, hence one each
+//   invariants
+//          any number of files of a program may include it: its functions are weak, hence one each
 //   errors under AddressSanitizer, which has a heap of its own, nothing is counted and
 //          kAllocationsCounted is false
 // SPDX-License-Identifier: Apache-2.0

@@ -2,7 +2,8 @@
 // other something now and then.
 //   in     a path shorter than sun_path; lines without their end
 //   out    whole lines in their order, never part of one
-//   law    nobody waits: what the other end does not take is queued, up to kQueueMax_bytes; who
+//   invariants
+//          nobody waits: what the other end does not take is queued, up to kQueueMax_bytes; who
 //          reads slower than that is hung up on
 //          a line longer than kLineMax_bytes is skipped to its end, and counted
 //   listener  the path is its owner's only (0600); a socket that nobody serves is replaced,

@@ -1,7 +1,8 @@
 // Messages to and from the kernel's netlink, built and taken apart. Pure: bytes in, bytes out.
 //   in     a request's type, fixed part and attributes; or the bytes of an answer
 //   out    bytes to send; attributes one by one
-//   law    what request() built, for_each_attribute() gives back
+//   invariants
+//          what request() built, for_each_attribute() gives back
 //   errors a request that does not fit is our own mistake (CHECK); an answer's attribute that ends
 //          beyond its bytes ends the walk
 //   source Linux userspace-api/netlink/intro.rst, include/uapi/linux/netlink.h

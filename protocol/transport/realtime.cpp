@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocol/transport/realtime.hpp"
 
+#include <malloc.h>
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -10,6 +11,8 @@
 #include "protocol/transport/posix_call.hpp"
 
 namespace pitwall::transport {
+
+void return_free_memory() { malloc_trim(0); }
 
 bool lock_memory() {
   return posix_call([] { return mlockall(MCL_CURRENT | MCL_FUTURE); }).ok();

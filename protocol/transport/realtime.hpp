@@ -31,6 +31,8 @@ bool prefer(pid_t process);
 void give_way();
 // Only the memory lock.
 bool lock_memory();
+// What was freed goes back to the kernel: after reading something large that is needed no more.
+void return_free_memory();
 std::string to_string(const RealtimeReport& report);
 
 // While it lives the calling thread has one processor, the n-th of those that it may use, counted

@@ -2,7 +2,8 @@
 // device that may be unplugged.
 //   in     where to; now, at every call
 //   out    the bytes that are there; counters
-//   law    a stream that ends, is refused, or is not there within kPatience is tried again kPause
+//   invariants
+//          a stream that ends, is refused, or is not there within kPatience is tried again kPause
 //          later. A connection that is silent for kPatience is given up too: a cable that was
 //          pulled ends nothing
 //   errors of a stream that cannot be opened: the newest reason, and counters

@@ -2,7 +2,8 @@
 // programs that know nothing of it are made to talk over an emulated radio.
 //   in     the interface's name, address and largest packet; whole IPv4 packets for the network
 //   out    the IPv4 packets that somebody inside the network sends; others (IPv6) are passed over
-//   law    the network lasts as long as this object or a process inside it. Everything goes through
+//   invariants
+//          the network lasts as long as this object or a process inside it. Everything goes through
 //          the interface: multicast too, but for 127.0.0.0/8
 //   errors create(): Problem that names what the kernel refused; needs CAP_SYS_ADMIN and
 //          CAP_NET_ADMIN (root) and /dev/net/tun

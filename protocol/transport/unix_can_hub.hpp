@@ -1,7 +1,8 @@
 // The hub of a CAN bus `unix:PATH` (unix_bus says what goes over it): takes each frame from one
 // client and gives it to all others.
 //
-//   law   one total order: any two clients hear the frames that both hear in the same order, and
+//   invariants
+//         one total order: any two clients hear the frames that both hear in the same order, and
 //         each hears what was sent after its connect() returned
 //         for each client: frames offered = frames in its queue or read + frames lost, and the last
 //         notice it reads tells exactly the frames lost so far

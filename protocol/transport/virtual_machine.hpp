@@ -1,7 +1,8 @@
 // A machine whose processors are lent to it by a host, and what real time costs there.
 //   in     what the kernel says of its processors (/proc/cpuinfo) and of their time (/proc/stat)
 //   out    whether the machine is a virtual one; the time that its host kept from it; KeepAwake
-//   law    A host runs the processors of its guests in turn. One that falls asleep joins the end
+//   invariants
+//          A host runs the processors of its guests in turn. One that falls asleep joins the end
 //          of a line when it wakes, some milliseconds long where the host is busy, a hundred times
 //          a second; one that never sleeps loses little. So a process of lowest priority keeps each
 //          busy ("idle=poll" of the kernel's parameters, for as long as it is wanted)

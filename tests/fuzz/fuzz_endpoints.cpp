@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "hil/radio/virtual_radio.hpp"
 #include "protocol/vocabulary/check.hpp"
+#include "tests/benchmarks/radio/virtual_radio.hpp"
 
 namespace {
 

@@ -5,7 +5,8 @@
 //   out    kListening until every required message has shown its period, kRight, or kWrong with the
 //          first message that differs and how
 //   units  seconds, bytes
-//   law    a frame that the database does not describe is proof: kWrong at once. Absence and pace
+//   invariants
+//          a frame that the database does not describe is proof: kWrong at once. Absence and pace
 //          are judged by time, so that a right bus that stalls or loses frames is never wrong:
 //            acquitted  intervals over at least 0.75 of the longer of 1 s and the period have a
 //                       mean of 0.4 to 2.5 periods. Race control also sends on every change of a

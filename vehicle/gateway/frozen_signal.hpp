@@ -4,7 +4,8 @@
 //   in     the values as they were heard; the last commands; now
 //   out    which values are frozen: the same to the bit since they changed last, while their
 //          witness moved by more than its limit
-//   law    a value that changed is not frozen. Nothing is judged at a standstill (below 5 m/s), of
+//   invariants
+//          a value that changed is not frozen. Nothing is judged at a standstill (below 5 m/s), of
 //          an actuator that is told nothing, or while the witness rests: a straight line at one
 //          speed freezes nothing. One wheel that lies bears no witness, nor do wheels that jump:
 //          at one speed the powertrain says the same for seconds

@@ -23,20 +23,20 @@ constexpr CtState k1 = CtState::kPowerOn, k2 = CtState::kInitialized, k3 = CtSta
                   k12 = CtState::kEmergencyShutdown, kD = CtState::kDefault;
 // clang-format off
 constexpr std::array<Row, 13> kRows{{
-  //      Emerg Stop Shut  Red  Tests Orange Engine Armed Roll Yellow Green Time
-  {kD,  {{k12,  kD,  kD,   k1,  k1,   kD,    kD,    kD,   kD,  kD,    kD,   kD}}},
-  {k1,  {{k12,  k1,  k1,   k1,  k1,   k1,    k1,    k1,   k1,  k1,    k1,   k2}}},
-  {k2,  {{k12,  k2,  k11,  k3,  k3,   k2,    k2,    k2,   k2,  k2,    k2,   k2}}},
-  {k3,  {{k12,  k3,  k11,  k3,  k4,   k3,    k3,    k3,   k3,  k3,    k3,   k3}}},
-  {k4,  {{k12,  k4,  k11,  k4,  k4,   k5,    k4,    k4,   k4,  k4,    k4,   k4}}},
-  {k5,  {{k12,  k5,  k11,  k5,  k5,   k5,    k6,    k5,   k5,  k5,    k5,   k5}}},
-  {k6,  {{k12,  k6,  k11,  k6,  k6,   k6,    k6,    k7,   k6,  k6,    k6,   k6}}},
-  {k7,  {{k12,  k10, k11,  k7,  k7,   k7,    k7,    k7,   k8,  k7,    k7,   k7}}},
-  {k8,  {{k12,  k10, k11,  k10, k8,   k8,    k8,    k8,   k8,  k8,    k9,   k8}}},
-  {k9,  {{k12,  k10, k11,  k10, k9,   k9,    k9,    k9,   k9,  k8,    k9,   k9}}},
-  {k10, {{k12,  k10, k11,  k10, k10,  k10,   k10,   k10,  k8,  k10,   k10,  k10}}},
-  {k11, {{k12,  k11, k11,  k11, k11,  k5,    k11,   k11,  k11, k11,   k11,  k11}}},
-  {k12, {{k12,  k12, k12,  k12, k12,  k12,   k12,   k12,  k12, k12,   k12,  k12}}},
+  //      Emerg Stop Shut  Red  Tests Orange Engine Armed Roll Yellow Green Disar Time
+  {kD,  {{k12, kD,  kD,  k1,  k1,   kD,   kD,   kD,   kD,  kD,   kD,   kD,   kD}}},
+  {k1,  {{k12, k1,  k1,  k1,  k1,   k1,   k1,   k1,   k1,  k1,   k1,   k1,   k2}}},
+  {k2,  {{k12, k2,  k11, k3,  k3,   k2,   k2,   k2,   k2,  k2,   k2,   k2,   k2}}},
+  {k3,  {{k12, k3,  k11, k3,  k4,   k3,   k3,   k3,   k3,  k3,   k3,   k3,   k3}}},
+  {k4,  {{k12, k4,  k11, k4,  k4,   k5,   k4,   k4,   k4,  k4,   k4,   k4,   k4}}},
+  {k5,  {{k12, k5,  k11, k5,  k5,   k5,   k6,   k5,   k5,  k5,   k5,   k5,   k5}}},
+  {k6,  {{k12, k6,  k11, k6,  k6,   k6,   k6,   k7,   k6,  k6,   k6,   k6,   k6}}},
+  {k7,  {{k12, k10, k11, k7,  k7,   k7,   k7,   k7,   k8,  k7,   k7,   k6,   k7}}},
+  {k8,  {{k12, k10, k11, k10, k8,   k8,   k8,   k8,   k8,  k8,   k9,   k6,   k8}}},
+  {k9,  {{k12, k10, k11, k10, k9,   k9,   k9,   k9,   k9,  k8,   k9,   k6,   k9}}},
+  {k10, {{k12, k10, k11, k10, k10,  k10,  k10,  k10,  k8,  k10,  k10,  k6,   k10}}},
+  {k11, {{k12, k11, k11, k11, k11,  k5,   k11,  k11,  k11, k11,  k11,  k11,  k11}}},
+  {k12, {{k12, k12, k12, k12, k12,  k12,  k12,  k12,  k12, k12,  k12,  k12,  k12}}},
 }};
 // clang-format on
 }  // namespace table
@@ -135,6 +135,7 @@ CtEvents events_of(const HandshakeParams& params, const HandshakeInputs& in) {
   events[at(CtEvent::kRoll)] = roll;
   events[at(CtEvent::kYellow)] = roll && yellow;
   events[at(CtEvent::kGreen)] = roll && green;
+  events[at(CtEvent::kDisarmed)] = in.mode == Mode::kDisarmed && stands;
   events[at(CtEvent::kTime)] = true;
   return events;
 }

@@ -4,7 +4,10 @@
 //   in     the state now and what holds now (flags, drive-by-wire state, supervisor's mode)
 //   out    the next state; the car drives only in 7, 8 and 9; 12 is left by a restart only
 //   errors none
-//   source CT and SYS states as in the public stack for the AV-21 (UVA), start to stop
+//   invariants  a car that is disarmed at rest reports no state in which the drive-by-wire waits
+//          for commands: it would take their absence for a dead computer and bar the next arming
+//   source CT and SYS states as in the public stack for the AV-21 (UVA), start to stop; the way
+//          back to 6 after a stop is ours, since that stack begins anew with a new process
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -32,9 +35,10 @@ enum class CtEvent : std::uint8_t {
   kRoll,           // mode driving, drive-by-wire driving, flag lets cars roll
   kYellow,         // rolling under yellow
   kGreen,          // rolling under green or waving green
+  kDisarmed,       // mode disarmed, at standstill
   kTime            // nothing but the minimum time in the state has passed
 };
-inline constexpr std::size_t kCtEvents = 12;
+inline constexpr std::size_t kCtEvents = 13;
 using CtEvents = std::array<bool, kCtEvents>;
 
 struct HandshakeParams {

@@ -5,7 +5,8 @@
 //   in     the newest CarRecord (or none), frames off the bus, samples of the receivers, now
 //   out    frames that passed the guardian's own gate, Status
 //   rate   every 5 ms (any rate from 1 to 10 ms); frames leave every kSpeakEvery while it drives
-//   law    it acts only if all of this holds:
+//   invariants
+//          it acts only if all of this holds:
 //            no command (1400..1402) of the car was heard for kSilence, but others are on the bus;
 //            time in which the guardian itself did not run is not counted;
 //            the last record says armed and driving or stopping, and is no more than kRecordLag

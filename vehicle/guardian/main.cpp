@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "protocol/json/json_text.hpp"
 #include "protocol/transport/can_socket.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
@@ -94,14 +95,19 @@ void tell(const guardian::Status& s) {
 }
 
 std::string summary_json(const Counts& c, const guardian::Status& s) {
-  const auto number = [](auto value) { return std::to_string(value); };
-  return std::string("{\"mode\": \"") + guardian::text_of(s.mode) + "\", \"cause\": \"" +
-         guardian::text_of(s.cause) + "\", \"takeovers\": " + number(s.takeovers) +
-         ", \"hand_backs\": " + number(s.hand_backs) + ", \"ticks\": " + number(c.ticks) +
-         ", \"missed_ticks\": " + number(c.missed) +
-         ", \"tick_max_us\": " + number(c.longest_ns / 1000) +
-         ", \"frames_received\": " + number(c.received) + ", \"frames_sent\": " + number(c.sent) +
-         ", \"gate_refusals\": " + number(c.refused) + "}\n";
+  return json::Object{}
+             .text("mode", guardian::text_of(s.mode))
+             .text("cause", guardian::text_of(s.cause))
+             .number("takeovers", s.takeovers)
+             .number("hand_backs", s.hand_backs)
+             .number("ticks", c.ticks)
+             .number("missed_ticks", c.missed)
+             .number("tick_max_us", c.longest_ns / 1000)
+             .number("frames_received", c.received)
+             .number("frames_sent", c.sent)
+             .number("gate_refusals", c.refused)
+             .str() +
+         "\n";
 }
 
 Counts watch_over(const guardian::Params& params, guardian::State& state, Rim& rim,

@@ -5,7 +5,8 @@
 //          own receivers, wheel speeds and steering angle off the bus, the banking of the path
 //   out    Pose at `now`
 //   frames Map, Body; banking positive where the left side is lower
-//   law    with r the yaw rate about body z, phi the banking:
+//   invariants
+//          with r the yaw rate about body z, phi the banking:
 //            yaw' = r / cos(phi);  vy = b r - v C a_y,  a_y = v r - g sin(phi)
 //            (the rear axle slips by C a_y)
 //            x' = v cos(yaw) - vy cos(phi) sin(yaw), y' likewise

@@ -2,7 +2,8 @@
 // geodesy library of localization for one subtraction.
 //   in     the datum (latitude, longitude in degrees, height above the ellipsoid in m), a position
 //   out    metres east and north of the datum
-//   law    from the ECEF coordinates of both points, turned by longitude and latitude of the datum:
+//   invariants
+//          from the ECEF coordinates of both points, turned by longitude and latitude of the datum:
 //            east  = (N + h) cos(lat) sin(dlon)
 //            north = cos(lat0) (z - z0) - sin(lat0) (p - p0),
 //            p = (N + h) cos(lat) cos(dlon), z = (N (1 - e^2) + h) sin(lat)

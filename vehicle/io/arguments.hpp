@@ -1,5 +1,6 @@
 // The command line of pitwall-vehicle.
-//   law    a car whose base station is watched has keys: without them nothing starts
+//   invariants
+//          a car whose base station is watched has keys: without them nothing starts
 //   errors wrong usage: text on stderr and exit code 2 (0 for --help)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

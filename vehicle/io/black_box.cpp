@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdio>
 
+#include "protocol/json/json_text.hpp"
 #include "protocol/telemetry/registry/group_row.hpp"
 #include "protocol/vocabulary/check.hpp"
-#include "vehicle/io/json_counts.hpp"
 
 namespace pitwall::io {
 
@@ -55,19 +55,19 @@ void BlackBox::event(std::string_view text, Instant at) {
 }
 
 std::string BlackBox::json() const {
-  JsonCounts out;
-  if (!on()) return out.object();
+  json::Object out;
+  if (!on()) return out.str();
   const recorder::RecorderFigures figures = recorder_->figures();
-  out.add("records", figures.chain.records);
-  out.add("dropped", figures.dropped);
-  out.add("left_out", figures.left_out);
-  out.add("lost", figures.chain.lost);
-  out.add("interruptions", figures.chain.interruptions);
-  out.add("segments", figures.chain.segments);
-  out.add("lcm_events", figures.chain.lcm.events);
-  out.add("lcm_lost", figures.chain.lcm.lost);
-  out.add("bytes", figures.bytes());
-  return out.object();
+  out.number("records", figures.chain.records);
+  out.number("dropped", figures.dropped);
+  out.number("left_out", figures.left_out);
+  out.number("lost", figures.chain.lost);
+  out.number("interruptions", figures.chain.interruptions);
+  out.number("segments", figures.chain.segments);
+  out.number("lcm_events", figures.chain.lcm.events);
+  out.number("lcm_lost", figures.chain.lcm.lost);
+  out.number("bytes", figures.bytes());
+  return out.str();
 }
 
 }  // namespace pitwall::io

@@ -3,7 +3,8 @@
 //   in     a folder; what is heard and said in each tick, the newest snapshot
 //   out    segments of a minute with an LCM log beside each, as protocol/recorder makes them;
 //          counters for the summary
-//   law    all calls but open() and json() belong to the 100 Hz loop: they copy into a bounded
+//   invariants
+//          all calls but open() and json() belong to the 100 Hz loop: they copy into a bounded
 //          queue and neither wait nor allocate. What does not fit is dropped and counted; a disk
 //          that is slow, full or gone does not touch the loop
 //   errors open(): Problem where the folder cannot be made or written; afterwards figures only

@@ -1,5 +1,6 @@
 // The option --clock of the programs on the car: the wall clock, or the time of a bench.
-//   law    only a simulation goes by the time of a bench: a car would stop seeing what passes
+//   invariants
+//          only a simulation goes by the time of a bench: a car would stop seeing what passes
 //   errors CLI::ValidationError
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -2,7 +2,8 @@
 // shared and everything here does nothing.
 //   in     the name, whether the car shall be armed from the start; the outputs of every tick
 //   out    the guardian's word for the next tick; whether arming is barred
-//   law    a process that finds the record of a run that ended armed does not arm, and neither do
+//   invariants
+//          a process that finds the record of a run that ended armed does not arm, and neither do
 //          those after it, until one was started without being armed
 //   errors open(): Problem with the path
 //   cost   no allocation after open(); a tick below 20 us

@@ -2,7 +2,8 @@
 // frames, lost frames), the interface as the kernel tells it ten times a second, and the way out.
 // Pure.
 //
-//   law of the state: the newest news wins. An error frame counts from the time the kernel made it,
+//   invariants
+//       of the state: the newest news wins. An error frame counts from the time the kernel made it,
 //   an interface report from the time it was asked for. Of two equally old, the worse one holds.
 //
 //     error frame  ----- bus-off @120 -------------------------->  bus-off from 120 on

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vehicle/io/radio_summary.hpp"
 
-#include "vehicle/io/json_counts.hpp"
+#include "protocol/json/json_text.hpp"
 
 namespace pitwall::io {
 namespace {
@@ -18,52 +18,53 @@ std::uint64_t sum(const Counts& counts) {
 }
 
 std::string path_json(const telemetry::PathReport& path) {
-  JsonCounts out;
-  out.add("received", path.heard.received);
-  out.add("lost", path.heard.lost);
-  out.add("late", path.heard.late);
-  out.add("delay_p99_us", whole_us(path.heard.delay_p99));
-  out.add("sent", path.spent.packets);
-  out.add("sent_bytes", path.spent.bytes);
-  out.add("budget_refused", path.spent.refused);
-  return out.object();
+  json::Object out;
+  out.number("received", path.heard.received);
+  out.number("lost", path.heard.lost);
+  out.number("late", path.heard.late);
+  out.number("delay_p99_us", whole_us(path.heard.delay_p99));
+  out.number("sent", path.spent.packets);
+  out.number("sent_bytes", path.spent.bytes);
+  out.number("budget_refused", path.spent.refused);
+  return out.str();
 }
 
 std::string refusals_json(const telemetry::AssociationCounters& counters) {
-  JsonCounts out;
+  json::Object out;
   for (std::size_t i = 0; i < telemetry::kRefusals; ++i)
-    out.add(telemetry::text_of(static_cast<telemetry::Refusal>(i)), counters.refused[i]);
-  return out.object();
+    out.number(telemetry::text_of(static_cast<telemetry::Refusal>(i)), counters.refused[i]);
+  return out.str();
 }
 
 std::string commands_json(const telemetry::LedgerCounters& ledger) {
-  JsonCounts out;
-  out.add("received", ledger.received);
+  json::Object out;
+  out.number("received", ledger.received);
   for (std::size_t i = 0; i < telemetry::kOutcomes; ++i)
-    out.add(std::string(telemetry::text_of(static_cast<telemetry::Outcome>(i))), ledger.decided[i]);
-  return out.object();
+    out.number(std::string(telemetry::text_of(static_cast<telemetry::Outcome>(i))),
+               ledger.decided[i]);
+  return out.str();
 }
 
 }  // namespace
 
 std::string radio_json(const telemetry::LinkReport& report, std::size_t paths) {
-  JsonCounts out;
-  out.add("sessions", report.sessions);
-  out.add("opened", report.association.opened);
-  out.add("bad_bodies", sum(report.bad_bodies) + report.bad_records);
-  out.add("slots", report.slots);
-  out.add("slots_skipped", report.slots_skipped);
-  out.add("events", report.events.events);
-  out.add("events_dropped", report.events.dropped);
-  out.add("bulk_delivered", report.bulk.delivered);
-  out.add("round_trip_us", whole_us(report.round_trip.value_or(Duration{})));
-  out.add_json("refused", refusals_json(report.association));
-  out.add_json("commands", commands_json(report.ledger));
-  std::string list;
+  json::Object out;
+  out.number("sessions", report.sessions);
+  out.number("opened", report.association.opened);
+  out.number("bad_bodies", sum(report.bad_bodies) + report.bad_records);
+  out.number("slots", report.slots);
+  out.number("slots_skipped", report.slots_skipped);
+  out.number("events", report.events.events);
+  out.number("events_dropped", report.events.dropped);
+  out.number("bulk_delivered", report.bulk.delivered);
+  out.number("round_trip_us", whole_us(report.round_trip.value_or(Duration{})));
+  out.json("refused", refusals_json(report.association));
+  out.json("commands", commands_json(report.ledger));
+  json::Array list;
   for (std::size_t i = 0; i < paths && i < report.paths.size(); ++i)
-    list += (i == 0 ? "" : ", ") + path_json(report.paths[i]);
-  out.add_json("paths", "[" + list + "]");
-  return out.object();
+    list.json(path_json(report.paths[i]));
+  out.json("paths", list.str());
+  return out.str();
 }
 
 }  // namespace pitwall::io

@@ -3,8 +3,8 @@
 
 #include <array>
 
+#include "protocol/json/json_text.hpp"
 #include "protocol/transport/serial_port.hpp"
-#include "vehicle/io/json_counts.hpp"
 
 namespace pitwall::io {
 namespace {
@@ -24,17 +24,17 @@ std::uint64_t lost_by(const transport::StreamLink& stream) {
   return stream.counters().ended + stream.counters().silent;
 }
 
-void add_source(JsonCounts& out, const transport::UdpSocket& socket) {
-  out.add("datagrams", socket.counters().received);
-  out.add("rx_dropped", lost_by(socket));
+void add_source(json::Object& out, const transport::UdpSocket& socket) {
+  out.number("datagrams", socket.counters().received);
+  out.number("rx_dropped", lost_by(socket));
 }
 
-void add_source(JsonCounts& out, const transport::StreamLink& stream) {
+void add_source(json::Object& out, const transport::StreamLink& stream) {
   const transport::StreamCounters& c = stream.counters();
-  out.add("opened", c.opened);
-  out.add("attempts_failed", c.refused);
-  out.add("ended", c.ended);
-  out.add("silent", c.silent);
+  out.number("opened", c.opened);
+  out.number("attempts_failed", c.refused);
+  out.number("ended", c.ended);
+  out.number("silent", c.silent);
 }
 
 }  // namespace
@@ -93,32 +93,32 @@ world::ReceiverTraffic ReceiverPort::traffic() const {
 
 std::string ReceiverPort::json() const {
   const receivers::Counters c = receiver_.counters();
-  JsonCounts out;
-  out.add_text("link", to_string(link_));
-  out.add_text("kind", std::string(world::name_of(kind_)));
+  json::Object out;
+  out.text("link", to_string(link_));
+  out.text("kind", std::string(world::name_of(kind_)));
   std::visit([&](const auto& source) { add_source(out, source); }, source_);
-  out.add("bytes", c.bytes);
-  out.add("frames", c.frames);
-  out.add("garbage_bytes", c.garbage_bytes);
-  out.add("resyncs", c.resyncs);
-  out.add("bad_checksum", c.bad_checksum);
-  out.add("bad_frame", c.bad_frame);
-  out.add("unused", c.unused);
-  out.add("time_unknown", c.time_unknown);
-  out.add("out_of_range", c.out_of_range);
-  out.add("imu_error", c.imu_error);
-  for (std::size_t i = 0; i < receivers::kStreams; ++i) out.add(kStreamNames[i], c.samples[i]);
-  out.add("health", c.health);
+  out.number("bytes", c.bytes);
+  out.number("frames", c.frames);
+  out.number("garbage_bytes", c.garbage_bytes);
+  out.number("resyncs", c.resyncs);
+  out.number("bad_checksum", c.bad_checksum);
+  out.number("bad_frame", c.bad_frame);
+  out.number("unused", c.unused);
+  out.number("time_unknown", c.time_unknown);
+  out.number("out_of_range", c.out_of_range);
+  out.number("imu_error", c.imu_error);
+  for (std::size_t i = 0; i < receivers::kStreams; ++i) out.number(kStreamNames[i], c.samples[i]);
+  out.number("health", c.health);
   using receivers::StampFlaw;
-  out.add("stamps_frozen", c.stamps[static_cast<std::size_t>(StampFlaw::kFrozen)]);
-  out.add("stamps_back", c.stamps[static_cast<std::size_t>(StampFlaw::kBack)]);
-  out.add("stamps_future", c.stamps[static_cast<std::size_t>(StampFlaw::kFuture)]);
-  out.add("clock_steps", c.clock_steps);
-  JsonCounts refused;
+  out.number("stamps_frozen", c.stamps[static_cast<std::size_t>(StampFlaw::kFrozen)]);
+  out.number("stamps_back", c.stamps[static_cast<std::size_t>(StampFlaw::kBack)]);
+  out.number("stamps_future", c.stamps[static_cast<std::size_t>(StampFlaw::kFuture)]);
+  out.number("clock_steps", c.clock_steps);
+  json::Object refused;
   for (std::size_t i = 0; i < c.refused.counts.size(); ++i)
-    refused.add(std::string(gnss::kDecodeErrorText[i]), c.refused.counts[i]);
-  out.add_json("refused", refused.object());
-  return out.object();
+    refused.number(std::string(gnss::kDecodeErrorText[i]), c.refused.counts[i]);
+  out.json("refused", refused.str());
+  return out.str();
 }
 
 Result<std::vector<ReceiverPort>, Problem> open_receivers(const ReceiverLinks& links,

@@ -1,7 +1,8 @@
 // Where the bytes of one receiver come in: over UDP, a TCP connection or a serial line.
 //   in     the link, the kind of receiver; now
 //   out    samples of all that waits; when its newest byte came
-//   law    a datagram carries the time at which the kernel had it; bytes of a stream have come when
+//   invariants
+//          a datagram carries the time at which the kernel had it; bytes of a stream have come when
 //          they are read, so that the clock of the receiver has to be learned from the quickest
 //   errors open(): Problem with the link: a port that is taken, a device that is not there. Later
 //          a stream that ends is opened again, and counted

@@ -2,7 +2,8 @@
 // writes its own value and reads the other's; nobody ever waits.
 //   in     a name: a file in /dev/shm; a path if it contains a slash
 //   out    the newest value that is whole, or nothing
-//   law    two copies per value, written in turn, each with a sequence and a CRC-32 over both: a
+//   invariants
+//          two copies per value, written in turn, each with a sequence and a CRC-32 over both: a
 //          writer that is killed in the middle of a copy leaves the other one as it was. The newest
 //          whole copy counts. The values stay when their writers end, until they are written anew
 //   errors open(): Problem with the path: no permission, or a file of another layout; afterwards

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "protocol/json/json_text.hpp"
 #include "vehicle/gateway/bus_identity.hpp"
-#include "vehicle/io/json_counts.hpp"
 
 namespace pitwall::io {
 
@@ -53,24 +53,17 @@ void LossTally::add(const world::BusHealth& bus) {
 namespace {
 
 std::string refusals_json(const world::FrameRefusals& r) {
-  JsonCounts out;
-  out.add("unknown_id", r.unknown_id);
-  out.add("wrong_length", r.wrong_length);
-  out.add("remote_or_error", r.remote_or_error);
-  out.add("stuck_counter", r.stuck_counter);
-  out.add("jumped_counter", r.jumped_counter);
-  out.add("wrong_checksum", r.wrong_checksum);
-  out.add("not_finite", r.not_finite);
-  out.add("out_of_range", r.out_of_range);
-  out.add("implausible_slew", r.implausible_slew);
-  return out.object();
-}
-
-// One object per line.
-std::string array(const std::vector<std::string>& objects) {
-  std::string out;
-  for (const std::string& object : objects) out += (out.empty() ? "\n  " : ",\n  ") + object;
-  return "[" + out + "]";
+  json::Object out;
+  out.number("unknown_id", r.unknown_id);
+  out.number("wrong_length", r.wrong_length);
+  out.number("remote_or_error", r.remote_or_error);
+  out.number("stuck_counter", r.stuck_counter);
+  out.number("jumped_counter", r.jumped_counter);
+  out.number("wrong_checksum", r.wrong_checksum);
+  out.number("not_finite", r.not_finite);
+  out.number("out_of_range", r.out_of_range);
+  out.number("implausible_slew", r.implausible_slew);
+  return out.str();
 }
 
 const char* text_of(world::LossDetector detector) {
@@ -102,34 +95,34 @@ const char* text_of(world::Liveness liveness) {
 }
 
 std::string losses_json(std::span<const world::LossReport> losses) {
-  std::vector<std::string> rows;
+  json::Array rows;
   for (const world::LossReport& loss : losses) {
-    JsonCounts row;
-    row.add("id", loss.id);
-    row.add_text("by", text_of(loss.detector));
-    row.add("frames", loss.frames);
-    row.add("due_ns", static_cast<std::uint64_t>(loss.due.ns));
-    row.add("noticed_ns", static_cast<std::uint64_t>(loss.noticed.ns));
-    rows.push_back(row.object());
+    json::Object row;
+    row.number("id", loss.id);
+    row.text("by", text_of(loss.detector));
+    row.number("frames", loss.frames);
+    row.number("due_ns", static_cast<std::uint64_t>(loss.due.ns));
+    row.number("noticed_ns", static_cast<std::uint64_t>(loss.noticed.ns));
+    rows.json(row.str());
   }
-  return array(rows);
+  return rows.str();
 }
 
 std::string messages_json(const world::BusHealth& bus) {
-  std::vector<std::string> rows;
+  json::Array rows;
   for (const world::MessageHealth& message : bus.messages) {
-    JsonCounts row;
-    row.add("id", message.id);
-    row.add_text("liveness", text_of(message.liveness));
-    row.add("debt", message.debt);
-    row.add("lost", message.lost);
-    row.add("late", message.late);
-    row.add("bad", message.bad);
-    row.add("mean_interval_us", static_cast<std::uint64_t>(message.mean_interval.ns) / 1'000);
-    row.add("last_ns", static_cast<std::uint64_t>(message.last.ns));
-    rows.push_back(row.object());
+    json::Object row;
+    row.number("id", message.id);
+    row.text("liveness", text_of(message.liveness));
+    row.number("debt", message.debt);
+    row.number("lost", message.lost);
+    row.number("late", message.late);
+    row.number("bad", message.bad);
+    row.number("mean_interval_us", static_cast<std::uint64_t>(message.mean_interval.ns) / 1'000);
+    row.number("last_ns", static_cast<std::uint64_t>(message.last.ns));
+    rows.json(row.str());
   }
-  return array(rows);
+  return rows.str();
 }
 
 const char* text_of(world::ControllerState controller) {
@@ -163,22 +156,22 @@ const char* text_of(world::IdentityVerdict verdict) {
 }
 
 std::string identity_json(const world::BusIdentity& identity) {
-  JsonCounts out;
-  out.add_text("database", gateway::database_text());
-  out.add_text("verdict", text_of(identity.verdict));
-  out.add_text("sentence", gateway::sentence(identity));
-  return out.object();
+  json::Object out;
+  out.text("database", gateway::database_text());
+  out.text("verdict", text_of(identity.verdict));
+  out.text("sentence", gateway::sentence(identity));
+  return out.str();
 }
 
 std::string link_json(const world::LinkObservation& link) {
-  JsonCounts out;
-  out.add_text("controller", text_of(link.controller));
-  out.add("lost_in_socket", link.lost_in_socket);
-  out.add("lost_in_interface", link.lost_in_interface);
-  out.add("error_frames", link.error_frames);
-  out.add("tx_drops", link.tx_drops);
-  out.add("restarts", link.restarts);
-  return out.object();
+  json::Object out;
+  out.text("controller", text_of(link.controller));
+  out.number("lost_in_socket", link.lost_in_socket);
+  out.number("lost_in_interface", link.lost_in_interface);
+  out.number("error_frames", link.error_frames);
+  out.number("tx_drops", link.tx_drops);
+  out.number("restarts", link.restarts);
+  return out.str();
 }
 
 }  // namespace
@@ -187,31 +180,35 @@ std::string summary_json(const StepTally& tally, const FrameTotals& frames,
                          const world::BusHealth& bus, const LossTally& losses,
                          const std::string& radio, const std::string& receivers,
                          const std::string& recorder, const std::string& sensors) {
-  JsonCounts out;
-  out.add("ticks", tally.steps());
-  out.add("missed_deadlines", tally.missed_deadlines());
-  out.add("frames_received", frames.received);
-  out.add("frames_sent", frames.sent);
-  out.add("frames_applied", bus.frames_applied);
-  out.add("frames_refused", bus.refused.total());
-  out.add("frames_lost", bus.frames_lost);
-  out.add("tx_drops", frames.tx_drops);
-  out.add("rx_dropped", frames.rx_dropped);
-  out.add("gate_refusals", frames.gate_refusals);
-  out.add("loss_reports", losses.reports());
-  JsonCounts verdicts;
+  json::Object out;
+  out.number("ticks", tally.steps());
+  out.number("missed_deadlines", tally.missed_deadlines());
+  out.number("frames_received", frames.received);
+  out.number("frames_sent", frames.sent);
+  out.number("frames_applied", bus.frames_applied);
+  out.number("frames_refused", bus.refused.total());
+  out.number("frames_lost", bus.frames_lost);
+  out.number("tx_drops", frames.tx_drops);
+  out.number("rx_dropped", frames.rx_dropped);
+  out.number("gate_refusals", frames.gate_refusals);
+  out.number("loss_reports", losses.reports());
+  json::Object verdicts;
   for (std::size_t i = 0; i < safety::kVerdicts; ++i)
-    verdicts.add(safety::text_of(static_cast<safety::Verdict>(i)), frames.gate_verdicts[i]);
-  return "{" + out.pairs() + ",\n \"refused_by_kind\": " + refusals_json(bus.refused) +
-         ",\n \"gate_verdicts\": " + verdicts.object() + ",\n \"link\": " + link_json(bus.link) +
-         ",\n \"identity\": " + identity_json(bus.identity) +
-         ",\n \"messages\": " + messages_json(bus) +
-         ",\n \"losses\": " + losses_json(losses.listed()) + ",\n \"radio\": " + radio +
-         ",\n \"receivers\": " + receivers + ",\n \"recorder\": " + recorder +
-         ",\n \"sensors\": " + sensors +
-         ",\n \"step_p50_us\": " + std::to_string(tally.quantile_us(0.5)) +
-         ", \"step_p99_us\": " + std::to_string(tally.quantile_us(0.99)) +
-         ", \"step_max_us\": " + std::to_string(tally.max_us()) + "}\n";
+    verdicts.number(safety::text_of(static_cast<safety::Verdict>(i)), frames.gate_verdicts[i]);
+  out.json("refused_by_kind", refusals_json(bus.refused))
+      .json("gate_verdicts", verdicts.str())
+      .json("link", link_json(bus.link))
+      .json("identity", identity_json(bus.identity))
+      .json("messages", messages_json(bus))
+      .json("losses", losses_json(losses.listed()))
+      .json("radio", radio)
+      .json("receivers", receivers)
+      .json("recorder", recorder)
+      .json("sensors", sensors)
+      .number("step_p50_us", tally.quantile_us(0.5))
+      .number("step_p99_us", tally.quantile_us(0.99))
+      .number("step_max_us", tally.max_us());
+  return out.str() + "\n";
 }
 
 }  // namespace pitwall::io

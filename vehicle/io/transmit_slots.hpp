@@ -8,7 +8,8 @@
 //
 //   in     frames of a tick in the order of their urgency (brake first); what the kernel holds
 //   out    frames to give to the kernel now, in that order; then those that an earlier tick left
-//   law    at most one tick's frames are in the kernel, so what waits there is never older than the
+//   invariants
+//          at most one tick's frames are in the kernel, so what waits there is never older than the
 //          stall; a frame that was not given to it within `age_max` is dropped and counted; never
 //          two frames of one identifier
 //   errors none: every frame is sent, replaced, stale or without room, and counted as such

@@ -2,7 +2,8 @@
 // when it begins and when it ends. Values may be overwritten on the radio; an event arrives.
 //   in     Outputs of this tick, the car's fault log; one call per tick
 //   out    events in the order: faults, mode, arming, flags, lap (laps as race control counts them)
-//   law    each change once, and the end only of a fault whose beginning was told; of a first tick
+//   invariants
+//          each change once, and the end only of a fault whose beginning was told; of a first tick
 //          only what differs from a car that was switched on
 //   errors faults that the log has dropped, and events without room, are counted in `missed`
 //   cost   no allocation

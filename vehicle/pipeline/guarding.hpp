@@ -2,7 +2,8 @@
 // tells it in every tick, and what the car makes of the guardian's word.
 //   in     Setup, Car and Outputs of a tick; the guardian's Status
 //   out    guardian::Params, guardian::CarRecord, GuardianView
-//   law    a stop trajectory goes into the record only if it passes stop_check; else the one before
+//   invariants
+//          a stop trajectory goes into the record only if it passes stop_check; else the one before
 //          stays there, with its age
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,7 +1,8 @@
 // All monitors of the car as one set: what they see in this tick, and, for the bench alone, which
 // of them are switched off.
 //   in     the outputs of the modules; a set of monitors
-//   law    a monitor belongs to the modules that world/monitor.hpp names beside it
+//   invariants
+//          a monitor belongs to the modules that world/monitor.hpp names beside it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -2,7 +2,8 @@
 // the car, as one set of requests for this tick, and what became of each command.
 //   in     commands of this tick, switches, the mode before and after the supervisor
 //   out    requests, speed limit and track flag that hold; answers
-//   law    "applied" is said when the car did it: an arm command that finds a fault in the way is
+//   invariants
+//          "applied" is said when the car did it: an arm command that finds a fault in the way is
 //          refused and does not lie in wait; nothing is applied after its expiry
 //          of two flags the one that allows less holds, of two speed limits the lower
 //          arming by command is an act of its own, as a switch that is released and closed again;

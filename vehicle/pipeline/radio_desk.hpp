@@ -5,7 +5,8 @@
 //          Endpoint: fate of each command, standstill, place, events (also of attacks and key
 //          errors that the car's end of the radio sees), the path that the car means
 //          to drive (each kPathPeriod) and, when asked for, its parameters
-//   law    a command is decided once: by the pipeline, or here where the pipeline has no part in it
+//   invariants
+//          a command is decided once: by the pipeline, or here where the pipeline has no part in it
 //          (end of the run: at standstill only; parameters). Ends that do not agree on the safety
 //          schema do not arm
 //   cost   no allocation

@@ -3,7 +3,8 @@
 //          only the rim knows
 //   out    telemetry::Snapshot of the groups of Direction::kDown, each with the time at which its
 //          main signal was sampled
-//   law    a field that the car does not know is NaN; a group never sampled has no time, and the
+//   invariants
+//          a field that the car does not know is NaN; a group never sampled has no time, and the
 //          radio never sends it
 //   unset  what no part of this car tells yet: suspension, tread, fuel, steering_unit and brakes
 //          (the gateway does not decode those messages); opponents; torque, oil and traction of

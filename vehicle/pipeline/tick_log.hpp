@@ -1,7 +1,8 @@
 // What telemetry shows of more than one tick: what each receiver said last, and lap times.
 //   in     Inputs and Outputs of every tick, length of the track
 //   out    the newest sample of each kind and unit; the last lap
-//   law    a lap is timed from one crossing of station zero to the next, forward; a car that jumps
+//   invariants
+//          a lap is timed from one crossing of station zero to the next, forward; a car that jumps
 //          or goes back across it begins anew
 //   units  SI; instants of the car's clock
 //   cost   O(samples), no allocation

@@ -2,7 +2,8 @@
 // its place in the list, and is counted.
 //   in     stream, GPS time of validity, arrival, the sample without `unit` and `at`
 //   out    appended to SensorInput; one that finds its list full counts in `overflows`
-//   law    no sample is refused for its stamp: who locates the car shall see what is wrong with it
+//   invariants
+//          no sample is refused for its stamp: who locates the car shall see what is wrong with it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -8,7 +8,8 @@
 //          the mounting, attitude by the sensor's own reference frame rotation. The heading is the
 //          car's, not that of its antennas: the car file has baseline_yaw_deg 0 for such a unit
 //   units  SI and radians
-//   law    a heading is given once a second, and only while the compass of the two antennas works:
+//   invariants
+//          a heading is given once a second, and only while the compass of the two antennas works:
 //          the inertial solution between remembers it, and would be believed again and again
 //   errors counters per kind
 //   source VectorNav binary output protocol (protocol/gnss/vectornav_message.hpp); VN-310 user

@@ -2,7 +2,8 @@
 // number of restarts, then none, and a stop that stays until the operator resets it.
 //   in     what the rim sees of the interface; the operator's reset; now
 //   out    whether the rim shall restart the controller now; whether the bus has failed for good
-//   law    at most `restarts` in any `window`; the next bus-off latches `failed` (Cause kBusOff).
+//   invariants
+//          at most `restarts` in any `window`; the next bus-off latches `failed` (Cause kBusOff).
 //          A controller that is down or takes no frame for `stall_max` counts as bus-off.
 //          One that stays down through `restarts` of them latches too, whatever the window; so it
 //          is at most (restarts + 1) x pause from going down to a restart that helps or the latch.

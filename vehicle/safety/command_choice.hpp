@@ -2,7 +2,8 @@
 // that comes after its decision.
 //   in     the mode that was decided, control's command, the last stop, the joystick's word
 //   out    a command and its source; then slowed by the joystick and within the slews
-//   law    a change of source is no jump; in a stop the throttle never rises; coasting has none;
+//   invariants
+//          a change of source is no jump; in a stop the throttle never rises; coasting has none;
 //          with the brake touched the throttle yields; in a controlled stop the brake stays within
 //          the grip of the tyres at the speed, in every stop the steering within the gate's limit
 //   errors none

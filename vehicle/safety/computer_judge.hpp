@@ -2,7 +2,8 @@
 // knows of processor, memory and temperature.
 //   in     now, once per tick; world::ComputerHealth
 //   out    what is wrong; `gap` is the time since the tick before
-//   law    one sleep is told and forgiven; a computer that does not run for more than `idle_share`
+//   invariants
+//          one sleep is told and forgiven; a computer that does not run for more than `idle_share`
 //          of the time for long uses up a budget of `late_max` and stops the car. What the rim does
 //          not know is not judged
 //   units  seconds, shares, MiB, degrees Celsius

@@ -3,7 +3,8 @@
 //   in     signals, bus health, flags, ego state, watchdog rows, verdicts of planning and control,
 //          what the actuators were told, the computer's health
 //   out    a set of causes; causes.hpp says what is done about each, mode_table what follows
-//   law    what a monitor finds that is switched off is not found
+//   invariants
+//          what a monitor finds that is switched off is not found
 //   errors none
 //
 // The dead bus. The drive-by-wire sends four messages every 10 ms or faster and never pauses. When

@@ -7,7 +7,8 @@
 //
 //   in     what was told until now, what is heard
 //   out    how far outside the bounds it has been for longer than `persist`; 0: it follows
-//   law    an actuator that sticks, is slow, is biased or leaks by more than the tolerance leaves
+//   invariants
+//          an actuator that sticks, is slow, is biased or leaks by more than the tolerance leaves
 //          the bounds within settle * ln(command / tolerance); nothing is judged by a feedback that
 //          is old, nor for a moment after a pause of the car's own
 //   units  as of the actuator

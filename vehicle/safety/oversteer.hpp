@@ -3,7 +3,8 @@
 // it; or the car turns faster than its front wheels are steered, or the other way.
 //   in     wheel speeds, angle of the road wheels as measured, speed and yaw rate of localization
 //   out    by how much the worse sign exceeds its limit, 1 at the limit; 0: no over-steer
-//   law    one wheel that lies, spins, locks or has left the ground over a bump has no say, nor has
+//   invariants
+//          one wheel that lies, spins, locks or has left the ground over a bump has no say, nor has
 //          a launch: below speed_min nothing is judged
 //   model  yaw rate = v * angle / (wheelbase + understeer * v^2), on the road's own plane
 //   errors what is not known is not judged

@@ -8,7 +8,8 @@
 //
 //   in     the link's watchdog row, the joystick's newest sample if there is one, now
 //   out    the rung, what is left of the joystick, a speed limit, whether the car must stop
-//   law    nothing here makes the car faster than without a radio; a sample that comes back after
+//   invariants
+//          nothing here makes the car faster than without a radio; a sample that comes back after
 //          it was dropped acts at once, one that stays away is handed back evenly, never in a step
 //   units  SI; throttle cap and brake 0 .. 1
 //   source limits: false trips by hour and fade are in the research page on the radio, table 4.3

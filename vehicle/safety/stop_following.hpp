@@ -3,7 +3,8 @@
 //   in     the stop trajectory, the pose of the car, what the actuators were told last
 //   out    a command: throttle 0, the gear held; at standstill the brake is held
 //   frames Map; lateral error positive where the car is left of the path, angles left positive
-//   law    e' = v chi, chi' = kappa v, chi the direction of travel against the path's; the wanted
+//   invariants
+//          e' = v chi, chi' = kappa v, chi the direction of travel against the path's; the wanted
 //          change of curvature places both poles at w, damping z:
 //            kappa = -(w^2 e + 2 z w v chi) / v^2
 //          steering = L k + K a_y of the path (stop_brake.hpp) + (L + K v^2) kappa + trim; the trim

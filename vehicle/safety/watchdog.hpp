@@ -8,7 +8,8 @@
 //          planner and of the radio; the sensors that the operator has excluded
 //   out    one row per stream: good, warning, bad, never heard, or not watched; for each receiver
 //          what it says of its own accuracy
-//   law    a rate and a delay are judged from a whole second on; of several of a signal within one
+//   invariants
+//          a rate and a delay are judged from a whole second on; of several of a signal within one
 //          tick the newest counts; a sensor that is excluded is not watched
 //   units  Hz, s, m
 //   errors none

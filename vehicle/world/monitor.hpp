@@ -1,7 +1,8 @@
 // Every monitor of the car, as one list: who looks for what. Each module reports in a MonitorSet
 // which of its monitors see something wrong in this tick; the bench grades how fast, and can switch
 // a monitor off to prove that it is needed. No car file can.
-//   law    a monitor that is off sees nothing, and what it would have refused or stopped passes
+//   invariants
+//          a monitor that is off sees nothing, and what it would have refused or stopped passes
 //   source fault catalogue of the bench, F01 to F36
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

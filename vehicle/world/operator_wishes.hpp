@@ -1,7 +1,8 @@
 // What the operator wants of the car, as the rim hears it: what holds now (wishes) and what is to
 // be done once (commands), and the car's answer to each command.
 //   in     the rim: by radio, by a switch, by a test. A wish that is no longer said is not here
-//   law    a joystick makes the car slower and never steers it; whoever applies a command compares
+//   invariants
+//          a joystick makes the car slower and never steers it; whoever applies a command compares
 //          its expiry first, and answers every command in the tick in which it came, or in the next
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -2,7 +2,8 @@
 //   in     mean temperature of every tyre, as the car says it; a value that is missing, not a
 //          number or older than kTyreAgeMax is not known
 //   out    share of the warm friction, (0, 1], linear between the rows of the table
-//   law    the coldest tyre counts, and what is not known counts as cold: the first row. A tyre
+//   invariants
+//          the coldest tyre counts, and what is not known counts as cold: the first row. A tyre
 //          that is hotter than the last row has the last row's share: heat is not modelled
 //   source 29 C against at least 79 C: Saba et al., Fast and Modular Autonomy Software (a spin on
 //          cold tyres); the shares between are estimates

@@ -14,10 +14,12 @@ import { finderShown, helpShown } from "./frame/keys";
 import { later } from "./frame/later";
 import { Login } from "./frame/login";
 import { Navigation } from "./frame/navigation";
+import { SilenceBand } from "./frame/silence_band";
 import { page } from "./frame/pages";
 import type { PageName } from "./frame/pages";
 import { ReplayBar } from "./frame/replay_bar";
 import { ShelveDialog, shelving } from "./frame/shelve";
+import { StopCard } from "./frame/stop_card";
 import { StopRail } from "./frame/stop_rail";
 import { TopBar } from "./frame/top_bar";
 import { AlarmsPage } from "./pages/alarms/page";
@@ -39,6 +41,7 @@ const kBodies: Record<PageName, FunctionComponent> = {
   alarms: AlarmsPage,
   race: later(() => import("./pages/race/page").then((it) => it.RacePage)),
   hil: later(() => import("./pages/hil/page").then((it) => it.HilPage)),
+  events: later(() => import("./pages/events/page").then((it) => it.EventsPage)),
   replay: later(() => import("./pages/replay/page").then((it) => it.ReplayPage)),
 };
 
@@ -57,12 +60,17 @@ function Frame() {
       data-mode={mode}
       data-held={!isLive.value}
       data-connected={session.connected.value}
+      data-presence={session.presence.value}
       data-several={session.hasSeveral.value}
     >
       {session.hasSeveral.value && <CarTabs />}
       <TopBar key={`bar${number}`} />
+      <SilenceBand />
       <Navigation />
-      <Body key={`page${number}`} />
+      <div class="page-box">
+        <Body key={`page${number}`} />
+      </div>
+      <StopCard key={`card${number}`} />
       <StopRail key={`stops${number}`} />
       <AlarmLine key={`alarms${number}`} />
       {mode === "REPLAY" ? <ReplayBar /> : <DvrBar />}

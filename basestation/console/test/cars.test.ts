@@ -170,6 +170,7 @@ describe("another car in the same chart", () => {
     path,
     group: "ego",
     name: path.slice(4),
+    title: path === "ego.vx" ? "speed" : "lateral speed",
     unit: "m/s",
     kind: "real",
     min: 0,
@@ -195,9 +196,9 @@ describe("another car in the same chart", () => {
   });
 
   test("has a line of its own beside each field", () => {
-    expect(linesOf(spec, "time").map(nameOf)).toEqual(["ego.vx", "ego.vy"]);
+    expect(linesOf(spec, "time").map(nameOf)).toEqual(["speed", "lateral speed"]);
     comparedNumber.value = 8;
-    const names = ["ego.vx", "car 8", "ego.vy", "car 8"];
+    const names = ["speed", "car 8", "lateral speed", "car 8"];
     expect(linesOf(spec, "time").map(nameOf)).toEqual(names);
     expect(linesOf(spec, "distance").map(nameOf)).toEqual(names);
   });

@@ -25,6 +25,7 @@ const info = {
   path: "a.b",
   group: "a",
   name: "b",
+  title: "a of b",
   unit: "",
   kind: "real",
   min: 0,

@@ -39,7 +39,7 @@ function heard(quality: Quality, silent = false, values = kValues): Fields {
     paths.map((path, id): FieldInfo => {
       const [group, name] = path.split(".");
       const range = { min: -1e6, max: 1e6, resolution: 0.1, period_ms: 100 };
-      return { id, path, group, name, unit: "", kind: "real", ...range };
+      return { id, path, group, name, title: path, unit: "", kind: "real", ...range };
     }),
   );
   paths.forEach((path, id) => fields.write(id, quality, 0, values[path], 1000));
@@ -118,7 +118,7 @@ describe("the trail", () => {
   const field = (id: number, path: string): FieldInfo => {
     const [group, name] = path.split(".");
     const range = { min: -1e6, max: 1e6, resolution: 0.1, period_ms: 100 };
-    return { id, path, group, name, unit: "", kind: "real", ...range };
+    return { id, path, group, name, title: path, unit: "", kind: "real", ...range };
   };
   const kPaths = ["dynamics.lateral_error", "ego.y", "ego.x"];
   /** `count` rows, x their number; every seventh is stale, the error is a warning. */

@@ -17,6 +17,7 @@ const field = (id: number, path: string): FieldInfo => ({
   path,
   group: path.split(".")[0],
   name: path.split(".")[1],
+  title: path,
   unit: "",
   kind: "real",
   min: 0,

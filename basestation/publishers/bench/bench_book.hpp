@@ -1,8 +1,9 @@
-// What the base knows of a bench desk: its scenarios and its newest run, line by line as it tells
-// them, for consoles. The protocol: hil/desk/PROTOCOL.md.
+// Newest state of a bench server for consoles: scenarios and current run, line by line. The
+// protocol: hil/desk/PROTOCOL.md.
 //   in     lines of the desk; that it came or went
 //   out    texts for consoles: states that replace each other, and a log of events
-//   law    a line is taken whole or not at all. The desk tells all it knows to who connects anew:
+//   invariants
+//          a line is taken whole or not at all. The desk tells all it knows to who connects anew:
 //          an event that is known already is not told again
 //          without the desk nobody knows how a run goes on: its newest lines stay, marked by the
 //          link that is down

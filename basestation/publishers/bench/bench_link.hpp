@@ -1,8 +1,9 @@
-// The base's end of a bench desk: connects, connects again, tells consoles what the desk tells,
-// carries their starts and stops to it.
+// Client of a bench server: reconnects, forwards its messages to consoles and their starts and
+// stops to it.
 //   in     the path of the desk's socket; wishes of operators
 //   out    texts for consoles, told through Ears; lines to the desk
-//   law    nothing is started while the connected car says that it is real. A stop is carried in
+//   invariants
+//          nothing is started while the connected car says that it is real. A stop is carried in
 //          any case: it only ends a simulation
 //          a desk that is not there is looked for each kRetry, and consoles see that it is not
 //          what the desk told within kTellEvery is told together, so a lockstep run that is a

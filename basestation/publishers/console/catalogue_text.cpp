@@ -8,6 +8,7 @@
 #include "basestation/state/derived/attempt.hpp"
 #include "protocol/json/json_text.hpp"
 #include "protocol/telemetry/command/command_table.hpp"
+#include "protocol/telemetry/registry/titles.hpp"
 
 namespace pitwall::publishers::console {
 namespace {
@@ -95,6 +96,7 @@ std::string field_text(state::FieldId id, const alarms::Limit& limit) {
       .text("path", state::path_of(id))
       .text("group", row.group)
       .text("name", row.name)
+      .text("title", telemetry::title_of(row.group, row.name))
       .text("unit", row.unit)
       .text("kind", text_of(row.kind))
       .number("min", row.min)
@@ -116,6 +118,7 @@ std::string command_text(const telemetry::CommandRow& row) {
       .json("labels", labels_text(row.labels))
       .number("time_to_live_ms", row.time_to_live.milliseconds())
       .flag("needs_authority", row.needs_authority)
+      .flag("offered", row.offered)
       .str();
 }
 

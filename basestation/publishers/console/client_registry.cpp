@@ -18,6 +18,7 @@ ClientSet only(ClientId client) { return ClientSet{}.set(client); }
 }  // namespace
 
 void ClientRegistry::send(const ClientSet& to, std::string text) {
+  welcome();
   if (to.none()) return;
   out_.push_back({to, std::make_shared<const Message>(Message{.text = std::move(text)})});
 }
@@ -42,16 +43,26 @@ void ClientRegistry::joined(ClientId client, const Identity& who, Instant now) {
   present_.set(client);
   who_[client] = who;
   if (who.name.empty()) who_[client].name = "console " + std::to_string(client);
-  send(only(client), hello(client, now));
-  send(only(client), catalogue_);
-  for (const auto& [type, text] : messages_.states()) send(only(client), text);
-  for (const auto& [type, log] : messages_.lines()) {
-    for (const std::string& line : log) send(only(client), line);
-  }
+  newcomers_.push_back({client, now});
   snapshots_.want_full();
 }
 
+void ClientRegistry::welcome() {
+  if (newcomers_.empty()) return;
+  ClientSet all;
+  for (const auto& [client, came] : std::exchange(newcomers_, {})) {
+    send(only(client), hello(client, came));
+    all.set(client);
+  }
+  send(all, catalogue_);
+  for (const auto& [type, text] : messages_.states()) send(all, text);
+  for (const auto& [type, log] : messages_.lines()) {
+    for (const std::string& line : log) send(all, line);
+  }
+}
+
 void ClientRegistry::left(ClientId client) {
+  std::erase_if(newcomers_, [&](const Newcomer& newcomer) { return newcomer.client == client; });
   present_.reset(client);
   who_[client] = {};
 }
@@ -97,6 +108,7 @@ void ClientRegistry::said_binary(ClientId client) {
 void ClientRegistry::tell_history(ClientId client, const AskHistory& ask, const StateSource& eyes,
                                   Instant now) {
   if (!state::is_field(ask.field)) return tell_error(client, {"history.field", "no such field"});
+  welcome();
   const auto points = eyes.past(ask.field, now - from_seconds(ask.from_s),
                                 now - from_seconds(ask.to_s), ask.points);
   out_.push_back({only(client), std::make_shared<const Message>(
@@ -127,6 +139,7 @@ void ClientRegistry::identify(const service::CarIdentity& identity, Instant now)
 }
 
 void ClientRegistry::serve(const StateSource& eyes, UtcTime utc, Instant now) {
+  welcome();
   utc_ = utc;
   utc_at_ = now;
   auto frame = snapshots_.make(eyes, now);

@@ -1,4 +1,4 @@
-// All consoles of a base, without any socket: who is there, what each is told, what each asks.
+// Registry of console clients, without sockets: clients, messages out, requests in.
 //   in     who joined, left and said what; snapshots and messages of the base; time
 //   out    messages with whom they are for; requests that somebody else executes
 //   invariants  who joins is told first who it is, then the catalogue, the newest of every state,
@@ -64,7 +64,10 @@ class ClientRegistry {
   void heard() { snapshots_.heard(); }
   void serve(const StateSource& eyes, UtcTime utc, Instant now);
   Instant due() const { return snapshots_.due(); }
-  std::vector<Sending> take() { return std::exchange(out_, {}); }
+  std::vector<Sending> take() {
+    welcome();
+    return std::exchange(out_, {});
+  }
 
   command::Person person(ClientId client) const;
   std::optional<Role> role(ClientId client) const;
@@ -72,7 +75,15 @@ class ClientRegistry {
   const RoomCounters& counters() const { return counters_; }
 
  private:
+  struct Newcomer {
+    ClientId client = 0;
+    Instant came{};
+  };
+
   void send(const ClientSet& to, std::string text);
+  // Those who came since, together, so that a crowd shares the messages; before anything else is
+  // sent.
+  void welcome();
   std::string hello(ClientId client, Instant now) const;
   void tell_history(ClientId client, const AskHistory& ask, const StateSource& eyes, Instant now);
 
@@ -82,6 +93,7 @@ class ClientRegistry {
   UtcTime utc_{};
   Instant utc_at_{};
   ClientSet present_;
+  std::vector<Newcomer> newcomers_;  // not yet welcome
   std::array<Identity, 256> who_{};
   Snapshots snapshots_;
   std::vector<Sending> out_;

@@ -10,6 +10,10 @@
 namespace pitwall::publishers::console {
 namespace {
 
+// A crowd that speaks at once keeps neither the radio nor an operator waiting: what is left over
+// wakes the loop again.
+constexpr std::size_t kNewsPerTurn = 32;
+
 std::string catalogue_of(const service::CarService& car) {
   const alarms::Evaluator& evaluator = car.evaluator();
   return catalogue_text(
@@ -32,7 +36,9 @@ ConsoleService::ConsoleService(ConsoleConfig config, service::CarService& car,
 }
 
 void ConsoleService::submit(service::CarService& car, Instant now) {
-  while (const auto news = server_.next_news(config_.place)) {
+  for (std::size_t taken = 0; taken < kNewsPerTurn; ++taken) {
+    const auto news = server_.next_news(config_.place);
+    if (!news) return;
     switch (news->kind) {
       case web::ClientNews::Kind::kJoined:
         clients_.joined(news->client, news->who, now);

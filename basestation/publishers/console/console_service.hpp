@@ -1,5 +1,5 @@
-// The console service of one car: what the consoles of browsers get and ask, between the car's
-// service and the web server.
+// Console service of one car: messages to and requests from browsers, between the car's service and
+// the web server.
 //   in     messages and snapshots of the service; texts of consoles, by the server
 //   out    messages to the server; requests to the service
 //   invariants  ages, qualities, judgements, alarms and gates are the service's: consoles show them

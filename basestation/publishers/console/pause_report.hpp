@@ -1,4 +1,4 @@
-// What consoles are told of bench time: that it stands now, and for how long it has stood in all.
+// Message about bench time: whether it stands, and for how long it has stood in all.
 //
 //   stands   0 .. 150 ms          nothing
 //            from then on         every 100 ms of the wall clock
@@ -7,7 +7,8 @@
 //
 //   in     how bench time stands, at each wake-up of the loop; bench time
 //   out    the text `bench_time`, where there is news; none by the wall clock
-//   law    a base that is stopped tells nothing: to its consoles it does not answer
+//   invariants
+//          a base that is stopped tells nothing: to its consoles it does not answer
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,8 +1,9 @@
-// Which recordings a folder has, for people to choose one to play.
+// List of the recordings in a folder.
 //   in     a folder that holds recordings, or is one
 //   out    for each, newest first: whose it is, when its segments begin, how large it is; the
 //          document /api/recordings of PROTOCOL.md
-//   law    nothing is written, and no segment is read but the head of the first: a glance, whatever
+//   invariants
+//          nothing is written, and no segment is read but the head of the first: a glance, whatever
 //          their size. Links are not followed
 //   bound  kRecordingsMax, of kSegmentsMax segments each; older recordings are counted
 //   errors a folder that cannot be read, or whose first segment is none of a base, says so in its

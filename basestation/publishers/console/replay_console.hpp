@@ -2,7 +2,8 @@
 // endpoint in it: nothing that a console says can leave it.
 //   in     a Player; what consoles say; how much time has passed
 //   out    messages to the server; the recorded texts as they were; the same to tools that attach
-//   law    every console sees the same moment; whoever may look may play, pause and jump
+//   invariants
+//          every console sees the same moment; whoever may look may play, pause and jump
 //          ages, judgements and derived values are computed as of the recording's time
 //   errors commands, stops, authority and alarms are refused with a reason
 // SPDX-License-Identifier: Apache-2.0

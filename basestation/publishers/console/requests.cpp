@@ -127,6 +127,15 @@ Request stop(Reader& read) {
   return command::Stop{read.word("kind", kLevels)};
 }
 
+Request recover(Reader& read) {
+  using enum command::RecoveryStep;
+  constexpr std::array<std::pair<std::string_view, command::RecoveryStep>, 4> kSteps{
+      {{"release", kRelease}, {"acknowledge", kAcknowledge}, {"reset", kReset}, {"arm", kArm}}};
+  command::Recover ask{.step = read.word("step", kSteps)};
+  if (read.has("challenge")) ask.challenge = read.number("challenge", 0.0, kIdMax);
+  return ask;
+}
+
 Request authority(Reader& read) {
   constexpr std::array<std::pair<std::string_view, command::Claim>, 6> kClaims{
       {{"take", command::Claim::kTake},
@@ -169,9 +178,9 @@ Request mark(Reader& read) { return AskMark{read.text("text", 1, kLineMax)}; }
 
 Request notice(Reader& read) {
   constexpr std::array<std::pair<std::string_view, bool>, 2> kDoings{
-      {{"send", true}, {"dismiss", false}}};
+      {{"told", true}, {"dismiss", false}}};
   command::AnswerNotice ask{.notice = read.whole<std::uint32_t>("id", 0, kIdMax)};
-  ask.send = read.word("do", kDoings);
+  ask.told = read.word("do", kDoings);
   return ask;
 }
 
@@ -277,7 +286,7 @@ struct Kind {
   std::string_view name;
   Request (*read)(Reader&);
 };
-constexpr std::array<Kind, 21> kKinds{
+constexpr std::array<Kind, 22> kKinds{
     {{"history", history},
      {"ping", ping},
      {"mark", mark},
@@ -287,6 +296,7 @@ constexpr std::array<Kind, 21> kKinds{
      {"reset", of_alarm<command::ResetAlarm>},
      {"stop", stop},
      {"release_stop", [](Reader&) -> Request { return command::ReleaseStop{}; }},
+     {"recover", recover},
      {"authority", authority},
      {"stage", stage},
      {"send", send},

@@ -1,4 +1,4 @@
-// What a console asks for, read from its text: see PROTOCOL.md.
+// Requests of a console, parsed from JSON: see PROTOCOL.md.
 //   in     one JSON text of a client
 //   out    the request with every number in its range; the role that it takes
 //   errors Problem with the member as place; nothing is guessed

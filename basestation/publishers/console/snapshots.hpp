@@ -1,4 +1,4 @@
-// The pictures that consoles get: when one is made, and what is in it.
+// State snapshots for consoles: when one is made, and its content.
 //
 //   packet |    |    |    |  (50 a second)
 //   frame  |         |       made when a packet comes, so that what is told is new; kEvery apart
@@ -6,7 +6,8 @@
 //
 //   in     packets with their groups, views of all fields, time
 //   out    frames: every field each second and when asked for, else those whose entry changed
-//   law    a safety value that changed (a mode, a flag, a stop) is told at once; its age is not
+//   invariants
+//          a safety value that changed (a mode, a flag, a stop) is told at once; its age is not
 //          what is told is what was told last to all: a client that lost frames is whole again with
 //          the next full picture
 //   cost   O(fields) a frame

@@ -3,7 +3,8 @@
 //   in     vehicle/config/tracks/*.yaml: stations with curvature and widths
 //   out    JSON as PROTOCOL.md has it; a Course
 //   frames Map, as ego.x and ego.y
-//   law    the line is integrated from the knots and closed by spreading what is missing evenly: a
+//   invariants
+//          the line is integrated from the knots and closed by spreading what is missing evenly: a
 //          drawing, within a metre of the car's own map
 //   errors Problem with file, line and column
 // SPDX-License-Identifier: Apache-2.0

@@ -1,7 +1,8 @@
 // ROS 2 over DDS: tools attach to the base as to any node, `ros2 topic echo /vehicle/odom`.
 //   in     packets as they come; ten times a second what the base finds, by `look`
 //   out    the topics of ros_view::View; the node pitwall_base in `ros2 node list`
-//   law    it only writes: no reader of anything, so that nothing from there can command a car
+//   invariants
+//          it only writes: no reader of anything, so that nothing from there can command a car
 //          the loop never waits: a copy of the state goes into a Feed, a thread encodes and writes.
 //          A reader that stops costs its own samples and nothing else
 //   errors start(): Problem with the option. Later: figures(): what the Feed dropped by group, what

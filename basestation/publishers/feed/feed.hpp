@@ -1,8 +1,9 @@
-// What the loop of the base hands to an outlet that has a thread of its own: states as they come
-// from the car, texts as consoles get them.
+// Queue from the event loop to a publisher with its own thread: states of the car, messages of the
+// service.
 //   in     samples, texts and what the base itself finds, by the loop
 //   out    all that waits, by the thread
-//   law    neither waits for the other: what is under the lock is a copy or a move. In order; of
+//   invariants
+//          neither waits for the other: what is under the lock is a copy or a move. In order; of
 //          more than the bounds allow the oldest goes, and is counted for each channel that it was
 //          of, so that a slow outlet shows the newest and says what it lost
 //   bound  kItems, and kTextBytes of texts

@@ -1,9 +1,9 @@
-// All Foxglove clients of a base, without any socket: who is there, what each has subscribed, what
-// each asks.
+// Registry of Foxglove clients, without sockets: clients, subscriptions, requests.
 //   in     who joined, left and said what; messages of the channels; what clients lost; time;
 //          thresholds, which clients may read
 //   out    messages with whom they are for; what is asked of a recording's playback
-//   law    read only: what would change anything is refused with a status that says why, and is
+//   invariants
+//          read only: what would change anything is refused with a status that says why, and is
 //          counted; nothing that a client says reaches anybody else
 //          a client has one subscription of a channel; of a latched channel it is told the newest
 //          at once. Who loses messages because it does not read is told which topics, once a second

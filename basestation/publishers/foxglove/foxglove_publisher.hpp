@@ -1,7 +1,9 @@
-// Foxglove, Lichtblick and PlotJuggler look at a live car: a FoxgloveServer on a thread of its own.
+// Foxglove publisher of a live car: a FoxgloveServer on its own thread, for Foxglove, Lichtblick
+// and PlotJuggler.
 //   in     packets, the texts that consoles get, what the base itself finds
 //   out    messages to clients
-//   law    behind a Feed: whatever this thread or a client does costs the loop nothing
+//   invariants
+//          behind a Feed: whatever this thread or a client does costs the loop nothing
 //   errors start(): as the desk. figures(): what the feed or clients lost, what was refused
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

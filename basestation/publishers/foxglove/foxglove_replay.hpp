@@ -1,7 +1,8 @@
-// Foxglove looks at a recording and winds it: a FoxgloveServer that a replay tells what it plays.
+// Foxglove publisher of a replay: a FoxgloveServer whose client controls the playback.
 //   in     what a recording says; how its playback stands
 //   out    messages to clients; asked(): speed and time that a client wants
-//   law    every client and every console sees the same moment
+//   invariants
+//          every client and every console sees the same moment
 //          a state of the playback is told when it changed, once a second, and as the answer to
 //          each request
 // SPDX-License-Identifier: Apache-2.0

@@ -1,7 +1,8 @@
 // A Foxglove WebSocket server as one thread uses it: sockets, clients and sources together.
 //   in     what came from the car, what the base told; time
 //   out    messages to clients; what they ask of a recording's playback
-//   law    nothing waits: the sockets have a thread and bounded queues of their own. While nobody
+//   invariants
+//          nothing waits: the sockets have a thread and bounded queues of their own. While nobody
 //          is there nothing is encoded but what who comes must be told
 //          a page of this machine may attach; one of elsewhere only where its origin was named
 //   bound  of a client that does not read kMessages messages and kMessageBytes wait, the oldest go

@@ -1,8 +1,8 @@
-// The words of the Foxglove WebSocket protocol, version 1, without any socket: what a server says,
-// what a client asks.
+// Messages of the Foxglove WebSocket protocol, version 1, encoded and decoded without a socket.
 //   in     channels, times, states; texts and bytes of clients
 //   out    JSON texts and binary messages, little endian; requests
-//   law    read only: what would change anything here is understood and named, so that it can be
+//   invariants
+//          read only: what would change anything here is understood and named, so that it can be
 //          refused with a reason
 //   units  times in ns since 1970
 //   errors Problem with the place in the message: no JSON, no such op, wrong type, cut short

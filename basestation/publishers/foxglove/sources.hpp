@@ -1,11 +1,12 @@
-// Which channels a Foxglove client sees, and what becomes a message of each.
+// Channels for Foxglove clients, and the source of each channel's messages.
 //   /vehicle/odom, /tf, /imu, /gnss/*, /diagnostics ...   the standard messages of ROS 2, as
 //                      outlets/ros_view makes them
 //   /car/GROUP         every group of the registry, and
 //   /base/TYPE         the texts that consoles get, both as a recording has them: one layout fits
 //                      a live car and its recording
 //   /base/values/GROUP what the base itself finds: link, derived values
-//   law    the time of a message is when the base received it; its header has when it was sampled
+//   invariants
+//          the time of a message is when the base received it; its header has when it was sampled
 //   cost   some tens of microseconds for a state with all groups
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,7 +1,8 @@
 // LCM's own library, for publishing alone: nothing subscribes, so nothing that others publish is
 // ever read here.
 //   in     where to: udpm://ADDRESS:PORT?ttl=N; channel and message
-//   law    a ttl of 0 stays on this machine, which is what a URL without one means
+//   invariants
+//          a ttl of 0 stays on this machine, which is what a URL without one means
 //   errors parse(): a Problem for another provider, no multicast address, no port, a ttl beyond
 //          255. open(): a Problem where the library finds no way there. publish(): false, the
 //          network did not take it

@@ -1,8 +1,9 @@
-// Publishes by LCM what the base hears and tells: the channels, types and bytes of the LCM log that
-// a recording has.
+// LCM publisher of received states and messages: channels, types and bytes as in the LCM log of a
+// recording.
 //   in     packets, and the texts that consoles get
 //   out    /car/GROUP and /base/TYPE, under a prefix where several cars share a wall
-//   law    a thread of its own behind a Feed: a network that stalls costs this outlet its oldest
+//   invariants
+//          a thread of its own behind a Feed: a network that stalls costs this outlet its oldest
 //          messages, counted by channel, and nobody anything else
 //   errors figures(): dropped before they were published; failed: the network did not take them
 // SPDX-License-Identifier: Apache-2.0

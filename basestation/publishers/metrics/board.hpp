@@ -1,6 +1,6 @@
-// Where the stands of all cars leave what /metrics is made of, and where whoever answers a request
-// makes it.
-//   law    under the lock is a copy only: a scrape does not keep a stand waiting
+// Shared store of figures of all cars, from which a request for /metrics is answered.
+//   invariants
+//          under the lock is a copy only: a scrape does not keep a stand waiting
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

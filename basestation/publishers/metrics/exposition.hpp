@@ -1,7 +1,8 @@
-// The text that Prometheus reads: families of samples, each family once with its help and type.
+// Prometheus text format: families of samples, each once with help and type.
 //   in     families in any order of their samples
 //   out    text format 0.0.4
-//   law    a sample that is no number is left out: what nobody knows has no value
+//   invariants
+//          a sample that is no number is left out: what nobody knows has no value
 //   cost   O(samples)
 //   source Prometheus: exposition formats; promtool's lint: base units in words, counters _total
 // SPDX-License-Identifier: Apache-2.0

@@ -1,9 +1,10 @@
-// A base as Prometheus sees it.
+// Metrics of a base station in the Prometheus text format.
 //   in     what each car's stand looked like at one moment, as plain values
 //   out    the text of /metrics
 //   names  pitwall_field_UNIT{car,group,field}: every number of the registry and of the base's own,
 //          in base units; pitwall_group_age_seconds{car,group}; counters pitwall_*_total
-//   law    a field that is stale, or that the car does not know, has no sample: nobody takes an old
+//   invariants
+//          a field that is stale, or that the car does not know, has no sample: nobody takes an old
 //          number for a present one. The age of its group tells how old it is
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,5 +1,4 @@
-// Gives a Recorder what the messages of a car's service do not have: states, and the recorder's own
-// figures.
+// Adapter from a car's service to a Recorder: states, and the recorder's own figures.
 //   in     packets as they come; the time
 //   out    every group of each packet; figures of the recorder once a second
 //   cost   a copy for each record

@@ -1,4 +1,4 @@
-// What the car tells, in the messages that every ROS 2 tool knows.
+// Mapping of the car's state to standard ROS 2 messages.
 //   in     the state as the radio has it; times on the base's clock, and what makes UTC of them
 //   out    messages; none where there is nothing to be said
 //   frames map, base_link at the centre of gravity (ISO 8855, REP 103, REP 105)

@@ -1,9 +1,10 @@
-// What is well and what is not, as rqt_robot_monitor and Foxglove's diagnostics panel show it.
+// Diagnostics messages for rqt_robot_monitor and Foxglove's diagnostics panel.
 //   in     the state as the radio has it, what the base itself finds, time
 //   out    one status for each watchdog of the car, each sensor that ever came, each receiver, the
 //          car's faults, its computer, the radio, each alarm that stands, each outlet
 //   level  OK 0, WARN 1, ERROR 2; STALE 3 for whatever the car has not told of for too long
-//   law    a sensor that never came is not listed: this car does not have it
+//   invariants
+//          a sensor that never came is not listed: this car does not have it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

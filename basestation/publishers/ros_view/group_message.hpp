@@ -5,7 +5,8 @@
 //
 //   out    type description, .msg text with units, RIHS01, CDR bytes
 //   units  as the registry has them
-//   law    every field is a float64, so that one that is not known is NaN and never 0; the names of
+//   invariants
+//          every field is a float64, so that one that is not known is NaN and never 0; the names of
 //          a choice's values are constants of the message; header.stamp is when it was sampled
 //   cost   the descriptions are made once; encode_group() allocates nothing that `out` has room for
 // SPDX-License-Identifier: Apache-2.0

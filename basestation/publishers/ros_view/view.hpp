@@ -1,8 +1,9 @@
-// What ROS 2 tools see of a car: which topics there are, and which messages a state becomes. The
-// same for every outlet that speaks ROS 2.
+// ROS 2 view of a car: topics, and the messages made from a state. The same for every publisher
+// that uses ROS 2 messages.
 //   in     states as they come, what the base finds ten times a second, time
 //   out    topics with types, texts and hashes; messages as CDR, each with the time of its sample
-//   law    a message is made of a group that is new, and of no other: nothing is repeated. Which
+//   invariants
+//          a message is made of a group that is new, and of no other: nothing is repeated. Which
 //          numbers are absent, and how that is said: car_messages.hpp, group_message.hpp
 //          diagnostics once a second, at once when a level changes; a loss of an outlet is told for
 //          kLossShown after its count has grown

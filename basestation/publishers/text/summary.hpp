@@ -1,4 +1,4 @@
-// What a run of the base station heard and said, as one JSON document.
+// Summary of a run of the base station as one JSON document.
 //   out    car ("never heard", "heard", "lost"), source, packets, lost, loss, refused (total and by
 //          kind), rate_hz; age_ms of ego and ages_ms by class and by group {p50 p90 p99 max};
 //          paths (loss, bursts, one-way delay, jitter, budget); clock; commands and events with

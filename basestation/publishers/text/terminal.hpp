@@ -1,5 +1,5 @@
-// What a base shows on its terminal: a screen of all cars now and then, or, without one, a line for
-// each attack on the radio and each request that was refused.
+// Terminal output of a base station: a screen of all cars, or, without a terminal, a line for each
+// attack on the radio and each request that was refused.
 //   invariants  a terminal that takes no text (Ctrl-S, a full pipe) stops the loop and with it what
 //          the car receives: a base whose screen stands still is no base that somebody watches
 //          while bench time stands the screen goes on, and says so

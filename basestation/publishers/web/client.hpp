@@ -1,4 +1,4 @@
-// Who is connected: the words that the parts of the web server share.
+// Types of a connected client that the parts of the web server share.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,8 +1,9 @@
-// What waits to be sent to one client, bounded: one that does not read loses its own oldest
-// pictures and nobody else's, and is told how many.
+// Bounded send queue of one client: one that does not read loses its own oldest pictures and nobody
+// else's, and is told how many.
 //   in     messages, made once for all clients, or bytes with a head of this client's
 //   out    the next one to write, with the number of frames that this client lost so far
-//   law    order is kept; of more than the limits allow of what a newer one replaces, snapshots and
+//   invariants
+//          order is kept; of more than the limits allow of what a newer one replaces, snapshots and
 //          tagged bytes, the oldest goes, and is counted, bytes by their tag;
 //          texts and histories are never lost: more than unread_bytes of them mean that the client
 //          is to be closed

@@ -1,7 +1,8 @@
-// The console's built files, kept in memory: nothing that a request says is ever a path on disk.
+// Built files of the console, kept in memory: nothing that a request says is ever a path on disk.
 //   in     a folder with index.html and assets/; X.gz beside X is X gzipped
 //   out    by path: bytes, gzipped bytes where that is shorter, type
-//   law    read anew when index.html on disk is another than before, so that a new build shows
+//   invariants
+//          read anew when index.html on disk is another than before, so that a new build shows
 //          without a restart
 //   bound  kFilesMax files of kFileMax bytes; others are left out
 // SPDX-License-Identifier: Apache-2.0

@@ -1,8 +1,9 @@
-// What an HTTP request is answered, without any socket: the console's files, the documents of the
-// base and of each of its cars, layouts.
+// HTTP responses, without a socket: the console's files, the documents of the base and of each of
+// its cars, layouts.
 //   in     a request: method, target, the headers that matter, its body; documents of the moment
 //   out    status, headers, bytes; or that it is the socket's, who comes, and to which car
-//   law    every answer carries the policy that keeps foreign scripts out; a refusal is one line of
+//   invariants
+//          every answer carries the policy that keeps foreign scripts out; a refusal is one line of
 //          text that says why
 //          ?car=NUMBER names the car that is meant; without it the first is. A number that is not
 //          served here is refused: nobody gets another car than the one he asked for

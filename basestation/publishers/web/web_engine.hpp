@@ -1,6 +1,7 @@
-// The inside of web_server.cpp: what belongs to the web thread, and one console's socket. For that
-// file alone; it brings in Boost.Beast.
-//   law    news, posts and counters are under the lock; all else is the web thread's own
+// Implementation of web_server.cpp: what belongs to the web thread, and one console's socket. For
+// that file alone; it brings in Boost.Beast.
+//   invariants
+//          news, posts and counters are under the lock; all else is the web thread's own
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -68,14 +69,16 @@ struct WebServer::Engine {
   void run();
   void accept();
   void accepted(Tcp::socket socket);
-  // Why this one cannot be served; empty: it can.
+  // Why this one cannot be served; empty: it can. Who came just now has yet to take its memory.
   std::string no_room_for(const Tcp::socket& socket) const;
   void refuse(std::uint64_t WebCounters::*counter, const std::string& why);
   // Once a second: tokens that hold no longer, memory that runs short.
   void tend();
   void drop_revoked();
+  void make_room();     // where memory runs short
   void drop_largest();  // of viewers
-  void tell(std::size_t car, ClientNews news);
+  void drop_newest();   // of viewers, while an allocation has failed
+  void tell(std::size_t car, Role by, ClientNews news);
   void call();
   void deliver();
   // 0: no place is left for somebody of that role.
@@ -91,7 +94,8 @@ struct WebServer::Engine {
     SharedMessage message;  // null: a request of these clients was handled
   };
   struct Door {
-    std::deque<ClientNews> news;
+    std::deque<ClientNews> operators, viewers;  // news of them
+    ClientSet leaving;               // whose end is among the news: no number for another yet
     transport::FileDescriptor bell;  // never changes
   };
   mutable std::mutex lock;
@@ -102,7 +106,8 @@ struct WebServer::Engine {
   WebCounters counters;
   std::map<std::pair<ClientId, std::uint32_t>, std::uint64_t> drops;  // by client and tag
 
-  std::size_t connections = 0;  // the rest belongs to the web thread
+  std::size_t connections = 0;                       // the rest belongs to the web thread
+  std::size_t newcomers = 0, earlier_newcomers = 0;  // accepted in this and in the last kTending
   ClientId newest = kLastClient;
   WaitingRoom::Connection newest_connection = 0;
   WaitingRoom waiting;
@@ -149,7 +154,7 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
       if (failed) return self->gone();
       self->engine_.count([](WebCounters& c) { ++c.joined; });
       self->engine_.tell(
-          self->car_,
+          self->car_, self->who_.role,
           {.kind = ClientNews::Kind::kJoined, .client = self->client_, .who = self->who_});
       self->joined_ = true;
       self->read();
@@ -229,7 +234,7 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
         .client = client_};
     news.text = beast::buffers_to_string(heard_.data());
     heard_.consume(heard_.size());
-    engine_.tell(car_, std::move(news));
+    engine_.tell(car_, who_.role, std::move(news));
   }
 
   void write() {
@@ -268,7 +273,7 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
     engine_.sockets[client_].reset();
     if (!joined_) return;
     engine_.count([](WebCounters& c) { ++c.left; });
-    engine_.tell(car_, {.kind = ClientNews::Kind::kLeft, .client = client_});
+    engine_.tell(car_, who_.role, {.kind = ClientNews::Kind::kLeft, .client = client_});
   }
 
   Engine& engine_;

@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <boost/asio/post.hpp>
 #include <exception>
-#include <span>
+#include <ranges>
 
+#include "basestation/publishers/web/admission/memory_reserve.hpp"
 #include "basestation/publishers/web/admission/room_left.hpp"
 #include "basestation/publishers/web/http_session.hpp"
 #include "basestation/publishers/web/web_engine.hpp"
@@ -49,6 +50,7 @@ void WebServer::Engine::accepted(Tcp::socket socket) {
     return refuse(&WebCounters::refused_room,
                   "connections: all of " + std::to_string(kConnections) + " are taken");
   ++connections;
+  ++newcomers;
   count([](WebCounters& c) { ++c.connections; });
   error_code ignored;
   socket.set_option(Tcp::no_delay(true), ignored);
@@ -70,7 +72,10 @@ std::string WebServer::Engine::no_room_for(const Tcp::socket& socket) const {
   // native_handle() is not const for an asio socket; the number is all that is asked for.
   const int descriptor = const_cast<Tcp::socket&>(socket).native_handle();
   std::string why = short_of_descriptors(descriptor);
-  return why.empty() ? short_of_memory(memory_use(), kRoomToCome) : why;
+  if (!why.empty()) return why;
+  if (!reserve_is_held()) return "memory: an allocation failed, the reserve is in use";
+  return short_of_memory(memory_use(),
+                         kRoomToCome + (newcomers + earlier_newcomers) * kRoomPerNewcomer);
 }
 
 void WebServer::Engine::refuse(std::uint64_t WebCounters::*counter, const std::string& why) {
@@ -90,7 +95,8 @@ void WebServer::Engine::tend() {
     const auto changed = desk.config().access.tokens->look_again();
     if (!changed) desk.config().say("tokens unchanged: " + to_string(changed.error()));
     if (changed && *changed) drop_revoked();
-    if (!short_of_memory(memory_use(), kRoomToStay).empty()) drop_largest();
+    earlier_newcomers = std::exchange(newcomers, 0);
+    make_room();
     tend();
   });
 }
@@ -102,6 +108,11 @@ void WebServer::Engine::drop_revoked() {
     desk.config().say("token of " + socket->who().name + " no longer holds: console closed");
     socket->close(websocket::close_code::policy_error);
   }
+}
+
+void WebServer::Engine::make_room() {
+  if (!short_of_memory(memory_use(), kRoomToStay).empty()) return drop_largest();
+  if (!reserve_is_held()) hold_reserve();
 }
 
 void WebServer::Engine::drop_largest() {
@@ -116,14 +127,24 @@ void WebServer::Engine::drop_largest() {
   largest->cut();
 }
 
-void WebServer::Engine::tell(std::size_t car, ClientNews item) {
+void WebServer::Engine::drop_newest() {
+  for (std::size_t back = 0; back < sockets.size(); ++back) {
+    const auto socket = sockets[(newest + sockets.size() - back) % sockets.size()];
+    if (socket == nullptr || socket->who().role == Role::kOperator) continue;
+    count([](WebCounters& c) { ++c.closed_short; });
+    return socket->cut();
+  }
+}
+
+void WebServer::Engine::tell(std::size_t car, Role by, ClientNews item) {
   Door& door = doors[car];
   {
     const std::lock_guard hold(lock);
+    auto& news = by == Role::kOperator ? door.operators : door.viewers;
     // kUnhandled bounds what is said; joining and leaving is bounded by kConnections.
-    if (door.news.size() < kNewsMax || item.kind == ClientNews::Kind::kLeft) {
-      door.news.push_back(std::move(item));
-    }
+    if (item.kind == ClientNews::Kind::kLeft) door.leaving.set(item.client);
+    if (news.size() < kNewsMax || item.kind == ClientNews::Kind::kLeft)
+      news.push_back(std::move(item));
   }
   const std::uint64_t one = 1;
   (void)transport::posix_call([&] { return ::write(door.bell.get(), &one, sizeof one); });
@@ -136,6 +157,7 @@ void WebServer::Engine::call() {
 }
 
 void WebServer::Engine::deliver() {
+  if (!reserve_is_held()) drop_newest();
   std::vector<Post> due;
   std::map<std::string, Shown> fresh;
   {
@@ -161,13 +183,20 @@ void WebServer::Engine::deliver() {
 
 // The next after the newest that is free, so that a number is not soon another console's.
 ClientId WebServer::Engine::free_number(Role role) {
-  const auto is_free = [](const auto& socket) { return socket == nullptr; };
-  const auto places = std::span{sockets}.subspan(kFirstClient, kLastClient - kFirstClient + 1);
+  ClientSet leaving;
+  {
+    const std::lock_guard hold(lock);
+    for (const Door& door : doors) leaving |= door.leaving;
+  }
+  const auto is_free = [&](ClientId client) {
+    return sockets[client] == nullptr && !leaving.test(client);
+  };
+  const auto places = std::views::iota(kFirstClient, static_cast<ClientId>(kLastClient + 1));
   const auto free = static_cast<std::size_t>(std::ranges::count_if(places, is_free));
   if (free <= (role == Role::kOperator ? 0 : kReserved)) return 0;
   do {
     newest = newest >= kLastClient ? kFirstClient : static_cast<ClientId>(newest + 1);
-  } while (sockets[newest] != nullptr);
+  } while (!is_free(newest));
   return newest;
 }
 
@@ -191,6 +220,9 @@ Result<std::unique_ptr<WebServer>, Problem> WebServer::start(transport::UdpAddre
   for (Engine::Door& door : engine->doors) {
     door.bell = transport::FileDescriptor{
         transport::posix_call([] { return ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK); })};
+  }
+  if (!hold_reserve()) {
+    return Unexpected{Problem{"--web " + to_string(listen), "no memory for its reserve"}};
   }
   engine->accept();
   engine->tend();
@@ -218,14 +250,16 @@ std::optional<ClientNews> WebServer::next_news(std::size_t car) {
   std::optional<ClientNews> item;
   {
     const std::lock_guard hold(engine_->lock);
-    if (door.news.empty()) {
+    auto& news = door.operators.empty() ? door.viewers : door.operators;
+    if (news.empty()) {
       // Under the lock: what is told from now on rings again.
       std::uint64_t rung = 0;
       (void)transport::posix_call([&] { return ::read(door.bell.get(), &rung, sizeof rung); });
       return item;
     }
-    item = std::move(door.news.front());
-    door.news.pop_front();
+    item = std::move(news.front());
+    news.pop_front();
+    if (item->kind == ClientNews::Kind::kLeft) door.leaving.reset(item->client);
   }
   if (item->kind == ClientNews::Kind::kSaid || item->kind == ClientNews::Kind::kBinary) {
     send(ClientSet{}.set(item->client), nullptr);

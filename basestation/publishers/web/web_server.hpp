@@ -2,7 +2,8 @@
 // delays what comes from the car.
 //   in     messages for clients; documents, those of the start and those of the moment
 //   out    who joined, who left, what they said
-//   law    between this thread and the caller's stand two bounded queues; neither side waits for
+//   invariants
+//          between this thread and the caller's stand two bounded queues; neither side waits for
 //          the other. A client whose requests are not handled yet is not read on: its own sending
 //          stops. A client that does not read: client_queue.hpp
 //          a console belongs to the car it came to, until it leaves: what it says is told to that
@@ -54,7 +55,7 @@ struct WebCounters {
   std::uint64_t closed_waiting = 0;                 // silent for longest when others came
   std::uint64_t refused_places = 0;                 // all places of consoles were taken
   std::uint64_t refused_short = 0;                  // memory or descriptors ran short
-  std::uint64_t closed_short = 0;                   // had left most unread when memory ran short
+  std::uint64_t closed_short = 0;                   // memory ran short: most unread, or newest
   std::uint64_t closed_revoked = 0;                 // their token holds no longer
   std::uint64_t refused_tls = 0;                    // no TLS at a port of TLS, or another failure
   std::uint64_t bad_http = 0, refused_http = 0;     // malformed; answered 4xx
@@ -81,7 +82,8 @@ class WebServer {
   WebServer& operator=(const WebServer&) = delete;
 
   transport::UdpAddress local() const;
-  // Of the consoles of one car, in the order of HttpConfig::cars: readable while news wait.
+  // Of the consoles of one car, in the order of HttpConfig::cars: readable while news wait. Those
+  // of operators come before those of viewers; those of one client stay in order.
   int fd(std::size_t car = 0) const;
   std::optional<ClientNews> next_news(std::size_t car = 0);
   // A document that replaces the one of this path, from now on.

@@ -122,7 +122,7 @@ struct Writer {
   void operator()(const NoticeAction& act) const {
     out.text("what", "notice")
         .number("notice", act.notice)
-        .flag("send", act.send)
+        .flag("told", act.told)
         .text("by", act.by);
   }
   void operator()(const LimitEdit& edit) const {
@@ -251,7 +251,7 @@ Result<EvaluatorInput, Problem> read_input_text(std::string_view text, Instant a
   if (what == "alarm") return EvaluatorInput{alarm_of(from)};
   if (what == "notice")
     return EvaluatorInput{NoticeAction{
-        .notice = id_of(from, "notice"), .send = from.flag("send"), .by = from.text("by")}};
+        .notice = id_of(from, "notice"), .told = from.flag("told"), .by = from.text("by")}};
   const auto field = state::find_field(from.text("field"));
   if (what == "limit" && field) return EvaluatorInput{limit_of(from, *field)};
   return Unexpected{Problem{"input", "nothing that a judge is told: " + what}};

@@ -1,7 +1,8 @@
-// What the judge is told, as the texts of a recording.
+// Inputs of the alarm evaluator as texts of a recording.
 //   in     inputs of a Evaluator; the settings that are in force
 //   out    one JSON object each: {"type": "judge" (settings) or "input", "time_ms", "what", ...}
-//   law    a text that is read gives the very input that was written, to the bit
+//   invariants
+//          a text that is read gives the very input that was written, to the bit
 //   errors read: Problem for a text of no known input
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

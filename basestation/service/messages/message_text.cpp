@@ -36,6 +36,7 @@ std::string listed_text(const alarms::ListedAlarm& alarm) {
       .flag("first_up", alarm.first_up)
       .flag("folded", alarm.folded)
       .flag("flooded", alarm.flooded)
+      .flag("can_be_shelved", !alarms::alarm_row(alarm.index).always_shown)
       .json("shelved_until_ms", ms_or_null(alarm.shelved_until))
       .json("reason", text_or_null(alarm.reason))
       .json("by", text_or_null(alarm.by))
@@ -53,6 +54,8 @@ std::string gate_text(const command::Gate& gate) {
       .text("name", command::text_of(gate.kind))
       .flag("ok", gate.ok)
       .number("value", gate.value)
+      .text("unit", gate.unit)
+      .text("word", gate.word)
       .json("age_ms", gate.known ? json::number(gate.age.milliseconds()) : "null")
       .flag("can_be_overridden", command::can_be_overridden(gate.kind))
       .text("text", gate.text)
@@ -148,6 +151,7 @@ std::string hello_text(const CarIdentity& identity, Instant now) {
       .text("name", identity.name)
       .text("mode", identity.mode)
       .text("alarm_config", identity.alarm_config)
+      .flag("second_person", identity.second_person)
       .number("time_ns", now.ns)
       .str();
 }
@@ -223,6 +227,34 @@ std::string ticket_text(const command::Ticket& ticket) {
       .str();
 }
 
+std::string stop_text(const std::optional<command::StoppedCar>& stopped) {
+  if (!stopped) return Object{}.text("type", "stop_state").flag("stopped", false).str();
+  Array steps;
+  for (std::size_t i = 0; i < command::kRecoverySteps; ++i) {
+    const command::RecoveryState& step = stopped->steps.at(i);
+    steps.json(Object{}
+                   .text("step", command::text_of(static_cast<command::RecoveryStep>(i)))
+                   .flag("done", step.done)
+                   .flag("possible", step.possible)
+                   .text("why", step.why)
+                   .str());
+  }
+  return Object{}
+      .text("type", "stop_state")
+      .flag("stopped", true)
+      .text("level", stopped->level)
+      .text("mode", stopped->mode)
+      .text("cause", stopped->cause)
+      .number("value", stopped->value)
+      .text("unit", stopped->unit)
+      .json("since_ms", stopped->since ? json::number(stopped->since->milliseconds()) : "null")
+      .text("by", stopped->by)
+      .flag("latched", stopped->latched)
+      .number("challenge", stopped->challenge)
+      .json("steps", steps.str())
+      .str();
+}
+
 std::string audit_text(const command::AuditLine& line) {
   return Object{}
       .text("type", "audit")
@@ -235,7 +267,7 @@ std::string audit_text(const command::AuditLine& line) {
 }
 
 std::string notice_text(const alarms::Notice& notice) {
-  constexpr std::array<std::string_view, 3> kFates{"draft", "sent", "dismissed"};
+  constexpr std::array<std::string_view, 3> kFates{"draft", "told", "dismissed"};
   return Object{}
       .text("type", "notice")
       .number("id", notice.id)

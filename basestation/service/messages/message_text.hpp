@@ -1,16 +1,18 @@
-// What the base tells its consoles, as the texts of PROTOCOL.md.
+// Messages of the base to its consoles, as the texts of PROTOCOL.md.
 //   in     alarms, authority, tickets, audit lines, drafts, fuel, events, figures of the link
 //   out    one JSON object each, with its type
 //   units  milliseconds on the base's clock, as PROTOCOL.md has them
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "basestation/alarms/evaluator.hpp"
 #include "basestation/command/audit.hpp"
 #include "basestation/command/authority_handover.hpp"
 #include "basestation/command/command_queue.hpp"
+#include "basestation/command/stop_episode.hpp"
 #include "basestation/link/link_meter.hpp"
 #include "protocol/telemetry/delivery/events.hpp"
 
@@ -20,6 +22,7 @@ namespace pitwall::service {
 struct CarIdentity {
   int car = 0;
   std::string name{}, mode = "NONE", alarm_config{};
+  bool second_person = false;  // an override takes one
 
   bool operator==(const CarIdentity&) const = default;
 };
@@ -31,6 +34,8 @@ std::string alarm_event_text(const alarms::AlarmEvent& event);
 std::string authority_text(const command::AuthorityHandover& talk,
                            const telemetry::AuthorityDesk& desk, Instant now);
 std::string ticket_text(const command::Ticket& ticket);
+// None: the car is not stopped.
+std::string stop_text(const std::optional<command::StoppedCar>& stopped);
 std::string audit_text(const command::AuditLine& line);
 std::string notice_text(const alarms::Notice& notice);
 std::string fuel_text(const state::FuelLeft& fuel);

@@ -1,4 +1,4 @@
-// What people have set and said, as the texts `settings` and `expected` of PROTOCOL.md.
+// Settings and operator entries, as the texts `settings` and `expected` of PROTOCOL.md.
 //   in     the desk of settings, the alarms in force; what people said
 //   out    one JSON object each
 //   units  seconds for delays, else as the field of the alarm has them

@@ -1,7 +1,8 @@
 // Judges a recording again and holds the alarms against those that were told then.
 //   in     a folder of segments
 //   out    how many lists and lines of alarms were compared, which differ
-//   law    what a base has recorded it judges again to the same texts, byte for byte: the same
+//   invariants
+//          what a base has recorded it judges again to the same texts, byte for byte: the same
 //          states and inputs, in the same order, at the same times. Each process that recorded is
 //          judged on its own clock, with the settings that it had
 //   errors Problem where there is no segment; segments that cannot be read are told

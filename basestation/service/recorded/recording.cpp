@@ -8,6 +8,7 @@
 #include "basestation/service/recorded/restored_log.hpp"
 #include "protocol/recorder/segment_folder.hpp"
 #include "protocol/transport/clock.hpp"
+#include "protocol/transport/realtime.hpp"
 
 namespace pitwall::service {
 namespace {
@@ -90,6 +91,7 @@ Result<std::unique_ptr<recorder::Recorder>, Problem> start_recording(
   record(car, **recorder, begun);
   if (const auto restored = log.entries().result(begun))
     car.restore(restored->entries, restored->fuel_left_l, begun);
+  transport::return_free_memory();  // that reading it took
   return recorder;
 }
 

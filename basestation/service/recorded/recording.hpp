@@ -2,7 +2,8 @@
 // kept, with the very messages that consoles get.
 //   in     the folder, what the segments say of the run; the car's service
 //   out    the recorder; lines for a person, by `say`; fields of the base that tell how it records
-//   law    inputs of the evaluator beside states are recorded, too: check_alarms() gives the same
+//   invariants
+//          inputs of the evaluator beside states are recorded, too: check_alarms() gives the same
 //          list
 //   errors Problem where the folder cannot be made or written
 // SPDX-License-Identifier: Apache-2.0

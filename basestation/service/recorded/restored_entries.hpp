@@ -1,8 +1,9 @@
-// What people had entered before a base was killed, taken from its recording: the announced round
+// Operator entries of before a base was killed, restored from its recording: the announced round
 // speed, the flag that was relayed, the fuel that was filled in.
 //   in     texts `expected` and states of the car, oldest first, with times on the clock of now
 //   out    the same entries, with who made them and when; the fuel of them that must be left
-//   law    fuel is reckoned on through the states that were recorded, as the base that was killed
+//   invariants
+//          fuel is reckoned on through the states that were recorded, as the base that was killed
 //          did; from the last of them to now the engine is taken to have burnt on as it did then:
 //          what nobody heard was burnt, not saved
 //   errors a text that cannot be read says nothing

@@ -1,4 +1,4 @@
-// Restores what a base knew before it was killed: the listener of replay::read_back().
+// Restored log of a base that was killed: the listener of replay::read_back().
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

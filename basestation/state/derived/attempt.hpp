@@ -3,7 +3,8 @@
 //   in     race control's flags, lap number and station of the car, the gap to the opponent, each
 //          with the time at which it was true
 //   out    Attempt: number, laps driven in it, state
-//   law    an attempt begins when a car with a role sees WAVING GREEN, and ends when another flag
+//   invariants
+//          an attempt begins when a car with a role sees WAVING GREEN, and ends when another flag
 //          or another role has stood for kEndsAfter. A flag that nobody knows ends nothing, and a
 //          shorter one is a flicker
 //          it is over when its laps are driven; an attacker that began behind and is kPassGap_m

@@ -1,9 +1,10 @@
-// Does somebody else use our login for RTK corrections? A caster gives a login to one at a time:
-// two users take the stream from each other every few seconds, and both our receivers lose it at
-// once. It cost the paper's team a day.
+// Detector of a second user of our login for RTK corrections. A caster gives a login to one at a
+// time: two users take the stream from each other every few seconds, and both our receivers lose it
+// at once. It cost the paper's team a day.
 //   in     age of the corrections and number of satellites of both receivers, as they come
 //   out    yes while the last 60 s hold at least three such losses
-//   law    a loss is a stream of corrections that ran for less than kSession and then stopped for
+//   invariants
+//          a loss is a stream of corrections that ran for less than kSession and then stopped for
 //          longer than kSilence, in both receivers within kTogether. A receiver that lost its
 //          satellites as well (a tunnel, a bridge), one receiver alone, or a stream that ran for
 //          longer, is no such loss

@@ -1,8 +1,9 @@
-// The base's own fields, made of the car's: one pass over the vehicle state.
+// Derived fields, computed from those of the car: one pass over the vehicle state.
 //   in     the vehicle state, what is known beside it, books that remember (fuel, corrections,
 //          link)
 //   out    a view of each base field: as old as the oldest value that it needed, and no better
-//   law    a value that needs a field nobody ever told is never there; one of a stale field is
+//   invariants
+//          a value that needs a field nobody ever told is never there; one of a stale field is
 //          stale. Judged fields keep their last value like the car's
 //   cost   about forty views of the vehicle state; no allocation
 // SPDX-License-Identifier: Apache-2.0

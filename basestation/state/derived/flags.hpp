@@ -1,9 +1,10 @@
-// Do race control, the car and the pit wall mean the same? The paper's race control once set
-// 125 mph instead of 115.
+// Comparison of the flags of race control, car and pit wall. The paper's race control once set 125
+// mph instead of 115.
 //   in     flags and round speed as race control, the car and the pit wall have them; unset where
 //          somebody has said none
 //   out    conflicts now; how long one must last before it is one is the alarm's on-delay
-//   law    two that are known and differ are a conflict. A car that acts on a more restrictive flag
+//   invariants
+//          two that are known and differ are a conflict. A car that acts on a more restrictive flag
 //          than race control's because the pit wall relays it is none of the car's: the pit wall
 //          differs then. A car that wants to go faster than the round's speed is one
 //   units  flags as telemetry::kTrackFlags and kVehicleFlags; m/s

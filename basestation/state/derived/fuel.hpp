@@ -1,8 +1,9 @@
-// For how many laps and attempts there is fuel. The paper's team accepted an attempt of two laps
-// with fuel for one, and lost its place.
+// Fuel range in laps and attempts. The paper's team accepted an attempt of two laps with fuel for
+// one, and lost its place.
 //   in     litres in the tank, litres used and lap number as they come; the plan of the race
 //   out    litres per lap, laps left, whole attempts that still leave fuel to come home
-//   law    a lap counts when the car drove it whole, from one change of the lap number to the next,
+//   invariants
+//          a lap counts when the car drove it whole, from one change of the lap number to the next,
 //          with fuel burnt. Judged by the thirstiest of the last kLaps; by the plan's guess until
 //          there is one
 //          filling the tank begins anew, and forgets no lap

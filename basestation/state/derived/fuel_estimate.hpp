@@ -3,7 +3,8 @@
 //   in     litres in the tank as a person entered them; engine speed, throttle and whether it runs,
 //          with the time of each sample
 //   out    litres left, litres used since the first sample
-//   law    Willans line: flow = indicated torque x speed / (efficiency x heating value x density),
+//   invariants
+//          Willans line: flow = indicated torque x speed / (efficiency x heating value x density),
 //          where indicated torque is that of full throttle times the share of the throttle;
 //          a running engine burns kIdle at least
 //          between two samples close together the mean of both flows holds; over a longer gap the

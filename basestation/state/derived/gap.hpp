@@ -1,7 +1,8 @@
-// How far the opponents are along the track, bumper to bumper.
+// Gaps to the opponents along the track, bumper to bumper.
 //   in     own station and speed, those of each opponent that is known now, length of a lap
 //   out    the nearest one ahead and the nearest one behind; unset where there is none
-//   law    stations are compared around the lap the short way. Whoever overlaps is both ahead and
+//   invariants
+//          stations are compared around the lap the short way. Whoever overlaps is both ahead and
 //          behind by nothing: a gap of zero. Without the length of the lap nobody knows a gap
 //   units  m, m/s; closing is positive while the car behind of the two is the faster one
 //   source length of the AV-21: 192 in

@@ -1,8 +1,9 @@
-// Where the car probably is while nobody hears it.
+// Estimated position of a car while nothing is received.
 //   in     its last known place and speed, the track
 //   out    a pose further along the track, and the radius in which the car is; none while its place
 //          is known, after kGhostFor, and where there never was a place
-//   law    the radius begins at the position's sigma and grows with what the car may have done
+//   invariants
+//          the radius begins at the position's sigma and grows with what the car may have done
 //          meanwhile: an acceleration of kUnknownAccel either way
 //          without a track it goes straight on
 //   frames Map

@@ -1,7 +1,8 @@
-// How the way from the car is: good, degraded or lost, by evidence and not by feeling.
+// State of the downlink: good, degraded or lost, from measured figures.
 //   in     the newest authentic packet, loss and round trip of the last seconds
 //   out    state, and since when
-//   law    lost: no packet for kLostAfter, 20 of them, so that a console shows it within half a
+//   invariants
+//          lost: no packet for kLostAfter, 20 of them, so that a console shows it within half a
 //          second. Degraded: loss of the last seconds above kLossMax in one direction, or a round
 //          trip above kRoundTripMax. From degraded to good only after kGoodFor of neither; from
 //          lost with the first packet to degraded. A car that was never heard has none of these

@@ -1,5 +1,6 @@
 // The race among the base's own fields: roles, attempts, gaps, the flag that the base relays.
-//   law    a gap is to opponents that are known now; where none is, to the one that was known last,
+//   invariants
+//          a gap is to opponents that are known now; where none is, to the one that was known last,
 //          as old as that. The attempt is as old as the flags that it is counted by
 //   units  as own_field.hpp has them
 // SPDX-License-Identifier: Apache-2.0

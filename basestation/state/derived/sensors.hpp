@@ -1,9 +1,10 @@
-// Do the sensors come as often, as evenly and as soon as they should? Under load the paper's LiDAR
-// came at 5 Hz instead of 20 with gaps above half a second, while each frame was young.
+// Rate, gap and latency checks of the sensors. Under load the paper's LiDAR came at 5 Hz instead of
+// 20 with gaps above half a second, while each frame was young.
 //   in     rate, largest gap and latency of each sensor as the car tells them
 //   out    worst rate as a share of the nominal one, largest gap, worst latency as a share of what
 //          is allowed; by sensor and over all
-//   law    a sensor that never came is not judged: this car does not have it; one that came and is
+//   invariants
+//          a sensor that never came is not judged: this car does not have it; one that came and is
 //          silent now has the rate 0
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,8 +1,9 @@
-// Do the driven wheels turn faster than the car goes? Before the paper's spin the rear wheels were
-// faster than the front ones, and these faster than GPS.
+// Slip of the driven wheels against the speed of the car. Before the paper's spin the rear wheels
+// were faster than the front ones, and these faster than GPS.
 //   in     speeds of the wheels and of the receivers [m/s]; unset where not known or stale
 //   out    rear - front and rear - GNSS as shares of the latter; unset where one is missing
-//   law    axles are compared by the mean of left and right, which a corner does not split; below
+//   invariants
+//          axles are compared by the mean of left and right, which a corner does not split; below
 //          kSlipSpeed_mps the share is 0: at a crawl sensors differ more than wheels
 //   source Saba et al.: the spin, wheel speeds of the second before it
 // SPDX-License-Identifier: Apache-2.0

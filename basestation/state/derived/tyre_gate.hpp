@@ -1,8 +1,9 @@
-// How warm tyres must be for a speed: a table, not one number, because a cold oval may never warm
-// them to what the highest speed wants.
+// Tyre temperature required for a speed: a table, not one number, because a cold oval may never
+// warm them to what the highest speed wants.
 //   in     speed [m/s], temperature of the coldest tyre [degC]
 //   out    the least temperature for a speed, the highest speed for a temperature
-//   law    linear between the rows; below the first row nothing is asked, beyond the last its
+//   invariants
+//          linear between the rows; below the first row nothing is asked, beyond the last its
 //          temperature. Both directions are one relation
 //   source Saba et al.: spin above 62.6 m/s (140 mph) at 29 degC, where 79 degC were needed; the
 //          rows between are ours, at the passing competition's speeds of 80 to 125 mph

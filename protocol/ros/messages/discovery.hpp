@@ -1,6 +1,7 @@
 // What each participant of ROS 2 tells of its nodes on the topic `ros_discovery_info`, so that
 // `ros2 node list` knows them.
-//   law    a Gid has 24 bytes up to Humble, 16 from Iron on, under one and the same name: who says
+//   invariants
+//          a Gid has 24 bytes up to Humble, 16 from Iron on, under one and the same name: who says
 //          it to the other kind is not understood. The first 16 are the GUID of the endpoint
 //   source ros2/rmw_dds_common: msg/{Gid,NodeEntitiesInfo,ParticipantEntitiesInfo}.msg, before and
 //          after commit 5ab4f59

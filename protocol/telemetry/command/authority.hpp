@@ -2,7 +2,8 @@
 // after three without. Its loss only bars commands; stops need none, and the car drives on.
 //   in     base: consoles take, renew and hand over. Car: the fields of Group::kAuthority
 //   out    holder and epoch; whether a command of it may be applied
-//   law    at most one holder. The epoch rises with every change; a packet of an older epoch
+//   invariants
+//          at most one holder. The epoch rises with every change; a packet of an older epoch
 //          changes nothing. Expiry is by the own clock, from the moment of a renewal whose number
 //          was new: a repeated packet renews nothing, and one that was long on its way renews from
 //          when it was said. While the clocks have not been compared nobody holds it

@@ -1,5 +1,6 @@
 // Numbers that begin again: which of two is the newer.
-//   law    of a circle of `size` numbers the half that follows `than` is newer
+//   invariants
+//          of a circle of `size` numbers the half that follows `than` is newer
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

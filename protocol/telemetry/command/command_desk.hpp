@@ -2,7 +2,8 @@
 // told what became of it, and knows at any time how far it came.
 //   in     commands, what the car answered, whether a later state of the car confirms it
 //   out    records for the next packet; stages: sent, received, applied, confirmed; a definite fate
-//   law    a command is in every packet until its result came, and past its time to live it still
+//   invariants
+//          a command is in every packet until its result came, and past its time to live it still
 //          asks (the car then answers from memory, or "expired"), so each ends with a fate of the
 //          car's own words; only a car that restarted leaves kOtherRun
 //          a number is used again by nobody: not within a run of the base (they rise), and a run of

@@ -2,7 +2,8 @@
 // what became of it for as long as the base may ask.
 //   in     records; the consumer's answers
 //   out    commands that are due for the consumer; results for the next packet
-//   law    at most once: a number that was seen is never handed out again, however often it comes,
+//   invariants
+//          at most once: a number that was seen is never handed out again, however often it comes,
 //          nor one that a later number has pushed out of memory
 //          in time: handed out only while now - issued <= time to live, `issued` mapped by the
 //          bound that is safe; where the clocks have not been compared nothing is applied: the

@@ -5,7 +5,8 @@
 //                             packet's time of sending), console u8
 //          kCommandResult     number u32, run of the base u32, outcome u8
 //          kCommandResultAck  number u32, run of the base u32
-//   law    the age is rounded up and saturates: nobody takes a command for younger than it is
+//   invariants
+//          the age is rounded up and saturates: nobody takes a command for younger than it is
 //   errors none for any bytes that the writer does not make; a type that this build does not know
 //          is no error, so that it can be answered
 // SPDX-License-Identifier: Apache-2.0

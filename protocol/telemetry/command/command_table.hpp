@@ -1,7 +1,8 @@
 // Every command that a base may give. Commands are absolute: "120 km/h", never "10 faster" nor
 // "toggle", so that one which comes twice, late or out of order does no harm.
 //   wire   see command_record.hpp; arguments quantised as their row says
-//   law    commands of one slot replace each other: a newer one supersedes what was not applied
+//   invariants
+//          commands of one slot replace each other: a newer one supersedes what was not applied
 //   units  as each row has it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -38,9 +39,23 @@ struct CommandRow {
   double min, max, resolution;
   Duration time_to_live;  // not applied later than this after it was given
   bool needs_authority;
-  std::string_view labels = {};  // of the values 0, 1, 2 ...; of a bit set: of the bits
+  // Of the values 0, 1, 2 ...; of a bit set: of the bits. "-": a value that means nothing.
+  std::string_view labels = {};
+  bool offered = true;  // some car carries it out
 
-  static constexpr std::string_view kBitSet = "bits";
+  static constexpr std::string_view kBitSet = "bits", kNoValue = "-";
+
+  constexpr bool is_set() const { return unit == kBitSet; }
+  // An argument that means something: in the range, and named where the values have names.
+  constexpr bool has(double argument) const {
+    if (!(argument >= min && argument <= max)) return false;
+    if (labels.empty()) return true;
+    const auto whole = static_cast<std::size_t>(argument);
+    if (static_cast<double>(whole) != argument) return false;
+    if (is_set()) return whole < std::size_t{1} << label_count(labels);
+    const std::string_view value = label_at(labels, whole);
+    return !value.empty() && value != kNoValue;
+  }
 
   constexpr bits::Quantized quantized() const { return {min, max, resolution}; }
 };
@@ -51,14 +66,14 @@ inline constexpr auto kCommandTable = [] {
       {kArm, "arm", "", 0, 2, 1, seconds(2), true, "disarm|arm"},
       {kReset, "reset", "", 0, 2, 1, seconds(2), true, "-|reset"},
       {kSpeedLimit, "speed limit", "m/s", 0, 120, 0.1, seconds(2), true},
-      {kRaceLine, "race line", "", 0, 30, 1, seconds(2), true},
-      {kRole, "role", "", 0, 6, 1, seconds(2), true, "none|defender|attacker"},
-      {kTrackFlag, "track flag", "", 0, 14, 1, seconds(2), true},
+      {kRaceLine, "race line", "", 0, 30, 1, seconds(2), true, {}, false},
+      {kRole, "role", "", 0, 6, 1, seconds(2), true, kRoles, false},
+      {kTrackFlag, "track flag", "", 0, 14, 1, seconds(2), true, kShownTrackFlags},
       {kSensorsExcluded, "sensors excluded", CommandRow::kBitSet, 0, 62, 1, seconds(2), true,
        kExcludableNames},
       {kReleaseStop, "release stop", "", 0, 65'534, 1, seconds(2), true},
       {kEndRun, "end run", "", 0, 2, 1, seconds(2), true, "-|end"},
-      {kSendParameters, "send parameters", "", 0, 2, 1, seconds(5), false, "-|send"},
+      {kSendParameters, "send parameters", "", 0, 2, 1, seconds(5), false, "-|send", false},
   });
 }();
 static_assert(kCommandTable.size() == kCommandTypes);

@@ -3,7 +3,8 @@
 //   in     base: samples of the input device as they are read. Car: the fields of Group::kJoystick
 //          of each packet, and how old the packet is
 //   out    base: fields for the next packet. Car: throttle cap and brake demand, or nothing
-//   law    dead after 200 ms without a newer sample number, whatever packets say meanwhile: a
+//   invariants
+//          dead after 200 ms without a newer sample number, whatever packets say meanwhile: a
 //          repeated last value is no sample. A sample older than 100 ms when it is sent, or 200 ms
 //          when it is used (way and queue included), is none. Nothing here can raise the throttle
 //          there is no way to make a sample but from a device

@@ -5,7 +5,8 @@
 //   base   level, epoch  ... every packet ...        kReleaseStop(challenge)
 //   car            latch ---- standstill ---- challenge in telemetry ---- latch open, next epoch
 //
-//   law    the latch never goes down by itself: not with silence, a lower level, an older epoch, a
+//   invariants
+//          the latch never goes down by itself: not with silence, a lower level, an older epoch, a
 //          restart of the base, or replay; only release() with the challenge of this latch, at
 //          standstill, opens it. A higher level raises it at once. A restart of the base raises no
 //          latch and releases none

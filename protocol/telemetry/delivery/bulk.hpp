@@ -5,7 +5,8 @@
 //          are kBulkPiece bytes but the last
 //          kBulkAck: object u16, kind u8, the first piece that is missing u16, then for each piece
 //          after that one a bit, whether it came; no byte of zeros at the end
-//   law    an object is handed out whole and once, after its CRC-32 was checked, or not at all. Of
+//   invariants
+//          an object is handed out whole and once, after its CRC-32 was checked, or not at all. Of
 //          one slot (kind) the newest object wins: an older one that is not complete is dropped and
 //          counted. Pieces may come in any order, twice, or not at all; lost ones are sent again.
 //          The kinds take turns

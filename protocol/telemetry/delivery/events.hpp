@@ -3,7 +3,8 @@
 // out once and in order.
 //   wire   kEvent: number u16, time u24 (tx_time units), kind u8, payload (<= kEventPayload bytes);
 //          kEventAck: number of the newest that was taken in order u16
-//   law    handed out exactly once, in order, within one session; a new session goes on where the
+//   invariants
+//          handed out exactly once, in order, within one session; a new session goes on where the
 //          peer's acknowledgement says. A full queue drops the newest, counts it, and says so in an
 //          event of its own when there is room again
 //          the oldest that waits goes into every packet; the others when new, and again after

@@ -2,7 +2,8 @@
 //   wire   version u8 (1), count u16; of the first point x and y i32 [cm], of each later one the
 //          differences i16 [cm]; after x and y of each point its speed u16 [cm/s]. Little endian
 //   in     points at most kPathStep apart; any bytes at all
-//   law    |decoded - given| <= 0.5 cm and 0.5 cm/s: differences are of what was written, so no
+//   invariants
+//          |decoded - given| <= 0.5 cm and 0.5 cm/s: differences are of what was written, so no
 //          error adds up
 //   errors encode: none where a point is not finite, off the map or too far from the one before;
 //          decode: none for any other bytes

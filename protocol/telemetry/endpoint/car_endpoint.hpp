@@ -2,7 +2,8 @@
 // up. Sans-IO: the same in the car, the bench, the tests and the fuzzers.
 //   in     datagrams, the newest snapshot, the consumer's answers to commands
 //   out    datagrams; what the operator wants now, with its age
-//   law    what the operator wanted and no longer says is never held on to, except the latched stop
+//   invariants
+//          what the operator wanted and no longer says is never held on to, except the latched stop
 //   errors counters in report()
 //   cost   no allocation after construction; below 80 us a packet
 // SPDX-License-Identifier: Apache-2.0

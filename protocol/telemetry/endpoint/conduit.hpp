@@ -2,7 +2,8 @@
 // figures. Knows nothing of what packets mean.
 //   in     datagrams of each path; bodies to send
 //   out    opened bodies, each once; datagrams for each path, within its budget
-//   law    a packet each kSlot, and one half a slot later where something waits; what the budget
+//   invariants
+//          a packet each kSlot, and one half a slot later where something waits; what the budget
 //          has no room for is skipped, never queued. A stop has a packet at once, on every path
 //          that has room, or as soon as one has: out of the same budget. One sequence number is one
 //          plaintext: copies for several paths are the same bytes

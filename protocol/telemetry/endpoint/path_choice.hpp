@@ -1,5 +1,6 @@
 // On which paths the packets of a slot go, and to which of the peer's addresses.
-//   law    kDuplicate: one packet on all paths that have room. kBest: safety on all, the rest on
+//   invariants
+//          kDuplicate: one packet on all paths that have room. kBest: safety on all, the rest on
 //          the better one. A path whose peer must prove an address, or that has much less room than
 //          the other, has a packet of its own
 //          the token that proves an address goes to that address alone: on the slot the packet goes

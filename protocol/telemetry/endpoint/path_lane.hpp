@@ -1,6 +1,7 @@
 // What one end knows and spends of one path.
 //   units  bytes per second; sizes are UDP payload, the overhead is added here
-//   law    nothing leaves by the path but through spend()
+//   invariants
+//          nothing leaves by the path but through spend()
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

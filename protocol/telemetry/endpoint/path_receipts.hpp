@@ -1,7 +1,8 @@
 // What came last by each of several paths, told to its sender: an acknowledgement does not say by
 // which path a packet came first, and rate control is of one path.
 //   wire   kPathReceipt: path u8, sequence u16 (low bits), hold u16 (100 us)
-//   law    names what was sent on that path, or is ignored
+//   invariants
+//          names what was sent on that path, or is ignored
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -2,7 +2,8 @@
 // the other reads those that both know alike and skips the rest.
 //   wire   kSchema: have u8 (1: the peer's list is complete here), total u8, first u8, then for
 //          each place from the first on: hash u32 (low half of the group's), bits u16
-//   law    nothing is said while both registries are the same. Else no group goes before the peer
+//   invariants
+//          nothing is said while both registries are the same. Else no group goes before the peer
 //          has the whole list; a group with another hash is another group, whatever its name
 //   out    the layout to read the peer's packets by; which of our groups may go
 //   cost   no allocation

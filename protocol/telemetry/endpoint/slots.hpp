@@ -6,7 +6,8 @@
 //
 //   in     the time of each poll; whether something cannot wait; whether a packet was made
 //   out    whose turn it is; when to ask again
-//   law    a slot that found no room within its first half is skipped and counted, never queued
+//   invariants
+//          a slot that found no room within its first half is skipped and counted, never queued
 //          what cannot wait is asked for at each poll until it was made; it takes the place of the
 //          packet between
 // SPDX-License-Identifier: Apache-2.0

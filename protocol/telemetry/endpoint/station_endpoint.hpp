@@ -2,7 +2,8 @@
 //   in     datagrams; stops, joystick samples, authority, commands
 //   out    datagrams; the newest value of every field with the time of its sample; events, bulk;
 //          how far each command came
-//   law    a value never goes back in time: of two samples of a group the newer one is kept
+//   invariants
+//          a value never goes back in time: of two samples of a group the newer one is kept
 //          a stop leaves with the next poll(), as soon as the budget has room for a packet; due()
 //          is past until it was tried
 //   errors counters in report()

@@ -7,6 +7,7 @@
 
 #include "protocol/telemetry/registry/schema.hpp"
 #include "protocol/telemetry/registry/schema_text.hpp"
+#include "protocol/telemetry/registry/titles.hpp"
 
 namespace pitwall::telemetry {
 namespace {
@@ -61,7 +62,8 @@ std::string_view text_of(FieldKind kind) {
 std::string field_json(const FieldRow& row) {
   return "      {" + pair("name", quoted(row.name)) + ", " +
          pair("path", quoted(std::string{row_of(row.group).name} + "." + std::string{row.name})) +
-         ", " + pair("kind", quoted(text_of(row.kind()))) + ", " + range_json(row) + "}";
+         ", " + pair("title", quoted(title_of(row_of(row.group).name, row.name))) + ", " +
+         pair("kind", quoted(text_of(row.kind()))) + ", " + range_json(row) + "}";
 }
 
 std::string group_json(const GroupRow& row) {
@@ -81,7 +83,8 @@ std::string group_json(const GroupRow& row) {
 std::string command_json(const CommandRow& row) {
   return "    {" + pair("name", quoted(row.name)) + ", " + range_json(row) + ", " +
          pair("time_to_live_ms", row.time_to_live.milliseconds()) + ", " +
-         pair("needs_authority", row.needs_authority ? "true" : "false") + "}";
+         pair("needs_authority", row.needs_authority ? "true" : "false") + ", " +
+         pair("offered", row.offered ? "true" : "false") + "}";
 }
 
 template <class Table, class Json>

@@ -2,7 +2,8 @@
 // of packets is said in packet/header.hpp and packet/body.hpp.
 //   use    wireshark -X lua_script:pitwall.lua; the port of the base is a preference. What goes to
 //          it comes from the car
-//   law    packets that are signed are shown to the last field; of sealed ones only the clear part.
+//   invariants
+//          packets that are signed are shown to the last field; of sealed ones only the clear part.
 //          Nothing is verified: it has no keys
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

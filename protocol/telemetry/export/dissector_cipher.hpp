@@ -2,7 +2,8 @@
 // (protocol/telemetry/session/key_log.hpp); Lua 5.2 and later, arithmetic in doubles.
 //   source RFC 8439 (ChaCha20-Poly1305); the multiplication modulo 2^130 - 5 on bytes, whose sums
 //          stay far below 2^53, follows TweetNaCl (Bernstein et al., 2014)
-//   law    what is shown as opened had a tag that fits: a wrong key shows nothing
+//   invariants
+//          what is shown as opened had a tag that fits: a wrong key shows nothing
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -2,7 +2,8 @@
 // texts, datagrams and CAN frames. As text for lcm-gen, and as the fingerprints that messages bear.
 //   out    package pitwall; GROUP_t: utime, then each field as double, NaN where it is not known
 //   units  utime: microseconds since 1970; fields as the registry has them
-//   law    a fingerprint depends on names, types and sizes of the members, not on the type's name:
+//   invariants
+//          a fingerprint depends on names, types and sizes of the members, not on the type's name:
 //          a reader with another registry refuses the message instead of misreading it
 //   source lcm-gen of LCM 1.3.1: lcmgen.c (lcm_struct_hash), emit_c.c (its rotation)
 //   cost   allocates; fingerprints are made once

@@ -1,6 +1,7 @@
 // Acknowledgements: what arrived (ReceiptBook, written into each packet) and what is known to have
 // arrived (SentBook).
-//   law    a packet is acknowledged at most once; what an Ack does not name is unknown, not lost
+//   invariants
+//          a packet is acknowledged at most once; what an Ack does not name is unknown, not lost
 //   units  64-bit sequence numbers of one session, from 1
 //   errors an Ack that names what was never sent is counted and ignored as a whole; one that is
 //          older than what is kept is ignored

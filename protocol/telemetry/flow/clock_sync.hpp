@@ -4,7 +4,8 @@
 //   out    offset with a bound that always holds while both clocks run at their rate +- 100 ppm;
 //          one-way delays
 //   units  Instant; the other end's 24-bit tx_time (100 us, wraps after 1677 s) is unwrapped here
-//   law    no packet arrives before it was sent: t3 - t4 <= offset <= t2 - t1. The highest such
+//   invariants
+//          no packet arrives before it was sent: t3 - t4 <= offset <= t2 - t1. The highest such
 //          floor and the lowest such ceiling hold together, each loosened by the drift since; the
 //          offset is taken in their middle, the bound is half their distance. So drift is followed
 //          without being estimated, and each direction is compared by its own quickest packet

@@ -3,7 +3,8 @@
 //          station of the car
 //   out    figures of the last seconds and of the run; two-state loss model fitted to the bursts;
 //          loss by track position
-//   law    a duplicate, a packet that comes late or by the other path is never loss; a number
+//   invariants
+//          a duplicate, a packet that comes late or by the other path is never loss; a number
 //          counts as lost when 1024 newer ones have come, or one second has passed, without it.
 //          One that comes after that is taken back and counts as late
 //          a number that came by no path is taken to have been sent on the paths of the next that

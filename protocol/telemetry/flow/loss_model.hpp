@@ -2,7 +2,8 @@
 // lost, in the good state a packet is lost now and then, by itself.
 //   in     outcomes in order of sending, and the mean time between two
 //   out    mean time in the good and in the bad state
-//   law    losses of the good state are correlated with nothing, so the covariance of losses k
+//   invariants
+//          losses of the good state are correlated with nothing, so the covariance of losses k
 //          packets apart is  C_k = good bad (1 - g)^2 r^k  with the share of each state and the
 //          decay r per packet of the two-state chain; the share that comes is good (1 - g). Hence
 //          bad / good = C_0' / came^2 with C_0' = C_1 / r, and 1 / (1 - r) packets is

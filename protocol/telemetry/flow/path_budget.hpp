@@ -1,7 +1,8 @@
 // What one end may put on one path: bytes and packets per second, IP and UDP overhead counted, with
 // a share that only safety may use. Nothing bypasses it: acknowledgements, key exchange and
 // repetitions are spent from it like all else.
-//   law    in every window of 100 ms (at any start) bytes <= rate / 10 + one largest packet and
+//   invariants
+//          in every window of 100 ms (at any start) bytes <= rate / 10 + one largest packet and
 //          packets <= packet rate / 10 + 1; in every window of 1 s bytes <= rate
 //          what safety may use is never less than its share; others never touch the share
 //          it begins empty when it is first asked: what was spent before a restart is not known

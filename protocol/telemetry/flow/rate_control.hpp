@@ -3,7 +3,8 @@
 //   in     deliveries: when a packet was sent (our clock) and received (theirs; any offset), and
 //          the bytes that arrived since the delivery before, its own included
 //   out    factor of the budget, (0, 1]
-//   law    overuse: a queue of more than kLeastQueue whose delay, by a straight line through the
+//   invariants
+//          overuse: a queue of more than kLeastQueue whose delay, by a straight line through the
 //          last half second (and at least eight deliveries), grows faster than kOveruse and than
 //          its noise explains. Then 0.85 of the rate that arrived between fades; else, unless a
 //          queue stands, + 5 % of the budget per second; never below the floor that safety needs.

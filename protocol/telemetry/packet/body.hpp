@@ -6,7 +6,8 @@
 //          [groups: the set, one bit for each group of the direction, whole bytes; one age code for
 //           each group of the set; the groups' bits back to back; zeros to a whole byte]
 //          records to the end: type u8, length u8 or (length >= 0xF0) two bytes, payload
-//   law    parse accepts exactly what BodyWriter makes: one form for each meaning
+//   invariants
+//          parse accepts exactly what BodyWriter makes: one form for each meaning
 //   errors BodyError for any other bytes; nothing is read past the end
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,5 +1,6 @@
 // Values of groups as bits, and the ages of their samples as four bits each.
-//   law    |decoded - value| <= resolution / 2 inside a field's range; a value out of range is
+//   invariants
+//          |decoded - value| <= resolution / 2 inside a field's range; a value out of range is
 //          written as its end and counted; NaN is "unset"; an infinite value is written as unset
 //          and counted
 //          an age is rounded up: the receiver never takes a sample for younger than it is. One of

@@ -1,7 +1,8 @@
 // Which groups a sender's packets may hold, in the order of the bits of their set: the groups of
 // its direction, as its registry has them. Two ends whose registries differ read each other's
 // packets by the sender's layout and skip what they do not know.
-//   law    place k is bit k of the set; a place with a group of ours has that group's bits
+//   invariants
+//          place k is bit k of the set; a place with a group of ours has that group's bits
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -20,6 +20,8 @@ inline constexpr std::string_view kSysStates =
     "engine failed to start|critical limits exceeded|standby";
 inline constexpr std::string_view kTrackFlags =
     "none|RED|ORANGE|YELLOW|GREEN|WAVING GREEN|CHEQUERED|UNKNOWN";
+// Those that somebody shows: all but the last, which a car says of a flag that it does not know.
+inline constexpr std::string_view kShownTrackFlags = kTrackFlags.substr(0, kTrackFlags.rfind('|'));
 inline constexpr std::string_view kVehicleFlags =
     "none|BLACK PIT IN|BLUE|STOP|PURPLE EMERGENCY|ENGINE KILL|ORANGE START ENGINE|YELLOW|CHEQUERED|"
     "DEFENDER|ATTACKER|UNKNOWN";
@@ -70,6 +72,10 @@ inline constexpr std::string_view kStopCauses =
     "no good position|planning a beat late|control a beat late|"
     "race control: flags unknown or contradictory|computer missed ticks|computer busy|"
     "a clock stepped|clock too fast or slow|GNSS: one unit is bad";
+// Of the value that a cause comes with; "-": a number that tells a person nothing.
+inline constexpr std::string_view kStopCauseUnits =
+    "-|-|-|s|-|-|-|-|-|-|-|-|-|-|-|-|-|-|-|ticks|ticks|s|-|s|m|s|s|s|s|s|-|s|m|rad|kPa|of 1|s|MiB|"
+    "degC|-|s|s|ticks|-|s|of 1|s|ppm|-";
 // Bits of a set of attacks and key errors, in the order of telemetry::Threat.
 inline constexpr std::string_view kThreatNames =
     "wrong key|sealed against signed|refused at rate|second peer|replayed openings|relay";
@@ -91,10 +97,19 @@ inline constexpr std::string_view kFaultNames =
     labels_from(kStopCauses, 1)
         .substr(0, labels_from(kStopCauses, 1).size() - kFaultNamesMore.size() - 1);
 
+// How many names "a|b|c" has.
+constexpr std::size_t label_count(std::string_view labels) {
+  std::size_t count = labels.empty() ? 0 : 1;
+  for (const char c : labels) count += c == '|' ? 1U : 0U;
+  return count;
+}
+
 // The name at this place of "a|b|c"; empty past the end.
 constexpr std::string_view label_at(std::string_view labels, std::size_t index) {
   const std::string_view rest = labels_from(labels, index);
   return rest.substr(0, rest.find('|'));
 }
+
+static_assert(label_count(kStopCauseUnits) == label_count(kStopCauses));
 
 }  // namespace pitwall::telemetry

@@ -1,6 +1,7 @@
 // Facts of the registry that are known when it compiles: sizes, shares of the radio, and the hashes
 // by which two ends find out whether they mean the same.
-//   law    hash of the canonical text (schema_text.hpp), FNV-1a of 64 bits: it finds what differs
+//   invariants
+//          hash of the canonical text (schema_text.hpp), FNV-1a of 64 bits: it finds what differs
 //          by accident; against intent stands the key exchange that carries it
 //   out    one hash for each group; one of all that must agree before the car may be armed: the
 //          safety groups of both directions and the commands; one of everything

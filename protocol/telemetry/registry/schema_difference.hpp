@@ -4,7 +4,8 @@
 //   out    one line for each difference: what is here, what is there; empty where there is none
 //          mode.arming: "barred" is inserted there as value 2, later values have other numbers
 //          ego.vx: range -20 to 120 here, -20 to 100 there
-//   law    equal texts have no difference, texts that differ have at least one
+//   invariants
+//          equal texts have no difference, texts that differ have at least one
 //   cost   allocates; not for the 100 Hz path. At most kDifferencesMax lines
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,7 +1,8 @@
 // The canonical form of the registry as text: what two ends compare, and what their hashes are of.
 //   form   group NAME down|up safety|motion|health|statistics
 //          FIELD UNIT MIN MAX RESOLUTION[ LABELS]        one line a field; no unit is "-"
-//   law    whatever changes the meaning of a bit on the air changes the text. Target ages and
+//   invariants
+//          whatever changes the meaning of a bit on the air changes the text. Target ages and
 //          weights are the sender's own business and are not in it
 //   in     a Group; a sink that takes string_view
 //   cost   usable at compile time

@@ -1,7 +1,8 @@
 // The keys of a session as lines of text, with which Wireshark opens what a bench recorded: one for
 // each phase that kMaxPhasesUnheard allows, CHACHA20_POLY1305 RECEIVER PHASE KEY; receiver as in
 // the header and key in hexadecimal, phase in decimal.
-//   law    only the keys of a run of the bench are ever told (KeyFile::bench): they open nothing
+//   invariants
+//          only the keys of a run of the bench are ever told (KeyFile::bench): they open nothing
 //          else
 //   errors none
 // SPDX-License-Identifier: Apache-2.0

@@ -6,7 +6,8 @@
 //
 //   in     own pair, the other's public key, a prologue that both must have, payloads
 //   out    messages; after both of them one key for each direction
-//   law    a message that read() refuses leaves nothing behind: the state is then to be thrown away
+//   invariants
+//          a message that read() refuses leaves nothing behind: the state is then to be thrown away
 //   errors false: not written by the other end for this exchange
 //   cost   write or read 150 us; no allocation
 //   source The Noise Protocol Framework, revision 34, sections 4, 5, 7.5

@@ -5,7 +5,8 @@
 //   key       k0 --hash--> k1 --hash--> k2        there is no way back: a key that is found later
 //   opens      |.....2 s....|                     opens nothing that was sent in an earlier phase
 //
-//   law    Sealer never uses a number twice. Opener: what is older than the window is refused
+//   invariants
+//          Sealer never uses a number twice. Opener: what is older than the window is refused
 //          before the tag is computed, the window is set after it, and a duplicate is called one
 //          only if it is authentic; a forged packet costs one tag; the older key opens only numbers
 //          before the first of the newer one

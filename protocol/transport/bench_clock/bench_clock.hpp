@@ -1,7 +1,8 @@
 // Bench time for the threads of one program: what time it is, and waiting for a deadline.
 //   in     the page that a bench keeps; deadlines in bench time
 //   out    naps of the wall clock until bench time has reached the deadline
-//   law    a thread that takes turns has the bench wait for it: from its deadline on until it has
+//   invariants
+//          a thread that takes turns has the bench wait for it: from its deadline on until it has
 //          done its work and waits again. Other threads are told the time and hold up nobody.
 //          Where the bench died, time goes on by the wall clock after a tenth of a second
 //   cost   no memory, no lock, no system call beside the wait itself

@@ -7,7 +7,8 @@
 //
 //   in     the page that a bench keeps; the wall clock
 //   out    spans of the wall clock
-//   law    total is what the clock in use is behind the wall clock, so it shrinks where bench time
+//   invariants
+//          total is what the clock in use is behind the wall clock, so it shrinks where bench time
 //          leaps forward to that of a guest
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -88,7 +88,7 @@ bool ClockKeeper::is_held_up(Instant now) {
 bool ClockKeeper::holds_up(std::size_t index, Instant now) {
   ClockSlot& slot = memory_.page().slots[index];
   const std::int32_t process = slot.process.load(std::memory_order_acquire);
-  if (process == 0 || process == ::getpid()) return false;
+  if (process == 0 || slot.thread.load() == ::gettid()) return false;  // nobody waits for himself
   const std::uint64_t turn = slot.turns.load(std::memory_order_acquire);
   const Instant due{slot.due_ns.load(std::memory_order_relaxed)};
   if (now - kGrace <= due) return false;

@@ -5,7 +5,8 @@
 //
 //   in     the page; advance() called often, at least once in a lead
 //   out    the page's horizon and lost time; what was waited for, in all and at the longest
-//   law    time runs at most a lead past the last advance(). It stands while a thread that takes
+//   invariants
+//          time runs at most a lead past the last advance(). It stands while a thread that takes
 //          turns is due and has had no processor for it. It runs on for one that is stopped (by a
 //          scenario, or by a person), that blocks by its own doing, or that is gone; and at the
 //          pace of its processor time for one that computes

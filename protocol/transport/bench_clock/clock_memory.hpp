@@ -1,7 +1,8 @@
 // The file behind a page of bench time, mapped into this process.
 //   in     path of a file in memory (/dev/shm) that all its readers may write; made where missing
 //   out    the page, for the life of the process; whether a bench keeps it
-//   law    a bench holds a lock on the file, which the kernel takes away when it dies
+//   invariants
+//          a bench holds a lock on the file, which the kernel takes away when it dies
 //   errors Problem with the path: no such folder, not ours, a file of something else
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -4,7 +4,8 @@
 //
 //   in     the bench alone writes lost time and horizon; each program that takes turns its own slot
 //   out    now(), the same for every reader to within the cost of a clock reading
-//   law    it never goes back for a reader, never runs faster than the wall clock, and stands at
+//   invariants
+//          it never goes back for a reader, never runs faster than the wall clock, and stands at
 //          the horizon. Nobody's clock before a bench came is the wall clock
 //   units  int64 nanoseconds
 // SPDX-License-Identifier: Apache-2.0

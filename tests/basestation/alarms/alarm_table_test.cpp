@@ -26,13 +26,16 @@ TEST(AlarmTable, EveryAlarmDemandsAnAct) {
   EXPECT_FALSE(find_alarm("nonsense"));
 }
 
-// One alarm for a lost link: everything that is judged by the car's values is silent then.
+// One alarm for a lost link: everything that is judged by the car's values is silent then, except
+// a stop, which is never put out of sight.
 TEST(AlarmTable, OnlyTheLinkAndTheBaseSpeakWhileNothingIsHeard) {
   for (AlarmIndex i = 0; i < alarm_count(); ++i) {
     const AlarmRow& row = alarm_row(i);
     const std::string path = state::path_of(row.field);
     const bool of_car = !state::is_base(row.field) || path.starts_with("derived.");
-    EXPECT_TRUE(!of_car || row.silent_in.has(Situation::kLinkLost)) << row.key;
+    EXPECT_EQ(row.always_shown, row.key == "emergency_stop" || row.key == "controlled_stop");
+    const bool silent = row.silent_in.has(Situation::kLinkLost);
+    EXPECT_TRUE(!of_car || silent != row.always_shown) << row.key;
   }
 }
 

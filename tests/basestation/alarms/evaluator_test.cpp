@@ -228,6 +228,45 @@ TEST(Evaluator, ALostLinkIsOneAlarmAGhostAndOneMessage) {
   EXPECT_EQ(wall.evaluator.notices().all()[1].kind, alarms::NoticeKind::kRestored);
 }
 
+// Whoever takes a receiver out of use knows it; the other one still has its alarm.
+TEST(Evaluator, AnExcludedReceiverRaisesNoAlarmOfItself) {
+  for (const double excluded : {0.0, 1.0, 4.0}) {  // none, GNSS 0, an inertial unit
+    HealthyRace wall;
+    wall.set(telemetry::field("localization.excluded"), excluded);
+    wall.run(seconds(5));
+    wall.set(telemetry::field("gnss0.status"), 1.0);
+    wall.run(seconds(10));
+    EXPECT_EQ(wall.ever("gnss_one_bad"), excluded != 1.0) << excluded;
+    EXPECT_FALSE(wall.ever("gnss_both_bad"));
+    wall.set(telemetry::field("gnss1.status"), 1.0);
+    wall.run(seconds(10));
+    EXPECT_TRUE(wall.alarm("gnss_both_bad")) << excluded;
+  }
+}
+
+TEST(Evaluator, AStopThatNobodyHasSeenOutlivesTheLink) {
+  HealthyRace wall;
+  wall.run(seconds(5));
+  wall.set(telemetry::field("mode.stop_latch"), 2.0);
+  wall.run(seconds(1));
+  ASSERT_TRUE(wall.alarm("emergency_stop"));
+  wall.packets = false;
+  wall.run(seconds(20));
+  EXPECT_TRUE(wall.alarm("link_lost"));
+  ASSERT_EQ(wall.evaluator.alarms().active().size(), 2U);
+  EXPECT_EQ(wall.evaluator.alarms().state(*alarms::find_alarm("emergency_stop")),
+            alarms::State::kUnack);
+  for (const alarms::ListedAlarm& alarm : wall.evaluator.alarms().active()) {
+    const auto shelved =
+        wall.evaluator.take(alarms::AlarmAction{.kind = alarms::AlarmAction::Kind::kShelve,
+                                                .alarm = alarm.id,
+                                                .length = seconds(60),
+                                                .by = "Ada",
+                                                .reason = "noise"});
+    EXPECT_EQ(static_cast<bool>(shelved), alarm.key != "emergency_stop") << alarm.key;
+  }
+}
+
 TEST(Evaluator, OnlyTheTyresAreSilent) {
   HealthyRace wall;
   wall.run(seconds(3));

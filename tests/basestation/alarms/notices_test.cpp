@@ -68,10 +68,10 @@ TEST(Notices, WhatWasSentStaysWhatItSaid) {
   Desk desk;
   desk.run(seconds(1), LinkState::kDegraded, 0.2);
   const std::string said = desk.notices.all()[0].text;
-  EXPECT_FALSE(desk.notices.send(1, ""));
-  EXPECT_TRUE(desk.notices.send(1, "Ada"));
-  EXPECT_FALSE(desk.notices.dismiss(1, "Ada"));
-  EXPECT_FALSE(desk.notices.send(2, "Ada"));
+  EXPECT_FALSE(desk.notices.decide(1, NoticeFate::kTold, ""));
+  EXPECT_TRUE(desk.notices.decide(1, NoticeFate::kTold, "Ada"));
+  EXPECT_FALSE(desk.notices.decide(1, NoticeFate::kDismissed, "Ada"));
+  EXPECT_FALSE(desk.notices.decide(2, NoticeFate::kTold, "Ada"));
   desk.run(seconds(1), LinkState::kLost, 1.0);
   EXPECT_EQ(desk.notices.all()[0].text, said);
   EXPECT_EQ(desk.kinds().size(), 1U);

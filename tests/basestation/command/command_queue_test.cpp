@@ -50,6 +50,28 @@ struct CommandPit {
   Step step(TicketId id) const { return desk.ticket(id)->step; }
 };
 
+TEST(CommandQueue, WhatDoesNotExistCannotBeStaged) {
+  CommandPit pit;
+  const auto refused = [&](CommandType type, double argument) {
+    const auto staged = pit.desk.stage(kAda, type, argument, pit.inputs());
+    EXPECT_EQ(pit.audit.lines().back().result.substr(0, 7), staged ? "gates p" : "refused");
+    return staged ? std::string{} : staged.error().what;
+  };
+  EXPECT_EQ(refused(CommandType::kTrackFlag, 9.0), "no such value");
+  EXPECT_EQ(refused(CommandType::kTrackFlag, 3.5), "no such value");
+  EXPECT_EQ(refused(CommandType::kSensorsExcluded, 32.0), "no such value");
+  EXPECT_EQ(refused(CommandType::kArm, 2.0), "no such value");
+  EXPECT_EQ(refused(CommandType::kReset, 0.0), "no such value");
+  EXPECT_EQ(refused(CommandType::kSpeedLimit, 121.0), "out of range");
+  for (const auto type :
+       {CommandType::kRaceLine, CommandType::kRole, CommandType::kSendParameters}) {
+    EXPECT_EQ(refused(type, 1.0), "no car carries this out");
+  }
+  EXPECT_TRUE(pit.desk.tickets().empty());
+  EXPECT_EQ(refused(CommandType::kTrackFlag, 3.0), "");
+  EXPECT_EQ(pit.audit.lines().back().what, "stage track flag YELLOW");
+}
+
 TEST(CommandQueue, ACommandClimbsTheLadderOfTheRealRadio) {
   CommandPit pit;
   const TicketId id = pit.stage(54.0);

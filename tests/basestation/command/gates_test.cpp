@@ -52,6 +52,22 @@ struct GatePit {
 
 using GateKinds = std::vector<GateKind>;
 
+// Of a car that was never heard, too.
+TEST(Gates, SayWhatIsNotKnownInWords) {
+  const state::VehicleState nothing;
+  alarms::Evaluator evaluator;
+  for (const telemetry::CommandRow& row : telemetry::kCommandTable) {
+    for (const Gate& gate : gates_of({.type = row.type, .argument = 1.0, .issuer = kConsole}, {},
+                                     {nothing, evaluator, 0, kStart})) {
+      EXPECT_EQ(gate.text.find("nan"), std::string::npos) << gate.text;
+      EXPECT_TRUE(!gate.unit.empty() || !gate.word.empty()) << text_of(gate.kind);
+      const bool of_the_base = gate.kind == GateKind::kAuthority ||
+                               gate.kind == GateKind::kAlarms || gate.kind == GateKind::kLink;
+      EXPECT_EQ(gate.known, of_the_base) << text_of(gate.kind);
+    }
+  }
+}
+
 TEST(Gates, AWarmCarOnAStraightMayGoFourFaster) {
   GatePit pit;
   pit.wall.run(seconds(5));

@@ -43,10 +43,10 @@ TEST(TextCommand, CommandsReachTheCarAsTheyWereMeant) {
     double argument;
   } cases[] = {{"command speed_limit 30.5 because of a test drive", CommandType::kSpeedLimit, 30.5},
                {"  command\tarm  arm because all is well \n", CommandType::kArm, 1},
-               {"command role attacker because we may", CommandType::kRole, 2},
+               {"command track_flag waving_green because we may", CommandType::kTrackFlag, 5},
                {"command sensors_excluded imu1", CommandType::kSensorsExcluded, 8},
                {"command sensors_excluded 3", CommandType::kSensorsExcluded, 3},
-               {"command race_line 4", CommandType::kRaceLine, 4}};
+               {"command end_run end because it is over", CommandType::kEndRun, 1}};
   for (const auto& c : cases) {
     ASSERT_TRUE(pit.execute("take 7")) << "who holds it renews it";
     const auto due = pit.arrives(c.words);

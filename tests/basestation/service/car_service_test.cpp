@@ -121,5 +121,59 @@ TEST(CarService, ASilentJoystickIsAnAlarm) {
   EXPECT_EQ(pit.alarm("joystick_lost"), alarms::State::kReturnedUnack);
 }
 
+// The whole way of a console: each step refused before its time, with its reason.
+TEST(CarService, AfterAStopItLeadsBackToDrivingStepByStep) {
+  using enum command::RecoveryStep;
+  Pit pit;
+  const auto live = [&](double mode, double speed_mps) {
+    pit.set(field("mode.mode"), mode);
+    pit.set(field("ego.vx"), speed_mps);
+    pit.car->standstill(speed_mps == 0.0);
+    for (int i = 0; i < 10; ++i) {
+      const telemetry::OperatorView seen = pit.car->view(pit.now);
+      pit.set(field("mode.stop_latch"), static_cast<double>(seen.stop));
+      pit.set(field("mode.stop_challenge"), static_cast<double>(seen.stop_challenge));
+      (void)pit.base->execute(command::ClaimAuthority{.claim = command::Claim::kRenew}, kAda,
+                              pit.now);
+      pit.run(milliseconds(100));
+    }
+  };
+  const auto recover = [&](command::RecoveryStep step, std::optional<double> challenge = {}) {
+    const auto done =
+        pit.base->execute(command::Recover{.step = step, .challenge = challenge}, kAda, pit.now);
+    return done ? std::string{} : done.error().what;
+  };
+  constexpr double kDisarmed = 0.0, kStandby = 1.0, kDriving = 2.0, kStopping = 3.0, kHalted = 5.0;
+  live(kDriving, 50.0);
+  EXPECT_FALSE(pit.base->stopped());
+  ASSERT_TRUE(pit.base->execute(command::Stop{telemetry::StopLevel::kControlled}, kAda, pit.now));
+  ASSERT_TRUE(
+      pit.base->execute(command::ClaimAuthority{.claim = command::Claim::kTake}, kAda, pit.now));
+  live(kStopping, 30.0);
+  ASSERT_TRUE(pit.base->stopped());
+  EXPECT_EQ(pit.base->stopped()->by, "Ada");
+  EXPECT_NE(recover(kRelease).find("standing"), std::string::npos) << "while it moves";
+  live(kHalted, 0.0);
+  const double challenge = pit.base->stopped()->challenge;
+  ASSERT_GT(challenge, 0.0);
+  EXPECT_EQ(recover(kRelease, challenge + 1.0), "another stop was latched since it was looked at");
+  EXPECT_EQ(pit.car->view(pit.now).stop, telemetry::StopLevel::kControlled);
+  EXPECT_EQ(recover(kRelease, challenge), "");
+  live(kHalted, 0.0);
+  EXPECT_EQ(pit.car->view(pit.now).stop, telemetry::StopLevel::kNone);
+  EXPECT_EQ(recover(kAcknowledge), "");
+  EXPECT_NE(recover(kAcknowledge), "") << "there is nothing left to acknowledge";
+  EXPECT_EQ(recover(kReset), "");
+  live(kDisarmed, 0.0);
+  ASSERT_TRUE(pit.base->stopped());
+  EXPECT_TRUE(pit.base->stopped()->steps.at(2).done);
+  EXPECT_EQ(recover(kArm), "");
+  live(kStandby, 0.0);
+  EXPECT_FALSE(pit.base->stopped());
+  std::vector<telemetry::CommandType> told;
+  for (const telemetry::DueCommand& due : pit.told) told.push_back(due.command.type);
+  EXPECT_EQ(told, (std::vector{telemetry::CommandType::kReset, telemetry::CommandType::kArm}));
+}
+
 }  // namespace
 }  // namespace pitwall::service

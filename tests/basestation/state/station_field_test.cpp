@@ -5,6 +5,8 @@
 
 #include <set>
 
+#include "protocol/telemetry/registry/titles.hpp"
+
 namespace pitwall::state {
 namespace {
 
@@ -37,6 +39,24 @@ TEST(BaseField, RowsHaveSensibleRangesAndLabels) {
     EXPECT_FALSE(telemetry::label_at(row.labels, static_cast<std::size_t>(row.max)).empty())
         << row.name;
   }
+}
+
+TEST(BaseField, NoTwoFieldsHaveOneTitle) {
+  std::set<std::string> titles;
+  for (const telemetry::FieldRow& row : telemetry::kFields)
+    titles.insert(telemetry::title_of(telemetry::row_of(row.group).name, row.name));
+  ASSERT_EQ(titles.size(), telemetry::kFieldCount);
+  for (const BaseRow& row : kBaseTable) {
+    const std::string title = telemetry::title_of(row.group, row.name);
+    EXPECT_FALSE(title.empty()) << row.name;
+    EXPECT_EQ(title.find_first_of("_."), std::string::npos) << title;
+    EXPECT_TRUE(titles.insert(title).second) << "twice: " << title;
+  }
+}
+
+TEST(BaseField, EveryPathWithATitleOfItsOwnIsAField) {
+  for (const telemetry::FieldTitle& row : telemetry::kTitles)
+    EXPECT_TRUE(find_field(row.path)) << row.path;
 }
 
 }  // namespace

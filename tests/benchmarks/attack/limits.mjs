@@ -11,7 +11,8 @@ import { pause } from "../console/rig.mjs";
 const kMoreDescriptors = 40;
 const kSettledMs = 1000;
 const kFilling = 1 << 20;
-const kDiskBytes = 256 << 20;
+/** With room for a whole run, so that it is full only when it is filled. */
+const kDiskBytes = 2 ** 30;
 
 const limit = (pid, what) => execFileSync("prlimit", [`--pid=${pid}`, what]);
 

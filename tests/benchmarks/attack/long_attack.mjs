@@ -63,6 +63,7 @@ async function waitFor(limitMs, test) {
 
 /** Links whole, nothing latched, no alarm standing that this phase must raise. */
 async function settle(rig, phase, record) {
+  if (phase.fresh) await rig.restart("base", kLinkLimitMs);
   rig.acknowledge();
   await waitFor(kAlarmMs, () => rig.linked);
   for (const pair of rig.pairs) {
@@ -244,6 +245,21 @@ function judgeMemory(gates, all) {
   );
 }
 
+function tell(gates, rig, records) {
+  for (const record of records) {
+    rig.pairs.forEach(({ name }, i) =>
+      gates.rows.push({
+        name: `${record.phase.name}, ${name}`,
+        ...record.figures[i],
+        told: Object.fromEntries(record.told[i]),
+        events: record.events[i],
+      }),
+    );
+  }
+  console.log("");
+  for (const record of records) judge(gates, record);
+}
+
 await judged("attack", async (gates) => {
   const phases = kPhases.filter(({ name }) => kOnly.test(name));
   console.log(`${phases.length} phases, ${kPresses} presses each; every second line is the twin`);
@@ -260,19 +276,8 @@ await judged("attack", async (gates) => {
       console.log(lines(records.at(-1)).join("\n"));
     }
   } finally {
-    await rig.close();
+    // What was measured is judged, too, where a phase could not go on.
+    await rig.close().finally(() => tell(gates, rig, records));
   }
-  for (const record of records) {
-    rig.pairs.forEach(({ name }, i) =>
-      gates.rows.push({
-        name: `${record.phase.name}, ${name}`,
-        ...record.figures[i],
-        told: Object.fromEntries(record.told[i]),
-        events: record.events[i],
-      }),
-    );
-  }
-  console.log("");
-  for (const record of records) judge(gates, record);
   judgeMemory(gates, records);
 });

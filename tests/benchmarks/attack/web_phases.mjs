@@ -3,6 +3,7 @@
  *
  * crowd      who comes, see crowd.mjs; viewers have a token
  * limit      what the base may use meanwhile, see limits.mjs
+ * fresh      the base is started anew before it: no memory of an earlier crowd
  * later_ms   how much later than the twin's a stop may be, p99
  * says       what the base must say on its terminal; with `all_or_said` only if it took not all
  * counts     the counter that must have grown
@@ -38,6 +39,7 @@ export const kWebPhases = [
     name: "200 viewers, memory 1.5 of idle",
     crowd: { kind: "viewers", count: 200 },
     limit: "memory",
+    fresh: true,
     all_or_said: true,
     says: /console refused: memory/,
   }),
@@ -45,6 +47,7 @@ export const kWebPhases = [
     name: "200 viewers, memory 1.1 of idle",
     crowd: { kind: "viewers", count: 200 },
     limit: "little_memory",
+    fresh: true,
     says: /console refused: memory/,
     counts: "pitwall_web_short_refused_total",
   }),

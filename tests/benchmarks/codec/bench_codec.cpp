@@ -2,8 +2,8 @@
 // over a lap in the encodings that teams send it in; sizes and times.
 //   out    a table; exit code 1 when a gate is missed, 2 when a contestant of a gate is not there
 //   units  bytes, means over the trace; "on the wire" is with IPv4 and UDP; ns of processor time,
-//          best of batches, and beside them what a reference unit costs (hil/cost), by which
-//          figures of two machines compare
+//          best of batches, and beside them what a reference unit costs
+//          (tests/benchmarks/cost), by which figures of two machines compare
 //   invariants  all bytes are those of the real libraries but JSON's; every frame is read again
 //          and compared before a size counts. Times are of C++ alone, in one process and one run
 //   gates  sizes as in gates_of(); times: our sealed packet (encoded and sealed; opened and
@@ -17,14 +17,14 @@
 #include <cstring>
 #include <fstream>
 
-#include "hil/cost/machine_name.hpp"
-#include "hil/cost/paired_ratio.hpp"
-#include "hil/cost/reference_cost.hpp"
 #include "protocol/json/json_text.hpp"
 #include "protocol/telemetry/packet/header.hpp"
 #include "protocol/transport/clock.hpp"
 #include "tests/benchmarks/codec/contestant.hpp"
 #include "tests/benchmarks/codec/lap.hpp"
+#include "tests/benchmarks/cost/machine_name.hpp"
+#include "tests/benchmarks/cost/paired_ratio.hpp"
+#include "tests/benchmarks/cost/reference_cost.hpp"
 
 namespace pitwall::codec {
 namespace {

@@ -1,5 +1,6 @@
 // One way to write the vehicle's state, for `bench codec`: bytes and times are measured by main.
-//   law    decode(encode(x)) is x as far as the encoding keeps it; it is checked for every frame
+//   invariants
+//          decode(encode(x)) is x as far as the encoding keeps it; it is checked for every frame
 //   errors a contestant whose library is not there is not in the list; main says so
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,6 +1,7 @@
 // A lap of an oval as the vehicle's state tells it: what `bench codec` has every contestant encode.
 //   out    values of all fields of telemetry::kVehicleState, in their ranges; the same each time
-//   law    one motion behind all of it: speeds, accelerations, loads and pressures belong together;
+//   invariants
+//          one motion behind all of it: speeds, accelerations, loads and pressures belong together;
 //          what is zero on a car while it drives so (brakes on the straight) is zero
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

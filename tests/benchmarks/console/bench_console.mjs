@@ -2,7 +2,7 @@
  * How fast the base station is, from the radio's socket to the operator's eye and back, with eight
  * consoles on a car that says all it can. Real processes and a real browser in real time: other
  * work on the machine shows in the figures, so the best of five blocks counts (blocks.mjs). The
- * processor time of the base is weighed beside the reference unit of hil/cost.
+ * processor time of the base is weighed beside the reference unit of tests/benchmarks/cost.
  *
  *   node bench_console.mjs [--json FILE]   exit code 1 when a gate is missed
  *

@@ -95,7 +95,12 @@ export async function verdict(bench, measure, print = console.log) {
   }
   const { rows, held } = gates;
   const missed = rows.filter((row) => row.held === false).length;
-  print(`${bench}: ${missed === 0 ? "all gates held" : `${missed} of its gates MISSED`}`);
+  const judged = rows.some((row) => row.held !== undefined);
+  const outcome =
+    missed > 0 ? `${missed} of its gates MISSED` : judged ? "all gates held" : "no gate was judged";
+  print(
+    `${bench}: ${ended === undefined ? outcome : `NOT JUDGED to its end; ${outcome} until then`}`,
+  );
   const code = ended === undefined ? (held ? 0 : 1) : 2;
   return { code, file: { bench, machine, rows, ended, held: code === 0 } };
 }
@@ -109,5 +114,5 @@ export async function judged(bench, measure) {
   }
   const { code, file } = await verdict(bench, measure);
   if (path) writeFileSync(path, `${JSON.stringify(file, rounded, 1)}\n`);
-  process.exitCode = code;
+  process.exit(code); // what could not be ended may still wait for what never comes
 }

@@ -47,7 +47,19 @@ test("what keeps it from going on is told with what was measured, and is no pass
   const said = lines.join("\n");
   assert.match(said, /held +p99 +3\.0 ms, limit 8; undisturbed - \(0\), disturbed 3\.0 \(1\)/);
   assert.match(said, /could not go on: the base ended with 1/);
+  assert.match(said, /NOT JUDGED to its end/);
   assert.doesNotMatch(said, /at .*gates_test/, "no stack trace");
+});
+
+test("what ends before anything is judged does not say that gates held", async () => {
+  const lines = [];
+  const { code } = await verdict(
+    "x",
+    () => Promise.reject(new Error("the base is gone")),
+    (line) => lines.push(line),
+  );
+  assert.equal(code, 2);
+  assert.match(lines.at(-1), /NOT JUDGED to its end; no gate was judged until then/);
 });
 
 test("table and file name the machine, and count what was missed", async () => {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference unit (hil/cost) beside programs that are measured from outside: wakes each 100 ms,
-// takes some, the first of which find the caches of others, and prints what the cheapest cost and
-// what one costs on the reference machine, in us. Ends when nobody reads that any more.
+// The reference unit (tests/benchmarks/cost) beside programs that are measured from outside:
+// wakes each 100 ms, takes some, the first of which find the caches of others, and prints what the
+// cheapest cost and what one costs on the reference machine, in us. Ends when nobody reads that.
 #include <algorithm>
 #include <cstdio>
 
-#include "hil/cost/cost_gates.hpp"
-#include "hil/cost/reference_cost.hpp"
 #include "protocol/transport/clock.hpp"
+#include "tests/benchmarks/cost/cost_gates.hpp"
+#include "tests/benchmarks/cost/reference_cost.hpp"
 
 int main() {
   using namespace pitwall;

@@ -96,7 +96,10 @@ export class Rig {
   }
 }
 
-/** What a reference unit (hil/cost) costs in the meantime: its program, and what that said. */
+/**
+ * What a reference unit (tests/benchmarks/cost) costs in the meantime: its program, and what that
+ * said.
+ */
 export class ReferencePulse {
   /** {at, times}: how many times what it costs on the reference machine. */
   beats = [];

@@ -92,12 +92,16 @@ TEST(BusOptions, AHubTakesAPathWithOrWithoutThePrefix) {
     EXPECT_EQ(options->length, milliseconds(2'500));
   }
   EXPECT_FALSE(parse_bus_hub(Words{"bus"})->length.has_value());
+  EXPECT_EQ(parse_bus_hub(Words{"bus"})->clock, "wall");
+  EXPECT_EQ(parse_bus_hub(Words{"bus", "--clock", "/dev/shm/t"})->clock, "/dev/shm/t");
   const std::vector<std::pair<Words, std::string>> cases{{{}, "bus hub"},
                                                          {{"--seconds", "1"}, "bus hub"},
                                                          {{"a", "b"}, "b"},
                                                          {{"a", "--what"}, "--what"},
                                                          {{"a", "--seconds"}, "--seconds"},
                                                          {{"a", "--seconds", "0"}, "0"},
+                                                         {{"a", "--clock"}, "--clock"},
+                                                         {{"a", "--clock", ""}, "--clock"},
                                                          {{"a", "--seconds", "x"}, "x"}};
   for (const auto& [words, place] : cases) {
     const auto options = parse_bus_hub(words);

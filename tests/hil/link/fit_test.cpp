@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/link/fit.hpp"
+#include "tests/hil/link/fit.hpp"
 
 #include <gtest/gtest.h>
 

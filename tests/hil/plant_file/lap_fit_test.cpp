@@ -1,6 +1,6 @@
 // The fit against drives whose numbers are known, made by a law that is not the fit's own model.
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/plant_file/lap_fit.hpp"
+#include "tests/hil/plant_file/lap_fit.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "hil/plant/plant.hpp"
-#include "hil/plant_file/lap_fit.hpp"
 #include "hil/plant_file/plant_file.hpp"
 #include "tests/hil/plant_file/drive_period.hpp"
+#include "tests/hil/plant_file/lap_fit.hpp"
 #include "tests/hil/plant_file/shipped.hpp"
 #include "tests/support/public_data.hpp"
 

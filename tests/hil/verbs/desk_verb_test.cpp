@@ -27,7 +27,7 @@ TEST_F(DeskVerb, WrongUsageIsTold) {
 // As a client sees it: the real program runs a real scenario in lockstep, twice with one seed.
 TEST_F(DeskVerb, ARunIsStartedFollowedAndJudged) {
   auto desk = transport::Process::spawn(
-      {.argv = {PITWALL_HIL_PROGRAM, "desk", "--socket", path("s"), "--runs", path("runs")},
+      {.argv = {PITWALL_TESTED_PROGRAM, "desk", "--socket", path("s"), "--runs", path("runs")},
        .folder = PITWALL_SOURCE_DIR});
   ASSERT_TRUE(desk);
   const Instant limit = transport::monotonic_now() + seconds(120);

@@ -1,4 +1,4 @@
-// The built pitwall-hil, run to its end: exit code and what it said.
+// The built program of a test (PITWALL_TESTED_PROGRAM), run to its end: exit code and output.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -41,9 +41,10 @@ class ProgramRun : public ::testing::Test {
     return path(scenario);
   }
 
-  Said run(const std::vector<std::string>& words) {
+  Said run(const std::vector<std::string>& words,
+           const std::string& program = PITWALL_TESTED_PROGRAM) {
     std::vector<std::string> argv{"sh", "-c", "exec \"$@\" > \"$0/out\" 2> \"$0/err\"",
-                                  folder_->path(), PITWALL_HIL_PROGRAM};
+                                  folder_->path(), program};
     argv.insert(argv.end(), words.begin(), words.end());
     auto process = transport::Process::spawn({.argv = argv, .folder = PITWALL_SOURCE_DIR});
     EXPECT_TRUE(process);

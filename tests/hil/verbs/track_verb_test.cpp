@@ -53,7 +53,8 @@ TEST_F(TrackVerb, AnImportedTrackIsDriven) {
   EXPECT_NE(text_of("stadium.yaml").find("latitude_deg: 36.2"), std::string::npos);
   EXPECT_EQ(run({"track", "picture", path("stadium.yaml"), "--out", path("t.svg")}).code, 0);
   EXPECT_NE(text_of("t.svg").find("</svg>"), std::string::npos);
-  const Said laps = run({"bench", "laps", "--track", path("stadium.yaml"), "--only", "nominal"});
+  const Said laps = run({"laps", "--track", path("stadium.yaml"), "--only", "nominal"},
+                        PITWALL_BENCHMARKS_PROGRAM);
   EXPECT_EQ(laps.code, 0) << laps.out << laps.err;
   EXPECT_NE(laps.out.find("lapped"), std::string::npos) << laps.out;
 }

@@ -99,7 +99,7 @@ class Car:
     def __init__(self, folder, keys, stations):
         self.summary = folder / "car.json"
         config, bus = TREE / "vehicle/config", folder / "bus"
-        self.hub = spawn([HIL, "bus", "hub", bus], stderr=subprocess.DEVNULL)
+        self.hub = spawn([HIL, "bus", "hub", bus, *test_clock.FLAGS], stderr=subprocess.DEVNULL)
         until("the bus is there", bus.exists)
         self.process = spawn(
             [VEHICLE, "--car", config / "cars/av21.yaml", "--track", config / "tracks/lvms.yaml",

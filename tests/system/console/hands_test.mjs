@@ -5,11 +5,21 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { doubleStage, hold, kPages, reach, show, until } from "./stage.mjs";
+import {
+  doubleStage,
+  escapeTwice,
+  hold,
+  kDeskSizes,
+  kPages,
+  reach,
+  show,
+  until,
+} from "./stage.mjs";
 import { greetings } from "./story.mjs";
 
 const stage = doubleStage((double) => (stage.double.greetings = greetings(double)));
 
+const kDoubleEscapeMs = 600;
 const kHarmless = ["history", "mark", "ack", "ping"];
 const commands = () =>
   stage.double.received.filter(
@@ -59,6 +69,29 @@ test("Escape twice within 600 ms is a controlled stop, later it is none", async 
   assert.deepEqual(await reached(page), [{ type: "stop", kind: "controlled" }]);
 });
 
+for (const size of kDeskSizes) {
+  test(`${size.join(" x ")}: an Escape that closes something is no half of a stop`, async () => {
+    const { page } = await stage.open({ size });
+    const openings = [
+      ["help", () => page.keyboard.press("?")],
+      ["finder", () => page.keyboard.press("/")],
+      ["shelf", () => page.keyboard.press("s")],
+    ];
+    for (const [name, open] of openings) {
+      await open();
+      await until(page, name, () => document.querySelector(".dialog"));
+      await page.keyboard.press("Escape");
+      await until(page, `no ${name}`, () => !document.querySelector(".dialog"));
+      await page.keyboard.press("Escape");
+      await page.waitForTimeout(kDoubleEscapeMs + 50);
+      assert.deepEqual(commands(), [], name);
+    }
+    await escapeTwice(page);
+    await page.waitForTimeout(100);
+    assert.deepEqual(commands(), [{ type: "stop", kind: "controlled" }]);
+  });
+}
+
 test("stops work from inside a text field, a dialog and a held view", async () => {
   const { page } = await stage.open();
   await page.keyboard.press(" ");
@@ -68,6 +101,7 @@ test("stops work from inside a text field, a dialog and a held view", async () =
   await page.keyboard.press("Control+Shift+E");
   await page.waitForTimeout(200);
   assert.deepEqual(commands(), [{ type: "stop", kind: "emergency" }]);
+  await page.keyboard.press("Escape"); // closes the dialog
   await page.keyboard.press("Escape");
   await page.keyboard.press("Escape");
   await page.click("button.stop.controlled");
@@ -100,7 +134,8 @@ test("a stop without a base says that it was not sent", async () => {
   const { page } = await stage.open();
   await stage.double.close();
   await until(page, "no connection", () => !globalThis.pitwall.session.connected.value);
-  await page.click("button.stop.controlled");
+  assert.equal(await page.isDisabled("button.stop.controlled"), true);
+  await escapeTwice(page);
   await until(page, "NOT SENT", () =>
     document.querySelector(".outcome").textContent.startsWith("NOT SENT"),
   );
@@ -181,7 +216,7 @@ test("keys find a field, plot it and acknowledge an alarm", async () => {
     "the plot",
     () =>
       location.hash === "#/plots" &&
-      document.querySelector('[aria-label="chart engine.oil_pressure"] canvas'),
+      document.querySelector('[aria-label="chart engine oil pressure"] canvas'),
   );
   await page.keyboard.press("a");
   await page.waitForTimeout(100);

@@ -295,10 +295,10 @@ test("laps lie over each other by distance", async () => {
   );
   // Two fields leave room for three laps each; this console has seen one.
   assert.deepEqual(await page.evaluate(lines), [
-    ["ego.vx", true],
+    ["speed", true],
     ["lap \u22121", false],
     ["lap \u22122", false],
-    ["track.target_speed", true],
+    ["target speed", true],
     ["lap \u22121", false],
     ["lap \u22122", false],
   ]);

@@ -11,9 +11,11 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { cvdDistance, contrast, parseColour } from "./colour.mjs";
 import { kAxe } from "./packages.mjs";
-import { doubleStage, kPages, kScreenshots, kSizes, kThemes, show } from "./stage.mjs";
-import { checklist, greetings, kRecordings, troubles } from "./story.mjs";
+import { doubleStage, kDeskSizes, kPages, kScreenshots, kSizes, kThemes } from "./stage.mjs";
+import { show, until } from "./stage.mjs";
+import { checklist, greetings, kRecordings, stopped, troubles } from "./story.mjs";
 
+const kLabelPx = 14;
 const kTouchPx = 44;
 const kCommandPx = 64;
 const kTextContrast = 7;
@@ -69,12 +71,80 @@ const cutOff = () => {
   return found;
 };
 
+/** Every text in sight that is drawn smaller, with its size. */
+const smallTexts = (least) => {
+  const found = new Set();
+  for (const e of document.querySelectorAll("body *")) {
+    const own = [...e.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim() !== "");
+    const typed = e.matches("input, select, textarea");
+    if ((!own && !typed) || e.getClientRects().length === 0) continue;
+    if (e.closest(".heard-only, option, script, style")) continue;
+    const px = parseFloat(getComputedStyle(e).fontSize);
+    const before = getComputedStyle(e, "::before");
+    const text = (e.textContent || e.ariaLabel || "").slice(0, 30);
+    if (px < least - 0.01) found.add(`${px} px: ${e.className || e.tagName} "${text}"`);
+    if (!["none", "normal", '""'].includes(before.content) && parseFloat(before.fontSize) < least)
+      found.add(`${before.fontSize} before ${e.className}`);
+  }
+  return [...found];
+};
+
+/** Notes the size of every text that is drawn on a canvas from now on, in pixels of the page. */
+const watchCanvas = () => {
+  const drawn = (globalThis.drawnPx = []);
+  const known = new Set();
+  const { fillText } = CanvasRenderingContext2D.prototype;
+  CanvasRenderingContext2D.prototype.fillText = function (text, ...rest) {
+    const key = `${this.font} ${text}`;
+    if (!known.has(key) && known.add(key)) {
+      drawn.push([Number(/([\d.]+)px/.exec(this.font)[1]) / devicePixelRatio, text]);
+    }
+    return fillText.call(this, text, ...rest);
+  };
+};
+
 for (const size of kSizes) {
   test(`primary fits ${size.join(" x ")}: no scroll bar, nothing cut or over another`, async () => {
     const { page } = await stage.open({ size });
     await page.waitForTimeout(800);
     await page.screenshot({ path: join(kScreenshots, `primary_${size.join("x")}.png`) });
     assert.deepEqual(await page.evaluate(cutOff), []);
+  });
+}
+
+for (const size of kDeskSizes) {
+  const named = size.join(" x ");
+  test(`primary fits beside the card of a stop at ${named}`, async () => {
+    stage.double.greetings.push(stopped(stage.double.nowMs()));
+    const { page } = await stage.open({ size });
+    await until(page, "the card", () => document.querySelector(".stop-card"));
+    await page.waitForTimeout(800);
+    await page.screenshot({ path: join(kScreenshots, `primary_stopped_${size.join("x")}.png`) });
+    assert.deepEqual(await page.evaluate(cutOff), []);
+  });
+
+  test(`no text is smaller than ${kLabelPx} px on any page at ${named}`, async () => {
+    stage.double.greetings.push(stopped(stage.double.nowMs()));
+    const { page } = await stage.open({ size });
+    await page.evaluate(watchCanvas);
+    for (const name of [...kPages, "primary"]) {
+      await show(page, name);
+      await page.waitForTimeout(600);
+      assert.deepEqual(await page.evaluate(smallTexts, kLabelPx), [], name);
+    }
+    for (const key of ["?", "/"]) {
+      await page.keyboard.press(key);
+      await page.waitForTimeout(300);
+      assert.deepEqual(await page.evaluate(smallTexts, kLabelPx), [], `key ${key}`);
+      await page.keyboard.press("Escape");
+    }
+    const drawn = await page.evaluate(() => globalThis.drawnPx);
+    assert.ok(drawn.length > 3, "texts were drawn on canvases");
+    assert.deepEqual(
+      drawn.filter(([px]) => px < kLabelPx),
+      [],
+      "on a canvas",
+    );
   });
 }
 
@@ -247,5 +317,6 @@ test("the primary page in each world, held in the past, and with a silent car", 
   stage.double.silence();
   await page.waitForTimeout(4000);
   await shoot(page, "silent");
+  assert.deepEqual(await page.evaluate(cutOff), [], "of a silent car");
   await context.close();
 });

@@ -26,8 +26,14 @@ export const kPages = [
   "race",
   "hil",
   "replay",
+  "events",
 ];
 export const kThemes = ["dark", "light", "sun"];
+/** Of a pit wall's desk and of a laptop on it. */
+export const kDeskSizes = [
+  [1280, 800],
+  [1920, 1080],
+];
 export const kSizes = [
   [1920, 1080],
   [1280, 800],

@@ -6,20 +6,15 @@
  */
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
-import { openSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import { setTimeout as sleep } from "node:timers/promises";
-import { kClockFlags, nowMs, pass } from "../../support/test_clock.mjs";
+import { nowMs, pass } from "../../support/test_clock.mjs";
+import { attachCar, saidBy } from "./attached_car.mjs";
 import { Client } from "./client.mjs";
 import { events, samples } from "./lcm_log.mjs";
-import { kRoot } from "./packages.mjs";
 import { Programs } from "./programs.mjs";
 
-const kBench = process.env.PITWALL_HIL ?? join(kRoot, "build/release/hil/pitwall-hil");
-const kVehicle =
-  process.env.PITWALL_VEHICLE ?? join(kRoot, "build/release/vehicle/pitwall-vehicle");
 const kFastMps = 15;
 const kPatienceMs = 60_000;
 const kDeadMs = 6000;
@@ -35,40 +30,10 @@ const kEmergencyStop = 4;
 const kHalted = 5;
 
 const programs = new Programs();
-const others = [];
-after(async () => {
-  for (const other of others) other.kill("SIGKILL");
-  await programs.close();
-});
-
-function start(program, ...words) {
-  const said = openSync(join(programs.folder, "said"), "a");
-  const started = spawn(program, words, { cwd: kRoot, stdio: ["ignore", said, said] });
-  others.push(started);
-  return started;
-}
+after(() => programs.close());
 
 const ended = (process) => new Promise((done) => process.once("exit", done));
-const screen = () => readFileSync(join(programs.folder, "said"), "utf8");
-
-/** Puts the car on its bus, with the bench's plant behind it. */
-async function startCar() {
-  const bus = `unix:${join(programs.folder, "bus")}`;
-  start(kBench, "bus", "hub", bus);
-  await sleep(500);
-  const config = (name) => join(kRoot, "vehicle/config", name);
-  const car = start(
-    kVehicle,
-    ...["--car", config("cars/av21.yaml"), "--track", config("tracks/lvms.yaml"), "--can", bus],
-    ...["--gnss", "23501,23502", "--radio", programs.radio, "--local-report", "23436"],
-    ...["--keys", join(programs.folder, "keys/car.keys"), "--simulation", "--arm"],
-    ...["--record", join(programs.folder, "box"), ...kClockFlags],
-  );
-  const out = ["--out", join(programs.folder, "out"), "--duration", "120"];
-  const live = ["--live", "--here", "--attach", "--interface", bus, ...kClockFlags];
-  start(kBench, "run", "hil/scenarios/launch.yaml", ...live, ...out);
-  return car;
-}
+const screen = () => saidBy(programs);
 
 /** What the car made of itself, from its own recording: a line for each change of its mode. */
 function storyOf(own, paths, zeroMs) {
@@ -120,7 +85,7 @@ test("a base that is killed: the car's ladder, the recording, the race again", a
   const paths = (await first.until("a catalogue", () => first.newest.catalogue)).fields
     .filter(({ path }) => !/^(link|derived|base)\./.test(path))
     .map(({ path }) => path);
-  const car = await startCar();
+  const car = await attachCar(programs, "hil/scenarios/launch.yaml", 120);
   let speed = NaN;
   try {
     await until("a car that drives", kPatienceMs, async () => {

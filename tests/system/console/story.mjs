@@ -59,44 +59,39 @@ export function alarms(now) {
   };
 }
 
+const gate = (name, ok, value, unit, age, text, more = {}) => ({
+  name,
+  ok,
+  value,
+  unit,
+  word: "",
+  age_ms: age,
+  can_be_overridden: true,
+  text,
+  ...more,
+});
+
 const gates = (ok) => [
-  {
-    name: "flag permits",
-    ok: true,
-    value: "GREEN",
-    age_ms: 40,
-    text: "track flag of the car",
-  },
-  {
-    name: "link good",
-    ok: true,
-    value: "good",
-    age_ms: 20,
-    text: "loss 1.2 %",
-  },
-  {
-    name: "tyres",
-    ok,
-    value: ok ? 81 : 29,
-    age_ms: 300,
-    text: "needs 79 \u00b0C at this speed",
-  },
-  {
-    name: "step",
-    ok,
-    value: ok ? 4 : 9,
-    age_ms: 60,
-    text: "at most 5 m/s in one step",
-  },
-  {
-    name: "corner",
-    ok,
-    value: ok ? 11.2 : 1.4,
-    age_ms: 60,
-    text: "not within 3 s of a corner",
-  },
-  { name: "fuel", ok: true, value: 6, age_ms: 800, text: "attempts left" },
+  gate("flag", true, 4, "", 40, "track GREEN, vehicle ATTACKER", { word: "GREEN" }),
+  gate("link", true, 1, "", 20, "link good", { word: "good", can_be_overridden: false }),
+  gate("tyres", ok, ok ? 81 : 29, "degC", 300, "29.0 degC, 79.0 degC needed for 71.1 m/s"),
+  gate("step", ok, ok ? 4 : 9, "m/s", 60, "+9.0 m/s, at most +5.0 m/s"),
+  gate("corner", ok, ok ? 11.2 : 1.4, "s", 60, "a corner in 1.4 s, more than 3.0 s needed"),
+  gate("fuel", true, 6, "attempts", 800, "14.9 laps, attempts: 6.0"),
 ];
+
+/** As many gates as a speed has, none of which knows anything. */
+export const nothingKnown = [
+  ["stop", ""],
+  ["flag", ""],
+  ["tyres", "degC"],
+  ["step", "m/s"],
+  ["corner", "s"],
+  ["fuel", "attempts"],
+  ["alarms", "high alarms"],
+  ["race control", ""],
+  ["standing", "m/s"],
+].map(([name, unit]) => gate(name, false, null, unit, null, "never heard: no data"));
 
 export function refusedCommand(now) {
   return {
@@ -152,6 +147,28 @@ export function refusedByCar(now) {
     text: "the car moves",
   };
 }
+
+/** A stop of the car that an operator has latched, at a standstill. */
+export const stopped = (now, more = {}) => ({
+  type: "stop_state",
+  stopped: true,
+  level: "controlled stop",
+  mode: "halted",
+  cause: "dead reckoning too long",
+  value: 1.6,
+  unit: "s",
+  since_ms: now - 41_000,
+  by: "Ada",
+  latched: true,
+  challenge: 4711,
+  steps: [
+    { step: "release", done: false, possible: true, why: "" },
+    { step: "acknowledge", done: false, possible: true, why: "" },
+    { step: "reset", done: false, possible: false, why: "release the stop first" },
+    { step: "arm", done: false, possible: false, why: "reset the car first" },
+  ],
+  ...more,
+});
 
 const windows = (loss, rtt) =>
   [1, 5, 30].map((seconds) => ({
@@ -353,6 +370,9 @@ export function greetings(double) {
       kind: "degraded",
       text: "Car 7: radio degraded since 19:02:40 UTC. The car drives on under its own rules.",
       evidence: "loss 14 % over 5 s, round trip 212 ms, car state driving",
+      time_ms: now - 22_000,
+      state: "draft",
+      by: null,
     },
     ...audit.map((what, i) => ({
       type: "audit",
@@ -361,6 +381,17 @@ export function greetings(double) {
       what,
       result: "ok",
     })),
+    ...[
+      ["mode: standby -> driving", "info"],
+      ["lap 3: 38.420 s", "info"],
+      ["fault: GNSS corrections lost", "warning"],
+    ].map(([text, severity], i) => ({
+      type: "event",
+      time_ms: now - 150_000 + 45_000 * i,
+      text,
+      severity,
+    })),
+    { type: "mark", time_ms: now - 12_300, text: "bump in T3", by: "console 16" },
     ...["unack", "acked"].map((to, i) => ({
       type: "alarm_event",
       time_ms: now - 95_000 + 9_000 * i,

@@ -274,8 +274,9 @@ class Installation(unittest.TestCase):
     # --- receivers that are not on UDP
 
     def test_receivers_over_tcp_and_a_serial_line(self):
-        """The links of the README's example, and the device that the unit may open for them."""
-        example = re.search(r"`((?:--receiver \S+ ?){2})`", (SOURCE / "README.md").read_text())[1]
+        """The links of the example in docs/your_car.md, and the device that the unit may open."""
+        page = (SOURCE / "docs/your_car.md").read_text()
+        example = re.search(r"`((?:--receiver \S+ ?){2})`", page)[1]
         self.assertIn("=tcp:", example)
         device = re.search(r"serial:(/dev/\w+)", example)[1]
         self.install(*example.split(), "--keys", self.make_keys() / "car.keys")

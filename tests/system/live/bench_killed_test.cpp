@@ -1,8 +1,7 @@
-// The bench dies while the car drives. Car, base station and bench are processes of this test, on a
-// real bus (CMakeLists.txt runs it where vcan0 is); the test is the radio between car and base, so
-// it hears what the car says whoever else lives. The car must say that the bus is dead within
-// 100 ms of the last frame, disarm when nobody obeys, and not move under a bench that is started
-// again. This test keeps the time of all of them, so that the machine costs none of it.
+// The bench dies while the car drives. Car, base station, bench and the bus's hub are processes of
+// this test, which hears what the car says whoever else lives. The car must say that the bus is
+// dead within 100 ms of the last frame, disarm when nobody obeys, and not move under a bench that
+// is started again. This test keeps the time of all of them, so that the machine costs none of it.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -17,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "hil/guest/own_hub.hpp"
 #include "protocol/can/av21.hpp"
 #include "protocol/telemetry/state_packet.hpp"
 #include "protocol/transport/bench_clock/kept_clock.hpp"
@@ -40,11 +40,6 @@ constexpr Duration kReportLimit = milliseconds(100);
 constexpr Duration kGapLimit = milliseconds(35);  // between two packets of the car, 20 ms apart
 constexpr Duration kDisarmLimit = seconds(35);
 constexpr double kFast_mps = 15.0;
-// vcan0, or the bus that is served already: with it the test needs no guest.
-std::string bus_name() {
-  const char* name = std::getenv("PITWALL_TEST_BUS");
-  return name == nullptr ? "vcan0" : name;
-}
 constexpr const char* kScenario = "hil/scenarios/launch.yaml";
 
 std::string clock_file() { return "/dev/shm/pitwall-bench-killed-" + std::to_string(::getpid()); }
@@ -119,7 +114,7 @@ struct Attempt {
 class Experiment {
  public:
   Attempt run() {
-    start();
+    if (!start()) return result_;
     result_.drove = wait([this] { return reports_.last().speed_mps > kFast_mps; }, seconds(40));
     if (!result_.drove) return result_;
     transport::sleep_until(transport::monotonic_now() + milliseconds(1));
@@ -133,7 +128,17 @@ class Experiment {
  private:
   static bool is(double mode, world::Mode wanted) { return mode == static_cast<double>(wanted); }
 
-  void start() {
+  std::string bus_name() const { return "unix:" + folder_->path() + "/bus"; }
+
+  bool start() {
+    auto hub = guest::OwnHub::start(program("PITWALL_BENCH_PROGRAM"), bus_name(), clock_file());
+    EXPECT_TRUE(hub) << to_string(hub.error());
+    if (!hub) return false;
+    if (*hub) hub_.emplace(std::move(**hub));
+    auto bus = transport::CanSocket::open(bus_name());
+    EXPECT_TRUE(bus) << to_string(bus.error());
+    if (!bus) return false;
+    bus_.emplace(*std::move(bus));
     const std::string keys = folder_->path() + "/keys";
     auto keygen = spawn({program("PITWALL_BASE_PROGRAM"), "keygen", "--out", keys});
     if (!keygen || keygen->wait().code != 0) ADD_FAILURE() << "no keys";
@@ -146,6 +151,7 @@ class Experiment {
                "23501,23502", "--radio", base_at, "--keys", keys + "/car.keys", "--local-report",
                std::to_string(reports_.port()), "--simulation", "--arm", "--clock", clock_file()});
     bench_ = spawn(bench_words("60"));
+    return true;
   }
 
   Words bench_words(const std::string& seconds) const {
@@ -222,7 +228,8 @@ class Experiment {
   static constexpr std::uint16_t kBasePort = 23'433;
   Result<transport::TemporaryFolder, Problem> folder_ =
       transport::TemporaryFolder::create("pitwall-bench-killed-");
-  Result<transport::CanSocket, Problem> bus_ = transport::CanSocket::open(bus_name());
+  std::optional<guest::OwnHub> hub_;
+  std::optional<transport::CanSocket> bus_;
   std::vector<can::ReceivedFrame> inbox_ = std::vector<can::ReceivedFrame>(256);
   Reports reports_;
   Instant last_frame_{};

@@ -1,6 +1,6 @@
 // Processes of a live run die and come back, as a user runs it: `pitwall-hil run SCENARIO --live`
-// on real vcan. What a scenario expects must hold, and the result says what was done to whom. The
-// other scenarios of this kind, and a car killed at eight places of the track, are in
+// on a bus of its own. What a scenario expects must hold, and the result says what was done to
+// whom. The other scenarios of this kind, and a car killed at eight places of the track, are in
 // process_faults.py, which takes a quarter of an hour.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
@@ -30,10 +30,10 @@ Outcome run_live(const std::string& scenario) {
     return outcome;
   }
   const std::string json = folder->path() + "/run.json";
-  auto process =
-      transport::Process::spawn({.argv = {program, "run", "hil/scenarios/" + scenario + ".yaml",
-                                          "--live", "--out", folder->path(), "--json", json},
-                                 .folder = PITWALL_SOURCE_DIR});
+  auto process = transport::Process::spawn(
+      {.argv = {program, "run", "hil/scenarios/" + scenario + ".yaml", "--live", "--interface",
+                "unix:" + folder->path() + "/bus", "--out", folder->path(), "--json", json},
+       .folder = PITWALL_SOURCE_DIR});
   if (process) outcome.code = process->wait().shell_code();
   const auto document = yaml::load_file(json);
   EXPECT_TRUE(document) << (document ? "" : to_string(document.error()));

@@ -3,7 +3,8 @@
 // hears the same samples.
 //   in     a seed, faults, a window of scenario time
 //   out    errors of both, tick by tick, and their summary
-//   law    a jump is the change of the error from one tick to the next: what the pose moved by that
+//   invariants
+//          a jump is the change of the error from one tick to the next: what the pose moved by that
 //          the car did not
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

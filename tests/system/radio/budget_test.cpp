@@ -1,13 +1,13 @@
 // What leaves an end, counted datagram by datagram as the air gets it: in every window, whatever is
 // asked of it, not more than the budget. Nothing has a way around it.
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/radio/budget_run.hpp"
+#include "tests/benchmarks/radio/budget_run.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 
-#include "hil/radio/offered_load.hpp"
+#include "tests/benchmarks/radio/offered_load.hpp"
 #include "tests/system/radio/radio_setups.hpp"
 
 namespace pitwall::radio {

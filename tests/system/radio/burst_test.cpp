@@ -1,7 +1,7 @@
 // Fades of tenths of a second: nobody can hear while nothing passes, so ages are held against those
 // of an oracle that sends 500 times a second over the very same fades.
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/radio/burst_run.hpp"
+#include "tests/benchmarks/radio/burst_run.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <array>
 #include <cstdio>
 
-#include "hil/radio/offered_load.hpp"
+#include "tests/benchmarks/radio/offered_load.hpp"
 #include "tests/system/radio/radio_setups.hpp"
 
 namespace pitwall::radio {

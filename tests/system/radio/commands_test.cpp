@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "hil/radio/command_traffic.hpp"
+#include "tests/benchmarks/radio/command_traffic.hpp"
 #include "tests/system/radio/radio_setups.hpp"
 
 namespace pitwall::radio {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "hil/radio/burst_run.hpp"
-#include "hil/radio/offered_load.hpp"
-#include "hil/radio/virtual_radio.hpp"
+#include "tests/benchmarks/radio/burst_run.hpp"
+#include "tests/benchmarks/radio/offered_load.hpp"
+#include "tests/benchmarks/radio/virtual_radio.hpp"
 #include "tests/system/radio/radio_setups.hpp"
 
 namespace pitwall::radio {

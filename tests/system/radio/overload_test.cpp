@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "hil/radio/budget_run.hpp"
-#include "hil/radio/burst_run.hpp"
-#include "hil/radio/offered_load.hpp"
-#include "hil/radio/virtual_radio.hpp"
 #include "protocol/telemetry/packet/header.hpp"
+#include "tests/benchmarks/radio/budget_run.hpp"
+#include "tests/benchmarks/radio/burst_run.hpp"
+#include "tests/benchmarks/radio/offered_load.hpp"
+#include "tests/benchmarks/radio/virtual_radio.hpp"
 #include "tests/system/radio/radio_setups.hpp"
 
 namespace pitwall::radio {

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hil/radio/virtual_radio.hpp"
+#include "tests/benchmarks/radio/virtual_radio.hpp"
 
 namespace pitwall::radio {
 

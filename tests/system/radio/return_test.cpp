@@ -9,7 +9,7 @@
 #include <optional>
 #include <random>
 
-#include "hil/radio/relay.hpp"
+#include "tests/benchmarks/radio/relay.hpp"
 #include "tests/system/radio/radio_setups.hpp"
 
 namespace pitwall::radio {

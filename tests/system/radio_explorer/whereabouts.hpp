@@ -2,7 +2,8 @@
 // PathAddresses, and a relay that delivers copies from an address of his own.
 //   in     packets as they leave and arrive, waits, moves, restarts
 //   out    whether a packet of the car reaches the base; the first law that breaks
-//   law    a base that is where the car was told is found after a wait in silence, wherever it was
+//   invariants
+//          a base that is where the car was told is found after a wait in silence, wherever it was
 //          before. An address is believed only once a packet that was sent there came to the
 //          base, a relay's not while the base is heard at the proved one
 // SPDX-License-Identifier: Apache-2.0

@@ -2,7 +2,8 @@
 // as one value: copied, changed by one action, judged and told apart by its fingerprint.
 //   in     actions
 //   out    the next world; the first law that it breaks
-//   law    packets carry what the real desks say and are read by the real ledger, view and latch.
+//   invariants
+//          packets carry what the real desks say and are read by the real ledger, view and latch.
 //          The air may hold, lose, double and reorder them; a session's packets end with it, as the
 //          association has it
 // SPDX-License-Identifier: Apache-2.0

@@ -236,16 +236,16 @@ TEST_F(VehicleOnUnixBus, TellsAtItsOwnTerminalOfASilentBaseAndOfAFlood) {
   EXPECT_EQ(recorded("/base/event"), 2U);
 }
 
-// The words between the first two backquotes of the README that begin with --receiver.
+// The words between the first two backquotes of docs/your_car.md that begin with --receiver.
 std::string example_of_receivers() {
-  const std::string readme = transport::read_file(kRoot + "/README.md").value_or("");
-  const std::size_t begin = readme.find("`--receiver ") + 1;
-  return readme.substr(begin, readme.find('`', begin) - begin);
+  const std::string page = transport::read_file(kRoot + "/docs/your_car.md").value_or("");
+  const std::size_t begin = page.find("`--receiver ") + 1;
+  return page.substr(begin, page.find('`', begin) - begin);
 }
 
 std::string with(std::string text, const std::string& what, const std::string& instead) {
   const std::size_t at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << "the README's example has no " << what << ": " << text;
+  EXPECT_NE(at, std::string::npos) << "the page's example has no " << what << ": " << text;
   return at == std::string::npos ? text : text.replace(at, what.size(), instead);
 }
 
@@ -265,7 +265,7 @@ std::vector<std::uint8_t> position_log(std::uint8_t satellites) {
   return log;
 }
 
-// The README's own example: only its address and its device are those of this test.
+// The page's own example: only its address and its device are those of this test.
 TEST_F(VehicleOnUnixBus, HearsOneReceiverOverTcpAndTheOtherOverASerialLine) {
   support::TcpServer tcp;
   const support::Pty serial;

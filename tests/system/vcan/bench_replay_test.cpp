@@ -23,13 +23,13 @@ void expect_quantiles(yaml::StrictMap figures) {
 }
 
 TEST(BenchReplay, EveryPlayerIsCompleteAndInOrder) {
-  const char* program = std::getenv("PITWALL_REPLAY_PROGRAM");
+  const char* program = std::getenv("PITWALL_BENCH_PROGRAM");
   ASSERT_NE(program, nullptr);
   auto folder = transport::TemporaryFolder::create("pitwall-bench-");
   ASSERT_TRUE(folder.has_value());
   const std::string file = folder->path() + "/figures.json";
   auto bench = transport::Process::spawn(
-      {.argv = {program, "bench", "replay", "--length", "2", "--runs", "1", "--json", file}});
+      {.argv = {program, "replay", "--length", "2", "--runs", "1", "--json", file}});
   ASSERT_TRUE(bench.has_value());
   const int code = bench->wait().shell_code();
   ASSERT_TRUE(code == 0 || code == 1) << code;  // 1: a gate of time was missed

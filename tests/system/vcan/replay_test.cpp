@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "hil/replay/candump_log.hpp"
@@ -36,7 +37,7 @@ class Recorder {
     wait_until_it_listens();
   }
   CandumpLog stop() {
-    transport::sleep_until(transport::monotonic_now() + milliseconds(500));
+    wait_until_all_is_written();
     candump_->kill(SIGINT);
     static_cast<void>(candump_->wait());
     const auto text = transport::read_file(path_);
@@ -54,16 +55,27 @@ class Recorder {
 
   // Sends a probe frame until one of them is in the file: from then on nothing is missed.
   void wait_until_it_listens() {
+    send_until({.id = kProbe}, 1, [this] { return fs::exists(path_) && fs::file_size(path_) > 0; });
+  }
+
+  // Until a frame that was sent last is in the file, whose writer is slow and writes whole blocks.
+  void wait_until_all_is_written() {
+    can::Frame last{.id = kProbe, .length = 1};
+    send_until(last, 100, [this] {
+      return transport::read_file(path_).value_or("").find("7FF#00") != std::string::npos;
+    });
+  }
+
+  void send_until(const can::Frame& frame, int at_once, const std::function<bool()>& done) {
     auto socket = transport::CanSocket::open("vcan0");
     ASSERT_TRUE(socket.has_value());
-    can::Frame probe;
-    probe.id = kProbe;
-    for (int i = 0; i < 200; ++i) {
-      socket->send(probe);
+    const Instant give_up = transport::monotonic_now() + seconds(60);
+    while (transport::monotonic_now() < give_up) {
+      for (int i = 0; i < at_once; ++i) socket->send(frame);
       transport::sleep_until(transport::monotonic_now() + milliseconds(50));
-      if (fs::exists(path_) && fs::file_size(path_) > 0) return;
+      if (done()) return;
     }
-    FAIL() << "candump did not start";
+    FAIL() << "candump does not record";
   }
 
   std::string path_;

@@ -81,6 +81,30 @@ TEST(Handshake, AWholeDayFromPowerOnToShutdown) {
   EXPECT_EQ(desk.wait(seconds(5)), CtState::kControlledShutdown);
 }
 
+// The drive-by-wire waits for commands in 7 to 10, and nobody gives any while disarmed.
+TEST(Handshake, ACarThatIsDisarmedAtRestIsReadyToBeArmedAgain) {
+  for (const CtState from : {CtState::kInitDriving, CtState::kCaution, CtState::kNominalRace,
+                             CtState::kCoordinatedStop}) {
+    for (const TrackFlag flag : {TrackFlag::kGreen, TrackFlag::kRed}) {
+      Desk desk;
+      desk.state = {from, desk.now};
+      desk.inputs = {.sys = SysState::kDriving, .track = flag, .mode = Mode::kHalted};
+      desk.inputs.speed_mps = 0.0;
+      EXPECT_EQ(desk.wait(seconds(5)), CtState::kCoordinatedStop) << "halted it is still held";
+      desk.inputs.mode = Mode::kDisarmed;
+      desk.inputs.speed_mps = 5.0;
+      EXPECT_EQ(desk.wait(seconds(5)), CtState::kCoordinatedStop) << "not while it rolls";
+      desk.inputs.speed_mps = 0.0;
+      EXPECT_EQ(desk.wait(seconds(1)), CtState::kRaceReady);
+      desk.inputs.track = TrackFlag::kGreen;
+      desk.inputs.mode = Mode::kStandby;
+      EXPECT_EQ(desk.wait(seconds(1)), CtState::kInitDriving);
+      desk.inputs.mode = Mode::kDriving;
+      EXPECT_EQ(desk.wait(seconds(2)), CtState::kNominalRace);
+    }
+  }
+}
+
 // Whatever is asked while the car moves: only what an emergency or an open throttle asks.
 TEST(Handshake, NothingElseTurnsTheEngineOffWhileTheCarMoves) {
   Desk desk;
@@ -189,6 +213,9 @@ TEST(Handshake, RandomInputsNeverLeaveThePublishedEdges) {
       ++changes;
       ASSERT_GE(desk.now - since, desk.params.dwell);
       if (to == CtState::kControlledShutdown) {
+        ASSERT_LE(in.speed_mps, desk.params.standstill_mps);
+      } else if (to == CtState::kRaceReady && from != CtState::kCranking) {
+        ASSERT_EQ(in.mode, Mode::kDisarmed);
         ASSERT_LE(in.speed_mps, desk.params.standstill_mps);
       } else {
         ASSERT_TRUE(is_published(from, to))

@@ -2,7 +2,8 @@
 // bracket, evaluated at a look-ahead point of the trajectory. The baseline as published, on purpose
 // without feed-forward and without a term for banking.
 //   in     EgoState (Map, Body), Trajectory (Map)     out  road-wheel angle [rad], left positive
-//   law    angle = clamp(-K e); e1 = -(x - x*) sin psi* + (y - y*) cos psi*,
+//   invariants
+//          angle = clamp(-K e); e1 = -(x - x*) sin psi* + (y - y*) cos psi*,
 //          e1' = vy cos e2 + vx sin e2, e2 = wrap(psi - psi*), e2' = map heading rate - vx kappa*,
 //          where * is the trajectory d = lookahead_base + lookahead_per_speed * vx ahead of the
 //          car's projection on it, and the car is where it is (as published)

@@ -1,7 +1,8 @@
 // Longitudinal controller: proportional plus feed-forward on the target speed, one signed command
 // split into throttle or scaled brake pressure, each smoothed by its own rate limits. At standstill
 // with target zero a holding pressure is applied.
-//   law    c = kp (v* - v) + k_ff v*;  c >= 0: throttle c;  c < 0: brake -c * brake_kpa_per_command
+//   invariants
+//          c = kp (v* - v) + k_ff v*;  c >= 0: throttle c;  c < 0: brake -c * brake_kpa_per_command
 //   source Saba et al., Fast and Modular Autonomy Software, sec. controls
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -2,7 +2,8 @@
 // rolling and engine, corrected by the error of the speed. The throttle is let go, never opened.
 //   in     planned speed and acceleration at the car and a moment ahead, the car's speed
 //   out    throttle fraction, brake pressure, each within its own rates: no step of acceleration
-//   law    decel = -a* + share (v - v*), pressure = (decel - coast - drag v^2) * kpa_per_mps2, in
+//   invariants
+//          decel = -a* + share (v - v*), pressure = (decel - coast - drag v^2) * kpa_per_mps2, in
 //          [0, brake_max]. Standing with nothing planned: the holding pressure, slowly
 //   errors a target or a speed that is not finite lets go of both at their rates
 // SPDX-License-Identifier: Apache-2.0

@@ -2,7 +2,8 @@
 // course, and an observer of what the steering model does not know. The published regulator of
 // lateral.hpp has none of these and stands 0.5 to 1.5 m beside its path in a banked turn.
 //   in     EgoState (Map, Body), Trajectory (Map)     out  road-wheel angle [rad], left positive
-//   law    angle = L k + K a_y + (L + K v^2) k_fb + d + trim + bumpless, with, of the path a moment
+//   invariants
+//          angle = L k + K a_y + (L + K v^2) k_fb + d + trim + bumpless, with, of the path a moment
 //          ahead, k = kappa cos(bank), a_y = v^2 k - g sin(bank), and
 //            K    = m lr / (Cf L) - m lf / (Cr L)
 //            k_fb = -(w^2 e + 2 z w v chi) / v^2: both poles of e' = v chi, chi' = v k at w, with

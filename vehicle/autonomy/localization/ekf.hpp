@@ -2,7 +2,8 @@
 // their Jacobians: ekf_model.hpp); what is measured when is the business of filter_window.
 //   state  x, y [m], yaw [rad] in Map; vx, vy [m/s] of the centre of gravity in Body, in the plane
 //          of the road; bias of the yaw gyro [rad/s]
-//   law    with r = gyro - bias and the road banked by phi (left side lower):
+//   invariants
+//          with r = gyro - bias and the road banked by phi (left side lower):
 //          x' = vx cos yaw - vy cos phi sin yaw      yaw' = r / cos phi
 //          y' = vx sin yaw + vy cos phi cos yaw      vx'  = fx + r vy
 //          bias' = 0                                 vy'  = fy + g sin phi - r vx

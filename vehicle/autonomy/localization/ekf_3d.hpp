@@ -7,7 +7,8 @@
 //          reports, s and a: relative errors of the yaw rate and the lateral force
 //   errors of the state, in this order: dp, phi (rotation vector in Map, R = exp(phi) R_mean), dv,
 //          dbg, dba, dw_0, dw_1, ds, da: 23 numbers
-//   law    p' = v    v' = R force + g    force = f - ba - e_y a f_y
+//   invariants
+//          p' = v    v' = R force + g    force = f - ba - e_y a f_y
 //          R' = R [rate]x    rate = w - bg - e_z s w_z
 //          bg' = ba' = white noise    s' = a' = 0
 //          w_u' = -w_u / tau + white noise of variance 2 / tau (Gauss-Markov of unit variance),

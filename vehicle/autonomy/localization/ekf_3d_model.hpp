@@ -2,7 +2,8 @@
 // the errors of the state.
 //   out    Observation: residual r = z - h(x), its derivative -dr/d(error), white variance
 //   frames residuals of receivers in Map, of models in Body
-//   law    antenna: p + R l + share sigma w_u;  v + R (w - bg) x l
+//   invariants
+//          antenna: p + R l + share sigma w_u;  v + R (w - bg) x l
 //          baseline b: atan2((R b)_y, (R b)_x)
 //          rear tyres: vy = lr r - vx k fy (Rajamani, section 2.5); below 5 m/s vy = lr r
 //          road with normal N: R^T N = e_z, N (p - road) = height of the centre of gravity, N v = 0

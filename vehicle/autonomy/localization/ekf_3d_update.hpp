@@ -1,7 +1,8 @@
 // The spatial filter as a fold over measurements: what each one does to the belief.
 //   in     a belief, a measurement not older than it, the next IMU sample where it is known
 //   out    the belief at the measurement's instant, with it
-//   law    Joseph's form of the update; gates by degrees of freedom. Errors of models last: a
+//   invariants
+//          Joseph's form of the update; gates by degrees of freedom. Errors of models last: a
 //          stream of them is worth one independent sample in two correlation times
 //   errors update refuses an innovation outside its gate and leaves the belief as it is, but for
 //          the count of refusals: positions (velocities, headings) refused without a break for

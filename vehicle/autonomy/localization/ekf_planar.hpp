@@ -1,7 +1,8 @@
 // The planar filter of the paper as a fold over measurements: ekf.hpp, with the sigmas and the tyre
 // model that it is told. It holds the last IMU sample, knows no height and takes the banking from
 // the road.
-//   law    lateral speed by the tyres, only while no receiver says a velocity:
+//   invariants
+//          lateral speed by the tyres, only while no receiver says a velocity:
 //          vy = lr r - vx k fy; below 5 m/s the rear axle does not slip, vy = lr r
 //   source Rajamani, Vehicle Dynamics and Control, section 2.5
 // SPDX-License-Identifier: Apache-2.0

@@ -7,7 +7,8 @@
 //
 //   in     measurements (measurement.hpp) in Map and Body, each with the instant it was true
 //   out    Estimate at any instant from the newest measurement on
-//   law    the estimate is a fold over the measurements in order of time: any order of arrival
+//   invariants
+//          the estimate is a fold over the measurements in order of time: any order of arrival
 //          within the window gives the same numbers
 //   errors insert() gives nothing for what is older than the window, `accepted == false` for an
 //          innovation outside its gate, which changes nothing

@@ -1,7 +1,8 @@
 // From a sample to a verdict: what every source shares. Internal to localization.
 //   in     one sample and all that is known beside it (Intake)
 //   out    its verdict, told and tallied; the filter has it if it was accepted
-//   law    an excluded sample touches nothing but its verdict and its tally
+//   invariants
+//          an excluded sample touches nothing but its verdict and its tally
 //   cost   O(rows of the check table + window of the filter); no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

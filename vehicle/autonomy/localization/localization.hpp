@@ -10,7 +10,8 @@
 //          monitors that see something wrong; the state goes on in place
 //   rate   100 Hz, whatever arrives
 //   frames Map: tangent plane of the Datum. Body: origin at the centre of gravity
-//   law    a refused or excluded sample changes no estimate; a unit that was refused enters again
+//   invariants
+//          a refused or excluded sample changes no estimate; a unit that was refused enters again
 //          only after it was consistent for a while. Exchanging the units, and what the parameters
 //          say of them, exchanges the result
 //   errors no position for a while: kDeadReckoning, then kLost. Before the first position with a

@@ -2,7 +2,8 @@
 // of it.
 //   frames Map: ENU at the datum, z up. Body: ISO 8855, origin at the centre of gravity. Yaw from
 //          east, counter-clockwise; roll positive left side up; pitch positive nose down
-//   law    sigma_* is what the sensor says of itself and nothing else: floors and models of
+//   invariants
+//          sigma_* is what the sensor says of itself and nothing else: floors and models of
 //          correlated noise belong to the filter. Unset where the sensor does not say
 //   errors none here; a filter refuses with Innovation
 // SPDX-License-Identifier: Apache-2.0

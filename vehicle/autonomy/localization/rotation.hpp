@@ -1,7 +1,8 @@
 // Rotations as three by three matrices and unit quaternions, Z-Y-X angles as ISO 8855 has them.
 //   frames R takes Body to Map. Yaw from x counter-clockwise, pitch positive nose down, roll
 //          positive left side up
-//   law    exp_rotation(v) is the rotation by |v| about v; log_rotation its inverse below pi
+//   invariants
+//          exp_rotation(v) is the rotation by |v| about v; log_rotation its inverse below pi
 //   cost   a few tens of floating-point operations; no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

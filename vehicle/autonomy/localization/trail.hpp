@@ -3,7 +3,8 @@
 //   in     one Estimate per tick
 //   out    what an antenna at a lever arm would have measured at an instant of the last kTrailTicks
 //   frames Map and Body as in measurement.hpp
-//   law    nothing is known before the first tick, nor of an instant that is older than the trail;
+//   invariants
+//          nothing is known before the first tick, nor of an instant that is older than the trail;
 //          from the newest tick on the motion goes on as it was, for kAhead at most
 //   cost   O(kTrailTicks); no allocation
 // SPDX-License-Identifier: Apache-2.0

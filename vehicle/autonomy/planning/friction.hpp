@@ -1,6 +1,7 @@
 // What the tyres and the engine can do on a banked road: the gg diagram used for speed profiles.
 //   frames accelerations in the plane of the road; lateral positive left
-//   law    normal load per mass  n = g cos(bank) + v^2 kappa sin(bank) + downforce v^2
+//   invariants
+//          normal load per mass  n = g cos(bank) + v^2 kappa sin(bank) + downforce v^2
 //          lateral demand        a = v^2 kappa cos(bank) - g sin(bank)
 //          grip                  g_max = friction * n; what a corner leaves of it is
 //                                r = sqrt((share g_max)^2 - a^2) / n

@@ -1,6 +1,7 @@
 // A lateral offset from the line that changes once along it and is constant before and after: of
 // all changes with neither slope nor bend at their ends the one with the least jerk.
-//   law    n = from + (to - from) q(u), q = u^3 (10 - 15 u + 6 u^2), u in [0, 1] along the change
+//   invariants
+//          n = from + (to - from) q(u), q = u^3 (10 - 15 u + 6 u^2), u in [0, 1] along the change
 //   frames offset positive left; slope and bend are its derivatives along the line
 //   cost   O(1)
 //   source quintic of least jerk: Flash and Hogan, J. Neuroscience 5 (1985), eq. 12

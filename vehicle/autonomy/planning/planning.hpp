@@ -6,7 +6,8 @@
 //          reference speed; the stop begins where the car is, in the direction and with the
 //          curvature of the drive trajectory, so that a change to it never steps
 //   rate   20 Hz (any rate up to 100 Hz works: the reference speed advances with time)
-//   law    speed follows a reference that starts at the present speed, moves with limited jerk and
+//   invariants
+//          speed follows a reference that starts at the present speed, moves with limited jerk and
 //          acceleration, and stays within speed_band_mps of the measured speed. The stop uses
 //          stop_grip_share of the friction ellipse, by the temperature of the tyres, along the path
 //          of stop_plan.hpp; its path is kept from the moment on at which it is followed, and an

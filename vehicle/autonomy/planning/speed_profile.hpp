@@ -1,6 +1,7 @@
 // Speeds that a car can follow: a reference that moves to its target with limited acceleration and
 // jerk, and that reference played forward over a path.
-//   law    acceleration wanted = +-sqrt(2 j |target - v|) within its limits, reached at rate j: it
+//   invariants
+//          acceleration wanted = +-sqrt(2 j |target - v|) within its limits, reached at rate j: it
 //          lands on the target with acceleration zero and does not overshoot. A stop brakes with
 //          what the corner leaves of the friction ellipse at every place ahead that it reaches
 //          before its jerk could let go of the brake

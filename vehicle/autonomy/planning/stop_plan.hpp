@@ -5,7 +5,8 @@
 //          the limits of the speed
 //   out    StopPath: a path that begins where the car is, with the direction and the curvature of
 //          the drive trajectory, and the share of the deceleration that ends it at the better place
-//   law    the change to the low side needs no more lateral acceleration than kChangeMost and than
+//   invariants
+//          the change to the low side needs no more lateral acceleration than kChangeMost and than
 //          the corner leaves of the share of the friction ellipse, at the speed that the car has
 //          there; it is over where the car is at low_speed. The path comes no nearer to a wall than
 //          clearance_m, or where the car is nearer already, no nearer than that

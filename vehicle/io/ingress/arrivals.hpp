@@ -3,7 +3,8 @@
 //   in     note(): when a sample arrived and how old it was, by the thread that receives
 //   out    newest(): figures at any time, by any other thread
 //   units  Hz, ms
-//   law    silence is seen although nothing arrives: the gap grows, after a second the rate is 0
+//   invariants
+//          silence is seen although nothing arrives: the gap grows, after a second the rate is 0
 //   unset  all three before the first sample; the latency of samples whose stamp is no time of ours
 //   cost   note(): a look at the arrivals of a second; newest(): four atomic loads
 // SPDX-License-Identifier: Apache-2.0

@@ -1,6 +1,7 @@
 // The newest of something large, from the thread that receives it to the thread that uses it.
 //   in     put() by one thread                      out    take() by one other
-//   law    wait-free on both sides: three places, of which one changes hands by an atomic exchange;
+//   invariants
+//          wait-free on both sides: three places, of which one changes hands by an atomic exchange;
 //          nobody waits, nobody allocates, the taker's place stays as it is until it takes again
 //   errors one that was overwritten before it was taken is counted: overwritten()
 // SPDX-License-Identifier: Apache-2.0

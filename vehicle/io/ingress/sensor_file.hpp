@@ -6,7 +6,8 @@
 //     sensors:
 //       - {name: lidar, topic: /luminar_front/points, type: PointCloud2, rate_hz: 20}
 //
-//   law    names are unique, topics are; `lidar`, `camera` and `radar` are told to the pit wall
+//   invariants
+//          names are unique, topics are; `lidar`, `camera` and `radar` are told to the pit wall
 //   errors Problem with file, line and column
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

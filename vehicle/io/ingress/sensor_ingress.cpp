@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "protocol/json/json_text.hpp"
 #include "protocol/ros/cdr.hpp"
 #include "protocol/ros/describe.hpp"
 #include "protocol/ros/names.hpp"
@@ -22,11 +23,8 @@ Duration age_of(const ros::Header& header, UtcTime now) {
 }
 
 // Left out where it is not known.
-std::string figure(const char* name, double value) {
-  if (std::isnan(value)) return {};
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), ", \"%s\": %.3f", name, value);
-  return text.data();
+void add_figure(json::Object& out, const char* name, double value) {
+  if (!std::isnan(value)) out.number(name, std::round(value * 1e3) * 1e-3);
 }
 
 // Bytes of one value, by PointField's datatype.
@@ -178,20 +176,24 @@ template const ros::NavSatFix* SensorIngress::take(std::size_t);
 template const ros::Imu* SensorIngress::take(std::size_t);
 
 std::string SensorIngress::json(Instant now) const {
-  std::string text;
+  json::Array out;
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
     const ArrivalFigures f = figures(i, now);
     const SensorCounts c = counts(i);
-    text += (i == 0 ? "" : ", ") + ("{\"name\": \"" + row(i).name) + "\"" +
-            figure("expected_hz", row(i).rate_hz) + figure("rate_hz", f.rate_hz) +
-            figure("gap_ms", f.gap_ms) + figure("latency_ms", f.latency_ms) +
-            ", \"samples\": " + std::to_string(c.samples) +
-            ", \"overwritten\": " + std::to_string(c.overwritten) +
-            ", \"refused\": " + std::to_string(c.refused) +
-            ", \"foreign_types\": " + std::to_string(c.foreign_types) +
-            ", \"bad_stamps\": " + std::to_string(c.bad_stamps) + "}";
+    json::Object sensor;
+    sensor.text("name", row(i).name);
+    add_figure(sensor, "expected_hz", row(i).rate_hz);
+    add_figure(sensor, "rate_hz", f.rate_hz);
+    add_figure(sensor, "gap_ms", f.gap_ms);
+    add_figure(sensor, "latency_ms", f.latency_ms);
+    sensor.number("samples", c.samples)
+        .number("overwritten", c.overwritten)
+        .number("refused", c.refused)
+        .number("foreign_types", c.foreign_types)
+        .number("bad_stamps", c.bad_stamps);
+    out.json(sensor.str());
   }
-  return "[" + text + "]";
+  return out.str();
 }
 
 }  // namespace pitwall::io

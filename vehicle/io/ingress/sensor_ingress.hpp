@@ -1,7 +1,8 @@
 // Sensors that speak ROS 2, for perception: the newest sample of each, and how it comes.
 //   in     topics of a sensor file, over DDS
 //   out    newest sample of each sensor by type; rate, gap, latency, drops, refusals
-//   law    each sensor has its own DDS participant, with sockets and threads of its own: none waits
+//   invariants
+//          each sensor has its own DDS participant, with sockets and threads of its own: none waits
 //          for another, and nothing of it runs in the 100 Hz loop, which takes from mailboxes and
 //          atomic figures without waiting
 //          what is not a whole, well-formed message of the type is refused, counted, and never

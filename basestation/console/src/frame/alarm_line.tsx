@@ -11,6 +11,7 @@ import { isOperator } from "../store/uplink";
 import { showPage } from "./pages";
 import { SoundButton } from "./sound_button";
 import { AgeSince } from "../view/age_since";
+import { toldText } from "../view/told";
 
 const kErrorShownMs = 20_000;
 
@@ -31,7 +32,17 @@ function Refused() {
   ) : null;
 }
 
+/** Without a base nobody knows which alarms there are. */
+function Unknown() {
+  return (
+    <div class="alarm-line" data-priority="none" role="status">
+      <span class="text">alarms not known: no base</span>
+    </div>
+  );
+}
+
 export function AlarmLine() {
+  if (session.presence.value !== "here") return <Unknown />;
   const active = session.alarms.value?.active ?? [];
   const first = loudest(active);
   const others = inOrder(active).filter(needsEyes).length - 1;
@@ -57,7 +68,7 @@ export function AlarmLine() {
       <i class="mark" aria-hidden="true" />
       <strong>{first.priority.toUpperCase()}</strong>
       <span class="text">
-        {first.text}
+        {toldText(first.text)}
         {first.count > 1 ? ` \u00d7${first.count}` : ""}
       </span>
       <span class="response">{first.response}</span>

@@ -5,7 +5,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useRef } from "preact/hooks";
 import * as session from "../store/session";
-import { durationText } from "../view/format";
+import { durationText, kDash } from "../view/format";
 import { kGaugesHz, usePainter } from "../view/painting";
 import * as timeline from "../view/timeline";
 import { mark } from "./keys";
@@ -31,7 +31,8 @@ export function DvrBar() {
       if (document.activeElement !== slider.current || !held) {
         slider.current.value = String(-back / 1000);
       }
-      const text = held ? behindText(timeline.liveMs() - timeline.shownMs()) : "LIVE";
+      const now = session.presence.value === "here" ? "LIVE" : "NO BASE";
+      const text = held ? behindText(timeline.liveMs() - timeline.shownMs()) : now;
       behind.current.value = text;
       slider.current.setAttribute("aria-valuetext", text);
     },
@@ -71,12 +72,17 @@ export function DvrBar() {
         +
       </button>
       <output ref={behind} class="behind">
-        LIVE
+        {kDash}
       </output>
       <button type="button" class="to-live" onClick={timeline.backToLive} disabled={!held}>
         Live <kbd>L</kbd>
       </button>
-      <button type="button" class="mark-button" onClick={mark}>
+      <button
+        type="button"
+        class="mark-button"
+        onClick={mark}
+        disabled={session.presence.value === "gone"}
+      >
         Mark <kbd>M</kbd>
       </button>
     </footer>

@@ -1,28 +1,16 @@
 /**
- * Finds any field by a few letters of its path; Enter plots it.
+ * Finds any field by a few letters of its title or its path; Enter plots it.
  */
 // SPDX-License-Identifier: Apache-2.0
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import * as session from "../store/session";
-import type { FieldInfo } from "../wire/messages";
 import { plotTarget } from "../pages/plots/finder_target";
+import { findFields } from "../view/find_fields";
 import { Value } from "../view/value";
 import { finderShown } from "./keys";
 import { showPage } from "./pages";
 
 const kShown = 12;
-
-/** Fields whose path holds every word, those that begin with the first word in front. */
-export function findFields(info: readonly FieldInfo[], query: string): FieldInfo[] {
-  const words = query
-    .toLowerCase()
-    .split(/[\s.]+/)
-    .filter(Boolean);
-  const hits = info.filter((f) => words.every((word) => f.path.toLowerCase().includes(word)));
-  const first = words[0] ?? "";
-  const rank = (f: FieldInfo) => (f.path.startsWith(first) || f.name.startsWith(first) ? 0 : 1);
-  return hits.sort((a, b) => rank(a) - rank(b));
-}
 
 function choose(path: string): void {
   finderShown.value = false;
@@ -87,6 +75,7 @@ export function Finder() {
               aria-selected={field === chosen}
               onClick={() => choose(field.path)}
             >
+              <span class="title">{field.title}</span>
               <span class="path">{field.path}</span>
               <Value path={field.path} />
             </li>

@@ -6,6 +6,7 @@ import { helpShown, kDoubleEscapeMs, kKeys } from "./keys";
 import { LoggedIn } from "./login";
 import { kPages } from "./pages";
 import { kEmergencyHoldMs } from "./stop_rail";
+import { runsText } from "../view/format";
 
 export function Help() {
   const rows = Object.values(kKeys).filter((key) => key.keys !== "");
@@ -35,7 +36,7 @@ export function Help() {
             </tr>
             <tr>
               <th scope="row">
-                <kbd>1 &hellip; {kPages.at(-1)?.key}</kbd>
+                <kbd>{runsText(kPages.map((page) => page.key))}</kbd>
               </th>
               <td>{kPages.map((page) => page.title).join(", ")}</td>
             </tr>

@@ -39,7 +39,7 @@ export function acknowledgeAll(): void {
 function shelveSelected(): void {
   const active = session.alarms.value?.active ?? [];
   const chosen = active.find((alarm) => alarm.id === selectedAlarm.value) ?? loudest(active);
-  if (chosen && isOperator.value) shelving.value = chosen.id;
+  if (chosen && chosen.can_be_shelved !== false && isOperator.value) shelving.value = chosen.id;
 }
 
 interface Key {
@@ -87,19 +87,34 @@ const takesText = (target: EventTarget | null): boolean =>
 const takesKeys = (target: EventTarget | null): boolean =>
   target instanceof HTMLElement && target.matches("button, a, summary, [role=grid], [role=slider]");
 
+/** A select that shows its list; browsers that cannot tell keep that Escape to themselves. */
+const isListOpen = (): boolean =>
+  CSS.supports("selector(select:open)") && document.querySelector("select:open") !== null;
+
 let lastEscapeMs = -Infinity;
 
+/** Closes what lies over the page; false where nothing does. */
+function closeDialogs(): boolean {
+  const any = helpShown.value || finderShown.value || shelving.value !== null;
+  helpShown.value = false;
+  finderShown.value = false;
+  shelving.value = null;
+  return any;
+}
+
+/** An Escape that closes a dialog or a list is no half of a stop. */
 function escape(): void {
   const now = performance.now();
+  if (closeDialogs() || isListOpen()) {
+    lastEscapeMs = -Infinity;
+    return;
+  }
   if (now - lastEscapeMs <= kDoubleEscapeMs) {
     lastEscapeMs = -Infinity;
     stop("controlled");
     return;
   }
   lastEscapeMs = now;
-  helpShown.value = false;
-  finderShown.value = false;
-  shelving.value = null;
 }
 
 function pressed(event: KeyboardEvent): void {

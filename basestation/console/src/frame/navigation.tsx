@@ -10,7 +10,8 @@ import { helpShown } from "./keys";
 import { kPages, page, showPage } from "./pages";
 
 export function Navigation() {
-  const unseen = (session.alarms.value?.active ?? []).filter(needsEyes).length;
+  const known = session.presence.value === "here";
+  const unseen = !known ? 0 : (session.alarms.value?.active ?? []).filter(needsEyes).length;
   return (
     <nav class="navigation" aria-label="pages">
       {kPages.map(({ key, name, title }) => (

@@ -15,6 +15,7 @@ export const kPages = [
   { key: 7, name: "race", title: "Race" },
   { key: 8, name: "hil", title: "HIL" },
   { key: 9, name: "replay", title: "Pre-run" },
+  { key: 0, name: "events", title: "Events" },
 ] as const;
 
 export type PageName = (typeof kPages)[number]["name"];

@@ -45,6 +45,7 @@ export function StopRail() {
       </aside>
     );
   }
+  const gone = session.presence.value === "gone";
   const barred = !isOperator.value;
   const { number } = session.shownCar.value;
   const whose = session.hasSeveral.value ? ` ${number}` : "";
@@ -62,7 +63,11 @@ export function StopRail() {
         <kbd>Esc Esc</kbd>
       </button>
       <Outcome />
-      {barred && <p class="barred">{mode ? "viewer: no stop from here" : "no base"}</p>}
+      {barred && (
+        <p class="barred">
+          {gone || !mode ? "NO BASE: no stop from here" : "viewer: no stop from here"}
+        </p>
+      )}
       <HoldButton
         holdMs={kEmergencyHoldMs}
         class="stop emergency"

@@ -17,9 +17,14 @@ import { ModeWord } from "./mode_word";
 import { showPage } from "./pages";
 
 function AlarmCounts() {
+  const known = session.presence.value === "here";
   return (
     <button type="button" class="alarm-counts" onClick={() => showPage("alarms")} title="alarms">
-      <AlarmMarks active={session.alarms.value?.active ?? []} />
+      {known ? (
+        <AlarmMarks active={session.alarms.value?.active ?? []} />
+      ) : (
+        <span class="count">alarms {kDash}</span>
+      )}
     </button>
   );
 }
@@ -28,18 +33,21 @@ function Holder() {
   const authority = session.authority.value;
   const hello = session.hello.value;
   const mine = authority && hello && authority.holder === hello.client;
-  const request = authority?.request;
+  const known = session.presence.value !== "gone";
+  const request = known ? authority?.request : null;
   const name =
-    !authority || !authority.holder
-      ? "nobody"
-      : mine
-        ? "this console"
-        : authority.holder_name || `console ${authority.holder}`;
+    !authority || !known
+      ? kDash
+      : !authority.holder
+        ? "nobody"
+        : mine
+          ? "this console"
+          : authority.holder_name || `console ${authority.holder}`;
   return (
     <button
       type="button"
       class="top-tile holder"
-      data-mine={Boolean(mine)}
+      data-mine={Boolean(known && mine)}
       data-asked={Boolean(request)}
       onClick={() => showPage("commands")}
     >
@@ -93,12 +101,18 @@ export function TopBar() {
       >
         <span class="label">Round</span>
         <span class="pair">
-          <Value path="flags.round_target_speed" speed live hz={kEachFrame} />
+          <Value path="flags.round_target_speed" decimals={0} live hz={kEachFrame} />
           <span class="of announced" title="as it was announced to us">
-            <Value path="derived.round_speed_expected" speed unit={false} live hz={kEachFrame} />
+            <Value
+              path="derived.round_speed_expected"
+              decimals={0}
+              unit={false}
+              live
+              hz={kEachFrame}
+            />
           </span>
           <span class="of limit" title="limit set by the operator">
-            <Value path="planner.operator_limit" speed unit={false} live hz={kEachFrame} />
+            <Value path="planner.operator_limit" decimals={0} unit={false} live hz={kEachFrame} />
           </span>
         </span>
       </button>

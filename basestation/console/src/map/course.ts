@@ -88,11 +88,13 @@ export interface Projection {
   toAngle(yaw: number): number;
 }
 
+/** All points inside the margins of a canvas, below `top` pixels that are kept free. */
 export function fit(
   points: readonly number[][],
   width: number,
   height: number,
   margin: number,
+  top = 0,
 ): Projection {
   let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
   for (const [x, y] of points) {
@@ -102,7 +104,7 @@ export function fit(
     y1 = Math.max(y1, y);
   }
   if (!(x1 > x0)) [x0, x1, y0, y1] = [-200, 200, -200, 200];
-  const [w, h] = [Math.max(width - 2 * margin, 1), Math.max(height - 2 * margin, 1)];
+  const [w, h] = [Math.max(width - 2 * margin, 1), Math.max(height - top - 2 * margin, 1)];
   const upright = Math.min(w / (x1 - x0), h / (y1 - y0));
   const onSide = Math.min(w / (y1 - y0), h / (x1 - x0));
   const turned = onSide > 1.1 * upright;
@@ -113,7 +115,7 @@ export function fit(
     turned,
     toPixel(x, y) {
       const [u, v] = turned ? [-(y - cy), x - cx] : [x - cx, y - cy];
-      return { x: width / 2 + scale * u, y: height / 2 - scale * v };
+      return { x: width / 2 + scale * u, y: (height + top) / 2 - scale * v };
     },
     toAngle: (yaw) => -(turned ? yaw + Math.PI / 2 : yaw),
   };

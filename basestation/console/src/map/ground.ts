@@ -117,7 +117,7 @@ export function drawGround(pen: Pen, course: Course, into: Projection, colours: 
   pen.setLineDash([]);
   pen.strokeStyle = colours.text;
   pen.fillStyle = colours.dim;
-  pen.font = "500 13px Barlow, sans-serif";
+  pen.font = "500 14px Barlow, sans-serif";
   pen.textAlign = "center";
   pen.textBaseline = "middle";
   pen.lineWidth = colours.stroke;

@@ -19,6 +19,8 @@ import { ghost, lineOffset, own, rivals, trail } from "./scene";
 import { drawStrip } from "./strip";
 
 const kMargin = 34;
+/** Where the map is higher than wide the list of two rivals has its place above it. */
+const kListRoomPx = 44;
 
 /** Fits a canvas to its box in device pixels; true where its size changed. */
 export function sizeCanvas(canvas: HTMLCanvasElement): boolean {
@@ -44,7 +46,8 @@ class Ground {
       this.canvas.width = width;
       this.canvas.height = height;
       const points = course ? [...course.track.left, ...course.track.right] : [];
-      this.projection = fit(points, clientWidth, clientHeight, kMargin);
+      const top = clientHeight > clientWidth ? kListRoomPx : 0;
+      this.projection = fit(points, clientWidth, clientHeight, kMargin, top);
       const ground = this.canvas.getContext("2d");
       if (ground && course && width > 0) {
         ground.scale(width / clientWidth, width / clientWidth);

@@ -28,7 +28,7 @@ export interface StripState {
 function rungs(pen: Pen, x: (s: number) => number, here: number, height: number): void {
   pen.textAlign = "center";
   pen.textBaseline = "bottom";
-  pen.font = "400 12px Barlow, sans-serif";
+  pen.font = "400 14px Barlow, sans-serif";
   for (const ahead of kRungsM) {
     const at = x(here + ahead);
     pen.beginPath();
@@ -83,7 +83,7 @@ export function drawStrip(
   }
   pen.fillStyle = colours.dim;
   rungs(pen, x, state.station, height);
-  drawCars(pen, state, colours, x, y);
+  drawCars(pen, state, colours, x, y, width);
 }
 
 function drawCars(
@@ -92,20 +92,19 @@ function drawCars(
   colours: Palette,
   x: (s: number) => number,
   y: (offset: number) => number,
+  width: number,
 ): void {
   for (const rival of state.rivals) {
     if (rival.gap < -kBehindM || rival.gap > kAheadM) continue;
     const [px, py] = [x(state.station + rival.gap), y(rival.offset)];
     diamond(pen, px, py, 7, rival.stale, colours);
     pen.fillStyle = colours.text;
-    pen.font = "600 13px Barlow, sans-serif";
+    pen.font = "600 14px Barlow, sans-serif";
     pen.textAlign = "center";
     pen.textBaseline = "bottom";
-    pen.fillText(
-      `#${rival.identity} ${gapText(rival.gap)} ${closingText(rival.closing)}`,
-      px,
-      py - 9,
-    );
+    const caption = `#${rival.identity} ${gapText(rival.gap)} ${closingText(rival.closing)}`;
+    const half = pen.measureText(caption).width / 2;
+    pen.fillText(caption, Math.min(Math.max(px, half), width - half), py - 9);
   }
   const [px, py] = [x(state.station), y(state.offset)];
   pen.beginPath();

@@ -14,6 +14,7 @@ import { BaseSocket } from "../wire/socket";
 import { Bench } from "./bench";
 import { BaseClock } from "./station_clock";
 import { Fields } from "./fields";
+import type { Presence } from "./presence";
 import { History } from "./history";
 
 export const kKeptLines = 500;
@@ -46,6 +47,7 @@ type Texts = Record<string, (message: never, localMs: number) => void>;
 
 export class CarSession {
   readonly connected = signal(false);
+  readonly presence = signal<Presence>("here");
   readonly hello = signal<Wire.Hello | null>(null);
   readonly fields = signal(new Fields([]));
   readonly history = signal(new History(0));
@@ -56,8 +58,11 @@ export class CarSession {
   readonly ladder = signal<readonly Wire.CommandStep[]>([]);
   readonly audit = signal<readonly Wire.AuditLine[]>([]);
   readonly carEvents = signal<readonly Wire.CarEvent[]>([]);
+  readonly marks = signal<readonly Wire.Mark[]>([]);
   readonly link = signal<Wire.Link | null>(null);
   readonly notices = signal<readonly Wire.Notice[]>([]);
+  /** Null: the car is not stopped. */
+  readonly stopState = signal<Wire.StopState | null>(null);
   readonly race = signal<Wire.RaceRules | null>(null);
   readonly fuel = signal<Wire.Fuel | null>(null);
   readonly expected = signal<Wire.Expected | null>(null);
@@ -71,8 +76,12 @@ export class CarSession {
   readonly lastError = signal<{ place: string; what: string; at: number } | null>(null);
   readonly lastStop = signal<LastStop | null>(null);
 
+  /** Of a base that is there: nothing that a gone one would have to carry out looks possible. */
   readonly isOperator = computed(
-    () => this.hello.value?.role === "operator" && this.hello.value.mode !== "REPLAY",
+    () =>
+      this.hello.value?.role === "operator" &&
+      this.hello.value.mode !== "REPLAY" &&
+      this.presence.value !== "gone",
   );
   readonly isHolder = computed(
     () =>
@@ -170,13 +179,10 @@ export class CarSession {
     else this.historyWaiters.set(field, [waiter]);
   }
 
-  dismissNotice(id: number): void {
-    this.notices.value = this.notices.value.filter((notice) => notice.id !== id);
-  }
-
   /** The next base at this address may go by another clock. */
   private lose(): void {
     this.connected.value = false;
+    if (this.hello.value) this.presence.value = "gone";
     this.benchTime.value = null;
     this.clock.goesOn();
   }
@@ -189,12 +195,15 @@ export class CarSession {
     this.ladder.value = [];
     this.audit.value = [];
     this.carEvents.value = [];
+    this.marks.value = [];
     this.notices.value = [];
+    this.stopState.value = null;
   }
 
   private readonly texts: Texts = {
     hello: (m: Wire.Hello) => {
       this.hello.value = m;
+      this.presence.value = "here";
       this.clock.tiesToUtc(m.time_ns / 1e6, m.utc_ms);
     },
     catalogue: (m: Wire.Catalogue) => this.takeCatalogue(m),
@@ -207,6 +216,7 @@ export class CarSession {
     link: (m: Wire.Link) => (this.link.value = m),
     notice: (m: Wire.Notice) =>
       (this.notices.value = [...this.notices.value.filter((n) => n.id !== m.id), m].slice(-20)),
+    stop_state: (m: Wire.StopState) => (this.stopState.value = m.stopped ? m : null),
     fuel: (m: Wire.Fuel) => (this.fuel.value = m),
     expected: (m: Wire.Expected) => (this.expected.value = m),
     settings: (m: Wire.Settings) => (this.settings.value = m),
@@ -222,7 +232,7 @@ export class CarSession {
     },
     ...this.bench.texts,
     pong: () => {},
-    mark: () => {},
+    mark: (m: Wire.Mark) => (this.marks.value = keep(this.marks.value, m)),
     layout: () => {},
     error: (m: { place: string; what: string }) =>
       (this.lastError.value = { place: m.place, what: m.what, at: performance.now() }),

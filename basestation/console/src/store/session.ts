@@ -35,6 +35,7 @@ class OfShown<T> {
 }
 
 export const connected = new OfShown((car) => car.connected);
+export const presence = new OfShown((car) => car.presence);
 export const hello = new OfShown((car) => car.hello);
 export const fields = new OfShown((car) => car.fields);
 export const commands = new OfShown((car) => car.commands);
@@ -44,8 +45,10 @@ export const authority = new OfShown((car) => car.authority);
 export const ladder = new OfShown((car) => car.ladder);
 export const audit = new OfShown((car) => car.audit);
 export const carEvents = new OfShown((car) => car.carEvents);
+export const marks = new OfShown((car) => car.marks);
 export const link = new OfShown((car) => car.link);
 export const notices = new OfShown((car) => car.notices);
+export const stopState = new OfShown((car) => car.stopState);
 export const race = new OfShown((car) => car.race);
 export const fuel = new OfShown((car) => car.fuel);
 export const expected = new OfShown((car) => car.expected);
@@ -66,4 +69,3 @@ effect(() => {
 
 export const awaitHistory = (field: number, waiter: (answer: HistoryAnswer) => void): void =>
   shownCar.value.awaitHistory(field, waiter);
-export const dismissNotice = (id: number): void => shownCar.value.dismissNotice(id);

@@ -55,11 +55,11 @@ export function ageText(ms: number): string {
 
 const two = (n: number): string => String(Math.floor(n)).padStart(2, "0");
 
-/** Time of day, UTC, to the second. */
-export function clockText(utcMs: number): string {
+/** Time of day, UTC, to the second or to some of its decimals. */
+export function clockText(utcMs: number, decimals = 0): string {
   if (!Number.isFinite(utcMs)) return kDash;
-  const at = new Date(utcMs);
-  return `${two(at.getUTCHours())}:${two(at.getUTCMinutes())}:${two(at.getUTCSeconds())}`;
+  const length = decimals > 0 ? "HH:MM:SS.".length + decimals : "HH:MM:SS".length;
+  return new Date(utcMs).toISOString().slice("YYYY-MM-DDT".length).slice(0, length);
 }
 
 /** A duration as m:ss or h:mm:ss. */
@@ -74,3 +74,16 @@ export const lapText = (seconds: number): string =>
   Number.isFinite(seconds)
     ? `${Math.floor(seconds / 60)}:${(seconds % 60).toFixed(2).padStart(5, "0")}`
     : kDash;
+
+/** Whole numbers in their order, a run of them as its ends: "1 ... 9, 0". */
+export function runsText(numbers: readonly number[]): string {
+  const runs: number[][] = [];
+  for (const number of numbers) {
+    const run = runs.at(-1);
+    if (run?.at(-1) === number - 1) run?.push(number);
+    else runs.push([number]);
+  }
+  return runs
+    .map((run) => (run.length > 2 ? `${run[0]} \u2026 ${run.at(-1)}` : run.join(", ")))
+    .join(", ");
+}

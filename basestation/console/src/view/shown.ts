@@ -41,11 +41,13 @@ export function stateWord(reading: Reading): string {
   return kWords[reading.judgement];
 }
 
-/** The colour of a flag's cloth; "none" where the flag is not known or has no colour. */
-export function flagColour(reading: Reading, label: string | undefined): string {
-  if (!label || !isKnown(reading)) return "none";
-  return kFlagColours.find(([word]) => word.test(label))?.[1] ?? "none";
-}
+/** The colour of the cloth of a flag that is called so; "none" for one without. */
+export const colourOfFlag = (label: string): string =>
+  kFlagColours.find(([word]) => word.test(label))?.[1] ?? "none";
+
+/** The same where the flag is known. */
+export const flagColour = (reading: Reading, label: string | undefined): string =>
+  label && isKnown(reading) ? colourOfFlag(label) : "none";
 
 /** The word of a flag: kept while it is old, an en dash where it was never heard. */
 export const flagWord = (reading: Reading, label: string | undefined): string =>

@@ -9,10 +9,10 @@ import * as session from "../store/session";
 import type { Reading } from "../store/reading";
 import type { FieldInfo } from "../wire/messages";
 import { Quality, kJudgementNames, kQualityNames } from "../wire/status";
-import { kDash, unitText, valueText } from "./format";
+import { kDash, valueText } from "./format";
 import { kDigitsHz, usePainter } from "./painting";
 import { shownAge, stateWord } from "./shown";
-import { speedUnit } from "./speed_unit";
+import { shownDigits, shownUnit } from "./shown_unit";
 import { read, readLive } from "./timeline";
 
 export type TextOf = (value: number, info: FieldInfo) => string;
@@ -20,9 +20,7 @@ export type TextOf = (value: number, info: FieldInfo) => string;
 export interface ValueProps {
   path: string;
   decimals?: number;
-  /** Shown in the operator's unit of speed. */
-  speed?: boolean;
-  /** Multiplied for display: shares as percent. */
+  /** Multiplied for display instead of the factor of the unit shown: shares as percent. */
   scale?: number;
   unit?: string | false;
   hz?: number;
@@ -49,18 +47,13 @@ export function markReading(element: HTMLElement, reading: Reading): void {
 function digitsText(info: FieldInfo | undefined, reading: Reading, props: ValueProps): string {
   if (!info || reading.quality === Quality.never || !Number.isFinite(reading.value)) return kDash;
   if (props.text) return props.text(reading.value, info);
-  const factor = props.speed ? speedUnit.value.perMps : (props.scale ?? 1);
-  return valueText(
-    info,
-    reading.value * factor,
-    props.speed ? (props.decimals ?? 0) : props.decimals,
-  );
+  if (props.scale) return valueText(info, reading.value * props.scale, props.decimals);
+  return shownDigits(info, reading.value, props.decimals);
 }
 
 function unitOf(info: FieldInfo | undefined, props: ValueProps): string {
   if (props.unit !== undefined) return props.unit || "";
-  if (props.speed) return speedUnit.value.name;
-  return info ? unitText(info.unit) : "";
+  return info ? shownUnit(info.unit).name : "";
 }
 
 export function Value(props: ValueProps) {
@@ -81,7 +74,7 @@ export function Value(props: ValueProps) {
       put(age, shownAge(reading));
     },
     props.hz ?? kDigitsHz,
-    [slot, info, props.speed, props.decimals, props.scale, unit],
+    [slot, info, props.decimals, props.scale, unit],
   );
   return (
     <span

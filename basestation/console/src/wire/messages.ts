@@ -14,6 +14,8 @@ export interface Hello {
   mode: Mode;
   role: Role;
   client: number;
+  /** An override takes a second person's token; else a reason does. */
+  second_person: boolean;
   alarm_config: string;
   time_ns: number;
   utc_ms: number;
@@ -43,6 +45,8 @@ export interface FieldInfo {
   path: string;
   group: string;
   name: string;
+  /** What people call it, in the terms of the trade. */
+  title: string;
   unit: string;
   kind: string;
   min: number;
@@ -62,6 +66,8 @@ export interface CommandInfo {
   labels?: string[] | null;
   time_to_live_ms: number;
   needs_authority: boolean;
+  /** False: no car carries it out, and the base refuses it. */
+  offered: boolean;
 }
 
 /** What the passing competition counts with. */
@@ -87,6 +93,8 @@ export interface Alarm {
   value?: number | string | null;
   count: number;
   first_up: boolean;
+  /** False: of a stop, which is never put out of sight. */
+  can_be_shelved?: boolean;
   shelved_until_ms?: number | null;
   reason?: string | null;
   by?: string | null;
@@ -120,8 +128,13 @@ export interface Authority {
 export interface Gate {
   name: string;
   ok: boolean;
-  value?: number | string | null;
+  /** Null: no data. */
+  value?: number | null;
+  unit?: string;
+  /** The name of the value, where it has one. */
+  word?: string;
   age_ms?: number | null;
+  can_be_overridden?: boolean;
   text: string;
 }
 
@@ -150,6 +163,13 @@ export interface CarEvent {
   severity: string | number;
 }
 
+/** A moment that an operator marked in the recording. */
+export interface Mark {
+  time_ms: number;
+  text: string;
+  by?: string | null;
+}
+
 export interface LinkWindow {
   loss?: number | null;
   rtt_ms?: number | null;
@@ -173,11 +193,43 @@ export interface Link {
   groups?: { group: string; kbit_s: number; age_ms: number; target_ms: number }[];
 }
 
+/** A message that a person reads out to race control. */
 export interface Notice {
   id: number;
   kind: string;
+  time_ms: number;
   text: string;
   evidence: string;
+  state: "draft" | "told" | "dismissed";
+  by?: string | null;
+}
+
+export type RecoveryName = "release" | "acknowledge" | "reset" | "arm";
+
+export interface RecoveryStep {
+  step: RecoveryName;
+  done: boolean;
+  possible: boolean;
+  /** What it waits for, or what became of the last try; empty: nothing to say. */
+  why: string;
+}
+
+/** A stop from its beginning until the car is armed again. */
+export interface StopState {
+  stopped: boolean;
+  level?: string;
+  mode?: string;
+  cause?: string;
+  value?: number | null;
+  unit?: string;
+  /** Null: before this base heard the car. */
+  since_ms?: number | null;
+  /** Who latched it; empty: the car itself. */
+  by?: string;
+  latched?: boolean;
+  /** Which latch a release is meant for; 0: none. */
+  challenge?: number;
+  steps?: RecoveryStep[];
 }
 
 export interface Fuel {

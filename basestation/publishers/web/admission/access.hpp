@@ -1,7 +1,8 @@
-// Who may come in, and as what.
+// Access rules of the web services: who is admitted, and in which role.
 //   in     the tokens; what a browser says of itself: Host, Origin, a token or a session
 //   out    a role and a name; or a refusal
-//   law    a page of somebody else cannot speak to the base: an Origin that is not the base's own
+//   invariants
+//          a page of somebody else cannot speak to the base: an Origin that is not the base's own
 //          is refused; so is a Host that is neither an address, nor localhost, nor a name that was
 //          given: otherwise a name that points here would make a foreign page the base's own.
 //          A tool that is a page of its own may be let in by its origin

@@ -1,4 +1,4 @@
-// Who somebody is to the base, once it knows.
+// Identity of an authenticated client.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,8 +1,9 @@
-// How fast one client may speak: so many messages at once, then so many a second. What is faster
-// is not lost: it is read later, and the client's own sending stops.
+// Rate limit of one client's messages: so many messages at once, then so many a second. What is
+// faster is not lost: it is read later, and the client's own sending stops.
 //   in     that a message was heard; time
 //   out    how long to read no further
-//   law    in any span of t seconds no more than kAtOnce + t * kPerSecond messages are heard
+//   invariants
+//          in any span of t seconds no more than kAtOnce + t * kPerSecond messages are heard
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

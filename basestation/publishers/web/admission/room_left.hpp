@@ -1,9 +1,10 @@
-// What the machine leaves to this process: memory and descriptors. Clients are refused before one
-// of them is used up, so that the radio and the stops of those who are there go on.
+// Memory and descriptors that are left to this process. Clients are refused before one of them is
+// used up, so that the radio and the stops of those who are there go on.
 //   in     limits and use of the process: RLIMIT_DATA, RLIMIT_AS, RLIMIT_NOFILE, memory.max of its
 //          control group (v2)
 //   out    why nobody more may come in
-//   law    looked up each time: limits change while a program runs
+//   invariants
+//          looked up each time: limits change while a program runs
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -20,8 +21,9 @@ struct MemoryUse {
   std::uint64_t used = 0, allowed = 0;  // bytes
 };
 
-inline constexpr std::uint64_t kRoomToCome = 6'000'000;  // bytes: with less left nobody comes in
-inline constexpr std::uint64_t kRoomToStay = 3'000'000;  // who left most unread has to go
+inline constexpr std::uint64_t kRoomToCome = 6'000'000;     // bytes: with less left nobody comes in
+inline constexpr std::uint64_t kRoomPerNewcomer = 130'000;  // bytes: twice a console's measured
+inline constexpr std::uint64_t kRoomToStay = 3'000'000;     // who left most unread has to go
 inline constexpr int kKeptDescriptors = 16;  // for the radio, recordings, files of the console
 
 // Those that there are, in no order.

@@ -1,5 +1,4 @@
-// The cookie by which a browser shows its session: no script of a page reads it, no page of
-// somebody else sends it.
+// Session cookie of a browser: no script of a page reads it, no page of somebody else sends it.
 //   source RFC 6265bis: HttpOnly, SameSite=Strict, Secure, the prefix __Host-
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,6 +1,7 @@
-// The tokens that hold now: those of a file, read again when it has changed, so that a line that is
-// taken away takes its console away without a restart.
-//   law    threads may share it
+// Set of the tokens that are valid now: those of a file, read again when it has changed, so that a
+// line that is taken away takes its console away without a restart.
+//   invariants
+//          threads may share it
 //          a file that cannot be read, or has a mistake, changes nothing: what held goes on holding
 //   errors open(), look_again(): Problem with file and line
 // SPDX-License-Identifier: Apache-2.0

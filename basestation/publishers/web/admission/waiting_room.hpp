@@ -1,5 +1,5 @@
-// Connections that are no console: they have shown nothing yet, or wait for another request. They
-// are cheap to open for anybody, so they must not cost a place to who has a token.
+// Unauthenticated connections: new ones, and those that wait for another request. They are cheap to
+// open for anybody, so they must not cost a place to who has a token.
 //   in     a connection and the address it came from; that it was heard, that it went
 //   out    which one must go for a new one: the one that was silent longest
 //   bound  kPerAddress of one address, kInAll of all

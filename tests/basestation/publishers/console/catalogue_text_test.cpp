@@ -20,17 +20,20 @@ TEST(Catalogue, HasEveryFieldOnceWithItsLimits) {
   ASSERT_TRUE(catalogue);
   EXPECT_EQ(catalogue->text("type"), "catalogue");
   std::set<double> ids;
-  std::set<std::string> paths;
+  std::set<std::string> paths, titles;
   bool limited = false;
   for (const json::JsonValue& field : catalogue->items("fields")) {
     ids.insert(field.number("id"));
     paths.insert(field.text("path"));
+    titles.insert(field.text("title"));
     EXPECT_EQ(field.text("path"), field.text("group") + "." + field.text("name"));
     EXPECT_GT(field.number("period_ms"), 0.0);
     limited = limited || field.find("limits")->is_object();
   }
   EXPECT_EQ(ids.size(), told_fields().size());
   EXPECT_EQ(paths.size(), told_fields().size());
+  EXPECT_EQ(titles.size(), told_fields().size());
+  EXPECT_TRUE(titles.contains("speed") && titles.contains("link round trip"));
   EXPECT_TRUE(limited);
   EXPECT_TRUE(paths.contains("ego.x") && paths.contains("link.state"));
   EXPECT_FALSE(paths.contains("stop.level")) << "what goes up is no field of the car";

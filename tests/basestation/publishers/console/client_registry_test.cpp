@@ -55,6 +55,36 @@ TEST_F(Clients, WhoJoinsIsToldWhoItIsThenWhatThereIs) {
   EXPECT_EQ(types.back(), "#");
 }
 
+TEST_F(Clients, ACrowdThatComesAtOnceSharesWhatItIsTold) {
+  messages_.set_state("link", R"({"type": "link"})", kNow);
+  for (int i = 0; i < 300; ++i) messages_.add_line("audit", R"({"type": "audit"})", kNow);
+  clients_.take();
+  constexpr ClientId kFirst = 18, kLast = 217;
+  for (ClientId client = kFirst; client <= kLast; ++client)
+    clients_.joined(client, {.role = Role::kViewer, .name = {}}, kNow);
+  clients_.left(kFirst);
+  const auto sendings = clients_.take();
+  std::size_t hellos = 0, shared = 0;
+  for (const Sending& sending : sendings) {
+    EXPECT_FALSE(sending.to.test(kFirst)) << "it has left";
+    (sending.to.count() == 1 ? hellos : shared) += 1;
+  }
+  EXPECT_EQ(hellos, kLast - kFirst);
+  EXPECT_EQ(shared, 2 + service::MessageLog::kLines) << "the catalogue, the link, the log";
+}
+
+// In the order of what the base says, and once.
+TEST_F(Clients, ALineThatIsSaidWhileSomebodyComesIsToldAfterTheEarlierOnes) {
+  messages_.subscribe([this](std::string_view, std::string_view text, Instant) {
+    clients_.tell_all(std::string{text});
+  });
+  messages_.add_line("audit", R"({"type": "audit"})", kNow);
+  clients_.take();
+  clients_.joined(18, {.role = Role::kViewer, .name = {}}, kNow);
+  messages_.add_line("mark", R"({"type": "mark"})", kNow);
+  EXPECT_EQ(told(18), (Types{"hello", "catalogue", "audit", "mark"}));
+}
+
 TEST_F(Clients, AViewerLooksOnly) {
   EXPECT_FALSE(says(kGarage, R"({"type":"stop","kind":"emergency"})"));
   EXPECT_EQ(told(kGarage), Types{"error"});

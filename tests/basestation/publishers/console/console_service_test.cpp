@@ -113,7 +113,7 @@ TEST_F(Consoles, ACommandGoesThroughTheDesk) {
   run(seconds(1));
   Browser browser;
   join(browser);
-  const std::string stage = R"({"type":"stage","name":"race line","argument":2})";
+  const std::string stage = R"({"type":"stage","name":"sensors excluded","argument":2})";
   const auto without = ask(browser, stage, "command");
   EXPECT_EQ(without.text("step"), "staged") << "a gate has not passed";
   EXPECT_TRUE(rig_.told.empty());

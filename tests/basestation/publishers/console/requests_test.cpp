@@ -53,8 +53,15 @@ TEST(Requests, AreReadAsTheProtocolHasThem) {
   EXPECT_TRUE(send.overrides);
   EXPECT_EQ(send.reason, "dry");
   EXPECT_FALSE(parsed<AskSend>(R"({"type":"send","ticket":3,"override":null})").overrides);
-  EXPECT_TRUE(parsed<command::AnswerNotice>(R"({"type":"notice","id":1,"do":"send"})").send);
+  EXPECT_TRUE(parsed<command::AnswerNotice>(R"({"type":"notice","id":1,"do":"told"})").told);
   parsed<command::ReleaseStop>(R"({"type":"release_stop"})");
+  const auto release =
+      parsed<command::Recover>(R"({"type":"recover","step":"release","challenge":4711})");
+  EXPECT_EQ(release.step, command::RecoveryStep::kRelease);
+  EXPECT_EQ(release.challenge, 4711.0);
+  const auto arm = parsed<command::Recover>(R"({"type":"recover","step":"arm"})");
+  EXPECT_EQ(arm.step, command::RecoveryStep::kArm);
+  EXPECT_FALSE(arm.challenge);
   parsed<command::CancelTicket>(R"({"type":"cancel","ticket":1})");
   parsed<AskMark>(R"({"type":"mark","text":"here"})");
   EXPECT_EQ(parsed<AskPing>(R"({"type":"ping","at":1795309899172.4458})").at, 1795309899172.4458);

@@ -75,6 +75,32 @@ TEST_F(WebEngine, OneThatSpeaksTooFastIsHeardAtItsPace) {
   EXPECT_GE(transport::monotonic_now() - begun, Pace::kEach * (kMore - 1));
 }
 
+TEST_F(WebEngine, AnOperatorIsHeardBeforeACrowdThatSpokeEarlier) {
+  Browser viewer, operates;
+  const ClientId other = join(viewer);
+  const ClientId stops = join_as_operator(operates);
+  const auto wait_for_texts = [this](std::uint64_t count) {
+    const Instant end = transport::monotonic_now() + seconds(20);
+    while (server_->counters().texts_heard < count && transport::monotonic_now() < end)
+      transport::wait_readable({}, transport::monotonic_now() + milliseconds(1));
+    ASSERT_EQ(server_->counters().texts_heard, count);
+  };
+  for (int i = 0; i < 5; ++i) viewer.say(std::to_string(i));
+  wait_for_texts(5);
+  operates.say("stop");
+  wait_for_texts(6);
+  const auto first = server_->next_news();
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->client, stops);
+  EXPECT_EQ(first->text, "stop");
+  for (int i = 0; i < 5; ++i) {
+    const auto next = server_->next_news();
+    ASSERT_TRUE(next);
+    EXPECT_EQ(next->client, other);
+    EXPECT_EQ(next->text, std::to_string(i)) << "of one client in order";
+  }
+}
+
 // The caller never waits; what it says faster than the sockets take it is dropped and counted, by
 // the hand-over or by the client's queue, and never in silence.
 TEST_F(WebEngine, WhatWasSentArrivesOrIsCounted) {

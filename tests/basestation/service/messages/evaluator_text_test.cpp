@@ -72,7 +72,7 @@ TEST(JudgeText, ActsComeBack) {
                         .by = "A \"quoted\" name\n",
                         .reason = "known"};
   EXPECT_EQ(std::get<AlarmAction>(*read_input_text(input_text(act, kOddTime), kOddTime)), act);
-  const NoticeAction notice{.notice = 7, .send = true, .by = "B"};
+  const NoticeAction notice{.notice = 7, .told = true, .by = "B"};
   EXPECT_EQ(std::get<NoticeAction>(*read_input_text(input_text(notice, kOddTime), kOddTime)),
             notice);
   for (const auto kind :

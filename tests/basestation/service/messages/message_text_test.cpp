@@ -87,6 +87,31 @@ TEST(MessageText, AlarmsFuelAuditNoticesAndMarks) {
   EXPECT_EQ(notice.text("state"), "draft");
 }
 
+TEST(MessageText, AStopHasItsCauseAndTheWayBack) {
+  EXPECT_FALSE(json_of(stop_text(std::nullopt)).flag("stopped"));
+  command::StoppedCar stopped{.level = "controlled stop", .mode = "halted", .cause = "too long"};
+  stopped.by = "Ada";
+  stopped.latched = true;
+  stopped.challenge = 4711.0;
+  stopped.steps[1].possible = true;
+  stopped.steps[2].why = "release the stop first";
+  auto said = json_of(stop_text(stopped));
+  EXPECT_TRUE(said.flag("stopped"));
+  EXPECT_EQ(said.text("cause"), "too long");
+  EXPECT_EQ(said.number("challenge"), 4711.0);
+  EXPECT_EQ(said.find("value")->text(), "") << "no value is no number";
+  EXPECT_EQ(said.find("since_ms")->text(), "");
+  ASSERT_EQ(said.items("steps").size(), 4u);
+  EXPECT_EQ(said.items("steps")[0].text("step"), "release");
+  EXPECT_TRUE(said.items("steps")[1].flag("possible"));
+  EXPECT_EQ(said.items("steps")[2].text("why"), "release the stop first");
+  stopped.since = kNow;
+  stopped.value = 1.6;
+  said = json_of(stop_text(stopped));
+  EXPECT_EQ(said.number("since_ms"), 500'000.0);
+  EXPECT_EQ(said.number("value"), 1.6);
+}
+
 TEST(MessageText, TheLinkHasBothDirectionsAndEveryGroupOfTheCar) {
   RadioRig rig;
   rig.set(telemetry::field("mode.mode"), 2.0);

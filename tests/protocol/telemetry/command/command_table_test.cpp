@@ -24,5 +24,29 @@ TEST(CommandTable, EveryCommandEndsAndNoStopNeedsOne) {
   }
 }
 
+// What has a name is meant; what has none does not exist.
+TEST(CommandTable, AValueIsOneThatHasAName) {
+  for (const CommandRow& row : kCommandTable) {
+    EXPECT_FALSE(row.has(row.min - 1.0)) << row.name;
+    EXPECT_FALSE(row.has(row.max + 1.0)) << row.name;
+    EXPECT_FALSE(row.has(kUnset)) << row.name;
+    if (row.labels.empty()) {
+      EXPECT_TRUE(row.has(row.min) && row.has(row.max)) << row.name;
+      continue;
+    }
+    for (std::size_t i = 0; static_cast<double>(i) <= row.max; ++i) {
+      const auto argument = static_cast<double>(i);
+      const bool named = !label_at(row.labels, i).empty() && label_at(row.labels, i) != "-";
+      const bool of_bits = i < std::size_t{1} << label_count(row.labels);
+      EXPECT_EQ(row.has(argument), row.is_set() ? of_bits : named) << row.name << " " << i;
+      EXPECT_FALSE(row.has(argument + 0.5)) << row.name << " " << i;
+    }
+  }
+  EXPECT_FALSE(row_of(CommandType::kTrackFlag).has(9.0));
+  EXPECT_FALSE(row_of(CommandType::kTrackFlag).has(7.0)) << "nobody shows an unknown flag";
+  EXPECT_TRUE(row_of(CommandType::kSensorsExcluded).has(31.0));
+  EXPECT_FALSE(row_of(CommandType::kSensorsExcluded).has(32.0));
+}
+
 }  // namespace
 }  // namespace pitwall::telemetry

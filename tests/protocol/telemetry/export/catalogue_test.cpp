@@ -7,6 +7,7 @@
 #include <string>
 
 #include "protocol/telemetry/registry/schema.hpp"
+#include "protocol/telemetry/registry/titles.hpp"
 
 namespace pitwall::telemetry {
 namespace {
@@ -48,6 +49,7 @@ TEST(Catalogue, SaysOfEveryRowWhatTheRegistrySays) {
       expect_row(group["fields"][i], kFields[first + i]);
       EXPECT_EQ(text(group["fields"][i]["path"]),
                 std::string{row.name} + "." + std::string{kFields[first + i].name});
+      EXPECT_EQ(text(group["fields"][i]["title"]), title_of(row.name, kFields[first + i].name));
     }
   }
   ASSERT_EQ(json["commands"].size(), kCommandTypes);

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "protocol/transport/bench_clock/bench_clock.hpp"
 #include "protocol/transport/bench_clock/bench_pause.hpp"
 #include "protocol/transport/clock.hpp"
@@ -98,6 +100,26 @@ TEST(ClockKeeper, TimeStandsForOneThatIsDueAndDoesNotComeToRun) {
   EXPECT_GT(went, Duration{});
   EXPECT_GE(kept.keeper.waits().longest, kLong / 2);
   EXPECT_EQ(kept.keeper.waits().longest_for, "test_protocol_t") << "as ps names this test";
+}
+
+TEST(ClockKeeper, TimeStandsForAnotherThreadOfItsOwnProgramAndNeverForItself) {
+  Kept kept;
+  kept.keeper.begin();
+  BenchClock clock{*ClockMemory::open(kept.file.path)};
+  {
+    std::jthread other{[&clock](const std::stop_token& stop) {
+      clock.take_turns();
+      while (!stop.stop_requested())
+        clock.wait_until(clock.now() + milliseconds(1),
+                         [](Duration) { return nap_on_wall(kLong); });
+    }};
+    kept.until_taken();
+    EXPECT_LT(kept.over(10 * kLong), 3 * kLong);
+  }
+  std::jthread{[&] {
+    EXPECT_TRUE(clock.take_turns());
+    EXPECT_TRUE(kept.goes_on(kLong));
+  }}.join();
 }
 
 TEST(ClockKeeper, TimeGoesOnForOneThatIsStoppedAndWaitsForItAgainLater) {

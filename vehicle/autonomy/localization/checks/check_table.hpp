@@ -4,7 +4,8 @@
 //   in     Evidence: what is known of one sample; a number that does not apply is NaN, and no law
 //          holds against a NaN
 //   out    the verdict, and the monitors that see something wrong
-//   law    a row without a monitor judges the form: what fails it is not looked at any further and
+//   invariants
+//          a row without a monitor judges the form: what fails it is not looked at any further and
 //          is refused always. A row whose monitor is switched off is not there
 //   units  position m, velocity m/s, angles rad
 //   cost   O(rows); no allocation

@@ -3,7 +3,8 @@
 // both.
 //   in     per tick the velocity in Map; per position its residual-free place in Map
 //   out    distance from where the unit has been over the last drift_memory_s, m
-//   law    what strays is not learned while it is refused
+//   invariants
+//          what strays is not learned while it is refused
 //   cost   O(1)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

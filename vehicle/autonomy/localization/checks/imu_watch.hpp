@@ -7,7 +7,8 @@
 //   in     samples of both units (Body, rad/s and m/s^2), velocities over ground, per tick what the
 //          car does by other senses
 //   out    which unit is blamed, whether they are apart; their lasting difference is learned
-//   law    without a witness nobody is blamed. Exchanging the units exchanges the result
+//   invariants
+//          without a witness nobody is blamed. Exchanging the units exchanges the result
 //   cost   O(1) per sample; no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

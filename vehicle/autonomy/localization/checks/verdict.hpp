@@ -1,5 +1,6 @@
 // What localization says of a sample, and what it has said so far: the words of its checks.
-//   law    every sample gets one verdict; a refused one changes no estimate, and none is repaired
+//   invariants
+//          every sample gets one verdict; a refused one changes no estimate, and none is repaired
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -6,7 +6,8 @@
 //
 //   in     the wheels' speed as reported, the car's by receivers, how it accelerates
 //   out    the speed without the scale's error, and the share of it that is one sigma
-//   law    nothing is learned from wheels that may slip: below kLeastSpeed_mps, or beyond
+//   invariants
+//          nothing is learned from wheels that may slip: below kLeastSpeed_mps, or beyond
 //          kMostAccel_mps2. What is learned is within +-kMost
 //   source growth: 3.8e-6 (s/m)^2, fitted to a recorded AV-21 drive (hil/sensors/README.md)
 //   cost   O(1)

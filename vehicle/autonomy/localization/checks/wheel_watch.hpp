@@ -1,7 +1,8 @@
 // The speed of the car by its wheels, without the ones that lock, spin, are lost or lie.
 //   in     four wheel speeds over ground, the yaw rate, the car's speed where the receivers say it
 //   out    speed of the centre of gravity, NaN if no wheel is believed; which wheels are not
-//   law    each wheel is brought to the middle of the car by the yaw rate; one that is far from
+//   invariants
+//          each wheel is brought to the middle of the car by the yaw rate; one that is far from
 //          the middle of the four, or that the receivers contradict, is out at once and comes back
 //          after readmit_after_s of agreement. The rear axle speaks for the car, as the filter
 //          expects; the front one where no rear wheel is believed

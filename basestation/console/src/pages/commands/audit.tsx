@@ -4,28 +4,20 @@
 // SPDX-License-Identifier: Apache-2.0
 import * as session from "../../store/session";
 import { clockText } from "../../view/format";
+import { saveTsv, tsvText } from "../../view/save_lines";
 import { TableHead } from "../../view/table_head";
+import { toldText } from "../../view/told";
 
 const kShown = 100;
 
-/** One line each, UTC first; tabs and line ends of the text become spaces. */
-export function auditText(): string {
-  const clean = (text: unknown) => String(text).replaceAll(/[\t\r\n]/g, " ");
-  const lines = session.audit.value.map((line) =>
-    [new Date(session.clock.utcMs(line.time_ms)).toISOString(), line.who, line.what, line.result]
-      .map(clean)
-      .join("\t"),
-  );
-  return ["utc\twho\twhat\tresult", ...lines, ""].join("\n");
-}
-
 function save(): void {
-  const url = URL.createObjectURL(new Blob([auditText()], { type: "text/tab-separated-values" }));
-  const link = document.createElement("a");
-  link.href = url;
-  link.download = "pitwall_audit.tsv";
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+  const lines = session.audit.value.map(({ time_ms, who, what, result }) => [
+    new Date(session.clock.utcMs(time_ms)).toISOString(),
+    who,
+    what,
+    result,
+  ]);
+  saveTsv("pitwall_audit.tsv", tsvText(["utc", "who", "what", "result"], lines));
 }
 
 export function AuditPanel() {
@@ -45,8 +37,8 @@ export function AuditPanel() {
             <tr key={`${line.time_ms} ${i}`}>
               <td>{clockText(session.clock.utcMs(line.time_ms))}</td>
               <th scope="row">{line.who}</th>
-              <td>{line.what}</td>
-              <td>{line.result}</td>
+              <td>{toldText(line.what)}</td>
+              <td>{toldText(line.result)}</td>
             </tr>
           ))}
         </tbody>

@@ -1,165 +1,178 @@
 /**
  * The staged command: chosen and filled in, answered by the base with its gates, sent by holding.
- * A gate that is shut can be overridden only with a reason and a second person's token.
+ * A gate that refuses is overridden with a reason, and with a second person's token where this base
+ * has tokens; some are never overridden.
  */
 // SPDX-License-Identifier: Apache-2.0
 import { useState } from "preact/hooks";
 import * as session from "../../store/session";
 import { isHolder, send } from "../../store/uplink";
-import { ageText, kDash } from "../../view/format";
+import { ageText } from "../../view/format";
 import { HoldButton } from "../../view/hold_button";
 import { speedUnit } from "../../view/speed_unit";
+import { quantityText, toldText } from "../../view/told";
 import type { CommandInfo, CommandStep, Gate } from "../../wire/messages";
+import { Argument, isSet } from "./argument";
 import { argumentText, isPending } from "./steps";
 
 export const kSendHoldMs = 600;
+/** Released on the card of the stop, which knows what the car asks for. */
+const kElsewhere = "release stop";
+
+/** What the gate was judged by: its name, or the number in this page's units. */
+export function gateValueText(gate: Gate): string {
+  return gate.word || quantityText(gate.value, gate.unit) || "no data";
+}
 
 function GateRow({ gate }: { gate: Gate }) {
-  const value =
-    typeof gate.value === "number"
-      ? String(Math.round(gate.value * 100) / 100)
-      : (gate.value ?? kDash);
   return (
     <li class="gate" data-ok={gate.ok}>
       <i class="mark" aria-hidden="true" />
       <span class="verdict">{gate.ok ? "pass" : "REFUSES"}</span>
       <span class="name">{gate.name}</span>
-      <span class="number">{value}</span>
+      <span class="number">{gateValueText(gate)}</span>
       <span class="age">{typeof gate.age_ms === "number" ? ageText(gate.age_ms) : ""}</span>
-      <span class="text">{gate.text}</span>
+      <span class="text">{toldText(gate.text)}</span>
     </li>
   );
 }
 
+interface Overriding {
+  reason: string;
+  token: string;
+}
+
+/** Why an override does not do yet; empty: it does. */
+export function overrideWants(shut: readonly Gate[], by: Overriding, second: boolean): string {
+  const never = shut.filter((gate) => gate.can_be_overridden === false);
+  if (never.length > 0) {
+    return `never overridden: ${never.map((gate) => gate.name).join(", ")}`;
+  }
+  if (by.reason.trim() === "") return "an override takes a reason";
+  if (second && by.token.trim() === "") return "an override takes a second person's token";
+  return "";
+}
+
+function OverrideFields(props: {
+  refusing: number;
+  by: Overriding;
+  second: boolean;
+  onBy: (by: Overriding) => void;
+}) {
+  const { refusing, by, second, onBy } = props;
+  return (
+    <fieldset class="override">
+      <legend>{refusing === 1 ? "One gate refuses" : `${refusing} gates refuse`}</legend>
+      <label>
+        reason
+        <input value={by.reason} onInput={(e) => onBy({ ...by, reason: e.currentTarget.value })} />
+      </label>
+      {second && (
+        <label>
+          second person's token
+          <input
+            type="password"
+            value={by.token}
+            autocomplete="off"
+            onInput={(e) => onBy({ ...by, token: e.currentTarget.value })}
+          />
+        </label>
+      )}
+    </fieldset>
+  );
+}
+
 function StagedCard({ step }: { step: CommandStep }) {
-  const [reason, setReason] = useState("");
-  const [token, setToken] = useState("");
+  const [by, setBy] = useState<Overriding>({ reason: "", token: "" });
+  const second = session.hello.value?.second_person ?? true;
   const gates = step.gates ?? [];
   const shut = gates.filter((gate) => !gate.ok);
   const ready = gates.length > 0 || step.step === "gated";
-  const overridden = reason.trim() !== "" && token.trim() !== "";
-  const cancel = () => send({ type: "cancel", ticket: step.ticket });
+  const wants = shut.length > 0 ? overrideWants(shut, by, second) : "";
+  const never = shut.some((gate) => gate.can_be_overridden === false);
+  const overriding = {
+    reason: by.reason.trim(),
+    ...(second ? { token: by.token.trim() } : {}),
+  };
   return (
     <article class="staged" aria-label={`staged ${step.name}`}>
       <h3>
         {step.name} <strong>{argumentText(step, session.commands.value)}</strong>
       </h3>
+      {!ready && <p class="empty">The base looks at the gates.</p>}
       <ul class="gates">
-        {gates.map((gate) => (
+        {[...shut, ...gates.filter((gate) => gate.ok)].map((gate) => (
           <GateRow gate={gate} key={gate.name} />
         ))}
       </ul>
-      {!ready && <p class="empty">The base looks at the gates.</p>}
-      {shut.length > 0 && (
-        <fieldset class="override">
-          <legend>{shut.length === 1 ? "One gate refuses" : `${shut.length} gates refuse`}</legend>
-          <label>
-            reason
-            <input value={reason} onInput={(e) => setReason(e.currentTarget.value)} />
-          </label>
-          <label>
-            second person's token
-            <input
-              type="password"
-              value={token}
-              autocomplete="off"
-              onInput={(e) => setToken(e.currentTarget.value)}
-            />
-          </label>
-        </fieldset>
-      )}
-      <div class="tools">
-        <HoldButton
-          holdMs={kSendHoldMs}
-          class="send"
-          label={`send ${step.name}, hold`}
-          disabled={!ready || (shut.length > 0 && !overridden)}
-          onHeld={() =>
-            send({
-              type: "send",
-              ticket: step.ticket,
-              ...(shut.length > 0
-                ? { override: { reason: reason.trim(), token: token.trim() } }
-                : {}),
-            })
-          }
-        >
-          {shut.length > 0 ? "Hold to override and send" : "Hold to send"}
-        </HoldButton>
-        <button type="button" onClick={cancel}>
-          Cancel
-        </button>
+      <div class="decision">
+        {shut.length > 0 && !never && (
+          <OverrideFields refusing={shut.length} by={by} second={second} onBy={setBy} />
+        )}
+        <div class="tools">
+          <HoldButton
+            holdMs={kSendHoldMs}
+            class="send"
+            label={`send ${step.name}, hold`}
+            disabled={!isHolder.value || !ready || wants !== ""}
+            onHeld={() =>
+              send({
+                type: "send",
+                ticket: step.ticket,
+                ...(shut.length > 0 ? { override: overriding } : {}),
+              })
+            }
+          >
+            {shut.length > 0 && !never ? "Hold to override and send" : "Hold to send"}
+          </HoldButton>
+          <button type="button" onClick={() => send({ type: "cancel", ticket: step.ticket })}>
+            Cancel
+          </button>
+          {wants && <span class="wants">{wants}</span>}
+        </div>
       </div>
     </article>
   );
 }
 
-function Argument({
-  info,
-  text,
-  onText,
-}: {
-  info: CommandInfo;
-  text: string;
-  onText: (text: string) => void;
-}) {
-  const labels = info.labels ?? [];
-  if (labels.length > 0 && info.unit !== "bits") {
-    return (
-      <select aria-label="argument" value={text} onChange={(e) => onText(e.currentTarget.value)}>
-        {labels.map((label, i) => (
-          <option value={String(i)} key={label}>
-            {label}
-          </option>
-        ))}
-      </select>
-    );
-  }
-  const isSpeed = info.unit === "m/s";
-  const factor = isSpeed ? speedUnit.value.perMps : 1;
-  return (
-    <label class="amount">
-      <input
-        type="number"
-        aria-label="argument"
-        required
-        value={text}
-        min={info.min * factor}
-        max={Math.floor(info.max * factor)}
-        step={isSpeed ? 1 : info.resolution}
-        onInput={(e) => onText(e.currentTarget.value)}
-      />
-      <span class="unit">{isSpeed ? speedUnit.value.name : info.unit}</span>
-    </label>
-  );
-}
+/** Nothing is chosen beforehand: a set begins empty, everything else undecided. */
+const undecided = (info: CommandInfo): string => (isSet(info) ? "0" : "");
 
 export function StagePanel() {
-  const infos = session.commands.value;
+  const infos = session.commands.value.filter(
+    (command) => command.offered !== false && command.name !== kElsewhere,
+  );
   const [name, setName] = useState("");
-  const [text, setText] = useState("0");
+  const [text, setText] = useState("");
   const info = infos.find((command) => command.name === name) ?? infos[0];
   const pending = session.ladder.value.filter(isPending);
   const barred = !isHolder.value && (info?.needs_authority ?? true);
   const value = Number(text) / (info?.unit === "m/s" ? speedUnit.value.perMps : 1);
+  const choose = (chosen: string) => {
+    setName(chosen);
+    const next = infos.find((command) => command.name === chosen);
+    setText(next ? undecided(next) : "");
+  };
   return (
-    <section class="panel grows" aria-label="stage a command" tabIndex={0}>
+    <section class="panel grows stage-panel" aria-label="stage a command" tabIndex={0}>
       <h2>Stage a command</h2>
+      {pending.map((step) => (
+        <StagedCard step={step} key={step.ticket} />
+      ))}
       {info && (
         <form
           class="stage"
           onSubmit={(e) => {
             e.preventDefault();
+            if (text === "") return;
             send({ type: "stage", name: info.name, argument: value });
+            setText(undecided(info));
           }}
         >
           <select
             aria-label="command"
             value={info.name}
-            onChange={(e) => {
-              setName(e.currentTarget.value);
-              setText("0");
-            }}
+            onChange={(e) => choose(e.currentTarget.value)}
           >
             {infos.map((command) => (
               <option value={command.name} key={command.name}>
@@ -174,9 +187,6 @@ export function StagePanel() {
         </form>
       )}
       {barred && <p class="empty">Take the authority to stage this command.</p>}
-      {pending.map((step) => (
-        <StagedCard step={step} key={step.ticket} />
-      ))}
     </section>
   );
 }

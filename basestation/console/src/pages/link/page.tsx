@@ -1,16 +1,16 @@
 /**
  * The link and its budget: loss, round trip, jitter and load of each path and direction over 1, 5
- * and 30 s, what each group costs and how old it gets, and messages to race control, drafted.
+ * and 30 s, what each group costs and how old it gets, and messages for race control.
  */
 // SPDX-License-Identifier: Apache-2.0
 import * as session from "../../store/session";
-import { isOperator, send } from "../../store/uplink";
 import { AgeSince } from "../../view/age_since";
 import { ageText, kDash } from "../../view/format";
 import { TableHead } from "../../view/table_head";
 import { Line } from "../../view/value";
 import { BudgetPanel } from "./budget";
-import type { LinkPath, LinkWindow, Notice } from "../../wire/messages";
+import { Notices } from "./notices";
+import type { LinkPath, LinkWindow } from "../../wire/messages";
 
 type WindowOf = LinkWindow & { seconds: number };
 
@@ -98,43 +98,6 @@ function Groups() {
         </tbody>
       </table>
       {groups.length === 0 && <p class="empty">No figures by group yet.</p>}
-    </section>
-  );
-}
-
-function NoticeCard({ notice }: { notice: Notice }) {
-  const answer = (what: "send" | "dismiss") => {
-    send({ type: "notice", id: notice.id, do: what });
-    session.dismissNotice(notice.id);
-  };
-  return (
-    <article class="notice">
-      <h3>{notice.kind}</h3>
-      <p>{notice.text}</p>
-      <p class="evidence">{notice.evidence}</p>
-      {isOperator.value && (
-        <div class="tools">
-          <button type="button" onClick={() => answer("send")}>
-            Send to race control
-          </button>
-          <button type="button" onClick={() => answer("dismiss")}>
-            Dismiss
-          </button>
-        </div>
-      )}
-    </article>
-  );
-}
-
-export function Notices() {
-  const notices = session.notices.value;
-  return (
-    <section class="panel" aria-label="messages to race control" tabIndex={0}>
-      <h2>To race control</h2>
-      {notices.map((notice) => (
-        <NoticeCard notice={notice} key={notice.id} />
-      ))}
-      {notices.length === 0 && <p class="empty">Nothing to tell.</p>}
     </section>
   );
 }

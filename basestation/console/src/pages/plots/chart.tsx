@@ -8,15 +8,27 @@ import "uplot/dist/uPlot.min.css";
 import { useEffect, useRef } from "preact/hooks";
 import * as session from "../../store/session";
 import { theme } from "../../theme/theme";
-import { kDash, unitText, valueText } from "../../view/format";
+import { kDash } from "../../view/format";
 import { kDigitsHz, kPlotsHz, addPainter } from "../../view/painting";
+import { shownText } from "../../view/shown_unit";
+import { speedUnit } from "../../view/speed_unit";
 import { shownMs } from "../../view/timeline";
 import { finderShown } from "../../frame/keys";
 import { optionsOf } from "./drawing";
 import { plotTarget } from "./finder_target";
 import { removeChart } from "./layout";
 import type { ChartSpec, PlotAxis } from "./layout";
-import { compared, dataOfLaps, dataOfTime, linesOf, nameOf, valueAt } from "./lines";
+import {
+  compared,
+  dataOfLaps,
+  dataOfTime,
+  headingOf,
+  inShownUnits,
+  linesOf,
+  nameOf,
+  unitOf,
+  valueAt,
+} from "./lines";
 import type { Line } from "./lines";
 
 /** Where nothing is pointed at: the newest moment, or the place where the car is in its lap. */
@@ -30,12 +42,12 @@ function newest(plot: uPlot, axis: PlotAxis): number {
 /** The values under the cursor, or the newest ones, into the chart's head. */
 function readOut(plot: uPlot, lines: readonly Line[], axis: PlotAxis, head: HTMLElement): void {
   const at = plot.cursor.idx ?? newest(plot, axis);
-  lines.forEach(({ path, back, car, other }, i) => {
-    const store = car.fields.value;
-    const info = store.info[store.slot(path)];
+  lines.forEach((line, i) => {
+    const store = line.car.fields.value;
+    const info = store.info[store.slot(line.path)];
     const value = at >= 0 ? valueAt(plot.data[i + 1] ?? [], at) : null;
-    const unit = info && back === 0 && !other ? ` ${unitText(info.unit)}` : "";
-    const text = info && typeof value === "number" ? valueText(info, value) + unit : kDash;
+    const known = info && typeof value === "number";
+    const text = known ? shownText(info, value / unitOf(line).factor) : kDash;
     const cell = head.children[i]?.lastElementChild;
     if (cell && cell.textContent !== text) cell.textContent = text;
   });
@@ -53,21 +65,25 @@ export interface ChartProps {
 }
 
 /** What is under the lines now, and which part of the axis is in sight. */
-function drawNow(plot: uPlot, spec: ChartSpec, axis: PlotAxis, windowS: number): void {
+function drawNow(
+  plot: uPlot,
+  spec: ChartSpec,
+  lines: readonly Line[],
+  axis: PlotAxis,
+  windowS: number,
+): void {
   const to = shownMs();
-  if (axis === "distance") {
-    const lengthM = session.track.value?.length_m ?? 0;
-    const data = dataOfLaps(spec, lengthM);
-    plot.batch(() => {
-      plot.setData(data as uPlot.AlignedData, false);
-      plot.setScale("x", { min: 0, max: Math.max(lengthM, 1) });
-    });
-    return;
-  }
-  const data = dataOfTime(spec, to - windowS * 1000, to, 2 * plot.width);
+  const lengthM = session.track.value?.length_m ?? 0;
+  const overLaps = axis === "distance";
+  const data = overLaps
+    ? dataOfLaps(spec, lengthM)
+    : dataOfTime(spec, to - windowS * 1000, to, 2 * plot.width);
+  const span = overLaps
+    ? { min: 0, max: Math.max(lengthM, 1) }
+    : { min: to / 1000 - windowS, max: to / 1000 };
   plot.batch(() => {
-    plot.setData(data as uPlot.AlignedData, false);
-    plot.setScale("x", { min: to / 1000 - windowS, max: to / 1000 });
+    plot.setData(inShownUnits(data, lines) as uPlot.AlignedData, false);
+    plot.setScale("x", span);
   });
 }
 
@@ -77,6 +93,7 @@ export function Chart({ spec, index, windowS, axis }: ChartProps) {
   const grounds = theme.value;
   const store = session.fields.value;
   const lines = linesOf(spec, axis);
+  const heading = headingOf(spec);
 
   useEffect(() => {
     if (!box.current) return;
@@ -89,7 +106,7 @@ export function Chart({ spec, index, windowS, axis }: ChartProps) {
         plot.setSize({ width: element.clientWidth, height: element.clientHeight });
       }
       if (!Number.isFinite(shownMs())) return;
-      drawNow(plot, spec, axis, windowS);
+      drawNow(plot, spec, lines, axis, windowS);
       if (head.current) readOut(plot, lines, axis, head.current);
     };
     const stop = addPainter(paint, axis === "time" ? kPlotsHz : kDigitsHz);
@@ -97,12 +114,12 @@ export function Chart({ spec, index, windowS, axis }: ChartProps) {
       stop();
       plot.destroy();
     };
-  }, [spec, windowS, axis, grounds, store, compared.value]);
+  }, [spec, windowS, axis, grounds, store, compared.value, speedUnit.value]);
 
   return (
     <section
       class="chart"
-      aria-label={`chart ${spec.title}`}
+      aria-label={`chart ${heading}`}
       tabIndex={0}
       onDragOver={(e) => e.preventDefault()}
       onDrop={(e) => {
@@ -112,7 +129,7 @@ export function Chart({ spec, index, windowS, axis }: ChartProps) {
       }}
     >
       <header>
-        <h2>{spec.title}</h2>
+        <h2>{heading}</h2>
         <ul class="read-outs" ref={head}>
           {lines.map((line, i) => (
             <li key={`${line.path} ${line.back} ${line.car.number}`} class={classOf(line, i)}>
@@ -124,7 +141,7 @@ export function Chart({ spec, index, windowS, axis }: ChartProps) {
         </ul>
         <button
           type="button"
-          aria-label={`add a field to ${spec.title}`}
+          aria-label={`add a field to ${heading}`}
           onClick={() => {
             plotTarget.chart = index;
             finderShown.value = true;
@@ -134,7 +151,7 @@ export function Chart({ spec, index, windowS, axis }: ChartProps) {
         </button>
         <button
           type="button"
-          aria-label={`remove chart ${spec.title}`}
+          aria-label={`remove chart ${heading}`}
           onClick={() => removeChart(index)}
         >
           &times;

@@ -9,14 +9,15 @@ import { colours } from "../../theme/theme";
 import { decimalsOf, fixed } from "../../view/format";
 import { shownMs } from "../../view/timeline";
 import type { PlotAxis } from "./layout";
-import { compared } from "./lines";
+import { axisUnits, compared } from "./lines";
 import type { Line } from "./lines";
 import { drawMarks } from "./marks";
 
 const kSync = "plots";
 const kDashes = [[], [8, 4], [2, 3], [8, 3, 2, 3], [12, 6], [4, 6]];
 const kOtherDash = [1, 4];
-const kFont = "12px Barlow, sans-serif";
+const kLabelPx = 14;
+const kFont = `${kLabelPx}px Barlow, sans-serif`;
 
 /** Ticks at whole steps before the moment shown, so that they stand still while the data runs. */
 function backFrom(max: number, min: number, step: number): number[] {
@@ -30,7 +31,7 @@ function agoText(atS: number): string {
   return Math.abs(ago) < 0.05 ? "0" : `\u2212${Math.abs(ago).toFixed(Math.abs(ago) < 10 ? 1 : 0)}`;
 }
 
-function axes(axis: PlotAxis): uPlot.Axis[] {
+function axes(axis: PlotAxis, lines: readonly Line[]): uPlot.Axis[] {
   const { dim, line } = colours();
   const looks = {
     stroke: dim,
@@ -46,10 +47,14 @@ function axes(axis: PlotAxis): uPlot.Axis[] {
         }
       : { values: (_, splits) => splits.map((m) => `${fixed(m, 0)} m`) };
   return [
-    { ...looks, size: 26, space: 70, ...along },
+    { ...looks, size: 28, space: 80, ...along },
     {
       ...looks,
-      size: 52,
+      label: axisUnits(lines) || undefined,
+      labelFont: kFont,
+      labelSize: 18,
+      labelGap: 0,
+      size: 54,
       space: 34,
       values: (_, splits, __, ___, step) => splits.map((v) => fixed(v, decimalsOf(step))),
     },
@@ -64,7 +69,7 @@ function drawCorners(plot: uPlot): void {
   if (!track) return;
   const x = (m: number) => plot.valToPos(m, "x", true);
   pen.save();
-  pen.font = `${11 * devicePixelRatio}px Barlow, sans-serif`;
+  pen.font = `${kLabelPx * devicePixelRatio}px Barlow, sans-serif`;
   pen.textAlign = "left";
   pen.textBaseline = "top";
   for (const { name, from_s, to_s } of track.corners) {
@@ -111,7 +116,7 @@ export function optionsOf(axis: PlotAxis, lines: readonly Line[], box: HTMLEleme
       drag: { x: false, y: false },
     },
     scales: { x: { time: false, auto: false } },
-    axes: axes(axis),
+    axes: axes(axis, lines),
     series: [{}, ...lines.map((line, i) => looksOf(line, compared.value ? line.field : i))],
     hooks:
       axis === "time"

@@ -7,6 +7,8 @@ import { computed, signal } from "@preact/signals";
 import uPlot from "uplot";
 import type { CarSession } from "../../store/car_session";
 import * as session from "../../store/session";
+import { shownUnit } from "../../view/shown_unit";
+import type { ShownUnit } from "../../view/shown_unit";
 import { shownMs } from "../../view/timeline";
 import { earlierOf } from "./backfill";
 import { lapColumns } from "./laps";
@@ -59,9 +61,43 @@ export function linesOf(spec: ChartSpec, axis: PlotAxis): Line[] {
   });
 }
 
-/** The newest lap has the field's name; the others, and the other car, follow it. */
+/** What the base calls a field; its path where the base does not know it. */
+export function titleOf(path: string, car = session.shownCar.value): string {
+  const store = car.fields.value;
+  return store.info[store.slot(path)]?.title ?? path;
+}
+
+/** A chart of one field is named by its path, and shows its title. */
+export const headingOf = (spec: ChartSpec): string => titleOf(spec.title);
+
+/** The newest lap has the field's title; the others, and the other car, follow it. */
 export const nameOf = ({ path, back, car, other }: Line): string =>
-  other ? `car ${car.number}` : back === 0 ? path : `lap \u2212${back}`;
+  other ? `car ${car.number}` : back === 0 ? titleOf(path, car) : `lap \u2212${back}`;
+
+/** The unit in which a line is drawn; none for a field that the base does not have. */
+export function unitOf({ path, car }: Line): ShownUnit {
+  const store = car.fields.value;
+  return shownUnit(store.info[store.slot(path)]?.unit ?? "");
+}
+
+/**
+ * The columns of a chart in the units that are shown. Those of another car may come a frame before
+ * the lines that name them.
+ */
+export function inShownUnits(
+  [along, ...columns]: [number[], ...Joined[]],
+  lines: readonly Line[],
+): [number[], ...Joined[]] {
+  const scaled = columns.map((column, i) => {
+    const factor = lines[i] ? unitOf(lines[i]).factor : 1;
+    return factor === 1 ? column : column.map((value) => value && value * factor);
+  });
+  return [along, ...scaled];
+}
+
+/** The units of an axis that several lines share. */
+export const axisUnits = (lines: readonly Line[]): string =>
+  [...new Set(lines.map((line) => unitOf(line).name))].filter(Boolean).join(", ");
 
 /** The columns of two cars in turn, field by field. */
 const inTurn = <T>(own: readonly T[][], other: readonly T[] | null): T[] =>

@@ -8,6 +8,7 @@ import * as session from "../../store/session";
 import { colours } from "../../theme/theme";
 
 const kHatchPx = 8;
+const kLetterPx = 14;
 
 interface Span {
   from: number;
@@ -69,7 +70,7 @@ export function drawMarks(plot: uPlot): void {
   for (const span of unknownSpans(plot.data[0], plot.data[1] ?? [])) {
     if (span.to > min) hatch(pen, x(span.from), x(span.to), top, height);
   }
-  pen.font = `${11 * devicePixelRatio}px Barlow, sans-serif`;
+  pen.font = `${kLetterPx * devicePixelRatio}px Barlow, sans-serif`;
   for (const { atS, colour, letter } of moments()) {
     if (atS < min || atS > max) continue;
     pen.strokeStyle = colour;
@@ -78,7 +79,8 @@ export function drawMarks(plot: uPlot): void {
     pen.moveTo(x(atS), top);
     pen.lineTo(x(atS), top + height);
     pen.stroke();
-    if (x(atS) < left + width - 12) pen.fillText(letter, x(atS) + 3, top + 11 * devicePixelRatio);
+    if (x(atS) < left + width - kLetterPx)
+      pen.fillText(letter, x(atS) + 3, top + kLetterPx * devicePixelRatio);
   }
   pen.restore();
 }

@@ -20,8 +20,8 @@ export function SpeedPanel() {
   return (
     <div class="speed-body">
       <div class="speed-head">
-        <Value path="ego.vx" speed hz={kGaugesHz} class="huge" />
-        <Tile label="target" path="track.target_speed" speed unit={false} />
+        <Value path="ego.vx" decimals={0} hz={kGaugesHz} class="huge" />
+        <Tile label="target" path="track.target_speed" decimals={0} unit={false} />
         <Tile label="gear" path="feedback.gear" big />
       </div>
       <Bar
@@ -41,13 +41,7 @@ export function SpeedPanel() {
         <Bar path="feedback.throttle" label="throttle" max={1} asked="command.throttle" />
         <Line label="brake" path="feedback.brake_front" decimals={0} />
         <Bar path="feedback.brake_front" label="brake" max={kMostBrakeKpa} asked="command.brake" />
-        <Line
-          label="steer"
-          path="feedback.steering"
-          scale={57.29578}
-          decimals={1}
-          unit={"\u00b0"}
-        />
+        <Line label="steer" path="feedback.steering" decimals={1} />
         <Bar
           path="feedback.steering"
           label="steering"

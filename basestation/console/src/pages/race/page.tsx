@@ -9,7 +9,7 @@ import { Flag } from "../../frame/flag_tile";
 import { race } from "../../store/session";
 import { Bar } from "../../view/bar";
 import { Line, Tile } from "../../view/value";
-import { Notices } from "../link/page";
+import { Notices } from "../link/notices";
 import { FuelPanel } from "../primary/fuel_panel";
 import "./race.css";
 
@@ -54,14 +54,14 @@ function SpeedPanel() {
     <section class="panel" aria-label="round speed" tabIndex={0}>
       <h2>Round speed</h2>
       <div class="tiles four">
-        <Tile label="race control" path="derived.race_control_speed" speed big />
-        <Tile label="announced" path="derived.round_speed_expected" speed big />
-        <Tile label="car's target" path="track.target_speed" speed big />
-        <Tile label="car" path="ego.vx" speed big />
+        <Tile label="race control" path="derived.race_control_speed" decimals={0} big />
+        <Tile label="announced" path="derived.round_speed_expected" decimals={0} big />
+        <Tile label="car's target" path="track.target_speed" decimals={0} big />
+        <Tile label="car" path="ego.vx" decimals={0} big />
       </div>
       <div class="lines two">
         <Line label="conflict" path="derived.round_speed_conflict" />
-        <Line label="operator's limit" path="planner.operator_limit" speed />
+        <Line label="operator's limit" path="planner.operator_limit" decimals={0} />
       </div>
     </section>
   );
@@ -109,7 +109,7 @@ function GapPanel() {
       <div class="tiles three">
         <Tile label="to who is ahead" path="derived.gap_ahead" decimals={1} big />
         <Tile label="to who is behind" path="derived.gap_behind" decimals={1} big />
-        <Tile label="closing" path="derived.gap_closing" speed decimals={1} big />
+        <Tile label="closing" path="derived.gap_closing" decimals={1} big />
       </div>
       <div class="gaps">
         <span class="label">ahead</span>
@@ -120,7 +120,7 @@ function GapPanel() {
       <div class="lines two">
         <Line label="nearest opponent" path="opponent_1.identity" />
         <Line label="seen before" path="opponent_1.age" decimals={2} />
-        <Line label="its speed" path="opponent_1.speed" speed />
+        <Line label="its speed" path="opponent_1.speed" decimals={0} />
         <Line label="its offset" path="opponent_1.offset" decimals={1} />
       </div>
     </section>

@@ -1,19 +1,17 @@
 /**
- * Every field that there is, by group: value, age against its period, how often it comes, extremes
- * of the last minute. Only the rows in sight exist; a row opens its plot.
+ * Every field that there is, by group: title, path, value, age against its period, how often it
+ * comes, extremes of the last minute. Only the rows in sight exist; a row opens its plot.
  */
 // SPDX-License-Identifier: Apache-2.0
-import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import * as session from "../../store/session";
 import { plotTarget } from "../plots/finder_target";
-import { findFields } from "../../frame/finder";
 import { showPage } from "../../frame/pages";
 import { FieldRow, kRowPx } from "./row";
 import { rateTable } from "./rates";
+import { findFields } from "../../view/find_fields";
 import { addPainter } from "../../view/painting";
-
-const kMostRows = 60;
-const kExtraRows = 4;
+import { useRowsInSight } from "../../view/rows_in_sight";
 
 function plot(path: string): void {
   plotTarget.add(null, path);
@@ -23,25 +21,13 @@ function plot(path: string): void {
 export function TelemetryPage() {
   const box = useRef<HTMLDivElement>(null);
   const [query, setQuery] = useState("");
-  const [top, setTop] = useState(0);
-  const [height, setHeight] = useState(600);
   const [at, setAt] = useState(0);
   const all = session.fields.value.info;
   const shown = query ? findFields(all, query) : all;
 
-  useLayoutEffect(() => {
-    const element = box.current;
-    if (!element) return;
-    const measure = () => setHeight(element.clientHeight);
-    measure();
-    const observer = new ResizeObserver(measure);
-    observer.observe(element);
-    return () => observer.disconnect();
-  }, []);
+  const { first, count, page, setTop } = useRowsInSight(box, kRowPx);
   useEffect(() => addPainter(() => rateTable.sample(session.fields.value), 1), []);
 
-  const first = Math.max(0, Math.floor(top / kRowPx) - kExtraRows);
-  const count = Math.min(Math.ceil(height / kRowPx) + 2 * kExtraRows, kMostRows);
   const rows = shown.slice(first, first + count);
   const go = (to: number) => {
     const next = Math.min(Math.max(to, 0), shown.length - 1);
@@ -58,7 +44,7 @@ export function TelemetryPage() {
       <div class="tools">
         <input
           type="search"
-          placeholder="filter by path"
+          placeholder="filter by name or path"
           value={query}
           spellcheck={false}
           aria-label="filter fields"
@@ -74,7 +60,7 @@ export function TelemetryPage() {
       <div class="field-head" aria-hidden="true">
         <span>field</span>
         <span>value</span>
-        <span>age against period</span>
+        <span>age</span>
         <span>rate</span>
         <span>least 60 s</span>
         <span>most 60 s</span>
@@ -90,11 +76,10 @@ export function TelemetryPage() {
         aria-activedescendant={`field-${shown[at]?.id}`}
         onScroll={(e) => setTop(e.currentTarget.scrollTop)}
         onKeyDown={(e) => {
-          const page = Math.floor(height / kRowPx) - 1;
           if (e.key === "ArrowDown") go(at + 1);
           else if (e.key === "ArrowUp") go(at - 1);
-          else if (e.key === "PageDown") go(at + page);
-          else if (e.key === "PageUp") go(at - page);
+          else if (e.key === "PageDown") go(at + page - 1);
+          else if (e.key === "PageUp") go(at - page + 1);
           else if (e.key === "Enter" && shown[at]) plot(shown[at].path);
           else return;
           e.preventDefault();

@@ -4,8 +4,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useRef } from "preact/hooks";
 import * as session from "../../store/session";
-import { kDash, valueText } from "../../view/format";
+import { kDash } from "../../view/format";
 import { kDigitsHz, usePainter } from "../../view/painting";
+import { shownDigits } from "../../view/shown_unit";
 import { read, shownMs } from "../../view/timeline";
 import { Value } from "../../view/value";
 import type { FieldInfo } from "../../wire/messages";
@@ -40,8 +41,8 @@ export function FieldRow({ field, row, selected, onOpen }: FieldRowProps) {
       const span = field.labels?.length
         ? null
         : extremes(session.history, slot, shownMs() - kSpanMs);
-      least.textContent = span ? valueText(field, span.least) : kDash;
-      most.textContent = span ? valueText(field, span.most) : kDash;
+      least.textContent = span ? shownDigits(field, span.least) : kDash;
+      most.textContent = span ? shownDigits(field, span.most) : kDash;
     },
     kDigitsHz / 2,
     [slot, field],
@@ -60,8 +61,9 @@ export function FieldRow({ field, row, selected, onOpen }: FieldRowProps) {
       onDragStart={(e) => e.dataTransfer?.setData("text/plain", field.path)}
       onClick={onOpen}
     >
-      <span role="gridcell" class="path">
-        <b>{field.group}</b>.{field.name}
+      <span role="gridcell" class="named">
+        <b>{field.title}</b>
+        <span class="path">{field.path}</span>
       </span>
       <span role="gridcell">
         <Value path={field.path} />

@@ -1,0 +1,50 @@
+// What a benchmark of costs says in its file, in words and by its exit code: all the same, and each
+// verdict as its figures give it.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "protocol/json/json_value.hpp"
+#include "tests/benchmarks/cost/cost_gates.hpp"
+#include "tests/hil/verbs/program_run.hpp"
+
+namespace pitwall::benchmarks {
+
+using verbs::ProgramRun;
+using verbs::Said;
+
+// `limits_us`: by gate, on the reference machine; a gate that is not of time is at most 0 of them.
+inline void expect_one_verdict(const Said& said, const json::JsonValue& file,
+                               const std::map<std::string, double>& limits_us) {
+  bool held = true;
+  std::map<std::string, double> found;
+  for (const json::JsonValue& gate : file.items("gates")) {
+    const std::string what = gate.text("gate");
+    const bool is_cost = gate.find("limit_units") != nullptr;
+    found[what] = is_cost ? gate.number("limit_units") * cost::kReferenceUnit_us : 0.0;
+    if (is_cost) {
+      EXPECT_NEAR(gate.number("units"), gate.number("cost_us") / gate.number("unit_us"), 1e-9);
+      EXPECT_EQ(gate.flag("held"), gate.number("units") <= gate.number("limit_units")) << what;
+      // Within a factor of ten of the reference machine's; or it is no unit, or no machine of ours.
+      EXPECT_GT(gate.number("unit_us"), 0.1 * cost::kReferenceUnit_us) << what;
+    }
+    held = held && gate.flag("held");
+    EXPECT_NE(said.out.find("gate: " + what + ": "), std::string::npos) << said.out;
+  }
+  ASSERT_EQ(found.size(), limits_us.size()) << said.out;
+  for (const auto& [what, limit_us] : limits_us) {
+    ASSERT_TRUE(found.contains(what)) << what;
+    EXPECT_NEAR(found[what], limit_us, 1e-6) << what;
+  }
+  EXPECT_EQ(file.flag("held"), held);
+  EXPECT_EQ(said.code, held ? 0 : 1);
+  EXPECT_EQ(said.out.find("MISSED") == std::string::npos, held) << said.out;
+  EXPECT_NE(file.text("machine"), "");
+  EXPECT_NE(said.out.find(file.text("machine")), std::string::npos) << said.out;
+}
+
+}  // namespace pitwall::benchmarks

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/benchmarks/cost/quantiles.hpp"
+
+#include <algorithm>
+
+namespace pitwall::benchmarks {
+
+Quantiles quantiles_of(std::vector<double> took_us) {
+  if (took_us.empty()) return {};
+  std::sort(took_us.begin(), took_us.end());
+  const auto at = [&took_us](double q) {
+    return took_us[static_cast<std::size_t>(q * static_cast<double>(took_us.size() - 1))];
+  };
+  return {at(0.5), at(0.99), took_us.back(), took_us.size()};
+}
+
+}  // namespace pitwall::benchmarks

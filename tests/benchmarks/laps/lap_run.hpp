@@ -1,0 +1,48 @@
+// One car on one track until it has lapped it, or has left it: what a row of the lap bench holds.
+//   in     scenario of flying laps with its perturbations, the car as prepared for the track
+//   out    LapRow: figures up to the end of the run, or up to the contact, after which a model
+//          means nothing
+//   invariants
+//          lapped: at least two flying laps, no contact, no stop before race control's red
+//   units  m, m/s, s of scenario time
+//   errors Problem of the scenario; a bad run is no error but a row
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "hil/grading/cross_track.hpp"
+#include "hil/scenario/scenario.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/units.hpp"
+#include "vehicle/pipeline/setup.hpp"
+
+namespace pitwall::laps {
+
+enum class Outcome : std::uint8_t {
+  kUnfinished,  // it drove and did not finish its laps in the time given: no verdict
+  kLapped,
+  kContact,  // a corner of the car met a wall
+  kStopped   // the car's own supervisor stopped it
+};
+
+struct LapRow {
+  std::string track, perturbation;
+  Outcome outcome = Outcome::kUnfinished;
+  std::uint32_t laps = 0, flying = 0;
+  double flying_mean_mps = kUnset;  // over all flying laps
+  double speed_max_mps = 0.0;
+  double slip_max_rad = 0.0;  // side slip of the body above 10 m/s
+  grading::CrossTrack cross_track;
+  // Of the contact or of the stop's beginning.
+  double at_s = kUnset, station_m = kUnset, speed_mps = kUnset;
+  std::string cause;  // of a stop, in the supervisor's words
+};
+
+Result<LapRow, Problem> run_laps(const scenario::Scenario& scenario, const pipeline::Setup& setup);
+
+// Whether two runs were the same to the last bit: then what was perturbed did not reach the model.
+bool same_run(const LapRow& a, const LapRow& b);
+
+}  // namespace pitwall::laps

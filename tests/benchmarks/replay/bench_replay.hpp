@@ -1,0 +1,20 @@
+// `pitwall-benchmarks replay`: replay timing beside canplayer and python-can, on the same bus, from
+// the same file, judged by the same recorder. Where this kernel has no CAN, in a guest.
+//
+//   --log FILE      a candump log (default: hil/replay/sample_log, about 2,500 frames a second)
+//   --length S      of the default log (10)         --runs N      of each player (3)
+//   --interface     to play on (vcan0)              --json FILE   everything, for programs
+//   out    a table: quantiles of lateness and gap error, medians over the runs; exit code 1 when a
+//          gate is missed: ours complete and in order, at least 5 times closer to the schedule than
+//          canplayer and twice as close as python-can; 2: it could not run
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace pitwall::benchmarks {
+
+int bench_replay(std::span<const std::string> args);
+
+}  // namespace pitwall::benchmarks

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/benchmarks/replay/match_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "protocol/yaml/strict_map.hpp"
+
+namespace pitwall::benchmarks {
+namespace {
+
+replay::Comparison run_of(double late_us, double gap_us) {
+  const replay::Quantiles late{late_us, 2 * late_us, 3 * late_us, 4 * late_us};
+  const replay::Quantiles gap{gap_us, 2 * gap_us, 3 * gap_us, 4 * gap_us};
+  return {.wanted = 10, .arrived = 10, .in_order = true, .timing = {{late, gap}}};
+}
+
+MatchReport report_of(double ours_us, double canplayer_us, double python_us) {
+  MatchReport report{.frames = 10, .length_s = 1.0, .host_load = "0.1 0.2 0.3", .figures = {}};
+  report.figures.runs = {std::vector{run_of(ours_us, ours_us), run_of(ours_us, ours_us)},
+                         std::vector{run_of(canplayer_us, canplayer_us)},
+                         std::vector{run_of(python_us, python_us)}};
+  return report;
+}
+
+bool all_held(const MatchReport& report) {
+  const auto gates = gates_of(report.figures);
+  return std::all_of(gates.begin(), gates.end(), [](const MatchGate& g) { return g.held(); });
+}
+
+TEST(MatchReport, GatesAreRatiosToThePeers) {
+  EXPECT_TRUE(all_held(report_of(10.0, 51.0, 21.0)));
+  EXPECT_FALSE(all_held(report_of(10.0, 49.0, 21.0)));
+  EXPECT_FALSE(all_held(report_of(10.0, 51.0, 19.0)));
+}
+
+TEST(MatchReport, SpeedDoesNotExcuseALostFrame) {
+  MatchReport report = report_of(1.0, 100.0, 100.0);
+  ASSERT_TRUE(all_held(report));
+  report.figures.runs[kOurs][1].lost = 1;
+  EXPECT_FALSE(all_held(report));
+  report = report_of(1.0, 100.0, 100.0);
+  report.figures.runs[kOurs][0].in_order = false;
+  EXPECT_FALSE(all_held(report));
+  EXPECT_NE(to_text(report).find("LOST"), std::string::npos);
+}
+
+TEST(MatchReport, WhatCannotBeFormedIsMissed) {
+  MatchReport report = report_of(1.0, 100.0, 100.0);
+  report.figures.runs[kCanplayer][0].timing.reset();
+  EXPECT_FALSE(all_held(report));
+  report.figures.runs[kCanplayer].clear();
+  EXPECT_FALSE(all_held(report));
+  EXPECT_FALSE(all_held(report_of(0.0, 100.0, 100.0)));  // nothing is that good
+}
+
+TEST(MatchReport, TextAndJsonSayTheSame) {
+  const MatchReport report = report_of(10.0, 60.0, 30.0);
+  EXPECT_EQ(to_text(report).find("MISSED"), std::string::npos);
+  const auto json = yaml::load_text(to_json(report), "json");
+  ASSERT_TRUE(json) << to_string(json.error());
+  yaml::StrictMap map = json->root();
+  EXPECT_TRUE(map.flag("held"));
+  EXPECT_EQ(map.integer("frames", 0, 99), 10);
+  EXPECT_EQ(map.text("host_load"), "0.1 0.2 0.3");
+}
+
+}  // namespace
+}  // namespace pitwall::benchmarks

@@ -1,0 +1,45 @@
+// Three players, one log, one bus: each plays the same file in a process of its own, and the bus is
+// recorded beside it without disturbing it.
+//
+//   recorder   a socket whose buffer holds the whole run; emptied after it. Frames carry the
+//              kernel's stamps, taken as they pass the interface, so nobody has to be awake
+//   players    ours as it is shipped; canplayer and python-can as their users start them
+//   order      a warm-up of each, then run by run, each time another one first
+//
+//   in     the log (also as a file), an interface that exists
+//   out    one Comparison per player and run; how late this machine's own sleeps are
+//   errors Problem: a player that is missing, fails or does not end; a recorder that lost frames
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "hil/replay/candump_log.hpp"
+#include "hil/replay/compare.hpp"
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::benchmarks {
+
+inline constexpr std::size_t kPlayers = 3;
+enum PlayerIndex : std::size_t { kOurs, kCanplayer, kPythonCan };
+inline constexpr std::array<const char*, kPlayers> kPlayerNames{"pitwall-hil", "canplayer",
+                                                                "python-can"};
+
+struct MatchPlan {
+  std::string log_file;  // ends in .log: python-can goes by that
+  std::string folder;    // for what is written on the way
+  std::string interface = "vcan0";
+  int runs = 3;
+};
+
+struct MatchFigures {
+  std::array<std::vector<replay::Comparison>, kPlayers> runs;
+  replay::Quantiles noise_floor;  // lateness of sleeps to absolute deadlines, SCHED_FIFO if granted
+  std::string own_report;         // JSON that our player wrote about its last run
+};
+
+Result<MatchFigures, Problem> play_match(const MatchPlan& plan, const replay::CandumpLog& log);
+
+}  // namespace pitwall::benchmarks
