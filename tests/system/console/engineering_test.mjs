@@ -162,7 +162,12 @@ test("new lines do not move what is read further down", async () => {
   await page.waitForTimeout(200);
   assert.deepEqual(await page.evaluate(topRow), before);
   await page.evaluate(() => (document.querySelector(".event-box").scrollTop = 0));
-  await until(page, "the newest", () => document.querySelector(".event-row .what"));
+  // Only when the page has seen the scrolling does its top follow what comes in.
+  await until(
+    page,
+    "the newest",
+    () => document.querySelector(".event-row .what").textContent === "later 20",
+  );
   stage.double.say(car(stage.double.nowMs() + 1, "the newest"));
   await counted(page, `${all + 21} of ${all + 21}`);
   assert.match((await page.evaluate(topRow))[0], /the newest$/);

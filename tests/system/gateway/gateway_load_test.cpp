@@ -159,7 +159,8 @@ TEST(GatewayLoad, NothingIsLostAndWhatIsLeftOutIsReported) {
     expect_nothing_lost(outcome.loss);
     return expect_every_omission_reported(outcome.loss);
   }
-  GTEST_SKIP() << "every loss was counted; losses and reports of omissions are not judged, as a receiver woke "
+  GTEST_SKIP() << "every loss was counted; losses and reports of omissions are not judged, as a "
+                  "receiver woke "
                << woke_us / 1e3 << " ms late, " << kWakeLimit_us / 1e3 << " may be";
 }
 
