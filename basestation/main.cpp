@@ -164,8 +164,8 @@ int play(const Arguments& arguments) {
 }
 
 // What else shows or keeps what a car says.
-Result<bool, Problem> attach_outlets(Sessions& sessions, web::WebServer* server,
-                                     publishers::metrics::Board& board) {
+Result<bool, Problem> attach_publishers(Sessions& sessions, web::WebServer* server,
+                                        publishers::metrics::Board& board) {
   for (std::size_t car = 0; car < sessions.size(); ++car) {
     const auto attached = session::attach_tools(*sessions[car],
                                                 {.car = car,
@@ -207,9 +207,9 @@ void serve(const Arguments& arguments, const Sessions& sessions, web::WebServer*
   std::optional<session::Roster> roster;
   if (server != nullptr) {
     roster.emplace(*server, [&sessions] {
-      std::vector<session::CarSight> sights;
-      for (const auto& car : sessions) sights.push_back(car->sight());
-      return sights;
+      std::vector<session::CarStatus> statuses;
+      for (const auto& car : sessions) statuses.push_back(car->status());
+      return statuses;
     });
     tasks.push_back(&*roster);
   }
@@ -237,7 +237,7 @@ int run(const Arguments& arguments, std::vector<session::Plan> plans) {
     if (!begun) return complain(kFailed, begun.error());
   }
   const auto recordings = server ? list_recordings(arguments, *server) : nullptr;
-  const auto attached = attach_outlets(sessions, server.get(), board);
+  const auto attached = attach_publishers(sessions, server.get(), board);
   if (!attached) return complain(kFailed, attached.error());
   if (const auto taken = transport::take_turns(); !taken) return complain(kFailed, taken.error());
   serve(arguments, sessions, server.get(), stop.get());

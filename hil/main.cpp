@@ -8,16 +8,16 @@
 #include <string_view>
 #include <vector>
 
-#include "hil/guest/bus_verb.hpp"
+#include "hil/can_bus/bus_verb.hpp"
+#include "hil/cli/dbc_verb.hpp"
+#include "hil/cli/demo_verb.hpp"
+#include "hil/cli/exit_code.hpp"
+#include "hil/cli/faults_verb.hpp"
+#include "hil/cli/report_verb.hpp"
+#include "hil/cli/run_verb.hpp"
+#include "hil/cli/serve_verb.hpp"
+#include "hil/cli/track_verb.hpp"
 #include "hil/replay/replay_verb.hpp"
-#include "hil/verbs/dbc_verb.hpp"
-#include "hil/verbs/demo_verb.hpp"
-#include "hil/verbs/desk_verb.hpp"
-#include "hil/verbs/exit_code.hpp"
-#include "hil/verbs/faults_verb.hpp"
-#include "hil/verbs/report_verb.hpp"
-#include "hil/verbs/run_verb.hpp"
-#include "hil/verbs/track_verb.hpp"
 
 namespace pitwall {
 namespace {
@@ -28,18 +28,17 @@ struct Verb {
 };
 
 constexpr std::array kVerbs{
-    Verb{"run", "run SCENARIO in lockstep or live (--live)", verbs::run_verb},
-    Verb{"demo", "the whole system: car, bench and base station on real SocketCAN",
-         verbs::demo_verb},
-    Verb{"desk", "starts scenarios for who asks at a socket, and tells how they go",
-         verbs::desk_verb},
-    Verb{"report", "the page of a run (HTML, JUnit) from its event log", verbs::report_verb},
+    Verb{"run", "run SCENARIO in lockstep or live (--live)", cli::run_verb},
+    Verb{"demo", "the whole system: car, bench and base station on real SocketCAN", cli::demo_verb},
+    Verb{"serve", "starts scenarios for who asks at a socket, and tells how they go",
+         cli::serve_verb},
+    Verb{"report", "the page of a run (HTML, JUnit) from its event log", cli::report_verb},
     Verb{"replay", "replay a candump log onto a CAN interface", replay::replay_verb},
-    Verb{"dbc", "CAN databases: check, show, diff", verbs::dbc_verb},
-    Verb{"bus", "CAN interfaces: from this kernel or from a guest", guest::bus_verb},
+    Verb{"dbc", "CAN databases: check, show, diff", cli::dbc_verb},
+    Verb{"bus", "CAN interfaces: from this kernel or from a guest", can_bus::bus_verb},
     Verb{"faults", "every fault of the catalogue: who notices it, how fast, and the outcome",
-         verbs::faults_verb},
-    Verb{"track", "tracks: check, import from a CSV, picture", verbs::track_verb},
+         cli::faults_verb},
+    Verb{"track", "tracks: check, import from a CSV, picture", cli::track_verb},
 };
 
 int usage(std::FILE* out, int code) {
@@ -57,10 +56,10 @@ int usage(std::FILE* out, int code) {
 int main(int argc, char** argv) {
   using namespace pitwall;  // NOLINT: the whole program
   const std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.empty()) return usage(stderr, verbs::kExitUnusable);
-  if (words[0] == "--help" || words[0] == "help") return usage(stdout, verbs::kExitPass);
+  if (words.empty()) return usage(stderr, cli::kExitUnusable);
+  if (words[0] == "--help" || words[0] == "help") return usage(stdout, cli::kExitPass);
   for (const Verb& verb : kVerbs)
     if (words[0] == verb.name) return verb.run(std::span(words).subspan(1));
   std::fprintf(stderr, "pitwall-hil: error: unknown verb \"%s\"\n", words[0].c_str());
-  return usage(stderr, verbs::kExitUnusable);
+  return usage(stderr, cli::kExitUnusable);
 }

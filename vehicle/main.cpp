@@ -14,20 +14,20 @@
 #include "protocol/transport/process.hpp"
 #include "protocol/transport/realtime.hpp"
 #include "vehicle/gateway/bus_identity.hpp"
-#include "vehicle/io/arguments.hpp"
+#include "vehicle/io/arguments/arguments.hpp"
 #include "vehicle/io/black_box.hpp"
 #include "vehicle/io/computer_watch.hpp"
 #include "vehicle/io/guarded.hpp"
 #include "vehicle/io/ingress/sensor_ingress.hpp"
-#include "vehicle/io/local_report.hpp"
 #include "vehicle/io/radio.hpp"
-#include "vehicle/io/radio_summary.hpp"
+#include "vehicle/io/report/local_report.hpp"
+#include "vehicle/io/report/radio_summary.hpp"
+#include "vehicle/io/report/tally.hpp"
 #include "vehicle/io/rim.hpp"
 #include "vehicle/io/station_addresses.hpp"
-#include "vehicle/io/tally.hpp"
 #include "vehicle/parameters/car_file.hpp"
 #include "vehicle/parameters/track_file.hpp"
-#include "vehicle/pipeline/radio_desk.hpp"
+#include "vehicle/pipeline/radio_adapter.hpp"
 #include "vehicle/pipeline/step.hpp"
 #include "vehicle/pipeline/telemetry_tap.hpp"
 #include "vehicle/pipeline/tick_log.hpp"
@@ -85,7 +85,7 @@ class Drive {
       : setup_(setup),
         args_(args),
         parts_(std::move(parts)),
-        desk_(car_text),
+        adapter_(car_text),
         car_(std::make_unique<pipeline::Car>()),
         log_(std::make_unique<pipeline::TickLog>()) {}
 
@@ -94,7 +94,7 @@ class Drive {
       return refuse(taken.error()), kExitFailed;
     transport::Ticker ticker{setup_.params.rates.tick};
     last_ = transport::monotonic_now() - setup_.params.rates.tick;
-    while (!stop.raised() && !desk_.end_asked()) tick(ticker.next());
+    while (!stop.raised() && !adapter_.end_asked()) tick(ticker.next());
     parts_.guarded.finish();
     return leave_summary();
   }
@@ -115,9 +115,9 @@ class Drive {
                         .guardian = parts_.guarded.view(now),
                         .computer = computer(),
                         .last_run_armed = parts_.guarded.barred()};
-    if (parts_.radio) desk_.fill(parts_.radio->endpoint(), in);
+    if (parts_.radio) adapter_.fill(parts_.radio->endpoint(), in);
     const pipeline::Outputs out = pipeline::step(setup_, *car_, in);
-    parts_.guarded.tell(setup_, *car_, out, out.requests.reset, now);
+    parts_.guarded.publish(setup_, *car_, out, out.requests.reset, now);
     parts_.rim.write(out.passed.frames.span(), now);
     parts_.box.can(heard.can, out.passed.frames.span(), now);
     if (out.bus_guard.restart_now) parts_.rim.restart_bus();
@@ -125,7 +125,7 @@ class Drive {
     last_ = now;
     log_->note(in, out, setup_.track.length_m());
     note(out);
-    if (parts_.radio) desk_.take(parts_.radio->endpoint(), setup_, *car_, out, now);
+    if (parts_.radio) adapter_.take(parts_.radio->endpoint(), setup_, *car_, out, now);
     if (parts_.radio) tell_radio(now);
     speak(out, transport::monotonic_now());
   }
@@ -161,7 +161,7 @@ class Drive {
       counters.receivers[unit] = parts_.rim.receivers()[unit].traffic();
     show_computer(counters);
     if (parts_.sensors) show_sensors(counters, now);
-    if (parts_.radio) desk_.show(parts_.radio->endpoint(), counters, now);
+    if (parts_.radio) adapter_.show(parts_.radio->endpoint(), counters, now);
     const telemetry::Snapshot snapshot = pipeline::tap(
         {.setup = setup_, .car = *car_, .out = out, .log = *log_, .rim = counters, .now = now});
     if (report_due) parts_.report.send(snapshot, now);
@@ -205,7 +205,7 @@ class Drive {
   // For the operator at the car, who may have no base to look at: attacks and key errors that the
   // car sees, and a base that never answers.
   void tell_radio(Instant now) {
-    for (const telemetry::ThreatChange& change : desk_.threats()) {
+    for (const telemetry::ThreatChange& change : adapter_.threats()) {
       std::array<char, telemetry::kThreatLine> text{};
       const std::string_view line = telemetry::write_line(change, false, text);
       std::fprintf(stderr, "pitwall-vehicle: %.*s\n", static_cast<int>(line.size()), line.data());
@@ -242,7 +242,7 @@ class Drive {
   const pipeline::Setup& setup_;
   const io::Arguments& args_;
   Parts parts_;
-  pipeline::RadioDesk desk_;
+  pipeline::RadioAdapter adapter_;
   std::unique_ptr<pipeline::Car> car_;
   std::unique_ptr<pipeline::TickLog> log_;
   io::StepTally tally_;

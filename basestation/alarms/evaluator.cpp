@@ -94,9 +94,9 @@ Result<bool, Problem> Evaluator::take(const EvaluatorInput& input) {
 
 void Evaluator::step(const state::VehicleState& vehicle, Instant now) {
   const state::Course* const course = course_ ? &*course_ : nullptr;
-  books_.step(vehicle, known_, now);
-  books_.step_race(vehicle, params_.fuel, course, now);
-  state::derive(params_, vehicle, known_, books_, course, now, views_);
+  monitors_.step(vehicle, known_, now);
+  monitors_.step_race(vehicle, params_.fuel, course, now);
+  state::derive(params_, vehicle, known_, monitors_, course, now, views_);
   for (AlarmIndex i = 0; i < readings_.size(); ++i) {
     const state::FieldView seen = view(vehicle, alarm_row(i).field, now);
     readings_[i] = {.value = seen.value, .usable = state::usable(seen) && !std::isnan(seen.value)};
@@ -105,7 +105,7 @@ void Evaluator::step(const state::VehicleState& vehicle, Instant now) {
   const state::LinkFigures& link = known_.link;
   const double mode = vehicle.view(field("mode.mode"), now).value;
   notices_.step(
-      {.state = books_.link.state(),
+      {.state = monitors_.link.state(),
        .silence = link.heard ? now - *link.heard : Duration{},
        .loss = std::fmax(link.down_loss, link.up_loss),
        .round_trip_ms = link.round_trip_ms,
@@ -120,7 +120,7 @@ Situations Evaluator::situations(const state::VehicleState& vehicle, Instant now
   constexpr double kDisarmedMode = 0.0, kStanding_mps = 1.0;
   const auto value = [&](telemetry::FieldIndex index) { return vehicle.view(index, now).value; };
   Situations so;
-  so.set(kLinkLost, books_.link.state() == state::LinkState::kLost);
+  so.set(kLinkLost, monitors_.link.state() == state::LinkState::kLost);
   so.set(kDisarmed, value(field("mode.mode")) == kDisarmedMode);
   so.set(kEngineOff, !(value(field("engine.running")) > 0.0));
   so.set(kStanding, std::abs(value(field("ego.vx"))) < kStanding_mps);

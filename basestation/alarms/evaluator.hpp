@@ -1,12 +1,12 @@
-// The base's judgement of all that it knows: derived fields, alarms, notices. One object, stepped
-// with time, told what changes; no clock of its own.
+// Alarm evaluator: derived fields, alarms and notices of one car. Stepped with time and given each
+// change; it has no clock of its own.
 //   in     the vehicle state, figures of link and base, expectations, operators' acts
 //   out    views of every field with a judgement, the list of alarms, drafts for race control
 //   invariants
-//          it is stepped at whole multiples of kGrid, whatever the caller's rhythm: advance(t)
-//          makes every step up to t with what was known until then. So the same changes at the same
-//          times give the same alarms, however often anybody asked: live, in replay, in a test.
-//          Whoever changes something therefore calls advance() with the time of the change first
+//          advance(t) makes a step at every multiple of kGrid up to t, with what was known until
+//          then. So the same changes at the same times give the same alarms, however often
+//          advance() is called: live, in replay, in a test. Before a change the caller calls
+//          advance() with the time of the change
 //   errors acts as Engine has them
 //   cost   a step is some microseconds and allocates nothing while no alarm comes or goes
 //
@@ -68,9 +68,9 @@ class Evaluator {
   const Limits& limits() const { return limits_; }
   const state::Known& known() const { return known_; }
   const std::optional<state::Course>& course() const { return course_; }
-  state::LinkState link_state() const { return books_.link.state(); }
-  Instant link_since() const { return books_.link.since(); }
-  state::FuelLeft fuel() const { return books_.fuel_left(params_.fuel); }
+  state::LinkState link_state() const { return monitors_.link.state(); }
+  Instant link_since() const { return monitors_.link.since(); }
+  state::FuelLeft fuel() const { return monitors_.fuel_left(params_.fuel); }
   const state::DeriveParams& params() const { return params_; }  // as the file has them
   const state::TyreGate& tyre_gate() const { return params_.tyres; }
 
@@ -92,7 +92,7 @@ class Evaluator {
   Engine engine_;
   std::optional<state::Course> course_;
   state::Known known_;
-  state::Books books_;
+  state::MonitorState monitors_;
   Notices notices_;
   state::BaseViews views_{};
   std::vector<Reading> readings_;  // kept for its storage

@@ -195,15 +195,17 @@ Result<bool, Problem> Limits::edit(const LimitEdit& edit) {
   if (!state::is_field(edit.field)) return Unexpected{Problem{"limit", "no such field"}};
   const std::string place = state::path_of(edit.field);
   const Limit& limit = edit.limit;
-  if (edit.author.empty()) return Unexpected{Problem{place, "who changes a limit has a name"}};
+  if (edit.author.empty())
+    return Unexpected{Problem{place, "expected the name of who changes the limit"}};
   if (!finite_or_unset(limit.warning_low) || !finite_or_unset(limit.warning_high) ||
       !finite_or_unset(limit.bad_low) || !finite_or_unset(limit.bad_high)) {
-    return Unexpected{Problem{place, "a limit is a number"}};
+    return Unexpected{Problem{place, "expected a number"}};
   }
   if (!in_order(limit.bad_low, limit.warning_low) ||
       !in_order(limit.warning_low, limit.warning_high) ||
       !in_order(limit.warning_high, limit.bad_high) || !in_order(limit.bad_low, limit.bad_high)) {
-    return Unexpected{Problem{place, "bad_low <= warning_low <= warning_high <= bad_high"}};
+    return Unexpected{
+        Problem{place, "expected bad_low <= warning_low <= warning_high <= bad_high"}};
   }
   (state::is_base(edit.field) ? base_[state::index_of(state::base_field(edit.field))]
                               : car_[edit.field]) = limit;

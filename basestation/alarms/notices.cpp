@@ -2,9 +2,10 @@
 #include "basestation/alarms/notices.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
+
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::alarms {
 namespace {
@@ -13,9 +14,7 @@ constexpr double kPercent = 100.0;
 
 // The number with so many digits after the point, and its unit.
 std::string number(double value, int digits, const char* unit) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.*f %s", digits, value, unit);
-  return text.data();
+  return formatted("%.*f %s", digits, value, unit);
 }
 
 std::string figures(const LinkEvidence& link) {

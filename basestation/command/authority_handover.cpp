@@ -19,8 +19,8 @@ void AuthorityHandover::hold(const Person& who) {
 
 Result<bool, Problem> AuthorityHandover::take(const Person& who, Instant now) {
   advance(now);
-  if (desk_->holder(now) == who.console) return renew(who, now);
-  if (!desk_->take(who.console, now)) {
+  if (authority_->holder(now) == who.console) return renew(who, now);
+  if (!authority_->take(who.console, now)) {
     return say(who, "takes the authority", "somebody else holds it: ask for it", now);
   }
   waiting_.reset();  // who asked the one before asks the new one, if at all
@@ -30,16 +30,16 @@ Result<bool, Problem> AuthorityHandover::take(const Person& who, Instant now) {
 
 Result<bool, Problem> AuthorityHandover::renew(const Person& who, Instant now) {
   advance(now);
-  if (desk_->renew(who.console, now)) return true;
+  if (authority_->renew(who.console, now)) return true;
   return Unexpected{Problem{"console " + std::to_string(who.console), "does not hold it"}};
 }
 
 Result<bool, Problem> AuthorityHandover::drop(const Person& who, Instant now) {
   advance(now);
-  if (desk_->holder(now) != who.console) {
+  if (authority_->holder(now) != who.console) {
     return say(who, "drops the authority", "does not hold it", now);
   }
-  desk_->drop(who.console, now);
+  authority_->drop(who.console, now);
   hold({});
   const auto said = say(who, "drops the authority", nullptr, now);
   if (waiting_) give(now);
@@ -48,7 +48,7 @@ Result<bool, Problem> AuthorityHandover::drop(const Person& who, Instant now) {
 
 Result<bool, Problem> AuthorityHandover::request(const Person& who, Instant now) {
   advance(now);
-  const telemetry::HolderId holder = desk_->holder(now);
+  const telemetry::HolderId holder = authority_->holder(now);
   if (holder == 0) return take(who, now);
   if (holder == who.console) {
     return say(who, "asks for the authority", "holds it already", now);
@@ -81,7 +81,7 @@ Result<bool, Problem> AuthorityHandover::refuse(const Person& who, Instant now) 
 
 const char* AuthorityHandover::why_not_answer(const Person& who, Instant now) {
   advance(now);
-  if (desk_->holder(now) != who.console) return "does not hold it";
+  if (authority_->holder(now) != who.console) return "does not hold it";
   return waiting_ ? nullptr : "nobody asks for it";
 }
 
@@ -94,7 +94,7 @@ void AuthorityHandover::left(const Person& who, Instant now) {
 }
 
 void AuthorityHandover::advance(Instant now) {
-  const bool held = desk_->holder(now) != 0;
+  const bool held = authority_->holder(now) != 0;
   if (person_.console != 0 && !held) {
     audit_->add(now, person_.name, "held the authority", "expired");
     hold({});
@@ -107,9 +107,9 @@ void AuthorityHandover::advance(Instant now) {
 void AuthorityHandover::give(Instant now) {
   const Person to = waiting_->by;
   waiting_.reset();
-  const telemetry::HolderId from = desk_->holder(now);
+  const telemetry::HolderId from = authority_->holder(now);
   const bool given =
-      from == 0 ? desk_->take(to.console, now) : desk_->hand_over(from, to.console, now);
+      from == 0 ? authority_->take(to.console, now) : authority_->hand_over(from, to.console, now);
   if (given) hold(to);
   audit_->add(now, to.name, "is given the authority", given ? "done" : "refused");
 }

@@ -5,7 +5,7 @@
 //          a free authority is taken at once. A held one is asked for: its holder has kAnswer to
 //          refuse; who says nothing has granted. One request waits at a time; the holder's expiry
 //          grants it at once, his renewals do not refuse it
-//          renewing, dropping and expiry are telemetry::AuthorityDesk's
+//          renewing, dropping and expiry are telemetry::AuthorityRegister's
 //   errors Problem with the console as place: somebody else holds it, nobody asked, not the holder
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -29,7 +29,8 @@ class AuthorityHandover {
  public:
   static constexpr Duration kAnswer = seconds(5);
 
-  AuthorityHandover(telemetry::AuthorityDesk& desk, Audit& audit) : desk_(&desk), audit_(&audit) {}
+  AuthorityHandover(telemetry::AuthorityRegister& authority, Audit& audit)
+      : authority_(&authority), audit_(&audit) {}
 
   Result<bool, Problem> take(const Person& who, Instant now);
   Result<bool, Problem> renew(const Person& who, Instant now);  // leaves no line
@@ -41,7 +42,7 @@ class AuthorityHandover {
   void left(const Person& who, Instant now);
   void advance(Instant now);  // before anything is shown
 
-  telemetry::HolderId holder(Instant now) const { return desk_->holder(now); }
+  telemetry::HolderId holder(Instant now) const { return authority_->holder(now); }
   const Person& holder_person() const { return person_; }  // of the newest holder
   const std::optional<AuthorityRequest>& waiting() const { return waiting_; }
   // It expired, and nobody has taken, dropped or handed it over since.
@@ -56,7 +57,7 @@ class AuthorityHandover {
   void hold(const Person& who);
   void give(Instant now);
 
-  telemetry::AuthorityDesk* desk_;
+  telemetry::AuthorityRegister* authority_;
   Audit* audit_;
   Person person_;
   std::optional<AuthorityRequest> waiting_;

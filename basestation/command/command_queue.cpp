@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "basestation/command/value_text.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::command {
 namespace {
@@ -19,10 +19,8 @@ std::string words(const telemetry::Command& command) {
   const telemetry::CommandRow& row = telemetry::row_of(command.type);
   const bool named = !row.labels.empty() && !row.is_set() && row.has(command.argument);
   if (named) return std::string{row.name} + " " + label(row.labels, command.argument);
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%g", command.argument);
-  return std::string{row.name} + " " + text.data() + (row.unit.empty() ? "" : " ") +
-         std::string{row.unit};
+  return std::string{row.name} + formatted(" %g", command.argument) +
+         (row.unit.empty() ? "" : " ") + std::string{row.unit};
 }
 
 // Why this override does not do; empty where it does.

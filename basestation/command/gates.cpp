@@ -219,10 +219,15 @@ class Judge {
         "race control shows " + word);
   }
 
+  // The car opens its latch by its own judgement, which waits until it has stood for a while.
   void standing() {
+    const FieldView stands = see(field("wheels.standstill"));
     const FieldView speed = see(field("ego.vx"));
-    add(GateKind::kStanding, speed, std::abs(speed.value) <= params_.standing_mps, {.unit = "m/s"},
-        number(speed.value, "m/s") + ", at most " + number(params_.standing_mps, "m/s"));
+    const bool denied = state::usable(stands) && stands.value == 0.0;
+    add(GateKind::kStanding, speed, !denied && std::abs(speed.value) <= params_.standing_mps,
+        {.unit = "m/s"},
+        denied ? "the car does not report a standstill yet"
+               : number(speed.value, "m/s") + ", at most " + number(params_.standing_mps, "m/s"));
   }
 
   const telemetry::Command& command_;

@@ -1,6 +1,6 @@
 // Requests of operators: all that a console, the command socket or a script can ask of one car's
 // service. Who sends one is a Person beside it.
-//   invariants  numbers are in their ranges and names are resolved by who reads the text
+//   invariants  whoever parses the text has checked the ranges and resolved the names
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -2,11 +2,12 @@
 #include "basestation/command/request_executor.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <utility>
 #include <variant>
+
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::command {
 namespace {
@@ -18,11 +19,7 @@ using Done = Result<bool, Problem>;
 constexpr double kDisarmedMode = 0.0;
 constexpr const char* kNotHolding = "you do not hold the authority";
 
-std::string quantity(double value, const char* unit) {
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), "%.1f %s", value, unit);
-  return text.data();
-}
+std::string quantity(double value, const char* unit) { return formatted("%.1f %s", value, unit); }
 
 Unexpected<Problem> refusal(const char* place, const char* why) {
   return Unexpected{Problem{place, why}};

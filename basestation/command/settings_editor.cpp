@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "basestation/command/settings_editor.hpp"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
+
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::command {
 namespace {
@@ -13,9 +13,7 @@ using Done = Result<bool, Problem>;
 
 std::string in_figures(double value) {
   if (std::isnan(value)) return "none";
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%g", value);
-  return text.data();
+  return formatted("%g", value);
 }
 
 // " limit 0.08 -> 0.1" where it changes.
@@ -98,7 +96,7 @@ Done SettingsEditor::change_budget(const Said& said, double up_kbit_s) {
   if (const auto may = allowed(said, "budget"); !may) return note(said, what, may);
   if (!(up_kbit_s >= budget_.least && up_kbit_s <= budget_.most)) {
     return note(said, what,
-                Unexpected{Problem{"budget", "from " + in_figures(budget_.least) + " to " +
+                Unexpected{Problem{"budget", "expected " + in_figures(budget_.least) + " to " +
                                                  in_figures(budget_.most) + " kbit/s"}});
   }
   auto done = save(evaluator_->limits(), evaluator_->alarms().settings(), up_kbit_s);
@@ -110,7 +108,7 @@ Done SettingsEditor::allowed(const Said& said, const std::string& place) const {
   if (!said.holds_authority) {
     return Unexpected{Problem{place, "you do not hold the authority"}};
   }
-  if (said.reason.empty()) return Unexpected{Problem{place, "a change has a reason"}};
+  if (said.reason.empty()) return Unexpected{Problem{place, "expected a reason for the change"}};
   return true;
 }
 

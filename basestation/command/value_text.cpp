@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "basestation/command/value_text.hpp"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "protocol/telemetry/registry/labels.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::command {
 
 std::string number(double value, const char* unit) {
   if (std::isnan(value)) return "no data";
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.1f%s%s", value, *unit == '\0' ? "" : " ", unit);
-  return text.data();
+  return formatted("%.1f%s%s", value, *unit == '\0' ? "" : " ", unit);
 }
 
 std::string label(std::string_view labels, double value) {

@@ -27,7 +27,7 @@ Result<CommandScript, Problem> CommandScript::parse(std::string_view text,
     double at_s = -1.0;
     const auto [rest, error] = std::from_chars(line.data(), line.data() + line.size(), at_s);
     if (error != std::errc{} || !(at_s >= 0.0 && at_s <= kLatest_s)) {
-      return Unexpected{Problem{here, "begins with seconds, 0 or more"}};
+      return Unexpected{Problem{here, "expected seconds, 0 or more, at the beginning"}};
     }
     const std::string words{line.substr(static_cast<std::size_t>(rest - line.data()))};
     if (const auto checked = parse_text_command(words); !checked) {
@@ -35,7 +35,7 @@ Result<CommandScript, Problem> CommandScript::parse(std::string_view text,
     }
     const Duration at = from_seconds(at_s);
     if (!script.lines_.empty() && at < script.lines_.back().at) {
-      return Unexpected{Problem{here, "earlier than the line before"}};
+      return Unexpected{Problem{here, "its time is before that of the line above"}};
     }
     script.lines_.push_back({at, words});
   }

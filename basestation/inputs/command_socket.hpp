@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "basestation/inputs/text_operator.hpp"
-#include "protocol/transport/line_socket.hpp"
+#include "protocol/transport/stream/line_socket.hpp"
 
 namespace pitwall::inputs {
 

@@ -36,7 +36,7 @@ std::vector<std::int32_t> numbers_of(std::string_view text) {
 }
 
 Result<JoystickAxis, Problem> axis_of(std::string_view entry, std::span<const std::int32_t> from) {
-  if (from.size() != 3) return refuse(entry, "an axis is CODE:RELEASED:PRESSED");
+  if (from.size() != 3) return refuse(entry, "expected CODE:RELEASED:PRESSED");
   if (from[0] < 0 || from[0] > ABS_MAX) return refuse(entry, "no such axis");
   if (from[1] == from[2]) return refuse(entry, "released and pressed are the same value");
   return JoystickAxis{static_cast<std::uint16_t>(from[0]), from[1], from[2]};
@@ -52,7 +52,7 @@ Result<JoystickMapping, Problem> JoystickMapping::parse(std::string_view text) {
     const std::string_view entry = text.substr(0, text.find(','));
     text.remove_prefix(std::min(text.size(), entry.size() + 1));
     const std::size_t equals = entry.find('=');
-    if (equals == std::string_view::npos) return refuse(entry, "NAME=NUMBERS is expected");
+    if (equals == std::string_view::npos) return refuse(entry, "expected NAME=NUMBERS");
     const std::string_view name = entry.substr(0, equals);
     const auto numbers = numbers_of(entry.substr(equals + 1));
     if (name == "enable") {
@@ -64,7 +64,7 @@ Result<JoystickMapping, Problem> JoystickMapping::parse(std::string_view text) {
       if (!axis) return Unexpected{axis.error()};
       (name == "lift" ? mapping.lift : mapping.brake) = *axis;
     } else {
-      return refuse(entry, "one of lift, brake, enable is expected");
+      return refuse(entry, "expected one of: lift, brake, enable");
     }
   }
   if (mapping.lift.code == mapping.brake.code) {

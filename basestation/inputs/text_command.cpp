@@ -11,6 +11,7 @@
 #include "basestation/inputs/text_operator.hpp"
 #include "protocol/telemetry/registry/labels.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::inputs {
 namespace {
@@ -82,9 +83,8 @@ std::optional<double> argument_of(const telemetry::CommandRow& row, std::string_
 std::string expected_argument(const telemetry::CommandRow& row) {
   if (!row.labels.empty())
     return (row.is_set() ? "the sum of bits, or one of " : "one of ") + std::string{row.labels};
-  std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "a number from %g to %g", row.min, row.max);
-  return text.data() + (row.unit.empty() ? "" : " " + std::string{row.unit});
+  return formatted("a number from %g to %g", row.min, row.max) +
+         (row.unit.empty() ? "" : " " + std::string{row.unit});
 }
 
 Parsed parse_sensor(std::string_view line, const Words& words, bool exclude) {

@@ -7,8 +7,8 @@
 
 #include <string>
 
+#include "protocol/telemetry/session/crypto/keys.hpp"
 #include "protocol/telemetry/session/key_log.hpp"
-#include "protocol/telemetry/session/keys.hpp"
 #include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::link {

@@ -33,7 +33,7 @@ class Station {
   // Loss by place is told by sections of this length from the start line.
   static constexpr double kSection_m = 200.0;
 
-  Station(const telemetry::ConduitConfig& config, telemetry::Randomness& randomness)
+  Station(const telemetry::LinkEndpointConfig& config, telemetry::Randomness& randomness)
       : endpoint_(config, randomness), paths_(config.association.paths) {}
 
   // True: an authentic packet of the car that was not had before.

@@ -28,7 +28,7 @@ class History {
   History(const recorder::ClockMap& clock, Instant from, Instant to, Listener& listener)
       : clock_(clock), from_(from), to_(to), listener_(listener) {}
 
-  void tell(const std::string& path) {
+  void publish(const std::string& path) {
     const auto file = transport::read_file(path);
     if (!file) return out_.problems.push_back(to_string(file.error()));
     const auto clock = clock_for(as_bytes(*file), clock_);
@@ -82,7 +82,7 @@ ReadBack read_back(const std::string& folder, const recorder::ClockMap& clock, I
   if (!paths) return none;
   History history{clock, now - span, now, listener};
   for (std::size_t i = first_needed(*paths, clock, now - span); i < paths->size(); ++i) {
-    history.tell((*paths)[i]);
+    history.publish((*paths)[i]);
   }
   return history.result();
 }

@@ -51,7 +51,7 @@ const char* mode_text(link::Station::Source source) {
   return "NONE";
 }
 
-CarService::CarService(ServiceConfig config, const telemetry::ConduitConfig& radio,
+CarService::CarService(ServiceConfig config, const telemetry::LinkEndpointConfig& radio,
                        telemetry::Randomness& randomness)
     : config_(std::move(config)),
       station_(radio, randomness),

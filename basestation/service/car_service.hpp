@@ -55,7 +55,7 @@ const char* mode_text(link::Station::Source source);
 
 class CarService {
  public:
-  CarService(ServiceConfig config, const telemetry::ConduitConfig& radio,
+  CarService(ServiceConfig config, const telemetry::LinkEndpointConfig& radio,
              telemetry::Randomness& randomness);
   CarService(const CarService&) = delete;
   CarService& operator=(const CarService&) = delete;

@@ -190,7 +190,7 @@ Result<bool, Problem> CarSession::write_summary() {
                                publishers::json_summary(*service_, now, transport::bench_pause()));
 }
 
-CarSight CarSession::sight() const {
+CarStatus CarSession::status() const {
   return {.number = plan_.arguments.car,
           .name = plan_.arguments.car_name,
           .mode = service_->identity().mode,

@@ -20,7 +20,7 @@
 #include "basestation/session/plan.hpp"
 #include "basestation/session/roster.hpp"
 #include "protocol/recorder/recorder.hpp"
-#include "protocol/telemetry/session/randomness.hpp"
+#include "protocol/telemetry/session/crypto/randomness.hpp"
 #include "protocol/transport/udp_socket.hpp"
 
 namespace pitwall::session {
@@ -42,7 +42,7 @@ class CarSession {
   // Where it was asked for: what was received and sent.
   Result<bool, Problem> write_summary();
 
-  CarSight sight() const;
+  CarStatus status() const;
   const settings::Arguments& arguments() const { return plan_.arguments; }
   service::CarService& service() { return *service_; }
 

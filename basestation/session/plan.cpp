@@ -32,7 +32,7 @@ Result<std::vector<transport::UdpAddress>, Problem> addresses_of(const Arguments
   std::vector<std::string> wanted = arguments.listen;
   if (wanted.empty()) wanted.push_back(to_string(transport::UdpAddress{.port = kDefaultPort}));
   if (wanted.size() > telemetry::kPaths) {
-    return Unexpected{Problem{"--listen", "at most two radios"}};
+    return Unexpected{Problem{"--listen", "expected at most two radios"}};
   }
   std::vector<transport::UdpAddress> addresses;
   for (const std::string& text : wanted) {
@@ -55,8 +55,9 @@ Result<bool, Problem> plan_access(const Arguments& a, web::AccessRules& access) 
   access.default_role.reset();
   const bool local = is_loopback(a.web_address);
   if (!local && !a.default_role.empty()) {
-    return Unexpected{Problem{"--default-role " + a.default_role,
-                              "on loopback only: elsewhere a token says who may come in"}};
+    return Unexpected{
+        Problem{"--default-role " + a.default_role,
+                "allowed on loopback only; --web-tokens FILE says who may come in from elsewhere"}};
   }
   if (!local && a.tokens_file.empty()) {
     return Unexpected{Problem{"--web-address " + a.web_address,
@@ -234,9 +235,9 @@ Result<Plan, Problem> plan_of_replay(const Arguments& arguments, const Say& say)
 
 web::HttpConfig served(std::span<Plan> plans) {
   web::HttpConfig http;
-  std::vector<CarSight> sights;
+  std::vector<CarStatus> statuses;
   for (Plan& plan : plans) {
-    if (sights.empty()) {
+    if (statuses.empty()) {
       http.access = plan.http.access;
       http.console = plan.http.console;
       http.layouts = plan.http.layouts;
@@ -245,11 +246,11 @@ web::HttpConfig served(std::span<Plan> plans) {
     http.cars.push_back(
         {.number = plan.arguments.car, .documents = std::move(plan.http.documents)});
     const bool replayed = !plan.arguments.replay_folder.empty();
-    sights.push_back({.number = plan.arguments.car,
-                      .name = plan.arguments.car_name,
-                      .mode = replayed ? "REPLAY" : "NONE"});
+    statuses.push_back({.number = plan.arguments.car,
+                        .name = plan.arguments.car_name,
+                        .mode = replayed ? "REPLAY" : "NONE"});
   }
-  http.documents.emplace(kRosterPath, roster_text(sights));
+  http.documents.emplace(kRosterPath, roster_text(statuses));
   http.documents.emplace(publishers::console::kRecordingsPath,
                          "");  // shown when it has been looked at
   return http;

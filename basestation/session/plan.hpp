@@ -18,7 +18,7 @@
 #include "basestation/publishers/console/console_service.hpp"
 #include "basestation/publishers/web/http_responder.hpp"
 #include "basestation/settings/arguments.hpp"
-#include "protocol/telemetry/endpoint/conduit.hpp"
+#include "protocol/telemetry/endpoint/link_endpoint.hpp"
 #include "protocol/transport/udp_socket.hpp"
 #include "protocol/vocabulary/result.hpp"
 
@@ -30,7 +30,7 @@ struct Plan {
   settings::Arguments arguments;
   std::vector<transport::UdpAddress> listen{};
   inputs::CommandScript script{};
-  telemetry::ConduitConfig config{};
+  telemetry::LinkEndpointConfig config{};
   std::string stamp_file{};            // empty: none
   publishers::web::HttpConfig http{};  // documents: those of this car
   service::ServiceConfig service{};

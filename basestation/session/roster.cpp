@@ -5,9 +5,9 @@
 
 namespace pitwall::session {
 
-std::string roster_text(const std::vector<CarSight>& cars) {
+std::string roster_text(const std::vector<CarStatus>& cars) {
   json::Array list;
-  for (const CarSight& car : cars) {
+  for (const CarStatus& car : cars) {
     json::Object row;
     row.number("number", car.number).text("name", car.name).text("mode", car.mode);
     list.json((car.link.empty() ? row.json("link", "null") : row.text("link", car.link)).str());

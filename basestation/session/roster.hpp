@@ -20,17 +20,17 @@ namespace pitwall::session {
 
 inline constexpr const char* kRosterPath = "/api/cars";
 
-struct CarSight {
+struct CarStatus {
   int number = 0;
   std::string name{}, mode = "NONE", link{};
 };
 
-std::string roster_text(const std::vector<CarSight>& cars);
+std::string roster_text(const std::vector<CarStatus>& cars);
 
 // Looks twice a second.
 class Roster : public service::LoopTask {
  public:
-  using Look = std::function<std::vector<CarSight>()>;
+  using Look = std::function<std::vector<CarStatus>()>;
 
   Roster(publishers::web::WebServer& server, Look look) : server_(server), look_(std::move(look)) {}
 

@@ -115,18 +115,18 @@ Result<ros_view::ViewConfig, Problem> view_of(const Arguments& a, std::size_t ca
   return view;
 }
 
-std::function<void(ros_view::BaseSight&, Instant)> look_of(const service::CarService& car) {
-  return [&car](ros_view::BaseSight& sight, Instant now) {
+std::function<void(ros_view::BaseStatus&, Instant)> look_of(const service::CarService& car) {
+  return [&car](ros_view::BaseStatus& base_status, Instant now) {
     for (const state::BaseRow& row : state::kBaseTable) {
       const state::FieldView view = car.view(state::id_of(row.field), now);
-      if (state::usable(view)) sight.values[state::index_of(row.field)] = view.value;
+      if (state::usable(view)) base_status.values[state::index_of(row.field)] = view.value;
     }
     for (const alarms::ListedAlarm& alarm : car.evaluator().alarms().active()) {
-      sight.alarms.push_back({.key = std::string{alarm.key},
-                              .text = std::string{alarm.text},
-                              .response = std::string{alarm.response},
-                              .state = std::string{alarms::text_of(alarm.state)},
-                              .high = alarm.priority == alarms::Priority::kHigh});
+      base_status.alarms.push_back({.key = std::string{alarm.key},
+                                    .text = std::string{alarm.text},
+                                    .response = std::string{alarm.response},
+                                    .state = std::string{alarms::text_of(alarm.state)},
+                                    .high = alarm.priority == alarms::Priority::kHigh});
     }
   };
 }

@@ -1,9 +1,9 @@
 // Publishers that other tools attach to: LCM, Foxglove, Prometheus; for each car its own.
 //   in     a stand that has begun; the board of /metrics, where there is a web server
-//   out    outlets of the stand; lines for a person, by `say`
+//   out    publishers of the stand; lines for a person, by `say`
 //   invariants
 //          of several cars each has its own space, /carN, and the next port. Nothing that a tool
-//          says reaches a car: no outlet here has a way to the uplink
+//          says reaches a car: no publisher here has a way to the uplink
 //   errors Problem with the option as place
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -37,7 +37,7 @@ Result<std::unique_ptr<publishers::foxglove::FoxgloveReplay>, Problem> foxglove_
 Result<publishers::ros_view::ViewConfig, Problem> view_of(const settings::Arguments& arguments,
                                                           std::size_t cars);
 // What the base finds, for whoever publishes it to tools; the service outlives it.
-std::function<void(publishers::ros_view::BaseSight&, Instant)> look_of(
+std::function<void(publishers::ros_view::BaseStatus&, Instant)> look_of(
     const service::CarService& car);
 
 }  // namespace pitwall::session

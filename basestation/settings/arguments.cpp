@@ -39,7 +39,7 @@ void describe_web(CLI::App& app, Arguments& a) {
   app.add_option("--layouts", a.layouts_folder, "Folder that keeps the consoles' layouts");
   app.add_option("--judgement", a.judgement_file, "File of limits and alarms that were changed");
   app.add_option("--bench", a.bench,
-                 "Socket of a bench desk (pitwall-hil desk), whose runs consoles see and start");
+                 "Socket of a bench server (pitwall-hil serve), whose runs consoles see and start");
   app.add_option("--car", a.car, "The car's number")->check(CLI::Range(0, 255));
   app.add_option("--car-name", a.car_name, "The car's name");
 }

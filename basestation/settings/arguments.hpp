@@ -34,7 +34,7 @@ struct Arguments {
   std::string key_log;     // of a base on the bench
   std::string stamp_file;  // empty: beside the keys
   std::string console_folder, track, tokens_file, default_role, layouts_folder, judgement_file;
-  std::string bench;  // socket of a bench desk
+  std::string bench;  // socket of a bench server
   std::vector<std::string> web_names;
   std::string web_certificate, web_key;  // files; both or neither
   int car = 0;

@@ -74,7 +74,7 @@ class CarReader {
   }
 
   void claim(const std::string& key, const std::string& value) {
-    if (!taken_.emplace(key, value).second) map_.fail(key, value + ": another car has it");
+    if (!taken_.emplace(key, value).second) map_.fail(key, value + " is used by another car");
   }
 
   yaml::StrictMap map_;
@@ -92,7 +92,7 @@ Result<std::vector<Arguments>, Problem> read_cars(const yaml::Document& document
       cars.push_back(CarReader{map, folder, taken}.read(whole));
     }
     if (cars.empty() || cars.size() > kCarsMax) {
-      root.fail("cars", "from one to " + std::to_string(kCarsMax) + " cars");
+      root.fail("cars", "expected one to " + std::to_string(kCarsMax) + " cars");
     }
     return cars;
   });

@@ -54,7 +54,7 @@ alarms::Priority priority_of(yaml::StrictMap& map, alarms::Priority otherwise) {
   for (const alarms::Priority one : {kLow, kMedium, kHigh}) {
     if (text == alarms::text_of(one)) return one;
   }
-  map.fail("priority", "one of low, medium, high");
+  map.fail("priority", "expected one of: low, medium, high");
 }
 
 alarms::AlarmEdit alarm_of(yaml::StrictMap& map) {
@@ -92,9 +92,9 @@ state::TyreGate gate_of(yaml::StrictMap& map) {
   const auto speeds = map.numbers("speed_mps", kRows, kRows, 0.0, kSpeedMax_mps);
   const auto temperatures = map.numbers("temperature_c", kRows, kRows, kColdest_c, kHottest_c);
   for (std::size_t i = 0; i < kRows; ++i) {
-    if (i > 0 && !(speeds[i] > speeds[i - 1])) map.fail("speed_mps", "rises from row to row");
+    if (i > 0 && !(speeds[i] > speeds[i - 1])) map.fail("speed_mps", "must rise from row to row");
     if (i > 0 && !(temperatures[i] > temperatures[i - 1])) {
-      map.fail("temperature_c", "rises from row to row");
+      map.fail("temperature_c", "must rise from row to row");
     }
     gate.speed_mps[i] = speeds[i];
     gate.temperature_c[i] = temperatures[i];

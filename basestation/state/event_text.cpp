@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <variant>
 
 #include "basestation/state/value_text.hpp"
@@ -12,15 +11,10 @@
 #include "protocol/telemetry/delivery/event_content.hpp"
 #include "protocol/telemetry/registry/labels.hpp"
 #include "protocol/telemetry/session/link_threats.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::state {
 namespace {
-
-std::string number_text(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
 
 std::string label(std::string_view labels, std::size_t index) {
   const std::string_view text = telemetry::label_at(labels, index);
@@ -28,7 +22,7 @@ std::string label(std::string_view labels, std::size_t index) {
 }
 
 std::string after(Instant from, Instant to) {
-  return " after " + number_text(std::round((to - from).milliseconds())) + " ms";
+  return " after " + formatted("%g", std::round((to - from).milliseconds())) + " ms";
 }
 
 struct EventText {
@@ -38,7 +32,7 @@ struct EventText {
   std::string operator()(const telemetry::FaultEvent& e) const {
     const std::string name = label(telemetry::kStopCauses, e.cause);
     return (e.begins ? "fault: " : "fault is over: ") + name + " (" +
-           number_text(static_cast<double>(e.value)) + ")";
+           formatted("%g", static_cast<double>(e.value)) + ")";
   }
   std::string operator()(const telemetry::ModeEvent& e) const {
     std::string text =
@@ -56,10 +50,7 @@ struct EventText {
     return "arming: " + label(telemetry::kArmings, e.arming);
   }
   std::string operator()(const telemetry::LapEvent& e) const {
-    char text[60];
-    std::snprintf(text, sizeof text, "lap %u: %.3f s", unsigned{e.number},
-                  static_cast<double>(e.time_s));
-    return text;
+    return formatted("lap %u: %.3f s", unsigned{e.number}, static_cast<double>(e.time_s));
   }
   std::string operator()(const telemetry::RestartEvent& e) const {
     return "part " + std::to_string(e.part) + " of the car began anew";
@@ -92,7 +83,7 @@ std::string command_text(const telemetry::Command& command) {
   if (!row.labels.empty() && command.argument >= 0.0) {
     return text + "\"" + label(row.labels, static_cast<std::size_t>(command.argument)) + "\"";
   }
-  text += number_text(command.argument);
+  text += formatted("%g", command.argument);
   return row.unit.empty() ? text : text + " " + std::string{row.unit};
 }
 
@@ -105,7 +96,7 @@ std::string progress_text(const telemetry::CommandProgress& p, Instant now) {
   }
   if (p.received) return "received by the car" + after(p.issued, *p.received);
   return (p.sent ? "sent, no answer for " : "not sent for ") +
-         number_text(std::round((now - p.issued).milliseconds())) + " ms";
+         formatted("%g", std::round((now - p.issued).milliseconds())) + " ms";
 }
 
 std::string event_text(const telemetry::Event& event) {

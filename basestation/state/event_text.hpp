@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "protocol/telemetry/command/command_desk.hpp"
+#include "protocol/telemetry/command/command_transmitter.hpp"
 #include "protocol/telemetry/delivery/events.hpp"
 
 namespace pitwall::state {

@@ -2,9 +2,9 @@
 #include "basestation/state/value_text.hpp"
 
 #include <cmath>
-#include <cstdio>
 
 #include "protocol/telemetry/registry/labels.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::state {
 namespace {
@@ -46,9 +46,7 @@ std::string value_text(const telemetry::FieldRow& row, double value) {
     const auto label = telemetry::label_at(row.labels, static_cast<std::size_t>(value + 0.5));
     if (!label.empty()) return std::string{label};
   }
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals_of(row.resolution), value);
-  return text;
+  return formatted("%.*f", decimals_of(row.resolution), value);
 }
 
 std::string path_of(const telemetry::FieldRow& row) {

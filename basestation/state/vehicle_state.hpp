@@ -1,4 +1,4 @@
-// The latest value of every field and how old it is: what all outlets show.
+// The latest value of every field and how old it is: what all publishers show.
 //   in     the state as the radio has it, and which groups of it are new
 //   out    value, age and quality of each field at any later time
 //   age    since the sample was taken in the car, the way to the base included: never younger than

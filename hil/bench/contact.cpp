@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/bench/contact.hpp"
 
-#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "protocol/vocabulary/check.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -33,11 +33,7 @@ grading::Verdict contact_verdict(const scenario::Scenario& scenario, const Outco
   grading::Verdict verdict;
   verdict.name = kContactVerdict;
   verdict.text = "no contact";
-  if (scenario.contact) {
-    char text[64];
-    std::snprintf(text, sizeof text, "no contact above %.1f m/s", bound_mps);
-    verdict.text = text;
-  }
+  if (scenario.contact) verdict.text = formatted("no contact above %.1f m/s", bound_mps);
   verdict.pass = true;
   verdict.margin = bound_mps;
   verdict.ticks = 1;

@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "hil/plant_file/plant_file.hpp"
-#include "hil/revision/protected_messages.hpp"
+#include "hil/nodes/protected_messages.hpp"
+#include "hil/plant/plant_file.hpp"
 #include "protocol/transport/file.hpp"
 #include "vehicle/parameters/car_file.hpp"
 #include "vehicle/parameters/track_file.hpp"
@@ -37,7 +37,7 @@ Result<Loaded, Problem> load(const std::string& scenario_file, const std::string
     const std::string plant_file = below(folder, scenario->plant_file);
     const auto plant_text = transport::read_file(plant_file);
     if (!plant_text) return Unexpected{plant_text.error()};
-    const auto plant = plant_file::read_plant(*plant_text, plant_file);
+    const auto plant = plant::read_plant(*plant_text, plant_file);
     if (!plant) return Unexpected{plant.error()};
     scenario->plant = plant->params;
   }
@@ -46,8 +46,8 @@ Result<Loaded, Problem> load(const std::string& scenario_file, const std::string
   for (std::size_t unit = 0; scenario->receivers && unit < scenario->receivers->size(); ++unit)
     setup->params.receivers[unit].kind = (*scenario->receivers)[unit];
   if (scenario->bus == scenario::BusRevision::kProtected) {
-    setup->params.inbound.also = revision::judged_rows();
-    setup->params.identity.also = revision::protected_rows();
+    setup->params.inbound.also = can_variant::judged_rows();
+    setup->params.identity.also = can_variant::protected_rows();
   }
   return Loaded{*std::move(scenario), *std::move(setup)};
 }

@@ -2,7 +2,8 @@
 #include "hil/bench/outcome.hpp"
 
 #include <cmath>
-#include <cstdio>
+
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -20,21 +21,16 @@ void follow(Outcome& outcome, const Whereabouts& now) {
 std::string to_text(const Outcome& outcome) {
   if (!outcome.last) return {};
   const Whereabouts& last = *outcome.last;
-  char text[200];
   if (last.contact) {
-    std::snprintf(text, sizeof text,
-                  "the car hit the wall on the %s at %.2f s, s %.0f m, at %.1f m/s",
-                  last.left ? "left" : "right", last.at.seconds(), last.s_m, last.speed_mps);
-    return text;
+    return formatted("the car hit the wall on the %s at %.2f s, s %.0f m, at %.1f m/s",
+                     last.left ? "left" : "right", last.at.seconds(), last.s_m, last.speed_mps);
   }
   const Whereabouts& nearest = *outcome.nearest;
-  char speed[40] = "stands";
-  if (!(last.speed_mps < kStands_mps))
-    std::snprintf(speed, sizeof speed, "drives %.1f m/s", last.speed_mps);
-  std::snprintf(text, sizeof text,
-                "at the end the car %s, %.2f m from its line; nearest to a wall %.2f m, at %.2f s",
-                speed, std::abs(last.cross_track_m), nearest.wall_gap_m, nearest.at.seconds());
-  return text;
+  const std::string speed =
+      last.speed_mps < kStands_mps ? "stands" : formatted("drives %.1f m/s", last.speed_mps);
+  return formatted(
+      "at the end the car %s, %.2f m from its line; nearest to a wall %.2f m, at %.2f s",
+      speed.c_str(), std::abs(last.cross_track_m), nearest.wall_gap_m, nearest.at.seconds());
 }
 
 }  // namespace pitwall::bench

@@ -27,46 +27,48 @@ std::optional<Role> role_of(BenchFaultKind kind) {
   }
 }
 
-void add_pair(std::vector<Deed>& deeds, const BenchFault& fault, Role role, Act begin, Act end) {
-  deeds.push_back({.at = fault.start, .role = role, .act = begin});
+void add_pair(std::vector<ProcessAction>& actions, const BenchFault& fault, Role role, Act begin,
+              Act end) {
+  actions.push_back({.at = fault.start, .role = role, .act = begin});
   if (fault.duration)
-    deeds.push_back({.at = fault.start + *fault.duration, .role = role, .act = end});
+    actions.push_back({.at = fault.start + *fault.duration, .role = role, .act = end});
 }
 
-void add_slow(std::vector<Deed>& deeds, const BenchFault& fault, Role role, Instant end) {
+void add_slow(std::vector<ProcessAction>& actions, const BenchFault& fault, Role role,
+              Instant end) {
   const Instant until = fault.duration ? std::min(end, fault.start + *fault.duration) : end;
   const Duration stopped = from_seconds(fault.value * kSlowPeriod.seconds());
   for (Instant at = fault.start; at < until; at += kSlowPeriod) {
-    deeds.push_back({.at = at,
-                     .role = role,
-                     .act = Act::kPause,
-                     .first_of_many = at == fault.start,
-                     .one_of_many = true});
-    deeds.push_back({.at = std::min(at + stopped, until),
-                     .role = role,
-                     .act = Act::kResume,
-                     .first_of_many = false,
-                     .one_of_many = true});
+    actions.push_back({.at = at,
+                       .role = role,
+                       .act = Act::kPause,
+                       .first_of_many = at == fault.start,
+                       .one_of_many = true});
+    actions.push_back({.at = std::min(at + stopped, until),
+                       .role = role,
+                       .act = Act::kResume,
+                       .first_of_many = false,
+                       .one_of_many = true});
   }
 }
 
 }  // namespace
 
-std::vector<Deed> script_of(std::span<const BenchFault> faults, Instant end) {
-  std::vector<Deed> deeds;
+std::vector<ProcessAction> script_of(std::span<const BenchFault> faults, Instant end) {
+  std::vector<ProcessAction> actions;
   for (const BenchFault& fault : faults) {
     const auto role = role_of(fault.kind);
     if (!role) continue;
     if (fault.kind == BenchFaultKind::kComputerSlow)
-      add_slow(deeds, fault, *role, end);
+      add_slow(actions, fault, *role, end);
     else if (fault.kind == BenchFaultKind::kComputerPaused ||
              fault.kind == BenchFaultKind::kBasePaused)
-      add_pair(deeds, fault, *role, Act::kPause, Act::kResume);
+      add_pair(actions, fault, *role, Act::kPause, Act::kResume);
     else
-      add_pair(deeds, fault, *role, Act::kKill, Act::kStart);
+      add_pair(actions, fault, *role, Act::kKill, Act::kStart);
   }
-  std::ranges::stable_sort(deeds, {}, &Deed::at);
-  return deeds;
+  std::ranges::stable_sort(actions, {}, &ProcessAction::at);
+  return actions;
 }
 
 bool concerns(std::span<const BenchFault> faults, Role role) {

@@ -30,7 +30,7 @@ enum class Act : std::uint8_t { kKill, kStart, kPause, kResume };
 inline constexpr std::string_view kActNames[] = {"killed (SIGKILL)", "started again, not armed",
                                                  "stopped (SIGSTOP)", "goes on (SIGCONT)"};
 
-struct Deed {
+struct ProcessAction {
   Instant at{};
   Role role = Role::kCar;
   Act act = Act::kKill;
@@ -43,7 +43,7 @@ struct Done {
   std::string what;
 };
 
-std::vector<Deed> script_of(std::span<const faults::BenchFault> faults, Instant end);
+std::vector<ProcessAction> script_of(std::span<const faults::BenchFault> faults, Instant end);
 
 // Whom the faults are about.
 bool concerns(std::span<const faults::BenchFault> faults, Role role);

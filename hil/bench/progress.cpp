@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "hil/bench/signals.hpp"
 #include "protocol/json/json_text.hpp"
 #include "protocol/telemetry/registry/labels.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::bench {
 namespace {
@@ -44,17 +44,11 @@ std::string mode_text(double mode) {
   return std::string{telemetry::label_at(telemetry::kModes, static_cast<std::size_t>(mode))};
 }
 
-std::string number_text(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%g", value);
-  return text.data();
-}
-
 std::string fault_text(const scenario::Fault& fault) {
   std::string text = fault.kind;
   if (fault.unit != 0) text += " unit " + std::to_string(fault.unit);
   if (fault.can_id != 0) text += " id " + std::to_string(fault.can_id);
-  if (!std::isnan(fault.value)) text += " " + number_text(fault.value);
+  if (!std::isnan(fault.value)) text += " " + formatted("%g", fault.value);
   return text;
 }
 
@@ -62,7 +56,7 @@ std::string flags_text(const race::Flags& flags, double round_mph) {
   std::string text = scenario::name_of(flags.track);
   if (flags.vehicle != world::VehicleFlag::kNone)
     text += std::string{" + "} + scenario::name_of(flags.vehicle);
-  if (round_mph > 0.0) text += " " + number_text(round_mph) + " mph";
+  if (round_mph > 0.0) text += " " + formatted("%g", round_mph) + " mph";
   return text;
 }
 
@@ -157,7 +151,7 @@ void Progress::plan_events() {
     if (fault.lasts.ns > 0 && over <= end)
       planned_.push_back({over, "fault_ends", fault_text(fault)});
   }
-  for (const scenario::OperatorWord& word : scenario_.operator_words)
+  for (const scenario::OperatorText& word : scenario_.operator_texts)
     planned_.push_back({Instant{} + word.at, "operator", word.text});
   std::ranges::stable_sort(planned_, {}, &Planned::at);
 }
@@ -177,7 +171,7 @@ void Progress::say_plan(std::string_view mode) {
             .text("track", scenario::name_of(change.track))
             .number("at_s", change.at.seconds())
             .str());
-  for (const scenario::OperatorWord& word : scenario_.operator_words)
+  for (const scenario::OperatorText& word : scenario_.operator_texts)
     words.json(Object{}.text("what", word.text).number("at_s", word.at.seconds()).str());
   if (const auto expectations = expectations_of(scenario_))
     for (const grading::Expectation& one : *expectations)
@@ -219,8 +213,9 @@ void Progress::note_changes(const RunView& run) {
     laps_ = run.rig.laps().finished;
     say_event(run.now, "lap", std::to_string(laps_));
   }
-  for (; deeds_told_ < run.result.done.size(); ++deeds_told_)
-    say_event(run.result.done[deeds_told_].at, "done", run.result.done[deeds_told_].what);
+  for (; actions_published_ < run.result.done.size(); ++actions_published_)
+    say_event(run.result.done[actions_published_].at, "done",
+              run.result.done[actions_published_].what);
 }
 
 void Progress::say_state(const RunView& run) {

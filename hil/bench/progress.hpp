@@ -68,7 +68,7 @@ class Progress {
   Say say_;
   grading::ReactionBook reactions_;
   std::vector<Planned> planned_;  // in the order of time
-  std::size_t next_planned_ = 0, deeds_told_ = 0, events_ = 0;
+  std::size_t next_planned_ = 0, actions_published_ = 0, events_ = 0;
   Instant due_{};
   race::Flags flags_;
   double mode_ = kUnset;

@@ -3,85 +3,100 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string_view>
 
 #include "hil/bench/contact.hpp"
 #include "protocol/json/json_text.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::bench {
 namespace {
 
-template <class... Args>
-std::string format(const char* pattern, Args... args) {
-  std::string text(256, '\0');
-  const int length = std::snprintf(text.data(), text.size(), pattern, args...);
-  CHECK(length >= 0);
-  text.resize(std::min(static_cast<std::size_t>(length), text.size() - 1));
-  return text;
-}
-
 std::string brackets_json(const grading::CrossTrack& cross) {
-  std::string out = "[";
+  json::Array out;
   for (std::size_t i = 0; i < grading::kBrackets.size(); ++i) {
     const grading::ErrorStatistics& row = cross.by_bracket[i];
-    out += (i == 0 ? "" : ",") + std::string("{\"from_mps\":") +
-           json::number(grading::kBrackets[i].from_mps) +
-           ",\"samples\":" + std::to_string(row.samples) +
-           ",\"mean_m\":" + json::number(row.mean_m()) + ",\"max_m\":" + json::number(row.max_m) +
-           ",\"paper_best_m\":" + json::number(grading::kBrackets[i].paper_best_m) +
-           ",\"paper_mean_m\":" + json::number(grading::kBrackets[i].paper_mean_m) + "}";
+    out.json(json::Object{}
+                 .number("from_mps", grading::kBrackets[i].from_mps)
+                 .number("samples", row.samples)
+                 .number("mean_m", row.mean_m())
+                 .number("max_m", row.max_m)
+                 .number("paper_best_m", grading::kBrackets[i].paper_best_m)
+                 .number("paper_mean_m", grading::kBrackets[i].paper_mean_m)
+                 .str());
   }
-  return out + "]";
+  return out.str();
+}
+
+std::string laps_json(const decltype(RunResult::laps)& laps) {
+  return json::Object{}
+      .number("finished", laps.finished)
+      .number("flying", laps.flying)
+      .number("best_flying_s", laps.best_flying_s)
+      .number("best_flying_mean_mps", laps.best_flying_mean_mps)
+      .str();
+}
+
+std::string traffic_json(const decltype(RunResult::traffic)& traffic) {
+  return json::Object{}
+      .number("to_car", traffic.to_car)
+      .number("from_car", traffic.from_car)
+      .number("car_received", traffic.car_received)
+      .number("bench_received", traffic.bench_received)
+      .number("lost", traffic.lost)
+      .number("bus_load", traffic.bus_load)
+      .str();
 }
 
 std::string verdicts_json(const std::vector<grading::Verdict>& verdicts) {
-  std::string out = "[";
-  for (std::size_t i = 0; i < verdicts.size(); ++i)
-    out += (i == 0 ? "" : ",") + to_json(verdicts[i]);
-  return out + "]";
+  json::Array out;
+  for (const grading::Verdict& verdict : verdicts) out.json(to_json(verdict));
+  return out.str();
 }
 
 // The longest is told on the scenario's clock.
 std::string waits_json(const std::optional<transport::ClockWaits>& waits) {
   if (!waits) return "null";
-  return "{\"count\":" + std::to_string(waits->count) +
-         ",\"total_ms\":" + json::number(waits->total.milliseconds()) +
-         ",\"longest_ms\":" + json::number(waits->longest.milliseconds()) +
-         ",\"longest_at_s\":" + json::number(waits->longest_at.seconds()) +
-         ",\"longest_for\":" + json::quoted(waits->longest_for) + "}";
+  return json::Object{}
+      .number("count", waits->count)
+      .number("total_ms", waits->total.milliseconds())
+      .number("longest_ms", waits->longest.milliseconds())
+      .number("longest_at_s", waits->longest_at.seconds())
+      .text("longest_for", waits->longest_for)
+      .str();
 }
 
 std::string real_time_json(const RealTime& t) {
-  std::string bins;
-  for (const std::uint64_t count : t.wake_late)
-    bins += (bins.empty() ? "" : ",") + std::to_string(count);
-  return "{\"wake_late_p50_us\":" + json::number(t.wake_late_p50_us) +
-         ",\"wake_late_p99_us\":" + json::number(t.wake_late_p99_us) +
-         ",\"wake_late_max_us\":" + json::number(t.wake_late_max_us) +
-         ",\"caught_up_wakes\":" + std::to_string(t.caught_up_wakes) +
-         ",\"behind_max_ms\":" + json::number(t.behind_max.milliseconds()) +
-         ",\"waits\":" + waits_json(t.waits) + ",\"stolen_ms\":" + json::number(t.stolen_ms) +
-         ",\"wake_late_bin_us\":" + json::number(RealTime::kWakeBin_us) + ",\"wake_late\":[" +
-         bins + "],\"step_p50_us\":" + json::number(t.step_p50_us) +
-         ",\"step_p99_us\":" + json::number(t.step_p99_us) +
-         ",\"step_max_us\":" + json::number(t.step_max_us) +
-         ",\"missed_deadlines\":" + std::to_string(t.missed_deadlines) + "}";
+  json::Array bins;
+  for (const std::uint64_t count : t.wake_late) bins.number(count);
+  return json::Object{}
+      .number("wake_late_p50_us", t.wake_late_p50_us)
+      .number("wake_late_p99_us", t.wake_late_p99_us)
+      .number("wake_late_max_us", t.wake_late_max_us)
+      .number("caught_up_wakes", t.caught_up_wakes)
+      .number("behind_max_ms", t.behind_max.milliseconds())
+      .json("waits", waits_json(t.waits))
+      .number("stolen_ms", t.stolen_ms)
+      .number("wake_late_bin_us", RealTime::kWakeBin_us)
+      .json("wake_late", bins.str())
+      .number("step_p50_us", t.step_p50_us)
+      .number("step_p99_us", t.step_p99_us)
+      .number("step_max_us", t.step_max_us)
+      .number("missed_deadlines", t.missed_deadlines)
+      .str();
 }
 
 std::string done_json(const std::vector<Done>& done) {
-  std::string out = "[";
-  for (std::size_t i = 0; i < done.size(); ++i)
-    out += (i == 0 ? "" : ",") + std::string("{\"at_s\":") + json::number(done[i].at.seconds()) +
-           ",\"what\":" + json::quoted(done[i].what) + "}";
-  return out + "]";
+  json::Array out;
+  for (const Done& one : done)
+    out.json(json::Object{}.number("at_s", one.at.seconds()).text("what", one.what).str());
+  return out.str();
 }
 
 std::string remarks_json(const std::vector<std::string>& remarks) {
-  std::string out = "[";
-  for (std::size_t i = 0; i < remarks.size(); ++i)
-    out += (i == 0 ? "" : ",") + json::quoted(remarks[i]);
-  return out + "]";
+  json::Array out;
+  for (const std::string& remark : remarks) out.text(remark);
+  return out.str();
 }
 
 }  // namespace
@@ -99,24 +114,24 @@ bool RunResult::failed_by_contact() const {
 }
 
 std::string to_text(const RunResult& r) {
-  std::string out = format("SIMULATION %s, %s: %.1f s simulated", r.scenario.c_str(),
-                           r.mode.c_str(), r.simulated_s);
+  std::string out = formatted("SIMULATION %s, %s: %.1f s simulated", r.scenario.c_str(),
+                              r.mode.c_str(), r.simulated_s);
   if (std::isfinite(r.wall_s))
-    out += format(" in %.2f s (%.1f x real time)", r.wall_s, r.simulated_s / r.wall_s);
+    out += formatted(" in %.2f s (%.1f x real time)", r.wall_s, r.simulated_s / r.wall_s);
   out += "\n\n" + grading::to_table(r.cross_track) + "\n";
-  out += format("laps %u, flying %u", r.laps.finished, r.laps.flying);
+  out += formatted("laps %u, flying %u", r.laps.finished, r.laps.flying);
   if (r.laps.flying > 0)
-    out += format(", best flying lap %.3f s, mean %.2f m/s (%.1f mph)", r.laps.best_flying_s,
-                  r.laps.best_flying_mean_mps, to_mph(r.laps.best_flying_mean_mps));
-  out += format("; top speed %.2f m/s\n", r.speed_max_mps);
+    out += formatted(", best flying lap %.3f s, mean %.2f m/s (%.1f mph)", r.laps.best_flying_s,
+                     r.laps.best_flying_mean_mps, to_mph(r.laps.best_flying_mean_mps));
+  out += formatted("; top speed %.2f m/s\n", r.speed_max_mps);
   if (const std::string end = to_text(r.outcome); !end.empty()) out += end + "\n";
-  out += format("CAN frames: %llu to the car, %llu from the car, %llu lost",
-                static_cast<unsigned long long>(r.traffic.to_car),
-                static_cast<unsigned long long>(r.traffic.from_car),
-                static_cast<unsigned long long>(r.traffic.lost));
+  out += formatted("CAN frames: %llu to the car, %llu from the car, %llu lost",
+                   static_cast<unsigned long long>(r.traffic.to_car),
+                   static_cast<unsigned long long>(r.traffic.from_car),
+                   static_cast<unsigned long long>(r.traffic.lost));
   if (std::isfinite(r.traffic.bus_load))
-    out += format(", bus load %.1f %%", 100.0 * r.traffic.bus_load);
-  out += format(
+    out += formatted(", bus load %.1f %%", 100.0 * r.traffic.bus_load);
+  out += formatted(
       "\nrefused: %llu frames by the gateway, %llu commands by the frame gate; missed by the "
       "car when they were due: %llu frames\n",
       static_cast<unsigned long long>(r.bus_refusals),
@@ -124,12 +139,12 @@ std::string to_text(const RunResult& r) {
       static_cast<unsigned long long>(r.bus_losses));
   if (!r.refused_to_arm.empty()) out += "car refused to arm: " + r.refused_to_arm + "\n";
   for (const Done& done : r.done)
-    out += format("at %.3f s: ", done.at.seconds()) + done.what + "\n";
+    out += formatted("at %.3f s: ", done.at.seconds()) + done.what + "\n";
   for (const std::string& remark : r.remarks) out += "note: " + remark + "\n";
   for (const grading::Verdict& verdict : r.verdicts)
     out += (verdict.pass ? "PASS  " : "FAIL  ") + verdict.text +
-           format("  (margin %.4g)", verdict.margin) +
-           (verdict.delay ? format("  after %.3f s", verdict.delay->seconds()) : std::string()) +
+           formatted("  (margin %.4g)", verdict.margin) +
+           (verdict.delay ? formatted("  after %.3f s", verdict.delay->seconds()) : std::string()) +
            (verdict.pass ? "" : "  " + verdict.reason) + "\n";
   if (!r.digest.empty()) out += "event log SHA-256 " + r.digest + "\n";
   if (r.failed_by_contact()) return out + "verdict: CONTACT\n";
@@ -138,58 +153,64 @@ std::string to_text(const RunResult& r) {
 
 std::string to_json(const Outcome& outcome) {
   const auto place = [](const Whereabouts& w) {
-    return "{\"at_s\":" + json::number(w.at.seconds()) +
-           ",\"speed_mps\":" + json::number(w.speed_mps) +
-           ",\"cross_track_m\":" + json::number(w.cross_track_m) +
-           ",\"wall_gap_m\":" + json::number(w.wall_gap_m) + ",\"s_m\":" + json::number(w.s_m) +
-           "}";
+    return json::Object{}
+        .number("at_s", w.at.seconds())
+        .number("speed_mps", w.speed_mps)
+        .number("cross_track_m", w.cross_track_m)
+        .number("wall_gap_m", w.wall_gap_m)
+        .number("s_m", w.s_m)
+        .str();
   };
   if (!outcome.last) return "null";
-  return "{\"text\":" + json::quoted(to_text(outcome)) +
-         ",\"contact\":" + std::string(outcome.last->contact ? "true" : "false") +
-         ",\"end\":" + place(*outcome.last) + ",\"nearest_wall\":" + place(*outcome.nearest) + "}";
+  return json::Object{}
+      .text("text", to_text(outcome))
+      .flag("contact", outcome.last->contact)
+      .json("end", place(*outcome.last))
+      .json("nearest_wall", place(*outcome.nearest))
+      .str();
 }
 
 std::string to_json(const grading::Verdict& v) {
-  const double first_s = v.first_violation ? (*v.first_violation - Instant{}).seconds() : kUnset;
-  return "{\"text\":" + json::quoted(v.text) + ",\"pass\":" + (v.pass ? "true" : "false") +
-         ",\"margin\":" + json::number(v.margin) +
-         ",\"first_violation_s\":" + json::number(first_s) +
-         ",\"time_left_s\":" + json::number(v.time_left ? v.time_left->seconds() : kUnset) +
-         ",\"delay_s\":" + json::number(v.delay ? v.delay->seconds() : kUnset) +
-         ",\"place\":" + json::quoted(v.name) + ",\"reason\":" + json::quoted(v.reason) + "}";
+  return json::Object{}
+      .text("text", v.text)
+      .flag("pass", v.pass)
+      .number("margin", v.margin)
+      .number("first_violation_s",
+              v.first_violation ? (*v.first_violation - Instant{}).seconds() : kUnset)
+      .number("time_left_s", v.time_left ? v.time_left->seconds() : kUnset)
+      .number("delay_s", v.delay ? v.delay->seconds() : kUnset)
+      .text("place", v.name)
+      .text("reason", v.reason)
+      .str();
 }
 
 std::string to_json(const RunResult& r) {
-  return "{\"scenario\":" + json::quoted(r.scenario) + ",\"mode\":" + json::quoted(r.mode) +
-         ",\"simulation\":true,\"passed\":" + (r.passed() ? "true" : "false") +
-         ",\"failed_by_contact\":" + (r.failed_by_contact() ? "true" : "false") +
-         ",\"timely\":" + (r.timely() ? "true" : "false") +
-         ",\"simulated_s\":" + json::number(r.simulated_s) +
-         ",\"wall_s\":" + json::number(r.wall_s) +
-         ",\"laps\":{\"finished\":" + std::to_string(r.laps.finished) +
-         ",\"flying\":" + std::to_string(r.laps.flying) +
-         ",\"best_flying_s\":" + json::number(r.laps.best_flying_s) +
-         ",\"best_flying_mean_mps\":" + json::number(r.laps.best_flying_mean_mps) + "}" +
-         ",\"speed_max_mps\":" + json::number(r.speed_max_mps) +
-         ",\"outcome\":" + to_json(r.outcome) +
-         ",\"cross_track_overall_m\":" + json::number(r.cross_track.overall.mean_m()) +
-         ",\"cross_track_max_m\":" + json::number(r.cross_track.overall.max_m) +
-         ",\"cross_track\":" + brackets_json(r.cross_track) +
-         ",\"can\":{\"to_car\":" + std::to_string(r.traffic.to_car) +
-         ",\"from_car\":" + std::to_string(r.traffic.from_car) +
-         ",\"car_received\":" + std::to_string(r.traffic.car_received) +
-         ",\"bench_received\":" + std::to_string(r.traffic.bench_received) +
-         ",\"lost\":" + std::to_string(r.traffic.lost) +
-         ",\"bus_load\":" + json::number(r.traffic.bus_load) + "}" +
-         ",\"gate_refusals\":" + std::to_string(r.gate_refusals) +
-         ",\"bus_refusals\":" + std::to_string(r.bus_refusals) +
-         ",\"bus_losses\":" + std::to_string(r.bus_losses) +
-         (r.real_time ? ",\"real_time\":" + real_time_json(*r.real_time) : std::string()) +
-         ",\"done\":" + done_json(r.done) + ",\"remarks\":" + remarks_json(r.remarks) +
-         ",\"refused_to_arm\":" + json::quoted(r.refused_to_arm) +
-         ",\"sha256\":" + json::quoted(r.digest) + ",\"verdicts\":" + verdicts_json(r.verdicts) +
-         "}";
+  json::Object out;
+  out.text("scenario", r.scenario)
+      .text("mode", r.mode)
+      .flag("simulation", true)
+      .flag("passed", r.passed())
+      .flag("failed_by_contact", r.failed_by_contact())
+      .flag("timely", r.timely())
+      .number("simulated_s", r.simulated_s)
+      .number("wall_s", r.wall_s)
+      .json("laps", laps_json(r.laps))
+      .number("speed_max_mps", r.speed_max_mps)
+      .json("outcome", to_json(r.outcome))
+      .number("cross_track_overall_m", r.cross_track.overall.mean_m())
+      .number("cross_track_max_m", r.cross_track.overall.max_m)
+      .json("cross_track", brackets_json(r.cross_track))
+      .json("can", traffic_json(r.traffic))
+      .number("gate_refusals", r.gate_refusals)
+      .number("bus_refusals", r.bus_refusals)
+      .number("bus_losses", r.bus_losses);
+  if (r.real_time) out.json("real_time", real_time_json(*r.real_time));
+  return out.json("done", done_json(r.done))
+      .json("remarks", remarks_json(r.remarks))
+      .text("refused_to_arm", r.refused_to_arm)
+      .text("sha256", r.digest)
+      .json("verdicts", verdicts_json(r.verdicts))
+      .str();
 }
 
 }  // namespace pitwall::bench

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "hil/bench/sensor_faults.hpp"
-#include "hil/plant_file/perturbed.hpp"
+#include "hil/scenario/perturbed.hpp"
 #include "protocol/can/av21.hpp"
 
 namespace pitwall::bench {
@@ -26,7 +26,7 @@ race::Script script_of(const scenario::Scenario& scenario) {
   return script;
 }
 
-// The same four in every revision.
+// The same four in every variant.
 bool is_actuator(std::uint32_t id) {
   return std::ranges::any_of(can::av21::kMessages, [id](const can::MessageRow& row) {
     return row.id == id && row.safety == can::SafetyClass::kActuator;
@@ -43,12 +43,12 @@ Result<Rig, Problem> Rig::build(const scenario::Scenario& scenario, const world:
   auto plan = plan_faults(scenario.faults, scenario.seed);
   if (!plan) return Unexpected{plan.error()};
 
-  auto revision = revision::Revision::of(scenario.bus);
-  if (!revision) return Unexpected{revision.error()};
-  Rig rig{track, *std::move(plan), *std::move(revision)};
+  auto variant = can_variant::CanVariant::of(scenario.bus);
+  if (!variant) return Unexpected{variant.error()};
+  Rig rig{track, *std::move(plan), *std::move(variant)};
   const world::TrackPoint at = track.offset(scenario.start.s_m, scenario.start.n_m);
   rig.perturb_ = scenario.perturb;
-  rig.plant_params_ = plant_file::perturbed(scenario.plant, scenario.perturb);
+  rig.plant_params_ = plant::perturbed(scenario.plant, scenario.perturb);
   rig.plant_ = plant::standing(rig.plant_params_, at.x_m, at.y_m, at.yaw_rad);
   rig.plant_.tyre_c.fill(scenario.tyres.temperature_c);
   rig.road_ = plant::road_at(rig.plant_params_, track, rig.plant_);
@@ -78,15 +78,15 @@ void Rig::step(std::span<const can::ReceivedFrame> from_car, Instant now) {
   step_plant();
   wheel_speed_mps_ = sensors::step_wheels(wheel_params_, wheels_, truth_.wheel_speed_mps, now);
   time_laps(now);
-  for (const can::Frame& frame : raptor.frames) speak(Node::kDriveByWire, frame, now);
-  for (const can::Frame& frame : revision_.due(now)) send(Node::kDriveByWire, frame, now);
+  for (const can::Frame& frame : raptor.frames) encode_frames(Node::kDriveByWire, frame, now);
+  for (const can::Frame& frame : variant_.due(now)) send(Node::kDriveByWire, frame, now);
 
   const race::Timing timing{.laps = static_cast<std::uint8_t>(laps_.finished & 0xFF),
                             .lap_distance_m = road_.s_m,
                             .last_lap_s = std::isfinite(laps_.last_s) ? laps_.last_s : 0.0,
                             .speed_mps = truth_.speed_mps};
   for (const can::Frame& frame : race::step(script_, race_, timing, now))
-    speak(Node::kRaceControl, frame, now);
+    encode_frames(Node::kRaceControl, frame, now);
   release_delayed(now);
 
   sensors::step(sensor_params_, sensors_, truth_, now, samples_);
@@ -109,7 +109,7 @@ void Rig::step_plant() {
 plant::Surface Rig::true_road() const {
   scenario::Perturbations but_the_bank = perturb_;  // the ground has that
   but_the_bank.bank_error_rad = 0.0;
-  plant::Surface road = plant_file::perturbed(ground_.at(road_, plant_.motion), but_the_bank);
+  plant::Surface road = plant::perturbed(ground_.at(road_, plant_.motion), but_the_bank);
   road.grip *= grip_;
   return road;
 }
@@ -136,14 +136,14 @@ drive_by_wire::Feedback Rig::feedback() const {
 std::span<const can::ReceivedFrame> Rig::understood(std::span<const can::ReceivedFrame> heard) {
   understood_.clear();
   for (const can::ReceivedFrame& received : heard) {
-    if (const auto frame = revision_.heard(received.frame))
+    if (const auto frame = variant_.heard(received.frame))
       understood_.push_back({*frame, received.at});
   }
   return understood_;
 }
 
-void Rig::speak(Node from, const can::Frame& frame, Instant now) {
-  for (const can::Frame& said : revision_.spoken(frame)) send(from, said, now);
+void Rig::encode_frames(Node from, const can::Frame& frame, Instant now) {
+  for (const can::Frame& said : variant_.spoken(frame)) send(from, said, now);
 }
 
 void Rig::send(Node from, const can::Frame& frame, Instant now) {

@@ -15,13 +15,13 @@
 #include <vector>
 
 #include "hil/bench/fault_plan.hpp"
-#include "hil/drive_by_wire/raptor.hpp"
 #include "hil/faults/delay_queue.hpp"
+#include "hil/nodes/can_variant.hpp"
+#include "hil/nodes/lap_timer.hpp"
+#include "hil/nodes/race_control.hpp"
+#include "hil/nodes/raptor.hpp"
 #include "hil/plant/plant.hpp"
 #include "hil/plant/road_surface.hpp"
-#include "hil/race/lap_timer.hpp"
-#include "hil/race/race_control.hpp"
-#include "hil/revision/revision.hpp"
 #include "hil/scenario/scenario.hpp"
 #include "hil/sensors/sensors.hpp"
 #include "hil/sensors/wheel_speeds.hpp"
@@ -79,15 +79,16 @@ class Rig {
   std::uint64_t actuator_frames() const { return actuator_frames_; }  // 1400-1403 on the bus
 
  private:
-  Rig(const world::TrackMap& track, FaultPlan plan, revision::Revision revision)
-      : track_(track), plan_(std::move(plan)), revision_(std::move(revision)) {}
+  Rig(const world::TrackMap& track, FaultPlan plan, can_variant::CanVariant variant)
+      : track_(track), plan_(std::move(plan)), variant_(std::move(variant)) {}
   // What the drive-by-wire understands of the bus.
   std::span<const can::ReceivedFrame> understood(std::span<const can::ReceivedFrame> heard);
   void apply_model_faults(Instant now);
   void apply_model_fault(const faults::BenchFault& fault, Instant now);
   void step_plant();
   plant::Surface true_road() const;  // under the car, with what the scenario does to it
-  void speak(Node from, const can::Frame& frame, Instant now);  // in the words of the revision
+  void encode_frames(Node from, const can::Frame& frame,
+                     Instant now);  // in the words of the variant
   void send(Node from, const can::Frame& frame, Instant now);
   void release_delayed(Instant now);
   void time_laps(Instant now);
@@ -95,7 +96,7 @@ class Rig {
 
   world::TrackMap track_;
   FaultPlan plan_;
-  revision::Revision revision_;
+  can_variant::CanVariant variant_;
   std::vector<can::ReceivedFrame> understood_;
   faults::FrameFaultState frame_faults_;
   std::array<faults::DelayQueue, kNodes> delayed_;  // by sender

@@ -2,39 +2,36 @@
 #include "hil/bench/run_record.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 #include <utility>
 
 #include "hil/bench/result.hpp"
 #include "hil/bench/signals.hpp"
 #include "protocol/can/av21.hpp"
+#include "protocol/json/json_text.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::bench {
 namespace {
 
 std::string fingerprint_text() {
-  char text[20];
-  std::snprintf(text, sizeof text, "%016llx",
-                static_cast<unsigned long long>(can::av21::kFingerprint));
-  return text;
+  return formatted("%016llx", static_cast<unsigned long long>(can::av21::kFingerprint));
 }
 
-std::string seconds_text(Duration span) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6f", span.seconds());
-  return text;
-}
+std::string seconds_text(Duration span) { return formatted("%.6f", span.seconds()); }
 
 // Times in seconds of the run; "lasts_s" 0: until the end. Kinds are words of the catalogue.
 std::string faults_text(const std::vector<scenario::Fault>& faults) {
-  std::string out = "[";
+  json::Array out;
   for (const scenario::Fault& fault : faults)
-    out += (out.size() == 1 ? "" : ",") + std::string("{\"kind\":\"") + fault.kind +
-           "\",\"at_s\":" + seconds_text(fault.at) + ",\"lasts_s\":" + seconds_text(fault.lasts) +
-           ",\"can_id\":" + std::to_string(fault.can_id) +
-           ",\"unit\":" + std::to_string(fault.unit) + "}";
-  return out + "]";
+    out.json(json::Object{}
+                 .text("kind", fault.kind)
+                 .number("at_s", fault.at.seconds())
+                 .number("lasts_s", fault.lasts.seconds())
+                 .number("can_id", fault.can_id)
+                 .number("unit", fault.unit)
+                 .str());
+  return out.str();
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
-// Signals that a scenario may put conditions on, by name, once per tick. What the car says of
-// itself comes in lockstep from its outputs and in the live bench from its telemetry; everything
-// else is the bench's own truth. What its monitors see is known in lockstep alone: "seen_counter"
-// and so on, 1 in each tick in which the monitor sees something wrong.
+// Signals for the conditions of a scenario, by name, sampled once per tick. Signals of the car come
+// from its outputs in lockstep and from its telemetry in the live bench; all others are the bench's
+// own truth. The car's monitors are known in lockstep alone: "seen_counter" and so on are 1 in each
+// tick in which the monitor reports a fault.
 //   units  in the names; enumerations by their number
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -119,7 +119,7 @@ struct SignalSources {
   std::uint64_t frames_lost = 0;
   Duration radio_gap{}, radio_gap_max{};  // by the air's own record
   Duration radio_limit{};                 // of the car: it stops after a longer gap
-  double off_path_m = kUnset;             // HeldPath
+  double off_path_m = kUnset;             // PathDeviation
 };
 
 // The gap after which the car stops, as its file has it.

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "hil/faults/bench_fault.hpp"
-#include "hil/faults/random.hpp"
+#include "protocol/vocabulary/random.hpp"
 
 namespace pitwall::faults {
 

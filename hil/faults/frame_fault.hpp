@@ -17,9 +17,9 @@
 #include <span>
 #include <string_view>
 
-#include "hil/faults/random.hpp"
 #include "protocol/can/frame.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
+#include "protocol/vocabulary/random.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::faults {

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::grading {
 namespace {
@@ -15,23 +16,16 @@ void add_one(ErrorStatistics& s, double error_m) {
 }
 
 std::string row(const std::string& name, const ErrorStatistics& s, double best_m, double mean_m) {
-  char text[128];
   if (s.samples == 0)
-    std::snprintf(text, sizeof text, "%-8s %9s %8s %8s %11.3f %11.3f\n", name.c_str(), "0", "-",
-                  "-", best_m, mean_m);
-  else
-    std::snprintf(text, sizeof text, "%-8s %9llu %8.3f %8.3f %11.3f %11.3f\n", name.c_str(),
-                  static_cast<unsigned long long>(s.samples), s.mean_m(), s.max_m, best_m, mean_m);
-  return text;
+    return formatted("%-8s %9s %8s %8s %11.3f %11.3f\n", name.c_str(), "0", "-", "-", best_m,
+                     mean_m);
+  return formatted("%-8s %9llu %8.3f %8.3f %11.3f %11.3f\n", name.c_str(),
+                   static_cast<unsigned long long>(s.samples), s.mean_m(), s.max_m, best_m, mean_m);
 }
 
 std::string name_of(const Bracket& b) {
-  char text[32];
-  if (b.to_mps > 1e6)
-    std::snprintf(text, sizeof text, ">%.0f", b.from_mps);
-  else
-    std::snprintf(text, sizeof text, "%.0f-%.0f", b.from_mps, b.to_mps);
-  return text;
+  return b.to_mps > 1e6 ? formatted(">%.0f", b.from_mps)
+                        : formatted("%.0f-%.0f", b.from_mps, b.to_mps);
 }
 
 }  // namespace
@@ -51,10 +45,8 @@ void add(CrossTrack& statistics, double speed_mps, double cross_track_m) {
 }
 
 std::string to_table(const CrossTrack& statistics) {
-  char head[128];
-  std::snprintf(head, sizeof head, "%-8s %9s %8s %8s %11s %11s\n", "m/s", "samples", "mean_m",
-                "max_m", "paper_best", "paper_mean");
-  std::string table = head;
+  std::string table = formatted("%-8s %9s %8s %8s %11s %11s\n", "m/s", "samples", "mean_m", "max_m",
+                                "paper_best", "paper_mean");
   for (std::size_t i = 0; i < kBrackets.size(); ++i)
     table += row(name_of(kBrackets[i]), statistics.by_bracket[i], kBrackets[i].paper_best_m,
                  kBrackets[i].paper_mean_m);

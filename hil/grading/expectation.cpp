@@ -3,10 +3,10 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "protocol/vocabulary/check.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::grading {
 namespace {
@@ -14,14 +14,8 @@ namespace {
 constexpr std::array<std::string_view, 6> kOps{"<", "<=", ">", ">=", "==", "!="};
 constexpr std::array<std::string_view, 5> kKinds{"always", "never", "within", "after", "detects"};
 
-std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.10g", value);
-  return text;
-}
-
 std::string condition_text(const Condition& c) {
-  return c.signal + " " + std::string(name_of(c.op)) + " " + number_text(c.number);
+  return c.signal + " " + std::string(name_of(c.op)) + " " + formatted("%.10g", c.number);
 }
 
 template <class Enum, std::size_t N>
@@ -77,15 +71,15 @@ double margin(Op op, double value, double number, double tolerance) {
 }
 
 std::string to_string(const Expectation& e) {
-  const std::string within = " within " + number_text(e.limit.seconds()) + " s";
+  const std::string within = " within " + formatted("%.10g", e.limit.seconds()) + " s";
   std::string text = std::string(name_of(e.kind)) + " ";
   if (e.kind == Kind::kWithin || e.kind == Kind::kDetects)
-    text += number_text(e.limit.seconds()) + " s ";
+    text += formatted("%.10g", e.limit.seconds()) + " s ";
   if (e.kind == Kind::kAfter) text += condition_text(e.trigger) + ": ";
   text += condition_text(e.condition);
   if (e.kind == Kind::kAfter) text += within;
-  if (e.from) text += ", from " + number_text((*e.from - Instant{}).seconds()) + " s";
-  if (e.to) text += ", to " + number_text((*e.to - Instant{}).seconds()) + " s";
+  if (e.from) text += ", from " + formatted("%.10g", (*e.from - Instant{}).seconds()) + " s";
+  if (e.to) text += ", to " + formatted("%.10g", (*e.to - Instant{}).seconds()) + " s";
   return text;
 }
 

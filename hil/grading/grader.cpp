@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "protocol/vocabulary/check.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::grading {
 namespace {
@@ -47,11 +48,7 @@ void keep_least(std::optional<Duration>& least, Duration d) {
   if (!least || d < *least) least = d;
 }
 
-std::string at_text(Instant at) {
-  char text[48];
-  std::snprintf(text, sizeof text, " at %.3f s", at.seconds());
-  return text;
-}
+std::string at_text(Instant at) { return formatted(" at %.3f s", at.seconds()); }
 
 }  // namespace
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "protocol/vocabulary/quantile.hpp"
+
 namespace pitwall::link {
 
 void AgeSamples::arrived(Instant made, Instant at) {
@@ -25,8 +27,7 @@ void AgeSamples::look_until(Instant until) {
 double AgeSamples::quantile_ms(double q) const {
   if (ages_us_.empty()) return std::nan("");
   std::vector<std::int32_t> sorted = ages_us_;
-  const auto rank = static_cast<std::ptrdiff_t>(
-      std::max(std::ceil(q * static_cast<double>(sorted.size())) - 1.0, 0.0));
+  const auto rank = static_cast<std::ptrdiff_t>(nearest_rank(q, sorted.size()));
   std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end());
   return sorted[static_cast<std::size_t>(rank)] * 1e-3;
 }

@@ -2,7 +2,6 @@
 #include "hil/link/trace.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "hil/link/fade_process.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::link {
 namespace {
@@ -108,11 +108,8 @@ Result<LinkTrace, Problem> read_trace(std::string_view text, const std::string& 
 std::string write_trace(const LinkTrace& trace) {
   std::string text = "from_s,to_s,loss\n";
   for (const Outage& o : trace.outages) {
-    std::array<char, 96> row;
-    const int length =
-        std::snprintf(row.data(), row.size(), "%.9f,%.9f,%.6g\n", Duration{o.from.ns}.seconds(),
+    text += formatted("%.9f,%.9f,%.6g\n", Duration{o.from.ns}.seconds(),
                       Duration{o.to.ns}.seconds(), o.loss);
-    text.append(row.data(), static_cast<std::size_t>(length));
   }
   return text;
 }

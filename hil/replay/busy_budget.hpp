@@ -1,6 +1,6 @@
 // Budget for busy waiting: a quarter of all time, and not much at once. The kernel stops a
 // real-time thread that is never idle (sched_rt_runtime_us: 50 ms of every second), and on a
-// machine with one processor somebody else wants to live.
+// machine with one processor other threads need it.
 //   in     instants that do not run backwards, what was spent
 //   out    whether there is credit
 //   invariants

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "protocol/vocabulary/quantile.hpp"
+
 namespace pitwall::replay {
 namespace {
 
@@ -57,8 +59,7 @@ Quantiles quantiles_of(std::vector<Duration> samples) {
   if (samples.empty()) return {};
   std::sort(samples.begin(), samples.end());
   const auto at = [&samples](double share) {
-    const double rank = std::ceil(share * static_cast<double>(samples.size()));
-    return static_cast<double>(samples[static_cast<std::size_t>(rank) - 1].ns) * 1e-3;
+    return static_cast<double>(samples[nearest_rank(share, samples.size())].ns) * 1e-3;
   };
   return {.p50_us = at(0.5), .p90_us = at(0.9), .p99_us = at(0.99), .max_us = at(1.0)};
 }

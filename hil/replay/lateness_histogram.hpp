@@ -7,8 +7,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
+#include "protocol/vocabulary/quantile.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::replay {
@@ -21,11 +21,10 @@ class LatenessHistogram {
   Duration quantile(double share) const;
   Duration latest() const { return latest_; }
   Duration earliest() const { return earliest_; }
-  std::uint64_t count() const { return count_; }
+  std::uint64_t count() const { return cells_us_.count(); }
 
  private:
-  std::vector<std::uint64_t> cells_ = std::vector<std::uint64_t>(kCells + 1);
-  std::uint64_t count_ = 0;
+  Histogram cells_us_{kCells + 1};
   Duration latest_{INT64_MIN};
   Duration earliest_{INT64_MAX};
 };

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/replay/replay_summary.hpp"
 
-#include <array>
-#include <cstdio>
+#include "protocol/json/json_text.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::replay {
 namespace {
 
 std::string count(std::uint64_t n) { return std::to_string(n); }
-std::string in_us(Duration d) { return std::to_string(d.ns / 1'000); }
+std::int64_t whole_us(Duration d) { return d.ns / 1'000; }
+std::string in_us(Duration d) { return std::to_string(whole_us(d)); }
 
 // "can0 1A0 due at 1.234567 s"
 std::string name_of(const DroppedFrame& dropped, const Timeline& timeline) {
   const BusTrack& bus = timeline.buses[dropped.bus];
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), bus.frames[dropped.frame].extended ? " %08X" : " %03X",
-                bus.frames[dropped.frame].id);
-  return bus.interface + text.data() + " due at " +
+  const can::Frame& frame = bus.frames[dropped.frame];
+  const int digits = frame.extended ? 8 : 3;
+  return bus.interface + formatted(" %0*X", digits, frame.id) + " due at " +
          std::to_string(bus.due[dropped.frame].seconds()) + " s of pass " +
          count(dropped.pass + 1ULL);
 }
@@ -34,15 +34,17 @@ std::string drops_text(const PlayReport& report, const Timeline& timeline) {
 }
 
 std::string drops_json(const PlayReport& report, const Timeline& timeline) {
-  std::string out;
+  json::Array out;
   for (const DroppedFrame& dropped : report.dropped_list) {
     const BusTrack& bus = timeline.buses[dropped.bus];
-    out += std::string(out.empty() ? "" : ",") + "{\"pass\":" + count(dropped.pass + 1ULL) +
-           ",\"id\":" + count(bus.frames[dropped.frame].id) +
-           ",\"due_us\":" + in_us(bus.due[dropped.frame]) + ",\"late_us\":" + in_us(dropped.late) +
-           "}";
+    out.json(json::Object{}
+                 .number("pass", dropped.pass + 1ULL)
+                 .number("id", bus.frames[dropped.frame].id)
+                 .number("due_us", whole_us(bus.due[dropped.frame]))
+                 .number("late_us", whole_us(dropped.late))
+                 .str());
   }
-  return "[" + out + "]";
+  return out.str();
 }
 
 }  // namespace
@@ -67,23 +69,32 @@ std::string to_text(const PlayReport& report, const Timeline& timeline) {
 std::string to_json(const PlayReport& report, const Timeline& timeline,
                     const transport::RealtimeReport& realtime) {
   const LatenessHistogram& late = report.lateness;
-  const auto truth = [](bool value) { return value ? "true" : "false"; };
-  std::string out = "{\"verb\":\"replay\",\"frames_per_pass\":" + count(timeline.frames) +
-                    ",\"sent\":" + count(report.sent) + ",\"took_us\":" + in_us(report.took) +
-                    ",\"calls\":" + count(report.calls) + ",\"sleeps\":" + count(report.waits) +
-                    ",\"retries\":" + count(report.retries);
-  out += ",\"dropped_late\":" + count(report.dropped_late) +
-         ",\"dropped_full\":" + count(report.dropped_full) +
-         ",\"dropped_refused\":" + count(report.dropped_refused) +
-         ",\"dropped_first\":" + drops_json(report, timeline);
+  json::Object out;
+  out.text("verb", "replay")
+      .number("frames_per_pass", timeline.frames)
+      .number("sent", report.sent)
+      .number("took_us", whole_us(report.took))
+      .number("calls", report.calls)
+      .number("sleeps", report.waits)
+      .number("retries", report.retries)
+      .number("dropped_late", report.dropped_late)
+      .number("dropped_full", report.dropped_full)
+      .number("dropped_refused", report.dropped_refused)
+      .json("dropped_first", drops_json(report, timeline));
   if (late.count() > 0)
-    out += ",\"late_us\":{\"p50\":" + in_us(late.quantile(0.5)) +
-           ",\"p90\":" + in_us(late.quantile(0.9)) + ",\"p99\":" + in_us(late.quantile(0.99)) +
-           ",\"max\":" + in_us(late.latest()) + "}";
-  return out + ",\"seam_error_us\":" + in_us(report.seam_error) +
-         ",\"aborted\":" + truth(report.aborted) + ",\"stopped\":" + truth(report.stopped) +
-         ",\"memory_locked\":" + truth(realtime.memory_locked) +
-         ",\"fifo\":" + truth(realtime.fifo) + "}\n";
+    out.json("late_us", json::Object{}
+                            .number("p50", whole_us(late.quantile(0.5)))
+                            .number("p90", whole_us(late.quantile(0.9)))
+                            .number("p99", whole_us(late.quantile(0.99)))
+                            .number("max", whole_us(late.latest()))
+                            .str());
+  return out.number("seam_error_us", whole_us(report.seam_error))
+             .flag("aborted", report.aborted)
+             .flag("stopped", report.stopped)
+             .flag("memory_locked", realtime.memory_locked)
+             .flag("fifo", realtime.fifo)
+             .str() +
+         "\n";
 }
 
 }  // namespace pitwall::replay

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "hil/bus/memory_bus.hpp"
-#include "hil/faults/random.hpp"
+#include "hil/can_bus/memory_bus.hpp"
 #include "protocol/can/av21.hpp"
+#include "protocol/vocabulary/random.hpp"
 
 namespace pitwall::replay {
 namespace {
@@ -50,15 +50,15 @@ std::vector<Source> sources_of_the_bus() {
 }
 
 // A counter in the first byte, noise in the rest: no two frames in a row are equal.
-void fill(can::Frame& frame, faults::Random& random) {
+void fill(can::Frame& frame, Random& random) {
   const std::uint8_t counter = frame.data[0];
   for (std::size_t i = 1; i < frame.length; ++i)
     frame.data[i] = static_cast<std::uint8_t>(random.next());
   frame.data[0] = static_cast<std::uint8_t>(counter + 1);
 }
 
-void collect(bus::MemoryBus& bus, Instant until, faults::Random& random, CandumpLog& log) {
-  for (const bus::Delivery& delivery : bus.advance(until)) {
+void collect(can_bus::MemoryBus& bus, Instant until, Random& random, CandumpLog& log) {
+  for (const can_bus::Delivery& delivery : bus.advance(until)) {
     if (delivery.to != kRecorder) continue;
     const std::int64_t us = delivery.received.at.ns / 1'000 +
                             static_cast<std::int64_t>(random.below(kInterruptJitter_us));
@@ -72,9 +72,9 @@ void collect(bus::MemoryBus& bus, Instant until, faults::Random& random, Candump
 }  // namespace
 
 CandumpLog sample_log(Duration length) {
-  bus::MemoryBus bus({.ports = kPorts, .bit_rate = kBitRate});
+  can_bus::MemoryBus bus({.ports = kPorts, .bit_rate = kBitRate});
   std::vector<Source> sources = sources_of_the_bus();
-  faults::Random random{.state = 14};
+  Random random{.state = 14};
   CandumpLog log;
   log.channels = {"can0"};
   for (Duration t{}; t < length; t = t + kStep) {

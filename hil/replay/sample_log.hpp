@@ -8,7 +8,7 @@
 //
 //   in     length of the log
 //   out    about 2,500 frames a second, 32 % load; payloads are counters and noise, no physics
-//   source protocol/can/dbc/av21.dbc for identifiers, lengths, periods; hil/bus for the wire
+//   source protocol/can/dbc/av21.dbc for identifiers, lengths, periods; hil/can_bus for the wire
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

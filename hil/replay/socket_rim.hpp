@@ -24,7 +24,7 @@
 #include "hil/replay/busy_budget.hpp"
 #include "hil/replay/player.hpp"
 #include "hil/replay/timeline.hpp"
-#include "protocol/transport/can_sender.hpp"
+#include "protocol/transport/can/can_sender.hpp"
 #include "protocol/transport/process.hpp"
 #include "protocol/vocabulary/result.hpp"
 

@@ -8,6 +8,7 @@
 #include "hil/report/absent.hpp"
 #include "hil/report/plot.hpp"
 #include "hil/report/text.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::report {
 namespace {
@@ -78,8 +79,8 @@ class SpeedScale {
     std::string out = "<p class=\"legend\">speed, m/s: ";
     for (std::size_t i = 0; i < kSpeedColours.size(); ++i)
       out += "<span><i style=\"background:" + std::string(kSpeedColours[i].css) + "\"></i>" +
-             printed("%.0f to %.0f", step_mps_ * static_cast<double>(i),
-                     step_mps_ * static_cast<double>(i + 1)) +
+             formatted("%.0f to %.0f", step_mps_ * static_cast<double>(i),
+                       step_mps_ * static_cast<double>(i + 1)) +
              "</span> ";
     return out + "</p>\n";
   }
@@ -118,7 +119,7 @@ void add_signs(Plot& plot, const RunData& run) {
                         const std::string& text) {
     const At<T>* row = row_at(run, t_s);
     if (row != nullptr && std::isfinite(row->v.x_m + row->v.y_m))
-      plot.sign(row->v.x_m, row->v.y_m, symbol, colour, printed("%.2f s: ", t_s) + text);
+      plot.sign(row->v.x_m, row->v.y_m, symbol, colour, formatted("%.2f s: ", t_s) + text);
   };
   sign(run.truth.front().t_s, "S", kInk, "start");
   for (std::size_t i = 0; i < run.faults.size(); ++i)
@@ -135,7 +136,7 @@ std::string trace_of(const RunData& run) {
   for (std::size_t i = 0; i < run.truth.size(); i += stride) {
     const auto& [t_s, v] = run.truth[i];
     if (std::isfinite(v.x_m) && std::isfinite(v.y_m))
-      out += printed("%s%.2f,%.1f,%.1f", out.back() == '[' ? "" : ",", t_s, v.x_m, v.y_m);
+      out += formatted("%s%.2f,%.1f,%.1f", out.back() == '[' ? "" : ",", t_s, v.x_m, v.y_m);
   }
   return out + "]</script>\n";
 }
@@ -243,8 +244,8 @@ std::string bracket_chart(const grading::CrossTrack& statistics) {
     paper.push_back({at + 0.50, at + 0.88, bracket.paper_mean_m});
     heights.push_back({at, mean_m});
     heights.push_back({at, bracket.paper_mean_m});
-    names.push_back(printed("%.0f", bracket.from_mps) +
-                    (bracket.to_mps < 1e3 ? printed("-%.0f", bracket.to_mps) : std::string("+")));
+    names.push_back(formatted("%.0f", bracket.from_mps) +
+                    (bracket.to_mps < 1e3 ? formatted("-%.0f", bracket.to_mps) : std::string("+")));
   }
   heights.push_back({0.0, 0.0});
   Axis errors = axis_over({{heights}}, "error, m", 0.1);
@@ -272,8 +273,9 @@ std::string bracket_table(const grading::CrossTrack& statistics) {
   for (std::size_t i = 0; i < grading::kBrackets.size(); ++i) {
     const grading::Bracket& b = grading::kBrackets[i];
     const std::string to =
-        b.to_mps < 1e3 ? printed(" to %.0f", b.to_mps) : std::string(" and more");
-    row(printed("%.0f", b.from_mps) + to, statistics.by_bracket[i], b.paper_best_m, b.paper_mean_m);
+        b.to_mps < 1e3 ? formatted(" to %.0f", b.to_mps) : std::string(" and more");
+    row(formatted("%.0f", b.from_mps) + to, statistics.by_bracket[i], b.paper_best_m,
+        b.paper_mean_m);
   }
   row("all above 10", statistics.overall, grading::kPaperBestOverall_m,
       grading::kPaperMeanOverall_m);

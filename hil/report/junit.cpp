@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hil/report/text.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::report {
 namespace {
@@ -31,12 +32,12 @@ std::string junit_xml(const RunData& run) {
   const auto failures = std::ranges::count_if(run.verdicts, [](const auto& v) { return !v.pass; });
   const std::string name = run.facts.scenario.empty() ? "run without a name" : run.facts.scenario;
   const std::string suite = "pitwall." + escaped(name) + "." + escaped(run.facts.mode);
-  std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"" + suite +
-                    "\"" +
-                    printed(" tests=\"%zu\" failures=\"%td\" errors=\"%zu\" skipped=\"0\" time=\"",
-                            run.verdicts.size() + run.infrastructure.size(), failures,
-                            run.infrastructure.size()) +
-                    number(run.end_s(), 3) + "\">\n";
+  std::string out =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"" + suite + "\"" +
+      formatted(" tests=\"%zu\" failures=\"%td\" errors=\"%zu\" skipped=\"0\" time=\"",
+                run.verdicts.size() + run.infrastructure.size(), failures,
+                run.infrastructure.size()) +
+      number(run.end_s(), 3) + "\">\n";
   out += "  <properties><property name=\"seed\" value=\"" + escaped(run.facts.seed) +
          "\"/><property name=\"event_log_sha256\" value=\"" + escaped(run.digest) +
          "\"/><property name=\"simulation\" value=\"true\"/></properties>\n";

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hil/report/text.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::report {
 namespace {
@@ -15,8 +16,8 @@ constexpr double kLetter = 7.3;  // mean width of a letter of 12 px
 
 std::string text_at(double x, double y, std::string_view anchor, std::string_view style,
                     const std::string& text) {
-  return printed("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%.*s\"", x, y,
-                 static_cast<int>(anchor.size()), anchor.data()) +
+  return formatted("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%.*s\"", x, y,
+                   static_cast<int>(anchor.size()), anchor.data()) +
          " class=\"" + std::string(style) + "\">" + escaped(text) + "</text>";
 }
 
@@ -44,16 +45,16 @@ double step_of(double from, double to, int count) {
 std::string opening_of(std::string_view name, std::string_view kind, Size size,
                        const std::string& title) {
   return "<svg class=\"plot " + std::string(kind) + "\" data-plot=\"" + std::string(name) + "\"" +
-         printed(" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\"", size.width,
-                 size.height, size.width, size.height) +
+         formatted(" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\"", size.width,
+                   size.height, size.width, size.height) +
          " role=\"img\" aria-label=\"" + escaped(title) + "\"";
 }
 
 std::string scale_attributes(const Axis& x, const Axis& y, Size size, double left) {
-  return printed(" data-x0=\"%.9g\" data-x1=\"%.9g\" data-y0=\"%.9g\" data-y1=\"%.9g\"", x.from,
-                 x.to, y.from, y.to) +
-         printed(" data-left=\"%.0f\" data-right=\"%.0f\" data-top=\"%.0f\" data-bottom=\"%.0f\"",
-                 left, size.width - kRight, kTop, size.height - kBottom);
+  return formatted(" data-x0=\"%.9g\" data-x1=\"%.9g\" data-y0=\"%.9g\" data-y1=\"%.9g\"", x.from,
+                   x.to, y.from, y.to) +
+         formatted(" data-left=\"%.0f\" data-right=\"%.0f\" data-top=\"%.0f\" data-bottom=\"%.0f\"",
+                   left, size.width - kRight, kTop, size.height - kBottom);
 }
 
 }  // namespace
@@ -109,7 +110,7 @@ std::string Plot::path_of(std::span<const Point> points) const {
   std::string path;
   std::size_t in_piece = 0;
   const auto end_piece = [&](double x, double y) {
-    if (in_piece == 1) path += printed("L%.1f %.1f", x + 0.5, y);  // alone, it would be nothing
+    if (in_piece == 1) path += formatted("L%.1f %.1f", x + 0.5, y);  // alone, it would be nothing
     in_piece = 0;
   };
   Point last;
@@ -119,7 +120,7 @@ std::string Plot::path_of(std::span<const Point> points) const {
       continue;
     }
     last = {px(point.x), py(point.y)};
-    path += printed("%c%.1f %.1f", in_piece++ == 0 ? 'M' : 'L', last.x, last.y);
+    path += formatted("%c%.1f %.1f", in_piece++ == 0 ? 'M' : 'L', last.x, last.y);
   }
   end_piece(last.x, last.y);
   return path;
@@ -137,7 +138,7 @@ void Plot::line(std::span<const Point> points, const Mark& mark) {
   if (path.empty()) return;
   if (!mark.name.empty()) legend_.push_back(mark);
   marks_ += opening("path", mark) + " fill=\"none\" stroke=\"" + css_of(mark.colour) + "\"" +
-            printed(" stroke-width=\"%.2g\" stroke-linejoin=\"round\"", mark.width) +
+            formatted(" stroke-width=\"%.2g\" stroke-linejoin=\"round\"", mark.width) +
             (mark.dashed ? " stroke-dasharray=\"6 4\"" : "") + " d=\"" + path + "\"/>";
 }
 
@@ -145,11 +146,11 @@ void Plot::dots(std::span<const Point> points, const Mark& mark, double size) {
   std::string path;
   for (const Point& point : points)
     if (std::isfinite(point.x) && std::isfinite(point.y))
-      path += printed("M%.1f %.1fh0", px(point.x), py(point.y));
+      path += formatted("M%.1f %.1fh0", px(point.x), py(point.y));
   if (path.empty()) return;
   if (!mark.name.empty()) legend_.push_back(mark);
   marks_ += opening("path", mark) + " fill=\"none\" stroke=\"" + css_of(mark.colour) + "\"" +
-            printed(" stroke-width=\"%.1f\"", size) +
+            formatted(" stroke-width=\"%.1f\"", size) +
             " stroke-linecap=\"round\" stroke-opacity=\"0.45\" d=\"" + path + "\"/>";
 }
 
@@ -159,8 +160,8 @@ void Plot::bars(std::span<const Bar> bars, const Mark& mark) {
     if (!std::isfinite(bar.value)) continue;
     const double top = py(bar.value), foot = py(std::max(0.0, y_.from));
     marks_ += opening("rect", mark) + " fill=\"" + css_of(mark.colour) + "\"" +
-              printed(" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"", px(bar.from), top,
-                      std::max(px(bar.to) - px(bar.from), 0.5), std::max(foot - top, 0.0)) +
+              formatted(" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"", px(bar.from), top,
+                        std::max(px(bar.to) - px(bar.from), 0.5), std::max(foot - top, 0.0)) +
               "><title>" + escaped(mark.name + " " + significant(bar.value, 4) + " " + mark.unit) +
               "</title></rect>";
     if (bar.value > y_.to)  // cut off: then it says how tall it is
@@ -171,29 +172,29 @@ void Plot::bars(std::span<const Bar> bars, const Mark& mark) {
 
 void Plot::band(double from_x, double to_x, Colour colour, const std::string& label) {
   const double left = px(from_x), width = std::max(px(to_x) - left, 1.0);
-  behind_ += printed("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"", left, kTop,
-                     width, size_.height - kBottom - kTop) +
+  behind_ += formatted("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"", left, kTop,
+                       width, size_.height - kBottom - kTop) +
              " fill=\"" + css_of(colour) + "\" fill-opacity=\"0.16\"><title>" + escaped(label) +
              "</title></rect>";
 }
 
 void Plot::level(double y, Colour colour, const std::string& label) {
   const double at = py(y);
-  behind_ += printed("<path d=\"M%.1f %.1fH%.1f\"", left_, at, size_.width - kRight) +
+  behind_ += formatted("<path d=\"M%.1f %.1fH%.1f\"", left_, at, size_.width - kRight) +
              " stroke=\"" + css_of(colour) + "\" stroke-dasharray=\"3 3\"/>" +
              text_at(size_.width - kRight - 4.0, at - 4.0, "end", "note", label);
 }
 
 void Plot::circle(double radius_x, Colour colour) {
-  behind_ += printed("<ellipse cx=\"%.1f\" cy=\"%.1f\" rx=\"%.1f\" ry=\"%.1f\"", px(0.0), py(0.0),
-                     std::abs(px(radius_x) - px(0.0)), std::abs(py(radius_x) - py(0.0))) +
+  behind_ += formatted("<ellipse cx=\"%.1f\" cy=\"%.1f\" rx=\"%.1f\" ry=\"%.1f\"", px(0.0), py(0.0),
+                       std::abs(px(radius_x) - px(0.0)), std::abs(py(radius_x) - py(0.0))) +
              " fill=\"none\" stroke=\"" + css_of(colour) + "\"/>";
 }
 
 void Plot::sign(double x, double y, std::string_view symbol, Colour colour,
                 const std::string& label) {
   marks_ += "<g class=\"sign\" fill=\"" + css_of(colour) + "\"><title>" + escaped(label) +
-            "</title>" + printed("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"9\"/>", px(x), py(y)) +
+            "</title>" + formatted("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"9\"/>", px(x), py(y)) +
             text_at(px(x), py(y) + 4.0, "middle", "symbol", std::string(symbol)) + "</g>";
 }
 
@@ -208,7 +209,7 @@ std::string Plot::x_axis() const {
     const int count = std::max(3, static_cast<int>(size_.width / 95.0));
     const int decimals = decimals_of(step_of(x_.from, x_.to, count));
     for (const double tick : ticks_of(x_.from, x_.to, count))
-      out += printed("<path class=\"grid\" d=\"M%.1f %.1fV%.1f\"/>", px(tick), kTop, foot) +
+      out += formatted("<path class=\"grid\" d=\"M%.1f %.1fV%.1f\"/>", px(tick), kTop, foot) +
              x_number(px(tick), foot + 16.0, size_.width, number(tick, decimals));
   }
   return out +
@@ -220,18 +221,18 @@ std::string Plot::axes() const {
   const int count = std::max(3, static_cast<int>((size_.height - kTop - kBottom) / 32.0));
   const int decimals = decimals_of(step_of(y_.from, y_.to, count));
   for (const double tick : ticks_of(y_.from, y_.to, count))
-    out += printed("<path class=\"grid\" d=\"M%.1f %.1fH%.1f\"/>", left_, py(tick),
-                   size_.width - kRight) +
+    out += formatted("<path class=\"grid\" d=\"M%.1f %.1fH%.1f\"/>", left_, py(tick),
+                     size_.width - kRight) +
            text_at(left_ - 7.0, py(tick) + 4.0, "end", "tick", number(tick, decimals));
   const double middle = 0.5 * (kTop + size_.height - kBottom);
-  out += printed(
+  out += formatted(
              "<text class=\"label\" text-anchor=\"middle\" transform=\"translate(%.0f %.1f) "
              "rotate(-90)\">",
              left_ - 54.0, middle) +
          escaped(y_.label) + "</text>";
   return out +
-         printed("<rect class=\"frame\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>",
-                 left_, kTop, size_.width - kRight - left_, size_.height - kBottom - kTop);
+         formatted("<rect class=\"frame\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>",
+                   left_, kTop, size_.width - kRight - left_, size_.height - kBottom - kTop);
 }
 
 // Behind the title, in the line above the frame.
@@ -239,7 +240,7 @@ std::string Plot::legend() const {
   std::string out;
   double x = left_ + static_cast<double>(title_.size()) * (kLetter + 0.6) + 24.0;
   for (const Mark& mark : legend_) {
-    out += printed("<path d=\"M%.1f 15h22\" stroke-width=\"3\"", x) + " stroke=\"" +
+    out += formatted("<path d=\"M%.1f 15h22\" stroke-width=\"3\"", x) + " stroke=\"" +
            css_of(mark.colour) + "\"" + (mark.dashed ? " stroke-dasharray=\"6 4\"" : "") + "/>" +
            text_at(x + 28.0, 19.0, "start", "tick", mark.name);
     x += 28.0 + static_cast<double>(mark.name.size()) * kLetter + 18.0;
@@ -265,9 +266,9 @@ std::string lanes_svg(const std::string& name, const std::string& title,
   };
   std::string out =
       opening_of(name, "time lanes", size, title) +
-      printed(" data-x0=\"0\" data-x1=\"%.9g\" data-left=\"%.0f\" data-right=\"%.0f\"", end_s, left,
-              right) +
-      printed(" data-top=\"%.0f\" data-bottom=\"%.0f\">", kTop, size.height - kBottom) +
+      formatted(" data-x0=\"0\" data-x1=\"%.9g\" data-left=\"%.0f\" data-right=\"%.0f\"", end_s,
+                left, right) +
+      formatted(" data-top=\"%.0f\" data-bottom=\"%.0f\">", kTop, size.height - kBottom) +
       text_at(left, 19.0, "start", "title", title);
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const double top = kTop + kRow * static_cast<double>(i);
@@ -278,8 +279,8 @@ std::string lanes_svg(const std::string& name, const std::string& title,
       const double wide = std::max(px(piece.to_s) - px(piece.from_s), 1.5);
       out += "<g class=\"mark\" data-name=\"" + escaped(lanes[i].name) + "\" data-label=\"" +
              escaped(piece.label) + "\"><title>" + escaped(piece.label) + "</title>" +
-             printed("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.0f\" stroke=\"#fff\"",
-                     px(piece.from_s), top + 2.0, wide, kRow - 4.0) +
+             formatted("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.0f\" stroke=\"#fff\"",
+                       px(piece.from_s), top + 2.0, wide, kRow - 4.0) +
              " fill=\"" + css_of(piece.fill) + "\"/>";
       const double word = static_cast<double>(piece.label.size()) * kLetter + 8.0;
       if (wide > word) {
@@ -308,14 +309,14 @@ std::string small_histogram(std::span<const std::uint64_t> counts, double width,
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i] == 0) continue;
     const double tall = height * std::log1p(static_cast<double>(counts[i])) / most;
-    path += printed("M%.1f %.1fh%.1fv%.1fh-%.1fz", static_cast<double>(i) * step, height - tall,
-                    step, tall, step);
+    path += formatted("M%.1f %.1fh%.1fv%.1fh-%.1fz", static_cast<double>(i) * step, height - tall,
+                      step, tall, step);
   }
   return "<svg class=\"small\"" +
-         printed(" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\">", width, height, width,
-                 height) +
-         printed("<path class=\"grid\" d=\"M%.1f 0V%.0f\"/>", mark_share * width, height) +
-         printed("<path class=\"grid\" d=\"M0 %.1fH%.0f\"/>", height - 0.5, width) +
+         formatted(" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\">", width, height,
+                   width, height) +
+         formatted("<path class=\"grid\" d=\"M%.1f 0V%.0f\"/>", mark_share * width, height) +
+         formatted("<path class=\"grid\" d=\"M0 %.1fH%.0f\"/>", height - 0.5, width) +
          "<path class=\"mark\" fill=\"" + css_of(kBlue) + "\" d=\"" + path + "\"/></svg>";
 }
 

@@ -7,10 +7,11 @@
 #include <map>
 
 #include "hil/bench/contact.hpp"
-#include "hil/bus/frame_length.hpp"
+#include "hil/can_bus/frame_length.hpp"
 #include "hil/report/text.hpp"
 #include "protocol/bits/sha256.hpp"
 #include "protocol/json/json_value.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::report {
 namespace {
@@ -78,7 +79,7 @@ class LogReading {
     if (sample.id > can::kMaxExtendedId || sample.data.size() > 8) return false;
     frame.length = static_cast<std::uint8_t>(sample.data.size());
     std::copy(sample.data.begin(), sample.data.end(), frame.data.begin());
-    const auto bits = static_cast<std::uint16_t>(bus::frame_length(frame).bits);
+    const auto bits = static_cast<std::uint16_t>(can_bus::frame_length(frame).bits);
     data_.can.push_back({t_s, {sample.from, sample.id, bits}});
     return true;
   }
@@ -150,18 +151,18 @@ void judge_log(RunData& run, const std::string& name) {
     run.infrastructure.push_back(name + ": " + what);
   };
   if (log.end != McapEnd::kComplete)
-    complain(printed("%s at byte %llu of %llu; %llu messages were read before that",
-                     recording::to_string(log.end), wide(log.read_bytes), wide(log.bytes),
-                     wide(log.counters.messages)));
+    complain(formatted("%s at byte %llu of %llu; %llu messages were read before that",
+                       recording::to_string(log.end), wide(log.read_bytes), wide(log.bytes),
+                       wide(log.counters.messages)));
   if (const std::uint64_t bad = log.counters.bad_chunk_crc + log.counters.compressed_chunks)
     complain(
-        printed("%llu of %llu chunks could not be read", wide(bad), wide(log.counters.chunks)));
+        formatted("%llu of %llu chunks could not be read", wide(bad), wide(log.counters.chunks)));
   if (log.counters.bad_data_crc + log.counters.bad_summary_crc > 0)
     complain("a checksum of the file is wrong: something was changed after it was written");
-  if (log.missing > 0) complain(printed("%llu messages are missing", wide(log.missing)));
+  if (log.missing > 0) complain(formatted("%llu messages are missing", wide(log.missing)));
   if (log.undecodable + log.counters.unknown_channel > 0)
-    complain(printed("%llu messages are not what their channel says, or of another version",
-                     wide(log.undecodable + log.counters.unknown_channel)));
+    complain(formatted("%llu messages are not what their channel says, or of another version",
+                       wide(log.undecodable + log.counters.unknown_channel)));
   if (log.end == McapEnd::kComplete && run.truth.empty())
     complain("holds no truth of a plant: not the log of a run, or nothing was simulated");
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "protocol/can/av21.hpp"
+#include "protocol/vocabulary/quantile.hpp"
 
 namespace pitwall::report {
 namespace {
@@ -82,7 +83,7 @@ Line bus_load(std::span<const At<BusFrame>> frames, double end_s, double least_w
 
 double Intervals::quantile_s(double share) const {
   if (sorted_s.empty()) return kUnset;
-  return sorted_s[static_cast<std::size_t>(share * static_cast<double>(sorted_s.size() - 1))];
+  return sorted_s[nearest_rank(share, sorted_s.size())];
 }
 
 std::vector<Intervals> intervals_of(std::span<const At<BusFrame>> frames) {

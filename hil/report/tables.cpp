@@ -8,6 +8,7 @@
 #include "hil/report/plot.hpp"
 #include "hil/report/text.hpp"
 #include "protocol/can/av21.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::report {
 namespace {
@@ -26,7 +27,7 @@ std::string fact(const std::string& name, const std::string& value) {
 
 std::string left_out(std::size_t rows) {
   return rows > kRowsMax
-             ? printed("<p class=\"note\">%zu more are in the log.</p>\n", rows - kRowsMax)
+             ? formatted("<p class=\"note\">%zu more are in the log.</p>\n", rows - kRowsMax)
              : std::string();
 }
 
@@ -45,7 +46,7 @@ std::string message_row(const Intervals& m) {
   std::string picture;
   if (!m.sorted_s.empty() && period_s > 0.0)
     picture = small_histogram(histogram(m.sorted_s, 0.0, 2.0 * period_s, kBins), 240.0, 20.0, 0.5);
-  return "<tr>" + cell(printed("%u", m.id)) +
+  return "<tr>" + cell(formatted("%u", m.id)) +
          cell(m.name.empty() ? "<i>not in the database</i>" : escaped(m.name), "word") +
          cell(node_name(m.from), "word") + cell(std::to_string(m.frames)) +
          cell(milliseconds_text(m.nominal_s)) + cell(milliseconds_text(m.quantile_s(0.5))) +
@@ -82,12 +83,12 @@ std::string banner(const RunData& run) {
   std::size_t passed = 0, all = 0;
   count_verdicts(run, passed, all);
   const Outcome outcome = run.outcome();
-  std::string words =
-      all == 0 ? "no expectation was judged" : printed("%zu of %zu expectations held", passed, all);
+  std::string words = all == 0 ? "no expectation was judged"
+                               : formatted("%zu of %zu expectations held", passed, all);
   if (outcome == Outcome::kInfrastructure) words = "the bench or its log failed; " + words;
   constexpr const char* kStyles[]{"pass", "fail", "infrastructure", "fail"};
-  std::string out = printed("<section class=\"banner %s\" id=\"verdict\"><strong>",
-                            kStyles[static_cast<std::size_t>(outcome)]) +
+  std::string out = formatted("<section class=\"banner %s\" id=\"verdict\"><strong>",
+                              kStyles[static_cast<std::size_t>(outcome)]) +
                     name_of(outcome) + "</strong> " + words;
   if (run.result && !run.result->ending.empty())
     out += "<p>" + escaped(run.result->ending) + "</p>";
@@ -158,7 +159,7 @@ std::string message_table(const RunData& run) {
       "<th>frames</th><th>period, ms</th><th>median</th><th>p1</th><th>p99</th><th>longest</th>"
       "<th>intervals: 0 to 2 periods, log count</th></tr></thead><tbody>";
   const bool same = run.facts.fingerprint ==
-                    printed("%016llx", static_cast<unsigned long long>(can::av21::kFingerprint));
+                    formatted("%016llx", static_cast<unsigned long long>(can::av21::kFingerprint));
   for (const Intervals& message : messages) out += message_row(message);
   out += "</tbody></table>\n";
   if (!same)

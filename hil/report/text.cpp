@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/report/text.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::report {
 namespace {
@@ -94,12 +97,12 @@ std::string escaped(std::string_view text) {
 std::string number(double value, int decimals) {
   if (!std::isfinite(value)) return unusual(value);
   if (std::abs(value) >= 1e15) return significant(value, 6);
-  return without_sign_of_zero(printed("%.*f", decimals, value));
+  return without_sign_of_zero(formatted("%.*f", decimals, value));
 }
 
 std::string significant(double value, int digits) {
   if (!std::isfinite(value)) return unusual(value);
-  return without_sign_of_zero(printed("%.*g", digits, value));
+  return without_sign_of_zero(formatted("%.*g", digits, value));
 }
 
 }  // namespace pitwall::report

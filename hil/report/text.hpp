@@ -8,12 +8,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cstdio>
 #include <string>
 #include <string_view>
-
-#include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::report {
 
@@ -23,14 +19,5 @@ std::string escaped(std::string_view text);
 std::string number(double value, int decimals);
 // The shortest of up to `digits` significant digits; likewise.
 std::string significant(double value, int digits);
-
-// printf; what is longer than 512 bytes is our own mistake.
-template <class... Args>
-std::string printed(const char* pattern, Args... args) {
-  std::array<char, 512> text{};
-  const int length = std::snprintf(text.data(), text.size(), pattern, args...);
-  CHECK(length >= 0 && static_cast<std::size_t>(length) < text.size());
-  return {text.data(), static_cast<std::size_t>(length)};
-}
 
 }  // namespace pitwall::report

@@ -8,6 +8,7 @@
 #include "hil/report/absent.hpp"
 #include "hil/report/plot.hpp"
 #include "hil/report/text.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::report {
 namespace {
@@ -78,7 +79,7 @@ Lane lane_of(const char* name, std::span<const Span> spans, std::span<const Stat
 }
 
 std::string label_of(const FaultSpan& fault) {
-  return fault.kind + (fault.can_id != 0 ? printed(" id %u", fault.can_id) : std::string());
+  return fault.kind + (fault.can_id != 0 ? formatted(" id %u", fault.can_id) : std::string());
 }
 
 double end_of(const FaultSpan& fault, const RunData& run) {
@@ -92,7 +93,7 @@ void add_fault_lanes(const RunData& run, std::vector<Lane>& lanes) {
   for (std::size_t i = 0; i < run.faults.size(); ++i) {
     const FaultSpan& fault = run.faults[i];
     if (i < kLanesMax)
-      lanes.push_back({.name = printed("fault %zu", i + 1), .pieces = {}, .absent = {}});
+      lanes.push_back({.name = formatted("fault %zu", i + 1), .pieces = {}, .absent = {}});
     lanes.back().pieces.push_back({fault.from_s, end_of(fault, run), label_of(fault), kStop});
   }
 }

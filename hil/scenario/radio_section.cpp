@@ -57,10 +57,10 @@ RadioPath read_path(yaml::StrictMap& map) {
   return path;
 }
 
-void read_word(yaml::StrictMap& row, std::vector<OperatorWord>& words) {
+void read_word(yaml::StrictMap& row, std::vector<OperatorText>& words) {
   const double at_s = row.number("at_s", 0.0, kLongest_s);
   const std::string text = row.text("say");
-  if (text.empty()) row.fail("say", "says nothing");
+  if (text.empty()) row.fail("say", "is empty");
   const bool repeats = row.has("every_s");
   if (repeats != row.has("until_s")) row.fail("say", "every_s and until_s belong together");
   const double every_s = repeats ? row.number("every_s", 0.01, kLongest_s) : kLongest_s;
@@ -68,7 +68,7 @@ void read_word(yaml::StrictMap& row, std::vector<OperatorWord>& words) {
   row.finish();
   for (Duration at = from_seconds(at_s); at <= from_seconds(until_s);
        at = at + from_seconds(every_s)) {
-    if (words.size() == kMaxWords) row.fail("say", "more than 100 000 words in all");
+    if (words.size() == kMaxWords) row.fail("say", "more than 100 000 texts in all");
     words.push_back({at, text});
   }
 }
@@ -86,12 +86,12 @@ std::vector<RadioPath> read_radio(yaml::StrictMap& map) {
   return paths;
 }
 
-std::vector<OperatorWord> read_operator(yaml::StrictMap& map) {
-  std::vector<OperatorWord> words;
+std::vector<OperatorText> read_operator(yaml::StrictMap& map) {
+  std::vector<OperatorText> words;
   if (!map.has("operator")) return words;
   for (yaml::StrictMap& row : map.maps("operator")) read_word(row, words);
   std::stable_sort(words.begin(), words.end(),
-                   [](const OperatorWord& a, const OperatorWord& b) { return a.at < b.at; });
+                   [](const OperatorText& a, const OperatorText& b) { return a.at < b.at; });
   return words;
 }
 

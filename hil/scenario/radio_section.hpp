@@ -30,13 +30,13 @@ struct RadioPath {
   std::optional<std::uint64_t> seed;  // of its own; else derived from the scenario's
 };
 
-struct OperatorWord {
+struct OperatorText {
   Duration at{};
   std::string text;
 };
 
 std::vector<RadioPath> read_radio(yaml::StrictMap& map);
 // In the order of time.
-std::vector<OperatorWord> read_operator(yaml::StrictMap& map);
+std::vector<OperatorText> read_operator(yaml::StrictMap& map);
 
 }  // namespace pitwall::scenario

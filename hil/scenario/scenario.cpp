@@ -249,7 +249,7 @@ Scenario read_root(yaml::StrictMap& map) {
   if (auto perturb = map.optional_map("perturb")) scenario.perturb = read_perturbations(*perturb);
   read_list(map, "race_control", scenario.race_control, read_flag_change);
   scenario.radio = read_radio(map);
-  scenario.operator_words = read_operator(map);
+  scenario.operator_texts = read_operator(map);
   read_list(map, "faults", scenario.faults, read_fault);
   read_list(map, "expect", scenario.expect, [&scenario](yaml::StrictMap& entry) {
     return read_expectation(entry, scenario.faults);

@@ -34,7 +34,7 @@ struct Tyres {
 };
 
 // How the modelled car and world differ from what the car believes of them. Neutral by default.
-// What each does to the plant: hil/plant_file/perturbed.hpp.
+// What each does to the plant: hil/scenario/perturbed.hpp.
 struct Perturbations {
   double mass_kg = 0.0;         // added to the car's; [-300, 300]
   double tyre_stiffness = 1.0;  // factor on the slip stiffness at the same friction; [0.5, 2]
@@ -104,7 +104,7 @@ struct Scenario {
   Perturbations perturb;
   std::vector<FlagChange> race_control;
   std::vector<RadioPath> radio;  // empty: takes no time, loses nothing
-  std::vector<OperatorWord> operator_words;
+  std::vector<OperatorText> operator_texts;
   std::vector<Fault> faults;
   std::vector<Expectation> expect;
   std::optional<NamedContact> contact;

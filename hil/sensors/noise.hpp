@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "protocol/vocabulary/random.hpp"
+
 namespace pitwall::sensors {
 
 class Noise {
@@ -17,8 +19,8 @@ class Noise {
   Noise() : Noise(0, 0) {}
   // Streams of one seed are independent of each other.
   Noise(std::uint64_t seed, std::uint64_t stream) {
-    std::uint64_t mix = seed ^ (stream * 0xD1342543DE82EF95ULL + 0x2545F4914F6CDD1DULL);
-    for (std::uint64_t& word : word_) word = split(mix);
+    Random seeds{seed ^ (stream * 0xD1342543DE82EF95ULL + 0x2545F4914F6CDD1DULL)};
+    for (std::uint64_t& word : word_) word = seeds.next();
   }
 
   std::uint64_t next() {
@@ -47,13 +49,6 @@ class Noise {
   }
 
  private:
-  static std::uint64_t split(std::uint64_t& state) {
-    std::uint64_t z = (state += 0x9E3779B97F4A7C15ULL);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-    return z ^ (z >> 31);
-  }
-
   std::array<std::uint64_t, 4> word_;
 };
 

@@ -176,12 +176,12 @@ ReceiverBytes to_novatel(const world::ReceiverHealth& s) {
   return bytes;
 }
 
-ReceiverBytes VectorNavVoice::say(const world::GnssPosition& sample) {
+ReceiverBytes VectorNavEncoder::encode(const world::GnssPosition& sample) {
   position_ = sample;
   return {};
 }
 
-ReceiverBytes VectorNavVoice::say(const world::GnssVelocity& sample) {
+ReceiverBytes VectorNavEncoder::encode(const world::GnssVelocity& sample) {
   if (sample.at != position_.at) return {};
   const gnss::GpsTime t = gps_of(sample.at);
   gnss::VectorNavMessage m;
@@ -206,13 +206,13 @@ ReceiverBytes VectorNavVoice::say(const world::GnssVelocity& sample) {
   return bytes_of(m);
 }
 
-ReceiverBytes VectorNavVoice::say(const world::GnssHeading& sample) {
+ReceiverBytes VectorNavEncoder::encode(const world::GnssHeading& sample) {
   compass_ = sample.solution_status == world::kSolutionComputed &&
              sample.position_type != world::kPositionNone;
   return {};
 }
 
-ReceiverBytes VectorNavVoice::say(const world::ImuSample& sample) {
+ReceiverBytes VectorNavEncoder::encode(const world::ImuSample& sample) {
   const auto axes = [](const std::array<double, 3>& body) {
     return gnss::VectorNavTriple{narrow(body[0]), narrow(-body[1]), narrow(-body[2])};
   };
@@ -224,7 +224,7 @@ ReceiverBytes VectorNavVoice::say(const world::ImuSample& sample) {
   return bytes_of(m);
 }
 
-ReceiverBytes VectorNavVoice::say(const world::InsAttitude& sample) {
+ReceiverBytes VectorNavEncoder::encode(const world::InsAttitude& sample) {
   gnss::VectorNavMessage m;
   m.output = receivers::kVectorNavIns;
   m.time_gps_ns = static_cast<std::uint64_t>(gps_of(sample.at).ns);
@@ -241,7 +241,7 @@ ReceiverBytes VectorNavVoice::say(const world::InsAttitude& sample) {
   return bytes_of(m);
 }
 
-ReceiverBytes VectorNavVoice::say(const world::ReceiverHealth& sample) {
+ReceiverBytes VectorNavEncoder::encode(const world::ReceiverHealth& sample) {
   health_ = sample;
   return {};
 }

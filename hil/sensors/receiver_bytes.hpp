@@ -1,5 +1,5 @@
-// What a receiver puts on its wire: samples to the bytes that a NovAtel OEM7 or a VectorNav VN-310
-// would send. The benches speak with it, live and in lockstep.
+// Encoder of receiver streams: samples to the bytes that a NovAtel OEM7 or a VectorNav VN-310 would
+// send. Used by the live and the lockstep bench.
 //   in     samples of sensors.hpp, `at` in scenario time
 //   out    whole messages
 //   frames IMU: Body (x forward, y left, z up) to NovAtel's vehicle frame (x right, y forward, z
@@ -43,14 +43,15 @@ ReceiverBytes to_novatel(const world::ReceiverHealth& sample);  // RXSTATUS and 
 
 // One VectorNav. It says position and velocity of an epoch in one message, when both are there; so
 // it remembers, and what it says of itself rides on its other messages.
-class VectorNavVoice {
+class VectorNavEncoder {
  public:
-  ReceiverBytes say(const world::GnssPosition& sample);  // nothing yet
-  ReceiverBytes say(const world::GnssVelocity& sample);  // nothing without a position of its time
-  ReceiverBytes say(const world::GnssHeading& sample);   // nothing: whether its compass works
-  ReceiverBytes say(const world::ImuSample& sample);
-  ReceiverBytes say(const world::InsAttitude& sample);
-  ReceiverBytes say(const world::ReceiverHealth& sample);  // nothing: in its status words
+  ReceiverBytes encode(const world::GnssPosition& sample);  // nothing yet
+  ReceiverBytes encode(
+      const world::GnssVelocity& sample);                  // nothing without a position of its time
+  ReceiverBytes encode(const world::GnssHeading& sample);  // nothing: whether its compass works
+  ReceiverBytes encode(const world::ImuSample& sample);
+  ReceiverBytes encode(const world::InsAttitude& sample);
+  ReceiverBytes encode(const world::ReceiverHealth& sample);  // nothing: in its status words
 
  private:
   world::GnssPosition position_;
@@ -59,35 +60,35 @@ class VectorNavVoice {
 };
 
 // All units of the car, each of its kind.
-class ReceiverVoices {
+class ReceiverEncoders {
  public:
-  explicit ReceiverVoices(const world::Receivers& units) : units_(units) {}
+  explicit ReceiverEncoders(const world::Receivers& units) : units_(units) {}
 
   // sink(unit, bytes) for each message, the IMU's first: it is the quickest.
   template <class Sink>
-  void say(const world::SensorInput& samples, Sink&& sink) {
-    say_list(samples.imu, sink);
-    say_list(samples.positions, sink);
-    say_list(samples.velocities, sink);
-    say_list(samples.headings, sink);
-    say_list(samples.attitudes, sink);
-    say_list(samples.receivers, sink);
+  void encode(const world::SensorInput& samples, Sink&& sink) {
+    encode_list(samples.imu, sink);
+    encode_list(samples.positions, sink);
+    encode_list(samples.velocities, sink);
+    encode_list(samples.headings, sink);
+    encode_list(samples.attitudes, sink);
+    encode_list(samples.receivers, sink);
   }
 
  private:
   template <class List, class Sink>
-  void say_list(const List& list, Sink& sink) {
+  void encode_list(const List& list, Sink& sink) {
     for (const auto& sample : list) {
       CHECK(sample.unit < units_.size());
       const bool novatel = units_[sample.unit].kind == world::ReceiverKind::kNovatelOem7;
       const ReceiverBytes bytes =
-          novatel ? to_novatel(sample) : vectornavs_[sample.unit].say(sample);
+          novatel ? to_novatel(sample) : vectornavs_[sample.unit].encode(sample);
       if (bytes.length > 0) sink(sample.unit, bytes.span());
     }
   }
 
   world::Receivers units_;
-  std::array<VectorNavVoice, world::kGnssUnits> vectornavs_{};
+  std::array<VectorNavEncoder, world::kGnssUnits> vectornavs_{};
 };
 
 }  // namespace pitwall::sensors

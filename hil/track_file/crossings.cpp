@@ -7,6 +7,7 @@
 
 #include "hil/report/text.hpp"
 #include "hil/track_file/closed_curve.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::track_file {
 namespace {
@@ -67,7 +68,7 @@ std::optional<Crossing> first_crossing(const TrackCsv& csv, const std::vector<Pi
       if (same_line && joined) continue;
       if (!cross(p, q)) continue;
       const auto [earlier, later] = std::minmax(p.row, q.row);
-      return Crossing{later, report::printed("%s at line %zu", what, csv.rows[earlier].line)};
+      return Crossing{later, formatted("%s at line %zu", what, csv.rows[earlier].line)};
     }
   return std::nullopt;
 }

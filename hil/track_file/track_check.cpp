@@ -5,11 +5,12 @@
 #include <cmath>
 
 #include "hil/report/text.hpp"
+#include "protocol/json/json_text.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::track_file {
 namespace {
 
-using report::printed;
 using world::TrackMap;
 using world::TrackPoint;
 
@@ -69,38 +70,39 @@ double correction_per_m(const world::TrackDescription& d, const TrackMap& map) {
 
 void warn(TrackReport& r) {
   const auto add = [&r](bool odd, const std::string& what, double s_m) {
-    if (odd) r.warnings.push_back(what + printed(" at s = %.0f m", s_m));
+    if (odd) r.warnings.push_back(what + formatted(" at s = %.0f m", s_m));
   };
-  add(r.width_min.value < kNarrow_m, printed("only %.1f m wide", r.width_min.value),
+  add(r.width_min.value < kNarrow_m, formatted("only %.1f m wide", r.width_min.value),
       r.width_min.s_m);
   add(r.wall_nearest.value < kWallNear_m,
-      printed("the reference line runs %.2f m from a wall", r.wall_nearest.value),
+      formatted("the reference line runs %.2f m from a wall", r.wall_nearest.value),
       r.wall_nearest.s_m);
   add(r.inner_room.value < kTight_m,
-      printed("the inner wall turns in a radius of %.1f m", r.inner_room.value), r.inner_room.s_m);
+      formatted("the inner wall turns in a radius of %.1f m", r.inner_room.value),
+      r.inner_room.s_m);
   add(r.bank_change.value > kBankChange_rad_per_m,
-      printed("banking changes by %.1f degrees in a metre", to_deg(r.bank_change.value)),
+      formatted("banking changes by %.1f degrees in a metre", to_deg(r.bank_change.value)),
       r.bank_change.s_m);
   add(r.width_change.value > kWidthChange,
-      printed("a wall moves by %.1f m in a metre", r.width_change.value), r.width_change.s_m);
+      formatted("a wall moves by %.1f m in a metre", r.width_change.value), r.width_change.s_m);
   if (r.correction_share > kCorrectionOdd)
     r.warnings.push_back(
-        printed("the table closes only when bent by %.1f %% of its largest "
-                "curvature",
-                100.0 * r.correction_share));
+        formatted("the table closes only when bent by %.1f %% of its largest "
+                  "curvature",
+                  100.0 * r.correction_share));
 }
 
-std::string at(const AtStation& v) { return printed(" at s = %.0f m", v.s_m); }
+std::string at(const AtStation& v) { return formatted(" at s = %.0f m", v.s_m); }
 
 std::string radius(const AtStation& curvature) {
   constexpr double kStraight_per_m = 1e-5;
   if (std::abs(curvature.value) < kStraight_per_m) return "straight";
-  return printed("radius %.1f m %s%s", 1.0 / std::abs(curvature.value),
-                 curvature.value > 0.0 ? "left" : "right", at(curvature).c_str());
+  return formatted("radius %.1f m %s%s", 1.0 / std::abs(curvature.value),
+                   curvature.value > 0.0 ? "left" : "right", at(curvature).c_str());
 }
 
-std::string json(const char* name, const AtStation& v) {
-  return printed("\"%s\":{\"value\":%.9g,\"s_m\":%.3f},", name, v.value, v.s_m);
+std::string json_of(const AtStation& v) {
+  return json::Object{}.number("value", v.value).number("s_m", v.s_m).str();
 }
 
 }  // namespace
@@ -127,42 +129,51 @@ TrackReport check_track(const world::TrackDescription& description, const TrackM
 }
 
 std::string to_text(const TrackReport& r) {
-  std::string out = printed("%s: %.1f m, %zu knots, turns %.1f degrees to the %s over a lap\n",
-                            r.name.substr(0, 100).c_str(), r.length_m, r.knots,
-                            std::abs(to_deg(r.turned_rad)), r.turned_rad > 0.0 ? "left" : "right");
-  out += printed("closure    %.1e m; the table was bent by %.2f %% of its largest curvature\n",
-                 r.closure_m, 100.0 * r.correction_share);
+  std::string out =
+      formatted("%s: %.1f m, %zu knots, turns %.1f degrees to the %s over a lap\n",
+                r.name.substr(0, 100).c_str(), r.length_m, r.knots, std::abs(to_deg(r.turned_rad)),
+                r.turned_rad > 0.0 ? "left" : "right");
+  out += formatted("closure    %.1e m; the table was bent by %.2f %% of its largest curvature\n",
+                   r.closure_m, 100.0 * r.correction_share);
   out += "curvature  most to the left: " + radius(r.curvature_max) +
          "; most to the right: " + radius(r.curvature_min) + "\n";
-  out += printed("           steepest change %.2e 1/m^2%s\n", r.curvature_change.value,
-                 at(r.curvature_change).c_str());
-  out += printed("width      %.1f m%s to %.1f m%s; line to wall at least %.1f m%s\n",
-                 r.width_min.value, at(r.width_min).c_str(), r.width_max.value,
-                 at(r.width_max).c_str(), r.wall_nearest.value, at(r.wall_nearest).c_str());
-  out += printed("banking    %.1f degrees%s to %.1f%s; steepest change %.2f degrees/m%s\n",
-                 to_deg(r.bank_min.value), at(r.bank_min).c_str(), to_deg(r.bank_max.value),
-                 at(r.bank_max).c_str(), to_deg(r.bank_change.value), at(r.bank_change).c_str());
-  out += printed("walls      cross nowhere; radius of the inner wall at least %.1f m%s\n",
-                 r.inner_room.value, at(r.inner_room).c_str());
+  out += formatted("           steepest change %.2e 1/m^2%s\n", r.curvature_change.value,
+                   at(r.curvature_change).c_str());
+  out += formatted("width      %.1f m%s to %.1f m%s; line to wall at least %.1f m%s\n",
+                   r.width_min.value, at(r.width_min).c_str(), r.width_max.value,
+                   at(r.width_max).c_str(), r.wall_nearest.value, at(r.wall_nearest).c_str());
+  out += formatted("banking    %.1f degrees%s to %.1f%s; steepest change %.2f degrees/m%s\n",
+                   to_deg(r.bank_min.value), at(r.bank_min).c_str(), to_deg(r.bank_max.value),
+                   at(r.bank_max).c_str(), to_deg(r.bank_change.value), at(r.bank_change).c_str());
+  out += formatted("walls      cross nowhere; radius of the inner wall at least %.1f m%s\n",
+                   r.inner_room.value, at(r.inner_room).c_str());
   for (const std::string& warning : r.warnings) out += "warning: " + warning + "\n";
-  return out + printed("%zu warnings\n", r.warnings.size());
+  return out + formatted("%zu warnings\n", r.warnings.size());
 }
 
 std::string to_json(const TrackReport& r) {
-  std::string out = printed(
-      "{\"length_m\":%.4f,\"knots\":%zu,\"turned_rad\":%.9g,\"closure_m\":%.3e,"
-      "\"correction_share\":%.6f,",
-      r.length_m, r.knots, r.turned_rad, r.closure_m, r.correction_share);
-  out += json("curvature_max_per_m", r.curvature_max) +
-         json("curvature_min_per_m", r.curvature_min) +
-         json("curvature_change_per_m2", r.curvature_change) + json("width_max_m", r.width_max) +
-         json("width_min_m", r.width_min) + json("wall_nearest_m", r.wall_nearest) +
-         json("inner_room_m", r.inner_room) + json("bank_max_rad", r.bank_max) +
-         json("bank_min_rad", r.bank_min) + json("bank_change_rad_per_m", r.bank_change) +
-         json("width_change_m_per_m", r.width_change) + "\"warnings\":[";
-  for (std::size_t i = 0; i < r.warnings.size(); ++i)
-    out += (i == 0 ? "\"" : ",\"") + r.warnings[i] + "\"";  // our own words: nothing to escape
-  return out + "]}\n";
+  json::Array warnings;
+  for (const std::string& warning : r.warnings) warnings.text(warning);
+  return json::Object{}
+             .number("length_m", r.length_m)
+             .number("knots", r.knots)
+             .number("turned_rad", r.turned_rad)
+             .number("closure_m", r.closure_m)
+             .number("correction_share", r.correction_share)
+             .json("curvature_max_per_m", json_of(r.curvature_max))
+             .json("curvature_min_per_m", json_of(r.curvature_min))
+             .json("curvature_change_per_m2", json_of(r.curvature_change))
+             .json("width_max_m", json_of(r.width_max))
+             .json("width_min_m", json_of(r.width_min))
+             .json("wall_nearest_m", json_of(r.wall_nearest))
+             .json("inner_room_m", json_of(r.inner_room))
+             .json("bank_max_rad", json_of(r.bank_max))
+             .json("bank_min_rad", json_of(r.bank_min))
+             .json("bank_change_rad_per_m", json_of(r.bank_change))
+             .json("width_change_m_per_m", json_of(r.width_change))
+             .json("warnings", warnings.str())
+             .str() +
+         "\n";
 }
 
 }  // namespace pitwall::track_file

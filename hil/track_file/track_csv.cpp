@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "protocol/vocabulary/text.hpp"
+
 namespace pitwall::track_file {
 namespace {
 
@@ -52,13 +54,6 @@ constexpr std::array kColumns{
 };
 
 using Header = std::vector<const Column*>;
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r\n";
-  const std::size_t from = text.find_first_not_of(kBlank);
-  if (from == std::string_view::npos) return {};
-  return text.substr(from, text.find_last_not_of(kBlank) - from + 1);
-}
 
 std::vector<std::string_view> fields_of(std::string_view line, char separator) {
   std::vector<std::string_view> fields;

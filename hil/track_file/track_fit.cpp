@@ -12,11 +12,10 @@
 #include "hil/track_file/crossings.hpp"
 #include "hil/track_file/periodic_table.hpp"
 #include "protocol/vocabulary/check.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::track_file {
 namespace {
-
-using report::printed;
 
 constexpr double kHeadingStep_m = 1.0;
 constexpr double kNear_m = 0.25;      // points closer to each other say nothing of a track
@@ -49,15 +48,16 @@ Result<bool, Problem> closed(const TrackCsv& csv, const std::vector<std::size_t>
   for (std::size_t j = 1; j < kept.size(); ++j) {
     const double step_m = distance_m(csv.rows[kept[j - 1]], csv.rows[kept[j]]);
     if (step_m > kGapMax_m)
-      return refuse(csv, kept[j], printed("a gap of %.1f m to the point before", step_m));
+      return refuse(csv, kept[j], formatted("a gap of %.1f m to the point before", step_m));
     longest_m = std::max(longest_m, step_m);
   }
   const double last_m = distance_m(csv.rows[kept.back()], csv.rows[kept[0]]);
   if (last_m > kOpenSteps * longest_m)
-    return refuse(csv, kept.back(),
-                  printed("open loop: the last point lies %.1f m from the first, and no two others "
-                          "are farther than %.1f m apart",
-                          last_m, longest_m));
+    return refuse(
+        csv, kept.back(),
+        formatted("open loop: the last point lies %.1f m from the first, and no two others "
+                  "are farther than %.1f m apart",
+                  last_m, longest_m));
   return true;
 }
 
@@ -106,7 +106,7 @@ Result<Line, Problem> line_of_places(const TrackCsv& csv, const FitOptions& opti
   line.rows = distinct(csv);
   if (line.rows.size() < kRowsMin)
     return refuse(csv, csv.rows.size() - 1,
-                  printed("only %zu points at least %.2f m apart", line.rows.size(), kNear_m));
+                  formatted("only %zu points at least %.2f m apart", line.rows.size(), kNear_m));
   fit.removed = csv.rows.size() - line.rows.size();
   if (const auto ok = closed(csv, line.rows); !ok) return Unexpected{ok.error()};
   if (const auto crossing = crossing_of(csv, line.rows))
@@ -133,9 +133,9 @@ Result<Line, Problem> line_of_places(const TrackCsv& csv, const FitOptions& opti
   }
   if (fit.moved_m > kMovedMax_m)
     return refuse(csv, farthest,
-                  printed("%.2f m beside the smoothed line: an outlier, or smoothing over %.0f m "
-                          "is too much for this turn",
-                          fit.moved_m, options.smoothing_m));
+                  formatted("%.2f m beside the smoothed line: an outlier, or smoothing over %.0f m "
+                            "is too much for this turn",
+                            fit.moved_m, options.smoothing_m));
   return line;
 }
 
@@ -193,8 +193,8 @@ std::optional<Problem> fault_of(const TrackCsv& csv, const Line& line,
     return Problem{place_of(csv, line.rows[nearest]),
                    "the smoothed line leaves the track: smooth over a shorter length"};
   return Problem{place_of(csv, line.rows[nearest]),
-                 printed("the turn's radius of %.1f m is less than the %.1f m to its inner wall",
-                         1.0 / std::abs(knot.curvature_per_m), inner_m)};
+                 formatted("the turn's radius of %.1f m is less than the %.1f m to its inner wall",
+                           1.0 / std::abs(knot.curvature_per_m), inner_m)};
 }
 
 Result<world::TrackDescription, Problem> knots_of(const TrackCsv& csv, const Line& line,

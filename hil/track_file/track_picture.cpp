@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "hil/report/text.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::track_file {
 namespace {
 
-using report::printed;
 using world::TrackMap;
 using world::TrackPoint;
 
@@ -37,7 +37,7 @@ std::string colour_of(double share) {
     return static_cast<int>(std::lround(a + (b - a) * t));
   };
   const Colour &a = kScale[low], &b = kScale[low + 1];
-  return printed("#%02x%02x%02x", mix(a.red, b.red), mix(a.green, b.green), mix(a.blue, b.blue));
+  return formatted("#%02x%02x%02x", mix(a.red, b.red), mix(a.green, b.green), mix(a.blue, b.blue));
 }
 
 struct Pixel {
@@ -55,7 +55,7 @@ class Picture {
   }
 
   std::string draw() {
-    out_ = printed(
+    out_ = formatted(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" "
         "viewBox=\"0 0 %.0f %.0f\" font-family=\"DejaVu Sans, sans-serif\" font-size=\"12\">\n",
         kWidth_px, kHeight_px, kWidth_px, kHeight_px);
@@ -97,14 +97,14 @@ class Picture {
   Pixel beside(const TrackPoint& p, double n_m) const {
     return at(p.x_m - n_m * std::sin(p.yaw_rad), p.y_m + n_m * std::cos(p.yaw_rad));
   }
-  static std::string coordinates(const Pixel& p) { return printed("%.1f,%.1f ", p.x, p.y); }
+  static std::string coordinates(const Pixel& p) { return formatted("%.1f,%.1f ", p.x, p.y); }
   double bank_share(double bank_rad) const {
     const double range_rad = bank_high_ - bank_low_;
     return range_rad > from_deg(0.1) ? (bank_rad - bank_low_) / range_rad : 0.0;
   }
 
   void text(const Pixel& p, const std::string& words, const char* style = "") {
-    out_ += printed("<text x=\"%.1f\" y=\"%.1f\" %s>", p.x, p.y, style) + words + "</text>\n";
+    out_ += formatted("<text x=\"%.1f\" y=\"%.1f\" %s>", p.x, p.y, style) + words + "</text>\n";
   }
 
   void road() {
@@ -115,15 +115,15 @@ class Picture {
       out_ += "<polygon points=\"" + coordinates(beside(a, a.width_left_m)) +
               coordinates(beside(b, b.width_left_m)) + coordinates(beside(b, -b.width_right_m)) +
               coordinates(beside(a, -a.width_right_m)) +
-              printed("\" fill=\"%s\" stroke=\"%s\" stroke-width=\"0.4\"/>\n", fill.c_str(),
-                      fill.c_str());
+              formatted("\" fill=\"%s\" stroke=\"%s\" stroke-width=\"0.4\"/>\n", fill.c_str(),
+                        fill.c_str());
     }
     out_ += "</g>\n";
   }
 
   // side 1: left wall, -1: right wall, 0: the reference line
   void line(double side, const char* name, const char* style) {
-    out_ += printed("<polygon class=\"%s\" fill=\"none\" %s points=\"", name, style);
+    out_ += formatted("<polygon class=\"%s\" fill=\"none\" %s points=\"", name, style);
     for (const TrackPoint& p : at_) {
       const double n_m = side > 0.0 ? p.width_left_m : side < 0.0 ? -p.width_right_m : 0.0;
       out_ += coordinates(beside(p, n_m));
@@ -157,10 +157,10 @@ class Picture {
       const TrackPoint p = track_.at(s_m);
       const Pixel a = outside(p, 0.0), b = outside(p, kTick_px);
       out_ +=
-          printed("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#303030\"/>\n",
-                  a.x, a.y, b.x, b.y);
+          formatted("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#303030\"/>\n",
+                    a.x, a.y, b.x, b.y);
       if (std::remainder(s_m, label_m) != 0.0 || track_.length_m() - s_m < 0.4 * label_m) continue;
-      const std::string number = printed("%.0f", s_m);
+      const std::string number = formatted("%.0f", s_m);
       const double half_px = 0.5 * kDigit_px * static_cast<double>(number.size());
       const double sideways = std::abs(b.x - a.x) / kTick_px;
       const Pixel words = outside(p, kTick_px + 3.0 + std::lerp(kHalfLine_px, half_px, sideways));
@@ -171,8 +171,8 @@ class Picture {
 
   void across(const TrackPoint& p, const char* name, const char* style) {
     const Pixel a = beside(p, p.width_left_m), b = beside(p, -p.width_right_m);
-    out_ += printed("<line class=\"%s\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" %s/>\n",
-                    name, a.x, a.y, b.x, b.y, style);
+    out_ += formatted("<line class=\"%s\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" %s/>\n",
+                      name, a.x, a.y, b.x, b.y, style);
   }
 
   void pit() {
@@ -197,7 +197,7 @@ class Picture {
     const Pixel b = beside(on, -outward() * (inside_m + 14.0 / px_per_m_));
     const double dx = b.x - a.x, dy = b.y - a.y, far = std::max(std::hypot(dx, dy), 1e-9);
     const double ux = dx / far, uy = dy / far;
-    out_ += printed(
+    out_ += formatted(
         "<path class=\"direction\" d=\"M%.1f,%.1f L%.1f,%.1f M%.1f,%.1f L%.1f,%.1f L%.1f,%.1f\" "
         "fill=\"none\" stroke=\"#d01010\" stroke-width=\"2\"/>\n",
         a.x, a.y, b.x, b.y, b.x - 9.0 * ux - 5.0 * uy, b.y - 9.0 * uy + 5.0 * ux, b.x, b.y,
@@ -209,13 +209,13 @@ class Picture {
     constexpr int kSteps = 32;
     out_ += "<g class=\"legend\">\n";
     for (int i = 0; i < kSteps; ++i)
-      out_ += printed(
+      out_ += formatted(
           "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"12\" fill=\"%s\"/>\n",
           kX_px + kBar_px * i / kSteps, kY_px, kBar_px / kSteps + 0.5,
           colour_of(bank_share(bank_low_ + (bank_high_ - bank_low_) * i / (kSteps - 1))).c_str());
     for (const double share : {0.0, 0.5, 1.0})
       text({kX_px + share * kBar_px, kY_px + 27.0},
-           printed("%.1f°", to_deg(bank_low_ + share * (bank_high_ - bank_low_))),
+           formatted("%.1f°", to_deg(bank_low_ + share * (bank_high_ - bank_low_))),
            "text-anchor=\"middle\"");
     text({kX_px + 0.5 * kBar_px, kY_px - 6.0}, "banking", "text-anchor=\"middle\"");
     out_ += "</g>\n";
@@ -226,18 +226,18 @@ class Picture {
     for (const double step : {2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0})
       if (step * px_per_m_ < 220.0) bar_m = step;
     const double x = kMargin_px, y = kHeight_px - 38.0, end = x + bar_m * px_per_m_;
-    out_ += printed(
+    out_ += formatted(
         "<path class=\"scale\" d=\"M%.1f,%.1f v8 M%.1f,%.1f H%.1f M%.1f,%.1f v8\" fill=\"none\" "
         "stroke=\"#202020\" stroke-width=\"2\"/>\n",
         x, y - 4.0, x, y, end, end, y - 4.0);
-    text({x, y + 20.0}, printed("%.0f m", bar_m));
+    text({x, y + 20.0}, formatted("%.0f m", bar_m));
   }
 
   void north() {
     const double x = kWidth_px - kMargin_px, y = kHeight_px - 34.0;
-    out_ +=
-        printed("<path class=\"north\" d=\"M%.1f,%.1f l7,26 l-7,-6 l-7,6 z\" fill=\"#202020\"/>\n",
-                x, y - 14.0);
+    out_ += formatted(
+        "<path class=\"north\" d=\"M%.1f,%.1f l7,26 l-7,-6 l-7,6 z\" fill=\"#202020\"/>\n", x,
+        y - 14.0);
     text({x, y - 20.0}, "N", "text-anchor=\"middle\" font-weight=\"bold\"");
   }
 
@@ -245,8 +245,8 @@ class Picture {
     text({kMargin_px, 34.0}, report::escaped(track_.name().substr(0, 80)),
          "font-size=\"22\" font-weight=\"bold\"");
     text({kMargin_px, 54.0},
-         printed("%.1f m, banked %.1f to %.1f degrees; from above, the road as wide as it is",
-                 track_.length_m(), to_deg(bank_low_), to_deg(bank_high_)),
+         formatted("%.1f m, banked %.1f to %.1f degrees; from above, the road as wide as it is",
+                   track_.length_m(), to_deg(bank_low_), to_deg(bank_high_)),
          "fill=\"#505050\"");
   }
 

@@ -1,4 +1,4 @@
-// A number in a known range as few bits: step k stands for min + k * resolution.
+// Quantised number: a value of a known range in few bits; step k stands for min + k * resolution.
 //   in      min < max and resolution > 0, all finite (checked); at most 32 bits
 //   out     steps 0 to count() - 1; the widest value of the field is kept for "no value" (NaN)
 //   rule    rounded half away from zero, held inside the range; infinities are held, NaN is kept

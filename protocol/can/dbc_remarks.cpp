@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <set>
 #include <string_view>
 
 #include "protocol/can/dbc_draft.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::can {
 namespace {
@@ -16,12 +16,6 @@ namespace {
 constexpr std::size_t kMostNames = 4;  // that are listed before "and 3 more"
 // Of the field, for ranges that were rounded when they were written down.
 constexpr double kRoundingSlack = 1e-6;
-
-std::string number(double v) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), v).ptr;
-  return {text.data(), end};
-}
 
 std::string listed(const std::vector<std::string_view>& names) {
   std::string out;
@@ -53,14 +47,14 @@ Limits limits_of_field(const Signal& s) {
 
 void judge_range(const Signal& s, std::vector<std::string>& out) {
   const SignalLayout& l = s.layout;
-  const std::string range = "[" + number(l.min) + "|" + number(l.max) + "]";
+  const std::string range = "[" + shortest(l.min) + "|" + shortest(l.max) + "]";
   if (l.min > l.max) out.push_back("signal " + s.name + ": the range " + range + " is upside down");
   if (!(l.min < l.max)) return;
   const Limits field = limits_of_field(s);
   const bool is_float = l.number == Number::kFloat32 || l.number == Number::kFloat64;
   const double slack = kRoundingSlack * (is_float ? field.high : std::abs(l.scale)) +
                        kRoundingSlack * kRoundingSlack * std::max(std::abs(l.min), std::abs(l.max));
-  const std::string holds = "[" + number(field.low) + "|" + number(field.high) + "]";
+  const std::string holds = "[" + shortest(field.low) + "|" + shortest(field.high) + "]";
   const bool is_empty = !is_float &&
                         std::floor((l.max - l.offset) / l.scale + kRoundingSlack) <
                             std::ceil((l.min - l.offset) / l.scale - kRoundingSlack) &&

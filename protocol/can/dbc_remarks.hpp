@@ -1,4 +1,5 @@
-// What a database says that can hardly be meant, in words. Nothing here makes a file unreadable.
+// Remarks on a database: definitions that are legal but probably not meant. None makes a file
+// unreadable.
 //   in      a message with its plans
 //   out     one text for each oddity; a Problem where the place is not that of the argument
 //   cost    linear in signals and names of values

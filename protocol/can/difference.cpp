@@ -11,17 +11,12 @@
 #include <utility>
 
 #include "protocol/can/decode.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::can {
 namespace {
 
 constexpr std::size_t kMostValues = 4;  // that one line lists
-
-std::string shortest(double v) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), v).ptr;
-  return {text.data(), end};
-}
 
 // For what was computed: without the last digits, which only show that 0.01 is not binary.
 std::string rounded(double v) {

@@ -1,5 +1,5 @@
-// What a DBC file cannot say about a message: direction, period, timeout, counter, checksum, safety
-// class and plausible rates of change. One YAML file beside each DBC file.
+// Manifest of a database: what DBC cannot express about a message (direction, period, timeout,
+// counter, checksum, safety class, plausible rates of change). One YAML file beside each DBC file.
 //   in      the YAML text and the database that it belongs to
 //   out     the manifest; and rows that join it with the database, one per message
 //   errors  a Problem at "file:line:column": unknown message or signal, a message of the database

@@ -152,8 +152,8 @@ void pay(const MonitorRules& rules, MessageMonitor& m, bool is_bad) {
   }
 }
 
-void remember(MessageMonitor& m, bool is_read, std::uint32_t value, std::uint32_t slots,
-              const Advance& advance) {
+void store(MessageMonitor& m, bool is_read, std::uint32_t value, std::uint32_t slots,
+           const Advance& advance) {
   if (is_read && !advance.is_stuck) {
     m.counter = value;
     m.counter_known = true;
@@ -213,7 +213,7 @@ FrameVerdict judge(const MessageRow& row, const MonitorRules& rules, MessageMoni
     m.ever = true;
     m.cycle = cycle_of(row.protection);
     m.base = m.last = received.at;
-    remember(m, is_read, value, 0, {});
+    store(m, is_read, value, 0, {});
     return verdict_of(rules, m, is_whole, {});
   }
   const std::uint32_t slots = sends_in(received.at - m.base, row.period);
@@ -228,7 +228,7 @@ FrameVerdict judge(const MessageRow& row, const MonitorRules& rules, MessageMoni
     m.base = received.at;
     m.reported = m.listed = 0;
   }
-  remember(m, is_read, value, slots, advance);
+  store(m, is_read, value, slots, advance);
   return verdict_of(rules, m, is_whole, advance);
 }
 

@@ -1,5 +1,5 @@
-// Where a signal lies in a frame and what its bits mean; from that a plan: one load of eight
-// bytes, one shift, one mask. Generated code and run-time decoder use the same functions.
+// Layout of a signal in a frame, and the plan to read it: one load of eight bytes, one shift, one
+// mask. Generated code and run-time decoder use the same functions.
 //   in      the layout as a DBC file writes it (start bit, length, byte order, scale, range)
 //   out     raw bits and physical values in DBC units
 //   errors  plan() trusts its layout; the parser refuses layouts that do not fit their message

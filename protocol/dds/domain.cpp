@@ -287,7 +287,7 @@ bool is_address(const std::string& text) { return rtps::IPLocator::isIPv4(text);
 Result<std::unique_ptr<Domain>, Problem> Domain::join(const DomainConfig& config) {
   const std::string place = "DDS domain " + std::to_string(config.domain);
   if (config.domain < 0 || config.domain > kDomainMax)
-    return Unexpected{Problem{place, "0 to " + std::to_string(kDomainMax)}};
+    return Unexpected{Problem{place, "expected 0 to " + std::to_string(kDomainMax)}};
   std::vector<std::string> addresses = config.peers;
   addresses.push_back(config.interface);
   for (const std::string& address : addresses)

@@ -1,5 +1,4 @@
-// What a field of a receiver's message is: which values it cannot have and, for NovAtel's ASCII,
-// how it is written.
+// Kind of a field in a receiver message: its illegal values and, for NovAtel ASCII, its notation.
 //   in     the kind and the value of a field, as sent
 //   out    why it is refused, if it is
 //   invariants

@@ -1,4 +1,4 @@
-// What a NovAtel OEM7 receiver says, as plain values in the receiver's own units and axes.
+// Messages of a NovAtel OEM7 receiver as plain values in the receiver's own units and axes.
 //   frames WGS 84 geodetic; angles from true north, clockwise; IMU axes are the enclosure's. In
 //          NovAtel's vehicle frame x is right, y forward, z up; roll is right-handed about y,
 //          pitch about x.

@@ -1,5 +1,5 @@
-// What a VectorNav VN-310 says in one binary output message: the groups and fields that were asked
-// for, as plain values in the sensor's own units and axes.
+// Binary output message of a VectorNav VN-310: the configured groups and fields as plain values in
+// the sensor's own units and axes.
 //   frames WGS 84 geodetic; yaw from true north, clockwise; sensor body x forward, y right, z down;
 //          acceleration is the specific force (at rest -g along z)
 //   units  as named; times are nanoseconds of GPS time since 1980-01-06 unless said otherwise

@@ -40,7 +40,13 @@ class Object {
 // [1, "x"]
 class Array {
  public:
-  Array& json(std::string_view value);
+  Array& json(std::string_view value);  // already JSON
+  Array& text(std::string_view value) { return json(quoted(value)); }
+  template <class Number>
+  requires std::floating_point<Number> || std::integral<Number> Array& number(Number value) {
+    if constexpr (std::floating_point<Number>) return json(json::number(value));
+    return json(integer(static_cast<std::int64_t>(value)));
+  }
   std::string str() const { return "[" + text_ + "]"; }
 
  private:

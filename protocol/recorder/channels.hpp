@@ -1,4 +1,4 @@
-// What a recording of base or car is made of: its channels, and the bytes of a sample.
+// Channels of a recording of base or car, and the bytes of a sample.
 //   channels  /car/GROUP for each group of the registry, "cdr" with a ROS 2 schema: every field a
 //             float64, NaN where it was not known; log time is the reception, publish time the
 //             sample

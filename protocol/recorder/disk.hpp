@@ -1,4 +1,4 @@
-// Where the files of a recording go to: one is open at a time.
+// Interface to the disk that holds the files of a recording; one file is open at a time.
 //   errors Problem where a file cannot be begun; append(): false, and problem() tells why
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

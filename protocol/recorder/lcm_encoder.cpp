@@ -42,7 +42,7 @@ void put_can(std::vector<std::uint8_t>& out, std::span<const std::uint8_t> cdr) 
 }
 
 void put_datagram(std::vector<std::uint8_t>& out, std::span<const std::uint8_t> record) {
-  const AirDatagram datagram = decode_datagram(record).value_or(AirDatagram{});
+  const RadioDatagram datagram = decode_datagram(record).value_or(RadioDatagram{});
   put(out, std::int16_t{datagram.path});
   put(out, static_cast<std::int32_t>(datagram.ip));
   put(out, std::int32_t{datagram.port});

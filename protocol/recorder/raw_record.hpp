@@ -26,7 +26,7 @@ inline constexpr const char* kStreamEncoding = "x-pitwall-stream";
 inline constexpr std::size_t kDatagramHead = 8, kDatagramMax = 2'048;
 inline constexpr std::uint8_t kDatagramVersion = 1;
 
-struct AirDatagram {
+struct RadioDatagram {
   std::uint8_t path = 0;
   std::uint32_t ip = 0;  // of the other end
   std::uint16_t port = 0;
@@ -35,7 +35,7 @@ struct AirDatagram {
 using DatagramBytes = std::array<std::uint8_t, kDatagramHead + kDatagramMax>;
 
 // What is longer than any datagram of the radio is cut there.
-inline std::span<const std::uint8_t> encode(const AirDatagram& datagram, DatagramBytes& bytes) {
+inline std::span<const std::uint8_t> encode(const RadioDatagram& datagram, DatagramBytes& bytes) {
   const std::size_t length = std::min(datagram.bytes.size(), kDatagramMax);
   bytes[0] = kDatagramVersion;
   bytes[1] = datagram.path;
@@ -47,9 +47,9 @@ inline std::span<const std::uint8_t> encode(const AirDatagram& datagram, Datagra
   return std::span{bytes}.first(kDatagramHead + length);
 }
 
-inline std::optional<AirDatagram> decode_datagram(std::span<const std::uint8_t> record) {
+inline std::optional<RadioDatagram> decode_datagram(std::span<const std::uint8_t> record) {
   if (record.size() < kDatagramHead || record[0] != kDatagramVersion) return std::nullopt;
-  AirDatagram datagram{.path = record[1], .bytes = record.subspan(kDatagramHead)};
+  RadioDatagram datagram{.path = record[1], .bytes = record.subspan(kDatagramHead)};
   for (unsigned i = 0; i < 2; ++i) {
     datagram.port = static_cast<std::uint16_t>(datagram.port | record[2 + i] << (8 * i));
   }

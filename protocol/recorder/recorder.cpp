@@ -96,7 +96,7 @@ void Recorder::text(Topic topic, Instant at, std::string_view json) {
       {.channel = channel_of(topic), .logged = at, .published = at, .data = as_bytes(json)});
 }
 
-void Recorder::datagram(bool down, Instant at, const AirDatagram& datagram) {
+void Recorder::datagram(bool down, Instant at, const RadioDatagram& datagram) {
   DatagramBytes bytes;
   raw(down ? kDownChannel : kUpChannel, at, encode(datagram, bytes));
 }

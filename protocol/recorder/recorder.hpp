@@ -1,4 +1,4 @@
-// Keeps everything that comes in and goes out, in a folder of MCAP segments and LCM event logs.
+// Recorder of all traffic, in both directions, into a folder of MCAP segments and LCM event logs.
 //   in     states, events, texts, datagrams, as they happen, each with its time
 //   out    files as segment_chain.hpp has them; figures
 //   invariants
@@ -54,7 +54,7 @@ class Recorder {
   // Raw bytes come by a budget of their own, so that a flood on the air leaves room on the disk and
   // in the queue for everything else; what is over is left out and counted.
   static constexpr double kRawBytesPerSecond = 1e6, kRawBurstBytes = 2e6;
-  void datagram(bool down, Instant at, const AirDatagram& datagram);
+  void datagram(bool down, Instant at, const RadioDatagram& datagram);
   void receiver(std::size_t unit, Instant at, std::span<const std::uint8_t> bytes);
   void can(bool out, Instant at, const can::Frame& frame);
   RecorderFigures figures() const;

@@ -1,4 +1,4 @@
-// Turns records into files of one minute, one after the other, and goes on when a disk is full.
+// Writer of a chain of one-minute segments, which continues after a full disk.
 //   in     records, the time now; a Disk
 //   out    segments as MCAP, each whole in itself: metadata, channels, then the picture as it was
 //          known; again every kPictureEvery, so that a reader can begin there

@@ -1,4 +1,4 @@
-// Reads an MCAP file (version 0) from memory, from front to back: whole files, files of a process
+// Reader of an MCAP file (version 0) in memory, from front to back: whole files, files of a process
 // that died, and any other bytes.
 //   in     bytes; they must outlive the reader and what it hands out
 //   out    messages in the order of the file; channels and schemas as they become known

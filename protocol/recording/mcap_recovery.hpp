@@ -1,5 +1,5 @@
-// Makes a whole MCAP file of one whose writer died: index, statistics and footer are written anew
-// for every message that can be read.
+// Recovery of an MCAP file whose writer died: index, statistics and footer are written anew for
+// every message that can be read.
 //   in     the bytes that there are
 //   out    the bytes of a whole file with the same channels, messages, stamps, sequences and
 //          metadata, and what was kept and lost

@@ -1,5 +1,5 @@
-// What a message looks like to those who did not compile it: its fields and those of every message
-// inside, as rosidl describes them; from that the .msg text and the type hash.
+// Type description of a message for programs that were not compiled with it: its fields and those
+// of every nested message, as rosidl describes them; from that the .msg text and the type hash.
 //   in     a message (protocol/ros/message.hpp), or fields listed at run time
 //   out    TypeDescription; text of encoding `ros2msg`; hash "RIHS01_" and 64 hexadecimal digits
 //   invariants

@@ -1,5 +1,5 @@
-// What a ROS 2 message is made of, said once per message: its encoder, its decoder, its .msg text
-// and its type hash all follow from that.
+// Definition of a ROS 2 message by one list of its fields: encoder, decoder, .msg text and type
+// hash all follow from it.
 //
 //     struct Header {
 //       Time stamp;

@@ -1,4 +1,4 @@
-// What DDS calls the topics and types of ROS 2.
+// DDS names of the topics and types of ROS 2.
 //     /vehicle/odom           rt/vehicle/odom
 //     nav_msgs/msg/Odometry   nav_msgs::msg::dds_::Odometry_
 //   errors a Problem for a topic that ROS 2 would refuse, with the reason

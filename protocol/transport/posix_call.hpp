@@ -1,5 +1,5 @@
-// Every system call states what success looks like; EINTR is retried; errno becomes a value. Also
-// the owner of a file descriptor.
+// Wrapper of system calls: the caller states what success is, EINTR is retried, errno becomes a
+// value. Also the owner of a file descriptor.
 //   in     a callable that makes one system call
 //   out    PosixOutcome: the returned value, or the error number with a text for people
 //   errors none of its own

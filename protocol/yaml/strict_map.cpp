@@ -13,6 +13,8 @@
 #include <set>
 #include <sstream>
 
+#include "protocol/vocabulary/text.hpp"
+
 namespace pitwall::yaml {
 namespace {
 
@@ -37,18 +39,6 @@ std::string kind_of(const YAML::Node& node) {
       break;
   }
   return "nothing";
-}
-
-std::string shown(double v) {
-  std::ostringstream out;
-  out.precision(17);
-  std::ostringstream brief;
-  brief << v;  // six digits where they say it all
-  out << v;
-  double back = 0.0;
-  const std::string text = brief.str();
-  std::from_chars(text.data(), text.data() + text.size(), back);
-  return back == v ? text : out.str();
 }
 
 bool is_plain_scalar(const YAML::Node& node) { return node.IsScalar() && node.Tag() == kPlainTag; }
@@ -118,7 +108,8 @@ struct StrictMap::Value {
     }
     if (!std::isfinite(v)) refuse(key + ": expected a finite number, found " + kind_of(node));
     if (!(v >= min && v <= max)) {
-      refuse(key + ": " + shown(v) + " is outside [" + shown(min) + ", " + shown(max) + "]");
+      refuse(key + ": " + shortest(v) + " is outside [" + shortest(min) + ", " + shortest(max) +
+             "]");
     }
     return v;
   }

@@ -14,7 +14,7 @@ struct KnownState {
   state::VehicleState vehicle;
 
   // The group of the field is sampled at this time; its other fields stay as they were.
-  void tell(telemetry::FieldIndex field, double value, Instant at) {
+  void publish(telemetry::FieldIndex field, double value, Instant at) {
     snapshot.values[field] = value;
     touch(telemetry::kFields[field].group, at);
   }

@@ -58,8 +58,8 @@ struct RadioRig {
     restart_base();
   }
 
-  telemetry::ConduitConfig config(const telemetry::KeyFile& of) {
-    telemetry::ConduitConfig config;
+  telemetry::LinkEndpointConfig config(const telemetry::KeyFile& of) {
+    telemetry::LinkEndpointConfig config;
     config.association.keys = of;
     config.association.paths = options.paths;
     if (of.role == telemetry::Role::kCar) {

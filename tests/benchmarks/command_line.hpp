@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hil/verbs/command_line.hpp"
-#include "hil/verbs/exit_code.hpp"
+#include "hil/cli/command_line.hpp"
+#include "hil/cli/exit_code.hpp"
 
 namespace pitwall::benchmarks {
 
-using verbs::CommandLine;
-using verbs::kExitFailed;
-using verbs::kExitPass;
-using verbs::kExitUnusable;
-using verbs::refuse;
-using verbs::VerbOption;
+using cli::CommandLine;
+using cli::kExitFailed;
+using cli::kExitPass;
+using cli::kExitUnusable;
+using cli::refuse;
+using cli::VerbOption;
 
 }  // namespace pitwall::benchmarks

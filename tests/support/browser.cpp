@@ -53,7 +53,7 @@ void Browser::say_bytes(const std::string& bytes) {
   stream_->socket.write(boost::asio::buffer(bytes), failed);
 }
 
-std::optional<Browser::Heard> Browser::hear() {
+std::optional<Browser::Heard> Browser::receive() {
   boost::beast::flat_buffer buffer;
   boost::system::error_code failed;
   stream_->socket.read(buffer, failed);

@@ -31,7 +31,7 @@ class Browser {
     std::string bytes;
   };
   // None: closed; close_code() says why.
-  std::optional<Heard> hear();
+  std::optional<Heard> receive();
   unsigned close_code() const;
 
  private:

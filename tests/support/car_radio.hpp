@@ -27,7 +27,7 @@ class CarRadio {
                                         double early_share = telemetry::StateLane::kEarlyShare) {
     const auto keys = link::read_keys(words[0], telemetry::Role::kCar);
     if (!keys) return Unexpected{keys.error()};
-    telemetry::ConduitConfig config;
+    telemetry::LinkEndpointConfig config;
     config.association.keys = *keys;
     config.association.to_utc = transport::realtime_minus_monotonic();
     config.budget.fill(budget);

@@ -40,8 +40,8 @@ class EndpointPair {
     for (auto& at : snapshot.sampled_at) at = telemetry::kNeverSampled;
   }
 
-  telemetry::ConduitConfig config(bool of_car) const {
-    telemetry::ConduitConfig config;
+  telemetry::LinkEndpointConfig config(bool of_car) const {
+    telemetry::LinkEndpointConfig config;
     config.association.keys = of_car ? car_keys_ : base_keys_;
     if (of_car) config.association.peer.fill(kBase);
     config.association.paths = paths_;

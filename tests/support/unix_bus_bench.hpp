@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
+#include "protocol/transport/can/unix_bus.hpp"
+#include "protocol/transport/can/unix_can_hub.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
-#include "protocol/transport/unix_bus.hpp"
-#include "protocol/transport/unix_can_hub.hpp"
 
 namespace pitwall::testing {
 

@@ -2,6 +2,7 @@
 #include "tests/tidy/shape_rules.hpp"
 
 #include <algorithm>
+#include <map>
 #include <regex>
 #include <set>
 #include <string_view>
@@ -10,6 +11,7 @@ namespace pitwall::tidy {
 namespace {
 
 constexpr std::size_t kFileLines = 400;
+constexpr std::size_t kFolderEntries = 17;
 constexpr std::size_t kTestFileLines = 600;
 constexpr std::size_t kFunctionLines = 70;
 // A header with a longer function has logic to test: three lines between its braces.
@@ -192,6 +194,29 @@ std::vector<Finding> check_mirrored_tests(const std::vector<SourceFile>& tree) {
     const std::string source = folder_of(file.path) + "/" + stem_of(file.path) + ".cpp";
     if (is_header(file) && (paths.contains(source) || !has_logic(file))) continue;
     findings.push_back({file.path, 0, "no " + test_of(file)});
+  }
+  return findings;
+}
+
+std::vector<Finding> check_folder_size(const std::vector<SourceFile>& tree) {
+  std::map<std::string, std::set<std::string>> entries;
+  for (const SourceFile& file : tree) {
+    if (is_test(file) || !is_cpp(file)) continue;
+    std::string folder = folder_of(file.path);
+    entries[folder].insert(stem_of(file.path));
+    for (std::size_t slash = folder.rfind('/'); slash != std::string::npos;
+         slash = folder.rfind('/')) {
+      const std::string name = folder.substr(slash + 1);
+      folder.resize(slash);
+      entries[folder].insert(name + "/");
+    }
+  }
+  std::vector<Finding> findings;
+  for (const auto& [folder, names] : entries) {
+    if (names.size() > kFolderEntries)
+      findings.push_back({folder, 0,
+                          std::to_string(names.size()) + " entries, " +
+                              std::to_string(kFolderEntries) + " may be"});
   }
   return findings;
 }

@@ -25,5 +25,8 @@ std::vector<Finding> check_file_name(const SourceFile& file);
 // Over the whole tree: every .cpp but main.cpp, and every header with logic and no .cpp, has its
 // test at the same place under tests/.
 std::vector<Finding> check_mirrored_tests(const std::vector<SourceFile>& tree);
+// Over the whole tree: no folder of C++ in the product has more entries than a newcomer reads at
+// once; a source and its header are one.
+std::vector<Finding> check_folder_size(const std::vector<SourceFile>& tree);
 
 }  // namespace pitwall::tidy

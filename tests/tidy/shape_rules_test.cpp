@@ -98,5 +98,25 @@ TEST(MirroredTests, SourcesAndHeadersWithLogicNeedOne) {
   EXPECT_EQ(missing({make_source("tests/support/b.cpp", "")}), 0U);
 }
 
+TEST(FolderSize, APairIsOneEntryAndSoIsASubfolder) {
+  std::vector<SourceFile> tree;
+  for (int i = 0; i < 17; ++i) {
+    const std::string stem = "hil/a/x" + std::to_string(i);
+    tree.push_back(make_source(stem + ".hpp", ""));
+    tree.push_back(make_source(stem + ".cpp", ""));
+  }
+  EXPECT_TRUE(check_folder_size(tree).empty());
+  tree.push_back(make_source("hil/a/b/y.cpp", ""));
+  ASSERT_EQ(check_folder_size(tree).size(), 1U);
+  EXPECT_EQ(check_folder_size(tree)[0].path, "hil/a");
+}
+
+TEST(FolderSize, AFolderOfTestsMayHoldWhatItsSourcesNeed) {
+  std::vector<SourceFile> tree;
+  for (int i = 0; i < 40; ++i)
+    tree.push_back(make_source("tests/a/x" + std::to_string(i) + "_test.cpp", ""));
+  EXPECT_TRUE(check_folder_size(tree).empty());
+}
+
 }  // namespace
 }  // namespace pitwall::tidy

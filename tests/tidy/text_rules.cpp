@@ -28,13 +28,13 @@ const Names kRimFolders{"protocol/transport",
                         "basestation/inputs",
                         "basestation/publishers",
                         "hil/bench",
-                        "hil/guest",
+                        "hil/can_bus",
                         "hil/sweep",
                         "tests",
                         "main.cpp"};
-const Names kPrinting{"hil/verbs",  "protocol/transport",
+const Names kPrinting{"hil/cli",    "protocol/transport",
                       "vehicle/io", "basestation/publishers",
-                      "hil/bench",  "hil/guest",
+                      "hil/bench",  "hil/can_bus",
                       "hil/sweep",  "tests",
                       "main.cpp",   "protocol/vocabulary/check.hpp"};
 const Names kNowhere{};

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <functional>
 #include <set>
 #include <sstream>
 
 #include "tests/tidy/hidden_names.hpp"
+#include "tests/tidy/identifier_rules.hpp"
 #include "tests/tidy/include_rules.hpp"
+#include "tests/tidy/message_rules.hpp"
 #include "tests/tidy/shape_rules.hpp"
 #include "tests/tidy/source_tree.hpp"
 #include "tests/tidy/text_rules.hpp"
@@ -55,7 +58,22 @@ TEST(Tree, OpensWithContractAndLicence) { EXPECT_EQ(findings_of(check_opening), 
 TEST(Tree, FilesAreSmall) { EXPECT_EQ(findings_of(check_file_size), ""); }
 TEST(Tree, FunctionsAreSmall) { EXPECT_EQ(findings_of(check_function_size), ""); }
 TEST(Tree, FileNamesAreNouns) { EXPECT_EQ(findings_of(check_file_name), ""); }
+TEST(Tree, IdentifiersAreThoseOfTheField) { EXPECT_EQ(findings_of(check_identifiers), ""); }
+// Prints the table of all messages: they are read from end to end, by people.
+TEST(Tree, MessagesSayWhatWasExpected) {
+  std::size_t count = 0;
+  for (const SourceFile& file : tree()) {
+    for (const ErrorMessage& message : messages_of(file)) {
+      std::printf("%s:%zu: %s\n", file.path.c_str(), message.line, message.text.c_str());
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 300U) << "or the reader of messages reads none";
+  EXPECT_EQ(findings_of(check_messages), "");
+}
+
 TEST(Tree, NoFileHidesAFunctionOfAHeader) { EXPECT_EQ(report(check_hidden_names(tree())), ""); }
+TEST(Tree, FoldersAreSmall) { EXPECT_EQ(report(check_folder_size(tree())), ""); }
 TEST(Tree, EveryFileHasItsTest) { EXPECT_EQ(report(check_mirrored_tests(tree())), ""); }
 
 TEST(Tree, OwnHeaderComesFirst) {

@@ -41,12 +41,12 @@ void begin(IdentityState& state, Instant now) {
   state.listening = true;
   state.since = state.difference = now;
   state.stranger = {};
-  for (HeardMessage& message : state.messages) message = {.acquitted = message.acquitted};
+  for (ReceivedMessage& message : state.messages) message = {.acquitted = message.acquitted};
 }
 
 void differs(IdentityState& state, std::size_t index, IdentityDifference difference,
              double measured, Instant now) {
-  HeardMessage& message = state.messages[index];
+  ReceivedMessage& message = state.messages[index];
   message.difference = difference;
   message.differed = state.difference = now;
   message.measured = measured;
@@ -61,13 +61,13 @@ void hear_stranger(const IdentityParams& params, IdentityState& state, const can
   state.difference = now;
 }
 
-double mean_interval_s(const HeardMessage& message) {
+double mean_interval_s(const ReceivedMessage& message) {
   return (message.last - message.first).seconds() / message.intervals;
 }
 
 void judge_pace(const IdentityParams& params, IdentityState& state, std::size_t index,
                 Instant now) {
-  HeardMessage& message = state.messages[index];
+  ReceivedMessage& message = state.messages[index];
   const Duration period = kMessages[index].period;
   const Duration span = message.last - message.first;
   if (span.seconds() < kPaceShare * std::max(kPaceSpan, period).seconds()) return;
@@ -81,8 +81,8 @@ void judge_pace(const IdentityParams& params, IdentityState& state, std::size_t 
   message.intervals = 0;
 }
 
-void hear(const IdentityParams& params, IdentityState& state, const can::ReceivedFrame& received,
-          Instant now) {
+void receive(const IdentityParams& params, IdentityState& state, const can::ReceivedFrame& received,
+             Instant now) {
   const can::Frame& frame = received.frame;
   const bool standard = !frame.extended;
   const std::size_t index = index_of(frame.id);
@@ -98,7 +98,7 @@ void hear(const IdentityParams& params, IdentityState& state, const can::Receive
     return differs(state, index, IdentityDifference::kWrongFormat, frame.length, now);
   if (frame.length != row.length)
     return differs(state, index, IdentityDifference::kWrongLength, frame.length, now);
-  HeardMessage& message = state.messages[index];
+  ReceivedMessage& message = state.messages[index];
   const Instant at = std::min(received.at, now);  // a stamp from the future says nothing
   if (message.heard && at - message.last < params.listen) {
     message.last = at;
@@ -112,7 +112,7 @@ void hear(const IdentityParams& params, IdentityState& state, const can::Receive
 
 void look_for_silence(const IdentityParams& params, IdentityState& state, Instant now) {
   for (std::size_t i = 0; i < kMessages.size(); ++i) {
-    HeardMessage& message = state.messages[i];
+    ReceivedMessage& message = state.messages[i];
     const Duration silence = now - (message.heard ? message.last : state.since);
     const bool proven = is_proof(message.difference) && now - message.differed < params.listen;
     if (!kMessages[i].required || silence < params.listen || proven) continue;
@@ -130,7 +130,7 @@ BusIdentity named(const IdentityParams& params, const IdentityState& state, Inst
   const auto recent = [&](Instant at) { return now - at < params.listen; };
   BusIdentity best{.verdict = IdentityVerdict::kWrong};
   for (std::size_t i = 0; i < kMessages.size(); ++i) {
-    const HeardMessage& message = state.messages[i];
+    const ReceivedMessage& message = state.messages[i];
     const IdentityDifference difference = message.difference;
     if (difference == IdentityDifference::kNone || !recent(message.differed)) continue;
     const bool better = best.difference == IdentityDifference::kNone ||
@@ -207,7 +207,7 @@ BusIdentity identify(const IdentityParams& params, IdentityState& state,
     return state.verdict;
   }
   if (!state.listening) begin(state, now);
-  for (const can::ReceivedFrame& received : frames) hear(params, state, received, now);
+  for (const can::ReceivedFrame& received : frames) receive(params, state, received, now);
   look_for_silence(params, state, now);
   state.verdict = judge(params, state, now);
   state.verdict.database = can::av21::kFingerprint;

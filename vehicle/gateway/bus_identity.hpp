@@ -58,7 +58,7 @@ struct IdentityParams {
 };
 
 // What is known of one message of the database.
-struct HeardMessage {
+struct ReceivedMessage {
   Instant last{};             // newest frame
   Instant first{};            // of the frames whose pace is being judged
   std::uint32_t intervals{};  // since `first`
@@ -82,7 +82,7 @@ struct IdentityState {
   bool listening = false;
   Instant since{};       // begin of listening
   Instant difference{};  // the newest
-  std::array<HeardMessage, can::av21::kMessages.size()> messages{};
+  std::array<ReceivedMessage, can::av21::kMessages.size()> messages{};
   Stranger stranger;
 };
 static_assert(std::is_trivially_copyable_v<IdentityState>);

@@ -1,5 +1,5 @@
-// How full the bus is, by the frames that arrive: a node that babbles is heard by this before
-// anything else is missed.
+// Load of the bus, by the frames that arrive: a babbling node shows here before any other message
+// is missed.
 //   in     frames with their instants; now
 //   out    share of the bit rate in the last three full slots of 10 ms, at least: without stuff
 //          bits, which add up to a fifth, and without what this node sends itself

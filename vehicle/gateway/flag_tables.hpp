@@ -1,4 +1,4 @@
-// What the raw flag values of both race-control encodings mean. Value 1 is red in one and green in
+// Tables of the raw flag values of both race-control encodings. Value 1 is red in one and green in
 // the other, 4 is green in one and chequered in the other: hence one table each and no shared
 // constant.
 //   in     the raw field of base_to_car_summary (MyLaps, 4 bits) or marelli_report_1 (8 bits)

@@ -74,7 +74,7 @@ double fresh_or_unset(const world::Heard<T>& signal, double value, Instant now) 
 
 }  // namespace
 
-void remember(FrozenState& state, const world::ActuatorCommand& command, bool told, Instant now) {
+void store(FrozenState& state, const world::ActuatorCommand& command, bool told, Instant now) {
   state.commands[state.next] = told ? command : world::ActuatorCommand{};
   state.told_at[state.next] = now;
   state.next = (state.next + 1) % FrozenState::kCommands;

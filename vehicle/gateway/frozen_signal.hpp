@@ -1,14 +1,14 @@
-// A live counter over a value that must move and does not. Nothing of the message tells; a witness
-// does: what the actuator was told, for steering, brake and accelerator; the other speed, for the
-// speed of the wheels and that of the powertrain.
-//   in     the values as they were heard; the last commands; now
+// Detector of frozen values in messages whose counter still runs. A second source, the witness,
+// shows that the value must have moved: the command, for steering, brake and accelerator; the other
+// speed, for the speed of the wheels and that of the powertrain.
+//   in     the values as received; the last commands; now
 //   out    which values are frozen: the same to the bit since they changed last, while their
 //          witness moved by more than its limit
 //   invariants
 //          a value that changed is not frozen. Nothing is judged at a standstill (below 5 m/s), of
 //          an actuator that is told nothing, or while the witness rests: a straight line at one
-//          speed freezes nothing. One wheel that lies bears no witness, nor do wheels that jump:
-//          at one speed the powertrain says the same for seconds
+//          speed freezes nothing. One wheel that differs is no witness, nor are wheels that jump:
+//          at one speed the powertrain reports the same value for seconds
 //   limits command: 1.7 deg of the steering motor, 300 kPa, a tenth of the pedal, each as told
 //          0.1 s ago (delay and lag of the actuators); speed: 0.3 m/s for the
 //          wheels, 1 m/s for the powertrain, whose witness scatters
@@ -52,7 +52,7 @@ struct FrozenState {
   }
 };
 
-void remember(FrozenState& state, const world::ActuatorCommand& command, bool told, Instant now);
+void store(FrozenState& state, const world::ActuatorCommand& command, bool told, Instant now);
 
 // Once per tick, after its frames. A speed that is frozen is as old as its freezing; an actuator's
 // feedback stays as it is, so that what compares it with the command has something to compare.

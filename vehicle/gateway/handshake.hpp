@@ -16,6 +16,7 @@
 #include <type_traits>
 
 #include "protocol/vocabulary/time.hpp"
+#include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/mode.hpp"
 #include "vehicle/world/race_control.hpp"
 #include "vehicle/world/signals.hpp"
@@ -42,9 +43,17 @@ inline constexpr std::size_t kCtEvents = 13;
 using CtEvents = std::array<bool, kCtEvents>;
 
 struct HandshakeParams {
-  Duration dwell = milliseconds(500);  // least time in a state of the start-up; [0, 5] s
-  double standstill_mps = 1.0;         // shutdown only below; [0.1, 2]
+  Duration dwell = milliseconds(500);  // least time in a state of the start-up
+  double standstill_mps = 1.0;         // shutdown only below
 };
+
+inline constexpr auto kHandshakeRanges = std::to_array<world::NamedRange<HandshakeParams>>({
+    {"standstill_mps", &HandshakeParams::standstill_mps, 0.1, 2.0},
+});
+
+inline constexpr auto kHandshakeTimes = std::to_array<world::NamedTime<HandshakeParams>>({
+    {"dwell_s", &HandshakeParams::dwell, 0.0, 5.0},
+});
 
 struct HandshakeState {
   world::CtState ct = world::CtState::kDefault;

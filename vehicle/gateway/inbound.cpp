@@ -276,9 +276,9 @@ InboundOutput decode(const InboundParams& params, InboundState& state,
           .seen = state.seen};
 }
 
-void remember_command(InboundState& state, const world::ActuatorCommand& command, bool told,
-                      Instant now) {
-  remember(state.frozen, command, told, now);
+void store_command(InboundState& state, const world::ActuatorCommand& command, bool told,
+                   Instant now) {
+  store(state.frozen, command, told, now);
 }
 
 void observe_link(InboundState& state, world::BusHealth& bus, const world::LinkObservation& link,

@@ -153,8 +153,8 @@ InboundOutput decode(const InboundParams& params, InboundState& state,
 
 // What the actuators were told last, in the tick before, if anything: what they report has to move
 // with it. Before decode().
-void remember_command(InboundState& state, const world::ActuatorCommand& command, bool told,
-                      Instant now);
+void store_command(InboundState& state, const world::ActuatorCommand& command, bool told,
+                   Instant now);
 
 // What the rim sees of the interface; frames that it lost since the tick before become reports
 // without an identifier. After decode() of the same tick.

@@ -25,6 +25,7 @@
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/world/actuator_command.hpp"
 #include "vehicle/world/ego_state.hpp"
+#include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/mode.hpp"
 #include "vehicle/world/race_control.hpp"
 
@@ -34,12 +35,17 @@ inline constexpr std::size_t kOutboundFrames = 8;
 inline constexpr std::uint8_t kReportCounterEnd = 10;  // ct_state_rolling_counter runs 0..9
 
 struct OutboundParams {
-  double steering_ratio = 19.5;       // motor angle : road-wheel angle; [10, 25]
+  double steering_ratio = 19.5;       // motor angle : road-wheel angle
   std::uint8_t vehicle_number = 255;  // ct_report.veh_num; [0, 255], 255 not assigned
   std::uint8_t traction_aim = 0;      // dash switch, 0 off, 1 least .. 4 most; [0, 4]
   std::uint8_t traction_range = 0;    // [0, 4]
   Duration tick = milliseconds(10);   // of the caller; [5, 20] ms
 };
+
+inline constexpr auto kOutboundRanges = std::to_array<world::NamedRange<OutboundParams>>({
+    {"steering_ratio", &OutboundParams::steering_ratio, world::kSteeringRatio.least,
+     world::kSteeringRatio.most},
+});
 
 struct OutboundState {
   std::array<Instant, kOutboundFrames> due{};

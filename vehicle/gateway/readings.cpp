@@ -19,7 +19,7 @@ constexpr double kPercent = 0.01;
 constexpr double kKpaPerMbar = 0.1;
 
 template <class T>
-void hear(world::Heard<T>& slot, const T& value, Instant at) {
+void receive(world::Heard<T>& slot, const T& value, Instant at) {
   slot = {value, at, true};
 }
 
@@ -36,7 +36,7 @@ Reading take(Context& c, const av21::WheelSpeedReport& m) {
                                            {slew_row(kId, "wheel_speed_FR"), m.wheel_speed_FR},
                                            {slew_row(kId, "wheel_speed_RL"), m.wheel_speed_RL},
                                            {slew_row(kId, "wheel_speed_RR"), m.wheel_speed_RR}}});
-  if (reading == Reading::kApplied) hear(c.state.signals.wheel_speed_mps, wheels, c.at);
+  if (reading == Reading::kApplied) receive(c.state.signals.wheel_speed_mps, wheels, c.at);
   return reading;
 }
 
@@ -51,8 +51,8 @@ Reading take(Context& c, const av21::BrakePressureReport& m) {
                  {{slew_row(kId, "brake_pressure_fdbk_front"), m.brake_pressure_fdbk_front},
                   {slew_row(kId, "brake_pressure_fdbk_rear"), m.brake_pressure_fdbk_rear}}});
   if (reading == Reading::kApplied)
-    hear(c.state.signals.brake,
-         world::BrakePressure{m.brake_pressure_fdbk_front, m.brake_pressure_fdbk_rear}, c.at);
+    receive(c.state.signals.brake,
+            world::BrakePressure{m.brake_pressure_fdbk_front, m.brake_pressure_fdbk_rear}, c.at);
   return reading;
 }
 
@@ -62,7 +62,7 @@ Reading take(Context& c, const av21::AcceleratorReport& m) {
   const Reading reading =
       accept(c, std::array<Ranged, 1>{{{fraction, c.params.throttle_fraction}}},
              std::array<Change, 1>{{{slew_row(kId, "acc_pedal_fdbk"), m.acc_pedal_fdbk}}});
-  if (reading == Reading::kApplied) hear(c.state.signals.throttle_fraction, fraction, c.at);
+  if (reading == Reading::kApplied) receive(c.state.signals.throttle_fraction, fraction, c.at);
   return reading;
 }
 
@@ -73,7 +73,7 @@ Reading take(Context& c, const av21::SteeringReport& m) {
       accept(c, std::array<Ranged, 1>{{{angle_deg, c.params.steering_motor_deg}}},
              std::array<Change, 1>{{{slew_row(kId, "steering_motor_ang_avg_fdbk"), angle_deg}}});
   if (reading == Reading::kApplied)
-    hear(c.state.signals.steering_motor_rad, from_deg(angle_deg), c.at);
+    receive(c.state.signals.steering_motor_rad, from_deg(angle_deg), c.at);
   return reading;
 }
 
@@ -90,12 +90,12 @@ Reading take(Context& c, const av21::MiscReport& m) {
   const bool ranged = !c.params.off.has(world::Monitor::kDecodedRange);
   if (ranged && !is_sys_state(m.sys_state)) return Reading::kOutOfRange;
   const auto sys = static_cast<world::SysState>(static_cast<std::uint8_t>(m.sys_state));
-  hear(c.state.signals.misc,
-       world::Misc{.battery_v = m.battery_voltage,
-                   .sys_state = sys,
-                   .mode_switch = static_cast<std::uint8_t>(m.mode_switch_state),
-                   .safety_switch = static_cast<std::uint8_t>(m.safety_switch_state)},
-       c.at);
+  receive(c.state.signals.misc,
+          world::Misc{.battery_v = m.battery_voltage,
+                      .sys_state = sys,
+                      .mode_switch = static_cast<std::uint8_t>(m.mode_switch_state),
+                      .safety_switch = static_cast<std::uint8_t>(m.safety_switch_state)},
+          c.at);
   return Reading::kApplied;
 }
 
@@ -115,49 +115,49 @@ Reading take(Context& c, const av21::PtReport1& m) {
                                     {slew_row(kId, "engine_speed_rpm"), m.engine_speed_rpm},
                                     {slew_row(kId, "vehicle_speed_kmph"), m.vehicle_speed_kmph}}});
   if (reading != Reading::kApplied) return reading;
-  hear(c.state.signals.powertrain,
-       world::Powertrain{.throttle_fraction = fraction,
-                         .engine_speed_rpm = m.engine_speed_rpm,
-                         .vehicle_speed_mps = speed_mps,
-                         .gear = static_cast<std::uint8_t>(m.current_gear),
-                         .engine_running = m.engine_state > 0.0,
-                         .engine_switch_on = m.engine_run_switch > 0.0,
-                         .gear_shift_status = static_cast<std::uint8_t>(m.gear_shift_status)},
-       c.at);
+  receive(c.state.signals.powertrain,
+          world::Powertrain{.throttle_fraction = fraction,
+                            .engine_speed_rpm = m.engine_speed_rpm,
+                            .vehicle_speed_mps = speed_mps,
+                            .gear = static_cast<std::uint8_t>(m.current_gear),
+                            .engine_running = m.engine_state > 0.0,
+                            .engine_switch_on = m.engine_run_switch > 0.0,
+                            .gear_shift_status = static_cast<std::uint8_t>(m.gear_shift_status)},
+          c.at);
   return Reading::kApplied;
 }
 
 Reading take(Context& c, const av21::PtReport2& m) {
-  hear(c.state.signals.engine,
-       world::EngineHealth{.fuel_pressure_kpa = m.fuel_pressure_kPa,
-                           .oil_pressure_kpa = m.engine_oil_pressure_kPa,
-                           .coolant_c = m.coolant_temperature,
-                           .transmission_c = m.transmission_temperature,
-                           .transmission_pressure_kpa = m.transmission_pressure_kPa},
-       c.at);
+  receive(c.state.signals.engine,
+          world::EngineHealth{.fuel_pressure_kpa = m.fuel_pressure_kPa,
+                              .oil_pressure_kpa = m.engine_oil_pressure_kPa,
+                              .coolant_c = m.coolant_temperature,
+                              .transmission_c = m.transmission_temperature,
+                              .transmission_pressure_kpa = m.transmission_pressure_kPa},
+          c.at);
   return Reading::kApplied;
 }
 
 Reading take(Context& c, const av21::DiagnosticReport& m) {
   const auto set = [](double bit) { return bit > 0.0; };
-  hear(c.state.signals.diagnostics,
-       world::DriveByWireDiagnostics{
-           .system_warning = set(m.sd_system_warning),
-           .system_failure = set(m.sd_system_failure),
-           .brake_warning = {set(m.sd_brake_warning1), set(m.sd_brake_warning2),
-                             set(m.sd_brake_warning3)},
-           .steer_warning = {set(m.sd_steer_warning1), set(m.sd_steer_warning2),
-                             set(m.sd_steer_warning3)},
-           .motec_warning = static_cast<std::uint8_t>(m.motec_warning),
-           .front_brake_out_of_spec = set(m.est1_oos_front_brk),
-           .rear_brake_out_of_spec = set(m.est2_oos_rear_brk),
-           .low_engine_speed = set(m.est3_low_eng_speed),
-           .steer_comms_lost = set(m.est4_sd_comms_loss),
-           .motec_comms_lost = set(m.est5_motec_comms_loss),
-           .emergency_brake = set(m.est6_sd_ebrake),
-           .computer_heartbeat_lost = set(m.adlink_hb_lost),
-           .race_control_lost = set(m.rc_lost)},
-       c.at);
+  receive(c.state.signals.diagnostics,
+          world::DriveByWireDiagnostics{
+              .system_warning = set(m.sd_system_warning),
+              .system_failure = set(m.sd_system_failure),
+              .brake_warning = {set(m.sd_brake_warning1), set(m.sd_brake_warning2),
+                                set(m.sd_brake_warning3)},
+              .steer_warning = {set(m.sd_steer_warning1), set(m.sd_steer_warning2),
+                                set(m.sd_steer_warning3)},
+              .motec_warning = static_cast<std::uint8_t>(m.motec_warning),
+              .front_brake_out_of_spec = set(m.est1_oos_front_brk),
+              .rear_brake_out_of_spec = set(m.est2_oos_rear_brk),
+              .low_engine_speed = set(m.est3_low_eng_speed),
+              .steer_comms_lost = set(m.est4_sd_comms_loss),
+              .motec_comms_lost = set(m.est5_motec_comms_loss),
+              .emergency_brake = set(m.est6_sd_ebrake),
+              .computer_heartbeat_lost = set(m.adlink_hb_lost),
+              .race_control_lost = set(m.rc_lost)},
+          c.at);
   return Reading::kApplied;
 }
 

@@ -63,7 +63,7 @@ void hear_bus(Tick& t) {
   for (const can::ReceivedFrame& received : t.in.can) {
     const std::uint32_t id = received.frame.id;
     if (id >= av21::BrakePressureCmd::kId && id <= av21::CtVehicleAccFeedback::kId) {
-      t.command_heard |= hear(s.heard, received);
+      t.command_heard |= receive(s.heard, received);
       continue;
     }
     s.others_at = std::max(s.others_at, received.at);
@@ -166,7 +166,7 @@ safety::GateContext gate_context(const Tick& t, world::Mode mode, Instant comman
 void seed_gate(const Tick& t) {
   State& s = t.state;
   s.gate = {};
-  const VoiceFrames last = repeat(s.heard);
+  const CommandFrames last = repeat(s.heard);
   const Instant at = s.heard.commanded_at;
   (void)safety::gate(t.params.gate, s.gate, gate_context(t, world::Mode::kDriving, at, at),
                      last.span());
@@ -303,11 +303,11 @@ void drive(const Tick& t, Output& out) {
   if (t.in.now < s.next_speech) return;
   s.next_speech = t.in.now + kSpeakEvery;
   s.status.command = next_command(t);
-  const VoiceFrames said = speak(s.heard, s.status.counters,
-                                 {.command = s.status.command,
-                                  .steering_ratio = t.params.reckoning.steering_ratio,
-                                  .ax_mps2 = s.ax_mps2,
-                                  .ay_mps2 = s.ay_mps2});
+  const CommandFrames said = encode_frames(s.heard, s.status.counters,
+                                           {.command = s.status.command,
+                                            .steering_ratio = t.params.reckoning.steering_ratio,
+                                            .ax_mps2 = s.ax_mps2,
+                                            .ay_mps2 = s.ay_mps2});
   const auto passed = safety::gate(
       t.params.gate, s.gate,
       gate_context(t, world::Mode::kControlledStop, s.status.command.at, t.in.now), said.span());

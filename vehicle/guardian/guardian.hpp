@@ -23,9 +23,9 @@
 
 #include "protocol/can/frame.hpp"
 #include "protocol/vocabulary/time.hpp"
+#include "vehicle/guardian/command_frames.hpp"
 #include "vehicle/guardian/reckoning.hpp"
 #include "vehicle/guardian/record.hpp"
-#include "vehicle/guardian/voice.hpp"
 #include "vehicle/safety/frame_gate.hpp"
 #include "vehicle/safety/safe_stop.hpp"
 #include "vehicle/safety/stop_following.hpp"
@@ -53,7 +53,7 @@ struct Params {
 struct State {
   Status status;
   CarRecord record;  // the newest
-  HeardCar heard;
+  ReceivedCommands heard;
   Instant stepped_at{};           // the last tick
   Instant silent_from{};          // last command, later by the time in which no tick was run
   Instant others_at{};            // newest frame of anybody else

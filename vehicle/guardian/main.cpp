@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "protocol/json/json_text.hpp"
-#include "protocol/transport/can_socket.hpp"
+#include "protocol/transport/can/can_socket.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
 #include "protocol/transport/realtime.hpp"
 #include "vehicle/guardian/guardian.hpp"
-#include "vehicle/io/guardian_arguments.hpp"
+#include "vehicle/io/arguments/guardian_arguments.hpp"
 #include "vehicle/io/receiver_port.hpp"
 #include "vehicle/io/shared_stop.hpp"
 #include "vehicle/parameters/car_file.hpp"
@@ -88,7 +88,7 @@ class Rim {
   std::vector<can::ReceivedFrame> frames_;
 };
 
-void tell(const guardian::Status& s) {
+void report(const guardian::Status& s) {
   const char* by = guardian::text_of(s.guidance);
   std::fprintf(stderr, "pitwall-guardian: %s (%s)%s%s\n", guardian::text_of(s.mode),
                guardian::text_of(s.cause), *by != '\0' ? " " : "", by);
@@ -124,7 +124,7 @@ Counts watch_over(const guardian::Params& params, guardian::State& state, Rim& r
     counts.missed += tick.missed;
     counts.refused = std::max(counts.refused, out.gate_refusals);
     counts.longest_ns = std::max(counts.longest_ns, (transport::monotonic_now() - now).ns);
-    if (out.mode_changed || state.status.guidance != guidance) tell(state.status);
+    if (out.mode_changed || state.status.guidance != guidance) report(state.status);
     guidance = state.status.guidance;
   }
   counts.received = rim.can().received;

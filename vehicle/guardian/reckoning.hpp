@@ -1,6 +1,7 @@
-// Where the car is while nobody else says so: begun with the car process's last estimate, moved on
-// by a gyroscope and the wheel speeds, corrected by GNSS positions and headings that fit. Small and
-// with fixed gains on purpose: it has to hold for the twenty seconds of a stop.
+// Position estimator of the guardian for when the car process is silent: begun with the car
+// process's last estimate, moved on by a gyroscope and the wheel speeds, corrected by GNSS
+// positions and headings that fit. Small and with fixed gains on purpose: it has to hold for the
+// twenty seconds of a stop.
 //   in     the car's estimate while it lives; IMU samples, positions and headings of the guardian's
 //          own receivers, wheel speeds and steering angle off the bus, the banking of the path
 //   out    Pose at `now`

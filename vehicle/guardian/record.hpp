@@ -1,4 +1,4 @@
-// What the car process and the guardian tell each other, through shared memory: values only.
+// Record that the car process and the guardian share through memory: values only.
 //   CarRecord  by the car process, every tick: whether it is armed, where the car is, and the last
 //              stop trajectory that passed stop_check
 //   Status     by the guardian, every tick: whether it drives, and what it last said on the bus

@@ -1,5 +1,5 @@
-// Whether a stop trajectory may be driven by somebody who cannot plan a new one: judged by the car
-// process before it publishes it; one that fails is not published and the one before stays.
+// Check of a stop trajectory for the guardian, which cannot plan a new one: the car process judges
+// it before it publishes it; one that fails is not published and the one before stays.
 //   in     the trajectory, where the car is, the track
 //   out    kGood, or the first reason against it
 //   units  m, m/s

@@ -34,7 +34,7 @@ void BlackBox::state(const telemetry::Snapshot& state, Instant now) {
   recorder_->state(state, telemetry::groups_of(telemetry::Direction::kDown), now);
 }
 
-void BlackBox::radio(bool down, Instant at, const recorder::AirDatagram& datagram) {
+void BlackBox::radio(bool down, Instant at, const recorder::RadioDatagram& datagram) {
   if (on()) recorder_->datagram(down, at, datagram);
 }
 

@@ -39,7 +39,7 @@ class BlackBox {
            Instant now);
   void state(const telemetry::Snapshot& state, Instant now);
   // `down`: from the car to its base.
-  void radio(bool down, Instant at, const recorder::AirDatagram& datagram);
+  void radio(bool down, Instant at, const recorder::RadioDatagram& datagram);
   void event(std::string_view text, Instant at);  // plain ASCII without quotes
   void receiver(std::size_t unit, Instant at, std::span<const std::uint8_t> bytes);
   // Counters; not for the loop.

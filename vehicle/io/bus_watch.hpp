@@ -21,7 +21,7 @@
 #include <string_view>
 #include <thread>
 
-#include "protocol/transport/can_interface.hpp"
+#include "protocol/transport/can/can_interface.hpp"
 #include "protocol/transport/posix_call.hpp"
 #include "protocol/vocabulary/result.hpp"
 

@@ -1,5 +1,5 @@
-// How the car's computer is: busy, filled, hot. Read once a second in a thread of its own, because
-// the files of the kernel may keep a reader waiting.
+// Monitor of the car's computer: load, memory, disk, temperature. Reads once a second in a thread
+// of its own, because the files of the kernel may keep a reader waiting.
 //   out    processor_share: of all processors over the last second, 0 .. 1; memory_mib: in use,
 //          caches left out; temperature_c: the hottest thermal zone. Unset where the kernel does
 //          not tell

@@ -25,14 +25,14 @@ pipeline::GuardianView Guarded::view(Instant now) {
   return heard_ ? pipeline::view_of(status_, run_, now) : pipeline::GuardianView{};
 }
 
-void Guarded::tell(const pipeline::Setup& setup, const pipeline::Car& car,
-                   const pipeline::Outputs& out, bool reset, Instant now) {
+void Guarded::publish(const pipeline::Setup& setup, const pipeline::Car& car,
+                      const pipeline::Outputs& out, bool reset, Instant now) {
   if (!shared_) return;
   ever_armed_ |= out.chosen.actuate;
   barred_ = barred_ && !ever_armed_;  // somebody has looked, and armed it anew
   const bool unarmed_start = !arm_ && !ever_armed_;
-  pipeline::tell(setup, car, out, {.id = run_, .reset = reset || unarmed_start, .barred = barred_},
-                 now, *told_);
+  pipeline::publish(setup, car, out,
+                    {.id = run_, .reset = reset || unarmed_start, .barred = barred_}, now, *told_);
   shared_->write(told_->record);
 }
 

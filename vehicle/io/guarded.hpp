@@ -32,8 +32,8 @@ class Guarded {
   // Of the guardian, as of now: read after the bus, so that no frame is newer than its word.
   pipeline::GuardianView view(Instant now);
   // Before the frames of the tick are sent.
-  void tell(const pipeline::Setup& setup, const pipeline::Car& car, const pipeline::Outputs& out,
-            bool reset, Instant now);
+  void publish(const pipeline::Setup& setup, const pipeline::Car& car, const pipeline::Outputs& out,
+               bool reset, Instant now);
   void finish();
 
  private:

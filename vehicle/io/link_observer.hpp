@@ -1,6 +1,5 @@
-// What the car knows of its CAN interface, from everybody who knows something: the socket (error
-// frames, lost frames), the interface as the kernel tells it ten times a second, and the way out.
-// Pure.
+// Observer of the car's CAN interface, from all sources: the socket (error frames, lost frames),
+// the interface as the kernel reports it ten times a second, and the transmit path. Pure.
 //
 //   invariants
 //       of the state: the newest news wins. An error frame counts from the time the kernel made it,
@@ -22,8 +21,8 @@
 
 #include <cstdint>
 
-#include "protocol/transport/can_interface.hpp"
-#include "protocol/transport/can_wire.hpp"
+#include "protocol/transport/can/can_interface.hpp"
+#include "protocol/transport/can/can_wire.hpp"
 #include "vehicle/world/bus_health.hpp"
 
 namespace pitwall::io {

@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "protocol/telemetry/session/keys.hpp"
+#include "protocol/telemetry/session/crypto/keys.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/vocabulary/check.hpp"
@@ -21,8 +21,8 @@ constexpr std::uint8_t kExpedited = 46;  // RFC 3246: every packet holds safety'
 telemetry::Address address_of(UdpAddress a) { return {.ip = a.ip, .port = a.port}; }
 UdpAddress address_of(telemetry::Address a) { return {.ip = a.ip, .port = a.port}; }
 
-recorder::AirDatagram on_air(telemetry::PathId path, UdpAddress other,
-                             std::span<const std::uint8_t> bytes) {
+recorder::RadioDatagram on_air(telemetry::PathId path, UdpAddress other,
+                               std::span<const std::uint8_t> bytes) {
   return {.path = path, .ip = other.ip, .port = other.port, .bytes = bytes};
 }
 
@@ -54,7 +54,7 @@ Result<Radio, Problem> Radio::open(const RadioArguments& args, const pipeline::R
   if (!keys) return Unexpected{keys.error()};
   const auto stations = parse_station_addresses(args.stations);
   if (!stations) return Unexpected{stations.error()};
-  telemetry::ConduitConfig config;
+  telemetry::LinkEndpointConfig config;
   config.association.keys = *std::move(keys);
   config.association.greeting.signed_only = params.signed_only;
   config.association.greeting.real_car = real_car;
@@ -77,7 +77,7 @@ Result<Radio, Problem> Radio::open(const RadioArguments& args, const pipeline::R
   return Radio{config, std::move(paths)};
 }
 
-Radio::Radio(const telemetry::ConduitConfig& config, std::vector<UdpSocket> paths)
+Radio::Radio(const telemetry::LinkEndpointConfig& config, std::vector<UdpSocket> paths)
     : randomness_(std::make_unique<telemetry::SystemRandomness>()),
       endpoint_(config, *randomness_),
       paths_(std::move(paths)),

@@ -2,7 +2,7 @@
 // behind them. listen() before the step, speak() after it.
 //   in     arguments (addresses of base stations by path, key file), budgets of the car file; the
 //          calendar, once in open(), for the stamps of the key exchange; the newest snapshot
-//   out    datagrams, marked as expedited forwarding; the endpoint, for the pipeline's RadioDesk
+//   out    datagrams, marked as expedited forwarding; the endpoint, for the pipeline's RadioAdapter
 //   errors open(): Problem with the address, the key file or the budget as place; afterwards
 //          counters only
 //   cost   no allocation after open(); at most kReadsPerTick datagrams are taken per tick and path,
@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "protocol/telemetry/endpoint/car_endpoint.hpp"
-#include "protocol/telemetry/session/randomness.hpp"
+#include "protocol/telemetry/session/crypto/randomness.hpp"
 #include "protocol/transport/udp_socket.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
@@ -54,7 +54,7 @@ class Radio {
   // A tick that comes so much before its slot serves it: the next tick would be late.
   static constexpr Duration kEarly = milliseconds(2);
 
-  Radio(const telemetry::ConduitConfig& config, std::vector<transport::UdpSocket> paths);
+  Radio(const telemetry::LinkEndpointConfig& config, std::vector<transport::UdpSocket> paths);
 
   std::unique_ptr<telemetry::SystemRandomness> randomness_;
   telemetry::CarEndpoint endpoint_;

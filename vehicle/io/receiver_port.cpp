@@ -4,7 +4,7 @@
 #include <array>
 
 #include "protocol/json/json_text.hpp"
-#include "protocol/transport/serial_port.hpp"
+#include "protocol/transport/stream/serial_port.hpp"
 
 namespace pitwall::io {
 namespace {
@@ -41,7 +41,7 @@ void add_source(json::Object& out, const transport::StreamLink& stream) {
 
 Result<ReceiverPort, Problem> ReceiverPort::open(const ReceiverLink& link, std::uint8_t unit,
                                                  const world::ReceiverParams& params) {
-  if (const auto* udp = std::get_if<UdpIntake>(&link)) {
+  if (const auto* udp = std::get_if<UdpReceiver>(&link)) {
     auto socket = transport::UdpSocket::bind(udp->local);
     if (!socket) return Unexpected{socket.error()};
     return ReceiverPort{link, *std::move(socket), unit, params};
@@ -55,12 +55,12 @@ Result<ReceiverPort, Problem> ReceiverPort::open(const ReceiverLink& link, std::
   return ReceiverPort{link, transport::StreamLink{device}, unit, params};
 }
 
-void ReceiverPort::read(world::SensorInput& out, Instant now, const Overhearing& told) {
+void ReceiverPort::read(world::SensorInput& out, Instant now, const Observer& told) {
   std::visit([&](auto& source) { read(source, out, now, told); }, source_);
 }
 
 void ReceiverPort::read(transport::UdpSocket& socket, world::SensorInput& out, Instant now,
-                        const Overhearing& told) {
+                        const Observer& told) {
   std::array<transport::UdpDatagram, transport::UdpSocket::kBatch> datagrams;
   for (std::size_t batch = 0; batch < kBatchesPerRead; ++batch) {
     const std::size_t count = socket.receive(datagrams);
@@ -74,7 +74,7 @@ void ReceiverPort::read(transport::UdpSocket& socket, world::SensorInput& out, I
 }
 
 void ReceiverPort::read(transport::StreamLink& stream, world::SensorInput& out, Instant now,
-                        const Overhearing& told) {
+                        const Observer& told) {
   std::array<std::uint8_t, kBytesPerRead> buffer;
   for (std::size_t batch = 0; batch < kBatchesPerRead; ++batch) {
     const auto bytes = stream.read(buffer, now);

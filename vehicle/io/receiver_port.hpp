@@ -1,4 +1,4 @@
-// Where the bytes of one receiver come in: over UDP, a TCP connection or a serial line.
+// Input of one receiver's bytes: over UDP, a TCP connection or a serial line.
 //   in     the link, the kind of receiver; now
 //   out    samples of all that waits; when its newest byte came
 //   invariants
@@ -18,9 +18,9 @@
 #include <variant>
 #include <vector>
 
-#include "protocol/transport/stream_link.hpp"
+#include "protocol/transport/stream/stream_link.hpp"
 #include "protocol/transport/udp_socket.hpp"
-#include "vehicle/io/receiver_link.hpp"
+#include "vehicle/io/arguments/receiver_link.hpp"
 #include "vehicle/receivers/receiver.hpp"
 #include "vehicle/world/receiver_params.hpp"
 #include "vehicle/world/sensor_input.hpp"
@@ -33,8 +33,8 @@ class ReceiverPort {
                                             const world::ReceiverParams& params);
 
   // `told` hears every byte as it was read, before it is judged.
-  using Overhearing = std::function<void(Instant at, std::span<const std::uint8_t> bytes)>;
-  void read(world::SensorInput& out, Instant now, const Overhearing& told = {});
+  using Observer = std::function<void(Instant at, std::span<const std::uint8_t> bytes)>;
+  void read(world::SensorInput& out, Instant now, const Observer& told = {});
 
   std::optional<Instant> byte_at() const { return byte_at_; }
   receivers::Counters counters() const { return receiver_.counters(); }
@@ -49,9 +49,9 @@ class ReceiverPort {
                const world::ReceiverParams& params)
       : link_(link), kind_(params.kind), source_(std::move(source)), receiver_(unit, params) {}
   void read(transport::UdpSocket& socket, world::SensorInput& out, Instant now,
-            const Overhearing& told);
+            const Observer& told);
   void read(transport::StreamLink& stream, world::SensorInput& out, Instant now,
-            const Overhearing& told);
+            const Observer& told);
 
   ReceiverLink link_;
   world::ReceiverKind kind_;

@@ -1,5 +1,5 @@
-// What of the car process touches bus and receivers: CAN socket, ports of the receivers. read()
-// before the step, write() after it. The radio is radio.hpp's.
+// Bus and receivers of the car process: CAN socket, ports of the receivers. read() before the step,
+// write() after it. The radio is radio.hpp's.
 //   in     Arguments; what the car file says of the receivers
 //   out    what arrived since the last read; counters
 //   errors open(): Problem that names the interface or the link; afterwards counters only
@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "protocol/can/frame.hpp"
-#include "protocol/transport/can_socket.hpp"
+#include "protocol/transport/can/can_socket.hpp"
 #include "protocol/vocabulary/result.hpp"
-#include "vehicle/io/arguments.hpp"
+#include "vehicle/io/arguments/arguments.hpp"
 #include "vehicle/io/black_box.hpp"
 #include "vehicle/io/bus_watch.hpp"
 #include "vehicle/io/link_observer.hpp"

@@ -122,7 +122,8 @@ Result<SharedStop, Problem> SharedStop::open(std::string_view name) {
   if (const auto known = posix_call([&] { return ::fstat(file.get(), &status); }); !known)
     return refuse(path, known.reason());
   const bool fresh = status.st_size == 0;
-  if (!fresh && status.st_size != kBytes) return refuse(path, "a record of another layout");
+  if (!fresh && status.st_size != kBytes)
+    return refuse(path, "holds a record of another layout: car and guardian must be of one build");
   if (fresh)
     if (const auto sized = posix_call([&] { return ::ftruncate(file.get(), kBytes); }); !sized)
       return refuse(path, sized.reason());
@@ -141,7 +142,7 @@ Result<SharedStop, Problem> SharedStop::open(std::string_view name) {
   if (layout->magic != kMagic || layout->version != kVersion ||
       layout->record_bytes != sizeof(guardian::CarRecord) ||
       layout->status_bytes != sizeof(guardian::Status))
-    return refuse(path, "a record of another layout");
+    return refuse(path, "holds a record of another layout: car and guardian must be of one build");
   take_up(layout->record);
   take_up(layout->status);
   return shared;

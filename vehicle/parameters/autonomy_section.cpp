@@ -4,6 +4,7 @@
 
 #include "vehicle/parameters/car_file.hpp"
 #include "vehicle/parameters/filter_section.hpp"
+#include "vehicle/parameters/range_reader.hpp"
 #include "vehicle/parameters/stop_section.hpp"
 
 namespace pitwall::parameters {
@@ -33,23 +34,14 @@ world::ReceiverParams read_receiver(yaml::StrictMap map) {
 
 planning::LineParams read_line(yaml::StrictMap map) {
   planning::LineParams line;
-  line.offset_m = map.number("offset_m", -30.0, 30.0);
-  line.wall_clearance_m = map.number("wall_clearance_m", 0.0, 10.0);
-  line.spacing_m = map.number("spacing_m", 0.5, 5.0);
-  line.speed_max_mps = map.number("speed_max_mps", 5.0, 110.0);
-  line.grip_share = map.number("grip_share", 0.1, 1.0);
+  read_ranges(map, planning::kLineRanges, line);
   line.friction = read_friction(map.map("friction"));
   return line;
 }
 
 control::BicycleParams read_bicycle(yaml::StrictMap map) {
   control::BicycleParams car;
-  car.mass_kg = map.number("mass_kg", 300.0, 2000.0);
-  car.yaw_inertia_kg_m2 = map.number("yaw_inertia_kg_m2", 200.0, 5000.0);
-  car.cg_to_front_m = map.number("cg_to_front_m", 0.5, 3.0);
-  car.cg_to_rear_m = map.number("cg_to_rear_m", 0.5, 3.0);
-  car.cornering_front_n_per_rad = map.number("cornering_front_n_per_rad", 2e4, 1e6);
-  car.cornering_rear_n_per_rad = map.number("cornering_rear_n_per_rad", 2e4, 1e6);
+  read_ranges(map, control::kBicycleRanges, car);
   return car;
 }
 
@@ -68,28 +60,13 @@ control::LateralParams read_lateral(yaml::StrictMap map) {
     std::copy(q.begin(), q.end(), lateral.weights[i].state.begin());
     lateral.weights[i].steering = brackets[i].number("r", 1e-6, 1e6);
   }
-  lateral.lookahead_base_m = map.number("lookahead_base_m", 0.0, 30.0);
-  lateral.lookahead_per_speed_s = map.number("lookahead_per_speed_s", 0.0, 1.0);
-  lateral.angle_max_rad = map.number("angle_max_rad", 0.02, 0.3);
-  lateral.gain_speed_floor_mps = map.number("gain_speed_floor_mps", 1.0, 10.0);
-  lateral.deviation_max_m = map.number("deviation_max_m", 1.0, 20.0);
+  read_ranges(map, control::kLateralRanges, lateral);
   return lateral;
 }
 
 control::LongitudinalParams read_longitudinal(yaml::StrictMap map) {
   control::LongitudinalParams l;
-  l.kp_per_mps = map.number("kp_per_mps", 0.01, 2.0);
-  l.feedforward_per_mps = map.number("feedforward_per_mps", 0.0, 0.05);
-  l.brake_kpa_per_command = map.number("brake_kpa_per_command", 100.0, 20000.0);
-  l.speed_preview_s = map.number("speed_preview_s", 0.0, 1.0);
-  l.throttle_max = map.number("throttle_max", 0.0, 1.0);
-  l.throttle_rise_per_s = map.number("throttle_rise_per_s", 0.1, 20.0);
-  l.throttle_fall_per_s = map.number("throttle_fall_per_s", 0.1, 100.0);
-  l.brake_max_kpa = map.number("brake_max_kpa", 500.0, 9000.0);
-  l.brake_rise_kpa_per_s = map.number("brake_rise_kpa_per_s", 500.0, 50000.0);
-  l.brake_fall_kpa_per_s = map.number("brake_fall_kpa_per_s", 500.0, 50000.0);
-  l.hold_speed_mps = map.number("hold_speed_mps", 0.1, 2.0);
-  l.hold_brake_kpa = map.number("hold_brake_kpa", 100.0, 3000.0);
+  read_ranges(map, control::kLongitudinalRanges, l);
   return l;
 }
 
@@ -100,7 +77,7 @@ control::GearParams read_gear(yaml::StrictMap map) {
       map.numbers("down_below_mps", control::kGears - 1, control::kGears - 1, 0.5, 110.0);
   std::copy(up.begin(), up.end(), gear.up_above_mps.begin());
   std::copy(down.begin(), down.end(), gear.down_below_mps.begin());
-  gear.dwell_s = map.number("dwell_s", 0.2, 5.0);
+  read_ranges(map, control::kGearRanges, gear);
   return gear;
 }
 
@@ -117,34 +94,15 @@ localization::Params read_localization(yaml::StrictMap map, world::Receivers& re
   p.filter = read_filter(map.map("filter"));
   p.checks = read_checks(map);
   p.priorities = read_priorities(map);
-  p.position_sigma_max_m = map.number("position_sigma_max_m", 0.05, 20.0);
-  p.heading_sigma_max_rad = map.number("heading_sigma_max_rad", 0.005, 0.5);
-  p.imu_timeout_s = map.number("imu_timeout_s", 0.02, 0.5);
-  p.good_age_max_s = map.number("good_age_max_s", 0.1, 2.0);
-  p.dead_reckoning_max_s = map.number("dead_reckoning_max_s", 0.5, 20.0);
-  p.good_sigma_max_m = map.number("good_sigma_max_m", 0.05, 5.0);
-  p.lost_sigma_max_m = map.number("lost_sigma_max_m", 0.5, 50.0);
-  p.reset_after_s = map.number("reset_after_s", 0.5, 10.0);
+  read_ranges(map, localization::kRanges, p);
   return p;
 }
 
 planning::Params read_planning(yaml::StrictMap map) {
   planning::Params p;
   p.line = read_line(map.map("line"));
-  p.green_speed_mps = map.number("green_speed_mps", 0.0, 110.0);
-  p.caution_speed_mps = map.number("caution_speed_mps", 0.0, 60.0);
-  p.accel_max_mps2 = map.number("accel_max_mps2", 0.2, 10.0);
-  p.decel_max_mps2 = map.number("decel_max_mps2", 0.2, 10.0);
-  p.jerk_max_mps3 = map.number("jerk_max_mps3", 0.5, 30.0);
-  p.speed_band_mps = map.number("speed_band_mps", 0.5, 10.0);
-  p.stop_decel_max_mps2 = map.number("stop_decel_max_mps2", 1.0, 12.0);
-  p.stop_jerk_max_mps3 = map.number("stop_jerk_max_mps3", 1.0, 30.0);
-  p.stop_grip_share = map.number("stop_grip_share", 0.3, 0.9);
+  read_ranges(map, planning::kRanges, p);
   read_stop_plan(map.map("stop"), p);
-  p.point_spacing_m = map.number("point_spacing_m", 1.0, 4.0);
-  p.merge_from_m = map.number("merge_from_m", 0.5, 5.0);
-  p.merge_time_s = map.number("merge_time_s", 1.0, 10.0);
-  p.merge_least_m = map.number("merge_least_m", 10.0, 200.0);
   return p;
 }
 

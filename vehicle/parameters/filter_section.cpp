@@ -5,16 +5,10 @@
 #include <cstddef>
 #include <string>
 
+#include "vehicle/parameters/range_reader.hpp"
+
 namespace pitwall::parameters {
 namespace {
-
-using localization::NamedRange;
-
-template <class Params, std::size_t N>
-void read_ranges(yaml::StrictMap& map, const std::array<NamedRange<Params>, N>& ranges,
-                 Params& params) {
-  for (const NamedRange<Params>& r : ranges) params.*r.value = map.number(r.name, r.least, r.most);
-}
 
 template <std::size_t N>
 void read_gates(yaml::StrictMap& map, std::array<double, N>& gates) {
@@ -44,8 +38,7 @@ void read_preference(yaml::StrictMap& map, const char* key, localization::Prefer
 localization::FilterParams read_filter(yaml::StrictMap map) {
   localization::FilterParams p;
   p.kind = read_kind(map);
-  p.window_s = map.number("window_s", localization::kWindowLeast_s, localization::kWindowMost_s);
-  p.reentry_mps = map.number("reentry_mps", 0.5, 5.0);
+  read_ranges(map, localization::kFilterRanges, p);
   yaml::StrictMap planar = map.map("planar"), spatial = map.map("spatial");
   read_ranges(planar, localization::kMotionNoiseRanges, p.planar.noise);
   read_ranges(planar, localization::kPlanarRanges, p.planar);
@@ -58,8 +51,8 @@ localization::FilterParams read_filter(yaml::StrictMap map) {
 localization::CheckParams read_checks(yaml::StrictMap& section) {
   localization::CheckParams checks;
   if (auto map = section.optional_map("checks")) {
-    for (const localization::CheckRange& r : localization::kCheckRanges)
-      checks.*r.value = map->number_or(std::string(r.name), checks.*r.value, r.least, r.most);
+    for (const auto& r : localization::kCheckRanges)
+      checks.*r.value = map->number_or(r.name, checks.*r.value, r.least, r.most);
   }
   return checks;
 }

@@ -23,7 +23,7 @@ void read_paths(yaml::StrictMap& map, pipeline::RadioParams& radio) {
   }
 }
 
-void read_ladder(yaml::StrictMap map, Duration lost, safety::RadioLadderParams& ladder) {
+void read_ladder(yaml::StrictMap map, Duration lost, safety::LinkLossParams& ladder) {
   const auto time = [&](const char* key, double min_s, Duration above, const char* what) {
     const Duration at = from_seconds(map.number(key, min_s, 60.0));
     if (at <= above) map.fail(key, std::string{"must be above "} + what);

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "vehicle/parameters/car_file.hpp"
+#include "vehicle/parameters/range_reader.hpp"
 
 namespace pitwall::parameters {
 namespace {
@@ -47,12 +48,12 @@ void read_identity(yaml::StrictMap map, gateway::IdentityParams& identity) {
 }
 
 void read_handshake(yaml::StrictMap map, gateway::HandshakeParams& handshake) {
-  handshake.dwell = time_s(map, "dwell_s", 0.0, 5.0);
-  handshake.standstill_mps = map.number("standstill_mps", 0.1, 2.0);
+  read_ranges(map, gateway::kHandshakeRanges, handshake);
+  read_ranges(map, gateway::kHandshakeTimes, handshake);
 }
 
 void read_outbound(yaml::StrictMap map, gateway::OutboundParams& out) {
-  out.steering_ratio = map.number("steering_ratio", 10.0, 25.0);
+  read_ranges(map, gateway::kOutboundRanges, out);
   out.vehicle_number = static_cast<std::uint8_t>(map.integer("vehicle_number", 0, 255));
   out.traction_aim = static_cast<std::uint8_t>(map.integer("traction_aim", 0, 4));
   out.traction_range = static_cast<std::uint8_t>(map.integer("traction_range", 0, 4));
@@ -101,35 +102,24 @@ void read_following(yaml::StrictMap map, safety::ActuatorParams& following) {
 }
 
 void read_oversteer(yaml::StrictMap map, safety::OversteerParams& oversteer) {
-  oversteer.speed_min_mps = map.number("speed_min_mps", 5.0, 30.0);
-  oversteer.rear_spin_max = map.number("rear_spin_max", 0.03, 0.5);
-  oversteer.rear_lock_max = map.number("rear_lock_max", 0.05, 0.9);
-  oversteer.yaw_excess_max_rad_per_s = map.number("yaw_excess_max_rad_per_s", 0.1, 1.0);
+  read_ranges(map, safety::kOversteerRanges, oversteer);
 }
 
 void read_computer(yaml::StrictMap map, safety::ComputerParams& computer) {
-  computer.idle_share = map.number("idle_share", 0.1, 0.9);
-  computer.late_max_s = map.number("late_max_s", 0.2, 5.0);
-  computer.processor_warn = map.number("processor_warn", 0.5, 1.0);
-  computer.memory_max_mib = map.number("memory_max_mib", 256.0, 1e6);
-  computer.temperature_max_c = map.number("temperature_max_c", 60.0, 120.0);
+  read_ranges(map, safety::kComputerRanges, computer);
 }
 
 void read_clock(yaml::StrictMap map, safety::ClockParams& clock) {
-  clock.step_s = map.number("step_s", 0.02, 1.0);
-  clock.skew_max_ppm = map.number("skew_max_ppm", 20.0, 1000.0);
+  read_ranges(map, safety::kClockRanges, clock);
   clock.show = time_s(map, "show_s", 0.1, 60.0);
 }
 
 void read_faults(yaml::StrictMap map, safety::FaultParams& faults) {
-  faults.dead_reckoning_max = time_s(map, "dead_reckoning_max_s", 0.1, 10.0);
-  faults.dead_reckoning_coast = time_s(map, "dead_reckoning_coast_s", 0.05, 10.0);
   if (faults.dead_reckoning_coast >= faults.dead_reckoning_max)
     map.fail("dead_reckoning_coast_s", "must be below dead_reckoning_max_s");
-  faults.gnss_sigma_max_m = map.number("gnss_sigma_max_m", 0.05, 10.0);
+  read_ranges(map, safety::kFaultRanges, faults);
+  read_ranges(map, safety::kFaultTimes, faults);
   faults.bus_dead = time_s(map, "bus_dead_s", 0.03, 0.1);
-  faults.bus_dead_disarm = time_s(map, "bus_dead_disarm_s", 5.0, 60.0);
-  faults.position_sigma_max_m = map.number("position_sigma_max_m", 0.1, 10.0);
   faults.control_failures = static_cast<std::uint8_t>(map.integer("control_failures", 1, 20));
   faults.refused_ticks = static_cast<std::uint8_t>(map.integer("refused_ticks", 1, 20));
   faults.radio_loss_stops = map.flag("radio_loss_stops");
@@ -141,46 +131,25 @@ void read_faults(yaml::StrictMap map, safety::FaultParams& faults) {
 }
 
 void read_safe_stop(yaml::StrictMap map, safety::SafeStopParams& stop) {
-  stop.wheelbase_m = map.number("wheelbase_m", 2.5, 3.5);
-  stop.understeer_rad_per_mps2 = map.number("understeer_rad_per_mps2", -0.002, 0.01);
-  stop.brake_kpa_per_mps2 = map.number("brake_kpa_per_mps2", 50.0, 1000.0);
-  stop.brake_ramp_kpa_per_s = map.number("brake_ramp_kpa_per_s", 500.0, 20000.0);
+  read_ranges(map, safety::kSafeStopRanges, stop);
   stop.emergency_ramp_kpa_per_s =
       map.number("emergency_ramp_kpa_per_s", stop.brake_ramp_kpa_per_s, 30000.0);
-  stop.brake_max_kpa = map.number("brake_max_kpa", 1000.0, 8191.0);
-  stop.hold_kpa = map.number("hold_kpa", 300.0, 4000.0);
-  stop.decel_min_mps2 = map.number("decel_min_mps2", 0.5, 5.0);
   stop.decel_max_mps2 = map.number("decel_max_mps2", stop.decel_min_mps2, 15.0);
   stop.decel_without_plan_mps2 =
       map.number("decel_without_plan_mps2", stop.decel_min_mps2, stop.decel_max_mps2);
   stop.emergency_decel_mps2 = map.number("emergency_decel_mps2", stop.decel_max_mps2, 25.0);
-  stop.friction = map.number("friction", 0.3, 2.0);
-  stop.brake_share = map.number("brake_share", 0.3, 1.0);
-  stop.drag_per_m = map.number("drag_per_m", 0.0, 0.01);
-  stop.coast_mps2 = map.number("coast_mps2", 0.0, 3.0);
-  stop.downforce_per_m = map.number("downforce_per_m", 0.0, 0.01);
-  stop.grip_share = map.number("grip_share", 0.05, 1.0);
   stop.emergency_grip_share = map.number("emergency_grip_share", stop.grip_share, 1.0);
-  stop.steer_settle_s = map.number("steer_settle_s", 0.1, 5.0);
-  stop.standstill_mps = map.number("standstill_mps", 0.1, 1.0);
 }
 
 void read_supervisor(yaml::StrictMap map, safety::SupervisorParams& supervisor) {
   read_faults(map.map("faults"), supervisor.faults);
   read_safe_stop(map.map("safe_stop"), supervisor.safe_stop);
-  supervisor.standstill_dwell = time_s(map, "standstill_dwell_s", 0.1, 5.0);
-  supervisor.standstill_mps = map.number("standstill_mps", 0.1, 1.0);
-  supervisor.steer_slew_rad_per_s = map.number("steer_slew_rad_per_s", 0.1, 2.0);
-  supervisor.throttle_rise_per_s = map.number("throttle_rise_per_s", 0.1, 10.0);
-  supervisor.brake_rise_kpa_per_s = map.number("brake_rise_kpa_per_s", 1000.0, 30000.0);
-  supervisor.brake_fall_kpa_per_s = map.number("brake_fall_kpa_per_s", 1000.0, 60000.0);
+  read_ranges(map, safety::kSupervisorRanges, supervisor);
+  read_ranges(map, safety::kSupervisorTimes, supervisor);
   supervisor.shift_least = time_s(map, "shift_least_s", 0.1, 2.0);
   supervisor.go_needs_driving_state = map.flag("go_needs_driving_state");
-  supervisor.coast_dwell = time_s(map, "coast_dwell_s", 0.1, 5.0);
-  supervisor.coast_max = time_s(map, "coast_max_s", 0.2, 10.0);
   if (supervisor.coast_max <= supervisor.coast_dwell)
     map.fail("coast_max_s", "must be above coast_dwell_s");
-  supervisor.coast_brakes_below_mps = map.number("coast_brakes_below_mps", 1.0, 20.0);
   supervisor.faults.oversteer.wheelbase_m = supervisor.safe_stop.wheelbase_m;
   supervisor.faults.oversteer.understeer_rad_per_mps2 =
       supervisor.safe_stop.understeer_rad_per_mps2;
@@ -213,28 +182,14 @@ void read_stop_brake_rows(yaml::StrictMap& map, safety::GateParams& gate) {
 void read_gate(yaml::StrictMap map, safety::GateParams& gate) {
   read_steer_rows(map, gate);
   read_stop_brake_rows(map, gate);
-  gate.stop_steer_share = map.number("stop_steer_share", 0.5, 1.0);
-  gate.hold_steer_slew_deg_per_s = map.number("hold_steer_slew_deg_per_s", 1.0, 1500.0);
-  gate.hold_least_kpa = map.number("hold_least_kpa", 0.0, 3000.0);
-  gate.steer_slew_deg_per_s = map.number("steer_slew_deg_per_s", 60.0, 1500.0);
-  gate.brake_max_kpa = map.number("brake_max_kpa", 1000.0, 8191.0);
-  gate.brake_rise_kpa_per_s = map.number("brake_rise_kpa_per_s", 1000.0, 100000.0);
-  gate.brake_fall_kpa_per_s = map.number("brake_fall_kpa_per_s", 1000.0, 200000.0);
-  gate.throttle_max_percent = map.number("throttle_max_percent", 1.0, 100.0);
-  gate.throttle_rise_percent_per_s = map.number("throttle_rise_percent_per_s", 10.0, 2000.0);
-  gate.both_throttle_percent = map.number("both_throttle_percent", 0.0, 10.0);
-  gate.both_brake_kpa = map.number("both_brake_kpa", 0.0, 500.0);
-  gate.standing_mps = map.number("standing_mps", 0.1, 5.0);
+  read_ranges(map, safety::kGateRanges, gate);
+  read_ranges(map, safety::kGateTimes, gate);
   gate.gear_max = static_cast<std::uint8_t>(map.integer("gear_max", 1, 8));
-  gate.shift_least = time_s(map, "shift_least_s", 0.0, 1.0);
-  gate.command_age_max = time_s(map, "command_age_max_s", 0.01, 0.2);
 }
 
 void read_bus_guard(yaml::StrictMap map, safety::BusGuardParams& guard) {
   guard.restarts = static_cast<std::uint8_t>(map.integer("restarts", 0, safety::kRestartsMax));
-  guard.window = time_s(map, "window_s", 1.0, 60.0);
-  guard.pause = time_s(map, "pause_s", 0.01, 1.0);
-  guard.stall_max = time_s(map, "stall_max_s", 0.02, 1.0);
+  read_ranges(map, safety::kBusGuardTimes, guard);
 }
 
 constexpr double kWarm_c = 90.0;  // tyres at their best

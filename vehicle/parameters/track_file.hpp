@@ -1,4 +1,4 @@
-// Reads a track file (vehicle/config/tracks/*.yaml): degrees in the file, radians outside.
+// Reader of track files (vehicle/config/tracks/*.yaml): degrees in the file, radians outside.
 //   in     the text of the file and its name, for messages
 //   out    the description that world::TrackMap::build() takes
 //   errors a missing, unknown, repeated or out-of-range key, with "file:line:column"; whether the

@@ -18,7 +18,7 @@
 #include "vehicle/pipeline/operator_orders.hpp"
 #include "vehicle/safety/bus_guard.hpp"
 #include "vehicle/safety/frame_gate.hpp"
-#include "vehicle/safety/radio_ladder.hpp"
+#include "vehicle/safety/link_loss_policy.hpp"
 #include "vehicle/safety/supervisor.hpp"
 #include "vehicle/safety/watchdog.hpp"
 #include "vehicle/world/race_control.hpp"
@@ -45,7 +45,7 @@ struct Car {
   safety::WatchdogState watchdog;
   safety::BusGuardState bus_guard;
   OperatorOrders orders;
-  safety::RadioLadderState radio_ladder;
+  safety::LinkLossState link_loss;
   safety::SupervisorState supervisor;
   safety::GateState gate;
   safety::Follow follow = safety::Follow::kNone;  // decided by the last tick

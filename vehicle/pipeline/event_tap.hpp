@@ -1,5 +1,5 @@
-// What changed in a tick, as events for the pit wall: mode, arming, flags, laps, and every fault
-// when it begins and when it ends. Values may be overwritten on the radio; an event arrives.
+// Mapper of changes in a tick to events for the pit wall: mode, arming, flags, laps, and every
+// fault when it begins and when it ends. Values may be overwritten on the radio; an event arrives.
 //   in     Outputs of this tick, the car's fault log; one call per tick
 //   out    events in the order: faults, mode, arming, flags, lap (laps as race control counts them)
 //   invariants

@@ -24,8 +24,8 @@ guardian::Params guardian_params(const CarParams& params) {
   return out;
 }
 
-void tell(const Setup& setup, const Car& car, const Outputs& out, const Run& run, Instant now,
-          Told& told) {
+void publish(const Setup& setup, const Car& car, const Outputs& out, const Run& run, Instant now,
+             Told& told) {
   guardian::CarRecord& record = told.record;
   record.run = run.id;
   ++record.sequence;

@@ -35,8 +35,8 @@ struct Run {
 };
 
 // Brings the record up to this tick.
-void tell(const Setup& setup, const Car& car, const Outputs& out, const Run& run, Instant now,
-          Told& told);
+void publish(const Setup& setup, const Car& car, const Outputs& out, const Run& run, Instant now,
+             Told& told);
 
 // What the car heeds of the guardian's word; `status` may be of any age.
 GuardianView view_of(const guardian::Status& status, std::uint64_t run, Instant now);

@@ -1,5 +1,5 @@
-// Of the telemetry tap, what tells whether the car is well: localization, watchdogs, sensors,
-// receivers, computer, faults, bus, radio.
+// Telemetry of the car's health: localization, watchdogs, sensors, receivers, computer, faults,
+// bus, radio.
 //   in     as telemetry_tap.hpp
 //   out    values and times of sampling of the groups kLocalization, kStreams, kSensors, kGnss0,
 //          kGnss1, kReceivers, kComputer, kFaults, kBus and kRadio

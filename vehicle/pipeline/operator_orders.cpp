@@ -10,12 +10,12 @@ using world::CommandAnswer;
 using world::Mode;
 using world::OperatorCommand;
 using world::OperatorCommandKind;
-using world::StopWish;
+using world::StopRequest;
 using world::TrackFlag;
 
 constexpr double kYes = 1.0;
 
-struct Desk {
+struct BenchServer {
   OperatorOrders& orders;
   const OrderInputs& in;
   Answers& answers;
@@ -31,7 +31,7 @@ struct Desk {
   void take(const OperatorCommand& command);
 };
 
-void Desk::give_what_was_let_go() {
+void BenchServer::give_what_was_let_go() {
   if (!orders.arming) return;
   orders.close_next = false;
   if (in.now <= orders.arming->expires) {
@@ -43,7 +43,7 @@ void Desk::give_what_was_let_go() {
   orders.arming.reset();
 }
 
-void Desk::arm(const OperatorCommand& command) {
+void BenchServer::arm(const OperatorCommand& command) {
   if (command.argument != kYes) {
     orders.arm = false;
     if (orders.arming) answer(*orders.arming, CommandAnswer::kRefused);
@@ -62,14 +62,14 @@ void Desk::arm(const OperatorCommand& command) {
   orders.close_next = true;
 }
 
-void Desk::reset(const OperatorCommand& command) {
+void BenchServer::reset(const OperatorCommand& command) {
   const bool now = in.stands || in.mode == Mode::kHalted;
   if (command.argument != kYes || orders.reset || !now)
     return answer(command, CommandAnswer::kRefused);
   orders.reset = command;
 }
 
-void Desk::exclude(const OperatorCommand& command) {
+void BenchServer::exclude(const OperatorCommand& command) {
   constexpr double kAll = (1U << world::kExcludables) - 1U;
   const bool is_set = command.argument >= 0.0 && command.argument <= kAll &&
                       command.argument == std::floor(command.argument);
@@ -80,7 +80,7 @@ void Desk::exclude(const OperatorCommand& command) {
   answer(command, CommandAnswer::kApplied);
 }
 
-void Desk::take(const OperatorCommand& command) {
+void BenchServer::take(const OperatorCommand& command) {
   if (in.now > command.expires) return answer(command, CommandAnswer::kExpired);
   switch (command.kind) {
     case OperatorCommandKind::kArm:
@@ -134,19 +134,20 @@ int severity(TrackFlag flag) {
 
 }  // namespace
 
-safety::OperatorRequests obey(OperatorOrders& orders, const OrderInputs& inputs, Answers& answers) {
-  Desk desk{orders, inputs, answers};
-  desk.give_what_was_let_go();
+safety::OperatorRequests execute(OperatorOrders& orders, const OrderInputs& inputs,
+                                 Answers& answers) {
+  BenchServer adapter{orders, inputs, answers};
+  adapter.give_what_was_let_go();
   if (inputs.switches.arm && !orders.switch_was) orders.arm.reset();
   orders.switch_was = inputs.switches.arm;
-  for (const OperatorCommand& command : inputs.commands) desk.take(command);
+  for (const OperatorCommand& command : inputs.commands) adapter.take(command);
 
   safety::OperatorRequests requests = inputs.switches;
   requests.arm = inputs.may_arm && orders.arm.value_or(inputs.switches.arm);
   requests.reset = inputs.switches.reset || orders.reset;
-  requests.stop = inputs.switches.stop || inputs.wishes.stop == StopWish::kControlled;
+  requests.stop = inputs.switches.stop || inputs.operator_inputs.stop == StopRequest::kControlled;
   requests.emergency_stop =
-      inputs.switches.emergency_stop || inputs.wishes.stop == StopWish::kEmergency;
+      inputs.switches.emergency_stop || inputs.operator_inputs.stop == StopRequest::kEmergency;
   return requests;
 }
 

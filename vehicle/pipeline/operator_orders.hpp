@@ -1,5 +1,5 @@
-// What the operator has ordered and still holds: the commands of the radio beside the switches at
-// the car, as one set of requests for this tick, and what became of each command.
+// Orders of the operator that hold: the commands of the radio beside the switches at the car, as
+// one set of requests for this tick, and what became of each command.
 //   in     commands of this tick, switches, the mode before and after the supervisor
 //   out    requests, speed limit and track flag that hold; answers
 //   invariants
@@ -26,7 +26,7 @@
 #include "vehicle/safety/fault_detection.hpp"
 #include "vehicle/safety/supervisor.hpp"
 #include "vehicle/world/mode.hpp"
-#include "vehicle/world/operator_wishes.hpp"
+#include "vehicle/world/operator_inputs.hpp"
 #include "vehicle/world/race_control.hpp"
 #include "vehicle/world/sensor_use.hpp"
 
@@ -48,7 +48,7 @@ static_assert(std::is_trivially_copyable_v<OperatorOrders>);
 
 struct OrderInputs {
   safety::OperatorRequests switches;
-  const world::OperatorWishes& wishes;
+  const world::OperatorInputs& operator_inputs;
   std::span<const world::OperatorCommand> commands;
   bool may_arm = true;
   world::Mode mode = world::Mode::kDisarmed;  // before this tick
@@ -57,7 +57,8 @@ struct OrderInputs {
 };
 
 // Before the supervisor: what it shall hear.
-safety::OperatorRequests obey(OperatorOrders& orders, const OrderInputs& inputs, Answers& answers);
+safety::OperatorRequests execute(OperatorOrders& orders, const OrderInputs& inputs,
+                                 Answers& answers);
 
 // After it: what it made of that. `resettable`: there was something that a reset ends, besides
 // Mode::kHalted.

@@ -16,10 +16,9 @@ constexpr double kPercent = 100.0;
 
 std::optional<Problem> illegal_rates(const CarParams& p) {
   const double tick_s = p.rates.tick.seconds();
-  return world::first_illegal(std::array{
-      LegalRange{"rates.tick_s", tick_s, 0.005, 0.02},
-      LegalRange{"rates.planning_s", p.rates.planning.seconds(), tick_s, 0.2},
-      LegalRange{"gateway.outbound.steering_ratio", p.outbound.steering_ratio, 10.0, 25.0}});
+  return world::first_illegal(
+      std::array{LegalRange{"rates.tick_s", tick_s, 0.005, 0.02},
+                 LegalRange{"rates.planning_s", p.rates.planning.seconds(), tick_s, 0.2}});
 }
 
 // What control and the supervisor may ask for must be what the frame gate lets pass: else the gate
@@ -50,6 +49,9 @@ std::optional<Problem> refused_by_gate(const CarParams& p) {
 
 Result<Setup, Problem> prepare(const CarParams& params, const world::TrackDescription& track) {
   if (auto problem = illegal_rates(params)) return Unexpected{*problem};
+  if (auto problem =
+          world::first_illegal(gateway::kOutboundRanges, params.outbound, "gateway.outbound."))
+    return Unexpected{*problem};
   auto map = world::TrackMap::build(track);
   if (!map) return Unexpected{map.error()};
   auto datum = localization::Datum::at(map->datum_latitude_deg(), map->datum_longitude_deg(),

@@ -21,7 +21,7 @@
 #include "vehicle/gateway/outbound.hpp"
 #include "vehicle/safety/bus_guard.hpp"
 #include "vehicle/safety/frame_gate.hpp"
-#include "vehicle/safety/radio_ladder.hpp"
+#include "vehicle/safety/link_loss_policy.hpp"
 #include "vehicle/safety/supervisor.hpp"
 #include "vehicle/safety/watchdog.hpp"
 #include "vehicle/world/receiver_params.hpp"
@@ -45,7 +45,7 @@ inline constexpr std::size_t kRadioPathsMax = 2;
 struct RadioParams {
   FixedVector<RadioPathParams, kRadioPathsMax> paths;  // empty: as RadioPathParams, for each
   bool signed_only = false;  // where a venue forbids encryption; both ends must agree
-  safety::RadioLadderParams ladder;
+  safety::LinkLossParams ladder;
 };
 
 struct CarParams {

@@ -104,7 +104,7 @@ world::CtState handshake(const Setup& setup, Car& car, const Outputs& out, const
 }
 
 // The guardian's frames bear the car's ids; its last command is where the car goes on.
-void heed_guardian(Car& car, const GuardianView& guardian, Instant now) {
+void apply_guardian(Car& car, const GuardianView& guardian, Instant now) {
   car.inbound.stand_in = {.from = guardian.drove_from,
                           .until = guardian.drove_until + kGuardianEcho};
   if (guardian.drove_from == guardian.drove_until) car.inbound.stand_in = {};
@@ -121,20 +121,20 @@ void heed_guardian(Car& car, const GuardianView& guardian, Instant now) {
 
 // What the operator wants, before anything is decided; the ladder's limit is that of the tick
 // before: the watchdog judges after planning.
-void heed_operator(Car& car, const Inputs& in, Outputs& out) {
-  out.requests = obey(car.orders,
-                      {.switches = in.requests,
-                       .wishes = in.wishes,
-                       .commands = in.commands,
-                       .may_arm = in.may_arm,
-                       .mode = car.supervisor.mode,
-                       .stands = car.supervisor.standing,
-                       .now = in.now},
-                      out.answers);
+void apply_operator(Car& car, const Inputs& in, Outputs& out) {
+  out.requests = execute(car.orders,
+                         {.switches = in.requests,
+                          .operator_inputs = in.operator_inputs,
+                          .commands = in.commands,
+                          .may_arm = in.may_arm,
+                          .mode = car.supervisor.mode,
+                          .stands = car.supervisor.standing,
+                          .now = in.now},
+                         out.answers);
   out.race_control = stricter(out.heard.race_control, car.orders.flag);
   out.speed_limit_mps =
       lower_limit_mps(lower_limit_mps(in.operator_speed_limit_mps, car.orders.speed_limit_mps),
-                      car.radio_ladder.speed_limit_mps);
+                      car.link_loss.speed_limit_mps);
 }
 
 void say(const Setup& setup, Car& car, const Inputs& in, Outputs& out) {
@@ -162,16 +162,16 @@ void say(const Setup& setup, Car& car, const Inputs& in, Outputs& out) {
 Outputs step(const Setup& setup, Car& car, const Inputs& in) {
   const CarParams& p = setup.params;
   Outputs out;
-  heed_guardian(car, in.guardian, in.now);
-  gateway::remember_command(car.inbound, car.supervisor.last,
-                            car.supervisor.last_known && car.supervisor.mode != Mode::kDisarmed,
-                            in.now);
+  apply_guardian(car, in.guardian, in.now);
+  gateway::store_command(car.inbound, car.supervisor.last,
+                         car.supervisor.last_known && car.supervisor.mode != Mode::kDisarmed,
+                         in.now);
   out.heard = gateway::decode(p.inbound, car.inbound, in.can, in.now);
   const bool armed = car.supervisor.mode != Mode::kDisarmed;
   out.heard.bus.identity = gateway::identify(p.identity, car.identity, in.can, armed, in.now);
   gateway::observe_link(car.inbound, out.heard.bus, in.link, in.now);
 
-  heed_operator(car, in, out);
+  apply_operator(car, in, out);
   const auto located =
       localization::step(p.localization, setup.datum, car.localization, in.sensors,
                          out.heard.signals, car.surroundings, car.orders.use, in.now);
@@ -199,8 +199,8 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
                                 .radio_at = in.radio_at,
                                 .use = car.orders.use},
                                in.now);
-  out.radio = safety::descend(p.radio.ladder, car.radio_ladder,
-                              out.watchdog[safety::Stream::kRadio], in.wishes.joystick, in.now);
+  out.radio = safety::descend(p.radio.ladder, car.link_loss, out.watchdog[safety::Stream::kRadio],
+                              in.operator_inputs.joystick, in.now);
   const bool resettable = car.bus_guard.failed || in.guardian.stopped;
   out.bus_guard =
       safety::guard(p.bus_guard, car.bus_guard, out.heard.bus.link, out.requests.reset, in.now);

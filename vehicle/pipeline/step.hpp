@@ -20,10 +20,10 @@
 #include "vehicle/pipeline/car.hpp"
 #include "vehicle/pipeline/operator_orders.hpp"
 #include "vehicle/pipeline/setup.hpp"
-#include "vehicle/safety/radio_ladder.hpp"
+#include "vehicle/safety/link_loss_policy.hpp"
 #include "vehicle/world/computer_health.hpp"
 #include "vehicle/world/monitor.hpp"
-#include "vehicle/world/operator_wishes.hpp"
+#include "vehicle/world/operator_inputs.hpp"
 #include "vehicle/world/sensor_input.hpp"
 
 namespace pitwall::pipeline {
@@ -45,7 +45,7 @@ struct Inputs {
   const world::SensorInput& sensors;
   safety::OperatorRequests requests;                   // switches at the car
   double operator_speed_limit_mps = kUnset;            // unset: none
-  world::OperatorWishes wishes{};                      // by radio
+  world::OperatorInputs operator_inputs{};             // by radio
   std::span<const world::OperatorCommand> commands{};  // at most kOperatorCommandsMax
   bool may_arm = true;                                 // false: listens only
   // Newest byte of each receiver, where the rim knows it; else any sample of the unit counts.
@@ -72,7 +72,7 @@ struct Outputs {
   safety::GateOutput passed;
   bool quiet = false;                 // the guardian drives: nothing was said
   safety::OperatorRequests requests;  // switches and radio together, as they were heeded
-  safety::RadioLadderOutput radio;
+  safety::LinkLossOutput radio;
   world::RaceControl race_control;  // acted on: what was heard, or stricter by the base's flag
   double speed_limit_mps = kUnset;  // of operator and radio ladder; unset: none
   Answers answers;                  // to commands of this tick and of the one before

@@ -1,4 +1,4 @@
-// What of a tick goes to the pit wall: pipeline outputs to the fields of the telemetry registry.
+// Telemetry mapper: outputs of a tick to the fields of the telemetry registry.
 //   in     Car and Outputs of this tick, what the log kept of earlier ones, Setup, and figures that
 //          only the rim knows
 //   out    telemetry::Snapshot of the groups of Direction::kDown, each with the time at which its

@@ -1,4 +1,4 @@
-// What telemetry shows of more than one tick: what each receiver said last, and lap times.
+// Telemetry over more than one tick: the last message of each receiver, and lap times.
 //   in     Inputs and Outputs of every tick, length of the track
 //   out    the newest sample of each kind and unit; the last lap
 //   invariants

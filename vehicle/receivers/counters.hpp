@@ -1,4 +1,5 @@
-// What a receiver's bytes became, by kind: every message that is not used has its counter.
+// Counters of a receiver's messages, by what became of them: every message that is not used has its
+// counter.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// How an inertial unit sits in the car: which of its enclosure's axes points where.
+// Mounting of an inertial unit in the car: which of its enclosure's axes points where.
 //   in     vectors in the axes of the enclosure
 //   out    vectors in Body (ISO 8855: x forward, y left, z up)
 // SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-// What no receiver on a car can mean, whatever its checksum says.
+// Plausibility limits of receiver values, which hold whatever a checksum says.
 //   in     finite numbers (the decoders refuse others)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

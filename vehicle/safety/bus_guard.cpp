@@ -37,7 +37,7 @@ std::size_t restarts_within(const BusGuardParams& params, const BusGuardState& s
                     [&](Instant at) { return at != Instant{} && now - at < params.window; }));
 }
 
-void remember_restart(BusGuardState& state, Instant now) {
+void store_restart(BusGuardState& state, Instant now) {
   std::rotate(state.restarts.begin(), state.restarts.begin() + 1, state.restarts.end());
   state.restarts.back() = now;
   ++state.restarts_total;
@@ -51,7 +51,7 @@ bool restart_or_fail(const BusGuardParams& params, BusGuardState& state, bool be
   const Instant last = std::max(state.down_since, state.restarts.back());
   if (state.failed || now - last < params.pause) return false;
   state.failed = spent || state.tries >= params.restarts;
-  if (!state.failed) remember_restart(state, now);
+  if (!state.failed) store_restart(state, now);
   return !state.failed;
 }
 

@@ -1,5 +1,5 @@
-// What to do about a CAN controller that goes bus-off or a queue that takes nothing: a bounded
-// number of restarts, then none, and a stop that stays until the operator resets it.
+// Policy for a CAN controller that goes bus-off or a queue that takes nothing: a bounded number of
+// restarts, then none, and a stop that stays until the operator resets it.
 //   in     what the rim sees of the interface; the operator's reset; now
 //   out    whether the rim shall restart the controller now; whether the bus has failed for good
 //   invariants
@@ -24,6 +24,7 @@
 
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/world/bus_health.hpp"
+#include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/monitor.hpp"
 
 namespace pitwall::safety {
@@ -31,14 +32,20 @@ namespace pitwall::safety {
 inline constexpr std::size_t kRestartsMax = 8;
 
 struct BusGuardParams {
-  std::uint8_t restarts = 3;           // within the window; [0, 8]
-  Duration window = seconds(10);       // [1, 60] s
+  std::uint8_t restarts = 3;  // within the window; [0, 8]
+  Duration window = seconds(10);
   Duration pause = milliseconds(100);  // from bus-off to a restart, and between two; [10 ms, 1 s]
   Duration stall_max = milliseconds(50);  // the queue takes nothing; [20 ms, 1 s]
   Duration stall_seen = milliseconds(10);
   double load_max = 0.7;    // share of the bit rate, without stuff bits; [0.3, 1]
   world::MonitorSet off{};  // of the bench alone: no car file sets it
 };
+
+inline constexpr auto kBusGuardTimes = std::to_array<world::NamedTime<BusGuardParams>>({
+    {"window_s", &BusGuardParams::window, 1.0, 60.0},
+    {"pause_s", &BusGuardParams::pause, 0.01, 1.0},
+    {"stall_max_s", &BusGuardParams::stall_max, 0.02, 1.0},
+});
 
 struct BusGuardState {
   std::array<Instant, kRestartsMax> restarts{};  // newest last; zero: none

@@ -20,15 +20,21 @@
 
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/sensor_input.hpp"
 
 namespace pitwall::safety {
 
 struct ClockParams {
-  double step_s = 0.1;         // less is delay; [0.02, 1]
-  double skew_max_ppm = 60.0;  // [20, 1000]
+  double step_s = 0.1;  // less is delay
+  double skew_max_ppm = 60.0;
   Duration show = seconds(1);  // [0.1, 60] s
 };
+
+inline constexpr auto kClockRanges = std::to_array<world::NamedRange<ClockParams>>({
+    {"step_s", &ClockParams::step_s, 0.02, 1.0},
+    {"skew_max_ppm", &ClockParams::skew_max_ppm, 20.0, 1000.0},
+});
 
 inline constexpr Duration kClockWindow = seconds(4);
 inline constexpr std::size_t kClockWindows = 9;

@@ -91,7 +91,7 @@ Chosen coast(const Tick& t, bool control_usable) {
 
 // By the joystick: less throttle and more brake than was chosen, never the other way.
 ActuatorCommand slowed(const Tick& t, const ActuatorCommand& chosen) {
-  const RadioLadderOutput& radio = t.in.radio;
+  const LinkLossOutput& radio = t.in.radio;
   ActuatorCommand out = chosen;
   out.throttle_fraction = std::min(chosen.throttle_fraction, radio.throttle_cap);
   if (radio.brake > 0.0) {

@@ -11,21 +11,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <type_traits>
 
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/world/computer_health.hpp"
+#include "vehicle/world/legal_range.hpp"
 
 namespace pitwall::safety {
 
 struct ComputerParams {
-  double idle_share = 0.5;        // time lost that is forgiven; [0.1, 0.9]
-  double late_max_s = 0.5;        // beyond it, summed up; [0.2, 5]
-  double processor_warn = 0.97;   // share; [0.5, 1]
-  double memory_max_mib = 30e3;   // [256, 1e6]
-  double temperature_max_c = 95;  // [60, 120]
+  double idle_share = 0.5;       // time lost that is forgiven
+  double late_max_s = 0.5;       // beyond it, summed up
+  double processor_warn = 0.97;  // share
+  double memory_max_mib = 30e3;
+  double temperature_max_c = 95;
 };
+
+inline constexpr auto kComputerRanges = std::to_array<world::NamedRange<ComputerParams>>({
+    {"idle_share", &ComputerParams::idle_share, 0.1, 0.9},
+    {"late_max_s", &ComputerParams::late_max_s, 0.2, 5.0},
+    {"processor_warn", &ComputerParams::processor_warn, 0.5, 1.0},
+    {"memory_max_mib", &ComputerParams::memory_max_mib, 256.0, 1e6},
+    {"temperature_max_c", &ComputerParams::temperature_max_c, 60.0, 120.0},
+});
 
 struct ComputerState {
   Instant at{};         // of the last tick

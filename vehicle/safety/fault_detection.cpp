@@ -113,7 +113,7 @@ void dead_bus(Finder& f, FaultState& state, Instant now) {
   if (dead && !state.bus_dead) state.bus_dead_since = now;
   state.bus_dead = dead;
   f.add(Monitor::kMessageAge, Cause::kBusDead, dead, silence ? silence->seconds() : kUnset);
-  f.out.nobody_obeys = dead && now - state.bus_dead_since >= f.params.bus_dead_disarm;
+  f.out.drive_by_wire_gone = dead && now - state.bus_dead_since >= f.params.bus_dead_disarm;
 }
 
 void counts(Finder& f, FaultState& state) {
@@ -217,7 +217,7 @@ void flags(Finder& f) {
 }
 
 // While the car rolls and nobody but us tells its actuators what to do.
-bool obeys_us(const Finder& f) {
+bool follows_commands(const Finder& f) {
   const auto& misc = f.in.signals.misc;
   const auto& said = f.in.signals.diagnostics;
   const bool drives = misc.heard && misc.value.sys_state == SysState::kDriving;
@@ -235,7 +235,7 @@ void actuators(Finder& f, FaultState& state, Instant now) {
   const ActuatorParams& p = f.params.following;
   const world::VehicleSignals& s = f.in.signals;
   const world::ActuatorCommand& told = f.in.told;
-  if (!obeys_us(f)) {
+  if (!follows_commands(f)) {
     state.steering = state.brake_front = state.brake_rear = state.throttle = {};
     return;
   }

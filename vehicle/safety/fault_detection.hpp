@@ -1,4 +1,4 @@
-// What is wrong now: every cause that holds in this tick, each with the number that crossed its
+// Fault detection: every cause that holds in this tick, each with the number that crossed its
 // limit. Pure; latches nothing but the instants that "too long" needs.
 //   in     signals, bus health, flags, ego state, watchdog rows, verdicts of planning and control,
 //          what the actuators were told, the computer's health
@@ -33,6 +33,7 @@
 #include "vehicle/world/bus_health.hpp"
 #include "vehicle/world/computer_health.hpp"
 #include "vehicle/world/ego_state.hpp"
+#include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/monitor.hpp"
 #include "vehicle/world/race_control.hpp"
 #include "vehicle/world/sensor_input.hpp"
@@ -50,12 +51,12 @@ struct ActuatorParams {
 };
 
 struct FaultParams {
-  Duration dead_reckoning_max = milliseconds(1500);   // [0.1, 10] s
+  Duration dead_reckoning_max = milliseconds(1500);
   Duration dead_reckoning_coast = milliseconds(300);  // [0.05 s, dead_reckoning_max)
   Duration bus_dead = milliseconds(70);               // nothing of the drive-by-wire; [0.03, 0.1] s
-  Duration bus_dead_disarm = seconds(20);             // thereafter; [5, 60] s
-  double position_sigma_max_m = 1.0;                  // of the fused position; [0.1, 10]
-  double gnss_sigma_max_m = 0.5;                      // of both units' own; [0.05, 10]
+  Duration bus_dead_disarm = seconds(20);             // thereafter
+  double position_sigma_max_m = 1.0;                  // of the fused position
+  double gnss_sigma_max_m = 0.5;                      // of both units' own
   std::uint8_t control_failures = 3;                  // ticks in a row; [1, 20]
   std::uint8_t refused_ticks = 3;  // ticks in a row with a refused frame; [1, 20]
   bool radio_loss_stops = true;    // base station lost for the watchdog's limit
@@ -66,6 +67,17 @@ struct FaultParams {
   ComputerParams computer;
   world::MonitorSet off{};  // of the bench alone: no car file sets it
 };
+
+inline constexpr auto kFaultRanges = std::to_array<world::NamedRange<FaultParams>>({
+    {"gnss_sigma_max_m", &FaultParams::gnss_sigma_max_m, 0.05, 10.0},
+    {"position_sigma_max_m", &FaultParams::position_sigma_max_m, 0.1, 10.0},
+});
+
+inline constexpr auto kFaultTimes = std::to_array<world::NamedTime<FaultParams>>({
+    {"dead_reckoning_max_s", &FaultParams::dead_reckoning_max, 0.1, 10.0},
+    {"dead_reckoning_coast_s", &FaultParams::dead_reckoning_coast, 0.05, 10.0},
+    {"bus_dead_disarm_s", &FaultParams::bus_dead_disarm, 5.0, 60.0},
+});
 
 // What the operator asks, as levels. `stop` and `emergency_stop` act while they are held and their
 // effect stays by the modes; `reset` acts on its rising edge.
@@ -80,7 +92,7 @@ struct FaultInputs {
   const world::EgoState& ego;
   const WatchdogOutput& watchdog;
   OperatorRequests operator_requests;
-  bool radio_stop = false;    // RadioLadderOutput
+  bool radio_stop = false;    // LinkLossOutput
   bool own_id_seen = false;   // gateway::InboundOutput
   bool bus_failed = false;    // BusGuardOutput
   bool control_ok = false;    // control gave a command this tick
@@ -112,7 +124,7 @@ struct FaultState {
 struct FaultOutput {
   CauseSet causes;
   std::array<double, kCauses> values{};  // per cause that holds
-  bool nobody_obeys = false;             // the bus has been dead for bus_dead_disarm
+  bool drive_by_wire_gone = false;       // the bus has been dead for bus_dead_disarm
   world::MonitorSet seen{};              // monitors that see something wrong now
 };
 

@@ -37,6 +37,7 @@
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/mode.hpp"
 
 namespace pitwall::safety {
@@ -114,26 +115,46 @@ struct GateParams {
                                           {60.0, 50.0},
                                           {70.0, 40.0},
                                           {80.0, 33.0}}};
-  double steer_slew_deg_per_s = 720.0;      // the motor's own limit; [60, 1500]
-  double stop_steer_share = 0.85;           // of the table, in a stop; [0.5, 1]
+  double steer_slew_deg_per_s = 720.0;      // the motor's own limit
+  double stop_steer_share = 0.85;           // of the table, in a stop
   double hold_steer_slew_deg_per_s = 60.0;  // at standstill; [1, steer_slew]
   // What the front tyres can take on a straight before they lock: 1.05 x 350 kPa per m/s^2 x 0.65
   // x 1.3 (g + downforce). Speeds and pressures rise; an unknown speed counts as none.
   std::array<StopBrakeRow, kStopBrakeRows> stop_brake{
       {{0.0, 3050.0}, {20.0, 3210.0}, {40.0, 3700.0}, {60.0, 4510.0}, {80.0, 5640.0}}};
-  double hold_least_kpa = 300.0;                // [0, 3000]
-  double brake_max_kpa = 6000.0;                // [1000, 8191]
-  double brake_rise_kpa_per_s = 30000.0;        // [1000, 100000]
-  double brake_fall_kpa_per_s = 60000.0;        // [1000, 200000]
-  double throttle_max_percent = 100.0;          // [1, 100]
-  double throttle_rise_percent_per_s = 400.0;   // falling is free; [10, 2000]
-  double both_throttle_percent = 2.0;           // above this with ...; [0, 10]
-  double both_brake_kpa = 100.0;                // ... above this is a contradiction; [0, 500]
-  double standing_mps = 1.0;                    // gear 0 only below; [0.1, 5]
-  std::uint8_t gear_max = 6;                    // [1, 8]
-  Duration shift_least = milliseconds(100);     // between gears; [0, 1] s
-  Duration command_age_max = milliseconds(50);  // [10, 200] ms
+  double hold_least_kpa = 300.0;
+  double brake_max_kpa = 6000.0;
+  double brake_rise_kpa_per_s = 30000.0;
+  double brake_fall_kpa_per_s = 60000.0;
+  double throttle_max_percent = 100.0;
+  double throttle_rise_percent_per_s = 400.0;  // falling is free
+  double both_throttle_percent = 2.0;          // above this with ...
+  double both_brake_kpa = 100.0;               // ... above this is a contradiction
+  double standing_mps = 1.0;                   // gear 0 only below
+  std::uint8_t gear_max = 6;                   // [1, 8]
+  Duration shift_least = milliseconds(100);    // between gears
+  Duration command_age_max = milliseconds(50);
 };
+
+inline constexpr auto kGateRanges = std::to_array<world::NamedRange<GateParams>>({
+    {"stop_steer_share", &GateParams::stop_steer_share, 0.5, 1.0},
+    {"hold_steer_slew_deg_per_s", &GateParams::hold_steer_slew_deg_per_s, 1.0, 1500.0},
+    {"hold_least_kpa", &GateParams::hold_least_kpa, 0.0, 3000.0},
+    {"steer_slew_deg_per_s", &GateParams::steer_slew_deg_per_s, 60.0, 1500.0},
+    {"brake_max_kpa", &GateParams::brake_max_kpa, 1000.0, 8191.0},
+    {"brake_rise_kpa_per_s", &GateParams::brake_rise_kpa_per_s, 1000.0, 100000.0},
+    {"brake_fall_kpa_per_s", &GateParams::brake_fall_kpa_per_s, 1000.0, 200000.0},
+    {"throttle_max_percent", &GateParams::throttle_max_percent, 1.0, 100.0},
+    {"throttle_rise_percent_per_s", &GateParams::throttle_rise_percent_per_s, 10.0, 2000.0},
+    {"both_throttle_percent", &GateParams::both_throttle_percent, 0.0, 10.0},
+    {"both_brake_kpa", &GateParams::both_brake_kpa, 0.0, 500.0},
+    {"standing_mps", &GateParams::standing_mps, 0.1, 5.0},
+});
+
+inline constexpr auto kGateTimes = std::to_array<world::NamedTime<GateParams>>({
+    {"shift_least_s", &GateParams::shift_least, 0.0, 1.0},
+    {"command_age_max_s", &GateParams::command_age_max, 0.01, 0.2},
+});
 
 struct GateContext {
   world::Mode mode = world::Mode::kDisarmed;

@@ -1,6 +1,6 @@
-// Which mode follows which, for every event. The table is the whole decision; its properties are
-// proved when it is compiled. Several events may hold in one tick: the first in the order of Event
-// that leads to another mode wins.
+// Mode table: the next mode for every mode and event. The table is the whole decision; its
+// properties are proved when it is compiled. Several events may hold in one tick: the first in the
+// order of Event that leads to another mode wins.
 //   source design.md, "Commands to actuators"
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -15,16 +15,16 @@ namespace pitwall::safety {
 
 // In the order of priority.
 enum class Event : std::uint8_t {
-  kNobodyObeys,  // the drive-by-wire has been silent for longer than any stop takes
-  kEmergency,    // a cause of Reaction::kEmergencyStop holds
-  kStop,         // a cause of Reaction::kControlledStop holds, or one of kCoast has lasted
-  kCoast,        // a cause of Reaction::kCoast holds
-  kStandstill,   // the car has stood for the dwell
-  kDisarm,       // the arm request is withdrawn
-  kReset,        // rising edge of the operator's reset, and no emergency cause holds
-  kPassed,       // no cause of Reaction::kCoast has held for the dwell
-  kArm,          // arm requested, and no cause holds that bars arming
-  kGo            // everything that driving needs is there, and no cause holds
+  kDriveByWireGone,  // the drive-by-wire has been silent for longer than any stop takes
+  kEmergency,        // a cause of Reaction::kEmergencyStop holds
+  kStop,             // a cause of Reaction::kControlledStop holds, or one of kCoast has lasted
+  kCoast,            // a cause of Reaction::kCoast holds
+  kStandstill,       // the car has stood for the dwell
+  kDisarm,           // the arm request is withdrawn
+  kReset,            // rising edge of the operator's reset, and no emergency cause holds
+  kPassed,           // no cause of Reaction::kCoast has held for the dwell
+  kArm,              // arm requested, and no cause holds that bars arming
+  kGo                // everything that driving needs is there, and no cause holds
 };
 inline constexpr std::size_t kEvents = 10;
 using Events = std::array<bool, kEvents>;
@@ -93,13 +93,13 @@ static_assert(every_cell([](world::Mode, Event event, world::Mode to) {
               }),
               "a fault never leads to driving or coasting, nor leaves them as they are");
 static_assert(every_cell([](world::Mode from, Event event, world::Mode to) {
-                const bool leaves = event == Event::kReset || event == Event::kNobodyObeys;
+                const bool leaves = event == Event::kReset || event == Event::kDriveByWireGone;
                 return from != world::Mode::kHalted || to == world::Mode::kHalted ||
                        (leaves && to == world::Mode::kDisarmed);
               }),
               "halted is left by a reset, or where nobody obeys, and to disarmed");
 static_assert(every_cell([](world::Mode, Event event, world::Mode to) {
-                return event != Event::kNobodyObeys || to == world::Mode::kDisarmed;
+                return event != Event::kDriveByWireGone || to == world::Mode::kDisarmed;
               }),
               "where nobody obeys nothing is commanded, whatever the mode");
 static_assert(every_cell([](world::Mode from, Event event, world::Mode to) {
@@ -119,7 +119,7 @@ static_assert(every_cell([](world::Mode from, Event event, world::Mode to) {
               "while what may pass holds, coasting goes on");
 static_assert(every_cell([](world::Mode from, Event event, world::Mode to) {
                 return !stops(from) || stops(to) || to == world::Mode::kHalted ||
-                       event == Event::kNobodyObeys;
+                       event == Event::kDriveByWireGone;
               }),
               "a stop ends in halted while somebody obeys");
 static_assert(every_cell([](world::Mode from, Event, world::Mode to) {

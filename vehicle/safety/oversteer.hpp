@@ -11,22 +11,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <type_traits>
 
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/signals.hpp"
 
 namespace pitwall::safety {
 
 struct OversteerParams {
-  double speed_min_mps = 12.0;              // [5, 30]
-  double rear_spin_max = 0.10;              // of the speed; [0.03, 0.5]
-  double rear_lock_max = 0.20;              // of the speed; [0.05, 0.9]
-  double yaw_excess_max_rad_per_s = 0.25;   // [0.1, 1]
+  double speed_min_mps = 12.0;
+  double rear_spin_max = 0.10;  // of the speed
+  double rear_lock_max = 0.20;  // of the speed
+  double yaw_excess_max_rad_per_s = 0.25;
   double wheelbase_m = 2.971;               // as of the safe stop
   double understeer_rad_per_mps2 = 0.0002;  // as of the safe stop
 };
+
+inline constexpr auto kOversteerRanges = std::to_array<world::NamedRange<OversteerParams>>({
+    {"speed_min_mps", &OversteerParams::speed_min_mps, 5.0, 30.0},
+    {"rear_spin_max", &OversteerParams::rear_spin_max, 0.03, 0.5},
+    {"rear_lock_max", &OversteerParams::rear_lock_max, 0.05, 0.9},
+    {"yaw_excess_max_rad_per_s", &OversteerParams::yaw_excess_max_rad_per_s, 0.1, 1.0},
+});
 
 struct OversteerInputs {
   world::PerWheel wheel_mps;

@@ -14,36 +14,58 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/tyre_grip.hpp"
 
 namespace pitwall::safety {
 
 struct SafeStopParams {
-  double wheelbase_m = 2.971;                 // [2.5, 3.5]
-  double understeer_rad_per_mps2 = 0.0006;    // [-0.002, 0.01]
-  double brake_kpa_per_mps2 = 250.0;          // pressure for 1 m/s^2; [50, 1000]
-  double brake_ramp_kpa_per_s = 4000.0;       // controlled stop; [500, 20000]
+  double wheelbase_m = 2.971;
+  double understeer_rad_per_mps2 = 0.0006;
+  double brake_kpa_per_mps2 = 250.0;          // pressure for 1 m/s^2
+  double brake_ramp_kpa_per_s = 4000.0;       // controlled stop
   double emergency_ramp_kpa_per_s = 12000.0;  // [brake_ramp, 30000]
-  double brake_max_kpa = 5500.0;              // [1000, 8191]
-  double hold_kpa = 1500.0;                   // at standstill; [300, 4000]
-  double decel_min_mps2 = 2.0;                // ends every stop; [0.5, 5]
-  double decel_max_mps2 = 8.0;                // controlled stop; [decel_min, 15]
-  double decel_without_plan_mps2 = 4.0;       // [decel_min, decel_max]
-  double emergency_decel_mps2 = 14.0;         // [decel_max, 25]
-  double friction = 1.3;                      // of warm tyres; [0.3, 2]
-  double brake_share = 0.65;                  // of the grip, when the front axle locks; [0.3, 1]
-  double downforce_per_m = 0.0013;            // lift / mass per v^2; [0, 0.01]
-  double grip_share = 0.7;                    // of the grip left beside the lateral force; (0, 1]
-  double emergency_grip_share = 0.9;          // [grip_share, 1]
-  double steer_settle_s = 0.8;                // the offset from the feed-forward decays; [0.1, 5]
-  double standstill_mps = 0.3;                // [0.1, 1]
-  double drag_per_m = 0.0;                    // drag / (mass v^2); [0, 0.01]
-  double coast_mps2 = 0.0;                    // rolling and engine, throttle closed; [0, 3]
-  world::TyreGrip tyres;                      // of the temperature; as planning has it
+  double brake_max_kpa = 5500.0;
+  double hold_kpa = 1500.0;              // at standstill
+  double decel_min_mps2 = 2.0;           // ends every stop
+  double decel_max_mps2 = 8.0;           // controlled stop; [decel_min, 15]
+  double decel_without_plan_mps2 = 4.0;  // [decel_min, decel_max]
+  double emergency_decel_mps2 = 14.0;    // [decel_max, 25]
+  double friction = 1.3;                 // of warm tyres
+  double brake_share = 0.65;             // of the grip, when the front axle locks
+  double downforce_per_m = 0.0013;       // lift / mass per v^2
+  double grip_share = 0.7;               // of the grip left beside the lateral force; (0, 1]
+  double emergency_grip_share = 0.9;     // [grip_share, 1]
+  double steer_settle_s = 0.8;           // the offset from the feed-forward decays
+  double standstill_mps = 0.3;
+  double drag_per_m = 0.0;  // drag / (mass v^2)
+  double coast_mps2 = 0.0;  // rolling and engine, throttle closed
+  world::TyreGrip tyres;    // of the temperature; as planning has it
 };
+
+inline constexpr auto kSafeStopRanges = std::to_array<world::NamedRange<SafeStopParams>>({
+    {"wheelbase_m", &SafeStopParams::wheelbase_m, world::kWheelbase_m.least,
+     world::kWheelbase_m.most},
+    {"understeer_rad_per_mps2", &SafeStopParams::understeer_rad_per_mps2,
+     world::kUndersteer_rad_per_mps2.least, world::kUndersteer_rad_per_mps2.most},
+    {"brake_kpa_per_mps2", &SafeStopParams::brake_kpa_per_mps2, 50.0, 1000.0},
+    {"brake_ramp_kpa_per_s", &SafeStopParams::brake_ramp_kpa_per_s, 500.0, 20000.0},
+    {"brake_max_kpa", &SafeStopParams::brake_max_kpa, 1000.0, 8191.0},
+    {"hold_kpa", &SafeStopParams::hold_kpa, 300.0, 4000.0},
+    {"decel_min_mps2", &SafeStopParams::decel_min_mps2, 0.5, 5.0},
+    {"friction", &SafeStopParams::friction, 0.3, 2.0},
+    {"brake_share", &SafeStopParams::brake_share, 0.3, 1.0},
+    {"drag_per_m", &SafeStopParams::drag_per_m, 0.0, 0.01},
+    {"coast_mps2", &SafeStopParams::coast_mps2, 0.0, 3.0},
+    {"downforce_per_m", &SafeStopParams::downforce_per_m, 0.0, 0.01},
+    {"grip_share", &SafeStopParams::grip_share, 0.05, 1.0},
+    {"steer_settle_s", &SafeStopParams::steer_settle_s, 0.1, 5.0},
+    {"standstill_mps", &SafeStopParams::standstill_mps, 0.1, 1.0},
+});
 
 enum class StopKind : std::uint8_t { kControlled, kEmergency };
 

@@ -131,7 +131,7 @@ Events events_of(const Tick& t, const FaultOutput& found, bool standstill) {
   const auto set = [&](Event event, bool holds) {
     events[static_cast<std::size_t>(event)] = holds;
   };
-  set(Event::kNobodyObeys, found.nobody_obeys);
+  set(Event::kDriveByWireGone, found.drive_by_wire_gone);
   set(Event::kEmergency, emergency);
   set(Event::kStop, has(causes, Reaction::kControlledStop) || coast.lasts);
   set(Event::kCoast, coast.begins);
@@ -169,12 +169,12 @@ void log_rising(const Tick& t, const FaultOutput& found) {
   }
 }
 
-void enter(const Tick& t, Mode to, bool nobody_obeys) {
+void enter(const Tick& t, Mode to, bool drive_by_wire_gone) {
   SupervisorState& s = t.state;
   if (to == Mode::kDisarmed) {
     s.last_known = false;
     // A car that disarmed by itself still says why.
-    if (!nobody_obeys) s.log.forget_first();
+    if (!drive_by_wire_gone) s.log.forget_first();
   }
   if (to == Mode::kStandby) {
     s.log.forget_first();
@@ -258,7 +258,7 @@ SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& stat
   log_rising(tick, found);
   const Mode before = state.mode;
   const Mode to = next(before, events_of(tick, found, standstill));
-  if (to != before) enter(tick, to, found.nobody_obeys);
+  if (to != before) enter(tick, to, found.drive_by_wire_gone);
   state.engine_off = state.engine_off || pushes_on(tick, found);
 
   SupervisorOutput out;

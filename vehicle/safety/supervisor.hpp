@@ -2,8 +2,8 @@
 // goes to the actuators. Planning keeps a stop trajectory ready at every tick; in a stop the
 // supervisor makes control follow it, and takes safe_stop's command only when control failed (and
 // then until the car stands).
-//   in     what was heard, where the car is, the watchdog's rows, the verdicts of this tick's
-//          control and of the previous tick's gate, the operator's requests
+//   in     signals received, position, the watchdog's rows, the verdicts of this tick's control and
+//          of the previous tick's gate, the operator's requests
 //   out    mode, cause (the first that stopped the car since the last reset), command, what to
 //          follow in the next tick
 //   units  SI
@@ -20,7 +20,7 @@
 //          after a base station lost at standstill and after a dead bus
 //   engine off at standstill only, but for one case: a throttle that stays open in a stop, at any
 //          speed. The drive-by-wire is then told to shut down as in an emergency (CT 12): the
-//          engine is off, the gear is out, steering and brake go on obeying
+//          engine is off, the gear is out, steering and brake still follow commands
 //   source mission, row 4 (system executive); mode_table.hpp for the transitions
 //
 //           fault                   stands for 0.5 s           reset
@@ -33,6 +33,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <type_traits>
 
@@ -41,10 +42,11 @@
 #include "vehicle/safety/fault_detection.hpp"
 #include "vehicle/safety/fault_log.hpp"
 #include "vehicle/safety/frame_gate.hpp"
+#include "vehicle/safety/link_loss_policy.hpp"
 #include "vehicle/safety/mode_table.hpp"
-#include "vehicle/safety/radio_ladder.hpp"
 #include "vehicle/safety/safe_stop.hpp"
 #include "vehicle/world/actuator_command.hpp"
+#include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/mode.hpp"
 #include "vehicle/world/monitor.hpp"
 #include "vehicle/world/trajectory.hpp"
@@ -54,21 +56,36 @@ namespace pitwall::safety {
 struct SupervisorParams {
   FaultParams faults;
   SafeStopParams safe_stop;
-  double steering_ratio = 19.5;                   // as in gateway::OutboundParams; [10, 25]
-  GateParams gate;                                // what a stop's own commands have to pass
-  Duration standstill_dwell = milliseconds(500);  // [0.1, 5] s
-  double standstill_mps = 0.3;                    // [0.1, 1]
+  double steering_ratio = 19.5;  // as in gateway::OutboundParams
+  GateParams gate;               // what a stop's own commands have to pass
+  Duration standstill_dwell = milliseconds(500);
+  double standstill_mps = 0.3;
   // Slew of the chosen command, so that a change of its source is no jump; below the gate's limits.
-  double steer_slew_rad_per_s = 0.5;         // at the road wheel; [0.1, 2]
-  double throttle_rise_per_s = 2.0;          // fraction per second; [0.1, 10]
-  double brake_fall_kpa_per_s = 30000.0;     // [1000, 60000]
+  double steer_slew_rad_per_s = 0.5;  // at the road wheel
+  double throttle_rise_per_s = 2.0;   // fraction per second
+  double brake_fall_kpa_per_s = 30000.0;
   Duration shift_least = milliseconds(150);  // one gear at a time; [0.1, 2] s
-  double brake_rise_kpa_per_s = 15000.0;     // [1000, 30000]
-  bool go_needs_driving_state = true;        // drive-by-wire must say "driving" first
-  Duration coast_dwell = milliseconds(500);  // [0.1, 5] s
-  Duration coast_max = milliseconds(1500);   // above coast_dwell; [0.2, 10] s
-  double coast_brakes_below_mps = 5.0;       // where the brake stays free no longer; [1, 20]
+  double brake_rise_kpa_per_s = 15000.0;
+  bool go_needs_driving_state = true;  // drive-by-wire must say "driving" first
+  Duration coast_dwell = milliseconds(500);
+  Duration coast_max = milliseconds(1500);  // above coast_dwell
+  double coast_brakes_below_mps = 5.0;      // where the brake stays free no longer
 };
+
+inline constexpr auto kSupervisorRanges = std::to_array<world::NamedRange<SupervisorParams>>({
+    {"standstill_mps", &SupervisorParams::standstill_mps, 0.1, 1.0},
+    {"steer_slew_rad_per_s", &SupervisorParams::steer_slew_rad_per_s, 0.1, 2.0},
+    {"throttle_rise_per_s", &SupervisorParams::throttle_rise_per_s, 0.1, 10.0},
+    {"brake_rise_kpa_per_s", &SupervisorParams::brake_rise_kpa_per_s, 1000.0, 30000.0},
+    {"brake_fall_kpa_per_s", &SupervisorParams::brake_fall_kpa_per_s, 1000.0, 60000.0},
+    {"coast_brakes_below_mps", &SupervisorParams::coast_brakes_below_mps, 1.0, 20.0},
+});
+
+inline constexpr auto kSupervisorTimes = std::to_array<world::NamedTime<SupervisorParams>>({
+    {"standstill_dwell_s", &SupervisorParams::standstill_dwell, 0.1, 5.0},
+    {"coast_dwell_s", &SupervisorParams::coast_dwell, 0.1, 5.0},
+    {"coast_max_s", &SupervisorParams::coast_max, 0.2, 10.0},
+});
 
 enum class Follow : std::uint8_t { kNone, kDrive, kStop };
 // What becomes of the operator's wish to be armed.
@@ -101,7 +118,7 @@ struct SupervisorInputs {
   bool gate_refused = false;     // GateOutput::refused_now of the previous tick
   OperatorRequests operator_requests;
   bool last_run_armed = false;  // the run of this process before ended while armed
-  RadioLadderOutput radio{};    // what is left of the joystick; whether the link's age stops
+  LinkLossOutput radio{};       // what is left of the joystick; whether the link's age stops
   const world::SensorInput* sensors = nullptr;  // of this tick
   world::ComputerHealth computer{};
 };

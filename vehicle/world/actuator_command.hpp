@@ -1,4 +1,4 @@
-// What the car shall do: the output of control, chosen by safety, spoken by gateway/outbound.
+// Actuator command: the output of control, chosen by safety, encoded by gateway/outbound.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

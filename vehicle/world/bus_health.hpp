@@ -1,5 +1,5 @@
-// What the car thinks of its CAN bus: is every expected message alive and whole, which frames were
-// lost, is this the bus that the database describes, and how is the controller.
+// Health of the car's CAN bus: whether every expected message is alive and whole, which frames were
+// lost, whether this is the bus that the database describes, and the state of the controller.
 //   out    filled by gateway/inbound (messages, refusals, losses), gateway/bus_identity (identity)
 //          and the rim (link)
 //   units  Instant and Duration of the car's monotonic clock

@@ -1,4 +1,4 @@
-// How the car's computer is, where the rim knows it; unset where it does not.
+// Health of the car's computer; unset where it is not known.
 //   units  share of all processors over the last second, 0 .. 1; MiB in use, caches left out;
 //          degrees Celsius of the hottest zone
 // SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-// Where the car is and how it moves: the output of localization.
+// Ego state: position, attitude and motion of the car, the output of localization.
 //   frames Map: local tangent plane at the track's datum, x east, y north, yaw from east,
 //          counter-clockwise. Body: ISO 8855, origin at the centre of gravity.
 // SPDX-License-Identifier: Apache-2.0

@@ -1,26 +1,68 @@
-// A parameter with its legal range: how the check at start-up of every module reads.
+// Legal ranges of parameters: one table per parameter struct, which the car file, the check at
+// start-up and the tests read.
 //   out    the first parameter that is outside (NaN is outside), or nothing
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::world {
 
+// A row of such a table: the key of the car file, and where the number is kept.
+template <class Params>
+struct NamedRange {
+  const char* name;
+  double Params::*value;
+  double least, most;
+};
+
+// Likewise of a time; the range is in seconds.
+template <class Params>
+struct NamedTime {
+  const char* name;
+  Duration Params::*value;
+  double least_s, most_s;
+};
+
+// Of what several modules are told about the car's geometry.
+struct Range {
+  double least, most;
+};
+inline constexpr Range kSteeringRatio{10.0, 25.0};  // motor angle : road-wheel angle
+inline constexpr Range kWheelbase_m{2.5, 3.5};
+inline constexpr Range kUndersteer_rad_per_mps2{-0.002, 0.01};  // of the steady-state bicycle
+
+// A range that depends on other parameters.
 struct LegalRange {
   const char* name;
   double value, least, most;
 };
 
-inline std::optional<Problem> first_illegal(std::span<const LegalRange> ranges) {
+inline std::optional<Problem> first_illegal(std::span<const LegalRange> ranges,
+                                            std::string_view place = {}) {
   for (const LegalRange& r : ranges) {
     if (r.value >= r.least && r.value <= r.most) continue;
-    return Problem{r.name, "is " + std::to_string(r.value) + ", must be within " +
-                               std::to_string(r.least) + " and " + std::to_string(r.most)};
+    return Problem{std::string{place} + r.name, "is " + std::to_string(r.value) +
+                                                    ", must be within " + std::to_string(r.least) +
+                                                    " and " + std::to_string(r.most)};
+  }
+  return std::nullopt;
+}
+
+template <class Params, std::size_t N>
+std::optional<Problem> first_illegal(const std::array<NamedRange<Params>, N>& ranges,
+                                     const Params& params, std::string_view place = {}) {
+  for (const NamedRange<Params>& r : ranges) {
+    const std::array one{LegalRange{r.name, params.*r.value, r.least, r.most}};
+    if (auto problem = first_illegal(one, place)) return problem;
   }
   return std::nullopt;
 }

@@ -1,5 +1,5 @@
-// What the car is doing, as safety/supervisor decides it; the CT state that the drive-by-wire hears
-// is derived from it in gateway/handshake.
+// Mode of the car, as safety/supervisor decides it; the CT state for the drive-by-wire is derived
+// from it in gateway/handshake.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,6 +1,6 @@
-// What race control demands, in one typed form whichever encoding the track speaks (MyLaps or
-// Marelli; research: value 1 is red in one and green in the other). A value that no table knows is
-// kUnknown and is treated as kRed: never "keep racing".
+// Demands of race control, in one typed form whichever encoding the track uses (MyLaps or Marelli;
+// value 1 is red in one and green in the other). A value that no table knows is kUnknown and is
+// treated as kRed: never "keep racing".
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

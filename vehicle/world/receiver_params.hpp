@@ -1,4 +1,4 @@
-// What the car file says of one satellite receiver.
+// Parameters of one satellite receiver in the car file.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

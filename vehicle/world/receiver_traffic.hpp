@@ -1,5 +1,5 @@
-// What became of one receiver's bytes, since the car's process began: what the pit wall is told, so
-// that no drop is hidden. The reasons one by one are in the car's summary.
+// Counts of one receiver's bytes and messages since the car's process began, as the pit wall gets
+// them, so that no drop is hidden. The reasons one by one are in the car's summary.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// Which sensors the operator has told the car not to believe: a set of bits, absolute.
+// Set of the sensors that the operator has excluded: bits, absolute.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,5 +1,5 @@
-// What the car says of itself on the CAN bus, in SI units, each with the instant at which it was
-// heard. Filled by gateway/inbound only; a value that was never heard is NaN with heard == false.
+// Signals of the car on the CAN bus, in SI units, each with the instant at which it was received.
+// Filled by gateway/inbound only; a value that was never received is NaN with heard == false.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// How much of the friction of warm tyres is there, by their temperature: cold tyres have less.
+// Grip of a tyre by its temperature, as a share of the friction when warm: cold tyres have less.
 //   in     mean temperature of every tyre, as the car says it; a value that is missing, not a
 //          number or older than kTyreAgeMax is not known
 //   out    share of the warm friction, (0, 1], linear between the rows of the table

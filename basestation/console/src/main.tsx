@@ -66,7 +66,7 @@ listenToKeys();
 render(<App />, document.getElementById("console")!);
 startPainting();
 keepAuthority();
-watchPresence();
+watchPresence(() => session.cars.value);
 listenToAlarms();
 void fetchLayouts();
 // A refused WebSocket does not say why it was refused.

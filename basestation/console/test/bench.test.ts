@@ -1,5 +1,5 @@
 /**
- * The bench on the console: what is kept of a desk, the plan on its time axis, scenarios found by
+ * The bench on the console: what is kept of a server, the plan on its time axis, scenarios found by
  * words, seeds that the bench takes.
  */
 // SPDX-License-Identifier: Apache-2.0
@@ -45,43 +45,43 @@ const plan: BenchPlan = {
   expect: [],
 };
 
-describe("what is kept of a desk", () => {
+describe("what is kept of a server", () => {
   test("events of the newest run only", () => {
     const bench = new Bench();
-    bench.texts.bench_run({ desk: "d", of: run(1) });
-    bench.texts.bench_event({ desk: "d", of: event(1, 1) });
+    bench.texts.bench_run({ server: "d", of: run(1) });
+    bench.texts.bench_event({ server: "d", of: event(1, 1) });
     expect(bench.events.value).toHaveLength(1);
-    bench.texts.bench_run({ desk: "d", of: run(2) });
+    bench.texts.bench_run({ server: "d", of: run(2) });
     expect(bench.events.value).toEqual([]);
-    bench.texts.bench_event({ desk: "d", of: event(1, 2) });
+    bench.texts.bench_event({ server: "d", of: event(1, 2) });
     expect(bench.events.value).toEqual([]);
-    bench.texts.bench_event({ desk: "d", of: event(2, 3) });
+    bench.texts.bench_event({ server: "d", of: event(2, 3) });
     expect(bench.events.value.map((e) => e.t_s)).toEqual([3]);
   });
 
   test("events that come before their run is told stay when it is", () => {
     const bench = new Bench();
-    bench.texts.bench_event({ desk: "d", of: event(3, 1) });
-    bench.texts.bench_run({ desk: "d", of: run(3) });
+    bench.texts.bench_event({ server: "d", of: event(3, 1) });
+    bench.texts.bench_run({ server: "d", of: run(3) });
     expect(bench.events.value).toHaveLength(1);
-    bench.texts.bench_run({ desk: "d", of: { ...run(3), state: "passed" } });
+    bench.texts.bench_run({ server: "d", of: { ...run(3), state: "passed" } });
     expect(bench.events.value).toHaveLength(1);
     expect(bench.run.value?.state).toBe("passed");
   });
 
-  test("another desk counts its runs from one again", () => {
+  test("another server counts its runs from one again", () => {
     const bench = new Bench();
-    bench.texts.bench_run({ desk: "d", of: run(5) });
-    bench.texts.bench_event({ desk: "d", of: event(5, 1) });
-    bench.texts.bench_run({ desk: "e", of: run(1) });
-    bench.texts.bench_event({ desk: "e", of: event(1, 2) });
+    bench.texts.bench_run({ server: "d", of: run(5) });
+    bench.texts.bench_event({ server: "d", of: event(5, 1) });
+    bench.texts.bench_run({ server: "e", of: run(1) });
+    bench.texts.bench_event({ server: "e", of: event(1, 2) });
     expect(bench.events.value.map((e) => e.run)).toEqual([1]);
   });
 
   test("no more events than are kept", () => {
     const bench = new Bench();
     for (let i = 0; i < kKeptEvents + 20; ++i) {
-      bench.texts.bench_event({ desk: "d", of: event(1, i) });
+      bench.texts.bench_event({ server: "d", of: event(1, i) });
     }
     expect(bench.events.value).toHaveLength(kKeptEvents);
     expect(bench.events.value.at(-1)?.t_s).toBe(kKeptEvents + 19);

@@ -22,7 +22,7 @@ struct Shape {
 };
 const std::array<Shape, 8>& shapes() {
   static const std::array<Shape, 8> kShapes{
-      {{"hello", {"protocol", "scenarios", "unreadable"}, {"desk"}, {}},
+      {{"hello", {"protocol", "scenarios", "unreadable"}, {"server"}, {}},
        {"scenario", {}, {"id", "name"}, {"faults", "expect"}},
        {"run", {"run", "seed"}, {"state", "scenario", "name", "mode"}, {}},
        {"plan", {"run", "duration_s"}, {"mode"}, {"faults", "flags", "operator", "expect"}},
@@ -36,14 +36,14 @@ const std::array<Shape, 8>& shapes() {
 Result<bool, Problem> fits(const JsonValue& value) {
   const std::string type = value.text("type");
   const auto shape = std::ranges::find(shapes(), std::string_view{type}, &Shape::type);
-  if (shape == shapes().end()) return refuse("type", "none that is known");
+  if (shape == shapes().end()) return refuse("type", "unknown type of line");
   for (const std::string_view member : shape->numbers)
-    if (!std::isfinite(value.number(member))) return refuse(member, "a number");
+    if (!std::isfinite(value.number(member))) return refuse(member, "expected a number");
   for (const std::string_view member : shape->texts)
-    if (value.text(member).empty()) return refuse(member, "a text");
+    if (value.text(member).empty()) return refuse(member, "expected a text");
   for (const std::string_view member : shape->lists) {
     const JsonValue* const found = value.find(member);
-    if (found == nullptr || !found->is_list()) return refuse(member, "a list");
+    if (found == nullptr || !found->is_list()) return refuse(member, "expected a list");
   }
   return true;
 }
@@ -72,29 +72,29 @@ Result<bool, Problem> BenchBook::keep(const JsonValue& value, std::string_view l
     refusal_ = Problem{"bench." + value.text("place"), value.text("what")};
     return true;
   }
-  if (desk_.empty()) return refuse("type", "the desk has not said hello");
+  if (server_.empty()) return refuse("type", "the server has not said hello");
   if (type == "scenario") return keep_scenario(line);
   if (type == "run") return keep_run(value, line);
-  if (value.number("run") != run_) return refuse("run", "another one than the newest");
+  if (value.number("run") != run_) return refuse("run", "is not the newest run");
   if (type == "event") return keep_event(value, line);
-  tell("bench_" + type, line);
+  publish("bench_" + type, line);
   return true;
 }
 
 Result<bool, Problem> BenchBook::keep_hello(const JsonValue& value) {
-  if (value.number("protocol") != kProtocol) return refuse("protocol", "not version 1");
-  if (!value.flag("simulation")) return refuse("simulation", "true");
+  if (value.number("protocol") != kProtocol) return refuse("protocol", "expected version 1");
+  if (!value.flag("simulation")) return refuse("simulation", "expected true");
   const double count = value.number("scenarios");
   if (!(count >= 0.0 && count <= static_cast<double>(kMaxScenarios)) || count != std::floor(count))
-    return refuse("scenarios", "a whole number up to " + std::to_string(kMaxScenarios));
-  if (value.text("desk") != desk_) {
-    desk_ = value.text("desk");
+    return refuse("scenarios", "expected a whole number up to " + std::to_string(kMaxScenarios));
+  if (value.text("server") != server_) {
+    server_ = value.text("server");
     run_ = 0.0;
     events_ = 0;
   }
   connected();
   announced_ = static_cast<std::size_t>(count);
-  if (announced_ == 0) tell("bench_list", "[]");
+  if (announced_ == 0) publish("bench_list", "[]");
   complete_ = announced_ == 0;
   return true;
 }
@@ -106,7 +106,7 @@ Result<bool, Problem> BenchBook::keep_scenario(std::string_view line) {
   if (!list_.empty()) list_ += ", ";
   list_ += line;
   complete_ = ++scenarios_ == announced_;
-  if (complete_) tell("bench_list", "[" + std::exchange(list_, {}) + "]");
+  if (complete_) publish("bench_list", "[" + std::exchange(list_, {}) + "]");
   return true;
 }
 
@@ -115,26 +115,26 @@ Result<bool, Problem> BenchBook::keep_run(const JsonValue& value, std::string_vi
     run_ = value.number("run");
     events_ = events_again_ = 0;
     // Nothing of the run before is shown with this one.
-    for (const char* const type : {"bench_plan", "bench_at", "bench_result"}) tell(type, "null");
+    for (const char* const type : {"bench_plan", "bench_at", "bench_result"}) publish(type, "null");
   }
-  tell("bench_run", line);
+  publish("bench_run", line);
   return true;
 }
 
 Result<bool, Problem> BenchBook::keep_event(const JsonValue& value, std::string_view line) {
-  if (value.find("text") == nullptr) return refuse("text", "a text");
+  if (value.find("text") == nullptr) return refuse("text", "expected a text");
   if (events_again_ < events_) {
     ++events_again_;
     return true;
   }
   if (events_ >= kEventsMax) return refuse("event", "more than a run has");
   events_again_ = ++events_;
-  tell("bench_event", line, true);
+  publish("bench_event", line, true);
   return true;
 }
 
-void BenchBook::tell(const std::string& type, std::string_view of, bool line) {
-  std::string text = json::Object{}.text("type", type).text("desk", desk_).json("of", of).str();
+void BenchBook::publish(const std::string& type, std::string_view of, bool line) {
+  std::string text = json::Object{}.text("type", type).text("server", server_).json("of", of).str();
   if (!line) std::erase_if(news_, [&](const Told& older) { return older.type == type; });
   news_.push_back({.type = type, .text = std::move(text), .line = line});
 }

@@ -1,11 +1,11 @@
 // Newest state of a bench server for consoles: scenarios and current run, line by line. The
-// protocol: hil/desk/PROTOCOL.md.
-//   in     lines of the desk; that it came or went
+// protocol: hil/cli/bench_server/PROTOCOL.md.
+//   in     lines of the server; that it came or went
 //   out    texts for consoles: states that replace each other, and a log of events
 //   invariants
-//          a line is taken whole or not at all. The desk tells all it knows to who connects anew:
+//          a line is taken whole or not at all. The server tells all it knows to who connects anew:
 //          an event that is known already is not told again
-//          without the desk nobody knows how a run goes on: its newest lines stay, marked by the
+//          without the server nobody knows how a run goes on: its newest lines stay, marked by the
 //          link that is down
 //   bound  kMaxScenarios and kListMax_bytes of them; kEventsMax of a run
 //   errors Problem with the member as place; counted
@@ -30,7 +30,7 @@ struct Told {
 };
 
 struct BenchCounters {
-  std::uint64_t taken = 0, refused = 0;  // lines of the desk
+  std::uint64_t taken = 0, refused = 0;  // lines of the server
 };
 
 class BenchBook {
@@ -42,7 +42,7 @@ class BenchBook {
   Result<bool, Problem> take(std::string_view line);
   // What is new since it was asked last.
   std::vector<Told> news();
-  // What the desk refused; once.
+  // What the server refused; once.
   std::optional<Problem> refusal() { return std::exchange(refusal_, std::nullopt); }
 
   std::size_t scenarios() const { return scenarios_; }
@@ -55,11 +55,11 @@ class BenchBook {
   Result<bool, Problem> keep_scenario(std::string_view line);
   Result<bool, Problem> keep_run(const json::JsonValue& value, std::string_view line);
   Result<bool, Problem> keep_event(const json::JsonValue& value, std::string_view line);
-  void tell(const std::string& type, std::string_view of, bool line = false);
+  void publish(const std::string& type, std::string_view of, bool line = false);
 
-  std::string desk_;  // which one it is
-  double run_ = 0.0;  // its newest run
-  std::string list_;  // of scenarios, as JSON
+  std::string server_;  // which one it is
+  double run_ = 0.0;    // its newest run
+  std::string list_;    // of scenarios, as JSON
   std::size_t scenarios_ = 0, announced_ = 0;
   bool complete_ = false;
   std::size_t events_ = 0, events_again_ = 0;  // of this run: known, told again

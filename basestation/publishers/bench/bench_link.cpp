@@ -11,25 +11,26 @@ namespace {
 using json::Object;
 
 constexpr const char* kReal = "the connected car is real";
-constexpr const char* kDown = "the bench desk is not there";
+constexpr const char* kDown = "the bench server is not there";
 
 }  // namespace
 
-std::string text_of(const BenchWish& wish) {
-  if (!wish.start) return "bench: stop the run";
-  return "bench: start " + wish.scenario + ", " + (wish.live ? "live" : "lockstep") +
-         (wish.seed ? ", seed " + std::to_string(*wish.seed) : "");
+std::string text_of(const BenchRequest& run_request) {
+  if (!run_request.start) return "bench: stop the run";
+  return "bench: start " + run_request.scenario + ", " + (run_request.live ? "live" : "lockstep") +
+         (run_request.seed ? ", seed " + std::to_string(*run_request.seed) : "");
 }
 
-Result<bool, Problem> BenchLink::ask(const BenchWish& wish, std::uint8_t client,
+Result<bool, Problem> BenchLink::ask(const BenchRequest& run_request, std::uint8_t client,
                                      const std::string& by) {
-  if (wish.start && real_) return Unexpected{Problem{"bench", kReal}};
+  if (run_request.start && real_) return Unexpected{Problem{"bench", kReal}};
   if (!up()) return Unexpected{Problem{"bench", kDown}};
   Object line;
-  line.text("do", wish.start ? "start" : "stop").text("by", by);
-  if (wish.start) {
-    line.text("scenario", wish.scenario).text("mode", wish.live ? "live" : "lockstep");
-    line.json("seed", wish.seed ? std::to_string(*wish.seed) : "null");
+  line.text("do", run_request.start ? "start" : "stop").text("by", by);
+  if (run_request.start) {
+    line.text("scenario", run_request.scenario)
+        .text("mode", run_request.live ? "live" : "lockstep");
+    line.json("seed", run_request.seed ? std::to_string(*run_request.seed) : "null");
   }
   asker_ = client;
   socket_->send(line.str());
@@ -41,14 +42,14 @@ void BenchLink::publish(const service::CarService& car, Instant now) {
   looked_ = now;
   real_ = car.link().source() == link::Station::Source::kCar;
   if (!up() && (!tried_ || now - *tried_ >= kRetry)) connect(now);
-  if (socket_) hear(now);
-  if (!ears_.tell || (told_ && now - *told_ < kTellEvery)) return;
+  if (socket_) receive(now);
+  if (!observer_.publish || (told_ && now - *told_ < kTellEvery)) return;
   told_ = now;
-  for (const Told& told : book_.news()) ears_.tell(told, now);
+  for (const Told& told : book_.news()) observer_.publish(told, now);
   std::string state = state_text();
   if (state == state_told_) return;
   state_told_ = state;
-  ears_.tell({.type = "bench", .text = std::move(state)}, now);
+  observer_.publish({.type = "bench", .text = std::move(state)}, now);
 }
 
 void BenchLink::connect(Instant now) {
@@ -63,16 +64,16 @@ void BenchLink::connect(Instant now) {
   book_.connected();
 }
 
-void BenchLink::hear(Instant now) {
+void BenchLink::receive(Instant now) {
   for (const std::string& line : socket_->receive()) {
     if (const auto taken = book_.take(line); !taken) problem_ = to_string(taken.error());
-    if (auto refused = book_.refusal(); refused && ears_.refused)
-      ears_.refused(asker_, *refused, now);
+    if (auto refused = book_.refusal(); refused && observer_.refused)
+      observer_.refused(asker_, *refused, now);
   }
   if (!socket_->closed()) return;
   too_long_ += socket_->counters().too_long;
   socket_.reset();
-  problem_ = "the desk has hung up";
+  problem_ = "the server has hung up";
 }
 
 std::string BenchLink::state_text() const {

@@ -1,14 +1,14 @@
 // Client of a bench server: reconnects, forwards its messages to consoles and their starts and
 // stops to it.
-//   in     the path of the desk's socket; wishes of operators
-//   out    texts for consoles, told through Ears; lines to the desk
+//   in     the path of the server's socket; requests of operators
+//   out    texts for consoles, published through BenchObserver; lines to the server
 //   invariants
 //          nothing is started while the connected car says that it is real. A stop is carried in
 //          any case: it only ends a simulation
-//          a desk that is not there is looked for each kRetry, and consoles see that it is not
-//          what the desk told within kTellEvery is told together, so a lockstep run that is a
-//          hundred times faster than its car does not flood consoles
-//   errors a line that is none: counted, shown, and the next one is read
+//          while there is no server a connection is tried each kRetry, and consoles show that
+//          there is none. Messages of the server within kTellEvery are forwarded together: a
+//          lockstep run is a hundred times faster than real time and must not flood consoles
+//   errors a malformed line is counted and shown, and the next one is read
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,13 +19,13 @@
 
 #include "basestation/publishers/bench/bench_book.hpp"
 #include "basestation/service/publisher.hpp"
-#include "protocol/transport/line_socket.hpp"
+#include "protocol/transport/stream/line_socket.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::publishers::bench {
 
-struct BenchWish {
+struct BenchRequest {
   bool start = false;  // else stop
   std::string scenario;
   std::optional<std::uint64_t> seed;
@@ -33,11 +33,11 @@ struct BenchWish {
 };
 
 // One line of words for the audit log.
-std::string text_of(const BenchWish& wish);
+std::string text_of(const BenchRequest& run_request);
 
-struct Ears {
-  std::function<void(const Told&, Instant)> tell;
-  // What the desk answered to whoever asked last.
+struct BenchObserver {
+  std::function<void(const Told&, Instant)> publish;
+  // What the server answered to whoever asked last.
   std::function<void(std::uint8_t client, const Problem&, Instant)> refused;
 };
 
@@ -47,23 +47,24 @@ class BenchLink : public service::Publisher {
   static constexpr Duration kLook = milliseconds(50);
 
   explicit BenchLink(std::string path) : path_(std::move(path)) {}
-  void tell_to(Ears ears) { ears_ = std::move(ears); }
+  void observe_by(BenchObserver observer) { observer_ = std::move(observer); }
 
   void publish(const service::CarService& car, Instant now) override;
   Instant due() const override { return looked_ + kLook; }
 
   // `client`: the console that asks, `by`: its operator.
-  Result<bool, Problem> ask(const BenchWish& wish, std::uint8_t client, const std::string& by);
+  Result<bool, Problem> ask(const BenchRequest& run_request, std::uint8_t client,
+                            const std::string& by);
   bool up() const { return socket_ && !socket_->closed(); }
   const BenchBook& book() const { return book_; }
 
  private:
   void connect(Instant now);
-  void hear(Instant now);
+  void receive(Instant now);
   std::string state_text() const;
 
   std::string path_;
-  Ears ears_;
+  BenchObserver observer_;
   BenchBook book_;
   std::optional<transport::LineSocket> socket_;
   std::optional<Instant> tried_, told_;

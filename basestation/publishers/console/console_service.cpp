@@ -89,29 +89,29 @@ command::Request ConsoleService::with_second_person(const AskSend& ask) const {
 // The bench is no car: it takes an operator, and no authority.
 Result<bool, Problem> ConsoleService::ask_bench(const AskBench& ask, const command::Person& by,
                                                 Instant now) {
-  Result<bool, Problem> asked = bench_ != nullptr
-                                    ? bench_->ask(ask.wish, by.console, by.name)
-                                    : Result<bool, Problem>{Unexpected{Problem{
-                                          "bench", "this base knows of no bench desk (--bench)"}}};
-  car_.requests().note(by, text_of(ask.wish), asked ? "sent" : "refused: " + asked.error().what,
-                       now);
+  Result<bool, Problem> asked =
+      bench_ != nullptr ? bench_->ask(ask.run_request, by.console, by.name)
+                        : Result<bool, Problem>{Unexpected{
+                              Problem{"bench", "this base knows of no bench server (--bench)"}}};
+  car_.requests().note(by, text_of(ask.run_request),
+                       asked ? "sent" : "refused: " + asked.error().what, now);
   return asked;
 }
 
 void ConsoleService::attach(bench::BenchLink& bench) {
   bench_ = &bench;
-  bench.tell_to({.tell =
-                     [this](const bench::Told& told, Instant now) {
-                       service::MessageLog& log = car_.messages();
-                       if (told.line) return log.add_line(told.type, told.text, now);
-                       log.set_state(told.type, told.text, now);
-                     },
-                 .refused =
-                     [this](std::uint8_t client, const Problem& problem, Instant now) {
-                       car_.requests().note(clients_.person(client), "bench",
-                                            "refused: " + problem.what, now);
-                       clients_.tell_error(client, problem);
-                     }});
+  bench.observe_by({.publish =
+                        [this](const bench::Told& told, Instant now) {
+                          service::MessageLog& log = car_.messages();
+                          if (told.line) return log.add_line(told.type, told.text, now);
+                          log.set_state(told.type, told.text, now);
+                        },
+                    .refused =
+                        [this](std::uint8_t client, const Problem& problem, Instant now) {
+                          car_.requests().note(clients_.person(client), "bench",
+                                               "refused: " + problem.what, now);
+                          clients_.tell_error(client, problem);
+                        }});
 }
 
 void ConsoleService::publish(const service::CarService& car, Instant now) {

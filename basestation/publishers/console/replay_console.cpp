@@ -41,15 +41,15 @@ ReplayConsole::ReplayConsole(service::ServiceConfig config, replay::Player playe
 }
 
 void ReplayConsole::serve(Duration passed) {
-  hear();
+  receive();
   player_.advance(passed, *this);
   evaluator_->advance(vehicle_, player_.now());
-  tell(passed);
+  publish(passed);
   clients_.serve(*this, UtcTime{player_.clock().to_file(player_.now()).ns}, player_.now());
   for (Sending& sending : clients_.take()) server_.send(sending.to, std::move(sending.message));
 }
 
-void ReplayConsole::hear() {
+void ReplayConsole::receive() {
   while (const auto news = server_.next_news()) {
     switch (news->kind) {
       case web::ClientNews::Kind::kJoined:
@@ -85,7 +85,7 @@ void ReplayConsole::wind(double speed, std::optional<Instant> to) {
   untold_ = kTellEvery;
 }
 
-void ReplayConsole::tell(Duration passed) {
+void ReplayConsole::publish(Duration passed) {
   untold_ = untold_ + passed;
   if (untold_ < kTellEvery) return;
   untold_ = {};

@@ -46,9 +46,9 @@ class ReplayConsole : private StateSource, private replay::Listener {
 
   void settle(std::string_view json);
   void tell_judge(Instant at, std::string_view json);
-  void hear();
+  void receive();
   void execute(web::ClientId client, const Request& request);
-  void tell(Duration passed);
+  void publish(Duration passed);
   std::string playback_text() const;
 
   service::ServiceConfig config_;

@@ -274,12 +274,12 @@ Request bench_wish(Reader& read) {
       {{"lockstep", false}, {"live", true}}};
   constexpr std::uint64_t kSeedMax = 1'000'000'000;
   constexpr std::size_t kScenarioMax = 200;
-  bench::BenchWish wish{.start = read.word("do", kDoings), .scenario = {}, .seed = {}};
-  if (!wish.start) return AskBench{wish};
-  wish.scenario = read.text("scenario", 1, kScenarioMax);
-  wish.live = read.word("mode", kModes);
-  if (!read.is_null("seed")) wish.seed = read.whole<std::uint64_t>("seed", 0, kSeedMax);
-  return AskBench{std::move(wish)};
+  bench::BenchRequest run_request{.start = read.word("do", kDoings), .scenario = {}, .seed = {}};
+  if (!run_request.start) return AskBench{run_request};
+  run_request.scenario = read.text("scenario", 1, kScenarioMax);
+  run_request.live = read.word("mode", kModes);
+  if (!read.is_null("seed")) run_request.seed = read.whole<std::uint64_t>("seed", 0, kSeedMax);
+  return AskBench{std::move(run_request)};
 }
 
 struct Kind {

@@ -41,7 +41,7 @@ struct AskPing {
   double at = 0.0;
 };
 struct AskBench {
-  bench::BenchWish wish;
+  bench::BenchRequest run_request;
 };
 // Of a replay only.
 struct AskPlayback {

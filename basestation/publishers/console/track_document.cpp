@@ -53,7 +53,7 @@ std::vector<Knot> read_knots(yaml::StrictMap& map, double length_m) {
     row.number_or("bank_deg", 0.0, -90.0, 90.0);
   }
   constexpr std::size_t kKnotsMin = 4;
-  if (knots.size() < kKnotsMin) map.fail("knots", "at least four");
+  if (knots.size() < kKnotsMin) map.fail("knots", "expected at least four");
   return knots;
 }
 

@@ -24,7 +24,7 @@ namespace {
 using feed::Feed;
 using pitwall::dds::Domain;
 using pitwall::dds::Writer;
-using ros_view::BaseSight;
+using ros_view::BaseStatus;
 
 constexpr Duration kLookEvery = milliseconds(100);
 constexpr int kTfDepth = 100, kUsualDepth = 10, kLatchedDepth = 1;
@@ -91,13 +91,15 @@ class RosPublisher : public service::Publisher {
   void publish(const service::CarService& /*car*/, Instant now) override {
     if (now < due_) return;
     due_ = now + kLookEvery;
-    BaseSight sight{.at = now};
-    if (look_) look_(sight, now);
+    BaseStatus base_status{.at = now};
+    if (look_) look_(base_status, now);
     const service::PublisherFigures own = figures_now();
-    for (const auto& [name, count] : own.dropped) sight.outlets.emplace_back("ros " + name, count);
-    for (const auto& [name, count] : own.refused) sight.outlets.emplace_back("ros " + name, count);
+    for (const auto& [name, count] : own.dropped)
+      base_status.publishers.emplace_back("ros " + name, count);
+    for (const auto& [name, count] : own.refused)
+      base_status.publishers.emplace_back("ros " + name, count);
     const std::lock_guard hold(lock_);
-    sight_ = std::move(sight);
+    base_status_ = std::move(base_status);
   }
   Instant due() const override { return due_; }
   std::optional<service::PublisherFigures> figures() const override { return figures_now(); }
@@ -138,7 +140,8 @@ class RosPublisher : public service::Publisher {
       }
       if (transport::monotonic_now() < look_at) continue;
       look_at = transport::monotonic_now() + kLookEvery;
-      if (const auto sight = take_sight()) view_.base(*sight, utc_minus_base, sink);
+      if (const auto base_status = take_base_status())
+        view_.base(*base_status, utc_minus_base, sink);
     }
   }
 
@@ -150,9 +153,9 @@ class RosPublisher : public service::Publisher {
     }
   }
 
-  std::optional<BaseSight> take_sight() {
+  std::optional<BaseStatus> take_base_status() {
     const std::lock_guard hold(lock_);
-    return std::exchange(sight_, std::nullopt);
+    return std::exchange(base_status_, std::nullopt);
   }
 
   service::PublisherFigures figures_now() const {
@@ -174,7 +177,7 @@ class RosPublisher : public service::Publisher {
     return figures;
   }
 
-  std::function<void(BaseSight&, Instant)> look_;
+  std::function<void(BaseStatus&, Instant)> look_;
   Distribution distribution_;
   std::string node_;
   ros_view::View view_;  // of the thread, once it runs; its topics never change
@@ -185,7 +188,7 @@ class RosPublisher : public service::Publisher {
   std::atomic<std::uint64_t> sent_{0};
   Instant due_{};
   std::mutex lock_;
-  std::optional<BaseSight> sight_;  // under the lock
+  std::optional<BaseStatus> base_status_;  // under the lock
   std::thread thread_;
 };
 
@@ -194,7 +197,7 @@ class RosPublisher : public service::Publisher {
 Result<Distribution, Problem> distribution_named(const std::string& name) {
   if (name == "humble") return Distribution::kHumble;
   if (name == "iron" || name == "jazzy") return Distribution::kJazzy;
-  return Unexpected{Problem{"ROS 2 " + name, "one of humble, iron, jazzy"}};
+  return Unexpected{Problem{"ROS 2 " + name, "expected one of: humble, iron, jazzy"}};
 }
 
 Result<std::unique_ptr<service::Publisher>, Problem> start(RosConfig config) {
@@ -204,10 +207,10 @@ Result<std::unique_ptr<service::Publisher>, Problem> start(RosConfig config) {
                   return Domain::join(config.domain);
                 }).get();
   if (!domain) return Unexpected{domain.error()};
-  auto outlet = std::make_unique<RosPublisher>(std::move(config), *std::move(domain));
-  const auto opened = outlet->open();
+  auto publisher = std::make_unique<RosPublisher>(std::move(config), *std::move(domain));
+  const auto opened = publisher->open();
   if (!opened) return Unexpected{opened.error()};
-  return std::unique_ptr<service::Publisher>{std::move(outlet)};
+  return std::unique_ptr<service::Publisher>{std::move(publisher)};
 }
 
 }  // namespace pitwall::publishers::dds

@@ -33,7 +33,7 @@ struct RosConfig {
   std::string node = "pitwall_base";
   ros_view::ViewConfig view{};
   // Fills in values and alarms, in the loop; none: the base judges nothing.
-  std::function<void(ros_view::BaseSight&, Instant)> look{};
+  std::function<void(ros_view::BaseStatus&, Instant)> look{};
 };
 
 // "humble" or "jazzy"; those between are as jazzy.

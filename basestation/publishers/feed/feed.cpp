@@ -20,7 +20,7 @@ std::size_t text_bytes_of(const Item& item) {
 std::vector<std::string> channel_names() {
   std::vector<std::string> names;
   for (const recording::Channel& channel : recorder::channels()) {
-    if (names.size() < kSightChannel) names.push_back(channel.topic);
+    if (names.size() < kStatusChannel) names.push_back(channel.topic);
   }
   names.emplace_back("/base/values");
   return names;
@@ -39,7 +39,9 @@ void Feed::text(recorder::Topic topic, Instant at, std::string_view json) {
   push(Told{.topic = topic, .at = at, .json = std::string{json}});
 }
 
-void Feed::sight(std::unique_ptr<const Sight> sight) { push(std::move(sight)); }
+void Feed::base_status(std::unique_ptr<const BaseStatus> base_status) {
+  push(std::move(base_status));
+}
 
 void Feed::push(Item item) {
   bool first = false;
@@ -64,7 +66,7 @@ void Feed::drop_oldest() {
   } else if (const auto* const told = std::get_if<Told>(&oldest)) {
     ++drops_[recorder::channel_of(told->topic)];
   } else {
-    ++drops_[kSightChannel];
+    ++drops_[kStatusChannel];
   }
   text_bytes_ -= text_bytes_of(oldest);
   waiting_.pop_front();

@@ -5,9 +5,9 @@
 //   invariants
 //          neither waits for the other: what is under the lock is a copy or a move. In order; of
 //          more than the bounds allow the oldest goes, and is counted for each channel that it was
-//          of, so that a slow outlet shows the newest and says what it lost
+//          of, so that a slow publisher shows the newest and says what it lost
 //   bound  kItems, and kTextBytes of texts
-//   errors drops(), by the channels of protocol/recorder/channels.hpp, and kSightChannel
+//   errors drops(), by the channels of protocol/recorder/channels.hpp, and kStatusChannel
 //   cost   sample(): one copy of the state, one allocation; a system call when the thread sleeps
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -41,11 +41,11 @@ struct Told {
   Instant at{};
   std::string json;
 };
-using Sight = ros_view::BaseSight;
-using Item = std::variant<std::unique_ptr<const Sample>, Told, std::unique_ptr<const Sight>>;
+using ros_view::BaseStatus;
+using Item = std::variant<std::unique_ptr<const Sample>, Told, std::unique_ptr<const BaseStatus>>;
 
-inline constexpr std::size_t kSightChannel = telemetry::kGroups + recorder::kTopics;
-inline constexpr std::size_t kFeedChannels = kSightChannel + 1;
+inline constexpr std::size_t kStatusChannel = telemetry::kGroups + recorder::kTopics;
+inline constexpr std::size_t kFeedChannels = kStatusChannel + 1;
 std::vector<std::string> channel_names();  // of all, in their order
 using ChannelCounts = std::array<std::uint64_t, kFeedChannels>;
 
@@ -58,7 +58,7 @@ class Feed {
 
   void sample(const telemetry::Snapshot& state, telemetry::GroupSet groups, Instant received);
   void text(recorder::Topic topic, Instant at, std::string_view json);
-  void sight(std::unique_ptr<const Sight> sight);
+  void base_status(std::unique_ptr<const BaseStatus> base_status);
   void close();  // the thread is to end
 
   int fd() const { return bell_.get(); }  // readable while something waits, or once it is closed

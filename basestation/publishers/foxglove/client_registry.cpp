@@ -150,10 +150,10 @@ void ClientRegistry::parameters(std::vector<Parameter> parameters) {
 void ClientRegistry::refuse(ClientId client, std::string_view kind, std::string_view why) {
   const auto known = refused_.try_emplace(std::string{kind}).first;
   ++known->second;
-  tell(client, Level::kError, why);
+  publish(client, Level::kError, why);
 }
 
-void ClientRegistry::tell(ClientId client, Level level, std::string_view message) {
+void ClientRegistry::publish(ClientId client, Level level, std::string_view message) {
   send(only(client), status_text(level, message));
 }
 
@@ -211,7 +211,7 @@ void ClientRegistry::lost(std::span<const web::Drop> drops) {
   }
   for (const auto& [client, text] : told) {
     if (!present_.test(client)) continue;
-    tell(client, Level::kWarning, "lost because this client does not read fast enough: " + text);
+    publish(client, Level::kWarning, "lost because this client does not read fast enough: " + text);
   }
 }
 

@@ -52,7 +52,7 @@ class ClientRegistry {
   void playback(const PlaybackState& state);
   // In place of those before; who watches one that is another now is told.
   void parameters(std::vector<Parameter> parameters);
-  void tell(web::ClientId client, Level level, std::string_view message);
+  void publish(web::ClientId client, Level level, std::string_view message);
   void lost(std::span<const web::Drop> drops);
   // A recording has jumped: what was latched holds no more.
   void forget() { newest_.clear(); }

@@ -12,16 +12,16 @@ namespace pitwall::publishers::foxglove {
 
 Result<std::unique_ptr<FoxglovePublisher>, Problem> FoxglovePublisher::start(ServerConfig config,
                                                                              Look look) {
-  auto desk = FoxgloveServer::start(std::move(config));
-  if (!desk) return Unexpected{desk.error()};
+  auto server = FoxgloveServer::start(std::move(config));
+  if (!server) return Unexpected{server.error()};
   return std::unique_ptr<FoxglovePublisher>{
-      new FoxglovePublisher{*std::move(desk), std::move(look)}};
+      new FoxglovePublisher{*std::move(server), std::move(look)}};
 }
 
-FoxglovePublisher::FoxglovePublisher(std::unique_ptr<FoxgloveServer> desk, Look look)
-    : desk_(std::move(desk)),
+FoxglovePublisher::FoxglovePublisher(std::unique_ptr<FoxgloveServer> server, Look look)
+    : server_(std::move(server)),
       look_(std::move(look)),
-      figures_(desk_->figures()),
+      figures_(server_->figures()),
       thread_([this] { run(); }) {}
 
 FoxglovePublisher::~FoxglovePublisher() {
@@ -36,23 +36,23 @@ void FoxglovePublisher::packet(const service::CarService& car, const telemetry::
 void FoxglovePublisher::publish(const service::CarService&, Instant now) {
   if (now < due()) return;
   looked_ = now;
-  auto sight = std::make_unique<feed::Sight>();
-  sight->at = now;
-  look_(*sight, now);
-  feed_.sight(std::move(sight));
+  auto base_status = std::make_unique<feed::BaseStatus>();
+  base_status->at = now;
+  look_(*base_status, now);
+  feed_.base_status(std::move(base_status));
 }
 
 void FoxglovePublisher::run() {
   transport::give_way();
-  const std::array<int, 2> watched{feed_.fd(), desk_->fd()};
+  const std::array<int, 2> watched{feed_.fd(), server_->fd()};
   while (!feed_.closed()) {
-    transport::wait_readable(watched, desk_->due());
-    desk_->hear();
-    for (const feed::Item& item : feed_.take()) desk_->take(item);
+    transport::wait_readable(watched, server_->due());
+    server_->receive();
+    for (const feed::Item& item : feed_.take()) server_->take(item);
     const Instant now = transport::monotonic_now();
-    desk_->turn(now, now);
+    server_->turn(now, now);
     const std::lock_guard hold(lock_);
-    figures_ = desk_->figures();
+    figures_ = server_->figures();
   }
 }
 

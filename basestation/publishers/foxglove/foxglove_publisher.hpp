@@ -24,13 +24,13 @@ class FoxglovePublisher : public service::Publisher {
  public:
   static constexpr Duration kLookEvery = milliseconds(100);
   // Fills in what the base itself finds.
-  using Look = std::function<void(ros_view::BaseSight&, Instant)>;
+  using Look = std::function<void(ros_view::BaseStatus&, Instant)>;
 
   static Result<std::unique_ptr<FoxglovePublisher>, Problem> start(ServerConfig config,
                                                                    Look look = {});
   ~FoxglovePublisher() override;
 
-  transport::UdpAddress local() const { return desk_->local(); }
+  transport::UdpAddress local() const { return server_->local(); }
   void packet(const service::CarService& car, const telemetry::Arrival& arrival) override;
   void publish(const service::CarService& car, Instant now) override;
   Instant due() const override { return look_ ? looked_ + kLookEvery : Instant::max(); }
@@ -41,10 +41,10 @@ class FoxglovePublisher : public service::Publisher {
   feed::Feed& feed() { return feed_; }
 
  private:
-  FoxglovePublisher(std::unique_ptr<FoxgloveServer> desk, Look look);
+  FoxglovePublisher(std::unique_ptr<FoxgloveServer> server, Look look);
   void run();
 
-  std::unique_ptr<FoxgloveServer> desk_;  // the thread's own
+  std::unique_ptr<FoxgloveServer> server_;  // the thread's own
   Look look_;
   Instant looked_{};
   feed::Feed feed_;

@@ -18,45 +18,47 @@ Result<std::unique_ptr<FoxgloveReplay>, Problem> FoxgloveReplay::start(
   config.clock = player.clock();
   config.playback = TimeRange{UtcTime{player.clock().to_file(player.begin()).ns},
                               UtcTime{player.clock().to_file(player.end()).ns}};
-  auto desk = FoxgloveServer::start(std::move(config));
-  if (!desk) return Unexpected{desk.error()};
-  return std::unique_ptr<FoxgloveReplay>{new FoxgloveReplay{*std::move(desk)}};
+  auto server = FoxgloveServer::start(std::move(config));
+  if (!server) return Unexpected{server.error()};
+  return std::unique_ptr<FoxgloveReplay>{new FoxgloveReplay{*std::move(server)}};
 }
 
 void FoxgloveReplay::state(const telemetry::Snapshot& state, telemetry::GroupSet groups,
                            Instant received) {
-  desk_->take(feed::Sample{.state = state, .groups = groups, .received = received});
+  server_->take(feed::Sample{.state = state, .groups = groups, .received = received});
 }
 
 void FoxgloveReplay::text(recorder::Topic topic, Instant at, std::string_view json) {
-  desk_->take(feed::Told{.topic = topic, .at = at, .json = std::string{json}});
+  server_->take(feed::Told{.topic = topic, .at = at, .json = std::string{json}});
 }
 
 void FoxgloveReplay::restart(Instant to) {
-  desk_->forget(to);
+  server_->forget(to);
   jumped_ = true;
 }
 
 void FoxgloveReplay::serve(const replay::Player& player, const Wind& wind, Instant now) {
-  for (const PlaybackControl& ask : desk_->hear()) {
+  for (const PlaybackControl& ask : server_->receive()) {
     std::optional<Instant> to;
     if (ask.seek) to = player.clock().to_base(Instant{ask.seek->ns});
     wind(ask.play ? static_cast<double>(ask.speed) : 0.0, to);
-    tell(player, ask.request, now);
+    publish(player, ask.request, now);
   }
-  if (status_ != status_of(player) || jumped_ || now - told_ >= kTellEvery) tell(player, {}, now);
-  desk_->turn(now, player.now());
+  if (status_ != status_of(player) || jumped_ || now - told_ >= kTellEvery)
+    publish(player, {}, now);
+  server_->turn(now, player.now());
 }
 
-void FoxgloveReplay::tell(const replay::Player& player, const std::string& request, Instant now) {
+void FoxgloveReplay::publish(const replay::Player& player, const std::string& request,
+                             Instant now) {
   if (player.speed() != 0.0) speed_ = player.speed();
   told_ = now;
   status_ = status_of(player);
-  desk_->playback({.status = *status_,
-                   .at = desk_->utc(player.now()),
-                   .speed = static_cast<float>(speed_),
-                   .did_seek = std::exchange(jumped_, false),
-                   .request = request});
+  server_->playback({.status = *status_,
+                     .at = server_->utc(player.now()),
+                     .speed = static_cast<float>(speed_),
+                     .did_seek = std::exchange(jumped_, false),
+                     .request = request});
 }
 
 }  // namespace pitwall::publishers::foxglove

@@ -27,8 +27,8 @@ class FoxgloveReplay : public replay::Listener {
   static Result<std::unique_ptr<FoxgloveReplay>, Problem> start(ServerConfig config,
                                                                 const replay::Player& player);
 
-  transport::UdpAddress local() const { return desk_->local(); }
-  service::PublisherFigures figures() const { return desk_->figures(); }
+  transport::UdpAddress local() const { return server_->local(); }
+  service::PublisherFigures figures() const { return server_->figures(); }
   void state(const telemetry::Snapshot& state, telemetry::GroupSet groups,
              Instant received) override;
   void text(recorder::Topic topic, Instant at, std::string_view json) override;
@@ -39,10 +39,10 @@ class FoxgloveReplay : public replay::Listener {
  private:
   static constexpr Duration kTellEvery = seconds(1);
 
-  explicit FoxgloveReplay(std::unique_ptr<FoxgloveServer> desk) : desk_(std::move(desk)) {}
-  void tell(const replay::Player& player, const std::string& request, Instant now);
+  explicit FoxgloveReplay(std::unique_ptr<FoxgloveServer> server) : server_(std::move(server)) {}
+  void publish(const replay::Player& player, const std::string& request, Instant now);
 
-  std::unique_ptr<FoxgloveServer> desk_;
+  std::unique_ptr<FoxgloveServer> server_;
   Instant told_{};
   std::optional<PlaybackStatus> status_;
   double speed_ = 1.0;  // the newest that was no pause

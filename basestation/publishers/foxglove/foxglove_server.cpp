@@ -33,7 +33,7 @@ FoxgloveServer::FoxgloveServer(ServerConfig config, std::unique_ptr<web::WebServ
   sources_.statics(transport::monotonic_now(), sink_);
 }
 
-std::vector<PlaybackControl> FoxgloveServer::hear() {
+std::vector<PlaybackControl> FoxgloveServer::receive() {
   std::vector<PlaybackControl> asked;
   while (const auto news = server_->next_news()) {
     std::optional<PlaybackControl> control;
@@ -64,7 +64,7 @@ void FoxgloveServer::take(const feed::Item& item) {
   } else if (const auto* const told = std::get_if<feed::Told>(&item)) {
     take(*told);
   } else if (room_.anybody()) {
-    sources_.take(*std::get<std::unique_ptr<const feed::Sight>>(item), sink_);
+    sources_.take(*std::get<std::unique_ptr<const feed::BaseStatus>>(item), sink_);
   }
 }
 

@@ -40,7 +40,7 @@ class FoxgloveServer {
 
   transport::UdpAddress local() const { return server_->local(); }
   int fd() const { return server_->fd(); }  // readable while clients have said something
-  std::vector<PlaybackControl> hear();
+  std::vector<PlaybackControl> receive();
   void take(const feed::Item& item);
   void take(const feed::Sample& sample);
   void take(const feed::Told& told);

@@ -95,10 +95,10 @@ void Sources::take(const feed::Told& told, const Sink& sink) const {
   sink(of_recording_[recorder::channel_of(told.topic)], utc(told.at), {bytes, told.json.size()});
 }
 
-void Sources::take(const feed::Sight& sight, const Sink& sink) {
-  view_.base(sight, clock_.utc_minus_base, [&](const ros_view::Message& message) {
+void Sources::take(const feed::BaseStatus& base_status, const Sink& sink) {
+  view_.base(base_status, clock_.utc_minus_base, [&](const ros_view::Message& message) {
     const std::size_t channel = of_view_[message.topic];
-    if (channel != kNowhere) sink(channel, utc(sight.at), message.cdr);
+    if (channel != kNowhere) sink(channel, utc(base_status.at), message.cdr);
   });
 }
 

@@ -1,6 +1,6 @@
 // Channels for Foxglove clients, and the source of each channel's messages.
 //   /vehicle/odom, /tf, /imu, /gnss/*, /diagnostics ...   the standard messages of ROS 2, as
-//                      outlets/ros_view makes them
+//                      publishers/ros_view makes them
 //   /car/GROUP         every group of the registry, and
 //   /base/TYPE         the texts that consoles get, both as a recording has them: one layout fits
 //                      a live car and its recording
@@ -34,7 +34,7 @@ class Sources {
   void statics(Instant now, const Sink& sink);
   void take(const feed::Sample& sample, const Sink& sink);
   void take(const feed::Told& told, const Sink& sink) const;
-  void take(const feed::Sight& sight, const Sink& sink);
+  void take(const feed::BaseStatus& base_status, const Sink& sink);
   UtcTime utc(Instant at) const { return UtcTime{clock_.to_file(at).ns}; }
 
  private:

@@ -1,5 +1,5 @@
 // The thresholds of alarms as parameters that clients read.
-//   in     the text `settings` as consoles get it (outlets/web/PROTOCOL.md)
+//   in     the text `settings` as consoles get it (publishers/web/PROTOCOL.md)
 //   out    /alarms/KEY/limit and /deadband in the field's unit, /on_s and /off_s in seconds
 //   errors a text that is none gives none; a number that is none is left out
 // SPDX-License-Identifier: Apache-2.0

@@ -24,7 +24,7 @@ Result<std::unique_ptr<LcmPublisher>, Problem> LcmPublisher::start(const LcmUrl&
 
 LcmPublisher::LcmPublisher(Publish publish, const recorder::ClockMap& clock, std::string prefix)
     : publish_(std::move(publish)), encoder_(clock) {
-  for (std::size_t i = 0; i < feed::kSightChannel; ++i) {
+  for (std::size_t i = 0; i < feed::kStatusChannel; ++i) {
     names_.push_back(prefix + encoder_.topic(static_cast<std::uint16_t>(i)));
   }
   thread_ = std::thread{[this] { run(); }};
@@ -47,15 +47,15 @@ void LcmPublisher::run() {
     more = !feed_.closed();
     for (const feed::Item& item : feed_.take()) {
       if (const auto* const sample = std::get_if<std::unique_ptr<const feed::Sample>>(&item)) {
-        tell(**sample);
+        publish(**sample);
       } else if (const auto* const told = std::get_if<feed::Told>(&item)) {
-        tell(*told);
+        publish(*told);
       }
     }
   }
 }
 
-void LcmPublisher::tell(const feed::Sample& sample) {
+void LcmPublisher::publish(const feed::Sample& sample) {
   for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
     if (!sample.groups.has(row.group) || !sample.state.ever(row.group)) continue;
     const recorder::GroupBytes bytes = recorder::encode(row.group, sample.state.values);
@@ -66,7 +66,7 @@ void LcmPublisher::tell(const feed::Sample& sample) {
   }
 }
 
-void LcmPublisher::tell(const feed::Told& told) {
+void LcmPublisher::publish(const feed::Told& told) {
   const auto* const bytes = reinterpret_cast<const std::uint8_t*>(told.json.data());
   send({.channel = recorder::channel_of(told.topic),
         .logged = told.at,

@@ -3,7 +3,7 @@
 //   in     packets, and the texts that consoles get
 //   out    /car/GROUP and /base/TYPE, under a prefix where several cars share a wall
 //   invariants
-//          a thread of its own behind a Feed: a network that stalls costs this outlet its oldest
+//          a thread of its own behind a Feed: a network that stalls costs this publisher its oldest
 //          messages, counted by channel, and nobody anything else
 //   errors figures(): dropped before they were published; failed: the network did not take them
 // SPDX-License-Identifier: Apache-2.0
@@ -47,8 +47,8 @@ class LcmPublisher : public service::Publisher {
 
  private:
   void run();
-  void tell(const feed::Sample& sample);
-  void tell(const feed::Told& told);
+  void publish(const feed::Sample& sample);
+  void publish(const feed::Told& told);
   void send(const recorder::Record& record);
 
   Publish publish_;

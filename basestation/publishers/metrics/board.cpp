@@ -5,10 +5,10 @@
 
 namespace pitwall::publishers::metrics {
 
-void Board::put(std::size_t place, CarSight sight) {
+void Board::put(std::size_t place, CarStatus status) {
   const std::lock_guard hold(lock_);
   if (cars_.size() <= place) cars_.resize(place + 1);
-  cars_[place] = std::move(sight);
+  cars_[place] = std::move(status);
 }
 
 void Board::put(const web::WebCounters& web) {
@@ -17,7 +17,7 @@ void Board::put(const web::WebCounters& web) {
 }
 
 std::string Board::text(const std::optional<transport::BenchPause>& pause) const {
-  std::vector<CarSight> cars;
+  std::vector<CarStatus> cars;
   std::optional<web::WebCounters> web;
   {
     const std::lock_guard hold(lock_);

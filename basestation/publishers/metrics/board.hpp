@@ -16,14 +16,14 @@ namespace pitwall::publishers::metrics {
 
 class Board {
  public:
-  void put(std::size_t place, CarSight sight);
+  void put(std::size_t place, CarStatus status);
   void put(const web::WebCounters& web);
   // With how bench time stands now, where this base goes by it.
   std::string text(const std::optional<transport::BenchPause>& pause = {}) const;
 
  private:
   mutable std::mutex lock_;
-  std::vector<CarSight> cars_;  // these under the lock
+  std::vector<CarStatus> cars_;  // these under the lock
   std::optional<web::WebCounters> web_;
 };
 

@@ -8,25 +8,25 @@
 namespace pitwall::publishers::metrics {
 namespace {
 
-void look_at_numbers(const service::CarService& car, Instant now, CarSight& sight) {
+void look_at_numbers(const service::CarService& car, Instant now, CarStatus& status) {
   for (std::size_t place = 0; place < kNumbers; ++place) {
     const state::FieldView view = car.view(id_at(place), now);
-    if (state::usable(view) && !view.unset) sight.numbers[place] = view.value;
+    if (state::usable(view) && !view.unset) status.numbers[place] = view.value;
   }
 }
 
-void look_at_ages(const service::CarService& car, Instant now, CarSight& sight) {
+void look_at_ages(const service::CarService& car, Instant now, CarStatus& status) {
   for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
     const state::FieldView view = car.vehicle().group(row.group, now);
     if (view.quality == state::Quality::kNever) continue;
-    sight.ages_s[telemetry::index_of(row.group)] = view.age.seconds();
+    status.ages_s[telemetry::index_of(row.group)] = view.age.seconds();
   }
 }
 
-void look_at_link(const service::CarService& car, Instant now, CarSight& sight) {
+void look_at_link(const service::CarService& car, Instant now, CarStatus& status) {
   const link::Station& station = car.link();
   const telemetry::LinkReport report = station.report(now);
-  sight.counts = {
+  status.counts = {
       {"packets", "packets of the car", station.rate().packets()},
       {"packets_lost", "packets of the car that came by no path", station.lost_packets()},
       {"packet_copies", "packets that came by the other path, too", report.association.duplicates},
@@ -41,45 +41,45 @@ void look_at_link(const service::CarService& car, Instant now, CarSight& sight) 
     // A copy by another path is no refusal: it is what a second path is for.
     const std::uint64_t copies =
         kind == telemetry::Refusal::kReplayed ? report.association.duplicates : 0;
-    sight.refused.emplace_back(telemetry::text_of(kind), report.association.refused[i] - copies);
+    status.refused.emplace_back(telemetry::text_of(kind), report.association.refused[i] - copies);
   }
   for (std::size_t i = 0; i < telemetry::kBodyErrors; ++i) {
-    sight.refused.emplace_back(telemetry::text_of(static_cast<telemetry::BodyError>(i)),
-                               report.bad_bodies[i]);
+    status.refused.emplace_back(telemetry::text_of(static_cast<telemetry::BodyError>(i)),
+                                report.bad_bodies[i]);
   }
 }
 
-void look_at_alarms(const service::CarService& car, CarSight& sight) {
+void look_at_alarms(const service::CarService& car, CarStatus& status) {
   using alarms::Priority;
   const alarms::Engine& engine = car.evaluator().alarms();
   for (const Priority priority : {Priority::kHigh, Priority::kMedium, Priority::kLow}) {
-    sight.alarms.push_back({.priority = std::string{alarms::text_of(priority)},
-                            .active = engine.count(priority),
-                            .unseen = engine.unseen(priority)});
+    status.alarms.push_back({.priority = std::string{alarms::text_of(priority)},
+                             .active = engine.count(priority),
+                             .unseen = engine.unseen(priority)});
   }
 }
 
 }  // namespace
 
-CarSight sight_of(const service::CarService& car, const MetricsSources& sources, Instant now) {
+CarStatus status_of(const service::CarService& car, const MetricsSources& sources, Instant now) {
   service::CarIdentity identity = car.identity();
-  CarSight sight{
+  CarStatus status{
       .car = identity.car, .name = std::move(identity.name), .mode = std::move(identity.mode)};
-  look_at_numbers(car, now, sight);
-  look_at_ages(car, now, sight);
-  look_at_link(car, now, sight);
-  look_at_alarms(car, sight);
-  sight.history_bytes = car.history_bytes();
+  look_at_numbers(car, now, status);
+  look_at_ages(car, now, status);
+  look_at_link(car, now, status);
+  look_at_alarms(car, status);
+  status.history_bytes = car.history_bytes();
   for (const service::Publisher* const publisher : sources.publishers) {
-    if (auto figures = publisher->figures()) sight.publishers.push_back(*std::move(figures));
+    if (auto figures = publisher->figures()) status.publishers.push_back(*std::move(figures));
   }
-  return sight;
+  return status;
 }
 
 void MetricsPublisher::publish(const service::CarService& car, Instant now) {
   if (now < due_) return;
   due_ = now + kEvery;
-  board_.put(sources_.place, sight_of(car, sources_, now));
+  board_.put(sources_.place, status_of(car, sources_, now));
   if (sources_.server != nullptr) board_.put(sources_.server->counters());
 }
 

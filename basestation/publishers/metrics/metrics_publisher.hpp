@@ -1,6 +1,6 @@
 // Figures of one car's service for /metrics, once a second.
 //   in     the service; the other publishers of this car, the web server where there is one
-//   out    a CarSight on the board; the counters of the web server
+//   out    a CarStatus on the board; the counters of the web server
 //   cost   some ten microseconds a second; the text is made by who asks for it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -38,6 +38,6 @@ class MetricsPublisher : public service::Publisher {
   Instant due_{};
 };
 
-CarSight sight_of(const service::CarService& car, const MetricsSources& sources, Instant now);
+CarStatus status_of(const service::CarService& car, const MetricsSources& sources, Instant now);
 
 }  // namespace pitwall::publishers::metrics

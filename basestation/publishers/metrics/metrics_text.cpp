@@ -22,25 +22,25 @@ FieldName name_of(state::FieldId id) {
 
 double number(std::uint64_t count) { return static_cast<double>(count); }
 
-void add_fields(const CarSight& sight, const std::string& car, Exposition& out) {
+void add_fields(const CarStatus& status, const std::string& car, Exposition& out) {
   for (std::size_t place = 0; place < kNumbers; ++place) {
     const FieldName field = name_of(id_at(place));
     const UnitName* const unit = unit_name(field.unit);
     CHECK(unit != nullptr);
     out.add(Kind::kGauge, "pitwall_field_" + std::string{unit->words}, unit->help,
             {{"car", car}, {"group", std::string{field.group}}, {"field", std::string{field.name}}},
-            sight.numbers[place] * unit->factor);
+            status.numbers[place] * unit->factor);
   }
   for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
     out.add(Kind::kGauge, "pitwall_group_age_seconds",
             "age of the newest sample of a group of fields, the way to the base included",
             {{"car", car}, {"group", std::string{row.name}}},
-            sight.ages_s[telemetry::index_of(row.group)]);
+            status.ages_s[telemetry::index_of(row.group)]);
   }
 }
 
-void add_alarms(const CarSight& sight, const std::string& car, Exposition& out) {
-  for (const CarSight::Alarms& alarms : sight.alarms) {
+void add_alarms(const CarStatus& status, const std::string& car, Exposition& out) {
+  for (const CarStatus::Alarms& alarms : status.alarms) {
     const Labels labels{{"car", car}, {"priority", alarms.priority}};
     out.add(Kind::kGauge, "pitwall_alarms", "alarms in the active list", labels,
             number(alarms.active));
@@ -49,12 +49,12 @@ void add_alarms(const CarSight& sight, const std::string& car, Exposition& out) 
   }
 }
 
-void add_counts(const CarSight& sight, const std::string& car, Exposition& out) {
-  for (const CarSight::Count& count : sight.counts) {
+void add_counts(const CarStatus& status, const std::string& car, Exposition& out) {
+  for (const CarStatus::Count& count : status.counts) {
     out.add(Kind::kCounter, "pitwall_" + std::string{count.name} + "_total", count.help,
             {{"car", car}}, number(count.value));
   }
-  for (const auto& [why, count] : sight.refused) {
+  for (const auto& [why, count] : status.refused) {
     out.add(Kind::kCounter, "pitwall_datagrams_refused_total",
             "datagrams that were not the car's, by the reason", {{"car", car}, {"why", why}},
             number(count));
@@ -63,25 +63,25 @@ void add_counts(const CarSight& sight, const std::string& car, Exposition& out) 
 
 void add_publisher(const service::PublisherFigures& figures, const std::string& car,
                    Exposition& out) {
-  const Labels labels{{"car", car}, {"outlet", figures.publisher}};
+  const Labels labels{{"car", car}, {"publisher", figures.publisher}};
   const auto with = [&labels](std::string_view name, const std::string& value) {
     Labels more = labels;
     more.emplace_back(name, value);
     return more;
   };
-  out.add(Kind::kCounter, "pitwall_outlet_sent_total", "messages that an outlet gave away", labels,
-          number(figures.sent));
-  out.add(Kind::kCounter, "pitwall_outlet_failed_total", "messages that the network did not take",
-          labels, number(figures.failed));
-  out.add(Kind::kGauge, "pitwall_outlet_clients", "readers that an outlet knows of", labels,
+  out.add(Kind::kCounter, "pitwall_publisher_sent_total", "messages that a publisher gave away",
+          labels, number(figures.sent));
+  out.add(Kind::kCounter, "pitwall_publisher_failed_total",
+          "messages that the network did not take", labels, number(figures.failed));
+  out.add(Kind::kGauge, "pitwall_publisher_clients", "readers that a publisher knows of", labels,
           number(figures.clients));
   for (const auto& [topic, count] : figures.dropped) {
-    out.add(Kind::kCounter, "pitwall_outlet_dropped_total",
+    out.add(Kind::kCounter, "pitwall_publisher_dropped_total",
             "messages that were lost because a reader or the network was too slow",
             with("topic", topic), number(count));
   }
   for (const auto& [what, count] : figures.refused) {
-    out.add(Kind::kCounter, "pitwall_outlet_refused_total",
+    out.add(Kind::kCounter, "pitwall_publisher_refused_total",
             "what readers asked for and did not get", with("what", what), number(count));
   }
 }
@@ -121,21 +121,22 @@ void add_web(const web::WebCounters& web, Exposition& out) {
 
 }  // namespace
 
-std::string metrics_text(std::span<const CarSight> cars, const std::optional<web::WebCounters>& web,
+std::string metrics_text(std::span<const CarStatus> cars,
+                         const std::optional<web::WebCounters>& web,
                          const std::optional<transport::BenchPause>& pause) {
   Exposition out;
-  for (const CarSight& sight : cars) {
-    const std::string car = std::to_string(sight.car);
+  for (const CarStatus& status : cars) {
+    const std::string car = std::to_string(status.car);
     out.add(Kind::kGauge, "pitwall_car_info",
             "always 1; which car it is, and whether it is REAL, a simulation (HIL) or none (NONE)",
-            {{"car", car}, {"name", sight.name}, {"mode", sight.mode}}, 1.0);
+            {{"car", car}, {"name", status.name}, {"mode", status.mode}}, 1.0);
     out.add(Kind::kGauge, "pitwall_history_bytes", "values that the base keeps of the last hour",
-            {{"car", car}}, number(sight.history_bytes));
-    add_counts(sight, car, out);
-    add_alarms(sight, car, out);
-    for (const service::PublisherFigures& figures : sight.publishers)
+            {{"car", car}}, number(status.history_bytes));
+    add_counts(status, car, out);
+    add_alarms(status, car, out);
+    for (const service::PublisherFigures& figures : status.publishers)
       add_publisher(figures, car, out);
-    add_fields(sight, car, out);
+    add_fields(status, car, out);
   }
   if (web) add_web(*web, out);
   if (pause) {

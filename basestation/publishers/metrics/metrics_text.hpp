@@ -27,14 +27,14 @@ namespace pitwall::publishers::metrics {
 
 inline constexpr std::size_t kNumbers = telemetry::kFieldCount + state::kBaseFields;
 
-// The field at this place of CarSight::numbers.
+// The field at this place of CarStatus::numbers.
 constexpr state::FieldId id_at(std::size_t place) {
   return place < telemetry::kFieldCount
              ? state::id_of(telemetry::FieldIndex{place})
              : state::id_of(static_cast<state::BaseField>(place - telemetry::kFieldCount));
 }
 
-struct CarSight {
+struct CarStatus {
   int car = 0;
   std::string name, mode;
   std::uint64_t history_bytes = 0;             // of plots that look back
@@ -63,7 +63,8 @@ struct CarSight {
   std::vector<service::PublisherFigures> publishers{};
 };
 
-std::string metrics_text(std::span<const CarSight> cars, const std::optional<web::WebCounters>& web,
+std::string metrics_text(std::span<const CarStatus> cars,
+                         const std::optional<web::WebCounters>& web,
                          const std::optional<transport::BenchPause>& pause = {});
 
 }  // namespace pitwall::publishers::metrics

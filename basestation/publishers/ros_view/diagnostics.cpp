@@ -29,7 +29,7 @@ std::string text_of(FieldIndex f, double value) {
 
 class Listing {
  public:
-  Listing(const Snapshot& state, const BaseSight& base, const std::string& hardware)
+  Listing(const Snapshot& state, const BaseStatus& base, const std::string& hardware)
       : state_(state), base_(base), hardware_(hardware) {}
 
   void add_watchdogs() {
@@ -105,17 +105,17 @@ class Listing {
   }
 
   void add_alarms() {
-    for (const AlarmSight& alarm : base_.alarms) {
+    for (const AlarmStatus& alarm : base_.alarms) {
       ros::DiagnosticStatus& status =
           push("alarms/" + alarm.key, alarm.high ? Level::kError : Level::kWarn, alarm.text);
       status.values = {{"response", alarm.response}, {"state", alarm.state}};
     }
   }
 
-  void add_outlets(bool loses) {
-    ros::DiagnosticStatus& status = push("outlets", loses ? Level::kWarn : Level::kOk,
+  void add_publishers(bool loses) {
+    ros::DiagnosticStatus& status = push("publishers", loses ? Level::kWarn : Level::kOk,
                                          loses ? "messages are lost" : "nothing lost lately");
-    for (const auto& [name, count] : base_.outlets)
+    for (const auto& [name, count] : base_.publishers)
       status.values.push_back({name, std::to_string(count)});
   }
 
@@ -160,13 +160,13 @@ class Listing {
   }
 
   const Snapshot& state_;
-  const BaseSight& base_;
+  const BaseStatus& base_;
   const std::string& hardware_;
 };
 
 }  // namespace
 
-std::vector<ros::DiagnosticStatus> diagnostics(const Snapshot& state, const BaseSight& base,
+std::vector<ros::DiagnosticStatus> diagnostics(const Snapshot& state, const BaseStatus& base,
                                                const std::string& hardware, bool loses) {
   Listing listing{state, base, hardware};
   listing.add_car();
@@ -175,7 +175,7 @@ std::vector<ros::DiagnosticStatus> diagnostics(const Snapshot& state, const Base
   listing.add_receivers();
   listing.add_link();
   listing.add_alarms();
-  listing.add_outlets(loses);
+  listing.add_publishers(loses);
   return std::move(listing.all_);
 }
 

@@ -1,7 +1,7 @@
 // Diagnostics messages for rqt_robot_monitor and Foxglove's diagnostics panel.
 //   in     the state as the radio has it, what the base itself finds, time
 //   out    one status for each watchdog of the car, each sensor that ever came, each receiver, the
-//          car's faults, its computer, the radio, each alarm that stands, each outlet
+//          car's faults, its computer, the radio, each alarm that stands, each publisher
 //   level  OK 0, WARN 1, ERROR 2; STALE 3 for whatever the car has not told of for too long
 //   invariants
 //          a sensor that never came is not listed: this car does not have it
@@ -21,13 +21,13 @@ namespace pitwall::publishers::ros_view {
 
 enum class Level : std::uint8_t { kOk, kWarn, kError, kStale };
 
-struct AlarmSight {
+struct AlarmStatus {
   std::string key, text, response, state;
   bool high = false;
 };
 
 // What the base finds besides what the car tells.
-struct BaseSight {
+struct BaseStatus {
   Instant at{};
   // kUnset where nobody makes it.
   std::array<double, state::kBaseFields> values = [] {
@@ -35,14 +35,14 @@ struct BaseSight {
     unset.fill(kUnset);
     return unset;
   }();
-  std::vector<AlarmSight> alarms{};
-  // Of outlets: what they dropped, whom they refused.
-  std::vector<std::pair<std::string, std::uint64_t>> outlets{};
+  std::vector<AlarmStatus> alarms{};
+  // Of publishers: what they dropped, whom they refused.
+  std::vector<std::pair<std::string, std::uint64_t>> publishers{};
 };
 
-// `loses`: an outlet has lost something lately; its counts only ever grow.
+// `loses`: a publisher has lost something lately; its counts only ever grow.
 std::vector<ros::DiagnosticStatus> diagnostics(const telemetry::Snapshot& state,
-                                               const BaseSight& base, const std::string& hardware,
+                                               const BaseStatus& base, const std::string& hardware,
                                                bool loses = false);
 
 }  // namespace pitwall::publishers::ros_view

@@ -110,38 +110,39 @@ void View::car(const telemetry::Snapshot& state, telemetry::GroupSet fresh, Inst
   }
 }
 
-void View::base(const BaseSight& sight, Duration utc_minus_base, const Sink& sink) {
+void View::base(const BaseStatus& base_status, Duration utc_minus_base, const Sink& sink) {
   const auto& messages = group_messages();
   std::vector<double> values;
   for (std::size_t place = 0; place < messages.size(); ++place) {
     if (!messages[place].of_base) continue;
     values.clear();
-    for (const std::size_t row : messages[place].rows) values.push_back(sight.values[row]);
+    for (const std::size_t row : messages[place].rows) values.push_back(base_status.values[row]);
     const bool known = std::ranges::any_of(values, [](double v) { return !std::isnan(v); });
-    if (known) put_group(place, sight.at, utc_minus_base, values, sink);
+    if (known) put_group(place, base_status.at, utc_minus_base, values, sink);
   }
-  look_at_health(sight, utc_minus_base, sink);
+  look_at_health(base_status, utc_minus_base, sink);
 }
 
-bool View::loses(const BaseSight& sight) {
+bool View::loses(const BaseStatus& base_status) {
   std::uint64_t lost = 0;
-  for (const auto& [name, count] : sight.outlets) lost += count;
-  if (lost > lost_) lost_at_ = sight.at;
+  for (const auto& [name, count] : base_status.publishers) lost += count;
+  if (lost > lost_) lost_at_ = base_status.at;
   lost_ = lost;
-  return lost_at_ && sight.at - *lost_at_ < kLossShown;
+  return lost_at_ && base_status.at - *lost_at_ < kLossShown;
 }
 
-void View::look_at_health(const BaseSight& sight, Duration utc_minus_base, const Sink& sink) {
+void View::look_at_health(const BaseStatus& base_status, Duration utc_minus_base,
+                          const Sink& sink) {
   ros::DiagnosticArray health{
-      .header = CarMessages{frames_, utc_minus_base}.header(sight.at, ""),
-      .status = diagnostics(newest_, sight, config_.hardware, loses(sight))};
+      .header = CarMessages{frames_, utc_minus_base}.header(base_status.at, ""),
+      .status = diagnostics(newest_, base_status, config_.hardware, loses(base_status))};
   std::vector<Level> levels;
   for (const ros::DiagnosticStatus& status : health.status)
     levels.push_back(static_cast<Level>(status.level));
-  if (levels == levels_ && sight.at - health_told_ < kHealthEvery) return;
+  if (levels == levels_ && base_status.at - health_told_ < kHealthEvery) return;
   levels_ = std::move(levels);
-  health_told_ = sight.at;
-  put(kDiagnostics, sight.at, health, sink);
+  health_told_ = base_status.at;
+  put(kDiagnostics, base_status.at, health, sink);
 }
 
 }  // namespace pitwall::publishers::ros_view

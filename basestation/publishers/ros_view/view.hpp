@@ -5,8 +5,8 @@
 //   invariants
 //          a message is made of a group that is new, and of no other: nothing is repeated. Which
 //          numbers are absent, and how that is said: car_messages.hpp, group_message.hpp
-//          diagnostics once a second, at once when a level changes; a loss of an outlet is told for
-//          kLossShown after its count has grown
+//          diagnostics once a second, at once when a level changes; a loss of a publisher is shown
+//          for kLossShown after its count has grown
 //   cost   a state with all its groups: some tens of microseconds
 //
 //   /vehicle/odom /vehicle/fix /imu /gnss/{top,bottom}/fix /diagnostics /opponents /raceline
@@ -64,7 +64,7 @@ class View {
   void statics(Instant now, Duration utc_minus_base, const Sink& sink);
   void car(const telemetry::Snapshot& state, telemetry::GroupSet fresh, Instant now,
            Duration utc_minus_base, const Sink& sink);
-  void base(const BaseSight& sight, Duration utc_minus_base, const Sink& sink);
+  void base(const BaseStatus& base_status, Duration utc_minus_base, const Sink& sink);
 
  private:
   enum Fixed : std::size_t {
@@ -89,8 +89,8 @@ class View {
   void put_if(std::size_t topic, Instant at, const std::optional<M>& message, const Sink& sink);
   void put_group(std::size_t place, Instant at, Duration utc_minus_base,
                  std::span<const double> values, const Sink& sink);
-  void look_at_health(const BaseSight& sight, Duration utc_minus_base, const Sink& sink);
-  bool loses(const BaseSight& sight);
+  void look_at_health(const BaseStatus& base_status, Duration utc_minus_base, const Sink& sink);
+  bool loses(const BaseStatus& base_status);
 
   ViewConfig config_;
   Frames frames_;
@@ -100,7 +100,7 @@ class View {
   std::vector<std::uint8_t> bytes_;  // of the message that is told
   std::vector<Level> levels_;        // of the diagnostics that were told last
   Instant health_told_{};
-  std::uint64_t lost_ = 0;  // by all outlets
+  std::uint64_t lost_ = 0;  // by all publishers
   std::optional<Instant> lost_at_{};
 };
 

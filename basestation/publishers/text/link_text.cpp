@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
 #include <cstdio>
 #include <utility>
 
 #include "basestation/state/event_text.hpp"
 #include "basestation/state/station_field.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::publishers {
 namespace {
@@ -19,27 +19,18 @@ using telemetry::LinkReport;
 constexpr double kBitsPerByte = 8.0, kPerKilo = 1e-3, kPercent = 100.0;
 constexpr std::size_t kLogLines = 4, kPlaces = 3;
 
-[[gnu::format(printf, 1, 2)]] std::string say(const char* format, ...) {
-  char text[400];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
-
 unsigned long long count(std::uint64_t n) { return n; }
 
 std::string known_ms(const std::optional<Duration>& duration) {
-  return duration ? say("%.1f ms", duration->milliseconds()) : "not known";
+  return duration ? formatted("%.1f ms", duration->milliseconds()) : "not known";
 }
 
 TextLine head_line(const service::CarService& car, Instant now) {
   const link::PacketRate& rate = car.link().rate();
   if (!rate.ever()) return {"PITWALL   waiting for the first packet", Tone::kBold};
   if (rate.lost(now)) {
-    return {say("PITWALL   CAR LOST: not heard for %.1f s; all below is as old as it says",
-                rate.since_last(now).seconds()),
+    return {formatted("PITWALL   CAR LOST: not heard for %.1f s; all below is as old as it says",
+                      rate.since_last(now).seconds()),
             Tone::kAlarm};
   }
   if (car.link().source() != link::Station::Source::kCar) {
@@ -51,14 +42,14 @@ TextLine head_line(const service::CarService& car, Instant now) {
 std::string link_line(const service::CarService& car, const LinkReport& report, Instant now) {
   const link::PacketRate& rate = car.link().rate();
   if (!rate.ever()) return "link      nothing heard";
-  std::string text =
-      say("link      session %llu   %.1f Hz   %llu packets, %llu lost (%.1f %%)   "
-          "last %s ago   round trip %s   ",
-          count(report.sessions), rate.rate_hz(now), count(rate.packets()),
-          count(car.link().lost_packets()), kPercent * car.link().loss(),
-          age_text(rate.since_last(now)).c_str(), known_ms(report.round_trip).c_str());
+  std::string text = formatted(
+      "link      session %llu   %.1f Hz   %llu packets, %llu lost (%.1f %%)   "
+      "last %s ago   round trip %s   ",
+      count(report.sessions), rate.rate_hz(now), count(rate.packets()),
+      count(car.link().lost_packets()), kPercent * car.link().loss(),
+      age_text(rate.since_last(now)).c_str(), known_ms(report.round_trip).c_str());
   text += car.link().endpoint().clock_known()
-              ? say("clocks known to +-%s", known_ms(report.clock_bound).c_str())
+              ? formatted("clocks known to +-%s", known_ms(report.clock_bound).c_str())
               : std::string{"clocks NOT compared: ages lack the time on the way"};
   return text;
 }
@@ -66,8 +57,8 @@ std::string link_line(const service::CarService& car, const LinkReport& report, 
 std::string address_text(telemetry::Address address) {
   if (!address.known()) return "no address";
   constexpr unsigned kByte = 0xFF;
-  return say("%u.%u.%u.%u:%u", address.ip >> 24 & kByte, address.ip >> 16 & kByte,
-             address.ip >> 8 & kByte, address.ip & kByte, unsigned{address.port});
+  return formatted("%u.%u.%u.%u:%u", address.ip >> 24 & kByte, address.ip >> 16 & kByte,
+                   address.ip >> 8 & kByte, address.ip & kByte, unsigned{address.port});
 }
 
 // What the car told of this path, and how long ago.
@@ -78,8 +69,8 @@ std::string told(const service::CarService& car, telemetry::PathId path, Instant
   const auto part = [&](const char* name, telemetry::FieldIndex which, double factor,
                         const char* unit) {
     const state::FieldView view = car.vehicle().view(which, now);
-    if (view.quality == state::Quality::kNever) return say("%s ?", name);
-    const std::string text = say("%s %.0f%s", name, factor * view.value, unit);
+    if (view.quality == state::Quality::kNever) return formatted("%s ?", name);
+    const std::string text = formatted("%s %.0f%s", name, factor * view.value, unit);
     return view.age > radio.age ? text + " (" + age_text(view.age) + " ago)" : text;
   };
   return "the car told " + age_text(radio.age) + " ago: " +
@@ -94,24 +85,24 @@ std::vector<TextLine> path_lines(const service::CarService& car, const LinkRepor
   const telemetry::PathReport& p = report.paths[path];
   const telemetry::PathFigures& h = p.heard;
   std::vector<TextLine> lines;
-  const std::string bursts =
-      h.mean_bad.ns > 0
-          ? say("bursts %.0f ms each %.1f s", h.mean_bad.milliseconds(), h.mean_good.seconds())
-          : "no bursts yet";
+  const std::string bursts = h.mean_bad.ns > 0
+                                 ? formatted("bursts %.0f ms each %.1f s",
+                                             h.mean_bad.milliseconds(), h.mean_good.seconds())
+                                 : "no bursts yet";
   lines.push_back(
-      {say("path %d    down %6.1f kbit/s   loss %.1f %% (%llu in all)   %s   "
-           "one way %.0f/%.0f/%.0f ms p50/95/99   jitter %.1f ms",
-           int{path}, h.rate_bytes_per_s * kBitsPerByte * kPerKilo, kPercent * h.loss,
-           count(h.lost), bursts.c_str(), h.delay_p50.milliseconds(), h.delay_p95.milliseconds(),
-           h.delay_p99.milliseconds(), h.jitter.milliseconds())});
+      {formatted("path %d    down %6.1f kbit/s   loss %.1f %% (%llu in all)   %s   "
+                 "one way %.0f/%.0f/%.0f ms p50/95/99   jitter %.1f ms",
+                 int{path}, h.rate_bytes_per_s * kBitsPerByte * kPerKilo, kPercent * h.loss,
+                 count(h.lost), bursts.c_str(), h.delay_p50.milliseconds(),
+                 h.delay_p95.milliseconds(), h.delay_p99.milliseconds(), h.jitter.milliseconds())});
   lines.push_back(
-      {say("          up   %llu packets   budget used %.1f %% (x%.2f)   "
-           "no room %llu times   %s %s",
-           count(p.spent.packets), kPercent * p.budget_use, p.rate_factor, count(p.spent.refused),
-           address_text(p.peer).c_str(),
-           p.validated      ? "proved"
-           : p.peer.known() ? "not proved"
-                            : "")});
+      {formatted("          up   %llu packets   budget used %.1f %% (x%.2f)   "
+                 "no room %llu times   %s %s",
+                 count(p.spent.packets), kPercent * p.budget_use, p.rate_factor,
+                 count(p.spent.refused), address_text(p.peer).c_str(),
+                 p.validated      ? "proved"
+                 : p.peer.known() ? "not proved"
+                                  : "")});
   lines.push_back({"          " + told(car, path, now)});
   return lines;
 }
@@ -125,9 +116,10 @@ std::string ages_line(const service::CarService& car) {
   std::string text = "ages      p50/p99/max ms";
   for (const auto& [priority, name] : kNames) {
     const link::AgeHistogram& ages = car.link().ages().of(priority);
-    text += ages.empty() ? say("   %s -", name)
-                         : say("   %s %.0f/%.0f/%.0f", name, ages.quantile(0.50).milliseconds(),
-                               ages.quantile(0.99).milliseconds(), ages.largest().milliseconds());
+    text += ages.empty()
+                ? formatted("   %s -", name)
+                : formatted("   %s %.0f/%.0f/%.0f", name, ages.quantile(0.50).milliseconds(),
+                            ages.quantile(0.99).milliseconds(), ages.largest().milliseconds());
   }
   return text;
 }
@@ -137,7 +129,7 @@ std::string refused_line(const LinkReport& report) {
   std::string kinds;
   const auto add = [&](const char* name, std::uint64_t n) {
     total += n;
-    if (n > 0) kinds += say("   %s %llu", name, count(n));
+    if (n > 0) kinds += formatted("   %s %llu", name, count(n));
   };
   for (std::size_t i = 0; i < telemetry::kRefusals; ++i) {
     const auto kind = static_cast<telemetry::Refusal>(i);
@@ -148,11 +140,11 @@ std::string refused_line(const LinkReport& report) {
   for (std::size_t i = 0; i < telemetry::kBodyErrors; ++i) {
     add(telemetry::text_of(static_cast<telemetry::BodyError>(i)), report.bad_bodies[i]);
   }
-  if (report.bad_records > 0) kinds += say("   bad records %llu", count(report.bad_records));
+  if (report.bad_records > 0) kinds += formatted("   bad records %llu", count(report.bad_records));
   if (report.association.duplicates > 0) {
-    kinds += say("   (copies by the other path %llu)", count(report.association.duplicates));
+    kinds += formatted("   (copies by the other path %llu)", count(report.association.duplicates));
   }
-  return say("refused   %llu", count(total)) + kinds;
+  return formatted("refused   %llu", count(total)) + kinds;
 }
 
 std::string label_of(const service::CarService& car, telemetry::FieldIndex which, Instant now) {
@@ -167,14 +159,14 @@ TextLine stop_line(const service::CarService& car, Instant now) {
   const telemetry::StopState& asked = car.link().endpoint().stop().state();
   const state::FieldView latched = car.vehicle().view(field("mode.stop_latch"), now);
   const telemetry::HolderId holder = car.link().endpoint().authority().holder(now);
-  const std::string console = holder == 0 ? "nobody" : say("console %u", unsigned{holder});
+  const std::string console = holder == 0 ? "nobody" : formatted("console %u", unsigned{holder});
   const auto level =
       telemetry::label_at(telemetry::kStopLevels, static_cast<std::size_t>(asked.level));
   const bool stopped = asked.level != telemetry::StopLevel::kNone ||
                        (latched.quality != state::Quality::kNever && latched.value > 0.0);
-  return {say("operator  stop asked: %s   latched by the car: %s   authority: %s",
-              std::string{level}.c_str(), label_of(car, field("mode.stop_latch"), now).c_str(),
-              console.c_str()),
+  return {formatted("operator  stop asked: %s   latched by the car: %s   authority: %s",
+                    std::string{level}.c_str(),
+                    label_of(car, field("mode.stop_latch"), now).c_str(), console.c_str()),
           stopped ? Tone::kAlarm : Tone::kPlain};
 }
 
@@ -186,10 +178,10 @@ void add_commands(const service::CarService& car, Instant now, std::vector<TextL
   for (std::size_t i = first; i < commands.size(); ++i) {
     const telemetry::CommandProgress& c = commands[i];
     const bool refused = c.fate && *c.fate != telemetry::Outcome::kApplied;
-    lines.push_back(
-        {say("command   %s ago   #%u %s: %s", age_text(now - c.issued).c_str(), unsigned{c.id},
-             state::command_text(c.command).c_str(), state::progress_text(c, now).c_str()),
-         refused ? Tone::kWarning : Tone::kPlain});
+    lines.push_back({formatted("command   %s ago   #%u %s: %s", age_text(now - c.issued).c_str(),
+                               unsigned{c.id}, state::command_text(c.command).c_str(),
+                               state::progress_text(c, now).c_str()),
+                     refused ? Tone::kWarning : Tone::kPlain});
   }
   const auto& audit = car.requests().audit().lines();
   const auto refused = std::find_if(audit.rbegin(), audit.rend(), [](const auto& line) {
@@ -204,8 +196,8 @@ void add_events(const service::CarService& car, Instant now, std::vector<TextLin
   const auto& events = car.link().events();
   const std::size_t first = events.size() - std::min(events.size(), kLogLines);
   for (std::size_t i = first; i < events.size(); ++i) {
-    lines.push_back({say("event     %s ago   %s", age_text(now - events[i].at).c_str(),
-                         state::event_text(events[i]).c_str())});
+    lines.push_back({formatted("event     %s ago   %s", age_text(now - events[i].at).c_str(),
+                               state::event_text(events[i]).c_str())});
   }
 }
 
@@ -221,7 +213,7 @@ std::string place_line(const service::CarService& car) {
   std::string text = "places    most lost";
   for (std::size_t i = 0; i < std::min(places.size(), kPlaces); ++i) {
     const double from_m = link::Station::kSection_m * static_cast<double>(places[i].second);
-    text += say("   at %.0f m %.1f %%", from_m, kPercent * places[i].first);
+    text += formatted("   at %.0f m %.1f %%", from_m, kPercent * places[i].first);
   }
   return text;
 }
@@ -237,9 +229,9 @@ void add_threats(const service::CarService& car, const LinkReport& report, Insta
     const std::size_t seen =
         (report.threats.has(threat) ? 1U : 0U) + (by_car.has(threat) ? 2U : 0U);
     if (seen == 0) continue;
-    lines.push_back({say("attack    seen %s: %s",
-                         std::string{telemetry::label_at(state::kSeenBy, seen)}.c_str(),
-                         std::string{telemetry::describe(threat)}.c_str()),
+    lines.push_back({formatted("attack    seen %s: %s",
+                               std::string{telemetry::label_at(state::kSeenBy, seen)}.c_str(),
+                               std::string{telemetry::describe(threat)}.c_str()),
                      Tone::kAlarm});
   }
 }
@@ -259,8 +251,8 @@ void add_schema(const service::CarService& car, std::vector<TextLine>& lines) {
 }  // namespace
 
 std::string age_text(Duration age) {
-  if (age < seconds(10)) return say("%.0f ms", age.milliseconds());
-  return say("%.0f s", age.seconds());
+  if (age < seconds(10)) return formatted("%.0f ms", age.milliseconds());
+  return formatted("%.0f s", age.seconds());
 }
 
 std::vector<TextLine> link_lines(const service::CarService& car, Instant now) {

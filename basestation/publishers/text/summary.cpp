@@ -3,22 +3,20 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <string_view>
 #include <utility>
 
 #include "basestation/state/event_text.hpp"
 #include "basestation/state/value_text.hpp"
 #include "protocol/json/json_text.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::publishers {
 namespace {
 
 std::string number(double value) {
   if (!std::isfinite(value)) return "null";
-  char text[40];
-  std::snprintf(text, sizeof text, "%.10g", value);
-  return text;
+  return formatted("%.10g", value);
 }
 
 std::string ms(Duration d) { return number(d.milliseconds()); }

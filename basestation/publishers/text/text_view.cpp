@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <vector>
 
 #include "basestation/publishers/text/link_text.hpp"
 #include "basestation/state/value_text.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::publishers {
 namespace {
@@ -50,10 +50,9 @@ Tone tone_of(Quality quality) {
 
 std::string group_head(const telemetry::GroupRow& row, const state::FieldView& group) {
   constexpr std::array kMarks{' ', '~', '!', '-'};
-  char text[64];
-  std::snprintf(text, sizeof text, "%c %-14s %8s", kMarks[static_cast<std::size_t>(group.quality)],
-                std::string{row.name}.c_str(), age_text(group.age).c_str());
-  return padded(text, kHeadWidth);
+  return padded(formatted("%c %-14s %8s", kMarks[static_cast<std::size_t>(group.quality)],
+                          std::string{row.name}.c_str(), age_text(group.age).c_str()),
+                kHeadWidth);
 }
 
 std::string cell_text(const telemetry::FieldRow& row, const state::FieldView& view,
@@ -135,17 +134,13 @@ std::vector<TextLine> group_lines(const state::VehicleState& vehicle, Instant no
 
 // Whose time it is, where it is not the wall clock's.
 TextLine bench_line(const transport::BenchPause& pause) {
-  char text[120];
-  if (pause.is_long()) {
-    std::snprintf(
-        text, sizeof text,
-        "TIME      BENCH WAITS, %.1f s now, %.1f s in all; ages are of the time it stands at",
-        pause.now.seconds(), pause.total.seconds());
-  } else {
-    std::snprintf(text, sizeof text, "TIME      of a bench; it has stood %.1f s in all",
-                  pause.total.seconds());
-  }
-  return {text, Tone::kInverse};
+  const double total_s = pause.total.seconds();
+  return {pause.is_long()
+              ? formatted("TIME      BENCH WAITS, %.1f s now, %.1f s in all; ages are of the time "
+                          "it stands at",
+                          pause.now.seconds(), total_s)
+              : formatted("TIME      of a bench; it has stood %.1f s in all", total_s),
+          Tone::kInverse};
 }
 
 // Whether the car's CAN bus is that of its database; nothing until the car has said so.
@@ -156,22 +151,22 @@ std::optional<TextLine> bus_line(const state::VehicleState& vehicle, Instant now
   };
   const state::FieldView identity = vehicle.view(telemetry::field("bus.identity"), now);
   if (identity.quality == Quality::kNever) return std::nullopt;
-  char text[160];
   const std::string age = " (" + age_text(identity.age) + " ago)";
   const auto database = static_cast<std::uint32_t>(value(telemetry::field("bus.database")));
   const double id = value(telemetry::field("bus.differing_id"));
   switch (static_cast<int>(identity.value)) {
     case 1:
-      std::snprintf(text, sizeof text, "CAN bus   as in the car's database %08x", database);
-      return TextLine{text + age, Tone::kPlain};
+      return TextLine{formatted("CAN bus   as in the car's database %08x", database) + age,
+                      Tone::kPlain};
     case 2:
-      std::snprintf(text, sizeof text,
-                    "CAN bus   WRONG: id %.0f is not as in the car's database %08x; will not arm",
-                    id, database);
-      return TextLine{text + age, Tone::kAlarm};
+      return TextLine{
+          formatted("CAN bus   WRONG: id %.0f is not as in the car's database %08x; will not arm",
+                    id, database) +
+              age,
+          Tone::kAlarm};
     default:
-      std::snprintf(text, sizeof text, "CAN bus   listening, the car's database is %08x", database);
-      return TextLine{text + age, Tone::kWarning};
+      return TextLine{formatted("CAN bus   listening, the car's database is %08x", database) + age,
+                      Tone::kWarning};
   }
 }
 

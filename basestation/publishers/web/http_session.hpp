@@ -100,7 +100,7 @@ class WebServer::Engine::HttpSession : public std::enable_shared_from_this<HttpS
                                 .forwarded_proto = view(request["X-Forwarded-Proto"]),
                                 .upgrade = websocket::is_upgrade(request),
                                 .body = request.body()};
-    HttpAnswer answer = engine_.desk.answer(question);
+    HttpAnswer answer = engine_.responder.answer(question);
     if (answer.visitor) {
       if (const ClientId client = engine_.free_number(answer.visitor->role); client != 0) {
         return upgrade(client, std::move(answer));

@@ -58,10 +58,10 @@ struct WebServer::Engine {
   class Socket;
 
   Engine(const Tcp::endpoint& endpoint, HttpConfig config)
-      : acceptor(io, endpoint), desk(std::move(config)), tending(io), accepting(io) {
-    desk.serve_at(acceptor.local_endpoint().port());
-    if (desk.config().tls == nullptr) return;
-    SSL_CTX* const tls = desk.config().tls.get();
+      : acceptor(io, endpoint), responder(std::move(config)), tending(io), accepting(io) {
+    responder.serve_at(acceptor.local_endpoint().port());
+    if (responder.config().tls == nullptr) return;
+    SSL_CTX* const tls = responder.config().tls.get();
     SSL_CTX_up_ref(tls);  // the context gives up one
     context.emplace(tls);
   }
@@ -78,7 +78,7 @@ struct WebServer::Engine {
   void make_room();     // where memory runs short
   void drop_largest();  // of viewers
   void drop_newest();   // of viewers, while an allocation has failed
-  void tell(std::size_t car, Role by, ClientNews news);
+  void publish(std::size_t car, Role by, ClientNews news);
   void call();
   void deliver();
   // 0: no place is left for somebody of that role.
@@ -117,7 +117,7 @@ struct WebServer::Engine {
   // After what the sessions in its handlers refer to, so that it goes before.
   asio::io_context io{1};
   Tcp::acceptor acceptor;
-  HttpResponder desk;
+  HttpResponder responder;
   std::optional<asio::ssl::context> context;
   asio::steady_timer tending, accepting;
   std::array<std::shared_ptr<Socket>, 256> sockets{};  // by client
@@ -136,7 +136,7 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
         who_(*std::move(answer.visitor)),
         car_(answer.car),
         subprotocol_(answer.subprotocol),
-        queue_(engine.desk.config().queue) {}
+        queue_(engine.responder.config().queue) {}
   ~Socket() { --engine_.connections; }
 
   void accept(const http::request<http::string_body>& request) {
@@ -153,7 +153,7 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
     stream_.async_accept(request, [self = shared_from_this()](error_code failed) {
       if (failed) return self->gone();
       self->engine_.count([](WebCounters& c) { ++c.joined; });
-      self->engine_.tell(
+      self->engine_.publish(
           self->car_, self->who_.role,
           {.kind = ClientNews::Kind::kJoined, .client = self->client_, .who = self->who_});
       self->joined_ = true;
@@ -234,7 +234,7 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
         .client = client_};
     news.text = beast::buffers_to_string(heard_.data());
     heard_.consume(heard_.size());
-    engine_.tell(car_, who_.role, std::move(news));
+    engine_.publish(car_, who_.role, std::move(news));
   }
 
   void write() {
@@ -273,7 +273,7 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
     engine_.sockets[client_].reset();
     if (!joined_) return;
     engine_.count([](WebCounters& c) { ++c.left; });
-    engine_.tell(car_, who_.role, {.kind = ClientNews::Kind::kLeft, .client = client_});
+    engine_.publish(car_, who_.role, {.kind = ClientNews::Kind::kLeft, .client = client_});
   }
 
   Engine& engine_;

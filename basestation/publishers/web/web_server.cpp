@@ -85,15 +85,15 @@ void WebServer::Engine::refuse(std::uint64_t WebCounters::*counter, const std::s
   if (what == said && said_at && now - *said_at < kSayingAgain) return;
   said = what;
   said_at = now;
-  desk.config().say("console refused: " + why);
+  responder.config().say("console refused: " + why);
 }
 
 void WebServer::Engine::tend() {
   tending.expires_after(kTending);
   tending.async_wait([this](error_code cancelled) {
     if (cancelled) return;
-    const auto changed = desk.config().access.tokens->look_again();
-    if (!changed) desk.config().say("tokens unchanged: " + to_string(changed.error()));
+    const auto changed = responder.config().access.tokens->look_again();
+    if (!changed) responder.config().say("tokens unchanged: " + to_string(changed.error()));
     if (changed && *changed) drop_revoked();
     earlier_newcomers = std::exchange(newcomers, 0);
     make_room();
@@ -103,9 +103,9 @@ void WebServer::Engine::tend() {
 
 void WebServer::Engine::drop_revoked() {
   for (const auto& socket : sockets) {
-    if (socket == nullptr || desk.config().access.tokens->may_stay(socket->who())) continue;
+    if (socket == nullptr || responder.config().access.tokens->may_stay(socket->who())) continue;
     count([](WebCounters& c) { ++c.closed_revoked; });
-    desk.config().say("token of " + socket->who().name + " no longer holds: console closed");
+    responder.config().say("token of " + socket->who().name + " no longer holds: console closed");
     socket->close(websocket::close_code::policy_error);
   }
 }
@@ -136,7 +136,7 @@ void WebServer::Engine::drop_newest() {
   }
 }
 
-void WebServer::Engine::tell(std::size_t car, Role by, ClientNews item) {
+void WebServer::Engine::publish(std::size_t car, Role by, ClientNews item) {
   Door& door = doors[car];
   {
     const std::lock_guard hold(lock);
@@ -166,7 +166,7 @@ void WebServer::Engine::deliver() {
     fresh.swap(shown);
     post_under_way = false;
   }
-  for (auto& [path, document] : fresh) desk.show(path, std::move(document));
+  for (auto& [path, document] : fresh) responder.show(path, std::move(document));
   for (const Post& post : due) {
     for (std::size_t client = kFirstClient; client <= kLastClient; ++client) {
       if (!post.to.test(client)) continue;
@@ -204,7 +204,7 @@ Result<std::unique_ptr<WebServer>, Problem> WebServer::start(transport::UdpAddre
                                                              HttpConfig config) {
   const Tcp::endpoint endpoint{asio::ip::address_v4{listen.ip}, listen.port};
   if (config.cars.size() > kCars) {
-    return Unexpected{Problem{"--web", "at most " + std::to_string(kCars) + " cars"}};
+    return Unexpected{Problem{"--web", "expected at most " + std::to_string(kCars) + " cars"}};
   }
   std::unique_ptr<Engine> engine;
   try {

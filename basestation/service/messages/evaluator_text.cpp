@@ -254,7 +254,7 @@ Result<EvaluatorInput, Problem> read_input_text(std::string_view text, Instant a
         .notice = id_of(from, "notice"), .told = from.flag("told"), .by = from.text("by")}};
   const auto field = state::find_field(from.text("field"));
   if (what == "limit" && field) return EvaluatorInput{limit_of(from, *field)};
-  return Unexpected{Problem{"input", "nothing that a judge is told: " + what}};
+  return Unexpected{Problem{"input", "not an input of the alarm evaluator: " + what}};
 }
 
 }  // namespace pitwall::service

@@ -184,9 +184,9 @@ std::string alarm_event_text(const alarms::AlarmEvent& event) {
 }
 
 std::string authority_text(const command::AuthorityHandover& talk,
-                           const telemetry::AuthorityDesk& desk, Instant now) {
+                           const telemetry::AuthorityRegister& authority, Instant now) {
   telemetry::Values values;
-  desk.put(values, now);
+  authority.put(values, now);
   const double renewed_ms = values[telemetry::field("authority.renewal_age")];
   const telemetry::HolderId holder = talk.holder(now);
   const bool held = holder != 0;

@@ -32,7 +32,7 @@ std::string hello_text(const CarIdentity& identity, Instant now);
 std::string alarms_text(const alarms::Engine& engine);
 std::string alarm_event_text(const alarms::AlarmEvent& event);
 std::string authority_text(const command::AuthorityHandover& talk,
-                           const telemetry::AuthorityDesk& desk, Instant now);
+                           const telemetry::AuthorityRegister& authority, Instant now);
 std::string ticket_text(const command::Ticket& ticket);
 // None: the car is not stopped.
 std::string stop_text(const std::optional<command::StoppedCar>& stopped);

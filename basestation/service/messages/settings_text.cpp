@@ -44,18 +44,19 @@ std::string alarm_text(const alarms::AlarmSettings& alarms, alarms::AlarmIndex i
 
 }  // namespace
 
-std::string settings_text(const command::SettingsEditor& desk, const alarms::AlarmSettings& alarms,
+std::string settings_text(const command::SettingsEditor& editor,
+                          const alarms::AlarmSettings& alarms,
                           const std::optional<Problem>& unreadable) {
   Array list;
   for (alarms::AlarmIndex i = 0; i < alarms::alarm_count(); ++i) list.json(alarm_text(alarms, i));
   return Object{}
       .text("type", "settings")
-      .number("revision", desk.revision())
-      .flag("kept", desk.kept())
+      .number("revision", editor.revision())
+      .flag("kept", editor.kept())
       .text("problem", unreadable ? unreadable_text(*unreadable) : "")
-      .number("up_kbit_s", desk.budget().now)
-      .number("up_least_kbit_s", desk.budget().least)
-      .number("up_most_kbit_s", desk.budget().most)
+      .number("up_kbit_s", editor.budget().now)
+      .number("up_least_kbit_s", editor.budget().least)
+      .number("up_most_kbit_s", editor.budget().most)
       .json("alarms", list.str())
       .str();
 }

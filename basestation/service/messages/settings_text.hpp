@@ -15,7 +15,8 @@
 namespace pitwall::service {
 
 // `unreadable`: the file that should have been read, as long as it is the old one.
-std::string settings_text(const command::SettingsEditor& desk, const alarms::AlarmSettings& alarms,
+std::string settings_text(const command::SettingsEditor& editor,
+                          const alarms::AlarmSettings& alarms,
                           const std::optional<Problem>& unreadable = {});
 // `fuel_left_l`: of what was filled in, as it is reckoned now.
 std::string expected_text(const command::OperatorEntries& said, double fuel_left_l, Instant now);

@@ -82,7 +82,8 @@ Result<AlarmCheck, Problem> check_alarms(const std::string& folder, std::vector<
     replay::SegmentReader reader{as_bytes(*file), *clock, known};
     while (reader.due()) reader.step(judge);
   }
-  if (!judge.judged()) return Unexpected{Problem{folder, "no base that judged recorded it"}};
+  if (!judge.judged())
+    return Unexpected{Problem{folder, "not the recording of a base that judged alarms"}};
   return judge;
 }
 

@@ -9,16 +9,15 @@
 #include "protocol/recorder/segment_folder.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/realtime.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::service {
 namespace {
 
 std::string told(const replay::ReadBack& back, Duration took) {
-  char text[160];
-  std::snprintf(text, sizeof text, "known again: %llu messages of %.0f s, read in %.0f ms",
-                static_cast<unsigned long long>(back.messages), (back.last - back.first).seconds(),
-                took.milliseconds());
-  return text;
+  return formatted("known again: %llu messages of %.0f s, read in %.0f ms",
+                   static_cast<unsigned long long>(back.messages),
+                   (back.last - back.first).seconds(), took.milliseconds());
 }
 
 // How the recorder is, looked at once a second.

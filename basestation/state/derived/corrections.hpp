@@ -1,6 +1,6 @@
-// Detector of a second user of our login for RTK corrections. A caster gives a login to one at a
-// time: two users take the stream from each other every few seconds, and both our receivers lose it
-// at once. It cost the paper's team a day.
+// Detector of a second user of our login for RTK corrections. A caster serves one user per login:
+// two users take the stream from each other every few seconds, and both our receivers lose it at
+// once.
 //   in     age of the corrections and number of satellites of both receivers, as they come
 //   out    yes while the last 60 s hold at least three such losses
 //   invariants

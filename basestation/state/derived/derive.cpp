@@ -25,11 +25,11 @@ using telemetry::Group;
 constexpr double kModeControlledStop = 3.0, kModeEmergency = 4.0;
 constexpr double kStreamLate = 3.0, kStreamLost = 4.0;
 
-void derive_link(const Pass& pass, const Known& known, const Books& books) {
+void derive_link(const Pass& pass, const Known& known, const MonitorState& monitors) {
   using enum BaseField;
   const LinkFigures& link = known.link;
   const auto yes = [](bool is) { return is ? 1.0 : 0.0; };
-  pass.put(kLinkState, static_cast<double>(books.link.state()));
+  pass.put(kLinkState, static_cast<double>(monitors.link.state()));
   pass.put(kLinkSilence, link.heard ? (pass.now - *link.heard).milliseconds() : kUnset);
   pass.put(kDownLoss, link.down_loss);
   pass.put(kUpLoss, link.up_loss);
@@ -139,7 +139,7 @@ double gnss_speed_mps(const Pass& pass) {
   return std::isnan(b) ? a : (a + b) / 2.0;
 }
 
-void derive_gnss(const Pass& pass, const Books& books) {
+void derive_gnss(const Pass& pass, const MonitorState& monitors) {
   double good = kUnset, age_s = kUnset;
   for (const ReceiverFields& unit : kReceivers) {
     if (std::isnan(pass.value(unit.status))) continue;  // this car has no such unit
@@ -149,7 +149,7 @@ void derive_gnss(const Pass& pass, const Books& books) {
   const auto made_of = {kReceivers[0].status, kReceivers[1].status};
   pass.put(BaseField::kGnssGood, good, made_of);
   pass.put(BaseField::kCorrectionAge, age_s, made_of);
-  pass.put(BaseField::kCorrectionConflict, books.corrections.conflict(pass.now) ? 1.0 : 0.0);
+  pass.put(BaseField::kCorrectionConflict, monitors.corrections.conflict(pass.now) ? 1.0 : 0.0);
 }
 
 void derive_slip(const Pass& pass) {
@@ -204,12 +204,12 @@ void derive_sensors(const Pass& pass) {
 void derive_flags(const Pass& pass, const Expectations& expected) {
   constexpr FieldIndex kTrack = field("flags.track"), kRound = field("flags.round_target_speed"),
                        kTarget = field("track.target_speed");
-  const FlagsSaid flags{.race_control_track = pass.value(kTrack),
-                        .race_control_vehicle = pass.value(field("flags.vehicle")),
-                        .car_track = pass.value(field("flags.track_acted_on")),
-                        .car_vehicle = pass.value(field("flags.vehicle_acted_on")),
-                        .pit_wall_track = expected.track_flag,
-                        .encodings_differ = pass.value(field("flags.conflict"))};
+  const FlagEntries flags{.race_control_track = pass.value(kTrack),
+                          .race_control_vehicle = pass.value(field("flags.vehicle")),
+                          .car_track = pass.value(field("flags.track_acted_on")),
+                          .car_vehicle = pass.value(field("flags.vehicle_acted_on")),
+                          .pit_wall_track = expected.track_flag,
+                          .encodings_differ = pass.value(field("flags.conflict"))};
   const bool heard = !std::isnan(flags.race_control_track) || !std::isnan(flags.car_track);
   pass.put(BaseField::kFlagConflict, heard ? (flag_conflict(flags) ? 1.0 : 0.0) : kUnset, {kTrack});
   const double round_mps = pass.value(kRound);
@@ -222,8 +222,8 @@ void derive_flags(const Pass& pass, const Expectations& expected) {
            std::isnan(round_mps) ? kUnset : (round_speed_conflict(speeds) ? 1.0 : 0.0), {kRound});
 }
 
-void derive_fuel(const Pass& pass, const Books& books, const FuelPlan& plan) {
-  const FuelLeft left = books.fuel_left(plan);
+void derive_fuel(const Pass& pass, const MonitorState& monitors, const FuelPlan& plan) {
+  const FuelLeft left = monitors.fuel_left(plan);
   const FieldIndex source =
       left.estimated ? field("powertrain.throttle_position") : field("fuel.level");
   pass.put(BaseField::kFuelPerLap, left.per_lap_l);
@@ -261,7 +261,8 @@ void derive_place(const Pass& pass, const Course* course) {
 
 }  // namespace
 
-bool Books::sampled_anew(const VehicleState& vehicle, Group group, Instant now, Instant& newest) {
+bool MonitorState::sampled_anew(const VehicleState& vehicle, Group group, Instant now,
+                                Instant& newest) {
   const FieldView view = vehicle.group(group, now);
   if (view.quality == Quality::kNever || now - view.age <= newest) return false;
   newest = now - view.age;
@@ -269,7 +270,7 @@ bool Books::sampled_anew(const VehicleState& vehicle, Group group, Instant now, 
 }
 
 // By the car's own level where it tells one, else by what was loaded and burnt.
-void Books::step_fuel(const VehicleState& vehicle, const Expectations& said, Instant now) {
+void MonitorState::step_fuel(const VehicleState& vehicle, const Expectations& said, Instant now) {
   const auto value = [&](FieldIndex index) { return vehicle.view(index, now).value; };
   const double level_l = value(field("fuel.level")), lap = value(field("track.lap"));
   fuel_measured_ = fuel_measured_ || !std::isnan(level_l);
@@ -289,13 +290,13 @@ void Books::step_fuel(const VehicleState& vehicle, const Expectations& said, Ins
   if (!fuel_measured_ && reckoned) fuel.heard(estimate_.level_l(), estimate_.used_l(), lap);
 }
 
-FuelLeft Books::fuel_left(const FuelPlan& plan) const {
+FuelLeft MonitorState::fuel_left(const FuelPlan& plan) const {
   FuelLeft left = fuel.left(plan);
   left.estimated = !fuel_measured_ && !std::isnan(left.level_l);
   return left;
 }
 
-void Books::step(const VehicleState& vehicle, const Known& known, Instant now) {
+void MonitorState::step(const VehicleState& vehicle, const Known& known, Instant now) {
   link.step(known.link, now);
   step_fuel(vehicle, known.expected, now);
   const auto value = [&](FieldIndex index) { return vehicle.view(index, now).value; };
@@ -308,20 +309,20 @@ void Books::step(const VehicleState& vehicle, const Known& known, Instant now) {
 }
 
 void derive(const DeriveParams& params, const VehicleState& vehicle, const Known& known,
-            const Books& books, const Course* course, Instant now, BaseViews& views) {
+            const MonitorState& monitors, const Course* course, Instant now, BaseViews& views) {
   const Pass pass{.vehicle = vehicle, .now = now, .views = views};
-  derive_link(pass, known, books);
+  derive_link(pass, known, monitors);
   derive_threats(pass, known.link);
   derive_ages(pass);
   derive_watchdogs(pass);
   derive_stop(pass);
-  derive_gnss(pass, books);
+  derive_gnss(pass, monitors);
   derive_slip(pass);
   derive_tyres(pass, params.tyres);
   derive_sensors(pass);
   derive_flags(pass, known.expected);
-  derive_race(pass, known, books, params.fuel, course);
-  derive_fuel(pass, books, params.fuel);
+  derive_race(pass, known, monitors, params.fuel, course);
+  derive_fuel(pass, monitors, params.fuel);
   derive_place(pass, course);
 }
 

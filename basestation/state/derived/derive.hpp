@@ -26,7 +26,7 @@ struct DeriveParams {
 };
 
 // What the base remembers of earlier values.
-struct Books {
+struct MonitorState {
   FuelBook fuel;
   CorrectionWatch corrections;
   LinkWatch link;
@@ -53,6 +53,6 @@ struct Books {
 };
 
 void derive(const DeriveParams& params, const VehicleState& vehicle, const Known& known,
-            const Books& books, const Course* course, Instant now, BaseViews& views);
+            const MonitorState& monitors, const Course* course, Instant now, BaseViews& views);
 
 }  // namespace pitwall::state

@@ -25,7 +25,7 @@ int restriction_of_track_flag(double flag) {
   return kRestriction.at(static_cast<std::size_t>(flag));
 }
 
-bool flag_conflict(const FlagsSaid& said) {
+bool flag_conflict(const FlagEntries& said) {
   if (said.encodings_differ > 0.0) return true;
   const double should_hold = binding(said.race_control_track, said.pit_wall_track);
   return differ(said.car_track, should_hold) ||

@@ -17,13 +17,13 @@ namespace pitwall::state {
 
 inline constexpr double kRoundSpeedTolerance_mps = 0.5;  // the brackets are 4.5 m/s apart
 
-struct FlagsSaid {
+struct FlagEntries {
   double race_control_track = kUnset, race_control_vehicle = kUnset;
   double car_track = kUnset, car_vehicle = kUnset;  // that the car acts on
   double pit_wall_track = kUnset;
   double encodings_differ = kUnset;  // 1: the two ways of race control into the car disagree
 };
-bool flag_conflict(const FlagsSaid& said);
+bool flag_conflict(const FlagEntries& said);
 
 struct RoundSpeedSaid {
   double race_control_mps = kUnset, pit_wall_mps = kUnset, car_target_mps = kUnset;

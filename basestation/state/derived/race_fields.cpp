@@ -55,8 +55,8 @@ Opponents opponents_of(const VehicleState& vehicle, const Course* course, Instan
 
 }  // namespace
 
-void derive_race(const Pass& pass, const Known& known, const Books& books, const FuelPlan& plan,
-                 const Course* course) {
+void derive_race(const Pass& pass, const Known& known, const MonitorState& monitors,
+                 const FuelPlan& plan, const Course* course) {
   using enum BaseField;
   constexpr FieldIndex kVehicle = field("flags.vehicle"), kPlanned = field("planner.role"),
                        kLap = field("track.lap");
@@ -67,7 +67,7 @@ void derive_race(const Pass& pass, const Known& known, const Books& books, const
   pass.put(kRole, shown, {kVehicle});
   pass.put(kRoleConflict, std::isnan(differs) ? kUnset : (differs != 0.0 ? 1.0 : 0.0),
            {kVehicle, kPlanned});
-  const Attempt attempt = books.attempts.attempt();
+  const Attempt attempt = monitors.attempts.attempt();
   pass.put(kAttempt, attempt.number, {field("flags.track")});
   pass.put(kAttemptState, std::isnan(attempt.number) ? kUnset : static_cast<double>(attempt.state),
            {field("flags.track")});
@@ -84,8 +84,8 @@ void derive_race(const Pass& pass, const Known& known, const Books& books, const
            {seen.source, kOwnSpeed});
 }
 
-void Books::step_race(const VehicleState& vehicle, const FuelPlan& plan, const Course* course,
-                      Instant now) {
+void MonitorState::step_race(const VehicleState& vehicle, const FuelPlan& plan,
+                             const Course* course, Instant now) {
   const auto value = [&](FieldIndex index) { return usable_at(vehicle, index, now); };
   const Opponents seen = opponents_of(vehicle, course, now);
   attempts.heard({.track_flag = value(field("flags.track")),

@@ -11,7 +11,7 @@
 
 namespace pitwall::state {
 
-void derive_race(const Pass& pass, const Known& known, const Books& books, const FuelPlan& plan,
-                 const Course* course);
+void derive_race(const Pass& pass, const Known& known, const MonitorState& monitors,
+                 const FuelPlan& plan, const Course* course);
 
 }  // namespace pitwall::state

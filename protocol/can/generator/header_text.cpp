@@ -5,6 +5,8 @@
 #include <charconv>
 #include <set>
 
+#include "protocol/vocabulary/text.hpp"
+
 namespace pitwall::can {
 namespace {
 
@@ -14,12 +16,6 @@ std::string real(double v) {
   std::string out{text.data(), end};
   if (out.find_first_of(".e") == std::string::npos) out += ".0";
   return out;
-}
-
-std::string hex(std::uint64_t v) {
-  std::array<char, 24> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), v, 16).ptr;
-  return "0x" + std::string{text.data(), end};
 }
 
 std::string number(std::uint64_t v) { return std::to_string(v); }

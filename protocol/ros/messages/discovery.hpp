@@ -1,5 +1,5 @@
-// What each participant of ROS 2 tells of its nodes on the topic `ros_discovery_info`, so that
-// `ros2 node list` knows them.
+// Messages of the topic `ros_discovery_info`, in which each participant of ROS 2 names its nodes,
+// so that `ros2 node list` knows them.
 //   invariants
 //          a Gid has 24 bytes up to Humble, 16 from Iron on, under one and the same name: who says
 //          it to the other kind is not understood. The first 16 are the GUID of the endpoint

@@ -44,7 +44,7 @@ std::optional<Instant> renewal_time(const Values& values, const Received& receiv
 
 }  // namespace
 
-bool AuthorityDesk::take(HolderId who, Instant now) {
+bool AuthorityRegister::take(HolderId who, Instant now) {
   if (who == 0) return false;
   const HolderId present = holder(now);
   if (present == who) return renew(who, now);
@@ -53,28 +53,28 @@ bool AuthorityDesk::take(HolderId who, Instant now) {
   return true;
 }
 
-bool AuthorityDesk::renew(HolderId who, Instant now) {
+bool AuthorityRegister::renew(HolderId who, Instant now) {
   if (who == 0 || holder(now) != who) return false;
   renewal_ = after(renewal_);
   renewed_ = now;
   return true;
 }
 
-bool AuthorityDesk::hand_over(HolderId from, HolderId to, Instant now) {
+bool AuthorityRegister::hand_over(HolderId from, HolderId to, Instant now) {
   if (from == 0 || to == 0 || holder(now) != from) return false;
   begin(to, now);
   return true;
 }
 
-void AuthorityDesk::drop(HolderId who, Instant now) {
+void AuthorityRegister::drop(HolderId who, Instant now) {
   if (who != 0 && holder(now) == who) begin(0, now);
 }
 
-HolderId AuthorityDesk::holder(Instant now) const {
+HolderId AuthorityRegister::holder(Instant now) const {
   return now - renewed_ < kAuthorityExpiry ? holder_ : HolderId{0};
 }
 
-void AuthorityDesk::put(Values& values, Instant now) const {
+void AuthorityRegister::put(Values& values, Instant now) const {
   const HolderId present = holder(now);
   values[kHolder] = present;
   values[kEpoch] = epoch_;
@@ -82,7 +82,7 @@ void AuthorityDesk::put(Values& values, Instant now) const {
   values[kRenewalAge] = present == 0 ? kUnset : rounded_up_ms(now - renewed_);
 }
 
-void AuthorityDesk::begin(HolderId who, Instant now) {
+void AuthorityRegister::begin(HolderId who, Instant now) {
   holder_ = who;
   epoch_ = after(epoch_);
   renewal_ = after(renewal_);

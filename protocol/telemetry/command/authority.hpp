@@ -26,7 +26,7 @@ namespace pitwall::telemetry {
 
 inline constexpr Duration kAuthorityRenewal = seconds(1), kAuthorityExpiry = seconds(3);
 
-class AuthorityDesk {
+class AuthorityRegister {
  public:
   bool take(HolderId who, Instant now);   // false: somebody else holds it
   bool renew(HolderId who, Instant now);  // false: not the holder

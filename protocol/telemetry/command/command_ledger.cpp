@@ -5,12 +5,11 @@
 
 namespace pitwall::telemetry {
 
-template <std::size_t Remembered>
-CommandLedgerOf<Remembered>::CommandLedgerOf(std::uint64_t own_boot)
-    : boot_(short_boot(own_boot)) {}
+template <std::size_t Depth>
+CommandLedgerOf<Depth>::CommandLedgerOf(std::uint64_t own_boot) : boot_(short_boot(own_boot)) {}
 
-template <std::size_t Remembered>
-void CommandLedgerOf<Remembered>::meets(std::uint64_t base_boot) {
+template <std::size_t Depth>
+void CommandLedgerOf<Depth>::meets(std::uint64_t base_boot) {
   const std::uint32_t run = short_boot(base_boot);
   if (run_ == run) return;
   run_ = run;
@@ -19,9 +18,9 @@ void CommandLedgerOf<Remembered>::meets(std::uint64_t base_boot) {
   newest_ = 0;
 }
 
-template <std::size_t Remembered>
-bool CommandLedgerOf<Remembered>::take(const Record& record, const Received& received,
-                                       const AuthorityView& authority) {
+template <std::size_t Depth>
+bool CommandLedgerOf<Depth>::take(const Record& record, const Received& received,
+                                  const AuthorityView& authority) {
   const bool well_formed = record.type == RecordType::kCommand
                                ? take_command(record, received, authority)
                                : take_ack(record);
@@ -29,13 +28,13 @@ bool CommandLedgerOf<Remembered>::take(const Record& record, const Received& rec
   return well_formed;
 }
 
-template <std::size_t Remembered>
-bool CommandLedgerOf<Remembered>::take_command(const Record& record, const Received& received,
-                                               const AuthorityView& authority) {
+template <std::size_t Depth>
+bool CommandLedgerOf<Depth>::take_command(const Record& record, const Received& received,
+                                          const AuthorityView& authority) {
   const auto said = parse_command(record.payload);
   if (!said) return false;
   if (said->base_run != run_) return ++counters_.other_base, true;
-  Entry& entry = entries_[said->number % Remembered];
+  Entry& entry = entries_[said->number % Depth];
   if (entry.number == said->number) {
     ++counters_.repeated;
     entry.result_known = false;  // it still asks
@@ -43,7 +42,7 @@ bool CommandLedgerOf<Remembered>::take_command(const Record& record, const Recei
     return true;
   }
   // What is older than memory reaches has had its answer, else the newer one were not given.
-  if (said->number + std::uint64_t{Remembered} <= newest_) return ++counters_.repeated, true;
+  if (said->number + std::uint64_t{Depth} <= newest_) return ++counters_.repeated, true;
   if (entry.number != 0 && !is_final(entry.outcome)) return ++counters_.full, true;
   ++counters_.received;
   newest_ = std::max(newest_, said->number);
@@ -59,48 +58,48 @@ bool CommandLedgerOf<Remembered>::take_command(const Record& record, const Recei
   return true;
 }
 
-template <std::size_t Remembered>
-bool CommandLedgerOf<Remembered>::take_ack(const Record& record) {
+template <std::size_t Depth>
+bool CommandLedgerOf<Depth>::take_ack(const Record& record) {
   const auto ack = parse_result_ack(record.payload);
   if (record.type != RecordType::kCommandResultAck || !ack) return false;
   if (ack->base_run != run_) return ++counters_.other_base, true;
-  Entry& entry = entries_[ack->number % Remembered];
+  Entry& entry = entries_[ack->number % Depth];
   if (entry.number == ack->number && is_final(entry.outcome)) entry.result_known = true;
   return true;
 }
 
-template <std::size_t Remembered>
-Outcome CommandLedgerOf<Remembered>::judge(const CommandRecord& record,
-                                           const AuthorityView& authority, Instant at) const {
+template <std::size_t Depth>
+Outcome CommandLedgerOf<Depth>::judge(const CommandRecord& record, const AuthorityView& authority,
+                                      Instant at) const {
   if (record.car_boot != boot_) return Outcome::kOtherRun;
   if (!record.known()) return Outcome::kUnsupported;
   if (record.number < newest_out_[record.type]) return Outcome::kSuperseded;
-  const auto& expires = entries_[record.number % Remembered].expires;
+  const auto& expires = entries_[record.number % Depth].expires;
   if (!expires) return Outcome::kReceived;  // neither its age nor the authority can be judged
   if (at > *expires) return Outcome::kExpired;
   if (!authority.allows(record.command(), at)) return Outcome::kNoAuthority;
   return Outcome::kReceived;
 }
 
-template <std::size_t Remembered>
-void CommandLedgerOf<Remembered>::learn_expiry(Entry& entry, const CommandRecord& record,
-                                               const Received& received) {
+template <std::size_t Depth>
+void CommandLedgerOf<Depth>::learn_expiry(Entry& entry, const CommandRecord& record,
+                                          const Received& received) {
   if (!received.sent_earliest) return;
   // A sender whose clock stands in the future does not make its commands younger.
   const Instant sent = std::min(*received.sent_earliest, received.at);
   entry.expires = sent - record.age + row_of(entry.command.type).time_to_live;
 }
 
-template <std::size_t Remembered>
-void CommandLedgerOf<Remembered>::expire(Instant now) {
+template <std::size_t Depth>
+void CommandLedgerOf<Depth>::expire(Instant now) {
   for (Entry& entry : entries_) {
     if (entry.waits() && entry.expires && now > *entry.expires) settle(entry, Outcome::kExpired);
   }
 }
 
-template <std::size_t Remembered>
-std::optional<DueCommand> CommandLedgerOf<Remembered>::take_due(Instant now,
-                                                                const AuthorityView& authority) {
+template <std::size_t Depth>
+std::optional<DueCommand> CommandLedgerOf<Depth>::take_due(Instant now,
+                                                           const AuthorityView& authority) {
   expire(now);
   while (Entry* const entry = oldest_due()) {
     if (is_replaced(*entry)) {
@@ -120,8 +119,8 @@ std::optional<DueCommand> CommandLedgerOf<Remembered>::take_due(Instant now,
   return std::nullopt;
 }
 
-template <std::size_t Remembered>
-auto CommandLedgerOf<Remembered>::oldest_due() -> Entry* {
+template <std::size_t Depth>
+auto CommandLedgerOf<Depth>::oldest_due() -> Entry* {
   Entry* oldest = nullptr;
   for (Entry& entry : entries_) {
     if (!entry.waits() || !entry.expires) continue;
@@ -130,16 +129,16 @@ auto CommandLedgerOf<Remembered>::oldest_due() -> Entry* {
   return oldest;
 }
 
-template <std::size_t Remembered>
-bool CommandLedgerOf<Remembered>::is_replaced(const Entry& entry) const {
+template <std::size_t Depth>
+bool CommandLedgerOf<Depth>::is_replaced(const Entry& entry) const {
   if (entry.number < newest_out_[static_cast<std::size_t>(entry.command.type)]) return true;
   return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& other) {
     return other.waits() && other.command.type == entry.command.type && other.number > entry.number;
   });
 }
 
-template <std::size_t Remembered>
-void CommandLedgerOf<Remembered>::decide(CommandId id, Outcome outcome, Instant at) {
+template <std::size_t Depth>
+void CommandLedgerOf<Depth>::decide(CommandId id, Outcome outcome, Instant at) {
   if (id == 0 || !is_final(outcome)) return;
   for (Entry& entry : entries_) {
     if (entry.handle != id || is_final(entry.outcome)) continue;
@@ -148,26 +147,26 @@ void CommandLedgerOf<Remembered>::decide(CommandId id, Outcome outcome, Instant 
   }
 }
 
-template <std::size_t Remembered>
-void CommandLedgerOf<Remembered>::settle(Entry& entry, Outcome outcome) {
+template <std::size_t Depth>
+void CommandLedgerOf<Depth>::settle(Entry& entry, Outcome outcome) {
   entry.outcome = outcome;
   ++counters_.decided[static_cast<std::size_t>(outcome)];
   if (outcome == Outcome::kApplied) ++counters_.applied;
 }
 
-template <std::size_t Remembered>
-std::size_t CommandLedgerOf<Remembered>::wanted() const {
+template <std::size_t Depth>
+std::size_t CommandLedgerOf<Depth>::wanted() const {
   const auto told = std::count_if(entries_.begin(), entries_.end(), [](const Entry& entry) {
     return entry.number != 0 && !entry.result_known;
   });
   return static_cast<std::size_t>(told) * BodyWriter::record_size(kResultSize);
 }
 
-template <std::size_t Remembered>
-void CommandLedgerOf<Remembered>::fill(BodyWriter& body, Instant now) {
+template <std::size_t Depth>
+void CommandLedgerOf<Depth>::fill(BodyWriter& body, Instant now) {
   expire(now);
-  for (std::size_t i = 1; i <= Remembered; ++i) {  // oldest first
-    const Entry& entry = entries_[(newest_ + i) % Remembered];
+  for (std::size_t i = 1; i <= Depth; ++i) {  // oldest first
+    const Entry& entry = entries_[(newest_ + i) % Depth];
     if (entry.number == 0 || entry.result_known) continue;
     const auto bytes = to_bytes(ResultRecord{entry.number, *run_, entry.outcome});
     if (!body.add_record(RecordType::kCommandResult, bytes)) return;

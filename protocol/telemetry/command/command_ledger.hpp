@@ -46,10 +46,10 @@ struct LedgerCounters {
   std::array<std::uint64_t, kOutcomes> decided{};
 };
 
-template <std::size_t Remembered>
+template <std::size_t Depth>
 class CommandLedgerOf {
  public:
-  static constexpr std::size_t kRemembered = Remembered;
+  static constexpr std::size_t kDepth = Depth;
 
   explicit CommandLedgerOf(std::uint64_t own_boot);
 
@@ -92,7 +92,7 @@ class CommandLedgerOf {
 
   std::uint32_t boot_;
   std::optional<std::uint32_t> run_;  // of the base
-  std::array<Entry, Remembered> entries_{};
+  std::array<Entry, Depth> entries_{};
   std::array<CommandId, kCommandTypes> newest_out_{};
   CommandId newest_ = 0, handles_ = 0;
   LedgerCounters counters_;

@@ -70,7 +70,7 @@ bool StopLatch::release(std::uint16_t challenge, bool standstill) {
   return true;
 }
 
-void StopDesk::demand(StopLevel level, StopReason reason) {
+void StopTransmitter::demand(StopLevel level, StopReason reason) {
   if (level == StopLevel::kNone) return;
   const bool raises = level > state_.level;
   // A button that is held down, or hit in anger, is one press: epochs must not come round.
@@ -79,7 +79,7 @@ void StopDesk::demand(StopLevel level, StopReason reason) {
   asked_.reset();
 }
 
-void StopDesk::released(CommandId id) {
+void StopTransmitter::released(CommandId id) {
   if (asked_ != id) return;
   state_ = {StopLevel::kNone, after(state_.epoch), StopReason::kNone};
   asked_.reset();

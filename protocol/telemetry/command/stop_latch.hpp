@@ -76,7 +76,7 @@ class StopLatch {
 };
 
 // The base's side: what it says in every packet.
-class StopDesk {
+class StopTransmitter {
  public:
   // A press: raises, never lowers.
   void demand(StopLevel level, StopReason reason);

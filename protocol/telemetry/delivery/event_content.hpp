@@ -1,4 +1,4 @@
-// What an event says: one struct for each kind, to payload bytes and back. Both ends use this, so
+// Content of an event: one struct for each kind, to payload bytes and back. Both ends use this, so
 // that neither counts bytes.
 //   wire   the fields in the order written here, little endian; f32 as IEEE 754
 //   errors content_of(): none where the length is not the kind's, or a flag is neither 0 nor 1

@@ -9,13 +9,14 @@
 
 namespace pitwall::telemetry {
 struct CarEndpoint::Parts {
-  Parts(const ConduitConfig& config, Randomness& source)
+  Parts(const LinkEndpointConfig& config, Randomness& source)
       : randomness(&source),
-        conduit(config, Direction::kDown, source),
-        schema_text(conduit.claim().safety_text.empty() ? safety_text()
-                                                        : std::string(conduit.claim().safety_text)),
+        endpoint(config, Direction::kDown, source),
+        schema_text(endpoint.claim().safety_text.empty()
+                        ? safety_text()
+                        : std::string(endpoint.claim().safety_text)),
         lane(Direction::kDown, config.early_share),
-        ledger(conduit.own().boot) {
+        ledger(endpoint.own().boot) {
     draw();
   }
 
@@ -27,7 +28,7 @@ struct CarEndpoint::Parts {
   }
 
   void begin_session(bool peer_restarted);
-  void hear(const Heard& heard);
+  void receive(const Heard& heard);
   void hear_groups(const Body& body, const Received& received);
   void take(const Record& record, const Received& received);
   void make_packet(const PacketPlan& plan, Instant now);
@@ -36,7 +37,7 @@ struct CarEndpoint::Parts {
   Waits waits() const { return something_waits() ? Waits::kContent : Waits::kNothing; }
 
   Randomness* randomness;
-  Conduit conduit;
+  LinkEndpoint endpoint;
   std::string schema_text;  // of the safety groups, made once
   StateLane lane;
   Snapshot snapshot;
@@ -60,13 +61,13 @@ void CarEndpoint::Parts::begin_session(bool peer_restarted) {
     events.peer_restarted();
     bulk.peer_restarted();
   }
-  if (conduit.peer()) ledger.meets(conduit.peer()->boot);
+  if (endpoint.peer()) ledger.meets(endpoint.peer()->boot);
   // The base says what differs; it needs our side of it.
-  if (!conduit.schema_agrees()) bulk.offer(BulkKind::kSchema, as_bytes(schema_text));
+  if (!endpoint.schema_agrees()) bulk.offer(BulkKind::kSchema, as_bytes(schema_text));
   lane.forget();
 }
 
-void CarEndpoint::Parts::hear(const Heard& heard) {
+void CarEndpoint::Parts::receive(const Heard& heard) {
   const Received& received = heard.received;
   if (received.sent_earliest) {
     alive_at = alive_at ? std::max(*alive_at, *received.sent_earliest) : *received.sent_earliest;
@@ -99,12 +100,12 @@ void CarEndpoint::Parts::take(const Record& record, const Received& received) {
       good = bulk.take(record, received);
       break;
     default:
-      good = conduit.takes(record.type);
+      good = endpoint.takes(record.type);
   }
   if (!good) ++bad_records;
 }
 
-CarEndpoint::CarEndpoint(const ConduitConfig& config, Randomness& randomness)
+CarEndpoint::CarEndpoint(const LinkEndpointConfig& config, Randomness& randomness)
     : parts_(std::make_unique<Parts>(config, randomness)) {}
 CarEndpoint::~CarEndpoint() = default;
 CarEndpoint::CarEndpoint(CarEndpoint&&) noexcept = default;
@@ -112,15 +113,15 @@ CarEndpoint& CarEndpoint::operator=(CarEndpoint&&) noexcept = default;
 
 void CarEndpoint::feed(std::span<const std::uint8_t> datagram, PathId path, Address from,
                        Instant at) {
-  const Conduit::Fed fed = parts_->conduit.feed(datagram, path, from, at);
+  const LinkEndpoint::Fed fed = parts_->endpoint.feed(datagram, path, from, at);
   if (fed.new_session) parts_->begin_session(fed.peer_restarted);
-  if (fed.heard) parts_->hear(*fed.heard);
+  if (fed.heard) parts_->receive(*fed.heard);
 }
 
 std::optional<Outgoing> CarEndpoint::poll(const Snapshot& snapshot, Instant now) {
   for (;;) {
-    if (const auto out = parts_->conduit.take(now, parts_->waits())) return out;
-    const auto plan = parts_->conduit.plan(now, parts_->waits());
+    if (const auto out = parts_->endpoint.take(now, parts_->waits())) return out;
+    const auto plan = parts_->endpoint.plan(now, parts_->waits());
     if (!plan) return {};
     parts_->snapshot = snapshot;
     parts_->make_packet(*plan, now);
@@ -129,9 +130,9 @@ std::optional<Outgoing> CarEndpoint::poll(const Snapshot& snapshot, Instant now)
 
 void CarEndpoint::Parts::make_packet(const PacketPlan& plan, Instant now) {
   const std::size_t safe =
-      lane.choose(snapshot, conduit.peer_knows(), {conduit.round_trip(), plan.rate}, now);
-  const PacketRoom room = conduit.room_for(plan, safe, ledger.wanted(), now);
-  BodyWriter body = conduit.begin(plan, room.whole, now);
+      lane.choose(snapshot, endpoint.peer_knows(), {endpoint.round_trip(), plan.rate}, now);
+  const PacketRoom room = endpoint.room_for(plan, safe, ledger.wanted(), now);
+  BodyWriter body = endpoint.begin(plan, room.whole, now);
   const std::size_t fixed = body.bytes().size();
   body.hold_back(room.records);
   const std::size_t of_state = lane.write(body, snapshot,
@@ -141,18 +142,18 @@ void CarEndpoint::Parts::make_packet(const PacketPlan& plan, Instant now) {
                                           now);
   body.hold_back(0);
   const std::size_t written = body.bytes().size();
-  conduit.add_path_records(body, plan, now);
+  endpoint.add_path_records(body, plan, now);
   ledger.fill(body, now);
   const std::size_t safety = fixed + of_state + body.bytes().size() - written;
   if (!room.only_safety) {
-    body.hold_back(conduit.kept_from_others(plan, room, safety, now));
+    body.hold_back(endpoint.kept_from_others(plan, room, safety, now));
     events.fill(body, now);
-    bulk.fill(body, conduit.round_trip(), now);
+    bulk.fill(body, endpoint.round_trip(), now);
   }
-  lane.sent(conduit.send(body, plan, safety, now), snapshot, now);
+  lane.sent(endpoint.send(body, plan, safety, now), snapshot, now);
 }
 
-Instant CarEndpoint::due() const { return parts_->conduit.due(); }
+Instant CarEndpoint::due() const { return parts_->endpoint.due(); }
 
 OperatorView CarEndpoint::view(Instant now) const {
   return {.stop = parts_->latch.level(),
@@ -186,17 +187,17 @@ bool CarEndpoint::offer(BulkKind kind, std::span<const std::uint8_t> bytes) {
   return parts_->bulk.offer(kind, bytes);
 }
 void CarEndpoint::place(double station_m, double lap_length_m, Instant now) {
-  parts_->conduit.place(station_m, lap_length_m, now);
+  parts_->endpoint.place(station_m, lap_length_m, now);
 }
 
-bool CarEndpoint::schema_agrees() const { return parts_->conduit.schema_agrees(); }
+bool CarEndpoint::schema_agrees() const { return parts_->endpoint.schema_agrees(); }
 
-std::optional<ThreatChange> CarEndpoint::next_threat() { return parts_->conduit.next_threat(); }
+std::optional<ThreatChange> CarEndpoint::next_threat() { return parts_->endpoint.next_threat(); }
 
 LinkReport CarEndpoint::report(Instant now) const {
   const Parts& p = *parts_;
   LinkReport report;
-  p.conduit.report(report, now);
+  p.endpoint.report(report, now);
   report.bad_records = p.bad_records;
   p.lane.report(report);
   report.ledger = p.ledger.counters();

@@ -20,7 +20,7 @@
 #include "protocol/telemetry/command/stop_latch.hpp"
 #include "protocol/telemetry/delivery/bulk.hpp"
 #include "protocol/telemetry/delivery/events.hpp"
-#include "protocol/telemetry/endpoint/conduit.hpp"
+#include "protocol/telemetry/endpoint/link_endpoint.hpp"
 #include "protocol/telemetry/endpoint/link_report.hpp"
 #include "protocol/telemetry/registry/snapshot.hpp"
 
@@ -40,7 +40,7 @@ struct OperatorView {
 
 class CarEndpoint {
  public:
-  CarEndpoint(const ConduitConfig& config, Randomness& randomness);
+  CarEndpoint(const LinkEndpointConfig& config, Randomness& randomness);
   ~CarEndpoint();
   CarEndpoint(CarEndpoint&&) noexcept;
   CarEndpoint& operator=(CarEndpoint&&) noexcept;

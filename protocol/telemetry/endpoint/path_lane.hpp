@@ -1,4 +1,4 @@
-// What one end knows and spends of one path.
+// State and budget of one path at one end.
 //   units  bytes per second; sizes are UDP payload, the overhead is added here
 //   invariants
 //          nothing leaves by the path but through spend()

@@ -1,4 +1,4 @@
-// What came last by each of several paths, told to its sender: an acknowledgement does not say by
+// Newest packet received on each path, reported to its sender: an acknowledgement does not say by
 // which path a packet came first, and rate control is of one path.
 //   wire   kPathReceipt: path u8, sequence u16 (low bits), hold u16 (100 us)
 //   invariants

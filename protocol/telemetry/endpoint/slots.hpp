@@ -1,5 +1,5 @@
-// When packets are made: one each kSlot, one half a slot later where something waits, and one at
-// any time for what cannot wait: a stop.
+// Schedule of packets: one each kSlot, one half a slot later where something waits, and one at any
+// time for what cannot wait: a stop.
 //
 //   |---- slot ----|---- slot ----|        the grid stands still: a poll that comes late moves
 //   state   between state   between        none of the slots after it

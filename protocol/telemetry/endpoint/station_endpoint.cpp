@@ -11,11 +11,11 @@
 namespace pitwall::telemetry {
 
 struct StationEndpoint::Parts {
-  Parts(const ConduitConfig& config, Randomness& source)
-      : conduit(config, Direction::kUp, source), desk(conduit.own().boot) {}
+  Parts(const LinkEndpointConfig& config, Randomness& source)
+      : endpoint(config, Direction::kUp, source), transmitter(endpoint.own().boot) {}
 
   void begin_session(bool peer_restarted, Instant now);
-  Arrival hear(const Heard& heard);
+  Arrival receive(const Heard& heard);
   void take_groups(const Heard& heard, Arrival& arrival);
   void take(const Record& record, const Received& received);
   void note_release();
@@ -26,16 +26,16 @@ struct StationEndpoint::Parts {
   Snapshot sample(Instant now) const;
   void make_packet(const PacketPlan& plan, Instant now);
 
-  Conduit conduit;
+  LinkEndpoint endpoint;
   StateLane lane{Direction::kUp};
   Snapshot state;
   std::array<std::uint64_t, kGroups> sequence_of{};  // of the packet that brought the group
   GroupSet mapped;  // groups whose time was told by compared clocks
-  StopDesk stop;
+  StopTransmitter stop;
   StopState stop_said, stop_asked;  // by the newest packet; when it was last tried to make one
-  AuthorityDesk authority;
+  AuthorityRegister authority;
   JoystickSender joystick;
-  CommandDesk desk;
+  CommandTransmitter transmitter;
   std::optional<CommandId> release;  // under way
   EventReceiver events;
   BulkReceiver bulk;
@@ -54,11 +54,11 @@ void StationEndpoint::Parts::begin_session(bool peer_restarted, Instant now) {
     bulk.peer_restarted();
     schema_size = 0;
   }
-  if (conduit.peer()) desk.meets(conduit.peer()->boot, now);
+  if (endpoint.peer()) transmitter.meets(endpoint.peer()->boot, now);
   lane.forget();
 }
 
-Arrival StationEndpoint::Parts::hear(const Heard& heard) {
+Arrival StationEndpoint::Parts::receive(const Heard& heard) {
   const Received& received = heard.received;
   Arrival arrival{
       .groups = {}, .sequence = received.sequence, .path = received.path, .received = received.at};
@@ -98,7 +98,7 @@ void StationEndpoint::Parts::take(const Record& record, const Received& received
   bool good = true;
   switch (record.type) {
     case RecordType::kCommandResult:
-      good = desk.take(record, received);
+      good = transmitter.take(record, received);
       break;
     case RecordType::kEvent:
       good = events.take(record, received);
@@ -107,7 +107,7 @@ void StationEndpoint::Parts::take(const Record& record, const Received& received
       good = bulk.take(record, received);
       break;
     default:
-      good = conduit.takes(record.type);
+      good = endpoint.takes(record.type);
   }
   if (!good) ++bad_records;
 }
@@ -115,13 +115,13 @@ void StationEndpoint::Parts::take(const Record& record, const Received& received
 // The latch that the release opened is asserted no longer.
 void StationEndpoint::Parts::note_release() {
   if (!release) return;
-  const CommandProgress* progress = desk.progress(*release);
+  const CommandProgress* progress = transmitter.progress(*release);
   if (progress && !progress->fate) return;
   if (progress && progress->fate == Outcome::kApplied) stop.released(*release);
   release.reset();
 }
 
-StationEndpoint::StationEndpoint(const ConduitConfig& config, Randomness& randomness)
+StationEndpoint::StationEndpoint(const LinkEndpointConfig& config, Randomness& randomness)
     : parts_(std::make_unique<Parts>(config, randomness)) {}
 StationEndpoint::~StationEndpoint() = default;
 StationEndpoint::StationEndpoint(StationEndpoint&&) noexcept = default;
@@ -129,18 +129,18 @@ StationEndpoint& StationEndpoint::operator=(StationEndpoint&&) noexcept = defaul
 
 std::optional<Arrival> StationEndpoint::feed(std::span<const std::uint8_t> datagram, PathId path,
                                              Address from, Instant at) {
-  const Conduit::Fed fed = parts_->conduit.feed(datagram, path, from, at);
+  const LinkEndpoint::Fed fed = parts_->endpoint.feed(datagram, path, from, at);
   if (fed.new_session) parts_->begin_session(fed.peer_restarted, at);
   if (!fed.heard) return {};
-  return parts_->hear(*fed.heard);
+  return parts_->receive(*fed.heard);
 }
 
 std::optional<Outgoing> StationEndpoint::poll(Instant now) {
   for (;;) {
     const Waits waits = parts_->stop_waits() ? Waits::kStop : Waits::kNothing;
-    if (const auto out = parts_->conduit.take(now, waits)) return out;
+    if (const auto out = parts_->endpoint.take(now, waits)) return out;
     parts_->stop_asked = parts_->stop.state();
-    const auto plan = parts_->conduit.plan(now, waits);
+    const auto plan = parts_->endpoint.plan(now, waits);
     if (!plan) return {};
     parts_->make_packet(*plan, now);
   }
@@ -161,40 +161,40 @@ Snapshot StationEndpoint::Parts::sample(Instant now) const {
 void StationEndpoint::Parts::make_packet(const PacketPlan& plan, Instant now) {
   const Snapshot snapshot = sample(now);
   stop_said = stop.state();
-  const std::size_t wants = desk.wanted() + events.wanted();
+  const std::size_t wants = transmitter.wanted() + events.wanted();
   const std::size_t safe =
-      lane.choose(snapshot, conduit.peer_knows(), {conduit.round_trip(), plan.rate}, now);
-  const PacketRoom room = conduit.room_for(plan, safe, wants, now);
-  BodyWriter body = conduit.begin(plan, room.whole, now);
+      lane.choose(snapshot, endpoint.peer_knows(), {endpoint.round_trip(), plan.rate}, now);
+  const PacketRoom room = endpoint.room_for(plan, safe, wants, now);
+  BodyWriter body = endpoint.begin(plan, room.whole, now);
   const std::size_t fixed = body.bytes().size();
   body.hold_back(room.records);
   const std::size_t of_state =
       lane.write(body, snapshot, {.only_safety = room.only_safety, .between = plan.between}, now);
   body.hold_back(0);
   const std::size_t written = body.bytes().size();
-  conduit.add_path_records(body, plan, now);
-  desk.fill(body, now);
+  endpoint.add_path_records(body, plan, now);
+  transmitter.fill(body, now);
   events.fill(body, now);
   const std::size_t safety = fixed + of_state + body.bytes().size() - written;
   if (!room.only_safety) {
-    body.hold_back(conduit.kept_from_others(plan, room, safety, now));
+    body.hold_back(endpoint.kept_from_others(plan, room, safety, now));
     bulk.fill(body, now);
   }
-  lane.sent(conduit.send(body, plan, safety, now), snapshot, now);
+  lane.sent(endpoint.send(body, plan, safety, now), snapshot, now);
 }
 
 Instant StationEndpoint::due() const {
   const bool untried = parts_->stop_waits() && parts_->stop_asked != parts_->stop.state();
-  return untried ? Instant{} : parts_->conduit.due();
+  return untried ? Instant{} : parts_->endpoint.due();
 }
 
 const Snapshot& StationEndpoint::state() const { return parts_->state; }
-bool StationEndpoint::clock_known() const { return parts_->conduit.clock().known(); }
+bool StationEndpoint::clock_known() const { return parts_->endpoint.clock().known(); }
 
 std::optional<CommandId> StationEndpoint::issue(const Command& command, Instant now) {
   const bool releases = command.type == CommandType::kReleaseStop;
   if (releases && parts_->release) return {};  // of two, the fate of the first would be missed
-  const auto id = parts_->desk.issue(command, now);
+  const auto id = parts_->transmitter.issue(command, now);
   if (id && releases) {
     parts_->release = id;
     parts_->stop.release_asked(*id);
@@ -203,18 +203,18 @@ std::optional<CommandId> StationEndpoint::issue(const Command& command, Instant 
 }
 
 const CommandProgress* StationEndpoint::progress(CommandId id) const {
-  return parts_->desk.progress(id);
+  return parts_->transmitter.progress(id);
 }
 const CommandProgress* StationEndpoint::newest(CommandType type) const {
-  return parts_->desk.newest(type);
+  return parts_->transmitter.newest(type);
 }
-StopDesk& StationEndpoint::stop() { return parts_->stop; }
-const StopDesk& StationEndpoint::stop() const { return parts_->stop; }
-AuthorityDesk& StationEndpoint::authority() { return parts_->authority; }
-const AuthorityDesk& StationEndpoint::authority() const { return parts_->authority; }
+StopTransmitter& StationEndpoint::stop() { return parts_->stop; }
+const StopTransmitter& StationEndpoint::stop() const { return parts_->stop; }
+AuthorityRegister& StationEndpoint::authority() { return parts_->authority; }
+const AuthorityRegister& StationEndpoint::authority() const { return parts_->authority; }
 void StationEndpoint::set_budget_share(double share) {
   CHECK(share > 0.0 && share <= 1.0);
-  parts_->conduit.cap(share);
+  parts_->endpoint.cap(share);
 }
 JoystickSender& StationEndpoint::joystick() { return parts_->joystick; }
 std::optional<Event> StationEndpoint::next_event() { return parts_->events.next(); }
@@ -229,32 +229,34 @@ std::optional<BulkReceiver::Object> StationEndpoint::next_bulk() {
   return {};
 }
 
-const std::optional<Greeting>& StationEndpoint::peer() const { return parts_->conduit.peer(); }
+const std::optional<Greeting>& StationEndpoint::peer() const { return parts_->endpoint.peer(); }
 void StationEndpoint::place(double station_m, double lap_length_m, Instant now) {
-  parts_->conduit.place(station_m, lap_length_m, now);
+  parts_->endpoint.place(station_m, lap_length_m, now);
 }
 double StationEndpoint::loss_at(std::size_t bin) const {
-  return parts_->conduit.stats().loss_at(bin);
+  return parts_->endpoint.stats().loss_at(bin);
 }
 
-Stamp StationEndpoint::newest_stamp() const { return parts_->conduit.newest_stamp(); }
+Stamp StationEndpoint::newest_stamp() const { return parts_->endpoint.newest_stamp(); }
 
-bool StationEndpoint::schema_agrees() const { return parts_->conduit.schema_agrees(); }
+bool StationEndpoint::schema_agrees() const { return parts_->endpoint.schema_agrees(); }
 std::string StationEndpoint::schema_difference() const {
   const Parts& p = *parts_;
   if (schema_agrees() || p.schema_size == 0) return {};
   const std::string theirs(p.schema_of_car.begin(),
                            p.schema_of_car.begin() + static_cast<std::ptrdiff_t>(p.schema_size));
-  const std::string_view own = p.conduit.claim().safety_text;
+  const std::string_view own = p.endpoint.claim().safety_text;
   return difference(own.empty() ? safety_text() : own, theirs);
 }
 
-std::optional<ThreatChange> StationEndpoint::next_threat() { return parts_->conduit.next_threat(); }
+std::optional<ThreatChange> StationEndpoint::next_threat() {
+  return parts_->endpoint.next_threat();
+}
 
 LinkReport StationEndpoint::report(Instant now) const {
   const Parts& p = *parts_;
   LinkReport report;
-  p.conduit.report(report, now);
+  p.endpoint.report(report, now);
   report.bad_records = p.bad_records;
   p.lane.report(report);
   report.events = p.events.counters();

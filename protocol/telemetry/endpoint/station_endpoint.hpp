@@ -18,12 +18,12 @@
 #include <string>
 
 #include "protocol/telemetry/command/authority.hpp"
-#include "protocol/telemetry/command/command_desk.hpp"
+#include "protocol/telemetry/command/command_transmitter.hpp"
 #include "protocol/telemetry/command/joystick.hpp"
 #include "protocol/telemetry/command/stop_latch.hpp"
 #include "protocol/telemetry/delivery/bulk.hpp"
 #include "protocol/telemetry/delivery/events.hpp"
-#include "protocol/telemetry/endpoint/conduit.hpp"
+#include "protocol/telemetry/endpoint/link_endpoint.hpp"
 #include "protocol/telemetry/endpoint/link_report.hpp"
 #include "protocol/telemetry/registry/snapshot.hpp"
 
@@ -39,7 +39,7 @@ struct Arrival {
 
 class StationEndpoint {
  public:
-  StationEndpoint(const ConduitConfig& config, Randomness& randomness);
+  StationEndpoint(const LinkEndpointConfig& config, Randomness& randomness);
   ~StationEndpoint();
   StationEndpoint(StationEndpoint&&) noexcept;
   StationEndpoint& operator=(StationEndpoint&&) noexcept;
@@ -55,14 +55,14 @@ class StationEndpoint {
   const Snapshot& state() const;
   bool clock_known() const;
 
-  // None as CommandDesk has it, and for a release of the stop while another is under way.
+  // None as CommandTransmitter has it, and for a release of the stop while another is under way.
   std::optional<CommandId> issue(const Command& command, Instant now);
   const CommandProgress* progress(CommandId id) const;
   const CommandProgress* newest(CommandType type) const;  // of those that are kept
-  StopDesk& stop();
-  const StopDesk& stop() const;
-  AuthorityDesk& authority();
-  const AuthorityDesk& authority() const;
+  StopTransmitter& stop();
+  const StopTransmitter& stop() const;
+  AuthorityRegister& authority();
+  const AuthorityRegister& authority() const;
   JoystickSender& joystick();
   // Of each path's rate, (0, 1]: what its people want to spend at most. Safety's share stays.
   void set_budget_share(double share);

@@ -1,4 +1,4 @@
-// What other programs read of the registry, made from it: nothing of it is written by hand.
+// Exports of the registry for other programs; all of them are generated.
 //   kinds  schema     canonical text, whose hash both ends compare
 //          golden     test vectors: codes of every field of a group and the bits that they become
 //          json       catalogue of groups, fields and commands for consoles and tools

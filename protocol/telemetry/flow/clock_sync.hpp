@@ -1,4 +1,5 @@
-// How the other end's clock stands to ours, from the times of packets and their acknowledgements.
+// Estimator of the offset between both ends' clocks, from the times of packets and their
+// acknowledgements.
 //   in     exchanges: we sent t1, they received t2, they sent t3, we received t4 (t1, t4 our clock,
 //          t2, t3 theirs); tx_time of packets
 //   out    offset with a bound that always holds while both clocks run at their rate +- 100 ppm;

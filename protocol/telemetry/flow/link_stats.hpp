@@ -1,4 +1,5 @@
-// How a path was, one direction: loss, bursts of loss, one-way delay, rate; and where on the track.
+// Statistics of one direction of a path: loss, bursts of loss, one-way delay, rate; and where on
+// the track.
 //   in     sequence numbers as they arrive (64 bit, with the paths each was sent on), delays,
 //          station of the car
 //   out    figures of the last seconds and of the run; two-state loss model fitted to the bursts;

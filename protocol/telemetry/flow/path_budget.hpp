@@ -1,5 +1,5 @@
-// What one end may put on one path: bytes and packets per second, IP and UDP overhead counted, with
-// a share that only safety may use. Nothing bypasses it: acknowledgements, key exchange and
+// Token bucket of one path at one end: bytes and packets per second, IP and UDP overhead counted,
+// with a share that only safety may use. Nothing bypasses it: acknowledgements, key exchange and
 // repetitions are spent from it like all else.
 //   invariants
 //          in every window of 100 ms (at any start) bytes <= rate / 10 + one largest packet and

@@ -1,5 +1,5 @@
-// How much of the budget the path carries at present, by the gradient of its one-way delay: a queue
-// that grows is congestion, loss alone is a fade and changes nothing.
+// Rate control of a path: the share of the budget that it carries at present, by the gradient of
+// its one-way delay. A queue that grows is congestion; loss alone is a fade and changes nothing.
 //   in     deliveries: when a packet was sent (our clock) and received (theirs; any offset), and
 //          the bytes that arrived since the delivery before, its own included
 //   out    factor of the budget, (0, 1]

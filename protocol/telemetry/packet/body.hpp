@@ -1,5 +1,5 @@
-// What is inside a data packet, once it is opened: time of sending, acknowledgement, groups of
-// state, records.
+// Body of a data packet once it is opened: time of sending, acknowledgement, groups of state,
+// records.
 //   wire   tx_time u24 (100 us units of the sender's clock, wraps), flags u8
 //            flags: has_ack 1, has_groups 2, paths sent on 4 (0x04 << path), 6 bits used
 //          [ack: newest u16, mask u32, hold u16 (100 us units, saturates)]

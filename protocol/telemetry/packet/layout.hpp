@@ -1,6 +1,6 @@
-// Which groups a sender's packets may hold, in the order of the bits of their set: the groups of
-// its direction, as its registry has them. Two ends whose registries differ read each other's
-// packets by the sender's layout and skip what they do not know.
+// Layout of a sender's packets: the groups of its direction in the order of the bits of their set,
+// as its registry has them. Two ends whose registries differ read each other's packets by the
+// sender's layout and skip what they do not know.
 //   invariants
 //          place k is bit k of the set; a place with a group of ours has that group's bits
 // SPDX-License-Identifier: Apache-2.0

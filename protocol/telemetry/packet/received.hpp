@@ -1,5 +1,4 @@
-// Where and when the packet that a record came in was sent and received, for the modules that take
-// records.
+// Times and path of the packet that carried a record, for the modules that take records.
 //   units  own clock; `sent_earliest` is the sender's time of sending on the own clock, minus the
 //          bound of the clock comparison: never later than the truth. Unset while the clocks have
 //          not been compared

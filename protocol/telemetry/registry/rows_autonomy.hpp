@@ -1,4 +1,4 @@
-// What the car believes and intends: localization, opponents, plan.
+// Registry rows of autonomy: localization, opponents, plan.
 //   units  stations and offsets as in rows_motion.hpp; an opponent's age is that of the detection
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,4 +1,4 @@
-// Where the car is, how it moves and what its actuators do.
+// Registry rows of motion: position, velocity, acceleration, actuators.
 //   frames Map and Body (ISO 8855) as in vehicle/world/ego_state.hpp; track offset left positive;
 //          steering at the road wheel, left positive
 //   source AV-21: top speed below 100 m/s; wheel speed in steps of 0.1 km/h; steering motor of

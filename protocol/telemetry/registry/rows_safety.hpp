@@ -1,5 +1,5 @@
-// What is in every packet, both ways: the rows of the groups of Class::kSafety. Each bit of them is
-// paid for fifty times a second.
+// Registry rows of Class::kSafety, which every packet carries in both directions. Each bit of them
+// is paid for fifty times a second.
 //   source states and flags: AV-21 DBC, misc_report, ct_report, base_to_car_summary; its heartbeat
 //          is lost after 10 s; stop, joystick and authority: protocol/telemetry/command
 // SPDX-License-Identifier: Apache-2.0

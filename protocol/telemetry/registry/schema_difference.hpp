@@ -1,4 +1,4 @@
-// What two registries mean differently, in words: for the pit wall, where somebody has to find out
+// Differences between two registries in words, for the pit wall, where somebody has to find out
 // which of two programs is the old one before the car may be armed.
 //   in     canonical texts (schema_text.hpp) of this end and of the other
 //   out    one line for each difference: what is here, what is there; empty where there is none

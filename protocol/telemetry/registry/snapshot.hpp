@@ -1,5 +1,5 @@
-// What one end knows of its own state at one moment: a value for each field and, for each group,
-// when it was sampled. A packet is made of the newest snapshot at the moment it is sent.
+// Snapshot of one end's own state: a value for each field and, for each group, when it was sampled.
+// A packet is made of the newest snapshot at the moment it is sent.
 //   units  Instant on the clock of the end that made it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -1,4 +1,5 @@
-// Where a datagram comes from or goes to. Opaque to the protocol: it is compared, never read.
+// Address of a datagram's sender or destination. Opaque to the protocol: it is compared, never
+// read.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -51,7 +51,7 @@ StandingKeys::StandingKeys(const Identity& own, const PublicKey& peer) {
   prepare_sodium();
   Key shared;
   usable_ = agree(own.secret_key, peer, shared);
-  knock_ = purpose_key(shared, "pitwall knock");
+  opening_key_ = purpose_key(shared, "pitwall knock");
   newer_stamp_ = purpose_key(shared, "pitwall newer stamp");
   unknown_ = purpose_key(shared, "pitwall unknown session");
 }
@@ -61,25 +61,25 @@ Stamp stamp_of(Bytes message) { return load<Stamp>(message, kStampAt); }
 void StandingKeys::tag_opening(std::span<std::uint8_t> opening, Stamp stamp) const {
   CHECK(opening.size() == kOpeningSize);
   store<Stamp>(opening, kStampAt, stamp);
-  const Tag tag = keyed_tag(knock_, {opening.first(kTagAt)});
+  const Tag tag = keyed_tag(opening_key_, {opening.first(kTagAt)});
   std::copy(tag.begin(), tag.end(), opening.begin() + kTagAt);
 }
 
 void StandingKeys::tag_answer(std::span<std::uint8_t> answer, Stamp stamp, Bytes opening_e) const {
   CHECK(answer.size() == kAnswerSize);
   store<Stamp>(answer, kStampAt, stamp);
-  const Tag tag = keyed_tag(knock_, {answer.first(kTagAt), opening_e});
+  const Tag tag = keyed_tag(opening_key_, {answer.first(kTagAt), opening_e});
   std::copy(tag.begin(), tag.end(), answer.begin() + kTagAt);
 }
 
 bool StandingKeys::opening_fits(Bytes opening) const {
   return opening.size() == kOpeningSize &&
-         same(keyed_tag(knock_, {opening.first(kTagAt)}), opening.subspan(kTagAt));
+         same(keyed_tag(opening_key_, {opening.first(kTagAt)}), opening.subspan(kTagAt));
 }
 
 bool StandingKeys::answer_fits(Bytes answer, Bytes opening_e) const {
   return answer.size() == kAnswerSize &&
-         same(keyed_tag(knock_, {answer.first(kTagAt), opening_e}), answer.subspan(kTagAt));
+         same(keyed_tag(opening_key_, {answer.first(kTagAt), opening_e}), answer.subspan(kTagAt));
 }
 
 std::size_t StandingKeys::write_newer_stamp(Stamp stamp, Bytes opening_e,

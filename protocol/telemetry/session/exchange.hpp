@@ -24,8 +24,8 @@
 #include <string_view>
 
 #include "protocol/telemetry/packet/header.hpp"
-#include "protocol/telemetry/session/cipher.hpp"
-#include "protocol/telemetry/session/noise_kk.hpp"
+#include "protocol/telemetry/session/crypto/cipher.hpp"
+#include "protocol/telemetry/session/crypto/noise_kk.hpp"
 #include "protocol/telemetry/session/stamp.hpp"
 
 namespace pitwall::telemetry {
@@ -96,7 +96,7 @@ class StandingKeys {
 
  private:
   bool usable_ = false;
-  Key knock_, newer_stamp_, unknown_;
+  Key opening_key_, newer_stamp_, unknown_;
 };
 
 // Parts of an opening or answer.

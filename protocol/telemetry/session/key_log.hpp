@@ -12,7 +12,7 @@
 #include <functional>
 #include <string>
 
-#include "protocol/telemetry/session/cipher.hpp"
+#include "protocol/telemetry/session/crypto/cipher.hpp"
 
 namespace pitwall::telemetry {
 

@@ -1,5 +1,5 @@
-// Where packets of one path go: an address that the peer proved to be at, and beside it at most one
-// from which an authentic packet came but that has yet to prove itself.
+// Addresses of the peer on one path: one that the peer has proved to be at, and at most one
+// candidate from which an authentic packet came but that has yet to prove itself.
 //
 //   newest authentic packet from B     token comes back from B
 //   A proved ------------------------> A proved, B on trial -------------> B proved
@@ -18,7 +18,7 @@
 #include <optional>
 
 #include "protocol/telemetry/session/address.hpp"
-#include "protocol/telemetry/session/randomness.hpp"
+#include "protocol/telemetry/session/crypto/randomness.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "protocol/vocabulary/time.hpp"
 

@@ -1,5 +1,5 @@
-// Which numbers of packets were had: the newest and the 1023 before it. Ask first, set only once
-// the packet proved authentic: a forged number must move nothing.
+// Replay window: the numbers of packets that were accepted, the newest and the 1023 before it. Ask
+// first, set only once the packet proved authentic: a forged number must move nothing.
 //   cost   constant, but for a jump forward: at most kWords words are cleared
 //   source RFC 6479 (blocks are cleared whole, so that the window never shifts)
 // SPDX-License-Identifier: Apache-2.0

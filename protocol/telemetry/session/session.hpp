@@ -10,9 +10,9 @@
 
 #include <cstdint>
 
+#include "protocol/telemetry/session/crypto/noise_kk.hpp"
 #include "protocol/telemetry/session/exchange.hpp"
 #include "protocol/telemetry/session/key_log.hpp"
-#include "protocol/telemetry/session/noise_kk.hpp"
 #include "protocol/telemetry/session/traffic.hpp"
 #include "protocol/vocabulary/time.hpp"
 

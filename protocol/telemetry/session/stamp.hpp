@@ -15,6 +15,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "protocol/vocabulary/random.hpp"
+
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::telemetry {
@@ -44,7 +46,8 @@ class StampClock {
 class StaleStamps {
  public:
   constexpr bool is_new(Stamp stamp) {
-    Set& set = sets_[mixed(stamp) % sets_.size()];
+    // Recorded stamps lie at equal distances: every bit has to count.
+    Set& set = sets_[mix_bits(stamp) % sets_.size()];
     if (std::find(set.stamps.begin(), set.stamps.end(), stamp) != set.stamps.end()) return false;
     set.stamps[set.next] = stamp;
     set.next = static_cast<std::uint8_t>((set.next + 1) % kWays);
@@ -53,12 +56,6 @@ class StaleStamps {
 
  private:
   static constexpr std::size_t kWays = 8, kSets = 1'024;
-  // Recorded stamps lie at equal distances: every bit has to count (Steele et al., SplitMix64).
-  static constexpr std::uint64_t mixed(std::uint64_t x) {
-    x = (x ^ x >> 30U) * 0xBF58476D1CE4E5B9U;
-    x = (x ^ x >> 27U) * 0x94D049BB133111EBU;
-    return x ^ x >> 31U;
-  }
   struct Set {
     std::array<Stamp, kWays> stamps{};
     std::uint8_t next = 0;

@@ -21,7 +21,7 @@
 #include <span>
 
 #include "protocol/telemetry/packet/header.hpp"
-#include "protocol/telemetry/session/cipher.hpp"
+#include "protocol/telemetry/session/crypto/cipher.hpp"
 #include "protocol/telemetry/session/replay_window.hpp"
 #include "protocol/vocabulary/time.hpp"
 

@@ -1,4 +1,4 @@
-// For how long bench time stands, and for how long it has stood in all.
+// Pause of bench time: how long it stands now, and how long it has stood in all.
 //
 //   wall clock   0    10    20    30    40
 //   bench time   0    10    10    10    20

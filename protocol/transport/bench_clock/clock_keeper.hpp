@@ -1,4 +1,5 @@
-// Keeps bench time: lets it follow the wall clock, and stand while the host holds somebody up.
+// Keeper of bench time: the time follows the wall clock, and stands while the host holds a process
+// up.
 //
 //   wall clock   0 . . . 10 . . . 20 . . . 30 . . . 40
 //   bench time   0 . . . 10 . . . . . . . . . 10 . . 20     the car had no processor from 10 to 30

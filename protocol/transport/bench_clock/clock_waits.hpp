@@ -1,4 +1,4 @@
-// For whom bench time stood, and for how long.
+// Record of the waits of bench time: how often, how long, and for which process.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,5 @@
-// Keeps bench time in a thread of its own, for several benches and programs that share one file.
+// Keeper of bench time in a thread of its own, for several benches and programs that share one
+// file.
 //   in     the file
 //   out    bench time from here to the end of its life
 //   errors keep(): Problem with the file, or another keeps it

@@ -1,4 +1,4 @@
-// What the kernel says of a thread of another process: whether it runs, wants to, waits, or is
+// Scheduling state of a thread of another process, by the kernel: running, runnable, waiting or
 // stopped.
 //   in     process and thread numbers
 //   out    its state; the processor time of its process

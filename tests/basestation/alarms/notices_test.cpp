@@ -11,7 +11,7 @@ namespace {
 
 using state::LinkState;
 
-struct Desk {
+struct BenchServer {
   Notices notices;
   Instant now{seconds(100).ns};
 
@@ -32,63 +32,63 @@ using enum NoticeKind;
 using Kinds = std::vector<NoticeKind>;
 
 TEST(Notices, AMereDelayIsToldAsOne) {
-  Desk desk;
-  desk.run(seconds(5), LinkState::kGood);
-  EXPECT_TRUE(desk.notices.all().empty());
-  desk.run(seconds(4), LinkState::kDegraded, 0.34, 210.0);
-  desk.run(seconds(5), LinkState::kGood);
-  ASSERT_EQ(desk.kinds(), (Kinds{kDegraded, kRestored}));
-  EXPECT_EQ(desk.notices.all()[0].text,
+  BenchServer authority;
+  authority.run(seconds(5), LinkState::kGood);
+  EXPECT_TRUE(authority.notices.all().empty());
+  authority.run(seconds(4), LinkState::kDegraded, 0.34, 210.0);
+  authority.run(seconds(5), LinkState::kGood);
+  ASSERT_EQ(authority.kinds(), (Kinds{kDegraded, kRestored}));
+  EXPECT_EQ(authority.notices.all()[0].text,
             "Radio to our car is degraded, not lost. Car: driving. It hears us and drives on; no "
             "action is asked.");
-  EXPECT_EQ(desk.notices.all()[0].evidence, "silence 0.02 s, loss 34 %, round trip 210 ms");
-  EXPECT_EQ(desk.notices.all()[1].text,
+  EXPECT_EQ(authority.notices.all()[0].evidence, "silence 0.02 s, loss 34 %, round trip 210 ms");
+  EXPECT_EQ(authority.notices.all()[1].text,
             "Radio to our car is good again after 4.0 s. Car: driving.");
-  EXPECT_EQ(desk.notices.all()[1].evidence,
+  EXPECT_EQ(authority.notices.all()[1].evidence,
             "was degraded, never lost; longest silence 0.02 s, worst loss 34 %, longest round "
             "trip 210 ms");
 }
 
 TEST(Notices, ALossIsOneMessageToo) {
-  Desk desk;
-  desk.run(seconds(1), LinkState::kGood);
-  desk.run(seconds(1), LinkState::kDegraded, 0.2);
-  desk.run(seconds(3), LinkState::kLost, 1.0, 20.0, seconds(1));
-  desk.run(seconds(1), LinkState::kDegraded, 0.5);
-  desk.run(seconds(1), LinkState::kLost, 1.0, 20.0, seconds(2));
-  ASSERT_EQ(desk.kinds(), (Kinds{kDegraded}));
-  EXPECT_EQ(desk.notices.all()[0].text,
+  BenchServer authority;
+  authority.run(seconds(1), LinkState::kGood);
+  authority.run(seconds(1), LinkState::kDegraded, 0.2);
+  authority.run(seconds(3), LinkState::kLost, 1.0, 20.0, seconds(1));
+  authority.run(seconds(1), LinkState::kDegraded, 0.5);
+  authority.run(seconds(1), LinkState::kLost, 1.0, 20.0, seconds(2));
+  ASSERT_EQ(authority.kinds(), (Kinds{kDegraded}));
+  EXPECT_EQ(authority.notices.all()[0].text,
             "Radio to our car is lost. Car, when last heard: driving. If the silence lasts it "
             "makes a controlled stop by itself.");
-  desk.run(seconds(3), LinkState::kGood);
-  EXPECT_EQ(desk.kinds(), (Kinds{kDegraded, kRestored}));
+  authority.run(seconds(3), LinkState::kGood);
+  EXPECT_EQ(authority.kinds(), (Kinds{kDegraded, kRestored}));
 }
 
 TEST(Notices, WhatWasSentStaysWhatItSaid) {
-  Desk desk;
-  desk.run(seconds(1), LinkState::kDegraded, 0.2);
-  const std::string said = desk.notices.all()[0].text;
-  EXPECT_FALSE(desk.notices.decide(1, NoticeFate::kTold, ""));
-  EXPECT_TRUE(desk.notices.decide(1, NoticeFate::kTold, "Ada"));
-  EXPECT_FALSE(desk.notices.decide(1, NoticeFate::kDismissed, "Ada"));
-  EXPECT_FALSE(desk.notices.decide(2, NoticeFate::kTold, "Ada"));
-  desk.run(seconds(1), LinkState::kLost, 1.0);
-  EXPECT_EQ(desk.notices.all()[0].text, said);
-  EXPECT_EQ(desk.kinds().size(), 1U);
+  BenchServer authority;
+  authority.run(seconds(1), LinkState::kDegraded, 0.2);
+  const std::string said = authority.notices.all()[0].text;
+  EXPECT_FALSE(authority.notices.decide(1, NoticeFate::kTold, ""));
+  EXPECT_TRUE(authority.notices.decide(1, NoticeFate::kTold, "Ada"));
+  EXPECT_FALSE(authority.notices.decide(1, NoticeFate::kDismissed, "Ada"));
+  EXPECT_FALSE(authority.notices.decide(2, NoticeFate::kTold, "Ada"));
+  authority.run(seconds(1), LinkState::kLost, 1.0);
+  EXPECT_EQ(authority.notices.all()[0].text, said);
+  EXPECT_EQ(authority.kinds().size(), 1U);
 }
 
 // However the link flutters: degraded and restored take turns, beginning with degraded.
 TEST(Notices, EachExactlyOnceInTurn) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     std::mt19937 random{seed};
-    Desk desk;
+    BenchServer authority;
     for (int i = 0; i < 60; ++i) {
-      desk.run(milliseconds(100 + static_cast<std::int64_t>(random() % 4'000)),
-               static_cast<LinkState>(random() % 4));
+      authority.run(milliseconds(100 + static_cast<std::int64_t>(random() % 4'000)),
+                    static_cast<LinkState>(random() % 4));
     }
-    desk.run(seconds(3), LinkState::kGood);
+    authority.run(seconds(3), LinkState::kGood);
     NoticeKind expected = kDegraded;
-    for (const NoticeKind kind : desk.kinds()) {
+    for (const NoticeKind kind : authority.kinds()) {
       EXPECT_EQ(kind, expected) << seed;
       expected = kind == kDegraded ? kRestored : kDegraded;
     }
@@ -97,9 +97,9 @@ TEST(Notices, EachExactlyOnceInTurn) {
 }
 
 TEST(Notices, ACarThatWasNeverHeardIsNoMessage) {
-  Desk desk;
-  desk.run(seconds(60), LinkState::kNone);
-  EXPECT_TRUE(desk.notices.all().empty());
+  BenchServer authority;
+  authority.run(seconds(60), LinkState::kNone);
+  EXPECT_TRUE(authority.notices.all().empty());
 }
 
 }  // namespace

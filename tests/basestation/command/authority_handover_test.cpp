@@ -12,9 +12,9 @@ namespace pitwall::command {
 namespace {
 
 struct AuthorityPit {
-  telemetry::AuthorityDesk desk;
+  telemetry::AuthorityRegister authority;
   Audit audit;
-  AuthorityHandover talk{desk, audit};
+  AuthorityHandover talk{authority, audit};
   Instant now{seconds(100).ns};
 
   // The holder renews each second, as his console does.

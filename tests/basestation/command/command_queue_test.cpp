@@ -19,7 +19,7 @@ struct CommandPit {
   HealthyRace wall;
   RadioRig radio;
   Audit audit;
-  CommandQueue desk{{}, true, audit};
+  CommandQueue authority{{}, true, audit};
 
   CommandPit() {
     wall.run(seconds(5));
@@ -33,27 +33,27 @@ struct CommandPit {
     return {wall.told.vehicle, wall.evaluator, endpoint().authority().holder(radio.now), radio.now};
   }
   TicketId stage(double mps) {
-    const auto staged = desk.stage(kAda, CommandType::kSpeedLimit, mps, inputs());
+    const auto staged = authority.stage(kAda, CommandType::kSpeedLimit, mps, inputs());
     EXPECT_TRUE(staged);
     return staged.value_or(0);
   }
   Result<bool, Problem> send(TicketId id, const std::optional<Override>& with = std::nullopt) {
-    return desk.send(id, kAda, with, inputs(), endpoint());
+    return authority.send(id, kAda, with, inputs(), endpoint());
   }
   void run(Duration length) {
     for (const Instant end = radio.now + length; radio.now < end;) {
       radio.run(milliseconds(100));
       (void)endpoint().authority().renew(kAda.console, radio.now);
-      desk.follow(wall.told.vehicle, endpoint(), radio.now);
+      authority.follow(wall.told.vehicle, endpoint(), radio.now);
     }
   }
-  Step step(TicketId id) const { return desk.ticket(id)->step; }
+  Step step(TicketId id) const { return authority.ticket(id)->step; }
 };
 
 TEST(CommandQueue, WhatDoesNotExistCannotBeStaged) {
   CommandPit pit;
   const auto refused = [&](CommandType type, double argument) {
-    const auto staged = pit.desk.stage(kAda, type, argument, pit.inputs());
+    const auto staged = pit.authority.stage(kAda, type, argument, pit.inputs());
     EXPECT_EQ(pit.audit.lines().back().result.substr(0, 7), staged ? "gates p" : "refused");
     return staged ? std::string{} : staged.error().what;
   };
@@ -67,7 +67,7 @@ TEST(CommandQueue, WhatDoesNotExistCannotBeStaged) {
        {CommandType::kRaceLine, CommandType::kRole, CommandType::kSendParameters}) {
     EXPECT_EQ(refused(type, 1.0), "no car carries this out");
   }
-  EXPECT_TRUE(pit.desk.tickets().empty());
+  EXPECT_TRUE(pit.authority.tickets().empty());
   EXPECT_EQ(refused(CommandType::kTrackFlag, 3.0), "");
   EXPECT_EQ(pit.audit.lines().back().what, "stage track flag YELLOW");
 }
@@ -83,13 +83,13 @@ TEST(CommandQueue, ACommandClimbsTheLadderOfTheRealRadio) {
   ASSERT_EQ(pit.radio.told.size(), 1U);
   pit.radio.car->decide(pit.radio.told.front().id, Outcome::kApplied, pit.radio.now);
   pit.run(milliseconds(300));
-  const Ticket& ticket = *pit.desk.ticket(id);
+  const Ticket& ticket = *pit.authority.ticket(id);
   EXPECT_EQ(ticket.step, Step::kApplied);
   EXPECT_FALSE(ticket.echoed);
   pit.wall.set(field("planner.operator_limit"), 54.0);
   pit.wall.run(seconds(1));
-  pit.desk.follow(pit.wall.told.vehicle, pit.endpoint(), pit.wall.now);
-  EXPECT_TRUE(pit.desk.ticket(id)->echoed);
+  pit.authority.follow(pit.wall.told.vehicle, pit.endpoint(), pit.wall.now);
+  EXPECT_TRUE(pit.authority.ticket(id)->echoed);
   std::optional<Instant> before;
   for (const Step step :
        {Step::kStaged, Step::kGated, Step::kSent, Step::kReceived, Step::kApplied}) {
@@ -108,14 +108,14 @@ TEST(CommandQueue, TheCarsRefusalIsShownInItsWords) {
   pit.radio.car->decide(pit.radio.told.front().id, Outcome::kRefused, pit.radio.now);
   pit.run(milliseconds(300));
   EXPECT_EQ(pit.step(id), Step::kRefused);
-  EXPECT_EQ(pit.desk.ticket(id)->text, telemetry::text_of(Outcome::kRefused));
+  EXPECT_EQ(pit.authority.ticket(id)->text, telemetry::text_of(Outcome::kRefused));
   EXPECT_EQ(pit.audit.lines().back().who, "Ada");
 }
 
 TEST(CommandQueue, GatesAreJudgedAnewWhenItIsSent) {
   CommandPit pit;
   const TicketId id = pit.stage(54.0);
-  EXPECT_TRUE(all_pass(pit.desk.ticket(id)->gates));
+  EXPECT_TRUE(all_pass(pit.authority.ticket(id)->gates));
   pit.wall.tyres(29.0);
   pit.wall.run(seconds(1));
   const auto sent = pit.send(id);
@@ -137,7 +137,7 @@ TEST(CommandQueue, AnOverrideWantsAReasonAndASecondPerson) {
   EXPECT_FALSE(pit.send(id, Override{"qualifying", kAda}));
   EXPECT_FALSE(pit.send(id, Override{"qualifying", {kAda.console, "Bob"}}));  // the same console
   ASSERT_TRUE(pit.send(id, Override{"qualifying", kBob}));
-  EXPECT_EQ(pit.desk.ticket(id)->overridden->second, kBob);
+  EXPECT_EQ(pit.authority.ticket(id)->overridden->second, kBob);
   bool logged = false;
   for (const AuditLine& line : pit.audit.lines()) {
     logged = logged || (line.what == "override speed limit 54 m/s" &&
@@ -165,11 +165,11 @@ TEST(CommandQueue, ATicketIsSentOnceAndExpires) {
   const TicketId sent = pit.stage(54.0), left = pit.stage(53.0), cancelled = pit.stage(52.0);
   ASSERT_TRUE(pit.send(sent));
   EXPECT_FALSE(pit.send(sent));
-  EXPECT_FALSE(pit.desk.cancel(sent, kAda, pit.radio.now));
-  EXPECT_TRUE(pit.desk.cancel(cancelled, kAda, pit.radio.now));
+  EXPECT_FALSE(pit.authority.cancel(sent, kAda, pit.radio.now));
+  EXPECT_TRUE(pit.authority.cancel(cancelled, kAda, pit.radio.now));
   EXPECT_FALSE(pit.send(cancelled));
   EXPECT_FALSE(pit.send(99));
-  EXPECT_FALSE(pit.desk.cancel(99, kAda, pit.radio.now));
+  EXPECT_FALSE(pit.authority.cancel(99, kAda, pit.radio.now));
   pit.run(seconds(31));
   EXPECT_EQ(pit.step(left), Step::kExpired);
   EXPECT_FALSE(pit.send(left));
@@ -178,9 +178,9 @@ TEST(CommandQueue, ATicketIsSentOnceAndExpires) {
 TEST(CommandQueue, OutOfRangeIsNoTicket) {
   CommandPit pit;
   for (const double argument : {-1.0, 121.0, kUnset}) {
-    EXPECT_FALSE(pit.desk.stage(kAda, CommandType::kSpeedLimit, argument, pit.inputs()));
+    EXPECT_FALSE(pit.authority.stage(kAda, CommandType::kSpeedLimit, argument, pit.inputs()));
   }
-  EXPECT_TRUE(pit.desk.tickets().empty());
+  EXPECT_TRUE(pit.authority.tickets().empty());
   EXPECT_EQ(pit.audit.count(), 3U);
 }
 
@@ -189,8 +189,8 @@ TEST(CommandQueue, AStopWantsNothing) {
   pit.endpoint().authority().drop(kAda.console, pit.radio.now);
   pit.wall.packets = false;
   pit.wall.run(seconds(5));
-  pit.desk.stop(telemetry::StopLevel::kEmergency, telemetry::StopReason::kOperator, kBob,
-                pit.radio.now, pit.endpoint());
+  pit.authority.stop(telemetry::StopLevel::kEmergency, telemetry::StopReason::kOperator, kBob,
+                     pit.radio.now, pit.endpoint());
   EXPECT_EQ(pit.audit.lines().back().what, "EMERGENCY STOP");
   pit.radio.run(milliseconds(200));
   EXPECT_EQ(pit.radio.car->view(pit.radio.now).stop, telemetry::StopLevel::kEmergency);
@@ -199,31 +199,32 @@ TEST(CommandQueue, AStopWantsNothing) {
 TEST(CommandQueue, EveryChangeOfATicketHasItsRevision) {
   CommandPit pit;
   const TicketId a = pit.stage(54.0), b = pit.stage(53.0);
-  EXPECT_EQ(pit.desk.ticket(a)->revision, 1U);
-  EXPECT_EQ(pit.desk.ticket(b)->revision, 2U);
-  const std::uint64_t before = pit.desk.revision();
+  EXPECT_EQ(pit.authority.ticket(a)->revision, 1U);
+  EXPECT_EQ(pit.authority.ticket(b)->revision, 2U);
+  const std::uint64_t before = pit.authority.revision();
   ASSERT_TRUE(pit.send(b));
-  ASSERT_TRUE(pit.desk.cancel(a, kAda, pit.radio.now));
-  EXPECT_GT(pit.desk.ticket(b)->revision, before);
-  EXPECT_GT(pit.desk.ticket(a)->revision, pit.desk.ticket(b)->revision);
-  EXPECT_EQ(pit.desk.revision(), pit.desk.ticket(a)->revision);
+  ASSERT_TRUE(pit.authority.cancel(a, kAda, pit.radio.now));
+  EXPECT_GT(pit.authority.ticket(b)->revision, before);
+  EXPECT_GT(pit.authority.ticket(a)->revision, pit.authority.ticket(b)->revision);
+  EXPECT_EQ(pit.authority.revision(), pit.authority.ticket(a)->revision);
 }
 
 TEST(CommandQueue, WhatIsIssuedPassesTheGatesAtOnceOrHasEnded) {
   CommandPit pit;
   const auto issue = [&](double mps, const std::optional<Override>& with = std::nullopt) {
-    return pit.desk.issue(kAda, CommandType::kSpeedLimit, mps, with, pit.inputs(), pit.endpoint());
+    return pit.authority.issue(kAda, CommandType::kSpeedLimit, mps, with, pit.inputs(),
+                               pit.endpoint());
   };
   ASSERT_TRUE(issue(54.0));
-  EXPECT_EQ(pit.desk.tickets().back().step, Step::kGated);
-  EXPECT_EQ(pit.desk.issued(), 1U);
+  EXPECT_EQ(pit.authority.tickets().back().step, Step::kGated);
+  EXPECT_EQ(pit.authority.issued(), 1U);
   const auto refused = issue(90.0);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().what.find("step"), std::string::npos) << refused.error().what;
-  EXPECT_EQ(pit.desk.tickets().back().step, Step::kRefused);
+  EXPECT_EQ(pit.authority.tickets().back().step, Step::kRefused);
   EXPECT_FALSE(issue(90.0, Override{.reason = "dry line", .second = {}})) << "nobody agrees";
   EXPECT_TRUE(issue(90.0, Override{.reason = "dry line", .second = kBob}));
-  EXPECT_EQ(pit.desk.issued(), 2U);
+  EXPECT_EQ(pit.authority.issued(), 2U);
 }
 
 // Without tokens nobody can prove to be a second person.
@@ -241,9 +242,9 @@ TEST(CommandQueue, WithoutTokensAnOverrideTakesAReason) {
 TEST(CommandQueue, KeepsTheNewestTickets) {
   CommandPit pit;
   for (std::size_t i = 0; i < CommandQueue::kKept + 5; ++i) pit.stage(50.0);
-  EXPECT_EQ(pit.desk.tickets().size(), CommandQueue::kKept);
-  EXPECT_EQ(pit.desk.ticket(5), nullptr);
-  EXPECT_EQ(pit.desk.ticket(6)->id, 6U);
+  EXPECT_EQ(pit.authority.tickets().size(), CommandQueue::kKept);
+  EXPECT_EQ(pit.authority.ticket(5), nullptr);
+  EXPECT_EQ(pit.authority.ticket(6)->id, 6U);
 }
 
 }  // namespace

@@ -229,6 +229,13 @@ TEST(Gates, AReleaseWantsACarThatStands) {
   pit.drive_at(0.0);
   pit.wall.run(seconds(2));
   EXPECT_TRUE(pit.passes(CommandType::kReleaseStop, 77.0));
+  // Slow enough, but the car waits until it has stood for a while before it opens its latch.
+  pit.wall.set(field("ego.vx"), 0.0);
+  for (const double stands : {0.0, 1.0}) {
+    pit.wall.set(field("wheels.standstill"), stands);
+    pit.wall.run(seconds(1));
+    EXPECT_EQ(pit.passes(CommandType::kReleaseStop, 1.0), stands == 1.0);
+  }
 }
 
 }  // namespace

@@ -19,18 +19,18 @@ struct Rig {
   int writes = 0;
   double written_limit = kUnset, written_budget = kUnset;
   std::uint64_t written_revision = 0;
-  SettingsEditor desk{evaluator,
-                      audit,
-                      7,
-                      {.least = 64.0, .most = 256.0, .now = 256.0},
-                      [this](const SettingsEditor::Wanted& wanted) -> Result<bool, Problem> {
-                        if (!disk_takes_it) return Unexpected{Problem{"wall.yaml", "disk full"}};
-                        ++writes;
-                        written_limit = wanted.alarms.of(slip()).limit;
-                        written_budget = wanted.up_kbit_s;
-                        written_revision = wanted.revision;
-                        return true;
-                      }};
+  SettingsEditor editor{evaluator,
+                        audit,
+                        7,
+                        {.least = 64.0, .most = 256.0, .now = 256.0},
+                        [this](const SettingsEditor::Wanted& wanted) -> Result<bool, Problem> {
+                          if (!disk_takes_it) return Unexpected{Problem{"wall.yaml", "disk full"}};
+                          ++writes;
+                          written_limit = wanted.alarms.of(slip()).limit;
+                          written_budget = wanted.up_kbit_s;
+                          written_revision = wanted.revision;
+                          return true;
+                        }};
 
   static alarms::AlarmIndex slip() { return *alarms::find_alarm("wheel_slip"); }
   static SettingsEditor::Said said(bool holds = true, std::string reason = "new tyres") {
@@ -53,11 +53,11 @@ struct Rig {
 TEST(SettingsEditor, AChangeIsWrittenAndThenInForce) {
   Rig rig;
   const std::string before = rig.evaluator.alarms().settings().version_text();
-  ASSERT_TRUE(rig.desk.change(Rig::said(), rig.slip_at(0.1)));
+  ASSERT_TRUE(rig.editor.change(Rig::said(), rig.slip_at(0.1)));
   EXPECT_EQ(rig.slip_limit(), 0.1);
   EXPECT_EQ(rig.written_limit, 0.1);
   EXPECT_EQ(rig.written_revision, 8u);
-  EXPECT_EQ(rig.desk.revision(), 8u);
+  EXPECT_EQ(rig.editor.revision(), 8u);
   EXPECT_NE(rig.evaluator.alarms().settings().version_text(), before);
   EXPECT_EQ(rig.audit.lines().back(),
             (AuditLine{.number = 1,
@@ -74,30 +74,30 @@ TEST(SettingsEditor, WhatIsRefusedChangesNothing) {
     ASSERT_FALSE(done) << what;
     EXPECT_NE(done.error().what.find(what), std::string::npos) << done.error().what;
     EXPECT_EQ(rig.slip_limit(), 0.08);
-    EXPECT_EQ(rig.desk.revision(), 7u);
-    EXPECT_EQ(rig.desk.budget().now, 256.0);
+    EXPECT_EQ(rig.editor.revision(), 7u);
+    EXPECT_EQ(rig.editor.budget().now, 256.0);
     EXPECT_EQ(rig.writes, 0);
     EXPECT_EQ(rig.audit.lines().back().result, "refused: " + done.error().what);
   };
-  refused(rig.desk.change(Rig::said(false), rig.slip_at(0.1)), "authority");
-  refused(rig.desk.change(Rig::said(true, ""), rig.slip_at(0.1)), "reason");
-  refused(rig.desk.change(Rig::said(), rig.slip_at(kUnset)), "number");
+  refused(rig.editor.change(Rig::said(false), rig.slip_at(0.1)), "authority");
+  refused(rig.editor.change(Rig::said(true, ""), rig.slip_at(0.1)), "reason");
+  refused(rig.editor.change(Rig::said(), rig.slip_at(kUnset)), "number");
   auto softer = rig.slip_at(0.1);
   softer.setting.priority = alarms::Priority::kLow;
-  refused(rig.desk.change(Rig::said(), softer), "a high alarm stays high");
+  refused(rig.editor.change(Rig::said(), softer), "a high alarm stays high");
   auto unknown = rig.slip_at(0.1);
   unknown.key = "nonsense";
-  refused(rig.desk.change(Rig::said(), unknown), "no such alarm");
-  refused(rig.desk.change(Rig::said(), Rig::limit_of(16'000)), "");
+  refused(rig.editor.change(Rig::said(), unknown), "no such alarm");
+  refused(rig.editor.change(Rig::said(), Rig::limit_of(16'000)), "");
   const alarms::Limit crossed{.warning_low = 10.0, .bad_low = 12.0};
-  refused(rig.desk.change(Rig::said(), Rig::limit_of(kBattery, crossed)), "");
-  refused(rig.desk.change_budget(Rig::said(false), 128.0), "authority");
+  refused(rig.editor.change(Rig::said(), Rig::limit_of(kBattery, crossed)), "");
+  refused(rig.editor.change_budget(Rig::said(false), 128.0), "authority");
   for (const double wrong : {63.9, 256.1, -1.0, kUnset, double{INFINITY}}) {
-    refused(rig.desk.change_budget(Rig::said(), wrong), "from 64 to 256 kbit/s");
+    refused(rig.editor.change_budget(Rig::said(), wrong), "expected 64 to 256 kbit/s");
   }
   rig.disk_takes_it = false;
-  refused(rig.desk.change(Rig::said(), rig.slip_at(0.1)), "disk full");
-  refused(rig.desk.change_budget(Rig::said(), 128.0), "disk full");
+  refused(rig.editor.change(Rig::said(), rig.slip_at(0.1)), "disk full");
+  refused(rig.editor.change_budget(Rig::said(), 128.0), "disk full");
 }
 
 TEST(SettingsEditor, SetsOfValuesAreChangedAndNoted) {
@@ -107,7 +107,7 @@ TEST(SettingsEditor, SetsOfValuesAreChangedAndNoted) {
   ASSERT_EQ(limit.bad_values, 1U << 3 | 1U << 4);
   limit.bad_values = 1U << 3;
   limit.warning_values = 0;
-  ASSERT_TRUE(rig.desk.change(Rig::said(), Rig::limit_of(kMode, limit)));
+  ASSERT_TRUE(rig.editor.change(Rig::said(), Rig::limit_of(kMode, limit)));
   EXPECT_EQ(rig.evaluator.limits().of(kMode).bad_values, limit.bad_values);
   EXPECT_EQ(rig.evaluator.limits().of(kMode).warning_values, 0U);
   EXPECT_EQ(rig.audit.lines().back().what,
@@ -116,27 +116,27 @@ TEST(SettingsEditor, SetsOfValuesAreChangedAndNoted) {
 
 TEST(SettingsEditor, ABoundThatIsNotSaidIsNone) {
   Rig rig;
-  ASSERT_TRUE(rig.desk.change(Rig::said(), Rig::limit_of(kBattery, {.bad_low = 11.0})));
+  ASSERT_TRUE(rig.editor.change(Rig::said(), Rig::limit_of(kBattery, {.bad_low = 11.0})));
   EXPECT_EQ(rig.evaluator.limits().of(kBattery).bad_low, 11.0);
   EXPECT_TRUE(std::isnan(rig.evaluator.limits().of(kBattery).warning_low));
 }
 
 TEST(SettingsEditor, TheBudgetIsKeptWithTheRest) {
   Rig rig;
-  ASSERT_TRUE(rig.desk.change_budget(Rig::said(), 128.0));
-  EXPECT_EQ(rig.desk.budget().now, 128.0);
+  ASSERT_TRUE(rig.editor.change_budget(Rig::said(), 128.0));
+  EXPECT_EQ(rig.editor.budget().now, 128.0);
   EXPECT_EQ(rig.written_budget, 128.0);
-  ASSERT_TRUE(rig.desk.change(Rig::said(), rig.slip_at(0.1)));
+  ASSERT_TRUE(rig.editor.change(Rig::said(), rig.slip_at(0.1)));
   EXPECT_EQ(rig.written_budget, 128.0);
 }
 
 TEST(SettingsEditor, WithoutAFileAChangeHoldsUntilTheEnd) {
   alarms::Evaluator evaluator;
   Audit audit;
-  SettingsEditor desk{evaluator, audit, 0, {.most = 256.0, .now = 256.0}, {}};
-  EXPECT_FALSE(desk.kept());
-  ASSERT_TRUE(desk.change_budget(Rig::said(), 100.0));
-  EXPECT_EQ(desk.revision(), 1u);
+  SettingsEditor editor{evaluator, audit, 0, {.most = 256.0, .now = 256.0}, {}};
+  EXPECT_FALSE(editor.kept());
+  ASSERT_TRUE(editor.change_budget(Rig::said(), 100.0));
+  EXPECT_EQ(editor.revision(), 1u);
 }
 
 }  // namespace

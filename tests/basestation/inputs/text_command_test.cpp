@@ -187,11 +187,11 @@ TEST(TextCommand, WhatIsNotUnderstoodIsSaidSo) {
                                "joystick nan 0",
                                "command speed_limit 1 2 3"};
   for (const char* const words : wrong) {
-    const auto obeyed = pit.execute(words);
-    EXPECT_FALSE(obeyed) << words;
+    const auto executed = pit.execute(words);
+    EXPECT_FALSE(executed) << words;
     EXPECT_FALSE(parse_text_command(words)) << words;
-    if (obeyed) continue;
-    EXPECT_EQ(obeyed.error().place, "operator: " + std::string{words});
+    if (executed) continue;
+    EXPECT_EQ(executed.error().place, "operator: " + std::string{words});
   }
   EXPECT_EQ(pit.base->requests().refused(), std::size(wrong));
   EXPECT_EQ(pit.base->requests().queue().issued(), 0U);

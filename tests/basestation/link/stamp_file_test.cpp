@@ -141,7 +141,7 @@ TEST_F(StampFiles, OfAFarFutureKeepsNoCarOut) {
        {kNow + static_cast<Stamp>(seconds(400'000'000).ns), static_cast<Stamp>(INT64_MAX)}) {
     ASSERT_TRUE(write(stamp_text(far)));
     RadioRig rig;
-    telemetry::ConduitConfig config = rig.config(rig.keys.base);
+    telemetry::LinkEndpointConfig config = rig.config(rig.keys.base);
     config.association.newest_stamp = newest();
     rig.base =
         std::make_unique<service::CarService>(service::ServiceConfig{}, config, rig.randomness);

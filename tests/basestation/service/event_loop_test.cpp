@@ -25,7 +25,7 @@ class EventLoop : public ::testing::Test {
   void SetUp() override {
     ASSERT_TRUE(radio_.front() && car_socket_ && words_);
     ASSERT_EQ(::pipe(stop_), 0);
-    telemetry::ConduitConfig config;
+    telemetry::LinkEndpointConfig config;
     config.association.keys = keys_.base;
     service_ = std::make_unique<CarService>(ServiceConfig{}, config, randomness_);
   }
@@ -50,7 +50,7 @@ class EventLoop : public ::testing::Test {
   }
   void drive(const std::atomic<bool>& over) {
     telemetry::SeededRandomness randomness(3);
-    telemetry::ConduitConfig config;
+    telemetry::LinkEndpointConfig config;
     config.association.keys = keys_.car;
     config.association.greeting.real_car = true;
     const transport::UdpAddress base = radio_.front()->local();

@@ -10,7 +10,7 @@
 #include "protocol/json/json_value.hpp"
 #include "protocol/telemetry/endpoint/car_endpoint.hpp"
 #include "protocol/transport/clock.hpp"
-#include "protocol/transport/line_socket.hpp"
+#include "protocol/transport/stream/line_socket.hpp"
 #include "tests/basestation/session/keys.hpp"
 
 namespace pitwall::session {
@@ -27,7 +27,7 @@ class Car {
   static constexpr telemetry::Stamp kStamp = 1'795'000'000'000'000'000;
 
   Car(const std::string& key_file, transport::UdpAddress base) : base_(base) {
-    telemetry::ConduitConfig config;
+    telemetry::LinkEndpointConfig config;
     config.association.keys = *link::read_keys(key_file, telemetry::Role::kCar);
     config.association.peer[0] = {.ip = base.ip, .port = base.port};
     config.association.to_utc = Instant{kStamp} - transport::monotonic_now();
@@ -62,60 +62,61 @@ class Session : public testing::Test {
   std::unique_ptr<CarSession> opened() {
     auto plan = plan_of(arguments_, nobody_hears);
     EXPECT_TRUE(plan) << to_string(plan.error());
-    auto stand = CarSession::open(*std::move(plan));
-    EXPECT_TRUE(stand) << to_string(stand.error());
-    return stand ? *std::move(stand) : nullptr;
+    auto session = CarSession::open(*std::move(plan));
+    EXPECT_TRUE(session) << to_string(session.error());
+    return session ? *std::move(session) : nullptr;
   }
-  // What is said by a stand that had a session with its car; its stamp file is written.
+  // What is said by a session that had a session with its car; its stamp file is written.
   std::string stamp_after_a_session() {
     std::string said;
-    const auto stand = opened();
-    EXPECT_TRUE(stand->begin(nullptr, [&](const std::string& line) { said += line + "\n"; }));
-    const service::CarLoop loop = stand->loop();
+    const auto session = opened();
+    EXPECT_TRUE(session->begin(nullptr, [&](const std::string& line) { said += line + "\n"; }));
+    const service::CarLoop loop = session->loop();
     Car car(folder_->path() + "/keys/car.keys", loop.radio[0].local());
     std::vector<transport::UdpDatagram> inbox(transport::UdpSocket::kBatch);
     const Instant limit = transport::monotonic_now() + kPatience;
     const auto waits = [&] {
       return transport::monotonic_now() < limit &&
-             (stand->service().link().endpoint().report(limit).sessions == 0 ||
+             (session->service().link().endpoint().report(limit).sessions == 0 ||
               (arguments_.stamp_file.find("nowhere") != std::string::npos && said.empty()));
     };
     while (waits()) {
       car.turn();
       for (const auto& d : std::span(inbox).first(loop.radio[0].receive(inbox))) {
-        stand->service().receive(d.payload(), 0, {.ip = d.from.ip, .port = d.from.port}, d.at);
-        while (const auto out = stand->service().poll(transport::monotonic_now())) {
+        session->service().receive(d.payload(), 0, {.ip = d.from.ip, .port = d.from.port}, d.at);
+        while (const auto out = session->service().poll(transport::monotonic_now())) {
           loop.radio[0].send_to({.ip = out->to.ip, .port = out->to.port}, out->bytes);
         }
       }
       for (service::Publisher* const publisher : loop.publishers) {
-        publisher->publish(stand->service(), transport::monotonic_now());
+        publisher->publish(session->service(), transport::monotonic_now());
       }
       transport::sleep_until(transport::monotonic_now() + milliseconds(2));
     }
-    EXPECT_EQ(stand->service().link().endpoint().report(limit).sessions, 1U);
+    EXPECT_EQ(session->service().link().endpoint().report(limit).sessions, 1U);
     return said;
   }
 
-  Result<transport::TemporaryFolder, Problem> folder_ = transport::TemporaryFolder::create("stand");
+  Result<transport::TemporaryFolder, Problem> folder_ =
+      transport::TemporaryFolder::create("session");
   settings::Arguments arguments_;
 };
 
 TEST_F(Session, HasItsSocketsAndAStationAtOnce) {
-  const auto stand = opened();
-  ASSERT_TRUE(stand);
-  EXPECT_EQ(stand->title(), "CAR 7 Blue");
-  EXPECT_EQ(stand->listening().find("listening at 127.0.0.1:"), 0u) << stand->listening();
-  EXPECT_NE(stand->listening().find(" and 127.0.0.1:"), std::string::npos);
-  ASSERT_TRUE(stand->begin(nullptr, nobody_hears));
-  const service::CarLoop loop = stand->loop();
+  const auto session = opened();
+  ASSERT_TRUE(session);
+  EXPECT_EQ(session->title(), "CAR 7 Blue");
+  EXPECT_EQ(session->listening().find("listening at 127.0.0.1:"), 0u) << session->listening();
+  EXPECT_NE(session->listening().find(" and 127.0.0.1:"), std::string::npos);
+  ASSERT_TRUE(session->begin(nullptr, nobody_hears));
+  const service::CarLoop loop = session->loop();
   EXPECT_EQ(loop.radio.size(), 2u);
-  EXPECT_EQ(loop.service, &stand->service());
+  EXPECT_EQ(loop.service, &session->service());
   EXPECT_EQ(loop.stop_port, nullptr);
   EXPECT_EQ(loop.commands, nullptr);
   EXPECT_EQ(loop.publishers.size(), 1u) << "the stamp's keeper";
-  EXPECT_EQ(stand->sight().mode, "NONE");
-  EXPECT_TRUE(stand->sight().link.empty());
+  EXPECT_EQ(session->status().mode, "NONE");
+  EXPECT_TRUE(session->status().link.empty());
 }
 
 TEST_F(Session, KeepsTheNewestStampOfItsCarUnlessItIsTold) {
@@ -151,12 +152,12 @@ TEST_F(Session, ASocketThatIsTakenIsTold) {
 TEST_F(Session, RecordsIntoItsOwnFolderAndWritesItsSummary) {
   arguments_.record_folder = folder_->path() + "/recording";
   arguments_.json_path = folder_->path() + "/summary.json";
-  const auto stand = opened();
-  ASSERT_TRUE(stand);
-  ASSERT_TRUE(stand->begin(nullptr, nobody_hears));
-  EXPECT_EQ(stand->loop().publishers.size(), 2u) << "the stamp's keeper and the journal";
+  const auto session = opened();
+  ASSERT_TRUE(session);
+  ASSERT_TRUE(session->begin(nullptr, nobody_hears));
+  EXPECT_EQ(session->loop().publishers.size(), 2u) << "the stamp's keeper and the journal";
   EXPECT_TRUE(std::filesystem::is_directory(arguments_.record_folder));
-  ASSERT_TRUE(stand->write_summary());
+  ASSERT_TRUE(session->write_summary());
   const auto text = transport::read_file(arguments_.json_path);
   ASSERT_TRUE(text);
   EXPECT_TRUE(json::JsonValue::parse(*text, "summary"));
@@ -164,32 +165,32 @@ TEST_F(Session, RecordsIntoItsOwnFolderAndWritesItsSummary) {
 
 TEST_F(Session, WhatCannotBeRecordedOrHeldIsTold) {
   arguments_.record_folder = arguments_.keys;  // a file
-  auto stand = opened();
-  ASSERT_TRUE(stand);
-  EXPECT_FALSE(stand->begin(nullptr, nobody_hears));
+  auto session = opened();
+  ASSERT_TRUE(session);
+  EXPECT_FALSE(session->begin(nullptr, nobody_hears));
   arguments_.record_folder.clear();
   arguments_.joystick = folder_->path() + "/no_device";
-  stand = opened();
-  ASSERT_TRUE(stand);
-  EXPECT_FALSE(stand->begin(nullptr, nobody_hears));
+  session = opened();
+  ASSERT_TRUE(session);
+  EXPECT_FALSE(session->begin(nullptr, nobody_hears));
 }
 
 TEST_F(Session, ShowsItselfToConsoles) {
   arguments_.web_port = 0;
   auto web = publishers::web::WebServer::start({}, {});
   ASSERT_TRUE(web);
-  const auto stand = opened();
-  ASSERT_TRUE(stand);
-  ASSERT_TRUE(stand->begin(web->get(), nobody_hears));
-  const service::CarLoop loop = stand->loop();
+  const auto session = opened();
+  ASSERT_TRUE(session);
+  ASSERT_TRUE(session->begin(web->get(), nobody_hears));
+  const service::CarLoop loop = session->loop();
   ASSERT_EQ(loop.publishers.size(), 2u) << "consoles, and the stamp's keeper";
-  EXPECT_EQ(stand->sight().number, 7);
+  EXPECT_EQ(session->status().number, 7);
 }
 
 TEST_F(Session, ACommandSocketIsItsOwnersAndJudgedByTheGates) {
   arguments_.command_socket = folder_->path() + "/commands";
-  const auto stand = opened();
-  ASSERT_TRUE(stand);
+  const auto session = opened();
+  ASSERT_TRUE(session);
   const auto mode = std::filesystem::status(arguments_.command_socket).permissions();
   EXPECT_EQ(mode & std::filesystem::perms::all,
             std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
@@ -200,12 +201,12 @@ TEST_F(Session, ACommandSocketIsItsOwnersAndJudgedByTheGates) {
   std::vector<std::string> answers;
   const Instant limit = transport::monotonic_now() + kPatience;
   while (answers.empty() && transport::monotonic_now() < limit) {
-    stand->loop().commands->serve(stand->service().requests(), transport::monotonic_now());
+    session->loop().commands->serve(session->service().requests(), transport::monotonic_now());
     for (std::string& line : client->receive()) answers.push_back(std::move(line));
   }
   ASSERT_EQ(answers.size(), 1u);
   EXPECT_EQ(answers[0].find("refused: gate link"), 0u) << answers[0];
-  EXPECT_EQ(stand->service().requests().audit().lines().back().who, "command socket");
+  EXPECT_EQ(session->service().requests().audit().lines().back().who, "command socket");
 }
 
 }  // namespace

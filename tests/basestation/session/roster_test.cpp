@@ -20,7 +20,7 @@ TEST(Roster, LooksTwiceASecond) {
   int looks = 0;
   Roster roster{**web, [&] {
                   ++looks;
-                  return std::vector<CarSight>{{.number = looks}};
+                  return std::vector<CarStatus>{{.number = looks}};
                 }};
   for (Instant now{seconds(9).ns}; now < Instant{seconds(10).ns}; now = now + milliseconds(10)) {
     roster.serve(now);

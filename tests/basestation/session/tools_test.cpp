@@ -60,7 +60,8 @@ TEST_F(SessionTools, FoxgloveIsSaidAndIsInTheMetricsOfItsCar) {
   serve_all();
   const std::string text = board_.text();
   EXPECT_NE(text.find(R"(pitwall_car_info{car="7",name="Blue",mode="NONE"} 1)"), std::string::npos);
-  EXPECT_NE(text.find(R"(pitwall_outlet_clients{car="7",outlet="foxglove"} 0)"), std::string::npos);
+  EXPECT_NE(text.find(R"(pitwall_publisher_clients{car="7",publisher="foxglove"} 0)"),
+            std::string::npos);
   EXPECT_NE(text.find("pitwall_web_consoles 0"), std::string::npos);
 }
 
@@ -105,9 +106,9 @@ TEST_F(SessionTools, FoxgloveOnANetworkTakesTokensOfItsOwn) {
 TEST_F(SessionTools, WhatTheBaseFindsIsLookedAt) {
   begin();
   serve_all();
-  publishers::ros_view::BaseSight sight;
-  look_of(session_->service())(sight, transport::monotonic_now());
-  EXPECT_EQ(sight.values[state::index_of(state::BaseField::kLinkState)], 0.0) << "none yet";
+  publishers::ros_view::BaseStatus base_status;
+  look_of(session_->service())(base_status, transport::monotonic_now());
+  EXPECT_EQ(base_status.values[state::index_of(state::BaseField::kLinkState)], 0.0) << "none yet";
 }
 
 }  // namespace

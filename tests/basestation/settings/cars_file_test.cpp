@@ -106,7 +106,7 @@ TEST(CarsFile, NoTwoCarsShareAnything) {
            {"signed: true", "stop_port: 23437"}}) {
     const auto cars = read(replaced(two, what, with));
     ASSERT_FALSE(cars) << with;
-    EXPECT_NE(cars.error().what.find("another car has it"), std::string::npos) << with;
+    EXPECT_NE(cars.error().what.find("is used by another car"), std::string::npos) << with;
     EXPECT_EQ(cars.error().place.find("cars.yaml:1"), 0u) << cars.error().place;
   }
 }

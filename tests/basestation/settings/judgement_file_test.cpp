@@ -96,7 +96,7 @@ TEST(JudgementFile, AMistakeHasItsPlaceAndAReason) {
                 "wall.yaml:3", "bad_low"},
            Case{"version: 1\ntyre_gate: {speed_mps: [1, 2, 3, 4, 4], temperature_c: [1, 2, 3, 4, "
                 "5]}",
-                "wall.yaml:2", "rises"},
+                "wall.yaml:2", "must rise"},
            Case{"version: 1\nfuel: {attempt_laps: 0}\n", "wall.yaml:2", ""},
            Case{"version: [\n", "wall.yaml:", ""},
        }) {

@@ -74,8 +74,8 @@ class Attacker {
     std::fflush(stdout);
     for (;;) {
       const std::uint32_t ready = transport::wait_readable(watched_, wake());
-      if ((ready & 1U) != 0 && !obey()) return;
-      if ((ready & 2U) != 0) overhear();
+      if ((ready & 1U) != 0 && !execute()) return;
+      if ((ready & 2U) != 0) observe();
       for (std::size_t i = 0; i < sockets_.size(); ++i)
         if ((ready >> (2 + i) & 1U) != 0) take_answers(i);
       pass_on();
@@ -99,7 +99,7 @@ class Attacker {
 
   // ---- what passes, and what comes here
 
-  void overhear() {
+  void observe() {
     const std::size_t n = tap_.receive(batch_);
     for (const UdpDatagram& datagram : std::span(batch_).first(n)) {
       const auto copy = read_copy(datagram.payload());
@@ -184,19 +184,19 @@ class Attacker {
   // ---- words
 
   // False at the end of the input.
-  bool obey() {
+  bool execute() {
     std::array<std::uint8_t, 512> bytes{};
     const transport::ReadOutcome read = transport::read_available(STDIN_FILENO, bytes);
     said_.append(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(read.bytes));
     for (std::size_t end = 0; (end = said_.find('\n')) != std::string::npos;
          said_.erase(0, end + 1)) {
       std::istringstream words(said_.substr(0, end));
-      if (!obey(words)) std::fprintf(stderr, "what is: %s\n", words.str().c_str());
+      if (!execute(words)) std::fprintf(stderr, "what is: %s\n", words.str().c_str());
     }
     return !read.ended;
   }
 
-  bool obey(std::istringstream& words) {
+  bool execute(std::istringstream& words) {
     static const std::map<std::string, bool (Attacker::*)(std::istringstream&)> kWords{
         {"openings", &Attacker::openings}, {"forged", &Attacker::forged},
         {"capture", &Attacker::capture},   {"old", &Attacker::old},
@@ -281,7 +281,7 @@ class Attacker {
   std::vector<UdpDatagram> batch_ = std::vector<UdpDatagram>(UdpSocket::kBatch);
   std::string said_;
   Recording recording_;
-  Forger forger_{1};
+  PacketForger forger_{1};
 
   std::function<Shot()> next_;  // of an attack that keeps a rate
   std::vector<Bytes> chosen_;

@@ -14,7 +14,7 @@ constexpr unsigned kKindShift = 2;
 
 }  // namespace
 
-const Bytes& Forger::next(std::span<const Recorded> recorded, bool for_base) {
+const Bytes& PacketForger::next(std::span<const Recorded> recorded, bool for_base) {
   const auto shape = static_cast<Shape>(turns_[for_base ? 1 : 0]++ % kShapes);
   const bool back = shape == Shape::kReflected;
   const Recorded* const from = draw(recorded, for_base != back);
@@ -28,7 +28,7 @@ const Bytes& Forger::next(std::span<const Recorded> recorded, bool for_base) {
 }
 
 // Of this direction, wherever it lies; none where there seems to be none.
-const Recorded* Forger::draw(std::span<const Recorded> recorded, bool from_car) {
+const Recorded* PacketForger::draw(std::span<const Recorded> recorded, bool from_car) {
   for (std::size_t i = 0; i < kTries && !recorded.empty(); ++i) {
     const Recorded& one = recorded[below(recorded.size())];
     if (one.from_car == from_car && one.bytes.size() > telemetry::kHeaderSize) return &one;
@@ -36,7 +36,7 @@ const Recorded* Forger::draw(std::span<const Recorded> recorded, bool from_car) 
   return nullptr;
 }
 
-void Forger::make(Shape shape, const Recorded& from, const Recorded& other) {
+void PacketForger::make(Shape shape, const Recorded& from, const Recorded& other) {
   made_ = from.bytes;
   switch (shape) {
     case Shape::kFlipped:
@@ -73,7 +73,7 @@ void Forger::make(Shape shape, const Recorded& from, const Recorded& other) {
   }
 }
 
-void Forger::flip() {
+void PacketForger::flip() {
   const Bytes before = made_;
   while (made_ == before) {
     for (std::size_t flips = 1 + below(kMostFlips); flips > 0; --flips) {
@@ -83,7 +83,7 @@ void Forger::flip() {
   }
 }
 
-void Forger::fill(std::size_t size) {
+void PacketForger::fill(std::size_t size) {
   made_.resize(size);
   for (std::uint8_t& byte : made_) byte = static_cast<std::uint8_t>(random_());
 }

@@ -28,9 +28,9 @@ enum class Shape : std::uint8_t {
 };
 inline constexpr unsigned kShapes = 10;
 
-class Forger {
+class PacketForger {
  public:
-  explicit Forger(std::uint64_t seed) : random_(seed) {}
+  explicit PacketForger(std::uint64_t seed) : random_(seed) {}
 
   // `for_base`: the victim; otherwise the car.
   const Bytes& next(std::span<const Recorded> recorded, bool for_base);

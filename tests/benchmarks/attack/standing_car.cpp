@@ -18,11 +18,11 @@
 
 #include "protocol/can/av21.hpp"
 #include "protocol/telemetry/state_packet.hpp"
-#include "protocol/transport/can_socket.hpp"
+#include "protocol/transport/can/can_socket.hpp"
+#include "protocol/transport/can/unix_can_hub.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/readiness.hpp"
 #include "protocol/transport/udp_socket.hpp"
-#include "protocol/transport/unix_can_hub.hpp"
 
 namespace pitwall {
 namespace {

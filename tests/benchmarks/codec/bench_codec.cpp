@@ -20,8 +20,8 @@
 #include "protocol/json/json_text.hpp"
 #include "protocol/telemetry/packet/header.hpp"
 #include "protocol/transport/clock.hpp"
-#include "tests/benchmarks/codec/contestant.hpp"
 #include "tests/benchmarks/codec/lap.hpp"
+#include "tests/benchmarks/codec/peer.hpp"
 #include "tests/benchmarks/cost/machine_name.hpp"
 #include "tests/benchmarks/cost/paired_ratio.hpp"
 #include "tests/benchmarks/cost/reference_cost.hpp"
@@ -38,7 +38,7 @@ constexpr const char *kOurs = "ours", *kSealed = "ours, sealed",
                      *kSealedProtobuf = "protobuf, float, sealed";
 constexpr int kHeld = 0, kMissed = 1, kNotThere = 2;
 
-bool kept(const Contestant& contestant, const Values& sent, const Values& read) {
+bool kept(const Peer& contestant, const Values& sent, const Values& read) {
   for (const FieldIndex i : telemetry::kVehicleState) {
     const double resolution = telemetry::kFields[i].resolution;
     double bound = 0.0;
@@ -55,13 +55,13 @@ bool kept(const Contestant& contestant, const Values& sent, const Values& read) 
 
 // A contestant whose bytes come back as they were; the first packets of the trace, for the times.
 struct Timed {
-  Contestant contestant;
+  Peer contestant;
   std::vector<std::vector<std::uint8_t>> written;
   double mean_bytes = 0.0;
   std::vector<double> encode_ns = {}, decode_ns = {};  // batch by batch
 };
 
-std::optional<Timed> measure(const Contestant& contestant, const std::vector<Values>& trace) {
+std::optional<Timed> measure(const Peer& contestant, const std::vector<Values>& trace) {
   Timed timed{.contestant = contestant, .written = {}};
   std::vector<std::uint8_t> buffer(kLargest);
   Values read;
@@ -97,7 +97,7 @@ class Table {
   void missing(const char* what) { std::printf("not measured: %s\n", what); }
   void add(const Measured& row) { rows_.push_back({row, {}}); }
   // The row, for what is not the encoding's own.
-  Measured* add(const Contestant& contestant) {
+  Measured* add(const Peer& contestant) {
     const auto timed = measure(contestant, *trace_);
     if (!timed) return missing(contestant.name.c_str()), nullptr;
     rows_.push_back({{.name = contestant.name,
@@ -119,7 +119,7 @@ class Table {
       reference.take();
       for (auto& [figures, timed] : rows_) {
         if (!timed) continue;
-        const Contestant& c = timed->contestant;
+        const Peer& c = timed->contestant;
         timed->encode_ns.push_back(
             batch_ns([&](std::size_t i) { c.encode((*trace_)[i], buffer); }));
         timed->decode_ns.push_back(
@@ -225,7 +225,7 @@ constexpr double kSeal = telemetry::kHeaderSize + telemetry::kTagSize;
 
 void add_ours(Table& table) {
   constexpr double kValues = telemetry::bytes_of(telemetry::kVehicleStateSet);
-  for (const Contestant& c : {ours(), sealed(ours(), kSealed)}) {
+  for (const Peer& c : {ours(), sealed(ours(), kSealed)}) {
     Measured* const row = table.add(c);
     if (row == nullptr) continue;
     row->payload = kValues;
@@ -236,7 +236,7 @@ void add_ours(Table& table) {
 
 void add_protobuf(Table& table) {
 #ifdef CODEC_PROTOBUF
-  for (const Contestant& c : protobuf()) table.add(c);
+  for (const Peer& c : protobuf()) table.add(c);
   Measured* const row = table.add(sealed(protobuf().front(), kSealedProtobuf));
   if (row == nullptr) return;
   row->payload -= kSeal;
@@ -248,7 +248,7 @@ void add_protobuf(Table& table) {
 
 void add_dds(Table& table) {
 #ifdef CODEC_FASTCDR
-  for (const Contestant& c : cdr()) table.add(c);
+  for (const Peer& c : cdr()) table.add(c);
 #else
   table.missing("CDR: libfastcdr-dev");
 #endif

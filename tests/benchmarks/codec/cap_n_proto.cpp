@@ -4,11 +4,11 @@
 #include <kj/io.h>
 #include <state.capnp.h>
 
-#include "tests/benchmarks/codec/contestant.hpp"
+#include "tests/benchmarks/codec/peer.hpp"
 
 namespace pitwall::codec {
 
-Contestant cap_n_proto() {
+Peer cap_n_proto() {
   const auto encode = [](const Values& v, std::span<std::uint8_t> out) {
     ::capnp::MallocMessageBuilder builder;
     auto state = builder.initRoot<codec_schema::State>();

@@ -2,7 +2,7 @@
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>
 
-#include "tests/benchmarks/codec/contestant.hpp"
+#include "tests/benchmarks/codec/peer.hpp"
 
 namespace pitwall::codec {
 namespace {
@@ -21,7 +21,7 @@ void narrow(FieldIndex i, Reach&& reach) {
 }
 
 template <class Real, bool kNarrow>
-Contestant contestant(const char* name, Keeps keeps) {
+Peer contestant(const char* name, Keeps keeps) {
   const auto encode = [](const Values& v, std::span<std::uint8_t> out) {
     FastBuffer buffer(reinterpret_cast<char*>(out.data()), out.size());
     Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
@@ -62,7 +62,7 @@ Contestant contestant(const char* name, Keeps keeps) {
 
 }  // namespace
 
-std::vector<Contestant> cdr() {
+std::vector<Peer> cdr() {
   return {contestant<float, false>("CDR, float", Keeps::kFloat),
           contestant<float, true>("CDR, float, narrow integers", Keeps::kFloat),
           contestant<double, false>("CDR, double", Keeps::kDouble)};

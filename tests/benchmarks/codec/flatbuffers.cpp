@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "tests/benchmarks/codec/contestant.hpp"
+#include "tests/benchmarks/codec/peer.hpp"
 
 namespace pitwall::codec {
 
-Contestant flatbuffers() {
+Peer flatbuffers() {
   const auto encode = [](const Values& v, std::span<std::uint8_t> out) {
     static ::flatbuffers::FlatBufferBuilder builder(2'048);
     builder.Clear();

@@ -3,12 +3,12 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "tests/benchmarks/codec/contestant.hpp"
+#include "tests/benchmarks/codec/peer.hpp"
 
 namespace pitwall::codec {
 
 // By hand: {"ego.x":12.345,...}, as many digits as a float has.
-Contestant json() {
+Peer json() {
   const auto encode = [](const Values& v, std::span<std::uint8_t> out) {
     auto* text = reinterpret_cast<char*>(out.data());
     std::size_t at = 0;

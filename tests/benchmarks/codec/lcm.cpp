@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <codec_schema/state_t.hpp>
 
-#include "tests/benchmarks/codec/contestant.hpp"
+#include "tests/benchmarks/codec/peer.hpp"
 
 namespace pitwall::codec {
 
-Contestant lcm() {
+Peer lcm() {
   const auto encode = [](const Values& v, std::span<std::uint8_t> out) {
     codec_schema::state_t message;
     for (std::size_t i = 0; i < kReals.size(); ++i) message.floats[i] = real_of(v, i);

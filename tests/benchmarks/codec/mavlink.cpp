@@ -6,7 +6,7 @@
 #include <fstream>
 #include <memory>
 
-#include "tests/benchmarks/codec/contestant.hpp"
+#include "tests/benchmarks/codec/peer.hpp"
 
 namespace pitwall::codec {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocol/telemetry/packet/body.hpp"
-#include "tests/benchmarks/codec/contestant.hpp"
+#include "tests/benchmarks/codec/peer.hpp"
 
 namespace pitwall::codec {
 namespace {
@@ -25,7 +25,7 @@ std::span<const std::uint8_t> body_of(const Values& values, std::span<std::uint8
 
 }  // namespace
 
-Contestant ours() {
+Peer ours() {
   return {.name = "ours",
           .bytes_by = "protocol/telemetry/packet",
           .keeps = Keeps::kSteps,

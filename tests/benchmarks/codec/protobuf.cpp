@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <state.pb.h>
 
-#include "tests/benchmarks/codec/contestant.hpp"
+#include "tests/benchmarks/codec/peer.hpp"
 
 // state_fields.inc, which the build writes: REAL(1) to REAL(84), INTEGER(1).., YES_NO(1)..
 namespace pitwall::codec {
 namespace {
 
 template <class Message, class Real>
-Contestant contestant(const char* name, Keeps keeps) {
+Peer contestant(const char* name, Keeps keeps) {
   const auto encode = [](const Values& v, std::span<std::uint8_t> out) {
     static Message message;
     message.Clear();
@@ -40,7 +40,7 @@ Contestant contestant(const char* name, Keeps keeps) {
 
 }  // namespace
 
-std::vector<Contestant> protobuf() {
+std::vector<Peer> protobuf() {
   return {contestant<codec_schema::State32, float>("protobuf, float", Keeps::kFloat),
           contestant<codec_schema::State64, double>("protobuf, double", Keeps::kDouble)};
 }

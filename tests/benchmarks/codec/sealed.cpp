@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "protocol/telemetry/session/traffic.hpp"
-#include "tests/benchmarks/codec/contestant.hpp"
+#include "tests/benchmarks/codec/peer.hpp"
 
 namespace pitwall::codec {
 
@@ -14,7 +14,7 @@ constexpr Instant kNow{100'000'000'000};
 
 }  // namespace
 
-Contestant sealed(const Contestant& plain, const std::string& name) {
+Peer sealed(const Peer& plain, const std::string& name) {
   prepare_sodium();
   struct Session {
     Key key;

@@ -10,12 +10,12 @@
 
 #include "protocol/json/json_value.hpp"
 #include "tests/benchmarks/cost/cost_gates.hpp"
-#include "tests/hil/verbs/program_run.hpp"
+#include "tests/hil/cli/program_run.hpp"
 
 namespace pitwall::benchmarks {
 
-using verbs::ProgramRun;
-using verbs::Said;
+using cli::ProgramRun;
+using cli::Said;
 
 // `limits_us`: by gate, on the reference machine; a gate that is not of time is at most 0 of them.
 inline void expect_one_verdict(const Said& said, const json::JsonValue& file,

@@ -8,9 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "hil/guest/bus_verb.hpp"
-#include "hil/verbs/clock_place.hpp"
-#include "hil/verbs/run_verb.hpp"
+#include "hil/can_bus/bus_verb.hpp"
+#include "hil/cli/clock_place.hpp"
+#include "hil/cli/run_verb.hpp"
+#include "protocol/json/json_text.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "tests/benchmarks/command_line.hpp"
@@ -150,63 +151,71 @@ void judge_queue(Gates& gates, const std::vector<load::QueueLoss>& queue) {
 }
 
 std::string json_of(const load::LossJudgement& judgement) {
-  return "{\"omitted\":" + std::to_string(judgement.omitted) +
-         ",\"reported\":" + std::to_string(judgement.reported) +
-         ",\"in_time\":" + std::to_string(judgement.in_time) +
-         ",\"twice\":" + std::to_string(judgement.twice) +
-         ",\"false\":" + std::to_string(judgement.false_reports) +
-         ",\"late_on_bus\":" + std::to_string(judgement.late_on_bus) +
-         ",\"after_end\":" + std::to_string(judgement.after_end) +
-         ",\"hidden\":" + std::to_string(judgement.hidden) +
-         ",\"slowest_ms\":" + std::to_string(judgement.worst.milliseconds()) + "}";
+  return json::Object{}
+      .number("omitted", judgement.omitted)
+      .number("reported", judgement.reported)
+      .number("in_time", judgement.in_time)
+      .number("twice", judgement.twice)
+      .number("false", judgement.false_reports)
+      .number("late_on_bus", judgement.late_on_bus)
+      .number("after_end", judgement.after_end)
+      .number("hidden", judgement.hidden)
+      .number("slowest_ms", judgement.worst.milliseconds())
+      .str();
 }
 
 std::string json_of(const GatewayRun& run) {
-  std::string queue;
+  json::Array queue;
   for (const load::QueueLoss& loss : run.queue)
-    queue += (queue.empty() ? "" : ",") + std::string("{\"counted\":") +
-             std::to_string(loss.counted) + ",\"missing\":" + std::to_string(loss.missing) +
-             ",\"after_ms\":" + std::to_string(loss.after.milliseconds()) +
-             ",\"trailing\":" + (loss.trailing ? "true" : "false") + "}";
-  return "{\"sent\":" + std::to_string(run.sender.sent) +
-         ",\"car_received\":" + std::to_string(run.car.frames_received) +
-         ",\"car_lost_in_queue\":" + std::to_string(lost_in_queue(run.car)) +
-         ",\"listener_received\":" + std::to_string(run.listener.received) +
-         ",\"listener_lost_in_queue\":" + std::to_string(run.listener_lost_in_queue) +
-         ",\"late_p99_us\":" + std::to_string(run.sender.late.p99_us) +
-         ",\"late_max_us\":" + std::to_string(run.sender.late.max_us) +
-         ",\"wake_max_us\":" + std::to_string(run.wake.max_us) +
-         ",\"step_p50_us\":" + std::to_string(run.car.step_p50_us) +
-         ",\"step_p99_us\":" + std::to_string(run.car.step_p99_us) +
-         ",\"missed_deadlines\":" + std::to_string(run.car.missed_deadlines) +
-         ",\"by_car\":" + json_of(run.by_car) + ",\"by_listener\":" + json_of(run.by_listener) +
-         ",\"queue\":[" + queue + "]}";
+    queue.json(json::Object{}
+                   .number("counted", loss.counted)
+                   .number("missing", loss.missing)
+                   .number("after_ms", loss.after.milliseconds())
+                   .flag("trailing", loss.trailing)
+                   .str());
+  return json::Object{}
+      .number("sent", run.sender.sent)
+      .number("car_received", run.car.frames_received)
+      .number("car_lost_in_queue", lost_in_queue(run.car))
+      .number("listener_received", run.listener.received)
+      .number("listener_lost_in_queue", run.listener_lost_in_queue)
+      .number("late_p99_us", run.sender.late.p99_us)
+      .number("late_max_us", run.sender.late.max_us)
+      .number("wake_max_us", run.wake.max_us)
+      .number("step_p50_us", run.car.step_p50_us)
+      .number("step_p99_us", run.car.step_p99_us)
+      .number("missed_deadlines", run.car.missed_deadlines)
+      .json("by_car", json_of(run.by_car))
+      .json("by_listener", json_of(run.by_listener))
+      .json("queue", queue.str())
+      .str();
 }
 
 GatewayPlan plan_of(const Options& options, const std::string& folder) {
-  const fs::path build = fs::path(verbs::own_program()).parent_path().parent_path();
+  const fs::path build = fs::path(cli::own_program()).parent_path().parent_path();
   return {.interface = options.interface,
           .folder = folder,
           .vehicle = {(build / "vehicle/pitwall-vehicle").string(), "--car",
                       "vehicle/config/cars/av21.yaml", "--track", "vehicle/config/tracks/lvms.yaml",
                       "--gnss", kGnssPorts, "--no-base"},
-          .sender = {verbs::own_program(), "gateway", "--interface", options.interface, "--seconds",
+          .sender = {cli::own_program(), "gateway", "--interface", options.interface, "--seconds",
                      std::to_string(options.seconds), "--omissions",
                      std::to_string(options.omissions), "--seed", std::to_string(options.seed),
                      "--foreign-period", std::to_string(options.foreign_period_ms)},
           .traffic = traffic_of(options),
-          .clock = verbs::clock_place(options.clock, true).file};
+          .clock = cli::clock_place(options.clock, true).file};
 }
 
 int run_here(const Options& options) {
   const auto folder = transport::TemporaryFolder::create("pitwall-gateway-");
   if (!folder) return refuse(folder.error());
-  const verbs::ClockPlace clock = verbs::clock_place(options.clock, true);
+  const cli::ClockPlace clock = cli::clock_place(options.clock, true);
   if (!clock.file.empty()) {
     if (const auto used = transport::use_clock(clock.file); !used) return refuse(used.error());
   }
   Gates gates;
-  std::string json = "{\"bench\":\"gateway\",\"seconds\":" + std::to_string(options.seconds);
+  json::Object json;
+  json.text("bench", "gateway").number("seconds", options.seconds);
   for (const bool with_losses : {false, true}) {
     Options experiment = options;
     if (!with_losses) experiment.omissions = 0;
@@ -218,14 +227,14 @@ int run_here(const Options& options) {
     judge_losses(gates, "the second receiver", run->by_listener);
     judge_queue(gates, run->queue);
     std::fflush(stdout);
-    json += std::string(",\"") + (with_losses ? "loss" : "load") + "\":" + json_of(*run);
+    json.json(with_losses ? "loss" : "load", json_of(*run));
   }
   std::error_code none;  // who kept it is gone with its file
   if (clock.is_own) fs::remove(clock.file, none);
   std::printf("gates: %s\n", gates.all() ? "held" : "MISSED");
   if (!options.json_file.empty()) {
-    const auto written = transport::write_file(
-        options.json_file, json + ",\"held\":" + (gates.all() ? "true" : "false") + "}\n");
+    const auto written =
+        transport::write_file(options.json_file, json.flag("held", gates.all()).str() + "\n");
     if (!written) return refuse(written.error());
   }
   return gates.all() ? kExitPass : kExitFailed;
@@ -239,7 +248,7 @@ int run_where_can_is(const Options& options) {
                                 "--timeout",
                                 std::to_string(2 * options.seconds + kOverhead_s),
                                 "--",
-                                verbs::own_program(),
+                                cli::own_program(),
                                 "gateway",
                                 "--here",
                                 "--interface",
@@ -256,7 +265,7 @@ int run_where_can_is(const Options& options) {
                                 options.clock};
   if (!options.json_file.empty())
     exec.insert(exec.end(), {"--json", fs::absolute(options.json_file).string()});
-  return guest::bus_verb(exec);
+  return can_bus::bus_verb(exec);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "protocol/json/json_text.hpp"
 #include "protocol/transport/bench_clock/kept_clock.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
@@ -215,16 +216,18 @@ Result<load::SenderFigures, Problem> send_traffic(const std::string& interface,
   const load::SenderFigures figures = load::send(*bus, traffic, start);
   // A file goes to the host's disk, and the whole guest waits for it: not while others listen.
   transport::sleep_until(start + plan.length + kSilence);
-  std::string omitted;
-  for (const Instant at : figures.omitted_at)
-    omitted += (omitted.empty() ? "\"" : ", \"") + std::to_string(at.ns) + "\"";
-  const auto written = transport::write_file(
-      figures_file, "{\"sent\": " + std::to_string(figures.sent) +
-                        ", \"offered_again\": " + std::to_string(figures.offered_again) +
-                        ", \"late_p50_us\": " + std::to_string(figures.late.p50_us) +
-                        ", \"late_p99_us\": " + std::to_string(figures.late.p99_us) +
-                        ", \"late_max_us\": " + std::to_string(figures.late.max_us) +
-                        ",\n \"omitted_at_ns\": [" + omitted + "]}\n");
+  json::Array omitted;
+  for (const Instant at : figures.omitted_at) omitted.text(std::to_string(at.ns));
+  const auto written =
+      transport::write_file(figures_file, json::Object{}
+                                                  .number("sent", figures.sent)
+                                                  .number("offered_again", figures.offered_again)
+                                                  .number("late_p50_us", figures.late.p50_us)
+                                                  .number("late_p99_us", figures.late.p99_us)
+                                                  .number("late_max_us", figures.late.max_us)
+                                                  .json("omitted_at_ns", omitted.str())
+                                                  .str() +
+                                              "\n");
   if (!written) return Unexpected{written.error()};
   return figures;
 }

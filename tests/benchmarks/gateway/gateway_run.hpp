@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "hil/bench/car_summary.hpp"
+#include "hil/bench/live/car_summary.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "tests/benchmarks/gateway/listener.hpp"
 #include "tests/benchmarks/gateway/loss_judge.hpp"

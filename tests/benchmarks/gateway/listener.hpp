@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "protocol/can/message_monitor.hpp"
-#include "protocol/transport/can_socket.hpp"
+#include "protocol/transport/can/can_socket.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "tests/benchmarks/gateway/loss_judge.hpp"
 #include "tests/benchmarks/gateway/traffic.hpp"

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/transport/can_socket.hpp"
+#include "protocol/transport/can/can_socket.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "tests/benchmarks/gateway/traffic.hpp"
 

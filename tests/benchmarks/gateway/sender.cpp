@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "protocol/transport/clock.hpp"
+#include "protocol/vocabulary/quantile.hpp"
 
 namespace pitwall::load {
 namespace {
@@ -17,9 +18,7 @@ constexpr Duration kBetween = microseconds(100);
 Lateness lateness_of(std::vector<double>& late_us) {
   if (late_us.empty()) return {};
   std::sort(late_us.begin(), late_us.end());
-  const auto quantile = [&late_us](double q) {
-    return late_us[static_cast<std::size_t>(q * static_cast<double>(late_us.size() - 1))];
-  };
+  const auto quantile = [&late_us](double q) { return late_us[nearest_rank(q, late_us.size())]; };
   return {.p50_us = quantile(0.5), .p99_us = quantile(0.99), .max_us = quantile(1.0)};
 }
 

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <string>
 
-#include "protocol/transport/can_socket.hpp"
+#include "protocol/transport/can/can_socket.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/units.hpp"
 #include "tests/benchmarks/gateway/traffic.hpp"

@@ -16,8 +16,8 @@ TEST(Lateness, IsThatOfTheSortedList) {
       late_us.push_back(static_cast<double>(i * 7'919 % count));  // 0 .. count-1, disordered
     const auto last = static_cast<double>(count - 1);
     const Lateness late = lateness_of(late_us);
-    EXPECT_EQ(late.p50_us, std::floor(0.5 * last));
-    EXPECT_EQ(late.p99_us, std::floor(0.99 * last));
+    EXPECT_EQ(late.p50_us, std::ceil(0.5 * static_cast<double>(count)) - 1.0);
+    EXPECT_EQ(late.p99_us, std::ceil(0.99 * static_cast<double>(count)) - 1.0);
     EXPECT_EQ(late.max_us, last);
   }
 }

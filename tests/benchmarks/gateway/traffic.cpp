@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <tuple>
 
-#include "hil/faults/random.hpp"
 #include "protocol/can/av21.hpp"
 #include "protocol/can/signal.hpp"
 #include "protocol/vocabulary/check.hpp"
+#include "protocol/vocabulary/random.hpp"
 
 namespace pitwall::load {
 namespace {
@@ -144,7 +144,7 @@ void Traffic::choose_omissions(const TrafficPlan& plan) {
   CHECK(counted && plain);
   for (const std::size_t stream : {last, *counted, *plain})
     omit(stream, count_of(streams_[stream]) - 1);
-  faults::Random random{plan.seed};
+  Random random{plan.seed};
   const auto of_car = static_cast<std::size_t>(
       std::count_if(streams_.begin(), streams_.end(), [](const Stream& s) { return s.of_car; }));
   // A short run has no room for many: tries are bounded.

@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/hil/verbs/program_run.hpp"
+#include "tests/hil/cli/program_run.hpp"
 
 namespace pitwall::benchmarks {
 
-using verbs::ProgramRun;
-using verbs::Said;
+using cli::ProgramRun;
+using cli::Said;
 namespace {
 
 using BenchLaps = ProgramRun;
@@ -28,7 +28,7 @@ TEST_F(BenchLaps, DrivesATrackThatIsNamed) {
   EXPECT_NE(said.out.find("lapped"), std::string::npos) << said.out;
   EXPECT_NE(said.out.find("not a claim"), std::string::npos);
   EXPECT_NE(said.out.find("1 runs in"), std::string::npos);
-  EXPECT_NE(text_of("laps.json").find("\"lapped\":true"), std::string::npos);
+  EXPECT_NE(text_of("laps.json").find("\"lapped\": true"), std::string::npos);
 }
 
 }  // namespace

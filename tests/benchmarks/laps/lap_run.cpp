@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hil/bench/lockstep.hpp"
+#include "hil/bench/lockstep/lockstep.hpp"
 #include "hil/bench/signals.hpp"
 
 namespace pitwall::laps {

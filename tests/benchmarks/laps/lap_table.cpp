@@ -2,9 +2,10 @@
 #include "tests/benchmarks/laps/lap_table.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
+
+#include "protocol/json/json_text.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::laps {
 namespace {
@@ -13,28 +14,21 @@ using grading::kBrackets;
 
 constexpr const char* kWhere = "%-6.6s %-22s ";
 
-template <class... Args>
-std::string format(const char* pattern, Args... args) {
-  std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(), pattern, args...);
-  return text.data();
-}
-
 std::string cell(double value, const char* pattern = "%6.3f ") {
-  return std::isfinite(value) ? format(pattern, value) : "     - ";
+  return std::isfinite(value) ? formatted(pattern, value) : "     - ";
 }
 
 std::string head() {
-  std::string out = format(kWhere, "track", "perturbation") + "laps fly   mean   peak ";
+  std::string out = formatted(kWhere, "track", "perturbation") + "laps fly   mean   peak ";
   for (const grading::Bracket& b : kBrackets)
-    out += b.to_mps > 1e6 ? format("%6s ", format(">%.0f", b.from_mps).c_str())
-                          : format("%6s ", format("%.0f-%.0f", b.from_mps, b.to_mps).c_str());
+    out += b.to_mps > 1e6 ? formatted("%6s ", formatted(">%.0f", b.from_mps).c_str())
+                          : formatted("%6s ", formatted("%.0f-%.0f", b.from_mps, b.to_mps).c_str());
   return out + "   all    max  end\n";
 }
 
 std::string line_of(const LapRow& r) {
-  std::string out = format(kWhere, r.track.c_str(), r.perturbation.c_str()) +
-                    format("%4u %3u ", r.laps, r.flying) + cell(r.flying_mean_mps, "%6.2f ") +
+  std::string out = formatted(kWhere, r.track.c_str(), r.perturbation.c_str()) +
+                    formatted("%4u %3u ", r.laps, r.flying) + cell(r.flying_mean_mps, "%6.2f ") +
                     cell(r.speed_max_mps, "%6.2f ");
   for (const grading::ErrorStatistics& s : r.cross_track.by_bracket) out += cell(s.mean_m());
   return out + cell(r.cross_track.overall.mean_m()) + cell(r.cross_track.overall.max_m) + " " +
@@ -42,7 +36,7 @@ std::string line_of(const LapRow& r) {
 }
 
 std::string paper_line(const char* name, double grading::Bracket::*figure, double all_m) {
-  std::string out = format(kWhere, "paper", name) + "  -   -      -      - ";
+  std::string out = formatted(kWhere, "paper", name) + "  -   -      -      - ";
   for (const grading::Bracket& b : kBrackets) out += cell(b.*figure);
   return out + cell(all_m) + "     -  a real car on a real track: not a claim\n";
 }
@@ -59,43 +53,37 @@ bool reached(const std::vector<LapRow>& rows, const LapRow& row) {
 }
 
 std::string gate(const char* what, bool held) {
-  return format("gate: %s: %s\n", what, held ? "held" : "MISSED");
-}
-
-// JSON has no NaN.
-std::string number(double value) {
-  return std::isfinite(value) ? format("%.9g", value) : std::string("null");
-}
-
-std::string text(const std::string& words) {
-  std::string out = "\"";
-  for (const char c : words) {
-    const bool plain = c != '"' && c != '\\' && static_cast<unsigned char>(c) >= 0x20;
-    out += plain ? c : ' ';
-  }
-  return out + "\"";
+  return formatted("gate: %s: %s\n", what, held ? "held" : "MISSED");
 }
 
 std::string json_of(const LapRow& r) {
-  std::string brackets;
+  json::Array brackets;
   for (std::size_t i = 0; i < kBrackets.size(); ++i) {
     const grading::ErrorStatistics& s = r.cross_track.by_bracket[i];
-    brackets += (i == 0 ? "" : ",") + std::string("{\"from_mps\":") +
-                number(kBrackets[i].from_mps) + ",\"samples\":" + std::to_string(s.samples) +
-                ",\"mean_m\":" + number(s.mean_m()) + ",\"max_m\":" + number(s.max_m) + "}";
+    brackets.json(json::Object{}
+                      .number("from_mps", kBrackets[i].from_mps)
+                      .number("samples", s.samples)
+                      .number("mean_m", s.mean_m())
+                      .number("max_m", s.max_m)
+                      .str());
   }
-  return "{\"track\":" + text(r.track) + ",\"perturbation\":" + text(r.perturbation) +
-         ",\"end\":" + text(end_of(r)) +
-         ",\"lapped\":" + (r.outcome == Outcome::kLapped ? "true" : "false") +
-         ",\"laps\":" + std::to_string(r.laps) + ",\"flying_laps\":" + std::to_string(r.flying) +
-         ",\"flying_mean_mps\":" + number(r.flying_mean_mps) +
-         ",\"speed_max_mps\":" + number(r.speed_max_mps) +
-         ",\"side_slip_max_rad\":" + number(r.slip_max_rad) +
-         ",\"cross_track_mean_m\":" + number(r.cross_track.overall.mean_m()) +
-         ",\"cross_track_max_m\":" + number(r.cross_track.overall.max_m) + ",\"brackets\":[" +
-         brackets + "],\"left_at_s\":" + number(r.at_s) +
-         ",\"left_station_m\":" + number(r.station_m) +
-         ",\"left_speed_mps\":" + number(r.speed_mps) + "}";
+  return json::Object{}
+      .text("track", r.track)
+      .text("perturbation", r.perturbation)
+      .text("end", end_of(r))
+      .flag("lapped", r.outcome == Outcome::kLapped)
+      .number("laps", r.laps)
+      .number("flying_laps", r.flying)
+      .number("flying_mean_mps", r.flying_mean_mps)
+      .number("speed_max_mps", r.speed_max_mps)
+      .number("side_slip_max_rad", r.slip_max_rad)
+      .number("cross_track_mean_m", r.cross_track.overall.mean_m())
+      .number("cross_track_max_m", r.cross_track.overall.max_m)
+      .json("brackets", brackets.str())
+      .number("left_at_s", r.at_s)
+      .number("left_station_m", r.station_m)
+      .number("left_speed_mps", r.speed_mps)
+      .str();
 }
 
 }  // namespace
@@ -112,7 +100,7 @@ Gates gates_of(const std::vector<LapRow>& rows) {
 
 std::string end_of(const LapRow& row) {
   const std::string where =
-      format(" at s = %.0f m at %.1f m/s, %.1f s", row.station_m, row.speed_mps, row.at_s);
+      formatted(" at s = %.0f m at %.1f m/s, %.1f s", row.station_m, row.speed_mps, row.at_s);
   switch (row.outcome) {
     case Outcome::kLapped:
       return "lapped";
@@ -147,16 +135,24 @@ std::string to_text(const std::vector<LapRow>& rows) {
 
 std::string to_json(const std::vector<LapRow>& rows) {
   const auto paper = [](double grading::Bracket::*figure, double all_m) {
-    std::string out = "[";
-    for (const grading::Bracket& b : kBrackets) out += number(b.*figure) + ",";
-    return out + number(all_m) + "]";
+    json::Array out;
+    for (const grading::Bracket& b : kBrackets) out.number(b.*figure);
+    return out.number(all_m).str();
   };
-  std::string out = "{\"bench\":\"laps\",\"simulation\":true,\"rows\":[";
-  for (std::size_t i = 0; i < rows.size(); ++i) out += (i == 0 ? "" : ",") + json_of(rows[i]);
-  return out + "],\"paper_brackets_then_all_m\":{\"note\":\"a real car on a real track\"" +
-         ",\"mean\":" + paper(&grading::Bracket::paper_mean_m, grading::kPaperMeanOverall_m) +
-         ",\"best\":" + paper(&grading::Bracket::paper_best_m, grading::kPaperBestOverall_m) +
-         "},\"held\":" + (gates_of(rows).held() ? "true" : "false") + "}\n";
+  json::Array listed;
+  for (const LapRow& row : rows) listed.json(json_of(row));
+  json::Object published;
+  published.text("note", "a real car on a real track")
+      .json("mean", paper(&grading::Bracket::paper_mean_m, grading::kPaperMeanOverall_m))
+      .json("best", paper(&grading::Bracket::paper_best_m, grading::kPaperBestOverall_m));
+  return json::Object{}
+             .text("bench", "laps")
+             .flag("simulation", true)
+             .json("rows", listed.str())
+             .json("paper_brackets_then_all_m", published.str())
+             .flag("held", gates_of(rows).held())
+             .str() +
+         "\n";
 }
 
 }  // namespace pitwall::laps

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tests/vehicle/autonomy/localization/oval.hpp"
-#include "vehicle/autonomy/localization/filter.hpp"
+#include "vehicle/autonomy/localization/filter/filter.hpp"
 
 namespace pitwall::localization {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "hil/bus/frame_length.hpp"
+#include "hil/can_bus/frame_length.hpp"
 #include "hil/plant/plant.hpp"
 #include "protocol/can/av21.hpp"
 #include "protocol/can/dbc_parser.hpp"
@@ -226,7 +226,7 @@ BENCHMARK(plant_millisecond);
 void frame_length_with_stuffing(benchmark::State& state) {
   const auto input = frames();
   std::size_t i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(bus::frame_length(input[i++ % kFrames]));
+  for (auto _ : state) benchmark::DoNotOptimize(can_bus::frame_length(input[i++ % kFrames]));
 }
 BENCHMARK(frame_length_with_stuffing);
 

@@ -9,14 +9,15 @@
 #include <tuple>
 #include <vector>
 
-#include "hil/faults/random.hpp"
 #include "protocol/can/av21.hpp"
 #include "protocol/can/dbc_parser.hpp"
 #include "protocol/can/decode.hpp"
 #include "protocol/can/encode.hpp"
+#include "protocol/json/json_text.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
+#include "protocol/vocabulary/random.hpp"
 #include "tests/benchmarks/command_line.hpp"
 #include "tests/benchmarks/modules/synthetic_dbc.hpp"
 
@@ -56,7 +57,7 @@ struct Work {
 
 Work work_for(const can::Database& database) {
   Work work;
-  faults::Random random{kSeed};
+  Random random{kSeed};
   for (std::size_t i = 0; i < kFramesPerMessage; ++i) {
     for (const can::Message& m : database.messages) {
       can::Frame f{.id = m.id, .length = m.length, .data = {}};
@@ -240,21 +241,24 @@ void print(const Figures& f) {
 }
 
 std::string json_of(const Figures& f) {
-  const auto rate = [](const char* name, const std::vector<double>& sorted) {
-    return std::string(",\"") + name + "_per_s\":" + std::to_string(median(sorted));
-  };
-  std::string out = "{\"bench\":\"dbc\"" + rate("decode_plans", f.rates.plans_decode) +
-                    rate("decode_generated", f.rates.generated_decode) +
-                    rate("encode_plans", f.rates.plans_encode) +
-                    rate("encode_generated", f.rates.generated_encode) +
-                    ",\"parse_bytes\":" + std::to_string(f.large_bytes) +
-                    ",\"parse_ms\":" + std::to_string(median(f.parse_ms));
-  if (f.peer) {
-    out += ",\"canmatrix\":{\"parse_ms\":" + std::to_string(f.peer->parse_ms) +
-           ",\"decode_per_s\":" + std::to_string(f.peer->decoded_per_s) + "}";
-  }
-  return out + ",\"gate_decode_per_s\":20000000,\"gate_parse_ms\":100,\"held\":" +
-         (f.decode_held() && f.parse_held() ? "true" : "false") + "}\n";
+  json::Object out;
+  out.text("bench", "dbc")
+      .number("decode_plans_per_s", median(f.rates.plans_decode))
+      .number("decode_generated_per_s", median(f.rates.generated_decode))
+      .number("encode_plans_per_s", median(f.rates.plans_encode))
+      .number("encode_generated_per_s", median(f.rates.generated_encode))
+      .number("parse_bytes", f.large_bytes)
+      .number("parse_ms", median(f.parse_ms));
+  if (f.peer)
+    out.json("canmatrix", json::Object{}
+                              .number("parse_ms", f.peer->parse_ms)
+                              .number("decode_per_s", f.peer->decoded_per_s)
+                              .str());
+  return out.number("gate_decode_per_s", kLeastDecoded_per_s)
+             .number("gate_parse_ms", kParseLimit_ms)
+             .flag("held", f.decode_held() && f.parse_held())
+             .str() +
+         "\n";
 }
 
 }  // namespace

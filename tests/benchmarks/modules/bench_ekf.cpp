@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hil/bench/loading.hpp"
-#include "hil/bench/lockstep.hpp"
+#include "hil/bench/lockstep/lockstep.hpp"
 #include "protocol/json/json_text.hpp"
 #include "protocol/transport/allocation_count.hpp"
 #include "protocol/transport/file.hpp"
@@ -179,12 +179,13 @@ void print(const Figures& f) {
 }
 
 std::string json_of(const Figures& f) {
-  std::string json = "{\"bench\":\"ekf\"";
+  json::Object json;
+  json.text("bench", "ekf");
   const auto add = [&json](const std::string& name, const Quantiles& q) {
-    json += ",\"" + name + "_p50_us\":" + std::to_string(q.p50_us) + ",\"" + name +
-            "_p99_us\":" + std::to_string(q.p99_us) + ",\"" + name +
-            "_worst_us\":" + std::to_string(q.worst_us) + ",\"" + name +
-            "_calls\":" + std::to_string(q.count);
+    json.number(name + "_p50_us", q.p50_us)
+        .number(name + "_p99_us", q.p99_us)
+        .number(name + "_worst_us", q.worst_us)
+        .number(name + "_calls", q.count);
   };
   const auto add_filter = [&](const std::string& name, const FilterFigures& figures) {
     add(name + "_predict", figures.predict);
@@ -198,9 +199,12 @@ std::string json_of(const Figures& f) {
   add("step_rewind", f.step.any);
   add("step_rewind_100ms", f.step.late);
   const cost::CostGates gates = f.gates();
-  return json + ",\"step_allocations\":" + std::to_string(f.step.allocations) +
-         ",\"machine\":" + json::quoted(cost::machine_name()) + ",\"gates\":" + gates.json() +
-         ",\"held\":" + (gates.held() ? "true" : "false") + "}\n";
+  return json.number("step_allocations", f.step.allocations)
+             .text("machine", cost::machine_name())
+             .json("gates", gates.json())
+             .flag("held", gates.held())
+             .str() +
+         "\n";
 }
 
 }  // namespace

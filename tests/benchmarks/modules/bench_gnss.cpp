@@ -10,6 +10,7 @@
 #include "protocol/gnss/novatel_ascii.hpp"
 #include "protocol/gnss/novatel_stream.hpp"
 #include "protocol/gnss/vectornav_stream.hpp"
+#include "protocol/json/json_text.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "tests/benchmarks/command_line.hpp"
@@ -245,16 +246,17 @@ std::vector<Row> measure_all() {
 }
 
 std::string json_of(const std::vector<Row>& rows, bool held) {
-  std::string json = "{\"bench\":\"gnss\",\"gate_share\":" + std::to_string(kShareLimit);
+  json::Object json;
+  json.text("bench", "gnss").number("gate_share", kShareLimit);
   for (const Row& row : rows) {
     const std::string key = row.key;
-    json += ",\"" + key + "_share\":" + std::to_string(row.whole_way.median) + ",\"" + key +
-            "_least_share\":" + std::to_string(row.whole_way.least) + ",\"" + key +
-            "_decode_share\":" + std::to_string(row.decoded.median) + ",\"" + key +
-            "_bytes_per_s\":" + std::to_string(row.bytes_per_s) + ",\"" + key +
-            "_logs_per_s\":" + std::to_string(row.logs_per_s);
+    json.number(key + "_share", row.whole_way.median)
+        .number(key + "_least_share", row.whole_way.least)
+        .number(key + "_decode_share", row.decoded.median)
+        .number(key + "_bytes_per_s", row.bytes_per_s)
+        .number(key + "_logs_per_s", row.logs_per_s);
   }
-  return json + ",\"held\":" + (held ? "true" : "false") + "}\n";
+  return json.flag("held", held).str() + "\n";
 }
 
 }  // namespace

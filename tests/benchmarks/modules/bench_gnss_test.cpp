@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "protocol/yaml/strict_map.hpp"
-#include "tests/hil/verbs/program_run.hpp"
+#include "tests/hil/cli/program_run.hpp"
 
 namespace pitwall::benchmarks {
 
-using verbs::ProgramRun;
-using verbs::Said;
+using cli::ProgramRun;
+using cli::Said;
 namespace {
 
 class BenchGnss : public ProgramRun {};

@@ -158,16 +158,21 @@ void print(const Figures& f) {
 }
 
 std::string json_of(const Figures& f) {
-  const auto timed = [](const char* name, const Timed& t) {
-    return std::string(",\"") + name + "_us\":" + std::to_string(t.best_us) + ",\"" + name +
-           "_median_us\":" + std::to_string(t.median_us);
+  json::Object json;
+  json.text("bench", "plant");
+  const auto add = [&json](const std::string& name, const Timed& t) {
+    json.number(name + "_us", t.best_us).number(name + "_median_us", t.median_us);
   };
-  return "{\"bench\":\"plant\"" + timed("double_track", f.double_track) +
-         timed("single_track", f.single_track) + timed("kinematic", f.kinematic) +
-         ",\"lockstep_times_real_time\":" + std::to_string(f.fastest) +
-         ",\"lockstep_median\":" + std::to_string(f.lockstep.times_real_time()) +
-         ",\"machine\":" + json::quoted(cost::machine_name()) + ",\"gates\":" + f.gates().json() +
-         ",\"held\":" + (f.gates().held() ? "true" : "false") + "}\n";
+  add("double_track", f.double_track);
+  add("single_track", f.single_track);
+  add("kinematic", f.kinematic);
+  return json.number("lockstep_times_real_time", f.fastest)
+             .number("lockstep_median", f.lockstep.times_real_time())
+             .text("machine", cost::machine_name())
+             .json("gates", f.gates().json())
+             .flag("held", f.gates().held())
+             .str() +
+         "\n";
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "hil/faults/random.hpp"
+#include "protocol/vocabulary/random.hpp"
 
 namespace pitwall::benchmarks {
 namespace {
@@ -103,7 +103,7 @@ class Writer {
     }
   }
 
-  faults::Random random_{kSyntheticSeed};
+  Random random_{kSyntheticSeed};
   std::uint64_t count_ = 0;
   std::string key_, messages_, details_;
 };

@@ -7,8 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "hil/cli/run_verb.hpp"
 #include "hil/link/trace.hpp"
-#include "hil/verbs/run_verb.hpp"
+#include "protocol/json/json_text.hpp"
 #include "protocol/transport/file.hpp"
 #include "tests/benchmarks/command_line.hpp"
 #include "tests/benchmarks/protocol_comparison/comparison.hpp"
@@ -35,12 +36,12 @@ constexpr std::array kAgeLimits{AgeLimit{kSafety, 40.0, 60.0}, AgeLimit{kWhole, 
 constexpr double kNear = 1.25;
 
 constexpr std::array kCases{
-    ContestCase{"light", false, false},
-    ContestCase{"overload", true, false},
-    ContestCase{"overload, queue of 256 ms", true, false, milliseconds(256)},
-    ContestCase{"overload, queue of 64 ms", true, false, milliseconds(64)},
-    ContestCase{"fades", false, true},
-    ContestCase{"overload and fades", true, true}};
+    ComparisonCase{"light", false, false},
+    ComparisonCase{"overload", true, false},
+    ComparisonCase{"overload, queue of 256 ms", true, false, milliseconds(256)},
+    ComparisonCase{"overload, queue of 64 ms", true, false, milliseconds(64)},
+    ComparisonCase{"fades", false, true},
+    ComparisonCase{"overload and fades", true, true}};
 
 struct Options {
   std::int64_t seconds = 20;
@@ -48,7 +49,7 @@ struct Options {
   std::string json_file, trace_file, write_trace_file, only, only_case, peers;
 };
 
-std::vector<Contestant> contestants(const fs::path& folder) {
+std::vector<Peer> contestants(const fs::path& folder) {
   const auto program = [&](const char* name) { return (folder / name).string(); };
   return {{std::string(kOurs), program("peer_pitwall"), ""},
           {"protobuf over UDP, 20 Hz", program("peer_protobuf_udp"), ""},
@@ -72,23 +73,23 @@ Result<link::LinkTrace, Problem> fades_of(const Options& options) {
   return link::read_trace(*text, options.trace_file);
 }
 
-void print_heading(const ContestCase& of_case) {
+void print_heading(const ComparisonCase& of_case) {
   std::printf("\n%s\n%-28s %9s %9s %9s %9s %12s %9s %8s %8s %8s %9s\n",
               std::string(of_case.name).c_str(), "", "age p50", "age p99", "age max", "offered",
               "worst 100 ms", "worst 1 s", "bulk", "uplink", "states", "link late");
 }
 
-std::string title_of(const ContestRow& row) {
+std::string title_of(const ComparisonRow& row) {
   return row.stream.empty() ? row.contestant : row.contestant + ": " + row.stream;
 }
 
 // Rates are of no sender.
-void print_floor(const ContestRow& row) {
+void print_floor(const ComparisonRow& row) {
   std::printf("%-28s %9.1f %9.1f %9.1f\n", row.contestant.c_str(), row.age_p50_ms, row.age_p99_ms,
               row.age_max_ms);
 }
 
-void print_row(const ContestRow& row) {
+void print_row(const ComparisonRow& row) {
   std::printf("%-28s %9.1f %9.1f %9.1f %9.0f %12.0f %9.0f %8.0f %8.0f %8zu %9.2f",
               title_of(row).c_str(), row.age_p50_ms, row.age_p99_ms, row.age_max_ms,
               row.offered_kbps, row.worst_window_kbps, row.worst_second_kbps, row.bulk_kbps,
@@ -98,19 +99,23 @@ void print_row(const ContestRow& row) {
   std::fflush(stdout);
 }
 
-std::string number(double value) { return value == value ? std::to_string(value) : "null"; }
-
-std::string json_of(const ContestRow& row) {
-  return "{\"contestant\":\"" + row.contestant + "\",\"stream\":\"" + row.stream +
-         "\",\"case\":\"" + row.of_case + "\",\"age_p50_ms\":" + number(row.age_p50_ms) +
-         ",\"age_p99_ms\":" + number(row.age_p99_ms) + ",\"age_max_ms\":" + number(row.age_max_ms) +
-         ",\"offered_kbps\":" + number(row.offered_kbps) +
-         ",\"worst_100ms_kbps\":" + number(row.worst_window_kbps) +
-         ",\"worst_1s_kbps\":" + number(row.worst_second_kbps) +
-         ",\"bulk_kbps\":" + number(row.bulk_kbps) + ",\"uplink_kbps\":" + number(row.up_kbps) +
-         ",\"states\":" + std::to_string(row.states) +
-         ",\"ms_without\":" + std::to_string(row.looks_without) +
-         ",\"link_late_p99_ms\":" + number(row.link_late_p99_ms) + "}";
+std::string json_of(const ComparisonRow& row) {
+  return json::Object{}
+      .text("contestant", row.contestant)
+      .text("stream", row.stream)
+      .text("case", row.of_case)
+      .number("age_p50_ms", row.age_p50_ms)
+      .number("age_p99_ms", row.age_p99_ms)
+      .number("age_max_ms", row.age_max_ms)
+      .number("offered_kbps", row.offered_kbps)
+      .number("worst_100ms_kbps", row.worst_window_kbps)
+      .number("worst_1s_kbps", row.worst_second_kbps)
+      .number("bulk_kbps", row.bulk_kbps)
+      .number("uplink_kbps", row.up_kbps)
+      .number("states", row.states)
+      .number("ms_without", row.looks_without)
+      .number("link_late_p99_ms", row.link_late_p99_ms)
+      .str();
 }
 
 bool gate(const std::string& what, double is, double limit) {
@@ -120,16 +125,16 @@ bool gate(const std::string& what, double is, double limit) {
 }
 
 bool is_overload(std::string_view of_case) {
-  for (const ContestCase& c : kCases)
+  for (const ComparisonCase& c : kCases)
     if (c.name == of_case) return c.bulk && !c.fades;
   return false;
 }
 
 // Only ours is judged: its rate always, its ages only where the link can carry what they need.
-bool judge(const std::vector<ContestRow>& rows) {
+bool judge(const std::vector<ComparisonRow>& rows) {
   bool held = true;
   std::printf("\ngates\n");
-  for (const ContestRow& row : rows) {
+  for (const ComparisonRow& row : rows) {
     if (row.contestant != kOurs) continue;
     if (row.stream == kSafety) {
       held &= gate(row.of_case + ": worst 1 s kbit/s", row.worst_second_kbps, kLinkKbps);
@@ -145,11 +150,11 @@ bool judge(const std::vector<ContestRow>& rows) {
 }
 
 // Who comes near ours, the whole state against the whole state.
-void compare(const std::vector<ContestRow>& rows) {
+void compare(const std::vector<ComparisonRow>& rows) {
   std::printf("\nall 100 signals at most %.2f times as old as ours\n", kNear);
-  for (const ContestRow& ours : rows) {
+  for (const ComparisonRow& ours : rows) {
     if (ours.contestant != kOurs || ours.stream != kWhole) continue;
-    for (const ContestRow& row : rows) {
+    for (const ComparisonRow& row : rows) {
       if (row.contestant == kOurs || row.of_case != ours.of_case) continue;
       const bool near =
           row.age_p50_ms <= kNear * ours.age_p50_ms && row.age_p99_ms <= kNear * ours.age_p99_ms;
@@ -165,13 +170,14 @@ bool chosen(std::string_view name, const std::string& only) {
   return only.empty() || name.find(only) != std::string_view::npos;
 }
 
-Result<std::vector<ContestRow>, Problem> hold(const Options& options, const ContestPlan& plan) {
-  std::vector<ContestRow> rows;
-  for (const ContestCase& of_case : kCases) {
+Result<std::vector<ComparisonRow>, Problem> hold(const Options& options,
+                                                 const ComparisonPlan& plan) {
+  std::vector<ComparisonRow> rows;
+  for (const ComparisonCase& of_case : kCases) {
     if (!options.only_case.empty() && of_case.name != options.only_case) continue;
     print_heading(of_case);
     print_floor(best_possible(of_case, plan));
-    for (const Contestant& contestant : contestants(options.peers)) {
+    for (const Peer& contestant : contestants(options.peers)) {
       if (!chosen(contestant.name, options.only) || (contestant.tuned && !of_case.bulk)) continue;
       if (!fs::exists(contestant.program)) {
         if (contestant.name == kOurs)
@@ -179,9 +185,9 @@ Result<std::vector<ContestRow>, Problem> hold(const Options& options, const Cont
         std::printf("%-28s is not built\n", contestant.name.c_str());
         continue;
       }
-      const auto streams = run_contest(contestant, of_case, plan);
+      const auto streams = run_comparison(contestant, of_case, plan);
       if (!streams) return Unexpected{streams.error()};
-      for (const ContestRow& row : *streams) {
+      for (const ComparisonRow& row : *streams) {
         print_row(row);
         rows.push_back(row);
       }
@@ -190,20 +196,25 @@ Result<std::vector<ContestRow>, Problem> hold(const Options& options, const Cont
   return rows;
 }
 
-Result<bool, Problem> write_json(const Options& options, const std::vector<ContestRow>& rows,
+Result<bool, Problem> write_json(const Options& options, const std::vector<ComparisonRow>& rows,
                                  bool held) {
-  std::string text = "{\"bench\":\"radio\",\"seconds\":" + std::to_string(options.seconds) +
-                     ",\"seed\":" + std::to_string(options.seed) + ",\"rows\":[";
-  for (const ContestRow& row : rows) text += (&row == rows.data() ? "\n" : ",\n") + json_of(row);
-  return transport::write_file(options.json_file,
-                               text + "],\n\"held\":" + (held ? "true" : "false") + "}\n");
+  json::Array listed;
+  for (const ComparisonRow& row : rows) listed.json(json_of(row));
+  return transport::write_file(options.json_file, json::Object{}
+                                                          .text("bench", "radio")
+                                                          .number("seconds", options.seconds)
+                                                          .number("seed", options.seed)
+                                                          .json("rows", listed.str())
+                                                          .flag("held", held)
+                                                          .str() +
+                                                      "\n");
 }
 
 }  // namespace
 
 int bench_radio(std::span<const std::string> args) {
   Options options;
-  options.peers = fs::path(verbs::own_program()).parent_path().parent_path() /
+  options.peers = fs::path(cli::own_program()).parent_path().parent_path() /
                   "tests/benchmarks/protocol_comparison/peers";
   CommandLine app{"pitwall-benchmarks radio: protocols side by side over one emulated radio"};
   app.option("--seconds", options.seconds, "of each case and contestant, after 4 s")
@@ -222,7 +233,7 @@ int bench_radio(std::span<const std::string> args) {
     const auto written = transport::write_file(options.write_trace_file, link::write_trace(*fades));
     if (!written) return refuse(written.error());
   }
-  ContestPlan plan;
+  ComparisonPlan plan;
   plan.link.rate_bytes_per_s = kRate_bytes_per_s;
   plan.link.delay = kDelay;
   plan.fades = *fades;

@@ -9,12 +9,12 @@
 
 #include "protocol/transport/tun.hpp"
 #include "protocol/yaml/strict_map.hpp"
-#include "tests/hil/verbs/program_run.hpp"
+#include "tests/hil/cli/program_run.hpp"
 
 namespace pitwall::benchmarks {
 
-using verbs::ProgramRun;
-using verbs::Said;
+using cli::ProgramRun;
+using cli::Said;
 namespace {
 
 class BenchRadio : public ProgramRun {

@@ -14,6 +14,7 @@
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
+#include "protocol/vocabulary/quantile.hpp"
 
 namespace pitwall::benchmarks {
 namespace {
@@ -33,7 +34,7 @@ link::LinkTrace shifted(link::LinkTrace trace, Duration by) {
   return trace;
 }
 
-std::vector<std::string> words_of(const Contestant& contestant, const char* role, Instant end,
+std::vector<std::string> words_of(const Peer& contestant, const char* role, Instant end,
                                   bool bulk) {
   std::vector<std::string> words{contestant.program, role, std::to_string(end.ns),
                                  bulk ? "1" : "0"};
@@ -132,7 +133,7 @@ std::vector<std::vector<StateArrival>> by_stream(std::vector<StateArrival> arriv
 
 double late_p99_ms(std::vector<Duration> late) {
   if (late.empty()) return 0.0;
-  const auto rank = static_cast<std::ptrdiff_t>(late.size() * 99 / 100);
+  const auto rank = static_cast<std::ptrdiff_t>(nearest_rank(0.99, late.size()));
   std::nth_element(late.begin(), late.begin() + rank, late.end());
   return late[static_cast<std::size_t>(rank)].milliseconds();
 }
@@ -156,7 +157,7 @@ Result<Arrivals, Problem> read_arrivals(std::string_view text, const std::string
   return arrivals;
 }
 
-ContestRow judge(const Arrivals& arrivals, const LinkTally& tally, const ContestPlan& plan) {
+ComparisonRow judge(const Arrivals& arrivals, const LinkTally& tally, const ComparisonPlan& plan) {
   const Instant from = Instant{} + plan.warm_up, to = from + plan.length;
   const auto judged = [&](Instant at) { return at >= from && at < to; };
   link::AgeSamples ages(from, to);
@@ -190,7 +191,7 @@ ContestRow judge(const Arrivals& arrivals, const LinkTally& tally, const Contest
           .link_late_p99_ms = late_p99_ms(tally.down.late)};
 }
 
-link::LinkParams link_of(const ContestCase& of_case, const ContestPlan& plan) {
+link::LinkParams link_of(const ComparisonCase& of_case, const ComparisonPlan& plan) {
   link::LinkParams link = plan.link;
   if (of_case.fades) link.trace = shifted(plan.fades, plan.warm_up);
   if (of_case.queue > Duration{}) {
@@ -199,22 +200,22 @@ link::LinkParams link_of(const ContestCase& of_case, const ContestPlan& plan) {
   return link;
 }
 
-ContestRow best_possible(const ContestCase& of_case, const ContestPlan& plan) {
+ComparisonRow best_possible(const ComparisonCase& of_case, const ComparisonPlan& plan) {
   const link::LinkTrace fades = link_of(of_case, plan).trace;
   Arrivals arrivals;
   const Instant end = Instant{} + plan.warm_up + plan.length;
   for (Instant at{}; at < end; at += link::kLook)
     if (link::loss_over_time(fades, at) == 0.0)
       arrivals.states.push_back({at, at + plan.link.delay});
-  ContestRow row = judge(arrivals, {}, plan);
+  ComparisonRow row = judge(arrivals, {}, plan);
   row.contestant = "the channel's floor";
   row.of_case = of_case.name;
   return row;
 }
 
-Result<std::vector<ContestRow>, Problem> run_contest(const Contestant& contestant,
-                                                     const ContestCase& of_case,
-                                                     const ContestPlan& plan) {
+Result<std::vector<ComparisonRow>, Problem> run_comparison(const Peer& contestant,
+                                                           const ComparisonCase& of_case,
+                                                           const ComparisonPlan& plan) {
   auto networks = make_networks();
   if (!networks) return Unexpected{networks.error()};
   const auto folder = transport::TemporaryFolder::create("pitwall-contest");
@@ -237,9 +238,9 @@ Result<std::vector<ContestRow>, Problem> run_contest(const Contestant& contestan
   auto arrivals = arrivals_in(folder->path() + "/" + kBase, contestant.name, begin);
   if (!arrivals) return Unexpected{arrivals.error()};
 
-  std::vector<ContestRow> rows;
+  std::vector<ComparisonRow> rows;
   for (auto& stream : by_stream(std::move(arrivals->states))) {
-    ContestRow row = judge({std::move(stream), arrivals->bulk}, tally, plan);
+    ComparisonRow row = judge({std::move(stream), arrivals->bulk}, tally, plan);
     row.contestant = contestant.name;
     row.of_case = of_case.name;
     rows.push_back(std::move(row));

@@ -30,27 +30,27 @@ namespace pitwall::benchmarks {
 
 inline constexpr Duration kRateWindow = milliseconds(100), kLongWindow = seconds(1);
 
-struct Contestant {
+struct Peer {
   std::string name;
   std::string program;
   std::string mode;    // empty: none
   bool tuned = false;  // for the link and the bulk: runs in the cases with bulk only
 };
 
-struct ContestCase {
+struct ComparisonCase {
   std::string_view name;
   bool bulk = false, fades = false;
   Duration queue{};  // of the link at its rate; zero: as the plan has it
 };
 
-struct ContestPlan {
+struct ComparisonPlan {
   link::LinkParams link;  // of each direction, without fades
   link::LinkTrace fades;  // from the end of the warm-up, in the cases with fades
   Duration length{}, warm_up = seconds(4);
   std::uint64_t seed = 1;
 };
 
-struct ContestRow {
+struct ComparisonRow {
   std::string contestant, stream, of_case;
   double age_p50_ms = 0.0, age_p99_ms = 0.0, age_max_ms = 0.0;
   double offered_kbps = 0.0, up_kbps = 0.0;
@@ -62,16 +62,16 @@ struct ContestRow {
 };
 
 // A row for each stream, in order of first arrival; one without a name where nothing came.
-Result<std::vector<ContestRow>, Problem> run_contest(const Contestant& contestant,
-                                                     const ContestCase& of_case,
-                                                     const ContestPlan& plan);
+Result<std::vector<ComparisonRow>, Problem> run_comparison(const Peer& contestant,
+                                                           const ComparisonCase& of_case,
+                                                           const ComparisonPlan& plan);
 
 // Of each direction, from the start of the run.
-link::LinkParams link_of(const ContestCase& of_case, const ContestPlan& plan);
+link::LinkParams link_of(const ComparisonCase& of_case, const ComparisonPlan& plan);
 
 // The floor that the channel sets: a value each millisecond, each as small as nothing, lost only in
 // fades. No sender can be younger.
-ContestRow best_possible(const ContestCase& of_case, const ContestPlan& plan);
+ComparisonRow best_possible(const ComparisonCase& of_case, const ComparisonPlan& plan);
 
 // What a base printed, in order of arrival.
 struct StateArrival {
@@ -90,6 +90,6 @@ Result<Arrivals, Problem> read_arrivals(std::string_view text, const std::string
 
 // Pure: from what came of one stream, of bulk, and what was offered. Times since the start of the
 // link.
-ContestRow judge(const Arrivals& arrivals, const LinkTally& tally, const ContestPlan& plan);
+ComparisonRow judge(const Arrivals& arrivals, const LinkTally& tally, const ComparisonPlan& plan);
 
 }  // namespace pitwall::benchmarks

@@ -11,8 +11,8 @@
 namespace pitwall::benchmarks {
 namespace {
 
-ContestPlan short_plan() {
-  ContestPlan plan;
+ComparisonPlan short_plan() {
+  ComparisonPlan plan;
   plan.link.rate_bytes_per_s = 32'000.0;
   plan.link.delay = milliseconds(15);
   plan.length = seconds(1);
@@ -20,7 +20,7 @@ ContestPlan short_plan() {
   return plan;
 }
 
-TEST(Contest, ReadsWhatTheBasePrintsInOrderOfArrival) {
+TEST(Comparison, ReadsWhatTheBasePrintsInOrderOfArrival) {
   const auto arrivals = read_arrivals("5 20 fast\n7 30\nbulk 28 4000\n6 25 all of it\n", "peer");
   ASSERT_TRUE(arrivals) << to_string(arrivals.error());
   const auto& states = arrivals->states;
@@ -35,7 +35,7 @@ TEST(Contest, ReadsWhatTheBasePrintsInOrderOfArrival) {
   EXPECT_TRUE(read_arrivals("", "peer")->states.empty());
 }
 
-TEST(Contest, SaysWhichLineIsNone) {
+TEST(Comparison, SaysWhichLineIsNone) {
   for (const char* bad :
        {"1 2\nhello\n", "1 2\n3 4", "1 2\n3\n", "1 2\n3 4 \n", "1 2\n3 4x\n", "1 2\n3 x\n",
         "1 2\nbulk 3\n", "1 2\nbulk 3 4 5\n", "1 2\nbulk 3 4", "1 2\nbulk x 4\n"}) {
@@ -46,7 +46,7 @@ TEST(Contest, SaysWhichLineIsNone) {
   }
 }
 
-TEST(Contest, OnlyWhatComesAfterTheWarmUpIsJudged) {
+TEST(Comparison, OnlyWhatComesAfterTheWarmUpIsJudged) {
   Arrivals arrivals;
   LinkTally tally;
   for (std::int64_t ms = 0; ms < 1'500; ms += 20) {
@@ -55,7 +55,7 @@ TEST(Contest, OnlyWhatComesAfterTheWarmUpIsJudged) {
     tally.down.offered.push_back({at_ms(ms), ms < 500 ? 10'000U : 100U});
     tally.up.offered.push_back({at_ms(ms), 10U});
   }
-  const ContestRow row = judge(arrivals, tally, short_plan());
+  const ComparisonRow row = judge(arrivals, tally, short_plan());
   EXPECT_NEAR(row.age_p50_ms, 24.0, 1.0);
   EXPECT_NEAR(row.age_max_ms, 34.0, 1.0);
   EXPECT_NEAR(row.offered_kbps, 50 * 100 * 8e-3, 1e-9);
@@ -67,8 +67,8 @@ TEST(Contest, OnlyWhatComesAfterTheWarmUpIsJudged) {
 }
 
 // A case has the plan's link, with its own queue; fades begin at the end of the warm-up.
-TEST(Contest, ACaseMayHaveAQueueOfItsOwn) {
-  ContestPlan plan = short_plan();
+TEST(Comparison, ACaseMayHaveAQueueOfItsOwn) {
+  ComparisonPlan plan = short_plan();
   plan.fades.outages = {{at_ms(100), at_ms(300), 1.0}};
   EXPECT_EQ(link_of({"light"}, plan).queue_bytes, plan.link.queue_bytes);
   EXPECT_TRUE(link_of({"light"}, plan).trace.outages.empty());
@@ -78,11 +78,11 @@ TEST(Contest, ACaseMayHaveAQueueOfItsOwn) {
   EXPECT_EQ(faded[0].from, at_ms(600));
 }
 
-TEST(Contest, NobodyIsYoungerThanTheChannelAllows) {
-  ContestPlan plan = short_plan();
+TEST(Comparison, NobodyIsYoungerThanTheChannelAllows) {
+  ComparisonPlan plan = short_plan();
   EXPECT_EQ(best_possible({"light"}, plan).age_max_ms, 15.0);
   plan.fades.outages = {{at_ms(100), at_ms(300), 1.0}};
-  const ContestRow faded = best_possible({"fades", false, true}, plan);
+  const ComparisonRow faded = best_possible({"fades", false, true}, plan);
   EXPECT_EQ(faded.age_p50_ms, 15.0);
   EXPECT_NEAR(faded.age_max_ms, 15.0 + 200.0, 1.0);
 }
@@ -97,7 +97,7 @@ class ContestRun : public ::testing::Test {
     ASSERT_TRUE(folder);
     folder_.emplace(*std::move(folder));
   }
-  Contestant scripted(const std::string& script) {
+  Peer scripted(const std::string& script) {
     const std::string path = folder_->path() + "/peer";
     EXPECT_TRUE(transport::write_file(path, "#!/bin/sh\n" + script, 0755));
     return {"scripted", path, "mode"};
@@ -106,17 +106,17 @@ class ContestRun : public ::testing::Test {
 };
 
 TEST_F(ContestRun, RunsBothEndsAndReadsTheBase) {
-  const Contestant contestant = scripted(
+  const Peer contestant = scripted(
       "[ $# = 4 ] && [ \"$3\" = 1 ] && [ \"$4\" = mode ] || exit 9\n"
       "[ $1 = car ] && exit 0\n"
       "end=$2\n"
       "i=1500\n"
       "while [ $i -gt 0 ]; do at=$((end - i * 1000000)); echo $((at - 30000000)) $at;\n"
       "echo $((at - 80000000)) $at old; i=$((i - 20)); done\n");
-  const auto rows = run_contest(contestant, {"both", true, true}, short_plan());
+  const auto rows = run_comparison(contestant, {"both", true, true}, short_plan());
   ASSERT_TRUE(rows) << to_string(rows.error());
   ASSERT_EQ(rows->size(), 2U);
-  for (const ContestRow& row : *rows) {
+  for (const ComparisonRow& row : *rows) {
     EXPECT_EQ(row.states, 75U);
     EXPECT_NEAR(row.age_p50_ms, row.stream == "old" ? 90.0 : 40.0, 2.0);  // and half of 20
     EXPECT_EQ(row.offered_kbps, 0.0);
@@ -125,7 +125,7 @@ TEST_F(ContestRun, RunsBothEndsAndReadsTheBase) {
 }
 
 TEST_F(ContestRun, ABaseThatHeardNothingHasARow) {
-  const auto rows = run_contest(scripted("exit 0\n"), {"light"}, short_plan());
+  const auto rows = run_comparison(scripted("exit 0\n"), {"light"}, short_plan());
   ASSERT_TRUE(rows) << to_string(rows.error());
   ASSERT_EQ(rows->size(), 1U);
   EXPECT_EQ(rows->front().states, 0U);
@@ -133,7 +133,7 @@ TEST_F(ContestRun, ABaseThatHeardNothingHasARow) {
 }
 
 TEST_F(ContestRun, SaysWhoFailedAndHow) {
-  const auto row = run_contest(scripted("exit 3\n"), {"light"}, short_plan());
+  const auto row = run_comparison(scripted("exit 3\n"), {"light"}, short_plan());
   ASSERT_FALSE(row);
   EXPECT_EQ(to_string(row.error()), "scripted: error: ended with 3");
 }

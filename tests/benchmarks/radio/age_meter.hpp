@@ -13,6 +13,7 @@
 
 #include "protocol/telemetry/registry/group_row.hpp"
 #include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/vocabulary/quantile.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::radio {
@@ -30,12 +31,11 @@ class AgeMeter {
   Duration quantile(telemetry::Group group, double q) const { return quantile(of(group), q); }
   Duration state_quantile(double q) const { return quantile(state_, q); }
   Duration worst(telemetry::Group group) const { return of(group).worst; }
-  std::uint64_t looks(telemetry::Group group) const { return of(group).looks; }
+  std::uint64_t looks(telemetry::Group group) const { return of(group).bins_ms.count(); }
 
  private:
   struct Ages {
-    std::vector<std::uint32_t> bins;
-    std::uint64_t looks = 0;
+    Histogram bins_ms{kBins};
     Duration worst{};
   };
   static void add(Ages& ages, Duration age);

@@ -83,9 +83,9 @@ BudgetRun run_budget(const BudgetCell& cell) {
   VirtualRadio radio(setup);
   radio.record_departures(true);
   OfferedLoad load(setup.budget_down[0].bytes_per_s, cell.load);
-  Storm storm(radio, cell.trouble);
+  StressLoad stress(radio, cell.trouble);
   for (const Instant end = radio.now() + cell.length; radio.now() < end;) {
-    storm.step();
+    stress.step();
     load.run(radio, kStep);
   }
   BudgetRun run;
@@ -96,8 +96,8 @@ BudgetRun run_budget(const BudgetCell& cell) {
         judge(radio.departures(false, path), setup.budget_up[path], name_of(cell, false)));
   }
   run.arrivals = radio.arrivals();
-  run.applied = storm.applied();
-  run.knocks = storm.knocks();
+  run.applied = stress.applied();
+  run.openings = stress.openings();
   run.established = radio.car_report().established;
   return run;
 }

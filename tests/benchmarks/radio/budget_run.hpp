@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/benchmarks/radio/storm.hpp"
+#include "tests/benchmarks/radio/stress_load.hpp"
 #include "tests/benchmarks/radio/virtual_radio.hpp"
 
 namespace pitwall::radio {
@@ -43,7 +43,7 @@ struct BudgetCell {
 };
 struct BudgetRun {
   std::vector<BudgetVerdict> verdicts;
-  std::uint64_t arrivals = 0, applied = 0, knocks = 0;
+  std::uint64_t arrivals = 0, applied = 0, openings = 0;
   bool established = false;
 };
 BudgetRun run_budget(const BudgetCell& cell);

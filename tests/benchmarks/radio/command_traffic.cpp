@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "protocol/vocabulary/check.hpp"
+#include "protocol/vocabulary/quantile.hpp"
+#include "protocol/vocabulary/random.hpp"
 
 namespace pitwall::radio {
 
@@ -107,9 +109,7 @@ class Operator {
 
 double CommandFigures::quantile_ms(double q) const {
   if (to_apply_us.empty()) return 0.0;
-  const auto rank =
-      static_cast<std::size_t>(std::ceil(q * static_cast<double>(to_apply_us.size())));
-  return static_cast<double>(to_apply_us[std::max<std::size_t>(rank, 1) - 1]) / 1'000.0;
+  return static_cast<double>(to_apply_us[nearest_rank(q, to_apply_us.size())]) / 1'000.0;
 }
 
 CommandFigures run_commands(VirtualRadio& radio, std::uint64_t count, Duration mean_gap) {
@@ -117,9 +117,9 @@ CommandFigures run_commands(VirtualRadio& radio, std::uint64_t count, Duration m
   CommandFigures figures;
   Operator hand(radio, figures);
   radio.run(seconds(2));
-  std::uint64_t dice = 88'172'645'463'325'252U;
+  Random random{1};
   while (figures.issued < count) {
-    dice ^= dice << 13, dice ^= dice >> 7, dice ^= dice << 17;  // Marsaglia 2003, xorshift64
+    const std::uint64_t dice = random.next();
     hand.renew();
     if (dice % gap == 0) hand.give(kTypes[figures.issued % kTypes.size()]);
     radio.step();

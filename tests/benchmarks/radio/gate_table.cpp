@@ -2,30 +2,28 @@
 #include "tests/benchmarks/radio/gate_table.hpp"
 
 #include <algorithm>
-#include <cstdio>
+
+#include "protocol/json/json_text.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::radio {
 
 std::string line_of(const Gate& gate) {
-  char line[160];
-  std::snprintf(line, sizeof line, "  %-6s %-58s %10.2f <= %10.2f %s",
-                gate.held() ? "held" : "MISSED", gate.what.c_str(), gate.figure, gate.limit,
-                gate.unit.c_str());
-  return line;
+  return formatted("  %-6s %-58s %10.2f <= %10.2f %s", gate.held() ? "held" : "MISSED",
+                   gate.what.c_str(), gate.figure, gate.limit, gate.unit.c_str());
 }
 
 std::string json_of(const std::vector<Gate>& gates) {
-  std::string json = "{\"gates\": [";
-  for (const Gate& gate : gates) {
-    char row[320];
-    std::snprintf(row, sizeof row,
-                  "%s\n  {\"what\": \"%s\", \"figure\": %.9g, \"limit\": %.9g, \"unit\": \"%s\", "
-                  "\"held\": %s}",
-                  &gate == gates.data() ? "" : ",", gate.what.c_str(), gate.figure, gate.limit,
-                  gate.unit.c_str(), gate.held() ? "true" : "false");
-    json += row;
-  }
-  return json + "\n]}\n";
+  json::Array rows;
+  for (const Gate& gate : gates)
+    rows.json(json::Object{}
+                  .text("what", gate.what)
+                  .number("figure", gate.figure)
+                  .number("limit", gate.limit)
+                  .text("unit", gate.unit)
+                  .flag("held", gate.held())
+                  .str());
+  return json::Object{}.json("gates", rows.str()).str() + "\n";
 }
 
 bool all_held(const std::vector<Gate>& gates) {

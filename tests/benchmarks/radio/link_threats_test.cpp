@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/benchmarks/radio/forger.hpp"
+#include "tests/benchmarks/radio/forged_packets.hpp"
 #include "tests/benchmarks/radio/virtual_radio.hpp"
 #include "tests/system/radio/radio_setups.hpp"
 
@@ -98,8 +98,8 @@ struct Pair {
   }
 };
 
-telemetry::ConduitConfig config_of(const telemetry::KeyFile& keys, bool signed_only = false) {
-  telemetry::ConduitConfig config;
+telemetry::LinkEndpointConfig config_of(const telemetry::KeyFile& keys, bool signed_only = false) {
+  telemetry::LinkEndpointConfig config;
   config.association.keys = keys;
   config.association.greeting.signed_only = signed_only;
   config.association.peer[0] = {0x0A000002, 5'000};
@@ -111,7 +111,7 @@ telemetry::ConduitConfig config_of(const telemetry::KeyFile& keys, bool signed_o
 // Another car at the same base; hears all that the base says.
 class OtherCar {
  public:
-  OtherCar(VirtualRadio& radio, const telemetry::ConduitConfig& config)
+  OtherCar(VirtualRadio& radio, const telemetry::LinkEndpointConfig& config)
       : radio_(radio), car_(config, randomness_) {
     radio.tap([this](bool down, telemetry::PathId, std::span<const std::uint8_t> bytes) {
       if (!down) heard_.emplace_back(bytes.begin(), bytes.end());

@@ -24,7 +24,7 @@ std::vector<BudgetCell> cells() {
     for (const double load : {0.0, 1.0, 3.0, 20.0}) {
       cells.push_back({.kbit_per_s = kbit_per_s, .load = load});
     }
-    for (const Trouble trouble : {Trouble::kCommands, Trouble::kKnocks, Trouble::kRestarts}) {
+    for (const Trouble trouble : {Trouble::kCommands, Trouble::kOpenings, Trouble::kRestarts}) {
       cells.push_back({.kbit_per_s = kbit_per_s, .load = 3.0, .trouble = trouble});
     }
   }

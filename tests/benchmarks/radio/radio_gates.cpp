@@ -9,7 +9,7 @@
 #include "protocol/transport/file.hpp"
 #include "tests/benchmarks/command_line.hpp"
 #include "tests/benchmarks/radio/command_traffic.hpp"
-#include "tests/benchmarks/radio/forger.hpp"
+#include "tests/benchmarks/radio/forged_packets.hpp"
 #include "tests/benchmarks/radio/gate_table.hpp"
 #include "tests/benchmarks/radio/long_gates.hpp"
 
@@ -120,7 +120,7 @@ struct Flooded {
 
 Flooded run_flood(std::size_t each_ms, Duration length, std::uint64_t seed) {
   VirtualRadio radio(lossy(0.0, 1, seed));
-  radio::Forger forger(radio, seed);
+  radio::PacketForger forger(radio, seed);
   radio.run(seconds(3));
   radio.reset_ages();
   const std::clock_t begin = std::clock();

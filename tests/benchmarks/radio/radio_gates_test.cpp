@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/hil/verbs/program_run.hpp"
+#include "tests/hil/cli/program_run.hpp"
 
 namespace pitwall::benchmarks {
 
-using verbs::ProgramRun;
-using verbs::Said;
+using cli::ProgramRun;
+using cli::Said;
 namespace {
 
 using RadioGates = ProgramRun;

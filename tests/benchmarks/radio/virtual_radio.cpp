@@ -73,8 +73,8 @@ VirtualRadio::VirtualRadio(const RadioSetup& setup)
   restart_base();
 }
 
-ConduitConfig VirtualRadio::config(bool car) const {
-  ConduitConfig config;
+LinkEndpointConfig VirtualRadio::config(bool car) const {
+  LinkEndpointConfig config;
   config.association.keys = car ? car_keys_ : base_keys_;
   config.association.greeting.signed_only = setup_.signed_only;
   config.schema = car ? setup_.schema_of_car : setup_.schema_of_base;
@@ -102,7 +102,7 @@ void VirtualRadio::restart_car(Duration away) {
 
 void VirtualRadio::restart_base(Duration away) {
   base_side_.there = now_ + away;
-  ConduitConfig base = config(false);
+  LinkEndpointConfig base = config(false);
   if (station_ && setup_.stamps_kept) base.association.newest_stamp = station_->newest_stamp();
   station_ = std::make_unique<StationEndpoint>(base, randomness_);
   sample_at_base_.fill(-1);

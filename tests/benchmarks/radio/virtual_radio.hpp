@@ -144,7 +144,7 @@ class VirtualRadio {
     Instant there{};  // away before
   };
 
-  telemetry::ConduitConfig config(bool car) const;
+  telemetry::LinkEndpointConfig config(bool car) const;
   void deliver();
   void take_at_base(const link::Datagram& datagram, telemetry::PathId path);
   void take_at_car(const link::Datagram& datagram, telemetry::PathId path);

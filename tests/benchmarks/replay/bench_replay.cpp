@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <vector>
 
-#include "hil/guest/bus_verb.hpp"
+#include "hil/can_bus/bus_verb.hpp"
+#include "hil/cli/run_verb.hpp"
 #include "hil/replay/candump_log.hpp"
 #include "hil/replay/sample_log.hpp"
 #include "hil/replay/timeline.hpp"
-#include "hil/verbs/run_verb.hpp"
 #include "protocol/transport/file.hpp"
 #include "tests/benchmarks/command_line.hpp"
 #include "tests/benchmarks/replay/match_report.hpp"
@@ -81,7 +81,7 @@ std::vector<std::string> exec_command(const BenchOptions& options, const std::st
   std::vector<std::string> out{"exec",        "--auto",
                                "--interface", options.interface,
                                "--timeout",   std::to_string(static_cast<int>(most_s)),
-                               "--",          verbs::own_program(),
+                               "--",          cli::own_program(),
                                "replay",      "--here",
                                "--log",       folder + "/played.log",
                                "--folder",    folder,
@@ -117,7 +117,7 @@ int match_where_can_is(const BenchOptions& options) {
   const auto length_s = length_of(file, log);
   if (!length_s) return refuse(length_s.error());
   if (*length_s > kMaxLength_s) return refuse({options.log_file, "is longer than ten minutes"});
-  return guest::bus_verb(exec_command(options, folder->path(), *length_s));
+  return can_bus::bus_verb(exec_command(options, folder->path(), *length_s));
 }
 
 }  // namespace

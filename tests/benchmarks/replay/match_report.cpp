@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
+
+#include "protocol/json/json_text.hpp"
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::benchmarks {
 namespace {
@@ -19,13 +21,6 @@ using Runs = std::vector<Comparison>;
 // be near the gaps of a busy bus: half of its gaps are almost right, at wrong times.
 constexpr std::array<double, kPlayers> kLeastTimes{1.0, 5.0, 2.0};
 constexpr double kLeastMedianGapTimes = 2.0;
-
-template <class... Args>
-std::string format(const char* pattern, Args... args) {
-  std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(), pattern, args...);
-  return text.data();
-}
 
 bool is_whole(const Runs& runs) {
   return !runs.empty() && std::all_of(runs.begin(), runs.end(), [](const Comparison& run) {
@@ -54,58 +49,62 @@ std::uint64_t most(const Runs& runs, std::uint64_t Comparison::*which) {
 }
 
 std::string cells(const Quantiles& q) {
-  return format(" %8.0f %8.0f %8.0f %8.0f", q.p50_us, q.p90_us, q.p99_us, q.max_us);
+  return formatted(" %8.0f %8.0f %8.0f %8.0f", q.p50_us, q.p90_us, q.p99_us, q.max_us);
 }
 
 std::string row(const char* name, const Runs& runs) {
   const bool ordered =
       std::all_of(runs.begin(), runs.end(), [](const Comparison& run) { return run.in_order; });
-  return format("%-14s", name) + cells(median(runs, &TimingErrors::lateness)) + " |" +
+  return formatted("%-14s", name) + cells(median(runs, &TimingErrors::lateness)) + " |" +
          cells(median(runs, &TimingErrors::gap)) +
-         format(" | %4llu %5llu  %s\n",
-                static_cast<unsigned long long>(most(runs, &Comparison::lost)),
-                static_cast<unsigned long long>(most(runs, &Comparison::extra)),
-                ordered ? "kept" : "LOST");
+         formatted(" | %4llu %5llu  %s\n",
+                   static_cast<unsigned long long>(most(runs, &Comparison::lost)),
+                   static_cast<unsigned long long>(most(runs, &Comparison::extra)),
+                   ordered ? "kept" : "LOST");
 }
 
 std::string ratio_row(const char* name, const Runs& theirs, const Runs& ours) {
-  std::string out = format("%-14s", name);
+  std::string out = formatted("%-14s", name);
   for (const auto which : {&TimingErrors::lateness, &TimingErrors::gap}) {
     const Quantiles t = median(theirs, which), o = median(ours, which);
     for (double Quantiles::*const q :
          {&Quantiles::p50_us, &Quantiles::p90_us, &Quantiles::p99_us, &Quantiles::max_us})
-      out += format(" %7.1fx", times(t.*q, o.*q));
+      out += formatted(" %7.1fx", times(t.*q, o.*q));
     if (which == &TimingErrors::lateness) out += " |";
   }
   return out + " |\n";
 }
 
-std::string number(double value) {
-  return std::isfinite(value) ? format("%.3f", value) : std::string("null");
-}
-
 std::string json_of(const Quantiles& q) {
-  return "{\"p50_us\":" + number(q.p50_us) + ",\"p90_us\":" + number(q.p90_us) +
-         ",\"p99_us\":" + number(q.p99_us) + ",\"max_us\":" + number(q.max_us) + "}";
+  return json::Object{}
+      .number("p50_us", q.p50_us)
+      .number("p90_us", q.p90_us)
+      .number("p99_us", q.p99_us)
+      .number("max_us", q.max_us)
+      .str();
 }
 
 std::string json_of(const Comparison& run) {
-  std::string out =
-      "{\"wanted\":" + std::to_string(run.wanted) + ",\"arrived\":" + std::to_string(run.arrived) +
-      ",\"lost\":" + std::to_string(run.lost) + ",\"extra\":" + std::to_string(run.extra) +
-      ",\"in_order\":" + (run.in_order ? "true" : "false");
+  json::Object out;
+  out.number("wanted", run.wanted)
+      .number("arrived", run.arrived)
+      .number("lost", run.lost)
+      .number("extra", run.extra)
+      .flag("in_order", run.in_order);
   if (run.timing)
-    out += ",\"lateness\":" + json_of(run.timing->lateness) +
-           ",\"gap_error\":" + json_of(run.timing->gap);
-  return out + "}";
+    out.json("lateness", json_of(run.timing->lateness)).json("gap_error", json_of(run.timing->gap));
+  return out.str();
 }
 
 std::string json_of(std::size_t player, const Runs& runs) {
-  std::string out = std::string("{\"name\":\"") + kPlayerNames[player] +
-                    "\",\"lateness\":" + json_of(median(runs, &TimingErrors::lateness)) +
-                    ",\"gap_error\":" + json_of(median(runs, &TimingErrors::gap)) + ",\"runs\":[";
-  for (std::size_t i = 0; i < runs.size(); ++i) out += (i == 0 ? "" : ",") + json_of(runs[i]);
-  return out + "]}";
+  json::Array each;
+  for (const Comparison& run : runs) each.json(json_of(run));
+  return json::Object{}
+      .text("name", kPlayerNames[player])
+      .json("lateness", json_of(median(runs, &TimingErrors::lateness)))
+      .json("gap_error", json_of(median(runs, &TimingErrors::gap)))
+      .json("runs", each.str())
+      .str();
 }
 
 }  // namespace
@@ -135,43 +134,48 @@ std::vector<MatchGate> gates_of(const MatchFigures& figures) {
 
 std::string to_text(const MatchReport& report) {
   const auto& runs = report.figures.runs;
-  std::string out =
-      format("replay of %llu frames in %.1f s, %zu runs each, one after the other\n",
-             static_cast<unsigned long long>(report.frames), report.length_s, runs[kOurs].size());
+  std::string out = formatted(
+      "replay of %llu frames in %.1f s, %zu runs each, one after the other\n",
+      static_cast<unsigned long long>(report.frames), report.length_s, runs[kOurs].size());
   out += "medians over the runs, us; load of the host at the start: " + report.host_load + "\n\n";
-  out += format("%-14s %35s | %35s | %s\n", "", "lateness", "gap error", "worst run");
-  out += format("%-14s", "");
-  for (int i = 0; i < 2; ++i) out += format(" %8s %8s %8s %8s |", "p50", "p90", "p99", "max");
+  out += formatted("%-14s %35s | %35s | %s\n", "", "lateness", "gap error", "worst run");
+  out += formatted("%-14s", "");
+  for (int i = 0; i < 2; ++i) out += formatted(" %8s %8s %8s %8s |", "p50", "p90", "p99", "max");
   out += " lost extra  order\n";
   for (std::size_t i = 0; i < kPlayers; ++i) out += row(kPlayerNames[i], runs[i]);
   for (const std::size_t peer : {kCanplayer, kPythonCan})
     out += ratio_row((std::string(kPlayerNames[peer]) + "/ours").c_str(), runs[peer], runs[kOurs]);
-  out += format("%-14s", "sleep alone") + cells(report.figures.noise_floor) +
+  out += formatted("%-14s", "sleep alone") + cells(report.figures.noise_floor) +
          " |  (the machine's own lateness, SCHED_FIFO)\n\n";
   for (const MatchGate& gate : gates_of(report.figures))
-    out += format("gate: %s: %.1f, at least %.0f: %s\n", gate.text.c_str(), gate.value, gate.least,
-                  gate.held() ? "held" : "MISSED");
+    out += formatted("gate: %s: %.1f, at least %.0f: %s\n", gate.text.c_str(), gate.value,
+                     gate.least, gate.held() ? "held" : "MISSED");
   return out;
 }
 
 std::string to_json(const MatchReport& report) {
-  std::string out = "{\"bench\":\"replay\",\"frames\":" + std::to_string(report.frames) +
-                    ",\"length_s\":" + number(report.length_s) + ",\"host_load\":\"" +
-                    report.host_load + "\",\"players\":[";
-  for (std::size_t i = 0; i < kPlayers; ++i)
-    out += (i == 0 ? "" : ",") + json_of(i, report.figures.runs[i]);
-  out += "],\"sleep_alone\":" + json_of(report.figures.noise_floor) + ",\"gates\":[";
+  json::Array players, gates;
+  for (std::size_t i = 0; i < kPlayers; ++i) players.json(json_of(i, report.figures.runs[i]));
   bool held = true;
-  const auto gates = gates_of(report.figures);
-  for (std::size_t i = 0; i < gates.size(); ++i) {
-    out += (i == 0 ? "" : ",") + std::string("{\"text\":\"") + gates[i].text +
-           "\",\"value\":" + number(gates[i].value) + ",\"least\":" + number(gates[i].least) +
-           ",\"held\":" + (gates[i].held() ? "true" : "false") + "}";
-    held = held && gates[i].held();
+  for (const MatchGate& gate : gates_of(report.figures)) {
+    gates.json(json::Object{}
+                   .text("text", gate.text)
+                   .number("value", gate.value)
+                   .number("least", gate.least)
+                   .flag("held", gate.held())
+                   .str());
+    held = held && gate.held();
   }
-  out += "]";
-  if (!report.figures.own_report.empty()) out += ",\"own_report\":" + report.figures.own_report;
-  return out + ",\"held\":" + (held ? "true" : "false") + "}\n";
+  json::Object out;
+  out.text("bench", "replay")
+      .number("frames", report.frames)
+      .number("length_s", report.length_s)
+      .text("host_load", report.host_load)
+      .json("players", players.str())
+      .json("sleep_alone", json_of(report.figures.noise_floor))
+      .json("gates", gates.str());
+  if (!report.figures.own_report.empty()) out.json("own_report", report.figures.own_report);
+  return out.flag("held", held).str() + "\n";
 }
 
 }  // namespace pitwall::benchmarks

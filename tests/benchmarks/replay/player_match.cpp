@@ -9,9 +9,9 @@
 #include <span>
 #include <utility>
 
+#include "hil/cli/run_verb.hpp"
 #include "hil/replay/sample_log.hpp"
-#include "hil/verbs/run_verb.hpp"
-#include "protocol/transport/can_socket.hpp"
+#include "protocol/transport/can/can_socket.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
@@ -38,14 +38,13 @@ constexpr Duration kFloorPeriod = milliseconds(1);
 std::vector<std::string> command_of(std::size_t player, const MatchPlan& plan,
                                     const CandumpLog& log, const std::string& log_file) {
   if (player == kOurs)
-    return {
-        (fs::path(verbs::own_program()).parent_path().parent_path() / "hil/pitwall-hil").string(),
-        "replay",
-        log_file,
-        "--interface",
-        plan.interface,
-        "--json",
-        plan.folder + "/ours.json"};
+    return {(fs::path(cli::own_program()).parent_path().parent_path() / "hil/pitwall-hil").string(),
+            "replay",
+            log_file,
+            "--interface",
+            plan.interface,
+            "--json",
+            plan.folder + "/ours.json"};
   if (player == kCanplayer) {
     std::vector<std::string> command{"canplayer", "-I", log_file};
     for (const std::string& channel : log.channels)

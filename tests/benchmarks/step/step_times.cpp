@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "hil/bench/lockstep.hpp"
+#include "hil/bench/lockstep/lockstep.hpp"
 #include "protocol/transport/allocation_count.hpp"
 #include "protocol/transport/clock.hpp"
 #include "tests/benchmarks/cost/reference_cost.hpp"

@@ -59,7 +59,7 @@ TEST(Contact, NobodyNamedFailsTheRunWithPlaceAndSpeed) {
             "CONTACT: the car hit the wall on the right at 10.00 s, s 700 m, at 40.0 m/s");
   EXPECT_EQ(crash.result.verdicts[0].first_violation, at_s(10));
   EXPECT_NE(to_text(crash.result).find("verdict: CONTACT\n"), std::string::npos);
-  EXPECT_NE(to_json(crash.result).find("\"failed_by_contact\":true"), std::string::npos);
+  EXPECT_NE(to_json(crash.result).find("\"failed_by_contact\": true"), std::string::npos);
 }
 
 TEST(Contact, ANamedOnePassesUpToItsBound) {

@@ -20,12 +20,12 @@ BenchFault at(faults::BenchFaultKind kind, Duration start, std::optional<Duratio
 }
 
 // "10.000 0 0": when, who, what.
-std::vector<std::string> lines(const std::vector<Deed>& deeds) {
+std::vector<std::string> lines(const std::vector<ProcessAction>& actions) {
   std::vector<std::string> out;
-  for (const Deed& deed : deeds)
-    out.push_back(std::to_string((deed.at - Instant{}).ns / 1'000'000) + " " +
-                  std::string(kRoleNames[static_cast<std::size_t>(deed.role)]) + " " +
-                  std::string(kActNames[static_cast<std::size_t>(deed.act)]));
+  for (const ProcessAction& action : actions)
+    out.push_back(std::to_string((action.at - Instant{}).ns / 1'000'000) + " " +
+                  std::string(kRoleNames[static_cast<std::size_t>(action.role)]) + " " +
+                  std::string(kActNames[static_cast<std::size_t>(action.act)]));
   return out;
 }
 
@@ -53,22 +53,22 @@ TEST(ProcessScript, ASlowedProcessIsStoppedForItsShareAndRunsAtTheEnd) {
     for (const auto& lasts : {std::optional<Duration>{milliseconds(1'010)},
                               std::optional<Duration>{seconds(7)}, std::optional<Duration>{}}) {
       const std::vector faults{at(kComputerSlow, seconds(57), lasts, share)};
-      const auto deeds = script_of(faults, kEnd);
+      const auto actions = script_of(faults, kEnd);
       Duration stopped{};
       bool running = true;
       Instant since{};
       int told = 0;
-      for (const Deed& deed : deeds) {
-        EXPECT_EQ(deed.act, running ? Act::kPause : Act::kResume) << "they alternate";
-        if (!running) stopped = stopped + (deed.at - since);
+      for (const ProcessAction& action : actions) {
+        EXPECT_EQ(action.act, running ? Act::kPause : Act::kResume) << "they alternate";
+        if (!running) stopped = stopped + (action.at - since);
         running = !running;
-        since = deed.at;
-        told += deed.first_of_many || !deed.one_of_many ? 1 : 0;
+        since = action.at;
+        told += action.first_of_many || !action.one_of_many ? 1 : 0;
       }
       EXPECT_TRUE(running);
       EXPECT_EQ(told, 1);
       const Instant until = lasts ? std::min(kEnd, Instant{} + seconds(57) + *lasts) : kEnd;
-      EXPECT_LE(deeds.back().at, until);
+      EXPECT_LE(actions.back().at, until);
       const double whole_s = (until - (Instant{} + seconds(57))).seconds();
       EXPECT_NEAR(stopped.seconds(), share * whole_s, kSlowPeriod.seconds());
     }

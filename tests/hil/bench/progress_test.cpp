@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "hil/bench/lockstep.hpp"
+#include "hil/bench/lockstep/lockstep.hpp"
 #include "protocol/json/json_value.hpp"
 #include "tests/hil/bench/flying_lap.hpp"
 
@@ -127,7 +127,7 @@ TEST(Progress, EventsHaveABound) {
   scenario::Scenario scenario = short_drive();
   scenario.faults.clear();
   for (std::size_t i = 0; i < Progress::kEventsMax + 10; ++i)
-    scenario.operator_words.push_back({seconds(1), "limit 30"});
+    scenario.operator_texts.push_back({seconds(1), "limit 30"});
   std::size_t events = 0, left_out = 0;
   Progress progress{scenario, "lockstep", [&](const std::string& line) {
                       const JsonValue value = parsed(line);
@@ -135,7 +135,7 @@ TEST(Progress, EventsHaveABound) {
                       if (value.text("type") == "at")
                         left_out = static_cast<std::size_t>(value.number("events_left_out"));
                     }};
-  scenario.operator_words.clear();
+  scenario.operator_texts.clear();
   scenario.duration = seconds(2);
   ASSERT_TRUE(run_lockstep(scenario, lap().setup,
                            {.follow = [&](const RunView& at) { progress.observe(at); }}));

@@ -89,8 +89,8 @@ TEST(Result, JsonHasNoNanAndNoInfinity) {
   const std::string json = to_json(r);
   EXPECT_EQ(json.find("nan"), std::string::npos) << json;
   EXPECT_EQ(json.find("inf"), std::string::npos) << json;
-  EXPECT_NE(json.find("\"margin\":null"), std::string::npos);
-  EXPECT_NE(json.find("\"wall_s\":null"), std::string::npos);
+  EXPECT_NE(json.find("\"margin\": null"), std::string::npos);
+  EXPECT_NE(json.find("\"wall_s\": null"), std::string::npos);
   EXPECT_TRUE(read_back(r));
 }
 

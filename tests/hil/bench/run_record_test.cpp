@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "hil/bench/lockstep.hpp"
+#include "hil/bench/lockstep/lockstep.hpp"
 #include "protocol/recording/mcap_reader.hpp"
 #include "tests/hil/bench/flying_lap.hpp"
 

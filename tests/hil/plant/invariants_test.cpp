@@ -9,22 +9,22 @@
 #include <bit>
 #include <cmath>
 
-#include "hil/faults/random.hpp"
 #include "hil/plant/dynamics.hpp"
 #include "hil/plant/plant.hpp"
 #include "hil/plant/powertrain.hpp"
 #include "hil/plant/tyre.hpp"
+#include "protocol/vocabulary/random.hpp"
 #include "tests/hil/plant/rolling_car.hpp"
 #include "tests/hil/plant/step.hpp"
 
 namespace pitwall::plant {
 namespace {
 
-using Entries = std::array<double, sizeof(Motion) / sizeof(double)>;
-Entries entries(const Motion& m) { return std::bit_cast<Entries>(m); }
+using MotionNumbers = std::array<double, sizeof(Motion) / sizeof(double)>;
+MotionNumbers numbers_of(const Motion& m) { return std::bit_cast<MotionNumbers>(m); }
 
 struct Dice {
-  faults::Random random;
+  Random random;
   explicit Dice(std::uint64_t seed) : random{seed} {}
   double operator()(double low, double high) { return low + (high - low) * random.uniform(); }
 };
@@ -66,7 +66,7 @@ Surface mirrored(Surface road) {
 }
 
 void expect_equal(const State& a, const State& b, double time_s) {
-  const Entries x = entries(a.motion), y = entries(b.motion);
+  const MotionNumbers x = numbers_of(a.motion), y = numbers_of(b.motion);
   for (std::size_t i = 0; i < x.size(); ++i)
     ASSERT_EQ(x[i], y[i]) << "entry " << i << " at " << time_s << " s";
   ASSERT_EQ(a.locked, b.locked);
@@ -257,7 +257,7 @@ TEST(Invariants, LoadsCarryPitchAndRoll) {
 
 // ---- Integrator.
 double apart(const State& a, const State& b) {
-  const Entries x = entries(a.motion), y = entries(b.motion);
+  const MotionNumbers x = numbers_of(a.motion), y = numbers_of(b.motion);
   double sum = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) sum += (x[i] - y[i]) * (x[i] - y[i]);
   return std::sqrt(sum);
@@ -321,7 +321,7 @@ TEST(Invariants, RemainsFiniteWhateverIsAskedOfIt) {
                 .wind_east_mps = dice(-40.0, 40.0),
                 .wind_north_mps = dice(-40.0, 40.0)},
                kStep_s);
-      for (const double v : entries(s.motion)) ASSERT_TRUE(std::isfinite(v)) << seed << " " << i;
+      for (const double v : numbers_of(s.motion)) ASSERT_TRUE(std::isfinite(v)) << seed << " " << i;
       ASSERT_TRUE(std::isfinite(s.engine_rpm) && std::isfinite(sum_of(s.tyre_c)));
       ASSERT_LT(std::abs(s.motion.vx_mps), 120.0) << seed << " " << i;
     }

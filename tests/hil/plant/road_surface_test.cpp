@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "hil/faults/random.hpp"
 #include "hil/plant/dynamics.hpp"
+#include "protocol/vocabulary/random.hpp"
 #include "tests/hil/plant/step.hpp"
 
 namespace pitwall::plant {
@@ -93,7 +93,7 @@ TEST(RoadSurface, ACarThatPointsUpTheBankClimbs) {
 TEST(RoadSurface, RatesAreThoseOfTheLieAlongTheMotion) {
   const auto map = ring(0.05, 0.35);
   const RoadSurface ground(map, 0.0, kHeight_m);
-  faults::Random random{7};
+  Random random{7};
   const auto dice = [&](double low, double high) { return low + (high - low) * random.uniform(); };
   constexpr double kHalf_s = 1e-5;
   for (int i = 0; i < 500; ++i) {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hil/bus/frame_length.hpp"
+#include "hil/can_bus/frame_length.hpp"
 #include "tests/hil/report/some_run.hpp"
 
 namespace pitwall::report {
@@ -23,7 +23,7 @@ TEST(RunData, IsWhatTheLogHolds) {
   frame.id = 1300;
   frame.length = 8;
   std::fill_n(frame.data.begin(), 8, std::uint8_t{0xA5});
-  EXPECT_EQ(run.can[0].v.bits, bus::frame_length(frame).bits);
+  EXPECT_EQ(run.can[0].v.bits, can_bus::frame_length(frame).bits);
   ASSERT_EQ(run.faults.size(), 1u);
   EXPECT_EQ(run.faults[0].kind, "steering_stuck");
   EXPECT_EQ(run.faults[0].to_s, 6.0);

@@ -50,7 +50,7 @@ TEST(RadioSection, MayBeLeftOut) {
   const auto read = with("");
   ASSERT_TRUE(read) << to_string(read.error());
   EXPECT_TRUE(read->radio.empty());
-  EXPECT_TRUE(read->operator_words.empty());
+  EXPECT_TRUE(read->operator_texts.empty());
 }
 
 TEST(OperatorSection, IsInTheOrderOfTimeAndRepeats) {
@@ -61,7 +61,7 @@ TEST(OperatorSection, IsInTheOrderOfTimeAndRepeats) {
       "  - {at_s: 3, say: command speed_limit 30}\n");
   ASSERT_TRUE(read) << to_string(read.error());
   std::string said;
-  for (const OperatorWord& word : read->operator_words)
+  for (const OperatorText& word : read->operator_texts)
     said += std::to_string(word.at.ns / 1'000'000) + " " + word.text + "|";
   EXPECT_EQ(said,
             "2000 take 1|2500 take 1|3000 take 1|3000 command speed_limit 30|3500 take 1|"

@@ -204,14 +204,14 @@ TEST(ReceiverBytes, AnImuThatMeasuresNothingIsNoSample) {
 
 // Everything that one unit says of one epoch, as a VectorNav.
 struct AsVectorNav {
-  VectorNavVoice voice;
+  VectorNavEncoder encoder;
   Receiver input = receiver(1, ReceiverKind::kVectorNav);
   world::SensorInput out;
 
   template <class Sample>
-  void say(Sample sample) {
+  void encode(Sample sample) {
     sample.unit = 1;
-    const ReceiverBytes bytes = voice.say(sample);
+    const ReceiverBytes bytes = encoder.encode(sample);
     input.feed(bytes.span(), sample.at + kOnBoard, out);
   }
 };
@@ -219,27 +219,27 @@ struct AsVectorNav {
 TEST(ReceiverBytes, AVectorNavMeansTheSame) {
   AsVectorNav unit;
   const Instant at = Instant{} + milliseconds(12'350);
-  unit.say(position());
+  unit.encode(position());
   EXPECT_TRUE(unit.out.positions.empty()) << "it waits for the velocity";
-  unit.say(world::GnssHeading{
+  unit.encode(world::GnssHeading{
       .at = at, .solution_status = 0, .position_type = world::kPositionNarrowInt});
-  unit.say(world::GnssVelocity{.at = at,
-                               .solution_status = 0,
-                               .velocity_type = world::kPositionNarrowInt,
-                               .horizontal_mps = 65.4321,
-                               .track_over_ground_rad = 4.0,
-                               .vertical_mps = -0.75,
-                               .sigma_mps = 0.04});
-  unit.say(world::ImuSample{
+  unit.encode(world::GnssVelocity{.at = at,
+                                  .solution_status = 0,
+                                  .velocity_type = world::kPositionNarrowInt,
+                                  .horizontal_mps = 65.4321,
+                                  .track_over_ground_rad = 4.0,
+                                  .vertical_mps = -0.75,
+                                  .sigma_mps = 0.04});
+  unit.encode(world::ImuSample{
       .at = at, .rate_rad_per_s = {0.1, -0.2, 0.3}, .specific_force_mps2 = {5.0, -12.0, 9.8}});
-  unit.say(world::InsAttitude{.at = at,
-                              .status = world::InsStatus::kGood,
-                              .roll_rad = -0.35,
-                              .pitch_rad = 0.02,
-                              .heading_rad = 4.1,
-                              .roll_sigma_rad = 0.001,
-                              .pitch_sigma_rad = 0.002,
-                              .heading_sigma_rad = 0.003});
+  unit.encode(world::InsAttitude{.at = at,
+                                 .status = world::InsStatus::kGood,
+                                 .roll_rad = -0.35,
+                                 .pitch_rad = 0.02,
+                                 .heading_rad = 4.1,
+                                 .roll_sigma_rad = 0.001,
+                                 .pitch_sigma_rad = 0.002,
+                                 .heading_sigma_rad = 0.003});
   const world::SensorInput& out = unit.out;
   ASSERT_EQ(out.positions.size(), 1u);
   const world::GnssPosition sent = position();
@@ -280,8 +280,8 @@ TEST(ReceiverBytes, EachKindOfSolutionOfAVectorNavArrives) {
     AsVectorNav unit;
     world::GnssPosition sent = position();
     sent.position_type = type;
-    unit.say(sent);
-    unit.say(world::GnssVelocity{
+    unit.encode(sent);
+    unit.encode(world::GnssVelocity{
         .at = sent.at, .horizontal_mps = 1.0, .track_over_ground_rad = 0.0, .vertical_mps = 0.0});
     ASSERT_EQ(unit.out.positions.size(), 1u);
     EXPECT_EQ(unit.out.positions[0].position_type, type);
@@ -305,13 +305,13 @@ TEST(ReceiverBytes, AVectorNavGivesOneHeadingASecondAndNoneWithoutItsCompass) {
     for (int ms = from_ms; ms < until_ms; ms += 50) {
       attitude.at = Instant{} + milliseconds(ms);
       unit.out = {};
-      unit.say(attitude);
+      unit.encode(attitude);
       headings += unit.out.headings.size();
     }
   };
   run(1'000, 6'000);
   EXPECT_EQ(headings, 0u);
-  unit.say(world::GnssHeading{
+  unit.encode(world::GnssHeading{
       .at = attitude.at, .solution_status = 0, .position_type = world::kPositionNarrowInt});
   run(6'000, 11'000);
   EXPECT_EQ(headings, 5u);

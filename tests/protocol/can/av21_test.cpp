@@ -31,7 +31,7 @@ bool same_bits(double a, double b) {
 }
 
 template <class X>
-void expect_equal_decoding(const Message& m, Noise& noise) {
+void expect_equal_decoding(const Message& m, Random& noise) {
   std::vector<double> values(m.signals.size());
   for (std::uint64_t i = 0, count = payloads(); i < count; ++i) {
     const Frame f = random_frame(m, noise);
@@ -45,7 +45,7 @@ void expect_equal_decoding(const Message& m, Noise& noise) {
 }
 
 template <class X>
-void expect_equal_encoding(const Message& m, Noise& noise) {
+void expect_equal_encoding(const Message& m, Random& noise) {
   std::vector<double> values(m.signals.size());
   for (std::uint64_t i = 0, count = payloads(); i < count; ++i) {
     X x;
@@ -74,7 +74,7 @@ TEST(Av21, GeneratedCodeEqualsTheRunTimePlans) {
     ASSERT_EQ(m->name, X::kName);
     ASSERT_EQ(m->length, X::kLength);
     ASSERT_EQ(m->signals.size(), X::kFields.size());
-    Noise noise{X::kId};
+    Random noise{X::kId};
     expect_equal_decoding<X>(*m, noise);
     expect_equal_encoding<X>(*m, noise);
     ++messages;

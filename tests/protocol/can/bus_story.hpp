@@ -44,7 +44,7 @@ inline MessageRow row_of(const SenderHabits& habits, bool has_counter) {
   return row;
 }
 
-inline std::vector<Send> story(const SenderHabits& habits, Noise& noise) {
+inline std::vector<Send> story(const SenderHabits& habits, Random& noise) {
   std::vector<Send> out;
   const Instant start{1'000'000'000 + static_cast<std::int64_t>(noise.below(100'000'000))};
   const std::uint32_t cycle = habits.top - habits.bottom + 1;

@@ -49,7 +49,7 @@ struct Sample {
 };
 
 // Mostly random; half of the multiplexed ones get a selector that has signals.
-Sample random_sample(const Message& m, Noise& noise) {
+Sample random_sample(const Message& m, Random& noise) {
   Sample out{random_frame(m, noise), std::vector<double>(m.signals.size())};
   for (const Signal& s : m.signals) {
     if (!s.selector || noise.below(2) == 0 || noise.below(m.signals.size()) > 2) continue;
@@ -65,7 +65,7 @@ struct Asked {
 
 // A whole number of steps, some of them outside the field, and a part of a step that rounding takes
 // away again: what must arrive is known without any division of the value.
-Asked whole_value(const Signal& s, Noise& noise) {
+Asked whole_value(const Signal& s, Random& noise) {
   const SignalLayout& l = s.layout;
   const bool is_signed = l.number == Number::kSigned;
   const double span = std::ldexp(1.0, l.length);
@@ -85,7 +85,7 @@ Asked whole_value(const Signal& s, Noise& noise) {
   return {l.offset + l.scale * (steps + part), l.offset + l.scale * arrives};
 }
 
-Asked real_value(const Signal& s, Noise& noise) {
+Asked real_value(const Signal& s, Random& noise) {
   const SignalLayout& l = s.layout;
   const double mantissa = static_cast<double>(noise.below(2'000'001)) - 1e6;
   const double value = std::ldexp(mantissa, static_cast<int>(noise.below(60)) - 40);
@@ -98,7 +98,7 @@ Asked real_value(const Signal& s, Noise& noise) {
   return {value, number * l.scale + l.offset};
 }
 
-Sample encoded_sample(const Message& m, Noise& noise) {
+Sample encoded_sample(const Message& m, Random& noise) {
   std::vector<double> values;
   Sample out;
   for (const Signal& s : m.signals) {
@@ -206,7 +206,7 @@ void expect_same_values(const Message& m, const NameIndex& names, const Sample& 
 // Few messages at a time, so that the frames of a large file need little memory.
 void compare(const std::filesystem::path& path, const Database& d, std::span<const Message> part,
              OracleTally& tally) {
-  Noise noise{fingerprint(d) + part.front().id};
+  Random noise{fingerprint(d) + part.front().id};
   const std::uint64_t payloads = oracle_payloads(kPayloadsPerMessage);
   std::vector<Sample> samples;
   std::vector<NameIndex> names(part.size());

@@ -31,7 +31,7 @@ TEST(Database, FindsEveryMessageAndNothingElse) {
 }
 
 TEST(Database, TheIndexFindsWhatTheDatabaseFinds) {
-  Noise noise{11};
+  Random noise{11};
   std::string text = "BU_: A\n";
   std::set<std::uint32_t> ids;
   while (ids.size() < 3000) {
@@ -111,7 +111,7 @@ TEST(Database, MultiplexedSignalsMayShareBitsOnlyIfNeverPresentTogether) {
 
 // Whether two signals can meet, asked of every value of two selectors instead of the ranges.
 TEST(Database, OverlapsAreFoundWhereSignalsCanMeet) {
-  Noise noise{3};
+  Random noise{3};
   int refused = 0;
   for (int round = 0; round < 400; ++round) {
     std::array<std::array<std::pair<unsigned, unsigned>, 2>, 2> when{};

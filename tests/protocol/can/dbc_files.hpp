@@ -15,6 +15,7 @@
 
 #include "protocol/can/dbc_parser.hpp"
 #include "protocol/can/manifest.hpp"
+#include "protocol/vocabulary/random.hpp"
 #include "tests/support/public_data.hpp"
 
 namespace pitwall::can {
@@ -53,19 +54,7 @@ inline bool is_broken(const std::filesystem::path& path) {
   return path.stem() == "bad_message_length" || path.stem() == "issue_199";
 }
 
-// splitmix64
-struct Noise {
-  std::uint64_t state;
-  std::uint64_t next() {
-    std::uint64_t z = (state += 0x9E3779B97F4A7C15);
-    z = (z ^ z >> 30U) * 0xBF58476D1CE4E5B9;
-    z = (z ^ z >> 27U) * 0x94D049BB133111EB;
-    return z ^ z >> 31U;
-  }
-  std::uint64_t below(std::uint64_t bound) { return next() % bound; }
-};
-
-inline Frame random_frame(const Message& m, Noise& noise) {
+inline Frame random_frame(const Message& m, Random& noise) {
   Frame f{.id = m.id,
           .extended = m.extended,
           .remote = false,

@@ -237,7 +237,7 @@ TEST(DbcParser, TruncatedFilesNeverCrash) {
 }
 
 TEST(DbcParser, DamagedFilesNeverCrash) {
-  Noise noise{6};
+  Random noise{6};
   int refused = 0;
   for (const auto& path : corpus()) {
     const std::string text = text_of(path);

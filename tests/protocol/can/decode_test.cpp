@@ -43,7 +43,7 @@ TEST(Decode, PowertrainReportOne) {
 TEST(Decode, RefusesEveryFrameThatIsNotThisMessage) {
   const Database d = load(kOwnDbc);
   for (const Message& m : d.messages) {
-    Noise noise{m.id};
+    Random noise{m.id};
     const Frame good = random_frame(m, noise);
     std::vector<double> values(m.signals.size(), -1.0);
     EXPECT_TRUE(decode(m, good, values));
@@ -92,7 +92,7 @@ TEST(Decode, AllAtOnceIsEachAlone) {
   const std::pair<std::string, int> messages[]{{plain, 8},         {plain, 3},
                                                {plain + ninth, 9}, {plain + far, 64},
                                                {multiplexed, 8},   {multiplexed + far, 64}};
-  Noise noise{21};
+  Random noise{21};
   for (const auto& [signals, length] : messages) {
     const Database d = parsed(dbc_with(signals, length));
     const Message& m = d.messages.at(0);

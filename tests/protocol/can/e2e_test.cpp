@@ -104,7 +104,7 @@ std::vector<ProtectionRule> all_rules() {
   return rules;
 }
 
-Frame protected_noise(const ProtectionRule& rule, std::uint32_t counter, Noise& noise) {
+Frame protected_noise(const ProtectionRule& rule, std::uint32_t counter, Random& noise) {
   Frame frame{.length = rule.length, .data = {}};
   for (std::size_t i = 0; i < rule.length; ++i) {
     frame.data[i] = static_cast<std::uint8_t>(noise.below(256));
@@ -117,7 +117,7 @@ Frame protected_noise(const ProtectionRule& rule, std::uint32_t counter, Noise& 
 unsigned crc_width(const ProtectionRule& rule) { return rule.profile == Protection::kP05 ? 16 : 8; }
 
 TEST(E2e, WhatIsSentIsGoodAndCounts) {
-  Noise noise{1};
+  Random noise{1};
   for (const ProtectionRule& rule : all_rules()) {
     ASSERT_FALSE(hides_a_flip(rule));
     ProtectState state;
@@ -133,7 +133,7 @@ TEST(E2e, WhatIsSentIsGoodAndCounts) {
 }
 
 TEST(E2e, EveryFlippedBitIsFound) {
-  Noise noise{2};
+  Random noise{2};
   for (const ProtectionRule& rule : all_rules()) {
     for (std::uint32_t counter = 0; counter <= std::min(counter_top(rule), 20U); ++counter) {
       const Frame good = protected_noise(rule, counter, noise);
@@ -149,7 +149,7 @@ TEST(E2e, EveryFlippedBitIsFound) {
 // Bits in the order of the wire: most significant first. Bursts that touch the checksum as well as
 // the data, or the counter that chooses a data id, are no bursts of the polynomial.
 TEST(E2e, EveryBurstWithinTheDataIsFound) {
-  Noise noise{3};
+  Random noise{3};
   for (const ProtectionRule& rule : all_rules()) {
     const bool ids_change =
         rule.profile == Protection::kP02 || rule.data_id_mode == DataIdMode::kAlternating;
@@ -174,7 +174,7 @@ TEST(E2e, EveryBurstWithinTheDataIsFound) {
 }
 
 TEST(E2e, AFrameOfAnotherDataIdIsFound) {
-  Noise noise{4};
+  Random noise{4};
   const auto taken_for_ours = [&](auto rule_of_id, std::uint32_t ids) {
     int count = 0;
     for (std::uint32_t id = 0; id < ids; ++id) {
@@ -195,7 +195,7 @@ TEST(E2e, AFrameOfAnotherDataIdIsFound) {
 }
 
 TEST(E2e, NamesWhatIsWrong) {
-  Noise noise{5};
+  Random noise{5};
   const ProtectionRule rule = p01(DataIdMode::kLow);
   Frame frame = protected_noise(rule, 15, noise);  // its checksum is right
   EXPECT_EQ(check(rule, frame), FrameCheck::kWrongCounter);

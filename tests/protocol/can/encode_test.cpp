@@ -42,7 +42,7 @@ bool is_exact(const Message& m) {
   return true;
 }
 
-void expect_identity(const Message& m, Noise& noise, int& compared) {
+void expect_identity(const Message& m, Random& noise, int& compared) {
   std::vector<double> values(m.signals.size());
   for (int i = 0; i < 200; ++i) {
     const Frame sent = random_frame(m, noise);
@@ -58,7 +58,7 @@ void expect_identity(const Message& m, Noise& noise, int& compared) {
 }
 
 TEST(Encode, IsTheInverseOfDecode) {
-  Noise noise{5};
+  Random noise{5};
   std::vector<std::filesystem::path> files = public_files();
   files.push_back(kOwnDbc);
   int compared = 0;

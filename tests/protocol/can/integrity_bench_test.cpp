@@ -34,7 +34,7 @@ struct Sender {
   ProtectState state;
   std::uint32_t bare_counter = 0;
 
-  Frame next(Noise& noise) {
+  Frame next(Random& noise) {
     std::vector<double> values;
     for (const Signal& s : message->signals) {
       const bool is_counter = row->has_counter && s.name == counter_name;
@@ -58,7 +58,7 @@ struct IntegrityTally {
 };
 
 // `sends` of one message, three in a hundred flipped and as many lost.
-IntegrityTally suffer(Sender& sender, MessageMonitor& monitor, LossLog& log, Noise& noise,
+IntegrityTally suffer(Sender& sender, MessageMonitor& monitor, LossLog& log, Random& noise,
                       int sends) {
   IntegrityTally tally;
   const bool is_protected = sender.row->protection.profile != Protection::kNone;
@@ -86,7 +86,7 @@ IntegrityTally suffer(Sender& sender, MessageMonitor& monitor, LossLog& log, Noi
 }
 
 void expect_the_truth(const Bus& bus, int sends) {
-  Noise noise{21};
+  Random noise{21};
   ASSERT_EQ(bus.table.size(), bus.database.messages.size());
   for (std::size_t i = 0; i < bus.table.size(); ++i) {
     const MessageRow& row = bus.table[i];
@@ -185,7 +185,7 @@ TEST(IntegrityBench, AForgedFrameIsRefusedAndTheTrueOneIsNot) {
   const BusTexts texts = integrity_bus(9);
   Bus bus{.database = parsed(texts.dbc), .manifest = {}, .table = {}};
   join(bus, texts.manifest, "bus.yaml");
-  Noise noise{22};
+  Random noise{22};
   for (std::size_t i = 0; i < bus.table.size(); ++i) {
     const MessageRow& row = bus.table[i];
     if (row.protection.profile == Protection::kNone ||

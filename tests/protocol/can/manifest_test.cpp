@@ -247,7 +247,7 @@ TEST(Manifest, NumbersAndKeysOfAChecksumAreHeldToItsProfile) {
 TEST(Manifest, DamagedTextsNeverCrash) {
   const std::string text = text_of(kOwnManifest);
   const Database d = load(kOwnDbc);
-  Noise noise{8};
+  Random noise{8};
   for (int i = 0; i < 300; ++i) {
     std::string damaged = text;
     char& c = damaged[noise.below(damaged.size())];

@@ -16,17 +16,17 @@ class MonitorLimits : public MonitorAlone {
  protected:
   // From the start of a monitor, ten milliseconds apart.
   void count(std::uint32_t from, std::uint32_t to) {
-    for (std::uint32_t c = from; c <= to; ++c) hear(t_us += 10'000, c);
+    for (std::uint32_t c = from; c <= to; ++c) receive(t_us += 10'000, c);
   }
   std::int64_t t_us = 0;
 };
 
 TEST_F(MonitorLimits, ABurstTakesBackWhatWasMissingAndNoMore) {
   rules.use_counter = false;
-  hear(0, 0);
-  hear(30'000, 0);
+  receive(0, 0);
+  receive(30'000, 0);
   EXPECT_EQ(monitor.lost, 2U);
-  for (int extra = 0; extra < 4; ++extra) hear(30'100 + 100 * extra, 0);
+  for (int extra = 0; extra < 4; ++extra) receive(30'100 + 100 * extra, 0);
   EXPECT_EQ(monitor.lost, 0U);
   EXPECT_EQ(monitor.late, 2U);
 }
@@ -40,7 +40,7 @@ TEST_F(MonitorLimits, EveryRowIsWatched) {
 }
 
 TEST_F(MonitorLimits, AClockThatStepsBackTakesNothingBack) {
-  hear(0, 1);
+  receive(0, 1);
   look(40);
   const std::uint32_t lost = monitor.lost;
   EXPECT_GT(lost, 1U);
@@ -50,21 +50,21 @@ TEST_F(MonitorLimits, AClockThatStepsBackTakesNothingBack) {
 }
 
 TEST_F(MonitorLimits, OutsideItsCycleACounterIsJudgedWithoutIt) {
-  hear(0, 7);
+  receive(0, 7);
   monitor.cycle = known(0, 7);
-  hear(170'000, 12);  // five steps on in seventeen periods
+  receive(170'000, 12);  // five steps on in seventeen periods
   EXPECT_EQ(monitor.lost, 16U);
   monitor = {};
-  hear(0, 15);
+  receive(0, 15);
   monitor.cycle = known(1, 15);
-  hear(140'000, 0);  // a restart, and not a whole cycle
+  receive(140'000, 0);  // a restart, and not a whole cycle
   EXPECT_EQ(monitor.lost, 13U);
 }
 
 TEST_F(MonitorLimits, OneWrapIsNoCycleYet) {
   count(0, 7);
   count(0, 5);
-  hear(t_us += 24'000, 0);  // by a cycle of eight two would be missing
+  receive(t_us += 24'000, 0);  // by a cycle of eight two would be missing
   EXPECT_EQ(monitor.lost, 1U);
 }
 
@@ -78,62 +78,62 @@ TEST_F(MonitorLimits, TwoWrapsAtDifferentValuesAreNoCycle) {
 TEST_F(MonitorLimits, AValueBeyondACycleBeginsItsLearningAnew) {
   count(0, 7);
   count(0, 8);
-  hear(t_us += 10'000, 7);
-  hear(t_us += 10'000, 0);
+  receive(t_us += 10'000, 7);
+  receive(t_us += 10'000, 0);
   EXPECT_FALSE(monitor.cycle.is_known());
 }
 
 TEST_F(MonitorLimits, ARepeatedFrameWasASendAlsoWithoutAPeriod) {
   row.period = row.timeout = {};
-  hear(0, 5);
-  EXPECT_EQ(hear(1'000, 5), FrameVerdict::kStuckCounter);
-  hear(2'000, 7);
+  receive(0, 5);
+  EXPECT_EQ(receive(1'000, 5), FrameVerdict::kStuckCounter);
+  receive(2'000, 7);
   EXPECT_EQ(monitor.lost, 0U);
 }
 
 TEST_F(MonitorLimits, AReadFrameEndsTheCountOfThoseThatWereNot) {
-  hear(0, 5);
-  hear(10'000, 5);
-  hear(20'000, 6);
-  hear(34'000, 8);  // early, and 7 is lost
+  receive(0, 5);
+  receive(10'000, 5);
+  receive(20'000, 6);
+  receive(34'000, 8);  // early, and 7 is lost
   EXPECT_EQ(monitor.lost, 1U);
 }
 
 TEST_F(MonitorLimits, ADoubledFrameIsNoSend) {
-  hear(0, 5);
-  hear(1'000, 5);
-  hear(24'000, 8);  // after two periods by time, three by its counter
+  receive(0, 5);
+  receive(1'000, 5);
+  receive(24'000, 8);  // after two periods by time, three by its counter
   EXPECT_EQ(monitor.lost, 2U);
 }
 
 TEST_F(MonitorLimits, AShortCycleIsSteppedThroughForwards) {
-  hear(0, 3);
+  receive(0, 3);
   monitor.cycle = known(0, 4);
-  hear(10'000, 2);  // four steps on
+  receive(10'000, 2);  // four steps on
   EXPECT_EQ(monitor.lost, 3U);
 }
 
 TEST_F(MonitorLimits, OfTwoStepsThatFitTheNearerIsTakenFromTheMiddleOn) {
   for (const int periods : {4, 5, 6, 7, 8}) {
     monitor = {};
-    hear(0, 2);
+    receive(0, 2);
     monitor.cycle = known(0, 7);
-    hear(10'000 * periods, 3);  // one step, or nine
+    receive(10'000 * periods, 3);  // one step, or nine
     EXPECT_EQ(monitor.lost, periods < 5 ? 0U : 8U) << periods;
   }
 }
 
 TEST_F(MonitorLimits, TwoIsNoRestart) {
-  hear(0, 14);
+  receive(0, 14);
   monitor.cycle = known(0, 14);
-  hear(10'000, 2);  // three steps on
+  receive(10'000, 2);  // three steps on
   EXPECT_EQ(monitor.lost, 2U);
 }
 
 TEST_F(MonitorLimits, ARestartLateIsMissingByTime) {
-  hear(0, 5);
+  receive(0, 5);
   monitor.cycle = known(0, 14);
-  hear(30'000, 0);  // ten steps on, or a restart
+  receive(30'000, 0);  // ten steps on, or a restart
   EXPECT_EQ(monitor.lost, 2U);
   ASSERT_EQ(log.count, 1U);
   EXPECT_EQ(log.listed()[0].sign, LossSign::kPeriod);
@@ -143,8 +143,8 @@ TEST_F(MonitorLimits, TheSignSaysWhetherTimeOrCounterToldOfALoss) {
   const auto sign_after = [&](std::int64_t at_us, std::uint32_t value) {
     monitor = {};
     log.clear();
-    hear(0, 20);
-    hear(at_us, value);
+    receive(0, 20);
+    receive(at_us, value);
     return log.count == 1 ? std::optional{log.listed()[0].sign} : std::nullopt;
   };
   EXPECT_EQ(sign_after(30'000, 23), LossSign::kCounter);

@@ -24,7 +24,7 @@ std::int64_t losses_before(const std::vector<Send>& sends, std::int64_t index) {
 }
 
 // The law of the header: each lost send is blamed once, no other is, and in time.
-void expect_every_loss_once(const SenderHabits& habits, bool has_counter, Noise& noise) {
+void expect_every_loss_once(const SenderHabits& habits, bool has_counter, Random& noise) {
   const std::vector<Send> sends = story(habits, noise);
   const MessageRow row = row_of(habits, has_counter);
   const Heard heard = run_monitor(row, sends, milliseconds(150));
@@ -57,7 +57,7 @@ void expect_every_loss_once(const SenderHabits& habits, bool has_counter, Noise&
 }
 
 TEST(MessageMonitor, EveryLossIsReportedOnceAndNothingElse) {
-  Noise noise{11};
+  Random noise{11};
   for (const int period_ms : kPeriods_ms) {
     for (const Cycle& cycle : kCycles) {
       for (const double loss : {0.0, 0.02, 0.3}) {
@@ -79,7 +79,7 @@ TEST(MessageMonitor, EveryLossIsReportedOnceAndNothingElse) {
 
 // Known from the start, as by a protection profile.
 TEST(MessageMonitor, TheCounterFindsTheTotalsUnderLargeDelays) {
-  Noise noise{12};
+  Random noise{12};
   for (const Cycle& cycle : {Cycle{0, 14}, Cycle{0, 15}, Cycle{0, 255}}) {
     for (const double loss : {0.0, 0.05, 0.2}) {
       for (const int periods : {1, 2, 3}) {
@@ -111,7 +111,7 @@ TEST_F(MonitorAlone, NeverHeardIsNeverOverdue) {
 }
 
 TEST_F(MonitorAlone, ASilenceIsReportedAtOnceUpToTheTimeoutAndThenCounted) {
-  hear(0, 7);
+  receive(0, 7);
   look(10);
   EXPECT_EQ(log.count, 0U);
   look(20);
@@ -122,7 +122,7 @@ TEST_F(MonitorAlone, ASilenceIsReportedAtOnceUpToTheTimeoutAndThenCounted) {
   for (std::int64_t t = 30; t <= 100'000; t += 10) look(t);
   EXPECT_EQ(log.count, 5U) << "one each, until the timeout of 50 ms";
   EXPECT_EQ(monitor.lost, 9999U);
-  hear(100'000'000, (7 + 10'000) % 256);
+  receive(100'000'000, (7 + 10'000) % 256);
   ASSERT_EQ(log.count, 6U);
   EXPECT_EQ(log.reports[5].frames, 9999U - 5U);
   EXPECT_EQ(log.reports[5].due, Instant{} + milliseconds(60));
@@ -132,13 +132,13 @@ TEST_F(MonitorAlone, ASilenceIsReportedAtOnceUpToTheTimeoutAndThenCounted) {
 }
 
 TEST_F(MonitorAlone, AFrameThatComesAfterAllTakesItsLossBack) {
-  hear(0, 1);
+  receive(0, 1);
   look(20);
   EXPECT_EQ(monitor.lost, 1U);
-  EXPECT_EQ(hear(22'000, 2), FrameVerdict::kGood);
+  EXPECT_EQ(receive(22'000, 2), FrameVerdict::kGood);
   EXPECT_EQ(monitor.lost, 0U);
   EXPECT_EQ(monitor.late, 1U);
-  hear(23'000, 3);  // catching up
+  receive(23'000, 3);  // catching up
   look(30);
   EXPECT_EQ(reported(), 1U);
   EXPECT_EQ(monitor.debt, 0);
@@ -146,9 +146,9 @@ TEST_F(MonitorAlone, AFrameThatComesAfterAllTakesItsLossBack) {
 
 TEST_F(MonitorAlone, WithoutACounterABurstAfterAPauseIsLateToo) {
   row.has_counter = false;
-  hear(0, 0);
+  receive(0, 0);
   for (std::int64_t t = 10; t <= 40; t += 10) look(t);
-  for (int i = 0; i < 4; ++i) hear(41'000 + 100 * i, 0);
+  for (int i = 0; i < 4; ++i) receive(41'000 + 100 * i, 0);
   EXPECT_EQ(monitor.lost, 0U);
   EXPECT_EQ(monitor.late, 3U);
   EXPECT_EQ(reported(), 3U);
@@ -159,9 +159,9 @@ TEST_F(MonitorAlone, ARestartIsNoLossWhereverItHappens) {
     for (const std::uint32_t first : {0U, 1U}) {
       for (const bool is_known : {false, true}) {
         monitor = {};
-        hear(0, before);
+        receive(0, before);
         if (is_known) monitor.cycle = {.top = 255, .seen = CounterCycle::kKnown};
-        const FrameVerdict verdict = hear(10'000, first);
+        const FrameVerdict verdict = receive(10'000, first);
         EXPECT_EQ(verdict == FrameVerdict::kStuckCounter, before == first);
         const bool is_next_but_one = is_known && before + 2 == first + 256;
         EXPECT_EQ(monitor.lost, is_next_but_one ? 1U : 0U) << before;
@@ -174,7 +174,7 @@ TEST_F(MonitorAlone, ARestartIsNoLossWhereverItHappens) {
 TEST_F(MonitorAlone, AfterTwoWrapsAWrapWithLossesIsJudgedByTheCounter) {
   std::int64_t t_us = 0;
   const auto count_to = [&](std::uint32_t from, std::uint32_t to) {
-    for (std::uint32_t c = from; c <= to; ++c) hear(t_us += 10'000, c);
+    for (std::uint32_t c = from; c <= to; ++c) receive(t_us += 10'000, c);
   };
   count_to(0, 7);
   count_to(0, 7);
@@ -182,9 +182,9 @@ TEST_F(MonitorAlone, AfterTwoWrapsAWrapWithLossesIsJudgedByTheCounter) {
   count_to(0, 5);
   EXPECT_TRUE(monitor.cycle.is_known());
   EXPECT_EQ(monitor.cycle.length(), 8U);
-  hear(t_us += 24'000, 0);  // 6 and 7 are gone; by time alone only one would be
+  receive(t_us += 24'000, 0);  // 6 and 7 are gone; by time alone only one would be
   EXPECT_EQ(monitor.lost, 2U);
-  hear(t_us += 10'000, 9);  // not that cycle after all
+  receive(t_us += 10'000, 9);  // not that cycle after all
   EXPECT_FALSE(monitor.cycle.is_known());
 }
 
@@ -192,23 +192,23 @@ TEST_F(MonitorAlone, RepeatedAndDoubledFramesAreNoLosses) {
   for (const int frozen : {1, 2, 3, 10, 100}) {
     monitor = {};
     std::int64_t t_us = 0;
-    hear(t_us, 20);
+    receive(t_us, 20);
     for (int i = 0; i < frozen; ++i) {
-      EXPECT_EQ(hear(t_us += 10'000, 20), FrameVerdict::kStuckCounter);
+      EXPECT_EQ(receive(t_us += 10'000, 20), FrameVerdict::kStuckCounter);
       look(t_us / 1000);
     }
     MessageMonitor sender_rested = monitor;
-    hear(t_us += 10'000, 21 + static_cast<std::uint32_t>(frozen));  // it had counted on
+    receive(t_us += 10'000, 21 + static_cast<std::uint32_t>(frozen));  // it had counted on
     EXPECT_EQ(monitor.lost, 0U) << frozen;
     std::swap(monitor, sender_rested);
-    hear(t_us, 21);
+    receive(t_us, 21);
     EXPECT_EQ(monitor.lost, 0U) << frozen;
     EXPECT_EQ(monitor.debt, std::min(frozen, 10) - 1);
   }
   monitor = {};
   for (std::uint32_t i = 0; i < 100; ++i) {
-    hear(10'000 * i, i);
-    EXPECT_EQ(hear(10'000 * i + 4900, i), FrameVerdict::kStuckCounter);
+    receive(10'000 * i, i);
+    EXPECT_EQ(receive(10'000 * i + 4900, i), FrameVerdict::kStuckCounter);
     look(10 * i);
   }
   look(1006);
@@ -219,24 +219,24 @@ TEST_F(MonitorAlone, RepeatedAndDoubledFramesAreNoLosses) {
 TEST_F(MonitorAlone, AJumpBeyondAllTimeIsBadButNoLoss) {
   std::int64_t t_us = 0;
   std::uint32_t counter = 2;
-  hear(t_us, counter);
+  receive(t_us, counter);
   for (int bad = 1; bad <= 20; ++bad) {
     counter = 2 + (counter + 35) % 250;
-    const FrameVerdict verdict = hear(t_us += 10'000, counter);
+    const FrameVerdict verdict = receive(t_us += 10'000, counter);
     EXPECT_EQ(verdict, bad < 5 ? FrameVerdict::kGood : FrameVerdict::kJumpedCounter) << bad;
     EXPECT_EQ(monitor.debt, std::min(bad, 10));
   }
   EXPECT_EQ(monitor.lost, 0U);
   EXPECT_EQ(monitor.bad, 16U);
   for (int good = 1; good <= 6; ++good) {
-    const FrameVerdict verdict = hear(t_us += 10'000, ++counter);
+    const FrameVerdict verdict = receive(t_us += 10'000, ++counter);
     EXPECT_EQ(verdict, good < 6 ? FrameVerdict::kJumpedCounter : FrameVerdict::kGood);
   }
 }
 
 TEST_F(MonitorAlone, LossesThatTimeExplainsFillNoBucket) {
   std::int64_t t_us = 0;
-  for (std::uint32_t i = 0; i < 200; i += 3) hear(t_us += 30'000, i);
+  for (std::uint32_t i = 0; i < 200; i += 3) receive(t_us += 30'000, i);
   EXPECT_EQ(monitor.debt, 0);
   EXPECT_EQ(monitor.bad, 0U);
   EXPECT_EQ(monitor.lost, 132U);
@@ -245,75 +245,75 @@ TEST_F(MonitorAlone, LossesThatTimeExplainsFillNoBucket) {
 TEST_F(MonitorAlone, ACounterThatMayRestIsJudgedByTimeAlone) {
   rules.use_counter = false;
   for (std::int64_t t_us = 0; t_us < 1'000'000; t_us += 10'000) {
-    EXPECT_EQ(hear(t_us, 9), FrameVerdict::kGood);
+    EXPECT_EQ(receive(t_us, 9), FrameVerdict::kGood);
   }
   EXPECT_EQ(monitor.bad, 0U);
-  hear(1'010'000, 9);
+  receive(1'010'000, 9);
   EXPECT_EQ(monitor.lost, 1U);
 }
 
 TEST_F(MonitorAlone, WithoutAPeriodOnlyTheCounterSpeaks) {
   row.period = row.timeout = {};
-  hear(0, 4);
+  receive(0, 4);
   look(100'000);
   EXPECT_EQ(monitor.lost, 0U);
-  hear(3'000'000, 7);
+  receive(3'000'000, 7);
   EXPECT_EQ(monitor.lost, 2U);
-  hear(9'000'000, 0);
+  receive(9'000'000, 0);
   EXPECT_EQ(monitor.lost, 2U);
 }
 
 TEST_F(MonitorAlone, StampsThatStepNeitherHangNorInvent) {
-  hear(5'000'000, 1);
-  hear(0, 2);  // five seconds back
+  receive(5'000'000, 1);
+  receive(0, 2);  // five seconds back
   EXPECT_EQ(monitor.lost, 0U);
   look(10);
   EXPECT_EQ(log.count, 0U);
   look(20);
   EXPECT_EQ(log.count, 1U);
-  hear(std::int64_t{3600} * 24 * 365 * 100 * 1'000'000, 3);  // a century on
+  receive(std::int64_t{3600} * 24 * 365 * 100 * 1'000'000, 3);  // a century on
   EXPECT_LE(monitor.lost, 1'000'000'000U);
 }
 
 TEST_F(MonitorAlone, TheMeanIntervalIsWhatArrives) {
-  for (std::uint32_t i = 0; i < 100; ++i) hear(12'000 * i, i);
+  for (std::uint32_t i = 0; i < 100; ++i) receive(12'000 * i, i);
   EXPECT_EQ(monitor.mean_interval, milliseconds(12));
 }
 
 TEST_F(MonitorAlone, TheMeanIntervalFollowsByAnEighthAndSilencesAreNone) {
-  hear(0, 0);
-  hear(10'000, 1);
-  hear(28'000, 2);
+  receive(0, 0);
+  receive(10'000, 1);
+  receive(28'000, 2);
   EXPECT_EQ(monitor.mean_interval, milliseconds(11));
-  hear(28'000, 3);  // two at once
+  receive(28'000, 3);  // two at once
   EXPECT_EQ(monitor.mean_interval, microseconds(9'625));
   const Duration before = monitor.mean_interval;
-  hear(20'000, 4);  // stamps that step back
+  receive(20'000, 4);  // stamps that step back
   EXPECT_EQ(monitor.mean_interval, before);
-  hear(20'000 + 50'001, 9);
+  receive(20'000 + 50'001, 9);
   EXPECT_EQ(monitor.mean_interval, before) << "longer than the timeout";
-  hear(70'001 + 50'000, 14);
+  receive(70'001 + 50'000, 14);
   EXPECT_EQ(monitor.mean_interval, before + (milliseconds(50) - before) / 8) << "the timeout";
   row.timeout = {};
-  hear(120'001 + 8'000'000, 15);
+  receive(120'001 + 8'000'000, 15);
   EXPECT_GT(monitor.mean_interval, seconds(1)) << "without a timeout nothing is a silence";
 }
 
 TEST_F(MonitorAlone, TimeIsRoundedToTheNearestPeriodAndUpAtTheHalf) {
-  hear(0, 3);
-  hear(4'999, 3);  // a repetition within half a period is additional
+  receive(0, 3);
+  receive(4'999, 3);  // a repetition within half a period is additional
   watch({&row, 1}, {&monitor, 1}, Instant{} + microseconds(15'001), log);
   EXPECT_EQ(monitor.lost, 1U);
   monitor = {};
-  hear(0, 3);
-  hear(5'000, 3);  // and in its own time from there on
+  receive(0, 3);
+  receive(5'000, 3);  // and in its own time from there on
   watch({&row, 1}, {&monitor, 1}, Instant{} + microseconds(15'001), log);
   EXPECT_EQ(monitor.lost, 0U);
   row.has_counter = false;
   for (const auto& [at_us, lost] : {std::pair{14'999, 0U}, std::pair{15'000, 1U}}) {
     monitor = {};
-    hear(0, 0);
-    hear(at_us, 0);
+    receive(0, 0);
+    receive(at_us, 0);
     EXPECT_EQ(monitor.lost, lost) << at_us;
   }
 }
@@ -322,8 +322,8 @@ TEST_F(MonitorAlone, TimeIsRoundedToTheNearestPeriodAndUpAtTheHalf) {
 TEST_F(MonitorAlone, ACounterIsBelievedToTwiceWhatTimeAllows) {
   for (const auto& [steps, lost] : {std::pair{1U, 0U}, {2U, 1U}, {4U, 3U}, {5U, 0U}}) {
     monitor = {};
-    hear(0, 10);
-    hear(10'000, 10 + steps);
+    receive(0, 10);
+    receive(10'000, 10 + steps);
     EXPECT_EQ(monitor.lost, lost) << steps;
     EXPECT_EQ(monitor.debt, steps > 1 ? 1 : 0) << steps;
   }
@@ -340,9 +340,9 @@ TEST_F(MonitorAlone, RepeatedFramesWereSendsWhereThatFitsTheTime) {
                         Rest{2, 1, 4, 1}, Rest{2, 4, 4, 3}}) {
     monitor = {};
     std::int64_t t_us = 0;
-    hear(t_us, 30);
-    for (int i = 0; i < r.repeated; ++i) hear(t_us += 10'000, 30);
-    hear(t_us + 10'000 * r.periods, 30 + r.steps);
+    receive(t_us, 30);
+    for (int i = 0; i < r.repeated; ++i) receive(t_us += 10'000, 30);
+    receive(t_us + 10'000 * r.periods, 30 + r.steps);
     EXPECT_EQ(monitor.lost, r.lost) << r.repeated << " " << r.periods << " " << r.steps;
   }
 }
@@ -351,16 +351,16 @@ TEST_F(MonitorAlone, WithinHalfACycleTheSameValueIsRepeated) {
   for (const auto& [periods, verdict] :
        {std::pair{4, FrameVerdict::kStuckCounter}, std::pair{5, FrameVerdict::kGood}}) {
     monitor = {};
-    hear(0, 2);
+    receive(0, 2);
     monitor.cycle = {.top = 7, .bottom = 0, .seen = CounterCycle::kKnown};
-    EXPECT_EQ(hear(10'000 * periods, 2), verdict) << periods;
+    EXPECT_EQ(receive(10'000 * periods, 2), verdict) << periods;
   }
 }
 
 TEST_F(MonitorAlone, ACycleThatBeginsAtOneIsLearnedToo) {
   std::int64_t t_us = 0;
   for (int round = 0; round < 3; ++round)
-    for (std::uint32_t c = 1; c <= 7; ++c) hear(t_us += 10'000, c);
+    for (std::uint32_t c = 1; c <= 7; ++c) receive(t_us += 10'000, c);
   EXPECT_TRUE(monitor.cycle.is_known());
   EXPECT_EQ(monitor.cycle.bottom, 1U);
   EXPECT_EQ(monitor.cycle.length(), 7U);
@@ -370,22 +370,22 @@ TEST_F(MonitorAlone, ACycleThatBeginsAtOneIsLearnedToo) {
 TEST_F(MonitorAlone, ARestartIsAJumpWhereTimeDoesNotReachIts) {
   for (const std::uint32_t restarted_at : {4U, 5U}) {
     monitor = {};
-    hear(0, 100);
-    hear(20'000, 101);  // one behind
-    hear(50'000, restarted_at);
+    receive(0, 100);
+    receive(20'000, 101);  // one behind
+    receive(50'000, restarted_at);
     EXPECT_EQ(monitor.debt, restarted_at == 5 ? 1 : 0);
   }
 }
 
 TEST_F(MonitorAlone, AFullLogCountsWhatItCannotList) {
   std::int64_t t_us = 0;
-  for (std::uint32_t i = 0; i < 200; i += 2) hear(t_us += 20'000, i);
+  for (std::uint32_t i = 0; i < 200; i += 2) receive(t_us += 20'000, i);
   EXPECT_EQ(log.count, LossLog::kMax);
   EXPECT_EQ(log.unlisted, 99U - LossLog::kMax);
 }
 
 TEST_F(MonitorAlone, OverdueIsLaterThanTheSlackNotAtIt) {
-  hear(0, 3);
+  receive(0, 3);
   watch({&row, 1}, {&monitor, 1}, Instant{} + microseconds(15'000), log);
   EXPECT_EQ(log.count, 0U);
   watch({&row, 1}, {&monitor, 1}, Instant{} + microseconds(15'000) + nanoseconds(1), log);
@@ -395,54 +395,54 @@ TEST_F(MonitorAlone, OverdueIsLaterThanTheSlackNotAtIt) {
   log.clear();
   monitor = {};
   row.timeout = {};
-  hear(0, 3);
+  receive(0, 3);
   look(200);
   EXPECT_EQ(reported(), 1U) << "the first one is always named";
 }
 
 TEST_F(MonitorAlone, OfTheStepsOfACycleTheNearestToTheTimeIsTaken) {
   const CounterCycle eight{.top = 7, .bottom = 0, .seen = CounterCycle::kKnown};
-  hear(0, 2);
+  receive(0, 2);
   monitor.cycle = eight;
-  EXPECT_EQ(hear(80'000, 2), FrameVerdict::kGood) << "all of a cycle is lost, none is repeated";
+  EXPECT_EQ(receive(80'000, 2), FrameVerdict::kGood) << "all of a cycle is lost, none is repeated";
   EXPECT_EQ(monitor.lost, 7U);
-  hear(200'000, 7);  // 5 or 13 steps in 12 periods
+  receive(200'000, 7);  // 5 or 13 steps in 12 periods
   EXPECT_EQ(monitor.lost, 7U + 12U);
-  for (int i = 1; i <= 9; ++i) hear(200'000 + 10'000 * i, 7);
-  hear(300'000, 1);  // ten steps on, of which nine could not be read
+  for (int i = 1; i <= 9; ++i) receive(200'000 + 10'000 * i, 7);
+  receive(300'000, 1);  // ten steps on, of which nine could not be read
   EXPECT_EQ(monitor.lost, 7U + 12U);
   EXPECT_TRUE(monitor.cycle.is_known());
   monitor = {};
-  hear(0, 5);
-  hear(90'000, 6);  // unknown cycle, and nine periods: it went round
+  receive(0, 5);
+  receive(90'000, 6);  // unknown cycle, and nine periods: it went round
   EXPECT_EQ(monitor.lost, 8U);
 }
 
 TEST_F(MonitorAlone, ASenderThatRestedAndLostFramesIsBelieved) {
-  hear(0, 30);
-  hear(10'000, 30);
-  hear(20'000, 30);
-  hear(60'000, 34);
+  receive(0, 30);
+  receive(10'000, 30);
+  receive(20'000, 30);
+  receive(60'000, 34);
   EXPECT_EQ(monitor.lost, 3U);
 }
 
 TEST_F(MonitorAlone, LossesWithinABurstAreFound) {
-  hear(0, 40);
-  hear(200'000, 41);  // a pause, then all of it at once
-  hear(200'100, 52);  // ten of them did not come through
+  receive(0, 40);
+  receive(200'000, 41);  // a pause, then all of it at once
+  receive(200'100, 52);  // ten of them did not come through
   EXPECT_EQ(monitor.debt, 0);
-  hear(200'200, 53);
+  receive(200'200, 53);
   EXPECT_EQ(monitor.lost, 10U);
   EXPECT_EQ(monitor.debt, 0);
-  hear(200'300, 3);  // an unknown cycle ends in the burst
+  receive(200'300, 3);  // an unknown cycle ends in the burst
   EXPECT_EQ(monitor.debt, 0);
   EXPECT_EQ(monitor.lost, 10U);
 }
 
 TEST_F(MonitorAlone, ALateFrameAfterZeroIsLateToo) {
-  hear(0, 0);
+  receive(0, 0);
   look(20);
-  hear(22'000, 1);
+  receive(22'000, 1);
   EXPECT_EQ(monitor.lost, 0U);
   EXPECT_EQ(monitor.late, 1U);
 }
@@ -450,23 +450,23 @@ TEST_F(MonitorAlone, ALateFrameAfterZeroIsLateToo) {
 TEST_F(MonitorAlone, OnlyWrapsWithoutLossOrRestTeachTheCycle) {
   std::int64_t t_us = 0;
   for (int round = 0; round < 4; ++round) {
-    for (std::uint32_t c = 0; c <= 6; ++c) hear(t_us += 10'000, c);
+    for (std::uint32_t c = 0; c <= 6; ++c) receive(t_us += 10'000, c);
     t_us += 10'000;  // 7 is lost
   }
   EXPECT_FALSE(monitor.cycle.is_known());
   EXPECT_EQ(monitor.lost, 3U);
   monitor = {};
   for (int round = 0; round < 4; ++round) {
-    for (std::uint32_t c = 0; c <= 6; ++c) hear(t_us += 10'000, c);
-    hear(t_us += 10'000, 6);  // 7 has come as 6
+    for (std::uint32_t c = 0; c <= 6; ++c) receive(t_us += 10'000, c);
+    receive(t_us += 10'000, 6);  // 7 has come as 6
   }
   EXPECT_FALSE(monitor.cycle.is_known());
   monitor = {};
   for (int round = 0; round < 3; ++round) {
-    for (std::uint32_t c = 0; c <= 7; ++c) hear(t_us += 10'000, c);
+    for (std::uint32_t c = 0; c <= 7; ++c) receive(t_us += 10'000, c);
   }
-  for (std::uint32_t c = 0; c <= 6; ++c) hear(t_us += 10'000, c);
-  hear(t_us += 14'000, 0);  // early, and 7 is lost
+  for (std::uint32_t c = 0; c <= 6; ++c) receive(t_us += 10'000, c);
+  receive(t_us += 14'000, 0);  // early, and 7 is lost
   EXPECT_TRUE(monitor.cycle.is_known());
   EXPECT_EQ(monitor.lost, 1U);
 }

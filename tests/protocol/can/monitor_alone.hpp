@@ -11,7 +11,7 @@ namespace pitwall::can {
 
 class MonitorAlone : public testing::Test {
  protected:
-  FrameVerdict hear(std::int64_t at_us, std::uint32_t counter) {
+  FrameVerdict receive(std::int64_t at_us, std::uint32_t counter) {
     return judge(row, rules, monitor, {frame_of(row, counter), Instant{} + microseconds(at_us)},
                  log);
   }

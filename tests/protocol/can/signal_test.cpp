@@ -29,7 +29,7 @@ std::uint64_t by_bit(const SignalLayout& s, const FrameBytes& data) {
   return raw;
 }
 
-FrameBytes random_bytes(Noise& noise) {
+FrameBytes random_bytes(Random& noise) {
   FrameBytes data{};
   for (auto& b : data) b = static_cast<std::uint8_t>(noise.next());
   return data;
@@ -50,7 +50,7 @@ void for_every_layout(std::size_t bytes, unsigned start_step, Check check) {
 }
 
 TEST(Signal, ExtractsEveryLayoutLikeTheDefinition) {
-  Noise noise{1};
+  Random noise{1};
   for (const std::size_t bytes : {3U, 8U, 12U, 64U}) {
     for_every_layout(bytes, 1, [&](const SignalLayout& s) {
       const FrameBytes data = random_bytes(noise);
@@ -61,7 +61,7 @@ TEST(Signal, ExtractsEveryLayoutLikeTheDefinition) {
 }
 
 TEST(Signal, InsertsWithoutTouchingOtherBits) {
-  Noise noise{2};
+  Random noise{2};
   for (const std::size_t bytes : {8U, 64U}) {
     for_every_layout(bytes, 1, [&](const SignalLayout& s) {
       const FrameBytes before = random_bytes(noise);
@@ -111,7 +111,7 @@ const std::vector<SignalLayout> kNumbers{
 };
 
 TEST(Signal, EveryRawValueThatMayBeSentComesBack) {
-  Noise noise{3};
+  Random noise{3};
   for (const SignalLayout& s : kNumbers) {
     const SignalPlan p = plan(s);
     for (int i = 0; i < 20'000; ++i) {
@@ -127,7 +127,7 @@ TEST(Signal, EveryRawValueThatMayBeSentComesBack) {
 }
 
 TEST(Signal, NeverWraps) {
-  Noise noise{4};
+  Random noise{4};
   for (const SignalLayout& s : kNumbers) {
     const SignalPlan p = plan(s);
     const double low = std::min(physical_of(p.raw_min_bits, p), physical_of(p.raw_max_bits, p));
@@ -189,7 +189,7 @@ TEST(Signal, WideAndFloatingFieldsHaveSafeLimits) {
 }
 
 TEST(Signal, SignsAreExtendedAsTheDefinitionSays) {
-  Noise noise{11};
+  Random noise{11};
   for (unsigned length = 1; length <= 64; ++length) {
     for (int i = 0; i < 100; ++i) {
       const std::uint64_t raw = noise.next() & mask_of(length);
@@ -234,7 +234,7 @@ TEST(Signal, BitsBeyondTheLongestFrameAreLeftOut) {
 // A range in physical values allows the raw values whose physical value lies in it, whatever
 // binary makes of tenths.
 TEST(Signal, ARangeAllowsExactlyTheValuesInIt) {
-  Noise noise{15};
+  Random noise{15};
   for (const double scale : {1.0, 0.1, -0.1, 0.3, 0.01, 2.0, -2.0}) {
     for (const double offset : {0.0, -100.0, 0.7, 10.0}) {
       for (int i = 0; i < 300; ++i) {

@@ -117,8 +117,8 @@ TEST(DdsDomain, WhatCannotBeIsRefusedWithTheReason) {
     const auto got = Domain::join(config);
     return got ? std::string{"taken"} : to_string(got.error());
   };
-  EXPECT_EQ(why({.domain = 102}), "DDS domain 102: error: 0 to 101");
-  EXPECT_EQ(why({.domain = -1}), "DDS domain -1: error: 0 to 101");
+  EXPECT_EQ(why({.domain = 102}), "DDS domain 102: error: expected 0 to 101");
+  EXPECT_EQ(why({.domain = -1}), "DDS domain -1: error: expected 0 to 101");
   EXPECT_EQ(why({.interface = "wlan0"}), "DDS domain 0: error: wlan0 is no IPv4 address");
   EXPECT_EQ(why({.peers = {"car7"}}), "DDS domain 0: error: car7 is no IPv4 address");
   auto here = Domain::join({.domain = 74});

@@ -8,20 +8,11 @@
 #include <vector>
 
 #include "protocol/gnss/novatel_ascii.hpp"
+#include "protocol/vocabulary/random.hpp"
 #include "tests/protocol/gnss/bytes.hpp"
 
 namespace pitwall::gnss {
 namespace {
-
-// A small generator of our own, so that a failure names a seed and repeats everywhere.
-struct Random {
-  std::uint64_t state;
-  std::uint64_t next() {
-    state ^= state << 13U, state ^= state >> 7U, state ^= state << 17U;
-    return state;
-  }
-  std::size_t below(std::size_t n) { return static_cast<std::size_t>(next() % n); }
-};
 
 Bytes frame_of(std::uint32_t ms) {
   std::array<std::uint8_t, kMaxEncodedBytes> out{};

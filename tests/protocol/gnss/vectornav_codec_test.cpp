@@ -14,7 +14,7 @@ namespace {
 
 using Heard = std::vector<Result<VectorNavMessage, DecodeError>>;
 
-Heard hear(const Bytes& bytes) {
+Heard receive(const Bytes& bytes) {
   Heard heard;
   VectorNavStream stream;
   stream.feed(bytes, [&](const VectorNavFrame& frame) { heard.push_back(decode(frame)); });
@@ -31,7 +31,7 @@ Bytes written(const VectorNavMessage& message) {
 TEST(VectorNavCodec, ReadsTheFirstExampleOfTheManual) {
   const Bytes bytes{0xFA, 0x01, 0x08, 0x00, 0x93, 0x50, 0x2E, 0x42, 0x83,
                     0x3E, 0xF1, 0x3F, 0x48, 0xB5, 0x04, 0xBB, 0x92, 0x88};
-  const Heard heard = hear(bytes);
+  const Heard heard = receive(bytes);
   ASSERT_EQ(heard.size(), 1U);
   ASSERT_TRUE(heard[0].has_value());
   const VectorNavMessage& m = heard[0].value();
@@ -47,12 +47,12 @@ TEST(VectorNavCodec, ReadsTheFirstExampleOfTheManual) {
 TEST(VectorNavCodec, ReadsTheSecondExampleOfTheManual) {
   const Bytes bytes{0xFA, 0x05, 0x08, 0x00, 0x01, 0x00, 0xA4, 0x15, 0x02, 0x42, 0x4D, 0xDF,
                     0xEB, 0x3F, 0xF6, 0x1A, 0x36, 0xBE, 0xBF, 0x2D, 0xA4, 0x41, 0xAD, 0xD4};
-  EXPECT_TRUE(hear(bytes).empty());  // group 3, bit 0 is the status of the IMU, two bytes
+  EXPECT_TRUE(receive(bytes).empty());  // group 3, bit 0 is the status of the IMU, two bytes
   Bytes as_meant = bytes;
   as_meant[4] = 0x10;  // bit 4: the temperature, which the example's payload has
   const std::uint16_t crc = 0xAF1A;
   as_meant[22] = static_cast<std::uint8_t>(crc >> 8U), as_meant[23] = crc & 0xFFU;
-  const Heard heard = hear(as_meant);
+  const Heard heard = receive(as_meant);
   ASSERT_EQ(heard.size(), 1U);
   const VectorNavMessage& m = heard[0].value();
   EXPECT_FLOAT_EQ(m.yaw_pitch_roll_deg[0], 32.521133F);
@@ -93,7 +93,7 @@ TEST(VectorNavCodec, WhatIsWrittenReadsBackAndIsWrittenTheSame) {
   for (int i = 0; i < 2'000; ++i) {
     const VectorNavMessage message = random_vectornav(random_output(random), random);
     const Bytes bytes = written(message);
-    const Heard heard = hear(bytes);
+    const Heard heard = receive(bytes);
     ASSERT_EQ(heard.size(), 1U) << i;
     ASSERT_TRUE(heard[0].has_value()) << text(heard[0].error());
     EXPECT_EQ(heard[0].value().output, message.output);
@@ -107,7 +107,7 @@ TEST(VectorNavCodec, WhatWasNotSentIsNotThere) {
   message.ins_status = 0x0206;
   message.gnss[0].status = 0x1234;
   message.latitude_deg = 1.0;
-  const Heard heard = hear(written(message));
+  const Heard heard = receive(written(message));
   ASSERT_EQ(heard.size(), 1U);
   const VectorNavMessage& m = heard[0].value();
   EXPECT_TRUE(m.output.has(vectornav::kGnssStatus));
@@ -131,7 +131,7 @@ TEST(VectorNavCodec, WhatCannotBeIsRefusedWithItsReason) {
   good.yaw_pitch_roll_u_deg = {0.1F, 0.1F, 0.1F};
   good.accel_mps2 = {0.0F, 0.0F, -9.8F};
   const auto refusal = [](const VectorNavMessage& m) -> std::optional<DecodeError> {
-    const Heard heard = hear(written(m));
+    const Heard heard = receive(written(m));
     EXPECT_EQ(heard.size(), 1U);
     if (heard.size() != 1 || heard[0].has_value()) return std::nullopt;
     return heard[0].error();

@@ -104,7 +104,7 @@ TEST(LcmTwin, TextsDatagramsAndFramesHaveTheirLength) {
   const std::vector<std::uint8_t> text{'{', '}'};
   source.give(channel_of(Topic::kMark), text);
   DatagramBytes air{};
-  source.give(kDownChannel, encode(AirDatagram{.path = 1, .bytes = text}, air));
+  source.give(kDownChannel, encode(RadioDatagram{.path = 1, .bytes = text}, air));
   source.give(kReceiverChannel, text);
   CanBytes bytes{};
   source.give(kCanInChannel, encode(can::Frame{.id = 5, .length = 3}, bytes));

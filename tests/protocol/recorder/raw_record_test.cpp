@@ -24,10 +24,10 @@ TEST(RawRecord, DecodingIsTheInverseForEveryLength) {
   DatagramBytes bytes{};
   for (std::size_t length = 0; length <= kDatagramMax; length += 1 + length / 3) {
     air.resize(length, static_cast<std::uint8_t>(length));
-    const AirDatagram one{.path = static_cast<std::uint8_t>(length),
-                          .ip = 0x0A000000U + static_cast<std::uint32_t>(length),
-                          .port = static_cast<std::uint16_t>(65'535 - length),
-                          .bytes = air};
+    const RadioDatagram one{.path = static_cast<std::uint8_t>(length),
+                            .ip = 0x0A000000U + static_cast<std::uint32_t>(length),
+                            .port = static_cast<std::uint16_t>(65'535 - length),
+                            .bytes = air};
     const auto back = decode_datagram(encode(one, bytes));
     ASSERT_TRUE(back);
     EXPECT_EQ(back->path, one.path);

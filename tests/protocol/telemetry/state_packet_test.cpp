@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "protocol/bits/crc.hpp"
+#include "protocol/vocabulary/random.hpp"
 
 namespace pitwall::telemetry {
 namespace {
@@ -19,15 +20,6 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::size_t kDownGroups = groups_of(Direction::kDown).count();
 constexpr bool told(FieldIndex i) { return row_of(kFields[i].group).direction == Direction::kDown; }
-
-struct Random {
-  std::uint64_t state = 0x9E3779B97F4A7C15ULL;
-  std::uint64_t next() {
-    state ^= state << 13U, state ^= state >> 7U, state ^= state << 17U;
-    return state;
-  }
-  double fraction() { return static_cast<double>(next() >> 11U) * 0x1.0p-53; }
-};
 
 Bytes bytes_of(const StatePacket& packet) {
   PacketBuffer buffer;
@@ -76,7 +68,7 @@ TEST(StatePacket, EveryValueArrivesWithinHalfItsResolution) {
     for (FieldIndex i = 0; i < kFieldCount; ++i) {
       const FieldRow& row = kFields[i];
       sent.values[i] =
-          random.next() % 8 == 0 ? kUnset : row.min + random.fraction() * (row.max - row.min);
+          random.next() % 8 == 0 ? kUnset : row.min + random.uniform() * (row.max - row.min);
     }
     const auto got = parse(bytes_of(sent));
     ASSERT_TRUE(got.has_value());

@@ -7,7 +7,7 @@
 
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
-#include "protocol/transport/serial_line.hpp"
+#include "protocol/transport/stream/serial_line.hpp"
 
 namespace pitwall::transport {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "basestation/publishers/text/text_view.hpp"
 #include "hil/bench/loading.hpp"
-#include "hil/bench/lockstep.hpp"
+#include "hil/bench/lockstep/lockstep.hpp"
 #include "tests/basestation/radio_rig.hpp"
 
 namespace pitwall::publishers {

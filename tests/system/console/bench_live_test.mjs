@@ -7,7 +7,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { test } from "node:test";
-import { benchPage, socketOf, startDesk, stateIs } from "./desk.mjs";
+import { benchPage, socketOf, startBenchServer, stateIs } from "./bench_server.mjs";
 import { baseStage, show, until } from "./stage.mjs";
 
 const kPatienceMs = 180_000; // of a machine that is busy with other things
@@ -23,7 +23,7 @@ test("the car of a live run drives on the console that started it", async () => 
   const port = programs.radio.split(":").at(-1);
   const keys = join(programs.folder, "keys");
   const clock = clockOf(programs);
-  startDesk(programs, "--radio-port", port, "--keys", keys, "--clock", clock);
+  startBenchServer(programs, "--radio-port", port, "--keys", keys, "--clock", clock);
   const { page, faults } = await benchPage(stage);
   await page.fill(".chooser .filter", "launch");
   await page.selectOption(".starter select", "live");

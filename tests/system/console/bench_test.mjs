@@ -1,13 +1,13 @@
 /**
- * The bench at the console: the real base, a real bench desk and its real runs. An operator starts
- * a scenario with a seed and sees it through to its verdict; a desk that dies is shown.
+ * The bench at the console: the real base, a real bench server and its real runs. An operator
+ * starts a scenario with a seed and sees it through to its verdict; a server that dies is shown.
  */
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { benchPage, socketOf, startDesk, stateIs } from "./desk.mjs";
+import { benchPage, socketOf, startBenchServer, stateIs } from "./bench_server.mjs";
 import { baseStage, show, until } from "./stage.mjs";
 
 const kRunMs = 120_000;
@@ -15,7 +15,7 @@ const kRunMs = 120_000;
 const stage = baseStage({
   car: false,
   flags: (programs) => {
-    startDesk(programs);
+    startBenchServer(programs);
     return ["--bench", socketOf(programs)];
   },
 });
@@ -57,7 +57,7 @@ test("a scenario is found, started with a seed and seen through to its verdict",
   assert.deepEqual(faults, []);
 });
 
-test("a run is stopped, and a desk that dies is shown until there is one again", async () => {
+test("a run is stopped, and a server that dies is shown until there is one again", async () => {
   const { page, faults } = await benchPage(stage);
   await page.fill(".chooser .filter", "red flag");
   await page.click(".starter button");
@@ -67,13 +67,13 @@ test("a run is stopped, and a desk that dies is shown until there is one again",
   await until(page, "its end", () =>
     ["stopped", "passed"].includes(document.querySelector(".verdict")?.dataset.state),
   );
-  await stage.programs.kill("desk");
-  await until(page, "no desk", () => document.querySelector('.hil-page[data-up="false"]'));
+  await stage.programs.kill("bench");
+  await until(page, "no server", () => document.querySelector('.hil-page[data-up="false"]'));
   assert.equal(await page.isDisabled(".starter button"), true);
-  startDesk(stage.programs);
+  startBenchServer(stage.programs);
   await until(
     page,
-    "a desk",
+    "a server",
     () => document.querySelector('.hil-page[data-up="true"]'),
     null,
     20_000,

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "hil/bench/radio_path.hpp"
+#include "hil/bench/live/radio_path.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/readiness.hpp"
 #include "tests/support/test_clock.hpp"
@@ -28,7 +28,7 @@ int run(const std::vector<double>& numbers) {
   link.delay = milliseconds(10);
   link.blackouts = {{Instant{} + from_seconds(numbers[1]), from_seconds(numbers[2]), {}}};
   const bench::RadioPorts ports{.listen = *port, .onward = static_cast<std::uint16_t>(numbers[0])};
-  auto radio = bench::RadioPath::open({&ports, 1}, bench::Air{{{link, {}}}, {}, 1});
+  auto radio = bench::RadioPath::open({&ports, 1}, bench::RadioChannel{{{link, {}}}, {}, 1});
   if (!radio) return 1;
   std::printf("%d\n", *port);
   std::fflush(stdout);

@@ -230,7 +230,7 @@ const error = (from_mps, to_mps, samples, mean_m, best, mean) => ({
   beats: !samples ? null : mean_m <= best ? "best" : mean_m <= mean ? "mean" : "neither",
 });
 
-/** A bench desk in the middle of a run with a fault under way and a gate that has failed. */
+/** A bench server in the middle of a run with a fault under way and a gate that has failed. */
 export function bench() {
   const scenario = (id, description, more = {}) => ({
     type: "scenario",
@@ -252,7 +252,7 @@ export function bench() {
     "never side_slip_deg > 5",
     "within 26 s: speed_mps < 0.3, from 50 s",
   ];
-  const of = (type, line) => ({ type: `bench_${type}`, desk: "desk 1", of: line });
+  const of = (type, line) => ({ type: `bench_${type}`, server: "server 1", of: line });
   return [
     { type: "bench", up: true, problem: null, malformed: 0, may_start: true, why_not: null },
     of("list", [
@@ -275,9 +275,9 @@ export function bench() {
       by: "console 16",
       stopped_by: null,
       why: null,
-      report: "out/desk/4/report.html",
-      junit: "out/desk/4/junit.xml",
-      log: "out/desk/4/events.mcap",
+      report: "out/bench/4/report.html",
+      junit: "out/bench/4/junit.xml",
+      log: "out/bench/4/events.mcap",
     }),
     of("plan", {
       type: "plan",

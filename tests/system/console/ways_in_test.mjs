@@ -164,7 +164,7 @@ test("in the source, commands come by these places, and one folder speaks to the
     "command/request_executor.hpp",
     "link/station.hpp",
   ]);
-  assert.deepEqual(having(/(?<!const )telemetry::AuthorityDesk&/), [
+  assert.deepEqual(having(/(?<!const )telemetry::AuthorityRegister&/), [
     "command/authority_handover.hpp",
   ]);
   assert.deepEqual(having(/[.>]steer\(/), ["inputs/text_operator.cpp", "session/car_session.cpp"]);

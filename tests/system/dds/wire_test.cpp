@@ -120,8 +120,8 @@ TEST(Wire, TsharkSeesTopicsTypesHashesAndTheEnclave) {
   RosConfig config{.domain = {.domain = 51}};
   config.view.course = ros_view::testing::circle();
   const ros_view::View view{config.view};
-  auto outlet = start(std::move(config));
-  ASSERT_TRUE(outlet) << to_string(outlet.error());
+  auto publisher = start(std::move(config));
+  ASSERT_TRUE(publisher) << to_string(publisher.error());
   const Newcomers newcomers;  // to whom all is told
   Heard heard;
   const std::size_t all = view.topics().size() + 1;  // and ros_discovery_info

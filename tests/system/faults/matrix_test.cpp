@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "hil/bench/loading.hpp"
-#include "hil/bench/lockstep.hpp"
-#include "hil/matrix/catalogue.hpp"
-#include "hil/matrix/fault_matrix.hpp"
+#include "hil/bench/lockstep/lockstep.hpp"
+#include "hil/cli/fault_coverage/catalogue.hpp"
+#include "hil/cli/fault_coverage/fault_matrix.hpp"
 
-namespace pitwall::matrix {
+namespace pitwall::fault_coverage {
 namespace {
 
 const std::string kRoot = PITWALL_SOURCE_DIR;
@@ -85,4 +85,4 @@ TEST(FaultMatrix, HealthyDrivingAlarmsNobody) {
 }
 
 }  // namespace
-}  // namespace pitwall::matrix
+}  // namespace pitwall::fault_coverage

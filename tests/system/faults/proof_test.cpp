@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "hil/bench/loading.hpp"
-#include "hil/matrix/proof.hpp"
+#include "hil/cli/fault_coverage/proof.hpp"
 #include "protocol/transport/file.hpp"
 
-namespace pitwall::matrix {
+namespace pitwall::fault_coverage {
 namespace {
 
 const std::string kProofRoot = PITWALL_SOURCE_DIR;
@@ -59,4 +59,4 @@ INSTANTIATE_TEST_SUITE_P(All, MonitorProof, ::testing::Range(std::size_t{0}, wor
                          });
 
 }  // namespace
-}  // namespace pitwall::matrix
+}  // namespace pitwall::fault_coverage

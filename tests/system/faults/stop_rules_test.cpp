@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "hil/bench/loading.hpp"
-#include "hil/bench/lockstep.hpp"
+#include "hil/bench/lockstep/lockstep.hpp"
 #include "vehicle/safety/causes.hpp"
 
 namespace pitwall::bench {

@@ -316,7 +316,7 @@ class Installation(unittest.TestCase):
 
     def test_the_receive_buffer_is_the_one_that_the_socket_asks_for(self):
         self.install()
-        socket = (SOURCE / "protocol/transport/can_socket.hpp").read_text()
+        socket = (SOURCE / "protocol/transport/can/can_socket.hpp").read_text()
         factor, shift = re.search(r"receive_buffer_bytes = (\d+) << (\d+)", socket).groups()
         self.assertIn(f"net.core.rmem_max = {int(factor) << int(shift)}\n",
                       self.text("etc/sysctl.d/05-pitwall.conf"))

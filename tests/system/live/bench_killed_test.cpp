@@ -16,11 +16,11 @@
 #include <string>
 #include <vector>
 
-#include "hil/guest/own_hub.hpp"
+#include "hil/can_bus/own_hub.hpp"
 #include "protocol/can/av21.hpp"
 #include "protocol/telemetry/state_packet.hpp"
 #include "protocol/transport/bench_clock/kept_clock.hpp"
-#include "protocol/transport/can_socket.hpp"
+#include "protocol/transport/can/can_socket.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
@@ -131,7 +131,7 @@ class Experiment {
   std::string bus_name() const { return "unix:" + folder_->path() + "/bus"; }
 
   bool start() {
-    auto hub = guest::OwnHub::start(program("PITWALL_BENCH_PROGRAM"), bus_name(), clock_file());
+    auto hub = can_bus::OwnHub::start(program("PITWALL_BENCH_PROGRAM"), bus_name(), clock_file());
     EXPECT_TRUE(hub) << to_string(hub.error());
     if (!hub) return false;
     if (*hub) hub_.emplace(std::move(**hub));
@@ -150,11 +150,11 @@ class Experiment {
                "--track", "vehicle/config/tracks/lvms.yaml", "--can", bus_name(), "--gnss",
                "23501,23502", "--radio", base_at, "--keys", keys + "/car.keys", "--local-report",
                std::to_string(reports_.port()), "--simulation", "--arm", "--clock", clock_file()});
-    bench_ = spawn(bench_words("60"));
+    bench_ = spawn(bench_options("60"));
     return true;
   }
 
-  Words bench_words(const std::string& seconds) const {
+  Words bench_options(const std::string& seconds) const {
     return {program("PITWALL_BENCH_PROGRAM"),
             "run",
             kScenario,
@@ -212,7 +212,7 @@ class Experiment {
   }
 
   void start_bench_again() {
-    bench_ = spawn(bench_words("20"));
+    bench_ = spawn(bench_options("20"));
     const bool ended = wait(
         [this] {
           result_.disarmed_to_the_end &= is(reports_.last().mode, world::Mode::kDisarmed) ||
@@ -228,7 +228,7 @@ class Experiment {
   static constexpr std::uint16_t kBasePort = 23'433;
   Result<transport::TemporaryFolder, Problem> folder_ =
       transport::TemporaryFolder::create("pitwall-bench-killed-");
-  std::optional<guest::OwnHub> hub_;
+  std::optional<can_bus::OwnHub> hub_;
   std::optional<transport::CanSocket> bus_;
   std::vector<can::ReceivedFrame> inbox_ = std::vector<can::ReceivedFrame>(256);
   Reports reports_;

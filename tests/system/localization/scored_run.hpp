@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "hil/bench/lockstep.hpp"
+#include "hil/bench/lockstep/lockstep.hpp"
 #include "hil/scenario/scenario.hpp"
 #include "protocol/vocabulary/time.hpp"
-#include "vehicle/autonomy/localization/filter.hpp"
+#include "vehicle/autonomy/localization/filter/filter.hpp"
 #include "vehicle/world/monitor.hpp"
 
 namespace pitwall::bench {

@@ -48,9 +48,9 @@ TEST(Budget, HoldsInAStormOfCommands) {
 
 TEST(Budget, HoldsInAStormOfHandshakes) {
   for (const double kbit_per_s : {64.0, 128.0, 256.0, 1'024.0}) {
-    const BudgetRun run =
-        expect_held(BudgetCell{.kbit_per_s = kbit_per_s, .load = 3.0, .trouble = Trouble::kKnocks});
-    EXPECT_GT(run.knocks, 10'000U);
+    const BudgetRun run = expect_held(
+        BudgetCell{.kbit_per_s = kbit_per_s, .load = 3.0, .trouble = Trouble::kOpenings});
+    EXPECT_GT(run.openings, 10'000U);
   }
 }
 

@@ -19,10 +19,10 @@ void Fingerprint::add(const std::optional<Instant>& at) {
 }
 
 // Times of the stages are for the display alone.
-void Fingerprint::add(const CommandDeskOf<4>& desk) {
-  add(std::uint64_t{desk.run_} << 32U | desk.car_boot_.value_or(0));
-  add(desk.newest_);
-  for (const auto& entry : desk.kept_) {
+void Fingerprint::add(const CommandTransmitterOf<4>& transmitter) {
+  add(std::uint64_t{transmitter.run_} << 32U | transmitter.car_boot_.value_or(0));
+  add(transmitter.newest_);
+  for (const auto& entry : transmitter.kept_) {
     add(entry.progress.id);
     add(entry.progress.issued);
     add(std::uint64_t{entry.car_boot} << 16U | std::uint64_t{entry.progress.command.issuer} << 8U |
@@ -30,8 +30,8 @@ void Fingerprint::add(const CommandDeskOf<4>& desk) {
     add(static_cast<std::uint64_t>(entry.progress.command.argument * 10.0));
     add(entry.progress.fate ? 1U + static_cast<std::uint64_t>(*entry.progress.fate) : 0U);
   }
-  add(desk.acks_due_.size());
-  for (const CommandId id : desk.acks_due_) add(id);
+  add(transmitter.acks_due_.size());
+  for (const CommandId id : transmitter.acks_due_) add(id);
 }
 
 // Counters change nothing; of a handle only matters whether there is one.
@@ -61,9 +61,10 @@ void Fingerprint::add(const PathAddresses& addresses) {
   add(trial.opposed);
 }
 
-void Fingerprint::add(const AuthorityDesk& desk) {
-  add(std::uint64_t{desk.holder_} << 32U | std::uint64_t{desk.epoch_} << 16U | desk.renewal_);
-  add(desk.renewed_);
+void Fingerprint::add(const AuthorityRegister& transmitter) {
+  add(std::uint64_t{transmitter.holder_} << 32U | std::uint64_t{transmitter.epoch_} << 16U |
+      transmitter.renewal_);
+  add(transmitter.renewed_);
 }
 
 void Fingerprint::add(const AuthorityView& view) {
@@ -72,9 +73,9 @@ void Fingerprint::add(const AuthorityView& view) {
   add(view.renewed_);
 }
 
-void Fingerprint::add(const StopDesk& desk) {
-  add(static_cast<std::uint64_t>(desk.state_.level) << 8U | desk.state_.epoch);
-  add(desk.asked_ ? 1U + std::uint64_t{*desk.asked_} : 0U);
+void Fingerprint::add(const StopTransmitter& transmitter) {
+  add(static_cast<std::uint64_t>(transmitter.state_.level) << 8U | transmitter.state_.epoch);
+  add(transmitter.asked_ ? 1U + std::uint64_t{*transmitter.asked_} : 0U);
 }
 
 void Fingerprint::add(const StopLatch& latch) {

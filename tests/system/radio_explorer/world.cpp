@@ -45,23 +45,27 @@ void fill(Bytes& bytes, std::span<const std::uint8_t> from) {
 }  // namespace
 
 World::World(const Budget& budget, Planted planted, PlantedRoam roam)
-    : left_(budget), planted_(planted), desk_(kRunBoots + 1), ledger_(kCarBoots + 1), where_(roam) {
-  desk_.meets(kCarBoots + boot_, now_);
+    : left_(budget),
+      planted_(planted),
+      transmitter_(kRunBoots + 1),
+      ledger_(kCarBoots + 1),
+      where_(roam) {
+  transmitter_.meets(kCarBoots + boot_, now_);
   authority_.take(kA, now_);
   note_holders();
 }
 
 bool World::can(Action action) const {
   using enum Action;
-  const bool number_left = desk_.progress(kNumbersMax - 1) == nullptr;
+  const bool number_left = transmitter_.progress(kNumbersMax - 1) == nullptr;
   switch (action) {
     case kIssueA:
     case kIssueB:
-      return left_.issues > 0 && number_left && desk_.open() < 3;
+      return left_.issues > 0 && number_left && transmitter_.open() < 3;
     case kPress:
       return left_.presses > 0;
     case kRelease:
-      return left_.releases > 0 && challenge_known_ != 0 && number_left && desk_.open() < 3;
+      return left_.releases > 0 && challenge_known_ != 0 && number_left && transmitter_.open() < 3;
     case kTake:
       return left_.changes > 0 && authority_.holder(now_) == 0;
     case kHandOver:
@@ -222,7 +226,7 @@ void World::wait() {
 
 void World::issue(HolderId by) {
   --left_.issues;
-  const auto id = desk_.issue({CommandType::kSpeedLimit, 10.0 * by, by}, now_);
+  const auto id = transmitter_.issue({CommandType::kSpeedLimit, 10.0 * by, by}, now_);
   if (id) truth_.commands[run_][*id] = {now_, 0, truth_.presses, by, false};
 }
 
@@ -235,7 +239,8 @@ void World::press() {
 void World::release() {
   --left_.releases;
   const HolderId by = authority_.holder(now_);
-  const auto id = desk_.issue({CommandType::kReleaseStop, double(challenge_known_), by}, now_);
+  const auto id =
+      transmitter_.issue({CommandType::kReleaseStop, double(challenge_known_), by}, now_);
   if (!id) return;
   truth_.commands[run_][*id] = {now_, 0, truth_.presses, by, true};
   release_id_ = *id;
@@ -270,7 +275,7 @@ void World::base_sends() {
   std::array<std::uint8_t, 96> buffer{};
   BodyWriter body(buffer, buffer.size(), Direction::kUp);
   body.begin(now_, 1);
-  desk_.fill(body, now_);
+  transmitter_.fill(body, now_);
   fill(packet.body, body.bytes());
   CHECK(up_.push(packet));
 }
@@ -351,21 +356,21 @@ Broken World::deliver_down(const DownPacket& packet) {
   if (!where_.base_hears(packet.route)) return Broken::kNothing;
   if (packet.run != run_ || packet.boot < boot_met_) return Broken::kNothing;
   boot_met_ = packet.boot;
-  desk_.meets(kCarBoots + packet.boot, now_);
+  transmitter_.meets(kCarBoots + packet.boot, now_);
   challenge_known_ = packet.challenge;
   const auto body = telemetry::parse_body(packet.body.span(), Direction::kDown);
   CHECK(body.has_value());
   Received received;
   received.at = now_;
-  for (const Record& record : body->records) CHECK(desk_.take(record, received));
-  const telemetry::CommandProgress* released = desk_.progress(release_id_);
+  for (const Record& record : body->records) CHECK(transmitter_.take(record, received));
+  const telemetry::CommandProgress* released = transmitter_.progress(release_id_);
   if (released != nullptr && released->fate == Outcome::kApplied) {
     if (planted_ == Planted::kReleaseAfterPress) stop_.release_asked(release_id_);
     stop_.released(release_id_);
     release_id_ = 0;
   }
   for (CommandId id = 1; id < kNumbersMax; ++id) {
-    const telemetry::CommandProgress* one = desk_.progress(id);
+    const telemetry::CommandProgress* one = transmitter_.progress(id);
     if (one == nullptr || !one->fate) continue;
     if (one->fate == Outcome::kOtherRun) continue;  // a car that is no more may have applied it
     const bool applied = truth_.commands[run_][id].applied > 0;
@@ -389,7 +394,7 @@ void World::hand_out() {
 
 // Of a car that takes anybody for the holder.
 telemetry::AuthorityView World::forged_view(HolderId who) const {
-  telemetry::AuthorityDesk forged;
+  telemetry::AuthorityRegister forged;
   forged.take(who, now_);
   telemetry::Values said;
   forged.put(said, now_);
@@ -436,7 +441,7 @@ Broken World::note_applied(const telemetry::DueCommand& due, Truth::OfCommand& t
   }
   if (++truth.applied > 1) return Broken::kAppliedTwice;
   if (now_ - truth.issued > row_of(due.command.type).time_to_live) return Broken::kAppliedLate;
-  const telemetry::CommandProgress* told = desk_.progress(due.number);
+  const telemetry::CommandProgress* told = transmitter_.progress(due.number);
   const bool over = run_in_hand_ == run_ && told != nullptr && told->fate.has_value();
   return over ? Broken::kFateIsWrong : Broken::kNothing;
 }
@@ -445,9 +450,9 @@ void World::restart_base() {
   --left_.base_restarts;
   where_.base_restarts();
   ++run_;
-  desk_ = telemetry::CommandDeskOf<4>{kRunBoots + run_};
+  transmitter_ = telemetry::CommandTransmitterOf<4>{kRunBoots + run_};
   boot_met_ = boot_;
-  desk_.meets(kCarBoots + boot_, now_);
+  transmitter_.meets(kCarBoots + boot_, now_);
   authority_ = {};
   stop_ = {};
   challenge_known_ = 0;
@@ -498,7 +503,7 @@ telemetry::Fingerprint World::fingerprint() const {
     print.add(n);
   where_.fingerprint(print);
   print.add(now_);
-  print.add(desk_);
+  print.add(transmitter_);
   print.add(authority_);
   print.add(stop_);
   print.add(challenge_known_);
@@ -528,11 +533,11 @@ void World::fingerprint_truth(telemetry::Fingerprint& print) const {
   print.add(static_cast<std::uint64_t>(truth_.newest_epoch + 1.0));
   print.add(static_cast<std::uint64_t>(truth_.newest_holder));
   // The air has no order.
-  telemetry::Fingerprint air;
-  air.a = air.b = 0;
+  telemetry::Fingerprint channel;
+  channel.a = channel.b = 0;
   const auto join = [&](const telemetry::Fingerprint& packet) {
-    air.a += packet.a;
-    air.b += packet.b;
+    channel.a += packet.a;
+    channel.b += packet.b;
   };
   for (const UpPacket& packet : up_) {
     telemetry::Fingerprint one;
@@ -557,8 +562,8 @@ void World::fingerprint_truth(telemetry::Fingerprint& print) const {
     for (const std::uint8_t byte : packet.body) one.add(byte);
     join(one);
   }
-  print.add(air.a);
-  print.add(air.b);
+  print.add(channel.a);
+  print.add(channel.b);
 }
 
 }  // namespace pitwall::explorer

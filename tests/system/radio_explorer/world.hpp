@@ -15,8 +15,8 @@
 #include <string>
 
 #include "protocol/telemetry/command/authority.hpp"
-#include "protocol/telemetry/command/command_desk.hpp"
 #include "protocol/telemetry/command/command_ledger.hpp"
+#include "protocol/telemetry/command/command_transmitter.hpp"
 #include "protocol/telemetry/command/stop_latch.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
 #include "tests/system/radio_explorer/whereabouts.hpp"
@@ -30,12 +30,12 @@ struct Fingerprint {
   void add(std::uint64_t word);
   void add(Instant at) { add(static_cast<std::uint64_t>(at.ns)); }
   void add(const std::optional<Instant>& at);
-  void add(const CommandDeskOf<4>& desk);
+  void add(const CommandTransmitterOf<4>& transmitter);
   void add(const CommandLedgerOf<4>& ledger);
-  void add(const AuthorityDesk& desk);
+  void add(const AuthorityRegister& transmitter);
   void add(const AuthorityView& view);
   void add(const PathAddresses& addresses);
-  void add(const StopDesk& desk);
+  void add(const StopTransmitter& transmitter);
   void add(const StopLatch& latch);
 };
 
@@ -191,9 +191,9 @@ class World {
   Instant now_{seconds(100).ns};
   std::uint8_t run_ = 1, boot_ = 1;
 
-  telemetry::CommandDeskOf<4> desk_;
-  telemetry::AuthorityDesk authority_;
-  telemetry::StopDesk stop_;
+  telemetry::CommandTransmitterOf<4> transmitter_;
+  telemetry::AuthorityRegister authority_;
+  telemetry::StopTransmitter stop_;
   std::uint16_t challenge_known_ = 0;
   std::uint8_t boot_met_ = 1;
   CommandId release_id_ = 0;

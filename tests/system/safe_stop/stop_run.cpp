@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "hil/bench/loading.hpp"
-#include "hil/bench/lockstep.hpp"
+#include "hil/bench/lockstep/lockstep.hpp"
 #include "hil/bench/signals.hpp"
 
 namespace pitwall::testing {
@@ -140,7 +140,7 @@ class StopRun {
                                     .can = now_in.can,
                                     .sensors = fewer,
                                     .requests = now_in.requests,
-                                    .wishes = now_in.wishes,
+                                    .operator_inputs = now_in.operator_inputs,
                                     .link = now_in.link,
                                     .radio_at = now_in.radio_at,
                                     .guardian = now_in.guardian};

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "protocol/transport/can_interface.hpp"
-#include "protocol/transport/can_socket.hpp"
+#include "protocol/transport/can/can_interface.hpp"
+#include "protocol/transport/can/can_socket.hpp"
 #include "tests/support/comes_true.hpp"
 #include "tests/system/slcan/scripted_controller.hpp"
 
@@ -48,7 +48,7 @@ class Controller : public ::testing::Test {
     ASSERT_TRUE(comes_true([&] { return controller_->opened() == 1; }));
   }
 
-  std::size_t hear() {
+  std::size_t receive() {
     std::vector<can::ReceivedFrame> frames(64);
     return socket_->receive(frames);
   }
@@ -75,7 +75,7 @@ TEST_F(Controller, ErrorFramesInterfaceAndIpAgreeOnEveryState) {
                                          {"sb256000\r", BusState::kBusOff, "BUS-OFF"}}) {
     controller_->say(say.words);
     EXPECT_TRUE(comes_true([&] {
-      hear();
+      receive();
       return socket_->bus_state() == say.state;
     })) << say.words;
     EXPECT_EQ(status().state, say.state) << say.words;
@@ -96,7 +96,7 @@ TEST_F(Controller, ErrorFramesInterfaceAndIpAgreeOnEveryState) {
 TEST_F(Controller, BusErrorsAndOverrunsAreCountedByTheirKind) {
   controller_->say("e1a\re2bs\re1o\r");
   EXPECT_TRUE(comes_true([&] {
-    hear();
+    receive();
     return socket_->counters().error_frames == 3;
   }));
   EXPECT_EQ(socket_->counters().errors.no_acknowledgement, 1u);

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "protocol/transport/can_interface.hpp"
+#include "protocol/transport/can/can_interface.hpp"
 #include "protocol/transport/clock.hpp"
 #include "tests/support/in_time.hpp"
 #include "tests/system/slcan/scripted_controller.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "protocol/telemetry/state_packet.hpp"
-#include "protocol/transport/can_interface.hpp"
+#include "protocol/transport/can/can_interface.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"

@@ -1,6 +1,6 @@
 // CanSocket against the kernel's own CAN. Runs where vcan0 exists (see CMakeLists.txt).
 // SPDX-License-Identifier: Apache-2.0
-#include "protocol/transport/can_socket.hpp"
+#include "protocol/transport/can/can_socket.hpp"
 
 #include <gtest/gtest.h>
 

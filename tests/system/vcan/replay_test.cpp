@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "hil/replay/candump_log.hpp"
-#include "protocol/transport/can_socket.hpp"
+#include "protocol/transport/can/can_socket.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
@@ -185,8 +185,8 @@ TEST(Replay, FlagsOfFdFramesChosenIdentifiersAndLatePoliciesReachTheBus) {
     ASSERT_EQ(arrived.frames[i].fd_flags & 1, frame.fd_flags & 1) << i;  // bit rate switch
   }
   const std::string report = transport::read_file(json).value_or("");
-  EXPECT_NE(report.find("\"sent\":200,"), std::string::npos) << report;
-  EXPECT_NE(report.find("\"dropped_late\":0,"), std::string::npos) << report;
+  EXPECT_NE(report.find("\"sent\": 200,"), std::string::npos) << report;
+  EXPECT_NE(report.find("\"dropped_late\": 0,"), std::string::npos) << report;
 }
 
 TEST(Replay, OfAMalformedLogNothingIsSent) {

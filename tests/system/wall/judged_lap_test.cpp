@@ -7,7 +7,7 @@
 
 #include "basestation/alarms/evaluator.hpp"
 #include "hil/bench/loading.hpp"
-#include "hil/bench/lockstep.hpp"
+#include "hil/bench/lockstep/lockstep.hpp"
 
 namespace pitwall {
 namespace {

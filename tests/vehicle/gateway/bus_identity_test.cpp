@@ -16,7 +16,6 @@ namespace pitwall::gateway {
 namespace {
 
 using can::av21::kMessages;
-using testing::Random;
 using world::BusIdentity;
 using world::IdentityDifference;
 using world::IdentityVerdict;

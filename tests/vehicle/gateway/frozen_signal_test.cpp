@@ -43,7 +43,7 @@ double frozen_at(const std::function<Moment(double)>& moment, double end_s,
     command.road_wheel_rad = m.command_rad;
     command.brake_kpa = m.told_kpa;
     command.throttle_fraction = m.told_throttle;
-    remember(state, command, m.told, now);
+    store(state, command, m.told, now);
   }
   return kUnset;
 }

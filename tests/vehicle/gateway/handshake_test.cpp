@@ -24,7 +24,7 @@ constexpr std::array kStates{
     CtState::kNominalRace,      CtState::kCoordinatedStop, CtState::kControlledShutdown,
     CtState::kEmergencyShutdown};
 
-struct Desk {
+struct BenchServer {
   HandshakeParams params;
   HandshakeState state;
   HandshakeInputs inputs{.speed_mps = 0.0};
@@ -41,44 +41,45 @@ struct Desk {
 };
 
 TEST(Handshake, AWholeDayFromPowerOnToShutdown) {
-  Desk desk;
-  EXPECT_EQ(desk.wait(seconds(5)), CtState::kDefault) << "waits for race control";
-  desk.inputs.track = TrackFlag::kRed;
-  desk.inputs.sys = SysState::kPowerOn;
-  EXPECT_EQ(desk.wait(seconds(5)), CtState::kActuatorTest) << "waits for the actuator test";
-  desk.inputs.sys = SysState::kActuatorTestDone;
-  EXPECT_EQ(desk.wait(seconds(5)), CtState::kCrankReady);
-  desk.inputs.track = TrackFlag::kOrange;
-  EXPECT_EQ(desk.wait(seconds(5)), CtState::kCrankReady) << "no cranking before the brake is held";
-  desk.inputs.mode = Mode::kStandby;
-  EXPECT_EQ(desk.wait(seconds(5)), CtState::kCranking);
-  desk.inputs.sys = SysState::kEngineRunning;
-  EXPECT_EQ(desk.wait(seconds(5)), CtState::kInitDriving);
-  desk.inputs.sys = SysState::kDriving;
-  desk.inputs.track = TrackFlag::kYellow;
-  EXPECT_EQ(desk.wait(seconds(5)), CtState::kInitDriving)
+  BenchServer adapter;
+  EXPECT_EQ(adapter.wait(seconds(5)), CtState::kDefault) << "waits for race control";
+  adapter.inputs.track = TrackFlag::kRed;
+  adapter.inputs.sys = SysState::kPowerOn;
+  EXPECT_EQ(adapter.wait(seconds(5)), CtState::kActuatorTest) << "waits for the actuator test";
+  adapter.inputs.sys = SysState::kActuatorTestDone;
+  EXPECT_EQ(adapter.wait(seconds(5)), CtState::kCrankReady);
+  adapter.inputs.track = TrackFlag::kOrange;
+  EXPECT_EQ(adapter.wait(seconds(5)), CtState::kCrankReady)
+      << "no cranking before the brake is held";
+  adapter.inputs.mode = Mode::kStandby;
+  EXPECT_EQ(adapter.wait(seconds(5)), CtState::kCranking);
+  adapter.inputs.sys = SysState::kEngineRunning;
+  EXPECT_EQ(adapter.wait(seconds(5)), CtState::kInitDriving);
+  adapter.inputs.sys = SysState::kDriving;
+  adapter.inputs.track = TrackFlag::kYellow;
+  EXPECT_EQ(adapter.wait(seconds(5)), CtState::kInitDriving)
       << "no rolling before the mode is driving";
-  desk.inputs.mode = Mode::kDriving;
-  EXPECT_EQ(desk.wait(seconds(5)), CtState::kCaution);
-  desk.inputs.track = TrackFlag::kGreen;
-  EXPECT_EQ(desk.wait(seconds(5)), CtState::kNominalRace);
-  desk.inputs.track = TrackFlag::kWavingGreen;
-  EXPECT_EQ(desk.wait(seconds(5)), CtState::kNominalRace);
-  desk.inputs.track = TrackFlag::kYellow;
-  EXPECT_EQ(desk.wait(seconds(5)), CtState::kCaution);
-  desk.inputs.track = TrackFlag::kRed;
-  EXPECT_EQ(desk.wait(milliseconds(10)), CtState::kCoordinatedStop) << "at once";
-  desk.inputs.track = TrackFlag::kGreen;
-  EXPECT_EQ(desk.wait(seconds(5)), CtState::kNominalRace);
-  desk.inputs.mode = Mode::kControlledStop;
-  EXPECT_EQ(desk.wait(milliseconds(10)), CtState::kCoordinatedStop);
-  desk.inputs.operator_shutdown = true;
-  desk.inputs.speed_mps = 20.0;
-  EXPECT_EQ(desk.wait(seconds(5)), CtState::kCoordinatedStop) << "not while it rolls";
-  desk.inputs.speed_mps = kUnset;
-  EXPECT_EQ(desk.wait(seconds(5)), CtState::kCoordinatedStop) << "nor when nobody knows";
-  desk.inputs.speed_mps = 0.2;
-  EXPECT_EQ(desk.wait(seconds(5)), CtState::kControlledShutdown);
+  adapter.inputs.mode = Mode::kDriving;
+  EXPECT_EQ(adapter.wait(seconds(5)), CtState::kCaution);
+  adapter.inputs.track = TrackFlag::kGreen;
+  EXPECT_EQ(adapter.wait(seconds(5)), CtState::kNominalRace);
+  adapter.inputs.track = TrackFlag::kWavingGreen;
+  EXPECT_EQ(adapter.wait(seconds(5)), CtState::kNominalRace);
+  adapter.inputs.track = TrackFlag::kYellow;
+  EXPECT_EQ(adapter.wait(seconds(5)), CtState::kCaution);
+  adapter.inputs.track = TrackFlag::kRed;
+  EXPECT_EQ(adapter.wait(milliseconds(10)), CtState::kCoordinatedStop) << "at once";
+  adapter.inputs.track = TrackFlag::kGreen;
+  EXPECT_EQ(adapter.wait(seconds(5)), CtState::kNominalRace);
+  adapter.inputs.mode = Mode::kControlledStop;
+  EXPECT_EQ(adapter.wait(milliseconds(10)), CtState::kCoordinatedStop);
+  adapter.inputs.operator_shutdown = true;
+  adapter.inputs.speed_mps = 20.0;
+  EXPECT_EQ(adapter.wait(seconds(5)), CtState::kCoordinatedStop) << "not while it rolls";
+  adapter.inputs.speed_mps = kUnset;
+  EXPECT_EQ(adapter.wait(seconds(5)), CtState::kCoordinatedStop) << "nor when nobody knows";
+  adapter.inputs.speed_mps = 0.2;
+  EXPECT_EQ(adapter.wait(seconds(5)), CtState::kControlledShutdown);
 }
 
 // The drive-by-wire waits for commands in 7 to 10, and nobody gives any while disarmed.
@@ -86,38 +87,38 @@ TEST(Handshake, ACarThatIsDisarmedAtRestIsReadyToBeArmedAgain) {
   for (const CtState from : {CtState::kInitDriving, CtState::kCaution, CtState::kNominalRace,
                              CtState::kCoordinatedStop}) {
     for (const TrackFlag flag : {TrackFlag::kGreen, TrackFlag::kRed}) {
-      Desk desk;
-      desk.state = {from, desk.now};
-      desk.inputs = {.sys = SysState::kDriving, .track = flag, .mode = Mode::kHalted};
-      desk.inputs.speed_mps = 0.0;
-      EXPECT_EQ(desk.wait(seconds(5)), CtState::kCoordinatedStop) << "halted it is still held";
-      desk.inputs.mode = Mode::kDisarmed;
-      desk.inputs.speed_mps = 5.0;
-      EXPECT_EQ(desk.wait(seconds(5)), CtState::kCoordinatedStop) << "not while it rolls";
-      desk.inputs.speed_mps = 0.0;
-      EXPECT_EQ(desk.wait(seconds(1)), CtState::kRaceReady);
-      desk.inputs.track = TrackFlag::kGreen;
-      desk.inputs.mode = Mode::kStandby;
-      EXPECT_EQ(desk.wait(seconds(1)), CtState::kInitDriving);
-      desk.inputs.mode = Mode::kDriving;
-      EXPECT_EQ(desk.wait(seconds(2)), CtState::kNominalRace);
+      BenchServer adapter;
+      adapter.state = {from, adapter.now};
+      adapter.inputs = {.sys = SysState::kDriving, .track = flag, .mode = Mode::kHalted};
+      adapter.inputs.speed_mps = 0.0;
+      EXPECT_EQ(adapter.wait(seconds(5)), CtState::kCoordinatedStop) << "halted it is still held";
+      adapter.inputs.mode = Mode::kDisarmed;
+      adapter.inputs.speed_mps = 5.0;
+      EXPECT_EQ(adapter.wait(seconds(5)), CtState::kCoordinatedStop) << "not while it rolls";
+      adapter.inputs.speed_mps = 0.0;
+      EXPECT_EQ(adapter.wait(seconds(1)), CtState::kRaceReady);
+      adapter.inputs.track = TrackFlag::kGreen;
+      adapter.inputs.mode = Mode::kStandby;
+      EXPECT_EQ(adapter.wait(seconds(1)), CtState::kInitDriving);
+      adapter.inputs.mode = Mode::kDriving;
+      EXPECT_EQ(adapter.wait(seconds(2)), CtState::kNominalRace);
     }
   }
 }
 
 // Whatever is asked while the car moves: only what an emergency or an open throttle asks.
 TEST(Handshake, NothingElseTurnsTheEngineOffWhileTheCarMoves) {
-  Desk desk;
-  desk.state = {CtState::kNominalRace, desk.now};
+  BenchServer adapter;
+  adapter.state = {CtState::kNominalRace, adapter.now};
   for (const Mode mode : {Mode::kDriving, Mode::kCoast, Mode::kControlledStop}) {
     for (const double v : {1.01, 20.0, 65.0, kUnset}) {
-      desk.inputs = {.sys = SysState::kDriving,
-                     .track = TrackFlag::kRed,
-                     .vehicle = VehicleFlag::kEngineKill,
-                     .mode = mode,
-                     .speed_mps = v,
-                     .operator_shutdown = true};
-      EXPECT_EQ(desk.wait(seconds(2)), CtState::kCoordinatedStop) << v;
+      adapter.inputs = {.sys = SysState::kDriving,
+                        .track = TrackFlag::kRed,
+                        .vehicle = VehicleFlag::kEngineKill,
+                        .mode = mode,
+                        .speed_mps = v,
+                        .operator_shutdown = true};
+      EXPECT_EQ(adapter.wait(seconds(2)), CtState::kCoordinatedStop) << v;
     }
   }
 }
@@ -125,18 +126,18 @@ TEST(Handshake, NothingElseTurnsTheEngineOffWhileTheCarMoves) {
 TEST(Handshake, EveryEmergencyFromEveryStateAndThereItStays) {
   for (const CtState from : kStates) {
     for (int kind = 0; kind < 4; ++kind) {
-      Desk desk;
-      desk.state = {from, desk.now};
-      if (kind == 0) desk.inputs.mode = Mode::kEmergencyStop;
-      if (kind == 1) desk.inputs.operator_emergency = true;
-      if (kind == 2) desk.inputs.vehicle = VehicleFlag::kPurpleEmergency;
-      if (kind == 3) desk.inputs.engine_off = true;
-      EXPECT_EQ(desk.wait(milliseconds(10)), CtState::kEmergencyShutdown);
-      desk.inputs = {.sys = SysState::kDriving,
-                     .track = TrackFlag::kGreen,
-                     .mode = Mode::kDriving,
-                     .speed_mps = 0.0};
-      EXPECT_EQ(desk.wait(seconds(10)), CtState::kEmergencyShutdown);
+      BenchServer adapter;
+      adapter.state = {from, adapter.now};
+      if (kind == 0) adapter.inputs.mode = Mode::kEmergencyStop;
+      if (kind == 1) adapter.inputs.operator_emergency = true;
+      if (kind == 2) adapter.inputs.vehicle = VehicleFlag::kPurpleEmergency;
+      if (kind == 3) adapter.inputs.engine_off = true;
+      EXPECT_EQ(adapter.wait(milliseconds(10)), CtState::kEmergencyShutdown);
+      adapter.inputs = {.sys = SysState::kDriving,
+                        .track = TrackFlag::kGreen,
+                        .mode = Mode::kDriving,
+                        .speed_mps = 0.0};
+      EXPECT_EQ(adapter.wait(seconds(10)), CtState::kEmergencyShutdown);
     }
   }
 }
@@ -185,15 +186,15 @@ TEST(Handshake, RandomInputsNeverLeaveThePublishedEdges) {
   Random random{11};
   int changes = 0;
   for (int run = 0; run < 400; ++run) {
-    Desk desk;
-    desk.state = {kStates[random.below(kStates.size())], desk.now};
+    BenchServer adapter;
+    adapter.state = {kStates[random.below(kStates.size())], adapter.now};
     for (int i = 0; i < 200; ++i) {
-      const CtState from = desk.state.ct;
-      const Instant since = desk.state.since;
-      desk.inputs = any_inputs(random);
-      desk.now += milliseconds(static_cast<std::int64_t>(10 + random.below(300)));
-      const CtState to = handshake(desk.params, desk.state, desk.inputs, desk.now);
-      const HandshakeInputs& in = desk.inputs;
+      const CtState from = adapter.state.ct;
+      const Instant since = adapter.state.since;
+      adapter.inputs = any_inputs(random);
+      adapter.now += milliseconds(static_cast<std::int64_t>(10 + random.below(300)));
+      const CtState to = handshake(adapter.params, adapter.state, adapter.inputs, adapter.now);
+      const HandshakeInputs& in = adapter.inputs;
       const bool emergency = in.mode == Mode::kEmergencyStop || in.operator_emergency ||
                              in.vehicle == VehicleFlag::kPurpleEmergency;
       if (from == CtState::kEmergencyShutdown || emergency) {
@@ -211,12 +212,12 @@ TEST(Handshake, RandomInputsNeverLeaveThePublishedEdges) {
       }
       if (to == from) continue;
       ++changes;
-      ASSERT_GE(desk.now - since, desk.params.dwell);
+      ASSERT_GE(adapter.now - since, adapter.params.dwell);
       if (to == CtState::kControlledShutdown) {
-        ASSERT_LE(in.speed_mps, desk.params.standstill_mps);
+        ASSERT_LE(in.speed_mps, adapter.params.standstill_mps);
       } else if (to == CtState::kRaceReady && from != CtState::kCranking) {
         ASSERT_EQ(in.mode, Mode::kDisarmed);
-        ASSERT_LE(in.speed_mps, desk.params.standstill_mps);
+        ASSERT_LE(in.speed_mps, adapter.params.standstill_mps);
       } else {
         ASSERT_TRUE(is_published(from, to))
             << static_cast<int>(from) << ">" << static_cast<int>(to);

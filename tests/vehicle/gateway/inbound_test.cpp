@@ -24,7 +24,7 @@ struct InboundReceiver {
   InboundParams params;
   InboundState state;
 
-  InboundOutput hear(const can::Frame& frame, Instant at) {
+  InboundOutput receive(const can::Frame& frame, Instant at) {
     const ReceivedFrame received{frame, at};
     return decode(params, state, {&received, 1}, at);
   }
@@ -44,9 +44,9 @@ TEST(Inbound, HealthyTrafficIsAppliedInSi) {
   for (std::int64_t tick = 0; tick < 100; ++tick) {
     const Instant at = at_ms(10 * tick);
     const auto counter = static_cast<std::uint8_t>(tick);
-    car.hear(wheels(144.0), at);
-    car.hear(brake(500.0, counter), at);
-    out = car.hear(steering(-19.5, counter), at);
+    car.receive(wheels(144.0), at);
+    car.receive(brake(500.0, counter), at);
+    out = car.receive(steering(-19.5, counter), at);
   }
   EXPECT_EQ(out.bus.refused.total(), 0u);
   EXPECT_EQ(out.bus.frames_applied, 300u);
@@ -67,7 +67,7 @@ TEST(Inbound, OnlyListedIdsOfTheCarInTheirOwnLengthAreRead) {
       can::Frame frame;
       frame.id = id;
       frame.length = length;
-      const InboundOutput out = car.hear(frame, at_ms(1));
+      const InboundOutput out = car.receive(frame, at_ms(1));
       const bool ours = row != nullptr && row->direction == can::Direction::kToCar;
       const bool wrong_length = row != nullptr && !ours && length != row->length;
       EXPECT_EQ(out.bus.refused.unknown_id, row == nullptr ? 1u : 0u) << id;
@@ -87,7 +87,7 @@ TEST(Inbound, RemoteFdAndExtendedAliasesAreRefused) {
       frame.extended = kind == 0;
       frame.remote = kind == 1;
       frame.fd = kind == 2;
-      const InboundOutput out = car.hear(frame, at_ms(1));
+      const InboundOutput out = car.receive(frame, at_ms(1));
       EXPECT_EQ(out.bus.refused.remote_or_error, 1u) << row.name;
       EXPECT_EQ(out.bus.frames_applied, 0u) << row.name;
       EXPECT_FALSE(out.own_id_seen) << row.name;
@@ -98,7 +98,7 @@ TEST(Inbound, RemoteFdAndExtendedAliasesAreRefused) {
 TEST(Inbound, AnotherNodeWithOurIdLatches) {
   InboundReceiver car;
   for (const can::MessageRow& row : av21::kMessages)
-    if (row.direction == can::Direction::kToCar) car.hear(empty_frame(row), at_ms(1));
+    if (row.direction == can::Direction::kToCar) car.receive(empty_frame(row), at_ms(1));
   const InboundOutput out = car.listen(at_ms(100000));
   EXPECT_TRUE(out.own_id_seen);
   EXPECT_EQ(out.own_frames, 8u);
@@ -109,7 +109,7 @@ TEST(Inbound, EveryConventionOfWrappingIsClean) {
     InboundReceiver car;
     InboundOutput out;
     for (std::int64_t i = 0; i < 600; ++i)
-      out = car.hear(steering(5.0, static_cast<std::uint8_t>(i % modulus)), at_ms(10 * i));
+      out = car.receive(steering(5.0, static_cast<std::uint8_t>(i % modulus)), at_ms(10 * i));
     EXPECT_EQ(out.bus.refused.total(), 0u) << modulus;
     EXPECT_EQ(health_of(out.bus, av21::SteeringReport::kId).debt, 0) << modulus;
   }
@@ -117,9 +117,9 @@ TEST(Inbound, EveryConventionOfWrappingIsClean) {
 
 TEST(Inbound, ARepeatedCounterIsNeverApplied) {
   InboundReceiver car;
-  car.hear(steering(5.0, 7), at_ms(0));
+  car.receive(steering(5.0, 7), at_ms(0));
   for (std::int64_t i = 1; i <= 50; ++i) {
-    const InboundOutput out = car.hear(steering(6.0, 7), at_ms(10 * i));
+    const InboundOutput out = car.receive(steering(6.0, 7), at_ms(10 * i));
     EXPECT_NEAR(out.signals.steering_motor_rad.value, 5.0 * 3.14159265358979 / 180.0, 1e-9);
     EXPECT_EQ(out.bus.refused.stuck_counter, static_cast<std::uint64_t>(i));
   }
@@ -134,7 +134,7 @@ TEST(Inbound, AJumpingCounterFillsTheBucketAndAGoodOneEmptiesIt) {
   std::uint8_t counter = 1;
   const auto send = [&](int step) {
     counter = static_cast<std::uint8_t>(counter + step);
-    return car.hear(steering(1.0, counter), at_ms(10 * tick++));
+    return car.receive(steering(1.0, counter), at_ms(10 * tick++));
   };
   const auto debt = [&] { return health_of(car.listen(at_ms(10 * tick - 10)).bus, 1303).debt; };
   send(1);
@@ -164,7 +164,7 @@ TEST(Inbound, LivenessFollowsAgeAndOnlyAppliedFramesCount) {
     return health_of(car.listen(Instant{} + age).bus, row.id).liveness;
   };
   EXPECT_EQ(at({}), Liveness::kNever);
-  car.hear(wheels(10.0), Instant{});
+  car.receive(wheels(10.0), Instant{});
   const Duration late = row.period * 5 / 2;
   EXPECT_EQ(at(late), Liveness::kAlive);
   EXPECT_EQ(at(late + nanoseconds(1)), Liveness::kLate);
@@ -172,7 +172,7 @@ TEST(Inbound, LivenessFollowsAgeAndOnlyAppliedFramesCount) {
   EXPECT_EQ(at(row.timeout + nanoseconds(1)), Liveness::kLost);
   can::Frame alien = wheels(10.0);
   alien.length = 7;
-  car.hear(alien, Instant{} + row.timeout);
+  car.receive(alien, Instant{} + row.timeout);
   EXPECT_EQ(at(row.timeout + nanoseconds(1)), Liveness::kLost);
 }
 
@@ -198,7 +198,7 @@ TEST(Inbound, RandomTrafficNeverAppliesAnImplausibleValue) {
         frame.data[b] = static_cast<std::uint8_t>(random.below(4));
     if (random.below(50) == 0) frame.length = static_cast<std::uint8_t>(random.below(9));
     if (random.below(50) == 0) frame.id = static_cast<std::uint32_t>(random.below(2048));
-    const InboundOutput out = car.hear(frame, now);
+    const InboundOutput out = car.receive(frame, now);
     ++sent;
     ASSERT_EQ(out.bus.frames_applied + out.bus.refused.total() + out.own_frames, sent);
     std::uint64_t by_message = 0;
@@ -245,11 +245,11 @@ TEST(Inbound, RandomTrafficNeverAppliesAnImplausibleValue) {
 
 TEST(Inbound, AWrongFirstValueDoesNotLockOutTheTruth) {
   InboundReceiver car;
-  car.hear(steering(290.0, 0), at_ms(0));
+  car.receive(steering(290.0, 0), at_ms(0));
   std::int64_t tick = 1;
   while (car.state.refused.implausible_slew < 1 || car.state.frames_applied < 2) {
     ASSERT_LT(tick, 1000) << "never recovered";
-    car.hear(steering(0.0, static_cast<std::uint8_t>(tick)), at_ms(10 * tick));
+    car.receive(steering(0.0, static_cast<std::uint8_t>(tick)), at_ms(10 * tick));
     ++tick;
   }
   EXPECT_NEAR(car.state.signals.steering_motor_rad.value, 0.0, 1e-12);
@@ -257,11 +257,11 @@ TEST(Inbound, AWrongFirstValueDoesNotLockOutTheTruth) {
 
 TEST(Inbound, AFlagIsTakenEvenWithAStuckHeartbeatButLivenessIsNot) {
   InboundReceiver car;
-  car.hear(summary({.heartbeat = 3, .track = 4}), at_ms(0));
-  const InboundOutput out = car.hear(summary({.heartbeat = 3, .track = 1}), at_ms(500));
+  car.receive(summary({.heartbeat = 3, .track = 4}), at_ms(0));
+  const InboundOutput out = car.receive(summary({.heartbeat = 3, .track = 1}), at_ms(500));
   EXPECT_EQ(out.race_control.track, TrackFlag::kRed);
   EXPECT_EQ(out.race_control.last_heartbeat_change, at_ms(0));
-  const InboundOutput later = car.hear(summary({.heartbeat = 4, .track = 1}), at_ms(1000));
+  const InboundOutput later = car.receive(summary({.heartbeat = 4, .track = 1}), at_ms(1000));
   EXPECT_EQ(later.race_control.last_heartbeat_change, at_ms(1000));
   EXPECT_TRUE(later.race_control.ever_heard);
 }
@@ -269,9 +269,9 @@ TEST(Inbound, AFlagIsTakenEvenWithAStuckHeartbeatButLivenessIsNot) {
 TEST(Inbound, MarelliIsAliveWhileItsReceiverHearsTheBase) {
   InboundReceiver car;
   car.params.flag_encoding = world::FlagEncoding::kMarelli;
-  car.hear(marelli({.track = 1}), at_ms(0));
-  car.hear(marelli({.track = 1}), at_ms(500));
-  const InboundOutput out = car.hear(marelli({.track = 3, .synchronised = false}), at_ms(1000));
+  car.receive(marelli({.track = 1}), at_ms(0));
+  car.receive(marelli({.track = 1}), at_ms(500));
+  const InboundOutput out = car.receive(marelli({.track = 3, .synchronised = false}), at_ms(1000));
   EXPECT_EQ(out.race_control.last_heartbeat_change, at_ms(500));
   EXPECT_EQ(out.race_control.track, TrackFlag::kRed);
 }
@@ -285,8 +285,8 @@ TEST(Inbound, TheSecondEncodingCanOnlyRestrict) {
         car.params.flag_encoding = main;
         const auto raw = static_cast<std::uint8_t>(v);
         const auto nibble = static_cast<std::uint8_t>(m);
-        car.hear(summary({.track = nibble, .vehicle = nibble}), at_ms(0));
-        const auto rc = car.hear(marelli({.track = raw, .vehicle = raw}), at_ms(0)).race_control;
+        car.receive(summary({.track = nibble, .vehicle = nibble}), at_ms(0));
+        const auto rc = car.receive(marelli({.track = raw, .vehicle = raw}), at_ms(0)).race_control;
         const TrackFlag track_a = track_meaning(world::FlagEncoding::kMyLaps, nibble).flag;
         const TrackFlag track_b = track_meaning(world::FlagEncoding::kMarelli, raw).flag;
         const TrackFlag lead = mylaps_leads ? track_a : track_b;
@@ -319,13 +319,13 @@ TEST(Inbound, TheSecondEncodingCanOnlyRestrict) {
 
 TEST(Inbound, TheLowerOfTwoRoundSpeedsHoldsAndZeroIsNoTarget) {
   InboundReceiver car;
-  auto rc = car.hear(summary({.track = 4, .speed_mph = 0}), at_ms(0)).race_control;
+  auto rc = car.receive(summary({.track = 4, .speed_mph = 0}), at_ms(0)).race_control;
   EXPECT_TRUE(std::isnan(rc.round_target_speed_mps));
-  rc = car.hear(summary({.heartbeat = 1, .track = 4, .speed_mph = 100}), at_ms(1)).race_control;
+  rc = car.receive(summary({.heartbeat = 1, .track = 4, .speed_mph = 100}), at_ms(1)).race_control;
   EXPECT_NEAR(rc.round_target_speed_mps, 44.704, 1e-9);
-  rc = car.hear(marelli({.track = 80}), at_ms(2)).race_control;
+  rc = car.receive(marelli({.track = 80}), at_ms(2)).race_control;
   EXPECT_NEAR(rc.round_target_speed_mps, 35.7632, 1e-9);
-  rc = car.hear(marelli({.track = 125}), at_ms(3)).race_control;
+  rc = car.receive(marelli({.track = 125}), at_ms(3)).race_control;
   EXPECT_NEAR(rc.round_target_speed_mps, 44.704, 1e-9);
 }
 

@@ -26,7 +26,7 @@ struct MonitoredReceiver {
   std::int64_t tick = 0;
   std::uint8_t counter = 0;
 
-  InboundOutput hear(const std::vector<can::Frame>& frames) {
+  InboundOutput receive(const std::vector<can::Frame>& frames) {
     // Wheel speeds come every 5 ms.
     std::vector<can::ReceivedFrame> received{{wheels(144.0), at_ms(10 * tick - 5)}};
     for (const can::Frame& frame : frames) received.push_back({frame, at_ms(10 * tick)});
@@ -37,7 +37,7 @@ struct MonitoredReceiver {
   // Some healthy traffic, without an alarm.
   void warm_up() {
     for (int i = 0; i < 30; ++i)
-      EXPECT_TRUE(hear({wheels(144.0), steering(5.0, counter++)}).seen.empty());
+      EXPECT_TRUE(receive({wheels(144.0), steering(5.0, counter++)}).seen.empty());
   }
 };
 
@@ -66,27 +66,27 @@ can::Frame extended(can::Frame frame) {
 const std::vector<Case> kCases{
     {Monitor::kCounter, "a repeated counter",
      [](MonitoredReceiver& r) {
-       return r.hear({wheels(144.0), steering(5.0, static_cast<std::uint8_t>(r.counter - 1))});
+       return r.receive({wheels(144.0), steering(5.0, static_cast<std::uint8_t>(r.counter - 1))});
      },
      &world::FrameRefusals::stuck_counter},
     {Monitor::kFrameShape, "a short frame",
      [](MonitoredReceiver& r) {
-       return r.hear({shortened(wheels(144.0)), steering(5.0, r.counter++)});
+       return r.receive({shortened(wheels(144.0)), steering(5.0, r.counter++)});
      },
      &world::FrameRefusals::wrong_length},
     {Monitor::kFrameShape, "a 29 bit identifier",
      [](MonitoredReceiver& r) {
-       return r.hear({extended(wheels(144.0)), steering(5.0, r.counter++)});
+       return r.receive({extended(wheels(144.0)), steering(5.0, r.counter++)});
      },
      &world::FrameRefusals::remote_or_error},
     {Monitor::kDecodedRange, "a wheel that leaps",
      [](MonitoredReceiver& r) {
-       return r.hear({wheels(330.0), steering(5.0, r.counter++)});
+       return r.receive({wheels(330.0), steering(5.0, r.counter++)});
      },
      &world::FrameRefusals::implausible_slew},
     {Monitor::kDecodedRange, "an angle beyond all range",
      [](MonitoredReceiver& r) {
-       return r.hear({wheels(144.0), steering(500.0, r.counter++)});
+       return r.receive({wheels(144.0), steering(500.0, r.counter++)});
      },
      &world::FrameRefusals::out_of_range}};
 
@@ -118,7 +118,7 @@ TEST(GatewayMonitors, AnUnknownIdentifierIsSeen) {
     car.warm_up();
     can::Frame stranger = wheels(144.0);
     stranger.id = 0x7A0;
-    const InboundOutput out = car.hear({wheels(144.0), steering(5.0, car.counter++), stranger});
+    const InboundOutput out = car.receive({wheels(144.0), steering(5.0, car.counter++), stranger});
     EXPECT_EQ(out.seen.has(Monitor::kFrameShape), !off);
     EXPECT_EQ(out.bus.refused.unknown_id, 1u) << "nobody can apply it";
   }
@@ -132,7 +132,7 @@ TEST(GatewayMonitors, OurOwnVoiceFromAnotherNode) {
     can::Frame own;
     own.id = kOwnId;
     own.length = 8;
-    const InboundOutput out = car.hear({wheels(144.0), steering(5.0, car.counter++), own});
+    const InboundOutput out = car.receive({wheels(144.0), steering(5.0, car.counter++), own});
     EXPECT_EQ(out.seen.has(Monitor::kOwnId), !off);
     EXPECT_EQ(out.own_id_seen, !off);
     EXPECT_EQ(out.own_frames, 1u);
@@ -145,7 +145,7 @@ TEST(GatewayMonitors, AMessageThatStopsIsSeenWithinTwoAndAHalfPeriods) {
     if (off) car.params.off = only(Monitor::kMessageAge);
     car.warm_up();
     int ticks = 0;
-    while (ticks < 10 && !car.hear({wheels(144.0)}).seen.has(Monitor::kMessageAge)) ++ticks;
+    while (ticks < 10 && !car.receive({wheels(144.0)}).seen.has(Monitor::kMessageAge)) ++ticks;
     EXPECT_EQ(ticks < 10, !off);
     if (off) continue;
     EXPECT_LE(10 * (ticks + 1), 30) << "ms, at ticks of 10";
@@ -176,9 +176,9 @@ TEST(GatewayMonitors, EachMessageOfTheCarIsLateByItsOwnPeriod) {
 TEST(GatewayMonitors, AFrameThatIsMissingIsSeenThoughItsMessageIsNotLate) {
   MonitoredReceiver car;
   car.warm_up();
-  car.hear({wheels(144.0)});
+  car.receive({wheels(144.0)});
   ++car.counter;
-  const InboundOutput out = car.hear({wheels(144.0), steering(5.0, car.counter++)});
+  const InboundOutput out = car.receive({wheels(144.0), steering(5.0, car.counter++)});
   EXPECT_EQ(out.bus.losses.size(), 1u);
   EXPECT_TRUE(out.seen.has(Monitor::kMessageAge));
 }
@@ -188,7 +188,7 @@ TEST(GatewayMonitors, EveryBadCounterIsSeen) {
   MonitoredReceiver car;
   car.warm_up();
   const auto sees = [&car](std::uint8_t counter) {
-    return car.hear({wheels(144.0), steering(5.0, counter)}).seen.has(Monitor::kCounter);
+    return car.receive({wheels(144.0), steering(5.0, counter)}).seen.has(Monitor::kCounter);
   };
   car.counter = static_cast<std::uint8_t>(car.counter + 100);
   EXPECT_TRUE(sees(car.counter)) << "the first that jumps is applied";
@@ -203,7 +203,7 @@ TEST(GatewayMonitors, MessagesBesideTheDatabaseAreCountedLikeItsOwn) {
   InboundParams params{.also = kRows};
   InboundState state;
   std::array<can::ProtectState, 2> senders;
-  const auto hear = [&](std::size_t row, int ms, auto&& spoil) {
+  const auto receive = [&](std::size_t row, int ms, auto&& spoil) {
     can::ReceivedFrame received{.frame = {}, .at = at_ms(ms)};
     received.frame.id = kRows[row].id;
     received.frame.length = kRows[row].length;
@@ -212,13 +212,13 @@ TEST(GatewayMonitors, MessagesBesideTheDatabaseAreCountedLikeItsOwn) {
     return decode(params, state, {&received, 1}, received.at).bus;
   };
   const auto whole = [](can::Frame&) {};
-  EXPECT_EQ(hear(0, 10, whole).frames_applied, 1u);
-  EXPECT_EQ(hear(1, 10, whole).frames_applied, 2u);
+  EXPECT_EQ(receive(0, 10, whole).frames_applied, 1u);
+  EXPECT_EQ(receive(1, 10, whole).frames_applied, 2u);
   const auto crc = kRows[1].protection.crc_byte;
-  const world::BusHealth spoilt = hear(1, 20, [&](can::Frame& f) { f.data[crc] ^= 0x55; });
+  const world::BusHealth spoilt = receive(1, 20, [&](can::Frame& f) { f.data[crc] ^= 0x55; });
   EXPECT_EQ(spoilt.frames_applied, 2u);
   EXPECT_EQ(spoilt.refused.wrong_checksum, 1u);
-  const world::BusHealth shortened = hear(1, 30, [](can::Frame& f) { --f.length; });
+  const world::BusHealth shortened = receive(1, 30, [](can::Frame& f) { --f.length; });
   EXPECT_EQ(shortened.frames_applied, 2u);
   EXPECT_EQ(shortened.refused.wrong_length, 1u);
   EXPECT_EQ(shortened.refused.unknown_id, 0u) << "it is known, if not in this length";
@@ -247,13 +247,13 @@ TEST(GatewayMonitors, AChecksumIsJudgedBesideTheDatabase) {
       return frame;
     };
     for (int i = 0; i < 30; ++i)
-      EXPECT_TRUE(car.hear({wheels(144.0), protected_frame()}).seen.empty()) << i;
+      EXPECT_TRUE(car.receive({wheels(144.0), protected_frame()}).seen.empty()) << i;
     can::Frame spoilt = protected_frame();
     spoilt.data[kRows[0].protection.crc_byte] ^= 0x55;
-    const InboundOutput out = car.hear({wheels(144.0), spoilt});
+    const InboundOutput out = car.receive({wheels(144.0), spoilt});
     EXPECT_EQ(out.seen, off ? MonitorSet{} : only(Monitor::kChecksum));
     EXPECT_EQ(out.bus.refused.wrong_checksum, off ? 0u : 1u);
-    EXPECT_TRUE(car.hear({wheels(144.0), protected_frame()}).seen.empty()) << "and it is over";
+    EXPECT_TRUE(car.receive({wheels(144.0), protected_frame()}).seen.empty()) << "and it is over";
   }
 }
 
@@ -281,13 +281,13 @@ TEST(GatewayMonitors, AChecksumOfAMessageOfTheCarKeepsAFalseValueOut) {
     MonitoredReceiver car;
     car.params.also = kRows;
     if (off) car.params.off = only(Monitor::kChecksum);
-    EXPECT_EQ(car.hear({flags(4, 1)}).race_control.track, world::TrackFlag::kGreen);
+    EXPECT_EQ(car.receive({flags(4, 1)}).race_control.track, world::TrackFlag::kGreen);
     can::Frame damaged = flags(4, 2);
     damaged.data[0] = 0x12;  // red
-    const InboundOutput out = car.hear({damaged});
+    const InboundOutput out = car.receive({damaged});
     EXPECT_EQ(out.race_control.track, off ? world::TrackFlag::kRed : world::TrackFlag::kGreen);
     EXPECT_EQ(out.seen.has(Monitor::kChecksum), !off);
-    EXPECT_EQ(car.hear({flags(3, 3)}).race_control.track, world::TrackFlag::kYellow);
+    EXPECT_EQ(car.receive({flags(3, 3)}).race_control.track, world::TrackFlag::kYellow);
   }
 }
 
@@ -301,9 +301,9 @@ TEST(GatewayMonitors, AFrozenReportIsSeenThroughTheWholeGateway) {
       world::ActuatorCommand command;
       command.road_wheel_rad = 0.0005 * i;
       command.throttle_fraction = command.brake_kpa = 0.0;
-      remember_command(car.state, command, true, at_ms(10 * car.tick));
-      seen |=
-          car.hear({wheels(144.0), steering(5.0, car.counter++)}).seen.has(Monitor::kFrozenSignal);
+      store_command(car.state, command, true, at_ms(10 * car.tick));
+      seen |= car.receive({wheels(144.0), steering(5.0, car.counter++)})
+                  .seen.has(Monitor::kFrozenSignal);
     }
     EXPECT_EQ(seen, !off);
   }

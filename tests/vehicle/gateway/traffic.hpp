@@ -10,27 +10,13 @@
 #include "protocol/can/av21.hpp"
 #include "protocol/can/encode.hpp"
 #include "protocol/can/frame.hpp"
+#include "protocol/vocabulary/random.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "tests/support/instants.hpp"
 
 namespace pitwall::gateway::testing {
 
 namespace av21 = can::av21;
-
-// splitmix64: small, seeded, the same everywhere.
-struct Random {
-  std::uint64_t state;
-  std::uint64_t next() {
-    std::uint64_t z = (state += 0x9E3779B97F4A7C15ull);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
-    return z ^ (z >> 31);
-  }
-  std::uint64_t below(std::uint64_t n) { return next() % n; }
-  double between(double low, double high) {
-    return low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53;
-  }
-};
 
 template <class M>
 can::Frame frame_of(const M& message) {

@@ -67,7 +67,7 @@ class Straight {
     std::vector<can::ReceivedFrame> heard;
     if ((now - Instant{}).ns % milliseconds(10).ns == 0) {
       if (car_publishes) publish();
-      if (car_speaks) speak(heard);
+      if (car_speaks) encode_frames(heard);
       if (bus_lives) report(heard);
     }
     world::SensorInput samples;
@@ -79,7 +79,7 @@ class Straight {
         {.record = record_there ? &record : nullptr, .can = heard, .sensors = samples, .now = now});
     said.assign(out.frames.begin(), out.frames.end());
     so_far.insert(so_far.end(), said.begin(), said.end());
-    obey();
+    execute();
   }
 
   void run(Duration span) {
@@ -125,7 +125,7 @@ class Straight {
     heard.push_back(received);
   }
 
-  void speak(std::vector<can::ReceivedFrame>& heard) {
+  void encode_frames(std::vector<can::ReceivedFrame>& heard) {
     ++counter;
     report_counter = static_cast<std::uint8_t>((report_counter + 1) % 10);
     av21::BrakePressureCmd brake;
@@ -159,7 +159,7 @@ class Straight {
     put(heard, wheels);
   }
 
-  void obey() {
+  void execute() {
     for (const can::Frame& frame : said) {
       av21::BrakePressureCmd brake;
       if (frame.id == av21::BrakePressureCmd::kId && av21::decode(frame, brake))

@@ -14,7 +14,7 @@
 #include "protocol/recorder/segment_folder.hpp"
 #include "protocol/recording/mcap_reader.hpp"
 #include "protocol/telemetry/endpoint/station_endpoint.hpp"
-#include "protocol/telemetry/session/keys.hpp"
+#include "protocol/telemetry/session/crypto/keys.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "tests/support/allocation_guard.hpp"
@@ -58,7 +58,7 @@ class CarRadio : public ::testing::Test {
 class Base {
  public:
   Base(const KeyFile& keys, std::size_t paths, telemetry::Stamp newest = 0) {
-    telemetry::ConduitConfig config;
+    telemetry::LinkEndpointConfig config;
     config.association.keys = keys;
     config.association.newest_stamp = newest;
     config.association.paths = static_cast<std::uint8_t>(paths);

@@ -42,7 +42,7 @@ template <class Say>
 void hears_three(ReceiverPort& port, Say&& say) {
   EXPECT_FALSE(port.byte_at());
   world::SensorInput out;
-  std::vector<std::uint8_t> said, overheard;
+  std::vector<std::uint8_t> said, observed;
   for (std::uint32_t k = 0; k < 3; ++k) {
     const Message message = some_heading(1'000 * (k + 1));
     said.insert(said.end(), message.span().begin(), message.span().end());
@@ -51,11 +51,11 @@ void hears_three(ReceiverPort& port, Say&& say) {
   const Instant limit = transport::monotonic_now() + seconds(10);
   while (out.headings.size() < 3 && transport::monotonic_now() < limit) {
     port.read(out, transport::monotonic_now(), [&](Instant, std::span<const std::uint8_t> bytes) {
-      overheard.insert(overheard.end(), bytes.begin(), bytes.end());
+      observed.insert(observed.end(), bytes.begin(), bytes.end());
     });
   }
   ASSERT_EQ(out.headings.size(), 3U);
-  EXPECT_EQ(overheard, said) << "every byte, in order";
+  EXPECT_EQ(observed, said) << "every byte, in order";
   EXPECT_EQ(out.headings[2].unit, 1);
   ASSERT_TRUE(port.byte_at());
   EXPECT_LE(*port.byte_at(), transport::monotonic_now());
@@ -75,7 +75,7 @@ TEST(ReceiverPort, HearsDatagrams) {
     ASSERT_TRUE(other);
     free = other->local().port;
   }
-  ReceiverPort port = open(UdpIntake{{.port = free}});
+  ReceiverPort port = open(UdpReceiver{{.port = free}});
   hears_three(port, [&](std::span<const std::uint8_t> bytes) {
     EXPECT_TRUE(sender->send_to({.port = free}, bytes));
   });
@@ -105,7 +105,7 @@ TEST(ReceiverPort, HearsAConnection) {
 TEST(ReceiverPort, TakesNothingFromTheHeap) {
   const support::Pty pty;
   std::vector<ReceiverPort> ports;
-  ports.push_back(open(UdpIntake{}));
+  ports.push_back(open(UdpReceiver{}));
   ports.push_back(open(transport::SerialDevice{pty.path(), kDefaultBaud}));
   ports.push_back(open(transport::TcpAddress{.port = 1}));  // nobody is there
   world::SensorInput out;
@@ -130,7 +130,7 @@ TEST(ReceiverPort, ADeviceThatIsNotThereAtTheStartIsNamed) {
 TEST(ReceiverPort, APortThatIsTakenIsNamed) {
   const auto taken = transport::UdpSocket::bind({});
   ASSERT_TRUE(taken);
-  const auto port = ReceiverPort::open(UdpIntake{taken->local()}, 0, {});
+  const auto port = ReceiverPort::open(UdpReceiver{taken->local()}, 0, {});
   ASSERT_FALSE(port);
   EXPECT_EQ(port.error().place, transport::to_string(taken->local()));
 }

@@ -15,8 +15,6 @@
 namespace pitwall::io {
 namespace {
 
-using safety::testing::Random;
-
 constexpr Instant kStart{seconds(1).ns};
 constexpr std::uint32_t kFrameBytes = 768;
 

@@ -40,13 +40,13 @@ TEST(FilterSection, ChecksMayBeLeftOutOrSetOneByOne) {
   };
   const std::string anchor = "  position_sigma_max_m: 1.0\n";
   ASSERT_EQ(av21().find("\n  checks:"), std::string::npos);
-  for (const localization::CheckRange& r : localization::kCheckRanges) {
+  for (const auto& r : localization::kCheckRanges) {
     const double other = 0.5 * (r.least + r.most);
-    const std::string row = "    " + std::string(r.name) + ": " + std::to_string(other) + "\n";
+    const std::string row = std::string("    ") + r.name + ": " + std::to_string(other) + "\n";
     const auto checks = checks_of(with(av21(), anchor, anchor + "  checks:\n" + row));
     EXPECT_NEAR(checks.*r.value, other, 1e-6) << r.name;
     const std::string bad =
-        "    " + std::string(r.name) + ": " + std::to_string(r.most + 1.0) + "\n";
+        std::string("    ") + r.name + ": " + std::to_string(r.most + 1.0) + "\n";
     EXPECT_NE(refusal(with(av21(), anchor, anchor + "  checks:\n" + bad)), "") << r.name;
   }
   EXPECT_EQ(checks_of(av21()).jump_sigmas, localization::CheckParams{}.jump_sigmas);

@@ -16,7 +16,7 @@ using testing::Told;
 using testing::with;
 
 Told radio(const CarParams& p) {
-  const safety::RadioLadderParams& ladder = p.radio.ladder;
+  const safety::LinkLossParams& ladder = p.radio.ladder;
   Told told{
       {"radio.ladder.joystick_dropped_s", ladder.joystick_dropped.seconds()},
       {"radio.ladder.override_gone_s", ladder.override_gone.seconds()},

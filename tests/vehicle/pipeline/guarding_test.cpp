@@ -51,7 +51,7 @@ struct Teller {
   }
   void tick(bool reset = false) {
     now += kTick;
-    tell(setup(), *car, out, {.id = 9, .reset = reset}, now, told);
+    publish(setup(), *car, out, {.id = 9, .reset = reset}, now, told);
   }
 };
 

@@ -19,7 +19,7 @@ using world::TrackFlag;
 struct Rig {
   OperatorOrders orders;
   safety::OperatorRequests switches;
-  world::OperatorWishes wishes;
+  world::OperatorInputs operator_inputs;
   Mode mode = Mode::kDisarmed;
   bool barred = false, may_arm = true, resettable = false, arm_used = false, stands = true;
   Instant now{seconds(1).ns};
@@ -33,15 +33,15 @@ struct Rig {
       if (command.id == 0) command.id = next_id++;
       if (command.expires.ns == 0) command.expires = now + seconds(2);
     }
-    heard = obey(orders,
-                 {.switches = switches,
-                  .wishes = wishes,
-                  .commands = commands,
-                  .may_arm = may_arm,
-                  .mode = mode,
-                  .stands = stands,
-                  .now = now},
-                 answers);
+    heard = execute(orders,
+                    {.switches = switches,
+                     .operator_inputs = operator_inputs,
+                     .commands = commands,
+                     .may_arm = may_arm,
+                     .mode = mode,
+                     .stands = stands,
+                     .now = now},
+                    answers);
     const Mode before = mode;
     if (!heard.arm) arm_used = false;
     if (mode == Mode::kDisarmed && heard.arm && !barred && !arm_used) {
@@ -212,11 +212,11 @@ TEST(OperatorOrders, EveryCommandOfATickIsAnsweredOnce) {
 
 TEST(OperatorOrders, ALatchedStopIsARequest) {
   Rig rig;
-  rig.wishes.stop = world::StopWish::kControlled;
+  rig.operator_inputs.stop = world::StopRequest::kControlled;
   rig.tick();
   EXPECT_TRUE(rig.heard.stop);
   EXPECT_FALSE(rig.heard.emergency_stop);
-  rig.wishes.stop = world::StopWish::kEmergency;
+  rig.operator_inputs.stop = world::StopRequest::kEmergency;
   rig.tick();
   EXPECT_TRUE(rig.heard.emergency_stop);
 }

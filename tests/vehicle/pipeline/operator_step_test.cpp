@@ -25,16 +25,16 @@ using world::OperatorCommandKind;
 struct ToldCar {
   testing::StandingCar source;
   std::unique_ptr<Car> car = std::make_unique<Car>();
-  world::OperatorWishes wishes;
+  world::OperatorInputs operator_inputs;
   std::vector<world::AnsweredCommand> answers;
   Instant now = kStart;
   std::unique_ptr<Outputs> out = std::make_unique<Outputs>();
   std::uint32_t ids = 0;
 
   void tick(std::span<const OperatorCommand> commands = {}) {
-    const testing::Heard heard = source.hear(now);
+    const testing::Heard heard = source.receive(now);
     Inputs in = heard.inputs(now);
-    in.wishes = wishes;
+    in.operator_inputs = operator_inputs;
     in.commands = commands;
     *out = step(setup(), *car, in);
     answers.insert(answers.end(), out->answers.begin(), out->answers.end());
@@ -61,12 +61,12 @@ TEST(OperatorStep, ArmsDrivesStopsAndArmsAgainByRadioAlone) {
   EXPECT_EQ(t.say(OperatorCommandKind::kArm, 1.0), CommandAnswer::kApplied);
   t.run(milliseconds(300));
   ASSERT_EQ(t.mode(), Mode::kDriving);
-  t.wishes.stop = world::StopWish::kControlled;
+  t.operator_inputs.stop = world::StopRequest::kControlled;
   t.run(seconds(2));
   EXPECT_EQ(t.mode(), Mode::kHalted);
   EXPECT_EQ(t.out->chosen.cause, safety::Cause::kOperatorStop);
   EXPECT_EQ(t.say(OperatorCommandKind::kArm, 1.0), CommandAnswer::kRefused);
-  t.wishes.stop = world::StopWish::kNone;
+  t.operator_inputs.stop = world::StopRequest::kNone;
   EXPECT_EQ(t.say(OperatorCommandKind::kReset, 1.0), CommandAnswer::kApplied);
   EXPECT_EQ(t.mode(), Mode::kDisarmed);
   EXPECT_EQ(t.say(OperatorCommandKind::kArm, 1.0), CommandAnswer::kApplied);
@@ -79,10 +79,10 @@ TEST(OperatorStep, ArmsDrivesStopsAndArmsAgainByRadioAlone) {
 
 TEST(OperatorStep, ALatchedStopBarsArming) {
   ToldCar t;
-  t.wishes.stop = world::StopWish::kEmergency;
+  t.operator_inputs.stop = world::StopRequest::kEmergency;
   t.run(seconds(3));
   EXPECT_EQ(t.say(OperatorCommandKind::kArm, 1.0), CommandAnswer::kRefused);
-  t.wishes.stop = world::StopWish::kNone;
+  t.operator_inputs.stop = world::StopRequest::kNone;
   t.run(seconds(1));
   EXPECT_EQ(t.mode(), Mode::kDisarmed) << "the refused request does not wait";
 }
@@ -153,7 +153,7 @@ TEST(OperatorStep, AJoystickLowersTheThrottleUntilItsSampleIsOld) {
   t.run(seconds(2));
   ASSERT_EQ(t.mode(), Mode::kDriving);
   ASSERT_GT(t.out->chosen.command.throttle_fraction, 0.0);
-  t.wishes.joystick = world::Joystick{.throttle_cap = 0.0, .brake = 0.5, .at = t.now};
+  t.operator_inputs.joystick = world::Joystick{.throttle_cap = 0.0, .brake = 0.5, .at = t.now};
   t.tick();
   EXPECT_EQ(t.out->chosen.command.throttle_fraction, 0.0);
   EXPECT_GT(t.out->chosen.command.brake_kpa, 0.0);
@@ -165,7 +165,7 @@ TEST(OperatorStep, AJoystickLowersTheThrottleUntilItsSampleIsOld) {
 // Anything an operator or a broken rim may hand over: one answer each, no heap, nothing refused by
 // the frame gate.
 TEST(OperatorStep, WhateverIsSaidIsAnsweredOnceWithoutTheHeapOrTheGate) {
-  testing::Random random{7};
+  Random random{7};
   ToldCar t;
   std::vector<int> answered(100'000);
   std::vector<OperatorCommand> commands;
@@ -174,18 +174,19 @@ TEST(OperatorStep, WhateverIsSaidIsAnsweredOnceWithoutTheHeapOrTheGate) {
     while (random.one_in(2) && commands.size() < world::kOperatorCommandsMax) {
       const Instant expires = t.now + milliseconds(static_cast<int>(random.below(200)) - 100);
       commands.push_back({++t.ids, static_cast<OperatorCommandKind>(random.below(9)),
-                          random.one_in(2) ? 1.0 : random.number(), expires});
+                          random.one_in(2) ? 1.0 : any_number(random), expires});
     }
-    t.wishes.stop =
-        random.one_in(50) ? static_cast<world::StopWish>(random.below(3)) : world::StopWish::kNone;
-    t.wishes.joystick.reset();
+    t.operator_inputs.stop = random.one_in(50) ? static_cast<world::StopRequest>(random.below(3))
+                                               : world::StopRequest::kNone;
+    t.operator_inputs.joystick.reset();
     if (random.one_in(3)) {
       const Duration age = milliseconds(static_cast<int>(random.below(400)) - 100);
-      t.wishes.joystick = world::Joystick{random.number(), random.number(), t.now - age};
+      t.operator_inputs.joystick =
+          world::Joystick{any_number(random), any_number(random), t.now - age};
     }
-    const testing::Heard heard = t.source.hear(t.now);
+    const testing::Heard heard = t.source.receive(t.now);
     Inputs in = heard.inputs(t.now);
-    in.wishes = t.wishes;
+    in.operator_inputs = t.operator_inputs;
     in.commands = commands;
     const auto allocations =
         pitwall::testing::allocations_of([&] { *t.out = step(setup(), *t.car, in); });

@@ -17,6 +17,7 @@
 
 #include "protocol/can/av21.hpp"
 #include "protocol/can/encode.hpp"
+#include "protocol/vocabulary/random.hpp"
 #include "vehicle/parameters/car_file.hpp"
 #include "vehicle/parameters/track_file.hpp"
 #include "vehicle/pipeline/setup.hpp"
@@ -59,23 +60,11 @@ inline const Setup& setup() {
   return made;
 }
 
-// splitmix64: small, seeded, the same everywhere.
-struct Random {
-  std::uint64_t state;
-  std::uint64_t next() {
-    std::uint64_t z = (state += 0x9E3779B97F4A7C15ULL);
-    z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
-    return z ^ (z >> 31U);
-  }
-  std::uint64_t below(std::uint64_t n) { return next() % n; }
-  bool one_in(std::uint64_t n) { return below(n) == 0; }
-  // Any bit pattern a third of the time, else of a size that could be meant.
-  double number() {
-    if (one_in(3)) return std::bit_cast<double>(next());
-    return (static_cast<double>(below(2'000'001)) - 1e6) * 1e-4;
-  }
-};
+// Any bit pattern a third of the time, else of a size that could be meant.
+inline double any_number(Random& random) {
+  if (random.one_in(3)) return std::bit_cast<double>(random.next());
+  return (static_cast<double>(random.below(2'000'001)) - 1e6) * 1e-4;
+}
 
 // What one tick is given; the frames live here.
 struct Heard {
@@ -100,7 +89,7 @@ class StandingCar {
   world::SysState sys = world::SysState::kDriving;
   double station_m = 30.0;
 
-  Heard hear(Instant now) {
+  Heard receive(Instant now) {
     Heard heard;
     const auto tick = static_cast<std::uint64_t>((now - kStart) / kTick);
     for (const can::MessageRow& row : av21::kMessages) {
@@ -229,7 +218,7 @@ inline void random_samples(Random& random, Instant now, world::SensorInput& out)
     return random.one_in(4) ? static_cast<std::uint32_t>(random.next()) : world::kPositionNarrowInt;
   };
   const auto near = [&](double about) {
-    return random.one_in(3) ? random.number() : about + random.number() * 1e-5;
+    return random.one_in(3) ? any_number(random) : about + any_number(random) * 1e-5;
   };
   const world::TrackMap& track = setup().track;
   for (std::uint64_t n = random.below(9); n > 0; --n) {
@@ -246,20 +235,20 @@ inline void random_samples(Random& random, Instant now, world::SensorInput& out)
                                .at = when(),
                                .solution_status = status(),
                                .velocity_type = type(),
-                               .horizontal_mps = random.number(),
-                               .track_over_ground_rad = random.number(),
-                               .vertical_mps = random.number()});
+                               .horizontal_mps = any_number(random),
+                               .track_over_ground_rad = any_number(random),
+                               .vertical_mps = any_number(random)});
     (void)out.headings.push({.unit = unit(),
                              .at = when(),
                              .solution_status = status(),
                              .position_type = type(),
-                             .heading_rad = random.number(),
+                             .heading_rad = any_number(random),
                              .heading_sigma_rad = near(0.01)});
   }
   for (std::uint64_t n = random.below(33); n > 0; --n) {
     world::ImuSample imu{.unit = unit(), .at = when()};
-    for (double& v : imu.rate_rad_per_s) v = random.number();
-    for (double& v : imu.specific_force_mps2) v = random.number();
+    for (double& v : imu.rate_rad_per_s) v = any_number(random);
+    for (double& v : imu.specific_force_mps2) v = any_number(random);
     (void)out.imu.push(imu);
   }
 }

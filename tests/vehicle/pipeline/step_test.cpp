@@ -23,7 +23,6 @@ namespace {
 using testing::Heard;
 using testing::kStart;
 using testing::kTick;
-using testing::Random;
 using testing::setup;
 using testing::StandingCar;
 using world::Mode;
@@ -100,7 +99,7 @@ TEST(Step, ADisarmedCarSpeaksStatusOnly) {
   StandingCar source;
   std::set<std::uint32_t> ids;
   run(
-      *car, seconds(5), [&](Instant now) { return source.hear(now); },
+      *car, seconds(5), [&](Instant now) { return source.receive(now); },
       [&](const Outputs& out) {
         for (const can::Frame& frame : out.passed.frames) ids.insert(frame.id);
       });
@@ -124,7 +123,7 @@ TEST(Step, AHealthyCarDrivesWhenRaceControlLetsItAndTheOperatorArmed) {
   run(
       *car, seconds(5),
       [&](Instant now) {
-        Heard heard = source.hear(now);
+        Heard heard = source.receive(now);
         heard.requests.arm = now > kStart + seconds(2);
         return heard;
       },
@@ -145,7 +144,7 @@ TEST(Step, WithoutRaceControlACarDoesNotArm) {
   run(
       *car, seconds(8),
       [&](Instant now) {
-        Heard heard = source.hear(now);
+        Heard heard = source.receive(now);
         heard.requests.arm = true;
         return heard;
       },
@@ -161,7 +160,7 @@ TEST(Step, OnABusOfAnotherRevisionACarDoesNotArm) {
   run(
       *car, seconds(8),
       [&](Instant now) {
-        Heard heard = source.hear(now);
+        Heard heard = source.receive(now);
         heard.requests.arm = true;
         for (can::ReceivedFrame& received : heard.frames)
           if (received.frame.id == 1312) received.frame.length = 8;
@@ -183,7 +182,7 @@ TEST(Step, WithoutAFlagAnArmedCarNeverDrives) {
   run(
       *car, seconds(5),
       [&](Instant now) {
-        Heard heard = source.hear(now);
+        Heard heard = source.receive(now);
         heard.requests.arm = now > kStart + seconds(2);
         return heard;
       },
@@ -204,7 +203,7 @@ TEST(Step, UnderRedAnArmedCarNeverDrives) {
   run(
       *car, seconds(5),
       [&](Instant now) {
-        Heard heard = source.hear(now);
+        Heard heard = source.receive(now);
         heard.requests.arm = true;
         return heard;
       },
@@ -234,7 +233,7 @@ TEST(Step, WithNoiseAndRandomRequestsOnlyAnArmedCarSpeaksToActuators) {
   run(
       *car, seconds(60),
       [&](Instant now) {
-        Heard heard = healthy.hear(now);
+        Heard heard = healthy.receive(now);
         if (random.one_in(100)) {
           const Heard bad = garbage(now);
           heard.frames.insert(heard.frames.end(), bad.frames.begin(), bad.frames.end());
@@ -274,7 +273,7 @@ TEST(Step, ItFindsItselfAgainAfterSenselessSamples) {
   run(
       *car, seconds(40),
       [&](Instant now) {
-        Heard heard = healthy.hear(now);
+        Heard heard = healthy.receive(now);
         if (now < kStart + seconds(20) && random.one_in(4))
           testing::random_samples(random, now, heard.sensors);
         return heard;
@@ -299,7 +298,7 @@ TEST(Step, PlansAtItsOwnRate) {
   StandingCar source;
   std::set<std::int64_t> planned;
   run(
-      *car, seconds(2), [&](Instant now) { return source.hear(now); },
+      *car, seconds(2), [&](Instant now) { return source.receive(now); },
       [&](const Outputs&) { planned.insert(car->plan.at.ns); });
   EXPECT_EQ(planned.size(), 40u);
   EXPECT_EQ(car->ticks, 200u);
@@ -311,7 +310,7 @@ TEST(Step, ReportsThePlaceOnTheTrack) {
   source.station_m = 1234.5;
   world::Curvilinear place;
   run(
-      *car, seconds(2), [&](Instant now) { return source.hear(now); },
+      *car, seconds(2), [&](Instant now) { return source.receive(now); },
       [&](const Outputs& out) { place = out.place; });
   EXPECT_NEAR(place.s_m, 1234.5, 0.5);
   EXPECT_NEAR(place.n_m, 0.0, 0.2);
@@ -346,7 +345,7 @@ std::vector<Heard> mixed_inputs(std::size_t ticks) {
   std::vector<Heard> inputs;
   for (std::size_t i = 0; i < ticks; ++i) {
     const Instant now = kStart + kTick * static_cast<std::int64_t>(i);
-    inputs.push_back(healthy.hear(now));
+    inputs.push_back(healthy.receive(now));
     inputs.back().requests.arm = i > 200;
     // Before it is armed, a car on a bus with unknown frames would not arm.
     const bool noisy = i > 250 && random.one_in(10);

@@ -24,21 +24,21 @@ inline constexpr Instant kNow{100'000'000'000};
 inline Instant ago_ms(std::int64_t ms) { return kNow - milliseconds(ms); }
 
 template <class T>
-void hear(world::Heard<T>& heard, const T& value, std::int64_t age_ms) {
+void receive(world::Heard<T>& heard, const T& value, std::int64_t age_ms) {
   heard = {.value = value, .at = ago_ms(age_ms), .heard = true};
 }
 
 inline void hear_car(world::VehicleSignals& s) {
-  hear(s.wheel_speed_mps, world::PerWheel{{61, 62, 63, 64}}, 11);
-  hear(s.brake, world::BrakePressure{.front_kpa = 2100, .rear_kpa = 2000}, 12);
-  hear(s.throttle_fraction, 0.25, 13);
-  hear(s.steering_motor_rad, 0.39, 14);
-  hear(s.misc,
-       world::Misc{.battery_v = 13.6,
-                   .sys_state = world::SysState::kDriving,
-                   .mode_switch = 1,
-                   .safety_switch = 6},
-       15);
+  receive(s.wheel_speed_mps, world::PerWheel{{61, 62, 63, 64}}, 11);
+  receive(s.brake, world::BrakePressure{.front_kpa = 2100, .rear_kpa = 2000}, 12);
+  receive(s.throttle_fraction, 0.25, 13);
+  receive(s.steering_motor_rad, 0.39, 14);
+  receive(s.misc,
+          world::Misc{.battery_v = 13.6,
+                      .sys_state = world::SysState::kDriving,
+                      .mode_switch = 1,
+                      .safety_switch = 6},
+          15);
   world::Powertrain p;
   p.gear = 4;
   p.engine_speed_rpm = 6100;
@@ -46,20 +46,20 @@ inline void hear_car(world::VehicleSignals& s) {
   p.throttle_fraction = 0.3;
   p.vehicle_speed_mps = 60.25;
   p.gear_shift_status = 3;
-  hear(s.powertrain, p, 16);
-  hear(s.engine,
-       world::EngineHealth{.fuel_pressure_kpa = 350,
-                           .oil_pressure_kpa = 480,
-                           .coolant_c = 91,
-                           .transmission_c = 85,
-                           .transmission_pressure_kpa = 240},
-       17);
+  receive(s.powertrain, p, 16);
+  receive(s.engine,
+          world::EngineHealth{.fuel_pressure_kpa = 350,
+                              .oil_pressure_kpa = 480,
+                              .coolant_c = 91,
+                              .transmission_c = 85,
+                              .transmission_pressure_kpa = 240},
+          17);
   world::DriveByWireDiagnostics d;
   d.system_warning = true;
   d.race_control_lost = true;
-  hear(s.diagnostics, d, 18);
-  hear(s.tyre_temperature_c, world::PerWheel{{71, 72, 73, 74}}, 19);
-  hear(s.tyre_pressure_kpa, world::PerWheel{{151, 152, 153, 154}}, 20);
+  receive(s.diagnostics, d, 18);
+  receive(s.tyre_temperature_c, world::PerWheel{{71, 72, 73, 74}}, 19);
+  receive(s.tyre_pressure_kpa, world::PerWheel{{151, 152, 153, 154}}, 20);
 }
 
 // How often, of the last second.

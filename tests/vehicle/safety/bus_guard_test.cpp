@@ -13,7 +13,6 @@
 namespace pitwall::safety {
 namespace {
 
-using testing::Random;
 using world::ControllerState;
 using world::LinkObservation;
 

@@ -38,7 +38,7 @@ TEST(Causes, TheFiveRulesOfThePaperAreCausesOfTheirOwnWithADeadline) {
 }
 
 TEST(CauseSet, BehavesAsASetAndNamesTheFirst) {
-  testing::Random random{3};
+  Random random{3};
   for (int run = 0; run < 2000; ++run) {
     std::set<Cause> a, b;
     CauseSet set_a, set_b;

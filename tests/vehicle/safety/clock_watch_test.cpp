@@ -11,8 +11,6 @@
 namespace pitwall::safety {
 namespace {
 
-using testing::Random;
-
 // Two receivers at 20 Hz over a line that adds 1 to 12 ms; the car's clock is off by what is said.
 struct Clocks {
   ClockParams params;

@@ -14,7 +14,6 @@
 namespace pitwall::safety {
 namespace {
 
-using testing::Random;
 using testing::Situation;
 using world::SysState;
 using world::Validity;
@@ -338,12 +337,12 @@ TEST(FaultDetection, NobodyObeysAfterTheTimeOfAStopAndOnlyWhileTheBusIsDead) {
     d.silence(milliseconds(ms));
     const FaultOutput found = d.examine();
     EXPECT_EQ(found.causes.has(Cause::kBusDead), ms > 70) << ms;
-    EXPECT_EQ(found.nobody_obeys, ms >= 80 + 20'000) << ms;
+    EXPECT_EQ(found.drive_by_wire_gone, ms >= 80 + 20'000) << ms;
   }
   d.silence({});
-  EXPECT_FALSE(d.examine().nobody_obeys);
+  EXPECT_FALSE(d.examine().drive_by_wire_gone);
   d.silence(milliseconds(71));
-  EXPECT_FALSE(d.examine().nobody_obeys) << "it begins anew";
+  EXPECT_FALSE(d.examine().drive_by_wire_gone) << "it begins anew";
 }
 
 // Frames as the drive-by-wire sends them, each up to 5 ms late and up to 5 in a row lost: the

@@ -14,8 +14,6 @@
 namespace pitwall::safety {
 namespace {
 
-using testing::Random;
-
 // An actuator with a delay, a lag and a fault; its feedback is as old as a frame may be.
 struct Actuator {
   double delay_s = 0.04, lag_s = 0.06;

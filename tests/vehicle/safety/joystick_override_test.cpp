@@ -10,7 +10,6 @@ namespace pitwall::safety {
 namespace {
 
 using testing::Drive;
-using testing::Random;
 using world::Mode;
 
 // Two cars in one state, one of them with a joystick, in every tick of a wild drive.

@@ -29,7 +29,7 @@ TEST(ModeTable, EveryCombinationOfEventsInEveryModeKeepsTheLaws) {
       if (bits == 0) {
         EXPECT_EQ(to, from);
       }
-      if (has(events, Event::kNobodyObeys)) {
+      if (has(events, Event::kDriveByWireGone)) {
         EXPECT_TRUE(to == Mode::kDisarmed || from == Mode::kDisarmed) << bits;
         continue;
       }
@@ -57,7 +57,7 @@ TEST(ModeTable, EveryCombinationOfEventsInEveryModeKeepsTheLaws) {
 }
 
 TEST(ModeTable, RandomSequencesNeverDriveAfterAFaultWithoutAReset) {
-  testing::Random random{42};
+  Random random{42};
   bool faulted = false;  // the shadow: a fault while driving, until a reset at standstill
   std::set<Mode> seen;
   Mode mode = Mode::kDisarmed;
@@ -74,7 +74,7 @@ TEST(ModeTable, RandomSequencesNeverDriveAfterAFaultWithoutAReset) {
       faulted = true;
     if (before == Mode::kHalted && has(events, Event::kReset)) faulted = false;
     // Disarmed by itself: the supervisor lets no old request arm again.
-    if (has(events, Event::kNobodyObeys)) faulted = false;
+    if (has(events, Event::kDriveByWireGone)) faulted = false;
     ASSERT_FALSE(faulted && follows_the_drive(mode)) << "step " << i;
     drives += mode == Mode::kDriving;
     seen.insert(mode);
@@ -133,7 +133,7 @@ TEST(ModeTable, EveryCell) {
 
 TEST(ModeTable, WhereNobodyObeysEveryModeEndsDisarmed) {
   for (std::size_t m = 0; m < world::kModes; ++m)
-    EXPECT_EQ(next(static_cast<Mode>(m), Event::kNobodyObeys), Mode::kDisarmed) << m;
+    EXPECT_EQ(next(static_cast<Mode>(m), Event::kDriveByWireGone), Mode::kDisarmed) << m;
 }
 
 }  // namespace

@@ -10,8 +10,6 @@
 namespace pitwall::safety {
 namespace {
 
-using testing::Random;
-
 // A car that follows its front wheels.
 OversteerInputs steady(const OversteerParams& p, double v, double road_wheel_rad) {
   return {.wheel_mps = {{v, v, v, v}},

@@ -11,7 +11,6 @@
 namespace pitwall::safety {
 namespace {
 
-using testing::Random;
 using world::ActuatorCommand;
 using world::Trajectory;
 

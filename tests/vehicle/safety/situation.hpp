@@ -4,9 +4,10 @@
 
 #include <cstdint>
 
+#include "protocol/vocabulary/random.hpp"
 #include "protocol/vocabulary/time.hpp"
 #include "vehicle/safety/fault_detection.hpp"
-#include "vehicle/safety/radio_ladder.hpp"
+#include "vehicle/safety/link_loss_policy.hpp"
 #include "vehicle/safety/watchdog.hpp"
 #include "vehicle/world/actuator_command.hpp"
 #include "vehicle/world/bus_health.hpp"
@@ -17,22 +18,6 @@
 
 namespace pitwall::safety::testing {
 
-// splitmix64: small, seeded, the same everywhere.
-struct Random {
-  std::uint64_t state;
-  std::uint64_t next() {
-    std::uint64_t z = (state += 0x9E3779B97F4A7C15ull);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
-    return z ^ (z >> 31);
-  }
-  std::uint64_t below(std::uint64_t n) { return next() % n; }
-  bool one_in(std::uint64_t n) { return below(n) == 0; }
-  double between(double low, double high) {
-    return low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53;
-  }
-};
-
 struct Situation {
   world::VehicleSignals signals;
   world::BusHealth bus;
@@ -42,7 +27,7 @@ struct Situation {
   world::Trajectory stop;
   world::ActuatorCommand control;
   OperatorRequests requests;
-  RadioLadderOutput radio;
+  LinkLossOutput radio;
   bool control_ok = true, drive_available = true, own_id_seen = false, bus_failed = false,
        gate_refused = false, last_run_armed = false;
 

@@ -15,7 +15,6 @@
 namespace pitwall::safety {
 namespace {
 
-using testing::Random;
 using testing::Situation;
 
 struct Unit {

@@ -20,7 +20,6 @@ namespace {
 
 namespace av21 = can::av21;
 using testing::Drive;
-using testing::Random;
 using testing::Situation;
 using world::Mode;
 

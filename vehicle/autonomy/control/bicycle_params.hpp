@@ -2,17 +2,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/legal_range.hpp"
 
 namespace pitwall::control {
 
 struct BicycleParams {
-  double mass_kg = kUnset;                    // 300..2000, with fuel
-  double yaw_inertia_kg_m2 = kUnset;          // 200..5000
-  double cg_to_front_m = kUnset;              // 0.5..3
-  double cg_to_rear_m = kUnset;               // 0.5..3
-  double cornering_front_n_per_rad = kUnset;  // of the axle, both tyres: 2e4..1e6
-  double cornering_rear_n_per_rad = kUnset;   // of the axle, both tyres: 2e4..1e6
+  double mass_kg = kUnset;  // with fuel
+  double yaw_inertia_kg_m2 = kUnset;
+  double cg_to_front_m = kUnset;
+  double cg_to_rear_m = kUnset;
+  double cornering_front_n_per_rad = kUnset;  // of the axle, both tyres
+  double cornering_rear_n_per_rad = kUnset;   // of the axle, both tyres
 };
+
+inline constexpr auto kBicycleRanges = std::to_array<world::NamedRange<BicycleParams>>({
+    {"mass_kg", &BicycleParams::mass_kg, 300.0, 2000.0},
+    {"yaw_inertia_kg_m2", &BicycleParams::yaw_inertia_kg_m2, 200.0, 5000.0},
+    {"cg_to_front_m", &BicycleParams::cg_to_front_m, 0.5, 3.0},
+    {"cg_to_rear_m", &BicycleParams::cg_to_rear_m, 0.5, 3.0},
+    {"cornering_front_n_per_rad", &BicycleParams::cornering_front_n_per_rad, 2e4, 1e6},
+    {"cornering_rear_n_per_rad", &BicycleParams::cornering_rear_n_per_rad, 2e4, 1e6},
+});
 
 }  // namespace pitwall::control

@@ -8,6 +8,7 @@
 
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/legal_range.hpp"
 
 namespace pitwall::control {
 
@@ -17,8 +18,12 @@ struct GearParams {
   // Index i is the shift between gear i+1 and i+2; rising, down_below < up_above (hysteresis).
   std::array<double, kGears - 1> up_above_mps{kUnset, kUnset, kUnset, kUnset, kUnset};
   std::array<double, kGears - 1> down_below_mps{kUnset, kUnset, kUnset, kUnset, kUnset};
-  double dwell_s = kUnset;  // 0.2..5: least time between shifts
+  double dwell_s = kUnset;  // least time between shifts
 };
+
+inline constexpr auto kGearRanges = std::to_array<world::NamedRange<GearParams>>({
+    {"dwell_s", &GearParams::dwell_s, 0.2, 5.0},
+});
 
 struct GearState {
   std::uint8_t gear = 1;  // 1..kGears

@@ -22,6 +22,7 @@
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/autonomy/control/bicycle_params.hpp"
 #include "vehicle/world/ego_state.hpp"
+#include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/trajectory.hpp"
 
 namespace pitwall::control {
@@ -38,12 +39,20 @@ struct LateralWeights {
 
 struct LateralParams {
   std::array<LateralWeights, kSpeedBrackets> weights;
-  double lookahead_base_m = kUnset;       // 0..30
-  double lookahead_per_speed_s = kUnset;  // 0..1
-  double angle_max_rad = kUnset;          // 0.02..0.3
-  double gain_speed_floor_mps = kUnset;   // 1..10: the first bracket is designed at no less
-  double deviation_max_m = kUnset;        // 1..20: beyond it the verdict is kTooFar
+  double lookahead_base_m = kUnset;
+  double lookahead_per_speed_s = kUnset;
+  double angle_max_rad = kUnset;
+  double gain_speed_floor_mps = kUnset;  // the first bracket is designed at no less
+  double deviation_max_m = kUnset;       // beyond it the verdict is kTooFar
 };
+
+inline constexpr auto kLateralRanges = std::to_array<world::NamedRange<LateralParams>>({
+    {"lookahead_base_m", &LateralParams::lookahead_base_m, 0.0, 30.0},
+    {"lookahead_per_speed_s", &LateralParams::lookahead_per_speed_s, 0.0, 1.0},
+    {"angle_max_rad", &LateralParams::angle_max_rad, 0.02, 0.3},
+    {"gain_speed_floor_mps", &LateralParams::gain_speed_floor_mps, 1.0, 10.0},
+    {"deviation_max_m", &LateralParams::deviation_max_m, 1.0, 20.0},
+});
 
 using LateralGain = std::array<double, 4>;
 struct LateralGains {

@@ -20,24 +20,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/autonomy/control/bicycle_params.hpp"
 #include "vehicle/autonomy/control/lateral.hpp"
+#include "vehicle/world/legal_range.hpp"
 
 namespace pitwall::control {
 
 struct StopSteeringParams {
-  double bandwidth_rad_per_s = kUnset;   // w; 0.5..6
-  double damping = kUnset;               // z; 0.5..1.5
-  double preview_s = kUnset;             // 0..0.5: what the steering takes
-  double observer_s = kUnset;            // 0.05..5: low pass of d
-  double trim_per_s = kUnset;            // 0..2
-  double settle_s = kUnset;              // 0.1..5
-  double correction_max_rad = kUnset;    // 0..0.1: of d and of trim, each
-  double gain_speed_least_mps = kUnset;  // 2..20: the feedback is no steeper below
-  double hold_speed_mps = kUnset;        // 0.1..5
+  double bandwidth_rad_per_s = kUnset;  // w
+  double damping = kUnset;              // z
+  double preview_s = kUnset;            // what the steering takes
+  double observer_s = kUnset;           // low pass of d
+  double trim_per_s = kUnset;
+  double settle_s = kUnset;
+  double correction_max_rad = kUnset;    // of d and of trim, each
+  double gain_speed_least_mps = kUnset;  // the feedback is no steeper below
+  double hold_speed_mps = kUnset;
 };
+
+inline constexpr auto kStopSteeringRanges = std::to_array<world::NamedRange<StopSteeringParams>>({
+    {"bandwidth_rad_per_s", &StopSteeringParams::bandwidth_rad_per_s, 0.5, 6.0},
+    {"damping", &StopSteeringParams::damping, 0.5, 1.5},
+    {"preview_s", &StopSteeringParams::preview_s, 0.0, 0.5},
+    {"observer_s", &StopSteeringParams::observer_s, 0.05, 5.0},
+    {"trim_per_s", &StopSteeringParams::trim_per_s, 0.0, 2.0},
+    {"settle_s", &StopSteeringParams::settle_s, 0.1, 5.0},
+    {"correction_max_rad", &StopSteeringParams::correction_max_rad, 0.0, 0.1},
+    {"gain_speed_least_mps", &StopSteeringParams::gain_speed_least_mps, 2.0, 20.0},
+    {"hold_speed_mps", &StopSteeringParams::hold_speed_mps, 0.1, 5.0},
+});
 
 struct StopSteering {
   bool active = false;

@@ -1,5 +1,5 @@
-// What a sample says of itself, as the check table reads it: its form and its solution. Stamps,
-// prediction and the other unit are added by who knows them (intake).
+// Properties of a sample that the check table judges: its form and its solution. Stamps, prediction
+// and the other unit are added by intake.
 //   in     one sample
 //   out    Evidence with form and solution filled in
 //   units  as in world/sensor_input.hpp

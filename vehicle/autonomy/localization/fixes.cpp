@@ -49,8 +49,7 @@ void compare(const Intake& in, std::uint8_t unit, Instant at, const Residual& re
   }
 }
 
-void remember(Stream& stream, Instant at, const Residual& residual, double sigma,
-              const Evidence& e) {
+void store(Stream& stream, Instant at, const Residual& residual, double sigma, const Evidence& e) {
   stream.comparable = std::isfinite(e.residual);
   stream.residual_at = at;
   stream.residual = residual;
@@ -88,7 +87,7 @@ bool excluded(const Intake& in, Source source, const Sample& sample) {
   if (sample.unit >= world::kGnssUnits) return false;
   const auto which = sample.unit == 0 ? world::Excludable::kGnss0 : world::Excludable::kGnss1;
   if (in.use.uses(which)) return false;
-  tell(in, source, sample.unit, sample.at, Gate::kExcluded);
+  record_verdict(in, source, sample.unit, sample.at, Gate::kExcluded);
   return true;
 }
 
@@ -114,7 +113,8 @@ bool conclude(const Intake& in, const Evidence& e, const Sample& sample, const M
   Gate gate = admit(in, e, sample.unit, content_of(sample), sample.at);
   if (gate == Gate::kAccepted && stands_by(in, e.source, sample.unit, e.rank))
     gate = Gate::kStandby;
-  if (gate != Gate::kAccepted) return tell(in, e.source, sample.unit, sample.at, gate), false;
+  if (gate != Gate::kAccepted)
+    return record_verdict(in, e.source, sample.unit, sample.at, gate), false;
   if (fuse(in, e.source, m) || !in.state.started) return true;
   // The filter itself refused what had passed: a jump that only it can see.
   Stream& stream = in.stream(e.source, sample.unit);
@@ -219,7 +219,7 @@ Measurement measurement(const Intake& in, const world::GnssHeading& h) {
 void take(const Intake& in, const world::GnssPosition& p) {
   if (excluded(in, Source::kPosition, p)) return;
   Evidence e = begin(in, p);
-  if (!e.known_unit) return tell(in, e.source, p.unit, p.at, Gate::kUnknownUnit);
+  if (!e.known_unit) return record_verdict(in, e.source, p.unit, p.at, Gate::kUnknownUnit);
   Stream& stream = in.stream(e.source, p.unit);
   stream.comparable = false;
   const Measurement m = measurement(in, p);
@@ -231,7 +231,7 @@ void take(const Intake& in, const world::GnssPosition& p) {
       const Residual residual{cg_x_m - moment->x_m, cg_y_m - moment->y_m, 0.0};
       compare(in, p.unit, p.at, residual, e.sigma, moment->position_sigma_m,
               stray_m(in.state.drift, p.unit, cg_x_m, cg_y_m, p.at), e);
-      remember(stream, p.at, residual, e.sigma, e);
+      store(stream, p.at, residual, e.sigma, e);
       if (reckoning(in)) e.jump_min = kUnset;
     }
   }
@@ -246,7 +246,7 @@ void take(const Intake& in, const world::GnssPosition& p) {
 void take(const Intake& in, const world::GnssVelocity& v) {
   if (excluded(in, Source::kVelocity, v)) return;
   Evidence e = begin(in, v);
-  if (!e.known_unit) return tell(in, e.source, v.unit, v.at, Gate::kUnknownUnit);
+  if (!e.known_unit) return record_verdict(in, e.source, v.unit, v.at, Gate::kUnknownUnit);
   Stream& stream = in.stream(e.source, v.unit);
   stream.comparable = false;
   const Measurement m = measurement(in, v);
@@ -256,7 +256,7 @@ void take(const Intake& in, const world::GnssVelocity& v) {
       const Residual residual{m.a - expected.x, m.b - expected.y, 0.0};
       const double sigma = std::isfinite(v.sigma_mps) ? v.sigma_mps : 0.0;
       compare(in, v.unit, v.at, residual, sigma, moment->speed_sigma_mps, magnitude(residual), e);
-      remember(stream, v.at, residual, sigma, e);
+      store(stream, v.at, residual, sigma, e);
     }
   }
   if (!conclude(in, e, v, m)) return;
@@ -270,7 +270,7 @@ void take(const Intake& in, const world::GnssVelocity& v) {
 void take(const Intake& in, const world::GnssHeading& h) {
   if (excluded(in, Source::kHeading, h)) return;
   Evidence e = begin(in, h);
-  if (!e.known_unit) return tell(in, e.source, h.unit, h.at, Gate::kUnknownUnit);
+  if (!e.known_unit) return record_verdict(in, e.source, h.unit, h.at, Gate::kUnknownUnit);
   Stream& stream = in.stream(e.source, h.unit);
   stream.comparable = false;
   const Measurement m = measurement(in, h);
@@ -282,7 +282,7 @@ void take(const Intake& in, const world::GnssHeading& h) {
     }
     const Residual residual{wrap_pi(m.a - expected_rad), 0.0, 0.0};
     compare(in, h.unit, h.at, residual, e.sigma, sigma_rad, std::abs(residual[0]), e);
-    remember(stream, h.at, residual, e.sigma, e);
+    store(stream, h.at, residual, e.sigma, e);
     e.course_error_rad = course_error(in, m.a, e.residual);
   }
   if (conclude(in, e, h, m)) in.state.seed_heading = h, in.state.have_heading = true;
@@ -292,7 +292,7 @@ void take(const Intake& in, const world::GnssHeading& h) {
 void take(const Intake& in, const world::InsAttitude& a) {
   if (excluded(in, Source::kAttitude, a)) return;
   Evidence e = begin(in, a);
-  if (!e.known_unit) return tell(in, e.source, a.unit, a.at, Gate::kUnknownUnit);
+  if (!e.known_unit) return record_verdict(in, e.source, a.unit, a.at, Gate::kUnknownUnit);
   const Measurement m = measurement(a);
   if (comparable(in, e)) {
     if (const auto moment = in.state.trail.at(a.at)) {
@@ -303,9 +303,10 @@ void take(const Intake& in, const world::InsAttitude& a) {
     }
   }
   const Gate gate = admit(in, e, a.unit, content_of(a), a.at);
-  if (gate != Gate::kAccepted) return tell(in, e.source, a.unit, a.at, gate);
+  if (gate != Gate::kAccepted) return record_verdict(in, e.source, a.unit, a.at, gate);
   for (std::size_t u = 0; u < world::kGnssUnits; ++u)
-    if (in_use(in, Source::kHeading, u)) return tell(in, e.source, a.unit, a.at, Gate::kStandby);
+    if (in_use(in, Source::kHeading, u))
+      return record_verdict(in, e.source, a.unit, a.at, Gate::kStandby);
   (void)fuse(in, e.source, m);
 }
 

@@ -24,7 +24,8 @@ double Intake::bank_rad() const {
   return std::isfinite(around.road.bank_rad) ? around.road.bank_rad : 0.0;
 }
 
-void tell(const Intake& in, Source source, std::uint8_t unit, Instant at, Gate gate, double nis) {
+void record_verdict(const Intake& in, Source source, std::uint8_t unit, Instant at, Gate gate,
+                    double nis) {
   CHECK(in.out.verdicts.push({source, unit, gate, nis, (in.now - at).seconds()}));
   if (unit >= world::kGnssUnits) return;
   if (source == Source::kWheelSpeed) {
@@ -42,12 +43,12 @@ void tell(const Intake& in, Source source, std::uint8_t unit, Instant at, Gate g
 }
 
 bool fuse(const Intake& in, Source source, const Measurement& m) {
-  if (!in.state.started) return tell(in, source, m.unit, m.at, Gate::kNotStarted), false;
+  if (!in.state.started) return record_verdict(in, source, m.unit, m.at, Gate::kNotStarted), false;
   const auto innovation = insert(in.state.filter, in.filter, m);
   const Gate gate = !innovation            ? Gate::kTooOld
                     : innovation->accepted ? Gate::kAccepted
                                            : Gate::kOutlier;
-  tell(in, source, m.unit, m.at, gate, innovation ? innovation->nis : kUnset);
+  record_verdict(in, source, m.unit, m.at, gate, innovation ? innovation->nis : kUnset);
   return gate == Gate::kAccepted;
 }
 
@@ -112,8 +113,8 @@ Gate admit(const Intake& in, const Evidence& evidence, std::uint8_t unit, const 
     stream.seen.bits &= ~(1U << static_cast<unsigned>(world::Monitor::kInnovation));
     see_jump(in, stream, beyond_chance(evidence));
   }
-  stream.trust.hear(std::max(checks.rate_window_s, kLately * gap_max_s(checks, evidence.source)),
-                    in.now);
+  stream.trust.receive(std::max(checks.rate_window_s, kLately * gap_max_s(checks, evidence.source)),
+                       in.now);
   const bool lies_about_time = judged.gate == Gate::kFromTheFuture ||
                                judged.gate == Gate::kTooOld || judged.gate == Gate::kRanBack;
   if (!lies_about_time && judged.gate != Gate::kRepeated) {

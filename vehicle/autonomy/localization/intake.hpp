@@ -1,4 +1,5 @@
-// From a sample to a verdict: what every source shares. Internal to localization.
+// Intake of samples: the steps from a sample to a verdict that all sources share. Internal to
+// localization.
 //   in     one sample and all that is known beside it (Intake)
 //   out    its verdict, told and tallied; the filter has it if it was accepted
 //   invariants
@@ -32,8 +33,8 @@ struct Intake {
   double bank_rad() const;  // zero where the road is not known
 };
 
-void tell(const Intake& in, Source source, std::uint8_t unit, Instant at, Gate gate,
-          double nis = kUnset);
+void record_verdict(const Intake& in, Source source, std::uint8_t unit, Instant at, Gate gate,
+                    double nis = kUnset);
 // Puts it into the filter and tells what became of it; true if it was taken in.
 bool fuse(const Intake& in, Source source, const Measurement& m);
 

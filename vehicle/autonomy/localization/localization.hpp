@@ -1,6 +1,6 @@
-// Where the car is: the executive of localization. It holds every sample of two GNSS units with
-// dual-antenna heading, their IMUs and the wheels against a table of checks, decides which unit
-// and which source may enter, and keeps the filter that puts them together.
+// Executive of localization. It holds every sample of two GNSS units with dual-antenna heading,
+// their IMUs and the wheels against a table of checks, decides which unit and which source may
+// enter, and keeps the filter that fuses them.
 //
 //     sample -> form, time, solution, prediction, other unit -> trust -> preference -> filter
 //
@@ -32,7 +32,7 @@
 #include "vehicle/autonomy/localization/checks/wheel_scale.hpp"
 #include "vehicle/autonomy/localization/checks/wheel_watch.hpp"
 #include "vehicle/autonomy/localization/datum.hpp"
-#include "vehicle/autonomy/localization/filter.hpp"
+#include "vehicle/autonomy/localization/filter/filter.hpp"
 #include "vehicle/autonomy/localization/params.hpp"
 #include "vehicle/autonomy/localization/stream.hpp"
 #include "vehicle/autonomy/localization/trail.hpp"

@@ -98,9 +98,9 @@ WheelSpeed judge_wheels(const Intake& in, const world::PerWheel& reported) {
 void take(const Intake& in, const world::ImuSample& sample) {
   const std::uint8_t unit = sample.unit;
   if (unit < world::kGnssUnits && !uses_imu(in, unit))
-    return tell(in, Source::kImu, unit, sample.at, Gate::kExcluded);
+    return record_verdict(in, Source::kImu, unit, sample.at, Gate::kExcluded);
   Evidence e = evidence_of(in.params, in.datum, sample);
-  if (!e.known_unit) return tell(in, Source::kImu, unit, sample.at, Gate::kUnknownUnit);
+  if (!e.known_unit) return record_verdict(in, Source::kImu, unit, sample.at, Gate::kUnknownUnit);
   const Content content = content_of(sample);
   complete(in, in.stream(Source::kImu, unit), content, sample.at, e);
   Gate gate = admit(in, e, unit, content, sample.at);
@@ -109,7 +109,7 @@ void take(const Intake& in, const world::ImuSample& sample) {
   if (gate == Gate::kAccepted && blamed(in, unit)) gate = Gate::kDisagrees;
   if (gate == Gate::kAccepted && unit != preferred && lives(in, preferred, sample.at))
     gate = Gate::kStandby;
-  if (gate != Gate::kAccepted) return tell(in, Source::kImu, unit, sample.at, gate);
+  if (gate != Gate::kAccepted) return record_verdict(in, Source::kImu, unit, sample.at, gate);
   (void)fuse(in, Source::kImu,
              {.kind = Kind::kImu,
               .unit = unit,
@@ -140,7 +140,7 @@ void take_wheels(const Intake& in, const world::VehicleSignals& car) {
     wheels.at = report.at;
     wheels.heard = true;
     wheels.speed_mps = kUnset;
-    return tell(in, Source::kWheelSpeed, 0, report.at, gate);
+    return record_verdict(in, Source::kWheelSpeed, 0, report.at, gate);
   }
   const CheckParams& checks = in.params.checks;
   const double since_s = wheels.heard ? (report.at - wheels.at).seconds() : 0.0;

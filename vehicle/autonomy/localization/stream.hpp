@@ -1,4 +1,4 @@
-// What is remembered of one stream of samples, source by unit, between ticks.
+// State of one stream of samples, source by unit, between ticks.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

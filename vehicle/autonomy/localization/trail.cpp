@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "vehicle/autonomy/localization/rotation.hpp"
+#include "vehicle/autonomy/localization/filter/rotation.hpp"
 
 namespace pitwall::localization {
 namespace {

@@ -1,5 +1,5 @@
-// Where the filter said, tick by tick, that the car was: what samples that come late are held
-// against before they may enter. A prediction, because the filter did not know them then.
+// History of the filter's predictions, tick by tick: samples that arrive late are compared with the
+// prediction of their own time, which the filter made without them.
 //   in     one Estimate per tick
 //   out    what an antenna at a lever arm would have measured at an instant of the last kTrailTicks
 //   frames Map and Body as in measurement.hpp
@@ -17,7 +17,7 @@
 
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
-#include "vehicle/autonomy/localization/filter.hpp"
+#include "vehicle/autonomy/localization/filter/filter.hpp"
 
 namespace pitwall::localization {
 

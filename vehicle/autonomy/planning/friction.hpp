@@ -1,4 +1,4 @@
-// What the tyres and the engine can do on a banked road: the gg diagram used for speed profiles.
+// Limits of tyres and engine on a banked road: the gg diagram of the speed profiles.
 //   frames accelerations in the plane of the road; lateral positive left
 //   invariants
 //          normal load per mass  n = g cos(bank) + v^2 kappa sin(bank) + downforce v^2
@@ -14,26 +14,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/tyre_grip.hpp"
 
 namespace pitwall::planning {
 
 struct FrictionParams {
-  double friction = kUnset;         // 0.3..2.5: tyre friction coefficient, warm
-  double downforce_per_m = kUnset;  // 0..0.01: downforce / (mass v^2)
-  double drag_per_m = kUnset;       // 0..0.01: drag / (mass v^2)
-  double accel_max_mps2 = kUnset;   // 0.5..15: by traction and gearing
-  double power_w_per_kg = kUnset;   // 10..1000: at the wheels
-  double brake_max_mps2 = kUnset;   // 1..30: by the brakes
-  double brake_front = kUnset;      // 0.3..0.9: share of the brakes in front
-  double load_front = kUnset;       // 0.3..0.7: share of the load in front
-  double load_shift = kUnset;       // 0..0.4: height of the centre of gravity over the wheelbase
-  double long_friction = kUnset;    // 0.3..1.5: longitudinal over lateral friction
+  double friction = kUnset;         // tyre friction coefficient, warm
+  double downforce_per_m = kUnset;  // downforce / (mass v^2)
+  double drag_per_m = kUnset;       // drag / (mass v^2)
+  double accel_max_mps2 = kUnset;   // by traction and gearing
+  double power_w_per_kg = kUnset;   // at the wheels
+  double brake_max_mps2 = kUnset;   // by the brakes
+  double brake_front = kUnset;      // share of the brakes in front
+  double load_front = kUnset;       // share of the load in front
+  double load_shift = kUnset;       // height of the centre of gravity over the wheelbase
+  double long_friction = kUnset;    // longitudinal over lateral friction
   world::TyreGrip tyres;            // of the temperature
 };
+
+inline constexpr auto kFrictionRanges = std::to_array<world::NamedRange<FrictionParams>>({
+    {"friction", &FrictionParams::friction, 0.3, 2.5},
+    {"downforce_per_m", &FrictionParams::downforce_per_m, 0.0, 0.01},
+    {"drag_per_m", &FrictionParams::drag_per_m, 0.0, 0.01},
+    {"accel_max_mps2", &FrictionParams::accel_max_mps2, 0.5, 15.0},
+    {"power_w_per_kg", &FrictionParams::power_w_per_kg, 10.0, 1000.0},
+    {"brake_max_mps2", &FrictionParams::brake_max_mps2, 1.0, 30.0},
+    {"brake_front", &FrictionParams::brake_front, 0.3, 0.9},
+    {"load_front", &FrictionParams::load_front, 0.3, 0.7},
+    {"load_shift", &FrictionParams::load_shift, 0.0, 0.4},
+    {"long_friction", &FrictionParams::long_friction, 0.3, 1.5},
+});
 
 // The same car on tyres of that temperature; unset counts as cold.
 FrictionParams on_tyres(const FrictionParams& car, double tyre_c);

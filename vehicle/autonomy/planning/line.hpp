@@ -6,24 +6,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/autonomy/planning/friction.hpp"
+#include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/track_map.hpp"
 
 namespace pitwall::planning {
 
 struct LineParams {
   double offset_m = kUnset;          // from the track's reference line, within the walls
-  double wall_clearance_m = kUnset;  // 0..10: least distance of the centre of gravity to a wall
-  double spacing_m = kUnset;         // 0.5..5
-  double speed_max_mps = kUnset;     // 5..110
-  double grip_share = kUnset;        // 0.1..1: share of the friction ellipse that may be planned
+  double wall_clearance_m = kUnset;  // least distance of the centre of gravity to a wall
+  double spacing_m = kUnset;
+  double speed_max_mps = kUnset;
+  double grip_share = kUnset;  // share of the friction ellipse that may be planned
   FrictionParams friction;
 };
+
+inline constexpr auto kLineRanges = std::to_array<world::NamedRange<LineParams>>({
+    {"offset_m", &LineParams::offset_m, -30.0, 30.0},
+    {"wall_clearance_m", &LineParams::wall_clearance_m, 0.0, 10.0},
+    {"spacing_m", &LineParams::spacing_m, 0.5, 5.0},
+    {"speed_max_mps", &LineParams::speed_max_mps, 5.0, 110.0},
+    {"grip_share", &LineParams::grip_share, 0.1, 1.0},
+});
 
 struct LinePoint {
   double s_m = kUnset;        // along the line

@@ -21,23 +21,8 @@ constexpr double kBeyondStop_m = 40.0;  // path past the standstill: control loo
 constexpr double kCoastLeast_mps2 = 1.0;  // with the engine's own drag
 
 std::optional<Problem> illegal_line(const LineParams& p) {
-  const FrictionParams& f = p.friction;
-  return world::first_illegal(
-      std::array{LegalRange{"line.offset_m", p.offset_m, -50, 50},
-                 LegalRange{"line.wall_clearance_m", p.wall_clearance_m, 0, 10},
-                 LegalRange{"line.spacing_m", p.spacing_m, 0.5, 5},
-                 LegalRange{"line.speed_max_mps", p.speed_max_mps, 5, 110},
-                 LegalRange{"line.grip_share", p.grip_share, 0.1, 1},
-                 LegalRange{"line.friction.friction", f.friction, 0.3, 2.5},
-                 LegalRange{"line.friction.downforce_per_m", f.downforce_per_m, 0, 0.01},
-                 LegalRange{"line.friction.drag_per_m", f.drag_per_m, 0, 0.01},
-                 LegalRange{"line.friction.accel_max_mps2", f.accel_max_mps2, 0.5, 15},
-                 LegalRange{"line.friction.power_w_per_kg", f.power_w_per_kg, 10, 1000},
-                 LegalRange{"line.friction.brake_max_mps2", f.brake_max_mps2, 1, 30},
-                 LegalRange{"line.friction.brake_front", f.brake_front, 0.3, 0.9},
-                 LegalRange{"line.friction.load_front", f.load_front, 0.3, 0.7},
-                 LegalRange{"line.friction.load_shift", f.load_shift, 0, 0.4},
-                 LegalRange{"line.friction.long_friction", f.long_friction, 0.3, 1.5}});
+  if (auto problem = world::first_illegal(kLineRanges, p, "line.")) return problem;
+  return world::first_illegal(kFrictionRanges, p.friction, "line.friction.");
 }
 
 std::optional<Problem> illegal_tyres(const world::TyreGrip& tyres) {
@@ -47,31 +32,12 @@ std::optional<Problem> illegal_tyres(const world::TyreGrip& tyres) {
 }
 
 std::optional<Problem> illegal_stop(const Params& p) {
-  const StopPathParams& path = p.stop_path;
+  if (auto problem = world::first_illegal(kStopPathRanges, p.stop_path, "stop_path."))
+    return problem;
   return world::first_illegal(std::array{
-      LegalRange{"stop_decel_max_mps2", p.stop_decel_max_mps2, 1, 12},
-      LegalRange{"stop_jerk_max_mps3", p.stop_jerk_max_mps3, 1, 30},
-      LegalRange{"stop_grip_share", p.stop_grip_share, 0.3, 0.9},
-      LegalRange{"stop_path.clearance_m", path.clearance_m, 0.5, 10},
-      LegalRange{"stop_path.low_speed_mps", path.low_speed_mps, 5, 40},
-      LegalRange{"stop_path.stretch_max", path.stretch_max, 1, 2},
       LegalRange{"emergency_decel_max_mps2", p.emergency_decel_max_mps2, p.stop_decel_max_mps2, 15},
       LegalRange{"emergency_jerk_max_mps3", p.emergency_jerk_max_mps3, p.stop_jerk_max_mps3, 30},
       LegalRange{"emergency_grip_share", p.emergency_grip_share, p.stop_grip_share, 0.95}});
-}
-
-std::optional<Problem> illegal_speed(const Params& p) {
-  return world::first_illegal(
-      std::array{LegalRange{"green_speed_mps", p.green_speed_mps, 0, 110},
-                 LegalRange{"caution_speed_mps", p.caution_speed_mps, 0, 60},
-                 LegalRange{"accel_max_mps2", p.accel_max_mps2, 0.2, 10},
-                 LegalRange{"decel_max_mps2", p.decel_max_mps2, 0.2, 10},
-                 LegalRange{"jerk_max_mps3", p.jerk_max_mps3, 0.5, 30},
-                 LegalRange{"speed_band_mps", p.speed_band_mps, 0.5, 10},
-                 LegalRange{"point_spacing_m", p.point_spacing_m, 1, 4},
-                 LegalRange{"merge_from_m", p.merge_from_m, 0.5, 5},
-                 LegalRange{"merge_time_s", p.merge_time_s, 1, 10},
-                 LegalRange{"merge_least_m", p.merge_least_m, 10, 200}});
 }
 
 bool usable(const EgoState& ego) {
@@ -226,7 +192,7 @@ SpeedDemand by_vehicle_flag(const Params& params, VehicleFlag flag) {
 Result<Line, Problem> prepare(const Params& params, const world::TrackMap& track) {
   if (auto problem = illegal_line(params.line)) return Unexpected{*problem};
   if (auto problem = illegal_tyres(params.line.friction.tyres)) return Unexpected{*problem};
-  if (auto problem = illegal_speed(params)) return Unexpected{*problem};
+  if (auto problem = world::first_illegal(kRanges, params)) return Unexpected{*problem};
   if (auto problem = illegal_stop(params)) return Unexpected{*problem};
   return build_line(track, params.line);
 }

@@ -19,6 +19,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "protocol/vocabulary/result.hpp"
@@ -27,6 +28,7 @@
 #include "vehicle/autonomy/planning/offset.hpp"
 #include "vehicle/autonomy/planning/stop_plan.hpp"
 #include "vehicle/world/ego_state.hpp"
+#include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/race_control.hpp"
 #include "vehicle/world/track_map.hpp"
 #include "vehicle/world/trajectory.hpp"
@@ -35,24 +37,40 @@ namespace pitwall::planning {
 
 struct Params {
   LineParams line;
-  double green_speed_mps = kUnset;      // 0..110: when race control gives no round speed
-  double caution_speed_mps = kUnset;    // 0..60: under yellow
-  double accel_max_mps2 = kUnset;       // 0.2..10
-  double decel_max_mps2 = kUnset;       // 0.2..10: of the drive trajectory
-  double jerk_max_mps3 = kUnset;        // 0.5..30
-  double speed_band_mps = kUnset;       // 0.5..10: reference to measured speed
-  double stop_decel_max_mps2 = kUnset;  // 1..12
-  double stop_jerk_max_mps3 = kUnset;   // 1..30
-  double stop_grip_share = kUnset;      // 0.3..0.9: 0.7 is a margin of 30 %
+  double green_speed_mps = kUnset;    // when race control gives no round speed
+  double caution_speed_mps = kUnset;  // under yellow
+  double accel_max_mps2 = kUnset;
+  double decel_max_mps2 = kUnset;  // of the drive trajectory
+  double jerk_max_mps3 = kUnset;
+  double speed_band_mps = kUnset;  // reference to measured speed
+  double stop_decel_max_mps2 = kUnset;
+  double stop_jerk_max_mps3 = kUnset;
+  double stop_grip_share = kUnset;  // 0.7 is a margin of 30 %
   StopPathParams stop_path;
   double emergency_decel_max_mps2 = kUnset;  // stop_decel_max_mps2..15
   double emergency_jerk_max_mps3 = kUnset;   // stop_jerk_max_mps3..30
   double emergency_grip_share = kUnset;      // stop_grip_share..0.95
-  double point_spacing_m = kUnset;           // 1..4: of the drive trajectory
-  double merge_from_m = kUnset;              // 0.5..5: deviation from the line that starts a merge
-  double merge_time_s = kUnset;              // 1..10
-  double merge_least_m = kUnset;             // 10..200: shortest merge
+  double point_spacing_m = kUnset;           // of the drive trajectory
+  double merge_from_m = kUnset;              // deviation from the line that starts a merge
+  double merge_time_s = kUnset;
+  double merge_least_m = kUnset;  // shortest merge
 };
+
+inline constexpr auto kRanges = std::to_array<world::NamedRange<Params>>({
+    {"green_speed_mps", &Params::green_speed_mps, 0.0, 110.0},
+    {"caution_speed_mps", &Params::caution_speed_mps, 0.0, 60.0},
+    {"accel_max_mps2", &Params::accel_max_mps2, 0.2, 10.0},
+    {"decel_max_mps2", &Params::decel_max_mps2, 0.2, 10.0},
+    {"jerk_max_mps3", &Params::jerk_max_mps3, 0.5, 30.0},
+    {"speed_band_mps", &Params::speed_band_mps, 0.5, 10.0},
+    {"stop_decel_max_mps2", &Params::stop_decel_max_mps2, 1.0, 12.0},
+    {"stop_jerk_max_mps3", &Params::stop_jerk_max_mps3, 1.0, 30.0},
+    {"stop_grip_share", &Params::stop_grip_share, 0.3, 0.9},
+    {"point_spacing_m", &Params::point_spacing_m, 1.0, 4.0},
+    {"merge_from_m", &Params::merge_from_m, 0.5, 5.0},
+    {"merge_time_s", &Params::merge_time_s, 1.0, 10.0},
+    {"merge_least_m", &Params::merge_least_m, 10.0, 200.0},
+});
 
 // Why the target speed is what it is.
 enum class Reason : std::uint8_t {

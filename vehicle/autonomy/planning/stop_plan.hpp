@@ -1,6 +1,6 @@
-// Where a stop goes: from where the car is, beside the line, down to the low side of the banking
-// before it is slow (a slow car slides down), and to a place that is straight and level if one lies
-// within the distance it has.
+// Planner of stop paths: from the car, beside the line, down to the low side of the banking before
+// it is slow (a slow car slides down), and to a place that is straight and level if one lies within
+// the distance it has.
 //   in     the line, the car's place on it, the change of offset that the drive trajectory is in,
 //          the limits of the speed
 //   out    StopPath: a path that begins where the car is, with the direction and the curvature of
@@ -16,16 +16,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+
 #include "vehicle/autonomy/planning/offset.hpp"
 #include "vehicle/autonomy/planning/speed_profile.hpp"
+#include "vehicle/world/legal_range.hpp"
 
 namespace pitwall::planning {
 
 struct StopPathParams {
-  double clearance_m = kUnset;    // 0.5..10: of the centre of gravity to a wall
-  double low_speed_mps = kUnset;  // 5..40: low by then
-  double stretch_max = kUnset;    // 1..2: how much longer than the shortest stop
+  double clearance_m = kUnset;    // of the centre of gravity to a wall
+  double low_speed_mps = kUnset;  // low by then
+  double stretch_max = kUnset;    // how much longer than the shortest stop
 };
+
+inline constexpr auto kStopPathRanges = std::to_array<world::NamedRange<StopPathParams>>({
+    {"clearance_m", &StopPathParams::clearance_m, 0.5, 10.0},
+    {"low_speed_mps", &StopPathParams::low_speed_mps, 5.0, 40.0},
+    {"stretch_max", &StopPathParams::stretch_max, 1.0, 2.0},
+});
 
 struct StopPath {
   bool chosen = false;

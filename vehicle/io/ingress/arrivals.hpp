@@ -1,5 +1,5 @@
-// How a stream of samples arrives: rate, largest gap and largest latency of the last second. A low
-// rate, a gap and an old sample are three different faults.
+// Arrival statistics of a stream of samples: rate, largest gap and largest latency of the last
+// second. A low rate, a gap and an old sample are three different faults.
 //   in     note(): when a sample arrived and how old it was, by the thread that receives
 //   out    newest(): figures at any time, by any other thread
 //   units  Hz, ms

@@ -20,11 +20,12 @@ SensorRow read_row(yaml::StrictMap& map) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
   };
   if (row.name.empty() || !std::ranges::all_of(row.name, name_is_plain))
-    map.fail("name", "small letters, digits and '_'");
+    map.fail("name", "expected lower-case letters, digits and '_'");
   if (const auto topic = ros::dds_topic(row.topic); !topic) map.fail("topic", topic.error().what);
   const std::string type = map.text("type");
   const auto found = std::ranges::find(kTypes, type);
-  if (found == kTypes.end()) map.fail("type", "one of PointCloud2, Image, NavSatFix, Imu");
+  if (found == kTypes.end())
+    map.fail("type", "expected one of: PointCloud2, Image, NavSatFix, Imu");
   row.type = static_cast<SensorType>(found - kTypes.begin());
   row.rate_hz = map.number("rate_hz", kRateMin_hz, kRateMax_hz);
   return row;
@@ -38,13 +39,13 @@ SensorFile read(yaml::StrictMap& map) {
   for (yaml::StrictMap& row : map.maps("sensors")) {
     const SensorRow sensor = read_row(row);
     for (const SensorRow& other : file.sensors) {
-      if (other.name == sensor.name) row.fail("name", "is there twice");
-      if (other.topic == sensor.topic) row.fail("topic", "is there twice");
+      if (other.name == sensor.name) row.fail("name", "occurs twice");
+      if (other.topic == sensor.topic) row.fail("topic", "occurs twice");
     }
     file.sensors.push_back(sensor);
   }
   if (file.sensors.empty() || file.sensors.size() > kSensorsMax)
-    map.fail("sensors", "1 to " + std::to_string(kSensorsMax));
+    map.fail("sensors", "expected 1 to " + std::to_string(kSensorsMax));
   return file;
 }
 

@@ -1,4 +1,4 @@
-// Which sensors come over ROS 2 topics, as a team writes it down:
+// File of the sensors that come over ROS 2 topics:
 //
 //     domain: 0                       # ROS_DOMAIN_ID
 //     interface: 192.168.10.5         # of this machine; 127.0.0.1 where it is left out

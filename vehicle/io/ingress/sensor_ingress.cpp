@@ -75,7 +75,7 @@ const char* contradiction_of(const ros::Imu& imu) {
 
 struct SensorIngress::Sensor {
   template <class M>
-  void hear(Mailbox<M>& mailbox, dds::Bytes cdr) {
+  void receive(Mailbox<M>& mailbox, dds::Bytes cdr) {
     auto message = ros::decode<M>(cdr);
     if (!message || contradiction_of(*message) != nullptr) {
       ++refused;
@@ -95,7 +95,7 @@ struct SensorIngress::Sensor {
     const dds::TopicType topic{*ros::dds_topic(row.topic), ros::dds_type(M::kType),
                                ros::type_hash(ros::describe<M>())};
     return domain->read_from(topic, kSensorData,
-                             [this, &mailbox](dds::Bytes cdr) { hear(mailbox, cdr); });
+                             [this, &mailbox](dds::Bytes cdr) { receive(mailbox, cdr); });
   }
 
   Result<bool, Problem> open_by_type() {

@@ -4,7 +4,7 @@
  * connected a stop still goes out: it may only be late.
  */
 // SPDX-License-Identifier: Apache-2.0
-import * as session from "./session";
+import type { Signal } from "@preact/signals";
 
 export type Presence = "here" | "silent" | "gone";
 
@@ -22,13 +22,20 @@ export function presenceOf(connected: boolean, silenceMs: number, openMs: number
   return silenceMs > kSilentMs ? "silent" : "here";
 }
 
-function look(): void {
+/** What is looked at of a car, and where the result is kept. */
+interface Watched {
+  connected: Signal<boolean>;
+  clock: { silenceMs(local: number): number };
+  presence: Signal<Presence>;
+}
+
+function look(cars: readonly Watched[]): void {
   const local = performance.now();
-  for (const car of session.cars.value) {
+  for (const car of cars) {
     car.presence.value = presenceOf(car.connected.value, car.clock.silenceMs(local), local);
   }
 }
 
-export function watchPresence(): void {
-  setInterval(look, kLookEveryMs);
+export function watchPresence(cars: () => readonly Watched[]): void {
+  setInterval(() => look(cars()), kLookEveryMs);
 }

@@ -1,10 +1,11 @@
 /**
- * What the base passes on of a bench desk: each text is `{type, desk, of}` with the desk's own line
- * in `of`, as hil/desk/PROTOCOL.md names its members. All of it is simulation.
+ * Messages of a bench server as the base forwards them: each is `{type, server, of}` with the
+ * server's own line in `of`, as hil/cli/bench_server/PROTOCOL.md names its members. All of it is
+ * simulation.
  */
 // SPDX-License-Identifier: Apache-2.0
 
-/** The link to the desk, judged by the base. */
+/** The link to the server, judged by the base. */
 export interface BenchLink {
   up: boolean;
   problem: string | null;
@@ -121,7 +122,7 @@ export interface BenchResult {
   reactions: Reaction[];
 }
 
-export interface OfDesk<T> {
-  desk: string;
+export interface OfServer<T> {
+  server: string;
   of: T;
 }

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "protocol/vocabulary/text.hpp"
+
 namespace pitwall::publishers::web {
 namespace {
 
@@ -15,12 +17,6 @@ constexpr std::string_view kBlanks = " \t\r";
 
 using Key = std::array<std::uint8_t, 32>;
 using Code = std::array<std::uint8_t, kCodeBytes>;
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
 
 std::string_view take_word(std::string_view& text) {
   text = trimmed(text);

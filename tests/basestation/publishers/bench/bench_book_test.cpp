@@ -8,8 +8,8 @@ namespace {
 
 using json::JsonValue;
 
-std::string hello(int scenarios, const std::string& desk = "d1") {
-  return R"({"type": "hello", "protocol": 1, "desk": ")" + desk +
+std::string hello(int scenarios, const std::string& server = "d1") {
+  return R"({"type": "hello", "protocol": 1, "server": ")" + server +
          R"(", "simulation": true, "unreadable": 0, "scenarios": )" + std::to_string(scenarios) +
          "}";
 }
@@ -61,7 +61,7 @@ TEST(BenchBook, TheListIsToldWhenItIsWhole) {
   ASSERT_EQ(news.size(), 1U);
   const auto list = JsonValue::parse(news[0].text, "list");
   ASSERT_TRUE(list);
-  EXPECT_EQ(list->text("desk"), "d1");
+  EXPECT_EQ(list->text("server"), "d1");
   ASSERT_EQ(list->items("of").size(), 2U);
   EXPECT_EQ(list->items("of")[1].text("id"), "b");
   EXPECT_EQ(reading.place_of(scenario("c")), "scenario");
@@ -87,7 +87,7 @@ TEST(BenchBook, AfterAReconnectionNoEventIsToldTwice) {
   reading.says(run(1));
   for (int i = 0; i < 3; ++i) reading.says(event(1, i));
   reading.news();
-  // The desk tells all of it again, and one more.
+  // The server tells all of it again, and one more.
   reading.book.connected();
   reading.says(hello(0));
   reading.says(run(1));
@@ -114,10 +114,10 @@ TEST(BenchBook, WhatIsNoLineOfTheProtocolIsCountedAndTheNextIsTaken) {
   EXPECT_TRUE(reading.place_of("nonsense").starts_with("line:"));
   EXPECT_EQ(reading.place_of(R"({"type": "dance"})"), "type");
   EXPECT_EQ(reading.place_of(scenario("a")), "type");  // before any hello
-  EXPECT_EQ(reading.place_of(R"({"type": "hello", "protocol": 2, "desk": "d", "simulation": true,
+  EXPECT_EQ(reading.place_of(R"({"type": "hello", "protocol": 2, "server": "d", "simulation": true,
     "scenarios": 0, "unreadable": 0})"),
             "protocol");
-  EXPECT_EQ(reading.place_of(R"({"type": "hello", "protocol": 1, "desk": "d",
+  EXPECT_EQ(reading.place_of(R"({"type": "hello", "protocol": 1, "server": "d",
     "scenarios": 0, "unreadable": 0})"),
             "simulation");
   EXPECT_EQ(reading.place_of(hello(1'001)), "scenarios");

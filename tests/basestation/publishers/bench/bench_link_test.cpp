@@ -13,24 +13,24 @@ namespace {
 using json::JsonValue;
 
 constexpr const char* kHello =
-    R"({"type": "hello", "protocol": 1, "desk": "d", "simulation": true,)"
+    R"({"type": "hello", "protocol": 1, "server": "d", "simulation": true,)"
     R"("scenarios": 0, "unreadable": 0})";
 
-// A link, and a desk that says what the test wants; time is the test's.
+// A link, and a server that says what the test wants; time is the test's.
 struct Both {
   transport::TemporaryFolder folder = *transport::TemporaryFolder::create("bench");
-  std::string path = folder.path() + "/desk";
+  std::string path = folder.path() + "/server";
   RadioRig rig;
   BenchLink link{path};
   std::optional<transport::LineListener> listener;
-  std::optional<transport::LineSocket> desk;
+  std::optional<transport::LineSocket> server;
   std::vector<Told> told;
   std::vector<std::pair<int, std::string>> refused;
   Instant now{seconds(50).ns};
 
   Both() {
-    link.tell_to(
-        {.tell = [this](const Told& one, Instant) { told.push_back(one); },
+    link.observe_by(
+        {.publish = [this](const Told& one, Instant) { told.push_back(one); },
          .refused = [this](std::uint8_t client, const Problem& problem,
                            Instant) { refused.emplace_back(client, to_string(problem)); }});
   }
@@ -43,9 +43,9 @@ struct Both {
   void open() {
     listener.emplace(*transport::LineListener::open(path));
     pass(seconds(2));
-    desk = listener->accept();
-    ASSERT_TRUE(desk);
-    desk->send(kHello);
+    server = listener->accept();
+    ASSERT_TRUE(server);
+    server->send(kHello);
     pass(seconds(1));
   }
   JsonValue state() {
@@ -61,12 +61,12 @@ TEST(BenchLink, AMissingDeskIsShownAndLookedForAgain) {
   both.pass(seconds(1));
   EXPECT_FALSE(both.state().flag("up"));
   EXPECT_FALSE(both.state().flag("may_start"));
-  EXPECT_EQ(both.state().text("why_not"), "the bench desk is not there");
+  EXPECT_EQ(both.state().text("why_not"), "the bench server is not there");
   EXPECT_FALSE(both.link.ask({.start = true, .scenario = "a", .seed = {}}, 16, "Ada"));
   both.open();
   EXPECT_TRUE(both.state().flag("up"));
   EXPECT_TRUE(both.state().flag("may_start"));
-  both.desk.reset();
+  both.server.reset();
   both.listener.reset();
   both.pass(seconds(1));
   EXPECT_FALSE(both.state().flag("up"));
@@ -79,15 +79,15 @@ TEST(BenchLink, AWishGoesToTheDeskAndItsRefusalToWhoAsked) {
   both.open();
   ASSERT_TRUE(
       both.link.ask({.start = true, .scenario = "red \"x\"", .seed = 7, .live = true}, 17, "Ada"));
-  const auto lines = both.desk->receive();
+  const auto lines = both.server->receive();
   ASSERT_EQ(lines.size(), 1U);
-  const JsonValue wish = *JsonValue::parse(lines[0], "wish");
-  EXPECT_EQ(wish.text("do"), "start");
-  EXPECT_EQ(wish.text("scenario"), "red \"x\"");
-  EXPECT_EQ(wish.text("mode"), "live");
-  EXPECT_EQ(wish.number("seed"), 7.0);
-  EXPECT_EQ(wish.text("by"), "Ada");
-  both.desk->send(R"({"type": "error", "place": "scenario", "what": "no such scenario"})");
+  const JsonValue run_request = *JsonValue::parse(lines[0], "wish");
+  EXPECT_EQ(run_request.text("do"), "start");
+  EXPECT_EQ(run_request.text("scenario"), "red \"x\"");
+  EXPECT_EQ(run_request.text("mode"), "live");
+  EXPECT_EQ(run_request.number("seed"), 7.0);
+  EXPECT_EQ(run_request.text("by"), "Ada");
+  both.server->send(R"({"type": "error", "place": "scenario", "what": "no such scenario"})");
   both.pass(seconds(1));
   ASSERT_EQ(both.refused.size(), 1U);
   EXPECT_EQ(both.refused[0], std::pair(17, std::string{"bench.scenario: error: no such scenario"}));
@@ -104,21 +104,21 @@ TEST(BenchLink, WithARealCarNothingIsStarted) {
   const auto asked = both.link.ask({.start = true, .scenario = "a", .seed = {}}, 16, "Ada");
   ASSERT_FALSE(asked);
   EXPECT_EQ(asked.error().what, "the connected car is real");
-  EXPECT_TRUE(both.desk->receive().empty());
+  EXPECT_TRUE(both.server->receive().empty());
   EXPECT_TRUE(both.link.ask({.scenario = {}, .seed = {}}, 16, "Ada"));
 }
 
 TEST(BenchLink, NonsenseOfADeskIsCountedAndItGoesOn) {
   Both both;
   both.open();
-  both.desk->send("nonsense");
-  both.desk->send(std::string(transport::LineSocket::kLineMax_bytes + 10, 'x'));
+  both.server->send("nonsense");
+  both.server->send(std::string(transport::LineSocket::kLineMax_bytes + 10, 'x'));
   for (int i = 0; i < 100; ++i) {
-    both.desk->flush();
+    both.server->flush();
     both.pass(BenchLink::kLook);
   }
-  both.desk->send(R"({"type": "run", "run": 1, "seed": 1, "state": "running", "scenario": "a",)"
-                  R"("name": "a", "mode": "live"})");
+  both.server->send(R"({"type": "run", "run": 1, "seed": 1, "state": "running", "scenario": "a",)"
+                    R"("name": "a", "mode": "live"})");
   both.pass(seconds(1));
   EXPECT_EQ(both.state().number("malformed"), 2.0);
   EXPECT_EQ(both.link.book().counters().taken, 2U);
@@ -127,14 +127,14 @@ TEST(BenchLink, NonsenseOfADeskIsCountedAndItGoesOn) {
 TEST(BenchLink, AFastRunIsToldFiveTimesASecond) {
   Both both;
   both.open();
-  both.desk->send(R"({"type": "run", "run": 1, "seed": 1, "state": "running", "scenario": "a",)"
-                  R"("name": "a", "mode": "lockstep"})");
+  both.server->send(R"({"type": "run", "run": 1, "seed": 1, "state": "running", "scenario": "a",)"
+                    R"("name": "a", "mode": "lockstep"})");
   both.pass(seconds(1));
   both.told.clear();
   for (int i = 0; i < 20; ++i) {
     for (int k = 0; k < 10; ++k)
-      both.desk->send(R"({"run": 1, "type": "at", "t_s": 1, "cross_track": [],)"
-                      R"("expect": [], "reactions": []})");
+      both.server->send(R"({"run": 1, "type": "at", "t_s": 1, "cross_track": [],)"
+                        R"("expect": [], "reactions": []})");
     both.pass(BenchLink::kLook);
   }
   EXPECT_LE(both.told.size(), 6U);

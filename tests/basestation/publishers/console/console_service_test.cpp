@@ -46,8 +46,8 @@ class Consoles : public ::testing::Test {
     ASSERT_EQ(consoles_->clients().clients(), 1u);
   }
   // What the console does not read yet waits in its socket.
-  json::JsonValue hear(Browser& browser, const std::string& type) {
-    while (const auto heard = browser.hear()) {
+  json::JsonValue receive(Browser& browser, const std::string& type) {
+    while (const auto heard = browser.receive()) {
       if (!heard->text) {
         take(heard->bytes);
         continue;
@@ -74,7 +74,7 @@ class Consoles : public ::testing::Test {
     browser.say(text);
     while (server_->counters().texts_heard == before) run(milliseconds(1));
     run(milliseconds(200));
-    return hear(browser, type);
+    return receive(browser, type);
   }
 
   RadioRig rig_{{.service = {.car = 7}}};
@@ -89,12 +89,12 @@ TEST_F(Consoles, AConsoleSeesTheCarAsSoonAsItJoins) {
   Browser browser;
   join(browser);
   run(milliseconds(1'200));
-  const auto hello = hear(browser, "hello");
+  const auto hello = receive(browser, "hello");
   EXPECT_EQ(hello.number("car"), 7.0);
   EXPECT_EQ(hello.text("mode"), "REAL");
   EXPECT_EQ(hello.text("role"), "operator");
-  EXPECT_GT(hear(browser, "catalogue").items("fields").size(), 200u);
-  for (int i = 0; i < 3; ++i) hear(browser, "link");  // the last one after the first picture
+  EXPECT_GT(receive(browser, "catalogue").items("fields").size(), 200u);
+  for (int i = 0; i < 3; ++i) receive(browser, "link");  // the last one after the first picture
   EXPECT_EQ(values_[field("ego.x")], 12.5F);
   EXPECT_EQ(status_[field("ego.x")] & 3, 0) << "fresh";
   EXPECT_EQ(status_[field("ego.y")] & 3, 3) << "never";
@@ -149,13 +149,12 @@ TEST_F(Consoles, WhatTheHolderSetsIsToldToAll) {
   Browser browser;
   join(browser);
   ask(browser, R"({"type":"authority","do":"take"})", "authority");
-  browser.say(R"({"type":"fuel_loaded","litres":40})");
-  json::JsonValue told =
-      ask(browser,
-          R"({"type":"edit_limit","field":"electric.battery","bad_low":11,"reason":"old one"})",
-          "expected");
-  while (!(told.number("fuel_loaded_l") == 40.0)) told = hear(browser, "expected");
-  while (!(told.number("revision") == 1.0)) told = hear(browser, "settings");
+  json::JsonValue told = ask(browser, R"({"type":"fuel_loaded","litres":40})", "expected");
+  while (!(told.number("fuel_loaded_l") == 40.0)) told = receive(browser, "expected");
+  told = ask(browser,
+             R"({"type":"edit_limit","field":"electric.battery","bad_low":11,"reason":"old one"})",
+             "settings");
+  while (!(told.number("revision") == 1.0)) told = receive(browser, "settings");
   EXPECT_FALSE(told.flag("kept")) << "there is no file";
   EXPECT_EQ(rig_.base->evaluator().limits().of(state::field_id("electric.battery")).bad_low, 11.0);
   // A set of values; the other one stays as it was.
@@ -202,7 +201,7 @@ TEST_F(Consoles, ALinkThatIsLostIsShownWithinHalfASecondAndRaisesOneAlarm) {
   run(seconds(2));
   json::JsonValue alarms;
   do {
-    alarms = hear(browser, "alarms");
+    alarms = receive(browser, "alarms");
   } while (alarms.items("active").empty());
   EXPECT_EQ(alarms.items("active").size(), 1u);
   EXPECT_EQ(alarms.items("active")[0].text("priority"), "high");
@@ -216,7 +215,7 @@ TEST_F(Consoles, HistoryLooksBack) {
               R"(,"from_s":60,"to_s":0,"points":1000})");
   while (server_->counters().texts_heard == 0) run(milliseconds(1));
   run(milliseconds(5));
-  while (const auto heard = browser.hear()) {
+  while (const auto heard = browser.receive()) {
     if (heard->text || heard->bytes[0] != 2) continue;
     std::uint32_t points = 0;
     std::memcpy(&points, heard->bytes.data() + web::kFrameHeader + 4, sizeof points);

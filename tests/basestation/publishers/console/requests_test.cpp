@@ -109,14 +109,14 @@ TEST(Requests, WhatPeopleSetIsReadWhole) {
 TEST(Requests, AWishForTheBench) {
   const auto start = parsed<AskBench>(
       R"({"type":"bench","do":"start","scenario":"faults/x","mode":"live","seed":7})");
-  EXPECT_TRUE(start.wish.start);
-  EXPECT_EQ(start.wish.scenario, "faults/x");
-  EXPECT_TRUE(start.wish.live);
-  EXPECT_EQ(start.wish.seed, 7U);
+  EXPECT_TRUE(start.run_request.start);
+  EXPECT_EQ(start.run_request.scenario, "faults/x");
+  EXPECT_TRUE(start.run_request.live);
+  EXPECT_EQ(start.run_request.seed, 7U);
   EXPECT_FALSE(parsed<AskBench>(R"({"type":"bench","do":"start","scenario":"x","mode":"lockstep",
     "seed":null})")
-                   .wish.seed);
-  EXPECT_FALSE(parsed<AskBench>(R"({"type":"bench","do":"stop"})").wish.start);
+                   .run_request.seed);
+  EXPECT_FALSE(parsed<AskBench>(R"({"type":"bench","do":"stop"})").run_request.start);
   EXPECT_EQ(refused(R"({"type":"bench"})"), "bench.do");
   EXPECT_EQ(refused(R"({"type":"bench","do":"start","mode":"live"})"), "bench.scenario");
   EXPECT_EQ(refused(R"({"type":"bench","do":"start","scenario":"x"})"), "bench.mode");

@@ -12,7 +12,7 @@ TEST(RosPublisher, KnowsTheDistributionsByName) {
   EXPECT_EQ(*distribution_named("iron"), Distribution::kJazzy);
   EXPECT_EQ(*distribution_named("jazzy"), Distribution::kJazzy);
   EXPECT_EQ(to_string(distribution_named("noetic").error()),
-            "ROS 2 noetic: error: one of humble, iron, jazzy");
+            "ROS 2 noetic: error: expected one of: humble, iron, jazzy");
 }
 
 TEST(RosPublisher, WhatCannotBeIsRefusedBeforeAnythingIsOpened) {

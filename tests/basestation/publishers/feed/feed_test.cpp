@@ -67,14 +67,15 @@ TEST(Feed, OfTooManyTheOldestGoesAndEachOfItsGroupsIsCounted) {
 
 TEST(Feed, WhatTheBaseFindsIsHandedOnToo) {
   Feed feed;
-  auto sight = std::make_unique<Sight>();
-  sight->at = Instant{5};
-  feed.sight(std::move(sight));
+  auto base_status = std::make_unique<BaseStatus>();
+  base_status->at = Instant{5};
+  feed.base_status(std::move(base_status));
   const auto items = feed.take();
   ASSERT_EQ(items.size(), 1U);
-  EXPECT_EQ(std::get<std::unique_ptr<const Sight>>(items[0])->at, Instant{5});
-  for (std::size_t i = 0; i < Feed::kItems + 2; ++i) feed.sight(std::make_unique<Sight>());
-  EXPECT_EQ(feed.drops()[kSightChannel], 2U);
+  EXPECT_EQ(std::get<std::unique_ptr<const BaseStatus>>(items[0])->at, Instant{5});
+  for (std::size_t i = 0; i < Feed::kItems + 2; ++i)
+    feed.base_status(std::make_unique<BaseStatus>());
+  EXPECT_EQ(feed.drops()[kStatusChannel], 2U);
 }
 
 TEST(Feed, TextsAreBoundedByTheirBytesToo) {

@@ -15,23 +15,23 @@ namespace {
 
 using telemetry::Group;
 
-std::unique_ptr<FoxglovePublisher> outlet(FoxglovePublisher::Look look = {}) {
+std::unique_ptr<FoxglovePublisher> publisher(FoxglovePublisher::Look look = {}) {
   auto started =
       FoxglovePublisher::start({.name = "Pitwall", .clock = {.boot = "b"}}, std::move(look));
   EXPECT_TRUE(started) << to_string(started.error());
   return *std::move(started);
 }
 
-void sample(FoxglovePublisher& outlet) {
+void sample(FoxglovePublisher& publisher) {
   telemetry::Snapshot state;
   telemetry::GroupSet groups;
   groups.add(Group::kEgo);
   state.at(Group::kEgo) = Instant{seconds(1).ns};
-  outlet.feed().sample(state, groups, Instant{seconds(1).ns});
+  publisher.feed().sample(state, groups, Instant{seconds(1).ns});
 }
 
 TEST(FoxglovePublisher, AClientSeesWhatTheCarSays) {
-  const auto served = outlet();
+  const auto served = publisher();
   Viewer viewer;
   ASSERT_EQ(viewer.open(served->local().port), 101u);
   const auto channels = viewer.channels();
@@ -52,7 +52,7 @@ TEST(FoxglovePublisher, AClientSeesWhatTheCarSays) {
 }
 
 TEST(FoxglovePublisher, BothNamesOfTheProtocolAreSpokenAndNoOther) {
-  const auto served = outlet();
+  const auto served = publisher();
   const std::uint16_t port = served->local().port;
   for (const std::string_view name : kSubprotocols) {
     Viewer viewer;
@@ -64,7 +64,7 @@ TEST(FoxglovePublisher, BothNamesOfTheProtocolAreSpokenAndNoOther) {
 }
 
 TEST(FoxglovePublisher, WhatIsRefusedIsToldAndCounted) {
-  const auto served = outlet();
+  const auto served = publisher();
   Viewer viewer;
   ASSERT_EQ(viewer.open(served->local().port), 101u);
   viewer.browser().say(R"({"op":"advertise","channels":[]})");
@@ -87,7 +87,7 @@ TEST(FoxglovePublisher, WhatIsRefusedIsToldAndCounted) {
 
 TEST(FoxglovePublisher, TheBaseIsLookedAtTenTimesASecond) {
   int looks = 0;
-  const auto served = outlet([&](ros_view::BaseSight&, Instant) { ++looks; });
+  const auto served = publisher([&](ros_view::BaseStatus&, Instant) { ++looks; });
   RadioRig rig;
   for (Instant now{seconds(100).ns}; now < Instant{seconds(101).ns}; now += milliseconds(10)) {
     served->publish(*rig.base, now);
@@ -96,7 +96,7 @@ TEST(FoxglovePublisher, TheBaseIsLookedAtTenTimesASecond) {
 }
 
 TEST(FoxglovePublisher, APortThatIsTakenIsSaid) {
-  const auto first = outlet();
+  const auto first = publisher();
   const auto second = FoxglovePublisher::start({.listen = first->local(), .clock = {.boot = "b"}});
   ASSERT_FALSE(second);
   EXPECT_EQ(second.error().place, "--foxglove");

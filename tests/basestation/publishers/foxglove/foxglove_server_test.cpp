@@ -10,23 +10,23 @@
 namespace pitwall::publishers::foxglove {
 namespace {
 
-std::unique_ptr<FoxgloveServer> desk() {
+std::unique_ptr<FoxgloveServer> server() {
   auto started = FoxgloveServer::start({.name = "Pitwall", .clock = {.boot = "b"}});
   EXPECT_TRUE(started);
   return *std::move(started);
 }
 
 // One turn after a client has said something.
-std::vector<PlaybackControl> turn_when_heard(FoxgloveServer& desk) {
-  const int fd = desk.fd();
+std::vector<PlaybackControl> turn_when_heard(FoxgloveServer& server) {
+  const int fd = server.fd();
   transport::wait_readable({&fd, 1}, transport::monotonic_now() + seconds(20));
-  auto asked = desk.hear();
-  desk.turn(Instant{}, Instant{});
+  auto asked = server.receive();
+  server.turn(Instant{}, Instant{});
   return asked;
 }
 
 TEST(FoxgloveDesk, WhatStandsIsToldToWhoComesLater) {
-  const auto served = desk();
+  const auto served = server();
   served->take(feed::Told{.topic = recorder::Topic::kAlarms, .at = Instant{3}, .json = "{1}"});
   served->take(feed::Told{.topic = recorder::Topic::kAlarms, .at = Instant{4}, .json = "{2}"});
   Viewer viewer;
@@ -39,7 +39,7 @@ TEST(FoxgloveDesk, WhatStandsIsToldToWhoComesLater) {
 }
 
 TEST(FoxgloveDesk, AClientThatDoesNotReadIsToldWhichTopicsItLost) {
-  const auto served = desk();
+  const auto served = server();
   Viewer slow;
   ASSERT_EQ(slow.open(served->local().port), 101u);
   turn_when_heard(*served);
@@ -55,7 +55,7 @@ TEST(FoxgloveDesk, AClientThatDoesNotReadIsToldWhichTopicsItLost) {
   // What the sockets' thread has not come to yet is lost a moment later.
   for (Instant now{seconds(1).ns}; status.empty(); now += FoxgloveServer::kLossEvery) {
     served->turn(now, Instant{});
-    while (const auto heard = slow.browser().hear()) {
+    while (const auto heard = slow.browser().receive()) {
       if (!heard->text && heard->bytes[0] == 2) break;  // the time of this turn
       if (heard->text) status += heard->bytes;
     }
@@ -70,7 +70,7 @@ TEST(FoxgloveDesk, AClientThatDoesNotReadIsToldWhichTopicsItLost) {
 }
 
 TEST(FoxgloveDesk, NobodyIsThereNothingIsSent) {
-  const auto served = desk();
+  const auto served = server();
   feed::Sample sample{.received = Instant{}};
   served->take(sample);
   served->turn(Instant{seconds(1).ns}, Instant{});

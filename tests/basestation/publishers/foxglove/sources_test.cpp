@@ -99,9 +99,9 @@ TEST_F(FoxgloveSources, ATextIsToldAsItIs) {
 }
 
 TEST_F(FoxgloveSources, WhatTheBaseFindsHasItsValues) {
-  feed::Sight sight{.at = Instant{seconds(1).ns}};
-  sight.values[state::index_of(state::BaseField::kRoundTrip)] = 5.0;
-  sources_.take(sight, sink());
+  feed::BaseStatus base_status{.at = Instant{seconds(1).ns}};
+  base_status.values[state::index_of(state::BaseField::kRoundTrip)] = 5.0;
+  sources_.take(base_status, sink());
   EXPECT_TRUE(taken_.contains("/base/values/link"));
   EXPECT_FALSE(taken_.contains("/base/values/derived")) << "nothing of it is known";
   EXPECT_TRUE(taken_.contains("/diagnostics"));

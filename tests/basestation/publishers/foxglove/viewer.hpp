@@ -39,7 +39,7 @@ class Viewer {
   }
   // The next text of that op; others and bytes on the way are passed over.
   json::JsonValue text(const std::string& op) {
-    while (const auto heard = browser_.hear()) {
+    while (const auto heard = browser_.receive()) {
       if (!heard->text) continue;
       const auto value = json::JsonValue::parse(heard->bytes, "text");
       if (value && value->text("op") == op) return *value;
@@ -49,7 +49,7 @@ class Viewer {
   }
   // The next binary message that begins with this op.
   std::string bytes(char op) {
-    while (const auto heard = browser_.hear()) {
+    while (const auto heard = browser_.receive()) {
       if (!heard->text && heard->bytes.at(0) == op) return heard->bytes;
     }
     ADD_FAILURE() << "closed before a binary message";

@@ -63,9 +63,9 @@ TEST(LcmPublisher, AGroupAndATextArePublishedAsTheLogHasThem) {
   Network network;
   const telemetry::Snapshot state = state_with_ego();
   {
-    LcmPublisher outlet{network.publish(), kClock, "/car7"};
-    outlet.feed().sample(state, groups(), Instant{seconds(2).ns});
-    outlet.text(Topic::kMark, Instant{5}, "{}");
+    LcmPublisher publisher{network.publish(), kClock, "/car7"};
+    publisher.feed().sample(state, groups(), Instant{seconds(2).ns});
+    publisher.text(Topic::kMark, Instant{5}, "{}");
   }  // what waits is published before it ends
   ASSERT_EQ(network.heard.size(), 2U);
   const recorder::LcmEncoder encoder{kClock};
@@ -86,13 +86,13 @@ TEST(LcmPublisher, ANetworkThatStallsCostsTheOldestAndEveryChannelIsCounted) {
   constexpr std::uint64_t kSent = 1'000;
   service::PublisherFigures figures;
   {
-    LcmPublisher outlet{network.publish(), kClock, ""};
-    outlet.feed().sample(state_with_ego(), groups(), Instant{});
+    LcmPublisher publisher{network.publish(), kClock, ""};
+    publisher.feed().sample(state_with_ego(), groups(), Instant{});
     network.until_waiting();  // it is in the middle of the first one
     for (std::uint64_t i = 1; i < kSent; ++i) {
-      outlet.feed().sample(state_with_ego(), groups(), Instant{});
+      publisher.feed().sample(state_with_ego(), groups(), Instant{});
     }
-    figures = *outlet.figures();
+    figures = *publisher.figures();
     network.set_open(true);
   }
   ASSERT_EQ(figures.dropped.size(), 2U);
@@ -104,10 +104,10 @@ TEST(LcmPublisher, ANetworkThatStallsCostsTheOldestAndEveryChannelIsCounted) {
 TEST(LcmPublisher, WhatTheNetworkDoesNotTakeIsCounted) {
   Network network;
   network.takes = false;
-  LcmPublisher outlet{network.publish(), kClock, ""};
-  for (int i = 0; i < 3; ++i) outlet.text(Topic::kMark, Instant{}, "{}");
-  while (outlet.figures()->failed < 3) std::this_thread::yield();
-  EXPECT_EQ(outlet.figures()->sent, 0U);
+  LcmPublisher publisher{network.publish(), kClock, ""};
+  for (int i = 0; i < 3; ++i) publisher.text(Topic::kMark, Instant{}, "{}");
+  while (publisher.figures()->failed < 3) std::this_thread::yield();
+  EXPECT_EQ(publisher.figures()->sent, 0U);
 }
 
 }  // namespace

@@ -26,25 +26,25 @@ TEST(MetricsPublisher, ACarIsShownAsItIsNow) {
   rig.set(field("ego.vx"), 50.5);
   rig.run(seconds(2));
   const Counting other{};
-  const CarSight sight = sight_of(*rig.base, {.publishers = {&other}}, rig.now);
-  EXPECT_EQ(sight.car, 7);
-  EXPECT_EQ(sight.name, "Seven");
-  EXPECT_EQ(sight.mode, "REAL");
-  EXPECT_NEAR(sight.numbers[field("ego.vx")], 50.5, 0.05);
-  EXPECT_TRUE(std::isnan(sight.numbers[field("ego.y")])) << "the car does not know it";
-  EXPECT_EQ(sight.numbers[telemetry::kFieldCount], 1.0) << "the link is good, without a console";
-  EXPECT_LT(sight.ages_s[telemetry::index_of(telemetry::Group::kEgo)], 0.2);
-  EXPECT_TRUE(std::isnan(sight.ages_s[telemetry::index_of(telemetry::Group::kTyres)]));
-  EXPECT_GT(sight.counts.at(0).value, 50U) << "packets";
-  ASSERT_EQ(sight.publishers.size(), 1U);
-  EXPECT_EQ(sight.publishers[0].sent, 5U);
+  const CarStatus status = status_of(*rig.base, {.publishers = {&other}}, rig.now);
+  EXPECT_EQ(status.car, 7);
+  EXPECT_EQ(status.name, "Seven");
+  EXPECT_EQ(status.mode, "REAL");
+  EXPECT_NEAR(status.numbers[field("ego.vx")], 50.5, 0.05);
+  EXPECT_TRUE(std::isnan(status.numbers[field("ego.y")])) << "the car does not know it";
+  EXPECT_EQ(status.numbers[telemetry::kFieldCount], 1.0) << "the link is good, without a console";
+  EXPECT_LT(status.ages_s[telemetry::index_of(telemetry::Group::kEgo)], 0.2);
+  EXPECT_TRUE(std::isnan(status.ages_s[telemetry::index_of(telemetry::Group::kTyres)]));
+  EXPECT_GT(status.counts.at(0).value, 50U) << "packets";
+  ASSERT_EQ(status.publishers.size(), 1U);
+  EXPECT_EQ(status.publishers[0].sent, 5U);
 }
 
 TEST(MetricsPublisher, AStaleFieldIsNotToldAsAPresentOne) {
   RadioRig rig;
   rig.set(field("ego.vx"), 50.5);
   rig.run(seconds(2));
-  const CarSight later = sight_of(*rig.base, {}, rig.now + seconds(10));
+  const CarStatus later = status_of(*rig.base, {}, rig.now + seconds(10));
   EXPECT_TRUE(std::isnan(later.numbers[field("ego.vx")]));
   EXPECT_GT(later.ages_s[telemetry::index_of(telemetry::Group::kEgo)], 9.0);
 }

@@ -16,14 +16,15 @@ using telemetry::Snapshot;
 using testing::kNow;
 using testing::some_state;
 
-BaseSight sight() { return {.at = kNow}; }
+BaseStatus base_status() { return {.at = kNow}; }
 
 const ros::DiagnosticStatus* find(const std::vector<ros::DiagnosticStatus>& all,
                                   const std::string& name) {
   const auto found = std::ranges::find(all, name, &ros::DiagnosticStatus::name);
   return found == all.end() ? nullptr : &*found;
 }
-Level level_of(const Snapshot& state, const std::string& name, const BaseSight& base = sight()) {
+Level level_of(const Snapshot& state, const std::string& name,
+               const BaseStatus& base = base_status()) {
   const auto all = diagnostics(state, base, "");
   const auto* status = find(all, name);
   EXPECT_NE(status, nullptr) << name;
@@ -65,12 +66,13 @@ TEST(RosDiagnostics, ASensorIsJudgedByItsRateItsGapAndItsLatency) {
   EXPECT_EQ(set(5, 60, 40), Level::kError);
   EXPECT_EQ(set(20, 600, 40), Level::kError);
   EXPECT_EQ(set(20, 60, 200), Level::kWarn);
-  EXPECT_EQ(find(diagnostics(state, sight(), ""), "sensors/radar"), nullptr) << "it never came";
+  EXPECT_EQ(find(diagnostics(state, base_status(), ""), "sensors/radar"), nullptr)
+      << "it never came";
 }
 
 TEST(RosDiagnostics, AlarmsFaultsLinkAndDropsAreInIt) {
   Snapshot state = some_state();
-  BaseSight base = sight();
+  BaseStatus base = base_status();
   EXPECT_EQ(level_of(state, "faults", base), Level::kOk);
   state.values[field("faults.now_more")] = 1;
   EXPECT_EQ(level_of(state, "faults", base), Level::kError);
@@ -79,17 +81,17 @@ TEST(RosDiagnostics, AlarmsFaultsLinkAndDropsAreInIt) {
   EXPECT_EQ(find(diagnostics(state, base, ""), "radio"), nullptr) << "nobody judges the link here";
   base.values[state::index_of(state::BaseField::kLinkState)] = 2;
   EXPECT_EQ(level_of(state, "radio", base), Level::kWarn);
-  base.outlets.emplace_back("ros: /tf dropped", 3);
-  EXPECT_EQ(level_of(state, "outlets", base), Level::kOk) << "long ago";
+  base.publishers.emplace_back("ros: /tf dropped", 3);
+  EXPECT_EQ(level_of(state, "publishers", base), Level::kOk) << "long ago";
   const auto losing = diagnostics(state, base, "", true);
-  const auto* const outlets = find(losing, "outlets");
-  ASSERT_NE(outlets, nullptr);
-  EXPECT_EQ(static_cast<Level>(outlets->level), Level::kWarn);
-  EXPECT_EQ(outlets->values.at(0).value, "3");
+  const auto* const publishers = find(losing, "publishers");
+  ASSERT_NE(publishers, nullptr);
+  EXPECT_EQ(static_cast<Level>(publishers->level), Level::kWarn);
+  EXPECT_EQ(publishers->values.at(0).value, "3");
 }
 
 TEST(RosDiagnostics, NamesBearTheCar) {
-  for (const auto& status : diagnostics(some_state(), sight(), "car 7")) {
+  for (const auto& status : diagnostics(some_state(), base_status(), "car 7")) {
     EXPECT_TRUE(status.name.starts_with("car 7/")) << status.name;
     EXPECT_EQ(status.hardware_id, "car 7");
   }

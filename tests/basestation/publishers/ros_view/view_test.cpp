@@ -39,10 +39,10 @@ Sink into(Told& told, const View& view) {
 
 telemetry::GroupSet all_groups() { return telemetry::groups_of(telemetry::Direction::kDown); }
 
-BaseSight some_sight() {
-  BaseSight sight{.at = kNow};
-  sight.values.fill(0.5);
-  return sight;
+BaseStatus some_base_status() {
+  BaseStatus base_status{.at = kNow};
+  base_status.values.fill(0.5);
+  return base_status;
 }
 
 Told all_told(View& view) {
@@ -50,7 +50,7 @@ Told all_told(View& view) {
   const Sink sink = into(told, view);
   view.statics(kNow, kUtc, sink);
   view.car(some_state(), all_groups(), kNow, kUtc, sink);
-  view.base(some_sight(), kUtc, sink);
+  view.base(some_base_status(), kUtc, sink);
   return told;
 }
 
@@ -104,15 +104,15 @@ TEST(RosView, DiagnosticsComeOnceASecondAndAtOnceWhenALevelChanges) {
   const Sink sink = into(told, view);
   telemetry::Snapshot state = some_state();
   view.car(state, all_groups(), kNow, kUtc, sink);
-  BaseSight sight = some_sight();
+  BaseStatus base_status = some_base_status();
   const auto count = [&](Duration after) {
-    sight.at = kNow + after;
-    view.base(sight, kUtc, sink);
+    base_status.at = kNow + after;
+    view.base(base_status, kUtc, sink);
     return told.count("/diagnostics");
   };
   EXPECT_EQ(count({}), 1U);
   EXPECT_EQ(count(milliseconds(100)), 1U);
-  sight.alarms.push_back({"slip", "slip", "lift", "unack", true});
+  base_status.alarms.push_back({"slip", "slip", "lift", "unack", true});
   EXPECT_EQ(count(milliseconds(200)), 2U);
   EXPECT_EQ(count(milliseconds(300)), 2U);
   EXPECT_EQ(count(milliseconds(1'200)), 3U);
@@ -120,25 +120,25 @@ TEST(RosView, DiagnosticsComeOnceASecondAndAtOnceWhenALevelChanges) {
 
 TEST(RosView, ALossIsToldForAWhileAndNotForEver) {
   View view{whole_config()};
-  BaseSight sight = some_sight();
-  sight.outlets = {{"lcm /car/ego", 5}};
-  const auto outlets_at = [&](Duration after) {
-    sight.at = kNow + after;
+  BaseStatus base_status = some_base_status();
+  base_status.publishers = {{"lcm /car/ego", 5}};
+  const auto publishers_at = [&](Duration after) {
+    base_status.at = kNow + after;
     auto level = Level::kStale;
-    view.base(sight, kUtc, [&](const Message& message) {
+    view.base(base_status, kUtc, [&](const Message& message) {
       if (view.topics()[message.topic].name != "/diagnostics") return;
       const auto health = ros::decode<ros::DiagnosticArray>(message.cdr);
       ASSERT_TRUE(health);
       for (const auto& status : health->status)
-        if (status.name.ends_with("outlets")) level = static_cast<Level>(status.level);
+        if (status.name.ends_with("publishers")) level = static_cast<Level>(status.level);
     });
     return level;
   };
-  EXPECT_EQ(outlets_at({}), Level::kWarn);
-  EXPECT_EQ(outlets_at(View::kLossShown - seconds(1)), Level::kWarn);
-  EXPECT_EQ(outlets_at(View::kLossShown), Level::kOk) << "a level that changed is told at once";
-  ++sight.outlets[0].second;
-  EXPECT_EQ(outlets_at(View::kLossShown + seconds(1)), Level::kWarn);
+  EXPECT_EQ(publishers_at({}), Level::kWarn);
+  EXPECT_EQ(publishers_at(View::kLossShown - seconds(1)), Level::kWarn);
+  EXPECT_EQ(publishers_at(View::kLossShown), Level::kOk) << "a level that changed is told at once";
+  ++base_status.publishers[0].second;
+  EXPECT_EQ(publishers_at(View::kLossShown + seconds(1)), Level::kWarn);
 }
 
 // The names that ROS 2 has for what we tell, and what is in it, by Foxglove's readers.

@@ -30,8 +30,8 @@ HttpQuestion put(std::string_view target, std::string_view body) {
 }
 
 TEST(HttpResponder, AConsoleThatIsNotBuiltIsSaid) {
-  HttpResponder desk(config());
-  const HttpAnswer answer = desk.answer(get("/"));
+  HttpResponder responder(config());
+  const HttpAnswer answer = responder.answer(get("/"));
   EXPECT_EQ(answer.status, 200u);
   EXPECT_NE(answer.body->find("--console-dir"), std::string::npos);
   EXPECT_NE(answer.policy.find("default-src 'self'"), std::string::npos);
@@ -39,43 +39,43 @@ TEST(HttpResponder, AConsoleThatIsNotBuiltIsSaid) {
 }
 
 TEST(HttpResponder, WhatIsNotThereOrNotAllowedIsRefusedWithALine) {
-  HttpResponder desk(config());
-  EXPECT_EQ(desk.answer(get("/nothing")).status, 404u);
-  EXPECT_EQ(desk.answer(get("/api/layouts/none")).status, 204u);
-  EXPECT_EQ(desk.answer(get("/api/layouts/../keys")).status, 404u);
-  EXPECT_EQ(desk.answer(put("/api/track", "{}")).status, 405u);
-  EXPECT_EQ(desk.answer(get("/ws")).status, 400u) << "no upgrade";
+  HttpResponder responder(config());
+  EXPECT_EQ(responder.answer(get("/nothing")).status, 404u);
+  EXPECT_EQ(responder.answer(get("/api/layouts/none")).status, 204u);
+  EXPECT_EQ(responder.answer(get("/api/layouts/../keys")).status, 404u);
+  EXPECT_EQ(responder.answer(put("/api/track", "{}")).status, 405u);
+  EXPECT_EQ(responder.answer(get("/ws")).status, 400u) << "no upgrade";
   HttpQuestion foreign = get("/api/track");
   foreign.origin = "http://evil.com";
-  EXPECT_EQ(desk.answer(foreign).status, 403u);
+  EXPECT_EQ(responder.answer(foreign).status, 403u);
   HttpQuestion wrong = get("/api/track");
   wrong.authorization = "Bearer 0000000000000000";
-  EXPECT_EQ(desk.answer(wrong).status, 401u);
-  EXPECT_EQ(desk.answer(get("/nothing")).body->back(), '\n');
+  EXPECT_EQ(responder.answer(wrong).status, 401u);
+  EXPECT_EQ(responder.answer(get("/nothing")).body->back(), '\n');
 }
 
 TEST(HttpResponder, ADocumentThatIsMadeIsMadeForEachWhoAsks) {
   HttpConfig with = config();
   int asked = 0;
   with.made["/metrics"] = [&asked] { return Shown{std::to_string(++asked), "text/x"}; };
-  HttpResponder desk(std::move(with));
-  EXPECT_EQ(*desk.answer(get("/metrics")).body, "1");
-  const HttpAnswer again = desk.answer(get("/metrics"));
+  HttpResponder responder(std::move(with));
+  EXPECT_EQ(*responder.answer(get("/metrics")).body, "1");
+  const HttpAnswer again = responder.answer(get("/metrics"));
   EXPECT_EQ(*again.body, "2");
   EXPECT_EQ(again.type, "text/x");
   EXPECT_EQ(again.cache, "no-store");
-  EXPECT_EQ(desk.answer(put("/metrics", "x")).status, 405u);
+  EXPECT_EQ(responder.answer(put("/metrics", "x")).status, 405u);
 }
 
 TEST(HttpResponder, APortOfAnotherProtocolIsThatOnly) {
   HttpConfig foreign = config();
   foreign.subprotocols = {"a.v1", "b.v1"};
-  HttpResponder desk(std::move(foreign));
-  const auto open = [&desk](std::string_view target, std::string_view offered, bool upgrade) {
+  HttpResponder responder(std::move(foreign));
+  const auto open = [&responder](std::string_view target, std::string_view offered, bool upgrade) {
     HttpQuestion question = get(target);
     question.subprotocols = offered;
     question.upgrade = upgrade;
-    return desk.answer(question);
+    return responder.answer(question);
   };
   EXPECT_EQ(open("/", "b.v1", true).subprotocol, "b.v1");
   EXPECT_EQ(open("/?x=1", "x,\tb.v1 , a.v1", true).subprotocol, "b.v1");
@@ -94,35 +94,35 @@ TEST(HttpResponder, WhereTokensBindOnlyThePageComesWithoutOne) {
   HttpConfig bound = config();
   bound.access.default_role.reset();
   bound.made["/metrics"] = [] { return Shown{"1", "text/x"}; };
-  HttpResponder desk(std::move(bound));
-  EXPECT_EQ(desk.answer(get("/")).status, 200u);
-  EXPECT_EQ(desk.answer(get("/nothing")).status, 404u);
+  HttpResponder responder(std::move(bound));
+  EXPECT_EQ(responder.answer(get("/")).status, 200u);
+  EXPECT_EQ(responder.answer(get("/nothing")).status, 404u);
   for (const char* const path : {"/api/track", "/api/layouts/none", "/metrics", "/ws"})
-    EXPECT_EQ(desk.answer(get(path)).status, 401u) << path;
+    EXPECT_EQ(responder.answer(get(path)).status, 401u) << path;
   HttpQuestion socket = get("/ws");
   socket.upgrade = true;
-  EXPECT_FALSE(desk.answer(socket).visitor);
+  EXPECT_FALSE(responder.answer(socket).visitor);
   HttpQuestion page = get("/");
   page.upgrade = true;
-  EXPECT_EQ(desk.answer(page).status, 401u);
+  EXPECT_EQ(responder.answer(page).status, 401u);
   HttpQuestion with = get("/api/track");
   with.authorization = kAsViewer;
-  EXPECT_EQ(desk.answer(with).status, 200u);
+  EXPECT_EQ(responder.answer(with).status, 200u);
   HttpQuestion foreign = get("/");
   foreign.origin = "http://evil.com";
-  EXPECT_EQ(desk.answer(foreign).status, 403u) << "nor does a page of somebody else have it";
+  EXPECT_EQ(responder.answer(foreign).status, 403u) << "nor does a page of somebody else have it";
 }
 
 TEST(HttpResponder, ATokenOfAnotherProtocolsPortIsItsPath) {
   HttpConfig bound = config();
   bound.access.default_role.reset();
   bound.subprotocols = {"foxglove.sdk.v1"};
-  HttpResponder desk(std::move(bound));
+  HttpResponder responder(std::move(bound));
   const auto opens = [&](const std::string& path) {
     HttpQuestion question = get(path);
     question.upgrade = true;
     question.subprotocols = "foxglove.sdk.v1";
-    return desk.answer(question);
+    return responder.answer(question);
   };
   EXPECT_TRUE(opens(std::string{"/"} + kViewer).visitor);
   for (const std::string& path :
@@ -132,44 +132,44 @@ TEST(HttpResponder, ATokenOfAnotherProtocolsPortIsItsPath) {
 }
 
 TEST(HttpResponder, TheSocketIsGivenToWhoMayHaveIt) {
-  HttpResponder desk(config());
+  HttpResponder responder(config());
   HttpQuestion question = get("/ws");
   question.upgrade = true;
-  EXPECT_EQ(desk.answer(question).visitor->role, Role::kViewer);
+  EXPECT_EQ(responder.answer(question).visitor->role, Role::kViewer);
   question.authorization = kAsOperator;
-  EXPECT_EQ(desk.answer(question).visitor->name, "Anna");
+  EXPECT_EQ(responder.answer(question).visitor->name, "Anna");
 }
 
 TEST(HttpResponder, EachCarHasItsOwnDocumentsAndNoneIsGivenAnothers) {
   HttpConfig both = config();
   both.cars = {{.number = 7, .documents = {{"/api/track", "[7]"}}},
                {.number = 0, .documents = {{"/api/track", "[0]"}, {"/api/x", ""}}}};
-  HttpResponder desk(std::move(both));
-  EXPECT_EQ(*desk.answer(get("/api/track")).body, "[7]") << "the first";
-  EXPECT_EQ(*desk.answer(get("/api/track?car=7")).body, "[7]");
-  EXPECT_EQ(*desk.answer(get("/api/track?x=1&car=0")).body, "[0]");
-  EXPECT_EQ(desk.answer(get("/api/x?car=0")).status, 204u);
-  EXPECT_EQ(desk.answer(get("/api/x?car=7")).status, 404u);
+  HttpResponder responder(std::move(both));
+  EXPECT_EQ(*responder.answer(get("/api/track")).body, "[7]") << "the first";
+  EXPECT_EQ(*responder.answer(get("/api/track?car=7")).body, "[7]");
+  EXPECT_EQ(*responder.answer(get("/api/track?x=1&car=0")).body, "[0]");
+  EXPECT_EQ(responder.answer(get("/api/x?car=0")).status, 204u);
+  EXPECT_EQ(responder.answer(get("/api/x?car=7")).status, 404u);
   for (const char* const nobody : {"8", "", "7x", "-7", "+7", "07777777777777", "%37"}) {
     const std::string target = std::string{"/api/track?car="} + nobody;
-    EXPECT_EQ(desk.answer(get(target)).status, 404u) << nobody;
+    EXPECT_EQ(responder.answer(get(target)).status, 404u) << nobody;
     const std::string socket = std::string{"/ws?car="} + nobody;
     HttpQuestion question = get(socket);
     question.upgrade = true;
-    const HttpAnswer answer = desk.answer(question);
+    const HttpAnswer answer = responder.answer(question);
     EXPECT_EQ(answer.status, 404u) << nobody;
     EXPECT_FALSE(answer.visitor) << nobody;
   }
   HttpQuestion question = get("/ws?car=0");
   question.upgrade = true;
-  EXPECT_EQ(desk.answer(question).car, 1u);
+  EXPECT_EQ(responder.answer(question).car, 1u);
 }
 
 TEST(HttpResponder, WhatIsShownReplacesWhatWasBefore) {
-  HttpResponder desk(config());
-  desk.show("/api/cars", {"[1]", kJsonType});
-  desk.show("/api/cars", {"[2]", kJsonType});
-  const HttpAnswer answer = desk.answer(get("/api/cars"));
+  HttpResponder responder(config());
+  responder.show("/api/cars", {"[1]", kJsonType});
+  responder.show("/api/cars", {"[2]", kJsonType});
+  const HttpAnswer answer = responder.answer(get("/api/cars"));
   EXPECT_EQ(*answer.body, "[2]");
   EXPECT_EQ(answer.type, "application/json");
 }
@@ -177,25 +177,25 @@ TEST(HttpResponder, WhatIsShownReplacesWhatWasBefore) {
 TEST(HttpResponder, LayoutsAreKeptByOperators) {
   const auto folder = transport::TemporaryFolder::create("layouts");
   ASSERT_TRUE(folder);
-  HttpResponder desk(config(folder->path()));
-  EXPECT_EQ(desk.answer(put("/api/layouts/mine", "{}")).status, 403u);
+  HttpResponder responder(config(folder->path()));
+  EXPECT_EQ(responder.answer(put("/api/layouts/mine", "{}")).status, 403u);
   HttpQuestion question = put("/api/layouts/mine", R"({"a": 1})");
   question.authorization = kAsViewer;
-  EXPECT_EQ(desk.answer(question).status, 403u);
+  EXPECT_EQ(responder.answer(question).status, 403u);
   question.authorization = kAsOperator;
-  EXPECT_EQ(desk.answer(question).status, 200u);
-  EXPECT_EQ(*desk.answer(get("/api/layouts/mine")).body, R"({"a": 1})");
+  EXPECT_EQ(responder.answer(question).status, 200u);
+  EXPECT_EQ(*responder.answer(get("/api/layouts/mine")).body, R"({"a": 1})");
   HttpResponder later(config(folder->path()));
   EXPECT_EQ(*later.answer(get("/api/layouts/mine")).body, R"({"a": 1})") << "after a restart";
 }
 
 TEST(HttpResponder, WhatIsNoLayoutIsNotKept) {
-  HttpResponder desk(config());
+  HttpResponder responder(config());
   const auto status = [&](const std::string& name, const std::string& body) {
     const std::string target = "/api/layouts/" + name;
     HttpQuestion question = put(target, body);
     question.authorization = kAsOperator;
-    return desk.answer(question).status;
+    return responder.answer(question).status;
   };
   EXPECT_EQ(status("a", "{"), 400u);
   EXPECT_EQ(status("a", "[]"), 400u);
@@ -210,10 +210,10 @@ TEST(HttpResponder, WhatIsNoLayoutIsNotKept) {
 }
 
 TEST(HttpResponder, AHostThatIsNoneDoesNotGetIntoThePolicy) {
-  HttpResponder desk(config());
+  HttpResponder responder(config());
   HttpQuestion question = get("/");
   question.host = "localhost; script-src *";
-  EXPECT_EQ(desk.answer(question).policy.find("script-src"), std::string::npos);
+  EXPECT_EQ(responder.answer(question).policy.find("script-src"), std::string::npos);
 }
 
 HttpQuestion log_in(std::string_view body) {
@@ -230,46 +230,46 @@ TEST(HttpResponder, ALoginGivesACookieThatIsWhoLoggedIn) {
   bound.access.default_role.reset();
   UtcTime now{1'700'000'000'000'000'000};
   bound.utc = [&now] { return now; };
-  HttpResponder desk(std::move(bound));
-  desk.serve_at(8080);
-  EXPECT_EQ(desk.answer(get("/api/session")).status, 401u);
-  const HttpAnswer in = desk.answer(log_in(R"({"token": "8f2c41d09b7a4d51"})"));
+  HttpResponder responder(std::move(bound));
+  responder.serve_at(8080);
+  EXPECT_EQ(responder.answer(get("/api/session")).status, 401u);
+  const HttpAnswer in = responder.answer(log_in(R"({"token": "8f2c41d09b7a4d51"})"));
   EXPECT_EQ(in.status, 204u);
   EXPECT_EQ(in.set_cookie.find(kOperator), std::string::npos) << "it does not tell the token";
   const std::string cookie = cookie_of(in);
   HttpQuestion question = get("/api/session");
   question.cookie = cookie;
-  EXPECT_EQ(*desk.answer(question).body,
+  EXPECT_EQ(*responder.answer(question).body,
             R"({"role": "operator", "name": "Anna", "logged_in": true})");
   question.target = "/api/track";
-  EXPECT_EQ(desk.answer(question).status, 200u);
+  EXPECT_EQ(responder.answer(question).status, 200u);
   now.ns += kSessionLasts.ns;
-  EXPECT_EQ(desk.answer(question).status, 401u) << "it ends";
+  EXPECT_EQ(responder.answer(question).status, 401u) << "it ends";
 }
 
 TEST(HttpResponder, ALoginThatIsNoneGivesNone) {
-  HttpResponder desk(config());
+  HttpResponder responder(config());
   for (const char* body : {"", "{}", "[]", "{\"token\": 5}", "x", "{\"token\": \"\"}"}) {
-    const HttpAnswer answer = desk.answer(log_in(body));
+    const HttpAnswer answer = responder.answer(log_in(body));
     EXPECT_EQ(answer.status, 400u) << body;
     EXPECT_EQ(answer.set_cookie, "") << body;
   }
-  const HttpAnswer wrong = desk.answer(log_in(R"({"token": "0000000000000000"})"));
+  const HttpAnswer wrong = responder.answer(log_in(R"({"token": "0000000000000000"})"));
   EXPECT_EQ(wrong.status, 401u);
   EXPECT_EQ(wrong.set_cookie, "");
   HttpQuestion foreign = log_in(R"({"token": "8f2c41d09b7a4d51"})");
   foreign.origin = "http://evil.com";
-  EXPECT_EQ(desk.answer(foreign).status, 403u);
+  EXPECT_EQ(responder.answer(foreign).status, 403u);
   HttpQuestion put_one = log_in("{}");
   put_one.method = "PUT";
-  EXPECT_EQ(desk.answer(put_one).allow, "GET, POST, DELETE");
+  EXPECT_EQ(responder.answer(put_one).allow, "GET, POST, DELETE");
 }
 
 TEST(HttpResponder, ALogoutTakesTheCookieAway) {
-  HttpResponder desk(config());
+  HttpResponder responder(config());
   HttpQuestion question = log_in("");
   question.method = "DELETE";
-  EXPECT_NE(desk.answer(question).set_cookie.find("Max-Age=0"), std::string::npos);
+  EXPECT_NE(responder.answer(question).set_cookie.find("Max-Age=0"), std::string::npos);
 }
 
 TEST(HttpResponder, ACookieGoesOverTlsOnlyWhereThereIsTls) {
@@ -286,13 +286,13 @@ TEST(HttpResponder, ACookieGoesOverTlsOnlyWhereThereIsTls) {
 }
 
 TEST(HttpResponder, ATokenInAnAddressIsRefused) {
-  HttpResponder desk(config());
+  HttpResponder responder(config());
   for (const char* path : {"/?token=8f2c41d09b7a4d51", "/api/track?car=0&token=8f2c41d09b7a4d51",
                            "/ws?token=8f2c41d09b7a4d51"}) {
     HttpQuestion question = get(path);
     question.upgrade = std::string_view{path}.starts_with("/ws");
-    EXPECT_EQ(desk.answer(question).status, 400u) << path;
-    EXPECT_FALSE(desk.answer(question).visitor);
+    EXPECT_EQ(responder.answer(question).status, 400u) << path;
+    EXPECT_FALSE(responder.answer(question).visitor);
   }
 }
 

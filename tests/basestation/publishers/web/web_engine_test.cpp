@@ -114,7 +114,7 @@ TEST_F(WebEngine, WhatWasSentArrivesOrIsCounted) {
     return counters.posts_dropped + counters.pictures_dropped + heard;
   };
   while (accounted() < kFrames) {
-    ASSERT_TRUE(browser.hear());
+    ASSERT_TRUE(browser.receive());
     ++heard;
   }
   EXPECT_EQ(accounted(), kFrames);

@@ -21,8 +21,8 @@ TEST_F(WebServerTest, TextsAndFramesGoBothWays) {
   EXPECT_EQ(wait_for(ClientNews::Kind::kSaid)->text, "{\"type\": \"x\"}");
   server_->send(only(client), text("hello"));
   server_->send(only(client), vehicle(7, 8));
-  EXPECT_EQ(browser.hear()->bytes, "hello");
-  const auto frame = browser.hear();
+  EXPECT_EQ(browser.receive()->bytes, "hello");
+  const auto frame = browser.receive();
   ASSERT_TRUE(frame);
   EXPECT_FALSE(frame->text);
   EXPECT_EQ(frame->bytes.size(), kFrameHeader + 8);
@@ -88,18 +88,18 @@ TEST_F(WebServerTest, ATextThatIsTooLongClosesItsSocketOnly) {
   const ClientId kept = join(good);
   join(bad);
   bad.say(std::string(kTextMax + 1, 'x'));
-  while (bad.hear()) {
+  while (bad.receive()) {
   }
   EXPECT_EQ(bad.close_code(), 1009u);
   server_->send(only(kept), text("still here"));
-  EXPECT_EQ(good.hear()->bytes, "still here");
+  EXPECT_EQ(good.receive()->bytes, "still here");
 }
 
 TEST_F(WebServerTest, ATextThatIsNoUtf8ClosesItsSocket) {
   Browser browser;
   join(browser);
   browser.say("\xFF\xFE");
-  EXPECT_FALSE(browser.hear());
+  EXPECT_FALSE(browser.receive());
   EXPECT_EQ(browser.close_code(), 1007u);
 }
 
@@ -124,7 +124,7 @@ TEST_F(WebServerTest, BytesGoOutBehindTheirHeadAndWhatIsLostIsKnownByItsTag) {
   for (std::uint64_t i = 0; i < kSent; ++i) server_->send(only(client), headed_bytes(5, 10'000));
   server_->send(only(client), text("end"));
   std::uint64_t heard = 0;
-  while (const auto message = slow.hear()) {
+  while (const auto message = slow.receive()) {
     if (message->text) break;
     EXPECT_EQ(message->bytes.substr(0, 3), std::string("\1\2\7"));
     ++heard;
@@ -160,13 +160,13 @@ TEST_F(WebServerTest, AClientThatDoesNotReadLosesItsOwnOldestAndSeesHowMuch) {
   constexpr std::uint32_t kFrames = 2'000;
   for (std::uint32_t i = 1; i <= kFrames; ++i) {
     server_->send(only(stopped).set(reading), vehicle(i));
-    const auto heard = quick.hear();
+    const auto heard = quick.receive();
     ASSERT_TRUE(heard);
     ASSERT_EQ(heard->bytes[12], 0) << "the one that reads loses nothing";
   }
   server_->send(only(stopped), text("end"));
   std::uint32_t frames = 0, dropped = 0;
-  while (const auto heard = slow.hear()) {
+  while (const auto heard = slow.receive()) {
     if (heard->text) break;
     ++frames;
     dropped = static_cast<std::uint8_t>(heard->bytes[12]) +
@@ -207,7 +207,7 @@ TEST_F(WebServerTest, RandomBytesDoNoHarm) {
     bare(port_, opening() + bytes);
   }
   server_->send(only(client), text("still here"));
-  EXPECT_EQ(browser.hear()->bytes, "still here");
+  EXPECT_EQ(browser.receive()->bytes, "still here");
   EXPECT_EQ(server_->counters().faults, 0u);
 }
 
@@ -226,7 +226,7 @@ TEST(WebServerStart, EndsWithConsolesConnected) {
   Browser browser;
   EXPECT_EQ(browser.open((*server)->local().port), 101u);
   server->reset();
-  EXPECT_FALSE(browser.hear());
+  EXPECT_FALSE(browser.receive());
 }
 
 }  // namespace

@@ -39,13 +39,13 @@ TEST(MessageText, ATicketHasItsGatesItsStepsAndItsReason) {
 }
 
 TEST(MessageText, AuthorityIsNobodysOrSomebodysWithAnEnd) {
-  telemetry::AuthorityDesk desk;
+  telemetry::AuthorityRegister authority;
   command::Audit audit;
-  command::AuthorityHandover talk(desk, audit);
-  EXPECT_EQ(json_of(authority_text(talk, desk, kNow)).number("holder"), 0.0);
+  command::AuthorityHandover talk(authority, audit);
+  EXPECT_EQ(json_of(authority_text(talk, authority, kNow)).number("holder"), 0.0);
   ASSERT_TRUE(talk.take({.console = 16, .name = "Anna"}, kNow));
   ASSERT_TRUE(talk.request({.console = 17, .name = "Bo"}, kNow));
-  const auto said = json_of(authority_text(talk, desk, kNow + seconds(1)));
+  const auto said = json_of(authority_text(talk, authority, kNow + seconds(1)));
   EXPECT_EQ(said.text("holder_name"), "Anna");
   EXPECT_NEAR(said.number("expires_ms"), 503'000.0, 1.0);
   EXPECT_EQ(said.find("request")->text("name"), "Bo");

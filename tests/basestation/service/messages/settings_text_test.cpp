@@ -15,13 +15,13 @@ using publishers::console::json_of;
 TEST(SettingsText, EveryAlarmHasWhatAnEditorNeeds) {
   alarms::Evaluator evaluator;
   command::Audit audit;
-  command::SettingsEditor desk{evaluator, audit, 3, {.most = 256.0, .now = 128.0}, {}};
+  command::SettingsEditor editor{evaluator, audit, 3, {.most = 256.0, .now = 128.0}, {}};
   ASSERT_TRUE(evaluator.edit(
       {.key = "coolant_hot",
        .setting = {.priority = alarms::Priority::kHigh, .limit = 105.0, .deadband = 2.0},
        .author = "Ada",
        .reason = "hot day"}));
-  const auto told = json_of(settings_text(desk, evaluator.alarms().settings()));
+  const auto told = json_of(settings_text(editor, evaluator.alarms().settings()));
   EXPECT_EQ(told.number("revision"), 3.0);
   EXPECT_FALSE(told.flag("kept"));
   EXPECT_EQ(told.number("up_kbit_s"), 128.0);

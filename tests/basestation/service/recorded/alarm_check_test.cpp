@@ -67,7 +67,7 @@ struct LiveWall {
           .kind = kind, .alarm = alarm.id, .length = seconds(3), .by = "A", .reason = "test"});
     }
   }
-  void tell() {
+  void publish() {
     evaluator.advance(vehicle, now);
     const alarms::Engine& engine = evaluator.alarms();
     if (engine.revision() != revision) {
@@ -98,7 +98,7 @@ struct LiveWall {
       }
       if (one_in(200)) act();
       if (one_in(300)) input(state::Expectations{.round_speed_mps = 50.0 + below(3)});
-      tell();
+      publish();
     }
   }
 };
@@ -145,7 +145,7 @@ TEST(AlarmCheck, AnInputThatWasNotRecordedShows) {
     live.evaluator.base({.disk_minutes = 1.0});
     for (int i = 0; i < 300; ++i) {
       live.now += milliseconds(10);
-      live.tell();
+      live.publish();
     }
   }
   std::vector<std::string> said;

@@ -24,7 +24,7 @@ command::OperatorEntries entries() {
 }
 
 // The engine at full throttle, told ten times a second.
-void drive(EntriesReader& recall, Instant from, Instant to) {
+void drive(EntriesReader& restored, Instant from, Instant to) {
   telemetry::Snapshot state;
   state.values[field("engine.speed")] = 5'000.0;
   state.values[field("powertrain.throttle_position")] = 1.0;
@@ -33,23 +33,23 @@ void drive(EntriesReader& recall, Instant from, Instant to) {
   groups.add(telemetry::Group::kPowertrain);
   for (Instant at = from; at <= to; at += milliseconds(100)) {
     state.at(telemetry::Group::kPowertrain) = at;
-    recall.state(state, groups);
+    restored.state(state, groups);
   }
 }
 
 constexpr state::EngineSample kFull{.speed_rpm = 5'000.0, .throttle = 1.0, .running = true};
 
 TEST(EntriesReader, NobodyEnteredAnything) {
-  EntriesReader recall;
-  drive(recall, kEntered, kEntered + seconds(10));
-  recall.expected("not a text", kEntered);
-  EXPECT_FALSE(recall.result(kEntered + seconds(10)));
+  EntriesReader restored;
+  drive(restored, kEntered, kEntered + seconds(10));
+  restored.expected("not a text", kEntered);
+  EXPECT_FALSE(restored.result(kEntered + seconds(10)));
 }
 
 TEST(EntriesReader, EntriesComeBackWithTheirNames) {
-  EntriesReader recall;
-  recall.expected(expected_text(entries(), 40.0, kEntered + seconds(5)), kEntered + seconds(5));
-  const auto back = recall.result(kEntered + seconds(60));
+  EntriesReader restored;
+  restored.expected(expected_text(entries(), 40.0, kEntered + seconds(5)), kEntered + seconds(5));
+  const auto back = restored.result(kEntered + seconds(60));
   ASSERT_TRUE(back);
   EXPECT_EQ(back->entries.expected.round_speed_mps, 51.4);
   EXPECT_EQ(back->entries.expected.track_flag, 4.0);
@@ -63,41 +63,42 @@ TEST(EntriesReader, EntriesComeBackWithTheirNames) {
 
 // The clock of the recording was another one: what counts is how long ago it was.
 TEST(EntriesReader, TimesAreThoseOfTheClockOfNow) {
-  EntriesReader recall;
-  recall.expected(expected_text(entries(), 40.0, kEntered + seconds(5)), Instant{-seconds(1).ns});
-  EXPECT_EQ(recall.result({})->entries.fuel_at, Instant{-seconds(6).ns});
+  EntriesReader restored;
+  restored.expected(expected_text(entries(), 40.0, kEntered + seconds(5)), Instant{-seconds(1).ns});
+  EXPECT_EQ(restored.result({})->entries.fuel_at, Instant{-seconds(6).ns});
 }
 
 TEST(EntriesReader, FuelIsReckonedOnThroughTheRecording) {
-  EntriesReader recall;
-  drive(recall, kEntered - seconds(100), kEntered);  // before it was filled in
-  recall.expected(expected_text(entries(), 40.0, kEntered), kEntered);
-  drive(recall, kEntered + milliseconds(100), kEntered + seconds(100));
+  EntriesReader restored;
+  drive(restored, kEntered - seconds(100), kEntered);  // before it was filled in
+  restored.expected(expected_text(entries(), 40.0, kEntered), kEntered);
+  drive(restored, kEntered + milliseconds(100), kEntered + seconds(100));
   const double flow_lps = state::fuel_flow_lps(kFull);
   EXPECT_GT(flow_lps, 0.01);
-  EXPECT_NEAR(recall.result(kEntered + seconds(100))->fuel_left_l, 40.0 - 100.0 * flow_lps, 1e-6);
+  EXPECT_NEAR(restored.result(kEntered + seconds(100))->fuel_left_l, 40.0 - 100.0 * flow_lps, 1e-6);
   // WHEN the newest text says how much was left
-  recall.expected(expected_text(entries(), 30.0, kEntered + seconds(100)), kEntered + seconds(100));
-  drive(recall, kEntered + milliseconds(100'100), kEntered + seconds(110));
-  EXPECT_NEAR(recall.result(kEntered + seconds(110))->fuel_left_l, 30.0 - 10.0 * flow_lps, 1e-6);
+  restored.expected(expected_text(entries(), 30.0, kEntered + seconds(100)),
+                    kEntered + seconds(100));
+  drive(restored, kEntered + milliseconds(100'100), kEntered + seconds(110));
+  EXPECT_NEAR(restored.result(kEntered + seconds(110))->fuel_left_l, 30.0 - 10.0 * flow_lps, 1e-6);
 }
 
 TEST(EntriesReader, WhatNobodyHeardWasBurntButNeverMoreThanThereWas) {
-  EntriesReader recall;
-  recall.expected(expected_text(entries(), 40.0, kEntered), kEntered);
-  drive(recall, kEntered, kEntered + seconds(1));
+  EntriesReader restored;
+  restored.expected(expected_text(entries(), 40.0, kEntered), kEntered);
+  drive(restored, kEntered, kEntered + seconds(1));
   const double flow_lps = state::fuel_flow_lps(kFull);
-  EXPECT_NEAR(recall.result(kEntered + seconds(61))->fuel_left_l, 40.0 - 61.0 * flow_lps, 1e-6);
-  EXPECT_EQ(recall.result(kEntered + seconds(100'000))->fuel_left_l, 0.0);
+  EXPECT_NEAR(restored.result(kEntered + seconds(61))->fuel_left_l, 40.0 - 61.0 * flow_lps, 1e-6);
+  EXPECT_EQ(restored.result(kEntered + seconds(100'000))->fuel_left_l, 0.0);
 }
 
 TEST(EntriesReader, WhereNoFuelWasEnteredNoneIsLeft) {
   command::OperatorEntries said = entries();
   said.expected.fuel_loaded_l = kUnset;
-  EntriesReader recall;
-  recall.expected(expected_text(said, kUnset, kEntered), kEntered);
-  drive(recall, kEntered, kEntered + seconds(1));
-  const auto back = recall.result(kEntered + seconds(2));
+  EntriesReader restored;
+  restored.expected(expected_text(said, kUnset, kEntered), kEntered);
+  drive(restored, kEntered, kEntered + seconds(1));
+  const auto back = restored.result(kEntered + seconds(2));
   EXPECT_TRUE(std::isnan(back->fuel_left_l));
   EXPECT_EQ(back->entries.expected.fuel_entries, 0u);
 }

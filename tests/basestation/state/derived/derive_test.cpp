@@ -13,28 +13,27 @@ using telemetry::field;
 struct DeriveRig {
   KnownState told;
   Known known;
-  Books books;
+  MonitorState monitors;
   BaseViews views{};
 
   const FieldView& of(BaseField which, Instant now) {
-    books.step(told.vehicle, known, now);
-    derive({}, told.vehicle, known, books, nullptr, now, views);
+    monitors.step(told.vehicle, known, now);
+    derive({}, told.vehicle, known, monitors, nullptr, now, views);
     return views[index_of(which)];
   }
   void tyres(double fl, double fr, double rl, double rr) {
-    told.tell(field("tyres.temperature_front_left"), fl, kStart);
-    told.tell(field("tyres.temperature_front_right"), fr, kStart);
-    told.tell(field("tyres.temperature_rear_left"), rl, kStart);
-    told.tell(field("tyres.temperature_rear_right"), rr, kStart);
+    told.publish(field("tyres.temperature_front_left"), fl, kStart);
+    told.publish(field("tyres.temperature_front_right"), fr, kStart);
+    told.publish(field("tyres.temperature_rear_left"), rl, kStart);
+    told.publish(field("tyres.temperature_rear_right"), rr, kStart);
   }
   void receiver(bool second, double status, double sigma, double verdict) {
-    const auto tell = [&](telemetry::FieldIndex first, telemetry::FieldIndex other, double value) {
-      told.tell(second ? other : first, value, kStart);
-    };
-    tell(field("gnss0.status"), field("gnss1.status"), status);
-    tell(field("gnss0.sigma"), field("gnss1.sigma"), sigma);
-    tell(field("gnss0.position_verdict"), field("gnss1.position_verdict"), verdict);
-    tell(field("gnss0.position_age"), field("gnss1.position_age"), 0.04);
+    const auto publish = [&](telemetry::FieldIndex first, telemetry::FieldIndex other,
+                             double value) { told.publish(second ? other : first, value, kStart); };
+    publish(field("gnss0.status"), field("gnss1.status"), status);
+    publish(field("gnss0.sigma"), field("gnss1.sigma"), sigma);
+    publish(field("gnss0.position_verdict"), field("gnss1.position_verdict"), verdict);
+    publish(field("gnss0.position_age"), field("gnss1.position_age"), 0.04);
   }
 };
 
@@ -52,11 +51,11 @@ TEST(Derive, OfNothingIsNothing) {
 
 TEST(Derive, TheColdestTyreCountsAndAllMustBeKnown) {
   DeriveRig rig;
-  rig.told.tell(field("tyres.temperature_front_left"), 80, kStart);
+  rig.told.publish(field("tyres.temperature_front_left"), 80, kStart);
   EXPECT_EQ(rig.of(BaseField::kTyreMin, kStart).quality, Quality::kNever);
   rig.tyres(80, 70, 29, 75);
   EXPECT_EQ(rig.of(BaseField::kTyreMin, kStart).value, 29.0);
-  rig.told.tell(field("track.target_speed"), from_mph(140), kStart);
+  rig.told.publish(field("track.target_speed"), from_mph(140), kStart);
   EXPECT_NEAR(rig.of(BaseField::kTyreMargin, kStart).value, 29.0 - 79.0, 1e-9);
 }
 
@@ -64,7 +63,7 @@ TEST(Derive, AnOldInputMakesAnOldValue) {
   DeriveRig rig;
   rig.tyres(80, 80, 80, 80);
   const Instant later = kStart + seconds(5);
-  rig.told.tell(field("track.target_speed"), 40.0, later);
+  rig.told.publish(field("track.target_speed"), 40.0, later);
   const FieldView& margin = rig.of(BaseField::kTyreMargin, later);
   EXPECT_EQ(margin.quality, Quality::kStale);
   EXPECT_EQ(margin.age, seconds(5));
@@ -78,7 +77,7 @@ TEST(Derive, AttacksSayWhichEndSeesThem) {
   rig.known.link.threats = 16.0;
   EXPECT_EQ(seen(kStart).value, 1.0);
   EXPECT_EQ(rig.views[index_of(BaseField::kRelay)].value, 0.0);
-  rig.told.tell(field("radio.threats"), 48.0, kStart);
+  rig.told.publish(field("radio.threats"), 48.0, kStart);
   EXPECT_EQ(seen(kStart).value, 3.0);
   EXPECT_EQ(rig.views[index_of(BaseField::kRelay)].value, 2.0);
   rig.known.link.threats = 0.0;
@@ -106,8 +105,8 @@ TEST(Derive, StopIsTheHigherOfModeAndLatch) {
   DeriveRig rig;
   for (double latch = 0; latch <= 2; ++latch) {
     for (double mode = 0; mode <= 6; ++mode) {
-      rig.told.tell(field("mode.stop_latch"), latch, kStart);
-      rig.told.tell(field("mode.mode"), mode, kStart);
+      rig.told.publish(field("mode.stop_latch"), latch, kStart);
+      rig.told.publish(field("mode.mode"), mode, kStart);
       const double by_mode = mode == 4 ? 2 : mode == 3 ? 1 : 0;
       EXPECT_EQ(rig.of(BaseField::kStop, kStart).value, std::max(latch, by_mode));
     }
@@ -116,19 +115,19 @@ TEST(Derive, StopIsTheHigherOfModeAndLatch) {
 
 TEST(Derive, WatchdogsAreCountedByTheirState) {
   DeriveRig rig;
-  rig.told.tell(field("streams.imu0"), 2, kStart);
-  rig.told.tell(field("streams.imu1"), 3, kStart);
-  rig.told.tell(field("streams.brake"), 4, kStart);
-  rig.told.tell(field("streams.radio"), 4, kStart);
+  rig.told.publish(field("streams.imu0"), 2, kStart);
+  rig.told.publish(field("streams.imu1"), 3, kStart);
+  rig.told.publish(field("streams.brake"), 4, kStart);
+  rig.told.publish(field("streams.radio"), 4, kStart);
   EXPECT_EQ(rig.of(BaseField::kWatchdogsLate, kStart).value, 1.0);
   EXPECT_EQ(rig.of(BaseField::kWatchdogsLost, kStart).value, 2.0);
 }
 
 TEST(Derive, GroupsThatGrowOldAreCountedButNoOpponents) {
   DeriveRig rig;
-  rig.told.tell(field("ego.x"), 1, kStart);
-  rig.told.tell(field("opponent_1.speed"), 1, kStart);
-  rig.told.tell(field("mode.mode"), 2, kStart + seconds(9));
+  rig.told.publish(field("ego.x"), 1, kStart);
+  rig.told.publish(field("opponent_1.speed"), 1, kStart);
+  rig.told.publish(field("mode.mode"), 2, kStart + seconds(9));
   EXPECT_EQ(rig.of(BaseField::kStaleGroups, kStart + seconds(9)).value, 1.0);
 }
 

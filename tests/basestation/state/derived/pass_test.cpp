@@ -12,8 +12,8 @@ using telemetry::field;
 
 TEST(Pass, PutsWithTheAgeOfTheOldestThatWasEverHeard) {
   KnownState told;
-  told.tell(field("ego.x"), 1.0, kStart);
-  told.tell(field("track.station"), 2.0, kStart + seconds(3));
+  told.publish(field("ego.x"), 1.0, kStart);
+  told.publish(field("track.station"), 2.0, kStart + seconds(3));
   BaseViews views{};
   const Pass pass{.vehicle = told.vehicle, .now = kStart + seconds(3), .views = views};
   pass.put(BaseField::kGapAhead, 5.0,
@@ -28,7 +28,7 @@ TEST(Pass, PutsWithTheAgeOfTheOldestThatWasEverHeard) {
 
 TEST(Pass, StaleIsNotUsable) {
   KnownState told;
-  told.tell(field("ego.x"), 1.0, kStart);
+  told.publish(field("ego.x"), 1.0, kStart);
   BaseViews views{};
   const Pass pass{.vehicle = told.vehicle, .now = kStart + seconds(3), .views = views};
   EXPECT_EQ(pass.value(field("ego.x")), 1.0);

@@ -13,12 +13,12 @@ using telemetry::field;
 struct RaceRig {
   KnownState told;
   Known known;
-  Books books;
+  MonitorState monitors;
   BaseViews views{};
 
   const FieldView& of(BaseField which, Instant now, const Course* course = nullptr) {
     const Pass pass{.vehicle = told.vehicle, .now = now, .views = views};
-    derive_race(pass, known, books, {}, course);
+    derive_race(pass, known, monitors, {}, course);
     return views[index_of(which)];
   }
 };
@@ -35,10 +35,10 @@ TEST(RaceFields, GapsAreToOpponentsThatAreKnownNow) {
   const Course course = oval();
   const auto gap = [&](BaseField which, Instant now) { return rig.of(which, now, &course); };
   EXPECT_EQ(gap(BaseField::kGapAhead, kStart).quality, Quality::kNever);
-  rig.told.tell(field("track.station"), 2'380.0, kStart);
-  rig.told.tell(field("ego.vx"), 60.0, kStart);
-  rig.told.tell(field("opponent_1.station"), 20.0, kStart);
-  rig.told.tell(field("opponent_1.speed"), 50.0, kStart);
+  rig.told.publish(field("track.station"), 2'380.0, kStart);
+  rig.told.publish(field("ego.vx"), 60.0, kStart);
+  rig.told.publish(field("opponent_1.station"), 20.0, kStart);
+  rig.told.publish(field("opponent_1.speed"), 50.0, kStart);
   EXPECT_NEAR(gap(BaseField::kGapAhead, kStart).value, 35.1, 0.05);
   EXPECT_EQ(gap(BaseField::kGapBehind, kStart).quality, Quality::kNever);
   EXPECT_EQ(gap(BaseField::kGapClosing, kStart).value, 10.0);
@@ -46,7 +46,7 @@ TEST(RaceFields, GapsAreToOpponentsThatAreKnownNow) {
   const Instant later = kStart + seconds(5);
   rig.told.touch(telemetry::Group::kTrack, later);
   EXPECT_EQ(gap(BaseField::kGapAhead, later).quality, Quality::kStale);
-  rig.told.tell(field("opponent_2.station"), 300.0, later);
+  rig.told.publish(field("opponent_2.station"), 300.0, later);
   EXPECT_NEAR(gap(BaseField::kGapAhead, later).value, 315.1, 0.05);
   EXPECT_EQ(gap(BaseField::kGapAhead, later).quality, Quality::kFresh);
 }
@@ -54,21 +54,21 @@ TEST(RaceFields, GapsAreToOpponentsThatAreKnownNow) {
 TEST(RaceFields, ARoleThatTheCarDoesNotActOnIsAConflict) {
   RaceRig rig;
   constexpr double kAttackerFlag = 10, kDefends = 1, kAttacks = 2;
-  rig.told.tell(field("flags.vehicle"), kAttackerFlag, kStart);
+  rig.told.publish(field("flags.vehicle"), kAttackerFlag, kStart);
   EXPECT_EQ(rig.of(BaseField::kRole, kStart).value, kAttacks);
   EXPECT_EQ(rig.of(BaseField::kRoleConflict, kStart).quality, Quality::kNever);
-  rig.told.tell(field("planner.role"), kDefends, kStart);
+  rig.told.publish(field("planner.role"), kDefends, kStart);
   EXPECT_EQ(rig.of(BaseField::kRoleConflict, kStart).value, 1.0);
-  rig.told.tell(field("planner.role"), kAttacks, kStart);
+  rig.told.publish(field("planner.role"), kAttacks, kStart);
   EXPECT_EQ(rig.of(BaseField::kRoleConflict, kStart).value, 0.0);
 }
 
 TEST(RaceFields, TheAttemptGrowsOldWithTheFlagsItIsCountedBy) {
   RaceRig rig;
-  rig.told.tell(field("flags.track"), 5.0, kStart);
-  rig.told.tell(field("flags.vehicle"), 10.0, kStart);
-  rig.told.tell(field("track.lap"), 4.0, kStart);
-  rig.books.step_race(rig.told.vehicle, {}, nullptr, kStart);
+  rig.told.publish(field("flags.track"), 5.0, kStart);
+  rig.told.publish(field("flags.vehicle"), 10.0, kStart);
+  rig.told.publish(field("track.lap"), 4.0, kStart);
+  rig.monitors.step_race(rig.told.vehicle, {}, nullptr, kStart);
   EXPECT_EQ(rig.of(BaseField::kAttempt, kStart).value, 1.0);
   EXPECT_EQ(rig.of(BaseField::kAttemptLapsLeft, kStart).value, 2.0);
   EXPECT_EQ(rig.of(BaseField::kAttempt, kStart + seconds(5)).quality, Quality::kStale);

@@ -18,18 +18,18 @@ void drive(lcm::LCM& lcm, const Call& call) {
   // LCM's short header with the channel's name, IP and UDP; what is around the bytes of a piece.
   constexpr std::size_t kAround = 8 + 28, kBulkAround = kAround + sizeof("BULK") + 12;
   const std::size_t state_bytes =
-      static_cast<std::size_t>(contest::vehicle_state_t{}.getEncodedSize()) + kAround +
+      static_cast<std::size_t>(comparison::vehicle_state_t{}.getEncodedSize()) + kAround +
       sizeof("STATE");
   const BulkPlan plan =
       call.mode == "paced" ? paced(kStatePeriod, state_bytes, kBulkAround) : BulkPlan{};
-  contest::bulk_t bulk;
+  comparison::bulk_t bulk;
   bulk.size = static_cast<std::int32_t>(plan.bytes);
   bulk.data.assign(plan.bytes, 'b');
   send_until_end(
       call, kStatePeriod, plan,
       [&](Instant now) {
         const VehicleState state = state_at(now);
-        contest::vehicle_state_t message;
+        comparison::vehicle_state_t message;
         message.made_ns = state.made_ns;
         std::ranges::copy(state.floats, message.floats);
         std::ranges::copy(state.integers, message.integers);
@@ -41,10 +41,10 @@ void drive(lcm::LCM& lcm, const Call& call) {
 
 struct Listener {
   void on_state(const lcm::ReceiveBuffer*, const std::string&,
-                const contest::vehicle_state_t* message) {
+                const comparison::vehicle_state_t* message) {
     note_arrival(message->made_ns);
   }
-  void on_bulk(const lcm::ReceiveBuffer*, const std::string&, const contest::bulk_t* message) {
+  void on_bulk(const lcm::ReceiveBuffer*, const std::string&, const comparison::bulk_t* message) {
     note_bulk(message->data.size());
   }
 };

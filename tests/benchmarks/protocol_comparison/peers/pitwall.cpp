@@ -44,13 +44,13 @@ GroupSet motion_groups() {
 }
 
 // The keys of both, from a seed that both know: a bench's, no secret.
-ConduitConfig config_of(bool car) {
+LinkEndpointConfig config_of(bool car) {
   SeededRandomness randomness(1);
   KeyFile keys{.role = Role::kCar, .own = make_identity(randomness), .peer = {}};
   KeyFile others{
       .role = Role::kBase, .own = make_identity(randomness), .peer = keys.own.public_key};
   keys.peer = others.own.public_key;
-  ConduitConfig config;
+  LinkEndpointConfig config;
   if (car) config.association.peer[0] = {kBase.ip, kBase.port};
   config.association.keys = car ? std::move(keys) : std::move(others);
   return config;

@@ -40,7 +40,7 @@ int open_socket() {
   return fd;
 }
 
-void send_message(int fd, const contest::UdpMessage& message) {
+void send_message(int fd, const comparison::UdpMessage& message) {
   std::string bytes;
   google::protobuf::io::StringOutputStream stream(&bytes);
   google::protobuf::util::SerializeDelimitedToZeroCopyStream(message, &stream);
@@ -51,12 +51,12 @@ void send_message(int fd, const contest::UdpMessage& message) {
 }
 
 // Field by field, as generated code of a hundred fields is filled.
-contest::UdpMessage state_message(const VehicleState& state) {
-  contest::UdpMessage message;
-  contest::VehicleData* data = message.mutable_vehicle();
+comparison::UdpMessage state_message(const VehicleState& state) {
+  comparison::UdpMessage message;
+  comparison::VehicleData* data = message.mutable_vehicle();
   data->set_made_ns(static_cast<std::uint64_t>(state.made_ns));
-  const auto* fields = contest::VehicleData::descriptor();
-  const auto* set = contest::VehicleData::GetReflection();
+  const auto* fields = comparison::VehicleData::descriptor();
+  const auto* set = comparison::VehicleData::GetReflection();
   int next = 1;
   for (const float value : state.floats) set->SetFloat(data, fields->field(next++), value);
   for (const std::int32_t value : state.integers) set->SetInt32(data, fields->field(next++), value);
@@ -64,10 +64,10 @@ contest::UdpMessage state_message(const VehicleState& state) {
   return message;
 }
 
-contest::UdpMessage perception_message(const VehicleState& state) {
-  contest::UdpMessage message;
+comparison::UdpMessage perception_message(const VehicleState& state) {
+  comparison::UdpMessage message;
   for (int i = 0; i < kDetections; ++i) {
-    contest::Detection* detection = message.mutable_perception()->add_detections();
+    comparison::Detection* detection = message.mutable_perception()->add_detections();
     detection->set_id(static_cast<std::uint32_t>(i + 1));
     detection->set_x(state.floats[static_cast<std::size_t>(i)]);
     detection->set_y(state.floats[static_cast<std::size_t>(i + 10)]);
@@ -77,10 +77,10 @@ contest::UdpMessage perception_message(const VehicleState& state) {
   return message;
 }
 
-contest::UdpMessage trajectory_message(const VehicleState& state) {
-  contest::UdpMessage message;
+comparison::UdpMessage trajectory_message(const VehicleState& state) {
+  comparison::UdpMessage message;
   for (int line = 0; line < kPolylines; ++line) {
-    contest::Polyline* polyline = message.mutable_trajectory()->add_polylines();
+    comparison::Polyline* polyline = message.mutable_trajectory()->add_polylines();
     for (int point = 0; point < kPoints; ++point) {
       polyline->add_x(state.floats[static_cast<std::size_t>(point)]);
       polyline->add_y(state.floats[static_cast<std::size_t>(point + 20 * line)]);
@@ -89,7 +89,7 @@ contest::UdpMessage trajectory_message(const VehicleState& state) {
   return message;
 }
 
-std::size_t wire_bytes(const contest::UdpMessage& message) {
+std::size_t wire_bytes(const comparison::UdpMessage& message) {
   constexpr std::size_t kAround = 2 + 28;  // length in front, IP and UDP
   return message.ByteSizeLong() + kAround;
 }
@@ -100,7 +100,7 @@ BulkPlan bulk_plan(const Call& call) {
   const std::size_t bytes = wire_bytes(state_message(state)) +
                             wire_bytes(perception_message(state)) +
                             wire_bytes(trajectory_message(state));
-  contest::UdpMessage empty;
+  comparison::UdpMessage empty;
   empty.set_bulk(std::string(1, 'b'));
   return paced(kPeriod, bytes, wire_bytes(empty));
 }
@@ -108,7 +108,7 @@ BulkPlan bulk_plan(const Call& call) {
 void drive(const Call& call) {
   const int fd = open_socket();
   const BulkPlan plan = bulk_plan(call);
-  contest::UdpMessage bulk;
+  comparison::UdpMessage bulk;
   bulk.set_bulk(std::string(plan.bytes, 'b'));
   send_until_end(
       call, kPeriod, plan,
@@ -132,11 +132,11 @@ void listen(const Call& call) {
     const ssize_t got = recv(fd, buffer.data(), buffer.size(), 0);
     if (got <= 0) continue;
     google::protobuf::io::ArrayInputStream stream(buffer.data(), static_cast<int>(got));
-    contest::UdpMessage message;
+    comparison::UdpMessage message;
     bool clean_end = false;
     if (!google::protobuf::util::ParseDelimitedFromZeroCopyStream(&message, &stream, &clean_end))
       continue;
-    if (message.what_case() == contest::UdpMessage::kBulk) note_bulk(message.bulk().size());
+    if (message.what_case() == comparison::UdpMessage::kBulk) note_bulk(message.bulk().size());
     if (message.has_vehicle()) note_arrival(static_cast<std::int64_t>(message.vehicle().made_ns()));
   }
 }

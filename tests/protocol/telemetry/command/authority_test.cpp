@@ -19,45 +19,45 @@ struct Said {
   Values values;
   Received received;
 };
-Said say(const AuthorityDesk& desk, Instant now, Duration way = milliseconds(20)) {
+Said say(const AuthorityRegister& authority, Instant now, Duration way = milliseconds(20)) {
   Said said;
-  desk.put(said.values, now);
+  authority.put(said.values, now);
   said.received.at = now + way;
   said.received.sent_earliest = now;
   return said;
 }
-void hear(AuthorityView& view, const Said& said) { view.heard(said.values, said.received); }
+void receive(AuthorityView& view, const Said& said) { view.heard(said.values, said.received); }
 
-TEST(AuthorityDesk, OneHolderUntilItDropsHandsOverOrExpires) {
-  AuthorityDesk desk;
+TEST(AuthorityRegister, OneHolderUntilItDropsHandsOverOrExpires) {
+  AuthorityRegister authority;
   const Instant t{seconds(10).ns};
-  EXPECT_EQ(desk.holder(t), 0);
-  EXPECT_TRUE(desk.take(kA, t));
-  EXPECT_FALSE(desk.take(kB, t));
-  EXPECT_FALSE(desk.renew(kB, t));
-  EXPECT_FALSE(desk.hand_over(kB, kB, t));
-  EXPECT_TRUE(desk.hand_over(kA, kB, t));
-  EXPECT_EQ(desk.holder(t), kB);
-  EXPECT_FALSE(desk.renew(kA, t));
-  desk.drop(kA, t);
-  EXPECT_EQ(desk.holder(t), kB);
-  desk.drop(kB, t);
-  EXPECT_EQ(desk.holder(t), 0);
-  EXPECT_TRUE(desk.take(kA, t));
-  EXPECT_EQ(desk.holder(t + kAuthorityExpiry - nanoseconds(1)), kA);
-  EXPECT_EQ(desk.holder(t + kAuthorityExpiry), 0);
-  EXPECT_FALSE(desk.renew(kA, t + kAuthorityExpiry)) << "what is gone must be taken again";
-  EXPECT_FALSE(desk.take(0, t + kAuthorityExpiry));
+  EXPECT_EQ(authority.holder(t), 0);
+  EXPECT_TRUE(authority.take(kA, t));
+  EXPECT_FALSE(authority.take(kB, t));
+  EXPECT_FALSE(authority.renew(kB, t));
+  EXPECT_FALSE(authority.hand_over(kB, kB, t));
+  EXPECT_TRUE(authority.hand_over(kA, kB, t));
+  EXPECT_EQ(authority.holder(t), kB);
+  EXPECT_FALSE(authority.renew(kA, t));
+  authority.drop(kA, t);
+  EXPECT_EQ(authority.holder(t), kB);
+  authority.drop(kB, t);
+  EXPECT_EQ(authority.holder(t), 0);
+  EXPECT_TRUE(authority.take(kA, t));
+  EXPECT_EQ(authority.holder(t + kAuthorityExpiry - nanoseconds(1)), kA);
+  EXPECT_EQ(authority.holder(t + kAuthorityExpiry), 0);
+  EXPECT_FALSE(authority.renew(kA, t + kAuthorityExpiry)) << "what is gone must be taken again";
+  EXPECT_FALSE(authority.take(0, t + kAuthorityExpiry));
 }
 
 TEST(AuthorityView, ExpiresByTheMomentOfTheRenewalHoweverLongThePacketsWereOnTheirWay) {
   for (const int way_ms : {0, 20, 400, 2'000, 2'980, 3'000, 5'000}) {
-    AuthorityDesk desk;
+    AuthorityRegister authority;
     AuthorityView view;
     const Instant t{seconds(10).ns};
-    desk.take(kA, t);
+    authority.take(kA, t);
     for (int ms = 0; ms < 3'000; ms += 20)
-      hear(view, say(desk, t + milliseconds(ms), milliseconds(way_ms)));
+      receive(view, say(authority, t + milliseconds(ms), milliseconds(way_ms)));
     EXPECT_EQ(view.holder(t + kAuthorityExpiry), 0) << way_ms;
     if (way_ms < 2'980) {
       EXPECT_EQ(view.holder(t + milliseconds(2'980)), kA) << way_ms;
@@ -75,10 +75,10 @@ TEST(AuthorityView, RepeatedPacketsRenewNothing) {
   EXPECT_EQ(rig.view.holder(rig.car_now()), 0);
   const auto id = rig.issue(CommandType::kArm, 1.0);
   rig.run(seconds(1));
-  EXPECT_EQ(rig.desk.progress(*id)->fate, Outcome::kNoAuthority);
+  EXPECT_EQ(rig.transmitter.progress(*id)->fate, Outcome::kNoAuthority);
   const auto free = rig.issue(CommandType::kSendParameters, 1.0);
   rig.run(seconds(1));
-  EXPECT_EQ(rig.desk.progress(*free)->fate, Outcome::kApplied) << "it needs no authority";
+  EXPECT_EQ(rig.transmitter.progress(*free)->fate, Outcome::kApplied) << "it needs no authority";
 }
 
 TEST(AuthorityView, HoldsOverABadLinkAndEndsWithinItsTimeWhenTheLinkEnds) {
@@ -100,24 +100,24 @@ TEST(AuthorityView, HoldsOverABadLinkAndEndsWithinItsTimeWhenTheLinkEnds) {
 }
 
 TEST(AuthorityView, APacketOfAnOlderEpochChangesNothing) {
-  AuthorityDesk desk;
+  AuthorityRegister authority;
   AuthorityView view;
   const Instant t{seconds(10).ns};
-  desk.take(kA, t);
-  const Said of_a = say(desk, t);
-  desk.hand_over(kA, kB, t);
-  hear(view, say(desk, t + milliseconds(20)));
-  hear(view, of_a);
+  authority.take(kA, t);
+  const Said of_a = say(authority, t);
+  authority.hand_over(kA, kB, t);
+  receive(view, say(authority, t + milliseconds(20)));
+  receive(view, of_a);
   EXPECT_EQ(view.holder(t + milliseconds(40)), kB);
-  desk.drop(kB, t + milliseconds(40));
-  const Said of_nobody = say(desk, t + milliseconds(40));
-  hear(view, of_nobody);
-  hear(view, of_a);
+  authority.drop(kB, t + milliseconds(40));
+  const Said of_nobody = say(authority, t + milliseconds(40));
+  receive(view, of_nobody);
+  receive(view, of_a);
   EXPECT_EQ(view.holder(t + milliseconds(60)), 0);
 }
 
 TEST(AuthorityView, OneFutureEpochLocksNobodyOutForLongerThanItsExpiry) {
-  AuthorityDesk far, desk;
+  AuthorityRegister far, authority;
   AuthorityView view;
   Instant t{seconds(10).ns};
   for (int i = 0; i < 30'000; ++i) {
@@ -125,11 +125,11 @@ TEST(AuthorityView, OneFutureEpochLocksNobodyOutForLongerThanItsExpiry) {
     far.drop(kB, t);
   }
   far.take(kB, t);
-  hear(view, say(far, t));
-  desk.take(kA, t);
+  receive(view, say(far, t));
+  authority.take(kA, t);
   for (int ms = 0; ms < 3'100; ms += 20, t += milliseconds(20)) {
-    if (ms % 1'000 == 0) desk.renew(kA, t);
-    hear(view, say(desk, t));
+    if (ms % 1'000 == 0) authority.renew(kA, t);
+    receive(view, say(authority, t));
   }
   EXPECT_EQ(view.holder(t), kA);
 }
@@ -145,7 +145,7 @@ TEST(AuthorityView, WithoutComparedClocksNobodyHoldsIt) {
 }
 
 TEST(AuthorityView, ARunOfTheBaseThatBeginsAgainIsHeard) {
-  AuthorityDesk old, reborn;
+  AuthorityRegister old, reborn;
   AuthorityView view;
   const Instant t{seconds(10).ns};
   for (int i = 0; i < 9; ++i) {
@@ -153,11 +153,11 @@ TEST(AuthorityView, ARunOfTheBaseThatBeginsAgainIsHeard) {
     old.drop(kA, t);
   }
   old.take(kA, t);
-  hear(view, say(old, t));
+  receive(view, say(old, t));
   view.base_restarted();
   EXPECT_EQ(view.holder(t), 0);
   reborn.take(kB, t);
-  hear(view, say(reborn, t));
+  receive(view, say(reborn, t));
   EXPECT_EQ(view.holder(t + milliseconds(1)), kB);
 }
 
@@ -165,7 +165,7 @@ TEST(AuthorityView, ARunOfTheBaseThatBeginsAgainIsHeard) {
 // does not hold, or has not held within the time that news take to come and expire.
 TEST(AuthorityView, WhoHoldsInTheCarHeldAtTheBaseLessThanTheExpiryAgo) {
   std::mt19937 random(43);
-  AuthorityDesk desk;
+  AuthorityRegister authority;
   AuthorityView view;
   std::array<Instant, 4> held_at{};
   std::vector<Said> air;
@@ -174,30 +174,30 @@ TEST(AuthorityView, WhoHoldsInTheCarHeldAtTheBaseLessThanTheExpiryAgo) {
     const auto who = static_cast<HolderId>(1 + random() % 3);
     switch (random() % 40) {
       case 0:
-        desk.take(who, t);
+        authority.take(who, t);
         break;
       case 1:
       case 2:
-        desk.renew(who, t);
+        authority.renew(who, t);
         break;
       case 3:
-        desk.hand_over(who, static_cast<HolderId>(1 + random() % 3), t);
+        authority.hand_over(who, static_cast<HolderId>(1 + random() % 3), t);
         break;
       case 4:
-        desk.drop(who, t);
+        authority.drop(who, t);
         break;
       default:
         break;
     }
-    if (const HolderId now_holds = desk.holder(t); now_holds != 0) held_at[now_holds] = t;
-    air.push_back(say(desk, t, milliseconds(static_cast<int>(random() % 2'000))));
+    if (const HolderId now_holds = authority.holder(t); now_holds != 0) held_at[now_holds] = t;
+    air.push_back(say(authority, t, milliseconds(static_cast<int>(random() % 2'000))));
     while (air.size() > 50) {
       const std::size_t pick = random() % air.size();
       Said said = air[pick];
       air[pick] = air.back();
       air.pop_back();
       said.received.at = std::max(said.received.at, t);
-      if (random() % 2 == 0 && said.received.at <= t) hear(view, said);
+      if (random() % 2 == 0 && said.received.at <= t) receive(view, said);
     }
     if (const HolderId in_car = view.holder(t); in_car != 0) {
       ASSERT_LT(t - held_at[in_car], kAuthorityExpiry);

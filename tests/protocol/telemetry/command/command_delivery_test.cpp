@@ -26,7 +26,7 @@ struct Tally {
 void settle(TwoEnds& rig, Tally& tally) {
   for (auto it = rig.stories.begin(); it != rig.stories.end();) {
     const auto& [id, story] = *it;
-    const CommandProgress* progress = rig.desk.progress(id);
+    const CommandProgress* progress = rig.transmitter.progress(id);
     if (progress == nullptr || !progress->fate) {
       ++it;
       continue;
@@ -55,7 +55,7 @@ Tally issue_many(TwoEnds& rig, int commands, int every_ms) {
     }
     if (rig.now.ns % seconds(1).ns == 0) settle(rig, tally);
   }
-  for (int s = 0; s < 60 && rig.desk.open() > 0; ++s) rig.run(seconds(1));
+  for (int s = 0; s < 60 && rig.transmitter.open() > 0; ++s) rig.run(seconds(1));
   settle(rig, tally);
   tally.without_fate = static_cast<int>(rig.stories.size());
   tally.out_of_order = rig.out_of_order;
@@ -129,9 +129,9 @@ TEST(CommandDelivery, AStormInSmallPacketsNeverStandsStill) {
     EXPECT_GE(issued - before, 20) << "nothing moves in second " << second;
   }
   Tally tally;
-  for (int s = 0; s < 10 && rig.desk.open() > 0; ++s) rig.run(seconds(1));
+  for (int s = 0; s < 10 && rig.transmitter.open() > 0; ++s) rig.run(seconds(1));
   settle(rig, tally);
-  EXPECT_EQ(rig.desk.open(), 0U);
+  EXPECT_EQ(rig.transmitter.open(), 0U);
   EXPECT_EQ(tally.twice + tally.late + tally.liars + rig.out_of_order, 0);
 }
 

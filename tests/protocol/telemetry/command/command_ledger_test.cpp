@@ -80,7 +80,7 @@ TEST(CommandLedger, WithoutComparedClocksNothingIsAppliedAndNothingForgotten) {
   const auto id = rig.issue(CommandType::kTrackFlag, 3.0);
   rig.run(seconds(1));
   EXPECT_FALSE(fate(rig, *id));
-  EXPECT_TRUE(rig.desk.progress(*id)->received) << "known to the car, not decided";
+  EXPECT_TRUE(rig.transmitter.progress(*id)->received) << "known to the car, not decided";
   EXPECT_EQ(rig.stories[*id].applied, 0);
   rig.clock_known = true;
   rig.run(milliseconds(100));
@@ -147,8 +147,8 @@ TEST(CommandLedger, ANumberOlderThanMemoryIsNeverHandedOut) {
     return due.has_value();
   };
   EXPECT_TRUE(offer(1'000));
-  EXPECT_FALSE(offer(1'000 - CommandLedger::kRemembered));
-  EXPECT_FALSE(offer(1'000 - CommandLedger::kRemembered - 7));
+  EXPECT_FALSE(offer(1'000 - CommandLedger::kDepth));
+  EXPECT_FALSE(offer(1'000 - CommandLedger::kDepth - 7));
   EXPECT_FALSE(offer(1));
   EXPECT_TRUE(offer(1'001));
 }
@@ -166,7 +166,7 @@ TEST(CommandLedger, ACommandForTheRunBeforeIsAnsweredByItsName) {
   rig.run(milliseconds(200));
   EXPECT_EQ(fate(rig, *old), Outcome::kOtherRun);
   EXPECT_EQ(rig.stories[*old].applied, 0);
-  rig.desk.meets(TwoEnds::kCarBoot + 1, rig.now);
+  rig.transmitter.meets(TwoEnds::kCarBoot + 1, rig.now);
   const auto fresh = rig.issue(CommandType::kArm, 1.0);
   rig.run(milliseconds(200));
   EXPECT_EQ(fate(rig, *fresh), Outcome::kApplied);
@@ -181,8 +181,8 @@ TEST(CommandLedger, ABaseThatBeginsAgainIsNotMistakenForTheOneBefore) {
   rig.run(milliseconds(100));
   const auto due = rig.ledger.take_due(rig.car_now(), rig.view);  // handed out, not yet answered
   ASSERT_TRUE(due);
-  rig.desk = CommandDesk{TwoEnds::kBaseBoot + 1};
-  rig.desk.meets(TwoEnds::kCarBoot, rig.now);
+  rig.transmitter = CommandTransmitter{TwoEnds::kBaseBoot + 1};
+  rig.transmitter.meets(TwoEnds::kCarBoot, rig.now);
   const auto before = rig.ledger.counters().other_base;
   ASSERT_EQ(rig.issue(CommandType::kSpeedLimit, 99.0), CommandId{1});
   rig.run(milliseconds(100));
@@ -197,7 +197,7 @@ TEST(CommandLedger, ABaseThatBeginsAgainIsNotMistakenForTheOneBefore) {
   rig.ledger.decide(now_due->id, Outcome::kApplied, rig.car_now());
   rig.run(milliseconds(100));
   EXPECT_EQ(fate(rig, 1), Outcome::kApplied);
-  EXPECT_EQ(rig.desk.progress(1)->command.argument, 99.0);
+  EXPECT_EQ(rig.transmitter.progress(1)->command.argument, 99.0);
 }
 
 TEST(CommandLedger, AnUnknownTypeIsAnsweredUnsupported) {

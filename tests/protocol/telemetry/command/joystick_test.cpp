@@ -21,7 +21,7 @@ Received received(Instant at, std::optional<Instant> sent) {
 }
 
 // A hand that moves the stick a hundred times a second; whether the car heeds it at the end.
-bool heeded(TwoEnds& rig, Duration span) {
+bool applied_weight(TwoEnds& rig, Duration span) {
   for (const Instant end = rig.now + span; rig.now < end;) {
     if (rig.now.ns % milliseconds(10).ns == 0) rig.stick.sample({0.5, 0.25}, rig.now);
     rig.run(milliseconds(1));
@@ -31,7 +31,7 @@ bool heeded(TwoEnds& rig, Duration span) {
 
 TEST(Joystick, AHandIsHeededAsLongAsItsSamplesAreFresh) {
   TwoEnds rig({.seed = 1});
-  ASSERT_TRUE(heeded(rig, seconds(1)));
+  ASSERT_TRUE(applied_weight(rig, seconds(1)));
   const auto sample = rig.joystick.sample(rig.car_now());
   EXPECT_DOUBLE_EQ(sample->throttle_cap, 0.5);
   EXPECT_DOUBLE_EQ(sample->brake, 0.25);
@@ -40,7 +40,7 @@ TEST(Joystick, AHandIsHeededAsLongAsItsSamplesAreFresh) {
 // The device is dead, the link is not: packets come fifty times a second.
 TEST(Joystick, PacketsDoNotKeepADeadHandAlive) {
   TwoEnds rig({.seed = 2});
-  ASSERT_TRUE(heeded(rig, seconds(1)));
+  ASSERT_TRUE(applied_weight(rig, seconds(1)));
   rig.run(kJoystickDead + milliseconds(1));
   EXPECT_FALSE(rig.joystick.sample(rig.car_now()));
   const auto taken = rig.joystick.counters().samples;
@@ -51,7 +51,7 @@ TEST(Joystick, PacketsDoNotKeepADeadHandAlive) {
 TEST(Joystick, BufferbloatOf400MillisecondsTripsItAlthoughPacketsFlow) {
   const Duration queue = milliseconds(400);
   TwoEnds rig({.delay_min = queue, .delay_max = queue, .seed = 3});
-  EXPECT_FALSE(heeded(rig, seconds(3)));
+  EXPECT_FALSE(applied_weight(rig, seconds(3)));
   EXPECT_EQ(rig.joystick.counters().samples, 0U);
   EXPECT_GT(rig.joystick.counters().too_old, 50U) << "they came, and were judged by their age";
 }
@@ -59,11 +59,11 @@ TEST(Joystick, BufferbloatOf400MillisecondsTripsItAlthoughPacketsFlow) {
 TEST(Joystick, AQueueThatGrowsIsNoticedWithinTheDeadTime) {
   for (const int queue_ms : {200, 300, 400, 1'000, 5'000}) {
     TwoEnds rig({.seed = 4});
-    ASSERT_TRUE(heeded(rig, seconds(1)));
+    ASSERT_TRUE(applied_weight(rig, seconds(1)));
     rig.up = testing::Way(
         {.delay_min = milliseconds(queue_ms), .delay_max = milliseconds(queue_ms), .seed = 4}, 99);
-    EXPECT_FALSE(heeded(rig, kJoystickDead + milliseconds(21))) << queue_ms;
-    EXPECT_FALSE(heeded(rig, seconds(6))) << queue_ms;
+    EXPECT_FALSE(applied_weight(rig, kJoystickDead + milliseconds(21))) << queue_ms;
+    EXPECT_FALSE(applied_weight(rig, seconds(6))) << queue_ms;
   }
 }
 
@@ -104,7 +104,7 @@ TEST(Joystick, WhateverBreaksNoSampleActsLongerThanItsDeadTime) {
 TEST(Joystick, WithoutComparedClocksNothingIsHeeded) {
   TwoEnds rig({.seed = 5});
   rig.clock_known = false;
-  EXPECT_FALSE(heeded(rig, seconds(1)));
+  EXPECT_FALSE(applied_weight(rig, seconds(1)));
   EXPECT_GT(rig.joystick.counters().unknown_age, 0U);
 }
 

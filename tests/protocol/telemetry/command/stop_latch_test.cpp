@@ -21,15 +21,15 @@ TEST(StopLatch, ClosesOnTheFirstPacketThatSurvivesInHundredThousandTrials) {
   std::mt19937 random(5);
   const auto lost = [&] { return static_cast<int>(random() % 7); };
   for (int trial = 0; trial < 100'000; ++trial) {
-    StopDesk desk;
+    StopTransmitter transmitter;
     StopLatch latch;
-    for (int before = lost(); before > 0; --before) latch.heard(desk.state(), kNow);
+    for (int before = lost(); before > 0; --before) latch.heard(transmitter.state(), kNow);
     const auto level = random() % 2 == 0 ? StopLevel::kControlled : StopLevel::kEmergency;
-    desk.demand(level, StopReason::kOperator);
+    transmitter.demand(level, StopReason::kOperator);
     const int gone = lost();  // never heard
     ASSERT_EQ(latch.level(), StopLevel::kNone);
     Values packet;
-    put(desk.state(), packet);
+    put(transmitter.state(), packet);
     latch.heard(*stop_state_of(packet), kNow + milliseconds(20 * gone));
     ASSERT_EQ(latch.level(), level);
     ASSERT_EQ(latch.reason(), StopReason::kOperator);
@@ -71,48 +71,48 @@ TEST(StopLatch, NothingButItsChallengeOpensIt) {
 }
 
 TEST(StopLatch, StaysOpenWhileTheBaseHasNotHeardOfTheRelease) {
-  StopDesk desk;
+  StopTransmitter transmitter;
   StopLatch latch;
-  desk.demand(StopLevel::kControlled, StopReason::kOperator);
-  latch.heard(desk.state(), kNow);
-  desk.release_asked(1);
+  transmitter.demand(StopLevel::kControlled, StopReason::kOperator);
+  latch.heard(transmitter.state(), kNow);
+  transmitter.release_asked(1);
   ASSERT_TRUE(latch.release(latch.challenge(), true));
-  for (int i = 0; i < 100; ++i) latch.heard(desk.state(), kNow);
+  for (int i = 0; i < 100; ++i) latch.heard(transmitter.state(), kNow);
   EXPECT_EQ(latch.level(), StopLevel::kNone);
-  desk.released(1);
-  EXPECT_EQ(desk.state().level, StopLevel::kNone);
-  desk.demand(StopLevel::kControlled, StopReason::kOperator);
-  latch.heard(desk.state(), kNow);
+  transmitter.released(1);
+  EXPECT_EQ(transmitter.state().level, StopLevel::kNone);
+  transmitter.demand(StopLevel::kControlled, StopReason::kOperator);
+  latch.heard(transmitter.state(), kNow);
   EXPECT_EQ(latch.level(), StopLevel::kControlled) << "the next press counts";
 }
 
 // The operator presses again while the release is on its way, before it arrives or after.
 TEST(StopLatch, APressWinsOverAReleaseThatIsOnItsWay) {
   for (const bool press_arrives_first : {true, false}) {
-    StopDesk desk;
+    StopTransmitter transmitter;
     StopLatch latch;
-    desk.demand(StopLevel::kEmergency, StopReason::kOperator);
-    latch.heard(desk.state(), kNow);
+    transmitter.demand(StopLevel::kEmergency, StopReason::kOperator);
+    latch.heard(transmitter.state(), kNow);
     const std::uint16_t challenge = latch.challenge();
-    desk.release_asked(1);
-    desk.demand(StopLevel::kEmergency, StopReason::kOperator);
-    if (press_arrives_first) latch.heard(desk.state(), kNow);
+    transmitter.release_asked(1);
+    transmitter.demand(StopLevel::kEmergency, StopReason::kOperator);
+    if (press_arrives_first) latch.heard(transmitter.state(), kNow);
     EXPECT_EQ(latch.release(challenge, true), !press_arrives_first);
-    latch.heard(desk.state(), kNow);
-    desk.released(1);
-    latch.heard(desk.state(), kNow);
+    latch.heard(transmitter.state(), kNow);
+    transmitter.released(1);
+    latch.heard(transmitter.state(), kNow);
     EXPECT_EQ(latch.level(), StopLevel::kEmergency);
-    EXPECT_EQ(desk.state().level, StopLevel::kEmergency);
+    EXPECT_EQ(transmitter.state().level, StopLevel::kEmergency);
   }
 }
 
 TEST(StopLatch, AnOldPacketAfterTheReleaseClosesNothing) {
-  StopDesk desk;
+  StopTransmitter transmitter;
   StopLatch latch;
-  desk.demand(StopLevel::kControlled, StopReason::kOperator);
-  const StopState old = desk.state();
-  desk.demand(StopLevel::kEmergency, StopReason::kOperator);
-  latch.heard(desk.state(), kNow);
+  transmitter.demand(StopLevel::kControlled, StopReason::kOperator);
+  const StopState old = transmitter.state();
+  transmitter.demand(StopLevel::kEmergency, StopReason::kOperator);
+  latch.heard(transmitter.state(), kNow);
   ASSERT_TRUE(latch.release(latch.challenge(), true));
   latch.heard(old, kNow);
   EXPECT_EQ(latch.level(), StopLevel::kNone);
@@ -122,12 +122,12 @@ TEST(StopLatch, ARestartOfTheBaseRaisesNothingReleasesNothingAndIsHeardAgain) {
   StopLatch latch;
   latch.heard(kPressed, kNow);
   latch.base_restarted();
-  StopDesk reborn;
+  StopTransmitter reborn;
   latch.heard(reborn.state(), kNow);
   EXPECT_EQ(latch.level(), StopLevel::kEmergency);
   ASSERT_TRUE(latch.release(latch.challenge(), true));
   latch.base_restarted();
-  latch.heard(StopDesk{}.state(), kNow);
+  latch.heard(StopTransmitter{}.state(), kNow);
   EXPECT_EQ(latch.level(), StopLevel::kNone);
   // Its first press has the epoch of the one that was released.
   reborn.demand(StopLevel::kEmergency, StopReason::kOperator);
@@ -138,19 +138,19 @@ TEST(StopLatch, ARestartOfTheBaseRaisesNothingReleasesNothingAndIsHeardAgain) {
 
 TEST(StopLatch, ChallengesDifferFromLatchToLatchAndHaveNoUnsetValue) {
   StopLatch latch;
-  StopDesk desk;
+  StopTransmitter transmitter;
   std::uint16_t last = 0;
   for (unsigned i = 0; i < 70'000; ++i) {
     if (i % 3 == 0) latch.draw(static_cast<std::uint16_t>(i));
-    desk.demand(StopLevel::kControlled, StopReason::kOperator);
-    latch.heard(desk.state(), kNow);
+    transmitter.demand(StopLevel::kControlled, StopReason::kOperator);
+    latch.heard(transmitter.state(), kNow);
     ASSERT_NE(latch.challenge(), last);
     ASSERT_GE(latch.challenge(), 1);
     ASSERT_LE(latch.challenge(), 65'534);
     last = latch.challenge();
     ASSERT_TRUE(latch.release(last, true));
-    desk.release_asked(i + 1);
-    desk.released(i + 1);
+    transmitter.release_asked(i + 1);
+    transmitter.released(i + 1);
   }
 }
 
@@ -167,13 +167,13 @@ TEST(StopLatch, AHigherLevelRaisesALowerOneDoesNotLower) {
 }
 
 TEST(StopLatch, AButtonThatIsHeldDownIsOnePress) {
-  StopDesk desk;
-  desk.demand(StopLevel::kControlled, StopReason::kOperator);
-  const StopState once = desk.state();
-  for (int i = 0; i < 1'000; ++i) desk.demand(StopLevel::kControlled, StopReason::kOperator);
-  EXPECT_EQ(desk.state(), once);
-  desk.demand(StopLevel::kNone, StopReason::kNone);
-  EXPECT_EQ(desk.state(), once) << "nothing lowers it";
+  StopTransmitter transmitter;
+  transmitter.demand(StopLevel::kControlled, StopReason::kOperator);
+  const StopState once = transmitter.state();
+  for (int i = 0; i < 1'000; ++i) transmitter.demand(StopLevel::kControlled, StopReason::kOperator);
+  EXPECT_EQ(transmitter.state(), once);
+  transmitter.demand(StopLevel::kNone, StopReason::kNone);
+  EXPECT_EQ(transmitter.state(), once) << "nothing lowers it";
 }
 
 TEST(StopLatch, UnsetFieldsAreNoState) {
@@ -203,7 +203,7 @@ TEST(StopLatch, TwoStepsOverABadLinkReleaseIt) {
     rig.stands = true;
     rig.run(seconds(2));
     rig.stands = false;
-    ASSERT_EQ(rig.desk.progress(*id)->fate, Outcome::kApplied);
+    ASSERT_EQ(rig.transmitter.progress(*id)->fate, Outcome::kApplied);
     rig.stop.released(*id);
     rig.run(seconds(1));
     ASSERT_EQ(rig.latch.level(), StopLevel::kNone);

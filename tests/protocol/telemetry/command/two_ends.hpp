@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "protocol/telemetry/command/authority.hpp"
-#include "protocol/telemetry/command/command_desk.hpp"
 #include "protocol/telemetry/command/command_ledger.hpp"
+#include "protocol/telemetry/command/command_transmitter.hpp"
 #include "protocol/telemetry/command/joystick.hpp"
 #include "protocol/telemetry/command/stop_latch.hpp"
 #include "protocol/telemetry/packet/body.hpp"
@@ -142,13 +142,13 @@ class TwoEnds {
   explicit TwoEnds(const AirParams& params)
       : air(params), up(params, 17), down(params, 29), random_(params.seed) {
     authority.take(kOperator, now);
-    desk.meets(kCarBoot, now);
+    transmitter.meets(kCarBoot, now);
     ledger.meets(kBaseBoot);
   }
 
   std::optional<CommandId> issue(CommandType type, double argument) {
     const Command command{type, argument, kOperator};
-    const auto id = desk.issue(command, now);
+    const auto id = transmitter.issue(command, now);
     if (id) stories[*id] = {command, now, {}, 0, {}};
     return id;
   }
@@ -176,9 +176,9 @@ class TwoEnds {
   bool releases = false;        // kReleaseStop goes to the latch
   std::size_t room = kMaxBody;  // of a packet
 
-  CommandDesk desk{kBaseBoot};
-  AuthorityDesk authority;
-  StopDesk stop;
+  CommandTransmitter transmitter{kBaseBoot};
+  AuthorityRegister authority;
+  StopTransmitter stop;
   JoystickSender stick;
   CommandLedger ledger{kCarBoot};
   AuthorityView view;
@@ -203,7 +203,7 @@ class TwoEnds {
     body.begin(now, 1);
     CodecCounters codec;
     body.add_groups(snapshot, kUpGroups, now, codec);
-    desk.fill(body, now);
+    transmitter.fill(body, now);
     up.send(body.bytes(), now);
   }
   void car_sends() {
@@ -235,7 +235,7 @@ class TwoEnds {
     if (!body) return;
     Received received;
     received.at = now;
-    for (const Record& record : body->records) desk.take(record, received);
+    for (const Record& record : body->records) transmitter.take(record, received);
   }
   void note_known(const Record& record) {
     const auto said = parse_command(record.payload);
@@ -266,7 +266,7 @@ class TwoEnds {
 
 // What became of the command; empty while nothing did.
 inline std::optional<Outcome> fate(const TwoEnds& rig, CommandId id) {
-  const CommandProgress* progress = rig.desk.progress(id);
+  const CommandProgress* progress = rig.transmitter.progress(id);
   return progress == nullptr ? std::nullopt : progress->fate;
 }
 

@@ -108,13 +108,13 @@ TEST(StationEndpoint, StopsComeOutOfTheBudget) {
   EndpointPair pair;
   pair.run(seconds(1));
   Departures left(pair);
-  StopDesk& desk = pair.base->stop();
+  StopTransmitter& transmitter = pair.base->stop();
   for (std::uint32_t n = 0; n < 200; ++n) {
-    desk.demand(StopLevel::kControlled, StopReason::kOperator);
-    desk.demand(StopLevel::kEmergency, StopReason::kOperator);
+    transmitter.demand(StopLevel::kControlled, StopReason::kOperator);
+    transmitter.demand(StopLevel::kEmergency, StopReason::kOperator);
     pair.run(milliseconds(static_cast<std::int64_t>(n * 7 % 13)));
-    desk.release_asked(CommandId{n});
-    desk.released(CommandId{n});
+    transmitter.release_asked(CommandId{n});
+    transmitter.released(CommandId{n});
   }
   left.expect_lawful();
   EXPECT_GT(left.at.size(), 60U);

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "protocol/telemetry/session/cipher.hpp"
+#include "protocol/telemetry/session/crypto/cipher.hpp"
 
 namespace pitwall::telemetry {
 

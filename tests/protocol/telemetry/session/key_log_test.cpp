@@ -54,7 +54,7 @@ TEST_P(KeysTold, OnlyWithKeysOfTheBench) {
   pair.base.bench = GetParam().bench_keys;
   const bool logged = GetParam().bench_keys && !GetParam().real_car;
   std::map<std::string, int> told;  // line, by how many ends
-  const auto hear = [&](const std::string& text) {
+  const auto receive = [&](const std::string& text) {
     std::istringstream in{text};
     for (std::string line; std::getline(in, line);) ++told[line];
   };
@@ -62,10 +62,12 @@ TEST_P(KeysTold, OnlyWithKeysOfTheBench) {
   const Greeting greeting{.boot = 1, .safety_schema = 1, .whole_schema = 2};
   Greeting of_car = greeting;
   of_car.real_car = GetParam().real_car;
-  Association car(
-      {.keys = pair.car, .greeting = of_car, .peer = {kBaseAddress, kBaseAddress}, .key_log = hear},
-      car_chance);
-  Association base({.keys = pair.base, .greeting = greeting, .key_log = hear}, base_chance);
+  Association car({.keys = pair.car,
+                   .greeting = of_car,
+                   .peer = {kBaseAddress, kBaseAddress},
+                   .key_log = receive},
+                  car_chance);
+  Association base({.keys = pair.base, .greeting = greeting, .key_log = receive}, base_chance);
   std::array<std::uint8_t, kMaxDatagram> out{}, plain{};
   const Instant now{seconds(1).ns};
   const auto opening = car.poll(0, now, out);

@@ -40,7 +40,7 @@ class Threats : public ::testing::Test {
   }
   std::uint64_t& refused(Refusal why) { return counters_.refused[static_cast<std::size_t>(why)]; }
   // 50 packets a second by each of two paths, so every other packet is a copy.
-  void hear() {
+  void receive() {
     ++counters_.opened;
     ++refused(Refusal::kReplayed);
     ++counters_.duplicates;
@@ -48,7 +48,7 @@ class Threats : public ::testing::Test {
   // A session that is heard, and old.
   void settle() {
     counters_.exchanges = 1;
-    run(kThreatSettled + seconds(1), [this] { hear(); });
+    run(kThreatSettled + seconds(1), [this] { receive(); });
     ASSERT_TRUE(monitor_.active().empty());
   }
   // How long the attack takes to be seen; zero: not within 5 s.
@@ -139,10 +139,10 @@ TEST_F(Threats, PacketsOfTheSessionBeforeAreExpectedAfterARestartOnly) {
   run(seconds(5), stray);
   EXPECT_TRUE(monitor_.active().empty()) << "no session";
   counters_.exchanges = 1;
-  run(seconds(5), [&] { hear(), stray(); });
+  run(seconds(5), [&] { receive(), stray(); });
   EXPECT_TRUE(monitor_.active().empty()) << "a young session";
   settle();
-  EXPECT_GT(seen_after(Threat::kRefusedAtRate, [&] { hear(), stray(); }), Duration{});
+  EXPECT_GT(seen_after(Threat::kRefusedAtRate, [&] { receive(), stray(); }), Duration{});
 }
 
 TEST_F(Threats, AFloodIsSeenAtOnceWhateverTheSession) {
@@ -158,13 +158,13 @@ TEST_F(Threats, AFloodIsSeenAtOnceWhateverTheSession) {
 TEST_F(Threats, CopiesAreOneByEachPathAndOneOfTheNetworkForEach) {
   settle();
   run(seconds(20), [this] {
-    hear();
+    receive();
     counters_.duplicates += 2;
     refused(Refusal::kReplayed) += 2;
   });
   EXPECT_TRUE(monitor_.active().empty());
   const Duration seen = seen_after(Threat::kRefusedAtRate, [this] {
-    hear();
+    receive();
     counters_.duplicates += 8;
     refused(Refusal::kReplayed) += 8;
   });
@@ -176,7 +176,7 @@ TEST_F(Threats, CopiesAreOneByEachPathAndOneOfTheNetworkForEach) {
 TEST_F(Threats, OpeningsThatTheNetworkCopiesAreNone) {
   settle();
   run(seconds(20), [this, tick = 0]() mutable {
-    hear();
+    receive();
     if (++tick % 5 == 0) ++refused(Refusal::kOldStamp), ++refused(Refusal::kOldExchange);
     if (tick % 200 == 0) ++counters_.relayed;
   });
@@ -203,7 +203,7 @@ TEST_F(Threats, ReplayedOpeningsAreSeenBesideASessionAndWithoutOne) {
   EXPECT_LE(seen, seconds(2));
   run(kThreatHold + 2 * kThreatWindow);
   settle();
-  seen = seen_after(Threat::kReplayedOpenings, [&] { hear(), attack(); });
+  seen = seen_after(Threat::kReplayedOpenings, [&] { receive(), attack(); });
   EXPECT_GT(seen, Duration{});
   EXPECT_LE(seen, milliseconds(500));
   EXPECT_EQ(monitor_.active(), only(Threat::kReplayedOpenings));
@@ -220,7 +220,7 @@ TEST_F(Threats, ARelayIsSeen) {
 TEST_F(Threats, ASecondPeerThatTakesTurnsIsSeen) {
   settle();
   const Duration seen = seen_after(Threat::kSecondPeer, [this, tick = 0]() mutable {
-    hear();
+    receive();
     if (tick % 12 == 0) ++counters_.second_peers;
     if (tick++ % 12 == 3) ++counters_.exchanges;
   });
@@ -232,7 +232,7 @@ TEST_F(Threats, ASecondPeerThatTakesTurnsIsSeen) {
 TEST_F(Threats, ASecondPeerThatOnlyKnocksIsSeen) {
   settle();
   const auto knocks = at_rate(counters_.second_peers, 2.0);
-  const Duration seen = seen_after(Threat::kSecondPeer, [&] { hear(), knocks(); });
+  const Duration seen = seen_after(Threat::kSecondPeer, [&] { receive(), knocks(); });
   EXPECT_GT(seen, Duration{});
   EXPECT_LE(seen, seconds(2));
 }
@@ -241,7 +241,7 @@ TEST_F(Threats, ASecondPeerThatOnlyKnocksIsSeen) {
 TEST_F(Threats, ASecondAnswerIsSeenByTheCar) {
   monitor_ = ThreatMonitor(Role::kCar, 2);
   const Duration seen = seen_after(Threat::kSecondPeer, [this, once = false]() mutable {
-    hear();
+    receive();
     if (!once) once = true, ++counters_.exchanges, ++counters_.second_peers;
   });
   EXPECT_GT(seen, Duration{});
@@ -254,7 +254,7 @@ TEST_F(Threats, ARestartOfThePeerIsNone) {
     settle();
     run(seconds(1), at_rate(counters_.second_peers, openings));
     ++counters_.exchanges;
-    run(seconds(20), [this] { hear(); });
+    run(seconds(20), [this] { receive(); });
     EXPECT_TRUE(changes_.empty()) << openings;
   }
 }

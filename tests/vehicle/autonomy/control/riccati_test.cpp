@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "protocol/vocabulary/random.hpp"
 #include "tests/support/eigenvalues.hpp"
 
 namespace pitwall::control {
@@ -14,16 +15,9 @@ namespace {
 
 using Eigen::MatrixXd;
 
-double uniform(std::uint64_t& state) {  // splitmix64, -1..1
-  std::uint64_t z = (state += 0x9E3779B97F4A7C15ULL);
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-52 - 1.0;
-}
-
-MatrixXd random_matrix(std::uint64_t& state, Eigen::Index rows, Eigen::Index columns) {
+MatrixXd random_matrix(Random& random, Eigen::Index rows, Eigen::Index columns) {
   MatrixXd m(rows, columns);
-  for (Eigen::Index i = 0; i < m.size(); ++i) m(i) = uniform(state);
+  for (Eigen::Index i = 0; i < m.size(); ++i) m(i) = random.between(-1.0, 1.0);
   return m;
 }
 
@@ -53,11 +47,12 @@ TEST(Riccati, ScalarHasItsClosedForm) {
 }
 
 TEST(Riccati, RandomSystemsObeyTheLaws) {
-  std::uint64_t seed = 1;
+  Random random{1};
   for (Eigen::Index n = 1; n <= 8; ++n) {
     for (int i = 0; i < 20; ++i) {
-      const MatrixXd b = random_matrix(seed, n, 2), c = random_matrix(seed, n, n);
-      const RiccatiProblem p{3.0 * random_matrix(seed, n, n), b * b.transpose(), c.transpose() * c};
+      const MatrixXd b = random_matrix(random, n, 2), c = random_matrix(random, n, n);
+      const RiccatiProblem p{3.0 * random_matrix(random, n, n), b * b.transpose(),
+                             c.transpose() * c};
       const auto x = solve(p);
       ASSERT_TRUE(x) << n << ' ' << i;
       expect_stabilising(p, *x, std::to_string(n));
@@ -69,9 +64,9 @@ TEST(Riccati, RandomSystemsObeyTheLaws) {
 
 TEST(Riccati, ScalesAcrossManyOrdersOfMagnitude) {
   // X of (A, G, Q) is X / s of (A, G s, Q / s).
-  std::uint64_t seed = 7;
-  const MatrixXd b = random_matrix(seed, 4, 1);
-  const RiccatiProblem p{random_matrix(seed, 4, 4), b * b.transpose(), MatrixXd::Identity(4, 4)};
+  Random random{7};
+  const MatrixXd b = random_matrix(random, 4, 1);
+  const RiccatiProblem p{random_matrix(random, 4, 4), b * b.transpose(), MatrixXd::Identity(4, 4)};
   const auto x = solve(p);
   ASSERT_TRUE(x);
   for (const double s : {1e-8, 1e-3, 1e4, 1e9}) {

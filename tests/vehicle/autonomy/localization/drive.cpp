@@ -114,9 +114,9 @@ world::GnssPosition Rig::position(std::size_t unit, std::int64_t at_ms) {
   Random& r = random[unit];
   std::array<double, 3>& w = wander_m[unit];
   for (double& axis : w)
-    axis += -axis * step_s / 30.0 + 0.949 * sigma * std::sqrt(2.0 * step_s / 30.0) * r.normal();
-  const double dx = w[0] + white * r.normal() + sensors.east_m[unit];
-  const double dy = w[1] + white * r.normal(), dz = w[2] + white * r.normal();
+    axis += -axis * step_s / 30.0 + 0.949 * sigma * std::sqrt(2.0 * step_s / 30.0) * draw_normal(r);
+  const double dx = w[0] + white * draw_normal(r) + sensors.east_m[unit];
+  const double dy = w[1] + white * draw_normal(r), dz = w[2] + white * draw_normal(r);
   kPlane.Reverse(at.x() + dx, at.y() + dy, at.z() + dz, p.latitude_deg, p.longitude_deg,
                  p.height_m);
   p.latitude_sigma_m = p.longitude_sigma_m = p.height_sigma_m =
@@ -133,7 +133,7 @@ world::GnssVelocity Rig::velocity(std::size_t unit, std::int64_t at_ms) {
     return place(course, s) + attitude(course, s) * antenna_of(*this, unit);
   };
   Random& r = random[unit];
-  const Eigen::Vector3d noise{r.normal(), r.normal(), r.normal()};
+  const Eigen::Vector3d noise{draw_normal(r), draw_normal(r), draw_normal(r)};
   const Eigen::Vector3d speed =
       (path(t + h) - path(t - h)) / (2 * h) + sensors.velocity_sigma_mps * noise;
   auto v = named<world::GnssVelocity>(*this, unit, at_ms);
@@ -153,7 +153,7 @@ world::GnssHeading Rig::heading(std::size_t unit, std::int64_t at_ms) {
   h.solution_status = sensors.no_fix ? 1 : world::kSolutionComputed;
   h.position_type = sensors.no_fix ? world::kPositionNone : world::kPositionNarrowInt;
   h.heading_rad = 0.5 * std::numbers::pi - std::atan2(line.y(), line.x()) +
-                  sensors.turned_rad[unit] + sensors.heading_sigma_rad * random[unit].normal();
+                  sensors.turned_rad[unit] + sensors.heading_sigma_rad * draw_normal(random[unit]);
   h.heading_sigma_rad = sensors.heading_sigma_rad;
   h.baseline_m = mount(unit).baseline_m;
   return h;
@@ -167,8 +167,8 @@ world::ImuSample Rig::imu(std::size_t unit, std::int64_t at_ms) {
   auto s = named<world::ImuSample>(*this, unit, at_ms);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<Eigen::Index>(axis);
-    s.rate_rad_per_s[axis] = w[i] + sensors.gyro_sigma_rad_per_s * r.normal();
-    s.specific_force_mps2[axis] = f[i] + sensors.accel_sigma_mps2 * r.normal();
+    s.rate_rad_per_s[axis] = w[i] + sensors.gyro_sigma_rad_per_s * draw_normal(r);
+    s.specific_force_mps2[axis] = f[i] + sensors.accel_sigma_mps2 * draw_normal(r);
   }
   s.rate_rad_per_s[2] += sensors.gyro_bias_rad_per_s[unit];
   return s;
@@ -208,7 +208,7 @@ void Rig::turn_wheels() {
   constexpr std::array kLeft{1.0, -1.0, 1.0, -1.0};
   for (std::size_t i = 0; i < world::kCorners; ++i)
     signals.wheel_speed_mps.value.at[i] = (forward - kLeft[i] * side) * sensors.wheel_factor[i] +
-                                          sensors.wheel_sigma_mps * wheel_random.normal();
+                                          sensors.wheel_sigma_mps * draw_normal(wheel_random);
 }
 
 const Output& Rig::take(const world::SensorInput& in) {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "tests/vehicle/autonomy/localization/recommended.hpp"
-#include "vehicle/autonomy/localization/filter.hpp"
+#include "vehicle/autonomy/localization/filter/filter.hpp"
 
 namespace pitwall::localization::testing {
 
@@ -119,8 +119,8 @@ class OvalDrive {
     draw(accel_scale_, sensors_.scale);
     draw(sky_, 1.0);
     for (auto& own : own_) draw(own, 1.0);
-    tilt_rad_ = sensors_.road_tilt_rad * random_.normal();
-    sunk_m_ = sensors_.road_height_m * random_.normal();
+    tilt_rad_ = sensors_.road_tilt_rad * draw_normal(random_);
+    sunk_m_ = sensors_.road_height_m * draw_normal(random_);
   }
 
   std::vector<Arrival> run(double for_s) {
@@ -136,16 +136,16 @@ class OvalDrive {
     const double t = 0.0;
     const Pose pose = oval_.pose(t);
     const Eigen::Vector3d antenna = pose.at + pose.attitude * arm(0);
-    return {
-        .at = Instant{},
-        .antenna_m = {antenna.x() + sensors_.position_m * random_.normal(),
-                      antenna.y() + sensors_.position_m * random_.normal(), antenna.z()},
-        .antenna_sigma_m = sensors_.position_m,
-        .arm = recommended().units[0].antenna,
-        .yaw_rad = std::atan2(pose.attitude(1, 0), pose.attitude(0, 0)) + 0.01 * random_.normal(),
-        .yaw_sigma_rad = 0.01,
-        .speed_mps = oval_.forward_mps(t),
-        .road = road(t)};
+    return {.at = Instant{},
+            .antenna_m = {antenna.x() + sensors_.position_m * draw_normal(random_),
+                          antenna.y() + sensors_.position_m * draw_normal(random_), antenna.z()},
+            .antenna_sigma_m = sensors_.position_m,
+            .arm = recommended().units[0].antenna,
+            .yaw_rad =
+                std::atan2(pose.attitude(1, 0), pose.attitude(0, 0)) + 0.01 * draw_normal(random_),
+            .yaw_sigma_rad = 0.01,
+            .speed_mps = oval_.forward_mps(t),
+            .road = road(t)};
   }
 
   // Positions, velocities and headings of a unit; a silent bias of its position.
@@ -158,11 +158,11 @@ class OvalDrive {
 
  private:
   void draw(Eigen::Vector3d& v, double sigma) {
-    for (int i = 0; i < 3; ++i) v[i] = sigma * random_.normal();
+    for (int i = 0; i < 3; ++i) v[i] = sigma * draw_normal(random_);
   }
   Eigen::Vector3d noise(double sigma) { return noise(sigma, sigma); }
   Eigen::Vector3d noise(double level, double vertical) {
-    const double x = random_.normal(), y = random_.normal(), z = random_.normal();
+    const double x = draw_normal(random_), y = draw_normal(random_), z = draw_normal(random_);
     return {level * x, level * y, vertical * z};
   }
   static Eigen::Vector3d arm(std::size_t unit) {
@@ -218,7 +218,7 @@ class OvalDrive {
         oval_.pose(t_s).attitude * Eigen::Vector3d(std::cos(direction), std::sin(direction), 0.0);
     return {.kind = Kind::kHeading,
             .a = wrap_pi(std::atan2(line.y(), line.x()) - direction +
-                         sensors_.heading_rad * random_.normal()),
+                         sensors_.heading_rad * draw_normal(random_)),
             .sigma_a = sensors_.heading_rad,
             .direction_rad = direction};
   }
@@ -255,7 +255,7 @@ class OvalDrive {
     if (ms % 10 == 5) {
       say({.kind = Kind::kWheelSpeed,
            .a = (1.0 + sensors_.wheel_scale) * oval_.forward_mps(t) +
-                sensors_.wheel_mps * random_.normal()},
+                sensors_.wheel_mps * draw_normal(random_)},
           0, 3);
       say({.kind = Kind::kSlip}, 0, 3);
     }

@@ -5,26 +5,18 @@
 #include <cstdint>
 #include <numbers>
 
+#include "protocol/vocabulary/random.hpp"
+
 #include "vehicle/autonomy/localization/params.hpp"
 
 namespace pitwall::localization::testing {
 
-// splitmix64; the sum of twelve uniform numbers is normal enough for 6 sigma.
-struct Random {
-  std::uint64_t state = 1;
-
-  double uniform() {
-    std::uint64_t z = (state += 0x9E3779B97F4A7C15ULL);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
-  }
-  double normal() {
-    double sum = -6.0;
-    for (int i = 0; i < 12; ++i) sum += uniform();
-    return sum;
-  }
-};
+// The sum of twelve uniform numbers is normal enough for 6 sigma.
+inline double draw_normal(Random& random) {
+  double sum = -6.0;
+  for (int i = 0; i < 12; ++i) sum += random.uniform();
+  return sum;
+}
 
 inline PlanarParams recommended_planar() {
   return {.noise = {.gyro_rad_per_sqrt_s = 5e-4,

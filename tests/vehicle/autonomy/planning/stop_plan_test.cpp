@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "protocol/vocabulary/random.hpp"
 #include "tests/vehicle/autonomy/planning/stadium.hpp"
 
 namespace pitwall::planning {
@@ -23,17 +24,6 @@ StopLimits limits_on(double tyre_c) {
   return {on_tyres(kParams.line.friction, tyre_c), kParams.stop_grip_share,
           kParams.stop_decel_max_mps2, kParams.stop_jerk_max_mps3};
 }
-
-// splitmix64: small, seeded, the same everywhere.
-struct Random {
-  std::uint64_t state;
-  double between(double low, double high) {
-    std::uint64_t z = (state += 0x9E3779B97F4A7C15ull);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
-    return low + (high - low) * static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-  }
-};
 
 // A road whose curvature and banking wander as those of an oval do: by ramps of 60 m and more.
 RoadAhead random_road(Random& random) {

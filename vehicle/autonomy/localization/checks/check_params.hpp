@@ -7,9 +7,9 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <string_view>
 
 #include "protocol/vocabulary/result.hpp"
+#include "vehicle/world/legal_range.hpp"
 
 namespace pitwall::localization {
 
@@ -66,13 +66,7 @@ struct CheckParams {
   double readmit_alone_after_s = 0.1;  // where nothing else gives the state
 };
 
-struct CheckRange {
-  std::string_view name;
-  double CheckParams::*value;
-  double least, most;
-};
-
-inline constexpr auto kCheckRanges = std::to_array<CheckRange>({
+inline constexpr auto kCheckRanges = std::to_array<world::NamedRange<CheckParams>>({
     {"future_max_s", &CheckParams::future_max_s, 0.0, 0.1},
     {"reorder_max_s", &CheckParams::reorder_max_s, 0.0, 0.5},
     {"spacing_min_s", &CheckParams::spacing_min_s, 0.0, 0.004},

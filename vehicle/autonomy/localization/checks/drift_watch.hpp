@@ -1,6 +1,5 @@
-// How far the positions of each unit have strayed from where the car's own speed says they went:
-// of two units that come apart slowly, the one that strays is to blame, although the filter follows
-// both.
+// Drift detector of each unit's positions against the motion by the car's own speed: of two units
+// that come apart slowly, the one that drifts is to blame, although the filter follows both.
 //   in     per tick the velocity in Map; per position its residual-free place in Map
 //   out    distance from where the unit has been over the last drift_memory_s, m
 //   invariants

@@ -1,6 +1,6 @@
-// The stamps that one stream has used lately, so that none is used twice and a clock that stands
-// still or runs back is seen. Datagrams may change places: an older stamp that was not used yet is
-// no fault within the limit.
+// Detector of repeated stamps in one stream, and of a clock that stands still or runs back. It
+// keeps the recent stamps. Datagrams may arrive out of order: an older stamp that was not used yet
+// is no fault within the limit.
 //
 //     used   10  60 110 160      arrives 160: stands still      arrives 85: 75 before the newest
 //

@@ -6,7 +6,7 @@
 
 namespace pitwall::localization {
 
-void Trust::hear(double silence_s, Instant now) {
+void Trust::receive(double silence_s, Instant now) {
   if (heard && now - heard_at > from_seconds(silence_s)) {
     trusted = false;
     consistent = false;

@@ -1,5 +1,5 @@
-// Whether a stream may be used again: what was refused some times in a row, or was silent for long,
-// has to be consistent for a while first.
+// Trust in a stream: a stream that was refused some times in a row, or was silent for long, has to
+// be consistent for a while before it is used again.
 //
 //   refused  x x x . . . . . . . .      x refused for a reason of its own, . passes every check
 //   trusted  T T - - - - - - - T T      after readmit_after_s without an x; alone: sooner
@@ -24,7 +24,7 @@ struct Trust {
   Instant heard_at{}, consistent_since{};
 
   // A sample comes at `now`; a silence before it that was longer than `silence_s` ends the trust.
-  void hear(double silence_s, Instant now);
+  void receive(double silence_s, Instant now);
   // It was refused.
   void refuse(const CheckParams& params);
   // It passed every check; true: it may enter.

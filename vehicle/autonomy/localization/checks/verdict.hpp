@@ -1,4 +1,4 @@
-// What localization says of a sample, and what it has said so far: the words of its checks.
+// Verdicts of localization's checks on samples, and their counts.
 //   invariants
 //          every sample gets one verdict; a refused one changes no estimate, and none is repaired
 // SPDX-License-Identifier: Apache-2.0

@@ -1,6 +1,6 @@
-// How far the wheels' speed is from the car's: a tyre grows with the square of its speed, so that
-// its wheel reads low; what is left of it (pressure, wear, steady slip) is learned while receivers
-// say the speed, and held while they do not.
+// Scale of the wheel speeds against the car's speed: a tyre grows with the square of its speed, so
+// that its wheel reads low; the rest (pressure, wear, steady slip) is learned while receivers give
+// the speed, and held while they do not.
 //
 //     true = reported (1 + growth (v^2 - v0^2) + learned)
 //

@@ -90,7 +90,7 @@ function Newest() {
     return (
       <section class="panel grows" aria-label="run">
         <h2>Run</h2>
-        <p class="empty">Nothing has been run since the desk was started.</p>
+        <p class="empty">Nothing has been run since the server was started.</p>
       </section>
     );
   }
@@ -115,11 +115,11 @@ export function HilPage() {
     <main class="page hil-page" data-up={link?.up ?? false}>
       <p class="simulation" role="note">
         <b>HIL</b> simulation: nothing here comes from a car or goes to one.
-        {link === null && " This base was given no bench desk (--bench)."}
+        {link === null && " This base was given no bench server (--bench)."}
         {link &&
           !link.up &&
-          ` ${link.why_not ?? "no desk"}${link.problem ? `: ${link.problem}` : ""}.`}
-        {link && link.malformed > 0 && ` ${link.malformed} lines of the desk were no lines.`}
+          ` ${link.why_not ?? "no server"}${link.problem ? `: ${link.problem}` : ""}.`}
+        {link && link.malformed > 0 && ` ${link.malformed} lines of the server were no lines.`}
       </p>
       <div class="column">
         <ChooserPanel />

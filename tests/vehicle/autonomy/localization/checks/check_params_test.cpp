@@ -16,7 +16,7 @@ TEST(CheckParams, TheDefaultsAreLegal) { EXPECT_FALSE(illegal(CheckParams{})); }
 
 TEST(CheckParams, EveryLimitHasItsRangeOnce) {
   std::set<std::string> names;
-  for (const CheckRange& range : kCheckRanges) {
+  for (const auto& range : kCheckRanges) {
     EXPECT_TRUE(names.emplace(range.name).second) << range.name;
     EXPECT_LT(range.least, range.most) << range.name;
   }
@@ -24,7 +24,7 @@ TEST(CheckParams, EveryLimitHasItsRangeOnce) {
 }
 
 TEST(CheckParams, WhatIsOutsideIsNamed) {
-  for (const CheckRange& range : kCheckRanges) {
+  for (const auto& range : kCheckRanges) {
     for (const double bad :
          {range.least - 1e-6, range.most + 1e-6, kUnset, std::numeric_limits<double>::infinity()}) {
       CheckParams params;

@@ -23,7 +23,7 @@ struct TrustRig {
   }
   void step() {
     now += milliseconds(50);
-    trust.hear(params.rate_window_s, now);
+    trust.receive(params.rate_window_s, now);
   }
 };
 

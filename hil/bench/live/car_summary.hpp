@@ -1,0 +1,67 @@
+// Summary of the car process when it stops: its --summary file, a JSON object.
+//   errors Problem with the place in the file
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+#include "protocol/vocabulary/units.hpp"
+#include "vehicle/world/bus_health.hpp"
+
+namespace pitwall::bench {
+
+// How one message was in the end.
+struct CarMessage {
+  std::uint32_t id = 0;
+  std::string liveness{};
+  std::uint64_t debt = 0, lost = 0, bad = 0;
+  std::uint64_t late = 0;  // reported missing, and came after all
+  Duration mean_interval{};
+  Instant last{};
+};
+
+// One of its receivers, as vehicle/io/receiver_port.hpp writes it.
+struct CarReceiver {
+  std::string link, kind;
+  std::vector<std::pair<std::string, std::uint64_t>> counts;
+};
+
+// One of its sensors that come over ROS 2 topics: samples, and what was refused or overwritten.
+struct CarSensor {
+  std::string name;
+  std::vector<std::pair<std::string, std::uint64_t>> counts;
+};
+
+struct CarSummary {
+  using Counts = std::vector<std::pair<std::string, std::uint64_t>>;
+
+  std::uint64_t ticks = 0, missed_deadlines = 0;
+  std::uint64_t frames_received = 0, frames_sent = 0, frames_refused = 0, tx_drops = 0;
+  std::uint64_t rx_dropped = 0, gate_refusals = 0;
+  std::uint64_t frames_applied = 0, frames_lost = 0, loss_reports = 0;
+  Counts refused_by_kind, gate_verdicts;
+  std::string controller;
+  std::string database, identity, identity_sentence;  // of the bus
+  Counts link;
+  // Of its radio, as vehicle/io/report/radio_summary.hpp writes them; empty where it had none.
+  Counts radio, radio_refused, radio_commands;
+  std::vector<Counts> radio_paths;
+  std::vector<CarReceiver> receivers;
+  std::vector<CarSensor> sensors;
+  Counts recorder;  // of its own recording; empty where it had none
+  std::vector<CarMessage> messages;
+  std::vector<world::LossReport> losses;  // the first of loss_reports
+  double step_p50_us = kUnset, step_p99_us = kUnset, step_max_us = kUnset;
+};
+
+Result<CarSummary, Problem> read_car_summary(const std::string& path);
+
+// Frames due by then that never came: what was reported missing, less what came after all.
+std::uint64_t frames_that_never_came(const CarSummary& car, Instant until);
+
+}  // namespace pitwall::bench

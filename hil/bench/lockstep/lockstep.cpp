@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/lockstep/lockstep.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "basestation/inputs/text_command.hpp"
+#include "hil/bench/contact.hpp"
+#include "hil/bench/lockstep/bus_faults.hpp"
+#include "hil/bench/lockstep/clock_faults.hpp"
+#include "hil/bench/lockstep/virtual_station.hpp"
+#include "hil/bench/path_deviation.hpp"
+#include "hil/bench/receiver_codec.hpp"
+#include "hil/bench/run_record.hpp"
+#include "hil/bench/signals.hpp"
+#include "hil/can_bus/memory_bus.hpp"
+#include "hil/grading/grader.hpp"
+
+namespace pitwall::bench {
+namespace {
+
+constexpr std::size_t kInboxFrames = 4096;  // a second of a full bus, and one tick is 10 ms
+
+class Lockstep {
+ public:
+  Lockstep(const scenario::Scenario& scenario, const pipeline::Setup& setup, Rig rig,
+           grading::Grader grader, GuardianNode guardian, const FaultPlan& faults,
+           const LockstepOptions& options)
+      : scenario_(scenario),
+        setup_(setup),
+        rig_(std::move(rig)),
+        grader_(std::move(grader)),
+        guardian_(std::move(guardian)),
+        base_(scenario, setup, faults),
+        bus_faults_(faults.bus),
+        clock_faults_(faults.clock),
+        module_faults_(faults.modules),
+        encoder_(setup.params.receivers, faults.bytes),
+        decoder_(setup.params.receivers),
+        guardian_decoder_(setup.params.receivers),
+        options_(options),
+        bus_({.ports = kNodes, .bit_rate = 500'000, .seed = scenario.seed}),
+        car_(std::make_unique<pipeline::Car>()),
+        stepped_at_(Instant{} - setup.params.rates.tick) {
+    inbox_.reserve(kInboxFrames);
+    heard_.reserve(kInboxFrames);
+    if (options.log) record_.emplace(scenario, "lockstep", options.log);
+  }
+
+  RunResult run() {
+    const Duration tick = setup_.params.rates.tick;
+    for (Instant now{}; now - Instant{} <= scenario_.duration; now += tick) {
+      step_computer(now);
+      for (Instant at = now + kRigStep; at <= now + tick; at += kRigStep) step_rig(at);
+      const bool over = options_.over && options_.over(view(now));
+      if (!over && !has_contact(result_.outcome)) continue;
+      length_ = now - Instant{};
+      break;
+    }
+    return finish();
+  }
+
+ private:
+  // What waits for a process that is stopped waits on; one that was killed begins anew.
+  void step_computer(Instant now) {
+    if (guardian_.car_restarts(now)) {
+      *car_ = {};
+      inbox_.clear();
+      decoder_ = ReceiverDecoder{setup_.params.receivers};
+      base_.restart_car();
+      stepped_at_ = now - setup_.params.rates.tick;
+    }
+    if (guardian_.car_runs(now))
+      step_car(now);
+    else if (out_)
+      out_->seen = {};
+    judge(*out_, now);
+    note_changes(*out_, now);
+    if (options_.follow) options_.follow(view(now));
+    out_->chosen.mode_changed = false;
+    if (options_.watch) options_.watch(*out_, rig_, now);
+  }
+
+  RunView view(Instant now) const {
+    return {.now = now,
+            .rig = rig_,
+            .mode = static_cast<double>(out_->chosen.mode),
+            .grader = grader_,
+            .result = result_};
+  }
+
+  void step_car(Instant now) {
+    pipeline::Inputs in{.now = now,
+                        .dt = now - stepped_at_,
+                        .can = inbox_,
+                        .sensors = decoder_.samples(),
+                        .requests = {.arm = guardian_.armed_from_the_start()},
+                        .gnss_byte_at = decoder_.byte_at(),
+                        .link = link_of_car(bus_),
+                        .guardian = guardian_.view(now)};
+    base_.receive(in);
+    hang_planner(now);
+    out_ = options_.step(setup_, *car_, in);
+    const auto told = base_.publish(*car_, in, *out_, decoder_.traffic());
+    if (told && options_.watch_telemetry) options_.watch_telemetry(*told, now);
+    stepped_at_ = now;
+    if (out_->bus_guard.restart_now) restart_controller(now);
+    decoder_.clear();
+    result_.traffic.car_received += inbox_.size();
+    inbox_.clear();
+    guardian_.publish(setup_, *car_, *out_, now);
+    for (const can::Frame& frame : out_->passed.frames)
+      if (bus_.offer(static_cast<std::uint8_t>(Node::kCar), frame, now)) ++result_.traffic.from_car;
+  }
+
+  // A planner that hangs has always just begun: its last plan stays, and grows old.
+  void hang_planner(Instant now) {
+    const bool hangs = std::ranges::any_of(module_faults_, [now](const faults::BenchFault& fault) {
+      return fault.kind == faults::BenchFaultKind::kPlannerHangs && faults::active(fault, now);
+    });
+    if (hangs) car_->plan.at = now;
+  }
+
+  void restart_controller(Instant now) {
+    bus_.restart(static_cast<std::uint8_t>(Node::kCar), now);
+    bus_faults_.car_restarts_controller(now);
+  }
+
+  void step_guardian(Instant at) {
+    if (!guardian_.present() || (at - Instant{}).ns % guardian::kTick.ns != 0) return;
+    for (const can::Frame& frame : guardian_.step(guardian_decoder_.samples(), at))
+      bus_.offer(static_cast<std::uint8_t>(Node::kGuardian), frame, at);
+    guardian_decoder_.clear();
+    const guardian::Mode mode = guardian_.status().mode;
+    const bool acts = mode != guardian::Mode::kIdle && mode != guardian::Mode::kWatching;
+    if (guardian_.mode_changed() && acts && record_)
+      record_->event(at, "guardian",
+                     std::string(guardian::text_of(guardian_.status().mode)) + " (" +
+                         guardian::text_of(guardian_.status().cause) + ")");
+    if (options_.watch_guardian) options_.watch_guardian(guardian_, at);
+  }
+
+  // The receivers' bytes, to each of the car's two processes.
+  void hear_receivers(Instant at) {
+    if (!rig_.has_samples()) return;
+    encoder_.encode(clock_faults_.apply(rig_.take_samples(), at), at,
+                    [&](std::uint8_t unit, std::span<const std::uint8_t> bytes) {
+                      decoder_.receive(unit, bytes, at);
+                      if (guardian_.present()) guardian_decoder_.receive(unit, bytes, at);
+                    });
+  }
+
+  void step_rig(Instant at) {
+    rig_.step(heard_, at);
+    heard_.clear();
+    for (const Outgoing& outgoing : rig_.take_frames())
+      if (bus_.offer(static_cast<std::uint8_t>(outgoing.from), outgoing.frame, at))
+        ++result_.traffic.to_car;
+    bus_faults_.act_on(bus_, at);
+    for (const can_bus::Delivery& delivery : bus_.advance(at)) deliver(delivery);
+    base_.advance(at);
+    hear_receivers(at);
+    step_guardian(at);
+  }
+
+  // Every frame reaches both other ports; it is recorded once.
+  void deliver(const can_bus::Delivery& delivery) {
+    const auto from = static_cast<Node>(delivery.from);
+    const auto to = static_cast<Node>(delivery.to);
+    if (to == Node::kCar && inbox_.size() < kInboxFrames) inbox_.push_back(delivery.received);
+    if (to == Node::kGuardian) guardian_.receive(delivery.received);
+    if (to == Node::kDriveByWire && heard_.size() < kInboxFrames) {
+      heard_.push_back(delivery.received);
+      if (from == Node::kCar) ++result_.traffic.bench_received;
+    }
+    const bool computer = from == Node::kCar || from == Node::kGuardian;
+    const bool once = computer ? to == Node::kDriveByWire : to == Node::kCar;
+    if (record_ && once) record_->can(from, delivery.received.frame, delivery.received.at);
+  }
+
+  void judge(const pipeline::Outputs& out, Instant now) {
+    const CarReport report{.mode = static_cast<double>(out.chosen.mode),
+                           .gate_refusals = static_cast<double>(out.passed.refused_total),
+                           .bus_refusals = static_cast<double>(out.heard.bus.refused.total()),
+                           .x_m = out.ego.x_m,
+                           .y_m = out.ego.y_m,
+                           .yaw_rad = out.ego.yaw_rad,
+                           .identity = static_cast<double>(out.heard.bus.identity.verdict),
+                           .differing_id = static_cast<double>(out.heard.bus.identity.id),
+                           .cause = static_cast<double>(out.chosen.cause),
+                           .operator_limit_mps = out.speed_limit_mps,
+                           .seen = out.seen};
+    const double offset_m = setup_.params.planning.line.offset_m;
+    const double off_m = path_deviation_.off_path_m(rig_.truth(), cross_track_m(rig_, offset_m),
+                                                    report.mode, report.silent, now);
+    grader_.observe(now, observe({.rig = rig_,
+                                  .car = report,
+                                  .line_offset_m = offset_m,
+                                  .frames_lost = frames_lost(),
+                                  .radio_gap = base_.channel().silence(now).value_or(Duration{}),
+                                  .radio_gap_max = base_.channel().longest_silence(now),
+                                  .radio_limit = radio_limit_of(setup_.params),
+                                  .off_path_m = off_m}));
+    grading::add(result_.cross_track, rig_.truth().speed_mps, cross_track_m(rig_, offset_m));
+    result_.speed_max_mps = std::max(result_.speed_max_mps, rig_.truth().speed_mps);
+    follow(result_.outcome, whereabouts(rig_, offset_m, now));
+    result_.gate_refusals = out.passed.refused_total;
+    result_.bus_refusals = out.heard.bus.refused.total();
+    result_.bus_losses = out.heard.bus.frames_lost;
+    judge_identity(out);
+    if (!record_) return;
+    record_->truth(rig_, now, cross_track_m(rig_, offset_m));
+    record_->car(out, now);
+  }
+
+  void judge_identity(const pipeline::Outputs& out) {
+    const world::BusIdentity& identity = out.heard.bus.identity;
+    const bool changed = identity.verdict != identity_.verdict || identity.id != identity_.id ||
+                         identity.difference != identity_.difference;
+    identity_ = identity;
+    const bool wrong = identity.verdict == world::IdentityVerdict::kWrong;
+    if (changed) result_.refused_to_arm = wrong ? gateway::sentence(identity) : std::string{};
+    identity_changed_ = changed;
+  }
+
+  void note_changes(const pipeline::Outputs& out, Instant now) {
+    if (!record_) return;
+    if (rig_.flags().track != flag_) {
+      flag_ = rig_.flags().track;
+      record_->event(now, "flag", scenario::name_of(flag_));
+    }
+    if (identity_changed_) record_->event(now, "identity", gateway::sentence(identity_));
+    if (out.chosen.mode_changed)
+      record_->event(now, "mode",
+                     std::to_string(static_cast<int>(out.chosen.mode)) + " " +
+                         safety::text_of(out.chosen.cause));
+    if (rig_.laps().finished != laps_) {
+      laps_ = rig_.laps().finished;
+      record_->event(now, "lap", std::to_string(laps_));
+    }
+  }
+
+  std::uint64_t frames_lost() const { return bus_.counters().lost + rig_.overflows(); }
+
+  RunResult finish() {
+    result_.scenario = scenario_.name;
+    result_.mode = "lockstep";
+    result_.simulated_s = length_.seconds();
+    result_.verdicts = grader_.finish();
+    judge_contact(scenario_, result_);
+    result_.laps = rig_.laps();
+    for (const std::string& refusal : base_.refusals())
+      result_.remarks.push_back("the operator was refused: " + refusal);
+    result_.traffic.lost = frames_lost();
+    result_.traffic.bus_load = bus_.load();
+    if (record_) {
+      for (const grading::Verdict& verdict : result_.verdicts)
+        record_->verdict(Instant{} + length_, verdict);
+      record_->close();
+      result_.digest = record_->digest();
+    }
+    return result_;
+  }
+
+  const scenario::Scenario& scenario_;
+  const pipeline::Setup& setup_;
+  Rig rig_;
+  grading::Grader grader_;
+  GuardianNode guardian_;
+  VirtualStation base_;
+  BusFaults bus_faults_;
+  ClockFaults clock_faults_;
+  std::vector<faults::BenchFault> module_faults_;
+  ReceiverEncoder encoder_;
+  ReceiverDecoder decoder_, guardian_decoder_;
+  const LockstepOptions& options_;
+  can_bus::MemoryBus bus_;
+  std::unique_ptr<pipeline::Car> car_;
+  std::vector<can::ReceivedFrame> inbox_, heard_;
+  std::optional<pipeline::Outputs> out_;  // of the car's last tick
+  Instant stepped_at_;
+  std::optional<RunRecord> record_;
+  RunResult result_;
+  Duration length_ = scenario_.duration;
+  PathDeviation path_deviation_{setup_};
+  world::TrackFlag flag_ = world::TrackFlag::kNone;
+  std::uint32_t laps_ = 0;
+  world::BusIdentity identity_;  // as the car saw it last
+  bool identity_changed_ = false;
+};
+
+}  // namespace
+
+Result<RunResult, Problem> run_lockstep(const scenario::Scenario& scenario,
+                                        const pipeline::Setup& setup,
+                                        const LockstepOptions& options) {
+  if (auto problem = refused_by(BenchMode::kLockstep, scenario.faults))
+    return Unexpected{*std::move(problem)};
+  auto rig = Rig::build(scenario, setup.track);
+  if (!rig) return Unexpected{rig.error()};
+  auto expectations = expectations_of(scenario);
+  if (!expectations) return Unexpected{expectations.error()};
+  const std::vector<std::string> names = signal_names();
+  auto grader = grading::Grader::create(*expectations, names);
+  if (!grader) return Unexpected{grader.error()};
+  auto faults = plan_faults(scenario.faults, scenario.seed);
+  if (!faults) return Unexpected{faults.error()};
+  for (const scenario::OperatorText& word : scenario.operator_texts)
+    if (const auto fit = inputs::parse_text_command(word.text); !fit)
+      return Unexpected{fit.error()};
+  GuardianNode guardian{setup.params, faults->processes, options.guardian};
+  const auto bench = std::make_unique<Lockstep>(
+      scenario, setup, *std::move(rig), *std::move(grader), std::move(guardian), *faults, options);
+  return bench->run();
+}
+
+}  // namespace pitwall::bench

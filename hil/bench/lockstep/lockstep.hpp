@@ -1,0 +1,54 @@
+// The lockstep bench: car, bus and rig in one process and one thread, in virtual time. The same
+// scenario, build and seed give the same bytes of event log.
+//
+//   t      car: read what the bus delivered by t, step, offer frames
+//   t+1ms  rig: one plant step, offer frames; bus advances        (ten times per tick)
+//   t+10ms car: ...
+// The guardian, where there is one, is stepped every 5 ms, before the car.
+//
+//   in     scenario, Setup of the car, a sink for the event log (may drop everything)
+//   out    RunResult; wall time is for the caller to measure
+//   errors Problem of the scenario or of an unknown signal; nothing else stops a run
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "hil/bench/lockstep/guardian_node.hpp"
+#include "hil/bench/progress.hpp"
+#include "hil/bench/result.hpp"
+#include "hil/bench/rig.hpp"
+#include "hil/scenario/scenario.hpp"
+#include "protocol/recording/mcap_writer.hpp"
+#include "protocol/telemetry/registry/snapshot.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "vehicle/pipeline/step.hpp"
+
+namespace pitwall::bench {
+
+using StepFunction = std::function<pipeline::Outputs(const pipeline::Setup&, pipeline::Car&,
+                                                     const pipeline::Inputs&)>;
+
+struct LockstepOptions {
+  recording::Sink log = {};            // empty: no event log, no digest
+  StepFunction step = pipeline::step;  // the car; a benchmark or a test may wrap it to measure it
+  // Called after every tick of the car, e.g. by a test that watches for something.
+  // While its process is stopped or dead, with its last outputs.
+  std::function<void(const pipeline::Outputs&, const Rig&, Instant)> watch = {};
+  Follow follow = {};  // called after every tick of the car, once it was judged
+  // Asked at the end of every tick; true ends the run there, as if it had never been longer.
+  std::function<bool(const RunView&)> over = {};
+  // Called with what the car sends to the pit wall, when it sends.
+  std::function<void(const telemetry::Snapshot&, Instant)> watch_telemetry = {};
+  // The guardian is there where the scenario stops or kills a process; here: in any case.
+  bool guardian = false;
+  // Called after every tick of the guardian.
+  std::function<void(const GuardianNode&, Instant)> watch_guardian = {};
+};
+
+Result<RunResult, Problem> run_lockstep(const scenario::Scenario& scenario,
+                                        const pipeline::Setup& setup,
+                                        const LockstepOptions& options);
+
+}  // namespace pitwall::bench

@@ -1,0 +1,36 @@
+// Message between the bench time of a guest and that of its host: an instant, from the guest where
+// its time is, from the host how far that has been followed.
+//   units  eight bytes, the lowest first: nanoseconds of the guest's bench time
+//   errors none: what is of another length is nothing
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::can_bus {
+
+// The guest's end.
+inline constexpr const char* kClockLine = "/dev/ttyS3";
+
+using ClockMessage = std::array<std::uint8_t, 8>;
+
+constexpr ClockMessage to_word(Instant at) {
+  ClockMessage word{};
+  for (std::size_t i = 0; i < word.size(); ++i)
+    word[i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(at.ns) >> (8 * i));
+  return word;
+}
+
+constexpr std::optional<Instant> from_word(std::span<const std::uint8_t> word) {
+  if (word.size() != ClockMessage{}.size()) return std::nullopt;
+  std::uint64_t ns = 0;
+  for (std::size_t i = 0; i < word.size(); ++i) ns |= std::uint64_t{word[i]} << (8 * i);
+  return Instant{static_cast<std::int64_t>(ns)};
+}
+
+}  // namespace pitwall::can_bus

@@ -1,0 +1,34 @@
+// Requests of a client of the bench server, one line of JSON each: PROTOCOL.md.
+//   in     a line
+//   out    the request
+//   errors Problem with the member as place; nothing is guessed
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::bench_server {
+
+inline constexpr std::uint64_t kSeedMax = 1'000'000'000;  // as `run --seed` takes it
+inline constexpr std::size_t kNameMax = 200;
+
+struct StartRequest {
+  std::string scenario;
+  std::optional<std::uint64_t> seed;  // instead of the file's
+  bool live = false;
+  std::string by;
+};
+struct StopRequest {
+  std::string by;
+};
+using BenchRequest = std::variant<StartRequest, StopRequest>;
+
+Result<BenchRequest, Problem> parse_request(std::string_view line);
+
+}  // namespace pitwall::bench_server

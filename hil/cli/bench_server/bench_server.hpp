@@ -1,0 +1,95 @@
+// Bench server without sockets and processes: which scenarios there are, the run that goes on, what
+// each client is told.
+//   in     lines of clients; lines that the run tells of itself; how its process ended
+//   out    lines for the client that asked, lines for all; a run to start, the wish to stop it
+//   invariants
+//          one run at a time; a second start is refused with a reason
+//          a client that joins is told everything that the others know: the scenarios, the newest
+//          run, its plan, its events, its newest state, its result
+//          a process that ends without a result has crashed, and that is said
+//   bound  kEventsKept events of a run are kept for clients that join
+//   errors of clients: told to that client, counted
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hil/cli/bench_server/bench_request.hpp"
+#include "hil/cli/bench_server/catalogue.hpp"
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::bench_server {
+
+// A process to be started.
+struct Start {
+  std::uint64_t run = 0;  // from 1
+  std::string file;
+  std::uint64_t seed = 0;
+  bool live = false;
+};
+
+struct Answer {
+  std::vector<std::string> to_asker, to_all;
+  std::optional<Start> start;
+  bool stop = false;
+};
+
+struct BenchServerCounters {
+  std::uint64_t refused = 0;    // lines of clients
+  std::uint64_t malformed = 0;  // lines of runs
+};
+
+// How a process ended: exit code, or the signal that ended it.
+struct Ending {
+  int code = 0, signal = 0;
+};
+
+class BenchServer {
+ public:
+  static constexpr std::size_t kEventsKept = 2'000;
+
+  // `identity`: of this process, so that a client knows a server that was started anew.
+  explicit BenchServer(std::vector<Listed> scenarios, std::string identity = "server")
+      : scenarios_(std::move(scenarios)), identity_(std::move(identity)) {}
+
+  std::vector<std::string> greeting() const;
+  Answer heard(std::string_view line);
+
+  // `folder`: where the run leaves its files.
+  std::vector<std::string> started(std::string folder);
+  std::vector<std::string> not_started(const Problem& problem);
+  // One line of the run's own; nothing where it is none.
+  std::vector<std::string> progressed(std::string_view line);
+  std::vector<std::string> ended(const Ending& ending);
+
+  bool running() const { return run_ && run_->state == "running"; }
+  const std::vector<Listed>& scenarios() const { return scenarios_; }
+  const BenchServerCounters& counters() const { return counters_; }
+
+ private:
+  struct Run {
+    Start start;
+    std::string id, name, by, stopped_by, folder, state, why;
+    std::optional<Ending> ending;
+    std::string plan, at, result;  // the newest line of each
+    std::deque<std::string> events;
+  };
+
+  Answer start(const StartRequest& request);
+  Answer stop(const StopRequest& request);
+  Answer refuse(const Problem& problem);
+  std::string run_text() const;
+
+  std::vector<Listed> scenarios_;
+  std::string identity_;
+  std::optional<Run> run_;
+  std::uint64_t runs_ = 0;
+  BenchServerCounters counters_;
+};
+
+}  // namespace pitwall::bench_server

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/cli/bench_server/bench_socket.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <system_error>
+
+#include "protocol/transport/clock.hpp"
+#include "protocol/transport/readiness.hpp"
+#include "protocol/vocabulary/fixed_vector.hpp"
+
+namespace pitwall::bench_server {
+namespace {
+
+constexpr const char* kFull = R"({"type": "error", "place": "server", "what": "too many clients"})";
+
+}  // namespace
+
+BenchSocket::BenchSocket(ServerPlan plan, std::vector<Listed> scenarios,
+                         transport::LineListener listener)
+    : plan_(std::move(plan)),
+      server_(std::move(scenarios), "server " + std::to_string(transport::monotonic_now().ns)),
+      listener_(std::move(listener)) {}
+
+Result<BenchSocket, Problem> BenchSocket::open(ServerPlan plan) {
+  auto scenarios = list_scenarios(plan.scenarios);
+  if (!scenarios) return Unexpected{scenarios.error()};
+  std::error_code error;
+  std::filesystem::create_directories(plan.runs, error);
+  if (error) return Unexpected{Problem{plan.runs, error.message()}};
+  auto listener = transport::LineListener::open(plan.socket);
+  if (!listener) return Unexpected{listener.error()};
+  return BenchSocket{std::move(plan), *std::move(scenarios), *std::move(listener)};
+}
+
+void BenchSocket::serve(Instant deadline, int stop) {
+  FixedVector<int, transport::kMaxWatched> watched;
+  CHECK(watched.push(stop));
+  CHECK(watched.push(listener_.fd()));
+  CHECK(watched.push(running_ ? running_->process.fd() : -1));
+  for (const transport::LineSocket& client : clients_) CHECK(watched.push(client.fd()));
+  const bool turning = running_ || std::ranges::any_of(clients_, [](const auto& client) {
+                         return client.sending();
+                       });
+  const Instant next = turning ? transport::monotonic_now() + kTurn : deadline;
+  static_cast<void>(transport::wait_readable(watched.span(), std::min(deadline, next)));
+  welcome();
+  receive();
+  follow_run(transport::monotonic_now());
+  std::erase_if(clients_, [](const auto& client) { return client.closed(); });
+}
+
+void BenchSocket::welcome() {
+  while (auto client = listener_.accept()) {
+    if (clients_.size() >= kMaxClients) {
+      client->send(kFull);
+      continue;
+    }
+    for (const std::string& line : server_.greeting()) client->send(line);
+    clients_.push_back(*std::move(client));
+  }
+}
+
+void BenchSocket::receive() {
+  for (transport::LineSocket& client : clients_) {
+    for (const std::string& line : client.receive()) {
+      const Answer answer = server_.heard(line);
+      for (const std::string& told : answer.to_asker) client.send(told);
+      publish(answer.to_all);
+      if (answer.start) begin(*answer.start);
+      if (!answer.stop || !running_) continue;
+      running_->process.kill(SIGTERM);
+      running_->kill_at = transport::monotonic_now() + kStopLimit;
+    }
+  }
+}
+
+void BenchSocket::begin(const Start& start) {
+  const std::string folder = plan_.runs + "/" + std::to_string(start.run);
+  const std::string progress = folder + "/progress.jsonl";
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  std::filesystem::remove(progress, error);
+  if (error) return publish(server_.not_started({folder, error.message()}));
+  auto process = transport::Process::spawn(
+      {.argv = plan_.command(start, folder, progress), .own_group = true});
+  if (!process) return publish(server_.not_started(process.error()));
+  publish(server_.started(folder));
+  running_.emplace(Running{*std::move(process), ProgressTail{progress}, std::nullopt});
+}
+
+void BenchSocket::follow_run(Instant now) {
+  if (!running_) return;
+  if (running_->kill_at && now >= *running_->kill_at) running_->process.kill(SIGKILL);
+  // In this order: what a run told before it ended is read after it ended.
+  const auto status = running_->process.poll();
+  std::vector<std::string> lines;
+  do {
+    lines = running_->tail.read();
+    for (const std::string& line : lines) publish(server_.progressed(line));
+  } while (status && !lines.empty());
+  if (!status) return;
+  running_.reset();
+  publish(server_.ended({.code = status->code, .signal = status->signal}));
+}
+
+void BenchSocket::publish(const std::vector<std::string>& lines) {
+  for (transport::LineSocket& client : clients_)
+    for (const std::string& line : lines) client.send(line);
+}
+
+}  // namespace pitwall::bench_server

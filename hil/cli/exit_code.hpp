@@ -1,0 +1,22 @@
+// Exit codes of pitwall-hil, and its error output.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdio>
+
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::cli {
+
+inline constexpr int kExitPass = 0;
+inline constexpr int kExitFailed = 1;    // an expectation or a gate did not hold
+inline constexpr int kExitUnusable = 2;  // wrong usage, bad input, or the bench itself failed
+
+inline constexpr int kExitContact = 4;  // the car hit a wall, and the scenario does not name it
+
+inline int refuse(const Problem& problem) {
+  std::fprintf(stderr, "%s\n", to_string(problem).c_str());
+  return kExitUnusable;
+}
+
+}  // namespace pitwall::cli

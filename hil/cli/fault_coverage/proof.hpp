@@ -1,0 +1,83 @@
+// Proof that each monitor is needed: without it a scenario fails by what the car does, in a run in
+// which nobody asks what the monitors see.
+//   in     loaded scenarios that pass with every monitor; a monitor
+//   out    per scenario that asks for the monitor, the first expectation that fails without it
+//   invariants
+//          no `seen_...` counts, of this monitor or another: a fault that is only reported proves
+//          nothing. A contact that the scenario does not name counts
+//   errors Problem of a scenario
+//   cost   a run ends at the first expectation that fails
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hil/bench/loading.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "vehicle/world/monitor.hpp"
+
+namespace pitwall::fault_coverage {
+
+// A monitor whose absence changes nothing that the car does, and why it is there.
+struct InformsOnly {
+  world::Monitor monitor;
+  std::string_view reason;
+};
+
+inline constexpr std::size_t kInformsOnlyMax = 4;
+inline constexpr std::array kInformsOnly{
+    InformsOnly{world::Monitor::kBusLoad,
+                "a full bus harms by late messages alone, and message_age acts on those; the load "
+                "tells the operator whose fault they are"},
+    InformsOnly{world::Monitor::kFlagAgreement,
+                "of two flags that differ the car heeds the stricter and of an unknown one it "
+                "stops, whoever notices; the operator has to ask race control"},
+};
+static_assert(kInformsOnly.size() <= kInformsOnlyMax);
+
+constexpr const InformsOnly* informs_only(world::Monitor monitor) {
+  for (const InformsOnly& row : kInformsOnly)
+    if (row.monitor == monitor) return &row;
+  return nullptr;
+}
+static_assert(informs_only(world::Monitor::kChecksum) == nullptr &&
+                  informs_only(world::Monitor::kClock) == nullptr &&
+                  informs_only(world::Monitor::kTiming) == nullptr &&
+                  informs_only(world::Monitor::kFrameShape) == nullptr &&
+                  informs_only(world::Monitor::kModule) == nullptr,
+              "the car acts on what these see");
+
+// Whether a scenario asks for this monitor.
+bool asks(const scenario::Scenario& scenario, world::Monitor monitor);
+
+// Whether an expectation is about what the car does, not about what its monitors see.
+bool is_consequence(const scenario::Expectation& expectation);
+
+struct Consequence {
+  std::string scenario, expectation, reason;
+};
+
+// What fails without the monitor; none: the scenario passes without it.
+Result<std::optional<Consequence>, Problem> consequence_without(world::Monitor monitor,
+                                                                const bench::Loaded& loaded);
+
+struct Proof {
+  world::Monitor monitor{};
+  std::vector<std::string> asked;     // scenarios
+  std::vector<Consequence> failed{};  // at most one for each of them
+
+  bool proven() const { return !failed.empty(); }
+};
+
+// What a person has to mend; empty: the monitor is proven, or informs only.
+std::string open_point(const Proof& proof);
+
+std::string to_text(const std::vector<Proof>& proofs);
+std::string json_of(const Proof& proof);
+
+}  // namespace pitwall::fault_coverage

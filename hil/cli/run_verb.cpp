@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/cli/run_verb.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "hil/bench/live/live.hpp"
+#include "hil/bench/live/machine.hpp"
+#include "hil/bench/live/run_keys.hpp"
+#include "hil/bench/loading.hpp"
+#include "hil/bench/lockstep/lockstep.hpp"
+#include "hil/can_bus/bus_verb.hpp"
+#include "hil/can_bus/own_hub.hpp"
+#include "hil/cli/clock_place.hpp"
+#include "hil/cli/command_line.hpp"
+#include "hil/cli/exit_code.hpp"
+#include "hil/cli/report_verb.hpp"
+#include "hil/cli/timing_text.hpp"
+#include "protocol/transport/can/unix_bus.hpp"
+#include "protocol/transport/clock.hpp"
+#include "protocol/transport/file.hpp"
+#include "protocol/transport/udp_socket.hpp"
+#include "protocol/transport/virtual_machine.hpp"
+
+namespace pitwall::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The bench's ends of a line out of a guest; without a guest they are ports of this machine.
+constexpr std::uint16_t kLineRadioPort = 23'427, kLineUplinkPort = 23'428;
+
+// A sink that appends to the file; an empty name gives an empty sink.
+Result<recording::Sink, Problem> sink_to(const std::string& path) {
+  if (path.empty()) return recording::Sink{};
+  auto file = transport::AppendWriter::open(path, transport::AppendWriter::Start::kTruncate);
+  if (!file) return Unexpected{file.error()};
+  const auto shared = std::make_shared<transport::AppendWriter>(*std::move(file));
+  return recording::Sink{
+      [shared](std::span<const std::uint8_t> bytes) { return shared->write(bytes); }};
+}
+
+Result<bench::RunResult, Problem> lockstep(const RunOptions& options, const bench::Loaded& loaded,
+                                           const bench::Follow& follow) {
+  const auto log = sink_to(options.log_file);
+  if (!log) return Unexpected{log.error()};
+  const Instant begun = transport::monotonic_now();
+  // Without a file the log is still made: its digest names the run.
+  const recording::Sink sink =
+      *log ? *log : recording::Sink{[](std::span<const std::uint8_t>) { return true; }};
+  auto result = bench::run_lockstep(loaded.scenario, loaded.setup, {.log = sink, .follow = follow});
+  if (result) result->wall_s = (transport::monotonic_now() - begun).seconds();
+  return result;
+}
+
+std::string beside(const std::string& program) {
+  return (fs::path(own_program()).parent_path().parent_path() / program).string();
+}
+
+bool names(const scenario::Scenario& scenario, std::initializer_list<const char*> kinds) {
+  return std::ranges::any_of(scenario.faults, [&](const scenario::Fault& fault) {
+    return std::ranges::find(kinds, fault.kind) != kinds.end();
+  });
+}
+
+// A base station of our own where the scenario is about one, about the radio, or about a clock that
+// it has too.
+bool needs_base(const scenario::Scenario& scenario) {
+  return !scenario.radio.empty() || !scenario.operator_texts.empty() ||
+         names(scenario, {"base_killed", "base_paused", "clock_step", "radio_down", "radio_loss",
+                          "radio_delay", "base_station_silent"});
+}
+
+bench::LivePlan plan_of(const RunOptions& options, const scenario::Scenario& scenario) {
+  bench::LivePlan plan{.interface = options.interface,
+                       .folder = options.folder,
+                       .guardian_name = "pitwall-live",
+                       .paths = std::max<std::size_t>(1, scenario.radio.size()),
+                       .has_operator = !scenario.operator_texts.empty(),
+                       .keys = options.keys.empty() ? options.folder + "/keys" : options.keys,
+                       .candump = options.candump};
+  plan.radio[0].onward = options.radio_port;
+  plan.radio[0].uplink = options.uplink_port;
+  if (options.radio_port == 0 && needs_base(scenario))
+    plan.base = {beside("basestation/pitwall-base")};
+  if (options.attach) return plan;
+  plan.vehicle = {beside("vehicle/pitwall-vehicle"), "--car", scenario.car_file, "--track",
+                  scenario.track_file};
+  if (const std::string guardian = beside("vehicle/guardian/pitwall-guardian");
+      fs::exists(guardian) && !options.no_guardian)
+    plan.guardian = {guardian, "--car", scenario.car_file};
+  if (names(scenario, {"log_disk_full"})) plan.disk = options.folder + "/disk";
+  return plan;
+}
+
+// What is left on the disk that was full goes where it would have been.
+std::optional<Problem> copy_out(const std::string& from, const std::string& to) {
+  std::error_code error;
+  fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
+  return error ? std::optional{Problem{from, error.message()}} : std::nullopt;
+}
+
+Result<bench::RunResult, Problem> live(const RunOptions& options, const bench::Loaded& loaded,
+                                       const bench::Follow& follow) {
+  std::error_code error;
+  fs::create_directories(options.folder, error);
+  if (error) return Unexpected{Problem{options.folder, error.message()}};
+  bench::LivePlan plan = bench::in_bay(plan_of(options, loaded.scenario), options.bay);
+  std::optional<bench::RunKeys> keys;  // as long as the run
+  if (plan.has_base() && !(plan.attached() && options.keys.empty())) {
+    auto made = bench::keys_of_run(plan, options.keys);
+    if (!made) return Unexpected{made.error()};
+    plan.keys = keys.emplace(*std::move(made)).folder;
+  }
+  std::string log_file = options.log_file;
+  if (!plan.disk.empty()) {
+    if (const auto mounted = bench::mount_disk(plan.disk); !mounted)
+      return Unexpected{mounted.error()};
+    log_file = plan.disk + "/events.mcap";
+  }
+  auto log = sink_to(log_file);
+  if (!log) return Unexpected{log.error()};
+  plan.log = *std::move(log);
+  plan.follow = follow;
+  const ClockPlace clock = clock_place(options.clock, options.attach);
+  plan.clock = clock.file;
+  plan.clock_line = clock.line;
+  if (!clock.file.empty()) {
+    if (const auto used = transport::use_clock(clock.file); !used) return Unexpected{used.error()};
+  }
+  auto result = bench::run_live(loaded.scenario, loaded.setup, plan);
+  if (clock.is_own) fs::remove(clock.file, error);
+  if (!result) return Unexpected{result.error()};
+  if (!plan.disk.empty() && !options.log_file.empty())
+    if (auto problem = copy_out(log_file, options.log_file)) return Unexpected{*problem};
+  if (!options.quiet)
+    std::printf("%s%s%s", timing_text(*result).c_str(), waits_text(*result->run.real_time).c_str(),
+                stolen_text(*result->run.real_time).c_str());
+  if (!result->run.timely()) result->run.remarks.push_back(late_text(*result->run.real_time));
+  return result->run;
+}
+
+}  // namespace
+
+std::string own_program() { return fs::read_symlink("/proc/self/exe").string(); }
+
+std::vector<std::string> live_command(const RunOptions& options) {
+  std::vector<std::string> command{own_program(),
+                                   "run",
+                                   options.scenario,
+                                   "--live",
+                                   "--here",
+                                   "--interface",
+                                   options.interface,
+                                   "--out",
+                                   options.folder,
+                                   "--radio-port",
+                                   std::to_string(options.radio_port),
+                                   "--uplink-port",
+                                   std::to_string(options.uplink_port)};
+  const auto add = [&command](const std::string& flag, const std::string& value) {
+    if (value.empty()) return;
+    command.push_back(flag);
+    command.push_back(value);
+  };
+  if (options.bay != 0) add("--bay", std::to_string(options.bay));
+  add("--keys", options.keys);
+  add("--clock", options.clock);
+  add("--report", options.report_folder);
+  add("--progress", options.progress_file);
+  if (options.report_folder.empty()) {
+    add("--log", options.log_file);
+    add("--json", options.json_file);
+  }
+  if (options.duration) add("--duration", std::to_string(options.duration->seconds()));
+  if (options.seed) add("--seed", std::to_string(*options.seed));
+  if (options.candump) command.emplace_back("--candump");
+  if (options.no_guardian) command.emplace_back("--no-guardian");
+  if (options.cut) command.emplace_back("--cut");
+  return command;
+}
+
+namespace {
+
+Result<bench::RunResult, Problem> drive(const RunOptions& options, const bench::Loaded& loaded,
+                                        const bench::Follow& follow) {
+  return options.live ? live(options, loaded, follow) : lockstep(options, loaded, follow);
+}
+
+// A line that the disk does not take is lost; the run goes on.
+Result<bench::RunResult, Problem> followed(const RunOptions& options, const bench::Loaded& loaded) {
+  if (options.progress_file.empty()) return drive(options, loaded, {});
+  auto file = transport::AppendWriter::open(options.progress_file,
+                                            transport::AppendWriter::Start::kTruncate);
+  if (!file) return Unexpected{file.error()};
+  bench::Progress progress{loaded.scenario, options.live ? "live" : "lockstep",
+                           [&](const std::string& line) { file->write(line + "\n"); }};
+  auto result = drive(options, loaded, [&](const bench::RunView& run) { progress.observe(run); });
+  if (result)
+    progress.ended(*result);
+  else
+    progress.failed(result.error());
+  return result;
+}
+
+// Each expectation that the run is too short for is told and left out.
+Result<bool, Problem> cut(scenario::Scenario& scenario) {
+  const Duration end = scenario.duration;
+  std::erase_if(scenario.expect, [&](const scenario::Expectation& expectation) {
+    if (is_shown_by(expectation, end)) return false;
+    std::printf("not judged, the run is cut at %.1f s: %s: %s\n", end.seconds(),
+                expectation.place.c_str(), expectation.signal.c_str());
+    return true;
+  });
+  if (!scenario.expect.empty()) return true;
+  return Unexpected{Problem{"--duration", "ends before there is anything to judge"}};
+}
+
+// The exit code; the files that were asked for are written. What failed on a machine that did not
+// keep up has not been judged.
+Result<int, Problem> run_once(const RunOptions& options) {
+  auto loaded = bench::load(options.scenario, "");
+  if (!loaded) return Unexpected{loaded.error()};
+  if (options.duration) loaded->scenario.duration = *options.duration;
+  if (options.cut) {
+    if (const auto left = cut(loaded->scenario); !left) return Unexpected{left.error()};
+  }
+  if (options.seed) loaded->scenario.seed = *options.seed;
+  const auto result = followed(options, *loaded);
+  if (!result) return Unexpected{result.error()};
+  if (!options.quiet) std::printf("%s", bench::to_text(*result).c_str());
+  std::fflush(stdout);
+  if (!options.json_file.empty()) {
+    const auto written = transport::write_file(options.json_file, bench::to_json(*result) + "\n");
+    if (!written) return Unexpected{written.error()};
+  }
+  if (result->passed()) return kExitPass;
+  if (!result->timely()) return kExitUnusable;
+  return result->failed_by_contact() ? kExitContact : kExitFailed;
+}
+
+// As many runs as fill the hours; the exit code of the first that failed.
+Result<int, Problem> run_hours(RunOptions options) {
+  const auto loaded = bench::load(options.scenario, "");
+  if (!loaded) return Unexpected{loaded.error()};
+  const double each_s = options.duration.value_or(loaded->scenario.duration).seconds();
+  const std::uint64_t first = options.seed.value_or(loaded->scenario.seed);
+  const auto runs = static_cast<std::uint64_t>(std::ceil(options.hours * 3600.0 / each_s));
+  for (std::uint64_t run = 0; run < runs; ++run) {
+    options.seed = first + run;
+    const auto code = run_once(options);
+    if (!code) return code;
+    std::printf(
+        "seed %llu: %llu of %llu runs of %.0f s\n", static_cast<unsigned long long>(*options.seed),
+        static_cast<unsigned long long>(run + 1), static_cast<unsigned long long>(runs), each_s);
+    if (*code != kExitPass) return code;
+  }
+  return kExitPass;
+}
+
+int report_failure(const RunOptions& options, const Problem& problem) {
+  if (!options.report_folder.empty()) write_report(report_files(options.report_folder), problem);
+  return refuse(problem);
+}
+
+}  // namespace
+
+int run_scenario(const RunOptions& options) {
+  const auto code = options.hours > 0.0 ? run_hours(options) : run_once(options);
+  if (!code) return report_failure(options, code.error());
+  if (options.report_folder.empty()) return *code;
+  return write_report(report_files(options.report_folder), std::nullopt);
+}
+
+Result<std::vector<std::string>, Problem> exec_words(const RunOptions& options) {
+  std::vector<std::string> words{"exec", "--auto", "--interface", options.interface};
+  if (is_clock_file(options.clock)) words.insert(words.end(), {"--clock", options.clock});
+  RunOptions inside = options;
+  inside.clock = on_host(options.clock);
+  if (options.radio_port != 0) {
+    std::uint16_t uplink_port = options.uplink_port;
+    if (uplink_port == 0) {  // the guest's end needs a port to be answered at
+      const auto any = transport::UdpSocket::bind({});
+      if (!any) return Unexpected{any.error()};
+      uplink_port = any->local().port;
+    }
+    inside.radio_port = kLineRadioPort;
+    inside.uplink_port = kLineUplinkPort;
+    words.insert(words.end(),
+                 {"--line-udp",
+                  std::to_string(uplink_port) + ":" + std::to_string(options.radio_port) + ":" +
+                      std::to_string(kLineRadioPort) + ":" + std::to_string(kLineUplinkPort)});
+  }
+  words.emplace_back("--");
+  for (std::string& word : live_command(inside)) words.push_back(std::move(word));
+  return words;
+}
+
+namespace {
+
+int run_where_the_bus_is(const RunOptions& options) {
+  const transport::KeepAwake awake{options.live && transport::is_virtual_machine()};
+  if (!options.live || options.here) return run_scenario(options);
+
+  // Bad input is told before a machine is booted for it.
+  if (const auto loaded = bench::load(options.scenario, ""); !loaded)
+    return report_failure(options, loaded.error());
+  if (transport::is_unix_bus(options.interface)) {  // needs no guest, only a hub
+    const std::string clock = clock_place(options.clock, options.attach).file;
+    const auto hub = can_bus::OwnHub::start(own_program(), options.interface, clock);
+    return hub ? run_scenario(options) : refuse(hub.error());
+  }
+  const auto exec = exec_words(options);
+  if (!exec) return refuse(exec.error());
+  const int code = can_bus::bus_verb(*exec);
+  if (!options.report_folder.empty() && !fs::exists(report_files(options.report_folder).html))
+    return report_failure(options, {options.scenario, "the guest ended without a report"});
+  return code;
+}
+
+}  // namespace
+
+int run_verb(std::span<const std::string> args) {
+  RunOptions options;
+  double duration_s = 0.0;
+  std::uint64_t seed = 0;
+  CommandLine app{"pitwall-hil run: one scenario in the bench"};
+  app.option("scenario", options.scenario, "scenario file").required();
+  const VerbOption live =
+      app.flag("--live", options.live, "real SocketCAN, real car process, real time");
+  const VerbOption here =
+      app.flag("--here", options.here, "live: the interface exists here already");
+  app.flag("--attach", options.attach, "live: the car runs already; only with --here").needs(here);
+  app.flag("--no-guardian", options.no_guardian, "live: the car alone");
+  app.option("--clock", options.clock,
+             "live: bench (its time stands while the machine holds a process up; the default), "
+             "wall, or a FILE to keep bench time in, for a base station with the same --clock");
+  app.option("--interface", options.interface, "live: CAN interface");
+  const VerbOption log = app.option("--log", options.log_file, "write the event log (MCAP)");
+  const VerbOption json = app.option("--json", options.json_file, "write the result as JSON");
+  app.option("--report", options.report_folder,
+             "write event log, result, page and JUnit file into this folder")
+      .excludes(log)
+      .excludes(json);
+  app.option("--out", options.folder,
+             "live: folder for the car's summary and the candump; default " + options.folder);
+  app.flag("--candump", options.candump, "live: record the bus with candump");
+  app.option("--radio-port", options.radio_port, "live: pass the car's datagrams on to this port");
+  app.option("--uplink-port", options.uplink_port, "live: answers of the base come here");
+  app.option("--bay", options.bay, "live: of the benches that run on this machine at once")
+      .range(0, bench::kBaysMax - 1);
+  app.option("--keys", options.keys,
+             "live: folder of car.keys and base.keys; default: new ones for this run");
+  const VerbOption duration =
+      app.option("--duration", duration_s, "seconds, instead of the file's").range(0.1, 36'000.0);
+  const VerbOption progress =
+      app.option("--progress", options.progress_file, "write a line of JSON for each half second");
+  app.flag("--cut", options.cut, "expectations of a time that --duration cuts away are not judged")
+      .needs(duration);
+  app.option("--hours", options.hours, "lockstep: with one seed after the other, so long")
+      .range(0.001, 1'000.0)
+      .excludes(log)
+      .excludes(json)
+      .excludes(progress)
+      .excludes(live);
+  const VerbOption with_seed =
+      app.option("--seed", seed, "instead of the file's").range(0, 1'000'000'000);
+  if (const auto code = app.ended_by(args)) return *code;
+  if (duration.given()) options.duration = from_seconds(duration_s);
+  if (with_seed.given()) options.seed = seed;
+  if (!options.report_folder.empty()) {
+    if (const auto problem = prepare_report(options.report_folder)) return refuse(*problem);
+    options.log_file = report_files(options.report_folder).log;
+    options.json_file = report_files(options.report_folder).result;
+  }
+  if (options.candump && transport::is_unix_bus(options.interface)) {
+    std::fprintf(stderr, "%s: candump hears SocketCAN only: not recorded (--log has the frames)\n",
+                 options.interface.c_str());
+    options.candump = false;
+  }
+  return run_where_the_bus_is(options);
+}
+
+}  // namespace pitwall::cli

@@ -1,0 +1,59 @@
+// CAN variant adapter: the bus of another revision of the car: what the bench's drive-by-wire and
+// race control mean, said and heard in the words of that revision.
+//   in     frames as the bench's models exchange them (av21, CAN1-INDY-V14); frames of the bus
+//   out    the same values by name in the layout of the other revision, and back; messages that
+//          only the other revision has, at their period, with values of a healthy car at rest
+//   invariants
+//          V14 changes nothing, and V14 with protected messages adds those and a checksum to race
+//          control's flags. What the other revision
+//          lacks is not sent; a frame of the bus is heard only if its length is right there and it
+//          says all that the model's message has
+//   units  those of the databases
+//   errors of(): Problem of a database; frames that cannot be encoded are left out and counted
+//   source databases: protocol/can/dbc/av24.dbc; for V9 and V12 the messages that differ from
+//          av21.dbc, in av21_v9.dbc and av21_v12.dbc
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "hil/nodes/protected_messages.hpp"
+#include "hil/scenario/scenario.hpp"
+#include "protocol/can/database.hpp"
+#include "protocol/can/frame.hpp"
+#include "protocol/vocabulary/fixed_vector.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::can_variant {
+
+struct Dictionary;
+
+inline constexpr std::size_t kMaxFrames = 16;  // of one message, or due at one instant
+using Frames = FixedVector<can::Frame, kMaxFrames>;
+
+class CanVariant {
+ public:
+  static Result<CanVariant, Problem> of(scenario::BusRevision which);
+
+  Frames spoken(const can::Frame& frame);
+  std::optional<can::Frame> heard(const can::Frame& frame);
+  // Of the messages that only this bus has. `now` does not run backwards.
+  Frames due(Instant now);
+
+  const can::Database& database() const;
+  std::uint64_t unsent() const { return unsent_; }
+
+ private:
+  explicit CanVariant(std::shared_ptr<const Dictionary> dictionary);
+
+  std::shared_ptr<const Dictionary> dictionary_;
+  std::vector<Instant> due_;
+  std::optional<ProtectedMessages> also_;
+  std::uint64_t unsent_ = 0;
+};
+
+}  // namespace pitwall::can_variant

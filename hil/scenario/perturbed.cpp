@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/scenario/perturbed.hpp"
+
+#include <cmath>
+
+namespace pitwall::plant {
+namespace {
+
+plant::Tyre stiffened(plant::Tyre tyre, double factor) {
+  if (factor == 1.0) return tyre;  // asin(sin(x)) need not be x to the last bit
+  tyre.peak_slip_ratio /= factor;
+  tyre.peak_slip_angle_rad = std::asin(std::sin(tyre.peak_slip_angle_rad) / factor);
+  return tyre;
+}
+
+}  // namespace
+
+plant::Params perturbed(const plant::Params& params, const scenario::Perturbations& by) {
+  plant::Params p = params;
+  const double mass_kg = params.chassis.mass_kg + by.mass_kg;
+  p.chassis.yaw_inertia_kgm2 *= mass_kg / params.chassis.mass_kg;
+  p.chassis.mass_kg = mass_kg;
+  p.front = stiffened(p.front, by.tyre_stiffness);
+  p.rear = stiffened(p.rear, by.tyre_stiffness);
+  p.steering.delay_s += by.steering_delay_s;
+  p.engine.throttle_delay_s += by.throttle_delay_s;
+  p.brakes.delay_s += by.brake_delay_s;
+  p.drivetrain.shift_delay_s += by.gear_delay_s;
+  return p;
+}
+
+plant::Surface perturbed(const plant::Surface& road, const scenario::Perturbations& by) {
+  plant::Surface s = road;
+  s.bank_rad += by.bank_error_rad;
+  s.grip *= by.friction;
+  s.wind_east_mps += by.wind_mps * std::cos(by.wind_to_rad);
+  s.wind_north_mps += by.wind_mps * std::sin(by.wind_to_rad);
+  return s;
+}
+
+}  // namespace pitwall::plant

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/transport/can/can_sender.hpp"
+
+#include <linux/can/raw.h>
+#include <net/if.h>
+
+#include <algorithm>
+
+#include "protocol/transport/can/can_wire.hpp"
+#include "protocol/transport/can/unix_bus.hpp"
+#include "protocol/vocabulary/check.hpp"
+
+namespace pitwall::transport {
+namespace {
+
+constexpr std::size_t kMaxCall = 1'024;  // UIO_MAXIOV: the kernel cuts longer calls off
+
+}  // namespace
+
+Result<PreparedFrames, Problem> PreparedFrames::make(std::span<const can::Frame> frames,
+                                                     std::span<const std::uint8_t> fd_flags) {
+  CHECK(fd_flags.empty() || fd_flags.size() == frames.size());
+  PreparedFrames out;
+  std::vector<std::size_t> sizes(frames.size());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    CanWire wire;
+    sizes[i] = to_wire(frames[i], wire);
+    if (sizes[i] == 0)
+      return Unexpected{Problem{"frame " + std::to_string(i + 1), "no bus can carry it"}};
+    if (frames[i].fd && !fd_flags.empty()) wire.flags = fd_flags[i];
+    const auto* begin = reinterpret_cast<const std::uint8_t*>(&wire);
+    out.bytes_.insert(out.bytes_.end(), begin, begin + sizes[i]);
+  }
+  out.slices_.resize(frames.size());
+  out.messages_.resize(frames.size());
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < frames.size(); at += sizes[i], ++i) {
+    out.slices_[i] = {.iov_base = out.bytes_.data() + at, .iov_len = sizes[i]};
+    out.messages_[i].msg_hdr.msg_iov = &out.slices_[i];
+    out.messages_[i].msg_hdr.msg_iovlen = 1;
+  }
+  return out;
+}
+
+Result<CanSender, Problem> CanSender::open_unix(const std::string& interface) {
+  const auto address = unix_bus_address(interface);
+  if (!address) return Unexpected{address.error()};
+  CanSender out{FileDescriptor()};
+  const auto connected = connect_to_hub(*address, Hearing::kNothing, out.fd_);
+  if (!connected.ok()) return Unexpected{hub_problem(interface, connected)};
+  return out;
+}
+
+Result<CanSender, Problem> CanSender::open(const std::string& interface) {
+  if (is_unix_bus(interface)) return open_unix(interface);
+  const auto refuse = [&](const std::string& what) { return Unexpected{Problem{interface, what}}; };
+  const auto made =
+      posix_call([] { return socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, CAN_RAW); });
+  CanSender out{FileDescriptor(made)};
+  if (!made.ok()) return refuse("no CAN in this kernel: " + made.reason());
+  if (interface.empty() || interface.size() >= IFNAMSIZ) return refuse("not an interface name");
+  const unsigned index = if_nametoindex(interface.c_str());
+  if (index == 0) return refuse("no such interface");
+  const int fd = out.fd_.get(), on = 1;
+  const auto deaf =
+      posix_call([&] { return setsockopt(fd, SOL_CAN_RAW, CAN_RAW_FILTER, nullptr, 0); });
+  const auto long_frames =
+      posix_call([&] { return setsockopt(fd, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on); });
+  for (const PosixOutcome& outcome : {deaf, long_frames})
+    if (!outcome.ok()) return refuse("option refused: " + outcome.reason());
+  sockaddr_can address{};
+  address.can_family = AF_CAN;
+  address.can_ifindex = static_cast<int>(index);
+  const auto bound = posix_call(
+      [&] { return bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address); });
+  if (!bound.ok()) return refuse("cannot bind: " + bound.reason());
+  return out;
+}
+
+SendOutcome CanSender::send(PreparedFrames& frames, std::size_t first, std::size_t count) {
+  CHECK(first <= frames.size() && count <= frames.size() - first);
+  SendOutcome out;
+  while (out.taken < count) {
+    const auto most = static_cast<unsigned>(std::min(count - out.taken, kMaxCall));
+    const auto sent = posix_call([&] {
+      return sendmmsg(fd_.get(), frames.messages_.data() + first + out.taken, most,
+                      MSG_DONTWAIT | MSG_NOSIGNAL);
+    });
+    // An error that strikes after the first frame shows only in the next call.
+    if (!sent.ok()) {
+      out.error = sent.error;
+      return out;
+    }
+    out.taken += static_cast<std::size_t>(sent.value);
+  }
+  return out;
+}
+
+}  // namespace pitwall::transport

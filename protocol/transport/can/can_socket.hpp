@@ -1,0 +1,146 @@
+// One CAN_RAW socket of the kernel: batched, non-blocking, stamped, with every loss counted. Or the
+// same over the bus `unix:PATH` (unix_bus, unix_can_hub), for kernels without CAN, where
+//   - a frame's time is when the hub put it into our queue
+//   - losses are those that the hub tells of, in their place; the queue is the hub's, its size too,
+//     and trailing losses are told once there is room
+//   - there is no controller: no error frames but those that another client writes, and no state
+//   - send() with a hub that does not read is "would block" after 277 frames or so
+//   - the hub may go: that is hung_up(), counted, and send() says "network down" until receive() or
+//     poll_drops(), which look every 100 ms, have found another one at PATH
+//   in     an interface name (can0, vcan0, unix:/run/bus), frames to send
+//   out    frames with the kernel's receive time on the monotonic clock; counters; bus state
+//   units  Instant (CLOCK_MONOTONIC nanoseconds), bytes
+//   errors open(): Problem with the interface as place. Afterwards nothing throws or exits: each
+//          refusal is a return value and a counter
+//   source Linux Documentation/networking/can.rst
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/can/frame.hpp"
+#include "protocol/transport/can/can_wire.hpp"
+#include "protocol/transport/can/unix_bus.hpp"
+#include "protocol/transport/posix_call.hpp"
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::transport {
+
+// A frame passes if (its id & mask) == (id & mask) and it is a data frame of the same kind
+// (standard or extended): the kernel mask always includes CAN_EFF_FLAG and CAN_RTR_FLAG.
+struct CanFilter {
+  std::uint32_t id = 0;
+  std::uint32_t mask = can::kMaxExtendedId;
+  bool extended = false;
+};
+
+struct CanSocketOptions {
+  std::vector<CanFilter> filters{};    // none: every frame, remote frames too
+  bool receive_own = false;            // frames sent by this very socket
+  bool receive_errors = true;          // error frames: counted and decoded, never delivered as data
+  bool fd = true;                      // accept CAN FD frames
+  int receive_buffer_bytes = 8 << 20;  // 21,846 classic frames at 384 B (kernel doubles the value)
+};
+
+struct CanSocketCounters {
+  std::uint64_t received = 0;        // data frames handed to the caller
+  std::uint64_t sent = 0;            // frames that the kernel took
+  std::uint64_t tx_enobufs = 0;      // send() stopped because the interface queue was full
+  std::uint64_t tx_would_block = 0;  // send() stopped because the socket's send buffer was full
+  std::uint64_t tx_network_down = 0;
+  std::uint64_t tx_failed = 0;   // any other error
+  std::uint64_t tx_refused = 0;  // frames no bus can carry: dropped, not sent
+  // Lost in this socket's receive queue, by two detectors: with each frame the kernel says how many
+  // were lost before it (SO_RXQ_OVFL), and when asked how many so far, trailing loss included
+  // (SO_MEMINFO). The sum is the larger one.
+  std::uint64_t rx_dropped_by_frames = 0;
+  std::uint64_t rx_dropped_when_asked = 0;
+  std::uint64_t rx_dropped_queue = 0;
+  std::uint64_t rx_malformed = 0;  // truncated, or no CAN frame
+  std::uint64_t rx_failed = 0;     // recvmmsg errors but "nothing there"
+  std::uint64_t error_frames = 0;
+  std::uint64_t clock_steps =
+      0;                    // the calendar clock jumped; stamps of that batch are arrival times
+  CanErrorCounters errors;  // error_frames by class
+  // Of a unix bus: how often its hub went, and how often one came again.
+  std::uint64_t hub_losses = 0, hub_returns = 0;
+};
+
+class CanSocket {
+ public:
+  // Frames taken from or given to the kernel in one system call.
+  static constexpr std::size_t kBatch = 64;
+
+  // True if this kernel knows CAN at all (no interface needed).
+  static bool supported();
+  static Result<CanSocket, Problem> open(std::string_view interface,
+                                         const CanSocketOptions& options = {});
+
+  // Takes what is there, up to frames.size(), oldest first. 0: nothing there. Never blocks.
+  std::size_t receive(std::span<can::ReceivedFrame> frames);
+
+  // Returns how many leading frames are done with (sent, or refused and counted); the rest were not
+  // taken (ENOBUFS or the like, counted) and are the caller's to retry or drop. Never blocks.
+  std::size_t send(std::span<const can::Frame> frames);
+  bool send(const can::Frame& frame) { return send(std::span(&frame, 1)) == 1; }
+
+  // Writes one error frame, as a controller driver would report it (for benches on vcan).
+  bool send_error(std::uint32_t classes, std::span<const std::uint8_t> detail = {});
+
+  // Asks the kernel for frames lost so far, and what it still has to send. receive() does so itself
+  // every 100 ms; call it once more at the end, because trailing loss shows nowhere else.
+  void poll_drops();
+  // Of our frames, waiting in the kernel when poll_drops() last asked; 768 bytes each or so.
+  std::uint32_t queued_bytes() const { return queued_bytes_; }
+
+  const CanSocketCounters& counters() const { return counters_; }
+  // As the error frames tell, and when the newest of them that tells the state was made.
+  BusState bus_state() const { return bus_state_; }
+  Instant bus_state_at() const { return bus_state_at_; }
+  // As granted by the kernel; 0 on a unix bus.
+  int receive_buffer_bytes() const { return receive_buffer_bytes_; }
+  int fd() const { return unix_ ? unix_->receiver() : fd_.get(); }
+  // The bus is a unix bus without a hub: nothing arrives and nothing goes out.
+  bool hung_up() const { return unix_ && !unix_->connected(); }
+
+ private:
+  explicit CanSocket(FileDescriptor fd) : fd_(std::move(fd)) {}
+  explicit CanSocket(UnixBusEnd end) : unix_(std::move(end)) {}
+  static Result<CanSocket, Problem> open_unix(std::string_view interface,
+                                              const CanSocketOptions& options);
+  int send_fd() const { return unix_ ? unix_->sender() : fd_.get(); }
+  void hang_up();
+  void look_for_hub();
+  void follow_clock(Instant now);
+  PosixOutcome configure(const CanSocketOptions& options);
+  // Reads one batch: true if the kernel may have more.
+  bool receive_batch(std::span<can::ReceivedFrame> frames, std::size_t& taken, Instant now);
+  Instant arrival(UtcTime stamp, Instant now);
+  // What only a unix bus brings, or SocketCAN would not deliver: true if it is dealt with.
+  bool take_unix(const CanWire& wire, std::size_t bytes);
+  void count_dropped(std::uint64_t& detector, std::uint64_t so_far);
+  void take_error(const CanWire& wire, Instant at);
+  void count_send_error(const PosixOutcome& outcome);
+
+  FileDescriptor fd_;
+  std::optional<UnixBusEnd> unix_;
+  std::uint64_t dropped_before_ = 0;  // by earlier hubs
+  CanSocketCounters counters_;
+  BusState bus_state_ = BusState::kUnknown;
+  Instant bus_state_at_{};
+  std::uint32_t queued_bytes_ = 0;
+  int receive_buffer_bytes_ = 0;
+  Duration clock_offset_{};
+  Instant next_poll_{};
+  Instant empty_at_{};  // a read that began then left nothing
+  bool stamps_trusted_ = true;
+  bool offset_known_ = false;
+};
+
+}  // namespace pitwall::transport

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/transport/can/unix_bus.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+
+#include <cstring>
+#include <string>
+#include <utility>
+
+namespace pitwall::transport {
+namespace {
+
+constexpr std::size_t kCountAt = 4;  // in the data of a notice
+constexpr std::size_t kCountBytes = 4;
+
+PosixOutcome set_flag(int fd, int name) {
+  const int on = 1;
+  return posix_call([&] { return setsockopt(fd, SOL_SOCKET, name, &on, sizeof on); });
+}
+
+}  // namespace
+
+Result<sockaddr_un, Problem> unix_bus_address(std::string_view interface) {
+  const auto refuse = [&](const std::string& what) {
+    return Unexpected{Problem{std::string(interface), what}};
+  };
+  if (!is_unix_bus(interface)) return refuse("not a unix bus: expected unix:PATH");
+  const std::string_view path = interface.substr(kUnixBusPrefix.size());
+  sockaddr_un out{};
+  out.sun_family = AF_UNIX;
+  if (path.empty()) return refuse("no path after unix:");
+  if (path.find('\0') != std::string_view::npos) return refuse("a path has no zero byte");
+  if (path.size() >= sizeof out.sun_path)
+    return refuse("path of " + std::to_string(path.size()) + " bytes: a socket's has at most " +
+                  std::to_string(sizeof out.sun_path - 1));
+  path.copy(out.sun_path, path.size());
+  return out;
+}
+
+PosixOutcome connect_to_hub(const sockaddr_un& address, Hearing hearing, FileDescriptor& out) {
+  const auto made =
+      posix_call([] { return socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); });
+  if (!made.ok()) return made;
+  FileDescriptor fd(made);
+  // Before connecting: no frame may arrive without a stamp, nor in an end that hears nothing.
+  if (const auto stamps = set_flag(fd.get(), SO_TIMESTAMPNS); !stamps.ok()) return stamps;
+  const auto connected = posix_call([&] {
+    return ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address);
+  });
+  if (!connected.ok()) return connected;
+  if (hearing == Hearing::kNothing) {
+    const auto deaf = posix_call([&] { return shutdown(fd.get(), SHUT_RD); });
+    if (!deaf.ok()) return deaf;
+  }
+  out = std::move(fd);
+  return {.value = 0, .error = 0};
+}
+
+Problem hub_problem(std::string_view interface, const PosixOutcome& refused) {
+  const bool nobody = refused.error == ENOENT || refused.error == ECONNREFUSED;
+  return {std::string(interface), nobody
+                                      ? "nobody serves this bus (`pitwall-hil bus hub PATH` does)"
+                                      : "cannot connect: " + refused.reason()};
+}
+
+bool hub_is_there(int connection) {
+  if (connection < 0) return false;
+  pollfd watched{.fd = connection, .events = 0, .revents = 0};
+  const auto asked = posix_call([&] { return poll(&watched, 1, 0); });
+  return asked.ok() && (watched.revents & (POLLHUP | POLLERR | POLLNVAL)) == 0;
+}
+
+bool hub_serves(const sockaddr_un& address) {
+  FileDescriptor probe;
+  return connect_to_hub(address, Hearing::kNothing, probe).ok();
+}
+
+can_frame loss_notice(std::uint32_t lost_so_far) {
+  can_frame out{};
+  out.can_id = CAN_ERR_FLAG | CAN_ERR_CRTL;
+  out.len = CAN_ERR_DLC;
+  out.__res0 = kNoticeMark;
+  out.data[1] = CAN_ERR_CRTL_RX_OVERFLOW;
+  for (std::size_t i = 0; i < kCountBytes; ++i)
+    out.data[kCountAt + i] = static_cast<std::uint8_t>(lost_so_far >> (8 * i));
+  return out;
+}
+
+std::optional<std::uint32_t> read_loss_notice(const CanWire& wire, std::size_t bytes) {
+  if (bytes != kCanWireBytes || !is_error_frame(wire) || wire.__res0 != kNoticeMark)
+    return std::nullopt;
+  std::uint32_t lost = 0;
+  for (std::size_t i = 0; i < kCountBytes; ++i)
+    lost |= static_cast<std::uint32_t>(wire.data[kCountAt + i]) << (8 * i);
+  return lost;
+}
+
+Result<UnixBusEnd, Problem> UnixBusEnd::open(std::string_view interface, UnixBusOptions options) {
+  const auto address = unix_bus_address(interface);
+  if (!address) return Unexpected{address.error()};
+  UnixBusEnd out(*address, std::move(options));
+  out.silence_ = FileDescriptor(posix_call([] { return eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK); }));
+  if (!out.silence_.valid())
+    return Unexpected{Problem{std::string(interface), "no descriptor left"}};
+  const auto connected = out.connect();
+  if (!connected.ok()) return Unexpected{hub_problem(interface, connected)};
+  return out;
+}
+
+PosixOutcome UnixBusEnd::connect() {
+  FileDescriptor receiver, sender;
+  if (const auto heard = connect_to_hub(address_, Hearing::kEverything, receiver); !heard.ok())
+    return heard;
+  if (options_.own)
+    if (const auto said = connect_to_hub(address_, Hearing::kNothing, sender); !said.ok())
+      return said;
+  sender_ = std::move(sender);
+  connected_ = true;
+  if (!receiver_.valid()) {
+    receiver_ = std::move(receiver);
+    return {.value = 0, .error = 0};
+  }
+  return posix_call([&] { return dup3(receiver.get(), receiver_.get(), O_CLOEXEC); });
+}
+
+void UnixBusEnd::hang_up() {
+  connected_ = false;
+  static_cast<void>(posix_call([&] { return dup3(silence_.get(), receiver_.get(), O_CLOEXEC); }));
+}
+
+bool UnixBusEnd::reconnect() { return connected_ || connect().ok(); }
+
+bool UnixBusEnd::passes(const CanWire& wire, std::size_t bytes) const {
+  if (is_error_frame(wire)) return options_.errors;
+  if (bytes == kCanFdWireBytes && !options_.fd) return false;
+  if (options_.filters.empty()) return true;
+  for (const can_filter& filter : options_.filters)
+    if ((wire.can_id & filter.can_mask) == (filter.can_id & filter.can_mask)) return true;
+  return false;
+}
+
+}  // namespace pitwall::transport

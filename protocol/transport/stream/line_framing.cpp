@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/transport/stream/line_framing.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "protocol/vocabulary/check.hpp"
+
+namespace pitwall::transport {
+namespace {
+
+constexpr std::array<std::uint32_t, 256> make_crc32_table() {
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t i = 0; i < table.size(); ++i) {
+    std::uint32_t c = i;
+    for (int bit = 0; bit < 8; ++bit) c = (c & 1U) != 0U ? (c >> 1U) ^ 0xEDB88320U : c >> 1U;
+    table[i] = c;
+  }
+  return table;
+}
+constexpr auto kCrc32Table = make_crc32_table();
+
+std::uint32_t frame_crc(std::span<const std::uint8_t> length_bytes,
+                        std::span<const std::uint8_t> payload) {
+  return line_crc32(payload, line_crc32(length_bytes));
+}
+
+}  // namespace
+
+std::uint32_t line_crc32(std::span<const std::uint8_t> bytes, std::uint32_t before) {
+  std::uint32_t c = ~before;
+  for (const std::uint8_t byte : bytes) c = kCrc32Table[(c ^ byte) & 0xFFU] ^ (c >> 8U);
+  return ~c;
+}
+
+std::uint8_t line_crc8(std::span<const std::uint8_t> bytes) {
+  unsigned c = 0;
+  for (const std::uint8_t byte : bytes) {
+    c ^= byte;
+    for (int bit = 0; bit < 8; ++bit) c = (c & 0x80U) != 0U ? ((c << 1U) ^ 0x07U) & 0xFFU : c << 1U;
+  }
+  return static_cast<std::uint8_t>(c);
+}
+
+std::size_t encode_line_frame(std::span<const std::uint8_t> datagram,
+                              std::span<std::uint8_t, kMaxLineFrameBytes> out) {
+  if (datagram.size() > kMaxLineDatagramBytes) return 0;
+  const auto n = datagram.size();
+  out[0] = kLineMagic[0];
+  out[1] = kLineMagic[1];
+  out[2] = static_cast<std::uint8_t>(n & 0xFFU);
+  out[3] = static_cast<std::uint8_t>(n >> 8U);
+  out[4] = line_crc8(out.first<4>());
+  std::copy(datagram.begin(), datagram.end(), out.begin() + kLineHeaderBytes);
+  const std::uint32_t crc = frame_crc(out.subspan<2, 2>(), datagram);
+  for (std::size_t i = 0; i < kLineTrailerBytes; ++i)
+    out[kLineHeaderBytes + n + i] = static_cast<std::uint8_t>(crc >> (8U * i));
+  return kLineHeaderBytes + n + kLineTrailerBytes;
+}
+
+std::span<std::uint8_t> LineDecoder::free_space() {
+  compact();
+  return {buffer_.data() + end_, buffer_.size() - end_};
+}
+
+void LineDecoder::filled(std::size_t bytes) {
+  CHECK(bytes <= buffer_.size() - end_);
+  end_ += bytes;
+}
+
+std::size_t LineDecoder::feed(std::span<const std::uint8_t> bytes) {
+  const auto space = free_space();
+  const std::size_t n = std::min(space.size(), bytes.size());
+  std::copy_n(bytes.begin(), n, space.begin());
+  filled(n);
+  return n;
+}
+
+std::optional<std::span<const std::uint8_t>> LineDecoder::next() {
+  while (true) {
+    skip_foreign();
+    const auto bytes = pending();
+    if (bytes.size() < kLineHeaderBytes) return std::nullopt;
+    const std::size_t length = bytes[2] + (std::size_t{bytes[3]} << 8U);
+    if (line_crc8(bytes.first(4)) != bytes[4] || length > kMaxLineDatagramBytes) {
+      ++counters_.bad_header;
+      ++counters_.foreign_bytes;
+      ++begin_;
+      continue;
+    }
+    const std::size_t whole = kLineHeaderBytes + length + kLineTrailerBytes;
+    if (bytes.size() < whole) return std::nullopt;
+    const auto payload = bytes.subspan(kLineHeaderBytes, length);
+    std::uint32_t stored = 0;
+    for (std::size_t i = 0; i < kLineTrailerBytes; ++i)
+      stored |= std::uint32_t{bytes[kLineHeaderBytes + length + i]} << (8U * i);
+    if (stored != frame_crc(bytes.subspan(2, 2), payload)) {
+      ++counters_.bad_crc;
+      ++counters_.foreign_bytes;
+      ++begin_;
+      continue;
+    }
+    begin_ += whole;
+    ++counters_.datagrams;
+    return payload;
+  }
+}
+
+// To the next magic, or to a last byte that may be the first half of one.
+void LineDecoder::skip_foreign() {
+  while (end_ - begin_ >= 2 &&
+         (buffer_[begin_] != kLineMagic[0] || buffer_[begin_ + 1] != kLineMagic[1])) {
+    ++begin_;
+    ++counters_.foreign_bytes;
+  }
+  if (end_ - begin_ == 1 && buffer_[begin_] != kLineMagic[0]) {
+    ++begin_;
+    ++counters_.foreign_bytes;
+  }
+}
+
+void LineDecoder::compact() {
+  std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+  end_ -= begin_;
+  begin_ = 0;
+}
+
+}  // namespace pitwall::transport

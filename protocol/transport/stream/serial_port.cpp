@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "protocol/transport/stream/serial_port.hpp"
+
+#include <fcntl.h>
+#include <termios.h>
+
+#include <algorithm>
+#include <array>
+
+namespace pitwall::transport {
+namespace {
+
+struct Rate {
+  int baud;
+  speed_t speed;
+};
+
+constexpr std::array kRates{
+    Rate{4'800, B4800},        Rate{9'600, B9600},        Rate{19'200, B19200},
+    Rate{38'400, B38400},      Rate{57'600, B57600},      Rate{115'200, B115200},
+    Rate{230'400, B230400},    Rate{460'800, B460800},    Rate{500'000, B500000},
+    Rate{921'600, B921600},    Rate{1'000'000, B1000000}, Rate{1'500'000, B1500000},
+    Rate{2'000'000, B2000000}, Rate{3'000'000, B3000000}, Rate{4'000'000, B4000000}};
+
+const Rate* rate_of(int baud) {
+  const auto* rate = std::ranges::find(kRates, baud, &Rate::baud);
+  return rate == kRates.end() ? nullptr : rate;
+}
+
+PosixOutcome set_raw(int tty, const Rate* rate) {
+  termios settings{};
+  const auto got = posix_call([&] { return tcgetattr(tty, &settings); });
+  if (!got.ok()) return got;
+  cfmakeraw(&settings);
+  settings.c_cflag |= CLOCAL | CREAD;
+  settings.c_cc[VMIN] = 1;
+  settings.c_cc[VTIME] = 0;
+  if (rate != nullptr) {
+    settings.c_cflag &= ~static_cast<tcflag_t>(CRTSCTS | CSTOPB);
+    cfsetispeed(&settings, rate->speed);
+    cfsetospeed(&settings, rate->speed);
+  }
+  return posix_call([&] { return tcsetattr(tty, TCSANOW, &settings); });
+}
+
+}  // namespace
+
+bool is_serial_rate(int baud) { return rate_of(baud) != nullptr; }
+
+PosixOutcome make_raw(int tty) { return set_raw(tty, nullptr); }
+
+Result<FileDescriptor, Problem> open_serial(const std::string& path, int baud) {
+  const Rate* rate = rate_of(baud);
+  if (rate == nullptr)
+    return Unexpected{Problem{path, "no tty has the rate " + std::to_string(baud)}};
+  const auto opened =
+      posix_call([&] { return ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC); });
+  FileDescriptor fd(opened);
+  if (!fd.valid()) return Unexpected{Problem{path, opened.reason()}};
+  const auto raw = set_raw(fd.get(), rate);
+  if (!raw.ok()) return Unexpected{Problem{path, "no serial device: " + raw.reason()}};
+  static_cast<void>(posix_call([&] { return tcflush(fd.get(), TCIFLUSH); }));  // of another rate
+  return fd;
+}
+
+}  // namespace pitwall::transport

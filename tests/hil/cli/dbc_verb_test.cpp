@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/cli/dbc_verb.hpp"
+
+#include <gtest/gtest.h>
+
+#include "protocol/can/dbc_parser.hpp"
+#include "protocol/yaml/strict_map.hpp"
+#include "tests/hil/cli/program_run.hpp"
+
+namespace pitwall::cli {
+namespace {
+
+const std::string kOwn = "protocol/can/dbc/av21.dbc";
+const std::string kClean =
+    "BU_: A B\nBO_ 100 M: 8 A\n SG_ s : 0|10@1- (0.5,0) [0|0] \"deg\" B\n"
+    " SG_ t : 16|8@1+ (1,0) [0|9] \"\" B\nVAL_ 100 t 0 \"off\" 1 \"on\" ;\n";
+
+class DbcVerb : public ProgramRun {
+ protected:
+  std::string file(const std::string& name, const std::string& text) {
+    EXPECT_TRUE(transport::write_file(path(name), text));
+    return path(name);
+  }
+  // The clean file with one thing replaced.
+  std::string spoilt_file(const std::string& name, const std::string& from, const std::string& to) {
+    std::string text = kClean;
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos);
+    return file(name, text.replace(at, from.size(), to));
+  }
+};
+
+TEST_F(DbcVerb, WrongUsageIsTold) {
+  expect_refusal({"dbc"}, "subcommand");
+  expect_refusal({"dbc", "chekc", kOwn}, "subcommand");
+  expect_refusal({"dbc", "check"}, "FILE");
+  expect_refusal({"dbc", "diff", kOwn}, "OTHER");
+  expect_refusal({"dbc", "show", kOwn, "1303", "more"}, "more");
+  expect_refusal({"dbc", "show", path("none.dbc")}, path("none.dbc"));
+  expect_refusal({"dbc", "diff", kOwn, path("none.dbc")}, path("none.dbc"));
+}
+
+TEST_F(DbcVerb, HelpNamesEveryWord) {
+  const Said all = run({"dbc", "--help"});
+  EXPECT_EQ(all.code, 0);
+  for (const char* word : {"check", "show", "diff"}) {
+    EXPECT_NE(all.out.find(word), std::string::npos) << word;
+    EXPECT_EQ(run({"dbc", word, "--help"}).code, 0);
+  }
+}
+
+TEST_F(DbcVerb, ACleanFileIsZeroEvenWhenStrict) {
+  const Said said = run({"dbc", "check", file("a.dbc", kClean), "--strict"});
+  EXPECT_EQ(said.code, 0);
+  EXPECT_NE(said.out.find("1 messages, 2 signals, 2 nodes"), std::string::npos) << said.out;
+  EXPECT_NE(said.out.find("0 warnings, 0 notes"), std::string::npos) << said.out;
+}
+
+TEST_F(DbcVerb, AWarningFailsOnlyWhenStrict) {
+  const std::string odd = spoilt_file("odd.dbc", "[0|9]", "[0|999]");
+  const std::string warning = odd + ":4:6: warning: signal t: the range [0|999] is wider";
+  for (const bool strict : {false, true}) {
+    std::vector<std::string> words{"dbc", "check", odd, "--json", path("c.json")};
+    if (strict) words.emplace_back("--strict");
+    const Said said = run(words);
+    EXPECT_EQ(said.code, strict ? 1 : 0);
+    EXPECT_NE(said.out.find(warning), std::string::npos) << said.out;
+    const auto json = yaml::load_file(path("c.json"));
+    ASSERT_TRUE(json) << to_string(json.error());
+    EXPECT_EQ(json->root().integer("exit_code", 0, 2), strict ? 1 : 0);
+  }
+}
+
+TEST_F(DbcVerb, ARefusedFileIsTwoAndTheOthersAreStillChecked) {
+  const std::string bad = spoilt_file("bad.dbc", "16|8", "60|8"), good = file("a.dbc", kClean);
+  const Said said = run({"dbc", "check", bad, good, "--json", path("c.json")});
+  EXPECT_EQ(said.code, 2);
+  EXPECT_NE(said.out.find(bad + ":4:6: error: signal t lies outside the 8 bytes of message M"),
+            std::string::npos)
+      << said.out;
+  EXPECT_NE(said.out.find(good + ": 1 messages"), std::string::npos);
+  const auto json = yaml::load_file(path("c.json"));
+  ASSERT_TRUE(json) << to_string(json.error());
+  EXPECT_EQ(json->root().integer("exit_code", 0, 2), 2);
+}
+
+TEST_F(DbcVerb, ShowsAMessageByNameAndByBothSpellingsOfItsId) {
+  const Said named = run({"dbc", "show", kOwn, "steering_report"});
+  EXPECT_EQ(named.code, 0);
+  for (const char* part :
+       {"steering_report  id 1303 (0x517)  3 bytes", "0|11 Intel", "x0.5", "[-1024|1023]", "deg"}) {
+    EXPECT_NE(named.out.find(part), std::string::npos) << part << "\n" << named.out;
+  }
+  EXPECT_EQ(run({"dbc", "show", kOwn, "1303"}).out, named.out);
+  EXPECT_EQ(run({"dbc", "show", kOwn, "0x517"}).out, named.out);
+  expect_refusal({"dbc", "show", kOwn, "steering"}, "there is no message \"steering\"");
+  expect_refusal({"dbc", "show", kOwn, "1"}, "there is no message \"1\"");
+}
+
+TEST_F(DbcVerb, DiffSaysWhatTheOtherReads) {
+  const std::string one = file("one.dbc", kClean);
+  const std::string other = spoilt_file("other.dbc", "0|10@1-", "0|11@1-");
+  const Said same = run({"dbc", "diff", one, one});
+  EXPECT_EQ(same.code, 0);
+  EXPECT_EQ(same.out, "no differences\n");
+  const Said said = run({"dbc", "diff", one, other, "--json", path("d.json")});
+  EXPECT_EQ(said.code, 1);
+  EXPECT_EQ(said.out,
+            "misread: M (100): s grew from 10 to 11 bits: what one writes as -1 deg the other "
+            "reads as +511\n");
+  const auto json = yaml::load_file(path("d.json"));
+  ASSERT_TRUE(json) << to_string(json.error());
+  expect_refusal({"dbc", "diff", one, spoilt_file("bad.dbc", "16|8", "60|8")},
+                 "bad.dbc:4:6: error");
+  expect_refusal({"dbc", "diff", one, other, "--json", path("no/such/d.json")}, "no/such");
+}
+
+}  // namespace
+}  // namespace pitwall::cli

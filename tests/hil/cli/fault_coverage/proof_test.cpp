@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/cli/fault_coverage/proof.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+namespace pitwall::fault_coverage {
+namespace {
+
+using scenario::ExpectKind;
+using world::Monitor;
+
+scenario::Expectation expectation(ExpectKind kind, const std::string& signal,
+                                  const std::string& relation, double value) {
+  return {.kind = kind, .signal = signal, .relation = relation, .value = value, .place = "here:1"};
+}
+
+TEST(Proof, WhatMonitorsSeeIsNoConsequence) {
+  EXPECT_FALSE(is_consequence(expectation(ExpectKind::kDetects, "seen_counter", "==", 1)));
+  EXPECT_FALSE(is_consequence(expectation(ExpectKind::kNever, "seen_clock", "==", 1)));
+  EXPECT_TRUE(is_consequence(expectation(ExpectKind::kNever, "mode", "==", 3)));
+  EXPECT_TRUE(is_consequence(expectation(ExpectKind::kDetects, "ct_state", "==", 10)));
+}
+
+TEST(Proof, AScenarioAsksWithADetectionOnly) {
+  scenario::Scenario scenario;
+  scenario.expect = {expectation(ExpectKind::kDetects, "seen_counter", "==", 1),
+                     expectation(ExpectKind::kNever, "seen_clock", "==", 1)};
+  EXPECT_TRUE(asks(scenario, Monitor::kCounter));
+  EXPECT_FALSE(asks(scenario, Monitor::kClock));
+}
+
+Proof proof_of(Monitor monitor, bool asked, bool failed) {
+  Proof proof{.monitor = monitor, .asked = {}};
+  if (asked) proof.asked = {"f06_x"};
+  if (failed) proof.failed = {{"f06_x", "never mode == 3", "violated at 26.500 s"}};
+  return proof;
+}
+
+TEST(Proof, AMonitorIsProvenOrInformsOnly) {
+  EXPECT_EQ(open_point(proof_of(Monitor::kCounter, true, true)), "");
+  EXPECT_EQ(open_point(proof_of(Monitor::kBusLoad, true, false)), "");
+  EXPECT_NE(open_point(proof_of(Monitor::kCounter, true, false)).find("unproven"),
+            std::string::npos);
+  EXPECT_NE(open_point(proof_of(Monitor::kBusLoad, true, true)).find("is proven"),
+            std::string::npos);
+  for (const Monitor monitor : {Monitor::kCounter, Monitor::kBusLoad})
+    EXPECT_NE(open_point(proof_of(monitor, false, false)).find("by no scenario"),
+              std::string::npos);
+}
+
+TEST(Proof, TheTableNamesMonitorScenarioAndExpectation) {
+  const std::string text = to_text(std::vector{proof_of(Monitor::kCounter, true, true),
+                                               proof_of(Monitor::kBusLoad, true, false),
+                                               proof_of(Monitor::kModule, true, false)});
+  for (const char* words : {"counter           f06_x", "never mode == 3: violated at 26.500 s",
+                            "bus_load          informs only", "UNPROVEN: module changes nothing"})
+    EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
+}
+
+TEST(Proof, JsonHasTheSame) {
+  EXPECT_EQ(json_of(proof_of(Monitor::kCounter, true, true)),
+            R"({"monitor": "counter", "asked": ["f06_x"], "failed": [{"scenario": "f06_x", )"
+            R"("expectation": "never mode == 3", "reason": "violated at 26.500 s"}], )"
+            R"("informs_only": null})");
+}
+
+// Frames twice: nothing but the report is lost without the counter's monitor. A counter that stands
+// still: without it the car drives on by a report of before.
+TEST(Proof, AFaultThatIsOnlyReportedProvesNothing) {
+  const std::string root = PITWALL_SOURCE_DIR;
+  for (const auto& [name, proves] :
+       {std::pair{"f06_frames_twice", false}, std::pair{"f08_counter_stuck", true}}) {
+    const auto loaded = bench::load(root + "/hil/scenarios/faults/" + name + ".yaml", root);
+    ASSERT_TRUE(loaded) << name;
+    const auto found = consequence_without(Monitor::kCounter, *loaded);
+    ASSERT_TRUE(found) << name;
+    EXPECT_EQ(found->has_value(), proves) << name;
+    if (proves) {
+      EXPECT_NE((*found)->expectation.find("mode"), std::string::npos);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pitwall::fault_coverage

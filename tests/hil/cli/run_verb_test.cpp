@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/cli/run_verb.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "hil/can_bus/line_relay.hpp"
+#include "hil/cli/clock_place.hpp"
+#include "protocol/yaml/strict_map.hpp"
+#include "tests/hil/cli/program_run.hpp"
+
+namespace pitwall::cli {
+namespace {
+
+const std::string kLaunchAndStop = "hil/scenarios/launch_and_stop.yaml";
+
+class RunVerb : public ProgramRun {};
+
+TEST_F(RunVerb, WrongUsageIsTold) {
+  expect_refusal({}, "pitwall-hil VERB");
+  expect_refusal({"rum", kLaunchAndStop}, "unknown verb \"rum\"");
+  expect_refusal({"run"}, "scenario");
+  expect_refusal({"run", kLaunchAndStop, "--no-such-flag"}, "--no-such-flag");
+  expect_refusal({"run", kLaunchAndStop, "second.yaml"}, "second.yaml");
+  expect_refusal({"run", kLaunchAndStop, "--duration", "soon"}, "soon");
+  expect_refusal({"run", kLaunchAndStop, "--duration", "-1"}, "--duration");
+  expect_refusal({"run", kLaunchAndStop, "--duration"}, "--duration");
+  expect_refusal({"run", kLaunchAndStop, "--seed", "-1"}, "--seed");
+  expect_refusal({"run", kLaunchAndStop, "--radio-port", "70000"}, "--radio-port");
+  expect_refusal({"run", kLaunchAndStop, "--radio-port", "-1"}, "--radio-port");
+}
+
+TEST_F(RunVerb, HelpIsNoError) {
+  for (const auto& words : {std::vector<std::string>{"--help"}, {"help"}, {"run", "--help"}}) {
+    const Said said = run(words);
+    EXPECT_EQ(said.code, 0);
+    EXPECT_NE(said.out.find("run"), std::string::npos);
+    EXPECT_EQ(said.err, "");
+  }
+}
+
+TEST_F(RunVerb, ABadScenarioIsToldWithItsPlaceAndNothingIsStarted) {
+  const std::string bad = spoilt("launch_and_stop.yaml", "seed: 11", "seed: eleven");
+  for (const bool live : {false, true}) {
+    std::vector<std::string> words{"run", bad, "--json", path("r.json"), "--log", path("l.mcap")};
+    if (live) words.insert(words.end(), {"--live", "--out", path("live")});
+    expect_refusal(words, bad + ":4:7: error: ");
+    EXPECT_FALSE(exists("r.json"));
+    EXPECT_FALSE(exists("l.mcap"));
+    EXPECT_FALSE(exists("live"));
+  }
+  expect_refusal({"run", path("none.yaml")}, path("none.yaml"));
+  expect_refusal({"run", path("none.yaml"), "--live"}, path("none.yaml"));
+}
+
+TEST_F(RunVerb, WhatTheBenchDoesNotKnowIsToldWithItsPlace) {
+  const std::string signal = spoilt("red_flag_stop.yaml", "signal: wall_gap_m", "signal: wall_gap");
+  expect_refusal({"run", signal}, signal + ":");
+  const std::string fault = spoilt("bus_silent.yaml", "kind: bus_silent", "kind: bus_sulks");
+  expect_refusal({"run", fault}, "bus_sulks");
+}
+
+TEST_F(RunVerb, AFileThatCannotBeWrittenIsAFailureOfTheBench) {
+  expect_refusal({"run", kLaunchAndStop, "--log", path("no/such/folder/l.mcap")}, "no/such/folder");
+  const Said said = run({"run", kLaunchAndStop, "--json", path("no/such/folder/r.json")});
+  EXPECT_EQ(said.code, 2);
+  EXPECT_NE(said.err.find("no/such/folder"), std::string::npos);
+}
+
+TEST_F(RunVerb, APassIsZero) {
+  const Said said = run({"run", kLaunchAndStop, "--json", path("r.json"), "--log", path("l.mcap")});
+  EXPECT_EQ(said.code, 0) << said.out << said.err;
+  EXPECT_NE(said.out.find("verdict: PASS"), std::string::npos);
+  EXPECT_NE(said.out.find("SIMULATION"), std::string::npos);
+  EXPECT_GT(text_of("l.mcap").size(), 1'000'000u);
+  const auto json = yaml::load_file(path("r.json"));
+  ASSERT_TRUE(json) << to_string(json.error());
+  EXPECT_TRUE(json->root().flag("passed"));
+  EXPECT_NE(said.out.find(json->root().text("sha256")), std::string::npos);
+}
+
+// The test of the grader: an expectation that cannot hold is neither a pass nor a broken bench.
+TEST_F(RunVerb, AFailedExpectationIsOne) {
+  const std::string fails =
+      spoilt("launch_and_stop.yaml", "expect:\n",
+             "expect:\n  - {kind: always, signal: speed_mps, is: \"<\", value: 5}\n");
+  const Said said = run({"run", fails, "--json", path("r.json")});
+  EXPECT_EQ(said.code, 1) << said.out << said.err;
+  EXPECT_NE(said.out.find("FAIL  always speed_mps < 5"), std::string::npos) << said.out;
+  EXPECT_NE(said.out.find("verdict: FAIL"), std::string::npos);
+  const auto json = yaml::load_file(path("r.json"));
+  ASSERT_TRUE(json);
+  EXPECT_FALSE(json->root().flag("passed"));
+}
+
+TEST_F(RunVerb, AWallEndsTheRunAndIsFour) {
+  const std::string unnamed = spoilt("steering_stuck.yaml", "contact:", "#contact:");
+  const Said said = run({"run", unnamed, "--report", path("report")});
+  EXPECT_EQ(said.code, 4) << said.out << said.err;
+  const Said again = run({"run", unnamed, "--json", path("r.json")});
+  EXPECT_NE(again.out.find("verdict: CONTACT"), std::string::npos) << again.out;
+  EXPECT_NE(again.out.find("CONTACT: the car hit the wall on the "), std::string::npos);
+  EXPECT_NE(again.out.find("not judged, the car hit a wall before: "), std::string::npos);
+  const auto json = yaml::load_file(path("r.json"));
+  ASSERT_TRUE(json);
+  EXPECT_FALSE(json->root().flag("passed"));
+  EXPECT_TRUE(json->root().flag("failed_by_contact"));
+  EXPECT_LT(json->root().number("simulated_s", 0, 100), 60.0);
+  EXPECT_NE(text_of("report/report.html").find("CONTACT"), std::string::npos);
+  EXPECT_NE(text_of("report/junit.xml").find("<failure message=\"CONTACT: "), std::string::npos);
+  EXPECT_EQ(run({"run", spoilt("steering_stuck.yaml", "at_most_mps: 60", "at_most_mps: 5")}).code,
+            4);
+}
+
+TEST_F(RunVerb, ARunThatEndsTooEarlyToShowAnythingDoesNotPass) {
+  const Said said = run({"run", kLaunchAndStop, "--duration", "5"});
+  EXPECT_NE(said.code, 0);
+  EXPECT_EQ(said.out.find("verdict: PASS"), std::string::npos);
+}
+
+TEST_F(RunVerb, OfARunThatIsCutTheRestIsNotJudgedAndTold) {
+  const Said said = run({"run", kLaunchAndStop, "--duration", "5", "--cut"});
+  EXPECT_EQ(said.code, 0) << said.out << said.err;
+  EXPECT_NE(said.out.find("not judged, the run is cut at 5.0 s: " + std::string(kLaunchAndStop)),
+            std::string::npos);
+  EXPECT_NE(said.out.find("verdict: PASS"), std::string::npos);
+  expect_refusal({"run", kLaunchAndStop, "--cut"}, "--duration");
+}
+
+TEST_F(RunVerb, SeedAndDurationAreThoseOfTheLine) {
+  const auto digest = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"run", "hil/scenarios/lvms_flying_lap.yaml", "--cut", "--json",
+                                   path("r.json")};
+    words.insert(words.end(), more.begin(), more.end());
+    (void)run(words);
+    const auto json = yaml::load_file(path("r.json"));
+    return json ? json->root().text("sha256") : "none";
+  };
+  const std::string plain = digest({"--duration", "12"});
+  EXPECT_EQ(digest({"--duration", "12"}), plain) << "the same run gives the same bytes";
+  EXPECT_EQ(digest({"--duration", "12", "--seed", "7"}), plain);
+  EXPECT_NE(digest({"--duration", "12", "--seed", "8"}), plain);
+  EXPECT_NE(digest({"--duration", "13"}), plain);
+}
+
+TEST_F(RunVerb, ProgressIsLinesFromThePlanToTheResult) {
+  const Said said = run({"run", kLaunchAndStop, "--progress", path("p.jsonl")});
+  EXPECT_EQ(said.code, 0);
+  const std::string lines = text_of("p.jsonl");
+  EXPECT_TRUE(lines.starts_with("{\"type\": \"plan\"")) << lines.substr(0, 80);
+  EXPECT_TRUE(lines.ends_with("\n"));
+  const std::string last = lines.substr(lines.rfind('\n', lines.size() - 2) + 1);
+  EXPECT_TRUE(last.starts_with("{\"type\": \"result\", \"passed\": true")) << last.substr(0, 80);
+  expect_refusal({"run", kLaunchAndStop, "--progress", path("no/such/p.jsonl")}, "no/such");
+  expect_refusal({"run", kLaunchAndStop, "--progress", path("p.jsonl"), "--hours", "1"}, "--hours");
+}
+
+TEST(LiveCommand, SaysAllThatTheRunWasTold) {
+  RunOptions options;
+  options.scenario = "s.yaml";
+  options.interface = "vcan7";
+  options.folder = "out";
+  options.log_file = "l.mcap";
+  options.json_file = "r.json";
+  options.duration = milliseconds(1500);
+  options.seed = 42;
+  options.candump = true;
+  options.radio_port = 999;
+  const std::vector<std::string> command = live_command(options);
+  EXPECT_EQ(command[0], own_program());
+  EXPECT_EQ(command[1], "run");
+  EXPECT_EQ(command[2], "s.yaml");
+  const auto has = [&](const std::string& word) {
+    return std::find(command.begin(), command.end(), word) != command.end();
+  };
+  const auto value = [&](const std::string& flag) {
+    const auto at = std::find(command.begin(), command.end(), flag);
+    return at == command.end() || at + 1 == command.end() ? "" : *(at + 1);
+  };
+  EXPECT_TRUE(has("--live"));
+  EXPECT_TRUE(has("--here")) << "or the guest would boot a guest";
+  EXPECT_TRUE(has("--candump"));
+  EXPECT_EQ(value("--interface"), "vcan7");
+  EXPECT_EQ(value("--out"), "out");
+  EXPECT_EQ(value("--log"), "l.mcap");
+  EXPECT_EQ(value("--json"), "r.json");
+  EXPECT_EQ(std::stod(value("--duration")), 1.5);
+  EXPECT_EQ(value("--seed"), "42");
+  EXPECT_EQ(value("--radio-port"), "999");
+  EXPECT_FALSE(has("--progress"));
+  options.progress_file = "p.jsonl";
+  const std::vector<std::string> told = live_command(options);
+  const auto progress = std::find(told.begin(), told.end(), "--progress");
+  ASSERT_NE(progress, told.end());
+  EXPECT_EQ(*(progress + 1), "p.jsonl");
+}
+
+TEST(LiveCommand, ATimeThatIsSharedIsKeptOnBothSidesOfTheLine) {
+  RunOptions options;
+  options.scenario = "s.yaml";
+  for (const char* const clock : {"", "bench", "wall", "/dev/shm/t"}) {
+    options.clock = clock;
+    const bool is_file = clock[0] == '/';
+    const auto words = exec_words(options);
+    ASSERT_TRUE(words);
+    const auto command = std::ranges::find(*words, "--");
+    const auto outside = std::find(words->begin(), command, "--clock");
+    EXPECT_EQ(outside != command, is_file) << clock;
+    const auto inside = std::find(command, words->end(), "--clock");
+    ASSERT_EQ(inside != words->end(), clock[0] != 0) << clock;
+    if (clock[0] != 0) {
+      EXPECT_EQ(*(inside + 1), on_host(clock));
+    }
+  }
+}
+
+// Behind the line the bench has ports of its own; on this machine they are those of the base.
+TEST(ExecWords, LeadTheRadioOutOfTheGuest) {
+  RunOptions options;
+  options.scenario = "s.yaml";
+  options.interface = "vcan7";
+  const auto without = exec_words(options);
+  ASSERT_TRUE(without);
+  EXPECT_EQ(std::ranges::count(*without, "--line-udp"), 0);
+  options.radio_port = 23'431;
+  options.uplink_port = 23'500;
+  const auto with = exec_words(options);
+  ASSERT_TRUE(with);
+  const auto after = [&](const std::string& flag) {
+    const auto at = std::ranges::find(*with, flag);
+    return at == with->end() ? "" : *(at + 1);
+  };
+  const auto line = can_bus::parse_line_ports(after("--line-udp"));
+  ASSERT_TRUE(line);
+  EXPECT_EQ(line->host_listen, 23'500);
+  EXPECT_EQ(line->host_destination, 23'431);
+  EXPECT_EQ(after("--radio-port"), std::to_string(line->guest_listen));
+  EXPECT_EQ(after("--uplink-port"), std::to_string(line->guest_destination));
+  EXPECT_EQ(after("--interface"), "vcan7");
+  EXPECT_EQ(after("--"), own_program());
+  options.uplink_port = 0;  // any
+  const auto any = exec_words(options);
+  ASSERT_TRUE(any);
+  EXPECT_NE((*any)[5].substr(0, 2), "0:");
+}
+
+}  // namespace
+}  // namespace pitwall::cli

@@ -1,0 +1,15 @@
+// The name of an entry, with its section.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "hil/plant/entries.hpp"
+
+namespace pitwall::plant {
+
+inline std::string name_of(const Entry& e) {
+  return std::string(e.section) + "." + std::string(e.key);
+}
+
+}  // namespace pitwall::plant

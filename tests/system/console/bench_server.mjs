@@ -1,0 +1,49 @@
+/**
+ * A real bench server beside the base of a test, and how its run stands on a page.
+ */
+// SPDX-License-Identifier: Apache-2.0
+import { spawn } from "node:child_process";
+import { cpSync, mkdirSync } from "node:fs";
+import { join } from "node:path";
+import { kRoot } from "./packages.mjs";
+import { until } from "./stage.mjs";
+
+const kBench = process.env.PITWALL_HIL ?? join(kRoot, "build/release/hil/pitwall-hil");
+export const kScenarios = ["launch_and_stop.yaml", "red_flag_stop.yaml"];
+
+export const socketOf = (programs) => join(programs.folder, "server");
+
+/** As `bench` of the test's programs, so that it ends with them. */
+export function startBenchServer(programs, ...more) {
+  const scenarios = join(programs.folder, "scenarios");
+  mkdirSync(scenarios, { recursive: true });
+  for (const name of kScenarios) cpSync(join(kRoot, "hil/scenarios", name), join(scenarios, name));
+  const runs = join(programs.folder, "runs");
+  programs.bench = spawn(
+    kBench,
+    ["serve", "--socket", socketOf(programs), "--scenarios", scenarios, "--runs", runs, ...more],
+    { cwd: kRoot, stdio: ["ignore", "ignore", "inherit"] },
+  );
+  programs.others = ["bench"];
+}
+
+export const stateIs = (page, state, ms) =>
+  until(
+    page,
+    `a run that is ${state}`,
+    (wanted) => document.querySelector(".verdict")?.dataset.state === wanted,
+    state,
+    ms,
+  );
+
+/** The page of the bench, with what the server offers. */
+export async function benchPage(stage) {
+  const opened = await stage.open({ hash: "#/hil", ready: ".scenarios li" });
+  await until(
+    opened.page,
+    "every scenario",
+    (count) => document.querySelectorAll(".scenarios li").length === count,
+    kScenarios.length,
+  );
+  return opened;
+}

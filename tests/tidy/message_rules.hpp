@@ -1,0 +1,25 @@
+// The messages of errors, read from the code.
+//   in     one file of the product
+//   out    each message with its line: the texts between quotes, "..." where a value stands between
+//          them. What is made of values alone is no message
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/tidy/source_tree.hpp"
+
+namespace pitwall::tidy {
+
+struct ErrorMessage {
+  std::size_t line = 0;
+  std::string text;
+};
+
+std::vector<ErrorMessage> messages_of(const SourceFile& file);
+
+// A message says what was wrong, or what was expected by that word: "a number" alone is neither.
+std::vector<Finding> check_messages(const SourceFile& file);
+
+}  // namespace pitwall::tidy

@@ -1,0 +1,45 @@
+// The planar filter of the paper as a fold over measurements: ekf.hpp, with the sigmas and the tyre
+// model that it is told. It holds the last IMU sample, knows no height and takes the banking from
+// the road.
+//   invariants
+//          lateral speed by the tyres, only while no receiver says a velocity:
+//          vy = lr r - vx k fy; below 5 m/s the rear axle does not slip, vy = lr r
+//   source Rajamani, Vehicle Dynamics and Control, section 2.5
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "vehicle/autonomy/localization/filter/ekf.hpp"
+#include "vehicle/autonomy/localization/filter/measurement.hpp"
+
+namespace pitwall::localization {
+
+struct PlanarParams {
+  MotionNoise noise;
+  std::array<double, 2> gate_nis{kUnset, kUnset};  // 4..100: for 1 and 2 degrees of freedom
+  double position_sigma_floor_m = kUnset;          // stands for noise that is correlated in time
+  double velocity_sigma_mps = kUnset;
+  double heading_sigma_floor_rad = kUnset;
+  double wheel_sigma_mps = kUnset;
+  double wheel_sigma_per_speed = kUnset;  // share of the speed (slip, tyre growth)
+  double slip_sigma_mps = kUnset;         // of the lateral speed by the tyre model
+  double slip_after_s = kUnset;           // without GNSS velocity the model is used
+  double cg_to_rear_m = kUnset;
+  double rear_slip_rad_per_mps2 = kUnset;  // rear slip angle per lateral acceleration
+};
+
+struct PlanarBelief {
+  Belief belief;
+  Instant velocity_at{};  // of the last one taken in
+  bool velocity_heard = false;
+};
+
+struct PlanarModel {
+  using Belief = PlanarBelief;
+  using Params = PlanarParams;
+  static Innovation fold(PlanarBelief& b, const PlanarParams& p, const Measurement& m,
+                         const Measurement* next_imu);
+};
+
+}  // namespace pitwall::localization

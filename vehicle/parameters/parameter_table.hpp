@@ -1,0 +1,13 @@
+// Table of the car file's numbers for people: key, default and legal range, from the same rows that
+// read and check the file. What depends on other numbers or is a list is not in it.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace pitwall::parameters {
+
+// One line for each number, in the order of the file: "planning.line.spacing_m  required  0.5  5".
+std::string parameter_table();
+
+}  // namespace pitwall::parameters

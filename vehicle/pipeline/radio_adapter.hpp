@@ -1,0 +1,71 @@
+// Between the car's end of the radio and the pipeline: what the operator says goes into the tick,
+// what became of it and what happened goes back. The same in the car and in the bench.
+//   in     the endpoint; Inputs before the step, Outputs after it; the car file as text
+//   out    Inputs: wishes, commands, when the base was alive, whether the car may be armed.
+//          Endpoint: fate of each command, standstill, place, events (also of attacks and key
+//          errors that the car's end of the radio sees), the path that the car means
+//          to drive (each kPathPeriod) and, when asked for, its parameters
+//   invariants
+//          a command is decided once: by the pipeline, or here where the pipeline has no part in it
+//          (end of the run: at standstill only; parameters). Ends that do not agree on the safety
+//          schema do not arm
+//   cost   no allocation
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "protocol/telemetry/delivery/path_object.hpp"
+#include "protocol/telemetry/endpoint/car_endpoint.hpp"
+#include "protocol/vocabulary/fixed_vector.hpp"
+#include "protocol/vocabulary/time.hpp"
+#include "vehicle/pipeline/car.hpp"
+#include "vehicle/pipeline/event_tap.hpp"
+#include "vehicle/pipeline/setup.hpp"
+#include "vehicle/pipeline/step.hpp"
+#include "vehicle/pipeline/telemetry_tap.hpp"
+
+namespace pitwall::pipeline {
+
+class RadioAdapter {
+ public:
+  static constexpr Duration kPathPeriod = seconds(1), kFiguresPeriod = milliseconds(100);
+
+  // `parameters` is not copied.
+  explicit RadioAdapter(std::string_view parameters = {}) : parameters_(parameters) {}
+
+  // Before the step. The commands lie here until the next call.
+  void fill(telemetry::CarEndpoint& radio, Inputs& in);
+  // After it.
+  void take(telemetry::CarEndpoint& radio, const Setup& setup, const Car& car, const Outputs& out,
+            Instant now);
+
+  // What telemetry shows of the radio; its statistics anew each kFiguresPeriod.
+  void show(const telemetry::CarEndpoint& radio, RimCounters& figures, Instant now);
+
+  // Attacks and key errors that began or were over in the newest take().
+  std::span<const telemetry::ThreatChange> threats() const { return threats_.span(); }
+
+  bool end_asked() const { return end_asked_; }  // the operator ended the run
+  std::uint64_t events_missed() const { return events_.missed() + events_refused_; }
+
+ private:
+  void admit(telemetry::CarEndpoint& radio, const telemetry::DueCommand& due, Instant now);
+  void take_threats(telemetry::CarEndpoint& radio);
+  void show_path(telemetry::CarEndpoint& radio, const Car& car, Instant now);
+
+  std::string_view parameters_;
+  FixedVector<world::OperatorCommand, world::kOperatorCommandsMax> commands_;
+  FixedVector<telemetry::ThreatChange, telemetry::kThreats> threats_;
+  EventTap events_;
+  bool stands_ = false, end_asked_ = false;
+  std::uint64_t events_refused_ = 0;
+  std::optional<Instant> path_at_, counted_at_;
+  RimCounters counted_;  // those of the radio
+  telemetry::PathBuffer path_{};
+};
+
+}  // namespace pitwall::pipeline
