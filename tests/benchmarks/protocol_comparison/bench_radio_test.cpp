@@ -7,8 +7,8 @@
 
 #include <string>
 
-#include "protocol/transport/tun.hpp"
 #include "protocol/yaml/strict_map.hpp"
+#include "tests/benchmarks/protocol_comparison/tun.hpp"
 #include "tests/hil/cli/program_run.hpp"
 
 namespace pitwall::benchmarks {

@@ -8,13 +8,13 @@
 #include <optional>
 #include <utility>
 
-#include "hil/link/age_samples.hpp"
-#include "hil/link/rate_window.hpp"
 #include "hil/link/trace.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
 #include "protocol/vocabulary/quantile.hpp"
+#include "tests/benchmarks/radio/age_samples.hpp"
+#include "tests/benchmarks/radio/rate_window.hpp"
 
 namespace pitwall::benchmarks {
 namespace {

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "hil/link/link_emulator.hpp"
-#include "protocol/transport/tun.hpp"
 #include "protocol/vocabulary/time.hpp"
+#include "tests/benchmarks/protocol_comparison/tun.hpp"
 
 namespace pitwall::benchmarks {
 

@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <utility>
 
-#include "hil/link/rate_window.hpp"
 #include "protocol/telemetry/packet/header.hpp"
 #include "tests/benchmarks/radio/offered_load.hpp"
+#include "tests/benchmarks/radio/rate_window.hpp"
 
 namespace pitwall::radio {
 

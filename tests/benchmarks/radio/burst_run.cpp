@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "hil/link/age_samples.hpp"
+#include "tests/benchmarks/radio/age_samples.hpp"
 #include "tests/benchmarks/radio/offered_load.hpp"
 
 namespace pitwall::radio {

@@ -8,12 +8,12 @@
 #include "hil/can_bus/bus_verb.hpp"
 #include "hil/cli/run_verb.hpp"
 #include "hil/replay/candump_log.hpp"
-#include "hil/replay/sample_log.hpp"
 #include "hil/replay/timeline.hpp"
 #include "protocol/transport/file.hpp"
 #include "tests/benchmarks/command_line.hpp"
 #include "tests/benchmarks/replay/match_report.hpp"
 #include "tests/benchmarks/replay/player_match.hpp"
+#include "tests/benchmarks/replay/sample_log.hpp"
 
 namespace pitwall::benchmarks {
 namespace {

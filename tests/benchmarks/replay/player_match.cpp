@@ -10,12 +10,12 @@
 #include <utility>
 
 #include "hil/cli/run_verb.hpp"
-#include "hil/replay/sample_log.hpp"
 #include "protocol/transport/can/can_socket.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
 #include "protocol/transport/realtime.hpp"
+#include "tests/benchmarks/replay/sample_log.hpp"
 
 namespace pitwall::benchmarks {
 namespace {

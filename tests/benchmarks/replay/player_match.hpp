@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "hil/replay/candump_log.hpp"
-#include "hil/replay/compare.hpp"
 #include "protocol/vocabulary/result.hpp"
+#include "tests/benchmarks/replay/compare.hpp"
 
 namespace pitwall::benchmarks {
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hil/replay/sample_log.hpp"
+#include "tests/benchmarks/replay/sample_log.hpp"
 
 namespace pitwall::benchmarks {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/link/age_samples.hpp"
+#include "tests/benchmarks/radio/age_samples.hpp"
 
 #include <algorithm>
 #include <cmath>

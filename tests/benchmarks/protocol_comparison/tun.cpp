@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocol/transport/tun.hpp"
+#include "tests/benchmarks/protocol_comparison/tun.hpp"
 
 #include <arpa/inet.h>
 #include <fcntl.h>

@@ -1,7 +1,7 @@
 // Two networks joined by hand: what one end sends is what we read, and what we write the other end
 // receives. Needs root and /dev/net/tun.
 // SPDX-License-Identifier: Apache-2.0
-#include "protocol/transport/tun.hpp"
+#include "tests/benchmarks/protocol_comparison/tun.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/replay/sample_log.hpp"
+#include "tests/benchmarks/replay/sample_log.hpp"
 
 #include <algorithm>
 

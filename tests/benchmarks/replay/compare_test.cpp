@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/replay/compare.hpp"
+#include "tests/benchmarks/replay/compare.hpp"
 
 #include <gtest/gtest.h>
 

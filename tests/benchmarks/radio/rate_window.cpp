@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/link/rate_window.hpp"
+#include "tests/benchmarks/radio/rate_window.hpp"
 
 #include <algorithm>
 
