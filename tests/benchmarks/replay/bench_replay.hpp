@@ -1,7 +1,7 @@
 // `pitwall-benchmarks replay`: replay timing beside canplayer and python-can, on the same bus, from
 // the same file, judged by the same recorder. Where this kernel has no CAN, in a guest.
 //
-//   --log FILE      a candump log (default: tests/benchmarks/replay/sample_log, about 2,500 frames a second)
+//   --log FILE      a candump log (default: sample_log.hpp, about 2,500 frames a second)
 //   --length S      of the default log (10)         --runs N      of each player (3)
 //   --interface     to play on (vcan0)              --json FILE   everything, for programs
 //   out    a table: quantiles of lateness and gap error, medians over the runs; exit code 1 when a
