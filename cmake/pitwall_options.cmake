@@ -15,6 +15,11 @@ target_compile_options(pitwall_options INTERFACE
 target_compile_definitions(pitwall_options INTERFACE
   PITWALL_SOURCE_DIR="${CMAKE_SOURCE_DIR}" EIGEN_MPL2_ONLY)
 
+# The product's objects know their lines, so that a run can be followed through its files
+# (tests/system/walks); programs are linked without them.
+set(PITWALL_LINES "$<$<CONFIG:Release>:-g1>")
+add_link_options("$<$<CONFIG:Release>:-Wl,--strip-debug>")
+
 if(PITWALL_SANITIZE)
   add_compile_options(-fsanitize=${PITWALL_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${PITWALL_SANITIZE})

@@ -5,7 +5,8 @@
 //                `-------`-> refused (gates, or cancelled), expired (nobody sent it)
 //
 //   in     what operators stage, send and cancel; what the vehicle state says; what the car answers
-//   out    tickets with every step and its time; commands issued on the radio's desk; audit lines
+//   out    tickets with every step and its time; commands given to the radio's transmitter; audit
+//          lines
 //   invariants
 //          gates are judged when a command is staged and again when it is sent: what has passed a
 //          minute ago has not passed now. One that did not pass goes only with a reason and by a

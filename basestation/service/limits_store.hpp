@@ -1,5 +1,5 @@
 // The file of limits and alarms over the life of a base: read once, written after each change.
-//   in     its path; what people changed, by the settings desk
+//   in     its path; what people changed, by the settings editor
 //   out    the settings to begin with; a line for a person where they are not the file's
 //   invariants
 //          a file that cannot be read stops no base: limits and alarms hold as they came, and the

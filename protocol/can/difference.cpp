@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
@@ -19,12 +18,7 @@ namespace {
 constexpr std::size_t kMostValues = 4;  // that one line lists
 
 // For what was computed: without the last digits, which only show that 0.01 is not binary.
-std::string rounded(double v) {
-  std::array<char, 32> text{};
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), v, std::chars_format::general, 9).ptr;
-  return {text.data(), end};
-}
+std::string rounded(double v) { return formatted("%.9g", v); }
 
 std::string id_of(const Message& m) {
   return std::to_string(m.id) + (m.extended ? " extended" : "");

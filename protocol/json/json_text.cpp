@@ -2,9 +2,10 @@
 #include "protocol/json/json_text.hpp"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
+
+#include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::json {
 namespace {
@@ -76,12 +77,7 @@ std::string quoted(std::string_view text) {
   return out + '"';
 }
 
-std::string number(double value) {
-  if (!std::isfinite(value)) return "null";
-  std::array<char, 32> text{};
-  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} ? std::string(text.data(), end) : "null";
-}
+std::string number(double value) { return std::isfinite(value) ? shortest(value) : "null"; }
 
 std::string integer(std::int64_t value) { return std::to_string(value); }
 

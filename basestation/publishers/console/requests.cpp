@@ -267,7 +267,7 @@ Request edit_budget(Reader& read) {
   return ask;
 }
 
-Request bench_wish(Reader& read) {
+Request bench_request(Reader& read) {
   constexpr std::array<std::pair<std::string_view, bool>, 2> kDoings{
       {{"start", true}, {"stop", false}}};
   constexpr std::array<std::pair<std::string_view, bool>, 2> kModes{
@@ -308,7 +308,7 @@ constexpr std::array<Kind, 22> kKinds{
      {"edit_alarm", edit_alarm},
      {"edit_limit", edit_limit},
      {"edit_budget", edit_budget},
-     {"bench", bench_wish}}};
+     {"bench", bench_request}}};
 
 }  // namespace
 

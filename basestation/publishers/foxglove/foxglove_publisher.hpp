@@ -4,7 +4,7 @@
 //   out    messages to clients
 //   invariants
 //          behind a Feed: whatever this thread or a client does costs the loop nothing
-//   errors start(): as the desk. figures(): what the feed or clients lost, what was refused
+//   errors start(): as FoxgloveServer. figures(): what the feed or clients lost, what was refused
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -101,7 +101,7 @@ struct WebServer::Engine {
   mutable std::mutex lock;
   std::array<Door, kCars> doors;  // by car; from here on under the lock
   std::vector<Post> posts;
-  std::map<std::string, Shown> shown;  // not yet at the desk
+  std::map<std::string, Shown> shown;  // not yet at the responder
   bool post_under_way = false;
   WebCounters counters;
   std::map<std::pair<ClientId, std::uint32_t>, std::uint64_t> drops;  // by client and tag

@@ -1,5 +1,5 @@
 // Settings and operator entries, as the texts `settings` and `expected` of PROTOCOL.md.
-//   in     the desk of settings, the alarms in force; what people said
+//   in     the settings editor, the alarms in force; what people said
 //   out    one JSON object each
 //   units  seconds for delays, else as the field of the alarm has them
 // SPDX-License-Identifier: Apache-2.0

@@ -1,6 +1,6 @@
-// Radio and base station of lockstep: the car's own end of the radio and its desk, the base's end,
-// and the air of the scenario between them, in virtual time. What the operator says is in the
-// scenario.
+// Radio and base station of lockstep: the car's end of the radio with its adapter, the base's end,
+// and the radio channel of the scenario between them, in virtual time. What the operator says is in
+// the scenario.
 //   in     scenario, Setup, faults; time; Inputs before and Outputs after each tick of the car
 //   out    Inputs as the rim of the real car fills them; the base's service, as the program has it
 //   invariants

@@ -1,7 +1,7 @@
 // Bench server without sockets and processes: which scenarios there are, the run that goes on, what
 // each client is told.
 //   in     lines of clients; lines that the run tells of itself; how its process ended
-//   out    lines for the client that asked, lines for all; a run to start, the wish to stop it
+//   out    lines for the client that asked, lines for all; a run to start, a request to stop it
 //   invariants
 //          one run at a time; a second start is refused with a reason
 //          a client that joins is told everything that the others know: the scenarios, the newest

@@ -14,7 +14,7 @@ using telemetry::CommandType;
 using telemetry::field;
 using telemetry::Outcome;
 
-// A healthy race in front of the desk, and behind it a real radio with a car's end.
+// A healthy race in front of the queue, and behind it a real radio with a car's end.
 struct CommandPit {
   HealthyRace wall;
   RadioRig radio;

@@ -22,7 +22,7 @@ class JudgementStoreTest : public ::testing::Test {
   std::string text_of(const std::string& suffix = "") const {
     return transport::read_file(path() + suffix).value_or("no file");
   }
-  // As the desk does it: everything as it is, one revision on.
+  // As the editor does it: everything as it is, one revision on.
   static Result<bool, Problem> save(LimitsStore& store, std::uint64_t revision) {
     const settings::Judgement& now = store.judgement();
     return store.save({.derive = now.derive,

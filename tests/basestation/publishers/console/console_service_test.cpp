@@ -130,7 +130,7 @@ TEST_F(Consoles, ACommandGoesThroughTheDesk) {
   EXPECT_EQ(ask(browser, R"({"type":"playback","speed":2})", "error").text("place"), "playback");
 }
 
-// Also without a desk: who wanted to start what is in the audit log.
+// Also without a bench server: who wanted to start what is in the audit log.
 TEST_F(Consoles, AWishForTheBenchLeavesALine) {
   run(seconds(1));
   Browser browser;

@@ -138,7 +138,7 @@ TEST(VirtualStation, ACommandIsAppliedOnceAndItsFateIsKnown) {
                    say(1'600, "command track_flag 3 because of a test"),
                    say(1'700, "command end_run 1 because of a test")});
   radio.run_to(3'000);
-  ASSERT_EQ(radio.heard.size(), 2u) << "the end of the run is the desk's own business";
+  ASSERT_EQ(radio.heard.size(), 2u) << "the end of the run is the adapter's own business";
   EXPECT_EQ(radio.heard[0].kind, world::OperatorCommandKind::kSpeedLimit);
   EXPECT_NEAR(radio.heard[0].argument, 30.0, 0.05);
   EXPECT_TRUE(radio.station().refusals().empty());
