@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "hil/can_bus/bus_verb.hpp"
+#include "hil/cli/compare_verb.hpp"
 #include "hil/cli/dbc_verb.hpp"
-#include "hil/cli/demo_verb.hpp"
+#include "hil/cli/demo/demo_verb.hpp"
 #include "hil/cli/exit_code.hpp"
 #include "hil/cli/faults_verb.hpp"
 #include "hil/cli/report_verb.hpp"
@@ -34,6 +35,8 @@ constexpr std::array kVerbs{
          cli::serve_verb},
     Verb{"report", "the page of a run (HTML, JUnit) from its event log", cli::report_verb},
     Verb{"replay", "replay a candump log onto a CAN interface", replay::replay_verb},
+    Verb{"compare", "a car's recording driven again by this build: what it says otherwise",
+         cli::compare_verb},
     Verb{"dbc", "CAN databases: check, show, diff", cli::dbc_verb},
     Verb{"bus", "CAN interfaces: from this kernel or from a guest", can_bus::bus_verb},
     Verb{"faults", "every fault of the catalogue: who notices it, how fast, and the outcome",

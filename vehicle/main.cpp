@@ -119,7 +119,7 @@ class Drive {
     const pipeline::Outputs out = pipeline::step(setup_, *car_, in);
     parts_.guarded.publish(setup_, *car_, out, out.requests.reset, now);
     parts_.rim.write(out.passed.frames.span(), now);
-    parts_.box.can(heard.can, out.passed.frames.span(), now);
+    parts_.box.tick(in, out.passed.frames.span());
     if (out.bus_guard.restart_now) parts_.rim.restart_bus();
     tally_.add(transport::monotonic_now() - now, tick.missed);
     last_ = now;
@@ -278,7 +278,7 @@ Result<Parts, Problem> open_parts(const io::Arguments& args, const pipeline::Set
       io::LocalReport::open(args.local_report, args.simulation ? telemetry::Source::kSimulation
                                                                : telemetry::Source::kCar);
   if (!report) return Unexpected{report.error()};
-  auto box = io::BlackBox::open(args.record_folder, args.car_file, args.track_file);
+  auto box = io::BlackBox::open(args.record_folder, args.car_file, args.track_file, args.no_base);
   if (!box) return Unexpected{box.error()};
   auto sensors = open_sensors(args);
   if (!sensors) return Unexpected{sensors.error()};

@@ -93,6 +93,10 @@ bench::LivePlan plan_of(const RunOptions& options, const scenario::Scenario& sce
   if (options.attach) return plan;
   plan.vehicle = {beside("vehicle/pitwall-vehicle"), "--car", scenario.car_file, "--track",
                   scenario.track_file};
+  if (!options.record_folder.empty()) {
+    plan.vehicle.emplace_back("--record");
+    plan.vehicle.push_back(options.record_folder);
+  }
   if (const std::string guardian = beside("vehicle/guardian/pitwall-guardian");
       fs::exists(guardian) && !options.no_guardian)
     plan.guardian = {guardian, "--car", scenario.car_file};
@@ -175,6 +179,7 @@ std::vector<std::string> live_command(const RunOptions& options) {
   add("--clock", options.clock);
   add("--report", options.report_folder);
   add("--progress", options.progress_file);
+  add("--record", options.record_folder);
   if (options.report_folder.empty()) {
     add("--log", options.log_file);
     add("--json", options.json_file);
@@ -352,6 +357,8 @@ int run_verb(std::span<const std::string> args) {
   app.option("--out", options.folder,
              "live: folder for the car's summary and the candump; default " + options.folder);
   app.flag("--candump", options.candump, "live: record the bus with candump");
+  app.option("--record", options.record_folder,
+             "live: folder for the car's own recording, which `compare` drives again");
   app.option("--radio-port", options.radio_port, "live: pass the car's datagrams on to this port");
   app.option("--uplink-port", options.uplink_port, "live: answers of the base come here");
   app.option("--bay", options.bay, "live: of the benches that run on this machine at once")

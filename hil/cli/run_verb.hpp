@@ -10,6 +10,7 @@
 //   --report FOLDER   both of these and their page and JUnit file: report.html, junit.xml
 //   --progress FILE   one JSON line after the other while the run goes on: hil/bench/progress.hpp
 //   --out FOLDER      live: summary of the car, candump of the bus
+//   --record FOLDER   live: the car's own recording, which `pitwall-hil compare` drives again
 //   out    exit code 0 passed, 1 an expectation failed, 2 bad input or bench failure
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -29,6 +30,7 @@ struct RunOptions {
   std::string scenario, log_file, json_file, folder = "out/run";
   std::string report_folder;          // empty: no report
   std::string progress_file;          // lines while it goes on; empty: none
+  std::string record_folder;          // live: of the car's own recording; empty: none
   std::optional<Duration> duration;   // instead of the scenario's
   std::optional<std::uint64_t> seed;  // likewise
   double hours = 0.0;                 // 0: once

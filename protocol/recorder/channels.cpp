@@ -8,6 +8,7 @@
 
 #include "protocol/recorder/can_record.hpp"
 #include "protocol/recorder/raw_record.hpp"
+#include "protocol/recorder/tick_record.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace pitwall::recorder {
@@ -108,7 +109,8 @@ std::vector<recording::Channel> channels() {
     all.push_back(recording::cdr_channel<CanRecord>(topic));
   }
   for (const char* topic : {"/gnss/0", "/gnss/1"}) all.push_back({topic, kStreamEncoding, {}, {}});
-  CHECK(all.size() == kReceiverChannel + kReceivers);
+  all.push_back(recording::cdr_channel<TickRecord>("/car/tick"));
+  CHECK(all.size() == kTickChannel + 1);
   return all;
 }
 

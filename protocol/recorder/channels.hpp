@@ -7,6 +7,7 @@
 //             /radio/down, /radio/up, /gnss/0, /gnss/1: bytes as they came and went, as
 //             raw_record.hpp has them
 //             /can/in, /can/out: frames of the car's bus, "cdr", as can_record.hpp has them
+//             /car/tick: what else a tick of the car was given, "cdr", as tick_record.hpp has it
 //   clock     stamps in the file are UTC: an Instant of the base plus the ClockMap of the file,
 //             which stands in its metadata, so that an Instant comes back exactly
 //   invariants
@@ -74,6 +75,7 @@ inline constexpr std::uint16_t kDownChannel = kPictureChannel + 1, kUpChannel = 
 inline constexpr std::uint16_t kCanInChannel = kUpChannel + 1, kCanOutChannel = kCanInChannel + 1;
 inline constexpr std::uint16_t kReceiverChannel = kCanOutChannel + 1;  // of unit 0; 1 is the next
 inline constexpr std::size_t kReceivers = 2;
+inline constexpr std::uint16_t kTickChannel = kReceiverChannel + kReceivers;
 std::vector<recording::Channel> channels();
 
 struct ClockMap {

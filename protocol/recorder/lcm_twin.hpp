@@ -2,7 +2,7 @@
 //   in     the records of an open segment
 //   out    NAME.lcm: an event for each record, its channel named as in the segment, its time that
 //          of the reception. Types: `pitwall-base export lcm`. The picture of all that is known is
-//          left out: its values are in the groups
+//          left out, whose values are in the groups, and what a tick was given
 //   invariants
 //          the segment does not depend on it: where the disk takes no more, this log ends as it is,
 //          with whole events, and the next segment begins a new one

@@ -140,6 +140,14 @@ void Recorder::can(bool out, Instant at, const can::Frame& frame) {
                .data = encode(frame, bytes)});
 }
 
+void Recorder::tick(Instant at, const TickRecord& tick) {
+  TickBytes bytes;
+  queue_.push({.channel = kTickChannel,
+               .logged = at,
+               .published = at,
+               .data = recording::to_cdr(tick, bytes)});
+}
+
 RecorderFigures Recorder::figures() const {
   RecorderFigures figures;
   {

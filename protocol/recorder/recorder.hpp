@@ -23,6 +23,7 @@
 #include "protocol/recorder/file_disk.hpp"
 #include "protocol/recorder/raw_record.hpp"
 #include "protocol/recorder/segment_chain.hpp"
+#include "protocol/recorder/tick_record.hpp"
 #include "protocol/telemetry/registry/snapshot.hpp"
 
 namespace pitwall::recorder {
@@ -57,6 +58,7 @@ class Recorder {
   void datagram(bool down, Instant at, const RadioDatagram& datagram);
   void receiver(std::size_t unit, Instant at, std::span<const std::uint8_t> bytes);
   void can(bool out, Instant at, const can::Frame& frame);
+  void tick(Instant at, const TickRecord& tick);
   RecorderFigures figures() const;
   const ClockMap& clock() const { return clock_; }
 

@@ -80,6 +80,11 @@ const Names kBench{"hil",
 const Names kSnapshots{"basestation/service", "basestation/command", "basestation/alarms",
                        "basestation/state", "protocol"};
 
+Names bench_and(Names more) {
+  more.insert(more.end(), kBench.begin(), kBench.end());
+  return more;
+}
+
 Names publisher_and(Names more) {
   more.insert(more.end(), kSnapshots.begin(), kSnapshots.end());
   return more;
@@ -169,6 +174,8 @@ const std::vector<Part> kParts{
     {"hil/replay", kBench, {"zlib"}},
     {"hil/sensors", kBench, {"eigen", "embree", "geographic"}},
     {"hil/bench", kBench, rim_and({"eigen"})},
+    // A run is driven again by what the car's own rim kept of it.
+    {"hil/bench/recorded", bench_and({"vehicle/io"}), rim_and({})},
     {"hil/can_bus", kBench, rim_and({})},
     {"hil/cli", kBench, rim_and({"cli"})},
     {"hil/sweep", kBench, rim_and({})},

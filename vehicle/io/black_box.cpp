@@ -7,27 +7,31 @@
 #include "protocol/json/json_text.hpp"
 #include "protocol/telemetry/registry/group_row.hpp"
 #include "protocol/vocabulary/check.hpp"
+#include "vehicle/io/tick_inputs.hpp"
 
 namespace pitwall::io {
 
 Result<BlackBox, Problem> BlackBox::open(const std::string& folder, const std::string& car_file,
-                                         const std::string& track_file) {
+                                         const std::string& track_file, bool no_base) {
   BlackBox box;
   if (folder.empty()) return box;
   recording::Metadata run = recorder::program_metadata("pitwall-vehicle");
   recorder::append_file(run, "car", car_file);
   recorder::append_file(run, "track", track_file);
+  run.emplace_back(kBaseKey, no_base ? kNoBase : "watched");
   auto started = recorder::Recorder::start(folder, std::move(run));
   if (!started) return Unexpected{started.error()};
   box.recorder_ = *std::move(started);
   return box;
 }
 
-void BlackBox::can(std::span<const can::ReceivedFrame> heard, std::span<const can::Frame> said,
-                   Instant now) {
+void BlackBox::tick(const pipeline::Inputs& in, std::span<const can::Frame> said) {
   if (!on()) return;
-  for (const can::ReceivedFrame& frame : heard) recorder_->can(false, frame.at, frame.frame);
-  for (const can::Frame& frame : said) recorder_->can(true, now, frame);
+  counts_.frames_said = said.size();
+  for (const can::ReceivedFrame& frame : in.can) recorder_->can(false, frame.at, frame.frame);
+  for (const can::Frame& frame : said) recorder_->can(true, in.now, frame);
+  recorder_->tick(in.now, record_of(in, counts_));
+  counts_ = {.number = counts_.number + 1};
 }
 
 void BlackBox::state(const telemetry::Snapshot& state, Instant now) {
@@ -39,7 +43,9 @@ void BlackBox::radio(bool down, Instant at, const recorder::RadioDatagram& datag
 }
 
 void BlackBox::receiver(std::size_t unit, Instant at, std::span<const std::uint8_t> bytes) {
-  if (on() && !bytes.empty()) recorder_->receiver(unit, at, bytes);
+  if (!on() || bytes.empty()) return;
+  recorder_->receiver(unit, at, bytes);
+  counts_.receiver_bytes += bytes.size();
 }
 
 void BlackBox::event(std::string_view text, Instant at) {

@@ -62,7 +62,8 @@ TEST(LiveRun, OnItsOwnHubGivesTheVerdictsOfLockstepAndLosesNothing) {
   const std::string run = "'" + program() + "' run " + kScenario + kLength;
   // Neither ends with 0: what the scenario expects later than 15 s has not held yet.
   std::system((run + " --json " + f + "/lockstep.json > " + f + "/lockstep.txt 2>&1").c_str());
-  const std::string live_run = run + " --live --candump --interface unix:" + f + "/bus --out " + f +
+  const std::string live_run = run + " --live --candump --record " + f +
+                               "/record --interface unix:" + f + "/bus --out " + f +
                                "/out --json " + f + "/live.json > " + f + "/live.txt 2>&1";
   std::system(live_run.c_str());
   const auto lockstep = read_run(f + "/lockstep.json");
@@ -89,6 +90,13 @@ TEST(LiveRun, OnItsOwnHubGivesTheVerdictsOfLockstepAndLosesNothing) {
   // candump speaks SocketCAN only: told, not failed.
   EXPECT_NE(said.find("candump"), std::string::npos) << said;
   EXPECT_FALSE(fs::exists(f + "/out/candump.log"));
+  // What the car recorded of itself, driven again by the same build: not a bit differs.
+  const std::string compare =
+      "'" + program() + "' compare " + f + "/record > " + f + "/compare.txt 2>&1";
+  EXPECT_EQ(std::system(compare.c_str()), 0);
+  const std::string compared = transport::read_file(f + "/compare.txt").value_or("");
+  EXPECT_NE(compared.find("frames and "), std::string::npos) << compared;
+  EXPECT_NE(compared.find(": 0 signals differ"), std::string::npos) << compared;
 }
 
 }  // namespace

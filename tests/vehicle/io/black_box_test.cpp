@@ -23,6 +23,7 @@ constexpr std::uint64_t kTicks = 300;
 struct Ticks {
   std::vector<can::ReceivedFrame> heard{{.frame = {.id = 0x11, .length = 8}, .at = {}},
                                         {.frame = {.id = 0x12, .length = 4}, .at = {}}};
+  world::SensorInput sensors;
   std::vector<can::Frame> said{{.id = 0x21, .length = 8}};
   telemetry::Snapshot state;
   std::vector<std::uint8_t> air = std::vector<std::uint8_t>(200, 0x5A);
@@ -31,7 +32,7 @@ struct Ticks {
     for (can::ReceivedFrame& frame : heard) frame.at = now - milliseconds(1);
     state.sampled_at.fill(now);
     state.values.at.fill(static_cast<double>(tick));
-    box.can(heard, said, now);
+    box.tick({.now = now, .can = heard, .sensors = sensors, .requests = {}}, said);
     box.radio(true, now, {.path = 1, .bytes = air});
     box.radio(false, now, {.bytes = air});
     box.receiver(tick % 2, now, air);
@@ -78,6 +79,7 @@ TEST(BlackBox, KeepsEveryFrameAndTheStateAndItsTurnsAllocateNothing) {
   Kept kept = kept_in(folder->path());
   EXPECT_EQ(kept.messages["/can/in"], 2 * kTicks);
   EXPECT_EQ(kept.messages["/can/out"], kTicks);
+  EXPECT_EQ(kept.messages["/car/tick"], kTicks);
   EXPECT_EQ(kept.messages["/car/ego"], kTicks / BlackBox::kStateEvery);
   EXPECT_EQ(kept.messages["/radio/down"], kTicks);
   EXPECT_EQ(kept.messages["/radio/up"], kTicks);
@@ -85,7 +87,8 @@ TEST(BlackBox, KeepsEveryFrameAndTheStateAndItsTurnsAllocateNothing) {
   EXPECT_EQ(kept.messages["/base/event"], kTicks / 100);
   EXPECT_EQ(kept.messages["/gnss/1"], kTicks / 2);
   std::uint64_t messages = 0;
-  for (const auto& [topic, count] : kept.messages) messages += topic == "/base/picture" ? 0 : count;
+  for (const auto& [topic, count] : kept.messages)
+    messages += topic == "/base/picture" || topic == "/car/tick" ? 0 : count;
   EXPECT_EQ(kept.events, messages);
 }
 

@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-#include "hil/cli/demo_cars.hpp"
+#include "hil/cli/demo/demo_cars.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/units.hpp"
 

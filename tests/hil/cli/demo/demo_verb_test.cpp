@@ -1,6 +1,6 @@
 // What can be told of the demonstration without starting it; the rest is tests/system/live.
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/cli/demo_verb.hpp"
+#include "hil/cli/demo/demo_verb.hpp"
 
 #include <gtest/gtest.h>
 #include <netinet/in.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/cli/demo_report.hpp"
+#include "hil/cli/demo/demo_report.hpp"
 
 #include <algorithm>
 
@@ -67,7 +67,8 @@ std::string to_text(const CarReport& report) {
     text += "candump recorded " + std::to_string(report.dumped) + " frames: " + report.car.folder +
             "/candump.log\n";
   }
-  return text + "event log: " + report.car.folder + "/events.mcap\n";
+  return text + "event log: " + report.car.folder + "/events.mcap\n" +
+         "the car's own recording: " + report.car.record() + "\n";
 }
 
 std::string to_json(const CarReport& report) {

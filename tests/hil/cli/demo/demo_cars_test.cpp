@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/cli/demo_cars.hpp"
+#include "hil/cli/demo/demo_cars.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/cli/demo_verb.hpp"
+#include "hil/cli/demo/demo_verb.hpp"
 
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -21,8 +21,8 @@
 #include "hil/can_bus/own_hub.hpp"
 #include "hil/cli/clock_place.hpp"
 #include "hil/cli/command_line.hpp"
-#include "hil/cli/demo_cars.hpp"
-#include "hil/cli/demo_report.hpp"
+#include "hil/cli/demo/demo_cars.hpp"
+#include "hil/cli/demo/demo_report.hpp"
 #include "hil/cli/exit_code.hpp"
 #include "hil/cli/run_verb.hpp"
 #include "protocol/transport/bench_clock/kept_clock.hpp"
@@ -139,6 +139,7 @@ std::vector<std::string> bench_options(const DemoOptions& options, const DemoCar
   run.interface = car.interface();
   run.bay = car.bay;
   run.keys = car.folder + "/keys";
+  run.record_folder = car.record();
   if (options.cars == 1 || car.bus == DemoBus::kSocket) run.clock = clock_file();
   if (car.bus == DemoBus::kSocket) {  // on this machine: no line into a guest
     run.radio_port = car.base_port;

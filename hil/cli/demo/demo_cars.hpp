@@ -36,6 +36,8 @@ struct DemoCar {
   std::uint16_t guest_uplink_port = 0;  // and where they come, at the bench
   std::uint16_t radio_port = 0;         // the bench sends the car's telemetry here
 
+  std::string record() const { return folder + "/record"; }  // of the car itself
+
   // As `bus exec --line-udp` has them.
   std::string line_ports() const;
   std::string interface() const;

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/recorded/comparison.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "protocol/can/decode.hpp"
+#include "protocol/vocabulary/text.hpp"
+
+namespace pitwall::bench {
+namespace {
+
+using telemetry::field;
+using telemetry::FieldIndex;
+
+bool equal(double a, double b) {
+  return (std::isnan(a) && std::isnan(b)) ||
+         std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+std::string name_of(const can::Database& database, const can::Frame& frame) {
+  const can::Message* const message = database.find(frame.id, frame.extended);
+  return message != nullptr ? message->name : hex(frame.id);
+}
+
+std::string context_of(const telemetry::Values& state) {
+  return formatted("at station %.1f m, %.2f m/s, mode %.0f", state[field("track.station")],
+                   state[field("ego.vx")], state[field("mode.mode")]);
+}
+
+}  // namespace
+
+double Divergence::size() const { return std::abs(again - recorded); }
+
+Comparison::Comparison(const can::Database& database, CompareRules rules)
+    : database_(database), rules_(std::move(rules)) {}
+
+void Comparison::add(const RecordedTick& recorded, const AgainTick& again,
+                     const FieldSet& measured) {
+  ++ticks_;
+  measured_ = measured;
+  if (recorded.state) context_ = context_of(recorded.state->values);
+  add_frames(recorded, again);
+  if (recorded.state && again.state) add_state(recorded, *again.state);
+}
+
+void Comparison::add_frames(const RecordedTick& recorded, const AgainTick& again) {
+  std::vector<bool> taken(again.said.size());
+  for (const can::Frame& frame : recorded.said) {
+    std::size_t i = 0;
+    while (i < taken.size() &&
+           (taken[i] || again.said[i].id != frame.id || again.said[i].extended != frame.extended))
+      ++i;
+    if (i == taken.size()) {
+      note(name_of(database_, frame) + " (frame)", 1.0, 0.0, recorded);
+      continue;
+    }
+    taken[i] = true;
+    add_pair(frame, again.said[i], recorded);
+  }
+  for (std::size_t i = 0; i < taken.size(); ++i)
+    if (!taken[i]) note(name_of(database_, again.said[i]) + " (frame)", 0.0, 1.0, recorded);
+}
+
+void Comparison::add_pair(const can::Frame& recorded, const can::Frame& again,
+                          const RecordedTick& tick) {
+  ++frames_;
+  const can::Message* const message = database_.find(recorded.id, recorded.extended);
+  if (message != nullptr) values_ += message->signals.size();
+  if (recorded == again) return;
+  std::vector<double> before(message != nullptr ? message->signals.size() : 0), after = before;
+  if (message == nullptr || !can::decode(*message, recorded, before) ||
+      !can::decode(*message, again, after)) {
+    note(name_of(database_, recorded) + " (frame)", kUnset, kUnset, tick);
+    return;
+  }
+  for (std::size_t i = 0; i < before.size(); ++i)
+    compare(message->name, message->signals[i].name, before[i], after[i], tick);
+}
+
+void Comparison::add_state(const RecordedTick& recorded, const telemetry::Values& again) {
+  const RecordedState& state = *recorded.state;
+  for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
+    if (!state.groups.has(row.group)) continue;
+    const auto [first, count] = telemetry::fields_of(row.group);
+    for (FieldIndex i = first; i < first + count; ++i) {
+      if (measured_.test(i)) continue;
+      ++values_;
+      if (equal(state.values[i], again[i])) continue;
+      compare(std::string{row.name}, std::string{telemetry::kFields[i].name}, state.values[i],
+              again[i], recorded);
+    }
+  }
+}
+
+void Comparison::compare(const std::string& group, const std::string& name, double recorded,
+                         double again, const RecordedTick& tick) {
+  if (equal(recorded, again)) return;
+  const std::string signal = group + "." + name;
+  for (const std::string& ignored : {signal, group}) {
+    if (!rules_.ignored.contains(ignored)) continue;
+    used_.insert(ignored);
+    return;
+  }
+  const auto tolerance = rules_.tolerance.find(signal);
+  if (tolerance != rules_.tolerance.end()) {
+    used_.insert(signal);
+    if (std::abs(recorded - again) <= tolerance->second) return;
+  }
+  note(signal, recorded, again, tick);
+}
+
+void Comparison::note(const std::string& signal, double recorded, double again,
+                      const RecordedTick& tick) {
+  const Divergence here{
+      .tick = tick.given.number, .at = tick.now, .recorded = recorded, .again = again};
+  const auto [place, is_new] = found_.try_emplace(signal);
+  SignalDifference& difference = place->second;
+  if (is_new) {
+    difference = {
+        .signal = signal, .values = 0, .first = here, .largest = here, .context = context_};
+    order_.push_back(signal);
+  }
+  ++difference.values;
+  if (here.size() > difference.largest.size()) difference.largest = here;
+}
+
+std::vector<SignalDifference> Comparison::differences() const {
+  std::vector<SignalDifference> all;
+  all.reserve(order_.size());
+  for (const std::string& signal : order_) all.push_back(found_.at(signal));
+  return all;
+}
+
+std::vector<std::string> Comparison::unused_rules() const {
+  std::vector<std::string> unused;
+  for (const auto& [signal, tolerance] : rules_.tolerance)
+    if (!used_.contains(signal)) unused.push_back(signal);
+  for (const std::string& signal : rules_.ignored)
+    if (!used_.contains(signal)) unused.push_back(signal);
+  return unused;
+}
+
+}  // namespace pitwall::bench

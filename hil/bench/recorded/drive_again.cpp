@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/bench/recorded/drive_again.hpp"
+
+#include <bit>
+
+#include "protocol/bits/sha256.hpp"
+#include "protocol/transport/file.hpp"
+#include "protocol/vocabulary/bytes.hpp"
+#include "vehicle/io/black_box.hpp"
+#include "vehicle/io/tick_inputs.hpp"
+#include "vehicle/parameters/car_file.hpp"
+#include "vehicle/parameters/track_file.hpp"
+#include "vehicle/pipeline/telemetry_tap.hpp"
+
+namespace pitwall::bench {
+namespace {
+
+// Every figure of it is another one than in a RimCounters without measurements.
+pipeline::RimCounters other_measurements() {
+  pipeline::RimCounters rim;
+  rim.frames_sent = rim.tx_drops = rim.steps = rim.missed_deadlines = 1;
+  rim.step_time_max_us = rim.step_time_p50_us = 1.0;
+  rim.processor_share = rim.memory_mib = rim.temperature_c = 1.0;
+  rim.heartbeats = rim.heartbeats_refused = rim.base_runs = rim.slots_skipped = 1;
+  rim.threats = rim.round_trip_ms = 1.0;
+  rim.paths.fill({.loss = 1.0, .delay_p99_ms = 1.0, .budget_use = 1.0});
+  world::ReceiverTraffic traffic;
+  traffic.bytes = traffic.logs = traffic.bad_checksum = traffic.bad_frame = traffic.resyncs = 1;
+  traffic.refused = traffic.lost = 1;
+  rim.receivers.fill(traffic);
+  rim.lidar = rim.camera = rim.radar = {.rate_hz = 1.0, .gap_ms = 1.0, .latency_ms = 1.0};
+  rim.uplink = {.known = true,
+                .stop_latch = 1.0,
+                .stop_challenge = 1.0,
+                .stop_reason = 1.0,
+                .authority = 1.0,
+                .joystick = true,
+                .schema_agrees = true};
+  return rim;
+}
+
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+// The text of a file that the run names under `key`_file, or of the one that is given instead.
+struct RunFile {
+  std::string path, text;
+};
+Result<RunFile, Problem> file_of(const RecordedRun& run, const std::string& key,
+                                 const std::string& instead, std::vector<std::string>& remarks) {
+  const std::string path = instead.empty() ? run.said(key + "_file") : instead;
+  if (path.empty()) return Unexpected{Problem{"--" + key, "the recording names no such file"}};
+  auto text = transport::read_file(path);
+  if (!text) return Unexpected{text.error()};
+  bits::Sha256 hash;
+  hash.update(as_bytes(*text));
+  const std::string recorded = run.said(key + "_sha256");
+  if (!recorded.empty() && bits::to_hex(hash.digest()) != recorded)
+    remarks.push_back(path + ": not the file that the run was driven with");
+  return RunFile{path, *std::move(text)};
+}
+
+}  // namespace
+
+DriveAgain::DriveAgain(const pipeline::Setup& setup)
+    : setup_(setup),
+      car_(std::make_unique<pipeline::Car>()),
+      log_(std::make_unique<pipeline::TickLog>()),
+      receivers_(setup.params.receivers) {}
+
+Result<AgainTick, Problem> DriveAgain::tick(const RecordedTick& recorded) {
+  receivers_.clear();
+  for (const ReceiverBytes& some : recorded.receivers)
+    receivers_.receive(static_cast<std::uint8_t>(some.unit), some.bytes, some.at);
+  io::TickCommands commands;
+  const auto in =
+      io::inputs_of(recorded.given, recorded.now, recorded.heard, receivers_.samples(), commands);
+  if (!in) return Unexpected{in.error()};
+  const pipeline::Outputs out = pipeline::step(setup_, *car_, *in);
+  log_->note(*in, out, setup_.track.length_m());
+  AgainTick again;
+  again.said.assign(out.passed.frames.begin(), out.passed.frames.end());
+  if (recorded.state) again.state = state_at(out, recorded.state->at);
+  return again;
+}
+
+telemetry::Values DriveAgain::state_at(const pipeline::Outputs& out, Instant at) {
+  const auto tapped = [&](const pipeline::RimCounters& rim) {
+    return pipeline::tap(
+        {.setup = setup_, .car = *car_, .out = out, .log = *log_, .rim = rim, .now = at});
+  };
+  const telemetry::Values state = tapped({}).values, other = tapped(other_measurements()).values;
+  for (telemetry::FieldIndex i = 0; i < telemetry::kFieldCount; ++i)
+    if (!same_bits(state[i], other[i])) measured_.set(i);
+  return state;
+}
+
+Result<pipeline::Setup, Problem> setup_of(const RecordedRun& run, const RunFiles& files,
+                                          std::vector<std::string>& remarks) {
+  const auto car_file = file_of(run, "car", files.car, remarks);
+  if (!car_file) return Unexpected{car_file.error()};
+  const auto car = parameters::read_car(car_file->text, car_file->path);
+  if (!car) return Unexpected{car.error()};
+  const auto track_file = file_of(run, "track", files.track, remarks);
+  if (!track_file) return Unexpected{track_file.error()};
+  const auto track = parameters::read_track(track_file->text, track_file->path);
+  if (!track) return Unexpected{track.error()};
+  pipeline::CarParams params = car->params;
+  if (run.said(io::BlackBox::kBaseKey) == io::BlackBox::kNoBase)
+    params.watchdog[safety::Stream::kRadio].watched = false;
+  return pipeline::prepare(params, *track);
+}
+
+}  // namespace pitwall::bench
