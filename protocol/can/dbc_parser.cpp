@@ -7,9 +7,9 @@
 #include <limits>
 #include <utility>
 
-#include "protocol/can/dbc_details.hpp"
-#include "protocol/can/dbc_draft.hpp"
-#include "protocol/can/dbc_scanner.hpp"
+#include "protocol/can/parser/dbc_details.hpp"
+#include "protocol/can/parser/dbc_draft.hpp"
+#include "protocol/can/parser/dbc_scanner.hpp"
 
 namespace pitwall::can {
 namespace {

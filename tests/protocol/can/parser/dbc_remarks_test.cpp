@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocol/can/dbc_remarks.hpp"
+#include "protocol/can/parser/dbc_remarks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocol/can/dbc_draft.hpp"
+#include "protocol/can/parser/dbc_draft.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <utility>
 
-#include "protocol/can/dbc_remarks.hpp"
+#include "protocol/can/parser/dbc_remarks.hpp"
 
 namespace pitwall::can {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <string_view>
 
-#include "protocol/can/dbc_draft.hpp"
-#include "protocol/can/dbc_scanner.hpp"
+#include "protocol/can/parser/dbc_draft.hpp"
+#include "protocol/can/parser/dbc_scanner.hpp"
 
 namespace pitwall::can {
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "protocol/can/database.hpp"
-#include "protocol/can/dbc_scanner.hpp"
+#include "protocol/can/parser/dbc_scanner.hpp"
 
 namespace pitwall::can {
 

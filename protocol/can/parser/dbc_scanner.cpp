@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocol/can/dbc_scanner.hpp"
+#include "protocol/can/parser/dbc_scanner.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocol/can/dbc_details.hpp"
+#include "protocol/can/parser/dbc_details.hpp"
 
 #include <gtest/gtest.h>
 

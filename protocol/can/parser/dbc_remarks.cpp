@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "protocol/can/dbc_remarks.hpp"
+#include "protocol/can/parser/dbc_remarks.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <set>
 #include <string_view>
 
-#include "protocol/can/dbc_draft.hpp"
+#include "protocol/can/parser/dbc_draft.hpp"
 #include "protocol/vocabulary/text.hpp"
 
 namespace pitwall::can {
