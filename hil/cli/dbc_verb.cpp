@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "hil/cli/command_line.hpp"
-#include "hil/cli/dbc_table.hpp"
+#include "hil/cli/dbc/dbc_findings.hpp"
+#include "hil/cli/dbc/dbc_table.hpp"
 #include "hil/cli/exit_code.hpp"
 #include "protocol/can/dbc_parser.hpp"
 #include "protocol/can/difference.hpp"
@@ -23,13 +24,13 @@ namespace {
 struct DbcOptions {
   std::vector<std::string> files;
   std::string one, other, message, json_file;
-  bool strict = false;
+  bool strict = false, all = false;
 };
 
 Result<can::Database, Problem> load(const std::string& path) {
   const auto text = transport::read_file(path, can::kMaxDbcBytes);
   if (!text) return Unexpected{text.error()};
-  return can::parse_dbc(*text, path);
+  return can::parse_dbc_leniently(*text, path);
 }
 
 // The code of the verb, or that of a file that could not be written.
@@ -40,44 +41,48 @@ int written(const std::string& json_file, const std::string& json, int code) {
 }
 
 struct Checked {
-  json::Object json;
+  json::Object json{};
   std::size_t warnings = 0;
   bool is_refused = false;
 };
 
-std::string finding_json(const char* severity, const std::string& place, const std::string& what) {
-  return json::Object{}.text("severity", severity).text("place", place).text("what", what).str();
+// Of a file that is no database at all.
+Checked unreadable(const std::string& path, const Problem& problem) {
+  Checked out{.is_refused = true};
+  std::printf("%s\n%s: refused\n", to_string(problem).c_str(), path.c_str());
+  const std::string finding = json::Object{}
+                                  .text("severity", "error")
+                                  .text("place", problem.place)
+                                  .text("what", problem.what)
+                                  .str();
+  out.json.text("file", path)
+      .json("findings", json::Array{}.json(finding).str())
+      .flag("readable", false)
+      .number("errors", 1);
+  return out;
 }
 
-Checked check_file(const std::string& path) {
-  Checked out;
-  out.json.text("file", path);
-  json::Array findings;
+Checked check_file(const std::string& path, bool lists_all) {
   const auto database = load(path);
-  if (!database) {
-    const Problem& p = database.error();
-    std::printf("%s\n%s: refused\n", to_string(p).c_str(), path.c_str());
-    findings.json(finding_json("error", p.place, p.what));
-    out.json.json("findings", findings.str()).flag("readable", false);
-    out.is_refused = true;
-    return out;
+  if (!database) return unreadable(path, database.error());
+  using enum can::FindingSeverity;
+  const std::size_t errors = database->count(kError), notes = database->count(kNote);
+  Checked out{.warnings = database->count(kWarning), .is_refused = errors > 0};
+  std::printf("%s", findings_text(*database, lists_all).c_str());
+  if (errors > 0) {
+    std::printf("%s: refused where a car is driven; what is left or marked: ", path.c_str());
+  } else {
+    std::printf("%s: ", path.c_str());
   }
-  std::size_t notes = 0;
-  for (const can::Remark& r : database->remarks) {
-    const char* const severity = r.is_warning ? "warning" : "note";
-    std::printf("%s: %s: %s\n", r.place.c_str(), severity, r.what.c_str());
-    findings.json(finding_json(severity, r.place, r.what));
-    ++(r.is_warning ? out.warnings : notes);
-  }
-  if (database->remarks_left_off > 0) {
-    std::printf("%s: and %zu more that are not listed\n", path.c_str(), database->remarks_left_off);
-  }
-  out.warnings += database->remarks_left_off;
-  std::printf("%s: %s; %zu warnings, %zu notes\n", path.c_str(), summary_of(*database).c_str(),
-              out.warnings, notes);
-  out.json.json("findings", findings.str())
+  std::printf("%s; %zu warnings, %zu notes\n", summary_of(*database).c_str(), out.warnings, notes);
+  std::size_t left_off = 0;
+  for (const std::size_t n : database->findings_left_off) left_off += n;
+  out.json.text("file", path)
+      .json("findings", findings_json(*database))
+      .number("findings_left_off", left_off)
       .flag("readable", true)
       .number("messages", database->messages.size())
+      .number("errors", errors)
       .number("warnings", out.warnings)
       .number("unused_sections", database->unused.size())
       .text("fingerprint", std::to_string(can::fingerprint(*database)));
@@ -89,7 +94,7 @@ int check(const DbcOptions& options) {
   std::size_t warnings = 0;
   bool is_refused = false;
   for (std::size_t i = 0; i < options.files.size(); ++i) {
-    const Checked checked = check_file(options.files[i]);
+    const Checked checked = check_file(options.files[i], options.all);
     files.json(checked.json.str());
     warnings += checked.warnings;
     is_refused = is_refused || checked.is_refused;
@@ -103,13 +108,16 @@ int check(const DbcOptions& options) {
 
 // By name, or by number: 1303, 0x517; both kinds of ids.
 std::vector<const can::Message*> chosen(const can::Database& d, const std::string& words) {
-  if (const can::Message* const named = d.find(words)) return {named};
+  std::vector<const can::Message*> out;
+  for (const can::Message& m : d.messages) {
+    if (m.name == words) out.push_back(&m);  // more than one only in a flawed file
+  }
+  if (!out.empty()) return out;
   const bool is_hex = words.starts_with("0x") || words.starts_with("0X");
   const char* const end = words.data() + words.size();
   std::uint32_t id = 0;
   const auto [stop, error] =
       std::from_chars(words.data() + (is_hex ? 2 : 0), end, id, is_hex ? 16 : 10);
-  std::vector<const can::Message*> out;
   if (error != std::errc{} || stop != end) return out;
   for (const bool extended : {false, true}) {
     if (const can::Message* const m = d.find(id, extended)) out.push_back(m);
@@ -120,6 +128,9 @@ std::vector<const can::Message*> chosen(const can::Database& d, const std::strin
 int show(const DbcOptions& options) {
   const auto database = load(options.one);
   if (!database) return refuse(database.error());
+  if (const std::size_t errors = database->count(can::FindingSeverity::kError)) {
+    std::fprintf(stderr, "%s: %zu errors, marked with '!'\n", options.one.c_str(), errors);
+  }
   if (options.message.empty()) {
     std::printf("%s", table_of(*database).c_str());
     return kExitPass;
@@ -139,6 +150,7 @@ int diff(const DbcOptions& options) {
   const auto one = load(options.one), other = load(options.other);
   if (!one) return refuse(one.error());
   if (!other) return refuse(other.error());
+  std::fprintf(stderr, "%s%s", errors_text(*one).c_str(), errors_text(*other).c_str());
   const auto all = can::differences(*one, *other);
   json::Array listed;
   for (const can::Difference& difference : all) {
@@ -157,15 +169,16 @@ int dbc_verb(std::span<const std::string> args) {
   DbcOptions options;
   CommandLine app{"pitwall-hil dbc: CAN databases, checked, shown and compared"};
   CommandLine checks = app.one_of(
-      "check", "errors, warnings and notes; exit 0 readable, 1 warnings with --strict, 2 refused");
+      "check", "errors, warnings and notes; exit 0 no error, 1 warnings with --strict, 2 errors");
   checks.option("FILE", options.files, "databases").required();
   checks.flag("--strict", options.strict, "a warning is a failure");
+  checks.flag("--all", options.all, "lists every warning and note, not groups of them");
   checks.option("--json", options.json_file, "write the findings here");
   CommandLine shows = app.one_of("show", "tables of messages and signals");
   shows.option("FILE", options.one, "database").required();
   shows.option("MESSAGE", options.message, "name or id (1303, 0x517); default: all");
   CommandLine diffs =
-      app.one_of("diff", "what changed, worst first; exit 0 same, 1 different, 2 refused");
+      app.one_of("diff", "what changed, worst first; exit 0 same, 1 different, 2 no database");
   diffs.option("ONE", options.one, "database").required();
   diffs.option("OTHER", options.other, "another revision").required();
   diffs.option("--json", options.json_file, "write the differences here");

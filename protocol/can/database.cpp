@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
-#include <numeric>
 
 namespace pitwall::can {
 namespace {
@@ -36,147 +34,6 @@ void add_signal(Fnv1a& sum, const Message& message, const Signal& s) {
     sum.number(r.low);
     sum.number(r.high);
   }
-}
-
-bool is_claimed(const BitMap& map, std::size_t bit) { return (map[bit / 8] >> bit % 8 & 1U) != 0; }
-
-std::optional<std::size_t> first_shared_bit(const BitMap& a, const BitMap& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const auto both = static_cast<std::uint8_t>(a[i] & b[i]);
-    if (both != 0) return 8 * i + static_cast<std::size_t>(std::countr_zero(both));
-  }
-  return std::nullopt;
-}
-
-void claim(BitMap& map, const BitMap& more) {
-  for (std::size_t i = 0; i < map.size(); ++i) {
-    map[i] = static_cast<std::uint8_t>(map[i] | more[i]);
-  }
-}
-
-void release(BitMap& map, const BitMap& gone) {
-  for (std::size_t i = 0; i < map.size(); ++i) {
-    map[i] = static_cast<std::uint8_t>(map[i] & ~gone[i]);
-  }
-}
-
-// Two signals can be present together unless some selector above both tells them apart. So, below
-// each selector, whatever hangs on one signal must keep off the bits of whatever hangs on another
-// one whose selector values are met at the same time.
-class OverlapSearch {
- public:
-  explicit OverlapSearch(const Message& m) : m_(m), groups_(m.signals.size() + 1) {
-    for (std::size_t i = 0; i < m.signals.size(); ++i) {
-      own_.push_back(occupied_bits(m.signals[i].layout));
-      groups_[group_of(m.signals[i])].push_back(i);
-    }
-    all_ = own_;
-    std::vector<std::size_t> order(m.signals.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::vector<std::uint8_t> depth;
-    for (const Signal& s : m.signals) depth.push_back(selectors_above(m, s).value_or(0));
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return depth[a] > depth[b]; });
-    for (const std::size_t i : order) {
-      if (m.signals[i].selector) claim(all_[*m.signals[i].selector], all_[i]);
-    }
-  }
-
-  std::optional<Problem> run() const {
-    for (std::size_t g = 0; g < groups_.size(); ++g) {
-      for (const std::size_t i : groups_[g]) {
-        if (!m_.signals[i].selector) continue;
-        if (const auto bit = first_shared_bit(own_[g], all_[i])) return problem(g, below(i, *bit));
-      }
-      if (const auto found = among(groups_[g])) return found;
-    }
-    return std::nullopt;
-  }
-
- private:
-  struct Span {
-    std::uint64_t low = 0, high = 0;
-    std::size_t signal = 0;
-  };
-
-  std::size_t group_of(const Signal& s) const { return s.selector.value_or(m_.signals.size()); }
-
-  // When the signals of a group are present, each without overlapping itself, by their beginnings.
-  std::vector<Span> spans_of(const std::vector<std::size_t>& group) const {
-    std::vector<Span> spans;
-    for (const std::size_t i : group) {
-      std::vector<SelectorRange> when = m_.signals[i].when;
-      if (!m_.signals[i].selector) when = {{0, std::numeric_limits<std::uint64_t>::max()}};
-      std::sort(when.begin(), when.end(),
-                [](const SelectorRange& a, const SelectorRange& b) { return a.low < b.low; });
-      const std::size_t first = spans.size();
-      for (const SelectorRange& r : when) {
-        if (spans.size() > first && r.low <= spans.back().high) {
-          spans.back().high = std::max(spans.back().high, r.high);
-        } else {
-          spans.push_back({r.low, r.high, i});
-        }
-      }
-    }
-    std::stable_sort(spans.begin(), spans.end(),
-                     [](const Span& a, const Span& b) { return a.low < b.low; });
-    return spans;
-  }
-
-  std::optional<Problem> among(const std::vector<std::size_t>& group) const {
-    const auto ends_later = [](const Span& a, const Span& b) { return a.high > b.high; };
-    BitMap taken{};
-    std::vector<Span> present;  // a heap: the next to end is in front
-    for (const Span& s : spans_of(group)) {
-      while (!present.empty() && present.front().high < s.low) {
-        release(taken, all_[present.front().signal]);
-        std::pop_heap(present.begin(), present.end(), ends_later);
-        present.pop_back();
-      }
-      if (const auto bit = first_shared_bit(taken, all_[s.signal])) {
-        for (const Span& p : present) {
-          if (!is_claimed(all_[p.signal], *bit)) continue;
-          return problem(below(p.signal, *bit), below(s.signal, *bit));
-        }
-      }
-      claim(taken, all_[s.signal]);
-      present.push_back(s);
-      std::push_heap(present.begin(), present.end(), ends_later);
-    }
-    return std::nullopt;
-  }
-
-  // The signal that owns the bit: this one or one that hangs on it.
-  std::size_t below(std::size_t at, std::size_t bit) const {
-    while (!is_claimed(own_[at], bit)) {
-      const auto& group = groups_[at];
-      at = *std::find_if(group.begin(), group.end(),
-                         [&](std::size_t i) { return is_claimed(all_[i], bit); });
-    }
-    return at;
-  }
-
-  Problem problem(std::size_t a, std::size_t b) const {
-    const Signal &x = m_.signals[std::min(a, b)], &y = m_.signals[std::max(a, b)];
-    return {y.place, "signal " + y.name + " overlaps signal " + x.name + " defined at " + x.place};
-  }
-
-  const Message& m_;
-  std::vector<BitMap> own_, all_;                 // all: with what hangs on it
-  std::vector<std::vector<std::size_t>> groups_;  // by selector; the last: always present
-};
-
-std::optional<Problem> equal_names(const Message& m) {
-  std::vector<const Signal*> sorted;
-  for (const Signal& s : m.signals) sorted.push_back(&s);
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const Signal* a, const Signal* b) { return a->name < b->name; });
-  for (std::size_t i = 1; i < sorted.size(); ++i) {
-    const Signal &x = *sorted[i - 1], &y = *sorted[i];
-    if (x.name != y.name) continue;
-    return Problem{y.place, "signal " + y.name + " is already defined at " + x.place};
-  }
-  return std::nullopt;
 }
 
 // Knuth's multiplicative hash.
@@ -272,14 +129,26 @@ std::uint64_t fingerprint(const Database& database) {
   return sum.hash;
 }
 
-std::optional<Problem> contradiction(const Message& m) {
-  for (const Signal& s : m.signals) {
-    if (fits(s.layout, m.length)) continue;
-    return Problem{s.place, "signal " + s.name + " lies outside the " + std::to_string(m.length) +
-                                " bytes of message " + m.name};
-  }
-  if (auto problem = equal_names(m)) return problem;
-  return OverlapSearch{m}.run();
+std::size_t Database::count(FindingSeverity severity) const {
+  const auto is_one = [&](const Finding& f) { return severity_of(f.kind) == severity; };
+  return static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), is_one)) +
+         findings_left_off[static_cast<std::size_t>(severity)];
+}
+
+std::vector<const Finding*> worst_first(const Database& database) {
+  std::vector<const Finding*> out;
+  for (const Finding& f : database.findings) out.push_back(&f);
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Finding* a, const Finding* b) { return a->kind < b->kind; });
+  return out;
+}
+
+std::optional<Problem> refusal_of(const Database& database) {
+  const std::size_t errors = database.count(FindingSeverity::kError);
+  if (errors == 0) return std::nullopt;
+  const Finding& worst = *worst_first(database).front();
+  const std::string more = " (and " + std::to_string(errors - 1) + " more)";
+  return Problem{worst.place, errors == 1 ? worst.what : worst.what + more};
 }
 
 }  // namespace pitwall::can

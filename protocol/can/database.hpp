@@ -6,6 +6,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -13,11 +14,14 @@
 #include <string_view>
 #include <vector>
 
+#include "protocol/can/finding.hpp"
 #include "protocol/can/signal.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::can {
+
+inline constexpr std::size_t kMaxTransportBytes = 1785;  // SAE J1939-21: 255 packets of 7 bytes
 
 struct ValueName {
   std::int64_t value = 0;
@@ -49,21 +53,25 @@ struct Signal {
   std::vector<SelectorRange> when;
   std::uint8_t depth = 0;  // selectors above it
   std::string place;       // "file:line:column" of its definition
+  bool is_flawed = false;  // an error of a lenient reading is about it
 };
 
 struct Message {
   std::uint32_t id = 0;
   bool extended = false;
   bool fd = false;
-  std::uint8_t length = 0;
+  std::uint16_t length = 0;  // more than kMaxDataBytes only where a lenient reading kept it
   std::string name, sender, comment;
   std::vector<std::string> other_senders;  // BO_TX_BU_
   Duration period{};                       // of the attribute GenMsgCycleTime; zero: not given
   std::vector<Signal> signals;
   std::vector<Attribute> attributes;
   std::string place;
-  std::uint8_t deepest = 0;  // the largest depth of its signals; zero: nothing is multiplexed
+  std::uint8_t deepest = 0;    // the largest depth of its signals; zero: nothing is multiplexed
+  std::vector<Problem> flaws;  // errors of it and of its signals, those left out among them
 
+  // False: longer than any frame, as J1939 transports them. Such a message is never decoded.
+  bool is_on_frame() const { return length <= kMaxDataBytes; }
   const Signal* find(std::string_view signal_name) const;
   std::optional<std::size_t> index_of(std::string_view signal_name) const;
 };
@@ -95,13 +103,6 @@ struct Section {
   bool is_known = false;  // the format knows it, this program has no use for it
 };
 
-// What is not wrong enough to refuse the file. A note is only worth knowing.
-struct Remark {
-  bool is_warning = true;
-  std::string place, what;
-};
-inline constexpr std::size_t kMaxRemarks = 10'000;
-
 struct Database {
   std::string name, version, comment;
   std::vector<Message> messages;
@@ -110,9 +111,11 @@ struct Database {
   std::vector<AttributeDefinition> definitions;
   std::vector<Attribute> attributes;  // of the network
   std::vector<Section> unused;
-  std::vector<Remark> remarks;       // in the order of the file
-  std::size_t remarks_left_off = 0;  // beyond kMaxRemarks
+  std::vector<Finding> findings;  // in the order of the file; errors only of a lenient reading
+  std::array<std::size_t, kFindingSeverities> findings_left_off{};  // beyond kMaxFindings
 
+  // With those that were left off.
+  std::size_t count(FindingSeverity severity) const;
   const Message* find(std::uint32_t id, bool extended = false) const;
   const Message* find(std::string_view message_name) const;
   // What `own` (of that kind of owner) says, else the default of the definition.
@@ -144,8 +147,11 @@ std::optional<std::uint8_t> selectors_above(const Message& message, const Signal
 // that two programs can tell whether they speak the same revision.
 std::uint64_t fingerprint(const Database& database);
 
-// The first contradiction in a message: signals outside it, equal names, bits claimed twice by
-// signals that can be present together. Sorts nothing, resolves nothing; n log n in the signals.
-std::optional<Problem> contradiction(const Message& message);
+// The errors first, each kind in the order of the file.
+std::vector<const Finding*> worst_first(const Database& database);
+
+// Why a database must not drive a car: the worst error and how many more there are. Nothing where
+// it has none.
+std::optional<Problem> refusal_of(const Database& database);
 
 }  // namespace pitwall::can

@@ -1,56 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "protocol/can/dbc_parser.hpp"
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "protocol/can/parser/dbc_details.hpp"
 #include "protocol/can/parser/dbc_draft.hpp"
+#include "protocol/can/parser/dbc_encoding.hpp"
 #include "protocol/can/parser/dbc_scanner.hpp"
+#include "protocol/can/parser/dbc_statement.hpp"
 
 namespace pitwall::can {
 namespace {
 
-// Read here or in dbc_details.
-constexpr std::array<std::string_view, 15> kRead{
-    "VERSION", "NS_",         "BS_",  "BU_", "BO_",          "SG_",         "VAL_TABLE_", "BA_DEF_",
-    "CM_",     "BA_DEF_DEF_", "VAL_", "BA_", "SIG_VALTYPE_", "SG_MUL_VAL_", "BO_TX_BU_"};
-// Of the format, but of no use here.
-constexpr std::array<std::string_view, 18> kUnused{"EV_",
-                                                   "ENVVAR_DATA_",
-                                                   "EV_DATA_",
-                                                   "SIG_GROUP_",
-                                                   "SGTYPE_",
-                                                   "SGTYPE_VAL_",
-                                                   "SIG_TYPE_REF",
-                                                   "SIG_TYPE_REF_",
-                                                   "SIGTYPE_VALTYPE_",
-                                                   "BA_DEF_REL_",
-                                                   "BA_REL_",
-                                                   "BA_DEF_DEF_REL_",
-                                                   "BA_DEF_SGTYPE_",
-                                                   "BA_SGTYPE_",
-                                                   "BU_SG_REL_",
-                                                   "BU_EV_REL_",
-                                                   "BU_BO_REL_",
-                                                   "CAT_"};
-
-template <std::size_t N>
-bool is_in(const std::array<std::string_view, N>& words, std::string_view word) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-bool is_section(std::string_view word) { return is_in(kRead, word) || is_in(kUnused, word); }
+constexpr std::string_view kParkedName = "VECTOR__INDEPENDENT_SIG_MSG";
+constexpr std::uint32_t kParkedBit = 0x40000000;
+constexpr std::size_t kMaxStops = kMaxFindings / 2;  // statements that cannot be read, of one file
+constexpr std::size_t kMaxLongSignals = 8 * kMaxTransportBytes;  // as many as bits
 
 class Parser {
  public:
   Parser(std::string_view text, const std::string& name) : scan_(text, name), draft_(name) {}
 
+  DbcDraft& draft() { return draft_; }
+  std::string place_of(std::size_t offset) { return scan_.place_of(offset); }
+
   Database parse() {
-    while (!scan_.at_end()) section();
+    if (!scan_.is_utf8()) {
+      draft_.find({FindingKind::kConverted, scan_.place_of(scan_.utf8_prefix()),
+                   "the text is not UTF-8 from here on and is read as CP1252", "", ""});
+    }
+    for (std::size_t stops = 0; !scan_.at_end() && stops < kMaxStops;) {
+      begin_ = scan_.here();
+      try {
+        section();
+      } catch (const DbcScanner::Stop& stop) {
+        tell(stop.problem);
+        scan_.recover(begin_);
+        if (++stops == kMaxStops) give_up();
+      }
+    }
+    close();
     draft_.index();
     for (const auto& turn : details_) {
       for (const std::size_t begin : turn) {
@@ -58,49 +51,86 @@ class Parser {
         read_detail(scan_, draft_);
       }
     }
+    if (draft_.database.messages.empty() && !has_messages_) {
+      draft_.find({FindingKind::kNoMessage, scan_.place_of(0), "the file has no message", "", ""});
+    }
     return draft_.finish();
   }
 
  private:
+  // A message whose signals are being read. One with a problem only collects them.
+  struct Open {
+    std::uint32_t key = 0;
+    Message message;
+    std::vector<DbcDraft::Mark> marks;
+    std::optional<Problem> problem;
+  };
+
   void section() {
-    begin_ = scan_.here();
     const std::string_view word = scan_.word();
+    if (word == "SG_") return add_signal();
     const int turn = turn_of(word);
     if (turn >= 0) {
+      close();
       (void)scan_.statement();
       return details_[static_cast<std::size_t>(turn)].push_back(begin_);
     }
     if (word == "BO_") return message();
+    if (!is_section(word) || is_unused_section(word)) return keep(word);
+    close();
     if (word == "VERSION") return static_cast<void>(draft_.database.version = scan_.string());
     if (word == "NS_") return new_symbols();
     if (word == "BS_") return bit_timing();
     if (word == "BU_") return nodes();
-    if (word == "SG_") refuse_at(place(), "a signal outside a message");
-    keep(word);
   }
 
   std::string place() { return scan_.place_of(begin_); }
 
+  // What could not be read, as an error of the message that it stands in.
+  void tell(const Problem& problem) {
+    Finding f{FindingKind::kSyntax, problem.place, problem.what,
+              "the text up to the next statement is left out", ""};
+    if (!open_) return draft_.find(std::move(f));
+    draft_.flaw(open_->message, std::move(f));
+  }
+
+  void give_up() {
+    draft_.find({FindingKind::kSyntax, scan_.place(),
+                 std::to_string(kMaxStops) + " statements cannot be read",
+                 "the file is not read from here on", ""});
+  }
+
   // A section that nobody reads must at least not hide one that somebody would.
   void keep(std::string_view word) {
-    const std::size_t behind_word = scan_.offset();
-    const std::size_t end = behind_word + scan_.statement().size();
-    for (scan_.rewind(behind_word); scan_.here() < end; scan_.skip_token()) {
-      if (scan_.begins_line(scan_.offset()) && is_section(scan_.next_word())) {
-        refuse_at(place(), std::string{word} + " has no closing ';' before the next section");
-      }
-    }
+    const bool is_known = is_unused_section(word);
+    if (is_known) close();
     scan_.rewind(begin_);
-    const std::string_view text = scan_.statement();
-    const bool is_known = is_in(kUnused, word);
+    std::string_view text = scan_.statement();
+    const bool is_closed = text.ends_with(';');
+    if (!is_closed) text = unclosed(word);
     draft_.database.unused.push_back({std::string{word}, scan_.utf8(text), place(), is_known});
-    if (is_known) return;
-    draft_.remark(true, place(), std::string{word} + " is no section of a DBC file; skipped");
+    if (is_known || !is_closed) return;  // signals that follow may still belong to the message
+    close();
+    draft_.find({FindingKind::kUnknownSection, place(),
+                 std::string{word} + " is no section of a DBC file; skipped", "",
+                 std::string{word}});
+  }
+
+  // The text up to the next section, told.
+  std::string_view unclosed(std::string_view word) {
+    scan_.recover(begin_);
+    const bool is_last = scan_.at_end();
+    Finding f{
+        FindingKind::kSyntax, place(),
+        std::string{word} + " has no closing ';'" + (is_last ? "" : " before the next section"),
+        "it is kept as it is written", ""};
+    open_ ? draft_.flaw(open_->message, std::move(f)) : draft_.find(std::move(f));
+    return scan_.since(begin_);
   }
 
   // The list has no end mark: its last word is the one that nothing but another word may follow.
   void new_symbols() {
-    scan_.expect(':');
+    if (!scan_.take(':')) tell({scan_.place(), "expected ':'"});
     while (!scan_.at_end()) {
       const std::size_t begin = scan_.offset();
       (void)scan_.word();
@@ -134,42 +164,94 @@ class Parser {
   }
 
   void message() {
-    const auto key =
-        static_cast<std::uint32_t>(scan_.integer(0, std::numeric_limits<std::uint32_t>::max()));
-    Message m;
-    m.place = place();
-    m.extended = (key & kExtendedBit) != 0;
-    m.id = key & ~kExtendedBit;
-    m.name = scan_.utf8(scan_.word());
-    scan_.expect(':');
-    m.length = static_cast<std::uint8_t>(scan_.integer(0, kMaxDataBytes));
-    const std::size_t at = scan_.here();
-    const std::string_view sender = scan_.word();
-    if (is_section(sender)) refuse_at(scan_.place_of(at), "message " + m.name + " has no sender");
-    m.sender = scan_.utf8(sender);
-    m.fd = m.length > 8;
-    const bool is_kept = key != kIndependentSignals;
-    if (is_kept && m.id > (m.extended ? kMaxExtendedId : kMaxStandardId)) {
-      refuse_at(place(), "id " + std::to_string(m.id) + " of message " + m.name +
-                             " is too large for " + (m.extended ? "29 bits" : "11 bits"));
+    close();
+    open_.emplace();
+    open_->message.place = place();
+    has_messages_ = true;
+    try {
+      header(*open_);
+    } catch (const DbcScanner::Stop& stop) {
+      open_->problem = stop.problem;
+      scan_.recover(begin_);
     }
-    std::vector<DbcDraft::Mark> marks;
-    while (is_signal_next()) {
-      marks.emplace_back();
-      m.signals.push_back(signal(marks.back()));
-    }
-    if (is_kept) return draft_.add(key, std::move(m), std::move(marks));
-    draft_.remark(false, m.place,
-                  m.name + " is no message; its " + std::to_string(m.signals.size()) +
-                      " signals are skipped");
   }
 
-  bool is_signal_next() {
-    if (scan_.peek() != 'S') return false;
-    const std::size_t begin = scan_.offset();
-    if (scan_.word() == "SG_") return true;
-    scan_.rewind(begin);
-    return false;
+  void header(Open& o) {
+    Message& m = o.message;
+    o.key = static_cast<std::uint32_t>(scan_.integer(0, std::numeric_limits<std::uint32_t>::max()));
+    m.extended = (o.key & kExtendedBit) != 0;
+    m.id = o.key & ~kExtendedBit;
+    m.name = scan_.utf8(scan_.word());
+    scan_.expect(':');
+    const std::size_t at_length = scan_.here();
+    m.length = static_cast<std::uint16_t>(scan_.integer(0, kMaxDataBytes, kMaxTransportBytes));
+    if (!m.is_on_frame()) {
+      draft_.flaw(m, {FindingKind::kTooLong, scan_.place_of(at_length),
+                      DbcScanner::expected(0, kMaxDataBytes),
+                      "message " + m.name + " is kept, but no frame is decoded with it", m.name});
+    }
+    m.fd = m.length > 8 && m.is_on_frame();
+    if (!scan_.next_word().empty() && !is_section(scan_.next_word())) {
+      m.sender = scan_.utf8(scan_.word());
+    } else if (scan_.next_word().empty() && !scan_.at_end() && !scan_.begins_line(scan_.here())) {
+      (void)scan_.word();  // stops
+    } else {
+      m.sender = kNobody;
+      draft_.flaw(m, {FindingKind::kSyntax, scan_.place(), "message " + m.name + " has no sender",
+                      "it is read as if it named " + m.sender, m.name});
+    }
+  }
+
+  // The end of the message that is open.
+  void close() {
+    if (!open_) return;
+    Open o = *std::move(open_);
+    open_.reset();
+    Message& m = o.message;
+    const std::string its_signals = "its " + std::to_string(m.signals.size()) + " signals";
+    if (o.problem) {
+      if (!m.name.empty()) draft_.leave_out(o.key);
+      return draft_.find({FindingKind::kSyntax, o.problem->place, o.problem->what,
+                          (m.name.empty() ? "the message" : "message " + m.name) +
+                              " is left out with " + its_signals,
+                          m.name});
+    }
+    if (o.key == kIndependentSignals || ((o.key & kParkedBit) != 0 && m.name == kParkedName)) {
+      draft_.leave_out(o.key);
+      return draft_.find({FindingKind::kParked, m.place,
+                          m.name + " is no message; " + its_signals + " are skipped", "", m.name});
+    }
+    if (m.id > (m.extended ? kMaxExtendedId : kMaxStandardId) && !is_kept_as_extended(o)) return;
+    draft_.add(o.key, std::move(m), std::move(o.marks));
+  }
+
+  // An id that is too large. Many files leave out the mark of 29 bits.
+  bool is_kept_as_extended(Open& o) {
+    Message& m = o.message;
+    const bool is_kept = m.id <= kMaxExtendedId;
+    Finding f{FindingKind::kMessage, m.place,
+              "id " + std::to_string(m.id) + " of message " + m.name + " is too large for " +
+                  (m.extended ? "29 bits" : "11 bits"),
+              is_kept ? "it is read as one of 29 bits"
+                      : "the message is left out with its " + std::to_string(m.signals.size()) +
+                            " signals",
+              m.name};
+    m.extended = true;
+    if (!is_kept) draft_.leave_out(o.key);
+    draft_.flaw(m, std::move(f));
+    return is_kept;
+  }
+
+  void add_signal() {
+    if (!open_) refuse_at(place(), "a signal outside a message");
+    if (!open_->message.is_on_frame() && open_->message.signals.size() >= kMaxLongSignals) {
+      refuse_at(place(), "expected at most " + std::to_string(kMaxLongSignals) +
+                             " signals in a message longer than a frame");
+    }
+    DbcDraft::Mark mark;
+    Signal s = signal(mark);
+    open_->message.signals.push_back(std::move(s));
+    open_->marks.push_back(std::move(mark));
   }
 
   Signal signal(DbcDraft::Mark& mark) {
@@ -186,7 +268,8 @@ class Parser {
 
   void layout(Signal& s) {
     SignalLayout& l = s.layout;
-    l.start = static_cast<std::uint16_t>(scan_.integer(0, 8 * kMaxDataBytes - 1));
+    const auto last_bit = static_cast<std::int64_t>(8U * open_->message.length) - 1;
+    l.start = static_cast<std::uint16_t>(scan_.integer(0, 8 * kMaxDataBytes - 1, last_bit));
     scan_.expect('|');
     l.length = static_cast<std::uint8_t>(scan_.integer(1, 64));
     scan_.expect('@');
@@ -242,18 +325,43 @@ class Parser {
   DbcScanner scan_;
   DbcDraft draft_;
   std::size_t begin_ = 0;  // of the section being read
+  std::optional<Open> open_;
+  bool has_messages_ = false;
   std::array<std::vector<std::size_t>, kTurns> details_;
 };
 
+// What UTF-16 lost on the way.
+void tell_conversion(Parser& parser, const Utf16Text& from, const std::string& name) {
+  parser.draft().find({FindingKind::kConverted, name + ":1:1",
+                       std::string{"the text is UTF-16 ("} +
+                           (from.is_little_endian ? "little" : "big") + "-endian)",
+                       "", ""});
+  if (from.broken == 0) return;
+  parser.draft().find(
+      {FindingKind::kEncoding, parser.place_of(from.first_broken_at),
+       std::to_string(from.broken) + " characters are no UTF-16, the first of them here",
+       "each is read as U+FFFD", ""});
+}
+
 }  // namespace
 
-Result<Database, Problem> parse_dbc(std::string_view text, const std::string& name) {
-  if (text.size() > kMaxDbcBytes) return Unexpected{Problem{name, "file is too large"}};
-  try {
-    return Parser{text, name}.parse();
-  } catch (const DbcScanner::Stop& stop) {
-    return Unexpected{stop.problem};
+Result<Database, Problem> parse_dbc_leniently(std::string_view text, const std::string& name) {
+  if (text.size() > kMaxDbcBytes) return refuse(name, "file is too large");
+  const auto converted = from_utf16(text);
+  if (converted) text = converted->utf8;
+  if (const std::string_view kind = kind_of_file(text); !kind.empty()) {
+    return refuse(name + ":1:1", "expected a CAN database (DBC), this is " + std::string{kind});
   }
+  Parser parser{text, name};
+  if (converted) tell_conversion(parser, *converted, name);
+  return parser.parse();
+}
+
+Result<Database, Problem> parse_dbc(std::string_view text, const std::string& name) {
+  auto database = parse_dbc_leniently(text, name);
+  if (!database) return database;
+  if (auto refusal = refusal_of(*database)) return Unexpected{*std::move(refusal)};
+  return database;
 }
 
 }  // namespace pitwall::can

@@ -3,7 +3,8 @@
 //   in      the message definition and a frame
 //   out     one value per signal, in the order of the definition; NaN for a signal that its
 //           selector leaves out (and for a floating-point signal that says NaN)
-//   errors  false, values untouched: another id, another length, a remote frame, another format
+//   errors  false, values untouched: another id, another length, a remote frame, another format; a
+//           message longer than any frame
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -11,11 +11,15 @@ namespace pitwall::can {
 bool encode(const Message& message, std::span<const double> values, Frame& out,
             EncodeCounters& counters) {
   CHECK(values.size() == message.signals.size());
+  if (!message.is_on_frame()) {
+    ++counters.too_long;
+    return false;
+  }
   Frame frame{.id = message.id,
               .extended = message.extended,
               .remote = false,
               .fd = message.fd,
-              .length = message.length,
+              .length = static_cast<std::uint8_t>(message.length),
               .data = {}};
   std::uint64_t held = 0;
   // Selectors first: they decide which of the others are present.

@@ -3,7 +3,8 @@
 //   out     a frame whose unused bits are zero
 //   rule    rounded half away from zero, then held inside the field and the file's range (if it
 //           gives one); a value never wraps into another sign
-//   errors  false, frame untouched: a value of a present signal is NaN or infinite
+//   errors  false, frame untouched: a value of a present signal is NaN or infinite; the message is
+//           longer than a frame
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -17,6 +18,7 @@ namespace pitwall::can {
 struct EncodeCounters {
   std::uint64_t saturated = 0;   // signals held at a limit
   std::uint64_t not_finite = 0;  // frames refused for a NaN or an infinity
+  std::uint64_t too_long = 0;    // messages refused because no frame holds them
   bool operator==(const EncodeCounters&) const = default;
 };
 

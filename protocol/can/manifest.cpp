@@ -174,7 +174,7 @@ ProtectionRule rule_of(const ManifestMessage& entry, const Message& m) {
   };
   return {.profile = c.profile,
           .data_id_mode = c.data_id_mode,
-          .length = m.length,
+          .length = static_cast<std::uint8_t>(m.length),  // strictly read
           .crc_byte = static_cast<std::uint8_t>(start(m.find(c.signal)) / 8),
           .counter_start = start(counter),
           .counter_bits = counter == nullptr ? std::uint8_t{0} : counter->layout.length,
@@ -291,7 +291,7 @@ std::vector<MessageRow> rows(const Manifest& manifest, const Database& database)
     const Signal* const counter = m.find(entry->counter);
     const std::uint16_t start = counter == nullptr ? 0 : lowest_bit(counter->layout).value_or(0);
     out.push_back({.id = m.id,
-                   .length = m.length,
+                   .length = static_cast<std::uint8_t>(m.length),  // strictly read
                    .name = m.name.c_str(),
                    .direction = entry->direction,
                    .safety = entry->safety,

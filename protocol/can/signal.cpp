@@ -104,24 +104,24 @@ SignalPlan plan(const SignalLayout& s) {
   return p;
 }
 
-BitMap occupied_bits(const SignalLayout& s) {
-  BitMap map{};
-  std::size_t bit = s.start;
-  for (unsigned i = 0; i < s.length && bit < 8 * map.size(); ++i) {
-    map[bit / 8] = static_cast<std::uint8_t>(map[bit / 8] | 1U << bit % 8);
+std::vector<std::size_t> bits_of(const SignalLayout& s) {
+  std::vector<std::size_t> out;
+  out.reserve(s.length);
+  for (std::size_t bit = s.start; out.size() < s.length;) {
+    out.push_back(bit);
     if (s.order == ByteOrder::kIntel) {
       ++bit;
     } else {
       bit = bit % 8 == 0 ? bit + 15 : bit - 1;
     }
   }
-  return map;
+  return out;
 }
 
 bool fits(const SignalLayout& s, std::size_t bytes) {
   if (s.length < 1 || s.length > 64) return false;
   const std::size_t begin = s.order == ByteOrder::kIntel ? s.start : motorola_position(s);
-  return begin + s.length <= 8 * bytes && bytes <= kMaxDataBytes;
+  return begin + s.length <= 8 * bytes;
 }
 
 std::uint64_t extract(const SignalPlan& p, const FrameBytes& data) {

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <vector>
 
 #include "protocol/can/frame.hpp"
 
@@ -49,9 +50,8 @@ struct SignalPlan {
 
 SignalPlan plan(const SignalLayout& layout);
 
-// The bits that the signal occupies in its frame, bit k of byte b at 8 * b + k.
-using BitMap = std::array<std::uint8_t, kMaxDataBytes>;
-BitMap occupied_bits(const SignalLayout& layout);
+// The bits that the signal occupies, bit k of byte b as 8 * b + k, from the start bit on.
+std::vector<std::size_t> bits_of(const SignalLayout& layout);
 // False where any bit lies outside `bytes` bytes.
 bool fits(const SignalLayout& layout, std::size_t bytes);
 

@@ -1,6 +1,6 @@
 // pitwall-dbc-generator DBC MANIFEST OUT.hpp: the typed structs and tables of one car's CAN bus.
 //   errors  exit 1 and "file:line:column: error: ..." where database or manifest contradict
-//           themselves or each other
+//           themselves or each other; of the database every error, worst first
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <filesystem>
@@ -16,6 +16,13 @@ namespace {
 
 int refuse(const pitwall::Problem& problem) {
   std::fprintf(stderr, "%s\n", pitwall::to_string(problem).c_str());
+  return 1;
+}
+
+int refuse_all(const pitwall::can::Database& database) {
+  for (const pitwall::can::Finding* const f : pitwall::can::worst_first(database)) {
+    if (severity_of(f->kind) == pitwall::can::FindingSeverity::kError) refuse({f->place, f->what});
+  }
   return 1;
 }
 
@@ -35,8 +42,9 @@ int main(int argc, char** argv) {
   const auto dbc = text_of(argv[1]), yaml = text_of(argv[2]);
   if (!dbc) return refuse(dbc.error());
   if (!yaml) return refuse(yaml.error());
-  const auto database = pitwall::can::parse_dbc(*dbc, argv[1]);
+  const auto database = pitwall::can::parse_dbc_leniently(*dbc, argv[1]);
   if (!database) return refuse(database.error());
+  if (pitwall::can::refusal_of(*database)) return refuse_all(*database);
   const auto manifest = pitwall::can::parse_manifest(*yaml, argv[2]);
   if (!manifest) return refuse(manifest.error());
   const std::string name = std::filesystem::path(argv[3]).stem().string();

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <limits>
 #include <utility>
+
+#include "protocol/can/parser/dbc_section.hpp"
 
 namespace pitwall::can {
 namespace {
@@ -14,7 +15,7 @@ constexpr std::size_t kMaxRanges = 1024;  // of one signal; real files have a fe
 
 class Details {
  public:
-  Details(DbcScanner& scan, DbcDraft& draft) : scan_(scan), draft_(draft) {}
+  Details(DbcScanner& scan, DbcDraft& draft) : scan_(scan), draft_(draft), at_(scan, draft) {}
 
   void read();
   void value_table();
@@ -39,13 +40,7 @@ class Details {
     bool is_elsewhere = false;  // of something that is not read here: environment variables
   };
 
-  std::uint32_t message_key() {
-    return static_cast<std::uint32_t>(scan_.integer(0, std::numeric_limits<std::uint32_t>::max()));
-  }
-  void warn(std::string what) { draft_.remark(true, scan_.place_of(begin_), std::move(what)); }
-  void keep();
   Owner owner();
-  void stranger(std::uint32_t key, std::string_view signal);
   // Reads "<message> <signal>".
   Owner signal_owner();
   std::vector<ValueName> names_of_values();
@@ -54,8 +49,7 @@ class Details {
 
   DbcScanner& scan_;
   DbcDraft& draft_;
-  std::size_t begin_ = 0;
-  std::string_view word_;
+  DbcSection at_;
 };
 
 struct Kind {
@@ -82,19 +76,14 @@ std::optional<AttributeOwner> owner_of(std::string_view word) {
 }
 
 void Details::read() {
-  begin_ = scan_.here();
-  word_ = scan_.word();
-  for (const Kind& k : kKinds) {
-    if (k.word == word_) return (this->*k.read)();
+  const auto kind = std::find_if(kKinds.begin(), kKinds.end(),
+                                 [&](const Kind& k) { return k.word == at_.word(); });
+  try {
+    (this->*kind->read)();
+  } catch (const DbcScanner::Stop& stop) {
+    at_.tell(FindingKind::kSyntax, stop.problem.place, stop.problem.what,
+             "this " + std::string{at_.word()} + " is left out");
   }
-}
-
-// The whole section as it is, because what it speaks of is not read here.
-void Details::keep() {
-  scan_.rewind(begin_);
-  const std::string_view text = scan_.statement();
-  draft_.database.unused.push_back(
-      {std::string{word_}, scan_.utf8(text), scan_.place_of(begin_), true});
 }
 
 Details::Owner Details::owner() {
@@ -108,14 +97,18 @@ Details::Owner Details::owner() {
     const auto at = draft_.node(name);
     o.is_known = at.has_value();
     if (at) o.node = &draft_.database.nodes[*at];
-    if (!at) warn(std::string{word_} + " of node " + std::string{name} + ", which is not in BU_");
+    if (!at) {
+      at_.warn(FindingKind::kReference,
+               std::string{at_.word()} + " of node " + std::string{name} + ", which is not in BU_",
+               std::string{name});
+    }
   } else if (what == "BO_") {
     o.kind = AttributeOwner::kMessage;
-    o.key = message_key();
+    o.key = at_.message_key();
     const auto at = draft_.message(o.key);
     o.is_known = at.has_value();
     if (at) o.message = &draft_.database.messages[*at];
-    if (!at) stranger(o.key, "");
+    if (!at) at_.stranger(o.key, "");
   } else if (what == "SG_") {
     o = signal_owner();
   } else {
@@ -124,22 +117,13 @@ Details::Owner Details::owner() {
   return o;
 }
 
-void Details::stranger(std::uint32_t key, std::string_view signal) {
-  if (key == kIndependentSignals) return;  // told once, where it is skipped
-  const auto at = draft_.message(key);
-  const std::string id = std::to_string(key & ~kExtendedBit);
-  if (!at) return warn(std::string{word_} + " of message " + id + ", which the file does not have");
-  warn(std::string{word_} + ": message " + draft_.database.messages[*at].name + " has no signal " +
-       std::string{signal});
-}
-
 Details::Owner Details::signal_owner() {
-  Owner o{.kind = AttributeOwner::kSignal, .key = message_key()};
+  Owner o{.kind = AttributeOwner::kSignal, .key = at_.message_key()};
   const std::string_view name = scan_.word();
   const auto at = draft_.signal(o.key, scan_.utf8(name));
   o.is_known = at.has_value();
   if (!at) {
-    stranger(o.key, name);
+    at_.stranger(o.key, name);
   } else {
     o.message = &draft_.database.messages[at->message];
     o.signal = &o.message->signals[at->signal];
@@ -149,9 +133,9 @@ Details::Owner Details::signal_owner() {
 
 void Details::comment() {
   const Owner o = owner();
-  if (o.is_elsewhere) return keep();
+  if (o.is_elsewhere) return at_.keep();
   std::string text = scan_.string();
-  scan_.expect(';');
+  at_.close();
   if (!o.is_known) return;
   (o.signal    ? o.signal->comment
    : o.message ? o.message->comment
@@ -161,7 +145,7 @@ void Details::comment() {
 
 std::vector<ValueName> Details::names_of_values() {
   std::vector<ValueName> out;
-  while (!scan_.take(';')) {
+  while (!at_.ends()) {
     const double value = scan_.real();  // some files write 1.0
     std::string name = scan_.string();
     const bool is_whole = value >= -0x1p63 && value < 0x1p63 &&
@@ -169,7 +153,8 @@ std::vector<ValueName> Details::names_of_values() {
     if (is_whole) {
       out.push_back({static_cast<std::int64_t>(value), std::move(name)});
     } else {
-      warn("the name \"" + name + "\" is not given to a whole number");
+      at_.warn(FindingKind::kValueNames,
+               "the name \"" + name + "\" is not given to a whole number");
     }
   }
   return out;
@@ -179,12 +164,14 @@ void Details::value_table() {
   ValueTable table{.name = scan_.utf8(scan_.word()), .values = {}};
   table.values = names_of_values();
   const std::string name = table.name;
-  if (!draft_.add(std::move(table))) warn("table " + name + " is defined twice");
+  if (!draft_.add(std::move(table))) {
+    at_.warn(FindingKind::kRepeated, "table " + name + " is defined twice", name);
+  }
 }
 
 void Details::value_names() {
   const char first = scan_.peek();
-  if (first < '0' || first > '9') return keep();  // of an environment variable
+  if (first < '0' || first > '9') return at_.keep();  // of an environment variable
   const Owner o = signal_owner();
   std::vector<ValueName> names;
   const char next = scan_.peek();
@@ -192,15 +179,19 @@ void Details::value_names() {
     names = names_of_values();
   } else {
     const std::string table = scan_.utf8(scan_.word());
-    scan_.expect(';');
+    at_.close();
     if (const ValueTable* const known = draft_.table(table)) {
       names = known->values;
     } else {
-      warn("VAL_ refers to table " + table + ", which the file does not have");
+      at_.warn(FindingKind::kReference,
+               "VAL_ refers to table " + table + ", which the file does not have", table);
     }
   }
   if (!o.is_known) return;
-  if (!o.signal->values.empty()) warn("signal " + o.signal->name + " has a second VAL_");
+  if (!o.signal->values.empty()) {
+    at_.warn(FindingKind::kRepeated, "signal " + o.signal->name + " has a second VAL_",
+             o.message->name + "." + o.signal->name);
+  }
   o.signal->values = std::move(names);
 }
 
@@ -216,21 +207,23 @@ void Details::definition() {
   const std::size_t at = scan_.here();
   d.kind = scan_.word();
   if (d.kind == "INT" || d.kind == "HEX" || d.kind == "FLOAT") {
-    if (scan_.peek() != ';') {
+    if (scan_.peek() != ';' && !scan_.at_statement() && !scan_.at_end()) {
       d.min = scan_.real();
       d.max = scan_.real();
     }
   } else if (d.kind == "ENUM") {
-    while (scan_.peek() != ';') {
+    while (scan_.peek() == '"') {
       d.choices.push_back(scan_.string());
       (void)scan_.take(',');
     }
   } else if (d.kind != "STRING") {
     refuse_at(scan_.place_of(at), "an attribute is INT, HEX, FLOAT, STRING or ENUM");
   }
-  scan_.expect(';');
+  at_.close();
   const std::string name = d.name;
-  if (!draft_.add(std::move(d))) warn("attribute " + name + " is defined twice");
+  if (!draft_.add(std::move(d))) {
+    at_.warn(FindingKind::kRepeated, "attribute " + name + " is defined twice", name);
+  }
 }
 
 // An ENUM may give its word or the number of it.
@@ -246,7 +239,8 @@ std::string Details::value_of(const AttributeDefinition* d, std::string_view nam
   }
   const auto choice = std::find(d->choices.begin(), d->choices.end(), value);
   if (choice == d->choices.end() && !value.empty()) {  // "": no default
-    warn("attribute " + std::string{name} + " cannot be " + value);
+    at_.warn(FindingKind::kAttribute, "attribute " + std::string{name} + " cannot be " + value,
+             std::string{name});
   }
   return value;
 }
@@ -261,9 +255,9 @@ void Details::definition_default() {
   }
   if (definitions.empty()) {
     (void)scan_.string_or_word();
-    warn("attribute " + name + " has a default but no BA_DEF_");
+    at_.warn(FindingKind::kAttribute, "attribute " + name + " has a default but no BA_DEF_", name);
   }
-  scan_.expect(';');
+  at_.close();
 }
 
 void Details::set(const Owner& o, const std::string& name, std::string value) {
@@ -283,11 +277,13 @@ void Details::set(const Owner& o, const std::string& name, std::string value) {
 void Details::attribute() {
   const std::string name = scan_.string();
   const Owner o = owner();
-  if (o.is_elsewhere) return keep();
+  if (o.is_elsewhere) return at_.keep();
   const AttributeDefinition* const d = draft_.definition(o.kind, name);
   std::string value = value_of(d, name);
-  scan_.expect(';');
-  if (d == nullptr) warn("attribute " + name + " has no BA_DEF_");
+  at_.close();
+  if (d == nullptr) {
+    at_.warn(FindingKind::kAttribute, "attribute " + name + " has no BA_DEF_", name);
+  }
   if (o.is_known) set(o, name, std::move(value));
 }
 
@@ -295,49 +291,54 @@ void Details::value_type() {
   const Owner o = signal_owner();
   (void)scan_.take(':');
   const std::int64_t type = scan_.integer(0, 3);
-  scan_.expect(';');
+  at_.close();
   if (o.signal == nullptr || type == 0) return;
   const unsigned length = type == 1 ? 32 : 64;
   if (type == 3 || o.signal->layout.length != length) {
-    refuse_at(scan_.place_of(begin_), "signal " + o.signal->name + " of " +
-                                          std::to_string(o.signal->layout.length) +
-                                          " bits cannot be a floating-point number of this kind");
+    o.signal->is_flawed = true;
+    return at_.tell(FindingKind::kSignal, at_.place(),
+                    "signal " + o.signal->name + " of " + std::to_string(o.signal->layout.length) +
+                        " bits cannot be a floating-point number of this kind",
+                    "it is read as a whole number");
   }
   o.signal->layout.number = type == 1 ? Number::kFloat32 : Number::kFloat64;
 }
 
 void Details::multiplexing() {
-  const std::uint32_t key = message_key();
+  const std::uint32_t key = at_.message_key();
   const std::string name = scan_.utf8(scan_.word()), selector = scan_.utf8(scan_.word());
   std::vector<SelectorRange> ranges;
   do {
     const auto low = static_cast<std::uint64_t>(scan_.integer(0, kAnyInteger));
     scan_.expect('-');
     const auto high = static_cast<std::uint64_t>(scan_.integer(0, kAnyInteger));
-    if (low > high) refuse_at(scan_.place_of(begin_), "an empty range of selector values");
+    if (low > high) refuse_at(at_.place(), "an empty range of selector values");
     ranges.push_back({low, high});
     if (ranges.size() > kMaxRanges) {
-      refuse_at(scan_.place_of(begin_), "more than " + std::to_string(kMaxRanges) + " ranges");
+      refuse_at(at_.place(), "more than " + std::to_string(kMaxRanges) + " ranges");
     }
   } while (scan_.take(','));
-  scan_.expect(';');
+  at_.close();
   const auto m = draft_.message(key);
-  if (!m) return stranger(key, name);
+  if (!m) return at_.stranger(key, name);
   const auto s = draft_.signal(*m, name), above = draft_.signal(*m, selector);
   if (!s || !above) {
-    refuse_at(scan_.place_of(begin_), "message " + draft_.database.messages[*m].name +
-                                          " has no signal " + (s ? selector : name));
+    Message& of = draft_.database.messages[*m];
+    if (s) of.signals[*s].is_flawed = true;
+    return at_.tell(FindingKind::kMultiplexing, at_.place(),
+                    "message " + of.name + " has no signal " + (s ? selector : name),
+                    "this SG_MUL_VAL_ is left out");
   }
   draft_.marks[*m][*s].selector = above;
   draft_.marks[*m][*s].ranges = std::move(ranges);
 }
 
 void Details::senders() {
-  const std::uint32_t key = message_key();
+  const std::uint32_t key = at_.message_key();
   const auto at = draft_.message(key);
-  if (!at) stranger(key, "");
+  if (!at) at_.stranger(key, "");
   scan_.expect(':');
-  while (!scan_.take(';')) {
+  while (!at_.ends()) {
     std::string name = scan_.utf8(scan_.word());
     (void)scan_.take(',');
     if (!at) continue;

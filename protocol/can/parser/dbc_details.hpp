@@ -1,8 +1,8 @@
 // The sections of a DBC file that say more about messages, signals and nodes that are already
 // known: comments, attributes, names of values, floating point, extended multiplexing, senders.
 //   in      the scanner just behind the section's first word; a draft that is indexed
-//   out     the draft, filled; a remark for each reference to something that is not there
-//   errors  Stop (see dbc_scanner)
+//   out     the draft, filled; a warning for each reference to something that is not there
+//   errors  findings of the draft; a section that cannot be read is left out
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

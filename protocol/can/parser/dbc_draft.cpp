@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "protocol/can/parser/dbc_remarks.hpp"
+#include "protocol/can/parser/dbc_resolution.hpp"
 
 namespace pitwall::can {
 namespace {
@@ -28,6 +29,11 @@ std::pair<std::uint64_t, std::uint64_t> position(const std::string& place) {
   return {line, column};
 }
 
+// What becomes of a message and all of its signals.
+std::string left_out(const Message& m) {
+  return "the message is left out with its " + std::to_string(m.signals.size()) + " signals";
+}
+
 }  // namespace
 
 void refuse_at(const std::string& place, const std::string& what) {
@@ -35,14 +41,16 @@ void refuse_at(const std::string& place, const std::string& what) {
 }
 
 void DbcDraft::add(std::uint32_t key, Message m, std::vector<Mark> its_marks) {
-  const auto [at, is_new_id] = by_key_.insert({key, database.messages.size()});
+  const bool is_new_key = by_key_.insert({key, database.messages.size()}).second;
+  const auto [same, is_new_id] = ids_.insert({{m.extended, m.id}, database.messages.size()});
   if (!is_new_id) {
-    refuse_at(m.place,
-              "message " + m.name + " has the id of message " + database.messages[at->second].name);
-  }
-  const auto [named, is_new_name] = places_.insert({m.name, m.place});
-  if (!is_new_name) {
-    refuse_at(m.place, "message " + m.name + " is already defined at " + named->second);
+    if (is_new_key) {  // the same id, written without the mark of 29 bits
+      by_key_.erase(key);
+      leave_out(key);
+    }
+    const std::string& other = database.messages[same->second].name;
+    return find({FindingKind::kMessage, m.place,
+                 "message " + m.name + " has the id of message " + other, left_out(m), m.name});
   }
   database.messages.push_back(std::move(m));
   marks.push_back(std::move(its_marks));
@@ -128,12 +136,19 @@ bool DbcDraft::add(AttributeDefinition d) {
   return true;
 }
 
-void DbcDraft::remark(bool is_warning, std::string place, std::string what) {
-  if (database.remarks.size() >= kMaxRemarks) {
-    ++database.remarks_left_off;
+void DbcDraft::find(Finding finding) {
+  if (found_[static_cast<std::size_t>(finding.kind)]++ < kMaxFindings) {
+    database.findings.push_back(std::move(finding));
   } else {
-    database.remarks.push_back({is_warning, std::move(place), std::move(what)});
+    ++database.findings_left_off[static_cast<std::size_t>(severity_of(finding.kind))];
   }
+}
+
+void DbcDraft::flaw(Message& m, Finding finding) {
+  if (found_[static_cast<std::size_t>(finding.kind)] < kMaxFindings) {
+    m.flaws.push_back({finding.place, text_of(finding)});
+  }
+  find(std::move(finding));
 }
 
 void DbcDraft::lengthen(std::uint32_t key, std::string name) {
@@ -150,12 +165,16 @@ void DbcDraft::lengthen_names() {
     Message& m = database.messages[l.message];
     (l.signal ? m.signals[*l.signal].name : m.name) = std::move(l.name);
   }
-  if (long_names_.empty()) return;
+}
+
+void DbcDraft::mark_equal_names() {
   std::map<std::string_view, std::string_view> seen;
-  for (const Message& m : database.messages) {
+  for (Message& m : database.messages) {
     const auto [at, is_new] = seen.insert({m.name, m.place});
     if (is_new) continue;
-    refuse_at(m.place, "message " + m.name + " is already defined at " + std::string{at->second});
+    flaw(m, {FindingKind::kMessage, m.place,
+             "message " + m.name + " is already defined at " + std::string{at->second},
+             "both are kept", m.name});
   }
 }
 
@@ -174,66 +193,39 @@ void DbcDraft::apply_attributes(Message& m, std::optional<std::string_view> usua
   if (error == std::errc{} && stop == end && period_ms >= 0.0 && period_ms <= kMaxPeriod_ms) {
     m.period = from_seconds(period_ms * 1e-3);
   } else {
-    remark(true, m.place,
-           "message " + m.name + ": the GenMsgCycleTime \"" + std::string{*period} +
-               "\" is no time in milliseconds");
+    find({FindingKind::kAttribute, m.place,
+          "message " + m.name + ": the GenMsgCycleTime \"" + std::string{*period} +
+              "\" is no time in milliseconds",
+          "", m.name + ".GenMsgCycleTime"});
   }
 }
 
-// Finds the selectors of a message, checks it and makes the plans.
-void DbcDraft::resolve(std::size_t index) {
-  Message& m = database.messages[index];
-  std::vector<std::size_t> roots;
-  for (std::size_t i = 0; i < m.signals.size(); ++i) {
-    m.signals[i].is_selector = marks[index][i].is_selector;
-    if (m.signals[i].is_selector && !marks[index][i].value) roots.push_back(i);
+void DbcDraft::add_remarks(const Message& m) {
+  for (Finding& f : remarks_on(m)) find(std::move(f));
+  for (const Signal& s : m.signals) {
+    for (Finding& f : remarks_on(m, s)) find(std::move(f));
   }
-  for (std::size_t i = 0; i < m.signals.size(); ++i) {
-    Signal& s = m.signals[i];
-    Mark& mark = marks[index][i];
-    if (mark.selector) {
-      s.selector = mark.selector;
-      s.when = std::move(mark.ranges);
-      m.signals[*s.selector].is_selector = true;
-    } else if (mark.value) {
-      if (roots.size() != 1) {
-        refuse_at(s.place, "signal " + s.name + ": message " + m.name + " has " +
-                               std::to_string(roots.size()) + " multiplexers that could be meant");
-      }
-      s.selector = roots[0];
-      s.when = {{*mark.value, *mark.value}};
-    }
-  }
-  for (Signal& s : m.signals) {
-    const auto depth = selectors_above(m, s);
-    if (!depth) {
-      refuse_at(s.place, "the multiplexers of signal " + s.name + " form a circle, or are " +
-                             "more than " + std::to_string(kMaxSelectors));
-    }
-    s.depth = *depth;
-    m.deepest = std::max(m.deepest, s.depth);
-  }
-  if (const auto problem = contradiction(m)) throw DbcScanner::Stop{*problem};
-  for (Signal& s : m.signals) s.plan = plan(s.layout);
 }
 
 Database DbcDraft::finish() {
   lengthen_names();
-  for (std::size_t i = 0; i < database.messages.size(); ++i) resolve(i);
+  mark_equal_names();
+  for (std::size_t i = 0; i < database.messages.size(); ++i) {
+    for (Finding& f : resolve(database.messages[i], marks[i])) {
+      flaw(database.messages[i], std::move(f));
+    }
+  }
   using enum AttributeOwner;
   const auto usual_format = database.attribute("VFrameFormat", kMessage, {});
   const auto usual_period = database.attribute("GenMsgCycleTime", kMessage, {});
   for (Message& m : database.messages) {
     apply_attributes(m, usual_format, usual_period);
-    for (std::string& what : remarks_on(m)) remark(true, m.place, std::move(what));
-    for (const Signal& s : m.signals) {
-      for (std::string& what : remarks_on(m, s)) remark(true, s.place, std::move(what));
-    }
+    add_remarks(m);
   }
-  for (auto& [place, what] : strangers(database)) remark(true, place, std::move(what));
+  for (Finding& f : strangers(database)) find(std::move(f));
   std::stable_sort(
-      database.remarks.begin(), database.remarks.end(),
-      [](const Remark& a, const Remark& b) { return position(a.place) < position(b.place); });
+      database.findings.begin(), database.findings.end(),
+      [](const Finding& a, const Finding& b) { return position(a.place) < position(b.place); });
   auto& all = database.messages;
   std::sort(all.begin(), all.end(), [](const Message& a, const Message& b) {
     return std::pair{a.extended, a.id} < std::pair{b.extended, b.id};

@@ -1,16 +1,20 @@
 // A database while its file is being read: what the sections say, not yet put together.
 //   in      messages in the order of the file, then what refers to them by number and name
-//   out     finish(): the Database; selectors resolved, long names in place, plans made
-//   errors  Stop (see dbc_scanner) at the first contradiction
+//   out     finish(): the Database; selectors resolved, long names in place, plans made, everything
+//           that contradicts itself left out or marked
+//   errors  findings of the database
 //   cost    n log n in the size of the file, whatever is in it
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "protocol/can/database.hpp"
@@ -23,6 +27,7 @@ inline constexpr std::string_view kNobody = "Vector__XXX";  // the receiver of w
 // VECTOR__INDEPENDENT_SIG_MSG: where editors park signals that belong to no message.
 inline constexpr std::uint32_t kIndependentSignals = 0xC0000000;
 
+// Ends the reading of one statement.
 [[noreturn]] void refuse_at(const std::string& place, const std::string& what);
 
 class DbcDraft {
@@ -40,8 +45,11 @@ class DbcDraft {
 
   explicit DbcDraft(const std::string& name) { database.name = name; }
 
-  // Refuses ids and names that are taken.
+  // A second message with the same id is left out, one with the same name is marked.
   void add(std::uint32_t key, Message message, std::vector<Mark> marks);
+  // What refers to this number is no mistake of its own: its message was left out and told.
+  void leave_out(std::uint32_t key) { left_out_.insert(key); }
+  bool is_left_out(std::uint32_t key) const { return left_out_.contains(key); }
   // After the last message; before anything is looked up.
   void index();
 
@@ -58,7 +66,9 @@ class DbcDraft {
   bool add(ValueTable table);
   bool add(AttributeDefinition definition);
 
-  void remark(bool is_warning, std::string place, std::string what);
+  void find(Finding finding);
+  // An error of this message, for its table too.
+  void flaw(Message& message, Finding finding);
   void lengthen(std::uint32_t key, std::string name);
   void lengthen(Found found, std::string name);
   Database finish();
@@ -68,13 +78,16 @@ class DbcDraft {
 
  private:
   void lengthen_names();
+  void mark_equal_names();
   void apply_attributes(Message& m, std::optional<std::string_view> usual_format,
                         std::optional<std::string_view> usual_period);
-  void resolve(std::size_t index);
+  void add_remarks(const Message& m);
 
   std::map<std::uint32_t, std::size_t> by_key_;
-  std::map<std::string, std::string, std::less<>> places_;  // of messages, by name
-  std::vector<std::vector<std::uint32_t>> by_name_;         // signals of each message, sorted
+  std::map<std::pair<bool, std::uint32_t>, std::size_t> ids_;
+  std::set<std::uint32_t> left_out_;
+  std::array<std::size_t, kFindingKinds> found_{};   // of each kind
+  std::vector<std::vector<std::uint32_t>> by_name_;  // signals of each message, sorted
   std::map<std::string, std::size_t, std::less<>> nodes_, tables_;
   std::map<std::string, std::vector<std::size_t>, std::less<>> definitions_;  // by name
   struct LongName {

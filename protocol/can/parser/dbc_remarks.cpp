@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "protocol/can/parser/dbc_draft.hpp"
 #include "protocol/vocabulary/text.hpp"
@@ -32,6 +34,9 @@ bool is_frame_length(unsigned bytes) {
   return bytes <= 8 || std::find(kLongOnes.begin(), kLongOnes.end(), bytes) != kLongOnes.end();
 }
 
+// One for each oddity of a signal.
+using Texts = std::vector<std::pair<FindingKind, std::string>>;
+
 struct Limits {
   double low = 0.0, high = 0.0;
 };
@@ -45,10 +50,13 @@ Limits limits_of_field(const Signal& s) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-void judge_range(const Signal& s, std::vector<std::string>& out) {
+void judge_range(const Signal& s, Texts& out) {
   const SignalLayout& l = s.layout;
   const std::string range = "[" + shortest(l.min) + "|" + shortest(l.max) + "]";
-  if (l.min > l.max) out.push_back("signal " + s.name + ": the range " + range + " is upside down");
+  if (l.min > l.max) {
+    out.emplace_back(FindingKind::kRange,
+                     "signal " + s.name + ": the range " + range + " is upside down");
+  }
   if (!(l.min < l.max)) return;
   const Limits field = limits_of_field(s);
   const bool is_float = l.number == Number::kFloat32 || l.number == Number::kFloat64;
@@ -60,15 +68,17 @@ void judge_range(const Signal& s, std::vector<std::string>& out) {
                             std::ceil((l.min - l.offset) / l.scale - kRoundingSlack) &&
                         l.scale > 0.0;
   if (l.min > field.high + slack || l.max < field.low - slack || is_empty) {
-    out.push_back("signal " + s.name + ": no value that its " + std::to_string(l.length) +
-                  " bits can hold is in the range " + range);
+    out.emplace_back(FindingKind::kRange, "signal " + s.name + ": no value that its " +
+                                              std::to_string(l.length) +
+                                              " bits can hold is in the range " + range);
   } else if (l.min < field.low - slack || l.max > field.high + slack) {
-    out.push_back("signal " + s.name + ": the range " + range + " is wider than its " +
-                  std::to_string(l.length) + " bits can hold, " + holds);
+    out.emplace_back(FindingKind::kRange, "signal " + s.name + ": the range " + range +
+                                              " is wider than its " + std::to_string(l.length) +
+                                              " bits can hold, " + holds);
   }
 }
 
-void judge_value_names(const Signal& s, std::vector<std::string>& out) {
+void judge_value_names(const Signal& s, Texts& out) {
   const bool is_signed = s.layout.number == Number::kSigned;
   if (!is_signed && s.layout.number != Number::kUnsigned) return;
   const std::uint64_t mask = mask_of(s.layout.length);
@@ -81,56 +91,57 @@ void judge_value_names(const Signal& s, std::vector<std::string>& out) {
     if (!fits) outside.push_back(std::to_string(v.value));
   }
   if (outside.empty()) return;
-  out.push_back("signal " + s.name + ": VAL_ names values that its " +
-                std::to_string(s.layout.length) + " bits " + (is_signed ? "with sign " : "") +
-                "cannot hold: " + listed({outside.begin(), outside.end()}));
+  out.emplace_back(FindingKind::kValueNames, "signal " + s.name + ": VAL_ names values that its " +
+                                                 std::to_string(s.layout.length) + " bits " +
+                                                 (is_signed ? "with sign " : "") + "cannot hold: " +
+                                                 listed({outside.begin(), outside.end()}));
 }
 
-void judge_selector(const Message& m, const Signal& s, std::vector<std::string>& out) {
+void judge_selector(const Message& m, const Signal& s, Texts& out) {
   if (!s.selector) return;
   const Signal& selector = m.signals[*s.selector];
   const std::uint64_t mask = mask_of(selector.layout.length);
   const bool is_reachable = std::any_of(s.when.begin(), s.when.end(),
                                         [&](const SelectorRange& r) { return r.low <= mask; });
   if (!is_reachable) {
-    out.push_back("signal " + s.name + " is never present: its multiplexer " + selector.name +
-                  " has only " + std::to_string(selector.layout.length) + " bits");
+    out.emplace_back(FindingKind::kNeverPresent,
+                     "signal " + s.name + " is never present: its multiplexer " + selector.name +
+                         " has only " + std::to_string(selector.layout.length) + " bits");
   }
 }
 
 }  // namespace
 
-std::vector<std::string> remarks_on(const Message& m) {
-  std::vector<std::string> out;
-  if (!is_frame_length(m.length)) {
-    out.push_back("message " + m.name + ": no CAN FD frame has " + std::to_string(m.length) +
-                  " bytes");
+std::vector<Finding> remarks_on(const Message& m) {
+  if (is_frame_length(m.length) || !m.is_on_frame()) return {};
+  return {{FindingKind::kFrameLength, m.place,
+           "message " + m.name + ": no CAN FD frame has " + std::to_string(m.length) + " bytes", "",
+           m.name}};
+}
+
+std::vector<Finding> remarks_on(const Message& m, const Signal& s) {
+  Texts texts;
+  judge_range(s, texts);
+  judge_value_names(s, texts);
+  judge_selector(m, s, texts);
+  if (s.receivers.empty()) {
+    texts.emplace_back(FindingKind::kUnreceived, "signal " + s.name + ": nobody receives it");
   }
-  std::vector<std::string_view> unheard;
-  for (const Signal& s : m.signals) {
-    if (s.receivers.empty()) unheard.push_back(s.name);
-  }
-  if (!unheard.empty()) {
-    out.push_back("message " + m.name + ": nobody receives " + listed(unheard));
+  std::vector<Finding> out;
+  for (auto& [kind, text] : texts) {
+    out.push_back({kind, s.place, std::move(text), "", m.name + "." + s.name});
   }
   return out;
 }
 
-std::vector<std::string> remarks_on(const Message& m, const Signal& s) {
-  std::vector<std::string> out;
-  judge_range(s, out);
-  judge_value_names(s, out);
-  judge_selector(m, s, out);
-  return out;
-}
-
-std::vector<Problem> strangers(const Database& d) {
+std::vector<Finding> strangers(const Database& d) {
   std::set<std::string_view> known{kNobody, ""};
   for (const Node& n : d.nodes) known.insert(n.name);
-  std::vector<Problem> out;
-  const auto meet = [&](std::string_view name, const std::string& place, const char* role) {
+  std::vector<Finding> out;
+  const auto meet = [&](const std::string& name, const std::string& place, const char* role) {
     if (!known.insert(name).second) return;
-    out.push_back({place, std::string{role} + " " + std::string{name} + " is not listed in BU_"});
+    out.push_back({FindingKind::kNode, place,
+                   std::string{role} + " " + name + " is not listed in BU_", "", name});
   };
   for (const Message& m : d.messages) {
     meet(m.sender, m.place, "sender");

@@ -6,15 +6,13 @@
 #include <charconv>
 #include <cmath>
 
+#include "protocol/can/parser/dbc_statement.hpp"
+
 namespace pitwall::can {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\n\f\v";
-
-bool is_word(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-         static_cast<unsigned char>(c) >= 0x80;
-}
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 // Length of the UTF-8 sequence at the front; 0 where there is none (RFC 3629 but for surrogates,
 // which do no harm here).
@@ -32,13 +30,15 @@ std::size_t utf8_length(std::string_view t) {
   return size;
 }
 
-bool valid_utf8(std::string_view t) {
-  while (!t.empty()) {
-    const std::size_t size = utf8_length(t);
-    if (size == 0) return false;
-    t.remove_prefix(size);
+// Where the text stops being UTF-8; its size where it is all UTF-8.
+std::size_t length_of_utf8(std::string_view t) {
+  std::size_t at = 0;
+  while (at < t.size()) {
+    const std::size_t size = utf8_length(t.substr(at));
+    if (size == 0) return at;
+    at += size;
   }
-  return true;
+  return at;
 }
 
 // Code points of 0x80 to 0x9F; the five unused ones stay what they are.
@@ -65,8 +65,8 @@ void append_cp1252(std::string& out, char c) {
 }  // namespace
 
 DbcScanner::DbcScanner(std::string_view text, std::string name)
-    : text_(text), name_(std::move(name)), is_utf8_(valid_utf8(text)) {
-  if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // byte order mark
+    : text_(text), name_(std::move(name)), utf8_prefix_(length_of_utf8(text)) {
+  if (text_.starts_with(kByteOrderMark)) at_ = kByteOrderMark.size();
 }
 
 bool DbcScanner::at_remark() const { return text_.substr(at_).starts_with("//"); }
@@ -99,9 +99,7 @@ void DbcScanner::expect(char c) {
 
 std::string_view DbcScanner::next_word() {
   skip_space();
-  std::size_t end = at_;
-  while (end < text_.size() && is_word(text_[end])) ++end;
-  return text_.substr(at_, end - at_);
+  return first_word(text_.substr(at_));
 }
 
 std::string_view DbcScanner::word() {
@@ -131,14 +129,18 @@ double DbcScanner::real() {
   return value;
 }
 
-std::int64_t DbcScanner::integer(std::int64_t min, std::int64_t max) {
+std::string DbcScanner::expected(std::int64_t min, std::int64_t max) {
+  return "expected a whole number from " + std::to_string(min) + " to " + std::to_string(max);
+}
+
+std::int64_t DbcScanner::integer(std::int64_t min, std::int64_t max, std::int64_t accepted) {
   skip_space();
   std::int64_t value = 0;
   const char* const begin = text_.data() + at_;
   const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), value);
   if (error == std::errc::invalid_argument) stop("expected a whole number");
-  if (error != std::errc{} || value < min || value > max) {
-    stop("expected a whole number from " + std::to_string(min) + " to " + std::to_string(max));
+  if (error != std::errc{} || value < min || value > std::max(max, accepted)) {
+    stop(expected(min, max));
   }
   at_ += static_cast<std::size_t>(end - begin);
   return value;
@@ -157,7 +159,14 @@ std::string_view DbcScanner::quoted() {
     if (text_[at_] == '"') break;
     if (at_ + 1 < text_.size() && text_[at_ + 1] == '"') ++at_;
   }
-  return text_.substr(first, at_++ - first);
+  const std::string_view between = text_.substr(first, at_++ - first);
+  const std::size_t end = at_;
+  if (peek() != ';' && holds_statement(between)) {
+    at_ = begin;
+    stop("this text has no closing quote");
+  }
+  at_ = end;
+  return between;
 }
 
 std::string DbcScanner::string() {
@@ -174,13 +183,13 @@ std::string DbcScanner::string() {
 }
 
 std::string DbcScanner::utf8(std::string_view taken) const {
-  if (is_utf8_ && taken.find('\r') == std::string_view::npos) return std::string{taken};
+  if (is_utf8() && taken.find('\r') == std::string_view::npos) return std::string{taken};
   std::string out;
   out.reserve(taken.size());
   for (std::size_t i = 0; i < taken.size(); ++i) {
     if (taken[i] == '\r') {
       if (!taken.substr(i + 1).starts_with('\n')) out += '\n';
-    } else if (is_utf8_) {
+    } else if (is_utf8()) {
       out += taken[i];
     } else {
       append_cp1252(out, taken[i]);
@@ -199,22 +208,45 @@ std::string DbcScanner::string_or_word() {
 std::string_view DbcScanner::statement() {
   const std::size_t begin = at_;
   while (true) {
-    at_ = text_.find_first_of(";\"/", at_);
-    if (at_ == std::string_view::npos) {
-      at_ = begin;
-      stop("this section has no closing ';'");
-    }
-    if (text_[at_] == ';') break;
-    if (text_[at_] == '"') {
+    at_ = std::min(text_.find_first_of(";\"/\r\n", at_), text_.size());
+    const char c = at_ < text_.size() ? text_[at_] : '\0';
+    if (c == '"') {
       (void)quoted();
-    } else if (at_remark()) {
-      skip_line();
+    } else if (c == '/' && !at_remark()) {
+      ++at_;
+    } else if (c != ';') {
+      if (at_end() || at_statement()) break;
     } else {
       ++at_;
+      break;
     }
   }
-  ++at_;
   return text_.substr(begin, at_ - begin);
+}
+
+std::string_view DbcScanner::since(std::size_t begin) const {
+  const std::string_view passed = text_.substr(begin, at_ - begin);
+  return passed.substr(0, passed.find_last_not_of(kSpace) + 1);
+}
+
+bool DbcScanner::at_statement() {
+  return !at_end() && begins_line(at_) && begins_statement(text_.substr(at_));
+}
+
+bool DbcScanner::at_section() { return is_section(next_word()) && begins_line(at_); }
+
+void DbcScanner::recover(std::size_t begin) {
+  at_ = begin;
+  const std::size_t end = std::min(text_.find_first_of("\r\n", begin), text_.size());
+  for (std::size_t i = begin + 1; i < end; ++i) {
+    const bool is_front = !is_word_character(text_[i - 1]) && is_word_character(text_[i]);
+    if (!is_front || !begins_statement(text_.substr(i))) continue;
+    at_ = i;
+    return;
+  }
+  do {
+    skip_line();
+  } while (!at_end() && !at_section());
 }
 
 void DbcScanner::skip_line() {
@@ -229,7 +261,8 @@ std::size_t DbcScanner::here() {
 
 bool DbcScanner::begins_line(std::size_t offset) const {
   while (offset > 0 && (text_[offset - 1] == ' ' || text_[offset - 1] == '\t')) --offset;
-  return offset == 0 || text_[offset - 1] == '\n' || text_[offset - 1] == '\r';
+  return offset == 0 || text_[offset - 1] == '\n' || text_[offset - 1] == '\r' ||
+         (offset == kByteOrderMark.size() && text_.starts_with(kByteOrderMark));
 }
 
 // LF, CRLF, or CR alone.

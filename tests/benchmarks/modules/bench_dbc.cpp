@@ -60,7 +60,7 @@ Work work_for(const can::Database& database) {
   Random random{kSeed};
   for (std::size_t i = 0; i < kFramesPerMessage; ++i) {
     for (const can::Message& m : database.messages) {
-      can::Frame f{.id = m.id, .length = m.length, .data = {}};
+      can::Frame f{.id = m.id, .length = static_cast<std::uint8_t>(m.length), .data = {}};
       for (std::size_t b = 0; b < m.length; ++b)
         f.data[b] = static_cast<std::uint8_t>(random.next());
       work.frames.push_back(f);

@@ -17,7 +17,9 @@ TEST(SyntheticDbc, IsReadableAsLargeAsAskedAndAlwaysTheSame) {
   EXPECT_EQ(text, synthetic_dbc(800'000));
   const auto d = can::parse_dbc(text, "synthetic.dbc");
   ASSERT_TRUE(d) << to_string(d.error());
-  for (const can::Remark& r : d->remarks) EXPECT_FALSE(r.is_warning) << r.place << " " << r.what;
+  for (const can::Finding& f : d->findings) {
+    EXPECT_EQ(can::severity_of(f.kind), can::FindingSeverity::kNote) << f.place << " " << f.what;
+  }
 }
 
 TEST(SyntheticDbc, HasTheVarietyOfARealFile) {

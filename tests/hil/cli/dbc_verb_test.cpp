@@ -75,7 +75,8 @@ TEST_F(DbcVerb, ARefusedFileIsTwoAndTheOthersAreStillChecked) {
   const std::string bad = spoilt_file("bad.dbc", "16|8", "60|8"), good = file("a.dbc", kClean);
   const Said said = run({"dbc", "check", bad, good, "--json", path("c.json")});
   EXPECT_EQ(said.code, 2);
-  EXPECT_NE(said.out.find(bad + ":4:6: error: signal t lies outside the 8 bytes of message M"),
+  EXPECT_NE(said.out.find(bad + ":4:6: error: signal t lies outside the 8 bytes of message M; the "
+                                "signal is left out"),
             std::string::npos)
       << said.out;
   EXPECT_NE(said.out.find(good + ": 1 messages"), std::string::npos);
@@ -110,8 +111,11 @@ TEST_F(DbcVerb, DiffSaysWhatTheOtherReads) {
             "reads as +511\n");
   const auto json = yaml::load_file(path("d.json"));
   ASSERT_TRUE(json) << to_string(json.error());
-  expect_refusal({"dbc", "diff", one, spoilt_file("bad.dbc", "16|8", "60|8")},
-                 "bad.dbc:4:6: error");
+  const Said bad = run({"dbc", "diff", one, spoilt_file("bad.dbc", "16|8", "60|8")});
+  EXPECT_EQ(bad.code, 1);
+  EXPECT_EQ(bad.out, "missing: M (100): t is gone\n");
+  EXPECT_NE(bad.err.find("bad.dbc:4:6: error: signal t lies outside"), std::string::npos)
+      << bad.err;
   expect_refusal({"dbc", "diff", one, other, "--json", path("no/such/d.json")}, "no/such");
 }
 

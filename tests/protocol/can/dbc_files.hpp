@@ -59,7 +59,7 @@ inline Frame random_frame(const Message& m, Random& noise) {
           .extended = m.extended,
           .remote = false,
           .fd = m.fd,
-          .length = m.length,
+          .length = static_cast<std::uint8_t>(m.length),
           .data = {}};
   for (std::size_t i = 0; i < m.length; ++i) f.data[i] = static_cast<std::uint8_t>(noise.next());
   return f;

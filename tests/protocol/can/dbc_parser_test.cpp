@@ -119,7 +119,7 @@ TEST(DbcParser, LargeFilesOfEveryKindEnd) {
   EXPECT_EQ(d.messages[0].signals.back().values, (std::vector<ValueName>{{1, "x"}}));
   EXPECT_EQ(d.definitions.size(), static_cast<std::size_t>(kMany));
   EXPECT_EQ(d.unused.size(), static_cast<std::size_t>(kMany));
-  EXPECT_EQ(d.remarks.size() + d.remarks_left_off, static_cast<std::size_t>(kMany));
+  EXPECT_EQ(d.count(FindingSeverity::kWarning), static_cast<std::size_t>(kMany));
 }
 
 // What hides a section is refused, what is only strange is kept and told.
@@ -131,11 +131,11 @@ TEST(DbcParser, SectionsThatNobodyReadsAreKeptAsTheyAre) {
   EXPECT_EQ(d.unused[1].word, "NEW_");
   EXPECT_EQ(d.unused[1].text, "NEW_ 1 \"a;b\"\n 2;");
   EXPECT_EQ(d.unused[1].place, "t.dbc:10:1");
-  ASSERT_EQ(d.remarks.size(), 1U);
-  EXPECT_EQ(d.remarks[0].what, "NEW_ is no section of a DBC file; skipped");
+  ASSERT_EQ(d.findings.size(), 1U);
+  EXPECT_EQ(d.findings[0].what, "NEW_ is no section of a DBC file; skipped");
   EXPECT_EQ(complaint(dbc_with(kSignal + " SG b : 8|8@1+ (1,0) [0|0] \"\" A\n" + kSignal +
                                "CM_ \"\";\n")),
-            "t.dbc:9:2: error: SG has no closing ';' before the next section");
+            "t.dbc:9:2: error: SG has no closing ';' before the next section (and 1 more)");
   EXPECT_EQ(complaint(dbc_with(kSignal + "NEW_ 1\nBO_ 7 N: 8 A\nCM_ \"\";\n")),
             "t.dbc:9:1: error: NEW_ has no closing ';' before the next section");
   EXPECT_EQ(complaint("BO_ 1 M: 8\n SG_ a : 0|8@1+ (1,0) [0|0] \"\" A\n"),
@@ -146,9 +146,9 @@ TEST(DbcParser, ParkedSignalsAreSkippedAndTold) {
   const Database d =
       parsed("BO_ 3221225472 VECTOR__INDEPENDENT_SIG_MSG: 0 Vector__XXX\n" + kSignal + kSignal);
   EXPECT_TRUE(d.messages.empty());
-  ASSERT_EQ(d.remarks.size(), 1U);
-  EXPECT_FALSE(d.remarks[0].is_warning);
-  EXPECT_EQ(d.remarks[0].what,
+  ASSERT_EQ(d.findings.size(), 1U);
+  EXPECT_EQ(d.findings[0].kind, FindingKind::kParked);
+  EXPECT_EQ(d.findings[0].what,
             "VECTOR__INDEPENDENT_SIG_MSG is no message; its 2 signals are skipped");
 }
 

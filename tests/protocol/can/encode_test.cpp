@@ -14,11 +14,12 @@ namespace {
 
 // Clears the bits that no signal owns.
 Frame owned_bits(const Message& m, Frame f) {
-  BitMap all{};
+  FrameBytes all{};
   for (const Signal& s : m.signals) {
     if (!is_present(m, s, f)) continue;
-    const BitMap own = occupied_bits(s.layout);
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] |= own[i];
+    for (const std::size_t bit : bits_of(s.layout)) {
+      all[bit / 8] = static_cast<std::uint8_t>(all[bit / 8] | 1U << bit % 8);
+    }
   }
   for (std::size_t i = 0; i < all.size(); ++i) f.data[i] &= all[i];
   return f;

@@ -16,7 +16,7 @@ void expect_read(const std::filesystem::path& path) {
   } else if (path.stem() == "issue_199") {
     EXPECT_EQ(to_string(parsed.error()),
               "issue_199.dbc:45:1: error: id 274923520 of message DriverDoorStatus is too large "
-              "for 11 bits");
+              "for 11 bits (and 10 more)");
   } else {
     EXPECT_TRUE(parsed) << to_string(parsed.error());
   }

@@ -12,8 +12,8 @@ Database database_with(const std::string& more) { return parsed(dbc_with(kSignal
 
 std::string remark_of(const std::string& more) {
   const Database d = database_with(more);
-  return d.remarks.size() == 1 ? d.remarks[0].place + ": " + d.remarks[0].what
-                               : std::to_string(d.remarks.size()) + " remarks";
+  return d.findings.size() == 1 ? d.findings[0].place + ": " + d.findings[0].what
+                                : std::to_string(d.findings.size()) + " remarks";
 }
 
 TEST(DbcDetails, CommentsOfEverything) {
@@ -27,7 +27,7 @@ TEST(DbcDetails, CommentsOfEverything) {
   ASSERT_EQ(d.unused.size(), 1U);
   EXPECT_EQ(d.unused[0].text, "CM_ EV_ x \"of a variable\";");
   EXPECT_EQ(d.unused[0].place, "t.dbc:14:1");
-  EXPECT_TRUE(d.remarks.empty());
+  EXPECT_TRUE(d.findings.empty());
 }
 
 // The order of the sections in the file decides nothing.
@@ -41,7 +41,7 @@ TEST(DbcDetails, MayComeBeforeTheirMessage) {
   EXPECT_EQ(m.signals[0].layout.number, Number::kFloat32);
   EXPECT_EQ(m.signals[0].values, (std::vector<ValueName>{{1, "one"}}));
   EXPECT_EQ(d.attribute("X", AttributeOwner::kMessage, m.attributes), "yes");
-  EXPECT_TRUE(d.remarks.empty());
+  EXPECT_TRUE(d.findings.empty());
 }
 
 TEST(DbcDetails, NamesOfValuesByTableOrInPlace) {
@@ -68,7 +68,7 @@ TEST(DbcDetails, AttributesOfEverythingWithTheirDefaults) {
       "BA_ \"N\" 7;\nBA_ \"U\" BU_ A \"somebody\";\nBA_ \"M\" BO_ 100 2.5;\nBA_ \"S\" SG_ 100 a "
       "2;\n"
       "BA_ \"E\" EV_ v 1;\n");
-  EXPECT_TRUE(d.remarks.empty());
+  EXPECT_TRUE(d.findings.empty());
   ASSERT_EQ(d.definitions.size(), 5U);
   EXPECT_EQ(d.definitions[2].max, 1000.0);
   const Message& m = d.messages[0];

@@ -74,23 +74,24 @@ TEST(DbcDraft, PeriodsAndFormatsComeFromAttributesAndTheirDefaults) {
   EXPECT_EQ(d.find("O")->period, Duration{});
   EXPECT_FALSE(d.find("M")->fd);
   EXPECT_TRUE(d.find("N")->fd);
-  ASSERT_EQ(d.remarks.size(), 1U);
-  EXPECT_EQ(d.remarks[0].what, "message O: the GenMsgCycleTime \"-3\" is no time in milliseconds");
+  ASSERT_EQ(d.findings.size(), 1U);
+  EXPECT_EQ(d.findings[0].what, "message O: the GenMsgCycleTime \"-3\" is no time in milliseconds");
 }
 
 TEST(DbcDraft, RemarksAreInTheOrderOfTheFileAndTheirNumberIsBounded) {
   std::string text = dbc_with(" SG_ s : 0|8@1+ (1,0) [0|999] \"\" A\n");
-  for (std::size_t i = 0; i < kMaxRemarks + 5; ++i) text += "CM_ BO_ 7 \"x\";\n";
+  for (std::size_t i = 0; i < kMaxFindings + 5; ++i) text += "CM_ BO_ 7 \"x\";\n";
   const Database d = parsed(text);
-  EXPECT_EQ(d.remarks.size(), kMaxRemarks);
-  EXPECT_EQ(d.remarks_left_off, 6U);
+  EXPECT_EQ(d.findings.size(), kMaxFindings + 1);
+  EXPECT_EQ(d.count(FindingSeverity::kWarning), kMaxFindings + 6);
+  EXPECT_EQ(d.findings_left_off[1], 5U);
   const Database few =
       parsed(dbc_with(" SG_ s : 0|8@1+ (1,0) [0|999] \"\" A\n SG_ t : 8|8@1+ (1,0) [0|999] \"\" A\n"
                       "CM_ BO_ 7 \"x\";\n"));
-  ASSERT_EQ(few.remarks.size(), 3U);
-  EXPECT_EQ(few.remarks[0].place, "t.dbc:8:6");
-  EXPECT_EQ(few.remarks[1].place, "t.dbc:9:6");
-  EXPECT_EQ(few.remarks[2].place, "t.dbc:10:1");
+  ASSERT_EQ(few.findings.size(), 3U);
+  EXPECT_EQ(few.findings[0].place, "t.dbc:8:6");
+  EXPECT_EQ(few.findings[1].place, "t.dbc:9:6");
+  EXPECT_EQ(few.findings[2].place, "t.dbc:10:1");
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 std::string said(const std::string& definition, const std::string& more = "", int length = 8) {
   const Database d = parsed(dbc_with(" SG_ s " + definition + "\n" + more, length));
   std::string out;
-  for (const Remark& r : d.remarks) out += r.what + "\n";
+  for (const Finding& f : d.findings) out += f.what + "\n";
   return out;
 }
 
@@ -63,19 +63,17 @@ TEST(DbcRemarks, WhatCanNeverHappenIsTold) {
   EXPECT_EQ(said(": 0|2@1+ (1,0) [0|0] \"\" A", "", 12), "");
 }
 
-TEST(DbcRemarks, SignalsWithoutReceiversAreToldByMessage) {
+TEST(DbcRemarks, SignalsWithoutReceiversAreTold) {
   for (const char* nobody : {"Vector__XXX", ""}) {
     EXPECT_EQ(said(": 0|2@1+ (1,0) [0|0] \"\" " + std::string(nobody)),
-              "message M: nobody receives s\n");
+              "signal s: nobody receives it\n");
   }
-  std::string many;
-  for (const char* name : {"b", "c", "d", "e", "f"}) {
-    many += " SG_ " + std::string(name) + " : " + std::to_string(8 * (name[0] - 'a')) +
-            "|8@1+ (1,0) [0|0] \"\" Vector__XXX\n";
-  }
-  EXPECT_EQ(said(": 0|2@1+ (1,0) [0|0] \"\" A", many),
-            "message M: nobody receives b, c, d, e and 1 more\n");
   EXPECT_EQ(said(": 0|2@1+ (1,0) [0|0] \"\" A", "BO_ 7 Empty: 8 A\n"), "");
+  const Database d = parsed(dbc_with(" SG_ s : 0|2@1+ (1,0) [0|0] \"\" Vector__XXX\n"));
+  ASSERT_EQ(d.findings.size(), 1U);
+  EXPECT_EQ(d.findings[0].kind, FindingKind::kUnreceived);
+  EXPECT_EQ(d.findings[0].subject, "M.s");
+  EXPECT_EQ(d.findings[0].place, "t.dbc:8:6");
 }
 
 TEST(DbcRemarks, NodesThatAreNotListedAreToldOnce) {

@@ -61,8 +61,6 @@ TEST(DbcScanner, StopsSayWhereAndWhat) {
             "t:1:1: error: expected a whole number from 0 to 64");
   EXPECT_EQ(stop_of(" \"abc", [](auto& s) { (void)s.string(); }),
             "t:1:2: error: this text has no closing quote");
-  EXPECT_EQ(stop_of("a \";\" b", [](auto& s) { (void)s.statement(); }),
-            "t:1:1: error: this section has no closing ';'");
 }
 
 TEST(DbcScanner, OldEncodingBecomesUtf8) {

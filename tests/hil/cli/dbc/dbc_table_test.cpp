@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/cli/dbc_table.hpp"
+#include "hil/cli/dbc/dbc_table.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/cli/dbc_table.hpp"
+#include "hil/cli/dbc/dbc_table.hpp"
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -57,7 +58,7 @@ Row row_of(const Message& m, const Signal& s) {
   const std::string offset = l.offset == 0.0  ? ""
                              : l.offset > 0.0 ? " +" + shortest(l.offset)
                                               : " " + shortest(l.offset);
-  return {"  " + s.name,
+  return {(s.is_flawed ? "! " : "  ") + s.name,
           std::to_string(l.start) + "|" + std::to_string(l.length) +
               (l.order == can::ByteOrder::kIntel ? " Intel" : " Motorola"),
           kind_of(l),
@@ -78,7 +79,8 @@ std::string names_of_values(const Signal& s) {
 std::string heading_of(const Message& m) {
   std::string out = m.name + "  id " + std::to_string(m.id) + " (" + hex(m.id) +
                     (m.extended ? ", extended" : "") + ")  " + std::to_string(m.length) + " bytes" +
-                    (m.fd ? " CAN FD" : "") + "  ";
+                    (m.fd ? " CAN FD" : "") +
+                    (m.is_on_frame() ? "" : ", not on a CAN frame (J1939 transport)") + "  ";
   out += m.period == Duration{} ? "period not given" : shortest(m.period.seconds() * 1e3) + " ms";
   out += "  from " + m.sender;
   for (const std::string& name : m.other_senders) out += ", " + name;
@@ -90,15 +92,29 @@ std::string first_line(std::string_view text) {
   return std::string{text.substr(0, end)} + (end < text.size() ? " ..." : "");
 }
 
+std::string errors_outside_messages(const can::Database& d) {
+  std::set<std::string_view> inside;
+  for (const Message& m : d.messages) {
+    for (const Problem& flaw : m.flaws) inside.insert(flaw.place);
+  }
+  std::string out;
+  for (const can::Finding& f : d.findings) {
+    if (can::severity_of(f.kind) != can::FindingSeverity::kError) continue;
+    if (!inside.contains(f.place)) out += "! " + f.place + ": " + can::text_of(f) + "\n";
+  }
+  return out.empty() ? out : "\nerrors outside of these messages\n" + out;
+}
+
 }  // namespace
 
 std::string summary_of(const can::Database& d) {
   std::size_t signals = 0;
   for (const Message& m : d.messages) signals += m.signals.size();
+  const std::size_t errors = d.count(can::FindingSeverity::kError);
   return std::to_string(d.messages.size()) + " messages, " + std::to_string(signals) +
          " signals, " + std::to_string(d.nodes.size()) + " nodes; " +
          std::to_string(d.unused.size()) + " sections unused; fingerprint " +
-         hex(can::fingerprint(d));
+         hex(can::fingerprint(d)) + (errors == 0 ? "" : "; " + std::to_string(errors) + " errors");
 }
 
 std::string table_of(const Message& m) {
@@ -118,6 +134,7 @@ std::string table_of(const Message& m) {
     }
     out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n" + names_of_values(m.signals[i]);
   }
+  for (const Problem& flaw : m.flaws) out += "! " + flaw.place + ": " + flaw.what + "\n";
   return out;
 }
 
@@ -126,7 +143,7 @@ std::string table_of(const can::Database& d) {
   for (const Message& m : d.messages) out += "\n" + table_of(m);
   if (!d.unused.empty()) out += "\nunused sections\n";
   for (const can::Section& s : d.unused) out += "  " + s.place + ": " + first_line(s.text) + "\n";
-  return out;
+  return out + errors_outside_messages(d);
 }
 
 }  // namespace pitwall::cli
