@@ -33,16 +33,15 @@ class Parser {
       draft_.find({FindingKind::kConverted, scan_.place_of(scan_.utf8_prefix()),
                    "the text is not UTF-8 from here on and is read as CP1252", "", ""});
     }
-    for (std::size_t stops = 0; !scan_.at_end() && stops < kMaxStops;) {
+    while (!scan_.at_end() && stops_ < kMaxStops) {
       begin_ = scan_.here();
       try {
         section();
       } catch (const DbcScanner::Stop& stop) {
-        tell(stop.problem);
-        scan_.recover(begin_);
-        if (++stops == kMaxStops) give_up();
+        stopped(stop.problem, "the text up to the next statement is left out");
       }
     }
+    if (stops_ == kMaxStops) give_up();
     close();
     draft_.index();
     for (const auto& turn : details_) {
@@ -87,11 +86,15 @@ class Parser {
   std::string place() { return scan_.place_of(begin_); }
 
   // What could not be read, as an error of the message that it stands in.
-  void tell(const Problem& problem) {
-    Finding f{FindingKind::kSyntax, problem.place, problem.what,
-              "the text up to the next statement is left out", ""};
-    if (!open_) return draft_.find(std::move(f));
-    draft_.flaw(open_->message, std::move(f));
+  void tell(const Problem& problem, std::string outcome) {
+    Finding f{FindingKind::kSyntax, problem.place, problem.what, std::move(outcome), ""};
+    open_ ? draft_.flaw(open_->message, std::move(f)) : draft_.find(std::move(f));
+  }
+
+  void stopped(const Problem& problem, std::string outcome) {
+    ++stops_;
+    tell(problem, std::move(outcome));
+    scan_.recover(begin_);
   }
 
   void give_up() {
@@ -120,17 +123,15 @@ class Parser {
   std::string_view unclosed(std::string_view word) {
     scan_.recover(begin_);
     const bool is_last = scan_.at_end();
-    Finding f{
-        FindingKind::kSyntax, place(),
-        std::string{word} + " has no closing ';'" + (is_last ? "" : " before the next section"),
-        "it is kept as it is written", ""};
-    open_ ? draft_.flaw(open_->message, std::move(f)) : draft_.find(std::move(f));
+    tell({place(),
+          std::string{word} + " has no closing ';'" + (is_last ? "" : " before the next section")},
+         "it is kept as it is written");
     return scan_.since(begin_);
   }
 
   // The list has no end mark: its last word is the one that nothing but another word may follow.
   void new_symbols() {
-    if (!scan_.take(':')) tell({scan_.place(), "expected ':'"});
+    if (!scan_.take(':')) tell({scan_.place(), "expected ':'"}, "it is read as if it were there");
     while (!scan_.at_end()) {
       const std::size_t begin = scan_.offset();
       (void)scan_.word();
@@ -171,6 +172,7 @@ class Parser {
     try {
       header(*open_);
     } catch (const DbcScanner::Stop& stop) {
+      ++stops_;
       open_->problem = stop.problem;
       scan_.recover(begin_);
     }
@@ -248,14 +250,19 @@ class Parser {
       refuse_at(place(), "expected at most " + std::to_string(kMaxLongSignals) +
                              " signals in a message longer than a frame");
     }
+    Signal s;
     DbcDraft::Mark mark;
-    Signal s = signal(mark);
+    try {
+      signal(s, mark);
+    } catch (const DbcScanner::Stop& stop) {
+      draft_.leave_out(open_->key, s.name);
+      return stopped(stop.problem, "signal " + s.name + " is left out");
+    }
     open_->message.signals.push_back(std::move(s));
     open_->marks.push_back(std::move(mark));
   }
 
-  Signal signal(DbcDraft::Mark& mark) {
-    Signal s;
+  void signal(Signal& s, DbcDraft::Mark& mark) {
     s.place = scan_.place();
     s.name = scan_.utf8(scan_.word());
     if (scan_.peek() != ':') mark = multiplex_mark();
@@ -263,7 +270,6 @@ class Parser {
     layout(s);
     s.unit = scan_.string();
     receivers(s);
-    return s;
   }
 
   void layout(Signal& s) {
@@ -327,6 +333,7 @@ class Parser {
   std::size_t begin_ = 0;  // of the section being read
   std::optional<Open> open_;
   bool has_messages_ = false;
+  std::size_t stops_ = 0;
   std::array<std::vector<std::size_t>, kTurns> details_;
 };
 

@@ -43,6 +43,8 @@ class Details {
   Owner owner();
   // Reads "<message> <signal>".
   Owner signal_owner();
+  void variable_value_names();
+  bool at_list_of_values();
   std::vector<ValueName> names_of_values();
   std::string value_of(const AttributeDefinition* definition, std::string_view name);
   void set(const Owner& owner, const std::string& name, std::string value);
@@ -169,13 +171,27 @@ void Details::value_table() {
   }
 }
 
+bool Details::at_list_of_values() {
+  const char next = scan_.peek();
+  return next == ';' || next == '-' || next == '+' || (next >= '0' && next <= '9');
+}
+
+// Of an environment variable: "VAL_ name 1 "x" ;" or "VAL_ name table ;".
+void Details::variable_value_names() {
+  (void)scan_.word();
+  if (!at_list_of_values()) {
+    (void)scan_.word();
+    at_.close();
+  }
+  at_.keep();
+}
+
 void Details::value_names() {
   const char first = scan_.peek();
-  if (first < '0' || first > '9') return at_.keep();  // of an environment variable
+  if (first < '0' || first > '9') return variable_value_names();
   const Owner o = signal_owner();
   std::vector<ValueName> names;
-  const char next = scan_.peek();
-  if (next == ';' || next == '-' || next == '+' || (next >= '0' && next <= '9')) {
+  if (at_list_of_values()) {
     names = names_of_values();
   } else {
     const std::string table = scan_.utf8(scan_.word());

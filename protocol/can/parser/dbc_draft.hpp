@@ -49,7 +49,10 @@ class DbcDraft {
   void add(std::uint32_t key, Message message, std::vector<Mark> marks);
   // What refers to this number is no mistake of its own: its message was left out and told.
   void leave_out(std::uint32_t key) { left_out_.insert(key); }
-  bool is_left_out(std::uint32_t key) const { return left_out_.contains(key); }
+  void leave_out(std::uint32_t key, const std::string& signal) { lost_.insert({key, signal}); }
+  bool is_left_out(std::uint32_t key, const std::string& signal) const {
+    return left_out_.contains(key) || lost_.contains({key, signal});
+  }
   // After the last message; before anything is looked up.
   void index();
 
@@ -85,9 +88,10 @@ class DbcDraft {
 
   std::map<std::uint32_t, std::size_t> by_key_;
   std::map<std::pair<bool, std::uint32_t>, std::size_t> ids_;
-  std::set<std::uint32_t> left_out_;
-  std::array<std::size_t, kFindingKinds> found_{};   // of each kind
-  std::vector<std::vector<std::uint32_t>> by_name_;  // signals of each message, sorted
+  std::set<std::uint32_t> left_out_;                      // messages
+  std::set<std::pair<std::uint32_t, std::string>> lost_;  // their signals
+  std::array<std::size_t, kFindingKinds> found_{};        // of each kind
+  std::vector<std::vector<std::uint32_t>> by_name_;       // signals of each message, sorted
   std::map<std::string, std::size_t, std::less<>> nodes_, tables_;
   std::map<std::string, std::vector<std::size_t>, std::less<>> definitions_;  // by name
   struct LongName {

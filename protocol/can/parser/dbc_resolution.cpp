@@ -132,15 +132,22 @@ class Resolution {
     m_.signals.resize(kept);
   }
 
+  // One finding for each signal that overlaps earlier ones.
   void mark_overlaps() {
     const std::vector<Overlap> all = overlaps(m_);
-    for (const Overlap& o : all) {
-      Signal &x = m_.signals[o.first], &y = m_.signals[o.second];
-      x.is_flawed = y.is_flawed = true;
-      found_.push_back(
-          {FindingKind::kOverlap, y.place,
-           "signal " + y.name + " overlaps signal " + x.name + " defined at " + x.place,
-           "both are kept", subject(y)});
+    for (std::size_t k = 0; k < all.size();) {
+      const std::size_t begin = k;
+      Signal &x = m_.signals[all[k].first], &y = m_.signals[all[k].second];
+      y.is_flawed = true;
+      for (; k < all.size() && all[k].second == all[begin].second; ++k) {
+        m_.signals[all[k].first].is_flawed = true;
+      }
+      const std::size_t others = k - begin - 1;
+      found_.push_back({FindingKind::kOverlap, y.place,
+                        "signal " + y.name + " overlaps signal " + x.name + " defined at " +
+                            x.place +
+                            (others == 0 ? "" : " and " + std::to_string(others) + " more"),
+                        "all are kept", subject(y)});
     }
     if (all.size() < kMaxOverlaps) return;
     found_.push_back(

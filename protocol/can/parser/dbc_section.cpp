@@ -46,7 +46,7 @@ void DbcSection::tell(FindingKind kind, const std::string& where, std::string wh
 }
 
 void DbcSection::stranger(std::uint32_t key, std::string_view signal) {
-  if (key == kIndependentSignals || draft_.is_left_out(key)) return;
+  if (key == kIndependentSignals || draft_.is_left_out(key, std::string{signal})) return;
   const auto at = draft_.message(key);
   const std::string id = std::to_string(key & ~kExtendedBit);
   if (!at) {

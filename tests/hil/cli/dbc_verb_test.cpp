@@ -85,6 +85,74 @@ TEST_F(DbcVerb, ARefusedFileIsTwoAndTheOthersAreStillChecked) {
   EXPECT_EQ(json->root().integer("exit_code", 0, 2), 2);
 }
 
+// Three errors in three statements, and one that is missing its end.
+const std::string kBad =
+    "BU_: A B\nBO_ 100 M: 8 A\n SG_ s : 0|10@1- (0.5,0) [0|0] \"deg\" B\n"
+    " SG_ t : 8|8@1+ (1,0) [0|9] \"\" B\n SG_ u : 16|8@1x (1,0) [0|9] \"\" B\n"
+    "BO_ 100 N: 8 A\nCM_ BO_ 100 \"said\"\nVAL_ 100 t 0 \"off\" ;\n";
+
+TEST_F(DbcVerb, ChecksToTheEndAndTellsEveryErrorOnce) {
+  const std::string bad = file("bad.dbc", kBad);
+  const Said said = run({"dbc", "check", bad, "--json", path("c.json")});
+  EXPECT_EQ(said.code, 2);
+  EXPECT_EQ(said.out.substr(0, said.out.find(bad + ": refused")),
+            bad + ":5:15: error: expected '+'; signal u is left out\n" + bad +
+                ":8:1: error: expected ';'; it is read as if it were there\n" + bad +
+                ":6:1: error: message N has the id of message M; the message is left out with its "
+                "0 signals\n" +
+                bad + ":4:6: error: signal t overlaps signal s defined at " + bad +
+                ":3:6; all are kept\n");
+  EXPECT_NE(said.out.find("1 messages, 2 signals, 2 nodes"), std::string::npos) << said.out;
+  EXPECT_NE(said.out.find("; 4 errors; 0 warnings, 0 notes"), std::string::npos) << said.out;
+  EXPECT_NE(text_of("c.json").find("\"errors\": 4"), std::string::npos) << text_of("c.json");
+}
+
+TEST_F(DbcVerb, ShowsABadDatabaseAndMarksWhatIsBad) {
+  const std::string bad = file("bad.dbc", kBad);
+  const Said all = run({"dbc", "show", bad});
+  EXPECT_EQ(all.code, 0);
+  EXPECT_NE(all.err.find(bad + ": 4 errors, marked with '!'"), std::string::npos) << all.err;
+  for (const std::string& line :
+       {std::string{"\n! s  0|10"}, std::string{"\n! t  8|8"},
+        "\n! " + bad + ":5:15: expected '+'; signal u is left out\n",
+        "\nerrors outside of these messages\n! " + bad + ":6:1: message N has the id"}) {
+    EXPECT_NE(all.out.find(line), std::string::npos) << line << all.out;
+  }
+  const Said one = run({"dbc", "show", bad, "M"});
+  EXPECT_EQ(one.code, 0);
+  EXPECT_NE(one.out.find("! " + bad + ":4:6: signal t overlaps"), std::string::npos) << one.out;
+  EXPECT_NE(one.out.find("said"), std::string::npos) << one.out;
+}
+
+TEST_F(DbcVerb, AFileThatIsNoDatabaseIsNamedForWhatItIs) {
+  const std::string log = file("log.dbc", "(1436509052.249713) can0 123#11\n");
+  const std::string reason = ":1:1: error: expected a CAN database (DBC), this is ";
+  const Said said = run({"dbc", "check", log, file("empty.dbc", "")});
+  EXPECT_EQ(said.code, 2);
+  EXPECT_NE(said.out.find(log + reason + "a candump log\n" + log + ": refused\n"),
+            std::string::npos)
+      << said.out;
+  EXPECT_NE(said.out.find(path("empty.dbc") + reason + "an empty file"), std::string::npos);
+  expect_refusal({"dbc", "show", log}, log + reason);
+  expect_refusal({"dbc", "diff", kOwn, log}, log + reason);
+}
+
+TEST_F(DbcVerb, ManyWarningsAreOneLineUnlessAllAreAskedFor) {
+  std::string text = "BU_: A\nBO_ 1 M: 8 A\n";
+  for (int i = 0; i < 20; ++i) {
+    text += " SG_ s" + std::to_string(i) + " : " + std::to_string(2 * i) +
+            "|2@1+ (1,0) [0|3] \"\" Vector__XXX\n";
+  }
+  const std::string quiet = file("q.dbc", text);
+  EXPECT_NE(run({"dbc", "check", quiet})
+                .out.find(quiet + ": warning: 20 signals that nobody receives: M.s0, M.s1, M.s2, "
+                                  "M.s3, M.s4 and 15 more (--all lists them)\n"),
+            std::string::npos);
+  EXPECT_NE(run({"dbc", "check", quiet, "--all"})
+                .out.find(quiet + ":22:6: warning: signal s19: nobody receives it\n"),
+            std::string::npos);
+}
+
 TEST_F(DbcVerb, ShowsAMessageByNameAndByBothSpellingsOfItsId) {
   const Said named = run({"dbc", "show", kOwn, "steering_report"});
   EXPECT_EQ(named.code, 0);

@@ -4,7 +4,7 @@
 canmatrix_oracle.py DBC < frames     frames: "<id> <extended 0/1> <hex payload>" a line
 
 First a layout line for every signal:
-  L <id> <extended> <bytes> <signal> <start> <length> <intel> <signed> <float> <scale> <offset>
+  L <id> <extended> <bytes> <start> <length> <intel> <signed> <float> <scale> <offset> <signal>
 then for every frame, in order, one line:
   F <signal>=<value>...      or      E <exception> where canmatrix cannot decode it
 """
@@ -20,9 +20,9 @@ CHUNK = 4000
 
 def layout(frame):
     for s in frame.signals:
-        print("L", frame.arbitration_id.id, int(frame.arbitration_id.extended), frame.size, s.name,
+        print("L", frame.arbitration_id.id, int(frame.arbitration_id.extended), frame.size,
               s.get_startbit(bit_numbering=1), s.size, int(s.is_little_endian), int(s.is_signed),
-              int(s.is_float), repr(float(s.factor)), repr(float(s.offset)))
+              int(s.is_float), repr(float(s.factor)), repr(float(s.offset)), s.name)
 
 
 def decoded(line):

@@ -79,6 +79,29 @@ inline std::string complaint(const std::string& text) {
   return parsed ? "" : to_string(parsed.error());
 }
 
+inline Database leniently(const std::string& text, const std::string& name = "t.dbc") {
+  auto result = parse_dbc_leniently(text, name);
+  if (!result) ADD_FAILURE() << to_string(result.error());
+  return result ? *result : Database{};
+}
+
+// Every error of a lenient reading, worst first, one a line.
+inline std::string errors_of(const Database& d) {
+  std::string out;
+  for (const Finding* const f : worst_first(d)) {
+    if (severity_of(f->kind) == FindingSeverity::kError) {
+      out += f->place + ": " + text_of(*f) + "\n";
+    }
+  }
+  return out;
+}
+
+inline std::size_t signals_of(const Database& d) {
+  std::size_t count = 0;
+  for (const Message& m : d.messages) count += m.signals.size();
+  return count;
+}
+
 inline Database parsed(const std::string& text) {
   auto result = parse_dbc(text, "t.dbc");
   if (!result) ADD_FAILURE() << to_string(result.error());

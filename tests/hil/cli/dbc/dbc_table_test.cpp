@@ -38,5 +38,24 @@ TEST(DbcTable, SaysEverythingThatDecidesAValue) {
   }
 }
 
+// What an error is about is marked, what was left out is told below its message.
+TEST(DbcTable, MarksWhatIsBad) {
+  const auto d = can::parse_dbc_leniently(
+      "BU_: A\nBO_ 1 M: 8 A\n SG_ a : 0|8@1+ (1,0) [0|0] \"\" A\n SG_ b : 4|8@1+ (1,0) [0|0] "
+      "\"\" A\n SG_ c : 60|8@1+ (1,0) [0|0] \"\" A\nBO_ 2147483650 L: 300 A\nVERSION x\n",
+      "t.dbc");
+  ASSERT_TRUE(d) << to_string(d.error());
+  const std::string text = table_of(*d);
+  for (const char* line :
+       {"; 4 errors\n", "\n! a  0|8 Intel", "\n! b  4|8 Intel",
+        "\n! t.dbc:5:6: signal c lies outside the 8 bytes of message M; the signal is left out\n",
+        "\n! t.dbc:4:6: signal b overlaps signal a defined at t.dbc:3:6; all are kept\n",
+        "300 bytes, not on a CAN frame (J1939 transport)  period not given",
+        "\nerrors outside of these messages\n! t.dbc:7:9: expected '\"'; the text up to the next "
+        "statement is left out\n"}) {
+    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+  }
+}
+
 }  // namespace
 }  // namespace pitwall::cli
