@@ -86,14 +86,14 @@ class Parser {
   std::string place() { return scan_.place_of(begin_); }
 
   // What could not be read, as an error of the message that it stands in.
-  void tell(const Problem& problem, std::string outcome) {
+  void report(const Problem& problem, std::string outcome) {
     Finding f{FindingKind::kSyntax, problem.place, problem.what, std::move(outcome), ""};
     open_ ? draft_.flaw(open_->message, std::move(f)) : draft_.find(std::move(f));
   }
 
   void stopped(const Problem& problem, std::string outcome) {
     ++stops_;
-    tell(problem, std::move(outcome));
+    report(problem, std::move(outcome));
     scan_.recover(begin_);
   }
 
@@ -110,6 +110,7 @@ class Parser {
     scan_.rewind(begin_);
     std::string_view text = scan_.statement();
     const bool is_closed = text.ends_with(';');
+    if (!is_closed && reads_like_message(text)) return misspelt_message(word);
     if (!is_closed) text = unclosed(word);
     draft_.database.unused.push_back({std::string{word}, scan_.utf8(text), place(), is_known});
     if (is_known || !is_closed) return;  // signals that follow may still belong to the message
@@ -119,19 +120,30 @@ class Parser {
                  std::string{word}});
   }
 
-  // The text up to the next section, told.
+  Problem no_end(std::string_view word) {
+    const char* const where = scan_.at_end() ? "" : " before the next section";
+    return {place(), std::string{word} + " has no closing ';'" + where};
+  }
+
+  // The text up to the next section.
   std::string_view unclosed(std::string_view word) {
     scan_.recover(begin_);
-    const bool is_last = scan_.at_end();
-    tell({place(),
-          std::string{word} + " has no closing ';'" + (is_last ? "" : " before the next section")},
-         "it is kept as it is written");
+    report(no_end(word), "it is kept as it is written");
     return scan_.since(begin_);
+  }
+
+  // Its signals are not those of the message before it.
+  void misspelt_message(std::string_view word) {
+    close();
+    scan_.recover(begin_);
+    open_.emplace();
+    open_->problem = no_end(word);
+    has_messages_ = true;
   }
 
   // The list has no end mark: its last word is the one that nothing but another word may follow.
   void new_symbols() {
-    if (!scan_.take(':')) tell({scan_.place(), "expected ':'"}, "it is read as if it were there");
+    if (!scan_.take(':')) report({scan_.place(), "expected ':'"}, "it is read as if it were there");
     while (!scan_.at_end()) {
       const std::size_t begin = scan_.offset();
       (void)scan_.word();
@@ -338,7 +350,7 @@ class Parser {
 };
 
 // What UTF-16 lost on the way.
-void tell_conversion(Parser& parser, const Utf16Text& from, const std::string& name) {
+void report_conversion(Parser& parser, const Utf16Text& from, const std::string& name) {
   parser.draft().find({FindingKind::kConverted, name + ":1:1",
                        std::string{"the text is UTF-16 ("} +
                            (from.is_little_endian ? "little" : "big") + "-endian)",
@@ -360,7 +372,7 @@ Result<Database, Problem> parse_dbc_leniently(std::string_view text, const std::
     return refuse(name + ":1:1", "expected a CAN database (DBC), this is " + std::string{kind});
   }
   Parser parser{text, name};
-  if (converted) tell_conversion(parser, *converted, name);
+  if (converted) report_conversion(parser, *converted, name);
   return parser.parse();
 }
 

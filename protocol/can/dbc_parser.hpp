@@ -11,8 +11,8 @@
 //             a missing ';'                      is read as if it were there
 //             a second message of the same id    is left out
 //             a second message of the same name  is kept and marked
-//             an id too large for 11 bits        is read as one of 29 bits and marked; one too large
-//                                                for 29 bits is left out
+//             an id too large for 11 bits        is read as one of 29 bits and marked
+//             an id too large for 29 bits        leaves the message out
 //             a message longer than a frame      is kept up to 1785 bytes (J1939 transport) and
 //                                                marked; no frame is decoded with it
 //             a signal outside of its message, the second of the same name, one whose multiplexer

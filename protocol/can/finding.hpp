@@ -1,7 +1,7 @@
-// What is wrong or odd in the file of a CAN database: the kinds, worst first, and each case with its
-// place.
-//   out     an error refuses the file where a car is driven; a lenient reading leaves out what is bad
-//           or keeps it marked, and says so in `outcome`. Warnings and notes refuse nothing
+// What is wrong or odd in the file of a CAN database: the kinds, worst first, and each case with
+// its place.
+//   out     an error refuses the file where a car is driven; a lenient reading leaves out what is
+//           bad or keeps it marked, and says so in `outcome`. Warnings and notes refuse nothing
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -11,6 +11,9 @@
 namespace pitwall::can {
 namespace {
 
+// Of a file that is made to take long; a search for the owners of a bit looks at a few signals.
+constexpr std::size_t kMaxLookedAt = 10'000'000;
+
 // Two signals can be present together unless some selector above both tells them apart. So, below
 // each selector, whatever hangs on one signal must keep off the bits of whatever hangs on another
 // one whose selector values are met at the same time.
@@ -80,7 +83,7 @@ class OverlapSearch {
 
   void compare_with_selector(std::size_t selector, std::size_t signal) {
     for (const std::size_t bit : bits_of(m_.signals[selector].layout)) {
-      if (!is_full() && holds(signal, bit)) add(selector, owner(signal, bit));
+      if (!is_full() && holds(signal, bit)) add({selector}, owners(signal, bit));
     }
   }
 
@@ -111,23 +114,34 @@ class OverlapSearch {
       for (const std::size_t bit : all_of(s.signal)) {
         Claim& c = claims_[bit];
         const bool is_shared = c.group == group && c.high >= s.low && c.signal != s.signal;
-        if (is_shared && !is_full()) add(owner(c.signal, bit), owner(s.signal, bit));
+        if (is_shared && !is_full()) add(owners(c.signal, bit), owners(s.signal, bit));
         if (!is_shared || c.high < s.high) c = {group, s.high, s.signal};
       }
     }
   }
 
-  // The signal that owns the bit: this one or one that hangs on it.
-  std::size_t owner(std::size_t at, std::size_t bit) const {
-    while (!owns(at, bit)) {
-      const auto& group = groups_[at];
-      at = *std::find_if(group.begin(), group.end(), [&](std::size_t i) { return holds(i, bit); });
+  // The signals that own the bit: this one and those that hang on it.
+  std::vector<std::size_t> owners(std::size_t at, std::size_t bit) {
+    std::vector<std::size_t> out, next{at};
+    while (!next.empty()) {
+      const std::size_t i = next.back();
+      next.pop_back();
+      if (owns(i, bit)) out.push_back(i);
+      if (below_[i].empty() || !below_[i][bit]) continue;
+      for (const std::size_t k : groups_[i]) next.push_back(k);
+      looked_at_ += groups_[i].size();
     }
-    return at;
+    return out;
   }
 
-  bool is_full() const { return found_.size() >= kMaxOverlaps; }
-  void add(std::size_t a, std::size_t b) { found_.insert({std::max(a, b), std::min(a, b)}); }
+  bool is_full() const { return found_.size() >= kMaxOverlaps || looked_at_ >= kMaxLookedAt; }
+  void add(const std::vector<std::size_t>& some, const std::vector<std::size_t>& others) {
+    for (const std::size_t a : some) {
+      for (const std::size_t b : others) {
+        if (!is_full() && a != b) found_.insert({std::max(a, b), std::min(a, b)});
+      }
+    }
+  }
 
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
@@ -136,6 +150,7 @@ class OverlapSearch {
   std::vector<std::vector<bool>> below_;                 // the bits of what hangs on each signal
   std::vector<Claim> claims_;                            // of each bit
   std::set<std::pair<std::size_t, std::size_t>> found_;  // the later one, the earlier one
+  std::size_t looked_at_ = 0;
 };
 
 }  // namespace

@@ -1,8 +1,8 @@
 // Signals of a message that claim the same bit and can be present together.
 //   in      a message whose multiplexing is resolved: selectors in place, no circle, all signals
 //           inside its bytes
-//   out     pairs in the order of the file, so that every signal that overlaps another is in one; at
-//           most kMaxOverlaps
+//   out     pairs in the order of the file, so that every signal that overlaps another is in one;
+//           at most kMaxOverlaps, fewer where so many signals hang on one that it would take long
 //   cost    n log n in the signals
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

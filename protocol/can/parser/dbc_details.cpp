@@ -83,8 +83,8 @@ void Details::read() {
   try {
     (this->*kind->read)();
   } catch (const DbcScanner::Stop& stop) {
-    at_.tell(FindingKind::kSyntax, stop.problem.place, stop.problem.what,
-             "this " + std::string{at_.word()} + " is left out");
+    at_.report(FindingKind::kSyntax, stop.problem.place, stop.problem.what,
+               "this " + std::string{at_.word()} + " is left out");
   }
 }
 
@@ -312,10 +312,11 @@ void Details::value_type() {
   const unsigned length = type == 1 ? 32 : 64;
   if (type == 3 || o.signal->layout.length != length) {
     o.signal->is_flawed = true;
-    return at_.tell(FindingKind::kSignal, at_.place(),
-                    "signal " + o.signal->name + " of " + std::to_string(o.signal->layout.length) +
-                        " bits cannot be a floating-point number of this kind",
-                    "it is read as a whole number");
+    return at_.report(FindingKind::kSignal, at_.place(),
+                      "signal " + o.signal->name + " of " +
+                          std::to_string(o.signal->layout.length) +
+                          " bits cannot be a floating-point number of this kind",
+                      "it is read as a whole number");
   }
   o.signal->layout.number = type == 1 ? Number::kFloat32 : Number::kFloat64;
 }
@@ -341,9 +342,9 @@ void Details::multiplexing() {
   if (!s || !above) {
     Message& of = draft_.database.messages[*m];
     if (s) of.signals[*s].is_flawed = true;
-    return at_.tell(FindingKind::kMultiplexing, at_.place(),
-                    "message " + of.name + " has no signal " + (s ? selector : name),
-                    "this SG_MUL_VAL_ is left out");
+    return at_.report(FindingKind::kMultiplexing, at_.place(),
+                      "message " + of.name + " has no signal " + (s ? selector : name),
+                      "this SG_MUL_VAL_ is left out");
   }
   draft_.marks[*m][*s].selector = above;
   draft_.marks[*m][*s].ranges = std::move(ranges);

@@ -161,7 +161,7 @@ std::string_view DbcScanner::quoted() {
   }
   const std::string_view between = text_.substr(first, at_++ - first);
   const std::size_t end = at_;
-  if (peek() != ';' && holds_statement(between)) {
+  if (peek() != ';' && holds_statement(text_.substr(first), between.size())) {
     at_ = begin;
     stop("this text has no closing quote");
   }

@@ -16,7 +16,7 @@ std::uint32_t DbcSection::message_key() {
 bool DbcSection::ends() {
   if (scan_.take(';')) return true;
   if (!scan_.at_end() && !scan_.at_statement()) return false;
-  tell(FindingKind::kSyntax, scan_.place(), "expected ';'", "it is read as if it were there");
+  report(FindingKind::kSyntax, scan_.place(), "expected ';'", "it is read as if it were there");
   return true;
 }
 
@@ -29,7 +29,7 @@ void DbcSection::keep() {
   (void)scan_.statement();
   const std::string_view text = scan_.since(begin_);
   if (!text.ends_with(';')) {
-    tell(FindingKind::kSyntax, scan_.place(), "expected ';'", "it is read as if it were there");
+    report(FindingKind::kSyntax, scan_.place(), "expected ';'", "it is read as if it were there");
   }
   draft_.database.unused.push_back({std::string{word_}, scan_.utf8(text), place(), true});
 }
@@ -38,8 +38,8 @@ void DbcSection::warn(FindingKind kind, std::string what, std::string subject) {
   draft_.find({kind, place(), std::move(what), "", std::move(subject)});
 }
 
-void DbcSection::tell(FindingKind kind, const std::string& where, std::string what,
-                      std::string outcome) {
+void DbcSection::report(FindingKind kind, const std::string& where, std::string what,
+                        std::string outcome) {
   Finding f{kind, where, std::move(what), std::move(outcome), ""};
   if (!about_) return draft_.find(std::move(f));
   draft_.flaw(draft_.database.messages[*about_], std::move(f));

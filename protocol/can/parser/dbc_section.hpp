@@ -32,7 +32,7 @@ class DbcSection {
   void keep();
 
   void warn(FindingKind kind, std::string what, std::string subject = "");
-  void tell(FindingKind kind, const std::string& where, std::string what, std::string outcome);
+  void report(FindingKind kind, const std::string& where, std::string what, std::string outcome);
   // A warning for what the file does not have; none for what was left out and told before.
   void stranger(std::uint32_t key, std::string_view signal);
 

@@ -64,11 +64,15 @@ bool is_number(std::string_view word) {
 
 bool is_name(std::string_view word) { return !word.empty() && !is_digit(word[0]); }
 
+bool is_message(RestOfLine rest) {
+  return is_number(rest.word()) && is_name(rest.word()) && rest.next() == ':';
+}
+
 bool reads_like(std::string_view word, RestOfLine rest) {
   const char next = rest.next();
   if (word == "NS_" || word == "BS_" || word == "BU_") return next == ':';
   if (word == "VERSION" || word == "BA_" || word == "BA_DEF_DEF_") return next == '"';
-  if (word == "BO_") return is_number(rest.word()) && is_name(rest.word()) && rest.next() == ':';
+  if (word == "BO_") return is_message(rest);
   if (word == "SG_" || word == "EV_") {
     if (!is_name(rest.word())) return false;
     if (rest.next() != ':') (void)rest.word();  // the mark of a multiplexer
@@ -97,10 +101,16 @@ bool begins_statement(std::string_view text) {
   return is_section(word) && reads_like(word, RestOfLine{text.substr(word.size())});
 }
 
-bool holds_statement(std::string_view text) {
-  for (std::size_t at = text.find_first_of("\r\n"); at != std::string_view::npos;
-       at = text.find_first_of("\r\n", at)) {
-    at = std::min(text.find_first_not_of(" \t\r\n", at), text.size());
+bool reads_like_message(std::string_view text) {
+  return is_message(RestOfLine{text.substr(first_word(text).size())});
+}
+
+bool holds_statement(std::string_view text, std::size_t size) {
+  const std::string_view within = text.substr(0, size);
+  for (std::size_t at = within.find_first_of("\r\n"); at < size;
+       at = within.find_first_of("\r\n", at)) {
+    at = within.find_first_not_of(" \t\r\n", at);
+    if (at >= size) return false;
     if (begins_statement(text.substr(at))) return true;
   }
   return false;

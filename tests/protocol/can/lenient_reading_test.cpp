@@ -52,16 +52,16 @@ TEST(LenientReading, ASignalThatCannotBeReadIsLeftOut) {
        {dbc_with(" SG_ b : 0|8@1+ (0,0) [0|0] \"\" A\n" + last), "M.a N.z",
         "t.dbc:8:18: signal b has the scale 0; signal b is left out\n"},
        {dbc_with(" SG_ b : 0|8@1+ (1,0) [0|0 \"\" A\n" + last), "M.a N.z",
-        "t.dbc:8:29: expected ']'; signal b is left out\n"},
+        "t.dbc:8:28: expected ']'; signal b is left out\n"},
        {dbc_with(" SG_ b : 0|8@1+ (1,0) [0|0] \"deg A\n" + last), "M.a N.z",
-        "t.dbc:8:30: this text has no closing quote; signal b is left out\n"},
+        "t.dbc:8:29: this text has no closing quote; signal b is left out\n"},
        {dbc_with(" SG_ b X : 0|8@1+ (1,0) [0|0] \"\" A\n" + last), "M.a N.z",
         "t.dbc:8:8: expected ':' or a multiplexer mark such as M, m3 or m3M; signal b is left "
         "out\n"},
        {dbc_with(" SG_ b : 512|8@1+ (1,0) [0|0] \"\" A\n" + last), "M.a N.z",
         "t.dbc:8:10: expected a whole number from 0 to 511; signal b is left out\n"},
        {dbc_with(" SG_ b : 0|8@1+ (1,0) [0|0] \"\" A )\n" + last), "M.b M.a N.z",
-        "t.dbc:8:35: expected a name; the text up to the next statement is left out\n"
+        "t.dbc:8:34: expected a name; the text up to the next statement is left out\n"
         "t.dbc:9:6: signal a overlaps signal b defined at t.dbc:8:6; all are kept\n"},
        {kSignal + dbc_with(kSignal + kSecond), "M.a N.z",
         "t.dbc:1:2: a signal outside a message; the text up to the next statement is left out\n"}});
@@ -209,6 +209,12 @@ TEST(LenientReading, ALineThatIsNoneDoesNotEndItsMessage) {
   ASSERT_EQ(d.unused.size(), 1U);
   EXPECT_EQ(d.unused[0].text, "SG b : 8|8@1+ (1,0) [0|0] \"\" A");
   EXPECT_EQ(d.messages[0].flaws.size(), 1U);
+  // A message that is misspelt does, and takes its signals with it.
+  const Database misspelt = leniently(dbc_with(kSignal) + "BO 7 X: 8 A\n" + kSignal + kSecond);
+  EXPECT_EQ(left_of(misspelt), "M.a N.z");
+  EXPECT_EQ(errors_of(misspelt),
+            "t.dbc:10:1: BO has no closing ';' before the next section; the message is left out "
+            "with its 1 signals\n");
   // A damaged message in between takes its signals with it.
   EXPECT_EQ(left_of(leniently(dbc_with(kSignal + "junk\nBO_ 7 X 8 A\n" +
                                        " SG_ c : 16|8@1+ (1,0) [0|0] \"\" A\n") +

@@ -81,7 +81,7 @@ TEST(DbcEncoding, DecidesNothingButTheBytes) {
 
 TEST(DbcEncoding, ACutCharacterRefusesAndIsReadAsAReplacement) {
   std::string wide = converted(dbc_with(kSignal) + "CM_ BO_ 100 \"x\";\n", true);
-  wide.insert(wide.size() - 8, "\x00\xDC"s);
+  wide.insert(wide.size() - 6, "\x00\xDC"s);
   EXPECT_EQ(complaint(wide),
             "t.dbc:10:15: error: 1 characters are no UTF-16, the first of them here");
   EXPECT_EQ(leniently(wide).messages.at(0).comment, "x\uFFFD");

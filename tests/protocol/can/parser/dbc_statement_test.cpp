@@ -27,12 +27,22 @@ TEST(DbcStatement, IsNotWhatOnlyLooksLikeOne) {
 }
 
 TEST(DbcStatement, IsFoundInTheLinesOfATextButNotInItsFirst) {
-  EXPECT_FALSE(holds_statement("BO_ 100 M: 8 A"));
-  EXPECT_FALSE(holds_statement("one\ntwo\nSG_ three"));
-  EXPECT_TRUE(holds_statement("one\n\n  BO_ 100 M: 8 A"));
-  EXPECT_TRUE(holds_statement("one\r\nVAL_ 1 a 1 \"x\";"));
-  EXPECT_TRUE(holds_statement("one\rVAL_ 1 a 1 \"x\";"));
-  EXPECT_FALSE(holds_statement("one\n"));
+  const auto holds = [](std::string_view text) { return holds_statement(text, text.size()); };
+  EXPECT_FALSE(holds("BO_ 100 M: 8 A"));
+  EXPECT_FALSE(holds("one\ntwo\nSG_ three"));
+  EXPECT_TRUE(holds("one\n\n  BO_ 100 M: 8 A"));
+  EXPECT_TRUE(holds("one\r\nVAL_ 1 a 1 \"x\";"));
+  EXPECT_TRUE(holds("one\rVAL_ 1 a 1 \"x\";"));
+  EXPECT_FALSE(holds("one\n"));
+  EXPECT_FALSE(holds(""));
+  // The line begins within the size, whatever its end.
+  EXPECT_TRUE(holds_statement("one\nBA_ \"X\" 1;", 8));
+  EXPECT_FALSE(holds_statement("one\nBA_ \"X\" 1;", 4));
+}
+
+TEST(DbcStatement, AMisspeltMessageIsSeen) {
+  EXPECT_TRUE(reads_like_message("BO 100 M: 8 A") && reads_like_message("B_ 100 M : 8 A"));
+  EXPECT_FALSE(reads_like_message("SG b : 8|8@1+") || reads_like_message("BO 100 M 8 A"));
 }
 
 TEST(DbcStatement, KnowsTheWordsOfTheFormat) {
