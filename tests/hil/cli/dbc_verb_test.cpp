@@ -96,7 +96,7 @@ TEST_F(DbcVerb, ChecksToTheEndAndTellsEveryErrorOnce) {
   const Said said = run({"dbc", "check", bad, "--json", path("c.json")});
   EXPECT_EQ(said.code, 2);
   EXPECT_EQ(said.out.substr(0, said.out.find(bad + ": refused")),
-            bad + ":5:15: error: expected '+'; signal u is left out\n" + bad +
+            bad + ":5:16: error: expected '+'; signal u is left out\n" + bad +
                 ":8:1: error: expected ';'; it is read as if it were there\n" + bad +
                 ":6:1: error: message N has the id of message M; the message is left out with its "
                 "0 signals\n" +
@@ -114,7 +114,7 @@ TEST_F(DbcVerb, ShowsABadDatabaseAndMarksWhatIsBad) {
   EXPECT_NE(all.err.find(bad + ": 4 errors, marked with '!'"), std::string::npos) << all.err;
   for (const std::string& line :
        {std::string{"\n! s  0|10"}, std::string{"\n! t  8|8"},
-        "\n! " + bad + ":5:15: expected '+'; signal u is left out\n",
+        "\n! " + bad + ":5:16: expected '+'; signal u is left out\n",
         "\nerrors outside of these messages\n! " + bad + ":6:1: message N has the id"}) {
     EXPECT_NE(all.out.find(line), std::string::npos) << line << all.out;
   }
