@@ -116,7 +116,7 @@ const Break kBreaks[] = {
     {"a signal is empty",
      [](std::string& l, Random&) { return is_signal(l) && replace_number(l, "|", "0"); }},
     {"a signal begins behind its message",
-     [](std::string& l, Random&) { return is_signal(l) && replace_number(l, ":", "504"); }},
+     [](std::string& l, Random&) { return is_signal(l) && replace_number(l, ":", "600"); }},
     {"the line is cut",
      [](std::string& l, Random& noise) {
        if (!is_message(l) && !is_signal(l) && !is_detail(l)) return false;
