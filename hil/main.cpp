@@ -34,7 +34,7 @@ constexpr std::array kVerbs{
     Verb{"serve", "starts scenarios for who asks at a socket, and tells how they go",
          cli::serve_verb},
     Verb{"report", "the page of a run (HTML, JUnit) from its event log", cli::report_verb},
-    Verb{"replay", "replay a candump log onto a CAN interface", replay::replay_verb},
+    Verb{"replay", "replay a CAN log onto CAN interfaces", replay::replay_verb},
     Verb{"compare", "a car's recording driven again by this build: what it says otherwise",
          cli::compare_verb},
     Verb{"dbc", "CAN databases: check, show, diff", cli::dbc_verb},

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <optional>
 
-#include "hil/replay/candump_log.hpp"
+#include "hil/replay/formats/log_reader.hpp"
 #include "hil/replay/player.hpp"
 #include "hil/replay/replay_summary.hpp"
 #include "hil/replay/socket_rim.hpp"
@@ -151,21 +151,7 @@ Result<ReplayOptions, Problem> parse_options(std::span<const std::string> args) 
     if (auto problem = take_option(out, args[i], args[i + 1])) return Unexpected{*problem};
     ++i;
   }
-  if (out.file.empty()) return Unexpected{Problem{"replay", "expected FILE.log"}};
-  return out;
-}
-
-std::string warnings(const CandumpCounters& c, const std::string& file) {
-  const std::string start = file + ": warning: ";
-  std::string out;
-  if (c.backward_stamps > 0)
-    out += start + std::to_string(c.backward_stamps) +
-           " stamps go back; the order of the log is kept\n";
-  if (c.recorder_drops > 0)
-    out += start + "the recorder itself lost " + std::to_string(c.recorder_drops) + " frames\n";
-  if (c.error_frames > 0)
-    out += start + std::to_string(c.error_frames) + " error frames are not replayed\n";
-  if (c.cut_off_lines > 0) out += start + "the last line is cut off and not replayed\n";
+  if (out.file.empty()) return Unexpected{Problem{"replay", "expected FILE: a CAN log"}};
   return out;
 }
 
@@ -173,22 +159,24 @@ std::string warnings(const CandumpCounters& c, const std::string& file) {
 Result<Timeline, Problem> load(const ReplayOptions& options) {
   const auto text = transport::read_file(options.file);
   if (!text) return Unexpected{text.error()};
-  const auto log = parse_candump_log(*text, options.file);
+  const auto log = read_can_log(*text, options.file);
   if (!log) return Unexpected{log.error()};
+  transport::write_to(kErrors, to_text(*log, options.file));
   auto timeline = make_timeline(*log, options.timeline);
   if (!timeline) return timeline;
   if (timeline->pass.ns > kLongestReplay.ns / options.play.passes)
     return Unexpected{Problem{options.file, "all passes together take more than a century"}};
-  transport::write_to(kErrors, warnings(log->counters, options.file));
   return timeline;
 }
 
 constexpr const char* kUsage =
-    "replay FILE.log [--interface IFACE] [--map RECORDED=IFACE]... [--speed X] [--loop N]\n"
+    "replay FILE [--interface IFACE] [--map RECORDED=IFACE]... [--speed X] [--loop N]\n"
     "       [--start S] [--skip S] [--id HEX]...\n"
     "       [--late catch-up|drop:MS|abort:MS] [--spin US] [--json FILE]\n"
-    "plays a candump log in real time; without --interface and --map every channel goes to the\n"
-    "interface that it was recorded from\n"
+    "plays a CAN log in real time: candump, Vector ASC and BLF, PEAK TRC, pcap, pcapng, also with\n"
+    "gzip; records that do not read are left out and told. Without --interface and --map every\n"
+    "channel goes to the interface that it was recorded from, channel 1 of Vector and PEAK to "
+    "can0\n"
     "  --start S   leave out the first S seconds    --skip S    do not wait through longer gaps\n"
     "  --id HEX    only these identifiers           --loop N    so many passes without a seam\n"
     "  --late      frames later than MS: sent at once (catch-up, the default), dropped, or the "

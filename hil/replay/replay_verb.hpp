@@ -1,6 +1,6 @@
-// `pitwall-hil replay FILE.log`: a recorded CAN log onto CAN interfaces, in real time.
+// `pitwall-hil replay FILE`: a recorded CAN log of any format onto CAN interfaces, in real time.
 //
-//   replay FILE.log [--interface vcan0] [--map can0=vcan0]... [--speed X] [--loop N]
+//   replay FILE [--interface vcan0] [--map can0=vcan0]... [--speed X] [--loop N]
 //          [--start S] [--skip S] [--id HEX]...
 //          [--late catch-up|drop:MS|abort:MS] [--spin US] [--json FILE]
 //
@@ -14,8 +14,8 @@
 //              late on this machine, measured at the start
 //   out    frames sent, lateness, what was dropped and which real-time rights the kernel granted,
 //          on standard output; exit code 0: every frame was sent; 1: some were dropped, or the
-//          replay was aborted or stopped; 2: wrong usage, malformed log (said with its place,
-//          nothing sent) or no such interface
+//          replay was aborted or stopped; 2: wrong usage, a file that is no CAN log, or no
+//          such interface. Records that do not read are told with their places, on standard error
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -46,7 +46,7 @@ bool is_wanted(const LoggedFrame& logged, const TimelineOptions& options) {
   return ids.empty() || std::find(ids.begin(), ids.end(), logged.frame.id) != ids.end();
 }
 
-std::optional<Problem> problem_of(const CandumpLog& log, const TimelineOptions& options) {
+std::optional<Problem> problem_of(const CanLog& log, const TimelineOptions& options) {
   if (!(options.speed >= kMinSpeed && options.speed <= kMaxSpeed))
     return Problem{"speed", "must be from 0.001 to 1000000"};
   if (log.frames.empty()) return Problem{"log", "holds no frames"};
@@ -60,7 +60,7 @@ std::optional<Problem> problem_of(const CandumpLog& log, const TimelineOptions& 
 
 }  // namespace
 
-Result<Timeline, Problem> make_timeline(const CandumpLog& log, const TimelineOptions& options) {
+Result<Timeline, Problem> make_timeline(const CanLog& log, const TimelineOptions& options) {
   if (const auto problem = problem_of(log, options)) return Unexpected{*problem};
   Timeline out;
   std::vector<std::size_t> track;

@@ -1,5 +1,5 @@
 // Timeline of a log: one sequence of frames per bus, ready for a socket.
-//   in     CandumpLog, which recorded channel goes to which bus, speed, what to leave out
+//   in     CanLog, which recorded channel goes to which bus, speed, what to leave out
 //   out    frames of each bus in the order of the log, with due times from the start
 //   units  nanoseconds since the start of a pass
 //   errors Problem: a channel without a bus, or nothing to send
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "hil/replay/candump_log.hpp"
+#include "hil/replay/formats/can_log.hpp"
 #include "protocol/can/frame.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
@@ -43,6 +43,6 @@ struct TimelineOptions {
 // A stamp that goes back is due with the frame before it: the order of the log is kept. Due times
 // are computed from the start, not from frame to frame, so speed brings no drift. Passes follow
 // each other with the mean gap of the log. Start and gaps are those of the log, before speed.
-Result<Timeline, Problem> make_timeline(const CandumpLog& log, const TimelineOptions& options);
+Result<Timeline, Problem> make_timeline(const CanLog& log, const TimelineOptions& options);
 
 }  // namespace pitwall::replay

@@ -50,6 +50,10 @@ inline constexpr Recording kLasVegas{
 inline constexpr Recording kCandump{"can_logs/icsim-sample-can.log",
                                     "https://github.com/zombieCraig/ICSim (data/sample-can.log)"};
 
+inline constexpr Recording kCanLogs{"can_logs",
+                                    "https://github.com/hardbyte/python-can (test/data), "
+                                    "https://github.com/canboat/canboat (samples) and kCandump's"};
+
 inline std::filesystem::path path_of(const Recording& recording) {
   return folder() / recording.path;
 }

@@ -7,8 +7,9 @@
 
 #include "hil/can_bus/bus_verb.hpp"
 #include "hil/cli/run_verb.hpp"
-#include "hil/replay/candump_log.hpp"
+#include "hil/replay/formats/candump.hpp"
 #include "hil/replay/timeline.hpp"
+#include "hil/replay/writers/candump_writer.hpp"
 #include "protocol/transport/file.hpp"
 #include "tests/benchmarks/command_line.hpp"
 #include "tests/benchmarks/replay/match_report.hpp"
@@ -35,12 +36,19 @@ std::string host_load() {
   return text.substr(0, end);
 }
 
+// The other players refuse a log with a bad line, or play it otherwise.
+Result<replay::CanLog, Problem> read_whole(std::string_view text, const std::string& file) {
+  auto log = replay::read_candump(text, file);
+  if (!log || log->remarks.empty()) return log;
+  return Unexpected{Problem{log->remarks[0].place, log->remarks[0].what}};
+}
+
 // What is measured must be the schedule of one log on one bus; the parser and the timeline refuse
 // what no player could play.
-Result<double, Problem> length_of(const std::string& file, replay::CandumpLog& log) {
+Result<double, Problem> length_of(const std::string& file, replay::CanLog& log) {
   const auto text = transport::read_file(file);
   if (!text) return Unexpected{text.error()};
-  auto parsed = replay::parse_candump_log(*text, file);
+  auto parsed = read_whole(*text, file);
   if (!parsed) return Unexpected{parsed.error()};
   const auto timeline = replay::make_timeline(*parsed, {.interface = "any"});
   if (!timeline) return Unexpected{timeline.error()};
@@ -49,7 +57,7 @@ Result<double, Problem> length_of(const std::string& file, replay::CandumpLog& l
 }
 
 int match_here(const BenchOptions& options) {
-  replay::CandumpLog log;
+  replay::CanLog log;
   const auto length_s = length_of(options.log_file, log);
   if (!length_s) return refuse(length_s.error());
   auto figures = play_match({.log_file = options.log_file,
@@ -103,17 +111,16 @@ int match_where_can_is(const BenchOptions& options) {
   const std::string file = folder->path() + "/played.log";
   std::string text;
   if (options.log_file.empty()) {
-    text = to_candump(replay::sample_log(from_seconds(options.length_s)));
+    text = replay::to_candump(replay::sample_log(from_seconds(options.length_s)));
   } else {
     const auto read = transport::read_file(options.log_file);
     if (!read) return refuse(read.error());
     text = *read;
-    if (const auto log = replay::parse_candump_log(text, options.log_file); !log)
-      return refuse(log.error());
+    if (const auto log = read_whole(text, options.log_file); !log) return refuse(log.error());
   }
   if (const auto written = transport::write_file(file, text); !written)
     return refuse(written.error());
-  replay::CandumpLog log;
+  replay::CanLog log;
   const auto length_s = length_of(file, log);
   if (!length_s) return refuse(length_s.error());
   if (*length_s > kMaxLength_s) return refuse({options.log_file, "is longer than ten minutes"});

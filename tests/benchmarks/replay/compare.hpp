@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-#include "hil/replay/candump_log.hpp"
+#include "hil/replay/formats/can_log.hpp"
 #include "protocol/can/frame.hpp"
 
 namespace pitwall::replay {

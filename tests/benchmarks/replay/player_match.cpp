@@ -10,18 +10,18 @@
 #include <utility>
 
 #include "hil/cli/run_verb.hpp"
+#include "hil/replay/writers/candump_writer.hpp"
 #include "protocol/transport/can/can_socket.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/process.hpp"
 #include "protocol/transport/realtime.hpp"
-#include "tests/benchmarks/replay/sample_log.hpp"
 
 namespace pitwall::benchmarks {
 namespace {
 
 namespace fs = std::filesystem;
-using replay::CandumpLog;
+using replay::CanLog;
 using replay::Comparison;
 
 constexpr std::size_t kBytesPerFrame = 512;  // asked of the receive buffer; the kernel doubles
@@ -35,8 +35,8 @@ constexpr int kFloorPriority = 50;
 constexpr int kFloorSleeps = 1'000;
 constexpr Duration kFloorPeriod = milliseconds(1);
 
-std::vector<std::string> command_of(std::size_t player, const MatchPlan& plan,
-                                    const CandumpLog& log, const std::string& log_file) {
+std::vector<std::string> command_of(std::size_t player, const MatchPlan& plan, const CanLog& log,
+                                    const std::string& log_file) {
   if (player == kOurs)
     return {(fs::path(cli::own_program()).parent_path().parent_path() / "hil/pitwall-hil").string(),
             "replay",
@@ -60,7 +60,7 @@ std::vector<std::string> command_of(std::size_t player, const MatchPlan& plan,
   return command;
 }
 
-Duration length_of(const CandumpLog& log) {
+Duration length_of(const CanLog& log) {
   const auto [first, last] =
       std::minmax_element(log.frames.begin(), log.frames.end(),
                           [](const auto& a, const auto& b) { return a.at < b.at; });
@@ -89,7 +89,7 @@ std::optional<Problem> run_player(std::vector<std::string> command, Duration len
 }
 
 Result<Comparison, Problem> record_run(std::vector<std::string> command, const MatchPlan& plan,
-                                       const CandumpLog& log) {
+                                       const CanLog& log) {
   const std::size_t wanted = std::min(log.frames.size() * kBytesPerFrame, kMaxBufferBytes);
   auto recorder = transport::CanSocket::open(
       plan.interface, {.receive_errors = false, .receive_buffer_bytes = static_cast<int>(wanted)});
@@ -111,8 +111,8 @@ Result<Comparison, Problem> record_run(std::vector<std::string> command, const M
   return replay::compare(log.frames, arrived);
 }
 
-std::optional<Problem> warm_up(const MatchPlan& plan, const CandumpLog& log) {
-  CandumpLog start = log;
+std::optional<Problem> warm_up(const MatchPlan& plan, const CanLog& log) {
+  CanLog start = log;
   start.frames.resize(std::min(start.frames.size(), kWarmUpFrames));
   const std::string file = plan.folder + "/warm_up.log";
   const auto written = transport::write_file(file, to_candump(start));
@@ -139,7 +139,7 @@ std::vector<Duration> sleep_lateness() {
 
 }  // namespace
 
-Result<MatchFigures, Problem> play_match(const MatchPlan& plan, const CandumpLog& log) {
+Result<MatchFigures, Problem> play_match(const MatchPlan& plan, const CanLog& log) {
   MatchFigures out;
   if (const auto bus = transport::CanSocket::open(plan.interface); !bus)
     return Unexpected{bus.error()};

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "hil/replay/candump_log.hpp"
+#include "hil/replay/formats/can_log.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "tests/benchmarks/replay/compare.hpp"
 
@@ -40,6 +40,6 @@ struct MatchFigures {
   std::string own_report;         // JSON that our player wrote about its last run
 };
 
-Result<MatchFigures, Problem> play_match(const MatchPlan& plan, const replay::CandumpLog& log);
+Result<MatchFigures, Problem> play_match(const MatchPlan& plan, const replay::CanLog& log);
 
 }  // namespace pitwall::benchmarks

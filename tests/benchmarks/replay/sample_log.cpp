@@ -57,7 +57,7 @@ void fill(can::Frame& frame, Random& random) {
   frame.data[0] = static_cast<std::uint8_t>(counter + 1);
 }
 
-void collect(can_bus::MemoryBus& bus, Instant until, Random& random, CandumpLog& log) {
+void collect(can_bus::MemoryBus& bus, Instant until, Random& random, CanLog& log) {
   for (const can_bus::Delivery& delivery : bus.advance(until)) {
     if (delivery.to != kRecorder) continue;
     const std::int64_t us = delivery.received.at.ns / 1'000 +
@@ -71,11 +71,11 @@ void collect(can_bus::MemoryBus& bus, Instant until, Random& random, CandumpLog&
 
 }  // namespace
 
-CandumpLog sample_log(Duration length) {
+CanLog sample_log(Duration length) {
   can_bus::MemoryBus bus({.ports = kPorts, .bit_rate = kBitRate});
   std::vector<Source> sources = sources_of_the_bus();
   Random random{.state = 14};
-  CandumpLog log;
+  CanLog log;
   log.channels = {"can0"};
   for (Duration t{}; t < length; t = t + kStep) {
     std::array<Instant, kPorts> tick{};
@@ -93,13 +93,6 @@ CandumpLog sample_log(Duration length) {
     collect(bus, Instant{} + t + kStep, random, log);
   }
   return log;
-}
-
-std::string to_candump(const CandumpLog& log) {
-  std::string out;
-  for (const LoggedFrame& logged : log.frames)
-    out += to_candump_line(logged, log.channels[logged.channel]) + "\n";
-  return out;
 }
 
 }  // namespace pitwall::replay

@@ -12,14 +12,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
-#include "hil/replay/candump_log.hpp"
+#include "hil/replay/formats/can_log.hpp"
 
 namespace pitwall::replay {
 
-CandumpLog sample_log(Duration length);
-// As candump -l writes it.
-std::string to_candump(const CandumpLog& log);
+CanLog sample_log(Duration length);
 
 }  // namespace pitwall::replay

@@ -5,22 +5,24 @@
 
 #include <map>
 
+#include "hil/replay/formats/candump.hpp"
+#include "hil/replay/writers/candump_writer.hpp"
 #include "protocol/can/av21.hpp"
 
 namespace pitwall::replay {
 namespace {
 
 TEST(SampleLog, IsTheSameEveryTimeAndAFileGivesItBack) {
-  const CandumpLog log = sample_log(seconds(2));
+  const CanLog log = sample_log(seconds(2));
   EXPECT_EQ(log.frames, sample_log(seconds(2)).frames);
-  const auto read = parse_candump_log(to_candump(log), "f");
+  const auto read = read_candump(to_candump(log), "f");
   ASSERT_TRUE(read.has_value());
   EXPECT_EQ(read->frames, log.frames);
   EXPECT_EQ(read->counters.backward_stamps, 0U);
 }
 
 TEST(SampleLog, HasTheTrafficOfTheDatabase) {
-  const CandumpLog log = sample_log(seconds(4));
+  const CanLog log = sample_log(seconds(4));
   std::map<std::uint32_t, std::int64_t> count;
   for (const LoggedFrame& logged : log.frames) ++count[logged.frame.id];
   for (const can::MessageRow& row : can::av21::kMessages)
@@ -31,7 +33,7 @@ TEST(SampleLog, HasTheTrafficOfTheDatabase) {
 }
 
 TEST(SampleLog, ComesFromOneWire) {
-  const CandumpLog log = sample_log(seconds(2));
+  const CanLog log = sample_log(seconds(2));
   std::size_t back_to_back = 0;
   for (std::size_t i = 1; i < log.frames.size(); ++i) {
     const std::int64_t gap_us = (log.frames[i].at.ns - log.frames[i - 1].at.ns) / 1'000;

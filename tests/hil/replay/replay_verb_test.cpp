@@ -15,7 +15,8 @@ class ReplayVerb : public testing::Test {
  protected:
   void SetUp() override {
     ASSERT_TRUE(transport::write_file(good_, "(1.0) nosuchcan0 123#11\n"));
-    ASSERT_TRUE(transport::write_file(bad_, "(1.0) can0 123#11\n(1.1) can0 123#1\n"));
+    ASSERT_TRUE(transport::write_file(
+        bad_, "(1.0) nosuchcan0 123#11\n(1.1) nosuchcan0 123#1\n(1.2) nosuchcan0 123#11"));
   }
   std::string errors_of(const std::vector<std::string>& words) {
     testing::internal::CaptureStderr();
@@ -28,8 +29,17 @@ class ReplayVerb : public testing::Test {
   std::string bad_ = folder_.path() + "/bad.log";
 };
 
-TEST_F(ReplayVerb, AMalformedLogIsRefusedWithItsPlace) {
-  EXPECT_TRUE(errors_of({bad_}).starts_with(bad_ + ":2:17: error: "));
+TEST_F(ReplayVerb, BadLinesAndACutTailAreToldBeforeAnythingIsSent) {
+  const std::string said = errors_of({bad_});
+  EXPECT_TRUE(said.starts_with(bad_ + ":2:23: warning: left out: ")) << said;
+  EXPECT_NE(said.find(bad_ + ":3: warning: left out: "), std::string::npos) << said;
+}
+
+TEST_F(ReplayVerb, AFileThatIsNoLogIsNamedForWhatItLooksLike) {
+  ASSERT_TRUE(transport::write_file(bad_, "MDF     4.10    "));
+  const std::string said = errors_of({bad_});
+  EXPECT_TRUE(said.starts_with(bad_ + ": error: looks like an ASAM MDF 4 recording")) << said;
+  EXPECT_NE(said.find("candump"), std::string::npos) << said;
 }
 
 TEST_F(ReplayVerb, AMissingFileOrInterfaceIsNamed) {

@@ -6,8 +6,8 @@
 namespace pitwall::replay {
 namespace {
 
-CandumpLog log_of(const std::vector<std::pair<std::int64_t, std::uint8_t>>& stamps_us) {
-  CandumpLog log;
+CanLog log_of(const std::vector<std::pair<std::int64_t, std::uint8_t>>& stamps_us) {
+  CanLog log;
   log.channels = {"can0", "can1"};
   for (const auto& [us, channel] : stamps_us) {
     LoggedFrame f;
@@ -58,7 +58,7 @@ TEST(Timeline, ChannelsGoWhereTheyAreSent) {
 }
 
 TEST(Timeline, WhatCannotBePlayedIsAProblem) {
-  EXPECT_FALSE(make_timeline(CandumpLog{}, {}).has_value());
+  EXPECT_FALSE(make_timeline(CanLog{}, {}).has_value());
   const auto log = log_of({{0, 0}});
   for (const double speed : {0.0, -1.0, 1e-4, 1e7, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_FALSE(make_timeline(log, {.speed = speed}).has_value()) << speed;
@@ -90,7 +90,7 @@ TEST(Timeline, WhatIsLeftOutTakesNoTime) {
 }
 
 TEST(Timeline, APassLongerThanAYearIsAProblemUnlessItsGapIsSkipped) {
-  CandumpLog log = log_of({{0, 0}, {1, 0}});
+  CanLog log = log_of({{0, 0}, {1, 0}});
   log.frames[0].at = {};  // the recorder's clock was not set yet
   EXPECT_FALSE(make_timeline(log, {}).has_value());
   EXPECT_TRUE(make_timeline(log, {.longest_gap = seconds(60)}).has_value());
@@ -98,7 +98,7 @@ TEST(Timeline, APassLongerThanAYearIsAProblemUnlessItsGapIsSkipped) {
 }
 
 TEST(Timeline, TheLongestLogAtTheHighestSpeedFits) {
-  CandumpLog log = log_of({{0, 0}, {1, 0}});
+  CanLog log = log_of({{0, 0}, {1, 0}});
   log.frames[0].at = {};
   log.frames[1].at = {9'000'000'000 * kNanosecondsPerSecond};
   const auto t = make_timeline(log, {.speed = 1e6});

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "hil/replay/candump_log.hpp"
+#include "hil/replay/formats/candump.hpp"
 #include "protocol/can/dbc_parser.hpp"
 #include "protocol/can/decode.hpp"
 #include "protocol/transport/file.hpp"
@@ -108,7 +108,7 @@ TEST_F(LiveDemo, LockstepGivesTheSameVerdicts) {
 TEST_F(LiveDemo, CanmatrixDecodesTheCandumpToOurValues) {
   const auto text = transport::read_file((folder_ / "candump.log").string());
   ASSERT_TRUE(text) << to_string(text.error());
-  const auto log = replay::parse_candump_log(*text, "candump.log");
+  const auto log = replay::read_candump(*text, "candump.log");
   ASSERT_TRUE(log) << to_string(log.error());
   const std::string dbc = kRoot + "/protocol/can/dbc/av21.dbc";
   const auto database = can::parse_dbc(*transport::read_file(dbc), dbc);

@@ -9,7 +9,8 @@
 #include <functional>
 #include <vector>
 
-#include "hil/replay/candump_log.hpp"
+#include "hil/replay/formats/candump.hpp"
+#include "hil/replay/writers/candump_writer.hpp"
 #include "protocol/transport/can/can_socket.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
@@ -36,13 +37,13 @@ class Recorder {
     if (process) candump_.emplace(*std::move(process));
     wait_until_it_listens();
   }
-  CandumpLog stop() {
+  CanLog stop() {
     wait_until_all_is_written();
     candump_->kill(SIGINT);
     static_cast<void>(candump_->wait());
     const auto text = transport::read_file(path_);
     EXPECT_TRUE(text.has_value());
-    auto log = parse_candump_log(text.value_or(""), path_);
+    auto log = read_candump(text.value_or(""), path_);
     EXPECT_TRUE(log.has_value()) << (log ? "" : to_string(log.error()));
     if (!log) return {};
     auto& frames = log->frames;
@@ -88,18 +89,18 @@ int play(std::vector<std::string> arguments) {
   return process ? process->wait().shell_code() : -1;
 }
 
-void expect_same_frames(const CandumpLog& got, const CandumpLog& wanted, std::size_t passes) {
+void expect_same_frames(const CanLog& got, const CanLog& wanted, std::size_t passes) {
   ASSERT_EQ(got.frames.size(), wanted.frames.size() * passes);
   for (std::size_t i = 0; i < got.frames.size(); ++i)
     ASSERT_EQ(got.frames[i].frame, wanted.frames[i % wanted.frames.size()].frame) << "frame " << i;
 }
 
-CandumpLog read_log(const std::string& path) {
+CanLog read_log(const std::string& path) {
   const auto text = transport::read_file(path);
   EXPECT_TRUE(text.has_value()) << path;
-  auto log = parse_candump_log(text.value_or(""), path);
+  auto log = read_candump(text.value_or(""), path);
   EXPECT_TRUE(log.has_value()) << (log ? "" : to_string(log.error()));
-  return log ? *std::move(log) : CandumpLog{};
+  return log ? *std::move(log) : CanLog{};
 }
 
 // The log as python-can understands it, one candump line per message.
@@ -124,12 +125,12 @@ TEST(PublicCandump, ARealLogArrivesCompleteAndInOrder) {
   const std::string path = path_of(kCandump).lexically_normal().string();
   auto folder = transport::TemporaryFolder::create("pitwall-replay-");
   ASSERT_TRUE(folder.has_value());
-  const CandumpLog log = read_log(path);
+  const CanLog log = read_log(path);
   ASSERT_GT(log.frames.size(), 6'000U);
   Recorder recorder(folder->path() + "/arrived.log");
   ASSERT_EQ(play({path, "--interface", "vcan0", "--speed", "2"}), 0);
   expect_same_frames(recorder.stop(), log, 1);
-  const auto oracle = parse_candump_log(as_python_can_reads_it(path), "python-can");
+  const auto oracle = read_candump(as_python_can_reads_it(path), "python-can");
   ASSERT_TRUE(oracle.has_value());
   expect_same_frames(*oracle, log, 1);
 }
@@ -138,7 +139,7 @@ TEST(Replay, PassesFollowEachOtherWithoutASeam) {
   auto folder = transport::TemporaryFolder::create("pitwall-replay-");
   ASSERT_TRUE(folder.has_value());
   const std::string path = folder->path() + "/made.log";
-  CandumpLog made;
+  CanLog made;
   made.channels = {"can0"};
   std::string text;
   for (int i = 0; i < 500; ++i) {
@@ -153,7 +154,7 @@ TEST(Replay, PassesFollowEachOtherWithoutASeam) {
   ASSERT_TRUE(transport::write_file(path, text).has_value());
   Recorder recorder(folder->path() + "/arrived.log");
   ASSERT_EQ(play({path, "--map", "can0=vcan0", "--loop", "3"}), 0);
-  const CandumpLog arrived = recorder.stop();
+  const CanLog arrived = recorder.stop();
   expect_same_frames(arrived, made, 3);
   // Half a second per pass: the clock of the schedule does not restart late. Only a lower bound is
   // a law on a busy machine: nothing may go out before its time.
@@ -176,8 +177,8 @@ TEST(Replay, FlagsOfFdFramesChosenIdentifiersAndLatePoliciesReachTheBus) {
   ASSERT_EQ(play({path, "--interface", "vcan0", "--late", "abort:3600000", "--spin", "0", "--id",
                   "123", "--start", "0.1"}),
             0);
-  const CandumpLog arrived = recorder.stop();
-  const CandumpLog wanted = read_log(path);
+  const CanLog arrived = recorder.stop();
+  const CanLog wanted = read_log(path);
   ASSERT_EQ(arrived.frames.size(), 250U);  // all of the first replay, a quarter in the second
   for (std::size_t i = 0; i < 250; ++i) {
     const LoggedFrame& frame = wanted.frames[i < 200 ? i : 0];
@@ -189,14 +190,19 @@ TEST(Replay, FlagsOfFdFramesChosenIdentifiersAndLatePoliciesReachTheBus) {
   EXPECT_NE(report.find("\"dropped_late\": 0,"), std::string::npos) << report;
 }
 
-TEST(Replay, OfAMalformedLogNothingIsSent) {
+TEST(Replay, OfAMalformedLogTheGoodLinesAreSentAndTheTailIsNot) {
   auto folder = transport::TemporaryFolder::create("pitwall-replay-");
   ASSERT_TRUE(folder.has_value());
   const std::string path = folder->path() + "/bad.log";
-  ASSERT_TRUE(transport::write_file(path, "(1.000000) can0 123#11\n(1.000001) can0 12#11\n"));
+  ASSERT_TRUE(transport::write_file(path,
+                                    "(1.000000) can0 123#11\n(1.000001) can0 12#11\n"
+                                    "(1.000002) can0 124#\n(1.000003) can0 125#11"));
   Recorder recorder(folder->path() + "/arrived.log");
-  EXPECT_EQ(play({path, "--interface", "vcan0"}), 2);
-  EXPECT_TRUE(recorder.stop().frames.empty());
+  EXPECT_EQ(play({path, "--interface", "vcan0"}), 0);
+  const CanLog arrived = recorder.stop();
+  ASSERT_EQ(arrived.frames.size(), 2U);
+  EXPECT_EQ(arrived.frames[0].frame.id, 0x123U);
+  EXPECT_EQ(arrived.frames[1].frame.id, 0x124U);
 }
 
 }  // namespace

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any text is a log or an error with a place; a log that is written again reads the same; what can
-// be played is played whole, in virtual time, without a step back.
+// Any bytes are a log or an error with a place, by the reader that their beginning asks for; a log
+// that is written again reads the same; what can be played is played whole, in virtual time, without
+// a step back.
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
-#include "hil/replay/candump_log.hpp"
+#include "hil/replay/formats/candump.hpp"
+#include "hil/replay/formats/log_reader.hpp"
 #include "hil/replay/player.hpp"
 #include "hil/replay/timeline.hpp"
+#include "hil/replay/writers/candump_writer.hpp"
 #include "protocol/vocabulary/check.hpp"
 
 namespace {
@@ -32,11 +35,8 @@ struct VirtualRim {
   static bool stopped() { return false; }
 };
 
-void check_round_trip(const CandumpLog& log) {
-  std::string text;
-  for (const LoggedFrame& logged : log.frames)
-    text += to_candump_line(logged, log.channels[logged.channel]) + "\n";
-  const auto again = parse_candump_log(text, "again");
+void check_round_trip(const CanLog& log) {
+  const auto again = read_candump(to_candump(log), "again");
   CHECK(again.has_value() && again->frames.size() == log.frames.size());
   for (std::size_t i = 0; i < log.frames.size(); ++i) {
     LoggedFrame read = again->frames[i];
@@ -46,7 +46,7 @@ void check_round_trip(const CandumpLog& log) {
   }
 }
 
-void play(const CandumpLog& log, const TimelineOptions& options, LatePolicy late) {
+void play(const CanLog& log, const TimelineOptions& options, LatePolicy late) {
   const auto timeline = make_timeline(log, options);
   if (!timeline) {
     CHECK(!timeline.error().what.empty());
@@ -69,11 +69,13 @@ void play(const CandumpLog& log, const TimelineOptions& options, LatePolicy late
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   const std::string_view text{reinterpret_cast<const char*>(bytes), size};
-  const auto log = parse_candump_log(text, "f.log");
+  const auto log = read_can_log(text, "f.log");
   if (!log) {
-    CHECK(log.error().place.starts_with("f.log:"));
+    CHECK(log.error().place.starts_with("f.log") && !log.error().what.empty());
     return 0;
   }
+  CHECK(log->remarks.size() + log->remarks_left_off ==
+        log->counters.bad_records + log->counters.cut_tails);
   check_round_trip(*log);
   play(*log, {}, LatePolicy::kCatchUp);
   play(*log, {.speed = 1e-3, .interface = "v", .longest_gap = seconds(5)}, LatePolicy::kDrop);

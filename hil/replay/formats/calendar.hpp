@@ -1,0 +1,33 @@
+// Days and times of the calendar, as the headers of logs have them.
+//   in     year, month and day of the Gregorian calendar; text of a time of day
+//   out    nanoseconds since 1970-01-01T00:00:00Z, and back
+//   errors a day that does not exist, or outside 1970 to 2254 (int64 nanoseconds end later)
+//   source H. Hinnant, chrono-Compatible Low-Level Date Algorithms (days_from_civil)
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "hil/replay/formats/text_line.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::replay {
+
+inline constexpr std::int64_t kSecondsPerDay = 86'400;
+
+struct CalendarDay {
+  std::int64_t year = 0;
+  unsigned month = 0, day = 0;  // from 1
+};
+
+std::optional<UtcTime> utc_of(const CalendarDay& day, std::int64_t ns_of_day);
+// "15:06:13.191", with '.' or ',' before the fraction: nanoseconds of the day.
+bool read_time_of_day(TextLine& line, std::int64_t& out_ns);
+// "2017-09-30T15:06:13.191000000Z"
+std::string calendar_text(UtcTime at);
+// The same as Vector's ASC has it: "Sat Sep 30 15:06:13.191 2017", to the millisecond.
+std::string asc_date_text(UtcTime at);
+
+}  // namespace pitwall::replay

@@ -1,0 +1,24 @@
+// Captures of SocketCAN in the format of libpcap (tcpdump, Wireshark, dumpcap -P).
+//
+//   magic | version | zone, digits | snap length | link type | records: s, us or ns, 2 lengths, data
+//
+//   in     the whole file, either byte order, microseconds or nanoseconds; link types of
+//          socketcan_packet.hpp
+//   out    CanLog; one channel can0, or with LINUX_SLL2 one for each interface index
+//   errors a record that does not read is left out, and reading goes on at the next place where two
+//          records follow each other; a capture of another link type is refused
+//   source IETF draft-ietf-opsawg-pcap
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "hil/replay/formats/can_log.hpp"
+
+namespace pitwall::replay {
+
+inline constexpr std::size_t kMaxPacketBytes = 262'144;  // what libpcap writes at most
+
+Result<CanLog, Problem> read_pcap(std::string_view bytes, std::string_view file_name);
+
+}  // namespace pitwall::replay
