@@ -14,6 +14,8 @@
 #include "hil/cli/demo/demo_verb.hpp"
 #include "hil/cli/exit_code.hpp"
 #include "hil/cli/faults_verb.hpp"
+#include "hil/cli/recordings/convert_verb.hpp"
+#include "hil/cli/recordings/info_verb.hpp"
 #include "hil/cli/report_verb.hpp"
 #include "hil/cli/run_verb.hpp"
 #include "hil/cli/serve_verb.hpp"
@@ -37,6 +39,9 @@ constexpr std::array kVerbs{
     Verb{"replay", "replay a CAN log onto CAN interfaces", replay::replay_verb},
     Verb{"compare", "a car's recording driven again by this build: what it says otherwise",
          cli::compare_verb},
+    Verb{"info", "what a CAN log holds: span, channels, identifiers, rates", cli::info_verb},
+    Verb{"convert", "a CAN log in another format: candump, ASC, BLF, pcap, pcapng",
+         cli::convert_verb},
     Verb{"dbc", "CAN databases: check, show, diff", cli::dbc_verb},
     Verb{"bus", "CAN interfaces: from this kernel or from a guest", can_bus::bus_verb},
     Verb{"faults", "every fault of the catalogue: who notices it, how fast, and the outcome",

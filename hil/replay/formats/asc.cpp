@@ -96,6 +96,7 @@ struct AscEvent : TextLine {
  private:
   // A word that says which event it is, known or not: as long as no frame hides in it.
   bool read_other() {
+    skip_spaces();
     const std::size_t begin = at;
     while (!done()) {
       const std::string_view next = word();

@@ -12,7 +12,8 @@ constexpr std::int64_t kFirstYear = 1970, kLastYear = 2254;
 constexpr std::array<unsigned, 12> kDaysOfMonth{31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
 constexpr std::array<const char*, 12> kMonths{"Jan", "Feb", "Mar", "Apr", "May", "Jun",
                                               "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
-constexpr std::array<const char*, 7> kWeekdays{"Thu", "Fri", "Sat", "Sun", "Mon", "Tue", "Wed"};
+constexpr std::array<const char*, 7> kWeekdays{"Sun", "Mon", "Tue", "Wed", "Thu", "Fri", "Sat"};
+constexpr std::int64_t kWeekdayOfEpoch = 4;  // 1970-01-01 was a Thursday
 constexpr std::int64_t kDaysOfEra = 146'097, kYearsOfEra = 400, kDaysToEpoch = 719'468;
 
 bool is_leap(std::int64_t year) { return year % 4 == 0 && (year % 100 != 0 || year % 400 == 0); }
@@ -35,27 +36,6 @@ CalendarDay day_of(std::int64_t days) {
   return {.year = year + era * kYearsOfEra + (month < 10 ? 0 : 1),
           .month = static_cast<unsigned>(month < 10 ? month + 3 : month - 9),
           .day = static_cast<unsigned>(in_year - (153 * month + 2) / 5 + 1)};
-}
-
-struct SplitTime {
-  std::int64_t days = 0;
-  CalendarDay day;
-  int hour = 0, minute = 0, second = 0;
-  std::int64_t ns = 0;
-};
-
-SplitTime split(UtcTime at) {
-  constexpr std::int64_t kDay = kSecondsPerDay * kNanosecondsPerSecond;
-  SplitTime out;
-  out.days = at.ns / kDay - (at.ns % kDay < 0 ? 1 : 0);
-  out.ns = at.ns - out.days * kDay;
-  out.day = day_of(out.days);
-  const std::int64_t s = out.ns / kNanosecondsPerSecond;
-  out.ns %= kNanosecondsPerSecond;
-  out.hour = static_cast<int>(s / 3'600);
-  out.minute = static_cast<int>(s / 60 % 60);
-  out.second = static_cast<int>(s % 60);
-  return out;
 }
 
 }  // namespace
@@ -81,18 +61,33 @@ bool read_time_of_day(TextLine& line, std::int64_t& out_ns) {
   return true;
 }
 
+CalendarParts parts_of(UtcTime at) {
+  constexpr std::int64_t kDay = kSecondsPerDay * kNanosecondsPerSecond;
+  const std::int64_t days = at.ns / kDay - (at.ns % kDay < 0 ? 1 : 0);
+  const std::int64_t of_day_ns = at.ns - days * kDay;
+  const std::int64_t s = of_day_ns / kNanosecondsPerSecond;
+  return {.day = day_of(days),
+          .weekday = ((days + kWeekdayOfEpoch) % 7 + 7) % 7,
+          .hour = s / 3'600,
+          .minute = s / 60 % 60,
+          .second = s % 60,
+          .ns = of_day_ns % kNanosecondsPerSecond};
+}
+
 std::string calendar_text(UtcTime at) {
-  const SplitTime t = split(at);
-  return formatted("%04lld-%02u-%02uT%02d:%02d:%02d.%09lldZ", static_cast<long long>(t.day.year),
-                   t.day.month, t.day.day, t.hour, t.minute, t.second,
-                   static_cast<long long>(t.ns));
+  const CalendarParts t = parts_of(at);
+  return formatted("%04lld-%02u-%02uT%02lld:%02lld:%02lld.%09lldZ",
+                   static_cast<long long>(t.day.year), t.day.month, t.day.day,
+                   static_cast<long long>(t.hour), static_cast<long long>(t.minute),
+                   static_cast<long long>(t.second), static_cast<long long>(t.ns));
 }
 
 std::string asc_date_text(UtcTime at) {
-  const SplitTime t = split(at);
-  const auto weekday = static_cast<std::size_t>((t.days % 7 + 7) % 7);
-  return formatted("%s %s %u %02d:%02d:%02d.%03lld %lld", kWeekdays[weekday],
-                   kMonths[t.day.month - 1], t.day.day, t.hour, t.minute, t.second,
+  const CalendarParts t = parts_of(at);
+  return formatted("%s %s %u %02lld:%02lld:%02lld.%03lld %lld",
+                   kWeekdays[static_cast<std::size_t>(t.weekday)], kMonths[t.day.month - 1],
+                   t.day.day, static_cast<long long>(t.hour), static_cast<long long>(t.minute),
+                   static_cast<long long>(t.second),
                    static_cast<long long>(t.ns / kNanosecondsPerMillisecond),
                    static_cast<long long>(t.day.year));
 }

@@ -22,6 +22,13 @@ struct CalendarDay {
   unsigned month = 0, day = 0;  // from 1
 };
 
+struct CalendarParts {
+  CalendarDay day;
+  std::int64_t weekday = 0;  // 0: Sunday
+  std::int64_t hour = 0, minute = 0, second = 0, ns = 0;
+};
+
+CalendarParts parts_of(UtcTime at);
 std::optional<UtcTime> utc_of(const CalendarDay& day, std::int64_t ns_of_day);
 // "15:06:13.191", with '.' or ',' before the fraction: nanoseconds of the day.
 bool read_time_of_day(TextLine& line, std::int64_t& out_ns);

@@ -34,6 +34,7 @@ struct CandumpLine : TextLine {
   bool read() {
     skip_spaces();
     if (peek() == '(' && !read_stamp()) return false;
+    if (stamp != StampKind::kNone && !at_space()) return refuse("expected a space after the stamp");
     if (!read_channel()) return false;
     const std::string_view next = next_word();
     if (next.find('#') != std::string_view::npos) {

@@ -94,8 +94,8 @@ class PcapReader {
   void read_packet(std::size_t at, std::uint32_t length) {
     if (length != file_.u32(at + 12))
       return builder_.leave_out_byte(at, "the recorder has cut this packet short");
-    SocketCanPacket packet =
-        read_socketcan_packet(link_type_, file_.bytes.substr(at + kRecordHeader, length));
+    SocketCanPacket packet = read_socketcan_packet(
+        link_type_, file_.bytes.substr(at + kRecordHeader, length), file_.big_endian);
     LogCounters& counters = builder_.counters();
     if (packet.kind == PacketKind::kErrorFrame) return void(++counters.error_frames);
     if (packet.kind == PacketKind::kOther) return void(++counters.other_records);

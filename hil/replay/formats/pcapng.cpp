@@ -146,12 +146,13 @@ class PcapngReader {
   }
 
   void read_interface_option(CaptureInterface& source, std::uint16_t code, ByteRecord value) {
-    if (code == kOptionName && value.size() <= kMaxChannelName && value.size() > 0)
+    const bool is_name = value.size() > 0 && value.size() <= kMaxChannelName &&
+                         value.bytes.find_first_of(" \t\r\n") == std::string_view::npos;
+    if (code == kOptionName && is_name)
       source.name = value.bytes;
     else if (code == kOptionName)
       builder_.note("an interface is called \"" + source.name +
-                    "\" here: its name in the capture "
-                    "does not have 1 to 15 characters");
+                    "\" here: its name in the capture is no word of 1 to 15 characters");
     if (code == kOptionOffset && value.size() == 8)
       source.offset_s = static_cast<std::int64_t>(value.u64(0));
     if (code != kOptionResolution || value.size() != 1) return;
@@ -197,8 +198,8 @@ class PcapngReader {
     const CaptureInterface& source = interfaces_[packet.interface_index];
     LogCounters& counters = builder_.counters();
     if (!is_can_link_type(source.link_type)) return void(++counters.other_records);
-    SocketCanPacket read =
-        read_socketcan_packet(source.link_type, body.bytes.substr(packet.data_at, packet.length));
+    SocketCanPacket read = read_socketcan_packet(
+        source.link_type, body.bytes.substr(packet.data_at, packet.length), file_.big_endian);
     if (read.kind == PacketKind::kErrorFrame) return void(++counters.error_frames);
     if (read.kind == PacketKind::kOther) return void(++counters.other_records);
     if (read.kind == PacketKind::kBad) return builder_.leave_out_byte(at, read.why);

@@ -48,14 +48,11 @@ SocketCanPacket read_can(ByteRecord packet, std::optional<bool> says_fd) {
   return out;
 }
 
-SocketCanPacket read_cooked(ByteRecord packet, std::size_t header, std::uint16_t protocol,
-                            std::uint8_t type) {
-  if (protocol != kProtocolCan && protocol != kProtocolFd) {
-    SocketCanPacket out;
-    out.kind = PacketKind::kOther;
-    return out;
-  }
-  SocketCanPacket out = read_can({packet.bytes.substr(header), true}, protocol == kProtocolFd);
+SocketCanPacket read_cooked(ByteRecord frame, std::uint16_t protocol, std::uint8_t type) {
+  SocketCanPacket out;
+  out.kind = PacketKind::kOther;
+  if (protocol != kProtocolCan && protocol != kProtocolFd) return out;
+  out = read_can(frame, protocol == kProtocolFd);
   out.logged.direction =
       type == kSentByUs ? LoggedDirection::kTransmitted : LoggedDirection::kReceived;
   return out;
@@ -67,15 +64,17 @@ bool is_can_link_type(std::uint32_t link_type) {
   return link_type == kLinkTypeCan || link_type == kLinkTypeSll || link_type == kLinkTypeSll2;
 }
 
-SocketCanPacket read_socketcan_packet(std::uint32_t link_type, std::string_view bytes) {
+SocketCanPacket read_socketcan_packet(std::uint32_t link_type, std::string_view bytes,
+                                      bool is_big_endian_host) {
   const ByteRecord packet{bytes, true};
   if (link_type == kLinkTypeCan) return read_can(packet, std::nullopt);
   const bool is_second = link_type == kLinkTypeSll2;
   const std::size_t header = is_second ? kSll2Header : kSllHeader;
   if (packet.size() < header) return bad("a packet that is shorter than its header");
+  const ByteRecord frame{bytes.substr(header), is_big_endian_host};
   if (!is_second)
-    return read_cooked(packet, header, packet.u16(14), static_cast<std::uint8_t>(packet.u16(0)));
-  SocketCanPacket out = read_cooked(packet, header, packet.u16(0), packet.u8(10));
+    return read_cooked(frame, packet.u16(14), static_cast<std::uint8_t>(packet.u16(0)));
+  SocketCanPacket out = read_cooked(frame, packet.u16(0), packet.u8(10));
   out.interface_index = packet.u32(4);
   return out;
 }

@@ -1,10 +1,10 @@
 // CAN frames in the packets of a capture, as libpcap hands them over from SocketCAN.
 //
 //   227 CAN_SOCKETCAN   | identifier and flags, big endian | length | FD flags | 2 | data
-//   113 LINUX_SLL       | packet type | 280 | .. | protocol 0x000C, 0x000D | as 227
-//   276 LINUX_SLL2      | protocol | 2 | interface index | 280 | packet type | .. | as 227
+//   113 LINUX_SLL       | packet type | 280 | .. | protocol 0x000C, 0x000D | as 227, but the
+//   276 LINUX_SLL2      | protocol | 2 | interface index | ..                | order of the host
 //
-//   in     link type, one packet
+//   in     link type, one packet, the byte order of the file: that of the host that recorded it
 //   out    a frame and, where the header has them, its direction and interface; or that it is an
 //          error frame, or another protocol
 //   errors the reason why it is no CAN frame
@@ -33,6 +33,7 @@ struct SocketCanPacket {
 };
 
 bool is_can_link_type(std::uint32_t link_type);
-SocketCanPacket read_socketcan_packet(std::uint32_t link_type, std::string_view packet);
+SocketCanPacket read_socketcan_packet(std::uint32_t link_type, std::string_view packet,
+                                      bool is_big_endian_host);
 
 }  // namespace pitwall::replay

@@ -22,23 +22,22 @@ std::string_view TextLine::next_word() const {
   return ahead.word();
 }
 
-TextLines::TextLines(std::string_view text) : rest_(text) {
-  if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
+TextLines::TextLines(std::string_view text) : text_(text) {
+  if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
+  feed_ = std::min(text_.find('\n'), text_.size());
 }
 
 bool TextLines::next() {
-  if (rest_.empty()) return false;
+  if (begin_ == text_.size()) return false;
   ++number_;
-  const std::size_t feed = rest_.find('\n');
-  const std::size_t end = rest_.substr(0, feed).find('\r');
-  if (end != std::string_view::npos) {
-    line_ = rest_.substr(0, end);
-    rest_.remove_prefix(end + (feed == end + 1 ? 2U : 1U));
-    return has_end_ = true;
-  }
-  has_end_ = feed != std::string_view::npos;
-  line_ = rest_.substr(0, feed);
-  rest_ = has_end_ ? rest_.substr(feed + 1) : std::string_view{};
+  if (feed_ < begin_) feed_ = std::min(text_.find('\n', begin_), text_.size());
+  const std::string_view to_feed = text_.substr(begin_, feed_ - begin_);
+  const std::size_t length = std::min(to_feed.find('\r'), to_feed.size());
+  line_ = to_feed.substr(0, length);
+  const std::size_t end = begin_ + length;
+  has_end_ = end < text_.size();
+  const bool is_both = end + 1 == feed_ && feed_ < text_.size();  // CR LF
+  begin_ = end + (is_both ? 2U : has_end_ ? 1U : 0U);
   return true;
 }
 

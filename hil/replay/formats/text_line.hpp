@@ -46,7 +46,9 @@ class TextLines {
   bool has_end() const { return has_end_; }
 
  private:
-  std::string_view rest_, line_;
+  std::string_view text_, line_;
+  std::size_t begin_ = 0;  // of the next line
+  std::size_t feed_ = 0;   // the next LF at or behind it; looked for once
   std::size_t number_ = 0;
   bool has_end_ = false;
 };

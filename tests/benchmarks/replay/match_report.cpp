@@ -129,6 +129,9 @@ std::vector<MatchGate> gates_of(const MatchFigures& figures) {
       out.push_back({std::string(measure.name) + " of " + kPlayerNames[peer] + " over ours",
                      times(theirs, ours), measure.least > 0.0 ? measure.least : kLeastTimes[peer]});
     }
+  for (const ReadingSpeed& speed : figures.reading)
+    out.push_back({"reading " + speed.format + ", ours over python-can",
+                   times(speed.ours_per_s, speed.python_per_s), kLeastReadingTimes});
   return out;
 }
 
@@ -147,6 +150,10 @@ std::string to_text(const MatchReport& report) {
     out += ratio_row((std::string(kPlayerNames[peer]) + "/ours").c_str(), runs[peer], runs[kOurs]);
   out += formatted("%-14s", "sleep alone") + cells(report.figures.noise_floor) +
          " |  (the machine's own lateness, SCHED_FIFO)\n\n";
+  for (const ReadingSpeed& speed : report.figures.reading)
+    out += formatted("reading %-8s ours %9.0f frames/s, python-can %9.0f\n", speed.format.c_str(),
+                     speed.ours_per_s, speed.python_per_s);
+  out += '\n';
   for (const MatchGate& gate : gates_of(report.figures))
     out += formatted("gate: %s: %.1f, at least %.0f: %s\n", gate.text.c_str(), gate.value,
                      gate.least, gate.held() ? "held" : "MISSED");

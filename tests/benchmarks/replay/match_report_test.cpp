@@ -22,6 +22,8 @@ MatchReport report_of(double ours_us, double canplayer_us, double python_us) {
   report.figures.runs = {std::vector{run_of(ours_us, ours_us), run_of(ours_us, ours_us)},
                          std::vector{run_of(canplayer_us, canplayer_us)},
                          std::vector{run_of(python_us, python_us)}};
+  report.figures.reading = {ReadingSpeed{"candump", 1'100.0, 100.0},
+                            ReadingSpeed{"ASC", 1'100.0, 100.0}};
   return report;
 }
 
@@ -34,6 +36,14 @@ TEST(MatchReport, GatesAreRatiosToThePeers) {
   EXPECT_TRUE(all_held(report_of(10.0, 51.0, 21.0)));
   EXPECT_FALSE(all_held(report_of(10.0, 49.0, 21.0)));
   EXPECT_FALSE(all_held(report_of(10.0, 51.0, 19.0)));
+}
+
+TEST(MatchReport, ReadingHasItsOwnGates) {
+  MatchReport report = report_of(10.0, 51.0, 21.0);
+  report.figures.reading[1].ours_per_s = 900.0;
+  EXPECT_FALSE(all_held(report));
+  report.figures.reading[1] = {};
+  EXPECT_FALSE(all_held(report)) << "not measured";
 }
 
 TEST(MatchReport, SpeedDoesNotExcuseALostFrame) {

@@ -144,6 +144,9 @@ Result<MatchFigures, Problem> play_match(const MatchPlan& plan, const CanLog& lo
   if (const auto bus = transport::CanSocket::open(plan.interface); !bus)
     return Unexpected{bus.error()};
   if (const auto problem = warm_up(plan, log)) return Unexpected{*problem};
+  const auto reading = measure_reading(log, plan.folder);
+  if (!reading) return Unexpected{reading.error()};
+  out.reading = *reading;
   std::vector<Duration> floor;
   for (int run = 0; run < plan.runs; ++run) {
     for (const Duration late : sleep_lateness()) floor.push_back(late);

@@ -7,7 +7,8 @@
 //   order      a warm-up of each, then run by run, each time another one first
 //
 //   in     the log (also as a file), an interface that exists
-//   out    one Comparison per player and run; how late this machine's own sleeps are
+//   out    one Comparison per player and run; how late this machine's own sleeps are; how fast the
+//          log is read
 //   errors Problem: a player that is missing, fails or does not end; a recorder that lost frames
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -19,6 +20,7 @@
 #include "hil/replay/formats/can_log.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "tests/benchmarks/replay/compare.hpp"
+#include "tests/benchmarks/replay/reading_speed.hpp"
 
 namespace pitwall::benchmarks {
 
@@ -38,6 +40,7 @@ struct MatchFigures {
   std::array<std::vector<replay::Comparison>, kPlayers> runs;
   replay::Quantiles noise_floor;  // lateness of sleeps to absolute deadlines, SCHED_FIFO if granted
   std::string own_report;         // JSON that our player wrote about its last run
+  ReadingSpeeds reading;          // of the log, beside python-can
 };
 
 Result<MatchFigures, Problem> play_match(const MatchPlan& plan, const replay::CanLog& log);

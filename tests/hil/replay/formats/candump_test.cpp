@@ -92,6 +92,7 @@ TEST(CandumpLog, ABadLineIsLeftOutAndToldWithLineAndColumn) {
       {"(1234567890 1.0) can0 001#", 12},
       {"(9000000001.0) can0 001#", 12},
       {"(1.0 can0 001#", 5},
+      {"(1.0)can0 001#", 6},
       {"(1.0) ", 7},
       {"(1.0) an_interface_name_too_long 001#", 7},
       {"(1.0) can0 12#", 14},

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/cli/recordings/convert_verb.hpp"
+
+#include <cstdio>
+
+#include "hil/cli/command_line.hpp"
+#include "hil/cli/exit_code.hpp"
+#include "hil/replay/formats/log_reader.hpp"
+#include "hil/replay/writers/log_writer.hpp"
+#include "protocol/transport/file.hpp"
+
+namespace pitwall::cli {
+
+int convert_verb(std::span<const std::string> args) {
+  std::string in, out;
+  bool strict = false;
+  CommandLine app{
+      "pitwall-hil convert: a CAN log as a file of another format. Exit 0 written, 1 something was "
+      "left out or is not kept with --strict, 2 no CAN log or not written"};
+  app.option("IN", in, "CAN log of any format that info reads, known by its content").required();
+  app.option("OUT", out,
+             "new file; its name says the format: .log (candump), .asc, .blf, .pcap or .pcapng")
+      .required();
+  app.flag("--strict", strict, "a record or a property that is not kept is a failure");
+  if (const auto code = app.ended_by(args)) return *code;
+  const auto bytes = transport::read_file(in);
+  if (!bytes) return refuse(bytes.error());
+  const auto log = replay::read_can_log(*bytes, in);
+  if (!log) return refuse(log.error());
+  const auto written = replay::write_can_log(*log, out);
+  if (!written) return refuse(written.error());
+  if (const auto done = transport::write_file(out, written->bytes); !done)
+    return refuse(done.error());
+  std::fprintf(stderr, "%s", replay::to_text(*log, in).c_str());
+  for (const std::string& loss : written->losses)
+    std::fprintf(stderr, "%s: warning: %s\n", out.c_str(), loss.c_str());
+  std::printf("%s: %zu frames of %s\n", out.c_str(), log->frames.size(), log->format.c_str());
+  const bool is_whole =
+      written->losses.empty() && log->counters.bad_records + log->counters.cut_tails == 0;
+  return strict && !is_whole ? kExitFailed : kExitPass;
+}
+
+}  // namespace pitwall::cli

@@ -1,0 +1,44 @@
+// What a CAN log holds: span, channels, and for each identifier how often and how regularly it
+// comes.
+//   in     CanLog
+//   out    one row for each channel and identifier, in this order; as text or as one JSON object
+//   units  frames per second; gaps between two frames of the same row in nanoseconds, negative where
+//          a stamp goes back; calendar time in UTC
+//   invariants
+//          the counts of all rows together are the frames of the log
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hil/replay/formats/can_log.hpp"
+
+namespace pitwall::replay {
+
+struct IdRow {
+  std::uint8_t channel = 0;
+  std::uint32_t id = 0;
+  bool extended = false;
+  std::uint64_t count = 0;
+  std::uint8_t least_length = 0, most_length = 0;
+  UtcTime first{}, last{};  // in the order of the log
+  Duration least_gap{INT64_MAX}, most_gap{INT64_MIN};
+
+  // Frames per second between the first and the last one; 0 for a single frame.
+  double rate_hz() const;
+};
+
+struct LogSummary {
+  UtcTime first{}, last{};  // the earliest and the latest stamp
+  std::vector<std::uint64_t> frames_of_channel;
+  std::uint64_t extended = 0, remote = 0, fd = 0, sent = 0, received = 0;
+  std::vector<IdRow> rows;
+};
+
+LogSummary summary_of(const CanLog& log);
+std::string to_text(const LogSummary& summary, const CanLog& log, std::string_view file_name);
+std::string to_json(const LogSummary& summary, const CanLog& log, std::string_view file_name);
+
+}  // namespace pitwall::replay
