@@ -2,7 +2,7 @@
 // comes.
 //   in     CanLog
 //   out    one row for each channel and identifier, in this order; as text or as one JSON object
-//   units  frames per second; gaps between two frames of the same row in nanoseconds, negative where
+//   units  frames per second; gaps between two frames of a row in nanoseconds, negative where
 //          a stamp goes back; calendar time in UTC
 //   invariants
 //          the counts of all rows together are the frames of the log

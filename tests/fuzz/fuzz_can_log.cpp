@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes are a log or an error with a place, by the reader that their beginning asks for; a log
-// that is written again reads the same; what can be played is played whole, in virtual time, without
-// a step back.
+// that is written again reads the same; what can be played is played whole, in virtual time,
+// without a step back.
 #include <cstddef>
 #include <cstdint>
 #include <string>

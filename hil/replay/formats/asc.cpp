@@ -11,6 +11,7 @@ namespace pitwall::replay {
 namespace {
 
 constexpr std::size_t kDecimal = 10, kHex = 16;
+constexpr std::size_t kBytesOfEvent = 55;  // of a line, about, to reserve memory
 constexpr std::uint64_t kMaxAscChannel = 255;
 constexpr std::uint64_t kFlagExtendedLength = 1U << 12U;  // EDL: the frame is CAN FD
 constexpr std::uint64_t kFlagRemote = 1U << 4U;
@@ -246,6 +247,7 @@ class AscReader {
   explicit AscReader(std::string_view file_name) : builder_(kAscName, file_name) {}
 
   Result<CanLog, Problem> read(std::string_view text) {
+    builder_.frames().reserve(text.size() / kBytesOfEvent);
     TextLines lines(text);
     while (lines.next()) read_line(lines);
     if (!has_date_)

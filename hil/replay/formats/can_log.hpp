@@ -1,4 +1,4 @@
-// A recorded CAN log in memory, whatever file it came from, and the builder that every reader fills.
+// A recorded CAN log in memory, whatever file it came from, and the builder that each reader fills.
 //
 //   in     frames in the order of the file; places of records that do not read
 //   out    frames, names of channels, counters of all that is no frame, and remarks: the place of

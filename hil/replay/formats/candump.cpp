@@ -19,6 +19,7 @@ constexpr int kStampDigits = 9;
 constexpr std::size_t kBitsOfByte = 8;
 // Stamps of the console below this are no calendar time: the year 2001.
 constexpr std::int64_t kLeastCalendar_ns = 1'000'000'000LL * kNanosecondsPerSecond;
+constexpr std::size_t kBytesOfLine = 40;  // about, to reserve memory
 constexpr std::uint64_t kGapsShare = 10;  // -td: more than one stamp in so many goes back
 
 enum class StampKind : std::uint8_t { kNone, kCalendar, kSmall, kLocal };
@@ -286,6 +287,7 @@ class CandumpReader {
   explicit CandumpReader(std::string_view file_name) : builder_(kCandumpName, file_name) {}
 
   Result<CanLog, Problem> read(std::string_view text) {
+    builder_.frames().reserve(text.size() / kBytesOfLine);
     TextLines lines(text);
     while (lines.next()) read_line(lines);
     finish_stamps();

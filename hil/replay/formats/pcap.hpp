@@ -1,6 +1,6 @@
 // Captures of SocketCAN in the format of libpcap (tcpdump, Wireshark, dumpcap -P).
 //
-//   magic | version | zone, digits | snap length | link type | records: s, us or ns, 2 lengths, data
+//   magic | version | zone, digits | snap length | link type | records: s, us or ns, lengths, data
 //
 //   in     the whole file, either byte order, microseconds or nanoseconds; link types of
 //          socketcan_packet.hpp

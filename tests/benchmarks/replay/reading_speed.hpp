@@ -1,7 +1,7 @@
 // How fast a log is read, beside python-can: the same file, the same machine, one after the other.
 //   in     a log; a folder to write it to, once as candump and once as Vector ASC
-//   out    frames per second of both, the best of kReadings; python-can is timed inside its process,
-//          so its start is not charged
+//   out    frames per second of both, the best of kReadings; python-can is timed inside its
+//          process, so its start is not charged
 //   errors Problem: python-can is missing or reads another number of frames
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -4,7 +4,7 @@
 log_oracle.py read FORMAT FILE          FORMAT: candump, asc, blf, trc
 log_oracle.py write FORMAT FILE < list  the list as `read` prints it
 
-One line a message: stamp, channel, id, then 0 or 1 each for extended, remote, FD, BRS, ESI, received,
+One line a message: stamp, channel, id, 0 or 1 each for extended, remote, FD, BRS, ESI, received,
 then the length and the data in hex or "-"; "E" and the stamp for an error frame; "X", the stamp and
 a reason for what python-can reads and its own check refuses; "Q" and a reason where it gives up.
 """
