@@ -13,8 +13,8 @@
 namespace pitwall::replay {
 namespace {
 
-constexpr std::uint32_t kSectionBlock = 0x0A0D0D0A, kInterfaceBlock = 1, kOldPacketBlock = 2,
-                        kSimplePacketBlock = 3, kPacketBlock = 6;
+constexpr std::uint32_t kInterfaceBlock = 1, kOldPacketBlock = 2, kSimplePacketBlock = 3,
+                        kPacketBlock = 6;
 constexpr std::uint32_t kByteOrderMagic = 0x1A2B3C4D;
 constexpr std::size_t kBlockFrame = 12;  // type and both lengths
 constexpr std::size_t kBlockHead = 8;
