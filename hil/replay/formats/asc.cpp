@@ -212,6 +212,7 @@ struct AscEvent : TextLine {
     logged.frame.length = static_cast<std::uint8_t>(length);
     if (!read_bytes() || !read_fd_tail(flags)) return false;
     const bool is_remote = flags != 0 && (flags & kFlagRemote) != 0;
+    if (is_remote && length > 0) return refuse("a remote frame has no data bytes");
     logged.frame.fd = flags == 0 || (flags & kFlagExtendedLength) != 0;
     logged.frame.remote = is_remote || (length == 0 && code > 0);
     if (logged.frame.remote) logged.frame.fd = false;

@@ -103,6 +103,7 @@ TEST(Asc, ABadLineIsLeftOutAndToldWithLineAndColumn) {
       {"1.0 CANFD 1 Rx 300 2 0 2 2 01 02", 25},
       {"1.0 CANFD 1 Rx 300 1 0 2 3 01 02 03", 36},
       {"1.0 CANFD 1 Rx 300 1 0 2 2 01 02 7", 35},
+      {"1.0 CANFD 1 Rx 300 1 0 2 2 01 02 7 7 10", 40},
   };
   for (const auto& [text, column] : cases) {
     const auto log = parse_asc(kHeader + " 1.0 1  001 Rx d 0\n" + text + "\n 1.0 1  002 Rx d 0\n");
