@@ -22,6 +22,7 @@ struct NovatelFrame {
   NovatelHeader header;
   std::span<const std::uint8_t> body;  // valid until the stream is fed again
   bool ascii = false;                  // then the body is the text between ';' and '*'
+  std::size_t bytes = 0;               // of the whole frame, header and CRC included
 };
 
 Result<NovatelMessage, DecodeError> decode(const NovatelFrame& frame);

@@ -45,6 +45,13 @@ struct NovatelHeader {
   bool operator==(const NovatelHeader&) const = default;
 };
 
+// Week and time of week are worth something. A short header has no status: the receiver leaves the
+// week at zero until it knows.
+constexpr bool knows_time(const NovatelHeader& h) {
+  const bool status = h.short_form || h.time_status >= static_cast<int>(TimeStatus::kCoarse);
+  return status && h.week != 0 && h.milliseconds < kWeek_ms;
+}
+
 constexpr GpsTime time_of(const NovatelHeader& h) {
   return gps_time(h.week, milliseconds(h.milliseconds));
 }

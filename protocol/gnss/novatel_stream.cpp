@@ -156,7 +156,10 @@ NovatelStream::Found NovatelStream::binary(Bytes unread, NovatelFrame& frame) {
     ++counters_.bad_crc;
     return Found::kNothing;
   }
-  frame = {.header = read_header(whole), .body = whole.subspan(lengths.header, lengths.body)};
+  frame = {.header = read_header(whole),
+           .body = whole.subspan(lengths.header, lengths.body),
+           .ascii = false,
+           .bytes = whole.size()};
   window_.take_off(whole.size());
   return Found::kFrame;
 }
@@ -177,8 +180,11 @@ NovatelStream::Found NovatelStream::ascii(Bytes unread, NovatelFrame& frame) {
     ++counters_.bad_header;
     return Found::kNothing;
   }
-  frame = {.header = *header, .body = covered.subspan(semicolon + 1), .ascii = true};
-  window_.take_off(star.at + 1 + kTailBytes);
+  frame = {.header = *header,
+           .body = covered.subspan(semicolon + 1),
+           .ascii = true,
+           .bytes = star.at + 1 + kTailBytes};
+  window_.take_off(frame.bytes);
   ++counters_.ascii_frames;
   return Found::kFrame;
 }

@@ -42,6 +42,7 @@ std::optional<VectorNavHeader> read_vectornav_header(std::span<const std::uint8_
 struct VectorNavFrame {
   VectorNavOutput output;
   std::span<const std::uint8_t> payload;  // valid until the stream is fed again
+  std::size_t bytes = 0;                  // of the whole frame, header and CRC included
 };
 
 Result<VectorNavMessage, DecodeError> decode(const VectorNavFrame& frame);

@@ -37,7 +37,8 @@ bool VectorNavStream::next(VectorNavFrame& frame) {
       continue;
     }
     frame = {.output = header->output,
-             .payload = whole.subspan(header->header_bytes, header->payload_bytes)};
+             .payload = whole.subspan(header->header_bytes, header->payload_bytes),
+             .bytes = whole.size()};
     window_.take_off(whole.size());
     ++counters_.frames;
     astray_ = false;

@@ -4,7 +4,6 @@
 namespace pitwall::recording {
 namespace {
 
-constexpr std::size_t kHeadBytes = 4 + 8 + 8 + 4 + 4;
 constexpr std::int64_t kNanosecondsPerMicrosecond = 1'000;
 
 void append(std::vector<std::uint8_t>& out, std::uint64_t value, std::size_t bytes) {
@@ -52,7 +51,7 @@ std::optional<LcmEvent> LcmLogReader::next() {
 }
 
 std::optional<LcmEvent> LcmLogReader::event_here() {
-  if (rest_.size() < kHeadBytes) return std::nullopt;
+  if (rest_.size() < kLcmHeadBytes) return std::nullopt;
   std::span<const std::uint8_t> from = rest_;
   if (take(from, sizeof kLcmSync) != kLcmSync) return std::nullopt;
   LcmEvent event;

@@ -28,6 +28,7 @@
 namespace pitwall::recording {
 
 inline constexpr std::uint32_t kLcmSync = 0xEDA1DA01;
+inline constexpr std::size_t kLcmHeadBytes = 4 + 8 + 8 + 4 + 4;  // in front of the channel
 inline constexpr std::size_t kLcmChannelMax = 63;
 inline constexpr std::size_t kLcmDataMax = std::size_t{1} << 26;  // no message of ours comes near
 

@@ -8,6 +8,9 @@
 namespace pitwall::recording {
 namespace {
 
+// Where the summary and its offsets start, and the CRC.
+constexpr std::size_t kFooterBytes = kMcapRecordHeaderBytes + 8 + 8 + 4;
+
 Metadata read_pairs(McapCursor& from) {
   Metadata pairs;
   McapCursor block{from.bytes(from.u32())};
@@ -24,13 +27,51 @@ Metadata read_pairs(McapCursor& from) {
 
 }  // namespace
 
-McapReader::McapReader(std::span<const std::uint8_t> file) : file_(file), rest_(file) {
+McapReader::McapReader(std::span<const std::uint8_t> file, Decompress decompress)
+    : file_(file), rest_(file), decompress_(std::move(decompress)) {
   const auto magic = McapCursor{file}.bytes(kMcapMagic.size());
   if (!std::ranges::equal(magic, kMcapMagic)) {
     stop(McapEnd::kNoMagic, 0);
-  } else {
-    rest_ = file_.subspan(kMcapMagic.size());
+    return;
   }
+  rest_ = file_.subspan(kMcapMagic.size());
+  read_summary();
+}
+
+// Channels and places of chunks, where footer and summary are as they were written.
+void McapReader::read_summary() {
+  if (file_.size() < 2 * kMcapMagic.size() + kFooterBytes) return;
+  const std::size_t footer = file_.size() - kMcapMagic.size() - kFooterBytes;
+  McapCursor in{file_.subspan(footer)};
+  const bool is_footer = in.u8() == static_cast<std::uint8_t>(McapOpcode::kFooter) &&
+                         in.u64() == kFooterBytes - kMcapRecordHeaderBytes;
+  const std::uint64_t start = in.u64();
+  in.u64();  // where the summary offsets start
+  const std::uint64_t crc_place = place_of(in.rest());
+  const std::uint32_t crc = in.u32();
+  if (!is_footer || !std::ranges::equal(in.rest(), kMcapMagic)) return;
+  if (start < kMcapMagic.size() || start > footer) return;
+  const auto begin = static_cast<std::size_t>(start);
+  const auto covered = file_.subspan(begin, static_cast<std::size_t>(crc_place) - begin);
+  if (crc != 0 && crc != bits::crc32_ieee(covered)) return;
+  auto summary = file_.subspan(begin, footer - begin);
+  for (auto record = take_record(summary); record && !record->cut; record = take_record(summary))
+    read_summary_record(*record);
+  std::ranges::sort(chunk_places_);
+}
+
+void McapReader::read_summary_record(const Record& record) {
+  if (record.opcode == McapOpcode::kSchema) read_schema(record);
+  if (record.opcode == McapOpcode::kChannel) read_channel(record);
+  if (record.opcode != McapOpcode::kChunkIndex) return;
+  McapCursor in{record.content};
+  in.u64();  // first and
+  in.u64();  // last time
+  const std::uint64_t place = in.u64();
+  const bool is_chunk =
+      in.ok() && place < file_.size() &&
+      file_[static_cast<std::size_t>(place)] == static_cast<std::uint8_t>(McapOpcode::kChunk);
+  if (is_chunk) chunk_places_.push_back(place);
 }
 
 std::optional<McapMessage> McapReader::next() {
@@ -42,14 +83,48 @@ std::optional<McapMessage> McapReader::next() {
     const std::uint64_t begin = place_of(rest_);
     const auto record = take_record(rest_);
     if (!record || (record->cut && record->opcode != McapOpcode::kChunk)) {
-      return stop(McapEnd::kTruncated, begin);
-    }
-    if (record->opcode == McapOpcode::kMessage) {
+      stop_or_go_on(McapEnd::kTruncated, begin);
+    } else if (record->opcode == McapOpcode::kMessage) {
       if (auto message = read_message(*record, false)) return message;
     } else if (!read(*record)) {
-      return stop(record->cut ? McapEnd::kTruncated : McapEnd::kMalformed, begin);
+      stop_or_go_on(record->cut ? McapEnd::kTruncated : McapEnd::kMalformed, begin);
     }
   }
+  return std::nullopt;
+}
+
+std::uint64_t McapReader::place_in_chunk(std::span<const std::uint8_t> rest) const {
+  return chunk_apart_ ? chunk_place_ : place_of(rest);
+}
+
+void McapReader::pass_over(std::uint64_t place, std::uint64_t bytes, std::string what) {
+  gaps_.push_back({place, bytes, std::move(what)});
+}
+
+// To the next chunk that the summary names. False: it names none.
+bool McapReader::go_on_behind(std::uint64_t place) {
+  const auto next = std::ranges::upper_bound(chunk_places_, std::max(place, chunk_place_));
+  if (next == chunk_places_.end()) return false;
+  pass_over(place, *next - place, "bytes that contradict themselves");
+  counters_.bytes_skipped += *next - place;
+  rest_ = file_.subspan(static_cast<std::size_t>(*next));
+  in_chunk_ = false;
+  return true;
+}
+
+std::optional<McapMessage> McapReader::stop_or_go_on(McapEnd end, std::uint64_t place) {
+  if (go_on_behind(place)) return std::nullopt;
+  return stop(end, place);
+}
+
+// The rest of the open chunk contradicts itself.
+std::optional<McapMessage> McapReader::leave_chunk(std::uint64_t place) {
+  in_chunk_ = false;
+  if (chunk_cut_) return stop_or_go_on(McapEnd::kTruncated, place);
+  ++counters_.broken_chunks;
+  const std::uint64_t bytes = chunk_apart_ ? chunk_.size() : place_of(rest_) - place;
+  counters_.bytes_skipped += bytes;
+  pass_over(place, bytes, "rest of a chunk that contradicts itself");
   return std::nullopt;
 }
 
@@ -81,17 +156,16 @@ std::optional<McapReader::Record> McapReader::take_record(std::span<const std::u
 }
 
 std::optional<McapMessage> McapReader::next_in_chunk() {
-  const std::uint64_t begin = place_of(chunk_);
+  const std::uint64_t begin = place_in_chunk(chunk_);
   const auto record = take_record(chunk_);
-  if (!record || record->cut) {
+  if (!record && !chunk_cut_) {
     in_chunk_ = false;
-    if (chunk_cut_) return stop(McapEnd::kTruncated, begin);
-    if (record) return stop(McapEnd::kMalformed, begin);
     return std::nullopt;
   }
+  if (!record || record->cut) return leave_chunk(begin);
   if (record->opcode == McapOpcode::kMessage) return read_message(*record, chunk_verified_);
   const bool fits = record->opcode == McapOpcode::kSchema || record->opcode == McapOpcode::kChannel;
-  if (!fits || !read(*record)) return stop(McapEnd::kMalformed, begin);
+  if (!fits || !read(*record)) return leave_chunk(begin);
   return std::nullopt;
 }
 
@@ -103,16 +177,20 @@ std::optional<McapMessage> McapReader::read_message(const Record& record, bool v
   message.logged_ns = in.u64();
   message.published_ns = in.u64();
   message.data = in.rest();
-  if (!in.ok()) return stop(McapEnd::kMalformed, place_of(record.content));
+  const std::uint64_t place = in_chunk_ ? place_in_chunk(record.content) : place_of(record.content);
+  if (!in.ok()) return in_chunk_ ? leave_chunk(place) : stop_or_go_on(McapEnd::kMalformed, place);
   if (!channels_.contains(message.channel)) {
     ++counters_.unknown_channel;
+    pass_over(place, record.content.size(), "message of a channel that the file does not declare");
     return std::nullopt;
   }
   const bool in_time = message.logged_ns >= chunk_start_ns_ && message.logged_ns <= chunk_end_ns_;
   if (in_chunk_ && chunk_cut_ && !in_time) {
     ++counters_.implausible;
+    pass_over(place, record.content.size(), "message of a cut chunk at a time that is none of its");
     return std::nullopt;
   }
+  message_place_ = place;
   ++counters_.messages;
   if (!verified) ++counters_.unverified;
   return message;
@@ -205,6 +283,7 @@ bool McapReader::read_footer(const Record& record) {
 
 bool McapReader::open_chunk(const Record& record) {
   McapCursor in{record.content};
+  chunk_place_ = place_of(record.content) - kMcapRecordHeaderBytes;
   chunk_start_ns_ = in.u64();
   chunk_end_ns_ = in.u64();
   const std::uint64_t plain_bytes = in.u64();
@@ -213,18 +292,36 @@ bool McapReader::open_chunk(const Record& record) {
   const std::uint64_t bytes = in.u64();
   if (!in.ok()) return false;
   ++counters_.chunks;
-  if (!compression.empty()) {
-    ++counters_.compressed_chunks;
-    if (record.cut) stop(McapEnd::kTruncated, place_of(in.rest()));
-    return true;
-  }
   chunk_ = in.rest();
   chunk_cut_ = record.cut;
-  if (plain_bytes != bytes || (!record.cut && bytes != chunk_.size())) return false;
+  if (!record.cut && bytes != chunk_.size()) return false;
+  chunk_apart_ = !compression.empty();
+  if (chunk_apart_) {
+    if (record.cut) return false;
+    if (!decompress_chunk(record, compression, plain_bytes)) return true;
+  } else if (plain_bytes != bytes) {
+    return false;
+  }
   chunk_verified_ = !record.cut && crc != 0;
   in_chunk_ = !chunk_verified_ || crc == bits::crc32_ieee(chunk_);
-  if (!in_chunk_) ++counters_.bad_chunk_crc;
+  if (in_chunk_) return true;
+  ++counters_.bad_chunk_crc;
+  pass_over(chunk_place_, record.content.size(), "chunk whose checksum is wrong");
   return true;
+}
+
+bool McapReader::decompress_chunk(const Record& record, std::string_view compression,
+                                  std::uint64_t plain_bytes) {
+  const auto plain = decompress_ ? decompress_(compression, chunk_, plain_bytes)
+                                 : Result<std::span<const std::uint8_t>, std::string>{
+                                       Unexpected{"compressed chunk: " + std::string{compression}}};
+  if (plain) {
+    chunk_ = *plain;
+    return true;
+  }
+  ++counters_.compressed_chunks;
+  pass_over(chunk_place_, record.content.size(), plain.error());
+  return false;
 }
 
 const char* to_string(McapEnd end) {

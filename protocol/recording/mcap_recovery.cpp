@@ -83,7 +83,7 @@ Result<McapRecovery, Problem> recover_mcap(std::span<const std::uint8_t> file,
   out.chunks_lost = counters.bad_chunk_crc + counters.compressed_chunks;
   out.messages_lost += counters.unknown_channel + counters.implausible;
   out.checksum_wrong = counters.bad_data_crc != 0;
-  out.bytes_lost = file.size() - survey.place;
+  out.bytes_lost = file.size() - survey.place + counters.bytes_skipped;
   return out;
 }
 

@@ -9,7 +9,8 @@
 //          the chunk that a cut goes through has no CRC that could be checked: of its whole
 //          messages those are kept that lie in the time that the chunk names
 //   errors what does not begin as an MCAP file is refused. A chunk with a wrong CRC is lost as a
-//          whole; behind a record that contradicts itself everything is lost. Both are counted
+//          whole; behind a record that contradicts itself everything is lost up to the next chunk
+//          that an intact summary names. Both are counted
 //   cost   O(bytes); holds the new file in memory
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -31,7 +32,7 @@ struct McapRecovery {
   std::uint64_t unverified = 0;       // of those, without a CRC that could be checked
   std::uint64_t chunks_lost = 0;      // wrong CRC, or compressed
   std::uint64_t messages_lost = 0;    // of no known channel, or at impossible times
-  std::uint64_t bytes_lost = 0;       // behind the last record that could be read
+  std::uint64_t bytes_lost = 0;       // of records that contradict themselves, and behind the last
   bool checksum_wrong = false;        // of all data: something is not as it was written
   Instant first{}, last{};            // of the messages kept
 

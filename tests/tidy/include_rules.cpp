@@ -43,6 +43,7 @@ const std::vector<Library> kLibraries{
     {"boost", {"boost/"}},
     {"openssl", {"openssl/"}},
     {"zlib", {"zlib.h"}},
+    {"bags", {"sqlite3.h", "lz4frame.h", "zstd.h"}},
     {"embree", {"embree3/", "embree4/"}},
     {"spiro", {"spiroentrypoints.h", "bezctx.h"}},
     {"test", {"gtest/", "gmock/", "benchmark/"}},
@@ -172,6 +173,7 @@ const std::vector<Part> kParts{
     {"hil", kBench, {"eigen"}},
     {"hil/scenario", kBench, {"yaml"}},
     {"hil/replay", kBench, {"zlib"}},
+    {"hil/replay/recordings", kBench, {"bags"}},
     {"hil/sensors", kBench, {"eigen", "embree", "geographic"}},
     {"hil/bench", kBench, rim_and({"eigen"})},
     // A run is driven again by what the car's own rim kept of it.

@@ -14,13 +14,6 @@ namespace {
 constexpr double kMaxLatency_s = 10.0;
 constexpr std::uint32_t kClockValid = 0, kUtcValid = 1;
 
-// Week and time of week are worth something. A short header has no status: the receiver leaves the
-// week at zero until it knows.
-bool knows_time(const gnss::NovatelHeader& h) {
-  const bool status = h.short_form || h.time_status >= static_cast<int>(gnss::TimeStatus::kCoarse);
-  return status && h.week != 0 && h.milliseconds < gnss::kWeek_ms;
-}
-
 // These are heeded whatever time the receiver believes it is.
 template <class Message>
 constexpr bool kOfItself =
@@ -79,7 +72,7 @@ void NovatelOem7::take(const gnss::NovatelFrame& frame, Instant arrival, world::
   const auto message = gnss::decode(frame);
   if (!message) return counters.refused.count(message.error());
   const Arrived arrived{.header = frame.header, .at = arrival, .out = out};
-  const bool timed = knows_time(frame.header);
+  const bool timed = gnss::knows_time(frame.header);
   std::visit(
       [&](const auto& m) {
         if (kOfItself<std::remove_cvref_t<decltype(m)>> || timed)

@@ -1,0 +1,66 @@
+// Builder of a Recording: readers and CAN logs put sources and records into it in the order of
+// their file.
+//   in     sources; records with their stamp and their byte in the file; what is left out and why
+//   out    finish(): the recording, in total order
+//   invariants
+//          what is refused or told of the same kind is one remark with a count, at its first place
+//   errors a stamp before 1970 or after kLatestStamp is refused, counted and told
+//   cost   O(1) a record; finish() sorts, O(n) where stamps rise already
+//
+//   RecordingBuilder builder{"can0.log"};
+//   const auto can0 = builder.add_source("can0", SourceKind::kCan, "can");
+//   for (const LoggedFrame& logged : log.frames) builder.add(can0, logged.at, logged.frame, byte);
+//   Recording recording = std::move(builder).finish();
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "hil/replay/recordings/recording.hpp"
+
+namespace pitwall::traffic {
+
+// The year 2191: stamps can be moved by 63 years either way without leaving their type.
+inline constexpr UtcTime kLatestStamp{7'000'000'000 * kNanosecondsPerSecond};
+
+class RecordingBuilder {
+ public:
+  explicit RecordingBuilder(std::string file) : file_(std::move(file)) {}
+
+  std::uint32_t add_source(std::string name, SourceKind kind, std::string type);
+  bool add(std::uint32_t source, UtcTime at, const can::Frame& frame, std::uint64_t byte);
+  // `bytes` lie in pool().
+  bool add(std::uint32_t source, UtcTime at, Bytes bytes, std::uint64_t byte);
+
+  void remark(std::uint64_t byte, std::string_view what, std::uint64_t times = 1);
+  // Where a file has no bytes to count: "run.db3: message 17".
+  void remark_at(std::string_view where, std::string_view what, std::uint64_t times = 1);
+  // A message that is left out: counted as well.
+  void refuse(std::uint64_t byte, std::string_view what);
+
+  BytePool& pool() { return recording_.pool; }
+  RecordingCounters& counters() { return recording_.counters; }
+  std::vector<Source>& sources() { return recording_.sources; }
+  // The bytes of the first records of a source, one after the other.
+  std::string first_bytes(std::uint32_t source, std::size_t most) const;
+
+  Recording finish() &&;
+
+ private:
+  bool put(std::uint32_t source, UtcTime at, std::variant<Bytes, can::Frame> content,
+           std::uint64_t byte);
+
+  std::string file_;
+  Recording recording_;
+  std::vector<UtcTime> latest_;  // of each source: its newest record in the file
+  std::map<std::string, std::size_t, std::less<>> remarks_;  // by what they say
+};
+
+// In total order, whatever order they are in.
+void sort(std::vector<Record>& records);
+
+}  // namespace pitwall::traffic

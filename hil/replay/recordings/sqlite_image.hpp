@@ -1,0 +1,66 @@
+// A SQLite database in memory, read only, and the rows of its queries.
+//   in     the bytes of a database file
+//   out    rows; columns by their number, none where a column is of another type
+//   errors a query that cannot be prepared gives nothing; rows that end early say so; fault() is
+//          SQLite's own text of the last failure
+//   cost   SQLite reads the bytes where they lie
+//   source https://sqlite.org/c3ref/deserialize.html, https://sqlite.org/fileformat2.html
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "hil/replay/recordings/byte_pool.hpp"
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace pitwall::traffic {
+
+class SqliteRows {
+ public:
+  void bind(std::int64_t value);  // the only parameter of the query
+  bool next();
+  bool failed() const { return failed_; }
+  std::optional<std::int64_t> integer(int column) const;
+  std::string text(int column) const;           // empty where it is none
+  std::optional<Bytes> blob(int column) const;  // until the next row
+
+ private:
+  friend class SqliteImage;
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const;
+  };
+  explicit SqliteRows(sqlite3_stmt* statement) : statement_(statement) {}
+
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+  bool failed_ = false;
+};
+
+class SqliteImage {
+ public:
+  static bool is_one(Bytes file);
+  static bool had_write_ahead_log(Bytes file);
+  // How long the file was by its own header; 0 where it does not say.
+  static std::uint64_t announced_bytes(Bytes file);
+
+  explicit SqliteImage(std::string file);
+  SqliteImage(const SqliteImage&) = delete;  // SQLite knows where the bytes lie
+  SqliteImage& operator=(const SqliteImage&) = delete;
+
+  std::optional<SqliteRows> query(const char* sql);
+  std::string fault() const;
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const;
+  };
+
+  std::string file_;
+  std::unique_ptr<sqlite3, Close> database_;
+};
+
+}  // namespace pitwall::traffic
