@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <type_traits>
@@ -22,6 +23,7 @@ enum class Kind : std::uint8_t {
   kLongitude,  // degrees
   kSeconds,    // of the week
   kReserved,   // anything
+  kEntries,    // of the list that follows: at most kMostEntries
   kHex,
   kSolution,  // names of NovAtel's tables from here on (novatel_names.hpp)
   kPosition,
@@ -29,9 +31,19 @@ enum class Kind : std::uint8_t {
   kDatum,
   kClock,
   kUtc,
+  kImuType,
+  kProfile,
+  kAlignment,
+  kOutputFrame,
+  kOffsetFrame,
+  kOffset,
+  kOffsetSource,
+  kTruth,
   kLetter,
   kText,
 };
+
+inline constexpr std::size_t kMostEntries = 6;
 
 inline std::optional<DecodeError> judge(Kind kind, double value) {
   constexpr double kMaxLatitude_deg = 90.0, kMaxLongitude_deg = 180.0, kWeek_s = 604'800.0;
@@ -53,6 +65,8 @@ class Judge {
   void see(Kind kind, T value) {
     if constexpr (std::is_floating_point_v<T>) {
       if (!refusal_) refusal_ = judge(kind, static_cast<double>(value));
+    } else if constexpr (std::is_same_v<T, std::uint32_t>) {
+      if (kind == Kind::kEntries && value > kMostEntries) refuse(DecodeError::kTooMany);
     }
   }
   void refuse(DecodeError reason) {

@@ -32,8 +32,9 @@ std::optional<NovatelHeader> read_ascii_header(std::string_view text, bool short
 
 Result<NovatelMessage, DecodeError> decode_ascii(std::uint16_t id, std::string_view fields);
 
-// The longest sentence that encode_ascii() writes: INSPVAX with every digit that a number can need.
-inline constexpr std::size_t kMaxAsciiBytes = 768;
+// The longest sentence that encode_ascii() writes: INSCONFIG with every entry, and every digit that
+// a number can need.
+inline constexpr std::size_t kMaxAsciiBytes = 2'000;
 
 // Name and form follow from the message. Returns the bytes written; `out` must have room for
 // kMaxAsciiBytes. Stations must be printable and without quotes.

@@ -28,7 +28,7 @@ struct NovatelFrame {
 Result<NovatelMessage, DecodeError> decode(const NovatelFrame& frame);
 
 // The longest frame that encode() writes.
-inline constexpr std::size_t kMaxEncodedBytes = kLongHeaderBytes + InsPvaX::kBytes + kCrcBytes;
+inline constexpr std::size_t kMaxEncodedBytes = kLongHeaderBytes + InsConfig::kBytes + kCrcBytes;
 
 // Writes header, body and CRC; id and form of the header follow from the message. Returns the bytes
 // written; `out` must have room for kMaxEncodedBytes.

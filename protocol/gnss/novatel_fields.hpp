@@ -2,8 +2,8 @@
 // and checking, in binary and in ASCII.
 //   in     a message; a visitor, called as visit(Kind, field...)
 //   invariants
-//          the sum of the sizes of the fields is the kBytes of the message (RXSTATUS, which says
-//          itself how many words it has: at most)
+//          the sum of the sizes of the fields is the kBytes of the message (RXSTATUS and INSCONFIG,
+//          which say themselves how many entries they have: at most)
 //   source OEM7 Commands and Logs Reference Manual
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -68,6 +68,20 @@ template <class Message, class Visit>
 void visit_baseline_quality(Message& m, Visit& v) {
   v(Kind::kNumber, m.satellites_tracked, m.satellites_used, m.satellites_obs, m.satellites_multi);
   v(Kind::kHex, m.solution_source, m.extended_status, m.galileo_beidou_mask, m.gps_glonass_mask);
+}
+
+template <class Offset, class Visit>
+void visit_offset(Offset& o, Visit& v) {
+  v(Kind::kOffset, o.kind), v(Kind::kOffsetFrame, o.frame);
+  v(Kind::kNumber, o.x, o.y, o.z), v(Kind::kSigma, o.x_sigma, o.y_sigma, o.z_sigma);
+  v(Kind::kOffsetSource, o.source);
+}
+
+// More than there is room for is refused by its number.
+template <class Number, class Offsets, class Visit>
+void visit_offsets(Number& number, Offsets& offsets, Visit& v) {
+  v(Kind::kEntries, number);
+  for (std::size_t i = 0; i < number && i < offsets.size(); ++i) visit_offset(offsets[i], v);
 }
 
 template <class Status, class Visit>
@@ -171,6 +185,29 @@ void visit(Tag<CorrImuS>, Message& m, Visit& v) {
   v(Kind::kNumber, m.samples);
   visit_increments(m, v);
   v(Kind::kReserved, m.reserved_1, m.reserved_2);
+}
+
+template <std::uint16_t Id, bool Short, class Message, class Visit>
+void visit(Tag<InsStdDevOf<Id, Short>>, Message& m, Visit& v) {
+  v(Kind::kSigma, m.latitude_sigma_m, m.longitude_sigma_m, m.height_sigma_m);
+  v(Kind::kSigma, m.north_sigma_mps, m.east_sigma_mps, m.up_sigma_mps);
+  v(Kind::kSigma, m.roll_sigma_deg, m.pitch_sigma_deg, m.azimuth_sigma_deg);
+  v(Kind::kHex, m.extended_status), v(Kind::kNumber, m.since_update_s);
+  v(Kind::kReserved, m.reserved_1), v(Kind::kHex, m.reserved_2);
+  v(Kind::kReserved, m.reserved_3);
+}
+
+template <class Message, class Visit>
+void visit(Tag<InsConfig>, Message& m, Visit& v) {
+  v(Kind::kImuType, m.imu_type), v(Kind::kNumber, m.mapping, m.alignment_speed_dmps);
+  v(Kind::kNumber, m.heave_window_s), v(Kind::kProfile, m.profile);
+  v(Kind::kHex, m.enabled_updates), v(Kind::kAlignment, m.alignment_mode);
+  v(Kind::kOutputFrame, m.output_frame), v(Kind::kTruth, m.output_direction);
+  v(Kind::kHex, m.receiver_status), v(Kind::kNumber, m.seed_enabled, m.seed_validation);
+  v(Kind::kReserved, m.reserved_1);
+  for (auto& reserved : m.reserved) v(Kind::kReserved, reserved);
+  visit_offsets(m.translations, m.translation, v);
+  visit_offsets(m.rotations, m.rotation, v);
 }
 
 template <class Message, class Visit>

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <variant>
 
+#include "protocol/gnss/field_kind.hpp"
 #include "protocol/gnss/gps_time.hpp"
 #include "protocol/vocabulary/units.hpp"
 
@@ -258,6 +259,8 @@ struct CorrImuDataOf {
 };
 using CorrImuData = CorrImuDataOf<812, false>;
 using CorrImuDataS = CorrImuDataOf<813, true>;
+// The same at the rate of the IMU, whatever the logging interval: increments over one of its samples.
+using ImuRateCorrImuS = CorrImuDataOf<1362, true>;
 
 // Their successor: the sum over `samples` of the IMU; the time is the header's.
 struct CorrImuS {
@@ -272,6 +275,63 @@ struct CorrImuS {
   std::uint32_t reserved_2 = 0;
 
   bool operator==(const CorrImuS&) const = default;
+};
+
+// INSSTDEV and INSSTDEVS: standard deviations of the inertial solution.
+template <std::uint16_t Id, bool Short>
+struct InsStdDevOf {
+  static constexpr std::uint16_t kId = Id;
+  static constexpr std::size_t kBytes = 52;
+  static constexpr bool kShort = Short;
+
+  float latitude_sigma_m = 0.0F, longitude_sigma_m = 0.0F, height_sigma_m = 0.0F;
+  float north_sigma_mps = 0.0F, east_sigma_mps = 0.0F, up_sigma_mps = 0.0F;
+  float roll_sigma_deg = 0.0F, pitch_sigma_deg = 0.0F, azimuth_sigma_deg = 0.0F;
+  std::uint32_t extended_status = 0;
+  std::uint16_t since_update_s = 0;  // last position or zero-velocity update
+  std::uint16_t reserved_1 = 0;
+  std::uint32_t reserved_2 = 0, reserved_3 = 0;
+
+  bool operator==(const InsStdDevOf&) const = default;
+};
+using InsStdDev = InsStdDevOf<2051, false>;
+using InsStdDevS = InsStdDevOf<2052, true>;
+
+// A translation (metres) or rotation (degrees) that the receiver is configured with.
+struct InsOffset {
+  static constexpr std::size_t kBytes = 36;
+
+  std::uint32_t kind = 0;   // translation: 1 ANT1, 2 ANT2, 4 USER; rotation: 11 RBV
+  std::uint32_t frame = 0;  // 0 IMU body, 1 vehicle
+  float x = 0.0F, y = 0.0F, z = 0.0F;
+  float x_sigma = 0.0F, y_sigma = 0.0F, z_sigma = 0.0F;
+  std::uint32_t source = 0;
+
+  bool operator==(const InsOffset&) const = default;
+};
+
+// How the inertial solution is configured: lever arms, rotations, profile.
+struct InsConfig {
+  static constexpr std::uint16_t kId = 1945;
+  static constexpr std::size_t kBytes = 60 + 2 * (4 + kMostEntries * InsOffset::kBytes);
+  static constexpr bool kShort = false;
+
+  std::uint32_t imu_type = 0;
+  std::uint8_t mapping = 0;
+  std::uint8_t alignment_speed_dmps = 0;  // least speed of an alignment, 0.1 m/s
+  std::uint16_t heave_window_s = 0;
+  std::uint32_t profile = 0, enabled_updates = 0, alignment_mode = 0;
+  std::uint32_t output_frame = 0, output_direction = 0;  // of the relative solution
+  std::uint32_t receiver_status = 0;
+  std::uint8_t seed_enabled = 0, seed_validation = 0;
+  std::uint16_t reserved_1 = 0;
+  std::array<std::uint32_t, 6> reserved{};
+  std::uint32_t translations = 0;  // of the array
+  std::array<InsOffset, kMostEntries> translation{};
+  std::uint32_t rotations = 0;
+  std::array<InsOffset, kMostEntries> rotation{};
+
+  bool operator==(const InsConfig&) const = default;
 };
 
 struct StatusWord {
@@ -311,6 +371,6 @@ struct Time {
 using NovatelMessage =
     std::variant<BestPos, BestVel, Heading2, RawImuSx, CorrImuDataS, DualAntennaHeading, InsPva,
                  InsPvaS, InsPvaX, InsAttX, RawImu, RawImuS, RawImuX, CorrImuData, CorrImuS,
-                 RxStatus, Time, BestUtm>;
+                 RxStatus, Time, BestUtm, ImuRateCorrImuS, InsStdDev, InsStdDevS, InsConfig>;
 
 }  // namespace pitwall::gnss

@@ -27,11 +27,15 @@ constexpr std::array kLogs{
     Named{812, "CORRIMUDATA"},
     Named{813, "CORRIMUDATAS"},
     Named{1335, "HEADING2"},
+    Named{1362, "IMURATECORRIMUS"},
     Named{1457, "INSATTX"},
     Named{1461, "RAWIMUX"},
     Named{1462, "RAWIMUSX"},
     Named{1465, "INSPVAX"},
+    Named{1945, "INSCONFIG"},
     Named{2042, "DUALANTENNAHEADING"},
+    Named{2051, "INSSTDEV"},
+    Named{2052, "INSSTDEVS"},
     Named{2264, "CORRIMUS"},
 };
 
@@ -100,6 +104,32 @@ constexpr std::array kClock{Named{0, "VALID"}, Named{1, "CONVERGING"}, Named{2, 
                             Named{3, "INVALID"}};
 constexpr std::array kUtc{Named{0, "INVALID"}, Named{1, "VALID"}, Named{2, "WARNING"}};
 
+// The IMUs whose scale we know (imu_scale.hpp).
+constexpr std::array kImuType{Named{0, "UNKNOWN"}, Named{41, "EPSON_G320"}, Named{61, "EPSON_G370"},
+                              Named{62, "EPSON_G320_200HZ"}};
+constexpr std::array kProfile{
+    Named{0, "DEFAULT"}, Named{1, "LAND"}, Named{2, "MARINE"}, Named{3, "FIXEDWING"},
+    Named{4, "FOOT"},    Named{5, "VTOL"}, Named{6, "RAIL"},
+};
+constexpr std::array kAlignment{Named{0, "UNAIDED"}, Named{2, "AIDED_TRANSFER"},
+                                Named{3, "AUTOMATIC"}, Named{4, "STATIC"}, Named{5, "KINEMATIC"}};
+constexpr std::array kOutputFrame{Named{1, "ROVER"}, Named{2, "MASTER"}, Named{3, "ECEF"},
+                                  Named{4, "LOCALLEVEL"}};
+constexpr std::array kOffsetFrame{Named{0, "IMUBODY"}, Named{1, "VEHICLE"}};
+constexpr std::array kOffset{
+    Named{1, "ANT1"},  Named{2, "ANT2"},   Named{3, "EXTERNAL"}, Named{4, "USER"},
+    Named{5, "MARK1"}, Named{6, "MARK2"},  Named{7, "GIMBAL"},   Named{8, "ALIGN"},
+    Named{9, "MARK3"}, Named{10, "MARK4"}, Named{11, "RBV"},     Named{12, "RBM"},
+};
+constexpr std::array kOffsetSource{
+    Named{1, "FROM_NVM"},       Named{2, "CALIBRATING"},
+    Named{3, "CALIBRATED"},     Named{4, "FROM_COMMAND"},
+    Named{5, "RESET"},          Named{6, "FROM_DUAL_ANT"},
+    Named{7, "INS_CONVERGING"}, Named{8, "INSUFFICIENT_SPEED"},
+    Named{9, "HIGH_ROTATION"},
+};
+constexpr std::array kTruth{Named{0, "FALSE"}, Named{1, "TRUE"}};
+
 constexpr std::array kTimeStatus{
     Named{20, "UNKNOWN"},        Named{60, "APPROXIMATE"},     Named{80, "COARSEADJUSTING"},
     Named{100, "COARSE"},        Named{120, "COARSESTEERING"}, Named{130, "FREEWHEELING"},
@@ -126,6 +156,22 @@ std::span<const Named> table(Kind kind) {
       return kClock;
     case Kind::kUtc:
       return kUtc;
+    case Kind::kImuType:
+      return kImuType;
+    case Kind::kProfile:
+      return kProfile;
+    case Kind::kAlignment:
+      return kAlignment;
+    case Kind::kOutputFrame:
+      return kOutputFrame;
+    case Kind::kOffsetFrame:
+      return kOffsetFrame;
+    case Kind::kOffset:
+      return kOffset;
+    case Kind::kOffsetSource:
+      return kOffsetSource;
+    case Kind::kTruth:
+      return kTruth;
     default:
       return {};
   }

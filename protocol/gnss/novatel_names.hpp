@@ -4,7 +4,8 @@
 //   out    the other; nothing where the tables do not have it
 //   source OEM7 Commands and Logs Reference Manual: "Solution Status", "Position or Velocity Type",
 //          "Inertial Solution Status", "Datum Transformation Parameters", "Clock Model Status",
-//          "GPS Reference Time Status", "Detailed Port Identifier"
+//          "GPS Reference Time Status", "Detailed Port Identifier"; of INSCONFIG the manual's page
+//          of it, SETINSPROFILE, and the tables of novatel_oem7_msgs
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -16,7 +17,7 @@
 
 namespace pitwall::gnss {
 
-// Of kSolution, kPosition, kInsStatus, kDatum, kClock and kUtc. Empty for a number without a name.
+// Of the kinds from kSolution to kTruth. Empty for a number without a name.
 std::string_view name_of(Kind kind, std::uint32_t value);
 std::optional<std::uint32_t> value_of(Kind kind, std::string_view name);
 

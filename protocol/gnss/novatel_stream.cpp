@@ -19,7 +19,7 @@ constexpr std::size_t kMaxHeaderBytes = 64;  // the format allows headers to gro
 // After the '*' of an ASCII log: eight digits and a line end.
 constexpr std::size_t kCrcDigits = 8, kTailBytes = kCrcDigits + 2;
 // Longer than any log that we know; what looks like the start of a log holds back so much at most.
-constexpr std::size_t kMaxTextBytes = 1'024;
+constexpr std::size_t kMaxTextBytes = 2'000;
 
 struct Lengths {
   std::size_t header = 0, body = 0;

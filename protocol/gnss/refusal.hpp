@@ -24,9 +24,10 @@ enum class DecodeError : std::uint8_t {
   kLatitude,           // beyond +-90 degrees
   kLongitude,          // beyond +-180 degrees (VectorNav and NovAtel both count from -180)
   kTimeOfWeek,         // seconds outside the week
+  kTooMany,            // more entries of a list than we know of
 };
 
-inline constexpr std::array<std::string_view, 10> kDecodeErrorText{
+inline constexpr std::array<std::string_view, 11> kDecodeErrorText{
     "log that is not decoded",
     "response to a command",
     "binary header that announces another format",
@@ -37,6 +38,7 @@ inline constexpr std::array<std::string_view, 10> kDecodeErrorText{
     "latitude beyond 90 degrees",
     "longitude beyond 180 degrees",
     "time outside the week",
+    "more entries than are read",
 };
 
 constexpr std::string_view text(DecodeError e) {

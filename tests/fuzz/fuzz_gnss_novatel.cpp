@@ -72,9 +72,9 @@ void try_body(std::uint16_t id, Bytes body) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
-  constexpr std::array<std::uint16_t, 19> kIds{42,   93,   99,   101,  268,  325,  507,
-                                               508,  726,  812,  813,  1335, 1457, 1461,
-                                               1462, 1465, 2042, 2264, 1163};
+  constexpr std::array<std::uint16_t, 23> kIds{42,   93,   99,   101,  268,  325,  507,  508,
+                                               726,  812,  813,  1335, 1362, 1457, 1461, 1462,
+                                               1465, 1945, 2042, 2051, 2052, 2264, 1163};
   constexpr std::size_t kLongest = 1'000;
   if (size < 2) return 0;
   const Bytes rest{bytes + 1, size - 1};

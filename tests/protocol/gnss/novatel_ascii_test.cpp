@@ -280,6 +280,46 @@ TEST(NovatelAscii, CorrectedImuInAllItsForms) {
   EXPECT_EQ(c.reserved_1, 7.09F);
 }
 
+// The examples of the manual's pages.
+TEST(NovatelAscii, InertialDeviations) {
+  const auto [h, m] = only<InsStdDev>(
+      "#INSSTDEVA,USB1,0,66.0,FINESTEERING,2209,491004.000,02000020,2396,16809;0.1813,0.1813,"
+      "0.1806,0.0018,0.0018,0.0017,0.0292,0.0291,0.0577,13000045,0,0,7fd1bf,0*b490ddee");
+  EXPECT_EQ(h.week, 2209);
+  EXPECT_EQ(m.latitude_sigma_m, 0.1813F);
+  EXPECT_EQ(m.height_sigma_m, 0.1806F);
+  EXPECT_EQ(m.up_sigma_mps, 0.0017F);
+  EXPECT_EQ(m.roll_sigma_deg, 0.0292F);
+  EXPECT_EQ(m.azimuth_sigma_deg, 0.0577F);
+  EXPECT_EQ(m.extended_status, 0x13000045U);
+  EXPECT_EQ(m.reserved_2, 0x7fd1bfU);
+}
+
+TEST(NovatelAscii, InertialConfiguration) {
+  const auto [h, m] = only<InsConfig>(
+      "#INSCONFIGA,COM1,0,71.0,COARSESTEERING,1931,517331.006,02400000,6d7a,32768;EPSON_G320,6,50,"
+      "20,DEFAULT,00ffd1bf,AUTOMATIC,ROVER,FALSE,00000000,0,0,0,0,0,0,0,0,0,1,ANT1,IMUBODY,0.0540,"
+      "0.0699,-0.0346,0.0200,0.0200,0.0200,FROM_NVM,1,RBV,IMUBODY,180.0000,0.0000,90.0000,5.0000,"
+      "5.0000,5.0000,FROM_COMMAND*b1233ac4");
+  EXPECT_EQ(h.milliseconds, 517'331'006U);
+  EXPECT_EQ(m.imu_type, 41U);
+  EXPECT_EQ(m.mapping, 6);
+  EXPECT_EQ(m.alignment_speed_dmps, 50);
+  EXPECT_EQ(m.heave_window_s, 20);
+  EXPECT_EQ(m.enabled_updates, 0x00ffd1bfU);
+  EXPECT_EQ(m.alignment_mode, 3U);
+  EXPECT_EQ(m.output_frame, 1U);
+  ASSERT_EQ(m.translations, 1U);
+  EXPECT_EQ(m.translation[0].kind, 1U);
+  EXPECT_EQ(m.translation[0].y, 0.0699F);
+  EXPECT_EQ(m.translation[0].source, 1U);
+  ASSERT_EQ(m.rotations, 1U);
+  EXPECT_EQ(m.rotation[0].kind, 11U);
+  EXPECT_EQ(m.rotation[0].x, 180.0F);
+  EXPECT_EQ(m.rotation[0].z_sigma, 5.0F);
+  EXPECT_EQ(m.rotation[0].source, 4U);
+}
+
 // TIME and BESTUTM are recordings; RXSTATUS has the values of the manual's example, whose form is
 // abbreviated, and a checksum by zlib.
 TEST(NovatelAscii, TimeStatusAndUtm) {

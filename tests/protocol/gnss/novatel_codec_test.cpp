@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "protocol/gnss/little_endian.hpp"
 #include "protocol/gnss/novatel_stream.hpp"
 #include "tests/protocol/gnss/random_messages.hpp"
 
@@ -81,6 +82,51 @@ TEST(NovatelCodec, RefusesNumbersThatAreNone) {
     ASSERT_FALSE(decoded.has_value());
     EXPECT_EQ(decoded.error(), DecodeError::kNotFinite);
   }
+}
+
+// The bytes of the manual's table, offset by offset.
+TEST(NovatelCodec, TheImusOwnRateHasTheLayoutOfCorrectedData) {
+  std::array<std::uint8_t, 60> body{};
+  ByteWriter out{body};
+  out.put(std::uint32_t{2'209});
+  for (const double value : {488'331.0, 1e-6, 2e-6, 3e-6, 0.1, 0.2, 0.3}) out.put(value);
+  ASSERT_EQ(out.size(), 60U);
+  const auto decoded = decode({.header = {.id = 1362, .short_form = true}, .body = body});
+  ASSERT_TRUE(decoded.has_value());
+  const auto& m = std::get<ImuRateCorrImuS>(*decoded);
+  EXPECT_EQ(m.week, 2'209U);
+  EXPECT_EQ(m.seconds, 488'331.0);
+  EXPECT_EQ(m.pitch_rad, 1e-6);
+  EXPECT_EQ(m.yaw_rad, 3e-6);
+  EXPECT_EQ(m.lateral_mps, 0.1);
+  EXPECT_EQ(m.vertical_mps, 0.3);
+}
+
+TEST(NovatelCodec, InertialDeviationsAndConfigurationInBinary) {
+  std::array<std::uint8_t, 52> deviations{};
+  ByteWriter out{deviations};
+  for (int i = 1; i <= 9; ++i) out.put(static_cast<float>(i));
+  out.put(std::uint32_t{0x45}), out.put(std::uint16_t{7});
+  const auto s = decode({.header = {.id = 2052, .short_form = true}, .body = deviations});
+  ASSERT_TRUE(s.has_value());
+  EXPECT_EQ(std::get<InsStdDevS>(*s).latitude_sigma_m, 1.0F);
+  EXPECT_EQ(std::get<InsStdDevS>(*s).azimuth_sigma_deg, 9.0F);
+  EXPECT_EQ(std::get<InsStdDevS>(*s).since_update_s, 7);
+  std::array<std::uint8_t, 60 + 4 + 36 + 4> config{};
+  config[0] = 41, config[4] = 6, config[16] = 3, config[60] = 1;  // IMU, mapping, mode, entries
+  config[64] = 2, config[96] = 4;                                 // ANT2, FROM_COMMAND
+  const auto c = decode({.header = {.id = 1945}, .body = config});
+  ASSERT_TRUE(c.has_value());
+  const auto& m = std::get<InsConfig>(*c);
+  EXPECT_EQ(m.imu_type, 41U);
+  EXPECT_EQ(m.mapping, 6);
+  EXPECT_EQ(m.alignment_mode, 3U);
+  EXPECT_EQ(m.translations, 1U);
+  EXPECT_EQ(m.translation[0].kind, 2U);
+  EXPECT_EQ(m.translation[0].source, 4U);
+  EXPECT_EQ(m.rotations, 0U);
+  config[60] = kMostEntries + 1;
+  EXPECT_EQ(decode({.header = {.id = 1945}, .body = config}).error(), DecodeError::kTooMany);
 }
 
 TEST(NovatelCodec, RefusesResponsesOtherFormatsAndUnknownIds) {

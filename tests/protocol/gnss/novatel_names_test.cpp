@@ -7,8 +7,10 @@ namespace pitwall::gnss {
 namespace {
 
 TEST(NovatelNames, EveryNameStandsForOneNumber) {
-  for (const Kind kind : {Kind::kSolution, Kind::kPosition, Kind::kInsStatus, Kind::kDatum,
-                          Kind::kClock, Kind::kUtc}) {
+  for (const Kind kind :
+       {Kind::kSolution, Kind::kPosition, Kind::kInsStatus, Kind::kDatum, Kind::kClock, Kind::kUtc,
+        Kind::kImuType, Kind::kProfile, Kind::kAlignment, Kind::kOutputFrame, Kind::kOffsetFrame,
+        Kind::kOffset, Kind::kOffsetSource, Kind::kTruth}) {
     int named = 0;
     for (std::uint32_t value = 0; value < 256; ++value) {
       const std::string_view name = name_of(kind, value);
@@ -37,6 +39,10 @@ TEST(NovatelNames, AreThoseOfTheManual) {
   EXPECT_EQ(name_of(Kind::kDatum, 61), "WGS84");
   EXPECT_EQ(time_status_name(180), "FINESTEERING");
   EXPECT_EQ(log_id("HEADING2"), 1335);
+  EXPECT_EQ(log_id("IMURATECORRIMUS"), 1362);
+  EXPECT_EQ(log_id("INSSTDEVS"), 2052);
+  EXPECT_EQ(name_of(Kind::kOffset, 11), "RBV");
+  EXPECT_EQ(name_of(Kind::kOffsetSource, 4), "FROM_COMMAND");
 }
 
 TEST(NovatelNames, WhatTheTablesDoNotHaveIsNotMadeUp) {

@@ -35,6 +35,8 @@ class Filler {
   void fill(Kind kind, T& value) {
     if constexpr (std::is_floating_point_v<T>) {
       value = number<T>(kind);
+    } else if (kind == Kind::kEntries) {
+      value = static_cast<T>(random_() % (kMostEntries + 1));
     } else if (kind == Kind::kHex || kind == Kind::kNumber || random_() % 2 == 0) {
       value = static_cast<T>(random_());
     } else {

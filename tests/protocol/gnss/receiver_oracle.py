@@ -20,6 +20,8 @@ import zlib
 QUALITY = "4sff8B"
 BASELINE = "IIffffff"
 SAMPLE = "I6i"
+CONFIG = "IBBHIIIIIIBBH6I"
+OFFSET = "II6fI"
 # Number of the log: name, layout of the body, places of hexadecimal fields.
 LOGS = {
     42: ("BESTPOS", "IIdddfIfff" + QUALITY, {17, 18, 19, 20}),
@@ -34,11 +36,15 @@ LOGS = {
     812: ("CORRIMUDATA", "Id6d", set()),
     813: ("CORRIMUDATAS", "Id6d", set()),
     1335: ("HEADING2", BASELINE + "4s4s8B", {14, 15, 16, 17}),
+    1362: ("IMURATECORRIMUS", "Id6d", set()),
     1457: ("INSATTX", "IIddd3fIH", {8}),
     1461: ("RAWIMUX", "BBHd" + SAMPLE, {0, 4}),
     1462: ("RAWIMUSX", "BBHd" + SAMPLE, {0, 4}),
     1465: ("INSPVAX", "IIdddfdddddd9fIH", {21}),
+    1945: ("INSCONFIG", CONFIG, {5, 9}),
     2042: ("DUALANTENNAHEADING", BASELINE + "4s8B", {13, 14, 15, 16}),
+    2051: ("INSSTDEV", "9fIHHII", {9, 12}),
+    2052: ("INSSTDEVS", "9fIHHII", {9, 12}),
     2264: ("CORRIMUS", "I6dfI", set()),
 }
 
@@ -101,6 +107,10 @@ def novatel(binary, ascii_form):
         return "length"
     if checksum(binary[:-4]) != struct.unpack("<I", binary[-4:])[0]:
         return "checksum of the binary form"
+    if number == 1945:  # two lists, each with its length in front
+        for _ in range(2):
+            count, = struct.unpack_from("<I", binary, at + struct.calcsize("<" + layout))
+            layout += "I" + OFFSET * count
     letters = spread(layout)
     if number == 93:  # says itself how many words follow
         letters = letters[: (length // 4)]
