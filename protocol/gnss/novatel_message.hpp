@@ -259,7 +259,7 @@ struct CorrImuDataOf {
 };
 using CorrImuData = CorrImuDataOf<812, false>;
 using CorrImuDataS = CorrImuDataOf<813, true>;
-// The same at the rate of the IMU, whatever the logging interval: increments over one of its samples.
+// The same at the rate of the IMU: increments over one of its samples.
 using ImuRateCorrImuS = CorrImuDataOf<1362, true>;
 
 // Their successor: the sum over `samples` of the IMU; the time is the header's.

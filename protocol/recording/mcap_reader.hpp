@@ -1,7 +1,7 @@
 // Reader of an MCAP file (version 0) in memory, from front to back: whole files, files of a process
 // that died, and any other bytes.
-//   in     bytes; they must outlive the reader and what it hands out. Who can decompress chunks says
-//          so: without that a compressed chunk is skipped
+//   in     bytes, which must outlive the reader and what it hands out; who decompresses chunks:
+//          nobody, and a compressed chunk is skipped
 //   out    messages in the order of the file; channels and schemas as they become known, those of
 //          an intact summary at once
 //   errors a file that is cut delivers everything before that place; end() tells the reason and the

@@ -1,4 +1,4 @@
-// Files with the raw bytes of a NovAtel or VectorNav receiver, as a terminal or a logger keeps them.
+// Files with the raw bytes of a NovAtel or VectorNav receiver, as a logger keeps them.
 //   in     the whole file; its name for remarks
 //   out    one source, "receiver", with a record for each message: its bytes and those in front of
 //          it that belong to none, so that the records one after the other are the file

@@ -1,4 +1,4 @@
-// ROS 2 messages of a bag: which of them are CAN frames, and whether bytes are what their type says.
+// ROS 2 messages of a bag: which are CAN frames, and whether bytes are what their type says.
 //   in     type name and encapsulated CDR
 //   out    the frame of can_msgs/msg/Frame and ros2_socketcan_msgs/msg/FdFrame; for every other
 //          message whether it can be passed on

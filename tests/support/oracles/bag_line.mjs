@@ -4,7 +4,11 @@
 import { parse } from "@foxglove/rosmsg";
 import { MessageReader } from "@foxglove/rosmsg2-serialization";
 
-const kCan = ["can_msgs/msg/Frame", "ros2_socketcan_msgs/msg/FdFrame", "pitwall_msgs/msg/CarCanFrame"];
+const kCan = [
+  "can_msgs/msg/Frame",
+  "ros2_socketcan_msgs/msg/FdFrame",
+  "pitwall_msgs/msg/CarCanFrame",
+];
 const readers = new Map();
 
 function decoded(type, text, bytes) {

@@ -10,11 +10,12 @@ import { MessageWriter } from "@foxglove/rosmsg2-serialization";
 
 const kHeader = `std_msgs/Header header
 `;
-const kHeaderTypes = `================================================================================
+const kLine = "=".repeat(80);
+const kHeaderTypes = `${kLine}
 MSG: std_msgs/Header
 builtin_interfaces/Time stamp
 string frame_id
-================================================================================
+${kLine}
 MSG: builtin_interfaces/Time
 int32 sec
 uint32 nanosec
@@ -54,7 +55,8 @@ const header = (stamp, frame_id) => ({
   stamp: { sec: Number(stamp / 1_000_000_000n), nsec: Number(stamp % 1_000_000_000n) },
   frame_id,
 });
-const bytes = (count, seed) => Uint8Array.from({ length: count }, (_, k) => (seed * 31 + k * 7) & 255);
+const bytes = (count, seed) =>
+  Uint8Array.from({ length: count }, (_, k) => (seed * 31 + k * 7) & 255);
 
 const kinds = [
   (i, stamp) => [

@@ -10,4 +10,5 @@ const lines = readFileSync(0, "utf8").split("\n").filter(Boolean).map((line) => 
   const [topic, type, stamp, digits] = line.split(" ");
   return bagLine(topic, stamp, type, kTexts[type], Buffer.from(digits, "hex"));
 });
-process.stdout.write(lines.filter((line) => line !== undefined).map((line) => line + "\n").join(""));
+const said = lines.filter((line) => line !== undefined);
+process.stdout.write(said.map((line) => line + "\n").join(""));

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "hil/replay/recordings/recording_builder.hpp"
 #include "tests/hil/replay/recordings/recording_samples.hpp"
 
@@ -114,6 +116,9 @@ TEST(Merge, SegmentsWithTheSameSourcesBecomeOne) {
   testing::expect_sound(*merged);
   ASSERT_EQ(merged->sources.size(), 2U);
   EXPECT_EQ(merged->sources[0].records + merged->sources[1].records, 400U);
+  std::set<std::pair<std::uint32_t, std::uint64_t>> numbers;
+  for (const Record& record : merged->records) numbers.emplace(record.source, record.sequence);
+  EXPECT_EQ(numbers.size(), 400U) << "each sequence once";
 }
 
 TEST(Merge, AnOffsetMovesEveryStampOfItsInput) {
