@@ -14,7 +14,7 @@ namespace {
 using can::Finding;
 using can::FindingSeverity;
 
-constexpr std::size_t kMostLines = 10;     // of one kind, before they become one line
+constexpr std::size_t kMostLines = 10;    // of one kind, before they become one line
 constexpr std::size_t kMostSubjects = 5;  // that this line names
 
 std::string line_of(const Finding& f) {

@@ -2,10 +2,11 @@
 #include "hil/cli/recordings/convert_verb.hpp"
 
 #include <cstdio>
+#include <utility>
 
 #include "hil/cli/command_line.hpp"
 #include "hil/cli/exit_code.hpp"
-#include "hil/replay/formats/log_reader.hpp"
+#include "hil/replay/recordings/can_part.hpp"
 #include "hil/replay/writers/log_writer.hpp"
 #include "protocol/transport/file.hpp"
 
@@ -15,17 +16,19 @@ int convert_verb(std::span<const std::string> args) {
   std::string in, out;
   bool strict = false;
   CommandLine app{
-      "pitwall-hil convert: a CAN log as a file of another format. Exit 0 written, 1 something was "
+      "pitwall-hil convert: the CAN frames of a log or a recording as a file of another format. "
+      "Exit 0 written, 1 something was "
       "left out or is not kept with --strict, 2 no CAN log or not written"};
-  app.option("IN", in, "CAN log of any format that info reads, known by its content").required();
+  app.option("IN", in, "log or recording of any format that info reads, known by its content")
+      .required();
   app.option("OUT", out,
              "new file; its name says the format: .log (candump), .asc, .blf, .pcap or .pcapng")
       .required();
   app.flag("--strict", strict, "a record or a property that is not kept is a failure");
   if (const auto code = app.ended_by(args)) return *code;
-  const auto bytes = transport::read_file(in);
+  auto bytes = transport::read_file(in);
   if (!bytes) return refuse(bytes.error());
-  const auto log = replay::read_can_log(*bytes, in);
+  const auto log = traffic::read_can_traffic(*std::move(bytes), in);
   if (!log) return refuse(log.error());
   const auto written = replay::write_can_log(*log, out);
   if (!written) return refuse(written.error());

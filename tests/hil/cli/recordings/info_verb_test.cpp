@@ -5,7 +5,10 @@
 
 #include <vector>
 
+#include "hil/cli/recordings/convert_verb.hpp"
+#include "protocol/recorder/segment_folder.hpp"
 #include "protocol/transport/file.hpp"
+#include "tests/hil/bench/recorded/recorded_drive.hpp"
 
 namespace pitwall::cli {
 namespace {
@@ -35,6 +38,25 @@ TEST_F(InfoVerb, TheTableIsOutputAndRemarksAreErrors) {
   EXPECT_NE(transport::read_file(path("a.json")).value_or("").find("\"bad_records\": 1"),
             std::string::npos);
   EXPECT_EQ(run({log, "--strict"}), 1);
+}
+
+TEST_F(InfoVerb, ACarsRecordingIsShownBySourceAndItsFramesAreConverted) {
+  const std::string file = recorder::segments_of(bench::recorded_folder()).value().front();
+  EXPECT_EQ(run({file, "--json", path("car.json")}), 0) << err_;
+  for (const char* source : {"  /can/in ", "  /can/out ", "  /gnss/0 ", "  /gnss/1 "})
+    EXPECT_NE(out_.find(source), std::string::npos) << out_;
+  EXPECT_EQ(out_.find(file + ": MCAP, "), 0U) << out_;
+  const std::string json = transport::read_file(path("car.json")).value_or("");
+  EXPECT_NE(json.find(R"("name": "/can/in")"), std::string::npos) << json;
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const std::vector<std::string> words{file, path("car.log")};
+  EXPECT_EQ(convert_verb(words), 0);
+  testing::internal::GetCapturedStdout();
+  testing::internal::GetCapturedStderr();
+  const std::string log = transport::read_file(path("car.log")).value_or("");
+  EXPECT_NE(log.find(" /can/in "), std::string::npos) << log.substr(0, 200);
+  EXPECT_EQ(run({path("car.log")}), 0) << err_;
 }
 
 TEST_F(InfoVerb, WhatIsNoLogIsRefused) {

@@ -6,7 +6,7 @@
 #include "hil/replay/recordings/recording_reader.hpp"
 #include "protocol/gnss/novatel_ascii.hpp"
 #include "tests/hil/replay/recordings/recording_samples.hpp"
-#include "tests/support/public_data.hpp"
+#include "tests/support/novatel_frames.hpp"
 
 namespace pitwall::traffic {
 namespace {
@@ -177,25 +177,14 @@ TEST(ReceiverStream, NoDamageIsSilent) {
   }
 }
 
-// Its driver says that the first of its headings is of week 2090, 408227 s.
-TEST(PublicReceiverStream, KeepsEveryByteAndItsTime) {
-  namespace data = pitwall::recordings;
-  if (!data::is_here(data::kNovatelLogs)) GTEST_SKIP() << data::how_to_get(data::kNovatelLogs);
-  const auto folder = data::path_of(data::kNovatelLogs);
-  const auto align = read_receiver_stream(testing::bytes_of(folder / "align.gps"), "align.gps");
-  ASSERT_TRUE(align);
-  testing::expect_sound(*align);
-  EXPECT_EQ(align->first(), utc_of(2'090, 408'227'000));
-  EXPECT_EQ(joined(*align), testing::bytes_of(folder / "align.gps"));
-  EXPECT_EQ(align->records.size(), 12U);
-  const std::string bytes = testing::bytes_of(folder / "bestpos.gps");
-  const auto bestpos = read_receiver_stream(bytes, "bestpos.gps");
-  ASSERT_TRUE(bestpos);
-  testing::expect_sound(*bestpos);
-  EXPECT_EQ(joined(*bestpos), bytes);
-  EXPECT_NE(testing::all_remarks(*bestpos).find("bestpos.gps: byte 0: bytes of no message"),
-            std::string::npos)
-      << "it begins with answers to commands";
+TEST(ReceiverStream, AMessageOfARealReceiverKeepsItsBytesAndItsTime) {
+  const auto heading = recordings::bytes_of_hex(recordings::kHeading2);
+  const std::string bytes{heading.begin(), heading.end()};
+  const auto stream = read_receiver_stream(bytes, "align.gps");
+  ASSERT_TRUE(stream) << to_string(stream.error());
+  testing::expect_sound(*stream);
+  EXPECT_EQ(stream->first(), utc_of(2'090, 408'227'000)) << "as the vendor's driver has it";
+  EXPECT_EQ(joined(*stream), bytes);
 }
 
 TEST(ReceiverStream, EveryReceiverHasAName) {
