@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "basestation/state/value_text.hpp"
 #include "protocol/can/decode.hpp"
 #include "protocol/vocabulary/text.hpp"
 
@@ -25,9 +26,11 @@ std::string name_of(const can::Database& database, const can::Frame& frame) {
   return message != nullptr ? message->name : hex(frame.id);
 }
 
-std::string context_of(const telemetry::Values& state) {
-  return formatted("at station %.1f m, %.2f m/s, mode %.0f", state[field("track.station")],
-                   state[field("ego.vx")], state[field("mode.mode")]);
+std::string context_of(const telemetry::Values& values) {
+  constexpr FieldIndex kMode = field("mode.mode");
+  return formatted("at station %.1f m, %.2f m/s, mode %s", values[field("track.station")],
+                   values[field("ego.vx")],
+                   state::value_text(telemetry::kFields[kMode], values[kMode]).c_str());
 }
 
 }  // namespace

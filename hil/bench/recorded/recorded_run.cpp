@@ -79,12 +79,13 @@ std::optional<recording::McapMessage> RecordedRun::next_message() {
 
 Result<std::optional<RecordedTick>, Problem> RecordedRun::next() {
   while (true) {
+    if (is_over_) return std::optional<RecordedTick>{};
     while (const auto message = next_message()) {
       std::optional<RecordedTick> before;
       if (place_of(message->channel).kind == Kind::kTick)
         before = std::exchange(finished_, std::nullopt);
       if (const auto wrong = take(*message)) return Unexpected{*wrong};
-      if (before) return before;
+      if (before || is_over_) return before;
     }
     const recording::McapReader& reader = segment_->reader;
     if (reader.end() != recording::McapEnd::kComplete && remarked_ < opened_) {
@@ -163,6 +164,11 @@ std::optional<Problem> RecordedRun::take_tick(const recording::McapMessage& mess
   tick.now = at(message.logged_ns);
   if (!recording::from_cdr(message.data, tick.given))
     return problem("a tick as another version records it");
+  if (tick.given.number == 0 && number_ > 0) {
+    is_over_ = true;
+    remarks_.push_back(segment_->path + ": another run begins here, compare it alone");
+    return std::nullopt;
+  }
   if (tick.given.number != number_)
     return problem("tick " + std::to_string(number_) + " is not recorded, the next is " +
                    std::to_string(tick.given.number));

@@ -4,7 +4,8 @@
 //   out    ticks as the car had them: instants of its clock, frames, bytes of its receivers
 //   invariants
 //          ticks come without a gap, from the first of the run: a car driven again has its state
-//          from the start
+//          from the start. A car that was started again begins another run, in a file of its own:
+//          the first one ends there, which remarks() tells
 //   errors Problem with file or tick: not a car's recording, one from before ticks were recorded, a
 //          tick that is missing or of which something is missing. What a killed car left cut off at
 //          the end is told by remarks()
@@ -88,6 +89,7 @@ class RecordedRun {
   std::vector<std::string> remarks_;
   RecordedTick collected_;                // what came since the newest tick
   std::optional<RecordedTick> finished_;  // has its record; its state may follow
+  bool is_over_ = false;                  // another run begins
   std::uint64_t number_ = 0;              // of the next tick
   Instant begun_{};
 };

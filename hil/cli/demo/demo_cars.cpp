@@ -52,15 +52,16 @@ std::vector<DemoCar> demo_cars(int count, const std::string& folder, DemoBus bus
   return cars;
 }
 
-Result<bool, Problem> set_recording_aside(const DemoCar& car) {
+Result<bool, Problem> set_recordings_aside(const DemoCar& car) {
   namespace fs = std::filesystem;
-  const fs::path recording = fs::path{car.folder} / "recording",
-                 before = fs::path{car.folder} / "recording_before";
-  std::error_code error;
-  if (!fs::exists(recording, error)) return true;
-  fs::remove_all(before, error);
-  if (!error) fs::rename(recording, before, error);
-  if (error) return Unexpected{Problem{recording.string(), error.message()}};
+  for (const std::string& recording : {car.base_recording(), car.own_recording()}) {
+    const std::string before = recording + "_before";
+    std::error_code error;
+    if (!fs::exists(recording, error)) continue;
+    fs::remove_all(before, error);
+    if (!error) fs::rename(recording, before, error);
+    if (error) return Unexpected{Problem{recording, error.message()}};
+  }
   return true;
 }
 

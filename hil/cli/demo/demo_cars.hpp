@@ -36,7 +36,8 @@ struct DemoCar {
   std::uint16_t guest_uplink_port = 0;  // and where they come, at the bench
   std::uint16_t radio_port = 0;         // the bench sends the car's telemetry here
 
-  std::string record() const { return folder + "/record"; }  // of the car itself
+  std::string base_recording() const { return folder + "/recording"; }
+  std::string own_recording() const { return folder + "/car_recording"; }  // by the car itself
 
   // As `bus exec --line-udp` has them.
   std::string line_ports() const;
@@ -45,8 +46,8 @@ struct DemoCar {
 
 std::vector<DemoCar> demo_cars(int count, const std::string& folder, DemoBus bus);
 // A base knows its car again from its recording, and a demo's car has no past: what the demo before
-// recorded lies in `recording_before` afterwards, in place of what was there.
-Result<bool, Problem> set_recording_aside(const DemoCar& car);
+// recorded lies beside with `_before` afterwards, in place of what was there.
+Result<bool, Problem> set_recordings_aside(const DemoCar& car);
 // Beside the cars' folders.
 std::string cars_text(std::span<const DemoCar> cars);
 

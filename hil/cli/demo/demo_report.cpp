@@ -68,7 +68,7 @@ std::string to_text(const CarReport& report) {
             "/candump.log\n";
   }
   return text + "event log: " + report.car.folder + "/events.mcap\n" +
-         "the car's own recording: " + report.car.record() + "\n";
+         "the car's own recording: " + report.car.own_recording() + "\n";
 }
 
 std::string to_json(const CarReport& report) {

@@ -114,7 +114,7 @@ Result<transport::Process, Problem> start_serving_base(const DemoOptions& option
   }
   // Not before: it could be that of a demo that runs.
   for (const DemoCar& car : cars)
-    if (auto aside = set_recording_aside(car); !aside) return Unexpected{aside.error()};
+    if (auto aside = set_recordings_aside(car); !aside) return Unexpected{aside.error()};
   auto base = start_base(options, cars);
   if (!base) return base;
   const Instant end = transport::monotonic_now() + kBaseStart;
@@ -139,7 +139,7 @@ std::vector<std::string> bench_options(const DemoOptions& options, const DemoCar
   run.interface = car.interface();
   run.bay = car.bay;
   run.keys = car.folder + "/keys";
-  run.record_folder = car.record();
+  run.record_folder = car.own_recording();
   if (options.cars == 1 || car.bus == DemoBus::kSocket) run.clock = clock_file();
   if (car.bus == DemoBus::kSocket) {  // on this machine: no line into a guest
     run.radio_port = car.base_port;

@@ -109,6 +109,27 @@ TEST(RecordedRun, NamesTheTickOfWhichSomethingIsMissing) {
   EXPECT_NE(lacking("/can/out", 5).find("frames said are recorded"), std::string::npos);
 }
 
+TEST(RecordedRun, EndsWhereACarThatWasStartedAgainBeginsAnotherRun) {
+  const auto folder = *transport::TemporaryFolder::create("pitwall-twice-");
+  const std::string name = segment().substr(segment().rfind('/') + 1);
+  const std::string first = folder.path() + "/" + name;
+  const std::string second = folder.path() + "/pitwall_99991231T235959.000Z_00000.mcap";
+  for (const std::string& file : {first, second})
+    std::ofstream{file, std::ios::binary} << *transport::read_file(segment());
+  auto run = RecordedRun::open(folder.path());
+  ASSERT_TRUE(run) << to_string(run.error());
+  std::uint64_t ticks = 0;
+  while (true) {
+    const auto tick = run->next();
+    ASSERT_TRUE(tick) << to_string(tick.error());
+    if (!*tick) break;
+    ++ticks;
+  }
+  EXPECT_EQ(ticks, kDrivenTicks);
+  EXPECT_EQ(run->remarks(),
+            (std::vector<std::string>{second + ": another run begins here, compare it alone"}));
+}
+
 TEST(RecordedRun, RefusesWhatIsNoCarsRecording) {
   const auto folder = *transport::TemporaryFolder::create("pitwall-no-run-");
   EXPECT_EQ(refusal_of(folder.path()), folder.path() + ": error: no recording is in this folder");

@@ -53,23 +53,24 @@ TEST(DemoCars, SeveralTakeSocketsWhereAGuestForEachWouldFallBehind) {
   EXPECT_EQ(demo_cars(2, "out/demo", DemoBus::kSocket)[1].interface(), "unix:out/demo/car_8/bus");
 }
 
-TEST(DemoCars, TheRecordingOfTheDemoBeforeIsKeptAside) {
+TEST(DemoCars, TheRecordingsOfTheDemoBeforeAreKeptAside) {
   namespace fs = std::filesystem;
   const fs::path folder =
       fs::temp_directory_path() / ("pitwall-demo-cars-" + std::to_string(getpid()));
   fs::create_directory(folder);
   const DemoCar car = demo_cars(1, folder.string(), DemoBus::kVcan).front();
-  const fs::path recording = fs::path{car.folder} / "recording",
-                 before = fs::path{car.folder} / "recording_before";
-  ASSERT_TRUE(set_recording_aside(car)) << "there was no demo yet";
-  for (const char* const segment : {"first.mcap", "second.mcap"}) {
-    fs::create_directory(recording);
-    std::ofstream{recording / segment} << "bytes";
-    ASSERT_TRUE(set_recording_aside(car));
-    EXPECT_FALSE(fs::exists(recording));
-    EXPECT_TRUE(fs::exists(before / segment));
+  ASSERT_TRUE(set_recordings_aside(car)) << "there was no demo yet";
+  for (const fs::path recording : {car.base_recording(), car.own_recording()}) {
+    const fs::path before = recording.string() + "_before";
+    for (const char* const segment : {"first.mcap", "second.mcap"}) {
+      fs::create_directory(recording);
+      std::ofstream{recording / segment} << "bytes";
+      ASSERT_TRUE(set_recordings_aside(car));
+      EXPECT_FALSE(fs::exists(recording));
+      EXPECT_TRUE(fs::exists(before / segment));
+    }
+    EXPECT_FALSE(fs::exists(before / "first.mcap")) << "one demo is kept, not all";
   }
-  EXPECT_FALSE(fs::exists(before / "first.mcap")) << "one demo is kept, not all";
   fs::remove_all(folder);
 }
 
