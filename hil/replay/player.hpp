@@ -1,17 +1,20 @@
-// Player of a timeline at its due times: sleep to an absolute deadline, then hand every frame that
-// is due within kGroup to its bus in one call. Nothing lies between waking up and sending: no look
-// at a clock, no encoding, no memory that is new.
+// Player of a timeline at its due times: sleep to an absolute deadline, then hand every frame and
+// datagram that is due within kGroup to its track in one call. Nothing lies between waking up and
+// sending: no look at a clock, no encoding, no memory that is new.
 //
 //   due      |a b|  c        |d e f|            a, b and d, e, f: one call each
 //   wake      ^     ^         ^  (what became due during the call goes along with the next one)
-//   calls    sleep, send per bus with frames, clock; without the sleep when the next one is due
+//   calls    sleep, send per track in turn, clock; without the sleep when the next one is due
 //
-//   in     Timeline; a rim that has now(), wait_until(), send(bus, first, count), stopped()
+//   in     Timeline; a rim that has now(), wait_until(), send(track, first, count), stopped()
 //   out    PlayReport: counts, lateness (sent minus due; negative up to kGroup), what was dropped
 //   units  nanoseconds
-//   errors a full queue is retried for kMaxRetry, then the frame is dropped and counted; any other
-//          refusal of the kernel drops and counts it at once
-//   cost   O(1) per frame; allocates in its constructor only
+//   invariants
+//          a track keeps its order, and none is ahead of another by more than kGroup of due time,
+//          also when the player is late; what is due at the same time goes in the order of tracks
+//   errors a full queue is retried for kMaxRetry, then it is dropped and counted; any
+//          other refusal of the kernel drops and counts it at once
+//   cost   O(1) per record and track; allocates in its constructor only
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -32,8 +35,8 @@ inline constexpr std::size_t kListedDrops = 20;
 
 enum class LatePolicy : std::uint8_t {
   kCatchUp,  // late frames go out at once, in order; the schedule stays where it was
-  kDrop,     // a frame later than PlayOptions::late_limit is not sent; the clock is read once more
-  kAbort,    // such a frame ends the replay; likewise
+  kDrop,     // what is later than PlayOptions::late_limit is not sent; the clock is read once more
+  kAbort,    // it ends the replay; likewise
 };
 
 struct PlayOptions {
@@ -43,37 +46,44 @@ struct PlayOptions {
 };
 
 // What a rim's send() says: leading frames that were taken, and whether the rest may be later.
-struct BusOutcome {
+struct TrackOutcome {
   std::size_t taken = 0;
   bool full = false;
 };
 
-struct DroppedFrame {
+struct DroppedRecord {
   unsigned pass = 0;
-  std::size_t bus = 0, frame = 0;  // Timeline::buses[bus].frames[frame]
+  std::size_t track = 0, record = 0;  // the frame or datagram so far from the track's first
   Duration late{};
 };
 
+struct PlayCount {
+  std::uint64_t sent = 0;
+  std::uint64_t dropped_late = 0;     // by LatePolicy::kDrop
+  std::uint64_t dropped_full = 0;     // queue full for kMaxRetry
+  std::uint64_t dropped_refused = 0;  // any other error of the kernel
+
+  std::uint64_t dropped() const { return dropped_late + dropped_full + dropped_refused; }
+};
+
 struct PlayReport {
-  std::uint64_t sent = 0, calls = 0, waits = 0, retries = 0;
-  std::uint64_t dropped_late = 0;                        // by LatePolicy::kDrop
-  std::uint64_t dropped_full = 0;                        // queue full for kMaxRetry
-  std::uint64_t dropped_refused = 0;                     // any other error of the kernel
-  FixedVector<DroppedFrame, kListedDrops> dropped_list;  // the first of them
-  bool aborted = false;                                  // by LatePolicy::kAbort
-  bool stopped = false;                                  // by the rim
+  PlayCount frames, datagrams;
+  std::uint64_t calls = 0, waits = 0, retries = 0;
+  FixedVector<DroppedRecord, kListedDrops> dropped_list;  // the first of them
+  bool aborted = false;                                   // by LatePolicy::kAbort
+  bool stopped = false;                                   // by the rim
   Duration took{};
   Duration seam_error{};  // the worst of: gap between two passes as sent minus as planned
   LatenessHistogram lateness;
 
-  std::uint64_t dropped() const { return dropped_late + dropped_full + dropped_refused; }
+  std::uint64_t dropped() const { return frames.dropped() + datagrams.dropped(); }
 };
 
 template <class Rim>
 class Player {
  public:
   Player(const Timeline& timeline, const PlayOptions& options, Rim& rim)
-      : timeline_(timeline), options_(options), rim_(rim), cursors_(timeline.buses.size()) {}
+      : timeline_(timeline), options_(options), rim_(rim), cursors_(timeline.tracks.size()) {}
 
   PlayReport play(Instant start) {
     now_ = rim_.now();
@@ -86,12 +96,15 @@ class Player {
   }
 
  private:
-  // Where a bus is in its pass: frames before `sent` are done with, those before `recorded` are in
-  // the histogram.
+  // Where a track is in its pass: records before `next` are done with, those before `recorded` are
+  // in the histogram.
   struct Cursor {
     std::size_t next = 0, recorded = 0;
   };
 
+  PlayCount& count_of(std::size_t track) {
+    return timeline_.tracks[track].to ? report_.datagrams : report_.frames;
+  }
   bool ended() const { return report_.aborted || report_.stopped; }
   bool judges_lateness() const { return options_.late != LatePolicy::kCatchUp; }
 
@@ -101,18 +114,19 @@ class Player {
       const Duration due = next_due();
       if (due == kNothingLeft) return;
       wait_until(start_ + due);
-      for (std::size_t bus = 0; bus < cursors_.size() && !ended(); ++bus) send_due(bus);
+      for (std::size_t track = 0; track < cursors_.size() && !ended(); ++track)
+        send_due(track, due);
       now_ = rim_.now();
-      for (std::size_t bus = 0; bus < cursors_.size(); ++bus) record(bus);
+      for (std::size_t track = 0; track < cursors_.size(); ++track) record(track);
     }
   }
 
   Duration next_due() const {
     Duration first = kNothingLeft;
-    for (std::size_t bus = 0; bus < cursors_.size(); ++bus) {
-      const BusTrack& track = timeline_.buses[bus];
-      if (cursors_[bus].next < track.due.size())
-        first = std::min(first, track.due[cursors_[bus].next]);
+    for (std::size_t track = 0; track < cursors_.size(); ++track) {
+      const Track& plan = timeline_.tracks[track];
+      if (cursors_[track].next < plan.due.size())
+        first = std::min(first, plan.due[cursors_[track].next]);
     }
     return first;
   }
@@ -127,63 +141,64 @@ class Player {
     report_.stopped = rim_.stopped();
   }
 
-  void send_due(std::size_t bus) {
-    const BusTrack& track = timeline_.buses[bus];
-    Cursor& cursor = cursors_[bus];
-    if (judges_lateness()) refuse_late(bus);
-    const Duration limit = now_ - start_ + kGroup;
+  void send_due(std::size_t track, Duration due) {
+    const Track& plan = timeline_.tracks[track];
+    Cursor& cursor = cursors_[track];
+    if (judges_lateness()) refuse_late(track);
+    const Duration until = cursors_.size() == 1 ? now_ - start_ : due;  // the others wait for it
+    const Duration limit = until + kGroup;
     std::size_t end = cursor.next;
-    while (end < track.due.size() && track.due[end] <= limit) ++end;
+    while (end < plan.due.size() && plan.due[end] <= limit) ++end;
     const Instant give_up = now_ + kMaxRetry;
     while (cursor.next < end && !ended()) {
-      const BusOutcome outcome = rim_.send(bus, cursor.next, end - cursor.next);
+      const TrackOutcome outcome = rim_.send(track, cursor.next, end - cursor.next);
       ++report_.calls;
-      report_.sent += outcome.taken;
+      count_of(track).sent += outcome.taken;
       cursor.next += outcome.taken;
       if (cursor.next == end) return;
       now_ = rim_.now();
-      record(bus);
-      retry_or_drop(bus, outcome.full, give_up);
+      record(track);
+      retry_or_drop(track, outcome.full, give_up);
     }
   }
 
-  // The frame at the cursor was not taken.
-  void retry_or_drop(std::size_t bus, bool full, Instant give_up) {
+  // The record at the cursor was not taken.
+  void retry_or_drop(std::size_t track, bool full, Instant give_up) {
     if (full && now_ < give_up) {
       ++report_.retries;
       rim_.wait_until(now_ + kRetryPause);
       now_ = rim_.now();
-      if (judges_lateness()) refuse_late(bus);
+      if (judges_lateness()) refuse_late(track);
     } else {
-      drop(bus, full ? report_.dropped_full : report_.dropped_refused);
+      drop(track, full ? count_of(track).dropped_full : count_of(track).dropped_refused);
     }
   }
 
-  // Due times never decrease: the frames that are too late are the first ones.
-  void refuse_late(std::size_t bus) {
-    const BusTrack& track = timeline_.buses[bus];
-    const Cursor& cursor = cursors_[bus];
-    while (cursor.next < track.due.size() && lateness(bus, cursor.next) > options_.late_limit) {
+  // Due times never decrease: those that are too late are the first ones.
+  void refuse_late(std::size_t track) {
+    const Track& plan = timeline_.tracks[track];
+    const Cursor& cursor = cursors_[track];
+    while (cursor.next < plan.due.size() && lateness(track, cursor.next) > options_.late_limit) {
       if (options_.late == LatePolicy::kAbort) {
         report_.aborted = true;
         return;
       }
-      drop(bus, report_.dropped_late);
+      drop(track, count_of(track).dropped_late);
     }
   }
 
-  void drop(std::size_t bus, std::uint64_t& counter) {
-    Cursor& cursor = cursors_[bus];
+  void drop(std::size_t track, std::uint64_t& counter) {
+    Cursor& cursor = cursors_[track];
     ++counter;
     static_cast<void>(  // those beyond are in the count
-        report_.dropped_list.push({pass_, bus, cursor.next, lateness(bus, cursor.next)}));
+        report_.dropped_list.push({pass_, track, cursor.next, lateness(track, cursor.next)}));
     cursor.recorded = ++cursor.next;
   }
 
-  void record(std::size_t bus) {
-    Cursor& cursor = cursors_[bus];
+  void record(std::size_t track) {
+    Cursor& cursor = cursors_[track];
     for (; cursor.recorded < cursor.next; ++cursor.recorded) {
-      const Duration late = lateness(bus, cursor.recorded);
+      const Duration late = lateness(track, cursor.recorded);
       report_.lateness.add(late);
       if (pass_ != last_pass_) note_seam(late - last_late_);
       last_pass_ = pass_;
@@ -195,8 +210,8 @@ class Player {
     report_.seam_error = std::max({report_.seam_error, error, -error});
   }
 
-  Duration lateness(std::size_t bus, std::size_t frame) const {
-    return now_ - (start_ + timeline_.buses[bus].due[frame]);
+  Duration lateness(std::size_t track, std::size_t record) const {
+    return now_ - (start_ + timeline_.tracks[track].due[record]);
   }
 
   static constexpr Duration kNothingLeft{INT64_MAX};
@@ -206,7 +221,7 @@ class Player {
   Rim& rim_;
   std::vector<Cursor> cursors_;
   PlayReport report_;
-  unsigned pass_ = 0, last_pass_ = 0;  // being played; of the last frame that was sent
+  unsigned pass_ = 0, last_pass_ = 0;  // being played; of the last one that was sent
   Instant start_{}, now_{};
   Duration last_late_{};
 };

@@ -11,23 +11,32 @@ std::string count(std::uint64_t n) { return std::to_string(n); }
 std::int64_t whole_us(Duration d) { return d.ns / 1'000; }
 std::string in_us(Duration d) { return std::to_string(whole_us(d)); }
 
-// "can0 1A0 due at 1.234567 s"
-std::string name_of(const DroppedFrame& dropped, const Timeline& timeline) {
-  const BusTrack& bus = timeline.buses[dropped.bus];
-  const can::Frame& frame = bus.frames[dropped.frame];
+std::string content_of(const Track& track, std::size_t record) {
+  if (track.to) return " " + count(track.datagrams[record].size()) + " bytes";
+  const can::Frame& frame = track.frames[record];
   const int digits = frame.extended ? 8 : 3;
-  return bus.interface + formatted(" %0*X", digits, frame.id) + " due at " +
-         std::to_string(bus.due[dropped.frame].seconds()) + " s of pass " +
+  return formatted(" %0*X", digits, frame.id);
+}
+
+// "can0 1A0 due at 1.234567 s", "127.0.0.1:3001 104 bytes due at ..."
+std::string name_of(const DroppedRecord& dropped, const Timeline& timeline) {
+  const Track& track = timeline.tracks[dropped.track];
+  return track.target + content_of(track, dropped.record) + " due at " +
+         std::to_string(track.due[dropped.record].seconds()) + " s of pass " +
          count(dropped.pass + 1ULL);
+}
+
+std::string drops_text(const PlayCount& of, const char* what) {
+  if (of.dropped() == 0) return {};
+  return "dropped " + count(of.dropped()) + " " + what + ": " + count(of.dropped_late) +
+         " too late, " + count(of.dropped_full) + " queue full, " + count(of.dropped_refused) +
+         " refused by the kernel\n";
 }
 
 std::string drops_text(const PlayReport& report, const Timeline& timeline) {
   if (report.dropped() == 0) return {};
-  std::string out = "dropped " + count(report.dropped()) +
-                    " frames: " + count(report.dropped_late) + " too late, " +
-                    count(report.dropped_full) + " queue full, " + count(report.dropped_refused) +
-                    " refused by the kernel\n";
-  for (const DroppedFrame& dropped : report.dropped_list)
+  std::string out = drops_text(report.frames, "frames") + drops_text(report.datagrams, "datagrams");
+  for (const DroppedRecord& dropped : report.dropped_list)
     out += "  " + name_of(dropped, timeline) + ", late by " + in_us(dropped.late) + " us\n";
   if (report.dropped() > report.dropped_list.size()) out += "  and more\n";
   return out;
@@ -35,23 +44,55 @@ std::string drops_text(const PlayReport& report, const Timeline& timeline) {
 
 std::string drops_json(const PlayReport& report, const Timeline& timeline) {
   json::Array out;
-  for (const DroppedFrame& dropped : report.dropped_list) {
-    const BusTrack& bus = timeline.buses[dropped.bus];
-    out.json(json::Object{}
-                 .number("pass", dropped.pass + 1ULL)
-                 .number("id", bus.frames[dropped.frame].id)
-                 .number("due_us", whole_us(bus.due[dropped.frame]))
+  for (const DroppedRecord& dropped : report.dropped_list) {
+    const Track& track = timeline.tracks[dropped.track];
+    json::Object one;
+    one.number("pass", dropped.pass + 1ULL).text("to", track.target);
+    if (track.to) {
+      one.number("bytes", track.datagrams[dropped.record].size());
+    } else {
+      one.number("id", track.frames[dropped.record].id);
+    }
+    out.json(one.number("due_us", whole_us(track.due[dropped.record]))
                  .number("late_us", whole_us(dropped.late))
                  .str());
   }
   return out.str();
 }
 
+std::string left_out_text(const Timeline& timeline) {
+  if (timeline.left_out.empty()) return {};
+  std::uint64_t records = 0;
+  for (const LeftOut& left : timeline.left_out) records += left.records;
+  return "not played: " + count(records) + " records of " + count(timeline.left_out.size()) +
+         " sources\n";
+}
+
+std::string left_out_json(const Timeline& timeline) {
+  json::Array out;
+  for (const LeftOut& left : timeline.left_out)
+    out.json(json::Object{}
+                 .text("source", left.source)
+                 .text("why", left.why)
+                 .number("records", left.records)
+                 .str());
+  return out.str();
+}
+
+void add(json::Object& out, const PlayCount& of) {
+  out.number("sent", of.sent)
+      .number("dropped_late", of.dropped_late)
+      .number("dropped_full", of.dropped_full)
+      .number("dropped_refused", of.dropped_refused);
+}
+
 }  // namespace
 
 std::string to_text(const PlayReport& report, const Timeline& timeline) {
   const LatenessHistogram& late = report.lateness;
-  std::string out = "sent " + count(report.sent) + " frames in " +
+  const std::string datagrams =
+      timeline.datagrams == 0 ? "" : " and " + count(report.datagrams.sent) + " datagrams";
+  std::string out = "sent " + count(report.frames.sent) + " frames" + datagrams + " in " +
                     std::to_string(report.took.seconds()) + " s (" + count(report.calls) +
                     " calls, " + count(report.waits) + " sleeps, " + count(report.retries) +
                     " retries, " + count(report.dropped()) + " dropped)\n";
@@ -61,7 +102,8 @@ std::string to_text(const PlayReport& report, const Timeline& timeline) {
   if (report.seam_error.ns > 0)
     out += "gaps between passes wrong by " + in_us(report.seam_error) + " us at most\n";
   out += drops_text(report, timeline);
-  if (report.aborted) out += "aborted: a frame was later than allowed\n";
+  out += left_out_text(timeline);
+  if (report.aborted) out += "aborted: a frame or datagram was later than allowed\n";
   if (report.stopped) out += "stopped by a signal\n";
   return out;
 }
@@ -69,17 +111,17 @@ std::string to_text(const PlayReport& report, const Timeline& timeline) {
 std::string to_json(const PlayReport& report, const Timeline& timeline,
                     const transport::RealtimeReport& realtime) {
   const LatenessHistogram& late = report.lateness;
+  json::Object datagrams;
+  add(datagrams.number("per_pass", timeline.datagrams), report.datagrams);
   json::Object out;
-  out.text("verb", "replay")
-      .number("frames_per_pass", timeline.frames)
-      .number("sent", report.sent)
+  out.text("verb", "replay").number("frames_per_pass", timeline.frames);
+  add(out, report.frames);
+  out.json("datagrams", datagrams.str())
+      .json("left_out", left_out_json(timeline))
       .number("took_us", whole_us(report.took))
       .number("calls", report.calls)
       .number("sleeps", report.waits)
       .number("retries", report.retries)
-      .number("dropped_late", report.dropped_late)
-      .number("dropped_full", report.dropped_full)
-      .number("dropped_refused", report.dropped_refused)
       .json("dropped_first", drops_json(report, timeline));
   if (late.count() > 0)
     out.json("late_us", json::Object{}

@@ -1,6 +1,7 @@
 // Summary of a replay as text and as JSON.
 //   in     the report of the player, the timeline that was played, what the kernel granted
 //   out    a few lines of text, or one JSON object
+//          frames and datagrams apart; what was not played
 //   units  microseconds in both
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -5,13 +5,17 @@
 #include <optional>
 
 #include "hil/replay/formats/log_reader.hpp"
+#include "hil/replay/formats/recognise.hpp"
 #include "hil/replay/player.hpp"
+#include "hil/replay/recordings/recording_reader.hpp"
 #include "hil/replay/replay_summary.hpp"
 #include "hil/replay/socket_rim.hpp"
 #include "hil/replay/timeline.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/realtime.hpp"
+#include "protocol/transport/udp_socket.hpp"
+#include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::replay {
 namespace {
@@ -49,6 +53,15 @@ bool take_map(ReplayOptions& out, const std::string& value) {
   const std::size_t equals = value.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == value.size()) return false;
   out.timeline.map.emplace_back(value.substr(0, equals), value.substr(equals + 1));
+  return true;
+}
+
+bool take_receiver(ReplayOptions& out, const std::string& value) {
+  const std::size_t equals = value.rfind('=');
+  if (equals == std::string::npos || equals == 0) return false;
+  const auto address = transport::parse_udp_address(std::string_view(value).substr(equals + 1));
+  if (!address || address->port == 0) return false;
+  out.timeline.receivers.emplace_back(value.substr(0, equals), *address);
   return true;
 }
 
@@ -106,6 +119,8 @@ constexpr OptionRow kOptions[] = {
        return !value.empty();
      }},
     {"--map", "expected RECORDED=INTERFACE", take_map},
+    {"--receiver", "expected SOURCE=ADDRESS:PORT with an IPv4 address and a port from 1 to 65535",
+     take_receiver},
     {"--speed", "not a speed",
      [](ReplayOptions& out, const std::string& value) {
        return parse_number(value, out.timeline.speed);
@@ -143,7 +158,7 @@ Result<ReplayOptions, Problem> parse_options(std::span<const std::string> args) 
   ReplayOptions out;
   for (std::size_t i = 0; i < args.size(); ++i) {
     if (!args[i].starts_with("--")) {
-      if (!out.file.empty()) return Unexpected{Problem{args[i], "more than one log"}};
+      if (!out.file.empty()) return Unexpected{Problem{args[i], "more than one recording"}};
       out.file = args[i];
       continue;
     }
@@ -151,18 +166,54 @@ Result<ReplayOptions, Problem> parse_options(std::span<const std::string> args) 
     if (auto problem = take_option(out, args[i], args[i + 1])) return Unexpected{*problem};
     ++i;
   }
-  if (out.file.empty()) return Unexpected{Problem{"replay", "expected FILE: a CAN log"}};
+  if (out.file.empty())
+    return Unexpected{Problem{"replay", "expected FILE: a CAN log or a recording"}};
   return out;
 }
 
-// Text and log are gone again when it returns: only what is played is locked into memory.
-Result<Timeline, Problem> load(const ReplayOptions& options) {
-  const auto text = transport::read_file(options.file);
-  if (!text) return Unexpected{text.error()};
-  const auto log = read_can_log(*text, options.file);
+bool is_recording(const std::string& file) {
+  switch (recognise(file)) {
+    case FileFormat::kMcap:
+    case FileFormat::kLcm:
+    case FileFormat::kSqlite:
+    case FileFormat::kNovatel:
+    case FileFormat::kVectorNav:
+    case FileFormat::kZstd:
+      return true;
+    case FileFormat::kUnknownBinary:  // a stream that begins within a message
+      return traffic::format_of(as_bytes(file)) != traffic::RecordingFormat::kNone;
+    default:
+      return false;
+  }
+}
+
+Result<Timeline, Problem> timeline_of_log(const std::string& text, const ReplayOptions& options) {
+  const auto log = read_can_log(text, options.file);
   if (!log) return Unexpected{log.error()};
   transport::write_to(kErrors, to_text(*log, options.file));
-  auto timeline = make_timeline(*log, options.timeline);
+  return make_timeline(*log, options.timeline);
+}
+
+Result<Timeline, Problem> timeline_of_recording(std::string file, const ReplayOptions& options) {
+  const auto recording = traffic::read_recording(std::move(file), options.file);
+  if (!recording) return Unexpected{recording.error()};
+  std::string said;
+  for (const traffic::Remark& remark : recording->remarks) said += to_string(remark) + "\n";
+  auto timeline = make_timeline(*recording, options.timeline);
+  if (timeline)
+    for (const LeftOut& left : timeline->left_out)
+      said += options.file + ": not played: " + left.source + " (" + std::to_string(left.records) +
+              " records): " + left.why + "\n";
+  transport::write_to(kErrors, said);
+  return timeline;
+}
+
+// File and recording are gone again when it returns: only what is played is locked into memory.
+Result<Timeline, Problem> load(const ReplayOptions& options) {
+  auto file = transport::read_file(options.file);
+  if (!file) return Unexpected{file.error()};
+  auto timeline = is_recording(*file) ? timeline_of_recording(*std::move(file), options)
+                                      : timeline_of_log(*file, options);
   if (!timeline) return timeline;
   if (timeline->pass.ns > kLongestReplay.ns / options.play.passes)
     return Unexpected{Problem{options.file, "all passes together take more than a century"}};
@@ -170,19 +221,22 @@ Result<Timeline, Problem> load(const ReplayOptions& options) {
 }
 
 constexpr const char* kUsage =
-    "replay FILE [--interface IFACE] [--map RECORDED=IFACE]... [--speed X] [--loop N]\n"
-    "       [--start S] [--skip S] [--id HEX]...\n"
-    "       [--late catch-up|drop:MS|abort:MS] [--spin US] [--json FILE]\n"
+    "replay FILE [--interface IFACE] [--map RECORDED=IFACE]...\n"
+    "       [--receiver SOURCE=ADDRESS:PORT]... [--speed X] [--loop N] [--start S] [--skip S]\n"
+    "       [--id HEX]... [--late catch-up|drop:MS|abort:MS] [--spin US] [--json FILE]\n"
     "plays a CAN log in real time: candump, Vector ASC and BLF, PEAK TRC, pcap, pcapng, also with\n"
     "gzip; records that do not read are left out and told. Without --interface and --map every\n"
     "channel goes to the interface that it was recorded from, channel 1 of Vector and PEAK to "
     "can0\n"
+    "plays a recording likewise: the car's black box and bags (MCAP, SQLite), LCM logs, bytes of\n"
+    "a receiver. CAN topics need --interface or --map; /can/out, which the car said, needs --map\n"
+    "  --receiver  bytes of a receiver as UDP datagrams to an address, in order with the frames\n"
     "  --start S   leave out the first S seconds    --skip S    do not wait through longer gaps\n"
     "  --id HEX    only these identifiers           --loop N    so many passes without a seam\n"
-    "  --late      frames later than MS: sent at once (catch-up, the default), dropped, or the "
+    "  --late      what is later than MS: sent at once (catch-up, the default), dropped, or the "
     "end\n"
     "  --spin US   wake up so early and wait busily, 0 to 200; default: what sleeps are late here\n"
-    "exit codes: 0 all sent, 1 frames dropped or replay ended early, 2 bad input\n";
+    "exit codes: 0 all sent, 1 something dropped or ended early, 2 bad input\n";
 
 }  // namespace
 
@@ -203,7 +257,11 @@ int replay_verb(std::span<const std::string> args) {
   const PlayReport report = player.play(transport::monotonic_now() + kRunUp);
   transport::write_to(kOutput, to_text(report, *timeline));
   if (!rim->last_error().empty())
-    transport::write_to(kErrors, "the kernel refused frames: " + rim->last_error() + "\n");
+    transport::write_to(kErrors, "the kernel refused to send: " + rim->last_error() + "\n");
+  for (std::size_t track = 0; track < timeline->tracks.size(); ++track)
+    if (const std::uint64_t unheard = rim->unheard(track); unheard > 0)
+      transport::write_to(kErrors, timeline->tracks[track].target + ": nobody listened to " +
+                                       std::to_string(unheard) + " datagrams or more\n");
   if (!options->json_file.empty()) {
     const auto written =
         transport::write_file(options->json_file, to_json(report, *timeline, realtime));

@@ -13,6 +13,7 @@ namespace {
 constexpr Duration kIdle = milliseconds(10);           // a longer wait ends with a signal
 constexpr Duration kExactWait = milliseconds(5);       // the last stretch of it, by the clock
 constexpr Duration kSignalPeriod = milliseconds(100);  // a busy replay looks that often
+constexpr unsigned kNetworkShift = 24;                 // 127.0.0.0/8 is this machine
 constexpr std::size_t kSamples = 64;
 constexpr std::size_t kUsual = kSamples * 9 / 10;
 constexpr Duration kSampleSleep = microseconds(600);
@@ -20,17 +21,33 @@ constexpr Duration kSampleSleep = microseconds(600);
 }  // namespace
 
 Result<SocketRim, Problem> SocketRim::open(const Timeline& timeline) {
-  std::vector<Bus> buses;
-  for (const BusTrack& bus : timeline.buses) {
-    auto sender = transport::CanSender::open(bus.interface);
+  std::vector<Sender> senders;
+  for (const Track& track : timeline.tracks) {
+    auto sender = open(track);
     if (!sender) return Unexpected{sender.error()};
-    auto frames = transport::PreparedFrames::make(bus.frames, bus.fd_flags);
-    if (!frames) return Unexpected{frames.error()};
-    buses.push_back({*std::move(sender), *std::move(frames)});
+    senders.push_back(*std::move(sender));
   }
   auto stop = transport::StopSignal::install();
   if (!stop) return Unexpected{stop.error()};
-  return SocketRim{std::move(buses), *std::move(stop)};
+  return SocketRim{std::move(senders), *std::move(stop)};
+}
+
+Result<SocketRim::Sender, Problem> SocketRim::open(const Track& track) {
+  if (track.to) {
+    const bool stays_here =
+        track.to->ip >> kNetworkShift == transport::kLoopbackIp >> kNetworkShift;
+    auto socket = transport::UdpSocket::bind(
+        {.ip = stays_here ? transport::kLoopbackIp : transport::kAnyIp, .port = 0});
+    if (!socket) return Unexpected{socket.error()};
+    if (auto connected = socket->connect(*track.to); !connected)
+      return Unexpected{connected.error()};
+    return Sender{Line{*std::move(socket), &track.datagrams}};
+  }
+  auto sender = transport::CanSender::open(track.target);
+  if (!sender) return Unexpected{sender.error()};
+  auto frames = transport::PreparedFrames::make(track.frames, track.fd_flags);
+  if (!frames) return Unexpected{frames.error()};
+  return Sender{Bus{*std::move(sender), *std::move(frames)}};
 }
 
 Duration SocketRim::measured_lead() {
@@ -77,10 +94,27 @@ void SocketRim::wait_until(Instant deadline) {
   budget_.spend(read_ - busy_from);
 }
 
-BusOutcome SocketRim::send(std::size_t bus, std::size_t first, std::size_t count) {
-  const auto outcome = buses_[bus].sender.send(buses_[bus].frames, first, count);
+transport::SendOutcome SocketRim::send(Line& line, std::size_t first, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i)
+    if (!line.socket.send((*line.datagrams)[first + i]))
+      return {.taken = i, .error = line.socket.send_error()};
+  return {.taken = count, .error = 0};
+}
+
+TrackOutcome SocketRim::send(std::size_t track, std::size_t first, std::size_t count) {
+  transport::SendOutcome outcome;
+  if (Bus* bus = std::get_if<Bus>(&senders_[track])) {
+    outcome = bus->sender.send(bus->frames, first, count);
+  } else {
+    outcome = send(std::get<Line>(senders_[track]), first, count);
+  }
   if (outcome.error != 0 && !outcome.full()) last_error_ = outcome.error;
   return {.taken = outcome.taken, .full = outcome.full()};
+}
+
+std::uint64_t SocketRim::unheard(std::size_t track) const {
+  const Line* line = std::get_if<Line>(&senders_[track]);
+  return line == nullptr ? 0 : line->socket.counters().rx_refused;
 }
 
 std::string SocketRim::last_error() const {

@@ -10,15 +10,20 @@
 // shorter than the lead are not slept through at all. In a guest a system call takes as long as a
 // short frame on the wire, so signals are looked at only where there is time.
 //
-//   in     timeline, one sender per bus, the lead (measured, or given; 0: plain sleeps)
+// Each track of frames has a CAN socket, each track of datagrams a UDP socket of its own.
+//
+//   in     timeline, which stays where it is as long as the rim; the lead (measured, or given; 0: plain sleeps)
 //   out    now(), wait_until(), send(), stopped() as Player asks for them
 //   errors open(): Problem. While playing: SendOutcome only
+//   bound  a datagram that the kernel took may still be lost: a receive queue that is full drops it,
+//          which only its owner can count. That nobody listens the kernel tells, and unheard() says
 //   cost   the lead is time of the processor that nobody else gets, once per wake-up; where that
 //          would be more than a quarter of all time (BusyBudget), sleeps are plain for a while
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "hil/replay/busy_budget.hpp"
@@ -26,6 +31,7 @@
 #include "hil/replay/timeline.hpp"
 #include "protocol/transport/can/can_sender.hpp"
 #include "protocol/transport/process.hpp"
+#include "protocol/transport/udp_socket.hpp"
 #include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::replay {
@@ -43,21 +49,30 @@ class SocketRim {
 
   Instant now();
   void wait_until(Instant deadline);
-  BusOutcome send(std::size_t bus, std::size_t first, std::size_t count);
+  TrackOutcome send(std::size_t track, std::size_t first, std::size_t count);
   bool stopped() const { return stopped_; }
   // The last error of the kernel but a full queue, for people; empty: none.
   std::string last_error() const;
+  // Datagrams of a track that nobody listened to, as far as the kernel said so.
+  std::uint64_t unheard(std::size_t track) const;
 
  private:
   struct Bus {
     transport::CanSender sender;
     transport::PreparedFrames frames;
   };
-  SocketRim(std::vector<Bus> buses, transport::StopSignal stop)
-      : buses_(std::move(buses)), stop_(std::move(stop)) {}
+  struct Line {
+    transport::UdpSocket socket;
+    const Datagrams* datagrams;
+  };
+  using Sender = std::variant<Bus, Line>;
+  static Result<Sender, Problem> open(const Track& track);
+  static transport::SendOutcome send(Line& line, std::size_t first, std::size_t count);
+  SocketRim(std::vector<Sender> senders, transport::StopSignal stop)
+      : senders_(std::move(senders)), stop_(std::move(stop)) {}
   void look_for_signals(Instant deadline);
 
-  std::vector<Bus> buses_;
+  std::vector<Sender> senders_;  // of each track
   transport::StopSignal stop_;
   Duration lead_{};
   Duration half_look_{};  // of what one look at the clock takes

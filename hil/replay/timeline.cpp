@@ -2,92 +2,148 @@
 #include "hil/replay/timeline.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
+
+#include "hil/replay/timeline_builder.hpp"
 
 namespace pitwall::replay {
 namespace {
 
-constexpr double kMinSpeed = 1e-3, kMaxSpeed = 1e6;
-constexpr Duration kMaxPass = seconds(366LL * 24 * 3'600);
+using traffic::Recording;
+using traffic::Source;
+using traffic::SourceKind;
+
+constexpr std::string_view kSaidByCar = "/can/out";
+
+template <class Pairs>
+auto* value_of(const Pairs& pairs, const std::string& name) {
+  const auto found = std::ranges::find_if(pairs, [&](const auto& p) { return p.first == name; });
+  return found == pairs.end() ? nullptr : &found->second;
+}
 
 std::string target_of(const std::string& channel, const TimelineOptions& options) {
-  for (const auto& [recorded, interface] : options.map)
-    if (recorded == channel) return interface;
+  if (const auto* mapped = value_of(options.map, channel)) return *mapped;
   return options.interface.empty() ? channel : options.interface;
 }
 
-std::size_t track_of(std::vector<BusTrack>& buses, const std::string& interface) {
-  for (std::size_t i = 0; i < buses.size(); ++i)
-    if (buses[i].interface == interface) return i;
-  buses.push_back({.interface = interface, .frames = {}, .fd_flags = {}, .due = {}});
-  return buses.size() - 1;
+std::optional<Problem> problem_of(const CanLog& log, const TimelineOptions& options) {
+  if (auto problem = TimelineBuilder::problem_of(options)) return problem;
+  if (log.frames.empty()) return Problem{"log", "holds no frames"};
+  for (const auto& [recorded, interface] : options.map)
+    if (std::ranges::find(log.channels, recorded) == log.channels.end())
+      return Problem{recorded, "is mapped, but does not occur in the log"};
+  if (!options.receivers.empty())
+    return Problem{options.receivers.front().first, "is no receiver: a CAN log holds none"};
+  return std::nullopt;
 }
 
-Duration scaled(Duration d, double speed) {
-  return {std::llround(static_cast<double>(d.ns) / speed)};
+std::string names_of(const Recording& recording, bool can) {
+  std::string names;
+  for (const Source& source : recording.sources)
+    if (source.kind == (can ? SourceKind::kCan : SourceKind::kReceiver))
+      names += (names.empty() ? "" : ", ") + source.name;
+  return names.empty() ? "there are none" : names;
 }
 
-// Time of the log without what is left out: never runs back, and not through a gap that is skipped.
-struct LogClock {
-  UtcTime latest;
-  Duration elapsed{};
+// Of a name that --map (CAN) or --receiver gives.
+std::optional<Problem> problem_of(const Recording& recording, const std::string& name, bool can) {
+  const std::string known = std::string(can ? "CAN sources" : "receivers") +
+                            " of the recording: " + names_of(recording, can);
+  const auto source = std::ranges::find(recording.sources, name, &Source::name);
+  if (source == recording.sources.end())
+    return Problem{name, "is mapped, but does not occur in the recording; " + known};
+  if (source->kind != (can ? SourceKind::kCan : SourceKind::kReceiver))
+    return Problem{name,
+                   std::string(can ? "holds no CAN frames" : "is no receiver") + "; " + known};
+  return std::nullopt;
+}
 
-  Duration at(UtcTime stamp, Duration longest_gap) {
-    const Duration gap{std::max<std::int64_t>(stamp.ns - latest.ns, 0)};
-    latest = std::max(latest, stamp);
-    if (gap <= longest_gap) elapsed = elapsed + gap;
-    return elapsed;
+std::optional<Problem> problem_of(const Recording& recording, const TimelineOptions& options) {
+  if (auto problem = TimelineBuilder::problem_of(options)) return problem;
+  if (recording.records.empty()) return Problem{"recording", "holds no records"};
+  for (const auto& [name, interface] : options.map)
+    if (auto problem = problem_of(recording, name, true)) return problem;
+  for (auto one = options.receivers.begin(); one != options.receivers.end(); ++one) {
+    if (auto problem = problem_of(recording, one->first, false)) return problem;
+    for (auto other = options.receivers.begin(); other != one; ++other) {
+      if (other->first == one->first) return Problem{one->first, "has two addresses"};
+      if (other->second == one->second)
+        return Problem{transport::to_string(one->second),
+                       "is the address of two receivers: their bytes would mix"};
+    }
   }
+  return std::nullopt;
+}
+
+bool can_be_interface(const std::string& name) {
+  return !name.empty() && name.size() <= kMaxChannelName && name.find('/') == std::string::npos;
+}
+
+struct Way {
+  std::optional<std::size_t> track{};
+  std::string why_not{};
 };
 
-bool is_wanted(const LoggedFrame& logged, const TimelineOptions& options) {
-  const auto& ids = options.ids;
-  return ids.empty() || std::find(ids.begin(), ids.end(), logged.frame.id) != ids.end();
+Way way_of_can(const std::string& name, const TimelineOptions& options, TimelineBuilder& builder) {
+  if (const auto* mapped = value_of(options.map, name)) return {.track = builder.bus(*mapped)};
+  const std::string remedy = "--map " + name + "=INTERFACE sends it";
+  if (name == kSaidByCar) return {.why_not = "the car said it itself; " + remedy};
+  if (!options.interface.empty()) return {.track = builder.bus(options.interface)};
+  if (can_be_interface(name)) return {.track = builder.bus(name)};
+  return {.why_not = "has no interface; " + remedy};
 }
 
-std::optional<Problem> problem_of(const CanLog& log, const TimelineOptions& options) {
-  if (!(options.speed >= kMinSpeed && options.speed <= kMaxSpeed))
-    return Problem{"speed", "must be from 0.001 to 1000000"};
-  if (log.frames.empty()) return Problem{"log", "holds no frames"};
-  if (options.start < Duration{} || options.start > kMaxPass)
-    return Problem{"start", "must be from 0 to a year"};
-  for (const auto& [recorded, interface] : options.map)
-    if (std::find(log.channels.begin(), log.channels.end(), recorded) == log.channels.end())
-      return Problem{recorded, "is mapped, but does not occur in the log"};
-  return std::nullopt;
+Way way_of(const Source& source, const TimelineOptions& options, TimelineBuilder& builder) {
+  switch (source.kind) {
+    case SourceKind::kCan:
+      return way_of_can(source.name, options, builder);
+    case SourceKind::kReceiver:
+      if (const auto* to = value_of(options.receivers, source.name))
+        return {.track = builder.receiver(*to)};
+      return {.why_not = "has no address; --receiver " + source.name + "=ADDRESS:PORT sends it"};
+    case SourceKind::kRos:
+    case SourceKind::kOther:
+      break;
+  }
+  return {.why_not = "neither CAN nor a receiver"};
 }
 
 }  // namespace
 
 Result<Timeline, Problem> make_timeline(const CanLog& log, const TimelineOptions& options) {
   if (const auto problem = problem_of(log, options)) return Unexpected{*problem};
-  Timeline out;
+  TimelineBuilder builder{"log", log.frames.front().at, options};
   std::vector<std::size_t> track;
   for (const std::string& channel : log.channels)
-    track.push_back(track_of(out.buses, target_of(channel, options)));
-  const UtcTime begin{log.frames.front().at.ns + options.start.ns};
-  LogClock clock{.latest = begin};
-  Duration first{}, latest{};
-  for (const LoggedFrame& logged : log.frames) {
-    if (logged.at < begin && out.frames == 0) continue;
-    if (!is_wanted(logged, options)) continue;
-    latest = clock.at(logged.at, options.longest_gap);
-    if (out.frames == 0) first = latest;
-    if ((latest - first).seconds() / options.speed > kMaxPass.seconds())
-      return Unexpected{Problem{"log", "takes more than a year to play (skip its gaps?)"}};
-    BusTrack& bus = out.buses[track[logged.channel]];
-    bus.frames.push_back(logged.frame);
-    bus.fd_flags.push_back(logged.fd_flags);
-    bus.due.push_back(scaled(latest - first, options.speed));
-    ++out.frames;
+    track.push_back(builder.bus(target_of(channel, options)));
+  for (const LoggedFrame& logged : log.frames)
+    builder.add(track[logged.channel], logged.at, logged.frame, logged.fd_flags);
+  return std::move(builder).finish();
+}
+
+Result<Timeline, Problem> make_timeline(const Recording& recording,
+                                        const TimelineOptions& options) {
+  if (const auto problem = problem_of(recording, options)) return Unexpected{*problem};
+  TimelineBuilder builder{"recording", recording.first(), options};
+  std::vector<std::optional<std::size_t>> track;
+  for (const Source& source : recording.sources) {
+    if (source.records == 0) {
+      track.emplace_back();
+      continue;
+    }
+    Way way = way_of(source, options, builder);
+    if (!way.track) builder.leave_out({source.name, std::move(way.why_not), source.records});
+    track.push_back(way.track);
   }
-  if (out.frames == 0) return Unexpected{Problem{"log", "nothing is left of it to play"}};
-  std::erase_if(out.buses, [](const BusTrack& bus) { return bus.frames.empty(); });
-  const auto gaps = static_cast<std::int64_t>(std::max<std::uint64_t>(out.frames - 1, 1));
-  const Duration span = scaled(latest - first, options.speed);
-  out.pass = span + span / gaps;
-  return out;
+  for (const traffic::Record& record : recording.records) {
+    const auto to = track[record.source];
+    if (!to) continue;
+    if (const can::Frame* frame = record.frame()) {
+      builder.add(*to, record.at, *frame, 0);
+    } else {
+      builder.add(*to, record.at, record.bytes());
+    }
+  }
+  return std::move(builder).finish();
 }
 
 }  // namespace pitwall::replay

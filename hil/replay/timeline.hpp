@@ -1,48 +1,85 @@
-// Timeline of a log: one sequence of frames per bus, ready for a socket.
-//   in     CanLog, which recorded channel goes to which bus, speed, what to leave out
-//   out    frames of each bus in the order of the log, with due times from the start
+// Timeline of a log or a recording: one sequence of frames per bus and one of datagrams per
+// receiver, ready for a socket.
+//   in     CanLog or traffic::Recording, which recorded source goes where, speed, what to leave out
+//   out    frames or datagrams of each track in the order of the recording, with due times from the
+//          start; what of a recording is not played, and why
 //   units  nanoseconds since the start of a pass
-//   errors Problem: a channel without a bus, or nothing to send
+//   errors Problem: a source that is mapped and does not occur, or nothing to send
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "hil/replay/formats/can_log.hpp"
+#include "hil/replay/recordings/recording.hpp"
 #include "protocol/can/frame.hpp"
+#include "protocol/transport/udp_socket.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::replay {
 
-struct BusTrack {
-  std::string interface;
-  std::vector<can::Frame> frames;
+// Datagrams one behind the other.
+struct Datagrams {
+  std::vector<std::uint8_t> bytes{};
+  std::vector<std::size_t> ends{};  // of datagram i in the bytes
+
+  std::size_t size() const { return ends.size(); }
+  std::span<const std::uint8_t> operator[](std::size_t i) const {
+    const std::size_t begin = i == 0 ? 0 : ends[i - 1];
+    return std::span{bytes}.subspan(begin, ends[i] - begin);
+  }
+};
+
+// Frames of a bus, or datagrams where there is an address.
+struct Track {
+  std::string target;  // the interface or the address
+  std::vector<can::Frame> frames{};
   std::vector<std::uint8_t> fd_flags{};  // of frames[i], as logged
-  std::vector<Duration> due{};           // of frames[i]; never decreasing
+  std::vector<Duration> due{};           // of frame or datagram i; never decreasing
+  std::optional<transport::UdpAddress> to{};
+  Datagrams datagrams{};
+};
+
+struct LeftOut {
+  std::string source, why;
+  std::uint64_t records = 0;
 };
 
 struct Timeline {
-  std::vector<BusTrack> buses;
-  Duration pass{};  // from the first frame of one pass to the first of the next
-  std::uint64_t frames = 0;
+  std::vector<Track> tracks;
+  Duration pass{};  // from the first frame or datagram of one pass to the first of the next
+  std::uint64_t frames = 0, datagrams = 0;
+  std::vector<LeftOut> left_out{};  // sources of a recording that are not played
+
+  std::uint64_t size() const { return frames + datagrams; }
 };
 
 struct TimelineOptions {
   double speed = 1.0;
   std::string interface {};  // for every channel that the map does not name; empty: its own name
   std::vector<std::pair<std::string, std::string>> map{};  // recorded name, name to send on
+  std::vector<std::pair<std::string, transport::UdpAddress>> receivers{};  // of a recording
   Duration start{};                  // of the log that is left out at its beginning
   Duration longest_gap{INT64_MAX};   // a longer one is skipped: the next frame follows at once
-  std::vector<std::uint32_t> ids{};  // only these; none: all
+  std::vector<std::uint32_t> ids{};  // of frames: only these; none: all
 };
 
 // A stamp that goes back is due with the frame before it: the order of the log is kept. Due times
 // are computed from the start, not from frame to frame, so speed brings no drift. Passes follow
 // each other with the mean gap of the log. Start and gaps are those of the log, before speed.
 Result<Timeline, Problem> make_timeline(const CanLog& log, const TimelineOptions& options);
+
+// The same of a recording, in its total order; tracks stand in the order of its sources. A CAN
+// source whose name is that of no interface needs `map` or `interface`; /can/out, which the car
+// said itself, is played where `map` names it only. Receivers go to their address of `receivers`,
+// in datagrams of at most transport::kMaxDatagramBytes.
+Result<Timeline, Problem> make_timeline(const traffic::Recording& recording,
+                                        const TimelineOptions& options);
 
 }  // namespace pitwall::replay

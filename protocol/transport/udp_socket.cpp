@@ -147,6 +147,7 @@ bool UdpSocket::transmit(const sockaddr_in* to, std::span<const std::uint8_t> by
     ++counters_.sent;
     return true;
   }
+  send_error_ = outcome.error;
   ++(outcome.would_block() ? counters_.tx_would_block : counters_.tx_failed);
   return false;
 }

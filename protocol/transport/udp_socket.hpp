@@ -78,6 +78,8 @@ class UdpSocket {
 
   UdpAddress local() const { return local_; }
   const UdpCounters& counters() const { return counters_; }
+  // Why the last send() or send_to() that gave false did; 0: none did.
+  int send_error() const { return send_error_; }
   int fd() const { return fd_.get(); }
 
  private:
@@ -89,6 +91,7 @@ class UdpSocket {
   FileDescriptor fd_;
   UdpAddress local_;
   UdpCounters counters_;
+  int send_error_ = 0;
   Instant empty_at_{};  // a read that began then left nothing
 };
 

@@ -28,7 +28,7 @@ struct VirtualRim {
     CHECK(deadline > time);
     time = deadline;
   }
-  BusOutcome send(std::size_t, std::size_t, std::size_t count) {
+  TrackOutcome send(std::size_t, std::size_t, std::size_t count) {
     sent += count;
     return {.taken = count};
   }
@@ -53,16 +53,17 @@ void play(const CanLog& log, const TimelineOptions& options, LatePolicy late) {
     return;
   }
   std::uint64_t frames = 0;
-  for (const BusTrack& bus : timeline->buses) {
-    CHECK(!bus.frames.empty() && bus.due.size() == bus.frames.size());
-    for (std::size_t i = 1; i < bus.due.size(); ++i) CHECK(bus.due[i] >= bus.due[i - 1]);
-    CHECK(bus.due.front() >= Duration{} && bus.due.back() <= timeline->pass);
-    frames += bus.frames.size();
+  for (const Track& track : timeline->tracks) {
+    CHECK(!track.frames.empty() && track.due.size() == track.frames.size());
+    for (std::size_t i = 1; i < track.due.size(); ++i) CHECK(track.due[i] >= track.due[i - 1]);
+    CHECK(track.due.front() >= Duration{} && track.due.back() <= timeline->pass);
+    frames += track.frames.size();
   }
   CHECK(frames == timeline->frames);
   VirtualRim rim;
   const PlayReport report = Player(*timeline, {.passes = 2, .late = late}, rim).play({});
-  CHECK(report.sent == 2 * frames && rim.sent == report.sent && report.dropped() == 0);
+  CHECK(report.frames.sent == 2 * frames && rim.sent == report.frames.sent &&
+        report.dropped() == 0);
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ struct VirtualRim {
     time = time + stall;
     stall_at = {INT64_MAX};
   }
-  BusOutcome send(std::size_t bus, std::size_t first, std::size_t count) {
+  TrackOutcome send(std::size_t bus, std::size_t first, std::size_t count) {
     ++sends;
     time = time + call;
     const std::size_t n = std::min(room, count);
@@ -47,15 +47,15 @@ struct VirtualRim {
 
 Timeline timeline_of(const std::vector<std::int64_t>& due_us) {
   Timeline t;
-  t.buses.push_back({.interface = "a", .frames = {}, .fd_flags = {}, .due = {}});
+  t.tracks.push_back({.target = "a"});
   for (std::size_t i = 0; i < due_us.size(); ++i) {
     can::Frame f;
     f.id = static_cast<std::uint32_t>(i);
-    t.buses[0].frames.push_back(f);
-    t.buses[0].due.push_back(microseconds(due_us[i]));
+    t.tracks[0].frames.push_back(f);
+    t.tracks[0].due.push_back(microseconds(due_us[i]));
   }
   t.frames = due_us.size();
-  t.pass = t.buses[0].due.back() + milliseconds(1);
+  t.pass = t.tracks[0].due.back() + milliseconds(1);
   return t;
 }
 
@@ -77,11 +77,11 @@ TEST(Player, EveryFrameOnceInOrderNeverEarlierThanAGroup) {
     const Instant start{seconds(5).ns};
     const auto report = Player(t, {.passes = 3}, rim).play(start);
     ASSERT_EQ(rim.sent.size(), 3 * due_us.size());
-    ASSERT_EQ(report.sent, rim.sent.size());
+    ASSERT_EQ(report.frames.sent, rim.sent.size());
     for (std::size_t i = 0; i < rim.sent.size(); ++i) {
       const std::size_t k = i % due_us.size();
       const auto pass = static_cast<std::int64_t>(i / due_us.size());
-      const Instant due = start + t.pass * pass + t.buses[0].due[k];
+      const Instant due = start + t.pass * pass + t.tracks[0].due[k];
       ASSERT_EQ(rim.sent[i].frame, k);
       ASSERT_GE(rim.sent[i].at, due - kGroup);
     }
@@ -107,7 +107,7 @@ TEST(Player, AWakeUpIsOneSleepOneSendAndOneLookAtTheClock) {
   EXPECT_EQ(report.calls, 500U);
   // Nothing but the sleep and the call itself lies between the due time and the bus.
   for (const Sent& sent : rim.sent)
-    ASSERT_EQ(sent.at - (start + t.buses[0].due[sent.frame]), microseconds(70));
+    ASSERT_EQ(sent.at - (start + t.tracks[0].due[sent.frame]), microseconds(70));
 }
 
 TEST(Player, WhatIsDueAlreadyIsNotSleptFor) {
@@ -134,7 +134,8 @@ TEST(Player, PassesDoNotDriftAndTheSeamIsMeasured) {
   const Instant start{seconds(1).ns};
   auto report = Player(t, {.passes = 1'000}, steady).play(start);
   ASSERT_EQ(steady.sent.size(), 20'000U);
-  EXPECT_EQ(steady.sent.back().at, start + t.pass * 999 + t.buses[0].due.back() + microseconds(70));
+  EXPECT_EQ(steady.sent.back().at,
+            start + t.pass * 999 + t.tracks[0].due.back() + microseconds(70));
   EXPECT_EQ(report.seam_error.ns, 0);
   // A stall that strikes the first frame of the third pass is the error of that seam.
   VirtualRim stalled{.latency = microseconds(70)};
@@ -159,8 +160,8 @@ TEST(Player, ABusThatTakesNothingEndsInDropsNotInAHang) {
   const Timeline t = timeline_of({0, 1, 2});
   VirtualRim rim{.room = 0};
   const auto report = Player(t, {}, rim).play({});
-  EXPECT_EQ(report.sent, 0U);
-  EXPECT_EQ(report.dropped_full, 3U);
+  EXPECT_EQ(report.frames.sent, 0U);
+  EXPECT_EQ(report.frames.dropped_full, 3U);
   EXPECT_GT(report.retries, 0U);
   EXPECT_LE(report.retries, 3U * (kMaxRetry / kRetryPause + 1));
   EXPECT_EQ(report.lateness.count(), 0U);
@@ -170,7 +171,7 @@ TEST(Player, WhatTheKernelRefusesForGoodIsNotRetried) {
   const Timeline t = timeline_of({0, 1, 2});
   VirtualRim rim{.room = 0, .room_again = false};
   const auto report = Player(t, {}, rim).play({});
-  EXPECT_EQ(report.dropped_refused, 3U);
+  EXPECT_EQ(report.frames.dropped_refused, 3U);
   EXPECT_EQ(report.retries, 0U);
   EXPECT_EQ(rim.waits, 0);
 }
@@ -200,17 +201,17 @@ TEST_F(LatePolicies, CatchUpSendsAllInOrderAndIsOnScheduleAgain) {
 TEST_F(LatePolicies, DropLeavesOutExactlyWhatIsTooLateAndNamesIt) {
   const auto report = play({.late = LatePolicy::kDrop, .late_limit = milliseconds(4)});
   // Due at 50 .. 60, looked at at 60.03: 50 .. 56 are later than 4 ms.
-  EXPECT_EQ(report.dropped_late, 7U);
+  EXPECT_EQ(report.frames.dropped_late, 7U);
   EXPECT_EQ(report.dropped(), 7U);
-  EXPECT_EQ(report.sent, 93U);
+  EXPECT_EQ(report.frames.sent, 93U);
   ASSERT_EQ(report.dropped_list.size(), 7U);
   for (std::size_t i = 0; i < 7; ++i) {
-    EXPECT_EQ(report.dropped_list[i].frame, 50 + i);
+    EXPECT_EQ(report.dropped_list[i].record, 50 + i);
     EXPECT_GT(report.dropped_list[i].late, milliseconds(4));
   }
   for (const Sent& sent : rim_.sent) {
     EXPECT_TRUE(sent.frame < 50 || sent.frame > 56) << sent.frame;
-    EXPECT_LE(sent.at - (start_ + timeline_.buses[0].due[sent.frame]), milliseconds(4));
+    EXPECT_LE(sent.at - (start_ + timeline_.tracks[0].due[sent.frame]), milliseconds(4));
   }
   EXPECT_EQ(report.lateness.count(), 93U);  // what was not sent was not late
   EXPECT_FALSE(report.aborted);
@@ -219,7 +220,7 @@ TEST_F(LatePolicies, DropLeavesOutExactlyWhatIsTooLateAndNamesIt) {
 TEST_F(LatePolicies, AbortSendsNothingThatIsTooLate) {
   const auto report = play({.late = LatePolicy::kAbort, .late_limit = milliseconds(4)});
   EXPECT_TRUE(report.aborted);
-  EXPECT_EQ(report.sent, 50U);
+  EXPECT_EQ(report.frames.sent, 50U);
   EXPECT_EQ(report.dropped(), 0U);
 }
 
@@ -227,7 +228,7 @@ TEST_F(LatePolicies, WithinTheLimitNothingChanges) {
   for (const LatePolicy policy : {LatePolicy::kDrop, LatePolicy::kAbort}) {
     rim_ = VirtualRim{.latency = microseconds(30)};
     const auto report = play({.late = policy, .late_limit = milliseconds(11)});
-    EXPECT_EQ(report.sent, 100U);
+    EXPECT_EQ(report.frames.sent, 100U);
     EXPECT_FALSE(report.aborted);
   }
 }
@@ -237,7 +238,7 @@ TEST(Player, MoreDropsThanTheListHoldsAreCountedAllTheSame) {
   VirtualRim rim{.time = Instant{seconds(5).ns}};  // the whole schedule has passed
   const auto report =
       Player(t, {.late = LatePolicy::kDrop, .late_limit = milliseconds(1)}, rim).play({});
-  EXPECT_EQ(report.dropped_late, 1'000U);
+  EXPECT_EQ(report.frames.dropped_late, 1'000U);
   EXPECT_EQ(report.dropped_list.size(), kListedDrops);
   EXPECT_EQ(rim.sends, 0);
 }
@@ -247,20 +248,67 @@ TEST(Player, AStopEndsItBetweenFrames) {
   VirtualRim rim{.stop_after = 2};
   const auto report = Player(t, {.passes = 100}, rim).play({});
   EXPECT_TRUE(report.stopped);
-  EXPECT_EQ(report.sent, 2U);
+  EXPECT_EQ(report.frames.sent, 2U);
 }
 
 TEST(Player, TwoBusesShareOneClock) {
   Timeline t = timeline_of({0, 1'000, 2'000});
   Timeline other = timeline_of({500, 1'005, 9'000});
-  t.buses.push_back(other.buses[0]);
+  t.tracks.push_back(other.tracks[0]);
   VirtualRim rim;
   const auto report = Player(t, {}, rim).play({});
-  EXPECT_EQ(report.sent, 6U);
+  EXPECT_EQ(report.frames.sent, 6U);
   EXPECT_EQ(report.waits, 4U);  // 0 is due when it begins; 1,000 and 1,005 share a wake-up
   EXPECT_TRUE(std::is_sorted(rim.sent.begin(), rim.sent.end(),
                              [](const Sent& a, const Sent& b) { return a.at < b.at; }));
   EXPECT_EQ(rim.sent.back().at, Instant{} + microseconds(9'000));
+}
+
+// On time, late and with full queues: none ahead of another by more than a group, and what is due
+// at the same time in the order of the tracks.
+TEST(Player, FramesAndDatagramsOfAllTracksKeepOneOrder) {
+  std::mt19937_64 random(47);
+  for (int round = 0; round < 100; ++round) {
+    Timeline t;
+    t.tracks = {{.target = "a"}, {.target = "b"}, {.target = "c", .to = transport::UdpAddress{}}};
+    std::int64_t due_us = 0;
+    for (int i = 0; i < 400; ++i) {
+      Track& track = t.tracks[random() % 3];
+      if (random() % 3 != 0) due_us += static_cast<std::int64_t>(random() % 60);
+      track.due.push_back(microseconds(due_us));
+      ++(track.to ? t.datagrams : t.frames);
+    }
+    t.pass = microseconds(due_us + 50);
+    VirtualRim rim{.latency = microseconds(static_cast<std::int64_t>(random() % 90)),
+                   .call = microseconds(static_cast<std::int64_t>(random() % 30)),
+                   .room = 1 + random() % 4,
+                   .stall_at = Instant{} + microseconds(due_us / 3),
+                   .stall = milliseconds(static_cast<std::int64_t>(random() % 5))};
+    const auto report = Player(t, {.passes = 3}, rim).play({});
+    EXPECT_EQ(report.frames.sent, 3 * t.frames);
+    EXPECT_EQ(report.datagrams.sent, 3 * t.datagrams);
+    ASSERT_EQ(rim.sent.size(), 3 * t.size());
+    const auto place = [&](const Sent& sent) { return t.tracks[sent.bus].due[sent.frame]; };
+    for (std::size_t i = 0; i < rim.sent.size(); ++i) {
+      const std::size_t pass_end = (i / t.size() + 1) * t.size();
+      for (std::size_t j = i + 1; j < pass_end; ++j) {
+        ASSERT_GE(place(rim.sent[j]), place(rim.sent[i]) - kGroup);
+        if (place(rim.sent[j]) == place(rim.sent[i])) {
+          ASSERT_GE(rim.sent[j].bus, rim.sent[i].bus) << round << ": " << i << ", " << j;
+        }
+      }
+    }
+  }
+}
+
+TEST(Player, DroppedDatagramsAreCountedApartFromFrames) {
+  Timeline t = timeline_of(every_ms(3));
+  t.tracks.push_back({.target = "r", .due = t.tracks[0].due, .to = transport::UdpAddress{}});
+  VirtualRim rim{.room = 0, .room_again = false};
+  const auto report = Player(t, {.passes = 2}, rim).play({});
+  EXPECT_EQ(report.frames.dropped_refused, 6U);
+  EXPECT_EQ(report.datagrams.dropped_refused, 6U);
+  EXPECT_EQ(report.dropped(), 12U);
 }
 
 }  // namespace

@@ -10,20 +10,20 @@ namespace {
 
 Timeline one_bus() {
   Timeline t;
-  t.buses.push_back({.interface = "vcan3", .frames = {}, .fd_flags = {}, .due = {}});
+  t.tracks.push_back({.target = "vcan3"});
   can::Frame frame;
   frame.id = 0x1A0;
-  t.buses[0].frames = {frame, frame};
-  t.buses[0].due = {Duration{}, milliseconds(1'500)};
+  t.tracks[0].frames = {frame, frame};
+  t.tracks[0].due = {Duration{}, milliseconds(1'500)};
   t.frames = 2;
   return t;
 }
 
 PlayReport report_with_drops() {
   PlayReport report;
-  report.sent = 1;
+  report.frames.sent = 1;
   report.calls = 3;
-  report.dropped_late = 1;
+  report.frames.dropped_late = 1;
   report.seam_error = microseconds(12);
   report.lateness.add(microseconds(40));
   EXPECT_TRUE(report.dropped_list.push({0, 0, 1, milliseconds(7)}));
@@ -52,6 +52,34 @@ TEST(ReplaySummary, ProgramsGetTheSameFigures) {
   EXPECT_EQ(map.integer("seam_error_us", 0, 99), 12);
   EXPECT_TRUE(map.flag("memory_locked"));
   EXPECT_FALSE(map.flag("fifo"));
+}
+
+TEST(ReplaySummary, DatagramsAndWhatIsNotPlayedStandApart) {
+  Timeline t = one_bus();
+  t.tracks.push_back({.target = "127.0.0.1:3001",
+                      .due = {milliseconds(2)},
+                      .to = transport::UdpAddress{.port = 3'001},
+                      .datagrams = {.bytes = {1, 2, 3}, .ends = {3}}});
+  t.datagrams = 1;
+  t.left_out = {{"/imu", "neither", 70}, {"/gnss/1", "no address", 5}};
+  PlayReport report = report_with_drops();
+  report.datagrams = {.sent = 4, .dropped_full = 2};
+  EXPECT_TRUE(report.dropped_list.push({1, 1, 0, milliseconds(7)}));
+  const std::string text = to_text(report, t);
+  for (const char* said :
+       {"sent 1 frames and 4 datagrams in", "dropped 1 frames: 1 too late",
+        "dropped 2 datagrams: 0 too late, 2 queue full", "not played: 75 records of 2 sources",
+        "127.0.0.1:3001 3 bytes due at 0.002000 s of pass 2"})
+    EXPECT_NE(text.find(said), std::string::npos) << said << "\n" << text;
+  const auto json = yaml::load_text(to_json(report, t, {}), "json");
+  ASSERT_TRUE(json) << to_string(json.error());
+  yaml::StrictMap map = json->root();
+  EXPECT_EQ(map.integer("sent", 0, 9), 1);
+  yaml::StrictMap datagrams = map.map("datagrams");
+  EXPECT_EQ(datagrams.integer("per_pass", 0, 9), 1);
+  EXPECT_EQ(datagrams.integer("sent", 0, 9), 4);
+  EXPECT_EQ(datagrams.integer("dropped_full", 0, 9), 2);
+  EXPECT_NE(to_json(report, t, {}).find("/gnss/1"), std::string::npos);
 }
 
 }  // namespace

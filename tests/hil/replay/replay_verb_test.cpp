@@ -1,17 +1,22 @@
-// What is refused before anything is sent; playing is tested in tests/system/vcan.
+// What is refused before anything is sent, and a recording onto a bus and to an address on this
+// machine; playing onto CAN of the kernel is tested in tests/system/vcan.
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/replay/replay_verb.hpp"
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <thread>
 #include <vector>
 
 #include "protocol/transport/file.hpp"
+#include "tests/hil/replay/recordings/recording_samples.hpp"
+#include "tests/support/unix_bus_bench.hpp"
 
 namespace pitwall::replay {
 namespace {
 
-class ReplayVerb : public testing::Test {
+class ReplayVerb : public ::testing::Test {
  protected:
   void SetUp() override {
     ASSERT_TRUE(transport::write_file(good_, "(1.0) nosuchcan0 123#11\n"));
@@ -19,9 +24,9 @@ class ReplayVerb : public testing::Test {
         bad_, "(1.0) nosuchcan0 123#11\n(1.1) nosuchcan0 123#1\n(1.2) nosuchcan0 123#11"));
   }
   std::string errors_of(const std::vector<std::string>& words) {
-    testing::internal::CaptureStderr();
+    ::testing::internal::CaptureStderr();
     EXPECT_EQ(replay_verb(words), 2);
-    return testing::internal::GetCapturedStderr();
+    return ::testing::internal::GetCapturedStderr();
   }
 
   transport::TemporaryFolder folder_ = *transport::TemporaryFolder::create("pitwall-verb-");
@@ -63,8 +68,116 @@ TEST_F(ReplayVerb, WrongUsageIsNamed) {
   EXPECT_TRUE(errors_of({good_, "--skip", "nan"}).starts_with("nan: error: "));
   EXPECT_TRUE(errors_of({good_, "--map", "can0"}).starts_with("can0: error: "));
   EXPECT_TRUE(errors_of({good_, "--map", "can7=vcan0"}).starts_with("can7: error: "));
+  for (const char* receiver : {"/gnss/0", "=127.0.0.1:1", "/gnss/0=", "/gnss/0=here:3001",
+                               "/gnss/0=127.0.0.1:0", "/gnss/0=127.0.0.1:65536"})
+    EXPECT_TRUE(errors_of({good_, "--receiver", receiver})
+                    .starts_with(std::string(receiver) + ": error: expected SOURCE="));
+  EXPECT_TRUE(errors_of({good_, "--receiver", "/gnss/0=3001"}).starts_with("/gnss/0: error: "));
   EXPECT_TRUE(errors_of({good_, "--what", "1"}).starts_with("--what: error: "));
   EXPECT_TRUE(errors_of({good_, bad_}).starts_with(bad_ + ": error: "));
+}
+
+// A bus and a receiver's port, served and read by a thread while the verb plays.
+class ReplayRecording : public pitwall::testing::UnixBusBench {
+ protected:
+  static constexpr std::uint32_t kSteps = 50, kLoops = 3;
+
+  void SetUp() override {
+    UnixBusBench::SetUp();
+    client_ = std::make_unique<pitwall::testing::RawClient>(bus_);
+    serve();
+    auto port = transport::UdpSocket::bind({});
+    ASSERT_TRUE(port);
+    port_ = *std::move(port);
+    box_ = folder_->path() + "/box.mcap";
+    ASSERT_TRUE(transport::write_file(box_, traffic::testing::black_box(kSteps)));
+  }
+
+  void read_all() {
+    serve();
+    for (auto& packet : client_->read()) packets_.push_back(std::move(packet));
+    std::vector<transport::UdpDatagram> some(16);
+    while (const std::size_t n = port_->receive(some))
+      for (std::size_t i = 0; i < n; ++i)
+        datagrams_.emplace_back(some[i].payload().begin(), some[i].payload().end());
+  }
+
+  // The exit code; said_ and warned_ are what it wrote.
+  int play(std::vector<std::string> words) {
+    words.insert(words.begin(), box_);
+    std::atomic<bool> done = false;
+    std::thread reader([&] {
+      while (!done) {
+        read_all();
+        transport::sleep_until(transport::monotonic_now() + milliseconds(1));
+      }
+    });
+    ::testing::internal::CaptureStdout();
+    ::testing::internal::CaptureStderr();
+    const int code = replay_verb(words);
+    said_ = ::testing::internal::GetCapturedStdout();
+    warned_ = ::testing::internal::GetCapturedStderr();
+    done = true;
+    reader.join();
+    read_all();
+    return code;
+  }
+
+  std::string address() const { return "/gnss/0=" + transport::to_string(port_->local()); }
+
+  std::unique_ptr<pitwall::testing::RawClient> client_;
+  std::optional<transport::UdpSocket> port_;
+  std::string box_, said_, warned_;
+  std::vector<pitwall::testing::Packet> packets_;
+  std::vector<std::string> datagrams_;
+};
+
+TEST_F(ReplayRecording, AllFramesHeardAndAllBytesOfTheReceiverComeInOrderInEveryLoop) {
+  ASSERT_EQ(play({"--map", "/can/in=" + bus_, "--receiver", address(), "--loop", "3", "--speed",
+                  "5", "--json", folder_->path() + "/out.json"}),
+            0)
+      << warned_;
+  ASSERT_EQ(packets_.size(), kLoops * kSteps);
+  ASSERT_EQ(datagrams_.size(), kLoops * kSteps);
+  for (std::uint32_t i = 0; i < kLoops * kSteps; ++i) {
+    const std::uint32_t step = i % kSteps;
+    EXPECT_EQ(datagrams_[i], traffic::testing::novatel_position(2'297, 172'800'000 + 10 * step));
+    const can::Frame frame = traffic::testing::some_frame(2 * step + recorder::kCanInChannel % 2);
+    const transport::CanWire wire = pitwall::testing::wire_of(packets_[i]);
+    EXPECT_EQ(wire.can_id & can::kMaxExtendedId, frame.id);
+    EXPECT_EQ(wire.len, frame.length);
+  }
+  EXPECT_NE(said_.find("sent 150 frames and 150 datagrams"), std::string::npos) << said_;
+  EXPECT_NE(said_.find("not played: 150 records of 3 sources"), std::string::npos) << said_;
+  EXPECT_NE(warned_.find("not played: /can/out (50 records): "), std::string::npos) << warned_;
+  EXPECT_TRUE(transport::read_file(folder_->path() + "/out.json"));
+}
+
+TEST_F(ReplayRecording, AReceiverAloneNeedsNoBusAndWhatTheCarSaidIsPlayedWhereItIsMapped) {
+  ASSERT_EQ(play({"--receiver", address(), "--speed", "50"}), 0) << warned_;
+  EXPECT_EQ(datagrams_.size(), kSteps);
+  EXPECT_TRUE(packets_.empty());
+  ASSERT_EQ(play({"--map", "/can/out=" + bus_, "--speed", "50"}), 0) << warned_;
+  EXPECT_EQ(datagrams_.size(), kSteps);
+  EXPECT_EQ(packets_.size(), kSteps);
+}
+
+TEST_F(ReplayRecording, WhenNobodyListensItIsTold) {
+  const std::string to = address();
+  port_ = *transport::UdpSocket::bind({});
+  ASSERT_EQ(play({"--receiver", to, "--speed", "50"}), 0);
+  EXPECT_NE(warned_.find("nobody listened"), std::string::npos) << warned_;
+}
+
+TEST_F(ReplayRecording, UnknownSourcesAreRefusedWithThoseThatThereAre) {
+  EXPECT_EQ(play({"--receiver", "/gnss/5=127.0.0.1:3001"}), 2);
+  EXPECT_TRUE(warned_.starts_with("/gnss/5: error: ")) << warned_;
+  EXPECT_NE(warned_.find("/gnss/0"), std::string::npos) << warned_;
+  EXPECT_EQ(play({"--map", "can0=" + bus_}), 2);
+  EXPECT_TRUE(warned_.starts_with("can0: error: ")) << warned_;
+  EXPECT_EQ(play({}), 2);
+  EXPECT_TRUE(warned_.starts_with("recording: error: nothing is left")) << warned_;
+  EXPECT_TRUE(packets_.empty() && datagrams_.empty());
 }
 
 }  // namespace

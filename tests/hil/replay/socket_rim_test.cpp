@@ -9,7 +9,7 @@ namespace {
 
 TEST(SocketRim, AnInterfaceThatIsNotThereIsNamed) {
   Timeline timeline;
-  timeline.buses.push_back({.interface = "nosuchcan0", .frames = {}, .fd_flags = {}, .due = {}});
+  timeline.tracks.push_back({.target = "nosuchcan0"});
   const auto rim = SocketRim::open(timeline);
   ASSERT_FALSE(rim.has_value());
   EXPECT_EQ(rim.error().place, "nosuchcan0");

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "hil/replay/recordings/recording_builder.hpp"
+
 namespace pitwall::replay {
 namespace {
 
@@ -22,12 +24,12 @@ CanLog log_of(const std::vector<std::pair<std::int64_t, std::uint8_t>>& stamps_u
 TEST(Timeline, EachBusKeepsTheOrderOfTheLog) {
   const auto t = make_timeline(log_of({{0, 0}, {10, 1}, {10, 0}, {5, 1}, {30, 0}}), {});
   ASSERT_TRUE(t.has_value());
-  ASSERT_EQ(t->buses.size(), 2U);
-  EXPECT_EQ(t->buses[0].interface, "can0");
-  EXPECT_EQ(t->buses[0].due, (std::vector<Duration>{{0}, microseconds(10), microseconds(30)}));
+  ASSERT_EQ(t->tracks.size(), 2U);
+  EXPECT_EQ(t->tracks[0].target, "can0");
+  EXPECT_EQ(t->tracks[0].due, (std::vector<Duration>{{0}, microseconds(10), microseconds(30)}));
   // The stamp that goes back is due with the one before it.
-  EXPECT_EQ(t->buses[1].due, (std::vector<Duration>{microseconds(10), microseconds(10)}));
-  EXPECT_EQ(t->buses[1].frames[1].id, 3U);
+  EXPECT_EQ(t->tracks[1].due, (std::vector<Duration>{microseconds(10), microseconds(10)}));
+  EXPECT_EQ(t->tracks[1].frames[1].id, 3U);
   EXPECT_EQ(t->frames, 5U);
 }
 
@@ -38,7 +40,7 @@ TEST(Timeline, SpeedScalesFromTheStartSoNothingDrifts) {
   ASSERT_TRUE(t.has_value());
   for (std::int64_t i = 0; i < 10'000; ++i) {
     const std::int64_t exact_ns = i * 1'000'000 / 3;
-    ASSERT_LE(std::abs(t->buses[0].due[static_cast<std::size_t>(i)].ns - exact_ns), 1) << i;
+    ASSERT_LE(std::abs(t->tracks[0].due[static_cast<std::size_t>(i)].ns - exact_ns), 1) << i;
   }
   // The next pass begins one mean gap after the last frame.
   EXPECT_NEAR(static_cast<double>(t->pass.ns), 10'000 * 1e6 / 3.0, 2.0);
@@ -48,13 +50,13 @@ TEST(Timeline, ChannelsGoWhereTheyAreSent) {
   const auto log = log_of({{0, 0}, {1, 1}, {2, 0}});
   const auto merged = make_timeline(log, {.interface = "vcan0"});
   ASSERT_TRUE(merged.has_value());
-  ASSERT_EQ(merged->buses.size(), 1U);
-  EXPECT_EQ(merged->buses[0].frames.size(), 3U);
+  ASSERT_EQ(merged->tracks.size(), 1U);
+  EXPECT_EQ(merged->tracks[0].frames.size(), 3U);
   const auto mapped = make_timeline(log, {.interface = "vcan0", .map = {{"can1", "vcan5"}}});
   ASSERT_TRUE(mapped.has_value());
-  ASSERT_EQ(mapped->buses.size(), 2U);
-  EXPECT_EQ(mapped->buses[0].interface, "vcan0");
-  EXPECT_EQ(mapped->buses[1].interface, "vcan5");
+  ASSERT_EQ(mapped->tracks.size(), 2U);
+  EXPECT_EQ(mapped->tracks[0].target, "vcan0");
+  EXPECT_EQ(mapped->tracks[1].target, "vcan5");
 }
 
 TEST(Timeline, WhatCannotBePlayedIsAProblem) {
@@ -74,17 +76,17 @@ TEST(Timeline, WhatIsLeftOutTakesNoTime) {
   const auto late = make_timeline(log, {.interface = "v", .start = milliseconds(1'500)});
   ASSERT_TRUE(late.has_value());
   EXPECT_EQ(late->frames, 3U);
-  EXPECT_EQ(late->buses[0].due[0], Duration{});  // it begins with its first frame
-  EXPECT_EQ(late->buses[0].due[1], seconds(3'600));
+  EXPECT_EQ(late->tracks[0].due[0], Duration{});  // it begins with its first frame
+  EXPECT_EQ(late->tracks[0].due[1], seconds(3'600));
   const auto skipped = make_timeline(log, {.interface = "v", .longest_gap = seconds(10)});
   ASSERT_TRUE(skipped.has_value());
-  EXPECT_EQ(skipped->buses[0].due,
+  EXPECT_EQ(skipped->tracks[0].due,
             (std::vector<Duration>{{}, seconds(1), seconds(2), seconds(2), seconds(3)}));
   const auto chosen = make_timeline(log, {.interface = "v", .ids = {1, 3}});
   ASSERT_TRUE(chosen.has_value());
   ASSERT_EQ(chosen->frames, 2U);
-  EXPECT_EQ(chosen->buses[0].frames[1].id, 3U);
-  EXPECT_EQ(chosen->buses[0].due[1], seconds(3'601));
+  EXPECT_EQ(chosen->tracks[0].frames[1].id, 3U);
+  EXPECT_EQ(chosen->tracks[0].due[1], seconds(3'601));
   EXPECT_FALSE(make_timeline(log, {.ids = {77}}).has_value());
   EXPECT_FALSE(make_timeline(log, {.start = seconds(4'000)}).has_value());
 }
@@ -103,7 +105,7 @@ TEST(Timeline, TheLongestLogAtTheHighestSpeedFits) {
   log.frames[1].at = {9'000'000'000 * kNanosecondsPerSecond};
   const auto t = make_timeline(log, {.speed = 1e6});
   ASSERT_TRUE(t.has_value());
-  EXPECT_EQ(t->buses[0].due[1], seconds(9'000));
+  EXPECT_EQ(t->tracks[0].due[1], seconds(9'000));
   EXPECT_EQ(t->pass, seconds(18'000));
 }
 
@@ -111,7 +113,134 @@ TEST(Timeline, OneFrameIsATimeline) {
   const auto t = make_timeline(log_of({{7, 0}}), {});
   ASSERT_TRUE(t.has_value());
   EXPECT_EQ(t->pass.ns, 0);
-  EXPECT_EQ(t->buses[0].due[0].ns, 0);
+  EXPECT_EQ(t->tracks[0].due[0].ns, 0);
+}
+
+constexpr transport::UdpAddress kFirst{.port = 3'001}, kSecond{.port = 3'002};
+
+// A car's bus in both directions, two receivers and a ROS topic; one record of each per millisecond,
+// in the file the other way round than in the total order.
+traffic::Recording mixed_recording(std::uint32_t steps) {
+  using traffic::SourceKind;
+  traffic::RecordingBuilder builder{"run.mcap"};
+  builder.add_source("/can/in", SourceKind::kCan, "can");
+  builder.add_source("/can/out", SourceKind::kCan, "can");
+  builder.add_source("/gnss/0", SourceKind::kReceiver, "novatel");
+  builder.add_source("/imu", SourceKind::kRos, "sensor_msgs/msg/Imu");
+  builder.add_source("/gnss/1", SourceKind::kReceiver, "novatel");
+  for (std::uint32_t i = steps; i-- > 0;) {
+    const UtcTime at{kNanosecondsPerSecond + std::int64_t{i} * 1'000'000};
+    for (std::uint32_t source = 5; source-- > 0;) {
+      can::Frame frame;
+      frame.id = i;
+      const std::vector<std::uint8_t> bytes(1 + i, static_cast<std::uint8_t>(source));
+      EXPECT_TRUE(source < 2 ? builder.add(source, at, frame, 0)
+                             : builder.add(source, at, builder.pool().copy(bytes), 0));
+    }
+  }
+  return std::move(builder).finish();
+}
+
+TEST(RecordingTimeline, TracksStandInTheOrderOfTheSourcesOnOneTimeBase) {
+  const auto t = make_timeline(mixed_recording(50),
+                               {.speed = 2.0,
+                                .map = {{"/can/in", "v0"}},
+                                .receivers = {{"/gnss/1", kSecond}, {"/gnss/0", kFirst}}});
+  ASSERT_TRUE(t.has_value()) << to_string(t.error());
+  ASSERT_EQ(t->tracks.size(), 3U);
+  EXPECT_EQ(t->tracks[0].target, "v0");
+  EXPECT_EQ(t->tracks[1].to, kFirst);
+  EXPECT_EQ(t->tracks[2].to, kSecond);
+  EXPECT_EQ(t->frames, 50U);
+  EXPECT_EQ(t->datagrams, 100U);
+  for (const Track& track : t->tracks) {
+    ASSERT_EQ(track.due.size(), 50U);
+    for (std::size_t i = 0; i < 50; ++i)
+      EXPECT_EQ(track.due[i], microseconds(500 * static_cast<std::int64_t>(i)));
+  }
+  for (std::size_t i = 0; i < 50; ++i) {
+    EXPECT_EQ(t->tracks[0].frames[i].id, i);
+    const auto bytes = t->tracks[2].datagrams[i];
+    EXPECT_EQ(std::vector<std::uint8_t>(bytes.begin(), bytes.end()),
+              std::vector<std::uint8_t>(i + 1, 4));
+  }
+}
+
+TEST(RecordingTimeline, WhatIsNotMappedIsToldAndCounted) {
+  const auto t = make_timeline(mixed_recording(7), {.interface = "v0"});
+  ASSERT_TRUE(t.has_value());
+  EXPECT_EQ(t->frames, 7U);  // what the car heard, not what it said
+  std::vector<std::string> left;
+  for (const LeftOut& one : t->left_out) {
+    left.push_back(one.source);
+    EXPECT_EQ(one.records, 7U);
+  }
+  EXPECT_EQ(left, (std::vector<std::string>{"/can/out", "/gnss/0", "/imu", "/gnss/1"}));
+  EXPECT_NE(t->left_out[1].why.find("--receiver /gnss/0="), std::string::npos);
+  const auto both =
+      make_timeline(mixed_recording(7), {.interface = "v0", .map = {{"/can/out", "v0"}}});
+  ASSERT_TRUE(both.has_value());
+  EXPECT_EQ(both->frames, 14U);
+  EXPECT_EQ(both->tracks.size(), 1U);
+  const auto none = make_timeline(mixed_recording(7), {});
+  ASSERT_FALSE(none.has_value());
+  EXPECT_NE(none.error().what.find("--map /can/in=INTERFACE"), std::string::npos);
+}
+
+TEST(RecordingTimeline, IdentifiersStartAndGapsHoldForBoth) {
+  const TimelineOptions options{.interface = "v0", .receivers = {{"/gnss/0", kFirst}}};
+  TimelineOptions chosen = options;
+  chosen.ids = {3, 4};
+  auto t = make_timeline(mixed_recording(10), chosen);
+  ASSERT_TRUE(t.has_value());
+  EXPECT_EQ(t->frames, 2U);
+  EXPECT_EQ(t->datagrams, 10U);
+  EXPECT_EQ(t->tracks[0].due[0], milliseconds(3));
+  TimelineOptions late = options;
+  late.start = milliseconds(6);
+  t = make_timeline(mixed_recording(10), late);
+  ASSERT_TRUE(t.has_value());
+  EXPECT_EQ(t->frames, 4U);
+  EXPECT_EQ(t->datagrams, 4U);
+  EXPECT_EQ(t->tracks[1].due[0], Duration{});
+  TimelineOptions skipping = options;
+  skipping.longest_gap = microseconds(500);
+  t = make_timeline(mixed_recording(10), skipping);
+  ASSERT_TRUE(t.has_value());
+  EXPECT_EQ(t->tracks[1].due.back(), Duration{});
+}
+
+TEST(RecordingTimeline, LongRecordsAreSeveralDatagramsWithTheSameBytes) {
+  const auto t = make_timeline(mixed_recording(5'000), {.receivers = {{"/gnss/1", kFirst}}});
+  ASSERT_TRUE(t.has_value());
+  std::size_t bytes = 0;
+  for (std::size_t i = 0; i < t->tracks[0].datagrams.size(); ++i) {
+    const std::size_t size = t->tracks[0].datagrams[i].size();
+    EXPECT_TRUE(size > 0 && size <= transport::kMaxDatagramBytes);
+    bytes += size;
+  }
+  EXPECT_EQ(bytes, 5'000U * 5'001 / 2);
+  EXPECT_EQ(t->datagrams, 2'048U + 2 * 2'048U + 3 * 904U);
+  EXPECT_EQ(t->tracks[0].due.size(), t->datagrams);
+}
+
+TEST(RecordingTimeline, WrongNamesAndAddressesAreProblems) {
+  const traffic::Recording recording = mixed_recording(2);
+  const auto place = [&](const TimelineOptions& options) {
+    const auto t = make_timeline(recording, options);
+    return t ? std::string{} : t.error().place;
+  };
+  EXPECT_EQ(place({.map = {{"can0", "v0"}}}), "can0");
+  EXPECT_EQ(place({.map = {{"/gnss/0", "v0"}}}), "/gnss/0");
+  EXPECT_EQ(place({.receivers = {{"/can/in", kFirst}}}), "/can/in");
+  EXPECT_EQ(place({.receivers = {{"/gnss/7", kFirst}}}), "/gnss/7");
+  EXPECT_EQ(place({.receivers = {{"/gnss/0", kFirst}, {"/gnss/0", kSecond}}}), "/gnss/0");
+  EXPECT_EQ(place({.receivers = {{"/gnss/0", kFirst}, {"/gnss/1", kFirst}}}), "127.0.0.1:3001");
+  EXPECT_EQ(place({.speed = 0.0, .interface = "v0"}), "speed");
+  EXPECT_FALSE(make_timeline(traffic::Recording{}, {.interface = "v0"}).has_value());
+  const auto of_log = make_timeline(log_of({{0, 0}}), {.receivers = {{"/gnss/0", kFirst}}});
+  ASSERT_FALSE(of_log.has_value());
+  EXPECT_EQ(of_log.error().place, "/gnss/0");
 }
 
 }  // namespace
