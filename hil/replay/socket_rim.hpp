@@ -12,11 +12,12 @@
 //
 // Each track of frames has a CAN socket, each track of datagrams a UDP socket of its own.
 //
-//   in     timeline, which stays where it is as long as the rim; the lead (measured, or given; 0: plain sleeps)
+//   in     timeline, which stays where it is as long as the rim; the lead (measured, or
+//          given; 0: plain sleeps)
 //   out    now(), wait_until(), send(), stopped() as Player asks for them
 //   errors open(): Problem. While playing: SendOutcome only
-//   bound  a datagram that the kernel took may still be lost: a receive queue that is full drops it,
-//          which only its owner can count. That nobody listens the kernel tells, and unheard() says
+//   bound  a datagram that the kernel took may still be lost: a full receive queue drops it, which
+//          only its owner can count. That nobody listens the kernel tells, and unheard() says
 //   cost   the lead is time of the processor that nobody else gets, once per wake-up; where that
 //          would be more than a quarter of all time (BusyBudget), sleeps are plain for a while
 // SPDX-License-Identifier: Apache-2.0

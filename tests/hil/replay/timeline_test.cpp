@@ -118,8 +118,8 @@ TEST(Timeline, OneFrameIsATimeline) {
 
 constexpr transport::UdpAddress kFirst{.port = 3'001}, kSecond{.port = 3'002};
 
-// A car's bus in both directions, two receivers and a ROS topic; one record of each per millisecond,
-// in the file the other way round than in the total order.
+// A car's bus in both directions, two receivers and a ROS topic; one record of each per
+// millisecond, in the file the other way round than in the total order.
 traffic::Recording mixed_recording(std::uint32_t steps) {
   using traffic::SourceKind;
   traffic::RecordingBuilder builder{"run.mcap"};
