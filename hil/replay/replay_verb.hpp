@@ -17,7 +17,8 @@
 //   out    frames and datagrams sent, lateness, what was dropped or not played, and which real-time
 //          rights the kernel granted, on standard output; exit code 0: everything was sent;
 //          1: some were dropped, or the replay was aborted or stopped; 2: wrong usage, a file that
-//          does not read, or no such interface. Records that do not read are told with their places, on standard error
+//          does not read, or no such interface. Records that do not read are told with their
+//          places, on standard error
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
