@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "hil/replay/formats/log_reader.hpp"
-#include "hil/replay/formats/recognise.hpp"
 #include "hil/replay/player.hpp"
+#include "hil/replay/recordings/can_part.hpp"
 #include "hil/replay/recordings/recording_reader.hpp"
 #include "hil/replay/replay_summary.hpp"
 #include "hil/replay/socket_rim.hpp"
@@ -15,7 +15,6 @@
 #include "protocol/transport/file.hpp"
 #include "protocol/transport/realtime.hpp"
 #include "protocol/transport/udp_socket.hpp"
-#include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::replay {
 namespace {
@@ -171,22 +170,6 @@ Result<ReplayOptions, Problem> parse_options(std::span<const std::string> args) 
   return out;
 }
 
-bool is_recording(const std::string& file) {
-  switch (recognise(file)) {
-    case FileFormat::kMcap:
-    case FileFormat::kLcm:
-    case FileFormat::kSqlite:
-    case FileFormat::kNovatel:
-    case FileFormat::kVectorNav:
-    case FileFormat::kZstd:
-      return true;
-    case FileFormat::kUnknownBinary:  // a stream that begins within a message
-      return traffic::format_of(as_bytes(file)) != traffic::RecordingFormat::kNone;
-    default:
-      return false;
-  }
-}
-
 Result<Timeline, Problem> timeline_of_log(const std::string& text, const ReplayOptions& options) {
   const auto log = read_can_log(text, options.file);
   if (!log) return Unexpected{log.error()};
@@ -212,8 +195,8 @@ Result<Timeline, Problem> timeline_of_recording(std::string file, const ReplayOp
 Result<Timeline, Problem> load(const ReplayOptions& options) {
   auto file = transport::read_file(options.file);
   if (!file) return Unexpected{file.error()};
-  auto timeline = is_recording(*file) ? timeline_of_recording(*std::move(file), options)
-                                      : timeline_of_log(*file, options);
+  auto timeline = traffic::is_recording(*file) ? timeline_of_recording(*std::move(file), options)
+                                               : timeline_of_log(*file, options);
   if (!timeline) return timeline;
   if (timeline->pass.ns > kLongestReplay.ns / options.play.passes)
     return Unexpected{Problem{options.file, "all passes together take more than a century"}};
