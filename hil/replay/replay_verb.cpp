@@ -2,6 +2,7 @@
 #include "hil/replay/replay_verb.hpp"
 
 #include <charconv>
+#include <map>
 #include <optional>
 
 #include "hil/replay/formats/log_reader.hpp"
@@ -177,16 +178,27 @@ Result<Timeline, Problem> timeline_of_log(const std::string& text, const ReplayO
   return make_timeline(*log, options.timeline);
 }
 
+// A line for each reason, with the sources that it holds for.
+std::string left_out_text(const std::vector<LeftOut>& left_out, const std::string& file) {
+  std::map<std::string, std::string> sources;
+  for (const LeftOut& left : left_out) {
+    std::string& listed = sources[left.why];
+    listed += (listed.empty() ? "" : ", ") + left.source + " (" + std::to_string(left.records) +
+              " records)";
+  }
+  std::string text;
+  for (const auto& [why, listed] : sources)
+    text += file + ": not played: " + listed + ": " + why + "\n";
+  return text;
+}
+
 Result<Timeline, Problem> timeline_of_recording(std::string file, const ReplayOptions& options) {
   const auto recording = traffic::read_recording(std::move(file), options.file);
   if (!recording) return Unexpected{recording.error()};
   std::string said;
   for (const traffic::Remark& remark : recording->remarks) said += to_string(remark) + "\n";
   auto timeline = make_timeline(*recording, options.timeline);
-  if (timeline)
-    for (const LeftOut& left : timeline->left_out)
-      said += options.file + ": not played: " + left.source + " (" + std::to_string(left.records) +
-              " records): " + left.why + "\n";
+  if (timeline) said += left_out_text(timeline->left_out, options.file);
   transport::write_to(kErrors, said);
   return timeline;
 }

@@ -51,6 +51,9 @@ def main():
         shown = [text for line, text in said.items() if " info " in line]
         expect("/can/in" in shown[0] and "/gnss/1" in shown[0], "the recording's sources")
         expect("/can/in" in shown[1], "the log's channel")
+        played = [text for line, text in said.items() if " replay " in line]
+        expect(re.search(r"sent \d{4,} frames and \d{4,} datagrams .* 0 dropped", played[0]),
+               "frames and datagrams are played, and none is dropped")
 
 
 if __name__ == "__main__":
