@@ -16,6 +16,7 @@
 #include "hil/cli/faults_verb.hpp"
 #include "hil/cli/recordings/convert_verb.hpp"
 #include "hil/cli/recordings/info_verb.hpp"
+#include "hil/cli/recordings/plot_verb.hpp"
 #include "hil/cli/report_verb.hpp"
 #include "hil/cli/run_verb.hpp"
 #include "hil/cli/serve_verb.hpp"
@@ -43,6 +44,7 @@ constexpr std::array kVerbs{
          cli::info_verb},
     Verb{"convert", "CAN frames in another format: candump, ASC, BLF, pcap, pcapng",
          cli::convert_verb},
+    Verb{"plot", "signals of a CAN log over time, as SVG or HTML", cli::plot_verb},
     Verb{"dbc", "CAN databases: check, show, diff", cli::dbc_verb},
     Verb{"bus", "CAN interfaces: from this kernel or from a guest", can_bus::bus_verb},
     Verb{"faults", "every fault of the catalogue: who notices it, how fast, and the outcome",

@@ -25,6 +25,7 @@ std::string page(const RunData& run, const world::TrackMap* track, const std::st
   const std::string title = escaped(run.facts.scenario) + " " + name_of(run.outcome());
   std::string out = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" +
                     title + "</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>";
+  out += kPlotStyle;
   out += kStyle;
   out += "</style></head>\n<body>\n" + header(run) + banner(run);
   out += section("Expectations", verdict_table(run));

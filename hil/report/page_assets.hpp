@@ -7,6 +7,23 @@
 
 namespace pitwall::report {
 
+// Of what Plot draws, in a page or in a file of its own.
+inline constexpr std::string_view kPlotStyle = R"css(
+svg { display: block; max-width: 100%; }
+svg text { font: 12px "DejaVu Sans", Verdana, system-ui, sans-serif; fill: #3a454f; }
+svg text.title { font-weight: bold; font-size: 13px; fill: #1b232b; }
+svg text.symbol { fill: #fff; font-weight: bold; }
+svg text.cut { fill: #1b232b; font-weight: bold; stroke: #fff; stroke-width: 3px;
+  paint-order: stroke; }
+svg text.piece { fill: #1b232b; }
+svg text.read { font-weight: bold; fill: #1b232b; font-variant-numeric: tabular-nums;
+  stroke: #fff; stroke-width: 5px; paint-order: stroke; }
+.grid { stroke: #e3e8ec; fill: none; }
+.frame { stroke: #66727e; fill: none; }
+.cursor { stroke: #1b232b; stroke-dasharray: 2 2; pointer-events: none; }
+.small .grid { stroke: #aab4bd; }
+)css";
+
 inline constexpr std::string_view kStyle = R"css(
 :root { color-scheme: light; }
 * { box-sizing: border-box; }
@@ -49,18 +66,6 @@ small { font-size: 12px; color: #55606b; }
   font-size: 13px; overflow-wrap: anywhere; }
 .beside { display: grid; grid-template-columns: 592px minmax(0, 1fr); gap: 16px;
   align-items: start; }
-svg { display: block; max-width: 100%; }
-svg text { font: 12px "DejaVu Sans", Verdana, system-ui, sans-serif; fill: #3a454f; }
-svg text.title { font-weight: bold; font-size: 13px; fill: #1b232b; }
-svg text.symbol { fill: #fff; font-weight: bold; }
-svg text.cut { fill: #1b232b; font-weight: bold; stroke: #fff; stroke-width: 3px;
-  paint-order: stroke; }
-svg text.piece { fill: #1b232b; }
-svg text.read { font-weight: bold; fill: #1b232b; font-variant-numeric: tabular-nums; }
-.grid { stroke: #e3e8ec; fill: none; }
-.frame { stroke: #66727e; fill: none; }
-.cursor { stroke: #1b232b; stroke-dasharray: 2 2; pointer-events: none; }
-.small .grid { stroke: #aab4bd; }
 @media print {
   body { max-width: none; padding: 0; print-color-adjust: exact; }
   section, svg, tr { break-inside: avoid; }

@@ -200,6 +200,8 @@ void Plot::sign(double x, double y, std::string_view symbol, Colour colour,
 
 void Plot::x_names(std::vector<std::string> names) { x_names_ = std::move(names); }
 
+void Plot::y_names(std::vector<Name> names) { y_names_ = std::move(names); }
+
 std::string Plot::x_axis() const {
   const double foot = size_.height - kBottom;
   std::string out;
@@ -216,21 +218,33 @@ std::string Plot::x_axis() const {
          text_at(0.5 * (left_ + size_.width - kRight), foot + 33.0, "middle", "label", x_.label);
 }
 
-std::string Plot::axes() const {
-  std::string out = x_axis();
+std::string Plot::y_tick(double y, const std::string& text) const {
+  return formatted("<path class=\"grid\" d=\"M%.1f %.1fH%.1f\"/>", left_, py(y),
+                   size_.width - kRight) +
+         text_at(left_ - 7.0, py(y) + 4.0, "end", "tick", text);
+}
+
+std::string Plot::y_axis() const {
+  std::string out;
+  for (const Name& name : y_names_)
+    if (name.at >= std::min(y_.from, y_.to) && name.at <= std::max(y_.from, y_.to))
+      out += y_tick(name.at, name.text);
+  if (!y_names_.empty()) return out;
   const int count = std::max(3, static_cast<int>((size_.height - kTop - kBottom) / 32.0));
   const int decimals = decimals_of(step_of(y_.from, y_.to, count));
   for (const double tick : ticks_of(y_.from, y_.to, count))
-    out += formatted("<path class=\"grid\" d=\"M%.1f %.1fH%.1f\"/>", left_, py(tick),
-                     size_.width - kRight) +
-           text_at(left_ - 7.0, py(tick) + 4.0, "end", "tick", number(tick, decimals));
+    out += y_tick(tick, number(tick, decimals));
   const double middle = 0.5 * (kTop + size_.height - kBottom);
-  out += formatted(
+  return out +
+         formatted(
              "<text class=\"label\" text-anchor=\"middle\" transform=\"translate(%.0f %.1f) "
              "rotate(-90)\">",
              left_ - 54.0, middle) +
          escaped(y_.label) + "</text>";
-  return out +
+}
+
+std::string Plot::axes() const {
+  return x_axis() + y_axis() +
          formatted("<rect class=\"frame\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>",
                    left_, kTop, size_.width - kRight - left_, size_.height - kBottom - kTop);
 }

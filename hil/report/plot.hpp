@@ -66,6 +66,12 @@ class Plot {
   void circle(double radius_x, Colour colour);
   void sign(double x, double y, std::string_view symbol, Colour colour, const std::string& label);
   void x_names(std::vector<std::string> names);  // instead of numbers, at 0.5, 1.5, ...
+  struct Name {
+    double at = 0.0;
+    std::string text;
+  };
+  void y_names(
+      std::vector<Name> names);  // instead of numbers and label; those outside are left out
 
   std::string svg() const;
 
@@ -76,6 +82,8 @@ class Plot {
   std::string opening(std::string_view shape, const Mark& mark) const;
   std::string axes() const;
   std::string x_axis() const;
+  std::string y_axis() const;
+  std::string y_tick(double y, const std::string& text) const;
   std::string legend() const;
 
   std::string name_, title_;
@@ -84,6 +92,7 @@ class Plot {
   double left_;
   Axis x_, y_;
   std::vector<std::string> x_names_;
+  std::vector<Name> y_names_;
   std::vector<Mark> legend_;
   std::string behind_, marks_;
 };

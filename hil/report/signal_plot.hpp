@@ -1,0 +1,35 @@
+// Signals of a CAN log drawn over time: one panel per unit, as an SVG file or as an HTML page.
+//   in     series, the part of the time axis that is drawn, the lines of the caption
+//   out    one file that needs nothing from outside. The script of the page only adds the read-out
+//          under the pointer
+//   invariants
+//          signals of one unit share a panel, up to kPanelSignals of them; a signal whose every
+//          value has a name has a panel of its own, with steps and these names; a series without
+//          values has no panel. The same input gives the same bytes
+//   units  seconds from the log's start; values in the units of the database
+//   errors nothing fails: names of any bytes are escaped
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hil/report/signal_series.hpp"
+
+namespace pitwall::report {
+
+inline constexpr std::size_t kPanelSignals = 4;
+inline constexpr double kLeastDrawn_s = 1e-3;  // of the time axis
+
+struct SignalPicture {
+  std::string title;
+  std::vector<std::string> caption;
+  std::span<const SignalSeries> series;
+  double from_s = 0.0, to_s = kLeastDrawn_s;  // at least kLeastDrawn_s apart
+};
+
+std::string signal_svg(const SignalPicture& picture);
+std::string signal_page(const SignalPicture& picture);
+
+}  // namespace pitwall::report
