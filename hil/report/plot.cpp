@@ -232,14 +232,19 @@ std::string Plot::y_axis() const {
   if (!y_names_.empty()) return out;
   const int count = std::max(3, static_cast<int>((size_.height - kTop - kBottom) / 32.0));
   const int decimals = decimals_of(step_of(y_.from, y_.to, count));
-  for (const double tick : ticks_of(y_.from, y_.to, count))
-    out += y_tick(tick, number(tick, decimals));
+  std::size_t letters = 0;
+  for (const double tick : ticks_of(y_.from, y_.to, count)) {
+    const std::string text = number(tick, decimals);
+    letters = std::max(letters, text.size());
+    out += y_tick(tick, text);
+  }
+  const double beside = std::max(54.0, 19.0 + kLetter * static_cast<double>(letters));
   const double middle = 0.5 * (kTop + size_.height - kBottom);
   return out +
          formatted(
              "<text class=\"label\" text-anchor=\"middle\" transform=\"translate(%.0f %.1f) "
              "rotate(-90)\">",
-             left_ - 54.0, middle) +
+             std::max(left_ - beside, 12.0), middle) +
          escaped(y_.label) + "</text>";
 }
 

@@ -20,7 +20,8 @@ constexpr std::size_t kBuckets = 1060;      // about one for each pixel
 constexpr std::size_t kPanelLetters = 100;  // of the names in a legend
 constexpr std::size_t kNameLetters = 15;    // of a value's name beside the axis
 constexpr std::size_t kDottedPoints = 150;  // up to here each value is a dot, too
-constexpr double kHeight = 190.0, kMaxHeight = 520.0, kRow = 20.0, kFrame = 70.0;
+constexpr double kFlat = 20.0;              // a range so much smaller than that of its panel
+constexpr double kHeight = 240.0, kMaxHeight = 520.0, kRow = 20.0, kFrame = 70.0;
 
 struct Panel {
   std::vector<const SignalSeries*> series;
@@ -47,10 +48,52 @@ bool has_only_names(const SignalSeries& series) {
   });
 }
 
-bool has_room(const Panel& panel, const SignalSeries& series) {
-  std::size_t letters = series.name().size();
-  for (const SignalSeries* const other : panel.series) letters += other->name().size();
-  return panel.series.size() < kPanelSignals && letters <= kPanelLetters;
+struct Extremes {
+  double least = kUnset, greatest = kUnset;
+
+  void add(const Line& line) {
+    for (const Point& point : line) {
+      least = std::fmin(least, point.y);  // fmin and fmax pass over NaN
+      greatest = std::fmax(greatest, point.y);
+    }
+  }
+  double range() const { return greatest - least; }
+};
+
+Extremes extremes_of(const Line& line) {
+  Extremes out;
+  out.add(line);
+  return out;
+}
+
+bool is_one_message(std::span<const SignalSeries* const> all) {
+  const SignalSeries& first = *all.front();
+  return std::ranges::all_of(all, [&first](const SignalSeries* series) {
+    return series->chosen.message == first.chosen.message && series->channel.empty();
+  });
+}
+
+// True where the legend holds every name and no signal that moves would be a flat line.
+bool fits_together(std::span<const SignalSeries* const> all) {
+  const bool has_short_names = is_one_message(all);
+  Extremes together;
+  for (const SignalSeries* const series : all) together.add(series->points);
+  std::size_t letters = 0;
+  for (const SignalSeries* const series : all) {
+    letters += has_short_names ? series->chosen.signal->name.size() : series->name().size();
+    const double range = extremes_of(series->points).range();
+    if (range > 0.0 && range * kFlat < together.range()) return false;
+  }
+  return all.size() <= kPanelSignals && letters <= kPanelLetters;
+}
+
+bool takes(const Panel& panel, const SignalSeries& series) {
+  const std::string& unit = series.chosen.signal->unit;
+  if (panel.is_named || unit.empty() || panel.series.front()->chosen.signal->unit != unit)
+    return false;
+  auto all = panel.series;
+  all.push_back(&series);
+  return fits_together(all);
 }
 
 std::vector<Panel> panels_of(std::span<const SignalSeries> all) {
@@ -58,11 +101,8 @@ std::vector<Panel> panels_of(std::span<const SignalSeries> all) {
   for (const SignalSeries& series : all) {
     if (series.values == 0) continue;
     const bool is_named = has_only_names(series);
-    const std::string& unit = series.chosen.signal->unit;
-    const auto with = std::ranges::find_if(panels, [&](const Panel& panel) {
-      return !is_named && !unit.empty() && !panel.is_named &&
-             panel.series.front()->chosen.signal->unit == unit && has_room(panel, series);
-    });
+    const auto with = std::ranges::find_if(
+        panels, [&](const Panel& panel) { return !is_named && takes(panel, series); });
     if (with != panels.end()) {
       with->series.push_back(&series);
     } else {
@@ -109,11 +149,7 @@ std::string short_name(std::string name) {
 
 // Those within the values, at most as many as fit below each other.
 std::vector<Plot::Name> names_for(const can::Signal& signal, const Line& line) {
-  double least = kUnset, greatest = kUnset;
-  for (const Point& point : line) {
-    least = std::fmin(least, point.y);
-    greatest = std::fmax(greatest, point.y);
-  }
+  const auto [least, greatest] = extremes_of(line);
   std::vector<Plot::Name> names;
   for (const can::ValueName& name : signal.values) {
     const double at = physical_of_name(signal, name);
@@ -134,14 +170,11 @@ struct PanelText {
 
 PanelText text_of(const Panel& panel) {
   const ChosenSignal& first = panel.series.front()->chosen;
-  const bool is_one_message =
-      std::ranges::all_of(panel.series, [&first](const SignalSeries* series) {
-        return series->chosen.message == first.message && series->channel.empty();
-      });
+  const bool is_one = is_one_message(panel.series);
   const std::string& unit = first.signal->unit;
-  return {.title = is_one_message ? first.message->name : std::string(),
+  return {.title = is_one ? first.message->name : std::string(),
           .label = unit.empty() ? "no unit" : unit,
-          .has_short_names = is_one_message};
+          .has_short_names = is_one};
 }
 
 Drawn draw(const Panel& panel, const SignalPicture& picture) {

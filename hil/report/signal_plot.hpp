@@ -3,9 +3,9 @@
 //   out    one file that needs nothing from outside. The script of the page only adds the read-out
 //          under the pointer
 //   invariants
-//          signals of one unit share a panel, up to kPanelSignals of them; a signal whose every
-//          value has a name has a panel of its own, with steps and these names; a series without
-//          values has no panel. The same input gives the same bytes
+//          signals of one unit share a panel, up to kPanelSignals of them whose ranges compare; a
+//          signal whose every value has a name has a panel of its own, with steps and these
+//          names; a series without values has no panel. The same input gives the same bytes
 //   units  seconds from the log's start; values in the units of the database
 //   errors nothing fails: names of any bytes are escaped
 // SPDX-License-Identifier: Apache-2.0

@@ -36,7 +36,7 @@ struct ChosenSignal {
 
 struct LogPart {
   double from_s = 0.0, to_s = 0.0;
-  std::string channel;  // empty: every channel
+  std::string channel{};  // empty: every channel
 };
 
 struct SignalSeries {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <random>
 
 #include "tests/hil/report/some_run.hpp"
@@ -52,6 +53,28 @@ TEST(Plot, ALineIsWhereItsValuesAre) {
   plot.line(Line{{0.0, 0.0}, {10.0, 1.0}}, {.name = "a", .unit = "m"});
   // Frame: left 124, right 600 - 16, top 30, bottom 200 - 40.
   EXPECT_NE(plot.svg().find("d=\"M124.0 160.0L584.0 30.0\""), std::string::npos) << plot.svg();
+}
+
+TEST(Plot, NamesOfTheYAxisStandAtTheirValues) {
+  Plot plot = plain();
+  plot.y_names({{0.0, "off"}, {1.0, "on & on"}, {2.0, "outside"}});
+  const std::string svg = plot.svg();
+  EXPECT_NE(svg.find("y=\"164.0\" text-anchor=\"end\" class=\"tick\">off<"), std::string::npos)
+      << svg;
+  EXPECT_NE(svg.find("y=\"34.0\" text-anchor=\"end\" class=\"tick\">on &amp; on<"),
+            std::string::npos);
+  EXPECT_EQ(svg.find("outside"), std::string::npos);
+  EXPECT_EQ(svg.find(">0.5<"), std::string::npos) << "no numbers beside names";
+}
+
+TEST(Plot, TheLabelOfTheYAxisIsBesideLongNumbers) {
+  const auto label_x = [](const Axis& y) {
+    const std::string svg =
+        Plot{"name", "Title", Plot::Kind::kTime, {600, 200}, {0.0, 10.0, "x"}, y}.svg();
+    return std::strtod(svg.c_str() + svg.find("translate(") + 10, nullptr);
+  };
+  EXPECT_EQ(label_x({0.0, 1.0, "y"}), 70.0);
+  EXPECT_LT(label_x({-115.011, -115.010, "y"}), 124.0 - 7.0 - 7.0 * 9.0) << "nine letters";
 }
 
 TEST(Plot, AGapBreaksTheLineAndOutsideStaysAtTheEdge) {

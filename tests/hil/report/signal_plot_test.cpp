@@ -60,7 +60,7 @@ TEST_F(SignalPlot, TheLineIsAtTheValuesOfTheFrames) {
   ASSERT_EQ(points.size(), kSomeFrames);
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_NEAR(points[i].x, 0.01 * static_cast<double>(i), 1e-4);  // a tenth of a pixel
-    EXPECT_NEAR(points[i].y, speed_at(i), 0.4) << i;                // of 400 km/h on 120 pixels
+    EXPECT_NEAR(points[i].y, speed_at(i), 0.4) << i;                // of 400 km/h on 170 pixels
   }
 }
 
@@ -90,6 +90,18 @@ TEST_F(SignalPlot, SignalsOfOneUnitShareAPanelAndTheOthersDoNot) {
   EXPECT_EQ(count(svg, "xmlns"), 1u) << "one file, which needs nothing from outside";
   EXPECT_NE(svg.find("a &lt;log&gt;"), std::string::npos);
   EXPECT_NE(svg.find("0 s is &amp; so"), std::string::npos);
+}
+
+TEST_F(SignalPlot, ASignalThatMovesIsNotMadeAFlatLineByAnother) {
+  replay::CanLog log = some_log();
+  for (std::size_t i = 0; i < kSomeFrames; ++i) {  // 0 to 5 km/h beside 400
+    log.frames[i].frame.data[2] = static_cast<std::uint8_t>(200 + i);
+    log.frames[i].frame.data[3] = 0;
+  }
+  const std::vector<ChosenSignal> both{chosen("Drive", "Speed"), chosen("Drive", "Wheel")};
+  EXPECT_EQ(count(svg_of(both, log), "data-plot=\"signals\""), 2u);
+  for (replay::LoggedFrame& logged : log.frames) logged.frame.data[2] = 200;  // a set point
+  EXPECT_EQ(count(svg_of(both, log), "data-plot=\"signals\""), 1u);
 }
 
 TEST_F(SignalPlot, StatesHaveTheirNamesAndSteps) {

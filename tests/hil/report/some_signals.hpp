@@ -52,14 +52,16 @@ inline std::uint8_t gear_at(std::size_t i) { return static_cast<std::uint8_t>(i 
 
 // Bytes put together by hand, not by the encoder.
 inline replay::CanLog some_log() {
-  replay::CanLog log{.format = "candump", .channels = {"can0"}};
+  replay::CanLog log;
+  log.channels = {"can0"};
   for (std::size_t i = 0; i < kSomeFrames; ++i) {
     replay::LoggedFrame logged;
     logged.at.ns = kSomeBegin_ns + static_cast<std::int64_t>(i) * 10'000'000;
     logged.frame.id = 16;
     logged.frame.length = 8;
     const auto speed = static_cast<std::uint16_t>(raw_speed_at(i));
-    const std::uint8_t low = speed & 0xFFU, high = speed >> 8U;
+    const auto low = static_cast<std::uint8_t>(speed & 0xFFU);
+    const auto high = static_cast<std::uint8_t>(speed >> 8U);
     const auto page = static_cast<std::uint8_t>(i % 2);
     logged.frame.data = {low, high, low, high, gear_at(i), page, 7, 0};
     log.frames.push_back(logged);
