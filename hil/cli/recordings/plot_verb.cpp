@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
 #include "hil/cli/command_line.hpp"
@@ -12,7 +13,7 @@
 #include "hil/cli/exit_code.hpp"
 #include "hil/nodes/can_variant.hpp"
 #include "hil/replay/formats/calendar.hpp"
-#include "hil/replay/formats/log_reader.hpp"
+#include "hil/replay/recordings/can_part.hpp"
 #include "hil/report/signal_plot.hpp"
 #include "hil/report/signal_series.hpp"
 #include "protocol/can/dbc_parser.hpp"
@@ -150,9 +151,9 @@ int plot(const PlotOptions& options) {
   if (!database) return refuse(database.error());
   const auto chosen = chosen_of(options, *database);
   if (!chosen) return refuse(chosen.error());
-  const auto bytes = transport::read_file(options.log);
+  auto bytes = transport::read_file(options.log);
   if (!bytes) return refuse(bytes.error());
-  const auto log = replay::read_can_log(*bytes, options.log);
+  const auto log = traffic::read_can_traffic(*std::move(bytes), options.log);
   if (!log) return refuse(log.error());
   std::fprintf(stderr, "%s", replay::to_text(*log, options.log).c_str());
   const auto part = part_of(options, *log);
@@ -166,9 +167,11 @@ int plot(const PlotOptions& options) {
 int plot_verb(std::span<const std::string> args) {
   PlotOptions options;
   CommandLine app{
-      "pitwall-hil plot: signals of a CAN log over time, one panel per unit, as an SVG file or an "
+      "pitwall-hil plot: signals of a CAN log or a recording over time, one panel per unit, as an "
+      "SVG file or an "
       "HTML page that needs no network. Exit 0 drawn, 1 a signal never comes, 2 unusable"};
-  app.option("LOG", options.log, "CAN log of any format that info reads, known by its content")
+  app.option("LOG", options.log,
+             "log or recording of any format that info reads, known by its content")
       .required();
   app.option("SIGNAL", options.signals, "MESSAGE.SIGNAL of the database, one or more").required();
   app.option("--dbc", options.dbc_file,

@@ -5,7 +5,9 @@
 
 #include <vector>
 
+#include "protocol/recorder/segment_folder.hpp"
 #include "protocol/transport/file.hpp"
+#include "tests/hil/bench/recorded/recorded_drive.hpp"
 
 namespace pitwall::cli {
 namespace {
@@ -105,6 +107,17 @@ TEST_F(PlotVerb, TheCarsOwnDatabaseIsTheDefault) {
   const int code = plot_verb(std::vector<std::string>{path("t.log"), "Nothing.At_all"});
   EXPECT_EQ(code, 2);
   EXPECT_NE(testing::internal::GetCapturedStderr().find("v14 has no message"), std::string::npos);
+}
+
+TEST_F(PlotVerb, TheFramesOfACarsRecordingAreDrawn) {
+  const std::string file = recorder::segments_of(bench::recorded_folder()).value().front();
+  const std::string signal = "wheel_speed_report.wheel_speed_FL";
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const int code = plot_verb(std::vector<std::string>{file, signal, "--out", path("car.svg")});
+  testing::internal::GetCapturedStdout();
+  EXPECT_EQ(code, 0) << testing::internal::GetCapturedStderr();
+  EXPECT_NE(text_of("car.svg").find("data-name=\"wheel_speed_FL\""), std::string::npos);
 }
 
 }  // namespace
