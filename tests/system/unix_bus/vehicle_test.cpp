@@ -159,7 +159,7 @@ class VehicleOnUnixBus : public ::testing::Test {
     ASSERT_TRUE(log) << to_string(log.error());
     recording::LcmLogReader events{as_bytes(*log)};
     while (events.next()) continue;
-    EXPECT_EQ(events.events() + messages["/base/picture"], all);
+    EXPECT_EQ(events.events() + messages["/base/picture"] + messages["/car/tick"], all);
   }
 
   std::optional<transport::TemporaryFolder> folder_;
