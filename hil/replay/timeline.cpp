@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "hil/replay/timeline_builder.hpp"
+#include "protocol/recorder/can_record.hpp"
 
 namespace pitwall::replay {
 namespace {
@@ -11,8 +12,6 @@ namespace {
 using traffic::Recording;
 using traffic::Source;
 using traffic::SourceKind;
-
-constexpr std::string_view kSaidByCar = "/can/out";
 
 template <class Pairs>
 auto* value_of(const Pairs& pairs, const std::string& name) {
@@ -86,7 +85,7 @@ struct Way {
 Way way_of_can(const std::string& name, const TimelineOptions& options, TimelineBuilder& builder) {
   if (const auto* mapped = value_of(options.map, name)) return {.track = builder.bus(*mapped)};
   const std::string remedy = "--map " + name + "=INTERFACE sends it";
-  if (name == kSaidByCar) return {.why_not = "the car said it itself; " + remedy};
+  if (name == recorder::kSaidTopic) return {.why_not = "the car said it itself; " + remedy};
   if (!options.interface.empty()) return {.track = builder.bus(options.interface)};
   if (can_be_interface(name)) return {.track = builder.bus(name)};
   return {.why_not = "has no interface; " + remedy};

@@ -1,8 +1,10 @@
 // A CAN frame as a record: /can/in and /can/out of the car.
+//   errors decode_frame(): what cannot be read, an identifier that no frame has
 //   cost   no allocation
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <tuple>
@@ -10,8 +12,11 @@
 
 #include "protocol/can/frame.hpp"
 #include "protocol/recording/cdr_struct.hpp"
+#include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::recorder {
+
+inline constexpr const char *kHeardTopic = "/can/in", *kSaidTopic = "/can/out";
 
 struct CanRecord {
   std::uint32_t id = 0;  // without flag bits
@@ -35,6 +40,21 @@ inline std::span<const std::uint8_t> encode(const can::Frame& frame, CanBytes& b
                    .data = {}};
   for (const std::uint8_t byte : frame.payload()) CHECK(record.data.push(byte));
   return recording::to_cdr(record, bytes);
+}
+
+// The frame of such a record; or why it is none, in words.
+inline Result<can::Frame, const char*> decode_frame(std::span<const std::uint8_t> bytes) {
+  CanRecord record;
+  if (!recording::from_cdr(bytes, record)) return Unexpected{"CAN frame that cannot be read"};
+  if (record.id > (record.extended ? can::kMaxExtendedId : can::kMaxStandardId))
+    return Unexpected{"CAN frame: identifier out of range"};
+  can::Frame frame{.id = record.id,
+                   .extended = record.extended,
+                   .remote = record.remote,
+                   .fd = record.fd,
+                   .length = static_cast<std::uint8_t>(record.data.size())};
+  std::ranges::copy(record.data.span(), frame.data.begin());
+  return frame;
 }
 
 }  // namespace pitwall::recorder

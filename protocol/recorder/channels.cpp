@@ -105,11 +105,11 @@ std::vector<recording::Channel> channels() {
     all.push_back(
         {topic, kDatagramEncoding, {}, {{"layout", "version, path, port, address, data"}}});
   }
-  for (const char* topic : {"/can/in", "/can/out"}) {
+  for (const char* topic : {kHeardTopic, kSaidTopic}) {
     all.push_back(recording::cdr_channel<CanRecord>(topic));
   }
   for (const char* topic : {"/gnss/0", "/gnss/1"}) all.push_back({topic, kStreamEncoding, {}, {}});
-  all.push_back(recording::cdr_channel<TickRecord>("/car/tick"));
+  all.push_back(recording::cdr_channel<TickRecord>(kTickTopic));
   CHECK(all.size() == kTickChannel + 1);
   return all;
 }

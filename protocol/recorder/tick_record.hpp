@@ -26,6 +26,7 @@
 
 namespace pitwall::recorder {
 
+inline constexpr const char* kTickTopic = "/car/tick";
 inline constexpr std::int64_t kNever = INT64_MIN;
 
 struct TickCommand {

@@ -57,14 +57,14 @@ void Comparison::add_frames(const RecordedTick& recorded, const AgainTick& again
            (taken[i] || again.said[i].id != frame.id || again.said[i].extended != frame.extended))
       ++i;
     if (i == taken.size()) {
-      note(name_of(database_, frame) + " (frame)", 1.0, 0.0, recorded);
+      note_frame(frame, 1.0, 0.0, recorded);
       continue;
     }
     taken[i] = true;
     add_pair(frame, again.said[i], recorded);
   }
   for (std::size_t i = 0; i < taken.size(); ++i)
-    if (!taken[i]) note(name_of(database_, again.said[i]) + " (frame)", 0.0, 1.0, recorded);
+    if (!taken[i]) note_frame(again.said[i], 0.0, 1.0, recorded);
 }
 
 void Comparison::add_pair(const can::Frame& recorded, const can::Frame& again,
@@ -75,12 +75,24 @@ void Comparison::add_pair(const can::Frame& recorded, const can::Frame& again,
   if (recorded == again) return;
   std::vector<double> before(message != nullptr ? message->signals.size() : 0), after = before;
   if (message == nullptr || !can::decode(*message, recorded, before) ||
-      !can::decode(*message, again, after)) {
-    note(name_of(database_, recorded) + " (frame)", kUnset, kUnset, tick);
-    return;
-  }
+      !can::decode(*message, again, after))
+    return note_frame(recorded, kUnset, kUnset, tick);
+  // Bits of no signal differ too.
+  if (std::ranges::equal(before, after, equal)) return note_frame(recorded, kUnset, kUnset, tick);
   for (std::size_t i = 0; i < before.size(); ++i)
     compare(message->name, message->signals[i].name, before[i], after[i], tick);
+}
+
+void Comparison::note_frame(const can::Frame& frame, double recorded, double again,
+                            const RecordedTick& tick) {
+  const std::string name = name_of(database_, frame);
+  if (!is_ignored(name)) note(name + " (frame)", recorded, again, tick);
+}
+
+bool Comparison::is_ignored(const std::string& name) {
+  if (!rules_.ignored.contains(name)) return false;
+  used_.insert(name);
+  return true;
 }
 
 void Comparison::add_state(const RecordedTick& recorded, const telemetry::Values& again) {
@@ -102,11 +114,7 @@ void Comparison::compare(const std::string& group, const std::string& name, doub
                          double again, const RecordedTick& tick) {
   if (equal(recorded, again)) return;
   const std::string signal = group + "." + name;
-  for (const std::string& ignored : {signal, group}) {
-    if (!rules_.ignored.contains(ignored)) continue;
-    used_.insert(ignored);
-    return;
-  }
+  if (is_ignored(signal) || is_ignored(group)) return;
   const auto tolerance = rules_.tolerance.find(signal);
   if (tolerance != rules_.tolerance.end()) {
     used_.insert(signal);

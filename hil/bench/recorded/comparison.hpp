@@ -4,7 +4,7 @@
 //   units  of the database, of the registry
 //   invariants
 //          frames are matched by identifier and place among those of a tick: one that only one side
-//          says is a difference of its message
+//          says is a difference of its message, and so are bits that belong to no signal
 //          without a tolerance a value differs where its bits do; NaN equals NaN
 //   cost   O(fields) a tick with a state; frames of equal bytes are not decoded
 // SPDX-License-Identifier: Apache-2.0
@@ -62,6 +62,8 @@ class Comparison {
   void add_state(const RecordedTick& recorded, const telemetry::Values& again);
   void compare(const std::string& group, const std::string& name, double recorded, double again,
                const RecordedTick& tick);
+  bool is_ignored(const std::string& name);
+  void note_frame(const can::Frame& frame, double recorded, double again, const RecordedTick& tick);
   void note(const std::string& signal, double recorded, double again, const RecordedTick& tick);
 
   const can::Database& database_;

@@ -13,21 +13,10 @@
 namespace pitwall::bench {
 namespace {
 
-constexpr std::string_view kReceiverTopic = "/gnss/", kTickTopic = "/car/tick";
+constexpr std::string_view kReceiverTopic = "/gnss/";
 
 std::string count_of(std::size_t had, std::size_t wanted, const char* what) {
   return std::to_string(had) + " of " + std::to_string(wanted) + " " + what + " are recorded";
-}
-
-std::optional<can::Frame> frame_of(std::span<const std::uint8_t> bytes) {
-  recorder::CanRecord record;
-  if (!recording::from_cdr(bytes, record)) return std::nullopt;
-  can::Frame frame{.id = record.id, .length = static_cast<std::uint8_t>(record.data.size())};
-  frame.extended = record.extended;
-  frame.remote = record.remote;
-  frame.fd = record.fd;
-  std::ranges::copy(record.data.span(), frame.data.begin());
-  return frame;
 }
 
 }  // namespace
@@ -109,9 +98,9 @@ const RecordedRun::Place& RecordedRun::place_of(std::uint16_t channel) {
   if (found != places_.end()) return found->second;
   const recording::Channel& here = segment_->reader.channels().at(channel);
   Place place;
-  if (here.topic == "/can/in") place.kind = Kind::kHeard;
-  if (here.topic == "/can/out") place.kind = Kind::kSaid;
-  if (here.topic == kTickTopic) place.kind = Kind::kTick;
+  if (here.topic == recorder::kHeardTopic) place.kind = Kind::kHeard;
+  if (here.topic == recorder::kSaidTopic) place.kind = Kind::kSaid;
+  if (here.topic == recorder::kTickTopic) place.kind = Kind::kTick;
   if (here.topic.starts_with(kReceiverTopic)) {
     place.kind = Kind::kReceiver;
     place.unit = here.topic.ends_with("1") ? 1 : 0;
@@ -136,8 +125,8 @@ std::optional<Problem> RecordedRun::take(const recording::McapMessage& message) 
       return take_tick(message);
     case Kind::kHeard:
     case Kind::kSaid: {
-      const auto frame = frame_of(message.data);
-      if (!frame) return problem("a CAN frame that is none");
+      const auto frame = recorder::decode_frame(message.data);
+      if (!frame) return problem(frame.error());
       if (place.kind == Kind::kSaid) {
         collected_.said.push_back(*frame);
       } else {

@@ -9,6 +9,7 @@
 #include "hil/replay/formats/recognise.hpp"
 #include "hil/replay/recordings/decompression.hpp"
 #include "hil/replay/recordings/recording_reader.hpp"
+#include "protocol/recorder/can_record.hpp"
 #include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::traffic {
@@ -17,11 +18,9 @@ namespace {
 using replay::CanLog;
 using replay::LoggedDirection;
 
-constexpr std::string_view kHeardByTheCar = "/can/in", kSaidByTheCar = "/can/out";
-
 LoggedDirection direction_of(const std::string& source) {
-  if (source == kHeardByTheCar) return LoggedDirection::kReceived;
-  if (source == kSaidByTheCar) return LoggedDirection::kTransmitted;
+  if (source == recorder::kHeardTopic) return LoggedDirection::kReceived;
+  if (source == recorder::kSaidTopic) return LoggedDirection::kTransmitted;
   return LoggedDirection::kUnknown;
 }
 

@@ -126,19 +126,9 @@ class McapImport {
   }
 
   void take_own_can(const Topic& to, UtcTime at, Bytes cdr) {
-    recorder::CanRecord record;
-    if (!recording::from_cdr(cdr, record)) {
-      return builder_.refuse(place(), "CAN frame that cannot be read");
-    }
-    const std::uint32_t most = record.extended ? can::kMaxExtendedId : can::kMaxStandardId;
-    if (record.id > most) return builder_.refuse(place(), "CAN frame: identifier out of range");
-    can::Frame frame{.id = record.id,
-                     .extended = record.extended,
-                     .remote = record.remote,
-                     .fd = record.fd,
-                     .length = static_cast<std::uint8_t>(record.data.size())};
-    std::copy(record.data.begin(), record.data.end(), frame.data.begin());
-    builder_.add(to.source, at, frame, place());
+    const auto frame = recorder::decode_frame(cdr);
+    if (!frame) return builder_.refuse(place(), frame.error());
+    builder_.add(to.source, at, *frame, place());
   }
 
   void take_ros_can(const Topic& to, UtcTime at, Bytes cdr) {

@@ -24,6 +24,18 @@ TEST(CanRecord, AFrameOfAnyLengthComesBack) {
     EXPECT_EQ(back.remote, frame.remote);
     EXPECT_EQ(back.fd, frame.fd);
     EXPECT_TRUE(std::ranges::equal(back.data.span(), frame.payload())) << length;
+    EXPECT_EQ(decode_frame(encode(frame, bytes)).value(), frame);
+  }
+}
+
+TEST(CanRecord, WhatIsNoFrameSaysWhy) {
+  CanBytes bytes{};
+  EXPECT_STREQ(decode_frame({}).error(), "CAN frame that cannot be read");
+  for (const bool extended : {false, true}) {
+    const std::uint32_t most = extended ? can::kMaxExtendedId : can::kMaxStandardId;
+    EXPECT_TRUE(decode_frame(encode({.id = most, .extended = extended}, bytes)));
+    EXPECT_STREQ(decode_frame(encode({.id = most + 1, .extended = extended}, bytes)).error(),
+                 "CAN frame: identifier out of range");
   }
 }
 

@@ -63,6 +63,21 @@ TEST(Comparison, AFrameThatOnlyOneSideSaysIsADifferenceOfItsMessage) {
   EXPECT_EQ(differences[0].values, 2U);
 }
 
+TEST(Comparison, BitsOfNoSignalAreADifferenceAndAnIgnoredMessageIsNone) {
+  can::Frame spoilt = brake(1'000, 1);
+  spoilt.data[1] ^= 0x80U;  // bit 15, between two signals
+  const Pair pair = pair_of(0, {brake(1'000, 1), brake(2, 2)}, {spoilt});
+  const std::string message{can::av21::BrakePressureReport::kName};
+  Comparison comparison{own_database(), {}};
+  comparison.add(pair.recorded, pair.again, {});
+  ASSERT_EQ(comparison.differences().size(), 1U);
+  EXPECT_EQ(comparison.differences()[0].signal, message + " (frame)");
+  EXPECT_EQ(comparison.differences()[0].values, 2U) << "the bits, and the frame that is missing";
+  Comparison ignored{own_database(), {.tolerance = {}, .ignored = {message}}};
+  ignored.add(pair.recorded, pair.again, {});
+  EXPECT_TRUE(ignored.differences().empty());
+}
+
 TEST(Comparison, ToleranceAndIgnoredSignalsAreNoDifferenceAndUnusedRulesAreTold) {
   const std::string message{can::av21::BrakePressureReport::kName};
   const Pair pair = pair_of(0, {brake(1'000, 1)}, {brake(1'010, 1)});

@@ -24,6 +24,14 @@ std::string refusal_of(const std::string& path) {
   }
 }
 
+std::uint64_t ticks_of(RecordedRun& run) {
+  for (std::uint64_t ticks = 0;; ++ticks) {
+    const auto tick = run.next();
+    EXPECT_TRUE(tick) << to_string(tick.error());
+    if (!tick || !*tick) return ticks;
+  }
+}
+
 std::string segment() { return recorder::segments_of(recorded_folder())->front(); }
 
 // The recording again, but for the n-th message of a topic.
@@ -82,13 +90,7 @@ TEST(RecordedRun, GoesToTheEndOfOneThatWasCutOffAndSaysWhere) {
   std::ofstream{path, std::ios::binary} << whole.substr(0, whole.size() / 2);
   auto run = RecordedRun::open(path);
   ASSERT_TRUE(run) << to_string(run.error());
-  std::uint64_t ticks = 0;
-  while (true) {
-    const auto tick = run->next();
-    ASSERT_TRUE(tick) << to_string(tick.error());
-    if (!*tick) break;
-    ++ticks;
-  }
+  const std::uint64_t ticks = ticks_of(*run);
   EXPECT_GT(ticks, 10U);
   EXPECT_LT(ticks, kDrivenTicks);
   ASSERT_EQ(run->remarks().size(), 1U);
@@ -118,13 +120,7 @@ TEST(RecordedRun, EndsWhereACarThatWasStartedAgainBeginsAnotherRun) {
     std::ofstream{file, std::ios::binary} << *transport::read_file(segment());
   auto run = RecordedRun::open(folder.path());
   ASSERT_TRUE(run) << to_string(run.error());
-  std::uint64_t ticks = 0;
-  while (true) {
-    const auto tick = run->next();
-    ASSERT_TRUE(tick) << to_string(tick.error());
-    if (!*tick) break;
-    ++ticks;
-  }
+  const std::uint64_t ticks = ticks_of(*run);
   EXPECT_EQ(ticks, kDrivenTicks);
   EXPECT_EQ(run->remarks(),
             (std::vector<std::string>{second + ": another run begins here, compare it alone"}));
