@@ -101,17 +101,17 @@ class Drive {
 
  private:
   void tick(const transport::Tick& tick) {
-    const io::Rim::Heard heard = parts_.rim.read(parts_.box);
+    const io::Rim::Received incoming = parts_.rim.read(parts_.box);
     if (parts_.radio) parts_.radio->listen(parts_.box);
     const Instant now = transport::monotonic_now();
     pipeline::Inputs in{.now = now,
                         .dt = now - last_,
-                        .can = heard.can,
-                        .sensors = heard.sensors,
+                        .can = incoming.can,
+                        .sensors = incoming.sensors,
                         .requests = {.arm = args_.arm},
                         .may_arm = !parts_.rim.listen_only(),
-                        .gnss_byte_at = heard.gnss_byte_at,
-                        .link = heard.link,
+                        .gnss_byte_at = incoming.gnss_byte_at,
+                        .link = incoming.link,
                         .guardian = parts_.guarded.view(now),
                         .computer = computer(),
                         .last_run_armed = parts_.guarded.barred()};
@@ -133,9 +133,9 @@ class Drive {
   // What the operator at the car's own terminal is told, and what the summary counts.
   void note(const pipeline::Outputs& out) {
     if (const char* refusal = parts_.rim.fresh_refusal()) say(refusal);
-    if (!same_identity(out.heard.bus.identity, bus_.identity))
-      say(gateway::sentence(out.heard.bus.identity));
-    bus_ = out.heard.bus;
+    if (!same_identity(out.received.bus.identity, bus_.identity))
+      say(gateway::sentence(out.received.bus.identity));
+    bus_ = out.received.bus;
     if (out.chosen.arming != arming_ && safety::is_refused(out.chosen.arming))
       say(std::string("not armed: ") + safety::text_of(out.chosen.arming));
     arming_ = out.chosen.arming;
@@ -197,8 +197,8 @@ class Drive {
     const telemetry::CarEndpoint& radio = parts_.radio->endpoint();
     if (now - schema_looked_at_ < kSchemaPeriod) return;
     schema_looked_at_ = now;
-    if (radio.schema_agrees() || !radio.view(now).alive_at || schema_told_) return;
-    schema_told_ = true;
+    if (radio.schema_agrees() || !radio.view(now).alive_at || schema_reported_) return;
+    schema_reported_ = true;
     say("not armed: the base station understands the radio otherwise and lists what differs");
   }
 
@@ -212,8 +212,8 @@ class Drive {
       parts_.box.event(line, change.at);
     }
     if (!first_tick_) first_tick_ = now;
-    if (silence_told_ || now - *first_tick_ < kAnswerAfter) return;
-    silence_told_ = true;
+    if (silence_reported_ || now - *first_tick_ < kAnswerAfter) return;
+    silence_reported_ = true;
     if (parts_.radio->endpoint().report(now).sessions > 0) return;
     std::fprintf(stderr, "pitwall-vehicle: radio: %s\n", kNoAnswer);
     parts_.box.event(kNoAnswer, now);
@@ -250,7 +250,7 @@ class Drive {
   io::LossTally losses_;
   world::BusHealth bus_;
   safety::Arming arming_ = safety::Arming::kNotAsked;
-  bool schema_told_ = false, silence_told_ = false;
+  bool schema_reported_ = false, silence_reported_ = false;
   std::optional<Instant> first_tick_;
   Instant schema_looked_at_;
   Instant last_;

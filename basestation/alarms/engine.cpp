@@ -95,19 +95,20 @@ Result<AlarmIndex, Problem> Engine::find(AlarmId id) const {
 }
 
 template <class Act>
-Result<bool, Problem> Engine::act(AlarmId id, const Said& said, Instant now, const Act& act) {
+Result<bool, Problem> Engine::act(AlarmId id, const Statement& stated, Instant now,
+                                  const Act& act) {
   const auto index = find(id);
   if (!index) return Unexpected{index.error()};
-  if (said.by.empty()) return Unexpected{no(id, "who acts has a name")};
+  if (stated.by.empty()) return Unexpected{no(id, "who acts has a name")};
   Entry& entry = entries_[*index];
   const State before = entry.alarm.state();
   if (!act(entry.alarm)) {
     return Unexpected{Problem{"alarm " + std::to_string(id),
                               "is " + std::string{text_of(before)} + ", which does not allow it"}};
   }
-  entry.by = said.by;
-  entry.reason = said.reason;
-  note(*index, before, now, said.by, said.reason);
+  entry.by = stated.by;
+  entry.reason = stated.reason;
+  note(*index, before, now, stated.by, stated.reason);
   if (entry.alarm.state() == State::kNormal) entry.first_up = false;
   return true;
 }

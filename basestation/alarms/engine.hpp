@@ -104,7 +104,7 @@ class Engine {
   bool overruled(AlarmIndex index) const;
   std::vector<ListedAlarm> list(Part part) const;
   ListedAlarm line(AlarmIndex index) const;
-  struct Said {
+  struct Statement {
     std::string_view by, reason;
   };
   Result<AlarmIndex, Problem> find(AlarmId id) const;
@@ -112,7 +112,7 @@ class Engine {
             std::string_view reason);
   void mark_first();
   template <class Act>
-  Result<bool, Problem> act(AlarmId id, const Said& said, Instant now, const Act& act);
+  Result<bool, Problem> act(AlarmId id, const Statement& stated, Instant now, const Act& act);
 
   AlarmSettings settings_;
   std::vector<Entry> entries_;

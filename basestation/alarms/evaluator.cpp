@@ -43,8 +43,8 @@ struct Evaluator::Taking {
   Evaluator& evaluator;
   Instant at;
 
-  Result<bool, Problem> operator()(const PacketReceived& heard) const {
-    evaluator.heard(heard.at);
+  Result<bool, Problem> operator()(const PacketReceived& received) const {
+    evaluator.receive(received.at);
     return true;
   }
   Result<bool, Problem> operator()(const state::LinkFigures& figures) const {
@@ -75,7 +75,7 @@ struct Evaluator::Taking {
   }
   Result<bool, Problem> operator()(const NoticeAction& act) const {
     Notices& notices = evaluator.notices_;
-    return notices.decide(act.notice, act.told ? NoticeFate::kTold : NoticeFate::kDismissed,
+    return notices.decide(act.notice, act.reported ? NoticeFate::kReported : NoticeFate::kDismissed,
                           act.by);
   }
   Result<bool, Problem> operator()(const LimitEdit& edit) const {
@@ -88,7 +88,7 @@ struct Evaluator::Taking {
 
 Result<bool, Problem> Evaluator::take(const EvaluatorInput& input) {
   auto taken = std::visit(Taking{*this, now_}, input);
-  if (told_) told_(input, now_);
+  if (reported_) reported_(input, now_);
   return taken;
 }
 
@@ -106,7 +106,7 @@ void Evaluator::step(const state::VehicleState& vehicle, Instant now) {
   const double mode = vehicle.view(field("mode.mode"), now).value;
   notices_.step(
       {.state = monitors_.link.state(),
-       .silence = link.heard ? now - *link.heard : Duration{},
+       .silence = link.received ? now - *link.received : Duration{},
        .loss = std::fmax(link.down_loss, link.up_loss),
        .round_trip_ms = link.round_trip_ms,
        .car_mode = std::isnan(mode)

@@ -57,10 +57,10 @@ class Evaluator {
   Result<bool, Problem> edit(const LimitEdit& edit) { return take(edit); }
   Result<bool, Problem> edit(const AlarmEdit& edit) { return take(edit); }
   // A packet with states came; the figures of the link say it, too, but seldom.
-  void heard(Instant at) { known_.link.heard = at; }
+  void receive(Instant at) { known_.link.received = at; }
   // Who is told every input when it was taken: a recording.
-  void tell_inputs(std::function<void(const EvaluatorInput&, Instant)> told) {
-    told_ = std::move(told);
+  void tell_inputs(std::function<void(const EvaluatorInput&, Instant)> reported) {
+    reported_ = std::move(reported);
   }
 
   const Engine& alarms() const { return engine_; }
@@ -99,7 +99,7 @@ class Evaluator {
   std::optional<std::int64_t> newest_step_;
   std::uint64_t left_out_ = 0;
   Instant now_{};  // of the newest advance()
-  std::function<void(const EvaluatorInput&, Instant)> told_;
+  std::function<void(const EvaluatorInput&, Instant)> reported_;
 };
 
 }  // namespace pitwall::alarms

@@ -33,7 +33,7 @@ struct AlarmAction {
 // And with a draft for race control.
 struct NoticeAction {
   std::uint32_t notice = 0;
-  bool told = false;  // to race control; else it need not be
+  bool reported = false;  // to race control; else it need not be
   std::string by{};
 
   bool operator==(const NoticeAction&) const = default;

@@ -53,7 +53,7 @@ void Notices::step(const LinkEvidence& link, Instant now) {
   if (!episode_) begin(now);
   note_worst(link);
   const bool lost_now = link.state == LinkState::kLost;
-  if (!told_ || (lost_now && !lost_)) tell_degraded(link, lost_now, now);
+  if (!reported_ || (lost_now && !lost_)) tell_degraded(link, lost_now, now);
   if (!good) {
     good_since_.reset();
     return;
@@ -64,7 +64,7 @@ void Notices::step(const LinkEvidence& link, Instant now) {
 
 void Notices::begin(Instant now) {
   episode_ = true;
-  told_ = lost_ = false;
+  reported_ = lost_ = false;
   began_ = now;
   good_since_.reset();
   worst_loss_ = worst_round_trip_ms_ = 0.0;
@@ -80,8 +80,8 @@ void Notices::note_worst(const LinkEvidence& link) {
 // Once; a draft that turns out to be a loss says so, one that was sent stays what it said.
 void Notices::tell_degraded(const LinkEvidence& link, bool lost, Instant now) {
   lost_ = lost_ || lost;
-  if (!told_) draft(NoticeKind::kDegraded, now);
-  told_ = true;
+  if (!reported_) draft(NoticeKind::kDegraded, now);
+  reported_ = true;
   Notice& notice = notices_.back();
   if (notice.fate != NoticeFate::kDraft) return;
   notice.text = text_for(link, lost);

@@ -24,7 +24,7 @@ namespace pitwall::alarms {
 
 enum class NoticeKind : std::uint8_t { kDegraded, kRestored };
 std::string_view text_of(NoticeKind kind);
-enum class NoticeFate : std::uint8_t { kDraft, kTold, kDismissed };
+enum class NoticeFate : std::uint8_t { kDraft, kReported, kDismissed };
 
 struct Notice {
   std::uint32_t id = 0;
@@ -66,7 +66,7 @@ class Notices {
   std::deque<Notice> notices_;
   std::uint32_t ids_ = 0;
   std::uint64_t revision_ = 0;
-  bool episode_ = false, told_ = false, lost_ = false;
+  bool episode_ = false, reported_ = false, lost_ = false;
   Instant began_{};
   std::optional<Instant> good_since_;
   double worst_loss_ = 0.0, worst_round_trip_ms_ = 0.0;

@@ -41,9 +41,9 @@ Result<bool, Problem> AuthorityHandover::drop(const Person& who, Instant now) {
   }
   authority_->drop(who.console, now);
   hold({});
-  const auto said = say(who, "drops the authority", nullptr, now);
+  const auto stated = say(who, "drops the authority", nullptr, now);
   if (waiting_) give(now);
-  return said;
+  return stated;
 }
 
 Result<bool, Problem> AuthorityHandover::request(const Person& who, Instant now) {
@@ -65,9 +65,9 @@ Result<bool, Problem> AuthorityHandover::request(const Person& who, Instant now)
 
 Result<bool, Problem> AuthorityHandover::grant(const Person& who, Instant now) {
   if (const char* why = why_not_answer(who, now)) return say(who, "grants the authority", why, now);
-  const auto said = say(who, "grants the authority", nullptr, now);
+  const auto stated = say(who, "grants the authority", nullptr, now);
   give(now);
-  return said;
+  return stated;
 }
 
 Result<bool, Problem> AuthorityHandover::refuse(const Person& who, Instant now) {

@@ -81,7 +81,7 @@ struct ResetAlarm {
 };
 struct AnswerNotice {
   std::uint32_t notice = 0;
-  bool told = false;  // race control was told; else it need not be
+  bool reported = false;  // race control was told; else it need not be
 };
 
 // The round speed that race control announced; none: it was taken back.

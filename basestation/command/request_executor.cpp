@@ -29,14 +29,14 @@ Unexpected<Problem> refusal(const char* place, const char* why) {
 std::optional<std::uint32_t> excluded_now(const telemetry::StationEndpoint& radio) {
   using telemetry::Group;
   const auto* const ordered = radio.newest(telemetry::CommandType::kSensorsExcluded);
-  const Instant told_at = radio.state().at(Group::kLocalization);
+  const Instant reported_at = radio.state().at(Group::kLocalization);
   const bool pending = ordered != nullptr && !ordered->fate;
-  const bool untold = ordered != nullptr && ordered->fate == telemetry::Outcome::kApplied &&
-                      ordered->decided && told_at <= *ordered->decided;
-  if (pending || untold) return static_cast<std::uint32_t>(ordered->command.argument);
-  const double told = radio.state().values[field("localization.excluded")];
-  if (!radio.state().ever(Group::kLocalization) || !(told >= 0.0)) return std::nullopt;
-  return static_cast<std::uint32_t>(told);
+  const bool unreported = ordered != nullptr && ordered->fate == telemetry::Outcome::kApplied &&
+                          ordered->decided && reported_at <= *ordered->decided;
+  if (pending || unreported) return static_cast<std::uint32_t>(ordered->command.argument);
+  const double reported = radio.state().values[field("localization.excluded")];
+  if (!radio.state().ever(Group::kLocalization) || !(reported >= 0.0)) return std::nullopt;
+  return static_cast<std::uint32_t>(reported);
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ struct RequestExecutor::Execution {
     catch_up();
     executor.evaluator_.expect(executor.entries_.expected);
   }
-  SettingsEditor::Said because(const std::string& reason) const {
+  SettingsEditor::Statement because(const std::string& reason) const {
     catch_up();
     return {.by = by, .holds_authority = holds(), .reason = reason, .at = now};
   }
@@ -178,11 +178,12 @@ struct RequestExecutor::Execution {
         AlarmAction{.kind = AlarmAction::Kind::kReset, .alarm = id, .by = by.name, .reason = {}});
   }
   Done operator()(const AnswerNotice& ask) const {
-    auto done = judge(alarms::NoticeAction{.notice = ask.notice, .told = ask.told, .by = by.name});
+    auto done =
+        judge(alarms::NoticeAction{.notice = ask.notice, .reported = ask.reported, .by = by.name});
     executor.audit_.add(now, by.name, "notice " + std::to_string(ask.notice) + kind_of(ask.notice),
-                        !done      ? "refused: " + done.error().what
-                        : ask.told ? "race control was told"
-                                   : "not needed");
+                        !done          ? "refused: " + done.error().what
+                        : ask.reported ? "race control was told"
+                                       : "not needed");
     return done;
   }
   Done operator()(const ExpectRoundSpeed& ask) const {

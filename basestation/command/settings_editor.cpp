@@ -59,11 +59,11 @@ std::string difference(const alarms::Limit& from, const alarms::Limit& to) {
 
 }  // namespace
 
-Done SettingsEditor::change(const Said& said, alarms::AlarmEdit edit) {
-  edit.author = said.by.name;
-  edit.reason = said.reason;
+Done SettingsEditor::change(const Statement& stated, alarms::AlarmEdit edit) {
+  edit.author = stated.by.name;
+  edit.reason = stated.reason;
   std::string what = "alarm " + edit.key;
-  if (const auto may = allowed(said, edit.key); !may) return note(said, what, may);
+  if (const auto may = allowed(stated, edit.key); !may) return note(stated, what, may);
   if (const auto index = alarms::find_alarm(edit.key)) {
     what += difference(evaluator_->alarms().settings().of(*index), edit.setting);
   }
@@ -71,15 +71,15 @@ Done SettingsEditor::change(const Said& said, alarms::AlarmEdit edit) {
   auto done = wanted.edit(edit);
   if (done) done = save(evaluator_->limits(), wanted, budget_.now);
   if (done) done = evaluator_->edit(edit);
-  return note(said, what, std::move(done));
+  return note(stated, what, std::move(done));
 }
 
-Done SettingsEditor::change(const Said& said, alarms::LimitEdit edit) {
-  edit.author = said.by.name;
-  edit.reason = said.reason;
+Done SettingsEditor::change(const Statement& stated, alarms::LimitEdit edit) {
+  edit.author = stated.by.name;
+  edit.reason = stated.reason;
   std::string what = "limits of " + state::path_of(edit.field);
-  if (const auto may = allowed(said, state::path_of(edit.field)); !may) {
-    return note(said, what, may);
+  if (const auto may = allowed(stated, state::path_of(edit.field)); !may) {
+    return note(stated, what, may);
   }
   if (state::is_field(edit.field)) {
     what += difference(evaluator_->limits().of(edit.field), edit.limit);
@@ -88,27 +88,27 @@ Done SettingsEditor::change(const Said& said, alarms::LimitEdit edit) {
   auto done = wanted.edit(edit);
   if (done) done = save(wanted, evaluator_->alarms().settings(), budget_.now);
   if (done) done = evaluator_->edit(edit);
-  return note(said, what, std::move(done));
+  return note(stated, what, std::move(done));
 }
 
-Done SettingsEditor::change_budget(const Said& said, double up_kbit_s) {
+Done SettingsEditor::change_budget(const Statement& stated, double up_kbit_s) {
   const std::string what = "radio budget up" + moved("kbit/s", budget_.now, up_kbit_s);
-  if (const auto may = allowed(said, "budget"); !may) return note(said, what, may);
+  if (const auto may = allowed(stated, "budget"); !may) return note(stated, what, may);
   if (!(up_kbit_s >= budget_.least && up_kbit_s <= budget_.most)) {
-    return note(said, what,
+    return note(stated, what,
                 Unexpected{Problem{"budget", "expected " + in_figures(budget_.least) + " to " +
                                                  in_figures(budget_.most) + " kbit/s"}});
   }
   auto done = save(evaluator_->limits(), evaluator_->alarms().settings(), up_kbit_s);
   if (done) budget_.now = up_kbit_s;
-  return note(said, what, std::move(done));
+  return note(stated, what, std::move(done));
 }
 
-Done SettingsEditor::allowed(const Said& said, const std::string& place) const {
-  if (!said.holds_authority) {
+Done SettingsEditor::allowed(const Statement& stated, const std::string& place) const {
+  if (!stated.holds_authority) {
     return Unexpected{Problem{place, "you do not hold the authority"}};
   }
-  if (said.reason.empty()) return Unexpected{Problem{place, "expected a reason for the change"}};
+  if (stated.reason.empty()) return Unexpected{Problem{place, "expected a reason for the change"}};
   return true;
 }
 
@@ -126,8 +126,9 @@ Done SettingsEditor::save(const alarms::Limits& limits, const alarms::AlarmSetti
   return true;
 }
 
-Done SettingsEditor::note(const Said& said, const std::string& what, Done result) {
-  audit_->add(said.at, said.by.name, what + (said.reason.empty() ? "" : " (" + said.reason + ")"),
+Done SettingsEditor::note(const Statement& stated, const std::string& what, Done result) {
+  audit_->add(stated.at, stated.by.name,
+              what + (stated.reason.empty() ? "" : " (" + stated.reason + ")"),
               result ? "revision " + std::to_string(revision_) : "refused: " + result.error().what);
   return result;
 }

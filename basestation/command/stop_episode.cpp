@@ -94,7 +94,7 @@ void StopEpisode::advance(const Inputs& in) {
     if (!stopped_) begin(in);
     explain(in);
   } else {
-    heard_driving_ = true;
+    received_driving_ = true;
     if (drives(mode)) stopped_.reset();
   }
   if (!stopped_) return;
@@ -107,7 +107,7 @@ void StopEpisode::begin(const Inputs& in) {
   stopped_.emplace();
   level_ = 0.0;
   const FieldView mode = in.gates.vehicle.view(field("mode.mode"), in.gates.now);
-  if (heard_driving_) stopped_->since = in.gates.now - mode.age;
+  if (received_driving_) stopped_->since = in.gates.now - mode.age;
 }
 
 // What is known of the beginning, as soon as it is known; who stops harder is told.

@@ -73,7 +73,7 @@ class StopEpisode {
 
   GateParams params_;
   std::optional<StoppedCar> stopped_;
-  bool heard_driving_ = false;  // or anything but stopped
+  bool received_driving_ = false;  // or anything but stopped
   double level_ = 0.0;
   Instant advanced_{};
 };

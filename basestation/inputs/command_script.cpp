@@ -43,13 +43,13 @@ Result<CommandScript, Problem> CommandScript::parse(std::string_view text,
 }
 
 std::optional<std::string_view> CommandScript::next(Duration since_start) {
-  if (said_ == lines_.size() || since_start < lines_[said_].at) return std::nullopt;
-  return lines_[said_++].words;
+  if (stated_ == lines_.size() || since_start < lines_[stated_].at) return std::nullopt;
+  return lines_[stated_++].words;
 }
 
 std::optional<Duration> CommandScript::due() const {
-  if (said_ == lines_.size()) return std::nullopt;
-  return lines_[said_].at;
+  if (stated_ == lines_.size()) return std::nullopt;
+  return lines_[stated_].at;
 }
 
 }  // namespace pitwall::inputs

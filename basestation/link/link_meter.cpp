@@ -27,10 +27,10 @@ LinkCount count_of(const telemetry::LinkReport& report, std::uint64_t packets,
   LinkCount count{.packets = packets, .missing = missing};
   for (std::size_t i = 0; i < count.paths.size(); ++i) {
     const telemetry::PathReport& path = report.paths[i];
-    count.paths[i] = {.received = path.heard.received,
-                      .lost = path.heard.lost,
-                      .duplicates = path.heard.duplicates,
-                      .late = path.heard.late,
+    count.paths[i] = {.received = path.received.received,
+                      .lost = path.received.lost,
+                      .duplicates = path.received.duplicates,
+                      .late = path.received.late,
                       .up_bytes = path.spent.bytes};
   }
   return count;
@@ -61,11 +61,11 @@ const LinkMeter::Sample* LinkMeter::before(Duration window) const {
   return later == samples_.begin() ? &samples_.front() : &*std::prev(later);
 }
 
-void LinkMeter::note_use(std::size_t path, double heard_kbit_s, double use) {
+void LinkMeter::note_use(std::size_t path, double received_kbit_s, double use) {
   constexpr double kLeastUse = 0.05, kFollow = 0.05;  // below it the share is too coarse
-  if (!(use >= kLeastUse && heard_kbit_s > 0.0)) return;
+  if (!(use >= kLeastUse && received_kbit_s > 0.0)) return;
   double& cap = caps_kbit_s_[path];
-  const double seen = heard_kbit_s / use;
+  const double seen = received_kbit_s / use;
   cap = std::isnan(cap) ? seen : cap + kFollow * (seen - cap);
 }
 

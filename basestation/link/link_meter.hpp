@@ -43,7 +43,7 @@ class LinkMeter {
   void packet(telemetry::GroupSet groups, Instant now);
 
   // So much came by the path, which the car calls this share of what it may send by it.
-  void note_use(std::size_t path, double heard_kbit_s, double use);
+  void note_use(std::size_t path, double received_kbit_s, double use);
 
   double loss(Duration window) const;
   double round_trip_ms(Duration window) const;  // the longest

@@ -57,7 +57,7 @@ Result<telemetry::Stamp, Problem> read_stamp(const std::string& path) {
 StampFile::StampFile(std::string path, telemetry::Stamp known, Duration period)
     : path_(std::move(path)),
       period_(period),
-      told_(known),
+      reported_(known),
       newest_(known),
       tried_(known),
       writer_([this] { write_all(); }) {}
@@ -72,8 +72,8 @@ StampFile::~StampFile() {
 }
 
 void StampFile::keep(telemetry::Stamp newest) {
-  if (newest == told_) return;
-  told_ = newest;
+  if (newest == reported_) return;
+  reported_ = newest;
   {
     const std::lock_guard lock{mutex_};
     newest_ = newest;

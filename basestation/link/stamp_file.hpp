@@ -52,7 +52,7 @@ class StampFile {
 
   std::string path_;
   Duration period_;
-  telemetry::Stamp told_;  // of keep() only
+  telemetry::Stamp reported_;  // of keep() only
   std::mutex mutex_;
   std::condition_variable changed_;
   telemetry::Stamp newest_, tried_;

@@ -157,13 +157,13 @@ void Player::advance(Duration passed, Listener& listener) {
 
 void Player::tell_texts_until(Instant to, Listener& listener) {
   const auto end = std::ranges::upper_bound(texts_, to, {}, &Text::at);
-  std::array<bool, recorder::kTopics> told{};
+  std::array<bool, recorder::kTopics> reported{};
   std::vector<const Text*> chosen;
   for (auto text = end; text != texts_.begin() && chosen.size() < kHistory;) {
     --text;
     const auto topic = static_cast<std::size_t>(text->topic);
-    if (is_standing(text->topic) && told[topic]) continue;
-    told[topic] = true;
+    if (is_standing(text->topic) && reported[topic]) continue;
+    reported[topic] = true;
     chosen.push_back(&*text);
   }
   for (auto text = chosen.rbegin(); text != chosen.rend(); ++text) {

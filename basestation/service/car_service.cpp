@@ -81,7 +81,7 @@ bool CarService::receive(std::span<const std::uint8_t> datagram, telemetry::Path
   if (arrival.groups.count() == 0) {
     static_cast<void>(evaluator_.take(alarms::PacketReceived{arrival.received}));
   } else {
-    evaluator_.heard(arrival.received);
+    evaluator_.receive(arrival.received);
   }
   vehicle_.update(state, arrival.groups);
   trends_.note(state, arrival.groups);

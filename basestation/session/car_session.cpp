@@ -114,11 +114,11 @@ std::string CarSession::title() const {
 }
 
 std::string CarSession::listening() const {
-  std::string said = "listening at ";
+  std::string stated = "listening at ";
   for (const transport::UdpSocket& socket : radio_) {
-    said += (&socket == &radio_.front() ? "" : " and ") + to_string(socket.local());
+    stated += (&socket == &radio_.front() ? "" : " and ") + to_string(socket.local());
   }
-  return said;
+  return stated;
 }
 
 Result<bool, Problem> CarSession::begin(publishers::web::WebServer* server, const Say& say) {

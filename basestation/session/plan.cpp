@@ -73,7 +73,7 @@ Result<bool, Problem> plan_access(const Arguments& a, web::AccessRules& access) 
 Result<bool, Problem> plan_service(const Arguments& a, Plan& plan, const Say& say) {
   if (!a.judgement_file.empty()) {
     auto store = std::make_shared<service::LimitsStore>(a.judgement_file);
-    if (!store->said().empty()) say(store->said());
+    if (!store->stated().empty()) say(store->stated());
     service::use_limits(plan.service, std::move(store), a.budget_kbit);
   }
   plan.http.documents["/api/track"] = {};
@@ -167,7 +167,7 @@ Result<bool, Problem> plan_hands(const Arguments& arguments, Plan& plan) {
   return true;
 }
 
-std::string told(const Arguments& car) { return "car " + std::to_string(car.car); }
+std::string reported(const Arguments& car) { return "car " + std::to_string(car.car); }
 
 }  // namespace
 
@@ -201,22 +201,23 @@ Result<std::vector<Plan>, Problem> plans_of(std::span<const Arguments> cars, con
   std::vector<Plan> plans;
   for (const Arguments& car : cars) {
     auto plan = plan_of(car, [&](const std::string& line) {
-      say(cars.size() > 1 ? told(car) + ": " + line : line);
+      say(cars.size() > 1 ? reported(car) + ": " + line : line);
     });
     if (!plan) {
       if (cars.size() == 1) return Unexpected{plan.error()};
-      return Unexpected{Problem{told(car) + ": " + plan.error().place, plan.error().what}};
+      return Unexpected{Problem{reported(car) + ": " + plan.error().place, plan.error().what}};
     }
     for (const Plan& other : plans) {
       const telemetry::KeyFile &one = other.config.association.keys,
                                &two = plan->config.association.keys;
       if (one.own.public_key == two.own.public_key || one.peer == two.peer) {
-        return Unexpected{Problem{told(car) + ": " + car.keys,
-                                  "these are keys of " + told(other.arguments) + ", too"}};
+        return Unexpected{Problem{reported(car) + ": " + car.keys,
+                                  "these are keys of " + reported(other.arguments) + ", too"}};
       }
       if (!plan->stamp_file.empty() && plan->stamp_file == other.stamp_file) {
-        return Unexpected{Problem{told(car) + ": " + plan->stamp_file,
-                                  "this is the stamp file of " + told(other.arguments) + ", too"}};
+        return Unexpected{
+            Problem{reported(car) + ": " + plan->stamp_file,
+                    "this is the stamp file of " + reported(other.arguments) + ", too"}};
       }
     }
     plan->console.place = plans.size();

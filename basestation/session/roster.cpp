@@ -19,8 +19,8 @@ void Roster::serve(Instant now) {
   if (now < due_) return;
   due_ = now + kEvery;
   std::string text = roster_text(look_());
-  if (text == told_) return;
-  told_ = text;
+  if (text == reported_) return;
+  reported_ = text;
   server_.show(kRosterPath, {std::move(text), publishers::web::kJsonType});
 }
 

@@ -42,7 +42,7 @@ class Roster : public service::LoopTask {
 
   publishers::web::WebServer& server_;
   Look look_;
-  std::string told_;
+  std::string reported_;
   Instant due_{};
 };
 

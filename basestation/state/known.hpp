@@ -17,7 +17,7 @@
 namespace pitwall::state {
 
 struct LinkFigures {
-  std::optional<Instant> heard;                 // the car's newest authentic packet
+  std::optional<Instant> received;              // the car's newest authentic packet
   double down_loss = kUnset, up_loss = kUnset;  // of the last 5 s, 0 .. 1; on all paths
   double round_trip_ms = kUnset, jitter_ms = kUnset;
   double loss_1s = kUnset, loss_30s = kUnset, packets_hz = kUnset;

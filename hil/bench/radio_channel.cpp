@@ -75,13 +75,13 @@ std::optional<link::Datagram> RadioChannel::take(Way way, PathId path, Instant n
       continue;
     }
     ++counters_.delivered[static_cast<std::size_t>(way)];
-    if (way == Way::kUp) note_heard(datagram.offered, now);
+    if (way == Way::kUp) note_received(datagram.offered, now);
     return datagram;
   }
   return std::nullopt;
 }
 
-void RadioChannel::note_heard(Instant sent, Instant now) {
+void RadioChannel::note_received(Instant sent, Instant now) {
   longest_ = longest_silence(now);
   newest_up_ = newest_up_ ? std::max(*newest_up_, sent) : sent;
 }

@@ -73,7 +73,7 @@ class RadioChannel {
   std::optional<double> active(faults::BenchFaultKind kind, Instant at) const;
   bool is_off(Way way, Instant at) const;
   void hold_back(Lane& lane, Instant now);
-  void note_heard(Instant sent, Instant now);
+  void note_received(Instant sent, Instant now);
 
   std::vector<faults::BenchFault> faults_;
   std::vector<std::array<Lane, kWays>> lanes_;

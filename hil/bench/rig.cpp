@@ -71,9 +71,9 @@ void Rig::step(std::span<const can::ReceivedFrame> from_car, Instant now) {
   apply_model_faults(now);
   for (const can::ReceivedFrame& received : from_car)
     if (is_actuator(received.frame.id)) ++actuator_frames_;
-  const auto heard = computer_silent_ ? std::span<const can::ReceivedFrame>{} : from_car;
+  const auto incoming = computer_silent_ ? std::span<const can::ReceivedFrame>{} : from_car;
   const auto raptor =
-      drive_by_wire::step(raptor_params_, raptor_, understood(heard), feedback(), now);
+      drive_by_wire::step(raptor_params_, raptor_, understood(incoming), feedback(), now);
   demand_ = raptor.demand;
   step_plant();
   wheel_speed_mps_ = sensors::step_wheels(wheel_params_, wheels_, truth_.wheel_speed_mps, now);
@@ -133,17 +133,17 @@ drive_by_wire::Feedback Rig::feedback() const {
   return f;
 }
 
-std::span<const can::ReceivedFrame> Rig::understood(std::span<const can::ReceivedFrame> heard) {
+std::span<const can::ReceivedFrame> Rig::understood(std::span<const can::ReceivedFrame> incoming) {
   understood_.clear();
-  for (const can::ReceivedFrame& received : heard) {
-    if (const auto frame = variant_.heard(received.frame))
+  for (const can::ReceivedFrame& received : incoming) {
+    if (const auto frame = variant_.receive(received.frame))
       understood_.push_back({*frame, received.at});
   }
   return understood_;
 }
 
 void Rig::encode_frames(Node from, const can::Frame& frame, Instant now) {
-  for (const can::Frame& said : variant_.spoken(frame)) send(from, said, now);
+  for (const can::Frame& stated : variant_.spoken(frame)) send(from, stated, now);
 }
 
 void Rig::send(Node from, const can::Frame& frame, Instant now) {

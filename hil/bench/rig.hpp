@@ -82,7 +82,7 @@ class Rig {
   Rig(const world::TrackMap& track, FaultPlan plan, can_variant::CanVariant variant)
       : track_(track), plan_(std::move(plan)), variant_(std::move(variant)) {}
   // What the drive-by-wire understands of the bus.
-  std::span<const can::ReceivedFrame> understood(std::span<const can::ReceivedFrame> heard);
+  std::span<const can::ReceivedFrame> understood(std::span<const can::ReceivedFrame> received);
   void apply_model_faults(Instant now);
   void apply_model_fault(const faults::BenchFault& fault, Instant now);
   void step_plant();

@@ -115,13 +115,13 @@ CarSample car_sample(const pipeline::Outputs& out) {
           .cause = static_cast<std::uint8_t>(out.chosen.cause),
           .validity = static_cast<std::uint8_t>(out.ego.validity),
           .ct_state = static_cast<std::uint8_t>(out.ct_state),
-          .frames_refused = out.heard.bus.refused.total(),
+          .frames_refused = out.received.bus.refused.total(),
           .gate_refusals = out.passed.refused_total};
 }
 
 void RunRecord::car(const pipeline::Outputs& out, Instant at) {
   log_.sample(car_, at, car_sample(out));
-  for (const world::LossReport& noticed : out.heard.bus.losses) loss(noticed);
+  for (const world::LossReport& noticed : out.received.bus.losses) loss(noticed);
 }
 
 void RunRecord::loss(const world::LossReport& loss) {

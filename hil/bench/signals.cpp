@@ -20,19 +20,19 @@ constexpr double kNoLimit_mps = 1'000.0;
 double or_zero(double value) { return std::isnan(value) ? 0.0 : value; }
 
 void add_car_report(SignalValues& v, const CarReport& car, const plant::Truth& truth) {
-  const auto said = [&](Signal signal, double value) {
+  const auto stated = [&](Signal signal, double value) {
     set(v, signal, car.silent ? kUnset : or_zero(value));
   };
-  said(Signal::kMode, car.mode);
-  said(Signal::kGateRefusals, car.gate_refusals);
-  said(Signal::kBusRefusals, car.bus_refusals);
-  said(Signal::kPositionError, std::hypot(car.x_m - truth.x_m, car.y_m - truth.y_m));
-  said(Signal::kYawError, std::abs(wrap_pi(car.yaw_rad - truth.yaw_rad)));
-  said(Signal::kIdentity, car.identity);
-  said(Signal::kDifferingId, car.differing_id);
-  said(Signal::kStopCause, car.cause);
-  said(Signal::kOperatorLimit,
-       std::isnan(car.operator_limit_mps) ? kNoLimit_mps : car.operator_limit_mps);
+  stated(Signal::kMode, car.mode);
+  stated(Signal::kGateRefusals, car.gate_refusals);
+  stated(Signal::kBusRefusals, car.bus_refusals);
+  stated(Signal::kPositionError, std::hypot(car.x_m - truth.x_m, car.y_m - truth.y_m));
+  stated(Signal::kYawError, std::abs(wrap_pi(car.yaw_rad - truth.yaw_rad)));
+  stated(Signal::kIdentity, car.identity);
+  stated(Signal::kDifferingId, car.differing_id);
+  stated(Signal::kStopCause, car.cause);
+  stated(Signal::kOperatorLimit,
+         std::isnan(car.operator_limit_mps) ? kNoLimit_mps : car.operator_limit_mps);
 }
 
 // The car counts from when it is sure that the base lived, so its gap is longer by what it does not

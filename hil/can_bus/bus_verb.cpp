@@ -181,8 +181,8 @@ int bus_line(std::span<const std::string> args) {
   auto line = transport::SerialLine::open(kGuestLine);
   if (!line) return refuse(line.error(), kExitUsage);
   if (args.size() > 2) {
-    const auto told = transport::write_file(args[2], "ready\n");
-    if (!told) return refuse(told.error(), kExitUsage);
+    const auto reported = transport::write_file(args[2], "ready\n");
+    if (!reported) return refuse(reported.error(), kExitUsage);
   }
   // Car and bench of a guest share one processor and are urgent: what waits here grows old.
   transport::request_realtime(kLinePriority);

@@ -26,7 +26,7 @@ void sent(FaultConfinement& node) {
   if (!node.bus_off && node.send_errors > 0) --node.send_errors;
 }
 
-void heard(FaultConfinement& node) {
+void receive(FaultConfinement& node) {
   if (node.bus_off || node.receive_errors == 0) return;
   node.receive_errors = std::min<std::uint16_t>(static_cast<std::uint16_t>(node.receive_errors - 1),
                                                 kReceiveErrorsAfterPassive);

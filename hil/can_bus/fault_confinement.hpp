@@ -37,7 +37,7 @@ struct FaultConfinement {
 ErrorState state_of(const FaultConfinement& node);
 
 void sent(FaultConfinement& node);
-void heard(FaultConfinement& node);
+void receive(FaultConfinement& node);
 // True if this error made it bus-off.
 bool failed_to_send(FaultConfinement& node);
 void failed_to_hear(FaultConfinement& node);

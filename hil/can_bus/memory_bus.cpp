@@ -238,7 +238,7 @@ void MemoryBus::deliver() {
   for (std::uint8_t p = 0; p < config_.ports; ++p) {
     Port& node = ports_[p];
     if (p == sender_ || !node.connected || node.confinement.bus_off) continue;
-    can_bus::heard(node.confinement);
+    can_bus::receive(node.confinement);
     if (deliveries_.size() == kMaxDeliveries) {
       ++counters_.lost;
       continue;

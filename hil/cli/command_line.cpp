@@ -56,7 +56,7 @@ CommandLine CommandLine::one_of(const std::string& name, const std::string& help
   return CommandLine{*app_->add_subcommand(name, help)};
 }
 
-bool CommandLine::said() const { return app_->parsed(); }
+bool CommandLine::is_chosen() const { return app_->parsed(); }
 
 std::optional<int> CommandLine::ended_by(std::span<const std::string> args) {
   try {

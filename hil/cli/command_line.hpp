@@ -59,7 +59,7 @@ class CommandLine {
   // Of these exactly one has to be said.
   CommandLine one_of(const std::string& name, const std::string& help);
 
-  bool said() const;  // this part, after the words have been read
+  bool is_chosen() const;  // this part, after the words have been read
   std::optional<int> ended_by(std::span<const std::string> args);
 
  private:

@@ -183,8 +183,8 @@ int dbc_verb(std::span<const std::string> args) {
   diffs.option("OTHER", options.other, "another revision").required();
   diffs.option("--json", options.json_file, "write the differences here");
   if (const auto code = app.ended_by(args)) return *code;
-  if (checks.said()) return check(options);
-  return shows.said() ? show(options) : diff(options);
+  if (checks.is_chosen()) return check(options);
+  return shows.is_chosen() ? show(options) : diff(options);
 }
 
 }  // namespace pitwall::cli

@@ -156,8 +156,8 @@ int track_verb(std::span<const std::string> args) {
   pictures.option("--out", options.out, "the picture (.svg)").required();
   for (CommandLine* verb : {&checks, &imports, &pictures}) add_fit_options(*verb, options);
   if (const auto code = app.ended_by(args)) return *code;
-  if (checks.said()) return check(options);
-  return imports.said() ? import_to(options) : picture(options);
+  if (checks.is_chosen()) return check(options);
+  return imports.is_chosen() ? import_to(options) : picture(options);
 }
 
 }  // namespace pitwall::cli

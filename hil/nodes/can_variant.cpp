@@ -32,7 +32,7 @@ struct Periodic {
 struct Dictionary {
   bool same = false;  // nothing to translate
   can::Database model, bus;
-  std::vector<Translation> spoken, heard;
+  std::vector<Translation> spoken, received;
   std::vector<Periodic> own;
 };
 
@@ -144,12 +144,12 @@ void add_spoken(Dictionary& book, const Spelling& spelling) {
   }
 }
 
-void add_heard(Dictionary& book, const Spelling& spelling) {
+void add_received(Dictionary& book, const Spelling& spelling) {
   for (const can::Message& from : book.bus.messages) {
     const can::Message* const to = book.model.find(std::string_view(from.name));
     if (to == nullptr) continue;
     Translation t = translation(from, *to, spelling.aliases);
-    if (is_complete(t)) book.heard.push_back(std::move(t));
+    if (is_complete(t)) book.received.push_back(std::move(t));
   }
 }
 
@@ -194,7 +194,7 @@ Result<CanVariant, Problem> CanVariant::of(BusRevision which) {
       spelling.whole ? *std::move(other) : overlaid(*model, *std::move(other), spelling.absent);
   book->model = *std::move(model);
   add_spoken(*book, spelling);
-  add_heard(*book, spelling);
+  add_received(*book, spelling);
   add_own(*book);
   CanVariant variant{std::move(book)};
   if (which == BusRevision::kProtected) variant.also_.emplace();
@@ -212,14 +212,14 @@ Frames CanVariant::spoken(const can::Frame& frame) {
   }
   for (const Translation& t : dictionary_->spoken) {
     if (!can::is_frame_of(*t.from, frame)) continue;
-    if (const auto said = translate(t, frame, unsent_)) CHECK(out.push(*said));
+    if (const auto stated = translate(t, frame, unsent_)) CHECK(out.push(*stated));
   }
   return out;
 }
 
-std::optional<can::Frame> CanVariant::heard(const can::Frame& frame) {
+std::optional<can::Frame> CanVariant::receive(const can::Frame& frame) {
   if (dictionary_->same) return frame;
-  for (const Translation& t : dictionary_->heard)
+  for (const Translation& t : dictionary_->received)
     if (can::is_frame_of(*t.from, frame)) return translate(t, frame, unsent_);
   return std::nullopt;
 }

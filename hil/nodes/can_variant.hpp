@@ -40,7 +40,7 @@ class CanVariant {
   static Result<CanVariant, Problem> of(scenario::BusRevision which);
 
   Frames spoken(const can::Frame& frame);
-  std::optional<can::Frame> heard(const can::Frame& frame);
+  std::optional<can::Frame> receive(const can::Frame& frame);
   // Of the messages that only this bus has. `now` does not run backwards.
   Frames due(Instant now);
 

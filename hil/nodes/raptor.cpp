@@ -19,7 +19,7 @@ constexpr double kGearMax = 6.0;
 void begin(const Params& params, State& state, Instant now) {
   state.begun = true;
   state.system = params.hot_start ? SysState::kDriving : SysState::kPowerOn;
-  state.system_since = state.last_step = state.race_heard = now;
+  state.system_since = state.last_step = state.race_received = now;
   state.front_in_tolerance = state.rear_in_tolerance = state.steering_in_tolerance = now;
 }
 
@@ -32,12 +32,12 @@ bool decoded(const can::Frame& frame, Message& message, Counters& counters) {
 
 // A command counts only when its counter moved: the same counter is a repeated frame.
 void take(CommandStream& stream, double value, double counter, Instant now, Counters& counters) {
-  const int heard = static_cast<int>(counter);
-  if (heard == stream.counter) {
+  const int incoming = static_cast<int>(counter);
+  if (incoming == stream.counter) {
     ++counters.duplicates;
     return;
   }
-  stream = {value, heard, now};
+  stream = {value, incoming, now};
 }
 
 void hear_ct_report(State& state, const can::Frame& frame, Instant now) {
@@ -54,7 +54,7 @@ void hear_race_control(const Params& params, State& state, const can::Frame& fra
     if (frame.id != m.kId || !decoded(frame, m, state.counters)) return;
     state.orange = m.track_flag == kMyLapsOrange;
     const int heartbeat = static_cast<int>(m.base_to_car_heartbeat);
-    if (heartbeat != state.race_heartbeat) state.race_heard = now;
+    if (heartbeat != state.race_heartbeat) state.race_received = now;
     state.race_heartbeat = heartbeat;
     return;
   }
@@ -62,7 +62,7 @@ void hear_race_control(const Params& params, State& state, const can::Frame& fra
   if (frame.id != m.kId || !decoded(frame, m, state.counters)) return;
   state.orange = m.marelli_vehicle_flag == kMarelliOrange;
   state.engine_kill = m.marelli_vehicle_flag == kMarelliEngineKill;
-  if (m.marelli_rc_base_sync_check == 1.0) state.race_heard = now;
+  if (m.marelli_rc_base_sync_check == 1.0) state.race_received = now;
 }
 
 void receive(const Params& params, State& state, const can::Frame& frame, Instant now) {
@@ -138,7 +138,7 @@ void watch(const Params& params, State& state, const Feedback& f, Instant now) {
   state.diagnostics.computer_heartbeat_lost = state.watchdog || (state.ct.counter >= 0 && !ct_live);
   state.diagnostics.emergency_brake =
       state.watchdog || state.system == SysState::kEmergencyShutdown;
-  state.diagnostics.race_control_lost = now - state.race_heard > params.race_control_timeout;
+  state.diagnostics.race_control_lost = now - state.race_received > params.race_control_timeout;
 }
 
 double approach(double from, double to, double step_max) {
@@ -222,10 +222,10 @@ void diagnose(const Params& p, State& s, const Feedback& f, Instant now) {
 
 }  // namespace
 
-Output step(const Params& params, State& state, std::span<const can::ReceivedFrame> heard,
+Output step(const Params& params, State& state, std::span<const can::ReceivedFrame> incoming,
             const Feedback& feedback, Instant now) {
   if (!state.begun) begin(params, state, now);
-  for (const can::ReceivedFrame& received : heard) receive(params, state, received.frame, now);
+  for (const can::ReceivedFrame& received : incoming) receive(params, state, received.frame, now);
   change_system(state, params, feedback, now);
   watch(params, state, feedback, now);
   demand(params, state, feedback, now);

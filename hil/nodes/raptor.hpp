@@ -88,7 +88,7 @@ struct State {
   Instant driving_since{};
   bool may_drive = false, watchdog = false;
   int race_heartbeat = -1;
-  Instant race_heard{};  // last change of the heartbeat, or the start
+  Instant race_received{};  // last change of the heartbeat, or the start
   bool orange = false, engine_kill = false;
   Demand demand;  // what the actuators were last asked for, before faults
   Demand acted;   // after faults: what the plant got
@@ -106,7 +106,7 @@ struct Output {
   bool watchdog = false;
 };
 
-Output step(const Params& params, State& state, std::span<const can::ReceivedFrame> heard,
+Output step(const Params& params, State& state, std::span<const can::ReceivedFrame> received,
             const Feedback& feedback, Instant now);
 
 }  // namespace pitwall::drive_by_wire

@@ -85,7 +85,7 @@ struct Way {
 Way way_of_can(const std::string& name, const TimelineOptions& options, TimelineBuilder& builder) {
   if (const auto* mapped = value_of(options.map, name)) return {.track = builder.bus(*mapped)};
   const std::string remedy = "--map " + name + "=INTERFACE sends it";
-  if (name == recorder::kSaidTopic) return {.why_not = "the car said it itself; " + remedy};
+  if (name == recorder::kSentTopic) return {.why_not = "the car said it itself; " + remedy};
   if (!options.interface.empty()) return {.track = builder.bus(options.interface)};
   if (can_be_interface(name)) return {.track = builder.bus(name)};
   return {.why_not = "has no interface; " + remedy};

@@ -80,7 +80,7 @@ Example misreading(const Signal& writer, const Signal& reader) {
   return worst;
 }
 
-std::string told(const Example& e, const std::string& unit) {
+std::string reported(const Example& e, const std::string& unit) {
   if (e.written == e.read) return "";
   const bool flips = e.written < 0.0 && e.read > 0.0;
   return ": what one writes as " + rounded(e.written) + (unit.empty() ? "" : " " + unit) +
@@ -285,7 +285,8 @@ void Comparison::compare_reading(const Message& a, const Signal& x, const Messag
   for (std::size_t i = 0; i < how.size(); ++i) text += (i == 0 ? "" : ";") + how[i];
   const Example forth = misreading(x, y), back = misreading(y, x);
   const bool is_forth = forth.written != forth.read;
-  add(Change::kSignalReread, b, text + (is_forth ? told(forth, x.unit) : told(back, y.unit)));
+  add(Change::kSignalReread, b,
+      text + (is_forth ? reported(forth, x.unit) : reported(back, y.unit)));
 }
 
 void Comparison::compare_value_names(const Message& b, const Signal& x, const Signal& y) {

@@ -70,9 +70,9 @@ Advance by_counter(const MessageMonitor& m, std::uint32_t value, std::uint32_t s
   }
   std::uint32_t steps = steps_by_counter(m, value, time);
   if (steps == 0) {
-    Advance told = by_time(time);
-    told.is_jump = m.unread + m.behind + time < value;
-    return told;
+    Advance announced = by_time(time);
+    announced.is_jump = m.unread + m.behind + time < value;
+    return announced;
   }
   // Frames that could not be read were sends, unless the sender stood still meanwhile.
   if (steps > m.unread && distance(steps - m.unread, time) <= distance(steps, time)) {
@@ -87,10 +87,11 @@ Advance by_counter(const MessageMonitor& m, std::uint32_t value, std::uint32_t s
 }
 
 // Time that is exactly one period is the only witness of a wrap that can be believed.
-void learn_cycle(MessageMonitor& m, std::uint32_t value, std::uint32_t slots, LossSign told_by) {
+void learn_cycle(MessageMonitor& m, std::uint32_t value, std::uint32_t slots,
+                 LossSign reported_by) {
   CounterCycle& c = m.cycle;
   if (c.seen == CounterCycle::kFixed) return;
-  if (c.is_known() && told_by == LossSign::kCounter && value <= c.top) return;
+  if (c.is_known() && reported_by == LossSign::kCounter && value <= c.top) return;
   if (value > c.top || value < c.bottom) c.seen = 0;
   if (value >= m.counter || value > kLastRestart) return;
   if (slots != 1 || m.unread != 0 || m.reported != 0) return;

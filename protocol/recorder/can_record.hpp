@@ -16,7 +16,7 @@
 
 namespace pitwall::recorder {
 
-inline constexpr const char *kHeardTopic = "/can/in", *kSaidTopic = "/can/out";
+inline constexpr const char *kReceivedTopic = "/can/in", *kSentTopic = "/can/out";
 
 struct CanRecord {
   std::uint32_t id = 0;  // without flag bits

@@ -105,7 +105,7 @@ std::vector<recording::Channel> channels() {
     all.push_back(
         {topic, kDatagramEncoding, {}, {{"layout", "version, path, port, address, data"}}});
   }
-  for (const char* topic : {kHeardTopic, kSaidTopic}) {
+  for (const char* topic : {kReceivedTopic, kSentTopic}) {
     all.push_back(recording::cdr_channel<CanRecord>(topic));
   }
   for (const char* topic : {"/gnss/0", "/gnss/1"}) all.push_back({topic, kStreamEncoding, {}, {}});

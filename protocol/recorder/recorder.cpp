@@ -128,7 +128,7 @@ void Recorder::write_all() {
     chain_.turn(now);
     if (!more) chain_.close();
     const std::lock_guard lock{mutex_};
-    told_ = chain_.figures();
+    reported_ = chain_.figures();
   }
 }
 
@@ -152,7 +152,7 @@ RecorderFigures Recorder::figures() const {
   RecorderFigures figures;
   {
     const std::lock_guard lock{mutex_};
-    figures.chain = told_;
+    figures.chain = reported_;
   }
   figures.dropped = queue_.dropped();
   figures.left_out = left_out_.load(std::memory_order_relaxed);

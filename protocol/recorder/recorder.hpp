@@ -76,7 +76,7 @@ class Recorder {
   Instant raw_at_{};
   std::atomic<std::uint64_t> left_out_ = 0;
   mutable std::mutex mutex_;
-  ChainFigures told_;  // as of the last turn of the writer
+  ChainFigures reported_;  // as of the last turn of the writer
   std::thread writer_;
 };
 

@@ -40,7 +40,7 @@ inline constexpr std::size_t kTickCommandBytes = 21, kTickCommandsMax = 16;
 struct TickRecord {
   std::uint64_t number = 0;  // of the ticks of the run, from 0
   std::int64_t dt_ns = 0;
-  std::uint32_t frames_heard = 0, frames_said = 0, receiver_bytes = 0;
+  std::uint32_t frames_received = 0, frames_sent = 0, receiver_bytes = 0;
   std::uint8_t requests = 0;  // bits: arm, reset, stop, emergency stop, may arm, last run armed
   double operator_speed_limit_mps = kUnset;
   std::uint8_t stop = 0;
@@ -67,8 +67,8 @@ constexpr auto cdr_fields(std::type_identity<TickRecord>) {
   using T = TickRecord;
   return std::tuple{CdrField{"number", &T::number},
                     CdrField{"dt_ns", &T::dt_ns},
-                    CdrField{"frames_heard", &T::frames_heard},
-                    CdrField{"frames_said", &T::frames_said},
+                    CdrField{"frames_heard", &T::frames_received},
+                    CdrField{"frames_said", &T::frames_sent},
                     CdrField{"receiver_bytes", &T::receiver_bytes},
                     CdrField{"requests", &T::requests},
                     CdrField{"operator_speed_limit_mps", &T::operator_speed_limit_mps},

@@ -35,7 +35,7 @@ std::uint64_t code_of(Duration age) {
   return static_cast<std::uint64_t>(std::min(age, kMaxSampleAge).ns / 1'000);
 }
 
-constexpr bool told(Group group) { return row_of(group).direction == Direction::kDown; }
+constexpr bool reported(Group group) { return row_of(group).direction == Direction::kDown; }
 
 PacketError check_envelope(std::span<const std::uint8_t> bytes, bool& good) {
   good = false;
@@ -60,7 +60,7 @@ StatePacket packet_of(const Snapshot& snapshot, Instant now) {
   StatePacket packet;
   packet.values = snapshot.values;
   for (const GroupRow& row : kGroupTable) {
-    if (told(row.group) && snapshot.ever(row.group))
+    if (reported(row.group) && snapshot.ever(row.group))
       packet.age_of(row.group) = std::max(now - snapshot.at(row.group), Duration{});
   }
   return packet;
@@ -81,10 +81,10 @@ std::span<const std::uint8_t> encode(const StatePacket& packet, PacketBuffer& bu
   bits::BitWriter out{
       bytes.subspan(kHeaderBytes, kStatePacketBytes - kHeaderBytes - kChecksumBytes)};
   for (const GroupRow& row : kGroupTable) {
-    if (told(row.group)) out.write(code_of(packet.age_of(row.group)), kAgeBits);
+    if (reported(row.group)) out.write(code_of(packet.age_of(row.group)), kAgeBits);
   }
   for (FieldIndex i = 0; i < kFieldCount; ++i) {
-    if (!told(kFields[i].group)) continue;
+    if (!reported(kFields[i].group)) continue;
     const bits::Quantized field = kFields[i].quantized();
     out.write(code_of(field, packet.values[i], counters), field.bits());
   }
@@ -113,12 +113,12 @@ Result<StatePacket, PacketError> parse(std::span<const std::uint8_t> bytes) {
   bits::BitReader in{
       bytes.subspan(kHeaderBytes, kStatePacketBytes - kHeaderBytes - kChecksumBytes)};
   for (const GroupRow& row : kGroupTable) {
-    if (!told(row.group)) continue;
+    if (!reported(row.group)) continue;
     const std::uint64_t code = in.read(kAgeBits);
     if (code != kNoAge) packet.age_of(row.group) = microseconds(static_cast<std::int64_t>(code));
   }
   for (FieldIndex i = 0; i < kFieldCount; ++i) {
-    if (!told(kFields[i].group)) continue;
+    if (!reported(kFields[i].group)) continue;
     const bits::Quantized field = kFields[i].quantized();
     const std::uint64_t step = in.read(field.bits());
     if (step >= field.count() && step != field.no_value()) return Unexpected{PacketError::kBadCode};

@@ -14,9 +14,9 @@ namespace pitwall {
 
 struct HealthyRace {
   static constexpr Duration kPacket = milliseconds(20);
-  KnownState told;
+  KnownState reported;
   alarms::Evaluator evaluator;
-  state::LinkFigures link{.heard = {}, .down_loss = 0.0, .up_loss = 0.0, .round_trip_ms = 20.0};
+  state::LinkFigures link{.received = {}, .down_loss = 0.0, .up_loss = 0.0, .round_trip_ms = 20.0};
   Instant now = kStart;
   bool packets = true;
   std::function<bool(telemetry::Group)> comes = [](telemetry::Group) { return true; };
@@ -72,8 +72,8 @@ struct HealthyRace {
 
   // From the next packet on.
   void set(telemetry::FieldIndex index, double value) {
-    told.snapshot.values[index] = value;
-    said_.add(telemetry::kFields[index].group);
+    reported.snapshot.values[index] = value;
+    stated_.add(telemetry::kFields[index].group);
   }
   void tyres(double celsius) {
     using telemetry::field;
@@ -86,12 +86,13 @@ struct HealthyRace {
   // Packets every 20 ms, and a look at the wall after each `polls` th part of that.
   void run(Duration length, int polls = 1) {
     for (const Instant end = now + length; now < end;) {
-      for (int i = 1; i < polls; ++i) evaluator.advance(told.vehicle, now + kPacket * i / polls);
+      for (int i = 1; i < polls; ++i)
+        evaluator.advance(reported.vehicle, now + kPacket * i / polls);
       now += kPacket;
-      evaluator.advance(told.vehicle, now);
+      evaluator.advance(reported.vehicle, now);
       if (packets) packet();
     }
-    evaluator.advance(told.vehicle, now);
+    evaluator.advance(reported.vehicle, now);
   }
   bool alarm(std::string_view key) const {
     const alarms::State state = evaluator.alarms().state(*alarms::find_alarm(key));
@@ -107,16 +108,16 @@ struct HealthyRace {
   void packet() {
     telemetry::GroupSet groups;
     for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
-      if (!said_.has(row.group) || !comes(row.group)) continue;
-      told.snapshot.at(row.group) = now - milliseconds(10);
+      if (!stated_.has(row.group) || !comes(row.group)) continue;
+      reported.snapshot.at(row.group) = now - milliseconds(10);
       groups.add(row.group);
     }
-    told.vehicle.update(told.snapshot, groups);
-    link.heard = now;
+    reported.vehicle.update(reported.snapshot, groups);
+    link.received = now;
     evaluator.link(link);
   }
 
-  telemetry::GroupSet said_;
+  telemetry::GroupSet stated_;
 };
 
 }  // namespace pitwall

@@ -47,7 +47,7 @@ struct RadioRig {
   telemetry::Snapshot snapshot;
   telemetry::GroupSet sampled;  // anew at each tick
   std::deque<Travelling> air;
-  std::vector<telemetry::DueCommand> told;  // commands that came to the car
+  std::vector<telemetry::DueCommand> reported;  // commands that came to the car
   // True: this datagram is lost.
   std::function<bool(bool to_base, telemetry::PathId)> loses = [](bool, telemetry::PathId) {
     return false;
@@ -90,7 +90,7 @@ struct RadioRig {
       if (sampled.has(row.group)) snapshot.at(row.group) = now;
     }
     deliver();
-    while (const auto due = car->next_command(now)) told.push_back(*due);
+    while (const auto due = car->next_command(now)) reported.push_back(*due);
     while (const auto out = car->poll(snapshot, now)) send(true, *out);
     base->advance(now);
     while (const auto out = station->poll(now)) send(false, *out);

@@ -53,12 +53,12 @@ void Browser::say_bytes(const std::string& bytes) {
   stream_->socket.write(boost::asio::buffer(bytes), failed);
 }
 
-std::optional<Browser::Heard> Browser::receive() {
+std::optional<Browser::Received> Browser::receive() {
   boost::beast::flat_buffer buffer;
   boost::system::error_code failed;
   stream_->socket.read(buffer, failed);
   if (failed) return std::nullopt;
-  return Heard{stream_->socket.got_text(), boost::beast::buffers_to_string(buffer.data())};
+  return Received{stream_->socket.got_text(), boost::beast::buffers_to_string(buffer.data())};
 }
 
 unsigned Browser::close_code() const { return stream_->socket.reason().code; }

@@ -26,12 +26,12 @@ class Browser {
                 int receive_buffer = 0);
   void say(const std::string& text);
   void say_bytes(const std::string& bytes);
-  struct Heard {
+  struct Received {
     bool text = false;
     std::string bytes;
   };
   // None: closed; close_code() says why.
-  std::optional<Heard> receive();
+  std::optional<Received> receive();
   unsigned close_code() const;
 
  private:

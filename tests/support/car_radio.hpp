@@ -51,7 +51,7 @@ class CarRadio {
 
   // Waits for this time and hears what comes until then; `heard`: after each datagram, with the
   // time at which the kernel had it.
-  void listen(Instant until, const std::function<void(Instant)>& heard = {}) {
+  void listen(Instant until, const std::function<void(Instant)>& received = {}) {
     std::vector<int> watched;
     for (const auto& socket : sockets_) watched.push_back(socket.fd());
     do {
@@ -61,7 +61,7 @@ class CarRadio {
         for (std::size_t i = 0; i < n; ++i) {
           end_->feed(batch_[i].payload(), static_cast<telemetry::PathId>(path),
                      {.ip = batch_[i].from.ip, .port = batch_[i].from.port}, batch_[i].at);
-          if (heard) heard(batch_[i].at);
+          if (received) received(batch_[i].at);
         }
       }
     } while (transport::monotonic_now() < until);

@@ -18,7 +18,7 @@ class RosOracle {
  public:
   // `said`: the message as JSON; a number that is none as "NaN".
   void add(std::string_view type, std::string text, std::span<const std::uint8_t> bytes,
-           std::string_view said) {
+           std::string_view output) {
     for (std::size_t at = 0; (at = text.find('\n', at)) != text.npos; at += 2)
       text.replace(at, 1, "\\n");
     lines_ += R"({"type":")" + std::string(type) + R"(","text":")" + text + R"(","bytes":")";
@@ -26,7 +26,7 @@ class RosOracle {
       lines_ += "0123456789abcdef"[byte / 16];
       lines_ += "0123456789abcdef"[byte % 16];
     }
-    lines_ += R"(","said":)" + std::string(said) + "}\n";
+    lines_ += R"(","said":)" + std::string(output) + "}\n";
     ++messages_;
   }
 

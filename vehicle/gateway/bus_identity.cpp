@@ -55,9 +55,9 @@ void differs(IdentityState& state, std::size_t index, IdentityDifference differe
 void hear_stranger(const IdentityParams& params, IdentityState& state, const can::Frame& frame,
                    Instant now) {
   Stranger& stranger = state.stranger;
-  const bool old = !stranger.heard || now - stranger.at >= params.listen;
+  const bool old = !stranger.received || now - stranger.at >= params.listen;
   if (old || frame.id <= stranger.id)
-    stranger = {.heard = true, .id = frame.id, .at = now, .bytes = 1.0 * frame.length};
+    stranger = {.received = true, .id = frame.id, .at = now, .bytes = 1.0 * frame.length};
   state.difference = now;
 }
 
@@ -100,12 +100,12 @@ void receive(const IdentityParams& params, IdentityState& state, const can::Rece
     return differs(state, index, IdentityDifference::kWrongLength, frame.length, now);
   ReceivedMessage& message = state.messages[index];
   const Instant at = std::min(received.at, now);  // a stamp from the future says nothing
-  if (message.heard && at - message.last < params.listen) {
+  if (message.received && at - message.last < params.listen) {
     message.last = at;
     ++message.intervals;
     return judge_pace(params, state, index, now);
   }
-  message.heard = true;
+  message.received = true;
   message.first = message.last = at;
   message.intervals = 0;
 }
@@ -113,10 +113,10 @@ void receive(const IdentityParams& params, IdentityState& state, const can::Rece
 void look_for_silence(const IdentityParams& params, IdentityState& state, Instant now) {
   for (std::size_t i = 0; i < kMessages.size(); ++i) {
     ReceivedMessage& message = state.messages[i];
-    const Duration silence = now - (message.heard ? message.last : state.since);
+    const Duration silence = now - (message.received ? message.last : state.since);
     const bool proven = is_proof(message.difference) && now - message.differed < params.listen;
     if (!kMessages[i].required || silence < params.listen || proven) continue;
-    differs(state, i, IdentityDifference::kNotHeard, silence.seconds(), now);
+    differs(state, i, IdentityDifference::kNotReceived, silence.seconds(), now);
     message.acquitted = false;
   }
 }
@@ -139,15 +139,15 @@ BusIdentity named(const IdentityParams& params, const IdentityState& state, Inst
     best.difference = difference;
     best.id = kMessages[i].id;
     best.expected = expected_of(difference, kMessages[i]);
-    best.heard = message.measured;
+    best.received = message.measured;
   }
   const Stranger& stranger = state.stranger;
-  if (!stranger.heard || !recent(stranger.at)) return best;
+  if (!stranger.received || !recent(stranger.at)) return best;
   if (is_proof(best.difference) && best.id < stranger.id) return best;
   return {.verdict = IdentityVerdict::kWrong,
           .difference = IdentityDifference::kUnknownId,
           .id = stranger.id,
-          .heard = stranger.bytes};
+          .received = stranger.bytes};
 }
 
 bool all_acquitted(const IdentityState& state) {
@@ -184,15 +184,16 @@ std::string what_differs(const BusIdentity& identity) {
     case IdentityDifference::kNone:
       return "";
     case IdentityDifference::kUnknownId:
-      return format("%.0f bytes on the bus, no such message", identity.heard);
+      return format("%.0f bytes on the bus, no such message", identity.received);
     case IdentityDifference::kWrongLength:
-      return format("%.0f bytes on the bus, %.0f", identity.heard, identity.expected);
+      return format("%.0f bytes on the bus, %.0f", identity.received, identity.expected);
     case IdentityDifference::kWrongFormat:
       return "a remote, FD or extended frame on the bus, a classic one";
-    case IdentityDifference::kNotHeard:
-      return format("not heard for %.1f s, every %.0f ms", identity.heard, expected_ms);
+    case IdentityDifference::kNotReceived:
+      return format("not heard for %.1f s, every %.0f ms", identity.received, expected_ms);
     case IdentityDifference::kWrongPeriod:
-      return format("every %.0f ms on the bus, every %.0f ms", 1e3 * identity.heard, expected_ms);
+      return format("every %.0f ms on the bus, every %.0f ms", 1e3 * identity.received,
+                    expected_ms);
   }
   return "";
 }

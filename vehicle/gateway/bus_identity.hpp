@@ -62,7 +62,7 @@ struct ReceivedMessage {
   Instant last{};             // newest frame
   Instant first{};            // of the frames whose pace is being judged
   std::uint32_t intervals{};  // since `first`
-  bool heard = false;         // since the car listens
+  bool received = false;      // since the car listens
   bool acquitted = false;     // its pace was right when it was judged last
   world::IdentityDifference difference = world::IdentityDifference::kNone;  // the newest
   Instant differed{};
@@ -71,7 +71,7 @@ struct ReceivedMessage {
 
 // The smallest id that is not in the database.
 struct Stranger {
-  bool heard = false;
+  bool received = false;
   std::uint32_t id = 0;
   Instant at{};
   double bytes = 0.0;

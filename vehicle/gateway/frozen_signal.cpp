@@ -15,12 +15,12 @@ constexpr Duration kFresh = milliseconds(50);  // of a speed that bears witness
 constexpr std::array<double, kWatched> kLimits{0.0015, 300.0, 0.1, 0.3, 1.0};
 
 // What was told kActuatorLag ago.
-world::ActuatorCommand told_then(const FrozenState& state, Instant now) {
+world::ActuatorCommand reported_then(const FrozenState& state, Instant now) {
   world::ActuatorCommand command;
   Instant newest{};
   for (std::size_t i = 0; i < FrozenState::kCommands; ++i) {
-    if (state.told_at[i] > now - kActuatorLag || state.told_at[i] <= newest) continue;
-    newest = state.told_at[i];
+    if (state.reported_at[i] > now - kActuatorLag || state.reported_at[i] <= newest) continue;
+    newest = state.reported_at[i];
     command = state.commands[i];
   }
   return command;
@@ -48,9 +48,9 @@ struct Judge {
   bool moving;
 
   template <class T>
-  void operator()(Watched which, world::Heard<T>& signal, double value, double witness) {
+  void operator()(Watched which, world::Received<T>& signal, double value, double witness) {
     FrozenTrack& track = state.tracks[static_cast<std::size_t>(which)];
-    if (!moving || !signal.heard || !std::isfinite(witness) || !std::isfinite(value)) {
+    if (!moving || !signal.received || !std::isfinite(witness) || !std::isfinite(value)) {
       track = {};
       return;
     }
@@ -68,22 +68,22 @@ struct Judge {
 };
 
 template <class T>
-double fresh_or_unset(const world::Heard<T>& signal, double value, Instant now) {
+double fresh_or_unset(const world::Received<T>& signal, double value, Instant now) {
   return signal.fresh(now, kFresh) ? value : kUnset;
 }
 
 }  // namespace
 
-void store(FrozenState& state, const world::ActuatorCommand& command, bool told, Instant now) {
-  state.commands[state.next] = told ? command : world::ActuatorCommand{};
-  state.told_at[state.next] = now;
+void store(FrozenState& state, const world::ActuatorCommand& command, bool reported, Instant now) {
+  state.commands[state.next] = reported ? command : world::ActuatorCommand{};
+  state.reported_at[state.next] = now;
   state.next = (state.next + 1) % FrozenState::kCommands;
 }
 
 void judge_frozen(FrozenState& state, world::VehicleSignals& signals, Instant now) {
   const double wheels_mps = middle_mps(signals);
   const double powertrain_mps = signals.powertrain.value.vehicle_speed_mps;
-  const world::ActuatorCommand told = told_then(state, now);
+  const world::ActuatorCommand reported = reported_then(state, now);
   // Of the other speed as well: frozen wheels must not tell that the car stands.
   const bool moving = wheels_mps > kMoving_mps || powertrain_mps > kMoving_mps;
   const bool jumps = std::abs(wheels_mps - state.wheels_mps) > kWheelJump_mps;
@@ -93,10 +93,10 @@ void judge_frozen(FrozenState& state, world::VehicleSignals& signals, Instant no
   const double powertrain_fresh = fresh_or_unset(signals.powertrain, powertrain_mps, now);
   Judge judge{state, now, moving};
   judge(Watched::kSteering, signals.steering_motor_rad, signals.steering_motor_rad.value,
-        told.road_wheel_rad);
-  judge(Watched::kBrake, signals.brake, signals.brake.value.front_kpa, told.brake_kpa);
+        reported.road_wheel_rad);
+  judge(Watched::kBrake, signals.brake, signals.brake.value.front_kpa, reported.brake_kpa);
   judge(Watched::kThrottle, signals.throttle_fraction, signals.throttle_fraction.value,
-        told.throttle_fraction);
+        reported.throttle_fraction);
   // Wheels that stand while the car slides are locked, not frozen.
   if (wheels_mps > kMoving_mps)
     judge(Watched::kWheels, signals.wheel_speed_mps, mark_of(signals.wheel_speed_mps.value),

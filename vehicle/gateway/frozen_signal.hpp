@@ -41,7 +41,7 @@ struct FrozenState {
   static constexpr std::size_t kCommands = 16;  // of the last ticks
   std::array<FrozenTrack, kWatched> tracks{};
   std::array<world::ActuatorCommand, kCommands> commands{};  // unset: told nothing
-  std::array<Instant, kCommands> told_at{};
+  std::array<Instant, kCommands> reported_at{};
   std::size_t next = 0;
   double wheels_mps = kUnset;  // of the last tick
 
@@ -52,7 +52,7 @@ struct FrozenState {
   }
 };
 
-void store(FrozenState& state, const world::ActuatorCommand& command, bool told, Instant now);
+void store(FrozenState& state, const world::ActuatorCommand& command, bool reported, Instant now);
 
 // Once per tick, after its frames. A speed that is frozen is as old as its freezing; an actuator's
 // feedback stays as it is, so that what compares it with the command has something to compare.

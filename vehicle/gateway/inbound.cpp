@@ -197,14 +197,14 @@ world::RaceControl merge(const FlagSource& main, const FlagSource& other,
   rc.raw_vehicle = main.raw_vehicle;
   rc.raw_sector = main.raw_sector;
   rc.encoding = encoding;
-  rc.ever_heard = main.heard;
+  rc.ever_received = main.received;
   rc.last_heartbeat_change = main.last_change;
   rc.lap_count = lap_count;
   rc.other_raw_track = other.raw_track;
   rc.other_raw_vehicle = other.raw_vehicle;
   rc.other_raw_sector = other.raw_sector;
   const auto differ = [](auto a, auto b, auto none) { return a != none && b != none && a != b; };
-  rc.conflict = main.heard && other.heard &&
+  rc.conflict = main.received && other.received &&
                 (differ(main.track, other.track, TrackFlag::kNone) ||
                  differ(main.vehicle, other.vehicle, VehicleFlag::kNone));
   return rc;
@@ -276,9 +276,9 @@ InboundOutput decode(const InboundParams& params, InboundState& state,
           .seen = state.seen};
 }
 
-void store_command(InboundState& state, const world::ActuatorCommand& command, bool told,
+void store_command(InboundState& state, const world::ActuatorCommand& command, bool reported,
                    Instant now) {
-  store(state.frozen, command, told, now);
+  store(state.frozen, command, reported, now);
 }
 
 void observe_link(InboundState& state, world::BusHealth& bus, const world::LinkObservation& link,

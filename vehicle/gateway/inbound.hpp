@@ -96,7 +96,7 @@ struct SlewTrack {
 
 // What one encoding said last.
 struct FlagSource {
-  bool heard = false;
+  bool received = false;
   std::uint8_t raw_track = 0, raw_vehicle = 0, raw_sector = 0;
   world::TrackFlag track = world::TrackFlag::kNone;
   world::VehicleFlag vehicle = world::VehicleFlag::kNone;
@@ -123,7 +123,7 @@ struct InboundState {
   world::LinkObservation link;  // of the tick before
   std::array<SlewTrack, can::av21::kSlews.size()> slews{};
   std::array<std::array<double, kTyreSensors>, world::kCorners> tyre_sensor_c{};
-  std::array<std::uint8_t, world::kCorners> tyre_messages_heard{};  // one bit for each of the 4
+  std::array<std::uint8_t, world::kCorners> tyre_messages_received{};  // one bit for each of the 4
   world::VehicleSignals signals;
   FlagSource mylaps, marelli;
   world::FrameRefusals refused;
@@ -153,7 +153,7 @@ InboundOutput decode(const InboundParams& params, InboundState& state,
 
 // What the actuators were told last, in the tick before, if anything: what they report has to move
 // with it. Before decode().
-void store_command(InboundState& state, const world::ActuatorCommand& command, bool told,
+void store_command(InboundState& state, const world::ActuatorCommand& command, bool reported,
                    Instant now);
 
 // What the rim sees of the interface; frames that it lost since the tick before become reports

@@ -19,7 +19,7 @@ constexpr double kPercent = 0.01;
 constexpr double kKpaPerMbar = 0.1;
 
 template <class T>
-void receive(world::Heard<T>& slot, const T& value, Instant at) {
+void receive(world::Received<T>& slot, const T& value, Instant at) {
   slot = {value, at, true};
 }
 
@@ -169,7 +169,7 @@ Reading pressure(Context& c, Corner corner, double gauge_mbar) {
   auto& slot = c.state.signals.tyre_pressure_kpa;
   slot.value[corner] = gauge_kpa;
   slot.at = c.at;
-  slot.heard = true;
+  slot.received = true;
   return Reading::kApplied;
 }
 
@@ -200,15 +200,15 @@ Reading temperatures(Context& c, Corner corner, std::size_t part, const TyrePart
   auto& sensors = c.state.tyre_sensor_c[tyre];
   std::copy(sensor_c.begin(), sensor_c.end(),
             sensors.begin() + static_cast<std::ptrdiff_t>(part * sensor_c.size()));
-  auto& heard = c.state.tyre_messages_heard[tyre];
-  heard = static_cast<std::uint8_t>(heard | (1u << part));
-  if (heard != kAllParts) return Reading::kApplied;
+  auto& incoming = c.state.tyre_messages_received[tyre];
+  incoming = static_cast<std::uint8_t>(incoming | (1u << part));
+  if (incoming != kAllParts) return Reading::kApplied;
   double sum_c = 0.0;
   for (const double t_c : sensors) sum_c += t_c;
   auto& slot = c.state.signals.tyre_temperature_c;
   slot.value[corner] = sum_c / static_cast<double>(kTyreSensors);
   slot.at = c.at;
-  slot.heard = true;
+  slot.received = true;
   return Reading::kApplied;
 }
 
@@ -282,8 +282,8 @@ std::uint8_t byte_of(double raw) { return static_cast<std::uint8_t>(raw); }
 Reading take(Context& c, const av21::BaseToCarSummary& m) {
   FlagSource& source = c.state.mylaps;
   const std::uint8_t heartbeat = byte_of(m.base_to_car_heartbeat);
-  if (!source.heard || heartbeat != source.heartbeat) source.last_change = c.at;
-  source.heard = true;
+  if (!source.received || heartbeat != source.heartbeat) source.last_change = c.at;
+  source.received = true;
   source.heartbeat = heartbeat;
   source.raw_track = byte_of(m.track_flag);
   source.raw_vehicle = byte_of(m.veh_flag);
@@ -299,8 +299,8 @@ Reading take(Context& c, const av21::BaseToCarSummary& m) {
 Reading take(Context& c, const av21::MarelliReport1& m) {
   FlagSource& source = c.state.marelli;
   // No heartbeat in this encoding: the receiver's own bit says whether it hears the base.
-  if (!source.heard || m.marelli_rc_base_sync_check > 0.0) source.last_change = c.at;
-  source.heard = true;
+  if (!source.received || m.marelli_rc_base_sync_check > 0.0) source.last_change = c.at;
+  source.received = true;
   source.raw_track = byte_of(m.marelli_track_flag);
   source.raw_vehicle = byte_of(m.marelli_vehicle_flag);
   source.raw_sector = byte_of(m.marelli_sector_flag);

@@ -25,7 +25,7 @@ struct Tick {
   const Params& params;
   State& state;
   const Inputs& in;
-  bool new_record = false, command_heard = false;
+  bool new_record = false, command_received = false;
 };
 
 void enter(const Tick& t, Mode mode, Cause cause) {
@@ -63,7 +63,7 @@ void hear_bus(Tick& t) {
   for (const can::ReceivedFrame& received : t.in.can) {
     const std::uint32_t id = received.frame.id;
     if (id >= av21::BrakePressureCmd::kId && id <= av21::CtVehicleAccFeedback::kId) {
-      t.command_heard |= receive(s.heard, received);
+      t.command_received |= receive(s.received, received);
       continue;
     }
     s.others_at = std::max(s.others_at, received.at);
@@ -76,7 +76,7 @@ void hear_bus(Tick& t) {
 // for a moment is no silence of the car's process.
 void count_silence(const Tick& t) {
   State& s = t.state;
-  if (t.command_heard) s.silent_from = s.heard.commanded_at;
+  if (t.command_received) s.silent_from = s.received.commanded_at;
   const Duration slept = t.in.now - s.stepped_at;
   if (s.stepped_at != Instant{} && slept > kOverslept)
     s.silent_from = std::min(t.in.now - kTick, s.silent_from + (slept - kTick));
@@ -143,8 +143,8 @@ safety::PathPose on_path(const Pose& pose) {
 Cause hindrance(Tick& t) {
   State& s = t.state;
   if (t.in.now - s.others_at > t.params.bus_silence_max) return Cause::kBusSilent;
-  if (s.heard.commanded_at - s.record.at > kRecordLag) return Cause::kStale;
-  if (s.record.stop.points.size() < 2 || !s.heard.complete()) return Cause::kNoPath;
+  if (s.received.commanded_at - s.record.at > kRecordLag) return Cause::kStale;
+  if (s.record.stop.points.size() < 2 || !s.received.complete()) return Cause::kNoPath;
   if (!s.reckoning.begun) return Cause::kOffPath;
   s.following = {};
   safety::locate(s.following, s.record.stop, on_path(s.reckoning.pose));
@@ -166,8 +166,8 @@ safety::GateContext gate_context(const Tick& t, world::Mode mode, Instant comman
 void seed_gate(const Tick& t) {
   State& s = t.state;
   s.gate = {};
-  const CommandFrames last = repeat(s.heard);
-  const Instant at = s.heard.commanded_at;
+  const CommandFrames last = repeat(s.received);
+  const Instant at = s.received.commanded_at;
   (void)safety::gate(t.params.gate, s.gate, gate_context(t, world::Mode::kDriving, at, at),
                      last.span());
   s.gate.verdicts = {};
@@ -176,14 +176,14 @@ void seed_gate(const Tick& t) {
 void take_over(const Tick& t) {
   State& s = t.state;
   enter(t, Mode::kDriving, Cause::kCarSilent);
-  s.following.command = command_of(s.heard, t.params.reckoning.steering_ratio);
+  s.following.command = command_of(s.received, t.params.reckoning.steering_ratio);
   s.open_loop = {};
   s.standing = false;
   s.fresh_records = 0;
   s.next_speech = t.in.now;
   s.status.run = s.record.run;
   s.status.drove_from = s.status.drove_until = t.in.now;
-  s.status.counters = counters_of(s.heard);
+  s.status.counters = counters_of(s.received);
   s.status.latched = s.handed_back && t.in.now - s.handed_back_at < t.params.hand_back_again;
   ++s.status.takeovers;
   seed_gate(t);
@@ -196,12 +196,13 @@ void watch(Tick& t) {
     if (s.status.mode != Mode::kIdle) enter(t, Mode::kIdle, Cause::kNone);
     return;
   }
-  const bool heard = s.status.mode == Mode::kHandedBack ? t.command_heard : s.heard.commanded;
+  const bool incoming =
+      s.status.mode == Mode::kHandedBack ? t.command_received : s.received.commanded;
   if (t.in.now - s.silent_from < kSilence) {
-    if (s.status.mode != Mode::kWatching && heard) enter(t, Mode::kWatching, Cause::kNone);
+    if (s.status.mode != Mode::kWatching && incoming) enter(t, Mode::kWatching, Cause::kNone);
     return;
   }
-  if (!s.heard.commanded) return;
+  if (!s.received.commanded) return;
   const Cause cause = hindrance(t);
   if (cause == Cause::kNone) return take_over(t);
   if (s.status.mode != Mode::kNothingToDrive || s.status.cause != cause)
@@ -213,7 +214,7 @@ void hand_back(const Tick& t, Cause cause) {
   s.handed_back = true;
   s.handed_back_at = t.in.now;
   ++s.status.hand_backs;
-  s.heard.commanded_at = s.silent_from = t.in.now;  // it has as long as ever to be heard
+  s.received.commanded_at = s.silent_from = t.in.now;  // it has as long as ever to be heard
   s.status.guidance = Guidance::kNone;
   enter(t, Mode::kHandedBack, cause);
 }
@@ -303,14 +304,14 @@ void drive(const Tick& t, Output& out) {
   if (t.in.now < s.next_speech) return;
   s.next_speech = t.in.now + kSpeakEvery;
   s.status.command = next_command(t);
-  const CommandFrames said = encode_frames(s.heard, s.status.counters,
-                                           {.command = s.status.command,
-                                            .steering_ratio = t.params.reckoning.steering_ratio,
-                                            .ax_mps2 = s.ax_mps2,
-                                            .ay_mps2 = s.ay_mps2});
+  const CommandFrames stated = encode_frames(s.received, s.status.counters,
+                                             {.command = s.status.command,
+                                              .steering_ratio = t.params.reckoning.steering_ratio,
+                                              .ax_mps2 = s.ax_mps2,
+                                              .ay_mps2 = s.ay_mps2});
   const auto passed = safety::gate(
       t.params.gate, s.gate,
-      gate_context(t, world::Mode::kControlledStop, s.status.command.at, t.in.now), said.span());
+      gate_context(t, world::Mode::kControlledStop, s.status.command.at, t.in.now), stated.span());
   out.frames = passed.frames;
   out.gate_refusals = passed.refused_total;
 }

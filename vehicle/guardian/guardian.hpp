@@ -53,7 +53,7 @@ struct Params {
 struct State {
   Status status;
   CarRecord record;  // the newest
-  ReceivedCommands heard;
+  ReceivedCommands received;
   Instant stepped_at{};           // the last tick
   Instant silent_from{};          // last command, later by the time in which no tick was run
   Instant others_at{};            // newest frame of anybody else

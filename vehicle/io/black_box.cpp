@@ -25,11 +25,11 @@ Result<BlackBox, Problem> BlackBox::open(const std::string& folder, const std::s
   return box;
 }
 
-void BlackBox::tick(const pipeline::Inputs& in, std::span<const can::Frame> said) {
+void BlackBox::tick(const pipeline::Inputs& in, std::span<const can::Frame> stated) {
   if (!on()) return;
-  counts_.frames_said = said.size();
+  counts_.frames_sent = stated.size();
   for (const can::ReceivedFrame& frame : in.can) recorder_->can(false, frame.at, frame.frame);
-  for (const can::Frame& frame : said) recorder_->can(true, in.now, frame);
+  for (const can::Frame& frame : stated) recorder_->can(true, in.now, frame);
   recorder_->tick(in.now, record_of(in, counts_));
   counts_ = {.number = counts_.number + 1};
 }

@@ -11,7 +11,7 @@ Result<Guarded, Problem> Guarded::open(const std::string& name, bool arm) {
   auto shared = SharedStop::open(name);
   if (!shared) return Unexpected{shared.error()};
   guarded.shared_.emplace(*std::move(shared));
-  guarded.told_ = std::make_unique<pipeline::Told>();
+  guarded.reported_ = std::make_unique<pipeline::Reported>();
   guarded.arm_ = arm;
   guarded.run_ = static_cast<std::uint64_t>(transport::utc_now().ns);  // no two starts share it
   const auto found = std::make_unique<guardian::CarRecord>();
@@ -21,8 +21,8 @@ Result<Guarded, Problem> Guarded::open(const std::string& name, bool arm) {
 
 pipeline::GuardianView Guarded::view(Instant now) {
   if (!shared_) return {};
-  heard_ = shared_->read(status_) || heard_;
-  return heard_ ? pipeline::view_of(status_, run_, now) : pipeline::GuardianView{};
+  received_ = shared_->read(status_) || received_;
+  return received_ ? pipeline::view_of(status_, run_, now) : pipeline::GuardianView{};
 }
 
 void Guarded::publish(const pipeline::Setup& setup, const pipeline::Car& car,
@@ -32,14 +32,15 @@ void Guarded::publish(const pipeline::Setup& setup, const pipeline::Car& car,
   barred_ = barred_ && !ever_armed_;  // somebody has looked, and armed it anew
   const bool unarmed_start = !arm_ && !ever_armed_;
   pipeline::publish(setup, car, out,
-                    {.id = run_, .reset = reset || unarmed_start, .barred = barred_}, now, *told_);
-  shared_->write(told_->record);
+                    {.id = run_, .reset = reset || unarmed_start, .barred = barred_}, now,
+                    *reported_);
+  shared_->write(reported_->record);
 }
 
 void Guarded::finish() {
   if (!shared_) return;
-  pipeline::finish(*told_);
-  shared_->write(told_->record);
+  pipeline::finish(*reported_);
+  shared_->write(reported_->record);
 }
 
 }  // namespace pitwall::io

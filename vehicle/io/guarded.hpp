@@ -40,9 +40,9 @@ class Guarded {
   Guarded() = default;
 
   std::optional<SharedStop> shared_;
-  std::unique_ptr<pipeline::Told> told_;
+  std::unique_ptr<pipeline::Reported> reported_;
   guardian::Status status_;
-  bool heard_ = false;
+  bool received_ = false;
   std::uint64_t run_ = 0;
   bool barred_ = false, arm_ = false;
   bool ever_armed_ = false;

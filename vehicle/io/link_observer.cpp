@@ -29,10 +29,10 @@ ControllerState judge(const LinkNews& news) {
   const transport::CanInterfaceStatus& report = news.interface;
   if (news.hung_up || !report.exists || !report.up) return ControllerState::kDown;
   const bool reported = report.has_controller && report.state != BusState::kUnknown;
-  if (!reported) return state_of(news.told_by_frames);
-  if (news.told_at > report.at) return state_of(news.told_by_frames);
-  if (news.told_at < report.at) return state_of(report.state);
-  return std::max(state_of(news.told_by_frames), state_of(report.state));
+  if (!reported) return state_of(news.reported_by_frames);
+  if (news.reported_at > report.at) return state_of(news.reported_by_frames);
+  if (news.reported_at < report.at) return state_of(report.state);
+  return std::max(state_of(news.reported_by_frames), state_of(report.state));
 }
 
 }  // namespace

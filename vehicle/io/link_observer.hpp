@@ -29,8 +29,8 @@ namespace pitwall::io {
 
 struct LinkNews {
   const transport::CanInterfaceStatus& interface;
-  transport::BusState told_by_frames = transport::BusState::kUnknown;
-  Instant told_at{};
+  transport::BusState reported_by_frames = transport::BusState::kUnknown;
+  Instant reported_at{};
   std::uint64_t lost_in_socket = 0, error_frames = 0;
   std::uint64_t tx_drops = 0;
   Duration tx_stalled{};

@@ -55,17 +55,17 @@ Result<ReceiverPort, Problem> ReceiverPort::open(const ReceiverLink& link, std::
   return ReceiverPort{link, transport::StreamLink{device}, unit, params};
 }
 
-void ReceiverPort::read(world::SensorInput& out, Instant now, const Observer& told) {
-  std::visit([&](auto& source) { read(source, out, now, told); }, source_);
+void ReceiverPort::read(world::SensorInput& out, Instant now, const Observer& reported) {
+  std::visit([&](auto& source) { read(source, out, now, reported); }, source_);
 }
 
 void ReceiverPort::read(transport::UdpSocket& socket, world::SensorInput& out, Instant now,
-                        const Observer& told) {
+                        const Observer& reported) {
   std::array<transport::UdpDatagram, transport::UdpSocket::kBatch> datagrams;
   for (std::size_t batch = 0; batch < kBatchesPerRead; ++batch) {
     const std::size_t count = socket.receive(datagrams);
     for (const transport::UdpDatagram& datagram : std::span(datagrams).first(count)) {
-      if (told) told(datagram.at, datagram.payload());
+      if (reported) reported(datagram.at, datagram.payload());
       receiver_.feed(datagram.payload(), datagram.at, out);
     }
     if (count > 0) byte_at_ = now;
@@ -74,11 +74,11 @@ void ReceiverPort::read(transport::UdpSocket& socket, world::SensorInput& out, I
 }
 
 void ReceiverPort::read(transport::StreamLink& stream, world::SensorInput& out, Instant now,
-                        const Observer& told) {
+                        const Observer& reported) {
   std::array<std::uint8_t, kBytesPerRead> buffer;
   for (std::size_t batch = 0; batch < kBatchesPerRead; ++batch) {
     const auto bytes = stream.read(buffer, now);
-    if (told && !bytes.empty()) told(now, bytes);
+    if (reported && !bytes.empty()) reported(now, bytes);
     receiver_.feed(bytes, now, out);
     if (!bytes.empty()) byte_at_ = now;
     if (bytes.size() < buffer.size()) return;

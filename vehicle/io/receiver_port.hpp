@@ -34,7 +34,7 @@ class ReceiverPort {
 
   // `told` hears every byte as it was read, before it is judged.
   using Observer = std::function<void(Instant at, std::span<const std::uint8_t> bytes)>;
-  void read(world::SensorInput& out, Instant now, const Observer& told = {});
+  void read(world::SensorInput& out, Instant now, const Observer& reported = {});
 
   std::optional<Instant> byte_at() const { return byte_at_; }
   receivers::Counters counters() const { return receiver_.counters(); }
@@ -49,9 +49,9 @@ class ReceiverPort {
                const world::ReceiverParams& params)
       : link_(link), kind_(params.kind), source_(std::move(source)), receiver_(unit, params) {}
   void read(transport::UdpSocket& socket, world::SensorInput& out, Instant now,
-            const Observer& told);
+            const Observer& reported);
   void read(transport::StreamLink& stream, world::SensorInput& out, Instant now,
-            const Observer& told);
+            const Observer& reported);
 
   ReceiverLink link_;
   world::ReceiverKind kind_;

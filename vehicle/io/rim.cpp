@@ -31,21 +31,21 @@ Result<Rim, Problem> Rim::open(const Arguments& args, const world::Receivers& re
   return Rim{*std::move(can), *std::move(watch), *std::move(ports)};
 }
 
-Rim::Heard Rim::read(BlackBox& box) {
-  Heard heard;
+Rim::Received Rim::read(BlackBox& box) {
+  Received received;
   const std::size_t count = can_.receive(frames_);
   const Instant now = transport::monotonic_now();
   look_at_bus(now);
-  heard.link = link_;
-  heard.can = std::span<const can::ReceivedFrame>(frames_).first(count);
+  received.link = link_;
+  received.can = std::span<const can::ReceivedFrame>(frames_).first(count);
   for (std::size_t unit = 0; unit < receivers_.size(); ++unit) {
-    receivers_[unit].read(heard.sensors, now,
+    receivers_[unit].read(received.sensors, now,
                           [&box, unit](Instant at, std::span<const std::uint8_t> bytes) {
                             box.receiver(unit, at, bytes);
                           });
-    heard.gnss_byte_at[unit] = receivers_[unit].byte_at();
+    received.gnss_byte_at[unit] = receivers_[unit].byte_at();
   }
-  return heard;
+  return received;
 }
 
 void Rim::look_at_bus(Instant now) {
@@ -57,8 +57,8 @@ void Rim::look_at_bus(Instant now) {
   emptied_ = emptied;
   if (slots_.should_flush(now) && report.flushes_refused == 0) watch_->flush();
   link_ = observer_.observe({.interface = report.interface,
-                             .told_by_frames = can_.bus_state(),
-                             .told_at = can_.bus_state_at(),
+                             .reported_by_frames = can_.bus_state(),
+                             .reported_at = can_.bus_state_at(),
                              .lost_in_socket = can_.counters().rx_dropped_queue,
                              .error_frames = can_.counters().error_frames,
                              .tx_drops = tx_drops(),
@@ -82,8 +82,8 @@ void Rim::write(std::span<const can::Frame> frames, Instant now) {
 
 const char* Rim::fresh_refusal() {
   const char* refusal = watch_->newest().refusal.data();
-  if (refusal_told_ || *refusal == '\0') return nullptr;
-  refusal_told_ = true;
+  if (refusal_reported_ || *refusal == '\0') return nullptr;
+  refusal_reported_ = true;
   return refusal;
 }
 

@@ -31,14 +31,14 @@ class Rim {
  public:
   static Result<Rim, Problem> open(const Arguments& args, const world::Receivers& receivers = {});
 
-  struct Heard {
+  struct Received {
     std::span<const can::ReceivedFrame> can;  // valid until the next read()
     world::SensorInput sensors;
     world::LinkObservation link;
     std::array<std::optional<Instant>, world::kGnssUnits> gnss_byte_at;  // newest, if any
   };
   // The box is told every byte of the receivers.
-  Heard read(BlackBox& box);
+  Received read(BlackBox& box);
   // Frames of this tick, in order of urgency. What cannot go out in time is dropped and counted; on
   // a listen-only interface that is all of it.
   void write(std::span<const can::Frame> frames, Instant now);
@@ -67,7 +67,7 @@ class Rim {
   TransmitSlots slots_;
   LinkObserver observer_;
   world::LinkObservation link_;
-  bool refusal_told_ = false;
+  bool refusal_reported_ = false;
   std::uint64_t emptied_ = 0;  // how often the kernel's queue has been, as of the last look
   std::vector<ReceiverPort> receivers_;
   std::vector<can::ReceivedFrame> frames_;

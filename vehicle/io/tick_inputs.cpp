@@ -149,8 +149,8 @@ TickRecord record_of(const pipeline::Inputs& in, const TickCounts& counts) {
   TickRecord to;
   to.number = counts.number;
   to.dt_ns = in.dt.ns;
-  to.frames_heard = static_cast<std::uint32_t>(in.can.size());
-  to.frames_said = static_cast<std::uint32_t>(counts.frames_said);
+  to.frames_received = static_cast<std::uint32_t>(in.can.size());
+  to.frames_sent = static_cast<std::uint32_t>(counts.frames_sent);
   to.receiver_bytes = static_cast<std::uint32_t>(counts.receiver_bytes);
   keep_operator(in, to);
   to.gnss0_byte_at_ns = ns_of(in.gnss_byte_at[0]);

@@ -19,7 +19,7 @@ namespace pitwall::io {
 // What is recorded of the tick for itself: so that a loss shows.
 struct TickCounts {
   std::uint64_t number = 0;  // of the tick
-  std::size_t frames_said = 0, receiver_bytes = 0;
+  std::size_t frames_sent = 0, receiver_bytes = 0;
 };
 recorder::TickRecord record_of(const pipeline::Inputs& in, const TickCounts& counts);
 

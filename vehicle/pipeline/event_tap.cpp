@@ -30,7 +30,7 @@ const TickEvents& EventTap::look(const Car& car, const Outputs& out, Instant now
     arming_ = out.chosen.arming;
     add(make_event(telemetry::ArmingEvent{byte_of(arming_)}, now));
   }
-  look_at_flags(out.heard.race_control, now);
+  look_at_flags(out.received.race_control, now);
   return events_;
 }
 
@@ -42,18 +42,18 @@ void EventTap::look_at_faults(const safety::FaultLog& log, safety::CauseSet caus
     const safety::FaultEntry& fault = log.entry(i);
     add(make_event(telemetry::FaultEvent{byte_of(fault.cause), true, value_of(fault.value)},
                    fault.at));
-    told_.add(fault.cause);
+    reported_.add(fault.cause);
   }
   faults_ = log.total;
-  const safety::CauseSet ended = told_.without(causes);
+  const safety::CauseSet ended = reported_.without(causes);
   for (std::size_t i = 1; i < safety::kCauses && !ended.empty(); ++i)
     if (const auto cause = static_cast<safety::Cause>(i); ended.has(cause))
       add(make_event(telemetry::FaultEvent{byte_of(cause), false, 0.0F}, now));
-  told_ = told_.without(ended);
+  reported_ = reported_.without(ended);
 }
 
 void EventTap::look_at_flags(const world::RaceControl& race, Instant now) {
-  if (!race.ever_heard) return;
+  if (!race.ever_received) return;
   const auto flag = [&](telemetry::FlagKind which, auto& was, auto is) {
     if (is == was) return;
     add(make_event(telemetry::FlagEvent{which, byte_of(was), byte_of(is)}, now));

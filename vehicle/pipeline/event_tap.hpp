@@ -34,8 +34,8 @@ class EventTap {
   void look_at_flags(const world::RaceControl& race, Instant now);
 
   TickEvents events_;
-  std::uint64_t faults_ = 0;  // of the log, told
-  safety::CauseSet told_;     // begun, and not over yet
+  std::uint64_t faults_ = 0;   // of the log, told
+  safety::CauseSet reported_;  // begun, and not over yet
   world::Mode mode_ = world::Mode::kDisarmed;
   safety::Arming arming_ = safety::Arming::kNotAsked;
   world::TrackFlag track_ = world::TrackFlag::kNone;

@@ -25,8 +25,8 @@ guardian::Params guardian_params(const CarParams& params) {
 }
 
 void publish(const Setup& setup, const Car& car, const Outputs& out, const Run& run, Instant now,
-             Told& told) {
-  guardian::CarRecord& record = told.record;
+             Reported& reported) {
+  guardian::CarRecord& record = reported.record;
   record.run = run.id;
   ++record.sequence;
   record.at = now;
@@ -39,14 +39,14 @@ void publish(const Setup& setup, const Car& car, const Outputs& out, const Run& 
   record.ego = out.ego;
   record.datum = {setup.track.datum_latitude_deg(), setup.track.datum_longitude_deg(),
                   setup.track.datum_height_m()};
-  if (!car.plan.ever || car.plan.at == told.judged) return;
-  told.judged = car.plan.at;
+  if (!car.plan.ever || car.plan.at == reported.judged) return;
+  reported.judged = car.plan.at;
   const world::Trajectory& stop = car.plan.output.stop;
-  told.verdict = guardian::check_stop({}, stop, out.ego, setup.track);
-  if (told.verdict == guardian::StopVerdict::kGood)
+  reported.verdict = guardian::check_stop({}, stop, out.ego, setup.track);
+  if (reported.verdict == guardian::StopVerdict::kGood)
     record.stop = stop;
   else
-    ++told.refused;
+    ++reported.refused;
 }
 
 GuardianView view_of(const guardian::Status& status, std::uint64_t run, Instant now) {
@@ -65,11 +65,11 @@ bool ended_armed(const guardian::CarRecord& record) {
   return record.run != 0 && ((record.armed && !record.finished) || record.barred);
 }
 
-void finish(Told& told) {
-  const world::Mode mode = told.record.mode;
-  ++told.record.sequence;
-  told.record.finished = mode == world::Mode::kDisarmed || mode == world::Mode::kStandby ||
-                         mode == world::Mode::kHalted;
+void finish(Reported& reported) {
+  const world::Mode mode = reported.record.mode;
+  ++reported.record.sequence;
+  reported.record.finished = mode == world::Mode::kDisarmed || mode == world::Mode::kStandby ||
+                             mode == world::Mode::kHalted;
 }
 
 }  // namespace pitwall::pipeline

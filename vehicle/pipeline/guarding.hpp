@@ -21,7 +21,7 @@ namespace pitwall::pipeline {
 guardian::Params guardian_params(const CarParams& params);
 
 // What the guardian is told, kept between the ticks.
-struct Told {
+struct Reported {
   guardian::CarRecord record;
   guardian::StopVerdict verdict = guardian::StopVerdict::kEmpty;  // of the newest plan
   Instant judged{};                                               // when that plan was made
@@ -36,7 +36,7 @@ struct Run {
 
 // Brings the record up to this tick.
 void publish(const Setup& setup, const Car& car, const Outputs& out, const Run& run, Instant now,
-             Told& told);
+             Reported& reported);
 
 // What the car heeds of the guardian's word; `status` may be of any age.
 GuardianView view_of(const guardian::Status& status, std::uint64_t run, Instant now);
@@ -45,6 +45,6 @@ GuardianView view_of(const guardian::Status& status, std::uint64_t run, Instant 
 // looked since: the car must not be armed again by a mere restart.
 bool ended_armed(const guardian::CarRecord& record);
 // The last word of a process that ends in order: whether the car may be left.
-void finish(Told& told);
+void finish(Reported& reported);
 
 }  // namespace pitwall::pipeline

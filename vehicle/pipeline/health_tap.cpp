@@ -244,7 +244,7 @@ void put_faults(const TapInputs& in, Snapshot& snapshot) {
 
 void put_bus(const TapInputs& in, Snapshot& snapshot) {
   Values& v = snapshot.values;
-  const world::BusHealth& bus = in.out.heard.bus;
+  const world::BusHealth& bus = in.out.received.bus;
   v[field("bus.frames_applied")] = number(bus.frames_applied);
   v[field("bus.frames_refused")] = number(bus.refused.total());
   v[field("bus.frames_sent")] = number(in.rim.frames_sent);

@@ -5,7 +5,7 @@ namespace pitwall::pipeline {
 
 world::MonitorSet seen(const Outputs& out, world::MonitorSet by_localization) {
   world::MonitorSet all = by_localization;
-  all.add(out.heard.seen);
+  all.add(out.received.seen);
   all.add(out.watchdog.seen);
   all.add(out.bus_guard.seen);
   all.add(out.chosen.seen);

@@ -176,9 +176,10 @@ bool enough_to_drive(world::SensorUse use) {
 
 double lower_limit_mps(double a_mps, double b_mps) { return std::fmin(a_mps, b_mps); }
 
-world::RaceControl stricter(const world::RaceControl& heard, TrackFlag of_base) {
-  world::RaceControl out = heard;
-  if (of_base != TrackFlag::kNone && severity(of_base) > severity(heard.track)) out.track = of_base;
+world::RaceControl stricter(const world::RaceControl& received, TrackFlag of_base) {
+  world::RaceControl out = received;
+  if (of_base != TrackFlag::kNone && severity(of_base) > severity(received.track))
+    out.track = of_base;
   return out;
 }
 

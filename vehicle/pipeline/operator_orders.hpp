@@ -70,6 +70,6 @@ bool enough_to_drive(world::SensorUse use);
 // NaN means none.
 double lower_limit_mps(double a_mps, double b_mps);
 // Race control as the car acts on it: the base's flag can only make it stricter.
-world::RaceControl stricter(const world::RaceControl& heard, world::TrackFlag of_base);
+world::RaceControl stricter(const world::RaceControl& received, world::TrackFlag of_base);
 
 }  // namespace pitwall::pipeline

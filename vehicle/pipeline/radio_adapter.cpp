@@ -83,8 +83,8 @@ void count(const telemetry::LinkReport& report, RimCounters& figures) {
   for (std::size_t path = 0; path < figures.paths.size() && path < report.paths.size(); ++path) {
     const telemetry::PathReport& from = report.paths[path];
     if (from.spent.packets == 0) continue;  // there is no such path
-    figures.paths[path] = {.loss = from.heard.loss,
-                           .delay_p99_ms = from.heard.delay_p99.milliseconds(),
+    figures.paths[path] = {.loss = from.received.loss,
+                           .delay_p99_ms = from.received.delay_p99.milliseconds(),
                            .budget_use = from.budget_use};
   }
 }

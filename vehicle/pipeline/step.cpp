@@ -55,7 +55,7 @@ void plan_when_due(const Setup& setup, Car& car, const Outputs& out, const Input
                       .race_control = out.race_control,
                       .operator_speed_limit_mps = out.speed_limit_mps,
                       .followed = followed(car),
-                      .tyre_c = world::coldest_c(out.heard.signals.tyre_temperature_c, in.now)},
+                      .tyre_c = world::coldest_c(out.received.signals.tyre_temperature_c, in.now)},
                      in.now);
   const bool good = !plan.output.drive.points.empty() && !plan.output.stop.points.empty();
   // Who stops without localization has no other path than the last one.
@@ -70,8 +70,8 @@ safety::SupervisorOutput supervise(const Setup& setup, Car& car, const Outputs& 
                                    const Inputs& in) {
   const bool usable = out.steered.lateral.verdict == control::LateralVerdict::kGood;
   return safety::supervise(setup.params.supervisor, car.supervisor,
-                           {.signals = out.heard.signals,
-                            .bus = out.heard.bus,
+                           {.signals = out.received.signals,
+                            .bus = out.received.bus,
                             .race_control = out.race_control,
                             .ego = out.ego,
                             .watchdog = out.watchdog,
@@ -79,7 +79,7 @@ safety::SupervisorOutput supervise(const Setup& setup, Car& car, const Outputs& 
                             .control = out.steered.command,
                             .control_ok = usable,
                             .drive_available = !car.plan.output.drive.points.empty(),
-                            .own_id_seen = out.heard.own_id_seen || in.guardian.stopped,
+                            .own_id_seen = out.received.own_id_seen || in.guardian.stopped,
                             .bus_failed = out.bus_guard.failed,
                             .gate_refused = car.gate_refused,
                             .operator_requests = out.requests,
@@ -92,7 +92,7 @@ safety::SupervisorOutput supervise(const Setup& setup, Car& car, const Outputs& 
 
 world::CtState handshake(const Setup& setup, Car& car, const Outputs& out, const Inputs& in) {
   return gateway::handshake(setup.params.handshake, car.handshake,
-                            {.sys = out.heard.signals.misc.value.sys_state,
+                            {.sys = out.received.signals.misc.value.sys_state,
                              .track = out.race_control.track,
                              .vehicle = out.race_control.vehicle,
                              .mode = out.chosen.mode,
@@ -131,7 +131,7 @@ void apply_operator(Car& car, const Inputs& in, Outputs& out) {
                           .stands = car.supervisor.standing,
                           .now = in.now},
                          out.answers);
-  out.race_control = stricter(out.heard.race_control, car.orders.flag);
+  out.race_control = stricter(out.received.race_control, car.orders.flag);
   out.speed_limit_mps =
       lower_limit_mps(lower_limit_mps(in.operator_speed_limit_mps, car.orders.speed_limit_mps),
                       car.link_loss.speed_limit_mps);
@@ -166,15 +166,15 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
   gateway::store_command(car.inbound, car.supervisor.last,
                          car.supervisor.last_known && car.supervisor.mode != Mode::kDisarmed,
                          in.now);
-  out.heard = gateway::decode(p.inbound, car.inbound, in.can, in.now);
+  out.received = gateway::decode(p.inbound, car.inbound, in.can, in.now);
   const bool armed = car.supervisor.mode != Mode::kDisarmed;
-  out.heard.bus.identity = gateway::identify(p.identity, car.identity, in.can, armed, in.now);
-  gateway::observe_link(car.inbound, out.heard.bus, in.link, in.now);
+  out.received.bus.identity = gateway::identify(p.identity, car.identity, in.can, armed, in.now);
+  gateway::observe_link(car.inbound, out.received.bus, in.link, in.now);
 
   apply_operator(car, in, out);
   const auto located =
       localization::step(p.localization, setup.datum, car.localization, in.sensors,
-                         out.heard.signals, car.surroundings, car.orders.use, in.now);
+                         out.received.signals, car.surroundings, car.orders.use, in.now);
   out.ego = located.ego;
   out.located = located.verdicts;
   out.estimate = located.estimate;
@@ -192,8 +192,8 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
 
   out.watchdog = safety::watch(p.watchdog, car.watchdog,
                                {.sensors = in.sensors,
-                                .signals = out.heard.signals,
-                                .race_control = out.heard.race_control,
+                                .signals = out.received.signals,
+                                .race_control = out.received.race_control,
                                 .gnss_byte_at = in.gnss_byte_at,
                                 .planner_at = car.plan.good_at,
                                 .radio_at = in.radio_at,
@@ -203,7 +203,7 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
                               in.operator_inputs.joystick, in.now);
   const bool resettable = car.bus_guard.failed || in.guardian.stopped;
   out.bus_guard =
-      safety::guard(p.bus_guard, car.bus_guard, out.heard.bus.link, out.requests.reset, in.now);
+      safety::guard(p.bus_guard, car.bus_guard, out.received.bus.link, out.requests.reset, in.now);
   const Mode before = car.supervisor.mode;
   out.chosen = supervise(setup, car, out, in);
   conclude(car.orders, before, out.chosen, resettable, in.now, out.answers);

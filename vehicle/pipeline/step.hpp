@@ -58,7 +58,7 @@ struct Inputs {
 };
 
 struct Outputs {
-  gateway::InboundOutput heard;
+  gateway::InboundOutput received;
   world::EgoState ego;
   FixedVector<localization::Verdict, localization::kVerdictsMax> located;
   localization::Estimate estimate;                                     // what ego is made of

@@ -55,7 +55,7 @@ void put_decisions(Values& v, const Outputs& out) {
 }
 
 void put_race_control(Values& v, const world::RaceControl& race, Instant now) {
-  if (!race.ever_heard) return;
+  if (!race.ever_received) return;
   v[field("flags.track")] = number_of(race.track);
   v[field("flags.vehicle")] = number_of(race.vehicle);
   v[field("flags.round_target_speed")] = race.round_target_speed_mps;
@@ -79,14 +79,14 @@ void put_ego(Values& v, const Outputs& out) {
 }
 
 void put_actuators(Values& v, const world::VehicleSignals& s, double steering_ratio) {
-  if (s.steering_motor_rad.heard)
+  if (s.steering_motor_rad.received)
     v[field("feedback.steering")] = s.steering_motor_rad.value / steering_ratio;
-  if (s.throttle_fraction.heard) v[field("feedback.throttle")] = s.throttle_fraction.value;
-  if (s.brake.heard) {
+  if (s.throttle_fraction.received) v[field("feedback.throttle")] = s.throttle_fraction.value;
+  if (s.brake.received) {
     v[field("feedback.brake_front")] = s.brake.value.front_kpa;
     v[field("feedback.brake_rear")] = s.brake.value.rear_kpa;
   }
-  if (s.powertrain.heard) {
+  if (s.powertrain.received) {
     v[field("feedback.gear")] = s.powertrain.value.gear;
     v[field("engine.speed")] = s.powertrain.value.engine_speed_rpm;
     v[field("engine.running")] = s.powertrain.value.engine_running ? 1.0 : 0.0;
@@ -94,7 +94,7 @@ void put_actuators(Values& v, const world::VehicleSignals& s, double steering_ra
 }
 
 void put_powertrain(Values& v, const world::VehicleSignals& s) {
-  if (s.powertrain.heard) {
+  if (s.powertrain.received) {
     const world::Powertrain& p = s.powertrain.value;
     v[field("powertrain.throttle_position")] = p.throttle_fraction;
     v[field("powertrain.vehicle_speed")] = p.vehicle_speed_mps;
@@ -136,13 +136,14 @@ double diagnostic_bits(const world::DriveByWireDiagnostics& d) {
 }
 
 void put_health(Values& v, const world::VehicleSignals& s) {
-  if (s.misc.heard) {
+  if (s.misc.received) {
     v[field("mode.sys_state")] = number_of(s.misc.value.sys_state);
     v[field("electric.battery")] = s.misc.value.battery_v;
     v[field("electric.mode_switch")] = s.misc.value.mode_switch != 0 ? 1.0 : 0.0;
     v[field("electric.safety_switch")] = s.misc.value.safety_switch;
   }
-  if (s.diagnostics.heard) v[field("electric.diagnostics")] = diagnostic_bits(s.diagnostics.value);
+  if (s.diagnostics.received)
+    v[field("electric.diagnostics")] = diagnostic_bits(s.diagnostics.value);
   v[field("engine.fuel_pressure")] = s.engine.value.fuel_pressure_kpa;
   v[field("engine.oil_pressure")] = s.engine.value.oil_pressure_kpa;
   v[field("engine.coolant")] = s.engine.value.coolant_c;
@@ -188,9 +189,9 @@ void put_plan(Values& v, const TapInputs& in) {
   v[field("planner.stop_distance")] = plan.output.stop_distance_m;
   v[field("planner.operator_limit")] = in.out.speed_limit_mps;
   if (plan.good_at) v[field("planner.age")] = (in.now - *plan.good_at).seconds();
-  if (in.out.heard.race_control.ever_heard)
-    v[field("planner.role")] = role_of(in.out.heard.race_control);
-  if (!plan.made_with.ever_heard) return;
+  if (in.out.received.race_control.ever_received)
+    v[field("planner.role")] = role_of(in.out.received.race_control);
+  if (!plan.made_with.ever_received) return;
   v[field("flags.track_acted_on")] = number_of(plan.made_with.track);
   v[field("flags.vehicle_acted_on")] = number_of(plan.made_with.vehicle);
 }
@@ -212,14 +213,14 @@ void put_uplink(telemetry::Snapshot& snapshot, const TapInputs& in) {
 }
 
 template <class T>
-void put_time(telemetry::Snapshot& snapshot, Group group, const world::Heard<T>& heard) {
-  if (heard.heard) snapshot.at(group) = heard.at;
+void put_time(telemetry::Snapshot& snapshot, Group group, const world::Received<T>& received) {
+  if (received.received) snapshot.at(group) = received.at;
 }
 
 void put_times(telemetry::Snapshot& snapshot, const TapInputs& in) {
-  const world::VehicleSignals& s = in.out.heard.signals;
+  const world::VehicleSignals& s = in.out.received.signals;
   snapshot.at(Group::kMode) = snapshot.at(Group::kCommand) = in.now;
-  if (in.out.heard.race_control.ever_heard) snapshot.at(Group::kFlags) = in.now;
+  if (in.out.received.race_control.ever_received) snapshot.at(Group::kFlags) = in.now;
   if (in.out.ego.validity != world::Validity::kNever) {
     for (const Group group : {Group::kEgo, Group::kTrack, Group::kDynamics})
       snapshot.at(group) = in.out.ego.at;
@@ -238,9 +239,9 @@ void put_times(telemetry::Snapshot& snapshot, const TapInputs& in) {
 telemetry::Snapshot tap(const TapInputs& in) {
   telemetry::Snapshot snapshot;
   Values& v = snapshot.values;
-  const world::VehicleSignals& s = in.out.heard.signals;
+  const world::VehicleSignals& s = in.out.received.signals;
   put_decisions(v, in.out);
-  put_race_control(v, in.out.heard.race_control, in.now);
+  put_race_control(v, in.out.received.race_control, in.now);
   put_ego(v, in.out);
   put_actuators(v, s, in.setup.params.outbound.steering_ratio);
   put_powertrain(v, s);
@@ -250,7 +251,8 @@ telemetry::Snapshot tap(const TapInputs& in) {
   put_plan(v, in);
   put_uplink(snapshot, in);
   v[field("track.last_lap_time")] = in.log.last_lap_s();
-  if (s.wheel_speed_mps.heard) v[field("wheels.standstill")] = in.out.chosen.standstill ? 1.0 : 0.0;
+  if (s.wheel_speed_mps.received)
+    v[field("wheels.standstill")] = in.out.chosen.standstill ? 1.0 : 0.0;
   put_times(snapshot, in);
   tap_health(in, snapshot);
   return snapshot;

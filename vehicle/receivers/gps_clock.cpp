@@ -11,31 +11,31 @@ Duration apart(Duration a, Duration b) { return a < b ? b - a : a - b; }
 }  // namespace
 
 Placed GpsClock::place(Stream stream, gnss::GpsTime sampled, Instant arrival) {
-  Heard& heard = streams_[static_cast<std::size_t>(stream)];
-  const bool follows = !heard.ever || sampled > heard.last;
-  const StampFlaw standing = sampled == heard.last ? StampFlaw::kFrozen : StampFlaw::kBack;
-  heard.last = sampled;
-  heard.ever = true;
+  Received& received = streams_[static_cast<std::size_t>(stream)];
+  const bool follows = !received.ever || sampled > received.last;
+  const StampFlaw standing = sampled == received.last ? StampFlaw::kFrozen : StampFlaw::kBack;
+  received.last = sampled;
+  received.ever = true;
   const auto placed = [&](StampFlaw flaw) {
     return Placed{Instant{sampled.ns + offset_.ns - least_delay_.ns}, flaw};
   };
   if (!follows && started_) return placed(standing);
 
   const Duration difference{arrival.ns - sampled.ns};
-  const Duration level = difference - heard.slower;
-  const Duration elapsed = arrival - heard_at_;
+  const Duration level = difference - received.slower;
+  const Duration elapsed = arrival - received_at_;
   const bool stale = started_ && elapsed >= kHalfWindow * 2;
-  heard_at_ = arrival;
+  received_at_ = arrival;
   if (!started_ || stale) {
     begin(level, arrival);
   } else if (is_suspect(level)) {
     return placed(StampFlaw::kFuture);
   }
   turn_half_window(arrival);
-  heard.smallest = std::min(heard.smallest, difference);
-  ++heard.samples;
-  if (is_evidence(heard, arrival)) current_ = std::min(current_, level);
-  heard.at = arrival;
+  received.smallest = std::min(received.smallest, difference);
+  ++received.samples;
+  if (is_evidence(received, arrival)) current_ = std::min(current_, level);
+  received.at = arrival;
   follow(elapsed);
   return placed(StampFlaw::kNone);
 }
@@ -47,7 +47,7 @@ void GpsClock::begin(Duration level, Instant arrival) {
   half_began_ = arrival;
   offset_ = current_ = previous_ = level;
   confirmations_ = 0;
-  for (Heard& heard : streams_) heard.smallest = kNever, heard.samples = 0;
+  for (Received& received : streams_) received.smallest = kNever, received.samples = 0;
 }
 
 void GpsClock::turn_half_window(Instant arrival) {
@@ -58,7 +58,7 @@ void GpsClock::turn_half_window(Instant arrival) {
   half_began_ = arrival;
   if (current_ != kNever) previous_ = current_;
   current_ = kNever;
-  for (Heard& heard : streams_) heard.smallest = kNever, heard.samples = 0;
+  for (Received& received : streams_) received.smallest = kNever, received.samples = 0;
 }
 
 // Only where the stream that was the quickest was heard: else the others would all seem quicker.
@@ -68,26 +68,26 @@ void GpsClock::learn_delays() {
   for (std::size_t i = 1; i < kStreams; ++i)
     if (streams_[i].smallest < streams_[quickest].smallest) quickest = i;
   const Duration least = streams_[quickest].smallest;
-  for (Heard& heard : streams_) {
-    if (quickest != quickest_) heard.learned = false;
-    if (heard.samples < kEnough) continue;
-    const Duration slower = heard.smallest - least;
+  for (Received& received : streams_) {
+    if (quickest != quickest_) received.learned = false;
+    if (received.samples < kEnough) continue;
+    const Duration slower = received.smallest - least;
     // Chance adds delay and takes none away.
     constexpr int kShare = 4;
-    heard.slower = !heard.learned || slower < heard.slower
-                       ? slower
-                       : heard.slower + (slower - heard.slower) / kShare;
-    heard.learned = true;
+    received.slower = !received.learned || slower < received.slower
+                          ? slower
+                          : received.slower + (slower - received.slower) / kShare;
+    received.learned = true;
   }
   streams_[quickest].slower = {};
   streams_[quickest].learned = true;
   quickest_ = quickest;
 }
 
-bool GpsClock::is_evidence(const Heard& heard, Instant arrival) const {
+bool GpsClock::is_evidence(const Received& received, Instant arrival) const {
   if (quickest_ == kStreams) return true;
-  const Heard& quickest = streams_[quickest_];
-  return &heard == &quickest || (heard.learned && arrival - quickest.at > kSilence);
+  const Received& quickest = streams_[quickest_];
+  return &received == &quickest || (received.learned && arrival - quickest.at > kSilence);
 }
 
 // Down at once, so that nothing comes before it was true; up slowly, or by a whole step.

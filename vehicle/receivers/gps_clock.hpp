@@ -64,7 +64,7 @@ class GpsClock {
  private:
   static constexpr Duration kNever{std::int64_t{1} << 62};
 
-  struct Heard {
+  struct Received {
     gnss::GpsTime last{};        // stamp
     bool ever = false;           // last is one
     Instant at{};                // when it came
@@ -78,16 +78,16 @@ class GpsClock {
   void turn_half_window(Instant arrival);
   void learn_delays();
   bool is_suspect(Duration level);
-  bool is_evidence(const Heard& heard, Instant arrival) const;
+  bool is_evidence(const Received& received, Instant arrival) const;
   void follow(Duration elapsed);
 
   Duration least_delay_;
-  std::array<Heard, kStreams> streams_{};
+  std::array<Received, kStreams> streams_{};
   std::size_t quickest_ = kStreams;  // of streams_; none is known yet
   bool started_ = false, settled_ = false;
   Duration offset_{};
   Duration current_ = kNever, previous_ = kNever;  // level of this half window, of the one before
-  Instant half_began_{}, heard_at_{};
+  Instant half_began_{}, received_at_{};
   Duration suspect_{};
   int confirmations_ = 0;
   std::uint64_t steps_ = 0;

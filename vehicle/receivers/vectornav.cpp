@@ -59,9 +59,9 @@ double compass(double angle_rad) {
 
 // Nothing until the sensor has heard the time: it counts from its own start before.
 std::optional<gnss::GpsTime> time_of(const gnss::VectorNavMessage& m) {
-  const gnss::GpsTime said{static_cast<std::int64_t>(m.time_gps_ns)};
-  if (said < gnss::gps_time(1, {})) return std::nullopt;
-  return said;
+  const gnss::GpsTime stated{static_cast<std::int64_t>(m.time_gps_ns)};
+  if (stated < gnss::gps_time(1, {})) return std::nullopt;
+  return stated;
 }
 
 std::optional<gnss::GpsTime> time_of(const gnss::VectorNavSolution& s) {
@@ -192,9 +192,9 @@ void VectorNav::tell_health(Instant arrival, world::SensorInput& out) {
   health.error = health.error_word != 0;
   health.status_word = ins_status_;
   health.time_valid = time_valid_;
-  if (told_at_ && same(health, told_) && arrival - *told_at_ < kEvery) return;
-  told_ = health;
-  told_at_ = arrival;
+  if (reported_at_ && same(health, reported_) && arrival - *reported_at_ < kEvery) return;
+  reported_ = health;
+  reported_at_ = arrival;
   writer_.write(arrival, health, out);
 }
 

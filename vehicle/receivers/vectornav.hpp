@@ -60,8 +60,8 @@ class VectorNav {
   // As it said last.
   std::uint16_t ins_status_ = 0;
   bool time_valid_ = true;
-  world::ReceiverHealth told_;
-  std::optional<Instant> told_at_;
+  world::ReceiverHealth reported_;
+  std::optional<Instant> reported_at_;
   std::optional<gnss::GpsTime> heading_at_;
 };
 

@@ -37,7 +37,7 @@ void close_window(ClockUnit& unit, Instant at) {
 }
 
 // Whether a difference is a step of a clock, not delay.
-bool is_step(const ClockParams& params, ClockUnit& unit, double difference_s, Instant heard) {
+bool is_step(const ClockParams& params, ClockUnit& unit, double difference_s, Instant received) {
   const double change_s = difference_s - base_s(unit);
   if (change_s < -params.step_s) return true;
   if (!(change_s > params.step_s)) {
@@ -45,11 +45,11 @@ bool is_step(const ClockParams& params, ClockUnit& unit, double difference_s, In
     return false;
   }
   const bool again = unit.agreeing > 0;
-  if (again && heard - unit.suspect_at < kApart) return false;
+  if (again && received - unit.suspect_at < kApart) return false;
   const bool agrees = again && std::abs(difference_s - unit.suspect_s) < kAgree_s;
   unit.agreeing = agrees ? static_cast<std::uint8_t>(unit.agreeing + 1) : std::uint8_t{1};
   unit.suspect_s = difference_s;
-  unit.suspect_at = heard;
+  unit.suspect_at = received;
   return unit.agreeing >= kClockAgreeing;
 }
 
@@ -62,17 +62,17 @@ void believe(ClockState& state, double step_s, Instant now) {
 void take(const ClockParams& params, ClockState& state, const world::ReceiverTime& time,
           Instant now) {
   ClockUnit& unit = state.units[time.unit];
-  const std::int64_t raw_ns = time.heard.ns - time.gps_ns;
+  const std::int64_t raw_ns = time.received.ns - time.gps_ns;
   if (!unit.started) {
     unit.started = true;
     unit.origin_ns = raw_ns;
-    begin_windows(unit, 0.0, time.heard);
+    begin_windows(unit, 0.0, time.received);
   }
   const double difference_s = static_cast<double>(raw_ns - unit.origin_ns) * 1e-9;
-  close_window(unit, time.heard);
-  if (is_step(params, unit, difference_s, time.heard)) {
+  close_window(unit, time.received);
+  if (is_step(params, unit, difference_s, time.received)) {
     believe(state, difference_s - base_s(unit), now);
-    begin_windows(unit, difference_s, time.heard);
+    begin_windows(unit, difference_s, time.received);
   } else if (unit.agreeing == 0) {
     unit.current_s = std::fmin(unit.current_s, difference_s);
   }

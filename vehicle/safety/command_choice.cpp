@@ -27,9 +27,9 @@ double ramp_dt_s(const Tick& t) {
 Chosen hold(const Tick& t) {
   const SupervisorState& s = t.state;
   const auto& motor = t.in.signals.steering_motor_rad;
-  const double measured_rad = motor.heard ? motor.value / t.params.steering_ratio : 0.0;
+  const double measured_rad = motor.received ? motor.value / t.params.steering_ratio : 0.0;
   const auto& powertrain = t.in.signals.powertrain;
-  const std::uint8_t reported = powertrain.heard ? powertrain.value.gear : std::uint8_t{0};
+  const std::uint8_t reported = powertrain.received ? powertrain.value.gear : std::uint8_t{0};
   return {{.at = t.now,
            .road_wheel_rad = s.last_known ? s.last.road_wheel_rad : measured_rad,
            .throttle_fraction = 0.0,

@@ -65,14 +65,14 @@ void operators(Finder& f) {
 
 void drive_by_wire(Finder& f) {
   const auto& misc = f.in.signals.misc;
-  if (misc.heard) {
+  if (misc.received) {
     const SysState sys = misc.value.sys_state;
     const auto value = static_cast<double>(sys);
     f.add(Cause::kSysEmergencyShutdown, sys == SysState::kEmergencyShutdown && !f.in.engine_off,
           value);
     f.add(Cause::kCriticalLimits, sys == SysState::kCriticalLimitsExceeded, value);
   }
-  if (!f.in.signals.diagnostics.heard) return;
+  if (!f.in.signals.diagnostics.received) return;
   const auto& d = f.in.signals.diagnostics.value;
   f.add(Cause::kSystemFailure, d.system_failure);
   f.add(Cause::kEmergencyBrake, d.emergency_brake && !f.in.engine_off);
@@ -213,45 +213,46 @@ void flags(Finder& f) {
   const bool unknown =
       race.track == world::TrackFlag::kUnknown || race.vehicle == VehicleFlag::kUnknown;
   f.add(Monitor::kFlagAgreement, Cause::kFlagsDisagree,
-        race.ever_heard && (unknown || race.conflict), race.conflict ? 2.0 : 1.0);
+        race.ever_received && (unknown || race.conflict), race.conflict ? 2.0 : 1.0);
 }
 
 // While the car rolls and nobody but us tells its actuators what to do.
 bool follows_commands(const Finder& f) {
   const auto& misc = f.in.signals.misc;
-  const auto& said = f.in.signals.diagnostics;
-  const bool drives = misc.heard && misc.value.sys_state == SysState::kDriving;
+  const auto& stated = f.in.signals.diagnostics;
+  const bool drives = misc.received && misc.value.sys_state == SysState::kDriving;
   const bool own_will =
-      said.heard && (said.value.emergency_brake || said.value.computer_heartbeat_lost);
+      stated.received && (stated.value.emergency_brake || stated.value.computer_heartbeat_lost);
   return f.in.moves && drives && !own_will && f.in.speed_mps > f.params.following.moving_mps;
 }
 
 template <class T, class Part>
-world::Heard<double> part_of(const world::Heard<T>& whole, Part part) {
-  return {whole.value.*part, whole.at, whole.heard};
+world::Received<double> part_of(const world::Received<T>& whole, Part part) {
+  return {whole.value.*part, whole.at, whole.received};
 }
 
 void actuators(Finder& f, FaultState& state, Instant now) {
   const ActuatorParams& p = f.params.following;
   const world::VehicleSignals& s = f.in.signals;
-  const world::ActuatorCommand& told = f.in.told;
+  const world::ActuatorCommand& reported = f.in.reported;
   if (!follows_commands(f)) {
     state.steering = state.brake_front = state.brake_rear = state.throttle = {};
     return;
   }
   const auto judge = [&](Monitor monitor, Cause cause, const FollowLimits& limits,
-                         FollowState& follow, double command, const world::Heard<double>& heard) {
-    const double excess = straying(limits, follow, command, heard, now);
+                         FollowState& follow, double command,
+                         const world::Received<double>& received) {
+    const double excess = straying(limits, follow, command, received, now);
     f.add(monitor, cause, excess > 0.0, excess);
   };
   judge(Monitor::kSteeringFollows, Cause::kSteeringStrays, p.steering, state.steering,
-        told.road_wheel_rad * f.in.steering_ratio, s.steering_motor_rad);
-  judge(Monitor::kBrakeFollows, Cause::kBrakeStrays, p.brake, state.brake_front, told.brake_kpa,
+        reported.road_wheel_rad * f.in.steering_ratio, s.steering_motor_rad);
+  judge(Monitor::kBrakeFollows, Cause::kBrakeStrays, p.brake, state.brake_front, reported.brake_kpa,
         part_of(s.brake, &world::BrakePressure::front_kpa));
-  judge(Monitor::kBrakeFollows, Cause::kBrakeStrays, p.brake, state.brake_rear, told.brake_kpa,
+  judge(Monitor::kBrakeFollows, Cause::kBrakeStrays, p.brake, state.brake_rear, reported.brake_kpa,
         part_of(s.brake, &world::BrakePressure::rear_kpa));
   judge(Monitor::kThrottleFollows, Cause::kThrottleStrays, p.throttle, state.throttle,
-        told.throttle_fraction, s.throttle_fraction);
+        reported.throttle_fraction, s.throttle_fraction);
 }
 
 void rear_axle(Finder& f, FaultState& state, Instant now) {

@@ -104,7 +104,7 @@ struct FaultInputs {
   const world::SensorInput* sensors = nullptr;  // of this tick; none: no clock is watched
   world::ComputerHealth computer{};
   // What the actuators were told last; unset while nothing was.
-  world::ActuatorCommand told{};
+  world::ActuatorCommand reported{};
   double steering_ratio = 19.5;
   double speed_mps = kUnset;  // by the wheels
 };

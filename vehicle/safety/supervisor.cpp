@@ -49,7 +49,7 @@ bool bars_arming(const CauseSet& causes) {
 
 bool flags_let_roll(const Tick& t) {
   const world::RaceControl& rc = t.in.race_control;
-  if (!rc.ever_heard) return !t.params.faults.race_control_required;
+  if (!rc.ever_received) return !t.params.faults.race_control_required;
   const bool track = rc.track == TrackFlag::kYellow || rc.track == TrackFlag::kGreen ||
                      rc.track == TrackFlag::kWavingGreen;
   switch (rc.vehicle) {
@@ -66,7 +66,7 @@ bool flags_let_roll(const Tick& t) {
 
 bool may_go(const Tick& t, const CauseSet& causes) {
   const auto& misc = t.in.signals.misc;
-  const bool driving_state = misc.heard && misc.value.sys_state == world::SysState::kDriving;
+  const bool driving_state = misc.received && misc.value.sys_state == world::SysState::kDriving;
   const bool healthy = causes.at_least(Reaction::kCoast).empty();
   return healthy && t.in.operator_requests.arm && t.in.drive_available &&
          (driving_state || !t.params.go_needs_driving_state) && flags_let_roll(t);
@@ -250,7 +250,7 @@ SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& stat
                                     .engine_off = state.engine_off,
                                     .sensors = inputs.sensors,
                                     .computer = inputs.computer,
-                                    .told = state.last_known ? state.last : ActuatorCommand{},
+                                    .reported = state.last_known ? state.last : ActuatorCommand{},
                                     .steering_ratio = params.steering_ratio,
                                     .speed_mps = speed_mps},
                                    now);

@@ -101,8 +101,8 @@ struct Ear {
     seen(state, stream, when, now - when - slept, slept, now);
   }
   template <class T>
-  void hears(Stream stream, const world::Heard<T>& signal) const {
-    if (signal.heard) hears(stream, signal.at);
+  void hears(Stream stream, const world::Received<T>& signal) const {
+    if (signal.received) hears(stream, signal.at);
   }
 };
 
@@ -117,10 +117,10 @@ void samples(const Ear& ear, const WatchdogInputs& inputs, const Sample& sample,
 void take_sigma(WatchdogState& state, const world::GnssPosition& p) {
   if (p.unit >= world::kGnssUnits) return;
   const double sigma_m = std::max(p.latitude_sigma_m, p.longitude_sigma_m);
-  const bool told = p.latitude_sigma_m >= 0.0 && p.longitude_sigma_m >= 0.0;
+  const bool reported = p.latitude_sigma_m >= 0.0 && p.longitude_sigma_m >= 0.0;
   auto& kept_m = state.sigmas_m[p.unit];
   kept_m[state.positions[p.unit]++ % kept_m.size()] =
-      told ? sigma_m : std::numeric_limits<double>::infinity();
+      reported ? sigma_m : std::numeric_limits<double>::infinity();
 }
 
 void sensors(const Ear& ear, const WatchdogInputs& inputs) {
@@ -209,7 +209,7 @@ WatchdogOutput watch(const WatchdogParams& params, WatchdogState& state,
   ear.hears(Stream::kMisc, s.misc);
   ear.hears(Stream::kPowertrain, s.powertrain);
   ear.hears(Stream::kDiagnostics, s.diagnostics);
-  if (inputs.race_control.ever_heard)
+  if (inputs.race_control.ever_received)
     ear.hears(Stream::kRaceControl, inputs.race_control.last_heartbeat_change);
   if (inputs.planner_at) ear.hears(Stream::kPlanner, *inputs.planner_at);
   if (inputs.radio_at) ear.hears(Stream::kRadio, *inputs.radio_at);

@@ -45,7 +45,7 @@ enum class IdentityDifference : std::uint8_t {
   kUnknownId,    // heard, but the database has no such message
   kWrongLength,  // of a known message
   kWrongFormat,  // remote, FD or extended
-  kNotHeard,     // required, but silent for the whole time of listening
+  kNotReceived,  // required, but silent for the whole time of listening
   kWrongPeriod   // heard, but far too often or too seldom
 };
 
@@ -54,7 +54,7 @@ struct BusIdentity {
   IdentityDifference difference = IdentityDifference::kNone;
   std::uint32_t id = 0;        // of the first message that differs; 0: none
   double expected = 0.0;       // bytes or seconds, by the kind of difference
-  double heard = 0.0;          // likewise
+  double received = 0.0;       // likewise
   std::uint64_t database = 0;  // fingerprint of the database
 };
 

@@ -45,7 +45,7 @@ struct RaceControl {
   double round_target_speed_mps = kUnset;
   std::uint8_t raw_track = 0, raw_vehicle = 0, raw_sector = 0;  // to echo in the acknowledgement
   FlagEncoding encoding = FlagEncoding::kMyLaps;
-  bool ever_heard = false;
+  bool ever_received = false;
   Instant last_heartbeat_change{};  // liveness is a change of the heartbeat, not mere reception
   std::uint8_t lap_count = 0;
   // The same of the encoding that is not authoritative, which is acknowledged too.

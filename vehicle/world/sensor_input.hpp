@@ -81,7 +81,7 @@ struct ImuSample {
 // When a receiver said what time it was: its clock beside the car's.
 struct ReceiverTime {
   std::uint8_t unit = 0;
-  Instant heard{};               // when the bytes arrived, on the car's clock
+  Instant received{};            // when the bytes arrived, on the car's clock
   std::int64_t gps_ns = 0;       // since the GPS epoch; without leap seconds
   double utc_offset_s = kUnset;  // UTC minus GPS time, where the receiver says it
 };

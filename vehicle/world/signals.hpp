@@ -12,12 +12,12 @@
 namespace pitwall::world {
 
 template <class T>
-struct Heard {
+struct Received {
   T value{};
   Instant at{};
-  bool heard = false;
+  bool received = false;
 
-  constexpr bool fresh(Instant now, Duration limit) const { return heard && now - at <= limit; }
+  constexpr bool fresh(Instant now, Duration limit) const { return received && now - at <= limit; }
 };
 
 enum class Corner : std::uint8_t { kFrontLeft, kFrontRight, kRearLeft, kRearRight };
@@ -92,16 +92,16 @@ struct Misc {
 };
 
 struct VehicleSignals {
-  Heard<PerWheel> wheel_speed_mps;  // circumferential speed of each wheel
-  Heard<BrakePressure> brake;
-  Heard<double> throttle_fraction;   // pedal feedback, 0..1
-  Heard<double> steering_motor_rad;  // average of the three sensors, at the motor, left positive
-  Heard<Misc> misc;
-  Heard<Powertrain> powertrain;
-  Heard<EngineHealth> engine;
-  Heard<DriveByWireDiagnostics> diagnostics;
-  Heard<PerWheel> tyre_temperature_c;  // mean of the 16 sensors of each tyre
-  Heard<PerWheel> tyre_pressure_kpa;   // gauge
+  Received<PerWheel> wheel_speed_mps;  // circumferential speed of each wheel
+  Received<BrakePressure> brake;
+  Received<double> throttle_fraction;   // pedal feedback, 0..1
+  Received<double> steering_motor_rad;  // average of the three sensors, at the motor, left positive
+  Received<Misc> misc;
+  Received<Powertrain> powertrain;
+  Received<EngineHealth> engine;
+  Received<DriveByWireDiagnostics> diagnostics;
+  Received<PerWheel> tyre_temperature_c;  // mean of the 16 sensors of each tyre
+  Received<PerWheel> tyre_pressure_kpa;   // gauge
 };
 
 }  // namespace pitwall::world

@@ -31,7 +31,7 @@ struct TyreGrip {
   constexpr double cold() const { return share.front(); }
 };
 
-inline double coldest_c(const Heard<PerWheel>& tyres, Instant now) {
+inline double coldest_c(const Received<PerWheel>& tyres, Instant now) {
   if (!tyres.fresh(now, kTyreAgeMax)) return kUnset;
   double coldest = tyres.value.at[0];
   for (const double tyre_c : tyres.value.at) {

@@ -135,10 +135,10 @@ Result<bool, Problem> BenchBook::keep_event(const JsonValue& value, std::string_
 
 void BenchBook::publish(const std::string& type, std::string_view of, bool line) {
   std::string text = json::Object{}.text("type", type).text("server", server_).json("of", of).str();
-  if (!line) std::erase_if(news_, [&](const Told& older) { return older.type == type; });
+  if (!line) std::erase_if(news_, [&](const Reported& older) { return older.type == type; });
   news_.push_back({.type = type, .text = std::move(text), .line = line});
 }
 
-std::vector<Told> BenchBook::news() { return std::exchange(news_, {}); }
+std::vector<Reported> BenchBook::news() { return std::exchange(news_, {}); }
 
 }  // namespace pitwall::publishers::bench

@@ -24,7 +24,7 @@
 namespace pitwall::publishers::bench {
 
 // One text for all consoles; its type is a member of it, too.
-struct Told {
+struct Reported {
   std::string type, text;
   bool line = false;  // of a log; else a state
 };
@@ -41,7 +41,7 @@ class BenchBook {
   void connected();
   Result<bool, Problem> take(std::string_view line);
   // What is new since it was asked last.
-  std::vector<Told> news();
+  std::vector<Reported> news();
   // What the server refused; once.
   std::optional<Problem> refusal() { return std::exchange(refusal_, std::nullopt); }
 
@@ -63,7 +63,7 @@ class BenchBook {
   std::size_t scenarios_ = 0, announced_ = 0;
   bool complete_ = false;
   std::size_t events_ = 0, events_again_ = 0;  // of this run: known, told again
-  std::vector<Told> news_;
+  std::vector<Reported> news_;
   std::optional<Problem> refusal_;
   BenchCounters counters_;
 };

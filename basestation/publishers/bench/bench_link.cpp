@@ -43,12 +43,12 @@ void BenchLink::publish(const service::CarService& car, Instant now) {
   real_ = car.link().source() == link::Station::Source::kCar;
   if (!up() && (!tried_ || now - *tried_ >= kRetry)) connect(now);
   if (socket_) receive(now);
-  if (!observer_.publish || (told_ && now - *told_ < kTellEvery)) return;
-  told_ = now;
-  for (const Told& told : book_.news()) observer_.publish(told, now);
+  if (!observer_.publish || (reported_ && now - *reported_ < kTellEvery)) return;
+  reported_ = now;
+  for (const Reported& reported : book_.news()) observer_.publish(reported, now);
   std::string state = state_text();
-  if (state == state_told_) return;
-  state_told_ = state;
+  if (state == state_reported_) return;
+  state_reported_ = state;
   observer_.publish({.type = "bench", .text = std::move(state)}, now);
 }
 

@@ -36,7 +36,7 @@ struct BenchRequest {
 std::string text_of(const BenchRequest& run_request);
 
 struct BenchObserver {
-  std::function<void(const Told&, Instant)> publish;
+  std::function<void(const Reported&, Instant)> publish;
   // What the server answered to whoever asked last.
   std::function<void(std::uint8_t client, const Problem&, Instant)> refused;
 };
@@ -67,12 +67,12 @@ class BenchLink : public service::Publisher {
   BenchObserver observer_;
   BenchBook book_;
   std::optional<transport::LineSocket> socket_;
-  std::optional<Instant> tried_, told_;
+  std::optional<Instant> tried_, reported_;
   Instant looked_{};
   std::uint64_t too_long_ = 0;
   std::uint8_t asker_ = 0;
   bool real_ = false;
-  std::string problem_, state_told_;
+  std::string problem_, state_reported_;
 };
 
 }  // namespace pitwall::publishers::bench

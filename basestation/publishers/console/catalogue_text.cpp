@@ -126,7 +126,7 @@ std::string command_text(const telemetry::CommandRow& row) {
 
 std::string catalogue_text(const LimitOf& limit_of, double attempt_laps) {
   Array fields, commands;
-  for (const state::FieldId id : told_fields()) fields.json(field_text(id, limit_of(id)));
+  for (const state::FieldId id : reported_fields()) fields.json(field_text(id, limit_of(id)));
   for (const telemetry::CommandRow& row : telemetry::kCommandTable)
     commands.json(command_text(row));
   return Object{}

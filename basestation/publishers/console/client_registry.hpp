@@ -50,9 +50,9 @@ class ClientRegistry {
   void joined(ClientId client, const Identity& who, Instant now);
   void left(ClientId client);
   // A request for somebody else to carry out; what the room does itself gives none.
-  std::optional<Request> said(ClientId client, std::string_view text, const StateSource& eyes,
-                              Instant now);
-  void said_binary(ClientId client);
+  std::optional<Request> stated(ClientId client, std::string_view text, const StateSource& eyes,
+                                Instant now);
+  void stated_binary(ClientId client);
 
   void tell_error(ClientId client, const Problem& problem);
   void tell_all(std::string text);
@@ -61,7 +61,7 @@ class ClientRegistry {
   void want_full() { snapshots_.want_full(); }
   void identify(const service::CarIdentity& identity, Instant now);
 
-  void heard() { snapshots_.heard(); }
+  void receive() { snapshots_.receive(); }
   void serve(const StateSource& eyes, UtcTime utc, Instant now);
   Instant due() const { return snapshots_.due(); }
   std::vector<Sending> take() {

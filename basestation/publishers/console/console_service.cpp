@@ -47,13 +47,13 @@ void ConsoleService::submit(service::CarService& car, Instant now) {
         car.requests().left(clients_.person(news->client), now);
         clients_.left(news->client);
         break;
-      case web::ClientNews::Kind::kSaid:
-        if (const auto request = clients_.said(news->client, news->text, *this, now)) {
+      case web::ClientNews::Kind::kStated:
+        if (const auto request = clients_.stated(news->client, news->text, *this, now)) {
           execute(news->client, *request, now);
         }
         break;
       case web::ClientNews::Kind::kBinary:
-        clients_.said_binary(news->client);
+        clients_.stated_binary(news->client);
         break;
     }
   }
@@ -101,10 +101,10 @@ Result<bool, Problem> ConsoleService::ask_bench(const AskBench& ask, const comma
 void ConsoleService::attach(bench::BenchLink& bench) {
   bench_ = &bench;
   bench.observe_by({.publish =
-                        [this](const bench::Told& told, Instant now) {
+                        [this](const bench::Reported& reported, Instant now) {
                           service::MessageLog& log = car_.messages();
-                          if (told.line) return log.add_line(told.type, told.text, now);
-                          log.set_state(told.type, told.text, now);
+                          if (reported.line) return log.add_line(reported.type, reported.text, now);
+                          log.set_state(reported.type, reported.text, now);
                         },
                     .refused =
                         [this](std::uint8_t client, const Problem& problem, Instant now) {
@@ -115,7 +115,7 @@ void ConsoleService::attach(bench::BenchLink& bench) {
 }
 
 void ConsoleService::publish(const service::CarService& car, Instant now) {
-  if (car.evaluator().link_state() != link_shown_) clients_.heard();
+  if (car.evaluator().link_state() != link_shown_) clients_.receive();
   link_shown_ = car.evaluator().link_state();
   clients_.identify(car.identity(), now);
   const std::uint64_t revision = car.requests().settings().revision();

@@ -31,7 +31,9 @@ class ConsoleService : public service::Publisher, private StateSource {
   // Both outlive it.
   ConsoleService(ConsoleConfig config, service::CarService& car, web::WebServer& server);
 
-  void packet(const service::CarService&, const telemetry::Arrival&) override { clients_.heard(); }
+  void packet(const service::CarService&, const telemetry::Arrival&) override {
+    clients_.receive();
+  }
   void submit(service::CarService& car, Instant now) override;
   void publish(const service::CarService& car, Instant now) override;
   Instant due() const override { return clients_.due(); }

@@ -11,8 +11,8 @@ std::optional<std::string> PauseReport::news(const std::optional<transport::Benc
   const transport::BenchPause seen{.now = pause->is_long() ? pause->now : Duration{},
                                    .total = pause->total};
   if (!is_news(seen, now)) return std::nullopt;
-  told_ = seen;
-  told_at_ = now;
+  reported_ = seen;
+  reported_at_ = now;
   return json::Object{}
       .text("type", "bench_time")
       .number("time_ms", now.milliseconds())
@@ -22,12 +22,13 @@ std::optional<std::string> PauseReport::news(const std::optional<transport::Benc
 }
 
 bool PauseReport::is_news(const transport::BenchPause& pause, Instant now) const {
-  if (!told_) return true;
-  const bool stood = told_->now.ns > 0;
+  if (!reported_) return true;
+  const bool stood = reported_->now.ns > 0;
   if (pause.now.ns == 0) {
-    return stood || (now - told_at_ >= kTotalEvery && pause.total - told_->total >= kTotalStep);
+    return stood ||
+           (now - reported_at_ >= kTotalEvery && pause.total - reported_->total >= kTotalStep);
   }
-  return !stood || pause.now < told_->now || pause.now - told_->now >= kAgain;
+  return !stood || pause.now < reported_->now || pause.now - reported_->now >= kAgain;
 }
 
 }  // namespace pitwall::publishers::console

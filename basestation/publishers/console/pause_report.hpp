@@ -30,8 +30,8 @@ class PauseReport {
  private:
   bool is_news(const transport::BenchPause& pause, Instant now) const;
 
-  std::optional<transport::BenchPause> told_;  // none: nothing yet
-  Instant told_at_{};
+  std::optional<transport::BenchPause> reported_;  // none: nothing yet
+  Instant reported_at_{};
 };
 
 }  // namespace pitwall::publishers::console

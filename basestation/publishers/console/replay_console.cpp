@@ -58,13 +58,13 @@ void ReplayConsole::receive() {
       case web::ClientNews::Kind::kLeft:
         clients_.left(news->client);
         break;
-      case web::ClientNews::Kind::kSaid:
-        if (const auto request = clients_.said(news->client, news->text, *this, player_.now())) {
+      case web::ClientNews::Kind::kStated:
+        if (const auto request = clients_.stated(news->client, news->text, *this, player_.now())) {
           execute(news->client, *request);
         }
         break;
       case web::ClientNews::Kind::kBinary:
-        clients_.said_binary(news->client);
+        clients_.stated_binary(news->client);
         break;
     }
   }
@@ -82,13 +82,13 @@ void ReplayConsole::execute(web::ClientId client, const Request& request) {
 void ReplayConsole::wind(double speed, std::optional<Instant> to) {
   player_.set_speed(speed);
   if (to) player_.jump(*to, *this);
-  untold_ = kTellEvery;
+  unreported_ = kTellEvery;
 }
 
 void ReplayConsole::publish(Duration passed) {
-  untold_ = untold_ + passed;
-  if (untold_ < kTellEvery) return;
-  untold_ = {};
+  unreported_ = unreported_ + passed;
+  if (unreported_ < kTellEvery) return;
+  unreported_ = {};
   messages_.set_state("playback", playback_text(), player_.now());
 }
 
@@ -122,11 +122,11 @@ void ReplayConsole::state(const telemetry::Snapshot& state, telemetry::GroupSet 
   for (replay::Listener* const other : others_) other->state(state, groups, received);
   unsettled_ = false;
   evaluator_->advance(vehicle_, received);
-  evaluator_->heard(received);
+  evaluator_->receive(received);
   vehicle_.update(state, groups);
   trends_->note(state, groups);
-  heard_ = received;
-  clients_.heard();
+  received_ = received;
+  clients_.receive();
 }
 
 void ReplayConsole::text(recorder::Topic topic, Instant at, std::string_view json) {
@@ -177,7 +177,7 @@ void ReplayConsole::restart(Instant to) {
   trends_.emplace();
   evaluator_.emplace(config_.evaluator);
   unsettled_ = true;
-  heard_.reset();
+  received_.reset();
   messages_.clear();
   clients_.want_full();
   ++jumps_;

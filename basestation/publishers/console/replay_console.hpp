@@ -60,9 +60,9 @@ class ReplayConsole : private StateSource, private replay::Listener {
   service::MessageLog messages_;
   ClientRegistry clients_;
   bool unsettled_ = true;  // since the jump nothing was judged
-  std::optional<Instant> heard_;
+  std::optional<Instant> received_;
   std::uint64_t jumps_ = 0;
-  Duration untold_ = kTellEvery;  // since the playback was told
+  Duration unreported_ = kTellEvery;  // since the playback was told
   std::vector<replay::Listener*> others_;
 };
 

@@ -180,7 +180,7 @@ Request notice(Reader& read) {
   constexpr std::array<std::pair<std::string_view, bool>, 2> kDoings{
       {{"told", true}, {"dismiss", false}}};
   command::AnswerNotice ask{.notice = read.whole<std::uint32_t>("id", 0, kIdMax)};
-  ask.told = read.word("do", kDoings);
+  ask.reported = read.word("do", kDoings);
   return ask;
 }
 

@@ -28,7 +28,7 @@ bool same_value(float a, double b) {
 
 }  // namespace
 
-std::vector<FieldId> told_fields() {
+std::vector<FieldId> reported_fields() {
   std::vector<FieldId> fields;
   for (telemetry::FieldIndex i = 0; i < telemetry::kFieldCount; ++i) {
     const telemetry::GroupRow& group = telemetry::row_of(telemetry::kFields[i].group);
@@ -38,7 +38,7 @@ std::vector<FieldId> told_fields() {
   return fields;
 }
 
-Snapshots::Snapshots() : fields_(told_fields()), told_(fields_.size()) {
+Snapshots::Snapshots() : fields_(reported_fields()), reported_(fields_.size()) {
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     if (is_watched(fields_[i])) watched_.push_back(static_cast<FieldId>(i));
   }
@@ -46,7 +46,7 @@ Snapshots::Snapshots() : fields_(told_fields()), told_(fields_.size()) {
 
 bool Snapshots::safety_changed(const StateSource& eyes, Instant now) const {
   return std::ranges::any_of(watched_, [&](std::size_t place) {
-    return !same_value(told_[place].value, eyes.view(fields_[place], now).value);
+    return !same_value(reported_[place].value, eyes.view(fields_[place], now).value);
   });
 }
 
@@ -66,8 +66,8 @@ std::optional<Frame> Snapshots::make(const StateSource& eyes, Instant now) {
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     const state::FieldView view = eyes.view(fields_[i], now);
     const Entry entry = web::entry_of(fields_[i], view, eyes.judge(fields_[i], view));
-    if (!full && entry.same(told_[i])) continue;
-    told_[i] = entry;
+    if (!full && entry.same(reported_[i])) continue;
+    reported_[i] = entry;
     append(frame, entry);
   }
   last_ = now;

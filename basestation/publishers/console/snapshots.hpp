@@ -43,7 +43,7 @@ class Snapshots {
   static constexpr Duration kFullEvery = seconds(1);
 
   Snapshots();
-  void heard() { news_ = true; }  // a packet of the car
+  void receive() { news_ = true; }  // a packet of the car
   void want_full() { full_wanted_ = true; }
   // The next frame, where one is due.
   std::optional<Frame> make(const StateSource& eyes, Instant now);
@@ -53,13 +53,13 @@ class Snapshots {
   bool safety_changed(const StateSource& eyes, Instant now) const;
 
   std::vector<state::FieldId> fields_, watched_;
-  std::vector<Entry> told_;  // by place in fields_
+  std::vector<Entry> reported_;  // by place in fields_
   bool news_ = false, full_wanted_ = true;
   Instant last_{}, last_full_{};
   std::uint32_t sequence_ = 0;
 };
 
 // Every field that a console may ask for: those that come down the radio, and the base's own.
-std::vector<state::FieldId> told_fields();
+std::vector<state::FieldId> reported_fields();
 
 }  // namespace pitwall::publishers::console

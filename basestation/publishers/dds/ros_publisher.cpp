@@ -78,8 +78,8 @@ class RosPublisher : public service::Publisher {
       if (!writer) return Unexpected{writer.error()};
       writers_.push_back(*writer);
     }
-    const auto told = tell_node();
-    if (!told) return Unexpected{told.error()};
+    const auto reported = tell_node();
+    if (!reported) return Unexpected{reported.error()};
     thread_ = std::thread([this] { serve_readers(); });
     return true;
   }

@@ -11,8 +11,8 @@ namespace pitwall::publishers::feed {
 namespace {
 
 std::size_t text_bytes_of(const Item& item) {
-  const auto* const told = std::get_if<Told>(&item);
-  return told == nullptr ? 0 : told->json.size();
+  const auto* const reported = std::get_if<Reported>(&item);
+  return reported == nullptr ? 0 : reported->json.size();
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ void Feed::sample(const telemetry::Snapshot& state, telemetry::GroupSet groups, 
 }
 
 void Feed::text(recorder::Topic topic, Instant at, std::string_view json) {
-  push(Told{.topic = topic, .at = at, .json = std::string{json}});
+  push(Reported{.topic = topic, .at = at, .json = std::string{json}});
 }
 
 void Feed::base_status(std::unique_ptr<const BaseStatus> base_status) {
@@ -63,8 +63,8 @@ void Feed::drop_oldest() {
     for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
       if ((*sample)->groups.has(row.group)) ++drops_[recorder::channel_of(row.group)];
     }
-  } else if (const auto* const told = std::get_if<Told>(&oldest)) {
-    ++drops_[recorder::channel_of(told->topic)];
+  } else if (const auto* const reported = std::get_if<Reported>(&oldest)) {
+    ++drops_[recorder::channel_of(reported->topic)];
   } else {
     ++drops_[kStatusChannel];
   }

@@ -36,13 +36,14 @@ struct Sample {
   telemetry::GroupSet groups{};  // that are newer than before
   Instant received{};
 };
-struct Told {
+struct Reported {
   recorder::Topic topic{};
   Instant at{};
   std::string json;
 };
 using ros_view::BaseStatus;
-using Item = std::variant<std::unique_ptr<const Sample>, Told, std::unique_ptr<const BaseStatus>>;
+using Item =
+    std::variant<std::unique_ptr<const Sample>, Reported, std::unique_ptr<const BaseStatus>>;
 
 inline constexpr std::size_t kStatusChannel = telemetry::kGroups + recorder::kTopics;
 inline constexpr std::size_t kFeedChannels = kStatusChannel + 1;

@@ -39,12 +39,12 @@ void ClientRegistry::left(ClientId client) {
   watch_all_.reset(client);
 }
 
-std::optional<PlaybackControl> ClientRegistry::said(ClientId client, std::string_view text) {
+std::optional<PlaybackControl> ClientRegistry::stated(ClientId client, std::string_view text) {
   return handle_request(client, parse_text(text));
 }
 
-std::optional<PlaybackControl> ClientRegistry::said_bytes(ClientId client,
-                                                          std::span<const std::uint8_t> bytes) {
+std::optional<PlaybackControl> ClientRegistry::stated_bytes(ClientId client,
+                                                            std::span<const std::uint8_t> bytes) {
   return handle_request(client, parse_binary(bytes));
 }
 
@@ -108,12 +108,12 @@ void ClientRegistry::unsubscribe(ClientId client, const Unsubscribe& ask) {
 }
 
 void ClientRegistry::tell_parameters(ClientId client, const GetParameters& ask) {
-  std::vector<Parameter> told;
+  std::vector<Parameter> reported;
   for (const auto& [name, parameter] : parameters_) {
     const bool wanted = ask.names.empty() || std::ranges::count(ask.names, name) > 0;
-    if (wanted) told.push_back({name, parameter.value});
+    if (wanted) reported.push_back({name, parameter.value});
   }
-  send(only(client), parameters_text(told, ask.request));
+  send(only(client), parameters_text(reported, ask.request));
 }
 
 void ClientRegistry::watch(ClientId client, const WatchParameters& ask) {
@@ -130,7 +130,7 @@ void ClientRegistry::watch(ClientId client, const WatchGraph& ask) {
 }
 
 void ClientRegistry::parameters(std::vector<Parameter> parameters) {
-  std::map<ClientId, std::vector<Parameter>> told;
+  std::map<ClientId, std::vector<Parameter>> reported;
   std::map<std::string, Readable> now;
   for (Parameter& parameter : parameters) {
     const auto before = parameters_.find(parameter.name);
@@ -139,12 +139,12 @@ void ClientRegistry::parameters(std::vector<Parameter> parameters) {
     if (before == parameters_.end() || before->second.value != parameter.value) {
       const ClientSet watchers = readable.watchers | watch_all_;
       for (std::size_t client = 0; client < watchers.size(); ++client)
-        if (watchers.test(client)) told[static_cast<ClientId>(client)].push_back(parameter);
+        if (watchers.test(client)) reported[static_cast<ClientId>(client)].push_back(parameter);
     }
     now.insert_or_assign(std::move(parameter.name), readable);
   }
   parameters_ = std::move(now);
-  for (const auto& [client, changed] : told) send(only(client), parameters_text(changed, ""));
+  for (const auto& [client, changed] : reported) send(only(client), parameters_text(changed, ""));
 }
 
 void ClientRegistry::refuse(ClientId client, std::string_view kind, std::string_view why) {
@@ -202,14 +202,14 @@ std::string ClientRegistry::topic_of_tag(std::uint32_t tag) const {
 }
 
 void ClientRegistry::lost(std::span<const web::Drop> drops) {
-  std::map<ClientId, std::string> told;
+  std::map<ClientId, std::string> reported;
   for (const web::Drop& drop : drops) {
     const std::string topic = topic_of_tag(drop.tag);
     lost_[topic] += drop.count;
-    std::string& text = told[drop.client];
+    std::string& text = reported[drop.client];
     text += (text.empty() ? "" : ", ") + topic + " " + std::to_string(drop.count);
   }
-  for (const auto& [client, text] : told) {
+  for (const auto& [client, text] : reported) {
     if (!present_.test(client)) continue;
     publish(client, Level::kWarning, "lost because this client does not read fast enough: " + text);
   }

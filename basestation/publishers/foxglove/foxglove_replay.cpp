@@ -29,7 +29,7 @@ void FoxgloveReplay::state(const telemetry::Snapshot& state, telemetry::GroupSet
 }
 
 void FoxgloveReplay::text(recorder::Topic topic, Instant at, std::string_view json) {
-  server_->take(feed::Told{.topic = topic, .at = at, .json = std::string{json}});
+  server_->take(feed::Reported{.topic = topic, .at = at, .json = std::string{json}});
 }
 
 void FoxgloveReplay::restart(Instant to) {
@@ -44,7 +44,7 @@ void FoxgloveReplay::serve(const replay::Player& player, const Wind& wind, Insta
     wind(ask.play ? static_cast<double>(ask.speed) : 0.0, to);
     publish(player, ask.request, now);
   }
-  if (status_ != status_of(player) || jumped_ || now - told_ >= kTellEvery)
+  if (status_ != status_of(player) || jumped_ || now - reported_ >= kTellEvery)
     publish(player, {}, now);
   server_->turn(now, player.now());
 }
@@ -52,7 +52,7 @@ void FoxgloveReplay::serve(const replay::Player& player, const Wind& wind, Insta
 void FoxgloveReplay::publish(const replay::Player& player, const std::string& request,
                              Instant now) {
   if (player.speed() != 0.0) speed_ = player.speed();
-  told_ = now;
+  reported_ = now;
   status_ = status_of(player);
   server_->playback({.status = *status_,
                      .at = server_->utc(player.now()),

@@ -43,7 +43,7 @@ class FoxgloveReplay : public replay::Listener {
   void publish(const replay::Player& player, const std::string& request, Instant now);
 
   std::unique_ptr<FoxgloveServer> server_;
-  Instant told_{};
+  Instant reported_{};
   std::optional<PlaybackStatus> status_;
   double speed_ = 1.0;  // the newest that was no pause
   bool jumped_ = false;

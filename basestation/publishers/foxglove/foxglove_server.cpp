@@ -44,12 +44,12 @@ std::vector<PlaybackControl> FoxgloveServer::receive() {
       case web::ClientNews::Kind::kLeft:
         room_.left(news->client);
         break;
-      case web::ClientNews::Kind::kSaid:
-        control = room_.said(news->client, news->text);
+      case web::ClientNews::Kind::kStated:
+        control = room_.stated(news->client, news->text);
         break;
       case web::ClientNews::Kind::kBinary: {
         const auto* const bytes = reinterpret_cast<const std::uint8_t*>(news->text.data());
-        control = room_.said_bytes(news->client, {bytes, news->text.size()});
+        control = room_.stated_bytes(news->client, {bytes, news->text.size()});
         break;
       }
     }
@@ -61,8 +61,8 @@ std::vector<PlaybackControl> FoxgloveServer::receive() {
 void FoxgloveServer::take(const feed::Item& item) {
   if (const auto* const sample = std::get_if<std::unique_ptr<const feed::Sample>>(&item)) {
     take(**sample);
-  } else if (const auto* const told = std::get_if<feed::Told>(&item)) {
-    take(*told);
+  } else if (const auto* const reported = std::get_if<feed::Reported>(&item)) {
+    take(*reported);
   } else if (room_.anybody()) {
     sources_.take(*std::get<std::unique_ptr<const feed::BaseStatus>>(item), sink_);
   }
@@ -72,9 +72,9 @@ void FoxgloveServer::take(const feed::Sample& sample) {
   if (room_.anybody()) sources_.take(sample, sink_);
 }
 
-void FoxgloveServer::take(const feed::Told& told) {
-  sources_.take(told, sink_);
-  if (told.topic == recorder::Topic::kSettings) room_.parameters(thresholds_of(told.json));
+void FoxgloveServer::take(const feed::Reported& reported) {
+  sources_.take(reported, sink_);
+  if (reported.topic == recorder::Topic::kSettings) room_.parameters(thresholds_of(reported.json));
 }
 
 void FoxgloveServer::forget(Instant now) {
@@ -84,11 +84,11 @@ void FoxgloveServer::forget(Instant now) {
 
 void FoxgloveServer::turn(Instant now, Instant shown) {
   if (now >= due()) {
-    time_told_ = now;
+    time_reported_ = now;
     room_.time(utc(shown));
   }
-  if (now - losses_told_ >= kLossEvery) {
-    losses_told_ = now;
+  if (now - losses_reported_ >= kLossEvery) {
+    losses_reported_ = now;
     room_.lost(server_->take_drops());
   }
   for (Sending& sending : room_.take()) server_->send(sending.to, std::move(sending.message));

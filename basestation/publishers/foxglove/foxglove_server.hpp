@@ -43,13 +43,13 @@ class FoxgloveServer {
   std::vector<PlaybackControl> receive();
   void take(const feed::Item& item);
   void take(const feed::Sample& sample);
-  void take(const feed::Told& told);
+  void take(const feed::Reported& reported);
   void playback(const PlaybackState& state) { room_.playback(state); }
   // A recording has jumped.
   void forget(Instant now);
   // Sends what is due; `shown` is the time that clients are to show.
   void turn(Instant now, Instant shown);
-  Instant due() const { return time_told_ + kTimeEvery; }
+  Instant due() const { return time_reported_ + kTimeEvery; }
   UtcTime utc(Instant at) const { return sources_.utc(at); }
   service::PublisherFigures figures() const;
 
@@ -60,7 +60,7 @@ class FoxgloveServer {
   Sources sources_;
   ClientRegistry room_;
   Sources::Sink sink_;
-  Instant time_told_{}, losses_told_{};
+  Instant time_reported_{}, losses_reported_{};
 };
 
 }  // namespace pitwall::publishers::foxglove

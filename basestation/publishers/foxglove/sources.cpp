@@ -90,9 +90,10 @@ void Sources::take(const feed::Sample& sample, const Sink& sink) {
             });
 }
 
-void Sources::take(const feed::Told& told, const Sink& sink) const {
-  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(told.json.data());
-  sink(of_recording_[recorder::channel_of(told.topic)], utc(told.at), {bytes, told.json.size()});
+void Sources::take(const feed::Reported& reported, const Sink& sink) const {
+  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(reported.json.data());
+  sink(of_recording_[recorder::channel_of(reported.topic)], utc(reported.at),
+       {bytes, reported.json.size()});
 }
 
 void Sources::take(const feed::BaseStatus& base_status, const Sink& sink) {

@@ -33,7 +33,7 @@ class Sources {
   const std::vector<ChannelRow>& channels() const { return channels_; }
   void statics(Instant now, const Sink& sink);
   void take(const feed::Sample& sample, const Sink& sink);
-  void take(const feed::Told& told, const Sink& sink) const;
+  void take(const feed::Reported& reported, const Sink& sink) const;
   void take(const feed::BaseStatus& base_status, const Sink& sink);
   UtcTime utc(Instant at) const { return UtcTime{clock_.to_file(at).ns}; }
 

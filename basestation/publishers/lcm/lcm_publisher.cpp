@@ -48,8 +48,8 @@ void LcmPublisher::run() {
     for (const feed::Item& item : feed_.take()) {
       if (const auto* const sample = std::get_if<std::unique_ptr<const feed::Sample>>(&item)) {
         publish(**sample);
-      } else if (const auto* const told = std::get_if<feed::Told>(&item)) {
-        publish(*told);
+      } else if (const auto* const reported = std::get_if<feed::Reported>(&item)) {
+        publish(*reported);
       }
     }
   }
@@ -66,12 +66,12 @@ void LcmPublisher::publish(const feed::Sample& sample) {
   }
 }
 
-void LcmPublisher::publish(const feed::Told& told) {
-  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(told.json.data());
-  send({.channel = recorder::channel_of(told.topic),
-        .logged = told.at,
-        .published = told.at,
-        .data = {bytes, told.json.size()}});
+void LcmPublisher::publish(const feed::Reported& reported) {
+  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(reported.json.data());
+  send({.channel = recorder::channel_of(reported.topic),
+        .logged = reported.at,
+        .published = reported.at,
+        .data = {bytes, reported.json.size()}});
 }
 
 void LcmPublisher::send(const recorder::Record& record) {

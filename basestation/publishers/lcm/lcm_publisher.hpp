@@ -48,7 +48,7 @@ class LcmPublisher : public service::Publisher {
  private:
   void run();
   void publish(const feed::Sample& sample);
-  void publish(const feed::Told& told);
+  void publish(const feed::Reported& reported);
   void send(const recorder::Record& record);
 
   Publish publish_;

@@ -107,7 +107,7 @@ void add_web(const web::WebCounters& web, Exposition& out) {
   count("pitwall_web_tls_failed_total", "connections that did not become TLS", web.refused_tls);
   count("pitwall_web_malformed_total", "malformed HTTP requests", web.bad_http);
   count("pitwall_web_refused_total", "HTTP requests answered 4xx", web.refused_http);
-  count("pitwall_web_requests_total", "messages that consoles sent", web.texts_heard);
+  count("pitwall_web_requests_total", "messages that consoles sent", web.texts_received);
   count("pitwall_web_messages_total", "messages sent to consoles", web.messages_sent);
   count("pitwall_web_sent_bytes_total", "bytes sent to consoles", web.bytes_sent);
   count("pitwall_web_pictures_dropped_total", "pictures lost by consoles that did not read",

@@ -139,9 +139,9 @@ void View::look_at_health(const BaseStatus& base_status, Duration utc_minus_base
   std::vector<Level> levels;
   for (const ros::DiagnosticStatus& status : health.status)
     levels.push_back(static_cast<Level>(status.level));
-  if (levels == levels_ && base_status.at - health_told_ < kHealthEvery) return;
+  if (levels == levels_ && base_status.at - health_reported_ < kHealthEvery) return;
   levels_ = std::move(levels);
-  health_told_ = base_status.at;
+  health_reported_ = base_status.at;
   put(kDiagnostics, base_status.at, health, sink);
 }
 

@@ -99,7 +99,7 @@ class View {
   telemetry::Snapshot newest_;
   std::vector<std::uint8_t> bytes_;  // of the message that is told
   std::vector<Level> levels_;        // of the diagnostics that were told last
-  Instant health_told_{};
+  Instant health_reported_{};
   std::uint64_t lost_ = 0;  // by all publishers
   std::optional<Instant> lost_at_{};
 };

@@ -62,7 +62,7 @@ std::string address_text(telemetry::Address address) {
 }
 
 // What the car told of this path, and how long ago.
-std::string told(const service::CarService& car, telemetry::PathId path, Instant now) {
+std::string reported(const service::CarService& car, telemetry::PathId path, Instant now) {
   const state::FieldView radio = car.vehicle().group(telemetry::Group::kRadio, now);
   if (radio.quality == state::Quality::kNever) return "the car has told nothing";
   const bool second = path == 1;
@@ -83,7 +83,7 @@ std::string told(const service::CarService& car, telemetry::PathId path, Instant
 std::vector<TextLine> path_lines(const service::CarService& car, const LinkReport& report,
                                  telemetry::PathId path, Instant now) {
   const telemetry::PathReport& p = report.paths[path];
-  const telemetry::PathFigures& h = p.heard;
+  const telemetry::PathFigures& h = p.received;
   std::vector<TextLine> lines;
   const std::string bursts = h.mean_bad.ns > 0
                                  ? formatted("bursts %.0f ms each %.1f s",
@@ -103,7 +103,7 @@ std::vector<TextLine> path_lines(const service::CarService& car, const LinkRepor
                  p.validated      ? "proved"
                  : p.peer.known() ? "not proved"
                                   : "")});
-  lines.push_back({"          " + told(car, path, now)});
+  lines.push_back({"          " + reported(car, path, now)});
   return lines;
 }
 
@@ -221,9 +221,9 @@ std::string place_line(const service::CarService& car) {
 // Attacks and key errors that are there now, and which end sees them.
 void add_threats(const service::CarService& car, const LinkReport& report, Instant now,
                  std::vector<TextLine>& lines) {
-  const state::FieldView told = car.vehicle().view(field("radio.threats"), now);
+  const state::FieldView reported = car.vehicle().view(field("radio.threats"), now);
   const telemetry::ThreatSet by_car =
-      telemetry::threats_of(state::usable(told) ? told.value : kUnset);
+      telemetry::threats_of(state::usable(reported) ? reported.value : kUnset);
   for (std::size_t i = 0; i < telemetry::kThreats; ++i) {
     const auto threat = static_cast<telemetry::Threat>(i);
     const std::size_t seen =

@@ -95,7 +95,7 @@ Refused refused_of(const telemetry::LinkReport& report) {
 }
 
 std::string path_json(const telemetry::PathReport& path) {
-  const telemetry::PathFigures& h = path.heard;
+  const telemetry::PathFigures& h = path.received;
   return Object{}
       .add("received", text_of(h.received))
       .add("lost", text_of(h.lost))

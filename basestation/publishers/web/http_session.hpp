@@ -53,7 +53,7 @@ class WebServer::Engine::HttpSession : public std::enable_shared_from_this<HttpS
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](error_code failed, std::size_t) {
                        if (failed) return self->malformed(failed);
-                       self->engine_.waiting.heard(self->number_);
+                       self->engine_.waiting.receive(self->number_);
                        self->answer();
                      });
   }

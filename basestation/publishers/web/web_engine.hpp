@@ -112,8 +112,8 @@ struct WebServer::Engine {
   WaitingRoom::Connection newest_connection = 0;
   WaitingRoom waiting;
   std::map<WaitingRoom::Connection, std::weak_ptr<HttpSession>> sessions;
-  std::string said;  // of what was refused last, and when
-  std::optional<Instant> said_at;
+  std::string stated;  // of what was refused last, and when
+  std::optional<Instant> stated_at;
   // After what the sessions in its handlers refer to, so that it goes before.
   asio::io_context io{1};
   Tcp::acceptor acceptor;
@@ -217,7 +217,7 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
   }
 
   void read_next() {
-    stream_.async_read(heard_, [self = shared_from_this()](error_code failed, std::size_t) {
+    stream_.async_read(received_, [self = shared_from_this()](error_code failed, std::size_t) {
       self->reading_ = false;
       if (failed) return self->gone();
       self->take();
@@ -227,13 +227,13 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
 
   void take() {
     ++unhandled_;
-    pace_.heard(transport::wall_now());
-    engine_.count([](WebCounters& c) { ++c.texts_heard; });
+    pace_.receive(transport::wall_now());
+    engine_.count([](WebCounters& c) { ++c.texts_received; });
     ClientNews news{
-        .kind = stream_.got_text() ? ClientNews::Kind::kSaid : ClientNews::Kind::kBinary,
+        .kind = stream_.got_text() ? ClientNews::Kind::kStated : ClientNews::Kind::kBinary,
         .client = client_};
-    news.text = beast::buffers_to_string(heard_.data());
-    heard_.consume(heard_.size());
+    news.text = beast::buffers_to_string(received_.data());
+    received_.consume(received_.size());
     engine_.publish(car_, who_.role, std::move(news));
   }
 
@@ -284,7 +284,7 @@ class WebServer::Engine::Socket : public std::enable_shared_from_this<Socket> {
   Identity who_;
   std::size_t car_;  // that it came to
   std::string_view subprotocol_;
-  beast::flat_buffer heard_;
+  beast::flat_buffer received_;
   ClientQueue queue_;
   SharedMessage current_;
   std::array<std::uint8_t, kFrameHeader> header_{};

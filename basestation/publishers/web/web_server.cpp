@@ -82,9 +82,9 @@ void WebServer::Engine::refuse(std::uint64_t WebCounters::*counter, const std::s
   count([counter](WebCounters& c) { ++(c.*counter); });
   const Instant now = transport::wall_now();
   const std::string what = why.substr(0, why.find(':'));
-  if (what == said && said_at && now - *said_at < kSayingAgain) return;
-  said = what;
-  said_at = now;
+  if (what == stated && stated_at && now - *stated_at < kSayingAgain) return;
+  stated = what;
+  stated_at = now;
   responder.config().say("console refused: " + why);
 }
 
@@ -261,7 +261,7 @@ std::optional<ClientNews> WebServer::next_news(std::size_t car) {
     news.pop_front();
     if (item->kind == ClientNews::Kind::kLeft) door.leaving.reset(item->client);
   }
-  if (item->kind == ClientNews::Kind::kSaid || item->kind == ClientNews::Kind::kBinary) {
+  if (item->kind == ClientNews::Kind::kStated || item->kind == ClientNews::Kind::kBinary) {
     send(ClientSet{}.set(item->client), nullptr);
   }
   return item;

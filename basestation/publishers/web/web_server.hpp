@@ -36,7 +36,7 @@
 namespace pitwall::publishers::web {
 
 struct ClientNews {
-  enum class Kind : std::uint8_t { kJoined, kLeft, kSaid, kBinary };
+  enum class Kind : std::uint8_t { kJoined, kLeft, kStated, kBinary };
   Kind kind = Kind::kJoined;
   ClientId client = 0;
   Identity who{};      // kJoined
@@ -60,7 +60,7 @@ struct WebCounters {
   std::uint64_t refused_tls = 0;                    // no TLS at a port of TLS, or another failure
   std::uint64_t bad_http = 0, refused_http = 0;     // malformed; answered 4xx
   std::uint64_t joined = 0, left = 0;
-  std::uint64_t texts_heard = 0, messages_sent = 0, bytes_sent = 0;
+  std::uint64_t texts_received = 0, messages_sent = 0, bytes_sent = 0;
   std::uint64_t pictures_dropped = 0;  // of clients that did not read, all together
   std::uint64_t closed_unread = 0;     // that left too much unread
   std::uint64_t posts_dropped = 0;     // this thread did not keep up with the caller

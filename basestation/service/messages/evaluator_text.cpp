@@ -95,12 +95,12 @@ struct Writer {
   Object& out;
   Instant now;
 
-  void operator()(const PacketReceived& heard) const {
-    out.text("what", "heard").text("silence_ns", std::to_string((now - heard.at).ns));
+  void operator()(const PacketReceived& received) const {
+    out.text("what", "heard").text("silence_ns", std::to_string((now - received.at).ns));
   }
   void operator()(const LinkFigures& link) const {
     out.text("what", "link");
-    if (link.heard) out.text("silence_ns", std::to_string((now - *link.heard).ns));
+    if (link.received) out.text("silence_ns", std::to_string((now - *link.received).ns));
     put(out, link, kLink);
   }
   void operator()(const BaseFigures& base) const {
@@ -122,7 +122,7 @@ struct Writer {
   void operator()(const NoticeAction& act) const {
     out.text("what", "notice")
         .number("notice", act.notice)
-        .flag("told", act.told)
+        .flag("told", act.reported)
         .text("by", act.by);
   }
   void operator()(const LimitEdit& edit) const {
@@ -155,7 +155,7 @@ Object begun(const char* type, Instant now) {
 LinkFigures link_of(const JsonValue& from, Instant at) {
   LinkFigures link;
   if (from.find("silence_ns") != nullptr)
-    link.heard = at - Duration{whole<std::int64_t>(from, "silence_ns")};
+    link.received = at - Duration{whole<std::int64_t>(from, "silence_ns")};
   get(from, link, kLink);
   return link;
 }
@@ -251,7 +251,7 @@ Result<EvaluatorInput, Problem> read_input_text(std::string_view text, Instant a
   if (what == "alarm") return EvaluatorInput{alarm_of(from)};
   if (what == "notice")
     return EvaluatorInput{NoticeAction{
-        .notice = id_of(from, "notice"), .told = from.flag("told"), .by = from.text("by")}};
+        .notice = id_of(from, "notice"), .reported = from.flag("told"), .by = from.text("by")}};
   const auto field = state::find_field(from.text("field"));
   if (what == "limit" && field) return EvaluatorInput{limit_of(from, *field)};
   return Unexpected{Problem{"input", "not an input of the alarm evaluator: " + what}};

@@ -16,7 +16,7 @@ void AlarmCheck::state(const telemetry::Snapshot& state, telemetry::GroupSet gro
                        Instant received) {
   if (evaluator_) {
     evaluator_->advance(vehicle_, received);
-    evaluator_->heard(received);
+    evaluator_->receive(received);
   }
   vehicle_.update(state, groups);
 }
@@ -46,19 +46,19 @@ void AlarmCheck::text(recorder::Topic topic, Instant at, std::string_view json) 
   if (topic == kAlarmEvent) compare_line(json);
 }
 
-void AlarmCheck::compare_line(std::string_view told) {
+void AlarmCheck::compare_line(std::string_view reported) {
   ++lines_;
   ++line_;
   const auto& history = evaluator_->alarms().history();
   const auto line = std::ranges::find(history, line_, &alarms::AlarmEvent::number);
-  compare(told, line == history.end() ? "nothing" : alarm_event_text(*line));
+  compare(reported, line == history.end() ? "nothing" : alarm_event_text(*line));
 }
 
-void AlarmCheck::compare(std::string_view told, const std::string& again) {
-  if (told == again) return;
+void AlarmCheck::compare(std::string_view reported, const std::string& again) {
+  if (reported == again) return;
   ++different_;
   if (differences_.size() < kListed)
-    differences_.push_back("told: " + std::string{told} + "\nagain: " + again);
+    differences_.push_back("told: " + std::string{reported} + "\nagain: " + again);
 }
 
 Result<AlarmCheck, Problem> check_alarms(const std::string& folder, std::vector<std::string>& say) {

@@ -39,8 +39,8 @@ class AlarmCheck : public replay::Listener {
   const alarms::Evaluator& watch() const { return *evaluator_; }
 
  private:
-  void compare(std::string_view told, const std::string& again);
-  void compare_line(std::string_view told);
+  void compare(std::string_view reported, const std::string& again);
+  void compare_line(std::string_view reported);
 
   state::VehicleState vehicle_;
   std::optional<alarms::Evaluator> evaluator_;

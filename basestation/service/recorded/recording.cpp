@@ -14,7 +14,7 @@
 namespace pitwall::service {
 namespace {
 
-std::string told(const replay::ReadBack& back, Duration took) {
+std::string reported(const replay::ReadBack& back, Duration took) {
   return formatted("known again: %llu messages of %.0f s, read in %.0f ms",
                    static_cast<unsigned long long>(back.messages),
                    (back.last - back.first).seconds(), took.milliseconds());
@@ -86,7 +86,7 @@ Result<std::unique_ptr<recorder::Recorder>, Problem> start_recording(
   const replay::ReadBack back =
       replay::read_back(folder, (*recorder)->clock(), begun, replay::kHistorySpan, log);
   for (const std::string& problem : back.problems) say(problem);
-  if (back.messages != 0) say(told(back, transport::monotonic_now() - begun));
+  if (back.messages != 0) say(reported(back, transport::monotonic_now() - begun));
   record(car, **recorder, begun);
   if (const auto restored = log.entries().result(begun))
     car.restore(restored->entries, restored->fuel_left_l, begun);

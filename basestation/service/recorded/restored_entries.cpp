@@ -12,10 +12,10 @@ namespace {
 using telemetry::field;
 
 // Times in a text are those of the clock that it was told on: only differences count.
-Instant entered_at(const json::JsonValue& text, Instant told) {
+Instant entered_at(const json::JsonValue& text, Instant reported) {
   const double age_ms = text.number("time_ms") - text.number("fuel_ms");
-  if (!std::isfinite(age_ms)) return told;
-  return told - Duration{static_cast<std::int64_t>(age_ms * kNanosecondsPerMillisecond)};
+  if (!std::isfinite(age_ms)) return reported;
+  return reported - Duration{static_cast<std::int64_t>(age_ms * kNanosecondsPerMillisecond)};
 }
 
 }  // namespace
@@ -23,16 +23,16 @@ Instant entered_at(const json::JsonValue& text, Instant told) {
 void EntriesReader::expected(std::string_view json, Instant at) {
   const auto text = json::JsonValue::parse(json, "expected");
   if (!text) return;
-  command::OperatorEntries said;
-  said.expected.round_speed_mps = text->number("round_speed_mps");
-  said.expected.track_flag = text->number("track_flag");
-  said.expected.fuel_loaded_l = text->number("fuel_loaded_l");
-  said.expected.fuel_entries = std::isnan(said.expected.fuel_loaded_l) ? 0 : 1;
-  said.round_speed_by = text->text("round_speed_by");
-  said.fuel_by = text->text("fuel_by");
-  said.fuel_at = entered_at(*text, at);
+  command::OperatorEntries stated;
+  stated.expected.round_speed_mps = text->number("round_speed_mps");
+  stated.expected.track_flag = text->number("track_flag");
+  stated.expected.fuel_loaded_l = text->number("fuel_loaded_l");
+  stated.expected.fuel_entries = std::isnan(stated.expected.fuel_loaded_l) ? 0 : 1;
+  stated.round_speed_by = text->text("round_speed_by");
+  stated.fuel_by = text->text("fuel_by");
+  stated.fuel_at = entered_at(*text, at);
   fuel_.loaded(text->number("fuel_left_l"));
-  said_ = std::move(said);
+  stated_ = std::move(stated);
 }
 
 void EntriesReader::state(const telemetry::Snapshot& state, telemetry::GroupSet groups) {
@@ -41,12 +41,12 @@ void EntriesReader::state(const telemetry::Snapshot& state, telemetry::GroupSet 
              .throttle = state.values[field("powertrain.throttle_position")],
              .running = state.values[field("engine.running")] > 0.0};
   engine_at_ = state.at(telemetry::Group::kPowertrain);
-  fuel_.heard(engine_, *engine_at_);
+  fuel_.receive(engine_, *engine_at_);
 }
 
 std::optional<RestoredEntries> EntriesReader::result(Instant now) const {
-  if (!said_) return std::nullopt;
-  RestoredEntries recalled{.entries = *said_, .fuel_left_l = fuel_.level_l()};
+  if (!stated_) return std::nullopt;
+  RestoredEntries recalled{.entries = *stated_, .fuel_left_l = fuel_.level_l()};
   if (!std::isfinite(recalled.fuel_left_l)) return recalled;
   if (engine_at_ && *engine_at_ < now && std::isfinite(engine_.throttle)) {
     const double burnt_l = state::fuel_flow_lps(engine_) * (now - *engine_at_).seconds();

@@ -24,7 +24,7 @@ std::optional<Role> role_of_flag(double vehicle_flag) {
   return vehicle_flag == kAttackerFlag ? Role::kAttacker : Role::kNone;
 }
 
-void AttemptBook::heard(const RaceSample& sample, double attempt_laps, Instant at) {
+void AttemptBook::receive(const RaceSample& sample, double attempt_laps, Instant at) {
   const bool runs = state_ == AttemptState::kRunning || state_ == AttemptState::kUsedUp ||
                     state_ == AttemptState::kPassed;
   const std::optional<Role> role = role_of_flag(sample.vehicle_flag);

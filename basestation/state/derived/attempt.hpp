@@ -53,7 +53,7 @@ class AttemptBook {
   static constexpr Duration kEndsAfter = seconds(1), kByStation = seconds(2);
   static constexpr double kNear_m = 200.0;  // who passes was nearer than this, and still is
 
-  void heard(const RaceSample& sample, double attempt_laps, Instant at);
+  void receive(const RaceSample& sample, double attempt_laps, Instant at);
   Attempt attempt() const;
 
  private:

@@ -6,8 +6,8 @@
 
 namespace pitwall::state {
 
-void CorrectionWatch::heard(std::size_t unit, double correction_age_s, double satellites,
-                            Instant at) {
+void CorrectionWatch::receive(std::size_t unit, double correction_age_s, double satellites,
+                              Instant at) {
   Unit& one = units_.at(unit);
   if (satellites < kSatellites) {
     one.sky_lost = at;

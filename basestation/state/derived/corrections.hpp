@@ -30,7 +30,7 @@ class CorrectionWatch {
   static constexpr double kSatellites = 5.0;  // fewer: the sky is lost, not the caster
 
   // A sample of one receiver, true at `at`.
-  void heard(std::size_t unit, double correction_age_s, double satellites, Instant at);
+  void receive(std::size_t unit, double correction_age_s, double satellites, Instant at);
   bool conflict(Instant now) const;
 
  private:

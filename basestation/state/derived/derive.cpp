@@ -30,7 +30,7 @@ void derive_link(const Pass& pass, const Known& known, const MonitorState& monit
   const LinkFigures& link = known.link;
   const auto yes = [](bool is) { return is ? 1.0 : 0.0; };
   pass.put(kLinkState, static_cast<double>(monitors.link.state()));
-  pass.put(kLinkSilence, link.heard ? (pass.now - *link.heard).milliseconds() : kUnset);
+  pass.put(kLinkSilence, link.received ? (pass.now - *link.received).milliseconds() : kUnset);
   pass.put(kDownLoss, link.down_loss);
   pass.put(kUpLoss, link.up_loss);
   pass.put(kRoundTrip, link.round_trip_ms);
@@ -210,12 +210,13 @@ void derive_flags(const Pass& pass, const Expectations& expected) {
                           .car_vehicle = pass.value(field("flags.vehicle_acted_on")),
                           .pit_wall_track = expected.track_flag,
                           .encodings_differ = pass.value(field("flags.conflict"))};
-  const bool heard = !std::isnan(flags.race_control_track) || !std::isnan(flags.car_track);
-  pass.put(BaseField::kFlagConflict, heard ? (flag_conflict(flags) ? 1.0 : 0.0) : kUnset, {kTrack});
+  const bool received = !std::isnan(flags.race_control_track) || !std::isnan(flags.car_track);
+  pass.put(BaseField::kFlagConflict, received ? (flag_conflict(flags) ? 1.0 : 0.0) : kUnset,
+           {kTrack});
   const double round_mps = pass.value(kRound);
-  const RoundSpeedSaid speeds{.race_control_mps = round_mps,
-                              .pit_wall_mps = expected.round_speed_mps,
-                              .car_target_mps = pass.usable(kTarget)};
+  const RoundSpeedStated speeds{.race_control_mps = round_mps,
+                                .pit_wall_mps = expected.round_speed_mps,
+                                .car_target_mps = pass.usable(kTarget)};
   pass.put(BaseField::kRaceControlSpeed, round_mps, {kRound});
   pass.put(BaseField::kRoundSpeedExpected, expected.round_speed_mps);
   pass.put(BaseField::kRoundSpeedConflict,
@@ -270,24 +271,24 @@ bool MonitorState::sampled_anew(const VehicleState& vehicle, Group group, Instan
 }
 
 // By the car's own level where it tells one, else by what was loaded and burnt.
-void MonitorState::step_fuel(const VehicleState& vehicle, const Expectations& said, Instant now) {
+void MonitorState::step_fuel(const VehicleState& vehicle, const Expectations& stated, Instant now) {
   const auto value = [&](FieldIndex index) { return vehicle.view(index, now).value; };
   const double level_l = value(field("fuel.level")), lap = value(field("track.lap"));
   fuel_measured_ = fuel_measured_ || !std::isnan(level_l);
-  bool reckoned = said.fuel_entries != fuel_entries_;
-  if (reckoned) estimate_.loaded(said.fuel_loaded_l);
-  fuel_entries_ = said.fuel_entries;
+  bool reckoned = stated.fuel_entries != fuel_entries_;
+  if (reckoned) estimate_.loaded(stated.fuel_loaded_l);
+  fuel_entries_ = stated.fuel_entries;
   if (sampled_anew(vehicle, Group::kPowertrain, now, engine_at_)) {
-    estimate_.heard({.speed_rpm = value(field("engine.speed")),
-                     .throttle = value(field("powertrain.throttle_position")),
-                     .running = value(field("engine.running")) > 0.0},
-                    engine_at_);
+    estimate_.receive({.speed_rpm = value(field("engine.speed")),
+                       .throttle = value(field("powertrain.throttle_position")),
+                       .running = value(field("engine.running")) > 0.0},
+                      engine_at_);
     reckoned = true;
   }
   if (sampled_anew(vehicle, Group::kFuel, now, fuel_at_)) {
-    fuel.heard(level_l, value(field("fuel.used")), lap);
+    fuel.receive(level_l, value(field("fuel.used")), lap);
   }
-  if (!fuel_measured_ && reckoned) fuel.heard(estimate_.level_l(), estimate_.used_l(), lap);
+  if (!fuel_measured_ && reckoned) fuel.receive(estimate_.level_l(), estimate_.used_l(), lap);
 }
 
 FuelLeft MonitorState::fuel_left(const FuelPlan& plan) const {
@@ -303,8 +304,8 @@ void MonitorState::step(const VehicleState& vehicle, const Known& known, Instant
   constexpr std::array kGroups{Group::kGnss0, Group::kGnss1};
   for (std::size_t unit = 0; unit < kReceivers.size(); ++unit) {
     if (!sampled_anew(vehicle, kGroups[unit], now, gnss_at_[unit])) continue;
-    corrections.heard(unit, value(kReceivers[unit].correction_age),
-                      value(kReceivers[unit].satellites), gnss_at_[unit]);
+    corrections.receive(unit, value(kReceivers[unit].correction_age),
+                        value(kReceivers[unit].satellites), gnss_at_[unit]);
   }
 }
 

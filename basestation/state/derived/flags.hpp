@@ -23,12 +23,12 @@ struct FlagEntries {
   double pit_wall_track = kUnset;
   double encodings_differ = kUnset;  // 1: the two ways of race control into the car disagree
 };
-bool flag_conflict(const FlagEntries& said);
+bool flag_conflict(const FlagEntries& stated);
 
-struct RoundSpeedSaid {
+struct RoundSpeedStated {
   double race_control_mps = kUnset, pit_wall_mps = kUnset, car_target_mps = kUnset;
 };
-bool round_speed_conflict(const RoundSpeedSaid& said);
+bool round_speed_conflict(const RoundSpeedStated& stated);
 
 // Which of two flags binds the car more; RED, then black, yellow, green. Unknown flags bind most.
 int restriction_of_track_flag(double flag);

@@ -11,7 +11,7 @@ constexpr double kFilled_l = 2.0;  // a level that rises by less sloshes
 
 }  // namespace
 
-void FuelBook::heard(double level_l, double used_l, double lap) {
+void FuelBook::receive(double level_l, double used_l, double lap) {
   if (!std::isfinite(level_l)) return;
   const bool by_used = std::isfinite(used_l);
   const double burnt_l = by_used ? used_l : -level_l;

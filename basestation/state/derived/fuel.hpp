@@ -40,7 +40,7 @@ class FuelBook {
   static constexpr std::size_t kLaps = 3;
 
   // `used_l`: since the start, where the car counts it; finer than the level.
-  void heard(double level_l, double used_l, double lap);
+  void receive(double level_l, double used_l, double lap);
   FuelLeft left(const FuelPlan& plan) const;
 
  private:

@@ -50,7 +50,7 @@ void FuelEstimate::loaded(double litres) {
   used_when_loaded_l_ = used_l_;
 }
 
-void FuelEstimate::heard(const EngineSample& sample, Instant sampled) {
+void FuelEstimate::receive(const EngineSample& sample, Instant sampled) {
   if (!std::isfinite(sample.speed_rpm) || !std::isfinite(sample.throttle)) return;
   if (newest_ && sampled <= *newest_) return;
   const double flow_lps = fuel_flow_lps(sample);

@@ -36,7 +36,7 @@ class FuelEstimate {
   static constexpr Duration kGap = seconds(2);
 
   void loaded(double litres);
-  void heard(const EngineSample& sample, Instant sampled);
+  void receive(const EngineSample& sample, Instant sampled);
 
   double level_l() const;  // never below zero; unset where nobody has entered any
   double used_l() const { return used_l_; }

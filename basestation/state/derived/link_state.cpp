@@ -4,8 +4,8 @@
 namespace pitwall::state {
 
 void LinkWatch::step(const LinkFigures& link, Instant now) {
-  if (!link.heard) return;
-  if (now - *link.heard >= kLostAfter) return become(LinkState::kLost, now);
+  if (!link.received) return;
+  if (now - *link.received >= kLostAfter) return become(LinkState::kLost, now);
   const bool poor =
       link.down_loss > kLossMax || link.up_loss > kLossMax || link.round_trip_ms > kRoundTripMax_ms;
   if (state_ == LinkState::kLost || poor) {

@@ -88,14 +88,14 @@ void MonitorState::step_race(const VehicleState& vehicle, const FuelPlan& plan,
                              const Course* course, Instant now) {
   const auto value = [&](FieldIndex index) { return usable_at(vehicle, index, now); };
   const Opponents seen = opponents_of(vehicle, course, now);
-  attempts.heard({.track_flag = value(field("flags.track")),
-                  .vehicle_flag = value(field("flags.vehicle")),
-                  .lap = value(field("track.lap")),
-                  .station_m = value(kOwnStation),
-                  .course_m = course != nullptr ? course->length_m() : kUnset,
-                  .gap_ahead_m = seen.now ? seen.gaps.ahead.metres : kUnset,
-                  .gap_behind_m = seen.now ? seen.gaps.behind.metres : kUnset},
-                 plan.attempt_laps, now);
+  attempts.receive({.track_flag = value(field("flags.track")),
+                    .vehicle_flag = value(field("flags.vehicle")),
+                    .lap = value(field("track.lap")),
+                    .station_m = value(kOwnStation),
+                    .course_m = course != nullptr ? course->length_m() : kUnset,
+                    .gap_ahead_m = seen.now ? seen.gaps.ahead.metres : kUnset,
+                    .gap_behind_m = seen.now ? seen.gaps.behind.metres : kUnset},
+                   plan.attempt_laps, now);
 }
 
 }  // namespace pitwall::state

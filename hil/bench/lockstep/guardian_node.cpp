@@ -9,7 +9,7 @@ namespace {
 
 using faults::BenchFaultKind;
 
-constexpr std::size_t kHeardFrames = 4096;
+constexpr std::size_t kReceivedFrames = 4096;
 
 }  // namespace
 
@@ -19,8 +19,8 @@ GuardianNode::GuardianNode(const pipeline::CarParams& params,
       processes_(std::move(processes)),
       present_(present || !processes_.empty()),
       state_(std::make_unique<guardian::State>()),
-      told_(std::make_unique<pipeline::Told>()) {
-  inbox_.reserve(kHeardFrames);
+      reported_(std::make_unique<pipeline::Reported>()) {
+  inbox_.reserve(kReceivedFrames);
 }
 
 bool GuardianNode::active(BenchFaultKind kind, Instant now) const {
@@ -39,12 +39,12 @@ bool GuardianNode::car_restarts(Instant now) {
   const bool restarts = std::exchange(was_killed_, killed) && !killed;
   if (!restarts) return false;
   ++run_;
-  *told_ = {};
+  *reported_ = {};
   return true;
 }
 
 void GuardianNode::receive(const can::ReceivedFrame& received) {
-  if (present_ && inbox_.size() < kHeardFrames) inbox_.push_back(received);
+  if (present_ && inbox_.size() < kReceivedFrames) inbox_.push_back(received);
 }
 
 std::span<const can::Frame> GuardianNode::step(const world::SensorInput& samples, Instant now) {
@@ -55,7 +55,7 @@ std::span<const can::Frame> GuardianNode::step(const world::SensorInput& samples
     output_ = {};
     return {};
   }
-  const guardian::CarRecord& record = told_->record;
+  const guardian::CarRecord& record = reported_->record;
   output_ = guardian::step(params_, *state_,
                            {.record = record.run == 0 ? nullptr : &record,
                             .can = inbox_,
@@ -74,7 +74,7 @@ void GuardianNode::publish(const pipeline::Setup& setup, const pipeline::Car& ca
                            const pipeline::Outputs& out, Instant now) {
   if (!present_) return;
   const bool unarmed_start = !armed_from_the_start();
-  pipeline::publish(setup, car, out, {.id = run_, .reset = unarmed_start}, now, *told_);
+  pipeline::publish(setup, car, out, {.id = run_, .reset = unarmed_start}, now, *reported_);
 }
 
 }  // namespace pitwall::bench

@@ -49,7 +49,7 @@ class GuardianNode {
   std::vector<faults::BenchFault> processes_;
   bool present_, was_killed_ = false;
   std::unique_ptr<guardian::State> state_;
-  std::unique_ptr<pipeline::Told> told_;
+  std::unique_ptr<pipeline::Reported> reported_;
   guardian::Status published_;  // as a dead guardian leaves it
   std::vector<can::ReceivedFrame> inbox_;
   guardian::Output output_;

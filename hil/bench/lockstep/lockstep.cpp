@@ -47,7 +47,7 @@ class Lockstep {
         car_(std::make_unique<pipeline::Car>()),
         stepped_at_(Instant{} - setup.params.rates.tick) {
     inbox_.reserve(kInboxFrames);
-    heard_.reserve(kInboxFrames);
+    received_.reserve(kInboxFrames);
     if (options.log) record_.emplace(scenario, "lockstep", options.log);
   }
 
@@ -105,8 +105,8 @@ class Lockstep {
     base_.receive(in);
     hang_planner(now);
     out_ = options_.step(setup_, *car_, in);
-    const auto told = base_.publish(*car_, in, *out_, decoder_.traffic());
-    if (told && options_.watch_telemetry) options_.watch_telemetry(*told, now);
+    const auto reported = base_.publish(*car_, in, *out_, decoder_.traffic());
+    if (reported && options_.watch_telemetry) options_.watch_telemetry(*reported, now);
     stepped_at_ = now;
     if (out_->bus_guard.restart_now) restart_controller(now);
     decoder_.clear();
@@ -155,8 +155,8 @@ class Lockstep {
   }
 
   void step_rig(Instant at) {
-    rig_.step(heard_, at);
-    heard_.clear();
+    rig_.step(received_, at);
+    received_.clear();
     for (const Outgoing& outgoing : rig_.take_frames())
       if (bus_.offer(static_cast<std::uint8_t>(outgoing.from), outgoing.frame, at))
         ++result_.traffic.to_car;
@@ -173,8 +173,8 @@ class Lockstep {
     const auto to = static_cast<Node>(delivery.to);
     if (to == Node::kCar && inbox_.size() < kInboxFrames) inbox_.push_back(delivery.received);
     if (to == Node::kGuardian) guardian_.receive(delivery.received);
-    if (to == Node::kDriveByWire && heard_.size() < kInboxFrames) {
-      heard_.push_back(delivery.received);
+    if (to == Node::kDriveByWire && received_.size() < kInboxFrames) {
+      received_.push_back(delivery.received);
       if (from == Node::kCar) ++result_.traffic.bench_received;
     }
     const bool computer = from == Node::kCar || from == Node::kGuardian;
@@ -185,12 +185,12 @@ class Lockstep {
   void judge(const pipeline::Outputs& out, Instant now) {
     const CarReport report{.mode = static_cast<double>(out.chosen.mode),
                            .gate_refusals = static_cast<double>(out.passed.refused_total),
-                           .bus_refusals = static_cast<double>(out.heard.bus.refused.total()),
+                           .bus_refusals = static_cast<double>(out.received.bus.refused.total()),
                            .x_m = out.ego.x_m,
                            .y_m = out.ego.y_m,
                            .yaw_rad = out.ego.yaw_rad,
-                           .identity = static_cast<double>(out.heard.bus.identity.verdict),
-                           .differing_id = static_cast<double>(out.heard.bus.identity.id),
+                           .identity = static_cast<double>(out.received.bus.identity.verdict),
+                           .differing_id = static_cast<double>(out.received.bus.identity.id),
                            .cause = static_cast<double>(out.chosen.cause),
                            .operator_limit_mps = out.speed_limit_mps,
                            .seen = out.seen};
@@ -209,8 +209,8 @@ class Lockstep {
     result_.speed_max_mps = std::max(result_.speed_max_mps, rig_.truth().speed_mps);
     follow(result_.outcome, whereabouts(rig_, offset_m, now));
     result_.gate_refusals = out.passed.refused_total;
-    result_.bus_refusals = out.heard.bus.refused.total();
-    result_.bus_losses = out.heard.bus.frames_lost;
+    result_.bus_refusals = out.received.bus.refused.total();
+    result_.bus_losses = out.received.bus.frames_lost;
     judge_identity(out);
     if (!record_) return;
     record_->truth(rig_, now, cross_track_m(rig_, offset_m));
@@ -218,7 +218,7 @@ class Lockstep {
   }
 
   void judge_identity(const pipeline::Outputs& out) {
-    const world::BusIdentity& identity = out.heard.bus.identity;
+    const world::BusIdentity& identity = out.received.bus.identity;
     const bool changed = identity.verdict != identity_.verdict || identity.id != identity_.id ||
                          identity.difference != identity_.difference;
     identity_ = identity;
@@ -280,7 +280,7 @@ class Lockstep {
   const LockstepOptions& options_;
   can_bus::MemoryBus bus_;
   std::unique_ptr<pipeline::Car> car_;
-  std::vector<can::ReceivedFrame> inbox_, heard_;
+  std::vector<can::ReceivedFrame> inbox_, received_;
   std::optional<pipeline::Outputs> out_;  // of the car's last tick
   Instant stepped_at_;
   std::optional<RunRecord> record_;

@@ -95,7 +95,7 @@ void VirtualStation::start_base() {
   base_ = std::make_unique<service::CarService>(service::ServiceConfig{}, config(base_keys_),
                                                 randomness_);
   operator_ = inputs::TextOperator{inputs::kScriptPerson};
-  issued_ = events_received_ = paths_received_ = 0;
+  issued_ = events_received_ = paths_reported_ = 0;
   advanced_ = {};
 }
 
@@ -158,9 +158,9 @@ void VirtualStation::serve_base(Instant at) {
 
 void VirtualStation::run_text_commands(Instant at) {
   const auto& words = scenario_.operator_texts;
-  for (; said_ < words.size() && Instant{} + words[said_].at <= at; ++said_) {
-    const auto done = operator_.execute(words[said_].text, base_->requests(), base_time(at));
-    if (!done) refusals_.push_back(words[said_].text + ": " + done.error().what);
+  for (; stated_ < words.size() && Instant{} + words[stated_].at <= at; ++stated_) {
+    const auto done = operator_.execute(words[stated_].text, base_->requests(), base_time(at));
+    if (!done) refusals_.push_back(words[stated_].text + ": " + done.error().what);
   }
 }
 
@@ -175,7 +175,7 @@ void VirtualStation::collect_news() {
   events_received_ = radio.events_received();
   const std::uint64_t paths =
       radio.bulk()[static_cast<std::size_t>(telemetry::BulkKind::kPath)].objects;
-  paths_heard_ += paths - std::exchange(paths_received_, paths);
+  paths_received_ += paths - std::exchange(paths_reported_, paths);
 }
 
 void VirtualStation::receive(pipeline::Inputs& in) {

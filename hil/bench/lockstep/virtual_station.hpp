@@ -69,7 +69,7 @@ class VirtualStation {
   const std::vector<std::string>& refusals() const { return refusals_; }
   const std::vector<telemetry::CommandId>& commands() const { return commands_; }
   const std::vector<telemetry::Event>& events() const { return events_; }  // that the base heard
-  std::uint64_t paths_heard() const { return paths_heard_; }  // that the car means to drive
+  std::uint64_t paths_received() const { return paths_received_; }  // that the car means to drive
 
  private:
   static constexpr Duration kBaseAhead = seconds(12'345);
@@ -100,7 +100,7 @@ class VirtualStation {
   std::optional<telemetry::CarEndpoint> car_;
   std::unique_ptr<service::CarService> base_;
   inputs::TextOperator operator_{inputs::kScriptPerson};
-  std::uint64_t issued_ = 0, events_received_ = 0, paths_received_ = 0;  // of this base
+  std::uint64_t issued_ = 0, events_received_ = 0, paths_reported_ = 0;  // of this base
   std::optional<pipeline::RadioAdapter> adapter_;
   pipeline::TickLog log_;
   std::deque<Waiting> to_car_, to_base_;
@@ -108,11 +108,11 @@ class VirtualStation {
   telemetry::Stamp newest_stamp_ = 0;  // as the base's file has it
   bool spare_ = false;                 // the base that there is, or comes next
   Instant advanced_{};
-  std::size_t said_ = 0;
+  std::size_t stated_ = 0;
   std::vector<std::string> refusals_;
   std::vector<telemetry::CommandId> commands_;
   std::vector<telemetry::Event> events_;
-  std::uint64_t paths_heard_ = 0;
+  std::uint64_t paths_received_ = 0;
 };
 
 }  // namespace pitwall::bench

@@ -98,8 +98,8 @@ const RecordedRun::Place& RecordedRun::place_of(std::uint16_t channel) {
   if (found != places_.end()) return found->second;
   const recording::Channel& here = segment_->reader.channels().at(channel);
   Place place;
-  if (here.topic == recorder::kHeardTopic) place.kind = Kind::kHeard;
-  if (here.topic == recorder::kSaidTopic) place.kind = Kind::kSaid;
+  if (here.topic == recorder::kReceivedTopic) place.kind = Kind::kHeard;
+  if (here.topic == recorder::kSentTopic) place.kind = Kind::kSaid;
   if (here.topic == recorder::kTickTopic) place.kind = Kind::kTick;
   if (here.topic.starts_with(kReceiverTopic)) {
     place.kind = Kind::kReceiver;
@@ -173,10 +173,10 @@ std::optional<Problem> RecordedRun::incomplete(const RecordedTick& tick) const {
   for (const ReceiverBytes& some : tick.receivers) bytes += some.bytes.size();
   const recorder::TickRecord& given = tick.given;
   const std::string number = "tick " + std::to_string(given.number) + ": ";
-  if (tick.heard.size() != given.frames_heard)
-    return problem(number + count_of(tick.heard.size(), given.frames_heard, "frames heard"));
-  if (tick.said.size() != given.frames_said)
-    return problem(number + count_of(tick.said.size(), given.frames_said, "frames said"));
+  if (tick.heard.size() != given.frames_received)
+    return problem(number + count_of(tick.heard.size(), given.frames_received, "frames heard"));
+  if (tick.said.size() != given.frames_sent)
+    return problem(number + count_of(tick.said.size(), given.frames_sent, "frames said"));
   if (bytes != given.receiver_bytes)
     return problem(number + count_of(bytes, given.receiver_bytes, "bytes of receivers"));
   return std::nullopt;

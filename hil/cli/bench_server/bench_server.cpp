@@ -85,7 +85,7 @@ std::vector<std::string> BenchServer::greeting() const {
   return lines;
 }
 
-Answer BenchServer::heard(std::string_view line) {
+Answer BenchServer::receive(std::string_view line) {
   const auto request = parse_request(line);
   if (!request) return refuse(request.error());
   if (const auto* const begin = std::get_if<StartRequest>(&*request)) return start(*begin);
@@ -156,15 +156,15 @@ std::vector<std::string> BenchServer::progressed(std::string_view line) {
     return {};
   }
   const std::string type = value->text("type");
-  std::string told = of_run(run_->start.run, line);
+  std::string reported = of_run(run_->start.run, line);
   if (type == "plan") {
-    run_->plan = told;
+    run_->plan = reported;
   } else if (type == "at") {
-    run_->at = told;
+    run_->at = reported;
   } else if (type == "result") {
-    run_->result = told;
+    run_->result = reported;
   } else if (type == "event") {
-    run_->events.push_back(told);
+    run_->events.push_back(reported);
     if (run_->events.size() > kEventsKept) run_->events.pop_front();
   } else if (type == "failure") {
     run_->why = value->text("what");
@@ -173,7 +173,7 @@ std::vector<std::string> BenchServer::progressed(std::string_view line) {
     ++counters_.malformed;
     return {};
   }
-  return {std::move(told)};
+  return {std::move(reported)};
 }
 
 std::vector<std::string> BenchServer::ended(const Ending& ending) {

@@ -58,7 +58,7 @@ class BenchServer {
       : scenarios_(std::move(scenarios)), identity_(std::move(identity)) {}
 
   std::vector<std::string> greeting() const;
-  Answer heard(std::string_view line);
+  Answer receive(std::string_view line);
 
   // `folder`: where the run leaves its files.
   std::vector<std::string> started(std::string folder);

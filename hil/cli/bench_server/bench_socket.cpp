@@ -65,8 +65,8 @@ void BenchSocket::welcome() {
 void BenchSocket::receive() {
   for (transport::LineSocket& client : clients_) {
     for (const std::string& line : client.receive()) {
-      const Answer answer = server_.heard(line);
-      for (const std::string& told : answer.to_asker) client.send(told);
+      const Answer answer = server_.receive(line);
+      for (const std::string& reported : answer.to_asker) client.send(reported);
       publish(answer.to_all);
       if (answer.start) begin(*answer.start);
       if (!answer.stop || !running_) continue;

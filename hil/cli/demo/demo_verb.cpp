@@ -78,7 +78,7 @@ std::vector<std::string> base_words(const DemoOptions& options, std::span<const 
 }
 
 // What the program says goes into a file.
-std::vector<std::string> said_into(const std::string& file, std::vector<std::string> words) {
+std::vector<std::string> stated_into(const std::string& file, std::vector<std::string> words) {
   words.insert(words.begin(), {"sh", "-c", "out=$1; shift; exec \"$@\" > \"$out\"", "sh", file});
   return words;
 }
@@ -89,7 +89,7 @@ Result<transport::Process, Problem> start_base(const DemoOptions& options,
   if (!options.headless) return transport::Process::spawn({.argv = words});
   words.emplace_back("--plain");
   return transport::Process::spawn(
-      {.argv = said_into(options.folder + "/base_screen.txt", std::move(words))});
+      {.argv = stated_into(options.folder + "/base_screen.txt", std::move(words))});
 }
 
 // Whether a program on this machine takes connections at this port.
@@ -188,7 +188,7 @@ Result<std::vector<int>, Problem> run_several(const DemoOptions& options,
     if (!hub) return Unexpected{hub.error()};
     hubs.push_back(*std::move(hub));
     auto bench = transport::Process::spawn(
-        {.argv = said_into(car.folder + "/run.txt", bench_options(options, car))});
+        {.argv = stated_into(car.folder + "/run.txt", bench_options(options, car))});
     if (!bench) return Unexpected{bench.error()};
     benches.push_back(*std::move(bench));
   }
@@ -222,9 +222,9 @@ int report(const DemoOptions& options, std::span<const DemoCar> cars, std::span<
   std::string json;
   for (std::size_t i = 0; i < cars.size(); ++i) {
     if (several) {
-      const auto said = transport::read_file(cars[i].folder + "/run.txt");
+      const auto stated = transport::read_file(cars[i].folder + "/run.txt");
       std::printf("\ncar %d %s\n%s", cars[i].number, cars[i].name.c_str(),
-                  said ? said->c_str() : "");
+                  stated ? stated->c_str() : "");
     }
     auto read = read_report(cars[i], codes[i]);
     if (!read) return refuse(read.error());

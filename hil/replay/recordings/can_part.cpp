@@ -19,8 +19,8 @@ using replay::CanLog;
 using replay::LoggedDirection;
 
 LoggedDirection direction_of(const std::string& source) {
-  if (source == recorder::kHeardTopic) return LoggedDirection::kReceived;
-  if (source == recorder::kSaidTopic) return LoggedDirection::kTransmitted;
+  if (source == recorder::kReceivedTopic) return LoggedDirection::kReceived;
+  if (source == recorder::kSentTopic) return LoggedDirection::kTransmitted;
   return LoggedDirection::kUnknown;
 }
 

@@ -24,15 +24,15 @@ double rounded_up_ms(Duration age) {
   return static_cast<double>((age.ns + step - 1) / step * step) * 1e-6;
 }
 
-struct Said {
+struct Statement {
   HolderId holder;
   std::uint16_t epoch, renewal;
 };
-std::optional<Said> said(const Values& values) {
+std::optional<Statement> stated(const Values& values) {
   const double holder = values[kHolder], epoch = values[kEpoch], renewal = values[kRenewal];
   if (!(holder >= 0 && epoch >= 0 && renewal >= 0)) return std::nullopt;  // unset
-  return Said{static_cast<HolderId>(holder), static_cast<std::uint16_t>(epoch),
-              static_cast<std::uint16_t>(renewal)};
+  return Statement{static_cast<HolderId>(holder), static_cast<std::uint16_t>(epoch),
+                   static_cast<std::uint16_t>(renewal)};
 }
 
 // When the console renewed, never later than the truth.
@@ -89,25 +89,25 @@ void AuthorityRegister::begin(HolderId who, Instant now) {
   renewed_ = now;
 }
 
-void AuthorityView::heard(const Values& values, const Received& received) {
-  const auto now_said = said(values);
-  if (!now_said) return;
-  const bool silent = !heard_at_ || received.at - *heard_at_ > kAuthorityExpiry;
-  if (silent || is_newer(now_said->epoch, epoch_, kNumbers)) {
+void AuthorityView::receive(const Values& values, const Received& received) {
+  const auto now_stated = stated(values);
+  if (!now_stated) return;
+  const bool silent = !received_at_ || received.at - *received_at_ > kAuthorityExpiry;
+  if (silent || is_newer(now_stated->epoch, epoch_, kNumbers)) {
     *this = {};
-    holder_ = now_said->holder;
-    epoch_ = now_said->epoch;
-  } else if (now_said->epoch != epoch_) {
+    holder_ = now_stated->holder;
+    epoch_ = now_stated->epoch;
+  } else if (now_stated->epoch != epoch_) {
     return;
   }
-  heard_at_ = heard_at_ ? std::max(*heard_at_, received.at) : received.at;
-  if (now_said->holder == 0) holder_ = 0;  // this epoch is over, whatever comes late
-  if (holder_ == 0 || holder_ != now_said->holder) return;
-  if (renewed_ && !is_newer(now_said->renewal, renewal_, kNumbers)) return;
+  received_at_ = received_at_ ? std::max(*received_at_, received.at) : received.at;
+  if (now_stated->holder == 0) holder_ = 0;  // this epoch is over, whatever comes late
+  if (holder_ == 0 || holder_ != now_stated->holder) return;
+  if (renewed_ && !is_newer(now_stated->renewal, renewal_, kNumbers)) return;
   // One whose time cannot be told yet counts when a copy of it can be.
   if (const auto renewed = renewal_time(values, received)) {
     renewed_ = *renewed;
-    renewal_ = now_said->renewal;
+    renewal_ = now_stated->renewal;
   }
 }
 

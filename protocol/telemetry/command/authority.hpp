@@ -47,7 +47,7 @@ class AuthorityRegister {
 
 class AuthorityView {
  public:
-  void heard(const Values& values, const Received& received);
+  void receive(const Values& values, const Received& received);
   HolderId holder(Instant now) const;
   bool held(Instant now) const { return holder(now) != 0; }
   // Without another renewal nobody holds it after; in the past where nobody does now.
@@ -60,7 +60,7 @@ class AuthorityView {
 
   HolderId holder_ = 0;  // 0 also after the base said that the epoch is over
   std::uint16_t epoch_ = 0, renewal_ = 0;
-  std::optional<Instant> heard_at_;  // a packet of this epoch
+  std::optional<Instant> received_at_;  // a packet of this epoch
   std::optional<Instant> renewed_;
 };
 

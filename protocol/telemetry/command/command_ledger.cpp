@@ -31,28 +31,28 @@ bool CommandLedgerOf<Depth>::take(const Record& record, const Received& received
 template <std::size_t Depth>
 bool CommandLedgerOf<Depth>::take_command(const Record& record, const Received& received,
                                           const AuthorityView& authority) {
-  const auto said = parse_command(record.payload);
-  if (!said) return false;
-  if (said->base_run != run_) return ++counters_.other_base, true;
-  Entry& entry = entries_[said->number % Depth];
-  if (entry.number == said->number) {
+  const auto stated = parse_command(record.payload);
+  if (!stated) return false;
+  if (stated->base_run != run_) return ++counters_.other_base, true;
+  Entry& entry = entries_[stated->number % Depth];
+  if (entry.number == stated->number) {
     ++counters_.repeated;
     entry.result_known = false;  // it still asks
-    if (entry.waits() && !entry.expires) learn_expiry(entry, *said, received);
+    if (entry.waits() && !entry.expires) learn_expiry(entry, *stated, received);
     return true;
   }
   // What is older than memory reaches has had its answer, else the newer one were not given.
-  if (said->number + std::uint64_t{Depth} <= newest_) return ++counters_.repeated, true;
+  if (stated->number + std::uint64_t{Depth} <= newest_) return ++counters_.repeated, true;
   if (entry.number != 0 && !is_final(entry.outcome)) return ++counters_.full, true;
   ++counters_.received;
-  newest_ = std::max(newest_, said->number);
+  newest_ = std::max(newest_, stated->number);
   entry = {};
-  entry.number = said->number;
-  if (said->known()) {
-    entry.command = said->command();
-    learn_expiry(entry, *said, received);
+  entry.number = stated->number;
+  if (stated->known()) {
+    entry.command = stated->command();
+    learn_expiry(entry, *stated, received);
   }
-  if (const Outcome outcome = judge(*said, authority, received.at); is_final(outcome)) {
+  if (const Outcome outcome = judge(*stated, authority, received.at); is_final(outcome)) {
     settle(entry, outcome);
   }
   return true;
@@ -156,10 +156,10 @@ void CommandLedgerOf<Depth>::settle(Entry& entry, Outcome outcome) {
 
 template <std::size_t Depth>
 std::size_t CommandLedgerOf<Depth>::wanted() const {
-  const auto told = std::count_if(entries_.begin(), entries_.end(), [](const Entry& entry) {
+  const auto reported = std::count_if(entries_.begin(), entries_.end(), [](const Entry& entry) {
     return entry.number != 0 && !entry.result_known;
   });
-  return static_cast<std::size_t>(told) * BodyWriter::record_size(kResultSize);
+  return static_cast<std::size_t>(reported) * BodyWriter::record_size(kResultSize);
 }
 
 template <std::size_t Depth>

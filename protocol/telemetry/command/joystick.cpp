@@ -36,7 +36,7 @@ void JoystickSender::put(Values& values, Instant now) const {
   values[kBrake] = live ? newest_.brake : kUnset;
 }
 
-void JoystickReceiver::heard(const Values& values, const Received& received) {
+void JoystickReceiver::receive(const Values& values, const Received& received) {
   // Unset numbers fail these comparisons; what a device no longer says dies of its age.
   const bool whole = values[kActive] == 1.0 && values[kNumber] >= 0 && values[kAge] >= 0 &&
                      values[kCap] >= 0 && values[kBrake] >= 0;

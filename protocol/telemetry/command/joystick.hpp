@@ -49,7 +49,7 @@ struct JoystickCounters {
 class JoystickReceiver {
  public:
   // `received.sent_earliest` unset: the clocks are not compared, the sample is not used.
-  void heard(const Values& values, const Received& received);
+  void receive(const Values& values, const Received& received);
   std::optional<JoystickSample> sample(Instant now) const;
   // The time of the sample that sample() gives, on the car's clock, never later than the truth.
   std::optional<Instant> sampled_at() const { return taken_at_; }

@@ -36,7 +36,7 @@ std::optional<StopState> stop_state_of(const Values& values) {
                    known ? static_cast<StopReason>(reason) : StopReason::kNone};
 }
 
-void StopLatch::heard(const StopState& state, Instant at) {
+void StopLatch::receive(const StopState& state, Instant at) {
   if (state.level == StopLevel::kNone) return;
   const bool pressed = !epoch_ || is_newer(state.epoch, *epoch_, kStopEpochs);
   const bool raised = state.level > level_;

@@ -52,7 +52,7 @@ std::optional<StopState> stop_state_of(const Values& values);
 
 class StopLatch {
  public:
-  void heard(const StopState& state, Instant at);
+  void receive(const StopState& state, Instant at);
   StopLevel level() const { return level_; }
   StopReason reason() const { return reason_; }
   Instant since() const { return since_; }

@@ -28,7 +28,7 @@ struct CarEndpoint::Parts {
   }
 
   void begin_session(bool peer_restarted);
-  void receive(const Heard& heard);
+  void receive(const ReceivedBody& incoming);
   void hear_groups(const Body& body, const Received& received);
   void take(const Record& record, const Received& received);
   void make_packet(const PacketPlan& plan, Instant now);
@@ -67,22 +67,22 @@ void CarEndpoint::Parts::begin_session(bool peer_restarted) {
   lane.forget();
 }
 
-void CarEndpoint::Parts::receive(const Heard& heard) {
-  const Received& received = heard.received;
+void CarEndpoint::Parts::receive(const ReceivedBody& incoming) {
+  const Received& received = incoming.received;
   if (received.sent_earliest) {
     alive_at = alive_at ? std::max(*alive_at, *received.sent_earliest) : *received.sent_earliest;
   }
-  for (const Delivery& delivery : heard.delivered) lane.acked(delivery.sequence);
-  hear_groups(heard.body, received);
-  for (const Record& record : heard.body.records) take(record, received);
+  for (const Delivery& delivery : incoming.delivered) lane.acked(delivery.sequence);
+  hear_groups(incoming.body, received);
+  for (const Record& record : incoming.body.records) take(record, received);
 }
 
 // Also those of a packet that was overtaken: each knows by its own numbers what is newer.
 void CarEndpoint::Parts::hear_groups(const Body& body, const Received& received) {
-  if (body.groups.has(Group::kAuthority)) authority.heard(body.values, received);
-  if (body.groups.has(Group::kJoystick)) joystick.heard(body.values, received);
+  if (body.groups.has(Group::kAuthority)) authority.receive(body.values, received);
+  if (body.groups.has(Group::kJoystick)) joystick.receive(body.values, received);
   if (!body.groups.has(Group::kStop)) return;
-  if (const auto stop = stop_state_of(body.values)) latch.heard(*stop, received.at);
+  if (const auto stop = stop_state_of(body.values)) latch.receive(*stop, received.at);
   if (latch.challenge() != drawn_for) draw();
 }
 
@@ -115,7 +115,7 @@ void CarEndpoint::feed(std::span<const std::uint8_t> datagram, PathId path, Addr
                        Instant at) {
   const LinkEndpoint::Fed fed = parts_->endpoint.feed(datagram, path, from, at);
   if (fed.new_session) parts_->begin_session(fed.peer_restarted);
-  if (fed.heard) parts_->receive(*fed.heard);
+  if (fed.body) parts_->receive(*fed.body);
 }
 
 std::optional<Outgoing> CarEndpoint::poll(const Snapshot& snapshot, Instant now) {

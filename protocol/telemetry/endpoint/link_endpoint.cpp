@@ -58,8 +58,8 @@ LinkEndpoint::Fed LinkEndpoint::feed(std::span<const std::uint8_t> datagram, Pat
   const auto opened = association_.feed(datagram, path, from, at, plain_);
   Fed fed;
   fed.new_session = note_session(fed.peer_restarted, at);
-  if (opened && opened->session == session_) fed.heard = open(*opened, datagram.size(), path, at);
-  if (fed.heard) take_path_records(path, from, at);
+  if (opened && opened->session == session_) fed.body = open(*opened, datagram.size(), path, at);
+  if (fed.body) take_path_records(path, from, at);
   if (const auto again = association_.last_duplicate()) {
     note_duplicate(*again, datagram.size(), path, at);
   }
@@ -82,7 +82,7 @@ bool LinkEndpoint::note_session(bool& peer_restarted, Instant at) {
   path_receipts_.forget();
   plans_.clear();
   next_plan_ = 0;
-  for (PathLane& way : ways_) way.newest = way.told = 0, way.proof.reset();
+  for (PathLane& way : ways_) way.newest = way.reported = 0, way.proof.reset();
   const auto& peer = association_.peer();
   peer_restarted = peer && peer_boot_ && peer->boot != *peer_boot_;
   if (peer_restarted) clock_.forget();
@@ -91,12 +91,13 @@ bool LinkEndpoint::note_session(bool& peer_restarted, Instant at) {
   return true;
 }
 
-const Heard* LinkEndpoint::open(const Opened& opened, std::size_t size, PathId path, Instant at) {
+const ReceivedBody* LinkEndpoint::open(const Opened& opened, std::size_t size, PathId path,
+                                       Instant at) {
   auto body = parse_body(opened.body, schema_.reading());
   if (!body) return ++bad_bodies_[static_cast<std::size_t>(body.error())], nullptr;
-  heard_.body = *body;
-  heard_.delivered.clear();
-  ways_[path].heard_at = at;
+  received_.body = *body;
+  received_.delivered.clear();
+  ways_[path].received_at = at;
   ways_[path].newest = std::max(ways_[path].newest, opened.sequence);
   lately_[opened.sequence % lately_.size()] = {opened.sequence, body->tx_time_100us,
                                                body->paths_mask};
@@ -104,7 +105,7 @@ const Heard* LinkEndpoint::open(const Opened& opened, std::size_t size, PathId p
   receipts_.received(opened.sequence, at);
   const Instant peer_sent = clock_.peer_time(body->tx_time_100us, at);
   if (body->ack) take_ack(*body->ack, peer_sent, at);
-  Received& received = heard_.received;
+  Received& received = received_.received;
   received = {.at = at,
               .sent_earliest = {},
               .tx_time_100us = body->tx_time_100us,
@@ -114,12 +115,12 @@ const Heard* LinkEndpoint::open(const Opened& opened, std::size_t size, PathId p
     received.sent_earliest = std::min(clock_.to_own(peer_sent) - clock_.bound(at), at);
     stats_.delay(path, clock_.one_way(peer_sent, at), at);
   }
-  return &heard_;
+  return &received_;
 }
 
 void LinkEndpoint::take_ack(const Ack& ack, Instant peer_sent, Instant at) {
   const SentBook::News news = sent_.take(ack);
-  heard_.delivered = news.delivered;
+  received_.delivered = news.delivered;
   if (!news.delivered.empty()) acked_at_ = at;
   if (!news.newest) return;
   const Instant peer_received = peer_sent - ack.hold;
@@ -132,8 +133,8 @@ void LinkEndpoint::take_ack(const Ack& ack, Instant peer_sent, Instant at) {
 }
 
 void LinkEndpoint::take_path_records(PathId path, Address from, Instant at) {
-  const Instant peer_sent = clock_.peer_time(heard_.body.tx_time_100us, at);
-  for (const Record& record : heard_.body.records) {
+  const Instant peer_sent = clock_.peer_time(received_.body.tx_time_100us, at);
+  for (const Record& record : received_.body.records) {
     const bool token = record.payload.size() == kTokenSize;
     if (record.type == RecordType::kPathProbe && token) {
       ways_[path].proof = load<std::uint64_t>(record.payload, 0);
@@ -153,7 +154,7 @@ void LinkEndpoint::note_duplicate(std::uint64_t sequence, std::size_t size, Path
   stats_.received(sequence, 0, path, size, at);
   PathLane& way = ways_[path];
   const bool newest = sequence > way.newest;
-  if (newest) way.newest = sequence, way.heard_at = at;
+  if (newest) way.newest = sequence, way.received_at = at;
   const Lately& first = lately_[sequence % lately_.size()];
   if (first.sequence != sequence || !newest || !clock_.known()) return;
   const Instant peer_sent = clock_.peer_time(first.tx_time_100us, at);
@@ -356,7 +357,7 @@ void LinkEndpoint::report(LinkReport& out, Instant now) const {
   for (PathId path = 0; path < paths_; ++path) {
     const PathLane& way = ways_[path];
     PathReport& to = out.paths[path];
-    to.heard = stats_.figures(path, now);
+    to.received = stats_.figures(path, now);
     to.spent = way.budget.counters();
     to.budget_use = way.use(now);
     to.rate_factor = way.factor;

@@ -63,7 +63,7 @@ struct PacketRoom {
 };
 
 // A body that came, once.
-struct Heard {
+struct ReceivedBody {
   Body body;
   Received received;
   FixedVector<Delivery, 33> delivered;  // what its acknowledgement says
@@ -77,7 +77,7 @@ class LinkEndpoint {
   struct Fed {
     bool new_session = false;  // the books of both ends begin anew
     bool peer_restarted = false;
-    const Heard* heard = nullptr;  // until the next call
+    const ReceivedBody* body = nullptr;  // until the next call
   };
   Fed feed(std::span<const std::uint8_t> datagram, PathId path, Address from, Instant at);
 
@@ -130,7 +130,7 @@ class LinkEndpoint {
     std::uint8_t paths_mask = 0;
   };
   std::span<PathLane> lanes() { return std::span(ways_).first(paths_); }
-  const Heard* open(const Opened& opened, std::size_t size, PathId path, Instant at);
+  const ReceivedBody* open(const Opened& opened, std::size_t size, PathId path, Instant at);
   void take_ack(const Ack& ack, Instant peer_sent, Instant at);
   void take_path_records(PathId path, Address from, Instant at);
   void note_duplicate(std::uint64_t sequence, std::size_t size, PathId path, Instant at);
@@ -176,7 +176,7 @@ class LinkEndpoint {
   std::array<std::array<std::uint8_t, kMaxDatagram>, 4> datagrams_{};
   std::size_t next_datagram_ = 0;
   std::array<std::uint8_t, kMaxBody> body_{}, plain_{};
-  Heard heard_;
+  ReceivedBody received_;
 };
 
 }  // namespace pitwall::telemetry

@@ -19,7 +19,7 @@
 namespace pitwall::telemetry {
 
 struct PathReport {
-  PathFigures heard;        // of what comes to this end
+  PathFigures received;     // of what comes to this end
   BudgetCounters spent;     // of what leaves it
   double budget_use = 0.0;  // of the last second, 0 .. 1 of the whole rate
   double rate_factor = 1.0;

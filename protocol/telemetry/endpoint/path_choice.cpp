@@ -89,7 +89,7 @@ std::uint8_t PathChoice::apart(std::uint8_t paths, Instant now) const {
 PathId PathChoice::better(std::uint8_t paths) const {
   if (!has(paths, 1)) return 0;
   if (!has(paths, 0)) return 1;
-  const Duration ahead = lanes[0].heard_at - lanes[1].heard_at;
+  const Duration ahead = lanes[0].received_at - lanes[1].received_at;
   if (ahead > kSilent) return 0;
   if (-ahead > kSilent) return 1;
   return lanes[1].loss < lanes[0].loss ? 1 : 0;

@@ -29,12 +29,12 @@ class PathLane {
 
   PathBudget budget;
   RateControl rate;
-  double cap = 1.0;                    // of the rate, as its people want it, (0, 1]
-  double factor = 1.0;                 // of the rate, by adapt()
-  double loss = 0.0;                   // of what came lately by this path
-  Instant heard_at{};                  // the last arrival by it
-  std::uint64_t newest = 0, told = 0;  // sequence that came by it; of it told the peer
-  std::optional<std::uint64_t> proof;  // asked for by the peer
+  double cap = 1.0;                        // of the rate, as its people want it, (0, 1]
+  double factor = 1.0;                     // of the rate, by adapt()
+  double loss = 0.0;                       // of what came lately by this path
+  Instant received_at{};                   // the last arrival by it
+  std::uint64_t newest = 0, reported = 0;  // sequence that came by it; of it told the peer
+  std::optional<std::uint64_t> proof;      // asked for by the peer
 
  private:
   std::uint64_t& bytes_in(std::int64_t tenth) {

@@ -17,13 +17,13 @@ void PathReceipts::sent(std::uint64_t sequence, std::uint8_t paths, std::size_t 
 void PathReceipts::write(BodyWriter& body, std::span<PathLane> lanes, Instant now) {
   std::uint8_t path = 0;
   for (PathLane& lane : lanes) {
-    const std::int64_t hold = (now - lane.heard_at) / kTick;
-    const bool news = lane.newest != lane.told && hold >= 0 && hold <= UINT16_MAX;
+    const std::int64_t hold = (now - lane.received_at) / kTick;
+    const bool news = lane.newest != lane.reported && hold >= 0 && hold <= UINT16_MAX;
     std::array<std::uint8_t, kSize> bytes{path++};
     if (!news) continue;
     store<std::uint16_t>(bytes, 1, static_cast<std::uint16_t>(lane.newest));
     store<std::uint16_t>(bytes, 3, static_cast<std::uint16_t>(hold));
-    if (body.add_record(RecordType::kPathReceipt, bytes)) lane.told = lane.newest;
+    if (body.add_record(RecordType::kPathReceipt, bytes)) lane.reported = lane.newest;
   }
 }
 

@@ -51,14 +51,14 @@ void SchemaTalk::begin(std::uint64_t peer_whole_hash) {
   peer_has_ours_ = false;
   next_ = 0;
   total_ = 0;
-  heard_ = 0;
+  received_ = 0;
   reading_ = own_reading_;
   if (differs_) reading_.clear();  // nothing is read before the list is here
 }
 
 bool SchemaTalk::complete() const {
   return total_ > 0 &&
-         heard_ == (total_ < 64 ? (std::uint64_t{1} << total_) - 1 : ~std::uint64_t{0});
+         received_ == (total_ < 64 ? (std::uint64_t{1} << total_) - 1 : ~std::uint64_t{0});
 }
 
 bool SchemaTalk::take(std::span<const std::uint8_t> payload) {
@@ -77,7 +77,7 @@ bool SchemaTalk::take(std::span<const std::uint8_t> payload) {
       if (ours.hash == hash && ours.group.bits == bits) place = ours.group;
     }
     places_[first + i] = place;
-    heard_ |= std::uint64_t{1} << (first + i);
+    received_ |= std::uint64_t{1} << (first + i);
   }
   if (!complete() || !reading_.empty()) return true;
   for (std::size_t k = 0; k < total_; ++k) CHECK(reading_.push(places_[k]));

@@ -55,9 +55,9 @@ class SchemaTalk {
   Direction sends_;
   Layout sending_, own_reading_, reading_;
   bool differs_ = false, peer_has_ours_ = false;
-  std::size_t next_ = 0;     // place that the next record begins with
-  std::uint8_t total_ = 0;   // places of the peer; 0: not heard
-  std::uint64_t heard_ = 0;  // bit k: place k
+  std::size_t next_ = 0;        // place that the next record begins with
+  std::uint8_t total_ = 0;      // places of the peer; 0: not heard
+  std::uint64_t received_ = 0;  // bit k: place k
   std::array<GroupPlace, kMaxPlaces> places_{};
 
   bool complete() const;

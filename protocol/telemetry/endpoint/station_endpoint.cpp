@@ -15,13 +15,13 @@ struct StationEndpoint::Parts {
       : endpoint(config, Direction::kUp, source), transmitter(endpoint.own().boot) {}
 
   void begin_session(bool peer_restarted, Instant now);
-  Arrival receive(const Heard& heard);
-  void take_groups(const Heard& heard, Arrival& arrival);
+  Arrival receive(const ReceivedBody& incoming);
+  void take_groups(const ReceivedBody& incoming, Arrival& arrival);
   void take(const Record& record, const Received& received);
   void note_release();
   // A stop that no packet has said yet.
   bool stop_waits() const {
-    return stop.state().level != StopLevel::kNone && stop.state() != stop_said;
+    return stop.state().level != StopLevel::kNone && stop.state() != stop_stated;
   }
   Snapshot sample(Instant now) const;
   void make_packet(const PacketPlan& plan, Instant now);
@@ -32,7 +32,7 @@ struct StationEndpoint::Parts {
   std::array<std::uint64_t, kGroups> sequence_of{};  // of the packet that brought the group
   GroupSet mapped;  // groups whose time was told by compared clocks
   StopTransmitter stop;
-  StopState stop_said, stop_asked;  // by the newest packet; when it was last tried to make one
+  StopState stop_stated, stop_asked;  // by the newest packet; when it was last tried to make one
   AuthorityRegister authority;
   JoystickSender joystick;
   CommandTransmitter transmitter;
@@ -58,25 +58,25 @@ void StationEndpoint::Parts::begin_session(bool peer_restarted, Instant now) {
   lane.forget();
 }
 
-Arrival StationEndpoint::Parts::receive(const Heard& heard) {
-  const Received& received = heard.received;
+Arrival StationEndpoint::Parts::receive(const ReceivedBody& incoming) {
+  const Received& received = incoming.received;
   Arrival arrival{
       .groups = {}, .sequence = received.sequence, .path = received.path, .received = received.at};
-  for (const Delivery& delivery : heard.delivered) lane.acked(delivery.sequence);
-  take_groups(heard, arrival);
-  for (const Record& record : heard.body.records) take(record, received);
+  for (const Delivery& delivery : incoming.delivered) lane.acked(delivery.sequence);
+  take_groups(incoming, arrival);
+  for (const Record& record : incoming.body.records) take(record, received);
   note_release();
   return arrival;
 }
 
 // Of two packets the one with the higher number was made later, of samples that are not older.
-void StationEndpoint::Parts::take_groups(const Heard& heard, Arrival& arrival) {
-  const Received& received = heard.received;
+void StationEndpoint::Parts::take_groups(const ReceivedBody& incoming, Arrival& arrival) {
+  const Received& received = incoming.received;
   for (const FieldRow& row : kFields) {
     const std::size_t g = index_of(row.group);
-    if (!heard.body.groups.has(row.group) || received.sequence < sequence_of[g]) continue;
+    if (!incoming.body.groups.has(row.group) || received.sequence < sequence_of[g]) continue;
     const auto at = static_cast<FieldIndex>(&row - kFields.data());
-    state.values[at] = heard.body.values[at];
+    state.values[at] = incoming.body.values[at];
     arrival.groups.add(row.group);
   }
   const Instant sent = received.sent_earliest.value_or(received.at);
@@ -84,7 +84,7 @@ void StationEndpoint::Parts::take_groups(const Heard& heard, Arrival& arrival) {
     if (!arrival.groups.has(row.group)) continue;
     const std::size_t g = index_of(row.group);
     sequence_of[g] = received.sequence;
-    const std::uint8_t code = heard.body.age_codes[g];
+    const std::uint8_t code = incoming.body.age_codes[g];
     if (code == kNeverCode) continue;
     // Both this time and the one before are not later than their samples: so is the later of them.
     const Instant sampled = sent - age_of_code(code);
@@ -131,8 +131,8 @@ std::optional<Arrival> StationEndpoint::feed(std::span<const std::uint8_t> datag
                                              Address from, Instant at) {
   const LinkEndpoint::Fed fed = parts_->endpoint.feed(datagram, path, from, at);
   if (fed.new_session) parts_->begin_session(fed.peer_restarted, at);
-  if (!fed.heard) return {};
-  return parts_->receive(*fed.heard);
+  if (!fed.body) return {};
+  return parts_->receive(*fed.body);
 }
 
 std::optional<Outgoing> StationEndpoint::poll(Instant now) {
@@ -160,7 +160,7 @@ Snapshot StationEndpoint::Parts::sample(Instant now) const {
 
 void StationEndpoint::Parts::make_packet(const PacketPlan& plan, Instant now) {
   const Snapshot snapshot = sample(now);
-  stop_said = stop.state();
+  stop_stated = stop.state();
   const std::size_t wants = transmitter.wanted() + events.wanted();
   const std::size_t safe =
       lane.choose(snapshot, endpoint.peer_knows(), {endpoint.round_trip(), plan.rate}, now);

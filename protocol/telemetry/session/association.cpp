@@ -10,7 +10,7 @@ namespace pitwall::telemetry {
 namespace {
 
 // Another process with the peer's keys is one while the peer was heard so lately.
-constexpr Duration kPeerHeard = seconds(1);
+constexpr Duration kPeerReceived = seconds(1);
 
 SessionTerms terms_of(const AssociationConfig& config) {
   return {config.keys, config.first_sequence, config.key_log};
@@ -102,10 +102,10 @@ std::optional<Opened> Association::accept(const Opener::Opening& opening, Bytes 
   // A late packet with the keys before is not newer than what came with the present ones.
   const std::uint64_t newest = current_->opener.window().newest();
   const bool news = opening.newest && opening.number >= newest;
-  heard(opening.number, datagram.size(), path, from, now);
+  receive(opening.number, datagram.size(), path, from, now);
   ++counters_.opened;
-  const bool first = unheard_;
-  unheard_ = false;
+  const bool first = unreceived_;
+  unreceived_ = false;
   return Opened{.body = plain.first(datagram.size() - kHeaderSize - kTagSize),
                 .sequence = opening.number,
                 .newest = news,
@@ -117,23 +117,23 @@ void Association::take_duplicate(std::uint64_t number, Bytes datagram, PathId pa
                                  Instant now) {
   last_duplicate_ = number;
   const Path& state = paths_[path];
-  if (number > state.newest) return heard(number, datagram.size(), path, from, now);
+  if (number > state.newest) return receive(number, datagram.size(), path, from, now);
   const Path::Sender& first = state.senders[number % state.senders.size()];
   if (first.number == number && from != first.from) ++counters_.relayed;
   if (from != state.addresses.proved()) return;
-  paths_[path].addresses.heard({.from = from, .number = number}, now, *randomness_);
+  paths_[path].addresses.receive({.from = from, .number = number}, now, *randomness_);
 }
 
-void Association::heard(std::uint64_t number, std::size_t size, PathId path, Address from,
-                        Instant now) {
+void Association::receive(std::uint64_t number, std::size_t size, PathId path, Address from,
+                          Instant now) {
   Path& state = paths_[path];
   const bool newest = number > state.newest;
-  state.addresses.heard({.from = from, .size = size, .number = number, .newest = newest}, now,
-                        *randomness_);
+  state.addresses.receive({.from = from, .size = size, .number = number, .newest = newest}, now,
+                          *randomness_);
   if (!newest) return;
   state.newest = number;
   state.senders[number % state.senders.size()] = {number, from};
-  state.heard = now;
+  state.received = now;
 }
 
 // False where the peer in use lives, and where it should renew a session that is no longer in use.
@@ -143,7 +143,7 @@ bool Association::confirm(Responder::Pending& pending, PathId path, Address from
   const bool reaches = pending.answered[path] == from;
   const bool fits = !renews || (current_ && current_->own_number == pending.renews);
   const bool other = current_ && session.peer.boot != peer_->boot;
-  if (other && now - current_->opener.heard() < kTakeOver) {
+  if (other && now - current_->opener.received_at() < kTakeOver) {
     return ++counters_.second_peers, false;
   }
   responder_.confirmed(pending);
@@ -172,11 +172,11 @@ void Association::begin_session(const Session& session, bool renews, Instant now
   }
   peer_ = session.peer;
   ++sessions_;
-  unheard_ = true;
+  unreceived_ = true;
   for (Path& path : paths_) {
     path.newest = 0;
     path.senders = {};
-    path.heard = now;
+    path.received = now;
   }
 }
 
@@ -216,7 +216,7 @@ void Association::take_opening(Bytes datagram, PathId path, Address from, Instan
 void Association::answer_openings(Instant now) {
   const auto worked = responder_.work(fresh_number(), in_use(), now);
   if (worked.refusal) refuse(*worked.refusal);
-  const bool peer_lives = current_ && now - current_->opener.heard() < kPeerHeard;
+  const bool peer_lives = current_ && now - current_->opener.received_at() < kPeerReceived;
   if (worked.boot != 0 && peer_lives && worked.boot != peer_->boot) ++counters_.second_peers;
 }
 
@@ -245,7 +245,7 @@ void Association::take_newer_stamp(Bytes datagram, Instant now) {
 void Association::take_hint(const Header& header, Bytes datagram, Instant now) {
   if (!car() || !current_ || header.receiver != current_->peer_number ||
       !current_->sealer.sent_lately(header.sequence_low) ||
-      now - current_->opener.heard() < kSilenceHints || !standing_.unknown_fits(datagram)) {
+      now - current_->opener.received_at() < kSilenceHints || !standing_.unknown_fits(datagram)) {
     return refuse(Refusal::kForeignBoot);
   }
   ++counters_.hints;
@@ -253,8 +253,8 @@ void Association::take_hint(const Header& header, Bytes datagram, Instant now) {
 }
 
 bool Association::silent(PathId path, Instant now) const {
-  const auto& heard = paths_[path].heard;
-  return heard && now - *heard >= kSilenceOpens;
+  const auto& received = paths_[path].received;
+  return received && now - *received >= kSilenceOpens;
 }
 
 bool Association::all_silent(Instant now) const {
@@ -297,7 +297,7 @@ Association::Targets Association::opening_targets(PathId path, Instant now) cons
 
 Association::Due Association::open(PathId path, Instant now, std::span<std::uint8_t> out) {
   Path& state = paths_[path];
-  if (!state.heard) state.heard = now;
+  if (!state.received) state.received = now;
   const Targets targets = opening_targets(path, now);
   const Address to = targets[state.turn++ % targets.size()];
   const std::uint16_t number =

@@ -153,9 +153,9 @@ class Association {
     std::optional<Reply> hint;
     bool hint_first = true;  // of the replies that wait: each kind has its turn
     Instant next_opening{INT64_MIN};
-    std::size_t turn = 0;          // of the addresses to which openings go
-    std::optional<Instant> heard;  // the last news by this path; before: the first opening
-    std::uint64_t newest = 0;      // number of the newest packet that came by this path
+    std::size_t turn = 0;             // of the addresses to which openings go
+    std::optional<Instant> received;  // the last news by this path; before: the first opening
+    std::uint64_t newest = 0;         // number of the newest packet that came by this path
     struct Sender {
       std::uint64_t number = 0;
       Address from;
@@ -177,7 +177,7 @@ class Association {
   std::optional<Opened> accept(const Opener::Opening& opening, Bytes datagram, PathId path,
                                Address from, Instant now, std::span<std::uint8_t> plain);
   void take_duplicate(std::uint64_t number, Bytes datagram, PathId path, Address from, Instant now);
-  void heard(std::uint64_t number, std::size_t size, PathId path, Address from, Instant now);
+  void receive(std::uint64_t number, std::size_t size, PathId path, Address from, Instant now);
   bool confirm(Responder::Pending& pending, PathId path, Address from, Instant now);
   void begin_session(const Session& session, bool renews, Instant now);
   void hint(const Header& header, Bytes datagram, PathId path, Address from, Instant now);
@@ -211,7 +211,7 @@ class Association {
   AssociationCounters counters_;
   std::optional<Greeting> peer_;
   std::uint64_t sessions_ = 0;
-  bool unheard_ = false;  // the session in use has opened no packet yet
+  bool unreceived_ = false;  // the session in use has opened no packet yet
   std::optional<std::uint64_t> last_duplicate_;
 
   std::optional<Session> current_;

@@ -98,12 +98,12 @@ const ThreatMonitor::Sample& ThreatMonitor::before(Duration ago) const {
   return samples_[(next_ + kSamples - back) % kSamples];
 }
 
-bool ThreatMonitor::heard(const Sample& counted) const {
-  return counted.opened > before(kThreatHeard).opened;
+bool ThreatMonitor::received(const Sample& counted) const {
+  return counted.opened > before(kThreatReceived).opened;
 }
 
 bool ThreatMonitor::settled(const Sample& counted, Instant now) const {
-  return exchanges_ > 0 && now - exchanged_ >= kThreatSettled && heard(counted);
+  return exchanges_ > 0 && now - exchanged_ >= kThreatSettled && received(counted);
 }
 
 // To a car: whoever else answers an opening. To a base a car that restarted is another process,
@@ -111,11 +111,11 @@ bool ThreatMonitor::settled(const Sample& counted, Instant now) const {
 // second car takes the session, and the first opens again; or it gets none, and the first is heard.
 bool ThreatMonitor::second_peer(const Sample& counted, Instant now) const {
   if (role_ == Role::kCar) return true;
-  constexpr Duration kOldHeard = seconds(1);  // of a process that is no more, by its slower path
+  constexpr Duration kOldReceived = seconds(1);  // of a process that is no more, by its slower path
   const bool takes_turns =
       taken_ && now - *taken_ <= kThreatWindow && counted.peers() > peers_before_;
   const std::uint64_t known = std::max(before(kThreatWindow).peers(), peers_before_);
-  return takes_turns || (before(kOldHeard).peers() > known && heard(counted));
+  return takes_turns || (before(kOldReceived).peers() > known && received(counted));
 }
 
 // Of the last kThreatWindow.
@@ -154,9 +154,10 @@ std::optional<ThreatChange> ThreatMonitor::next_change() {
     State& state = states_[i];
     const auto threat = static_cast<Threat>(i);
     const bool is = active_.has(threat);
-    if (is == state.told || (state.told_at && now_ - *state.told_at < kThreatHold)) continue;
-    state.told = is;
-    state.told_at = now_;
+    if (is == state.reported || (state.reported_at && now_ - *state.reported_at < kThreatHold))
+      continue;
+    state.reported = is;
+    state.reported_at = now_;
     return ThreatChange{threat, is, state.most_per_s, state.since};
   }
   return std::nullopt;

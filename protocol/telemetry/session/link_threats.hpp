@@ -83,7 +83,7 @@ std::string_view write_line(const ThreatChange& change, bool seen_by_base,
 inline constexpr Duration kThreatSample = milliseconds(100), kThreatWindow = seconds(2);
 inline constexpr Duration kThreatHold = seconds(10);
 // A session is settled when it is so old and was heard in the last kThreatHeard.
-inline constexpr Duration kThreatSettled = seconds(10), kThreatHeard = milliseconds(300);
+inline constexpr Duration kThreatSettled = seconds(10), kThreatReceived = milliseconds(300);
 
 class ThreatMonitor {
  public:
@@ -108,15 +108,15 @@ class ThreatMonitor {
     Instant last{};   // count was at least half of the limit
     Instant since{};  // active, or over
     std::uint32_t most_per_s = 0;
-    bool told = false;
-    std::optional<Instant> told_at{};
+    bool reported = false;
+    std::optional<Instant> reported_at{};
   };
   static constexpr std::size_t kSamples = 20;
   static_assert(kThreatSample * static_cast<std::int64_t>(kSamples) == kThreatWindow);
 
   static Sample sample_of(const AssociationCounters& counters);
   const Sample& before(Duration ago) const;  // kThreatSample to kThreatWindow
-  bool heard(const Sample& counted) const;
+  bool received(const Sample& counted) const;
   bool settled(const Sample& counted, Instant now) const;
   bool second_peer(const Sample& counted, Instant now) const;
   std::uint64_t count_of(Threat threat, const Sample& counted, Instant now) const;

@@ -11,7 +11,7 @@ void PathAddresses::prove(Address at) {
   trial_.reset();
 }
 
-void PathAddresses::heard(const Arrival& arrival, Instant now, Randomness& randomness) {
+void PathAddresses::receive(const Arrival& arrival, Instant now, Randomness& randomness) {
   if (trial_ && trial_->address == arrival.from) {
     trial_->received += arrival.size;
     return;

@@ -39,7 +39,7 @@ class PathAddresses {
     std::uint64_t number = 0;
     bool newest = false;  // of all that came by this path
   };
-  void heard(const Arrival& arrival, Instant now, Randomness& randomness);
+  void receive(const Arrival& arrival, Instant now, Randomness& randomness);
   // True where this makes the address on trial the proved one.
   bool take_proof(Address from, std::uint64_t token, Instant now);
 

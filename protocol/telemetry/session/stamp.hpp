@@ -34,7 +34,7 @@ class StampClock {
     return last_;
   }
   // From now on greater than this.
-  constexpr void exceed(Stamp told) { last_ = std::max(last_, told); }
+  constexpr void exceed(Stamp reported) { last_ = std::max(last_, reported); }
 
  private:
   Duration to_utc_;

@@ -70,7 +70,7 @@ void Sealer::advance(Instant now) {
 }
 
 Opener::Opener(const Key& key, Instant now, const ReplayWindow& window)
-    : key_(key), heard_(now), window_(window) {}
+    : key_(key), received_(now), window_(window) {}
 
 Opener::Opening Opener::open(const Header& header, Bytes datagram, Instant now,
                              std::span<std::uint8_t> plain) {
@@ -80,7 +80,7 @@ Opener::Opening Opener::open(const Header& header, Bytes datagram, Instant now,
   if (window_.had(number)) return {.verdict = Verdict::kDuplicate, .number = number};
   const bool newest = number > window_.newest();
   window_.set(number);
-  heard_ = now;
+  received_ = now;
   return {.verdict = Verdict::kNew, .number = number, .newest = newest};
 }
 
@@ -98,7 +98,7 @@ bool Opener::opens(const Header& header, Bytes datagram, std::uint64_t number, I
 bool Opener::opens_in_later_phase(const Header& header, Bytes datagram, std::uint64_t number,
                                   Instant now, std::span<std::uint8_t> plain) {
   const std::int64_t allowed =
-      std::clamp<std::int64_t>((now - heard_) / kPhaseTime + 1, 1, kMaxPhasesUnheard);
+      std::clamp<std::int64_t>((now - received_) / kPhaseTime + 1, 1, kMaxPhasesUnheard);
   if (allowed == 1 && header.key_phase == bit_of(phase_)) return false;
   Key before = key_;
   for (std::int64_t ahead = 1; ahead <= allowed; ++ahead) {

@@ -88,7 +88,9 @@ class Opener {
   // kSealed or kSigned, not shorter than kHeaderSize + kTagSize; `plain` holds the body.
   Opening open(const Header& header, Bytes datagram, Instant now, std::span<std::uint8_t> plain);
 
-  Instant heard() const { return heard_; }  // the last authentic packet; else the beginning
+  Instant received_at() const {
+    return received_;
+  }  // the last authentic packet; else the beginning
   std::uint64_t phases() const { return phase_; }
   const ReplayWindow& window() const { return window_; }
 
@@ -101,7 +103,7 @@ class Opener {
   Key key_;
   std::optional<Key> previous_;
   std::uint64_t phase_ = 0, phase_first_ = 0;
-  Instant heard_, previous_until_{};
+  Instant received_, previous_until_{};
   ReplayWindow window_;
 };
 

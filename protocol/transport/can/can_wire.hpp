@@ -115,8 +115,8 @@ inline BusState decode_error(const CanWire& wire, BusState before, CanErrorCount
   counters.bus_off += (classes & CAN_ERR_BUSOFF) != 0U;
   counters.bus_error += (classes & CAN_ERR_BUSERROR) != 0U;
   counters.restarted += (classes & CAN_ERR_RESTARTED) != 0U;
-  const BusState told = state_in(wire);
-  return told == BusState::kUnknown ? before : told;
+  const BusState reported = state_in(wire);
+  return reported == BusState::kUnknown ? before : reported;
 }
 
 }  // namespace pitwall::transport

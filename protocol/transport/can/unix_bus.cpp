@@ -112,11 +112,12 @@ Result<UnixBusEnd, Problem> UnixBusEnd::open(std::string_view interface, UnixBus
 
 PosixOutcome UnixBusEnd::connect() {
   FileDescriptor receiver, sender;
-  if (const auto heard = connect_to_hub(address_, Hearing::kEverything, receiver); !heard.ok())
-    return heard;
+  if (const auto received = connect_to_hub(address_, Hearing::kEverything, receiver);
+      !received.ok())
+    return received;
   if (options_.own)
-    if (const auto said = connect_to_hub(address_, Hearing::kNothing, sender); !said.ok())
-      return said;
+    if (const auto stated = connect_to_hub(address_, Hearing::kNothing, sender); !stated.ok())
+      return stated;
   sender_ = std::move(sender);
   connected_ = true;
   if (!receiver_.valid()) {

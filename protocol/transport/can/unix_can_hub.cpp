@@ -177,7 +177,7 @@ void UnixCanHub::serve(Instant deadline, int stop) {
   if (!accepting) deadline = std::min(deadline, accept_from_);
   watched.push_back({.fd = accepting ? listener_.get() : -1, .events = POLLIN, .revents = 0});
   for (const Client& client : clients_) {
-    const bool waiting = client.untold && !client.deaf;
+    const bool waiting = client.unreported && !client.deaf;
     watched.push_back({.fd = client.fd.get(),
                        .events = static_cast<short>(waiting ? POLLIN | POLLOUT : POLLIN),
                        .revents = 0});
@@ -192,7 +192,7 @@ void UnixCanHub::serve(Instant deadline, int stop) {
   const std::size_t known = watched.size() - 2;  // those who join meanwhile have their turn next
   for (std::size_t i = 0; i < known; ++i) {
     const short events = watched[i + 2].revents;
-    if ((events & POLLOUT) != 0 && clients_[i].untold) publish(clients_[i]);
+    if ((events & POLLOUT) != 0 && clients_[i].unreported) publish(clients_[i]);
     if ((events & ~POLLOUT) != 0) take_from(i);
   }
   if (watched[1].revents != 0) accept_all();
@@ -270,8 +270,8 @@ void UnixCanHub::relay(std::size_t sender, std::size_t frames) {
 void UnixCanHub::give(Client& client, std::size_t frames) {
   std::size_t given = 0;
   while (given < frames && !client.deaf) {
-    if (client.untold) publish(client);
-    if (client.untold) break;
+    if (client.unreported) publish(client);
+    if (client.unreported) break;
     const auto sent = posix_call([&] {
       return sendmmsg(client.fd.get(), batch_->outgoing.data() + given,
                       static_cast<unsigned>(frames - given), MSG_DONTWAIT | MSG_NOSIGNAL);
@@ -290,7 +290,7 @@ void UnixCanHub::give(Client& client, std::size_t frames) {
 void UnixCanHub::lose(Client& client, std::size_t frames) {
   if (frames == 0) return;
   client.lost += frames;
-  client.untold = true;
+  client.unreported = true;
   counters_.dropped += frames;
   if (client.lost <= counters_.worst_dropped) return;
   counters_.worst_dropped = client.lost;
@@ -301,7 +301,7 @@ void UnixCanHub::publish(Client& client) {
   const can_frame notice = loss_notice(static_cast<std::uint32_t>(client.lost));
   const auto sent = posix_call(
       [&] { return ::send(client.fd.get(), &notice, sizeof notice, MSG_DONTWAIT | MSG_NOSIGNAL); });
-  client.untold = !sent.ok();
+  client.unreported = !sent.ok();
   if (!sent.ok()) client.deaf = !is_full(sent);
 }
 

@@ -71,8 +71,8 @@ class UnixCanHub {
   struct Client {
     FileDescriptor fd;
     std::uint64_t lost = 0;
-    bool untold = false;  // of some of them
-    bool deaf = false;    // hears nothing, by its own wish or because it is about to leave
+    bool unreported = false;  // of some of them
+    bool deaf = false;        // hears nothing, by its own wish or because it is about to leave
     bool gone = false;
     int process = 0;
   };

@@ -17,7 +17,7 @@ namespace {
 using telemetry::field;
 
 double value(const HealthyRace& wall, state::BaseField which) {
-  return wall.evaluator.view(wall.told.vehicle, state::id_of(which), wall.now).value;
+  return wall.evaluator.view(wall.reported.vehicle, state::id_of(which), wall.now).value;
 }
 
 TEST(Evaluator, AHealthyRaceIsSilent) {
@@ -276,7 +276,7 @@ TEST(Evaluator, OnlyTheTyresAreSilent) {
   EXPECT_FALSE(wall.ever("tyres_cold"));  // the last that was heard was warm, and is old now
   EXPECT_TRUE(wall.alarm("picture_old"));
   EXPECT_EQ(
-      wall.evaluator.view(wall.told.vehicle, state::id_of(state::BaseField::kTyreMin), wall.now)
+      wall.evaluator.view(wall.reported.vehicle, state::id_of(state::BaseField::kTyreMin), wall.now)
           .quality,
       state::Quality::kStale);
 }
@@ -361,7 +361,7 @@ TEST(Evaluator, TheSameEventsGiveTheSameAlarmsAtAnyRhythm) {
 TEST(Evaluator, ABaseThatSleptDoesNotJudgeThatHour) {
   HealthyRace wall;
   wall.run(seconds(1));
-  wall.evaluator.advance(wall.told.vehicle, wall.now + seconds(3'600));
+  wall.evaluator.advance(wall.reported.vehicle, wall.now + seconds(3'600));
   EXPECT_EQ(wall.evaluator.steps_left_out(), 360'000U - Evaluator::kStepsAtOnce);
   EXPECT_TRUE(wall.alarm("link_lost"));
 }
@@ -372,7 +372,7 @@ TEST(Evaluator, AStepAllocatesNothing) {
   wall.run(seconds(5));  // with an alarm in the list
   const Instant next = wall.now + kGrid;
   const auto taken =
-      testing::allocations_of([&] { wall.evaluator.advance(wall.told.vehicle, next); });
+      testing::allocations_of([&] { wall.evaluator.advance(wall.reported.vehicle, next); });
   EXPECT_EQ(taken, 0U);
 }
 

@@ -67,13 +67,13 @@ TEST(Notices, ALossIsOneMessageToo) {
 TEST(Notices, WhatWasSentStaysWhatItSaid) {
   BenchServer authority;
   authority.run(seconds(1), LinkState::kDegraded, 0.2);
-  const std::string said = authority.notices.all()[0].text;
-  EXPECT_FALSE(authority.notices.decide(1, NoticeFate::kTold, ""));
-  EXPECT_TRUE(authority.notices.decide(1, NoticeFate::kTold, "Ada"));
+  const std::string output = authority.notices.all()[0].text;
+  EXPECT_FALSE(authority.notices.decide(1, NoticeFate::kReported, ""));
+  EXPECT_TRUE(authority.notices.decide(1, NoticeFate::kReported, "Ada"));
   EXPECT_FALSE(authority.notices.decide(1, NoticeFate::kDismissed, "Ada"));
-  EXPECT_FALSE(authority.notices.decide(2, NoticeFate::kTold, "Ada"));
+  EXPECT_FALSE(authority.notices.decide(2, NoticeFate::kReported, "Ada"));
   authority.run(seconds(1), LinkState::kLost, 1.0);
-  EXPECT_EQ(authority.notices.all()[0].text, said);
+  EXPECT_EQ(authority.notices.all()[0].text, output);
   EXPECT_EQ(authority.kinds().size(), 1U);
 }
 

@@ -34,7 +34,7 @@ struct ChecklistPit {
     return now();
   }
   std::vector<Check> now() const {
-    return checks_of({.vehicle = wall.told.vehicle,
+    return checks_of({.vehicle = wall.reported.vehicle,
                       .evaluator = wall.evaluator,
                       .holder = holder,
                       .holder_name = "console 16",

@@ -30,7 +30,8 @@ struct CommandPit {
   }
   telemetry::StationEndpoint& endpoint() { return radio.station->endpoint(); }
   GateInputs inputs() {
-    return {wall.told.vehicle, wall.evaluator, endpoint().authority().holder(radio.now), radio.now};
+    return {wall.reported.vehicle, wall.evaluator, endpoint().authority().holder(radio.now),
+            radio.now};
   }
   TicketId stage(double mps) {
     const auto staged = authority.stage(kAda, CommandType::kSpeedLimit, mps, inputs());
@@ -44,7 +45,7 @@ struct CommandPit {
     for (const Instant end = radio.now + length; radio.now < end;) {
       radio.run(milliseconds(100));
       (void)endpoint().authority().renew(kAda.console, radio.now);
-      authority.follow(wall.told.vehicle, endpoint(), radio.now);
+      authority.follow(wall.reported.vehicle, endpoint(), radio.now);
     }
   }
   Step step(TicketId id) const { return authority.ticket(id)->step; }
@@ -80,15 +81,15 @@ TEST(CommandQueue, ACommandClimbsTheLadderOfTheRealRadio) {
   EXPECT_EQ(pit.step(id), Step::kGated);
   pit.run(milliseconds(300));
   EXPECT_EQ(pit.step(id), Step::kReceived);
-  ASSERT_EQ(pit.radio.told.size(), 1U);
-  pit.radio.car->decide(pit.radio.told.front().id, Outcome::kApplied, pit.radio.now);
+  ASSERT_EQ(pit.radio.reported.size(), 1U);
+  pit.radio.car->decide(pit.radio.reported.front().id, Outcome::kApplied, pit.radio.now);
   pit.run(milliseconds(300));
   const Ticket& ticket = *pit.authority.ticket(id);
   EXPECT_EQ(ticket.step, Step::kApplied);
   EXPECT_FALSE(ticket.echoed);
   pit.wall.set(field("planner.operator_limit"), 54.0);
   pit.wall.run(seconds(1));
-  pit.authority.follow(pit.wall.told.vehicle, pit.endpoint(), pit.wall.now);
+  pit.authority.follow(pit.wall.reported.vehicle, pit.endpoint(), pit.wall.now);
   EXPECT_TRUE(pit.authority.ticket(id)->echoed);
   std::optional<Instant> before;
   for (const Step step :
@@ -105,7 +106,7 @@ TEST(CommandQueue, TheCarsRefusalIsShownInItsWords) {
   const TicketId id = pit.stage(54.0);
   ASSERT_TRUE(pit.send(id));
   pit.run(milliseconds(300));
-  pit.radio.car->decide(pit.radio.told.front().id, Outcome::kRefused, pit.radio.now);
+  pit.radio.car->decide(pit.radio.reported.front().id, Outcome::kRefused, pit.radio.now);
   pit.run(milliseconds(300));
   EXPECT_EQ(pit.step(id), Step::kRefused);
   EXPECT_EQ(pit.authority.ticket(id)->text, telemetry::text_of(Outcome::kRefused));
@@ -124,7 +125,7 @@ TEST(CommandQueue, GatesAreJudgedAnewWhenItIsSent) {
   EXPECT_EQ(pit.step(id), Step::kStaged);
   EXPECT_NE(pit.audit.lines().back().result.find("refused"), std::string::npos);
   pit.run(milliseconds(300));
-  EXPECT_TRUE(pit.radio.told.empty());
+  EXPECT_TRUE(pit.radio.reported.empty());
 }
 
 TEST(CommandQueue, AnOverrideWantsAReasonAndASecondPerson) {
@@ -145,7 +146,7 @@ TEST(CommandQueue, AnOverrideWantsAReasonAndASecondPerson) {
   }
   EXPECT_TRUE(logged);
   pit.run(milliseconds(300));
-  EXPECT_EQ(pit.radio.told.size(), 1U);
+  EXPECT_EQ(pit.radio.reported.size(), 1U);
 }
 
 TEST(CommandQueue, TheWayToTheCarCannotBeOverridden) {

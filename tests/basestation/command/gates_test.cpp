@@ -22,7 +22,7 @@ struct GatePit {
 
   std::vector<Gate> gates(CommandType type, double argument) {
     return gates_of({.type = type, .argument = argument, .issuer = kConsole}, {},
-                    {wall.told.vehicle, wall.evaluator, holder, wall.now});
+                    {wall.reported.vehicle, wall.evaluator, holder, wall.now});
   }
   bool passes(CommandType type, double argument) { return all_pass(gates(type, argument)); }
   bool speed(double mps) { return passes(CommandType::kSpeedLimit, mps); }

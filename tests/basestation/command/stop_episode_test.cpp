@@ -35,7 +35,7 @@ struct StopPit {
   void run(Duration length) {
     for (const Instant end = wall.now + length; wall.now < end;) {
       wall.run(milliseconds(100));
-      episode.advance({{wall.told.vehicle, wall.evaluator, holder, wall.now}, queue, events});
+      episode.advance({{wall.reported.vehicle, wall.evaluator, holder, wall.now}, queue, events});
     }
   }
   void mode(double mode) {

@@ -49,14 +49,14 @@ struct Bench {
       run(milliseconds(20));
     }
   }
-  auto heard() const { return rig.car->view(rig.now).joystick; }
+  auto received() const { return rig.car->view(rig.now).joystick; }
 };
 
 TEST(JoystickDevice, TheCarHearsTheHandAndNothingElse) {
   Bench bench;
-  EXPECT_FALSE(bench.heard());
+  EXPECT_FALSE(bench.received());
   bench.hold(seconds(1));
-  const auto sample = bench.heard();
+  const auto sample = bench.received();
   ASSERT_TRUE(sample);
   EXPECT_NEAR(sample->throttle_cap, 0.0, 0.01);
   EXPECT_NEAR(sample->brake, 0.2, 0.01);
@@ -83,9 +83,9 @@ TEST(JoystickDevice, AHandThatLetsGoIsNotLostOneThatFreezesIs) {
 TEST(JoystickDevice, AHandThatFreezesIsDeadAfter200Milliseconds) {
   Bench bench;
   bench.hold(seconds(1));
-  ASSERT_TRUE(bench.heard());
+  ASSERT_TRUE(bench.received());
   bench.run(telemetry::kJoystickDead + milliseconds(1));
-  EXPECT_FALSE(bench.heard());
+  EXPECT_FALSE(bench.received());
 }
 
 TEST(JoystickDevice, APulledPlugIsDeadAfter200MillisecondsAndKeepsNobodyBusy) {
@@ -93,7 +93,7 @@ TEST(JoystickDevice, APulledPlugIsDeadAfter200MillisecondsAndKeepsNobodyBusy) {
   bench.hold(seconds(1));
   bench.hand.reset();
   bench.run(telemetry::kJoystickDead + milliseconds(1));
-  EXPECT_FALSE(bench.heard());
+  EXPECT_FALSE(bench.received());
   EXPECT_FALSE(bench.feed->present());
   const std::array<int, 1> watched{bench.feed->fd()};
   EXPECT_EQ(transport::wait_readable(watched, Instant{}), 0U);
@@ -106,7 +106,7 @@ TEST(JoystickDevice, AKeyLetGoIsDeadAfter200MillisecondsThoughTheStickMoves) {
     bench.say(InputBytes{}.key(310, 0).axis(2, 100 + i).report());
     bench.run(milliseconds(20));
   }
-  EXPECT_FALSE(bench.heard());
+  EXPECT_FALSE(bench.received());
 }
 
 TEST(JoystickDevice, ADeviceThatIsNotThereIsToldWithItsPath) {

@@ -22,13 +22,13 @@ struct Pit : RadioRig {
   }
   // What the car was told by this command.
   std::optional<telemetry::DueCommand> arrives(std::string_view line) {
-    told.clear();
+    reported.clear();
     const auto done = execute(line);
     EXPECT_TRUE(done) << line << ": " << (done ? "" : done.error().what);
     if (!done) return std::nullopt;
     run(milliseconds(100));
-    if (told.size() != 1) return std::nullopt;
-    return told.front();
+    if (reported.size() != 1) return std::nullopt;
+    return reported.front();
   }
 };
 

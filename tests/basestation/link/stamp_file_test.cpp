@@ -119,10 +119,11 @@ TEST_F(StampFiles, WhatIsKnownIsNotWrittenAgain) {
 TEST_F(StampFiles, ADiskThatRefusesIsToldOnceAndTriedAgain) {
   const std::string folder = folder_->path() + "/later";
   StampFile file(folder + "/base.stamp", 0, milliseconds(1));
-  std::optional<Problem> told;
+  std::optional<Problem> reported;
   file.keep(kNow);
-  EXPECT_TRUE(comes_true([&] { return (told = file.take_problem()).has_value(); }));
-  EXPECT_NE(told->place.find(folder + "/base.stamp"), std::string::npos) << to_string(*told);
+  EXPECT_TRUE(comes_true([&] { return (reported = file.take_problem()).has_value(); }));
+  EXPECT_NE(reported->place.find(folder + "/base.stamp"), std::string::npos)
+      << to_string(*reported);
   for (Stamp more = 1; more <= 20; ++more) {
     file.keep(kNow + more);
     transport::sleep_until(transport::monotonic_now() + milliseconds(2));

@@ -71,8 +71,8 @@ TEST(CarService, ACommandPassesTheGatesOfThisMoment) {
   const command::IssueCommand slower{.type = telemetry::CommandType::kSpeedLimit, .argument = 40.0};
   ASSERT_TRUE(pit.base->execute(slower, kAda, pit.now));
   pit.run(milliseconds(200));
-  ASSERT_EQ(pit.told.size(), 1U);
-  EXPECT_NEAR(pit.told[0].command.argument, 40.0, 0.05);
+  ASSERT_EQ(pit.reported.size(), 1U);
+  EXPECT_NEAR(pit.reported[0].command.argument, 40.0, 0.05);
   EXPECT_GE(pit.messages["command"], 3);
 }
 
@@ -170,9 +170,9 @@ TEST(CarService, AfterAStopItLeadsBackToDrivingStepByStep) {
   EXPECT_EQ(recover(kArm), "");
   live(kStandby, 0.0);
   EXPECT_FALSE(pit.base->stopped());
-  std::vector<telemetry::CommandType> told;
-  for (const telemetry::DueCommand& due : pit.told) told.push_back(due.command.type);
-  EXPECT_EQ(told, (std::vector{telemetry::CommandType::kReset, telemetry::CommandType::kArm}));
+  std::vector<telemetry::CommandType> reported;
+  for (const telemetry::DueCommand& due : pit.reported) reported.push_back(due.command.type);
+  EXPECT_EQ(reported, (std::vector{telemetry::CommandType::kReset, telemetry::CommandType::kArm}));
 }
 
 }  // namespace

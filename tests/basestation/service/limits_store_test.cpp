@@ -38,20 +38,20 @@ class JudgementStoreTest : public ::testing::Test {
 TEST_F(JudgementStoreTest, AFileThatIsNotThereIsMadeWithTheFirstChange) {
   LimitsStore store{path()};
   EXPECT_FALSE(store.unreadable());
-  EXPECT_NE(store.said().find("not there"), std::string::npos) << store.said();
+  EXPECT_NE(store.stated().find("not there"), std::string::npos) << store.stated();
   EXPECT_EQ(text_of(), "no file");
   ASSERT_TRUE(save(store, 1));
   EXPECT_EQ(LimitsStore{path()}.judgement().revision, 1u);
-  EXPECT_EQ(LimitsStore{path()}.said(), "");
+  EXPECT_EQ(LimitsStore{path()}.stated(), "");
 }
 
 TEST_F(JudgementStoreTest, ABrokenFileIsNamedWithItsLineAndLeftAlone) {
   write(kBroken);
   const LimitsStore store{path()};
   ASSERT_TRUE(store.unreadable());
-  EXPECT_TRUE(store.said().starts_with("settings file unreadable: " + path() + ":3:"))
-      << store.said();
-  EXPECT_TRUE(store.said().ends_with("; built-in limits in force")) << store.said();
+  EXPECT_TRUE(store.stated().starts_with("settings file unreadable: " + path() + ":3:"))
+      << store.stated();
+  EXPECT_TRUE(store.stated().ends_with("; built-in limits in force")) << store.stated();
   EXPECT_EQ(store.judgement().alarms.version(), alarms::AlarmSettings{}.version());
   EXPECT_EQ(store.judgement().revision, 0u);
   EXPECT_EQ(text_of(), kBroken);

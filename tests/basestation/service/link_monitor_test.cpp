@@ -31,8 +31,8 @@ TEST(LinkMonitor, OfAHealthyLinkTheFiguresAreThoseOfTheRig) {
   EXPECT_EQ(figures.down_loss, 0.0);
   EXPECT_GE(figures.round_trip_ms, (RadioRig::kDelay + RadioRig::kDelay).milliseconds());
   EXPECT_GT(figures.down_kbit_s, 0.0);
-  ASSERT_TRUE(figures.heard);
-  EXPECT_LT(rig.now - *figures.heard, milliseconds(100));
+  ASSERT_TRUE(figures.received);
+  EXPECT_LT(rig.now - *figures.received, milliseconds(100));
 }
 
 TEST(LinkMonitor, OfALinkThatLosesEveryFourthTheLossIsAQuarter) {
@@ -50,7 +50,7 @@ TEST(LinkMonitor, BeforeAnythingWasReceivedNothingIsKnown) {
   Measured rig;
   rig.loses = [](bool, telemetry::PathId) { return true; };
   const state::LinkFigures figures = rig.run_and_measure(seconds(1));
-  EXPECT_FALSE(figures.heard);
+  EXPECT_FALSE(figures.received);
   EXPECT_TRUE(std::isnan(figures.down_loss));
   EXPECT_TRUE(std::isnan(figures.round_trip_ms));
 }

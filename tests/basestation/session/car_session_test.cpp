@@ -68,9 +68,9 @@ class Session : public testing::Test {
   }
   // What is said by a session that had a session with its car; its stamp file is written.
   std::string stamp_after_a_session() {
-    std::string said;
+    std::string output;
     const auto session = opened();
-    EXPECT_TRUE(session->begin(nullptr, [&](const std::string& line) { said += line + "\n"; }));
+    EXPECT_TRUE(session->begin(nullptr, [&](const std::string& line) { output += line + "\n"; }));
     const service::CarLoop loop = session->loop();
     Car car(folder_->path() + "/keys/car.keys", loop.radio[0].local());
     std::vector<transport::UdpDatagram> inbox(transport::UdpSocket::kBatch);
@@ -78,7 +78,7 @@ class Session : public testing::Test {
     const auto waits = [&] {
       return transport::monotonic_now() < limit &&
              (session->service().link().endpoint().report(limit).sessions == 0 ||
-              (arguments_.stamp_file.find("nowhere") != std::string::npos && said.empty()));
+              (arguments_.stamp_file.find("nowhere") != std::string::npos && output.empty()));
     };
     while (waits()) {
       car.turn();
@@ -94,7 +94,7 @@ class Session : public testing::Test {
       transport::sleep_until(transport::monotonic_now() + milliseconds(2));
     }
     EXPECT_EQ(session->service().link().endpoint().report(limit).sessions, 1U);
-    return said;
+    return output;
   }
 
   Result<transport::TemporaryFolder, Problem> folder_ =
@@ -135,9 +135,9 @@ TEST_F(Session, KeepsTheNewestStampOfItsCarUnlessItIsTold) {
 
 TEST_F(Session, SaysOnceThatItsStampCannotBeKept) {
   arguments_.stamp_file = folder_->path() + "/nowhere/base.stamp";
-  const std::string said = stamp_after_a_session();
-  EXPECT_EQ(said.find("stamp file not written: " + arguments_.stamp_file), 0U) << said;
-  EXPECT_EQ(std::ranges::count(said, '\n'), 1) << said;
+  const std::string output = stamp_after_a_session();
+  EXPECT_EQ(output.find("stamp file not written: " + arguments_.stamp_file), 0U) << output;
+  EXPECT_EQ(std::ranges::count(output, '\n'), 1) << output;
 }
 
 TEST_F(Session, ASocketThatIsTakenIsTold) {

@@ -63,7 +63,7 @@ TEST(Arguments, MistakesAreTheCallersExitCode) {
     const auto* const leave = std::get_if<Leave>(&parsed);
     ASSERT_NE(leave, nullptr) << words.front();
     EXPECT_EQ(leave->code, 2) << words.front();
-    EXPECT_FALSE(leave->said.empty()) << words.front();
+    EXPECT_FALSE(leave->stated.empty()) << words.front();
   }
 }
 
@@ -74,7 +74,7 @@ TEST(Arguments, HelpIsNoMistake) {
   const auto* const leave = std::get_if<Leave>(&parsed);
   ASSERT_NE(leave, nullptr);
   EXPECT_EQ(leave->code, 0);
-  EXPECT_TRUE(leave->said.empty());
+  EXPECT_TRUE(leave->stated.empty());
 }
 
 TEST(Arguments, OfRosHaveDefaultsAndBounds) {

@@ -11,7 +11,7 @@ namespace {
 using telemetry::Command;
 using telemetry::CommandType;
 
-std::string said(const telemetry::EventContent& content) {
+std::string output(const telemetry::EventContent& content) {
   return event_text(telemetry::make_event(content, {}));
 }
 
@@ -44,24 +44,24 @@ TEST(LogText, ProgressSaysHowFarAndHowLong) {
 }
 
 TEST(LogText, EventsAreSentences) {
-  EXPECT_EQ(said(telemetry::ModeEvent{.from = 1, .to = 2}), "mode: standby -> driving");
-  EXPECT_EQ(said(telemetry::ModeEvent{.from = 2, .to = 4, .cause = 1}),
+  EXPECT_EQ(output(telemetry::ModeEvent{.from = 1, .to = 2}), "mode: standby -> driving");
+  EXPECT_EQ(output(telemetry::ModeEvent{.from = 2, .to = 4, .cause = 1}),
             "mode: driving -> emergency stop, operator: emergency stop");
-  EXPECT_EQ(said(telemetry::LapEvent{.number = 3, .time_s = 45.25F}), "lap 3: 45.250 s");
-  EXPECT_EQ(said(telemetry::LostEvents{.count = 7}),
+  EXPECT_EQ(output(telemetry::LapEvent{.number = 3, .time_s = 45.25F}), "lap 3: 45.250 s");
+  EXPECT_EQ(output(telemetry::LostEvents{.count = 7}),
             "7 events were lost: the car's queue was full");
-  EXPECT_EQ(said(telemetry::FlagEvent{.from = 0, .to = 1}), "track flag: none -> RED");
-  EXPECT_EQ(said(telemetry::ThreatEvent{.threat = 4, .seen_by_base = true}),
+  EXPECT_EQ(output(telemetry::FlagEvent{.from = 0, .to = 1}), "track flag: none -> RED");
+  EXPECT_EQ(output(telemetry::ThreatEvent{.threat = 4, .seen_by_base = true}),
             "radio, seen by the base: Recorded openings of key exchanges are replayed");
   EXPECT_EQ(
-      said(telemetry::ThreatEvent{.threat = 0, .begins = false, .most_per_s = 10}),
+      output(telemetry::ThreatEvent{.threat = 0, .begins = false, .most_per_s = 10}),
       "radio, seen by the car: over, at most 10/s: Key exchange messages do not fit our keys");
-  EXPECT_EQ(said(telemetry::ThreatEvent{.threat = 200}),
+  EXPECT_EQ(output(telemetry::ThreatEvent{.threat = 200}),
             "radio: an attack that this base does not know");
 }
 
 TEST(LogText, TextFromTheAirIsShownWithoutControlCharacters) {
-  EXPECT_EQ(said(telemetry::TextEvent{"a\x1b[2Jb\n"}), "a?[2Jb?");
+  EXPECT_EQ(output(telemetry::TextEvent{"a\x1b[2Jb\n"}), "a?[2Jb?");
 }
 
 TEST(LogText, AnUnknownEventIsNoCrash) {

@@ -14,11 +14,11 @@
 
 namespace pitwall::benchmarks {
 
+using cli::ProgramOutput;
 using cli::ProgramRun;
-using cli::Said;
 
 // `limits_us`: by gate, on the reference machine; a gate that is not of time is at most 0 of them.
-inline void expect_one_verdict(const Said& said, const json::JsonValue& file,
+inline void expect_one_verdict(const ProgramOutput& output, const json::JsonValue& file,
                                const std::map<std::string, double>& limits_us) {
   bool held = true;
   std::map<std::string, double> found;
@@ -33,18 +33,18 @@ inline void expect_one_verdict(const Said& said, const json::JsonValue& file,
       EXPECT_GT(gate.number("unit_us"), 0.1 * cost::kReferenceUnit_us) << what;
     }
     held = held && gate.flag("held");
-    EXPECT_NE(said.out.find("gate: " + what + ": "), std::string::npos) << said.out;
+    EXPECT_NE(output.out.find("gate: " + what + ": "), std::string::npos) << output.out;
   }
-  ASSERT_EQ(found.size(), limits_us.size()) << said.out;
+  ASSERT_EQ(found.size(), limits_us.size()) << output.out;
   for (const auto& [what, limit_us] : limits_us) {
     ASSERT_TRUE(found.contains(what)) << what;
     EXPECT_NEAR(found[what], limit_us, 1e-6) << what;
   }
   EXPECT_EQ(file.flag("held"), held);
-  EXPECT_EQ(said.code, held ? 0 : 1);
-  EXPECT_EQ(said.out.find("MISSED") == std::string::npos, held) << said.out;
+  EXPECT_EQ(output.code, held ? 0 : 1);
+  EXPECT_EQ(output.out.find("MISSED") == std::string::npos, held) << output.out;
   EXPECT_NE(file.text("machine"), "");
-  EXPECT_NE(said.out.find(file.text("machine")), std::string::npos) << said.out;
+  EXPECT_NE(output.out.find(file.text("machine")), std::string::npos) << output.out;
 }
 
 }  // namespace pitwall::benchmarks

@@ -8,8 +8,8 @@
 
 namespace pitwall::benchmarks {
 
+using cli::ProgramOutput;
 using cli::ProgramRun;
-using cli::Said;
 namespace {
 
 class BenchGateway : public ProgramRun {};

@@ -74,7 +74,7 @@ TEST(LossJudge, EachReportThatIsMissingIsMissed) {
 // Each omission once: the frame before it comes later and later until the gap around it is one that
 // frames without a loss may have. A counter tells the loss all the same.
 TEST(LossJudge, AnOmissionThatNoGapBetraysIsHiddenUnlessACounterTells) {
-  std::size_t hidden = 0, told = 0;
+  std::size_t hidden = 0, announced = 0;
   for (std::size_t gone = 0; gone < 60; ++gone) {
     PerfectRun run;
     const std::size_t stream = run.traffic.omissions()[gone].stream;
@@ -91,10 +91,10 @@ TEST(LossJudge, AnOmissionThatNoGapBetraysIsHiddenUnlessACounterTells) {
     EXPECT_EQ(judged.missed, row.has_counter ? 1u : 0u) << gone;
     EXPECT_EQ(judged.hidden, row.has_counter ? 0u : 1u) << gone;
     EXPECT_EQ(judged.omitted + judged.hidden, 60u);
-    ++(row.has_counter ? told : hidden);
+    ++(row.has_counter ? announced : hidden);
   }
   EXPECT_GT(hidden, 10u);
-  EXPECT_GT(told, 10u);
+  EXPECT_GT(announced, 10u);
 }
 
 TEST(LossJudge, ASecondReportOfTheSameFrameIsTwice) {

@@ -7,8 +7,8 @@
 
 namespace pitwall::benchmarks {
 
+using cli::ProgramOutput;
 using cli::ProgramRun;
-using cli::Said;
 namespace {
 
 using BenchLaps = ProgramRun;
@@ -21,13 +21,13 @@ TEST_F(BenchLaps, RefusesWhatItCannotUse) {
 
 // One track, nominal alone: the table, the paper beside it, the file.
 TEST_F(BenchLaps, DrivesATrackThatIsNamed) {
-  const Said said = run({"laps", "--track", "vehicle/config/tracks/tms.yaml", "--only", "nominal",
-                         "--json", path("laps.json")});
-  EXPECT_EQ(said.code, 0) << said.out << said.err;
-  EXPECT_NE(said.out.find("TMS    nominal"), std::string::npos) << said.out;
-  EXPECT_NE(said.out.find("lapped"), std::string::npos) << said.out;
-  EXPECT_NE(said.out.find("not a claim"), std::string::npos);
-  EXPECT_NE(said.out.find("1 runs in"), std::string::npos);
+  const ProgramOutput output = run({"laps", "--track", "vehicle/config/tracks/tms.yaml", "--only",
+                                    "nominal", "--json", path("laps.json")});
+  EXPECT_EQ(output.code, 0) << output.out << output.err;
+  EXPECT_NE(output.out.find("TMS    nominal"), std::string::npos) << output.out;
+  EXPECT_NE(output.out.find("lapped"), std::string::npos) << output.out;
+  EXPECT_NE(output.out.find("not a claim"), std::string::npos);
+  EXPECT_NE(output.out.find("1 runs in"), std::string::npos);
   EXPECT_NE(text_of("laps.json").find("\"lapped\": true"), std::string::npos);
 }
 

@@ -22,13 +22,13 @@ void evaluate(benchmark::State& state, bool healthy) {
   for (auto _ : state) {
     if (++steps % 2 == 0) {  // a packet comes with every second step
       state.PauseTiming();
-      wall.told.touch_all(now);
-      wall.link.heard = now;
+      wall.reported.touch_all(now);
+      wall.link.received = now;
       wall.evaluator.link(wall.link);
       state.ResumeTiming();
     }
     now += alarms::kGrid;
-    wall.evaluator.advance(wall.told.vehicle, now);
+    wall.evaluator.advance(wall.reported.vehicle, now);
   }
   state.counters["alarms"] = static_cast<double>(alarms::alarm_count());
 }
@@ -40,7 +40,7 @@ void judge_every_field(benchmark::State& state) {
   wall.run(seconds(5));
   for (auto _ : state) {
     for (state::FieldId id = 0; id < telemetry::kFieldCount; ++id) {
-      const auto view = wall.evaluator.view(wall.told.vehicle, id, wall.now);
+      const auto view = wall.evaluator.view(wall.reported.vehicle, id, wall.now);
       benchmark::DoNotOptimize(wall.evaluator.judge(id, view));
     }
   }

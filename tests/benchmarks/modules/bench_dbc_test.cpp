@@ -8,8 +8,8 @@
 
 namespace pitwall::benchmarks {
 
+using cli::ProgramOutput;
 using cli::ProgramRun;
-using cli::Said;
 namespace {
 
 class BenchDbc : public ProgramRun {};
@@ -17,8 +17,8 @@ class BenchDbc : public ProgramRun {};
 // Whether the gates hold depends on the machine; that the code, the words and the file agree does
 // not.
 TEST_F(BenchDbc, CodeWordsAndFileSayTheSame) {
-  const Said said = run({"dbc", "--json", path("dbc.json")});
-  ASSERT_TRUE(said.code == 0 || said.code == 1) << said.err;
+  const ProgramOutput output = run({"dbc", "--json", path("dbc.json")});
+  ASSERT_TRUE(output.code == 0 || output.code == 1) << output.err;
   const auto json = yaml::load_file(path("dbc.json"));
   ASSERT_TRUE(json) << to_string(json.error());
   yaml::StrictMap map = json->root();
@@ -31,8 +31,8 @@ TEST_F(BenchDbc, CodeWordsAndFileSayTheSame) {
   EXPECT_GE(map.integer("parse_bytes", 0, 1'000'000'000), 800'000);
   const bool held = map.flag("held");
   EXPECT_EQ(held, decoded_per_s >= 20e6 && parse_ms < 100.0);
-  EXPECT_EQ(said.code, held ? 0 : 1);
-  EXPECT_EQ(said.out.find("MISSED") == std::string::npos, held) << said.out;
+  EXPECT_EQ(output.code, held ? 0 : 1);
+  EXPECT_EQ(output.out.find("MISSED") == std::string::npos, held) << output.out;
 }
 
 TEST_F(BenchDbc, WrongUsageIsTold) {

@@ -13,8 +13,8 @@ class BenchEkf : public ProgramRun {};
 // Whether the gates of time hold depends on the machine; that the code, the words and the file
 // agree does not, nor what was measured.
 TEST_F(BenchEkf, CodeWordsAndFileSayTheSame) {
-  const Said said = run({"ekf", "--json", path("ekf.json")});
-  ASSERT_TRUE(said.code == 0 || said.code == 1) << said.err;
+  const ProgramOutput output = run({"ekf", "--json", path("ekf.json")});
+  ASSERT_TRUE(output.code == 0 || output.code == 1) << output.err;
   const auto json = json::JsonValue::parse(text_of("ekf.json"), "ekf.json");
   ASSERT_TRUE(json) << to_string(json.error());
   EXPECT_EQ(json->text("bench"), "ekf");
@@ -33,14 +33,14 @@ TEST_F(BenchEkf, CodeWordsAndFileSayTheSame) {
   EXPECT_GT(at("step_rewind_100ms_calls"), 500.0);
   EXPECT_GT(at("step_rewind_calls"), at("step_rewind_100ms_calls"));
   EXPECT_EQ(at("step_allocations"), 0.0);
-  expect_one_verdict(said, *json,
+  expect_one_verdict(output, *json,
                      {{"predict, p50", 15.0},
                       {"update, p50, each kind", 30.0},
                       {"rewind of 100 ms, p50", 1'000.0},
                       {"rewind of 1 s, p50", 8'000.0},
                       {"step with a rewind of 100 ms, p99", 1'200.0},
                       {"no allocation in any step", 0.0}});
-  EXPECT_NE(said.out.find("[published"), std::string::npos);  // of the peer
+  EXPECT_NE(output.out.find("[published"), std::string::npos);  // of the peer
 }
 
 TEST_F(BenchEkf, WrongUsageIsTold) {

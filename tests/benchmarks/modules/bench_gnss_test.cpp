@@ -8,8 +8,8 @@
 
 namespace pitwall::benchmarks {
 
+using cli::ProgramOutput;
 using cli::ProgramRun;
-using cli::Said;
 namespace {
 
 class BenchGnss : public ProgramRun {};
@@ -17,8 +17,8 @@ class BenchGnss : public ProgramRun {};
 // Whether the gate holds depends on the machine; that the code, the words and the file agree does
 // not. The rates are those of the receivers.
 TEST_F(BenchGnss, CodeWordsAndFileSayTheSame) {
-  const Said said = run({"gnss", "--json", path("gnss.json")});
-  ASSERT_TRUE(said.code == 0 || said.code == 1) << said.err;
+  const ProgramOutput output = run({"gnss", "--json", path("gnss.json")});
+  ASSERT_TRUE(output.code == 0 || output.code == 1) << output.err;
   const auto json = yaml::load_file(path("gnss.json"));
   ASSERT_TRUE(json) << to_string(json.error());
   yaml::StrictMap map = json->root();
@@ -38,9 +38,9 @@ TEST_F(BenchGnss, CodeWordsAndFileSayTheSame) {
             map.number("novatel_binary_bytes_per_s", 0.0, 1e9));
   const bool held = map.flag("held");
   EXPECT_EQ(held, within);
-  EXPECT_EQ(said.out.find("not every log"), std::string::npos);
-  EXPECT_EQ(said.code, held ? 0 : 1);
-  EXPECT_EQ(said.out.find("MISSED") == std::string::npos, held) << said.out;
+  EXPECT_EQ(output.out.find("not every log"), std::string::npos);
+  EXPECT_EQ(output.code, held ? 0 : 1);
+  EXPECT_EQ(output.out.find("MISSED") == std::string::npos, held) << output.out;
 }
 
 TEST_F(BenchGnss, WrongUsageIsTold) {

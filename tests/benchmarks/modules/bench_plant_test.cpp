@@ -13,8 +13,8 @@ class BenchPlant : public ProgramRun {};
 // Whether the gates hold depends on the machine; that the code, the words and the file agree does
 // not.
 TEST_F(BenchPlant, CodeWordsAndFileSayTheSame) {
-  const Said said = run({"plant", "--json", path("plant.json")});
-  ASSERT_TRUE(said.code == 0 || said.code == 1) << said.err;
+  const ProgramOutput output = run({"plant", "--json", path("plant.json")});
+  ASSERT_TRUE(output.code == 0 || output.code == 1) << output.err;
   const auto json = json::JsonValue::parse(text_of("plant.json"), "plant.json");
   ASSERT_TRUE(json) << to_string(json.error());
   EXPECT_EQ(json->text("bench"), "plant");
@@ -24,10 +24,10 @@ TEST_F(BenchPlant, CodeWordsAndFileSayTheSame) {
   EXPECT_LT(json->number("kinematic_us"), step_us);
   EXPECT_GT(json->number("kinematic_us"), 0.0);
   EXPECT_LE(json->number("lockstep_median"), json->number("lockstep_times_real_time"));
-  expect_one_verdict(said, *json,
+  expect_one_verdict(output, *json,
                      {{"a step of the double track, median", 5.0},
                       {"a second of lockstep, median, 50 times real time", 1e6 / 50.0}});
-  EXPECT_NE(said.out.find("[published]"), std::string::npos);  // of the peers
+  EXPECT_NE(output.out.find("[published]"), std::string::npos);  // of the peers
 }
 
 TEST_F(BenchPlant, WrongUsageIsTold) {

@@ -13,8 +13,8 @@
 
 namespace pitwall::benchmarks {
 
+using cli::ProgramOutput;
 using cli::ProgramRun;
-using cli::Said;
 namespace {
 
 class BenchRadio : public ProgramRun {
@@ -31,7 +31,7 @@ class BenchRadio : public ProgramRun {
             ")) $at all 100 signals\ni=$((i - 20))\ndone\n",
         0755));
   }
-  Said judged(int age_ms, int whole_ms) {
+  ProgramOutput judged(int age_ms, int whole_ms) {
     write_peer("peer_pitwall", age_ms, whole_ms);
     return run({"radio", "--seconds", "1", "--case", "overload", "--peers", path(""), "--json",
                 path("radio.json")});
@@ -70,9 +70,9 @@ TEST_F(BenchRadio, CodeWordsAndFileSayTheSame) {
   };
   for (const Try t : {Try{20, 100}, Try{90, 100}, Try{20, 210}}) {
     const bool good = t.safety_ms == 20 && t.whole_ms == 100;
-    const Said said = judged(t.safety_ms, t.whole_ms);
-    EXPECT_EQ(said.code, good ? 0 : 1) << said.out << said.err;
-    EXPECT_EQ(said.out.find("MISSED") == std::string::npos, good) << said.out;
+    const ProgramOutput output = judged(t.safety_ms, t.whole_ms);
+    EXPECT_EQ(output.code, good ? 0 : 1) << output.out << output.err;
+    EXPECT_EQ(output.out.find("MISSED") == std::string::npos, good) << output.out;
     const auto json = yaml::load_file(path("radio.json"));
     ASSERT_TRUE(json) << to_string(json.error());
     yaml::StrictMap map = json->root();
@@ -83,7 +83,7 @@ TEST_F(BenchRadio, CodeWordsAndFileSayTheSame) {
     EXPECT_EQ(rows[1].text("stream"), "all 100 signals");
     EXPECT_NEAR(rows[0].number("age_p50_ms", 0.0, 1e6), t.safety_ms + 10.0, 2.0);
     EXPECT_NEAR(rows[1].number("age_p50_ms", 0.0, 1e6), t.whole_ms + 10.0, 2.0);
-    EXPECT_NE(said.out.find("is not built"), std::string::npos);
+    EXPECT_NE(output.out.find("is not built"), std::string::npos);
   }
 }
 
@@ -94,10 +94,11 @@ TEST_F(BenchRadio, NamesWhoComesNearOurs) {
   write_peer("peer_pitwall", 20, 40);
   write_peer("peer_lcm_udpm", 42, 42);
   write_peer("peer_cyclone_dds", 90, 90);
-  const Said said = run({"radio", "--seconds", "1", "--case", "overload", "--peers", path("")});
-  const std::string near = said.out.substr(said.out.find("times as old as ours"));
-  EXPECT_NE(near.find("overload: LCM, bulk paced"), std::string::npos) << said.out;
-  EXPECT_EQ(near.find("Cyclone"), std::string::npos) << said.out;
+  const ProgramOutput output =
+      run({"radio", "--seconds", "1", "--case", "overload", "--peers", path("")});
+  const std::string near = output.out.substr(output.out.find("times as old as ours"));
+  EXPECT_NE(near.find("overload: LCM, bulk paced"), std::string::npos) << output.out;
+  EXPECT_EQ(near.find("Cyclone"), std::string::npos) << output.out;
 }
 
 }  // namespace

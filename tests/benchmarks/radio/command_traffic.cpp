@@ -156,7 +156,7 @@ class StopTrial {
   bool latched() const { return radio_.car().view(radio_.car_now()).stop != StopLevel::kNone; }
 
   // Until the car opened a packet that was surely made after the press. False: not latched then.
-  bool press_until_heard() {
+  bool press_until_received() {
     radio_.station().stop().demand(StopLevel::kEmergency, StopReason::kOperator);
     for (const Instant after = radio_.now() + kSurelyAfter; radio_.now() < after;) step();
     const std::uint64_t opened = radio_.car_report().association.opened;
@@ -217,7 +217,7 @@ StopFigures run_stops(VirtualRadio& radio, std::uint64_t trials) {
   radio.run(seconds(2));
   for (std::uint64_t i = 0; i < trials; ++i) {
     ++figures.trials;
-    if (!trial.press_until_heard()) ++figures.late;
+    if (!trial.press_until_received()) ++figures.late;
     while (!trial.latched()) trial.step();
     trial.wait_latched(static_cast<std::int64_t>(i % 200));
     if (!trial.release()) ++figures.not_released;

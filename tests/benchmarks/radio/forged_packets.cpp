@@ -11,7 +11,7 @@ using namespace telemetry;  // NOLINT: the bench of this one module
 namespace {
 
 // Datagrams under way: those of the last half second. Replays are of before.
-constexpr std::size_t kFresh = 64, kHeard = 512;
+constexpr std::size_t kFresh = 64, kReceived = 512;
 constexpr Address kForgerAddress{0x0A0000FE, 6'666};
 constexpr std::uint8_t kPhaseBit = 0x02;
 constexpr Duration kRestartEvery = seconds(7);
@@ -33,12 +33,12 @@ std::uint64_t ForgeryFigures::total() const {
 PacketForger::PacketForger(VirtualRadio& radio, std::uint64_t seed) : radio_(radio), random_{seed} {
   radio.tap([this](bool down, PathId, std::span<const std::uint8_t> bytes) {
     auto& fresh = fresh_[down ? 1 : 0];
-    auto& heard = heard_[down ? 1 : 0];
+    auto& received = received_[down ? 1 : 0];
     fresh.emplace_back(bytes.begin(), bytes.end());
     if (fresh.size() <= kFresh) return true;
-    heard.push_back(std::move(fresh.front()));
+    received.push_back(std::move(fresh.front()));
     fresh.pop_front();
-    if (heard.size() > kHeard) heard.pop_front();
+    if (received.size() > kReceived) received.pop_front();
     return true;
   });
   RadioSetup setup;
@@ -53,14 +53,14 @@ PacketForger::PacketForger(VirtualRadio& radio, std::uint64_t seed) : radio_(rad
 
 std::uint64_t PacketForger::draw() { return random_.next(); }
 
-const PacketForger::Bytes& PacketForger::heard(bool down) {
-  const auto& heard = heard_[down ? 1 : 0];
+const PacketForger::Bytes& PacketForger::received(bool down) {
+  const auto& received = received_[down ? 1 : 0];
   static const Bytes kNothing{0};
-  return heard.empty() ? kNothing : heard[draw() % heard.size()];
+  return received.empty() ? kNothing : received[draw() % received.size()];
 }
 
 PacketForger::Bytes PacketForger::forge(Forgery kind, bool at_base) {
-  Bytes bytes = heard(at_base);
+  Bytes bytes = received(at_base);
   switch (kind) {
     case Forgery::kBitFlip:
       bytes[draw() % bytes.size()] ^= static_cast<std::uint8_t>(1U << draw() % 8);
@@ -72,7 +72,7 @@ PacketForger::Bytes PacketForger::forge(Forgery kind, bool at_base) {
       bytes.resize(bytes.size() + 1 + draw() % 64, static_cast<std::uint8_t>(draw()));
       return bytes;
     case Forgery::kSpliced: {
-      const Bytes& tail = heard(at_base);
+      const Bytes& tail = received(at_base);
       const std::size_t cut = 1 + draw() % bytes.size();
       if (cut >= tail.size() || std::equal(bytes.begin(), bytes.begin() + 7, tail.begin())) break;
       bytes.resize(std::min(cut, bytes.size()));
@@ -82,7 +82,7 @@ PacketForger::Bytes PacketForger::forge(Forgery kind, bool at_base) {
     case Forgery::kReplayed:
       return bytes;
     case Forgery::kReflected:
-      return heard(!at_base);
+      return received(!at_base);
     case Forgery::kOldPhase:
       bytes[0] ^= kPhaseBit;
       return bytes;
@@ -104,7 +104,7 @@ void PacketForger::note_sessions() {
   const std::uint64_t sessions = radio_.base_report().sessions + radio_.car_report().sessions;
   if (sessions == last_sessions_) return;
   last_sessions_ = sessions;
-  before_ = heard_;
+  before_ = received_;
 }
 
 void PacketForger::send(std::size_t count) {
@@ -125,7 +125,8 @@ void PacketForger::send(std::size_t count) {
 void PacketForger::flood(std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const bool at_base = i % 2 == 0;
-    Bytes bytes = fresh_[at_base ? 1 : 0].empty() ? heard(at_base) : fresh_[at_base ? 1 : 0].back();
+    Bytes bytes =
+        fresh_[at_base ? 1 : 0].empty() ? received(at_base) : fresh_[at_base ? 1 : 0].back();
     bytes[bytes.size() - 1 - i % 16] ^= static_cast<std::uint8_t>(1U + i % 255);
     ++figures_.sent[static_cast<std::size_t>(Forgery::kBitFlip)];
     radio_.inject(at_base, 0, kForgerAddress, bytes);

@@ -56,15 +56,15 @@ class PacketForger {
   using Bytes = std::vector<std::uint8_t>;
 
   std::uint64_t draw();
-  const Bytes& heard(bool down);
+  const Bytes& received(bool down);
   Bytes forge(Forgery kind, bool at_base);
   void note_sessions();
 
   VirtualRadio& radio_;
   Random random_;
-  std::array<std::deque<Bytes>, 2> heard_;   // delivered long ago, by direction
-  std::array<std::deque<Bytes>, 2> fresh_;   // maybe under way
-  std::array<std::deque<Bytes>, 2> before_;  // of sessions that are over
+  std::array<std::deque<Bytes>, 2> received_;  // delivered long ago, by direction
+  std::array<std::deque<Bytes>, 2> fresh_;     // maybe under way
+  std::array<std::deque<Bytes>, 2> before_;    // of sessions that are over
   std::vector<Bytes> foreign_;
   std::uint64_t last_sessions_ = 0, turn_ = 0;
   ForgeryFigures figures_;

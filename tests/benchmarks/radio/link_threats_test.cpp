@@ -114,13 +114,13 @@ class OtherCar {
   OtherCar(VirtualRadio& radio, const telemetry::LinkEndpointConfig& config)
       : radio_(radio), car_(config, randomness_) {
     radio.tap([this](bool down, telemetry::PathId, std::span<const std::uint8_t> bytes) {
-      if (!down) heard_.emplace_back(bytes.begin(), bytes.end());
+      if (!down) received_.emplace_back(bytes.begin(), bytes.end());
       return true;
     });
   }
   void step() {
-    for (const Bytes& bytes : heard_) car_.feed(bytes, 0, {0x0A000002, 5'000}, radio_.car_now());
-    heard_.clear();
+    for (const Bytes& bytes : received_) car_.feed(bytes, 0, {0x0A000002, 5'000}, radio_.car_now());
+    received_.clear();
     if (!each(kTick, radio_.now())) return;
     while (const auto out = car_.poll(snapshot_, radio_.car_now()))
       radio_.inject(true, 0, kStranger, out->bytes);
@@ -133,7 +133,7 @@ class OtherCar {
   telemetry::SeededRandomness randomness_{99};
   telemetry::CarEndpoint car_;
   telemetry::Snapshot snapshot_;
-  std::vector<Bytes> heard_;
+  std::vector<Bytes> received_;
   telemetry::ThreatSet threats_;
 };
 
@@ -319,17 +319,17 @@ TEST(LinkThreats, ASecondBaseWithOurKeysIsSeenByTheCar) {
   VirtualRadio radio(setup_of(clean_link()));
   telemetry::SeededRandomness randomness(99);
   telemetry::StationEndpoint other(config_of(Pair(1).base), randomness);
-  std::vector<Bytes> heard;
+  std::vector<Bytes> received;
   radio.tap([&](bool down, telemetry::PathId, std::span<const std::uint8_t> bytes) {
-    if (down) heard.emplace_back(bytes.begin(), bytes.end());
+    if (down) received.emplace_back(bytes.begin(), bytes.end());
     return true;
   });
   Onlooker onlooker(radio);
   onlooker.begin();
   onlooker.run(seconds(10), [&] {
     if (!each(milliseconds(40), radio.now())) return;
-    for (const Bytes& bytes : heard) other.feed(bytes, 0, kStranger, radio.base_now());
-    heard.clear();
+    for (const Bytes& bytes : received) other.feed(bytes, 0, kStranger, radio.base_now());
+    received.clear();
     while (const auto out = other.poll(radio.base_now()))
       radio.inject(false, 0, {0x0A000003, 5'000}, out->bytes);
   });

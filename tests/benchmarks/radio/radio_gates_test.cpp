@@ -7,8 +7,8 @@
 
 namespace pitwall::benchmarks {
 
+using cli::ProgramOutput;
 using cli::ProgramRun;
-using cli::Said;
 namespace {
 
 using RadioGates = ProgramRun;

@@ -14,7 +14,7 @@ namespace {
 constexpr telemetry::HolderId kWho = 1;
 constexpr std::uint64_t kRenew_ms = 500;
 constexpr int kCommandsEachStep = 3;
-constexpr std::size_t kHeard = 64, kKnocksEachStep = 8;
+constexpr std::size_t kReceived = 64, kKnocksEachStep = 8;
 constexpr std::uint64_t kAddresses = 200;
 constexpr std::uint64_t kFreshMessages_ms = 4'000, kBaseLives_ms = 700, kCarLives_ms = 1'100;
 
@@ -33,7 +33,8 @@ StressLoad::StressLoad(VirtualRadio& radio, Trouble trouble) : radio_(radio), tr
   radio.tap([this](bool, telemetry::PathId, std::span<const std::uint8_t> bytes) {
     const auto header = telemetry::parse_header(bytes);
     const bool exchange = header && header->kind != Kind::kSealed && header->kind != Kind::kSigned;
-    if (exchange && heard_.size() < kHeard) heard_.emplace_back(bytes.begin(), bytes.end());
+    if (exchange && received_.size() < kReceived)
+      received_.emplace_back(bytes.begin(), bytes.end());
     return true;
   });
 }
@@ -61,8 +62,8 @@ void StressLoad::command() {
 
 // Whole messages that were heard before, and spoiled ones, from many addresses, at both ends.
 void StressLoad::send_opening() {
-  for (std::size_t i = 0; i < kKnocksEachStep && !heard_.empty(); ++i) {
-    std::vector<std::uint8_t> bytes = heard_[(ms_ + i) % heard_.size()];
+  for (std::size_t i = 0; i < kKnocksEachStep && !received_.empty(); ++i) {
+    std::vector<std::uint8_t> bytes = received_[(ms_ + i) % received_.size()];
     if (i % 2 == 1) bytes[(ms_ + i) % bytes.size()] ^= 0x55;
     const telemetry::Address from{0x0A000100 + static_cast<std::uint32_t>(ms_ % kAddresses),
                                   static_cast<std::uint16_t>(1'000 + i)};

@@ -34,7 +34,7 @@ class StressLoad {
   VirtualRadio& radio_;
   Trouble trouble_;
   std::uint64_t ms_ = 0, applied_ = 0, openings_ = 0;
-  std::vector<std::vector<std::uint8_t>> heard_;  // of the exchange
+  std::vector<std::vector<std::uint8_t>> received_;  // of the exchange
 };
 
 }  // namespace pitwall::radio

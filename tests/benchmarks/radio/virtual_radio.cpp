@@ -185,9 +185,9 @@ void VirtualRadio::judge(std::span<const std::uint8_t> datagram, const Arrival& 
     std::int64_t& sample = sample_at_base_[index_of(row.group)];
     if (sent.sample < sample) ++falsehoods_.went_back;
     sample = sent.sample;
-    const Instant told = station_->state().at(row.group);
+    const Instant reported = station_->state().at(row.group);
     const Instant truth = base_time(Instant{} + kStep * sent.sample);
-    if (station_->clock_known() && told > truth) ++falsehoods_.too_young;
+    if (station_->clock_known() && reported > truth) ++falsehoods_.too_young;
     judge_values(row.group, sent.sample);
   }
 }

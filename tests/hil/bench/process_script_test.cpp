@@ -57,16 +57,16 @@ TEST(ProcessScript, ASlowedProcessIsStoppedForItsShareAndRunsAtTheEnd) {
       Duration stopped{};
       bool running = true;
       Instant since{};
-      int told = 0;
+      int reported = 0;
       for (const ProcessAction& action : actions) {
         EXPECT_EQ(action.act, running ? Act::kPause : Act::kResume) << "they alternate";
         if (!running) stopped = stopped + (action.at - since);
         running = !running;
         since = action.at;
-        told += action.first_of_many || !action.one_of_many ? 1 : 0;
+        reported += action.first_of_many || !action.one_of_many ? 1 : 0;
       }
       EXPECT_TRUE(running);
-      EXPECT_EQ(told, 1);
+      EXPECT_EQ(reported, 1);
       const Instant until = lasts ? std::min(kEnd, Instant{} + seconds(57) + *lasts) : kEnd;
       EXPECT_LE(actions.back().at, until);
       const double whole_s = (until - (Instant{} + seconds(57))).seconds();

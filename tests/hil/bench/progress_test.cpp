@@ -50,14 +50,14 @@ std::vector<std::string> lines_of(const scenario::Scenario& scenario) {
   return lines;
 }
 
-const std::vector<std::string>& told() {
+const std::vector<std::string>& reported() {
   static const std::vector<std::string> lines = lines_of(short_drive());
   return lines;
 }
 
 std::vector<JsonValue> of_type(const std::string& type) {
   std::vector<JsonValue> found;
-  for (const std::string& line : told()) {
+  for (const std::string& line : reported()) {
     JsonValue value = parsed(line);
     if (value.text("type") == type) found.push_back(std::move(value));
   }
@@ -66,18 +66,18 @@ std::vector<JsonValue> of_type(const std::string& type) {
 
 TEST(Progress, EachLineIsOneObjectOfAKindThatIsDocumented) {
   std::map<std::string, int> kinds;
-  for (const std::string& line : told()) {
+  for (const std::string& line : reported()) {
     EXPECT_EQ(line.find('\n'), std::string::npos);
     ++kinds[parsed(line).text("type")];
   }
   EXPECT_EQ(kinds["plan"], 1);
   EXPECT_EQ(kinds["result"], 1);
   EXPECT_EQ(kinds["at"], 41);  // each half second of twenty, and the first
-  EXPECT_EQ(static_cast<int>(told().size()), 43 + kinds["event"]);
+  EXPECT_EQ(static_cast<int>(reported().size()), 43 + kinds["event"]);
 }
 
 TEST(Progress, ThePlanSaysWhatWillHappen) {
-  const JsonValue plan = parsed(told().front());
+  const JsonValue plan = parsed(reported().front());
   EXPECT_EQ(plan.text("type"), "plan");
   EXPECT_EQ(plan.number("duration_s"), 20.0);
   ASSERT_EQ(plan.items("faults").size(), 1U);
@@ -109,8 +109,8 @@ TEST(Progress, TheReactionToRedIsMeasured) {
 
 TEST(Progress, TheSameSeedTellsTheSameButForTheWallTime) {
   const std::vector<std::string> again = lines_of(short_drive());
-  ASSERT_EQ(again.size(), told().size());
-  for (std::size_t i = 0; i + 1 < again.size(); ++i) EXPECT_EQ(again[i], told()[i]);
+  ASSERT_EQ(again.size(), reported().size());
+  for (std::size_t i = 0; i + 1 < again.size(); ++i) EXPECT_EQ(again[i], reported()[i]);
 }
 
 TEST(Progress, AFailureIsALine) {

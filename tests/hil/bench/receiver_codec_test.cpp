@@ -38,7 +38,7 @@ world::GnssVelocity velocity(std::uint8_t unit, int k) {
 }
 
 struct Count {
-  int heard = 0, wrong = 0;
+  int received = 0, wrong = 0;
 };
 
 Count run(world::ReceiverKind kind, double share, int epochs) {
@@ -57,10 +57,10 @@ Count run(world::ReceiverKind kind, double share, int epochs) {
       decoder.receive(unit, bytes, now);
     });
     for (const world::GnssPosition& p : decoder.samples().positions) {
-      ++count.heard;
-      const int said = static_cast<int>(std::lround((p.latitude_deg - 36.0) * 1e6));
-      const world::GnssPosition sent = position(0, said);
-      const bool right = said >= 1 && said <= k && p.latitude_deg == sent.latitude_deg &&
+      ++count.received;
+      const int stated = static_cast<int>(std::lround((p.latitude_deg - 36.0) * 1e6));
+      const world::GnssPosition sent = position(0, stated);
+      const bool right = stated >= 1 && stated <= k && p.latitude_deg == sent.latitude_deg &&
                          p.longitude_deg == sent.longitude_deg && p.height_m == sent.height_m &&
                          p.position_type == sent.position_type && p.satellites == sent.satellites;
       if (!right) ++count.wrong;
@@ -76,7 +76,7 @@ TEST(DamagedReceivers, ANovatelIsNeverMisunderstood) {
   constexpr int kEpochs = 40'000;
   const Count count = run(world::ReceiverKind::kNovatelOem7, 0.5, kEpochs);
   EXPECT_EQ(count.wrong, 0);
-  EXPECT_GT(count.heard, kEpochs / 3) << "the sound ones are heard";
+  EXPECT_GT(count.received, kEpochs / 3) << "the sound ones are heard";
 }
 
 // Its checksum has 16 bits: of a message that is spoiled, one in 65,536 passes. The innovation
@@ -85,13 +85,13 @@ TEST(DamagedReceivers, AVectorNavIsHardlyEverMisunderstood) {
   constexpr int kEpochs = 40'000;
   const Count count = run(world::ReceiverKind::kVectorNav, 0.5, kEpochs);
   EXPECT_LE(count.wrong, 2);
-  EXPECT_GT(count.heard, kEpochs / 3);
+  EXPECT_GT(count.received, kEpochs / 3);
 }
 
 TEST(DamagedReceivers, ASoundStreamLosesNothing) {
   for (const auto kind : {world::ReceiverKind::kNovatelOem7, world::ReceiverKind::kVectorNav}) {
     const Count count = run(kind, 0.0, 2'000);
-    EXPECT_EQ(count.heard, 2'000);
+    EXPECT_EQ(count.received, 2'000);
     EXPECT_EQ(count.wrong, 0);
   }
 }

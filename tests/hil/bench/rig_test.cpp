@@ -12,34 +12,34 @@ namespace {
 
 using FrameLog = std::vector<std::pair<Instant, Outgoing>>;
 
-struct Heard {
+struct Received {
   FrameLog frames;
   std::map<std::pair<std::string, int>, std::vector<Instant>> samples;  // (kind, unit) -> validity
   std::vector<double> speed_mps;
 };
 
 // Nobody commands anything: the car stands with its brake on.
-Heard listen(const scenario::Scenario& scenario, Duration span) {
+Received listen(const scenario::Scenario& scenario, Duration span) {
   auto rig = Rig::build(scenario, lap().setup.track);
   EXPECT_TRUE(rig) << to_string(rig.error());
-  Heard heard;
+  Received received;
   for (Instant at = Instant{} + kRigStep; at - Instant{} <= span; at += kRigStep) {
     rig->step({}, at);
-    for (const Outgoing& outgoing : rig->take_frames()) heard.frames.emplace_back(at, outgoing);
+    for (const Outgoing& outgoing : rig->take_frames()) received.frames.emplace_back(at, outgoing);
     EXPECT_TRUE(rig->take_frames().empty()) << "frames are taken once";
     const world::SensorInput samples = rig->take_samples();
-    for (const auto& s : samples.positions) heard.samples[{"position", s.unit}].push_back(s.at);
-    for (const auto& s : samples.velocities) heard.samples[{"velocity", s.unit}].push_back(s.at);
-    for (const auto& s : samples.headings) heard.samples[{"heading", s.unit}].push_back(s.at);
-    for (const auto& s : samples.imu) heard.samples[{"imu", s.unit}].push_back(s.at);
+    for (const auto& s : samples.positions) received.samples[{"position", s.unit}].push_back(s.at);
+    for (const auto& s : samples.velocities) received.samples[{"velocity", s.unit}].push_back(s.at);
+    for (const auto& s : samples.headings) received.samples[{"heading", s.unit}].push_back(s.at);
+    for (const auto& s : samples.imu) received.samples[{"imu", s.unit}].push_back(s.at);
   }
   EXPECT_EQ(rig->overflows(), 0u);
-  return heard;
+  return received;
 }
 
-std::size_t count(const Heard& heard, std::uint32_t id, Duration from, Duration until) {
+std::size_t count(const Received& received, std::uint32_t id, Duration from, Duration until) {
   return static_cast<std::size_t>(
-      std::count_if(heard.frames.begin(), heard.frames.end(), [&](const auto& entry) {
+      std::count_if(received.frames.begin(), received.frames.end(), [&](const auto& entry) {
         return entry.second.frame.id == id && entry.first - Instant{} > from &&
                entry.first - Instant{} <= until;
       }));
@@ -86,20 +86,20 @@ TEST(Rig, TheCarStandsWhereTheScenarioSays) {
 }
 
 TEST(Rig, EveryNodeSpeaksAtItsRate) {
-  const Heard heard = listen(standing(), seconds(4));
-  EXPECT_EQ(count(heard, 1300, seconds(2), seconds(3)), 200u);
-  EXPECT_EQ(count(heard, 1303, seconds(2), seconds(3)), 100u);
-  EXPECT_EQ(count(heard, 1304, seconds(2), seconds(3)), 2u);
-  EXPECT_EQ(count(heard, 1200, seconds(2), seconds(3)), 2u);
-  EXPECT_EQ(count(heard, 1209, seconds(2), seconds(3)), 10u);
-  for (const auto& [at, outgoing] : heard.frames) {
+  const Received received = listen(standing(), seconds(4));
+  EXPECT_EQ(count(received, 1300, seconds(2), seconds(3)), 200u);
+  EXPECT_EQ(count(received, 1303, seconds(2), seconds(3)), 100u);
+  EXPECT_EQ(count(received, 1304, seconds(2), seconds(3)), 2u);
+  EXPECT_EQ(count(received, 1200, seconds(2), seconds(3)), 2u);
+  EXPECT_EQ(count(received, 1209, seconds(2), seconds(3)), 10u);
+  for (const auto& [at, outgoing] : received.frames) {
     const bool of_race_control = outgoing.frame.id < 1300;
     EXPECT_EQ(outgoing.from, of_race_control ? Node::kRaceControl : Node::kDriveByWire)
         << outgoing.frame.id;
   }
   for (int unit = 0; unit < 2; ++unit) {
     const auto rate = [&](const char* kind) {
-      return count(heard.samples.at({kind, unit}), milliseconds(1500), milliseconds(3500));
+      return count(received.samples.at({kind, unit}), milliseconds(1500), milliseconds(3500));
     };
     EXPECT_EQ(rate("position"), 40u);
     EXPECT_EQ(rate("velocity"), 40u);
@@ -109,12 +109,12 @@ TEST(Rig, EveryNodeSpeaksAtItsRate) {
 }
 
 TEST(Rig, AFaultOutsideItsTimeChangesNothing) {
-  const Heard without = listen(standing(), seconds(4));
+  const Received without = listen(standing(), seconds(4));
   for (const auto& kind : faults::kBenchFaults) {
     scenario::Scenario s = standing();
     s.faults = {fault_at(seconds(2), std::string(kind.name), kind.value.empty() ? kUnset : 0.5)};
     if (!plan_faults(s.faults, 1)) continue;  // not in this bench
-    const Heard with = listen(s, seconds(2) - kRigStep);
+    const Received with = listen(s, seconds(2) - kRigStep);
     ASSERT_LE(with.frames.size(), without.frames.size());
     for (std::size_t i = 0; i < with.frames.size(); ++i) {
       ASSERT_EQ(with.frames[i].first, without.frames[i].first) << kind.name;
@@ -126,31 +126,31 @@ TEST(Rig, AFaultOutsideItsTimeChangesNothing) {
 TEST(Rig, ASilentBusIsSilentForItsTime) {
   scenario::Scenario s = standing();
   s.faults = {fault_at(seconds(2), "bus_silent")};
-  const Heard heard = listen(s, seconds(4));
-  EXPECT_EQ(count(heard, 1300, milliseconds(1999), milliseconds(2999)), 0u);
-  EXPECT_EQ(count(heard, 1200, milliseconds(1999), milliseconds(2999)), 0u);
-  EXPECT_GT(count(heard, 1300, seconds(1), milliseconds(1999)), 190u);
-  EXPECT_GT(count(heard, 1300, seconds(3), seconds(4)), 190u);
-  EXPECT_EQ(count(heard.samples.at({"imu", 0}), seconds(2), seconds(3)), 125u)
+  const Received received = listen(s, seconds(4));
+  EXPECT_EQ(count(received, 1300, milliseconds(1999), milliseconds(2999)), 0u);
+  EXPECT_EQ(count(received, 1200, milliseconds(1999), milliseconds(2999)), 0u);
+  EXPECT_GT(count(received, 1300, seconds(1), milliseconds(1999)), 190u);
+  EXPECT_GT(count(received, 1300, seconds(3), seconds(4)), 190u);
+  EXPECT_EQ(count(received.samples.at({"imu", 0}), seconds(2), seconds(3)), 125u)
       << "satellites do not come over the bus";
 }
 
 TEST(Rig, SilentRaceControlLeavesTheOthersAlone) {
   scenario::Scenario s = standing();
   s.faults = {fault_at(seconds(2), "race_control_silent")};
-  const Heard heard = listen(s, seconds(4));
-  EXPECT_EQ(count(heard, 1200, seconds(2), milliseconds(2999)), 0u);
-  EXPECT_EQ(count(heard, 1300, seconds(2), seconds(3)), 200u);
-  EXPECT_GE(count(heard, 1200, seconds(3), seconds(4)), 2u);
+  const Received received = listen(s, seconds(4));
+  EXPECT_EQ(count(received, 1200, seconds(2), milliseconds(2999)), 0u);
+  EXPECT_EQ(count(received, 1300, seconds(2), seconds(3)), 200u);
+  EXPECT_GE(count(received, 1200, seconds(3), seconds(4)), 2u);
 }
 
 TEST(Rig, AnOutageTakesItsUnitOnlyAndDisturbsNoOtherSample) {
-  const Heard without = listen(standing(), seconds(4));
+  const Received without = listen(standing(), seconds(4));
   for (int unit = 0; unit < 2; ++unit) {
     scenario::Scenario s = standing();
     s.faults = {fault_at(seconds(2), "gnss_unit_outage")};
     s.faults[0].unit = static_cast<std::uint32_t>(unit);
-    const Heard with = listen(s, seconds(4));
+    const Received with = listen(s, seconds(4));
     for (const char* kind : {"position", "velocity", "imu"}) {
       EXPECT_EQ(count(with.samples.at({kind, unit}), seconds(2), milliseconds(2999)), 0u) << kind;
       EXPECT_GT(count(with.samples.at({kind, unit}), seconds(3), seconds(4)), 15u) << kind;
@@ -162,25 +162,25 @@ TEST(Rig, AnOutageTakesItsUnitOnlyAndDisturbsNoOtherSample) {
 TEST(Rig, ADelayedFrameKeepsItsSender) {
   scenario::Scenario s = standing();
   s.faults = {fault_at(seconds(2), "delay", 0.1)};
-  const Heard heard = listen(s, seconds(4));
+  const Received received = listen(s, seconds(4));
   std::size_t late = 0;
-  for (const auto& [at, outgoing] : heard.frames) {
+  for (const auto& [at, outgoing] : received.frames) {
     if (outgoing.frame.id != 1200 && outgoing.frame.id != 1209) continue;
     EXPECT_EQ(outgoing.from, Node::kRaceControl);
     late += at > Instant{} + milliseconds(2100) && at < Instant{} + milliseconds(3100) ? 1U : 0U;
   }
   EXPECT_GE(late, 11u);
-  EXPECT_EQ(count(heard, 1300, milliseconds(1999), milliseconds(2099)), 0u) << "all are delayed";
+  EXPECT_EQ(count(received, 1300, milliseconds(1999), milliseconds(2099)), 0u) << "all are delayed";
 }
 
 TEST(Rig, FrameFaultsReachTheFramesOfTheirId) {
   scenario::Scenario s = standing();
   s.faults = {fault_at(seconds(2), "drop_all")};
   s.faults[0].can_id = 1303;
-  const Heard heard = listen(s, seconds(4));
-  EXPECT_EQ(count(heard, 1303, milliseconds(1999), milliseconds(2999)), 0u);
-  EXPECT_EQ(count(heard, 1301, seconds(2), seconds(3)), 100u);
-  EXPECT_EQ(count(heard, 1303, seconds(3), seconds(4)), 100u);
+  const Received received = listen(s, seconds(4));
+  EXPECT_EQ(count(received, 1303, milliseconds(1999), milliseconds(2999)), 0u);
+  EXPECT_EQ(count(received, 1301, seconds(2), seconds(3)), 100u);
+  EXPECT_EQ(count(received, 1303, seconds(3), seconds(4)), 100u);
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ TEST(RunRecord, ACarSampleIsWhatTheStepSaid) {
   out.chosen.mode = world::Mode::kControlledStop;
   out.chosen.cause = safety::Cause::kImuLost;
   out.passed.refused_total = 4;
-  out.heard.bus.refused.stuck_counter = 5;
+  out.received.bus.refused.stuck_counter = 5;
   const CarSample sample = car_sample(out);
   EXPECT_EQ(sample.x_m, 1.0);
   EXPECT_EQ(sample.vx_mps, 2.0);

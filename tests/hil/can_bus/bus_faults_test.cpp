@@ -15,7 +15,7 @@ namespace {
 
 constexpr Instant kStart = Instant{} + seconds(1);
 
-std::size_t heard_by(std::uint8_t port, MemoryBus& bus, Instant now) {
+std::size_t received_by(std::uint8_t port, MemoryBus& bus, Instant now) {
   const auto all = bus.advance(now);
   return static_cast<std::size_t>(
       std::ranges::count_if(all, [port](const Delivery& d) { return d.to == port; }));
@@ -37,7 +37,7 @@ TEST(BusFaults, ATransmitterThatFailsIsBusOffAfterThirtyTwoTriesAndNobodyHearsIt
   MemoryBus bus{{.ports = 3}};
   bus.damage_transmitter(0, 1.0);
   ASSERT_TRUE(bus.offer(0, frame_of(0x100), kStart));
-  EXPECT_EQ(heard_by(1, bus, kStart + milliseconds(20)), 0u);
+  EXPECT_EQ(received_by(1, bus, kStart + milliseconds(20)), 0u);
   EXPECT_EQ(bus.counters().error_frames, 32u);
   EXPECT_EQ(bus.status(0).send_errors, 256);
   EXPECT_EQ(bus.status(0).state, ErrorState::kBusOff);
@@ -67,7 +67,7 @@ TEST(BusFaults, OnASilentBusItIsBackAfter1408Bits) {
   EXPECT_EQ(bus.status(0).state, ErrorState::kActive);
   EXPECT_EQ(bus.status(0).restarts, 1u);
   ASSERT_TRUE(bus.offer(0, frame_of(0x100), off + milliseconds(5)));
-  EXPECT_EQ(heard_by(1, bus, off + milliseconds(6)), 1u);
+  EXPECT_EQ(received_by(1, bus, off + milliseconds(6)), 1u);
 }
 
 TEST(BusFaults, OnAFullBusItIsBackAfter128Frames) {
@@ -123,14 +123,14 @@ TEST(BusFaults, TheLoadIsThatOfTheBits) {
 TEST(BusFaults, WhatIsDestroyedIsSentAgainAndArrivesOnce) {
   MemoryBus bus{{.ports = 2, .seed = 7}};
   bus.disturb(0.001);
-  std::uint64_t heard = 0;
+  std::uint64_t incoming = 0;
   for (int i = 0; i < 5000; ++i) {
     const Instant at = kStart + milliseconds(1) * i;
     ASSERT_TRUE(bus.offer(0, frame_of(0x100), at));
-    heard += heard_by(1, bus, at + milliseconds(1));
+    incoming += received_by(1, bus, at + milliseconds(1));
   }
-  heard += heard_by(1, bus, kStart + seconds(6));
-  EXPECT_EQ(heard, 5000u);
+  incoming += received_by(1, bus, kStart + seconds(6));
+  EXPECT_EQ(incoming, 5000u);
   EXPECT_EQ(bus.status(0).dropped, 0u);
   // A share of 1 - (1 - p)^bits of all tries fails.
   const double bits = frame_length(frame_of(0x100)).bits - kInterframeBits;
@@ -143,10 +143,10 @@ TEST(BusFaults, AStalledControllerTakesFramesAndSendsNone) {
   MemoryBus bus{{.ports = 2}};
   bus.stall(0, true);
   ASSERT_TRUE(bus.offer(0, frame_of(0x100), kStart));
-  EXPECT_EQ(heard_by(1, bus, kStart + milliseconds(50)), 0u);
+  EXPECT_EQ(received_by(1, bus, kStart + milliseconds(50)), 0u);
   EXPECT_EQ(bus.status(0).blocked, milliseconds(50));
   bus.stall(0, false);
-  EXPECT_EQ(heard_by(1, bus, kStart + milliseconds(51)), 1u);
+  EXPECT_EQ(received_by(1, bus, kStart + milliseconds(51)), 1u);
   EXPECT_EQ(bus.status(0).blocked, Duration{});
 }
 

@@ -18,8 +18,8 @@ TEST(BusVerb, CheckAnswersWithItsExitCode) {
   const bool works = transport::CanSocket::supported() || !guest_obstacle();
   ::testing::internal::CaptureStdout();
   EXPECT_EQ(bus({"check"}), works ? 0 : 2);
-  const std::string said = ::testing::internal::GetCapturedStdout();
-  EXPECT_EQ(said.starts_with("CAN: native"), transport::CanSocket::supported()) << said;
+  const std::string output = ::testing::internal::GetCapturedStdout();
+  EXPECT_EQ(output.starts_with("CAN: native"), transport::CanSocket::supported()) << output;
 }
 
 TEST(BusVerb, WrongUsageIsTwoAndSaysWhy) {
@@ -41,11 +41,11 @@ TEST(BusVerb, WrongUsageIsTwoAndSaysWhy) {
 TEST(BusVerb, HelpNamesEveryVerb) {
   ::testing::internal::CaptureStdout();
   EXPECT_EQ(bus({"--help"}), 0);
-  const std::string said = ::testing::internal::GetCapturedStdout();
+  const std::string output = ::testing::internal::GetCapturedStdout();
   for (const char* verb :
        {"check", "up", "status", "down", "hub", "exec", "--line-udp", "--timeout", "--bitrate",
         "--restart-ms", "--listen-only", "--txqueuelen"})
-    EXPECT_NE(said.find(verb), std::string::npos) << verb;
+    EXPECT_NE(output.find(verb), std::string::npos) << verb;
 }
 
 }  // namespace

@@ -29,10 +29,10 @@ TEST(FaultConfinement, HearingErrorsNeverMakesBusOff) {
                                           : ErrorState::kPassive;
     ASSERT_EQ(state_of(node), expected) << i;
   }
-  heard(node);
+  receive(node);
   EXPECT_EQ(node.receive_errors, 127) << "one good frame ends being passive";
   EXPECT_EQ(state_of(node), ErrorState::kWarning);
-  for (int i = 0; i < 200; ++i) heard(node);
+  for (int i = 0; i < 200; ++i) receive(node);
   EXPECT_EQ(node.receive_errors, 0);
 }
 
@@ -58,7 +58,7 @@ FaultConfinement bus_off() {
 TEST(FaultConfinement, NothingEndsBusOffButARestartAnd128Times11Bits) {
   FaultConfinement node = bus_off();
   sent(node);
-  heard(node);
+  receive(node);
   EXPECT_FALSE(see_idle_bits(node, 1'000'000));
   EXPECT_EQ(state_of(node), ErrorState::kBusOff);
   ASSERT_TRUE(restart(node));

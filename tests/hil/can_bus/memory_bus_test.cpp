@@ -14,18 +14,18 @@ namespace pitwall::can_bus {
 namespace {
 
 std::vector<Delivery> advance(MemoryBus& bus, Instant now) {
-  const auto heard = bus.advance(now);
-  return {heard.begin(), heard.end()};
+  const auto incoming = bus.advance(now);
+  return {incoming.begin(), incoming.end()};
 }
 
-struct Heard {
+struct Received {
   std::uint8_t to, from;
   can::Frame frame;
   Instant at;
-  bool operator==(const Heard&) const = default;
+  bool operator==(const Received&) const = default;
 };
-void note(std::vector<Heard>& log, std::span<const Delivery> heard) {
-  for (const Delivery& d : heard) log.push_back({d.to, d.from, d.received.frame, d.received.at});
+void note(std::vector<Received>& log, std::span<const Delivery> incoming) {
+  for (const Delivery& d : incoming) log.push_back({d.to, d.from, d.received.frame, d.received.at});
 }
 
 TEST(MemoryBus, DeliversToEveryOtherPortAtTheEndOfTheFrame) {
@@ -35,11 +35,11 @@ TEST(MemoryBus, DeliversToEveryOtherPortAtTheEndOfTheFrame) {
   const Duration length = kBit * (frame_length(f).bits - kInterframeBits);
   const Instant end = Instant{} + milliseconds(1) + length;
   EXPECT_TRUE(advance(bus, end - nanoseconds(1)).empty());
-  const auto heard = advance(bus, end);
-  ASSERT_EQ(heard.size(), 2U);
-  EXPECT_EQ(heard[0].to, 0);
-  EXPECT_EQ(heard[1].to, 2);
-  for (const Delivery& d : heard) {
+  const auto incoming = advance(bus, end);
+  ASSERT_EQ(incoming.size(), 2U);
+  EXPECT_EQ(incoming[0].to, 0);
+  EXPECT_EQ(incoming[1].to, 2);
+  for (const Delivery& d : incoming) {
     EXPECT_EQ(d.from, 1);
     EXPECT_EQ(d.received.frame, f);
     EXPECT_EQ(d.received.at, end);
@@ -50,18 +50,18 @@ TEST(MemoryBus, DeliversToEveryOtherPortAtTheEndOfTheFrame) {
 TEST(MemoryBus, TheLowestIdentifierWinsWhateverTheOrderOfOffers) {
   std::vector<std::uint32_t> ids{0x514, 0x050, 0x7FF, 0x515, 0x57A};
   std::sort(ids.begin(), ids.end());
-  std::vector<Heard> reference;
+  std::vector<Received> reference;
   do {
     MemoryBus bus{{.ports = 6}};
     for (std::size_t i = 0; i < ids.size(); ++i)  // the port goes with the identifier
       ASSERT_TRUE(
           bus.offer(static_cast<std::uint8_t>(1 + ids[i] % 5), frame_of(ids[i]), Instant{}));
-    std::vector<Heard> log;
+    std::vector<Received> log;
     note(log, bus.advance(Instant{} + seconds(1)));
     if (reference.empty()) reference = log;
     ASSERT_EQ(log, reference);
     std::vector<std::uint32_t> order;
-    for (const Heard& h : log)
+    for (const Received& h : log)
       if (h.to == 0) order.push_back(h.frame.id);
     ASSERT_TRUE(std::is_sorted(order.begin(), order.end()));
     ASSERT_EQ(order.size(), ids.size());
@@ -73,11 +73,12 @@ TEST(MemoryBus, AFrameOnTheWireIsNotInterrupted) {
   const can::Frame low = frame_of(0x700), high = frame_of(0x001);
   ASSERT_TRUE(bus.offer(0, low, Instant{}));
   ASSERT_TRUE(bus.offer(1, high, Instant{} + microseconds(10)));
-  const auto heard = advance(bus, Instant{} + seconds(1));
-  ASSERT_EQ(heard.size(), 2U);
-  EXPECT_EQ(heard[0].received.frame, low);
-  EXPECT_EQ(heard[1].received.at, Instant{} + kBit * (frame_length(low).bits +
-                                                      frame_length(high).bits - kInterframeBits));
+  const auto incoming = advance(bus, Instant{} + seconds(1));
+  ASSERT_EQ(incoming.size(), 2U);
+  EXPECT_EQ(incoming[0].received.frame, low);
+  EXPECT_EQ(
+      incoming[1].received.at,
+      Instant{} + kBit * (frame_length(low).bits + frame_length(high).bits - kInterframeBits));
 }
 
 TEST(MemoryBus, TheNewestValueOfAnIdentifierWins) {
@@ -85,9 +86,9 @@ TEST(MemoryBus, TheNewestValueOfAnIdentifierWins) {
   ASSERT_TRUE(bus.offer(0, frame_of(0x001, 8, 1), Instant{}));  // keeps the bus busy
   ASSERT_TRUE(bus.offer(0, frame_of(0x100, 8, 2), Instant{}));
   ASSERT_TRUE(bus.offer(0, frame_of(0x100, 8, 3), Instant{} + microseconds(50)));
-  const auto heard = advance(bus, Instant{} + seconds(1));
-  ASSERT_EQ(heard.size(), 2U);
-  EXPECT_EQ(heard[1].received.frame, frame_of(0x100, 8, 3));
+  const auto incoming = advance(bus, Instant{} + seconds(1));
+  ASSERT_EQ(incoming.size(), 2U);
+  EXPECT_EQ(incoming[1].received.frame, frame_of(0x100, 8, 3));
   EXPECT_EQ(bus.counters().overwritten, 1U);
   EXPECT_EQ(bus.counters().sent, 2U);
 }
@@ -112,8 +113,8 @@ std::vector<Offer> random_traffic(std::uint32_t seed, int frames, int gap_us) {
 }
 
 // Offers at their instants; advance() at every multiple of `step` as well.
-std::vector<Heard> play(MemoryBus& bus, const std::vector<Offer>& offers, Duration step) {
-  std::vector<Heard> log;
+std::vector<Received> play(MemoryBus& bus, const std::vector<Offer>& offers, Duration step) {
+  std::vector<Received> log;
   Instant tick{};
   for (const Offer& o : offers) {
     while (tick <= o.at) {
@@ -158,7 +159,7 @@ TEST(MemoryBus, TheHighestPriorityWaitsAtMostForOneFrame) {
   const can::Frame urgent = frame_of(0x000, 4, 0xA5);
   const Duration bound = kBit * (55 + 80 + frame_length(urgent).bits);
   Instant now{};
-  int heard_count = 0;
+  int received_count = 0;
   for (int round = 0; round < 200; ++round) {
     const Instant asked = now + microseconds(static_cast<std::int64_t>(rng() % 900));
     for (std::uint32_t i = 0; i < 4; ++i) bus.offer(0, frame_of(0x700 + i, 8, 0), now);
@@ -166,11 +167,11 @@ TEST(MemoryBus, TheHighestPriorityWaitsAtMostForOneFrame) {
     now += milliseconds(2);
     for (const Delivery& d : bus.advance(now)) {
       if (d.received.frame.id != 0) continue;
-      ++heard_count;
+      ++received_count;
       EXPECT_LE(d.received.at - asked, bound);
     }
   }
-  EXPECT_EQ(heard_count, 200);
+  EXPECT_EQ(received_count, 200);
 }
 
 TEST(MemoryBus, LoadIsBitsPerSecondOverBitRate) {
@@ -212,9 +213,9 @@ TEST(MemoryBus, ADisconnectedPortNeitherSendsNorHears) {
   EXPECT_EQ(bus.pending(1), 0U);
   EXPECT_FALSE(bus.offer(1, frame_of(0x011), Instant{}));
   bus.offer(0, frame_of(0x012), Instant{});
-  const auto heard = advance(bus, Instant{} + seconds(1));
-  ASSERT_EQ(heard.size(), 1U);
-  EXPECT_EQ(heard[0].to, 2);
+  const auto incoming = advance(bus, Instant{} + seconds(1));
+  ASSERT_EQ(incoming.size(), 1U);
+  EXPECT_EQ(incoming[0].to, 2);
   EXPECT_EQ(bus.counters().lost, 2U);
   bus.connect(1, true);
   EXPECT_TRUE(bus.offer(1, frame_of(0x011), Instant{} + seconds(1)));

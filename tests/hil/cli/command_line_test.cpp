@@ -15,24 +15,24 @@ struct ParsedWords {
 };
 
 ParsedWords read(const std::vector<std::string>& args) {
-  ParsedWords said;
+  ParsedWords output;
   CommandLine line{"test"};
-  line.option("word", said.word, "a word").required();
-  const VerbOption number = line.option("--number", said.number, "1 to 9").range(1, 9);
-  line.option("--place", said.place, "two numbers").with_commas().words(2).needs(number);
-  line.flag("--loud", said.loud, "not with --number").excludes(number);
-  said.code = line.ended_by(args);
-  said.has_number = number.given();
-  return said;
+  line.option("word", output.word, "a word").required();
+  const VerbOption number = line.option("--number", output.number, "1 to 9").range(1, 9);
+  line.option("--place", output.place, "two numbers").with_commas().words(2).needs(number);
+  line.flag("--loud", output.loud, "not with --number").excludes(number);
+  output.code = line.ended_by(args);
+  output.has_number = number.given();
+  return output;
 }
 
 TEST(CommandLine, WordsAreReadInTheirOrder) {
-  const ParsedWords said = read({"one", "--number", "7", "--place", "1.5,-2"});
-  EXPECT_FALSE(said.code);
-  EXPECT_EQ(said.word, "one");
-  EXPECT_EQ(said.number, 7);
-  EXPECT_TRUE(said.has_number);
-  EXPECT_EQ(said.place, (std::vector{1.5, -2.0}));
+  const ParsedWords output = read({"one", "--number", "7", "--place", "1.5,-2"});
+  EXPECT_FALSE(output.code);
+  EXPECT_EQ(output.word, "one");
+  EXPECT_EQ(output.number, 7);
+  EXPECT_TRUE(output.has_number);
+  EXPECT_EQ(output.place, (std::vector{1.5, -2.0}));
   EXPECT_FALSE(read({"one"}).has_number);
 }
 
@@ -51,7 +51,7 @@ TEST(CommandLine, HelpPassesAndWrongWordsAreUnusable) {
 }
 
 TEST(CommandLine, ExactlyOneOfThePartsIsSaid) {
-  const auto said = [](const std::vector<std::string>& args) {
+  const auto output = [](const std::vector<std::string>& args) {
     std::string file;
     CommandLine line{"test"};
     CommandLine show = line.one_of("show", "a file");
@@ -59,13 +59,13 @@ TEST(CommandLine, ExactlyOneOfThePartsIsSaid) {
     const CommandLine list = line.one_of("list", "all files");
     const auto code = line.ended_by(args);
     if (code) return std::to_string(*code);
-    return (show.said() ? "show " + file : "") + (list.said() ? "list" : "");
+    return (show.is_chosen() ? "show " + file : "") + (list.is_chosen() ? "list" : "");
   };
-  EXPECT_EQ(said({"show", "a"}), "show a");
-  EXPECT_EQ(said({"list"}), "list");
+  EXPECT_EQ(output({"show", "a"}), "show a");
+  EXPECT_EQ(output({"list"}), "list");
   for (const std::vector<std::string>& wrong :
        {std::vector<std::string>{}, {"show"}, {"list", "a"}, {"other"}})
-    EXPECT_EQ(said(wrong), std::to_string(kExitUnusable));
+    EXPECT_EQ(output(wrong), std::to_string(kExitUnusable));
 }
 
 }  // namespace

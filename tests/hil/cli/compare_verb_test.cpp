@@ -23,7 +23,7 @@ TEST_F(CompareVerb, WrongUsageIsTold) {
 }
 
 TEST_F(CompareVerb, ARunDrivenAgainByTheSameBuildDiffersInNothing) {
-  const Said said = run({"compare", recording(), "--json", path("same.json")});
+  const ProgramOutput said = run({"compare", recording(), "--json", path("same.json")});
   EXPECT_EQ(said.code, 0) << said.err;
   EXPECT_NE(said.out.find("300 ticks driven again, "), std::string::npos) << said.out;
   EXPECT_NE(said.out.find(": 0 signals differ"), std::string::npos) << said.out;
@@ -33,8 +33,8 @@ TEST_F(CompareVerb, ARunDrivenAgainByTheSameBuildDiffersInNothing) {
 }
 
 TEST_F(CompareVerb, WithAnotherTrackItDiffersAndSaysWhere) {
-  const Said said = run({"compare", recording(), "--track", "vehicle/config/tracks/ims.yaml",
-                         "--json", path("other.json")});
+  const ProgramOutput said = run({"compare", recording(), "--track",
+                                  "vehicle/config/tracks/ims.yaml", "--json", path("other.json")});
   EXPECT_EQ(said.code, 1) << said.err;
   EXPECT_NE(said.err.find("ims.yaml: not the file that the run was driven with"), std::string::npos)
       << said.err;

@@ -41,7 +41,7 @@ TEST_F(DbcVerb, WrongUsageIsTold) {
 }
 
 TEST_F(DbcVerb, HelpNamesEveryWord) {
-  const Said all = run({"dbc", "--help"});
+  const ProgramOutput all = run({"dbc", "--help"});
   EXPECT_EQ(all.code, 0);
   for (const char* word : {"check", "show", "diff"}) {
     EXPECT_NE(all.out.find(word), std::string::npos) << word;
@@ -50,10 +50,10 @@ TEST_F(DbcVerb, HelpNamesEveryWord) {
 }
 
 TEST_F(DbcVerb, ACleanFileIsZeroEvenWhenStrict) {
-  const Said said = run({"dbc", "check", file("a.dbc", kClean), "--strict"});
-  EXPECT_EQ(said.code, 0);
-  EXPECT_NE(said.out.find("1 messages, 2 signals, 2 nodes"), std::string::npos) << said.out;
-  EXPECT_NE(said.out.find("0 warnings, 0 notes"), std::string::npos) << said.out;
+  const ProgramOutput output = run({"dbc", "check", file("a.dbc", kClean), "--strict"});
+  EXPECT_EQ(output.code, 0);
+  EXPECT_NE(output.out.find("1 messages, 2 signals, 2 nodes"), std::string::npos) << output.out;
+  EXPECT_NE(output.out.find("0 warnings, 0 notes"), std::string::npos) << output.out;
 }
 
 TEST_F(DbcVerb, AWarningFailsOnlyWhenStrict) {
@@ -62,9 +62,9 @@ TEST_F(DbcVerb, AWarningFailsOnlyWhenStrict) {
   for (const bool strict : {false, true}) {
     std::vector<std::string> words{"dbc", "check", odd, "--json", path("c.json")};
     if (strict) words.emplace_back("--strict");
-    const Said said = run(words);
-    EXPECT_EQ(said.code, strict ? 1 : 0);
-    EXPECT_NE(said.out.find(warning), std::string::npos) << said.out;
+    const ProgramOutput output = run(words);
+    EXPECT_EQ(output.code, strict ? 1 : 0);
+    EXPECT_NE(output.out.find(warning), std::string::npos) << output.out;
     const auto json = yaml::load_file(path("c.json"));
     ASSERT_TRUE(json) << to_string(json.error());
     EXPECT_EQ(json->root().integer("exit_code", 0, 2), strict ? 1 : 0);
@@ -73,13 +73,14 @@ TEST_F(DbcVerb, AWarningFailsOnlyWhenStrict) {
 
 TEST_F(DbcVerb, ARefusedFileIsTwoAndTheOthersAreStillChecked) {
   const std::string bad = spoilt_file("bad.dbc", "16|8", "60|8"), good = file("a.dbc", kClean);
-  const Said said = run({"dbc", "check", bad, good, "--json", path("c.json")});
-  EXPECT_EQ(said.code, 2);
-  EXPECT_NE(said.out.find(bad + ":4:6: error: signal t lies outside the 8 bytes of message M; the "
-                                "signal is left out"),
-            std::string::npos)
-      << said.out;
-  EXPECT_NE(said.out.find(good + ": 1 messages"), std::string::npos);
+  const ProgramOutput output = run({"dbc", "check", bad, good, "--json", path("c.json")});
+  EXPECT_EQ(output.code, 2);
+  EXPECT_NE(
+      output.out.find(bad + ":4:6: error: signal t lies outside the 8 bytes of message M; the "
+                            "signal is left out"),
+      std::string::npos)
+      << output.out;
+  EXPECT_NE(output.out.find(good + ": 1 messages"), std::string::npos);
   const auto json = yaml::load_file(path("c.json"));
   ASSERT_TRUE(json) << to_string(json.error());
   EXPECT_EQ(json->root().integer("exit_code", 0, 2), 2);
@@ -93,23 +94,23 @@ const std::string kBad =
 
 TEST_F(DbcVerb, ChecksToTheEndAndTellsEveryErrorOnce) {
   const std::string bad = file("bad.dbc", kBad);
-  const Said said = run({"dbc", "check", bad, "--json", path("c.json")});
-  EXPECT_EQ(said.code, 2);
-  EXPECT_EQ(said.out.substr(0, said.out.find(bad + ": refused")),
+  const ProgramOutput output = run({"dbc", "check", bad, "--json", path("c.json")});
+  EXPECT_EQ(output.code, 2);
+  EXPECT_EQ(output.out.substr(0, output.out.find(bad + ": refused")),
             bad + ":5:16: error: expected '+'; signal u is left out\n" + bad +
                 ":8:1: error: expected ';'; it is read as if it were there\n" + bad +
                 ":6:1: error: message N has the id of message M; the message is left out with its "
                 "0 signals\n" +
                 bad + ":4:6: error: signal t overlaps signal s defined at " + bad +
                 ":3:6; all are kept\n");
-  EXPECT_NE(said.out.find("1 messages, 2 signals, 2 nodes"), std::string::npos) << said.out;
-  EXPECT_NE(said.out.find("; 4 errors; 0 warnings, 0 notes"), std::string::npos) << said.out;
+  EXPECT_NE(output.out.find("1 messages, 2 signals, 2 nodes"), std::string::npos) << output.out;
+  EXPECT_NE(output.out.find("; 4 errors; 0 warnings, 0 notes"), std::string::npos) << output.out;
   EXPECT_NE(text_of("c.json").find("\"errors\": 4"), std::string::npos) << text_of("c.json");
 }
 
 TEST_F(DbcVerb, ShowsABadDatabaseAndMarksWhatIsBad) {
   const std::string bad = file("bad.dbc", kBad);
-  const Said all = run({"dbc", "show", bad});
+  const ProgramOutput all = run({"dbc", "show", bad});
   EXPECT_EQ(all.code, 0);
   EXPECT_NE(all.err.find(bad + ": 4 errors, marked with '!'"), std::string::npos) << all.err;
   for (const std::string& line :
@@ -118,7 +119,7 @@ TEST_F(DbcVerb, ShowsABadDatabaseAndMarksWhatIsBad) {
         "\nerrors outside of these messages\n! " + bad + ":6:1: message N has the id"}) {
     EXPECT_NE(all.out.find(line), std::string::npos) << line << all.out;
   }
-  const Said one = run({"dbc", "show", bad, "M"});
+  const ProgramOutput one = run({"dbc", "show", bad, "M"});
   EXPECT_EQ(one.code, 0);
   EXPECT_NE(one.out.find("! " + bad + ":4:6: signal t overlaps"), std::string::npos) << one.out;
   EXPECT_NE(one.out.find("said"), std::string::npos) << one.out;
@@ -127,12 +128,12 @@ TEST_F(DbcVerb, ShowsABadDatabaseAndMarksWhatIsBad) {
 TEST_F(DbcVerb, AFileThatIsNoDatabaseIsNamedForWhatItIs) {
   const std::string log = file("log.dbc", "(1436509052.249713) can0 123#11\n");
   const std::string reason = ":1:1: error: expected a CAN database (DBC), this is ";
-  const Said said = run({"dbc", "check", log, file("empty.dbc", "")});
-  EXPECT_EQ(said.code, 2);
-  EXPECT_NE(said.out.find(log + reason + "a candump log\n" + log + ": refused\n"),
+  const ProgramOutput output = run({"dbc", "check", log, file("empty.dbc", "")});
+  EXPECT_EQ(output.code, 2);
+  EXPECT_NE(output.out.find(log + reason + "a candump log\n" + log + ": refused\n"),
             std::string::npos)
-      << said.out;
-  EXPECT_NE(said.out.find(path("empty.dbc") + reason + "an empty file"), std::string::npos);
+      << output.out;
+  EXPECT_NE(output.out.find(path("empty.dbc") + reason + "an empty file"), std::string::npos);
   expect_refusal({"dbc", "show", log}, log + reason);
   expect_refusal({"dbc", "diff", kOwn, log}, log + reason);
 }
@@ -154,7 +155,7 @@ TEST_F(DbcVerb, ManyWarningsAreOneLineUnlessAllAreAskedFor) {
 }
 
 TEST_F(DbcVerb, ShowsAMessageByNameAndByBothSpellingsOfItsId) {
-  const Said named = run({"dbc", "show", kOwn, "steering_report"});
+  const ProgramOutput named = run({"dbc", "show", kOwn, "steering_report"});
   EXPECT_EQ(named.code, 0);
   for (const char* part :
        {"steering_report  id 1303 (0x517)  3 bytes", "0|11 Intel", "x0.5", "[-1024|1023]", "deg"}) {
@@ -169,17 +170,17 @@ TEST_F(DbcVerb, ShowsAMessageByNameAndByBothSpellingsOfItsId) {
 TEST_F(DbcVerb, DiffSaysWhatTheOtherReads) {
   const std::string one = file("one.dbc", kClean);
   const std::string other = spoilt_file("other.dbc", "0|10@1-", "0|11@1-");
-  const Said same = run({"dbc", "diff", one, one});
+  const ProgramOutput same = run({"dbc", "diff", one, one});
   EXPECT_EQ(same.code, 0);
   EXPECT_EQ(same.out, "no differences\n");
-  const Said said = run({"dbc", "diff", one, other, "--json", path("d.json")});
-  EXPECT_EQ(said.code, 1);
-  EXPECT_EQ(said.out,
+  const ProgramOutput output = run({"dbc", "diff", one, other, "--json", path("d.json")});
+  EXPECT_EQ(output.code, 1);
+  EXPECT_EQ(output.out,
             "misread: M (100): s grew from 10 to 11 bits: what one writes as -1 deg the other "
             "reads as +511\n");
   const auto json = yaml::load_file(path("d.json"));
   ASSERT_TRUE(json) << to_string(json.error());
-  const Said bad = run({"dbc", "diff", one, spoilt_file("bad.dbc", "16|8", "60|8")});
+  const ProgramOutput bad = run({"dbc", "diff", one, spoilt_file("bad.dbc", "16|8", "60|8")});
   EXPECT_EQ(bad.code, 1);
   EXPECT_EQ(bad.out, "missing: M (100): t is gone\n");
   EXPECT_NE(bad.err.find("bad.dbc:4:6: error: signal t lies outside"), std::string::npos)

@@ -19,17 +19,17 @@ TEST_F(FaultsVerb, RefusesWhatItCannotUse) {
 
 // One scenario: the row, its delay; red once its monitor is off, and only then.
 TEST_F(FaultsVerb, AMonitorThatIsOffTurnsItsScenarioRed) {
-  const Said seen = run({"faults", "--only", "f06", "--json", path("matrix.json")});
+  const ProgramOutput seen = run({"faults", "--only", "f06", "--json", path("matrix.json")});
   EXPECT_EQ(seen.code, 0) << seen.out << seen.err;
   EXPECT_NE(seen.out.find("f06_frames_twice"), std::string::npos) << seen.out;
   EXPECT_NE(text_of("matrix.json").find("\"delay_s\": 0.0"), std::string::npos);
-  const Said blind = run({"faults", "--only", "f06", "--without", "counter"});
+  const ProgramOutput blind = run({"faults", "--only", "f06", "--without", "counter"});
   EXPECT_EQ(blind.code, 1) << blind.out << blind.err;
   EXPECT_NE(blind.out.find("MISSED"), std::string::npos) << blind.out;
 }
 
 TEST_F(FaultsVerb, AFaultIsJudgedAtAnotherSpeed) {
-  const Said walking = run({"faults", "--only", "f06", "--speed", "walking"});
+  const ProgramOutput walking = run({"faults", "--only", "f06", "--speed", "walking"});
   EXPECT_EQ(walking.code, 0) << walking.out << walking.err;
   EXPECT_NE(walking.out.find("f06_frames_twice@walking"), std::string::npos) << walking.out;
   EXPECT_NE(walking.out.find("drives 3."), std::string::npos) << walking.out;
@@ -38,11 +38,11 @@ TEST_F(FaultsVerb, AFaultIsJudgedAtAnotherSpeed) {
 
 // A monitor that is only reported fails the verb, with the table of what failed without it.
 TEST_F(FaultsVerb, AProofNeedsMoreThanAReport) {
-  const Said proven = run({"faults", "--prove", "--only", "f08"});
+  const ProgramOutput proven = run({"faults", "--prove", "--only", "f08"});
   EXPECT_EQ(proven.code, 0) << proven.out << proven.err;
   EXPECT_NE(proven.out.find("counter           f08_counter_stuck"), std::string::npos)
       << proven.out;
-  const Said reported = run({"faults", "--prove", "--only", "f06"});
+  const ProgramOutput reported = run({"faults", "--prove", "--only", "f06"});
   EXPECT_EQ(reported.code, 1) << reported.out << reported.err;
   EXPECT_NE(reported.out.find("UNPROVEN: counter"), std::string::npos) << reported.out;
 }

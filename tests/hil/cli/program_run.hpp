@@ -14,7 +14,7 @@
 
 namespace pitwall::cli {
 
-struct Said {
+struct ProgramOutput {
   int code = -1;
   std::string out, err;
 };
@@ -41,8 +41,8 @@ class ProgramRun : public ::testing::Test {
     return path(scenario);
   }
 
-  Said run(const std::vector<std::string>& words,
-           const std::string& program = PITWALL_TESTED_PROGRAM) {
+  ProgramOutput run(const std::vector<std::string>& words,
+                    const std::string& program = PITWALL_TESTED_PROGRAM) {
     std::vector<std::string> argv{"sh", "-c", "exec \"$@\" > \"$0/out\" 2> \"$0/err\"",
                                   folder_->path(), program};
     argv.insert(argv.end(), words.begin(), words.end());
@@ -56,12 +56,12 @@ class ProgramRun : public ::testing::Test {
   // Wrong usage or bad input: exit code 2, a reason on stderr, nothing on stdout that looks like a
   // result.
   void expect_refusal(const std::vector<std::string>& words, const std::string& reason) {
-    const Said said = run(words);
+    const ProgramOutput stated = run(words);
     std::string line;
     for (const std::string& word : words) line += word + " ";
-    EXPECT_EQ(said.code, 2) << line;
-    EXPECT_NE(said.err.find(reason), std::string::npos) << line << "said: " << said.err;
-    EXPECT_EQ(said.out.find("verdict"), std::string::npos) << line;
+    EXPECT_EQ(stated.code, 2) << line;
+    EXPECT_NE(stated.err.find(reason), std::string::npos) << line << "said: " << stated.err;
+    EXPECT_EQ(stated.out.find("verdict"), std::string::npos) << line;
   }
 
  private:

@@ -33,8 +33,9 @@ TEST_F(ReportVerb, ARunThatPassesLeavesItsFilesAndAgainTheSamePage) {
   EXPECT_EQ(run({"run", kShortFault, "--report", folder()}).code, 0);
   ASSERT_TRUE(whole());
   EXPECT_TRUE(page_says("PASS"));
-  const Said again = run({"report", folder() + "/events.mcap", "--result", folder() + "/run.json",
-                          "--out", path("again.html"), "--junit", path("again.xml")});
+  const ProgramOutput again =
+      run({"report", folder() + "/events.mcap", "--result", folder() + "/run.json", "--out",
+           path("again.html"), "--junit", path("again.xml")});
   EXPECT_EQ(again.code, 0) << again.err;
   EXPECT_EQ(text_of("again.html"), text_of("report/report.html"));
   EXPECT_EQ(text_of("again.xml"), text_of("report/junit.xml"));
@@ -61,9 +62,10 @@ TEST_F(ReportVerb, WhatTheBenchCannotDoIsTwoAndAnErrorInTheReport) {
 TEST_F(ReportVerb, AMissingOrDamagedLogIsTwoAndSaidInBothFiles) {
   ASSERT_TRUE(transport::write_file(path("damaged.mcap"), "\x89MCAP0\r\nno records"));
   for (const char* log : {"missing.mcap", "damaged.mcap"}) {
-    const Said said = run({"report", path(log), "--out", path("x.html"), "--junit", path("x.xml")});
-    EXPECT_EQ(said.code, 2) << log;
-    EXPECT_NE(said.err, "") << log;
+    const ProgramOutput output =
+        run({"report", path(log), "--out", path("x.html"), "--junit", path("x.xml")});
+    EXPECT_EQ(output.code, 2) << log;
+    EXPECT_NE(output.err, "") << log;
     EXPECT_NE(text_of("x.html").find("<strong>INFRASTRUCTURE"), std::string::npos) << log;
     EXPECT_NE(text_of("x.xml").find("<error "), std::string::npos) << log;
   }

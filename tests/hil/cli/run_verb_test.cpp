@@ -33,10 +33,10 @@ TEST_F(RunVerb, WrongUsageIsTold) {
 
 TEST_F(RunVerb, HelpIsNoError) {
   for (const auto& words : {std::vector<std::string>{"--help"}, {"help"}, {"run", "--help"}}) {
-    const Said said = run(words);
-    EXPECT_EQ(said.code, 0);
-    EXPECT_NE(said.out.find("run"), std::string::npos);
-    EXPECT_EQ(said.err, "");
+    const ProgramOutput output = run(words);
+    EXPECT_EQ(output.code, 0);
+    EXPECT_NE(output.out.find("run"), std::string::npos);
+    EXPECT_EQ(output.err, "");
   }
 }
 
@@ -63,21 +63,23 @@ TEST_F(RunVerb, WhatTheBenchDoesNotKnowIsToldWithItsPlace) {
 
 TEST_F(RunVerb, AFileThatCannotBeWrittenIsAFailureOfTheBench) {
   expect_refusal({"run", kLaunchAndStop, "--log", path("no/such/folder/l.mcap")}, "no/such/folder");
-  const Said said = run({"run", kLaunchAndStop, "--json", path("no/such/folder/r.json")});
-  EXPECT_EQ(said.code, 2);
-  EXPECT_NE(said.err.find("no/such/folder"), std::string::npos);
+  const ProgramOutput output =
+      run({"run", kLaunchAndStop, "--json", path("no/such/folder/r.json")});
+  EXPECT_EQ(output.code, 2);
+  EXPECT_NE(output.err.find("no/such/folder"), std::string::npos);
 }
 
 TEST_F(RunVerb, APassIsZero) {
-  const Said said = run({"run", kLaunchAndStop, "--json", path("r.json"), "--log", path("l.mcap")});
-  EXPECT_EQ(said.code, 0) << said.out << said.err;
-  EXPECT_NE(said.out.find("verdict: PASS"), std::string::npos);
-  EXPECT_NE(said.out.find("SIMULATION"), std::string::npos);
+  const ProgramOutput output =
+      run({"run", kLaunchAndStop, "--json", path("r.json"), "--log", path("l.mcap")});
+  EXPECT_EQ(output.code, 0) << output.out << output.err;
+  EXPECT_NE(output.out.find("verdict: PASS"), std::string::npos);
+  EXPECT_NE(output.out.find("SIMULATION"), std::string::npos);
   EXPECT_GT(text_of("l.mcap").size(), 1'000'000u);
   const auto json = yaml::load_file(path("r.json"));
   ASSERT_TRUE(json) << to_string(json.error());
   EXPECT_TRUE(json->root().flag("passed"));
-  EXPECT_NE(said.out.find(json->root().text("sha256")), std::string::npos);
+  EXPECT_NE(output.out.find(json->root().text("sha256")), std::string::npos);
 }
 
 // The test of the grader: an expectation that cannot hold is neither a pass nor a broken bench.
@@ -85,10 +87,10 @@ TEST_F(RunVerb, AFailedExpectationIsOne) {
   const std::string fails =
       spoilt("launch_and_stop.yaml", "expect:\n",
              "expect:\n  - {kind: always, signal: speed_mps, is: \"<\", value: 5}\n");
-  const Said said = run({"run", fails, "--json", path("r.json")});
-  EXPECT_EQ(said.code, 1) << said.out << said.err;
-  EXPECT_NE(said.out.find("FAIL  always speed_mps < 5"), std::string::npos) << said.out;
-  EXPECT_NE(said.out.find("verdict: FAIL"), std::string::npos);
+  const ProgramOutput output = run({"run", fails, "--json", path("r.json")});
+  EXPECT_EQ(output.code, 1) << output.out << output.err;
+  EXPECT_NE(output.out.find("FAIL  always speed_mps < 5"), std::string::npos) << output.out;
+  EXPECT_NE(output.out.find("verdict: FAIL"), std::string::npos);
   const auto json = yaml::load_file(path("r.json"));
   ASSERT_TRUE(json);
   EXPECT_FALSE(json->root().flag("passed"));
@@ -96,9 +98,9 @@ TEST_F(RunVerb, AFailedExpectationIsOne) {
 
 TEST_F(RunVerb, AWallEndsTheRunAndIsFour) {
   const std::string unnamed = spoilt("steering_stuck.yaml", "contact:", "#contact:");
-  const Said said = run({"run", unnamed, "--report", path("report")});
-  EXPECT_EQ(said.code, 4) << said.out << said.err;
-  const Said again = run({"run", unnamed, "--json", path("r.json")});
+  const ProgramOutput output = run({"run", unnamed, "--report", path("report")});
+  EXPECT_EQ(output.code, 4) << output.out << output.err;
+  const ProgramOutput again = run({"run", unnamed, "--json", path("r.json")});
   EXPECT_NE(again.out.find("verdict: CONTACT"), std::string::npos) << again.out;
   EXPECT_NE(again.out.find("CONTACT: the car hit the wall on the "), std::string::npos);
   EXPECT_NE(again.out.find("not judged, the car hit a wall before: "), std::string::npos);
@@ -114,17 +116,17 @@ TEST_F(RunVerb, AWallEndsTheRunAndIsFour) {
 }
 
 TEST_F(RunVerb, ARunThatEndsTooEarlyToShowAnythingDoesNotPass) {
-  const Said said = run({"run", kLaunchAndStop, "--duration", "5"});
-  EXPECT_NE(said.code, 0);
-  EXPECT_EQ(said.out.find("verdict: PASS"), std::string::npos);
+  const ProgramOutput output = run({"run", kLaunchAndStop, "--duration", "5"});
+  EXPECT_NE(output.code, 0);
+  EXPECT_EQ(output.out.find("verdict: PASS"), std::string::npos);
 }
 
 TEST_F(RunVerb, OfARunThatIsCutTheRestIsNotJudgedAndTold) {
-  const Said said = run({"run", kLaunchAndStop, "--duration", "5", "--cut"});
-  EXPECT_EQ(said.code, 0) << said.out << said.err;
-  EXPECT_NE(said.out.find("not judged, the run is cut at 5.0 s: " + std::string(kLaunchAndStop)),
+  const ProgramOutput output = run({"run", kLaunchAndStop, "--duration", "5", "--cut"});
+  EXPECT_EQ(output.code, 0) << output.out << output.err;
+  EXPECT_NE(output.out.find("not judged, the run is cut at 5.0 s: " + std::string(kLaunchAndStop)),
             std::string::npos);
-  EXPECT_NE(said.out.find("verdict: PASS"), std::string::npos);
+  EXPECT_NE(output.out.find("verdict: PASS"), std::string::npos);
   expect_refusal({"run", kLaunchAndStop, "--cut"}, "--duration");
 }
 
@@ -145,8 +147,8 @@ TEST_F(RunVerb, SeedAndDurationAreThoseOfTheLine) {
 }
 
 TEST_F(RunVerb, ProgressIsLinesFromThePlanToTheResult) {
-  const Said said = run({"run", kLaunchAndStop, "--progress", path("p.jsonl")});
-  EXPECT_EQ(said.code, 0);
+  const ProgramOutput output = run({"run", kLaunchAndStop, "--progress", path("p.jsonl")});
+  EXPECT_EQ(output.code, 0);
   const std::string lines = text_of("p.jsonl");
   EXPECT_TRUE(lines.starts_with("{\"type\": \"plan\"")) << lines.substr(0, 80);
   EXPECT_TRUE(lines.ends_with("\n"));
@@ -190,9 +192,9 @@ TEST(LiveCommand, SaysAllThatTheRunWasTold) {
   EXPECT_EQ(value("--radio-port"), "999");
   EXPECT_FALSE(has("--progress"));
   options.progress_file = "p.jsonl";
-  const std::vector<std::string> told = live_command(options);
-  const auto progress = std::find(told.begin(), told.end(), "--progress");
-  ASSERT_NE(progress, told.end());
+  const std::vector<std::string> reported = live_command(options);
+  const auto progress = std::find(reported.begin(), reported.end(), "--progress");
+  ASSERT_NE(progress, reported.end());
   EXPECT_EQ(*(progress + 1), "p.jsonl");
 }
 

@@ -36,25 +36,25 @@ TEST_F(TrackVerb, BadFilesAreRefusedWithTheirLine) {
 }
 
 TEST_F(TrackVerb, ChecksATrackThatShips) {
-  const Said said =
+  const ProgramOutput output =
       run({"track", "check", "vehicle/config/tracks/lvms.yaml", "--json", path("t.json")});
-  EXPECT_EQ(said.code, 0) << said.err;
-  EXPECT_NE(said.out.find("LVMS: 2454.3 m"), std::string::npos) << said.out;
-  EXPECT_NE(said.out.find("0 warnings"), std::string::npos) << said.out;
+  EXPECT_EQ(output.code, 0) << output.err;
+  EXPECT_NE(output.out.find("LVMS: 2454.3 m"), std::string::npos) << output.out;
+  EXPECT_NE(output.out.find("0 warnings"), std::string::npos) << output.out;
   EXPECT_NE(text_of("t.json").find("\"length_m\": 2454.3"), std::string::npos);
 }
 
 // From the CSV to a file, a picture, and laps on it.
 TEST_F(TrackVerb, AnImportedTrackIsDriven) {
-  const Said said = run(
+  const ProgramOutput output = run(
       {"track", "import", stadium(), "--out", path("stadium.yaml"), "--datum", "36.2,-115.0,600"});
-  ASSERT_EQ(said.code, 0) << said.err;
-  EXPECT_EQ(said.out.find("note: no --datum"), std::string::npos);
+  ASSERT_EQ(output.code, 0) << output.err;
+  EXPECT_EQ(output.out.find("note: no --datum"), std::string::npos);
   EXPECT_NE(text_of("stadium.yaml").find("latitude_deg: 36.2"), std::string::npos);
   EXPECT_EQ(run({"track", "picture", path("stadium.yaml"), "--out", path("t.svg")}).code, 0);
   EXPECT_NE(text_of("t.svg").find("</svg>"), std::string::npos);
-  const Said laps = run({"laps", "--track", path("stadium.yaml"), "--only", "nominal"},
-                        PITWALL_BENCHMARKS_PROGRAM);
+  const ProgramOutput laps = run({"laps", "--track", path("stadium.yaml"), "--only", "nominal"},
+                                 PITWALL_BENCHMARKS_PROGRAM);
   EXPECT_EQ(laps.code, 0) << laps.out << laps.err;
   EXPECT_NE(laps.out.find("lapped"), std::string::npos) << laps.out;
 }

@@ -25,10 +25,10 @@ TEST(SignalChange, MovesOneSignalAndNoOther) {
     can::Frame frame = frame_of(wheels());
     add_to_signal(frame, unit, -20.5);
     const auto m = decoded<av21::WheelSpeedReport>(frame);
-    const std::array<double, 4> said{m.wheel_speed_FL, m.wheel_speed_FR, m.wheel_speed_RL,
-                                     m.wheel_speed_RR};
+    const std::array<double, 4> stated{m.wheel_speed_FL, m.wheel_speed_FR, m.wheel_speed_RL,
+                                       m.wheel_speed_RR};
     for (std::size_t i = 0; i < 4; ++i)
-      EXPECT_NEAR(said[i], 100.0 + static_cast<double>(i) - (i == unit ? 20.5 : 0.0), 1e-9);
+      EXPECT_NEAR(stated[i], 100.0 + static_cast<double>(i) - (i == unit ? 20.5 : 0.0), 1e-9);
   }
 }
 

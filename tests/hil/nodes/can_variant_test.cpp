@@ -64,7 +64,7 @@ TEST(CanVariant, V14ChangesNothing) {
     const Frames spoken = v14.spoken(frame);
     ASSERT_EQ(spoken.size(), 1u);
     EXPECT_EQ(spoken[0], frame);
-    EXPECT_EQ(v14.heard(frame), frame);
+    EXPECT_EQ(v14.receive(frame), frame);
   }
   EXPECT_TRUE(v14.due(Instant{} + seconds(10)).empty());
 }
@@ -79,15 +79,15 @@ TEST(CanVariant, WhatIsSaidMeansTheSame) {
     for (const can::Frame& frame : model_frames()) {
       const can::Message* const model = v14.database().find(frame.id);
       ASSERT_NE(model, nullptr);
-      for (const can::Frame& said : other.spoken(frame)) {
-        const can::Message* const message = other.database().find(said.id);
-        ASSERT_NE(message, nullptr) << said.id;
-        ASSERT_TRUE(can::is_frame_of(*message, said)) << message->name;
+      for (const can::Frame& stated : other.spoken(frame)) {
+        const can::Message* const message = other.database().find(stated.id);
+        ASSERT_NE(message, nullptr) << stated.id;
+        ASSERT_TRUE(can::is_frame_of(*message, stated)) << message->name;
         for (const can::Signal& signal : message->signals) {
           const can::Signal* const same = model->find(signal.name);
           if (same == nullptr || message->name != model->name) continue;
           const double coarse = std::max(signal.layout.scale, same->layout.scale);
-          EXPECT_NEAR(can::decode(signal, said), can::decode(*same, frame), 0.51 * coarse)
+          EXPECT_NEAR(can::decode(signal, stated), can::decode(*same, frame), 0.51 * coarse)
               << message->name << "." << signal.name;
           ++compared;
         }
@@ -105,25 +105,25 @@ TEST(CanVariant, V9HasNoMarelliAndTenBitsOfSteering) {
   av21::SteeringReport report;
   report.steering_motor_ang_avg_fdbk = -1.0;
   report.steering_motor_fdbk_counter = 7;
-  const Frames said = v9.spoken(frame_of(report));
-  ASSERT_EQ(said.size(), 1u);
-  EXPECT_EQ(value_in(v9.database(), said[0], "steering_motor_ang_avg_fdbk"), -1.0);
+  const Frames stated = v9.spoken(frame_of(report));
+  ASSERT_EQ(stated.size(), 1u);
+  EXPECT_EQ(value_in(v9.database(), stated[0], "steering_motor_ang_avg_fdbk"), -1.0);
   // What a V14 car would read: the reason for all of this.
-  ASSERT_TRUE(av21::decode(said[0], report));
+  ASSERT_TRUE(av21::decode(stated[0], report));
   EXPECT_EQ(report.steering_motor_ang_avg_fdbk, 511.0);
 }
 
 TEST(CanVariant, V12SaysMarelliInThreeMessages) {
   CanVariant v12 = made(BusRevision::kV12);
   av21::MarelliReport1 flags{9, 25, 3, 1, -70};
-  const Frames said = v12.spoken(frame_of(flags));
-  ASSERT_EQ(said.size(), 2u);
-  EXPECT_EQ(said[0].id, 1000u);
-  EXPECT_EQ(value_in(v12.database(), said[0], "Marelli_Track_Flag"), 9.0);
-  EXPECT_EQ(value_in(v12.database(), said[0], "Marelli_Vehicle_Flag"), 25.0);
-  EXPECT_EQ(said[1].id, 1001u);
-  EXPECT_EQ(value_in(v12.database(), said[1], "lte_sync_ok"), 1.0);
-  EXPECT_EQ(value_in(v12.database(), said[1], "lte_modem_lte_rssi"), -70.0);
+  const Frames stated = v12.spoken(frame_of(flags));
+  ASSERT_EQ(stated.size(), 2u);
+  EXPECT_EQ(stated[0].id, 1000u);
+  EXPECT_EQ(value_in(v12.database(), stated[0], "Marelli_Track_Flag"), 9.0);
+  EXPECT_EQ(value_in(v12.database(), stated[0], "Marelli_Vehicle_Flag"), 25.0);
+  EXPECT_EQ(stated[1].id, 1001u);
+  EXPECT_EQ(value_in(v12.database(), stated[1], "lte_sync_ok"), 1.0);
+  EXPECT_EQ(value_in(v12.database(), stated[1], "lte_modem_lte_rssi"), -70.0);
   const Frames position = v12.spoken(frame_of(av21::MarelliReport2{36.25, -115.0}));
   ASSERT_EQ(position.size(), 1u);
   EXPECT_EQ(position[0].id, 1002u);
@@ -134,19 +134,19 @@ TEST(CanVariant, V12SaysMarelliInThreeMessages) {
 TEST(CanVariant, CommandsAreReadByTheLayoutOfTheRevision) {
   CanVariant v9 = made(BusRevision::kV9), v12 = made(BusRevision::kV12);
   CanVariant av24 = made(BusRevision::kAv24);
-  const auto steering = v9.heard(frame_of(av21::SteeringCmd{300.0, 5}));
+  const auto steering = v9.receive(frame_of(av21::SteeringCmd{300.0, 5}));
   ASSERT_TRUE(steering);
   av21::SteeringCmd read;
   ASSERT_TRUE(av21::decode(*steering, read));
   EXPECT_EQ(read.steering_motor_ang_cmd, 300.0 - 512.0) << "the eleventh bit is not read";
   // 1405 says flags in V14 and switches in V12.
-  const auto acks = v12.heard(frame_of(av21::CtReport2{0x21, 0, 0}));
+  const auto acks = v12.receive(frame_of(av21::CtReport2{0x21, 0, 0}));
   ASSERT_TRUE(acks);
   av21::DashSwitchesCmd dash;
   ASSERT_TRUE(av21::decode(*acks, dash));
   EXPECT_EQ(dash.driver_traction_aim_switch, 1.0);
   EXPECT_EQ(dash.driver_traction_range_switch, 2.0);
-  const auto brake = av24.heard(frame_of(av21::BrakePressureCmd{1234.0, 200}));
+  const auto brake = av24.receive(frame_of(av21::BrakePressureCmd{1234.0, 200}));
   ASSERT_TRUE(brake);
   av21::BrakePressureCmd pressed;
   ASSERT_TRUE(av21::decode(*brake, pressed));
@@ -156,16 +156,16 @@ TEST(CanVariant, CommandsAreReadByTheLayoutOfTheRevision) {
 
 TEST(CanVariant, TheAv24SendsItsOwnMessagesAtTheirPeriod) {
   CanVariant av24 = made(BusRevision::kAv24);
-  std::map<std::uint32_t, int> heard;
+  std::map<std::uint32_t, int> received;
   for (Instant now{}; now - Instant{} < seconds(2); now += milliseconds(1))
     for (const can::Frame& frame : av24.due(now)) {
-      ++heard[frame.id];
+      ++received[frame.id];
       EXPECT_EQ(av21::kMessages.end(),
                 std::ranges::find(av21::kMessages, frame.id, &can::MessageRow::id));
     }
   const std::map<std::uint32_t, int> wanted{{1313, 20}, {1314, 20}, {1315, 20},
                                             {1316, 20}, {1344, 20}, {1350, 200}};
-  EXPECT_EQ(heard, wanted);
+  EXPECT_EQ(received, wanted);
   EXPECT_TRUE(made(BusRevision::kV9).due(Instant{} + seconds(1)).empty());
 }
 

@@ -25,7 +25,7 @@ void for_all_flags(Check check) {
       check(Flags{static_cast<TrackFlag>(t), static_cast<VehicleFlag>(v)});
 }
 
-Flags heard(FlagEncoding encoding, const RawFlags& raw) {
+Flags received(FlagEncoding encoding, const RawFlags& raw) {
   return {gateway::track_meaning(encoding, raw.track).flag,
           gateway::vehicle_meaning(encoding, raw.vehicle)};
 }
@@ -48,13 +48,13 @@ TEST(FlagEncoding, NoEncodingLosesARestriction) {
   for (const FlagEncoding encoding : {FlagEncoding::kMyLaps, FlagEncoding::kMarelli})
     for_all_flags([&](const Flags& f) {
       const RawFlags raw = encoding == FlagEncoding::kMyLaps ? to_mylaps(f) : to_marelli(f, kUnset);
-      const Flags told = heard(encoding, raw);
-      EXPECT_TRUE(!emergency(f) || emergency(told));
-      EXPECT_TRUE(!stops(f) || stops(told))
+      const Flags reported = received(encoding, raw);
+      EXPECT_TRUE(!emergency(f) || emergency(reported));
+      EXPECT_TRUE(!stops(f) || stops(reported))
           << static_cast<int>(f.track) << " " << static_cast<int>(f.vehicle);
-      EXPECT_TRUE(!slows(f) || slows(told))
+      EXPECT_TRUE(!slows(f) || slows(reported))
           << static_cast<int>(f.track) << " " << static_cast<int>(f.vehicle);
-      EXPECT_TRUE(slows(f) || !slows(told)) << "restricts without being asked";
+      EXPECT_TRUE(slows(f) || !slows(reported)) << "restricts without being asked";
     });
 }
 
@@ -64,8 +64,8 @@ TEST(FlagEncoding, FlagsThatTheEncodingHasArriveAsTheyAre) {
     for (const VehicleFlag v :
          {VehicleFlag::kNone, VehicleFlag::kBlackPitIn, VehicleFlag::kDefender,
           VehicleFlag::kAttacker, VehicleFlag::kPurpleEmergency}) {
-      EXPECT_EQ(heard(FlagEncoding::kMyLaps, to_mylaps({t, v})), (Flags{t, v}));
-      EXPECT_EQ(heard(FlagEncoding::kMarelli, to_marelli({t, v}, kUnset)), (Flags{t, v}));
+      EXPECT_EQ(received(FlagEncoding::kMyLaps, to_mylaps({t, v})), (Flags{t, v}));
+      EXPECT_EQ(received(FlagEncoding::kMarelli, to_marelli({t, v}, kUnset)), (Flags{t, v}));
     }
   }
   EXPECT_EQ(to_mylaps({TrackFlag::kOrange, VehicleFlag::kNone}).track, 2);

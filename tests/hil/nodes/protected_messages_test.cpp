@@ -14,7 +14,7 @@ TEST(ProtectedMessages, EveryFrameIsWholeAliveAndInTime) {
   ProtectedMessages sender;
   std::map<std::uint32_t, can::MessageMonitor> monitors;
   can::LossLog losses;
-  std::map<std::uint32_t, int> heard;
+  std::map<std::uint32_t, int> received;
   for (int ms = 0; ms < 1000; ++ms) {
     const Instant now = Instant{} + milliseconds(ms);
     for (const can::Frame& frame : sender.due(now)) {
@@ -23,11 +23,11 @@ TEST(ProtectedMessages, EveryFrameIsWholeAliveAndInTime) {
       ASSERT_EQ(frame.length, row->length);
       EXPECT_EQ(can::judge(*row, {}, monitors[frame.id], {frame, now}, losses),
                 can::FrameVerdict::kGood);
-      ++heard[frame.id];
+      ++received[frame.id];
     }
   }
-  ASSERT_EQ(heard.size(), kProtectedMessages);
-  for (const auto& [id, frames] : heard) EXPECT_EQ(frames, 100) << id;
+  ASSERT_EQ(received.size(), kProtectedMessages);
+  for (const auto& [id, frames] : received) EXPECT_EQ(frames, 100) << id;
   EXPECT_EQ(losses.count, 0u);
 }
 
@@ -36,14 +36,14 @@ TEST(ProtectedMessages, TheFlagsOfRaceControlHaveAChecksumThatFindsAnotherFlag) 
   flags.id = 1200;
   flags.length = 8;
   flags.data[0] = 0x41;
-  const can::Frame said = with_checksum(flags);
+  const can::Frame stated = with_checksum(flags);
   can::Frame other = flags;
   other.id = 1250;
   EXPECT_EQ(with_checksum(other), other);
   for (const can::MessageRow& row : judged_rows()) {
     if (row.id != flags.id) continue;
-    EXPECT_EQ(can::check(row.protection, said), can::FrameCheck::kOk);
-    can::Frame red = said;
+    EXPECT_EQ(can::check(row.protection, stated), can::FrameCheck::kOk);
+    can::Frame red = stated;
     red.data[0] = 0x11;
     EXPECT_EQ(can::check(row.protection, red), can::FrameCheck::kWrongCrc);
     return;

@@ -222,11 +222,11 @@ TEST(RaceControl, TimingAndTheRivalArriveInTheirUnits) {
                       .rival_speed_mps = 40.0};
   av21::BaseToCarTiming lap;
   av21::RestOfField rival;
-  int heard = 0;
+  int received = 0;
   for (Instant now{}; now - Instant{} < milliseconds(100); now += milliseconds(1))
     for (const can::Frame& f : step({}, state, timing, now))
-      heard += (av21::decode(f, lap) ? 1 : 0) + (av21::decode(f, rival) ? 1 : 0);
-  ASSERT_EQ(heard, 2);
+      received += (av21::decode(f, lap) ? 1 : 0) + (av21::decode(f, rival) ? 1 : 0);
+  ASSERT_EQ(received, 2);
   EXPECT_EQ(lap.laps, 3.0);
   EXPECT_NEAR(lap.lap_time, 38'500.0, 0.05);
   EXPECT_EQ(rival.comp_veh_num, 12.0);

@@ -31,7 +31,7 @@ struct Rig {
   bool commands = true, reports_ct = true, race_control = true, counters_live = true;
   double track_flag = 4.0;
   int ticks = 0, counter = 0;
-  std::vector<can::ReceivedFrame> heard;
+  std::vector<can::ReceivedFrame> received;
   std::optional<av21::DiagnosticReport> diagnostics;
 
   Rig() {
@@ -48,7 +48,7 @@ struct Rig {
     can::Frame f;
     can::EncodeCounters ignored;
     ASSERT_TRUE(av21::encode(m, f, ignored));
-    heard.push_back({f, now});
+    received.push_back({f, now});
   }
 
   void speak() {
@@ -78,9 +78,9 @@ struct Rig {
   }
 
   void tick() {
-    heard.clear();
+    received.clear();
     speak();
-    out = step(params, state, heard, feedback, now);
+    out = step(params, state, received, feedback, now);
     for (const can::Frame& f : out.frames) {
       av21::DiagnosticReport m;
       if (av21::decode(f, m)) diagnostics = m;
@@ -189,10 +189,10 @@ TEST(Raptor, OneDeadStreamIsEnough) {
     Rig rig;
     rig.run(seconds(1));
     for (int i = 0; i < 200; ++i) {
-      rig.heard.clear();
+      rig.received.clear();
       rig.speak();
-      std::erase_if(rig.heard, [&](const auto& r) { return r.frame.id == dead; });
-      rig.out = step(rig.params, rig.state, rig.heard, rig.feedback, rig.now);
+      std::erase_if(rig.received, [&](const auto& r) { return r.frame.id == dead; });
+      rig.out = step(rig.params, rig.state, rig.received, rig.feedback, rig.now);
       rig.now += milliseconds(1);
       ++rig.ticks;
     }
@@ -366,7 +366,7 @@ TEST(Raptor, ACopiedStateContinuesIdenticallyAndStepDoesNotAllocate) {
     EXPECT_EQ(rig.out.frames[i], copy.out.frames[i]);
   EXPECT_EQ(rig.out.demand.brake_front_kpa, copy.out.demand.brake_front_kpa);
   const std::size_t taken = testing::allocations_of(
-      [&] { rig.out = step(rig.params, rig.state, rig.heard, rig.feedback, rig.now); });
+      [&] { rig.out = step(rig.params, rig.state, rig.received, rig.feedback, rig.now); });
   EXPECT_EQ(taken, 0U);
 }
 

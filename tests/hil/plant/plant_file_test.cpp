@@ -145,7 +145,7 @@ TEST(PlantFile, ATorqueCurveMustRiseInSpeed) {
 }
 
 // Whatever is left of the file is read, or refused with a place in it.
-void expect_told(const std::string& text, const std::string& what) {
+void expect_reported(const std::string& text, const std::string& what) {
   const std::string why = refusal(text);
   if (why.empty()) return;
   EXPECT_EQ(why.rfind("plant.yaml:", 0), 0u) << what << ": " << why;
@@ -163,12 +163,12 @@ TEST(PlantFile, CutAnywhereItIsToldWhere) {
     const std::string section = based(text.substr(at, end - at));
     EXPECT_EQ(refusal(section), "");
     for (std::size_t cut = 0; cut < section.size(); ++cut)
-      expect_told(section.substr(0, cut), "section cut at " + std::to_string(cut));
+      expect_reported(section.substr(0, cut), "section cut at " + std::to_string(cut));
     at = end;
   }
   EXPECT_EQ(sections, 11u);
   for (std::size_t cut = 0; cut < text.size(); cut = text.find('\n', cut) + 1)
-    expect_told(text.substr(0, cut), "cut at " + std::to_string(cut));
+    expect_reported(text.substr(0, cut), "cut at " + std::to_string(cut));
 }
 
 TEST(PlantFile, WhateverIsTypedIntoItItIsReadOrToldWhere) {
@@ -190,7 +190,7 @@ TEST(PlantFile, WhateverIsTypedIntoItItIsReadOrToldWhere) {
           text.erase(at, 1 + random.below(20));
       }
     }
-    expect_told(text, "change " + std::to_string(i));
+    expect_reported(text, "change " + std::to_string(i));
   }
 }
 

@@ -60,10 +60,10 @@ TEST(OperatorSection, IsInTheOrderOfTimeAndRepeats) {
       "  - {at_s: 2, say: take 1, every_s: 0.5, until_s: 4}\n"
       "  - {at_s: 3, say: command speed_limit 30}\n");
   ASSERT_TRUE(read) << to_string(read.error());
-  std::string said;
+  std::string output;
   for (const OperatorText& word : read->operator_texts)
-    said += std::to_string(word.at.ns / 1'000'000) + " " + word.text + "|";
-  EXPECT_EQ(said,
+    output += std::to_string(word.at.ns / 1'000'000) + " " + word.text + "|";
+  EXPECT_EQ(output,
             "2000 take 1|2500 take 1|3000 take 1|3000 command speed_limit 30|3500 take 1|"
             "4000 take 1|9000 stop controlled|");
 }

@@ -218,12 +218,12 @@ TEST(Scenario, ADetectionCountsFromItsFault) {
   EXPECT_EQ(e.signal, "seen_counter");
   EXPECT_EQ(e.from, base->faults[0].at);
   EXPECT_EQ(e.until - e.from, milliseconds(20));
-  const auto told = read_scenario(
+  const auto reported = read_scenario(
       with_expectation(
           "kind: detects, signal: mode, is: \">=\", value: 3, fault: 1, within_s: 0.5"),
       "good.yaml");
-  ASSERT_TRUE(told) << to_string(told.error());
-  EXPECT_EQ(told->expect.back().relation, ">=");
+  ASSERT_TRUE(reported) << to_string(reported.error());
+  EXPECT_EQ(reported->expect.back().relation, ">=");
   for (const char* wrong :
        {"kind: detects, monitor: counter, within_s: 0", "kind: detects, monitor: counter",
         "kind: detects, monitor: counter, fault: 9, within_s: 1",

@@ -43,14 +43,14 @@ TEST(WheelSpeeds, FallShortAsTheTyreGrows) {
 TEST(WheelSpeeds, ScatterAsTheRecordedOnes) {
   const WheelParams p;
   WheelState state = make_wheels(p, 1, Instant{});
-  std::array<std::vector<double>, world::kCorners> heard;
+  std::array<std::vector<double>, world::kCorners> received;
   for (int ms = 0; ms < 60'000; ++ms) {
     const plant::Wheels w = step_wheels(p, state, all(30.0), Instant{} + milliseconds(ms));
     if (ms % 10 != 0) continue;
-    for (std::size_t i = 0; i < w.size(); ++i) heard[i].push_back(w[i]);
+    for (std::size_t i = 0; i < w.size(); ++i) received[i].push_back(w[i]);
   }
-  for (std::size_t i = 0; i < heard.size(); ++i) {
-    const Moments m = moments(heard[i]);
+  for (std::size_t i = 0; i < received.size(); ++i) {
+    const Moments m = moments(received[i]);
     EXPECT_NEAR(m.sigma, p.sigma_mps[i], 0.05 * p.sigma_mps[i]);
     EXPECT_NEAR(m.lag_one, 0.0, 0.05);
     EXPECT_NEAR(m.mean, 30.0, 30.0 * 4.0 * p.radius_sigma);
@@ -59,16 +59,16 @@ TEST(WheelSpeeds, ScatterAsTheRecordedOnes) {
 
 TEST(WheelSpeeds, OneWheelFailsAlone) {
   WheelState state = make_wheels(exact(), 1, Instant{});
-  const auto heard = [&](const WheelFault& fault) {
+  const auto received = [&](const WheelFault& fault) {
     state.fault = {};
     state.fault[2] = fault;
     return step_wheels(exact(), state, all(40.0), Instant{});
   };
-  EXPECT_EQ(heard({.trouble = WheelTrouble::kLost}), (plant::Wheels{40.0, 40.0, 0.0, 40.0}));
-  EXPECT_EQ(heard({.trouble = WheelTrouble::kSpinning, .factor = 1.5})[2], 60.0);
-  EXPECT_EQ(heard({.trouble = WheelTrouble::kLocked, .since_s = 0.0})[2], 40.0);
-  EXPECT_NEAR(heard({.trouble = WheelTrouble::kLocked, .since_s = 0.05})[2], 20.0, 1e-9);
-  EXPECT_EQ(heard({.trouble = WheelTrouble::kLocked, .since_s = 0.2})[2], 0.0);
+  EXPECT_EQ(received({.trouble = WheelTrouble::kLost}), (plant::Wheels{40.0, 40.0, 0.0, 40.0}));
+  EXPECT_EQ(received({.trouble = WheelTrouble::kSpinning, .factor = 1.5})[2], 60.0);
+  EXPECT_EQ(received({.trouble = WheelTrouble::kLocked, .since_s = 0.0})[2], 40.0);
+  EXPECT_NEAR(received({.trouble = WheelTrouble::kLocked, .since_s = 0.05})[2], 20.0, 1e-9);
+  EXPECT_EQ(received({.trouble = WheelTrouble::kLocked, .since_s = 0.2})[2], 0.0);
 }
 
 }  // namespace

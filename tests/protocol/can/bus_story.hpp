@@ -70,16 +70,16 @@ inline Frame frame_of(const MessageRow& row, std::uint32_t counter) {
   return f;
 }
 
-struct Heard {
+struct Received {
   MessageMonitor monitor;
   std::vector<LossReport> reports;
   std::map<FrameVerdict, int> verdicts;
 };
 
 // Judges what arrived, tick by tick, and watches on for `afterwards`.
-inline Heard run_monitor(const MessageRow& row, const std::vector<Send>& sends, Duration afterwards,
-                         const CounterCycle& cycle = {}) {
-  Heard heard;
+inline Received run_monitor(const MessageRow& row, const std::vector<Send>& sends,
+                            Duration afterwards, const CounterCycle& cycle = {}) {
+  Received incoming;
   LossLog log;
   std::size_t next = 0;
   const Instant end = sends.back().arrival + afterwards;
@@ -87,15 +87,15 @@ inline Heard run_monitor(const MessageRow& row, const std::vector<Send>& sends, 
     for (; next < sends.size() && sends[next].arrival <= now; ++next) {
       if (sends[next].is_lost) continue;
       const ReceivedFrame received{frame_of(row, sends[next].counter), sends[next].arrival};
-      if (cycle.is_known()) heard.monitor.cycle = cycle;
-      ++heard.verdicts[judge(row, MonitorRules{}, heard.monitor, received, log)];
+      if (cycle.is_known()) incoming.monitor.cycle = cycle;
+      ++incoming.verdicts[judge(row, MonitorRules{}, incoming.monitor, received, log)];
     }
-    watch({&row, 1}, {&heard.monitor, 1}, now, log);
-    heard.reports.insert(heard.reports.end(), log.listed().begin(), log.listed().end());
+    watch({&row, 1}, {&incoming.monitor, 1}, now, log);
+    incoming.reports.insert(incoming.reports.end(), log.listed().begin(), log.listed().end());
     EXPECT_EQ(log.unlisted, 0U);
     log.clear();
   }
-  return heard;
+  return incoming;
 }
 
 // Index of the send that lies nearest to `t`.

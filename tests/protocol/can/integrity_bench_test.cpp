@@ -151,13 +151,13 @@ TEST(IntegrityBench, GeneratedStructsSpeakCanFd) {
   ProtectState state{200};
   protect(generated(321).protection, state, frame);
   EXPECT_EQ(check(generated(321).protection, frame), FrameCheck::kOk);
-  integrity_bench::WheelsP05Fd heard;
-  ASSERT_TRUE(integrity_bench::decode(frame, heard));
-  EXPECT_EQ(heard.p05_fd_counter, 200.0);
-  EXPECT_NEAR(heard.p05_fd_left, 71.234, 1e-9);
-  EXPECT_NEAR(heard.p05_fd_right, -3.001, 1e-9);
+  integrity_bench::WheelsP05Fd received;
+  ASSERT_TRUE(integrity_bench::decode(frame, received));
+  EXPECT_EQ(received.p05_fd_counter, 200.0);
+  EXPECT_NEAR(received.p05_fd_left, 71.234, 1e-9);
+  EXPECT_NEAR(received.p05_fd_right, -3.001, 1e-9);
   frame.fd = false;
-  EXPECT_FALSE(integrity_bench::decode(frame, heard));
+  EXPECT_FALSE(integrity_bench::decode(frame, received));
   sent.p05_fd_left = kUnset;
   EXPECT_FALSE(integrity_bench::encode(sent, frame, counters));
 }

@@ -27,22 +27,22 @@ std::int64_t losses_before(const std::vector<Send>& sends, std::int64_t index) {
 void expect_every_loss_once(const SenderHabits& habits, bool has_counter, Random& noise) {
   const std::vector<Send> sends = story(habits, noise);
   const MessageRow row = row_of(habits, has_counter);
-  const Heard heard = run_monitor(row, sends, milliseconds(150));
-  std::int64_t last_heard = 0;
+  const Received received = run_monitor(row, sends, milliseconds(150));
+  std::int64_t last_received = 0;
   std::uint32_t lost = 0;
   for (std::size_t i = 0; i < sends.size(); ++i) {
-    if (!sends[i].is_lost) last_heard = static_cast<std::int64_t>(i);
+    if (!sends[i].is_lost) last_received = static_cast<std::int64_t>(i);
   }
-  auto blame = blamed(sends, habits.period, heard.reports);
+  auto blame = blamed(sends, habits.period, received.reports);
   for (std::size_t i = 0; i < sends.size(); ++i) {
     const auto index = static_cast<std::int64_t>(i);
-    const bool is_trailing = index > last_heard;
-    const bool is_owed = sends[i].is_lost && (!is_trailing || index <= last_heard + 5);
+    const bool is_trailing = index > last_received;
+    const bool is_owed = sends[i].is_lost && (!is_trailing || index <= last_received + 5);
     ASSERT_EQ(blame[index], is_owed ? 1 : 0)
         << "send " << i << " of period " << habits.period.ns << " top " << habits.top;
     lost += sends[i].is_lost ? 1U : 0U;
   }
-  for (const LossReport& r : heard.reports) {
+  for (const LossReport& r : received.reports) {
     EXPECT_EQ(r.id, row.id);
     const std::int64_t index = nearest_send(sends, habits.period, r.due);
     if (index >= static_cast<std::int64_t>(sends.size())) continue;  // after the end of the story
@@ -52,8 +52,8 @@ void expect_every_loss_once(const SenderHabits& habits, bool has_counter, Random
     EXPECT_LE(due - r.due, habits.delay_max);
     EXPECT_LE(r.noticed - r.due, slack_of(row) + kTick + habits.delay_max);
   }
-  EXPECT_EQ(heard.monitor.late, 0U);
-  EXPECT_GE(heard.monitor.lost, lost);  // and those that were due after the end
+  EXPECT_EQ(received.monitor.late, 0U);
+  EXPECT_GE(received.monitor.lost, lost);  // and those that were due after the end
 }
 
 TEST(MessageMonitor, EveryLossIsReportedOnceAndNothingElse) {
@@ -90,15 +90,15 @@ TEST(MessageMonitor, TheCounterFindsTheTotalsUnderLargeDelays) {
                                   .sends = 2000};
         std::vector<Send> sends = story(habits, noise);
         sends.back().is_lost = false;
-        const Heard heard =
+        const Received received =
             run_monitor(row_of(habits, true), sends, kTick,
                         {.top = cycle.top, .bottom = 0, .seen = CounterCycle::kKnown});
         const auto lost =
             std::count_if(sends.begin(), sends.end(), [](const Send& s) { return s.is_lost; });
-        EXPECT_EQ(heard.monitor.lost, lost) << cycle.top << " " << loss << " " << periods;
+        EXPECT_EQ(received.monitor.lost, lost) << cycle.top << " " << loss << " " << periods;
         std::uint32_t reported = 0;
-        for (const LossReport& r : heard.reports) reported += r.frames;
-        EXPECT_EQ(reported, heard.monitor.lost + heard.monitor.late);
+        for (const LossReport& r : received.reports) reported += r.frames;
+        EXPECT_EQ(reported, received.monitor.lost + received.monitor.late);
       }
     }
   }

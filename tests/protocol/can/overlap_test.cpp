@@ -64,7 +64,7 @@ bool can_meet(const Message& m, std::size_t a, std::size_t b) {
 // Every pair that is told is one, and every signal of a pair is told.
 TEST(Overlaps, MarkExactlyTheSignalsThatOverlap) {
   Random noise{17};
-  std::size_t told = 0, clean = 0;
+  std::size_t reported = 0, clean = 0;
   for (int round = 0; round < 2000; ++round) {
     Message m = message_of({signal_at(0, 5)});
     m.signals[0].is_selector = true;
@@ -90,9 +90,9 @@ TEST(Overlaps, MarkExactlyTheSignalsThatOverlap) {
       marked.insert({o.first, o.second});
     }
     EXPECT_EQ(marked, expected) << round;
-    ++(expected.empty() ? clean : told);
+    ++(expected.empty() ? clean : reported);
   }
-  EXPECT_GT(told, 200U);
+  EXPECT_GT(reported, 200U);
   EXPECT_GT(clean, 200U);
 }
 

@@ -13,7 +13,7 @@ namespace {
 using Sample = std::vector<std::uint8_t>;
 
 // What came, in order; asked for by the test's thread.
-class Heard {
+class Received {
  public:
   Domain::Take take() {
     return [this](Bytes cdr) {
@@ -56,16 +56,16 @@ Sample sample_of(std::size_t bytes) {
 TEST(DdsDomain, WhatIsWrittenIsReadByteForByteWhateverItsSize) {
   auto here = Domain::join({.domain = 70}), there = Domain::join({.domain = 70});
   ASSERT_TRUE(here && there);
-  Heard heard;
+  Received received;
   auto writer = (*here)->write_to(kTopic, {.depth = 100});
   ASSERT_TRUE(writer);
-  ASSERT_TRUE((*there)->read_from(kTopic, {.depth = 100}, heard.take()));
+  ASSERT_TRUE((*there)->read_from(kTopic, {.depth = 100}, received.take()));
   ASSERT_TRUE(comes([&] { return (*writer)->readers() == 1; }));
   const std::vector<Sample> wanted{sample_of(8), sample_of(5'000), sample_of(1'000'000),
                                    sample_of(12)};
   for (const Sample& sample : wanted) EXPECT_TRUE((*writer)->write(sample));
-  ASSERT_TRUE(heard.waits_for(wanted.size()));
-  EXPECT_EQ(heard.all(), wanted);
+  ASSERT_TRUE(received.waits_for(wanted.size()));
+  EXPECT_EQ(received.all(), wanted);
   EXPECT_EQ((*here)->figures().participants, 1U);
   EXPECT_NE((*here)->guid(), (*there)->guid());
 }
@@ -78,29 +78,29 @@ TEST(DdsDomain, WhatIsLatchedIsKeptForWhoComesLater) {
   EXPECT_TRUE((*writer)->write(sample_of(8)));
   EXPECT_TRUE((*writer)->write(sample_of(16)));
   auto there = Domain::join({.domain = 71});
-  Heard heard;
-  ASSERT_TRUE((*there)->read_from(kTopic, {.latched = true, .depth = 1}, heard.take()));
-  ASSERT_TRUE(heard.waits_for(1));
-  EXPECT_EQ(heard.all(), (std::vector<Sample>{sample_of(16)})) << "the newest alone";
+  Received received;
+  ASSERT_TRUE((*there)->read_from(kTopic, {.latched = true, .depth = 1}, received.take()));
+  ASSERT_TRUE(received.waits_for(1));
+  EXPECT_EQ(received.all(), (std::vector<Sample>{sample_of(16)})) << "the newest alone";
 }
 
 TEST(DdsDomain, AnotherTypeOrAnotherQualityIsNotConnectedAndIsCounted) {
   auto here = Domain::join({.domain = 72}), there = Domain::join({.domain = 72});
   ASSERT_TRUE(here && there);
-  Heard heard;
+  Received received;
   auto writer = (*here)->write_to(kTopic, {});
   auto quick = (*here)->write_to({"rt/quick", kTopic.type}, {.reliable = false});
   ASSERT_TRUE(writer && quick);
   ASSERT_TRUE(
-      (*there)->read_from({kTopic.topic, "test_msgs::msg::dds_::Other_"}, {}, heard.take()));
-  ASSERT_TRUE((*there)->read_from({"rt/quick", kTopic.type}, {.reliable = true}, heard.take()));
+      (*there)->read_from({kTopic.topic, "test_msgs::msg::dds_::Other_"}, {}, received.take()));
+  ASSERT_TRUE((*there)->read_from({"rt/quick", kTopic.type}, {.reliable = true}, received.take()));
   EXPECT_TRUE(comes([&] {
     const DomainFigures figures = (*here)->figures();
     return figures.foreign_types == 1 && figures.foreign_qualities == 1;
   }));
   EXPECT_TRUE((*writer)->write(sample_of(8)) && (*quick)->write(sample_of(8)));
   EXPECT_EQ((*writer)->readers() + (*quick)->readers(), 0);
-  EXPECT_TRUE(heard.all().empty());
+  EXPECT_TRUE(received.all().empty());
 }
 
 // Nothing waits for those that take nothing.

@@ -16,39 +16,39 @@
 namespace pitwall::gnss {
 namespace {
 
-struct HeardSentence {
+struct ReceivedSentence {
   NovatelHeader header;
   std::optional<NovatelMessage> message;
   std::optional<DecodeError> refusal;
 };
 
-std::vector<HeardSentence> sentences_of(const std::string& text) {
-  std::vector<HeardSentence> all;
+std::vector<ReceivedSentence> sentences_of(const std::string& text) {
+  std::vector<ReceivedSentence> all;
   NovatelStream stream;
   stream.feed(as_bytes(text), [&](const NovatelFrame& frame) {
     EXPECT_TRUE(frame.ascii);
     const auto decoded = decode(frame);
-    HeardSentence heard{.header = frame.header, .message = {}, .refusal = {}};
+    ReceivedSentence received{.header = frame.header, .message = {}, .refusal = {}};
     if (decoded) {
-      heard.message = *decoded;
+      received.message = *decoded;
     } else {
-      heard.refusal = decoded.error();
+      received.refusal = decoded.error();
     }
-    all.push_back(heard);
+    all.push_back(received);
   });
   return all;
 }
 
 template <class Message>
 std::pair<NovatelHeader, Message> only(const std::string& sentence) {
-  const auto heard = sentences_of(sentence + "\r\n");
-  EXPECT_EQ(heard.size(), 1U) << sentence;
-  if (heard.size() != 1 || !heard[0].message) {
+  const auto received = sentences_of(sentence + "\r\n");
+  EXPECT_EQ(received.size(), 1U) << sentence;
+  if (received.size() != 1 || !received[0].message) {
     ADD_FAILURE() << "refused: " << sentence;
     return {};
   }
-  EXPECT_EQ(heard[0].header.id, Message::kId);
-  return {heard[0].header, std::get<Message>(*heard[0].message)};
+  EXPECT_EQ(received[0].header.id, Message::kId);
+  return {received[0].header, std::get<Message>(*received[0].message)};
 }
 
 // A recording of a receiver (tests of a driver of the Southwest Research Institute).
@@ -371,9 +371,9 @@ constexpr const char* kHeader =
 
 TEST(NovatelAscii, WhatCannotBeReadIsRefusedWithItsReason) {
   const auto refusal = [](const std::string& fields) {
-    const auto heard = sentences_of(with_crc(kHeader + fields));
-    EXPECT_EQ(heard.size(), 1U) << fields;
-    return heard.empty() ? std::nullopt : heard[0].refusal;
+    const auto received = sentences_of(with_crc(kHeader + fields));
+    EXPECT_EQ(received.size(), 1U) << fields;
+    return received.empty() ? std::nullopt : received[0].refusal;
   };
   EXPECT_EQ(refusal("SOL_COMPUTED,SINGLE,0,1,2.5,90,0.5,0"), std::nullopt);
   EXPECT_EQ(refusal("SOL_COMPUTED,SINGLE,0,1,2.5,90,0.5,0,new,fields"), std::nullopt);
@@ -418,11 +418,11 @@ TEST(NovatelAscii, WhatIsWrittenReadsBackTheSame) {
     const NovatelMessage message = random_message(static_cast<std::size_t>(i) % kLogs, random);
     const NovatelHeader header = random_header(random);
     const std::size_t n = encode_ascii(header, message, out);
-    const auto heard = sentences_of({out.begin(), out.begin() + static_cast<std::ptrdiff_t>(n)});
-    ASSERT_EQ(heard.size(), 1U) << i;
-    EXPECT_EQ(heard[0].header, as_sent(header, message)) << i;
-    ASSERT_TRUE(heard[0].message) << text(*heard[0].refusal);
-    EXPECT_TRUE(*heard[0].message == message) << i;
+    const auto received = sentences_of({out.begin(), out.begin() + static_cast<std::ptrdiff_t>(n)});
+    ASSERT_EQ(received.size(), 1U) << i;
+    EXPECT_EQ(received[0].header, as_sent(header, message)) << i;
+    ASSERT_TRUE(received[0].message) << text(*received[0].refusal);
+    EXPECT_TRUE(*received[0].message == message) << i;
   }
 }
 

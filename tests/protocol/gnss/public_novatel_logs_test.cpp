@@ -89,8 +89,8 @@ void expect_positions_of_the_vendors_driver() {
   const auto bytes = recording("bestpos.gps");
   ASSERT_TRUE(bytes);
   const auto fixes = recorded_lines("bestpos__gps_gps.jsonl");
-  const auto is_said = [](const std::vector<std::string>& lines, const char* key, double value,
-                          double tolerance = 0.0) {
+  const auto is_stated = [](const std::vector<std::string>& lines, const char* key, double value,
+                            double tolerance = 0.0) {
     return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
       return std::fabs(number_after(line, key) - value) <= tolerance;
     });
@@ -104,29 +104,29 @@ void expect_positions_of_the_vendors_driver() {
     if (!decoded) return;
     if (const auto* m = std::get_if<InsPvaS>(&*decoded)) {
       EXPECT_EQ(m->week, 2134U);
-      if (is_said(fixes, "latitude", m->latitude_deg)) {
+      if (is_stated(fixes, "latitude", m->latitude_deg)) {
         ++places;
-        EXPECT_TRUE(is_said(fixes, "longitude", m->longitude_deg));
+        EXPECT_TRUE(is_stated(fixes, "longitude", m->longitude_deg));
         // The driver makes it a height above the sea as soon as it knows the undulation, -17 m.
-        EXPECT_TRUE(is_said(fixes, "altitude", m->height_m) ||
-                    is_said(fixes, "altitude", m->height_m + 17.0));
+        EXPECT_TRUE(is_stated(fixes, "altitude", m->height_m) ||
+                    is_stated(fixes, "altitude", m->height_m + 17.0));
       }
-      if (is_said(fixes, "climb", m->up_mps)) {
+      if (is_stated(fixes, "climb", m->up_mps)) {
         ++climbs;  // then the speed is that of the same log
-        EXPECT_TRUE(is_said(fixes, "speed", std::hypot(m->north_mps, m->east_mps), 1e-16));
+        EXPECT_TRUE(is_stated(fixes, "speed", std::hypot(m->north_mps, m->east_mps), 1e-16));
       }
     }
     if (const auto* m = std::get_if<BestPos>(&*decoded)) {
       EXPECT_EQ(m->satellites_used, 16);
       EXPECT_EQ(m->undulation_m, -17.0F);
-      if (is_said(fixes, "latitude", m->latitude_deg)) {
+      if (is_stated(fixes, "latitude", m->latitude_deg)) {
         ++places;
-        EXPECT_TRUE(is_said(fixes, "longitude", m->longitude_deg));
-        EXPECT_TRUE(is_said(fixes, "altitude", m->height_m));
+        EXPECT_TRUE(is_stated(fixes, "longitude", m->longitude_deg));
+        EXPECT_TRUE(is_stated(fixes, "altitude", m->height_m));
       }
     }
     if (const auto* m = std::get_if<BestVel>(&*decoded)) {
-      if (is_said(fixes, "speed", m->horizontal_mps)) ++speeds;
+      if (is_stated(fixes, "speed", m->horizontal_mps)) ++speeds;
       EXPECT_LT(m->horizontal_mps, 0.1);
     }
   });

@@ -12,13 +12,13 @@
 namespace pitwall::gnss {
 namespace {
 
-using Heard = std::vector<Result<VectorNavMessage, DecodeError>>;
+using Decoded = std::vector<Result<VectorNavMessage, DecodeError>>;
 
-Heard receive(const Bytes& bytes) {
-  Heard heard;
+Decoded receive(const Bytes& bytes) {
+  Decoded decoded;
   VectorNavStream stream;
-  stream.feed(bytes, [&](const VectorNavFrame& frame) { heard.push_back(decode(frame)); });
-  return heard;
+  stream.feed(bytes, [&](const VectorNavFrame& frame) { decoded.push_back(decode(frame)); });
+  return decoded;
 }
 
 Bytes written(const VectorNavMessage& message) {
@@ -31,10 +31,10 @@ Bytes written(const VectorNavMessage& message) {
 TEST(VectorNavCodec, ReadsTheFirstExampleOfTheManual) {
   const Bytes bytes{0xFA, 0x01, 0x08, 0x00, 0x93, 0x50, 0x2E, 0x42, 0x83,
                     0x3E, 0xF1, 0x3F, 0x48, 0xB5, 0x04, 0xBB, 0x92, 0x88};
-  const Heard heard = receive(bytes);
-  ASSERT_EQ(heard.size(), 1U);
-  ASSERT_TRUE(heard[0].has_value());
-  const VectorNavMessage& m = heard[0].value();
+  const Decoded decoded = receive(bytes);
+  ASSERT_EQ(decoded.size(), 1U);
+  ASSERT_TRUE(decoded[0].has_value());
+  const VectorNavMessage& m = decoded[0].value();
   EXPECT_EQ(m.output, VectorNavOutput{}.with(vectornav::kCommonYawPitchRoll));
   EXPECT_FLOAT_EQ(m.yaw_pitch_roll_deg[0], 43.578686F);
   EXPECT_FLOAT_EQ(m.yaw_pitch_roll_deg[1], 1.8847202F);
@@ -52,9 +52,9 @@ TEST(VectorNavCodec, ReadsTheSecondExampleOfTheManual) {
   as_meant[4] = 0x10;  // bit 4: the temperature, which the example's payload has
   const std::uint16_t crc = 0xAF1A;
   as_meant[22] = static_cast<std::uint8_t>(crc >> 8U), as_meant[23] = crc & 0xFFU;
-  const Heard heard = receive(as_meant);
-  ASSERT_EQ(heard.size(), 1U);
-  const VectorNavMessage& m = heard[0].value();
+  const Decoded decoded = receive(as_meant);
+  ASSERT_EQ(decoded.size(), 1U);
+  const VectorNavMessage& m = decoded[0].value();
   EXPECT_FLOAT_EQ(m.yaw_pitch_roll_deg[0], 32.521133F);
   EXPECT_FLOAT_EQ(m.yaw_pitch_roll_deg[1], 1.8427521F);
   EXPECT_FLOAT_EQ(m.yaw_pitch_roll_deg[2], -1.7783722e-1F);
@@ -93,11 +93,11 @@ TEST(VectorNavCodec, WhatIsWrittenReadsBackAndIsWrittenTheSame) {
   for (int i = 0; i < 2'000; ++i) {
     const VectorNavMessage message = random_vectornav(random_output(random), random);
     const Bytes bytes = written(message);
-    const Heard heard = receive(bytes);
-    ASSERT_EQ(heard.size(), 1U) << i;
-    ASSERT_TRUE(heard[0].has_value()) << text(heard[0].error());
-    EXPECT_EQ(heard[0].value().output, message.output);
-    EXPECT_EQ(written(heard[0].value()), bytes) << i;
+    const Decoded decoded = receive(bytes);
+    ASSERT_EQ(decoded.size(), 1U) << i;
+    ASSERT_TRUE(decoded[0].has_value()) << text(decoded[0].error());
+    EXPECT_EQ(decoded[0].value().output, message.output);
+    EXPECT_EQ(written(decoded[0].value()), bytes) << i;
   }
 }
 
@@ -107,9 +107,9 @@ TEST(VectorNavCodec, WhatWasNotSentIsNotThere) {
   message.ins_status = 0x0206;
   message.gnss[0].status = 0x1234;
   message.latitude_deg = 1.0;
-  const Heard heard = receive(written(message));
-  ASSERT_EQ(heard.size(), 1U);
-  const VectorNavMessage& m = heard[0].value();
+  const Decoded decoded = receive(written(message));
+  ASSERT_EQ(decoded.size(), 1U);
+  const VectorNavMessage& m = decoded[0].value();
   EXPECT_TRUE(m.output.has(vectornav::kGnssStatus));
   EXPECT_FALSE(m.output.has(vectornav::kInsPosition));
   EXPECT_EQ(m.ins_status & vectornav::kInsModeMask, vectornav::kInsTracking);
@@ -131,10 +131,10 @@ TEST(VectorNavCodec, WhatCannotBeIsRefusedWithItsReason) {
   good.yaw_pitch_roll_u_deg = {0.1F, 0.1F, 0.1F};
   good.accel_mps2 = {0.0F, 0.0F, -9.8F};
   const auto refusal = [](const VectorNavMessage& m) -> std::optional<DecodeError> {
-    const Heard heard = receive(written(m));
-    EXPECT_EQ(heard.size(), 1U);
-    if (heard.size() != 1 || heard[0].has_value()) return std::nullopt;
-    return heard[0].error();
+    const Decoded decoded = receive(written(m));
+    EXPECT_EQ(decoded.size(), 1U);
+    if (decoded.size() != 1 || decoded[0].has_value()) return std::nullopt;
+    return decoded[0].error();
   };
   EXPECT_EQ(refusal(good), std::nullopt);
   VectorNavMessage bad = good;

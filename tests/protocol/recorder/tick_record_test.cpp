@@ -17,7 +17,7 @@ TEST(TickRecord, ComesBackWithItsCommandsToTheBit) {
   TickRecord tick;
   tick.number = 1'234'567;
   tick.dt_ns = 10'000'001;
-  tick.frames_heard = 7;
+  tick.frames_received = 7;
   tick.joystick_at_ns = kNever;
   tick.guardian_counters = 0xFEDC'BA98;
   tick.bus_load = 0.25;
@@ -28,7 +28,7 @@ TEST(TickRecord, ComesBackWithItsCommandsToTheBit) {
   ASSERT_TRUE(recording::from_cdr(recording::to_cdr(tick, bytes), back));
   EXPECT_EQ(back.number, 1'234'567U);
   EXPECT_EQ(back.dt_ns, 10'000'001);
-  EXPECT_EQ(back.frames_heard, 7U);
+  EXPECT_EQ(back.frames_received, 7U);
   EXPECT_EQ(back.joystick_at_ns, kNever);
   EXPECT_EQ(back.guardian_counters, 0xFEDC'BA98U);
   EXPECT_EQ(back.bus_load, 0.25);

@@ -20,7 +20,7 @@ Bytes encoded(const M& message) {
 }
 
 template <class M>
-std::string said(const M& message) {
+std::string output(const M& message) {
   std::string out;
   testing::append_json(out, message);
   return out;
@@ -90,7 +90,7 @@ TEST(Cdr, EveryMessageComesBackAsItWas) {
       const Bytes bytes = encoded(message);
       const auto back = decode<M>(bytes);
       ASSERT_TRUE(back) << M::kType << ": " << to_string(back.error());
-      EXPECT_EQ(said(*back), said(message)) << M::kType;
+      EXPECT_EQ(output(*back), output(message)) << M::kType;
       EXPECT_EQ(encoded(*back), bytes);
     }
   });

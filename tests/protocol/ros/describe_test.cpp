@@ -93,9 +93,9 @@ TEST(RosMessageText, FoxglovesReadersFindTheMessagesOfRosAndOurValues) {
       testing::fill(random, message);
       std::vector<std::uint8_t> bytes;
       encode(message, bytes);
-      std::string said;
-      testing::append_json(said, message);
-      oracle.add(M::kType, message_text(describe<M>()), bytes, said);
+      std::string output;
+      testing::append_json(output, message);
+      oracle.add(M::kType, message_text(describe<M>()), bytes, output);
     }
   });
   oracle.expect_agreement();

@@ -19,7 +19,9 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::size_t kDownGroups = groups_of(Direction::kDown).count();
-constexpr bool told(FieldIndex i) { return row_of(kFields[i].group).direction == Direction::kDown; }
+constexpr bool reported(FieldIndex i) {
+  return row_of(kFields[i].group).direction == Direction::kDown;
+}
 
 Bytes bytes_of(const StatePacket& packet) {
   PacketBuffer buffer;
@@ -78,7 +80,7 @@ TEST(StatePacket, EveryValueArrivesWithinHalfItsResolution) {
     EXPECT_EQ(got->sent, sent.sent);
     for (FieldIndex i = 0; i < kFieldCount; ++i) {
       const FieldRow& row = kFields[i];
-      if (std::isnan(sent.values[i]) || !told(i)) {
+      if (std::isnan(sent.values[i]) || !reported(i)) {
         EXPECT_TRUE(std::isnan(got->values[i])) << row.name;
       } else {
         EXPECT_NEAR(got->values[i], sent.values[i], 0.5 * row.resolution * (1.0 + 1e-6))
@@ -119,7 +121,7 @@ TEST(StatePacket, HoldsTheGroupsOfTheCarAndNoOthers) {
     EXPECT_EQ(got->age_of(row.group), down ? milliseconds(30) : microseconds(-1)) << row.name;
   }
   for (FieldIndex i = 0; i < kFieldCount; ++i)
-    EXPECT_EQ(std::isnan(got->values[i]), !told(i)) << kFields[i].name;
+    EXPECT_EQ(std::isnan(got->values[i]), !reported(i)) << kFields[i].name;
 }
 
 TEST(StatePacket, OfASnapshotHasNoAgeWhereNothingWasSampledAndNoneBelowZero) {

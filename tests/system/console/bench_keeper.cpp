@@ -28,10 +28,10 @@ int keep(const std::string& file) {
   while (true) {
     const std::array watched{STDIN_FILENO};
     if (transport::wait_readable(watched, transport::monotonic_now() + milliseconds(1)) != 0) {
-      std::array<std::uint8_t, 64> said{};
-      const auto got = transport::read_now(STDIN_FILENO, said);
+      std::array<std::uint8_t, 64> stated{};
+      const auto got = transport::read_now(STDIN_FILENO, stated);
       if (got.ended) return 0;
-      stands = said[0] == 's';
+      stands = stated[0] == 's';
     }
     if (!stands) keeper->advance();
   }

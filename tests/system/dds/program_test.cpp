@@ -37,9 +37,9 @@ class BaseProgram : public ::testing::Test {
 };
 
 TEST_F(BaseProgram, ExportsAPackageForColcon) {
-  const std::string said =
+  const std::string output =
       output_of(program_ + " export ros --out " + in_folder("src/pitwall_msgs"));
-  EXPECT_NE(said.find("colcon build"), said.npos) << said;
+  EXPECT_NE(output.find("colcon build"), output.npos) << output;
   EXPECT_TRUE(fs::exists(folder_ / "src/pitwall_msgs/package.xml"));
   EXPECT_TRUE(fs::exists(folder_ / "src/pitwall_msgs/CMakeLists.txt"));
   EXPECT_TRUE(fs::exists(folder_ / "src/pitwall_msgs/msg/Tyres.msg"));
@@ -111,9 +111,9 @@ TEST_F(BaseProgram, DoesNotReachOtherMachinesUnasked) {
                            " --listen 127.0.0.1:0 --ros --ros-interface 10.1.2.3 --duration 1 2>" +
                            in_folder("said");
   EXPECT_NE(std::system(call.c_str()), 0);
-  std::ostringstream said;
-  said << std::ifstream{in_folder("said")}.rdbuf();
-  EXPECT_NE(said.str().find("--network"), std::string::npos) << said.str();
+  std::ostringstream output;
+  output << std::ifstream{in_folder("said")}.rdbuf();
+  EXPECT_NE(output.str().find("--network"), std::string::npos) << output.str();
 }
 
 }  // namespace

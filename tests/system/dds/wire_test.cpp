@@ -89,7 +89,7 @@ class Newcomers {
 };
 
 // What an onlooker has heard of each topic so far; of a participant, its enclave.
-struct Heard {
+struct Received {
   std::map<std::string, std::set<std::string>> types, hashes;
   bool enclave = false;
 
@@ -123,17 +123,18 @@ TEST(Wire, TsharkSeesTopicsTypesHashesAndTheEnclave) {
   auto publisher = start(std::move(config));
   ASSERT_TRUE(publisher) << to_string(publisher.error());
   const Newcomers newcomers;  // to whom all is told
-  Heard heard;
+  Received received;
   const std::size_t all = view.topics().size() + 1;  // and ros_discovery_info
-  while ((heard.types.size() < all || !heard.enclave) && tshark.next(line)) heard.take(line);
-  EXPECT_TRUE(heard.enclave);
-  EXPECT_EQ(heard.types.size(), all);
-  EXPECT_EQ(heard.types["ros_discovery_info"],
+  while ((received.types.size() < all || !received.enclave) && tshark.next(line))
+    received.take(line);
+  EXPECT_TRUE(received.enclave);
+  EXPECT_EQ(received.types.size(), all);
+  EXPECT_EQ(received.types["ros_discovery_info"],
             Names{"rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_"});
-  EXPECT_EQ(heard.types["rt/vehicle/odom"], Names{"nav_msgs::msg::dds_::Odometry_"});
-  EXPECT_EQ(heard.types["rt/base/tyres"], Names{"pitwall_msgs::msg::dds_::Tyres_"});
+  EXPECT_EQ(received.types["rt/vehicle/odom"], Names{"nav_msgs::msg::dds_::Odometry_"});
+  EXPECT_EQ(received.types["rt/base/tyres"], Names{"pitwall_msgs::msg::dds_::Tyres_"});
   for (const ros_view::Topic& topic : view.topics())
-    EXPECT_EQ(heard.hashes["rt" + topic.name], Names{hex("typehash=" + topic.hash + ";")})
+    EXPECT_EQ(received.hashes["rt" + topic.name], Names{hex("typehash=" + topic.hash + ";")})
         << topic.name;
 }
 

@@ -58,7 +58,7 @@ std::optional<Process> spawn(Words words) {
 }
 
 // What the car said, and when it said it, by the clock that this machine has for everybody.
-struct Said {
+struct Statement {
   Instant sent{};
   double mode = kUnset, cause = kUnset, speed_mps = kUnset;
 };
@@ -80,19 +80,19 @@ class Reports {
       if (const auto packet = telemetry::parse(d.payload())) take(*packet);
   }
 
-  const std::vector<Said>& said() const { return said_; }
-  Said last() const { return said_.empty() ? Said{} : said_.back(); }
+  const std::vector<Statement>& stated() const { return stated_; }
+  Statement last() const { return stated_.empty() ? Statement{} : stated_.back(); }
 
  private:
   void take(const telemetry::StatePacket& p) {
-    said_.push_back({.sent = p.sent,
-                     .mode = p.values[field("mode.mode")],
-                     .cause = p.values[field("mode.first_stop_cause")],
-                     .speed_mps = p.values[field("ego.vx")]});
+    stated_.push_back({.sent = p.sent,
+                       .mode = p.values[field("mode.mode")],
+                       .cause = p.values[field("mode.first_stop_cause")],
+                       .speed_mps = p.values[field("ego.vx")]});
   }
 
   std::unique_ptr<UdpSocket> socket_;
-  std::vector<Said> said_;
+  std::vector<Statement> stated_;
 };
 
 bool is_of_the_bench(std::uint32_t id) {
@@ -104,7 +104,7 @@ bool is_of_the_bench(std::uint32_t id) {
 struct Attempt {
   bool drove = false;  // before the bench died
   std::optional<Instant> last_frame, report;
-  Said first_report;       // what it said then
+  Statement first_report;  // what it said then
   Duration longest_gap{};  // between packets, from the kill to the report
   bool disarmed = false;
   double top_speed_after_mps = kUnset;  // of the truth, under the bench that was started again
@@ -196,17 +196,17 @@ class Experiment {
       return reports_.last().mode == static_cast<double>(world::Mode::kEmergencyStop) ||
              reports_.last().cause != 0.0;
     };
-    const bool told = wait(tells, seconds(5));
+    const bool reported = wait(tells, seconds(5));
     result_.last_frame = last_frame_;
-    if (!told) return;
+    if (!reported) return;
     Instant before = killed - milliseconds(20);
-    for (const Said& said : reports_.said()) {
-      if (said.sent < before) continue;
-      result_.longest_gap = std::max(result_.longest_gap, said.sent - before);
-      before = said.sent;
-      if (said.cause == 0.0) continue;
-      result_.report = said.sent;
-      result_.first_report = said;
+    for (const Statement& stated : reports_.stated()) {
+      if (stated.sent < before) continue;
+      result_.longest_gap = std::max(result_.longest_gap, stated.sent - before);
+      before = stated.sent;
+      if (stated.cause == 0.0) continue;
+      result_.report = stated.sent;
+      result_.first_report = stated;
       return;
     }
   }

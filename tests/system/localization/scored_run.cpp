@@ -100,7 +100,7 @@ ScoredRun run_scored(const RunPlan& plan) {
   options.step = [&](const pipeline::Setup& s, pipeline::Car& car, const pipeline::Inputs& in) {
     const localization::Surroundings road = car.surroundings;
     pipeline::Outputs out = pipeline::step(s, car, in);
-    shadow->step(s, in, out.heard.signals, road, car.orders.use);
+    shadow->step(s, in, out.received.signals, road, car.orders.use);
     return out;
   };
   options.watch = [&](const pipeline::Outputs& out, const Rig& rig, Instant now) {

@@ -20,7 +20,7 @@ using telemetry::Direction;
 using telemetry::GroupRow;
 using telemetry::kGroupTable;
 
-BurstRun told(const BurstCase& c) {
+BurstRun reported(const BurstCase& c) {
   const BurstRun run = run_burst(c);
   std::printf("%s\n", to_string(c, run).c_str());
   EXPECT_GT(run.oracle.p99, kWay);
@@ -31,32 +31,32 @@ BurstRun told(const BurstCase& c) {
 class Burst : public ::testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(Burst, AgesAreThoseOfTheOracleAndASlotOrTwo) {
-  EXPECT_TRUE(told({.seed = GetParam()}).holds());
+  EXPECT_TRUE(reported({.seed = GetParam()}).holds());
 }
 
 TEST_P(Burst, TwoRadiosAreAsGoodAsTheirOracle) {
-  const BurstRun run = told({.paths = 2, .seed = GetParam()});
+  const BurstRun run = reported({.paths = 2, .seed = GetParam()});
   EXPECT_TRUE(run.holds());
   EXPECT_LE(run.of(Class::kSafety).p99, milliseconds(200));
 }
 
 TEST_P(Burst, BulkOfThreeTimesTheRateChangesNothing) {
-  EXPECT_TRUE(told({.load = 3.0, .seed = GetParam()}).holds());
+  EXPECT_TRUE(reported({.load = 3.0, .seed = GetParam()}).holds());
 }
 
 // Loss alone is no congestion.
 TEST_P(Burst, TheRateIsNeverTakenBack) {
-  EXPECT_EQ(told({.loss = 0.5, .load = 3.0, .seed = GetParam()}).rate_factor, 1.0);
+  EXPECT_EQ(reported({.loss = 0.5, .load = 3.0, .seed = GetParam()}).rate_factor, 1.0);
 }
 
 // Half and more of the time nothing passes: the gaps between fades are as short as a slot.
 TEST(BurstOfAnyKind, SafetyFollowsTheOracle) {
   for (const double loss : {0.1, 0.5, 0.7}) {
-    const BurstRun run = told({.loss = loss, .load = 1.0, .seed = 4, .length = seconds(120)});
+    const BurstRun run = reported({.loss = loss, .load = 1.0, .seed = 4, .length = seconds(120)});
     EXPECT_LE(run.of(Class::kSafety).p99, run.oracle.p99 + milliseconds(loss < 0.6 ? 65 : 100));
   }
   for (const auto fade : {milliseconds(50), milliseconds(300)}) {
-    const BurstRun run = told({.fade = fade, .load = 1.0, .seed = 5, .length = seconds(120)});
+    const BurstRun run = reported({.fade = fade, .load = 1.0, .seed = 5, .length = seconds(120)});
     EXPECT_LE(run.of(Class::kSafety).p99, run.oracle.p99 + milliseconds(65));
   }
 }

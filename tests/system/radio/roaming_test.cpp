@@ -29,20 +29,20 @@ TEST(Roaming, TheCarIsServedASlotAfterItsFirstSurvivingPacket) {
       radio.move_car(0, address(n));
       const std::uint64_t roams = radio.base_report().association.roams;
       const Instant moved = radio.now();
-      std::optional<Instant> heard, served;
+      std::optional<Instant> received, served;
       for (int ms = 0; ms < 1'000; ++ms) {
         const std::uint64_t before = radio.arrivals();
         const std::uint64_t opened = radio.car_report().association.opened;
         radio.step();
         // Packets of before the move still come for a while; from then on, of the new place.
         const bool new_place = radio.now() - moved > milliseconds(40);
-        if (!heard && new_place && radio.arrivals() > before) heard = radio.now();
-        if (heard && !served && radio.car_report().association.opened > opened) {
+        if (!received && new_place && radio.arrivals() > before) received = radio.now();
+        if (received && !served && radio.car_report().association.opened > opened) {
           served = radio.now();
         }
       }
-      ASSERT_TRUE(heard && served) << n;
-      worst = std::max(worst, *served - *heard);
+      ASSERT_TRUE(received && served) << n;
+      worst = std::max(worst, *served - *received);
       EXPECT_GT(radio.base_report().association.roams, roams) << n;
     }
     // A slot until the base speaks, and the way.

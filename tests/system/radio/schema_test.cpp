@@ -72,7 +72,7 @@ struct Version {
 
 struct Seen {
   telemetry::GroupSet groups;  // that the base has
-  bool car_agrees = false, base_agrees = false, stop_heard = false;
+  bool car_agrees = false, base_agrees = false, stop_received = false;
   std::string difference;
   std::uint64_t falsehoods = 0, bad_bodies = 0;
 };
@@ -96,7 +96,7 @@ Seen look(const SchemaClaim* car, const SchemaClaim* base) {
   seen.car_agrees = radio.car().schema_agrees();
   seen.base_agrees = radio.station().schema_agrees();
   seen.difference = radio.station().schema_difference();
-  seen.stop_heard = radio.car().view(radio.car_now()).stop == telemetry::StopLevel::kControlled;
+  seen.stop_received = radio.car().view(radio.car_now()).stop == telemetry::StopLevel::kControlled;
   seen.falsehoods = radio.falsehoods().all();
   for (const std::uint64_t bad : radio.base_report().bad_bodies) seen.bad_bodies += bad;
   for (const std::uint64_t bad : radio.car_report().bad_bodies) seen.bad_bodies += bad;
@@ -126,7 +126,7 @@ void expect_both_ways(Version version, const telemetry::GroupSet& groups, bool a
 TEST(Schema, TheSameVersionAgreesAndSaysNothingOfIt) {
   const Seen seen = look(nullptr, nullptr);
   EXPECT_EQ(seen.groups.bits, all_but({}).bits);
-  EXPECT_TRUE(seen.car_agrees && seen.base_agrees && seen.stop_heard);
+  EXPECT_TRUE(seen.car_agrees && seen.base_agrees && seen.stop_received);
   EXPECT_TRUE(seen.difference.empty());
 }
 
@@ -159,11 +159,11 @@ TEST(Schema, AStopThatTheCarDoesNotUnderstandForbidsArming) {
   version.redefine(Group::kStop);
   const Seen seen = look(nullptr, version.done());
   EXPECT_FALSE(seen.car_agrees);
-  EXPECT_FALSE(seen.stop_heard);
+  EXPECT_FALSE(seen.stop_received);
   // One that it does understand works beside another group that it does not.
   Version other;
   other.redefine(Group::kTyres);
-  EXPECT_TRUE(look(other.done(), nullptr).stop_heard);
+  EXPECT_TRUE(look(other.done(), nullptr).stop_received);
 }
 
 }  // namespace

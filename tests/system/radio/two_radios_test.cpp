@@ -74,7 +74,7 @@ TEST(TwoRadios, BothLostSaysHowIndependentTheyAre) {
     const double truth = 1.0 - static_cast<double>(radio.arrivals()) / static_cast<double>(sent);
     EXPECT_NEAR(radio.base_report().both_lost, truth, 0.05 * truth + 0.002) << seed;
     for (const PathId path : {PathId{0}, PathId{1}}) {
-      EXPECT_NEAR(radio.base_report().paths[path].heard.loss, 0.3, 0.35) << seed;
+      EXPECT_NEAR(radio.base_report().paths[path].received.loss, 0.3, 0.35) << seed;
     }
   }
 }

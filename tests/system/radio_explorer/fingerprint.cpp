@@ -69,7 +69,7 @@ void Fingerprint::add(const AuthorityRegister& transmitter) {
 
 void Fingerprint::add(const AuthorityView& view) {
   add(std::uint64_t{view.holder_} << 32U | std::uint64_t{view.epoch_} << 16U | view.renewal_);
-  add(view.heard_at_);
+  add(view.received_at_);
   add(view.renewed_);
 }
 

@@ -30,14 +30,14 @@ DownRoute Whereabouts::car_sends(bool to_trial) const {
 }
 
 bool Whereabouts::car_hears(const UpRoute& route, Address from, Instant now) {
-  heard_ = true;
+  received_ = true;
   searched_ = false;
   const bool newest = route.number > newest_;
   newest_ = std::max(newest_, route.number);
   const auto token = base_seen_.token();
   const Address proved = base_seen_.proved();
-  base_seen_.heard({.from = from, .size = 1'000, .number = route.number, .newest = newest}, now,
-                   randomness_);
+  base_seen_.receive({.from = from, .size = 1'000, .number = route.number, .newest = newest}, now,
+                     randomness_);
   if (base_seen_.token() && base_seen_.token() != token) {
     ++trials_;
     trial_first_ = route.number;
@@ -46,10 +46,10 @@ bool Whereabouts::car_hears(const UpRoute& route, Address from, Instant now) {
   if (route.proof) (void)base_seen_.take_proof(from, *route.proof, now);
   if (from == proved && from != kRelay) {
     newest_of_base_ = std::max(newest_of_base_, route.number);
-    base_heard_ = now;
+    base_received_ = now;
   }
-  const bool base_lives =
-      base_heard_ && now - *base_heard_ < PathAddresses::kInUse && newest_of_base_ >= trial_first_;
+  const bool base_lives = base_received_ && now - *base_received_ < PathAddresses::kInUse &&
+                          newest_of_base_ >= trial_first_;
   const Address now_proved = base_seen_.proved();
   if (now_proved == proved) return true;
   return reached_[index_of(now_proved)] && !(now_proved == kRelay && base_lives);
@@ -74,8 +74,8 @@ void Whereabouts::car_restarts() {
   owed_.reset();
   newest_ = newest_of_base_ = 0;
   reached_ = {true, false, false};
-  base_heard_.reset();
-  heard_ = true;
+  base_received_.reset();
+  received_ = true;
   searched_ = false;
 }
 
@@ -85,8 +85,8 @@ void Whereabouts::base_moves() {
 }
 
 bool Whereabouts::wait() {
-  searched_ = !heard_;
-  heard_ = false;
+  searched_ = !received_;
+  received_ = false;
   if (!searched_) return false;
   const bool home = base_at_ == kHome && planted_ != PlantedRoam::kNoReturn;
   if (!home && base_seen_.proved() != base_at_) return false;
@@ -103,8 +103,8 @@ void Whereabouts::fingerprint(telemetry::Fingerprint& print) const {
             std::uint64_t{sent_} << 16U | std::uint64_t{newest_} << 8U | newest_of_base_);
   print.add(std::uint64_t{trial_first_} << 8U | (reached_[1] ? 2U : 0U) | (reached_[2] ? 1U : 0U));
   print.add(owed_.value_or(0));
-  print.add(base_heard_);
-  print.add((heard_ ? 2U : 0U) | (searched_ ? 1U : 0U));
+  print.add(base_received_);
+  print.add((received_ ? 2U : 0U) | (searched_ ? 1U : 0U));
   print.add(base_seen_);
 }
 

@@ -68,9 +68,9 @@ class Whereabouts {
   telemetry::PathAddresses base_seen_;
   std::optional<std::uint64_t> owed_;  // proof that the base has yet to send
   std::uint8_t sent_ = 0, newest_ = 0, newest_of_base_ = 0, trial_first_ = 0;
-  std::optional<Instant> base_heard_;                // at the proved address
+  std::optional<Instant> base_received_;             // at the proved address
   std::array<bool, 3> reached_{true, false, false};  // a probe sent there came to the base
-  bool heard_ = true;                                // since the last wait
+  bool received_ = true;                             // since the last wait
   bool searched_ = false;                            // in the silence that lasts
 };
 

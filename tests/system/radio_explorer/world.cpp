@@ -248,12 +248,12 @@ void World::release() {
 }
 
 void World::note_holders() {
-  telemetry::Values said;
+  telemetry::Values stated;
   const HolderId holder = authority_.holder(now_);
   if (holder == 0) return;
-  authority_.put(said, now_);
+  authority_.put(stated, now_);
   truth_.ever_held[holder] = true;
-  const double age_ms = said[telemetry::field("authority.renewal_age")];
+  const double age_ms = stated[telemetry::field("authority.renewal_age")];
   truth_.renewed[holder] = std::max(truth_.renewed[holder], now_ - from_seconds(age_ms * 1e-3));
 }
 
@@ -266,12 +266,12 @@ void World::base_sends() {
   packet.route = where_.base_sends();
   packet.stop = stop_.state();
   packet.presses = truth_.presses;
-  telemetry::Values said;
-  authority_.put(said, now_);
-  packet.holder = said[telemetry::field("authority.holder")];
-  packet.epoch = said[telemetry::field("authority.epoch")];
-  packet.renewal = said[telemetry::field("authority.renewal")];
-  packet.renewal_age = said[telemetry::field("authority.renewal_age")];
+  telemetry::Values stated;
+  authority_.put(stated, now_);
+  packet.holder = stated[telemetry::field("authority.holder")];
+  packet.epoch = stated[telemetry::field("authority.epoch")];
+  packet.renewal = stated[telemetry::field("authority.renewal")];
+  packet.renewal_age = stated[telemetry::field("authority.renewal_age")];
   std::array<std::uint8_t, 96> buffer{};
   BodyWriter body(buffer, buffer.size(), Direction::kUp);
   body.begin(now_, 1);
@@ -302,29 +302,29 @@ void World::meet(std::uint8_t run) {
   latch_.base_restarted();
   run_met_ = run;
   truth_.newest_epoch = -1;
-  truth_.presses_heard = truth_.presses_released = 0;
+  truth_.presses_received = truth_.presses_released = 0;
   truth_.newest_applied = 0;
 }
 
 void World::hear_state(const UpPacket& packet) {
   if (packet.run != run_met_) meet(packet.run);
-  telemetry::Values said;
-  said[telemetry::field("authority.holder")] = packet.holder;
-  said[telemetry::field("authority.epoch")] = packet.epoch;
-  said[telemetry::field("authority.renewal")] = packet.renewal;
-  said[telemetry::field("authority.renewal_age")] = packet.renewal_age;
+  telemetry::Values stated;
+  stated[telemetry::field("authority.holder")] = packet.holder;
+  stated[telemetry::field("authority.epoch")] = packet.epoch;
+  stated[telemetry::field("authority.renewal")] = packet.renewal;
+  stated[telemetry::field("authority.renewal_age")] = packet.renewal_age;
   Received received;
   received.at = now_;
   received.sent_earliest = packet.sent;
   if (planted_ == Planted::kRenewalAtReception) received.sent_earliest = now_;
-  view_.heard(said, received);
+  view_.receive(stated, received);
   if (packet.epoch >= truth_.newest_epoch) {
     truth_.newest_epoch = packet.epoch;
     truth_.newest_holder = packet.holder;
   }
   if (planted_ == Planted::kLatchFollows && packet.stop.level == StopLevel::kNone) latch_ = {};
-  latch_.heard(packet.stop, now_);
-  truth_.presses_heard = std::max(truth_.presses_heard, packet.presses);
+  latch_.receive(packet.stop, now_);
+  truth_.presses_received = std::max(truth_.presses_received, packet.presses);
 }
 
 Broken World::deliver_up(const UpPacket& packet, bool relayed) {
@@ -345,9 +345,9 @@ Broken World::deliver_up(const UpPacket& packet, bool relayed) {
   received.at = now_;
   received.sent_earliest = planted_ == Planted::kAgeFromReception ? now_ : packet.sent;
   for (const Record& record : body->records) {
-    const auto said = telemetry::parse_command(record.payload);
-    const bool forge = planted_ == Planted::kAnyConsole && said;
-    CHECK(ledger_.take(record, received, forge ? forged_view(said->issuer) : view_));
+    const auto stated = telemetry::parse_command(record.payload);
+    const bool forge = planted_ == Planted::kAnyConsole && stated;
+    CHECK(ledger_.take(record, received, forge ? forged_view(stated->issuer) : view_));
   }
   return Broken::kNothing;
 }
@@ -396,13 +396,13 @@ void World::hand_out() {
 telemetry::AuthorityView World::forged_view(HolderId who) const {
   telemetry::AuthorityRegister forged;
   forged.take(who, now_);
-  telemetry::Values said;
-  forged.put(said, now_);
+  telemetry::Values stated;
+  forged.put(stated, now_);
   Received received;
   received.at = now_;
   received.sent_earliest = now_;
   telemetry::AuthorityView view;
-  view.heard(said, received);
+  view.receive(stated, received);
   return view;
 }
 
@@ -441,8 +441,8 @@ Broken World::note_applied(const telemetry::DueCommand& due, Truth::OfCommand& t
   }
   if (++truth.applied > 1) return Broken::kAppliedTwice;
   if (now_ - truth.issued > row_of(due.command.type).time_to_live) return Broken::kAppliedLate;
-  const telemetry::CommandProgress* told = transmitter_.progress(due.number);
-  const bool over = run_in_hand_ == run_ && told != nullptr && told->fate.has_value();
+  const telemetry::CommandProgress* reported = transmitter_.progress(due.number);
+  const bool over = run_in_hand_ == run_ && reported != nullptr && reported->fate.has_value();
   return over ? Broken::kFateIsWrong : Broken::kNothing;
 }
 
@@ -469,7 +469,7 @@ void World::restart_car() {
   latch_ = {};
   run_met_ = 0;
   in_hand_.reset();
-  truth_.presses_heard = truth_.presses_released = 0;
+  truth_.presses_received = truth_.presses_released = 0;
   truth_.newest_epoch = -1;
   truth_.newest_applied = 0;
 }
@@ -477,7 +477,7 @@ void World::restart_car() {
 Broken World::judge(StopLevel before, bool released) const {
   if (latch_.level() < before && !released) return Broken::kStopWentByItself;
   const bool open = latch_.level() == StopLevel::kNone;
-  if (open && truth_.presses_heard > truth_.presses_released) return Broken::kPressIgnored;
+  if (open && truth_.presses_received > truth_.presses_released) return Broken::kPressIgnored;
   const bool silent = stop_.state().level == StopLevel::kNone;
   if (silent && truth_.presses > 0) {
     // Every press was followed by a release that was given after it and applied.
@@ -527,7 +527,7 @@ void World::fingerprint_truth(telemetry::Fingerprint& print) const {
     }
   }
   for (std::size_t i = 0; i < truth_.renewed.size(); ++i) print.add(truth_.renewed[i]);
-  print.add(std::uint64_t{truth_.presses} << 16U | std::uint64_t{truth_.presses_heard} << 8U |
+  print.add(std::uint64_t{truth_.presses} << 16U | std::uint64_t{truth_.presses_received} << 8U |
             truth_.presses_released);
   print.add(truth_.newest_applied);
   print.add(static_cast<std::uint64_t>(truth_.newest_epoch + 1.0));

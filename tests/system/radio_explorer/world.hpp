@@ -146,7 +146,7 @@ struct Truth {
   std::array<Instant, 3> renewed{};  // by console
   std::array<bool, 3> ever_held{};
   std::uint8_t presses = 0;           // in this run of the base
-  std::uint8_t presses_heard = 0;     // by this run of the car, of this run of the base
+  std::uint8_t presses_received = 0;  // by this run of the car, of this run of the base
   std::uint8_t presses_released = 0;  // before the newest release that was applied was given
   std::uint8_t releases = 0;          // that opened the latch
   CommandId newest_applied = 0;       // speed limits, of this run of both

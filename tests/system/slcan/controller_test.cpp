@@ -155,10 +155,10 @@ TEST_F(Controller, AFullQueueIsEnobufsAndWhatItHoldsIsKnown) {
     EXPECT_EQ(socket_->queued_bytes(), 0u);
   }
   controller_->listen(true);
-  std::size_t heard = 0;
+  std::size_t received = 0;
   EXPECT_TRUE(comes_true([&] {
-    heard += controller_->take_frames().size();
-    return heard == 1;  // that of the line; the others are gone
+    received += controller_->take_frames().size();
+    return received == 1;  // that of the line; the others are gone
   }));
   ASSERT_TRUE(socket_->send(frame));
   EXPECT_TRUE(comes_true([&] { return controller_->take_frames().size() == 1; }))

@@ -34,12 +34,12 @@ can::Frame command(std::uint32_t id, std::uint32_t tick) {
   return frame;
 }
 
-struct Heard {
+struct Received {
   std::uint32_t id = 0, tick = 0;
 };
 
 // "t" id length data, all hexadecimal: 3, 1, 8 digits.
-Heard parse(const std::string& line) {
+Received parse(const std::string& line) {
   const auto number = [&](std::size_t from, std::size_t digits) {
     std::uint32_t value = 0;
     std::from_chars(line.data() + from, line.data() + from + digits, value, 16);
@@ -73,8 +73,8 @@ class Transmit : public ::testing::Test {
   safety::BusGuardOutput tick(bool may_restart) {
     next_ = std::max(next_ + kTick, transport::monotonic_now());
     transport::sleep_until(next_);
-    const auto heard = rim_->read(box_);
-    link_ = heard.link;
+    const auto received = rim_->read(box_);
+    link_ = received.link;
     const Instant now = transport::monotonic_now();
     const auto out = safety::guard(params_, guard_, link_, false, now);
     std::vector<can::Frame> frames;
@@ -113,10 +113,10 @@ TEST_F(Transmit, WhatTheKernelTakesGoesOutInItsOrder) {
   EXPECT_TRUE(in_time(lines.size() >= 5 * std::size(kIds)));
   std::uint32_t last = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const Heard heard = parse(lines[i]);
-    EXPECT_EQ(heard.id, kIds[i % std::size(kIds)]);
-    EXPECT_GE(heard.tick, last);
-    last = heard.tick;
+    const Received received = parse(lines[i]);
+    EXPECT_EQ(received.id, kIds[i % std::size(kIds)]);
+    EXPECT_GE(received.tick, last);
+    last = received.tick;
   }
   EXPECT_EQ(link_.controller, ControllerState::kActive);
   EXPECT_EQ(guard_.restarts_total, 0u);
@@ -143,11 +143,11 @@ TEST_F(Transmit, AfterAStallOfASecondOnlyTheNewestCommandsGoOut) {
   ASSERT_GT(lines.size(), 5u * std::size(kIds));
   std::map<std::uint32_t, std::uint32_t> newest;
   for (std::size_t i = 1; i < lines.size(); ++i) {
-    const Heard heard = parse(lines[i]);
+    const Received received = parse(lines[i]);
     // Given at most two ticks before it became stale, and another one until the queue was emptied.
-    EXPECT_TRUE(in_time(heard.tick + 4 >= resumed)) << "frame " << i << ": " << lines[i];
-    EXPECT_GE(heard.tick, newest[heard.id]) << lines[i];
-    newest[heard.id] = heard.tick;
+    EXPECT_TRUE(in_time(received.tick + 4 >= resumed)) << "frame " << i << ": " << lines[i];
+    EXPECT_GE(received.tick, newest[received.id]) << lines[i];
+    newest[received.id] = received.tick;
   }
   for (int i = 0; i < 500 && link_.tx_stalled > Duration{}; ++i) tick(false);
   EXPECT_EQ(link_.tx_stalled, Duration{});

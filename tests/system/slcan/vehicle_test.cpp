@@ -45,7 +45,9 @@ class Vehicle : public ::testing::Test {
     report_.emplace(*std::move(report));
   }
 
-  std::string said() const { return transport::read_file(folder_->path() + "/said").value_or(""); }
+  std::string output() const {
+    return transport::read_file(folder_->path() + "/said").value_or("");
+  }
   std::string summary() const {
     return transport::read_file(folder_->path() + "/summary.json").value_or("");
   }
@@ -99,12 +101,12 @@ class Vehicle : public ::testing::Test {
 };
 
 TEST_F(Vehicle, ReportsBusOffRestartsThreeTimesAndStops) {
-  ASSERT_EQ(bus({"up", controller_->interface(), "--bitrate", "500000"}), 0) << said();
+  ASSERT_EQ(bus({"up", controller_->interface(), "--bitrate", "500000"}), 0) << output();
   auto vehicle = start_vehicle();
   ASSERT_TRUE(vehicle);
   ASSERT_TRUE(report_says([](const telemetry::Values& values) {
     return values[field("bus.controller")] == kActive;
-  })) << said();
+  })) << output();
   controller_->answer_open("sb256000\r");
   controller_->say("sb256000\r");
   EXPECT_TRUE(report_says(
@@ -118,23 +120,23 @@ TEST_F(Vehicle, ReportsBusOffRestartsThreeTimesAndStops) {
   EXPECT_TRUE(report_says(
       [](const telemetry::Values& values) { return values[field("bus.controller")] == kBusOff; }));
   vehicle->kill(SIGTERM);
-  EXPECT_EQ(vehicle->wait().code, 0) << said();
+  EXPECT_EQ(vehicle->wait().code, 0) << output();
   EXPECT_NE(summary().find("\"controller\": \"bus_off\""), std::string::npos)
       << summary().substr(0, 1'500);
   EXPECT_NE(summary().find("\"restarts\": 3"), std::string::npos) << summary().substr(0, 1'500);
 }
 
 TEST_F(Vehicle, WithoutThePrivilegeToRestartSaysWhyAndLeavesTheBus) {
-  ASSERT_EQ(bus({"up", controller_->interface(), "--bitrate", "500000"}), 0) << said();
+  ASSERT_EQ(bus({"up", controller_->interface(), "--bitrate", "500000"}), 0) << output();
   auto vehicle = start_vehicle({"setpriv", "--bounding-set", "-net_admin"});
   ASSERT_TRUE(vehicle);
   ASSERT_TRUE(report_says([](const telemetry::Values& values) {
     return values[field("bus.controller")] == kActive;
-  })) << said();
+  })) << output();
   controller_->say("sb256000\r");
   EXPECT_TRUE(report_says([&](const telemetry::Values&) {
-    return said().find("CAP_NET_ADMIN") != std::string::npos;
-  })) << said();
+    return output().find("CAP_NET_ADMIN") != std::string::npos;
+  })) << output();
   transport::sleep_until(transport::monotonic_now() + seconds(1));
   EXPECT_TRUE(report_says(
       [](const telemetry::Values& values) { return values[field("bus.controller")] == kBusOff; }));
@@ -143,7 +145,7 @@ TEST_F(Vehicle, WithoutThePrivilegeToRestartSaysWhyAndLeavesTheBus) {
 
 TEST_F(Vehicle, OnAnInterfaceThatOnlyListensSaysSoAndStaysSilent) {
   ASSERT_EQ(bus({"up", controller_->interface(), "--bitrate", "500000", "--listen-only"}), 0)
-      << said();
+      << output();
   auto vehicle = start_vehicle();
   ASSERT_TRUE(vehicle);
   double sent = -1, drops = 0, mode = -1;
@@ -152,31 +154,31 @@ TEST_F(Vehicle, OnAnInterfaceThatOnlyListensSaysSoAndStaysSilent) {
     drops = values[field("bus.tx_drops")];
     mode = values[field("mode.mode")];
     return drops > 100;
-  })) << said();
+  })) << output();
   EXPECT_EQ(sent, 0);
   EXPECT_EQ(mode, 0);  // disarmed, though it was to be armed
   vehicle->kill(SIGTERM);
   EXPECT_EQ(vehicle->wait().code, 0);
-  EXPECT_NE(said().find("LISTEN-ONLY"), std::string::npos) << said();
+  EXPECT_NE(output().find("LISTEN-ONLY"), std::string::npos) << output();
   EXPECT_TRUE(controller_->take_frames().empty());
 }
 
 TEST_F(Vehicle, TheBusVerbSetsUpShowsAndRefuses) {
   const std::string& can = controller_->interface();
   EXPECT_EQ(bus({"status", can}), 0);
-  EXPECT_NE(said().find(can + ": down"), std::string::npos) << said();
-  ASSERT_EQ(bus({"up", can, "--bitrate", "250000", "--txqueuelen", "21"}), 0) << said();
+  EXPECT_NE(output().find(can + ": down"), std::string::npos) << output();
+  ASSERT_EQ(bus({"up", can, "--bitrate", "250000", "--txqueuelen", "21"}), 0) << output();
   EXPECT_EQ(bus({"status", can}), 0);
   for (const char* part : {": up", "error-active", "250000 bit/s", "normal", "21 frames"})
-    EXPECT_NE(said().find(part), std::string::npos) << part << " in " << said();
+    EXPECT_NE(output().find(part), std::string::npos) << part << " in " << output();
   EXPECT_EQ(bus({"up", can, "--restart-ms", "100"}), 2);
-  EXPECT_NE(said().find("restart-ms refused by the driver"), std::string::npos) << said();
+  EXPECT_NE(output().find("restart-ms refused by the driver"), std::string::npos) << output();
   EXPECT_EQ(bus({"up", can, "--bitrate", "123456"}), 2);
-  EXPECT_NE(said().find("bit rate refused"), std::string::npos) << said();
+  EXPECT_NE(output().find("bit rate refused"), std::string::npos) << output();
   EXPECT_EQ(bus({"status", "vcan0"}), 0);
-  EXPECT_NE(said().find("virtual"), std::string::npos) << said();
+  EXPECT_NE(output().find("virtual"), std::string::npos) << output();
   EXPECT_EQ(bus({"up", "vcan0", "--bitrate", "500000"}), 2);
-  EXPECT_NE(said().find("no CAN controller"), std::string::npos) << said();
+  EXPECT_NE(output().find("no CAN controller"), std::string::npos) << output();
 }
 
 }  // namespace

@@ -68,27 +68,27 @@ TEST(LiveRun, OnItsOwnHubGivesTheVerdictsOfLockstepAndLosesNothing) {
   std::system(live_run.c_str());
   const auto lockstep = read_run(f + "/lockstep.json");
   const auto live = read_run(f + "/live.json");
-  const std::string said = transport::read_file(f + "/live.txt").value_or("");
+  const std::string output = transport::read_file(f + "/live.txt").value_or("");
   ASSERT_TRUE(lockstep) << to_string(lockstep.error());
-  ASSERT_TRUE(live) << to_string(live.error()) << "\n" << said;
-  EXPECT_EQ(live->verdicts, lockstep->verdicts) << said;
+  ASSERT_TRUE(live) << to_string(live.error()) << "\n" << output;
+  EXPECT_EQ(live->verdicts, lockstep->verdicts) << output;
   EXPECT_EQ(failed(*live),
             (std::vector<std::string>{"within 17 s speed_mps > 34, from 11 s, to 28 s",
                                       "within 16 s speed_mps < 0.5, from 28 s, to 44 s"}))
       << "what the scenario expects later than 15 s, and nothing else";
   EXPECT_GE(live->verdicts.size(), 6u);
-  EXPECT_EQ(live->lost, 0) << said;
-  EXPECT_EQ(live->bus_losses, 0) << said;
-  EXPECT_EQ(live->refusals, 0) << said;
+  EXPECT_EQ(live->lost, 0) << output;
+  EXPECT_EQ(live->bus_losses, 0) << output;
+  EXPECT_EQ(live->refusals, 0) << output;
   EXPECT_GT(live->to_car, 10'000);
   EXPECT_GT(live->from_car, 8'000);
   EXPECT_GT(live->speed_max_mps, 10.0);  // it drove
   EXPECT_NEAR(live->speed_max_mps, lockstep->speed_max_mps, 1.0);
   // The hub says what it did, and leaves nothing behind.
-  EXPECT_NE(said.find(", 0 dropped, 0 malformed packets refused;"), std::string::npos) << said;
+  EXPECT_NE(output.find(", 0 dropped, 0 malformed packets refused;"), std::string::npos) << output;
   EXPECT_FALSE(fs::exists(f + "/bus"));
   // candump speaks SocketCAN only: told, not failed.
-  EXPECT_NE(said.find("candump"), std::string::npos) << said;
+  EXPECT_NE(output.find("candump"), std::string::npos) << output;
   EXPECT_FALSE(fs::exists(f + "/out/candump.log"));
   // What the car recorded of itself, driven again by the same build: not a bit differs.
   const std::string compare =

@@ -59,7 +59,9 @@ class VehicleOnUnixBus : public ::testing::Test {
   }
 
   std::string bus() const { return "unix:" + folder_->path() + "/bus"; }
-  std::string said() const { return transport::read_file(folder_->path() + "/said").value_or(""); }
+  std::string output() const {
+    return transport::read_file(folder_->path() + "/said").value_or("");
+  }
 
   Process spawn(const std::vector<std::string>& argv) {
     auto words = transport::AppendWriter::open(folder_->path() + "/said",
@@ -76,7 +78,7 @@ class VehicleOnUnixBus : public ::testing::Test {
     argv.insert(argv.end(), more.begin(), more.end());
     Process out = spawn(argv);
     EXPECT_TRUE(comes_true([&] { return transport::CanSocket::open(bus()).has_value(); }))
-        << said();
+        << output();
     return out;
   }
   Process start_vehicle(const std::vector<std::string>& receivers = {"--gnss", "23511,23512"},
@@ -120,8 +122,8 @@ class VehicleOnUnixBus : public ::testing::Test {
   }
 
   // How often the car's standard error has this.
-  std::size_t times_said(std::string_view what) const {
-    const std::string all = said();
+  std::size_t times_stated(std::string_view what) const {
+    const std::string all = output();
     std::size_t times = 0;
     for (std::size_t at = 0; (at = all.find(what, at)) != std::string::npos; ++at) ++times;
     return times;
@@ -167,7 +169,7 @@ class VehicleOnUnixBus : public ::testing::Test {
 };
 
 // Frames of the car on the bus as somebody hears it who joins now.
-bool car_is_heard(const std::string& bus) {
+bool car_is_received(const std::string& bus) {
   auto socket = transport::CanSocket::open(bus);
   if (!socket) return false;
   std::vector<can::ReceivedFrame> frames(64);
@@ -177,22 +179,22 @@ bool car_is_heard(const std::string& bus) {
 TEST_F(VehicleOnUnixBus, SeesItsHubDieAndSpeaksToTheNextOne) {
   std::optional<Process> hub = start_hub();
   Process vehicle = start_vehicle();
-  EXPECT_TRUE(car_is_heard(bus())) << said();
-  EXPECT_TRUE(controller_is(kUnknown)) << said();  // up, and no controller that could tell
+  EXPECT_TRUE(car_is_received(bus())) << output();
+  EXPECT_TRUE(controller_is(kUnknown)) << output();  // up, and no controller that could tell
   hub->kill(SIGKILL);
   hub->wait();
-  EXPECT_TRUE(controller_is(kDown)) << said();
+  EXPECT_TRUE(controller_is(kDown)) << output();
   EXPECT_TRUE(std::filesystem::exists(folder_->path() + "/bus"));  // stale, and no obstacle
   hub.emplace(start_hub());
-  EXPECT_TRUE(car_is_heard(bus())) << said();
-  EXPECT_TRUE(controller_is(kUnknown)) << said();
+  EXPECT_TRUE(car_is_received(bus())) << output();
+  EXPECT_TRUE(controller_is(kUnknown)) << output();
   vehicle.kill(SIGTERM);
-  EXPECT_EQ(vehicle.wait().code, 0) << said();
+  EXPECT_EQ(vehicle.wait().code, 0) << output();
   EXPECT_TRUE(std::filesystem::exists(folder_->path() + "/summary.json"));
   expect_recorded();
   hub->kill(SIGTERM);
   EXPECT_EQ(hub->wait().code, 0);
-  EXPECT_NE(said().find("frames relayed"), std::string::npos) << said();
+  EXPECT_NE(output().find("frames relayed"), std::string::npos) << output();
   EXPECT_FALSE(std::filesystem::exists(folder_->path() + "/bus"));
 }
 
@@ -211,28 +213,28 @@ TEST_F(VehicleOnUnixBus, TellsAtItsOwnTerminalOfASilentBaseAndOfAFlood) {
   Process vehicle = start_vehicle({"--gnss", "23511,23512"},
                                   {"--radio", to_string(base->local()), "--keys", key_file});
   std::vector<transport::UdpDatagram> datagrams(8);
-  ASSERT_TRUE(comes_true([&] { return base->receive(datagrams) > 0; })) << said();
+  ASSERT_TRUE(comes_true([&] { return base->receive(datagrams) > 0; })) << output();
   const transport::UdpAddress car = datagrams[0].from;
   const Instant opened = transport::monotonic_now();
-  EXPECT_TRUE(comes_true([&] { return times_said("no answer from the base station") > 0; }))
-      << said();
+  EXPECT_TRUE(comes_true([&] { return times_stated("no answer from the base station") > 0; }))
+      << output();
   EXPECT_TRUE(in_time(transport::monotonic_now() - opened, seconds(2)));
   const std::vector<std::uint8_t> noise(60, 0xFF);
   const Instant flooded = transport::monotonic_now();
   const auto flood = [&] {
     for (int i = 0; i < 50; ++i) base->send_to(car, noise);
-    return times_said("radio, seen by the car: Forged or foreign datagrams") > 0;
+    return times_stated("radio, seen by the car: Forged or foreign datagrams") > 0;
   };
-  EXPECT_TRUE(comes_true(flood)) << said();
+  EXPECT_TRUE(comes_true(flood)) << output();
   EXPECT_TRUE(in_time(transport::monotonic_now() - flooded, seconds(2)));
   EXPECT_TRUE(report_says([&](const telemetry::Values& v) {
     flood();
     return v[field("radio.threats")] == 4.0;
-  })) << said();
+  })) << output();
   vehicle.kill(SIGTERM);
-  EXPECT_EQ(vehicle.wait().code, 0) << said();
-  EXPECT_EQ(times_said("no answer from the base station"), 1U);
-  EXPECT_EQ(times_said("radio, seen by the car"), 1U);
+  EXPECT_EQ(vehicle.wait().code, 0) << output();
+  EXPECT_EQ(times_stated("no answer from the base station"), 1U);
+  EXPECT_EQ(times_stated("radio, seen by the car"), 1U);
   EXPECT_EQ(recorded("/base/event"), 2U);
 }
 
@@ -275,14 +277,14 @@ TEST_F(VehicleOnUnixBus, HearsOneReceiverOverTcpAndTheOtherOverASerialLine) {
   Process hub = start_hub();
   Process vehicle = start_vehicle(words_of(example));
   tcp.accept();
-  ASSERT_TRUE(controller_is(kUnknown)) << said();  // it runs, so its serial line is open
+  ASSERT_TRUE(controller_is(kUnknown)) << output();  // it runs, so its serial line is open
   EXPECT_TRUE(report_says([&](const telemetry::Values& v) {
     tcp.say(position_log(17));
     serial.say(position_log(11));
     return v[field("gnss0.satellites")] == 17 && v[field("gnss1.satellites")] == 11;
-  })) << said();
+  })) << output();
   vehicle.kill(SIGTERM);
-  EXPECT_EQ(vehicle.wait().code, 0) << said();
+  EXPECT_EQ(vehicle.wait().code, 0) << output();
   const auto summary = transport::read_file(folder_->path() + "/summary.json");
   ASSERT_TRUE(summary);
   EXPECT_NE(summary->find("serial:" + serial.path() + ":460800"), std::string::npos) << *summary;
@@ -291,7 +293,8 @@ TEST_F(VehicleOnUnixBus, HearsOneReceiverOverTcpAndTheOtherOverASerialLine) {
 TEST_F(VehicleOnUnixBus, WithoutAHubTheCarDoesNotStartAndSaysWhere) {
   Process vehicle = start_vehicle();
   EXPECT_NE(vehicle.wait().code, 0);
-  EXPECT_NE(said().find(bus() + ": error: nobody serves this bus"), std::string::npos) << said();
+  EXPECT_NE(output().find(bus() + ": error: nobody serves this bus"), std::string::npos)
+      << output();
 }
 
 TEST_F(VehicleOnUnixBus, AHubEndsByItselfAfterItsTimeAndASecondOneIsRefused) {
@@ -299,7 +302,7 @@ TEST_F(VehicleOnUnixBus, AHubEndsByItselfAfterItsTimeAndASecondOneIsRefused) {
   Process second = spawn(
       {program("PITWALL_BENCH_PROGRAM", "/build/release/hil/pitwall-hil"), "bus", "hub", bus()});
   EXPECT_EQ(second.wait().code, 2);
-  EXPECT_NE(said().find(bus() + ": error: in use"), std::string::npos) << said();
+  EXPECT_NE(output().find(bus() + ": error: in use"), std::string::npos) << output();
   EXPECT_EQ(hub.wait().code, 0);
 }
 

@@ -83,9 +83,9 @@ TEST(CanSocket, OwnFramesComeBackOnlyWhereAsked) {
   CanSocket echo = open_vcan({.receive_own = true});
   ASSERT_TRUE(silent.send(frame(1, 1)));
   ASSERT_TRUE(echo.send(frame(2, 2)));
-  const auto heard = collect(silent, 1);
-  ASSERT_EQ(heard.size(), 1U);
-  EXPECT_EQ(heard[0].frame.id, 2U);
+  const auto incoming = collect(silent, 1);
+  ASSERT_EQ(incoming.size(), 1U);
+  EXPECT_EQ(incoming[0].frame.id, 2U);
   EXPECT_EQ(collect(echo, 2).size(), 2U);
 }
 

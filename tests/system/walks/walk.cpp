@@ -129,16 +129,16 @@ class Car {
   }
 
   void tick() {
-    const io::Rim::Heard heard = rim_.read(box_);
+    const io::Rim::Received received = rim_.read(box_);
     radio_.listen(box_);
     const Instant now = transport::monotonic_now();
     pipeline::Inputs in{.now = now,
                         .dt = now - last_,
-                        .can = heard.can,
-                        .sensors = heard.sensors,
+                        .can = received.can,
+                        .sensors = received.sensors,
                         .requests = {},
                         .may_arm = !rim_.listen_only(),
-                        .link = heard.link};
+                        .link = received.link};
     adapter_.fill(radio_.endpoint(), in);
     const pipeline::Outputs out = pipeline::step(setup_, *car_, in);
     rim_.write(out.passed.frames.span(), now);
@@ -189,7 +189,7 @@ class Console {
   void open(std::uint16_t port) {
     if (browser_.open(port) != 101) give_up("the console is refused");
     reader_ = std::thread([this] {
-      while (const auto heard = browser_.receive()) take(*heard);
+      while (const auto received = browser_.receive()) take(*received);
     });
     reader_.detach();
   }
@@ -202,14 +202,14 @@ class Console {
   }
 
  private:
-  void take(const web::Browser::Heard& heard) {
-    if (heard.text) {
-      const auto value = json::JsonValue::parse(heard.bytes, "text");
+  void take(const web::Browser::Received& received) {
+    if (received.text) {
+      const auto value = json::JsonValue::parse(received.bytes, "text");
       const std::lock_guard lock(texts_lock_);
       if (value) texts_.insert_or_assign(value->text("type"), *value);
       return;
     }
-    const std::string& frame = heard.bytes;
+    const std::string& frame = received.bytes;
     for (std::size_t at = web::kFrameHeader; at + web::kSnapshotEntry <= frame.size();
          at += web::kSnapshotEntry) {
       std::uint16_t id = 0;
@@ -257,11 +257,11 @@ class Walk {
     try_until("the exclusion in the car", [this](int attempt) {
       const int excluded = 1 + attempt % 2;
       const std::string ticket = staged(excluded);
-      const std::uint64_t heard = base_.server().counters().texts_heard;
+      const std::uint64_t received = base_.server().counters().texts_received;
       follow(
           [&] {
             console_.say(R"({"type":"send","ticket":)" + ticket + "}");
-            while (base_.server().counters().texts_heard == heard) std::this_thread::yield();
+            while (base_.server().counters().texts_received == received) std::this_thread::yield();
             base_.turn();
             transport::sleep_until(base_.service().link().due());
             base_.turn();
@@ -318,9 +318,9 @@ class Walk {
                  std::to_string(excluded) + "}");
     double ticket = 0.0;
     run_until("a ticket", [&] {
-      const auto told = console_.text("command");
-      if (told) ticket = told->number("ticket");
-      return told && told->text("step") == "staged" && ticket > ticket_;
+      const auto reported = console_.text("command");
+      if (reported) ticket = reported->number("ticket");
+      return reported && reported->text("step") == "staged" && ticket > ticket_;
     });
     ticket_ = ticket;
     return std::to_string(static_cast<int>(ticket));

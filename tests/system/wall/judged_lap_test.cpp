@@ -26,10 +26,10 @@ struct JudgedLap {
     loaded->scenario.faults = faults;
     loaded->scenario.duration = length;
     bench::LockstepOptions options;
-    options.watch_telemetry = [this](const telemetry::Snapshot& told, Instant at) {
+    options.watch_telemetry = [this](const telemetry::Snapshot& reported, Instant at) {
       watch.advance(picture, at);
-      picture.update(told, telemetry::groups_of(telemetry::Direction::kDown));
-      watch.heard(at);
+      picture.update(reported, telemetry::groups_of(telemetry::Direction::kDown));
+      watch.receive(at);
     };
     (void)bench::run_lockstep(loaded->scenario, loaded->setup, options);
     for (const alarms::AlarmEvent& event : watch.alarms().history()) {

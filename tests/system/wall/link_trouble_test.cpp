@@ -30,7 +30,7 @@ struct Notice {
   std::string kind, text, evidence;
 };
 
-struct Told {
+struct Reported {
   std::vector<Notice> notices;
   int alarms = 0;  // of a lost link, that came
   std::vector<std::string> states;
@@ -57,14 +57,14 @@ class Pit {
     }
   }
 
-  const Told& told() const { return told_; }
+  const Reported& reported() const { return reported_; }
 
  private:
   using Ways = std::vector<link::LinkEmulator>;  // to the base, to the car
 
   void step(Ways& ways) {
     if (rig_.now.ns % kTick.ns == 0) {
-      rig_.set(field("radio.loss_0"), rig_.car->report(rig_.now).paths[0].heard.loss);
+      rig_.set(field("radio.loss_0"), rig_.car->report(rig_.now).paths[0].received.loss);
       for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
         if (rig_.sampled.has(row.group)) rig_.snapshot.at(row.group) = rig_.now;
       }
@@ -93,34 +93,35 @@ class Pit {
     ASSERT_TRUE(value);
     if (type == "link") {
       const std::string state = value->text("state");
-      if (told_.states.empty() || told_.states.back() != state) told_.states.push_back(state);
+      if (reported_.states.empty() || reported_.states.back() != state)
+        reported_.states.push_back(state);
     } else if (type == "alarm_event") {
-      told_.alarms += value->text("key") == "link_lost" && value->text("to") == "unack" ? 1 : 0;
+      reported_.alarms += value->text("key") == "link_lost" && value->text("to") == "unack" ? 1 : 0;
     } else {
       const auto number = static_cast<std::size_t>(value->number("id"));
-      told_.notices.resize(std::max(told_.notices.size(), number));
-      told_.notices[number - 1] = {value->text("kind"), value->text("text"),
-                                   value->text("evidence")};
+      reported_.notices.resize(std::max(reported_.notices.size(), number));
+      reported_.notices[number - 1] = {value->text("kind"), value->text("text"),
+                                       value->text("evidence")};
     }
   }
 
-  Told told_;
+  Reported reported_;
   RadioRig rig_;
   Ways sound_, troubled_;
 };
 
-Told told_of(const link::LinkParams& trouble, Duration length, std::uint64_t seed) {
+Reported reported_of(const link::LinkParams& trouble, Duration length, std::uint64_t seed) {
   Pit pit(trouble, seed);
   pit.run(seconds(6), false);
   pit.run(length, true);
   pit.run(seconds(11), false);
-  return pit.told();
+  return pit.reported();
 }
 
-void expect_once_each(const Told& told) {
-  ASSERT_EQ(told.notices.size(), 2U);
-  EXPECT_EQ(told.notices[0].kind, "degraded");
-  EXPECT_EQ(told.notices[1].kind, "restored");
+void expect_once_each(const Reported& reported) {
+  ASSERT_EQ(reported.notices.size(), 2U);
+  EXPECT_EQ(reported.notices[0].kind, "degraded");
+  EXPECT_EQ(reported.notices[1].kind, "restored");
 }
 
 constexpr std::uint64_t kSeeds = 2;
@@ -130,7 +131,7 @@ TEST(LinkTrouble, LossIsToldOnceAndItsEndOnce) {
     for (const double loss : {0.2, 0.4}) {
       link::LinkParams trouble = sound();
       trouble.loss = loss;
-      expect_once_each(told_of(trouble, seconds(5), seed));
+      expect_once_each(reported_of(trouble, seconds(5), seed));
     }
   }
 }
@@ -138,9 +139,9 @@ TEST(LinkTrouble, LossIsToldOnceAndItsEndOnce) {
 TEST(LinkTrouble, ADelayIsToldAsOneAndNothingIsLost) {
   link::LinkParams trouble = sound();
   trouble.delay = milliseconds(300);
-  const Told told = told_of(trouble, seconds(5), 1);
-  expect_once_each(told);
-  EXPECT_EQ(told.alarms, 0);
+  const Reported reported = reported_of(trouble, seconds(5), 1);
+  expect_once_each(reported);
+  EXPECT_EQ(reported.alarms, 0);
 }
 
 TEST(LinkTrouble, AllAtOnceIsOneTrouble) {
@@ -151,9 +152,9 @@ TEST(LinkTrouble, AllAtOnceIsOneTrouble) {
     trouble.reorder = trouble.duplicate = 0.3;
     trouble.reorder_by = milliseconds(70);
     trouble.blackouts = {{Instant{} + seconds(59), seconds(3), {}}};
-    const Told told = told_of(trouble, seconds(8), seed);
-    expect_once_each(told);
-    EXPECT_EQ(told.alarms, 1);
+    const Reported reported = reported_of(trouble, seconds(8), seed);
+    expect_once_each(reported);
+    EXPECT_EQ(reported.alarms, 1);
   }
 }
 
@@ -166,9 +167,9 @@ TEST(LinkTrouble, ReorderedRepeatedOrSlightlyLossyIsNoTrouble) {
     repeated.duplicate = 0.5;
     lossy.loss = 0.03;
     for (const link::LinkParams& link : {reordered, repeated, lossy}) {
-      const Told told = told_of(link, seconds(5), seed);
-      EXPECT_TRUE(told.notices.empty());
-      EXPECT_EQ(told.alarms, 0);
+      const Reported reported = reported_of(link, seconds(5), seed);
+      EXPECT_TRUE(reported.notices.empty());
+      EXPECT_EQ(reported.alarms, 0);
     }
   }
 }
@@ -177,17 +178,18 @@ TEST(LinkTrouble, ReorderedRepeatedOrSlightlyLossyIsNoTrouble) {
 TEST(LinkTrouble, ABlackoutInItsWords) {
   link::LinkParams trouble = sound();
   trouble.loss = 1.0;
-  const Told told = told_of(trouble, seconds(3), 1);
-  expect_once_each(told);
-  EXPECT_EQ(told.alarms, 1);
-  EXPECT_EQ(told.states, (std::vector<std::string>{"none", "good", "lost", "degraded", "good"}));
+  const Reported reported = reported_of(trouble, seconds(3), 1);
+  expect_once_each(reported);
+  EXPECT_EQ(reported.alarms, 1);
+  EXPECT_EQ(reported.states,
+            (std::vector<std::string>{"none", "good", "lost", "degraded", "good"}));
   EXPECT_EQ(
-      told.notices[0].text,
+      reported.notices[0].text,
       "Radio to our car is lost. Car, when last heard: driving. If the silence lasts it makes "
       "a controlled stop by itself.");
-  EXPECT_EQ(told.notices[0].evidence, "silence 0.41 s, loss 0 %, round trip 30 ms");
-  EXPECT_EQ(told.notices[1].text, "Radio to our car is good again after 9.6 s. Car: driving.");
-  EXPECT_EQ(told.notices[1].evidence,
+  EXPECT_EQ(reported.notices[0].evidence, "silence 0.41 s, loss 0 %, round trip 30 ms");
+  EXPECT_EQ(reported.notices[1].text, "Radio to our car is good again after 9.6 s. Car: driving.");
+  EXPECT_EQ(reported.notices[1].evidence,
             "was lost; longest silence 3.02 s, worst loss 76 %, longest round trip 30 ms");
 }
 

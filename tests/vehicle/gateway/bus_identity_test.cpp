@@ -190,7 +190,7 @@ const Mutation kMutations[] = {
     {"remote", IdentityDifference::kWrongFormat, [](GridSender& s) { s.remote = true; }},
     {"extended", IdentityDifference::kWrongFormat, [](GridSender& s) { s.extended = true; }},
     {"fd", IdentityDifference::kWrongFormat, [](GridSender& s) { s.fd = true; }},
-    {"missing", IdentityDifference::kNotHeard,
+    {"missing", IdentityDifference::kNotReceived,
      [](GridSender& s) { s.period = seconds(1'000'000); }},
     {"slower", IdentityDifference::kWrongPeriod, [](GridSender& s) { s.period = s.period * 3; }},
     {"faster", IdentityDifference::kWrongPeriod, [](GridSender& s) { s.period = s.period / 3; }},
@@ -227,7 +227,7 @@ TEST(BusIdentity, AnUnknownIdIsNamedAndOfSeveralTheSmallest) {
     car.listen(bus, seconds(1));
     EXPECT_EQ(car.last.difference, IdentityDifference::kUnknownId);
     EXPECT_EQ(car.last.id, id) << sentence(car.last);
-    EXPECT_EQ(car.last.heard, id == 2047 ? car.last.heard : 3.0);
+    EXPECT_EQ(car.last.received, id == 2047 ? car.last.received : 3.0);
   }
 }
 
@@ -246,7 +246,7 @@ TEST(BusIdentity, ProofIsNamedBeforeAbsenceAndSmallerIdsFirst) {
   --sender_of(bus, 1312).length;
   car.listen(bus, seconds(8));
   EXPECT_EQ(car.last.id, 1250u) << sentence(car.last);
-  EXPECT_EQ(car.last.difference, IdentityDifference::kNotHeard);
+  EXPECT_EQ(car.last.difference, IdentityDifference::kNotReceived);
 }
 
 // What is optional may be absent, but not different.
@@ -317,18 +317,18 @@ TEST(BusIdentity, ABusThatSpeaksLaterIsKnownThen) {
   car.listen(silence, seconds(5));
   EXPECT_EQ(car.last.verdict, IdentityVerdict::kWrong);
   EXPECT_EQ(car.last.id, required().front()->id);
-  EXPECT_EQ(car.last.difference, IdentityDifference::kNotHeard);
+  EXPECT_EQ(car.last.difference, IdentityDifference::kNotReceived);
   ASSERT_TRUE(car.until(IdentityVerdict::kRight, bus, seconds(6)));
 }
 
 TEST(BusIdentity, EverySentenceSaysWhatDiffers) {
   const auto text = [](IdentityDifference difference, std::uint32_t id, double expected,
-                       double heard) {
+                       double received) {
     return sentence({.verdict = IdentityVerdict::kWrong,
                      .difference = difference,
                      .id = id,
                      .expected = expected,
-                     .heard = heard});
+                     .received = received});
   };
   using enum IdentityDifference;
   EXPECT_EQ(text(kWrongLength, 1312, 6, 8),
@@ -338,7 +338,7 @@ TEST(BusIdentity, EverySentenceSaysWhatDiffers) {
   EXPECT_EQ(text(kWrongFormat, 1300, 8, 8),
             "CAN id 1300 wheel_speed_report: a remote, FD or extended frame on the bus, a classic "
             "one in database CAN1-INDY-V14");
-  EXPECT_EQ(text(kNotHeard, 1250, 0.5, 3.5),
+  EXPECT_EQ(text(kNotReceived, 1250, 0.5, 3.5),
             "CAN id 1250 marelli_report_1: not heard for 3.5 s, every 500 ms in database "
             "CAN1-INDY-V14");
   EXPECT_EQ(text(kWrongPeriod, 1303, 0.01, 0.03),

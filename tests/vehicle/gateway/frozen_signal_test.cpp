@@ -13,8 +13,8 @@ namespace {
 
 struct Moment {
   double speed_mps = 60.0, steering_rad = 0.0, command_rad = 0.0, brake_kpa = 0.0;
-  double told_kpa = 0.0, throttle = 0.5, told_throttle = 0.5, powertrain_mps = 60.0;
-  bool told = true;
+  double reported_kpa = 0.0, throttle = 0.5, reported_throttle = 0.5, powertrain_mps = 60.0;
+  bool reported = true;
 };
 
 // From `moment(t)`, with t in seconds: the first instant at which anything is frozen.
@@ -41,9 +41,9 @@ double frozen_at(const std::function<Moment(double)>& moment, double end_s,
     }
     world::ActuatorCommand command;
     command.road_wheel_rad = m.command_rad;
-    command.brake_kpa = m.told_kpa;
-    command.throttle_fraction = m.told_throttle;
-    store(state, command, m.told, now);
+    command.brake_kpa = m.reported_kpa;
+    command.throttle_fraction = m.reported_throttle;
+    store(state, command, m.reported, now);
   }
   return kUnset;
 }
@@ -103,7 +103,7 @@ TEST(FrozenSignal, WheelsThatStandStillWhileTheCarGathersSpeed) {
 TEST(FrozenSignal, ABrakeThatReportsNothingWhileItIsTold) {
   const auto moment = [](double t) {
     Moment m;
-    m.told_kpa = t < 1.0 ? 0.0 : 3000.0 * (t - 1.0);
+    m.reported_kpa = t < 1.0 ? 0.0 : 3000.0 * (t - 1.0);
     return m;
   };
   Watched which{};
@@ -116,18 +116,18 @@ TEST(FrozenSignal, NothingIsJudgedAtAStandstillOrOfAnActuatorThatIsToldNothing) 
   const auto standing = [](double t) {
     Moment m;
     m.speed_mps = m.powertrain_mps = 0.0;
-    m.told_kpa = 1000.0 * t;
+    m.reported_kpa = 1000.0 * t;
     m.command_rad = 0.1 * t;
     return m;
   };
   EXPECT_TRUE(std::isnan(frozen_at(standing, 3.0)));
-  const auto untold = [](double t) {
+  const auto unreported = [](double t) {
     Moment m;
-    m.told = false;
+    m.reported = false;
     m.command_rad = 0.1 * t;
     return m;
   };
-  EXPECT_TRUE(std::isnan(frozen_at(untold, 3.0)));
+  EXPECT_TRUE(std::isnan(frozen_at(unreported, 3.0)));
 }
 
 // At one speed the powertrain says the same for seconds: a wheel that lies must not accuse it, nor

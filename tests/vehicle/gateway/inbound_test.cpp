@@ -53,7 +53,7 @@ TEST(Inbound, HealthyTrafficIsAppliedInSi) {
   EXPECT_NEAR(out.signals.wheel_speed_mps.value[world::Corner::kRearLeft], 40.0, 1e-9);
   EXPECT_NEAR(out.signals.steering_motor_rad.value, -19.5 * 3.14159265358979 / 180.0, 1e-9);
   EXPECT_NEAR(out.signals.brake.value.rear_kpa, 500.0, 1e-9);
-  EXPECT_FALSE(out.signals.powertrain.heard);
+  EXPECT_FALSE(out.signals.powertrain.received);
   EXPECT_FALSE(out.own_id_seen);
 }
 
@@ -206,18 +206,18 @@ TEST(Inbound, RandomTrafficNeverAppliesAnImplausibleValue) {
     ASSERT_EQ(by_message + out.bus.refused.unknown_id, out.bus.refused.total());
     const world::VehicleSignals &s = out.signals, &was = before.signals;
     for (std::size_t w = 0; w < world::kCorners; ++w) {
-      if (!s.wheel_speed_mps.heard) continue;
+      if (!s.wheel_speed_mps.received) continue;
       const double v = s.wheel_speed_mps.value.at[w];
       ASSERT_TRUE(v >= 0.0 && v <= car.params.wheel_speed_mps.max);
-      if (!was.wheel_speed_mps.heard) continue;
+      if (!was.wheel_speed_mps.received) continue;
       const double gap_s =
           std::max(0.005, (s.wheel_speed_mps.at - was.wheel_speed_mps.at).seconds());
       const double limit = from_kmh(limit_per_s(av21::WheelSpeedReport::kId, "wheel_speed_FL"));
       ASSERT_LE(std::abs(v - was.wheel_speed_mps.value.at[w]), limit * gap_s + 1e-6);
     }
-    if (s.steering_motor_rad.heard) {
+    if (s.steering_motor_rad.received) {
       ASSERT_LE(std::abs(s.steering_motor_rad.value), from_deg(300.0) + 1e-9);
-      if (was.steering_motor_rad.heard) {
+      if (was.steering_motor_rad.received) {
         const double gap_s =
             std::max(0.01, (s.steering_motor_rad.at - was.steering_motor_rad.at).seconds());
         const double limit =
@@ -226,10 +226,10 @@ TEST(Inbound, RandomTrafficNeverAppliesAnImplausibleValue) {
                   limit * gap_s + 1e-6);
       }
     }
-    if (s.misc.heard) {
+    if (s.misc.received) {
       ASSERT_TRUE(s.misc.value.battery_v >= 0.0 && s.misc.value.battery_v <= 20.0);
     }
-    if (s.powertrain.heard) {
+    if (s.powertrain.received) {
       ASSERT_LE(s.powertrain.value.gear, car.params.gear_max);
       ASSERT_LE(s.powertrain.value.gear_shift_status, 4);
       ASSERT_LE(s.powertrain.value.engine_speed_rpm, car.params.engine_speed_rpm.max);
@@ -263,7 +263,7 @@ TEST(Inbound, AFlagIsTakenEvenWithAStuckHeartbeatButLivenessIsNot) {
   EXPECT_EQ(out.race_control.last_heartbeat_change, at_ms(0));
   const InboundOutput later = car.receive(summary({.heartbeat = 4, .track = 1}), at_ms(1000));
   EXPECT_EQ(later.race_control.last_heartbeat_change, at_ms(1000));
-  EXPECT_TRUE(later.race_control.ever_heard);
+  EXPECT_TRUE(later.race_control.ever_received);
 }
 
 TEST(Inbound, MarelliIsAliveWhileItsReceiverHearsTheBase) {

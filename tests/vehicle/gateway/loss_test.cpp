@@ -66,45 +66,45 @@ class CarBus {
   Random random_;
 };
 
-struct Heard {
+struct Received {
   std::vector<LossReport> reports;
   InboundOutput last;
   InboundState state;
 };
 
-Heard listen(CarBus& bus, Duration length, Instant silent_from = {INT64_MAX}) {
-  Heard heard;
+Received listen(CarBus& bus, Duration length, Instant silent_from = {INT64_MAX}) {
+  Received received;
   const InboundParams params;
   for (Instant now = Instant{} + kTick; now - Instant{} <= length; now += kTick) {
     const auto frames =
         now > silent_from ? std::vector<ReceivedFrame>{} : bus.frames(now - kTick, now);
-    heard.last = decode(params, heard.state, frames, now);
-    heard.reports.insert(heard.reports.end(), heard.last.bus.losses.begin(),
-                         heard.last.bus.losses.end());
+    received.last = decode(params, received.state, frames, now);
+    received.reports.insert(received.reports.end(), received.last.bus.losses.begin(),
+                            received.last.bus.losses.end());
   }
-  return heard;
+  return received;
 }
 
 TEST(Losses, NoneOnAHealthyBus) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     CarBus bus{seed};
-    const Heard heard = listen(bus, seconds(20));
-    EXPECT_TRUE(heard.reports.empty()) << "seed " << seed << " id " << heard.reports[0].id;
-    EXPECT_EQ(heard.last.bus.frames_lost, 0u);
-    EXPECT_EQ(heard.last.bus.refused.total(), 0u);
+    const Received received = listen(bus, seconds(20));
+    EXPECT_TRUE(received.reports.empty()) << "seed " << seed << " id " << received.reports[0].id;
+    EXPECT_EQ(received.last.bus.frames_lost, 0u);
+    EXPECT_EQ(received.last.bus.refused.total(), 0u);
   }
 }
 
 TEST(Losses, EveryRowTellsHowItsMessageIs) {
   CarBus bus{1};
-  const Heard heard = listen(bus, seconds(20));
+  const Received received = listen(bus, seconds(20));
   std::size_t rows = 0;
   for (const MessageRow& row : av21::kMessages) {
     if (row.direction != can::Direction::kFromCar) continue;
     const auto found =
-        std::find_if(heard.last.bus.messages.begin(), heard.last.bus.messages.end(),
+        std::find_if(received.last.bus.messages.begin(), received.last.bus.messages.end(),
                      [&row](const world::MessageHealth& health) { return health.id == row.id; });
-    ASSERT_NE(found, heard.last.bus.messages.end()) << row.name;
+    ASSERT_NE(found, received.last.bus.messages.end()) << row.name;
     EXPECT_EQ(found->liveness, world::Liveness::kAlive) << row.name;
     EXPECT_EQ(found->debt, 0) << row.name;
     EXPECT_EQ(found->lost + found->bad, 0u) << row.name;
@@ -112,7 +112,7 @@ TEST(Losses, EveryRowTellsHowItsMessageIs) {
     EXPECT_LE(Instant{} + seconds(20) - found->last, row.period + milliseconds(1)) << row.name;
     ++rows;
   }
-  EXPECT_EQ(heard.last.bus.messages.size(), rows);
+  EXPECT_EQ(received.last.bus.messages.size(), rows);
 }
 
 TEST(Losses, EachSingleLossIsReportedOnceWithItsIdInTime) {
@@ -125,15 +125,15 @@ TEST(Losses, EachSingleLossIsReportedOnceWithItsIdInTime) {
       for (std::int64_t at = 3; at + 3 < count; at += 4 + count / 10)
         bus.left_out[{row.id, at + static_cast<std::int64_t>(random.below(3))}] = {};
     }
-    const Heard heard = listen(bus, seconds(20));
-    EXPECT_EQ(heard.reports.size(), bus.left_out.size());
-    EXPECT_EQ(heard.last.bus.frames_lost, bus.left_out.size());
+    const Received received = listen(bus, seconds(20));
+    EXPECT_EQ(received.reports.size(), bus.left_out.size());
+    EXPECT_EQ(received.last.bus.frames_lost, bus.left_out.size());
     for (const auto& [key, due] : bus.left_out) {
       const auto fits = [&, id = key.first, sent = due](const LossReport& r) {
         return r.id == id && r.frames == 1 && r.due - sent < milliseconds(2) &&
                sent - r.due < milliseconds(2) && r.noticed - sent <= kLimit;
       };
-      EXPECT_EQ(std::count_if(heard.reports.begin(), heard.reports.end(), fits), 1)
+      EXPECT_EQ(std::count_if(received.reports.begin(), received.reports.end(), fits), 1)
           << "seed " << seed << " id " << key.first << " index " << key.second;
     }
   }
@@ -142,14 +142,14 @@ TEST(Losses, EachSingleLossIsReportedOnceWithItsIdInTime) {
 TEST(Losses, TheLastFrameOfAllIsReportedThoughNothingFollows) {
   CarBus bus{1};
   const Instant silent = Instant{} + seconds(5);
-  const Heard heard = listen(bus, seconds(6), silent);
+  const Received received = listen(bus, seconds(6), silent);
   for (const MessageRow& row : av21::kMessages) {
     if (row.direction != can::Direction::kFromCar) continue;
     const auto first =
-        std::find_if(heard.reports.begin(), heard.reports.end(),
+        std::find_if(received.reports.begin(), received.reports.end(),
                      [&row](const LossReport& report) { return report.id == row.id; });
     if (row.period + can::slack_of(row) > seconds(1) - row.period) continue;  // not due by the end
-    ASSERT_NE(first, heard.reports.end()) << row.name;
+    ASSERT_NE(first, received.reports.end()) << row.name;
     EXPECT_EQ(first->detector, LossDetector::kPeriod) << row.name;
     EXPECT_GE(first->due, silent) << row.name;
     EXPECT_LE(first->noticed - first->due, kLimit) << row.name;

@@ -155,17 +155,17 @@ TEST(GatewayMonitors, AMessageThatStopsIsSeenWithinTwoAndAHalfPeriods) {
 // Of each message alone: older than two and a half periods, or than its timeout. What was never
 // heard is not late, and what we send is none of it.
 TEST(GatewayMonitors, EachMessageOfTheCarIsLateByItsOwnPeriod) {
-  constexpr Instant kHeard = at_ms(1'000);
+  constexpr Instant kReceived = at_ms(1'000);
   for (std::size_t i = 0; i < can::av21::kMessages.size(); ++i) {
     const can::MessageRow& row = can::av21::kMessages[i];
     const Duration late = row.period * 5 / 2;
     for (const Duration age : {Duration{}, std::min(late, row.timeout),
                                std::min(late, row.timeout) + nanoseconds(1), late + row.timeout}) {
       InboundState state;
-      state.messages[i].last = kHeard;
+      state.messages[i].last = kReceived;
       state.messages[i].ever = true;
       const bool is_late = age > late || age > row.timeout;
-      const InboundOutput out = decode({}, state, {}, kHeard + age);
+      const InboundOutput out = decode({}, state, {}, kReceived + age);
       EXPECT_EQ(out.seen.has(Monitor::kMessageAge),
                 is_late && row.direction == can::Direction::kFromCar)
           << row.id << " after " << age.ns;

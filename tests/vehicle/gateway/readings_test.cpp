@@ -92,7 +92,7 @@ TEST(Readings, PowertrainInSi) {
   m.gear_shift_status = 3;
   ASSERT_EQ(read(frame_of(m), at_ms(3)), Reading::kApplied);
   const auto& p = read.state.signals.powertrain;
-  EXPECT_TRUE(p.heard);
+  EXPECT_TRUE(p.received);
   EXPECT_EQ(p.at, at_ms(3));
   EXPECT_NEAR(p.value.throttle_fraction, 0.425, 1e-9);
   EXPECT_NEAR(p.value.vehicle_speed_mps, 50.0, 1e-9);
@@ -137,7 +137,7 @@ TEST(Readings, EveryStateOfTheDriveByWireAndNoOther) {
     m.safety_switch_state = 5;
     const bool known = raw <= 19 || raw == 255;
     EXPECT_EQ(read(frame_of(m)), known ? Reading::kApplied : Reading::kOutOfRange) << raw;
-    EXPECT_EQ(read.state.signals.misc.heard, known);
+    EXPECT_EQ(read.state.signals.misc.received, known);
     if (!known) continue;
     EXPECT_EQ(static_cast<int>(read.state.signals.misc.value.sys_state), raw);
     EXPECT_EQ(read.state.signals.misc.value.safety_switch, 5);

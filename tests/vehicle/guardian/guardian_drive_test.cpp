@@ -51,10 +51,10 @@ TEST(GuardianTakeOver, SaysTheSameWhateverWasBefore) {
     ASSERT_EQ(again->mode(), Mode::kDriving);
     EXPECT_EQ(first->out.gate_refusals, 0U);
     EXPECT_EQ(again->out.gate_refusals, 0U);
-    ASSERT_EQ(first->said.size(), again->said.size());
-    for (std::size_t i = 0; i < first->said.size(); ++i) {
-      EXPECT_EQ(first->said[i].id, again->said[i].id);
-      EXPECT_EQ(first->said[i].data, again->said[i].data) << first->said[i].id;
+    ASSERT_EQ(first->stated.size(), again->stated.size());
+    for (std::size_t i = 0; i < first->stated.size(); ++i) {
+      EXPECT_EQ(first->stated[i].id, again->stated[i].id);
+      EXPECT_EQ(first->stated[i].data, again->stated[i].data) << first->stated[i].id;
     }
     expect_same(first->state.status.command, again->state.status.command);
   }
@@ -64,7 +64,7 @@ TEST(GuardianTakeOver, SaysTheSameWhateverWasBefore) {
 TEST(GuardianTakeOver, ItsGateHasSeenWhatTheCarWasToldLast) {
   const CarPtr car = silent(kBeforeItActs);
   car->tick();
-  ASSERT_EQ(car->said.size(), 6U);
+  ASSERT_EQ(car->stated.size(), 6U);
   const auto& windows = car->state.gate.windows;
   const auto seen = [&](std::uint64_t times) {
     return std::count_if(windows.begin(), windows.end(),
@@ -136,7 +136,7 @@ TEST(GuardianSpeed, WithoutWheelsTheBrakeTakesItsShareOfIt) {
   for (const double before_mps : {65.0, 1e-9}) {
     const CarPtr car = silent(kWhileItDrives);
     car->bus_lives = false;
-    car->state.signals.wheel_speed_mps.heard = false;
+    car->state.signals.wheel_speed_mps.received = false;
     car->state.reckoning.pose.speed_mps = before_mps;
     const double brake_kpa = car->state.following.command.brake_kpa;
     ASSERT_GT(brake_kpa, 50.0);
@@ -199,7 +199,7 @@ void expect_open_loop(Straight& car, safety::SafeStopState& twin, int times) {
   for (int i = 0; i < times; ++i) {
     const world::ActuatorCommand before = car.state.following.command;
     do car.tick();
-    while (car.said.empty());
+    while (car.stated.empty());
     ASSERT_EQ(car.state.status.guidance, Guidance::kOpenLoop);
     const safety::SafeStopInputs in{
         .stop = car.state.record.stop,
@@ -234,7 +234,7 @@ TEST(GuardianOpenLoop, WhereFeedbackComesBackTheWheelsTurnNoFasterThanEver) {
   car->imus_live = true;
   car->state.reckoning.pose.y_m = 4.5;  // it wants to turn far to the right
   do car->tick();
-  while (car->said.empty());
+  while (car->stated.empty());
   ASSERT_EQ(car->state.status.guidance, Guidance::kInertial);
   const double turned_rad = car->state.following.command.road_wheel_rad - before_rad;
   EXPECT_NEAR(turned_rad, -car->params.following.slew_rad_per_s * kSpeakEvery.seconds(), 1e-9);

@@ -15,7 +15,7 @@ namespace {
 const world::SensorInput kNothingSensed;
 
 template <class M>
-can::ReceivedFrame heard_at(const M& message, Instant at) {
+can::ReceivedFrame received_at(const M& message, Instant at) {
   can::EncodeCounters none;
   can::ReceivedFrame received;
   EXPECT_TRUE(av21::encode(message, received.frame, none));
@@ -31,7 +31,7 @@ can::ReceivedFrame wheels_at(const std::array<double, 4>& kmph, Instant at) {
   av21::WheelSpeedReport m;
   m.wheel_speed_FL = kmph[0], m.wheel_speed_FR = kmph[1];
   m.wheel_speed_RL = kmph[2], m.wheel_speed_RR = kmph[3];
-  return heard_at(m, at);
+  return received_at(m, at);
 }
 
 constexpr Instant kAt{seconds(10).ns};
@@ -40,7 +40,7 @@ TEST(GuardianInputs, WheelSpeedsAreEachWheelsInMetresPerSecond) {
   State state;
   hear_one(state, wheels_at({36.0, 72.0, 108.0, 144.0}, kAt));
   const auto& wheels = state.signals.wheel_speed_mps;
-  ASSERT_TRUE(wheels.heard);
+  ASSERT_TRUE(wheels.received);
   EXPECT_EQ(wheels.at, kAt);
   const std::array expected{10.0, 20.0, 30.0, 40.0};
   for (std::size_t i = 0; i < expected.size(); ++i)
@@ -58,7 +58,7 @@ TEST(GuardianInputs, AWheelBeyondEveryCarIsNotTaken) {
       received.frame.data[2 * wheel] = static_cast<std::uint8_t>(raw & 0xFFU);
       received.frame.data[2 * wheel + 1] = static_cast<std::uint8_t>(raw >> 8U);
       hear_one(state, received);
-      EXPECT_EQ(state.signals.wheel_speed_mps.heard, is_taken) << wheel << " at " << kmph;
+      EXPECT_EQ(state.signals.wheel_speed_mps.received, is_taken) << wheel << " at " << kmph;
     }
   }
 }
@@ -68,11 +68,11 @@ TEST(GuardianInputs, TheSteeringIsTheMotorsAngle) {
   av21::SteeringReport m;
   m.steering_motor_ang_avg_fdbk = -90.0;
   m.steering_motor_fdbk_counter = 1;
-  hear_one(state, heard_at(m, kAt));
-  ASSERT_TRUE(state.signals.steering_motor_rad.heard);
+  hear_one(state, received_at(m, kAt));
+  ASSERT_TRUE(state.signals.steering_motor_rad.received);
   EXPECT_NEAR(state.signals.steering_motor_rad.value, -std::acos(-1.0) / 2.0, 1e-12);
   EXPECT_EQ(state.signals.steering_motor_rad.at, kAt);
-  EXPECT_FALSE(state.signals.wheel_speed_mps.heard);
+  EXPECT_FALSE(state.signals.wheel_speed_mps.received);
 }
 
 TEST(GuardianInputs, AFrameOfAnotherLengthIsNotTaken) {
@@ -80,13 +80,13 @@ TEST(GuardianInputs, AFrameOfAnotherLengthIsNotTaken) {
   can::ReceivedFrame wheels = wheels_at({36.0, 36.0, 36.0, 36.0}, kAt);
   --wheels.frame.length;
   hear_one(state, wheels);
-  can::ReceivedFrame steering = heard_at(
+  can::ReceivedFrame steering = received_at(
       av21::SteeringReport{.steering_motor_ang_avg_fdbk = 5.0, .steering_motor_fdbk_counter = 1},
       kAt);
   --steering.frame.length;
   hear_one(state, steering);
-  EXPECT_FALSE(state.signals.wheel_speed_mps.heard);
-  EXPECT_FALSE(state.signals.steering_motor_rad.heard);
+  EXPECT_FALSE(state.signals.wheel_speed_mps.received);
+  EXPECT_FALSE(state.signals.steering_motor_rad.received);
 }
 
 // The ids of the car's own commands are contiguous; everybody else keeps the bus alive.
@@ -133,7 +133,7 @@ TEST(GuardianLimits, ARecordMayLagBehindTheLastCommand) {
   for (const int beyond_ns : {0, 1}) {
     Silent silent;
     State& state = silent.car.state;
-    state.record.at = state.heard.commanded_at - kRecordLag - nanoseconds(beyond_ns);
+    state.record.at = state.received.commanded_at - kRecordLag - nanoseconds(beyond_ns);
     EXPECT_EQ(silent.act(),
               beyond_ns == 0 ? kActs : std::pair(Mode::kNothingToDrive, Cause::kStale));
   }

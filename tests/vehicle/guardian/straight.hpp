@@ -49,7 +49,7 @@ class Straight {
   double x_m = 0.0, y_m = 0.0, speed_mps = kSpeed_mps, brake_kpa = 0.0;
   std::uint8_t counter = 0;
   std::uint8_t report_counter = 0;
-  std::vector<can::Frame> said;    // by the guardian, in the last tick
+  std::vector<can::Frame> stated;  // by the guardian, in the last tick
   std::vector<can::Frame> so_far;  // by the guardian
   Output out;
 
@@ -64,21 +64,23 @@ class Straight {
   void tick() {
     now += milliseconds(1);
     move();
-    std::vector<can::ReceivedFrame> heard;
+    std::vector<can::ReceivedFrame> incoming;
     if ((now - Instant{}).ns % milliseconds(10).ns == 0) {
       if (car_publishes) publish();
-      if (car_speaks) encode_frames(heard);
-      if (bus_lives) report(heard);
+      if (car_speaks) encode_frames(incoming);
+      if (bus_lives) report(incoming);
     }
     world::SensorInput samples;
     for (std::uint8_t unit = 0; imus_live && unit < 2; ++unit)
       (void)samples.imu.push(
           {.unit = unit, .at = now, .rate_rad_per_s = {0, 0, 0}, .specific_force_mps2 = {0, 0, 9}});
-    out = step(
-        params, state,
-        {.record = record_there ? &record : nullptr, .can = heard, .sensors = samples, .now = now});
-    said.assign(out.frames.begin(), out.frames.end());
-    so_far.insert(so_far.end(), said.begin(), said.end());
+    out = step(params, state,
+               {.record = record_there ? &record : nullptr,
+                .can = incoming,
+                .sensors = samples,
+                .now = now});
+    stated.assign(out.frames.begin(), out.frames.end());
+    so_far.insert(so_far.end(), stated.begin(), stated.end());
     execute();
   }
 
@@ -117,50 +119,50 @@ class Straight {
   }
 
   template <class M>
-  void put(std::vector<can::ReceivedFrame>& heard, const M& message) {
+  void put(std::vector<can::ReceivedFrame>& incoming, const M& message) {
     can::EncodeCounters none;
     can::ReceivedFrame received;
     ASSERT_TRUE(av21::encode(message, received.frame, none));
     received.at = now;
-    heard.push_back(received);
+    incoming.push_back(received);
   }
 
-  void encode_frames(std::vector<can::ReceivedFrame>& heard) {
+  void encode_frames(std::vector<can::ReceivedFrame>& incoming) {
     ++counter;
     report_counter = static_cast<std::uint8_t>((report_counter + 1) % 10);
     av21::BrakePressureCmd brake;
     brake.brake_pressure_cmd = 0.0;
     brake.brk_pressure_cmd_counter = counter;
-    put(heard, brake);
+    put(incoming, brake);
     av21::AcceleratorCmd throttle;
     throttle.acc_pedal_cmd = 40.0;
     throttle.acc_pedal_cmd_counter = counter;
-    put(heard, throttle);
+    put(incoming, throttle);
     av21::SteeringCmd steering;
     steering.steering_motor_ang_cmd = 3.0;
     steering.steering_motor_cmd_counter = counter;
-    put(heard, steering);
+    put(incoming, steering);
     av21::GearShiftCmd gear;
     gear.desired_gear = 5;
-    put(heard, gear);
+    put(incoming, gear);
     av21::CtReport report;
     report.veh_sig_ack = 3;
     report.track_cond_ack = 2;
     report.ct_state = 9;
     report.ct_state_rolling_counter = report_counter;
     report.veh_num = 21;
-    put(heard, report);
+    put(incoming, report);
   }
 
-  void report(std::vector<can::ReceivedFrame>& heard) {
+  void report(std::vector<can::ReceivedFrame>& incoming) {
     av21::WheelSpeedReport wheels;
     wheels.wheel_speed_FL = wheels.wheel_speed_FR = wheels.wheel_speed_RL = wheels.wheel_speed_RR =
         speed_mps * 3.6;
-    put(heard, wheels);
+    put(incoming, wheels);
   }
 
   void execute() {
-    for (const can::Frame& frame : said) {
+    for (const can::Frame& frame : stated) {
       av21::BrakePressureCmd brake;
       if (frame.id == av21::BrakePressureCmd::kId && av21::decode(frame, brake))
         brake_kpa = brake.brake_pressure_cmd;

@@ -21,18 +21,18 @@ namespace {
 constexpr std::uint64_t kTicks = 300;
 
 struct Ticks {
-  std::vector<can::ReceivedFrame> heard{{.frame = {.id = 0x11, .length = 8}, .at = {}},
-                                        {.frame = {.id = 0x12, .length = 4}, .at = {}}};
+  std::vector<can::ReceivedFrame> received{{.frame = {.id = 0x11, .length = 8}, .at = {}},
+                                           {.frame = {.id = 0x12, .length = 4}, .at = {}}};
   world::SensorInput sensors;
-  std::vector<can::Frame> said{{.id = 0x21, .length = 8}};
+  std::vector<can::Frame> stated{{.id = 0x21, .length = 8}};
   telemetry::Snapshot state;
   std::vector<std::uint8_t> air = std::vector<std::uint8_t>(200, 0x5A);
 
   void turn(BlackBox& box, std::uint64_t tick, Instant now) {
-    for (can::ReceivedFrame& frame : heard) frame.at = now - milliseconds(1);
+    for (can::ReceivedFrame& frame : received) frame.at = now - milliseconds(1);
     state.sampled_at.fill(now);
     state.values.at.fill(static_cast<double>(tick));
-    box.tick({.now = now, .can = heard, .sensors = sensors, .requests = {}}, said);
+    box.tick({.now = now, .can = received, .sensors = sensors, .requests = {}}, stated);
     box.radio(true, now, {.path = 1, .bytes = air});
     box.radio(false, now, {.bytes = air});
     box.receiver(tick % 2, now, air);

@@ -24,7 +24,7 @@ CanInterfaceStatus report(BusState state) {
 
 ControllerState seen(const CanInterfaceStatus& interface, BusState frames, Instant at) {
   return LinkObserver{}
-      .observe({.interface = interface, .told_by_frames = frames, .told_at = at})
+      .observe({.interface = interface, .reported_by_frames = frames, .reported_at = at})
       .controller;
 }
 
@@ -56,8 +56,8 @@ TEST(LinkObserver, ABusWhoseHubHasHungUpIsDownBeforeAnyReportSaysSo) {
   for (const BusState state : kStates) {
     const auto interface = report(state);
     const auto link = LinkObserver{}.observe({.interface = interface,
-                                              .told_by_frames = BusState::kActive,
-                                              .told_at = kAsked + seconds(1),
+                                              .reported_by_frames = BusState::kActive,
+                                              .reported_at = kAsked + seconds(1),
                                               .hung_up = true});
     EXPECT_EQ(link.controller, ControllerState::kDown);
   }

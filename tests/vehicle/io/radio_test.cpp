@@ -101,11 +101,11 @@ telemetry::Snapshot driving_at(double speed_mps, Instant now) {
 }
 
 // Datagrams that a black box has kept, by path.
-struct Heard {
+struct Received {
   std::array<std::uint64_t, telemetry::kPaths> down{}, up{};
 };
-Heard heard_by(const std::string& folder) {
-  Heard heard;
+Received received_by(const std::string& folder) {
+  Received incoming;
   const auto paths = recorder::segments_of(folder);
   EXPECT_TRUE(paths);
   for (const std::string& path : *paths) {
@@ -117,10 +117,10 @@ Heard heard_by(const std::string& folder) {
       if (!topic.starts_with("/radio/")) continue;
       const auto datagram = recorder::decode_datagram(message->data);
       EXPECT_TRUE(datagram && !datagram->bytes.empty() && datagram->port != 0);
-      if (datagram) ++(topic == "/radio/down" ? heard.down : heard.up).at(datagram->path);
+      if (datagram) ++(topic == "/radio/down" ? incoming.down : incoming.up).at(datagram->path);
     }
   }
-  return heard;
+  return incoming;
 }
 
 // Ticks of the car and the base until it holds; what the car's ticks took from the heap.
@@ -169,10 +169,10 @@ TEST_F(CarRadio, SpeaksAndHearsOverOnePathAndOverTwo) {
       EXPECT_EQ(ticked.allocations, 0u) << "with a black box that records";
     }
     // What the sockets say, the black box has, by path.
-    const Heard heard = heard_by(folder_->path() + "/box" + std::to_string(paths));
+    const Received incoming = received_by(folder_->path() + "/box" + std::to_string(paths));
     for (std::size_t path = 0; path < paths; ++path) {
-      EXPECT_EQ(heard.down.at(path), radio->counters(path).sent) << path;
-      EXPECT_EQ(heard.up.at(path), radio->counters(path).received) << path;
+      EXPECT_EQ(incoming.down.at(path), radio->counters(path).sent) << path;
+      EXPECT_EQ(incoming.up.at(path), radio->counters(path).received) << path;
     }
   }
 }
@@ -231,14 +231,14 @@ TEST_F(CarRadio, FindsTheSpareBaseWhenThePreferredOneIsGone) {
   const std::string list = preferred->addresses()[0] + "," + spare.addresses()[0];
   auto radio = Radio::open({{list}, keys()}, {}, false);
   ASSERT_TRUE(radio) << to_string(radio.error());
-  const auto is_heard = [&](Base& base) {
+  const auto is_received = [&](Base& base) {
     return base.endpoint().state().values[telemetry::field("ego.vx")] > 0.0;
   };
-  ASSERT_TRUE(tick_until(*radio, *preferred, [&] { return is_heard(*preferred); }).held);
+  ASSERT_TRUE(tick_until(*radio, *preferred, [&] { return is_received(*preferred); }).held);
   spare.serve();
   EXPECT_EQ(spare.endpoint().report({}).association.received, 0U) << "nothing goes there before";
   preferred.reset();
-  const Ticked ticked = tick_until(*radio, spare, [&] { return is_heard(spare); });
+  const Ticked ticked = tick_until(*radio, spare, [&] { return is_received(spare); });
   EXPECT_TRUE(ticked.held);
   EXPECT_EQ(radio->endpoint().report(transport::monotonic_now()).association.roams, 1U);
   if (testing::kAllocationsCounted) {

@@ -66,15 +66,15 @@ TEST_F(SharedMemory, BothSidesReadWhatTheOtherWrote) {
   for (std::uint64_t i = 1; i < 10; ++i) {
     fill(record, i);
     car.write(record);
-    CarRecord heard;
-    ASSERT_TRUE(guardian.read(heard));
-    EXPECT_EQ(heard.sequence, i);
-    EXPECT_TRUE(is_whole(heard));
+    CarRecord received;
+    ASSERT_TRUE(guardian.read(received));
+    EXPECT_EQ(received.sequence, i);
+    EXPECT_TRUE(is_whole(received));
     status.takeovers = static_cast<std::uint32_t>(i);
     guardian.write(status);
-    Status told;
-    ASSERT_TRUE(car.read(told));
-    EXPECT_EQ(told.takeovers, i);
+    Status reported;
+    ASSERT_TRUE(car.read(reported));
+    EXPECT_EQ(reported.takeovers, i);
   }
 }
 
@@ -86,13 +86,13 @@ TEST_F(SharedMemory, WhatWasWrittenOutlivesItsWriter) {
     car.write(record);
   }
   SharedStop again = open();
-  CarRecord heard;
-  ASSERT_TRUE(again.read(heard));
-  EXPECT_EQ(heard.sequence, 9u);
+  CarRecord received;
+  ASSERT_TRUE(again.read(received));
+  EXPECT_EQ(received.sequence, 9u);
   fill(record, 10);
   again.write(record);
-  ASSERT_TRUE(again.read(heard));
-  EXPECT_EQ(heard.sequence, 10u) << "the next writer goes on";
+  ASSERT_TRUE(again.read(received));
+  EXPECT_EQ(received.sequence, 10u) << "the next writer goes on";
 }
 
 // Every byte of the file, one at a time: a reader gets a whole record or the one before.
@@ -117,10 +117,10 @@ TEST_F(SharedMemory, ADamagedCopyIsNotRead) {
     file.put(static_cast<char>(before ^ 0x10));
     file.flush();
     SharedStop reader = open();
-    CarRecord heard;
-    ASSERT_TRUE(reader.read(heard)) << at;
-    ASSERT_TRUE(is_whole(heard)) << at;
-    older += heard.sequence == 1 ? 1 : 0;
+    CarRecord received;
+    ASSERT_TRUE(reader.read(received)) << at;
+    ASSERT_TRUE(is_whole(received)) << at;
+    older += received.sequence == 1 ? 1 : 0;
     file.seekp(at);
     file.put(before);
     file.flush();
@@ -147,21 +147,21 @@ TEST_F(SharedMemory, AWriterKilledAtAnyMomentLeavesAWholeRecord) {
     const pid_t writer = ::fork();
     ASSERT_GE(writer, 0);
     if (writer == 0) write_for_ever(path);
-    CarRecord heard;
+    CarRecord received;
     const Instant until =
         transport::monotonic_now() + microseconds(2000 + static_cast<int>(random() % 3000));
     while (transport::monotonic_now() < until || newest == 0) {  // and while it writes
-      if (!reader.read(heard)) continue;
-      ASSERT_TRUE(is_whole(heard));
-      ASSERT_GE(heard.sequence, newest);
-      newest = heard.sequence;
+      if (!reader.read(received)) continue;
+      ASSERT_TRUE(is_whole(received));
+      ASSERT_GE(received.sequence, newest);
+      newest = received.sequence;
     }
     ::kill(writer, SIGKILL);
     ::waitpid(writer, nullptr, 0);
-    ASSERT_TRUE(reader.read(heard));
-    ASSERT_TRUE(is_whole(heard));
-    ASSERT_GE(heard.sequence, newest);
-    newest = heard.sequence;
+    ASSERT_TRUE(reader.read(received));
+    ASSERT_TRUE(is_whole(received));
+    ASSERT_GE(received.sequence, newest);
+    newest = received.sequence;
   }
   EXPECT_GT(newest, 60u);
 }

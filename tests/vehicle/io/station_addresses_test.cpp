@@ -48,12 +48,12 @@ TEST(StationAddresses, ThatAreNoneAreNamed) {
            {"10.0.0.5:1,10.0.0.6:", "10.0.0.6:"},
            {"10.0.0.5:1,10.0.0.6:70000", "10.0.0.6:70000"},
            {"base:23431", "base:23431"}}) {
-    const std::string said = refusal({list});
-    EXPECT_EQ(said.find("--radio " + wrong + ": error: "), 0U) << list << ": " << said;
-    EXPECT_NE(said.find("expected ADDRESS:PORT"), std::string::npos) << list << ": " << said;
+    const std::string output = refusal({list});
+    EXPECT_EQ(output.find("--radio " + wrong + ": error: "), 0U) << list << ": " << output;
+    EXPECT_NE(output.find("expected ADDRESS:PORT"), std::string::npos) << list << ": " << output;
   }
-  const std::string said = refusal({"10.0.0.5:1,10.0.0.6:0"});
-  EXPECT_EQ(said.find("--radio 10.0.0.6:0: error: the base station has no port"), 0U) << said;
+  const std::string output = refusal({"10.0.0.5:1,10.0.0.6:0"});
+  EXPECT_EQ(output.find("--radio 10.0.0.6:0: error: the base station has no port"), 0U) << output;
 }
 
 TEST(StationAddresses, AreOfOnePathOrTwo) {
@@ -75,8 +75,8 @@ TEST(StationAddresses, OfOnePathAreAllOfThisMachineOrNone) {
   EXPECT_EQ(refusal({"127.0.0.1:1,127.0.0.2:1"}), "");
   EXPECT_EQ(refusal({"127.0.0.1:1", "10.0.0.5:1"}), "") << "each path has a socket of its own";
   for (const std::string list : {"127.0.0.1:1,10.0.0.5:1", "10.0.0.5:1,127.3.0.1:1"}) {
-    const std::string said = refusal({list});
-    EXPECT_EQ(said.find("--radio " + list + ": error: loopback beside"), 0U) << said;
+    const std::string output = refusal({list});
+    EXPECT_EQ(output.find("--radio " + list + ": error: loopback beside"), 0U) << output;
   }
   EXPECT_TRUE(is_loopback({.ip = 0x7F000001}));
   EXPECT_FALSE(is_loopback({.ip = 0x80000001}));

@@ -13,11 +13,11 @@ namespace {
 using pipeline::CarParams;
 using testing::av21;
 using testing::refusal;
-using testing::Told;
+using testing::Reported;
 using testing::with;
 
-Told localization(const CarParams& p) {
-  Told told{
+Reported localization(const CarParams& p) {
+  Reported reported{
       {"localization.units[0].antenna_m[0]", p.localization.units[0].antenna.x_m},
       {"localization.units[0].antenna_m[1]", p.localization.units[0].antenna.y_m},
       {"localization.units[0].antenna_m[2]", p.localization.units[0].antenna.z_m},
@@ -49,18 +49,19 @@ Told localization(const CarParams& p) {
   const std::string planar = "localization.filter.planar.",
                     spatial = "localization.filter.spatial.";
   for (const auto& r : localization::kMotionNoiseRanges)
-    told[planar + r.name] = filter.planar.noise.*r.value;
-  for (const auto& r : localization::kPlanarRanges) told[planar + r.name] = filter.planar.*r.value;
+    reported[planar + r.name] = filter.planar.noise.*r.value;
+  for (const auto& r : localization::kPlanarRanges)
+    reported[planar + r.name] = filter.planar.*r.value;
   for (const auto& r : localization::kSpatialRanges)
-    told[spatial + r.name] = filter.spatial.*r.value;
+    reported[spatial + r.name] = filter.spatial.*r.value;
   for (std::size_t i = 0; i < 2; ++i)
-    told[planar + "gate_nis[" + std::to_string(i) + "]"] = filter.planar.gate_nis[i];
+    reported[planar + "gate_nis[" + std::to_string(i) + "]"] = filter.planar.gate_nis[i];
   for (std::size_t i = 0; i < 3; ++i)
-    told[spatial + "gate_nis[" + std::to_string(i) + "]"] = filter.spatial.gate_nis[i];
-  return told;
+    reported[spatial + "gate_nis[" + std::to_string(i) + "]"] = filter.spatial.gate_nis[i];
+  return reported;
 }
 
-Told planning(const CarParams& p) {
+Reported planning(const CarParams& p) {
   return {
       {"planning.line.offset_m", p.planning.line.offset_m},
       {"planning.line.wall_clearance_m", p.planning.line.wall_clearance_m},
@@ -111,8 +112,8 @@ Told planning(const CarParams& p) {
   };
 }
 
-Told control(const CarParams& p) {
-  Told told{
+Reported control(const CarParams& p) {
+  Reported reported{
       {"control.bicycle.mass_kg", p.control.bicycle.mass_kg},
       {"control.bicycle.yaw_inertia_kg_m2", p.control.bicycle.yaw_inertia_kg_m2},
       {"control.bicycle.cg_to_front_m", p.control.bicycle.cg_to_front_m},
@@ -168,10 +169,10 @@ Told control(const CarParams& p) {
   for (std::size_t i = 0; i < control::kSpeedBrackets; ++i) {
     const std::string bracket = "control.lateral.brackets[" + std::to_string(i) + "].";
     for (std::size_t k = 0; k < 4; ++k)
-      told[bracket + "q[" + std::to_string(k) + "]"] = p.control.lateral.weights[i].state[k];
-    told[bracket + "r"] = p.control.lateral.weights[i].steering;
+      reported[bracket + "q[" + std::to_string(k) + "]"] = p.control.lateral.weights[i].state[k];
+    reported[bracket + "r"] = p.control.lateral.weights[i].steering;
   }
-  return told;
+  return reported;
 }
 
 TEST(AutonomySection, EachNumberOfLocalizationMovesItsOwnParameter) {

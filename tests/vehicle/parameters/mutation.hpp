@@ -150,7 +150,7 @@ inline std::string path_of(const std::string& text, const Piece& number) {
 }
 
 // What a module was told, by the path of the number in the file and in the file's unit.
-using Told = std::map<std::string, double>;
+using Reported = std::map<std::string, double>;
 
 // Other numbers that are likely to be legal too: whole ones where a whole one may be needed.
 inline std::vector<std::string> neighbours(const std::string& number) {
@@ -173,7 +173,7 @@ void expect_each_number_to_move_its_own(const std::string& section, Read read) {
     auto car = read_car(text, "car.yaml");
     return car ? car->params : throw std::runtime_error(to_string(car.error()));
   };
-  const Told before = read(parsed(av21()));
+  const Reported before = read(parsed(av21()));
   std::size_t seen = 0;
   for (const Piece& number : numbers(av21())) {
     const std::string path = path_of(av21(), number);
@@ -186,7 +186,7 @@ void expect_each_number_to_move_its_own(const std::string& section, Read read) {
     for (const std::string& other : neighbours(number.text)) {
       const std::string changed = replaced(av21(), number, other);
       if (!refusal(changed).empty()) continue;
-      const Told after = read(parsed(changed));
+      const Reported after = read(parsed(changed));
       for (const auto& [name, was] : before)
         ASSERT_EQ(after.at(name) != was, name == path) << path << " moves " << name;
       ASSERT_NEAR(after.at(path), std::stod(other), 1e-9 * std::abs(value) + 1e-9) << path;

@@ -12,12 +12,12 @@ namespace {
 using pipeline::CarParams;
 using testing::av21;
 using testing::refusal;
-using testing::Told;
+using testing::Reported;
 using testing::with;
 
-Told radio(const CarParams& p) {
+Reported radio(const CarParams& p) {
   const safety::LinkLossParams& ladder = p.radio.ladder;
-  Told told{
+  Reported reported{
       {"radio.ladder.joystick_dropped_s", ladder.joystick_dropped.seconds()},
       {"radio.ladder.override_gone_s", ladder.override_gone.seconds()},
       {"radio.ladder.no_comm_s", ladder.no_comm.seconds()},
@@ -25,11 +25,11 @@ Told radio(const CarParams& p) {
   };
   for (std::size_t i = 0; i < p.radio.paths.size(); ++i) {
     const std::string index = "[" + std::to_string(i) + "]";
-    told["radio.bytes_per_s" + index] = p.radio.paths[i].bytes_per_s;
-    told["radio.packets_per_s" + index] = p.radio.paths[i].packets_per_s;
-    told["radio.safety_bytes_per_s" + index] = p.radio.paths[i].safety_bytes_per_s;
+    reported["radio.bytes_per_s" + index] = p.radio.paths[i].bytes_per_s;
+    reported["radio.packets_per_s" + index] = p.radio.paths[i].packets_per_s;
+    reported["radio.safety_bytes_per_s" + index] = p.radio.paths[i].safety_bytes_per_s;
   }
-  return told;
+  return reported;
 }
 
 CarParams params(const std::string& text) {

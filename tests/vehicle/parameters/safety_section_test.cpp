@@ -13,10 +13,10 @@ namespace {
 using pipeline::CarParams;
 using testing::av21;
 using testing::refusal;
-using testing::Told;
+using testing::Reported;
 using testing::with;
 
-Told gateway(const CarParams& p) {
+Reported gateway(const CarParams& p) {
   return {
       {"gateway.inbound.degraded_debt", p.inbound.degraded_debt},
       {"gateway.inbound.fault_debt", p.inbound.fault_debt},
@@ -47,8 +47,8 @@ Told gateway(const CarParams& p) {
   };
 }
 
-Told faults(const CarParams& p) {
-  Told told{
+Reported faults(const CarParams& p) {
+  Reported reported{
       {"safety.supervisor.faults.dead_reckoning_max_s",
        p.supervisor.faults.dead_reckoning_max.seconds()},
       {"safety.supervisor.faults.dead_reckoning_coast_s",
@@ -85,15 +85,15 @@ Told faults(const CarParams& p) {
        {std::pair{"steering", following.steering}, std::pair{"brake", following.brake},
         std::pair{"throttle", following.throttle}}) {
     const std::string path = std::string("safety.supervisor.faults.following.") + name;
-    told[path + ".settle_s"] = limits.settle_s;
-    told[path + ".tolerance"] = limits.tolerance;
-    told[path + ".share"] = limits.share;
-    told[path + ".persist_s"] = limits.persist.seconds();
+    reported[path + ".settle_s"] = limits.settle_s;
+    reported[path + ".tolerance"] = limits.tolerance;
+    reported[path + ".share"] = limits.share;
+    reported[path + ".persist_s"] = limits.persist.seconds();
   }
-  return told;
+  return reported;
 }
 
-Told supervisor(const CarParams& p) {
+Reported supervisor(const CarParams& p) {
   return {
       {"safety.supervisor.coast_dwell_s", p.supervisor.coast_dwell.seconds()},
       {"safety.supervisor.coast_max_s", p.supervisor.coast_max.seconds()},
@@ -134,8 +134,8 @@ Told supervisor(const CarParams& p) {
   };
 }
 
-Told gate(const CarParams& p) {
-  Told told{
+Reported gate(const CarParams& p) {
+  Reported reported{
       {"safety.gate.stop_steer_share", p.gate.stop_steer_share},
       {"safety.gate.hold_steer_slew_deg_per_s", p.gate.hold_steer_slew_deg_per_s},
       {"safety.gate.hold_least_kpa", p.gate.hold_least_kpa},
@@ -158,26 +158,26 @@ Told gate(const CarParams& p) {
   };
   for (std::size_t i = 0; i < safety::kStopBrakeRows; ++i) {
     const std::string index = "[" + std::to_string(i) + "]";
-    told["safety.gate.stop_brake_speed_mps" + index] = p.gate.stop_brake[i].speed_mps;
-    told["safety.gate.stop_brake_kpa" + index] = p.gate.stop_brake[i].kpa;
+    reported["safety.gate.stop_brake_speed_mps" + index] = p.gate.stop_brake[i].speed_mps;
+    reported["safety.gate.stop_brake_kpa" + index] = p.gate.stop_brake[i].kpa;
   }
   for (std::size_t i = 0; i < safety::kSteerRows; ++i) {
     const std::string index = "[" + std::to_string(i) + "]";
-    told["safety.gate.steer_speed_mps" + index] = p.gate.steer[i].speed_mps;
-    told["safety.gate.steer_motor_deg" + index] = p.gate.steer[i].motor_deg;
+    reported["safety.gate.steer_speed_mps" + index] = p.gate.steer[i].speed_mps;
+    reported["safety.gate.steer_motor_deg" + index] = p.gate.steer[i].motor_deg;
   }
-  return told;
+  return reported;
 }
 
-Told safety(const CarParams& p) {
+Reported safety(const CarParams& p) {
   const auto& radio = p.watchdog.limits[static_cast<std::size_t>(safety::Stream::kRadio)];
-  Told told{
+  Reported reported{
       {"safety.watchdog.radio.warning_s", radio.warning.seconds()},
       {"safety.watchdog.radio.bad_s", radio.bad.seconds()},
   };
-  for (const Told& part : {faults(p), supervisor(p), gate(p)})
-    told.insert(part.begin(), part.end());
-  return told;
+  for (const Reported& part : {faults(p), supervisor(p), gate(p)})
+    reported.insert(part.begin(), part.end());
+  return reported;
 }
 
 TEST(SafetySection, EachNumberOfTheGatewayMovesItsOwnParameter) {

@@ -77,28 +77,28 @@ TEST_F(Events, FaultsThatTheLogOrTheTickHadNoRoomForAreCounted) {
 TEST_F(Events, ModeArmingAndFlagsAreToldWhenTheyChange) {
   out_->chosen.mode = world::Mode::kStandby;
   out_->chosen.arming = safety::Arming::kArmed;
-  out_->heard.race_control.track = world::TrackFlag::kGreen;  // not heard: a default, no flag
+  out_->received.race_control.track = world::TrackFlag::kGreen;  // not heard: a default, no flag
   EXPECT_EQ(look(),
             (std::vector<EventContent>{telemetry::ModeEvent{0, 1, 0}, telemetry::ArmingEvent{1}}));
-  out_->heard.race_control.ever_heard = true;
-  out_->heard.race_control.vehicle = world::VehicleFlag::kBlue;
+  out_->received.race_control.ever_received = true;
+  out_->received.race_control.vehicle = world::VehicleFlag::kBlue;
   EXPECT_EQ(look(), (std::vector<EventContent>{FlagEvent{FlagKind::kTrack, 0, 4},
                                                FlagEvent{FlagKind::kVehicle, 0, 2}}));
   EXPECT_TRUE(look().empty());
 }
 
 TEST_F(Events, ALapHasItsTimeWhereItsBeginningWasSeen) {
-  out_->heard.race_control.ever_heard = true;
-  out_->heard.race_control.lap_count = 1;
-  auto told = look(kNow);
-  ASSERT_EQ(told.size(), 1u);
-  EXPECT_EQ(std::get<LapEvent>(told[0]).number, 1);
-  EXPECT_TRUE(std::isnan(std::get<LapEvent>(told[0]).time_s));
-  out_->heard.race_control.lap_count = 2;
+  out_->received.race_control.ever_received = true;
+  out_->received.race_control.lap_count = 1;
+  auto reported = look(kNow);
+  ASSERT_EQ(reported.size(), 1u);
+  EXPECT_EQ(std::get<LapEvent>(reported[0]).number, 1);
+  EXPECT_TRUE(std::isnan(std::get<LapEvent>(reported[0]).time_s));
+  out_->received.race_control.lap_count = 2;
   EXPECT_EQ(look(kNow + seconds(38)), (std::vector<EventContent>{LapEvent{2, 38.0F}}));
-  out_->heard.race_control.lap_count = 5;  // some were not heard
-  told = look(kNow + seconds(150));
-  EXPECT_TRUE(std::isnan(std::get<LapEvent>(told.at(0)).time_s));
+  out_->received.race_control.lap_count = 5;  // some were not heard
+  reported = look(kNow + seconds(150));
+  EXPECT_TRUE(std::isnan(std::get<LapEvent>(reported.at(0)).time_s));
 }
 
 TEST_F(Events, NothingIsAllocated) {

@@ -28,7 +28,7 @@ TEST(Guarding, TheGuardianHasTheCarsOwnParameters) {
 struct Teller {
   std::unique_ptr<Car> car = std::make_unique<Car>();
   Outputs out;
-  Told told;
+  Reported reported;
   Instant now = kStart;
 
   // A car on the reference line, with the plan that planning makes there.
@@ -51,7 +51,7 @@ struct Teller {
   }
   void tick(bool reset = false) {
     now += kTick;
-    publish(setup(), *car, out, {.id = 9, .reset = reset}, now, told);
+    publish(setup(), *car, out, {.id = 9, .reset = reset}, now, reported);
   }
 };
 
@@ -62,15 +62,15 @@ TEST(Guarding, PublishesTheStopThatPlanningKeepsReady) {
   t.out.chosen.mode = world::Mode::kDriving;
   t.out.chosen.actuate = true;
   t.tick();
-  EXPECT_EQ(t.told.verdict, guardian::StopVerdict::kGood);
-  EXPECT_EQ(t.told.record.stop.points.size(), world::kTrajectoryPoints);
-  EXPECT_EQ(t.told.record.stop.points.back().speed_mps, 0.0) << "it reaches standstill";
-  EXPECT_TRUE(t.told.record.armed);
-  EXPECT_TRUE(t.told.record.speaks);
-  EXPECT_EQ(t.told.record.run, 9u);
-  EXPECT_EQ(t.told.record.sequence, 1u);
-  EXPECT_EQ(t.told.record.at, t.now);
-  EXPECT_EQ(t.told.record.datum.latitude_deg, setup().track.datum_latitude_deg());
+  EXPECT_EQ(t.reported.verdict, guardian::StopVerdict::kGood);
+  EXPECT_EQ(t.reported.record.stop.points.size(), world::kTrajectoryPoints);
+  EXPECT_EQ(t.reported.record.stop.points.back().speed_mps, 0.0) << "it reaches standstill";
+  EXPECT_TRUE(t.reported.record.armed);
+  EXPECT_TRUE(t.reported.record.speaks);
+  EXPECT_EQ(t.reported.record.run, 9u);
+  EXPECT_EQ(t.reported.record.sequence, 1u);
+  EXPECT_EQ(t.reported.record.at, t.now);
+  EXPECT_EQ(t.reported.record.datum.latitude_deg, setup().track.datum_latitude_deg());
 }
 
 TEST(Guarding, AStopThatFailsItsCheckIsNotPublishedAndTheOneBeforeStays) {
@@ -78,23 +78,23 @@ TEST(Guarding, AStopThatFailsItsCheckIsNotPublishedAndTheOneBeforeStays) {
   t.now += kTick;
   t.plan(300.0);
   t.tick();
-  const double first_x_m = t.told.record.stop.points[0].x_m;
+  const double first_x_m = t.reported.record.stop.points[0].x_m;
   t.plan(320.0);
   t.car->plan.output.stop.points[40].x_m = kUnset;
   t.tick();
-  EXPECT_EQ(t.told.verdict, guardian::StopVerdict::kNotFinite);
-  EXPECT_EQ(t.told.refused, 1u);
-  EXPECT_EQ(t.told.record.stop.points[0].x_m, first_x_m);
+  EXPECT_EQ(t.reported.verdict, guardian::StopVerdict::kNotFinite);
+  EXPECT_EQ(t.reported.refused, 1u);
+  EXPECT_EQ(t.reported.record.stop.points[0].x_m, first_x_m);
   t.tick();
-  EXPECT_EQ(t.told.refused, 1u) << "one plan is judged once";
+  EXPECT_EQ(t.reported.refused, 1u) << "one plan is judged once";
 }
 
 TEST(Guarding, AQuietCarSaysThatItDoesNotSpeak) {
   Teller t;
   t.out.quiet = true;
   t.tick(true);
-  EXPECT_FALSE(t.told.record.speaks);
-  EXPECT_TRUE(t.told.record.reset);
+  EXPECT_FALSE(t.reported.record.speaks);
+  EXPECT_TRUE(t.reported.record.reset);
 }
 
 TEST(Guarding, ADeadGuardianDoesNotDriveButWhatItDidCounts) {
@@ -133,13 +133,13 @@ TEST(Guarding, OnlyACarThatStandsIsLeftInOrder) {
   for (const auto mode :
        {world::Mode::kDisarmed, world::Mode::kStandby, world::Mode::kDriving,
         world::Mode::kControlledStop, world::Mode::kEmergencyStop, world::Mode::kHalted}) {
-    Told told;
-    told.record.run = 1;
-    told.record.armed = true;
-    told.record.mode = mode;
-    finish(told);
+    Reported reported;
+    reported.record.run = 1;
+    reported.record.armed = true;
+    reported.record.mode = mode;
+    finish(reported);
     const bool moves = mode == world::Mode::kDriving || safety::stops(mode);
-    EXPECT_EQ(ended_armed(told.record), moves) << static_cast<int>(mode);
+    EXPECT_EQ(ended_armed(reported.record), moves) << static_cast<int>(mode);
   }
 }
 
@@ -190,8 +190,8 @@ TEST(Guarding, FramesOfTheGuardianAreNoForeignNode) {
                               .sensors = none,
                               .requests = {},
                               .guardian = view});
-    EXPECT_EQ(out.heard.own_frames, 1u);
-    EXPECT_EQ(out.heard.own_id_seen, !drove);
+    EXPECT_EQ(out.received.own_frames, 1u);
+    EXPECT_EQ(out.received.own_id_seen, !drove);
   }
 }
 

@@ -18,7 +18,7 @@ MonitorSet only(Monitor monitor) {
 TEST(Monitoring, WhatAnyModuleSeesIsSeen) {
   Outputs out;
   EXPECT_TRUE(seen(out, {}).empty());
-  out.heard.seen = only(Monitor::kCounter);
+  out.received.seen = only(Monitor::kCounter);
   out.watchdog.seen = only(Monitor::kStreamAge);
   out.bus_guard.seen = only(Monitor::kTransmitStall);
   out.chosen.seen = only(Monitor::kRaceControl);

@@ -23,7 +23,7 @@ struct Rig {
   Mode mode = Mode::kDisarmed;
   bool barred = false, may_arm = true, resettable = false, arm_used = false, stands = true;
   Instant now{seconds(1).ns};
-  safety::OperatorRequests heard;
+  safety::OperatorRequests received;
   Answers answers;
   std::uint32_t next_id = 1;
 
@@ -33,23 +33,23 @@ struct Rig {
       if (command.id == 0) command.id = next_id++;
       if (command.expires.ns == 0) command.expires = now + seconds(2);
     }
-    heard = execute(orders,
-                    {.switches = switches,
-                     .operator_inputs = operator_inputs,
-                     .commands = commands,
-                     .may_arm = may_arm,
-                     .mode = mode,
-                     .stands = stands,
-                     .now = now},
-                    answers);
+    received = execute(orders,
+                       {.switches = switches,
+                        .operator_inputs = operator_inputs,
+                        .commands = commands,
+                        .may_arm = may_arm,
+                        .mode = mode,
+                        .stands = stands,
+                        .now = now},
+                       answers);
     const Mode before = mode;
-    if (!heard.arm) arm_used = false;
-    if (mode == Mode::kDisarmed && heard.arm && !barred && !arm_used) {
+    if (!received.arm) arm_used = false;
+    if (mode == Mode::kDisarmed && received.arm && !barred && !arm_used) {
       mode = Mode::kStandby;
       arm_used = true;
     }
-    if (mode == Mode::kStandby && !heard.arm) mode = Mode::kDisarmed;
-    if (mode == Mode::kHalted && heard.reset) mode = Mode::kDisarmed;
+    if (mode == Mode::kStandby && !received.arm) mode = Mode::kDisarmed;
+    if (mode == Mode::kHalted && received.reset) mode = Mode::kDisarmed;
     safety::SupervisorOutput chosen;
     chosen.mode = mode;
     conclude(orders, before, chosen, resettable, now, answers);
@@ -77,7 +77,7 @@ TEST(OperatorOrders, ArmsByCommandAndSaysAppliedWhenTheCarIsArmed) {
   Rig rig;
   EXPECT_EQ(rig.done(OperatorCommandKind::kArm, 1.0), CommandAnswer::kApplied);
   EXPECT_EQ(rig.mode, Mode::kStandby);
-  EXPECT_TRUE(rig.heard.arm);
+  EXPECT_TRUE(rig.received.arm);
   EXPECT_EQ(rig.done(OperatorCommandKind::kArm, 1.0), CommandAnswer::kApplied) << "it is armed";
   EXPECT_EQ(rig.mode, Mode::kStandby) << "saying it again let nothing go";
   EXPECT_EQ(rig.done(OperatorCommandKind::kArm, 0.0), CommandAnswer::kApplied);
@@ -124,7 +124,7 @@ TEST(OperatorOrders, WhoOnlyListensIsNotArmed) {
   rig.may_arm = false;
   rig.switches.arm = true;
   EXPECT_EQ(rig.done(OperatorCommandKind::kArm, 1.0), CommandAnswer::kRefused);
-  EXPECT_FALSE(rig.heard.arm);
+  EXPECT_FALSE(rig.received.arm);
 }
 
 TEST(OperatorOrders, NothingIsAppliedAfterItsExpiry) {
@@ -150,7 +150,7 @@ TEST(OperatorOrders, AResetIsAppliedWhereThereIsSomethingToReset) {
   rig.resettable = true;
   EXPECT_EQ(rig.done(OperatorCommandKind::kReset, 1.0), CommandAnswer::kApplied);
   rig.tick();
-  EXPECT_FALSE(rig.heard.reset) << "for one tick only";
+  EXPECT_FALSE(rig.received.reset) << "for one tick only";
 }
 
 TEST(OperatorOrders, AResetWaitsUntilTheCarStands) {
@@ -214,11 +214,11 @@ TEST(OperatorOrders, ALatchedStopIsARequest) {
   Rig rig;
   rig.operator_inputs.stop = world::StopRequest::kControlled;
   rig.tick();
-  EXPECT_TRUE(rig.heard.stop);
-  EXPECT_FALSE(rig.heard.emergency_stop);
+  EXPECT_TRUE(rig.received.stop);
+  EXPECT_FALSE(rig.received.emergency_stop);
   rig.operator_inputs.stop = world::StopRequest::kEmergency;
   rig.tick();
-  EXPECT_TRUE(rig.heard.emergency_stop);
+  EXPECT_TRUE(rig.received.emergency_stop);
 }
 
 TEST(OperatorOrders, OfTwoFlagsTheStricterHolds) {
@@ -226,12 +226,12 @@ TEST(OperatorOrders, OfTwoFlagsTheStricterHolds) {
       TrackFlag::kGreen,  TrackFlag::kWavingGreen, TrackFlag::kYellow, TrackFlag::kChequered,
       TrackFlag::kOrange, TrackFlag::kUnknown,     TrackFlag::kRed};
   for (std::size_t can = 0; can < by_strictness.size(); ++can) {
-    world::RaceControl heard;
-    heard.track = by_strictness[can];
-    heard.raw_track = 9;
-    EXPECT_EQ(stricter(heard, TrackFlag::kNone).track, heard.track) << "no opinion";
+    world::RaceControl received;
+    received.track = by_strictness[can];
+    received.raw_track = 9;
+    EXPECT_EQ(stricter(received, TrackFlag::kNone).track, received.track) << "no opinion";
     for (std::size_t base = 0; base < by_strictness.size(); ++base) {
-      const world::RaceControl held = stricter(heard, by_strictness[base]);
+      const world::RaceControl held = stricter(received, by_strictness[base]);
       EXPECT_EQ(held.track, by_strictness[std::max(can, base)]);
       EXPECT_EQ(held.raw_track, 9) << "what was heard is acknowledged as it was";
     }

@@ -22,7 +22,7 @@ using world::OperatorCommand;
 using world::OperatorCommandKind;
 
 // A healthy car at standstill, told what to do by radio alone.
-struct ToldCar {
+struct ReportedCar {
   testing::StandingCar source;
   std::unique_ptr<Car> car = std::make_unique<Car>();
   world::OperatorInputs operator_inputs;
@@ -32,8 +32,8 @@ struct ToldCar {
   std::uint32_t ids = 0;
 
   void tick(std::span<const OperatorCommand> commands = {}) {
-    const testing::Heard heard = source.receive(now);
-    Inputs in = heard.inputs(now);
+    const testing::Received received = source.receive(now);
+    Inputs in = received.inputs(now);
     in.operator_inputs = operator_inputs;
     in.commands = commands;
     *out = step(setup(), *car, in);
@@ -55,7 +55,7 @@ struct ToldCar {
 };
 
 TEST(OperatorStep, ArmsDrivesStopsAndArmsAgainByRadioAlone) {
-  ToldCar t;
+  ReportedCar t;
   t.run(seconds(3));
   EXPECT_EQ(t.mode(), Mode::kDisarmed);
   EXPECT_EQ(t.say(OperatorCommandKind::kArm, 1.0), CommandAnswer::kApplied);
@@ -78,7 +78,7 @@ TEST(OperatorStep, ArmsDrivesStopsAndArmsAgainByRadioAlone) {
 }
 
 TEST(OperatorStep, ALatchedStopBarsArming) {
-  ToldCar t;
+  ReportedCar t;
   t.operator_inputs.stop = world::StopRequest::kEmergency;
   t.run(seconds(3));
   EXPECT_EQ(t.say(OperatorCommandKind::kArm, 1.0), CommandAnswer::kRefused);
@@ -88,21 +88,21 @@ TEST(OperatorStep, ALatchedStopBarsArming) {
 }
 
 TEST(OperatorStep, TheBasesRedHoldsACarThatRaceControlWavesOff) {
-  ToldCar t;
+  ReportedCar t;
   t.run(seconds(3));
   EXPECT_EQ(t.say(OperatorCommandKind::kTrackFlag, 1.0), CommandAnswer::kApplied);
   EXPECT_EQ(t.say(OperatorCommandKind::kArm, 1.0), CommandAnswer::kApplied);
   t.run(seconds(1));
   EXPECT_EQ(t.mode(), Mode::kStandby);
   EXPECT_EQ(t.out->race_control.track, world::TrackFlag::kRed);
-  EXPECT_EQ(t.out->heard.race_control.track, world::TrackFlag::kGreen);
+  EXPECT_EQ(t.out->received.race_control.track, world::TrackFlag::kGreen);
   EXPECT_EQ(t.say(OperatorCommandKind::kTrackFlag, 0.0), CommandAnswer::kApplied);
   t.run(seconds(1));
   EXPECT_EQ(t.mode(), Mode::kDriving);
 }
 
 TEST(OperatorStep, TheSpeedLimitReachesThePlan) {
-  ToldCar t;
+  ReportedCar t;
   t.run(seconds(3));
   EXPECT_EQ(t.say(OperatorCommandKind::kSpeedLimit, 7.5), CommandAnswer::kApplied);
   t.run(milliseconds(100));
@@ -113,7 +113,7 @@ TEST(OperatorStep, TheSpeedLimitReachesThePlan) {
 
 // In the very tick in which the command comes, until the next set is ordered; and told.
 TEST(OperatorStep, AnExcludedReceiverIsNotBelievedFromThisTickOn) {
-  ToldCar t;
+  ReportedCar t;
   t.run(seconds(3));
   const auto gates_of_unit_0 = [&] {
     std::vector<localization::Gate> gates;
@@ -136,9 +136,9 @@ TEST(OperatorStep, AnExcludedReceiverIsNotBelievedFromThisTickOn) {
   EXPECT_EQ(t.out->ego.validity, world::Validity::kGood) << "by the other one";
   EXPECT_EQ(t.car->orders.use.excluded, 1) << "it stays";
   TickLog log;
-  const auto told =
+  const auto reported =
       tap({.setup = setup(), .car = *t.car, .out = *t.out, .log = log, .rim = {}, .now = t.now});
-  EXPECT_EQ(told.values[telemetry::field("localization.excluded")], 1.0);
+  EXPECT_EQ(reported.values[telemetry::field("localization.excluded")], 1.0);
   EXPECT_EQ(t.say(OperatorCommandKind::kSensorsExcluded, 0.0), CommandAnswer::kApplied);
   t.run(seconds(3));
   until_a_position();
@@ -147,7 +147,7 @@ TEST(OperatorStep, AnExcludedReceiverIsNotBelievedFromThisTickOn) {
 }
 
 TEST(OperatorStep, AJoystickLowersTheThrottleUntilItsSampleIsOld) {
-  ToldCar t;
+  ReportedCar t;
   t.run(seconds(3));
   t.say(OperatorCommandKind::kArm, 1.0);
   t.run(seconds(2));
@@ -166,7 +166,7 @@ TEST(OperatorStep, AJoystickLowersTheThrottleUntilItsSampleIsOld) {
 // the frame gate.
 TEST(OperatorStep, WhateverIsSaidIsAnsweredOnceWithoutTheHeapOrTheGate) {
   Random random{7};
-  ToldCar t;
+  ReportedCar t;
   std::vector<int> answered(100'000);
   std::vector<OperatorCommand> commands;
   for (int i = 0; i < 2'000; ++i) {
@@ -184,8 +184,8 @@ TEST(OperatorStep, WhateverIsSaidIsAnsweredOnceWithoutTheHeapOrTheGate) {
       t.operator_inputs.joystick =
           world::Joystick{any_number(random), any_number(random), t.now - age};
     }
-    const testing::Heard heard = t.source.receive(t.now);
-    Inputs in = heard.inputs(t.now);
+    const testing::Received received = t.source.receive(t.now);
+    Inputs in = received.inputs(t.now);
     in.operator_inputs = t.operator_inputs;
     in.commands = commands;
     const auto allocations =

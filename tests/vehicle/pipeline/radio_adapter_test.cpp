@@ -211,15 +211,15 @@ TEST_F(BenchServer, AnAttackOnTheCarReachesItsOwnLogTheBaseAndTheTelemetry) {
   EXPECT_EQ(events_, 1);
   const auto content = telemetry::content_of(event_);
   ASSERT_TRUE(content);
-  auto told = std::get<telemetry::ThreatEvent>(*content);
-  EXPECT_EQ(told.threat, static_cast<std::uint8_t>(kRate));
-  EXPECT_TRUE(told.begins && !told.seen_by_base);
+  auto reported = std::get<telemetry::ThreatEvent>(*content);
+  EXPECT_EQ(reported.threat, static_cast<std::uint8_t>(kRate));
+  EXPECT_TRUE(reported.begins && !reported.seen_by_base);
   run(seconds(15));
   ASSERT_EQ(threats_.size(), 2U);
   EXPECT_EQ(events_, 2);
-  told = std::get<telemetry::ThreatEvent>(*telemetry::content_of(event_));
-  EXPECT_FALSE(told.begins);
-  EXPECT_NEAR(told.most_per_s, 50'000.0, 100.0);
+  reported = std::get<telemetry::ThreatEvent>(*telemetry::content_of(event_));
+  EXPECT_FALSE(reported.begins);
+  EXPECT_NEAR(reported.most_per_s, 50'000.0, 100.0);
   EXPECT_EQ(shown_.threats, 0.0);
 }
 

@@ -67,7 +67,7 @@ inline double any_number(Random& random) {
 }
 
 // What one tick is given; the frames live here.
-struct Heard {
+struct Received {
   std::vector<can::ReceivedFrame> frames;
   world::SensorInput sensors;
   safety::OperatorRequests requests;
@@ -89,17 +89,17 @@ class StandingCar {
   world::SysState sys = world::SysState::kDriving;
   double station_m = 30.0;
 
-  Heard receive(Instant now) {
-    Heard heard;
+  Received receive(Instant now) {
+    Received received;
     const auto tick = static_cast<std::uint64_t>((now - kStart) / kTick);
     for (const can::MessageRow& row : av21::kMessages) {
       if (row.direction != can::Direction::kFromCar) continue;
       if (!race_control && row.safety == can::SafetyClass::kRaceControl) continue;
       const auto every = static_cast<std::uint64_t>(std::max<std::int64_t>(1, row.period / kTick));
-      if (tick % every == 0) heard.frames.push_back({frame_of(row, tick / every), now});
+      if (tick % every == 0) received.frames.push_back({frame_of(row, tick / every), now});
     }
-    sample(heard.sensors, now, tick);
-    return heard;
+    sample(received.sensors, now, tick);
+    return received;
   }
 
  private:

@@ -20,9 +20,9 @@
 namespace pitwall::pipeline {
 namespace {
 
-using testing::Heard;
 using testing::kStart;
 using testing::kTick;
+using testing::Received;
 using testing::setup;
 using testing::StandingCar;
 using world::Mode;
@@ -40,14 +40,14 @@ bool is_located(const world::EgoState& ego) {
   return ego.validity == world::Validity::kGood || ego.validity == world::Validity::kDeadReckoning;
 }
 
-using HeardSource = std::function<Heard(Instant)>;
+using ReceivedSource = std::function<Received(Instant)>;
 
-Outputs tick(Car& car, const Heard& heard, Instant now) {
-  return step(setup(), car, heard.inputs(now));
+Outputs tick(Car& car, const Received& incoming, Instant now) {
+  return step(setup(), car, incoming.inputs(now));
 }
 
 // Runs and shows every tick to `watch`.
-void run(Car& car, Duration span, const HeardSource& source,
+void run(Car& car, Duration span, const ReceivedSource& source,
          const std::function<void(const Outputs&)>& watch) {
   for (Instant now = kStart; now < kStart + span; now += kTick) {
     watch(tick(car, source(now), now));
@@ -55,16 +55,16 @@ void run(Car& car, Duration span, const HeardSource& source,
   }
 }
 
-Heard nothing(Instant) { return {}; }
+Received nothing(Instant) { return {}; }
 
-HeardSource noise(std::uint64_t seed) {
+ReceivedSource noise(std::uint64_t seed) {
   auto random = std::make_shared<Random>(Random{seed});
   return [random](Instant now) {
-    Heard heard;
+    Received incoming;
     for (std::uint64_t n = random->below(60); n > 0; --n)
-      heard.frames.push_back(testing::random_frame(*random, now));
-    if (random->one_in(2)) testing::random_samples(*random, now, heard.sensors);
-    return heard;
+      incoming.frames.push_back(testing::random_frame(*random, now));
+    if (random->one_in(2)) testing::random_samples(*random, now, incoming.sensors);
+    return incoming;
   };
 }
 
@@ -79,9 +79,9 @@ TEST(Step, WithoutInputOnlyStatusFramesLeave) {
     run(
         *car, seconds(5),
         [arm](Instant) {
-          Heard heard;
-          heard.requests.arm = arm;
-          return heard;
+          Received incoming;
+          incoming.requests.arm = arm;
+          return incoming;
         },
         [&](const Outputs& out) {
           for (const can::Frame& frame : out.passed.frames) ids.insert(frame.id);
@@ -123,9 +123,9 @@ TEST(Step, AHealthyCarDrivesWhenRaceControlLetsItAndTheOperatorArmed) {
   run(
       *car, seconds(5),
       [&](Instant now) {
-        Heard heard = source.receive(now);
-        heard.requests.arm = now > kStart + seconds(2);
-        return heard;
+        Received incoming = source.receive(now);
+        incoming.requests.arm = now > kStart + seconds(2);
+        return incoming;
       },
       [&](const Outputs& out) {
         drove = drove || out.chosen.mode == Mode::kDriving;
@@ -144,9 +144,9 @@ TEST(Step, WithoutRaceControlACarDoesNotArm) {
   run(
       *car, seconds(8),
       [&](Instant now) {
-        Heard heard = source.receive(now);
-        heard.requests.arm = true;
-        return heard;
+        Received incoming = source.receive(now);
+        incoming.requests.arm = true;
+        return incoming;
       },
       [&](const Outputs& out) {
         ASSERT_EQ(out.chosen.mode, Mode::kDisarmed);
@@ -160,16 +160,16 @@ TEST(Step, OnABusOfAnotherRevisionACarDoesNotArm) {
   run(
       *car, seconds(8),
       [&](Instant now) {
-        Heard heard = source.receive(now);
-        heard.requests.arm = true;
-        for (can::ReceivedFrame& received : heard.frames)
+        Received incoming = source.receive(now);
+        incoming.requests.arm = true;
+        for (can::ReceivedFrame& received : incoming.frames)
           if (received.frame.id == 1312) received.frame.length = 8;
-        return heard;
+        return incoming;
       },
       [&](const Outputs& out) {
         ASSERT_EQ(out.chosen.mode, Mode::kDisarmed);
         ASSERT_FALSE(speaks_to_actuators(out));
-        ASSERT_EQ(out.heard.bus.identity.id, 1312u);
+        ASSERT_EQ(out.received.bus.identity.id, 1312u);
         ASSERT_TRUE(out.chosen.causes.has(safety::Cause::kWrongBus));
       });
 }
@@ -182,9 +182,9 @@ TEST(Step, WithoutAFlagAnArmedCarNeverDrives) {
   run(
       *car, seconds(5),
       [&](Instant now) {
-        Heard heard = source.receive(now);
-        heard.requests.arm = now > kStart + seconds(2);
-        return heard;
+        Received incoming = source.receive(now);
+        incoming.requests.arm = now > kStart + seconds(2);
+        return incoming;
       },
       [&](const Outputs& out) {
         stood_by = stood_by || out.chosen.mode == Mode::kStandby;
@@ -203,9 +203,9 @@ TEST(Step, UnderRedAnArmedCarNeverDrives) {
   run(
       *car, seconds(5),
       [&](Instant now) {
-        Heard heard = source.receive(now);
-        heard.requests.arm = true;
-        return heard;
+        Received incoming = source.receive(now);
+        incoming.requests.arm = true;
+        return incoming;
       },
       [&](const Outputs& out) { ASSERT_NE(out.chosen.mode, Mode::kDriving); });
 }
@@ -227,17 +227,17 @@ TEST(Step, WithNoiseAndRandomRequestsOnlyAnArmedCarSpeaksToActuators) {
   const auto car = new_car();
   Random random{7};
   StandingCar healthy;
-  const HeardSource garbage = noise(8);
+  const ReceivedSource garbage = noise(8);
   safety::OperatorRequests requests;
   std::size_t armed = 0;
   run(
       *car, seconds(60),
       [&](Instant now) {
-        Heard heard = healthy.receive(now);
+        Received incoming = healthy.receive(now);
         if (random.one_in(100)) {
-          const Heard bad = garbage(now);
-          heard.frames.insert(heard.frames.end(), bad.frames.begin(), bad.frames.end());
-          std::erase_if(heard.frames, [](const can::ReceivedFrame& f) {
+          const Received bad = garbage(now);
+          incoming.frames.insert(incoming.frames.end(), bad.frames.begin(), bad.frames.end());
+          std::erase_if(incoming.frames, [](const can::ReceivedFrame& f) {
             return f.frame.id >= 1400 && f.frame.id < 1500;  // would bar arming for good
           });
         }
@@ -246,8 +246,8 @@ TEST(Step, WithNoiseAndRandomRequestsOnlyAnArmedCarSpeaksToActuators) {
                       .reset = random.one_in(2),
                       .stop = random.one_in(8),
                       .emergency_stop = random.one_in(16)};
-        heard.requests = requests;
-        return heard;
+        incoming.requests = requests;
+        return incoming;
       },
       [&](const Outputs& out) {
         armed += out.chosen.mode != Mode::kDisarmed ? 1U : 0U;
@@ -273,10 +273,10 @@ TEST(Step, ItFindsItselfAgainAfterSenselessSamples) {
   run(
       *car, seconds(40),
       [&](Instant now) {
-        Heard heard = healthy.receive(now);
+        Received incoming = healthy.receive(now);
         if (now < kStart + seconds(20) && random.one_in(4))
-          testing::random_samples(random, now, heard.sensors);
-        return heard;
+          testing::random_samples(random, now, incoming.sensors);
+        return incoming;
       },
       [&](const Outputs& out) {
         last = out;
@@ -339,10 +339,10 @@ std::vector<std::uint64_t> bits_of(const Outputs& out, Instant now) {
   return bits;
 }
 
-std::vector<Heard> mixed_inputs(std::size_t ticks) {
+std::vector<Received> mixed_inputs(std::size_t ticks) {
   StandingCar healthy;
   Random random{99};
-  std::vector<Heard> inputs;
+  std::vector<Received> inputs;
   for (std::size_t i = 0; i < ticks; ++i) {
     const Instant now = kStart + kTick * static_cast<std::int64_t>(i);
     inputs.push_back(healthy.receive(now));
@@ -363,7 +363,7 @@ TEST(Step, ACopyGoesOnAsTheOriginal) {
   const auto inputs = mixed_inputs(kTicks);
   const auto at = [](std::size_t i) { return kStart + kTick * static_cast<std::int64_t>(i); };
   const auto car = new_car();
-  std::vector<std::vector<std::uint64_t>> said;
+  std::vector<std::vector<std::uint64_t>> stated;
   std::vector<std::unique_ptr<Car>> snapshots;
   bool drove = false;
   for (std::size_t i = 0; i < kTicks; ++i) {
@@ -373,12 +373,12 @@ TEST(Step, ACopyGoesOnAsTheOriginal) {
     }
     const Outputs out = tick(*car, inputs[i], at(i));
     drove = drove || out.chosen.mode == Mode::kDriving;
-    said.push_back(bits_of(out, at(i)));
+    stated.push_back(bits_of(out, at(i)));
   }
   EXPECT_TRUE(drove) << "a run in which the car only stands shows little";
   for (std::size_t s = 0; s < snapshots.size(); ++s)
     for (std::size_t i = s * 150; i < kTicks; ++i)
-      ASSERT_EQ(bits_of(tick(*snapshots[s], inputs[i], at(i)), at(i)), said[i])
+      ASSERT_EQ(bits_of(tick(*snapshots[s], inputs[i], at(i)), at(i)), stated[i])
           << "snapshot " << s << " tick " << i;
 }
 
@@ -387,11 +387,11 @@ TEST(Step, ACopyGoesOnAsTheOriginal) {
 TEST(Step, TakesNothingFromTheHeap) {
   if (!pitwall::testing::kAllocationsCounted) GTEST_SKIP() << "not counted in this build";
   const auto inputs = mixed_inputs(500);
-  const HeardSource garbage = noise(3);
+  const ReceivedSource garbage = noise(3);
   const auto car = new_car(), noisy = new_car();
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const Instant now = kStart + kTick * static_cast<std::int64_t>(i);
-    const Heard bad = garbage(now);
+    const Received bad = garbage(now);
     ASSERT_EQ(pitwall::testing::allocations_of([&] {
                 step(setup(), *car, inputs[i].inputs(now));
                 step(setup(), *noisy, bad.inputs(now));

@@ -24,8 +24,8 @@ inline constexpr Instant kNow{100'000'000'000};
 inline Instant ago_ms(std::int64_t ms) { return kNow - milliseconds(ms); }
 
 template <class T>
-void receive(world::Heard<T>& heard, const T& value, std::int64_t age_ms) {
-  heard = {.value = value, .at = ago_ms(age_ms), .heard = true};
+void receive(world::Received<T>& received, const T& value, std::int64_t age_ms) {
+  received = {.value = value, .at = ago_ms(age_ms), .received = true};
 }
 
 inline void hear_car(world::VehicleSignals& s) {
@@ -90,24 +90,24 @@ inline void be_somewhere(Outputs& out) {
 
 inline Outputs full() {
   Outputs out;
-  hear_car(out.heard.signals);
-  out.heard.race_control.ever_heard = true;
-  out.heard.race_control.track = world::TrackFlag::kYellow;
-  out.heard.race_control.vehicle = world::VehicleFlag::kBlue;
-  out.heard.race_control.round_target_speed_mps = 53.6;
-  out.heard.race_control.last_heartbeat_change = ago_ms(700);
-  out.heard.race_control.lap_count = 9;
-  out.heard.bus.frames_applied = 1001;
-  out.heard.bus.refused.stuck_counter = 30;
-  out.heard.bus.refused.unknown_id = 7;
-  out.heard.bus.frames_lost = 12;
-  out.heard.bus.identity = {.verdict = world::IdentityVerdict::kWrong,
-                            .difference = world::IdentityDifference::kWrongLength,
-                            .id = 1312,
-                            .database = 0x12345678'9ABCDEF0};
-  out.heard.bus.link.controller = world::ControllerState::kPassive;
-  out.heard.bus.link.lost_in_socket = 4;
-  out.heard.bus.link.lost_in_interface = 5;
+  hear_car(out.received.signals);
+  out.received.race_control.ever_received = true;
+  out.received.race_control.track = world::TrackFlag::kYellow;
+  out.received.race_control.vehicle = world::VehicleFlag::kBlue;
+  out.received.race_control.round_target_speed_mps = 53.6;
+  out.received.race_control.last_heartbeat_change = ago_ms(700);
+  out.received.race_control.lap_count = 9;
+  out.received.bus.frames_applied = 1001;
+  out.received.bus.refused.stuck_counter = 30;
+  out.received.bus.refused.unknown_id = 7;
+  out.received.bus.frames_lost = 12;
+  out.received.bus.identity = {.verdict = world::IdentityVerdict::kWrong,
+                               .difference = world::IdentityDifference::kWrongLength,
+                               .id = 1312,
+                               .database = 0x12345678'9ABCDEF0};
+  out.received.bus.link.controller = world::ControllerState::kPassive;
+  out.received.bus.link.lost_in_socket = 4;
+  out.received.bus.link.lost_in_interface = 5;
   be_somewhere(out);
   out.steered.target_speed_mps = 64.5;
   out.chosen.mode = world::Mode::kControlledStop;
@@ -123,7 +123,7 @@ inline Outputs full() {
     row = {static_cast<safety::Stream>(i), static_cast<safety::Health>(i % 5), milliseconds(5)};
   }
   hear_sensors(out.watchdog);
-  out.heard.race_control.conflict = true;
+  out.received.race_control.conflict = true;
   out.chosen.causes.add(safety::Cause::kOperatorEmergency);
   out.chosen.causes.add(safety::Cause::kRadioLost);
   out.chosen.causes.add(safety::Cause::kGnssRtkLost);
@@ -160,7 +160,7 @@ inline std::unique_ptr<Car> full_car() {
   car->plan.good_at = ago_ms(72);
   car->plan.made_with = {.track = world::TrackFlag::kOrange,
                          .vehicle = world::VehicleFlag::kDefender,
-                         .ever_heard = true};
+                         .ever_received = true};
   car->plan.output.reason = planning::Reason::kCaution;
   car->plan.output.line_offset_m = -0.5;
   car->plan.output.stop_distance_m = 210;

@@ -271,7 +271,7 @@ TEST(TelemetryTap, EveryDiagnosticHasItsOwnBit) {
     Outputs out;
     D d;
     faults[i](d);
-    receive(out.heard.signals.diagnostics, d, 0);
+    receive(out.received.signals.diagnostics, d, 0);
     EXPECT_EQ(tapped(out).values[field("electric.diagnostics")],
               std::ldexp(1.0, static_cast<int>(i)));
   }

@@ -273,7 +273,7 @@ TEST(NovatelOem7, EveryPositionLaysTheTwoClocksSideBySide) {
   EXPECT_TRUE(std::isnan(out.times[0].utc_offset_s));
   EXPECT_EQ(out.times[1].utc_offset_s, -18.0);
   EXPECT_EQ(out.times[1].gps_ns, gnss::gps_time(kWeek, milliseconds(1'050)).ns);
-  EXPECT_EQ(out.times[1].heard, Instant{seconds(4).ns}) << "as it arrived, not as it was placed";
+  EXPECT_EQ(out.times[1].received, Instant{seconds(4).ns}) << "as it arrived, not as it was placed";
 }
 
 // Nothing is refused for its stamp: what is wrong with it is there to be seen.

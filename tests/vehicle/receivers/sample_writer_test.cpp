@@ -9,9 +9,9 @@ namespace {
 TEST(SampleWriter, GivesEverySampleItsUnitAndTimeAndCountsIt) {
   SampleWriter writer{1, milliseconds(2)};
   world::SensorInput out;
-  const gnss::GpsTime said = gnss::gps_time(2190, seconds(5));
+  const gnss::GpsTime stated = gnss::gps_time(2190, seconds(5));
   for (std::size_t k = 0; k < out.headings.capacity() + 3; ++k)
-    writer.write(Stream::kHeading, said + milliseconds(50) * static_cast<std::int64_t>(k),
+    writer.write(Stream::kHeading, stated + milliseconds(50) * static_cast<std::int64_t>(k),
                  Instant{} + seconds(7) + milliseconds(50) * static_cast<std::int64_t>(k),
                  world::GnssHeading{}, out.headings, out);
   ASSERT_TRUE(out.headings.full());

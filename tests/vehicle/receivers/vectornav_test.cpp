@@ -25,7 +25,7 @@ gnss::VectorNavMessage some_imu(std::uint64_t gps_ns) {
   return m;
 }
 
-constexpr std::uint64_t kSaid = 1'324'512'000'000'000'000;
+constexpr std::uint64_t kStated = 1'324'512'000'000'000'000;
 
 TEST(VectorNav, CountsFromItsOwnStartUntilItKnowsTheTime) {
   VectorNav input{1, {}};
@@ -33,7 +33,7 @@ TEST(VectorNav, CountsFromItsOwnStartUntilItKnowsTheTime) {
   input.feed(bytes_of(some_imu(5'000'000'000)), {}, out);
   EXPECT_TRUE(out.imu.empty());
   EXPECT_EQ(input.counters().time_unknown, 1U);
-  input.feed(bytes_of(some_imu(kSaid)), {}, out);
+  input.feed(bytes_of(some_imu(kStated)), {}, out);
   ASSERT_EQ(out.imu.size(), 1U);
   EXPECT_NEAR(out.imu[0].specific_force_mps2[2], 9.8, 1e-6);
 }
@@ -41,7 +41,7 @@ TEST(VectorNav, CountsFromItsOwnStartUntilItKnowsTheTime) {
 TEST(VectorNav, AnOutputThatNobodyAskedForIsNotBelieved) {
   VectorNav input{1, {}};
   world::SensorInput out;
-  gnss::VectorNavMessage m = some_imu(kSaid);
+  gnss::VectorNavMessage m = some_imu(kStated);
   m.output = kVectorNavImu.with(gnss::vectornav::kCommonYawPitchRoll);
   m.yaw_pitch_roll_deg = {0.0F, 0.0F, 0.0F};
   input.feed(bytes_of(m), {}, out);
@@ -52,7 +52,7 @@ TEST(VectorNav, AnOutputThatNobodyAskedForIsNotBelieved) {
 TEST(VectorNav, NotANumberIsRefusedWithItsReason) {
   VectorNav input{1, {}};
   world::SensorInput out;
-  gnss::VectorNavMessage m = some_imu(kSaid);
+  gnss::VectorNavMessage m = some_imu(kStated);
   m.accel_mps2[0] = std::numeric_limits<float>::quiet_NaN();
   input.feed(bytes_of(m), {}, out);
   EXPECT_TRUE(out.imu.empty());

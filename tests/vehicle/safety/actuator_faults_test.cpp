@@ -20,7 +20,7 @@ struct Axle {
   FaultState state;
   Situation car;
   Instant now = Instant{} + seconds(10);
-  world::ActuatorCommand told{
+  world::ActuatorCommand reported{
       .at = {}, .road_wheel_rad = 0.02, .throttle_fraction = 0.4, .brake_kpa = 1000.0, .gear = 4};
   double steering_off_rad = 0.0, front_kept = 1.0, rear_kept = 1.0, throttle_off = 0.0;
   bool moves = true;
@@ -30,9 +30,10 @@ struct Axle {
     now += milliseconds(10);
     car.at(now, speed_mps);
     car.ego.yaw_rate_rad_per_s = kUnset;
-    car.signals.steering_motor_rad = {19.5 * told.road_wheel_rad + steering_off_rad, now, true};
-    car.signals.brake = {{front_kept * told.brake_kpa, rear_kept * told.brake_kpa}, now, true};
-    car.signals.throttle_fraction = {told.throttle_fraction + throttle_off, now, true};
+    car.signals.steering_motor_rad = {19.5 * reported.road_wheel_rad + steering_off_rad, now, true};
+    car.signals.brake = {
+        {front_kept * reported.brake_kpa, rear_kept * reported.brake_kpa}, now, true};
+    car.signals.throttle_fraction = {reported.throttle_fraction + throttle_off, now, true};
     return detect(params, state,
                   {.signals = car.signals,
                    .bus = car.bus,
@@ -43,7 +44,7 @@ struct Axle {
                    .control_ok = true,
                    .driving = moves,
                    .moves = moves,
-                   .told = told,
+                   .reported = reported,
                    .speed_mps = speed_mps},
                   now);
   }

@@ -35,7 +35,7 @@ struct Clocks {
       const Duration late = microseconds(1'000 + static_cast<std::int64_t>(random.below(11'000)));
       const std::int64_t gps_ns = 1'400'000'000'000'000'000 + now.ns + unit_step_ns[unit];
       EXPECT_TRUE(sensors.times.push({.unit = unit,
-                                      .heard = on_the_car(now + late),
+                                      .received = on_the_car(now + late),
                                       .gps_ns = gps_ns,
                                       .utc_offset_s = static_cast<double>(utc_offset_s)}));
     }
@@ -43,13 +43,13 @@ struct Clocks {
   }
   // Whether it was ever said within the span.
   std::array<bool, 2> run(Duration span) {
-    std::array<bool, 2> said{};
+    std::array<bool, 2> stated{};
     for (const Instant end = now + span; now < end;) {
       tick();
-      said[0] = said[0] || out.stepped;
-      said[1] = said[1] || out.skewed;
+      stated[0] = stated[0] || out.stepped;
+      stated[1] = stated[1] || out.skewed;
     }
-    return said;
+    return stated;
   }
 };
 
@@ -57,9 +57,9 @@ TEST(ClockWatch, ClocksThatAgreeSayNothingForTenMinutes) {
   for (const double ppm : {-30.0, 0.0, 30.0}) {
     Clocks c;
     c.fast_ppm = ppm;
-    const auto said = c.run(seconds(600));
-    EXPECT_FALSE(said[0]) << ppm;
-    EXPECT_FALSE(said[1]) << ppm;
+    const auto stated = c.run(seconds(600));
+    EXPECT_FALSE(stated[0]) << ppm;
+    EXPECT_FALSE(stated[1]) << ppm;
     EXPECT_NEAR(c.out.skew_ppm, ppm, 25.0);
   }
 }
@@ -116,7 +116,7 @@ TEST(ClockWatch, WhatWaitedWhileTheCarSleptIsNoStep) {
   world::SensorInput sensors;
   for (; c.now < woke; c.now += milliseconds(50))
     if (!sensors.times.push({.unit = 0,
-                             .heard = woke,
+                             .received = woke,
                              .gps_ns = 1'400'000'000'000'000'000 + c.now.ns,
                              .utc_offset_s = -18.0}))
       break;
@@ -130,7 +130,7 @@ TEST(ClockWatch, AUnitThatSaysNothingHasNoSayAndAStrangerIsIgnored) {
   EXPECT_FALSE(c.run(seconds(60))[0]);
   EXPECT_TRUE(std::isnan(c.out.skew_ppm));
   world::SensorInput sensors;
-  EXPECT_TRUE(sensors.times.push({.unit = 7, .heard = c.now, .gps_ns = 5, .utc_offset_s = 0.0}));
+  EXPECT_TRUE(sensors.times.push({.unit = 7, .received = c.now, .gps_ns = 5, .utc_offset_s = 0.0}));
   watch_clock(c.params, c.state, sensors, c.now);
   EXPECT_FALSE(c.state.units[0].started || c.state.units[1].started);
 }

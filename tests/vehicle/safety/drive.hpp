@@ -25,7 +25,7 @@ struct Drive {
   const SupervisorOutput& tick() {
     now += milliseconds(10);
     car.at(now, speed_mps);
-    if (!wheels_known) car.signals.wheel_speed_mps.heard = false;
+    if (!wheels_known) car.signals.wheel_speed_mps.received = false;
     out = supervise(params, state,
                     {.signals = car.signals,
                      .bus = car.bus,

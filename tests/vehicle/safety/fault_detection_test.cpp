@@ -380,9 +380,9 @@ TEST(FaultDetection, NominalJitterAndShortLossesAreNoDeadBus) {
 TEST(FaultDetection, DriveByWireThatWasNeverHeardSaysNothing) {
   Doctor d;
   d.car.signals.diagnostics.value.system_failure = true;
-  d.car.signals.diagnostics.heard = false;
+  d.car.signals.diagnostics.received = false;
   d.car.signals.misc.value.sys_state = SysState::kEmergencyShutdown;
-  d.car.signals.misc.heard = false;
+  d.car.signals.misc.received = false;
   EXPECT_TRUE(d.examine().causes.empty()) << "its stream is down: that is the cause";
 }
 

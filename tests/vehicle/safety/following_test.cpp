@@ -21,8 +21,8 @@ struct Actuator {
   double value = 0.0;
   std::deque<double> waiting{};
 
-  double step(double told) {
-    waiting.push_back(told);
+  double step(double reported) {
+    waiting.push_back(reported);
     if (static_cast<double>(waiting.size()) <= delay_s / kTick.seconds()) return value;
     const double aim = fault(waiting.front());
     waiting.pop_front();
@@ -37,15 +37,15 @@ struct Pair {
   Actuator actuator{};
   Instant now = Instant{} + seconds(1);
 
-  double tick(double told) {
-    const Instant heard_at = now;
-    const double feedback = actuator.step(told);
+  double tick(double reported) {
+    const Instant received_at = now;
+    const double feedback = actuator.step(reported);
     now += kTick;
-    return straying(limits, state, told, {feedback, heard_at, true}, now);
+    return straying(limits, state, reported, {feedback, received_at, true}, now);
   }
-  double run(double told, Duration span) {
+  double run(double reported, Duration span) {
     double worst = 0.0;
-    for (const Instant end = now + span; now < end;) worst = std::max(worst, tick(told));
+    for (const Instant end = now + span; now < end;) worst = std::max(worst, tick(reported));
     return worst;
   }
 };
@@ -57,14 +57,14 @@ TEST(Following, WhateverIsAskedAHealthyActuatorNeverStrays) {
     Pair p;
     p.actuator.delay_s = random.between(0.0, 0.06);
     p.actuator.lag_s = random.between(0.01, 0.08);
-    double told = 0.0;
+    double reported = 0.0;
     for (int i = 0; i < 2'000; ++i) {
       const int kind = (i / 200) % 4;
-      if (kind == 0 && i % 50 == 0) told = random.between(-1.0, 1.0);
-      if (kind == 1) told += 0.02;
-      if (kind == 2) told = std::sin(0.05 * i * (1 + car % 5));
-      if (kind == 3) told = random.between(-0.3, 0.3);
-      ASSERT_EQ(p.tick(told), 0.0) << car << ' ' << i;
+      if (kind == 0 && i % 50 == 0) reported = random.between(-1.0, 1.0);
+      if (kind == 1) reported += 0.02;
+      if (kind == 2) reported = std::sin(0.05 * i * (1 + car % 5));
+      if (kind == 3) reported = random.between(-0.3, 0.3);
+      ASSERT_EQ(p.tick(reported), 0.0) << car << ' ' << i;
     }
   }
 }

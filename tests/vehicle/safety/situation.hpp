@@ -35,16 +35,16 @@ struct Situation {
     for (std::size_t i = 0; i < kStreams; ++i)
       watchdog.rows[i] = {static_cast<Stream>(i), Health::kGood, milliseconds(5)};
     bus.identity.verdict = world::IdentityVerdict::kRight;
-    race_control.ever_heard = true;
+    race_control.ever_received = true;
     race_control.track = world::TrackFlag::kGreen;
     race_control.vehicle = world::VehicleFlag::kNone;
     ego.validity = world::Validity::kGood;
     ego.position_sigma_m = 0.05;
     ego.ax_mps2 = ego.ay_mps2 = 0.0;
     signals.misc = {{.battery_v = 12.5, .sys_state = world::SysState::kDriving}, {}, true};
-    signals.diagnostics.heard = true;
+    signals.diagnostics.received = true;
     signals.steering_motor_rad = {0.0, {}, true};
-    signals.powertrain.heard = true;
+    signals.powertrain.received = true;
     signals.powertrain.value.gear = 1;
     control = {
         .at = {}, .road_wheel_rad = 0.01, .throttle_fraction = 0.3, .brake_kpa = 0.0, .gear = 1};

@@ -41,15 +41,15 @@ struct Executive {
   void speak(std::uint8_t unit, world::SensorInput& out) {
     const Unit& u = units[unit];
     if (!u.speaks) return;
-    const Instant heard = now - microseconds(static_cast<std::int64_t>(random.below(9'000)));
-    byte_at[unit] = heard;
+    const Instant received = now - microseconds(static_cast<std::int64_t>(random.below(9'000)));
+    byte_at[unit] = received;
     if (u.imu) {
-      EXPECT_TRUE(out.imu.push({.unit = unit, .at = heard - milliseconds(2)}));
+      EXPECT_TRUE(out.imu.push({.unit = unit, .at = received - milliseconds(2)}));
     }
     const bool due = ticks % 5 == unit && (ticks / 5) % u.every == 0;
     if (!due || !u.positions) return;
     EXPECT_TRUE(out.positions.push({.unit = unit,
-                                    .at = heard - milliseconds(30),
+                                    .at = received - milliseconds(30),
                                     .solution_status = u.status,
                                     .position_type = u.type,
                                     .latitude_sigma_m = u.sigma_m,
@@ -117,12 +117,12 @@ TEST(StopRules, ADayWithoutFaultsHasNone) {
   EXPECT_TRUE(e.tick()
                   .at_least(Reaction::kCoast)
                   .without([] {
-                    CauseSet unheard;  // what this bench does not play
+                    CauseSet unreceived;  // what this bench does not play
                     for (const Cause cause :
                          {Cause::kBusMessageLost, Cause::kPlanLost, Cause::kRaceControlLost,
                           Cause::kRadioLost, Cause::kDisarmRequest, Cause::kBusDead})
-                      unheard.add(cause);
-                    return unheard;
+                      unreceived.add(cause);
+                    return unreceived;
                   }())
                   .empty());
 }

@@ -172,14 +172,14 @@ TEST(Supervisor, GoNeedsFlagsThatLetRollAndTheDriveByWireReady) {
   unplanned.car.requests.arm = true;
   unplanned.run(seconds(1));
   EXPECT_EQ(unplanned.out.mode, Mode::kStandby);
-  Drive unheard;
-  unheard.car.signals.misc.heard = false;
-  unheard.car.requests.arm = true;
-  unheard.run(seconds(1));
-  EXPECT_EQ(unheard.out.mode, Mode::kStandby);
-  unheard.params.go_needs_driving_state = false;
-  unheard.run(seconds(1));
-  EXPECT_EQ(unheard.out.mode, Mode::kDriving);
+  Drive unreceived;
+  unreceived.car.signals.misc.received = false;
+  unreceived.car.requests.arm = true;
+  unreceived.run(seconds(1));
+  EXPECT_EQ(unreceived.out.mode, Mode::kStandby);
+  unreceived.params.go_needs_driving_state = false;
+  unreceived.run(seconds(1));
+  EXPECT_EQ(unreceived.out.mode, Mode::kDriving);
   Drive alone;  // a test day without race control
   alone.params.faults.race_control_required = false;
   alone.car.race_control = {};
@@ -280,7 +280,7 @@ TEST(Supervisor, AnEgoStateWithoutSpeedGivesNoNonsenseInAnEmergency) {
   for (int i = 0; i < 100; ++i) {
     d.now += milliseconds(10);
     d.car.at(d.now, kUnset);
-    d.car.signals.wheel_speed_mps.heard = false;
+    d.car.signals.wheel_speed_mps.received = false;
     const SupervisorOutput out =
         supervise(d.params, d.state,
                   {d.car.signals, d.car.bus, d.car.race_control, d.car.ego, d.car.watchdog,
@@ -307,7 +307,7 @@ TEST(Supervisor, ALaterEmergencyHardensTheStopAndTheFirstCauseStays) {
 TEST(Supervisor, AnEmergencyInStandbyHaltsAndIsNamed) {
   Drive d;
   d.car.race_control.track = world::TrackFlag::kRed;
-  d.car.signals.steering_motor_rad.heard = d.car.signals.powertrain.heard = false;
+  d.car.signals.steering_motor_rad.received = d.car.signals.powertrain.received = false;
   d.car.requests.arm = true;
   d.run(milliseconds(50));
   ASSERT_EQ(d.out.mode, Mode::kStandby);

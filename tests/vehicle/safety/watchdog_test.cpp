@@ -96,7 +96,7 @@ void feed(Kennel& k, Stream stream, Instant at) {
       k.signals.diagnostics = {{}, at, true};
       return;
     case Stream::kRaceControl:
-      k.race_control.ever_heard = true;
+      k.race_control.ever_received = true;
       k.race_control.last_heartbeat_change = at;
       return;
     case Stream::kPlanner:
@@ -115,9 +115,9 @@ TEST(Watchdog, EachStreamIsJudgedByItsAgeToTheNanosecond) {
     const StreamLimit& limit = k.params.limits[i];
     EXPECT_LT(limit.warning, limit.bad) << limit.name;
     EXPECT_EQ(k.watch(Instant{} + seconds(9))[stream].health, Health::kNever) << limit.name;
-    const Instant heard = Instant{} + seconds(10);
-    feed(k, stream, heard);
-    const auto at = [&](Duration age) { return k.watch(heard + age)[stream]; };
+    const Instant received = Instant{} + seconds(10);
+    feed(k, stream, received);
+    const auto at = [&](Duration age) { return k.watch(received + age)[stream]; };
     EXPECT_EQ(at({}).health, Health::kGood) << limit.name;
     EXPECT_EQ(at(limit.warning).health, Health::kGood) << limit.name;
     EXPECT_EQ(at(limit.warning + nanoseconds(1)).health, Health::kWarning) << limit.name;

@@ -26,7 +26,7 @@ TEST(TyreGrip, RisesWithTheTemperatureBetweenItsRowsAndUnknownIsCold) {
 
 TEST(TyreGrip, TheColdestTyreCountsAndAnyThatIsNotKnownMakesAllUnknown) {
   const Instant now = Instant{} + seconds(100);
-  Heard<PerWheel> tyres{{{80.0, 41.0, 79.0, 90.0}}, now, true};
+  Received<PerWheel> tyres{{{80.0, 41.0, 79.0, 90.0}}, now, true};
   EXPECT_EQ(coldest_c(tyres, now), 41.0);
   EXPECT_EQ(coldest_c(tyres, now + kTyreAgeMax), 41.0);
   EXPECT_TRUE(std::isnan(coldest_c(tyres, now + kTyreAgeMax + milliseconds(1))));

@@ -118,8 +118,8 @@ bool conclude(const Intake& in, const Evidence& e, const Sample& sample, const M
   if (fuse(in, e.source, m) || !in.state.started) return true;
   // The filter itself refused what had passed: a jump that only it can see.
   Stream& stream = in.stream(e.source, sample.unit);
-  const Verdict& told = in.out.verdicts[in.out.verdicts.size() - 1];
-  if (told.gate == Gate::kOutlier) see_jump(in, stream, told.nis > kNisBeyondChance);
+  const Verdict& reported = in.out.verdicts[in.out.verdicts.size() - 1];
+  if (reported.gate == Gate::kOutlier) see_jump(in, stream, reported.nis > kNisBeyondChance);
   stream.trust.refuse(in.params.checks);
   return true;
 }

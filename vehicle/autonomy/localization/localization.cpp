@@ -91,7 +91,7 @@ void watch_inertial(const Intake& in) {
   const WheelState& wheels = in.state.wheels;
   const Moment* moment = in.state.trail.newest();
   const bool fresh =
-      wheels.heard && (in.now - wheels.at).seconds() <= in.params.checks.wheel_gap_max_s;
+      wheels.received && (in.now - wheels.at).seconds() <= in.params.checks.wheel_gap_max_s;
   ImuWitness witness;
   witness.bank_rad = in.bank_rad();
   if (moment) witness.speed_mps = moment->speed_mps;
@@ -134,8 +134,8 @@ void watch_streams(const Intake& in) {
   for (const Source source : kWatched) {
     for (std::uint8_t unit = 0; unit < world::kGnssUnits; ++unit) {
       Stream& stream = in.stream(source, unit);
-      if (!stream.trust.heard || !in.use.uses(excludable(source, unit))) continue;
-      if (!late(stream.trust.heard_at, source)) continue;
+      if (!stream.trust.received || !in.use.uses(excludable(source, unit))) continue;
+      if (!late(stream.trust.received_at, source)) continue;
       stream.verdict = Gate::kSilent;
       stream.comparable = false;
       stream.seen = {};
@@ -143,7 +143,7 @@ void watch_streams(const Intake& in) {
     }
   }
   WheelState& wheels = in.state.wheels;
-  if (!wheels.heard || !late(wheels.at, Source::kWheelSpeed)) return;
+  if (!wheels.received || !late(wheels.at, Source::kWheelSpeed)) return;
   wheels.verdict = Gate::kSilent;
   wheels.seen.add(Monitor::kStreamAge);
 }

@@ -54,7 +54,7 @@ struct Surroundings {
 struct WheelState {
   WheelWatch watch;
   WheelScale scale;
-  bool heard = false;
+  bool received = false;
   Instant at{};               // of the newest report
   double speed_mps = kUnset;  // without the error of the wheels' scale
   double accel_mps2 = 0.0;    // low-passed: the longitudinal force when no IMU says it

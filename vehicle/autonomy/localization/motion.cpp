@@ -67,7 +67,7 @@ double unknown_scale(const FilterParams& p) {
 
 void follow_speed(WheelState& wheels, double speed_mps, Instant at) {
   const double since_s = (at - wheels.at).seconds();
-  if (wheels.heard && std::isfinite(wheels.speed_mps) && since_s > 0.0) {
+  if (wheels.received && std::isfinite(wheels.speed_mps) && since_s > 0.0) {
     const double accel = std::clamp((speed_mps - wheels.speed_mps) / since_s, -kWheelAccelMax_mps2,
                                     kWheelAccelMax_mps2);
     const double share = std::min(since_s / kWheelAccelLag_s, 1.0);
@@ -119,15 +119,15 @@ void take(const Intake& in, const world::ImuSample& sample) {
 }
 
 void take_wheels(const Intake& in, const world::VehicleSignals& car) {
-  const world::Heard<world::PerWheel>& report = car.wheel_speed_mps;
+  const world::Received<world::PerWheel>& report = car.wheel_speed_mps;
   WheelState& wheels = in.state.wheels;
-  if (!report.heard) return;
+  if (!report.received) return;
   if (!in.use.uses(Excludable::kWheels)) {
     wheels = {};
     wheels.verdict = Gate::kExcluded;
     return;
   }
-  if (wheels.heard && report.at <= wheels.at) return;
+  if (wheels.received && report.at <= wheels.at) return;
   Gate gate = timing(in, report.at);
   WheelSpeed judged;
   if (gate == Gate::kAccepted) {
@@ -138,16 +138,16 @@ void take_wheels(const Intake& in, const world::VehicleSignals& car) {
   }
   if (gate != Gate::kAccepted) {
     wheels.at = report.at;
-    wheels.heard = true;
+    wheels.received = true;
     wheels.speed_mps = kUnset;
     return record_verdict(in, Source::kWheelSpeed, 0, report.at, gate);
   }
   const CheckParams& checks = in.params.checks;
-  const double since_s = wheels.heard ? (report.at - wheels.at).seconds() : 0.0;
+  const double since_s = wheels.received ? (report.at - wheels.at).seconds() : 0.0;
   learn(checks, wheels.scale, judged.speed_mps, by_receivers_mps(in), wheels.accel_mps2, since_s);
   follow_speed(wheels, without_scale(checks, wheels.scale, judged.speed_mps), report.at);
   wheels.at = report.at;
-  wheels.heard = true;
+  wheels.received = true;
   const bool fused = fuse(in, Source::kWheelSpeed,
                           {.kind = Kind::kWheelSpeed,
                            .at = report.at,

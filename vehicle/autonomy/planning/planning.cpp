@@ -199,7 +199,7 @@ Result<Line, Problem> prepare(const Params& params, const world::TrackMap& track
 
 SpeedDemand demanded_speed(const Params& params, const world::RaceControl& race_control,
                            double operator_speed_limit_mps) {
-  if (!race_control.ever_heard) return {0.0, Reason::kNoRaceControl};
+  if (!race_control.ever_received) return {0.0, Reason::kNoRaceControl};
   SpeedDemand demand = by_track_flag(params, race_control);
   const SpeedDemand vehicle = by_vehicle_flag(params, race_control.vehicle);
   if (vehicle.speed_mps < demand.speed_mps) demand = vehicle;

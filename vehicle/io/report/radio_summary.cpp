@@ -19,10 +19,10 @@ std::uint64_t sum(const Counts& counts) {
 
 std::string path_json(const telemetry::PathReport& path) {
   json::Object out;
-  out.number("received", path.heard.received);
-  out.number("lost", path.heard.lost);
-  out.number("late", path.heard.late);
-  out.number("delay_p99_us", whole_us(path.heard.delay_p99));
+  out.number("received", path.received.received);
+  out.number("lost", path.received.lost);
+  out.number("late", path.received.late);
+  out.number("delay_p99_us", whole_us(path.received.delay_p99));
   out.number("sent", path.spent.packets);
   out.number("sent_bytes", path.spent.bytes);
   out.number("budget_refused", path.spent.refused);

@@ -19,7 +19,7 @@ class Pace {
   static constexpr std::int64_t kAtOnce = 60, kPerSecond = 20;
   static constexpr Duration kEach = seconds(1) / kPerSecond;
 
-  void heard(Instant now) { free_at_ = std::max(free_at_, now) + kEach; }
+  void receive(Instant now) { free_at_ = std::max(free_at_, now) + kEach; }
   // Until the next may be read; none or less: now.
   Duration rest(Instant now) const { return free_at_ - now - kEach * (kAtOnce - 1); }
 

@@ -24,7 +24,7 @@ std::optional<WaitingRoom::Connection> WaitingRoom::enter(Connection connection,
   return gone;
 }
 
-void WaitingRoom::heard(Connection connection) {
+void WaitingRoom::receive(Connection connection) {
   const auto found = std::ranges::find(waiting_, connection, &Entry::connection);
   if (found != waiting_.end()) waiting_.splice(waiting_.end(), waiting_, found);
 }

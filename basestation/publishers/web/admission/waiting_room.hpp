@@ -20,7 +20,7 @@ class WaitingRoom {
   static constexpr std::size_t kPerAddress = 64, kInAll = 128;
 
   std::optional<Connection> enter(Connection connection, std::uint32_t address);
-  void heard(Connection connection);
+  void receive(Connection connection);
   void leave(Connection connection);
   std::size_t size() const { return waiting_.size(); }
 

@@ -43,9 +43,9 @@ struct Reading {
   // Types of what is new, in order.
   std::string news() {
     std::string types;
-    for (const Told& told : book.news()) {
-      types += (types.empty() ? "" : " ") + told.type;
-      EXPECT_TRUE(JsonValue::parse(told.text, "told")) << told.text;
+    for (const Reported& reported : book.news()) {
+      types += (types.empty() ? "" : " ") + reported.type;
+      EXPECT_TRUE(JsonValue::parse(reported.text, "told")) << reported.text;
     }
     return types;
   }

@@ -24,13 +24,13 @@ struct Both {
   BenchLink link{path};
   std::optional<transport::LineListener> listener;
   std::optional<transport::LineSocket> server;
-  std::vector<Told> told;
+  std::vector<Reported> reported;
   std::vector<std::pair<int, std::string>> refused;
   Instant now{seconds(50).ns};
 
   Both() {
     link.observe_by(
-        {.publish = [this](const Told& one, Instant) { told.push_back(one); },
+        {.publish = [this](const Reported& one, Instant) { reported.push_back(one); },
          .refused = [this](std::uint8_t client, const Problem& problem,
                            Instant) { refused.emplace_back(client, to_string(problem)); }});
   }
@@ -50,7 +50,7 @@ struct Both {
   }
   JsonValue state() {
     JsonValue newest;
-    for (const Told& one : told)
+    for (const Reported& one : reported)
       if (one.type == "bench") newest = *JsonValue::parse(one.text, "state");
     return newest;
   }
@@ -130,15 +130,15 @@ TEST(BenchLink, AFastRunIsToldFiveTimesASecond) {
   both.server->send(R"({"type": "run", "run": 1, "seed": 1, "state": "running", "scenario": "a",)"
                     R"("name": "a", "mode": "lockstep"})");
   both.pass(seconds(1));
-  both.told.clear();
+  both.reported.clear();
   for (int i = 0; i < 20; ++i) {
     for (int k = 0; k < 10; ++k)
       both.server->send(R"({"run": 1, "type": "at", "t_s": 1, "cross_track": [],)"
                         R"("expect": [], "reactions": []})");
     both.pass(BenchLink::kLook);
   }
-  EXPECT_LE(both.told.size(), 6U);
-  EXPECT_GE(both.told.size(), 4U);
+  EXPECT_LE(both.reported.size(), 6U);
+  EXPECT_GE(both.reported.size(), 4U);
 }
 
 TEST(BenchLink, AWishReadsAsALineOfTheAudit) {

@@ -20,7 +20,7 @@ class Clients : public ::testing::Test {
     clients_.take();
   }
   // Types of the texts for this client since the last call; "#" for a frame.
-  std::vector<std::string> told(ClientId client) {
+  std::vector<std::string> reported(ClientId client) {
     std::vector<std::string> types;
     for (const Sending& sending : clients_.take()) {
       if (!sending.to.test(client)) continue;
@@ -30,7 +30,7 @@ class Clients : public ::testing::Test {
     return types;
   }
   std::optional<Request> says(ClientId client, const std::string& text) {
-    return clients_.said(client, text, eyes_, kNow);
+    return clients_.stated(client, text, eyes_, kNow);
   }
   using Types = std::vector<std::string>;
 
@@ -46,7 +46,7 @@ TEST_F(Clients, WhoJoinsIsToldWhoItIsThenWhatThereIs) {
   clients_.take();
   clients_.joined(18, {.role = Role::kViewer, .name = {}}, kNow);
   clients_.serve(eyes_, {}, kNow);
-  const Types types = told(18);
+  const Types types = reported(18);
   ASSERT_EQ(types.size(), 3 + service::MessageLog::kLines + 1);
   EXPECT_EQ(types[0], "hello");
   EXPECT_EQ(types[1], "catalogue");
@@ -82,19 +82,19 @@ TEST_F(Clients, ALineThatIsSaidWhileSomebodyComesIsToldAfterTheEarlierOnes) {
   clients_.take();
   clients_.joined(18, {.role = Role::kViewer, .name = {}}, kNow);
   messages_.add_line("mark", R"({"type": "mark"})", kNow);
-  EXPECT_EQ(told(18), (Types{"hello", "catalogue", "audit", "mark"}));
+  EXPECT_EQ(reported(18), (Types{"hello", "catalogue", "audit", "mark"}));
 }
 
 TEST_F(Clients, AViewerLooksOnly) {
   EXPECT_FALSE(says(kGarage, R"({"type":"stop","kind":"emergency"})"));
-  EXPECT_EQ(told(kGarage), Types{"error"});
+  EXPECT_EQ(reported(kGarage), Types{"error"});
   EXPECT_TRUE(says(kAnna, R"({"type":"stop","kind":"emergency"})"));
   EXPECT_TRUE(says(kGarage, R"({"type":"mark","text":"here"})"));
 }
 
 TEST_F(Clients, AnErrorIsToldToItsConsoleOnly) {
   EXPECT_FALSE(says(kAnna, "{"));
-  clients_.said_binary(kAnna);
+  clients_.stated_binary(kAnna);
   const auto sendings = clients_.take();
   ASSERT_EQ(sendings.size(), 2u);
   for (const Sending& sending : sendings) EXPECT_EQ(sending.to, web::ClientSet{}.set(kAnna));
@@ -103,9 +103,9 @@ TEST_F(Clients, AnErrorIsToldToItsConsoleOnly) {
 
 TEST_F(Clients, HistoryIsAFrameForWhoAsked) {
   EXPECT_FALSE(says(kGarage, R"({"type":"history","field":0,"from_s":60,"to_s":0,"points":500})"));
-  EXPECT_EQ(told(kGarage), Types{"#"});
+  EXPECT_EQ(reported(kGarage), Types{"#"});
   says(kGarage, R"({"type":"history","field":9999,"from_s":60,"to_s":0,"points":500})");
-  EXPECT_EQ(told(kGarage), Types{"error"});
+  EXPECT_EQ(reported(kGarage), Types{"error"});
 }
 
 TEST_F(Clients, WhoLeftIsToldNothingAndSaysNothing) {
@@ -119,9 +119,9 @@ TEST_F(Clients, WhoLeftIsToldNothingAndSaysNothing) {
 
 TEST_F(Clients, HelloComesAgainWhenTheCarIsMet) {
   clients_.identify({.car = 7, .name = "x", .mode = "REAL", .alarm_config = "1"}, kNow);
-  EXPECT_EQ(told(kAnna), Types{"hello"});
+  EXPECT_EQ(reported(kAnna), Types{"hello"});
   clients_.identify({.car = 7, .name = "x", .mode = "REAL", .alarm_config = "1"}, kNow);
-  EXPECT_EQ(told(kAnna), Types{});
+  EXPECT_EQ(reported(kAnna), Types{});
 }
 
 }  // namespace

@@ -47,12 +47,12 @@ class Consoles : public ::testing::Test {
   }
   // What the console does not read yet waits in its socket.
   json::JsonValue receive(Browser& browser, const std::string& type) {
-    while (const auto heard = browser.receive()) {
-      if (!heard->text) {
-        take(heard->bytes);
+    while (const auto received = browser.receive()) {
+      if (!received->text) {
+        take(received->bytes);
         continue;
       }
-      const auto value = json::JsonValue::parse(heard->bytes, "text");
+      const auto value = json::JsonValue::parse(received->bytes, "text");
       if (value && value->text("type") == type) return *value;
     }
     ADD_FAILURE() << "closed before " << type;
@@ -70,9 +70,9 @@ class Consoles : public ::testing::Test {
   }
   // Says it, lets the base act, and gives the next text of this type.
   json::JsonValue ask(Browser& browser, const std::string& text, const std::string& type) {
-    const std::uint64_t before = server_->counters().texts_heard;
+    const std::uint64_t before = server_->counters().texts_received;
     browser.say(text);
-    while (server_->counters().texts_heard == before) run(milliseconds(1));
+    while (server_->counters().texts_received == before) run(milliseconds(1));
     run(milliseconds(200));
     return receive(browser, type);
   }
@@ -116,15 +116,15 @@ TEST_F(Consoles, ACommandGoesThroughTheDesk) {
   const std::string stage = R"({"type":"stage","name":"sensors excluded","argument":2})";
   const auto without = ask(browser, stage, "command");
   EXPECT_EQ(without.text("step"), "staged") << "a gate has not passed";
-  EXPECT_TRUE(rig_.told.empty());
+  EXPECT_TRUE(rig_.reported.empty());
   ask(browser, R"({"type":"authority","do":"take"})", "authority");
   const auto staged = ask(browser, stage, "command");
   const auto sent = ask(browser,
                         R"({"type":"send","ticket":)" +
                             std::to_string(static_cast<int>(staged.number("ticket"))) + "}",
                         "command");
-  ASSERT_EQ(rig_.told.size(), 1u);
-  EXPECT_EQ(rig_.told[0].command.argument, 2.0);
+  ASSERT_EQ(rig_.reported.size(), 1u);
+  EXPECT_EQ(rig_.reported[0].command.argument, 2.0);
   EXPECT_EQ(ask(browser, R"({"type":"stage","name":"fly","argument":2})", "error").text("place"),
             "stage.name");
   EXPECT_EQ(ask(browser, R"({"type":"playback","speed":2})", "error").text("place"), "playback");
@@ -149,20 +149,22 @@ TEST_F(Consoles, WhatTheHolderSetsIsToldToAll) {
   Browser browser;
   join(browser);
   ask(browser, R"({"type":"authority","do":"take"})", "authority");
-  json::JsonValue told = ask(browser, R"({"type":"fuel_loaded","litres":40})", "expected");
-  while (!(told.number("fuel_loaded_l") == 40.0)) told = receive(browser, "expected");
-  told = ask(browser,
-             R"({"type":"edit_limit","field":"electric.battery","bad_low":11,"reason":"old one"})",
-             "settings");
-  while (!(told.number("revision") == 1.0)) told = receive(browser, "settings");
-  EXPECT_FALSE(told.flag("kept")) << "there is no file";
+  json::JsonValue reported = ask(browser, R"({"type":"fuel_loaded","litres":40})", "expected");
+  while (!(reported.number("fuel_loaded_l") == 40.0)) reported = receive(browser, "expected");
+  reported =
+      ask(browser,
+          R"({"type":"edit_limit","field":"electric.battery","bad_low":11,"reason":"old one"})",
+          "settings");
+  while (!(reported.number("revision") == 1.0)) reported = receive(browser, "settings");
+  EXPECT_FALSE(reported.flag("kept")) << "there is no file";
   EXPECT_EQ(rig_.base->evaluator().limits().of(state::field_id("electric.battery")).bad_low, 11.0);
   // A set of values; the other one stays as it was.
   constexpr state::FieldId kMode = state::field_id("mode.mode");
   const alarms::Limit before = rig_.base->evaluator().limits().of(kMode);
-  told = ask(browser, R"({"type":"edit_limit","field":"mode.mode","bad_values":[3],"reason":"x"})",
-             "settings");
-  EXPECT_EQ(told.number("revision"), 2.0);
+  reported =
+      ask(browser, R"({"type":"edit_limit","field":"mode.mode","bad_values":[3],"reason":"x"})",
+          "settings");
+  EXPECT_EQ(reported.number("revision"), 2.0);
   EXPECT_EQ(rig_.base->evaluator().limits().of(kMode).bad_values, 1U << 3);
   EXPECT_EQ(rig_.base->evaluator().limits().of(kMode).warning_values, before.warning_values);
   EXPECT_EQ(
@@ -213,14 +215,14 @@ TEST_F(Consoles, HistoryLooksBack) {
   join(browser);
   browser.say(R"({"type":"history","field":)" + std::to_string(field("ego.x")) +
               R"(,"from_s":60,"to_s":0,"points":1000})");
-  while (server_->counters().texts_heard == 0) run(milliseconds(1));
+  while (server_->counters().texts_received == 0) run(milliseconds(1));
   run(milliseconds(5));
-  while (const auto heard = browser.receive()) {
-    if (heard->text || heard->bytes[0] != 2) continue;
+  while (const auto received = browser.receive()) {
+    if (received->text || received->bytes[0] != 2) continue;
     std::uint32_t points = 0;
-    std::memcpy(&points, heard->bytes.data() + web::kFrameHeader + 4, sizeof points);
+    std::memcpy(&points, received->bytes.data() + web::kFrameHeader + 4, sizeof points);
     EXPECT_GT(points, 200u);
-    EXPECT_EQ(heard->bytes.size(), web::kFrameHeader + 8 + points * web::kHistoryPoint);
+    EXPECT_EQ(received->bytes.size(), web::kFrameHeader + 8 + points * web::kHistoryPoint);
     return;
   }
   ADD_FAILURE() << "no history";

@@ -17,15 +17,15 @@ constexpr Instant kStart{seconds(100).ns};
 // The loop at its wake-ups: what was told at each, if anything.
 struct PauseListener {
   PauseReport report;
-  std::vector<json::JsonValue> told;
+  std::vector<json::JsonValue> reported;
 
   bool hears(Duration now, Duration total, Instant at = kStart) {
     const auto text = report.news(BenchPause{.now = now, .total = total}, at);
-    if (text) told.push_back(json_of(*text));
+    if (text) reported.push_back(json_of(*text));
     return text.has_value();
   }
-  double stands_ms() const { return told.back().number("stands_ms"); }
-  double stood_ms() const { return told.back().number("stood_ms"); }
+  double stands_ms() const { return reported.back().number("stands_ms"); }
+  double stood_ms() const { return reported.back().number("stood_ms"); }
 };
 
 TEST(PauseReport, OfTheWallClockThereIsNothingToTell) {
@@ -36,8 +36,8 @@ TEST(PauseReport, OfTheWallClockThereIsNothingToTell) {
 TEST(PauseReport, TellsAtOnceThatTheTimeIsABenchs) {
   PauseListener console;
   ASSERT_TRUE(console.hears({}, milliseconds(7)));
-  EXPECT_EQ(console.told.back().text("type"), "bench_time");
-  EXPECT_EQ(console.told.back().number("time_ms"), 100'000.0);
+  EXPECT_EQ(console.reported.back().text("type"), "bench_time");
+  EXPECT_EQ(console.reported.back().number("time_ms"), 100'000.0);
   EXPECT_EQ(console.stands_ms(), 0.0);
   EXPECT_EQ(console.stood_ms(), 7.0);
 }

@@ -118,9 +118,9 @@ TEST(SegmentName, HasTheTimeOfItsBegin) {
 
 TEST_F(RecordingFolder, TheListIsShownAndEndsAtOnce) {
   std::promise<std::string> first;
-  bool told = false;
+  bool reported = false;
   const RecordingList list{folder_->path(), "", [&](std::string text) {
-                             if (!std::exchange(told, true)) first.set_value(std::move(text));
+                             if (!std::exchange(reported, true)) first.set_value(std::move(text));
                            }};
   EXPECT_NE(first.get_future().get().find("\"recordings\": []"), std::string::npos);
 }

@@ -18,7 +18,7 @@ TEST(Snapshots, TheFirstIsWhole) {
   Snapshots snapshots;
   const auto frame = snapshots.make(eyes, kNow);
   ASSERT_TRUE(frame);
-  EXPECT_EQ(frame->count, told_fields().size());
+  EXPECT_EQ(frame->count, reported_fields().size());
   EXPECT_EQ(frame->flags & web::kFullPicture, web::kFullPicture);
   EXPECT_EQ(frame->entries.size(), frame->count * web::kSnapshotEntry);
 }
@@ -32,7 +32,7 @@ TEST(Snapshots, PacketsOfFiftyASecondMakeTwentyFiveFramesEachAtItsPacket) {
     const bool packet = tick % 20 == 7;
     if (packet) {
       eyes.show(field("ego.x"), tick, now);
-      snapshots.heard();
+      snapshots.receive();
     }
     if (!packet && now < snapshots.due()) continue;
     if (!snapshots.make(eyes, now)) continue;
@@ -61,10 +61,10 @@ TEST(Snapshots, ASafetyValueIsToldAtOnceAndItsAgeIsNot) {
   ASSERT_TRUE(snapshots.make(eyes, kNow));
   eyes.show(field("mode.mode"), 2.0, kNow + milliseconds(5));
   eyes.show(field("uplink.link_age"), 0.2, kNow + milliseconds(5));
-  snapshots.heard();
+  snapshots.receive();
   EXPECT_FALSE(snapshots.make(eyes, kNow + milliseconds(5)));
   eyes.show(field("mode.mode"), 3.0, kNow + milliseconds(6));
-  snapshots.heard();
+  snapshots.receive();
   const auto frame = snapshots.make(eyes, kNow + milliseconds(6));
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->flags, web::kAtOnce);
@@ -86,7 +86,7 @@ TEST(Snapshots, WhatIsToldAddsUpToTheWholePicture) {
     const Instant now = kNow + milliseconds(40) * round;
     eyes.show(field("ego.x"), round / 3, now);
     if (round % 7 == 0) eyes.show(field("tyres.pressure_rear_left"), round, now);
-    snapshots.heard();
+    snapshots.receive();
     const auto frame = snapshots.make(eyes, now);
     ASSERT_TRUE(frame);
     take(*frame);

@@ -38,7 +38,7 @@ TEST(Feed, WhatIsPushedIsTakenOnceAndInOrder) {
   const Sample& sample = *std::get<std::unique_ptr<const Sample>>(items[0]);
   EXPECT_EQ(sample.state.values[telemetry::field("ego.vx")], 50.0);
   EXPECT_EQ(sample.received, Instant{7});
-  EXPECT_EQ(std::get<Told>(items[1]).json, "{}");
+  EXPECT_EQ(std::get<Reported>(items[1]).json, "{}");
   EXPECT_FALSE(readable(feed));
   EXPECT_TRUE(feed.take().empty());
 }
@@ -85,7 +85,7 @@ TEST(Feed, TextsAreBoundedByTheirBytesToo) {
   EXPECT_EQ(feed.drops()[recorder::channel_of(Topic::kAlarms)], 2U);
   const auto items = feed.take();
   ASSERT_EQ(items.size(), 4U);
-  EXPECT_EQ(std::get<Told>(items[0]).at, Instant{2});
+  EXPECT_EQ(std::get<Reported>(items[0]).at, Instant{2});
   feed.text(Topic::kAlarms, Instant{9}, std::string(2 * Feed::kTextBytes, 'x'));
   EXPECT_EQ(feed.take().size(), 1U) << "one alone is always kept";
 }
@@ -99,7 +99,7 @@ TEST(Feed, AnotherThreadGetsAllThatIsNotCountedAsLost) {
       readable(feed, seconds(20));
       more = !feed.closed();
       for (const Item& item : feed.take()) {
-        const Instant at = std::get<Told>(item).at;
+        const Instant at = std::get<Reported>(item).at;
         EXPECT_GT(at.ns, newest);
         newest = at.ns;
         ++got;

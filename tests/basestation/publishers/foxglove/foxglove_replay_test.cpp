@@ -20,14 +20,14 @@ std::uint64_t number_at(const std::string& bytes, std::size_t at, std::size_t co
   return value;
 }
 
-struct Told {
+struct Reported {
   int status;
   std::int64_t at_ns;
   float speed;
   bool did_seek;
   std::string request;
 };
-Told told(const std::string& bytes) {
+Reported reported(const std::string& bytes) {
   return {bytes.at(1), static_cast<std::int64_t>(number_at(bytes, 2, 8)),
           std::bit_cast<float>(static_cast<std::uint32_t>(number_at(bytes, 10, 4))),
           bytes.at(14) != 0, bytes.substr(19)};
@@ -69,12 +69,12 @@ class FoxgloveReplays : public testing::Test {
         now_);
   }
   // Turns of no length until the state that answers a request has come.
-  Told ask(const std::string& bytes, const std::string& request) {
+  Reported ask(const std::string& bytes, const std::string& request) {
     viewer_.browser().say_bytes(bytes);
     for (int i = 0; i < 1'000; ++i) {
       now_ += seconds(1);  // so that each turn tells a state
       turn({});
-      const Told state = told(viewer_.bytes(5));
+      const Reported state = reported(viewer_.bytes(5));
       if (state.request == request) return state;
     }
     ADD_FAILURE() << "no answer";
@@ -100,10 +100,10 @@ TEST_F(FoxgloveReplays, ARecordingIsServedWithItsRangeAndItsOwnTime) {
 }
 
 TEST_F(FoxgloveReplays, AClientPausesJumpsAndPlaysFaster) {
-  const Told paused = ask(control(false, 1.0F, std::nullopt, "a"), "a");
+  const Reported paused = ask(control(false, 1.0F, std::nullopt, "a"), "a");
   EXPECT_EQ(paused.status, static_cast<int>(PlaybackStatus::kPaused));
   const Instant to = player_->begin() + seconds(3);
-  const Told jumped = ask(control(true, 2.0F, utc_ns(to), "b"), "b");
+  const Reported jumped = ask(control(true, 2.0F, utc_ns(to), "b"), "b");
   EXPECT_EQ(jumped.status, static_cast<int>(PlaybackStatus::kPlaying));
   EXPECT_TRUE(jumped.did_seek);
   EXPECT_EQ(jumped.speed, 2.0F);
@@ -112,12 +112,12 @@ TEST_F(FoxgloveReplays, AClientPausesJumpsAndPlaysFaster) {
   EXPECT_EQ(player_->now(), to + seconds(2));
   turn(seconds(5));
   EXPECT_TRUE(player_->ended());
-  const Told ended = ask(control(true, 2.0F, std::nullopt, "c"), "c");
+  const Reported ended = ask(control(true, 2.0F, std::nullopt, "c"), "c");
   EXPECT_EQ(ended.status, static_cast<int>(PlaybackStatus::kEnded));
 }
 
 TEST_F(FoxgloveReplays, ATimeBeyondTheRecordingIsItsEnd) {
-  const Told state = ask(control(false, 1.0F, INT64_MAX, "x"), "x");
+  const Reported state = ask(control(false, 1.0F, INT64_MAX, "x"), "x");
   EXPECT_EQ(player_->now(), player_->end());
   EXPECT_EQ(state.at_ns, utc_ns(player_->end()));
 }

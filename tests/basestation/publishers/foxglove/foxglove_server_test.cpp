@@ -17,7 +17,7 @@ std::unique_ptr<FoxgloveServer> server() {
 }
 
 // One turn after a client has said something.
-std::vector<PlaybackControl> turn_when_heard(FoxgloveServer& server) {
+std::vector<PlaybackControl> turn_when_received(FoxgloveServer& server) {
   const int fd = server.fd();
   transport::wait_readable({&fd, 1}, transport::monotonic_now() + seconds(20));
   auto asked = server.receive();
@@ -27,14 +27,14 @@ std::vector<PlaybackControl> turn_when_heard(FoxgloveServer& server) {
 
 TEST(FoxgloveDesk, WhatStandsIsToldToWhoComesLater) {
   const auto served = server();
-  served->take(feed::Told{.topic = recorder::Topic::kAlarms, .at = Instant{3}, .json = "{1}"});
-  served->take(feed::Told{.topic = recorder::Topic::kAlarms, .at = Instant{4}, .json = "{2}"});
+  served->take(feed::Reported{.topic = recorder::Topic::kAlarms, .at = Instant{3}, .json = "{1}"});
+  served->take(feed::Reported{.topic = recorder::Topic::kAlarms, .at = Instant{4}, .json = "{2}"});
   Viewer viewer;
   ASSERT_EQ(viewer.open(served->local().port), 101u);
-  turn_when_heard(*served);
+  turn_when_received(*served);
   const auto channels = viewer.channels();
   viewer.subscribe(1, channels.at("/base/alarms"));
-  turn_when_heard(*served);
+  turn_when_received(*served);
   EXPECT_EQ(viewer.bytes(1).substr(kMessageHeader), "{2}");
 }
 
@@ -42,22 +42,22 @@ TEST(FoxgloveDesk, AClientThatDoesNotReadIsToldWhichTopicsItLost) {
   const auto served = server();
   Viewer slow;
   ASSERT_EQ(slow.open(served->local().port), 101u);
-  turn_when_heard(*served);
+  turn_when_received(*served);
   const auto channels = slow.channels();
   slow.subscribe(1, channels.at("/base/audit"));
-  turn_when_heard(*served);
+  turn_when_received(*served);
   const std::string line(20'000, 'x');
   for (int i = 0; i < 1'500; ++i) {
-    served->take(feed::Told{.topic = recorder::Topic::kAudit, .at = Instant{i}, .json = line});
+    served->take(feed::Reported{.topic = recorder::Topic::kAudit, .at = Instant{i}, .json = line});
     served->turn(Instant{}, Instant{});
   }
   std::string status;
   // What the sockets' thread has not come to yet is lost a moment later.
   for (Instant now{seconds(1).ns}; status.empty(); now += FoxgloveServer::kLossEvery) {
     served->turn(now, Instant{});
-    while (const auto heard = slow.browser().receive()) {
-      if (!heard->text && heard->bytes[0] == 2) break;  // the time of this turn
-      if (heard->text) status += heard->bytes;
+    while (const auto incoming = slow.browser().receive()) {
+      if (!incoming->text && incoming->bytes[0] == 2) break;  // the time of this turn
+      if (incoming->text) status += incoming->bytes;
     }
     ASSERT_LT(now, Instant{seconds(60).ns});
   }

@@ -105,11 +105,11 @@ TEST(FoxgloveProtocol, ParametersAreAskedForAndTold) {
   EXPECT_TRUE(std::get<WatchParameters>(*ends).ends);
   EXPECT_EQ(std::get<WatchParameters>(*ends).names, std::vector<std::string>{"/b"});
   const std::vector<Parameter> parameters{{"/a", 2.5}};
-  const auto told = json_of(parameters_text(parameters, "7"));
-  EXPECT_EQ(told.text("op"), "parameterValues");
-  EXPECT_EQ(told.text("id"), "7");
-  EXPECT_EQ(told.items("parameters").at(0).text("name"), "/a");
-  EXPECT_EQ(told.items("parameters").at(0).number("value"), 2.5);
+  const auto reported = json_of(parameters_text(parameters, "7"));
+  EXPECT_EQ(reported.text("op"), "parameterValues");
+  EXPECT_EQ(reported.text("id"), "7");
+  EXPECT_EQ(reported.items("parameters").at(0).text("name"), "/a");
+  EXPECT_EQ(reported.items("parameters").at(0).number("value"), 2.5);
   EXPECT_EQ(json_of(parameters_text(parameters, "")).find("id"), nullptr);
 }
 

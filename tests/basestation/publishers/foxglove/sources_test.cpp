@@ -91,7 +91,8 @@ TEST_F(FoxgloveSources, AGroupThatIsNotNewIsNotRepeated) {
 }
 
 TEST_F(FoxgloveSources, ATextIsToldAsItIs) {
-  sources_.take(feed::Told{.topic = Topic::kAlarms, .at = Instant{1}, .json = "{\"a\":1}"}, sink());
+  sources_.take(feed::Reported{.topic = Topic::kAlarms, .at = Instant{1}, .json = "{\"a\":1}"},
+                sink());
   const auto& body = taken_.at("/base/alarms").body;
   EXPECT_EQ(std::string(body.begin(), body.end()), "{\"a\":1}");
   EXPECT_TRUE(row("/base/alarms")->latched);

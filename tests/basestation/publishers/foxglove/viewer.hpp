@@ -26,8 +26,8 @@ class Viewer {
   std::map<std::string, int> channels() {
     info_ = text("serverInfo");
     std::map<std::string, int> ids;
-    const json::JsonValue told = text("advertise");
-    for (const auto& row : told.items("channels")) {
+    const json::JsonValue reported = text("advertise");
+    for (const auto& row : reported.items("channels")) {
       ids[row.text("topic")] = static_cast<int>(row.number("id"));
     }
     return ids;
@@ -39,9 +39,9 @@ class Viewer {
   }
   // The next text of that op; others and bytes on the way are passed over.
   json::JsonValue text(const std::string& op) {
-    while (const auto heard = browser_.receive()) {
-      if (!heard->text) continue;
-      const auto value = json::JsonValue::parse(heard->bytes, "text");
+    while (const auto received = browser_.receive()) {
+      if (!received->text) continue;
+      const auto value = json::JsonValue::parse(received->bytes, "text");
       if (value && value->text("op") == op) return *value;
     }
     ADD_FAILURE() << "closed before a " << op;
@@ -49,8 +49,8 @@ class Viewer {
   }
   // The next binary message that begins with this op.
   std::string bytes(char op) {
-    while (const auto heard = browser_.receive()) {
-      if (!heard->text && heard->bytes.at(0) == op) return heard->bytes;
+    while (const auto received = browser_.receive()) {
+      if (!received->text && received->bytes.at(0) == op) return received->bytes;
     }
     ADD_FAILURE() << "closed before a binary message";
     return {};

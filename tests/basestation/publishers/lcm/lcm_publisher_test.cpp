@@ -19,7 +19,7 @@ using telemetry::Group;
 struct Network {
   std::mutex lock;
   std::condition_variable changed;
-  std::map<std::string, std::vector<std::vector<std::uint8_t>>> heard;
+  std::map<std::string, std::vector<std::vector<std::uint8_t>>> received;
   bool open = true, takes = true, waiting = false;
 
   LcmPublisher::Publish publish() {
@@ -29,7 +29,7 @@ struct Network {
       changed.notify_all();
       changed.wait(hold, [this] { return open; });
       waiting = false;
-      if (takes) heard[channel].emplace_back(message.begin(), message.end());
+      if (takes) received[channel].emplace_back(message.begin(), message.end());
       return takes;
     };
   }
@@ -67,7 +67,7 @@ TEST(LcmPublisher, AGroupAndATextArePublishedAsTheLogHasThem) {
     publisher.feed().sample(state, groups(), Instant{seconds(2).ns});
     publisher.text(Topic::kMark, Instant{5}, "{}");
   }  // what waits is published before it ends
-  ASSERT_EQ(network.heard.size(), 2U);
+  ASSERT_EQ(network.received.size(), 2U);
   const recorder::LcmEncoder encoder{kClock};
   std::vector<std::uint8_t> wanted;
   const auto bytes = recorder::encode(Group::kEgo, state.values);
@@ -76,8 +76,8 @@ TEST(LcmPublisher, AGroupAndATextArePublishedAsTheLogHasThem) {
                   .published = state.at(Group::kEgo),
                   .data = bytes.span()},
                  wanted);
-  EXPECT_EQ(network.heard["/car7/car/ego"].at(0), wanted);
-  EXPECT_EQ(network.heard["/car7/base/mark"].size(), 1U);
+  EXPECT_EQ(network.received["/car7/car/ego"].at(0), wanted);
+  EXPECT_EQ(network.received["/car7/base/mark"].size(), 1U);
 }
 
 TEST(LcmPublisher, ANetworkThatStallsCostsTheOldestAndEveryChannelIsCounted) {
@@ -98,7 +98,7 @@ TEST(LcmPublisher, ANetworkThatStallsCostsTheOldestAndEveryChannelIsCounted) {
   ASSERT_EQ(figures.dropped.size(), 2U);
   EXPECT_EQ(figures.dropped[0].first, "/car/ego");
   EXPECT_EQ(figures.dropped[0].second, kSent - 1 - feed::Feed::kItems);
-  EXPECT_EQ(network.heard["/car/ego"].size(), 1 + feed::Feed::kItems);
+  EXPECT_EQ(network.received["/car/ego"].size(), 1 + feed::Feed::kItems);
 }
 
 TEST(LcmPublisher, WhatTheNetworkDoesNotTakeIsCounted) {

@@ -83,9 +83,9 @@ TEST(MetricsText, PromtoolFindsNothingWrongWithIt) {
   const auto file = std::filesystem::temp_directory_path() /
                     ("pitwall_metrics_" + std::to_string(::getpid()) + ".txt");
   std::ofstream{file} << text_of({status()});
-  const std::string said =
+  const std::string output =
       testing::output_of("promtool check metrics < '" + file.string() + "' 2>&1");
-  EXPECT_EQ(said, "");
+  EXPECT_EQ(output, "");
   std::filesystem::remove(file);
 }
 

@@ -90,15 +90,15 @@ TEST(GroupMessage, FoxglovesReaderDecodesEachOfThem) {
   for (const GroupMessage& message : group_messages()) {
     ros::Header header{.stamp = {.sec = 12, .nanosec = 345}, .frame_id = "map"};
     std::vector<double> values;
-    std::string said = R"({"header":{"stamp":{"sec":12,"nanosec":345},"frame_id":"map"})";
+    std::string output = R"({"header":{"stamp":{"sec":12,"nanosec":345},"frame_id":"map"})";
     for (std::size_t i = 0; i < message.rows.size(); ++i) {
       values.push_back(i % 3 == 1 ? kUnset : static_cast<double>(i) + 0.5);
-      said += ",\"" + message.type.type.fields[i + 1].name +
-              "\":" + (i % 3 == 1 ? "\"NaN\"" : std::to_string(i) + ".5");
+      output += ",\"" + message.type.type.fields[i + 1].name +
+                "\":" + (i % 3 == 1 ? "\"NaN\"" : std::to_string(i) + ".5");
     }
     std::vector<std::uint8_t> bytes;
     encode_group(header, values, bytes);
-    oracle.add(message.type.type.name, ros::message_text(message.type), bytes, said + "}");
+    oracle.add(message.type.type.name, ros::message_text(message.type), bytes, output + "}");
   }
   oracle.expect_agreement();
 }

@@ -21,7 +21,7 @@ using telemetry::Group;
 using testing::kNow;
 using testing::kUtc;
 using testing::some_state;
-using Told = std::multimap<std::string, std::vector<std::uint8_t>>;
+using Reported = std::multimap<std::string, std::vector<std::uint8_t>>;
 
 ViewConfig whole_config() {
   return {.space = "",
@@ -30,10 +30,10 @@ ViewConfig whole_config() {
           .datum = Geodetic{36.2722, -115.0103, 594.0}};
 }
 
-Sink into(Told& told, const View& view) {
-  return [&told, &view](const Message& message) {
-    told.emplace(view.topics()[message.topic].name,
-                 std::vector<std::uint8_t>{message.cdr.begin(), message.cdr.end()});
+Sink into(Reported& reported, const View& view) {
+  return [&reported, &view](const Message& message) {
+    reported.emplace(view.topics()[message.topic].name,
+                     std::vector<std::uint8_t>{message.cdr.begin(), message.cdr.end()});
   };
 }
 
@@ -45,44 +45,44 @@ BaseStatus some_base_status() {
   return base_status;
 }
 
-Told all_told(View& view) {
-  Told told;
-  const Sink sink = into(told, view);
+Reported all_reported(View& view) {
+  Reported reported;
+  const Sink sink = into(reported, view);
   view.statics(kNow, kUtc, sink);
   view.car(some_state(), all_groups(), kNow, kUtc, sink);
   view.base(some_base_status(), kUtc, sink);
-  return told;
+  return reported;
 }
 
 TEST(RosView, EveryTopicHasANameThatRosTakesAndIsTold) {
   View view{whole_config()};
-  const Told told = all_told(view);
+  const Reported reported = all_reported(view);
   std::set<std::string> names;
   for (const Topic& topic : view.topics()) {
     EXPECT_TRUE(ros::dds_topic(topic.name)) << topic.name;
     EXPECT_TRUE(names.insert(topic.name).second) << topic.name;
     EXPECT_TRUE(topic.hash.starts_with("RIHS01_")) << topic.name;
-    EXPECT_EQ(told.count(topic.name), 1U) << topic.name;
+    EXPECT_EQ(reported.count(topic.name), 1U) << topic.name;
   }
-  EXPECT_EQ(told.size(), view.topics().size());
+  EXPECT_EQ(reported.size(), view.topics().size());
 }
 
 TEST(RosView, OnlyWhatIsNewIsTold) {
   View view{whole_config()};
-  Told told;
+  Reported reported;
   telemetry::GroupSet fresh;
   fresh.add(Group::kEgo);
-  view.car(some_state(), fresh, kNow, kUtc, into(told, view));
+  view.car(some_state(), fresh, kNow, kUtc, into(reported, view));
   std::set<std::string> names;
-  for (const auto& [name, bytes] : told) names.insert(name);
+  for (const auto& [name, bytes] : reported) names.insert(name);
   EXPECT_EQ(names, (std::set<std::string>{"/vehicle/odom", "/vehicle/fix", "/tf", "/base/ego"}));
 }
 
 TEST(RosView, WithoutATrackThereIsNoRacelineNoOpponentAndNoFusedFix) {
   View view{{}};
-  const Told told = all_told(view);
+  const Reported reported = all_reported(view);
   for (const char* const absent : {"/raceline", "/opponents", "/vehicle/fix", "/tf_static"})
-    EXPECT_EQ(told.count(absent), 0U) << absent;
+    EXPECT_EQ(reported.count(absent), 0U) << absent;
 }
 
 TEST(RosView, EachOfSeveralCarsHasItsSpaceAndItsFrames) {
@@ -91,8 +91,8 @@ TEST(RosView, EachOfSeveralCarsHasItsSpaceAndItsFrames) {
   View view{std::move(config)};
   for (const Topic& topic : view.topics())
     EXPECT_EQ(topic.name.starts_with("/car9/"), !topic.name.starts_with("/tf")) << topic.name;
-  const Told told = all_told(view);
-  const auto tf = ros::decode<ros::TFMessage>(told.find("/tf")->second);
+  const Reported reported = all_reported(view);
+  const auto tf = ros::decode<ros::TFMessage>(reported.find("/tf")->second);
   ASSERT_TRUE(tf);
   EXPECT_EQ(tf->transforms.at(0).child_frame_id, "car9/base_link");
   EXPECT_EQ(tf->transforms.at(0).header.frame_id, "map");
@@ -100,15 +100,15 @@ TEST(RosView, EachOfSeveralCarsHasItsSpaceAndItsFrames) {
 
 TEST(RosView, DiagnosticsComeOnceASecondAndAtOnceWhenALevelChanges) {
   View view{whole_config()};
-  Told told;
-  const Sink sink = into(told, view);
+  Reported reported;
+  const Sink sink = into(reported, view);
   telemetry::Snapshot state = some_state();
   view.car(state, all_groups(), kNow, kUtc, sink);
   BaseStatus base_status = some_base_status();
   const auto count = [&](Duration after) {
     base_status.at = kNow + after;
     view.base(base_status, kUtc, sink);
-    return told.count("/diagnostics");
+    return reported.count("/diagnostics");
   };
   EXPECT_EQ(count({}), 1U);
   EXPECT_EQ(count(milliseconds(100)), 1U);
@@ -146,18 +146,18 @@ TEST(RosView, FoxglovesReadersDecodeEachStandardMessage) {
   NEEDS_ORACLES();
   View view{whole_config()};
   pitwall::testing::RosOracle oracle;
-  const Told told = all_told(view);
+  const Reported reported = all_reported(view);
   std::set<std::string> types;
   for (const Topic& topic : view.topics()) {
     ros::testing::for_each_message([&]<class M>() {
       if (topic.type != M::kType) return;
-      const auto& bytes = told.find(topic.name)->second;
+      const auto& bytes = reported.find(topic.name)->second;
       const auto message = ros::decode<M>(bytes);
       ASSERT_TRUE(message) << topic.name;
-      std::string said;
-      ros::testing::append_json(said, *message);
-      said = std::regex_replace(said, std::regex{R"(([:,\[])-?nan)"}, "$1\"NaN\"");
-      oracle.add(topic.type, topic.schema, bytes, said);
+      std::string output;
+      ros::testing::append_json(output, *message);
+      output = std::regex_replace(output, std::regex{R"(([:,\[])-?nan)"}, "$1\"NaN\"");
+      oracle.add(topic.type, topic.schema, bytes, output);
       types.insert(topic.type);
     });
   }

@@ -82,8 +82,8 @@ TEST(LinkText, FollowsACommandToItsFate) {
   EXPECT_TRUE(says(rig, "#1 speed limit 30 m/s: not sent for 0 ms")) << text_of(rig);
   rig.run(milliseconds(100));
   EXPECT_TRUE(says(rig, "speed limit 30 m/s: received by the car after ")) << text_of(rig);
-  ASSERT_EQ(rig.told.size(), 1U);
-  rig.car->decide(rig.told.front().id, telemetry::Outcome::kApplied, rig.now);
+  ASSERT_EQ(rig.reported.size(), 1U);
+  rig.car->decide(rig.reported.front().id, telemetry::Outcome::kApplied, rig.now);
   rig.run(milliseconds(100));
   EXPECT_TRUE(says(rig, "speed limit 30 m/s: applied after ")) << text_of(rig);
   EXPECT_TRUE(says(rig, "authority: console 4"));

@@ -68,9 +68,9 @@ TEST_F(WebEngine, OneThatSpeaksTooFastIsHeardAtItsPace) {
   for (std::int64_t i = 0; i < Pace::kAtOnce + kMore; ++i) fast.say(std::to_string(i));
   const Instant begun = transport::monotonic_now();
   for (std::int64_t i = 0; i < Pace::kAtOnce + kMore; ++i) {
-    const auto said = wait_for(ClientNews::Kind::kSaid);
-    ASSERT_TRUE(said);
-    EXPECT_EQ(said->text, std::to_string(i)) << "in order, and nothing is lost";
+    const auto stated = wait_for(ClientNews::Kind::kStated);
+    ASSERT_TRUE(stated);
+    EXPECT_EQ(stated->text, std::to_string(i)) << "in order, and nothing is lost";
   }
   EXPECT_GE(transport::monotonic_now() - begun, Pace::kEach * (kMore - 1));
 }
@@ -81,9 +81,9 @@ TEST_F(WebEngine, AnOperatorIsHeardBeforeACrowdThatSpokeEarlier) {
   const ClientId stops = join_as_operator(operates);
   const auto wait_for_texts = [this](std::uint64_t count) {
     const Instant end = transport::monotonic_now() + seconds(20);
-    while (server_->counters().texts_heard < count && transport::monotonic_now() < end)
+    while (server_->counters().texts_received < count && transport::monotonic_now() < end)
       transport::wait_readable({}, transport::monotonic_now() + milliseconds(1));
-    ASSERT_EQ(server_->counters().texts_heard, count);
+    ASSERT_EQ(server_->counters().texts_received, count);
   };
   for (int i = 0; i < 5; ++i) viewer.say(std::to_string(i));
   wait_for_texts(5);
@@ -108,17 +108,17 @@ TEST_F(WebEngine, WhatWasSentArrivesOrIsCounted) {
   const ClientId client = join(browser);
   constexpr std::uint32_t kFrames = 20 * WebServer::kPostsMax;
   for (std::uint32_t i = 1; i <= kFrames; ++i) server_->send(only(client), vehicle(i, 8));
-  std::uint64_t heard = 0;
+  std::uint64_t received = 0;
   const auto accounted = [&] {
     const WebCounters counters = server_->counters();
-    return counters.posts_dropped + counters.pictures_dropped + heard;
+    return counters.posts_dropped + counters.pictures_dropped + received;
   };
   while (accounted() < kFrames) {
     ASSERT_TRUE(browser.receive());
-    ++heard;
+    ++received;
   }
   EXPECT_EQ(accounted(), kFrames);
-  EXPECT_GT(heard, 0u);
+  EXPECT_GT(received, 0u);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ TEST_F(WebServerTest, TextsAndFramesGoBothWays) {
   const ClientId client = join(browser);
   EXPECT_GE(client, kFirstClient);
   browser.say("{\"type\": \"x\"}");
-  EXPECT_EQ(wait_for(ClientNews::Kind::kSaid)->text, "{\"type\": \"x\"}");
+  EXPECT_EQ(wait_for(ClientNews::Kind::kStated)->text, "{\"type\": \"x\"}");
   server_->send(only(client), text("hello"));
   server_->send(only(client), vehicle(7, 8));
   EXPECT_EQ(browser.receive()->bytes, "hello");
@@ -50,20 +50,20 @@ TEST_F(WebServerTest, AConsoleIsOfTheCarItCameTo) {
   EXPECT_EQ(first.open(port, "/ws"), 101u);
   EXPECT_NE(nobody.open(port, "/ws?car=9"), 101u);
   second.say("{\"type\": \"stop\"}");
-  std::array<std::vector<ClientNews>, 2> heard;
+  std::array<std::vector<ClientNews>, 2> received;
   const Instant end = transport::monotonic_now() + seconds(20);
-  while ((heard[0].empty() || heard[1].size() < 2) && transport::monotonic_now() < end) {
+  while ((received[0].empty() || received[1].size() < 2) && transport::monotonic_now() < end) {
     const std::array<int, 2> fds{server.fd(0), server.fd(1)};
     transport::wait_readable(fds, end);
-    for (std::size_t car = 0; car < heard.size(); ++car) {
-      while (auto news = server.next_news(car)) heard[car].push_back(*std::move(news));
+    for (std::size_t car = 0; car < received.size(); ++car) {
+      while (auto news = server.next_news(car)) received[car].push_back(*std::move(news));
     }
   }
-  ASSERT_EQ(heard[0].size(), 1u);
-  ASSERT_EQ(heard[1].size(), 2u);
-  EXPECT_NE(heard[0][0].client, heard[1][0].client) << "one numbering for all";
-  EXPECT_EQ(heard[1][1].kind, ClientNews::Kind::kSaid);
-  EXPECT_EQ(heard[1][1].client, heard[1][0].client);
+  ASSERT_EQ(received[0].size(), 1u);
+  ASSERT_EQ(received[1].size(), 2u);
+  EXPECT_NE(received[0][0].client, received[1][0].client) << "one numbering for all";
+  EXPECT_EQ(received[1][1].kind, ClientNews::Kind::kStated);
+  EXPECT_EQ(received[1][1].client, received[1][0].client);
 }
 
 TEST_F(WebServerTest, MoreCarsThanItHasPlacesForAreRefused) {
@@ -123,17 +123,17 @@ TEST_F(WebServerTest, BytesGoOutBehindTheirHeadAndWhatIsLostIsKnownByItsTag) {
   constexpr std::uint64_t kSent = 400;
   for (std::uint64_t i = 0; i < kSent; ++i) server_->send(only(client), headed_bytes(5, 10'000));
   server_->send(only(client), text("end"));
-  std::uint64_t heard = 0;
+  std::uint64_t received = 0;
   while (const auto message = slow.receive()) {
     if (message->text) break;
     EXPECT_EQ(message->bytes.substr(0, 3), std::string("\1\2\7"));
-    ++heard;
+    ++received;
   }
   const auto drops = server_->take_drops();
   ASSERT_EQ(drops.size(), 1U);
   EXPECT_EQ(drops[0].client, client);
   EXPECT_EQ(drops[0].tag, 5U);
-  EXPECT_EQ(drops[0].count + heard, kSent);
+  EXPECT_EQ(drops[0].count + received, kSent);
   EXPECT_TRUE(server_->take_drops().empty());
 }
 
@@ -160,17 +160,17 @@ TEST_F(WebServerTest, AClientThatDoesNotReadLosesItsOwnOldestAndSeesHowMuch) {
   constexpr std::uint32_t kFrames = 2'000;
   for (std::uint32_t i = 1; i <= kFrames; ++i) {
     server_->send(only(stopped).set(reading), vehicle(i));
-    const auto heard = quick.receive();
-    ASSERT_TRUE(heard);
-    ASSERT_EQ(heard->bytes[12], 0) << "the one that reads loses nothing";
+    const auto received = quick.receive();
+    ASSERT_TRUE(received);
+    ASSERT_EQ(received->bytes[12], 0) << "the one that reads loses nothing";
   }
   server_->send(only(stopped), text("end"));
   std::uint32_t frames = 0, dropped = 0;
-  while (const auto heard = slow.receive()) {
-    if (heard->text) break;
+  while (const auto received = slow.receive()) {
+    if (received->text) break;
     ++frames;
-    dropped = static_cast<std::uint8_t>(heard->bytes[12]) +
-              256U * static_cast<std::uint8_t>(heard->bytes[13]);
+    dropped = static_cast<std::uint8_t>(received->bytes[12]) +
+              256U * static_cast<std::uint8_t>(received->bytes[13]);
   }
   EXPECT_GT(dropped, 0u);
   EXPECT_EQ(frames + dropped, kFrames);
@@ -191,9 +191,9 @@ TEST_F(WebServerTest, WhoSaysMoreThanIsHandledIsReadNoFurther) {
   Browser browser;
   join(browser);
   for (int i = 0; i < 100; ++i) browser.say(std::to_string(i));
-  int said = 0;
-  while (said < 100 && wait_for(ClientNews::Kind::kSaid)) ++said;
-  EXPECT_EQ(said, 100) << "nothing is lost";
+  int stated = 0;
+  while (stated < 100 && wait_for(ClientNews::Kind::kStated)) ++stated;
+  EXPECT_EQ(stated, 100) << "nothing is lost";
 }
 
 TEST_F(WebServerTest, RandomBytesDoNoHarm) {

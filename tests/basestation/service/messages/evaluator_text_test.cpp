@@ -40,9 +40,9 @@ struct Numbers {
 TEST(JudgeText, FiguresComeBackToTheBit) {
   Numbers numbers;
   for (int i = 0; i < 200; ++i) {
-    LinkFigures link{.heard =
+    LinkFigures link{.received =
                          kOddTime - Duration{static_cast<std::int64_t>(numbers.random() >> 20U)}};
-    if (i % 5 == 0) link.heard.reset();
+    if (i % 5 == 0) link.received.reset();
     for (double* value : {&link.down_loss, &link.up_loss, &link.round_trip_ms, &link.jitter_ms,
                           &link.loss_1s, &link.loss_30s, &link.packets_hz, &link.down_kbit_s,
                           &link.down_cap_kbit_s, &link.up_kbit_s, &link.threats}) {
@@ -50,7 +50,7 @@ TEST(JudgeText, FiguresComeBackToTheBit) {
     }
     expect_back(link);
     const auto back = read_input_text(input_text(link, kOddTime), kOddTime);
-    EXPECT_EQ(std::get<LinkFigures>(*back).heard, link.heard);
+    EXPECT_EQ(std::get<LinkFigures>(*back).received, link.received);
     EXPECT_EQ(std::isnan(std::get<LinkFigures>(*back).threats), std::isnan(link.threats));
     expect_back(BaseFigures{.disk_minutes = numbers.next(),
                             .recording = numbers.next(),
@@ -72,7 +72,7 @@ TEST(JudgeText, ActsComeBack) {
                         .by = "A \"quoted\" name\n",
                         .reason = "known"};
   EXPECT_EQ(std::get<AlarmAction>(*read_input_text(input_text(act, kOddTime), kOddTime)), act);
-  const NoticeAction notice{.notice = 7, .told = true, .by = "B"};
+  const NoticeAction notice{.notice = 7, .reported = true, .by = "B"};
   EXPECT_EQ(std::get<NoticeAction>(*read_input_text(input_text(notice, kOddTime), kOddTime)),
             notice);
   for (const auto kind :

@@ -21,13 +21,13 @@ TEST(SettingsText, EveryAlarmHasWhatAnEditorNeeds) {
        .setting = {.priority = alarms::Priority::kHigh, .limit = 105.0, .deadband = 2.0},
        .author = "Ada",
        .reason = "hot day"}));
-  const auto told = json_of(settings_text(editor, evaluator.alarms().settings()));
-  EXPECT_EQ(told.number("revision"), 3.0);
-  EXPECT_FALSE(told.flag("kept"));
-  EXPECT_EQ(told.number("up_kbit_s"), 128.0);
-  EXPECT_EQ(told.number("up_most_kbit_s"), 256.0);
-  ASSERT_EQ(told.items("alarms").size(), alarms::alarm_count());
-  for (const auto& alarm : told.items("alarms")) {
+  const auto reported = json_of(settings_text(editor, evaluator.alarms().settings()));
+  EXPECT_EQ(reported.number("revision"), 3.0);
+  EXPECT_FALSE(reported.flag("kept"));
+  EXPECT_EQ(reported.number("up_kbit_s"), 128.0);
+  EXPECT_EQ(reported.number("up_most_kbit_s"), 256.0);
+  ASSERT_EQ(reported.items("alarms").size(), alarms::alarm_count());
+  for (const auto& alarm : reported.items("alarms")) {
     const auto index = alarms::find_alarm(alarm.text("key"));
     ASSERT_TRUE(index);
     const alarms::AlarmSetting& set = evaluator.alarms().settings().of(*index);
@@ -43,17 +43,17 @@ TEST(SettingsText, WhatNobodySaidIsNull) {
   const auto nothing = json_of(expected_text({}, kUnset, {}));
   EXPECT_TRUE(std::isnan(nothing.number("round_speed_mps")));
   EXPECT_TRUE(std::isnan(nothing.number("fuel_ms")));
-  command::OperatorEntries said;
-  said.expected.round_speed_mps = 51.4;
-  said.expected.fuel_loaded_l = 40.0;
-  said.fuel_by = "Ada";
-  said.fuel_at = Instant{seconds(2).ns};
-  const auto told = json_of(expected_text(said, 38.5, Instant{seconds(3).ns}));
-  EXPECT_EQ(told.number("round_speed_mps"), 51.4);
-  EXPECT_EQ(told.number("fuel_ms"), 2'000.0);
-  EXPECT_EQ(told.text("fuel_by"), "Ada");
-  EXPECT_EQ(told.number("fuel_left_l"), 38.5);
-  EXPECT_EQ(told.number("time_ms"), 3'000.0);
+  command::OperatorEntries stated;
+  stated.expected.round_speed_mps = 51.4;
+  stated.expected.fuel_loaded_l = 40.0;
+  stated.fuel_by = "Ada";
+  stated.fuel_at = Instant{seconds(2).ns};
+  const auto reported = json_of(expected_text(stated, 38.5, Instant{seconds(3).ns}));
+  EXPECT_EQ(reported.number("round_speed_mps"), 51.4);
+  EXPECT_EQ(reported.number("fuel_ms"), 2'000.0);
+  EXPECT_EQ(reported.text("fuel_by"), "Ada");
+  EXPECT_EQ(reported.number("fuel_left_l"), 38.5);
+  EXPECT_EQ(reported.number("time_ms"), 3'000.0);
 }
 
 }  // namespace

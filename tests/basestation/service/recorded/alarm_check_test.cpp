@@ -22,7 +22,7 @@ struct LiveWall {
   replay::testing::Recording recording;
   alarms::Evaluator evaluator;
   state::VehicleState vehicle;
-  telemetry::Snapshot state = HealthyRace{}.told.snapshot;
+  telemetry::Snapshot state = HealthyRace{}.reported.snapshot;
   std::mt19937 random{7};
   Instant now = kStart;
   std::uint64_t revision = 0, lines = 0;
@@ -55,7 +55,7 @@ struct LiveWall {
       groups.add(row.group);
     }
     evaluator.advance(vehicle, now);
-    evaluator.heard(now);
+    evaluator.receive(now);
     vehicle.update(state, groups);
     recording.state(state, groups, now);
   }
@@ -90,7 +90,7 @@ struct LiveWall {
       if (one_in(50)) input(alarms::PacketReceived{now - milliseconds(3)});
       if (now - measured >= milliseconds(100)) {
         measured = now;
-        input(state::LinkFigures{.heard = evaluator.known().link.heard,
+        input(state::LinkFigures{.received = evaluator.known().link.received,
                                  .down_loss = 0.001 * below(300),
                                  .up_loss = 0.0,
                                  .round_trip_ms = 20.0 + below(200)});
@@ -111,10 +111,10 @@ TEST(AlarmCheck, FromItsFilesARaceIsJudgedToTheVerySameAlarms) {
     live.run(seconds(50));  // three segments
     last = alarms_text(live.evaluator.alarms());
   }
-  std::vector<std::string> said;
-  const auto judged = check_alarms(folder->path(), said);
+  std::vector<std::string> stated;
+  const auto judged = check_alarms(folder->path(), stated);
   ASSERT_TRUE(judged) << to_string(judged.error());
-  EXPECT_TRUE(said.empty());
+  EXPECT_TRUE(stated.empty());
   EXPECT_GT(judged->lists(), 50U);
   EXPECT_GT(judged->lines(), 50U);
   EXPECT_EQ(judged->different(), 0U) << judged->differences().front();
@@ -129,8 +129,8 @@ TEST(AlarmCheck, AnotherBeginningOfTheSameRaceIsJudgedByItself) {
     live.begin();
     live.run(seconds(10));
   }
-  std::vector<std::string> said;
-  const auto judged = check_alarms(folder->path(), said);
+  std::vector<std::string> stated;
+  const auto judged = check_alarms(folder->path(), stated);
   ASSERT_TRUE(judged);
   EXPECT_EQ(judged->different(), 0U) << judged->differences().front();
 }
@@ -148,8 +148,8 @@ TEST(AlarmCheck, AnInputThatWasNotRecordedShows) {
       live.publish();
     }
   }
-  std::vector<std::string> said;
-  const auto judged = check_alarms(folder->path(), said);
+  std::vector<std::string> stated;
+  const auto judged = check_alarms(folder->path(), stated);
   ASSERT_TRUE(judged);
   EXPECT_GT(judged->different(), 0U);
   EXPECT_FALSE(judged->differences().empty());
@@ -157,10 +157,10 @@ TEST(AlarmCheck, AnInputThatWasNotRecordedShows) {
 
 TEST(AlarmCheck, AFolderWithoutAJudgeIsRefused) {
   const auto folder = transport::TemporaryFolder::create("pitwall_judge");
-  std::vector<std::string> said;
-  EXPECT_FALSE(check_alarms(folder->path(), said));
+  std::vector<std::string> stated;
+  EXPECT_FALSE(check_alarms(folder->path(), stated));
   replay::testing::record_race(folder->path(), seconds(1));
-  EXPECT_FALSE(check_alarms(folder->path(), said));
+  EXPECT_FALSE(check_alarms(folder->path(), stated));
 }
 
 }  // namespace

@@ -31,27 +31,27 @@ TEST(LogReader, WhatPeopleEnteredHoldsAgain) {
   RadioRig rig;
   {
     replay::testing::Recording recording{folder->path()};
-    command::OperatorEntries said;
-    said.expected = {.round_speed_mps = 51.4, .fuel_loaded_l = 40.0};
-    said.round_speed_by = said.fuel_by = "Ada";
-    said.fuel_at = replay::testing::kRaceStart;
+    command::OperatorEntries stated;
+    stated.expected = {.round_speed_mps = 51.4, .fuel_loaded_l = 40.0};
+    stated.round_speed_by = stated.fuel_by = "Ada";
+    stated.fuel_at = replay::testing::kRaceStart;
     recording.text(recorder::Topic::kExpected, replay::testing::kRaceStart,
-                   expected_text(said, 40.0, replay::testing::kRaceStart));
+                   expected_text(stated, 40.0, replay::testing::kRaceStart));
   }
   LogReader memory{*rig.base};
   const Instant now = replay::testing::kRaceStart + seconds(7);
   replay::read_back(folder->path(), replay::testing::kRaceClock, now, replay::kHistorySpan, memory);
   const auto recalled = memory.entries().result(now);
   ASSERT_TRUE(recalled);
-  std::vector<alarms::EvaluatorInput> told;
+  std::vector<alarms::EvaluatorInput> reported;
   rig.base->observe_inputs([&](const auto& input, Instant at) {
     if (!std::holds_alternative<state::Expectations>(input)) return;
-    told.push_back(input);
+    reported.push_back(input);
     EXPECT_EQ(at, now);
   });
   rig.base->restore(recalled->entries, recalled->fuel_left_l, now);
   EXPECT_EQ(rig.base->evaluator().known().expected.round_speed_mps, 51.4);
-  ASSERT_EQ(told.size(), 1u) << "a recording has it, for whoever judges again";
+  ASSERT_EQ(reported.size(), 1u) << "a recording has it, for whoever judges again";
   rig.base->advance(now + seconds(1));
   EXPECT_EQ(rig.base->evaluator().fuel().level_l, 40.0);
 }

@@ -22,7 +22,7 @@ struct Drive {
       const bool flows[2] = {flows_0, flows_1};
       for (std::size_t unit = 0; unit < 2; ++unit) {
         age_s[unit] = flows[unit] ? 0.5 : age_s[unit] + kStep_s;
-        evaluator.heard(unit, age_s[unit], satellites, now);
+        evaluator.receive(unit, age_s[unit], satellites, now);
       }
       ever = ever || evaluator.conflict(now);
     }
@@ -99,8 +99,8 @@ TEST(Corrections, NoNumbersAreNone) {
   CorrectionWatch evaluator;
   for (int i = 0; i < 200; ++i) {
     const Instant at = Instant{} + seconds(i);
-    evaluator.heard(0, kUnset, kUnset, at);
-    evaluator.heard(1, kUnset, kSky, at);
+    evaluator.receive(0, kUnset, kUnset, at);
+    evaluator.receive(1, kUnset, kSky, at);
     EXPECT_FALSE(evaluator.conflict(at));
   }
 }

@@ -11,25 +11,27 @@ namespace {
 using telemetry::field;
 
 struct DeriveRig {
-  KnownState told;
+  KnownState reported;
   Known known;
   MonitorState monitors;
   BaseViews views{};
 
   const FieldView& of(BaseField which, Instant now) {
-    monitors.step(told.vehicle, known, now);
-    derive({}, told.vehicle, known, monitors, nullptr, now, views);
+    monitors.step(reported.vehicle, known, now);
+    derive({}, reported.vehicle, known, monitors, nullptr, now, views);
     return views[index_of(which)];
   }
   void tyres(double fl, double fr, double rl, double rr) {
-    told.publish(field("tyres.temperature_front_left"), fl, kStart);
-    told.publish(field("tyres.temperature_front_right"), fr, kStart);
-    told.publish(field("tyres.temperature_rear_left"), rl, kStart);
-    told.publish(field("tyres.temperature_rear_right"), rr, kStart);
+    reported.publish(field("tyres.temperature_front_left"), fl, kStart);
+    reported.publish(field("tyres.temperature_front_right"), fr, kStart);
+    reported.publish(field("tyres.temperature_rear_left"), rl, kStart);
+    reported.publish(field("tyres.temperature_rear_right"), rr, kStart);
   }
   void receiver(bool second, double status, double sigma, double verdict) {
     const auto publish = [&](telemetry::FieldIndex first, telemetry::FieldIndex other,
-                             double value) { told.publish(second ? other : first, value, kStart); };
+                             double value) {
+      reported.publish(second ? other : first, value, kStart);
+    };
     publish(field("gnss0.status"), field("gnss1.status"), status);
     publish(field("gnss0.sigma"), field("gnss1.sigma"), sigma);
     publish(field("gnss0.position_verdict"), field("gnss1.position_verdict"), verdict);
@@ -51,11 +53,11 @@ TEST(Derive, OfNothingIsNothing) {
 
 TEST(Derive, TheColdestTyreCountsAndAllMustBeKnown) {
   DeriveRig rig;
-  rig.told.publish(field("tyres.temperature_front_left"), 80, kStart);
+  rig.reported.publish(field("tyres.temperature_front_left"), 80, kStart);
   EXPECT_EQ(rig.of(BaseField::kTyreMin, kStart).quality, Quality::kNever);
   rig.tyres(80, 70, 29, 75);
   EXPECT_EQ(rig.of(BaseField::kTyreMin, kStart).value, 29.0);
-  rig.told.publish(field("track.target_speed"), from_mph(140), kStart);
+  rig.reported.publish(field("track.target_speed"), from_mph(140), kStart);
   EXPECT_NEAR(rig.of(BaseField::kTyreMargin, kStart).value, 29.0 - 79.0, 1e-9);
 }
 
@@ -63,7 +65,7 @@ TEST(Derive, AnOldInputMakesAnOldValue) {
   DeriveRig rig;
   rig.tyres(80, 80, 80, 80);
   const Instant later = kStart + seconds(5);
-  rig.told.publish(field("track.target_speed"), 40.0, later);
+  rig.reported.publish(field("track.target_speed"), 40.0, later);
   const FieldView& margin = rig.of(BaseField::kTyreMargin, later);
   EXPECT_EQ(margin.quality, Quality::kStale);
   EXPECT_EQ(margin.age, seconds(5));
@@ -77,7 +79,7 @@ TEST(Derive, AttacksSayWhichEndSeesThem) {
   rig.known.link.threats = 16.0;
   EXPECT_EQ(seen(kStart).value, 1.0);
   EXPECT_EQ(rig.views[index_of(BaseField::kRelay)].value, 0.0);
-  rig.told.publish(field("radio.threats"), 48.0, kStart);
+  rig.reported.publish(field("radio.threats"), 48.0, kStart);
   EXPECT_EQ(seen(kStart).value, 3.0);
   EXPECT_EQ(rig.views[index_of(BaseField::kRelay)].value, 2.0);
   rig.known.link.threats = 0.0;
@@ -105,8 +107,8 @@ TEST(Derive, StopIsTheHigherOfModeAndLatch) {
   DeriveRig rig;
   for (double latch = 0; latch <= 2; ++latch) {
     for (double mode = 0; mode <= 6; ++mode) {
-      rig.told.publish(field("mode.stop_latch"), latch, kStart);
-      rig.told.publish(field("mode.mode"), mode, kStart);
+      rig.reported.publish(field("mode.stop_latch"), latch, kStart);
+      rig.reported.publish(field("mode.mode"), mode, kStart);
       const double by_mode = mode == 4 ? 2 : mode == 3 ? 1 : 0;
       EXPECT_EQ(rig.of(BaseField::kStop, kStart).value, std::max(latch, by_mode));
     }
@@ -115,19 +117,19 @@ TEST(Derive, StopIsTheHigherOfModeAndLatch) {
 
 TEST(Derive, WatchdogsAreCountedByTheirState) {
   DeriveRig rig;
-  rig.told.publish(field("streams.imu0"), 2, kStart);
-  rig.told.publish(field("streams.imu1"), 3, kStart);
-  rig.told.publish(field("streams.brake"), 4, kStart);
-  rig.told.publish(field("streams.radio"), 4, kStart);
+  rig.reported.publish(field("streams.imu0"), 2, kStart);
+  rig.reported.publish(field("streams.imu1"), 3, kStart);
+  rig.reported.publish(field("streams.brake"), 4, kStart);
+  rig.reported.publish(field("streams.radio"), 4, kStart);
   EXPECT_EQ(rig.of(BaseField::kWatchdogsLate, kStart).value, 1.0);
   EXPECT_EQ(rig.of(BaseField::kWatchdogsLost, kStart).value, 2.0);
 }
 
 TEST(Derive, GroupsThatGrowOldAreCountedButNoOpponents) {
   DeriveRig rig;
-  rig.told.publish(field("ego.x"), 1, kStart);
-  rig.told.publish(field("opponent_1.speed"), 1, kStart);
-  rig.told.publish(field("mode.mode"), 2, kStart + seconds(9));
+  rig.reported.publish(field("ego.x"), 1, kStart);
+  rig.reported.publish(field("opponent_1.speed"), 1, kStart);
+  rig.reported.publish(field("mode.mode"), 2, kStart + seconds(9));
   EXPECT_EQ(rig.of(BaseField::kStaleGroups, kStart + seconds(9)).value, 1.0);
 }
 

@@ -17,30 +17,30 @@ double used_l(Duration every) {
   for (Duration at{}; at <= seconds(900); at = at + every) {
     EngineSample sample = kFast;
     sample.throttle = 0.5 + 0.2 * std::sin(at.seconds() / 30.0);
-    estimate.heard(sample, kBegin + at);
+    estimate.receive(sample, kBegin + at);
   }
   return estimate.used_l();
 }
 
 TEST(FuelEstimate, NobodyHasLoadedMeansNobodyKnows) {
   FuelEstimate estimate;
-  estimate.heard(kFast, kBegin);
-  estimate.heard(kFast, kBegin + seconds(1));
+  estimate.receive(kFast, kBegin);
+  estimate.receive(kFast, kBegin + seconds(1));
   EXPECT_TRUE(std::isnan(estimate.level_l()));
   EXPECT_GT(estimate.used_l(), 0.0);
 }
 
 TEST(FuelEstimate, WhatIsUsedLeavesTheTankAndNoMore) {
   FuelEstimate estimate;
-  estimate.heard(kFast, kBegin);
-  estimate.heard(kFast, kBegin + seconds(1));
+  estimate.receive(kFast, kBegin);
+  estimate.receive(kFast, kBegin + seconds(1));
   estimate.loaded(20.0);
   EXPECT_EQ(estimate.level_l(), 20.0) << "what was burnt before was not in it";
   const double before_l = estimate.used_l();
-  estimate.heard(kFast, kBegin + seconds(2));
+  estimate.receive(kFast, kBegin + seconds(2));
   EXPECT_NEAR(estimate.level_l(), 20.0 - (estimate.used_l() - before_l), 1e-12);
   EXPECT_NEAR(estimate.used_l() - before_l, fuel_flow_lps(kFast), 1e-12);
-  estimate.heard(kFast, kBegin + seconds(4'000));
+  estimate.receive(kFast, kBegin + seconds(4'000));
   EXPECT_EQ(estimate.level_l(), 0.0);
   estimate.loaded(30.0);
   EXPECT_EQ(estimate.level_l(), 30.0);
@@ -57,18 +57,18 @@ TEST(FuelEstimate, ALongGapIsBridgedOnTheThirstySide) {
   EngineSample idle = kFast;
   idle.throttle = 0.0;
   FuelEstimate estimate;
-  estimate.heard(idle, kBegin);
-  estimate.heard(kFast, kBegin + seconds(10));
+  estimate.receive(idle, kBegin);
+  estimate.receive(kFast, kBegin + seconds(10));
   EXPECT_NEAR(estimate.used_l(), 10.0 * fuel_flow_lps(kFast), 1e-9);
 }
 
 TEST(FuelEstimate, SamplesOutOfOrderOrWithoutNumbersAreNone) {
   FuelEstimate estimate;
-  estimate.heard(kFast, kBegin);
-  estimate.heard(kFast, kBegin + seconds(1));
+  estimate.receive(kFast, kBegin);
+  estimate.receive(kFast, kBegin + seconds(1));
   const double used_l = estimate.used_l();
-  estimate.heard(kFast, kBegin);
-  estimate.heard({.speed_rpm = kUnset, .throttle = 1.0, .running = true}, kBegin + seconds(2));
+  estimate.receive(kFast, kBegin);
+  estimate.receive({.speed_rpm = kUnset, .throttle = 1.0, .running = true}, kBegin + seconds(2));
   EXPECT_EQ(estimate.used_l(), used_l);
 }
 

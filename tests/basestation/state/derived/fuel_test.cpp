@@ -25,7 +25,7 @@ struct Car {
     lap += 1.0;
     say(0.0);
   }
-  void say(double slosh) { book.heard(level_l + slosh, counts_used ? used_l : kUnset, lap); }
+  void say(double slosh) { book.receive(level_l + slosh, counts_used ? used_l : kUnset, lap); }
 };
 
 // The paper's final: the team took an attempt of two laps with fuel for one. The figures of the
@@ -78,10 +78,10 @@ TEST(Fuel, TheThirstiestOfTheLastLapsCounts) {
 
 TEST(Fuel, ALapThatWasNotDrivenWholeDoesNotCount) {
   FuelBook book;
-  book.heard(30.0, 10.0, 5.0);  // heard for the first time somewhere in lap 5
-  book.heard(29.9, 10.1, 6.0);
+  book.receive(30.0, 10.0, 5.0);  // heard for the first time somewhere in lap 5
+  book.receive(29.9, 10.1, 6.0);
   EXPECT_FALSE(book.left({}).measured);
-  book.heard(27.0, 13.0, 8.0);  // lap 7 was never heard
+  book.receive(27.0, 13.0, 8.0);  // lap 7 was never heard
   EXPECT_FALSE(book.left({}).measured);
 }
 
@@ -111,9 +111,9 @@ TEST(Fuel, NothingHeardNothingKnown) {
   FuelBook book;
   EXPECT_EQ(book.left({}).state, FuelState::kUnknown);
   EXPECT_TRUE(std::isnan(book.left({}).laps));
-  book.heard(kUnset, 1.0, 1.0);
+  book.receive(kUnset, 1.0, 1.0);
   EXPECT_EQ(book.left({}).state, FuelState::kUnknown);
-  book.heard(30.0, kUnset, kUnset);
+  book.receive(30.0, kUnset, kUnset);
   EXPECT_FALSE(book.left({}).measured);  // by the plan's guess
   EXPECT_EQ(book.left({}).state, FuelState::kEnough);
 }

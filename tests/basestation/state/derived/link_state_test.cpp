@@ -18,7 +18,7 @@ struct Radio {
     figures.down_loss = loss;
     figures.round_trip_ms = round_trip_ms;
     for (const Instant end = now + length; now < end; now += milliseconds(10)) {
-      if (packets) figures.heard = now;
+      if (packets) figures.received = now;
       evaluator.step(figures, now);
       if (evaluator.state() != states.back()) states.push_back(evaluator.state());
     }
@@ -31,7 +31,7 @@ using States = std::vector<LinkState>;
 TEST(LinkState, SilenceIsLost) {
   Radio radio;
   radio.run(seconds(1), true);
-  const Instant last = *radio.figures.heard;
+  const Instant last = *radio.figures.received;
   radio.run(seconds(2), false);
   EXPECT_EQ(radio.states, (States{kNone, kGood, kLost}));
   EXPECT_EQ(radio.evaluator.since() - last, LinkWatch::kLostAfter);

@@ -11,11 +11,11 @@ namespace {
 using telemetry::field;
 
 TEST(Pass, PutsWithTheAgeOfTheOldestThatWasEverHeard) {
-  KnownState told;
-  told.publish(field("ego.x"), 1.0, kStart);
-  told.publish(field("track.station"), 2.0, kStart + seconds(3));
+  KnownState reported;
+  reported.publish(field("ego.x"), 1.0, kStart);
+  reported.publish(field("track.station"), 2.0, kStart + seconds(3));
   BaseViews views{};
-  const Pass pass{.vehicle = told.vehicle, .now = kStart + seconds(3), .views = views};
+  const Pass pass{.vehicle = reported.vehicle, .now = kStart + seconds(3), .views = views};
   pass.put(BaseField::kGapAhead, 5.0,
            {field("track.station"), field("ego.x"), field("fuel.level")});
   const FieldView& view = views[index_of(BaseField::kGapAhead)];
@@ -27,10 +27,10 @@ TEST(Pass, PutsWithTheAgeOfTheOldestThatWasEverHeard) {
 }
 
 TEST(Pass, StaleIsNotUsable) {
-  KnownState told;
-  told.publish(field("ego.x"), 1.0, kStart);
+  KnownState reported;
+  reported.publish(field("ego.x"), 1.0, kStart);
   BaseViews views{};
-  const Pass pass{.vehicle = told.vehicle, .now = kStart + seconds(3), .views = views};
+  const Pass pass{.vehicle = reported.vehicle, .now = kStart + seconds(3), .views = views};
   EXPECT_EQ(pass.value(field("ego.x")), 1.0);
   EXPECT_TRUE(std::isnan(pass.usable(field("ego.x"))));
 }

@@ -11,13 +11,13 @@ namespace {
 using telemetry::field;
 
 struct RaceRig {
-  KnownState told;
+  KnownState reported;
   Known known;
   MonitorState monitors;
   BaseViews views{};
 
   const FieldView& of(BaseField which, Instant now, const Course* course = nullptr) {
-    const Pass pass{.vehicle = told.vehicle, .now = now, .views = views};
+    const Pass pass{.vehicle = reported.vehicle, .now = now, .views = views};
     derive_race(pass, known, monitors, {}, course);
     return views[index_of(which)];
   }
@@ -35,18 +35,18 @@ TEST(RaceFields, GapsAreToOpponentsThatAreKnownNow) {
   const Course course = oval();
   const auto gap = [&](BaseField which, Instant now) { return rig.of(which, now, &course); };
   EXPECT_EQ(gap(BaseField::kGapAhead, kStart).quality, Quality::kNever);
-  rig.told.publish(field("track.station"), 2'380.0, kStart);
-  rig.told.publish(field("ego.vx"), 60.0, kStart);
-  rig.told.publish(field("opponent_1.station"), 20.0, kStart);
-  rig.told.publish(field("opponent_1.speed"), 50.0, kStart);
+  rig.reported.publish(field("track.station"), 2'380.0, kStart);
+  rig.reported.publish(field("ego.vx"), 60.0, kStart);
+  rig.reported.publish(field("opponent_1.station"), 20.0, kStart);
+  rig.reported.publish(field("opponent_1.speed"), 50.0, kStart);
   EXPECT_NEAR(gap(BaseField::kGapAhead, kStart).value, 35.1, 0.05);
   EXPECT_EQ(gap(BaseField::kGapBehind, kStart).quality, Quality::kNever);
   EXPECT_EQ(gap(BaseField::kGapClosing, kStart).value, 10.0);
   // Seen no more: what was last known, struck out. Another one that is seen counts instead.
   const Instant later = kStart + seconds(5);
-  rig.told.touch(telemetry::Group::kTrack, later);
+  rig.reported.touch(telemetry::Group::kTrack, later);
   EXPECT_EQ(gap(BaseField::kGapAhead, later).quality, Quality::kStale);
-  rig.told.publish(field("opponent_2.station"), 300.0, later);
+  rig.reported.publish(field("opponent_2.station"), 300.0, later);
   EXPECT_NEAR(gap(BaseField::kGapAhead, later).value, 315.1, 0.05);
   EXPECT_EQ(gap(BaseField::kGapAhead, later).quality, Quality::kFresh);
 }
@@ -54,21 +54,21 @@ TEST(RaceFields, GapsAreToOpponentsThatAreKnownNow) {
 TEST(RaceFields, ARoleThatTheCarDoesNotActOnIsAConflict) {
   RaceRig rig;
   constexpr double kAttackerFlag = 10, kDefends = 1, kAttacks = 2;
-  rig.told.publish(field("flags.vehicle"), kAttackerFlag, kStart);
+  rig.reported.publish(field("flags.vehicle"), kAttackerFlag, kStart);
   EXPECT_EQ(rig.of(BaseField::kRole, kStart).value, kAttacks);
   EXPECT_EQ(rig.of(BaseField::kRoleConflict, kStart).quality, Quality::kNever);
-  rig.told.publish(field("planner.role"), kDefends, kStart);
+  rig.reported.publish(field("planner.role"), kDefends, kStart);
   EXPECT_EQ(rig.of(BaseField::kRoleConflict, kStart).value, 1.0);
-  rig.told.publish(field("planner.role"), kAttacks, kStart);
+  rig.reported.publish(field("planner.role"), kAttacks, kStart);
   EXPECT_EQ(rig.of(BaseField::kRoleConflict, kStart).value, 0.0);
 }
 
 TEST(RaceFields, TheAttemptGrowsOldWithTheFlagsItIsCountedBy) {
   RaceRig rig;
-  rig.told.publish(field("flags.track"), 5.0, kStart);
-  rig.told.publish(field("flags.vehicle"), 10.0, kStart);
-  rig.told.publish(field("track.lap"), 4.0, kStart);
-  rig.monitors.step_race(rig.told.vehicle, {}, nullptr, kStart);
+  rig.reported.publish(field("flags.track"), 5.0, kStart);
+  rig.reported.publish(field("flags.vehicle"), 10.0, kStart);
+  rig.reported.publish(field("track.lap"), 4.0, kStart);
+  rig.monitors.step_race(rig.reported.vehicle, {}, nullptr, kStart);
   EXPECT_EQ(rig.of(BaseField::kAttempt, kStart).value, 1.0);
   EXPECT_EQ(rig.of(BaseField::kAttemptLapsLeft, kStart).value, 2.0);
   EXPECT_EQ(rig.of(BaseField::kAttempt, kStart + seconds(5)).quality, Quality::kStale);

@@ -147,14 +147,14 @@ class BulkCount {
     next_ = now + kEvery;
     const BulkCounters counters = station.report(now).bulk;
     const std::uint64_t pieces = counters.pieces - counters.repeated;
-    if (pieces > told_) note_bulk((pieces - told_) * kBulkPiece);
-    told_ = pieces;
+    if (pieces > reported_) note_bulk((pieces - reported_) * kBulkPiece);
+    reported_ = pieces;
   }
 
  private:
   static constexpr Duration kEvery = milliseconds(100);
   Instant next_{};
-  std::uint64_t told_ = 0;
+  std::uint64_t reported_ = 0;
 };
 
 void listen(const Call& call) {

@@ -57,7 +57,7 @@ world::BusHealth some_health() {
   bus.identity = {.verdict = world::IdentityVerdict::kWrong,
                   .difference = world::IdentityDifference::kUnknownId,
                   .id = 1000,
-                  .heard = 8};
+                  .received = 8};
   bus.link = {.controller = world::ControllerState::kBusOff, .lost_in_socket = 108};
   for (const std::uint32_t id : {1300U, 1303U})
     EXPECT_TRUE(bus.messages.push({.id = id,
@@ -88,7 +88,7 @@ telemetry::LinkReport some_report() {
   report.round_trip = milliseconds(31);
   report.ledger.received = 8;
   report.ledger.decided[1] = 9;
-  report.paths[1].heard.received = 10;
+  report.paths[1].received.received = 10;
   report.paths[1].spent.bytes = 11;
   return report;
 }

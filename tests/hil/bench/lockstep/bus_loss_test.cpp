@@ -26,7 +26,7 @@ Counted run_with(const std::vector<scenario::Fault>& faults) {
                             const pipeline::Inputs& in) {
     for (const can::ReceivedFrame& received : in.can) ++counted.received[received.frame.id];
     const pipeline::Outputs out = pipeline::step(setup, car, in);
-    for (const world::LossReport& loss : out.heard.bus.losses)
+    for (const world::LossReport& loss : out.received.bus.losses)
       counted.reported[loss.id] += loss.frames;
     return out;
   };

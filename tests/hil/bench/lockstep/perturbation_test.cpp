@@ -139,12 +139,12 @@ TEST(RigFaults, ABiasedGyroIsWrongByTheBiasInItsUnitOnly) {
     s.faults = {fault_at(seconds(1), "imu_bias", bias)};
     s.faults[0].unit = 1;
     Rig rig = rig_of(s);
-    std::vector<std::pair<Instant, double>> heard;
+    std::vector<std::pair<Instant, double>> received;
     each_step(rig, seconds(3), [&](Instant) {
       for (const auto& sample : rig.take_samples().imu)
-        if (sample.unit == unit) heard.emplace_back(sample.at, sample.rate_rad_per_s[2]);
+        if (sample.unit == unit) received.emplace_back(sample.at, sample.rate_rad_per_s[2]);
     });
-    return heard;
+    return received;
   };
   EXPECT_EQ(rates(0.05, 0), rates(0.0, 0));
   const auto plain = rates(0.0, 1), biased = rates(0.05, 1);

@@ -47,7 +47,7 @@ class Radio {
   const std::optional<Instant>& alive_at() const { return alive_at_; }
   const pipeline::Inputs& inputs() const { return *in_; }
   pipeline::Outputs& outputs() { return *out_; }
-  std::vector<world::OperatorCommand> heard;  // of the operator, by the pipeline
+  std::vector<world::OperatorCommand> received;  // of the operator, by the pipeline
 
  private:
   void tick(Instant now) {
@@ -57,7 +57,7 @@ class Radio {
     alive_at_ = in_->radio_at;
     out_->answers = {};
     for (const world::OperatorCommand& command : in_->commands) {
-      heard.push_back(command);
+      received.push_back(command);
       EXPECT_TRUE(out_->answers.push(
           {.id = command.id, .answer = world::CommandAnswer::kApplied, .at = now}));
     }
@@ -138,9 +138,9 @@ TEST(VirtualStation, ACommandIsAppliedOnceAndItsFateIsKnown) {
                    say(1'600, "command track_flag 3 because of a test"),
                    say(1'700, "command end_run 1 because of a test")});
   radio.run_to(3'000);
-  ASSERT_EQ(radio.heard.size(), 2u) << "the end of the run is the adapter's own business";
-  EXPECT_EQ(radio.heard[0].kind, world::OperatorCommandKind::kSpeedLimit);
-  EXPECT_NEAR(radio.heard[0].argument, 30.0, 0.05);
+  ASSERT_EQ(radio.received.size(), 2u) << "the end of the run is the adapter's own business";
+  EXPECT_EQ(radio.received[0].kind, world::OperatorCommandKind::kSpeedLimit);
+  EXPECT_NEAR(radio.received[0].argument, 30.0, 0.05);
   EXPECT_TRUE(radio.station().refusals().empty());
   ASSERT_EQ(radio.station().commands().size(), 3u);
   for (const telemetry::CommandId id : radio.station().commands()) {
@@ -212,7 +212,7 @@ TEST(VirtualStation, AtASpareBaseTheStopHoldsAndTheAuthorityIsTakenAnew) {
   EXPECT_TRUE(radio.station().refusals().empty());
   EXPECT_EQ(radio.inputs().operator_inputs.stop, world::StopRequest::kControlled);
   radio.run_to(7'900);
-  EXPECT_TRUE(radio.heard.empty());
+  EXPECT_TRUE(radio.received.empty());
   EXPECT_TRUE(radio.station().commands().empty());
   ASSERT_EQ(radio.station().refusals().size(), 1U);
   EXPECT_NE(radio.station().refusals()[0].find("gate authority: nobody holds it"),
@@ -266,8 +266,8 @@ TEST(VirtualStation, EventsArriveEachOnceThroughFades) {
   Radio radio({}, {}, {{link::bursty(0.3, milliseconds(120), 32'000.0, milliseconds(15)), {}}});
   radio.run_to(1'000);
   for (int lap = 1; lap <= 20; ++lap) {
-    radio.outputs().heard.race_control.ever_heard = true;
-    radio.outputs().heard.race_control.lap_count = static_cast<std::uint8_t>(lap);
+    radio.outputs().received.race_control.ever_received = true;
+    radio.outputs().received.race_control.lap_count = static_cast<std::uint8_t>(lap);
     radio.run_to(1'000 + lap * 100);
   }
   radio.run_to(6'000);

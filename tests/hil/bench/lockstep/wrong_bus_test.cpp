@@ -74,9 +74,9 @@ TEST(WrongBus, OnItsOwnBusTheSameCarArms) {
     Instant armed{};
     LockstepOptions options;
     options.watch = [&](const pipeline::Outputs& out, const Rig& rig, Instant now) {
-      const bool right = out.heard.bus.identity.verdict == world::IdentityVerdict::kRight;
+      const bool right = out.received.bus.identity.verdict == world::IdentityVerdict::kRight;
       if (out.chosen.mode != world::Mode::kDisarmed && armed.ns == 0) armed = now;
-      EXPECT_FALSE(out.heard.race_control.conflict) << "both systems of race control agree";
+      EXPECT_FALSE(out.received.race_control.conflict) << "both systems of race control agree";
       if (armed.ns != 0) {
         EXPECT_TRUE(right);
       }

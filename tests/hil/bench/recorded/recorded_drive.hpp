@@ -41,10 +41,10 @@ class RecordedDrive {
  private:
   void drive(std::uint64_t tick) {
     const Instant now = pipeline::testing::kStart + kTick * static_cast<std::int64_t>(tick);
-    pipeline::testing::Heard heard = source_.receive(now);
-    receive(heard.sensors, now);
-    heard.sensors = receivers_.samples();
-    pipeline::Inputs in = heard.inputs(now);
+    pipeline::testing::Received received = source_.receive(now);
+    receive(received.sensors, now);
+    received.sensors = receivers_.samples();
+    pipeline::Inputs in = received.inputs(now);
     add_rare(tick, now, in);
     const pipeline::Outputs out = pipeline::step(pipeline::testing::setup(), *car_, in);
     box_.tick(in, out.passed.frames.span());

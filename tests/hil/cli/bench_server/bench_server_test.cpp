@@ -42,7 +42,7 @@ struct Table {
   BenchServer server{three()};
 
   std::string refused(const std::string& line) {
-    const Answer answer = server.heard(line);
+    const Answer answer = server.receive(line);
     EXPECT_FALSE(answer.start);
     EXPECT_TRUE(answer.to_all.empty());
     if (answer.to_asker.size() != 1) return "not one answer";
@@ -58,7 +58,7 @@ struct Table {
     return {};
   }
   Start begin() {
-    const Answer answer = server.heard(kStart);
+    const Answer answer = server.receive(kStart);
     EXPECT_TRUE(answer.start);
     EXPECT_EQ(server.started("runs/1").size(), 1U);
     return answer.start.value_or(Start{});
@@ -90,8 +90,8 @@ TEST(BenchServer, OneRunAtATime) {
   EXPECT_EQ(table.run().text("state"), "running");
   EXPECT_EQ(table.refused(kStart), "start: run 1 (good) goes on; stop it first");
   table.server.ended({.code = 2});
-  const Answer again =
-      table.server.heard(R"({"do": "start", "scenario": "good", "mode": "lockstep", "seed": 99})");
+  const Answer again = table.server.receive(
+      R"({"do": "start", "scenario": "good", "mode": "lockstep", "seed": 99})");
   ASSERT_TRUE(again.start);
   EXPECT_EQ(again.start->run, 2U);
   EXPECT_EQ(again.start->seed, 99U);
@@ -140,7 +140,7 @@ TEST(BenchServer, ARunThatEndsWithoutAResultHasCrashed) {
 TEST(BenchServer, AStopSaysByWhom) {
   Table table;
   table.begin();
-  const Answer answer = table.server.heard(R"({"do": "stop", "by": "Bo"})");
+  const Answer answer = table.server.receive(R"({"do": "stop", "by": "Bo"})");
   EXPECT_TRUE(answer.stop);
   ASSERT_EQ(answer.to_all.size(), 1U);
   table.server.ended({.signal = 15});
@@ -151,10 +151,10 @@ TEST(BenchServer, AStopSaysByWhom) {
 TEST(BenchServer, ProgressIsPassedOnWithItsRun) {
   Table table;
   table.begin();
-  const auto told = table.server.progressed(R"({"type": "at", "t_s": 1.5})");
-  ASSERT_EQ(told.size(), 1U);
-  EXPECT_EQ(parsed(told[0]).number("run"), 1.0);
-  EXPECT_EQ(parsed(told[0]).number("t_s"), 1.5);
+  const auto reported = table.server.progressed(R"({"type": "at", "t_s": 1.5})");
+  ASSERT_EQ(reported.size(), 1U);
+  EXPECT_EQ(parsed(reported[0]).number("run"), 1.0);
+  EXPECT_EQ(parsed(reported[0]).number("t_s"), 1.5);
   for (const char* bad : {"", "{", "[]", "1", R"({"type": "other"})", R"({"type": "at"} {})"})
     EXPECT_TRUE(table.server.progressed(bad).empty()) << bad;
   EXPECT_EQ(table.server.counters().malformed, 6U);
@@ -184,7 +184,7 @@ TEST(BenchServer, AFailureOfTheBenchIsTheReason) {
   table.server.ended({.code = 2});
   EXPECT_EQ(table.run().text("why"), "vcan0: no frame");
   Table other;
-  other.server.heard(kStart);
+  other.server.receive(kStart);
   other.server.not_started({"runs/1", "disk full"});
   EXPECT_EQ(other.run().text("state"), "unusable");
   EXPECT_EQ(other.run().text("why"), "runs/1: error: disk full");

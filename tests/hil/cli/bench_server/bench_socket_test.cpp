@@ -43,14 +43,14 @@ class BenchSocketTest : public ::testing::Test {
       for (const std::string& line : client_->receive()) {
         auto value = JsonValue::parse(line, "line");
         EXPECT_TRUE(value) << line;
-        if (value) heard_.push_back(*std::move(value));
+        if (value) received_.push_back(*std::move(value));
       }
       if (done()) return true;
     }
     return false;
   }
   bool has(const std::string& type, const std::string& member, const std::string& text) const {
-    for (const JsonValue& value : heard_)
+    for (const JsonValue& value : received_)
       if (value.text("type") == type && value.text(member) == text) return true;
     return false;
   }
@@ -59,7 +59,7 @@ class BenchSocketTest : public ::testing::Test {
   transport::TemporaryFolder folder_ = *transport::TemporaryFolder::create("server");
   std::optional<BenchSocket> server_;
   std::optional<transport::LineSocket> client_;
-  std::vector<JsonValue> heard_;
+  std::vector<JsonValue> received_;
 };
 
 TEST_F(BenchSocketTest, ARunIsFollowedToItsVerdict) {
@@ -78,7 +78,7 @@ TEST_F(BenchSocketTest, ACrashOfTheRunIsTold) {
   ASSERT_TRUE(until([&] { return has("run", "state", "crashed"); }));
   EXPECT_TRUE(has("run", "why", "signal 11 ended it"));
   start();  // and the server goes on
-  ASSERT_TRUE(until([&] { return server_->server().running() || heard_.size() > 5; }));
+  ASSERT_TRUE(until([&] { return server_->server().running() || received_.size() > 5; }));
 }
 
 TEST_F(BenchSocketTest, AStopEndsARunThatDoesNotEndByItself) {

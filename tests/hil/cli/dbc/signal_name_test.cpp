@@ -32,19 +32,19 @@ TEST(FindSignal, IsByMessageAndSignal) {
 
 TEST(FindSignal, WhatIsNotThereIsToldWithTheNearestNames) {
   const can::Database database = some_database();
-  const auto told = [&database](const char* words) {
+  const auto reported = [&database](const char* words) {
     const auto found = find_signal(database, words);
     return found ? std::string("found") : to_string(found.error());
   };
-  EXPECT_NE(told("brake.Speed").find("no message \"brake\"; the nearest: Brakes, Engine"),
+  EXPECT_NE(reported("brake.Speed").find("no message \"brake\"; the nearest: Brakes, Engine"),
             std::string::npos)
-      << told("brake.Speed");
-  EXPECT_NE(told("Brakes.RaerPresure")
+      << reported("brake.Speed");
+  EXPECT_NE(reported("Brakes.RaerPresure")
                 .find("no signal \"RaerPresure\"; the nearest: Brakes.RearPressure, Brakes.Front"),
             std::string::npos)
-      << told("Brakes.RaerPresure");
+      << reported("Brakes.RaerPresure");
   for (const char* const words : {"", ".", "Brakes", "Brakes.", ".Speed"})
-    EXPECT_NE(told(words).find("expected MESSAGE.SIGNAL"), std::string::npos) << words;
+    EXPECT_NE(reported(words).find("expected MESSAGE.SIGNAL"), std::string::npos) << words;
 }
 
 TEST(EditDistance, IsThatOfLevenshtein) {

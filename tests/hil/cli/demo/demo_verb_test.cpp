@@ -41,9 +41,9 @@ TEST_F(DemoVerb, WrongUsageIsTold) {
 }
 
 TEST_F(DemoVerb, HelpIsNoError) {
-  const Said said = run({"demo", "--help"});
-  EXPECT_EQ(said.code, 0);
-  EXPECT_NE(said.out.find("--headless"), std::string::npos);
+  const ProgramOutput output = run({"demo", "--help"});
+  EXPECT_EQ(output.code, 0);
+  EXPECT_NE(output.out.find("--headless"), std::string::npos);
 }
 
 TEST_F(DemoVerb, ABadScenarioIsToldWithItsPlaceAndNothingIsStarted) {

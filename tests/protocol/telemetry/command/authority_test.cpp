@@ -15,18 +15,20 @@ using testing::TwoEnds;
 
 constexpr HolderId kA = 1, kB = 2;
 
-struct Said {
+struct Statement {
   Values values;
   Received received;
 };
-Said say(const AuthorityRegister& authority, Instant now, Duration way = milliseconds(20)) {
-  Said said;
-  authority.put(said.values, now);
-  said.received.at = now + way;
-  said.received.sent_earliest = now;
-  return said;
+Statement say(const AuthorityRegister& authority, Instant now, Duration way = milliseconds(20)) {
+  Statement stated;
+  authority.put(stated.values, now);
+  stated.received.at = now + way;
+  stated.received.sent_earliest = now;
+  return stated;
 }
-void receive(AuthorityView& view, const Said& said) { view.heard(said.values, said.received); }
+void receive(AuthorityView& view, const Statement& stated) {
+  view.receive(stated.values, stated.received);
+}
 
 TEST(AuthorityRegister, OneHolderUntilItDropsHandsOverOrExpires) {
   AuthorityRegister authority;
@@ -104,13 +106,13 @@ TEST(AuthorityView, APacketOfAnOlderEpochChangesNothing) {
   AuthorityView view;
   const Instant t{seconds(10).ns};
   authority.take(kA, t);
-  const Said of_a = say(authority, t);
+  const Statement of_a = say(authority, t);
   authority.hand_over(kA, kB, t);
   receive(view, say(authority, t + milliseconds(20)));
   receive(view, of_a);
   EXPECT_EQ(view.holder(t + milliseconds(40)), kB);
   authority.drop(kB, t + milliseconds(40));
-  const Said of_nobody = say(authority, t + milliseconds(40));
+  const Statement of_nobody = say(authority, t + milliseconds(40));
   receive(view, of_nobody);
   receive(view, of_a);
   EXPECT_EQ(view.holder(t + milliseconds(60)), 0);
@@ -168,7 +170,7 @@ TEST(AuthorityView, WhoHoldsInTheCarHeldAtTheBaseLessThanTheExpiryAgo) {
   AuthorityRegister authority;
   AuthorityView view;
   std::array<Instant, 4> held_at{};
-  std::vector<Said> air;
+  std::vector<Statement> air;
   Instant t{seconds(10).ns};
   for (int i = 0; i < 200'000; ++i, t += milliseconds(20)) {
     const auto who = static_cast<HolderId>(1 + random() % 3);
@@ -193,11 +195,11 @@ TEST(AuthorityView, WhoHoldsInTheCarHeldAtTheBaseLessThanTheExpiryAgo) {
     air.push_back(say(authority, t, milliseconds(static_cast<int>(random() % 2'000))));
     while (air.size() > 50) {
       const std::size_t pick = random() % air.size();
-      Said said = air[pick];
+      Statement stated = air[pick];
       air[pick] = air.back();
       air.pop_back();
-      said.received.at = std::max(said.received.at, t);
-      if (random() % 2 == 0 && said.received.at <= t) receive(view, said);
+      stated.received.at = std::max(stated.received.at, t);
+      if (random() % 2 == 0 && stated.received.at <= t) receive(view, stated);
     }
     if (const HolderId in_car = view.holder(t); in_car != 0) {
       ASSERT_LT(t - held_at[in_car], kAuthorityExpiry);

@@ -107,17 +107,17 @@ TEST(CommandLedger, AConsumerThatDoesNotAskInTimeGetsNothingLate) {
 
 TEST(CommandLedger, TheAgeIsLookedAtWhenTheConsumerAsksAndToTheNanosecond) {
   const Instant sent{seconds(50).ns};
-  const CommandRecord said{.number = 1,
-                           .base_run = short_boot(9),
-                           .car_boot = short_boot(5),
-                           .type = static_cast<std::uint8_t>(CommandType::kSendParameters),
-                           .step = 1};
-  const auto bytes = to_bytes(said);
+  const CommandRecord stated{.number = 1,
+                             .base_run = short_boot(9),
+                             .car_boot = short_boot(5),
+                             .type = static_cast<std::uint8_t>(CommandType::kSendParameters),
+                             .step = 1};
+  const auto bytes = to_bytes(stated);
   Received received;
   received.at = sent + milliseconds(30);
   received.sent_earliest = sent;
-  const Duration told = parse_command(bytes)->age;
-  const Instant expires = sent - told + row_of(CommandType::kSendParameters).time_to_live;
+  const Duration reported = parse_command(bytes)->age;
+  const Instant expires = sent - reported + row_of(CommandType::kSendParameters).time_to_live;
   for (const Duration past : {Duration{}, nanoseconds(1)}) {
     CommandLedger ledger(5);
     ledger.meets(9);
@@ -135,12 +135,12 @@ TEST(CommandLedger, ANumberOlderThanMemoryIsNeverHandedOut) {
   received.at = now;
   received.sent_earliest = now;
   const auto offer = [&](CommandId number) {
-    const CommandRecord said{.number = number,
-                             .base_run = short_boot(9),
-                             .car_boot = short_boot(5),
-                             .type = static_cast<std::uint8_t>(CommandType::kSendParameters),
-                             .step = 1};
-    const auto bytes = to_bytes(said);
+    const CommandRecord stated{.number = number,
+                               .base_run = short_boot(9),
+                               .car_boot = short_boot(5),
+                               .type = static_cast<std::uint8_t>(CommandType::kSendParameters),
+                               .step = 1};
+    const auto bytes = to_bytes(stated);
     EXPECT_TRUE(ledger.take({RecordType::kCommand, bytes}, received, {}));
     const auto due = ledger.take_due(now, {});
     if (due) ledger.decide(due->id, Outcome::kApplied, now);

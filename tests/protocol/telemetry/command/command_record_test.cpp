@@ -13,7 +13,7 @@ TEST(CommandRecord, ReadsBackWhatItWroteAndTakesNothingForYounger) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 100'000; ++i) {
     const auto type = static_cast<std::uint8_t>(random() % kCommandTypes);
-    const CommandRecord said{
+    const CommandRecord stated{
         .number = static_cast<CommandId>(1 + random() % 0xFFFF'FFFE),
         .base_run = static_cast<std::uint32_t>(random()),
         .car_boot = static_cast<std::uint32_t>(random()),
@@ -21,24 +21,24 @@ TEST(CommandRecord, ReadsBackWhatItWroteAndTakesNothingForYounger) {
         .step = static_cast<std::uint16_t>(random() % kCommandTable[type].quantized().count()),
         .age = nanoseconds(static_cast<std::int64_t>(random() % 60'000'000'000)),
         .issuer = static_cast<HolderId>(random())};
-    const auto heard = parse_command(to_bytes(said));
-    ASSERT_TRUE(heard);
-    EXPECT_EQ(heard->number, said.number);
-    EXPECT_EQ(heard->base_run, said.base_run);
-    EXPECT_EQ(heard->car_boot, said.car_boot);
-    EXPECT_EQ(heard->type, said.type);
-    EXPECT_EQ(heard->step, said.step);
-    EXPECT_EQ(heard->issuer, said.issuer);
-    EXPECT_GE(heard->age, said.age);
-    EXPECT_LE(heard->age, said.age + microseconds(1'100));
+    const auto received = parse_command(to_bytes(stated));
+    ASSERT_TRUE(received);
+    EXPECT_EQ(received->number, stated.number);
+    EXPECT_EQ(received->base_run, stated.base_run);
+    EXPECT_EQ(received->car_boot, stated.car_boot);
+    EXPECT_EQ(received->type, stated.type);
+    EXPECT_EQ(received->step, stated.step);
+    EXPECT_EQ(received->issuer, stated.issuer);
+    EXPECT_GE(received->age, stated.age);
+    EXPECT_LE(received->age, stated.age + microseconds(1'100));
   }
 }
 
 TEST(CommandRecord, AnAgeBeyondItsFieldStaysBeyondEveryTimeToLive) {
-  CommandRecord said{.number = 1};
-  said.age = seconds(100'000'000);
-  const Duration heard = parse_command(to_bytes(said))->age;
-  for (const CommandRow& row : kCommandTable) EXPECT_GT(heard, row.time_to_live);
+  CommandRecord stated{.number = 1};
+  stated.age = seconds(100'000'000);
+  const Duration received = parse_command(to_bytes(stated))->age;
+  for (const CommandRow& row : kCommandTable) EXPECT_GT(received, row.time_to_live);
 }
 
 // Every length that is not right, and in the right length everything that nobody writes.
@@ -73,10 +73,10 @@ TEST(CommandRecord, RefusesWhatItsWriterDoesNotMake) {
 
 TEST(CommandRecord, ACommandOfALaterBuildIsReadSoThatItCanBeAnswered) {
   for (int type = kCommandTypes; type < 256; ++type) {
-    const auto heard = parse_command(to_bytes(
+    const auto received = parse_command(to_bytes(
         CommandRecord{.number = 1, .type = static_cast<std::uint8_t>(type), .step = 65'535}));
-    ASSERT_TRUE(heard);
-    EXPECT_FALSE(heard->known());
+    ASSERT_TRUE(received);
+    EXPECT_FALSE(received->known());
   }
 }
 

@@ -117,14 +117,14 @@ TEST(Joystick, OneFutureStampedPacketDoesNotLockTheOperatorOut) {
   for (int i = 0; i < 30'000; ++i) far.sample({1.0, 0.0}, Instant{});
   far.put(values, Instant{});
   const Instant now{seconds(100).ns};
-  receiver.heard(values, received(now, now + seconds(3'600)));
+  receiver.receive(values, received(now, now + seconds(3'600)));
   ASSERT_TRUE(receiver.sample(now)) << "it counts as of now, at most";
   EXPECT_FALSE(receiver.sample(now + kJoystickDead + nanoseconds(1)));
   for (int ms = 0; ms <= 240; ms += 20) {
     const Instant at = now + milliseconds(ms);
     hand.sample({0.5, 0.0}, at);
     hand.put(values, at);
-    receiver.heard(values, received(at, at));
+    receiver.receive(values, received(at, at));
   }
   const auto sample = receiver.sample(now + milliseconds(240));
   ASSERT_TRUE(sample);
@@ -140,9 +140,9 @@ TEST(Joystick, ReorderedAndRepeatedPacketsNeverGoBack) {
   hand.sample({0.2, 0.5}, Instant{} + milliseconds(10));
   hand.put(second, Instant{} + milliseconds(10));
   const Instant at{milliseconds(20).ns};
-  receiver.heard(second, received(at, at));
-  receiver.heard(first, received(at, at));
-  receiver.heard(second, received(at, at));
+  receiver.receive(second, received(at, at));
+  receiver.receive(first, received(at, at));
+  receiver.receive(second, received(at, at));
   EXPECT_DOUBLE_EQ(receiver.sample(at)->throttle_cap, 0.2);
   EXPECT_EQ(receiver.counters().repeated, 2U);
 }
@@ -155,7 +155,7 @@ TEST(Joystick, NumbersBeginAgainAfterTheLast) {
   for (int i = 0; i < 70'000; ++i, now += milliseconds(5)) {
     hand.sample({0.5, 0.0}, now);
     hand.put(values, now);
-    receiver.heard(values, received(now, now));
+    receiver.receive(values, received(now, now));
   }
   EXPECT_EQ(receiver.counters().samples, 70'000U);
 }

@@ -23,14 +23,14 @@ TEST(StopLatch, ClosesOnTheFirstPacketThatSurvivesInHundredThousandTrials) {
   for (int trial = 0; trial < 100'000; ++trial) {
     StopTransmitter transmitter;
     StopLatch latch;
-    for (int before = lost(); before > 0; --before) latch.heard(transmitter.state(), kNow);
+    for (int before = lost(); before > 0; --before) latch.receive(transmitter.state(), kNow);
     const auto level = random() % 2 == 0 ? StopLevel::kControlled : StopLevel::kEmergency;
     transmitter.demand(level, StopReason::kOperator);
     const int gone = lost();  // never heard
     ASSERT_EQ(latch.level(), StopLevel::kNone);
     Values packet;
     put(transmitter.state(), packet);
-    latch.heard(*stop_state_of(packet), kNow + milliseconds(20 * gone));
+    latch.receive(*stop_state_of(packet), kNow + milliseconds(20 * gone));
     ASSERT_EQ(latch.level(), level);
     ASSERT_EQ(latch.reason(), StopReason::kOperator);
     ASSERT_NE(latch.challenge(), 0);
@@ -43,14 +43,14 @@ TEST(StopLatch, NothingButItsChallengeOpensIt) {
   for (int trial = 0; trial < 20'000; ++trial) {
     StopLatch latch;
     latch.draw(static_cast<std::uint16_t>(random()));
-    latch.heard(kPressed, kNow);
+    latch.receive(kPressed, kNow);
     for (int i = 0; i < 20; ++i) {
       const StopState any{static_cast<StopLevel>(random() % 3),
                           static_cast<std::uint8_t>(random() % kStopEpochs), StopReason::kTest};
       const std::uint16_t challenge = latch.challenge();
       switch (random() % 4) {
         case 0:
-          latch.heard(any, kNow + milliseconds(i));
+          latch.receive(any, kNow + milliseconds(i));
           break;
         case 1:
           latch.base_restarted();
@@ -74,15 +74,15 @@ TEST(StopLatch, StaysOpenWhileTheBaseHasNotHeardOfTheRelease) {
   StopTransmitter transmitter;
   StopLatch latch;
   transmitter.demand(StopLevel::kControlled, StopReason::kOperator);
-  latch.heard(transmitter.state(), kNow);
+  latch.receive(transmitter.state(), kNow);
   transmitter.release_asked(1);
   ASSERT_TRUE(latch.release(latch.challenge(), true));
-  for (int i = 0; i < 100; ++i) latch.heard(transmitter.state(), kNow);
+  for (int i = 0; i < 100; ++i) latch.receive(transmitter.state(), kNow);
   EXPECT_EQ(latch.level(), StopLevel::kNone);
   transmitter.released(1);
   EXPECT_EQ(transmitter.state().level, StopLevel::kNone);
   transmitter.demand(StopLevel::kControlled, StopReason::kOperator);
-  latch.heard(transmitter.state(), kNow);
+  latch.receive(transmitter.state(), kNow);
   EXPECT_EQ(latch.level(), StopLevel::kControlled) << "the next press counts";
 }
 
@@ -92,15 +92,15 @@ TEST(StopLatch, APressWinsOverAReleaseThatIsOnItsWay) {
     StopTransmitter transmitter;
     StopLatch latch;
     transmitter.demand(StopLevel::kEmergency, StopReason::kOperator);
-    latch.heard(transmitter.state(), kNow);
+    latch.receive(transmitter.state(), kNow);
     const std::uint16_t challenge = latch.challenge();
     transmitter.release_asked(1);
     transmitter.demand(StopLevel::kEmergency, StopReason::kOperator);
-    if (press_arrives_first) latch.heard(transmitter.state(), kNow);
+    if (press_arrives_first) latch.receive(transmitter.state(), kNow);
     EXPECT_EQ(latch.release(challenge, true), !press_arrives_first);
-    latch.heard(transmitter.state(), kNow);
+    latch.receive(transmitter.state(), kNow);
     transmitter.released(1);
-    latch.heard(transmitter.state(), kNow);
+    latch.receive(transmitter.state(), kNow);
     EXPECT_EQ(latch.level(), StopLevel::kEmergency);
     EXPECT_EQ(transmitter.state().level, StopLevel::kEmergency);
   }
@@ -112,27 +112,27 @@ TEST(StopLatch, AnOldPacketAfterTheReleaseClosesNothing) {
   transmitter.demand(StopLevel::kControlled, StopReason::kOperator);
   const StopState old = transmitter.state();
   transmitter.demand(StopLevel::kEmergency, StopReason::kOperator);
-  latch.heard(transmitter.state(), kNow);
+  latch.receive(transmitter.state(), kNow);
   ASSERT_TRUE(latch.release(latch.challenge(), true));
-  latch.heard(old, kNow);
+  latch.receive(old, kNow);
   EXPECT_EQ(latch.level(), StopLevel::kNone);
 }
 
 TEST(StopLatch, ARestartOfTheBaseRaisesNothingReleasesNothingAndIsHeardAgain) {
   StopLatch latch;
-  latch.heard(kPressed, kNow);
+  latch.receive(kPressed, kNow);
   latch.base_restarted();
   StopTransmitter reborn;
-  latch.heard(reborn.state(), kNow);
+  latch.receive(reborn.state(), kNow);
   EXPECT_EQ(latch.level(), StopLevel::kEmergency);
   ASSERT_TRUE(latch.release(latch.challenge(), true));
   latch.base_restarted();
-  latch.heard(StopTransmitter{}.state(), kNow);
+  latch.receive(StopTransmitter{}.state(), kNow);
   EXPECT_EQ(latch.level(), StopLevel::kNone);
   // Its first press has the epoch of the one that was released.
   reborn.demand(StopLevel::kEmergency, StopReason::kOperator);
   ASSERT_EQ(reborn.state().epoch, kPressed.epoch);
-  latch.heard(reborn.state(), kNow);
+  latch.receive(reborn.state(), kNow);
   EXPECT_EQ(latch.level(), StopLevel::kEmergency);
 }
 
@@ -143,7 +143,7 @@ TEST(StopLatch, ChallengesDifferFromLatchToLatchAndHaveNoUnsetValue) {
   for (unsigned i = 0; i < 70'000; ++i) {
     if (i % 3 == 0) latch.draw(static_cast<std::uint16_t>(i));
     transmitter.demand(StopLevel::kControlled, StopReason::kOperator);
-    latch.heard(transmitter.state(), kNow);
+    latch.receive(transmitter.state(), kNow);
     ASSERT_NE(latch.challenge(), last);
     ASSERT_GE(latch.challenge(), 1);
     ASSERT_LE(latch.challenge(), 65'534);
@@ -156,12 +156,12 @@ TEST(StopLatch, ChallengesDifferFromLatchToLatchAndHaveNoUnsetValue) {
 
 TEST(StopLatch, AHigherLevelRaisesALowerOneDoesNotLower) {
   StopLatch latch;
-  latch.heard({StopLevel::kControlled, 1, StopReason::kOperator}, kNow);
-  latch.heard({StopLevel::kEmergency, 2, StopReason::kPitCrew}, kNow + seconds(1));
+  latch.receive({StopLevel::kControlled, 1, StopReason::kOperator}, kNow);
+  latch.receive({StopLevel::kEmergency, 2, StopReason::kPitCrew}, kNow + seconds(1));
   EXPECT_EQ(latch.level(), StopLevel::kEmergency);
   EXPECT_EQ(latch.reason(), StopReason::kPitCrew);
   EXPECT_EQ(latch.since(), kNow);
-  latch.heard({StopLevel::kControlled, 3, StopReason::kOperator}, kNow + seconds(2));
+  latch.receive({StopLevel::kControlled, 3, StopReason::kOperator}, kNow + seconds(2));
   EXPECT_EQ(latch.level(), StopLevel::kEmergency);
   EXPECT_EQ(latch.reason(), StopReason::kPitCrew);
 }

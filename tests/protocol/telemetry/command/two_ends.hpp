@@ -222,9 +222,9 @@ class TwoEnds {
     if (clock_known) {
       received.sent_earliest = flight.sent + kCarAhead - some_of(air.clock_bound, random_);
     }
-    view.heard(body->values, received);
-    joystick.heard(body->values, received);
-    if (const auto said = stop_state_of(body->values)) latch.heard(*said, car_now());
+    view.receive(body->values, received);
+    joystick.receive(body->values, received);
+    if (const auto stated = stop_state_of(body->values)) latch.receive(*stated, car_now());
     for (const Record& record : body->records) {
       note_known(record);
       ledger.take(record, received, view);
@@ -238,9 +238,9 @@ class TwoEnds {
     for (const Record& record : body->records) transmitter.take(record, received);
   }
   void note_known(const Record& record) {
-    const auto said = parse_command(record.payload);
-    if (record.type != RecordType::kCommand || !said) return;
-    const auto story = stories.find(said->number);
+    const auto stated = parse_command(record.payload);
+    if (record.type != RecordType::kCommand || !stated) return;
+    const auto story = stories.find(stated->number);
     if (story != stories.end() && !story->second.known) story->second.known = now;
   }
   void consume() {

@@ -111,9 +111,9 @@ TEST(CarEndpoint, EventsAndBulkArriveOnce) {
   const std::vector<std::uint8_t> path(3'000, 7);
   EXPECT_TRUE(pair.car->offer(BulkKind::kPath, path));
   pair.run(seconds(2));
-  const auto heard = pair.base->next_event();
-  ASSERT_TRUE(heard);
-  EXPECT_EQ(heard->kind, EventKind::kText);
+  const auto received = pair.base->next_event();
+  ASSERT_TRUE(received);
+  EXPECT_EQ(received->kind, EventKind::kText);
   EXPECT_FALSE(pair.base->next_event());
   const auto object = pair.base->next_bulk();
   ASSERT_TRUE(object);

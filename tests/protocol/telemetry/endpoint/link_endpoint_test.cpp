@@ -52,14 +52,14 @@ TEST(LinkEndpoint, APacketEachSlot) {
 
 TEST(LinkEndpoint, WhatIsRefusedIsCountedAndNothingIsAnswered) {
   EndpointPair pair;
-  std::vector<WireDatagram> heard;
+  std::vector<WireDatagram> received;
   pair.gate = [&](const WireDatagram& datagram) {
-    if (heard.size() < 64) heard.push_back(datagram);
+    if (received.size() < 64) received.push_back(datagram);
     return true;
   };
   pair.run(seconds(1));
   const LinkReport before = pair.base->report(pair.now);
-  for (WireDatagram forged : heard) {
+  for (WireDatagram forged : received) {
     forged.down = true;
     forged.bytes[forged.size - 1] ^= 1;
     pair.feed(forged);
@@ -71,7 +71,7 @@ TEST(LinkEndpoint, WhatIsRefusedIsCountedAndNothingIsAnswered) {
   for (std::size_t i = 0; i < kRefusals; ++i) {
     refused += after.association.refused[i] - before.association.refused[i];
   }
-  EXPECT_EQ(refused, heard.size());
+  EXPECT_EQ(refused, received.size());
 }
 
 TEST(LinkEndpoint, ReportSaysWhatTheWireDoes) {
@@ -87,7 +87,7 @@ TEST(LinkEndpoint, ReportSaysWhatTheWireDoes) {
   EXPECT_LE(std::max(off, -off), *report.clock_bound);
   EXPECT_EQ(report.paths[0].peer, EndpointPair::kCar);
   EXPECT_TRUE(report.paths[0].validated);
-  EXPECT_EQ(report.paths[0].heard.lost, 0u);
+  EXPECT_EQ(report.paths[0].received.lost, 0u);
   EXPECT_GT(report.paths[0].spent.packets, 200u);
   EXPECT_GT(report.paths[0].budget_use, 0.01);
 }

@@ -91,8 +91,8 @@ TEST(PathChoice, BestHasSafetyOnBothAndTheRestOnTheBetter) {
   EXPECT_EQ(plans[1].paths, bit_of(0));
   EXPECT_TRUE(plans[1].only_safety);
   // Silence tells sooner than loss.
-  car.lanes[0].heard_at = at_ms(1'000);
-  car.lanes[1].heard_at = at_ms(900);
+  car.lanes[0].received_at = at_ms(1'000);
+  car.lanes[1].received_at = at_ms(900);
   plans = car.plans(PathPolicy::kBest, at_ms(1'000));
   EXPECT_EQ(plans[0].paths, bit_of(0));
   // Between slots the better one alone.

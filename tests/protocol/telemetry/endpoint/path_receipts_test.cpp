@@ -33,12 +33,12 @@ TEST(PathReceipts, EachArrivalIsToldOnce) {
   std::vector<PathLane> lanes = two_lanes();
   EXPECT_TRUE(written(lanes, at_ms(100)).empty());
   lanes[1].newest = 7;
-  lanes[1].heard_at = at_ms(95);
+  lanes[1].received_at = at_ms(95);
   EXPECT_EQ(written(lanes, at_ms(100)).size(), 1U);
   EXPECT_TRUE(written(lanes, at_ms(120)).empty());
   lanes[0].newest = 9;
   lanes[1].newest = 8;
-  lanes[0].heard_at = lanes[1].heard_at = at_ms(130);
+  lanes[0].received_at = lanes[1].received_at = at_ms(130);
   EXPECT_EQ(written(lanes, at_ms(140)).size(), 2U);
 }
 
@@ -53,10 +53,10 @@ TEST(PathReceipts, RateControlIsOfThePathThatIsCongested) {
     for (std::size_t path = 0; path < 2; ++path) {
       const auto queue = milliseconds(path == 1 ? 5 * static_cast<std::int64_t>(i) : 0);
       receiver[path].newest = (std::uint64_t{1} << 32) - 100 + i;
-      receiver[path].heard_at = sent + milliseconds(15) + queue + ahead;
+      receiver[path].received_at = sent + milliseconds(15) + queue + ahead;
     }
     // Its packet leaves once both have come.
-    const Instant answers = receiver[1].heard_at + milliseconds(3);
+    const Instant answers = receiver[1].received_at + milliseconds(3);
     for (const auto& payload : written(receiver, answers)) {
       EXPECT_TRUE(receipts.take(payload, sender, answers, sent + seconds(2)));
     }
@@ -70,12 +70,12 @@ TEST(PathReceipts, WhatWasNotSentThereIsIgnored) {
   std::vector<PathLane> sender = two_lanes(), receiver = two_lanes();
   receipts.sent(5, 0b01, 600, at_ms(0));
   receiver[1].newest = 5;  // by a path that it was not sent on
-  receiver[1].heard_at = at_ms(10);
+  receiver[1].received_at = at_ms(10);
   for (const auto& payload : written(receiver, at_ms(12))) {
     EXPECT_FALSE(receipts.take(payload, sender, at_ms(12), at_ms(30)));
   }
   receiver[0].newest = 6;  // never sent
-  receiver[0].heard_at = at_ms(10);
+  receiver[0].received_at = at_ms(10);
   for (const auto& payload : written(receiver, at_ms(12))) {
     EXPECT_FALSE(receipts.take(payload, sender, at_ms(12), at_ms(30)));
   }

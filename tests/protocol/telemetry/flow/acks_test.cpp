@@ -63,7 +63,7 @@ TEST(SentBook, LearnsOnlyTheTruthAndEachPacketOnce) {
     std::mt19937_64 random(start);
     ReceiptBook receipts;
     SentBook sent;
-    std::set<std::uint64_t> came, told;
+    std::set<std::uint64_t> came, reported;
     for (std::uint64_t i = 0; i < 3'000; ++i) {
       const std::uint64_t sequence = start + i;
       sent.sent(sequence, at_ms(static_cast<std::int64_t>(20 * i)), 100 + i % 7);
@@ -76,7 +76,7 @@ TEST(SentBook, LearnsOnlyTheTruthAndEachPacketOnce) {
       const SentBook::News news = sent.take(*ack);
       for (const Delivery& d : news.delivered) {
         ASSERT_TRUE(came.contains(d.sequence));
-        ASSERT_TRUE(told.insert(d.sequence).second) << "told twice";
+        ASSERT_TRUE(reported.insert(d.sequence).second) << "told twice";
         ASSERT_EQ(d.sent, at_ms(static_cast<std::int64_t>(20 * (d.sequence - start))));
         ASSERT_EQ(d.bytes, 100 + (d.sequence - start) % 7);
       }
@@ -84,7 +84,7 @@ TEST(SentBook, LearnsOnlyTheTruthAndEachPacketOnce) {
       ASSERT_EQ(news.newest->sequence, *came.rbegin());
     }
     EXPECT_EQ(sent.nonsense(), 0U);
-    EXPECT_GT(told.size(), came.size() * 99 / 100);
+    EXPECT_GT(reported.size(), came.size() * 99 / 100);
   }
 }
 
@@ -108,7 +108,7 @@ TEST(SentBook, CountsNonsenseAndIgnoresIt) {
 TEST(SentBook, RandomAcksNeverTellOfWhatWasNotSent) {
   std::mt19937_64 random(3);
   SentBook book;
-  std::set<std::uint64_t> told;
+  std::set<std::uint64_t> reported;
   std::uint64_t sequence = (std::uint64_t{1} << 32) - 300;
   const std::uint64_t first = sequence;
   for (int i = 0; i < 50'000; ++i) {
@@ -117,7 +117,7 @@ TEST(SentBook, RandomAcksNeverTellOfWhatWasNotSent) {
                   microseconds(100) * static_cast<std::int64_t>(random() % 0x10000)};
     for (const Delivery& d : book.take(ack).delivered) {
       ASSERT_TRUE(d.sequence >= first && d.sequence < sequence);
-      ASSERT_TRUE(told.insert(d.sequence).second);
+      ASSERT_TRUE(reported.insert(d.sequence).second);
     }
   }
   EXPECT_GT(book.nonsense(), 0U);

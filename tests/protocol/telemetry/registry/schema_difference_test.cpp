@@ -178,9 +178,9 @@ TEST(SchemaDifference, OfAnyTextIsBounded) {
     for (int k = 0; k < 40; ++k)
       std::swap(mixed[random() % mixed.size()], mixed[random() % mixed.size()]);
     mixed[random() % mixed.size()] = std::string(random() % 3'000, '|');
-    const auto said = lines_of(difference(schema_text(), joined(mixed)));
-    EXPECT_GE(said.size(), 1U);
-    EXPECT_LE(said.size(), kDifferencesMax + 1);
+    const auto stated = lines_of(difference(schema_text(), joined(mixed)));
+    EXPECT_GE(stated.size(), 1U);
+    EXPECT_LE(stated.size(), kDifferencesMax + 1);
   }
   std::string noise(200'000, ' ');
   for (char& c : noise) c = static_cast<char>(random());

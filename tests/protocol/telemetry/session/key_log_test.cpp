@@ -42,21 +42,21 @@ TEST(KeyLog, HasALineForEachPhaseThatAnEndMayMeet) {
 }
 
 // What both ends tell is the same, each other's direction included; with it a packet is opened.
-struct Told {
+struct Reported {
   bool bench_keys, real_car;
 };
-class KeysTold : public ::testing::TestWithParam<Told> {};
+class KeysReported : public ::testing::TestWithParam<Reported> {};
 
 // A base does not log the session of a real car either, whatever its own file says.
-TEST_P(KeysTold, OnlyWithKeysOfTheBench) {
+TEST_P(KeysReported, OnlyWithKeysOfTheBench) {
   KeyPair pair = make_pair(5);
   pair.car.bench = GetParam().bench_keys && !GetParam().real_car;
   pair.base.bench = GetParam().bench_keys;
   const bool logged = GetParam().bench_keys && !GetParam().real_car;
-  std::map<std::string, int> told;  // line, by how many ends
+  std::map<std::string, int> reported;  // line, by how many ends
   const auto receive = [&](const std::string& text) {
     std::istringstream in{text};
-    for (std::string line; std::getline(in, line);) ++told[line];
+    for (std::string line; std::getline(in, line);) ++reported[line];
   };
   SeededRandomness car_chance(1), base_chance(2);
   const Greeting greeting{.boot = 1, .safety_schema = 1, .whole_schema = 2};
@@ -77,13 +77,13 @@ TEST_P(KeysTold, OnlyWithKeysOfTheBench) {
   ASSERT_TRUE(answer);
   EXPECT_FALSE(car.feed(answer->bytes, 0, kBaseAddress, now, plain));
   ASSERT_TRUE(car.ready());
-  EXPECT_EQ(told.size(), logged ? 2 * (std::size_t{kMaxPhasesUnheard} + 1) : 0);
-  for (const auto& [line, ends] : told) EXPECT_EQ(ends, 2) << line;
+  EXPECT_EQ(reported.size(), logged ? 2 * (std::size_t{kMaxPhasesUnheard} + 1) : 0);
+  for (const auto& [line, ends] : reported) EXPECT_EQ(ends, 2) << line;
 }
 
-INSTANTIATE_TEST_SUITE_P(BenchAndCar, KeysTold,
-                         ::testing::Values(Told{false, false}, Told{true, false},
-                                           Told{true, true}));
+INSTANTIATE_TEST_SUITE_P(BenchAndCar, KeysReported,
+                         ::testing::Values(Reported{false, false}, Reported{true, false},
+                                           Reported{true, true}));
 
 }  // namespace
 }  // namespace pitwall::telemetry::testing

@@ -17,10 +17,10 @@ struct Road {
   Instant now{seconds(1).ns};
   std::uint64_t number = 0;
 
-  void heard(Address from, bool newest = true) {
+  void receive(Address from, bool newest = true) {
     if (newest) ++number;
-    addresses.heard({.from = from, .size = 100, .number = number, .newest = newest}, now,
-                    randomness);
+    addresses.receive({.from = from, .size = 100, .number = number, .newest = newest}, now,
+                      randomness);
   }
   bool proves(Address from, std::uint64_t token) { return addresses.take_proof(from, token, now); }
   bool serves(Address address, std::size_t size = 1) const {
@@ -35,19 +35,19 @@ TEST(PathAddresses, NobodyIsServedBeforeAnybodyWasHeard) {
 
 TEST(PathAddresses, AnAddressOnTrialGetsThreeTimesWhatItSent) {
   Road road;
-  road.heard(kNew);
+  road.receive(kNew);
   EXPECT_TRUE(road.serves(kNew, 300));
   EXPECT_FALSE(road.serves(kNew, 301));
   road.addresses.note_sent(kNew, 300);
   EXPECT_FALSE(road.serves(kNew, 1));
-  road.heard(kNew, false);
+  road.receive(kNew, false);
   EXPECT_TRUE(road.serves(kNew, 300));
 }
 
 TEST(PathAddresses, TheOldOneIsServedUntilTheNewOneProvedItself) {
   Road road;
   road.addresses.prove(kOld);
-  road.heard(kNew);
+  road.receive(kNew);
   EXPECT_TRUE(road.serves(kOld) && road.serves(kNew));
   const auto token = road.addresses.token();
   ASSERT_TRUE(token);
@@ -62,19 +62,19 @@ TEST(PathAddresses, TheOldOneIsServedUntilTheNewOneProvedItself) {
 TEST(PathAddresses, WhatIsNotTheNewestBeginsNoTrial) {
   Road road;
   road.addresses.prove(kOld);
-  road.heard(kNew, false);
+  road.receive(kNew, false);
   EXPECT_FALSE(road.addresses.token());
 }
 
 TEST(PathAddresses, APeerThatIsWhereItWasEndsTheTrial) {
   Road road;
   road.addresses.prove(kOld);
-  road.heard(kNew);
+  road.receive(kNew);
   --road.number;
-  road.heard(kOld, false);
+  road.receive(kOld, false);
   EXPECT_TRUE(road.addresses.token()) << "that packet was only late";
   ++road.number;
-  road.heard(kOld);
+  road.receive(kOld);
   EXPECT_FALSE(road.addresses.token());
 }
 
@@ -83,9 +83,9 @@ TEST(PathAddresses, ARelayIsNotProvedWhileThePeerItselfIsHeard) {
   Road road;
   road.addresses.prove(kOld);
   for (int i = 0; i < 50; ++i) {
-    road.heard(kNew);
+    road.receive(kNew);
     road.now += milliseconds(1);
-    road.heard(kOld, false);  // the same packet by its own way
+    road.receive(kOld, false);  // the same packet by its own way
     const auto token = road.addresses.token();
     ASSERT_TRUE(token);
     ASSERT_FALSE(road.proves(kNew, *token));
@@ -93,7 +93,7 @@ TEST(PathAddresses, ARelayIsNotProvedWhileThePeerItselfIsHeard) {
     road.now += milliseconds(19);
   }
   const auto token = road.addresses.token();
-  road.heard(kNew);
+  road.receive(kNew);
   road.now += PathAddresses::kInUse - milliseconds(19);
   EXPECT_TRUE(road.proves(kNew, *token))
       << "a peer that did move is believed when the old is silent";
@@ -103,18 +103,18 @@ TEST(PathAddresses, APacketOfBeforeTheMoveThatComesLateOpposesNothing) {
   Road road;
   road.addresses.prove(kOld);
   road.number = 7;
-  road.heard(kNew);
+  road.receive(kNew);
   road.number = 6;
-  road.heard(kOld, false);
+  road.receive(kOld, false);
   EXPECT_TRUE(road.proves(kNew, *road.addresses.token()));
 }
 
 TEST(PathAddresses, EachTrialHasItsOwnToken) {
   Road road;
   road.addresses.prove(kOld);
-  road.heard(kNew);
+  road.receive(kNew);
   const auto first = road.addresses.token();
-  road.heard(kThird);
+  road.receive(kThird);
   EXPECT_NE(road.addresses.token(), first);
   EXPECT_FALSE(road.proves(kThird, *first));
 }

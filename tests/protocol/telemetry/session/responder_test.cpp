@@ -99,12 +99,12 @@ TEST(Responder, ACarWhoseClockWentBackIsToldWhatToExceed) {
     End car(keys.car, 4, {.to_utc = seconds(2'000'000'000 - 10 - back_s)});
     const auto opening = car.poll(now);
     base.feed(opening->first, kCarAddress, now);
-    const auto told = base.poll(now);
-    ASSERT_TRUE(told) << back_s;
-    EXPECT_EQ(parse_header(told->first)->kind, Kind::kNewerStamp);
-    EXPECT_LT(told->first.size(), opening->first.size()) << "amplifies nothing";
-    EXPECT_EQ(told->second, kCarAddress);
-    car.feed(told->first, kBaseAddress, now);
+    const auto reported = base.poll(now);
+    ASSERT_TRUE(reported) << back_s;
+    EXPECT_EQ(parse_header(reported->first)->kind, Kind::kNewerStamp);
+    EXPECT_LT(reported->first.size(), opening->first.size()) << "amplifies nothing";
+    EXPECT_EQ(reported->second, kCarAddress);
+    car.feed(reported->first, kBaseAddress, now);
     establish(car, base, now);
     EXPECT_EQ(base->session(), 2U);
   }

@@ -32,7 +32,7 @@ class LivingSession {
   Rig rig;
   std::set<std::uint64_t> sent[2], opened[2];  // by the direction: to the base, to the car
   std::uint64_t twice = 0, new_sessions = 0;
-  Instant heard[2]{};
+  Instant received[2]{};
   Duration longest_silence[2]{};
 
  private:
@@ -74,10 +74,11 @@ class LivingSession {
   void note(const Opened& packet, std::size_t direction) {
     if (!opened[direction].insert(packet.sequence).second) ++twice;
     if (packet.new_session) ++new_sessions;
-    if (heard[direction].ns > 0) {
-      longest_silence[direction] = std::max(longest_silence[direction], rig.now - heard[direction]);
+    if (received[direction].ns > 0) {
+      longest_silence[direction] =
+          std::max(longest_silence[direction], rig.now - received[direction]);
     }
-    heard[direction] = rig.now;
+    received[direction] = rig.now;
   }
 
   Link link_;

@@ -51,10 +51,10 @@ TEST_F(CanSenderOnUnixBus, ARangeArrivesInOrderAndTheSenderHearsNothing) {
   ASSERT_TRUE(prepared);
   EXPECT_EQ(sender->send(*prepared, 10, 70).taken, 70u);
   serve();
-  const auto heard = reader.read();
-  ASSERT_EQ(heard.size(), 70u);
-  for (std::uint32_t i = 0; i < heard.size(); ++i)
-    EXPECT_EQ(testing::wire_of(heard[i]).can_id, i + 10);
+  const auto received = reader.read();
+  ASSERT_EQ(received.size(), 70u);
+  for (std::uint32_t i = 0; i < received.size(); ++i)
+    EXPECT_EQ(testing::wire_of(received[i]).can_id, i + 10);
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(reader.send(testing::numbered(1, 1)));
   serve();
   EXPECT_EQ(hub_->counters().dropped, 0u);

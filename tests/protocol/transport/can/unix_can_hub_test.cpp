@@ -52,7 +52,7 @@ TEST_F(UnixCanHubOnBench, AllHearTheSameFramesOnceInOneOrder) {
   RawClient witness(bus_);  // sends nothing, hence hears the whole order
   std::mt19937_64 random(11);
   std::vector<std::uint32_t> sent(kClients);
-  std::vector<std::vector<Packet>> heard(kClients);
+  std::vector<std::vector<Packet>> received(kClients);
   std::vector<Packet> order;
   for (int i = 0; i < 20'000; ++i) {
     const std::size_t who = random() % kClients;
@@ -62,7 +62,7 @@ TEST_F(UnixCanHubOnBench, AllHearTheSameFramesOnceInOneOrder) {
     if (random() % 100 != 0) continue;
     const std::size_t reader = random() % kClients;
     for (Packet& packet : clients[reader].read(random() % 300))
-      heard[reader].push_back(std::move(packet));
+      received[reader].push_back(std::move(packet));
     if (i % 7 == 0) serve();
     for (Packet& packet : witness.read()) order.push_back(std::move(packet));
   }
@@ -73,11 +73,11 @@ TEST_F(UnixCanHubOnBench, AllHearTheSameFramesOnceInOneOrder) {
   for (const Packet& packet : order)  // each sender's frames in the order they were sent
     ASSERT_EQ(testing::number_in(packet), next[wire_of(packet).can_id]++);
   for (std::size_t i = 0; i < kClients; ++i) {
-    for (Packet& packet : clients[i].read()) heard[i].push_back(std::move(packet));
+    for (Packet& packet : clients[i].read()) received[i].push_back(std::move(packet));
     std::vector<Packet> others;
     for (const Packet& packet : order)
       if (wire_of(packet).can_id != i) others.push_back(packet);
-    ASSERT_EQ(heard[i], others) << "client " << i;
+    ASSERT_EQ(received[i], others) << "client " << i;
   }
   EXPECT_EQ(hub_->counters().relayed, 20'000u);
   EXPECT_EQ(hub_->counters().delivered, 20'000u * kClients);
@@ -96,30 +96,30 @@ TEST_F(UnixCanHubOnBench, WhoeverHasConnectedHearsWhatIsSentAfterwards) {
   serve();
   // Those who connected between two rounds may hear a little of before, never miss of after.
   for (std::uint32_t i = 0; i < late.size(); ++i) {
-    const auto heard = late[i].read();
-    ASSERT_GE(heard.size(), late.size() - i);
-    EXPECT_EQ(testing::number_in(heard.back()), late.size() - 1);
-    EXPECT_EQ(testing::number_in(heard.front()), late.size() - heard.size());
+    const auto received = late[i].read();
+    ASSERT_GE(received.size(), late.size() - i);
+    EXPECT_EQ(testing::number_in(received.back()), late.size() - 1);
+    EXPECT_EQ(testing::number_in(received.front()), late.size() - received.size());
   }
 }
 
 // A reader's view of the law: after each notice, the numbers missing so far are exactly as many as
 // it says.
 struct Follower {
-  std::uint32_t next = 0, missing = 0, told = 0;
+  std::uint32_t next = 0, missing = 0, reported = 0;
   std::size_t read = 0;
 
   void follow(const Packet& packet) {
     if (const auto lost = read_loss_notice(wire_of(packet), packet.size())) {
-      ASSERT_GT(*lost, told);
-      told = *lost;
+      ASSERT_GT(*lost, reported);
+      reported = *lost;
       return;
     }
     const std::uint32_t number = testing::number_in(packet);
     missing += number - next;
     next = number + 1;
     ++read;
-    ASSERT_EQ(missing, told);  // told before the first frame after the gap
+    ASSERT_EQ(missing, reported);  // told before the first frame after the gap
   }
 };
 
@@ -144,20 +144,20 @@ TEST_F(UnixCanHubOnBench, ASlowClientIsToldExactlyWhatItLostAndDelaysNobody) {
   }
   std::uint64_t missing = 0, read = 0;
   for (std::size_t i = 0; i < readers.size(); ++i) {
-    for (std::size_t before = SIZE_MAX; before != followers[i].read + followers[i].told;) {
-      before = followers[i].read + followers[i].told;
+    for (std::size_t before = SIZE_MAX; before != followers[i].read + followers[i].reported;) {
+      before = followers[i].read + followers[i].reported;
       serve();
       let_read(i, SIZE_MAX);
     }
-    EXPECT_EQ(followers[i].read + followers[i].told, kFrames) << "reader " << i;
-    missing += followers[i].told;
+    EXPECT_EQ(followers[i].read + followers[i].reported, kFrames) << "reader " << i;
+    missing += followers[i].reported;
     read += followers[i].read;
   }
-  EXPECT_GT(followers[3].told, kFrames * 9 / 10);
+  EXPECT_GT(followers[3].reported, kFrames * 9 / 10);
   EXPECT_EQ(hub_->counters().relayed, kFrames);
   EXPECT_EQ(hub_->counters().delivered, read);
   EXPECT_EQ(hub_->counters().dropped, missing);
-  EXPECT_EQ(hub_->counters().worst_dropped, followers[3].told);
+  EXPECT_EQ(hub_->counters().worst_dropped, followers[3].reported);
   EXPECT_EQ(hub_->counters().worst_process, getpid());
 }
 
@@ -377,17 +377,17 @@ TEST_F(UnixCanHubOnBench, AnIndependentClientReadsAndWritesTheKernelsLayout) {
   constexpr std::size_t kFrames = 500;
   auto python = Process::spawn({.argv = {kPython, "-c", kEcho, path(), std::to_string(kFrames)}});
   ASSERT_TRUE(python) << to_string(python.error());
-  std::vector<Packet> heard;
+  std::vector<Packet> received;
   const auto receive = [&](std::size_t count) {
     return testing::comes_true([&] {
       hub_->serve(Instant{});
-      for (Packet& packet : ours.read()) heard.push_back(std::move(packet));
-      return heard.size() >= count;
+      for (Packet& packet : ours.read()) received.push_back(std::move(packet));
+      return received.size() >= count;
     });
   };
   ASSERT_TRUE(receive(1));
   std::mt19937_64 random(23);
-  std::vector<Packet> expected = heard;
+  std::vector<Packet> expected = received;
   for (std::size_t i = 0; i < kFrames; ++i) {
     CanWire wire{};
     const bool fd = random() % 3 == 0;
@@ -404,7 +404,7 @@ TEST_F(UnixCanHubOnBench, AnIndependentClientReadsAndWritesTheKernelsLayout) {
     if (i % 50 == 49) serve();
   }
   EXPECT_TRUE(receive(kFrames + 1));
-  EXPECT_EQ(heard, expected);
+  EXPECT_EQ(received, expected);
   EXPECT_TRUE(python->wait().success());
 }
 
@@ -422,12 +422,12 @@ TEST_F(UnixCanHubOnBench, ClientsKilledInTheMiddleLeaveTheOthersInOrder) {
   RawClient reader(bus_);
   std::mt19937_64 random(29);
   std::map<std::uint32_t, std::uint32_t> next;
-  std::uint64_t heard = 0;
+  std::uint64_t received = 0;
   const auto receive = [&] {
     hub_->serve(monotonic_now() + milliseconds(1));
     for (const Packet& packet : reader.read()) {
       ASSERT_EQ(testing::number_in(packet), next[wire_of(packet).can_id]++);
-      ++heard;
+      ++received;
     }
   };
   for (std::uint32_t victim = 1; victim <= 6; ++victim) {
@@ -446,7 +446,7 @@ TEST_F(UnixCanHubOnBench, ClientsKilledInTheMiddleLeaveTheOthersInOrder) {
   }
   EXPECT_EQ(hub_->counters().left, 6u);
   EXPECT_EQ(hub_->counters().dropped, 0u);
-  EXPECT_EQ(hub_->counters().relayed, heard);  // what was sent before the end is not lost
+  EXPECT_EQ(hub_->counters().relayed, received);  // what was sent before the end is not lost
   EXPECT_EQ(hub_->counters().malformed, 0u);
 }
 

@@ -65,20 +65,20 @@ TEST_F(LineSockets, ALineThatIsTooLongIsSkippedAndCounted) {
   auto client = LineSocket::connect(path_);
   auto server = listener->accept();
   ASSERT_TRUE(client && server);
-  Lines heard;
+  Lines incoming;
   const auto listen = [&] {
-    for (std::string& line : server->receive()) heard.push_back(std::move(line));
+    for (std::string& line : server->receive()) incoming.push_back(std::move(line));
     client->flush();
   };
   client->send("before");
   client->send(std::string(LineSocket::kLineMax_bytes + 1, 'x'));
   client->send(std::string(LineSocket::kLineMax_bytes, 'y'));
   client->send("after");
-  for (int i = 0; i < 200 && heard.size() < 3; ++i) listen();
-  ASSERT_EQ(heard.size(), 3U);
-  EXPECT_EQ(heard[0], "before");
-  EXPECT_EQ(heard[1].size(), LineSocket::kLineMax_bytes);
-  EXPECT_EQ(heard[2], "after");
+  for (int i = 0; i < 200 && incoming.size() < 3; ++i) listen();
+  ASSERT_EQ(incoming.size(), 3U);
+  EXPECT_EQ(incoming[0], "before");
+  EXPECT_EQ(incoming[1].size(), LineSocket::kLineMax_bytes);
+  EXPECT_EQ(incoming[2], "after");
   EXPECT_EQ(server->counters().too_long, 1U);
   EXPECT_EQ(server->counters().received, 3U);
 }

@@ -49,12 +49,12 @@ class Listener {
 struct Stream {
   StreamLink link;
   Instant now{seconds(100).ns};
-  std::string heard{};
+  std::string received{};
 
   void read() {
     std::array<std::uint8_t, 64> buffer;
     const auto bytes = link.read(buffer, now);
-    heard.append(bytes.begin(), bytes.end());
+    received.append(bytes.begin(), bytes.end());
   }
   template <class Until>
   bool read_until(Until&& until) {
@@ -77,7 +77,7 @@ TEST(StreamLink, HearsWhatAConnectionSays) {
   ASSERT_TRUE(s.read_until([&] { return s.link.is_open(); }));
   const FileDescriptor other = listener.accept();
   say(other, "one two");
-  EXPECT_TRUE(s.read_until([&] { return s.heard == "one two"; })) << s.heard;
+  EXPECT_TRUE(s.read_until([&] { return s.received == "one two"; })) << s.received;
   EXPECT_EQ(s.link.counters().bytes, 7U);
   EXPECT_EQ(s.link.counters().opened, 1U);
 }
@@ -95,7 +95,7 @@ TEST(StreamLink, AConnectionThatEndsIsMadeAgainAfterAPause) {
   s.now += nanoseconds(1);
   ASSERT_TRUE(s.read_until([&] { return s.link.is_open(); }));
   say(listener.accept(), "again");
-  EXPECT_TRUE(s.read_until([&] { return s.heard == "again"; })) << s.heard;
+  EXPECT_TRUE(s.read_until([&] { return s.received == "again"; })) << s.received;
 }
 
 TEST(StreamLink, WhereNobodyListensEveryAttemptIsCounted) {
@@ -123,7 +123,7 @@ TEST(StreamLink, AConnectionThatSaysNothingIsGivenUp) {
   s.read();
   EXPECT_TRUE(s.link.is_open());
   say(other, "here");
-  ASSERT_TRUE(s.read_until([&] { return s.heard == "here"; }));
+  ASSERT_TRUE(s.read_until([&] { return s.received == "here"; }));
   s.now += StreamLink::kPatience;
   s.read();
   EXPECT_TRUE(s.link.is_open()) << "it spoke since";
@@ -142,8 +142,8 @@ TEST(StreamLink, ASerialDeviceGivesEveryByteAsItIs) {
   std::string every;
   for (int c = 0; c < 256; ++c) every += static_cast<char>(c);
   pty.say(every);
-  EXPECT_TRUE(s.read_until([&] { return s.heard.size() >= every.size(); }));
-  EXPECT_EQ(s.heard, every);
+  EXPECT_TRUE(s.read_until([&] { return s.received.size() >= every.size(); }));
+  EXPECT_EQ(s.received, every);
   s.now += StreamLink::kPatience * 10;
   s.read();
   EXPECT_TRUE(s.link.is_open()) << "a silent device is not opened again: that would not wake it";
@@ -171,7 +171,7 @@ TEST(StreamLink, ASerialDeviceThatIsUnpluggedIsFoundAgain) {
   s.read();
   EXPECT_TRUE(s.link.is_open());
   second.say("back");
-  EXPECT_TRUE(s.read_until([&] { return s.heard == "back"; })) << s.heard;
+  EXPECT_TRUE(s.read_until([&] { return s.received == "back"; })) << s.received;
   std::filesystem::remove(name);
 }
 

@@ -181,20 +181,20 @@ world::SensorInput Rig::arrivals() {
     for (std::size_t u = 0; u < world::kGnssUnits; ++u) {
       const std::int64_t phase = static_cast<std::int64_t>(u) * 25, fix = m - kPositionLate_ms;
       const std::int64_t turn = m - kHeadingLate_ms;
-      const bool heard = !sensors.silent[u];
+      const bool received = !sensors.silent[u];
       if (m % 8 == 0) {
         const auto sample = imu(u, m);
-        if (heard && !sensors.imu_silent[u]) CHECK(in.imu.push(sample));
+        if (received && !sensors.imu_silent[u]) CHECK(in.imu.push(sample));
       }
       if (fix >= 0 && fix % 50 == phase) {
         const auto p = position(u, fix);
         const auto v = velocity(u, fix);
-        if (heard && !sensors.no_position[u]) CHECK(in.positions.push(p));
-        if (heard) CHECK(in.velocities.push(v));
+        if (received && !sensors.no_position[u]) CHECK(in.positions.push(p));
+        if (received) CHECK(in.velocities.push(v));
       }
       if (turn >= 0 && turn % 1000 == 100 + phase) {
         const auto h = heading(u, turn);
-        if (heard && !sensors.no_heading[u]) CHECK(in.headings.push(h));
+        if (received && !sensors.no_heading[u]) CHECK(in.headings.push(h));
       }
     }
   }
@@ -204,7 +204,7 @@ world::SensorInput Rig::arrivals() {
 void Rig::turn_wheels() {
   const double t = seconds_at(ms);
   const double side = 0.82 * rate(course, t).z(), forward = course.at(t).vx_mps;
-  signals.wheel_speed_mps = {.value = {}, .at = now(), .heard = true};
+  signals.wheel_speed_mps = {.value = {}, .at = now(), .received = true};
   constexpr std::array kLeft{1.0, -1.0, 1.0, -1.0};
   for (std::size_t i = 0; i < world::kCorners; ++i)
     signals.wheel_speed_mps.value.at[i] = (forward - kLeft[i] * side) * sensors.wheel_factor[i] +

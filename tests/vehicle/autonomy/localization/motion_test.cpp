@@ -80,7 +80,7 @@ TEST(Motion, WithoutAnyImuTheCarTurnsAsItsSteeringSays) {
   for (int i = 0; i < 100; ++i) {
     rig->signals.steering_motor_rad = {.value = angle_rad * rig->params.steering_ratio,
                                        .at = rig->now() + milliseconds(10),
-                                       .heard = true};
+                                       .received = true};
     rig->tick();
     ASSERT_NEAR(rig->out.ego.yaw_rate_rad_per_s, truth.yaw_rate_rad_per_s, 0.02) << i;
     ASSERT_LT(rig->position_error_m(), 0.2) << i;

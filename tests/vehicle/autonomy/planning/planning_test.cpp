@@ -92,7 +92,7 @@ TEST(Planning, MostRestrictiveWins) {
   EXPECT_EQ(demanded_speed(p, green(57.0), 90.0).reason, Reason::kRoundSpeed);
   EXPECT_EQ(demanded_speed(p, green(57.0), -5.0).speed_mps, 0.0);
   world::RaceControl silent = green(57.0);
-  silent.ever_heard = false;
+  silent.ever_received = false;
   EXPECT_EQ(demanded_speed(p, silent, kUnset).speed_mps, 0.0);
   EXPECT_EQ(demanded_speed(p, silent, kUnset).reason, Reason::kNoRaceControl);
 }

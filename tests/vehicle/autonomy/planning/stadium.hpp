@@ -65,7 +65,7 @@ inline const Params kParams = recommended();
 
 inline world::RaceControl green(double round_speed_mps = kUnset) {
   world::RaceControl rc;
-  rc.ever_heard = true;
+  rc.ever_received = true;
   rc.track = world::TrackFlag::kGreen;
   rc.round_target_speed_mps = round_speed_mps;
   return rc;

@@ -152,12 +152,12 @@ TEST(Arguments, ALinkThatMakesNoSenseIsNamedWithItsOption) {
       {{"--receiver", "0=serial:/dev/ttyS0:fast", "--receiver", "1=udp:2"}, "fast"},
       {{"--receiver", "0=serial:ttyS0", "--receiver", "1=udp:2"}, "/dev/ttyS0"},
       {{"--gnss", "1,2", "--receiver", "0=udp:3"}, "already"}};
-  for (const auto& [more, said] : wrong) {
+  for (const auto& [more, stated] : wrong) {
     const Parsed p = parse_vehicle(with(words, more));
     ASSERT_TRUE(p.refused()) << more.back();
     EXPECT_EQ(p.code(), 2);
     EXPECT_NE(p.err.find("--receiver"), std::string::npos) << p.err;
-    EXPECT_NE(p.err.find(said), std::string::npos) << p.err;
+    EXPECT_NE(p.err.find(stated), std::string::npos) << p.err;
   }
 }
 

@@ -26,22 +26,22 @@ TEST(LocalReport, IsTheSnapshotAtAPortOfThisMachine) {
   snapshot.at(Group::kEgo) = now - milliseconds(7);
   report->send(snapshot, now);
   report->send(snapshot, now);
-  std::vector<telemetry::StatePacket> heard;
+  std::vector<telemetry::StatePacket> received;
   std::vector<transport::UdpDatagram> inbox(8);
   EXPECT_TRUE(testing::comes_true([&] {
     const std::size_t count = listener->receive(inbox);
     for (std::size_t i = 0; i < count; ++i) {
       EXPECT_EQ(inbox[i].from.ip, transport::kLoopbackIp);
-      heard.push_back(*telemetry::parse(inbox[i].payload()));
+      received.push_back(*telemetry::parse(inbox[i].payload()));
     }
-    return heard.size() == 2;
+    return received.size() == 2;
   }));
-  ASSERT_EQ(heard.size(), 2u);
-  EXPECT_EQ(heard[0].values[field("ego.vx")], 33.0);
-  EXPECT_EQ(heard[0].age_of(Group::kEgo), milliseconds(7));
-  EXPECT_EQ(heard[1].sequence, heard[0].sequence + 1);
-  EXPECT_EQ(heard[1].run, heard[0].run);
-  EXPECT_EQ(heard[0].source, telemetry::Source::kSimulation);
+  ASSERT_EQ(received.size(), 2u);
+  EXPECT_EQ(received[0].values[field("ego.vx")], 33.0);
+  EXPECT_EQ(received[0].age_of(Group::kEgo), milliseconds(7));
+  EXPECT_EQ(received[1].sequence, received[0].sequence + 1);
+  EXPECT_EQ(received[1].run, received[0].run);
+  EXPECT_EQ(received[0].source, telemetry::Source::kSimulation);
 }
 
 TEST(LocalReport, WithoutAPortNobodyIsTold) {

@@ -24,8 +24,8 @@ telemetry::LinkReport some_report() {
   report.ledger.received = 12;
   for (std::size_t i = 0; i < telemetry::kOutcomes; ++i) report.ledger.decided[i] = 200 + i;
   for (std::size_t i = 0; i < telemetry::kPaths; ++i) {
-    report.paths[i].heard = {.received = 20 + i, .lost = 30 + i, .late = 40 + i};
-    report.paths[i].heard.delay_p99 = microseconds(static_cast<std::int64_t>(50 + i));
+    report.paths[i].received = {.received = 20 + i, .lost = 30 + i, .late = 40 + i};
+    report.paths[i].received.delay_p99 = microseconds(static_cast<std::int64_t>(50 + i));
     report.paths[i].spent = {.bytes = 60 + i, .packets = 70 + i, .refused = 80 + i};
   }
   return report;
@@ -74,7 +74,7 @@ TEST(RadioSummary, IsReadBackWithEveryFigure) {
 
 TEST(RadioSummary, WhatIsNotKnownIsNoTime) {
   telemetry::LinkReport report;
-  report.paths[0].heard.delay_p99 = microseconds(-3);  // clocks not compared yet
+  report.paths[0].received.delay_p99 = microseconds(-3);  // clocks not compared yet
   const std::string text = radio_json(report, 1);
   EXPECT_NE(text.find("\"delay_p99_us\": 0"), std::string::npos) << text;
   EXPECT_NE(text.find("\"round_trip_us\": 0"), std::string::npos) << text;

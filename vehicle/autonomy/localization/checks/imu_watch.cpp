@@ -107,13 +107,13 @@ void note(ImuWatch& watch, const world::ImuSample& sample) {
   ImuWatch::Unit& unit = watch.units[sample.unit];
   const ImuAxes axes = axes_of(sample);
   const double dt_s = (sample.at - unit.at).seconds();
-  const bool follows = unit.heard && dt_s > 0.0 && dt_s <= kIntegrateMax_s;
-  if (unit.heard && dt_s <= 0.0) return;  // a late one has no part in a mean
+  const bool follows = unit.received && dt_s > 0.0 && dt_s <= kIntegrateMax_s;
+  if (unit.received && dt_s <= 0.0) return;  // a late one has no part in a mean
   const double share = follows ? dt_s / (dt_s + kMeanLag_s) : 1.0;
   for (std::size_t axis = 0; axis < kImuAxes; ++axis)
     if (std::isfinite(axes[axis])) unit.mean[axis] += share * (axes[axis] - unit.mean[axis]);
   if (follows) unit.turned_rad += dt_s * axes[kRateZ];
-  unit.heard = true;
+  unit.received = true;
   unit.at = sample.at;
 }
 
@@ -137,7 +137,7 @@ void note_course(ImuWatch& watch, std::size_t receiver, Instant at, double cours
 void watch_imu(const CheckParams& params, ImuWatch& watch, const ImuWitness& witness, Instant now) {
   constexpr double kTick_s = 0.01;
   const auto alive = [&](const ImuWatch::Unit& unit) {
-    return unit.heard && (now - unit.at).seconds() <= params.imu_gap_max_s;
+    return unit.received && (now - unit.at).seconds() <= params.imu_gap_max_s;
   };
   if (!alive(watch.units[0]) || !alive(watch.units[1])) {
     watch.apart = watch.together = false;

@@ -31,7 +31,7 @@ inline constexpr std::size_t kCoursesKept = 5;
 
 struct ImuWatch {
   struct Unit {
-    bool heard = false;
+    bool received = false;
     Instant at{};
     ImuAxes mean{};           // low-passed
     double turned_rad = 0.0;  // integral of the yaw rate

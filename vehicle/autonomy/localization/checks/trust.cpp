@@ -7,12 +7,12 @@
 namespace pitwall::localization {
 
 void Trust::receive(double silence_s, Instant now) {
-  if (heard && now - heard_at > from_seconds(silence_s)) {
+  if (received && now - received_at > from_seconds(silence_s)) {
     trusted = false;
     consistent = false;
   }
-  heard = true;
-  heard_at = now;
+  received = true;
+  received_at = now;
 }
 
 void Trust::refuse(const CheckParams& params) {

@@ -19,9 +19,9 @@
 namespace pitwall::localization {
 
 struct Trust {
-  bool trusted = true, heard = false, consistent = false;
+  bool trusted = true, received = false, consistent = false;
   std::uint8_t refused_in_row = 0;
-  Instant heard_at{}, consistent_since{};
+  Instant received_at{}, consistent_since{};
 
   // A sample comes at `now`; a silence before it that was longer than `silence_s` ends the trust.
   void receive(double silence_s, Instant now);

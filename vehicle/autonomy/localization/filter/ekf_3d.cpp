@@ -81,7 +81,7 @@ struct Course {
 
 Course course_of(const SpatialBelief& b, const Measurement* next_imu, Instant until) {
   Course c;
-  if (!b.imu_heard) {
+  if (!b.imu_received) {
     c.from = next_imu == nullptr ? complete(b, {}) : at_centre(b, *next_imu);
     c.blind = true;
     return c;
@@ -281,7 +281,7 @@ void hear_imu(SpatialBelief& b, const SpatialParams& p, const Measurement& m) {
   b.last_imu = b.now = at_centre(b, m);
   b.last_imu_at = m.at;
   b.last_imu_arm = m.arm;
-  b.imu_heard = true;
+  b.imu_received = true;
 }
 
 }  // namespace pitwall::localization

@@ -120,7 +120,7 @@ struct SpatialBelief {
   LeverArm last_imu_arm;
   Instant last_imu_at{};
   std::uint8_t last_imu_unit = 0;
-  bool imu_heard = false;
+  bool imu_received = false;
   bool imu_stands_in = false;                            // the sample is no IMU's but a model's
   std::array<double, world::kGnssUnits> unit_sigma_m{};  // last reported
   std::array<Streak, kStreaks> streaks{};

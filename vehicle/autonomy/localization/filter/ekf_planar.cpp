@@ -17,7 +17,7 @@ std::optional<Measurement> by_tyres(const PlanarBelief& b, const PlanarParams& p
   const double vx = b.belief.mean[kVx];
   const bool slow = std::abs(vx) < kNoSlipSpeed_mps;
   const bool velocity_lives =
-      b.velocity_heard && m.at - b.velocity_at <= from_seconds(p.slip_after_s);
+      b.velocity_received && m.at - b.velocity_at <= from_seconds(p.slip_after_s);
   if (velocity_lives && !slow) return std::nullopt;
   const double rate = b.belief.motion.yaw_rate_rad_per_s - b.belief.mean[kBias];
   const double slip_rad = slow ? 0.0 : p.rear_slip_rad_per_mps2 * b.belief.motion.fy_mps2;
@@ -62,7 +62,7 @@ Innovation PlanarModel::fold(PlanarBelief& b, const PlanarParams& p, const Measu
   }
   const Innovation innovation = update(b.belief, weighed(p, m), p.gate_nis);
   if (m.kind == Kind::kVelocity && innovation.accepted)
-    b.velocity_at = m.at, b.velocity_heard = true;
+    b.velocity_at = m.at, b.velocity_received = true;
   return innovation;
 }
 

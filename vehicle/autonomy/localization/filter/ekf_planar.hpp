@@ -32,7 +32,7 @@ struct PlanarParams {
 struct PlanarBelief {
   Belief belief;
   Instant velocity_at{};  // of the last one taken in
-  bool velocity_heard = false;
+  bool velocity_received = false;
 };
 
 struct PlanarModel {

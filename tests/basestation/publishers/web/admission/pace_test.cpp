@@ -11,18 +11,18 @@ TEST(Pace, SoManyAtOnceThenSoManyASecond) {
   Instant now{seconds(1'000).ns};
   for (std::int64_t i = 0; i < Pace::kAtOnce; ++i) {
     EXPECT_LE(pace.rest(now), Duration{}) << i;
-    pace.heard(now);
+    pace.receive(now);
   }
   for (int i = 0; i < 50; ++i) {
     EXPECT_EQ(pace.rest(now), Pace::kEach);
     now += Pace::kEach;
     EXPECT_LE(pace.rest(now), Duration{});
-    pace.heard(now);
+    pace.receive(now);
   }
   now += seconds(60);
   for (std::int64_t i = 0; i < Pace::kAtOnce; ++i) {
     EXPECT_LE(pace.rest(now), Duration{}) << "after a silence, " << i;
-    pace.heard(now);
+    pace.receive(now);
   }
   EXPECT_GT(pace.rest(now), Duration{}) << "silence is not saved up";
 }

@@ -13,7 +13,7 @@ TEST(WaitingRoom, WhoWasSilentLongestOfAnAddressGoesForTheNextOfIt) {
   WaitingRoom room;
   EXPECT_FALSE(room.enter(1, 7)) << "of another address";
   for (std::size_t i = 0; i < WaitingRoom::kPerAddress; ++i) EXPECT_FALSE(room.enter(100 + i, 8));
-  room.heard(100);
+  room.receive(100);
   EXPECT_EQ(room.enter(999, 8), 101u);
   EXPECT_EQ(room.enter(1000, 8), 102u);
   EXPECT_EQ(room.size(), WaitingRoom::kPerAddress + 1);
@@ -43,7 +43,7 @@ TEST(WaitingRoom, TheBoundsHold) {
       room.leave(any);
       there.erase(any);
     } else {
-      room.heard(any);
+      room.receive(any);
     }
     ASSERT_EQ(room.size(), there.size());
     ASSERT_LE(room.size(), WaitingRoom::kInAll);

@@ -37,9 +37,9 @@ TEST(WheelWatch, FourGoodWheelsSayTheSpeedOnStraightsAndInTurns) {
   for (const double speed : {0.0, 3.0, 30.0, 80.0}) {
     for (const double turn : {-0.4, 0.0, 0.4}) {
       WheelRig rig{.speed_mps = speed, .yaw_rate_rad_per_s = turn};
-      const WheelSpeed said = rig.tick();
-      EXPECT_NEAR(said.speed_mps, speed, 1e-9) << speed << " " << turn;
-      EXPECT_FALSE(said.contradiction);
+      const WheelSpeed stated = rig.tick();
+      EXPECT_NEAR(stated.speed_mps, speed, 1e-9) << speed << " " << turn;
+      EXPECT_FALSE(stated.contradiction);
     }
   }
 }
@@ -54,9 +54,9 @@ TEST(WheelWatch, AnyOneWheelThatLocksSpinsOrIsLostDoesNotEnter) {
         rig.tick();
         rig.factor[wheel] = factor;
         for (int i = 0; i < 50; ++i) {
-          const WheelSpeed said = rig.tick();
-          ASSERT_NEAR(said.speed_mps, rig.speed_mps, 1e-9) << wheel << " " << factor;
-          ASSERT_TRUE(said.contradiction);
+          const WheelSpeed stated = rig.tick();
+          ASSERT_NEAR(stated.speed_mps, rig.speed_mps, 1e-9) << wheel << " " << factor;
+          ASSERT_TRUE(stated.contradiction);
         }
       }
     }
@@ -76,9 +76,9 @@ TEST(WheelWatch, AWheelComesBackAfterAWhileOfAgreement) {
 TEST(WheelWatch, FourWheelsThatLockAreContradictedByTheReceivers) {
   WheelRig rig{.by_receivers_mps = 50.0};
   rig.factor.fill(0.2);
-  const WheelSpeed said = rig.tick();
-  EXPECT_TRUE(std::isnan(said.speed_mps));
-  EXPECT_TRUE(said.contradiction);
+  const WheelSpeed stated = rig.tick();
+  EXPECT_TRUE(std::isnan(stated.speed_mps));
+  EXPECT_TRUE(stated.contradiction);
 }
 
 TEST(WheelWatch, ASidesLossLeavesTheOther) {
@@ -100,9 +100,9 @@ TEST(WheelWatch, UnwatchedALockedWheelEnters) {
   WheelRig rig;
   rig.watched = false;
   rig.factor[3] = 0.0;
-  const WheelSpeed said = rig.tick();
-  EXPECT_NEAR(said.speed_mps, 37.5, 1e-9);
-  EXPECT_FALSE(said.contradiction);
+  const WheelSpeed stated = rig.tick();
+  EXPECT_NEAR(stated.speed_mps, 37.5, 1e-9);
+  EXPECT_FALSE(stated.contradiction);
 }
 
 }  // namespace

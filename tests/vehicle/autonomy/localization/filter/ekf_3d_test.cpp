@@ -27,7 +27,7 @@ SpatialBelief in_turn() {
   b.gyro_scale = 0.002, b.accel_scale = -0.001;
   b.wander = {{{0.3, -0.8, 1.1}, {0.2, 0.5, -0.4}}};
   b.now = b.last_imu = {{0.02, -0.1, 0.3}, {1.5, 14.0, 16.0}};
-  b.imu_heard = true;
+  b.imu_received = true;
   return b;
 }
 

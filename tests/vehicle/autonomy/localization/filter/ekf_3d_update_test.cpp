@@ -20,7 +20,7 @@ SpatialBelief sure(double sigma) {
   b.velocity_mps = {30.0, 0.0, 0.0};
   Eigen::Map<ErrorMatrix>(b.covariance.data()).diagonal().setConstant(sigma * sigma);
   b.last_imu = b.now = {{0.0, 0.0, 0.0}, {0.0, 0.0, kGravity_mps2}};
-  b.imu_heard = true;
+  b.imu_received = true;
   return b;
 }
 

@@ -13,7 +13,7 @@ namespace {
 // A filter that only remembers what it was told, and what it could see ahead.
 struct Chronicle {
   struct Belief {
-    std::uint64_t told = 0;
+    std::uint64_t reported = 0;
     std::uint32_t folds = 0;
   };
   struct Params {};
@@ -21,7 +21,7 @@ struct Chronicle {
 
   static Innovation fold(Belief& b, const Params&, const Measurement& m, const Measurement* ahead) {
     const auto mix = [&b](std::int64_t x) {
-      b.told = (b.told ^ static_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15ULL;
+      b.reported = (b.reported ^ static_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15ULL;
     };
     mix(m.at.ns);
     mix(static_cast<std::int64_t>(m.kind));
@@ -32,7 +32,7 @@ struct Chronicle {
   }
 };
 
-using Told = Memory<Chronicle::Belief>;
+using Reported = Memory<Chronicle::Belief>;
 constexpr Duration kWindow = milliseconds(250);
 
 Measurement measurement(Kind kind, std::int64_t ms) {
@@ -49,7 +49,7 @@ std::uint64_t in_one_go(std::vector<Measurement> all) {
       if (all[k].kind == Kind::kImu) ahead = &all[k];
     (void)Chronicle::fold(b, {}, all[i], ahead);
   }
-  return b.told;
+  return b.reported;
 }
 
 struct Late {
@@ -79,64 +79,64 @@ std::vector<Late> drive(std::uint64_t seed, std::int64_t latest_ms) {
 TEST(FilterWindow, IsAFoldWhateverTheOrder) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Entries e;
-    Told told;
-    begin(e, told, Chronicle::Belief{}, Instant{});
+    Reported reported;
+    begin(e, reported, Chronicle::Belief{}, Instant{});
     std::vector<Measurement> known;
     for (const Late& late : drive(seed, 200)) {
-      const auto innovation = insert_into<Chronicle>(e, told, {}, kWindow, late.m);
+      const auto innovation = insert_into<Chronicle>(e, reported, {}, kWindow, late.m);
       ASSERT_TRUE(innovation.has_value());
       if (!is_quiet(late.m.kind)) {
         ASSERT_EQ(innovation->nis, static_cast<double>(late.m.at.ns));  // its own
       }
       known.push_back(late.m);
       if (known.size() % 37 != 0) continue;
-      settle<Chronicle>(e, told, {});
-      ASSERT_EQ(told.tip.told, in_one_go(known)) << seed << ": " << known.size();
+      settle<Chronicle>(e, reported, {});
+      ASSERT_EQ(reported.tip.reported, in_one_go(known)) << seed << ": " << known.size();
     }
   }
 }
 
 TEST(FilterWindow, RefusesWhatIsOlderThanItsFirstEntry) {
   Entries e;
-  Told told;
-  begin(e, told, Chronicle::Belief{}, Instant{} + seconds(1));
-  EXPECT_FALSE(insert_into<Chronicle>(e, told, {}, kWindow, measurement(Kind::kPosition, 999)));
+  Reported reported;
+  begin(e, reported, Chronicle::Belief{}, Instant{} + seconds(1));
+  EXPECT_FALSE(insert_into<Chronicle>(e, reported, {}, kWindow, measurement(Kind::kPosition, 999)));
   for (std::int64_t ms = 1001; ms < 3000; ms += 4)
-    ASSERT_TRUE(insert_into<Chronicle>(e, told, {}, kWindow, measurement(Kind::kPosition, ms)));
-  settle<Chronicle>(e, told, {});
-  const std::uint64_t before_it = told.tip.told;
-  EXPECT_TRUE(insert_into<Chronicle>(e, told, {}, kWindow, measurement(Kind::kHeading, 2760)));
-  settle<Chronicle>(e, told, {});
-  EXPECT_NE(told.tip.told, before_it);
-  EXPECT_FALSE(insert_into<Chronicle>(e, told, {}, kWindow, measurement(Kind::kHeading, 2600)));
+    ASSERT_TRUE(insert_into<Chronicle>(e, reported, {}, kWindow, measurement(Kind::kPosition, ms)));
+  settle<Chronicle>(e, reported, {});
+  const std::uint64_t before_it = reported.tip.reported;
+  EXPECT_TRUE(insert_into<Chronicle>(e, reported, {}, kWindow, measurement(Kind::kHeading, 2760)));
+  settle<Chronicle>(e, reported, {});
+  EXPECT_NE(reported.tip.reported, before_it);
+  EXPECT_FALSE(insert_into<Chronicle>(e, reported, {}, kWindow, measurement(Kind::kHeading, 2600)));
 }
 
 TEST(FilterWindow, MoreThanItHoldsShortensItAndLosesNothing) {
   Entries e;
-  Told told;
-  begin(e, told, Chronicle::Belief{}, Instant{});
+  Reported reported;
+  begin(e, reported, Chronicle::Belief{}, Instant{});
   std::vector<Measurement> known;
   for (std::int64_t i = 1; i < 2000; ++i) {
     Measurement m = measurement(i % 3 == 0 ? Kind::kImu : Kind::kRoad, 0);
     m.at = Instant{i * 100'000};
     known.push_back(m);
-    ASSERT_TRUE(insert_into<Chronicle>(e, told, {}, kWindow, m));
+    ASSERT_TRUE(insert_into<Chronicle>(e, reported, {}, kWindow, m));
     ASSERT_LE(e.size, kEntries);
   }
-  settle<Chronicle>(e, told, {});
-  EXPECT_EQ(told.tip.told, in_one_go(known));
+  settle<Chronicle>(e, reported, {});
+  EXPECT_EQ(reported.tip.reported, in_one_go(known));
 }
 
 // In order, nothing is done more often than the look ahead needs.
 TEST(FilterWindow, WorkIsInProportionToWhatIsLate) {
   const auto folds_for = [](std::int64_t latest_ms) {
     Entries e;
-    Told told;
-    begin(e, told, Chronicle::Belief{}, Instant{});
+    Reported reported;
+    begin(e, reported, Chronicle::Belief{}, Instant{});
     Chronicle::folds = 0;
     const auto all = drive(3, latest_ms);
-    for (const Late& late : all) (void)insert_into<Chronicle>(e, told, {}, kWindow, late.m);
-    settle<Chronicle>(e, told, {});
+    for (const Late& late : all) (void)insert_into<Chronicle>(e, reported, {}, kWindow, late.m);
+    settle<Chronicle>(e, reported, {});
     return static_cast<double>(Chronicle::folds) / static_cast<double>(all.size());
   };
   EXPECT_LT(folds_for(1), 6.0);
