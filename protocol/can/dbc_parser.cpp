@@ -21,6 +21,14 @@ constexpr std::uint32_t kParkedBit = 0x40000000;
 constexpr std::size_t kMaxStops = kMaxFindings / 2;  // statements that cannot be read, of one file
 constexpr std::size_t kMaxLongSignals = 8 * kMaxTransportBytes;  // as many as bits
 
+// A message whose signals are being read. One with a problem only collects them.
+struct OpenMessage {
+  std::uint32_t key = 0;
+  Message message;
+  std::vector<DbcDraft::Mark> marks;
+  std::optional<Problem> problem;
+};
+
 class Parser {
  public:
   Parser(std::string_view text, const std::string& name) : scan_(text, name), draft_(name) {}
@@ -57,14 +65,6 @@ class Parser {
   }
 
  private:
-  // A message whose signals are being read. One with a problem only collects them.
-  struct Open {
-    std::uint32_t key = 0;
-    Message message;
-    std::vector<DbcDraft::Mark> marks;
-    std::optional<Problem> problem;
-  };
-
   void section() {
     const std::string_view word = scan_.word();
     if (word == "SG_") return add_signal();
@@ -190,7 +190,7 @@ class Parser {
     }
   }
 
-  void header(Open& o) {
+  void header(OpenMessage& o) {
     Message& m = o.message;
     o.key = static_cast<std::uint32_t>(scan_.integer(0, std::numeric_limits<std::uint32_t>::max()));
     m.extended = (o.key & kExtendedBit) != 0;
@@ -219,7 +219,7 @@ class Parser {
   // The end of the message that is open.
   void close() {
     if (!open_) return;
-    Open o = *std::move(open_);
+    OpenMessage o = *std::move(open_);
     open_.reset();
     Message& m = o.message;
     const std::string its_signals = "its " + std::to_string(m.signals.size()) + " signals";
@@ -240,7 +240,7 @@ class Parser {
   }
 
   // An id that is too large. Many files leave out the mark of 29 bits.
-  bool is_kept_as_extended(Open& o) {
+  bool is_kept_as_extended(OpenMessage& o) {
     Message& m = o.message;
     const bool is_kept = m.id <= kMaxExtendedId;
     Finding f{FindingKind::kMessage, m.place,
@@ -343,7 +343,7 @@ class Parser {
   DbcScanner scan_;
   DbcDraft draft_;
   std::size_t begin_ = 0;  // of the section being read
-  std::optional<Open> open_;
+  std::optional<OpenMessage> open_;
   bool has_messages_ = false;
   std::size_t stops_ = 0;
   std::array<std::vector<std::size_t>, kTurns> details_;
