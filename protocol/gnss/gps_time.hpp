@@ -5,6 +5,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "protocol/vocabulary/time.hpp"
@@ -20,8 +21,15 @@ struct GpsTime {
   constexpr auto operator<=>(const GpsTime&) const = default;
 };
 
+// The year 2209; six decades more fit into 64 bits, for what is added to it. A receiver that says a
+// later week is wrong.
+inline constexpr std::uint16_t kMaxWeek = 12'000;
+
+constexpr bool is_week(std::uint16_t week) { return week != 0 && week <= kMaxWeek; }
+
+// A week behind kMaxWeek is taken as that one.
 constexpr GpsTime gps_time(std::uint16_t week, Duration of_week) {
-  return {static_cast<std::int64_t>(week) * kWeek_ms * 1'000'000 + of_week.ns};
+  return {static_cast<std::int64_t>(std::min(week, kMaxWeek)) * kWeek_ms * 1'000'000 + of_week.ns};
 }
 
 constexpr std::uint16_t week(GpsTime t) {

@@ -50,7 +50,7 @@ struct NovatelHeader {
 // week at zero until it knows.
 constexpr bool knows_time(const NovatelHeader& h) {
   const bool status = h.short_form || h.time_status >= static_cast<int>(TimeStatus::kCoarse);
-  return status && h.week != 0 && h.milliseconds < kWeek_ms;
+  return status && is_week(h.week) && h.milliseconds < kWeek_ms;
 }
 
 constexpr GpsTime time_of(const NovatelHeader& h) {

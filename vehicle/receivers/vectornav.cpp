@@ -60,13 +60,14 @@ double compass(double angle_rad) {
 // Nothing until the sensor has heard the time: it counts from its own start before.
 std::optional<gnss::GpsTime> time_of(const gnss::VectorNavMessage& m) {
   const gnss::GpsTime stated{static_cast<std::int64_t>(m.time_gps_ns)};
-  if (stated < gnss::gps_time(1, {})) return std::nullopt;
+  if (stated < gnss::gps_time(1, {}) || stated > gnss::gps_time(gnss::kMaxWeek, {}))
+    return std::nullopt;
   return stated;
 }
 
 std::optional<gnss::GpsTime> time_of(const gnss::VectorNavSolution& s) {
   const bool in_week = s.tow_ns < static_cast<std::uint64_t>(gnss::kWeek_ms) * 1'000'000;
-  if (s.week == 0 || !in_week) return std::nullopt;
+  if (!gnss::is_week(s.week) || !in_week) return std::nullopt;
   return gnss::gps_time(s.week, nanoseconds(static_cast<std::int64_t>(s.tow_ns)));
 }
 

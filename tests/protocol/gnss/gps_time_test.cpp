@@ -21,5 +21,12 @@ TEST(GpsTime, TheNextWeekFollowsTheLastMillisecond) {
   EXPECT_EQ(gps_time(101, {}) - gps_time(100, milliseconds(kWeek_ms - 1)), milliseconds(1));
 }
 
+TEST(GpsTime, AWeekThatNoReceiverCanMeanIsNoneAndStaysWithinTheType) {
+  EXPECT_FALSE(is_week(0));
+  EXPECT_TRUE(is_week(1) && is_week(kMaxWeek));
+  EXPECT_FALSE(is_week(kMaxWeek + 1));
+  EXPECT_EQ(week(gps_time(65'535, milliseconds(kWeek_ms - 1))), kMaxWeek);
+}
+
 }  // namespace
 }  // namespace pitwall::gnss
