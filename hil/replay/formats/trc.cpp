@@ -14,8 +14,7 @@ namespace {
 constexpr std::uint64_t kMaxTrcBus = 255;
 constexpr std::size_t kMostStandardDigits = 4, kMostDigits = 8;
 constexpr std::uint64_t kBusInformation = 0xFFFFFFFF;  // the identifier of such rows
-constexpr std::int64_t kDaysTo1970 = 25'569;           // from 1899-12-30
-constexpr std::uint64_t kMaxDays = 129'000;            // the year 2253
+constexpr std::uint64_t kMaxDays = 129'735;            // the year 2255, with kMaxStamp_ns
 
 // Columns by their letters in $COLUMNS: N number, O offset, T type, B bus, I identifier,
 // d direction, R reserved, l bytes of data, L length code, D data.
@@ -25,6 +24,9 @@ struct TrcVersion {
 constexpr std::array kTrcVersions{TrcVersion{"1.0", "NOIlD"},   TrcVersion{"1.1", "NOTIlD"},
                                   TrcVersion{"1.2", "NOBTIlD"}, TrcVersion{"1.3", "NOBTIRlD"},
                                   TrcVersion{"2.0", "NOTIdlD"}, TrcVersion{"2.1", "NOTBIdRLD"}};
+
+constexpr std::string_view kTrcColumns = "NOTBIdRlLD";
+constexpr std::string_view kNeededTrcColumns = "OTID";  // and a length
 
 enum class TrcKind : std::uint8_t { kFrame, kError, kOther };
 
@@ -93,7 +95,7 @@ struct TrcRow : TextLine {
         return read_trc_length(column == 'L');
       case 'D':
         return read_trc_data();
-      default:
+      default:  // R
         return !word().empty() || refuse("expected one more column");
     }
   }
@@ -198,7 +200,7 @@ class TrcReader {
     const std::string_view text = line.text.substr(line.at);
     if (text.starts_with(";$FILEVERSION=")) return read_version(line, text.substr(14));
     if (text.starts_with(";$STARTTIME=")) return line.at += 12, read_start(line);
-    if (text.starts_with(";$COLUMNS=")) return read_columns(text.substr(10));
+    if (text.starts_with(";$COLUMNS=")) return read_columns(line, text.substr(10));
     constexpr std::string_view kStart = "Start time:";
     const std::size_t at = line.text.find(kStart);
     if (at == std::string_view::npos || zero_ns_ != 0) return true;
@@ -218,10 +220,22 @@ class TrcReader {
     return true;
   }
 
-  bool read_columns(std::string_view list) {
-    columns_.clear();
-    for (const char c : list)
-      if (c != ',' && c != ' ' && c != '\t') columns_ += c;
+  // What is in no column that is read would be lost in silence.
+  bool read_columns(TextLine& line, std::string_view list) {
+    constexpr const char* kExpected = "expected columns of N,O,T,B,I,d,R,L,D or l, each once";
+    std::string columns;
+    for (const char c : list) {
+      if (c == ',' || c == ' ' || c == '\t') continue;
+      const bool is_length = lower(c) == 'l';
+      const bool is_there = columns.find(c) != std::string::npos ||
+                            (is_length && columns.find_first_of("lL") != std::string::npos);
+      if (is_there || kTrcColumns.find(c) == std::string_view::npos) return line.refuse(kExpected);
+      columns += c;
+    }
+    for (const char needed : kNeededTrcColumns)
+      if (columns.find(needed) == std::string::npos) return line.refuse(kExpected);
+    if (columns.find_first_of("lL") == std::string::npos) return line.refuse(kExpected);
+    columns_ = columns;
     return true;
   }
 
@@ -233,10 +247,10 @@ class TrcReader {
     if (line.peek() == '.' || line.peek() == ',')
       for (++line.at; is_digit(line.peek()); ++line.at)
         part += static_cast<long double>(line.peek() - '0') * (scale /= 10.0L);
-    if (!is_blank(line.text.substr(line.at)) || static_cast<std::int64_t>(days) < kDaysTo1970)
+    if (!is_blank(line.text.substr(line.at)) || static_cast<std::int64_t>(days) < kTrcDaysTo1970)
       return line.refuse("expected days since 1899, after 1970");
     constexpr std::int64_t kDay_ns = kSecondsPerDay * kNanosecondsPerSecond;
-    zero_ns_ = (static_cast<std::int64_t>(days) - kDaysTo1970) * kDay_ns +
+    zero_ns_ = (static_cast<std::int64_t>(days) - kTrcDaysTo1970) * kDay_ns +
                static_cast<std::int64_t>(std::llround(part * static_cast<long double>(kDay_ns)));
     return true;
   }

@@ -8,7 +8,9 @@
 #include "hil/replay/writers/asc_writer.hpp"
 #include "hil/replay/writers/blf_writer.hpp"
 #include "hil/replay/writers/candump_writer.hpp"
+#include "hil/replay/writers/gzip_writer.hpp"
 #include "hil/replay/writers/pcap_writer.hpp"
+#include "hil/replay/writers/trc_writer.hpp"
 
 namespace pitwall::replay {
 namespace {
@@ -37,6 +39,10 @@ constexpr std::array kWrittenFormats{
     WrittenFormat{.suffix = ".blf",
                   .write = [](const CanLog& log) -> Result<std::string, Problem> {
                     return to_blf(log, channel_numbers_of(log));
+                  }},
+    WrittenFormat{.suffix = ".trc",
+                  .write = [](const CanLog& log) -> Result<std::string, Problem> {
+                    return to_trc(log, channel_numbers_of(log));
                   }},
     WrittenFormat{
         .suffix = ".pcap",
@@ -117,16 +123,21 @@ std::vector<unsigned> channel_numbers_of(const CanLog& log) {
 }
 
 Result<WrittenLog, Problem> write_can_log(const CanLog& log, std::string_view file_name) {
+  constexpr std::string_view kPacked = ".gz";
+  const bool is_packed = file_name.ends_with(kPacked);
+  const std::string_view name =
+      file_name.substr(0, file_name.size() - (is_packed ? kPacked.size() : 0));
   const auto* const format =
       std::find_if(kWrittenFormats.begin(), kWrittenFormats.end(),
-                   [&](const WrittenFormat& f) { return file_name.ends_with(f.suffix); });
+                   [&](const WrittenFormat& f) { return name.ends_with(f.suffix); });
   if (format == kWrittenFormats.end())
-    return refuse(file_name, "expected a name that ends in .log, .asc, .blf, .pcap or .pcapng");
+    return refuse(file_name, "expected a name that ends in " + std::string(kWrittenSuffixes));
   const bool is_late = std::any_of(log.frames.begin(), log.frames.end(), [&](const LoggedFrame& f) {
     return f.at.ns / kNanosecondsPerSecond > format->max_s;
   });
   if (is_late) return refuse(file_name, "this format holds no stamps after 2106; expected .pcapng");
   auto bytes = format->write(log);
+  if (bytes && is_packed) bytes = pack_gzip(*bytes);
   if (!bytes) return Unexpected{bytes.error()};
   return WrittenLog{.bytes = *std::move(bytes), .losses = losses_of(log, *format)};
 }

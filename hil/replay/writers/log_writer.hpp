@@ -1,6 +1,7 @@
 // A CAN log as a file of another format, which its name asks for.
 //
-//   .log candump   .asc Vector ASC   .blf Vector BLF   .pcap .pcapng SocketCAN captures
+//   .log candump   .asc Vector ASC   .blf Vector BLF   .trc PEAK TRC 2.1
+//   .pcap .pcapng SocketCAN captures; .gz behind any of them: packed by gzip
 //
 //   in     a log that was read; the name of the file to be
 //   out    its bytes, and what the format cannot keep, in words
@@ -15,6 +16,9 @@
 #include "hil/replay/formats/can_log.hpp"
 
 namespace pitwall::replay {
+
+inline constexpr std::string_view kWrittenSuffixes =
+    ".log (candump), .asc, .blf, .trc, .pcap or .pcapng, each also with .gz behind it";
 
 struct WrittenLog {
   std::string bytes;

@@ -33,12 +33,13 @@ TEST_F(ConvertVerb, ALogGoesRoundAllFormatsAndComesBackTheSame) {
       "(1700000000.000900123) can1 12345678##1AABBCC R\n";
   ASSERT_TRUE(transport::write_file(path("a.log"), text));
   std::string from = "a.log";
-  for (const std::string to : {"b.asc", "c.blf", "d.pcapng", "e.log"}) {
+  for (const std::string to :
+       {"b.asc", "c.blf", "d.pcapng", "e.trc", "f.trc.gz", "g.log.gz", "h.log"}) {
     EXPECT_EQ(run({path(from), path(to)}), 0) << err_;
     EXPECT_EQ(out_.find(path(to) + ": 3 frames of "), 0U) << out_;
     from = to;
   }
-  EXPECT_EQ(transport::read_file(path("e.log")).value_or(""), text);
+  EXPECT_EQ(transport::read_file(path("h.log")).value_or(""), text);
 }
 
 TEST_F(ConvertVerb, WhatIsNotKeptIsToldAndAFailureWhereThatIsAsked) {

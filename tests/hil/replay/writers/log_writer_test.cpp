@@ -21,11 +21,15 @@ CanLog read_again(const CanLog& log, const std::string& name) {
 TEST(LogWriter, OneCaptureInEveryFormatGivesTheSameFrames) {
   for (const std::int64_t step_ns : {1'000, 1}) {
     const CanLog log = make_log({.frames = 600, .step_ns = step_ns});
-    for (const std::string name : {"a.log", "a.asc", "a.blf", "a.pcapng"}) {
+    for (const std::string name :
+         {"a.log", "a.asc", "a.blf", "a.trc", "a.pcapng", "a.log.gz", "a.trc.gz"}) {
       const CanLog read = read_again(log, name);
       EXPECT_EQ(read.channels, log.channels) << name;
       EXPECT_EQ(read.frames, log.frames) << name;
-      EXPECT_EQ(read.counters, LogCounters{.other_records = name == "a.asc" ? 1U : 0U}) << name;
+      const bool has_comments = name.starts_with("a.trc");
+      EXPECT_EQ(read.counters, (LogCounters{.other_records = name == "a.asc" ? 1U : 0U,
+                                            .comments = has_comments ? 12U : 0U}))
+          << name;
       EXPECT_TRUE(read.remarks.empty()) << name;
     }
   }
@@ -54,7 +58,7 @@ TEST(LogWriter, WhatAFormatCannotKeepIsTold) {
   };
   EXPECT_EQ(told("a.log"), "3 error frames are not written\n");
   EXPECT_EQ(told("a.pcapng"), "3 error frames are not written\n");
-  for (const std::string name : {"a.asc", "a.blf"})
+  for (const std::string name : {"a.asc", "a.blf", "a.trc", "a.trc.gz"})
     EXPECT_EQ(told(name),
               "3 error frames are not written\nthe name vcan7 becomes channel 2\n"
               "1 frames of unknown direction become received ones\n");
@@ -71,7 +75,8 @@ TEST(LogWriter, ChannelsKeepTheirNumbersAndOthersGetWhatIsLeft) {
 
 TEST(LogWriter, AnotherSuffixAndAStampBeyondTheFormatAreRefused) {
   CanLog log = make_log({.frames = 3});
-  EXPECT_FALSE(write_can_log(log, "a.txt").has_value());
+  for (const std::string name : {"a.txt", "a.gz", "a.log.gz.gz"})
+    EXPECT_FALSE(write_can_log(log, name).has_value()) << name;
   log.frames[1].at.ns = 5'000'000'000 * kNanosecondsPerSecond;
   EXPECT_FALSE(write_can_log(log, "a.pcap").has_value());
   EXPECT_TRUE(write_can_log(log, "a.pcapng").has_value());
