@@ -230,6 +230,7 @@ struct CandumpLine : TextLine {
 
   bool read_console_payload() {
     if (!read_console_length()) return false;
+    if (!logged.frame.fd) logged.fd_flags = 0;
     const std::string_view next = next_word();
     if (next == "remote" && !logged.frame.fd) {
       word();
@@ -247,7 +248,6 @@ struct CandumpLine : TextLine {
       if (!read_console_byte(logged.frame.data[i])) return false;
     }
     if (is_swapped) std::reverse(logged.frame.data.begin(), logged.frame.data.begin() + n);
-    if (!logged.frame.fd) logged.fd_flags = 0;
     return read_ascii_column(n);
   }
 

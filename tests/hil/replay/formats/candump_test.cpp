@@ -215,6 +215,15 @@ TEST(CandumpLog, TheConsoleDialectsAreUnderstood) {
   EXPECT_EQ(log.notes.size(), 1U);
 }
 
+TEST(CandumpLog, ClassicFramesHaveNoFlagsOfCanFdWhateverTheConsolePrints) {
+  const auto log = parse(
+      " (1398128223.803317)  can0  RX B E  124   [3]  remote request\n"
+      " (1398128223.803318)  can0  RX B E  124   [1]  11\n");
+  ASSERT_EQ(log.frames.size(), 2U) << to_text(log, "f");
+  EXPECT_EQ(log.frames[0].fd_flags, 0);
+  EXPECT_EQ(log.frames[1].fd_flags, 0);
+}
+
 TEST(CandumpLog, SmallStampsAreOffsetsOrGaps) {
   std::string offsets, gaps;
   for (int i = 0; i < 20; ++i) {
