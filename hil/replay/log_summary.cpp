@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <tuple>
-#include <unordered_map>
+#include <utility>
 
 #include "hil/replay/formats/calendar.hpp"
 #include "protocol/json/json_text.hpp"
@@ -40,8 +40,11 @@ void add_to(IdRow& row, const LoggedFrame& logged) {
 }
 
 void add_to(LogSummary& out, const LoggedFrame& logged) {
-  out.first = std::min(out.first, logged.at);
-  out.last = std::max(out.last, logged.at);
+  out.first = out.frames == 0 ? logged.at : std::min(out.first, logged.at);
+  out.last = out.frames == 0 ? logged.at : std::max(out.last, logged.at);
+  ++out.frames;
+  if (logged.channel >= out.frames_of_channel.size())
+    out.frames_of_channel.resize(logged.channel + 1U);
   ++out.frames_of_channel[logged.channel];
   out.extended += logged.frame.extended;
   out.remote += logged.frame.remote;
@@ -116,36 +119,40 @@ double IdRow::rate_hz() const {
   return span > Duration{} ? static_cast<double>(count - 1) / span.seconds() : 0.0;
 }
 
-LogSummary summary_of(const CanLog& log) {
-  LogSummary out;
-  out.frames_of_channel.resize(log.channels.size());
-  if (log.frames.empty()) return out;
-  out.first = out.last = log.frames.front().at;
-  std::unordered_map<std::uint64_t, std::size_t> places;
-  for (const LoggedFrame& logged : log.frames) {
-    const auto [place, is_new] = places.try_emplace(key_of(logged), out.rows.size());
-    if (is_new) out.rows.emplace_back();
-    add_to(out.rows[place->second], logged);
-    add_to(out, logged);
+void LogSummaryBuilder::add(std::span<const LoggedFrame> frames) {
+  for (const LoggedFrame& logged : frames) {
+    const auto [place, is_new] = rows_.try_emplace(key_of(logged), summary_.rows.size());
+    if (is_new) summary_.rows.emplace_back();
+    add_to(summary_.rows[place->second], logged);
+    add_to(summary_, logged);
   }
-  std::sort(out.rows.begin(), out.rows.end(), [](const IdRow& a, const IdRow& b) {
+}
+
+LogSummary LogSummaryBuilder::finish(std::size_t channels) && {
+  summary_.frames_of_channel.resize(channels);
+  std::sort(summary_.rows.begin(), summary_.rows.end(), [](const IdRow& a, const IdRow& b) {
     return std::tie(a.channel, a.extended, a.id) < std::tie(b.channel, b.extended, b.id);
   });
-  return out;
+  return std::move(summary_);
+}
+
+LogSummary summary_of(const CanLog& log) {
+  LogSummaryBuilder builder;
+  builder.add(log.frames);
+  return std::move(builder).finish(log.channels.size());
 }
 
 std::string to_text(const LogSummary& s, const CanLog& log, std::string_view file_name) {
   std::string out = std::string(file_name) + ": " + log.format + "\n";
-  if (!log.frames.empty())
+  if (s.frames > 0)
     out += calendar_text(s.first) + " to " + calendar_text(s.last) +
            formatted(", %.6f s\n", Duration{s.last.ns - s.first.ns}.seconds());
   out += formatted(
       "%llu frames: %llu extended, %llu remote, %llu CAN FD; %llu received, %llu "
       "sent by the recorder\n",
-      static_cast<unsigned long long>(log.frames.size()),
-      static_cast<unsigned long long>(s.extended), static_cast<unsigned long long>(s.remote),
-      static_cast<unsigned long long>(s.fd), static_cast<unsigned long long>(s.received),
-      static_cast<unsigned long long>(s.sent));
+      static_cast<unsigned long long>(s.frames), static_cast<unsigned long long>(s.extended),
+      static_cast<unsigned long long>(s.remote), static_cast<unsigned long long>(s.fd),
+      static_cast<unsigned long long>(s.received), static_cast<unsigned long long>(s.sent));
   for (std::size_t i = 0; i < log.channels.size(); ++i)
     out += formatted("  %-15s %llu frames\n", log.channels[i].c_str(),
                      static_cast<unsigned long long>(s.frames_of_channel[i]));
@@ -173,7 +180,7 @@ std::string to_json(const LogSummary& s, const CanLog& log, std::string_view fil
              .text("first", calendar_text(s.first))
              .text("last", calendar_text(s.last))
              .number("span_ns", s.last.ns - s.first.ns)
-             .number("frames", log.frames.size())
+             .number("frames", s.frames)
              .number("extended", s.extended)
              .number("remote", s.remote)
              .number("fd", s.fd)

@@ -1,6 +1,6 @@
 // What a CAN log holds: span, channels, and for each identifier how often and how regularly it
 // comes.
-//   in     CanLog
+//   in     CanLog, or its frames in blocks
 //   out    one row for each channel and identifier, in this order; as text or as one JSON object
 //   units  frames per second; gaps between two frames of a row in nanoseconds, negative where
 //          a stamp goes back; calendar time in UTC
@@ -9,8 +9,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "hil/replay/formats/can_log.hpp"
@@ -32,12 +34,25 @@ struct IdRow {
 
 struct LogSummary {
   UtcTime first{}, last{};  // the earliest and the latest stamp
-  std::vector<std::uint64_t> frames_of_channel;
+  std::uint64_t frames = 0;
+  std::vector<std::uint64_t> frames_of_channel;  // of channels behind the last: none
   std::uint64_t extended = 0, remote = 0, fd = 0, sent = 0, received = 0;
   std::vector<IdRow> rows;
 };
 
+// Memory grows with the identifiers, not with the frames.
+class LogSummaryBuilder {
+ public:
+  void add(std::span<const LoggedFrame> frames);
+  LogSummary finish(std::size_t channels) &&;
+
+ private:
+  LogSummary summary_;
+  std::unordered_map<std::uint64_t, std::size_t> rows_;  // by channel and identifier
+};
+
 LogSummary summary_of(const CanLog& log);
+// The frames of the log itself are not looked at: they may have been taken in blocks.
 std::string to_text(const LogSummary& summary, const CanLog& log, std::string_view file_name);
 std::string to_json(const LogSummary& summary, const CanLog& log, std::string_view file_name);
 

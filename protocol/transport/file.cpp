@@ -100,6 +100,8 @@ bool write_to(int descriptor, std::string_view text) {
   return write_all(descriptor, as_bytes(text)).ok();
 }
 
+bool is_terminal(int descriptor) { return ::isatty(descriptor) == 1; }
+
 Result<AppendWriter, Problem> AppendWriter::open(const std::string& path, Start start) {
   const int truncate = start == Start::kTruncate ? O_TRUNC : 0;
   const auto opened = open_file(path, O_WRONLY | O_CREAT | O_APPEND | truncate);

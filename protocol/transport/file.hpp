@@ -34,6 +34,7 @@ Result<bool, Problem> write_private_file(const std::string& path, std::string_vi
 
 // The whole text to an open descriptor (1 and 2 are standard output and errors).
 bool write_to(int descriptor, std::string_view text);
+bool is_terminal(int descriptor);
 
 struct AppendCounters {
   std::uint64_t bytes = 0, writes = 0, syncs = 0;

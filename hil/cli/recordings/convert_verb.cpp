@@ -2,11 +2,11 @@
 #include "hil/cli/recordings/convert_verb.hpp"
 
 #include <cstdio>
-#include <utility>
 
 #include "hil/cli/command_line.hpp"
 #include "hil/cli/exit_code.hpp"
-#include "hil/replay/recordings/can_part.hpp"
+#include "hil/replay/reading/can_file.hpp"
+#include "hil/replay/reading/progress_line.hpp"
 #include "hil/replay/writers/log_writer.hpp"
 #include "protocol/transport/file.hpp"
 
@@ -14,7 +14,7 @@ namespace pitwall::cli {
 
 int convert_verb(std::span<const std::string> args) {
   std::string in, out;
-  bool strict = false;
+  bool strict = false, progress = false;
   CommandLine app{
       "pitwall-hil convert: the CAN frames of a log or a recording as a file of another format. "
       "Exit 0 written, 1 something was "
@@ -22,13 +22,12 @@ int convert_verb(std::span<const std::string> args) {
   app.option("IN", in, "log or recording of any format that info reads, known by its content")
       .required();
   app.option("OUT", out,
-             "new file; its name says the format: .log (candump), .asc, .blf, .pcap or .pcapng")
+             "new file; its name says the format: " + std::string(replay::kWrittenSuffixes))
       .required();
   app.flag("--strict", strict, "a record or a property that is not kept is a failure");
+  app.flag("--progress", progress, replay::kProgressHelp);
   if (const auto code = app.ended_by(args)) return *code;
-  auto bytes = transport::read_file(in);
-  if (!bytes) return refuse(bytes.error());
-  const auto log = traffic::read_can_traffic(*std::move(bytes), in);
+  const auto log = replay::read_can_file(in, progress);
   if (!log) return refuse(log.error());
   const auto written = replay::write_can_log(*log, out);
   if (!written) return refuse(written.error());

@@ -13,7 +13,8 @@
 #include "hil/cli/exit_code.hpp"
 #include "hil/nodes/can_variant.hpp"
 #include "hil/replay/formats/calendar.hpp"
-#include "hil/replay/recordings/can_part.hpp"
+#include "hil/replay/reading/can_file.hpp"
+#include "hil/replay/reading/progress_line.hpp"
 #include "hil/report/signal_plot.hpp"
 #include "hil/report/signal_series.hpp"
 #include "protocol/can/dbc_parser.hpp"
@@ -29,6 +30,7 @@ struct PlotOptions {
   std::string log, dbc_file, out = "plot.html", channel;
   std::vector<std::string> signals;
   double from_s = 0.0, until_s = kMaxSpan_s;
+  bool progress = false;
 };
 
 Result<can::Database, Problem> database_of(const PlotOptions& options) {
@@ -151,9 +153,7 @@ int plot(const PlotOptions& options) {
   if (!database) return refuse(database.error());
   const auto chosen = chosen_of(options, *database);
   if (!chosen) return refuse(chosen.error());
-  auto bytes = transport::read_file(options.log);
-  if (!bytes) return refuse(bytes.error());
-  const auto log = traffic::read_can_traffic(*std::move(bytes), options.log);
+  const auto log = replay::read_can_file(options.log, options.progress);
   if (!log) return refuse(log.error());
   std::fprintf(stderr, "%s", replay::to_text(*log, options.log).c_str());
   const auto part = part_of(options, *log);
@@ -181,6 +181,7 @@ int plot_verb(std::span<const std::string> args) {
   app.option("--from", options.from_s, "seconds from the start of the log; default: its start")
       .range(0.0, kMaxSpan_s);
   app.option("--until", options.until_s, "likewise; default: its end").range(0.0, kMaxSpan_s);
+  app.flag("--progress", options.progress, replay::kProgressHelp);
   if (const auto code = app.ended_by(args)) return *code;
   return plot(options);
 }

@@ -245,12 +245,13 @@ struct AscEvent : TextLine {
 
 class AscReader {
  public:
-  explicit AscReader(std::string_view file_name) : builder_(kAscName, file_name) {}
+  AscReader(std::string_view file_name, const LogWatch& watch, std::size_t file_bytes)
+      : builder_(kAscName, file_name, watch, file_bytes) {}
 
   Result<CanLog, Problem> read(std::string_view text) {
-    builder_.frames().reserve(text.size() / kBytesOfEvent);
+    builder_.expect(text.size() / kBytesOfEvent);
     TextLines lines(text);
-    while (lines.next()) read_line(lines);
+    while (builder_.reach(lines.position()) && lines.next()) read_line(lines);
     if (!has_date_)
       builder_.note("there is no date in the log: time begins at 0");
     else
@@ -349,8 +350,9 @@ class AscReader {
 
 }  // namespace
 
-Result<CanLog, Problem> read_asc(std::string_view text, std::string_view file_name) {
-  return AscReader(file_name).read(text);
+Result<CanLog, Problem> read_asc(std::string_view text, std::string_view file_name,
+                                 const LogWatch& watch) {
+  return AscReader(file_name, watch, text.size()).read(text);
 }
 
 bool looks_like_asc(std::string_view text) {

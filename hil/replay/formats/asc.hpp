@@ -24,7 +24,8 @@ namespace pitwall::replay {
 
 inline constexpr std::string_view kAscName = "a Vector ASC log";
 
-Result<CanLog, Problem> read_asc(std::string_view text, std::string_view file_name);
+Result<CanLog, Problem> read_asc(std::string_view text, std::string_view file_name,
+                                 const LogWatch& watch = {});
 bool looks_like_asc(std::string_view line);
 
 }  // namespace pitwall::replay

@@ -19,7 +19,8 @@ constexpr std::size_t kStartAt = 40, kFileBytesAt = 16, kObjectsAt = 32;  // in 
 constexpr std::size_t kBaseHeader = 16, kHeaderV1 = 32, kHeaderV2 = 40;
 constexpr std::size_t kContainerHeader = 32;
 constexpr std::size_t kMostPadding = 3;
-constexpr std::size_t kMaxObjectBytes = std::size_t{1} << 24U;  // a picture of a camera, at most
+constexpr std::size_t kMaxContainerBytes = std::size_t{1} << 28U;  // unpacked; usual are 128 KiB
+constexpr std::size_t kMaxObjectBytes = std::size_t{1} << 24U;     // a picture of a camera, at most
 constexpr std::uint32_t kTenMicroseconds = 1, kOneNanosecond = 2;
 constexpr std::uint32_t kBlfExtended = 0x80000000;
 constexpr std::uint16_t kNotPacked = 0, kPackedByZlib = 2;
@@ -107,8 +108,10 @@ const char* read_fd_message_64(ByteRecord body, BlfFrame& out) {
 
 class BlfReader {
  public:
-  BlfReader(std::string_view bytes, std::string_view file_name)
-      : bytes_(bytes), file_name_(file_name), builder_(name_of(FileFormat::kBlf), file_name) {}
+  BlfReader(std::string_view bytes, std::string_view file_name, const LogWatch& watch)
+      : bytes_(bytes),
+        file_name_(file_name),
+        builder_(name_of(FileFormat::kBlf), file_name, watch, bytes.size()) {}
 
   Result<CanLog, Problem> read() {
     const ByteRecord header{bytes_};
@@ -158,7 +161,7 @@ class BlfReader {
   }
 
   void read_file(std::size_t at) {
-    while (at < bytes_.size()) {
+    while (at < bytes_.size() && builder_.reach(at)) {
       const std::string_view rest = bytes_.substr(at);
       if (rest.size() < kBaseHeader && rest.find_first_not_of('\0') == std::string_view::npos)
         return;
@@ -202,13 +205,11 @@ class BlfReader {
     const std::uint32_t size = record.u32(24);
     const std::string_view packed = container.substr(kContainerHeader);
     if (method == kNotPacked) {
-      unpacked_bytes_ += packed.size();
       stream_ += packed;
     } else if (method == kPackedByZlib) {
-      const Unpacked unpacked = unpack_zlib(packed, kMaxUnpackedBytes - unpacked_bytes_);
+      const Unpacked unpacked = unpack_zlib(packed, kMaxContainerBytes);
       if (!unpacked.problem.empty() && !unpacked.is_cut) return lose_container(unpacked.problem);
       if (unpacked.is_cut && !is_cut) return lose_container(unpacked.problem);
-      unpacked_bytes_ += unpacked.bytes.size();
       if (unpacked.bytes.size() != size && !is_cut)
         builder_.leave_out_byte(container_at_, "the container holds " +
                                                    std::to_string(unpacked.bytes.size()) +
@@ -308,15 +309,16 @@ class BlfReader {
   LogBuilder builder_;
   UtcTime zero_{};
   std::string stream_;  // unpacked and not yet read
-  std::size_t container_at_ = 0, unpacked_bytes_ = 0;
+  std::size_t container_at_ = 0;
   std::uint64_t objects_ = 0;
   bool is_lost_ = false;
 };
 
 }  // namespace
 
-Result<CanLog, Problem> read_blf(std::string_view bytes, std::string_view file_name) {
-  return BlfReader(bytes, file_name).read();
+Result<CanLog, Problem> read_blf(std::string_view bytes, std::string_view file_name,
+                                 const LogWatch& watch) {
+  return BlfReader(bytes, file_name, watch).read();
 }
 
 }  // namespace pitwall::replay

@@ -22,6 +22,7 @@
 
 namespace pitwall::replay {
 
-Result<CanLog, Problem> read_blf(std::string_view bytes, std::string_view file_name);
+Result<CanLog, Problem> read_blf(std::string_view bytes, std::string_view file_name,
+                                 const LogWatch& watch = {});
 
 }  // namespace pitwall::replay

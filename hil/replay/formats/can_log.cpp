@@ -56,8 +56,21 @@ std::string to_text(const CanLog& log, std::string_view file_name) {
   return out;
 }
 
-LogBuilder::LogBuilder(std::string_view format, std::string_view file_name) : file_(file_name) {
+LogBuilder::LogBuilder(std::string_view format, std::string_view file_name, const LogWatch& watch,
+                       std::size_t file_bytes)
+    : file_(file_name), watch_(watch), file_bytes_(file_bytes) {
   log_.format = format;
+  if (watch_.reached) next_report_ = 0;
+}
+
+void LogBuilder::report(std::size_t byte) {
+  watch_.reached(byte, file_bytes_);
+  next_report_ = byte + kBytesBetweenReports;
+}
+
+void LogBuilder::expect(std::size_t frames) {
+  constexpr std::size_t kMost = std::size_t{1} << 22U;  // beyond it doubling costs little
+  log_.frames.reserve(std::min(frames, watch_.take ? kFramesOfBlock : kMost));
 }
 
 std::optional<std::uint8_t> LogBuilder::channel(std::string_view name) {
@@ -82,8 +95,14 @@ std::optional<std::uint8_t> LogBuilder::numbered_channel(std::uint64_t number) {
 
 std::optional<std::string_view> LogBuilder::add(const LoggedFrame& logged) {
   if (const auto reason = why_no_frame(logged)) return reason;
-  if (!log_.frames.empty() && logged.at < log_.frames.back().at) ++log_.counters.backward_stamps;
+  if (added_ > 0 && logged.at < last_at_) ++log_.counters.backward_stamps;
+  last_at_ = logged.at;
+  ++added_;
   log_.frames.push_back(logged);
+  if (watch_.take && !is_holding_ && log_.frames.size() == kFramesOfBlock) {
+    watch_.take(log_.frames);
+    log_.frames.clear();
+  }
   return std::nullopt;
 }
 
@@ -121,7 +140,12 @@ void LogBuilder::note(std::string_view text) {
 
 Result<CanLog, Problem> LogBuilder::finish() && {
   const LogCounters& c = log_.counters;
-  if (log_.frames.empty() && c.error_frames == 0 && c.bad_records + c.cut_tails > 0) {
+  if (log_.frames.size() >= watch_.max_frames)
+    return refuse(file_, "holds " + std::to_string(watch_.max_frames) +
+                             " frames or more, which is too many at once: take it in parts, a "
+                             "candump log by split -C 2G FILE PART, another text with its header "
+                             "in front of each part");
+  if (added_ == 0 && c.error_frames == 0 && c.bad_records + c.cut_tails > 0) {
     const LogRemark& first = log_.remarks.front();
     return Unexpected{Problem{first.place, "looks like " + log_.format +
                                                ", but holds no frame that reads: " + first.what}};

@@ -7,7 +7,8 @@
 //          has no date
 //   invariants
 //          whatever a file holds is a frame, is counted, or is told in a remark
-//   errors LogBuilder::finish() is a Problem where records were left out and nothing was read
+//   errors LogBuilder::finish() is a Problem where records were left out and nothing was read, and
+//          where there are more frames than the caller's watch allows
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -17,6 +18,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hil/replay/formats/log_watch.hpp"
 #include "protocol/can/frame.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
@@ -86,8 +88,19 @@ unsigned code_of_length(std::size_t length);
 
 class LogBuilder {
  public:
-  LogBuilder(std::string_view format, std::string_view file_name);
+  LogBuilder(std::string_view format, std::string_view file_name, const LogWatch& watch = {},
+             std::size_t file_bytes = 0);
 
+  // For each record, before it is read: tells the watch how far the file has been read. False: no
+  // more fits, and finish() says so.
+  bool reach(std::size_t byte) {
+    if (byte >= next_report_) report(byte);
+    return log_.frames.size() < watch_.max_frames;
+  }
+  // About so many frames are to come: memory for them.
+  void expect(std::size_t frames);
+  // No blocks from now on: what is still to come can change the frames.
+  void hold_frames() { is_holding_ = true; }
   // The index of a channel; nothing if its name is too long or there are too many of them.
   std::optional<std::uint8_t> channel(std::string_view name);
   // Channels that a format numbers from 1 are can0 and up, as python-can and can-utils have it.
@@ -102,13 +115,20 @@ class LogBuilder {
   void note(std::string_view text);  // once, however often it is said
 
   LogCounters& counters() { return log_.counters; }
-  std::vector<LoggedFrame>& frames() { return log_.frames; }
+  std::uint64_t added() const { return added_; }
+  std::vector<LoggedFrame>& frames() { return log_.frames; }  // without those of earlier blocks
   Result<CanLog, Problem> finish() &&;
 
  private:
   void remark(std::string place, std::string_view what);
+  void report(std::size_t byte);
 
   std::string file_;
+  LogWatch watch_;
+  std::size_t file_bytes_ = 0, next_report_ = SIZE_MAX;
+  std::uint64_t added_ = 0;
+  UtcTime last_at_{};
+  bool is_holding_ = false;
   std::uint8_t last_channel_ = 0;
   CanLog log_;
 };

@@ -284,12 +284,13 @@ bool read_drop_line(std::string_view text, LogCounters& counters) {
 
 class CandumpReader {
  public:
-  explicit CandumpReader(std::string_view file_name) : builder_(kCandumpName, file_name) {}
+  CandumpReader(std::string_view file_name, const LogWatch& watch, std::size_t file_bytes)
+      : builder_(kCandumpName, file_name, watch, file_bytes) {}
 
   Result<CanLog, Problem> read(std::string_view text) {
-    builder_.frames().reserve(text.size() / kBytesOfLine);
+    builder_.expect(text.size() / kBytesOfLine);
     TextLines lines(text);
-    while (lines.next()) read_line(lines);
+    while (builder_.reach(lines.position()) && lines.next()) read_line(lines);
     finish_stamps();
     return std::move(builder_).finish();
   }
@@ -316,6 +317,8 @@ class CandumpReader {
       return leave_out(lines, line);
     }
     line.logged.channel = *channel;
+    // Where all stamps are small, they can turn out to be gaps.
+    if (line.stamp == StampKind::kSmall && builder_.added() == 0) builder_.hold_frames();
     ++stamps_[static_cast<std::size_t>(line.stamp)];
     if (const auto reason = builder_.add(line.logged))
       builder_.leave_out_line(lines.number(), line.at + 1, *reason);
@@ -333,7 +336,7 @@ class CandumpReader {
     if (of(StampKind::kLocal) > 0)
       builder_.note("the stamps are local times of the recorder; they are taken as UTC");
     if (of(StampKind::kSmall) == 0) return;
-    const std::uint64_t frames = builder_.frames().size();
+    const std::uint64_t frames = builder_.added();
     const bool are_gaps = of(StampKind::kSmall) == frames &&
                           builder_.counters().backward_stamps * kGapsShare > frames;
     builder_.note(are_gaps ? "the stamps are gaps between frames (candump -td): time begins at 0"
@@ -354,8 +357,9 @@ class CandumpReader {
 
 }  // namespace
 
-Result<CanLog, Problem> read_candump(std::string_view text, std::string_view file_name) {
-  return CandumpReader(file_name).read(text);
+Result<CanLog, Problem> read_candump(std::string_view text, std::string_view file_name,
+                                     const LogWatch& watch) {
+  return CandumpReader(file_name, watch, text.size()).read(text);
 }
 
 bool looks_like_candump(std::string_view text) {

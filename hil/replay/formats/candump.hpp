@@ -26,7 +26,8 @@ namespace pitwall::replay {
 
 inline constexpr std::string_view kCandumpName = "a candump log";
 
-Result<CanLog, Problem> read_candump(std::string_view text, std::string_view file_name);
+Result<CanLog, Problem> read_candump(std::string_view text, std::string_view file_name,
+                                     const LogWatch& watch = {});
 // Whether a line can be one of candump, damage elsewhere in it aside.
 bool looks_like_candump(std::string_view line);
 

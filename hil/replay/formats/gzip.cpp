@@ -27,16 +27,15 @@ class Inflater {
     if (!is_open_) return void(out.problem = "there is no memory to unpack it");
     // zlib does not write to its input.
     stream_.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(packed_.data()));
-    stream_.avail_in = static_cast<uInt>(std::min<std::size_t>(packed_.size(), UINT32_MAX));
     int said = Z_OK;
     while (said == Z_OK) said = step(out, most);
-    out.at += packed_.size() - stream_.avail_in;
+    out.at += stream_.total_in;
     if (said == Z_STREAM_END) return;
-    out.is_cut = said == Z_BUF_ERROR && stream_.avail_in == 0;
+    out.is_cut = said == Z_BUF_ERROR && stream_.total_in == packed_.size();
     if (out.is_cut)
       out.problem = "the packed data is cut off";
     else if (out.bytes.size() >= most)
-      out.problem = "there is more in it than may be unpacked";
+      out.problem = "there is more in it than may be unpacked at once: unpack it to a file first";
     else
       out.problem = "the packed data is damaged";
   }
@@ -45,6 +44,9 @@ class Inflater {
   int step(Unpacked& out, std::size_t most) {
     const std::size_t before = out.bytes.size();
     if (before >= most) return Z_MEM_ERROR;
+    // zlib counts its input in 32 bits.
+    stream_.avail_in =
+        static_cast<uInt>(std::min<std::size_t>(packed_.size() - stream_.total_in, UINT32_MAX));
     const std::size_t room = std::min(std::max(before, kFirstStep), most - before);
     out.bytes.resize(before + room);
     stream_.next_out = reinterpret_cast<Bytef*>(out.bytes.data() + before);

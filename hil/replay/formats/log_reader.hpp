@@ -12,6 +12,7 @@
 
 namespace pitwall::replay {
 
-Result<CanLog, Problem> read_can_log(std::string_view bytes, std::string_view file_name);
+Result<CanLog, Problem> read_can_log(std::string_view bytes, std::string_view file_name,
+                                     const LogWatch& watch = {});
 
 }  // namespace pitwall::replay

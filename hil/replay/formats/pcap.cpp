@@ -21,8 +21,10 @@ constexpr std::uint32_t kMostCanPacket = 92;
 
 class PcapReader {
  public:
-  PcapReader(std::string_view bytes, std::string_view file_name)
-      : file_{bytes}, file_name_(file_name), builder_(name_of(FileFormat::kPcap), file_name) {}
+  PcapReader(std::string_view bytes, std::string_view file_name, const LogWatch& watch)
+      : file_{bytes},
+        file_name_(file_name),
+        builder_(name_of(FileFormat::kPcap), file_name, watch, bytes.size()) {}
 
   Result<CanLog, Problem> read() {
     if (file_.size() < kPcapHeader)
@@ -50,7 +52,7 @@ class PcapReader {
 
   void read_records() {
     std::size_t at = kPcapHeader;
-    while (at < file_.size()) {
+    while (at < file_.size() && builder_.reach(at)) {
       if (left(at) < kRecordHeader) return builder_.cut_byte(at, "a record is cut off");
       const std::uint32_t length = file_.u32(at + 8);
       const bool fits = is_stamp(at) && length <= kMaxPacketBytes && length <= file_.u32(at + 12);
@@ -121,8 +123,9 @@ class PcapReader {
 
 }  // namespace
 
-Result<CanLog, Problem> read_pcap(std::string_view bytes, std::string_view file_name) {
-  return PcapReader(bytes, file_name).read();
+Result<CanLog, Problem> read_pcap(std::string_view bytes, std::string_view file_name,
+                                  const LogWatch& watch) {
+  return PcapReader(bytes, file_name, watch).read();
 }
 
 }  // namespace pitwall::replay

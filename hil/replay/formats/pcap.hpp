@@ -19,6 +19,7 @@ namespace pitwall::replay {
 
 inline constexpr std::size_t kMaxPacketBytes = 262'144;  // what libpcap writes at most
 
-Result<CanLog, Problem> read_pcap(std::string_view bytes, std::string_view file_name);
+Result<CanLog, Problem> read_pcap(std::string_view bytes, std::string_view file_name,
+                                  const LogWatch& watch = {});
 
 }  // namespace pitwall::replay

@@ -64,12 +64,12 @@ std::optional<UtcTime> time_of(const CaptureInterface& source, std::uint64_t tic
 
 class PcapngReader {
  public:
-  PcapngReader(std::string_view bytes, std::string_view file_name)
-      : file_{bytes}, builder_(name_of(FileFormat::kPcapng), file_name) {}
+  PcapngReader(std::string_view bytes, std::string_view file_name, const LogWatch& watch)
+      : file_{bytes}, builder_(name_of(FileFormat::kPcapng), file_name, watch, bytes.size()) {}
 
   Result<CanLog, Problem> read() {
     std::size_t at = 0;
-    while (at < file_.size()) at = read_block(at);
+    while (at < file_.size() && builder_.reach(at)) at = read_block(at);
     return std::move(builder_).finish();
   }
 
@@ -238,8 +238,9 @@ class PcapngReader {
 
 }  // namespace
 
-Result<CanLog, Problem> read_pcapng(std::string_view bytes, std::string_view file_name) {
-  return PcapngReader(bytes, file_name).read();
+Result<CanLog, Problem> read_pcapng(std::string_view bytes, std::string_view file_name,
+                                    const LogWatch& watch) {
+  return PcapngReader(bytes, file_name, watch).read();
 }
 
 }  // namespace pitwall::replay

@@ -17,6 +17,7 @@
 
 namespace pitwall::replay {
 
-Result<CanLog, Problem> read_pcapng(std::string_view bytes, std::string_view file_name);
+Result<CanLog, Problem> read_pcapng(std::string_view bytes, std::string_view file_name,
+                                    const LogWatch& watch = {});
 
 }  // namespace pitwall::replay

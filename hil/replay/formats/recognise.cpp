@@ -15,6 +15,7 @@ namespace {
 using namespace std::string_view_literals;
 
 constexpr std::size_t kSampleLines = 300;
+constexpr std::size_t kMostSampleBytes = std::size_t{1} << 20U;  // of a file without line ends
 constexpr std::size_t kSampleBytes = 4'096;
 constexpr std::size_t kMaxControlShare = 50;  // of a text: one control character in so many bytes
 
@@ -144,8 +145,9 @@ bool is_text(std::string_view bytes) {
 
 }  // namespace
 
-FileFormat recognise(std::string_view bytes) {
-  if (bytes.empty()) return FileFormat::kEmpty;
+FileFormat recognise(std::string_view file) {
+  if (file.empty()) return FileFormat::kEmpty;
+  const std::string_view bytes = file.substr(0, kMostSampleBytes);
   for (const Magic& magic : kMagics)
     if (bytes.starts_with(magic.bytes)) return magic.format;
   const FileFormat by_lines = format_of_lines(bytes);

@@ -44,6 +44,7 @@ class TextLines {
   std::string_view line() const { return line_; }
   std::size_t number() const { return number_; }
   bool has_end() const { return has_end_; }
+  std::size_t position() const { return begin_; }  // bytes up to the next line
 
  private:
   std::string_view text_, line_;

@@ -165,11 +165,12 @@ struct TrcRow : TextLine {
 
 class TrcReader {
  public:
-  explicit TrcReader(std::string_view file_name) : builder_(kTrcName, file_name) {}
+  TrcReader(std::string_view file_name, const LogWatch& watch, std::size_t file_bytes)
+      : builder_(kTrcName, file_name, watch, file_bytes) {}
 
   Result<CanLog, Problem> read(std::string_view text) {
     TextLines lines(text);
-    while (lines.next()) read_line(lines);
+    while (builder_.reach(lines.position()) && lines.next()) read_line(lines);
     builder_.note(zero_ns_ == 0
                       ? "there is no start time in the log: time begins at 0"
                       : "the start time is local time of the recorder; it is taken as UTC");
@@ -302,8 +303,9 @@ class TrcReader {
 
 }  // namespace
 
-Result<CanLog, Problem> read_trc(std::string_view text, std::string_view file_name) {
-  return TrcReader(file_name).read(text);
+Result<CanLog, Problem> read_trc(std::string_view text, std::string_view file_name,
+                                 const LogWatch& watch) {
+  return TrcReader(file_name, watch, text.size()).read(text);
 }
 
 bool looks_like_trc(std::string_view text) {

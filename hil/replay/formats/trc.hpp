@@ -24,7 +24,8 @@ namespace pitwall::replay {
 inline constexpr std::string_view kTrcName = "a PEAK TRC log";
 inline constexpr std::int64_t kTrcDaysTo1970 = 25'569;  // from 1899-12-30, the day 0 of $STARTTIME
 
-Result<CanLog, Problem> read_trc(std::string_view text, std::string_view file_name);
+Result<CanLog, Problem> read_trc(std::string_view text, std::string_view file_name,
+                                 const LogWatch& watch = {});
 bool looks_like_trc(std::string_view line);
 
 }  // namespace pitwall::replay

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "protocol/transport/file_bytes.hpp"
 #include "protocol/vocabulary/bytes.hpp"
 
 namespace pitwall::traffic {
@@ -23,16 +24,17 @@ using Bytes = std::span<const std::uint8_t>;
 
 class BytePool {
  public:
-  Bytes adopt(std::string block) {
-    blocks_.push_back(std::make_unique<std::string>(std::move(block)));
+  Bytes adopt(const transport::FileBytes& block) {
+    blocks_.push_back(block.owner());
     open_ = nullptr;
-    return as_bytes(*blocks_.back());
+    return block.bytes();
   }
 
   Bytes copy(Bytes bytes) {
     if (open_ == nullptr || open_->capacity() - open_->size() < bytes.size()) {
-      blocks_.push_back(std::make_unique<std::string>());
-      open_ = blocks_.back().get();
+      const auto block = std::make_shared<std::string>();
+      blocks_.push_back(block);
+      open_ = block.get();
       open_->reserve(std::max(kBlockBytes, bytes.size()));  // never grows: spans point into it
     }
     const std::size_t begin = open_->size();
@@ -51,7 +53,7 @@ class BytePool {
  private:
   static constexpr std::size_t kBlockBytes = std::size_t{1} << 20;
 
-  std::vector<std::unique_ptr<std::string>> blocks_;
+  std::vector<std::shared_ptr<const void>> blocks_;
   std::string* open_ = nullptr;  // the block that copies go to
 };
 

@@ -89,10 +89,11 @@ bool is_recording(std::string_view file) {
   return is_zstd(as_bytes(file)) || format_of(as_bytes(file)) != RecordingFormat::kNone;
 }
 
-Result<CanLog, Problem> read_can_traffic(std::string file, const std::string& name) {
-  if (!is_recording(file)) return replay::read_can_log(file, name);
-  const std::string format{to_string(format_of(as_bytes(file)))};
-  const auto recording = read_recording(std::move(file), name);
+Result<CanLog, Problem> read_can_traffic(transport::FileBytes file, const std::string& name,
+                                         const replay::LogWatch& watch) {
+  if (!is_recording(file.text())) return replay::read_can_log(file.text(), name, watch);
+  const std::string format{to_string(format_of(file.bytes()))};
+  const auto recording = read_recording(std::move(file), name, watch.reached);
   if (!recording) return Unexpected{recording.error()};
   return can_part(*recording, format, name);
 }

@@ -11,6 +11,7 @@
 
 #include "hil/replay/formats/can_log.hpp"
 #include "hil/replay/recordings/recording.hpp"
+#include "protocol/transport/file_bytes.hpp"
 
 namespace pitwall::traffic {
 
@@ -19,6 +20,7 @@ Result<replay::CanLog, Problem> can_part(const Recording& recording, const std::
 
 // Whether it is a recording of this folder and no CAN log.
 bool is_recording(std::string_view file);
-Result<replay::CanLog, Problem> read_can_traffic(std::string file, const std::string& name);
+Result<replay::CanLog, Problem> read_can_traffic(transport::FileBytes file, const std::string& name,
+                                                 const replay::LogWatch& watch = {});
 
 }  // namespace pitwall::traffic

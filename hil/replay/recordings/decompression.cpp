@@ -80,7 +80,10 @@ Text decompress_zstd(Bytes bytes, std::uint64_t most) {
     more = ZSTD_decompressStream(context.get(), &out, &in);
     if (ZSTD_isError(more) != 0)
       return no(std::string{"damaged Zstandard: "} + ZSTD_getErrorName(more));
-    if (plain.size() + out.pos > most) return no("Zstandard of more bytes than announced");
+    if (plain.size() + out.pos > most)
+      return no(most == kMostPlainBytes
+                    ? "more than 1 GiB comes out of it: unpack it to a file first: zstd -d FILE"
+                    : "Zstandard of more bytes than announced");
     plain.append(piece, 0, out.pos);
     if (more != 0 && out.pos == 0 && in.pos == before) return no("cut Zstandard");
   }

@@ -65,8 +65,9 @@ std::optional<Bytes> stream_of(Bytes message) {
 
 class LcmImport {
  public:
-  LcmImport(std::string file, const std::string& name)
-      : builder_(name), file_(builder_.pool().adopt(std::move(file))) {}
+  LcmImport(const transport::FileBytes& file, const std::string& name,
+            const replay::ReadProgress& reached)
+      : builder_(name, reached, file.bytes().size()), file_(builder_.pool().adopt(file)) {}
 
   std::uint64_t read() {
     recording::LcmLogReader reader{file_};
@@ -141,8 +142,9 @@ class LcmImport {
 
 }  // namespace
 
-Result<Recording, Problem> read_lcm(std::string file, const std::string& name) {
-  LcmImport import{std::move(file), name};
+Result<Recording, Problem> read_lcm(const transport::FileBytes& file, const std::string& name,
+                                    const replay::ReadProgress& reached) {
+  LcmImport import{file, name, reached};
   if (import.read() == 0) return refuse(name + ": byte 0", "holds no event of LCM");
   return std::move(import).finish();
 }

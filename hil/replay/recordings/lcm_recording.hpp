@@ -13,11 +13,14 @@
 
 #include <string>
 
+#include "hil/replay/formats/log_watch.hpp"
 #include "hil/replay/recordings/recording.hpp"
+#include "protocol/transport/file_bytes.hpp"
 #include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::traffic {
 
-Result<Recording, Problem> read_lcm(std::string file, const std::string& name);
+Result<Recording, Problem> read_lcm(const transport::FileBytes& file, const std::string& name,
+                                    const replay::ReadProgress& reached = {});
 
 }  // namespace pitwall::traffic

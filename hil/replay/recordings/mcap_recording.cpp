@@ -58,9 +58,10 @@ UtcTime stamp_of(const McapMessage& message) {
 
 class McapImport {
  public:
-  McapImport(std::string file, const std::string& name)
-      : builder_(name),
-        file_(builder_.pool().adopt(std::move(file))),
+  McapImport(const transport::FileBytes& file, const std::string& name,
+             const replay::ReadProgress& reached)
+      : builder_(name, reached, file.bytes().size()),
+        file_(builder_.pool().adopt(file)),
         reader_(file_, [this](std::string_view compression, Bytes bytes, std::uint64_t plain) {
           return decompressed(compression, bytes, plain);
         }) {}
@@ -180,8 +181,9 @@ class McapImport {
 
 }  // namespace
 
-Result<Recording, Problem> read_mcap(std::string file, const std::string& name) {
-  McapImport import{std::move(file), name};
+Result<Recording, Problem> read_mcap(const transport::FileBytes& file, const std::string& name,
+                                     const replay::ReadProgress& reached) {
+  McapImport import{file, name, reached};
   if (!import.is_mcap()) return refuse(name + ": byte 0", "not an MCAP file: no magic number");
   return std::move(import).run();
 }

@@ -36,7 +36,8 @@ std::optional<gnss::GpsTime> gps_of(const gnss::VectorNavMessage& m) {
   constexpr std::uint8_t kValid = kTowValid | kDateValid;
   if (m.output.has(kTimeStatus) && (m.time_status & kValid) != kValid) return std::nullopt;
   std::uint64_t ns = m.time_gps_ns;
-  if (ns == 0 && m.week != 0) {
+  const bool in_week = m.tow_ns < static_cast<std::uint64_t>(gnss::kWeek_ms) * 1'000'000;
+  if (ns == 0 && in_week && gnss::is_week(m.week)) {
     ns = m.tow_ns + static_cast<std::uint64_t>(gnss::gps_time(m.week, {}).ns);
   }
   if (ns == 0 || ns > static_cast<std::uint64_t>(kLatestGps_ns)) return std::nullopt;
@@ -159,9 +160,10 @@ Receiver receiver_of(Bytes bytes) {
   return novatel >= vectornav ? Receiver::kNovatel : Receiver::kVectorNav;
 }
 
-Result<Recording, Problem> read_receiver_stream(std::string file, const std::string& name) {
+Result<Recording, Problem> read_receiver_stream(const transport::FileBytes& file,
+                                                const std::string& name) {
   RecordingBuilder builder{name};
-  const Bytes bytes = builder.pool().adopt(std::move(file));
+  const Bytes bytes = builder.pool().adopt(file);
   const Receiver receiver = receiver_of(bytes);
   if (receiver == Receiver::kUnknown)
     return refuse(name + ": byte 0", "holds no message of a NovAtel or VectorNav receiver");

@@ -19,6 +19,7 @@
 #include <string_view>
 
 #include "hil/replay/recordings/recording.hpp"
+#include "protocol/transport/file_bytes.hpp"
 #include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::traffic {
@@ -30,6 +31,7 @@ std::string_view to_string(Receiver receiver);
 inline constexpr std::size_t kReceiverProbeBytes = std::size_t{1} << 16;
 Receiver receiver_of(Bytes bytes);
 
-Result<Recording, Problem> read_receiver_stream(std::string file, const std::string& name);
+Result<Recording, Problem> read_receiver_stream(const transport::FileBytes& file,
+                                                const std::string& name);
 
 }  // namespace pitwall::traffic

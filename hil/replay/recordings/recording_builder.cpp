@@ -29,6 +29,10 @@ bool RecordingBuilder::add(std::uint32_t source, UtcTime at, Bytes bytes, std::u
 bool RecordingBuilder::put(std::uint32_t index, UtcTime at, std::variant<Bytes, can::Frame> content,
                            std::uint64_t byte) {
   CHECK(index < recording_.sources.size());
+  if (reached_ && byte >= next_report_) {
+    reached_(byte, file_bytes_);
+    next_report_ = byte + replay::kBytesBetweenReports;
+  }
   Source& source = recording_.sources[index];
   CHECK((source.kind == SourceKind::kCan) == std::holds_alternative<can::Frame>(content));
   if (at < UtcTime{} || at > kLatestStamp) {

@@ -1,6 +1,7 @@
 // Builder of a Recording: readers and CAN logs put sources and records into it in the order of
 // their file.
-//   in     sources; records with their stamp and their byte in the file; what is left out and why
+//   in     sources; records with their stamp and their byte in the file; what is left out and why;
+//          who wants to know now and then how far the file has been read
 //   out    finish(): the recording, in total order
 //   invariants
 //          what is refused or told of the same kind is one remark with a count, at its first place
@@ -20,6 +21,7 @@
 #include <string_view>
 #include <variant>
 
+#include "hil/replay/formats/log_watch.hpp"
 #include "hil/replay/recordings/recording.hpp"
 
 namespace pitwall::traffic {
@@ -29,7 +31,9 @@ inline constexpr UtcTime kLatestStamp{7'000'000'000 * kNanosecondsPerSecond};
 
 class RecordingBuilder {
  public:
-  explicit RecordingBuilder(std::string file) : file_(std::move(file)) {}
+  explicit RecordingBuilder(std::string file, replay::ReadProgress reached = {},
+                            std::size_t file_bytes = 0)
+      : file_(std::move(file)), reached_(std::move(reached)), file_bytes_(file_bytes) {}
 
   std::uint32_t add_source(std::string name, SourceKind kind, std::string type);
   bool add(std::uint32_t source, UtcTime at, const can::Frame& frame, std::uint64_t byte);
@@ -55,6 +59,8 @@ class RecordingBuilder {
            std::uint64_t byte);
 
   std::string file_;
+  replay::ReadProgress reached_;
+  std::size_t file_bytes_ = 0, next_report_ = 0;
   Recording recording_;
   std::vector<UtcTime> latest_;  // of each source: its newest record in the file
   std::map<std::string, std::size_t, std::less<>> remarks_;  // by what they say

@@ -45,21 +45,22 @@ RecordingFormat format_of(Bytes file) {
                                                   : RecordingFormat::kReceiver;
 }
 
-Result<Recording, Problem> read_recording(std::string file, const std::string& name) {
-  if (is_zstd(as_bytes(file))) {
-    auto plain = decompress_zstd(as_bytes(file));
+Result<Recording, Problem> read_recording(transport::FileBytes file, const std::string& name,
+                                          const replay::ReadProgress& reached) {
+  if (is_zstd(file.bytes())) {
+    auto plain = decompress_zstd(file.bytes());
     if (!plain) return refuse(name, plain.error());
-    file = *std::move(plain);
+    file = transport::FileBytes(*std::move(plain));
   }
-  switch (format_of(as_bytes(file))) {
+  switch (format_of(file.bytes())) {
     case RecordingFormat::kMcap:
-      return read_mcap(std::move(file), name);
+      return read_mcap(file, name, reached);
     case RecordingFormat::kSqliteBag:
       return read_sqlite_bag(std::move(file), name);
     case RecordingFormat::kLcm:
-      return read_lcm(std::move(file), name);
+      return read_lcm(file, name, reached);
     case RecordingFormat::kReceiver:
-      return read_receiver_stream(std::move(file), name);
+      return read_receiver_stream(file, name);
     case RecordingFormat::kNone:
       break;
   }

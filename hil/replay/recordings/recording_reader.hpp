@@ -8,7 +8,9 @@
 #include <string>
 #include <string_view>
 
+#include "hil/replay/formats/log_watch.hpp"
 #include "hil/replay/recordings/recording.hpp"
+#include "protocol/transport/file_bytes.hpp"
 #include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::traffic {
@@ -19,6 +21,7 @@ std::string_view to_string(RecordingFormat format);
 // Of the bytes as they are after decompression.
 RecordingFormat format_of(Bytes file);
 
-Result<Recording, Problem> read_recording(std::string file, const std::string& name);
+Result<Recording, Problem> read_recording(transport::FileBytes file, const std::string& name,
+                                          const replay::ReadProgress& reached = {});
 
 }  // namespace pitwall::traffic

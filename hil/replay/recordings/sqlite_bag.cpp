@@ -161,17 +161,18 @@ class BagImport {
 
 bool is_sqlite(Bytes file) { return SqliteImage::is_one(file); }
 
-Result<Recording, Problem> read_sqlite_bag(std::string file, const std::string& name) {
-  if (!SqliteImage::is_one(as_bytes(file))) return refuse(name + ": byte 0", "not a SQLite file");
+Result<Recording, Problem> read_sqlite_bag(transport::FileBytes file, const std::string& name) {
+  if (!SqliteImage::is_one(file.bytes())) return refuse(name + ": byte 0", "not a SQLite file");
   RecordingBuilder builder{name};
-  const bool has_log = SqliteImage::had_write_ahead_log(as_bytes(file));
-  const auto announced = SqliteImage::announced_bytes(as_bytes(file));
-  if (announced > file.size()) {
-    builder.counters().lost_bytes += announced - file.size();
-    builder.remark(file.size(), "file is cut here: it had " + std::to_string(announced) + " bytes");
-  } else if (announced != 0 && announced < file.size()) {
+  const std::size_t size = file.bytes().size();
+  const bool has_log = SqliteImage::had_write_ahead_log(file.bytes());
+  const auto announced = SqliteImage::announced_bytes(file.bytes());
+  if (announced > size) {
+    builder.counters().lost_bytes += announced - size;
+    builder.remark(size, "file is cut here: it had " + std::to_string(announced) + " bytes");
+  } else if (announced != 0 && announced < size) {
     builder.remark(announced, "more bytes than the file says that it has: " +
-                                  std::to_string(file.size() - announced));
+                                  std::to_string(size - announced));
   }
   SqliteImage image{std::move(file)};
   BagImport import{image, builder};

@@ -16,11 +16,12 @@
 #include <string>
 
 #include "hil/replay/recordings/recording.hpp"
+#include "protocol/transport/file_bytes.hpp"
 #include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::traffic {
 
 bool is_sqlite(Bytes file);
-Result<Recording, Problem> read_sqlite_bag(std::string file, const std::string& name);
+Result<Recording, Problem> read_sqlite_bag(transport::FileBytes file, const std::string& name);
 
 }  // namespace pitwall::traffic

@@ -75,21 +75,23 @@ std::uint64_t SqliteImage::announced_bytes(Bytes file) {
 void SqliteImage::Close::operator()(sqlite3* database) const { sqlite3_close(database); }
 
 // The header must not ask for a write-ahead log, which there is not in memory.
-SqliteImage::SqliteImage(std::string file) : file_(std::move(file)) {
+SqliteImage::SqliteImage(transport::FileBytes file) : file_(std::move(file)) {
+  const std::span<char> bytes = file_.writable();
+  const std::uint64_t size = bytes.size();
   for (const std::size_t at : {kWriteVersionAt, kReadVersionAt})
-    if (file_[at] == kWriteAhead) file_[at] = kRollback;
-  if (announced_bytes(as_bytes(file_)) > file_.size()) {  // or SQLite refuses it as a whole
-    const std::uint64_t pages = file_.size() / page_bytes(as_bytes(file_));
+    if (bytes[at] == kWriteAhead) bytes[at] = kRollback;
+  if (announced_bytes(file_.bytes()) > size) {  // or SQLite refuses it as a whole
+    const std::uint64_t pages = size / page_bytes(file_.bytes());
     for (std::size_t i = 0; i < kPagesBytes; ++i)
-      file_[kPagesAt + i] = static_cast<char>(pages >> (8 * (kPagesBytes - 1 - i)) & 0xFFU);
+      bytes[kPagesAt + i] = static_cast<char>(pages >> (8 * (kPagesBytes - 1 - i)) & 0xFFU);
   }
   sqlite3* database = nullptr;
   sqlite3_open_v2(":memory:", &database, SQLITE_OPEN_READWRITE, nullptr);
   database_.reset(database);
   if (database == nullptr) return;
-  const auto size = static_cast<sqlite3_int64>(file_.size());
-  sqlite3_deserialize(database, "main", reinterpret_cast<unsigned char*>(file_.data()), size, size,
-                      SQLITE_DESERIALIZE_READONLY);
+  const auto length = static_cast<sqlite3_int64>(size);
+  sqlite3_deserialize(database, "main", reinterpret_cast<unsigned char*>(bytes.data()), length,
+                      length, SQLITE_DESERIALIZE_READONLY);
 }
 
 std::optional<SqliteRows> SqliteImage::query(const char* sql) {

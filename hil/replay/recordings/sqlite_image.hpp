@@ -14,6 +14,7 @@
 #include <string>
 
 #include "hil/replay/recordings/byte_pool.hpp"
+#include "protocol/transport/file_bytes.hpp"
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -47,7 +48,7 @@ class SqliteImage {
   // How long the file was by its own header; 0 where it does not say.
   static std::uint64_t announced_bytes(Bytes file);
 
-  explicit SqliteImage(std::string file);
+  explicit SqliteImage(transport::FileBytes file);
   SqliteImage(const SqliteImage&) = delete;  // SQLite knows where the bytes lie
   SqliteImage& operator=(const SqliteImage&) = delete;
 
@@ -59,7 +60,7 @@ class SqliteImage {
     void operator()(sqlite3* database) const;
   };
 
-  std::string file_;
+  transport::FileBytes file_;
   std::unique_ptr<sqlite3, Close> database_;
 };
 

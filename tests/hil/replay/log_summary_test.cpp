@@ -30,6 +30,18 @@ CanLog three_ids() {
   return log;
 }
 
+TEST(LogSummary, InBlocksItIsThatOfTheWholeLog) {
+  CanLog log = three_ids();
+  const LogSummary whole = summary_of(log);
+  LogSummaryBuilder builder;
+  for (const LoggedFrame& logged : log.frames) builder.add({&logged, 1});
+  const LogSummary parts = std::move(builder).finish(2);
+  log.frames.clear();  // as they are where blocks were taken
+  EXPECT_EQ(to_json(parts, log, "f"), to_json(whole, three_ids(), "f"));
+  EXPECT_EQ(to_text(parts, log, "f"), to_text(whole, three_ids(), "f"));
+  EXPECT_NE(to_text(parts, log, "f").find("\n5 frames: "), std::string::npos);
+}
+
 TEST(LogSummary, RowsAreByChannelAndIdentifierWithTheirRatesAndGaps) {
   const LogSummary s = summary_of(three_ids());
   ASSERT_EQ(s.rows.size(), 3U);

@@ -78,5 +78,51 @@ TEST(CanLog, TheTextNamesEveryRemarkAndCount) {
   EXPECT_EQ(to_text(CanLog{}, "f"), "");
 }
 
+LoggedFrame frame_at(std::int64_t ns) {
+  LoggedFrame f;
+  f.at.ns = ns;
+  return f;
+}
+
+TEST(CanLog, FramesAreTakenInBlocksAndCountedAcrossThem) {
+  std::vector<LoggedFrame> taken;
+  const LogWatch watch{.reached = {}, .take = [&](std::span<const LoggedFrame> frames) {
+                         taken.insert(taken.end(), frames.begin(), frames.end());
+                       }};
+  LogBuilder builder("a log", "f", watch);
+  for (std::size_t i = 0; i < kFramesOfBlock; ++i)
+    builder.add(frame_at(1'000'000 + static_cast<std::int64_t>(i)));
+  EXPECT_EQ(taken.size(), kFramesOfBlock);
+  builder.add(frame_at(5));  // earlier than the last one of the block
+  const auto log = std::move(builder).finish();
+  ASSERT_TRUE(log);
+  ASSERT_EQ(log->frames.size(), 1U);
+  EXPECT_EQ(log->frames[0].at.ns, 5);
+  EXPECT_EQ(taken.back().at.ns, 1'000'000 + static_cast<std::int64_t>(kFramesOfBlock) - 1);
+  EXPECT_EQ(log->counters.backward_stamps, 1U);
+}
+
+TEST(CanLog, ALogOfWhichAllHasBeenTakenIsNoEmptyOne) {
+  const LogWatch watch{.reached = {}, .take = [](std::span<const LoggedFrame>) {}};
+  LogBuilder builder("a log", "f", watch);
+  for (std::size_t i = 0; i < kFramesOfBlock; ++i) builder.add(frame_at(1));
+  builder.leave_out_line(1, 1, "because");
+  EXPECT_TRUE(std::move(builder).finish().has_value());
+}
+
+TEST(CanLog, MoreFramesThanAllowedAreRefusedWithWhatToDo) {
+  const LogWatch watch{.reached = {}, .take = {}, .max_frames = 3};
+  for (const int frames : {2, 3}) {
+    LogBuilder builder("a log", "big.log", watch);
+    for (int i = 0; i < frames; ++i) builder.add(frame_at(i));
+    EXPECT_EQ(builder.reach(0), frames < 3);
+    const auto log = std::move(builder).finish();
+    EXPECT_EQ(log.has_value(), frames < 3);
+    if (log) continue;
+    EXPECT_EQ(log.error().place, "big.log");
+    EXPECT_NE(log.error().what.find("split -C"), std::string::npos) << log.error().what;
+  }
+}
+
 }  // namespace
 }  // namespace pitwall::replay

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "hil/replay/writers/log_writer.hpp"
 #include "tests/hil/replay/formats/log_oracle.hpp"
+#include "tests/hil/replay/formats/made_log.hpp"
 #include "tests/support/public_data.hpp"
 
 namespace pitwall::replay {
@@ -87,6 +89,66 @@ TEST(LogReader, TheFormatIsFoundByContentAndToldInTheErrorOfWhatIsNotRead) {
     EXPECT_NE(log.error().what.find(name), std::string::npos) << log.error().what;
     EXPECT_NE(log.error().what.find("PEAK TRC"), std::string::npos) << log.error().what;
   }
+}
+
+// A log in blocks, and how far it was each time; the frames together again.
+struct Blocks {
+  CanLog log;
+  std::size_t blocks = 0;
+  std::vector<std::size_t> reached;
+};
+
+Blocks read_in_blocks(const std::string& bytes) {
+  Blocks out;
+  std::vector<LoggedFrame> frames;
+  const LogWatch watch{.reached =
+                           [&](std::size_t done, std::size_t all) {
+                             EXPECT_LE(done, all);
+                             out.reached.push_back(done);
+                           },
+                       .take =
+                           [&](std::span<const LoggedFrame> block) {
+                             ++out.blocks;
+                             frames.insert(frames.end(), block.begin(), block.end());
+                           }};
+  auto log = read_can_log(bytes, "f", watch);
+  EXPECT_TRUE(log);
+  if (!log) return out;
+  out.log = *std::move(log);
+  frames.insert(frames.end(), out.log.frames.begin(), out.log.frames.end());
+  out.log.frames = std::move(frames);
+  return out;
+}
+
+TEST(LogReader, InBlocksEveryFormatHasTheSameFramesAndSaysHowFarItIs) {
+  const CanLog made = make_log({.frames = 3 * kFramesOfBlock + 100, .channels = 1});
+  for (const std::string name :
+       {"a.log", "a.asc", "a.blf", "a.trc", "a.pcap", "a.pcapng", "a.log.gz"}) {
+    const std::string bytes = write_can_log(made, name)->bytes;
+    const auto whole = read_can_log(bytes, "f");
+    const Blocks read = read_in_blocks(bytes);
+    EXPECT_EQ(read.blocks, 3U) << name;
+    EXPECT_TRUE(read.log.frames == whole->frames) << name;
+    EXPECT_EQ(read.log.counters, whole->counters) << name;
+    EXPECT_EQ(read.log.notes, whole->notes) << name;
+    ASSERT_FALSE(read.reached.empty()) << name;
+    EXPECT_TRUE(std::is_sorted(read.reached.begin(), read.reached.end())) << name;
+    const bool is_long = bytes.size() > 2 * kBytesBetweenReports;
+    EXPECT_GE(read.reached.size(), is_long ? 2U : 1U) << name;
+  }
+}
+
+// Only at the end is it known that the stamps of candump -td are gaps: nothing is given away before.
+TEST(LogReader, GapsInPlaceOfStampsAreNotTakenInBlocks) {
+  std::string text;
+  for (std::size_t i = 0; i < kFramesOfBlock + 10; ++i)
+    text += i % 2 == 0 ? " (000.000200)  can0  123   [1]  11\n"
+                       : " (000.000100)  can0  123   [1]  11\n";
+  const Blocks read = read_in_blocks(text);
+  EXPECT_EQ(read.blocks, 0U);
+  EXPECT_TRUE(read.log.frames == read_can_log(text, "f")->frames);
+  EXPECT_EQ(read.log.frames.back().at.ns,
+            static_cast<std::int64_t>(kFramesOfBlock + 10) / 2 * 300'000);
 }
 
 }  // namespace

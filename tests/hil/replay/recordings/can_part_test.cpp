@@ -54,11 +54,11 @@ TEST(CanPart, ARecordingWithoutFramesIsRefused) {
 }
 
 TEST(CanPart, ALogIsReadAsALogAndWhatIsNeitherIsNamed) {
-  const auto log = read_can_traffic("(1.0) can0 123#11\n", "a.log");
+  const auto log = read_can_traffic(std::string{"(1.0) can0 123#11\n"}, "a.log");
   ASSERT_TRUE(log);
   EXPECT_EQ(log->frames.size(), 1U);
   EXPECT_FALSE(is_recording("(1.0) can0 123#11\n"));
-  const auto page = read_can_traffic("<html>", "page");
+  const auto page = read_can_traffic(std::string{"<html>"}, "page");
   ASSERT_FALSE(page);
   EXPECT_EQ(to_string(page.error()).rfind("page: error: looks like a web page", 0), 0U);
 }

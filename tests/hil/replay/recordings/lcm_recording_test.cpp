@@ -135,7 +135,7 @@ TEST(LcmRecording, NoDamageThatMovesBytesIsSilent) {
 }
 
 TEST(LcmRecording, RefusesAFileWithoutAnEvent) {
-  const auto recording = read_lcm("nothing", "a.lcm");
+  const auto recording = read_lcm(std::string{"nothing"}, "a.lcm");
   ASSERT_FALSE(recording);
   EXPECT_EQ(to_string(recording.error()), "a.lcm: byte 0: error: holds no event of LCM");
 }

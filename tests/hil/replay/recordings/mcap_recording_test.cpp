@@ -185,7 +185,7 @@ TEST(McapRecording, NoDamageIsSilent) {
 }
 
 TEST(McapRecording, RefusesWhatIsNoMcap) {
-  const auto recording = read_mcap("(1.0) can0 123#00", "a.log");
+  const auto recording = read_mcap(std::string{"(1.0) can0 123#00"}, "a.log");
   ASSERT_FALSE(recording);
   EXPECT_EQ(to_string(recording.error()),
             "a.log: byte 0: error: not an MCAP file: no magic number");

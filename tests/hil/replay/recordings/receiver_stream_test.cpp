@@ -54,6 +54,18 @@ TEST(ReceiverStream, EachMessageIsDueAtItsGpsTime) {
   EXPECT_EQ(testing::all_remarks(*recording), "");
 }
 
+// As its nanoseconds do not fit into 64 bits, week 20,000 would be any other time.
+TEST(ReceiverStream, AWeekThatCannotBeIsNoTime) {
+  const std::string file =
+      testing::novatel_position(kWeek, 2'000) + testing::novatel_position(20'000, 2'010);
+  const auto recording = read_receiver_stream(file, "a.gps");
+  ASSERT_TRUE(recording);
+  ASSERT_EQ(recording->records.size(), 2U);
+  EXPECT_EQ(recording->records[1].at, utc_of(kWeek, 2'000));
+  EXPECT_NE(testing::all_remarks(*recording).find("message without a time"), std::string::npos);
+  EXPECT_FALSE(read_receiver_stream(testing::novatel_position(20'000, 1), "a.gps"));
+}
+
 TEST(ReceiverStream, ALateSolutionKeepsItsPlaceInTheStream) {
   const std::string file = testing::novatel_position(kWeek, 2'000) +
                            testing::novatel_position(kWeek, 1'980) +
@@ -153,7 +165,7 @@ TEST(ReceiverStream, AnOldRecordingIsTold) {
 }
 
 TEST(ReceiverStream, RefusesWhatHasNoMessageOrNoTime) {
-  const auto other = read_receiver_stream("no receiver says this", "a");
+  const auto other = read_receiver_stream(std::string{"no receiver says this"}, "a");
   ASSERT_FALSE(other);
   EXPECT_EQ(other.error().what, "holds no message of a NovAtel or VectorNav receiver");
   const auto timeless = read_receiver_stream(testing::novatel_position(0, 0), "a");

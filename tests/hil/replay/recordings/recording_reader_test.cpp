@@ -43,7 +43,7 @@ TEST(RecordingReader, KnowsEveryFormatByItsContent) {
 }
 
 TEST(RecordingReader, SaysWhatIsRead) {
-  const auto text = read_recording("(1.0) can0 123#00\n", "a.log");
+  const auto text = read_recording(std::string{"(1.0) can0 123#00\n"}, "a.log");
   ASSERT_FALSE(text);
   EXPECT_EQ(to_string(text.error()),
             "a.log: error: is no recording that is read: expected MCAP, a bag of ROS 2 (.mcap, "

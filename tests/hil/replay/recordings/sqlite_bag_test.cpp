@@ -115,7 +115,7 @@ TEST(SqliteBag, NoDamageThatMovesBytesIsSilentAndNoneCrashes) {
 }
 
 TEST(SqliteBag, RefusesWhatIsNoBag) {
-  const auto text = read_sqlite_bag("no database", "a.db3");
+  const auto text = read_sqlite_bag(std::string{"no database"}, "a.db3");
   ASSERT_FALSE(text);
   EXPECT_EQ(to_string(text.error()), "a.db3: byte 0: error: not a SQLite file");
   const std::string path = testing::scratch("other.db");

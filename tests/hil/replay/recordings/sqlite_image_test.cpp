@@ -53,5 +53,17 @@ TEST(SqliteImage, KnowsTheHeader) {
   EXPECT_TRUE(image.query("SELECT a FROM t")) << image.fault();
 }
 
+// SQLite has to be told other things than the header says; the file keeps it as it is.
+TEST(SqliteImage, ReadsAMappedFileAndDoesNotChangeIt) {
+  const std::string file =
+      database("mapped.db", "d.execute('PRAGMA journal_mode=WAL'); d.execute('CREATE TABLE t(a)')");
+  const std::string path = testing::scratch("mapped.db");
+  const auto mapped = transport::FileBytes::map(path);
+  ASSERT_TRUE(mapped);
+  SqliteImage image{*mapped};
+  EXPECT_TRUE(image.query("SELECT a FROM t")) << image.fault();
+  EXPECT_EQ(testing::bytes_of(path), file);
+}
+
 }  // namespace
 }  // namespace pitwall::traffic
