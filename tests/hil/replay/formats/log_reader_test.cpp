@@ -138,7 +138,7 @@ TEST(LogReader, InBlocksEveryFormatHasTheSameFramesAndSaysHowFarItIs) {
   }
 }
 
-// Only at the end is it known that the stamps of candump -td are gaps: nothing is given away before.
+// Only the end says that the stamps of candump -td are gaps: nothing is given away before.
 TEST(LogReader, GapsInPlaceOfStampsAreNotTakenInBlocks) {
   std::string text;
   for (std::size_t i = 0; i < kFramesOfBlock + 10; ++i)

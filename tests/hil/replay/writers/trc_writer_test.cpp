@@ -1,5 +1,5 @@
-// python-can reads classic data frames of TRC 2.1 only; the other rows are compared with lines after
-// PEAK's description.
+// python-can reads the classic data frames of TRC 2.1 only; the other rows are compared with lines
+// after PEAK's description.
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/replay/writers/trc_writer.hpp"
 
