@@ -121,7 +121,7 @@ TEST(Trc, ABadLineIsLeftOutAndToldWithLineAndColumn) {
       {"2) 1.0 Rx 0300 1 012", 20},
       {";$STARTTIME=1.0", 16},
       {";$FILEVERSION=7.1", 1},
-      {";$COLUMNS=N,O,T,I,l,X", 1},  // a column that nobody knows
+      {";$COLUMNS=N,O,T,I,l,D,X", 1},  // a column that nobody knows
       {";$COLUMNS=N,O,T,I,l,L,D", 1},
       {";$COLUMNS=N,O,T,I,d,d,l,D", 1},
       {";$COLUMNS=N,O,T,I,l", 1},  // no data

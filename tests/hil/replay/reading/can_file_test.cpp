@@ -19,10 +19,10 @@ TEST(CanFile, AFileIsReadWithALineOfProgressWhereItIsAskedFor) {
   for (const bool is_asked_for : {false, true}) {
     testing::internal::CaptureStderr();
     const auto read = read_can_file(path, is_asked_for);
-    const std::string said = testing::internal::GetCapturedStderr();
+    const std::string line = testing::internal::GetCapturedStderr();
     ASSERT_TRUE(read);
     EXPECT_EQ(read->frames, log.frames);
-    EXPECT_EQ(said.starts_with("reading " + path + ": "), is_asked_for) << said;
+    EXPECT_EQ(line.starts_with("reading " + path + ": "), is_asked_for) << line;
   }
 }
 
