@@ -95,19 +95,39 @@ bool Comparison::is_ignored(const std::string& name) {
   return true;
 }
 
-void Comparison::add_state(const RecordedTick& recorded, const telemetry::Values& again) {
+void Comparison::add_state(const RecordedTick& recorded, const RecordedState& again) {
   const RecordedState& state = *recorded.state;
   for (const telemetry::GroupRow& row : telemetry::kGroupTable) {
-    if (!state.groups.has(row.group)) continue;
+    if (!state.groups.has(row.group)) {
+      if (again.groups.has(row.group)) note_new(row, recorded);
+      continue;
+    }
+    recorded_groups_.add(row.group);
     const auto [first, count] = telemetry::fields_of(row.group);
     for (FieldIndex i = first; i < first + count; ++i) {
       if (measured_.test(i)) continue;
       ++values_;
-      if (equal(state.values[i], again[i])) continue;
+      if (equal(state.values[i], again.values[i])) continue;
       compare(std::string{row.name}, std::string{telemetry::kFields[i].name}, state.values[i],
-              again[i], recorded);
+              again.values[i], recorded);
     }
   }
+}
+
+// One that the recording lacks here may have been lost, or be cut off: it is new only where the
+// whole recording lacks it.
+void Comparison::note_new(const telemetry::GroupRow& row, const RecordedTick& tick) {
+  const std::string name{row.name};
+  if (is_ignored(name)) return;
+  const Divergence here{.tick = tick.given.number, .at = tick.now, .recorded = 0.0, .again = 1.0};
+  const auto [place, is_first] = new_groups_.try_emplace(row.group);
+  if (is_first)
+    place->second = {.signal = name + " (group)",
+                     .values = 0,
+                     .first = here,
+                     .largest = here,
+                     .context = context_};
+  ++place->second.values;
 }
 
 void Comparison::compare(const std::string& group, const std::string& name, double recorded,
@@ -142,6 +162,9 @@ std::vector<SignalDifference> Comparison::differences() const {
   std::vector<SignalDifference> all;
   all.reserve(order_.size());
   for (const std::string& signal : order_) all.push_back(found_.at(signal));
+  for (const auto& [group, difference] : new_groups_)
+    if (!recorded_groups_.has(group)) all.push_back(difference);
+  std::ranges::stable_sort(all, {}, [](const SignalDifference& d) { return d.first.tick; });
   return all;
 }
 

@@ -5,6 +5,7 @@
 //   invariants
 //          frames are matched by identifier and place among those of a tick: one that only one side
 //          says is a difference of its message, and so are bits that belong to no signal
+//          a group of telemetry that only one side ever tells is a difference
 //          without a tolerance a value differs where its bits do; NaN equals NaN
 //   cost   O(fields) a tick with a state; frames of equal bytes are not decoded
 // SPDX-License-Identifier: Apache-2.0
@@ -59,7 +60,8 @@ class Comparison {
  private:
   void add_frames(const RecordedTick& recorded, const AgainTick& again);
   void add_pair(const can::Frame& recorded, const can::Frame& again, const RecordedTick& tick);
-  void add_state(const RecordedTick& recorded, const telemetry::Values& again);
+  void add_state(const RecordedTick& recorded, const RecordedState& again);
+  void note_new(const telemetry::GroupRow& row, const RecordedTick& tick);
   void compare(const std::string& group, const std::string& name, double recorded, double again,
                const RecordedTick& tick);
   bool is_ignored(const std::string& name);
@@ -71,6 +73,8 @@ class Comparison {
   std::set<std::string> used_;
   std::map<std::string, SignalDifference> found_;
   std::vector<std::string> order_;
+  std::map<telemetry::Group, SignalDifference> new_groups_;  // told now, not in that tick's state
+  telemetry::GroupSet recorded_groups_;
   std::string context_;  // by the newest recorded state
   FieldSet measured_;
   std::uint64_t ticks_ = 0, frames_ = 0, values_ = 0;

@@ -39,8 +39,18 @@ pipeline::RimCounters other_measurements() {
   return rim;
 }
 
+// The black box keeps what goes down to the base.
+bool is_recorded(telemetry::Group group) {
+  static constexpr telemetry::GroupSet kDown = telemetry::groups_of(telemetry::Direction::kDown);
+  return kDown.has(group);
+}
+
 bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+std::string path_of(const RecordedRun& run, const std::string& key, const std::string& instead) {
+  return instead.empty() ? run.said(key + "_file") : instead;
 }
 
 // The text of a file that the run names under `key`_file, or of the one that is given instead.
@@ -49,7 +59,7 @@ struct RunFile {
 };
 Result<RunFile, Problem> file_of(const RecordedRun& run, const std::string& key,
                                  const std::string& instead, std::vector<std::string>& remarks) {
-  const std::string path = instead.empty() ? run.said(key + "_file") : instead;
+  const std::string path = path_of(run, key, instead);
   if (path.empty()) return Unexpected{Problem{"--" + key, "the recording names no such file"}};
   auto text = transport::read_file(path);
   if (!text) return Unexpected{text.error()};
@@ -85,15 +95,27 @@ Result<AgainTick, Problem> DriveAgain::tick(const RecordedTick& recorded) {
   return again;
 }
 
-telemetry::Values DriveAgain::state_at(const pipeline::Outputs& out, Instant at) {
+RecordedState DriveAgain::state_at(const pipeline::Outputs& out, Instant at) {
   const auto tapped = [&](const pipeline::RimCounters& rim) {
     return pipeline::tap(
         {.setup = setup_, .car = *car_, .out = out, .log = *log_, .rim = rim, .now = at});
   };
-  const telemetry::Values state = tapped({}).values, other = tapped(other_measurements()).values;
+  const telemetry::Snapshot snapshot = tapped({});
+  const telemetry::Values other = tapped(other_measurements()).values;
   for (telemetry::FieldIndex i = 0; i < telemetry::kFieldCount; ++i)
-    if (!same_bits(state[i], other[i])) measured_.set(i);
+    if (!same_bits(snapshot.values[i], other[i])) measured_.set(i);
+  RecordedState state{.at = at, .values = snapshot.values, .groups = {}};
+  for (const telemetry::GroupRow& row : telemetry::kGroupTable)
+    if (is_recorded(row.group) && snapshot.ever(row.group)) state.groups.add(row.group);
   return state;
+}
+
+bool has_base(const RecordedRun& run) {
+  return run.said(io::BlackBox::kBaseKey) != io::BlackBox::kNoBase;
+}
+
+RunFiles files_of(const RecordedRun& run, const RunFiles& given) {
+  return {.car = path_of(run, "car", given.car), .track = path_of(run, "track", given.track)};
 }
 
 Result<pipeline::Setup, Problem> setup_of(const RecordedRun& run, const RunFiles& files,
@@ -107,8 +129,7 @@ Result<pipeline::Setup, Problem> setup_of(const RecordedRun& run, const RunFiles
   const auto track = parameters::read_track(track_file->text, track_file->path);
   if (!track) return Unexpected{track.error()};
   pipeline::CarParams params = car->params;
-  if (run.said(io::BlackBox::kBaseKey) == io::BlackBox::kNoBase)
-    params.watchdog[safety::Stream::kRadio].watched = false;
+  if (!has_base(run)) params.watchdog[safety::Stream::kRadio].watched = false;
   return pipeline::prepare(params, *track);
 }
 

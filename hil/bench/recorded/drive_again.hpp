@@ -29,7 +29,7 @@ using FieldSet = std::bitset<telemetry::kFieldCount>;
 
 struct AgainTick {
   std::vector<can::Frame> said;
-  std::optional<telemetry::Values> state;  // where the recorded tick has one
+  std::optional<RecordedState> state;  // where the recorded tick has one
 };
 
 class DriveAgain {
@@ -42,7 +42,7 @@ class DriveAgain {
   const FieldSet& measured() const { return measured_; }
 
  private:
-  telemetry::Values state_at(const pipeline::Outputs& out, Instant at);
+  RecordedState state_at(const pipeline::Outputs& out, Instant at);
 
   const pipeline::Setup& setup_;
   std::unique_ptr<pipeline::Car> car_;
@@ -56,6 +56,9 @@ class DriveAgain {
 struct RunFiles {
   std::string car, track;  // empty: those that the recording names
 };
+// Whether its car watched a base station.
+bool has_base(const RecordedRun& run);
+RunFiles files_of(const RecordedRun& run, const RunFiles& given);
 Result<pipeline::Setup, Problem> setup_of(const RecordedRun& run, const RunFiles& files,
                                           std::vector<std::string>& remarks);
 

@@ -108,8 +108,9 @@ TEST(Comparison, FieldsAreComparedByTheirBitsAndMeasuredOnesAreNot) {
   pair.recorded.state.emplace();
   pair.recorded.state->groups.add(telemetry::Group::kEgo);
   pair.again.state.emplace();
-  (*pair.again.state)[telemetry::field("ego.vx")] = 1.0;  // the other one is NaN
-  (*pair.again.state)[telemetry::field("ego.vy")] = 2.0;
+  pair.again.state->groups.add(telemetry::Group::kEgo);
+  pair.again.state->values[telemetry::field("ego.vx")] = 1.0;  // the other one is NaN
+  pair.again.state->values[telemetry::field("ego.vy")] = 2.0;
   FieldSet measured;
   measured.set(telemetry::field("ego.vy"));
   Comparison comparison{own_database(), {}};
@@ -117,6 +118,25 @@ TEST(Comparison, FieldsAreComparedByTheirBitsAndMeasuredOnesAreNot) {
   ASSERT_EQ(comparison.differences().size(), 1U);
   EXPECT_EQ(comparison.differences()[0].signal, "ego.vx");
   EXPECT_EQ(comparison.differences()[0].context.rfind("at station", 0), 0U);
+}
+
+TEST(Comparison, AGroupThatOnlyTheNewBuildTellsIsADifferenceUnlessTheRecordingLostIt) {
+  Pair pair = pair_of(6, {}, {});
+  pair.recorded.state.emplace();
+  pair.again.state.emplace();
+  pair.again.state->groups.add(telemetry::Group::kEgo);
+  Comparison comparison{own_database(), {}};
+  comparison.add(pair.recorded, pair.again, {});
+  ASSERT_EQ(comparison.differences().size(), 1U);
+  EXPECT_EQ(comparison.differences()[0].signal, "ego (group)");
+  EXPECT_EQ(comparison.differences()[0].first.tick, 6U);
+  Comparison ignored{own_database(), {.tolerance = {}, .ignored = {"ego"}}};
+  ignored.add(pair.recorded, pair.again, {});
+  EXPECT_TRUE(ignored.differences().empty());
+  EXPECT_TRUE(ignored.unused_rules().empty());
+  pair.recorded.state->groups.add(telemetry::Group::kEgo);
+  comparison.add(pair.recorded, pair.again, {});
+  EXPECT_TRUE(comparison.differences().empty()) << "it tells it elsewhere: that tick's was lost";
 }
 
 }  // namespace
