@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "hil/can_bus/bus_verb.hpp"
-#include "hil/cli/compare_verb.hpp"
 #include "hil/cli/dbc_verb.hpp"
 #include "hil/cli/demo/demo_verb.hpp"
 #include "hil/cli/exit_code.hpp"
 #include "hil/cli/faults_verb.hpp"
+#include "hil/cli/recordings/compare_verb.hpp"
 #include "hil/cli/recordings/convert_verb.hpp"
 #include "hil/cli/recordings/info_verb.hpp"
 #include "hil/cli/recordings/plot_verb.hpp"

@@ -60,10 +60,6 @@ Result<bench::RunResult, Problem> lockstep(const RunOptions& options, const benc
   return result;
 }
 
-std::string beside(const std::string& program) {
-  return (fs::path(own_program()).parent_path().parent_path() / program).string();
-}
-
 bool names(const scenario::Scenario& scenario, std::initializer_list<const char*> kinds) {
   return std::ranges::any_of(scenario.faults, [&](const scenario::Fault& fault) {
     return std::ranges::find(kinds, fault.kind) != kinds.end();
@@ -154,6 +150,10 @@ Result<bench::RunResult, Problem> live(const RunOptions& options, const bench::L
 }  // namespace
 
 std::string own_program() { return fs::read_symlink("/proc/self/exe").string(); }
+
+std::string beside(const std::string& program) {
+  return (fs::path(own_program()).parent_path().parent_path() / program).string();
+}
 
 std::vector<std::string> live_command(const RunOptions& options) {
   std::vector<std::string> command{own_program(),

@@ -51,6 +51,8 @@ int run_verb(std::span<const std::string> args);
 
 // Path of this very program, to start it again inside a guest.
 std::string own_program();
+// Path of another program of the same build, by its folder and name.
+std::string beside(const std::string& program);
 // The command that runs a scenario live where the interface already exists.
 std::vector<std::string> live_command(const RunOptions& options);
 // The words of `pitwall-hil bus` that run it in a guest, or here where there is CAN. The radio's

@@ -45,9 +45,13 @@ def main():
             expect(ran.returncode == (1 if differs else 0), f"{line}: code {ran.returncode}")
             said[line] = ran.stdout
         compared = [text for line, text in said.items() if " compare " in line]
-        expect(len(compared) == 3, "three comparisons")
-        expect(all(": 0 signals differ" in text for text in compared[:2]), "not a bit differs")
+        expect(len(compared) == 5, "five comparisons")
+        same = compared[:2] + compared[3:]
+        expect(all(": 0 signals differ" in text for text in same), "nothing differs")
         expect("command.throttle: " in compared[2], "the changed gain is found in the throttle")
+        live = [text for line, text in said.items() if " --live " in line and " compare " in line]
+        expect(len(live) == 2 and all(re.search(r", [3-9] modes and \d{4} commands compared", text)
+                                      for text in live), "modes and commands are compared live")
         shown = [text for line, text in said.items() if " info " in line]
         expect("/can/in" in shown[0] and "/gnss/1" in shown[0], "the recording's sources")
         expect("/can/in" in shown[1], "the log's channel")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/cli/compare_verb.hpp"
+#include "hil/cli/recordings/compare_verb.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -13,6 +13,8 @@
 #include "hil/bench/recorded/recorded_run.hpp"
 #include "hil/cli/command_line.hpp"
 #include "hil/cli/exit_code.hpp"
+#include "hil/cli/recordings/compare_live.hpp"
+#include "hil/cli/recordings/difference_text.hpp"
 #include "hil/nodes/can_variant.hpp"
 #include "protocol/json/json_text.hpp"
 #include "protocol/transport/file.hpp"
@@ -23,8 +25,8 @@ namespace {
 constexpr std::uint64_t kProgressEvery = 60 * 100;  // ticks: a minute of the run
 
 struct CompareOptions {
-  std::string recording, json_file;
-  bench::RunFiles files;
+  LiveComparison live;  // which recording and files; the rest where it is played to the car
+  bool is_live = false;
   std::vector<std::string> tolerances, ignored;
 };
 
@@ -64,51 +66,19 @@ Result<bench::Comparison, Problem> compared(bench::RecordedRun& run, const pipel
   }
 }
 
-double seconds_in(const bench::Divergence& divergence, Instant begun) {
-  return (divergence.at - begun).seconds();
-}
-
-void print(const bench::SignalDifference& d, Instant begun) {
-  std::printf("%s: %llu values differ\n", d.signal.c_str(),
-              static_cast<unsigned long long>(d.values));
-  std::printf("  first    %9.2f s, tick %llu: recorded %.9g, now %.9g; %s\n",
-              seconds_in(d.first, begun), static_cast<unsigned long long>(d.first.tick),
-              d.first.recorded, d.first.again, d.context.c_str());
-  std::printf("  largest  %9.2f s: recorded %.9g, now %.9g, by %.9g\n",
-              seconds_in(d.largest, begun), d.largest.recorded, d.largest.again, d.largest.size());
-}
-
-std::string json_of(const bench::Divergence& d, Instant begun) {
-  return json::Object{}
-      .number("tick", d.tick)
-      .number("at_s", seconds_in(d, begun))
-      .number("recorded", d.recorded)
-      .number("now", d.again)
-      .str();
-}
-
 std::string json_of(const bench::Comparison& comparison, Instant begun) {
-  json::Array differences;
-  for (const bench::SignalDifference& d : comparison.differences())
-    differences.json(json::Object{}
-                         .text("signal", d.signal)
-                         .number("values", d.values)
-                         .json("first", json_of(d.first, begun))
-                         .json("largest", json_of(d.largest, begun))
-                         .text("context", d.context)
-                         .str());
   return json::Object{}
       .number("ticks", comparison.ticks())
       .number("frames", comparison.frames())
       .number("values", comparison.values())
       .number("not_compared", comparison.measured().count())
-      .json("differences", differences.str())
+      .json("differences", differences_json(comparison.differences(), begun))
       .str();
 }
 
 int report(const bench::Comparison& comparison, Instant begun, const CompareOptions& options) {
   const auto differences = comparison.differences();
-  for (const bench::SignalDifference& difference : differences) print(difference, begun);
+  std::printf("%s", differences_text(differences, begun).c_str());
   for (const std::string& rule : comparison.unused_rules())
     std::fprintf(stderr, "%s: no value differs there: the rule does nothing\n", rule.c_str());
   std::printf(
@@ -119,18 +89,19 @@ int report(const bench::Comparison& comparison, Instant begun, const CompareOpti
       static_cast<unsigned long long>(comparison.values()), differences.size(),
       comparison.measured().count());
   const int code = differences.empty() ? kExitPass : kExitFailed;
-  if (options.json_file.empty()) return code;
-  const auto written = transport::write_file(options.json_file, json_of(comparison, begun) + "\n");
+  if (options.live.json_file.empty()) return code;
+  const auto written =
+      transport::write_file(options.live.json_file, json_of(comparison, begun) + "\n");
   return written ? code : refuse(written.error());
 }
 
 int compare(const CompareOptions& options) {
   auto rules = rules_of(options);
   if (!rules) return refuse(rules.error());
-  auto run = bench::RecordedRun::open(options.recording);
+  auto run = bench::RecordedRun::open(options.live.recording);
   if (!run) return refuse(run.error());
   std::vector<std::string> remarks;
-  const auto setup = bench::setup_of(*run, options.files, remarks);
+  const auto setup = bench::setup_of(*run, options.live.files, remarks);
   if (!setup) return refuse(setup.error());
   const auto variant = can_variant::CanVariant::of(scenario::BusRevision::kV14);
   if (!variant) return refuse(variant.error());
@@ -149,15 +120,33 @@ int compare_verb(std::span<const std::string> args) {
   CommandLine app{
       "pitwall-hil compare: a car's own recording (pitwall-vehicle --record) driven again by this "
       "build; exit 0 it says the same, 1 something else, 2 unusable"};
-  app.option("RECORDING", options.recording, "folder of the black box, or a segment").required();
-  app.option("--car", options.files.car, "car file; default: the one that the recording names");
-  app.option("--track", options.files.track, "track file; likewise");
-  app.option("--tolerance", options.tolerances,
-             "SIGNAL=VALUE: such a difference is none; MESSAGE.SIGNAL or GROUP.FIELD");
-  app.option("--ignore", options.ignored, "a signal, or a whole message or group");
-  app.option("--json", options.json_file, "write the differences here");
+  LiveComparison& live = options.live;
+  app.option("RECORDING", live.recording, "folder of the black box, or a segment").required();
+  app.option("--car", live.files.car, "car file; default: the one that the recording names");
+  app.option("--track", live.files.track, "track file; likewise");
+  const VerbOption tolerance =
+      app.option("--tolerance", options.tolerances,
+                 "SIGNAL=VALUE: such a difference is none; MESSAGE.SIGNAL or GROUP.FIELD");
+  const VerbOption ignored =
+      app.option("--ignore", options.ignored, "a signal, or a whole message or group");
+  app.option("--json", live.json_file, "write the differences here");
+  VerbOption is_live =
+      app.flag("--live", options.is_live,
+               "play the recording to pitwall-vehicle over a bus and its receivers' ports, and "
+               "compare modes and commands within tolerances");
+  is_live.excludes(tolerance).excludes(ignored);
+  app.option("--interface", live.interface, "live: CAN interface, or unix:PATH").needs(is_live);
+  app.option("--out", live.folder,
+             "live: folder for the car's new recording, in a folder of its time, and its summary; "
+             "default " +
+                 live.folder)
+      .needs(is_live);
+  app.option("--clock", live.clock,
+             "live: bench (its time stands while the machine holds a process up; the default) or "
+             "wall")
+      .needs(is_live);
   if (const auto code = app.ended_by(args)) return *code;
-  return compare(options);
+  return options.is_live ? compare_live(live) : compare(options);
 }
 
 }  // namespace pitwall::cli

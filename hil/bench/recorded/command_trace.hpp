@@ -1,0 +1,66 @@
+// Modes and actuator commands of a recorded run, over the run's own time.
+//   in     a RecordedRun, from its first tick; the CAN database of its bus
+//   out    changes of the mode, each command of each actuator, and what of the run's inputs no bus
+//          and no receiver brings
+//   units  time since the first tick; commands in the units of the database
+//   invariants
+//          in the order of the run; the mode is the one of the recorded state, every other tick
+//   errors those of RecordedRun; a command that is too short for its message
+//   cost   the whole run is read; 16 bytes a command
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "hil/bench/recorded/recorded_run.hpp"
+#include "hil/scenario/radio_section.hpp"
+#include "protocol/can/database.hpp"
+#include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
+
+namespace pitwall::bench {
+
+enum class Actuator : std::uint8_t { kAccelerator, kBrake, kSteering, kGear };
+inline constexpr std::size_t kActuators = 4;
+
+struct CommandSignal {
+  std::string_view message, signal;
+};
+inline constexpr std::array<CommandSignal, kActuators> kCommandSignals{
+    {{"accelerator_cmd", "acc_pedal_cmd"},
+     {"brake_pressure_cmd", "brake_pressure_cmd"},
+     {"steering_cmd", "steering_motor_ang_cmd"},
+     {"gear_shift_cmd", "desired_gear"}}};
+
+struct CommandSample {
+  Duration at{};
+  double value = 0.0;
+};
+
+// Ticks with an input that came neither from the bus nor from a receiver nor as a command.
+struct OtherInputs {
+  std::uint64_t guardian = 0;    // it drove, or had stopped the car
+  std::uint64_t controller = 0;  // trouble of the CAN controller, or a bus that lost frames
+  std::uint64_t joystick = 0;    // fresh samples of it
+  std::uint64_t silence = 0;     // of a base station that had been heard, for kBaseSilence
+};
+inline constexpr Duration kBaseSilence = milliseconds(200);
+
+struct CommandTrace {
+  std::vector<CommandSample> modes;  // changes, the first one included
+  std::array<std::vector<CommandSample>, kActuators> commands;
+  std::vector<scenario::OperatorText> operator_texts;  // commands and stops
+  OtherInputs others;
+  std::optional<Duration> first_frame;  // of any frame that the car said
+  Duration length{};                    // from the first tick to the last
+  std::uint64_t ticks = 0;
+  bool armed_at_start = false;  // the first tick asks for it: the car was started with --arm
+};
+
+Result<CommandTrace, Problem> trace_of(RecordedRun& run, const can::Database& database);
+
+}  // namespace pitwall::bench

@@ -1,0 +1,27 @@
+// `pitwall-hil compare RECORDING --live`: the recording is played to pitwall-vehicle over its bus
+// and its receivers' ports, and the modes and commands of the car are compared within the
+// tolerances of hil/bench/recorded/command_comparison.
+//   in     the recording; CAN interface, which exists, or unix:PATH, whose hub is started
+//   out    exit code 0: same modes, and commands within tolerance; 1: something differs; what of
+//          the recorded inputs was not played; the car's new recording in a new folder under
+//          `folder`
+//   errors exit code 2 and a line: a recording that cannot be played, no such interface, a car that
+//          does not start
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "hil/bench/recorded/drive_again.hpp"
+
+namespace pitwall::cli {
+
+struct LiveComparison {
+  std::string recording, json_file;
+  bench::RunFiles files;
+  std::string interface = "vcan0", folder = "out/compare", clock;
+};
+
+int compare_live(const LiveComparison& options);
+
+}  // namespace pitwall::cli
