@@ -17,6 +17,7 @@
 #include "hil/cli/recordings/convert_verb.hpp"
 #include "hil/cli/recordings/info_verb.hpp"
 #include "hil/cli/recordings/plot_verb.hpp"
+#include "hil/cli/recordings/scenario_verb.hpp"
 #include "hil/cli/report_verb.hpp"
 #include "hil/cli/run_verb.hpp"
 #include "hil/cli/serve_verb.hpp"
@@ -40,6 +41,8 @@ constexpr std::array kVerbs{
     Verb{"replay", "replay a CAN log onto CAN interfaces", replay::replay_verb},
     Verb{"compare", "a car's recording driven again by this build: what it says otherwise",
          cli::compare_verb},
+    Verb{"scenario", "a scenario file made of a car's recording (scenario from RECORDING)",
+         cli::scenario_verb},
     Verb{"info", "what a log or a recording holds: span, sources, identifiers, rates",
          cli::info_verb},
     Verb{"convert", "CAN frames in another format: candump, ASC, BLF, pcap, pcapng",

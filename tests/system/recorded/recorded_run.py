@@ -44,6 +44,22 @@ def compare(folder, name, code, *options):
     return text, json.loads(out.read_text())
 
 
+def modes_of(progress):
+    lines = [json.loads(line) for line in progress.read_text().splitlines()]
+    return [line["text"] for line in lines if line.get("kind") == "mode"]
+
+
+def drive_as_scenario(folder):
+    made = folder / "made.yaml"
+    run(0, "scenario", "from", str(folder / "record"), "--out", str(made))
+    text = made.read_text()
+    expect(f"# Made of the recording {folder}/record" in text, "it names its source")
+    expect("track: green, round_target_speed_mph: 80}" in text, "race control's last flag")
+    run(0, "run", str(made), "--progress", str(folder / "made.jsonl"))
+    recorded, again = modes_of(folder / "recorded.jsonl"), modes_of(folder / "made.jsonl")
+    expect(len(recorded) >= 2 and again == recorded, f"modes {again}, not {recorded}")
+
+
 def operate(folder):
     """What the operator said is said again, to a base station with keys of its own."""
     record(folder, "operated", str(TREE / "tests/system/recorded/operator_stops.yaml"))
@@ -76,6 +92,7 @@ def main():
         expect("accelerator_cmd.acc_pedal_cmd" in found, "the gain is found in the accelerator")
         expect(found["accelerator_cmd.acc_pedal_cmd"]["first"]["at_s"] > 5,
                "not before the car is let go")
+        drive_as_scenario(folder)
         operate(folder)
 
 

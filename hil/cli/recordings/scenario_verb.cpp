@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/cli/recordings/scenario_verb.hpp"
+
+#include <cstdio>
+#include <vector>
+
+#include "hil/bench/recorded/recorded_scenario.hpp"
+#include "hil/cli/command_line.hpp"
+#include "hil/cli/exit_code.hpp"
+#include "hil/scenario/scenario.hpp"
+#include "protocol/transport/file.hpp"
+
+namespace pitwall::cli {
+namespace {
+
+constexpr const char* kFrom = "from";
+
+struct ScenarioOptions {
+  std::string from, recording, out_file;
+  bench::RunFiles files;
+};
+
+Result<std::string, Problem> made_of(const ScenarioOptions& options) {
+  auto run = bench::RecordedRun::open(options.recording);
+  if (!run) return Unexpected{run.error()};
+  std::vector<std::string> remarks;
+  const bench::ScenarioSource source{options.recording, bench::files_of(*run, options.files)};
+  const auto setup = bench::setup_of(*run, source.files, remarks);
+  if (!setup) return Unexpected{setup.error()};
+  const auto facts = bench::facts_of(*run, *setup);
+  if (!facts) return Unexpected{facts.error()};
+  remarks.insert(remarks.end(), run->remarks().begin(), run->remarks().end());
+  for (const std::string& remark : remarks) std::fprintf(stderr, "%s\n", remark.c_str());
+  std::string text = bench::scenario_text(*facts, source);
+  // A run that is too short or too long for a scenario is told here, and not when it is driven.
+  const auto read = scenario::read_scenario(text, options.recording + " as a scenario");
+  if (!read) return Unexpected{read.error()};
+  return text;
+}
+
+}  // namespace
+
+int scenario_verb(std::span<const std::string> args) {
+  ScenarioOptions options;
+  CommandLine app{
+      "pitwall-hil scenario from RECORDING: a scenario of a car's own recording "
+      "(pitwall-vehicle --record), which `run` drives in a modelled world"};
+  app.option("from", options.from, "the word \"from\"").required();
+  app.option("RECORDING", options.recording, "folder of the black box, or a segment").required();
+  app.option("--car", options.files.car, "car file; default: the one that the recording names");
+  app.option("--track", options.files.track, "track file; likewise");
+  app.option("--out", options.out_file, "write it here; default: standard output");
+  if (const auto code = app.ended_by(args)) return *code;
+  if (options.from != kFrom) return refuse({options.from, "expected: scenario from RECORDING"});
+  const auto text = made_of(options);
+  if (!text) return refuse(text.error());
+  if (options.out_file.empty()) {
+    std::fputs(text->c_str(), stdout);
+    return kExitPass;
+  }
+  const auto written = transport::write_file(options.out_file, *text);
+  return written ? kExitPass : refuse(written.error());
+}
+
+}  // namespace pitwall::cli
