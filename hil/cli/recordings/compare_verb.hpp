@@ -1,5 +1,5 @@
 // `pitwall-hil compare`: a car's own recording, driven again by this build and compared with what
-// the car said, signal by signal.
+// the car said, signal by signal. With --live it is played to the car's process instead.
 //   errors exit code 2 and a line: no such recording, a tick that is missing, a file of the car
 //          that is wrong; 1: it says something else
 // SPDX-License-Identifier: Apache-2.0
