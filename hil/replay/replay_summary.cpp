@@ -61,11 +61,15 @@ std::string drops_json(const PlayReport& report, const Timeline& timeline) {
 }
 
 std::string left_out_text(const Timeline& timeline) {
-  if (timeline.left_out.empty()) return {};
+  std::string text;
   std::uint64_t records = 0;
   for (const LeftOut& left : timeline.left_out) records += left.records;
-  return "not played: " + count(records) + " records of " + count(timeline.left_out.size()) +
-         " sources\n";
+  if (records > 0)
+    text += "not played: " + count(records) + " records of " + count(timeline.left_out.size()) +
+            " sources\n";
+  if (timeline.filtered > 0)
+    text += "not played: " + count(timeline.filtered) + " frames of a pass, by identifier\n";
+  return text;
 }
 
 std::string left_out_json(const Timeline& timeline) {
@@ -118,6 +122,7 @@ std::string to_json(const PlayReport& report, const Timeline& timeline,
   add(out, report.frames);
   out.json("datagrams", datagrams.str())
       .json("left_out", left_out_json(timeline))
+      .number("filtered_per_pass", timeline.filtered)
       .number("took_us", whole_us(report.took))
       .number("calls", report.calls)
       .number("sleeps", report.waits)

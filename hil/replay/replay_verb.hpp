@@ -2,12 +2,15 @@
 // onto CAN interfaces and to the addresses of receivers, in real time.
 //
 //   replay FILE [--interface vcan0] [--map can0=vcan0]...
-//          [--receiver /gnss/0=127.0.0.1:3001]... [--speed X] [--loop N] [--start S] [--skip S]
-//          [--id HEX]... [--late catch-up|drop:MS|abort:MS] [--spin US] [--json FILE]
+//          [--receiver /gnss/0=127.0.0.1:3001]... [--speed X] [--loop N] [--from S] [--until S]
+//          [--skip S] [--topic NAME]... [--id HEX]... [--not-id HEX]...
+//          [--late catch-up|drop:MS|abort:MS] [--spin US] [--json FILE]
 //
 // Without --interface and --map every channel of a log goes to the interface it was recorded from.
 //   --receiver sends the bytes of a receiver of a recording as UDP datagrams
-//   --start    leaves out the first seconds of the log; --id everything but these identifiers
+//   --from, --until  seconds since the first stamp: what lies before and after is left out
+//   --topic    only these sources of a recording or channels of a log; --id only these frames,
+//              --not-id but these. A name or an identifier that does not occur is an error
 //   --skip     seconds: does not wait through longer gaps
 //   --late     what becomes of a frame or datagram that is later than that many milliseconds
 //              (default catch-up: it is sent at once)

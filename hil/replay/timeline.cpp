@@ -24,9 +24,32 @@ std::string target_of(const std::string& channel, const TimelineOptions& options
   return options.interface.empty() ? channel : options.interface;
 }
 
+bool is_chosen(const std::string& name, const TimelineOptions& options) {
+  return options.topics.empty() || std::ranges::find(options.topics, name) != options.topics.end();
+}
+
+// `known`: what there is to choose from.
+std::optional<Problem> topic_problem(const std::vector<std::string>& known,
+                                     const TimelineOptions& options) {
+  std::string list;
+  for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+  for (const std::string& topic : options.topics)
+    if (std::ranges::find(known, topic) == known.end())
+      return Problem{topic, "is no source with records; expected one of: " + list};
+  return std::nullopt;
+}
+
+std::vector<std::string> topics_of(const Recording& recording) {
+  std::vector<std::string> names;
+  for (const Source& source : recording.sources)
+    if (source.records > 0) names.push_back(source.name);
+  return names;
+}
+
 std::optional<Problem> problem_of(const CanLog& log, const TimelineOptions& options) {
   if (auto problem = TimelineBuilder::problem_of(options)) return problem;
   if (log.frames.empty()) return Problem{"log", "holds no frames"};
+  if (auto problem = topic_problem(log.channels, options)) return problem;
   for (const auto& [recorded, interface] : options.map)
     if (std::ranges::find(log.channels, recorded) == log.channels.end())
       return Problem{recorded, "is mapped, but does not occur in the log"};
@@ -59,6 +82,7 @@ std::optional<Problem> problem_of(const Recording& recording, const std::string&
 std::optional<Problem> problem_of(const Recording& recording, const TimelineOptions& options) {
   if (auto problem = TimelineBuilder::problem_of(options)) return problem;
   if (recording.records.empty()) return Problem{"recording", "holds no records"};
+  if (auto problem = topic_problem(topics_of(recording), options)) return problem;
   for (const auto& [name, interface] : options.map)
     if (auto problem = problem_of(recording, name, true)) return problem;
   for (auto one = options.receivers.begin(); one != options.receivers.end(); ++one) {
@@ -92,6 +116,7 @@ Way way_of_can(const std::string& name, const TimelineOptions& options, Timeline
 }
 
 Way way_of(const Source& source, const TimelineOptions& options, TimelineBuilder& builder) {
+  if (!is_chosen(source.name, options)) return {.why_not = "not among those of --topic"};
   switch (source.kind) {
     case SourceKind::kCan:
       return way_of_can(source.name, options, builder);
@@ -111,11 +136,21 @@ Way way_of(const Source& source, const TimelineOptions& options, TimelineBuilder
 Result<Timeline, Problem> make_timeline(const CanLog& log, const TimelineOptions& options) {
   if (const auto problem = problem_of(log, options)) return Unexpected{*problem};
   TimelineBuilder builder{"log", log.frames.front().at, options};
-  std::vector<std::size_t> track;
-  for (const std::string& channel : log.channels)
-    track.push_back(builder.bus(target_of(channel, options)));
-  for (const LoggedFrame& logged : log.frames)
-    builder.add(track[logged.channel], logged.at, logged.frame, logged.fd_flags);
+  std::vector<std::optional<std::size_t>> track(log.channels.size());
+  std::vector<std::uint64_t> left_out(log.channels.size());
+  for (std::size_t i = 0; i < track.size(); ++i)
+    if (is_chosen(log.channels[i], options))
+      track[i] = builder.bus(target_of(log.channels[i], options));
+  for (const LoggedFrame& logged : log.frames) {
+    if (const auto to = track[logged.channel]) {
+      builder.add(*to, logged.at, logged.frame, logged.fd_flags);
+    } else {
+      ++left_out[logged.channel];
+    }
+  }
+  for (std::size_t i = 0; i < track.size(); ++i)
+    if (left_out[i] > 0)
+      builder.leave_out({log.channels[i], "not among those of --topic", left_out[i]});
   return std::move(builder).finish();
 }
 

@@ -4,7 +4,7 @@
 //   out    frames or datagrams of each track in the order of the recording, with due times from the
 //          start; what of a recording is not played, and why
 //   units  nanoseconds since the start of a pass
-//   errors Problem: a source that is mapped and does not occur, or nothing to send
+//   errors Problem: a source or an identifier that is named and does not occur, or nothing to send
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -55,7 +55,8 @@ struct Timeline {
   std::vector<Track> tracks;
   Duration pass{};  // from the first frame or datagram of one pass to the first of the next
   std::uint64_t frames = 0, datagrams = 0;
-  std::vector<LeftOut> left_out{};  // sources of a recording that are not played
+  std::vector<LeftOut> left_out{};  // sources that are not played
+  std::uint64_t filtered = 0;       // frames of a pass that `ids` and `not_ids` leave out
 
   std::uint64_t size() const { return frames + datagrams; }
 };
@@ -65,14 +66,16 @@ struct TimelineOptions {
   std::string interface {};  // for every channel that the map does not name; empty: its own name
   std::vector<std::pair<std::string, std::string>> map{};  // recorded name, name to send on
   std::vector<std::pair<std::string, transport::UdpAddress>> receivers{};  // of a recording
-  Duration start{};                  // of the log that is left out at its beginning
-  Duration longest_gap{INT64_MAX};   // a longer one is skipped: the next frame follows at once
-  std::vector<std::uint32_t> ids{};  // of frames: only these; none: all
+  Duration from{}, until{INT64_MAX};     // what is played, since the first stamp; without its end
+  Duration longest_gap{INT64_MAX};       // a longer one is skipped: the next frame follows at once
+  std::vector<std::string> topics{};     // sources or channels: only these; none: all
+  std::vector<std::uint32_t> ids{};      // of frames: only these; none: all
+  std::vector<std::uint32_t> not_ids{};  // of frames: but these
 };
 
 // A stamp that goes back is due with the frame before it: the order of the log is kept. Due times
 // are computed from the start, not from frame to frame, so speed brings no drift. Passes follow
-// each other with the mean gap of the log. Start and gaps are those of the log, before speed.
+// each other with the mean gap of the log. From, until and gaps are those of the log, before speed.
 Result<Timeline, Problem> make_timeline(const CanLog& log, const TimelineOptions& options);
 
 // The same of a recording, in its total order; tracks stand in the order of its sources. A CAN

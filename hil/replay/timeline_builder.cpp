@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "protocol/vocabulary/text.hpp"
+
 namespace pitwall::replay {
 namespace {
 
@@ -19,16 +21,21 @@ Duration scaled(Duration d, double speed) {
 std::optional<Problem> TimelineBuilder::problem_of(const TimelineOptions& options) {
   if (!(options.speed >= kMinSpeed && options.speed <= kMaxSpeed))
     return Problem{"speed", "must be from 0.001 to 1000000"};
-  if (options.start < Duration{} || options.start > kMaxPass)
-    return Problem{"start", "must be from 0 to a year"};
+  if (options.from < Duration{} || options.from > kMaxPass)
+    return Problem{"from", "must be from 0 to a year"};
+  if (options.until <= options.from) return Problem{"until", "must be later than --from"};
   return std::nullopt;
 }
 
 TimelineBuilder::TimelineBuilder(std::string name, UtcTime first, const TimelineOptions& options)
     : name_(std::move(name)),
       options_(options),
-      begin_{first.ns + options.start.ns},
-      latest_{begin_} {}
+      filter_({.ids = options.ids, .not_ids = options.not_ids}),
+      origin_{first},
+      begin_{first.ns + options.from.ns},
+      end_{options.until.ns > INT64_MAX - first.ns ? INT64_MAX : first.ns + options.until.ns},
+      latest_{begin_},
+      newest_{first} {}
 
 std::size_t TimelineBuilder::bus(const std::string& interface) {
   const auto same = std::ranges::find_if(
@@ -43,13 +50,16 @@ std::size_t TimelineBuilder::receiver(const transport::UdpAddress& to) {
   return out_.tracks.size() - 1;
 }
 
-bool TimelineBuilder::is_wanted(const can::Frame& frame) const {
-  return options_.ids.empty() || std::ranges::find(options_.ids, frame.id) != options_.ids.end();
+// A log begins with the first stamp of the part that is played, and ends before the first one that
+// lies beyond.
+bool TimelineBuilder::is_in_time(UtcTime at) {
+  newest_ = std::max(newest_, at);
+  ended_ = ended_ || at >= end_;
+  return !ended_ && !too_long_ && (at >= begin_ || out_.size() > 0);
 }
 
 // Time never runs back, and not through a gap that is skipped.
 std::optional<Duration> TimelineBuilder::due_of(UtcTime at) {
-  if (too_long_ || (at < begin_ && out_.size() == 0)) return std::nullopt;
   const Duration gap{std::max<std::int64_t>(at.ns - latest_.ns, 0)};
   latest_ = std::max(latest_, at);
   if (gap <= options_.longest_gap) elapsed_ = elapsed_ + gap;
@@ -61,7 +71,7 @@ std::optional<Duration> TimelineBuilder::due_of(UtcTime at) {
 
 void TimelineBuilder::add(std::size_t track, UtcTime at, const can::Frame& frame,
                           std::uint8_t fd_flags) {
-  if (!is_wanted(frame)) return;
+  if (!is_in_time(at) || !filter_.takes(frame)) return;
   const auto due = due_of(at);
   if (!due) return;
   Track& to = out_.tracks[track];
@@ -72,7 +82,7 @@ void TimelineBuilder::add(std::size_t track, UtcTime at, const can::Frame& frame
 }
 
 void TimelineBuilder::add(std::size_t track, UtcTime at, std::span<const std::uint8_t> bytes) {
-  if (bytes.empty()) return;
+  if (!is_in_time(at) || bytes.empty()) return;
   const auto due = due_of(at);
   if (!due) return;
   Track& to = out_.tracks[track];
@@ -85,14 +95,22 @@ void TimelineBuilder::add(std::size_t track, UtcTime at, std::span<const std::ui
   }
 }
 
+Problem TimelineBuilder::nothing_left() const {
+  std::string what = "nothing is left of it to play";
+  if (options_.from > Duration{} || end_ < UtcTime{INT64_MAX})
+    what += formatted("; its %.3f s hold nothing from --from to --until",
+                      Duration{newest_.ns - origin_.ns}.seconds());
+  for (const LeftOut& left : out_.left_out) what += "; " + left.source + ": " + left.why;
+  return {name_, what};
+}
+
 Result<Timeline, Problem> TimelineBuilder::finish() && {
   if (too_long_)
     return Unexpected{Problem{name_, "takes more than a year to play (skip its gaps?)"}};
-  if (out_.size() == 0) {
-    std::string what = "nothing is left of it to play";
-    for (const LeftOut& left : out_.left_out) what += "; " + left.source + ": " + left.why;
-    return Unexpected{Problem{name_, what}};
-  }
+  if (out_.size() == 0 && !filter_.has_seen_any()) return Unexpected{nothing_left()};
+  if (const auto problem = filter_.problem()) return Unexpected{*problem};
+  if (out_.size() == 0) return Unexpected{nothing_left()};
+  out_.filtered = filter_.left_out();
   std::erase_if(out_.tracks, [](const Track& track) { return track.due.empty(); });
   const auto gaps = static_cast<std::int64_t>(std::max<std::uint64_t>(out_.size() - 1, 1));
   const Duration span = scaled(elapsed_ - first_, options_.speed);

@@ -3,7 +3,8 @@
 //   in     tracks; frames and bytes with the stamp that they were recorded at
 //   out    finish(): the timeline; tracks with nothing to play are not in it
 //   units  stamps: nanoseconds on the calendar clock of the recording
-//   errors finish() is a Problem where nothing is left to play or where it takes too long
+//   errors finish() is a Problem where nothing is left to play, where an identifier of the filter
+//          does not occur, or where it takes too long
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,6 +12,7 @@
 #include <span>
 #include <string>
 
+#include "hil/replay/frames/frame_filter.hpp"
 #include "hil/replay/timeline.hpp"
 
 namespace pitwall::replay {
@@ -36,14 +38,17 @@ class TimelineBuilder {
  private:
   // Nothing: it is not played.
   std::optional<Duration> due_of(UtcTime at);
-  bool is_wanted(const can::Frame& frame) const;
+  bool is_in_time(UtcTime at);
+  Problem nothing_left() const;
 
   std::string name_;
   TimelineOptions options_;
   Timeline out_;
-  UtcTime begin_, latest_;
+  FrameFilter filter_;
+  UtcTime origin_, begin_, end_, latest_;
+  UtcTime newest_;                // of all that was added
   Duration elapsed_{}, first_{};  // of the recording, without what is left out
-  bool too_long_ = false;
+  bool too_long_ = false, ended_ = false;
 };
 
 }  // namespace pitwall::replay

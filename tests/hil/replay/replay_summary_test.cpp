@@ -61,6 +61,7 @@ TEST(ReplaySummary, DatagramsAndWhatIsNotPlayedStandApart) {
                       .to = transport::UdpAddress{.port = 3'001},
                       .datagrams = {.bytes = {1, 2, 3}, .ends = {3}}});
   t.datagrams = 1;
+  t.filtered = 6;
   t.left_out = {{"/imu", "neither", 70}, {"/gnss/1", "no address", 5}};
   PlayReport report = report_with_drops();
   report.datagrams = {.sent = 4, .dropped_full = 2};
@@ -69,7 +70,7 @@ TEST(ReplaySummary, DatagramsAndWhatIsNotPlayedStandApart) {
   for (const char* said :
        {"sent 1 frames and 4 datagrams in", "dropped 1 frames: 1 too late",
         "dropped 2 datagrams: 0 too late, 2 queue full", "not played: 75 records of 2 sources",
-        "127.0.0.1:3001 3 bytes due at 0.002000 s of pass 2"})
+        "not played: 6 frames of a pass", "127.0.0.1:3001 3 bytes due at 0.002000 s of pass 2"})
     EXPECT_NE(text.find(said), std::string::npos) << said << "\n" << text;
   const auto json = yaml::load_text(to_json(report, t, {}), "json");
   ASSERT_TRUE(json) << to_string(json.error());
@@ -79,6 +80,7 @@ TEST(ReplaySummary, DatagramsAndWhatIsNotPlayedStandApart) {
   EXPECT_EQ(datagrams.integer("per_pass", 0, 9), 1);
   EXPECT_EQ(datagrams.integer("sent", 0, 9), 4);
   EXPECT_EQ(datagrams.integer("dropped_full", 0, 9), 2);
+  EXPECT_EQ(map.integer("filtered_per_pass", 0, 9), 6);
   EXPECT_NE(to_json(report, t, {}).find("/gnss/1"), std::string::npos);
 }
 

@@ -56,25 +56,11 @@ TEST_F(ReplayVerb, WrongUsageIsNamed) {
   EXPECT_TRUE(errors_of({}).starts_with("replay: error: "));
   EXPECT_TRUE(errors_of({good_, "--speed", "fast"}).starts_with("fast: error: "));
   EXPECT_TRUE(errors_of({good_, "--speed", "0"}).starts_with("speed: error: "));
-  EXPECT_TRUE(errors_of({good_, "--speed"}).starts_with("--speed: error: "));
-  EXPECT_TRUE(errors_of({good_, "--loop", "0"}).starts_with("0: error: "));
-  for (const char* late : {"never", "abort", "drop", "drop:", "drop:0", "drop:x", "catch-up:5"})
-    EXPECT_TRUE(errors_of({good_, "--late", late}).starts_with(std::string(late) + ": error: "));
-  EXPECT_TRUE(errors_of({good_, "--spin", "201"}).starts_with("201: error: "));
-  EXPECT_TRUE(errors_of({good_, "--spin", "-1"}).starts_with("-1: error: "));
-  EXPECT_TRUE(errors_of({good_, "--id", "20000000"}).starts_with("20000000: error: "));
-  EXPECT_TRUE(errors_of({good_, "--id", "xyz"}).starts_with("xyz: error: "));
-  EXPECT_TRUE(errors_of({good_, "--start", "-1"}).starts_with("-1: error: "));
-  EXPECT_TRUE(errors_of({good_, "--skip", "nan"}).starts_with("nan: error: "));
-  EXPECT_TRUE(errors_of({good_, "--map", "can0"}).starts_with("can0: error: "));
   EXPECT_TRUE(errors_of({good_, "--map", "can7=vcan0"}).starts_with("can7: error: "));
-  for (const char* receiver : {"/gnss/0", "=127.0.0.1:1", "/gnss/0=", "/gnss/0=here:3001",
-                               "/gnss/0=127.0.0.1:0", "/gnss/0=127.0.0.1:65536"})
-    EXPECT_TRUE(errors_of({good_, "--receiver", receiver})
-                    .starts_with(std::string(receiver) + ": error: expected SOURCE="));
   EXPECT_TRUE(errors_of({good_, "--receiver", "/gnss/0=3001"}).starts_with("/gnss/0: error: "));
-  EXPECT_TRUE(errors_of({good_, "--what", "1"}).starts_with("--what: error: "));
-  EXPECT_TRUE(errors_of({good_, bad_}).starts_with(bad_ + ": error: "));
+  EXPECT_TRUE(errors_of({good_, "--id", "7FF"}).starts_with("--id 7FF: error: "));
+  EXPECT_TRUE(errors_of({good_, "--topic", "can7"}).starts_with("can7: error: "));
+  EXPECT_TRUE(errors_of({good_, "--until", "0"}).starts_with("until: error: "));
 }
 
 // A bus and a receiver's port, served and read by a thread while the verb plays.

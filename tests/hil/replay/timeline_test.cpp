@@ -73,7 +73,7 @@ TEST(Timeline, WhatIsLeftOutTakesNoTime) {
   // Frames at 0, 1, 2 s, then a gap of an hour, then 1 s more.
   const auto log =
       log_of({{0, 0}, {1'000'000, 0}, {2'000'000, 1}, {3'602'000'000, 0}, {3'603'000'000, 0}});
-  const auto late = make_timeline(log, {.interface = "v", .start = milliseconds(1'500)});
+  const auto late = make_timeline(log, {.interface = "v", .from = milliseconds(1'500)});
   ASSERT_TRUE(late.has_value());
   EXPECT_EQ(late->frames, 3U);
   EXPECT_EQ(late->tracks[0].due[0], Duration{});  // it begins with its first frame
@@ -88,7 +88,51 @@ TEST(Timeline, WhatIsLeftOutTakesNoTime) {
   EXPECT_EQ(chosen->tracks[0].frames[1].id, 3U);
   EXPECT_EQ(chosen->tracks[0].due[1], seconds(3'601));
   EXPECT_FALSE(make_timeline(log, {.ids = {77}}).has_value());
-  EXPECT_FALSE(make_timeline(log, {.start = seconds(4'000)}).has_value());
+  EXPECT_FALSE(make_timeline(log, {.from = seconds(4'000)}).has_value());
+}
+
+TEST(Timeline, APartEndsBeforeTheFirstStampBeyondAndWhatFollowsIsLeftOut) {
+  // The frame at 2 s is beyond; the one after it has an earlier stamp, but comes later.
+  const auto log = log_of({{0, 0}, {500'000, 0}, {1'000'000, 0}, {2'000'000, 0}, {1'100'000, 0}});
+  const auto part = make_timeline(log, {.from = milliseconds(500), .until = milliseconds(2'000)});
+  ASSERT_TRUE(part.has_value());
+  ASSERT_EQ(part->frames, 2U);
+  EXPECT_EQ(part->tracks[0].frames[0].id, 1U);
+  EXPECT_EQ(part->tracks[0].frames[1].id, 2U);
+  EXPECT_EQ(make_timeline(log, {.until = milliseconds(2'001)})->frames, 5U);
+  const auto order = make_timeline(log, {.from = seconds(1), .until = seconds(1)});
+  ASSERT_FALSE(order.has_value());
+  EXPECT_EQ(order.error().place, "until");
+  const auto beyond = make_timeline(log, {.from = seconds(3), .until = seconds(4)});
+  ASSERT_FALSE(beyond.has_value());
+  EXPECT_NE(beyond.error().what.find("its 2.000 s hold nothing"), std::string::npos)
+      << beyond.error().what;
+}
+
+TEST(Timeline, ChannelsAndIdentifiersThatAreNamedMustOccur) {
+  const auto log = log_of({{0, 0}, {1, 1}, {2, 0}});
+  const auto one = make_timeline(log, {.topics = {"can1"}});
+  ASSERT_TRUE(one.has_value());
+  ASSERT_EQ(one->tracks.size(), 1U);
+  EXPECT_EQ(one->tracks[0].target, "can1");
+  ASSERT_EQ(one->left_out.size(), 1U);
+  EXPECT_EQ(one->left_out[0].source, "can0");
+  EXPECT_EQ(one->left_out[0].records, 2U);
+  const auto but = make_timeline(log, {.not_ids = {1}});
+  ASSERT_TRUE(but.has_value());
+  EXPECT_EQ(but->frames, 2U);
+  EXPECT_EQ(but->filtered, 1U);
+  const auto no_channel = make_timeline(log, {.topics = {"can1", "can2"}});
+  ASSERT_FALSE(no_channel.has_value());
+  EXPECT_EQ(no_channel.error().place, "can2");
+  EXPECT_TRUE(no_channel.error().what.ends_with("can0, can1"));
+  for (const TimelineOptions& options :
+       {TimelineOptions{.ids = {0, 9}}, TimelineOptions{.not_ids = {9}}}) {
+    const auto no_id = make_timeline(log, options);
+    ASSERT_FALSE(no_id.has_value());
+    EXPECT_TRUE(no_id.error().what.ends_with("0, 1, 2")) << no_id.error().what;
+  }
+  EXPECT_FALSE(make_timeline(log, {.not_ids = {0, 1, 2}}).has_value());
 }
 
 TEST(Timeline, APassLongerThanAYearIsAProblemUnlessItsGapIsSkipped) {
@@ -197,7 +241,7 @@ TEST(RecordingTimeline, IdentifiersStartAndGapsHoldForBoth) {
   EXPECT_EQ(t->datagrams, 10U);
   EXPECT_EQ(t->tracks[0].due[0], milliseconds(3));
   TimelineOptions late = options;
-  late.start = milliseconds(6);
+  late.from = milliseconds(6);
   t = make_timeline(mixed_recording(10), late);
   ASSERT_TRUE(t.has_value());
   EXPECT_EQ(t->frames, 4U);
@@ -208,6 +252,29 @@ TEST(RecordingTimeline, IdentifiersStartAndGapsHoldForBoth) {
   t = make_timeline(mixed_recording(10), skipping);
   ASSERT_TRUE(t.has_value());
   EXPECT_EQ(t->tracks[1].due.back(), Duration{});
+}
+
+TEST(RecordingTimeline, SourcesThatAreNamedAloneArePlayedAndUnknownOnesAreListed) {
+  TimelineOptions options{.interface = "v0", .receivers = {{"/gnss/0", kFirst}}};
+  options.topics = {"/gnss/0"};
+  const auto t = make_timeline(mixed_recording(4), options);
+  ASSERT_TRUE(t.has_value());
+  EXPECT_EQ(t->frames, 0U);
+  EXPECT_EQ(t->datagrams, 4U);
+  ASSERT_EQ(t->left_out.size(), 4U);
+  EXPECT_EQ(t->left_out[0].source, "/can/in");
+  EXPECT_EQ(t->left_out[0].why, "not among those of --topic");
+  options.topics = {"/gnss/0", "/gnss/9"};
+  const auto unknown = make_timeline(mixed_recording(4), options);
+  ASSERT_FALSE(unknown.has_value());
+  EXPECT_EQ(unknown.error().place, "/gnss/9");
+  EXPECT_TRUE(unknown.error().what.ends_with("/can/in, /can/out, /gnss/0, /imu, /gnss/1"));
+  options.topics = {};
+  options.until = milliseconds(2);
+  const auto part = make_timeline(mixed_recording(4), options);
+  ASSERT_TRUE(part.has_value());
+  EXPECT_EQ(part->frames, 2U);
+  EXPECT_EQ(part->datagrams, 2U);
 }
 
 TEST(RecordingTimeline, LongRecordsAreSeveralDatagramsWithTheSameBytes) {

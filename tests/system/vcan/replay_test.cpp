@@ -175,7 +175,7 @@ TEST(Replay, FlagsOfFdFramesChosenIdentifiersAndLatePoliciesReachTheBus) {
   // Nothing is an hour late: no frame is dropped by either policy.
   ASSERT_EQ(play({path, "--interface", "vcan0", "--late", "drop:3600000", "--json", json}), 0);
   ASSERT_EQ(play({path, "--interface", "vcan0", "--late", "abort:3600000", "--spin", "0", "--id",
-                  "123", "--start", "0.1"}),
+                  "123", "--from", "0.1"}),
             0);
   const CanLog arrived = recorder.stop();
   const CanLog wanted = read_log(path);

@@ -1,0 +1,31 @@
+// Command-line options of `pitwall-hil replay`.
+//   in     the arguments after the verb
+//   out    what to play and how
+//   errors Problem with the argument as place: an unknown option, a missing value, a value that the
+//          option does not allow, no file or more than one
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "hil/replay/player.hpp"
+#include "hil/replay/timeline.hpp"
+#include "protocol/vocabulary/result.hpp"
+
+namespace pitwall::replay {
+
+struct ReplayOptions {
+  std::string file;
+  TimelineOptions timeline;
+  PlayOptions play;
+  std::optional<Duration> lead{};  // nothing: as measured
+  std::string json_file;
+};
+
+Result<ReplayOptions, Problem> parse_replay_options(std::span<const std::string> args);
+
+extern const char* const kReplayUsage;
+
+}  // namespace pitwall::replay

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hil/replay/replay_options.hpp"
+
+#include <gtest/gtest.h>
+
+namespace pitwall::replay {
+namespace {
+
+// The place of the error; empty: there is none.
+std::string refused(const std::vector<std::string>& arguments) {
+  const auto options = parse_replay_options(arguments);
+  return options ? std::string{} : options.error().place;
+}
+
+TEST(ReplayOptions, EveryOptionReachesItsValue) {
+  const std::vector<std::string> arguments{
+      "--interface", "v0",      "box.mcap", "--map",  "can0=v1", "--receiver", "/gnss/0=3001",
+      "--speed",     "2.5",     "--loop",   "3",      "--from",  "1.5",        "--until",
+      "9",           "--skip",  "4",        "--late", "drop:7",  "--spin",     "50",
+      "--topic",     "/gnss/0", "--topic",  "can0",   "--id",    "1a0",        "--not-id",
+      "1FFFFFFF",    "--json",  "out.json"};
+  const auto options = parse_replay_options(arguments);
+  ASSERT_TRUE(options) << to_string(options.error());
+  const TimelineOptions& t = options->timeline;
+  EXPECT_EQ(options->file, "box.mcap");
+  EXPECT_EQ(t.interface, "v0");
+  ASSERT_EQ(t.map.size(), 1U);
+  EXPECT_EQ(t.map[0], (std::pair<std::string, std::string>{"can0", "v1"}));
+  ASSERT_EQ(t.receivers.size(), 1U);
+  EXPECT_EQ(t.receivers[0].first, "/gnss/0");
+  EXPECT_EQ(t.speed, 2.5);
+  EXPECT_EQ(options->play.passes, 3U);
+  EXPECT_EQ(t.from, milliseconds(1'500));
+  EXPECT_EQ(t.until, seconds(9));
+  EXPECT_EQ(t.longest_gap, seconds(4));
+  EXPECT_EQ(options->play.late, LatePolicy::kDrop);
+  EXPECT_EQ(options->play.late_limit, milliseconds(7));
+  EXPECT_EQ(options->lead, microseconds(50));
+  EXPECT_EQ(t.topics, (std::vector<std::string>{"/gnss/0", "can0"}));
+  EXPECT_EQ(t.ids, (std::vector<std::uint32_t>{0x1A0}));
+  EXPECT_EQ(t.not_ids, (std::vector<std::uint32_t>{0x1FFF'FFFF}));
+  EXPECT_EQ(options->json_file, "out.json");
+}
+
+TEST(ReplayOptions, AValueThatAnOptionDoesNotAllowIsNamed) {
+  const std::vector<std::pair<std::string, std::string>> wrong{
+      {"--speed", "fast"},     {"--loop", "0"},      {"--loop", "1000001"}, {"--spin", "201"},
+      {"--spin", "-1"},        {"--id", "20000000"}, {"--id", "xyz"},       {"--not-id", ""},
+      {"--from", "-1"},        {"--until", "1e8"},   {"--skip", "nan"},     {"--map", "can0"},
+      {"--late", "never"},     {"--late", "abort"},  {"--late", "drop"},    {"--late", "drop:"},
+      {"--late", "drop:0"},    {"--late", "drop:x"}, {"--topic", ""},       {"--json", ""},
+      {"--late", "catch-up:5"}};
+  for (const auto& [option, value] : wrong)
+    EXPECT_EQ(refused({"log", option, value}), value) << option;
+  for (const char* receiver : {"/gnss/0", "=127.0.0.1:1", "/gnss/0=", "/gnss/0=here:3001",
+                               "/gnss/0=127.0.0.1:0", "/gnss/0=127.0.0.1:65536"})
+    EXPECT_EQ(refused({"log", "--receiver", receiver}), receiver);
+}
+
+TEST(ReplayOptions, UnknownOptionsMissingValuesAndFilesAreNamed) {
+  EXPECT_EQ(refused({}), "replay");
+  EXPECT_EQ(refused({"log", "--speed"}), "--speed");
+  EXPECT_EQ(refused({"log", "--what", "1"}), "--what");
+  EXPECT_EQ(refused({"log", "--start", "1"}), "--start");
+  EXPECT_EQ(refused({"one.log", "other.log"}), "other.log");
+}
+
+}  // namespace
+}  // namespace pitwall::replay
