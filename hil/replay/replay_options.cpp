@@ -26,11 +26,11 @@ bool take_map(ReplayOptions& out, const std::string& value) {
 }
 
 bool take_receiver(ReplayOptions& out, const std::string& value) {
-  const std::size_t equals = value.rfind('=');
+  const std::size_t equals = value.find('=');
   if (equals == std::string::npos || equals == 0) return false;
-  const auto address = transport::parse_udp_address(std::string_view(value).substr(equals + 1));
-  if (!address || address->port == 0) return false;
-  out.timeline.receivers.emplace_back(value.substr(0, equals), *address);
+  auto target = parse_receiver_target(std::string_view(value).substr(equals + 1));
+  if (!target) return false;
+  out.timeline.receivers.emplace_back(value.substr(0, equals), *std::move(target));
   return true;
 }
 
@@ -88,7 +88,9 @@ constexpr OptionRow kOptions[] = {
        return !value.empty();
      }},
     {"--map", "expected RECORDED=INTERFACE", take_map},
-    {"--receiver", "expected SOURCE=ADDRESS:PORT with an IPv4 address and a port from 1 to 65535",
+    {"--receiver",
+     "expected SOURCE=ADDRESS:PORT, SOURCE=tcp:ADDRESS:PORT (an IPv4 address, a port from 1 to "
+     "65535) or SOURCE=serial:/dev/DEVICE[:BAUD] with a rate that a tty has",
      take_receiver},
     {"--speed", "not a speed",
      [](ReplayOptions& out, const std::string& value) {
@@ -158,7 +160,7 @@ Result<ReplayOptions, Problem> parse_replay_options(std::span<const std::string>
 
 const char* const kReplayUsage =
     "replay FILE [--interface IFACE] [--map RECORDED=IFACE]...\n"
-    "       [--receiver SOURCE=ADDRESS:PORT]... [--speed X] [--loop N] [--from S] [--until S]\n"
+    "       [--receiver SOURCE=TARGET]... [--speed X] [--loop N] [--from S] [--until S]\n"
     "       [--skip S] [--topic NAME]... [--id HEX]... [--not-id HEX]...\n"
     "       [--late catch-up|drop:MS|abort:MS] [--spin US] [--json FILE]\n"
     "plays a CAN log in real time: candump, Vector ASC and BLF, PEAK TRC, pcap, pcapng, also with\n"
@@ -167,7 +169,8 @@ const char* const kReplayUsage =
     "can0\n"
     "plays a recording likewise: the car's black box and bags (MCAP, SQLite), LCM logs, bytes of\n"
     "a receiver. CAN topics need --interface or --map; /can/out, which the car said, needs --map\n"
-    "  --receiver  bytes of a receiver as UDP datagrams to an address, in order with the frames\n"
+    "  --receiver  bytes of a receiver, in order with the frames: to ADDRESS:PORT by UDP, to\n"
+    "              whoever connects to tcp:ADDRESS:PORT, or to serial:/dev/DEVICE[:BAUD]\n"
     "  --from S    leave out the first S seconds    --until S   end S seconds after the first "
     "stamp\n"
     "  --skip S    do not wait through longer gaps  --loop N    so many passes without a seam\n"

@@ -30,7 +30,7 @@ std::string drops_text(const PlayCount& of, const char* what) {
   if (of.dropped() == 0) return {};
   return "dropped " + count(of.dropped()) + " " + what + ": " + count(of.dropped_late) +
          " too late, " + count(of.dropped_full) + " queue full, " + count(of.dropped_refused) +
-         " refused by the kernel\n";
+         " refused\n";
 }
 
 std::string drops_text(const PlayReport& report, const Timeline& timeline) {
@@ -83,6 +83,22 @@ std::string left_out_json(const Timeline& timeline) {
   return out.str();
 }
 
+std::string streams_json(std::span<const StreamReport> streams) {
+  json::Array out;
+  for (const auto& [target, c] : streams)
+    out.json(json::Object{}
+                 .text("to", target)
+                 .number("opened", c.opened)
+                 .number("ended", c.ended)
+                 .number("sent_bytes", c.sent_bytes)
+                 .number("dropped_absent", c.dropped_absent)
+                 .number("dropped_full", c.dropped_full)
+                 .number("lost_bytes", c.lost_bytes)
+                 .number("ignored_bytes", c.ignored_bytes)
+                 .str());
+  return out.str();
+}
+
 void add(json::Object& out, const PlayCount& of) {
   out.number("sent", of.sent)
       .number("dropped_late", of.dropped_late)
@@ -112,7 +128,22 @@ std::string to_text(const PlayReport& report, const Timeline& timeline) {
   return out;
 }
 
+std::string to_text(std::span<const StreamReport> streams) {
+  std::string out;
+  for (const StreamReport& stream : streams) {
+    const transport::StreamSenderCounters& c = stream.counters;
+    out += stream.target + ": opened " + count(c.opened) + " times, " + count(c.sent_bytes) +
+           " bytes sent; dropped " + count(c.dropped_absent) + " records without a reader, " +
+           count(c.dropped_full) + " while it did not read";
+    if (c.lost_bytes > 0) out += "; " + count(c.lost_bytes) + " bytes lost when it ended";
+    if (c.ignored_bytes > 0) out += "; " + count(c.ignored_bytes) + " bytes of its own ignored";
+    out += "\n";
+  }
+  return out;
+}
+
 std::string to_json(const PlayReport& report, const Timeline& timeline,
+                    std::span<const StreamReport> streams,
                     const transport::RealtimeReport& realtime) {
   const LatenessHistogram& late = report.lateness;
   json::Object datagrams;
@@ -121,6 +152,7 @@ std::string to_json(const PlayReport& report, const Timeline& timeline,
   out.text("verb", "replay").number("frames_per_pass", timeline.frames);
   add(out, report.frames);
   out.json("datagrams", datagrams.str())
+      .json("streams", streams_json(streams))
       .json("left_out", left_out_json(timeline))
       .number("filtered_per_pass", timeline.filtered)
       .number("took_us", whole_us(report.took))

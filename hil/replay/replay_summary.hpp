@@ -1,21 +1,26 @@
 // Summary of a replay as text and as JSON.
-//   in     the report of the player, the timeline that was played, what the kernel granted
+//   in     the report of the player, the timeline that was played, what became of the streams, what
+//          the kernel granted
 //   out    a few lines of text, or one JSON object
 //          frames and datagrams apart; what was not played
 //   units  microseconds in both
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "hil/replay/player.hpp"
+#include "hil/replay/socket_rim.hpp"
 #include "hil/replay/timeline.hpp"
 #include "protocol/transport/realtime.hpp"
 
 namespace pitwall::replay {
 
 std::string to_text(const PlayReport& report, const Timeline& timeline);
+std::string to_text(std::span<const StreamReport> streams);
 std::string to_json(const PlayReport& report, const Timeline& timeline,
+                    std::span<const StreamReport> streams,
                     const transport::RealtimeReport& realtime);
 
 }  // namespace pitwall::replay

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/replay/replay_verb.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "hil/replay/formats/log_reader.hpp"
@@ -21,6 +22,8 @@ namespace {
 constexpr int kExitIncomplete = 1;
 constexpr int kExitRefused = 2;
 constexpr int kPriority = 50;                  // SCHED_FIFO, above everything of a desktop
+constexpr Duration kCallPatience = seconds(2);   // a car tries to connect twice a second
+constexpr Duration kWritePatience = seconds(2);  // of a slow line, for what is queued at the end
 constexpr Duration kRunUp = milliseconds(20);  // from the last preparation to the first frame
 constexpr Duration kLongestReplay = seconds(100LL * 366 * 24 * 3'600);  // what int64 holds, thrice
 constexpr int kOutput = 1, kErrors = 2;                                 // descriptors
@@ -73,37 +76,58 @@ Result<Timeline, Problem> load(const ReplayOptions& options) {
   return timeline;
 }
 
+// What the kernel and the other ends did not take, besides what the player counts.
+std::string losses_text(const SocketRim& rim, const Timeline& timeline) {
+  std::string text;
+  if (!rim.last_error().empty()) text += "the kernel refused to send: " + rim.last_error() + "\n";
+  for (std::size_t track = 0; track < timeline.tracks.size(); ++track)
+    if (const std::uint64_t unheard = rim.unheard(track); unheard > 0)
+      text += timeline.tracks[track].target + ": nobody listened to " + std::to_string(unheard) +
+              " datagrams or more\n";
+  return text + to_text(rim.streams());
+}
+
+bool has_lost_bytes(const SocketRim& rim) {
+  return std::ranges::any_of(rim.streams(),
+                             [](const StreamReport& s) { return s.counters.lost_bytes > 0; });
+}
+
+PlayReport play(const Timeline& timeline, const ReplayOptions& options, SocketRim& rim,
+                const transport::RealtimeReport& realtime) {
+  Player player(timeline, options.play, rim);
+  const Duration lead = options.lead ? *options.lead : SocketRim::measured_lead();
+  rim.set_lead(lead);
+  transport::write_to(kOutput, to_string(realtime) + "; wakes up " +
+                                   std::to_string(lead.ns / 1'000) + " us early\n");
+  rim.wait_for_callers(kCallPatience);
+  PlayReport report = player.play(transport::monotonic_now() + kRunUp);
+  rim.finish(kWritePatience);
+  return report;
+}
+
 }  // namespace
 
 int replay_verb(std::span<const std::string> args) {
   if (!args.empty() && args[0] == "--help")
-    return transport::write_to(kOutput, kReplayUsage) ? 0 : 2;
+    return transport::write_to(kOutput, kReplayUsage) ? 0 : kExitRefused;
   const auto options = parse_replay_options(args);
   if (!options) return refuse(options.error());
   const auto timeline = load(*options);
   if (!timeline) return refuse(timeline.error());
   auto rim = SocketRim::open(*timeline);
   if (!rim) return refuse(rim.error());
-  Player player(*timeline, options->play, *rim);
   const auto realtime = transport::request_realtime(kPriority);
-  const Duration lead = options->lead ? *options->lead : SocketRim::measured_lead();
-  rim->set_lead(lead);
-  transport::write_to(kOutput, to_string(realtime) + "; wakes up " +
-                                   std::to_string(lead.ns / 1'000) + " us early\n");
-  const PlayReport report = player.play(transport::monotonic_now() + kRunUp);
+  const PlayReport report = play(*timeline, *options, *rim, realtime);
   transport::write_to(kOutput, to_text(report, *timeline));
-  if (!rim->last_error().empty())
-    transport::write_to(kErrors, "the kernel refused to send: " + rim->last_error() + "\n");
-  for (std::size_t track = 0; track < timeline->tracks.size(); ++track)
-    if (const std::uint64_t unheard = rim->unheard(track); unheard > 0)
-      transport::write_to(kErrors, timeline->tracks[track].target + ": nobody listened to " +
-                                       std::to_string(unheard) + " datagrams or more\n");
+  transport::write_to(kErrors, losses_text(*rim, *timeline));
   if (!options->json_file.empty()) {
-    const auto written =
-        transport::write_file(options->json_file, to_json(report, *timeline, realtime));
+    const auto written = transport::write_file(
+        options->json_file, to_json(report, *timeline, rim->streams(), realtime));
     if (!written) return refuse(written.error());
   }
-  return report.dropped() > 0 || report.aborted || report.stopped ? kExitIncomplete : 0;
+  const bool is_incomplete =
+      report.dropped() > 0 || report.aborted || report.stopped || has_lost_bytes(*rim);
+  return is_incomplete ? kExitIncomplete : 0;
 }
 
 }  // namespace pitwall::replay

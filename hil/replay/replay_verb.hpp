@@ -7,7 +7,9 @@
 //          [--late catch-up|drop:MS|abort:MS] [--spin US] [--json FILE]
 //
 // Without --interface and --map every channel of a log goes to the interface it was recorded from.
-//   --receiver sends the bytes of a receiver of a recording as UDP datagrams
+//   --receiver sends the bytes of a receiver of a recording as UDP datagrams; to tcp:ADDRESS:PORT
+//              the car connects as to a real receiver, and serial:/dev/ttyUSB0[:BAUD] is the other
+//              end of its line. What such a stream does not take is dropped and counted
 //   --from, --until  seconds since the first stamp: what lies before and after is left out
 //   --topic    only these sources of a recording or channels of a log; --id only these frames,
 //              --not-id but these. A name or an identifier that does not occur is an error

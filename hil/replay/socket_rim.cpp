@@ -6,6 +6,7 @@
 
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/readiness.hpp"
+#include "protocol/vocabulary/fixed_vector.hpp"
 
 namespace pitwall::replay {
 namespace {
@@ -13,6 +14,7 @@ namespace {
 constexpr Duration kIdle = milliseconds(10);           // a longer wait ends with a signal
 constexpr Duration kExactWait = milliseconds(5);       // the last stretch of it, by the clock
 constexpr Duration kSignalPeriod = milliseconds(100);  // a busy replay looks that often
+constexpr Duration kServePeriod = milliseconds(2);     // of a stream that could not write all
 constexpr unsigned kNetworkShift = 24;                 // 127.0.0.0/8 is this machine
 constexpr std::size_t kSamples = 64;
 constexpr std::size_t kUsual = kSamples * 9 / 10;
@@ -27,22 +29,33 @@ Result<SocketRim, Problem> SocketRim::open(const Timeline& timeline) {
     if (!sender) return Unexpected{sender.error()};
     senders.push_back(*std::move(sender));
   }
+  const auto is_stream = [](const Sender& one) { return std::holds_alternative<Stream>(one); };
+  if (std::ranges::count_if(senders, is_stream) > std::ptrdiff_t{kMaxStreams})
+    return Unexpected{Problem{"--receiver", "allowed are 16 TCP ports and serial devices at most"}};
   auto stop = transport::StopSignal::install();
   if (!stop) return Unexpected{stop.error()};
   return SocketRim{std::move(senders), *std::move(stop)};
 }
 
-Result<SocketRim::Sender, Problem> SocketRim::open(const Track& track) {
-  if (track.to) {
-    const bool stays_here =
-        track.to->ip >> kNetworkShift == transport::kLoopbackIp >> kNetworkShift;
+Result<SocketRim::Sender, Problem> SocketRim::open_receiver(const Track& track) {
+  if (const auto* udp = std::get_if<transport::UdpAddress>(&*track.to)) {
+    const bool stays_here = udp->ip >> kNetworkShift == transport::kLoopbackIp >> kNetworkShift;
     auto socket = transport::UdpSocket::bind(
         {.ip = stays_here ? transport::kLoopbackIp : transport::kAnyIp, .port = 0});
     if (!socket) return Unexpected{socket.error()};
-    if (auto connected = socket->connect(*track.to); !connected)
-      return Unexpected{connected.error()};
+    if (auto connected = socket->connect(*udp); !connected) return Unexpected{connected.error()};
     return Sender{Line{*std::move(socket), &track.datagrams}};
   }
+  const auto* tcp = std::get_if<TcpPort>(&*track.to);
+  auto sender = tcp != nullptr
+                    ? transport::StreamSender::listen(tcp->local)
+                    : transport::StreamSender::open(std::get<transport::SerialDevice>(*track.to));
+  if (!sender) return Unexpected{sender.error()};
+  return Sender{Stream{track.target, *std::move(sender), &track.datagrams}};
+}
+
+Result<SocketRim::Sender, Problem> SocketRim::open(const Track& track) {
+  if (track.to) return open_receiver(track);
   auto sender = transport::CanSender::open(track.target);
   if (!sender) return Unexpected{sender.error()};
   auto frames = transport::PreparedFrames::make(track.frames, track.fd_flags);
@@ -71,13 +84,57 @@ void SocketRim::set_lead(Duration lead) {
 
 Instant SocketRim::now() { return read_ = transport::monotonic_now(); }
 
+// Callers come and go, and queues are written, while there is time for it.
+void SocketRim::serve_streams() {
+  for (const std::size_t i : streams_) std::get<Stream>(senders_[i]).sender.service();
+}
+
+// Until it is done, the time has come, or a signal.
+template <class Done>
+void SocketRim::serve_until(Instant give_up, Done&& done) {
+  while (!stopped_ && now() < give_up) {
+    serve_streams();
+    if (done()) return;
+    FixedVector<int, kMaxStreams + 1> watched;
+    static_cast<void>(watched.push(stop_.fd()));
+    bool is_queued = false;
+    for (const std::size_t i : streams_) {
+      const transport::StreamSender& sender = std::get<Stream>(senders_[i]).sender;
+      static_cast<void>(watched.push(sender.fd()));
+      is_queued = is_queued || sender.queued_bytes() > 0;
+    }
+    const Instant until = is_queued ? std::min(give_up, read_ + kServePeriod) : give_up;
+    transport::wait_readable(watched.span(), until);
+    stopped_ = stop_.raised();
+  }
+}
+
 void SocketRim::look_for_signals(Instant deadline) {
   const bool idle = deadline - read_ > kIdle;
   if (!idle && deadline - looked_ <= kSignalPeriod) return;
-  const int watched[] = {stop_.fd()};
-  if (idle) transport::wait_readable(watched, deadline - kExactWait);
-  stopped_ = stop_.raised();
+  if (idle) {
+    serve_until(deadline - kExactWait, [] { return false; });
+  } else {
+    serve_streams();
+  }
+  stopped_ = stopped_ || stop_.raised();
   looked_ = deadline;
+}
+
+void SocketRim::wait_for_callers(Duration patience) {
+  serve_until(now() + patience, [&] {
+    return std::ranges::all_of(
+        streams_, [&](std::size_t i) { return std::get<Stream>(senders_[i]).sender.is_open(); });
+  });
+}
+
+void SocketRim::finish(Duration patience) {
+  serve_until(now() + patience, [&] {
+    return std::ranges::all_of(streams_, [&](std::size_t i) {
+      return std::get<Stream>(senders_[i]).sender.queued_bytes() == 0;
+    });
+  });
+  for (const std::size_t i : streams_) std::get<Stream>(senders_[i]).sender.close();
 }
 
 void SocketRim::wait_until(Instant deadline) {
@@ -101,15 +158,32 @@ transport::SendOutcome SocketRim::send(Line& line, std::size_t first, std::size_
   return {.taken = count, .error = 0};
 }
 
+TrackOutcome SocketRim::send(Stream& stream, std::size_t first, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i)
+    if (!stream.sender.send((*stream.datagrams)[first + i])) return {.taken = i};
+  return {.taken = count};
+}
+
 TrackOutcome SocketRim::send(std::size_t track, std::size_t first, std::size_t count) {
+  Sender& sender = senders_[track];
+  if (Stream* stream = std::get_if<Stream>(&sender)) return send(*stream, first, count);
   transport::SendOutcome outcome;
-  if (Bus* bus = std::get_if<Bus>(&senders_[track])) {
+  if (Bus* bus = std::get_if<Bus>(&sender)) {
     outcome = bus->sender.send(bus->frames, first, count);
   } else {
-    outcome = send(std::get<Line>(senders_[track]), first, count);
+    outcome = send(std::get<Line>(sender), first, count);
   }
   if (outcome.error != 0 && !outcome.full()) last_error_ = outcome.error;
   return {.taken = outcome.taken, .full = outcome.full()};
+}
+
+std::vector<StreamReport> SocketRim::streams() const {
+  std::vector<StreamReport> reports;
+  for (const std::size_t i : streams_) {
+    const Stream& stream = std::get<Stream>(senders_[i]);
+    reports.push_back({stream.target, stream.sender.counters()});
+  }
+  return reports;
 }
 
 std::uint64_t SocketRim::unheard(std::size_t track) const {

@@ -10,7 +10,9 @@
 // shorter than the lead are not slept through at all. In a guest a system call takes as long as a
 // short frame on the wire, so signals are looked at only where there is time.
 //
-// Each track of frames has a CAN socket, each track of datagrams a UDP socket of its own.
+// Each track of frames has a CAN socket, each track of datagrams a UDP socket, a TCP port or a
+// serial device of its own. A stream takes a record whole or refuses it at once, and what it could
+// not write yet goes out with the next record, or while the rim waits.
 //
 //   in     timeline, which stays where it is as long as the rim; the lead (measured, or
 //          given; 0: plain sleeps)
@@ -32,12 +34,20 @@
 #include "hil/replay/timeline.hpp"
 #include "protocol/transport/can/can_sender.hpp"
 #include "protocol/transport/process.hpp"
+#include "protocol/transport/stream/stream_sender.hpp"
 #include "protocol/transport/udp_socket.hpp"
 #include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::replay {
 
 inline constexpr Duration kMaxLead = microseconds(200);
+inline constexpr std::size_t kMaxStreams = 16;
+
+// A TCP port or a serial device: what became of its bytes.
+struct StreamReport {
+  std::string target;
+  transport::StreamSenderCounters counters;
+};
 
 class SocketRim {
  public:
@@ -48,6 +58,11 @@ class SocketRim {
   static Duration measured_lead();
   void set_lead(Duration lead);
 
+  // Until each TCP port has a caller, at most so long.
+  void wait_for_callers(Duration patience);
+  // Until the streams have written what they have, at most so long; what is left is lost.
+  void finish(Duration patience);
+
   Instant now();
   void wait_until(Instant deadline);
   TrackOutcome send(std::size_t track, std::size_t first, std::size_t count);
@@ -56,6 +71,7 @@ class SocketRim {
   std::string last_error() const;
   // Datagrams of a track that nobody listened to, as far as the kernel said so.
   std::uint64_t unheard(std::size_t track) const;
+  std::vector<StreamReport> streams() const;
 
  private:
   struct Bus {
@@ -66,14 +82,28 @@ class SocketRim {
     transport::UdpSocket socket;
     const Datagrams* datagrams;
   };
-  using Sender = std::variant<Bus, Line>;
+  struct Stream {
+    std::string target;
+    transport::StreamSender sender;
+    const Datagrams* datagrams;
+  };
+  using Sender = std::variant<Bus, Line, Stream>;
   static Result<Sender, Problem> open(const Track& track);
+  static Result<Sender, Problem> open_receiver(const Track& track);
   static transport::SendOutcome send(Line& line, std::size_t first, std::size_t count);
+  static TrackOutcome send(Stream& stream, std::size_t first, std::size_t count);
   SocketRim(std::vector<Sender> senders, transport::StopSignal stop)
-      : senders_(std::move(senders)), stop_(std::move(stop)) {}
+      : senders_(std::move(senders)), stop_(std::move(stop)) {
+    for (std::size_t i = 0; i < senders_.size(); ++i)
+      if (std::holds_alternative<Stream>(senders_[i])) streams_.push_back(i);
+  }
   void look_for_signals(Instant deadline);
+  void serve_streams();
+  template <class Done>
+  void serve_until(Instant give_up, Done&& done);
 
-  std::vector<Sender> senders_;  // of each track
+  std::vector<Sender> senders_;       // of each track
+  std::vector<std::size_t> streams_;  // those of them that are streams
   transport::StopSignal stop_;
   Duration lead_{};
   Duration half_look_{};  // of what one look at the clock takes

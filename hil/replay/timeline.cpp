@@ -88,10 +88,10 @@ std::optional<Problem> problem_of(const Recording& recording, const TimelineOpti
   for (auto one = options.receivers.begin(); one != options.receivers.end(); ++one) {
     if (auto problem = problem_of(recording, one->first, false)) return problem;
     for (auto other = options.receivers.begin(); other != one; ++other) {
-      if (other->first == one->first) return Problem{one->first, "has two addresses"};
-      if (other->second == one->second)
-        return Problem{transport::to_string(one->second),
-                       "is the address of two receivers: their bytes would mix"};
+      if (other->first == one->first) return Problem{one->first, "has two targets"};
+      if (is_same_place(other->second, one->second))
+        return Problem{to_string(one->second),
+                       "is the target of two receivers: their bytes would mix"};
     }
   }
   return std::nullopt;
@@ -123,7 +123,7 @@ Way way_of(const Source& source, const TimelineOptions& options, TimelineBuilder
     case SourceKind::kReceiver:
       if (const auto* to = value_of(options.receivers, source.name))
         return {.track = builder.receiver(*to)};
-      return {.why_not = "has no address; --receiver " + source.name + "=ADDRESS:PORT sends it"};
+      return {.why_not = "has no target; --receiver " + source.name + "=ADDRESS:PORT sends it"};
     case SourceKind::kRos:
     case SourceKind::kOther:
       break;

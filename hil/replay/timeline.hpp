@@ -17,6 +17,7 @@
 
 #include "hil/replay/formats/can_log.hpp"
 #include "hil/replay/recordings/recording.hpp"
+#include "hil/replay/targets/receiver_target.hpp"
 #include "protocol/can/frame.hpp"
 #include "protocol/transport/udp_socket.hpp"
 #include "protocol/vocabulary/result.hpp"
@@ -36,13 +37,13 @@ struct Datagrams {
   }
 };
 
-// Frames of a bus, or datagrams where there is an address.
+// Frames of a bus, or datagrams (on a stream: records) where there is a receiver's target.
 struct Track {
-  std::string target;  // the interface or the address
+  std::string target;  // the interface, or `to` as text
   std::vector<can::Frame> frames{};
   std::vector<std::uint8_t> fd_flags{};  // of frames[i], as logged
   std::vector<Duration> due{};           // of frame or datagram i; never decreasing
-  std::optional<transport::UdpAddress> to{};
+  std::optional<ReceiverTarget> to{};
   Datagrams datagrams{};
 };
 
@@ -65,7 +66,7 @@ struct TimelineOptions {
   double speed = 1.0;
   std::string interface {};  // for every channel that the map does not name; empty: its own name
   std::vector<std::pair<std::string, std::string>> map{};  // recorded name, name to send on
-  std::vector<std::pair<std::string, transport::UdpAddress>> receivers{};  // of a recording
+  std::vector<std::pair<std::string, ReceiverTarget>> receivers{};  // of a recording
   Duration from{}, until{INT64_MAX};     // what is played, since the first stamp; without its end
   Duration longest_gap{INT64_MAX};       // a longer one is skipped: the next frame follows at once
   std::vector<std::string> topics{};     // sources or channels: only these; none: all
@@ -80,7 +81,7 @@ Result<Timeline, Problem> make_timeline(const CanLog& log, const TimelineOptions
 
 // The same of a recording, in its total order; tracks stand in the order of its sources. A CAN
 // source whose name is that of no interface needs `map` or `interface`; /can/out, which the car
-// said itself, is played where `map` names it only. Receivers go to their address of `receivers`,
+// said itself, is played where `map` names it only. Receivers go to their target of `receivers`,
 // in datagrams of at most transport::kMaxDatagramBytes.
 Result<Timeline, Problem> make_timeline(const traffic::Recording& recording,
                                         const TimelineOptions& options);

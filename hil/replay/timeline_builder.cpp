@@ -45,8 +45,8 @@ std::size_t TimelineBuilder::bus(const std::string& interface) {
   return out_.tracks.size() - 1;
 }
 
-std::size_t TimelineBuilder::receiver(const transport::UdpAddress& to) {
-  out_.tracks.push_back({.target = transport::to_string(to), .to = to});
+std::size_t TimelineBuilder::receiver(const ReceiverTarget& to) {
+  out_.tracks.push_back({.target = to_string(to), .to = to});
   return out_.tracks.size() - 1;
 }
 

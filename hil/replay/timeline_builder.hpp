@@ -27,7 +27,7 @@ class TimelineBuilder {
 
   // The track of an interface, which may be that of an earlier source; that of a receiver.
   std::size_t bus(const std::string& interface);
-  std::size_t receiver(const transport::UdpAddress& to);
+  std::size_t receiver(const ReceiverTarget& to);
 
   void add(std::size_t track, UtcTime at, const can::Frame& frame, std::uint8_t fd_flags);
   void add(std::size_t track, UtcTime at, std::span<const std::uint8_t> bytes);

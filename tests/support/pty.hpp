@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "protocol/transport/posix_call.hpp"
+#include "protocol/transport/readiness.hpp"
 
 namespace pitwall::support {
 
@@ -27,6 +28,10 @@ class Pty {
   }
   void say(std::string_view text) const {
     say({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  }
+  // What the program under test wrote, without waiting.
+  std::size_t read(std::span<std::uint8_t> into) const {
+    return transport::read_available(master_.get(), into).bytes;
   }
 
  private:

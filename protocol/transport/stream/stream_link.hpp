@@ -28,6 +28,8 @@ namespace pitwall::transport {
 struct SerialDevice {
   std::string path;
   int baud = 0;
+
+  bool operator==(const SerialDevice&) const = default;
 };
 
 struct StreamCounters {

@@ -42,7 +42,7 @@ TEST(ReplaySummary, ADroppedFrameIsNamed) {
 
 TEST(ReplaySummary, ProgramsGetTheSameFigures) {
   const auto json = yaml::load_text(
-      to_json(report_with_drops(), one_bus(), {.memory_locked = true, .fifo = false}), "json");
+      to_json(report_with_drops(), one_bus(), {}, {.memory_locked = true, .fifo = false}), "json");
   ASSERT_TRUE(json) << to_string(json.error());
   yaml::StrictMap map = json->root();
   EXPECT_EQ(map.integer("sent", 0, 9), 1);
@@ -72,7 +72,7 @@ TEST(ReplaySummary, DatagramsAndWhatIsNotPlayedStandApart) {
         "dropped 2 datagrams: 0 too late, 2 queue full", "not played: 75 records of 2 sources",
         "not played: 6 frames of a pass", "127.0.0.1:3001 3 bytes due at 0.002000 s of pass 2"})
     EXPECT_NE(text.find(said), std::string::npos) << said << "\n" << text;
-  const auto json = yaml::load_text(to_json(report, t, {}), "json");
+  const auto json = yaml::load_text(to_json(report, t, {}, {}), "json");
   ASSERT_TRUE(json) << to_string(json.error());
   yaml::StrictMap map = json->root();
   EXPECT_EQ(map.integer("sent", 0, 9), 1);
@@ -81,7 +81,28 @@ TEST(ReplaySummary, DatagramsAndWhatIsNotPlayedStandApart) {
   EXPECT_EQ(datagrams.integer("sent", 0, 9), 4);
   EXPECT_EQ(datagrams.integer("dropped_full", 0, 9), 2);
   EXPECT_EQ(map.integer("filtered_per_pass", 0, 9), 6);
-  EXPECT_NE(to_json(report, t, {}).find("/gnss/1"), std::string::npos);
+  EXPECT_NE(to_json(report, t, {}, {}).find("/gnss/1"), std::string::npos);
+}
+
+TEST(ReplaySummary, WhatAStreamDidNotTakeIsCounted) {
+  const std::vector<StreamReport> streams{
+      {"tcp:127.0.0.1:3001",
+       {.opened = 2, .sent_bytes = 70, .dropped_absent = 3, .dropped_full = 4, .lost_bytes = 5}},
+      {"serial:/dev/ttyS0:9600", {.opened = 1, .ignored_bytes = 8}}};
+  EXPECT_EQ(to_text(streams),
+            "tcp:127.0.0.1:3001: opened 2 times, 70 bytes sent; dropped 3 records without a "
+            "reader, 4 while it did not read; 5 bytes lost when it ended\n"
+            "serial:/dev/ttyS0:9600: opened 1 times, 0 bytes sent; dropped 0 records without a "
+            "reader, 0 while it did not read; 8 bytes of its own ignored\n");
+  const std::string text = to_json(report_with_drops(), one_bus(), streams, {});
+  const auto json = yaml::load_text(text, "json");
+  ASSERT_TRUE(json) << to_string(json.error());
+  yaml::StrictMap map = json->root();
+  auto reports = map.maps("streams");
+  ASSERT_EQ(reports.size(), 2U);
+  EXPECT_EQ(reports[0].integer("dropped_full", 0, 9), 4);
+  EXPECT_EQ(reports[0].integer("lost_bytes", 0, 9), 5);
+  EXPECT_EQ(reports[1].integer("ignored_bytes", 0, 9), 8);
 }
 
 }  // namespace

@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "protocol/transport/file.hpp"
+#include "protocol/transport/stream/stream_sender.hpp"
 #include "tests/hil/replay/recordings/recording_samples.hpp"
+#include "tests/support/pty.hpp"
 #include "tests/support/unix_bus_bench.hpp"
 
 namespace pitwall::replay {
@@ -86,6 +88,18 @@ class ReplayRecording : public pitwall::testing::UnixBusBench {
     while (const std::size_t n = port_->receive(some))
       for (std::size_t i = 0; i < n; ++i)
         datagrams_.emplace_back(some[i].payload().begin(), some[i].payload().end());
+    std::array<std::uint8_t, 4'096> buffer;
+    if (caller_) take(caller_->read(buffer, transport::monotonic_now()));
+    take(std::span{buffer}.first(line_.read(buffer)));
+  }
+  void take(std::span<const std::uint8_t> bytes) { stream_.append(bytes.begin(), bytes.end()); }
+
+  // What the receiver of the black box sends in one pass.
+  static std::string receiver_bytes() {
+    std::string all;
+    for (std::uint32_t step = 0; step < kSteps; ++step)
+      all += traffic::testing::novatel_position(2'297, 172'800'000 + 10 * step);
+    return all;
   }
 
   // The exit code; said_ and warned_ are what it wrote.
@@ -113,6 +127,9 @@ class ReplayRecording : public pitwall::testing::UnixBusBench {
 
   std::unique_ptr<pitwall::testing::RawClient> client_;
   std::optional<transport::UdpSocket> port_;
+  std::optional<transport::StreamLink> caller_;  // as the car calls its receiver
+  support::Pty line_;                            // the other end of a serial line
+  std::string stream_;                           // what came by either
   std::string box_, said_, warned_;
   std::vector<pitwall::testing::Packet> packets_;
   std::vector<std::string> datagrams_;
@@ -146,6 +163,44 @@ TEST_F(ReplayRecording, AReceiverAloneNeedsNoBusAndWhatTheCarSaidIsPlayedWhereIt
   ASSERT_EQ(play({"--map", "/can/out=" + bus_, "--speed", "50"}), 0) << warned_;
   EXPECT_EQ(datagrams_.size(), kSteps);
   EXPECT_EQ(packets_.size(), kSteps);
+}
+
+TEST_F(ReplayRecording, ACarThatConnectsByTcpGetsAllBytesFromTheFirstOn) {
+  auto free = transport::StreamSender::listen({});
+  ASSERT_TRUE(free);
+  const transport::TcpAddress address = free->local();
+  const std::string target = "/gnss/0=tcp:" + transport::to_string(address);
+  EXPECT_EQ(play({"--receiver", target}), 2);  // the port is taken
+  EXPECT_TRUE(warned_.starts_with(transport::to_string(address))) << warned_;
+  static_cast<void>(transport::StreamSender(*std::move(free)));  // closed again
+  caller_.emplace(address);
+  ASSERT_EQ(play({"--receiver", target, "--map", "/can/in=" + bus_, "--speed", "5", "--loop", "2",
+                  "--json", folder_->path() + "/out.json"}),
+            0)
+      << warned_;
+  EXPECT_EQ(stream_, receiver_bytes() + receiver_bytes());
+  EXPECT_EQ(packets_.size(), 2 * kSteps);
+  EXPECT_NE(warned_.find("tcp:127.0.0.1:"), std::string::npos) << warned_;
+  const auto json = transport::read_file(folder_->path() + "/out.json");
+  ASSERT_TRUE(json);
+  EXPECT_NE(json->find("\"sent_bytes\": " + std::to_string(stream_.size())), std::string::npos);
+}
+
+TEST_F(ReplayRecording, ASerialLineCarriesTheBytesOfTheReceiver) {
+  ASSERT_EQ(play({"--receiver", "/gnss/0=serial:" + line_.path() + ":115200", "--speed", "5"}), 0)
+      << warned_;
+  EXPECT_EQ(stream_, receiver_bytes());
+  EXPECT_EQ(play({"--receiver", "/gnss/0=serial:/dev/no_such_tty"}), 2);
+  EXPECT_TRUE(warned_.starts_with("/dev/no_such_tty: error: ")) << warned_;
+}
+
+TEST_F(ReplayRecording, WithoutACallerTheRecordsAreDroppedAndTheExitCodeIsOne) {
+  auto free = transport::StreamSender::listen({});
+  ASSERT_TRUE(free);
+  const std::string address = transport::to_string(free->local());
+  static_cast<void>(transport::StreamSender(*std::move(free)));  // closed again
+  EXPECT_EQ(play({"--receiver", "/gnss/0=tcp:" + address, "--speed", "50"}), 1);
+  EXPECT_NE(warned_.find("dropped 50 records without a reader"), std::string::npos) << warned_;
 }
 
 TEST_F(ReplayRecording, WhenNobodyListensItIsTold) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "protocol/transport/stream/tcp_connection.hpp"
+
 namespace pitwall::replay {
 namespace {
 
@@ -57,6 +59,77 @@ TEST(SocketRim, DatagramsOfOneCallComeInOrderWithTheirBytes) {
     bytes.emplace_back(got[i].payload().begin(), got[i].payload().end());
   EXPECT_EQ(bytes, (std::vector<std::vector<std::uint8_t>>{{2, 3}, {4, 5, 6}, {7}}));
   EXPECT_EQ(rim->unheard(0), 0U);
+}
+
+// A caller that connects and never reads.
+transport::FileDescriptor deaf_caller(SocketRim& rim, transport::TcpAddress to) {
+  auto caller = transport::begin_connect(to);
+  EXPECT_TRUE(caller);
+  rim.wait_for_callers(seconds(10));
+  return caller ? *std::move(caller) : transport::FileDescriptor{};
+}
+
+std::uint16_t free_port() {
+  const auto sender = transport::StreamSender::listen({});
+  EXPECT_TRUE(sender);
+  return sender ? sender->local().port : std::uint16_t{0};
+}
+
+// Records of 2 kB each 100 us to a TCP port, and at the same times datagrams of one byte to `udp`.
+Timeline stream_and_datagrams(std::uint16_t tcp, transport::UdpAddress udp, std::size_t records) {
+  Timeline timeline;
+  timeline.tracks.push_back({.target = "tcp", .to = TcpPort{{.port = tcp}}});
+  timeline.tracks.push_back({.target = "udp", .to = udp});
+  for (std::size_t i = 0; i < records; ++i) {
+    for (Track& track : timeline.tracks) {
+      const std::size_t size = track.target == "tcp" ? 2'000 : 1;
+      track.due.push_back(microseconds(100 * static_cast<std::int64_t>(i)));
+      track.datagrams.bytes.resize(track.datagrams.bytes.size() + size,
+                                   static_cast<std::uint8_t>(i));
+      track.datagrams.ends.push_back(track.datagrams.bytes.size());
+    }
+  }
+  timeline.datagrams = 2 * records;
+  timeline.pass = microseconds(100 * static_cast<std::int64_t>(records));
+  return timeline;
+}
+
+TEST(SocketRim, WhoDoesNotReadAStreamHoldsNobodyUpAndIsCounted) {
+  constexpr std::size_t kRecords = 300;
+  auto port = transport::UdpSocket::bind({});
+  ASSERT_TRUE(port);
+  const std::uint16_t tcp = free_port();
+  const Timeline timeline = stream_and_datagrams(tcp, port->local(), kRecords);
+  auto rim = SocketRim::open(timeline);
+  ASSERT_TRUE(rim.has_value()) << to_string(rim.error());
+  const auto caller = deaf_caller(*rim, {.port = tcp});
+  Player player(timeline, {}, *rim);
+  const PlayReport report = player.play(rim->now());
+  rim->finish(milliseconds(1));
+  EXPECT_EQ(report.retries, 0U);  // no wait for a queue
+  const transport::StreamSenderCounters counters = rim->streams().at(0).counters;
+  EXPECT_GT(counters.dropped_full, 0U);
+  EXPECT_EQ(report.datagrams.dropped_refused, counters.dropped_full);
+  EXPECT_EQ(report.datagrams.sent + report.datagrams.dropped(), 2 * kRecords);
+  EXPECT_EQ(counters.sent_bytes + counters.lost_bytes, 2'000 * (kRecords - counters.dropped_full));
+  std::size_t got = 0;
+  std::vector<transport::UdpDatagram> some(64);
+  while (const std::size_t n = port->receive(some)) got += n;
+  EXPECT_EQ(got, kRecords);
+}
+
+TEST(SocketRim, WithoutACallerTheRecordsOfAStreamAreDroppedAndCounted) {
+  auto port = transport::UdpSocket::bind({});
+  ASSERT_TRUE(port);
+  const Timeline timeline = stream_and_datagrams(free_port(), port->local(), 20);
+  auto rim = SocketRim::open(timeline);
+  ASSERT_TRUE(rim.has_value());
+  rim->wait_for_callers(milliseconds(1));
+  Player player(timeline, {}, *rim);
+  const PlayReport report = player.play(rim->now());
+  EXPECT_EQ(report.datagrams.sent, 20U);
+  EXPECT_EQ(report.datagrams.dropped_refused, 20U);
+  EXPECT_EQ(rim->streams().at(0).counters.dropped_absent, 20U);
 }
 
 TEST(SocketRim, AnAddressWithoutAWayIsNamed) {

@@ -193,8 +193,8 @@ TEST(RecordingTimeline, TracksStandInTheOrderOfTheSourcesOnOneTimeBase) {
   ASSERT_TRUE(t.has_value()) << to_string(t.error());
   ASSERT_EQ(t->tracks.size(), 3U);
   EXPECT_EQ(t->tracks[0].target, "v0");
-  EXPECT_EQ(t->tracks[1].to, kFirst);
-  EXPECT_EQ(t->tracks[2].to, kSecond);
+  EXPECT_EQ(t->tracks[1].to, ReceiverTarget{kFirst});
+  EXPECT_EQ(t->tracks[2].to, ReceiverTarget{kSecond});
   EXPECT_EQ(t->frames, 50U);
   EXPECT_EQ(t->datagrams, 100U);
   for (const Track& track : t->tracks) {
