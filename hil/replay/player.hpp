@@ -6,7 +6,9 @@
 //   wake      ^     ^         ^  (what became due during the call goes along with the next one)
 //   calls    sleep, send per track in turn, clock; without the sleep when the next one is due
 //
-//   in     Timeline; a rim that has now(), wait_until(), send(track, first, count), stopped()
+//   in     Timeline; a rim that has now(), wait_until(), send(track, first, count), stopped();
+//          where it has prepare(track, end, pass), it is called while there is time, and the
+//          records of the track before `end` go out next in that pass
 //   out    PlayReport: counts, lateness (sent minus due; negative up to kGroup), what was dropped
 //   units  nanoseconds
 //   invariants
@@ -118,6 +120,15 @@ class Player {
         send_due(track, due);
       now_ = rim_.now();
       for (std::size_t track = 0; track < cursors_.size(); ++track) record(track);
+      prepare_next_pass();
+    }
+  }
+
+  void prepare_next_pass() {
+    if constexpr (requires { rim_.prepare(std::size_t{}, std::size_t{}, 0U); }) {
+      if (pass_ + 1 == options_.passes) return;
+      for (std::size_t track = 0; track < cursors_.size(); ++track)
+        rim_.prepare(track, cursors_[track].next, pass_ + 1);
     }
   }
 

@@ -120,6 +120,21 @@ constexpr OptionRow kOptions[] = {
      [](ReplayOptions& out, const std::string& value) {
        return take_id(out.timeline.not_ids, value);
      }},
+    {"--restamp", "not a file name",
+     [](ReplayOptions& out, const std::string& value) {
+       out.manifest_file = value;
+       return !value.empty();
+     }},
+    {"--overlay", "not the name of a node",
+     [](ReplayOptions& out, const std::string& value) {
+       out.overlaid.push_back(value);
+       return !value.empty();
+     }},
+    {"--dbc", "not a file name",
+     [](ReplayOptions& out, const std::string& value) {
+       out.dbc_file = value;
+       return !value.empty();
+     }},
     {"--late", "not catch-up, drop:MS or abort:MS with 1 to 3600000 ms", take_late},
     {"--spin", "not a number of microseconds from 0 to 200", take_spin},
     {"--json", "not a file name",
@@ -155,6 +170,10 @@ Result<ReplayOptions, Problem> parse_replay_options(std::span<const std::string>
   }
   if (out.file.empty())
     return Unexpected{Problem{"replay", "expected FILE: a CAN log or a recording"}};
+  if (!out.overlaid.empty() && out.dbc_file.empty() && out.manifest_file.empty())
+    return Unexpected{Problem{"--overlay", "expected --dbc FILE too: whose messages are a node's"}};
+  if (out.overlaid.empty() && out.manifest_file.empty() && !out.dbc_file.empty())
+    return Unexpected{Problem{"--dbc", "expected --overlay or --restamp too, which need it"}};
   return out;
 }
 
@@ -162,6 +181,7 @@ const char* const kReplayUsage =
     "replay FILE [--interface IFACE] [--map RECORDED=IFACE]...\n"
     "       [--receiver SOURCE=TARGET]... [--speed X] [--loop N] [--from S] [--until S]\n"
     "       [--skip S] [--topic NAME]... [--id HEX]... [--not-id HEX]...\n"
+    "       [--overlay NODE]... [--dbc FILE] [--restamp MANIFEST]\n"
     "       [--late catch-up|drop:MS|abort:MS] [--spin US] [--json FILE]\n"
     "plays a CAN log in real time: candump, Vector ASC and BLF, PEAK TRC, pcap, pcapng, also with\n"
     "gzip; records that do not read are left out and told. Without --interface and --map every\n"
@@ -176,6 +196,8 @@ const char* const kReplayUsage =
     "  --skip S    do not wait through longer gaps  --loop N    so many passes without a seam\n"
     "  --topic     only these sources or channels   --id HEX, --not-id HEX  only, but these "
     "frames\n"
+    "  --overlay   all but the messages that this node of the database sends\n"
+    "  --restamp   rolling counters and checksums made anew by a car's manifest, also over loops\n"
     "  --late      what is later than MS: sent at once (catch-up, the default), dropped, or the "
     "end\n"
     "  --spin US   wake up so early and wait busily, 0 to 200; default: what sleeps are late here\n"

@@ -1,6 +1,6 @@
 // Command-line options of `pitwall-hil replay`.
 //   in     the arguments after the verb
-//   out    what to play and how
+//   out    what to play and how; files that are named are not read here
 //   errors Problem with the argument as place: an unknown option, a missing value, a value that the
 //          option does not allow, no file or more than one
 // SPDX-License-Identifier: Apache-2.0
@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "hil/replay/player.hpp"
 #include "hil/replay/timeline.hpp"
@@ -22,6 +23,8 @@ struct ReplayOptions {
   PlayOptions play;
   std::optional<Duration> lead{};  // nothing: as measured
   std::string json_file;
+  std::string dbc_file, manifest_file;  // of --overlay; of --restamp
+  std::vector<std::string> overlaid{};  // nodes of the database
 };
 
 Result<ReplayOptions, Problem> parse_replay_options(std::span<const std::string> args);

@@ -68,8 +68,17 @@ std::string left_out_text(const Timeline& timeline) {
     text += "not played: " + count(records) + " records of " + count(timeline.left_out.size()) +
             " sources\n";
   if (timeline.filtered > 0)
-    text += "not played: " + count(timeline.filtered) + " frames of a pass, by identifier\n";
+    text +=
+        "not played: " + count(timeline.filtered) + " frames of a pass, by identifier or node\n";
   return text;
+}
+
+std::string restamp_text(const Timeline& timeline) {
+  if (timeline.restamped == 0) return {};
+  std::string text = "restamped: " + count(timeline.restamped) + " frames of a pass";
+  if (timeline.unfit > 0)
+    text += "; as they were, because of another length: " + count(timeline.unfit);
+  return text + "\n";
 }
 
 std::string left_out_json(const Timeline& timeline) {
@@ -123,6 +132,7 @@ std::string to_text(const PlayReport& report, const Timeline& timeline) {
     out += "gaps between passes wrong by " + in_us(report.seam_error) + " us at most\n";
   out += drops_text(report, timeline);
   out += left_out_text(timeline);
+  out += restamp_text(timeline);
   if (report.aborted) out += "aborted: a frame or datagram was later than allowed\n";
   if (report.stopped) out += "stopped by a signal\n";
   return out;
@@ -155,6 +165,8 @@ std::string to_json(const PlayReport& report, const Timeline& timeline,
       .json("streams", streams_json(streams))
       .json("left_out", left_out_json(timeline))
       .number("filtered_per_pass", timeline.filtered)
+      .number("restamped_per_pass", timeline.restamped)
+      .number("not_restamped_per_pass", timeline.unfit)
       .number("took_us", whole_us(report.took))
       .number("calls", report.calls)
       .number("sleeps", report.waits)

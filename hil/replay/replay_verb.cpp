@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 
 #include "hil/replay/formats/log_reader.hpp"
+#include "hil/replay/frames/database_files.hpp"
 #include "hil/replay/player.hpp"
 #include "hil/replay/recordings/can_part.hpp"
 #include "hil/replay/recordings/recording_reader.hpp"
@@ -21,16 +23,35 @@ namespace {
 
 constexpr int kExitIncomplete = 1;
 constexpr int kExitRefused = 2;
-constexpr int kPriority = 50;                  // SCHED_FIFO, above everything of a desktop
+constexpr int kPriority = 50;                    // SCHED_FIFO, above everything of a desktop
 constexpr Duration kCallPatience = seconds(2);   // a car tries to connect twice a second
 constexpr Duration kWritePatience = seconds(2);  // of a slow line, for what is queued at the end
-constexpr Duration kRunUp = milliseconds(20);  // from the last preparation to the first frame
+constexpr Duration kRunUp = milliseconds(20);    // from the last preparation to the first frame
 constexpr Duration kLongestReplay = seconds(100LL * 366 * 24 * 3'600);  // what int64 holds, thrice
 constexpr int kOutput = 1, kErrors = 2;                                 // descriptors
 
 int refuse(const Problem& problem) {
   transport::write_to(kErrors, to_string(problem) + "\n");
   return kExitRefused;
+}
+
+// The options with what the files of --restamp and --overlay say.
+Result<ReplayOptions, Problem> with_database(ReplayOptions options) {
+  if (!options.manifest_file.empty()) {
+    auto rules = load_restamp_rules(options.manifest_file, options.dbc_file);
+    if (!rules) return Unexpected{rules.error()};
+    options.timeline.restamp = std::make_shared<const RestampRules>(*std::move(rules));
+  }
+  if (options.overlaid.empty()) return options;
+  if (options.dbc_file.empty()) {
+    auto path = database_of(options.manifest_file);
+    if (!path) return Unexpected{path.error()};
+    options.dbc_file = *std::move(path);
+  }
+  auto nodes = load_nodes(options.dbc_file, options.overlaid);
+  if (!nodes) return Unexpected{nodes.error()};
+  options.timeline.nodes = *std::move(nodes);
+  return options;
 }
 
 Result<Timeline, Problem> timeline_of_log(const std::string& text, const ReplayOptions& options) {
@@ -110,7 +131,9 @@ PlayReport play(const Timeline& timeline, const ReplayOptions& options, SocketRi
 int replay_verb(std::span<const std::string> args) {
   if (!args.empty() && args[0] == "--help")
     return transport::write_to(kOutput, kReplayUsage) ? 0 : kExitRefused;
-  const auto options = parse_replay_options(args);
+  auto parsed = parse_replay_options(args);
+  if (!parsed) return refuse(parsed.error());
+  const auto options = with_database(*std::move(parsed));
   if (!options) return refuse(options.error());
   const auto timeline = load(*options);
   if (!timeline) return refuse(timeline.error());

@@ -4,6 +4,7 @@
 //   replay FILE [--interface vcan0] [--map can0=vcan0]...
 //          [--receiver /gnss/0=127.0.0.1:3001]... [--speed X] [--loop N] [--from S] [--until S]
 //          [--skip S] [--topic NAME]... [--id HEX]... [--not-id HEX]...
+//          [--overlay NODE]... [--dbc FILE] [--restamp MANIFEST]
 //          [--late catch-up|drop:MS|abort:MS] [--spin US] [--json FILE]
 //
 // Without --interface and --map every channel of a log goes to the interface it was recorded from.
@@ -13,6 +14,10 @@
 //   --from, --until  seconds since the first stamp: what lies before and after is left out
 //   --topic    only these sources of a recording or channels of a log; --id only these frames,
 //              --not-id but these. A name or an identifier that does not occur is an error
+//   --overlay  all but what this node of the database sends (--dbc, else that of --restamp), so
+//              that a plant or a simulated node can send it
+//   --restamp  rolling counters and checksums made anew by the manifest of a car: a receiver
+//              accepts loops, parts and filtered logs
 //   --skip     seconds: does not wait through longer gaps
 //   --late     what becomes of a frame or datagram that is later than that many milliseconds
 //              (default catch-up: it is sent at once)

@@ -60,7 +60,7 @@ Result<SocketRim::Sender, Problem> SocketRim::open(const Track& track) {
   if (!sender) return Unexpected{sender.error()};
   auto frames = transport::PreparedFrames::make(track.frames, track.fd_flags);
   if (!frames) return Unexpected{frames.error()};
-  return Sender{Bus{*std::move(sender), *std::move(frames)}};
+  return Sender{Bus{*std::move(sender), *std::move(frames), &track}};
 }
 
 Duration SocketRim::measured_lead() {
@@ -175,6 +175,20 @@ TrackOutcome SocketRim::send(std::size_t track, std::size_t first, std::size_t c
   }
   if (outcome.error != 0 && !outcome.full()) last_error_ = outcome.error;
   return {.taken = outcome.taken, .full = outcome.full()};
+}
+
+void SocketRim::prepare(std::size_t track, std::size_t end, unsigned pass) {
+  Bus* bus = std::get_if<Bus>(&senders_[track]);
+  if (bus == nullptr) return;
+  if (bus->pass != pass) {
+    bus->pass = pass;
+    bus->prepared = 0;
+  }
+  for (; bus->prepared < end; ++bus->prepared) {
+    can::Frame frame = bus->track->frames[bus->prepared];
+    if (bus->track->restamp.stamp(bus->prepared, pass, frame))
+      bus->frames.set_data(bus->prepared, frame.payload());
+  }
 }
 
 std::vector<StreamReport> SocketRim::streams() const {

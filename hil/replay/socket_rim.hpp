@@ -66,6 +66,8 @@ class SocketRim {
   Instant now();
   void wait_until(Instant deadline);
   TrackOutcome send(std::size_t track, std::size_t first, std::size_t count);
+  // Restamps the frames of the track before `end`, which have gone, for the pass.
+  void prepare(std::size_t track, std::size_t end, unsigned pass);
   bool stopped() const { return stopped_; }
   // The last error of the kernel but a full queue, for people; empty: none.
   std::string last_error() const;
@@ -77,6 +79,9 @@ class SocketRim {
   struct Bus {
     transport::CanSender sender;
     transport::PreparedFrames frames;
+    const Track* track;
+    std::size_t prepared = 0;  // frames before it are those of `pass`
+    unsigned pass = 0;
   };
   struct Line {
     transport::UdpSocket socket;

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +17,8 @@
 #include <vector>
 
 #include "hil/replay/formats/can_log.hpp"
+#include "hil/replay/frames/frame_filter.hpp"
+#include "hil/replay/frames/restamp_plan.hpp"
 #include "hil/replay/recordings/recording.hpp"
 #include "hil/replay/targets/receiver_target.hpp"
 #include "protocol/can/frame.hpp"
@@ -39,12 +42,13 @@ struct Datagrams {
 
 // Frames of a bus, or datagrams (on a stream: records) where there is a receiver's target.
 struct Track {
-  std::string target;  // the interface, or `to` as text
-  std::vector<can::Frame> frames{};
+  std::string target;                    // the interface, or `to` as text
+  std::vector<can::Frame> frames{};      // as they go out in the first pass
   std::vector<std::uint8_t> fd_flags{};  // of frames[i], as logged
   std::vector<Duration> due{};           // of frame or datagram i; never decreasing
   std::optional<ReceiverTarget> to{};
   Datagrams datagrams{};
+  RestampPlan restamp{};  // of the frames, for the passes that follow
 };
 
 struct LeftOut {
@@ -56,8 +60,9 @@ struct Timeline {
   std::vector<Track> tracks;
   Duration pass{};  // from the first frame or datagram of one pass to the first of the next
   std::uint64_t frames = 0, datagrams = 0;
-  std::vector<LeftOut> left_out{};  // sources that are not played
-  std::uint64_t filtered = 0;       // frames of a pass that `ids` and `not_ids` leave out
+  std::vector<LeftOut> left_out{};         // sources that are not played
+  std::uint64_t filtered = 0;              // frames of a pass that ids and nodes leave out
+  std::uint64_t restamped = 0, unfit = 0;  // frames of a pass, as RestampPlan counts them
 
   std::uint64_t size() const { return frames + datagrams; }
 };
@@ -72,6 +77,8 @@ struct TimelineOptions {
   std::vector<std::string> topics{};     // sources or channels: only these; none: all
   std::vector<std::uint32_t> ids{};      // of frames: only these; none: all
   std::vector<std::uint32_t> not_ids{};  // of frames: but these
+  std::vector<SendingNode> nodes{};  // of a database; the frames of those left out are not played
+  std::shared_ptr<const RestampRules> restamp{};  // none: frames as they were recorded
 };
 
 // A stamp that goes back is due with the frame before it: the order of the log is kept. Due times

@@ -30,23 +30,28 @@ std::optional<Problem> TimelineBuilder::problem_of(const TimelineOptions& option
 TimelineBuilder::TimelineBuilder(std::string name, UtcTime first, const TimelineOptions& options)
     : name_(std::move(name)),
       options_(options),
-      filter_({.ids = options.ids, .not_ids = options.not_ids}),
+      filter_({.ids = options.ids, .not_ids = options.not_ids, .nodes = options.nodes}),
       origin_{first},
       begin_{first.ns + options.from.ns},
       end_{options.until.ns > INT64_MAX - first.ns ? INT64_MAX : first.ns + options.until.ns},
       latest_{begin_},
       newest_{first} {}
 
+void TimelineBuilder::add_track(Track track) {
+  out_.tracks.push_back(std::move(track));
+  if (options_.restamp) histories_.emplace_back(*options_.restamp);
+}
+
 std::size_t TimelineBuilder::bus(const std::string& interface) {
   const auto same = std::ranges::find_if(
       out_.tracks, [&](const Track& track) { return !track.to && track.target == interface; });
   if (same != out_.tracks.end()) return static_cast<std::size_t>(same - out_.tracks.begin());
-  out_.tracks.push_back({.target = interface});
+  add_track({.target = interface});
   return out_.tracks.size() - 1;
 }
 
 std::size_t TimelineBuilder::receiver(const ReceiverTarget& to) {
-  out_.tracks.push_back({.target = to_string(to), .to = to});
+  add_track({.target = to_string(to), .to = to});
   return out_.tracks.size() - 1;
 }
 
@@ -71,6 +76,7 @@ std::optional<Duration> TimelineBuilder::due_of(UtcTime at) {
 
 void TimelineBuilder::add(std::size_t track, UtcTime at, const can::Frame& frame,
                           std::uint8_t fd_flags) {
+  if (options_.restamp) histories_[track].observe(frame);
   if (!is_in_time(at) || !filter_.takes(frame)) return;
   const auto due = due_of(at);
   if (!due) return;
@@ -104,6 +110,17 @@ Problem TimelineBuilder::nothing_left() const {
   return {name_, what};
 }
 
+void TimelineBuilder::restamp() {
+  for (std::size_t i = 0; i < out_.tracks.size(); ++i) {
+    Track& track = out_.tracks[i];
+    track.restamp = RestampPlan{*options_.restamp, histories_[i], track.frames};
+    for (std::size_t f = 0; f < track.frames.size(); ++f)
+      track.restamp.stamp(f, 0, track.frames[f]);
+    out_.restamped += track.restamp.stamped();
+    out_.unfit += track.restamp.unfit();
+  }
+}
+
 Result<Timeline, Problem> TimelineBuilder::finish() && {
   if (too_long_)
     return Unexpected{Problem{name_, "takes more than a year to play (skip its gaps?)"}};
@@ -111,6 +128,10 @@ Result<Timeline, Problem> TimelineBuilder::finish() && {
   if (const auto problem = filter_.problem()) return Unexpected{*problem};
   if (out_.size() == 0) return Unexpected{nothing_left()};
   out_.filtered = filter_.left_out();
+  if (options_.restamp) restamp();
+  if (options_.restamp && out_.restamped == 0)
+    return Unexpected{
+        Problem{options_.restamp->name, "none of the frames has a counter or a checksum by it"}};
   std::erase_if(out_.tracks, [](const Track& track) { return track.due.empty(); });
   const auto gaps = static_cast<std::int64_t>(std::max<std::uint64_t>(out_.size() - 1, 1));
   const Duration span = scaled(elapsed_ - first_, options_.speed);

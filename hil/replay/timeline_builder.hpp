@@ -40,11 +40,14 @@ class TimelineBuilder {
   std::optional<Duration> due_of(UtcTime at);
   bool is_in_time(UtcTime at);
   Problem nothing_left() const;
+  void add_track(Track track);
+  void restamp();
 
   std::string name_;
   TimelineOptions options_;
   Timeline out_;
   FrameFilter filter_;
+  std::vector<CounterHistory> histories_{};  // of each track where frames are restamped
   UtcTime origin_, begin_, end_, latest_;
   UtcTime newest_;                // of all that was added
   Duration elapsed_{}, first_{};  // of the recording, without what is left out

@@ -1,13 +1,17 @@
-// Filter of the frames that a replay plays, by identifier.
-//   in     identifiers that are wanted, identifiers that are not; frames in the order of the log
+// Filter of the frames that a replay plays, by identifier and by the node that sends them.
+//   in     identifiers that are wanted, identifiers and nodes that are not; frames in the order of
+//          the log
 //   out    whether a frame is played; how many were left out
-//   errors problem(): an identifier of the filter that no frame had, with those that there are
+//   errors problem(): an identifier of the filter that no frame had, or a node that sent none, with
+//          those that there are
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,9 +20,24 @@
 
 namespace pitwall::replay {
 
+struct MessageId {
+  std::uint32_t id = 0;
+  bool extended = false;
+
+  auto operator<=>(const MessageId&) const = default;
+};
+
+// A node of a database and what it sends.
+struct SendingNode {
+  std::string name;
+  std::vector<MessageId> messages{};
+  bool is_left_out = false;
+};
+
 struct FrameFilterOptions {
   std::vector<std::uint32_t> ids{};      // only these; none: all
   std::vector<std::uint32_t> not_ids{};  // but these
+  std::vector<SendingNode> nodes{};      // of the database, all of them
 };
 
 class FrameFilter {
@@ -35,12 +54,16 @@ class FrameFilter {
   std::optional<Problem> problem() const;
 
  private:
-  bool is_wanted(std::uint32_t id) const;
+  bool is_wanted(MessageId id) const;
+  bool has_seen(std::uint32_t id) const;
+  bool has_seen(const SendingNode& node) const;
   std::string known_ids() const;
+  std::optional<Problem> node_problem() const;
 
   FrameFilterOptions options_;
+  std::set<MessageId> of_other_nodes_;  // sent by the nodes that are left out
   // Of each identifier that came: whether it is played.
-  std::map<std::uint32_t, bool> seen_;
+  std::map<MessageId, bool> seen_;
   std::uint64_t left_out_ = 0;
 };
 

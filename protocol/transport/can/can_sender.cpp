@@ -5,6 +5,7 @@
 #include <net/if.h>
 
 #include <algorithm>
+#include <cstddef>
 
 #include "protocol/transport/can/can_wire.hpp"
 #include "protocol/transport/can/unix_bus.hpp"
@@ -40,6 +41,14 @@ Result<PreparedFrames, Problem> PreparedFrames::make(std::span<const can::Frame>
     out.messages_[i].msg_hdr.msg_iovlen = 1;
   }
   return out;
+}
+
+void PreparedFrames::set_data(std::size_t i, std::span<const std::uint8_t> data) {
+  CHECK(i < slices_.size());
+  auto* const wire = static_cast<std::uint8_t*>(slices_[i].iov_base);
+  CHECK(data.size() == wire[offsetof(CanWire, len)] &&
+        offsetof(CanWire, data) + data.size() <= slices_[i].iov_len);
+  std::copy(data.begin(), data.end(), wire + offsetof(CanWire, data));
 }
 
 Result<CanSender, Problem> CanSender::open_unix(const std::string& interface) {

@@ -36,6 +36,8 @@ class PreparedFrames {
   PreparedFrames& operator=(const PreparedFrames&) = delete;
 
   std::size_t size() const { return messages_.size(); }
+  // Other data of the same length for frame i.
+  void set_data(std::size_t i, std::span<const std::uint8_t> data);
 
  private:
   friend class CanSender;

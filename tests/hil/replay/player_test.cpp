@@ -311,5 +311,41 @@ TEST(Player, DroppedDatagramsAreCountedApartFromFrames) {
   EXPECT_EQ(report.dropped(), 12U);
 }
 
+// Remembers for which pass each frame was prepared last.
+struct PreparingRim : VirtualRim {
+  std::vector<unsigned> prepared_for, sent_for;
+  std::size_t position = 0;
+  unsigned preparing = 0;
+
+  TrackOutcome send(std::size_t bus, std::size_t first, std::size_t count) {
+    const TrackOutcome outcome = VirtualRim::send(bus, first, count);
+    for (std::size_t i = first; i < first + outcome.taken; ++i)
+      EXPECT_EQ(prepared_for[i], sent_for[i]++) << i;
+    return outcome;
+  }
+  void prepare(std::size_t, std::size_t end, unsigned pass) {
+    if (pass != preparing) position = 0;
+    preparing = pass;
+    for (; position < end; ++position) {
+      EXPECT_EQ(sent_for[position], pass) << "not before it has gone";
+      prepared_for[position] = pass;
+    }
+  }
+};
+
+TEST(Player, EachFrameIsPreparedForItsNextPassAfterItHasGone) {
+  const Timeline t = timeline_of({0, 5, 20, 21, 1'000, 1'020, 1'020, 5'000});
+  for (const std::size_t room : {std::size_t{1}, std::size_t{3}, SIZE_MAX}) {
+    PreparingRim rim;
+    rim.latency = microseconds(30);
+    rim.room = room;
+    rim.prepared_for.resize(8);
+    rim.sent_for.resize(8);
+    EXPECT_EQ(Player(t, {.passes = 5}, rim).play({}).frames.sent, 40U);
+    EXPECT_EQ(rim.sent_for, std::vector<unsigned>(8, 5));
+    EXPECT_EQ(rim.prepared_for, std::vector<unsigned>(8, 4));  // none for a pass that does not come
+  }
+}
+
 }  // namespace
 }  // namespace pitwall::replay

@@ -6,19 +6,21 @@
 namespace pitwall::replay {
 namespace {
 
-// The place of the error; empty: there is none.
+// The place of the error, in angle brackets; empty: there is none.
 std::string refused(const std::vector<std::string>& arguments) {
   const auto options = parse_replay_options(arguments);
-  return options ? std::string{} : options.error().place;
+  return options ? std::string{} : "<" + options.error().place + ">";
 }
+std::string at(const std::string& place) { return "<" + place + ">"; }
 
 TEST(ReplayOptions, EveryOptionReachesItsValue) {
   const std::vector<std::string> arguments{
-      "--interface", "v0",      "box.mcap", "--map",  "can0=v1", "--receiver", "/gnss/0=3001",
-      "--speed",     "2.5",     "--loop",   "3",      "--from",  "1.5",        "--until",
-      "9",           "--skip",  "4",        "--late", "drop:7",  "--spin",     "50",
-      "--topic",     "/gnss/0", "--topic",  "can0",   "--id",    "1a0",        "--not-id",
-      "1FFFFFFF",    "--json",  "out.json"};
+      "--interface", "v0",      "box.mcap",  "--map",  "can0=v1", "--receiver", "/gnss/0=3001",
+      "--speed",     "2.5",     "--loop",    "3",      "--from",  "1.5",        "--until",
+      "9",           "--skip",  "4",         "--late", "drop:7",  "--spin",     "50",
+      "--topic",     "/gnss/0", "--topic",   "can0",   "--id",    "1a0",        "--not-id",
+      "1FFFFFFF",    "--json",  "out.json",  "--dbc",  "a.dbc",   "--overlay",  "Plant",
+      "--overlay",   "Pit",     "--restamp", "a.yaml"};
   const auto options = parse_replay_options(arguments);
   ASSERT_TRUE(options) << to_string(options.error());
   const TimelineOptions& t = options->timeline;
@@ -40,6 +42,9 @@ TEST(ReplayOptions, EveryOptionReachesItsValue) {
   EXPECT_EQ(t.ids, (std::vector<std::uint32_t>{0x1A0}));
   EXPECT_EQ(t.not_ids, (std::vector<std::uint32_t>{0x1FFF'FFFF}));
   EXPECT_EQ(options->json_file, "out.json");
+  EXPECT_EQ(options->dbc_file, "a.dbc");
+  EXPECT_EQ(options->manifest_file, "a.yaml");
+  EXPECT_EQ(options->overlaid, (std::vector<std::string>{"Plant", "Pit"}));
 }
 
 TEST(ReplayOptions, AValueThatAnOptionDoesNotAllowIsNamed) {
@@ -51,18 +56,26 @@ TEST(ReplayOptions, AValueThatAnOptionDoesNotAllowIsNamed) {
       {"--late", "drop:0"},    {"--late", "drop:x"}, {"--topic", ""},       {"--json", ""},
       {"--late", "catch-up:5"}};
   for (const auto& [option, value] : wrong)
-    EXPECT_EQ(refused({"log", option, value}), value) << option;
+    EXPECT_EQ(refused({"log", option, value}), at(value)) << option;
   for (const char* receiver : {"/gnss/0", "=127.0.0.1:1", "/gnss/0=", "/gnss/0=here:3001",
                                "/gnss/0=127.0.0.1:0", "/gnss/0=127.0.0.1:65536"})
-    EXPECT_EQ(refused({"log", "--receiver", receiver}), receiver);
+    EXPECT_EQ(refused({"log", "--receiver", receiver}), at(receiver));
 }
 
 TEST(ReplayOptions, UnknownOptionsMissingValuesAndFilesAreNamed) {
-  EXPECT_EQ(refused({}), "replay");
-  EXPECT_EQ(refused({"log", "--speed"}), "--speed");
-  EXPECT_EQ(refused({"log", "--what", "1"}), "--what");
-  EXPECT_EQ(refused({"log", "--start", "1"}), "--start");
-  EXPECT_EQ(refused({"one.log", "other.log"}), "other.log");
+  EXPECT_EQ(refused({}), at("replay"));
+  EXPECT_EQ(refused({"log", "--speed"}), at("--speed"));
+  EXPECT_EQ(refused({"log", "--what", "1"}), at("--what"));
+  EXPECT_EQ(refused({"log", "--start", "1"}), at("--start"));
+  EXPECT_EQ(refused({"one.log", "other.log"}), at("other.log"));
+}
+
+TEST(ReplayOptions, ANodeNeedsADatabaseAndADatabaseAUse) {
+  EXPECT_EQ(refused({"log", "--overlay", "Plant"}), at("--overlay"));
+  EXPECT_EQ(refused({"log", "--dbc", "a.dbc"}), at("--dbc"));
+  EXPECT_EQ(refused({"log", "--overlay", "Plant", "--dbc", "a.dbc"}), "");
+  EXPECT_EQ(refused({"log", "--overlay", "Plant", "--restamp", "a.yaml"}), "");
+  EXPECT_EQ(refused({"log", "--dbc", "a.dbc", "--restamp", "a.yaml"}), "");
 }
 
 }  // namespace

@@ -62,6 +62,8 @@ TEST(ReplaySummary, DatagramsAndWhatIsNotPlayedStandApart) {
                       .datagrams = {.bytes = {1, 2, 3}, .ends = {3}}});
   t.datagrams = 1;
   t.filtered = 6;
+  t.restamped = 8;
+  t.unfit = 9;
   t.left_out = {{"/imu", "neither", 70}, {"/gnss/1", "no address", 5}};
   PlayReport report = report_with_drops();
   report.datagrams = {.sent = 4, .dropped_full = 2};
@@ -81,6 +83,8 @@ TEST(ReplaySummary, DatagramsAndWhatIsNotPlayedStandApart) {
   EXPECT_EQ(datagrams.integer("sent", 0, 9), 4);
   EXPECT_EQ(datagrams.integer("dropped_full", 0, 9), 2);
   EXPECT_EQ(map.integer("filtered_per_pass", 0, 9), 6);
+  EXPECT_EQ(map.integer("restamped_per_pass", 0, 9), 8);
+  EXPECT_EQ(map.integer("not_restamped_per_pass", 0, 9), 9);
   EXPECT_NE(to_json(report, t, {}, {}).find("/gnss/1"), std::string::npos);
 }
 

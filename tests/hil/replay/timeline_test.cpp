@@ -135,6 +135,36 @@ TEST(Timeline, ChannelsAndIdentifiersThatAreNamedMustOccur) {
   EXPECT_FALSE(make_timeline(log, {.not_ids = {0, 1, 2}}).has_value());
 }
 
+// Frames of one message with a bare counter of one byte.
+TEST(Timeline, FramesThatAreLeftBehindCountOnWhereTheyAreRestamped) {
+  CanLog log = log_of({{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 1}});
+  for (std::size_t i = 0; i < log.frames.size(); ++i) {
+    log.frames[i].frame = {.id = i == 1 ? 9U : 5U, .length = 1};
+    log.frames[i].frame.data[0] = static_cast<std::uint8_t>(40 + 2 * i);
+  }
+  log.frames[3].frame.length = 0;
+  TimelineOptions options{.not_ids = {9}};
+  options.restamp = std::make_shared<const RestampRules>(
+      RestampRules{.name = "m", .rules = {{.id = 5, .length = 1, .counter_bits = 8}}});
+  const auto t = make_timeline(log, options);
+  ASSERT_TRUE(t.has_value()) << to_string(t.error());
+  ASSERT_EQ(t->tracks.size(), 2U);
+  EXPECT_EQ(t->tracks[0].frames[0].data[0], 40);
+  EXPECT_EQ(t->tracks[0].frames[1].data[0], 41);
+  EXPECT_EQ(t->tracks[0].frames[2].length, 0);
+  EXPECT_EQ(t->tracks[0].frames[3].data[0], 42);
+  EXPECT_EQ(t->tracks[1].frames[0].data[0], 50) << "each bus has its own senders";
+  EXPECT_EQ(t->restamped, 4U);
+  EXPECT_EQ(t->unfit, 1U);
+  can::Frame frame = t->tracks[0].frames[1];
+  EXPECT_TRUE(t->tracks[0].restamp.stamp(1, 1, frame));
+  EXPECT_EQ(frame.data[0], 44) << "a pass has three of them";
+  options.not_ids = {5};
+  const auto none = make_timeline(log, options);
+  ASSERT_FALSE(none.has_value());
+  EXPECT_EQ(none.error().place, "m");
+}
+
 TEST(Timeline, APassLongerThanAYearIsAProblemUnlessItsGapIsSkipped) {
   CanLog log = log_of({{0, 0}, {1, 0}});
   log.frames[0].at = {};  // the recorder's clock was not set yet

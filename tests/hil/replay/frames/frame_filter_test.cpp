@@ -48,5 +48,22 @@ TEST(FrameFilter, AnIdentifierThatNoFrameHasIsNamedWithThoseThatThereAre) {
   EXPECT_TRUE(wrong_exclusion.problem()->what.ends_with(" and 5 more"));
 }
 
+TEST(FrameFilter, WhatALeftOutNodeSendsIsLeftOut) {
+  const SendingNode plant{
+      .name = "Plant", .messages = {{1, false}, {3, false}}, .is_left_out = true};
+  const SendingNode other{.name = "Other", .messages = {{2, false}, {3, true}}};
+  FrameFilter filter{{.nodes = {plant, other}}};
+  EXPECT_EQ(taken_of(filter, {1, 2, 3, 9}), (std::vector<std::uint32_t>{2, 9}));
+  can::Frame extended{.id = 3, .extended = true};
+  EXPECT_TRUE(filter.takes(extended));
+  EXPECT_EQ(filter.left_out(), 2U);
+  EXPECT_FALSE(filter.problem());
+  FrameFilter silent{{.nodes = {plant, other}}};
+  taken_of(silent, {2});
+  ASSERT_TRUE(silent.problem());
+  EXPECT_EQ(silent.problem()->place, "--overlay Plant");
+  EXPECT_TRUE(silent.problem()->what.ends_with(": Other"));
+}
+
 }  // namespace
 }  // namespace pitwall::replay

@@ -70,5 +70,30 @@ TEST_F(CanSenderOnUnixBus, ARangeArrivesInOrderAndTheSenderHearsNothing) {
   EXPECT_EQ(refused.error().place, bus_);
 }
 
+TEST_F(CanSenderOnUnixBus, OtherDataOfAPreparedFrameGoOutInItsPlace) {
+  testing::RawClient reader(bus_);
+  auto sender = CanSender::open(bus_);
+  ASSERT_TRUE(sender) << to_string(sender.error());
+  std::vector<can::Frame> frames(3);
+  frames[0] = {.id = 1, .length = 2, .data = {1, 1}};
+  frames[1] = {.id = 2, .fd = true, .length = 64, .data = {2}};
+  frames[2] = {.id = 3, .length = 1, .data = {3}};
+  auto prepared = PreparedFrames::make(frames);
+  ASSERT_TRUE(prepared);
+  frames[0].data = {7, 8};
+  frames[1].data.fill(9);
+  prepared->set_data(0, frames[0].payload());
+  prepared->set_data(1, frames[1].payload());
+  EXPECT_EQ(sender->send(*prepared, 0, 3).taken, 3u);
+  serve();
+  const auto packets = reader.read();
+  ASSERT_EQ(packets.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    can::Frame got;
+    ASSERT_TRUE(from_wire(testing::wire_of(packets[i]), packets[i].size(), got));
+    EXPECT_EQ(got, frames[i]);
+  }
+}
+
 }  // namespace
 }  // namespace pitwall::transport
