@@ -84,8 +84,9 @@ int match_here(const BenchOptions& options) {
 
 std::vector<std::string> exec_command(const BenchOptions& options, const std::string& folder,
                                       double length_s) {
-  const double most_s =
-      kOverhead_s + options.runs * static_cast<double>(kPlayers) * (length_s + kOverhead_s);
+  const double passes = static_cast<double>(kPlayers) - 1.0 + kSensorPasses;  // of all players
+  const double most_s = kOverhead_s + options.runs * (passes * length_s +
+                                                      static_cast<double>(kPlayers) * kOverhead_s);
   std::vector<std::string> out{"exec",        "--auto",
                                "--interface", options.interface,
                                "--timeout",   std::to_string(static_cast<int>(most_s)),

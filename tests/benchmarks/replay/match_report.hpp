@@ -1,4 +1,4 @@
-// What a match of players says: table, gates, JSON.
+// Report of a match of players: table, gates, JSON.
 //   in     MatchFigures
 //   out    text for people, one JSON object for programs, whether every gate held
 //   invariants
@@ -27,7 +27,7 @@ struct MatchReport {
   MatchFigures figures;
 };
 
-// The first one is about content, all others about time.
+// The first ones are about content and order, all others about time.
 std::vector<MatchGate> gates_of(const MatchFigures& figures);
 std::string to_text(const MatchReport& report);
 std::string to_json(const MatchReport& report);
