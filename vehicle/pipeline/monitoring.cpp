@@ -12,12 +12,4 @@ world::MonitorSet seen(const Outputs& out, world::MonitorSet by_localization) {
   return all;
 }
 
-void switch_off(CarParams& params, world::MonitorSet monitors) {
-  params.inbound.off = monitors;
-  params.localization.off = monitors;
-  params.watchdog.off = monitors;
-  params.bus_guard.off = monitors;
-  params.supervisor.faults.off = monitors;
-}
-
 }  // namespace pitwall::pipeline

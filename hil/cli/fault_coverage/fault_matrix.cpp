@@ -6,11 +6,11 @@
 
 #include "hil/bench/lockstep/lockstep.hpp"
 #include "hil/cli/fault_coverage/catalogue.hpp"
+#include "hil/cli/fault_coverage/monitors_off.hpp"
 #include "hil/cli/fault_coverage/text.hpp"
 #include "protocol/json/json_text.hpp"
 #include "protocol/vocabulary/text.hpp"
 #include "protocol/vocabulary/units.hpp"
-#include "vehicle/pipeline/monitoring.hpp"
 
 namespace pitwall::fault_coverage {
 namespace {
@@ -85,7 +85,7 @@ bool FaultRow::passed() const {
 
 Result<FaultRow, Problem> run_fault(const bench::Loaded& loaded, world::MonitorSet off) {
   pipeline::Setup setup = loaded.setup;
-  pipeline::switch_off(setup.params, off);
+  switch_off(setup.params, off);
   const auto result = bench::run_lockstep(loaded.scenario, setup, {});
   if (!result) return Unexpected{result.error()};
   FaultRow row{.id = id_of(loaded.scenario.name),

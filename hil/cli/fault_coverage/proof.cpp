@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "hil/bench/lockstep/lockstep.hpp"
+#include "hil/cli/fault_coverage/monitors_off.hpp"
 #include "hil/cli/fault_coverage/text.hpp"
 #include "protocol/json/json_text.hpp"
 #include "protocol/vocabulary/text.hpp"
-#include "vehicle/pipeline/monitoring.hpp"
 
 namespace pitwall::fault_coverage {
 namespace {
@@ -45,7 +45,7 @@ Result<std::optional<Consequence>, Problem> consequence_without(world::Monitor m
                 [](const scenario::Expectation& e) { return !is_consequence(e); });
   world::MonitorSet off;
   off.add(monitor);
-  pipeline::switch_off(blind.setup.params, off);
+  switch_off(blind.setup.params, off);
   bool has_failed = false;
   bench::LockstepOptions options;
   options.over = [&has_failed](const bench::RunView& run) {

@@ -30,17 +30,6 @@ TEST(Monitoring, WhatAnyModuleSeesIsSeen) {
   EXPECT_FALSE(all.has(Monitor::kBusLoad));
 }
 
-TEST(Monitoring, EveryModuleIsToldWhatIsOff) {
-  CarParams params;
-  switch_off(params, only(Monitor::kInnovation));
-  for (const MonitorSet& off : {params.inbound.off, params.localization.off, params.watchdog.off,
-                                params.bus_guard.off, params.supervisor.faults.off}) {
-    EXPECT_EQ(off, only(Monitor::kInnovation));
-  }
-  switch_off(params, {});
-  EXPECT_TRUE(params.inbound.off.empty());
-}
-
 TEST(Monitoring, EveryMonitorHasItsOwnName) {
   for (std::size_t i = 0; i < world::kMonitors; ++i) {
     for (std::size_t k = 0; k < i; ++k) EXPECT_NE(world::kMonitorNames[i], world::kMonitorNames[k]);
