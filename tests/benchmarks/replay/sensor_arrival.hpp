@@ -2,10 +2,10 @@
 // frames and datagrams complete, each track in order, and all tracks in one order.
 //
 //   order across tracks
-//     due       frame  100 us   datagram  300 us
-//     arrival          140 us             350 us   the order is shown
-//                      330 us             350 us   closer than kStampError: nothing is shown
-//                      420 us             350 us   broken: the frame came after what is due later
+//     due       frame  1.0 ms   datagram  1.5 ms
+//     arrival          1.1 ms             1.6 ms   the order is shown
+//                      1.5 ms             1.6 ms   closer than kStampError: nothing is shown
+//                      1.9 ms             1.6 ms   broken: the frame came after what is due later
 //     A player may send what is due within kGroup together, track by track: that breaks nothing.
 //
 //   in     the log and the datagrams of one pass, its length, how many there were; what sockets
@@ -28,9 +28,10 @@
 
 namespace pitwall::benchmarks {
 
-// Stamps of two sockets: each is brought to the monotonic clock with an offset that is exact to
-// half of what two looks at the clocks take, in a guest 20 us.
-inline constexpr Duration kStampError = microseconds(50);
+// Stamps of two sockets: each read brings its stamps to the monotonic clock with an offset that is
+// exact to half of what two looks at the clocks take. In a guest that is 20 us, and on a busy host
+// a multiple of it.
+inline constexpr Duration kStampError = microseconds(200);
 
 struct PlayedRecording {
   std::span<const replay::LoggedFrame> frames;

@@ -11,20 +11,19 @@ constexpr UtcTime kZero{kNanosecondsPerSecond * 1'700'000'000};
 constexpr unsigned kPasses = 3;
 constexpr std::int64_t kFrames = 40;
 
-// A frame every 400 us; a datagram of each receiver every 1.6 ms, 200 us after a frame.
+// A frame every 2 ms; a datagram of each receiver every 8 ms, 1 ms after a frame.
 class SensorArrivals : public ::testing::Test {
  protected:
   SensorArrivals() {
     for (std::int64_t i = 0; i < kFrames; ++i) {
-      replay::LoggedFrame logged{.at = at(microseconds(400) * i), .frame = {}};
+      replay::LoggedFrame logged{.at = at(milliseconds(2) * i), .frame = {}};
       logged.frame.id = static_cast<std::uint32_t>(i);
       log.push_back(logged);
     }
     for (std::int64_t i = 0; i < kFrames; i += 2) {
       const std::size_t receiver = i / 2 % 2 == 0 ? 0 : 1;
-      sent.push_back({at(microseconds(400) * i + microseconds(200)),
-                      receiver,
-                      {static_cast<std::uint8_t>(i), 7}});
+      sent.push_back(
+          {at(milliseconds(2) * i + milliseconds(1)), receiver, {static_cast<std::uint8_t>(i), 7}});
     }
     for (unsigned pass = 0; pass < kPasses; ++pass) {
       const Instant begin = kBegin + kPass * std::int64_t{pass};
@@ -42,7 +41,7 @@ class SensorArrivals : public ::testing::Test {
                    datagrams);
   }
 
-  static constexpr Duration kPass = milliseconds(16);
+  static constexpr Duration kPass = milliseconds(80);
   std::vector<replay::LoggedFrame> log;
   std::vector<SensorDatagram> sent;
   std::vector<can::ReceivedFrame> frames;
@@ -91,10 +90,10 @@ TEST_F(SensorArrivals, ADatagramThatIsChangedTwiceThereOrMovedIsSeen) {
 }
 
 TEST_F(SensorArrivals, AFrameBehindADatagramThatIsDueLaterBreaksTheOrder) {
-  // Frame 2, due at 800 us, comes 30 us after the datagram that is due at 1,000: not to be told.
-  frames[2].at = kBegin + microseconds(1'030);
-  EXPECT_TRUE(result().order_is_kept());
-  frames[2].at = kBegin + microseconds(1'060);
+  // Frame 2 is due at 4 ms, the datagram behind it at 5 ms.
+  frames[2].at = kBegin + milliseconds(5) + kStampError;
+  EXPECT_TRUE(result().order_is_kept()) << "not to be told";
+  frames[2].at = frames[2].at + microseconds(1);
   SensorArrival arrival = result();
   EXPECT_TRUE(arrival.is_whole()) << "each track is in order";
   ASSERT_TRUE(arrival.order);
@@ -103,11 +102,11 @@ TEST_F(SensorArrivals, AFrameBehindADatagramThatIsDueLaterBreaksTheOrder) {
 }
 
 TEST_F(SensorArrivals, ADatagramOfTheNextPassBeforeTheLastFrameBreaksTheOrder) {
-  // The seam: the first datagram of the second pass is sent 1 ms early, before the last frame.
-  datagrams[0][datagrams[0].size() / kPasses].at = kBegin + kPass - microseconds(800);
+  // The seam: the first datagram of the second pass is sent 5 ms early.
+  datagrams[0][datagrams[0].size() / kPasses].at = kBegin + kPass - milliseconds(4);
   const SensorArrival arrival = result();
   ASSERT_TRUE(arrival.order);
-  EXPECT_EQ(arrival.order->broken, 3U) << "two frames of the first pass, one of the second";
+  EXPECT_EQ(arrival.order->broken, 3U) << "of the first pass a datagram and a frame, then a frame";
 }
 
 TEST_F(SensorArrivals, WhatIsDueWithinAGroupMayChangePlaces) {
@@ -115,7 +114,7 @@ TEST_F(SensorArrivals, WhatIsDueWithinAGroupMayChangePlaces) {
   for (unsigned pass = 0; pass < kPasses; ++pass) {
     const Instant begin = kBegin + kPass * std::int64_t{pass};
     datagrams[0][pass * sent.size() / 2].at = begin;
-    frames[pass * static_cast<unsigned>(kFrames)].at = begin + microseconds(200);
+    frames[pass * static_cast<unsigned>(kFrames)].at = begin + 2 * kStampError;
   }
   EXPECT_TRUE(result().order_is_kept());
 }
