@@ -137,6 +137,11 @@ constexpr OptionRow kOptions[] = {
      }},
     {"--late", "not catch-up, drop:MS or abort:MS with 1 to 3600000 ms", take_late},
     {"--spin", "not a number of microseconds from 0 to 200", take_spin},
+    {"--clock", "expected wall or FILE: that of the programs that the replay is played to",
+     [](ReplayOptions& out, const std::string& value) {
+       out.clock = value;
+       return value == transport::kWallClock || value.find('/') != std::string::npos;
+     }},
     {"--json", "not a file name",
      [](ReplayOptions& out, const std::string& value) {
        out.json_file = value;
@@ -164,12 +169,18 @@ Result<ReplayOptions, Problem> parse_replay_options(std::span<const std::string>
       out.file = args[i];
       continue;
     }
+    if (args[i] == "--progress") {
+      out.progress = true;
+      continue;
+    }
     if (i + 1 == args.size()) return Unexpected{Problem{args[i], "its value is missing"}};
     if (auto problem = take_option(out, args[i], args[i + 1])) return Unexpected{*problem};
     ++i;
   }
   if (out.file.empty())
     return Unexpected{Problem{"replay", "expected FILE: a CAN log or a recording"}};
+  if (out.lead && out.clock != transport::kWallClock)
+    return Unexpected{Problem{"--spin", "goes with the wall clock alone: bench time may stand"}};
   if (!out.overlaid.empty() && out.dbc_file.empty() && out.manifest_file.empty())
     return Unexpected{Problem{"--overlay", "expected --dbc FILE too: whose messages are a node's"}};
   if (out.overlaid.empty() && out.manifest_file.empty() && !out.dbc_file.empty())
@@ -182,7 +193,8 @@ const char* const kReplayUsage =
     "       [--receiver SOURCE=TARGET]... [--speed X] [--loop N] [--from S] [--until S]\n"
     "       [--skip S] [--topic NAME]... [--id HEX]... [--not-id HEX]...\n"
     "       [--overlay NODE]... [--dbc FILE] [--restamp MANIFEST]\n"
-    "       [--late catch-up|drop:MS|abort:MS] [--spin US] [--json FILE]\n"
+    "       [--late catch-up|drop:MS|abort:MS] [--spin US] [--clock wall|FILE]\n"
+    "       [--json FILE] [--progress]\n"
     "plays a CAN log in real time: candump, Vector ASC and BLF, PEAK TRC, pcap, pcapng, also with\n"
     "gzip; records that do not read are left out and told. Without --interface and --map every\n"
     "channel goes to the interface that it was recorded from, channel 1 of Vector and PEAK to "
@@ -201,6 +213,9 @@ const char* const kReplayUsage =
     "  --late      what is later than MS: sent at once (catch-up, the default), dropped, or the "
     "end\n"
     "  --spin US   wake up so early and wait busily, 0 to 200; default: what sleeps are late here\n"
+    "  --clock     the bench time in FILE, as of the programs that it plays to: where the machine\n"
+    "              holds one of them up, the replay waits as well; default: wall\n"
+    "  --progress  say how far reading is once a second, also where there is no terminal\n"
     "exit codes: 0 all sent, 1 something dropped or ended early, 2 bad input\n";
 
 }  // namespace pitwall::replay

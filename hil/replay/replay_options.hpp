@@ -13,6 +13,7 @@
 
 #include "hil/replay/player.hpp"
 #include "hil/replay/timeline.hpp"
+#include "protocol/transport/clock.hpp"
 #include "protocol/vocabulary/result.hpp"
 
 namespace pitwall::replay {
@@ -23,6 +24,8 @@ struct ReplayOptions {
   PlayOptions play;
   std::optional<Duration> lead{};  // nothing: as measured
   std::string json_file;
+  std::string clock = transport::kWallClock;
+  bool progress = false;
   std::string dbc_file, manifest_file;  // of --overlay; of --restamp
   std::vector<std::string> overlaid{};  // nodes of the database
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hil/replay/replay_summary.hpp"
 
+#include "hil/replay/replay_clock.hpp"
 #include "protocol/json/json_text.hpp"
 #include "protocol/vocabulary/text.hpp"
 
@@ -154,7 +155,8 @@ std::string to_text(std::span<const StreamReport> streams) {
 
 std::string to_json(const PlayReport& report, const Timeline& timeline,
                     std::span<const StreamReport> streams,
-                    const transport::RealtimeReport& realtime) {
+                    const transport::RealtimeReport& realtime,
+                    const std::optional<transport::ClockWaits>& waits) {
   const LatenessHistogram& late = report.lateness;
   json::Object datagrams;
   add(datagrams.number("per_pass", timeline.datagrams), report.datagrams);
@@ -184,6 +186,7 @@ std::string to_json(const PlayReport& report, const Timeline& timeline,
              .flag("stopped", report.stopped)
              .flag("memory_locked", realtime.memory_locked)
              .flag("fifo", realtime.fifo)
+             .json("bench_time", waits ? to_json(*waits) : "null")
              .str() +
          "\n";
 }

@@ -1,12 +1,13 @@
 // Summary of a replay as text and as JSON.
 //   in     the report of the player, the timeline that was played, what became of the streams, what
-//          the kernel granted
+//          the kernel granted, for how long bench time stood
 //   out    a few lines of text, or one JSON object
 //          frames and datagrams apart; what was not played
 //   units  microseconds in both
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -21,6 +22,7 @@ std::string to_text(const PlayReport& report, const Timeline& timeline);
 std::string to_text(std::span<const StreamReport> streams);
 std::string to_json(const PlayReport& report, const Timeline& timeline,
                     std::span<const StreamReport> streams,
-                    const transport::RealtimeReport& realtime);
+                    const transport::RealtimeReport& realtime,
+                    const std::optional<transport::ClockWaits>& waits = {});
 
 }  // namespace pitwall::replay

@@ -8,14 +8,17 @@
 #include "hil/replay/formats/log_reader.hpp"
 #include "hil/replay/frames/database_files.hpp"
 #include "hil/replay/player.hpp"
+#include "hil/replay/reading/progress_line.hpp"
 #include "hil/replay/recordings/can_part.hpp"
 #include "hil/replay/recordings/recording_reader.hpp"
+#include "hil/replay/replay_clock.hpp"
 #include "hil/replay/replay_options.hpp"
 #include "hil/replay/replay_summary.hpp"
 #include "hil/replay/socket_rim.hpp"
 #include "hil/replay/timeline.hpp"
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/file.hpp"
+#include "protocol/transport/file_bytes.hpp"
 #include "protocol/transport/realtime.hpp"
 
 namespace pitwall::replay {
@@ -54,8 +57,9 @@ Result<ReplayOptions, Problem> with_database(ReplayOptions options) {
   return options;
 }
 
-Result<Timeline, Problem> timeline_of_log(const std::string& text, const ReplayOptions& options) {
-  const auto log = read_can_log(text, options.file);
+Result<Timeline, Problem> timeline_of_log(std::string_view text, const ReplayOptions& options) {
+  ProgressLine line("reading " + options.file, options.progress);
+  const auto log = read_can_log(text, options.file, {.reached = line.function()});
   if (!log) return Unexpected{log.error()};
   transport::write_to(kErrors, to_text(*log, options.file));
   return make_timeline(*log, options.timeline);
@@ -75,8 +79,10 @@ std::string left_out_text(const std::vector<LeftOut>& left_out, const std::strin
   return text;
 }
 
-Result<Timeline, Problem> timeline_of_recording(std::string file, const ReplayOptions& options) {
-  const auto recording = traffic::read_recording(std::move(file), options.file);
+Result<Timeline, Problem> timeline_of_recording(transport::FileBytes file,
+                                                const ReplayOptions& options) {
+  ProgressLine line("reading " + options.file, options.progress);
+  const auto recording = traffic::read_recording(std::move(file), options.file, line.function());
   if (!recording) return Unexpected{recording.error()};
   std::string remarks;
   for (const traffic::Remark& remark : recording->remarks) remarks += to_string(remark) + "\n";
@@ -86,10 +92,11 @@ Result<Timeline, Problem> timeline_of_recording(std::string file, const ReplayOp
 
 // File and recording are gone again when it returns: only what is played is locked into memory.
 Result<Timeline, Problem> load(const ReplayOptions& options) {
-  auto file = transport::read_file(options.file);
+  auto file = transport::FileBytes::map(options.file);
   if (!file) return Unexpected{file.error()};
-  auto timeline = traffic::is_recording(*file) ? timeline_of_recording(*std::move(file), options)
-                                               : timeline_of_log(*file, options);
+  auto timeline = traffic::is_recording(file->text())
+                      ? timeline_of_recording(*std::move(file), options)
+                      : timeline_of_log(file->text(), options);
   if (!timeline) return timeline;
   transport::write_to(kErrors, left_out_text(timeline->left_out, options.file));
   if (timeline->pass.ns > kLongestReplay.ns / options.play.passes)
@@ -113,14 +120,18 @@ bool has_lost_bytes(const SocketRim& rim) {
                              [](const StreamReport& s) { return s.counters.lost_bytes > 0; });
 }
 
-PlayReport play(const Timeline& timeline, const ReplayOptions& options, SocketRim& rim,
-                const transport::RealtimeReport& realtime) {
+Result<PlayReport, Problem> play(const Timeline& timeline, const ReplayOptions& options,
+                                 SocketRim& rim, ReplayClock& clock,
+                                 const transport::RealtimeReport& realtime) {
   Player player(timeline, options.play, rim);
-  const Duration lead = options.lead ? *options.lead : SocketRim::measured_lead();
+  const Duration lead = !clock.is_wall() ? Duration{}
+                        : options.lead   ? *options.lead
+                                         : SocketRim::measured_lead();
   rim.set_lead(lead);
   transport::write_to(kOutput, to_string(realtime) + "; wakes up " +
                                    std::to_string(lead.ns / 1'000) + " us early\n");
   rim.wait_for_callers(kCallPatience);
+  if (const auto begun = clock.begin(); !begun) return Unexpected{begun.error()};
   PlayReport report = player.play(transport::monotonic_now() + kRunUp);
   rim.finish(kWritePatience);
   return report;
@@ -135,21 +146,25 @@ int replay_verb(std::span<const std::string> args) {
   if (!parsed) return refuse(parsed.error());
   const auto options = with_database(*std::move(parsed));
   if (!options) return refuse(options.error());
+  auto clock = ReplayClock::open(options->clock);
+  if (!clock) return refuse(clock.error());
   const auto timeline = load(*options);
   if (!timeline) return refuse(timeline.error());
   auto rim = SocketRim::open(*timeline);
   if (!rim) return refuse(rim.error());
   const auto realtime = transport::request_realtime(kPriority);
-  const PlayReport report = play(*timeline, *options, *rim, realtime);
-  transport::write_to(kOutput, to_text(report, *timeline));
+  const auto report = play(*timeline, *options, *rim, *clock, realtime);
+  if (!report) return refuse(report.error());
+  const auto waits = clock->end();
+  transport::write_to(kOutput, to_text(*report, *timeline) + (waits ? to_text(*waits) : ""));
   transport::write_to(kErrors, losses_text(*rim, *timeline));
   if (!options->json_file.empty()) {
     const auto written = transport::write_file(
-        options->json_file, to_json(report, *timeline, rim->streams(), realtime));
+        options->json_file, to_json(*report, *timeline, rim->streams(), realtime, waits));
     if (!written) return refuse(written.error());
   }
   const bool is_incomplete =
-      report.dropped() > 0 || report.aborted || report.stopped || has_lost_bytes(*rim);
+      report->dropped() > 0 || report->aborted || report->stopped || has_lost_bytes(*rim);
   return is_incomplete ? kExitIncomplete : 0;
 }
 

@@ -5,7 +5,8 @@
 //          [--receiver /gnss/0=127.0.0.1:3001]... [--speed X] [--loop N] [--from S] [--until S]
 //          [--skip S] [--topic NAME]... [--id HEX]... [--not-id HEX]...
 //          [--overlay NODE]... [--dbc FILE] [--restamp MANIFEST]
-//          [--late catch-up|drop:MS|abort:MS] [--spin US] [--json FILE]
+//          [--late catch-up|drop:MS|abort:MS] [--spin US] [--clock wall|FILE]
+//          [--json FILE] [--progress]
 //
 // Without --interface and --map every channel of a log goes to the interface it was recorded from.
 //   --receiver sends the bytes of a receiver of a recording as UDP datagrams; to tcp:ADDRESS:PORT
@@ -24,6 +25,9 @@
 //   --spin     wakes up so many microseconds early and waits busily for the rest, 0 to 200; takes
 //              that time from other programs of the processor. Default: what sleeps are usually
 //              late on this machine, measured at the start
+//   --clock    FILE: bench time (replay_clock.hpp), kept by who keeps it there, or else by the
+//              replay; sleeps are plain then. Default: wall
+//   --progress how far reading the file is, once a second, also where there is no terminal
 //   out    frames and datagrams sent, lateness, what was dropped or not played, and which real-time
 //          rights the kernel granted, on standard output; exit code 0: everything was sent;
 //          1: some were dropped, or the replay was aborted or stopped; 2: wrong usage, a file that

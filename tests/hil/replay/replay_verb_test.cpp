@@ -61,6 +61,10 @@ TEST_F(ReplayVerb, WrongUsageIsNamed) {
   EXPECT_TRUE(errors_of({good_, "--speed", "0"}).starts_with("speed: error: "));
   EXPECT_TRUE(errors_of({good_, "--map", "can7=vcan0"}).starts_with("can7: error: "));
   EXPECT_TRUE(errors_of({good_, "--receiver", "/gnss/0=3001"}).starts_with("/gnss/0: error: "));
+  EXPECT_TRUE(errors_of({good_, "--clock", "bench"}).starts_with("bench: error: expected wall or"));
+  EXPECT_TRUE(errors_of({good_, "--clock", "/none/t"}).starts_with("/none/t: error: "));
+  EXPECT_TRUE(errors_of({good_, "--clock", folder_.path() + "/t", "--spin", "9"})
+                  .starts_with("--spin: error: "));
   EXPECT_TRUE(errors_of({good_, "--id", "7FF"}).starts_with("--id 7FF: error: "));
   EXPECT_TRUE(errors_of({good_, "--topic", "can7"}).starts_with("can7: error: "));
   EXPECT_TRUE(errors_of({good_, "--until", "0"}).starts_with("until: error: "));
