@@ -73,7 +73,7 @@ std::vector<std::string> sensor_command(const MatchPlan& plan, const SensorPlan&
                                    "replay",
                                    sensors.file,
                                    "--map",
-                                   std::string(recorder::kHeardTopic) + "=" + plan.interface,
+                                   std::string(recorder::kReceivedTopic) + "=" + plan.interface,
                                    "--loop",
                                    std::to_string(kSensorPasses),
                                    "--json",

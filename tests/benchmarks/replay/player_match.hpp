@@ -10,8 +10,8 @@
 //   order      a warm-up of each, then run by run, each time another one first
 //
 //   in     the log (also as a file), an interface that exists
-//   out    one Comparison per player and run; what arrived with sensors; how late this machine's own
-//          sleeps are; how fast the log is read
+//   out    one Comparison per player and run; what arrived with sensors; how late this machine's
+//          own sleeps are; how fast the log is read
 //   errors Problem: a player that is missing, fails or does not end; a recorder that lost frames or
 //          datagrams
 // SPDX-License-Identifier: Apache-2.0
