@@ -62,7 +62,7 @@ TEST(CommandTrace, ADatabaseWithoutTheCommandsIsRefused) {
   none.name = "none.dbc";
   const auto trace = trace_of(*run, none);
   ASSERT_FALSE(trace);
-  EXPECT_EQ(to_string(trace.error()), "none.dbc: has no accelerator_cmd.acc_pedal_cmd");
+  EXPECT_EQ(to_string(trace.error()), "none.dbc: error: has no accelerator_cmd.acc_pedal_cmd");
 }
 
 }  // namespace
