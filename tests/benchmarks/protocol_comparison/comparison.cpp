@@ -218,7 +218,7 @@ Result<std::vector<ComparisonRow>, Problem> run_comparison(const Peer& contestan
                                                            const ComparisonPlan& plan) {
   auto networks = make_networks();
   if (!networks) return Unexpected{networks.error()};
-  const auto folder = transport::TemporaryFolder::create("pitwall-contest");
+  const auto folder = transport::TemporaryFolder::create("pitwall-comparison");
   if (!folder) return Unexpected{folder.error()};
   const link::LinkParams params = link_of(of_case, plan);
   const Instant begin = transport::monotonic_now(), end = begin + plan.warm_up + plan.length;

@@ -93,7 +93,7 @@ class ContestRun : public ::testing::Test {
   void SetUp() override {
     const auto network = transport::TunNetwork::create({.address = 0x0A4D0001});
     if (!network) GTEST_SKIP() << to_string(network.error());
-    auto folder = transport::TemporaryFolder::create("contest-test");
+    auto folder = transport::TemporaryFolder::create("comparison-test");
     ASSERT_TRUE(folder);
     folder_.emplace(*std::move(folder));
   }

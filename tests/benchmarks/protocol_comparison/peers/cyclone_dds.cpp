@@ -38,8 +38,8 @@ Topics join(const Call& call) {
   dds_qset_history(quality, DDS_HISTORY_KEEP_LAST, 1);
   return {
       participant,
-      made(dds_create_topic(participant, &contest_VehicleState_desc, "state", quality, nullptr)),
-      made(dds_create_topic(participant, &contest_Bulk_desc, "bulk", quality, nullptr)), quality};
+      made(dds_create_topic(participant, &comparison_VehicleState_desc, "state", quality, nullptr)),
+      made(dds_create_topic(participant, &comparison_Bulk_desc, "bulk", quality, nullptr)), quality};
 }
 
 void drive(const Topics& topics, const Call& call) {
@@ -52,14 +52,14 @@ void drive(const Topics& topics, const Call& call) {
   const BulkPlan plan =
       call.mode == "paced" ? paced(kStatePeriod, kStateBytes, kAround + 4) : BulkPlan{};
   std::vector<std::uint8_t> bytes(plan.bytes, 'b');
-  contest_Bulk bulk{};
+  comparison_Bulk bulk{};
   bulk.data._buffer = bytes.data();
   bulk.data._length = bulk.data._maximum = static_cast<std::uint32_t>(plan.bytes);
   send_until_end(
       call, kStatePeriod, plan,
       [&](Instant now) {
         const VehicleState state = state_at(now);
-        contest_VehicleState message{};
+        comparison_VehicleState message{};
         message.made_ns = state.made_ns;
         std::ranges::copy(state.floats, message.floats);
         std::ranges::copy(state.integers, message.integers);
@@ -93,8 +93,8 @@ void listen(const Topics& topics, const Call& call) {
   }
   while (transport::monotonic_now() < call.end) {
     dds_waitset_wait(waitset, nullptr, 0, DDS_MSECS(50));
-    take<contest_VehicleState>(state_reader, [](const auto& m) { note_arrival(m.made_ns); });
-    take<contest_Bulk>(bulk_reader, [](const auto& m) { note_bulk(m.data._length); });
+    take<comparison_VehicleState>(state_reader, [](const auto& m) { note_arrival(m.made_ns); });
+    take<comparison_Bulk>(bulk_reader, [](const auto& m) { note_bulk(m.data._length); });
   }
 }
 

@@ -5,8 +5,8 @@
 #include <lcm/lcm-cpp.hpp>
 #include <string>
 
-#include <contest/bulk_t.hpp>
-#include <contest/vehicle_state_t.hpp>
+#include <comparison/bulk_t.hpp>
+#include <comparison/vehicle_state_t.hpp>
 #include "tests/benchmarks/protocol_comparison/peers/peer.hpp"
 
 namespace pitwall::peers {
