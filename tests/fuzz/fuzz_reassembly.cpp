@@ -31,7 +31,7 @@ struct Network {
 
   std::uint32_t events_offered = 0, event_expected = 0;
   // A new receiver is told again what the last one could not acknowledge any more.
-  bool told_again = false;
+  bool reported_again = false;
   std::uint32_t lost_again = 0;
   std::map<BulkKind, std::vector<Bytes>> objects;
   std::map<BulkKind, std::size_t> objects_over;  // handed out, or older than one that was
@@ -112,15 +112,15 @@ void look_at_events(Network& network) {
   while (const auto event = network.event_receiver->next()) {
     const auto number = load<std::uint32_t>(event->payload.span(), 0);
     if (event->kind == EventKind::kLost) {
-      (network.told_again ? network.lost_again : network.event_expected) += number;
+      (network.reported_again ? network.lost_again : network.event_expected) += number;
       continue;
     }
-    if (network.told_again) {
+    if (network.reported_again) {
       CHECK(number <= network.event_expected + network.lost_again);
     } else {
       CHECK(number == network.event_expected);
     }
-    network.told_again = false;
+    network.reported_again = false;
     network.event_expected = number + 1;
   }
 }
@@ -150,7 +150,7 @@ void restart_receiver(Network& network) {
   network.bulk_receiver = {};
   network.event_sender->peer_restarted();
   network.bulk_sender.peer_restarted();
-  network.told_again = true;
+  network.reported_again = true;
   network.lost_again = 0;
   for (const auto& [kind, all] : network.objects) network.last_again[kind] = true;
 }
@@ -163,7 +163,7 @@ void restart_sender(Network& network) {
   network.event_receiver->peer_restarted();
   network.bulk_receiver.peer_restarted();
   network.event_expected = network.events_offered;
-  network.told_again = false;
+  network.reported_again = false;
   for (const auto& [kind, all] : network.objects) network.objects_over[kind] = all.size();
   network.last_again.clear();
 }
@@ -182,7 +182,7 @@ void settle(Network& network) {
     if (network.bulk_sender.idle() && network.event_sender->waiting() == 0) break;
   }
   CHECK(network.bulk_sender.idle() && network.event_sender->waiting() == 0);
-  if (network.told_again && network.event_expected != network.events_offered) {
+  if (network.reported_again && network.event_expected != network.events_offered) {
     network.event_expected += network.lost_again;
   }
   CHECK(network.event_expected == network.events_offered);

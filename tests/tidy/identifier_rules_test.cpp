@@ -20,7 +20,7 @@ TEST(Identifiers, APrivateNameIsFoundWithItsPlaceAndTheTerm) {
 
 TEST(Identifiers, OnlyWholeIdentifiersOfCodeAreJudged) {
   EXPECT_TRUE(found_in("hil/a.cpp",
-                       "int heard, wishes_of; // we hear, obey\n"
+                       "int hearing, wishes_of; // we hear, obey\n"
                        "auto t = \"desk\";\n"
                        "#include \"hil/desk\"")
                   .empty());

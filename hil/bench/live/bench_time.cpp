@@ -38,7 +38,7 @@ void BenchTime::begin() {
 bool BenchTime::advance(Instant limit) {
   if (!line_) return keeper_.advance(limit);
   const Instant now = keeper_.now();
-  if (now - told_ >= kWordEvery) {
+  if (now - reported_ >= kWordEvery) {
     receive();
     publish(now);
   } else if (now - followed_ >= kBehind - kWordEvery) {
@@ -53,7 +53,7 @@ void BenchTime::end() {
 }
 
 void BenchTime::publish(Instant now) {
-  told_ = now;
+  reported_ = now;
   if (!line_) return;
   line_->send(can_bus::to_word(now));
   line_->flush();

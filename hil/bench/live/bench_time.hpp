@@ -43,7 +43,7 @@ class BenchTime {
 
   transport::ClockKeeper keeper_;
   std::optional<transport::SerialLine> line_;
-  Instant told_{}, followed_{};
+  Instant reported_{}, followed_{};
 };
 
 }  // namespace pitwall::bench

@@ -25,10 +25,10 @@ void CarMonitor::read(Instant now) {
       continue;
     }
     ++packets_;
-    heard_at_ = now;
+    received_at_ = now;
     take(packet->values);
   }
-  if (packets_ > 0 && now - heard_at_ > kSilence) report_ = {.silent = true};
+  if (packets_ > 0 && now - received_at_ > kSilence) report_ = {.silent = true};
 }
 
 void CarMonitor::take(const telemetry::Values& v) {

@@ -40,7 +40,7 @@ class CarMonitor {
 
   transport::UdpSocket socket_;
   std::vector<transport::UdpDatagram> datagrams_;
-  Instant heard_at_{};
+  Instant received_at_{};
   CarReport report_;
   std::uint64_t packets_ = 0, refused_ = 0;
 };

@@ -66,7 +66,7 @@ class Live {
         parts_(std::move(parts)),
         inbox_(kReadBatch),
         clock_(kWake, scenario.duration, std::move(parts_.time)) {
-    heard_.reserve(kReadBatch);
+    received_.reserve(kReadBatch);
     if (plan.log) record_.emplace(scenario, "live", plan.log);
   }
 
@@ -129,25 +129,23 @@ class Live {
   std::optional<Problem> look(Instant now) {
     parts_.monitor.read(transport::monotonic_now());
     parts_.radio.channel().place(parts_.rig.road().s_m);
-    say_words(now);
+    send_operator_texts(now);
     if (auto problem = parts_.machine.advance(now)) return problem;
-    tell_done();
+    publish_done();
     return parts_.processes.missing();
   }
 
-  void say_words(Instant now) {
-    const auto& words = scenario_.operator_texts;
-    for (; said_ < words.size() && Instant{} + words[said_].at <= now; ++said_) {
-      const std::string& text = words[said_].text;
-      commands_.send(text);
-    }
+  void send_operator_texts(Instant now) {
+    const auto& texts = scenario_.operator_texts;
+    for (; next_text_ < texts.size() && Instant{} + texts[next_text_].at <= now; ++next_text_)
+      commands_.send(texts[next_text_].text);
   }
 
-  void tell_done() {
+  void publish_done() {
     for (const std::vector<Done>* list : {&parts_.processes.done(), &parts_.machine.done()}) {
-      std::size_t& told = list == &parts_.processes.done() ? actions_published_ : steps_told_;
-      for (; told < list->size(); ++told) {
-        result_.done.push_back((*list)[told]);
+      std::size_t& next = list == &parts_.processes.done() ? actions_published_ : steps_published_;
+      for (; next < list->size(); ++next) {
+        result_.done.push_back((*list)[next]);
         if (record_) record_->event(result_.done.back().at, "fault", result_.done.back().what);
       }
     }
@@ -156,8 +154,8 @@ class Live {
   void step(Instant now) {
     read_bus();
     for (Instant at = now - kWake + kRigStep; at <= now; at += kRigStep) {
-      parts_.rig.step(heard_, at);
-      heard_.clear();
+      parts_.rig.step(received_, at);
+      received_.clear();
       collect_frames(at);
     }
     write_bus();
@@ -171,7 +169,7 @@ class Live {
     for (std::size_t i = 0; i < count; ++i) {
       can::ReceivedFrame received = inbox_[i];
       received.at = Instant{} + (received.at - clock_.started());
-      heard_.push_back(received);
+      received_.push_back(received);
       if (record_) record_->can(Node::kCar, received.frame, std::max(received.at, Instant{}));
     }
   }
@@ -181,7 +179,7 @@ class Live {
   void collect_frames(Instant at) {
     for (const Outgoing& outgoing : parts_.rig.take_frames()) {
       frames_.push_back(outgoing.frame);
-      if (outgoing.from == Node::kRaceControl) heard_.push_back({outgoing.frame, at});
+      if (outgoing.from == Node::kRaceControl) received_.push_back({outgoing.frame, at});
       if (record_) record_->can(outgoing.from, outgoing.frame, at);
     }
   }
@@ -220,7 +218,7 @@ class Live {
     const Instant until = transport::monotonic_now() + span;
     while (transport::monotonic_now() < until) {
       read_bus();
-      heard_.clear();
+      received_.clear();
       const Instant now = transport::monotonic_now();
       parts_.radio.serve(std::max(Instant{} + length_, Instant{} + (now - clock_.started())));
       parts_.monitor.read(now);
@@ -235,7 +233,7 @@ class Live {
     settle(kSettle);
     parts_.bus.poll_drops();
     stop_candump();
-    tell_done();
+    publish_done();
     fill();
     if (const auto car = summary()) add_car(*car);
     close_record();
@@ -334,13 +332,13 @@ class Live {
   std::optional<transport::Process> candump_;
   std::optional<RunRecord> record_;
   Duration length_ = scenario_.duration;  // less where a contact ended the run
-  std::vector<can::ReceivedFrame> inbox_, heard_;
+  std::vector<can::ReceivedFrame> inbox_, received_;
   std::vector<can::Frame> frames_;
   WakeClock clock_;
   std::uint64_t not_taken_ = 0;
-  std::size_t said_ = 0;  // of the operator's words
+  std::size_t next_text_ = 0;  // of the operator's
   OperatorLine commands_{plan_.command_socket()};
-  std::size_t actions_published_ = 0, steps_told_ = 0;  // of the cast, of the machine
+  std::size_t actions_published_ = 0, steps_published_ = 0;  // of processes, of the machine
   RunResult result_;
   PathDeviation path_deviation_{setup_};
 };

@@ -60,8 +60,8 @@ std::optional<Problem> ProcessSupervisor::enter(Role role) {
   Standby next = std::move(whom.understudies.back());
   whom.understudies.pop_back();
   if (!whom.absent) return std::nullopt;
-  const auto told = transport::posix_call([&] { return ::write(next.cue.get(), "\n", 1); });
-  if (!told.ok()) return Problem{name_of(role), told.reason()};
+  const auto reported = transport::posix_call([&] { return ::write(next.cue.get(), "\n", 1); });
+  if (!reported.ok()) return Problem{name_of(role), reported.reason()};
   whom.process.emplace(std::move(next.process));
   whom.absent = false;
   return std::nullopt;

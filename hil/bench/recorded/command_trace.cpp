@@ -42,8 +42,8 @@ class Tracer {
     if (trace_.ticks++ == 0) begun_ = tick.now;
     trace_.length = tick.now - begun_;
     if (const auto wrong = note_inputs(tick)) return wrong;
-    if (!tick.said.empty() && !trace_.first_frame) trace_.first_frame = trace_.length;
-    for (const can::Frame& frame : tick.said)
+    if (!tick.sent.empty() && !trace_.first_frame) trace_.first_frame = trace_.length;
+    for (const can::Frame& frame : tick.sent)
       if (const auto wrong = note_command(frame, tick.given.number)) return wrong;
     if (tick.state) note_mode(tick.state->values[field("mode.mode")]);
     return std::nullopt;

@@ -50,21 +50,21 @@ void Comparison::add(const RecordedTick& recorded, const AgainTick& again,
 }
 
 void Comparison::add_frames(const RecordedTick& recorded, const AgainTick& again) {
-  std::vector<bool> taken(again.said.size());
-  for (const can::Frame& frame : recorded.said) {
+  std::vector<bool> taken(again.sent.size());
+  for (const can::Frame& frame : recorded.sent) {
     std::size_t i = 0;
     while (i < taken.size() &&
-           (taken[i] || again.said[i].id != frame.id || again.said[i].extended != frame.extended))
+           (taken[i] || again.sent[i].id != frame.id || again.sent[i].extended != frame.extended))
       ++i;
     if (i == taken.size()) {
       note_frame(frame, 1.0, 0.0, recorded);
       continue;
     }
     taken[i] = true;
-    add_pair(frame, again.said[i], recorded);
+    add_pair(frame, again.sent[i], recorded);
   }
   for (std::size_t i = 0; i < taken.size(); ++i)
-    if (!taken[i]) note_frame(again.said[i], 0.0, 1.0, recorded);
+    if (!taken[i]) note_frame(again.sent[i], 0.0, 1.0, recorded);
 }
 
 void Comparison::add_pair(const can::Frame& recorded, const can::Frame& again,

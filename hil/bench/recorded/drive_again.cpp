@@ -50,7 +50,7 @@ bool same_bits(double a, double b) {
 }
 
 std::string path_of(const RecordedRun& run, const std::string& key, const std::string& instead) {
-  return instead.empty() ? run.said(key + "_file") : instead;
+  return instead.empty() ? run.metadata(key + "_file") : instead;
 }
 
 // The text of a file that the run names under `key`_file, or of the one that is given instead.
@@ -65,7 +65,7 @@ Result<RunFile, Problem> file_of(const RecordedRun& run, const std::string& key,
   if (!text) return Unexpected{text.error()};
   bits::Sha256 hash;
   hash.update(as_bytes(*text));
-  const std::string recorded = run.said(key + "_sha256");
+  const std::string recorded = run.metadata(key + "_sha256");
   if (!recorded.empty() && bits::to_hex(hash.digest()) != recorded)
     remarks.push_back(path + ": not the file that the run was driven with");
   return RunFile{path, *std::move(text)};
@@ -84,13 +84,13 @@ Result<AgainTick, Problem> DriveAgain::tick(const RecordedTick& recorded) {
   for (const ReceiverBytes& some : recorded.receivers)
     receivers_.receive(static_cast<std::uint8_t>(some.unit), some.bytes, some.at);
   io::TickCommands commands;
-  const auto in =
-      io::inputs_of(recorded.given, recorded.now, recorded.heard, receivers_.samples(), commands);
+  const auto in = io::inputs_of(recorded.given, recorded.now, recorded.received,
+                                receivers_.samples(), commands);
   if (!in) return Unexpected{in.error()};
   const pipeline::Outputs out = pipeline::step(setup_, *car_, *in);
   log_->note(*in, out, setup_.track.length_m());
   AgainTick again;
-  again.said.assign(out.passed.frames.begin(), out.passed.frames.end());
+  again.sent.assign(out.passed.frames.begin(), out.passed.frames.end());
   if (recorded.state) again.state = state_at(out, recorded.state->at);
   return again;
 }
@@ -111,7 +111,7 @@ RecordedState DriveAgain::state_at(const pipeline::Outputs& out, Instant at) {
 }
 
 bool has_base(const RecordedRun& run) {
-  return run.said(io::BlackBox::kBaseKey) != io::BlackBox::kNoBase;
+  return run.metadata(io::BlackBox::kBaseKey) != io::BlackBox::kNoBase;
 }
 
 RunFiles files_of(const RecordedRun& run, const RunFiles& given) {

@@ -28,7 +28,7 @@ namespace pitwall::bench {
 using FieldSet = std::bitset<telemetry::kFieldCount>;
 
 struct AgainTick {
-  std::vector<can::Frame> said;
+  std::vector<can::Frame> sent;
   std::optional<RecordedState> state;  // where the recorded tick has one
 };
 

@@ -207,11 +207,11 @@ Result<PlayedRun, Problem> play_to_car(traffic::Recording recording, const Comma
   if (!base) return Unexpected{base.error()};
   transport::request_realtime(kPriority);
   ProcessSupervisor processes{members_for(plan, recorded), {}};
-  const auto heard_at = start_car(processes, *bus, *base, plan.interface);
-  if (!heard_at) return Unexpected{heard_at.error()};
+  const auto received_at = start_car(processes, *bus, *base, plan.interface);
+  if (!received_at) return Unexpected{received_at.error()};
   { const CanSocket done = *std::move(bus); }  // nobody reads it any more
   BenchRim rim{*sockets, processes, *std::move(base), *std::move(time)};
-  const Instant first_tick = *heard_at - recorded.first_frame.value_or(Duration{});
+  const Instant first_tick = *received_at - recorded.first_frame.value_or(Duration{});
   rim.begin(first_tick);
   replay::Player player{playing->timeline, {}, rim};
   PlayedRun played{.report = player.play(first_tick + playing->first), .waits = {}};

@@ -98,8 +98,8 @@ const RecordedRun::Place& RecordedRun::place_of(std::uint16_t channel) {
   if (found != places_.end()) return found->second;
   const recording::Channel& here = segment_->reader.channels().at(channel);
   Place place;
-  if (here.topic == recorder::kReceivedTopic) place.kind = Kind::kHeard;
-  if (here.topic == recorder::kSentTopic) place.kind = Kind::kSaid;
+  if (here.topic == recorder::kReceivedTopic) place.kind = Kind::kReceived;
+  if (here.topic == recorder::kSentTopic) place.kind = Kind::kStated;
   if (here.topic == recorder::kTickTopic) place.kind = Kind::kTick;
   if (here.topic.starts_with(kReceiverTopic)) {
     place.kind = Kind::kReceiver;
@@ -123,14 +123,14 @@ std::optional<Problem> RecordedRun::take(const recording::McapMessage& message) 
       return std::nullopt;
     case Kind::kTick:
       return take_tick(message);
-    case Kind::kHeard:
-    case Kind::kSaid: {
+    case Kind::kReceived:
+    case Kind::kStated: {
       const auto frame = recorder::decode_frame(message.data);
       if (!frame) return problem(frame.error());
-      if (place.kind == Kind::kSaid) {
-        collected_.said.push_back(*frame);
+      if (place.kind == Kind::kStated) {
+        collected_.sent.push_back(*frame);
       } else {
-        collected_.heard.push_back({*frame, at(message.logged_ns)});
+        collected_.received.push_back({*frame, at(message.logged_ns)});
       }
       return std::nullopt;
     }
@@ -173,10 +173,10 @@ std::optional<Problem> RecordedRun::incomplete(const RecordedTick& tick) const {
   for (const ReceiverBytes& some : tick.receivers) bytes += some.bytes.size();
   const recorder::TickRecord& given = tick.given;
   const std::string number = "tick " + std::to_string(given.number) + ": ";
-  if (tick.heard.size() != given.frames_received)
-    return problem(number + count_of(tick.heard.size(), given.frames_received, "frames heard"));
-  if (tick.said.size() != given.frames_sent)
-    return problem(number + count_of(tick.said.size(), given.frames_sent, "frames said"));
+  if (tick.received.size() != given.frames_received)
+    return problem(number + count_of(tick.received.size(), given.frames_received, "frames heard"));
+  if (tick.sent.size() != given.frames_sent)
+    return problem(number + count_of(tick.sent.size(), given.frames_sent, "frames said"));
   if (bytes != given.receiver_bytes)
     return problem(number + count_of(bytes, given.receiver_bytes, "bytes of receivers"));
   return std::nullopt;
@@ -188,7 +188,7 @@ Instant RecordedRun::at(std::uint64_t file_ns) const {
   return clock_.to_base(Instant{static_cast<std::int64_t>(file_ns)});
 }
 
-std::string RecordedRun::said(const std::string& key) const {
+std::string RecordedRun::metadata(const std::string& key) const {
   const auto found = std::ranges::find(run_, key, [](const auto& pair) { return pair.first; });
   return found == run_.end() ? std::string{} : found->second;
 }

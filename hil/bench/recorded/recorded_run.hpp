@@ -44,9 +44,9 @@ struct RecordedState {
 struct RecordedTick {
   Instant now{};
   recorder::TickRecord given;
-  std::vector<can::ReceivedFrame> heard;
+  std::vector<can::ReceivedFrame> received;
   std::vector<ReceiverBytes> receivers;
-  std::vector<can::Frame> said;
+  std::vector<can::Frame> sent;
   std::optional<RecordedState> state;  // afterwards
 };
 
@@ -58,11 +58,11 @@ class RecordedRun {
   Result<std::optional<RecordedTick>, Problem> next();
   Instant begun() const { return begun_; }  // of the first tick that was read
   // The value of a key that the car wrote in front; empty: it has none.
-  std::string said(const std::string& key) const;
+  std::string metadata(const std::string& key) const;
   const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
-  enum class Kind : std::uint8_t { kOther, kHeard, kSaid, kReceiver, kTick, kState };
+  enum class Kind : std::uint8_t { kOther, kReceived, kStated, kReceiver, kTick, kState };
   struct Place {
     Kind kind = Kind::kOther;
     std::size_t unit = 0;

@@ -28,13 +28,13 @@ class Collector {
     if (!begun_) begun_ = tick.now;
     if (tick.state) before_ = tick.state->values[field("mode.mode")];
     if (!zero_) {
-      if (tick.heard.empty()) return std::nullopt;
-      zero_ = tick.heard.front().at;
+      if (tick.received.empty()) return std::nullopt;
+      zero_ = tick.received.front().at;
       facts_.first_frame = *zero_ - *begun_;
       facts_.modes.push_back({Duration{}, before_});
     }
     at_ = std::max(tick.now - *zero_, Duration{});
-    if (!tick.heard.empty()) facts_.length = at_;
+    if (!tick.received.empty()) facts_.length = at_;
     if (tick.state) note_state(tick.state->values);
     return note_inputs(tick);
   }

@@ -123,11 +123,11 @@ struct AscEvent : TextLine {
   }
 
   bool read_asc_direction() {
-    const std::string_view said = word();
-    if (said == "TxRq") kind = AscKind::kOther;  // asked for, not sent
-    if (said == "Tx" || said == "TxRq")
+    const std::string_view direction = word();
+    if (direction == "TxRq") kind = AscKind::kOther;  // asked for, not sent
+    if (direction == "Tx" || direction == "TxRq")
       logged.direction = LoggedDirection::kTransmitted;
-    else if (said == "Rx")
+    else if (direction == "Rx")
       logged.direction = LoggedDirection::kReceived;
     else
       return refuse("expected Rx, Tx or TxRq");

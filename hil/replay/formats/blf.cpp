@@ -153,10 +153,11 @@ class BlfReader {
   }
 
   // Where the next object begins: behind padding, or further away, which is told. npos: nowhere.
-  std::size_t next_object(std::string_view bytes, std::size_t at, std::size_t told_at) {
+  std::size_t next_object(std::string_view bytes, std::size_t at, std::size_t reported_at) {
     const std::size_t found = bytes.find(kObjectMark, at);
     if (found != std::string_view::npos && found <= at + kMostPadding) return found;
-    builder_.leave_out_byte(told_at, "expected an object (LOBJ): bytes are skipped up to the next");
+    builder_.leave_out_byte(reported_at,
+                            "expected an object (LOBJ): bytes are skipped up to the next");
     return found;
   }
 

@@ -27,11 +27,11 @@ class Inflater {
     if (!is_open_) return void(out.problem = "there is no memory to unpack it");
     // zlib does not write to its input.
     stream_.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(packed_.data()));
-    int said = Z_OK;
-    while (said == Z_OK) said = step(out, most);
+    int result = Z_OK;
+    while (result == Z_OK) result = step(out, most);
     out.at += stream_.total_in;
-    if (said == Z_STREAM_END) return;
-    out.is_cut = said == Z_BUF_ERROR && stream_.total_in == packed_.size();
+    if (result == Z_STREAM_END) return;
+    out.is_cut = result == Z_BUF_ERROR && stream_.total_in == packed_.size();
     if (out.is_cut)
       out.problem = "the packed data is cut off";
     else if (out.bytes.size() >= most)
@@ -51,9 +51,9 @@ class Inflater {
     out.bytes.resize(before + room);
     stream_.next_out = reinterpret_cast<Bytef*>(out.bytes.data() + before);
     stream_.avail_out = static_cast<uInt>(room);
-    const int said = inflate(&stream_, Z_NO_FLUSH);
+    const int result = inflate(&stream_, Z_NO_FLUSH);
     out.bytes.resize(before + room - stream_.avail_out);
-    return said;
+    return result;
   }
 
   std::string_view packed_;

@@ -131,10 +131,10 @@ struct TrcRow : TextLine {
   }
 
   bool read_trc_direction() {
-    const std::string_view said = word();
-    if (said == "Rx")
+    const std::string_view direction = word();
+    if (direction == "Rx")
       logged.direction = LoggedDirection::kReceived;
-    else if (said == "Tx")
+    else if (direction == "Tx")
       logged.direction = LoggedDirection::kTransmitted;
     else
       return refuse("expected Rx or Tx");

@@ -40,7 +40,7 @@ Channels named_channels(const Recording& recording, CanLog& log) {
   return channels;
 }
 
-void keep_what_was_told(const Recording& recording, CanLog& log) {
+void keep_what_was_reported(const Recording& recording, CanLog& log) {
   const RecordingCounters& c = recording.counters;
   log.counters.bad_records = c.refused + c.lost_blocks;
   log.counters.error_frames = c.error_frames;
@@ -64,7 +64,7 @@ Result<CanLog, Problem> can_part(const Recording& recording, const std::string& 
   if (log.channels.size() > replay::kMaxChannels)
     return Unexpected{Problem{
         name, "more than " + std::to_string(replay::kMaxChannels) + " sources of CAN frames"}};
-  keep_what_was_told(recording, log);
+  keep_what_was_reported(recording, log);
   UtcTime before{};
   for (const Record& record : recording.records) {
     const can::Frame* const frame = record.frame();

@@ -133,12 +133,12 @@ class McapImport {
   }
 
   void take_ros_can(const Topic& to, UtcTime at, Bytes cdr) {
-    const auto said = read_ros_can(to.type, cdr);
-    if (!said) return builder_.refuse(place(), said.error());
-    if (said->is_error) {
+    const auto message = read_ros_can(to.type, cdr);
+    if (!message) return builder_.refuse(place(), message.error());
+    if (message->is_error) {
       ++builder_.counters().error_frames;
     } else {
-      builder_.add(to.source, at, said->frame, place());
+      builder_.add(to.source, at, message->frame, place());
     }
   }
 

@@ -44,13 +44,13 @@ std::optional<gnss::GpsTime> gps_of(const gnss::VectorNavMessage& m) {
   return gnss::GpsTime{static_cast<std::int64_t>(ns)};
 }
 
-Span said_by(const gnss::NovatelFrame& frame) {
+Span stated_by(const gnss::NovatelFrame& frame) {
   Span span;
   span.gps = gps_of(frame);
   return span;
 }
 
-Span said_by(const gnss::VectorNavFrame& frame) {
+Span stated_by(const gnss::VectorNavFrame& frame) {
   const auto message = gnss::decode(frame);
   if (!message) return {};
   Span span;
@@ -68,7 +68,7 @@ std::vector<Span> spans_of(Bytes file) {
   Stream stream;
   std::size_t in_messages = 0;
   const auto sink = [&](const auto& frame) {
-    Span span = said_by(frame);
+    Span span = stated_by(frame);
     span.begin = static_cast<std::size_t>(stream.counters().garbage_bytes) + in_messages;
     span.end = span.begin + frame.bytes;
     in_messages += frame.bytes;

@@ -70,37 +70,37 @@ bool is_encapsulated(Bytes cdr) {
   return cdr.size() >= ros::kCdrHeader && cdr[0] == 0 && cdr[1] <= kLastRepresentation;
 }
 
-Result<RosCanFrame, std::string> frame_of(const ClassicCan& said) {
-  if (said.dlc > said.data.size()) return no(ClassicCan::kType, "more than 8 bytes");
-  RosCanFrame out{.frame = {.id = said.id,
-                            .extended = said.is_extended,
-                            .remote = said.is_rtr,
-                            .length = said.dlc},
-                  .is_error = said.is_error};
-  if (!said.is_rtr) std::copy_n(said.data.begin(), said.dlc, out.frame.data.begin());
+Result<RosCanFrame, std::string> frame_of(const ClassicCan& message) {
+  if (message.dlc > message.data.size()) return no(ClassicCan::kType, "more than 8 bytes");
+  RosCanFrame out{.frame = {.id = message.id,
+                            .extended = message.is_extended,
+                            .remote = message.is_rtr,
+                            .length = message.dlc},
+                  .is_error = message.is_error};
+  if (!message.is_rtr) std::copy_n(message.data.begin(), message.dlc, out.frame.data.begin());
   return out;
 }
 
-Result<RosCanFrame, std::string> frame_of(const FdCan& said) {
-  if (!is_fd_length(said.len) || said.len > said.data.size())
+Result<RosCanFrame, std::string> frame_of(const FdCan& message) {
+  if (!is_fd_length(message.len) || message.len > message.data.size())
     return no(FdCan::kType, "length that CAN FD has not");
-  RosCanFrame out{.frame = {.id = said.id,
-                            .extended = said.is_extended,
+  RosCanFrame out{.frame = {.id = message.id,
+                            .extended = message.is_extended,
                             .remote = false,
                             .fd = true,
-                            .length = said.len},
-                  .is_error = said.is_error};
-  std::copy_n(said.data.begin(), said.len, out.frame.data.begin());
+                            .length = message.len},
+                  .is_error = message.is_error};
+  std::copy_n(message.data.begin(), message.len, out.frame.data.begin());
   return out;
 }
 
 template <class M>
 Result<RosCanFrame, std::string> read_as(Bytes cdr) {
-  const auto said = ros::decode<M>(cdr);
-  if (!said) return no(M::kType, "message that cannot be read");
-  const std::uint32_t most = said->is_extended ? can::kMaxExtendedId : can::kMaxStandardId;
-  if (!said->is_error && said->id > most) return no(M::kType, "identifier out of range");
-  return frame_of(*said);
+  const auto message = ros::decode<M>(cdr);
+  if (!message) return no(M::kType, "message that cannot be read");
+  const std::uint32_t most = message->is_extended ? can::kMaxExtendedId : can::kMaxStandardId;
+  if (!message->is_error && message->id > most) return no(M::kType, "identifier out of range");
+  return frame_of(*message);
 }
 
 }  // namespace

@@ -136,12 +136,12 @@ class BagImport {
   void put(const BagTopic& topic, std::int64_t id, UtcTime at, Bytes data) {
     const auto number = static_cast<std::uint64_t>(id);
     if (topic.is_can) {
-      const auto said = read_ros_can(topic.type, data);
-      if (!said) return refuse_message(id, said.error());
-      if (said->is_error) {
+      const auto message = read_ros_can(topic.type, data);
+      if (!message) return refuse_message(id, message.error());
+      if (message->is_error) {
         ++builder_.counters().error_frames;
       } else {
-        builder_.add(topic.source, at, said->frame, number);
+        builder_.add(topic.source, at, message->frame, number);
       }
       return;
     }

@@ -85,9 +85,9 @@ std::vector<std::string> losses_of(const CanLog& log, const WrittenFormat& forma
   add_loss(out, c.bad_records + c.cut_tails, "records that did not read are not written");
   const auto numbers = channel_numbers_of(log);
   for (std::size_t i = 0; i < log.channels.size(); ++i) {
-    const bool is_told =
+    const bool is_reported =
         format.channels && !format.names && number_in(log.channels[i]) != numbers[i];
-    if (is_told)
+    if (is_reported)
       out.push_back("the name " + log.channels[i] + " becomes channel " +
                     std::to_string(numbers[i]));
   }

@@ -29,14 +29,14 @@ Result<double, Problem> seconds_of_python(const std::string& reader, const std::
       {.argv = {"/usr/bin/python3", "-c", kReader, reader, file, out, std::to_string(kReadings)}});
   if (!python || !python->wait().success())
     return refuse("python-can", "does not read the log (python3-can installed?)");
-  const std::string said = transport::read_file(out).value_or("");
+  const std::string text = transport::read_file(out).value_or("");
   std::size_t count = 0;
   double best_s = 0.0;
-  const char* const end = said.data() + said.size();
-  const auto first = std::from_chars(said.data(), end, count);
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, count);
   if (first.ptr == end || std::from_chars(first.ptr + 1, end, best_s).ec != std::errc{} ||
       count != frames)
-    return refuse("python-can", "reads " + said + ", expected " + std::to_string(frames));
+    return refuse("python-can", "reads " + text + ", expected " + std::to_string(frames));
   return best_s;
 }
 

@@ -69,11 +69,11 @@ TEST(ReplaySummary, DatagramsAndWhatIsNotPlayedStandApart) {
   report.datagrams = {.sent = 4, .dropped_full = 2};
   EXPECT_TRUE(report.dropped_list.push({1, 1, 0, milliseconds(7)}));
   const std::string text = to_text(report, t);
-  for (const char* said :
+  for (const char* expected :
        {"sent 1 frames and 4 datagrams in", "dropped 1 frames: 1 too late",
         "dropped 2 datagrams: 0 too late, 2 queue full", "not played: 75 records of 2 sources",
         "not played: 6 frames of a pass", "127.0.0.1:3001 3 bytes due at 0.002000 s of pass 2"})
-    EXPECT_NE(text.find(said), std::string::npos) << said << "\n" << text;
+    EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
   const auto json = yaml::load_text(to_json(report, t, {}, {}), "json");
   ASSERT_TRUE(json) << to_string(json.error());
   yaml::StrictMap map = json->root();

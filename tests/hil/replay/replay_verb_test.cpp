@@ -38,16 +38,16 @@ class ReplayVerb : public ::testing::Test {
 };
 
 TEST_F(ReplayVerb, BadLinesAndACutTailAreToldBeforeAnythingIsSent) {
-  const std::string said = errors_of({bad_});
-  EXPECT_TRUE(said.starts_with(bad_ + ":2:23: warning: left out: ")) << said;
-  EXPECT_NE(said.find(bad_ + ":3: warning: left out: "), std::string::npos) << said;
+  const std::string errors = errors_of({bad_});
+  EXPECT_TRUE(errors.starts_with(bad_ + ":2:23: warning: left out: ")) << errors;
+  EXPECT_NE(errors.find(bad_ + ":3: warning: left out: "), std::string::npos) << errors;
 }
 
 TEST_F(ReplayVerb, AFileThatIsNoLogIsNamedForWhatItLooksLike) {
   ASSERT_TRUE(transport::write_file(bad_, "MDF     4.10    "));
-  const std::string said = errors_of({bad_});
-  EXPECT_TRUE(said.starts_with(bad_ + ": error: looks like an ASAM MDF 4 recording")) << said;
-  EXPECT_NE(said.find("candump"), std::string::npos) << said;
+  const std::string errors = errors_of({bad_});
+  EXPECT_TRUE(errors.starts_with(bad_ + ": error: looks like an ASAM MDF 4 recording")) << errors;
+  EXPECT_NE(errors.find("candump"), std::string::npos) << errors;
 }
 
 TEST_F(ReplayVerb, AMissingFileOrInterfaceIsNamed) {

@@ -88,7 +88,17 @@ def followed(program, walk, folder):
     return out
 
 
-def calls_of(record):
+def in_tree(path, root):
+    """The path as it lies under the root. A compiler cache that several checkouts share names files
+    by the checkout that was compiled first, and relative to its build folder."""
+    path = os.path.normpath(path)
+    inside = re.search(r"/((?:build/\w+/generated/)?(?:protocol|vehicle|basestation|hil|tests)/.*)$",
+                       path)
+    here = os.path.join(root, inside[1]) if inside else path
+    return here if os.path.exists(here) else path
+
+
+def calls_of(record, root):
     """Of each function: files of its own lines, and functions that it calls. A function is
     (file, name)."""
     lines, calls = collections.defaultdict(set), collections.defaultdict(set)
@@ -98,11 +108,11 @@ def calls_of(record):
         for row in text:
             key, equals, value = row.rstrip("\n").partition("=")
             if equals and key in ("fl", "fi", "fe"):
-                file = value
+                file = in_tree(value, root)
             elif equals and key == "fn":
                 function = (file, value)
             elif equals and key in ("cfi", "cfl"):
-                called_file = value
+                called_file = in_tree(value, root)
             elif equals and key == "cfn":
                 called = value
             elif equals and key == "calls":
@@ -122,7 +132,7 @@ def name_of(function):
 
 def walked_files(record, walk, root):
     """Product files that the walk enters, without the suffixes of pairs."""
-    lines, calls = calls_of(record)
+    lines, calls = calls_of(record, root)
     others = [begin for begins in SIDE.values() for begin in begins] + OTHER_WAY[walk]
     callees = {callee for some in calls.values() for callee in some}
     # What is followed begins in the program's own step and in the web server's thread.

@@ -39,7 +39,8 @@ Topics join(const Call& call) {
   return {
       participant,
       made(dds_create_topic(participant, &comparison_VehicleState_desc, "state", quality, nullptr)),
-      made(dds_create_topic(participant, &comparison_Bulk_desc, "bulk", quality, nullptr)), quality};
+      made(dds_create_topic(participant, &comparison_Bulk_desc, "bulk", quality, nullptr)),
+      quality};
 }
 
 void drive(const Topics& topics, const Call& call) {

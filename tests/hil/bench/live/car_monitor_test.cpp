@@ -22,12 +22,12 @@ struct Monitored : ::testing::Test {
   Instant now{};
 
   void send(std::span<const std::uint8_t> bytes) {
-    const auto heard = [&] { return monitor.packets() + monitor.refused(); };
-    const auto before = heard();
+    const auto received = [&] { return monitor.packets() + monitor.refused(); };
+    const auto before = received();
     ASSERT_TRUE(car.send_to({.port = monitor.port()}, bytes));
     const Instant limit = transport::monotonic_now() + kPatience;
-    while (heard() == before && transport::monotonic_now() < limit) monitor.read(now);
-    EXPECT_EQ(heard(), before + 1);
+    while (received() == before && transport::monotonic_now() < limit) monitor.read(now);
+    EXPECT_EQ(received(), before + 1);
   }
   void say(double mode) {
     telemetry::StatePacket packet;

@@ -34,7 +34,7 @@ TEST(CommandTrace, ItsCommandsAreThoseOfTheFrames) {
   auto run = RecordedRun::open(recorded_folder());
   std::size_t next = 0;
   while (const auto tick = *run->next()) {
-    for (const can::Frame& frame : tick->said) {
+    for (const can::Frame& frame : tick->sent) {
       if (frame.id != can::av21::BrakePressureCmd::kId) continue;
       can::av21::BrakePressureCmd message;
       ASSERT_TRUE(can::av21::decode(frame, message));

@@ -26,8 +26,8 @@ Pair pair_of(std::uint64_t tick, std::vector<can::Frame> recorded, std::vector<c
   Pair pair;
   pair.recorded.given.number = tick;
   pair.recorded.now = Instant{seconds(1).ns} + milliseconds(10) * static_cast<std::int64_t>(tick);
-  pair.recorded.said = std::move(recorded);
-  pair.again.said = std::move(again);
+  pair.recorded.sent = std::move(recorded);
+  pair.again.sent = std::move(again);
   return pair;
 }
 

@@ -71,7 +71,7 @@ TEST(RecordedRun, HasEveryTickWithAllThatItWasGiven) {
     if (!*tick) break;
     EXPECT_EQ((*tick)->given.number, ticks);
     EXPECT_EQ((*tick)->now, pipeline::testing::kStart + kTick * static_cast<std::int64_t>(ticks));
-    EXPECT_FALSE((*tick)->heard.empty());
+    EXPECT_FALSE((*tick)->received.empty());
     for (const ReceiverBytes& some : (*tick)->receivers) bytes += some.bytes.size();
     states += (*tick)->state ? 1U : 0U;
     ++ticks;
@@ -81,7 +81,7 @@ TEST(RecordedRun, HasEveryTickWithAllThatItWasGiven) {
   EXPECT_GT(bytes, 10'000U);
   EXPECT_EQ(run->begun(), pipeline::testing::kStart);
   EXPECT_TRUE(run->remarks().empty());
-  EXPECT_EQ(run->said("base"), "watched");
+  EXPECT_EQ(run->metadata("base"), "watched");
 }
 
 TEST(RecordedRun, GoesToTheEndOfOneThatWasCutOffAndSaysWhere) {
@@ -100,9 +100,9 @@ TEST(RecordedRun, GoesToTheEndOfOneThatWasCutOffAndSaysWhere) {
 TEST(RecordedRun, NamesTheTickOfWhichSomethingIsMissing) {
   const auto folder = *transport::TemporaryFolder::create("pitwall-missing-");
   const auto lacking = [&](const char* topic, std::uint64_t n) {
-    const std::string path = without(folder.path(), topic, n), said = refusal_of(path);
-    EXPECT_EQ(said.rfind(path + ": error: ", 0), 0U) << said;
-    return said.substr(std::min(said.size(), path.size() + 9));
+    const std::string path = without(folder.path(), topic, n), text = refusal_of(path);
+    EXPECT_EQ(text.rfind(path + ": error: ", 0), 0U) << text;
+    return text.substr(std::min(text.size(), path.size() + 9));
   };
   EXPECT_EQ(lacking("/car/tick", 100), "tick 100 is not recorded, the next is 101");
   EXPECT_EQ(lacking("/car/tick", 0), "tick 0 is not recorded, the next is 1");

@@ -24,8 +24,8 @@ TEST(RunFacts, TimeBeginsWithTheFirstFrameThatTheCarHeard) {
   std::optional<Instant> first;
   Instant last{};
   while (const auto tick = *run->next()) {
-    if (!first && !tick->heard.empty()) first = tick->heard.front().at;
-    if (!tick->heard.empty()) last = tick->now;
+    if (!first && !tick->received.empty()) first = tick->received.front().at;
+    if (!tick->received.empty()) last = tick->now;
   }
   ASSERT_TRUE(first);
   EXPECT_EQ(facts.first_frame, *first - run->begun());

@@ -23,23 +23,25 @@ TEST_F(CompareVerb, WrongUsageIsTold) {
 }
 
 TEST_F(CompareVerb, ARunDrivenAgainByTheSameBuildDiffersInNothing) {
-  const ProgramOutput said = run({"compare", recording(), "--json", path("same.json")});
-  EXPECT_EQ(said.code, 0) << said.err;
-  EXPECT_NE(said.out.find("300 ticks driven again, "), std::string::npos) << said.out;
-  EXPECT_NE(said.out.find(": 0 signals differ"), std::string::npos) << said.out;
-  EXPECT_NE(said.out.find("fields that the process measures of itself"), std::string::npos);
+  const ProgramOutput output = run({"compare", recording(), "--json", path("same.json")});
+  EXPECT_EQ(output.code, 0) << output.err;
+  EXPECT_NE(output.out.find("300 ticks driven again, "), std::string::npos) << output.out;
+  EXPECT_NE(output.out.find(": 0 signals differ"), std::string::npos) << output.out;
+  EXPECT_NE(output.out.find("fields that the process measures of itself"), std::string::npos);
   EXPECT_NE(text_of("same.json").find(R"("differences": [])"), std::string::npos)
       << text_of("same.json");
 }
 
 TEST_F(CompareVerb, WithAnotherTrackItDiffersAndSaysWhere) {
-  const ProgramOutput said = run({"compare", recording(), "--track",
-                                  "vehicle/config/tracks/ims.yaml", "--json", path("other.json")});
-  EXPECT_EQ(said.code, 1) << said.err;
-  EXPECT_NE(said.err.find("ims.yaml: not the file that the run was driven with"), std::string::npos)
-      << said.err;
-  EXPECT_NE(said.out.find("values differ"), std::string::npos) << said.out;
-  EXPECT_NE(said.out.find("  first "), std::string::npos) << said.out;
+  const ProgramOutput output =
+      run({"compare", recording(), "--track", "vehicle/config/tracks/ims.yaml", "--json",
+           path("other.json")});
+  EXPECT_EQ(output.code, 1) << output.err;
+  EXPECT_NE(output.err.find("ims.yaml: not the file that the run was driven with"),
+            std::string::npos)
+      << output.err;
+  EXPECT_NE(output.out.find("values differ"), std::string::npos) << output.out;
+  EXPECT_NE(output.out.find("  first "), std::string::npos) << output.out;
   EXPECT_NE(text_of("other.json").find(R"("signal": )"), std::string::npos);
 }
 

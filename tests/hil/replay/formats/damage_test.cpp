@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kDamages = 500;
 
 // What a user is told of a log, as one text: a damage that leaves it as it was is silent.
-std::string told(const CanLog& log) {
+std::string reported(const CanLog& log) {
   return to_text(log, "f") + std::to_string(log.counters.comments) + " " +
          std::to_string(log.counters.blank_lines);
 }
@@ -146,12 +146,12 @@ TEST(Damage, NoneThatBreaksATextIsSilent) {
   for (const std::string name : {"a.log", "a.asc", "a.trc"}) {
     Random random{.state = 5};
     const std::string good = write_can_log(make_log({.frames = 60}), name)->bytes;
-    const std::string clean = told(*read_can_log(good, "f"));
+    const std::string clean = reported(*read_can_log(good, "f"));
     std::size_t silent = 0;
     for (std::size_t i = 0; i < kDamages; ++i) {
       const std::string bad = damaged(good, random);
       const auto log = read_can_log(bad, "f");
-      if (!log || told(*log) != clean) continue;
+      if (!log || reported(*log) != clean) continue;
       ++silent;
       EXPECT_EQ(illegal_line(name, good, bad), "") << name << " " << i;
     }
@@ -164,13 +164,13 @@ TEST(Damage, NoneThatBreaksACaptureIsSilent) {
   Random random{.state = 6};
   const std::string good =
       write_can_log(make_log({.frames = 60, .channels = 1, .fd = false}), "a.pcap")->bytes;
-  const std::string clean = told(*read_can_log(good, "f"));
+  const std::string clean = reported(*read_can_log(good, "f"));
   const auto structure = structure_of_pcap(good);
   std::size_t silent = 0;
   for (std::size_t i = 0; i < kDamages; ++i) {
     const std::string bad = damaged(good, random);
     const auto log = read_can_log(bad, "f");
-    if (!log || told(*log) != clean) continue;
+    if (!log || reported(*log) != clean) continue;
     ++silent;
     EXPECT_TRUE(is_legal_binary(good, bad, structure)) << i;
   }
@@ -184,11 +184,11 @@ TEST(Damage, OfPackedAndFramedFilesNothingIsLostInSilence) {
     Random random{.state = 7};
     const CanLog made = make_log({.frames = 300});
     const std::string good = write_can_log(made, name)->bytes;
-    const std::string clean = told(*read_can_log(good, "f"));
+    const std::string clean = reported(*read_can_log(good, "f"));
     for (std::size_t i = 0; i < kDamages; ++i) {
       const std::string bad = damaged(good, random);
       const auto log = read_can_log(bad, "f");
-      if (!log || told(*log) != clean) continue;
+      if (!log || reported(*log) != clean) continue;
       const bool is_cut = name == "a.pcapng" && good.starts_with(bad);
       EXPECT_TRUE(is_cut || log->frames.size() == made.frames.size()) << name << " " << i;
     }
@@ -202,12 +202,12 @@ TEST(Damage, OfAGzipFileNoneThatChangesAFrameIsSilent) {
     Random random{.state = 8};
     const std::string good = write_can_log(make_log({.frames = 60}), name)->bytes;
     const auto made = read_can_log(good, "f");
-    const std::string clean = told(*made);
+    const std::string clean = reported(*made);
     std::size_t silent = 0;
     for (std::size_t i = 0; i < kDamages; ++i) {
       const std::string bad = damaged(good, random);
       const auto log = read_can_log(bad, "f");
-      if (!log || told(*log) != clean) continue;
+      if (!log || reported(*log) != clean) continue;
       ++silent;
       EXPECT_EQ(log->frames, made->frames) << name << " " << i;
       EXPECT_EQ(log->channels, made->channels) << name << " " << i;

@@ -13,7 +13,7 @@ using replay::LoggedDirection;
 
 TEST(CanPart, HasEveryFrameInOrderAndCountsTheRest) {
   RecordingBuilder builder{"run"};
-  const auto heard = builder.add_source("/can/in", SourceKind::kCan, "can");
+  const auto received = builder.add_source("/can/in", SourceKind::kCan, "can");
   const auto long_name = builder.add_source("/vehicle/can/from_bus", SourceKind::kCan, "can");
   const auto imu = builder.add_source("/imu", SourceKind::kRos, "sensor_msgs/msg/Imu");
   for (std::uint32_t i = 0; i < 300; ++i) {
@@ -21,7 +21,7 @@ TEST(CanPart, HasEveryFrameInOrderAndCountsTheRest) {
     if (i % 3 == 2) {
       EXPECT_TRUE(builder.add(imu, at, builder.pool().copy(as_bytes("imu")), i));
     } else {
-      EXPECT_TRUE(builder.add(i % 3 == 0 ? heard : long_name, at, testing::some_frame(i), i));
+      EXPECT_TRUE(builder.add(i % 3 == 0 ? received : long_name, at, testing::some_frame(i), i));
     }
   }
   const Recording recording = std::move(builder).finish();

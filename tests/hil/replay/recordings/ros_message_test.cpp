@@ -58,18 +58,18 @@ TEST(RosMessage, ReadsClassicFrames) {
 }
 
 TEST(RosMessage, ReadsFramesWithFlexibleDataRate) {
-  const auto said = read_ros_can(kFd, with_flexible_rate(12, 64));
-  ASSERT_TRUE(said);
-  EXPECT_TRUE(said->frame.fd);
-  EXPECT_EQ(said->frame.length, 12);
-  EXPECT_EQ(said->frame.data[11], 9);
-  EXPECT_EQ(said->frame.data[12], 0);
+  const auto message = read_ros_can(kFd, with_flexible_rate(12, 64));
+  ASSERT_TRUE(message);
+  EXPECT_TRUE(message->frame.fd);
+  EXPECT_EQ(message->frame.length, 12);
+  EXPECT_EQ(message->frame.data[11], 9);
+  EXPECT_EQ(message->frame.data[12], 0);
 }
 
 TEST(RosMessage, RefusesWhatNoBusCarries) {
   const auto reason = [](std::string_view type, Bytes cdr) {
-    const auto said = read_ros_can(type, cdr);
-    return said ? std::string{} : said.error();
+    const auto message = read_ros_can(type, cdr);
+    return message ? std::string{} : message.error();
   };
   EXPECT_EQ(reason(kClassic, classic({.dlc = 9})), "can_msgs/msg/Frame: more than 8 bytes");
   EXPECT_EQ(reason(kClassic, classic({.id = 0x800})),

@@ -59,7 +59,7 @@ TEST(SqliteBag, ADamagedPageCostsItsOwnMessagesAndNamesThem) {
   const auto all = sorted_lines(*read_sqlite_bag(file, path));
   constexpr std::size_t kPage = 4'096;
   ASSERT_GT(file.size(), 30 * kPage);
-  std::size_t told = 0;
+  std::size_t reported = 0;
   for (std::size_t page = 5; page < 30; ++page) {
     std::string bad = file;
     std::fill_n(bad.begin() + static_cast<std::ptrdiff_t>(page * kPage), kPage, '\x5A');
@@ -70,13 +70,13 @@ TEST(SqliteBag, ADamagedPageCostsItsOwnMessagesAndNamesThem) {
     EXPECT_TRUE(std::ranges::includes(all, lines)) << page;
     EXPECT_GT(lines.size(), all.size() * 4 / 5) << page;
     if (lines.size() == all.size()) continue;  // a page of the index
-    ++told;
+    ++reported;
     EXPECT_GE(recording->counters.lost_blocks, 1U) << page;
     EXPECT_NE(testing::all_remarks(*recording).find("messages between cannot be read"),
               std::string::npos)
         << page;
   }
-  EXPECT_GT(told, 10U);
+  EXPECT_GT(reported, 10U);
 }
 
 TEST(SqliteBag, OfACutFileTheFrontIsRead) {

@@ -50,19 +50,19 @@ TEST(LogWriter, WhatAFormatCannotKeepIsTold) {
   log.channels = {"vcan7", "can0"};
   log.counters.error_frames = 3;
   log.frames[0].direction = LoggedDirection::kUnknown;
-  const auto told = [&](const std::string& name) {
+  const auto reported = [&](const std::string& name) {
     std::string out;
     const auto written = write_can_log(log, name);
     for (const std::string& loss : written->losses) out += loss + "\n";
     return out;
   };
-  EXPECT_EQ(told("a.log"), "3 error frames are not written\n");
-  EXPECT_EQ(told("a.pcapng"), "3 error frames are not written\n");
+  EXPECT_EQ(reported("a.log"), "3 error frames are not written\n");
+  EXPECT_EQ(reported("a.pcapng"), "3 error frames are not written\n");
   for (const std::string name : {"a.asc", "a.blf", "a.trc", "a.trc.gz"})
-    EXPECT_EQ(told(name),
+    EXPECT_EQ(reported(name),
               "3 error frames are not written\nthe name vcan7 becomes channel 2\n"
               "1 frames of unknown direction become received ones\n");
-  EXPECT_EQ(told("a.pcap"),
+  EXPECT_EQ(reported("a.pcap"),
             "3 error frames are not written\nthe 2 channels and their names become one\n"
             "9 directions are not written\n");
 }
