@@ -34,6 +34,17 @@ bool take_receiver(ReplayOptions& out, const std::string& value) {
   return true;
 }
 
+// DOMAIN or DOMAIN@ADDRESS
+bool take_dds(ReplayOptions& out, const std::string& value) {
+  const std::size_t at = value.find('@');
+  dds::DomainConfig config;
+  if (!parse_number(std::string_view(value).substr(0, at), config.domain)) return false;
+  if (at != std::string::npos) config.interface = value.substr(at + 1);
+  out.timeline.dds = config;
+  return config.domain >= 0 && config.domain <= dds::kDomainMax &&
+         transport::parse_udp_address(config.interface + ":1").has_value();
+}
+
 bool take_passes(ReplayOptions& out, const std::string& value) {
   return parse_number(value, out.play.passes) && out.play.passes >= 1 &&
          out.play.passes <= kMaxPasses;
@@ -92,6 +103,9 @@ constexpr OptionRow kOptions[] = {
      "expected SOURCE=ADDRESS:PORT, SOURCE=tcp:ADDRESS:PORT (an IPv4 address, a port from 1 to "
      "65535) or SOURCE=serial:/dev/DEVICE[:BAUD] with a rate that a tty has",
      take_receiver},
+    {"--dds",
+     "expected DOMAIN or DOMAIN@ADDRESS: a domain from 0 to 101, the IPv4 address of an interface",
+     take_dds},
     {"--speed", "not a speed",
      [](ReplayOptions& out, const std::string& value) {
        return parse_number(value, out.timeline.speed);
@@ -190,8 +204,8 @@ Result<ReplayOptions, Problem> parse_replay_options(std::span<const std::string>
 
 const char* const kReplayUsage =
     "replay FILE [--interface IFACE] [--map RECORDED=IFACE]...\n"
-    "       [--receiver SOURCE=TARGET]... [--speed X] [--loop N] [--from S] [--until S]\n"
-    "       [--skip S] [--topic NAME]... [--id HEX]... [--not-id HEX]...\n"
+    "       [--receiver SOURCE=TARGET]... [--dds DOMAIN[@ADDRESS]] [--speed X] [--loop N]\n"
+    "       [--from S] [--until S] [--skip S] [--topic NAME]... [--id HEX]... [--not-id HEX]...\n"
     "       [--overlay NODE]... [--dbc FILE] [--restamp MANIFEST]\n"
     "       [--late catch-up|drop:MS|abort:MS] [--spin US] [--clock wall|FILE]\n"
     "       [--json FILE] [--progress]\n"
@@ -203,6 +217,8 @@ const char* const kReplayUsage =
     "a receiver. CAN topics need --interface or --map; /can/out, which the car said, needs --map\n"
     "  --receiver  bytes of a receiver, in order with the frames: to ADDRESS:PORT by UDP, to\n"
     "              whoever connects to tcp:ADDRESS:PORT, or to serial:/dev/DEVICE[:BAUD]\n"
+    "  --dds       its ROS 2 topics with their recorded bytes, on loopback or the interface\n"
+    "              that has ADDRESS\n"
     "  --from S    leave out the first S seconds    --until S   end S seconds after the first "
     "stamp\n"
     "  --skip S    do not wait through longer gaps  --loop N    so many passes without a seam\n"

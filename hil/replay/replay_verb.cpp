@@ -112,6 +112,7 @@ std::string losses_text(const SocketRim& rim, const Timeline& timeline) {
     if (const std::uint64_t unheard = rim.unheard(track); unheard > 0)
       text += timeline.tracks[track].target + ": nobody listened to " + std::to_string(unheard) +
               " datagrams or more\n";
+  for (const std::string& topic : rim.unread_topics()) text += topic + ": nobody reads it\n";
   return text + to_text(rim.streams());
 }
 

@@ -17,6 +17,8 @@
 //              --not-id but these. A name or an identifier that does not occur is an error
 //   --overlay  all but what this node of the database sends (--dbc, else that of --restamp), so
 //              that a plant or a simulated node can send it
+//   --dds      publishes the ROS 2 topics of a recording with their bytes, names and types, on
+//              loopback unless DOMAIN@ADDRESS names another interface
 //   --restamp  rolling counters and checksums made anew by the manifest of a car: a receiver
 //              accepts loops, parts and filtered logs
 //   --skip     seconds: does not wait through longer gaps

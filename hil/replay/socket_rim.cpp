@@ -6,6 +6,7 @@
 
 #include "protocol/transport/clock.hpp"
 #include "protocol/transport/readiness.hpp"
+#include "protocol/vocabulary/check.hpp"
 #include "protocol/vocabulary/fixed_vector.hpp"
 
 namespace pitwall::replay {
@@ -15,26 +16,42 @@ constexpr Duration kIdle = milliseconds(10);           // a longer wait ends wit
 constexpr Duration kExactWait = milliseconds(5);       // the last stretch of it, by the clock
 constexpr Duration kSignalPeriod = milliseconds(100);  // a busy replay looks that often
 constexpr Duration kServePeriod = milliseconds(2);     // of a stream that could not write all
+constexpr Duration kLookPeriod = milliseconds(20);     // for readers of topics
+constexpr Duration kAcquaintance = milliseconds(200);  // of a reader that we know, with us
+constexpr Duration kSettle = milliseconds(50);         // DDS sends on a thread of its own
 constexpr unsigned kNetworkShift = 24;                 // 127.0.0.0/8 is this machine
 constexpr std::size_t kSamples = 64;
 constexpr std::size_t kUsual = kSamples * 9 / 10;
 constexpr Duration kSampleSleep = microseconds(600);
+// Any reader of a topic may ask for it, and a burst is not to push out what is not sent yet.
+constexpr dds::Quality kTopicQuality{.reliable = true, .latched = true, .depth = 64};
+
+bool is_topic(const Track& track) {
+  return track.to && std::holds_alternative<RosTopic>(*track.to);
+}
 
 }  // namespace
 
 Result<SocketRim, Problem> SocketRim::open(const Timeline& timeline) {
+  auto stop = transport::StopSignal::install();  // before threads of DDS, which would get it
+  if (!stop) return Unexpected{stop.error()};
+  std::unique_ptr<dds::Domain> domain;
+  if (std::ranges::any_of(timeline.tracks, is_topic)) {
+    CHECK(timeline.dds);
+    auto joined = dds::Domain::join(*timeline.dds);
+    if (!joined) return Unexpected{joined.error()};
+    domain = *std::move(joined);
+  }
   std::vector<Sender> senders;
   for (const Track& track : timeline.tracks) {
-    auto sender = open(track);
+    auto sender = open(track, domain.get());
     if (!sender) return Unexpected{sender.error()};
     senders.push_back(*std::move(sender));
   }
   const auto is_stream = [](const Sender& one) { return std::holds_alternative<Stream>(one); };
   if (std::ranges::count_if(senders, is_stream) > std::ptrdiff_t{kMaxStreams})
     return Unexpected{Problem{"--receiver", "allowed are 16 TCP ports and serial devices at most"}};
-  auto stop = transport::StopSignal::install();
-  if (!stop) return Unexpected{stop.error()};
-  return SocketRim{std::move(senders), *std::move(stop)};
+  return SocketRim{std::move(domain), std::move(senders), *std::move(stop)};
 }
 
 Result<SocketRim::Sender, Problem> SocketRim::open_receiver(const Track& track) {
@@ -54,7 +71,15 @@ Result<SocketRim::Sender, Problem> SocketRim::open_receiver(const Track& track) 
   return Sender{Stream{track.target, *std::move(sender), &track.datagrams}};
 }
 
-Result<SocketRim::Sender, Problem> SocketRim::open(const Track& track) {
+Result<SocketRim::Sender, Problem> SocketRim::open_topic(const Track& track, dds::Domain& domain) {
+  const RosTopic& names = std::get<RosTopic>(*track.to);
+  auto writer = domain.write_to({.topic = names.topic, .type = names.type}, kTopicQuality);
+  if (!writer) return Unexpected{writer.error()};
+  return Sender{Topic{track.target, *writer, &track.datagrams}};
+}
+
+Result<SocketRim::Sender, Problem> SocketRim::open(const Track& track, dds::Domain* domain) {
+  if (is_topic(track)) return open_topic(track, *domain);
   if (track.to) return open_receiver(track);
   auto sender = transport::CanSender::open(track.target);
   if (!sender) return Unexpected{sender.error()};
@@ -121,11 +146,18 @@ void SocketRim::look_for_signals(Instant deadline) {
   looked_ = deadline;
 }
 
+bool SocketRim::is_awaited(const Sender& sender) {
+  if (const auto* stream = std::get_if<Stream>(&sender)) return stream->sender.is_open();
+  const auto* topic = std::get_if<Topic>(&sender);
+  return topic == nullptr || topic->writer->readers() > 0;
+}
+
+// Readers of topics are no descriptors: they are looked for.
 void SocketRim::wait_for_callers(Duration patience) {
-  serve_until(now() + patience, [&] {
-    return std::ranges::all_of(
-        streams_, [&](std::size_t i) { return std::get<Stream>(senders_[i]).sender.is_open(); });
-  });
+  const Instant give_up = now() + patience;
+  while (!stopped_ && now() < give_up && !std::ranges::all_of(senders_, is_awaited))
+    serve_until(std::min(give_up, read_ + kLookPeriod), [] { return false; });
+  if (domain_ != nullptr) serve_until(now() + kAcquaintance, [] { return false; });
 }
 
 void SocketRim::finish(Duration patience) {
@@ -135,6 +167,11 @@ void SocketRim::finish(Duration patience) {
     });
   });
   for (const std::size_t i : streams_) std::get<Stream>(senders_[i]).sender.close();
+  if (domain_ == nullptr) return;
+  const Instant give_up = now() + patience;
+  for (Sender& sender : senders_)
+    if (Topic* topic = std::get_if<Topic>(&sender)) topic->writer->settle(give_up - now());
+  serve_until(now() + kSettle, [] { return false; });  // of readers that acknowledge nothing
 }
 
 void SocketRim::wait_until(Instant deadline) {
@@ -164,9 +201,16 @@ TrackOutcome SocketRim::send(Stream& stream, std::size_t first, std::size_t coun
   return {.taken = count};
 }
 
+TrackOutcome SocketRim::send(Topic& topic, std::size_t first, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i)
+    if (!topic.writer->write((*topic.datagrams)[first + i])) return {.taken = i};
+  return {.taken = count};
+}
+
 TrackOutcome SocketRim::send(std::size_t track, std::size_t first, std::size_t count) {
   Sender& sender = senders_[track];
   if (Stream* stream = std::get_if<Stream>(&sender)) return send(*stream, first, count);
+  if (Topic* topic = std::get_if<Topic>(&sender)) return send(*topic, first, count);
   transport::SendOutcome outcome;
   if (Bus* bus = std::get_if<Bus>(&sender)) {
     outcome = bus->sender.send(bus->frames, first, count);
@@ -198,6 +242,14 @@ std::vector<StreamReport> SocketRim::streams() const {
     reports.push_back({stream.target, stream.sender.counters()});
   }
   return reports;
+}
+
+std::vector<std::string> SocketRim::unread_topics() const {
+  std::vector<std::string> topics;
+  for (const Sender& sender : senders_)
+    if (const auto* topic = std::get_if<Topic>(&sender); topic && topic->writer->readers() == 0)
+      topics.push_back(topic->target);
+  return topics;
 }
 
 std::uint64_t SocketRim::unheard(std::size_t track) const {

@@ -11,20 +11,23 @@
 // short frame on the wire, so signals are looked at only where there is time.
 //
 // Each track of frames has a CAN socket, each track of datagrams a UDP socket, a TCP port or a
-// serial device of its own. A stream takes a record whole or refuses it at once, and what it could
-// not write yet goes out with the next record, or while the rim waits.
+// serial device of its own; ROS 2 topics share a participant. A stream takes a record whole or refuses
+// it at once, and what it could not write yet goes out with the next record, or while the rim waits.
 //
 //   in     timeline, which stays where it is as long as the rim; the lead (measured, or
 //          given; 0: plain sleeps)
 //   out    now(), wait_until(), send(), stopped() as Player asks for them
 //   errors open(): Problem. While playing: SendOutcome only
 //   bound  a datagram that the kernel took may still be lost: a full receive queue drops it, which
-//          only its owner can count. That nobody listens the kernel tells, and unheard() says
+//          only its owner can count. That nobody listens the kernel tells, and unheard() says. Of a
+//          topic DDS keeps the newest 64 messages for a reader that is behind; what it then misses
+//          only the reader can count
 //   cost   the lead is time of the processor that nobody else gets, once per wake-up; where that
 //          would be more than a quarter of all time (BusyBudget), sleeps are plain for a while
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -32,6 +35,7 @@
 #include "hil/replay/busy_budget.hpp"
 #include "hil/replay/player.hpp"
 #include "hil/replay/timeline.hpp"
+#include "protocol/dds/domain.hpp"
 #include "protocol/transport/can/can_sender.hpp"
 #include "protocol/transport/process.hpp"
 #include "protocol/transport/stream/stream_sender.hpp"
@@ -58,9 +62,10 @@ class SocketRim {
   static Duration measured_lead();
   void set_lead(Duration lead);
 
-  // Until each TCP port has a caller, at most so long.
+  // Until each TCP port has a caller and each topic a reader, at most so long.
   void wait_for_callers(Duration patience);
-  // Until the streams have written what they have, at most so long; what is left is lost.
+  // Until the streams have written what they have and the readers of topics have it, at most so
+  // long; what a stream has left then is lost.
   void finish(Duration patience);
 
   Instant now();
@@ -74,6 +79,8 @@ class SocketRim {
   // Datagrams of a track that nobody listened to, as far as the kernel said so.
   std::uint64_t unheard(std::size_t track) const;
   std::vector<StreamReport> streams() const;
+  // Of the topics, those that nobody reads now.
+  std::vector<std::string> unread_topics() const;
 
  private:
   struct Bus {
@@ -92,23 +99,33 @@ class SocketRim {
     transport::StreamSender sender;
     const Datagrams* datagrams;
   };
-  using Sender = std::variant<Bus, Line, Stream>;
-  static Result<Sender, Problem> open(const Track& track);
+  struct Topic {
+    std::string target;
+    dds::Writer* writer;
+    const Datagrams* datagrams;
+  };
+  using Sender = std::variant<Bus, Line, Stream, Topic>;
+  static Result<Sender, Problem> open(const Track& track, dds::Domain* domain);
   static Result<Sender, Problem> open_receiver(const Track& track);
+  static Result<Sender, Problem> open_topic(const Track& track, dds::Domain& domain);
   static transport::SendOutcome send(Line& line, std::size_t first, std::size_t count);
   static TrackOutcome send(Stream& stream, std::size_t first, std::size_t count);
-  SocketRim(std::vector<Sender> senders, transport::StopSignal stop)
-      : senders_(std::move(senders)), stop_(std::move(stop)) {
+  static TrackOutcome send(Topic& topic, std::size_t first, std::size_t count);
+  SocketRim(std::unique_ptr<dds::Domain> domain, std::vector<Sender> senders,
+            transport::StopSignal stop)
+      : domain_(std::move(domain)), senders_(std::move(senders)), stop_(std::move(stop)) {
     for (std::size_t i = 0; i < senders_.size(); ++i)
       if (std::holds_alternative<Stream>(senders_[i])) streams_.push_back(i);
   }
   void look_for_signals(Instant deadline);
+  static bool is_awaited(const Sender& sender);
   void serve_streams();
   template <class Done>
   void serve_until(Instant give_up, Done&& done);
 
-  std::vector<Sender> senders_;       // of each track
-  std::vector<std::size_t> streams_;  // those of them that are streams
+  std::unique_ptr<dds::Domain> domain_;  // none: no track is a topic
+  std::vector<Sender> senders_;          // of each track
+  std::vector<std::size_t> streams_;     // those of them that are streams
   transport::StopSignal stop_;
   Duration lead_{};
   Duration half_look_{};  // of what one look at the clock takes

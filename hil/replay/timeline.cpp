@@ -55,6 +55,7 @@ std::optional<Problem> problem_of(const CanLog& log, const TimelineOptions& opti
       return Problem{recorded, "is mapped, but does not occur in the log"};
   if (!options.receivers.empty())
     return Problem{options.receivers.front().first, "is no receiver: a CAN log holds none"};
+  if (options.dds) return Problem{"--dds", "a CAN log holds no ROS 2 topics"};
   return std::nullopt;
 }
 
@@ -83,6 +84,9 @@ std::optional<Problem> problem_of(const Recording& recording, const TimelineOpti
   if (auto problem = TimelineBuilder::problem_of(options)) return problem;
   if (recording.records.empty()) return Problem{"recording", "holds no records"};
   if (auto problem = topic_problem(topics_of(recording), options)) return problem;
+  if (options.dds && std::ranges::find(recording.sources, SourceKind::kRos, &Source::kind) ==
+                         recording.sources.end())
+    return Problem{"--dds", "the recording holds no ROS 2 topics"};
   for (const auto& [name, interface] : options.map)
     if (auto problem = problem_of(recording, name, true)) return problem;
   for (auto one = options.receivers.begin(); one != options.receivers.end(); ++one) {
@@ -115,6 +119,15 @@ Way way_of_can(const std::string& name, const TimelineOptions& options, Timeline
   return {.why_not = "has no interface; " + remedy};
 }
 
+Way way_of_topic(const Source& source, const TimelineOptions& options, TimelineBuilder& builder) {
+  if (!options.dds) return {.why_not = "a ROS 2 topic; --dds DOMAIN sends it"};
+  const auto topic = ros_topic(source.name, source.type);
+  if (!topic) return {.why_not = topic.error().what};
+  const auto track = builder.topic(*topic);
+  if (!track) return {.why_not = "its topic has another type already"};
+  return {.track = track};
+}
+
 Way way_of(const Source& source, const TimelineOptions& options, TimelineBuilder& builder) {
   if (!is_chosen(source.name, options)) return {.why_not = "not among those of --topic"};
   switch (source.kind) {
@@ -122,13 +135,14 @@ Way way_of(const Source& source, const TimelineOptions& options, TimelineBuilder
       return way_of_can(source.name, options, builder);
     case SourceKind::kReceiver:
       if (const auto* to = value_of(options.receivers, source.name))
-        return {.track = builder.receiver(*to)};
+        return {.track = builder.bytes(*to)};
       return {.why_not = "has no target; --receiver " + source.name + "=ADDRESS:PORT sends it"};
     case SourceKind::kRos:
+      return way_of_topic(source, options, builder);
     case SourceKind::kOther:
       break;
   }
-  return {.why_not = "neither CAN nor a receiver"};
+  return {.why_not = "neither CAN nor a receiver nor a ROS 2 topic"};
 }
 
 }  // namespace

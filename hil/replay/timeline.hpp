@@ -20,8 +20,9 @@
 #include "hil/replay/frames/frame_filter.hpp"
 #include "hil/replay/frames/restamp_plan.hpp"
 #include "hil/replay/recordings/recording.hpp"
-#include "hil/replay/targets/receiver_target.hpp"
+#include "hil/replay/targets/byte_target.hpp"
 #include "protocol/can/frame.hpp"
+#include "protocol/dds/domain.hpp"
 #include "protocol/transport/udp_socket.hpp"
 #include "protocol/vocabulary/result.hpp"
 #include "protocol/vocabulary/time.hpp"
@@ -40,13 +41,14 @@ struct Datagrams {
   }
 };
 
-// Frames of a bus, or datagrams (on a stream: records) where there is a receiver's target.
+// Frames of a bus, or datagrams where there is a target of bytes: records of a stream, samples of a
+// ROS 2 topic.
 struct Track {
   std::string target;                    // the interface, or `to` as text
   std::vector<can::Frame> frames{};      // as they go out in the first pass
   std::vector<std::uint8_t> fd_flags{};  // of frames[i], as logged
   std::vector<Duration> due{};           // of frame or datagram i; never decreasing
-  std::optional<ReceiverTarget> to{};
+  std::optional<ByteTarget> to{};
   Datagrams datagrams{};
   RestampPlan restamp{};  // of the frames, for the passes that follow
 };
@@ -64,15 +66,18 @@ struct Timeline {
   std::uint64_t filtered = 0;              // frames of a pass that ids and nodes leave out
   std::uint64_t restamped = 0, unfit = 0;  // frames of a pass, as RestampPlan counts them
 
+  std::optional<dds::DomainConfig> dds{};  // where the topics are
+
   std::uint64_t size() const { return frames + datagrams; }
 };
 
 struct TimelineOptions {
   double speed = 1.0;
   std::string interface {};  // for every channel that the map does not name; empty: its own name
-  std::vector<std::pair<std::string, std::string>> map{};  // recorded name, name to send on
-  std::vector<std::pair<std::string, ReceiverTarget>> receivers{};  // of a recording
-  Duration from{}, until{INT64_MAX};     // what is played, since the first stamp; without its end
+  std::vector<std::pair<std::string, std::string>> map{};       // recorded name, name to send on
+  std::vector<std::pair<std::string, ByteTarget>> receivers{};  // of a recording
+  std::optional<dds::DomainConfig> dds{};  // for the ROS 2 topics of a recording; none: not played
+  Duration from{}, until{INT64_MAX};       // what is played, since the first stamp; without its end
   Duration longest_gap{INT64_MAX};       // a longer one is skipped: the next frame follows at once
   std::vector<std::string> topics{};     // sources or channels: only these; none: all
   std::vector<std::uint32_t> ids{};      // of frames: only these; none: all
@@ -89,7 +94,7 @@ Result<Timeline, Problem> make_timeline(const CanLog& log, const TimelineOptions
 // The same of a recording, in its total order; tracks stand in the order of its sources. A CAN
 // source whose name is that of no interface needs `map` or `interface`; /can/out, which the car
 // said itself, is played where `map` names it only. Receivers go to their target of `receivers`,
-// in datagrams of at most transport::kMaxDatagramBytes.
+// in datagrams of at most transport::kMaxDatagramBytes; ROS 2 topics keep their name and type.
 Result<Timeline, Problem> make_timeline(const traffic::Recording& recording,
                                         const TimelineOptions& options);
 

@@ -50,9 +50,18 @@ std::size_t TimelineBuilder::bus(const std::string& interface) {
   return out_.tracks.size() - 1;
 }
 
-std::size_t TimelineBuilder::receiver(const ReceiverTarget& to) {
+std::size_t TimelineBuilder::bytes(const ByteTarget& to) {
   add_track({.target = to_string(to), .to = to});
   return out_.tracks.size() - 1;
+}
+
+std::optional<std::size_t> TimelineBuilder::topic(const RosTopic& to) {
+  for (std::size_t i = 0; i < out_.tracks.size(); ++i) {
+    const auto* ros = out_.tracks[i].to ? std::get_if<RosTopic>(&*out_.tracks[i].to) : nullptr;
+    if (ros == nullptr || ros->topic != to.topic) continue;
+    return *ros == to ? std::optional{i} : std::nullopt;
+  }
+  return bytes(to);
 }
 
 // A log begins with the first stamp of the part that is played, and ends before the first one that
@@ -94,8 +103,10 @@ void TimelineBuilder::add(std::size_t track, UtcTime at, std::span<const std::ui
   Track& to = out_.tracks[track];
   const std::size_t begin = to.datagrams.bytes.size();
   to.datagrams.bytes.insert(to.datagrams.bytes.end(), bytes.begin(), bytes.end());
+  const bool is_message = std::holds_alternative<RosTopic>(*to.to);
+  const std::size_t most = is_message ? bytes.size() : transport::kMaxDatagramBytes;
   for (std::size_t end = 0; end < bytes.size(); ++out_.datagrams) {
-    end = std::min(end + transport::kMaxDatagramBytes, bytes.size());
+    end = std::min(end + most, bytes.size());
     to.datagrams.ends.push_back(begin + end);
     to.due.push_back(*due);
   }
@@ -128,6 +139,7 @@ Result<Timeline, Problem> TimelineBuilder::finish() && {
   if (const auto problem = filter_.problem()) return Unexpected{*problem};
   if (out_.size() == 0) return Unexpected{nothing_left()};
   out_.filtered = filter_.left_out();
+  out_.dds = options_.dds;
   if (options_.restamp) restamp();
   if (options_.restamp && out_.restamped == 0)
     return Unexpected{

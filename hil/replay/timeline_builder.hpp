@@ -25,9 +25,11 @@ class TimelineBuilder {
   // `name`: what problems call the recording; `first`: its first stamp.
   TimelineBuilder(std::string name, UtcTime first, const TimelineOptions& options);
 
-  // The track of an interface, which may be that of an earlier source; that of a receiver.
+  // The track of an interface, which may be that of an earlier source; one of bytes.
   std::size_t bus(const std::string& interface);
-  std::size_t receiver(const ReceiverTarget& to);
+  std::size_t bytes(const ByteTarget& to);
+  // The track of a topic, which may be that of an earlier source; nothing: it has another type.
+  std::optional<std::size_t> topic(const RosTopic& to);
 
   void add(std::size_t track, UtcTime at, const can::Frame& frame, std::uint8_t fd_flags);
   void add(std::size_t track, UtcTime at, std::span<const std::uint8_t> bytes);

@@ -121,6 +121,14 @@ class WriterOfFast : public Writer, private fast::DataWriterListener {
     return writer_ != nullptr;
   }
   bool write(Bytes cdr) override { return writer_->write(&cdr); }
+  bool settle(Duration most) override {
+    if (most.ns <= 0) return false;
+    const eprosima::fastrtps::Duration_t wait{
+        static_cast<std::int32_t>(most.ns / kNanosecondsPerSecond),
+        static_cast<std::uint32_t>(most.ns % kNanosecondsPerSecond)};
+    return writer_->wait_for_acknowledgments(wait) ==
+           eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK;
+  }
   Guid guid() const override { return bytes_of(writer_->guid()); }
   int readers() const override { return readers_.load(); }
 

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "protocol/vocabulary/result.hpp"
+#include "protocol/vocabulary/time.hpp"
 
 namespace pitwall::dds {
 
@@ -64,6 +65,8 @@ class Writer {
   virtual bool write(Bytes cdr) = 0;  // false: not taken, and lost
   virtual Guid guid() const = 0;
   virtual int readers() const = 0;  // that are connected now
+  // Waits until the reliable ones of them have all samples; false: not within so long.
+  virtual bool settle(Duration most) = 0;
 };
 
 class Domain {

@@ -20,7 +20,7 @@ TEST(ReplayOptions, EveryOptionReachesItsValue) {
       "9",           "--skip",  "4",         "--late", "drop:7",  "--spin",     "50",
       "--topic",     "/gnss/0", "--topic",   "can0",   "--id",    "1a0",        "--not-id",
       "1FFFFFFF",    "--json",  "out.json",  "--dbc",  "a.dbc",   "--overlay",  "Plant",
-      "--overlay",   "Pit",     "--restamp", "a.yaml"};
+      "--overlay",   "Pit",     "--restamp", "a.yaml", "--dds",   "7@10.0.0.5"};
   const auto options = parse_replay_options(arguments);
   ASSERT_TRUE(options) << to_string(options.error());
   const TimelineOptions& t = options->timeline;
@@ -43,18 +43,22 @@ TEST(ReplayOptions, EveryOptionReachesItsValue) {
   EXPECT_EQ(t.not_ids, (std::vector<std::uint32_t>{0x1FFF'FFFF}));
   EXPECT_EQ(options->json_file, "out.json");
   EXPECT_EQ(options->dbc_file, "a.dbc");
+  ASSERT_TRUE(t.dds);
+  EXPECT_EQ(t.dds->domain, 7);
+  EXPECT_EQ(t.dds->interface, "10.0.0.5");
   EXPECT_EQ(options->manifest_file, "a.yaml");
   EXPECT_EQ(options->overlaid, (std::vector<std::string>{"Plant", "Pit"}));
 }
 
 TEST(ReplayOptions, AValueThatAnOptionDoesNotAllowIsNamed) {
   const std::vector<std::pair<std::string, std::string>> wrong{
-      {"--speed", "fast"},     {"--loop", "0"},      {"--loop", "1000001"}, {"--spin", "201"},
-      {"--spin", "-1"},        {"--id", "20000000"}, {"--id", "xyz"},       {"--not-id", ""},
-      {"--from", "-1"},        {"--until", "1e8"},   {"--skip", "nan"},     {"--map", "can0"},
-      {"--late", "never"},     {"--late", "abort"},  {"--late", "drop"},    {"--late", "drop:"},
-      {"--late", "drop:0"},    {"--late", "drop:x"}, {"--topic", ""},       {"--json", ""},
-      {"--late", "catch-up:5"}};
+      {"--speed", "fast"},      {"--loop", "0"},      {"--loop", "1000001"}, {"--spin", "201"},
+      {"--spin", "-1"},         {"--id", "20000000"}, {"--id", "xyz"},       {"--not-id", ""},
+      {"--from", "-1"},         {"--until", "1e8"},   {"--skip", "nan"},     {"--map", "can0"},
+      {"--late", "never"},      {"--late", "abort"},  {"--late", "drop"},    {"--late", "drop:"},
+      {"--late", "drop:0"},     {"--late", "drop:x"}, {"--topic", ""},       {"--json", ""},
+      {"--late", "catch-up:5"}, {"--dds", "102"},     {"--dds", "-1"},       {"--dds", "0@eth0"},
+      {"--dds", "0@"}};
   for (const auto& [option, value] : wrong)
     EXPECT_EQ(refused({"log", option, value}), at(value)) << option;
   for (const char* receiver : {"/gnss/0", "=127.0.0.1:1", "/gnss/0=", "/gnss/0=here:3001",

@@ -223,8 +223,8 @@ TEST(RecordingTimeline, TracksStandInTheOrderOfTheSourcesOnOneTimeBase) {
   ASSERT_TRUE(t.has_value()) << to_string(t.error());
   ASSERT_EQ(t->tracks.size(), 3U);
   EXPECT_EQ(t->tracks[0].target, "v0");
-  EXPECT_EQ(t->tracks[1].to, ReceiverTarget{kFirst});
-  EXPECT_EQ(t->tracks[2].to, ReceiverTarget{kSecond});
+  EXPECT_EQ(t->tracks[1].to, ByteTarget{kFirst});
+  EXPECT_EQ(t->tracks[2].to, ByteTarget{kSecond});
   EXPECT_EQ(t->frames, 50U);
   EXPECT_EQ(t->datagrams, 100U);
   for (const Track& track : t->tracks) {
@@ -259,6 +259,52 @@ TEST(RecordingTimeline, WhatIsNotMappedIsToldAndCounted) {
   const auto none = make_timeline(mixed_recording(7), {});
   ASSERT_FALSE(none.has_value());
   EXPECT_NE(none.error().what.find("--map /can/in=INTERFACE"), std::string::npos);
+}
+
+TEST(RecordingTimeline, TopicsArePlayedWhereThereIsADomain) {
+  TimelineOptions options{.interface = "v0", .receivers = {{"/gnss/0", kFirst}}};
+  auto t = make_timeline(mixed_recording(4), options);
+  ASSERT_TRUE(t);
+  ASSERT_EQ(t->left_out.size(), 3U);
+  EXPECT_EQ(t->left_out[1].source, "/imu");
+  EXPECT_NE(t->left_out[1].why.find("--dds DOMAIN"), std::string::npos);
+  options.dds = dds::DomainConfig{.domain = 3};
+  t = make_timeline(mixed_recording(4), options);
+  ASSERT_TRUE(t);
+  ASSERT_EQ(t->tracks.size(), 3U);
+  EXPECT_EQ(t->tracks[2].to, (ByteTarget{RosTopic{"rt/imu", "sensor_msgs::msg::dds_::Imu_"}}));
+  EXPECT_EQ(t->tracks[2].due, t->tracks[0].due);
+  EXPECT_EQ(t->dds->domain, 3);
+}
+
+// One topic of two types, as two files that are one recording may have it.
+TEST(RecordingTimeline, ATopicThatHasAnotherTypeAlreadyIsToldAndMessagesStayWhole) {
+  using traffic::SourceKind;
+  traffic::RecordingBuilder builder{"bag.mcap"};
+  const std::vector<std::uint8_t> cloud(2 * transport::kMaxDatagramBytes + 1, 7);
+  std::int64_t at = kNanosecondsPerSecond;
+  for (const char* type : {"sensor_msgs/msg/Imu", "a/msg/Other", "sensor_msgs/msg/Imu"}) {
+    const auto source = builder.add_source("/imu", SourceKind::kRos, type);
+    EXPECT_TRUE(builder.add(source, UtcTime{at += 1'000}, builder.pool().copy(cloud), 0));
+  }
+  const auto t =
+      make_timeline(std::move(builder).finish(), {.dds = dds::DomainConfig{.domain = 3}});
+  ASSERT_TRUE(t) << to_string(t.error());
+  ASSERT_EQ(t->tracks.size(), 1U);
+  ASSERT_EQ(t->tracks[0].datagrams.size(), 2U);
+  EXPECT_EQ(t->tracks[0].datagrams[1].size(), cloud.size());
+  ASSERT_EQ(t->left_out.size(), 1U);
+  EXPECT_NE(t->left_out[0].why.find("another type"), std::string::npos);
+}
+
+TEST(RecordingTimeline, ADomainWithoutTopicsIsRefused) {
+  traffic::RecordingBuilder builder{"box.mcap"};
+  const auto bus = builder.add_source("can0", traffic::SourceKind::kCan, "can");
+  EXPECT_TRUE(builder.add(bus, UtcTime{kNanosecondsPerSecond}, can::Frame{}, 0));
+  const auto t =
+      make_timeline(std::move(builder).finish(), {.dds = dds::DomainConfig{.domain = 3}});
+  ASSERT_FALSE(t);
+  EXPECT_EQ(t.error().place, "--dds");
 }
 
 TEST(RecordingTimeline, IdentifiersStartAndGapsHoldForBoth) {

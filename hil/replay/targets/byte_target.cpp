@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/replay/targets/receiver_target.hpp"
+#include "hil/replay/targets/byte_target.hpp"
 
+#include <algorithm>
 #include <charconv>
 
+#include "protocol/ros/names.hpp"
 #include "protocol/transport/stream/serial_port.hpp"
 
 namespace pitwall::replay {
@@ -17,7 +19,7 @@ bool take_front(std::string_view& text, std::string_view front) {
   return true;
 }
 
-Result<ReceiverTarget, Problem> serial_of(std::string_view whole, std::string_view text) {
+Result<ByteTarget, Problem> serial_of(std::string_view whole, std::string_view text) {
   SerialDevice device{.path = std::string(text), .baud = kReceiverBaud};
   if (const std::size_t colon = text.rfind(':'); colon != std::string_view::npos) {
     const std::string_view rate = text.substr(colon + 1);
@@ -30,12 +32,17 @@ Result<ReceiverTarget, Problem> serial_of(std::string_view whole, std::string_vi
   }
   if (!device.path.starts_with('/'))
     return refuse(whole, "expected the path of a device, as serial:/dev/ttyUSB0");
-  return ReceiverTarget{std::move(device)};
+  return ByteTarget{std::move(device)};
+}
+
+bool is_ros_type(std::string_view type) {
+  return std::ranges::count(type, '/') == 2 && type.find("//") == std::string_view::npos &&
+         !type.starts_with('/') && !type.ends_with('/');
 }
 
 }  // namespace
 
-Result<ReceiverTarget, Problem> parse_receiver_target(std::string_view text) {
+Result<ByteTarget, Problem> parse_receiver_target(std::string_view text) {
   std::string_view rest = text;
   if (take_front(rest, "serial:")) return serial_of(text, rest);
   const bool tcp = take_front(rest, "tcp:");
@@ -45,10 +52,20 @@ Result<ReceiverTarget, Problem> parse_receiver_target(std::string_view text) {
     return refuse(text,
                   "expected ADDRESS:PORT, tcp:ADDRESS:PORT (an IPv4 address and a port from 1 to "
                   "65535) or serial:/dev/DEVICE[:BAUD]");
-  return tcp ? ReceiverTarget{TcpPort{*address}} : ReceiverTarget{*address};
+  return tcp ? ByteTarget{TcpPort{*address}} : ByteTarget{*address};
 }
 
-std::string to_string(const ReceiverTarget& target) {
+Result<RosTopic, Problem> ros_topic(std::string_view topic, std::string_view type) {
+  if (!is_ros_type(type))
+    return refuse(topic, "expected a type of ROS 2, as sensor_msgs/msg/Imu, instead of \"" +
+                             std::string(type) + "\"");
+  auto name = ros::dds_topic(topic);
+  if (!name) return Unexpected{name.error()};
+  return RosTopic{*std::move(name), ros::dds_type(type)};
+}
+
+std::string to_string(const ByteTarget& target) {
+  if (const auto* ros = std::get_if<RosTopic>(&target)) return ros->topic;
   if (const auto* udp = std::get_if<UdpAddress>(&target)) return transport::to_string(*udp);
   if (const auto* tcp = std::get_if<TcpPort>(&target))
     return "tcp:" + transport::to_string(tcp->local);
@@ -56,7 +73,7 @@ std::string to_string(const ReceiverTarget& target) {
   return "serial:" + device.path + ":" + std::to_string(device.baud);
 }
 
-bool is_same_place(const ReceiverTarget& a, const ReceiverTarget& b) {
+bool is_same_place(const ByteTarget& a, const ByteTarget& b) {
   const auto* one = std::get_if<SerialDevice>(&a);
   const auto* other = std::get_if<SerialDevice>(&b);
   if (one != nullptr && other != nullptr) return one->path == other->path;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hil/replay/targets/receiver_target.hpp"
+#include "hil/replay/targets/byte_target.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace pitwall::replay {
 namespace {
 
-TEST(ReceiverTarget, IsReadInEveryForm) {
+TEST(ByteTarget, IsReadInEveryForm) {
   const std::vector<std::pair<std::string, std::string>> forms{
       {"3001", "127.0.0.1:3001"},
       {"10.0.0.7:3001", "10.0.0.7:3001"},
@@ -25,7 +25,7 @@ TEST(ReceiverTarget, IsReadInEveryForm) {
   }
 }
 
-TEST(ReceiverTarget, TheCarReadsTheSameString) {
+TEST(ByteTarget, TheCarReadsTheSameString) {
   for (const char* text : {"udp:127.0.0.1:3001", "tcp:127.0.0.1:3001", "serial:/dev/ttyS0",
                            "serial:/dev/ttyS0:9600"}) {
     EXPECT_TRUE(parse_receiver_target(text)) << text;
@@ -34,7 +34,7 @@ TEST(ReceiverTarget, TheCarReadsTheSameString) {
   EXPECT_EQ(io::kDefaultBaud, kReceiverBaud);
 }
 
-TEST(ReceiverTarget, WhatIsNoneIsNamed) {
+TEST(ByteTarget, WhatIsNoneIsNamed) {
   for (const char* text : {"", "here:3001", "127.0.0.1:0", "127.0.0.1:65536", "tcp:", "tcp:x:1",
                            "serial:", "serial:ttyUSB0", "serial:/dev/ttyUSB0:fast",
                            "serial:/dev/ttyUSB0:12345", "sctp:127.0.0.1:3001"}) {
@@ -44,7 +44,17 @@ TEST(ReceiverTarget, WhatIsNoneIsNamed) {
   }
 }
 
-TEST(ReceiverTarget, TwoReceiversMixOnlyInTheSamePlace) {
+TEST(ByteTarget, ATopicOfRosHasItsNamesInDds) {
+  const auto imu = ros_topic("/vehicle/imu", "sensor_msgs/msg/Imu");
+  ASSERT_TRUE(imu) << to_string(imu.error());
+  EXPECT_EQ(*imu, (RosTopic{"rt/vehicle/imu", "sensor_msgs::msg::dds_::Imu_"}));
+  EXPECT_EQ(to_string(ByteTarget{*imu}), "rt/vehicle/imu");
+  for (const char* type : {"", "Imu", "sensor_msgs/Imu", "a/b/c/d", "/msg/Imu", "a//Imu", "a/msg/"})
+    EXPECT_FALSE(ros_topic("/imu", type)) << type;
+  EXPECT_FALSE(ros_topic("imu", "sensor_msgs/msg/Imu"));
+}
+
+TEST(ByteTarget, TwoReceiversMixOnlyInTheSamePlace) {
   const auto same = [](const char* a, const char* b) {
     return is_same_place(*parse_receiver_target(a), *parse_receiver_target(b));
   };
