@@ -11,8 +11,9 @@
 // short frame on the wire, so signals are looked at only where there is time.
 //
 // Each track of frames has a CAN socket, each track of datagrams a UDP socket, a TCP port or a
-// serial device of its own; ROS 2 topics share a participant. A stream takes a record whole or refuses
-// it at once, and what it could not write yet goes out with the next record, or while the rim waits.
+// serial device of its own; ROS 2 topics share a participant. A stream takes a record whole or
+// refuses it at once, and what it could not write yet goes out with the next record, or while the
+// rim waits.
 //
 //   in     timeline, which stays where it is as long as the rim; the lead (measured, or
 //          given; 0: plain sleeps)

@@ -92,8 +92,8 @@ def in_tree(path, root):
     """The path as it lies under the root. A compiler cache that several checkouts share names files
     by the checkout that was compiled first, and relative to its build folder."""
     path = os.path.normpath(path)
-    inside = re.search(r"/((?:build/\w+/generated/)?(?:protocol|vehicle|basestation|hil|tests)/.*)$",
-                       path)
+    inside = re.search(
+        r"/((?:build/\w+/generated/)?(?:protocol|vehicle|basestation|hil|tests)/.*)$", path)
     here = os.path.join(root, inside[1]) if inside else path
     return here if os.path.exists(here) else path
 
