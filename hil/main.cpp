@@ -17,6 +17,7 @@
 #include "hil/cli/recordings/convert_verb.hpp"
 #include "hil/cli/recordings/info_verb.hpp"
 #include "hil/cli/recordings/plot_verb.hpp"
+#include "hil/cli/recordings/rival_verb.hpp"
 #include "hil/cli/recordings/scenario_verb.hpp"
 #include "hil/cli/report_verb.hpp"
 #include "hil/cli/run_verb.hpp"
@@ -43,9 +44,11 @@ constexpr std::array kVerbs{
          cli::compare_verb},
     Verb{"scenario", "a scenario file made of a car's recording (scenario from RECORDING)",
          cli::scenario_verb},
+    Verb{"rival", "where the other car of a race was, by the recordings of both cars",
+         cli::rival_verb},
     Verb{"info", "what a log or a recording holds: span, sources, identifiers, rates",
          cli::info_verb},
-    Verb{"convert", "CAN frames in another format: candump, ASC, BLF, pcap, pcapng",
+    Verb{"convert", "CAN frames in another format: candump, ASC, BLF, TRC, pcap, pcapng",
          cli::convert_verb},
     Verb{"plot", "signals of a CAN log over time, as SVG or HTML", cli::plot_verb},
     Verb{"dbc", "CAN databases: check, show, diff", cli::dbc_verb},

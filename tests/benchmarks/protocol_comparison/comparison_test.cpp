@@ -88,7 +88,7 @@ TEST(Comparison, NobodyIsYoungerThanTheChannelAllows) {
 }
 
 // A contestant of a shell script: its ages are what it printed, its words what it was given.
-class ContestRun : public ::testing::Test {
+class ComparisonRun : public ::testing::Test {
  protected:
   void SetUp() override {
     const auto network = transport::TunNetwork::create({.address = 0x0A4D0001});
@@ -105,7 +105,7 @@ class ContestRun : public ::testing::Test {
   std::optional<transport::TemporaryFolder> folder_;
 };
 
-TEST_F(ContestRun, RunsBothEndsAndReadsTheBase) {
+TEST_F(ComparisonRun, RunsBothEndsAndReadsTheBase) {
   const Peer contestant = scripted(
       "[ $# = 4 ] && [ \"$3\" = 1 ] && [ \"$4\" = mode ] || exit 9\n"
       "[ $1 = car ] && exit 0\n"
@@ -124,7 +124,7 @@ TEST_F(ContestRun, RunsBothEndsAndReadsTheBase) {
   }
 }
 
-TEST_F(ContestRun, ABaseThatHeardNothingHasARow) {
+TEST_F(ComparisonRun, ABaseThatHeardNothingHasARow) {
   const auto rows = run_comparison(scripted("exit 0\n"), {"light"}, short_plan());
   ASSERT_TRUE(rows) << to_string(rows.error());
   ASSERT_EQ(rows->size(), 1U);
@@ -132,7 +132,7 @@ TEST_F(ContestRun, ABaseThatHeardNothingHasARow) {
   EXPECT_EQ(rows->front().looks_without, 1'000U);
 }
 
-TEST_F(ContestRun, SaysWhoFailedAndHow) {
+TEST_F(ComparisonRun, SaysWhoFailedAndHow) {
   const auto row = run_comparison(scripted("exit 3\n"), {"light"}, short_plan());
   ASSERT_FALSE(row);
   EXPECT_EQ(to_string(row.error()), "scripted: error: ended with 3");
