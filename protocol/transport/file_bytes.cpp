@@ -48,17 +48,23 @@ FileBytes::FileBytes(std::string bytes) {
 std::span<const std::uint8_t> FileBytes::bytes() const { return as_bytes(text()); }
 
 Result<FileBytes, Problem> FileBytes::map(const std::string& path) {
-  const auto opened = posix_call([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC); });
-  const FileDescriptor fd(opened);
-  if (!fd.valid()) return Unexpected{Problem{path, opened.reason()}};
   struct stat about {};
-  const auto asked = posix_call([&] { return ::fstat(fd.get(), &about); });
+  const auto asked = posix_call([&] { return ::stat(path.c_str(), &about); });
   if (!asked.ok()) return Unexpected{Problem{path, asked.reason()}};
-  if (!S_ISREG(about.st_mode) || about.st_size == 0) {  // a file of /proc has the size 0
+  // A file of /proc has the size 0. A pipe is opened once only: its writer may be done by then.
+  if (!S_ISREG(about.st_mode) || about.st_size == 0) {
     auto contents = read_file(path);
     if (!contents) return Unexpected{contents.error()};
     return FileBytes(*std::move(contents));
   }
+  const auto opened = posix_call([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC); });
+  const FileDescriptor fd(opened);
+  if (!fd.valid()) return Unexpected{Problem{path, opened.reason()}};
+  // Of the file that is open now.
+  const auto again = posix_call([&] { return ::fstat(fd.get(), &about); });
+  if (!again.ok()) return Unexpected{Problem{path, again.reason()}};
+  if (!S_ISREG(about.st_mode) || about.st_size == 0)
+    return Unexpected{Problem{path, "was replaced while it was opened"}};
   const auto size = static_cast<std::size_t>(about.st_size);
   void* const at =
       ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_NORESERVE, fd.get(), 0);
