@@ -103,8 +103,8 @@ class Finder {
 
   std::optional<double> nearest_to(const CommandSample& sample, Samples others) const {
     std::optional<double> nearest;
-    for (const CommandSample& other :
-         between(others, sample.at - tolerances_.lag(), sample.at + tolerances_.lag()))
+    for (const CommandSample& other : between(others, sample.at - tolerances_.command_lag(),
+                                              sample.at + tolerances_.command_lag()))
       if (!nearest || std::abs(other.value - sample.value) < std::abs(*nearest - sample.value))
         nearest = other.value;
     return nearest;
@@ -156,7 +156,7 @@ CommandTolerances tolerances_of(const pipeline::CarParams& params, const can::Da
       kPercent * std::max(slews.throttle_rise_per_s, speed.throttle_fall_per_s),
       std::max(slews.brake_rise_kpa_per_s, slews.brake_fall_kpa_per_s),
       to_deg(slews.steer_slew_rad_per_s) * slews.steering_ratio, 0.0};
-  CommandTolerances out{.tick = params.rates.tick};
+  CommandTolerances out{.tick = params.rates.tick, .planning = params.rates.planning};
   for (std::size_t i = 0; i < kActuators; ++i)
     out.command[i] = per_s[i] == 0.0 ? 0.0 : per_s[i] * out.tick.seconds() + step_of(database, i);
   return out;

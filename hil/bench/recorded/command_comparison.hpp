@@ -7,12 +7,14 @@
 //          recording. Two things may differ, and the tolerances are made of them and of nothing
 //          that was measured:
 //            when   a frame that came just before a tick may come just after it, and the first
-//                   ticks of both runs are brought together to one tick: two ticks (kLag)
+//                   ticks of both runs are brought together to one tick: two ticks. The car plans
+//                   in every fifth tick: what just misses one plan is acted on with the next, so
+//                   commands may follow a planning period later (command_lag)
 //            how    of inputs that are one tick newer or older, a command is another one by what
 //                   its slew limit lets it change in a tick, and by one step of its signal
-//          a command is compared with the nearest value of the other run within kLag. The gear has
-//          no tolerance of its own. Modes follow each other in the same order, each within kLag
-//          and one recorded state of the other run's
+//          a command is compared with the nearest value of the other run within command_lag. The
+//          gear has no tolerance of its own. Modes follow each other in the same order, each within
+//          two ticks and one recorded state of the other run's
 //          commands that only one run has are a difference
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -30,10 +32,11 @@ namespace pitwall::bench {
 struct CommandTolerances {
   static constexpr std::int64_t kLagTicks = 2;
 
-  Duration tick{};
+  Duration tick{}, planning{};  // periods
   std::array<double, kActuators> command{};
 
   Duration lag() const { return tick * kLagTicks; }
+  Duration command_lag() const { return lag() + planning; }
   Duration mode_lag() const;
 };
 CommandTolerances tolerances_of(const pipeline::CarParams& params, const can::Database& database);

@@ -114,7 +114,7 @@ Result<LiveResult, Problem> play(const LiveComparison& options, const Recorded& 
 }
 
 std::string tolerances_text(const bench::CommandTolerances& tolerances) {
-  std::string text = formatted("tolerances: %.0f ms", tolerances.lag().milliseconds());
+  std::string text = formatted("tolerances: %.0f ms", tolerances.command_lag().milliseconds());
   for (std::size_t i = 0; i < bench::kActuators; ++i)
     text += formatted(", %s %.6g", bench::kCommandSignals[i].signal.data(), tolerances.command[i]);
   return text + formatted(", modes %.0f ms\n", tolerances.mode_lag().milliseconds());

@@ -45,6 +45,7 @@ std::vector<std::string> signals_of(const CommandComparison& comparison) {
 TEST(CommandComparison, TolerancesAreWhatTheSlewLimitsLetChangeInATickAndOneStep) {
   const CommandTolerances own = tolerances();
   EXPECT_EQ(own.lag(), milliseconds(20));
+  EXPECT_EQ(own.command_lag(), milliseconds(70));
   EXPECT_EQ(own.mode_lag(), milliseconds(40));
   // av21.yaml: throttle falls by 5 a second, brake by 30,000 kPa/s, steering 0.5 rad/s by 19.5;
   // steps of av21.dbc: 0.01 %, 1 kPa, 0.5 deg.
@@ -54,12 +55,12 @@ TEST(CommandComparison, TolerancesAreWhatTheSlewLimitsLetChangeInATickAndOneStep
   EXPECT_EQ(own.command[3], 0.0);
 }
 
-TEST(CommandComparison, ARunThatIsTwoTicksLateIsTheSameAndOneThatIsSevenLateIsNot) {
+TEST(CommandComparison, ARunThatIsTwoTicksLateIsTheSameAndOneThatIsTwelveLateIsNot) {
   const CommandComparison same = compare(trace(), trace(kTick * 2), tolerances());
   EXPECT_TRUE(same.differences.empty()) << same.differences[0].signal;
   EXPECT_EQ(same.modes, 3U);
   EXPECT_EQ(same.commands, 200U);
-  const CommandComparison late = compare(trace(), trace(kTick * 7), tolerances());
+  const CommandComparison late = compare(trace(), trace(kTick * 12), tolerances());
   EXPECT_EQ(signals_of(late),
             (std::vector<std::string>{"mode.mode (seconds)", "gear_shift_cmd.desired_gear"}));
   EXPECT_EQ(late.differences[0].values, 2U) << "both changes";
@@ -70,12 +71,11 @@ TEST(CommandComparison, ARunThatIsTwoTicksLateIsTheSameAndOneThatIsSevenLateIsNo
 TEST(CommandComparison, ACommandBeyondItsToleranceIsNamedWithTimeAndSize) {
   CommandTrace again = trace({}, 300.0);
   EXPECT_TRUE(compare(trace(), again, tolerances()).differences.empty()) << "within 301 kPa";
-  again.commands[kBrake][40].value += 500.0;
-  for (std::size_t i = 39; i < 47; ++i) again.commands[kBrake][i].value += 500.0;
+  for (std::size_t i = 30; i < 60; ++i) again.commands[kBrake][i].value += 500.0;
   const auto found = compare(trace(), again, tolerances()).differences;
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].signal, "brake_pressure_cmd.brake_pressure_cmd");
-  EXPECT_EQ(found[0].first.tick, 41U) << "two ticks in, the value before is too far back";
+  EXPECT_EQ(found[0].first.tick, 37U) << "seven ticks in, the value before is too far back";
   EXPECT_GT(found[0].largest.size(), 301.0);
 }
 
@@ -105,7 +105,7 @@ TEST(CommandComparison, CommandsOfOneRunOnlyAndARunThatEndsEarlyAreDifferences) 
   auto found = compare(trace(), again, tolerances()).differences;
   ASSERT_EQ(signals_of({.differences = found}),
             (std::vector<std::string>{"brake_pressure_cmd.brake_pressure_cmd (frame)"}));
-  EXPECT_EQ(found[0].values, 16U) << "two ticks of either end are near enough";
+  EXPECT_EQ(found[0].values, 6U) << "seven ticks of either end are near enough";
   EXPECT_EQ(found[0].first.again, 0.0);
   found = compare(again, trace(), tolerances()).differences;
   ASSERT_EQ(found.size(), 1U);
