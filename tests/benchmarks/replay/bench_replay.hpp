@@ -7,10 +7,9 @@
 //   --interface     to play on (vcan0)              --json FILE   everything, for programs
 //   out    a table: quantiles of lateness and gap error, medians over the runs; exit code 1 when a
 //          gate is missed: ours complete and in order, at p50 at least 10 times closer to the
-//          schedule than canplayer and 5 times than python-can (elsewhere 5 times and twice);
-//          with sensors, which the peers do not play, the gap error is shown and not judged; frames
-//          and datagrams in one order; candump and ASC read at least 10 times as fast as by
-//          python-can; 2: it could not run
+//          schedule than canplayer and 5 times than python-can (elsewhere 5 times and twice), with
+//          and without sensors; frames and datagrams in one order; candump and ASC read at least
+//          10 times as fast as by python-can; 2: it could not run
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <span>
 
 #include "protocol/json/json_text.hpp"
 #include "protocol/vocabulary/text.hpp"
@@ -189,8 +188,6 @@ std::vector<MatchGate> content_gates(const MatchFigures& figures) {
               any && std::ranges::all_of(sensors, &SensorArrival::order_is_kept))};
 }
 
-constexpr std::size_t kLatenessMeasures = 2;
-
 void add_ratios(const MatchFigures& figures, const Peer& peer, std::size_t own,
                 std::vector<MatchGate>& out) {
   const struct {
@@ -199,14 +196,11 @@ void add_ratios(const MatchFigures& figures, const Peer& peer, std::size_t own,
     double Quantiles::*share;
     double least;
   } kMeasures[] = {
-      // those of lateness first
       {"lateness p50", &TimingErrors::lateness, &Quantiles::p50_us, peer.least_median_times},
       {"lateness p90", &TimingErrors::lateness, &Quantiles::p90_us, peer.least_times},
       {"gap error p50", &TimingErrors::gap, &Quantiles::p50_us, kLeastMedianGapTimes},
       {"gap error p90", &TimingErrors::gap, &Quantiles::p90_us, peer.least_times}};
-  // Beside sensors, which the peers do not play, a frame is judged by its schedule alone.
-  const std::size_t judged = own == 0 ? std::size(kMeasures) : kLatenessMeasures;
-  for (const auto& measure : std::span{kMeasures}.first(judged)) {
+  for (const auto& measure : kMeasures) {
     const double theirs = median(figures.runs[peer.player], measure.which).*measure.share;
     const double ours = median(figures.runs[kOwnPlayers[own]], measure.which).*measure.share;
     out.push_back({std::string(measure.name) + " of " + kPlayerNames[peer.player] + " over " +
