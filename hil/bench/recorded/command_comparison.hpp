@@ -7,9 +7,9 @@
 //          recording. Two things may differ, and the tolerances are made of them and of nothing
 //          that was measured:
 //            when   a frame that came just before a tick may come just after it, and the first
-//                   ticks of both runs are brought together to one tick: two ticks. The car plans
-//                   in every fifth tick: what just misses one plan is acted on with the next, so
-//                   commands may follow a planning period later (command_lag)
+//                   ticks of both runs are brought together to one tick: two ticks. What just
+//                   misses one plan is acted on with the next, so commands may follow a planning
+//                   period later (command_lag)
 //            how    of inputs that are one tick newer or older, a command is another one by what
 //                   its slew limit lets it change in a tick, and by one step of its signal
 //          a command is compared with the nearest value of the other run within command_lag. The

@@ -69,8 +69,7 @@ class Collector {
     if (is_placed_) return;
     is_placed_ = true;
     const double start_mps = speed_mps < kStanding_mps ? 0.0 : speed_mps;
-    const double length_m = setup_.track.length_m();
-    const double s_start_m = std::fmod(s_m - start_mps * at_.seconds() + length_m, length_m);
+    const double s_start_m = setup_.track.wrap_station(s_m - start_mps * at_.seconds());
     facts_.start = {.known_at = at_, .s_m = s_start_m, .n_m = n_m, .speed_mps = start_mps};
   }
 
