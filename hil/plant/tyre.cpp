@@ -43,4 +43,12 @@ double lat_stiffness_n(const Tyre& tyre, double load_n, double grip) {
          steepness(tyre.shape) / std::sin(tyre.peak_slip_angle_rad);
 }
 
+double long_limit_n(const Tyre& tyre, double load_n, double grip) {
+  return grip * load_share(tyre, load_n) * load_n * tyre.mu_long;
+}
+
+double lat_limit_n(const Tyre& tyre, double load_n, double grip) {
+  return grip * load_share(tyre, load_n) * load_n * tyre.mu_lat;
+}
+
 }  // namespace pitwall::plant

@@ -27,4 +27,8 @@ TyreForce tyre_force(const Tyre& tyre, const TyreSlip& slip, double load_n, doub
 double long_stiffness_n(const Tyre& tyre, double load_n, double grip);
 double lat_stiffness_n(const Tyre& tyre, double load_n, double grip);
 
+// Largest force, at the peak of the curve.
+double long_limit_n(const Tyre& tyre, double load_n, double grip);
+double lat_limit_n(const Tyre& tyre, double load_n, double grip);
+
 }  // namespace pitwall::plant

@@ -1,6 +1,8 @@
-// The plant file that ships.
+// The plant files that ship.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+
+#include <gtest/gtest.h>
 
 #include <fstream>
 #include <iterator>
@@ -10,13 +12,16 @@
 
 namespace pitwall::plant::testing {
 
-inline const std::string& shipped() {
-  static const std::string text = [] {
-    std::ifstream file(std::string(PITWALL_SOURCE_DIR) + "/hil/config/plants/av21.yaml",
-                       std::ios::binary);
-    return std::string{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  }();
-  return text;
+inline std::string shipped(const std::string& name = "av21") {
+  std::ifstream file(std::string(PITWALL_SOURCE_DIR) + "/hil/config/plants/" + name + ".yaml",
+                     std::ios::binary);
+  return std::string{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+inline PlantFile shipped_car(const std::string& name) {
+  const auto file = read_plant(shipped(name), name + ".yaml");
+  if (!file) ADD_FAILURE() << to_string(file.error());
+  return file.value_or(PlantFile{});
 }
 
 // Why the text is refused; empty if it is read.
