@@ -47,7 +47,10 @@ planning::Followed followed(const Car& car) {
 
 void plan_when_due(const Setup& setup, Car& car, const Outputs& out, const Inputs& in) {
   Plan& plan = car.plan;
-  if (plan.ever && in.now - plan.at < setup.params.rates.planning) return;
+  // Half a tick before: ticks come microseconds early or late, and one that comes early is no
+  // reason to plan a whole tick later.
+  const Rates& rates = setup.params.rates;
+  if (plan.ever && in.now - plan.at < rates.planning - rates.tick / 2) return;
   world::Trajectory stop = plan.output.stop;
   plan.output =
       planning::step(setup.params.planning, setup.line, setup.track, plan.output.next,

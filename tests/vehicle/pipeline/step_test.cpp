@@ -304,6 +304,24 @@ TEST(Step, PlansAtItsOwnRate) {
   EXPECT_EQ(car->ticks, 200u);
 }
 
+TEST(Step, PlansAtItsOwnRateWhereTicksComeEarlyAndLate) {
+  const auto car = new_car();
+  StandingCar source;
+  Random random{7};
+  std::vector<std::uint64_t> planned;
+  Instant last{};
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    // By a fifth of a tick: a live loop reads its clock when it has read its sockets.
+    const auto late = microseconds(static_cast<std::int64_t>(random.below(2'000)));
+    const Instant now = kStart + kTick * static_cast<std::int64_t>(i) + late;
+    tick(*car, source.receive(now), now);
+    if (car->plan.at != last) planned.push_back(i);
+    last = car->plan.at;
+  }
+  ASSERT_EQ(planned.size(), 40u);
+  for (std::size_t plan = 0; plan < planned.size(); ++plan) EXPECT_EQ(planned[plan], plan * 5);
+}
+
 TEST(Step, ReportsThePlaceOnTheTrack) {
   const auto car = new_car();
   StandingCar source;
