@@ -40,6 +40,10 @@ Result<RecordedRun, Problem> RecordedRun::open(const std::string& path) {
   } else {
     run.files_ = {path};
   }
+  for (const std::string& file : run.files_) {
+    const std::uintmax_t bytes = std::filesystem::file_size(file, none);
+    if (!none) run.size_ += bytes;
+  }
   const auto opened = run.open_next();
   if (!opened) return Unexpected{opened.error()};
   return run;
@@ -50,6 +54,7 @@ Result<bool, Problem> RecordedRun::open_next() {
   const std::string& path = files_[opened_++];
   auto bytes = transport::read_file(path);
   if (!bytes) return Unexpected{bytes.error()};
+  if (segment_) done_before_ += segment_->bytes.size();
   segment_ = std::make_shared<Segment>(path, *std::move(bytes));
   places_.clear();
   waiting_ = segment_->reader.next();  // what is in front of it, the clock, is known now
@@ -181,6 +186,8 @@ std::optional<Problem> RecordedRun::incomplete(const RecordedTick& tick) const {
     return problem(number + count_of(bytes, given.receiver_bytes, "bytes of receivers"));
   return std::nullopt;
 }
+
+std::size_t RecordedRun::done() const { return done_before_ + segment_->reader.message_place(); }
 
 Problem RecordedRun::problem(const std::string& what) const { return {segment_->path, what}; }
 

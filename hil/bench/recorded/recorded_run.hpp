@@ -60,6 +60,9 @@ class RecordedRun {
   // The value of a key that the car wrote in front; empty: it has none.
   std::string metadata(const std::string& key) const;
   const std::vector<std::string>& remarks() const { return remarks_; }
+  // Bytes of all segments, and how many of them were read.
+  std::size_t size() const { return size_; }
+  std::size_t done() const;
 
  private:
   enum class Kind : std::uint8_t { kOther, kReceived, kStated, kReceiver, kTick, kState };
@@ -80,7 +83,7 @@ class RecordedRun {
   Instant at(std::uint64_t file_ns) const;
 
   std::vector<std::string> files_;
-  std::size_t opened_ = 0, remarked_ = 0;
+  std::size_t opened_ = 0, remarked_ = 0, size_ = 0, done_before_ = 0;
   std::shared_ptr<Segment> segment_;
   std::optional<recording::McapMessage> waiting_;  // of the segment, read already
   recorder::ClockMap clock_;

@@ -16,17 +16,18 @@
 #include "hil/cli/recordings/compare_live.hpp"
 #include "hil/cli/recordings/difference_text.hpp"
 #include "hil/nodes/can_variant.hpp"
+#include "hil/replay/reading/progress_line.hpp"
 #include "protocol/json/json_text.hpp"
 #include "protocol/transport/file.hpp"
 
 namespace pitwall::cli {
 namespace {
 
-constexpr std::uint64_t kProgressEvery = 60 * 100;  // ticks: a minute of the run
+constexpr std::uint64_t kProgressEvery = 100;  // ticks
 
 struct CompareOptions {
   LiveComparison live;  // which recording and files; the rest where it is played to the car
-  bool is_live = false;
+  bool is_live = false, progress = false;
   std::vector<std::string> tolerances, ignored;
 };
 
@@ -48,7 +49,8 @@ Result<bench::CompareRules, Problem> rules_of(const CompareOptions& options) {
 }
 
 Result<bench::Comparison, Problem> compared(bench::RecordedRun& run, const pipeline::Setup& setup,
-                                            bench::Comparison comparison) {
+                                            bench::Comparison comparison,
+                                            const replay::ReadProgress& reached) {
   bench::DriveAgain car{setup};
   while (true) {
     const auto tick = run.next();
@@ -60,9 +62,7 @@ Result<bench::Comparison, Problem> compared(bench::RecordedRun& run, const pipel
       return Unexpected{Problem{"tick " + number + ": " + again.error().place, again.error().what}};
     }
     comparison.add(**tick, *again, car.measured());
-    if (comparison.ticks() % kProgressEvery == 0)
-      std::fprintf(stderr, "%llu minutes of the run are driven again\n",
-                   static_cast<unsigned long long>(comparison.ticks() / kProgressEvery));
+    if (reached && comparison.ticks() % kProgressEvery == 0) reached(run.done(), run.size());
   }
 }
 
@@ -105,8 +105,11 @@ int compare(const CompareOptions& options) {
   if (!setup) return refuse(setup.error());
   const auto variant = can_variant::CanVariant::of(scenario::BusRevision::kV14);
   if (!variant) return refuse(variant.error());
-  const auto comparison =
-      compared(*run, *setup, bench::Comparison{variant->database(), *std::move(rules)});
+  const auto comparison = [&] {
+    replay::ProgressLine line("driving " + options.live.recording + " again", options.progress);
+    return compared(*run, *setup, bench::Comparison{variant->database(), *std::move(rules)},
+                    line.function());
+  }();
   if (!comparison) return refuse(comparison.error());
   remarks.insert(remarks.end(), run->remarks().begin(), run->remarks().end());
   for (const std::string& remark : remarks) std::fprintf(stderr, "%s\n", remark.c_str());
@@ -130,11 +133,12 @@ int compare_verb(std::span<const std::string> args) {
   const VerbOption ignored =
       app.option("--ignore", options.ignored, "a signal, or a whole message or group");
   app.option("--json", live.json_file, "write the differences here");
+  const VerbOption progress = app.flag("--progress", options.progress, replay::kProgressHelp);
   VerbOption is_live =
       app.flag("--live", options.is_live,
                "play the recording to pitwall-vehicle over a bus and its receivers' ports, and "
                "compare modes and commands within tolerances");
-  is_live.excludes(tolerance).excludes(ignored);
+  is_live.excludes(tolerance).excludes(ignored).excludes(progress);
   app.option("--interface", live.interface, "live: CAN interface, or unix:PATH").needs(is_live);
   app.option("--out", live.folder,
              "live: folder for the car's new recording, in a folder of its time, and its summary; "

@@ -65,10 +65,12 @@ TEST(RecordedRun, HasEveryTickWithAllThatItWasGiven) {
   auto run = RecordedRun::open(recorded_folder());
   ASSERT_TRUE(run) << to_string(run.error());
   std::uint64_t ticks = 0, states = 0, bytes = 0;
+  std::size_t done = 0;
   while (true) {
     const auto tick = run->next();
     ASSERT_TRUE(tick) << to_string(tick.error());
     if (!*tick) break;
+    EXPECT_GE(run->done(), std::exchange(done, run->done()));
     EXPECT_EQ((*tick)->given.number, ticks);
     EXPECT_EQ((*tick)->now, pipeline::testing::kStart + kTick * static_cast<std::int64_t>(ticks));
     EXPECT_FALSE((*tick)->received.empty());
@@ -79,6 +81,9 @@ TEST(RecordedRun, HasEveryTickWithAllThatItWasGiven) {
   EXPECT_EQ(ticks, kDrivenTicks);
   EXPECT_EQ(states, kDrivenTicks / 2);
   EXPECT_GT(bytes, 10'000U);
+  EXPECT_EQ(run->size(), transport::read_file(segment())->size());
+  EXPECT_GT(done, run->size() / 2) << "an index is behind the last tick";
+  EXPECT_LT(done, run->size());
   EXPECT_EQ(run->begun(), pipeline::testing::kStart);
   EXPECT_TRUE(run->remarks().empty());
   EXPECT_EQ(run->metadata("base"), "watched");

@@ -32,6 +32,14 @@ TEST_F(CompareVerb, ARunDrivenAgainByTheSameBuildDiffersInNothing) {
       << text_of("same.json");
 }
 
+TEST_F(CompareVerb, SaysHowFarItIsWhereThatIsAskedFor) {
+  const ProgramOutput output = run({"compare", recording(), "--progress"});
+  EXPECT_EQ(output.code, 0) << output.err;
+  EXPECT_NE(output.err.find("driving " + recording() + " again: "), std::string::npos)
+      << output.err;
+  EXPECT_EQ(run({"compare", recording()}).err, "");
+}
+
 TEST_F(CompareVerb, WithAnotherTrackItDiffersAndSaysWhere) {
   const ProgramOutput output =
       run({"compare", recording(), "--track", "vehicle/config/tracks/ims.yaml", "--json",
