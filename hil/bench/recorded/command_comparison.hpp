@@ -9,7 +9,8 @@
 //            when   a frame that came just before a tick may come just after it, and the first
 //                   ticks of both runs are brought together to one tick: two ticks. What just
 //                   misses one plan is acted on with the next, so commands may follow a planning
-//                   period later (command_lag)
+//                   period later (command_lag): shown in lockstep, where inputs alone are moved
+//                   (tests/hil/bench/recorded/moved_inputs_test.cpp)
 //            how    of inputs that are one tick newer or older, a command is another one by what
 //                   its slew limit lets it change in a tick, and by one step of its signal
 //          a command is compared with the nearest value of the other run within command_lag. The
