@@ -52,6 +52,8 @@ struct UdpSocketOptions {
   int receive_buffer_bytes = 1 << 20;
   bool reuse_address = false;
   std::uint8_t dscp = 0;  // differentiated services code point of what is sent; [0, 63]
+  // Of kernel stamps: for sockets whose times are compared, as in CanSocketOptions.
+  std::optional<Duration> clock_offset{};
 };
 
 struct UdpCounters {
@@ -92,7 +94,8 @@ class UdpSocket {
   UdpAddress local_;
   UdpCounters counters_;
   int send_error_ = 0;
-  Instant empty_at_{};  // a read that began then left nothing
+  std::optional<Duration> clock_offset_;  // that was given
+  Instant empty_at_{};                    // a read that began then left nothing
 };
 
 }  // namespace pitwall::transport

@@ -103,7 +103,7 @@ Result<CanSocket, Problem> CanSocket::open(std::string_view interface,
   const auto made =
       posix_call([] { return socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, CAN_RAW); });
   if (!made.ok()) return refuse("no CAN in this kernel: " + made.reason());
-  CanSocket can{FileDescriptor(made)};
+  CanSocket can{FileDescriptor(made), options.clock_offset};
   if (name.empty() || name.size() >= IFNAMSIZ) return refuse("not an interface name");
   const unsigned index = if_nametoindex(name.c_str());
   if (index == 0) return refuse("no such interface");
@@ -125,7 +125,7 @@ Result<CanSocket, Problem> CanSocket::open_unix(std::string_view interface,
                                           .errors = options.receive_errors,
                                           .fd = options.fd});
   if (!end) return Unexpected{end.error()};
-  return CanSocket{*std::move(end)};
+  return CanSocket{*std::move(end), options.clock_offset};
 }
 
 PosixOutcome CanSocket::configure(const CanSocketOptions& options) {
@@ -253,7 +253,7 @@ void CanSocket::take_error(const CanWire& wire, Instant at) {
 // Kernel stamps are calendar time: after a step of that clock, those still in the queue cannot be
 // converted, so until the next look arrival times stand in for them.
 void CanSocket::follow_clock(Instant now) {
-  const Duration offset = realtime_minus_monotonic();
+  const Duration offset = given_offset_ ? *given_offset_ : realtime_minus_monotonic();
   const Duration change = offset - clock_offset_;
   const Duration allowed = kClockStep + (now - next_poll_ + kPollPeriod) / kSlewDivisor;
   stamps_trusted_ = !offset_known_ || (change < allowed && -change < allowed);

@@ -46,6 +46,10 @@ struct CanSocketOptions {
   bool receive_errors = true;          // error frames: counted and decoded, never delivered as data
   bool fd = true;                      // accept CAN FD frames
   int receive_buffer_bytes = 8 << 20;  // 21,846 classic frames at 384 B (kernel doubles the value)
+  // realtime_minus_monotonic() for all stamps; none: looked at every 100 ms. With the same one for
+  // several sockets their times have the order of the kernel's stamps. Where the calendar is
+  // stepped meanwhile, times are those of the read.
+  std::optional<Duration> clock_offset{};
 };
 
 struct CanSocketCounters {
@@ -110,8 +114,10 @@ class CanSocket {
   bool hung_up() const { return unix_ && !unix_->connected(); }
 
  private:
-  explicit CanSocket(FileDescriptor fd) : fd_(std::move(fd)) {}
-  explicit CanSocket(UnixBusEnd end) : unix_(std::move(end)) {}
+  CanSocket(FileDescriptor fd, std::optional<Duration> clock_offset)
+      : fd_(std::move(fd)), given_offset_(clock_offset) {}
+  CanSocket(UnixBusEnd end, std::optional<Duration> clock_offset)
+      : unix_(std::move(end)), given_offset_(clock_offset) {}
   static Result<CanSocket, Problem> open_unix(std::string_view interface,
                                               const CanSocketOptions& options);
   int send_fd() const { return unix_ ? unix_->sender() : fd_.get(); }
@@ -136,6 +142,7 @@ class CanSocket {
   Instant bus_state_at_{};
   std::uint32_t queued_bytes_ = 0;
   int receive_buffer_bytes_ = 0;
+  std::optional<Duration> given_offset_;
   Duration clock_offset_{};
   Instant next_poll_{};
   Instant empty_at_{};  // a read that began then left nothing

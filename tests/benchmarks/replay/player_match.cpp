@@ -135,10 +135,13 @@ std::optional<Problem> run_player(std::vector<std::string> command, Duration len
 // A socket on the bus that is emptied after the run, or during it where it does not hold all of it.
 class BusRecorder {
  public:
-  static Result<BusRecorder, Problem> open(const std::string& interface, std::size_t frames) {
+  static Result<BusRecorder, Problem> open(const std::string& interface, std::size_t frames,
+                                           Duration clock_offset) {
     const std::size_t wanted = std::min(frames * kBytesPerFrame, kMaxBufferBytes);
-    auto socket = transport::CanSocket::open(
-        interface, {.receive_errors = false, .receive_buffer_bytes = static_cast<int>(wanted)});
+    auto socket =
+        transport::CanSocket::open(interface, {.receive_errors = false,
+                                               .receive_buffer_bytes = static_cast<int>(wanted),
+                                               .clock_offset = clock_offset});
     if (!socket) return Unexpected{socket.error()};
     return BusRecorder{*std::move(socket), frames};
   }
@@ -172,7 +175,8 @@ std::optional<Problem> finish(BusRecorder& bus, const MatchPlan& plan) {
 
 Result<Comparison, Problem> record_run(std::vector<std::string> command, const MatchPlan& plan,
                                        const CanLog& log) {
-  auto bus = BusRecorder::open(plan.interface, log.frames.size());
+  auto bus =
+      BusRecorder::open(plan.interface, log.frames.size(), transport::realtime_minus_monotonic());
   if (!bus) return Unexpected{bus.error()};
   const auto meanwhile = bus->holds_all() ? std::function<void()>{} : [&] { bus->drain(); };
   if (auto problem = run_player(std::move(command), length_of(log), meanwhile))
@@ -183,9 +187,10 @@ Result<Comparison, Problem> record_run(std::vector<std::string> command, const M
 
 Result<SensorArrival, Problem> record_sensor_run(const MatchPlan& plan, const CanLog& log,
                                                  const SensorPlan& sensors) {
-  auto bus = BusRecorder::open(plan.interface, kSensorPasses * log.frames.size());
+  const Duration offset = transport::realtime_minus_monotonic();
+  auto bus = BusRecorder::open(plan.interface, kSensorPasses * log.frames.size(), offset);
   if (!bus) return Unexpected{bus.error()};
-  auto ports = ReceiverPorts::open();
+  auto ports = ReceiverPorts::open(offset);
   if (!ports) return Unexpected{ports.error()};
   const bool bus_holds_all = bus->holds_all();
   const auto meanwhile = [&] {

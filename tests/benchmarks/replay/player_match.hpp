@@ -4,7 +4,8 @@
 // play CAN alone, as they cannot do more.
 //
 //   recorder   a socket whose buffer holds the whole run; emptied after it. Frames carry the
-//              kernel's stamps, taken as they pass the interface, so nobody has to be awake
+//              kernel's stamps, taken as they pass the interface, so nobody has to be awake. All
+//              sockets of a run convert them with one offset: they keep the order of the kernel
 //   players    ours as it is shipped; canplayer and python-can as their users start them
 //   receivers  a socket each, emptied every tenth of a second as a car would
 //   order      a warm-up of each, then run by run, each time another one first

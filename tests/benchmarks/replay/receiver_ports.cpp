@@ -3,10 +3,10 @@
 
 namespace pitwall::benchmarks {
 
-Result<ReceiverPorts, Problem> ReceiverPorts::open() {
+Result<ReceiverPorts, Problem> ReceiverPorts::open(Duration clock_offset) {
   std::vector<transport::UdpSocket> sockets;
   for (std::size_t receiver = 0; receiver < kReceivers; ++receiver) {
-    auto socket = transport::UdpSocket::bind({});
+    auto socket = transport::UdpSocket::bind({}, {.clock_offset = clock_offset});
     if (!socket) return Unexpected{socket.error()};
     sockets.push_back(*std::move(socket));
   }

@@ -1,6 +1,7 @@
 // UDP sockets that stand for the receivers' inputs of a car: every datagram with its bytes and the
 // kernel's stamp.
-//   in     datagrams to the ports of address(), from this machine
+//   in     datagrams to the ports of address(), from this machine; the offset that all stamps of
+//          the run are converted with
 //   out    what came, per receiver, oldest first
 //   errors open(): Problem with a socket. lost(): what the queue of a socket did not hold
 //   bound  drain() has to be called before a queue is full: at 165 datagrams a second a second
@@ -19,7 +20,7 @@ namespace pitwall::benchmarks {
 
 class ReceiverPorts {
  public:
-  static Result<ReceiverPorts, Problem> open();
+  static Result<ReceiverPorts, Problem> open(Duration clock_offset);
 
   std::string address(std::size_t receiver) const;
   void drain();

@@ -70,7 +70,7 @@ TrackOrder order_of(std::vector<Arrival> all) {
   for (std::size_t i = 1; i < all.size(); ++i) {
     if (all[i].track == all[i - 1].track) continue;
     ++out.changes;
-    if (all[i].at - all[i - 1].at > kStampError) ++out.shown;
+    if (all[i].at > all[i - 1].at) ++out.shown;
   }
   // From the last one back: the first arrival of what is due later by more than a group.
   Instant first_later = Instant::max();
@@ -78,7 +78,7 @@ TrackOrder order_of(std::vector<Arrival> all) {
   for (std::size_t i = all.size(); i-- > 0;) {
     while (later > 0 && all[later - 1].due > all[i].due + replay::kGroup)
       first_later = std::min(first_later, all[--later].at);
-    if (first_later < Instant::max() && all[i].at - first_later > kStampError) ++out.broken;
+    if (all[i].at > first_later) ++out.broken;
   }
   return out;
 }

@@ -4,12 +4,12 @@
 //   order across tracks
 //     due       frame  1.0 ms   datagram  1.5 ms
 //     arrival          1.1 ms             1.6 ms   the order is shown
-//                      1.5 ms             1.6 ms   closer than kStampError: nothing is shown
 //                      1.9 ms             1.6 ms   broken: the frame came after what is due later
 //     A player may send what is due within kGroup together, track by track: that breaks nothing.
 //
 //   in     the log and the datagrams of one pass, its length, how many there were; what sockets
-//          received, with the kernel's stamps
+//          received, with the kernel's stamps: of one clock, with one offset for all sockets, so
+//          that their order is the kernel's and has no error
 //   out    frames as compare() has them, against all passes; counts of each receiver; the order
 //          across tracks, where every track is complete and in order: else there is none to judge
 //   cost   O(n log n)
@@ -27,11 +27,6 @@
 #include "tests/benchmarks/replay/sensor_traffic.hpp"
 
 namespace pitwall::benchmarks {
-
-// Stamps of two sockets: each read brings its stamps to the monotonic clock with an offset that is
-// exact to half of what two looks at the clocks take. In a guest that is 20 us, and on a busy host
-// a multiple of it.
-inline constexpr Duration kStampError = microseconds(200);
 
 struct PlayedRecording {
   std::span<const replay::LoggedFrame> frames;
@@ -55,7 +50,7 @@ struct DatagramCount {
 
 struct TrackOrder {
   std::uint64_t changes = 0;  // neighbours by due time that are of different tracks
-  std::uint64_t shown = 0;    // of them: arrived in that order, by more than kStampError
+  std::uint64_t shown = 0;    // of them: arrived in that order
   std::uint64_t broken = 0;   // records that arrived after one which is due later
 
   bool is_kept() const { return shown > 0 && broken == 0; }

@@ -62,6 +62,35 @@ TEST(UdpSocket, DatagramsArriveWholeInOrderWithSenderAndTime) {
   EXPECT_EQ(a->counters().sent, sent.size());
 }
 
+TEST(UdpSocket, WithOneOffsetTheTimesOfTwoSocketsHaveTheOrderOfSending) {
+  // GIVEN two sockets with an offset that is 3 ms too large: it is theirs, and no other is read
+  const Duration offset = realtime_minus_monotonic() + milliseconds(3);
+  auto from = UdpSocket::bind({});
+  auto even = UdpSocket::bind({}, {.clock_offset = offset});
+  auto odd = UdpSocket::bind({}, {.clock_offset = offset});
+  ASSERT_TRUE(from && even && odd);
+  // WHEN datagrams go to them by turns, and each is read now and then
+  std::vector<UdpDatagram> evens, odds;
+  const auto take = [](UdpSocket& socket, std::vector<UdpDatagram>& into) {
+    const auto some = collect(socket, 4);
+    into.insert(into.end(), some.begin(), some.end());
+  };
+  const Instant before = monotonic_now();
+  for (std::size_t i = 0; i < 400; ++i) {
+    UdpSocket& to = i % 2 == 0 ? *even : *odd;
+    ASSERT_TRUE(from->send_to(to.local(), as_bytes(std::string{"x"})));
+    if (i % 8 == 7) take(*even, evens), take(*odd, odds);
+  }
+  const Instant after = monotonic_now();
+  // THEN the order is kept, without a tolerance
+  ASSERT_EQ(evens.size(), 200U);
+  ASSERT_EQ(odds.size(), 200U);
+  for (std::size_t i = 0; i < odds.size(); ++i) EXPECT_GE(odds[i].at, evens[i].at) << i;
+  for (std::size_t i = 1; i < odds.size(); ++i) EXPECT_GE(evens[i].at, odds[i - 1].at) << i;
+  EXPECT_LT(evens.front().at, before - milliseconds(2));
+  EXPECT_LT(odds.back().at, after - milliseconds(2));
+}
+
 TEST(UdpSocket, TooLongIsCountedAndTheNextOnesCloseTheGap) {
   auto a = UdpSocket::bind({});
   auto b = UdpSocket::bind({});

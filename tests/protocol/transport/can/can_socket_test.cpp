@@ -67,6 +67,36 @@ TEST_F(CanSocketOnUnixBus, EveryKindOfFrameArrivesOnceInOrderAndStamped) {
   EXPECT_TRUE(receive(sender).empty());
 }
 
+TEST_F(CanSocketOnUnixBus, WithOneOffsetTwoSocketsGiveAFrameTheSameOrder) {
+  // GIVEN two readers with an offset that is 3 ms too large: it is theirs, and no other is read
+  const Duration offset = realtime_minus_monotonic() + milliseconds(3);
+  CanSocket sender = open(), first = open({.clock_offset = offset}),
+            second = open({.clock_offset = offset});
+  const Instant before = monotonic_now();
+  // WHEN each is read at times of its own, over more than one look at the clock
+  std::vector<can::ReceivedFrame> at_first, at_second;
+  const auto take = [&](CanSocket& socket, std::vector<can::ReceivedFrame>& into) {
+    for (const can::ReceivedFrame& frame : receive(socket)) into.push_back(frame);
+  };
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    ASSERT_TRUE(sender.send(can::Frame{.id = i, .length = 0}));
+    serve();
+    if (i % 2 == 0) take(first, at_first);
+    if (i % 7 == 0) take(second, at_second);
+    nap(milliseconds(1));
+  }
+  take(first, at_first), take(second, at_second);
+  // THEN a frame comes to the second one before the next comes to the first, without a tolerance
+  ASSERT_EQ(at_first.size(), 300u);
+  ASSERT_EQ(at_second.size(), 300u);
+  for (std::size_t i = 0; i + 1 < at_first.size(); ++i) {
+    ASSERT_LT(at_second[i].at, at_first[i + 1].at);
+    ASSERT_LT(at_first[i].at, at_second[i + 1].at);
+  }
+  EXPECT_LT(at_first.front().at, before - milliseconds(1));
+  EXPECT_LT(at_first.back().at, monotonic_now() - milliseconds(2));
+}
+
 TEST_F(CanSocketOnUnixBus, FiltersKeepBackWhatTheirLawSays) {
   std::mt19937_64 random(43);
   CanSocket sender = open();
