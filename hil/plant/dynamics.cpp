@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hil/plant/compliant/brush_tyre.hpp"
+#include "hil/plant/compliant/flexible_chassis.hpp"
 #include "hil/plant/powertrain.hpp"
 #include "hil/plant/tyre.hpp"
 #include "hil/plant/tyre_thermal.hpp"
@@ -12,6 +14,8 @@ namespace pitwall::plant {
 namespace {
 
 constexpr std::size_t kFl = 0, kFr = 1, kRl = 2, kRr = 3;
+
+bool is_compliant(const Params& p) { return p.structure == Structure::kCompliantBrush; }
 
 // Sums in an order that a mirrored car shares, so that mirror symmetry is exact.
 double total(const Wheels& w) { return (w[kFl] + w[kFr]) + (w[kRl] + w[kRr]); }
@@ -43,8 +47,16 @@ void add_turning(double mass_kg, const Motion& m, const Surface& road, Forces& f
                       f.pitch_rate_rad_per_s * m.vx_mps));
 }
 
-// Quasi-static loads; springs and anti-roll bars enter as the share of the front axle. A wheel that
-// would lift carries nothing and its neighbour the whole axle, so that the sum is always right.
+// Quasi-static: springs and anti-roll bars enter as the share of the front axle.
+LoadShift stiff_shift(const Params& p, double mass_kg, const Motion& m) {
+  const Chassis& c = p.chassis;
+  const double roll_nm = mass_kg * m.load_ay_mps2 * c.height_m;
+  return {c.roll_stiffness_front * roll_nm / c.track_front_m,
+          (1.0 - c.roll_stiffness_front) * roll_nm / c.track_rear_m};
+}
+
+// A wheel that would lift carries nothing and its neighbour the whole axle, so that the sum is
+// always right.
 void add_loads(const Params& p, double mass_kg, const Motion& m, const Surface& road,
                const Air& air, Forces& f) {
   const Chassis& c = p.chassis;
@@ -58,11 +70,10 @@ void add_loads(const Params& p, double mass_kg, const Motion& m, const Surface& 
   const double front_n =
       std::clamp(f.normal_n * c.rear_axle_m / wheelbase_m + down_front_n - pitch_n, 0.0, sum_n);
   const double rear_n = sum_n - front_n;
-  const double roll_nm = mass_kg * m.load_ay_mps2 * c.height_m;
-  const double front_shift_n =
-      std::clamp(c.roll_stiffness_front * roll_nm / c.track_front_m, -0.5 * front_n, 0.5 * front_n);
-  const double rear_shift_n = std::clamp((1.0 - c.roll_stiffness_front) * roll_nm / c.track_rear_m,
-                                         -0.5 * rear_n, 0.5 * rear_n);
+  const LoadShift shift =
+      is_compliant(p) ? leaning_shift(p, mass_kg, m) : stiff_shift(p, mass_kg, m);
+  const double front_shift_n = std::clamp(shift.front_n, -0.5 * front_n, 0.5 * front_n);
+  const double rear_shift_n = std::clamp(shift.rear_n, -0.5 * rear_n, 0.5 * rear_n);
   f.load_n = {0.5 * front_n - front_shift_n, 0.5 * front_n + front_shift_n,
               0.5 * rear_n - rear_shift_n, 0.5 * rear_n + rear_shift_n};
 }
@@ -97,8 +108,19 @@ Patch patch_of(const Params& p, const Motion& m, std::size_t i, const Steered& s
 }
 
 Steered steered(const Params& p, const Motion& m) {
-  const double road_wheel_rad = m.steering_motor_rad / p.steering.ratio;
-  return {std::cos(road_wheel_rad), std::sin(road_wheel_rad)};
+  const double angle_rad = road_wheel_rad(p, m);
+  return {std::cos(angle_rad), std::sin(angle_rad)};
+}
+
+struct SlipStiffness {
+  double long_n, lat_n;
+};
+
+SlipStiffness stiffness_of(const Params& p, const Tyre& tyre, double load_n, double grip) {
+  if (is_compliant(p))
+    return {brush_long_stiffness_n(tyre, p.brush, load_n),
+            brush_lat_stiffness_n(tyre, p.brush, load_n)};
+  return {long_stiffness_n(tyre, load_n, grip), lat_stiffness_n(tyre, load_n, grip)};
 }
 
 void add_tyre(const Params& p, const State& discrete, const Motion& m, const Surface& road,
@@ -111,11 +133,15 @@ void add_tyre(const Params& p, const State& discrete, const Motion& m, const Sur
     // Pacejka 8.6: damping of the standing tyre, as additional slip so that friction bounds it.
     const double fade = 1.0 - slow * slow;
     const double damping_nspm = p.low_speed_damping_nspm * fade * fade;
-    slip.ratio += damping_nspm * (q.tread_mps - q.long_mps) /
-                  (1.0 + long_stiffness_n(tyre, f.load_n[i], grip));
-    slip.sine -= damping_nspm * q.lat_mps / (1.0 + lat_stiffness_n(tyre, f.load_n[i], grip));
+    const SlipStiffness stiffness = stiffness_of(p, tyre, f.load_n[i], grip);
+    slip.ratio += damping_nspm * (q.tread_mps - q.long_mps) / (1.0 + stiffness.long_n);
+    slip.sine -= damping_nspm * q.lat_mps / (1.0 + stiffness.lat_n);
   }
-  const TyreForce force = tyre_force(tyre, slip, f.load_n[i], grip);
+  const TyreForce force = is_compliant(p) ? brush_force(tyre, p.brush, slip, f.load_n[i], grip)
+                                          : tyre_force(tyre, slip, f.load_n[i], grip);
+  if (is_compliant(p) && i < 2)
+    f.steering_nm -= force.lat_n * (p.compliance.caster_trail_m +
+                                    pneumatic_trail_m(tyre, p.brush, slip, f.load_n[i], grip));
   f.long_n[i] = force.long_n;
   f.lat_n[i] = force.lat_n;
   f.slip_ratio[i] = slip.ratio;
@@ -150,11 +176,13 @@ void add_body(const Params& p, const Air& air, const Steered& steer, Forces& f) 
 
 void add_wheel_torques(const Params& p, const State& discrete, const Motion& m, Forces& f) {
   const Drivetrain& d = p.drivetrain;
+  const double front_kpa = is_compliant(p) ? pressing_kpa(p, m.brake_front_kpa) : m.brake_front_kpa;
+  const double rear_kpa = is_compliant(p) ? pressing_kpa(p, m.brake_rear_kpa) : m.brake_rear_kpa;
   for (std::size_t i = 0; i < world::kCorners; ++i) {
     const Tyre& tyre = tyre_of(p, i);
     const double brake_nm =
-        i < 2 ? 0.5 * p.brakes.front_remaining * p.brakes.front_nm_per_kpa * m.brake_front_kpa
-              : 0.5 * p.brakes.rear_remaining * p.brakes.rear_nm_per_kpa * m.brake_rear_kpa;
+        i < 2 ? 0.5 * p.brakes.front_remaining * p.brakes.front_nm_per_kpa * front_kpa
+              : 0.5 * p.brakes.rear_remaining * p.brakes.rear_nm_per_kpa * rear_kpa;
     f.hold_nm[i] = brake_nm + tyre.rolling_resistance * f.load_n[i] * tyre.radius_m;
   }
   const double ratio = total_ratio(d, discrete);
@@ -208,6 +236,19 @@ void drive_actuators(const Params& p, const Motion& m, const SetPoints& set, Mot
 
 }  // namespace
 
+double road_wheel_rad(const Params& p, const Motion& m) {
+  const double rigid_rad = m.steering_motor_rad / p.steering.ratio;
+  return is_compliant(p) ? rigid_rad + m.steering_flex_rad : rigid_rad;
+}
+
+void settle_loads(const Params& p, double mass_kg, double ax_mps2, double ay_mps2, Motion& m) {
+  m.load_ax_mps2 = ax_mps2;
+  m.load_ay_mps2 = ay_mps2;
+  if (!is_compliant(p)) return;
+  m.roll_rad = settled_roll_rad(p, mass_kg, ay_mps2);
+  m.roll_rate_rad_per_s = 0.0;
+}
+
 MapVelocity map_velocity(const Motion& m, const Surface& road) {
   const double cos_yaw = std::cos(m.yaw_rad), sin_yaw = std::sin(m.yaw_rad);
   const double sin_bank = std::sin(road.bank_rad);
@@ -260,6 +301,7 @@ Motion derivative_of(const Params& params, const State& discrete, const Motion& 
   d.load_ax_mps2 = (ax_mps2 - m.load_ax_mps2) / c.load_lag_s;
   d.load_ay_mps2 = (ay_mps2 - m.load_ay_mps2) / c.load_lag_s;
   drive_actuators(params, m, set, d);
+  if (is_compliant(params)) bend(params, carried_kg, ay_mps2, f.steering_nm, m, set, d);
   d.odometer_m = std::hypot(m.vx_mps, m.vy_mps);
   return d;
 }

@@ -24,6 +24,7 @@ struct Forces {
   double body_x_n = 0.0, body_y_n = 0.0;  // all but gravity, in the plane of the road
   double normal_n = 0.0;                  // tyres less downforce
   double yaw_moment_nm = 0.0;
+  double steering_nm = 0.0;  // of both front tyres about their steering axes, if that can turn them
   double heading_rate_rad_per_s = 0.0;                           // of the map yaw
   double roll_rate_rad_per_s = 0.0, pitch_rate_rad_per_s = 0.0;  // about body x and y
 };
@@ -38,6 +39,13 @@ Forces forces_of(const Params& params, const State& discrete, const Motion& moti
 
 Motion derivative_of(const Params& params, const State& discrete, const Motion& motion,
                      const Surface& surface, const SetPoints& set);
+
+// Angle of the front wheels against the body.
+double road_wheel_rad(const Params& params, const Motion& motion);
+
+// The springs of the car as they are when it has accelerated so for long.
+void settle_loads(const Params& params, double mass_kg, double ax_mps2, double ay_mps2,
+                  Motion& motion);
 
 // What the engine, brakes and road do to a wheel that does not turn; it stays locked while this is
 // within hold_nm.

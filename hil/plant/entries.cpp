@@ -156,6 +156,31 @@ List thermal_rows() {
       {"thermal", "hot_grip_loss", of<t, &TyreThermal::hot_grip_loss>, 0, 0.9}};
 }
 
+List compliant_rows() {
+  constexpr auto b = &Params::brush;
+  constexpr auto s = &Params::suspension;
+  constexpr auto c = &Params::compliance;
+  constexpr auto h = &Params::hydraulics;
+  List rows{{"brush", "stiffest_load", of<b, &Brush::stiffest_load>, 1.5, 10},
+            {"brush", "sliding_friction", of<b, &Brush::sliding_friction>, 0.3, 1},
+            {"brush", "sliding_slips", of<b, &Brush::sliding_slips>, 0.5, 20},
+            {"brush", "trail_m", of<b, &Brush::trail_m>, 0, 0.1},
+            {"suspension", "roll_inertia_kgm2", of<s, &Suspension::roll_inertia_kgm2>, 100, 1000},
+            {"suspension", "front_nm_per_rad", of<s, &Suspension::front_nm_per_rad>, 10e3, 1e6},
+            {"suspension", "rear_nm_per_rad", of<s, &Suspension::rear_nm_per_rad>, 10e3, 1e6},
+            {"suspension", "front_nms_per_rad", of<s, &Suspension::front_nms_per_rad>, 200, 20e3},
+            {"suspension", "rear_nms_per_rad", of<s, &Suspension::rear_nms_per_rad>, 200, 20e3},
+            {"suspension", "front_centre_m", of<s, &Suspension::front_centre_m>, -0.1, 0.2},
+            {"suspension", "rear_centre_m", of<s, &Suspension::rear_centre_m>, -0.1, 0.2},
+            {"compliance", "rad_per_nm", of<c, &SteeringCompliance::rad_per_nm>, 0, 3e-4},
+            {"compliance", "caster_trail_m", of<c, &SteeringCompliance::caster_trail_m>, 0, 0.1},
+            {"compliance", "lag_s", of<c, &SteeringCompliance::lag_s>, 0.01, 0.2},
+            {"hydraulics", "dead_band_kpa", of<h, &BrakeHydraulics::dead_band_kpa>, 0, 490},
+            {"hydraulics", "release_lag_s", of<h, &BrakeHydraulics::release_lag_s>, 0.005, 1}};
+  for (Entry& row : rows) row.only_of = Structure::kCompliantBrush;
+  return rows;
+}
+
 List all_rows() {
   List all = chassis_rows();
   add(all, aero_rows());
@@ -165,6 +190,7 @@ List all_rows() {
   add(all, engine_rows());
   add(all, drivetrain_rows());
   add(all, thermal_rows());
+  add(all, compliant_rows());
   add(all,
       {{"standstill", "low_speed_mps", own<&Params::low_speed_mps>, 0.5, 10},
        {"standstill", "low_speed_damping_nspm", own<&Params::low_speed_damping_nspm>, 500, 8000}});

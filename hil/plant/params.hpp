@@ -14,8 +14,21 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <string_view>
 
 namespace pitwall::plant {
+
+// Which equations the car follows. kDoubleTrack: magic formula, quasi-static loads, rigid steering.
+// kCompliantBrush: brush tyre, a body that rolls, steering that gives way, brakes with a dead band.
+enum class Structure : std::uint64_t { kDoubleTrack, kCompliantBrush };
+struct NamedStructure {
+  std::string_view name;
+  Structure structure;
+};
+inline constexpr std::array kStructures{
+    NamedStructure{"double_track", Structure::kDoubleTrack},
+    NamedStructure{"compliant_brush", Structure::kCompliantBrush}};
 
 struct Chassis {
   double mass_kg = 790.0;                  // [A] [D]; with fuel
@@ -175,7 +188,38 @@ struct TyreThermal {
   double hot_grip_loss = 0.0;              // share of grip lost at ruined_c
 };
 
+// The four that follow are used by Structure::kCompliantBrush alone.
+
+// What the brush tyre has beside Tyre, both axles alike; Tyre's shape is not used.
+struct Brush {
+  double stiffest_load = 3.0;     // load at which a tyre is stiffest, over the nominal one [E]
+  double sliding_friction = 0.8;  // of a tyre that slides far, over the peak's [E]
+  double sliding_slips = 3.0;     // half of that loss: so many peak slips beyond the peak [E]
+  double trail_m = 0.03;          // pneumatic, at nominal load without slip [E]
+};
+
+struct Suspension {
+  double roll_inertia_kgm2 = 265.0;  // [A]
+  // Springs, anti-roll bars and the tyres' walls in series: 0.5 degree per g [E].
+  double front_nm_per_rad = 122e3, rear_nm_per_rad = 98e3;
+  double front_nms_per_rad = 2100.0, rear_nms_per_rad = 1700.0;  // a quarter of critical [E]
+  double front_centre_m = 0.02, rear_centre_m = 0.04;            // height of the roll centres [E]
+};
+
+// Between steering motor and road wheels.
+struct SteeringCompliance {
+  double rad_per_nm = 9e-5;     // at the road wheels, per moment of both of them [E]
+  double caster_trail_m = 0.0;  // beside the tyre's own [E]
+  double lag_s = 0.02;          // [E]
+};
+
+struct BrakeHydraulics {
+  double dead_band_kpa = 150.0;  // until the pads touch [E]
+  double release_lag_s = 0.16;   // pressure falls slower than Brakes::lag_s lets it rise [E]
+};
+
 struct Params {
+  Structure structure = Structure::kDoubleTrack;
   Chassis chassis;
   Aero aero;
   Tyre front{.radius_m = 0.301,         // [T]
@@ -196,6 +240,10 @@ struct Params {
   Fuel fuel;
   Drivetrain drivetrain;
   TyreThermal thermal;
+  Brush brush;
+  Suspension suspension;
+  SteeringCompliance compliance;
+  BrakeHydraulics hydraulics;
   // Below this speed the spring that a tyre is at standstill is damped: the car comes to rest.
   double low_speed_mps = 3.0;
   double low_speed_damping_nspm = 4'000.0;  // per tyre, at standstill [E]

@@ -146,6 +146,7 @@ State rolling(const Params& params, const State& at, double speed_mps, std::uint
   s.motion.vx_mps = speed_mps;
   s.motion.vy_mps = s.motion.yaw_rate_rad_per_s = 0.0;
   s.motion.stretch_long_m = s.motion.stretch_lat_m = {};
+  s.motion.roll_rad = s.motion.roll_rate_rad_per_s = s.motion.steering_flex_rad = 0.0;
   for (std::size_t i = 0; i < world::kCorners; ++i) {
     s.motion.wheel_rad_per_s[i] = speed_mps / tyre_of(params, i).radius_m;
     s.locked[i] = speed_mps == 0.0;
@@ -188,7 +189,7 @@ Truth observe(const Params& params, const State& state, const Surface& surface) 
   t.tyre_c = state.tyre_c;
   t.friction_use = *std::max_element(f.use.begin(), f.use.end());
   t.steering_motor_rad = m.steering_motor_rad;
-  t.road_wheel_rad = m.steering_motor_rad / params.steering.ratio;
+  t.road_wheel_rad = road_wheel_rad(params, m);
   t.throttle_fraction = m.throttle_fraction;
   t.brake_front_kpa = m.brake_front_kpa, t.brake_rear_kpa = m.brake_rear_kpa;
   t.engine_rpm = state.engine_rpm;

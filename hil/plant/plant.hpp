@@ -1,4 +1,5 @@
-// The modelled car: a double-track AV-21 as a function from state to state.
+// The modelled car: a double-track AV-21 as a function from state to state. Params::structure says
+// by which equations of tyre, body, steering and brakes; what is said here holds for all of them.
 //   in     what the drive-by-wire tells its actuators, and the road under the car
 //   out    the next state; observe() says everything that a sensor or a judge may ask of a state
 //   frames Map: x east, y north, z up, yaw from east, counter-clockwise. Body: ISO 8855 at the
@@ -68,6 +69,10 @@ struct Motion {
   double steering_motor_rad = 0.0, throttle_fraction = 0.0;
   double brake_front_kpa = 0.0, brake_rear_kpa = 0.0;
   double odometer_m = 0.0;
+  // Of Structure::kCompliantBrush, else zero. Roll against the road, left side up positive, which
+  // no sensor sees; what the road wheels are turned beside what the motor says.
+  double roll_rad = 0.0, roll_rate_rad_per_s = 0.0;
+  double steering_flex_rad = 0.0;
 };
 
 // Trivially copyable; a copy is a snapshot.

@@ -71,10 +71,30 @@ void read_entry(yaml::StrictMap map, const Entry& entry, Reading& reading) {
   map.finish();
 }
 
+Structure read_structure(yaml::StrictMap& root) {
+  const std::string name = root.text_or("structure", std::string(kStructures.front().name));
+  std::string known;
+  for (const NamedStructure& one : kStructures) {
+    if (one.name == name) return one.structure;
+    known += (known.empty() ? "" : ", ") + std::string(one.name);
+  }
+  root.fail("structure", "\"" + name + "\" is none; there are: " + known);
+}
+
+void refuse_section_of_another(yaml::StrictMap& root, const Entry& entry) {
+  for (const NamedStructure& one : kStructures)
+    if (entry.only_of == one.structure && root.has(std::string(entry.section)))
+      root.fail(std::string(entry.section), "needs `structure: " + std::string(one.name) + "`");
+}
+
 void read_sections(yaml::StrictMap& root, bool based, Reading& reading) {
   std::optional<yaml::StrictMap> section;
   std::string_view name;
   for (const Entry& entry : entries()) {
+    if (!belongs(entry, reading.file.params.structure)) {
+      refuse_section_of_another(root, entry);
+      continue;
+    }
     if (entry.section != name) {
       name = entry.section;
       const std::string key{name};
@@ -195,6 +215,7 @@ PlantFile read_root(yaml::StrictMap& root) {
   const std::string base = root.text_or("base", "");
   if (root.has("base") && base != kBuiltIn)
     root.fail("base", "\"" + base + "\" is not built in; built in: " + std::string(kBuiltIn));
+  reading.file.params.structure = read_structure(root);
   for (const Entry& entry : entries())
     for (std::size_t i = 0; i < entry.count; ++i) entry.at(reading.file.spread, i) = 0.0;
   read_sections(root, !base.empty(), reading);

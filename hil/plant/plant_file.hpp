@@ -4,6 +4,8 @@
 //   schema: 1
 //   name: av21
 //   base: av21          # optional: what is left out is the built-in AV-21's; else all is needed
+//   structure: compliant_brush   # optional, else double_track: the equations; decides which
+//                                # sections there are (Entry::only_of)
 //   chassis:
 //     mass_kg: {value: 790, source: "autonoma-awsim asset", spread: 40}
 //   drivetrain:

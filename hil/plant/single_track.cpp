@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hil/plant/compliant/brush_tyre.hpp"
 #include "hil/plant/runge_kutta.hpp"
 #include "hil/plant/tyre.hpp"
 #include "protocol/vocabulary/units.hpp"
@@ -57,6 +58,11 @@ SingleTrackState slipping_derivative(const SingleTrackParams& p, const SingleTra
                             (lf * lf * front + lr * lr * rear) * r / v),
           .slip_rad = (p.friction * (lr * rear - lf * front) / (v * v) - 1.0) * r +
                       p.friction / v * (front * s.angle_rad - (rear + front) * slip)};
+}
+
+double stiffness_n(const Params& p, const Tyre& tyre, double load_n) {
+  return p.structure == Structure::kCompliantBrush ? brush_lat_stiffness_n(tyre, p.brush, load_n)
+                                                   : lat_stiffness_n(tyre, load_n, 1.0);
 }
 
 double most_power_w(const Params& p) {
@@ -158,8 +164,8 @@ SingleTrackParams single_track_of(const Params& params) {
           .mass_kg = c.mass_kg,
           .yaw_inertia_kgm2 = c.yaw_inertia_kgm2,
           .friction = kFriction,
-          .front_stiffness_per_rad = lat_stiffness_n(params.front, front_n, 1.0) / front_n,
-          .rear_stiffness_per_rad = lat_stiffness_n(params.rear, rear_n, 1.0) / rear_n,
+          .front_stiffness_per_rad = stiffness_n(params, params.front, front_n) / front_n,
+          .rear_stiffness_per_rad = stiffness_n(params, params.rear, rear_n) / rear_n,
           .limits = limits_of(params)};
 }
 

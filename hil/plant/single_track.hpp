@@ -76,7 +76,7 @@ KinematicState kinematic_step(const SingleTrackParams& params, const KinematicSt
 SingleTrackState blended_step(const SingleTrackParams& params, const SingleTrackState& state,
                               const SingleTrackInput& input, double dt_s);
 
-// The double track's car at small slip angles and without downforce.
+// The double track's car at small slip angles, without downforce and with rigid steering.
 SingleTrackParams single_track_of(const Params& params);
 
 }  // namespace pitwall::plant

@@ -7,6 +7,7 @@
 
 #include "hil/plant/family/grip_limit.hpp"
 #include "hil/plant/family/steady_turn.hpp"
+#include "protocol/vocabulary/check.hpp"
 #include "protocol/vocabulary/random.hpp"
 #include "protocol/vocabulary/units.hpp"
 
@@ -16,11 +17,19 @@ namespace {
 CarTraits drawn_traits(std::uint64_t seed, std::uint64_t number) {
   CarTraits traits;
   std::uint64_t stream = 0;
-  for (const TraitRange& range : kFamilyRanges) {
-    Random random{mix_bits(mix_bits(seed) + number) ^ mix_bits(++stream)};
-    traits.*range.trait = random.between(range.low, range.high);
-  }
+  const auto next_stream = [&] {
+    return Random{mix_bits(mix_bits(seed) + number) ^ mix_bits(++stream)};
+  };
+  for (const TraitRange& range : kFamilyRanges)
+    traits.*range.trait = next_stream().between(range.low, range.high);
+  if (next_stream().one_in(2)) traits.structure = Structure::kCompliantBrush;
   return traits;
+}
+
+std::string name_of(Structure structure) {
+  for (const NamedStructure& one : kStructures)
+    if (one.structure == structure) return std::string(one.name);
+  CHECK(false);
 }
 
 double wheelbase_m(const Params& p) { return p.chassis.front_axle_m + p.chassis.rear_axle_m; }
@@ -44,6 +53,7 @@ void set_actuators(const CarTraits& t, Params& p) {
   const double nm_per_kpa = p.brakes.front_nm_per_kpa + p.brakes.rear_nm_per_kpa;
   p.brakes.front_nm_per_kpa = nm_per_kpa * t.brake_front_share;
   p.brakes.rear_nm_per_kpa = nm_per_kpa * (1.0 - t.brake_front_share);
+  p.drivetrain.differential_nms_per_rad = t.differential_nms_per_rad;
 }
 
 void scale_friction(Tyre& tyre, double factor) {
@@ -61,6 +71,16 @@ void set_friction(double friction, Params& p) {
     scale_friction(p.front, factor);
     scale_friction(p.rear, factor);
   }
+}
+
+// Steering compliance makes so much understeer: compliance times trail times the mass on the front
+// axle (Pacejka 1.3.3).
+void set_compliance(double rad_per_mps2, Params& p) {
+  const Chassis& c = p.chassis;
+  const double front_kg = c.mass_kg * c.rear_axle_m / wheelbase_m(p);
+  const double load_n = 0.5 * front_kg * kGravity_mps2;
+  const double trail_m = p.brush.trail_m * std::sqrt(load_n / p.front.nominal_load_n);
+  p.compliance.rad_per_nm = rad_per_mps2 / (front_kg * (trail_m + p.compliance.caster_trail_m));
 }
 
 // Understeer is all but proportional to the slip that a force takes: the secant method.
@@ -92,17 +112,22 @@ CarTraits traits_of(const Params& p) {
           .brake_delay_s = b.delay_s,
           .throttle_delay_s = p.engine.throttle_delay_s,
           .brake_front_share = b.front_nm_per_kpa / (b.front_nm_per_kpa + b.rear_nm_per_kpa),
-          .relaxation_m = p.front.relaxation_m};
+          .relaxation_m = p.front.relaxation_m,
+          .differential_nms_per_rad = p.drivetrain.differential_nms_per_rad,
+          .structure = p.structure};
 }
 
 FamilyCar drawn_car(std::uint64_t seed, std::uint64_t number) {
   FamilyCar car{.name = "car " + std::to_string(seed) + "." + std::to_string(number),
                 .params = {},
                 .traits = drawn_traits(seed, number)};
+  car.params.structure = car.traits.structure;
   set_body(car.traits, car.params);
   set_actuators(car.traits, car.params);
   car.params.front.relaxation_m = car.params.rear.relaxation_m = car.traits.relaxation_m;
   set_friction(car.traits.friction, car.params);
+  if (car.traits.structure == Structure::kCompliantBrush)
+    set_compliance(0.5 * car.traits.understeer_rad_per_mps2, car.params);
   set_understeer(car.traits.understeer_rad_per_mps2, car.params);
   return car;
 }
@@ -121,14 +146,15 @@ std::vector<FamilyCar> car_family(std::span<const PlantFile> files, std::uint64_
 std::string to_string(const FamilyCar& car) {
   const CarTraits& t = car.traits;
   constexpr double kMilli = 1e3, kPercent = 100.0;
-  char line[240];
-  std::snprintf(
-      line, sizeof line,
-      "%s: friction %.3f, understeer %.2f mrad/(m/s2), %.0f kg, wheelbase %.3f m, delays "
-      "steering %.0f brake %.0f throttle %.0f ms, brakes %.0f %% front, relaxation %.2f m",
-      car.name.c_str(), t.friction, kMilli * t.understeer_rad_per_mps2, t.mass_kg, t.wheelbase_m,
-      kMilli * t.steering_delay_s, kMilli * t.brake_delay_s, kMilli * t.throttle_delay_s,
-      kPercent * t.brake_front_share, t.relaxation_m);
+  char line[300];
+  std::snprintf(line, sizeof line,
+                "%s: %s, friction %.3f, understeer %.2f mrad/(m/s2), %.0f kg, wheelbase %.3f m, "
+                "delays steering %.0f brake %.0f throttle %.0f ms, brakes %.0f %% front, "
+                "relaxation %.2f m, differential %.0f N m s/rad",
+                car.name.c_str(), name_of(t.structure).c_str(), t.friction,
+                kMilli * t.understeer_rad_per_mps2, t.mass_kg, t.wheelbase_m,
+                kMilli * t.steering_delay_s, kMilli * t.brake_delay_s, kMilli * t.throttle_delay_s,
+                kPercent * t.brake_front_share, t.relaxation_m, t.differential_nms_per_rad);
   return line;
 }
 

@@ -51,17 +51,17 @@ double braking_mps2(const Params& p, const Wheels& load_n, const AxleForces& lim
 
 GripLimit grip_limit(const Params& params, const Turn& turn, double grip) {
   const Surface road{.bank_rad = turn.bank_rad};
+  const double mass_kg = params.chassis.mass_kg;
   const double side = turn.curvature_per_m < 0.0 ? -1.0 : 1.0;
   GripLimit limit;
   State s = turning(params, turn);
   for (int i = 0; i < kRounds; ++i) {
-    s.motion.load_ay_mps2 = side * limit.lateral_mps2;
+    settle_loads(params, mass_kg, 0.0, side * limit.lateral_mps2, s.motion);
     limit.lateral = lateral_of(params, observe(params, s, road).load_n, grip);
     limit.lateral_mps2 = lateral_mps2(params.chassis, limit.lateral);
   }
-  s.motion.load_ay_mps2 = 0.0;
   for (int i = 0; i < kRounds; ++i) {
-    s.motion.load_ax_mps2 = -limit.braking_mps2;
+    settle_loads(params, mass_kg, -limit.braking_mps2, 0.0, s.motion);
     const Wheels load_n = observe(params, s, road).load_n;
     limit.longitudinal = longitudinal_of(params, load_n, grip);
     limit.braking_mps2 = braking_mps2(params, load_n, limit.longitudinal);

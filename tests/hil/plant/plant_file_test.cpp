@@ -43,14 +43,19 @@ TEST(PlantFile, TheShippedOneIsTheBuiltInCar) {
 }
 
 TEST(PlantFile, EveryEntryMustBeThereUnlessTheFileHasABase) {
+  const std::string compliant = shipped("av21_compliant");
+  const std::string whole =
+      shipped() + "structure: compliant_brush\n" + compliant.substr(compliant.find("\nbrush:") + 1);
+  EXPECT_EQ(refusal(whole), "");
   for (const Entry& entry : entries()) {
-    const std::size_t section = shipped().find("\n" + std::string(entry.section) + ":\n");
-    const std::size_t at = shipped().find("\n  " + std::string(entry.key) + ":", section);
+    const std::string text = belongs(entry, Structure::kDoubleTrack) ? shipped() : whole;
+    const std::size_t section = text.find("\n" + std::string(entry.section) + ":\n");
+    const std::size_t at = text.find("\n  " + std::string(entry.key) + ":", section);
     ASSERT_NE(at, std::string::npos) << name_of(entry);
     std::size_t end = at + 1;  // the next line that is indented by less than four
-    do end = shipped().find('\n', end) + 1;
-    while (shipped().compare(end, 4, "    ") == 0);
-    const std::string without = shipped().substr(0, at + 1) + shipped().substr(end);
+    do end = text.find('\n', end) + 1;
+    while (end < text.size() && text.compare(end, 4, "    ") == 0);
+    const std::string without = text.substr(0, at + 1) + text.substr(end);
     EXPECT_NE(refusal(without).find("\"" + std::string(entry.key) + "\""), std::string::npos)
         << name_of(entry) << ": " << refusal(without);
   }
@@ -69,7 +74,8 @@ std::string list_of(const Entry& entry, double value) {
 
 std::string one(const Entry& entry, const std::string& body) {
   return based(std::string(entry.section) + ":\n  " + std::string(entry.key) + ": {" + body +
-               "}\n");
+               "}\n") +
+         (belongs(entry, Structure::kDoubleTrack) ? "" : "structure: compliant_brush\n");
 }
 
 TEST(PlantFile, BeyondItsRangeEveryEntryIsRefusedAtItsLine) {
@@ -116,6 +122,8 @@ TEST(PlantFile, WhatNoCarCanBeIsRefusedWithPlaceAndReason) {
       {"chassis: {weight_kg: {value: 790, source: x}}", ":4:", "weight_kg"},
       {"chasis: {mass_kg: {value: 790, source: x}}", ":4:", "chasis"},
       {"name: other", ":4:", "name"},
+      {"structure: triple_track", ":4:", "there are: double_track, compliant_brush"},
+      {"brush: {trail_m: {value: 0.03, source: x}}", ":4:", "needs `structure: compliant_brush`"},
       // What is possible by itself and not together.
       {"chassis: {track_front_m: {value: 2.1, source: x}}", ":4:", "outside the car"},
       {"chassis: {length_m: {value: 2.9, source: x}}", ":4:", "axles"},
@@ -135,6 +143,13 @@ TEST(PlantFile, WhatNoCarCanBeIsRefusedWithPlaceAndReason) {
   }
   EXPECT_NE(refusal("schema: 2\nname: x\nbase: av21\n").find(":1:"), std::string::npos);
   EXPECT_NE(refusal("schema: 1\nname: x\nbase: av24\n").find("not built in"), std::string::npos);
+}
+
+TEST(PlantFile, StructureIsTheOneThatIsNamed) {
+  EXPECT_EQ(read(shipped()).params.structure, Structure::kDoubleTrack);
+  EXPECT_EQ(read(shipped("av21_compliant")).params.structure, Structure::kCompliantBrush);
+  EXPECT_EQ(read(based("structure: double_track\n")).params.structure, Structure::kDoubleTrack);
+  EXPECT_EQ(drawn(read(shipped("av21_compliant")), 3).structure, Structure::kCompliantBrush);
 }
 
 TEST(PlantFile, ATorqueCurveMustRiseInSpeed) {

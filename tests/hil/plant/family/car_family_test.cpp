@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 #include "hil/plant/entries.hpp"
@@ -29,6 +30,7 @@ TEST(CarFamily, CarsAreWhatTheyState) {
       EXPECT_NEAR(is.*range.trait, stated, 1e-4 * (range.high - range.low)) << to_string(car);
     }
     EXPECT_EQ(car.params.rear.relaxation_m, is.relaxation_m);
+    EXPECT_EQ(car.params.structure, car.traits.structure);
   }
 }
 
@@ -43,6 +45,27 @@ TEST(CarFamily, DrawsReachBothEndsOfEachRange) {
     EXPECT_LT((*low).*range.trait, range.low + 0.2 * (range.high - range.low));
     EXPECT_GT((*high).*range.trait, range.high - 0.2 * (range.high - range.low));
   }
+}
+
+// Streams of their own: no trait says anything of another.
+TEST(CarFamily, TraitsAreDrawnByThemselves) {
+  constexpr std::size_t kTraits = std::size(kFamilyRanges) + 1;
+  double sum[kTraits][kTraits] = {};
+  constexpr std::uint64_t kMany = 200;
+  for (std::uint64_t i = 0; i < kMany; ++i) {
+    const CarTraits traits = drawn_car(kSeed, i).traits;
+    double unit[kTraits];  // of variance one
+    for (std::size_t k = 0; k + 1 < kTraits; ++k) {
+      const TraitRange& r = kFamilyRanges[k];
+      unit[k] = std::sqrt(3.0) * (2.0 * (traits.*r.trait - r.low) / (r.high - r.low) - 1.0);
+    }
+    unit[kTraits - 1] = traits.structure == Structure::kDoubleTrack ? -1.0 : 1.0;
+    for (std::size_t a = 0; a < kTraits; ++a)
+      for (std::size_t b = 0; b < a; ++b) sum[a][b] += unit[a] * unit[b] / kMany;
+  }
+  for (std::size_t a = 0; a < kTraits; ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      EXPECT_LT(std::abs(sum[a][b]), 4.0 / std::sqrt(kMany)) << a << " " << b;
 }
 
 // What the plant file would refuse is no car.
@@ -84,10 +107,10 @@ TEST(CarFamily, FilesComeFirstAsTheyAre) {
   EXPECT_EQ(to_string(family[3]), to_string(drawn_car(kSeed, 3)));
 }
 
-// Of the files that ship: both lie within what is drawn, and the Putnam set-up has the understeer
+// Of the files that ship: all lie within what is drawn, and the Putnam set-up has the understeer
 // of the recorded drive.
 TEST(CarFamily, FilesThatShipAreMembers) {
-  for (const char* name : {"av21", "av21_putnam"}) {
+  for (const char* name : {"av21", "av21_putnam", "av21_compliant"}) {
     const auto file = read_plant(testing::shipped(name), name);
     ASSERT_TRUE(file) << to_string(file.error());
     const CarTraits traits = traits_of(file->params);
