@@ -183,7 +183,11 @@ void add_wheel_torques(const Params& p, const State& discrete, const Motion& m, 
     const double brake_nm =
         i < 2 ? 0.5 * p.brakes.front_remaining * p.brakes.front_nm_per_kpa * front_kpa
               : 0.5 * p.brakes.rear_remaining * p.brakes.rear_nm_per_kpa * rear_kpa;
-    f.hold_nm[i] = brake_nm + tyre.rolling_resistance * f.load_n[i] * tyre.radius_m;
+    const double rolling_nm = tyre.rolling_resistance *
+                              rolling_factor(p.thermal, discrete.tyre_c[i]) * f.load_n[i] *
+                              tyre.radius_m;
+    f.hold_nm[i] = brake_nm + rolling_nm;
+    f.rolling_power_w[i] = rolling_nm * std::abs(m.wheel_rad_per_s[i]);
   }
   const double ratio = total_ratio(d, discrete);
   const double crank_nm = clutch_of(p, discrete, m).crank_torque_nm;

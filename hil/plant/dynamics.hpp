@@ -19,10 +19,10 @@ struct SetPoints {
 struct Forces {
   Wheels load_n{}, long_n{}, lat_n{};  // of the tyres, in the wheel's frame
   Wheels slip_ratio{}, slip_sine{}, use{};
-  Wheels slip_power_w{};                  // turned into heat in the contact patch
-  Wheels drive_nm{}, hold_nm{};           // at the wheel: engine; brake and rolling resistance
-  double body_x_n = 0.0, body_y_n = 0.0;  // all but gravity, in the plane of the road
-  double normal_n = 0.0;                  // tyres less downforce
+  Wheels slip_power_w{}, rolling_power_w{};  // turned into heat in the contact patch, by rolling
+  Wheels drive_nm{}, hold_nm{};              // at the wheel: engine; brake and rolling resistance
+  double body_x_n = 0.0, body_y_n = 0.0;     // all but gravity, in the plane of the road
+  double normal_n = 0.0;                     // tyres less downforce
   double yaw_moment_nm = 0.0;
   double steering_nm = 0.0;  // of both front tyres about their steering axes, if that can turn them
   double heading_rate_rad_per_s = 0.0;                           // of the map yaw

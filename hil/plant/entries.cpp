@@ -14,6 +14,7 @@ using plant::Engine;
 using plant::Fuel;
 using plant::Params;
 using plant::Steering;
+using plant::TyreBody;
 using plant::TyreThermal;
 using TyreParams = plant::Tyre;
 
@@ -38,6 +39,11 @@ double& curve_rpm(Params& p, std::size_t i) { return p.engine.full_throttle[i].r
 double& curve_nm(Params& p, std::size_t i) { return p.engine.full_throttle[i].torque_nm; }
 double& part_rpm(Params& p, std::size_t i) { return p.engine.part_throttle[i].rpm; }
 double& gear(Params& p, std::size_t i) { return p.drivetrain.gear[i]; }
+
+template <auto Axle, auto Field>
+double& body(Params& p, std::size_t) {
+  return (p.thermal.*Axle).*Field;
+}
 
 using List = std::vector<Entry>;
 
@@ -143,17 +149,24 @@ List drivetrain_rows() {
 
 List thermal_rows() {
   constexpr auto t = &Params::thermal;
-  return {
-      {"thermal", "ambient_c", of<t, &TyreThermal::ambient_c>, -20, 60},
-      {"thermal", "working_c", of<t, &TyreThermal::working_c>, 0, 150},
-      {"thermal", "hot_c", of<t, &TyreThermal::hot_c>, 20, 200},
-      {"thermal", "ruined_c", of<t, &TyreThermal::ruined_c>, 40, 300},
-      {"thermal", "heat_capacity_jpk", of<t, &TyreThermal::heat_capacity_jpk>, 1000, 100'000},
-      {"thermal", "cooling_w_per_k", of<t, &TyreThermal::cooling_w_per_k>, 0, 200},
-      {"thermal", "cooling_w_per_k_per_mps", of<t, &TyreThermal::cooling_w_per_k_per_mps>, 0, 50},
-      {"thermal", "slip_heat_share", of<t, &TyreThermal::slip_heat_share>, 0, 1},
-      {"thermal", "cold_grip_loss", of<t, &TyreThermal::cold_grip_loss>, 0, 0.9},
-      {"thermal", "hot_grip_loss", of<t, &TyreThermal::hot_grip_loss>, 0, 0.9}};
+  constexpr auto heat = &TyreBody::heat_capacity_jpk, surface = &TyreBody::surface_m2;
+  constexpr auto front = &TyreThermal::front, rear = &TyreThermal::rear;
+  return {{"thermal", "ambient_c", of<t, &TyreThermal::ambient_c>, -20, 60},
+          {"thermal", "working_c", of<t, &TyreThermal::working_c>, 0, 150},
+          {"thermal", "hot_c", of<t, &TyreThermal::hot_c>, 20, 200},
+          {"thermal", "ruined_c", of<t, &TyreThermal::ruined_c>, 40, 300},
+          {"thermal", "front_heat_capacity_jpk", body<front, heat>, 1000, 100'000},
+          {"thermal", "front_surface_m2", body<front, surface>, 0.1, 5},
+          {"thermal", "rear_heat_capacity_jpk", body<rear, heat>, 1000, 100'000},
+          {"thermal", "rear_surface_m2", body<rear, surface>, 0.1, 5},
+          {"thermal", "still_air_w_per_m2k", of<t, &TyreThermal::still_air_w_per_m2k>, 0, 100},
+          {"thermal", "moving_air_w_per_m2k", of<t, &TyreThermal::moving_air_w_per_m2k>, 0, 50},
+          {"thermal", "rubber_m2k_per_w", of<t, &TyreThermal::rubber_m2k_per_w>, 0.001, 0.2},
+          {"thermal", "slip_heat_share", of<t, &TyreThermal::slip_heat_share>, 0, 1},
+          {"thermal", "rolling_heat_share", of<t, &TyreThermal::rolling_heat_share>, 0, 1},
+          {"thermal", "rolling_fall_per_k", of<t, &TyreThermal::rolling_fall_per_k>, 0, 0.05},
+          {"thermal", "cold_grip_loss", of<t, &TyreThermal::cold_grip_loss>, 0, 0.9},
+          {"thermal", "hot_grip_loss", of<t, &TyreThermal::hot_grip_loss>, 0, 0.9}};
 }
 
 List compliant_rows() {

@@ -66,7 +66,7 @@ struct Tyre {
   double mu_min_share = 0.4;          // floor of that loss
   double relaxation_m = 0.1;          // [A]
   double wheel_inertia_kgm2 = 1.0;    // [E]
-  double rolling_resistance = 0.012;  // [E] of the load
+  double rolling_resistance = 0.012;  // [E] of the load, at TyreThermal::working_c
 };
 
 // Steering: a motor with ratio to the road wheels, left positive.
@@ -174,18 +174,25 @@ struct Drivetrain {
   double differential_max_nm = 400.0;      // [E]
 };
 
-// tyre_thermal.hpp has the law. Unvalidated: no published measurements exist. Grip depends on the
-// temperature only where a loss is given.
+// Tread and belt of one tyre.
+struct TyreBody {
+  double heat_capacity_jpk, surface_m2;
+};
+
+// tyre_thermal.hpp has the law and where its numbers come from. Unvalidated.
 struct TyreThermal {
   double ambient_c = 25.0;
-  double working_c = 80.0, hot_c = 110.0;  // full grip between them [E]
-  double ruined_c = 150.0;                 // the loss by heat is whole [E]
-  double heat_capacity_jpk = 12'000.0;     // [E]
-  double cooling_w_per_k = 15.0;           // standing [E]
-  double cooling_w_per_k_per_mps = 2.0;    // [E]
-  double slip_heat_share = 0.5;            // of the friction power that stays in the tyre [E]
-  double cold_grip_loss = 0.0;             // share of grip lost at ambient
-  double hot_grip_loss = 0.0;              // share of grip lost at ruined_c
+  double working_c = 79.0, hot_c = 110.0;               // full grip between them; 175 F, [E]
+  double ruined_c = 150.0;                              // the loss by heat is whole [E]
+  TyreBody front{7'000.0, 0.84}, rear{10'000.0, 1.13};  // by their size [E]
+  double still_air_w_per_m2k = 11.0;                    // at rest, and radiation
+  double moving_air_w_per_m2k = 6.15;                   // at 1 m/s; grows with the speed to the 0.8
+  double rubber_m2k_per_w = 0.017;     // from the middle of the rubber to its surface
+  double slip_heat_share = 0.4;        // of the friction power: what the tyre keeps
+  double rolling_heat_share = 0.9;     // of the power of rolling resistance
+  double rolling_fall_per_k = 0.0125;  // of rolling resistance as the tyre warms
+  double cold_grip_loss = 0.4;         // share of grip lost at ambient [E]
+  double hot_grip_loss = 0.0;          // share of grip lost at ruined_c
 };
 
 // The four that follow are used by Structure::kCompliantBrush alone.

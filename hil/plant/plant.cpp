@@ -77,7 +77,10 @@ void hold_or_release(const Params& p, const Motion& before, const Forces& f, dou
 void warm_tyres(const TyreThermal& t, const Forces& f, double dt_s, State& s) {
   const double speed_mps = std::abs(s.motion.vx_mps);
   for (std::size_t i = 0; i < world::kCorners; ++i)
-    s.tyre_c[i] += dt_s * warming_kps(t, s.tyre_c[i], f.slip_power_w[i], speed_mps);
+    s.tyre_c[i] += dt_s * warming_kps(t, i < 2 ? t.front : t.rear, s.tyre_c[i],
+                                      {.slip_w = f.slip_power_w[i],
+                                       .rolling_w = f.rolling_power_w[i],
+                                       .speed_mps = speed_mps});
 }
 
 void substep(const Params& p, const Actuation& a, const Surface& road, double dt_s, State& s) {

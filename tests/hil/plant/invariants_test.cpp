@@ -309,9 +309,10 @@ double apart(const State& a, const State& b) {
 // stand still from the first substep on (no delay, no dead band), the rate limit of the steering is
 // out of reach, no gear is in (the engine's tables have kinks, gears and clutch switch), wheels
 // roll freely (their holding torque changes sign at standstill), no wheel lifts, and temperature,
-// which goes by one Euler step per substep, has no effect on grip.
+// which goes by one Euler step per substep, has no effect on grip and rolling.
 TEST_P(Invariants, RungeKuttaConvergesWithItsOrder) {
   Params p = params();
+  p.thermal.cold_grip_loss = p.thermal.rolling_fall_per_k = 0.0;
   p.steering.rate_max_rad_per_s = 1e3;
   p.steering.delay_s = 0.0;
   p.hydraulics.dead_band_kpa = 0.0;
