@@ -122,6 +122,8 @@ FamilyCar drawn_car(std::uint64_t seed, std::uint64_t number) {
                 .params = {},
                 .traits = drawn_traits(seed, number)};
   car.params.structure = car.traits.structure;
+  if (car.traits.structure == Structure::kCompliantBrush)
+    for (Tyre* tyre : {&car.params.front, &car.params.rear}) tyre->mu_long = tyre->mu_lat;
   set_body(car.traits, car.params);
   set_actuators(car.traits, car.params);
   car.params.front.relaxation_m = car.params.rear.relaxation_m = car.traits.relaxation_m;

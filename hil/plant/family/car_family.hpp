@@ -9,7 +9,9 @@
 //          rear tyres' carcass stays, so that with less friction the peak comes at less slip; the
 //          front tyres' peak slip angle makes the understeer, with rigid steering all of it, else
 //          the half that the compliance of the steering does not make
-//          both structures are drawn, each for every second car or so
+//          both structures are drawn, each for every second car or so. The AV-21's tyres brake
+//          better behind than in front, so that its front wheels always lock first; those of
+//          compliant cars have the friction along that they have across, and brake balance decides
 //   errors none
 //   cost   a drawn car runs the plant for some seconds of its time (understeer_of)
 // SPDX-License-Identifier: Apache-2.0

@@ -1,5 +1,6 @@
 // The plant against a recorded drive of the real car: its steering angle and speed go in, its yaw
-// rate is compared. Nothing was fitted to this drive but the brakes, which take no part here.
+// rate is compared. The car is that of the file with the drive's understeer; the recorded steering
+// leads by some 0.3 s (public_plant_file_test.cpp), for the kinematic model as for the plant.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -7,6 +8,8 @@
 #include <vector>
 
 #include "hil/plant/plant.hpp"
+#include "tests/hil/plant/free_wheels.hpp"
+#include "tests/hil/plant/shipped.hpp"
 #include "tests/support/public_data.hpp"
 
 namespace pitwall::plant {
@@ -31,18 +34,24 @@ std::vector<Row> recorded_drive() {
 void impose(const Params& p, const Row& row, State& s) {
   s.motion.vx_mps = row.speed_mps;
   s.motion.steering_motor_rad = row.road_wheel_rad * p.steering.ratio;
-  for (std::size_t i = 0; i < world::kCorners; ++i) {
-    s.motion.wheel_rad_per_s[i] = row.speed_mps / (i < 2 ? p.front : p.rear).radius_m;
-    s.locked[i] = row.speed_mps == 0.0;
-  }
+  roll_freely(p, s);
 }
 
 struct Score {
   double plant_error = 0.0, kinematic_error = 0.0, variance = 0.0;
 };
 
-Score replay(const std::vector<Row>& rows) {
-  Params p;
+// The speed of each row with the steering of a little before.
+std::vector<Row> recorded_drive_in_time() {
+  constexpr std::size_t kLead = 7;  // rows
+  const std::vector<Row> recorded = recorded_drive();
+  std::vector<Row> rows = recorded;
+  for (std::size_t i = kLead; i < rows.size(); ++i)
+    rows[i].road_wheel_rad = recorded[i - kLead].road_wheel_rad;
+  return rows;
+}
+
+Score replay(const std::vector<Row>& rows, Params p) {
   p.steering.delay_s = 0.0;
   const double wheelbase_m = p.chassis.front_axle_m + p.chassis.rear_axle_m;
   State s = rolling(p, standing(p, 0, 0, 0), rows.front().speed_mps, 0);
@@ -69,9 +78,9 @@ Score replay(const std::vector<Row>& rows) {
 TEST(PublicDrive, YawRateFollowsTheRealCar) {
   if (!recordings::is_here(recordings::kDrive))
     GTEST_SKIP() << recordings::how_to_get(recordings::kDrive);
-  const auto rows = recorded_drive();
+  const auto rows = recorded_drive_in_time();
   ASSERT_GT(rows.size(), 10'000U);
-  const Score score = replay(rows);
+  const Score score = replay(rows, testing::shipped_car("av21_putnam").params);
   const double explained = 1.0 - score.plant_error / score.variance;
   EXPECT_GE(explained, 0.94);
   EXPECT_LT(score.plant_error, 0.7 * score.kinematic_error);  // a kinematic model is no match

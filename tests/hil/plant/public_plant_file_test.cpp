@@ -11,6 +11,7 @@
 #include "hil/plant/plant.hpp"
 #include "hil/plant/plant_file.hpp"
 #include "tests/hil/plant/drive_period.hpp"
+#include "tests/hil/plant/free_wheels.hpp"
 #include "tests/hil/plant/lap_fit.hpp"
 #include "tests/hil/plant/shipped.hpp"
 #include "tests/support/public_data.hpp"
@@ -63,22 +64,6 @@ std::vector<double> kinematic() {
     rates.push_back(s.speed_mps * std::tan(s.wheel_rad) /
                     (p.chassis.front_axle_m + p.chassis.rear_axle_m));
   return rates;
-}
-
-// Each wheel turns as fast as its hub goes, so that none of them pushes or holds.
-void roll_freely(const plant::Params& p, plant::State& s) {
-  const plant::Motion& m = s.motion;
-  const double angle_rad = m.steering_motor_rad / p.steering.ratio;
-  for (std::size_t w = 0; w < world::kCorners; ++w) {
-    const bool front = w < 2;
-    const double half_m = 0.5 * (front ? p.chassis.track_front_m : p.chassis.track_rear_m);
-    const double ahead_mps = m.vx_mps - m.yaw_rate_rad_per_s * (w % 2 == 0 ? half_m : -half_m);
-    const double left_mps = m.vy_mps + m.yaw_rate_rad_per_s * p.chassis.front_axle_m;
-    const double along_mps =
-        front ? ahead_mps * std::cos(angle_rad) + left_mps * std::sin(angle_rad) : ahead_mps;
-    s.motion.wheel_rad_per_s[w] = along_mps / (front ? p.front.radius_m : p.rear.radius_m);
-    s.locked[w] = m.vx_mps == 0.0;
-  }
 }
 
 // The double track with the imposed speed and steering; what it does outside `window` is left out.

@@ -34,6 +34,22 @@ TEST(CarFamily, CarsAreWhatTheyState) {
   }
 }
 
+TEST(CarFamily, HalfOfTheUndersteerIsThatOfTheSteeringWhereThatYields) {
+  int compliant = 0;
+  for (std::uint64_t i = 0; i < kCars; ++i) {
+    FamilyCar car = drawn_car(kSeed, i);
+    if (car.traits.structure != Structure::kCompliantBrush) continue;
+    ++compliant;
+    EXPECT_EQ(car.params.rear.mu_long, car.params.rear.mu_lat);
+    car.params.compliance.rad_per_nm = 0.0;
+    const double stated = car.traits.understeer_rad_per_mps2;
+    EXPECT_NEAR(traits_of(car.params).understeer_rad_per_mps2, 0.5 * stated, 0.1 * stated)
+        << to_string(car);
+  }
+  EXPECT_GT(compliant, 10);
+  EXPECT_LT(compliant, 30);
+}
+
 TEST(CarFamily, DrawsReachBothEndsOfEachRange) {
   std::vector<CarTraits> drawn;
   for (std::uint64_t i = 0; i < kCars; ++i) drawn.push_back(drawn_car(kSeed, i).traits);
