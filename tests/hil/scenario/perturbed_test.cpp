@@ -8,6 +8,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "hil/plant/compliant/brush_tyre.hpp"
 #include "hil/plant/dynamics.hpp"
 #include "hil/plant/tyre.hpp"
 
@@ -70,6 +71,19 @@ TEST(Perturbed, StiffnessTurnsTheCurveAboutItsPeak) {
           EXPECT_NEAR(is_n, was_n, 1e-9) << "the same force at a slip smaller by the factor";
         }
         EXPECT_NEAR(most_is_n, most_was_n, 1e-9) << "the same friction";
+      }
+  }
+}
+
+TEST(Perturbed, StiffnessTurnsTheCurveOfABrushAsWell) {
+  const Params p;
+  for (const double factor : {0.5, 2.0}) {
+    const Params q = perturbed(p, {.tyre_stiffness = factor});
+    for (const double load_n : {1000.0, 4000.0})
+      for (double sine = 0.0; sine < 0.5; sine += 1e-3) {
+        const TyreSlip was{.sine = sine}, is{.sine = sine / factor};
+        EXPECT_NEAR(plant::brush_force(q.rear, q.brush, is, load_n, 1.0).lat_n,
+                    plant::brush_force(p.rear, p.brush, was, load_n, 1.0).lat_n, 1e-9);
       }
   }
 }
