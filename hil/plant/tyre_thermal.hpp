@@ -16,10 +16,10 @@
 //             in Farroni et al., Thermo Racing Tyre. b hysteresis is 80 to 95 % of rolling loss
 //          k  UN R117, annex 6: 0.8 to 1.0 % per K of the air; the tyre, some 30 K above it, moves
 //             by less, hence 1.05 to 1.43 % per K of its own
-//          On Las Vegas at 147 mph the four settle between 80 and 99 C, 8 to 9 laps from 30 C.
-//          Within their ranges a, k and R are chosen for that: no measurement says it
+//          On Las Vegas at 147 mph the four settle between 80 and 100 C, 6.7 laps from 30 C. Within
+//          their ranges a, k and R are chosen for that: no measurement says it
 //   beside One public run of an AV-21 (PITT-MIT-IAC betty data set, 2023-06-18): front left 31 to
-//          53 C in about 10 min at up to 48 m/s. The law gives 48 C at a steady 27 m/s, 54 at 36
+//          53 C in about 10 min at up to 48 m/s. The law gives 50 C at a steady 30 m/s
 //   unvalidated
 //          nothing more is published. Not modelled: heat to the road (warmer than the air in the
 //          sun), of the brakes and of the gas within; the surface, which infrared sensors see, is
