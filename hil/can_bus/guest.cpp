@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "hil/can_bus/register_state/ptrace_library.hpp"
 #include "protocol/transport/readiness.hpp"
 #include "protocol/transport/realtime.hpp"
 
@@ -115,6 +116,8 @@ Result<bool, Problem> Guest::start(const GuestPlan& plan, int line_end, int cloc
   const auto written =
       transport::write_file(init, init_script(plan, folder, working, environment), 0700);
   if (!written) return written;
+  const auto preloaded = preloaded_ptrace(folder);
+  if (!preloaded) return Unexpected{preloaded.error()};
   auto console = transport::AppendWriter::open(folder + "/console");
   auto null = transport::AppendWriter::open("/dev/null");
   auto output = transport::stream_pair();
@@ -145,6 +148,7 @@ Result<bool, Problem> Guest::start(const GuestPlan& plan, int line_end, int cloc
                        {output->second.get(), kOutput},
                        {errors->second.get(), kErrors},
                        {clock_end, kClock}},
+       .environment = {*preloaded},
        .own_group = true});
   pinned.reset();
   if (!machine) return Unexpected{machine.error()};

@@ -51,6 +51,15 @@ ip link set lo up
 for line in 0 1 2 3; do stty -F /dev/ttyS$line raw -echo; done
 )sh";
 
+// A signal takes the upper halves of AVX-512 registers from the process that it interrupts: of them
+// User-mode Linux keeps no more than AVX then. The C library's string functions use all where they
+// can, also in a handler; a printf() was seen to print its format instead. Without AVX-512 they do
+// not. A program with AVX-512 code of its own has to keep it out of handlers.
+constexpr std::string_view kStrings = R"sh(
+    tunables="glibc.cpu.hwcaps=-AVX512F,-AVX512VL"
+    export GLIBC_TUNABLES="${GLIBC_TUNABLES:+$GLIBC_TUNABLES:}$tunables"
+)sh";
+
 std::string quoted_words(std::span<const std::string> words) {
   std::string out;
   for (const std::string& word : words) out += (out.empty() ? "" : " ") + shell_quoted(word);
@@ -125,6 +134,7 @@ std::string init_script(const GuestPlan& plan, std::string_view folder,
         out += "    export " + assignment.substr(0, equals) + "=" +
                shell_quoted(std::string_view(assignment).substr(equals + 1)) + "\n";
       }
+  out += kStrings.substr(1);
   out += "    exec " + quoted_words(plan.command) + "\n";
   out += "  ) < /dev/null 2> /dev/ttyS2\n";
   out += "  echo $? > \"$folder/" + std::string(kExitCodeFile) + "\"\n";

@@ -56,6 +56,18 @@ TEST(InitScript, WhateverIsInThePlanTheScriptIsSound) {
     EXPECT_NE(script.find("ip link add dev '" + name + "' type vcan"), std::string::npos);
 }
 
+// As a real shell runs that part of the script.
+TEST(InitScript, TheCommandsCLibraryKeepsOffAvx512WhateverElseItIsTold) {
+  for (const std::string own : {"", "glibc.malloc.check=3"}) {
+    const std::vector<std::string> environment{"GLIBC_TUNABLES=" + own};
+    const std::string script = init_script({.command = {"env"}}, "/f", "/w", environment);
+    const std::size_t begin = script.find("    export GLIBC_TUNABLES");
+    const std::string part = script.substr(begin, script.find("    exec ") - begin);
+    EXPECT_EQ(shell_says(part + "printf %s \"$GLIBC_TUNABLES\""),
+              own + (own.empty() ? "" : ":") + "glibc.cpu.hwcaps=-AVX512F,-AVX512VL");
+  }
+}
+
 TEST(InitScript, ThereIsALineOnlyWhereOneIsWanted) {
   GuestPlan plan{.command = {"true"}};
   const std::string without = init_script(plan, "/f", "/w", {});
