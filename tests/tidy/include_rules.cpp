@@ -63,7 +63,7 @@ Names rim_and(Names more) {
 }
 
 const Names kShared{"protocol/vocabulary", "protocol/bits"};
-const Names kAutonomy{"vehicle/world", "protocol/vocabulary"};
+const Names kAutonomy{"vehicle/world", "vehicle/steering", "protocol/vocabulary"};
 const Names kBench{"hil",
                    "vehicle/pipeline",
                    "vehicle/world",
@@ -109,6 +109,7 @@ const std::vector<Part> kParts{
     {"protocol/gnss", kShared, {}},
     {"protocol/transport", {"protocol/vocabulary", "protocol/can/frame.hpp"}, rim_and({})},
     {"vehicle/world", {"protocol/vocabulary"}, {}},
+    {"vehicle/steering", {"vehicle/world", "protocol/vocabulary"}, {}},
     {"vehicle/gateway", {"vehicle/world", "protocol/can", "protocol/vocabulary"}, {}},
     {"vehicle/autonomy", kAutonomy, {"eigen"}},
     {"vehicle/autonomy/perception", kAutonomy, {"eigen", "pcl", "opencv"}},
@@ -117,13 +118,15 @@ const std::vector<Part> kParts{
     {"vehicle/autonomy/planning", kAutonomy, {"eigen"}},
     {"vehicle/autonomy/control", kAutonomy, {"eigen", "lapack"}},
     {"vehicle/receivers", {"vehicle/world", "protocol/gnss", "protocol/vocabulary"}, {}},
-    {"vehicle/safety", {"vehicle/world", "protocol/can", "protocol/vocabulary"}, {}},
+    {"vehicle/safety",
+     {"vehicle/steering", "vehicle/world", "protocol/can", "protocol/vocabulary"},
+     {}},
     {"vehicle/guardian",
-     {"vehicle/safety", "vehicle/world", "protocol/can", "protocol/vocabulary"},
+     {"vehicle/safety", "vehicle/steering", "vehicle/world", "protocol/can", "protocol/vocabulary"},
      {}},
     {"vehicle/pipeline",
-     {"vehicle/world", "vehicle/gateway", "vehicle/autonomy", "vehicle/safety", "vehicle/guardian",
-      "protocol/telemetry", "protocol/can", "protocol/vocabulary"},
+     {"vehicle/world", "vehicle/steering", "vehicle/gateway", "vehicle/autonomy", "vehicle/safety",
+      "vehicle/guardian", "protocol/telemetry", "protocol/can", "protocol/vocabulary"},
      {"eigen"}},
     {"vehicle/parameters",
      {"vehicle/world", "vehicle/pipeline", "protocol/vocabulary", "protocol/yaml"},

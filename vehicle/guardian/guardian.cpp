@@ -136,7 +136,8 @@ safety::PathPose on_path(const Pose& pose) {
           .y_m = pose.y_m,
           .yaw_rad = pose.yaw_rad,
           .speed_mps = pose.speed_mps,
-          .slip_mps = pose.slip_mps};
+          .slip_mps = pose.slip_mps,
+          .yaw_rate_rad_per_s = pose.yaw_rate_rad_per_s};
 }
 
 // Why it must not or cannot act; kNone: it can.
@@ -177,6 +178,8 @@ void take_over(const Tick& t) {
   State& s = t.state;
   enter(t, Mode::kDriving, Cause::kCarSilent);
   s.following.command = command_of(s.received, t.params.reckoning.steering_ratio);
+  s.following.learned = s.reckoning.learned = s.record.learned;
+  s.following.tyre_c = s.record.tyre_c;
   s.open_loop = {};
   s.standing = false;
   s.fresh_records = 0;
@@ -266,9 +269,12 @@ Guidance guidance_of(const Tick& t) {
 // Open loop from where feedback ended, and again if it comes back and ends anew.
 world::ActuatorCommand open_loop(const Tick& t) {
   State& s = t.state;
-  const safety::SafeStopInputs in{
-      .stop = s.record.stop, .last_good = s.following.command, .speed_mps = wheel_speed(t)};
-  return safety::stop_along(t.params.following.stop, s.open_loop, in, t.in.now);
+  const safety::SafeStopInputs in{.stop = s.record.stop,
+                                  .last_good = s.following.command,
+                                  .speed_mps = wheel_speed(t),
+                                  .tyre_c = s.record.tyre_c,
+                                  .learned = s.record.learned};
+  return safety::stop_along(t.params.following, s.open_loop, in, t.in.now);
 }
 
 world::ActuatorCommand next_command(const Tick& t) {
@@ -277,7 +283,7 @@ world::ActuatorCommand next_command(const Tick& t) {
   if (s.status.guidance != Guidance::kOpenLoop) {
     s.open_loop = {};
     return safety::follow_stop(t.params.following, s.following, s.record.stop,
-                               on_path(s.reckoning.pose), t.in.now);
+                               on_path(s.reckoning.pose), safety::StopKind::kControlled, t.in.now);
   }
   s.following.command = open_loop(t);
   s.following.last = t.in.now;  // where feedback comes back, it turns the wheels from here

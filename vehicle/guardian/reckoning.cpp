@@ -19,13 +19,6 @@ constexpr double kYawShareMax_rad_per_m = 0.03;
 constexpr double kSlowest_mps = 5.0;  // below, no yaw from positions
 constexpr double kLateMax_s = 0.3;    // an older sample is not put back
 
-double rate_by_steering(const ReckoningParams& p, double speed_mps, double motor_rad,
-                        double bank_rad) {
-  const double fall_mps2 = kGravity_mps2 * std::sin(bank_rad);
-  return speed_mps * (motor_rad / p.steering_ratio + p.understeer_rad_per_mps2 * fall_mps2) /
-         (p.wheelbase_m + p.understeer_rad_per_mps2 * speed_mps * speed_mps);
-}
-
 // The yaw rate to go on with; gyro_used says whether one of the gyroscopes gave it.
 double yaw_rate(const ReckoningParams& p, ReckoningState& s, double by_steering, Instant now) {
   const auto rate = [&](std::size_t unit) {
@@ -162,8 +155,9 @@ void reckon(const ReckoningParams& params, ReckoningState& state, const Motion& 
             const SensorInput& sensors, const Geodetic& datum, double bank_rad, Instant now) {
   if (std::isfinite(motion.speed_mps)) state.pose.speed_mps = motion.speed_mps;
   Pose& pose = state.pose;
-  const double by_steering =
-      rate_by_steering(params, pose.speed_mps, motion.steering_motor_rad, bank_rad);
+  const double by_steering = steering::yaw_rate_rad_per_s(
+      {params.wheelbase_m, params.understeer_rad_per_mps2}, state.learned,
+      motion.steering_motor_rad / params.steering_ratio, pose.speed_mps, bank_rad);
   pose.yaw_rate_rad_per_s = yaw_rate(params, state, by_steering, now);
   pose.slip_mps = slip_of(params, pose.speed_mps, pose.yaw_rate_rad_per_s, bank_rad);
   advance(state, bank_rad, now);

@@ -13,12 +13,11 @@
 //            x' = v cos(yaw) - vy cos(phi) sin(yaw), y' likewise
 //          The gyroscope is the one that agrees better with the steering when two are there and
 //          differ; its bias is the mean difference from the car's own estimate while it lived.
-//          Without any, r = v (delta + K g sin(phi)) / (L + K v^2)
+//          Without any, the steady-state yaw rate of the angle (steering/learned_steering.hpp)
 //          A position corrects by a share of its innovation, and the yaw by the lateral part of it
 //          (alpha-beta filter, beta = alpha^2 / (2 - alpha))
 //   errors a sample outside its gate, or not fixed, changes nothing and is counted
-//   source Rajamani, Vehicle Dynamics and Control, 2nd ed., eq. 3.12 (steady state); Kalata, "The
-//          tracking index", 1984 (alpha-beta)
+//   source Kalata, "The tracking index", 1984 (alpha-beta)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -29,6 +28,7 @@
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/guardian/tangent_plane.hpp"
+#include "vehicle/steering/learned_steering.hpp"
 #include "vehicle/world/ego_state.hpp"
 #include "vehicle/world/sensor_input.hpp"
 
@@ -74,6 +74,7 @@ struct ReckoningState {
   Pose pose;
   std::array<Gyroscope, world::kGnssUnits> gyros;
   bool gyro_used = false;               // in the last step
+  steering::Learned learned;            // of the car's steering, for when no gyroscope is there
   Instant position_at{};                // of the last accepted one; of the car's last word before
   bool positioned = false;              // a position was accepted since the car's last word
   std::uint32_t used = 0, refused = 0;  // positions and headings

@@ -23,6 +23,7 @@
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/guardian/tangent_plane.hpp"
+#include "vehicle/steering/learned_steering.hpp"
 #include "vehicle/world/actuator_command.hpp"
 #include "vehicle/world/ego_state.hpp"
 #include "vehicle/world/mode.hpp"
@@ -46,6 +47,8 @@ struct CarRecord {
   bool finished = false;  // the process ended in order and the car stood
   bool barred = false;    // a run before ended armed: not armed until one start without --arm
   world::EgoState ego;
+  steering::Learned learned;  // of the car's steering
+  double tyre_c = kUnset;     // the coldest
   Geodetic datum;
   world::Trajectory stop;  // empty: none ever passed stop_check
 };

@@ -111,9 +111,7 @@ control::Params read_control(yaml::StrictMap map) {
   p.bicycle = read_bicycle(map.map("bicycle"));
   yaml::StrictMap lateral = map.map("lateral");
   p.drive_law = read_law(lateral, "drive_law");
-  p.stop_law = read_law(lateral, "stop_law");
   p.lateral = read_lateral(lateral);
-  read_stop_control(map.map("stop"), p);
   p.longitudinal = read_longitudinal(map.map("longitudinal"));
   p.gear = read_gear(map.map("gear"));
   return p;

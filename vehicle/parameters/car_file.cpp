@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vehicle/parameters/car_file.hpp"
 
+#include "vehicle/parameters/range_reader.hpp"
+
 namespace pitwall::parameters {
 namespace {
 
@@ -11,6 +13,14 @@ pipeline::Rates read_rates(yaml::StrictMap map) {
   rates.tick = from_seconds(map.number("tick_s", 0.005, 0.02));
   rates.planning = from_seconds(map.number("planning_s", 0.01, 0.2));
   return rates;
+}
+
+steering::Params read_steering(yaml::StrictMap map) {
+  steering::Params p;
+  read_ranges(map, steering::kBicycleRanges, p.bicycle);
+  read_ranges(map, steering::kLearningRanges, p.learning);
+  read_ranges(map, steering::kRanges, p);
+  return p;
 }
 
 CarFile read_root(yaml::StrictMap& map) {
@@ -27,12 +37,18 @@ CarFile read_root(yaml::StrictMap& map) {
   car.params.control = read_control(map.map("control"));
   read_safety(map.map("safety"), car.params);
   read_radio(map.map("radio"), car.params);
-  // Written once in the file, known to two modules that must not include each other.
+  // Written once in the file, known to modules that must not include each other.
+  const steering::Params steering = read_steering(map.map("steering"));
+  safety::SafeStopParams& stop = car.params.supervisor.safe_stop;
+  stop.steering = car.params.control.steering = steering;
+  stop.tyres = car.params.planning.line.friction.tyres;
+  car.params.planning.stop_friction = stop.friction;
+  car.params.supervisor.faults.oversteer.wheelbase_m = steering.bicycle.wheelbase_m;
+  car.params.supervisor.faults.oversteer.understeer_rad_per_mps2 =
+      steering.bicycle.understeer_rad_per_mps2;
   car.params.localization.steering_ratio = car.params.outbound.steering_ratio;
-  car.params.localization.wheelbase_m = car.params.supervisor.safe_stop.wheelbase_m;
-  car.params.supervisor.safe_stop.tyres = car.params.planning.line.friction.tyres;
-  car.params.localization.understeer_rad_per_mps2 =
-      car.params.supervisor.safe_stop.understeer_rad_per_mps2;
+  car.params.localization.wheelbase_m = steering.bicycle.wheelbase_m;
+  car.params.localization.understeer_rad_per_mps2 = steering.bicycle.understeer_rad_per_mps2;
   return car;
 }
 

@@ -54,8 +54,6 @@ std::string autonomy_lines() {
          lines_of("planning.stop", planning::kStopPathRanges) +
          lines_of("control.bicycle", control::kBicycleRanges) +
          lines_of("control.lateral", control::kLateralRanges) +
-         lines_of("control.stop.steering", control::kStopSteeringRanges) +
-         lines_of("control.stop.speed", control::kStopSpeedRanges) +
          lines_of("control.longitudinal", control::kLongitudinalRanges) +
          lines_of("control.gear", control::kGearRanges);
 }
@@ -80,7 +78,10 @@ std::string parameter_table() {
   return formatted("%-58s %10s %10s %10s\n", "key", "default", "least", "most") +
          lines_of("gateway.handshake", gateway::kHandshakeTimes) +
          lines_of("gateway.handshake", gateway::kHandshakeRanges) +
-         lines_of("gateway.outbound", gateway::kOutboundRanges) + autonomy_lines() + safety_lines();
+         lines_of("gateway.outbound", gateway::kOutboundRanges) +
+         lines_of("steering", steering::kBicycleRanges) +
+         lines_of("steering", steering::kLearningRanges) + lines_of("steering", steering::kRanges) +
+         autonomy_lines() + safety_lines();
 }
 
 }  // namespace pitwall::parameters

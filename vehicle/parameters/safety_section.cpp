@@ -150,9 +150,6 @@ void read_supervisor(yaml::StrictMap map, safety::SupervisorParams& supervisor) 
   supervisor.go_needs_driving_state = map.flag("go_needs_driving_state");
   if (supervisor.coast_max <= supervisor.coast_dwell)
     map.fail("coast_max_s", "must be above coast_dwell_s");
-  supervisor.faults.oversteer.wheelbase_m = supervisor.safe_stop.wheelbase_m;
-  supervisor.faults.oversteer.understeer_rad_per_mps2 =
-      supervisor.safe_stop.understeer_rad_per_mps2;
 }
 
 void read_steer_rows(yaml::StrictMap& map, safety::GateParams& gate) {

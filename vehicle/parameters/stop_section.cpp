@@ -20,18 +20,6 @@ world::TyreGrip read_tyres(yaml::StrictMap map) {
   return tyres;
 }
 
-control::StopSteeringParams read_steering(yaml::StrictMap map) {
-  control::StopSteeringParams s;
-  read_ranges(map, control::kStopSteeringRanges, s);
-  return s;
-}
-
-control::StopSpeedParams read_speed(yaml::StrictMap map) {
-  control::StopSpeedParams s;
-  read_ranges(map, control::kStopSpeedRanges, s);
-  return s;
-}
-
 }  // namespace
 
 planning::FrictionParams read_friction(yaml::StrictMap map) {
@@ -46,11 +34,6 @@ void read_stop_plan(yaml::StrictMap map, planning::Params& p) {
   p.emergency_decel_max_mps2 = map.number("emergency_decel_max_mps2", p.stop_decel_max_mps2, 15.0);
   p.emergency_jerk_max_mps3 = map.number("emergency_jerk_max_mps3", p.stop_jerk_max_mps3, 30.0);
   p.emergency_grip_share = map.number("emergency_grip_share", p.stop_grip_share, 0.95);
-}
-
-void read_stop_control(yaml::StrictMap map, control::Params& control) {
-  control.stop_steering = read_steering(map.map("steering"));
-  control.stop_speed = read_speed(map.map("speed"));
 }
 
 control::LateralLaw read_law(yaml::StrictMap& map, const char* key) {

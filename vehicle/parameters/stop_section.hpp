@@ -1,4 +1,5 @@
-// Sections of the car file about a stop: tyres and brakes, its path, how control follows it.
+// Sections of the car file about a stop and what it stands on: tyres and brakes, its path, the law
+// that steers while the car drives.
 //   in     the mapping of the section
 //   out    parameters, each within its legal range
 //   errors the file's: place and reason, thrown as by every section
@@ -12,7 +13,6 @@ namespace pitwall::parameters {
 
 planning::FrictionParams read_friction(yaml::StrictMap map);
 void read_stop_plan(yaml::StrictMap map, planning::Params& planning);
-void read_stop_control(yaml::StrictMap map, control::Params& control);
 control::LateralLaw read_law(yaml::StrictMap& map, const char* key);
 
 }  // namespace pitwall::parameters

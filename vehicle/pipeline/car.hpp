@@ -21,6 +21,7 @@
 #include "vehicle/safety/link_loss_policy.hpp"
 #include "vehicle/safety/supervisor.hpp"
 #include "vehicle/safety/watchdog.hpp"
+#include "vehicle/steering/learned_steering.hpp"
 #include "vehicle/world/race_control.hpp"
 
 namespace pitwall::pipeline {
@@ -42,6 +43,7 @@ struct Car {
   localization::State localization;
   Plan plan;
   control::State control;
+  steering::Learned learned;  // of the car's steering
   safety::WatchdogState watchdog;
   safety::BusGuardState bus_guard;
   OperatorOrders orders;

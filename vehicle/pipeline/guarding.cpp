@@ -18,8 +18,8 @@ guardian::Params guardian_params(const CarParams& params) {
   out.reckoning.wheelbase_m = located.wheelbase_m;
   out.reckoning.understeer_rad_per_mps2 = located.understeer_rad_per_mps2;
   out.reckoning.steering_ratio = params.outbound.steering_ratio;
-  out.following.stop = params.supervisor.safe_stop;
-  out.following.slew_rad_per_s = params.supervisor.steer_slew_rad_per_s;
+  out.following = safety::following_of(params.supervisor);
+  out.following.gate = params.gate;
   out.gate = params.gate;
   return out;
 }
@@ -37,6 +37,8 @@ void publish(const Setup& setup, const Car& car, const Outputs& out, const Run& 
   record.barred = run.barred;
   record.finished = false;
   record.ego = out.ego;
+  record.learned = car.learned;
+  record.tyre_c = world::coldest_c(out.received.signals.tyre_temperature_c, now);
   record.datum = {setup.track.datum_latitude_deg(), setup.track.datum_longitude_deg(),
                   setup.track.datum_height_m()};
   if (!car.plan.ever || car.plan.at == reported.judged) return;

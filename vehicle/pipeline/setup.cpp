@@ -45,6 +45,15 @@ std::optional<Problem> refused_by_gate(const CarParams& p) {
                  p.outbound.steering_ratio}});
 }
 
+steering::AngleLimits angles_of(const CarParams& p) {
+  static_assert(steering::kAngleRows == safety::kSteerRows);
+  steering::AngleLimits out;
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = {p.gate.steer[i].speed_mps,
+              from_deg(p.gate.steer[i].motor_deg) / p.outbound.steering_ratio};
+  return out;
+}
+
 }  // namespace
 
 Result<Setup, Problem> prepare(const CarParams& params, const world::TrackDescription& track) {
@@ -66,7 +75,7 @@ Result<Setup, Problem> prepare(const CarParams& params, const world::TrackDescri
   if (auto problem = refused_by_gate(params)) return Unexpected{*problem};
   CarParams checked = params;
   checked.localization = *localization;
-  return Setup{checked, *std::move(map), *datum, *std::move(line), *gains};
+  return Setup{checked, *std::move(map), *datum, *std::move(line), *gains, angles_of(params)};
 }
 
 }  // namespace pitwall::pipeline

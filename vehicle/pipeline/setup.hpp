@@ -24,6 +24,7 @@
 #include "vehicle/safety/link_loss_policy.hpp"
 #include "vehicle/safety/supervisor.hpp"
 #include "vehicle/safety/watchdog.hpp"
+#include "vehicle/steering/angle_limits.hpp"
 #include "vehicle/world/receiver_params.hpp"
 #include "vehicle/world/track_map.hpp"
 
@@ -71,6 +72,7 @@ struct Setup {
   localization::Datum datum;
   planning::Line line;
   control::LateralGains gains;
+  steering::AngleLimits angles{};  // of the frame gate, at the road wheel
 };
 
 Result<Setup, Problem> prepare(const CarParams& params, const world::TrackDescription& track);

@@ -27,7 +27,8 @@ world::Curvilinear place_of(const Setup& setup, Car& car, const world::EgoState&
                                .bank_rad = road.bank_rad,
                                .climb_rad = road.climb_rad,
                                .direction_rad = setup.track.at(place.s_m).yaw_rad},
-                      .at = ego.at};
+                      .at = ego.at,
+                      .learned = car.learned};
   return place;
 }
 
@@ -52,13 +53,21 @@ void plan_when_due(const Setup& setup, Car& car, const Outputs& out, const Input
   const Rates& rates = setup.params.rates;
   if (plan.ever && in.now - plan.at < rates.planning - rates.tick / 2) return;
   world::Trajectory stop = plan.output.stop;
+  const steering::Params& p = setup.params.control.steering;
+  const steering::AngleBudget angles{
+      .limits = setup.angles,
+      .wheelbase_m = p.bicycle.wheelbase_m,
+      .understeer_rad_per_mps2 = understeer_to_expect(p.learning, p.bicycle, car.learned),
+      .offset_rad = car.learned.offset_rad,
+      .share = setup.params.planning.steer_share};
   plan.output =
       planning::step(setup.params.planning, setup.line, setup.track, plan.output.next,
                      {.ego = out.ego,
                       .race_control = out.race_control,
                       .operator_speed_limit_mps = out.speed_limit_mps,
                       .followed = followed(car),
-                      .tyre_c = world::coldest_c(out.received.signals.tyre_temperature_c, in.now)},
+                      .tyre_c = world::coldest_c(out.received.signals.tyre_temperature_c, in.now),
+                      .steering = &angles},
                      in.now);
   const bool good = !plan.output.drive.points.empty() && !plan.output.stop.points.empty();
   // Who stops without localization has no other path than the last one.
@@ -71,7 +80,8 @@ void plan_when_due(const Setup& setup, Car& car, const Outputs& out, const Input
 
 safety::SupervisorOutput supervise(const Setup& setup, Car& car, const Outputs& out,
                                    const Inputs& in) {
-  const bool usable = out.steered.lateral.verdict == control::LateralVerdict::kGood;
+  const bool usable =
+      car.follow == Follow::kStop || out.steered.lateral.verdict == control::LateralVerdict::kGood;
   return safety::supervise(setup.params.supervisor, car.supervisor,
                            {.signals = out.received.signals,
                             .bus = out.received.bus,
@@ -89,8 +99,45 @@ safety::SupervisorOutput supervise(const Setup& setup, Car& car, const Outputs& 
                             .last_run_armed = in.last_run_armed,
                             .radio = out.radio,
                             .sensors = &in.sensors,
-                            .computer = in.computer},
+                            .computer = in.computer,
+                            .learned = car.learned},
                            in.now);
+}
+
+// By the speed that the gate will judge by, less a step of the field.
+double angle_max_rad(const Setup& setup, const Outputs& out, Instant now) {
+  const double step_rad = from_deg(1.0) / setup.params.outbound.steering_ratio;
+  const double speed_mps = safety::wheel_speed_mps(out.received.signals, now, safety::kWheelAgeMax);
+  return steering::angle_max_rad(setup.angles, speed_mps) - step_rad;
+}
+
+// The stop's own follower drives in a stop. What the car's steering needs is learned while it is
+// driven, and known when it stops.
+void drive(const Setup& setup, Car& car, const Inputs& in, Outputs& out) {
+  const steering::Params& p = setup.params.supervisor.safe_stop.steering;
+  const world::EgoState& ego = out.ego;
+  if (car.supervisor.last_known)
+    follow_command(p.learning, car.learned, car.supervisor.last.road_wheel_rad, in.dt);
+  if (car.follow == Follow::kStop) return;
+  if (car.follow == Follow::kDrive && control::is_usable(ego))
+    learn(p.learning, p.bicycle, car.learned, {ego.vx_mps, ego.yaw_rate_rad_per_s, car.bank_rad},
+          in.dt);
+  out.steered = control::step(setup.params.control, setup.gains, car.control,
+                              {.ego = ego,
+                               .trajectory = car.plan.output.drive,
+                               .learned = car.learned,
+                               .angle_max_rad = angle_max_rad(setup, out, in.now)},
+                              in.now, in.dt);
+  car.control = out.steered.next;
+  out.tracking = {out.steered.lateral.cross_track_m, out.steered.lateral.heading_error_rad,
+                  out.steered.target_speed_mps};
+}
+
+// A stop by feedback knows where it is on its path.
+Tracking tracking_of(const Car& car, const Tracking& driven) {
+  const safety::SafeStopState& stop = car.supervisor.safe_stop;
+  if (!stop.active || !stop.located) return driven;
+  return {stop.following.lateral_m, stop.following.heading_rad, stop.following.speed_mps};
 }
 
 world::CtState handshake(const Setup& setup, Car& car, const Outputs& out, const Inputs& in) {
@@ -185,13 +232,7 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
   out.place = place_of(setup, car, out.ego);
 
   plan_when_due(setup, car, out, in);
-  const world::Trajectory& path =
-      car.follow == Follow::kStop ? car.plan.output.stop : car.plan.output.drive;
-
-  out.steered = control::step(
-      p.control, setup.gains, car.control,
-      {.ego = out.ego, .trajectory = path, .stopping = car.follow == Follow::kStop}, in.now, in.dt);
-  car.control = out.steered.next;
+  drive(setup, car, in, out);
 
   out.watchdog = safety::watch(p.watchdog, car.watchdog,
                                {.sensors = in.sensors,
@@ -211,6 +252,7 @@ Outputs step(const Setup& setup, Car& car, const Inputs& in) {
   out.chosen = supervise(setup, car, out, in);
   conclude(car.orders, before, out.chosen, resettable, in.now, out.answers);
   car.follow = out.chosen.follow;
+  out.tracking = tracking_of(car, out.tracking);
   out.ct_state = handshake(setup, car, out, in);
 
   out.quiet = in.guardian.drives;

@@ -57,6 +57,12 @@ struct Inputs {
   bool last_run_armed = false;       // the process before this one ended while it was armed
 };
 
+// How the car stands to the trajectory that it follows, whoever drives.
+struct Tracking {
+  double cross_track_m = kUnset, heading_error_rad = kUnset;  // left positive
+  double target_speed_mps = kUnset;
+};
+
 struct Outputs {
   gateway::InboundOutput received;
   world::EgoState ego;
@@ -64,7 +70,8 @@ struct Outputs {
   localization::Estimate estimate;                                     // what ego is made of
   std::array<localization::UnitSet, localization::kSources> in_use{};  // channels and units
   world::Curvilinear place;  // on the track; unset before the first position
-  control::Output steered;
+  control::Output steered;   // empty in a stop: control is not asked
+  Tracking tracking;
   safety::WatchdogOutput watchdog;
   safety::BusGuardOutput bus_guard;
   safety::SupervisorOutput chosen;

@@ -75,7 +75,7 @@ void put_ego(Values& v, const Outputs& out) {
   v[field("ego.validity")] = number_of(out.ego.validity);
   v[field("track.station")] = out.place.s_m;
   v[field("track.offset")] = out.place.n_m;
-  v[field("track.target_speed")] = out.steered.target_speed_mps;
+  v[field("track.target_speed")] = out.tracking.target_speed_mps;
 }
 
 void put_actuators(Values& v, const world::VehicleSignals& s, double steering_ratio) {
@@ -161,9 +161,9 @@ void put_dynamics(Values& v, const TapInputs& in) {
   v[field("dynamics.roll")] = ego.roll_rad;
   v[field("dynamics.pitch")] = ego.pitch_rad;
   v[field("dynamics.bank")] = in.car.bank_rad;
-  v[field("dynamics.lateral_error")] = in.out.steered.lateral.cross_track_m;
-  v[field("dynamics.heading_error")] = in.out.steered.lateral.heading_error_rad;
-  v[field("dynamics.speed_error")] = in.out.steered.target_speed_mps - ego.vx_mps;
+  v[field("dynamics.lateral_error")] = in.out.tracking.cross_track_m;
+  v[field("dynamics.heading_error")] = in.out.tracking.heading_error_rad;
+  v[field("dynamics.speed_error")] = in.out.tracking.target_speed_mps - ego.vx_mps;
 }
 
 enum Primitive : std::uint8_t { kNoPrimitive, kHoldsLine, kStops, kMerges };

@@ -14,8 +14,7 @@ using world::ActuatorCommand;
 using world::Mode;
 using world::Validity;
 
-constexpr double kSlewTickMax_s = 0.1;      // a longer pause does not open the slew limits
-constexpr double kBrakeTouched_kpa = 50.0;  // with this much brake the throttle yields
+constexpr double kSlewTickMax_s = 0.1;  // a longer pause does not open the slew limits
 
 double tyres_c(const Tick& t) { return world::coldest_c(t.in.signals.tyre_temperature_c, t.now); }
 
@@ -38,11 +37,18 @@ Chosen hold(const Tick& t) {
           CommandSource::kHold};
 }
 
-Chosen safe_stop(const Tick& t, StopKind kind) {
+Chosen stop(const Tick& t) {
+  const SupervisorParams& p = t.params;
   SupervisorState& s = t.state;
-  s.safe_stop_engaged = true;
-  const SafeStopInputs inputs{t.in.stop, s.last, t.speed_mps, kind, t.in.ego, tyres_c(t)};
-  return {stop_along(t.params.safe_stop, s.safe_stop, inputs, t.now), CommandSource::kSafeStop};
+  const SafeStopInputs inputs{
+      .stop = t.in.stop,
+      .last_good = s.last,
+      .speed_mps = t.speed_mps,
+      .kind = s.mode == Mode::kEmergencyStop ? StopKind::kEmergency : StopKind::kControlled,
+      .ego = t.in.ego,
+      .tyre_c = tyres_c(t),
+      .learned = t.in.learned};
+  return {stop_along(following_of(p), s.safe_stop, inputs, t.now), CommandSource::kSafeStop};
 }
 
 // On a flat road, beside the lateral acceleration that is measured.
@@ -52,28 +58,6 @@ Grip grip_now(const Tick& t) {
       grip_at(t.params.safe_stop, std::isfinite(speed_mps) ? speed_mps : 0.0, 0.0, 0.0, tyres_c(t));
   if (std::isfinite(t.in.ego.ay_mps2)) grip.lateral_mps2 = t.in.ego.ay_mps2;
   return grip;
-}
-
-// Steering of control, brake as hard as the grip allows.
-Chosen emergency(const Tick& t) {
-  const SafeStopParams& p = t.params.safe_stop;
-  ActuatorCommand command = t.in.control;
-  const double emergency_kpa = brake_towards(p, StopKind::kEmergency,
-                                             {.decel_mps2 = p.emergency_decel_mps2,
-                                              .grip = grip_now(t),
-                                              .last_kpa = t.state.last.brake_kpa,
-                                              .dt_s = ramp_dt_s(t)});
-  command.throttle_fraction = 0.0;
-  command.brake_kpa = std::max(command.brake_kpa, emergency_kpa);
-  return {command, CommandSource::kControl};
-}
-
-Chosen stopping(const Tick& t, bool control_usable) {
-  const bool emergency_mode = t.state.mode == Mode::kEmergencyStop;
-  const bool refused = t.state.faults.gate_refused_ticks >= t.params.faults.refused_ticks;
-  if (t.state.safe_stop_engaged || !control_usable || !is_located(t.in.ego) || refused)
-    return safe_stop(t, emergency_mode ? StopKind::kEmergency : StopKind::kControlled);
-  return emergency_mode ? emergency(t) : Chosen{t.in.control, CommandSource::kControl};
 }
 
 Chosen driving(const Tick& t, bool control_usable) {
@@ -122,13 +106,10 @@ double within_grip(const Tick& t, double brake_kpa) {
   return std::min(brake_kpa, std::fmax(grip_kpa, falling_kpa));
 }
 
-// What the gate would refuse at this speed, less a step of the field. An actuator that does not
-// follow drives the demand without end; refused, the drive-by-wire would take the brake itself.
+// An actuator that does not follow drives the demand without end; refused, the drive-by-wire would
+// take the brake itself.
 double within_gate(const Tick& t, double road_wheel_rad) {
-  constexpr double kStep_deg = 1.0;
-  const GateParams& gate = t.params.gate;
-  const double limit_deg = gate.stop_steer_share * steer_limit_deg(gate, t.speed_mps) - kStep_deg;
-  const double limit_rad = from_deg(limit_deg) / t.params.steering_ratio;
+  const double limit_rad = stop_angle_max_rad(t.params.gate, t.params.steering_ratio, t.speed_mps);
   return std::clamp(road_wheel_rad, -limit_rad, limit_rad);
 }
 
@@ -181,7 +162,7 @@ Chosen choose(const Tick& t) {
       return coast(t, usable);
     case Mode::kControlledStop:
     case Mode::kEmergencyStop:
-      return stopping(t, usable);
+      return stop(t);
     case Mode::kStandby:
     case Mode::kHalted:
       break;

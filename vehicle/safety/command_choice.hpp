@@ -1,6 +1,7 @@
 // Whose command goes to the actuators in a tick, and in which shape: the part of the supervisor
 // that comes after its decision.
-//   in     the mode that was decided, control's command, the last stop, the joystick's word
+//   in     the mode that was decided, control's command while the car drives, the last stop, the
+//          joystick's word
 //   out    a command and its source; then slowed by the joystick and within the slews
 //   invariants
 //          a change of source is no jump; in a stop the throttle never rises; coasting has none;

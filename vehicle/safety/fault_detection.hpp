@@ -133,6 +133,8 @@ FaultOutput detect(const FaultParams& params, FaultState& state, const FaultInpu
 
 // The car's speed by its wheels: the mean of the two middle ones of four, so that one wheel that
 // locks, spins or lies has no say. Unset if older than `limit` or a wheel is not a number.
+inline constexpr Duration kWheelAgeMax =
+    milliseconds(250);  // for the speed that the car is judged by
 double wheel_speed_mps(const world::VehicleSignals& signals, Instant now, Duration limit);
 
 }  // namespace pitwall::safety

@@ -35,10 +35,11 @@ Wanted wanted_at(const Trajectory& path, double s_m) {
 }
 
 // delta = L k + K_us (v^2 k - g sin(bank))
-double feedforward_rad(const SafeStopParams& params, double speed_mps, const Wanted& w) {
+double feedforward_rad(const SafeStopParams& params, const steering::Learned& learned,
+                       double speed_mps, const Wanted& w) {
   const Grip grip = grip_at(params, speed_mps, w.curvature_per_m, w.bank_rad);
-  return params.wheelbase_m * w.curvature_per_m +
-         params.understeer_rad_per_mps2 * grip.lateral_mps2;
+  return steering::angle_rad(params.steering.bicycle, learned, w.curvature_per_m,
+                             grip.lateral_mps2);
 }
 
 // `followed`: how far feedback came; not begun where there was none.
@@ -57,13 +58,15 @@ SafeStopState begin(const SafeStopParams& params, const SafeStopInputs& in,
   s.travelled_m = std::max(0.0, (now - in.stop.at).seconds()) * s.speed_mps;
   if (followed.path_at == in.stop.at && followed.begun) s.travelled_m = followed.s_m;
   const Wanted w = wanted_at(in.stop, s.travelled_m);
-  s.trim_rad = followed.begun ? followed.trim_rad : 0.0;
-  s.steer_offset_rad = last_good_rad - feedforward_rad(params, s.speed_mps, w) - s.trim_rad;
+  s.learned_rad = followed.begun ? followed.steering.trim_rad + followed.steering.unknown_rad : 0.0;
+  s.steer_offset_rad =
+      last_good_rad - feedforward_rad(params, in.learned, s.speed_mps, w) - s.learned_rad;
   return s;
 }
 
 void advance(const SafeStopParams& params, SafeStopState& s, double measured_mps, double dt_s) {
-  const double decel_mps2 = s.brake_kpa / params.brake_kpa_per_mps2;
+  const double decel_mps2 = s.brake_kpa / params.brake_kpa_per_mps2 + params.coast_mps2 +
+                            params.drag_per_m * s.speed_mps * s.speed_mps;
   const double reckoned_mps = std::max(0.0, s.speed_mps - decel_mps2 * dt_s);
   s.speed_mps = std::max(0.0, finite_or(measured_mps, reckoned_mps));
   s.travelled_m += s.speed_mps * dt_s;
@@ -86,30 +89,20 @@ void start_following(const SafeStopInputs& in, SafeStopState& s) {
   s.following.command = in.last_good;
   s.following.command.road_wheel_rad = finite_or(in.last_good.road_wheel_rad, 0.0);
   s.following.command.brake_kpa = s.brake_kpa;
+  s.following.command.throttle_fraction = finite_or(in.last_good.throttle_fraction, 0.0);
+  s.following.learned = in.learned;
 }
 
-ActuatorCommand with_feedback(const SafeStopParams& params, SafeStopState& s,
-                              const SafeStopInputs& in, double dt_s, Instant now) {
-  const double last_kpa = s.brake_kpa;
+ActuatorCommand with_feedback(const FollowingParams& params, SafeStopState& s,
+                              const SafeStopInputs& in, Instant now) {
   s.following.tyre_c = in.tyre_c;
-  FollowingParams following;
-  following.stop = params;
   const PathPose pose{.x_m = in.ego.x_m,
                       .y_m = in.ego.y_m,
                       .yaw_rad = in.ego.yaw_rad,
                       .speed_mps = finite_or(in.speed_mps, std::max(in.ego.vx_mps, 0.0)),
-                      .slip_mps = in.ego.vy_mps};
-  ActuatorCommand command = follow_stop(following, s.following, in.stop, pose, now);
-  if (in.kind == StopKind::kEmergency && pose.speed_mps >= params.standstill_mps) {
-    const Wanted w = wanted_at(in.stop, s.following.s_m);
-    const Grip grip = grip_at(params, pose.speed_mps, w.curvature_per_m, w.bank_rad, in.tyre_c);
-    command.brake_kpa = brake_towards(params, in.kind,
-                                      {.decel_mps2 = params.emergency_decel_mps2,
-                                       .grip = grip,
-                                       .last_kpa = last_kpa,
-                                       .dt_s = dt_s});
-    s.following.command.brake_kpa = command.brake_kpa;
-  }
+                      .slip_mps = in.ego.vy_mps,
+                      .yaw_rate_rad_per_s = in.ego.yaw_rate_rad_per_s};
+  ActuatorCommand command = follow_stop(params, s.following, in.stop, pose, in.kind, now);
   s.brake_kpa = command.brake_kpa;
   s.travelled_m = s.following.s_m;
   command.gear = in.last_good.gear;
@@ -123,7 +116,8 @@ ActuatorCommand open_loop(const SafeStopParams& params, SafeStopState& state,
   const double settled = planned ? std::exp(-(now - state.begun).seconds() / params.steer_settle_s)
                                  : 1.0;  // nothing to settle to: hold
   const double angle_rad =
-      (planned ? feedforward_rad(params, state.speed_mps, w) + state.trim_rad : 0.0) +
+      (planned ? feedforward_rad(params, in.learned, state.speed_mps, w) + state.learned_rad
+               : 0.0) +
       state.steer_offset_rad * settled;
   const Grip grip = grip_at(params, state.speed_mps, w.curvature_per_m, w.bank_rad, in.tyre_c);
   if (state.speed_mps < params.standstill_mps)
@@ -143,17 +137,18 @@ ActuatorCommand open_loop(const SafeStopParams& params, SafeStopState& state,
 
 }  // namespace
 
-ActuatorCommand stop_along(const SafeStopParams& params, SafeStopState& state,
+ActuatorCommand stop_along(const FollowingParams& params, SafeStopState& state,
                            const SafeStopInputs& in, Instant now) {
   const bool located = has_pose(in.ego) && in.stop.points.size() >= 2;
-  if (!state.active || (state.located && !located)) state = begin(params, in, state.following, now);
+  if (!state.active || (state.located && !located))
+    state = begin(params.stop, in, state.following, now);
   const double dt_s = std::clamp((now - state.last).seconds(), 0.0, kAdvanceMax_s);
   state.last = now;
-  advance(params, state, in.speed_mps, dt_s);
+  advance(params.stop, state, in.speed_mps, dt_s);
   if (located && !state.located) start_following(in, state);
   state.located = located;
-  return located ? with_feedback(params, state, in, dt_s, now)
-                 : open_loop(params, state, in, dt_s, now);
+  return located ? with_feedback(params, state, in, now)
+                 : open_loop(params.stop, state, in, dt_s, now);
 }
 
 }  // namespace pitwall::safety

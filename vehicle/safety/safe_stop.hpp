@@ -31,7 +31,7 @@ struct SafeStopState {
   double travelled_m = 0.0;       // along the trajectory, since its first point
   double speed_mps = 0.0;         // measured or dead reckoned
   double steer_offset_rad = 0.0;  // last good angle minus feed-forward, at the start
-  double trim_rad = 0.0;          // what feedback had learned before it ended
+  double learned_rad = 0.0;       // what feedback had found before it ended
   double brake_kpa = 0.0;
   Instant begun{};
   bool located = false;      // in the last tick
@@ -46,10 +46,11 @@ struct SafeStopInputs {
   StopKind kind = StopKind::kControlled;
   world::EgoState ego{};   // without a valid one: open loop
   double tyre_c = kUnset;  // the coldest; unset counts as cold
+  steering::Learned learned{};
 };
 
 // The first call with an inactive state begins the stop; reset by assigning SafeStopState{}.
-world::ActuatorCommand stop_along(const SafeStopParams& params, SafeStopState& state,
+world::ActuatorCommand stop_along(const FollowingParams& params, SafeStopState& state,
                                   const SafeStopInputs& inputs, Instant now);
 
 }  // namespace pitwall::safety

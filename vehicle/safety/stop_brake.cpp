@@ -49,15 +49,15 @@ double brake_for(const SafeStopParams& params, StopKind kind, double decel_mps2,
 double brake_towards(const SafeStopParams& params, StopKind kind, const BrakeDemand& demand) {
   const double left_mps2 = grip_left_mps2(params, kind, demand.grip);
   const double free_mps2 = demand.grip.free_mps2;
-  const double least_mps2 = std::max(params.decel_min_mps2 - free_mps2, 0.0);
-  const double brake_mps2 =
-      std::max(least_mps2, std::min(demand.decel_mps2 - free_mps2, left_mps2));
+  const double brake_mps2 = std::max(0.0, std::min(demand.decel_mps2 - free_mps2, left_mps2));
   const double target_kpa = std::min(brake_mps2 * params.brake_kpa_per_mps2, params.brake_max_kpa);
   return ramped(demand.last_kpa, target_kpa, ramp_of(params, kind), demand.dt_s);
 }
 
 double hold_towards(const SafeStopParams& params, StopKind kind, double last_kpa, double dt_s) {
-  return ramped(last_kpa, params.hold_kpa, ramp_of(params, kind), dt_s);
+  const double ramp_kpa_per_s =
+      kind == StopKind::kEmergency ? params.emergency_ramp_kpa_per_s : params.hold_ramp_kpa_per_s;
+  return ramped(last_kpa, params.hold_kpa, ramp_kpa_per_s, dt_s);
 }
 
 }  // namespace pitwall::safety

@@ -18,14 +18,14 @@
 #include <cstdint>
 
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/steering/path_steering.hpp"
 #include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/tyre_grip.hpp"
 
 namespace pitwall::safety {
 
 struct SafeStopParams {
-  double wheelbase_m = 2.971;
-  double understeer_rad_per_mps2 = 0.0006;
+  steering::Params steering;
   double brake_kpa_per_mps2 = 250.0;          // pressure for 1 m/s^2
   double brake_ramp_kpa_per_s = 4000.0;       // controlled stop
   double emergency_ramp_kpa_per_s = 12000.0;  // [brake_ramp, 30000]
@@ -35,23 +35,23 @@ struct SafeStopParams {
   double decel_max_mps2 = 8.0;           // controlled stop; [decel_min, 15]
   double decel_without_plan_mps2 = 4.0;  // [decel_min, decel_max]
   double emergency_decel_mps2 = 14.0;    // [decel_max, 25]
-  double friction = 1.3;                 // of warm tyres
+  double friction = 1.0;                 // that a stop reckons with, tyres warm: low on purpose
   double brake_share = 0.65;             // of the grip, when the front axle locks
   double downforce_per_m = 0.0013;       // lift / mass per v^2
   double grip_share = 0.7;               // of the grip left beside the lateral force; (0, 1]
   double emergency_grip_share = 0.9;     // [grip_share, 1]
   double steer_settle_s = 0.8;           // the offset from the feed-forward decays
   double standstill_mps = 0.3;
-  double drag_per_m = 0.0;  // drag / (mass v^2)
-  double coast_mps2 = 0.0;  // rolling and engine, throttle closed
-  world::TyreGrip tyres;    // of the temperature; as planning has it
+  double speed_share_per_s = 0.8;     // of the error of the speed, as deceleration
+  double brake_preview_s = 0.15;      // what the brakes take
+  double throttle_fall_per_s = 1.2;   // the throttle closes
+  double hold_ramp_kpa_per_s = 1500;  // at standstill
+  double drag_per_m = 0.0;            // drag / (mass v^2)
+  double coast_mps2 = 0.0;            // rolling and engine, throttle closed
+  world::TyreGrip tyres;              // of the temperature; as planning has it
 };
 
 inline constexpr auto kSafeStopRanges = std::to_array<world::NamedRange<SafeStopParams>>({
-    {"wheelbase_m", &SafeStopParams::wheelbase_m, world::kWheelbase_m.least,
-     world::kWheelbase_m.most},
-    {"understeer_rad_per_mps2", &SafeStopParams::understeer_rad_per_mps2,
-     world::kUndersteer_rad_per_mps2.least, world::kUndersteer_rad_per_mps2.most},
     {"brake_kpa_per_mps2", &SafeStopParams::brake_kpa_per_mps2, 50.0, 1000.0},
     {"brake_ramp_kpa_per_s", &SafeStopParams::brake_ramp_kpa_per_s, 500.0, 20000.0},
     {"brake_max_kpa", &SafeStopParams::brake_max_kpa, 1000.0, 8191.0},
@@ -65,6 +65,10 @@ inline constexpr auto kSafeStopRanges = std::to_array<world::NamedRange<SafeStop
     {"grip_share", &SafeStopParams::grip_share, 0.05, 1.0},
     {"steer_settle_s", &SafeStopParams::steer_settle_s, 0.1, 5.0},
     {"standstill_mps", &SafeStopParams::standstill_mps, 0.1, 1.0},
+    {"speed_share_per_s", &SafeStopParams::speed_share_per_s, 0.0, 3.0},
+    {"brake_preview_s", &SafeStopParams::brake_preview_s, 0.0, 0.5},
+    {"throttle_fall_per_s", &SafeStopParams::throttle_fall_per_s, 0.2, 20.0},
+    {"hold_ramp_kpa_per_s", &SafeStopParams::hold_ramp_kpa_per_s, 100.0, 20000.0},
 });
 
 enum class StopKind : std::uint8_t { kControlled, kEmergency };
@@ -81,9 +85,8 @@ Grip grip_at(const SafeStopParams& params, double speed_mps, double curvature_pe
 // The pressure for a deceleration by the brake, within grip and maximum.
 double brake_for(const SafeStopParams& params, StopKind kind, double decel_mps2, const Grip& grip);
 
-// The brake alone: the next pressure towards a deceleration, within ramp, grip and maximum. Never
-// aims below decel_min: every stop ends. Used to add the emergency brake to a command whose
-// steering is still good.
+// The brake alone: the next pressure towards a deceleration, within ramp, grip and maximum; none
+// where the corner leaves no grip.
 struct BrakeDemand {
   double decel_mps2 = kUnset;
   Grip grip;

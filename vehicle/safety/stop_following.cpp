@@ -13,7 +13,9 @@ using world::Trajectory;
 using world::TrajectoryPoint;
 
 constexpr double kTickMax_s = 0.05;  // a longer pause opens no slew limit
-constexpr double kStill_mps = 1.0;   // below, a course means nothing
+constexpr double kPlannedStill_mps = 0.05;
+constexpr double kFirstTick_s = 0.01;
+constexpr double kStill_mps = 1.0;  // below, a course means nothing
 
 struct PathPoint {
   double curvature_per_m, bank_rad, speed_mps, accel_mps2;
@@ -29,45 +31,33 @@ PathPoint path_at(const Trajectory& path, std::size_t segment, double s_m) {
           between(a.speed_mps, b.speed_mps), between(a.accel_mps2, b.accel_mps2)};
 }
 
-double feedforward_rad(const SafeStopParams& p, double speed_mps, const PathPoint& at) {
-  const Grip grip = grip_at(p, speed_mps, at.curvature_per_m, at.bank_rad);
-  return p.wheelbase_m * at.curvature_per_m + p.understeer_rad_per_mps2 * grip.lateral_mps2;
+double next_brake_kpa(const SafeStopParams& p, const FollowingState& s, const PathPoint& here,
+                      const PathPoint& ahead, double speed_mps, StopKind kind, double dt_s) {
+  const double last_kpa = s.command.brake_kpa;
+  const bool ends = here.speed_mps < kPlannedStill_mps && speed_mps < kStill_mps;
+  if (ends || speed_mps < p.standstill_mps) return hold_towards(p, kind, last_kpa, dt_s);
+  const Grip grip = grip_at(p, speed_mps, here.curvature_per_m, here.bank_rad, s.tyre_c);
+  if (kind == StopKind::kEmergency)
+    return brake_towards(p, kind, {p.emergency_decel_mps2, grip, last_kpa, dt_s});
+  // Where the plan stands the car is to stand, whatever pushes it.
+  const double least_mps2 = here.speed_mps < kPlannedStill_mps ? p.decel_min_mps2 : 0.0;
+  const double wanted_mps2 =
+      std::clamp(-ahead.accel_mps2 + p.speed_share_per_s * (speed_mps - here.speed_mps), least_mps2,
+                 p.decel_max_mps2);
+  return brake_towards(p, kind, {wanted_mps2, grip, last_kpa, dt_s});
 }
 
-// What one unit of curvature takes at the wheel.
-double angle_per_curvature_m(const SafeStopParams& p, double speed_mps) {
-  return p.wheelbase_m + p.understeer_rad_per_mps2 * speed_mps * speed_mps;
+// A pressure that is more than the gate lets a controlled stop have comes down from the first tick
+// on; repeated it would be refused.
+double begin_within_gate_kpa(const FollowingParams& p, double last_kpa, double speed_mps) {
+  const double step_kpa = p.stop.emergency_ramp_kpa_per_s * kFirstTick_s;
+  return std::min(last_kpa, std::max(stop_brake_limit_kpa(p.gate, speed_mps), last_kpa - step_kpa));
 }
 
-double feedback_rad(const FollowingParams& p, const FollowingState& s, double speed_mps) {
-  const double v_mps = std::max(speed_mps, p.gain_speed_least_mps), w = p.bandwidth_rad_per_s;
-  const double kappa_per_m =
-      -(w * w * s.lateral_m + 2.0 * p.damping * w * v_mps * s.course_rad) / (v_mps * v_mps);
-  return angle_per_curvature_m(p.stop, v_mps) * kappa_per_m;
-}
-
-void trim(const FollowingParams& p, FollowingState& s, double speed_mps, double dt_s) {
-  const double v_mps = std::max(speed_mps, p.gain_speed_least_mps);
-  const double w = p.bandwidth_rad_per_s;
-  const double per_m = angle_per_curvature_m(p.stop, v_mps) * w * w / (v_mps * v_mps);
-  s.trim_rad = std::clamp(s.trim_rad - p.trim_per_s * per_m * s.lateral_m * dt_s, -p.trim_max_rad,
-                          p.trim_max_rad);
-}
-
-double next_brake_kpa(const FollowingParams& p, const FollowingState& s, const PathPoint& here,
-                      double speed_mps, double dt_s) {
-  if (speed_mps < p.stop.standstill_mps) {
-    const double step_kpa = p.stop.brake_ramp_kpa_per_s * dt_s;
-    return std::clamp(p.stop.hold_kpa, s.command.brake_kpa - step_kpa,
-                      s.command.brake_kpa + step_kpa);
-  }
-  const double wanted_mps2 = -here.accel_mps2 + p.speed_share_per_s * (speed_mps - here.speed_mps);
-  return brake_towards(
-      p.stop, StopKind::kControlled,
-      {.decel_mps2 = std::clamp(wanted_mps2, 0.0, p.stop.decel_max_mps2),
-       .grip = grip_at(p.stop, speed_mps, here.curvature_per_m, here.bank_rad, s.tyre_c),
-       .last_kpa = s.command.brake_kpa,
-       .dt_s = dt_s});
+// The throttle closes, and yields to the brake.
+double next_throttle(const SafeStopParams& p, double last, double brake_kpa, double dt_s) {
+  if (brake_kpa > kBrakeTouched_kpa) return 0.0;
+  return std::clamp(last - p.throttle_fall_per_s * dt_s, 0.0, 1.0);
 }
 
 }  // namespace
@@ -93,42 +83,56 @@ void locate(FollowingState& state, const Trajectory& path, const PathPose& pose)
   const double chord_m = std::hypot(chord_x, chord_y);
   const double dx_m = pose.x_m - a.x_m, dy_m = pose.y_m - a.y_m;
   state.s_m = a.s_m + share * length_m;
+  state.curvature_per_m = a.curvature_per_m + share * (b.curvature_per_m - a.curvature_per_m);
+  state.speed_mps = a.speed_mps + share * (b.speed_mps - a.speed_mps);
   state.lateral_m = (chord_x * dy_m - chord_y * dx_m) / chord_m + bow_m;
   state.bank_rad = a.bank_rad + share * (b.bank_rad - a.bank_rad);
   const double drift_rad =
       pose.speed_mps > kStill_mps
           ? std::atan2(pose.slip_mps * std::cos(state.bank_rad), pose.speed_mps)
           : 0.0;
+  state.heading_rad = wrap_pi(pose.yaw_rad - yaw_rad);
   state.course_rad = wrap_pi(pose.yaw_rad + drift_rad - yaw_rad);
 }
 
+double stop_angle_max_rad(const GateParams& gate, double steering_ratio, double speed_mps) {
+  constexpr double kStep_deg = 1.0;
+  const double limit_deg = gate.stop_steer_share * steer_limit_deg(gate, speed_mps) - kStep_deg;
+  return from_deg(limit_deg) / steering_ratio;
+}
+
 world::ActuatorCommand follow_stop(const FollowingParams& params, FollowingState& state,
-                                   const Trajectory& path, const PathPose& pose, Instant now) {
+                                   const Trajectory& path, const PathPose& pose, StopKind kind,
+                                   Instant now) {
   locate(state, path, pose);
+  const SafeStopParams& p = params.stop;
   const double v_mps = pose.speed_mps;
-  const PathPoint ahead = path_at(path, state.segment, state.s_m + v_mps * params.preview_s);
-  const double known_rad =
-      feedforward_rad(params.stop, v_mps, ahead) + feedback_rad(params, state, v_mps);
-  if (!state.begun) {
-    state.begun = true;
-    state.last = now;
-    state.trim_rad = std::clamp(state.command.road_wheel_rad - known_rad, -params.trim_max_rad,
-                                params.trim_max_rad);
-  }
+  const bool begins = !state.begun;
+  if (begins) state.begun = true, state.last = now;
   const double dt_s = std::clamp((now - state.last).seconds(), 0.0, kTickMax_s);
   state.last = now;
   world::ActuatorCommand& command = state.command;
-  if (v_mps > kStill_mps) {  // below, the wheels stay: they would turn on the spot
-    trim(params, state, v_mps, dt_s);
-    const double slew_rad = params.slew_rad_per_s * dt_s;
-    const double wanted_rad =
-        std::clamp(known_rad + state.trim_rad, -params.angle_max_rad, params.angle_max_rad);
-    command.road_wheel_rad = std::clamp(wanted_rad, command.road_wheel_rad - slew_rad,
-                                        command.road_wheel_rad + slew_rad);
-  }
+  steering::follow_command(p.steering.learning, state.learned, command.road_wheel_rad,
+                           from_seconds(dt_s));
+  const PathPoint turn = path_at(path, state.segment, state.s_m + v_mps * p.steering.preview_s);
+  const double wanted_rad = steering::steer(
+      p.steering, state.learned, state.steering,
+      {.deviation = {state.lateral_m, state.course_rad, state.curvature_per_m, state.bank_rad},
+       .ahead = {turn.curvature_per_m, turn.bank_rad},
+       .speed_mps = v_mps,
+       .yaw_rate_rad_per_s = pose.yaw_rate_rad_per_s,
+       .last_angle_rad = command.road_wheel_rad,
+       .angle_max_rad = stop_angle_max_rad(params.gate, params.steering_ratio, v_mps)},
+      from_seconds(dt_s));
+  const double slew_rad = params.slew_rad_per_s * dt_s;
+  command.road_wheel_rad =
+      std::clamp(wanted_rad, command.road_wheel_rad - slew_rad, command.road_wheel_rad + slew_rad);
   const PathPoint here = path_at(path, state.segment, state.s_m);
-  command.brake_kpa = next_brake_kpa(params, state, here, v_mps, dt_s);
-  command.throttle_fraction = 0.0;
+  const PathPoint braked = path_at(path, state.segment, state.s_m + v_mps * p.brake_preview_s);
+  if (begins && kind == StopKind::kControlled)
+    command.brake_kpa = begin_within_gate_kpa(params, command.brake_kpa, v_mps);
+  command.brake_kpa = next_brake_kpa(p, state, here, braked, v_mps, kind, dt_s);
+  command.throttle_fraction = next_throttle(p, command.throttle_fraction, command.brake_kpa, dt_s);
   command.at = now;
   return command;
 }

@@ -1,20 +1,18 @@
-// The stop, driven along its trajectory with feedback: an open-loop replay of the steering leaves a
-// track of 65 m/s within four seconds.
-//   in     the stop trajectory, the pose of the car, what the actuators were told last
-//   out    a command: throttle 0, the gear held; at standstill the brake is held
+// The stop, driven along its trajectory with feedback: whoever stops the car (a controlled stop, an
+// emergency, the guardian) drives it by this law, and by nothing else.
+//   in     the stop trajectory, the pose of the car, what the actuators were told last, what was
+//          learned of the car's steering, the coldest tyre
+//   out    a command: throttle closing, the gear held; at standstill the brake is held
 //   frames Map; lateral error positive where the car is left of the path, angles left positive
 //   invariants
-//          e' = v chi, chi' = kappa v, chi the direction of travel against the path's; the wanted
-//          change of curvature places both poles at w, damping z:
-//            kappa = -(w^2 e + 2 z w v chi) / v^2
-//          steering = L k + K a_y of the path (stop_brake.hpp) + (L + K v^2) kappa + trim; the trim
-//          begins as the difference to the last angle, so that nothing steps, and integrates what
-//          stays of e. The brake follows the planned deceleration and the planned speed, kept
-//          within the grip that the corner leaves (stop_brake.hpp)
+//          steering: steering/path_steering.hpp, within what the frame gate lets pass at the speed.
+//          brake: pressure = (decel - free) * kpa_per_mps2, free what air, rolling and engine do,
+//            decel = -a* + speed_share (v - v*), a* and v* planned, a* a moment ahead; an emergency
+//            asks for emergency_decel. It stays within the grip that the corner leaves
+//            (stop_brake.hpp), by the friction that a stop reckons with, and within its ramp
 //          Where a newer trajectory is given its place is looked for anew
 //   errors none; begun on a trajectory without points it would be our own mistake (CHECK)
 //   cost   O(points passed since the last tick); no allocation
-//   source Rajamani, Vehicle Dynamics and Control, 2nd ed., eq. 3.12 (feed-forward)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,29 +21,28 @@
 
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/safety/frame_gate.hpp"
 #include "vehicle/safety/stop_brake.hpp"
+#include "vehicle/steering/path_steering.hpp"
 #include "vehicle/world/actuator_command.hpp"
 #include "vehicle/world/trajectory.hpp"
 
 namespace pitwall::safety {
 
+inline constexpr double kBrakeTouched_kpa = 50.0;  // with this much brake the throttle yields
+
 // Where the car is; speed forward and slip to the left, in the plane of the road.
 struct PathPose {
   double x_m = kUnset, y_m = kUnset, yaw_rad = kUnset;
   double speed_mps = kUnset, slip_mps = 0.0;
+  double yaw_rate_rad_per_s = kUnset;  // about body z; unset: as the path turns
 };
 
 struct FollowingParams {
   SafeStopParams stop;
-  double bandwidth_rad_per_s = 1.8;   // w; [0.5, 4]
-  double damping = 0.9;               // z; [0.5, 1.5]
-  double trim_per_s = 0.6;            // [0, 2]
-  double trim_max_rad = 0.03;         // [0, 0.1]
-  double preview_s = 0.1;             // what the steering takes; [0, 0.5]
-  double slew_rad_per_s = 0.5;        // [0.1, 2]
-  double angle_max_rad = 0.2;         // [0.05, 0.4]
-  double gain_speed_least_mps = 8.0;  // [2, 20]
-  double speed_share_per_s = 0.8;     // of the error of the speed, as deceleration; [0, 3]
+  GateParams gate;               // what it will have to pass
+  double steering_ratio = 19.5;  // motor angle : road-wheel angle
+  double slew_rad_per_s = 0.5;   // [0.1, 2]
 };
 
 struct FollowingState {
@@ -54,9 +51,12 @@ struct FollowingState {
   Instant last{};
   std::size_t segment = 0;                              // of the path, where the car is
   double s_m = 0.0, lateral_m = 0.0, course_rad = 0.0;  // along and against the path
-  double bank_rad = 0.0;                                // there
+  double heading_rad = 0.0;                             // the yaw against it
+  double curvature_per_m = 0.0, bank_rad = 0.0;         // of the path there
+  double speed_mps = kUnset;                            // planned there
   double tyre_c = kUnset;                               // the coldest; unset counts as cold
-  double trim_rad = 0.0;
+  steering::Learned learned;                            // of the car, before the stop
+  steering::State steering;
   world::ActuatorCommand command;  // the last
 };
 static_assert(std::is_trivially_copyable_v<FollowingState>);
@@ -64,9 +64,12 @@ static_assert(std::is_trivially_copyable_v<FollowingState>);
 // Where the car is on the path, from the beginning of it; to be asked before the first tick.
 void locate(FollowingState& state, const world::Trajectory& path, const PathPose& pose);
 
+// The largest road-wheel angle that the gate lets pass in a stop, less a step of the field.
+double stop_angle_max_rad(const GateParams& gate, double steering_ratio, double speed_mps);
+
 // The next command; state.command is the last that the car was told.
 world::ActuatorCommand follow_stop(const FollowingParams& params, FollowingState& state,
                                    const world::Trajectory& path, const PathPose& pose,
-                                   Instant now);
+                                   StopKind kind, Instant now);
 
 }  // namespace pitwall::safety

@@ -14,7 +14,6 @@ using world::TrackFlag;
 using world::Validity;
 using world::VehicleFlag;
 
-constexpr Duration kWheelAgeMax = milliseconds(250);
 constexpr double kEgoStanding_mps = 1.0;  // wheels that lock at speed are no standstill
 
 bool seems_to_stand(const Tick& t) {
@@ -183,7 +182,6 @@ void enter(const Tick& t, Mode to, bool drive_by_wire_gone) {
   }
   if (to == Mode::kStandby || to == Mode::kDriving) {
     s.safe_stop = {};
-    s.safe_stop_engaged = false;
     s.engine_off = false;
     s.coasts = {};
   }

@@ -1,9 +1,8 @@
 // The system executive: which mode the car is in, why, which trajectory to follow and whose command
-// goes to the actuators. Planning keeps a stop trajectory ready at every tick; in a stop the
-// supervisor makes control follow it, and takes safe_stop's command only when control failed (and
-// then until the car stands).
-//   in     signals received, position, the watchdog's rows, the verdicts of this tick's control and
-//          of the previous tick's gate, the operator's requests
+// goes to the actuators. Planning keeps a stop trajectory ready at every tick; in a stop the car is
+// driven along it by safe_stop, and control is not asked.
+//   in     signals received, position, what was learned of the steering, the watchdog's rows, the
+//          verdicts of this tick's control and of the previous tick's gate, the operator's requests
 //   out    mode, cause (the first that stopped the car since the last reset), command, what to
 //          follow in the next tick
 //   units  SI
@@ -72,6 +71,10 @@ struct SupervisorParams {
   double coast_brakes_below_mps = 5.0;      // where the brake stays free no longer
 };
 
+inline FollowingParams following_of(const SupervisorParams& p) {
+  return {p.safe_stop, p.gate, p.steering_ratio, p.steer_slew_rad_per_s};
+}
+
 inline constexpr auto kSupervisorRanges = std::to_array<world::NamedRange<SupervisorParams>>({
     {"standstill_mps", &SupervisorParams::standstill_mps, 0.1, 1.0},
     {"steer_slew_rad_per_s", &SupervisorParams::steer_slew_rad_per_s, 0.1, 2.0},
@@ -110,7 +113,7 @@ struct SupervisorInputs {
   const world::EgoState& ego;
   const WatchdogOutput& watchdog;
   const world::Trajectory& stop;          // the newest stop trajectory, may be empty
-  const world::ActuatorCommand& control;  // of this tick; read only if control_ok
+  const world::ActuatorCommand& control;  // of this tick; read only if control_ok, while it drives
   bool control_ok = false;
   bool drive_available = false;  // planning has a drive trajectory
   bool own_id_seen = false;      // gateway::InboundOutput
@@ -121,6 +124,7 @@ struct SupervisorInputs {
   LinkLossOutput radio{};       // what is left of the joystick; whether the link's age stops
   const world::SensorInput* sensors = nullptr;  // of this tick
   world::ComputerHealth computer{};
+  steering::Learned learned{};
 };
 
 struct SupervisorState {
@@ -132,7 +136,6 @@ struct SupervisorState {
   FaultEntry coasts;     // why the car coasts
   Instant coast_last{};  // when a reason for it held last
   SafeStopState safe_stop;
-  bool safe_stop_engaged = false;
   bool reset_was = false;
   bool standing = false;
   Instant standing_since{};

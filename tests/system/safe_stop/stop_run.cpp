@@ -59,7 +59,10 @@ const pipeline::Setup& brutal() {
     planning::Params& p = s.params.planning;
     p.stop_decel_max_mps2 = 100.0, p.stop_jerk_max_mps3 = 1000.0, p.stop_grip_share = 100.0;
     p.line.friction.brake_max_mps2 = 100.0;
-    s.params.control.stop_speed.brake_rate_kpa_per_s = 20000.0;
+    s.params.supervisor.safe_stop.brake_ramp_kpa_per_s = 20000.0;
+    s.params.supervisor.safe_stop.decel_max_mps2 = 100.0;
+    s.params.supervisor.safe_stop.brake_max_kpa = 8000.0;
+    s.params.supervisor.safe_stop.grip_share = 100.0;
     s.params.control.longitudinal.brake_max_kpa = 8000.0;
     s.params.supervisor.safe_stop.friction = 100.0, s.params.supervisor.safe_stop.brake_share = 1.0;
     s.params.gate.brake_max_kpa = 8191.0;
@@ -72,7 +75,7 @@ const pipeline::Setup& brutal() {
 const pipeline::Setup& without_control() {
   static const pipeline::Setup made = [] {
     pipeline::Setup s = setup();
-    s.params.control.stop_steering.bandwidth_rad_per_s = kUnset;
+    s.params.control.lateral.angle_max_rad = kUnset;
     return s;
   }();
   return made;
@@ -101,6 +104,8 @@ scenario::Scenario scenario_of(const StopCase& stop) {
   return s;
 }
 
+// Zero past its end, where a car with weaker brakes goes on along the line: a path that has ended
+// says nothing there.
 double beside(const world::Trajectory& path, double x_m, double y_m) {
   double best_m2 = 1e18, lateral_m = 0.0;
   for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
@@ -108,12 +113,13 @@ double beside(const world::Trajectory& path, double x_m, double y_m) {
     const double ux = b.x_m - a.x_m, uy = b.y_m - a.y_m, l2 = ux * ux + uy * uy;
     const double free = ((x_m - a.x_m) * ux + (y_m - a.y_m) * uy) / l2;
     const double t = std::clamp(free, 0.0, 1.0);
+    const bool past = i + 2 == path.points.size() && free > 1.0;
     const double dx = x_m - a.x_m - t * ux, dy = y_m - a.y_m - t * uy;
     if (dx * dx + dy * dy >= best_m2) continue;
     best_m2 = dx * dx + dy * dy;
     // The path between two points is an arc: its sagitta stands out of the chord to the right.
     const double bow_m = 0.25 * (a.curvature_per_m + b.curvature_per_m) * t * (1.0 - t) * l2;
-    lateral_m = (ux * dy - uy * dx) / std::sqrt(l2) + bow_m;
+    lateral_m = past ? 0.0 : (ux * dy - uy * dx) / std::sqrt(l2) + bow_m;
   }
   return lateral_m;
 }

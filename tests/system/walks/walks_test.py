@@ -25,7 +25,7 @@ EVERYWHERE = ("protocol/vocabulary/", "protocol/transport/clock", "protocol/tran
 
 SIDE = {
     "what else a tick does": [
-        "localization::", "planning::", "control::", "safety::", "gateway::encode",
+        "localization::", "planning::", "control::", "steering::", "safety::", "gateway::encode",
         "gateway::handshake", "gateway::identify", "gateway::store_command",
         "gateway::observe_link", "gateway::judge_frozen", "pipeline::tap_health",
         "pipeline::conclude", "pipeline::TickLog", "pipeline::RadioAdapter::take",

@@ -39,7 +39,8 @@ TEST(GuardianTakeOver, SaysTheSameWhateverWasBefore) {
     State& s = again->state;
     s.following.begun = s.open_loop.active = true;
     s.following.segment = 50;
-    s.following.trim_rad = 0.02;
+    s.following.steering = {.begun = true, .unknown_rad = 0.01, .trim_rad = 0.02, .bump_rad = 0.02};
+    s.following.learned = {0.02, 0.01, 0.001};
     s.open_loop.travelled_m = s.open_loop.brake_kpa = 100.0;
     for (auto& window : s.gate.windows) {
       window.count = safety::kMaxPerWindow;
@@ -204,9 +205,10 @@ void expect_open_loop(Straight& car, safety::SafeStopState& twin, int times) {
     const safety::SafeStopInputs in{
         .stop = car.state.record.stop,
         .last_good = before,
-        .speed_mps = safety::wheel_speed_mps(car.state.signals, car.now, kOld)};
+        .speed_mps = safety::wheel_speed_mps(car.state.signals, car.now, kOld),
+        .learned = car.state.record.learned};
     expect_same(car.state.status.command,
-                safety::stop_along(car.params.following.stop, twin, in, car.now));
+                safety::stop_along(car.params.following, twin, in, car.now));
     expect_same(car.state.following.command, car.state.status.command);
   }
 }

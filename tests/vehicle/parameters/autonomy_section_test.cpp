@@ -106,6 +106,7 @@ Reported planning(const CarParams& p) {
       {"planning.stop_jerk_max_mps3", p.planning.stop_jerk_max_mps3},
       {"planning.stop_grip_share", p.planning.stop_grip_share},
       {"planning.point_spacing_m", p.planning.point_spacing_m},
+      {"planning.steer_share", p.planning.steer_share},
       {"planning.merge_from_m", p.planning.merge_from_m},
       {"planning.merge_time_s", p.planning.merge_time_s},
       {"planning.merge_least_m", p.planning.merge_least_m},
@@ -137,23 +138,6 @@ Reported control(const CarParams& p) {
       {"control.longitudinal.brake_fall_kpa_per_s", p.control.longitudinal.brake_fall_kpa_per_s},
       {"control.longitudinal.hold_speed_mps", p.control.longitudinal.hold_speed_mps},
       {"control.longitudinal.hold_brake_kpa", p.control.longitudinal.hold_brake_kpa},
-      {"control.stop.steering.bandwidth_rad_per_s", p.control.stop_steering.bandwidth_rad_per_s},
-      {"control.stop.steering.damping", p.control.stop_steering.damping},
-      {"control.stop.steering.preview_s", p.control.stop_steering.preview_s},
-      {"control.stop.steering.observer_s", p.control.stop_steering.observer_s},
-      {"control.stop.steering.trim_per_s", p.control.stop_steering.trim_per_s},
-      {"control.stop.steering.settle_s", p.control.stop_steering.settle_s},
-      {"control.stop.steering.correction_max_rad", p.control.stop_steering.correction_max_rad},
-      {"control.stop.steering.gain_speed_least_mps", p.control.stop_steering.gain_speed_least_mps},
-      {"control.stop.steering.hold_speed_mps", p.control.stop_steering.hold_speed_mps},
-      {"control.stop.speed.kpa_per_mps2", p.control.stop_speed.kpa_per_mps2},
-      {"control.stop.speed.coast_mps2", p.control.stop_speed.coast_mps2},
-      {"control.stop.speed.drag_per_m", p.control.stop_speed.drag_per_m},
-      {"control.stop.speed.speed_share_per_s", p.control.stop_speed.speed_share_per_s},
-      {"control.stop.speed.preview_s", p.control.stop_speed.preview_s},
-      {"control.stop.speed.throttle_fall_per_s", p.control.stop_speed.throttle_fall_per_s},
-      {"control.stop.speed.brake_rate_kpa_per_s", p.control.stop_speed.brake_rate_kpa_per_s},
-      {"control.stop.speed.hold_rate_kpa_per_s", p.control.stop_speed.hold_rate_kpa_per_s},
       {"control.gear.up_above_mps[0]", p.control.gear.up_above_mps[0]},
       {"control.gear.up_above_mps[1]", p.control.gear.up_above_mps[1]},
       {"control.gear.up_above_mps[2]", p.control.gear.up_above_mps[2]},
@@ -173,6 +157,35 @@ Reported control(const CarParams& p) {
     reported[bracket + "r"] = p.control.lateral.weights[i].steering;
   }
   return reported;
+}
+
+Reported steering(const steering::Params& p) {
+  Reported reported;
+  for (const auto& r : steering::kBicycleRanges)
+    reported["steering." + std::string(r.name)] = p.bicycle.*r.value;
+  for (const auto& r : steering::kLearningRanges)
+    reported["steering." + std::string(r.name)] = p.learning.*r.value;
+  for (const auto& r : steering::kRanges) reported["steering." + std::string(r.name)] = p.*r.value;
+  return reported;
+}
+
+// One section, known to all that steer along a path; the bicycle also to who reckons without gyros.
+TEST(AutonomySection, EachNumberOfSteeringMovesItsOwnParameterWhereverItIsKnown) {
+  const auto in_a_stop = [](const CarParams& p) {
+    return steering(p.supervisor.safe_stop.steering);
+  };
+  const auto in_control = [](const CarParams& p) { return steering(p.control.steering); };
+  testing::expect_each_number_to_move_its_own("steering", in_a_stop);
+  testing::expect_each_number_to_move_its_own("steering", in_control);
+  const auto other = with(with(av21(), "wheelbase_m: 2.971", "wheelbase_m: 3.1"),
+                          "understeer_rad_per_mps2: 0.0002", "understeer_rad_per_mps2: 0.0005");
+  const auto car = read_car(other, "car.yaml");
+  ASSERT_TRUE(car) << to_string(car.error());
+  const CarParams& p = car->params;
+  EXPECT_EQ(p.localization.wheelbase_m, 3.1);
+  EXPECT_EQ(p.localization.understeer_rad_per_mps2, 0.0005);
+  EXPECT_EQ(p.supervisor.faults.oversteer.wheelbase_m, 3.1);
+  EXPECT_EQ(p.supervisor.faults.oversteer.understeer_rad_per_mps2, 0.0005);
 }
 
 TEST(AutonomySection, EachNumberOfLocalizationMovesItsOwnParameter) {

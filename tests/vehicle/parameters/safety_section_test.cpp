@@ -98,9 +98,6 @@ Reported supervisor(const CarParams& p) {
       {"safety.supervisor.coast_dwell_s", p.supervisor.coast_dwell.seconds()},
       {"safety.supervisor.coast_max_s", p.supervisor.coast_max.seconds()},
       {"safety.supervisor.coast_brakes_below_mps", p.supervisor.coast_brakes_below_mps},
-      {"safety.supervisor.safe_stop.wheelbase_m", p.supervisor.safe_stop.wheelbase_m},
-      {"safety.supervisor.safe_stop.understeer_rad_per_mps2",
-       p.supervisor.safe_stop.understeer_rad_per_mps2},
       {"safety.supervisor.safe_stop.brake_kpa_per_mps2", p.supervisor.safe_stop.brake_kpa_per_mps2},
       {"safety.supervisor.safe_stop.brake_ramp_kpa_per_s",
        p.supervisor.safe_stop.brake_ramp_kpa_per_s},
@@ -123,6 +120,12 @@ Reported supervisor(const CarParams& p) {
       {"safety.supervisor.safe_stop.emergency_grip_share",
        p.supervisor.safe_stop.emergency_grip_share},
       {"safety.supervisor.safe_stop.steer_settle_s", p.supervisor.safe_stop.steer_settle_s},
+      {"safety.supervisor.safe_stop.speed_share_per_s", p.supervisor.safe_stop.speed_share_per_s},
+      {"safety.supervisor.safe_stop.brake_preview_s", p.supervisor.safe_stop.brake_preview_s},
+      {"safety.supervisor.safe_stop.throttle_fall_per_s",
+       p.supervisor.safe_stop.throttle_fall_per_s},
+      {"safety.supervisor.safe_stop.hold_ramp_kpa_per_s",
+       p.supervisor.safe_stop.hold_ramp_kpa_per_s},
       {"safety.supervisor.safe_stop.standstill_mps", p.supervisor.safe_stop.standstill_mps},
       {"safety.supervisor.standstill_dwell_s", p.supervisor.standstill_dwell.seconds()},
       {"safety.supervisor.standstill_mps", p.supervisor.standstill_mps},
@@ -247,7 +250,7 @@ TEST(SafetySection, RefusesWhatContradictsItself) {
   refused("steer_speed_mps: [0, 15, 20", "steer_speed_mps: [0, 20, 20", "steer_speed_mps");
   refused("steer_motor_deg: [240, 240, 230", "steer_motor_deg: [240, 230, 240", "steer_motor_deg");
   refused("decel_min_mps2: 2.0", "decel_min_mps2: 5.0", "decel_without_plan_mps2");
-  refused("emergency_grip_share: 0.9", "emergency_grip_share: 0.5", "emergency_grip_share");
+  refused("emergency_grip_share: 0.8", "emergency_grip_share: 0.5", "emergency_grip_share");
   // The gate would refuse what the supervisor may ask for.
   refused("steer_slew_deg_per_s: 720", "steer_slew_deg_per_s: 500", "steer_slew_rad_per_s");
   refused("throttle_rise_percent_per_s: 400", "throttle_rise_percent_per_s: 200",

@@ -18,14 +18,21 @@ TEST(StopSection, TyresOfTheFileReachPlanningAndTheStopOfLastResort) {
   const pipeline::CarParams& p = car->params;
   EXPECT_EQ(p.supervisor.safe_stop.tyres.share, p.planning.line.friction.tyres.share);
   EXPECT_EQ(p.control.drive_law, control::LateralLaw::kPaperLqr);
-  EXPECT_EQ(p.control.stop_law, control::LateralLaw::kFeedForward);
+}
+
+TEST(StopSection, PlanningAndTheStopReckonWithTheSameFriction) {
+  const std::string other = with(av21(), "friction: 1.0 ", "friction: 0.9 ");
+  const auto car = read_car(other, "car.yaml");
+  ASSERT_TRUE(car) << to_string(car.error());
+  EXPECT_EQ(car->params.supervisor.safe_stop.friction, 0.9);
+  EXPECT_EQ(car->params.planning.stop_friction, 0.9);
 }
 
 TEST(StopSection, ATableThatFallsAndALawThatIsNoneAreRefusedByName) {
   const std::string falls = refusal(with(av21(), "share: [0.60, 0.74", "share: [0.80, 0.74"));
   EXPECT_NE(falls.find("share"), std::string::npos) << falls;
   const std::string law = refusal(with(av21(), "drive_law: paper_lqr", "drive_law: pid"));
-  EXPECT_NE(law.find("feed_forward"), std::string::npos) << law;
+  EXPECT_NE(law.find("paper_lqr"), std::string::npos) << law;
 }
 
 }  // namespace

@@ -109,7 +109,7 @@ inline Outputs full() {
   out.received.bus.link.lost_in_socket = 4;
   out.received.bus.link.lost_in_interface = 5;
   be_somewhere(out);
-  out.steered.target_speed_mps = 64.5;
+  out.tracking.target_speed_mps = 64.5;
   out.chosen.mode = world::Mode::kControlledStop;
   out.chosen.cause = safety::Cause::kImuLost;
   out.chosen.actuate = true;
@@ -141,8 +141,8 @@ inline Outputs full() {
   out.estimate.height_sigma_m = 0.06;
   out.radio = {.rung = safety::RadioRung::kNoComm, .throttle_cap = 0.6};
   out.speed_limit_mps = 55.5;
-  out.steered.lateral.cross_track_m = 0.375;
-  out.steered.lateral.heading_error_rad = 0.03125;
+  out.tracking.cross_track_m = 0.375;
+  out.tracking.heading_error_rad = 0.03125;
   out.watchdog.rows[static_cast<std::size_t>(safety::Stream::kRadio)] = {
       safety::Stream::kRadio, safety::Health::kWarning, milliseconds(1'250)};
   return out;

@@ -79,8 +79,10 @@ TEST_F(Coast, StopsWhereItLastsAndNamesWhatBegan) {
   EXPECT_EQ(d.out.cause, Cause::kPlanLate);
   EXPECT_EQ(d.state.log.first.at, logged);
   late_plan(d, false);
-  d.run(seconds(5));
+  d.run(seconds(1));
   EXPECT_EQ(d.out.mode, Mode::kControlledStop) << "what stopped the car stays stopped";
+  d.run(seconds(9));
+  EXPECT_EQ(d.out.mode, Mode::kHalted) << "until it stands";
 }
 
 // One beat in three, for ever: never gone for the dwell, so it lasts.

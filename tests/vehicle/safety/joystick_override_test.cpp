@@ -66,7 +66,7 @@ TEST(JoystickOverride, BrakesWithinTheGripThatTheCornerLeaves) {
     d.car.ego.ay_mps2 = ay_mps2;
     d.car.signals.tyre_temperature_c = {
         {{85.0, 85.0, 85.0, 85.0}}, Instant{} + seconds(3600), true};
-    d.params.safe_stop.brake_share = 1.0;
+    d.params.safe_stop.brake_share = 1.0, d.params.safe_stop.friction = 1.3;
     d.car.radio.brake = 1.0;
     d.run(milliseconds(500));
     return d.out.command.brake_kpa;

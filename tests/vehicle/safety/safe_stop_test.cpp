@@ -39,9 +39,10 @@ ActuatorCommand good(double road_wheel_rad, double brake_kpa = 0.0) {
           .gear = 5};
 }
 
-// A point mass that brakes as the pressure says, with another gain than the stop believes.
+// A point mass that brakes as the pressure says, with another gain than the stop believes, and that
+// air and rolling slow.
 struct Car {
-  SafeStopParams params;
+  FollowingParams params;
   SafeStopState state;
   Trajectory stop;
   ActuatorCommand last = good(0.02);
@@ -56,7 +57,8 @@ struct Car {
     for (const Instant end = now + span; now < end; now += milliseconds(10)) {
       const ActuatorCommand c =
           stop_along(params, state, {stop, last, wheels ? speed_mps : kUnset, kind}, now);
-      speed_mps = std::max(0.0, speed_mps - c.brake_kpa / true_kpa_per_mps2 * 0.01);
+      const double free_mps2 = 0.3 + 0.0005 * speed_mps * speed_mps;
+      speed_mps = std::max(0.0, speed_mps - (c.brake_kpa / true_kpa_per_mps2 + free_mps2) * 0.01);
       commands.push_back(c);
       speeds.push_back(speed_mps);
     }
@@ -76,15 +78,17 @@ TEST(SafeStop, EveryStopEndsStandingWithTheBrakeHeldThrottleClosedAndTheGearKept
                            .bank_rad = random.between(0.0, 0.35),
                            .accel_mps2 = random.between(-12.0, 3.0),
                            .speed_mps = car.speed_mps});
+    // What slows the car without the brake is known to whoever has no wheel speeds.
+    car.params.stop.drag_per_m = 0.0005, car.params.stop.coast_mps2 = 0.3;
     car.last = good(random.between(-0.05, 0.05), random.between(0.0, 500.0));
     car.run(seconds(60));
     EXPECT_LT(car.speed_mps, 1e-9) << run;
-    EXPECT_NEAR(car.commands.back().brake_kpa, car.params.hold_kpa, 1e-9) << run;
+    EXPECT_NEAR(car.commands.back().brake_kpa, car.params.stop.hold_kpa, 1e-9) << run;
     for (const ActuatorCommand& c : car.commands) {
       ASSERT_EQ(c.throttle_fraction, 0.0);
       ASSERT_EQ(c.gear, 5);
       ASSERT_TRUE(std::isfinite(c.road_wheel_rad));
-      ASSERT_TRUE(c.brake_kpa >= 0.0 && c.brake_kpa <= car.params.brake_max_kpa);
+      ASSERT_TRUE(c.brake_kpa >= 0.0 && c.brake_kpa <= car.params.stop.brake_max_kpa);
     }
   }
 }
@@ -96,11 +100,12 @@ TEST(SafeStop, TheBrakeIsRampedAndStaysWithinTheGripBesideTheLateralForce) {
         Car car;
         car.kind = kind;
         car.speed_mps = 45.0;
-        car.true_kpa_per_mps2 = car.params.brake_kpa_per_mps2;
+        car.true_kpa_per_mps2 = car.params.stop.brake_kpa_per_mps2;
         car.stop = constant({.curvature_per_m = curvature, .bank_rad = bank, .accel_mps2 = -20.0});
         car.run(seconds(20));
-        const double ramp = kind == StopKind::kControlled ? car.params.brake_ramp_kpa_per_s
-                                                          : car.params.emergency_ramp_kpa_per_s;
+        const double ramp = kind == StopKind::kControlled
+                                ? car.params.stop.brake_ramp_kpa_per_s
+                                : car.params.stop.emergency_ramp_kpa_per_s;
         for (std::size_t i = 1; i < car.commands.size(); ++i) {
           const double kpa = car.commands[i].brake_kpa;
           ASSERT_LE(kpa - car.commands[i - 1].brake_kpa, ramp * 0.01 + 1e-9);
@@ -109,11 +114,12 @@ TEST(SafeStop, TheBrakeIsRampedAndStaysWithinTheGripBesideTheLateralForce) {
           // Written anew: friction circle with the normal load of a banked turn.
           const double g = 9.80665, ay = v * v * curvature - g * std::sin(bank);
           const double load = g * std::cos(bank) + v * v * curvature * std::sin(bank) +
-                              car.params.downforce_per_m * v * v;
-          const double mu_n = car.params.friction * std::max(0.0, load);
+                              car.params.stop.downforce_per_m * v * v;
+          const double mu_n = car.params.stop.friction * std::max(0.0, load);
           const double left = std::sqrt(std::max(0.0, mu_n * mu_n - ay * ay));
-          const double bound = std::max(left, car.params.decel_min_mps2);
-          ASSERT_LE(kpa / car.params.brake_kpa_per_mps2, bound + 1e-6) << curvature << ' ' << bank;
+          const double bound = std::max(left, car.params.stop.decel_min_mps2);
+          ASSERT_LE(kpa / car.params.stop.brake_kpa_per_mps2, bound + 1e-6)
+              << curvature << ' ' << bank;
         }
       }
     }
@@ -122,20 +128,21 @@ TEST(SafeStop, TheBrakeIsRampedAndStaysWithinTheGripBesideTheLateralForce) {
 
 TEST(SafeStop, SteeringChangesByWhatThePathChangesAndForgetsItsOffset) {
   Car car;
-  car.params.understeer_rad_per_mps2 = 0.0;
+  car.params.stop.steering.bicycle.understeer_rad_per_mps2 = 0.0;
   const double curvature = 0.004;
   car.stop = constant({.curvature_per_m = curvature});
   car.last = good(0.03);
   car.run(seconds(15));
   EXPECT_NEAR(car.commands.front().road_wheel_rad, 0.03, 1e-12) << "begins where it was";
-  EXPECT_NEAR(car.commands.back().road_wheel_rad, curvature * car.params.wheelbase_m, 1e-6);
+  EXPECT_NEAR(car.commands.back().road_wheel_rad,
+              curvature * car.params.stop.steering.bicycle.wheelbase_m, 1e-6);
   for (std::size_t i = 1; i < car.commands.size(); ++i)
     EXPECT_LE(car.commands[i].road_wheel_rad, car.commands[i - 1].road_wheel_rad + 1e-12);
 }
 
 TEST(SafeStop, FollowsTheCurvatureAlongTheDistanceTravelled) {
   Car car;
-  car.params.understeer_rad_per_mps2 = 0.0;
+  car.params.stop.steering.bicycle.understeer_rad_per_mps2 = 0.0;
   for (int i = 0; i < 100; ++i)  // straight for 100 m, then a turn
     ASSERT_TRUE(car.stop.points.push({.s_m = 4.0 * i,
                                       .x_m = 4.0 * i,
@@ -146,14 +153,15 @@ TEST(SafeStop, FollowsTheCurvatureAlongTheDistanceTravelled) {
                                       .speed_mps = 60.0,
                                       .accel_mps2 = -3.0}));
   car.last = good(0.0);
-  car.true_kpa_per_mps2 = car.params.brake_kpa_per_mps2;
+  car.true_kpa_per_mps2 = car.params.stop.brake_kpa_per_mps2;
   double travelled_m = 0.0;
   for (int i = 0; i < 300; ++i) {
     const double before = car.speed_mps;
     car.run(milliseconds(10));
-    const double expected = travelled_m < 96.0    ? 0.0
-                            : travelled_m > 101.0 ? 0.005 * car.params.wheelbase_m
-                                                  : kUnset;
+    const double expected = travelled_m < 96.0 ? 0.0
+                            : travelled_m > 101.0
+                                ? 0.005 * car.params.stop.steering.bicycle.wheelbase_m
+                                : kUnset;
     if (!std::isnan(expected)) {
       ASSERT_NEAR(car.commands.back().road_wheel_rad, expected, 1e-9) << travelled_m;
     }

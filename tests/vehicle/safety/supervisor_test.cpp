@@ -205,20 +205,33 @@ TEST(Supervisor, LockedWheelsAreNoStandstill) {
   }
 }
 
-TEST(Supervisor, ControlledStopByControlOnceLostStaysWithTheSafeStop) {
-  Drive d;
-  d.race();
-  d.car.requests.stop = true;
-  d.run(milliseconds(100));
-  EXPECT_EQ(d.out.source, CommandSource::kControl);
-  d.car.control_ok = false;
-  d.tick();
-  EXPECT_EQ(d.out.source, CommandSource::kSafeStop) << "at once";
-  d.car.control_ok = true;
-  d.tick();
-  EXPECT_EQ(d.out.source, CommandSource::kSafeStop) << "no flapping";
-  d.run(seconds(30));
-  EXPECT_EQ(d.out.mode, Mode::kHalted);
+// Whatever control says, or whether it says anything, the same stop is driven.
+TEST(Supervisor, EveryStopIsTheSafeStopsFromItsFirstTickAndControlIsNotAsked) {
+  for (const bool emergency : {false, true}) {
+    Random random{emergency ? 8U : 7U};
+    Drive d;
+    d.race();
+    d.car.requests.stop = true;
+    d.car.requests.emergency_stop = emergency;
+    Drive other = d;
+    d.tick(), other.tick();
+    const Mode stops = emergency ? Mode::kEmergencyStop : Mode::kControlledStop;
+    ASSERT_EQ(d.out.mode, stops);
+    while (d.out.mode == stops) {
+      ASSERT_EQ(d.out.source, CommandSource::kSafeStop);
+      ASSERT_EQ(d.out.command.road_wheel_rad, other.out.command.road_wheel_rad);
+      ASSERT_EQ(d.out.command.throttle_fraction, other.out.command.throttle_fraction);
+      ASSERT_EQ(d.out.command.brake_kpa, other.out.command.brake_kpa);
+      ASSERT_LT(d.now.ns, seconds(60).ns);
+      other.car.control_ok = !random.one_in(3);
+      other.car.control.road_wheel_rad = random.one_in(9) ? kUnset : random.between(-0.1, 0.1);
+      other.car.control.throttle_fraction = random.between(0.0, 1.0);
+      other.car.control.brake_kpa = random.between(0.0, 5500.0);
+      d.tick(), other.tick();
+    }
+    EXPECT_EQ(d.out.mode, Mode::kHalted);
+    EXPECT_EQ(other.out.mode, Mode::kHalted);
+  }
 }
 
 TEST(Supervisor, StopsEvenWhenNothingMeasuresTheSpeed) {
@@ -232,23 +245,26 @@ TEST(Supervisor, StopsEvenWhenNothingMeasuresTheSpeed) {
   EXPECT_LT(d.speed_mps, 1e-9);
 }
 
-TEST(Supervisor, AnEmergencyBrakesHarderThanControlWishesAndKeepsItsSteering) {
+TEST(Supervisor, AnEmergencyBrakesHarderThanControlWishesAndItsSteeringDoesNotStep) {
   Drive d;
+  d.params.safe_stop.friction = 1.3;
   d.race();
   d.car.race_control.vehicle = world::VehicleFlag::kPurpleEmergency;
   d.car.signals.tyre_temperature_c = {{{85.0, 85.0, 85.0, 85.0}}, Instant{} + seconds(3600), true};
-  d.car.control.road_wheel_rad = 0.012;
+  d.car.control.road_wheel_rad = 0.1;
   d.car.control.brake_kpa = 0.0;
+  const double before_rad = d.out.command.road_wheel_rad;
   double most_kpa = 0.0;
+  d.tick();
+  EXPECT_EQ(d.out.command.road_wheel_rad, before_rad);
   while (d.speed_mps > 2.0) {
     d.tick();
     ASSERT_EQ(d.out.mode, Mode::kEmergencyStop);
     ASSERT_EQ(d.out.command.throttle_fraction, 0.0);
-    ASSERT_EQ(d.out.source, CommandSource::kControl);
+    ASSERT_EQ(d.out.source, CommandSource::kSafeStop);
     most_kpa = std::max(most_kpa, d.out.command.brake_kpa);
   }
   EXPECT_GT(most_kpa, 1800.0);
-  EXPECT_NEAR(d.out.command.road_wheel_rad, 0.012, 1e-9);
 }
 
 TEST(Supervisor, AnEmergencyWithoutControlWheelsOrAccelerationsStillStops) {
@@ -264,7 +280,7 @@ TEST(Supervisor, AnEmergencyWithoutControlWheelsOrAccelerationsStillStops) {
     d.car.ego.validity = world::Validity::kDeadReckoning;
     d.car.ego.ay_mps2 = kUnset;
     d.run(milliseconds(300));
-    EXPECT_EQ(d.out.source, control ? CommandSource::kControl : CommandSource::kSafeStop);
+    EXPECT_EQ(d.out.source, CommandSource::kSafeStop);
     d.run(seconds(20));
     EXPECT_EQ(d.out.mode, Mode::kHalted) << "standing by the ego state alone";
     EXPECT_EQ(d.speed_mps, 0.0);

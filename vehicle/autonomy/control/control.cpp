@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "vehicle/autonomy/control/feed_forward.hpp"
 #include "vehicle/autonomy/control/preview.hpp"
 #include "vehicle/world/legal_range.hpp"
 
@@ -30,9 +31,7 @@ std::optional<Problem> illegal(const Params& p) {
   if (auto problem = first_illegal(kLateralRanges, p.lateral, "lateral.")) return problem;
   if (auto problem = first_illegal(kLongitudinalRanges, p.longitudinal, "longitudinal."))
     return problem;
-  if (auto problem = first_illegal(kStopSteeringRanges, p.stop_steering, "stop_steering."))
-    return problem;
-  if (auto problem = first_illegal(kStopSpeedRanges, p.stop_speed, "stop_speed.")) return problem;
+  if (auto problem = first_illegal(steering::kRanges, p.steering, "steering.")) return problem;
   return illegal_gear(p.gear);
 }
 
@@ -43,38 +42,19 @@ double target_speed(const LongitudinalParams& p, const world::EgoState& ego,
   return at(trajectory, *here + std::max(ego.vx_mps, 0.0) * p.speed_preview_s).speed_mps;
 }
 
-StopTarget stop_target(const StopSpeedParams& p, const world::EgoState& ego,
-                       const world::Trajectory& trajectory) {
-  const auto here = project(trajectory, ego.x_m, ego.y_m);
-  if (!here) return {};
-  const double ahead_m = std::max(ego.vx_mps, 0.0) * p.preview_s;
-  return {at(trajectory, *here).speed_mps, at(trajectory, *here + ahead_m).accel_mps2};
-}
-
-double bank_beside(const world::EgoState& ego, const world::Trajectory& trajectory) {
-  const auto here = project(trajectory, ego.x_m, ego.y_m);
-  return here ? at(trajectory, *here).bank_rad : 0.0;
-}
-
-// The observer runs whoever steers: the first tick of a stop finds it settled.
 LateralDiagnostics steer(const Params& p, const LateralGains& gains, const Inputs& in,
-                         double last_angle_rad, StopSteering& steering, Duration dt) {
-  observe(p.stop_steering, p.bicycle, steering, last_angle_rad, in.ego,
-          bank_beside(in.ego, in.trajectory), dt);
-  const LateralLaw law = in.stopping ? p.stop_law : p.drive_law;
-  if (law == LateralLaw::kFeedForward)
-    return steer_stop(p.stop_steering, p.lateral, p.bicycle, steering, last_angle_rad, in.ego,
-                      in.trajectory, dt);
-  steering.active = false;
-  return steer(p.lateral, gains, last_angle_rad, in.ego, in.trajectory);
+                         double last_angle_rad, steering::State& steering, Duration dt) {
+  LateralParams lateral = p.lateral;
+  lateral.angle_max_rad = std::fmin(lateral.angle_max_rad, in.angle_max_rad);
+  if (p.drive_law == LateralLaw::kFeedForward)
+    return steer_forward(p.steering, lateral, in.learned, steering, last_angle_rad, in.ego,
+                         in.trajectory, dt);
+  steering.begun = false;
+  return steer(lateral, gains, last_angle_rad, in.ego, in.trajectory);
 }
 
 LongitudinalOutput drive(const Params& p, const State& state, const Inputs& in, bool following,
                          Duration dt) {
-  if (in.stopping)
-    return slow(p.stop_speed, p.longitudinal, state.longitudinal,
-                following ? stop_target(p.stop_speed, in.ego, in.trajectory) : StopTarget{},
-                in.ego.vx_mps, dt);
   const double target = following ? target_speed(p.longitudinal, in.ego, in.trajectory) : kUnset;
   return step(p.longitudinal, state.longitudinal, target, in.ego.vx_mps, dt);
 }

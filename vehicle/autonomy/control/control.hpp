@@ -1,7 +1,7 @@
-// The controller of the car: trajectory in, actuator command out. Each of two laws steers: the
-// published regulator (lateral.hpp) and the one with feed-forward (stop_steering.hpp); parameters
-// say which steers along the drive trajectory and which along a stop.
-//   in     EgoState and Trajectory (Map, Body); whether the trajectory is a stop
+// The controller of the car: drive trajectory in, actuator command out. One of two laws steers, by
+// the car's file: the published regulator (lateral.hpp) or the one with feed-forward
+// (feed_forward.hpp). Not asked during a stop.
+//   in     EgoState and Trajectory (Map, Body); what was learned of the car's steering
 //   out    ActuatorCommand, diagnostics, next state
 //   rate   100 Hz
 //   errors LateralDiagnostics.verdict; a missing trajectory or ego holds the angle and lets go of
@@ -16,8 +16,7 @@
 #include "vehicle/autonomy/control/gear.hpp"
 #include "vehicle/autonomy/control/lateral.hpp"
 #include "vehicle/autonomy/control/longitudinal.hpp"
-#include "vehicle/autonomy/control/stop_speed.hpp"
-#include "vehicle/autonomy/control/stop_steering.hpp"
+#include "vehicle/steering/path_steering.hpp"
 #include "vehicle/world/actuator_command.hpp"
 #include "vehicle/world/ego_state.hpp"
 #include "vehicle/world/trajectory.hpp"
@@ -29,9 +28,8 @@ enum class LateralLaw : std::uint8_t { kPaperLqr, kFeedForward };
 struct Params {
   BicycleParams bicycle;
   LateralParams lateral;
-  LateralLaw drive_law = LateralLaw::kPaperLqr, stop_law = LateralLaw::kFeedForward;
-  StopSteeringParams stop_steering;
-  StopSpeedParams stop_speed;
+  LateralLaw drive_law = LateralLaw::kPaperLqr;
+  steering::Params steering;  // of the law with feed-forward
   LongitudinalParams longitudinal;
   GearParams gear;
 };
@@ -40,13 +38,14 @@ struct State {
   double road_wheel_rad = 0.0;  // as last commanded
   LongitudinalState longitudinal;
   GearState gear;
-  StopSteering steering;
+  steering::State steering;
 };
 
 struct Inputs {
   const world::EgoState& ego;
   const world::Trajectory& trajectory;
-  bool stopping = false;  // the trajectory is a stop
+  steering::Learned learned{};
+  double angle_max_rad = kUnset;  // what the frame gate lets pass at this speed; unset: all
 };
 
 struct Output {

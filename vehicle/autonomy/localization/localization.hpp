@@ -36,6 +36,7 @@
 #include "vehicle/autonomy/localization/params.hpp"
 #include "vehicle/autonomy/localization/stream.hpp"
 #include "vehicle/autonomy/localization/trail.hpp"
+#include "vehicle/steering/learned_steering.hpp"
 #include "vehicle/world/ego_state.hpp"
 #include "vehicle/world/monitor.hpp"
 #include "vehicle/world/sensor_input.hpp"
@@ -47,7 +48,8 @@ namespace pitwall::localization {
 // The road where the car was last estimated to be; unset where nobody knows yet.
 struct Surroundings {
   Road road;
-  Instant at{};  // of that estimate
+  Instant at{};                 // of that estimate
+  steering::Learned learned{};  // of the car's steering
 };
 
 // The rear wheels' account of the car.

@@ -41,7 +41,7 @@ Gate timing(const Intake& in, Instant at) {
 }
 
 // Without any IMU the car turns as its steering says, in steady state:
-//   delta = L r / v + K (v r - g sin(bank))      Rajamani, Vehicle Dynamics and Control, eq. 3.12
+// steering/learned_steering.hpp, with what was learned of this car.
 // The held rate of a dead gyro would be believed for ever.
 void use_steering_model(const Intake& in, const world::VehicleSignals& car, Instant at) {
   for (std::uint8_t unit = 0; unit < world::kGnssUnits; ++unit)
@@ -49,14 +49,13 @@ void use_steering_model(const Intake& in, const world::VehicleSignals& car, Inst
   if (!car.steering_motor_rad.fresh(at, from_seconds(in.params.imu_timeout_s))) return;
   const Params& p = in.params;
   const double speed = in.state.wheels.speed_mps;
-  const double fall = kGravity_mps2 * std::sin(in.bank_rad());
-  const double angle_rad = car.steering_motor_rad.value / p.steering_ratio;
-  const double rate = speed * (angle_rad + p.understeer_rad_per_mps2 * fall) /
-                      (p.wheelbase_m + p.understeer_rad_per_mps2 * speed * speed);
+  const double rate = steering::yaw_rate_rad_per_s(
+      {p.wheelbase_m, p.understeer_rad_per_mps2}, in.around.learned,
+      car.steering_motor_rad.value / p.steering_ratio, speed, in.bank_rad());
   Measurement m{.kind = Kind::kImu, .at = at};
   m.imu.rate_rad_per_s[2] = rate;
   m.imu.force_mps2[0] = in.state.wheels.accel_mps2;
-  m.imu.force_mps2[1] = speed * rate - fall;
+  m.imu.force_mps2[1] = speed * rate - kGravity_mps2 * std::sin(in.bank_rad());
   (void)insert(in.state.filter, in.filter, m);
 }
 

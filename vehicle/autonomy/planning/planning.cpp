@@ -35,6 +35,7 @@ std::optional<Problem> illegal_stop(const Params& p) {
   if (auto problem = world::first_illegal(kStopPathRanges, p.stop_path, "stop_path."))
     return problem;
   return world::first_illegal(std::array{
+      LegalRange{"stop_friction", p.stop_friction, 0.3, 2.0},
       LegalRange{"emergency_decel_max_mps2", p.emergency_decel_max_mps2, p.stop_decel_max_mps2, 15},
       LegalRange{"emergency_jerk_max_mps3", p.emergency_jerk_max_mps3, p.stop_jerk_max_mps3, 30},
       LegalRange{"emergency_grip_share", p.emergency_grip_share, p.stop_grip_share, 0.95}});
@@ -98,6 +99,8 @@ double warmth_of(const world::TyreGrip& tyres, double tyre_c) {
 
 Limits limits_of(const Params& p, const Inputs& in, double demand_mps, double speed_mps) {
   const FrictionParams friction = on_tyres(p.line.friction, in.tyre_c);
+  FrictionParams stopping = friction;
+  stopping.friction *= std::min(p.stop_friction / p.line.friction.friction, 1.0);
   const bool coasts = in.followed == Followed::kCoast;
   const double coast_mps2 = std::max(coasting_mps2(friction, speed_mps), kCoastLeast_mps2);
   const bool hard = in.followed == Followed::kEmergency;
@@ -105,8 +108,9 @@ Limits limits_of(const Params& p, const Inputs& in, double demand_mps, double sp
                     .warmth = warmth_of(p.line.friction.tyres, in.tyre_c),
                     .accel_max_mps2 = p.accel_max_mps2,
                     .decel_max_mps2 = coasts ? coast_mps2 : p.decel_max_mps2,
-                    .jerk_max_mps3 = p.jerk_max_mps3},
-          .stop = {.friction = friction,
+                    .jerk_max_mps3 = p.jerk_max_mps3,
+                    .steering = in.steering},
+          .stop = {.friction = stopping,
                    .grip_share = hard ? p.emergency_grip_share : p.stop_grip_share,
                    .decel_max_mps2 = hard ? p.emergency_decel_max_mps2 : p.stop_decel_max_mps2,
                    .jerk_max_mps3 = hard ? p.emergency_jerk_max_mps3 : p.stop_jerk_max_mps3}};
@@ -243,7 +247,7 @@ Output step(const Params& params, const Line& line, const world::TrackMap& track
       line, car.s_m, [&](double s_m) { return offset_at(line, next.merge, s_m); },
       drive_profile(line, car.s_m, now_at, limits.drive, params.point_spacing_m), now);
   const LinePoint here = line.at(car.s_m);
-  const double limit = limit_mps(here, limits.drive.warmth);
+  const double limit = limit_mps(here, limits.drive);
   const bool line_limits = limit < demand.speed_mps;
   out.target_speed_mps = line_limits ? limit : demand.speed_mps;
   out.reason = line_limits ? Reason::kLineLimit : demand.reason;

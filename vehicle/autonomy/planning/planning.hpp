@@ -27,6 +27,7 @@
 #include "vehicle/autonomy/planning/line.hpp"
 #include "vehicle/autonomy/planning/offset.hpp"
 #include "vehicle/autonomy/planning/stop_plan.hpp"
+#include "vehicle/steering/angle_limits.hpp"
 #include "vehicle/world/ego_state.hpp"
 #include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/race_control.hpp"
@@ -46,11 +47,13 @@ struct Params {
   double stop_decel_max_mps2 = kUnset;
   double stop_jerk_max_mps3 = kUnset;
   double stop_grip_share = kUnset;  // 0.7 is a margin of 30 %
+  double stop_friction = kUnset;    // that a stop reckons with, tyres warm: low on purpose
   StopPathParams stop_path;
   double emergency_decel_max_mps2 = kUnset;  // stop_decel_max_mps2..15
   double emergency_jerk_max_mps3 = kUnset;   // stop_jerk_max_mps3..30
   double emergency_grip_share = kUnset;      // stop_grip_share..0.95
   double point_spacing_m = kUnset;           // of the drive trajectory
+  double steer_share = kUnset;               // of the gate's angles, that a corner may need
   double merge_from_m = kUnset;              // deviation from the line that starts a merge
   double merge_time_s = kUnset;
   double merge_least_m = kUnset;  // shortest merge
@@ -67,6 +70,7 @@ inline constexpr auto kRanges = std::to_array<world::NamedRange<Params>>({
     {"stop_jerk_max_mps3", &Params::stop_jerk_max_mps3, 1.0, 30.0},
     {"stop_grip_share", &Params::stop_grip_share, 0.3, 0.9},
     {"point_spacing_m", &Params::point_spacing_m, 1.0, 4.0},
+    {"steer_share", &Params::steer_share, 0.5, 1.0},
     {"merge_from_m", &Params::merge_from_m, 0.5, 5.0},
     {"merge_time_s", &Params::merge_time_s, 1.0, 10.0},
     {"merge_least_m", &Params::merge_least_m, 10.0, 200.0},
@@ -104,7 +108,8 @@ struct Inputs {
   const world::RaceControl& race_control;
   double operator_speed_limit_mps = kUnset;  // unset: none
   Followed followed = Followed::kNothing;
-  double tyre_c = kUnset;  // the coldest; unset counts as cold
+  double tyre_c = kUnset;                           // the coldest; unset counts as cold
+  const steering::AngleBudget* steering = nullptr;  // none: no limit
 };
 
 struct State {

@@ -24,7 +24,8 @@ const LinePoint& nearest(const Line& line, double s_m) {
 }
 
 // The speed now from which every limit of the line ahead can be met at a moderate deceleration.
-double cap(const Line& line, double s_m, double speed_mps, double warmth, double decel_mps2) {
+double cap(const Line& line, double s_m, double speed_mps, const DriveLimits& limits,
+           double decel_mps2) {
   constexpr double kCapStep_m = 10.0;
   const double horizon_m = std::min(kCapHorizon_m, speed_mps * speed_mps / (2.0 * decel_mps2));
   const std::size_t count = line.points.size();
@@ -32,18 +33,18 @@ double cap(const Line& line, double s_m, double speed_mps, double warmth, double
       std::max(static_cast<std::size_t>(kCapStep_m / line.spacing_m), static_cast<std::size_t>(1));
   const double stride_m = static_cast<double>(stride) * line.spacing_m;
   auto i = static_cast<std::size_t>(line.wrap(s_m + kCapAhead_s * speed_mps) / line.spacing_m);
-  const double here_mps = limit_mps(nearest(line, s_m), warmth);
+  const double here_mps = limit_mps(nearest(line, s_m), limits);
   double lowest = here_mps * here_mps;
   for (double d = 0.0; d <= horizon_m; d += stride_m, i += stride) {
     if (i >= count) i %= count;
-    const double v = limit_mps(line.points[i], warmth);
+    const double v = limit_mps(line.points[i], limits);
     lowest = std::min(lowest, v * v + 2.0 * decel_mps2 * d);
   }
   return std::sqrt(lowest);
 }
 
 SpeedLimits drive_limits(const Line& line, double s_m, double speed_mps, const DriveLimits& l) {
-  const double limit_mps = cap(line, s_m, speed_mps, l.warmth, kCapDecelShare * l.decel_max_mps2);
+  const double limit_mps = cap(line, s_m, speed_mps, l, kCapDecelShare * l.decel_max_mps2);
   return {std::min(l.target_mps, limit_mps), l.accel_max_mps2, l.decel_max_mps2, l.jerk_max_mps3};
 }
 
@@ -106,6 +107,13 @@ SpeedProfile sampled(const History& history, double spacing_m) {
 }
 
 }  // namespace
+
+double limit_mps(const LinePoint& p, const DriveLimits& limits) {
+  const double by_grip_mps = limit_mps(p, limits.warmth);
+  if (!limits.steering) return by_grip_mps;
+  return std::min(by_grip_mps,
+                  steering::fastest_mps(*limits.steering, p.curvature_per_m, p.bank_rad));
+}
 
 const RoadSample& RoadAhead::sample(double distance_m) const {
   const double index = std::max(distance_m, 0.0) / kRoadStep_m + 0.5;

@@ -16,6 +16,7 @@
 #include "protocol/vocabulary/units.hpp"
 #include "vehicle/autonomy/planning/friction.hpp"
 #include "vehicle/autonomy/planning/line.hpp"
+#include "vehicle/steering/angle_limits.hpp"
 #include "vehicle/world/trajectory.hpp"
 
 namespace pitwall::planning {
@@ -44,9 +45,13 @@ struct SpeedProfile {
 
 struct DriveLimits {
   double target_mps = kUnset;
-  double warmth = 1.0;  // of the tyres: limit_mps()
+  double warmth = 1.0;                              // of the tyres
   double accel_max_mps2 = kUnset, decel_max_mps2 = kUnset, jerk_max_mps3 = kUnset;
+  const steering::AngleBudget* steering = nullptr;  // none: no limit
 };
+
+// What friction and the steering allow at a point of the line.
+double limit_mps(const LinePoint& point, const DriveLimits& limits);
 
 // Towards the target, below the line's own limits, which are seen coming.
 SpeedReference advance_drive(const Line& line, double s_m, const SpeedReference& from,

@@ -16,6 +16,7 @@ constexpr double kChangeGripShare = 0.95;                     // of the share: t
 constexpr double kChangeLeast_m = 40.0, kShiftLeast_m = 0.3;  // less is not worth a change
 constexpr double kLevel_rad = from_deg(1.0);                  // a road without a low side
 constexpr double kBeyond_m = 48.0;                            // clear past the place, too
+constexpr double kBeyondShare = 0.4;  // or so much of the way there: brakes may be weaker
 // What a place costs, in lengths of the shortest stop: 20 degrees of banking and a radius of 230 m.
 constexpr double kBankCost_per_rad = 0.75 / from_deg(20.0);
 constexpr double kBendCost_m = 0.35 * 230.0;
@@ -105,8 +106,9 @@ bool is_possible(const Line& line, const StopPath& path, const StopFrom& from,
                  const StopLimits& limits, const StopPathParams& params, const Slowing& slowing) {
   StopPath straight_on = path;
   straight_on.low = {};
+  const double beyond_m = std::max(kBeyond_m, kBeyondShare * distance_m(slowing.stands));
   const std::size_t end =
-      std::min(slowing.stands + static_cast<std::size_t>(kBeyond_m / kRoadStep_m), kRoadPoints);
+      std::min(slowing.stands + static_cast<std::size_t>(beyond_m / kRoadStep_m), kRoadPoints);
   for (std::size_t i = 0; i < end; ++i) {
     const double s_m = from.s_m + distance_m(i);
     const LinePoint& p = closest(line, s_m);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "tests/support/allocation_guard.hpp"
 #include "tests/vehicle/autonomy/control/single_track.hpp"
 
@@ -14,6 +16,8 @@ using testing::drive;
 using testing::Lap;
 using testing::oval;
 using testing::recommended;
+
+constexpr std::array kLaws{LateralLaw::kPaperLqr, LateralLaw::kFeedForward};
 
 LateralGains gains_of(const Params& p) {
   const auto gains = prepare(p);
@@ -85,7 +89,7 @@ TEST(Control, HoldsSteeringAndLetsGoWithoutTrajectory) {
 }
 
 TEST(Control, CommandIsFiniteWhateverTheEgo) {
-  const Params p = recommended();
+  Params p = recommended();
   const LateralGains gains = gains_of(p);
   const auto path = oval();
   for (const double bad : {kUnset, 1.0 / 0.0, -1.0 / 0.0, 1e300}) {
@@ -96,9 +100,10 @@ TEST(Control, CommandIsFiniteWhateverTheEgo) {
                                 &ego.vx_mps, &ego.vy_mps, &ego.yaw_rate_rad_per_s};
       *fields[field] = bad;
       const world::Trajectory t = path.window(0.0, 20.0);
-      for (const bool stopping : {false, true}) {
-        const Output out = step(p, gains, {}, {.ego = ego, .trajectory = t, .stopping = stopping},
-                                Instant{}, milliseconds(10));
+      for (const LateralLaw law : kLaws) {
+        p.drive_law = law;
+        const Output out =
+            step(p, gains, {}, {.ego = ego, .trajectory = t}, Instant{}, milliseconds(10));
         EXPECT_LE(std::abs(out.command.road_wheel_rad), p.lateral.angle_max_rad);
         EXPECT_GE(out.command.throttle_fraction, 0.0);
         EXPECT_LE(out.command.throttle_fraction, 1.0);
@@ -111,7 +116,7 @@ TEST(Control, CommandIsFiniteWhateverTheEgo) {
 
 TEST(Control, TakesNothingFromTheHeap) {
   if (!pitwall::testing::kAllocationsCounted) GTEST_SKIP() << "the sanitizer has its own heap";
-  const Params p = recommended();
+  Params p = recommended();
   const LateralGains gains = gains_of(p);
   const auto path = oval();
   const world::Trajectory t = path.window(0.0, 30.0);
@@ -119,9 +124,11 @@ TEST(Control, TakesNothingFromTheHeap) {
   car.vx_mps = 30.0;
   const world::EgoState ego = car.ego(Instant{});
   EXPECT_EQ(pitwall::testing::allocations_of([&] {
-              for (const bool stopping : {false, true})
-                (void)step(p, gains, {}, {.ego = ego, .trajectory = t, .stopping = stopping},
-                           Instant{}, milliseconds(10));
+              for (const LateralLaw law : kLaws) {
+                p.drive_law = law;
+                (void)step(p, gains, {}, {.ego = ego, .trajectory = t}, Instant{},
+                           milliseconds(10));
+              }
             }),
             0u);
 }
@@ -139,8 +146,8 @@ TEST(Control, PrepareNamesTheIllegalParameter) {
   EXPECT_EQ(place([](Params& p) { p.longitudinal.kp_per_mps = -1.0; }), "longitudinal.kp_per_mps");
   EXPECT_EQ(place([](Params& p) { p.gear.up_above_mps[2] = 1.0; }), "gear.up_above_mps[2]");
   EXPECT_EQ(place([](Params& p) { p.gear.down_below_mps[1] = 99.0; }), "gear.down_below_mps[1]");
-  EXPECT_EQ(place([](Params& p) { p.stop_steering.damping = 0.0; }), "stop_steering.damping");
-  EXPECT_EQ(place([](Params& p) { p.stop_speed.coast_mps2 = kUnset; }), "stop_speed.coast_mps2");
+  EXPECT_EQ(place([](Params& p) { p.steering.damping = 0.0; }), "steering.damping");
+  EXPECT_EQ(place([](Params& p) { p.steering.lead_s = kUnset; }), "steering.lead_s");
 }
 
 }  // namespace

@@ -158,6 +158,7 @@ inline Lap drive(const Params& params, const LateralGains& gains, const Path& pa
   car.yaw_rad = path.points[0].yaw_rad;
   State state;
   state.gear.gear = 3;
+  steering::Learned learned;
   Lap lap;
   std::size_t near = 0, graded = 0;
   double angle_rate2 = 0.0;
@@ -172,12 +173,16 @@ inline Lap drive(const Params& params, const LateralGains& gains, const Path& pa
     const std::size_t start = (near + path.points.size() - 10) % path.points.size();
     const world::Trajectory t = path.window(static_cast<double>(start) * kPathStep_m, speed_mps);
     const world::EgoState ego = car.ego(now);
-    const Output out =
-        step(params, gains, state, {.ego = ego, .trajectory = t}, now, milliseconds(10));
+    const double bank_rad = path.points[near % path.points.size()].bank_rad;
+    const steering::Params& p = params.steering;
+    steering::follow_command(p.learning, learned, state.road_wheel_rad, milliseconds(10));
+    steering::learn(p.learning, p.bicycle, learned, {ego.vx_mps, ego.yaw_rate_rad_per_s, bank_rad},
+                    milliseconds(10));
+    const Output out = step(params, gains, state, {.ego = ego, .trajectory = t, .learned = learned},
+                            now, milliseconds(10));
     const double rate = (out.next.road_wheel_rad - state.road_wheel_rad) / 0.01;
     state = out.next;
-    for (int k = 0; k < 10; ++k)
-      car.move(out.command, path.points[near % path.points.size()].bank_rad);
+    for (int k = 0; k < 10; ++k) car.move(out.command, bank_rad);
     if (distance(near) > 5.0 || std::abs(car.vy_mps) > 0.5 * car.vx_mps)
       return lap.lost = true, lap;
     if (i < static_cast<int>(settle_s * 100.0)) continue;
@@ -227,23 +232,20 @@ inline Params recommended() {
                     .brake_fall_kpa_per_s = 20000.0,
                     .hold_speed_mps = 0.5,
                     .hold_brake_kpa = 800.0};
-  p.stop_steering = {.bandwidth_rad_per_s = 2.5,
-                     .damping = 0.9,
-                     .preview_s = 0.12,
-                     .observer_s = 0.3,
-                     .trim_per_s = 0.3,
-                     .settle_s = 0.4,
-                     .correction_max_rad = 0.03,
-                     .gain_speed_least_mps = 8.0,
-                     .hold_speed_mps = 0.5};
-  p.stop_speed = {.kpa_per_mps2 = 370.0,
-                  .coast_mps2 = 0.6,
-                  .drag_per_m = 0.00061,
-                  .speed_share_per_s = 0.8,
-                  .preview_s = 0.15,
-                  .throttle_fall_per_s = 1.2,
-                  .brake_rate_kpa_per_s = 4000.0,
-                  .hold_rate_kpa_per_s = 1500.0};
+  p.steering = {.bicycle = {.wheelbase_m = 2.971, .understeer_rad_per_mps2 = 0.0002},
+                .learning = {.lag_s = 0.2, .learn_s = 2.0},
+                .bandwidth_rad_per_s = 1.2,
+                .damping = 1.0,
+                .lead_s = 0.3,
+                .preview_s = 0.2,
+                .gain_share = 0.3,
+                .observer_s = 0.5,
+                .observer_share = 0.5,
+                .trim_per_s = 0.05,
+                .settle_s = 1.0,
+                .correction_max_rad = 0.03,
+                .gain_speed_least_mps = 8.0,
+                .hold_speed_mps = 0.5};
   p.gear = {.up_above_mps = {21.5, 33.5, 45.5, 56.5, 65.5},
             .down_below_mps = {19.0, 30.5, 42.0, 52.5, 61.0},
             .dwell_s = 0.8};

@@ -144,6 +144,28 @@ TEST(Planning, FollowingTheStopBringsTheCarToRest) {
   EXPECT_NEAR(rig.speed_mps, 65.0, 0.1);  // and starts again from standstill
 }
 
+// A stop reckons with less friction than the drive, never with more: the lower it is the longer the
+// stop, and the drive does not know of it.
+TEST(Planning, AStopReckonsWithItsOwnFrictionAtMostWithThatOfTheCar) {
+  double last_m = 0.0, beyond_m = 0.0, drive_mps = kUnset;
+  for (const double friction : {2.0, 1.3, 1.1, 0.9, 0.7}) {
+    PlanningRig rig;
+    rig.params.stop_friction = friction;
+    rig.params.stop_decel_max_mps2 = 12.0, rig.params.line.friction.brake_max_mps2 = 20.0;
+    rig.speed_mps = 55.0, rig.s_m = 900.0;  // in a turn
+    const Output out = rig.tick(green(55.0));
+    EXPECT_GE(out.stop_distance_m, last_m) << friction;
+    if (friction == 2.0) beyond_m = out.stop_distance_m;
+    if (friction == 1.3) {
+      EXPECT_EQ(out.stop_distance_m, beyond_m) << "that of the car";
+    }
+    if (std::isnan(drive_mps)) drive_mps = out.drive.points.back().speed_mps;
+    EXPECT_EQ(out.drive.points.back().speed_mps, drive_mps) << friction;
+    last_m = out.stop_distance_m;
+  }
+  EXPECT_GT(last_m, 1.1 * beyond_m);
+}
+
 TEST(Planning, ReferenceStaysNearACarThatDoesNotFollow) {
   PlanningRig rig;
   for (int i = 0; i < 200; ++i) {
@@ -228,6 +250,7 @@ TEST(Planning, PrepareNamesTheIllegalParameter) {
   EXPECT_EQ(place([](Params& p) { p.line.friction.tyres.share[1] = 0.5; }), "line.friction.tyres");
   EXPECT_EQ(place([](Params& p) { p.stop_path.clearance_m = kUnset; }), "stop_path.clearance_m");
   EXPECT_EQ(place([](Params& p) { p.emergency_grip_share = 0.6; }), "emergency_grip_share");
+  EXPECT_EQ(place([](Params& p) { p.stop_friction = kUnset; }), "stop_friction");
 }
 
 }  // namespace

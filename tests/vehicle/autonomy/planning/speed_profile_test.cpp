@@ -20,7 +20,8 @@ Line line_of(double radius_m = 200.0) {
 }
 
 DriveLimits drive_to(double target) {
-  return {target, 1.0, kParams.accel_max_mps2, kParams.decel_max_mps2, kParams.jerk_max_mps3};
+  return {target, 1.0, kParams.accel_max_mps2, kParams.decel_max_mps2, kParams.jerk_max_mps3,
+          nullptr};
 }
 
 const StopLimits kStop{kParams.line.friction, kParams.stop_grip_share, kParams.stop_decel_max_mps2,

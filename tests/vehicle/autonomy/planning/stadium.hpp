@@ -54,10 +54,12 @@ inline Params recommended() {
   p.accel_max_mps2 = 2.5, p.decel_max_mps2 = 3.0, p.jerk_max_mps3 = 5.0;
   p.speed_band_mps = 4.0;
   p.stop_decel_max_mps2 = 5.0, p.stop_jerk_max_mps3 = 8.0, p.stop_grip_share = 0.7;
+  p.stop_friction = 1.0;
   p.stop_path = {.clearance_m = 2.5, .low_speed_mps = 20.0, .stretch_max = 1.5};
   p.emergency_decel_max_mps2 = 8.0, p.emergency_jerk_max_mps3 = 15.0;
   p.emergency_grip_share = 0.85;
   p.point_spacing_m = 2.5;
+  p.steer_share = 0.9;
   p.merge_from_m = 1.5, p.merge_time_s = 4.0, p.merge_least_m = 60.0;
   return p;
 }

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/autonomy/control/feed_forward.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vehicle/autonomy/control/preview.hpp"
+
+namespace pitwall::control {
+namespace {
+
+using world::EgoState;
+using world::TrajectoryPoint;
+
+struct Errors {
+  double lateral_m, heading_rad, course_rad;
+};
+
+Errors errors_at(const TrajectoryPoint& p, const EgoState& ego) {
+  const double dx_m = ego.x_m - p.x_m, dy_m = ego.y_m - p.y_m;
+  const double heading_rad = wrap_pi(ego.yaw_rad - p.yaw_rad);
+  const double drift_rad = std::atan2(ego.vy_mps * std::cos(p.bank_rad), std::max(ego.vx_mps, 1.0));
+  return {-dx_m * std::sin(p.yaw_rad) + dy_m * std::cos(p.yaw_rad), heading_rad,
+          heading_rad + drift_rad};
+}
+
+}  // namespace
+
+LateralDiagnostics steer_forward(const steering::Params& params, const LateralParams& lateral,
+                                 const steering::Learned& learned, steering::State& state,
+                                 double last_angle_rad, const EgoState& ego,
+                                 const world::Trajectory& trajectory, Duration dt) {
+  LateralDiagnostics out;
+  out.angle_rad = last_angle_rad;
+  if (!is_usable(ego)) return out.verdict = LateralVerdict::kNoEgo, out;
+  const auto on_path_m = project(trajectory, ego.x_m, ego.y_m);
+  if (!on_path_m) return out.verdict = LateralVerdict::kNoTrajectory, out;
+  const double v_mps = std::max(ego.vx_mps, 0.0);
+  const TrajectoryPoint here = at(trajectory, *on_path_m);
+  const TrajectoryPoint ahead = at(trajectory, *on_path_m + v_mps * params.preview_s);
+  const Errors e = errors_at(here, ego);
+  out.cross_track_m = out.e1_m = e.lateral_m;
+  out.heading_error_rad = out.e2_rad = e.heading_rad;
+  out.bracket = static_cast<std::uint8_t>(bracket_of(v_mps));
+  out.angle_rad = steering::steer(
+      params, learned, state,
+      {.deviation = {e.lateral_m, e.course_rad, here.curvature_per_m, here.bank_rad},
+       .ahead = {ahead.curvature_per_m, ahead.bank_rad},
+       .speed_mps = v_mps,
+       .yaw_rate_rad_per_s = ego.yaw_rate_rad_per_s,
+       .last_angle_rad = last_angle_rad,
+       .angle_max_rad = lateral.angle_max_rad},
+      dt);
+  out.saturated = std::abs(out.angle_rad) >= lateral.angle_max_rad;
+  out.verdict = std::abs(e.lateral_m) <= lateral.deviation_max_m ? LateralVerdict::kGood
+                                                                 : LateralVerdict::kTooFar;
+  return out;
+}
+
+}  // namespace pitwall::control

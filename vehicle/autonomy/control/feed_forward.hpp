@@ -1,0 +1,22 @@
+// The regulator with feed-forward: the law of steering/path_steering.hpp along the drive
+// trajectory.
+//   in     EgoState (Map, Body), Trajectory (Map), what was learned of the steering
+//   out    road-wheel angle [rad], left positive
+//   errors verdict as in lateral.hpp; without a usable trajectory or ego the last angle is held
+//   cost   O(trajectory points), no allocation
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "protocol/vocabulary/time.hpp"
+#include "vehicle/autonomy/control/lateral.hpp"
+#include "vehicle/steering/path_steering.hpp"
+
+namespace pitwall::control {
+
+// angle_max_rad and deviation_max_m are those of lateral.
+LateralDiagnostics steer_forward(const steering::Params& params, const LateralParams& lateral,
+                                 const steering::Learned& learned, steering::State& state,
+                                 double last_angle_rad, const world::EgoState& ego,
+                                 const world::Trajectory& trajectory, Duration dt);
+
+}  // namespace pitwall::control

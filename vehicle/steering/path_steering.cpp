@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vehicle/steering/path_steering.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pitwall::steering {
+namespace {
+
+constexpr double kLeadFrom_mps = 25.0;     // below, the lead is less
+constexpr double kObserveFrom_mps = 10.0;  // below, a yaw rate over a speed says little
+
+double share_of(double dt_s, double time_s) { return 1.0 - std::exp(-dt_s / time_s); }
+
+// What one unit of curvature takes at the wheel.
+double angle_per_curvature_m(const Params& p, const Learned& learned, double speed_mps) {
+  const double gradient = p.bicycle.understeer_rad_per_mps2 +
+                          p.gain_share * std::max(learned.understeer_rad_per_mps2, 0.0);
+  return p.bicycle.wheelbase_m + std::max(gradient, 0.0) * speed_mps * speed_mps;
+}
+
+double feedforward_rad(const Params& p, const Learned& learned, const PathAhead& at,
+                       double speed_mps) {
+  const double curvature_per_m = at.curvature_per_m * std::cos(at.bank_rad);
+  const double lateral =
+      speed_mps * speed_mps * curvature_per_m - kGravity_mps2 * std::sin(at.bank_rad);
+  return angle_rad(p.bicycle, learned, curvature_per_m, lateral);
+}
+
+void observe(const Params& p, const Learned& learned, State& s, const Turning& at, double dt_s) {
+  double seen_rad = 0.0;
+  if (at.speed_mps > kObserveFrom_mps && std::isfinite(at.yaw_rate_rad_per_s))
+    seen_rad =
+        learned.commanded_rad -
+        angle_rad(p.bicycle, learned, at.yaw_rate_rad_per_s / at.speed_mps, lateral_mps2(at));
+  if (!std::isfinite(seen_rad)) return;
+  seen_rad = std::clamp(p.observer_share * seen_rad, -p.correction_max_rad, p.correction_max_rad);
+  s.unknown_rad += share_of(dt_s, p.observer_s) * (seen_rad - s.unknown_rad);
+}
+
+}  // namespace
+
+double steer(const Params& p, const Learned& learned, State& s, const SteeringInputs& in,
+             Duration dt) {
+  const double dt_s = std::clamp(dt.seconds(), 0.0, kTickMax_s);
+  const double speed_mps = std::max(in.speed_mps, 0.0);
+  const double v_mps = std::max(speed_mps, p.gain_speed_least_mps);
+  const Deviation& at = in.deviation;
+  observe(p, learned, s, {speed_mps, in.yaw_rate_rad_per_s, at.bank_rad}, dt_s);
+  // A slow car turns at once, and its gyroscopes' noise would reach the wheel.
+  const double lead_s = p.lead_s * std::min(v_mps / kLeadFrom_mps, 1.0);
+  const double path_rate = v_mps * at.curvature_per_m;
+  const double excess_rad_per_s = std::isfinite(in.yaw_rate_rad_per_s)
+                                      ? in.yaw_rate_rad_per_s / std::cos(at.bank_rad) - path_rate
+                                      : 0.0;
+  const double w = p.bandwidth_rad_per_s,
+               per_curvature_m = angle_per_curvature_m(p, learned, v_mps);
+  const double lateral_m = at.lateral_m + lead_s * v_mps * at.course_rad;
+  const double course_rad = at.course_rad + lead_s * excess_rad_per_s;
+  const double feedback_per_m =
+      -(w * w * lateral_m + 2.0 * p.damping * w * v_mps * course_rad) / (v_mps * v_mps);
+  const double known_rad = feedforward_rad(p, learned, in.ahead, speed_mps) +
+                           per_curvature_m * feedback_per_m + s.unknown_rad;
+  if (!std::isfinite(known_rad)) return in.last_angle_rad;
+  if (!s.begun) {
+    s.begun = true;
+    s.trim_rad = 0.0;
+    s.bump_rad = in.last_angle_rad - known_rad;
+  }
+  if (speed_mps < p.hold_speed_mps) return in.last_angle_rad;  // the wheels would turn on the spot
+  const double trim_per_m = p.trim_per_s * per_curvature_m * w * w / (v_mps * v_mps);
+  const double raw_rad = known_rad + s.trim_rad + s.bump_rad;
+  const double angle_rad = std::clamp(raw_rad, -in.angle_max_rad, in.angle_max_rad);
+  if (angle_rad == raw_rad)
+    s.trim_rad = std::clamp(s.trim_rad - trim_per_m * at.lateral_m * dt_s, -p.correction_max_rad,
+                            p.correction_max_rad);
+  s.bump_rad -= share_of(dt_s, p.settle_s) * s.bump_rad;
+  return angle_rad;
+}
+
+}  // namespace pitwall::steering
