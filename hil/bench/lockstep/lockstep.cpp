@@ -74,7 +74,8 @@ class Lockstep {
       base_.restart_car();
       stepped_at_ = now - setup_.params.rates.tick;
     }
-    if (guardian_.car_runs(now))
+    const bool killed = options_.car_is_dead && options_.car_is_dead();
+    if (!killed && guardian_.car_runs(now))
       step_car(now);
     else if (out_)
       out_->seen = {};

@@ -43,6 +43,8 @@ struct LockstepOptions {
   std::function<void(const telemetry::Snapshot&, Instant)> watch_telemetry = {};
   // The guardian is there where the scenario stops or kills a process; here: in any case.
   bool guardian = false;
+  // Asked before every tick of the car: if true, its process is as dead as one that a fault killed.
+  std::function<bool()> car_is_dead = {};
   // Called after every tick of the guardian.
   std::function<void(const GuardianNode&, Instant)> watch_guardian = {};
 };

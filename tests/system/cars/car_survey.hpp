@@ -1,0 +1,36 @@
+// Stops of a family of cars: every car, place and kind of stop, by several processes at once.
+//   in     cars, places, how many processes
+//   out    figures of every stop; the table of margins and the worst ten
+//   errors a stop that fails is told with car, place and kind
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "hil/plant/family/car_family.hpp"
+#include "tests/system/cars/car_stops.hpp"
+
+namespace pitwall::testing {
+
+struct SurveyedStop {
+  std::size_t car = 0;
+  StopPlace place;
+  CarStop kind = CarStop::kControlled;
+  double asked_mps = kUnset;
+  CarStopFigures figures;
+};
+
+std::vector<SurveyedStop> survey(std::span<const plant::FamilyCar> cars,
+                                 std::span<const StopPlace> places, unsigned processes);
+
+std::string row_of(const plant::FamilyCar& car, const SurveyedStop& stop);
+// Prints the table; how many stops failed.
+std::size_t print_survey(std::span<const plant::FamilyCar> cars,
+                         std::span<const SurveyedStop> stops);
+
+// The cars of the plant files, then drawn ones.
+std::vector<plant::FamilyCar> family_of(std::uint64_t seed, std::size_t count);
+
+}  // namespace pitwall::testing
