@@ -4,6 +4,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -148,8 +149,10 @@ inline std::string black_box(std::uint32_t steps) {
   return file.bytes;
 }
 
+// Of this process alone: tests run beside each other.
 inline std::string scratch(const std::string& name) {
-  return (std::filesystem::path{::testing::TempDir()} / ("pitwall_recordings_" + name)).string();
+  const std::string own = "pitwall_recordings_" + std::to_string(::getpid()) + "_" + name;
+  return (std::filesystem::path{::testing::TempDir()} / own).string();
 }
 
 inline std::string bytes_of(const std::string& path) {
