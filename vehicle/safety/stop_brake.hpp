@@ -31,7 +31,7 @@ struct SafeStopParams {
   double emergency_ramp_kpa_per_s = 12000.0;  // [brake_ramp, 30000]
   double brake_max_kpa = 5500.0;
   double hold_kpa = 1500.0;              // at standstill
-  double decel_min_mps2 = 2.0;           // ends every stop
+  double decel_min_mps2 = 2.0;           // least of an open loop, and where the plan stands
   double decel_max_mps2 = 8.0;           // controlled stop; [decel_min, 15]
   double decel_without_plan_mps2 = 4.0;  // [decel_min, decel_max]
   double emergency_decel_mps2 = 14.0;    // [decel_max, 25]

@@ -15,6 +15,7 @@
 #include "hil/bench/signals.hpp"
 #include "hil/plant/family/grip_limit.hpp"
 #include "protocol/vocabulary/check.hpp"
+#include "tests/support/path_distance.hpp"
 
 namespace pitwall::testing {
 namespace {
@@ -60,21 +61,6 @@ scenario::Scenario scenario_of(const CarStopCase& stop) {
                      .track = world::TrackFlag::kGreen,
                      .round_target_speed_mph = to_mph(stop.speed_mps)}};
   return s;
-}
-
-double beside(const world::Trajectory& path, double x_m, double y_m) {
-  double best_m2 = 1e18, lateral_m = 0.0;
-  for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
-    const auto &a = path.points[i], &b = path.points[i + 1];
-    const double ux = b.x_m - a.x_m, uy = b.y_m - a.y_m, l2 = ux * ux + uy * uy;
-    const double t = std::clamp(((x_m - a.x_m) * ux + (y_m - a.y_m) * uy) / l2, 0.0, 1.0);
-    const double dx = x_m - a.x_m - t * ux, dy = y_m - a.y_m - t * uy;
-    if (dx * dx + dy * dy >= best_m2) continue;
-    best_m2 = dx * dx + dy * dy;
-    const double bow_m = 0.25 * (a.curvature_per_m + b.curvature_per_m) * t * (1.0 - t) * l2;
-    lateral_m = (ux * dy - uy * dx) / std::sqrt(l2) + bow_m;
-  }
-  return lateral_m;
 }
 
 class Branches {
@@ -123,7 +109,7 @@ class Branches {
     f.wall_gap_m = std::min(f.wall_gap_m, bench::wall_gap_m(rig));
     f.distance_m += t.speed_mps * kTick_s;
     f.lasted_s = (now - *begun_at_).seconds();
-    f.cross_track_m = std::max(f.cross_track_m, std::abs(beside(planned_, t.x_m, t.y_m)));
+    f.cross_track_m = std::max(f.cross_track_m, std::abs(path_distance_m(planned_, t.x_m, t.y_m)));
     f.refusals = static_cast<std::uint32_t>(out.passed.refused_total - refused_before_);
     if (t.speed_mps > kUseFrom_mps) {
       f.use = std::max(f.use, use);
@@ -174,11 +160,12 @@ class Branches {
     std::fprintf(trace_out_,
                  "%.2f v %.2f e %.3f wheel %.4f cmd %.4f brake %.0f/%.0f throttle %.2f ay %.2f "
                  "ax %.2f use %.2f tyre %.2f slip %.2f r %.3f bank %.3f n %.2f s %.0f mode %d\n",
-                 figures_.lasted_s, t.speed_mps, beside(planned_, t.x_m, t.y_m), t.road_wheel_rad,
-                 out.chosen.command.road_wheel_rad, out.chosen.command.brake_kpa, t.brake_front_kpa,
-                 t.throttle_fraction, t.specific_force_mps2[1], t.specific_force_mps2[0], use,
-                 t.friction_use, to_deg(std::atan2(t.vy_mps, t.vx_mps)), t.yaw_rate_rad_per_s,
-                 t.bank_rad, rig.road().n_m, rig.road().s_m, static_cast<int>(out.chosen.mode));
+                 figures_.lasted_s, t.speed_mps, path_distance_m(planned_, t.x_m, t.y_m),
+                 t.road_wheel_rad, out.chosen.command.road_wheel_rad, out.chosen.command.brake_kpa,
+                 t.brake_front_kpa, t.throttle_fraction, t.specific_force_mps2[1],
+                 t.specific_force_mps2[0], use, t.friction_use,
+                 to_deg(std::atan2(t.vy_mps, t.vx_mps)), t.yaw_rate_rad_per_s, t.bank_rad,
+                 rig.road().n_m, rig.road().s_m, static_cast<int>(out.chosen.mode));
   }
 
   const CarStopCase& stop_;

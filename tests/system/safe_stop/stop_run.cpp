@@ -13,6 +13,7 @@
 #include "hil/bench/loading.hpp"
 #include "hil/bench/lockstep/lockstep.hpp"
 #include "hil/bench/signals.hpp"
+#include "tests/support/path_distance.hpp"
 
 namespace pitwall::testing {
 namespace {
@@ -104,26 +105,6 @@ scenario::Scenario scenario_of(const StopCase& stop) {
   return s;
 }
 
-// Zero past its end, where a car with weaker brakes goes on along the line: a path that has ended
-// says nothing there.
-double beside(const world::Trajectory& path, double x_m, double y_m) {
-  double best_m2 = 1e18, lateral_m = 0.0;
-  for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
-    const auto &a = path.points[i], &b = path.points[i + 1];
-    const double ux = b.x_m - a.x_m, uy = b.y_m - a.y_m, l2 = ux * ux + uy * uy;
-    const double free = ((x_m - a.x_m) * ux + (y_m - a.y_m) * uy) / l2;
-    const double t = std::clamp(free, 0.0, 1.0);
-    const bool past = i + 2 == path.points.size() && free > 1.0;
-    const double dx = x_m - a.x_m - t * ux, dy = y_m - a.y_m - t * uy;
-    if (dx * dx + dy * dy >= best_m2) continue;
-    best_m2 = dx * dx + dy * dy;
-    // The path between two points is an arc: its sagitta stands out of the chord to the right.
-    const double bow_m = 0.25 * (a.curvature_per_m + b.curvature_per_m) * t * (1.0 - t) * l2;
-    lateral_m = past ? 0.0 : (ux * dy - uy * dx) / std::sqrt(l2) + bow_m;
-  }
-  return lateral_m;
-}
-
 class StopRun {
  public:
   explicit StopRun(const StopCase& stop) : stop_(stop) {}
@@ -171,7 +152,7 @@ class StopRun {
     figures.distance_m += t.speed_mps * kTick_s;
     figures.lasted_s = (now - *begun_at_).seconds();
     figures.cross_track_m =
-        std::max(figures.cross_track_m, std::abs(beside(figures.planned, t.x_m, t.y_m)));
+        std::max(figures.cross_track_m, std::abs(path_distance_m(figures.planned, t.x_m, t.y_m)));
     figures.use = std::max(figures.use, t.friction_use);
     watch_wheels(t);
     judge_jerk(out);
