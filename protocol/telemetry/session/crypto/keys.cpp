@@ -14,7 +14,6 @@ namespace pitwall::telemetry {
 namespace {
 
 constexpr std::string_view kDigits = "0123456789abcdef";
-constexpr std::string_view kBlank = " \t\r";
 constexpr unsigned kNibble = 4, kNibbleMask = 15;
 
 void append_hex(std::string& text, std::span<const std::uint8_t> bytes) {
