@@ -54,12 +54,12 @@ void plan_when_due(const Setup& setup, Car& car, const Outputs& out, const Input
   if (plan.ever && in.now - plan.at < rates.planning - rates.tick / 2) return;
   world::Trajectory stop = plan.output.stop;
   const steering::Params& p = setup.params.control.steering;
-  const steering::AngleBudget angles{
-      .limits = setup.angles,
-      .wheelbase_m = p.bicycle.wheelbase_m,
-      .understeer_rad_per_mps2 = understeer_to_expect(p.learning, p.bicycle, car.learned),
-      .offset_rad = car.learned.offset_rad,
-      .share = setup.params.planning.steer_share};
+  const steering::AngleBudget angles{.limits = setup.angles,
+                                     .car = p.bicycle,
+                                     .learning = p.learning,
+                                     .learned = car.learned,
+                                     .share = setup.params.planning.steer_share,
+                                     .stray_m_rad_per_s2 = stray_m_rad_per_s2(p)};
   plan.output =
       planning::step(setup.params.planning, setup.line, setup.track, plan.output.next,
                      {.ego = out.ego,

@@ -114,7 +114,8 @@ world::ActuatorCommand follow_stop(const FollowingParams& params, FollowingState
   world::ActuatorCommand& command = state.command;
   steering::follow_command(p.steering.learning, state.learned, command.road_wheel_rad,
                            from_seconds(dt_s));
-  const PathPoint turn = path_at(path, state.segment, state.s_m + v_mps * p.steering.preview_s);
+  const PathPoint turn =
+      path_at(path, state.segment, state.s_m + v_mps * preview_s(p.steering, state.learned));
   const double wanted_rad = steering::steer(
       p.steering, state.learned, state.steering,
       {.deviation = {state.lateral_m, state.course_rad, state.curvature_per_m, state.bank_rad},

@@ -7,14 +7,19 @@
 namespace pitwall::steering {
 namespace {
 
-// a v^2 + b v + c <= 0 where it rises through zero: the larger root within (low, high), if any.
-double root_within(double a, double b, double c, double low_mps, double high_mps) {
-  constexpr double kFlat = 1e-12;
-  if (std::abs(a) < kFlat)
-    return std::abs(b) < kFlat ? low_mps : std::clamp(-c / b, low_mps, high_mps);
-  const double inside = std::max(b * b - 4.0 * a * c, 0.0);
-  const double larger = (-b + std::sqrt(inside)) / (2.0 * a);
-  return std::clamp(larger, low_mps, high_mps);
+struct Turn {
+  double per_m = 0.0, fall_mps2 = 0.0, way = 1.0;  // to the left: 1
+};
+
+bool is_slow_enough(const AngleBudget& b, const Turn& turn, double speed_mps) {
+  const double speed_2 = speed_mps * speed_mps;
+  const double lateral_mps2 = speed_2 * turn.per_m - turn.fall_mps2;
+  const double doubt = doubt_rad(b.learning, b.car, b.learned, lateral_mps2);
+  const double needed = b.car.wheelbase_m * turn.per_m + turn.way * b.learned.offset_rad +
+                        understeer_at(b.car, b.learned, lateral_mps2) * lateral_mps2 + doubt;
+  // A road that is nearly straight needs no speed to be kept.
+  return needed <= b.share * angle_max_rad(b.limits, speed_mps) &&
+         !(doubt * speed_2 > b.stray_m_rad_per_s2 && lateral_mps2 > 0.0);
 }
 
 }  // namespace
@@ -29,29 +34,19 @@ double angle_max_rad(const AngleLimits& limits, double speed_mps) {
          (speed_mps - a.speed_mps) / (b.speed_mps - a.speed_mps) * (b.angle_rad - a.angle_rad);
 }
 
-double fastest_mps(const AngleBudget& budget, double curvature_per_m, double bank_rad) {
-  const AngleLimits& rows = budget.limits;
+double fastest_mps(const AngleBudget& budget, double curvature_per_m, double bank_rad,
+                   double most_mps) {
+  constexpr double kClose_mps = 0.01;
   const double way = curvature_per_m < 0.0 ? -1.0 : 1.0;
-  const double turn_per_m = std::abs(curvature_per_m) * std::cos(bank_rad);
-  const double gradient = std::max(budget.understeer_rad_per_mps2, 0.0);
-  // Angle needed: fixed + gradient turn v^2.
-  const double fixed_rad = budget.wheelbase_m * turn_per_m + way * budget.offset_rad -
-                           gradient * kGravity_mps2 * way * std::sin(bank_rad);
-  const auto spare_rad = [&](const AngleRow& row) {
-    return budget.share * row.angle_rad - fixed_rad -
-           gradient * turn_per_m * row.speed_mps * row.speed_mps;
-  };
-  if (spare_rad(rows.back()) >= 0.0) return rows.back().speed_mps;
-  for (std::size_t i = rows.size() - 1; i > 0; --i) {
-    const AngleRow &low = rows[i - 1], &high = rows[i];
-    if (spare_rad(low) < 0.0) continue;
-    const double slope =
-        budget.share * (high.angle_rad - low.angle_rad) / (high.speed_mps - low.speed_mps);
-    const double at_zero_rad = budget.share * low.angle_rad - slope * low.speed_mps;
-    return root_within(gradient * turn_per_m, -slope, fixed_rad - at_zero_rad, low.speed_mps,
-                       high.speed_mps);
+  const Turn turn{std::abs(curvature_per_m) * std::cos(bank_rad),
+                  way * kGravity_mps2 * std::sin(bank_rad), way};
+  if (is_slow_enough(budget, turn, most_mps)) return most_mps;
+  double slow_mps = 0.0, fast_mps = most_mps;
+  while (fast_mps - slow_mps > kClose_mps) {
+    const double middle_mps = 0.5 * (slow_mps + fast_mps);
+    (is_slow_enough(budget, turn, middle_mps) ? slow_mps : fast_mps) = middle_mps;
   }
-  return 0.0;
+  return is_slow_enough(budget, turn, slow_mps) ? slow_mps : 0.0;
 }
 
 }  // namespace pitwall::steering

@@ -5,7 +5,9 @@
 //          which the steady-state angle of the road stays within a share of it
 //   invariants
 //          speeds of the rows rise, angles do not
-//          L k + K (v^2 k - g sin(bank)) + d' <= share * angle_max(v),  k = |kappa| cos(bank)
+//          with the doubt D of learned_steering.hpp and a = v^2 k - g sin(bank), k = |kappa| cos(bank),
+//            L k + K a + d' + D(a) <= share * angle_max(v)
+//            D(a) v^2 <= stray: what is not known costs no more than a distance from the line
 //   errors none: a road that no speed can follow has the speed zero
 //   cost   O(rows), no allocation
 // SPDX-License-Identifier: Apache-2.0
@@ -28,11 +30,15 @@ double angle_max_rad(const AngleLimits& limits, double speed_mps);
 
 struct AngleBudget {
   const AngleLimits& limits;
-  double wheelbase_m = kUnset, understeer_rad_per_mps2 = kUnset, offset_rad = 0.0;
+  const Bicycle& car;
+  const LearningParams& learning;
+  const Learned& learned;
   double share = 1.0;
+  double stray_m_rad_per_s2 = kUnset;  // path_steering.hpp
 };
 
-// At most that of the last row.
-double fastest_mps(const AngleBudget& budget, double curvature_per_m, double bank_rad);
+// At most most_mps.
+double fastest_mps(const AngleBudget& budget, double curvature_per_m, double bank_rad,
+                   double most_mps);
 
 }  // namespace pitwall::steering

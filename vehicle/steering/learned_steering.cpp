@@ -8,14 +8,69 @@ namespace pitwall::steering {
 namespace {
 
 constexpr double kLearnFrom_mps = 15.0;  // below, a yaw rate over a speed says little
-constexpr double kConstant = 0.5;        // weight of the constant angle beside the gradient
-constexpr double kLateralScale_mps2 = 6.0;
-constexpr double kEasy = 0.25;  // regularisation: on a straight little is learned
-constexpr double kAverages_s = 6.0, kSlowest_s = 15.0;
-constexpr double kTurns_mps2 = 3.0;  // lateral, to learn a gradient from
-constexpr double kOffsetMax_rad = 0.01, kUndersteerMax = 0.003, kUndersteerMin = -0.0008;
+constexpr double kCorrelation_s = 0.5;   // of the residual
+constexpr double kLagDoubt_s = 0.1;  // a lag is not all that there is between angle and yaw rate
+constexpr double kSurely = 2.0;      // deviations
+
+using Numbers = std::array<double, kLearnedNumbers>;
+
+// How far a car changes within a minute: tyres that warm and wear, fuel that burns.
+constexpr double kDriftOver_s = 60.0;
+constexpr Numbers kDrift{0.0005, 0.0001, 4e-7, 0.01};
+constexpr Numbers kLeast{-0.01, -0.0008, -1e-5, -0.12}, kMost{0.01, 0.003, 1e-5, 0.12};
+constexpr double kLagMost_s = 0.1;  // beside that of the parameters, until it is known
+
+double square(double x) { return x * x; }
 
 double tick_s(Duration dt) { return std::clamp(dt.seconds(), 0.0, kTickMax_s); }
+
+using Covariance = decltype(Learned::covariance);
+
+constexpr std::size_t place_of(std::size_t i, std::size_t j) {
+  const std::size_t row = i < j ? i : j, column = i < j ? j : i;
+  return row * kLearnedNumbers - row * (row + 1) / 2 + column;
+}
+
+Covariance unknown(const LearningParams& p, const Bicycle& car) {
+  constexpr double kAtLeast = 1e-5;
+  const double gradient = p.understeer_most_rad_per_mps2 - car.understeer_rad_per_mps2;
+  const Numbers most{p.offset_most_rad, std::max(gradient, kAtLeast), p.bend_most_rad_s6_per_m3,
+                     kLagMost_s};
+  Covariance covariance{};
+  for (std::size_t i = 0; i < most.size(); ++i)
+    covariance[place_of(i, i)] = square(most[i] / kSurely);
+  return covariance;
+}
+
+bool is_begun(const Learned& learned) { return std::isfinite(learned.covariance[0]); }
+
+Numbers product(const Covariance& p, const Numbers& h) {
+  Numbers out{};
+  for (std::size_t i = 0; i < h.size(); ++i)
+    for (std::size_t j = 0; j < h.size(); ++j) out[i] += p[place_of(i, j)] * h[j];
+  return out;
+}
+
+double product(const Numbers& a, const Numbers& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+// What was learned, corrected by what one tick showed: h of it, with a noise.
+void correct(Learned& learned, const Numbers& h, double residual_rad, double variance) {
+  Covariance& p = learned.covariance;
+  const Numbers ph = product(p, h);
+  const double innovation = product(h, ph) + variance;
+  const std::array numbers{&learned.offset_rad, &learned.understeer_rad_per_mps2,
+                           &learned.bend_rad_s6_per_m3, &learned.lag_s};
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    *numbers[i] = std::clamp(*numbers[i] + ph[i] / innovation * residual_rad, kLeast[i], kMost[i]);
+    for (std::size_t j = i; j < numbers.size(); ++j)
+      p[place_of(i, j)] -= ph[i] * ph[j] / innovation;
+    p[place_of(i, i)] = std::max(p[place_of(i, i)], 0.0);
+  }
+}
 
 }  // namespace
 
@@ -23,52 +78,61 @@ double lateral_mps2(const Turning& at) {
   return at.speed_mps * at.yaw_rate_rad_per_s - kGravity_mps2 * std::sin(at.bank_rad);
 }
 
+double understeer_at(const Bicycle& car, const Learned& learned, double lateral_mps2) {
+  return car.understeer_rad_per_mps2 + learned.understeer_rad_per_mps2 +
+         learned.bend_rad_s6_per_m3 * lateral_mps2 * lateral_mps2;
+}
+
 double angle_rad(const Bicycle& car, const Learned& learned, double curvature_per_m,
                  double lateral_mps2) {
   return car.wheelbase_m * curvature_per_m + learned.offset_rad +
-         (car.understeer_rad_per_mps2 + learned.understeer_rad_per_mps2) * lateral_mps2;
+         understeer_at(car, learned, lateral_mps2) * lateral_mps2;
 }
 
-double understeer_to_expect(const LearningParams& params, const Bicycle& car,
-                            const Learned& learned) {
-  const double seen = car.understeer_rad_per_mps2 + learned.understeer_rad_per_mps2;
-  const double unknown = std::exp(-0.5 * learned.turned_s / params.learn_s);
-  return seen + unknown * std::max(params.understeer_most_rad_per_mps2 - seen, 0.0);
+double doubt_rad(const LearningParams& params, const Bicycle& car, const Learned& learned,
+                 double lateral_mps2) {
+  const Numbers h{0.0, lateral_mps2, lateral_mps2 * lateral_mps2 * lateral_mps2, 0.0};
+  const Covariance& p = is_begun(learned) ? learned.covariance : unknown(params, car);
+  return kSurely * std::sqrt(std::max(product(h, product(p, h)), 0.0));
 }
 
 double yaw_rate_rad_per_s(const Bicycle& car, const Learned& learned, double angle_rad,
                           double speed_mps, double bank_rad) {
-  const double gradient = car.understeer_rad_per_mps2 + learned.understeer_rad_per_mps2;
+  constexpr int kRounds = 3;  // a gradient that bends with what is looked for
   const double fall_mps2 = kGravity_mps2 * std::sin(bank_rad);
-  return speed_mps * (angle_rad - learned.offset_rad + gradient * fall_mps2) /
-         (car.wheelbase_m + gradient * speed_mps * speed_mps);
+  double rate = 0.0, gradient = understeer_at(car, learned, 0.0);
+  for (int i = 0; i < kRounds; ++i) {
+    rate = speed_mps * (angle_rad - learned.offset_rad + gradient * fall_mps2) /
+           (car.wheelbase_m + gradient * speed_mps * speed_mps);
+    gradient = understeer_at(car, learned, speed_mps * rate - fall_mps2);
+  }
+  return rate;
 }
 
 void follow_command(const LearningParams& params, Learned& learned, double commanded_rad,
                     Duration dt) {
   if (!std::isfinite(commanded_rad)) return;
+  learned.turning_rad_per_s = (commanded_rad - learned.commanded_rad) / params.lag_s;
   learned.commanded_rad +=
       (1.0 - std::exp(-tick_s(dt) / params.lag_s)) * (commanded_rad - learned.commanded_rad);
 }
 
 void learn(const LearningParams& params, const Bicycle& car, Learned& learned, const Turning& at,
            Duration dt) {
-  if (!(at.speed_mps > kLearnFrom_mps)) return;
+  const double dt_s = tick_s(dt);
+  if (!(at.speed_mps > kLearnFrom_mps && dt_s > 0.0)) return;
   const double a_mps2 = lateral_mps2(at);
   const double residual_rad =
       learned.commanded_rad - angle_rad(car, learned, at.yaw_rate_rad_per_s / at.speed_mps, a_mps2);
   if (!std::isfinite(residual_rad)) return;
-  if (std::abs(a_mps2) > kTurns_mps2) learned.turned_s += tick_s(dt);
-  const double time_s =
-      std::min(params.learn_s * (1.0 + learned.turned_s / kAverages_s), kSlowest_s);
-  const double slope = a_mps2 / kLateralScale_mps2;
-  const double step =
-      residual_rad / (kConstant * kConstant + slope * slope + kEasy) * tick_s(dt) / time_s;
-  learned.offset_rad =
-      std::clamp(learned.offset_rad + kConstant * step, -kOffsetMax_rad, kOffsetMax_rad);
-  learned.understeer_rad_per_mps2 =
-      std::clamp(learned.understeer_rad_per_mps2 + slope / kLateralScale_mps2 * step,
-                 kUndersteerMin, kUndersteerMax);
+  if (!is_begun(learned)) learned.covariance = unknown(params, car);
+  for (std::size_t i = 0; i < kDrift.size(); ++i)
+    learned.covariance[place_of(i, i)] += square(kDrift[i]) / kDriftOver_s * dt_s;
+  const double turning = learned.turning_rad_per_s;
+  const double variance =
+      (square(params.residual_sigma_rad) + square(kLagDoubt_s * turning)) * kCorrelation_s / dt_s;
+  correct(learned, {1.0, a_mps2, a_mps2 * a_mps2 * a_mps2, turning},
+          residual_rad - learned.lag_s * turning, variance);
 }
 
 }  // namespace pitwall::steering

@@ -1,21 +1,24 @@
 // What this car on these tyres needs at the wheel beyond the steady-state bicycle of its file:
 // learned from what was commanded and how the car turned, whoever steered.
 //   in     the angle that was commanded last, speed, yaw rate, banking of the road
-//   out    Learned: a constant angle and an understeer gradient, on top of the model's
-//   units  rad, rad/(m/s2); lateral acceleration in the plane of the road, positive left
+//   out    Learned: a constant angle, an understeer gradient, how that bends with the lateral
+//          acceleration, and a lag, on top of the model's; how well they are known
+//   units  rad, rad/(m/s2), rad/(m/s2)^3, s; lateral acceleration in the plane of the road,
+//          positive left
 //   invariants
 //          with d the commanded angle behind the lag of steering and tyres, r the yaw rate,
-//            residual = d - (L r / v + (K + K') a + d'),  a = v r - g sin(bank)
-//            (d', K') += residual * phi / (phi' phi + 1/4) * dt / T,
-//            phi = (c, a / a0)        (normalised gradient)
-//          T begins as learn_s and grows with the time spent in turns: at first it learns, later
-//          it averages. What is to be expected of a gradient goes over from the most to the learned
-//          one with the time in turns. Both stay within their limits; where the car is slow, or
-//          a value is not a number, they stay as they are
+//            z = d - L r / v - K a = d' + K' a + C' a^3 + T' dd/dt + noise,
+//            a = v r - g sin(bank)
+//          (d', K', C', T') is a random walk, estimated by a Kalman filter. Before anything is
+//          measured its deviations are half of what the parameters say a car has at most.
+//          The noise is that of the steady-state bicycle: residual_sigma over a correlation time,
+//          and a share of the rate at which the wheel turns. All stay within their limits;
+//          where the car is slow, or a value is not a number, they stay as they are
 //   errors none
 //   cost   O(1), no allocation
 //   source Rajamani, Vehicle Dynamics and Control, 2nd ed., eq. 3.12 (steady-state bicycle);
-//          Haykin, Adaptive Filter Theory, 4th ed., ch. 6 (normalised LMS)
+//          Bar-Shalom, Li, Kirubarajan, Estimation with Applications to Tracking and Navigation,
+//          eq. 5.2.3 (Kalman filter)
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -41,24 +44,33 @@ inline constexpr auto kBicycleRanges = std::to_array<world::NamedRange<Bicycle>>
      world::kUndersteer_rad_per_mps2.least, world::kUndersteer_rad_per_mps2.most},
 });
 
+inline constexpr std::size_t kLearnedNumbers = 4;
+
 struct Learned {
-  double commanded_rad = 0.0;  // behind the lag: what the wheels have done by now
-  double offset_rad = 0.0, understeer_rad_per_mps2 = 0.0;
-  double turned_s = 0.0;  // how long it was learned from turns
+  double commanded_rad = 0.0;      // behind the lag: what the wheels have done by now
+  double turning_rad_per_s = 0.0;  // of commanded_rad
+  double offset_rad = 0.0, understeer_rad_per_mps2 = 0.0, bend_rad_s6_per_m3 = 0.0, lag_s = 0.0;
+  // Covariance of these four, the upper triangle row by row; not yet set: nothing was measured.
+  std::array<double, kLearnedNumbers*(kLearnedNumbers + 1) / 2> covariance{kUnset};
 };
 static_assert(std::is_trivially_copyable_v<Learned>);
 
 struct LearningParams {
-  double lag_s = 0.2;  // command to yaw rate: delay, actuator, tyres
-  double learn_s = 3.0;
-  double understeer_most_rad_per_mps2 = 0.0025;  // of any car, until its own is known
+  double lag_s = 0.15;  // command to yaw rate: delay, actuator, tyres
+  // Of any car, until its own are known.
+  double offset_most_rad = 0.004;
+  double understeer_most_rad_per_mps2 = 0.0025;
+  double bend_most_rad_s6_per_m3 = 1.5e-6;
+  double residual_sigma_rad = 0.001;  // of what the steady state does not explain
 };
 
 inline constexpr auto kLearningRanges = std::to_array<world::NamedRange<LearningParams>>({
     {"lag_s", &LearningParams::lag_s, 0.02, 0.5},
-    {"learn_s", &LearningParams::learn_s, 0.5, 60.0},
+    {"offset_most_rad", &LearningParams::offset_most_rad, 0.0001, 0.02},
     {"understeer_most_rad_per_mps2", &LearningParams::understeer_most_rad_per_mps2,
      world::kUndersteer_rad_per_mps2.least, world::kUndersteer_rad_per_mps2.most},
+    {"bend_most_rad_s6_per_m3", &LearningParams::bend_most_rad_s6_per_m3, 1e-8, 1e-4},
+    {"residual_sigma_rad", &LearningParams::residual_sigma_rad, 0.0001, 0.02},
 });
 
 // How the car moves: speed forward, yaw rate about body z.
@@ -72,9 +84,13 @@ double lateral_mps2(const Turning& at);
 double angle_rad(const Bicycle& car, const Learned& learned, double curvature_per_m,
                  double lateral_mps2);
 
-// The gradient to be prepared for: the learned one, and more as long as little was learned.
-double understeer_to_expect(const LearningParams& params, const Bicycle& car,
-                            const Learned& learned);
+// The gradient from the origin to a lateral acceleration.
+double understeer_at(const Bicycle& car, const Learned& learned, double lateral_mps2);
+
+// How much more angle the car may need at a lateral acceleration than what was learned says: twice
+// the deviation of K' a + C' a^3. It grows beyond the accelerations from which it was learned.
+double doubt_rad(const LearningParams& params, const Bicycle& car, const Learned& learned,
+                 double lateral_mps2);
 
 // The yaw rate of an angle, in steady state: for whoever has no gyroscope.
 double yaw_rate_rad_per_s(const Bicycle& car, const Learned& learned, double angle_rad,

@@ -13,25 +13,30 @@ constexpr double kObserveFrom_mps = 10.0;  // below, a yaw rate over a speed say
 double share_of(double dt_s, double time_s) { return 1.0 - std::exp(-dt_s / time_s); }
 
 // What one unit of curvature takes at the wheel.
-double angle_per_curvature_m(const Params& p, const Learned& learned, double speed_mps) {
-  const double gradient = p.bicycle.understeer_rad_per_mps2 +
-                          p.gain_share * std::max(learned.understeer_rad_per_mps2, 0.0);
+double angle_per_curvature_m(const Params& p, const Learned& learned, double speed_mps,
+                             double lateral_mps2) {
+  const double model = p.bicycle.understeer_rad_per_mps2;
+  const double gradient =
+      model + p.gain_share * std::max(understeer_at(p.bicycle, learned, lateral_mps2) - model, 0.0);
   return p.bicycle.wheelbase_m + std::max(gradient, 0.0) * speed_mps * speed_mps;
+}
+
+double lateral_mps2(double curvature_per_m, double bank_rad, double speed_mps) {
+  return speed_mps * speed_mps * curvature_per_m * std::cos(bank_rad) -
+         kGravity_mps2 * std::sin(bank_rad);
 }
 
 double feedforward_rad(const Params& p, const Learned& learned, const PathAhead& at,
                        double speed_mps) {
-  const double curvature_per_m = at.curvature_per_m * std::cos(at.bank_rad);
-  const double lateral =
-      speed_mps * speed_mps * curvature_per_m - kGravity_mps2 * std::sin(at.bank_rad);
-  return angle_rad(p.bicycle, learned, curvature_per_m, lateral);
+  return angle_rad(p.bicycle, learned, at.curvature_per_m * std::cos(at.bank_rad),
+                   lateral_mps2(at.curvature_per_m, at.bank_rad, speed_mps));
 }
 
 void observe(const Params& p, const Learned& learned, State& s, const Turning& at, double dt_s) {
   double seen_rad = 0.0;
   if (at.speed_mps > kObserveFrom_mps && std::isfinite(at.yaw_rate_rad_per_s))
     seen_rad =
-        learned.commanded_rad -
+        learned.commanded_rad - learned.lag_s * learned.turning_rad_per_s -
         angle_rad(p.bicycle, learned, at.yaw_rate_rad_per_s / at.speed_mps, lateral_mps2(at));
   if (!std::isfinite(seen_rad)) return;
   seen_rad = std::clamp(p.observer_share * seen_rad, -p.correction_max_rad, p.correction_max_rad);
@@ -39,6 +44,15 @@ void observe(const Params& p, const Learned& learned, State& s, const Turning& a
 }
 
 }  // namespace
+
+double stray_m_rad_per_s2(const Params& p) {
+  return p.stray_max_m * p.bicycle.wheelbase_m * p.bandwidth_rad_per_s * p.bandwidth_rad_per_s /
+         (1.0 - p.observer_share);
+}
+
+double preview_s(const Params& p, const Learned& learned) {
+  return p.learning.lag_s + learned.lag_s + p.preview_s;
+}
 
 double steer(const Params& p, const Learned& learned, State& s, const SteeringInputs& in,
              Duration dt) {
@@ -54,7 +68,8 @@ double steer(const Params& p, const Learned& learned, State& s, const SteeringIn
                                       ? in.yaw_rate_rad_per_s / std::cos(at.bank_rad) - path_rate
                                       : 0.0;
   const double w = p.bandwidth_rad_per_s,
-               per_curvature_m = angle_per_curvature_m(p, learned, v_mps);
+               per_curvature_m = angle_per_curvature_m(
+                   p, learned, v_mps, lateral_mps2(at.curvature_per_m, at.bank_rad, v_mps));
   const double lateral_m = at.lateral_m + lead_s * v_mps * at.course_rad;
   const double course_rad = at.course_rad + lead_s * excess_rad_per_s;
   const double feedback_per_m =

@@ -4,7 +4,7 @@
 //   in     where the car is against the path, how it turns, the path a moment ahead
 //   out    road-wheel angle [rad], left positive
 //   invariants
-//          angle = L k + K a + d' + A k_fb + d + trim + bump, with, of the path preview_s ahead,
+//          angle = L k + K a + d' + A k_fb + d + trim + bump, with, of the path ahead,
 //          k = kappa cos(bank), a = v^2 k - g sin(bank), and of the learned gradient K'
 //            K    = model's + K',  A = L + (model's + gain_share K') v^2
 //            k_fb = -(w^2 (e + T v chi) + 2 z w v (chi + T (r / cos(bank) - v kappa))) / v^2
@@ -35,7 +35,7 @@ struct Params {
   double bandwidth_rad_per_s = 1.2;  // w
   double damping = 1.0;              // z
   double lead_s = 0.3;               // T
-  double preview_s = 0.2;            // what the steering takes
+  double preview_s = 0.15;           // beyond the lag of the steering
   double gain_share = 0.3;           // of the learned gradient in A
   double observer_s = 0.5, observer_share = 0.5;
   double trim_per_s = 0.05;
@@ -43,6 +43,7 @@ struct Params {
   double correction_max_rad = 0.03;   // of d and of trim, each
   double gain_speed_least_mps = 8.0;  // the feedback is no steeper below
   double hold_speed_mps = 0.5;
+  double stray_max_m = 1.0;  // off the line by a gradient that is not yet known
 };
 
 inline constexpr auto kRanges = std::to_array<world::NamedRange<Params>>({
@@ -58,6 +59,7 @@ inline constexpr auto kRanges = std::to_array<world::NamedRange<Params>>({
     {"correction_max_rad", &Params::correction_max_rad, 0.0, 0.1},
     {"gain_speed_least_mps", &Params::gain_speed_least_mps, 2.0, 20.0},
     {"hold_speed_mps", &Params::hold_speed_mps, 0.1, 5.0},
+    {"stray_max_m", &Params::stray_max_m, 0.1, 10.0},
 });
 
 struct State {
@@ -74,7 +76,7 @@ struct Deviation {
 };
 
 struct PathAhead {
-  double curvature_per_m = kUnset, bank_rad = kUnset;  // preview_s ahead, Map
+  double curvature_per_m = kUnset, bank_rad = kUnset;  // so far ahead, Map
 };
 
 struct SteeringInputs {
@@ -84,6 +86,13 @@ struct SteeringInputs {
   double last_angle_rad = 0.0;
   double angle_max_rad = kUnset;  // what may be asked for at this speed
 };
+
+// An angle d that the law does not know of leaves the car (1 - observer_share) d v^2 / (L w^2) off its
+// path; with that at stray_max_m, d v^2 is this.
+double stray_m_rad_per_s2(const Params& params);
+
+// How far ahead of the car the path is that is steered for.
+double preview_s(const Params& params, const Learned& learned);
 
 double steer(const Params& params, const Learned& learned, State& state, const SteeringInputs& in,
              Duration dt);

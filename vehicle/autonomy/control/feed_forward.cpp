@@ -37,7 +37,7 @@ LateralDiagnostics steer_forward(const steering::Params& params, const LateralPa
   if (!on_path_m) return out.verdict = LateralVerdict::kNoTrajectory, out;
   const double v_mps = std::max(ego.vx_mps, 0.0);
   const TrajectoryPoint here = at(trajectory, *on_path_m);
-  const TrajectoryPoint ahead = at(trajectory, *on_path_m + v_mps * params.preview_s);
+  const TrajectoryPoint ahead = at(trajectory, *on_path_m + v_mps * preview_s(params, learned));
   const Errors e = errors_at(here, ego);
   out.cross_track_m = out.e1_m = e.lateral_m;
   out.heading_error_rad = out.e2_rad = e.heading_rad;

@@ -111,8 +111,7 @@ SpeedProfile sampled(const History& history, double spacing_m) {
 double limit_mps(const LinePoint& p, const DriveLimits& limits) {
   const double by_grip_mps = limit_mps(p, limits.warmth);
   if (!limits.steering) return by_grip_mps;
-  return std::min(by_grip_mps,
-                  steering::fastest_mps(*limits.steering, p.curvature_per_m, p.bank_rad));
+  return steering::fastest_mps(*limits.steering, p.curvature_per_m, p.bank_rad, by_grip_mps);
 }
 
 const RoadSample& RoadAhead::sample(double distance_m) const {
