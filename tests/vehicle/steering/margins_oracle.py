@@ -46,7 +46,7 @@ def car(v, understeer, friction, front_share, rear_share, lag_s):
 
     def response(z):
         z = np.atleast_1d(z)
-        return (c @ np.linalg.solve(z[:, None, None] * np.eye(7) - a, b))[:, :, 0].T
+        return (c @ np.linalg.solve(z[:, None, None] * np.eye(7) - a, b[None]))[:, :, 0].T
     return response
 
 
