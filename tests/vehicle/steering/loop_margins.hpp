@@ -46,7 +46,7 @@ double largest(Fn f, double low, double high) {
 
 template <class Response>
 Margins margins_of(Response loop, double highest_rad_per_s) {
-  constexpr int kPoints = 600;
+  constexpr int kPoints = 400;
   constexpr double kLowest_rad_per_s = 0.005;
   const auto frequency = [&](int i) {
     return kLowest_rad_per_s *
