@@ -36,7 +36,7 @@ double yaw_rate(const ReckoningParams& p, ReckoningState& s, double by_steering,
 }
 
 double slip_of(const ReckoningParams& p, double speed_mps, double rate, double bank_rad) {
-  const double lateral_mps2 = speed_mps * rate - kGravity_mps2 * std::sin(bank_rad);
+  const double lateral_mps2 = steering::lateral_mps2({speed_mps, rate, bank_rad});
   return p.cg_to_rear_m * rate - speed_mps * p.rear_slip_rad_per_mps2 * lateral_mps2;
 }
 

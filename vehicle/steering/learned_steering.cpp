@@ -29,6 +29,10 @@ double angle_rad(const Bicycle& car, const Learned& learned, double curvature_pe
          (car.understeer_rad_per_mps2 + learned.understeer_rad_per_mps2) * lateral_mps2;
 }
 
+double angle_rad(const Bicycle& car, const Learned& learned, const RoadLoad& at) {
+  return angle_rad(car, learned, turn_per_m(at), lateral_demand_mps2(at));
+}
+
 double understeer_to_expect(const LearningParams& params, const Bicycle& car,
                             const Learned& learned) {
   const double seen = car.understeer_rad_per_mps2 + learned.understeer_rad_per_mps2;

@@ -24,6 +24,7 @@
 
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/steering/road_load.hpp"
 #include "vehicle/world/legal_range.hpp"
 
 namespace pitwall::steering {
@@ -71,6 +72,7 @@ double lateral_mps2(const Turning& at);
 // The steady-state angle of a curvature in the plane of the road.
 double angle_rad(const Bicycle& car, const Learned& learned, double curvature_per_m,
                  double lateral_mps2);
+double angle_rad(const Bicycle& car, const Learned& learned, const RoadLoad& at);
 
 // The gradient to be prepared for: the learned one, and more as long as little was learned.
 double understeer_to_expect(const LearningParams& params, const Bicycle& car,

@@ -212,14 +212,14 @@ TEST(Margins, SciPyFindsTheSame) {
            << p.learning.lag_s << '\n';
   for (const LoopCase& c : cars) question << text_of(c) << '\n';
   const std::string asked = ::testing::TempDir() + "margins.in",
-                    told = ::testing::TempDir() + "margins.out";
+                    reported = ::testing::TempDir() + "margins.out";
   std::ofstream(asked) << question.str();
   const std::string command = "/usr/bin/python3 '" PITWALL_SOURCE_DIR
                               "/tests/vehicle/steering/margins_oracle.py' < '" +
-                              asked + "' > '" + told + "'";
+                              asked + "' > '" + reported + "'";
   ASSERT_EQ(std::system(command.c_str()), 0)  // NOLINT: a test
       << "does /usr/bin/python3 have SciPy (python3-scipy)?";
-  std::ifstream answer(told);
+  std::ifstream answer(reported);
   for (const LoopCase& c : cars) {
     Margins theirs;
     answer >> theirs.phase_rad >> theirs.gain_up >> theirs.gain_down >> theirs.delay_s >>

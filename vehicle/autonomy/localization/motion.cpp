@@ -55,7 +55,7 @@ void use_steering_model(const Intake& in, const world::VehicleSignals& car, Inst
   Measurement m{.kind = Kind::kImu, .at = at};
   m.imu.rate_rad_per_s[2] = rate;
   m.imu.force_mps2[0] = in.state.wheels.accel_mps2;
-  m.imu.force_mps2[1] = speed * rate - kGravity_mps2 * std::sin(in.bank_rad());
+  m.imu.force_mps2[1] = steering::lateral_mps2({speed, rate, in.bank_rad()});
   (void)insert(in.state.filter, in.filter, m);
 }
 
