@@ -32,6 +32,12 @@ std::optional<Problem> illegal(const Params& p) {
   if (auto problem = first_illegal(kLongitudinalRanges, p.longitudinal, "longitudinal."))
     return problem;
   if (auto problem = first_illegal(steering::kRanges, p.steering, "steering.")) return problem;
+  if (auto problem =
+          first_illegal(steering::kBicycleRanges, p.steering.bicycle, "steering.bicycle."))
+    return problem;
+  if (auto problem =
+          first_illegal(steering::kLearningRanges, p.steering.learning, "steering.learning."))
+    return problem;
   return illegal_gear(p.gear);
 }
 
