@@ -36,10 +36,12 @@ struct Bicycle {
   double understeer_rad_per_mps2 = 0.0002;
 };
 
+inline constexpr world::Range kUndersteer_rad_per_mps2{-0.002, 0.01};
+
 inline constexpr auto kBicycleRanges = std::to_array<world::NamedRange<Bicycle>>({
-    {"wheelbase_m", &Bicycle::wheelbase_m, world::kWheelbase_m.least, world::kWheelbase_m.most},
-    {"understeer_rad_per_mps2", &Bicycle::understeer_rad_per_mps2,
-     world::kUndersteer_rad_per_mps2.least, world::kUndersteer_rad_per_mps2.most},
+    {"wheelbase_m", &Bicycle::wheelbase_m, 2.5, 3.5},
+    {"understeer_rad_per_mps2", &Bicycle::understeer_rad_per_mps2, kUndersteer_rad_per_mps2.least,
+     kUndersteer_rad_per_mps2.most},
 });
 
 struct Learned {
@@ -59,7 +61,7 @@ inline constexpr auto kLearningRanges = std::to_array<world::NamedRange<Learning
     {"lag_s", &LearningParams::lag_s, 0.02, 0.5},
     {"learn_s", &LearningParams::learn_s, 0.5, 60.0},
     {"understeer_most_rad_per_mps2", &LearningParams::understeer_most_rad_per_mps2,
-     world::kUndersteer_rad_per_mps2.least, world::kUndersteer_rad_per_mps2.most},
+     kUndersteer_rad_per_mps2.least, kUndersteer_rad_per_mps2.most},
 });
 
 // How the car moves: speed forward, yaw rate about body z.
