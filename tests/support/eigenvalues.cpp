@@ -14,10 +14,18 @@ Square square(std::span<const double> matrix) {
   return {matrix.data(), rows, rows};
 }
 
+Eigen::VectorXcd eigenvalues(std::span<const double> matrix) {
+  return Eigen::EigenSolver<Eigen::MatrixXd>(square(matrix), false).eigenvalues();
+}
+
 }  // namespace
 
 double largest_real_part(std::span<const double> matrix) {
-  return Eigen::EigenSolver<Eigen::MatrixXd>(square(matrix), false).eigenvalues().real().maxCoeff();
+  return eigenvalues(matrix).real().maxCoeff();
+}
+
+double largest_modulus(std::span<const double> matrix) {
+  return eigenvalues(matrix).cwiseAbs().maxCoeff();
 }
 
 double smallest_eigenvalue(std::span<const double> matrix) {

@@ -8,8 +8,9 @@
 
 namespace pitwall::testing {
 
-// Of a square matrix, column by column: the largest real part.
+// Of a square matrix, column by column: the largest real part, the largest modulus.
 double largest_real_part(std::span<const double> matrix);
+double largest_modulus(std::span<const double> matrix);
 // Of a symmetric one: the smallest.
 double smallest_eigenvalue(std::span<const double> matrix);
 

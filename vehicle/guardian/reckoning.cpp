@@ -36,7 +36,7 @@ double yaw_rate(const ReckoningParams& p, ReckoningState& s, double by_steering,
 }
 
 double slip_of(const ReckoningParams& p, double speed_mps, double rate, double bank_rad) {
-  const double lateral_mps2 = speed_mps * rate - kGravity_mps2 * std::sin(bank_rad);
+  const double lateral_mps2 = steering::lateral_mps2({speed_mps, rate, bank_rad});
   return p.cg_to_rear_m * rate - speed_mps * p.rear_slip_rad_per_mps2 * lateral_mps2;
 }
 
@@ -156,8 +156,8 @@ void reckon(const ReckoningParams& params, ReckoningState& state, const Motion& 
   if (std::isfinite(motion.speed_mps)) state.pose.speed_mps = motion.speed_mps;
   Pose& pose = state.pose;
   const double by_steering = steering::yaw_rate_rad_per_s(
-      {params.wheelbase_m, params.understeer_rad_per_mps2}, state.learned,
-      motion.steering_motor_rad / params.steering_ratio, pose.speed_mps, bank_rad);
+      params.bicycle, state.learned, motion.steering_motor_rad / params.steering_ratio,
+      pose.speed_mps, bank_rad);
   pose.yaw_rate_rad_per_s = yaw_rate(params, state, by_steering, now);
   pose.slip_mps = slip_of(params, pose.speed_mps, pose.yaw_rate_rad_per_s, bank_rad);
   advance(state, bank_rad, now);

@@ -41,10 +41,9 @@ struct ReceiverMounting {
 
 struct ReckoningParams {
   std::array<ReceiverMounting, world::kGnssUnits> units;
-  double cg_to_rear_m = 1.247;               // [0.5, 3]
-  double rear_slip_rad_per_mps2 = 0.0014;    // [0, 0.02]
-  double wheelbase_m = 2.971;                // [2.5, 3.5]
-  double understeer_rad_per_mps2 = 0.0002;   // [-0.002, 0.01]
+  double cg_to_rear_m = 1.247;             // [0.5, 3]
+  double rear_slip_rad_per_mps2 = 0.0014;  // [0, 0.02]
+  steering::Bicycle bicycle;
   double steering_ratio = 19.5;              // [10, 25]
   Duration gyro_age_max = milliseconds(50);  // [10, 200] ms
   double gyro_differ_rad_per_s = 0.05;       // beyond this the steering decides; [0.01, 0.5]

@@ -43,12 +43,9 @@ CarFile read_root(yaml::StrictMap& map) {
   stop.steering = car.params.control.steering = steering;
   stop.tyres = car.params.planning.line.friction.tyres;
   car.params.planning.stop_friction = stop.friction;
-  car.params.supervisor.faults.oversteer.wheelbase_m = steering.bicycle.wheelbase_m;
-  car.params.supervisor.faults.oversteer.understeer_rad_per_mps2 =
-      steering.bicycle.understeer_rad_per_mps2;
+  car.params.supervisor.faults.oversteer.bicycle = steering.bicycle;
+  car.params.localization.bicycle = steering.bicycle;
   car.params.localization.steering_ratio = car.params.outbound.steering_ratio;
-  car.params.localization.wheelbase_m = steering.bicycle.wheelbase_m;
-  car.params.localization.understeer_rad_per_mps2 = steering.bicycle.understeer_rad_per_mps2;
   return car;
 }
 

@@ -15,8 +15,7 @@ guardian::Params guardian_params(const CarParams& params) {
   }
   out.reckoning.cg_to_rear_m = located.filter.spatial.cg_to_rear_m;
   out.reckoning.rear_slip_rad_per_mps2 = located.filter.spatial.rear_slip_rad_per_mps2;
-  out.reckoning.wheelbase_m = located.wheelbase_m;
-  out.reckoning.understeer_rad_per_mps2 = located.understeer_rad_per_mps2;
+  out.reckoning.bicycle = located.bicycle;
   out.reckoning.steering_ratio = params.outbound.steering_ratio;
   out.following = safety::following_of(params.supervisor);
   out.following.gate = params.gate;

@@ -25,7 +25,7 @@ double yaw_excess(const OversteerParams& params, const OversteerInputs& in) {
   const double v = in.speed_mps;
   if (!(v >= params.speed_min_mps)) return 0.0;
   const double steered =
-      v * in.road_wheel_rad / (params.wheelbase_m + params.understeer_rad_per_mps2 * v * v);
+      steering::yaw_rate_rad_per_s(params.bicycle, {}, in.road_wheel_rad, v, 0.0);
   if (!std::isfinite(steered) || !std::isfinite(in.yaw_rate_rad_per_s)) return 0.0;
   const double turns = std::abs(in.yaw_rate_rad_per_s);
   const bool as_steered = steered * in.yaw_rate_rad_per_s > 0.0;

@@ -6,7 +6,7 @@
 //   invariants
 //          one wheel that lies, spins, locks or has left the ground over a bump has no say, nor has
 //          a launch: below speed_min nothing is judged
-//   model  yaw rate = v * angle / (wheelbase + understeer * v^2), on the road's own plane
+//   model  the steady-state bicycle of steering/learned_steering.hpp, on a level road
 //   errors what is not known is not judged
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -16,6 +16,7 @@
 #include <type_traits>
 
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/steering/learned_steering.hpp"
 #include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/signals.hpp"
 
@@ -26,8 +27,7 @@ struct OversteerParams {
   double rear_spin_max = 0.10;  // of the speed
   double rear_lock_max = 0.20;  // of the speed
   double yaw_excess_max_rad_per_s = 0.25;
-  double wheelbase_m = 2.971;               // as of the safe stop
-  double understeer_rad_per_mps2 = 0.0002;  // as of the safe stop
+  steering::Bicycle bicycle;
 };
 
 inline constexpr auto kOversteerRanges = std::to_array<world::NamedRange<OversteerParams>>({

@@ -34,12 +34,10 @@ Wanted wanted_at(const Trajectory& path, double s_m) {
           finite_or(between(a.accel_mps2, b.accel_mps2), 0.0)};
 }
 
-// delta = L k + K_us (v^2 k - g sin(bank))
 double feedforward_rad(const SafeStopParams& params, const steering::Learned& learned,
                        double speed_mps, const Wanted& w) {
-  const Grip grip = grip_at(params, speed_mps, w.curvature_per_m, w.bank_rad);
-  return steering::angle_rad(params.steering.bicycle, learned, w.curvature_per_m,
-                             grip.lateral_mps2);
+  return steering::angle_rad(params.steering.bicycle, learned,
+                             {speed_mps, w.curvature_per_m, w.bank_rad});
 }
 
 // `followed`: how far feedback came; not begun where there was none.

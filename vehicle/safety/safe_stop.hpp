@@ -8,8 +8,7 @@
 //   out    a command every tick
 //   frames road-wheel angle and curvature left positive; bank positive where the left side is lower
 //   errors a trajectory without points: the steering angle is held and decel_without_plan is used
-//   source steady-state bicycle: delta = L k + K_us a_y, Rajamani, Vehicle Dynamics and Control,
-//          2nd ed., eq. 3.12; a_y = v^2 k - g sin(bank)
+//   source steady-state bicycle of steering/path_steering.hpp
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vehicle/steering/road_load.hpp"
+
 namespace pitwall::safety {
 namespace {
 
@@ -30,14 +32,10 @@ double grip_left_mps2(const SafeStopParams& params, StopKind kind, const Grip& g
 
 Grip grip_at(const SafeStopParams& params, double speed_mps, double curvature_per_m,
              double bank_rad, double tyre_c) {
-  const double centripetal_mps2 = speed_mps * speed_mps * curvature_per_m;
-  const double normal_mps2 = kGravity_mps2 * std::cos(bank_rad) +
-                             centripetal_mps2 * std::sin(bank_rad) +
-                             params.downforce_per_m * speed_mps * speed_mps;
+  const steering::RoadLoad at{speed_mps, curvature_per_m, bank_rad};
   const double friction = params.friction * world::share_at(params.tyres, tyre_c);
-  return {friction * std::max(0.0, normal_mps2),
-          centripetal_mps2 - kGravity_mps2 * std::sin(bank_rad),
-          params.coast_mps2 + params.drag_per_m * speed_mps * speed_mps};
+  return {friction * std::max(0.0, normal_load_mps2(at, params.downforce_per_m)),
+          lateral_demand_mps2(at), params.coast_mps2 + params.drag_per_m * speed_mps * speed_mps};
 }
 
 double brake_for(const SafeStopParams& params, StopKind kind, double decel_mps2, const Grip& grip) {

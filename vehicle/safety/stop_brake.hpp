@@ -5,8 +5,7 @@
 //   out    grip, pressure
 //   frames lateral positive left; bank positive where the left side is lower
 //   invariants
-//          friction circle a_x^2 + a_y^2 <= (mu N / m)^2,
-//          N / m = g cos(bank) + v^2 k sin(bank) + downforce v^2, a_y = v^2 k - g sin(bank),
+//          friction circle a_x^2 + a_y^2 <= (mu N / m)^2, N / m and a_y of steering/road_load.hpp,
 //          mu by the temperature of the tyres, of it the share that may be used; braking has
 //          brake_share of what the corner leaves, because the front axle locks before the rear one.
 //          Air, rolling and engine slow the car as well, and the brake needs not

@@ -4,22 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vehicle/steering/road_load.hpp"
+
 namespace pitwall::steering {
 namespace {
 
-struct Turn {
-  double per_m = 0.0, fall_mps2 = 0.0, way = 1.0;  // to the left: 1
-};
-
-bool is_slow_enough(const AngleBudget& b, const Turn& turn, double speed_mps) {
-  const double speed_2 = speed_mps * speed_mps;
-  const double lateral_mps2 = speed_2 * turn.per_m - turn.fall_mps2;
+// `turn` as one to the left; `way` is -1 where it goes to the right.
+bool is_slow_enough(const AngleBudget& b, const RoadLoad& turn, double way) {
+  const double lateral_mps2 = lateral_demand_mps2(turn);
   const double doubt = doubt_rad(b.learning, b.car, b.learned, lateral_mps2);
-  const double needed = b.car.wheelbase_m * turn.per_m + turn.way * b.learned.offset_rad +
+  const double needed = b.car.wheelbase_m * turn_per_m(turn) + way * b.learned.offset_rad +
                         understeer_at(b.car, b.learned, lateral_mps2) * lateral_mps2 + doubt;
-  // A road that is nearly straight needs no speed to be kept.
-  return needed <= b.share * angle_max_rad(b.limits, speed_mps) &&
-         !(doubt * speed_2 > b.stray_m_rad_per_s2 && lateral_mps2 > 0.0);
+  return needed <= b.share * angle_max_rad(b.limits, turn.speed_mps) &&
+         (doubt * turn.speed_mps * turn.speed_mps <= b.stray_m_rad_per_s2 || lateral_mps2 <= 0.0);
 }
 
 }  // namespace
@@ -38,15 +35,18 @@ double fastest_mps(const AngleBudget& budget, double curvature_per_m, double ban
                    double most_mps) {
   constexpr double kClose_mps = 0.01;
   const double way = curvature_per_m < 0.0 ? -1.0 : 1.0;
-  const Turn turn{std::abs(curvature_per_m) * std::cos(bank_rad),
-                  way * kGravity_mps2 * std::sin(bank_rad), way};
-  if (is_slow_enough(budget, turn, most_mps)) return most_mps;
+  RoadLoad turn{most_mps, std::abs(curvature_per_m), way * bank_rad};
+  const auto is_slow_enough_at = [&](double speed_mps) {
+    turn.speed_mps = speed_mps;
+    return is_slow_enough(budget, turn, way);
+  };
+  if (is_slow_enough_at(most_mps)) return most_mps;
   double slow_mps = 0.0, fast_mps = most_mps;
   while (fast_mps - slow_mps > kClose_mps) {
     const double middle_mps = 0.5 * (slow_mps + fast_mps);
-    (is_slow_enough(budget, turn, middle_mps) ? slow_mps : fast_mps) = middle_mps;
+    (is_slow_enough_at(middle_mps) ? slow_mps : fast_mps) = middle_mps;
   }
-  return is_slow_enough(budget, turn, slow_mps) ? slow_mps : 0.0;
+  return is_slow_enough_at(slow_mps) ? slow_mps : 0.0;
 }
 
 }  // namespace pitwall::steering

@@ -11,6 +11,8 @@ constexpr double kLearnFrom_mps = 15.0;  // below, a yaw rate over a speed says 
 constexpr double kCorrelation_s = 0.5;   // of the residual
 constexpr double kLagDoubt_s = 0.1;  // a lag is not all that there is between angle and yaw rate
 constexpr double kSurely = 2.0;      // deviations
+// Beyond, it is no car.
+constexpr double kLateralMost_mps2 = 60.0, kTurningMost_rad_per_s = 10.0;
 
 using Numbers = std::array<double, kLearnedNumbers>;
 
@@ -96,17 +98,26 @@ double doubt_rad(const LearningParams& params, const Bicycle& car, const Learned
   return kSurely * std::sqrt(std::max(product(h, product(p, h)), 0.0));
 }
 
+double angle_rad(const Bicycle& car, const Learned& learned, const RoadLoad& at) {
+  return angle_rad(car, learned, turn_per_m(at), lateral_demand_mps2(at));
+}
+
 double yaw_rate_rad_per_s(const Bicycle& car, const Learned& learned, double angle_rad,
                           double speed_mps, double bank_rad) {
-  constexpr int kRounds = 3;  // a gradient that bends with what is looked for
+  constexpr double kTightest_per_m = 0.2;
+  constexpr int kRounds = 45;
+  if (!std::isfinite(angle_rad) || !std::isfinite(speed_mps)) return kUnset;
   const double fall_mps2 = kGravity_mps2 * std::sin(bank_rad);
-  double rate = 0.0, gradient = understeer_at(car, learned, 0.0);
+  const double tightest_per_m =
+      std::min(kTightest_per_m, kLateralMost_mps2 / (speed_mps * speed_mps));
+  double low_per_m = -tightest_per_m, high_per_m = tightest_per_m;
   for (int i = 0; i < kRounds; ++i) {
-    rate = speed_mps * (angle_rad - learned.offset_rad + gradient * fall_mps2) /
-           (car.wheelbase_m + gradient * speed_mps * speed_mps);
-    gradient = understeer_at(car, learned, speed_mps * rate - fall_mps2);
+    const double middle_per_m = 0.5 * (low_per_m + high_per_m);
+    const double lateral = speed_mps * speed_mps * middle_per_m - fall_mps2;
+    const bool more = steering::angle_rad(car, learned, middle_per_m, lateral) < angle_rad;
+    (more ? low_per_m : high_per_m) = middle_per_m;
   }
-  return rate;
+  return speed_mps * 0.5 * (low_per_m + high_per_m);
 }
 
 void follow_command(const LearningParams& params, Learned& learned, double commanded_rad,
@@ -124,7 +135,9 @@ void learn(const LearningParams& params, const Bicycle& car, Learned& learned, c
   const double a_mps2 = lateral_mps2(at);
   const double residual_rad =
       learned.commanded_rad - angle_rad(car, learned, at.yaw_rate_rad_per_s / at.speed_mps, a_mps2);
-  if (!std::isfinite(residual_rad)) return;
+  if (!std::isfinite(residual_rad) || !(std::abs(a_mps2) < kLateralMost_mps2) ||
+      !(std::abs(learned.turning_rad_per_s) < kTurningMost_rad_per_s))
+    return;
   if (!is_begun(learned)) learned.covariance = unknown(params, car);
   for (std::size_t i = 0; i < kDrift.size(); ++i)
     learned.covariance[place_of(i, i)] += square(kDrift[i]) / kDriftOver_s * dt_s;

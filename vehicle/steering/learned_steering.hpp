@@ -27,6 +27,7 @@
 
 #include "protocol/vocabulary/time.hpp"
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/steering/road_load.hpp"
 #include "vehicle/world/legal_range.hpp"
 
 namespace pitwall::steering {
@@ -38,10 +39,12 @@ struct Bicycle {
   double understeer_rad_per_mps2 = 0.0002;
 };
 
+inline constexpr world::Range kUndersteer_rad_per_mps2{-0.002, 0.01};
+
 inline constexpr auto kBicycleRanges = std::to_array<world::NamedRange<Bicycle>>({
-    {"wheelbase_m", &Bicycle::wheelbase_m, world::kWheelbase_m.least, world::kWheelbase_m.most},
-    {"understeer_rad_per_mps2", &Bicycle::understeer_rad_per_mps2,
-     world::kUndersteer_rad_per_mps2.least, world::kUndersteer_rad_per_mps2.most},
+    {"wheelbase_m", &Bicycle::wheelbase_m, 2.5, 3.5},
+    {"understeer_rad_per_mps2", &Bicycle::understeer_rad_per_mps2, kUndersteer_rad_per_mps2.least,
+     kUndersteer_rad_per_mps2.most},
 });
 
 inline constexpr std::size_t kLearnedNumbers = 4;
@@ -68,7 +71,7 @@ inline constexpr auto kLearningRanges = std::to_array<world::NamedRange<Learning
     {"lag_s", &LearningParams::lag_s, 0.02, 0.5},
     {"offset_most_rad", &LearningParams::offset_most_rad, 0.0001, 0.02},
     {"understeer_most_rad_per_mps2", &LearningParams::understeer_most_rad_per_mps2,
-     world::kUndersteer_rad_per_mps2.least, world::kUndersteer_rad_per_mps2.most},
+     kUndersteer_rad_per_mps2.least, kUndersteer_rad_per_mps2.most},
     {"bend_most_rad_s6_per_m3", &LearningParams::bend_most_rad_s6_per_m3, 1e-8, 1e-4},
     {"residual_sigma_rad", &LearningParams::residual_sigma_rad, 0.0001, 0.02},
 });
@@ -83,6 +86,7 @@ double lateral_mps2(const Turning& at);
 // The steady-state angle of a curvature in the plane of the road.
 double angle_rad(const Bicycle& car, const Learned& learned, double curvature_per_m,
                  double lateral_mps2);
+double angle_rad(const Bicycle& car, const Learned& learned, const RoadLoad& at);
 
 // The gradient from the origin to a lateral acceleration.
 double understeer_at(const Bicycle& car, const Learned& learned, double lateral_mps2);

@@ -21,17 +21,6 @@ double angle_per_curvature_m(const Params& p, const Learned& learned, double spe
   return p.bicycle.wheelbase_m + std::max(gradient, 0.0) * speed_mps * speed_mps;
 }
 
-double lateral_mps2(double curvature_per_m, double bank_rad, double speed_mps) {
-  return speed_mps * speed_mps * curvature_per_m * std::cos(bank_rad) -
-         kGravity_mps2 * std::sin(bank_rad);
-}
-
-double feedforward_rad(const Params& p, const Learned& learned, const PathAhead& at,
-                       double speed_mps) {
-  return angle_rad(p.bicycle, learned, at.curvature_per_m * std::cos(at.bank_rad),
-                   lateral_mps2(at.curvature_per_m, at.bank_rad, speed_mps));
-}
-
 void observe(const Params& p, const Learned& learned, State& s, const Turning& at, double dt_s) {
   double seen_rad = 0.0;
   if (at.speed_mps > kObserveFrom_mps && std::isfinite(at.yaw_rate_rad_per_s))
@@ -69,13 +58,15 @@ double steer(const Params& p, const Learned& learned, State& s, const SteeringIn
                                       : 0.0;
   const double w = p.bandwidth_rad_per_s,
                per_curvature_m = angle_per_curvature_m(
-                   p, learned, v_mps, lateral_mps2(at.curvature_per_m, at.bank_rad, v_mps));
+                   p, learned, v_mps,
+                   lateral_demand_mps2({v_mps, at.curvature_per_m, at.bank_rad}));
   const double lateral_m = at.lateral_m + lead_s * v_mps * at.course_rad;
   const double course_rad = at.course_rad + lead_s * excess_rad_per_s;
   const double feedback_per_m =
       -(w * w * lateral_m + 2.0 * p.damping * w * v_mps * course_rad) / (v_mps * v_mps);
-  const double known_rad = feedforward_rad(p, learned, in.ahead, speed_mps) +
-                           per_curvature_m * feedback_per_m + s.unknown_rad;
+  const double forward_rad =
+      angle_rad(p.bicycle, learned, {speed_mps, in.ahead.curvature_per_m, in.ahead.bank_rad});
+  const double known_rad = forward_rad + per_curvature_m * feedback_per_m + s.unknown_rad;
   if (!std::isfinite(known_rad)) return in.last_angle_rad;
   if (!s.begun) {
     s.begun = true;

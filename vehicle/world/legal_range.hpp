@@ -37,8 +37,6 @@ struct Range {
   double least, most;
 };
 inline constexpr Range kSteeringRatio{10.0, 25.0};  // motor angle : road-wheel angle
-inline constexpr Range kWheelbase_m{2.5, 3.5};
-inline constexpr Range kUndersteer_rad_per_mps2{-0.002, 0.01};  // of the steady-state bicycle
 
 // A range that depends on other parameters.
 struct LegalRange {

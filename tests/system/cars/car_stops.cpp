@@ -16,6 +16,7 @@
 #include "hil/plant/family/grip_limit.hpp"
 #include "protocol/vocabulary/check.hpp"
 #include "tests/support/path_distance.hpp"
+#include "vehicle/steering/road_load.hpp"
 
 namespace pitwall::testing {
 namespace {
@@ -209,8 +210,7 @@ double speed_of(const plant::Params& plant, const std::string& track) {
     for (double s_m = 0.0; s_m < map.length_m(); s_m += kStep_m) {
       const world::TrackPoint at = map.at(s_m);
       const double demand_mps2 =
-          speed_mps * speed_mps * at.curvature_per_m * std::cos(at.bank_rad) -
-          kGravity_mps2 * std::sin(at.bank_rad);
+          steering::lateral_demand_mps2({speed_mps, at.curvature_per_m, at.bank_rad});
       const plant::Turn turn{speed_mps, at.curvature_per_m, at.bank_rad};
       if (std::abs(demand_mps2) > kUseShare * plant::grip_limit(plant, turn).lateral_mps2)
         return false;

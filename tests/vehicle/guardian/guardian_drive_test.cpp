@@ -178,7 +178,7 @@ TEST(GuardianSpeed, WithoutGyroscopesTheSteeringTurnsTheCarForATenthOfASecond) {
     const ReckoningParams& p = car->params.reckoning;
     const double v_mps = car->state.reckoning.pose.speed_mps;
     const double rate = v_mps * (kMotor_rad / p.steering_ratio) /
-                        (p.wheelbase_m + p.understeer_rad_per_mps2 * v_mps * v_mps);
+                        (p.bicycle.wheelbase_m + p.bicycle.understeer_rad_per_mps2 * v_mps * v_mps);
     EXPECT_NEAR(car->state.reckoning.pose.yaw_rate_rad_per_s,
                 beyond_ns == 0 ? rate : kBefore_rad_per_s, 1e-12);
   }

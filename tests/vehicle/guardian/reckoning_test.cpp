@@ -111,9 +111,9 @@ TEST(Reckoning, OfTwoGyroscopesThatDifferTheOneCountsThatTheSteeringAgreesWith) 
     Circle c;
     c.with_car(0.0, 0.0, 100);
     const double fall = kGravity_mps2 * std::sin(kBank_rad);
-    const double k = c.params.understeer_rad_per_mps2;
-    const double road_rad =
-        c.params.wheelbase_m * kRate / kCircleSpeed_mps + k * (kCircleSpeed_mps * kRate - fall);
+    const double k = c.params.bicycle.understeer_rad_per_mps2;
+    const double road_rad = c.params.bicycle.wheelbase_m * kRate / kCircleSpeed_mps +
+                            k * (kCircleSpeed_mps * kRate - fall);
     for (int i = 0; i < 400; ++i) {
       c.step();
       c.alone(c.gyros(first_lies ? 0.3 : 0.0, first_lies ? 0.0 : 0.3),
@@ -127,8 +127,9 @@ TEST(Reckoning, WithoutAGyroscopeTheSteeringSaysHowItTurns) {
   Circle c;
   c.with_car(0.0, 0.0, 100);
   const double fall = kGravity_mps2 * std::sin(kBank_rad);
-  const double road_rad = c.params.wheelbase_m * kRate / kCircleSpeed_mps +
-                          c.params.understeer_rad_per_mps2 * (kCircleSpeed_mps * kRate - fall);
+  const double road_rad =
+      c.params.bicycle.wheelbase_m * kRate / kCircleSpeed_mps +
+      c.params.bicycle.understeer_rad_per_mps2 * (kCircleSpeed_mps * kRate - fall);
   for (int i = 0; i < 1000; ++i) {
     c.step();
     c.alone({}, road_rad * c.params.steering_ratio);

@@ -182,10 +182,10 @@ TEST(AutonomySection, EachNumberOfSteeringMovesItsOwnParameterWhereverItIsKnown)
   const auto car = read_car(other, "car.yaml");
   ASSERT_TRUE(car) << to_string(car.error());
   const CarParams& p = car->params;
-  EXPECT_EQ(p.localization.wheelbase_m, 3.1);
-  EXPECT_EQ(p.localization.understeer_rad_per_mps2, 0.0005);
-  EXPECT_EQ(p.supervisor.faults.oversteer.wheelbase_m, 3.1);
-  EXPECT_EQ(p.supervisor.faults.oversteer.understeer_rad_per_mps2, 0.0005);
+  EXPECT_EQ(p.localization.bicycle.wheelbase_m, 3.1);
+  EXPECT_EQ(p.localization.bicycle.understeer_rad_per_mps2, 0.0005);
+  EXPECT_EQ(p.supervisor.faults.oversteer.bicycle.wheelbase_m, 3.1);
+  EXPECT_EQ(p.supervisor.faults.oversteer.bicycle.understeer_rad_per_mps2, 0.0005);
 }
 
 TEST(AutonomySection, EachNumberOfLocalizationMovesItsOwnParameter) {

@@ -17,7 +17,7 @@ TEST(Guarding, TheGuardianHasTheCarsOwnParameters) {
   const CarParams& car = av21_file().params;
   const guardian::Params p = guardian_params(car);
   EXPECT_EQ(p.reckoning.steering_ratio, car.outbound.steering_ratio);
-  EXPECT_EQ(p.reckoning.wheelbase_m, car.localization.wheelbase_m);
+  EXPECT_EQ(p.reckoning.bicycle.wheelbase_m, car.localization.bicycle.wheelbase_m);
   EXPECT_EQ(p.reckoning.units[1].y_m, car.localization.units[1].antenna.y_m);
   EXPECT_EQ(p.reckoning.units[1].baseline_yaw_rad, car.localization.units[1].baseline_yaw_rad);
   EXPECT_EQ(p.following.stop.brake_max_kpa, car.supervisor.safe_stop.brake_max_kpa);

@@ -12,11 +12,12 @@ namespace {
 
 // A car that follows its front wheels.
 OversteerInputs steady(const OversteerParams& p, double v, double road_wheel_rad) {
-  return {.wheel_mps = {{v, v, v, v}},
-          .road_wheel_rad = road_wheel_rad,
-          .speed_mps = v,
-          .yaw_rate_rad_per_s =
-              v * road_wheel_rad / (p.wheelbase_m + p.understeer_rad_per_mps2 * v * v)};
+  return {
+      .wheel_mps = {{v, v, v, v}},
+      .road_wheel_rad = road_wheel_rad,
+      .speed_mps = v,
+      .yaw_rate_rad_per_s =
+          v * road_wheel_rad / (p.bicycle.wheelbase_m + p.bicycle.understeer_rad_per_mps2 * v * v)};
 }
 
 bool fires(const OversteerParams& p, const OversteerInputs& in) {

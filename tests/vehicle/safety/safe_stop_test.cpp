@@ -112,7 +112,7 @@ TEST(SafeStop, TheBrakeIsRampedAndStaysWithinTheGripBesideTheLateralForce) {
           const double v = car.speeds[i - 1];
           if (v < 1.0) continue;
           // Written anew: friction circle with the normal load of a banked turn.
-          const double g = 9.80665, ay = v * v * curvature - g * std::sin(bank);
+          const double g = 9.80665, ay = v * v * curvature * std::cos(bank) - g * std::sin(bank);
           const double load = g * std::cos(bank) + v * v * curvature * std::sin(bank) +
                               car.params.stop.downforce_per_m * v * v;
           const double mu_n = car.params.stop.friction * std::max(0.0, load);
@@ -129,13 +129,13 @@ TEST(SafeStop, TheBrakeIsRampedAndStaysWithinTheGripBesideTheLateralForce) {
 TEST(SafeStop, SteeringChangesByWhatThePathChangesAndForgetsItsOffset) {
   Car car;
   car.params.stop.steering.bicycle.understeer_rad_per_mps2 = 0.0;
-  const double curvature = 0.004;
-  car.stop = constant({.curvature_per_m = curvature});
+  const double curvature = 0.004, bank = 0.3;
+  car.stop = constant({.curvature_per_m = curvature, .bank_rad = bank});
   car.last = good(0.03);
   car.run(seconds(15));
   EXPECT_NEAR(car.commands.front().road_wheel_rad, 0.03, 1e-12) << "begins where it was";
   EXPECT_NEAR(car.commands.back().road_wheel_rad,
-              curvature * car.params.stop.steering.bicycle.wheelbase_m, 1e-6);
+              curvature * std::cos(bank) * car.params.stop.steering.bicycle.wheelbase_m, 1e-6);
   for (std::size_t i = 1; i < car.commands.size(); ++i)
     EXPECT_LE(car.commands[i].road_wheel_rad, car.commands[i - 1].road_wheel_rad + 1e-12);
 }

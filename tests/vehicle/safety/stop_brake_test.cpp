@@ -16,6 +16,14 @@ TEST(StopBrake, ColdTyresHaveLessGripAndUnknownOnesCountAsCold) {
   EXPECT_EQ(grip_at(p, 50.0, 0.004, 0.3).total_mps2, cold.total_mps2);
 }
 
+// As planning has it: what is level of the turn is across the car by the cosine of the bank alone.
+TEST(StopBrake, TheCornerTakesWhatTheRoadAsks) {
+  for (const double bank : {-0.1, 0.0, 0.2, 0.35})
+    for (const double k : {-0.004, 0.0, 0.004})
+      EXPECT_NEAR(grip_at({}, 50.0, k, bank).lateral_mps2,
+                  2500.0 * k * std::cos(bank) - 9.80665 * std::sin(bank), 1e-12);
+}
+
 TEST(StopBrake, NeverBrakesBeyondItsShareAndWhatAirGivesIsNotBraked) {
   SafeStopParams p;
   p.drag_per_m = 0.0006, p.coast_mps2 = 0.5;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "protocol/vocabulary/random.hpp"
@@ -16,20 +17,36 @@ constexpr Bicycle kModel;
 
 // A steady-state bicycle of its own on an oval: straights banked 9 degrees, turns 20.
 struct Car {
-  double understeer = 0.0002, offset_rad = 0.0;
+  double understeer = 0.0002, offset_rad = 0.0, bend = 0.0, lag_s = kParams.lag_s;
   double noise_rad_per_s = 0.0;
   Learned learned{};
+  double turned_rad = 0.0;  // of the wheels
   Random random{11};
 
+  double needed_rad(double curvature_per_m, double lateral) const {
+    return kModel.wheelbase_m * curvature_per_m + understeer * lateral +
+           bend * lateral * lateral * lateral + offset_rad;
+  }
+  // The yaw rate of the angle that the wheels have, by bisection.
+  double rate_of(double angle_rad, double bank_rad, double speed_mps) const {
+    double low = -2.0, high = 2.0;
+    while (high - low > 1e-13) {
+      const double middle = 0.5 * (low + high);
+      const double needs =
+          needed_rad(middle / speed_mps, lateral_mps2({speed_mps, middle, bank_rad}));
+      (needs < angle_rad ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+  }
   // The driver turns the wheel as far as this car needs, and not without moving it.
   void drive(double curvature_per_m, double bank_rad, double speed_mps) {
-    const double fall_mps2 = kGravity_mps2 * std::sin(bank_rad);
-    const double lateral = speed_mps * speed_mps * curvature_per_m - fall_mps2;
-    const double needed = kModel.wheelbase_m * curvature_per_m + understeer * lateral + offset_rad;
-    follow_command(kParams, learned, needed + random.between(-0.001, 0.001), kTick);
-    const double rate = speed_mps * (learned.commanded_rad - offset_rad + understeer * fall_mps2) /
-                        (kModel.wheelbase_m + understeer * speed_mps * speed_mps);
-    const double seen = rate + noise_rad_per_s * random.between(-1.0, 1.0);
+    const double lateral =
+        speed_mps * speed_mps * curvature_per_m - kGravity_mps2 * std::sin(bank_rad);
+    const double asked = needed_rad(curvature_per_m, lateral) + random.between(-0.001, 0.001);
+    follow_command(kParams, learned, asked, kTick);
+    turned_rad += (1.0 - std::exp(-kTick.seconds() / lag_s)) * (asked - turned_rad);
+    const double seen =
+        rate_of(turned_rad, bank_rad, speed_mps) + noise_rad_per_s * random.between(-1.0, 1.0);
     learn(kParams, kModel, learned, {speed_mps, seen, bank_rad}, kTick);
   }
   void lap(double speed_mps) {
@@ -37,35 +54,129 @@ struct Car {
       for (double s_m = 0.0; s_m < 700.0; s_m += speed_mps * kTick.seconds())
         drive(turn ? 1.0 / 220.0 : 0.0, from_deg(turn ? 20.0 : 9.0), speed_mps);
   }
+  // What was learned, against what is.
+  double wrong_rad(double lateral) const {
+    return angle_rad(kModel, learned, 0.0, lateral) - needed_rad(0.0, lateral);
+  }
 };
 
 bool same(const Learned& a, const Learned& b) {
   return a.commanded_rad == b.commanded_rad && a.offset_rad == b.offset_rad &&
-         a.understeer_rad_per_mps2 == b.understeer_rad_per_mps2;
+         a.understeer_rad_per_mps2 == b.understeer_rad_per_mps2 &&
+         a.bend_rad_s6_per_m3 == b.bend_rad_s6_per_m3 && a.lag_s == b.lag_s;
 }
 
-TEST(LearnedSteering, FindsTheOffsetAndTheGradientOfAnyCarOnAnOval) {
+TEST(LearnedSteering, FindsTheAngleThatAnyCarNeedsOnAnOval) {
   for (double understeer = 0.0; understeer < 0.00251; understeer += 0.0005)
     for (const double offset_rad : {-0.006, 0.0, 0.006})
-      for (const double noise : {0.0, 0.01}) {
-        Car car{.understeer = understeer, .offset_rad = offset_rad, .noise_rad_per_s = noise};
-        for (int i = 0; i < 16; ++i) car.lap(55.0);
-        EXPECT_NEAR(car.learned.offset_rad, offset_rad, 0.0005) << understeer;
-        EXPECT_NEAR(kModel.understeer_rad_per_mps2 + car.learned.understeer_rad_per_mps2,
-                    understeer, 0.0001)
-            << offset_rad;
-      }
+      for (const double bend : {-3e-7, 0.0, 1.5e-6})
+        for (const double noise : {0.0, 0.004}) {
+          Car car{.understeer = understeer,
+                  .offset_rad = offset_rad,
+                  .bend = bend,
+                  .noise_rad_per_s = noise};
+          for (const double speed_mps : {30.0, 40.0, 50.0, 55.0, 60.0, 65.0}) car.lap(speed_mps);
+          for (double lateral = -1.5; lateral < 15.0; lateral += 1.5)
+            EXPECT_NEAR(car.wrong_rad(lateral), 0.0, 0.001)
+                << understeer << ' ' << offset_rad << ' ' << bend << ' ' << noise << ' ' << lateral;
+        }
 }
 
-// Half a lap before a stop is what there may be: the angle of the turn itself is known early.
-TEST(LearnedSteering, KnowsTheAngleOfATurnAfterTwelveSecondsInIt) {
+// A car that nobody measured comes to its first corner.
+TEST(LearnedSteering, KnowsTheAngleOfATurnAfterThreeSecondsInIt) {
   Car car{.understeer = 0.0018};
-  for (int i = 0; i < 1200; ++i) car.drive(1.0 / 220.0, from_deg(20.0), 55.0);
   const double lateral = 55.0 * 55.0 / 220.0 - kGravity_mps2 * std::sin(from_deg(20.0));
-  const double before = angle_rad(kModel, {}, 1.0 / 220.0, lateral);
-  const double needed = kModel.wheelbase_m / 220.0 + 0.0018 * lateral;
-  const double known = angle_rad(kModel, car.learned, 1.0 / 220.0, lateral);
-  EXPECT_LT(std::abs(needed - known), 0.15 * std::abs(needed - before));
+  const double before = car.wrong_rad(lateral);
+  for (int i = 0; i < 300; ++i) car.drive(1.0 / 220.0, from_deg(20.0), 55.0);
+  EXPECT_LT(std::abs(car.wrong_rad(lateral)), 0.15 * std::abs(before));
+}
+
+TEST(LearnedSteering, FindsTheLag) {
+  for (const double lag_s : {0.10, 0.15, 0.22}) {
+    Car car{.lag_s = lag_s};
+    for (int i = 0; i < 10; ++i)
+      for (const double curvature : {1.0 / 300.0, -1.0 / 300.0})
+        for (int tick = 0; tick < 100; ++tick) car.drive(curvature, 0.0, 40.0);
+    EXPECT_NEAR(kParams.lag_s + car.learned.lag_s, lag_s, 0.025);
+  }
+}
+
+TEST(LearnedSteering, DoubtsWhatItHasNotSeen) {
+  const auto doubt = [](const Learned& learned, double lateral) {
+    return doubt_rad(kParams, kModel, learned, lateral);
+  };
+  Car car{.understeer = 0.0018};
+  const double most = kParams.understeer_most_rad_per_mps2 - kModel.understeer_rad_per_mps2;
+  EXPECT_NEAR(doubt(car.learned, 1.0), most, 1e-5);
+  EXPECT_EQ(doubt(car.learned, 0.0), 0.0);
+  car.lap(40.0);  // 3.9 m/s2
+  const double seen = 3.9;
+  EXPECT_LT(doubt(car.learned, seen), 0.1 * most * seen);
+  EXPECT_GT(doubt(car.learned, 15.0), 3.0 * doubt(car.learned, seen));
+  // It is no smaller than what is wrong.
+  for (double lateral = 0.0; lateral < 16.0; lateral += 1.0)
+    EXPECT_LE(std::abs(car.wrong_rad(lateral) - car.wrong_rad(0.0)),
+              doubt(car.learned, lateral) + 1e-4);
+}
+
+// The same filter in whole matrices and in Joseph's form (Bar-Shalom et al., eq. 5.2.3-18).
+TEST(LearnedSteering, IsTheKalmanFilterOfItsModel) {
+  constexpr std::size_t n = 4;
+  using Matrix = std::array<std::array<double, n>, n>;
+  const double most = kParams.understeer_most_rad_per_mps2 - kModel.understeer_rad_per_mps2;
+  const std::array first{kParams.offset_most_rad / 2.0, most / 2.0,
+                         kParams.bend_most_rad_s6_per_m3 / 2.0, 0.05};
+  const std::array drift{0.0005, 0.0001, 4e-7, 0.01};
+  Matrix p{};
+  std::array<double, n> x{};
+  for (std::size_t i = 0; i < n; ++i) p[i][i] = first[i] * first[i];
+  Car car{.understeer = 0.0012, .offset_rad = 0.001, .bend = 5e-7, .noise_rad_per_s = 0.005};
+  Random random{5};
+  double v = 30.0, bank = 0.0, curvature = 0.0;
+  for (int tick = 0; tick < 3000; ++tick) {
+    if (tick % 50 == 0) {
+      v = random.between(20.0, 65.0);
+      bank = random.between(0.0, 0.35);
+      curvature = random.between(-1.0, 14.0) / (v * v);
+    }
+    const double level = v * v * curvature - kGravity_mps2 * std::sin(bank);
+    follow_command(kParams, car.learned, car.needed_rad(curvature, level), kTick);
+    const double rate =
+        car.rate_of(car.learned.commanded_rad, bank, v) + random.between(-0.005, 0.005);
+    const double a = lateral_mps2({v, rate, bank}), turning = car.learned.turning_rad_per_s;
+    const double z = car.learned.commanded_rad - kModel.wheelbase_m * rate / v -
+                     kModel.understeer_rad_per_mps2 * a;
+    learn(kParams, kModel, car.learned, {v, rate, bank}, kTick);
+    for (std::size_t i = 0; i < n; ++i) p[i][i] += drift[i] * drift[i] / 60.0 * kTick.seconds();
+    const std::array h{1.0, a, a * a * a, turning};
+    const double r = (1e-6 + 0.01 * turning * turning) * 0.5 / kTick.seconds();
+    double s = r, predicted = 0.0;
+    std::array<double, n> k{};
+    for (std::size_t i = 0; i < n; ++i) {
+      predicted += h[i] * x[i];
+      for (std::size_t j = 0; j < n; ++j) k[i] += p[i][j] * h[j];
+      s += h[i] * k[i];
+    }
+    Matrix left{}, next{};
+    for (std::size_t i = 0; i < n; ++i) x[i] += k[i] / s * (z - predicted);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) left[i][j] = (i == j ? 1.0 : 0.0) - k[i] / s * h[j];
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) {
+        next[i][j] = k[i] / s * r * k[j] / s;
+        for (std::size_t l = 0; l < n; ++l)
+          for (std::size_t m = 0; m < n; ++m) next[i][j] += left[i][l] * p[l][m] * left[j][m];
+      }
+    p = next;
+    const Learned& is = car.learned;
+    const std::array got{is.offset_rad, is.understeer_rad_per_mps2, is.bend_rad_s6_per_m3,
+                         is.lag_s};
+    const bool limited = std::abs(x[0]) > 0.009 || x[1] > 0.0029 || x[1] < -0.0007 ||
+                         std::abs(x[2]) > 9e-6 || std::abs(x[3]) > 0.11;
+    ASSERT_FALSE(limited) << tick << ' ' << x[0] << ' ' << x[1] << ' ' << x[2] << ' ' << x[3];
+    for (std::size_t i = 0; i < n; ++i)
+      ASSERT_NEAR(got[i], x[i], 1e-9 + 1e-6 * std::abs(x[i])) << i;
+  }
 }
 
 TEST(LearnedSteering, OnALevelStraightOnlyTheOffsetMoves) {
@@ -81,7 +192,8 @@ TEST(LearnedSteering, OnALevelStraightOnlyTheOffsetMoves) {
 
 TEST(LearnedSteering, WhatIsRightStaysSoWhereverTheCarDrives) {
   Car car{.understeer = 0.0015, .offset_rad = -0.002};
-  car.learned = {-0.002, -0.002, 0.0013};
+  car.learned = {.commanded_rad = -0.002, .offset_rad = -0.002, .understeer_rad_per_mps2 = 0.0013};
+  car.turned_rad = -0.002;
   Random random{3};
   for (int i = 0; i < 100'000; ++i) {
     const double v = random.between(15.0, 70.0);
@@ -113,7 +225,8 @@ TEST(LearnedSteering, StaysWithinItsLimitsForAnyInput) {
 }
 
 TEST(LearnedSteering, WhatIsNoNumberAndASlowCarChangeNothing) {
-  const Learned before{0.02, 0.001, 0.0004};
+  const Learned before{
+      .commanded_rad = 0.02, .offset_rad = 0.001, .understeer_rad_per_mps2 = 0.0004};
   for (int field = 0; field < 3; ++field)
     for (const double bad : {kUnset, HUGE_VAL, -HUGE_VAL}) {
       Turning at{40.0, 0.2, 0.1};
@@ -153,19 +266,24 @@ TEST(LearnedSteering, TheCommandLagsByItsTimeWhateverTheTick) {
     Learned learned;
     for (std::int64_t t = 0; t < 200; t += tick_ms)
       follow_command(kParams, learned, 0.03, milliseconds(tick_ms));
-    EXPECT_NEAR(learned.commanded_rad, 0.03 * (1.0 - std::exp(-1.0)), 1e-12) << tick_ms;
+    EXPECT_NEAR(learned.commanded_rad, 0.03 * (1.0 - std::exp(-0.2 / kParams.lag_s)), 1e-12)
+        << tick_ms;
   }
 }
 
 TEST(LearnedSteering, TheYawRateOfAnAngleIsTheOneThatNeedsIt) {
   Random random{29};
   for (int i = 0; i < 1000; ++i) {
-    const Learned learned{0.0, random.between(-0.01, 0.01), random.between(-0.0002, 0.003)};
-    const double v = random.between(1.0, 80.0), bank = random.between(-0.35, 0.35),
-                 angle = random.between(-0.1, 0.1);
-    const double rate = yaw_rate_rad_per_s(kModel, learned, angle, v, bank);
-    EXPECT_NEAR(angle_rad(kModel, learned, rate / v, lateral_mps2({v, rate, bank})), angle, 1e-12);
+    const Learned learned{.offset_rad = random.between(-0.01, 0.01),
+                          .understeer_rad_per_mps2 = random.between(-0.0002, 0.003),
+                          .bend_rad_s6_per_m3 = random.between(-1e-8, 2e-6)};
+    const double v = random.between(1.0, 80.0), bank = random.between(-0.35, 0.35);
+    const double tightest = std::min(20.0 / (v * v), 0.1);
+    const double rate = v * random.between(-tightest, tightest);
+    const double angle = angle_rad(kModel, learned, rate / v, lateral_mps2({v, rate, bank}));
+    EXPECT_NEAR(yaw_rate_rad_per_s(kModel, learned, angle, v, bank), rate, 1e-9) << v;
   }
+  EXPECT_TRUE(std::isnan(yaw_rate_rad_per_s(kModel, {}, kUnset, 30.0, 0.0)));
 }
 
 }  // namespace

@@ -15,6 +15,14 @@
 
 namespace pitwall::steering::testing {
 
+constexpr double kMass_kg = 790.0, kInertia_kg_m2 = 1000.0, kFront_m = 1.724, kRear_m = 1.247;
+constexpr double kRearSlope_n_per_rad = 260e3;  // of both rear tyres
+
+// The slope of the front tyres that makes an understeer gradient with that of the rear ones.
+constexpr double front_slope(double understeer, double rear_n_per_rad) {
+  return kRear_m / (understeer * (kFront_m + kRear_m) / kMass_kg + kFront_m / rear_n_per_rad);
+}
+
 struct CarCase {
   double speed_mps = 65.0;
   double understeer = 0.0002;  // rad/(m/s^2)
@@ -26,9 +34,8 @@ struct CarCase {
 class LinearCar {
  public:
   explicit LinearCar(const CarCase& c) : case_(c) {
-    constexpr double kRear_n_per_rad = 260e3;
-    rear_ = c.tyre_share * kRear_n_per_rad;
-    front_ = kRear_m / (c.understeer * (kFront_m + kRear_m) / kMass_kg + kFront_m / rear_);
+    rear_ = c.tyre_share * kRearSlope_n_per_rad;
+    front_ = front_slope(c.understeer, rear_);
     delayed_.assign(static_cast<std::size_t>(std::lround(c.delay_s / kStep_s)), 0.0);
   }
 
@@ -42,8 +49,6 @@ class LinearCar {
 
  private:
   static constexpr double kStep_s = 0.001;
-  static constexpr double kMass_kg = 790.0, kInertia_kg_m2 = 1000.0, kFront_m = 1.724,
-                          kRear_m = 1.247;
 
   void move(double command_rad) {
     delayed_.push_back(command_rad);
@@ -62,6 +67,15 @@ class LinearCar {
   double front_ = 0.0, rear_ = 0.0;
   std::deque<double> delayed_;
 };
+
+// The law that steered before: stiffer, and without the lead of the yaw rate.
+inline Params stiff() {
+  Params p;
+  p.bandwidth_rad_per_s = 2.5, p.damping = 0.9, p.lead_s = 0.0, p.gain_share = 0.0;
+  p.observer_s = 0.3, p.observer_share = 1.0, p.trim_per_s = 0.3, p.settle_s = 0.4;
+  p.learning.lag_s = 0.1;
+  return p;
+}
 
 // What came of a start beside the path: the largest distance in each span of five seconds.
 struct Settling {

@@ -16,6 +16,7 @@ namespace {
 using testing::CarCase;
 using testing::settle;
 using testing::Settling;
+using testing::stiff;
 
 SteeringInputs some(Random& random) {
   return {.deviation = {random.between(-3.0, 3.0), random.between(-0.2, 0.2),
@@ -28,7 +29,9 @@ SteeringInputs some(Random& random) {
 }
 
 Learned some_learned(Random& random) {
-  return {random.between(-0.05, 0.05), random.between(-0.01, 0.01), random.between(-0.0008, 0.003)};
+  return {.commanded_rad = random.between(-0.05, 0.05),
+          .offset_rad = random.between(-0.01, 0.01),
+          .understeer_rad_per_mps2 = random.between(-0.0008, 0.003)};
 }
 
 template <class Fn>
@@ -46,15 +49,6 @@ std::string text_of(const CarCase& c) {
   return std::to_string(c.speed_mps) + " m/s, understeer " + std::to_string(c.understeer) +
          ", tyres " + std::to_string(c.tyre_share) + ", delay " + std::to_string(c.delay_s) +
          ", lag " + std::to_string(c.lag_s) + (c.learned ? ", learned" : "");
-}
-
-// The law that steered before: stiffer, and without the lead of the yaw rate.
-Params stiff() {
-  Params p;
-  p.bandwidth_rad_per_s = 2.5, p.damping = 0.9, p.lead_s = 0.0, p.gain_share = 0.0;
-  p.observer_s = 0.3, p.observer_share = 1.0, p.trim_per_s = 0.3, p.settle_s = 0.4;
-  p.learning.lag_s = 0.1;
-  return p;
 }
 
 TEST(PathSteering, EveryCarComesBackFromAMetreBesideWithoutSwinging) {
@@ -232,8 +226,10 @@ TEST(PathSteering, LeftAndRightAreMirrorImages) {
     mirrored.yaw_rate_rad_per_s = -in.yaw_rate_rad_per_s;
     mirrored.last_angle_rad = -in.last_angle_rad;
     const Learned learned = some_learned(random);
-    const Learned other{-learned.commanded_rad, -learned.offset_rad,
-                        learned.understeer_rad_per_mps2};
+    Learned other = learned;
+    other.commanded_rad = -learned.commanded_rad;
+    other.turning_rad_per_s = -learned.turning_rad_per_s;
+    other.offset_rad = -learned.offset_rad;
     ASSERT_EQ(steer({}, learned, left, in, kTick), -steer({}, other, right, mirrored, kTick)) << i;
   }
 }

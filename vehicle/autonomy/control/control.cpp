@@ -32,6 +32,12 @@ std::optional<Problem> illegal(const Params& p) {
   if (auto problem = first_illegal(kLongitudinalRanges, p.longitudinal, "longitudinal."))
     return problem;
   if (auto problem = first_illegal(steering::kRanges, p.steering, "steering.")) return problem;
+  if (auto problem =
+          first_illegal(steering::kBicycleRanges, p.steering.bicycle, "steering.bicycle."))
+    return problem;
+  if (auto problem =
+          first_illegal(steering::kLearningRanges, p.steering.learning, "steering.learning."))
+    return problem;
   return illegal_gear(p.gear);
 }
 
@@ -44,13 +50,12 @@ double target_speed(const LongitudinalParams& p, const world::EgoState& ego,
 
 LateralDiagnostics steer(const Params& p, const LateralGains& gains, const Inputs& in,
                          double last_angle_rad, steering::State& steering, Duration dt) {
-  LateralParams lateral = p.lateral;
-  lateral.angle_max_rad = std::fmin(lateral.angle_max_rad, in.angle_max_rad);
+  const Angles angles{last_angle_rad, in.angle_max_rad};
   if (p.drive_law == LateralLaw::kFeedForward)
-    return steer_forward(p.steering, lateral, in.learned, steering, last_angle_rad, in.ego,
-                         in.trajectory, dt);
+    return steer_forward(p.steering, p.lateral, in.learned, steering, angles, in.ego, in.trajectory,
+                         dt);
   steering.begun = false;
-  return steer(lateral, gains, last_angle_rad, in.ego, in.trajectory);
+  return steer(p.lateral, gains, angles, in.ego, in.trajectory);
 }
 
 LongitudinalOutput drive(const Params& p, const State& state, const Inputs& in, bool following,

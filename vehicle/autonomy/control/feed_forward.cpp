@@ -28,10 +28,10 @@ Errors errors_at(const TrajectoryPoint& p, const EgoState& ego) {
 
 LateralDiagnostics steer_forward(const steering::Params& params, const LateralParams& lateral,
                                  const steering::Learned& learned, steering::State& state,
-                                 double last_angle_rad, const EgoState& ego,
+                                 const Angles& angles, const EgoState& ego,
                                  const world::Trajectory& trajectory, Duration dt) {
   LateralDiagnostics out;
-  out.angle_rad = last_angle_rad;
+  out.angle_rad = angles.last_rad;
   if (!is_usable(ego)) return out.verdict = LateralVerdict::kNoEgo, out;
   const auto on_path_m = project(trajectory, ego.x_m, ego.y_m);
   if (!on_path_m) return out.verdict = LateralVerdict::kNoTrajectory, out;
@@ -42,16 +42,17 @@ LateralDiagnostics steer_forward(const steering::Params& params, const LateralPa
   out.cross_track_m = out.e1_m = e.lateral_m;
   out.heading_error_rad = out.e2_rad = e.heading_rad;
   out.bracket = static_cast<std::uint8_t>(bracket_of(v_mps));
+  const double max_rad = angle_max_rad(lateral, angles);
   out.angle_rad = steering::steer(
       params, learned, state,
       {.deviation = {e.lateral_m, e.course_rad, here.curvature_per_m, here.bank_rad},
        .ahead = {ahead.curvature_per_m, ahead.bank_rad},
        .speed_mps = v_mps,
        .yaw_rate_rad_per_s = ego.yaw_rate_rad_per_s,
-       .last_angle_rad = last_angle_rad,
-       .angle_max_rad = lateral.angle_max_rad},
+       .last_angle_rad = angles.last_rad,
+       .angle_max_rad = max_rad},
       dt);
-  out.saturated = std::abs(out.angle_rad) >= lateral.angle_max_rad;
+  out.saturated = std::abs(out.angle_rad) >= max_rad;
   out.verdict = std::abs(e.lateral_m) <= lateral.deviation_max_m ? LateralVerdict::kGood
                                                                  : LateralVerdict::kTooFar;
   return out;

@@ -13,10 +13,10 @@
 
 namespace pitwall::control {
 
-// angle_max_rad and deviation_max_m are those of lateral.
+// The limits are those of lateral.
 LateralDiagnostics steer_forward(const steering::Params& params, const LateralParams& lateral,
                                  const steering::Learned& learned, steering::State& state,
-                                 double last_angle_rad, const world::EgoState& ego,
+                                 const Angles& angles, const world::EgoState& ego,
                                  const world::Trajectory& trajectory, Duration dt);
 
 }  // namespace pitwall::control

@@ -60,6 +60,10 @@ bool is_usable(const EgoState& ego) {
                                  ego.yaw_rate_rad_per_s);
 }
 
+double angle_max_rad(const LateralParams& params, const Angles& angles) {
+  return std::fmin(params.angle_max_rad, angles.max_rad);
+}
+
 std::size_t bracket_of(double speed_mps) {
   std::size_t bracket = 0;
   while (bracket + 1 < kSpeedBrackets && speed_mps >= kBracketFrom_mps[bracket + 1]) ++bracket;
@@ -82,10 +86,10 @@ Result<LateralGains, Problem> design(const LateralParams& params, const BicycleP
 }
 
 LateralDiagnostics steer(const LateralParams& params, const LateralGains& gains,
-                         double last_angle_rad, const EgoState& ego,
+                         const Angles& angles, const EgoState& ego,
                          const world::Trajectory& trajectory) {
   LateralDiagnostics out;
-  out.angle_rad = last_angle_rad;
+  out.angle_rad = angles.last_rad;
   if (!is_usable(ego)) return out.verdict = LateralVerdict::kNoEgo, out;
   const auto here = project(trajectory, ego.x_m, ego.y_m);
   if (!here) return out.verdict = LateralVerdict::kNoTrajectory, out;
@@ -103,7 +107,8 @@ LateralDiagnostics steer(const LateralParams& params, const LateralGains& gains,
   const LateralGain& k = gains.k[bracket];
   const double raw = -(k[0] * e[0] + k[1] * e[1] + k[2] * e[2] + k[3] * e[3]);
   if (!std::isfinite(raw)) return out.verdict = LateralVerdict::kNoTrajectory, out;
-  out.angle_rad = std::clamp(raw, -params.angle_max_rad, params.angle_max_rad);
+  const double max_rad = angle_max_rad(params, angles);
+  out.angle_rad = std::clamp(raw, -max_rad, max_rad);
   out.saturated = out.angle_rad != raw;
   out.verdict = std::abs(out.cross_track_m) <= params.deviation_max_m ? LateralVerdict::kGood
                                                                       : LateralVerdict::kTooFar;

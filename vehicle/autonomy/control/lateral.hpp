@@ -7,7 +7,8 @@
 //          e1' = vy cos e2 + vx sin e2, e2 = wrap(psi - psi*), e2' = map heading rate - vx kappa*,
 //          where * is the trajectory d = lookahead_base + lookahead_per_speed * vx ahead of the
 //          car's projection on it, and the car is where it is (as published)
-//   limit  |angle| <= angle_max_rad. Below gain_speed_floor_mps the first bracket's gain holds
+//   limit  |angle| <= angle_max_rad, of the parameters and of the tick. Below gain_speed_floor_mps
+//          the first bracket's gain holds
 //   errors verdict; without a usable trajectory or ego the last angle is held. Too far away from
 //          the trajectory the law still acts, and the verdict says so
 //   cost   O(trajectory points), no allocation
@@ -75,11 +76,18 @@ struct LateralDiagnostics {
 // without a stabilising gain; the place names the bracket.
 Result<LateralGains, Problem> design(const LateralParams& params, const BicycleParams& car);
 
+// Of the tick.
+struct Angles {
+  double last_rad = 0.0;
+  double max_rad = kUnset;  // unset: that of the parameters, which it never exceeds
+};
+
+double angle_max_rad(const LateralParams& params, const Angles& angles);
 std::size_t bracket_of(double speed_mps);
 bool is_usable(const world::EgoState& ego);
 
 LateralDiagnostics steer(const LateralParams& params, const LateralGains& gains,
-                         double last_angle_rad, const world::EgoState& ego,
+                         const Angles& angles, const world::EgoState& ego,
                          const world::Trajectory& trajectory);
 
 }  // namespace pitwall::control

@@ -49,13 +49,13 @@ void use_steering_model(const Intake& in, const world::VehicleSignals& car, Inst
   if (!car.steering_motor_rad.fresh(at, from_seconds(in.params.imu_timeout_s))) return;
   const Params& p = in.params;
   const double speed = in.state.wheels.speed_mps;
-  const double rate = steering::yaw_rate_rad_per_s(
-      {p.wheelbase_m, p.understeer_rad_per_mps2}, in.around.learned,
-      car.steering_motor_rad.value / p.steering_ratio, speed, in.bank_rad());
+  const double rate = steering::yaw_rate_rad_per_s(p.bicycle, in.around.learned,
+                                                   car.steering_motor_rad.value / p.steering_ratio,
+                                                   speed, in.bank_rad());
   Measurement m{.kind = Kind::kImu, .at = at};
   m.imu.rate_rad_per_s[2] = rate;
   m.imu.force_mps2[0] = in.state.wheels.accel_mps2;
-  m.imu.force_mps2[1] = speed * rate - kGravity_mps2 * std::sin(in.bank_rad());
+  m.imu.force_mps2[1] = steering::lateral_mps2({speed, rate, in.bank_rad()});
   (void)insert(in.state.filter, in.filter, m);
 }
 

@@ -38,6 +38,8 @@ Result<Params, Problem> checked(const Params& params) {
   if (auto problem = illegal(params.checks)) return Unexpected{*problem};
   if (auto problem = world::first_illegal(kRanges, params)) return Unexpected{*problem};
   if (auto problem = world::first_illegal(kGeometryRanges, params)) return Unexpected{*problem};
+  if (auto problem = world::first_illegal(steering::kBicycleRanges, params.bicycle, "bicycle."))
+    return Unexpected{*problem};
   return params;
 }
 

@@ -10,6 +10,7 @@
 #include "vehicle/autonomy/localization/checks/check_params.hpp"
 #include "vehicle/autonomy/localization/filter/filter_params.hpp"
 #include "vehicle/autonomy/localization/filter/measurement.hpp"
+#include "vehicle/steering/learned_steering.hpp"
 #include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/monitor.hpp"
 #include "vehicle/world/sensor_input.hpp"
@@ -33,11 +34,10 @@ struct Params {
   double heading_sigma_max_rad = kUnset;  // a worse solution is refused
   // Without any IMU the yaw rate comes from the steering: how the car turns at a steering angle.
   double steering_ratio = kUnset;  // motor angle : road-wheel angle
-  double wheelbase_m = kUnset;
-  double understeer_rad_per_mps2 = kUnset;  // of the steady-state bicycle
-  double imu_timeout_s = kUnset;            // then the other unit's IMU
-  double good_age_max_s = kUnset;           // of the last position for kGood
-  double dead_reckoning_max_s = kUnset;     // then kLost
+  steering::Bicycle bicycle;
+  double imu_timeout_s = kUnset;         // then the other unit's IMU
+  double good_age_max_s = kUnset;        // of the last position for kGood
+  double dead_reckoning_max_s = kUnset;  // then kLost
   double good_sigma_max_m = kUnset;
   double lost_sigma_max_m = kUnset;
   double reset_after_s = kUnset;  // positions refused so long restart the filter
@@ -55,13 +55,10 @@ inline constexpr auto kRanges = std::to_array<world::NamedRange<Params>>({
     {"reset_after_s", &Params::reset_after_s, 0.5, 10.0},
 });
 
-// Copies of what the gateway and the safe stop are told; no section of localization has them.
+// A copy of what the gateway is told; no section of localization has it, nor the bicycle.
 inline constexpr auto kGeometryRanges = std::to_array<world::NamedRange<Params>>({
     {"steering_ratio", &Params::steering_ratio, world::kSteeringRatio.least,
      world::kSteeringRatio.most},
-    {"wheelbase_m", &Params::wheelbase_m, world::kWheelbase_m.least, world::kWheelbase_m.most},
-    {"understeer_rad_per_mps2", &Params::understeer_rad_per_mps2,
-     world::kUndersteer_rad_per_mps2.least, world::kUndersteer_rad_per_mps2.most},
 });
 
 // Start-up: every parameter against its legal range; the place is the parameter's name.

@@ -35,15 +35,7 @@ FrictionParams on_tyres(const FrictionParams& car, double tyre_c) {
 }
 
 double grip_mps2(const FrictionParams& car, const RoadLoad& at) {
-  const double v2 = at.speed_mps * at.speed_mps;
-  const double load = kGravity_mps2 * at.cos_bank + v2 * at.curvature_per_m * at.sin_bank +
-                      car.downforce_per_m * v2;
-  return car.friction * std::max(load, 0.0);
-}
-
-double lateral_demand_mps2(const RoadLoad& at) {
-  return at.speed_mps * at.speed_mps * at.curvature_per_m * at.cos_bank -
-         kGravity_mps2 * at.sin_bank;
+  return car.friction * std::max(normal_load_mps2(at, car.downforce_per_m), 0.0);
 }
 
 double brake_available_mps2(const FrictionParams& car, const RoadLoad& at, double share) {
@@ -68,7 +60,7 @@ double corner_speed_mps(const FrictionParams& car, const RoadLoad& at, double sh
   if (carries(kSpeedCeiling_mps)) return kSpeedCeiling_mps;
   // On a bank the slowest speeds may need more than the fast ones; the neutral speed, where gravity
   // turns the car, is carried if any is.
-  const double turn = at.curvature_per_m * at.cos_bank;
+  const double turn = turn_per_m(at);
   const double fall = kGravity_mps2 * at.sin_bank;
   double good = turn * fall > 0.0 ? std::sqrt(fall / turn) : 0.0, bad = kSpeedCeiling_mps;
   if (!carries(good)) return 0.0;

@@ -1,8 +1,7 @@
 // Limits of tyres and engine on a banked road: the gg diagram of the speed profiles.
 //   frames accelerations in the plane of the road; lateral positive left
 //   invariants
-//          normal load per mass  n = g cos(bank) + v^2 kappa sin(bank) + downforce v^2
-//          lateral demand        a = v^2 kappa cos(bank) - g sin(bank)
+//          normal load n and lateral demand a of steering/road_load.hpp
 //          grip                  g_max = friction * n; what a corner leaves of it is
 //                                r = sqrt((share g_max)^2 - a^2) / n
 //          braking               the axle whose tyres reach it first limits: with the share b of
@@ -15,9 +14,9 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 
 #include "protocol/vocabulary/units.hpp"
+#include "vehicle/steering/road_load.hpp"
 #include "vehicle/world/legal_range.hpp"
 #include "vehicle/world/tyre_grip.hpp"
 
@@ -53,15 +52,9 @@ inline constexpr auto kFrictionRanges = std::to_array<world::NamedRange<Friction
 // The same car on tyres of that temperature; unset counts as cold.
 FrictionParams on_tyres(const FrictionParams& car, double tyre_c);
 
-// A place on the road at a speed. Who asks for one place at many speeds hands the bank's functions
-// on.
-struct RoadLoad {
-  double speed_mps = kUnset, curvature_per_m = kUnset, bank_rad = kUnset;
-  double cos_bank = std::cos(bank_rad), sin_bank = std::sin(bank_rad);
-};
+using steering::RoadLoad;
 
 double grip_mps2(const FrictionParams& car, const RoadLoad& at);
-double lateral_demand_mps2(const RoadLoad& at);
 // What remains for braking (>= 0) when the share of the grip (0..1] may be used in all; aerodynamic
 // drag, which costs no grip, comes on top of it. Zero where the corner takes everything.
 double brake_available_mps2(const FrictionParams& car, const RoadLoad& at, double share);

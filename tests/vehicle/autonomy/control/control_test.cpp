@@ -148,6 +148,9 @@ TEST(Control, PrepareNamesTheIllegalParameter) {
   EXPECT_EQ(place([](Params& p) { p.gear.down_below_mps[1] = 99.0; }), "gear.down_below_mps[1]");
   EXPECT_EQ(place([](Params& p) { p.steering.damping = 0.0; }), "steering.damping");
   EXPECT_EQ(place([](Params& p) { p.steering.lead_s = kUnset; }), "steering.lead_s");
+  EXPECT_EQ(place([](Params& p) { p.steering.bicycle.wheelbase_m = 0.0; }),
+            "steering.bicycle.wheelbase_m");
+  EXPECT_EQ(place([](Params& p) { p.steering.learning.lag_s = 0.0; }), "steering.learning.lag_s");
 }
 
 }  // namespace

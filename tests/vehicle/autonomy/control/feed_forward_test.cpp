@@ -42,14 +42,14 @@ TEST(FeedForward, BeginsWithTheLastAngleWhoeverSteeredBeforeAndHoldsItWithoutAPl
   car.vx_mps = 60.0;
   car.x_m = t.points[0].x_m, car.y_m = t.points[0].y_m + 0.7, car.yaw_rad = t.points[0].yaw_rad;
   steering::State state;
-  const auto first = steer_forward(p.steering, p.lateral, {}, state, 0.021, car.ego(Instant{}), t,
+  const auto first = steer_forward(p.steering, p.lateral, {}, state, {0.021}, car.ego(Instant{}), t,
                                    milliseconds(10));
   EXPECT_EQ(first.verdict, LateralVerdict::kGood);
   EXPECT_NEAR(first.angle_rad, 0.021, 1e-12);
   world::EgoState lost = car.ego(Instant{});
   lost.validity = world::Validity::kLost;
   const auto held =
-      steer_forward(p.steering, p.lateral, {}, state, 0.021, lost, t, milliseconds(10));
+      steer_forward(p.steering, p.lateral, {}, state, {0.021}, lost, t, milliseconds(10));
   EXPECT_EQ(held.verdict, LateralVerdict::kNoEgo);
   EXPECT_EQ(held.angle_rad, 0.021);
 }
@@ -63,7 +63,7 @@ TEST(FeedForward, TooFarIsWhereTheLateralLimitSaysSo) {
     car.vx_mps = 30.0;
     car.x_m = t.points[3].x_m, car.y_m = t.points[3].y_m + beside_m;
     steering::State state;
-    const auto out = steer_forward(p.steering, p.lateral, {}, state, 0.0, car.ego(Instant{}), t,
+    const auto out = steer_forward(p.steering, p.lateral, {}, state, {}, car.ego(Instant{}), t,
                                    milliseconds(10));
     EXPECT_NEAR(out.cross_track_m, beside_m, 0.01);
     EXPECT_EQ(out.verdict, std::abs(beside_m) > p.lateral.deviation_max_m ? LateralVerdict::kTooFar

@@ -66,7 +66,7 @@ TEST(Lateral, SignsDriveTheCarBackInEveryDirection) {
     const world::Trajectory t = straight(yaw);
     const auto steer_at = [&](double left_m, double turned_rad) {
       return steer(
-          p.lateral, *gains, 0.0,
+          p.lateral, *gains, {},
           ego_at(-left_m * std::sin(yaw), left_m * std::cos(yaw), wrap_pi(yaw + turned_rad), 20.0),
           t);
     };
@@ -86,11 +86,11 @@ TEST(Lateral, ClampsAndSaysSo) {
   const Params p = recommended();
   const auto gains = prepare(p);
   ASSERT_TRUE(gains);
-  const auto far = steer(p.lateral, *gains, 0.0, ego_at(0.0, -4.9, -0.5, 20.0), straight(0.0));
+  const auto far = steer(p.lateral, *gains, {}, ego_at(0.0, -4.9, -0.5, 20.0), straight(0.0));
   EXPECT_EQ(far.angle_rad, p.lateral.angle_max_rad);
   EXPECT_TRUE(far.saturated);
   EXPECT_EQ(far.verdict, LateralVerdict::kGood);
-  const auto farther = steer(p.lateral, *gains, 0.0, ego_at(0.0, 5.1, 0.0, 20.0), straight(0.0));
+  const auto farther = steer(p.lateral, *gains, {}, ego_at(0.0, 5.1, 0.0, 20.0), straight(0.0));
   EXPECT_EQ(farther.verdict, LateralVerdict::kTooFar);
   EXPECT_LT(farther.angle_rad, 0.0);
 }
@@ -103,7 +103,7 @@ TEST(Lateral, HoldsTheAngleWithoutTrajectoryOrEgo) {
   world::Trajectory one;
   ASSERT_TRUE(one.points.push(straight(0.0).points[0]));
   for (const world::Trajectory& t : {world::Trajectory{}, one}) {
-    const auto out = steer(p.lateral, *gains, 0.03, here, t);
+    const auto out = steer(p.lateral, *gains, {0.03}, here, t);
     EXPECT_EQ(out.verdict, LateralVerdict::kNoTrajectory);
     EXPECT_EQ(out.angle_rad, 0.03);
   }
@@ -111,7 +111,7 @@ TEST(Lateral, HoldsTheAngleWithoutTrajectoryOrEgo) {
   lost.validity = world::Validity::kLost;
   nan.yaw_rate_rad_per_s = kUnset;
   for (const world::EgoState& ego : {lost, nan, world::EgoState{}}) {
-    const auto out = steer(p.lateral, *gains, 0.03, ego, straight(0.0));
+    const auto out = steer(p.lateral, *gains, {0.03}, ego, straight(0.0));
     EXPECT_EQ(out.verdict, LateralVerdict::kNoEgo);
     EXPECT_EQ(out.angle_rad, 0.03);
   }

@@ -74,8 +74,9 @@ TEST(Motion, LosingAllImusIsNotGood) {
 TEST(Motion, WithoutAnyImuTheCarTurnsAsItsSteeringSays) {
   auto rig = running(banked_turn());
   const world::EgoState truth = rig->truth();
-  const double angle_rad = rig->params.wheelbase_m * truth.yaw_rate_rad_per_s / truth.vx_mps +
-                           rig->params.understeer_rad_per_mps2 * truth.ay_mps2;
+  const double angle_rad =
+      rig->params.bicycle.wheelbase_m * truth.yaw_rate_rad_per_s / truth.vx_mps +
+      rig->params.bicycle.understeer_rad_per_mps2 * truth.ay_mps2;
   rig->sensors.imu_silent = {true, true};
   for (int i = 0; i < 100; ++i) {
     rig->signals.steering_motor_rad = {.value = angle_rad * rig->params.steering_ratio,

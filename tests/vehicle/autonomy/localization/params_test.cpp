@@ -27,6 +27,7 @@ TEST(Params, TheOffenderIsNamed) {
   EXPECT_EQ(place([](Params& p) { p.filter.window_s = 0.0; }), "filter.window_s");
   EXPECT_EQ(place([](Params& p) { p.checks.jump_sigmas = 1.0; }), "checks.jump_sigmas");
   EXPECT_EQ(place([](Params& p) { p.reset_after_s = kUnset; }), "reset_after_s");
+  EXPECT_EQ(place([](Params& p) { p.bicycle.wheelbase_m = 9.0; }), "bicycle.wheelbase_m");
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ inline Params recommended() {
   p.filter = recommended_filter();
   p.position_sigma_max_m = 1.0;
   p.heading_sigma_max_rad = 0.05;
-  p.steering_ratio = 19.5, p.wheelbase_m = 2.971, p.understeer_rad_per_mps2 = 0.0006;
+  p.steering_ratio = 19.5, p.bicycle = {2.971, 0.0006};
   p.imu_timeout_s = 0.05;
   p.good_age_max_s = 0.3, p.dead_reckoning_max_s = 15.0;
   p.good_sigma_max_m = 0.5, p.lost_sigma_max_m = 5.0;

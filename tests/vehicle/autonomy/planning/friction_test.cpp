@@ -62,12 +62,5 @@ TEST(Friction, EllipseIsNeverLeft) {
   }
 }
 
-TEST(Friction, GravityTurnsTheCarAtTheNeutralSpeed) {
-  const double phi = from_deg(20.0), k = 1.0 / 220.0;
-  const double v = std::sqrt(kGravity_mps2 * std::tan(phi) / k);
-  EXPECT_NEAR(lateral_demand_mps2({v, k, phi}), 0.0, 1e-12);
-  EXPECT_LT(lateral_demand_mps2({0.0, k, phi}), 0.0);  // standing: the tyres hold it up the bank
-}
-
 }  // namespace
 }  // namespace pitwall::planning

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vehicle/steering/learned_steering.hpp"
+
 namespace pitwall::localization {
 namespace {
 
@@ -76,7 +78,7 @@ std::optional<Units> missed(const ImuWatch& watch, const ImuWitness& witness, st
   // Whose forces across do not fit its turning and its speed.
   if (axis == kForceY && std::isfinite(witness.speed_mps)) {
     const double turning = 0.5 * (watch.units[0].mean[kRateZ] + watch.units[1].mean[kRateZ]);
-    return from(witness.speed_mps * turning - kGravity_mps2 * std::sin(witness.bank_rad));
+    return from(steering::lateral_mps2({witness.speed_mps, turning, witness.bank_rad}));
   }
   return std::nullopt;
 }

@@ -1,0 +1,263 @@
+// The margins of stability of the steering law over a family of linear cars, and the table of them
+// in docs/safe_stop.md. The bounds were there before the figures:
+//   the worst car     Astrom and Murray, Feedback Systems, 2nd ed., sec. 10.3, ask a design for a
+//                     phase margin of 30 to 60 degrees, a factor of 2 to 5 and a sensitivity of at
+//                     most 2. The worst of a family, each of its traits at the end of its range,
+//                     may be a little below: 25 degrees, 1.8 (5 dB) up, a half down, 2.5
+//   nothing learned   for as long as no turn was driven, no more is asked than that the sensitivity
+//                     is below the 4 above which Skogestad and Postlethwaite, Multivariable
+//                     Feedback Control, 2nd ed., sec. 2.4.3, call a loop poor
+//   the car itself    as the first book asks
+//   delay             as long as the longest pause of the computer that the law reckons with
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "protocol/vocabulary/units.hpp"
+#include "tests/vehicle/steering/loop_margins.hpp"
+#include "tests/vehicle/steering/steering_loop.hpp"
+
+namespace pitwall::steering {
+namespace {
+
+using testing::Loop;
+using testing::loop_of;
+using testing::LoopCase;
+using testing::Margins;
+using testing::spectral_radius;
+
+constexpr double kStable = 1.0 - 1e-9;  // a spectral radius
+
+std::vector<LoopCase> family() {
+  struct Worn {
+    double front, rear;
+  };
+  struct Actuator {
+    double delay_s, lag_s;
+  };
+  constexpr double kNearCritical = 0.9;
+  std::vector<LoopCase> cars;
+  for (const double understeer : {0.0, 0.0012, 0.0025})
+    for (const double friction : {1.0, 1.3})
+      for (const Worn worn : {Worn{1.0, 1.0}, {0.5, 0.5}, {0.3, 0.5}, {0.6, 0.4}})
+        for (const Actuator actuator : {Actuator{0.02, 0.04}, {0.04, 0.06}, {0.08, 0.1}})
+          for (const double speed_mps : {15.0, 30.0, 45.0, 65.0}) {
+            const LoopCase c{speed_mps, understeer,       friction,       worn.front,
+                             worn.rear, actuator.delay_s, actuator.lag_s, true};
+            if (speed_mps < kNearCritical * critical_speed_mps(c)) cars.push_back(c);
+          }
+  return cars;
+}
+
+Margins margins_of(const Loop& loop) {
+  return testing::margins_of([&](double w) { return response(loop, w); },
+                             std::numbers::pi / kTick.seconds());
+}
+
+std::string text_of(const LoopCase& c) {
+  std::ostringstream out;
+  out << c.speed_mps << ' ' << c.understeer << ' ' << c.friction << ' ' << c.front_share << ' '
+      << c.rear_share << ' ' << c.delay_s << ' ' << c.lag_s << ' ' << c.learned;
+  return out.str();
+}
+
+// The worst of each over cars; those that do not come back by themselves are counted.
+struct Worst {
+  Margins margins;
+  std::vector<double> sensitivities;
+  std::size_t unstable = 0, cars = 0;
+
+  void add(const Loop& loop) {
+    ++cars;
+    if (!(spectral_radius(loop) < kStable)) {
+      ++unstable;
+      sensitivities.push_back(HUGE_VAL);
+      return;
+    }
+    const Margins m = margins_of(loop);
+    margins = {.phase_rad = std::min(margins.phase_rad, m.phase_rad),
+               .gain_up = std::min(margins.gain_up, m.gain_up),
+               .gain_down = std::max(margins.gain_down, m.gain_down),
+               .delay_s = std::min(margins.delay_s, m.delay_s),
+               .sensitivity = std::max(margins.sensitivity, m.sensitivity)};
+    sensitivities.push_back(m.sensitivity);
+  }
+
+  double median() const {
+    std::vector<double> sorted = sensitivities;
+    std::sort(sorted.begin(), sorted.end());
+    return sorted[sorted.size() / 2];
+  }
+};
+
+Worst over_family(const Params& params, bool learned) {
+  Worst out;
+  for (LoopCase c : family()) {
+    c.learned = learned;
+    out.add(loop_of(params, c));
+  }
+  return out;
+}
+
+Worst of_own_car(const Params& params) {
+  Worst out;
+  out.add(loop_of(params, {}));
+  return out;
+}
+
+const Worst& this_law() {
+  static const Worst worst = over_family({}, true);
+  return worst;
+}
+
+const Worst& this_law_unlearned() {
+  static const Worst worst = over_family({}, false);
+  return worst;
+}
+
+const Worst& law_before() {
+  static const Worst worst = over_family(testing::stiff(), true);
+  return worst;
+}
+
+TEST(Margins, TheFamilyHasAsManyCarsAsThePageSays) { EXPECT_EQ(family().size(), 276U); }
+
+TEST(Margins, TheWorstCarOfTheFamilyHasThem) {
+  const Worst& worst = this_law();
+  EXPECT_EQ(worst.unstable, 0U);
+  EXPECT_GE(to_deg(worst.margins.phase_rad), 25.0);
+  EXPECT_GE(worst.margins.gain_up, 1.8);
+  EXPECT_LE(worst.margins.gain_down, 0.5);
+  EXPECT_LE(worst.margins.sensitivity, 2.5);
+  EXPECT_GE(worst.margins.delay_s, kTickMax_s);
+}
+
+TEST(Margins, WhileNothingIsLearnedTheWorstCarIsNotPoor) {
+  const Worst& worst = this_law_unlearned();
+  EXPECT_EQ(worst.unstable, 0U);
+  EXPECT_LE(worst.margins.sensitivity, 4.0);
+  EXPECT_GE(worst.margins.delay_s, kTickMax_s);
+}
+
+TEST(Margins, OurOwnCarAtSpeedHasThoseOfATextbook) {
+  const Worst own = of_own_car({});
+  EXPECT_EQ(own.unstable, 0U);
+  EXPECT_GE(to_deg(own.margins.phase_rad), 30.0);
+  EXPECT_GE(own.margins.gain_up, 2.0);
+  EXPECT_LE(own.margins.gain_down, 0.5);
+  EXPECT_LE(own.margins.sensitivity, 2.0);
+}
+
+// The tests above can fail.
+TEST(Margins, TheLawBeforeHadThemNot) {
+  EXPECT_GT(law_before().unstable, 0U);
+  EXPECT_GT(of_own_car(testing::stiff()).margins.sensitivity, 2.5);
+}
+
+// By the poles of the closed loop, which the frequency response does not ask.
+TEST(Margins, AtTheMarginTheClosedLoopCeasesToBeStable) {
+  constexpr double kInside = 0.01;
+  const std::vector<LoopCase> cars = family();
+  for (std::size_t i = 0; i < cars.size(); i += 23) {
+    const Loop loop = loop_of({}, cars[i]);
+    const Margins m = margins_of(loop);
+    EXPECT_LT(spectral_radius(loop, m.gain_up * (1.0 - kInside)), kStable) << text_of(cars[i]);
+    EXPECT_GT(spectral_radius(loop, m.gain_up * (1.0 + kInside)), 1.0) << text_of(cars[i]);
+    EXPECT_LT(spectral_radius(loop, m.gain_down * (1.0 + kInside)), kStable) << text_of(cars[i]);
+    EXPECT_GT(spectral_radius(loop, m.gain_down * (1.0 - kInside)), 1.0) << text_of(cars[i]);
+    const double ticks = m.delay_s / kTick.seconds();
+    EXPECT_LT(spectral_radius(loop, 1.0, static_cast<std::size_t>(ticks)), kStable)
+        << text_of(cars[i]);
+    EXPECT_GT(spectral_radius(loop, 1.0, static_cast<std::size_t>(ticks) + 1), 1.0)
+        << text_of(cars[i]);
+  }
+}
+
+TEST(Margins, TheLawIsLinearNearAStraight) {
+  for (const LoopCase& c : family()) {
+    const testing::LawSystem one = law_of({}, c, 1e-4), other = law_of({}, c, 1e-5);
+    for (std::size_t k = 0; k < 5; ++k) {
+      for (std::size_t i = 0; i < 5; ++i) ASSERT_NEAR(one.a[k][i], other.a[k][i], 1e-9);
+      for (std::size_t i = 0; i < 3; ++i) ASSERT_NEAR(one.b[k][i], other.b[k][i], 1e-9);
+    }
+  }
+}
+
+// The equations of path_steering.hpp and the car, written again in margins_oracle.py with SciPy.
+TEST(Margins, SciPyFindsTheSame) {
+  const Params p;
+  std::vector<LoopCase> cars{LoopCase{}};
+  for (std::size_t i = 5; i < family().size(); i += 41) {
+    cars.push_back(family()[i]);
+    cars.back().learned = i % 2 == 0;
+  }
+  std::ostringstream question;
+  question << testing::kMass_kg << ' ' << testing::kInertia_kg_m2 << ' ' << testing::kFront_m << ' '
+           << testing::kRear_m << ' ' << testing::kRearSlope_n_per_rad << ' '
+           << testing::kFrictionOfSlopes << ' ' << testing::kRelaxation_m << ' '
+           << testing::kComputerAndBus_s << '\n'
+           << p.bicycle.wheelbase_m << ' ' << p.bicycle.understeer_rad_per_mps2 << ' '
+           << p.bandwidth_rad_per_s << ' ' << p.damping << ' ' << p.lead_s << ' ' << p.gain_share
+           << ' ' << p.observer_s << ' ' << p.observer_share << ' ' << p.trim_per_s << ' '
+           << p.learning.lag_s << '\n';
+  for (const LoopCase& c : cars) question << text_of(c) << '\n';
+  const std::string asked = ::testing::TempDir() + "margins.in",
+                    reported = ::testing::TempDir() + "margins.out";
+  std::ofstream(asked) << question.str();
+  const std::string command = "/usr/bin/python3 '" PITWALL_SOURCE_DIR
+                              "/tests/vehicle/steering/margins_oracle.py' < '" +
+                              asked + "' > '" + reported + "'";
+  ASSERT_EQ(std::system(command.c_str()), 0)  // NOLINT: a test
+      << "does /usr/bin/python3 have SciPy (python3-scipy)?";
+  std::ifstream answer(reported);
+  for (const LoopCase& c : cars) {
+    Margins theirs;
+    answer >> theirs.phase_rad >> theirs.gain_up >> theirs.gain_down >> theirs.delay_s >>
+        theirs.sensitivity;
+    ASSERT_TRUE(answer) << text_of(c);
+    const Margins ours = margins_of(loop_of(p, c));
+    EXPECT_NEAR(ours.phase_rad, theirs.phase_rad, 1e-4) << text_of(c);
+    EXPECT_NEAR(ours.gain_up, theirs.gain_up, 1e-3) << text_of(c);
+    EXPECT_NEAR(ours.gain_down, theirs.gain_down, 1e-4) << text_of(c);
+    EXPECT_NEAR(ours.delay_s, theirs.delay_s, 1e-4) << text_of(c);
+    EXPECT_NEAR(ours.sensitivity, theirs.sensitivity, 1e-3) << text_of(c);
+  }
+}
+
+std::string row_of(const char* law, const Worst& worst) {
+  char text[200];
+  const Margins& m = worst.margins;
+  if (worst.unstable != 0)
+    std::snprintf(text, sizeof text, "| %s | none in %zu cases | | | | %.1f |", law, worst.unstable,
+                  worst.median());
+  else
+    std::snprintf(text, sizeof text, "| %s | %.1f deg | %.2f / %.1f | %.0f ms | %.1f | %.1f |", law,
+                  to_deg(m.phase_rad), m.gain_up, 1.0 / m.gain_down, 1e3 * m.delay_s, m.sensitivity,
+                  worst.median());
+  return text;
+}
+
+TEST(Margins, AreThoseOfThePage) {
+  std::ifstream file(PITWALL_SOURCE_DIR "/docs/safe_stop.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  for (const std::string& row :
+       {row_of("this one", this_law()),
+        row_of("this one, nothing learned yet", this_law_unlearned()),
+        row_of("this one, our own car at 65 m/s", of_own_car({})),
+        row_of("the one before", law_before()),
+        row_of("the one before, our own car at 65 m/s", of_own_car(testing::stiff()))})
+    EXPECT_NE(page.find(row + '\n'), std::string::npos) << "docs/safe_stop.md has not: " << row;
+}
+
+}  // namespace
+}  // namespace pitwall::steering

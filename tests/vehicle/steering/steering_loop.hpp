@@ -1,0 +1,169 @@
+// The loop of the steering law and a linear car on a straight, cut at the command to the wheels,
+// at the tick: the car with the hold of a tick and whole ticks of delay, the law by differences of
+// its own code. What the law keeps of its command (the observer) stays closed within it.
+//   units  SI; out of the car and into the law: distance to the left, course, yaw rate
+//   source Rajamani, Vehicle Dynamics and Control, 2nd ed., eq. 2.31 (single track) and 3.12
+//          (critical speed); Pacejka, Tire and Vehicle Dynamics, 2012, ch. 7 (relaxation)
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "tests/support/eigenvalues.hpp"
+#include "tests/support/tick.hpp"
+#include "tests/vehicle/steering/discrete_system.hpp"
+#include "tests/vehicle/steering/linear_car.hpp"
+#include "vehicle/steering/path_steering.hpp"
+
+namespace pitwall::steering::testing {
+
+constexpr double kComputerAndBus_s = 0.02;
+constexpr double kRelaxation_m = 0.5;      // the longest of hil/plant/family
+constexpr double kFrictionOfSlopes = 1.3;  // at which a rear slope is kRearSlope_n_per_rad
+
+struct LoopCase {
+  double speed_mps = 65.0;
+  double understeer = 0.0002;  // rad/(m/s^2), of whole tyres
+  double friction = kFrictionOfSlopes;
+  double front_share = 1.0, rear_share = 1.0;  // what is left of the slopes
+  double delay_s = 0.04, lag_s = 0.06;         // of the actuator
+  bool learned = true;                         // the law knows the understeer of whole tyres
+};
+
+struct Slopes {
+  double front_n_per_rad, rear_n_per_rad;
+};
+
+inline Slopes slopes_of(const LoopCase& c) {
+  const double rear = kRearSlope_n_per_rad * c.friction / kFrictionOfSlopes;
+  return {c.front_share * front_slope(c.understeer, rear), c.rear_share * rear};
+}
+
+// At which the car itself, its wheel held, ceases to be stable; infinite where it understeers.
+inline double critical_speed_mps(const LoopCase& c) {
+  const Slopes slopes = slopes_of(c);
+  const double length_m = kFront_m + kRear_m;
+  const double gradient =
+      kMass_kg / length_m * (kRear_m / slopes.front_n_per_rad - kFront_m / slopes.rear_n_per_rad);
+  return gradient < 0.0 ? std::sqrt(length_m / -gradient) : std::numeric_limits<double>::infinity();
+}
+
+using CarSystem = DiscreteSystem<7, 1, 3>;
+using LawSystem = DiscreteSystem<5, 3, 1>;
+
+// Without its delay. States: angle, slip of the tyres in front and behind as it has built up,
+// lateral speed, yaw rate, yaw, distance.
+inline CarSystem car_of(const LoopCase& c) {
+  const Slopes slopes = slopes_of(c);
+  const double v = c.speed_mps, builds_per_s = v / kRelaxation_m;
+  Matrix<7, 7> a{};
+  a[0][0] = -1.0 / c.lag_s;
+  a[1] = {builds_per_s, -builds_per_s, 0.0, -builds_per_s / v, -builds_per_s * kFront_m / v};
+  a[2] = {0.0, 0.0, -builds_per_s, -builds_per_s / v, builds_per_s * kRear_m / v};
+  a[3] = {0.0, slopes.front_n_per_rad / kMass_kg, slopes.rear_n_per_rad / kMass_kg, 0.0, -v};
+  a[4] = {0.0, kFront_m * slopes.front_n_per_rad / kInertia_kg_m2,
+          -kRear_m * slopes.rear_n_per_rad / kInertia_kg_m2};
+  a[5][4] = 1.0;
+  a[6] = {0.0, 0.0, 0.0, 1.0, 0.0, v};
+  Matrix<3, 7> out{};
+  out[0][6] = 1.0;
+  out[1] = {0.0, 0.0, 0.0, 1.0 / v, 0.0, 1.0};
+  out[2][4] = 1.0;
+  return held(a, {1.0 / c.lag_s}, out, kTick.seconds());
+}
+
+inline std::size_t delay_ticks(const LoopCase& c) {
+  return static_cast<std::size_t>(std::lround((c.delay_s + kComputerAndBus_s) / kTick.seconds()));
+}
+
+// One tick of the law as a stop calls it, near a straight. State: d, trim, bump, the command
+// behind its lag, the command.
+inline std::array<double, 5> law_tick(const Params& params, const LoopCase& c,
+                                      const std::array<double, 5>& x,
+                                      const std::array<double, 3>& measured) {
+  Learned learned{.commanded_rad = x[3]};
+  if (c.learned)
+    learned.understeer_rad_per_mps2 = c.understeer - params.bicycle.understeer_rad_per_mps2;
+  State state{.begun = true, .unknown_rad = x[0], .trim_rad = x[1], .bump_rad = x[2]};
+  follow_command(params.learning, learned, x[4], kTick);
+  const double angle_rad = steer(params, learned, state,
+                                 {.deviation = {measured[0], measured[1], 0.0, 0.0},
+                                  .ahead = {0.0, 0.0},
+                                  .speed_mps = c.speed_mps,
+                                  .yaw_rate_rad_per_s = measured[2],
+                                  .last_angle_rad = x[4],
+                                  .angle_max_rad = 1.0},
+                                 kTick);
+  return {state.unknown_rad, state.trim_rad, state.bump_rad, learned.commanded_rad, angle_rad};
+}
+
+// Exact but for rounding as long as the law is linear that near to zero.
+inline LawSystem law_of(const Params& params, const LoopCase& c, double step = 1e-4) {
+  LawSystem law;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const auto moved = [&](double by) {
+      std::array<double, 5> x{};
+      std::array<double, 3> measured{};
+      (i < 5 ? x[i] : measured[i - 5]) = by;
+      return law_tick(params, c, x, measured);
+    };
+    const std::array<double, 5> high = moved(step), low = moved(-step);
+    for (std::size_t k = 0; k < 5; ++k)
+      (i < 5 ? law.a[k][i] : law.b[k][i - 5]) = (high[k] - low[k]) / (2.0 * step);
+    (i < 5 ? law.c[0][i] : law.d[0][i - 5]) = (high[4] - low[4]) / (2.0 * step);
+  }
+  return law;
+}
+
+struct Loop {
+  CarSystem car;
+  LawSystem law;
+  std::size_t delay_ticks = 0;
+};
+
+inline Loop loop_of(const Params& params, const LoopCase& c) {
+  return {car_of(c), law_of(params, c), delay_ticks(c)};
+}
+
+// Of the open loop; it comes back to itself where this is -1.
+inline std::complex<double> response(const Loop& loop, double rad_per_s) {
+  const std::complex<double> z = std::polar(1.0, rad_per_s * kTick.seconds());
+  const auto car = response(loop.car, z);
+  const auto law = response(loop.law, z);
+  std::complex<double> sum = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) sum -= law[0][i] * car[i][0];
+  return sum * std::pow(z, -static_cast<int>(loop.delay_ticks));
+}
+
+// Of the closed loop: the largest modulus of its poles, with another gain and further ticks of
+// delay. States: those of the car, the commands under way, those of the law.
+inline double spectral_radius(const Loop& loop, double gain = 1.0, std::size_t more_ticks = 0) {
+  const std::size_t ticks = loop.delay_ticks + more_ticks, size = 7 + ticks + 5, law = 7 + ticks;
+  std::vector<double> m(size * size, 0.0);
+  const auto at = [&](std::size_t row, std::size_t column) -> double& {
+    return m[column * size + row];
+  };
+  for (std::size_t i = 0; i < 7; ++i) {
+    for (std::size_t j = 0; j < 7; ++j) at(i, j) = loop.car.a[i][j];
+    at(i, law - 1) = gain * loop.car.b[i][0];
+  }
+  for (std::size_t i = 8; i < law; ++i) at(i, i - 1) = 1.0;
+  const auto measured_into = [&](std::size_t row, const std::array<double, 3>& weights) {
+    for (std::size_t o = 0; o < 3; ++o)
+      for (std::size_t j = 0; j < 7; ++j) at(row, j) += weights[o] * loop.car.c[o][j];
+  };
+  measured_into(7, loop.law.d[0]);
+  for (std::size_t j = 0; j < 5; ++j) at(7, law + j) = loop.law.c[0][j];
+  for (std::size_t i = 0; i < 5; ++i) {
+    measured_into(law + i, loop.law.b[i]);
+    for (std::size_t j = 0; j < 5; ++j) at(law + i, law + j) = loop.law.a[i][j];
+  }
+  return pitwall::testing::largest_modulus(m);
+}
+
+}  // namespace pitwall::steering::testing
