@@ -2,8 +2,8 @@
 // computed from the track, the modelled car and the car's file, never from a run. docs/safe_stop.md
 // has the derivation.
 //   in     what is lost, the car's Setup, the modelled car, the speed when it is lost
-//   out    the impact with the largest speed and that with the largest part normal to the wall, each
-//          over every place of the lap and every error of the curvature; speed 0: no contact
+//   out    the impact with the largest speed and that with the largest part normal to the wall,
+//          each over every place of the lap and every error of the curvature; speed 0: no contact
 //   invariants
 //          the car keeps its speed until somebody reacts; then
 //            v' = -(pressure of whoever brakes, within the ellipse; air; rolling)
