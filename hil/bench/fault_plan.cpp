@@ -15,6 +15,7 @@ using faults::BenchFaultKind;
 using faults::FrameFaultKind;
 
 constexpr double kMaxRadioDelay_s = 10.0;
+constexpr double kMaxStuck_kpa = 9000.0;
 
 // What rig.cpp carries out; a kind that nobody carries out is refused rather than ignored.
 bool in_the_rig(BenchFaultKind kind) {
@@ -28,6 +29,8 @@ bool in_the_rig(BenchFaultKind kind) {
     case BenchFaultKind::kSteeringSlow:
     case BenchFaultKind::kSteeringBias:
     case BenchFaultKind::kBrakeLeak:
+    case BenchFaultKind::kBrakeStuck:
+    case BenchFaultKind::kBrakeCircuitLost:
     case BenchFaultKind::kThrottleStuck:
     case BenchFaultKind::kEngineStall:
     case BenchFaultKind::kLowGrip:
@@ -61,6 +64,8 @@ bool is_sensible(BenchFaultKind kind, double value) {
   switch (kind) {
     case BenchFaultKind::kBrakeLeak:
       return value >= 0.0 && value <= 1.0;
+    case BenchFaultKind::kBrakeStuck:
+      return value >= 0.0 && value <= kMaxStuck_kpa;
     case BenchFaultKind::kLowGrip:
       return value > 0.0 && value <= 2.0;
     case BenchFaultKind::kSteeringSlow:

@@ -96,6 +96,8 @@ void Rig::step_plant() {
   const plant::Actuation actuation{.steering_motor_rad = demand_.steering_motor_rad,
                                    .throttle_fraction = demand_.throttle_fraction,
                                    .brake_kpa = demand_.brake_front_kpa,
+                                   .front_brake_lost = brake_lost_[0],
+                                   .rear_brake_lost = brake_lost_[1],
                                    .gear = demand_.gear,
                                    .ignition = demand_.engine_on && !engine_stalled_,
                                    .starter = demand_.crank};
@@ -188,6 +190,7 @@ void Rig::apply_model_faults(Instant now) {
   race_.faults = {};
   bus_silent_ = computer_silent_ = engine_stalled_ = wheel_speeds_lost_ = false;
   held_tyre_c_.reset();
+  brake_lost_ = {};
   grip_ = 1.0;
   for (const faults::BenchFault& fault : plan_.models)
     if (faults::active(fault, now)) apply_model_fault(fault, now);
@@ -215,6 +218,12 @@ void Rig::apply_model_fault(const faults::BenchFault& fault, Instant now) {
       return;
     case BenchFaultKind::kBrakeLeak:
       raptor_.faults.brake_leak = fault.value;
+      return;
+    case BenchFaultKind::kBrakeStuck:
+      raptor_.faults.brake_stuck_kpa = fault.value;
+      return;
+    case BenchFaultKind::kBrakeCircuitLost:
+      brake_lost_[fault.unit] = true;
       return;
     case BenchFaultKind::kThrottleStuck:
       raptor_.faults.throttle_stuck = true;

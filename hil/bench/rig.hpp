@@ -58,6 +58,8 @@ class Rig {
                                     const world::TrackMap& track);
 
   void step(std::span<const can::ReceivedFrame> from_car, Instant now);
+  // Of the models, beside those of the scenario.
+  void add_fault(const faults::BenchFault& fault) { plan_.models.push_back(fault); }
 
   // What the nodes put on the bus since the last call; valid until the next step.
   std::span<const Outgoing> take_frames();
@@ -125,6 +127,7 @@ class Rig {
   bool outgoing_taken_ = false;  // cleared by the next step
   bool bus_silent_ = false, computer_silent_ = false, engine_stalled_ = false;
   bool wheel_speeds_lost_ = false;
+  std::array<bool, faults::kBrakeCircuits> brake_lost_{};  // front, rear
   double grip_ = 1.0;
   std::optional<double> held_tyre_c_;
   std::uint64_t overflows_ = 0, actuator_frames_ = 0;

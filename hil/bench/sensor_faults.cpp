@@ -153,6 +153,7 @@ bool is_sensor_fault(BenchFaultKind kind) {
 
 std::size_t parts_of(BenchFaultKind kind) {
   if (is_of_a_wheel(kind)) return world::kCorners;
+  if (kind == kBrakeCircuitLost) return faults::kBrakeCircuits;
   return is_sensor_fault(kind) ? world::kGnssUnits : 1;
 }
 

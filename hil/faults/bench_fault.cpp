@@ -71,6 +71,8 @@ constexpr std::array<BenchFaultRow, kBenchFaultKinds> kBenchFaults{{
     {Kind::kSteeringSlow, "steering_slow", Part::kActuators, "rad/s at the motor"},
     {Kind::kSteeringBias, "steering_bias", Part::kActuators, "rad at the motor"},
     {Kind::kBrakeLeak, "brake_leak", Part::kActuators, "share of the pressure that is lost"},
+    {Kind::kBrakeStuck, "brake_stuck", Part::kActuators, "kPa in both circuits, whatever is asked"},
+    {Kind::kBrakeCircuitLost, "brake_circuit_lost", Part::kActuators, ""},
     {Kind::kThrottleStuck, "throttle_stuck", Part::kActuators, ""},
     {Kind::kEngineStall, "engine_stall", Part::kPlant, ""},
     {Kind::kColdTyres, "cold_tyres", Part::kPlant, "degrees Celsius"},

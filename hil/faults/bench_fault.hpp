@@ -74,6 +74,8 @@ enum class BenchFaultKind : std::uint8_t {
   kSteeringSlow,
   kSteeringBias,
   kBrakeLeak,
+  kBrakeStuck,
+  kBrakeCircuitLost,
   kThrottleStuck,
   kEngineStall,
   kColdTyres,
@@ -132,7 +134,9 @@ struct BenchFault {
   std::uint64_t seed = 1;
 };
 
-inline constexpr std::size_t kBenchFaultKinds = 80;
+inline constexpr std::size_t kBrakeCircuits = 2;  // unit 0 the front one, 1 the rear one
+
+inline constexpr std::size_t kBenchFaultKinds = 82;
 extern const std::array<BenchFaultRow, kBenchFaultKinds> kBenchFaults;
 
 const BenchFaultRow& row_of(BenchFaultKind kind);

@@ -198,6 +198,8 @@ void act(State& state, Instant now) {
   const double kept = 1.0 - std::clamp(faults.brake_leak, 0.0, 1.0);
   state.acted.brake_front_kpa *= kept;
   state.acted.brake_rear_kpa *= kept;
+  if (std::isfinite(faults.brake_stuck_kpa))
+    state.acted.brake_front_kpa = state.acted.brake_rear_kpa = faults.brake_stuck_kpa;
 }
 
 // True when the difference has been too large for too long; NaN is too large.

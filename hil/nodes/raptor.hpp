@@ -62,6 +62,7 @@ struct ActuatorFaults {
   double steering_bias_rad = 0.0;      // the motor goes to demand + bias, its sensor does not know
   double steering_rate_rad_per_s = 0;  // slow motor; 0 = no limit here, the plant has its own
   double brake_leak = 0.0;             // share of the pressure that is lost, 0..1
+  double brake_stuck_kpa = kUnset;     // in both circuits, whatever is asked
 };
 
 struct Counters {

@@ -54,6 +54,8 @@ Arrived pass_delays(const Params& p, const Actuation& a, double dt_s, State& s) 
       delayed(s.throttle_delay, next, throttle, p.engine.throttle_delay_s, dt_s);
   out.set.brake_front_kpa = out.set.brake_rear_kpa =
       delayed(s.brake_delay_kpa, next, brake_kpa, p.brakes.delay_s, dt_s);
+  if (a.front_brake_lost) out.set.brake_front_kpa = 0.0;
+  if (a.rear_brake_lost) out.set.brake_rear_kpa = 0.0;
   out.gear = delayed(s.gear_delay, next, a.gear, p.drivetrain.shift_delay_s, dt_s);
   s.delay_next = static_cast<std::uint16_t>((next + 1U) % kDelaySlots);
   return out;

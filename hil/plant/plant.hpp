@@ -37,12 +37,13 @@ namespace pitwall::plant {
 using Wheels = std::array<double, world::kCorners>;  // indexed by world::Corner
 
 struct Actuation {
-  double steering_motor_rad = 0.0;  // set point at the motor, left positive
-  double throttle_fraction = 0.0;   // 0..1
-  double brake_kpa = 0.0;           // set point of both axles
-  std::uint8_t gear = 0;            // wanted gear, 0 neutral; reached one step at a time
-  bool ignition = false;            // false stops the engine
-  bool starter = false;             // turns a standing engine
+  double steering_motor_rad = 0.0;                         // set point at the motor, left positive
+  double throttle_fraction = 0.0;                          // 0..1
+  double brake_kpa = 0.0;                                  // set point of both axles
+  bool front_brake_lost = false, rear_brake_lost = false;  // the circuit holds no pressure
+  std::uint8_t gear = 0;  // wanted gear, 0 neutral; reached one step at a time
+  bool ignition = false;  // false stops the engine
+  bool starter = false;   // turns a standing engine
 };
 
 // The road under the car, as it lies along and across the car. Default: level, dry.

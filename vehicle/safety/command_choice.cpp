@@ -40,14 +40,17 @@ Chosen hold(const Tick& t) {
 Chosen stop(const Tick& t) {
   const SupervisorParams& p = t.params;
   SupervisorState& s = t.state;
-  const SafeStopInputs inputs{
-      .stop = t.in.stop,
-      .last_good = s.last,
-      .speed_mps = t.speed_mps,
-      .kind = s.mode == Mode::kEmergencyStop ? StopKind::kEmergency : StopKind::kControlled,
-      .ego = t.in.ego,
-      .tyre_c = tyres_c(t),
-      .learned = t.in.learned};
+  const bool hard = s.mode == Mode::kEmergencyStop || s.steering_strayed || s.was_blind;
+  const auto& motor = t.in.signals.steering_motor_rad;
+  const bool measured = s.steering_strayed && motor.fresh(t.now, kFeedbackAgeMax);
+  const SafeStopInputs inputs{.stop = t.in.stop,
+                              .last_good = s.last,
+                              .speed_mps = t.speed_mps,
+                              .kind = hard ? StopKind::kEmergency : StopKind::kControlled,
+                              .ego = t.in.ego,
+                              .tyre_c = tyres_c(t),
+                              .learned = t.in.learned,
+                              .steered_rad = measured ? motor.value / p.steering_ratio : kUnset};
   return {stop_along(following_of(p), s.safe_stop, inputs, t.now), CommandSource::kSafeStop};
 }
 

@@ -94,6 +94,7 @@ void start_following(const SafeStopInputs& in, SafeStopState& s) {
 ActuatorCommand with_feedback(const FollowingParams& params, SafeStopState& s,
                               const SafeStopInputs& in, Instant now) {
   s.following.tyre_c = in.tyre_c;
+  s.following.steered_rad = in.steered_rad;
   const PathPose pose{.x_m = in.ego.x_m,
                       .y_m = in.ego.y_m,
                       .yaw_rad = in.ego.yaw_rad,

@@ -46,6 +46,7 @@ struct SafeStopInputs {
   world::EgoState ego{};   // without a valid one: open loop
   double tyre_c = kUnset;  // the coldest; unset counts as cold
   steering::Learned learned{};
+  double steered_rad = kUnset;  // of a motor that does not follow: what it did
 };
 
 // The first call with an inactive state begins the stop; reset by assigning SafeStopState{}.

@@ -40,6 +40,7 @@ struct SafeStopParams {
   double grip_share = 0.7;               // of the grip left beside the lateral force; (0, 1]
   double emergency_grip_share = 0.9;     // [grip_share, 1]
   double steer_settle_s = 0.8;           // the offset from the feed-forward decays
+  double strayed_bandwidth_share = 0.5;  // of the steering's, where the motor does not follow
   double standstill_mps = 0.3;
   double speed_share_per_s = 0.8;     // of the error of the speed, as deceleration
   double brake_preview_s = 0.15;      // what the brakes take
@@ -63,6 +64,7 @@ inline constexpr auto kSafeStopRanges = std::to_array<world::NamedRange<SafeStop
     {"downforce_per_m", &SafeStopParams::downforce_per_m, 0.0, 0.01},
     {"grip_share", &SafeStopParams::grip_share, 0.05, 1.0},
     {"steer_settle_s", &SafeStopParams::steer_settle_s, 0.1, 5.0},
+    {"strayed_bandwidth_share", &SafeStopParams::strayed_bandwidth_share, 0.1, 1.0},
     {"standstill_mps", &SafeStopParams::standstill_mps, 0.1, 1.0},
     {"speed_share_per_s", &SafeStopParams::speed_share_per_s, 0.0, 3.0},
     {"brake_preview_s", &SafeStopParams::brake_preview_s, 0.0, 0.5},

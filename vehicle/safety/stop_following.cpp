@@ -112,12 +112,15 @@ world::ActuatorCommand follow_stop(const FollowingParams& params, FollowingState
   const double dt_s = std::clamp((now - state.last).seconds(), 0.0, kTickMax_s);
   state.last = now;
   world::ActuatorCommand& command = state.command;
-  steering::follow_command(p.steering.learning, state.learned, command.road_wheel_rad,
-                           from_seconds(dt_s));
+  const bool strays = std::isfinite(state.steered_rad);
+  steering::follow_command(p.steering.learning, state.learned,
+                           strays ? state.steered_rad : command.road_wheel_rad, from_seconds(dt_s));
+  steering::Params law = p.steering;
+  if (strays) law.bandwidth_rad_per_s *= p.strayed_bandwidth_share;
   const PathPoint turn =
       path_at(path, state.segment, state.s_m + v_mps * preview_s(p.steering, state.learned));
   const double wanted_rad = steering::steer(
-      p.steering, state.learned, state.steering,
+      law, state.learned, state.steering,
       {.deviation = {state.lateral_m, state.course_rad, state.curvature_per_m, state.bank_rad},
        .ahead = {turn.curvature_per_m, turn.bank_rad},
        .speed_mps = v_mps,

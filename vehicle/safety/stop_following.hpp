@@ -6,6 +6,9 @@
 //   frames Map; lateral error positive where the car is left of the path, angles left positive
 //   invariants
 //          steering: steering/path_steering.hpp, within what the frame gate lets pass at the speed.
+//            Where the motor does not follow, the bandwidth is strayed_bandwidth_share of it, and
+//            what the wheels did is what the motor says: a motor with a limited rate that is asked
+//            for more makes the car swing
 //          brake: pressure = (decel - free) * kpa_per_mps2, free what air, rolling and engine do,
 //            decel = -a* + speed_share (v - v*), a* and v* planned, a* a moment ahead; an emergency
 //            asks for emergency_decel. It stays within the grip that the corner leaves
@@ -55,7 +58,8 @@ struct FollowingState {
   double curvature_per_m = 0.0, bank_rad = 0.0;         // of the path there
   double speed_mps = kUnset;                            // planned there
   double tyre_c = kUnset;                               // the coldest; unset counts as cold
-  steering::Learned learned;                            // of the car, before the stop
+  double steered_rad = kUnset;  // where the motor does not follow: what it did; else unset
+  steering::Learned learned;    // of the car, before the stop
   steering::State steering;
   world::ActuatorCommand command;  // the last
 };

@@ -182,7 +182,7 @@ void enter(const Tick& t, Mode to, bool drive_by_wire_gone) {
   }
   if (to == Mode::kStandby || to == Mode::kDriving) {
     s.safe_stop = {};
-    s.engine_off = false;
+    s.engine_off = s.steering_strayed = s.was_blind = false;
     s.coasts = {};
   }
   // What lasted too long is what stopped the car.
@@ -199,6 +199,14 @@ bool pushes_on(const Tick& t, const FaultOutput& found) {
   const auto& throttle = t.in.signals.throttle_fraction;
   return stops(s.mode) && found.causes.has(Cause::kThrottleStrays) && s.last_known &&
          throttle.value > s.last.throttle_fraction + t.params.faults.following.throttle.tolerance;
+}
+
+void note_lost_guidance(const Tick& t, const FaultOutput& found) {
+  SupervisorState& s = t.state;
+  if (!stops(s.mode)) return;
+  const bool placed = t.in.ego.validity == Validity::kGood;
+  s.was_blind = s.was_blind || (found.causes.has(Cause::kImuLost) && !placed);
+  s.steering_strayed = s.steering_strayed || found.causes.has(Cause::kSteeringStrays);
 }
 
 Follow follow_of(Mode mode) {
@@ -258,6 +266,7 @@ SupervisorOutput supervise(const SupervisorParams& params, SupervisorState& stat
   const Mode to = next(before, events_of(tick, found, standstill));
   if (to != before) enter(tick, to, found.drive_by_wire_gone);
   state.engine_off = state.engine_off || pushes_on(tick, found);
+  note_lost_guidance(tick, found);
 
   SupervisorOutput out;
   const Chosen chosen = choose(tick);

@@ -17,6 +17,8 @@
 //          has been held since the start of a process whose predecessor ended while armed. A spent
 //          request counts for nothing: it must be withdrawn and given anew, as after every stop,
 //          after a base station lost at standstill and after a dead bus
+//   brake  a stop whose steering strays, or that has neither position nor inertial unit, brakes as
+//          an emergency does: where the path cannot be held, what is left is to be slower
 //   engine off at standstill only, but for one case: a throttle that stays open in a stop, at any
 //          speed. The drive-by-wire is then told to shut down as in an emergency (CT 12): the
 //          engine is off, the gear is out, steering and brake still follow commands
@@ -139,7 +141,9 @@ struct SupervisorState {
   bool reset_was = false;
   bool standing = false;
   Instant standing_since{};
-  bool engine_off = false;    // until the car is armed again
+  bool engine_off = false;  // until the car is armed again
+  // Likewise, in a stop: its steering strayed; it had neither a position nor an inertial unit.
+  bool steering_strayed = false, was_blind = false;
   bool arm_used = false;      // an arm request arms once; cleared when it is withdrawn
   bool arm_released = false;  // no request was held at least once since the start
   Arming arming = Arming::kNotAsked;

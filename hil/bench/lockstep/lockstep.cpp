@@ -84,6 +84,7 @@ class Lockstep {
     if (options_.follow) options_.follow(view(now));
     out_->chosen.mode_changed = false;
     if (options_.watch) options_.watch(*out_, rig_, now);
+    if (options_.break_rig) options_.break_rig(rig_, now);
   }
 
   RunView view(Instant now) const {

@@ -37,6 +37,8 @@ struct LockstepOptions {
   // While its process is stopped or dead, with its last outputs.
   std::function<void(const pipeline::Outputs&, const Rig&, Instant)> watch = {};
   Follow follow = {};  // called after every tick of the car, once it was judged
+  // Called after that, before the rig goes on: for faults at a moment that only the run knows.
+  std::function<void(Rig&, Instant)> break_rig = {};
   // Asked at the end of every tick; true ends the run there, as if it had never been longer.
   std::function<bool(const RunView&)> over = {};
   // Called with what the car sends to the pit wall, when it sends.

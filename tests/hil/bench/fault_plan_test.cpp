@@ -176,6 +176,8 @@ TEST(FaultPlan, ANumberThatMakesNoSenseIsRefusedWithItsPlace) {
                                 {"wheel_speed_loss", {1}},
                                 {"fuel_out", {1}},
                                 {"brake_leak", {-0.5, 1.5, kUnset}},
+                                {"brake_stuck", {-1, 9001, kUnset}},
+                                {"brake_circuit_lost", {0.5}},
                                 {"steering_slow", {-1, 0, kUnset}},
                                 {"gnss_variance_spike", {0, -5, kUnset}},
                                 {"gnss_position_jump", {kUnset, kInfinity}},
@@ -194,6 +196,12 @@ TEST(FaultPlan, WhatAKindDoesNotHaveIsRefusedRatherThanIgnored) {
   EXPECT_EQ(refusal(fault), "");
   fault.unit = 2;
   EXPECT_TRUE(is_refused_there(fault)) << "the car has two units";
+
+  fault = row("brake_circuit_lost");
+  fault.unit = 1;
+  EXPECT_EQ(refusal(fault), "");
+  fault.unit = 2;
+  EXPECT_TRUE(is_refused_there(fault)) << "the car has two circuits";
 
   for (const char* kind : {"bus_silent", "drop"}) {
     fault = row(kind);

@@ -135,6 +135,27 @@ TEST(Rig, ASilentBusIsSilentForItsTime) {
       << "satellites do not come over the bus";
 }
 
+// The car stands and its drive-by-wire brakes by itself: the lost circuit holds nothing, the other
+// one what is asked.
+TEST(Rig, ALostBrakeCircuitHoldsNoPressure) {
+  for (const std::uint8_t lost : {std::uint8_t{0}, std::uint8_t{1}}) {
+    auto rig = Rig::build(standing(), lap().setup.track);
+    ASSERT_TRUE(rig);
+    rig->add_fault({.kind = faults::BenchFaultKind::kBrakeCircuitLost,
+                    .start = Instant{} + seconds(3),
+                    .unit = lost});
+    for (Instant at = Instant{} + kRigStep; at <= Instant{} + seconds(5); at += kRigStep) {
+      rig->step({}, at);
+      if (at != Instant{} + milliseconds(2999)) continue;
+      EXPECT_GT(rig->truth().brake_front_kpa, 1000.0);
+      EXPECT_GT(rig->truth().brake_rear_kpa, 1000.0);
+    }
+    const double front_kpa = rig->truth().brake_front_kpa, rear_kpa = rig->truth().brake_rear_kpa;
+    EXPECT_LT(lost == 0 ? front_kpa : rear_kpa, 1.0);
+    EXPECT_GT(lost == 0 ? rear_kpa : front_kpa, 1000.0);
+  }
+}
+
 TEST(Rig, SilentRaceControlLeavesTheOthersAlone) {
   scenario::Scenario s = standing();
   s.faults = {fault_at(seconds(2), "race_control_silent")};

@@ -286,6 +286,10 @@ TEST(Raptor, ActuatorFaultsActOnThePlantAndShowInTheDiagnostics) {
   EXPECT_NEAR(rig.out.demand.steering_motor_rad, from_deg(20.0), 1e-12);
   EXPECT_NEAR(rig.out.demand.throttle_fraction, 0.4, 1e-12);
   EXPECT_NEAR(rig.out.demand.brake_front_kpa, 1000.0, 1e-9);
+  rig.state.faults.brake_stuck_kpa = 300.0;
+  rig.tick();
+  EXPECT_EQ(rig.out.demand.brake_front_kpa, 300.0);
+  EXPECT_EQ(rig.out.demand.brake_rear_kpa, 300.0);
   EXPECT_EQ(rig.diagnostics->sd_steer_warning1, 1.0);
   EXPECT_EQ(rig.diagnostics->est1_oos_front_brk, 1.0);
   rig.state.faults = {};

@@ -120,6 +120,8 @@ Reported supervisor(const CarParams& p) {
       {"safety.supervisor.safe_stop.emergency_grip_share",
        p.supervisor.safe_stop.emergency_grip_share},
       {"safety.supervisor.safe_stop.steer_settle_s", p.supervisor.safe_stop.steer_settle_s},
+      {"safety.supervisor.safe_stop.strayed_bandwidth_share",
+       p.supervisor.safe_stop.strayed_bandwidth_share},
       {"safety.supervisor.safe_stop.speed_share_per_s", p.supervisor.safe_stop.speed_share_per_s},
       {"safety.supervisor.safe_stop.brake_preview_s", p.supervisor.safe_stop.brake_preview_s},
       {"safety.supervisor.safe_stop.throttle_fall_per_s",

@@ -79,6 +79,35 @@ TEST(CommandChoice, AStopSteersWithinWhatTheGateLetsPassAtEverySpeed) {
   }
 }
 
+// Where the path cannot be held, what is left is to be slower; where it can, the stop stays smooth.
+TEST(CommandChoice, AStopThatMayLeaveItsPathBrakesAsAnEmergency) {
+  const auto pressure_kpa = [](bool strays, bool no_imu, bool no_position) {
+    Drive d;
+    d.race();
+    d.car.control.brake_kpa = 0.0;
+    d.run(milliseconds(500));
+    d.car.requests.stop = true;
+    if (no_imu)
+      for (const Stream imu : {Stream::kImu0, Stream::kImu1})
+        d.car.watchdog.rows[static_cast<std::size_t>(imu)].health = Health::kBad;
+    if (no_position) d.car.ego.validity = world::Validity::kDeadReckoning;
+    for (int tick = 0; tick < 60; ++tick) {
+      d.speed_mps = d.car.ego.vx_mps = 40.0;
+      const double motor_rad = d.out.command.road_wheel_rad * d.params.steering_ratio;
+      d.car.signals.steering_motor_rad = {motor_rad + (strays ? 0.2 : 0.0), d.now, true};
+      d.tick();
+      EXPECT_EQ(d.out.mode, Mode::kControlledStop);
+    }
+    return d.out.command.brake_kpa;
+  };
+  const double smooth_kpa = pressure_kpa(false, false, false);
+  EXPECT_GT(smooth_kpa, 0.0);
+  EXPECT_EQ(pressure_kpa(false, true, false), smooth_kpa);
+  EXPECT_EQ(pressure_kpa(false, false, true), smooth_kpa);
+  EXPECT_GT(pressure_kpa(true, false, false), 1.2 * smooth_kpa);
+  EXPECT_GT(pressure_kpa(false, true, true), 1.2 * smooth_kpa);
+}
+
 // The engine goes off at any speed where, and only where, a stop's throttle stays open.
 TEST(CommandChoice, AThrottleThatStaysOpenInAStopTurnsTheEngineOff) {
   for (const bool stuck : {false, true}) {

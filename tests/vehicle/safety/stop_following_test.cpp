@@ -110,6 +110,24 @@ TEST(StopFollowing, ComesBackToThePathFromBesideIt) {
   }
 }
 
+// What a motor that does not follow is asked for: by half the bandwidth a quarter for the distance.
+TEST(StopFollowing, AsksAMotorThatDoesNotFollowForLess) {
+  const auto asked_rad = [](double steered_rad) {
+    Bicycle b = at_start(2.0, 0.0, 50.0);
+    b.state.steered_rad = steered_rad;
+    const world::Trajectory path = arc(0.0, 50.0, 0.0);
+    for (int i = 0; i < 500; ++i) {
+      b.now += kTick;
+      (void)follow_stop(b.params, b.state, path, b.pose, b.kind, b.now);
+    }
+    return b.state.command.road_wheel_rad - b.state.steering.unknown_rad -
+           b.state.steering.trim_rad;
+  };
+  const double followed_rad = asked_rad(kUnset), strayed_rad = asked_rad(0.0);
+  EXPECT_LT(followed_rad, 0.0);
+  EXPECT_NEAR(strayed_rad / followed_rad, 0.25, 0.02);
+}
+
 // An understeer that is not that of the feed-forward is trimmed away; where driving had learned it
 // before the stop there is little to trim.
 TEST(StopFollowing, AnUndersteerOfItsOwnIsLearnedBeforeOrTrimmedAway) {
